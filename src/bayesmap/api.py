@@ -21,7 +21,6 @@ from bayesmap.cells.kind import CellPrior
 from bayesmap.cells.surface import Surface
 from bayesmap.errors import BadInput, check_count, near_names
 from bayesmap.model import Model
-from bayesmap.poses.map_scans import SAMPLED, for_map, key_scans, keys_by_odometry
 from bayesmap.poses.prior import KnownPoses, PosePrior, UncertainPoses
 from bayesmap.posterior.posterior import Posterior, chains_of, posterior_of_chains, posterior_of_draws
 from bayesmap.result import Run
@@ -393,6 +392,7 @@ def slam(
     Raises:
         BadInput: as `bayesmap.read_log`, `bayesmap.poses.slam.infer_trajectory` and `bayesmap.infer`.
     """
+    from bayesmap.poses import map_scans
     from bayesmap.poses.slam import infer_trajectory
 
     for name, value, kind in (
@@ -425,10 +425,10 @@ def slam(
     if checkpoints.trajectory is not None:
         checkpoints.trajectory(trajectory)
     # Select the key scans, and lay the grid over them.
-    keys = key_scans(log, trajectory, schedule.chains, seed)
+    keys = map_scans.key_scans(log, trajectory, schedule.chains, seed)
     grid = Grid.covering(keys.scans, resolution)
     cells = Surface() if prior is None else prior
-    fast = len(keys.scans) > SAMPLED if fast is None else fast
+    fast = len(keys.scans) > map_scans.SAMPLED if fast is None else fast
 
     # Sample the map; unless ``fast``, sample the poses of the key scans too.
     def with_trajectory(use: Callable[[Run], None] | None) -> Callable[[Run], None] | None:
@@ -436,7 +436,7 @@ def slam(
 
     save, preview = with_trajectory(checkpoints.save), with_trajectory(checkpoints.preview)
     run = infer(
-        for_map(keys.scans, resolution) if fast else keys.scans, grid, prior=cells, sensor=sensor,
+        map_scans.for_map(keys.scans, resolution) if fast else keys.scans, grid, prior=cells, sensor=sensor,
         method=None if fast else Gibbs(start_poses=keys.starts),
         schedule=replace(schedule, thin=1 if schedule.thin is None else schedule.thin), seed=seed,
         poses=None if fast else keys.prior, hit_depth=cells.hit_depth if hit_depth is None else hit_depth, where=where,
@@ -450,16 +450,18 @@ def estimate_slam(
     no_odometry: bool, schedule: Schedule, where: Where,
 ) -> Estimate | None:  # fmt: skip
     """Estimate time and memory of `slam` from the poses of the log; None if they allow no map."""
-    keys = keys_by_odometry(log, no_odometry)
+    from bayesmap.poses import map_scans
+
+    keys = map_scans.keys_by_odometry(log, no_odometry)
     if len(log) < 2 or not np.isfinite(keys.ranges_m).any():
         return None  # refused with its reason later
-    fast = len(keys) > SAMPLED if fast is None else fast
+    fast = len(keys) > map_scans.SAMPLED if fast is None else fast
     try:
         grid = Grid.covering(keys, resolution)
     except BadInput:  # odometry leaps, which the trajectory will mend
         return None
     inference = Inference.of(
-        for_map(keys, resolution) if fast else keys, grid, prior, sensor, None,
+        map_scans.for_map(keys, resolution) if fast else keys, grid, prior, sensor, None,
         replace(schedule, thin=1 if schedule.thin is None else schedule.thin), 0,
         KnownPoses() if fast else UncertainPoses(0.1, 0.1), 0.0, where,
     )  # fmt: skip

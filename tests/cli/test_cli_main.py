@@ -5,6 +5,7 @@ import re
 import shlex
 import subprocess
 import sys
+from ast import literal_eval
 
 import numpy as np
 import pytest
@@ -15,8 +16,9 @@ from bayesmap.cli import pipeline
 from bayesmap.cli.group import COMMANDS
 
 HELP = """
-import contextlib, io, sys
+import contextlib, io, os, sys
 from bayesmap.cli.main import main
+assert os.environ["OPENBLAS_NUM_THREADS"] == "1"  # before NumPy is loaded, which reads it
 shown = io.StringIO()
 for arguments in [["--help"], ["--version"], *([name, "--help"] for name in sys.argv[1:])]:
     with contextlib.redirect_stdout(shown):
@@ -32,6 +34,7 @@ for arguments in [["--help"], ["--version"], *([name, "--help"] for name in sys.
 def python(code, *arguments):
     """Run some code in a process of its own, with exit code 0."""
     environment, command = {**os.environ, "PYTHONPATH": str(SOURCE)}, [sys.executable, "-c", code, *arguments]
+    environment.pop("OPENBLAS_NUM_THREADS", None)
     done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     return done
@@ -39,6 +42,13 @@ def python(code, *arguments):
 
 def test_help_loads_nothing_heavy():
     python(HELP, *COMMANDS)
+
+
+def test_infer_loads_no_matcher():
+    """A first picture waits for every module that is loaded."""
+    loaded = set(literal_eval(python("import sys, bayesmap.api; print(sorted(sys.modules))").stdout))
+    assert "bayesmap.api" in loaded
+    assert not loaded & {"bayesmap.poses.front_end", "scipy.stats", "scipy.optimize", "scipy.sparse.linalg", "jax"}
 
 
 def test_version():

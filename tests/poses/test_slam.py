@@ -13,7 +13,6 @@ from data import intel_log
 from simulated import off, path_around, recording, ring, scans_of, worst_m
 
 import bayesmap as bm
-from bayesmap import api
 from bayesmap.errors import BadInput
 from bayesmap.io.logs import read_log
 from bayesmap.io.text.trajectories import read_relations
@@ -227,7 +226,7 @@ def test_few_beams_are_used_whole_and_then_the_cost_of_the_map_follows_the_area_
 
 
 def test_poses_of_many_key_scans_are_sampled_on_request_alone(monkeypatch):
-    monkeypatch.setattr(api, "SAMPLED", 3)
+    monkeypatch.setattr(map_scans, "SAMPLED", 3)
     log = driven(0.3, beams=90)
     short = bm.Schedule(chains=1, warmup=5, draws=2)
     kinds = [

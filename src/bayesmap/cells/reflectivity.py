@@ -221,8 +221,6 @@ class Beta(CellPrior):
 
     def interval(self, draws: Draws, level: float) -> tuple[Floats, Floats]:
         """Return the central credible interval of the chances: lower and upper end, (nx, ny) each."""
-        from scipy import stats
-
         tails = (0.5 * (1 - level), 0.5 * (1 + level))
         # Touched cells: quantiles of the draws, some cells at a time.
         drawn = draws.arrays[self.shown[0]]
@@ -235,7 +233,7 @@ class Beta(CellPrior):
             betas = (self.a, self.b), (self.a_solid, self.b_solid)
             before = ising_field.mixture_quantiles(ising_field.share_solid(draws), *betas, tails)
         else:
-            before = stats.beta(self.a, self.b).ppf(tails)
+            before = special.betaincinv(self.a, self.b, tails)
         lower, upper = (draws.to_grid(ends[i], "cell", before[i]) for i in (0, 1))
         return lower, upper
 
