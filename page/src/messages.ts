@@ -239,6 +239,9 @@ export type Inspect = {
   x: number;
   y: number;
   each?: boolean;
+  chain?: number;
+  /** Of walls: what beams say given the other cells of this draw, instead of their means. */
+  draw?: number | null;
   seq?: number;
 };
 
@@ -469,7 +472,7 @@ export type Overlay = {
   generation: number;
 };
 
-/** The evidence of the beams through a cell, for and against an obstacle in it. Buffers of the strongest beams, with `each`: start and end float64 (M, 2), metres; nats, scan, beam float64 (M). */
+/** The evidence of the beams through a cell, for and against an obstacle in it. Buffers of the strongest beams, with `each`: start and end float64 (M, 2), metres; nats, scan, beam float64 (M); of walls with kept draws also trace uint8 (chains, n), 1 in the draws with a wall. */
 export type CellFacts = {
   type: "cell";
   x: number;
@@ -485,6 +488,13 @@ export type CellFacts = {
   beams_against: number | null;
   /** Absolute sum of the log ratios of these beams. */
   nats_against: number | null;
+  /** Index of the draw whose other cells are given, and its chain. */
+  draw: number | null;
+  chain: number | null;
+  /** With a draw, log odds of a wall by the prior; null where it is sure. */
+  prior_nats: number | null;
+  /** Log odds of a wall given all other cells of the draw: those by which Gibbs draws it. */
+  log_odds: number | null;
 };
 
 /** The shortest path whose risk is low enough, or the safest. */

@@ -257,6 +257,27 @@ test("a cell's beams in words, the strongest by name", () => {
   assert.match(said(facts), /For its surface/);
 });
 
+test("prior and beams make up the log odds given one draw, and a cell's trace is drawn", () => {
+  const [desk, found] = panel(evidencePanel);
+  desk.choose("evidence");
+  desk.state({ draws: { chains: 2, count: 4 } });
+  desk.field({ layer: "draw", chain: 1, draw: 2 });
+  desk.session.evidence.pin({ x: 3, y: 4 });
+  assert.deepEqual(desk.asked("inspect").at(-1), { type: "inspect", x: 3, y: 4, each: true, chain: 1, draw: 2 });
+  const facts = { x: 3, y: 4, each: true, beams: 9, beams_for: 2, nats_for: 3, beams_against: 1, nats_against: 0.5 };
+  const trace = Uint8Array.of(1, 1, 0, 1, 0, 0, 0, 1);
+  const each = { nats: Float64Array.of(3), scan: new Float64Array(1), beam: new Float64Array(1), trace };
+  desk.says("cell", { ...facts, draw: 2, chain: 1, prior_nats: -0.5, log_odds: 2 }, each);
+  assert.match(found.text, /Given all other cells of draw 3: prior \u22120.5, beams \+2.5, together log odds \+2.0: Gibbs draws a wall with probability 0.881/);
+  assert.match(found.text, /Share of draws so far with a wall, by draw: chain 1 0.75, chain 2 0.25/);
+  desk.field({ layer: "mean", chain: null, draw: null });
+  desk.session.evidence.ask();
+  assert.deepEqual(desk.asked("inspect").at(-1), { type: "inspect", x: 3, y: 4, each: true });
+  desk.says("cell", { ...facts, draw: null });
+  assert.match(found.text, /the sum is not the log odds of P\(wall\)/);
+  assert.doesNotMatch(found.text, /Share of draws/);
+});
+
 test("where the robot may be, in words", () => {
   const [desk, found] = panel(wherePanel);
   desk.choose("where");

@@ -1,6 +1,7 @@
 """The evidence of beams about a cell is the change of their log-likelihood, by enumeration and by a plain sum."""
 
 import itertools
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -21,6 +22,7 @@ from bayesmap.app.display import histogram
 from bayesmap.app.edits import tutorial_document
 from bayesmap.app.protocol.actions import Inspect
 from bayesmap.kernels.rays import trace_rays
+from bayesmap.kernels.walls.maps import log_likelihoods
 from bayesmap.kernels.walls.table import trace
 from bayesmap.posterior.prediction import Predictor, fixed_maps
 
@@ -155,3 +157,25 @@ def test_the_wall_of_a_room_is_spoken_for_and_its_floor_by_nobody(prior):
     touched[heard.engine._scene.problem.table.cells] = True
     found, _ = heard.answer(Inspect(*np.argwhere(~touched.reshape(run.grid.shape))[0].tolist()))
     assert (found["beams"], found["nats_for"], found["nats_against"]) == (0, 0.0, 0.0)
+
+
+def test_given_one_draw_prior_and_beams_are_the_log_odds_by_which_gibbs_draws_the_cell():
+    document = replace(tutorial_document(), prior=0.3, noise=0.6, angles=30, sweeps=40)
+    heard = Heard()
+    heard.infer(document)
+    stream = heard.engine._result.found
+    for (x, y), chain, draw in (((12, 6), 0, 5), ((8, 10), 1, 39), ((11, 10), 0, 0)):
+        facts, buffers = heard.answer(Inspect(x, y, each=True, chain=chain, draw=draw))
+        maps = np.repeat(stream.draw(chain, draw)[0][None].astype(bool), 2, axis=0)
+        maps[:, x, y] = [False, True]
+        likelihood = log_likelihoods(stream.problem.table, np.packbits(maps.reshape(2, -1), axis=1))
+        odds = np.log(0.3 / 0.7) + likelihood[1] - likelihood[0]
+        assert facts["log_odds"] == pytest.approx(odds, abs=1e-3)
+        assert facts["prior_nats"] == pytest.approx(np.log(0.3 / 0.7))
+        assert facts["log_odds"] == pytest.approx(
+            facts["prior_nats"] + facts["nats_for"] - facts["nats_against"], abs=0.005 * facts["beams"]
+        )
+        states = [[stream.draw(c, d)[0][x, y] for d in range(40)] for c in range(2)]
+        assert np.array_equal(buffers["trace"], states)
+    facts, _ = heard.answer(Inspect(12, 6, each=True))
+    assert (facts["draw"], facts["log_odds"]) == (None, None)  # given the means, it is not

@@ -5,7 +5,7 @@ import type { Buffers, CellFacts, Point } from "../protocol";
 import type { Asker } from "./asker";
 
 /** The beams that say most, strongest first: from where to where (M, 2), metres, their nats, their numbers. */
-export type Spoken = { start: Float64Array; end: Float64Array; nats: Float64Array; scan: Float64Array; beam: Float64Array };
+export type Spoken = { start: Float64Array; end: Float64Array; nats: Float64Array; scan: Float64Array; beam: Float64Array; trace?: Uint8Array };
 
 export class Evidence {
   /** Of the cell that was asked about last. */
@@ -54,10 +54,12 @@ export class Evidence {
     const { session, cell } = this;
     const { shown } = session;
     if (!this.held || !cell || !shown || shown.generation !== session.generation || !session.answers) return;
-    const question = `${shown.generation} ${session.sampling} ${shown.approximate} ${cell.x} ${cell.y}`;
+    const { chain, draw } = shown;
+    const given = shown.layer === "draw" && chain !== null && draw !== null && session.draws.count ? { chain, draw } : {};
+    const question = `${shown.generation} ${session.sampling} ${shown.approximate} ${cell.x} ${cell.y} ${JSON.stringify(given)}`;
     if (question === this.asked) return;
     this.asked = question;
-    session.act({ type: "inspect", x: cell.x, y: cell.y, each: true });
+    session.act({ type: "inspect", x: cell.x, y: cell.y, each: true, ...given });
   }
 
   receive(facts: CellFacts, buffers: Buffers) {

@@ -195,7 +195,7 @@ export function localTransport(figure: Figure, later: (work: () => void) => void
       if (action.type === "inspect") {
         const beams = job?.beamsThrough(action.x * history.present.grid.shape[1] + action.y);
         if (beams === undefined) return;
-        const nothing = { beams_for: null, nats_for: null, beams_against: null, nats_against: null };
+        const nothing = { beams_for: null, nats_for: null, beams_against: null, nats_against: null, draw: null, chain: null, prior_nats: null, log_odds: null };
         return transport.onmessage({ type: "cell", x: action.x, y: action.y, each: false, beams, ...nothing }, {});
       }
       if (action.type === "where") return later(() => where(action.sensor));

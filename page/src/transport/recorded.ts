@@ -74,7 +74,7 @@ export function recordedTransport([recording, buffers]: [Recording, Buffers]): T
       } else if (action.type === "inspect") {
         const { x, y } = action;
         const beams = buffers.beams[x * document.grid.shape[1] + y];
-        transport.onmessage({ type: "cell", x, y, each: false, beams, beams_for: null, nats_for: null, beams_against: null, nats_against: null }, {});
+        transport.onmessage({ type: "cell", x, y, each: false, beams, beams_for: null, nats_for: null, beams_against: null, nats_against: null, draw: null, chain: null, prior_nats: null, log_odds: null }, {});
       }
     },
     close: () => {},

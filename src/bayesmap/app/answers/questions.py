@@ -81,11 +81,40 @@ def cell_facts(question: Inspect, now: Now) -> tuple[AnyNotice, Buffers]:
     if table is None or x >= table.grid.shape[0] or y >= table.grid.shape[1]:
         return CellFacts(x, y, question.each, 0), {}
     cell = x * table.grid.shape[1] + y
+    if question.each and result is not None and result.prior.words.kind == "binary":
+        return _facts_of_wall(question, result, table, cell)
     ratios = None if result is None else _ratios(result, table, cell)
     if result is None or ratios is None:
         return CellFacts(x, y, question.each, int(np.count_nonzero(table.cells == cell))), {}
     facts = CellFacts(x, y, question.each, **asdict(summed(ratios)))
     return facts, strongest(ratios, result.scene.scans.at(result.scan_poses)) if question.each else {}
+
+
+def _facts_of_wall(question: Inspect, result: Result, table: BeamTable, cell: int) -> tuple[AnyNotice, Buffers]:
+    """Return the evidence about a wall, given the mean or one draw of the other cells, and the trace of the cell."""
+    kept, model = result.found.kept, result.found.model
+    known_poses = result.found.scan_poses is None and (model is None or not model.poses.unknown)
+    one = None if question.draw is None or not known_poses else result.found.draw(question.chain, question.draw)
+    p_wall, chain, draw = (result.found.mean(), None, None) if one is None else one
+    ratios = wall_ratios(table, p_wall.ravel().astype(float), cell)
+    # The log odds by which Gibbs sampling draws the cell: the prior's, and those of all beams.
+    prior_nats = log_odds = None
+    if one is not None:
+        walls = p_wall.astype(np.bool_).ravel()
+        log_prior = []
+        for walls[cell] in (True, False):
+            log_prior.append(result.prior.log_prob({"walls": walls.reshape(p_wall.shape)}, result.document.grid))
+        if np.isfinite(log_prior).all():
+            prior_nats = log_prior[0] - log_prior[1]
+            log_odds = prior_nats + ratios.every * float(ratios.nats.sum())
+    facts = CellFacts(
+        question.x, question.y, True, **asdict(summed(ratios)), draw=draw, chain=chain, prior_nats=prior_nats,
+        log_odds=log_odds,
+    )  # fmt: skip
+    buffers = strongest(ratios, result.scene.scans.at(result.scan_poses))
+    if kept is None:
+        return facts, buffers
+    return facts, {**buffers, "trace": result.prior.traces(kept, np.array([cell]))[:, :, 0].astype(np.uint8)}
 
 
 def _ratios(result: Result, table: BeamTable, cell: int) -> BeamRatios | None:

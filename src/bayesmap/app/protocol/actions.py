@@ -158,6 +158,8 @@ class Inspect(Action, frozen=True, tag="inspect"):
     x: Index
     y: Index
     each: bool = False
+    chain: Count = 0
+    draw: Count | None = None  # of walls: what beams say given the other cells of this draw, instead of their means
 
 
 class FindPath(Action, frozen=True, tag="path"):

@@ -191,7 +191,8 @@ class Overlay(OfPicture, frozen=True, tag="overlay"):
 class CellFacts(Notice, frozen=True, tag="cell"):
     """The evidence of the beams through a cell, for and against an obstacle in it.
 
-    Buffers of the strongest beams, with `each`: start and end float64 (M, 2), metres; nats, scan, beam float64 (M).
+    Buffers of the strongest beams, with `each`: start and end float64 (M, 2), metres; nats, scan, beam float64 (M); of
+    walls with kept draws also trace uint8 (chains, n), 1 in the draws with a wall.
     """
 
     x: int
@@ -203,6 +204,10 @@ class CellFacts(Notice, frozen=True, tag="cell"):
     nats_for: float | None = None  # sum of the log ratios of these beams
     beams_against: int | None = None  # number of beams against an obstacle
     nats_against: float | None = None  # absolute sum of the log ratios of these beams
+    draw: int | None = None  # index of the draw whose other cells are given, and its chain
+    chain: int | None = None
+    prior_nats: float | None = None  # with a draw, log odds of a wall by the prior; null where it is sure
+    log_odds: float | None = None  # log odds of a wall given all other cells of the draw: those by which Gibbs draws it
 
 
 class SafePath(OfPicture, frozen=True, tag="path"):
