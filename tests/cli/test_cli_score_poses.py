@@ -1,6 +1,8 @@
 """`score` holds poses against true relations, and other programs' maps and trajectories against a log."""
 
+import json
 import re
+import zlib
 
 import numpy as np
 import pytest
@@ -133,3 +135,25 @@ def test_what_cannot_be_scored(raw, raw_run, arguments, code, message):
     write_trajectory(raw / "late.tum", scans.poses, scans.stamps_s + 1e6)
     files = [raw / a if "." in a and not a.startswith("-") else a for a in arguments]
     assert message in refusal_of("score", *files, code=code)
+
+
+def test_a_run_that_does_not_know_its_laser_says_so(raw, raw_run, tmp_path):
+    """Runs of older versions: their poses are those of the laser, unless --laser gives its place."""
+    from netCDF4 import Dataset
+
+    older = tmp_path / "run.nc"
+    older.write_bytes(raw_run.read_bytes())
+    with Dataset(older, "a") as file:
+        header = json.loads(file.getncattr("bayesmap"))
+        assert header.pop("mount") == pytest.approx([0.2, 0.0, 0.0], abs=1e-6)
+        text = json.dumps(header)
+        file.setncattr("bayesmap", text)
+        file.setncattr("checksum", zlib.crc32(text.encode()))
+    words = "nothing in it says where the laser sits on the robot"
+    for frame, said, more in (("laser", True, ()), ("base", False, (WHERE,))):
+        told = succeed("score", older, "--relations", raw / "office.relations", *more)
+        assert (words in told.stderr) == said
+        assert f"of the {frame}" in told.stdout
+    told = succeed("export", older, "-o", tmp_path / "path.tum")
+    assert words in told.stderr
+    assert read_trajectory(tmp_path / "path.tum").frame == "laser"

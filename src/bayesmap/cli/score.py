@@ -65,6 +65,11 @@ def score_run(
     run, settings = load(path), call.settings()
     mount = run.posterior.scans.mount if settings.laser is None else reading_of(settings)["laser"]
     trajectory = trajectory_of(run, run.posterior.scans).of(frame, mount)
+    if poses_too and frame is None and mount is None:
+        call.console.warn(
+            f"{path}: nothing in it says where the laser sits on the robot, as in runs of older versions: relations "
+            "are taken as those of the laser; if they are the base's, add --laser X,Y,DEGREES"
+        )
     if log is None:
         return Scored([], [], 0, trajectory)
     every = 0 if whole else settings.holdout
