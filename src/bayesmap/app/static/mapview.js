@@ -1232,7 +1232,7 @@ ck { min-height: 40px; } }
   .bar .segmented label { padding: 0 12px; }
   .bar .segmented svg { width: 18px; }
 }
-@container (max-width: 450px) { .bar .segmented label { padding: 0 9px; } }
+@container (max-width: 450px) { .bar { flex-wrap: wrap; } .bar .segmented label { padding: 0 9px; } }
 @container (max-width: 380px) and (max-height: 700px) { .legend li:not(:first-child) { display: none; } }
 @container (max-width: 380px) { .bar .segmented label { padding: 0 5px; } .buttons { flex-wrap: wrap; } }
 @container (max-height: 520px) and (min-width: 560px) {
@@ -1246,7 +1246,8 @@ ck { min-height: 40px; } }
   .menu button span { display: inline; }
   .bar { flex-direction: column; padding: 6px 0 6px 6px; }
   .bar .segmented { flex-direction: column; }
-  .bar .segmented label { min-height: 34px; padding: 0 11px; }
+  .bar .segmented label { min-height: 32px; padding: 0 11px; }
+  .bar button { min-height: 30px; }
   .bar [aria-label^="Zoom"] { display: none; }
   .bar .segmented span { position: absolute; width: 1px; overflow: hidden; clip-path: inset(50%); }
   .legend { padding: 4px 12px; max-height: 25cqh; overflow-y: auto; font-size: 12px; background: var(--card); border: solid var(--line); border-width: 1px 0 0 1\
