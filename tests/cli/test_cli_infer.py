@@ -224,7 +224,7 @@ def test_where_the_laser_sits_is_said_and_kept_with_the_run(office, office_run, 
     refusal_of("score", tmp_path / "run" / "run.nc", log, held)
     where = [call("localize", office_run / "run.nc", *typed, "--scans 0:1 --prior",
                   f"{scans.poses[0, 0]},{scans.poses[0, 1]},{np.degrees(scans.poses[0, 2])},0.3,10", "--json")
-             for typed in ((office,), (log, laser))]  # fmt: skip
+             for typed in ((office,), (log, laser, "--frame laser"))]  # fmt: skip
     told = [json.loads(one.stdout)["last"]["mean"] for one in where]
     np.testing.assert_allclose(told[0], told[1], atol=1e-6)
     assert "--laser" in refusal_of("infer", log, "-o", tmp_path / "other", "--laser 0.2,0", code=2)

@@ -157,7 +157,7 @@ def draw_worlds(seed, grid, prior, sensor, worlds, *, poses=2, beams=5, limits=(
     where = np.column_stack([xy, np.arctan2(there[:, 1], there[:, 0])])
     angles = np.linspace(-0.5, 0.5, beams)
     whole = bm.Scans(where, angles, np.full((len(where), beams), np.inf), max_range_m=limits[1], min_range_m=limits[0])
-    plain = isinstance(prior, bm.Beta)
+    plain = not isinstance(prior, bm.Surface)
     before = build_worlds(whole, grid, prior, sensor, worlds).problem.rays
     truth = draw_states(rng, prior, centres_of(before))
     readings = draw_readings(rng, paths_of(before), truth, sensor, plain).reshape(whole.ranges_m.shape)

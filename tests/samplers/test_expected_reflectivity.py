@@ -54,7 +54,13 @@ def world_of(case):
     # by the grid's numbers of cells, not by those of what these beams touch
     rays = touching(beam_rays(HELD_OUT, grid, whole=True), cell)
     held_out = paths_of(rays, far=False)
-    return prior, isinstance(prior, bm.Beta), centres, held_out, build_worlds(SCANS, grid, prior, LAW, 1).problem.rays
+    return (
+        prior,
+        not isinstance(prior, bm.Surface),
+        centres,
+        held_out,
+        build_worlds(SCANS, grid, prior, LAW, 1).problem.rays,
+    )
 
 
 def densities(case, states):

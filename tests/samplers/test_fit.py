@@ -62,7 +62,7 @@ def drawn_map(prior, seed, poses=250, beams=30):
     nothing = bm.Scans(where, np.linspace(-2, 2, beams), np.full((poses, beams), np.inf), max_range_m=6.0)
     rays = touching(beam_rays(nothing, grid, whole=True), np.arange(grid.n_cells))
     cells = draw_states(rng, prior, centres_of(rays))
-    readings = draw_readings(rng, paths_of(rays, far=False), cells, TRUTH, isinstance(prior, bm.Beta))
+    readings = draw_readings(rng, paths_of(rays, far=False), cells, TRUTH, not isinstance(prior, bm.Surface))
     return replace(nothing, ranges_m=readings.reshape(poses, beams)), grid
 
 

@@ -56,7 +56,7 @@ def functions(states, log_likelihood, plain):
 
 def ranks(prior, sensor, thin, seed, wrong=None):
     """Rank of the truth among draws, for each function and world; ``wrong`` replaces prior or sensor of the sampler."""
-    plain = isinstance(prior, bm.Beta)
+    plain = not isinstance(prior, bm.Surface)
     worlds, truth = draw_worlds(seed, GRID, prior, sensor, WORLDS, poses=2, beams=5)
     if wrong is not None:
         worlds = replace(worlds, problem=replaced(worlds.problem, **wrong))
