@@ -1,5 +1,6 @@
 """Settings for all tests; its presence also puts tests/ on the import path (`from data import intel_log`)."""
 
+import asyncio
 import ctypes
 import gc
 import os
@@ -40,6 +41,18 @@ def _memory_of_a_module(request):
         jax.clear_caches()
     if trim := getattr(ctypes.CDLL(None), "malloc_trim", None):  # glibc keeps what is freed: 300 MB of a worker
         trim(0)
+
+
+@pytest.fixture(autouse=True)
+def _loop_of_a_browser(request):
+    """Hide the browser's event loop, which runs on in this thread after its tests, from tests without a browser."""
+    loop = asyncio._get_running_loop()
+    if loop is None or "browser" in request.fixturenames:
+        yield
+    else:
+        asyncio._set_running_loop(None)
+        yield
+        asyncio._set_running_loop(loop)
 
 
 ENOUGH_BYTES = 1_000_000_000
