@@ -10,6 +10,7 @@ import socket
 import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from urllib.parse import urlsplit
 
 import numpy as np
@@ -22,9 +23,9 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import connect
 
 from bayesmap.app.edits import tutorial_document
-from bayesmap.app.protocol.tasks import Alive, Ready, Report
+from bayesmap.app.protocol.tasks import Alive, Infer, Ready, Report, ShowScan
 from bayesmap.app.server import Guard
-from bayesmap.app.worker import Reporter, Supervisor
+from bayesmap.app.worker import Reporter, Supervisor, still_valid
 from bayesmap.cli.group import cli
 
 SILENCE_S = 4.0
@@ -166,6 +167,16 @@ def test_a_page_is_welcomed_and_shown_the_picture(address):
         assert field["p"].shape == field["reached"].shape == (21, 21)
 
 
+def test_of_jobs_that_wait_the_last_and_those_it_goes_on_from_are_done():
+    document = tutorial_document()
+    first, other = Infer(1, document, "live"), Infer(2, replace(document, seed=1), "live")
+    runs = [Infer(n, document, "run") for n in (3, 4)]
+    show = ShowScan(0)
+    assert still_valid([other, show, first, *runs]) == [show, first, *runs]
+    assert still_valid([first, *runs, other]) == [other]
+    assert still_valid([first, other, runs[0]]) == [runs[0]]
+
+
 def test_an_edit_is_confirmed_and_a_run_ends_with_draws_and_files(page):
     page.send("walls", cells=[[10, 12]], wall=True, stroke=1)
     state = page.confirmed()
@@ -175,8 +186,8 @@ def test_an_edit_is_confirmed_and_a_run_ends_with_draws_and_files(page):
     assert header["generation"] == state["generation"]
     page.send("set", patch={"sweeps": 200})
     page.send("run")
-    state, _ = page.until("state", lambda h: h["draws"]["count"] > 0)
-    assert state["draws"] == {"chains": 2, "count": 200}
+    state, _ = page.until("state", lambda h: h["draws"]["count"] == 400)  # 200 of Live, which Run goes on from
+    assert state["draws"]["chains"] == 2
     assert not state["running"]
     page.send("view", layer="draw", chain=1, draw=3)
     _, buffers = page.until("field", lambda h: h["layer"] == "draw")

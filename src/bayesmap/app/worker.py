@@ -73,9 +73,18 @@ def serve(pipe: Connection, path: str | None, reading: dict[str, Any]) -> None:
 
 
 def still_valid(tasks: Sequence[T]) -> list[T]:
-    """Return the tasks without outdated jobs: only the last `Infer` is kept."""
-    latest = max((i for i, task in enumerate(tasks) if isinstance(task, Infer)), default=-1)
-    return [task for i, task in enumerate(tasks) if i >= latest or not isinstance(task, Infer)]
+    """Return the tasks without outdated jobs: of `Infer`, the last and those from whose chains it goes on."""
+    kept: list[T] = []
+    later: Infer | None = None
+    outdated = False
+    for task in reversed(tasks):
+        if isinstance(task, Infer):
+            outdated = outdated or (later is not None and (later.mode != "run" or later.document != task.document))
+            if outdated:
+                continue
+            later = task
+        kept.append(task)
+    return kept[::-1]
 
 
 def _warm() -> None:
