@@ -40,7 +40,7 @@ def leaf_text(value: Any) -> str:
     """Return the text of a short array's elements, or of a long array's dtype and shape."""
     if isinstance(value, Mask):
         return f"{leaf_text(value.value)} where {leaf_text(value.flag)}"
-    with suppress(TypeError):  # not an array, or several
+    with suppress(TypeError):  # raised if the value is not an array
         if isinstance(value, jax.core.Tracer) or jnp.size(value) > 8:
             return f"{jnp.result_type(value)}{list(jnp.shape(value))}"
     return str(value)
@@ -55,7 +55,7 @@ def pretty() -> None:
         treescope.register_autovisualize_magic()
 
 
-def render(value: Outlined) -> str:
+def render(value: Outlined) -> str:  # GenJAX's name
     """Return the text of a trace or a choice map as a tree, one choice per line."""
     return repr(value)
 
@@ -69,7 +69,10 @@ def components(address: Any) -> tuple[Any, ...]:
 
 
 class Builder:
-    """Builder of choice maps: `C["x", 0].set(v)`, `C.v(value)`, `C.d({...})`, `C.kw(...)` and `C.n()`."""
+    """Builder of choice maps: `C["x", 0].set(v)`, `C.v(value)`, `C.d({...})`, `C.kw(...)` and `C.n()`.
+
+    `d`, `kw`, `from_mapping` and `switch` set, at the address, the map that `ChoiceMap`'s method of that name returns.
+    """
 
     def __init__(self, base: "ChoiceMap | None", address: tuple[Any, ...]) -> None:
         # The map to change, None for the empty map, and the address at which a value is set.
@@ -83,19 +86,23 @@ class Builder:
         new = ChoiceMap.entry(value, *self._address)
         if self._base is None:
             return new
-        old, value = (chm.get_submap(self._address).get_value() for chm in (self._base, new))
-        if old is not None and value is not None and jnp.shape(old) != jnp.shape(value):
-            raise ShapeMismatch(self._address, f"found {jnp.shape(value)}, expected {jnp.shape(old)}")
+        old_value = self._base.get_submap(self._address).get_value()
+        new_value = new.get_submap(self._address).get_value()
+        if old_value is not None and new_value is not None and jnp.shape(old_value) != jnp.shape(new_value):
+            raise ShapeMismatch(self._address, f"found {jnp.shape(new_value)}, expected {jnp.shape(old_value)}")
         return new | self._base
 
     def update(self, f: Callable[[Any], Any]) -> "ChoiceMap":
+        """Return the base map with the value or the submap at the address replaced by its image under `f`."""
         submap = (ChoiceMap.empty() if self._base is None else self._base).get_submap(self._address)
         return self.set(f(submap.get_value() if submap.has_value() else submap))
 
     def v(self, value: Any) -> "ChoiceMap":
+        """Return the base map with the bare value at the address; a dict counts as a value."""
         return self.set(ChoiceMap.choice(value))
 
     def n(self) -> "ChoiceMap":
+        """Return the empty map."""
         return ChoiceMap.empty()
 
     def d(self, mapping: dict[Any, Any]) -> "ChoiceMap":
@@ -111,8 +118,9 @@ class Builder:
         return self.set(ChoiceMap.switch(idx, chms))
 
 
-def _index(tree: Any, at: Any) -> Any:
-    return jax.tree.map(lambda leaf: leaf[at], tree, is_leaf=lambda leaf: isinstance(leaf, Mask))
+def _elements(tree: Any, index: Any) -> Any:
+    """Return `leaf[index]` of each leaf, where a Mask is one leaf."""
+    return jax.tree.map(lambda leaf: leaf[index], tree, is_leaf=lambda leaf: isinstance(leaf, Mask))
 
 
 class ChoiceMap(Outlined, Pytree):
@@ -159,6 +167,7 @@ class ChoiceMap(Outlined, Pytree):
         return self.get_submap(address).has_value()
 
     def has_value(self) -> bool:
+        """Return whether there is a value at the empty address."""
         return self.get_value() is not None
 
     def get_selection(self) -> Selection:
@@ -181,9 +190,11 @@ class ChoiceMap(Outlined, Pytree):
         """Return everything in either map. If both have a value at an address, this map's value is returned."""
         return join(self, other)
 
+    # GenJAX spells the union of maps in four ways. Here `^` does not check that the maps are disjoint.
     __add__ = __xor__ = merge = __or__
 
     def __and__(self, other: "ChoiceMap") -> "ChoiceMap":
+        """Return the values of `other` at the addresses of this map."""
         return other.filter(self.get_selection())
 
     def mask(self, flag: Any) -> "ChoiceMap":
@@ -192,15 +203,15 @@ class ChoiceMap(Outlined, Pytree):
 
     def extend(self, *address: Any) -> "ChoiceMap":
         """Return this map moved below `address`, which has no partial slice, and at most one array of indices."""
-        acc = self
+        chm = self
         for component in reversed(address):
             if isinstance(component, str):
-                acc = Static.build({component: acc})
+                chm = Static.build({component: chm})
             elif not isinstance(component, slice):
-                acc = acc if acc.static_is_empty() else Indexed.build(acc, component)
+                chm = chm if chm.static_is_empty() else Indexed.build(chm, component)
             elif component != slice(None):
                 raise ValueError(f"Only the full slice `:` can stand in an address, not {component}")
-        return acc
+        return chm
 
     @property
     def at(self) -> Builder:
@@ -258,6 +269,7 @@ class ChoiceMap(Outlined, Pytree):
 
 
 def _is_array(value: Any) -> bool:
+    """Return whether `value` is an array of JAX or NumPy."""
     return hasattr(value, "shape") and hasattr(value, "dtype")
 
 
@@ -271,7 +283,7 @@ class Choice(ChoiceMap):
         return self.v
 
     def get_inner_map(self, component: Any) -> ChoiceMap:
-        return Static({}) if isinstance(component, str) else Choice(_index(self.v, component))
+        return Static({}) if isinstance(component, str) else Choice(_elements(self.v, component))
 
     def filter(self, selection: Any) -> ChoiceMap:
         if isinstance(selection, Selection):
@@ -302,10 +314,10 @@ class Static(ChoiceMap):
         return Static({name: chm.get_inner_map(component) for name, chm in self.mapping.items()})
 
     def filter(self, selection: Any) -> ChoiceMap:
-        def part(name: str) -> Any:
+        def selection_below(name: str) -> Any:
             return selection(name) if isinstance(selection, Selection) else selection
 
-        return Static.build({name: chm.filter(part(name)) for name, chm in self.mapping.items()})
+        return Static.build({name: chm.filter(selection_below(name)) for name, chm in self.mapping.items()})
 
     def paths(self) -> Iterator[tuple[Any, ...]]:
         for name, chm in self.mapping.items():
@@ -346,7 +358,7 @@ class Indexed(ChoiceMap):
         if jnp.ndim(self.addr) == 0:
             return self.c.filter(hits)
         first = jnp.argmax(hits)
-        return _index(self.c, first).filter(jnp.asarray(hits)[first])  # type: ignore[no-any-return]
+        return _elements(self.c, first).filter(jnp.asarray(hits)[first])  # type: ignore[no-any-return]
 
     def filter(self, selection: Any) -> ChoiceMap:
         return self.c.filter(selection).extend(self.addr)
@@ -415,23 +427,30 @@ def join(left: ChoiceMap, right: ChoiceMap) -> ChoiceMap:
     if left.static_is_empty() or right.static_is_empty():
         return right if left.static_is_empty() else left
     match left, right:
+        # Submaps by name: join submaps of the same name.
         case Static(a), Static(b):
             both = {k: join(a[k], b[k]) if k in a and k in b else a.get(k, b.get(k)) for k in [*a, *b]}
             return Static.build(both)  # type: ignore[arg-type]
+        # A mask over a value: the mask's value where its flag is True, else the right value.
         case Choice(Mask() as a), Choice(b):
             combined = overlay(a, Mask.build(b))
             return Choice(combined if isinstance(b, Mask) else combined.value)
+        # A value without a flag covers everything on the right.
         case Choice(), Choice() | Indexed():
             return left
+        # Elements over an array: replace the array's elements.
         case Indexed(), Choice(value) if not isinstance(value, Mask):
             return Choice(overwrite(left, jnp.asarray(value)))
+        # A switch by a scalar: join the other map to each branch, masked as the branch is.
         case (Switch(idx, chms), other) if jnp.ndim(idx) == 0 and not isinstance(other, Switch):
             return Switch(idx, tuple(chm | other.mask(idx == k) for k, chm in enumerate(chms)))
         case (other, Switch(idx, chms)) if jnp.ndim(idx) == 0 and not isinstance(other, Switch):
             return Switch(idx, tuple(other.mask(idx == k) | chm for k, chm in enumerate(chms)))
+        # A bare value and names cannot share an address.
         case (Choice(), Static()) | (Static(), Choice()):
             names = format_address(next(path for chm in (left, right) for path in chm.paths() if path))
             raise ValueError(f"Choice and non-Choice in Or: one has a bare value where the other has a choice {names}")
+    # Any other pair is joined when it is read.
     return Or(left, right)
 
 

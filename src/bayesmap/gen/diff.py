@@ -129,7 +129,7 @@ _ELEMENTWISE = frozenset(
 
 
 @dataclasses.dataclass(frozen=True)
-class _Origin:
+class Origin:
     """The inputs that a value is computed from, and the inputs that it is an elementwise image of."""
 
     inputs: frozenset[int] = frozenset()
@@ -145,16 +145,16 @@ class _Origin:
         return only if one_element else UnknownChange
 
 
-def dataflow(fn: Callable[..., Any], *inputs: Any) -> list[_Origin] | None:
+def dataflow(fn: Callable[..., Any], *inputs: Any) -> list[Origin] | None:
     """Return the origin of each output leaf of `fn`, read off its jaxpr; None if `fn` needs the inputs' values."""
     try:
         jaxpr = jax.make_jaxpr(fn)(*inputs).jaxpr
     except TypeError:  # what JAX raises when Python needs the value of a tracer
         return None
-    origins = {v: _Origin(frozenset([k]), frozenset([k])) for k, v in enumerate(jaxpr.invars)}
+    origins = {v: Origin(frozenset([k]), frozenset([k])) for k, v in enumerate(jaxpr.invars)}
 
-    def origin(atom: Any) -> _Origin:
-        return _Origin() if isinstance(atom, Literal) else origins.get(atom, _Origin())
+    def origin(atom: Any) -> Origin:
+        return Origin() if isinstance(atom, Literal) else origins.get(atom, Origin())
 
     for eqn in jaxpr.eqns:
         shape = getattr(eqn.outvars[0].aval, "shape", None) if eqn.outvars else None
@@ -166,5 +166,5 @@ def dataflow(fn: Callable[..., Any], *inputs: Any) -> list[_Origin] | None:
                 k for k in sources if all(k not in o.inputs or (same and k in o.images) for o, same in operands)
             )
         for out in eqn.outvars:
-            origins[out] = _Origin(sources, images)
+            origins[out] = Origin(sources, images)
     return [origin(v) for v in jaxpr.outvars]

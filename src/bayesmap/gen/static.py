@@ -11,13 +11,15 @@ import jax.numpy as jnp
 
 from bayesmap.gen.choice_map import ChoiceMap
 from bayesmap.gen.closure import Handler, as_path, running
-from bayesmap.gen.diff import Change, Diff, NoChange, UnknownChange, dataflow
+from bayesmap.gen.diff import Change, Diff, NoChange, Origin, UnknownChange, dataflow
 from bayesmap.gen.edits import Edited, EditRequest, EmptyRequest, Regenerate, StaticRequest, Update
 from bayesmap.gen.errors import AddressError, NotSupportedEditRequest, UnknownAddress, format_address
 from bayesmap.gen.generative_function import GenerativeFunction, Trace, in_dtypes_of
 from bayesmap.gen.pytree import dataclass, static
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.typing import Arguments, PRNGKey, Score, StaticAddress, Weight
+
+RequestAt = Callable[[StaticAddress], EditRequest]  # the request for the site at an address
 
 
 class Replay(Handler):
@@ -34,6 +36,7 @@ class Replay(Handler):
             return gen_fn.call(args)
 
     def visit(self, path: StaticAddress, gen_fn: Any, args: Arguments) -> Any:
+        """Return the site's stored value."""
         if path not in self.retvals:
             raise UnknownAddress(path, "the trace that is edited has no such site")
         self.calls[path] = (gen_fn, args)
@@ -57,19 +60,19 @@ class StaticTrace(Trace):
     def build(gen_fn: Any, args: Any, retval: Any, subtraces: dict[StaticAddress, Trace]) -> "StaticTrace":
         """Return the trace of a run whose calls made `subtraces`, in order."""
         # Leaves are recognised by identity: a leaf of a call that the body returns unchanged is the same object.
-        origin: dict[int, tuple[StaticAddress, int]] = {}
+        source_by_id: dict[int, tuple[StaticAddress, int]] = {}
         for path, trace in subtraces.items():
             for k, leaf in enumerate(jax.tree.leaves(trace.get_retval())):
-                origin.setdefault(id(leaf), (path, k))
+                source_by_id.setdefault(id(leaf), (path, k))
         leaves, tree = jax.tree.flatten(retval)
-        sources = tuple(origin.get(id(leaf)) if isinstance(leaf, jax.Array) else None for leaf in leaves)
+        sources = tuple(source_by_id.get(id(leaf)) if isinstance(leaf, jax.Array) else None for leaf in leaves)
         computed = [leaf for leaf, source in zip(leaves, sources, strict=True) if source is None]
         return StaticTrace(gen_fn, args, subtraces, computed, tree, sources)
 
     def get_retval(self) -> Any:
         computed = iter(self.computed)
-        returned = {path: jax.tree.leaves(t.get_retval()) for path, t in self.subtraces.items()}
-        leaves = [next(computed) if s is None else returned[s[0]][s[1]] for s in self.sources]
+        site_leaves = {path: jax.tree.leaves(t.get_retval()) for path, t in self.subtraces.items()}
+        leaves = [next(computed) if s is None else site_leaves[s[0]][s[1]] for s in self.sources]
         return self.retval_tree.unflatten(leaves)
 
     def get_score(self) -> Score:
@@ -81,7 +84,7 @@ class StaticTrace(Trace):
 
     def get_inner_trace(self, address: Any) -> Trace:
         path = as_path(address)
-        _check_sites([path], list(self.subtraces))
+        _require_sites([path], list(self.subtraces))
         if self.args is None:
             return self.subtraces[path]
 
@@ -97,19 +100,20 @@ class StaticTrace(Trace):
 
 
 class _Run(Handler):
-    """A run that records a trace for each site.
+    """A run that records a trace for each site, and the sum of the sites' weights.
 
-    `make(path, function, arguments, key)` returns the site's (trace, weight). The keys are `fold_in(key, 1)`,
+    `trace_site(path, function, arguments, key)` returns the site's (trace, weight). The keys are `fold_in(key, 1)`,
     `fold_in(key, 2)`, ...
     """
 
-    def __init__(self, key: PRNGKey, make: Callable[..., tuple[Trace, Any]]) -> None:
+    def __init__(self, key: PRNGKey, trace_site: Callable[..., tuple[Trace, Any]]) -> None:
         super().__init__()
-        self.key, self.make = key, make
+        self.key, self.trace_site = key, trace_site
         self.traces: dict[StaticAddress, Trace] = {}
         self.weight: Any = 0.0
 
     def run(self, gen_fn: "StaticGenerativeFunction", args: Arguments) -> tuple[StaticTrace, Weight]:
+        """Run the body; return the trace and the weight of the run."""
         if not isinstance(args, tuple):
             raise TypeError(f"args must be a tuple of arguments, not {type(args).__name__}")
         with running(self):
@@ -117,21 +121,23 @@ class _Run(Handler):
         return StaticTrace.build(gen_fn, args, retval, self.traces), jnp.asarray(self.weight, jnp.result_type(float))
 
     def visit(self, path: StaticAddress, gen_fn: Any, args: Arguments) -> Any:
-        with _located(path):
-            trace, weight = self.make(path, gen_fn, args, jax.random.fold_in(self.key, len(self.visited)))
+        with _errors_below(path):
+            trace, weight = self.trace_site(path, gen_fn, args, jax.random.fold_in(self.key, len(self.visited)))
         self.weight += weight
         self.traces[path] = trace.with_args(None)
         return trace.get_retval()
 
 
 class _Assess(Handler):
+    """A run on given choices. It sums the sites' log densities in `score`."""
+
     def __init__(self, choices: ChoiceMap) -> None:
         super().__init__()
         self.choices = choices
         self.score: Score = jnp.zeros(())
 
     def visit(self, path: StaticAddress, gen_fn: Any, args: Arguments) -> Any:
-        with _located(path):
+        with _errors_below(path):
             score, retval = gen_fn.assess(self.choices(path), args)
         self.score += score
         return retval
@@ -140,48 +146,56 @@ class _Assess(Handler):
 class _Edit(_Run):
     """A run that edits each site's trace, given which of the site's arguments changed.
 
-    `inputs` and `returned` store the changes of the leaves of the body's arguments and of its sites' return values.
-    `position` counts the body's outputs so far.
+    `request_at(path)` returns the request for a site. `flow` stores the origins of the body's outputs, as returned by
+    `_body_dataflow`. `input_changes` are the changes of the leaves of the body's function and arguments.
+    `return_changes` are the changes of the leaves of each site's return value. `n_outputs` counts the leaves of the
+    body's outputs so far.
     """
 
-    def __init__(self, key: PRNGKey, old: StaticTrace, request: Callable[[StaticAddress], EditRequest], argdiffs: Any):
+    def __init__(self, key: PRNGKey, old: StaticTrace, request_at: RequestAt, argdiffs: Any):
         super().__init__(key, self.edit_site)
-        self.old, self.request = old, request
+        self.old, self.request_at = old, request_at
         self.backward: dict[StaticAddress, EditRequest] = {}
-        self.flow = _flow_of_body(old, Diff.tree_primal(argdiffs))
-        self.inputs: list[Change] = [NoChange] * len(jax.tree.leaves(old.gen_fn)) + Diff.tangents(argdiffs)
-        self.returned: dict[StaticAddress, list[Change]] = {}
-        self.position = 0
+        self.flow = _body_dataflow(old, Diff.tree_primal(argdiffs))
+        fn_changes: list[Change] = [NoChange] * len(jax.tree.leaves(old.gen_fn))
+        self.input_changes = fn_changes + Diff.tangents(argdiffs)
+        self.return_changes: dict[StaticAddress, list[Change]] = {}
+        self.n_outputs = 0
 
-    def mark(self, value: Any) -> Any:
-        """Return the next output of the body as `Diff` leaves, with its change as far as that is known."""
-        position, self.position = self.position, self.position + len(jax.tree.leaves(value))
+    def with_known_changes(self, value: Any) -> Any:
+        """Return the next output of the body as `Diff` leaves. A change that cannot be derived is marked unknown."""
+        first = self.n_outputs
+        self.n_outputs += len(jax.tree.leaves(value))
         if self.flow is None:
             return Diff.unknown_change(value)
-        tangents = list(self.inputs)
+        changes = list(self.input_changes)
         for path, subtrace in self.old.subtraces.items():
             unknown = [UnknownChange] * len(jax.tree.leaves(subtrace.get_retval()))
-            tangents += self.returned.get(path, unknown)
-        return Diff.zip(value, [origin.change(tangents) for origin in self.flow[position : self.position]])
+            changes += self.return_changes.get(path, unknown)
+        return Diff.zip(value, [origin.change(changes) for origin in self.flow[first : self.n_outputs]])
 
     def edit_site(self, path: StaticAddress, gen_fn: Any, args: Arguments, key: PRNGKey) -> tuple[Trace, Weight]:
+        """Return the site's edited trace and the weight of the edit; store its changes and its backward request."""
         if path not in self.old.subtraces:
             raise UnknownAddress((), "the trace that is edited has no such site")
         # A function that the body defined again, and that may differ, needs a full rescoring.
-        marked_fn, argdiffs = self.mark((gen_fn, args))
-        subtrace, request = self.old.subtraces[path], self.request(path)
-        same = bool(jax.tree.structure(gen_fn) == jax.tree.structure(subtrace.get_gen_fn()))  # type: ignore[operator]
-        if same and Diff.static_check_no_change(marked_fn):
-            trace, weight, retdiff, back = request.edit(key, subtrace, argdiffs)
+        fn_diff, argdiffs = self.with_known_changes((gen_fn, args))
+        subtrace, request = self.old.subtraces[path], self.request_at(path)
+        same_structure = bool(jax.tree.structure(gen_fn) == jax.tree.structure(subtrace.get_gen_fn()))  # type: ignore[operator]
+        if same_structure and Diff.static_check_no_change(fn_diff):
+            trace, weight, retdiff, backward = request.edit(key, subtrace, argdiffs)
         else:
-            trace, weight, retdiff, back = _edit_anew(key, subtrace, gen_fn, request, args)
-        self.returned[path] = Diff.tangents(retdiff)
-        self.backward[path] = back
+            trace, weight, retdiff, backward = _edit_by_rescoring(key, subtrace, gen_fn, request, args)
+        self.return_changes[path] = Diff.tangents(retdiff)
+        self.backward[path] = backward
         return trace, weight
 
 
-def _flow_of_body(old: StaticTrace, args: Arguments) -> Any:
-    """Return the origins of each site's function and arguments, in order, and of the return value."""
+def _body_dataflow(old: StaticTrace, args: Arguments) -> list[Origin] | None:
+    """Return the origins of the leaves of each site's function and arguments, in order, and of the return value.
+
+    Return None if the body needs the values of its arguments. Then every change is unknown.
+    """
 
     def body(gen_fn: Any, args: Arguments, *retvals: Any) -> Any:
         replay = Replay(dict(zip(old.subtraces, retvals, strict=True)))
@@ -191,7 +205,7 @@ def _flow_of_body(old: StaticTrace, args: Arguments) -> Any:
     return dataflow(body, old.gen_fn, args, *(t.get_retval() for t in old.subtraces.values()))
 
 
-def _edit_anew(key: PRNGKey, old: Trace, gen_fn: Any, request: EditRequest, args: Arguments) -> Edited:
+def _edit_by_rescoring(key: PRNGKey, old: Trace, gen_fn: Any, request: EditRequest, args: Arguments) -> Edited:
     """Edit the trace of a function that the body defined again and that may differ, by scoring the whole trace.
 
     A request that depends on addresses alone becomes a call of `generate`. Any other request edits the function's trace
@@ -200,38 +214,38 @@ def _edit_anew(key: PRNGKey, old: Trace, gen_fn: Any, request: EditRequest, args
     choices = old.get_choices()
     match request:
         case Update(constraint):
-            kept, removed = constraint | choices, old.get_score()
+            given, removed = constraint | choices, old.get_score()
         case EmptyRequest():
-            kept, removed = choices, old.get_score()
+            given, removed = choices, old.get_score()
         case Regenerate(selection):
-            kept, removed = choices.filter(~selection), old.project(key, ~selection)
+            given, removed = choices.filter(~selection), old.project(key, ~selection)
         case _:
-            trace, weight, _, _ = _edit_anew(key, old, gen_fn, EmptyRequest(), args)
-            trace, gain, retdiff, backward = request.edit(key, trace, Diff.no_change(args))
-            return trace, weight + gain, Diff.unknown_change(Diff.tree_primal(retdiff)), backward
-    trace, weight = gen_fn.generate(key, kept, args)
+            trace, weight, _, _ = _edit_by_rescoring(key, old, gen_fn, EmptyRequest(), args)
+            trace, edit_weight, retdiff, backward = request.edit(key, trace, Diff.no_change(args))
+            return trace, weight + edit_weight, Diff.unknown_change(Diff.tree_primal(retdiff)), backward
+    trace, weight = gen_fn.generate(key, given, args)
     trace = in_dtypes_of(old, trace.with_args(None)).with_args(args)
     return trace, weight - removed, Diff.unknown_change(trace.get_retval()), Update(choices)
 
 
 @contextmanager
-def _located(path: StaticAddress) -> Iterator[None]:
-    """Prefix the addresses of errors in the code inside with `path`."""
+def _errors_below(path: StaticAddress) -> Iterator[None]:
+    """Prefix the addresses of errors in the code inside with `path`, the address of a site."""
     try:
         yield
     except AddressError as error:
         raise error.under(path) from None
 
 
-def _check_sites(paths: Iterable[Any], sites: list[StaticAddress]) -> None:
+def _require_sites(paths: Iterable[Any], sites: list[StaticAddress]) -> None:
     """Raise UnknownAddress for a path that is not the address of a site."""
     for path in paths:
         if path not in sites:
             raise UnknownAddress(path, f"its sites are {', '.join(map(format_address, sites))}")
 
 
-def _check_known(paths: Iterable[Any], visited: list[StaticAddress]) -> None:
-    """Raise UnknownAddress for a path that lies at or below no site."""
+def _require_reachable(paths: Iterable[Any], visited: list[StaticAddress]) -> None:
+    """Raise UnknownAddress for a path that is neither at nor below a site."""
     sites = ", ".join(map(format_address, visited)) or "none"
     for path in paths:
         if path == () and () not in visited:
@@ -265,6 +279,7 @@ class StaticGenerativeFunction(GenerativeFunction):
         return self.replace(partial_args=(*self.partial_args, *args))
 
     def handle_kwargs(self) -> "StaticGenerativeFunction":
+        """Return the function with arguments in the form `by_name`."""
         return self.replace(by_name=True)
 
     def __get__(self, instance: Any, owner: Any = None) -> "StaticGenerativeFunction":
@@ -283,14 +298,14 @@ class StaticGenerativeFunction(GenerativeFunction):
     def generate(self, key: PRNGKey, constraint: ChoiceMap, args: Arguments) -> tuple[StaticTrace, Weight]:
         handler = _Run(key, lambda path, gen_fn, args, key: gen_fn.generate(key, constraint(path), args))
         outcome = handler.run(self, args)
-        _check_known(constraint.paths(), handler.visited)
+        _require_reachable(constraint.paths(), handler.visited)
         return outcome
 
     def assess(self, choices: ChoiceMap, args: Arguments) -> tuple[Score, Any]:
         handler = _Assess(choices)
         with running(handler):
             retval = self.call(args)
-        _check_known(choices.paths(), handler.visited)
+        _require_reachable(choices.paths(), handler.visited)
         return handler.score, retval
 
     def project(self, key: PRNGKey, trace: Any, selection: Selection) -> Weight:
@@ -298,31 +313,34 @@ class StaticGenerativeFunction(GenerativeFunction):
         return sum(parts, start=jnp.zeros(()))
 
     def edit(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
-        sites = list(trace.subtraces)
-        # Make the request for each site.
-        match request:
-            case Update(constraint):
-                _check_known(constraint.paths(), sites)
-
-                def part(path: StaticAddress) -> EditRequest:
-                    below = constraint(path)
-                    return EmptyRequest() if below.static_is_empty() else Update(below)
-
-            case StaticRequest(addressed):
-                _check_sites(addressed, sites)
-                part = lambda path: addressed.get(path, EmptyRequest())  # noqa: E731
-            case Regenerate(selection):
-                part = lambda path: Regenerate(selection(path))  # noqa: E731
-            case _:
-                raise NotSupportedEditRequest(self, request)
+        request_at = _requests_at_sites(request, self, list(trace.subtraces))
         # Run the body on the new arguments, and edit each site on the way.
-        handler = _Edit(key, trace, part, argdiffs)
+        handler = _Edit(key, trace, request_at, argdiffs)
         new, weight = handler.run(self, Diff.tree_primal(argdiffs))
-        return new, weight, handler.mark(new.get_retval()), _undo(request, handler.backward)
+        return new, weight, handler.with_known_changes(new.get_retval()), _backward_request(request, handler.backward)
 
 
-def _undo(request: EditRequest, backward: dict[StaticAddress, EditRequest]) -> EditRequest:
-    """Join the sites' backward requests. Returns an Update if the request and all of them are updates."""
+def _requests_at_sites(request: EditRequest, gen_fn: StaticGenerativeFunction, sites: list[StaticAddress]) -> RequestAt:
+    """Return the function that gives the part of a request for each site. Raises UnknownAddress for other addresses."""
+    match request:
+        case Update(constraint):
+            _require_reachable(constraint.paths(), sites)
+
+            def update_at(path: StaticAddress) -> EditRequest:
+                below = constraint(path)
+                return EmptyRequest() if below.static_is_empty() else Update(below)
+
+            return update_at
+        case StaticRequest(addressed):
+            _require_sites(addressed, sites)
+            return lambda path: addressed.get(path, EmptyRequest())
+        case Regenerate(selection):
+            return lambda path: Regenerate(selection(path))
+    raise NotSupportedEditRequest(gen_fn, request)
+
+
+def _backward_request(request: EditRequest, backward: dict[StaticAddress, EditRequest]) -> EditRequest:
+    """Join the sites' backward requests. Returns an Update if `request` and all backward requests are updates."""
     if isinstance(request, Update) and all(isinstance(b, Update | EmptyRequest) for b in backward.values()):
         parts = ((path, b.constraint) for path, b in backward.items() if isinstance(b, Update))
         return Update(ChoiceMap.from_mapping(parts))
@@ -340,12 +358,12 @@ def gen(source: Callable[..., Any]) -> StaticGenerativeFunction:
     """Return a Python function as a generative function.
 
     In its body `g(*args) @ "address"` calls a generative function and records its choices under the address, which no
-    other call may have (AddressReuse). `@ ()` records them as the function's own choices. The i-th call uses
-    `fold_in(key, i)`, with i from 1. Given choices that do not match the addresses raise MissingAddress or
+    other call may have (AddressReuse). `@ ()` records a call's choices as the function's own choices. The i-th call
+    uses `fold_in(key, i)`, with i from 1. Given choices that do not match the addresses raise MissingAddress or
     UnknownAddress.
     """
-    made = StaticGenerativeFunction((), source)
+    gen_fn = StaticGenerativeFunction((), source)
     for name in (*functools.WRAPPER_ASSIGNMENTS, "__wrapped__"):
         value = source if name == "__wrapped__" else getattr(source, name, None)
-        object.__setattr__(made, name, value)
-    return made
+        object.__setattr__(gen_fn, name, value)
+    return gen_fn

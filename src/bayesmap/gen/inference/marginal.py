@@ -40,6 +40,7 @@ class Marginal(SampleDistribution):
     particles: int = static(default=1)
 
     def random_weighted(self, key: PRNGKey, *args: Any) -> tuple[Score, ChoiceMap]:
+        """Draw the selected choices. Return the estimate of their log density, and the choices."""
         trace = self.simulate(key, args)
         return trace.score, trace.choices
 
@@ -47,14 +48,17 @@ class Marginal(SampleDistribution):
         return self.generate(key, value, args)[1]
 
     def check_conditioning(self, constraint: ChoiceMap, args: Arguments) -> None:
-        """Raise BadArguments for an open shown choice: importance sampling needs exact densities of drawn choices."""
+        """Raise BadArguments if `constraint` leaves a selected choice open.
+
+        Importance sampling would draw the open choice, and it needs exact densities of the choices that it draws.
+        """
         shown = self.gen_fn.choice_shapes(args)
         missing = [path for path in shown.filter(self.selection).paths() if not constraint.get_selection()[path]]
         if missing:
             raise BadArguments(f"Target: a marginal needs values for all of its choices; missing: {missing}")
 
-    def _estimate(self, key: PRNGKey, shown: ChoiceMap, args: Arguments, n: int) -> tuple[Trace, Any]:
-        """Return `n` runs that agree with `shown`, and their weights."""
+    def _importance_sample(self, key: PRNGKey, shown: ChoiceMap, args: Arguments, n: int) -> tuple[Trace, Any]:
+        """Return `n` runs that agree with `shown`, and their log weights, (n,)."""
         return jax.vmap(lambda k: self.gen_fn.generate(k, shown, args))(jax.random.split(key, n))
 
     def simulate(self, key: PRNGKey, args: Arguments) -> MarginalTrace:
@@ -63,25 +67,27 @@ class Marginal(SampleDistribution):
         choices = trace.get_choices()
         shown = choices.filter(self.selection)
         if self.algorithm is not None:
-            hidden, target = choices.filter(~self.selection), Target(self.gen_fn, args, shown)
+            hidden = choices.filter(~self.selection)
+            target = Target(self.gen_fn, args, shown)
             score = self.algorithm.estimate_reciprocal_normalizing_constant(
                 estimate_key, target, hidden, trace.get_score()
             )
             return MarginalTrace(self, args, shown, trace.get_retval(), score)
         # Conditional importance sampling: this run is one of the particles, else 1 / density would be biased.
-        weights = trace.project(simulate_key, self.selection)[None]
+        # `project` uses no randomness, so that the reuse of the key has no effect.
+        log_weights = trace.project(simulate_key, self.selection)[None]
         if self.particles > 1:
-            _, others = self._estimate(estimate_key, shown, args, self.particles - 1)
-            weights = jnp.concatenate([weights, others])
-        score = logsumexp(weights) - jnp.log(self.particles)
+            _, other_log_weights = self._importance_sample(estimate_key, shown, args, self.particles - 1)
+            log_weights = jnp.concatenate([log_weights, other_log_weights])
+        score = logsumexp(log_weights) - jnp.log(self.particles)
         return MarginalTrace(self, args, shown, trace.get_retval(), score)
 
     def generate(self, key: PRNGKey, constraint: ChoiceMap, args: Arguments) -> tuple[MarginalTrace, Weight]:
         if constraint.static_is_empty():
             return self.simulate(key, args), jnp.zeros(())
         if self.algorithm is None:
-            traces, weights = self._estimate(key, constraint, args, self.particles)
-            trace, score = nth(traces, 0), logsumexp(weights) - jnp.log(self.particles)
+            traces, log_weights = self._importance_sample(key, constraint, args, self.particles)
+            trace, score = nth(traces, 0), logsumexp(log_weights) - jnp.log(self.particles)
         else:
             trace, _ = self.gen_fn.generate(key, constraint, args)
             score = self.algorithm.estimate_normalizing_constant(key, Target(self.gen_fn, args, constraint))
@@ -92,6 +98,7 @@ class Marginal(SampleDistribution):
         return MarginalTrace(self, args, shown, trace.get_retval(), score), score
 
     def assess(self, choices: ChoiceMap, args: Arguments) -> tuple[Score, Any]:
+        # If nothing is hidden, the density needs no key. Otherwise the fixed key's estimate is refused below.
         trace, score = self.generate(jax.random.key(0), choices, args)
         if not self.gen_fn.choice_shapes(args).filter(~self.selection).static_is_empty():
             raise NotImplementedError("this marginal density is an estimate that needs a key: use generate")
@@ -125,8 +132,8 @@ def marginal(
 ) -> Callable[[GenerativeFunction], Marginal]:
     """Return a decorator that keeps the selected choices and marginalises the others.
 
-    Unless the score is exact, importance sampling with `particles` runs, or an algorithm, estimates it so that
-    `generate` returns unbiased weights.
+    The score is exact if no choice is hidden. Otherwise `algorithm` estimates it; without an algorithm, importance
+    sampling with `particles` runs does. The weights of `generate` are unbiased.
     """
     shown = Selection.all() if selection is None else selection
     return lambda gen_fn: Marginal(gen_fn.as_part(), shown, algorithm, particles)
