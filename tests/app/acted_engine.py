@@ -8,7 +8,7 @@ import numpy as np
 
 import bayesmap as bm
 from bayesmap.app.engine import Engine
-from bayesmap.app.exports import export
+from bayesmap.app.exports import file_of
 from bayesmap.app.protocol.actions import Cancel, ShowScan
 from bayesmap.app.protocol.document import Document, Sensor, packed
 from bayesmap.app.protocol.notices import Notice, View
@@ -102,7 +102,7 @@ class Heard:
 
     def saved_run(self, folder):
         """The run that is saved of the result on show."""
-        (folder / "run.nc").write_bytes(export(self.engine._result, "run")[2])
+        (folder / "run.nc").write_bytes(file_of(self.engine._result, "run")[2])
         return bm.load(folder / "run.nc")
 
     def every(self, kind):

@@ -52,7 +52,7 @@ class Acted:
     def hear(self, kind, generation, **fields):
         """A worker's report."""
         buffers = {"p": np.zeros((21, 21), np.uint8)} if kind == "field" else {}
-        return self.do(self.session.hear(Report(MADE[kind](generation, **fields), buffers)))
+        return self.do(self.session.receive_report(Report(MADE[kind](generation, **fields), buffers)))
 
     def do(self, effects, client=1):
         new = []

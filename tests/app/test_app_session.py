@@ -231,7 +231,7 @@ def test_each_page_has_its_own_view():
     assert acted.state["view"]["layer"] == "mean"  # as the first page sees it
     for client, pages in ((None, [1]), (2, [2])):
         report = Report(a_field(acted.session.generation), {}, client)
-        assert [effect.client for effect in acted.session.hear(report)] == pages
+        assert [effect.client for effect in acted.session.receive_report(report)] == pages
     left = acted.session.leave(2)
     assert left[0] == Show(2, View("mean"))  # nobody is shown that draw any more
 

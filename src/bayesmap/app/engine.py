@@ -17,7 +17,7 @@ from msgspec import structs
 
 from bayesmap.app.answers.questions import Answers, Now
 from bayesmap.app.display import Display, OnReport
-from bayesmap.app.exports import exported
+from bayesmap.app.exports import export_report
 from bayesmap.app.protocol.actions import Cancel, Export, MoveGhost, ShowScan, WhereAmI
 from bayesmap.app.protocol.document import CHAIN_METHODS, SETTINGS_OF_CHAINS, Document
 from bayesmap.app.protocol.notices import Status
@@ -97,7 +97,7 @@ class Engine:
         if isinstance(question, Export | WhereAmI) and self._result is None and self._job is not None:
             self._waiting.append(task)
         elif isinstance(question, Export):
-            self._send(exported(question, self._result, task.client))
+            self._send(export_report(question, self._result, task.client))
         else:
             now = Now(self._scene, self._result, self._scan, self._display.generation)
             self._send(self._answers.answer(question, now, task.client))

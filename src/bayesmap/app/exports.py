@@ -26,9 +26,9 @@ from bayesmap.app.scene import ray_buffers
 from bayesmap.app.shown.result import Result
 from bayesmap.errors import BadInput
 
-MOST_DRAWS = 1000  # most draws of all chains in a recording
+MOST_DRAWS = 1000  # most draws of all chains in a recording; they are evenly spaced
 MOST_DRAW_BYTES = 16 << 20  # most bytes of these draws
-MOST_RAYS = 2_000_000  # most beams in a recording; draws and beams are evenly chosen
+MOST_RAYS = 2_000_000  # most beams in a recording; its scans are evenly spaced
 
 
 class RecordedDraws(Struct, frozen=True):
@@ -56,19 +56,23 @@ class Recording(Struct, frozen=True, kw_only=True):
     log_joint: list[list[float]]  # log joint of each draw, one row per chain
 
 
-def exported(question: Export, result: Result | None, client: int) -> Report:
+def export_report(question: Export, result: Result | None, client: int) -> Report:
     """Return a report with a file of the result, or with the reason why there is none."""
     try:
         if result is None:
             raise BadInput("there is nothing to export yet")
-        name, mime, data = export(result, question.what)
+        name, media_type, data = file_of(result, question.what)
     except (BadInput, OSError) as error:
         return Report(Status(str(error), "warning"), {}, client)
-    return Report(Download(name, mime, _share(result) if question.what == "html" else ""), {"data": data}, client)
+    remark = _say_draws_included(result) if question.what == "html" else ""
+    return Report(Download(name, media_type, remark), {"data": data}, client)
 
 
-def export(result: Result, what: str) -> tuple[str, str, bytes]:
-    """Return name, media type and bytes of a "run", a "map" or the page, "html". Raises BadInput: no draws to save."""
+def file_of(result: Result, what: str) -> tuple[str, str, bytes]:
+    """Return name, media type and bytes of a file of a result: "run", "map" or the page, "html".
+
+    Raises `BadInput` if a run has no draws to save.
+    """
     if what == "html":
         return "bayesmap.html", "text/html", to_html(result).encode()
     with tempfile.TemporaryDirectory(prefix="bayesmap-") as folder:
@@ -92,10 +96,10 @@ def to_html(result: Result) -> str:
 
 def record(result: Result) -> tuple[Recording, Buffers]:
     """Return the recording of a result, which the page's `recordedTransport` plays, and its buffers."""
-    chosen, _ = _chosen(result)
-    draws, buffers = _draws(result, chosen)
-    field, of_field = field_of(result, View("mean"), 1, 0.0)
-    buffers |= of_field
+    draw_indices = _recorded_draw_indices(result)
+    draws, buffers = _packed_draws(result, draw_indices)
+    field, field_buffers = field_of(result, View("mean"), 1, 0.0)
+    buffers |= field_buffers
     if result.width is not None:
         buffers["width"] = field_of(result, View("width"), 1, 0.0)[1]["p"]
     cells = result.scene.problem.table.cells
@@ -103,47 +107,48 @@ def record(result: Result) -> tuple[Recording, Buffers]:
     if not result.document.simulated:
         buffers |= overlay_of(result)
     # Long logs are thinned evenly, so that the file stays at a few megabytes.
-    scans = evenly(len(result.scene.scans), MOST_RAYS // len(result.scene.scans.angles_rad))
+    scan_indices = evenly_spaced(len(result.scene.scans), MOST_RAYS // len(result.scene.scans.angles_rad))
     recording = Recording(
         document=result.document, field=structs.replace(field, draws=DrawCount(draws.chains, draws.count)),
-        ids=[result.scene.ids[i] for i in scans], draws=draws,
-        log_joint=result.found.log_joint_of_draws()[:, chosen].tolist(),
+        ids=[result.scene.ids[i] for i in scan_indices], draws=draws,
+        log_joint=result.found.log_joint_of_draws()[:, draw_indices].tolist(),
     )  # fmt: skip
-    return recording, {**buffers, **ray_buffers(result.scene, scans)}
+    return recording, {**buffers, **ray_buffers(result.scene, scan_indices)}
 
 
-def _chosen(result: Result) -> tuple[NDArray[np.intp], int]:
-    """Return the indices of the draws in a recording, and the number of kept draws per chain."""
+def _recorded_draw_indices(result: Result) -> NDArray[np.intp]:
+    """Return the indices of the draws of each chain that a recording contains."""
     kept = result.found.kept
     if kept is None:
-        return np.zeros(0, dtype=np.intp), 0
-    size = kept.chains * result.document.grid.n_cells // (8 if kept.specs[0].storage == "bits" else 1)
-    return evenly(kept.count, min(MOST_DRAWS // kept.chains, MOST_DRAW_BYTES // max(1, size))), kept.count
+        return np.zeros(0, dtype=np.intp)
+    n_bytes = kept.chains * result.document.grid.n_cells // (8 if kept.specs[0].storage == "bits" else 1)
+    return evenly_spaced(kept.count, min(MOST_DRAWS // kept.chains, MOST_DRAW_BYTES // max(1, n_bytes)))
 
 
-def _draws(result: Result, chosen: NDArray[np.intp]) -> tuple[RecordedDraws, dict[str, NDArray[Any] | bytes]]:
-    """Return the chosen draws: packed walls, or maps in 255ths."""
+def _packed_draws(result: Result, indices: NDArray[np.intp]) -> tuple[RecordedDraws, dict[str, NDArray[Any] | bytes]]:
+    """Return the draws of each chain at `indices`: packed walls, or maps in 255ths."""
     kept = result.found.kept
     if kept is None:
         return RecordedDraws(), {"draws": np.zeros((0, 0, 0), dtype=np.uint8)}
     bits = kept.specs[0].storage == "bits"
     if bits:
-        draws = np.asarray(kept.arrays[kept.specs[0].name])[:, chosen]
+        draws = np.asarray(kept.arrays[kept.specs[0].name])[:, indices]
     else:
         chains = range(kept.chains)
-        draws = np.array([[levels(result.prior.map_of(kept, c, int(d))).ravel() for d in chosen] for c in chains])
-    return RecordedDraws(kept.chains, len(chosen), kept.count, bits), {"draws": draws}
+        draws = np.array([[levels(result.prior.map_of(kept, c, int(d))).ravel() for d in indices] for c in chains])
+    return RecordedDraws(kept.chains, len(indices), kept.count, bits), {"draws": draws}
 
 
-def _share(result: Result) -> str:
-    """Say how many of the draws are in the file."""
-    chosen, kept = _chosen(result)
-    if not kept:
+def _say_draws_included(result: Result) -> str:
+    """Return a phrase that says how many of the kept draws the file contains."""
+    kept = result.found.kept
+    if kept is None or not kept.count:
         return "without draws: none were kept"
-    limit = f"; at most {MOST_DRAWS:,} draws and {MOST_DRAW_BYTES >> 20} MB fit" if len(chosen) < kept else ""
-    return f"with {len(chosen):,} of the {kept:,} draws of each chain{limit}"
+    included = len(_recorded_draw_indices(result))
+    limit = f"; at most {MOST_DRAWS:,} draws and {MOST_DRAW_BYTES >> 20} MB fit" if included < kept.count else ""
+    return f"with {included:,} of the {kept.count:,} draws of each chain{limit}"
 
 
-def evenly(count: int, most: int) -> NDArray[np.intp]:
-    """Return at most `most` indices below `count`, evenly chosen, but at least one."""
+def evenly_spaced(count: int, most: int) -> NDArray[np.intp]:
+    """Return at most `most` evenly spaced indices below `count`, but at least one."""
     return np.unique(np.linspace(0, count - 1, max(1, min(count, most))).round().astype(np.intp))

@@ -108,7 +108,7 @@ class Hub:
             self._unusable = report.message.text
             self.pictured.set()
             return
-        self._do(self.session.hear(report))
+        self._do(self.session.receive_report(report))
         if isinstance(report.message, Field | Failed):
             self.pictured.set()
 

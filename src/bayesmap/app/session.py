@@ -18,8 +18,9 @@ from bayesmap.app.protocol import actions, notices, tasks
 from bayesmap.app.protocol.document import VERSION, Document, Refused, plain
 from bayesmap.app.protocol.wire import parse_document
 
-QUESTIONS, EDITS = get_args(actions.Question), get_args(actions.Edit)
-REPLAYED = (notices.Scan, notices.Field, notices.Overlay)  # of each, the last is sent to a page that connects
+QUESTIONS = get_args(actions.Question)
+EDITS = get_args(actions.Edit)
+REPLAYED = (notices.Scan, notices.Field, notices.Overlay)  # a page that connects gets the last message of each kind
 
 
 @dataclass(frozen=True)
@@ -33,7 +34,7 @@ class ToPage:
 
 Effect = ToPage | tasks.Task
 Effects = list[Effect]
-Steps = tuple[tuple[Document, Hashable], ...]
+Steps = tuple[tuple[Document, Hashable], ...]  # documents before or after steps of the history, with their authors
 
 
 class Session:
@@ -44,16 +45,17 @@ class Session:
         self.history = History(document)  # the document, and its states before and after
         self.generation = 0  # number of the present picture (docs/app.md)
         self.live = True  # whether edits restart the chains
-        self.running = self.working = False  # a run is under way; the picture is still being computed
+        self.running = False  # whether a run is under way
+        self.working = False  # whether the picture is still being computed
         self.draws = notices.DrawCount()  # kept draws of the present result
         self.scan = 0  # index of the scan on show, for a file
         self.worker_ready = False
         self._views: dict[int, notices.View] = {}  # the views of pages that asked for one
         self._mode: tasks.Mode = "live"
-        self._pace = Pace()
-        self._seqs: dict[int, int] = {}  # the number of the last action of every page that was applied
-        self._last: dict[type, ToPage] = {}
-        self._trajectory: tasks.Remember | None = None  # inferred of a log, for the next worker
+        self._pace = Pace()  # merges edits that arrive faster than pictures
+        self._last_seqs: dict[int, int] = {}  # number of the last applied action of every page
+        self._last_sent: dict[type, ToPage] = {}  # last message of each kind in `REPLAYED`
+        self._trajectory: tasks.Remember | None = None  # inferred from a log, for the next worker
 
     @property
     def document(self) -> Document:
@@ -72,12 +74,12 @@ class Session:
             return [tasks.Ask(client, action)]
         if isinstance(action, actions.Painted):
             self._pace.painted(client, action.generation)
-            return self._apply(self._pace.due())
-        return self._apply(self._pace.take(client, action))
+            return self._apply_all(self._pace.due())
+        return self._apply_all(self._pace.take(client, action))
 
     def join(self, client: int) -> Effects:
         """Return the first messages for a page that has connected. It answers with `hello`."""
-        self._seqs[client] = 0
+        self._last_seqs[client] = 0
         self._pace.forget(client)
         worker = notices.Worker("ready" if self.worker_ready else "starting")
         return [
@@ -89,25 +91,29 @@ class Session:
     def leave(self, client: int) -> Effects:
         """Forget a page that has disconnected. The worker makes no fields for it, and any page may undo its steps."""
         self._pace.forget(client)
-        last = self._apply(self._pace.due())
-        self._seqs.pop(client, None)
-        return [*last, *self._forget_view(client), *self._states()]
+        effects = self._apply_all(self._pace.due())
+        self._last_seqs.pop(client, None)
+        return [*effects, *self._forget_view(client), *self._states()]
 
     def _forget_view(self, client: int) -> Effects:
+        """Forget the view of a page, so that the worker makes no field for it."""
         view = self._views.pop(client, None)
         return [] if view is None else [tasks.Show(client, notices.View("mean"))]
 
-    def _apply(self, due: list[From]) -> Effects:
-        return [effect for client, action in due for effect in self._apply_one(client, action)]
+    def _apply_all(self, due: list[From]) -> Effects:
+        """Apply actions of pages in order; return their effects."""
+        return [effect for client, action in due for effect in self._apply_or_refuse(client, action)]
 
-    def _apply_one(self, client: int, action: actions.AnyAction) -> Effects:
-        self._seqs[client] = action.seq
+    def _apply_or_refuse(self, client: int, action: actions.AnyAction) -> Effects:
+        """Apply an action, or return the reason why it is refused."""
+        self._last_seqs[client] = action.seq
         try:
-            return self._applied(client, action)
+            return self._dispatch(client, action)
         except Refused as refusal:
             return [_status(str(refusal), "warning", client), *self._states()]
 
-    def _applied(self, client: int, action: actions.AnyAction) -> Effects:
+    def _dispatch(self, client: int, action: actions.AnyAction) -> Effects:
+        """Apply an action by its kind. Raises `Refused` if it cannot be applied."""
         match action:
             case actions.Hello():
                 return self._hello(client, action)
@@ -150,6 +156,7 @@ class Session:
                 return self._edit(client, action)
 
     def _edit(self, client: int, action: actions.Edit) -> Effects:
+        """Change the document by an edit, and restart inference if the document has changed."""
         before = self.document
         after, remark = edit(before, action)
         self.history = self.history.push(after, gesture_of(action, client), client)
@@ -159,12 +166,13 @@ class Session:
             coarse = action.coarse and self.document.source.kind == "log"
             if "scans_used" in actions.changes(action.patch):
                 self.scan = (self.document.scans_used or self.document.source.scans) - 1
-        let_go = self._mode == "coarse" and not coarse
-        if self.document is before and not let_go:
+        coarse_ends = self._mode == "coarse" and not coarse
+        if self.document is before and not coarse_ends:
             return [*effects, *self._states()]
         return effects + self._restart("coarse" if coarse else None)
 
     def _hello(self, client: int, action: actions.Hello) -> Effects:
+        """Send the state and the last messages to a page. Adopt the document that it brings, if possible."""
         effects: Effects = []
         if action.document is not None:
             try:
@@ -180,13 +188,14 @@ class Session:
                 if self.document is document:
                     return self._restart()
         effects.append(self._state(client))
-        return effects + [replace(self._last[kind], client=client) for kind in REPLAYED if kind in self._last]
+        return effects + [replace(self._last_sent[kind], client=client) for kind in REPLAYED if kind in self._last_sent]
 
     def _may_step(self, client: int, steps: Steps) -> bool:
         """Return whether the last step was made by this page, or by a page that has disconnected."""
-        return bool(steps) and (steps[-1][1] == client or steps[-1][1] not in self._seqs)
+        return bool(steps) and (steps[-1][1] == client or steps[-1][1] not in self._last_seqs)
 
     def _step(self, client: int, history: History[Document], steps: Steps, name: str) -> Effects:
+        """Move to `history`, if the page may undo or redo (`name`) the last of `steps`."""
         if not self._may_step(client, steps):
             text = f"the last step was made in another tab: {name} it there" if steps else f"nothing to {name}"
             return [_status(text, "info", client), *self._states()]
@@ -195,7 +204,7 @@ class Session:
 
     # From the worker
 
-    def hear(self, report: tasks.Report) -> Effects:
+    def receive_report(self, report: tasks.Report) -> Effects:
         """Return the effects of a worker's report. A report of an older generation has none."""
         message = report.message
         if isinstance(message, tasks.Ready):
@@ -206,10 +215,10 @@ class Session:
             case tasks.Finished():
                 self.running = self.working = False
                 self.draws = message.draws
-                return [*self._states(), *self._picture_is_out()]
+                return [*self._states(), *self._picture_computed()]
             case tasks.Failed():
                 self.running = self.working = False
-                return [_status(message.text, "error"), *self._states(), *self._picture_is_out()]
+                return [_status(message.text, "error"), *self._states(), *self._picture_computed()]
             case tasks.OnGrid():
                 self.history = replace(self.history, present=self.document.on_grid(message.grid))
                 return self._states()
@@ -220,20 +229,22 @@ class Session:
                 return []
         notice = ToPage(message, report.buffers, report.client)
         if isinstance(message, REPLAYED) and report.client is None:
-            self._last[type(message)] = notice
-        return [*self._shown(notice), *self._picture_is_out()] if isinstance(message, notices.Field) else [notice]
+            self._last_sent[type(message)] = notice
+        if isinstance(message, notices.Field):
+            return [*self._field_to_pages(notice), *self._picture_computed()]
+        return [notice]
 
-    def _shown(self, notice: ToPage) -> Effects:
-        """Send a field to the page that asked for it, or to all pages without fields of their own."""
-        drawing = {client for client, view in self._views.items() if view.layer in notices.OWN_LAYERS}
-        as_it_is = notice.client is not None or not drawing
-        pages = [notice.client] if as_it_is else [client for client in self._seqs if client not in drawing]
+    def _field_to_pages(self, notice: ToPage) -> Effects:
+        """Return a field for the page that asked for it, or for all pages without fields of their own."""
+        own_fields = {client for client, view in self._views.items() if view.layer in notices.OWN_LAYERS}
+        unchanged = notice.client is not None or not own_fields
+        pages = [notice.client] if unchanged else [client for client in self._last_seqs if client not in own_fields]
         for client in pages:
             self._pace.sent(client, self.generation)
         return [replace(notice, client=client) for client in pages]
 
     def worker_lost(self) -> Effects:
-        """Return messages to all pages that the worker stopped and is being restarted."""
+        """Return messages that tell all pages that the worker stopped and is being restarted."""
         self.worker_ready = False
         text = "the worker stopped and is being restarted; the map is kept"
         return [ToPage(notices.Worker("restarted")), _status(text, "warning")]
@@ -243,30 +254,32 @@ class Session:
         self.worker_ready = True
         if document is not None and self.generation == 0:
             self.history = History(document)
-        known = () if self._trajectory is None else (self._trajectory,)
+        trajectory = () if self._trajectory is None else (self._trajectory,)
         views = (tasks.Show(client, view) for client, view in self._views.items())
-        again: tasks.Mode = "run" if self.running else self._mode if self._mode == "clear" else self._usual()
-        return [ToPage(notices.Worker("ready")), *known, *views, *self._restart(again)]
+        mode: tasks.Mode = "run" if self.running else self._mode if self._mode == "clear" else self._default_mode()
+        return [ToPage(notices.Worker("ready")), *trajectory, *views, *self._restart(mode)]
 
-    def _picture_is_out(self) -> Effects:
+    def _picture_computed(self) -> Effects:
+        """Apply the actions that waited for a picture."""
         self._pace.computing = False
-        return self._apply(self._pace.due())
+        return self._apply_all(self._pace.due())
 
     # What follows from both
 
-    def _usual(self) -> tasks.Mode:
+    def _default_mode(self) -> tasks.Mode:
+        """Return the mode of inference after an edit."""
         return "live" if self.live else "preview"
 
     def _restart(self, mode: tasks.Mode | None = None) -> Effects:
-        """Begin a new generation."""
+        """Begin a new generation: inference starts again on the present document, by default in `_default_mode`."""
         self.generation += 1
-        self._mode = mode if mode is not None else self._usual()
+        self._mode = mode if mode is not None else self._default_mode()
         self.running, self.working = self._mode == "run", self._mode != "clear"
         self.draws = notices.DrawCount()
         self._pace.computing = True
-        self._last.pop(notices.Field, None)
+        self._last_sent.pop(notices.Field, None)
         if self.document.simulated:
-            self._last.pop(notices.Overlay, None)  # it belongs to the file shown before
+            self._last_sent.pop(notices.Overlay, None)  # it belongs to the file shown before
         self.scan = min(self.scan, max(0, self.document.source.scans - 1))
         task = tasks.Infer(self.generation, self.document, self._mode, self.scan)
         # The state comes first: a page must get a generation's number before its picture.
@@ -274,12 +287,12 @@ class Session:
 
     def _states(self) -> Effects:
         """Return the present state for every page."""
-        return [self._state(client) for client in self._seqs]
+        return [self._state(client) for client in self._last_seqs]
 
     def _state(self, client: int) -> ToPage:
         """Return the present state for one page."""
         state = notices.State(
-            document=self.document, generation=self.generation, seq=self._seqs.get(client, 0),
+            document=self.document, generation=self.generation, seq=self._last_seqs.get(client, 0),
             can_undo=self._may_step(client, self.history.past), can_redo=self._may_step(client, self.history.future),
             live=self.live, running=self.running, working=self.working, draws=self.draws, scan=self.scan,
             view=self._views.get(client, notices.View("mean")),
@@ -288,7 +301,7 @@ class Session:
 
 
 def check_question(document: Document, question: actions.Question) -> None:
-    """Check that the cell or the beam of a question exists. Raises Refused: it does not exist."""
+    """Check that the cell or the beam of a question exists. Raises `Refused` if it does not."""
     match question:
         case actions.Inspect():
             if question.x >= document.grid.shape[0] or question.y >= document.grid.shape[1]:
@@ -305,4 +318,5 @@ def refusal(refused: Refused, seq: int | None = None) -> notices.Refusal:
 
 
 def _status(text: str, level: Literal["info", "warning", "error"], client: int | None = None) -> ToPage:
+    """Return a status for one page, or for all pages where client is None."""
     return ToPage(notices.Status(text, level), {}, client)

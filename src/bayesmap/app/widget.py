@@ -146,7 +146,7 @@ class MapWidget(anywidget.AnyWidget):
     def _hear(self, report: Report) -> None:
         if not isinstance(report.message, Unusable):
             with self._one_at_a_time:
-                self._do(self._session.hear(report))
+                self._do(self._session.receive_report(report))
 
     def _lost(self) -> None:
         with self._one_at_a_time:

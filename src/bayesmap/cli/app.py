@@ -51,7 +51,7 @@ def app(
     bayesmap app document.json --export figure.html
     bayesmap app --story tutorial --export story.html
     """
-    reading = reading_of(call.settings())
+    log_options = reading_of(call.settings())
     if file is not None:
         need_file(file, f"a saved run (.nc), a document of the page (.json), or {LOG}", runs=True)
 
@@ -60,15 +60,15 @@ def app(
     from bayesmap.app.sources import read_document
     from bayesmap.app.stories import read_story
 
-    first = tutorial_document(seed)
+    document = tutorial_document(seed)
     if file is not None and file.endswith(".json"):
-        first, file = read_document(file), None
-    told = None
+        document, file = read_document(file), None
+    told_story = None
     if story is not None:
         if file is not None:
             raise BadInput(f"--story: a story has its own maps, and {file} is a file; leave one of the two out")
-        told = read_story(story, first)
-        first = told.steps[0].document
+        told_story = read_story(story, document)
+        document = told_story.steps[0].document
 
     if export is not None:
         if file is not None:
@@ -76,12 +76,12 @@ def app(
                 f"--export: {file} is no drawn world; open it with bayesmap app, and choose Export there, "
                 "which writes a page with its draws"
             )
-        _export(call, first, told, export)
+        _export_figure(call, document, told_story, export)
         return
 
     call.console.say("starting the worker ..." if file is None else f"opening {file} ...")
 
-    def ready(address: str) -> None:
+    def show_address(address: str) -> None:
         if call.console.as_json:
             call.console.result({"url": address}, ())
         else:
@@ -92,11 +92,11 @@ def app(
 
             webbrowser.open(address)
 
-    serve(first, path=file, log_options=reading, story=told, host=host, port=port, on_ready=ready)
+    serve(document, path=file, log_options=log_options, story=told_story, host=host, port=port, on_ready=show_address)
 
 
-def _export(call: Call[AppSettings], document: Document, story: Story | None, file: str) -> None:
-    """Write a figure that samples by itself."""
+def _export_figure(call: Call[AppSettings], document: Document, story: Story | None, file: str) -> None:
+    """Write a page that samples in the reader's browser, and needs no server."""
     from bayesmap.app.figures import to_figure
 
     target, _ = need_ending(file, ("html",), "--export")

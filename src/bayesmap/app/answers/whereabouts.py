@@ -30,8 +30,8 @@ from bayesmap.sim.forward import ranges
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans, fan
 
-FINEST_M = 0.125  # cells of a drawn map, whose centres the search tries, are divided to this edge,
-MOST_CELLS = 1_000_000  # unless there would be more than these
+FINEST_M = 0.125  # the search tries centres of cells: cells of a drawn map are divided down to this edge
+MOST_CELLS = 1_000_000  # the largest number of divided cells: with more, cells are divided into fewer parts
 TYPICAL_SCANS = 100  # number of typical scans of a drawn world
 MOST_POSES = 1000  # the largest number of poses sent to the page: those with the largest weights
 
@@ -46,26 +46,26 @@ class Locator:
     def answer(
         self, question: WhereAmI, result: Result | None, scan: int, generation: int
     ) -> tuple[Whereabouts, Buffers]:
-        """Find the places where a scan may have been taken, or return the reason why there is no answer. The question
-        names the sensor of a drawn world; ``scan`` is the index of the scan on show, for a file.
+        """Find the places where a scan may have been taken, or return the reason why there is no answer.
+
+        In a drawn world, the question names the sensor. For a file, ``scan`` is the index of the scan on show.
         """
         try:
             if result is None:
                 raise BadInput("there is no map to be located in yet")
-            scans, name = _scan_of(question, result, scan)
-            belief = _located(self._map(result), scans, result.document)
+            scans, sensor_id, scan_index = _scan_of(question, result, scan)
+            belief = _locate(self._known_map(result), scans, result.document)
         except BadInput as error:
             return Whereabouts(generation, trouble=str(error).removeprefix("localize: ")), {}
-        index, sensor = (None, name) if result.document.simulated else (name, None)
         heaviest = np.argsort(belief.weights, kind="stable")[-MOST_POSES:]
         cloud = {"pose": belief.poses[heaviest], "weight": belief.weights[heaviest]}
         return Whereabouts(
-            generation, sensor, index, scans.poses[0].tolist(), places(belief), float(belief.p_lost),
-            float(belief.nats_per_beam),
+            generation, sensor=sensor_id, index=scan_index, pose=scans.poses[0].tolist(), modes=places(belief),
+            p_lost=float(belief.p_lost), nats_per_beam=float(belief.nats_per_beam),
         ), {name: values.astype(np.float32) for name, values in cloud.items()}  # fmt: skip
 
-    def _map(self, result: Result) -> KnownMap:
-        """Return the known map of a result, prepared anew only if what it depends on (its key) has changed."""
+    def _known_map(self, result: Result) -> KnownMap:
+        """Return the known map of a result. It is prepared again only if a value that it depends on has changed."""
         document = result.document
         key: Hashable = result.found
         if document.simulated:
@@ -79,7 +79,7 @@ class Locator:
 
 
 def drawn_map(document: Document) -> KnownMap:
-    """Return the walls of a drawn world as a known map. Raises BadInput: the world has no free cell."""
+    """Return the walls of a drawn world as a known map. Raises `BadInput` if it has no free cell."""
     grid, walls = document.grid, document.is_wall
     parts = max(1, math.ceil(grid.resolution / FINEST_M - 1e-9))
     parts = max(1, min(parts, math.isqrt(MOST_CELLS // grid.n_cells)))
@@ -93,7 +93,7 @@ def drawn_map(document: Document) -> KnownMap:
 
 
 def _typical_scans(document: Document) -> Scans:
-    """Simulate scans at random poses in a drawn world. They show what readings are typical anywhere in it."""
+    """Simulate scans at random poses in a drawn world. Their readings are typical of this world."""
     grid = document.grid
     rng = np.random.default_rng([document.seed, STREAM_TYPICAL])
     free = np.argwhere(~document.is_wall)
@@ -103,12 +103,14 @@ def _typical_scans(document: Document) -> Scans:
     yaw = rng.uniform(-np.pi, np.pi, TYPICAL_SCANS)
     poses = np.column_stack([np.array(grid.origin) + cells * grid.resolution, yaw])
     angles = fan(document.angles, math.degrees(document.fov))
-    exact = ranges(document.is_wall, grid, poses, angles, document.max_range)
-    noisy = exact + document.noise * rng.standard_normal(exact.shape)
-    return Scans(poses, angles, np.where(exact < document.max_range, noisy, np.inf), max_range_m=document.max_range)
+    exact_m = ranges(document.is_wall, grid, poses, angles, document.max_range)
+    noisy_m = exact_m + document.noise * rng.standard_normal(exact_m.shape)
+    ranges_m = np.where(exact_m < document.max_range, noisy_m, np.inf)
+    return Scans(poses, angles, ranges_m, max_range_m=document.max_range)
 
 
-def _located(known: KnownMap, scans: Scans, document: Document) -> PoseBelief:
+def _locate(known: KnownMap, scans: Scans, document: Document) -> PoseBelief:
+    """Return the belief of the pose of the one scan in `scans`."""
     if not document.simulated:
         return localize(known, scans, seed=document.seed).last
     scan = Scan(scans.angles_rad, scans.ranges_m[0], RangeLimits(scans.min_range_m, scans.max_range_m))
@@ -117,21 +119,22 @@ def _located(known: KnownMap, scans: Scans, document: Document) -> PoseBelief:
 
 def places(belief: PoseBelief) -> list[Place]:
     """Return the modes of a belief as places where the robot may be, the most probable first."""
-    found = []
+    place_list = []
     for mode in belief.modes:
-        spread = np.linalg.eigvalsh(mode.covariance[:2, :2])[-1]
-        sigma_m, sigma_rad = float(np.sqrt(spread)), float(np.sqrt(mode.covariance[2, 2]))
-        found.append(Place(**mode.as_json(), sigma_m=sigma_m, sigma_rad=sigma_rad))
-    return found
+        largest_variance = np.linalg.eigvalsh(mode.covariance[:2, :2])[-1]
+        sigma_m = float(np.sqrt(largest_variance))
+        sigma_rad = float(np.sqrt(mode.covariance[2, 2]))
+        place_list.append(Place(**mode.as_json(), sigma_m=sigma_m, sigma_rad=sigma_rad))
+    return place_list
 
 
-def _scan_of(question: WhereAmI, result: Result, scan: int) -> tuple[Scans, int]:
-    """Return one scan, and its number: the sensor's id in a drawn world, else the index of the scan."""
+def _scan_of(question: WhereAmI, result: Result, scan: int) -> tuple[Scans, int | None, int | None]:
+    """Return one scan, the sensor's id in a drawn world, and the scan's index in a file; the other number is None."""
     scene = result.scene
     if not result.document.simulated:
-        return scene.scans.select(slice(scan, scan + 1)), scan
+        return scene.scans.select(slice(scan, scan + 1)), None, scan
     row = scene.ids.index(question.sensor) if question.sensor in scene.ids else 0
-    one = scene.scans.select(slice(row, row + 1))
-    # A beam that met nothing reads the longest range plus noise. Mark such readings as no return.
-    readings = np.where(hits(scene)[[row]], one.ranges_m, np.inf)
-    return replace(one, ranges_m=readings), scene.ids[row]
+    sensor_scan = scene.scans.select(slice(row, row + 1))
+    # The reading of a beam that met nothing is the longest range plus noise. Mark such readings as no return.
+    readings = np.where(hits(scene)[[row]], sensor_scan.ranges_m, np.inf)
+    return replace(sensor_scan, ranges_m=readings), scene.ids[row], None
