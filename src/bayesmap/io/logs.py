@@ -45,7 +45,9 @@ LINES_LOOKED_AT = 1000  # lines of a text that may decide its format
 ENDINGS = (".log", ".log.gz", ".clf", ".clf.gz", ".bag", ".g2o", ".csv", ".npz", ".rawlog")
 SAVED_RUNS = (b"\x89HDF", b"CDF")  # first bytes of netCDF files
 IN_DEGREES = "is it in degrees?"  # the end of the note about a yaw that looks like degrees
-LARGE_TURN_RAD, LARGE_TURNS, NEAR_A_TURN_DEG = 1.0, 0.05, 20.0  # of yaw in degrees: over 5 % large, or near a turn
+LARGE_STEP_RAD = 1.0  # a change of yaw that is rare between scans, if yaw is in radians
+LARGE_STEP_SHARE = 0.05  # a larger share of large steps suggests degrees
+WRAP_TOLERANCE_DEG = 20.0  # a step within this of 360 is a wrap in degrees
 GMAPPING = (b"LASER_READING", b"ODO_UPDATE", b"SM_UPDATE", b"RESAMPLE")  # of GMapping's own logs, .gfs
 RECORDINGS = ("rosbag1", "rosbag2-sqlite3", "mcap", "folder")
 
@@ -167,6 +169,7 @@ def format_of(path: str | os.PathLike[str]) -> str:
 
 
 def _text_format(name: str) -> str:
+    """Return the format of a text file; raise `BadInput` if it is empty or unknown."""
     carmen, any_line = {word.encode() for word in KNOWN}, False
     kind = None
     try:
@@ -203,6 +206,7 @@ def _noted(reading: LogReading, note: str | None) -> LogReading:
 
 
 def _coarse_stamps(reading: LogReading) -> str | None:
+    """Return a note if the stamps are too coarse."""
     stamps = reading.scans.stamps_s
     note = None if stamps is None else coarse_stamps_note(stamps)
     if note is not None and reading.pose_source is not None and reading.format not in READERS:
@@ -211,6 +215,7 @@ def _coarse_stamps(reading: LogReading) -> str | None:
 
 
 def _jumps(reading: LogReading) -> str | None:
+    """Return a note if poses jump."""
     scans, jumped = reading.scans, jumps(reading.scans)
     if not len(jumped):
         return None
@@ -240,9 +245,9 @@ def _degrees(reading: LogReading) -> str | None:
     """Return a note if yaw looks like degrees: beyond a turn, in steps that are large for radians."""
     yaw = reading.scans.poses[:, 2]
     steps = np.abs(np.diff(yaw))
-    large = steps > LARGE_TURN_RAD
-    wraps = np.abs(steps - 360.0) < NEAR_A_TURN_DEG
-    if not len(steps) or np.abs(yaw).max() <= math.tau or not (wraps.any() or large.mean() > LARGE_TURNS):
+    large = steps > LARGE_STEP_RAD
+    wraps = np.abs(steps - 360.0) < WRAP_TOLERANCE_DEG
+    if not len(steps) or np.abs(yaw).max() <= math.tau or not (wraps.any() or large.mean() > LARGE_STEP_SHARE):
         return None
     scan = int(steps.argmax()) + 1
     return (
