@@ -85,7 +85,7 @@ class Samples:
         return self.values[len(times) - 1 - int(np.argmax(times[::-1]))]
 
     def track(self, constant: bool = False, inverted: bool = False) -> Track:
-        """Return the poses in time order; of several at one time, the last. The options are those of `Track`."""
+        """Return the poses in time order, the last of several at one time. The options are fields of `Track`."""
         stamps = self.times_ns()
         order = np.argsort(stamps, kind="stable")
         order = order[np.append(np.diff(stamps[order]) > 0, True)]
@@ -173,9 +173,9 @@ class Chain:
 class FrameTree:
     """Frames and the transforms between them, given the samples of transforms by topic, parent and child.
 
-    ``ranks`` are those of the topics to use: if several topics place a frame, those of the lowest rank count. None uses
-    all topics, with one rank. ``topics`` are those in use. If a frame has several parents, ``notes`` has a sentence for
-    the user, and ``rivals`` the topics that place it.
+    ``ranks`` holds the rank of each topic to use: if several topics place a frame, the topics of the lowest rank are
+    used. None uses all topics equally. ``topics`` are the topics used. If a frame has several parents, ``notes`` has a
+    sentence for the user, and ``rivals`` the topics that place it.
     """
 
     def __init__(
@@ -190,9 +190,9 @@ class FrameTree:
         best: dict[str, int] = {}
         for (topic, parent, child), samples in transforms.items():
             rank = 0 if ranks is None else ranks.get(topic)
-            if rank is None or rank > best.get(child, rank):
+            if rank is None or (child in best and rank > best[child]):
                 continue
-            if rank < best.get(child, rank + 1):
+            if child not in best or rank < best[child]:
                 best[child], places[child] = rank, {}
             places[child].setdefault(parent, []).append(samples)
         # The parent with most messages.
