@@ -83,8 +83,9 @@ DERIVED = (
 
 @dataclass
 class Folder:
-    """The folder into which `infer` writes. Nothing in it changes before `begin`, when the run has really started.
+    """The folder into which `infer` writes.
 
+    Until `begin`, only the file ``outdated`` may be written: it marks an older run that is to be replaced.
     An older run that is to be replaced stays until the first `save` of the new run.
     """
 
@@ -141,7 +142,7 @@ class Folder:
                     raise BadInput(f"{place}: no permission to write there; choose another folder with -o")
                 break
 
-    def wait(self, toml: str) -> None:
+    def mark_outdated(self, toml: str) -> None:
         """Mark an older run in the folder as to be replaced, perhaps by another process."""
         if self.run.exists() and not self.resuming:
             write_utf8(self.outdated, toml)
@@ -156,7 +157,7 @@ class Folder:
             if self.run.exists() and not self.resuming:
                 write_utf8(self.outdated, toml)
             else:
-                self.replace()
+                self.discard_old_products()
         except OSError as error:
             raise BadInput(
                 f"{error.filename or self.path}: cannot be written: {error.strerror or error}; "
@@ -164,8 +165,8 @@ class Folder:
             ) from None
         self.begun = True
 
-    def replace(self) -> None:
-        """Remove the files made from an older run, since the new run takes its place."""
+    def discard_old_products(self) -> None:
+        """Save the settings of the new run, and remove the files made from the older run that it replaces."""
         write_utf8(self.config, self._toml)
         for name in () if self._previewed else DERIVED:
             (self.path / name).unlink(missing_ok=True)
@@ -182,7 +183,7 @@ class Folder:
             reason = f"{error.strerror or error}; {self.run.name} still holds {kept}"
             raise OSError(error.errno, reason, error.filename) from error
         if self.outdated.exists():
-            self.replace()
+            self.discard_old_products()
 
     def preview(self, run: Run) -> None:
         """Draw and export a first map. An older run in the folder keeps its picture."""

@@ -133,7 +133,7 @@ def _keep_settings(ready: list[Entry], output: Path, toml: str) -> None:
     output.mkdir(parents=True, exist_ok=True)
     write_utf8(output / SETTINGS, toml)
     for entry in ready:
-        entry.ready.folder.wait(toml)
+        entry.ready.folder.mark_outdated(toml)
 
 
 def _infer_here(entry: Entry, console: Console) -> bool:
@@ -320,7 +320,7 @@ class RayFleet:
         folder, files = entry.ready.folder, dict(sent.files)
         folder.begin(files.pop(folder.config.name).decode())
         if folder.run.name in files and folder.outdated.exists():
-            folder.replace()
+            folder.discard_old_products()
         files.pop("summary.json", None)
         for name, content in files.items():
             with write_whole(folder.path / name) as partial:
