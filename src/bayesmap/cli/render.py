@@ -130,7 +130,7 @@ def _panel(run: Run, settings: RenderSettings, grid: Grid, window: tuple[slice, 
     if what == "width":
         if not run.posterior.prior.has_interval:
             raise BadInput("width: a wall has no interval; --what entropy or deviation shows how sure it is")
-        run.interval(0.9)
+        run.interval(0.9)  # raises `BadInput` for a run without draws
         shown = run.posterior.prior.width(run.posterior.draws, 0.9)[window]
     elif run.n_draws:
         draw = one_draw(run, settings.chain, settings.draw)
@@ -141,7 +141,7 @@ def _panel(run: Run, settings: RenderSettings, grid: Grid, window: tuple[slice, 
 def _beams_figure(
     run: Run, scans: Scans, what: str, grid: Grid, window: tuple[slice, slice], on_progress: Callable[[float], None]
 ) -> Figure:
-    """Draw the end points of held-out beams over the map, coloured by residual in metres or by surprise in nats."""
+    """Render the end points of held-out beams over the map, coloured by residual in metres or by surprise in nats."""
     from bayesmap.posterior.prediction import predictor_of, residuals_of
     from bayesmap.viz.scores import residuals_figure, surprise_scale
 
@@ -168,7 +168,7 @@ def frames(run: Run, chain: int, most: int) -> tuple[Draw, list[int]]:
     """Return at most ``most`` evenly spaced draws of a chain, and their numbers, from 1."""
     import numpy as np
 
-    one_draw(run, chain, -1)
+    one_draw(run, chain, -1)  # raises `BadInput` for a chain that is not there
     chosen = np.unique(np.linspace(0, run.n_draws - 1, min(most, run.n_draws)).round().astype(int))
     return np.stack([run.map_of(chain - 1, i) for i in chosen.tolist()]), [int(i) + 1 for i in chosen]
 

@@ -79,7 +79,7 @@ LaserScan = tuple[LaserLine, Floats]  # a scan of a log, and the pose of the las
 def read_carmen(path: str | os.PathLike[str], options: LogOptions) -> LogReading:
     """Read the scans of a CARMEN log, plain or gzipped.
 
-    Of several lasers or kinds of message, the kind with most scans is read, and a note names the others.
+    If a log holds several kinds of laser message, the kind with most scans is read. A note names the others.
 
     Raises `BadInput` for a file that cannot be read, holds no scans, or has a malformed line (unless the options skip
     it); the message names the file, the line and the remedy.
