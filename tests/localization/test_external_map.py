@@ -8,7 +8,7 @@ from rooms import offset, scan_from, walls_of
 
 import bayesmap as bm
 from bayesmap.localization.external_map import ASSUMED, external_map, fit_law, searched
-from bayesmap.localization.filter import shared_by_evidence
+from bayesmap.localization.filter import rescale_by_place_evidence
 from bayesmap.localization.localize import InitialPose, localize
 
 LASER = bm.BeamMixture(bm.Gaussian(0.02), p_random=0.01, p_no_return=0.01, p_short=0.001)
@@ -114,11 +114,11 @@ def test_places_share_by_powers_of_their_evidence():
     """Half of the evidence: odds are the prior's, times the root of what the scan says; nothing new: the prior's."""
     weights, group = np.array([0.5, 0.3, 0.15, 0.05]), np.array([0, 0, 1, 1])
     mass = np.array([0.1, 0.9])
-    whole = shared_by_evidence(weights, group, mass, 1.0)
+    whole = rescale_by_place_evidence(weights, group, mass, 1.0)
     np.testing.assert_allclose(whole, weights)
-    half = shared_by_evidence(weights, group, mass, 0.5)
+    half = rescale_by_place_evidence(weights, group, mass, 0.5)
     odds = half[:2].sum() / half[2:].sum()
     assert odds == pytest.approx((0.1 / 0.9) * np.sqrt((0.8 / 0.2) / (0.1 / 0.9)))
     np.testing.assert_allclose(half[:2] / half[:2].sum(), [0.625, 0.375])
-    none = shared_by_evidence(weights, group, mass, 0.0)
+    none = rescale_by_place_evidence(weights, group, mass, 0.0)
     np.testing.assert_allclose([none[:2].sum(), none[2:].sum()], mass)

@@ -14,7 +14,7 @@ from tiers import full_but
 from bayesmap.errors import BadInput
 from bayesmap.localization import search
 from bayesmap.localization.belief import PoseBelief
-from bayesmap.localization.filter import Prior, Scan, approached, distinct, locate
+from bayesmap.localization.filter import Prior, Scan, locate, refine_by_end_points, without_duplicates
 from bayesmap.localization.localize import InitialPose
 from bayesmap.localization.particles import DOF, PoseMixture, student_draws
 from bayesmap.sensors.model import RangeLimits
@@ -211,7 +211,7 @@ def test_evenly_spread_draws_have_the_student_distribution_and_places_that_came_
     assert scipy.stats.kstest(radius, scipy.stats.f(3, 4 * DOF).cdf).pvalue < 1e-4
     means = np.array([[0.0, 0.0, 0.0], [0.05, 0.0, 0.0], [1.0, 0.0, np.pi], [1.0, 0.005, -np.pi + 0.001]])
     places = PoseMixture(means, np.tile(np.diag([0.01, 0.01, 0.01]), (4, 1, 1)), np.array([1.0, 2.0, 3.0, 2.5]))
-    assert np.array_equal(distinct(places).log_mass, [3.0, 2.0])
+    assert np.array_equal(without_duplicates(places).log_mass, [3.0, 2.0])
 
 
 def test_unequal_draws_of_places_leave_the_integral_right():
@@ -241,7 +241,7 @@ def test_a_wide_prior_is_narrowed_about_the_pose_but_by_a_scan_with_few_hits():
     prior = Prior(guess.components(), 0.0)
     scan = Scan(ANGLES, scans.ranges_m[0], RangeLimits(0.0, 10.0))
     rng = np.random.default_rng(0)
-    found = approached(guess.components(), lambda poses: prior.log_density(poses, here), here, scan, rng)
+    found = refine_by_end_points(guess.components(), lambda poses: prior.log_density(poses, here), here, scan, rng)
     assert len(found.means) == 1
     np.testing.assert_array_less(np.abs(found.means[0] - truth), [0.05, 0.05, 0.03])
     assert (np.sqrt(np.diag(found.covariances[0])) < [0.1, 0.1, 0.06]).all()
@@ -249,4 +249,5 @@ def test_a_wide_prior_is_narrowed_about_the_pose_but_by_a_scan_with_few_hits():
     scans = scan_from(walls, grid, np.array([1.5, 1.2, 0.4]))
     places = InitialPose([1.0, 1.0, 0.0]).components()
     blind = Scan(ANGLES, np.full(len(ANGLES), np.inf), RangeLimits(0.0, 10.0))
-    assert approached(places, np.zeros_like, known(walls, grid, scans), blind, np.random.default_rng(0)) is places
+    here = known(walls, grid, scans)
+    assert refine_by_end_points(places, np.zeros_like, here, blind, np.random.default_rng(0)) is places

@@ -11,7 +11,7 @@ from tiers import full_but
 
 import bayesmap as bm
 from bayesmap.localization.belief import PoseBelief
-from bayesmap.localization.filter import shared_by_places
+from bayesmap.localization.filter import rescale_by_place_weights
 from bayesmap.localization.known_map import KnownMap
 from bayesmap.localization.localize import InitialPose, localize
 from bayesmap.localization.search import likelihood_field
@@ -45,11 +45,12 @@ def test_places_are_weighed_by_half_the_beams_poses_in_one_by_all_and_a_seed_giv
     """Shares of places are the sums of other weights; within a place poses keep theirs."""
     weights = np.array([0.5, 0.3, 0.15, 0.05])
     group = np.array([0, 0, 1, 1])
-    shared = shared_by_places(weights, group, np.log([0.2, 0.2, 0.4, 0.2]))
+    shared = rescale_by_place_weights(weights, group, np.log([0.2, 0.2, 0.4, 0.2]))
     np.testing.assert_allclose(shared, [0.4 * 0.625, 0.4 * 0.375, 0.6 * 0.75, 0.6 * 0.25])
-    np.testing.assert_array_equal(shared_by_places(weights, np.zeros(4, int), np.zeros(4)), weights)
+    np.testing.assert_array_equal(rescale_by_place_weights(weights, np.zeros(4, int), np.zeros(4)), weights)
     # One place has no weight left: the other has it all.
-    np.testing.assert_allclose(shared_by_places(weights, group, np.array([-np.inf, -np.inf, 0.0, 0.0]))[:2], 0.0)
+    shared = rescale_by_place_weights(weights, group, np.array([-np.inf, -np.inf, 0.0, 0.0]))
+    np.testing.assert_allclose(shared[:2], 0.0)
     walls, grid = walls_of(4.0, 3.0)
     scans = scan_from(walls, grid, np.array([1.5, 1.2, 0.4]))
     here = known(walls, grid, scans)
