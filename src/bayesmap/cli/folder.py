@@ -97,20 +97,20 @@ class Folder:
     _previewed: bool = field(default=False, init=False)
 
     def __post_init__(self) -> None:
-        self.resuming = self.resuming and not self.outdated.exists()
+        self.resuming = self.resuming and not self.outdated_path.exists()
 
     @property
-    def run(self) -> Path:
+    def run_path(self) -> Path:
         """Return the path of the saved run, which is also its checkpoint."""
         return self.path / "run.nc"
 
     @property
-    def config(self) -> Path:
+    def config_path(self) -> Path:
         """Return the path of the settings that the run was started with."""
         return self.path / "config.toml"
 
     @property
-    def outdated(self) -> Path:
+    def outdated_path(self) -> Path:
         """Return the path of the file that marks a run as to be replaced. It holds the settings of the new run."""
         return self.path / "outdated"
 
@@ -124,15 +124,15 @@ class Folder:
             str(self.path).encode()
         except UnicodeEncodeError:
             raise BadInput(f"{str(self.path)!a}: the name is not UTF-8; choose another folder with -o") from None
-        if self.run.exists() and not (force or self.resuming or self.outdated.exists()):
+        if self.run_path.exists() and not (force or self.resuming or self.outdated_path.exists()):
             raise BadInput(
-                f"{self.run}: there is a run already; --resume goes on with it, --force replaces it, "
+                f"{self.run_path}: there is a run already; --resume goes on with it, --force replaces it, "
                 "-o takes another folder"
             )
         others = [self.path / name for name in DERIVED]
         older = next((path for path in others if path.exists()), None)
-        if older is not None and not (self.run.exists() or force or self.resuming or self.outdated.exists()):
-            begun = "--resume goes on with the run that wrote it, " if self.config.exists() else ""
+        if older is not None and not (self.run_path.exists() or force or self.resuming or self.outdated_path.exists()):
+            begun = "--resume goes on with the run that wrote it, " if self.config_path.exists() else ""
             raise BadInput(f"{older}: exists already; {begun}--force replaces it, -o takes another folder")
         for place in (self.path, *self.path.parents):
             if place.exists():
@@ -144,8 +144,8 @@ class Folder:
 
     def mark_outdated(self, toml: str) -> None:
         """Mark an older run in the folder as to be replaced, perhaps by another process."""
-        if self.run.exists() and not self.resuming:
-            write_utf8(self.outdated, toml)
+        if self.run_path.exists() and not self.resuming:
+            write_utf8(self.outdated_path, toml)
 
     def begin(self, toml: str) -> None:
         """Save the settings of a run that has started, to resume it; raise `BadInput` if that is impossible."""
@@ -154,8 +154,8 @@ class Folder:
         self._toml = toml
         try:
             self.path.mkdir(parents=True, exist_ok=True)
-            if self.run.exists() and not self.resuming:
-                write_utf8(self.outdated, toml)
+            if self.run_path.exists() and not self.resuming:
+                write_utf8(self.outdated_path, toml)
             else:
                 self.discard_old_products()
         except OSError as error:
@@ -167,33 +167,34 @@ class Folder:
 
     def discard_old_products(self) -> None:
         """Save the settings of the new run, and remove the files made from the older run that it replaces."""
-        write_utf8(self.config, self._toml)
+        write_utf8(self.config_path, self._toml)
         for name in () if self._previewed else DERIVED:
             (self.path / name).unlink(missing_ok=True)
-        self.outdated.unlink(missing_ok=True)
+        self.outdated_path.unlink(missing_ok=True)
 
     def save(self, run: Run, on_progress: Callable[[int, int], None] = lambda done, total: None) -> None:
         """Save the run. If it replaces an older run, remove the files made from that one."""
         try:
-            run.save(self.run, on_progress)
+            run.save(self.run_path, on_progress)
         except OSError as error:
-            if not self.run.exists():
+            if not self.run_path.exists():
                 raise
-            kept = "the run to be replaced" if self.outdated.exists() else "what was saved before, and --resume goes on"
-            reason = f"{error.strerror or error}; {self.run.name} still holds {kept}"
+            replacing = self.outdated_path.exists()
+            kept = "the run to be replaced" if replacing else "what was saved before, and --resume goes on"
+            reason = f"{error.strerror or error}; {self.run_path.name} still holds {kept}"
             raise OSError(error.errno, reason, error.filename) from error
-        if self.outdated.exists():
+        if self.outdated_path.exists():
             self.discard_old_products()
 
     def preview(self, run: Run) -> None:
-        """Draw and export a first map. An older run in the folder keeps its picture."""
-        if not self.run.exists():
+        """Render and export a first map. An older run in the folder keeps its picture."""
+        if not self.run_path.exists():
             self.path.mkdir(parents=True, exist_ok=True)
             self._previewed = True
-            self.console.say(f"a first, rough map: {self.draw(run)[0]}")
+            self.console.say(f"a first, rough map: {self.render(run)[0]}")
 
-    def draw(self, run: Run) -> list[Path]:
-        """Draw the map of a run (a single draw without uncertainty), and export it for nav2. Returns the paths."""
+    def render(self, run: Run) -> list[Path]:
+        """Render the map of a run (a single draw without uncertainty), and export it for nav2. Returns the paths."""
         from bayesmap.viz.figure import panel_figure, write_figure
 
         picture, words = self.path / "posterior.png", run.posterior.prior.words
@@ -207,20 +208,20 @@ class Folder:
         try:
             self.save(run, on_progress)
             if run.n_draws > 0:
-                self.draw(run)
-            self.console.detail(f"checkpoint after {counted(run.posterior.sweep, 'sweep')}: {self.run}")
+                self.render(run)
+            self.console.detail(f"checkpoint after {counted(run.posterior.sweep, 'sweep')}: {self.run_path}")
         except OSError as error:
-            self.console.warn(f"{self.run}: checkpoint could not be written: {error.strerror or error}")
+            self.console.warn(f"{self.run_path}: checkpoint could not be written: {error.strerror or error}")
 
     def write_products(self, run: Run) -> list[Path]:
-        """Save the run; if it has draws, also draw it and export it for nav2. Returns the paths of the files."""
+        """Save the run; if it has draws, also render it and export it for nav2. Returns the paths of the files."""
         with stage(self.console, "save") as report:
             self.save(run, report)
         if run.n_draws == 0 and not run.finished:
-            return [self.run]
-        paths = [self.run]
+            return [self.run_path]
+        paths = [self.run_path]
         with progress(self.console, "drawing the map"):
-            paths += self.draw(run)
+            paths += self.render(run)
             if run.posterior.prior.has_surfaces and run.n_draws > 0:
                 from bayesmap.viz.figure import write_figure
                 from bayesmap.viz.overlays import surfaces_figure

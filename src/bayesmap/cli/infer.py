@@ -277,8 +277,8 @@ class RayFleet:
 
     def _submit(self, entry: Entry, *, resuming: bool) -> None:
         task, folder, before = entry.ready, entry.ready.folder, {}
-        if resuming and folder.run.exists() and not folder.outdated.exists():
-            before = {path.name: path.read_bytes() for path in (folder.run, folder.config) if path.exists()}
+        if resuming and folder.run_path.exists() and not folder.outdated_path.exists():
+            before = {path.name: path.read_bytes() for path in (folder.run_path, folder.config_path) if path.exists()}
         cpus, gpus = _threads(entry), int(task.settings.device != "cpu")
         # No retries by Ray: they would not resume from the last checkpoint.
         remote = self.ray.remote(work).options(num_cpus=cpus, num_gpus=gpus, max_retries=0)
@@ -318,8 +318,8 @@ class RayFleet:
         if not sent.files:
             return
         folder, files = entry.ready.folder, dict(sent.files)
-        folder.begin(files.pop(folder.config.name).decode())
-        if folder.run.name in files and folder.outdated.exists():
+        folder.begin(files.pop(folder.config_path.name).decode())
+        if folder.run_path.name in files and folder.outdated_path.exists():
             folder.discard_old_products()
         files.pop("summary.json", None)
         for name, content in files.items():
@@ -407,7 +407,7 @@ def infer(call: Call[InferSettings], logs: tuple[str, ...], output: str | None, 
     try:
         document = pipeline.infer_log(task, executor=executor, resume_command=resume_command)
     except KeyboardInterrupt:  # during set-up, or a second Ctrl-C while the chains stop
-        if (task.folder.begun or resume) and task.folder.run.exists():
+        if (task.folder.begun or resume) and task.folder.run_path.exists():
             call.console.say(f"the last checkpoint is kept; go on with:\n  {resume_command}")
         raise
     # Print the result.

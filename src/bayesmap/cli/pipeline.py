@@ -136,7 +136,7 @@ def infer_log(
     # Finish: save the run, draw it, export it, score it.
     document = finish(folder, run, reading, heldout, every)
     # Report.
-    file = str(folder.run)
+    file = str(folder.run_path)
     judge = ["score", file, task.log, "--holdout", str(every)] if every else ["explore", file]
     report(folder.console, document, commands=[["app", file], judge, ["render", file]] if resume_command else ())
     return document
@@ -152,7 +152,7 @@ def stem(log: str) -> str:
 
 def settings_of(folder: Folder, section: str) -> Layer:
     """Return the settings of the run in the folder, or of the run that replaces it; empty if there is neither."""
-    return settings_in(folder.outdated if folder.outdated.exists() else folder.config, section)
+    return settings_in(folder.outdated_path if folder.outdated_path.exists() else folder.config_path, section)
 
 
 def settings_in(config: Path, section: str) -> Layer:
@@ -164,11 +164,11 @@ def load_interrupted(folder: Folder) -> Run | None:
     """Load the run to resume; None if it was stopped before its first checkpoint."""
     from bayesmap.result import load
 
-    if not folder.run.exists():
-        folder.console.say(f"{folder.run}: no run to resume; starting from the beginning")
+    if not folder.run_path.exists():
+        folder.console.say(f"{folder.run_path}: no run to resume; starting from the beginning")
         return None
-    run = load(folder.run)
-    folder.console.say(f"resuming {folder.run} after {counted(run.posterior.sweep, 'sweep')}")
+    run = load(folder.run_path)
+    folder.console.say(f"resuming {folder.run_path} after {counted(run.posterior.sweep, 'sweep')}")
     return run
 
 
@@ -257,7 +257,7 @@ def sample(
             checkpoints=Checkpoints(saved, on_checkpoint, settings.checkpoint_every, preview=folder.preview),
             on_progress=on_progress,
         )  # fmt: skip
-    if run.finished or run.posterior.sweep > 0 or not folder.run.exists():
+    if run.finished or run.posterior.sweep > 0 or not folder.run_path.exists():
         folder.begin(toml)  # otherwise no sweep is done, and an older run keeps its place
     return run
 
@@ -315,11 +315,11 @@ def keep_interrupted(
     if run.posterior.sweep > 0:
         kept = folder.write_products(run)
         done = counted(run.posterior.sweep, "sweep")
-        said = f"interrupted after {done}, saved in {folder.run}; go on with:\n  {resume_command}"
-    elif folder.resuming and folder.run.exists():
-        said = f"interrupted before the first sweep; {folder.run} is as it was; go on with:\n  {resume_command}"
-    elif folder.run.exists() and not folder.begun:
-        said = f"interrupted before there was anything to save; {folder.run} is as it was"
+        said = f"interrupted after {done}, saved in {folder.run_path}; go on with:\n  {resume_command}"
+    elif folder.resuming and folder.run_path.exists():
+        said = f"interrupted before the first sweep; {folder.run_path} is as it was; go on with:\n  {resume_command}"
+    elif folder.run_path.exists() and not folder.begun:
+        said = f"interrupted before there was anything to save; {folder.run_path} is as it was"
     elif known:
         said = f"interrupted before the first sweep; {known[0]} is complete; go on with:\n  {resume_command}"
     else:
@@ -343,6 +343,6 @@ def finish(folder: Folder, run: Run, reading: LogReading, heldout: Scans | None,
     outputs = folder.write_products(run)
     score = score_of(folder.console, run, heldout, every)
     with progress(folder.console, "comparing the chains"):
-        document = document_of(run, reading, score, [*outputs, folder.path / "summary.json", folder.config])
+        document = document_of(run, reading, score, [*outputs, folder.path / "summary.json", folder.config_path])
     folder.write_document(document)
     return document

@@ -94,11 +94,11 @@ def slam(call: Call[SlamSettings], log: str, output: str | None, resume: bool, f
         if task.folder.begun or resume:
             call.console.say(f"the stages that are done are kept; go on with:\n  {resume_command}")
         raise
-    outputs += [folder / "summary.json", task.folder.config]
+    outputs += [folder / "summary.json", task.folder.config_path]
     document = {**pipeline.document_of(run, reading, None, outputs), "trajectory": summary(run, files.frame)}
     task.folder.write_document(document)
     # Report.
-    told, file = document["trajectory"], str(task.folder.run)
+    told, file = document["trajectory"], str(task.folder.run_path)
     thin = ["--thin-scans", "0.3"] if len(reading.scans) > MANY_SCANS else []  # score makes a map of its own
     score = ["score", log, "--trajectory", str(folder / "trajectory.tum"), *thin]
     commands = [["app", file], score, ["explore", file]]
@@ -184,7 +184,7 @@ class TrajectoryFiles:
     def write(self, trajectory: Trajectory | None = None) -> None:
         """Write all files, unless that is done or must wait."""
         self._trajectory = self._trajectory if trajectory is None else trajectory
-        if self.written or self._trajectory is None or not self.folder.begun or self.folder.outdated.exists():
+        if self.written or self._trajectory is None or not self.folder.begun or self.folder.outdated_path.exists():
             return
         from bayesmap.errors import BadInput
 
