@@ -108,7 +108,7 @@ def _of_carmen(lines: Iterable[tuple[int, bytes]], bad: Bad, options: LogOptions
         ranges, _ = decode(scan.readings_m[None], stated if options.no_return is None else options.no_return)
         ranges[ranges > limit_m] = np.inf
         pose = scan.pose(options.laser)
-        mount = None if name in RAW else between(scan.numbers[3:6], scan.numbers[:3])
+        mount = None if name in RAW else between(scan.robot_pose, scan.laser_pose)
         mount = mount if options.laser is None else np.array(options.laser)
         yield Scans(
             pose[None], scan.fan.angles_rad(), ranges, limit_m, stamps_s=scan.numbers[None, 6], mount=mount

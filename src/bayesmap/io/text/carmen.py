@@ -68,9 +68,19 @@ class LaserLine:
     numbers: Floats
     max_range_m: float | None
 
+    @property
+    def laser_pose(self) -> Floats:
+        """The pose of the laser in the line, (3,)."""
+        return self.numbers[:3]
+
+    @property
+    def robot_pose(self) -> Floats:
+        """The pose of the robot in the line, (3,)."""
+        return self.numbers[3:6]
+
     def pose(self, mount: Pose | None) -> Floats:
         """Return the pose of the laser, (3,): the robot's pose with the given mount, or the laser's in the line."""
-        return self.numbers[:3] if mount is None else compose(self.numbers[3:6], np.array(mount))
+        return self.laser_pose if mount is None else compose(self.robot_pose, np.array(mount))
 
 
 LaserScan = tuple[LaserLine, Floats]  # a scan of a log, and the pose of the laser in the world, (3,)
@@ -206,8 +216,9 @@ def laser_reading(account: Account, lasers: Mapping[str, Sequence[LaserScan]]) -
     # Fans, poses and time order of the scans.
     fans = [fan for fan, _ in Counter(scan.fan for scan in scans).most_common()]
     numbers = np.array([scan.numbers for scan in scans])
+    laser_poses, robot_poses, stamps_s = numbers[:, :3], numbers[:, 3:6], numbers[:, 6]
     poses = np.array([pose for scan, pose in lasers[kind] if scan.fan.beams])
-    order = account.in_time_order(numbers[:, 6], len(scans))
+    order = account.in_time_order(stamps_s, len(scans))
     if empty:
         account.notes.append(f"{empty:,} {kind} lines have no readings, and were left out")
     account.notes += [
@@ -225,7 +236,7 @@ def laser_reading(account: Account, lasers: Mapping[str, Sequence[LaserScan]]) -
     stated_m = max((scan.max_range_m for scan in scans if scan.max_range_m is not None), default=None)
     typed = _typed(account, raw[order], stated_m, Views.of(poses[order], angles))
     # Median pose of the laser in the robot's frame.
-    x, y, yaw = (float(v) for v in np.median(between(numbers[:, 3:6], numbers[:, :3]), axis=0))
+    x, y, yaw = (float(v) for v in np.median(between(robot_poses, laser_poses), axis=0))
     posed = kind not in RAW
     return account.reading(kind, poses[order], angles, typed, mount=(x, y, yaw) if posed else None, posed=posed), fans
 
