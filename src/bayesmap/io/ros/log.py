@@ -28,8 +28,9 @@ STEP_NS = 10**9  # largest step back of stamps that counts as messages that came
 SLACK_NS = 10**9  # longest time between the same step of the clock on different topics
 MIN_MESSAGES = 3  # fewest messages on each side of a step
 ORDERED_MESSAGES = 5  # number of messages on each side of a step that must be in order
-AT_ONCE = 1 << 18  # number of beams whose poses are computed at a time
-LONGEST_GAP_S, LONGEST_GAP_M = 1.0, 1.0  # a note names interpolations over more time and more distance
+BEAMS_AT_ONCE = 1 << 18  # number of beams whose poses are computed together
+LONGEST_GAP_S = 1.0  # a note names gaps of the poses that are longer in time, and in which the robot moves further
+LONGEST_GAP_M = 1.0
 LONGEST_SWEEP_S = 60.0  # longest time of a scan; a longer time is taken for damage
 
 
@@ -40,8 +41,8 @@ class ClockRun:
     scans: list[LaserMessage]  # in the order of receipt
     poses: PoseMessages
     back_ns: int = 0  # size of the step back of the clock before the run; 0 for the first
-    at_ns: int = 0  # last stamp before the step
-    last: bool = True  # true if no run follows
+    before_ns: int = 0  # last stamp before the step
+    is_last: bool = True  # true if no run follows
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,12 +62,12 @@ class _Stream:
             int(i)
             for i in self.falls()
             if min(i, len(self.stamps) - i) >= MIN_MESSAGES
-            and _in_order(self.stamps[max(0, i - ORDERED_MESSAGES) : i])
-            and _in_order(self.stamps[i : i + ORDERED_MESSAGES])
+            and _mostly_ascending(self.stamps[max(0, i - ORDERED_MESSAGES) : i])
+            and _mostly_ascending(self.stamps[i : i + ORDERED_MESSAGES])
         ]
 
     def fall_near(self, start_ns: int, end_ns: int) -> int | None:
-        """Return the first fall that a step of the clock between two times of receipt can explain; else None."""
+        """Return the first fall that a step of the clock between two times of receipt can explain, or None."""
         falls = (int(i) for i in self.falls() if self.received[i] >= start_ns and self.received[i - 1] <= end_ns)
         return next(falls, None)
 
@@ -76,11 +77,14 @@ class _Stream:
 
 
 def clock_runs(scans: list[LaserMessage], poses: PoseMessages) -> list[ClockRun]:
-    """Split a recording where its clock was set back: a step in all stamped topics, so no scan that came late."""
+    """Split a recording where its clock was set back.
+
+    All stamped topics must step back; a single late scan does not split the recording.
+    """
     # Find the steps in the topic with most of them, and check that all topics make them.
     samples = [*poses.transforms.values(), *poses.poses.values()]
-    streams = [_stream([s.stamp_ns for s in scans], [s.received_ns for s in scans])]
-    streams += [_stream(part.stamps_ns, part.received_ns) for part in samples if not part.static]
+    streams = [_stream_of([s.stamp_ns for s in scans], [s.received_ns for s in scans])]
+    streams += [_stream_of(part.stamps_ns, part.received_ns) for part in samples if not part.static]
     stamped = [stream for stream in streams if stream is not None]
     leader = max(stamped, key=lambda stream: (len(stream.steps()), len(stream.stamps)), default=None)
 
@@ -93,7 +97,7 @@ def clock_runs(scans: list[LaserMessage], poses: PoseMessages) -> list[ClockRun]
     times = [int(leader.received[i]) for i in steps]
 
     def parts_of(stamps: Sequence[int], received: Sequence[int]) -> list[slice]:
-        stream = _stream(stamps, received)
+        stream = _stream_of(stamps, received)
         edges = [0]
         for at, end in zip(times, [*times[1:], 2**62], strict=True):
             fall = None if stream is None else stream.fall_near(at - SLACK_NS, min(at + SLACK_NS, end - SLACK_NS))
@@ -104,7 +108,7 @@ def clock_runs(scans: list[LaserMessage], poses: PoseMessages) -> list[ClockRun]
     def pieces_of(part: Samples) -> list[Samples]:
         slices = parts_of(part.stamps_ns, part.received_ns)
         constant = part.constant()
-        return [part if constant else part.select(which) for which in slices]
+        return [part if constant else part.select(piece) for piece in slices]
 
     # Cut every topic at the steps.
     runs = [PoseMessages() for _ in range(len(times) + 1)]
@@ -122,7 +126,7 @@ def clock_runs(scans: list[LaserMessage], poses: PoseMessages) -> list[ClockRun]
     ]
 
 
-def joined_stamps(parts: Sequence[tuple[NDArray[np.int64], list[LaserMessage]]]) -> NDArray[np.int64]:
+def join_stamps(parts: Sequence[tuple[NDArray[np.int64], list[LaserMessage]]]) -> NDArray[np.int64]:
     """Return the stamps of the scans of all runs, (S,). Across a step they advance like the times of receipt."""
     joined = [parts[0][0]]
     for (stamps, scans), (_, before) in zip(parts[1:], parts, strict=False):
@@ -131,14 +135,14 @@ def joined_stamps(parts: Sequence[tuple[NDArray[np.int64], list[LaserMessage]]])
     return np.concatenate(joined)
 
 
-def _stream(stamps: Sequence[int], received: Sequence[int]) -> _Stream | None:
+def _stream_of(stamps: Sequence[int], received: Sequence[int]) -> _Stream | None:
     """Return the stream, or None if no message has a stamp."""
     if not len(stamps) or not any(stamps):
         return None
     return _Stream(np.array(stamps, dtype=np.int64), np.array(received, dtype=np.int64))
 
 
-def _in_order(stamps: NDArray[np.int64]) -> bool:
+def _mostly_ascending(stamps: NDArray[np.int64]) -> bool:
     """Return true if stamps ascend, with at most one exception."""
     return bool((np.diff(stamps) < 0).sum() <= 1)
 
@@ -149,79 +153,12 @@ def read_recording(path: str | os.PathLike[str], options: LogOptions) -> LogRead
     Raises `BadInput` for a damaged recording or message, a missing topic or frame, several to choose from, or no scan
     with a pose; the message lists the choices and names the option.
     """
-    name = os.fspath(path)
     recording = open_recording(path, salvage=options.skip_bad_lines, types=TYPES)
-    account = Account(name, recording.format, options, notes=list(recording.notes))
+    account = Account(os.fspath(path), recording.format, options, notes=list(recording.notes))
     account.counts.update({t.name: t.count for t in recording.topics.values()})
-
-    def bad(on_topic: str, number: int, reason: str) -> None:
-        if options.without_poses and on_topic != topic.name:
-            return
-        if not options.skip_bad_lines:
-            raise BadInput(f"{name}: message {number} on {on_topic} {reason}; leave such out with --skip-bad-lines")
-        account.skipped.append(SkippedLine(number, reason, f"message on {on_topic}"))
-
-    # Read the messages of scans and poses.
-    topic = scan_topic_of(recording, options.scan_topic)
-    pose_topic = None if options.pose_topic is None else pose_sources.pose_topic_of(recording, options.pose_topic)
-    tf_topics = [t for t in recording.of_type(TF_TYPES) if t.encoding in READABLE]
-    poses = PoseMessages()
-    received = read_messages(recording, [topic, *tf_topics, *([pose_topic] if pose_topic else [])], poses, bad)
-    if not received:
-        raise BadInput(f"{name}: no message on {topic.name} can be used{_first(account.skipped)}")
-    scans = of_one_frame(topic.name, received, bad)
-    if not scans:
-        raise BadInput(f"{name}: no message on {topic.name} has a reading: their arrays of ranges are empty")
-    request = _Request(recording, topic, pose_topic, scans[0].layout.frame, bad)
-    only = None
-    if pose_topic is None and options.fixed_frame is None and not options.without_poses:
-        only = _only_topic(request, options, poses)
-        request = replace(request, pose_topic=only)
-    # Give the scans of each run of the clock their poses.
-    parts: list[_Placed] = []
-    for run in clock_runs(scans, poses):
-        try:
-            part = _placed(run, request, replace(account, notes=[]))
-        except BadInput as problem:
-            if not parts and run.last:
-                raise
-            account.notes.append(f"one run of the clock was left out: {str(problem).removeprefix(f'{name}: ')}")
-            continue
-        if parts:
-            account.notes.append(
-                f"the clock goes back by {run.back_ns * 1e-9:.3g} s at {moment(run.at_ns * 1e-9)}, as when a "
-                "simulation starts again: what was received later was kept apart from what came before, and stamps "
-                "from there on are later than the recording says"
-            )
-        parts.append(part)
-    source, sign = parts[0].source, parts[0].sign
-    if any(part.sign != sign for part in parts):
-        raise BadInput(f"{name}: the frame {request.sensor!r} is upright in some scans and upside down in others")
-    # Join the runs, and add the notes.
-    scans = [scan for part in parts for scan in part.scans]
-    if only is not None:
-        several = len(recording.of_type(POSE_TYPES)) > 1
-        account.notes.append(
-            f"/tf connects {request.sensor!r} with no fixed frame; poses were taken from {only.name}, the only topic "
-            "of poses" + (f" in the namespace of {topic.name}" if several else "")
-        )
-    account.notes += dict.fromkeys(note for part in parts for note in part.notes)
-    account.notes += _odd(scans)
-    if empty := sum(not scan.layout.beams for scan in received):
-        account.notes.append(f"{empty:,} messages on {topic.name} have no readings, and were left out")
-    account.stamps_s = np.asarray(joined_stamps([(part.stamps, part.scans) for part in parts]) * 1e-9)
-    account.reordered = sum(part.reordered for part in parts)
-
-    limits = Counter(scan.limits_m for scan in scans).most_common(1)[0][0]
-    moves = source.chain.span_ns() is not None or not source.posed  # otherwise no frame is known to be the body's
-    angles, readings = beams_of(scans)
-    angles, at_first = sign * angles, np.concatenate([part.at_first for part in parts])
-    return account.reading(
-        topic.type, at_first, angles, account.classify(readings, limits, at_first, angles),
-        beam_poses=_beam_poses(parts), mount=source.chain.sensor_on_body() if moves else None, scan_topic=topic.name,
-        pose_source=source.label if source.posed else None, fixed_frame=source.fixed_frame if source.posed else None,
-        sensor_frame=request.sensor, posed=source.posed,
-    )  # fmt: skip
+    messages = _read_usable(recording, account)
+    runs = _place_runs(messages, account)
+    return _join_runs(runs, messages, account)
 
 
 @dataclass(frozen=True, eq=False)
@@ -236,43 +173,139 @@ class _Request:
 
 
 @dataclass(frozen=True, eq=False)
-class _Placed:
-    """The scans of one run of the clock that have a pose, in time order.
+class _UsableMessages:
+    """The messages of a recording from which scans and poses are made."""
 
-    ``stamps`` are the times of the first rays, (S,), and ``rays`` those of all rays, (S, A), or (S, 1) without
-    ``deskew``. ``at_first`` are the sensor's poses at the first rays, (S, 3). ``sign`` is -1 for an inverted sensor.
-    """
+    request: _Request
+    scans: list[LaserMessage]  # with readings, in one frame, in the order of receipt
+    poses: PoseMessages
+    n_empty: int  # number of scans without readings
+    only_pose_topic: Topic | None  # the only topic of poses, if it replaces /tf
+
+
+def _read_usable(recording: Recording, account: Account) -> _UsableMessages:
+    """Read the messages of scans and poses. Raises `BadInput` if no scan has a reading."""
+    name, options = account.name, account.options
+    topic = scan_topic_of(recording, options.scan_topic)
+
+    def bad(on_topic: str, number: int, reason: str) -> None:
+        if options.without_poses and on_topic != topic.name:
+            return
+        if not options.skip_bad_lines:
+            raise BadInput(f"{name}: message {number} on {on_topic} {reason}; leave such out with --skip-bad-lines")
+        account.skipped.append(SkippedLine(number, reason, f"message on {on_topic}"))
+
+    pose_topic = None if options.pose_topic is None else pose_sources.pose_topic_of(recording, options.pose_topic)
+    tf_topics = [t for t in recording.of_type(TF_TYPES) if t.encoding in READABLE]
+    poses = PoseMessages()
+    received = read_messages(recording, [topic, *tf_topics, *([pose_topic] if pose_topic else [])], poses, bad)
+    if not received:
+        raise BadInput(f"{name}: no message on {topic.name} can be used{_first_skipped(account.skipped)}")
+    usable = of_one_frame(topic.name, received, bad)
+    if not usable:
+        raise BadInput(f"{name}: no message on {topic.name} has a reading: their arrays of ranges are empty")
+    request = _Request(recording, topic, pose_topic, usable[0].layout.frame, bad)
+    only = None
+    if pose_topic is None and options.fixed_frame is None and not options.without_poses:
+        only = _read_only_pose_topic(request, options, poses)
+        request = replace(request, pose_topic=only)
+    return _UsableMessages(request, usable, poses, sum(not scan.layout.beams for scan in received), only)
+
+
+@dataclass(frozen=True, eq=False)
+class _PlacedRun:
+    """The scans of one run of the clock that have a pose, in time order."""
 
     source: pose_sources.PoseSource
     scans: list[LaserMessage]
-    stamps: NDArray[np.int64]
-    rays: NDArray[np.int64]
-    at_first: NDArray[np.float64]
-    sign: float
-    reordered: int
+    stamps_ns: NDArray[np.int64]  # times of the first rays, (S,)
+    ray_times_ns: NDArray[np.int64]  # times of all rays, (S, A), or of the first rays, (S, 1), without ``deskew``
+    first_ray_poses: NDArray[np.float64]  # the sensor's poses at the first rays, (S, 3)
+    sign: float  # -1 for an inverted sensor, else 1
+    reordered: int  # number of scans that follow a later scan
     notes: tuple[str, ...]
 
 
-def _placed(run: ClockRun, request: _Request, account: Account) -> _Placed:
+def _place_runs(messages: _UsableMessages, account: Account) -> list[_PlacedRun]:
+    """Return the runs of the clock with the poses of their scans, without the runs in which no scan has a pose."""
+    placed: list[_PlacedRun] = []
+    for run in clock_runs(messages.scans, messages.poses):
+        try:
+            placed_run = _place_run(run, messages.request, replace(account, notes=[]))
+        except BadInput as problem:
+            if not placed and run.is_last:
+                raise
+            reason = str(problem).removeprefix(f"{account.name}: ")
+            account.notes.append(f"one run of the clock was left out: {reason}")
+            continue
+        if placed:
+            account.notes.append(
+                f"the clock goes back by {run.back_ns * 1e-9:.3g} s at {moment(run.before_ns * 1e-9)}, as when a "
+                "simulation starts again: what was received later was kept apart from what came before, and stamps "
+                "from there on are later than the recording says"
+            )
+        placed.append(placed_run)
+    if any(run.sign != placed[0].sign for run in placed):
+        raise BadInput(
+            f"{account.name}: the frame {messages.request.sensor!r} is upright in some scans and upside down in others"
+        )
+    return placed
+
+
+def _join_runs(runs: list[_PlacedRun], messages: _UsableMessages, account: Account) -> LogReading:
+    """Return the scans of all runs as one log, and complete the account."""
+    request, source = messages.request, runs[0].source
+    scans = [scan for run in runs for scan in run.scans]
+    # Notes and stamps.
+    if messages.only_pose_topic is not None:
+        several = len(request.recording.of_type(POSE_TYPES)) > 1
+        account.notes.append(
+            f"/tf connects {request.sensor!r} with no fixed frame; poses were taken from "
+            f"{messages.only_pose_topic.name}, the only topic of poses"
+            + (f" in the namespace of {request.topic.name}" if several else "")
+        )
+    account.notes += dict.fromkeys(note for run in runs for note in run.notes)
+    account.notes += _notes_on_scans(scans)
+    if messages.n_empty:
+        account.notes.append(
+            f"{messages.n_empty:,} messages on {request.topic.name} have no readings, and were left out"
+        )
+    account.stamps_s = np.asarray(join_stamps([(run.stamps_ns, run.scans) for run in runs]) * 1e-9)
+    account.reordered = sum(run.reordered for run in runs)
+    # Angles, readings and poses.
+    limits = Counter(scan.limits_m for scan in scans).most_common(1)[0][0]
+    moves = source.chain.span_ns() is not None or not source.posed  # otherwise no frame is known to be the body's
+    angles, readings = beams_of(scans)
+    angles, first_ray_poses = runs[0].sign * angles, np.concatenate([run.first_ray_poses for run in runs])
+    return account.reading(
+        request.topic.type, first_ray_poses, angles, account.classify(readings, limits, first_ray_poses, angles),
+        beam_poses=_beam_poses(runs), mount=source.chain.sensor_on_body() if moves else None,
+        scan_topic=request.topic.name, pose_source=source.label if source.posed else None,
+        fixed_frame=source.fixed_frame if source.posed else None, sensor_frame=request.sensor, posed=source.posed,
+    )  # fmt: skip
+
+
+def _place_run(run: ClockRun, request: _Request, account: Account) -> _PlacedRun:
     """Return the scans of a run in time order with their poses, without the scans that have no pose."""
     if not run.scans:
         raise BadInput(f"{account.name}: no scan was received in it")
-    source = _source(request, run.poses, account.options)
+    source = _pose_source(request, run.poses, account.options)
     account.notes += source.notes
-    stamps, scans, reordered = _in_order_of_time(run.scans, request, account)
-    rays = _ray_times(stamps, scans, account)
-    inside = np.asarray(source.chain.covers(rays).all(axis=1))
+    stamps, scans, reordered = _sorted_by_time(run.scans, request, account)
+    ray_times = _ray_times_ns(stamps, scans, account)
+    inside = np.asarray(source.chain.covers(ray_times).all(axis=1))
     if source.posed:
-        account.notes += _left_out(account.name, stamps, inside, source)
-    scans, stamps, rays = [s for s, keep in zip(scans, inside, strict=True) if keep], stamps[inside], rays[inside]
+        account.notes += _notes_on_coverage(account.name, stamps, inside, source)
+    scans = [scan for scan, is_inside in zip(scans, inside, strict=True) if is_inside]
+    stamps, ray_times = stamps[inside], ray_times[inside]
     motion = source.chain.at(stamps)
     remedy = "; choose another topic with --scan-topic"
     sign = account.which_way_up(upright(motion), f"the frame {request.sensor!r}", remedy)
-    at_first = planar(motion) if source.posed else np.zeros((len(stamps), 3))
-    return _Placed(source, scans, stamps, rays, at_first, sign, reordered, tuple(account.notes))
+    first_ray_poses = planar(motion) if source.posed else np.zeros((len(stamps), 3))
+    return _PlacedRun(source, scans, stamps, ray_times, first_ray_poses, sign, reordered, tuple(account.notes))
 
 
-def _in_order_of_time(
+def _sorted_by_time(
     scans: list[LaserMessage], request: _Request, account: Account
 ) -> tuple[NDArray[np.int64], list[LaserMessage], int]:
     """Return the ascending times of the first rays, the scans in this order, and the number of late scans."""
@@ -308,8 +341,11 @@ def _in_order_of_time(
     return stamps[kept], [scans[i] for i in kept], reordered
 
 
-def _ray_times(stamps: NDArray[np.int64], scans: list[LaserMessage], account: Account) -> NDArray[np.int64]:
-    """Return the time of each ray, (S, A), the last for missing rays; without ``deskew`` of the first, (S, 1)."""
+def _ray_times_ns(stamps: NDArray[np.int64], scans: list[LaserMessage], account: Account) -> NDArray[np.int64]:
+    """Return the time of each ray, (S, A). A missing ray gets the time of the last ray of its scan.
+
+    Without ``deskew``, return the times of the first rays, (S, 1).
+    """
     if not account.options.deskew:
         return stamps[:, None]
     beams = np.array([scan.layout.beams for scan in scans])
@@ -322,10 +358,10 @@ def _ray_times(stamps: NDArray[np.int64], scans: list[LaserMessage], account: Ac
     return np.asarray(stamps[:, None] + np.rint(intervals[:, None] * 1e9 * rays).astype(np.int64))
 
 
-def _left_out(
+def _notes_on_coverage(
     name: str, stamps: NDArray[np.int64], inside: NDArray[np.bool_], source: pose_sources.PoseSource
 ) -> list[str]:
-    """Return notes about scans that are ``inside`` the time of the poses, or not; raise `BadInput` if none is."""
+    """Return notes on the scans outside the time of the poses, and in gaps. Raises `BadInput` if none is ``inside``."""
     span = source.chain.span_ns()
     if span is None:
         return [f"{source.label} does not move the sensor in the whole recording"]
@@ -352,19 +388,21 @@ def _left_out(
     return notes
 
 
-def _beam_poses(parts: list[_Placed]) -> NDArray[np.float64] | None:
+def _beam_poses(runs: list[_PlacedRun]) -> NDArray[np.float64] | None:
     """Return the poses of all rays, (S, A, 3); None if only the times of the first rays are known."""
-    if not parts[0].source.posed or all(part.rays.shape[1] == 1 for part in parts):
+    if not runs[0].source.posed or all(run.ray_times_ns.shape[1] == 1 for run in runs):
         return None
-    beams = max(scan.layout.beams for part in parts for scan in part.scans)
+    beams = max(scan.layout.beams for run in runs for scan in run.scans)
     poses = []
-    for part in parts:
-        times = np.pad(part.rays, ((0, 0), (0, beams - part.rays.shape[1])), mode="edge").ravel()
-        poses += [planar(part.source.chain.at(times[i : i + AT_ONCE])) for i in range(0, len(times), AT_ONCE)]
+    for run in runs:
+        times = np.pad(run.ray_times_ns, ((0, 0), (0, beams - run.ray_times_ns.shape[1])), mode="edge").ravel()
+        poses += [
+            planar(run.source.chain.at(times[i : i + BEAMS_AT_ONCE])) for i in range(0, len(times), BEAMS_AT_ONCE)
+        ]
     return np.concatenate(poses).reshape(-1, beams, 3)
 
 
-def _only_topic(request: _Request, options: LogOptions, poses: PoseMessages) -> Topic | None:
+def _read_only_pose_topic(request: _Request, options: LogOptions, poses: PoseMessages) -> Topic | None:
     """Read and return the only topic of poses if /tf does not place the sensor; else None."""
     only = pose_sources.only_pose_topic(request.recording, request.topic.name)
     if only is None:
@@ -377,7 +415,7 @@ def _only_topic(request: _Request, options: LogOptions, poses: PoseMessages) -> 
     return only
 
 
-def _source(request: _Request, poses: PoseMessages, options: LogOptions) -> pose_sources.PoseSource:
+def _pose_source(request: _Request, poses: PoseMessages, options: LogOptions) -> pose_sources.PoseSource:
     """Return the source of the sensor's poses: the chosen topic, or /tf; option ``laser`` replaces its mount."""
     recording, sensor, pose_topic, laser = request.recording, request.sensor, request.pose_topic, options.laser
     trees = pose_sources.frame_trees(poses, request.topic.name, None if pose_topic is None else pose_topic.name)
@@ -394,7 +432,8 @@ def _source(request: _Request, poses: PoseMessages, options: LogOptions) -> pose
     return source if laser is None else replace(source, chain=Chain((*source.chain.links, pose_sources.link_of(laser))))
 
 
-def _odd(scans: list[LaserMessage]) -> list[str]:
+def _notes_on_scans(scans: list[LaserMessage]) -> list[str]:
+    """Return notes on unusual scans, and on limits of range that differ from scan to scan."""
     counts = Counter(scan.odd for scan in scans if scan.odd)
     notes = [f"in {count:,} of {len(scans):,} scans {odd}" for odd, count in counts.items()]
     limits = Counter(scan.limits_m for scan in scans)
@@ -404,5 +443,6 @@ def _odd(scans: list[LaserMessage]) -> list[str]:
     return notes
 
 
-def _first(skipped: list[SkippedLine]) -> str:
+def _first_skipped(skipped: list[SkippedLine]) -> str:
+    """Return the end of an error message that names the first skipped message; "" if none was skipped."""
     return f"; the first: message {skipped[0].line} {skipped[0].reason}" if skipped else ""
