@@ -346,7 +346,7 @@ def test_long_and_idly_named_files_are_noticed():
 
 
 MOST_FILES, LEAST_MEDIAN = 260, 150
-MOST_LINES_OF = {"src": 53_500, "tests": 37_950}
+MOST_LINES_OF = {"src": 51_900, "tests": 34_600}
 """They only go down: lower them when lines go away. The goal is 50 000 and 31 000."""
 
 
