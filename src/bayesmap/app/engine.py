@@ -192,8 +192,9 @@ class Engine:
     def _chains_of(self, document: Document) -> Stream | None:
         """Return the chains of the job before, of Live or an earlier run, if they sample this document."""
         before = self._before
-        same = before is not None and before.document == document and isinstance(before.found, Stream)
-        return before.found if same else None  # type: ignore[union-attr,return-value]
+        if before is None or before.document != document or not isinstance(before.found, Stream):
+            return None
+        return before.found
 
     def _localize(self, task: Infer) -> Generator[None, None, bool]:
         """Infer the trajectory of a log, with pictures of the stages; return whether it is known now."""

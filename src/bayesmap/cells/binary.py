@@ -80,6 +80,16 @@ class BinaryWalls(CellPrior):
             raise BadInput(f"{type(self).__name__}: p_wall has shape {p.shape}, but the grid is {grid.shape}")
         return np.broadcast_to(p, grid.shape)
 
+    def _logit(self, grid: Grid) -> Floats:
+        """Return the log-odds of a wall in every cell at a balance of 0, (nx, ny); infinite in fixed cells."""
+        p = self.probabilities(grid)
+        with np.errstate(divide="ignore"):
+            return np.asarray(np.log(p) - np.log1p(-p))
+
+    def log_odds(self, walls: NDArray[np.bool_], site: tuple[int, int], grid: Grid) -> float:
+        """Compute the prior log odds of a wall in one cell, given the other cells of a map, (nx, ny)."""
+        return float(self._logit(grid)[site]) + self.pair_coupling * balance_at(walls, site)
+
     @abstractmethod
     def log_prob(self, cells: Cells | NDArray[np.bool_], grid: Grid) -> float:
         """Compute log p(walls), in nats; ``cells`` may be a map of walls."""
@@ -255,7 +265,7 @@ class Ising(BinaryWalls):
     ) -> tuple[dict[str, Any], float]:
         """Return the other state of one cell, and the log of its prior ratio given the cell's neighbours."""
         walls = np.asarray(cells["walls"]) != 0
-        log_odds = float(self._logit(grid)[site]) + self.pair_coupling * balance_at(walls, site)
+        log_odds = self.log_odds(walls, site, grid)
         return {"walls": np.bool_(not walls[site])}, -log_odds if walls[site] else log_odds
 
     def mean_stop(self, grid: Grid) -> Floats:
@@ -266,12 +276,6 @@ class Ising(BinaryWalls):
         """Return the prior as plain JSON values."""
         coupling = self.coupling if isinstance(self.coupling, str) else float(self.coupling)
         return {**Independent(self.p_wall).describe(), "kind": "ising", "coupling": coupling}
-
-    def _logit(self, grid: Grid) -> Floats:
-        """Return the log-odds of a wall in every cell at a balance of 0, (nx, ny); infinite in fixed cells."""
-        p = self.probabilities(grid)
-        with np.errstate(divide="ignore"):
-            return np.asarray(np.log(p) - np.log1p(-p))
 
 
 LARGEST_FITTED = 4.0  # largest coupling of a fit: for a map of alike cells alone, the likeliest coupling is infinite

@@ -20,6 +20,7 @@ from bayesmap.app.protocol.tasks import Buffers, Report
 from bayesmap.app.scene import Scene
 from bayesmap.app.shown.result import Result
 from bayesmap.beams.table import BeamTable
+from bayesmap.cells.binary import BinaryWalls
 from bayesmap.errors import BadInput
 from bayesmap.posterior.decisions import beam_information, shortest_safe_path, typical_sigma_m
 
@@ -82,7 +83,7 @@ def cell_facts(question: Inspect, now: Now) -> tuple[AnyNotice, Buffers]:
         return CellFacts(x, y, question.each, 0), {}
     cell = x * table.grid.shape[1] + y
     if question.each and result is not None and result.prior.words.kind == "binary":
-        return _facts_of_wall(question, result, table, cell)
+        return _facts_of_wall(question, result, table)
     ratios = None if result is None else _ratios(result, table, cell)
     if result is None or ratios is None:
         return CellFacts(x, y, question.each, int(np.count_nonzero(table.cells == cell))), {}
@@ -90,8 +91,11 @@ def cell_facts(question: Inspect, now: Now) -> tuple[AnyNotice, Buffers]:
     return facts, strongest(ratios, result.scene.scans.at(result.scan_poses)) if question.each else {}
 
 
-def _facts_of_wall(question: Inspect, result: Result, table: BeamTable, cell: int) -> tuple[AnyNotice, Buffers]:
+def _facts_of_wall(question: Inspect, result: Result, table: BeamTable) -> tuple[AnyNotice, Buffers]:
     """Return the evidence about a wall, given the mean or one draw of the other cells, and the trace of the cell."""
+    prior = BinaryWalls.of(result.prior, "the evidence about a wall")
+    site = question.x, question.y
+    cell = int(np.ravel_multi_index(site, table.grid.shape))
     kept, model = result.found.kept, result.found.model
     known_poses = result.found.scan_poses is None and (model is None or not model.poses.unknown)
     one = None if question.draw is None or not known_poses else result.found.draw(question.chain, question.draw)
@@ -100,21 +104,17 @@ def _facts_of_wall(question: Inspect, result: Result, table: BeamTable, cell: in
     # The log odds by which Gibbs sampling draws the cell: the prior's, and those of all beams.
     prior_nats = log_odds = None
     if one is not None:
-        walls = p_wall.astype(np.bool_).ravel()
-        log_prior = []
-        for walls[cell] in (True, False):
-            log_prior.append(result.prior.log_prob({"walls": walls.reshape(p_wall.shape)}, result.document.grid))
-        if np.isfinite(log_prior).all():
-            prior_nats = log_prior[0] - log_prior[1]
+        prior_log_odds = prior.log_odds(p_wall.astype(np.bool_), site, table.grid)
+        if math.isfinite(prior_log_odds):
+            prior_nats = prior_log_odds
             log_odds = prior_nats + ratios.every * float(ratios.nats.sum())
     facts = CellFacts(
-        question.x, question.y, True, **asdict(summed(ratios)), draw=draw, chain=chain, prior_nats=prior_nats,
-        log_odds=log_odds,
+        *site, True, **asdict(summed(ratios)), draw=draw, chain=chain, prior_nats=prior_nats, log_odds=log_odds
     )  # fmt: skip
     buffers = strongest(ratios, result.scene.scans.at(result.scan_poses))
     if kept is None:
         return facts, buffers
-    return facts, {**buffers, "trace": result.prior.traces(kept, np.array([cell]))[:, :, 0].astype(np.uint8)}
+    return facts, {**buffers, "trace": prior.traces(kept, np.array([cell]))[:, :, 0].astype(np.uint8)}
 
 
 def _ratios(result: Result, table: BeamTable, cell: int) -> BeamRatios | None:
