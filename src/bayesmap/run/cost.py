@@ -145,7 +145,7 @@ def size_of(scans: Scans, grid: Grid, log: Scans | None = None) -> Size:
 
 @dataclass(frozen=True)
 class Sampling:
-    """What decides the cost of a run beside its size."""
+    """The settings that decide the cost of a run beside its size."""
 
     sampler: str  # as `CellPrior.methods` names it
     arrays: tuple[ArraySpec, ...]  # of a draw
