@@ -116,7 +116,7 @@ def test_other_settings_or_another_log_are_refused_and_nothing_is_lost(office, t
 
 def test_resume_where_nothing_was_saved_starts_from_the_beginning(office, tmp_path, short):
     result = succeed("infer", office, "-o", tmp_path / "run", *short, "--resume")
-    assert "no run to resume; starting from the beginning" in result.stderr
+    assert "no draws yet; the chains start from the beginning" in result.stderr
 
 
 @BOTH

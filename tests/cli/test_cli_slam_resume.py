@@ -87,6 +87,8 @@ def test_the_trajectory_and_a_first_map_stand_in_the_folder_before_the_chains(
     if stage == "fit":
         assert f"{folder}/trajectory.tum is complete" in stopped.stderr
         assert "run.nc" not in files
+        refusal = refusal_of("export", folder / "run.nc", "-o", tmp_path / "path.tum")
+        assert "no draws yet; trajectory.tum beside it is complete" in refusal
         return
     succeed("export", folder / "run.nc", "-o", tmp_path / "path.tum")
     assert (tmp_path / "path.tum").read_bytes() == (whole / "trajectory.tum").read_bytes()

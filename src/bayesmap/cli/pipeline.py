@@ -165,7 +165,7 @@ def load_interrupted(folder: Folder) -> Run | None:
     from bayesmap.result import load
 
     if not folder.run_path.exists():
-        folder.console.say(f"{folder.run_path}: no run to resume; starting from the beginning")
+        folder.console.say(f"{folder.run_path}: no draws yet; the chains start from the beginning")
         return None
     run = load(folder.run_path)
     folder.console.say(f"resuming {folder.run_path} after {counted(run.posterior.sweep, 'sweep')}")

@@ -160,6 +160,8 @@ def load_saved(path: str | os.PathLike[str]) -> tuple[Posterior, Trajectory | No
     path = Path(path)
     if not path.is_file():
         nothing = "a folder without a run; give a run.nc" if path.is_dir() else "no such file"
+        if (path.parent / "trajectory.tum").is_file():  # slam writes it before its first sweep
+            nothing = "no draws yet; trajectory.tum beside it is complete, and slam --resume draws the map"
         raise BadInput(f"{path}: {run_in(path) or nothing}")
     try:
         with netCDF4.Dataset(path, "r") as file:

@@ -240,7 +240,7 @@ class Summary:
         """Return what is good about the run and how good, in words; empty where nothing is known to be."""
         strengths = []
         if self.map_error <= TOLERANCE * self.precision:
-            short = "" if self.map_error <= self.precision else f"; {self.precision:g} takes more draws (draws)"
+            short = "" if self.map_error <= self.precision else f"; {self.precision:g} takes more draws"
             strengths.append(f"the mean map is known to {self.map_error:.3f} in 99 of 100 observed cells{short}")
         if self.rhat_log_likelihood <= RHAT_LIMIT:
             strengths.append(f"the chains agree: R-hat of the log likelihood is {self.rhat_log_likelihood:.3f}")
