@@ -74,43 +74,26 @@ def test_walls_are_packed_as_the_page_s_description_says_and_cannot_be_written_t
 GOOD = tutorial_document().to_json()
 
 
-@pytest.mark.parametrize(
-    ("key", "value", "named"),
-    [
-        ("version", 2, "version"),
-        ("grid", None, "grid"),
-        ("grid", {"shape": [1, 21]}, "shape"),
-        ("grid", {"shape": [501, 21]}, "shape"),
-        ("grid", {"shape": [21.5, 21]}, "shape\\[0\\]: 21.5 is not a whole number"),
-        ("grid", {"shape": [21, 21], "resolution": 0}, "resolution"),
-        ("grid", {"shape": [21, 21], "origin": [1e300, 0]}, "origin"),
-        ("walls", 5, "walls"),
-        ("walls", "not base64!", "walls"),
-        ("walls", "AAAA", "walls"),
-        ("sensors", [], "sensors"),
-        ("sensors", [{"id": 1, "x": 10, "y": 10}] * 33, "sensors"),
-        ("sensors", [{"id": 1, "x": 10, "y": 10}] * 2, "same id"),
-        ("sensors", [{"id": 1, "x": "10", "y": 10}], "sensors\\[0\\].x"),
-        ("sensors", [{"id": 1, "x": 99, "y": 10}], "outside"),
-        ("sensors", [{"id": 1, "x": 2, "y": 2}], "wall"),
-        ("prior", True, "prior"),
-        ("prior", 1.01, "prior"),
-        ("noise", -0.1, "noise \\(m\\): -0.1 is not a number from 0.01 to 5"),
-        ("angles", 9, "angles"),
-        ("angles", 10.5, "angles"),
-        ("sweeps", 10**400, "sweeps"),
-        ("method", "exact", "method: 'exact' is not one of auto, block, gibbs"),
-        ("method", ["gibbs"], "method"),
-        ("order", None, "order"),
-        ("source", {"kind": "log", "name": "/etc/passwd", "scans": -1}, "scans"),
-        ("source", {"kind": "log", "name": "", "scans": 3}, "name"),
-        ("source", {"kind": "folder"}, "kind"),
-        ("fov", 7.0, "field of view"),
-        ("max_range", -5, "longest range"),
-        ("start", "here", "start"),
-        ("readings", 3, "readings"),
-    ],
-)
+@pytest.mark.parametrize(("key", "value", "named"), [
+    ("version", 2, "version"), ("grid", None, "grid"), ("grid", {"shape": [1, 21]}, "shape"),
+    ("grid", {"shape": [501, 21]}, "shape"),
+    ("grid", {"shape": [21.5, 21]}, "shape\\[0\\]: 21.5 is not a whole number"),
+    ("grid", {"shape": [21, 21], "resolution": 0}, "resolution"),
+    ("grid", {"shape": [21, 21], "origin": [1e300, 0]}, "origin"), ("walls", 5, "walls"),
+    ("walls", "not base64!", "walls"), ("walls", "AAAA", "walls"), ("sensors", [], "sensors"),
+    ("sensors", [{"id": 1, "x": 10, "y": 10}] * 33, "sensors"),
+    ("sensors", [{"id": 1, "x": 10, "y": 10}] * 2, "same id"),
+    ("sensors", [{"id": 1, "x": "10", "y": 10}], "sensors\\[0\\].x"),
+    ("sensors", [{"id": 1, "x": 99, "y": 10}], "outside"), ("sensors", [{"id": 1, "x": 2, "y": 2}], "wall"),
+    ("prior", True, "prior"), ("prior", 1.01, "prior"),
+    ("noise", -0.1, "noise \\(m\\): -0.1 is not a number from 0.01 to 5"), ("angles", 9, "angles"),
+    ("angles", 10.5, "angles"), ("sweeps", 10**400, "sweeps"),
+    ("method", "exact", "method: 'exact' is not one of auto, block, gibbs"), ("method", ["gibbs"], "method"),
+    ("order", None, "order"), ("source", {"kind": "log", "name": "/etc/passwd", "scans": -1}, "scans"),
+    ("source", {"kind": "log", "name": "", "scans": 3}, "name"), ("source", {"kind": "folder"}, "kind"),
+    ("fov", 7.0, "field of view"), ("max_range", -5, "longest range"), ("start", "here", "start"),
+    ("readings", 3, "readings"),
+])  # fmt: skip
 def test_what_a_document_may_not_hold_is_refused_by_name(key, value, named):
     with pytest.raises(Refused, match=named):
         parse_document({**GOOD, key: value})
@@ -234,32 +217,23 @@ def test_good_messages_are_understood():
         assert check({**message, "seq": 5}).seq == 5
 
 
-@pytest.mark.parametrize(
-    ("message", "named"),
-    [
-        ([], "not an object"),
-        ({"type": "shutdown"}, "unknown type"),
-        ({"type": "set", "patch": {"colour": 1}}, "colour"),
-        ({"type": "set", "patch": {"prior": "0.5"}}, "prior"),
-        *[({"type": "set", "patch": {"scans_used": scans}}, "scans used") for scans in (0, 1.5)],
-        *[({"type": "set", "patch": {"resolution": size}}, "cell size") for size in (0, "fine")],
-        ({"type": "set"}, "set.patch: missing"),
-        ({"type": "walls", "cells": [[1, 2.5]], "wall": True}, r"cells\[0\]\[1\]: 2.5 is not a whole number"),
-        ({"type": "walls", "cells": [[3, 4], [-1, 2]], "wall": True}, r"cells\[1\]\[0\]: -1 is not"),
-        ({"type": "walls", "cells": [[True, 2]], "wall": True}, r"cells\[0\]\[0\]: True"),
-        ({"type": "walls", "cells": [[1, 2, 3]], "wall": True}, "a list of 2"),
-        ({"type": "walls", "cells": [], "wall": True}, "cells"),
-        ({"type": "walls", "cells": [[1, 2]], "wall": 1}, "wall"),
-        ({"type": "move_sensor", "x": 1, "y": 1}, "id"),
-        ({"type": "add_sensor", "x": 1}, "y"),
-        ({"type": "move_sensor", "id": 1, "x": 1e7}, "x: 10000000.0 is not a number from -1,000,000 to 1,000,000"),
-        ({"type": "new", "shape": [501, 21], "world": "blank"}, "shape"),
-        ({"type": "view", "layer": "draw", "draw": -1}, "draw"),
-        ({"type": "export", "what": "/etc/passwd"}, "what"),
-        ({"type": "run", "seq": -1}, "seq"),
-        *[({**PATH, name: value}, name) for name, value in BAD_PATHS],
-    ],
-)
+@pytest.mark.parametrize(("message", "named"), [
+    ([], "not an object"), ({"type": "shutdown"}, "unknown type"), ({"type": "set", "patch": {"colour": 1}}, "colour"),
+    ({"type": "set", "patch": {"prior": "0.5"}}, "prior"),
+    *[({"type": "set", "patch": {"scans_used": scans}}, "scans used") for scans in (0, 1.5)],
+    *[({"type": "set", "patch": {"resolution": size}}, "cell size") for size in (0, "fine")],
+    ({"type": "set"}, "set.patch: missing"),
+    ({"type": "walls", "cells": [[1, 2.5]], "wall": True}, r"cells\[0\]\[1\]: 2.5 is not a whole number"),
+    ({"type": "walls", "cells": [[3, 4], [-1, 2]], "wall": True}, r"cells\[1\]\[0\]: -1 is not"),
+    ({"type": "walls", "cells": [[True, 2]], "wall": True}, r"cells\[0\]\[0\]: True"),
+    ({"type": "walls", "cells": [[1, 2, 3]], "wall": True}, "a list of 2"),
+    ({"type": "walls", "cells": [], "wall": True}, "cells"), ({"type": "walls", "cells": [[1, 2]], "wall": 1}, "wall"),
+    ({"type": "move_sensor", "x": 1, "y": 1}, "id"), ({"type": "add_sensor", "x": 1}, "y"),
+    ({"type": "move_sensor", "id": 1, "x": 1e7}, "x: 10000000.0 is not a number from -1,000,000 to 1,000,000"),
+    ({"type": "new", "shape": [501, 21], "world": "blank"}, "shape"),
+    ({"type": "view", "layer": "draw", "draw": -1}, "draw"), ({"type": "export", "what": "/etc/passwd"}, "what"),
+    ({"type": "run", "seq": -1}, "seq"), *[({**PATH, name: value}, name) for name, value in BAD_PATHS],
+])  # fmt: skip
 def test_bad_messages_are_refused_by_name(message, named):
     with pytest.raises(Refused, match=named):
         check(message)

@@ -110,11 +110,10 @@ def test_the_page_in_one_file_is_small_and_whole(heard):
     assert "http" not in re.sub(r">[^<]{1000,}<", "><", html)
 
 
-@pytest.mark.parametrize(
-    ("prior", "kind", "mean"),
-    [(bm.Independent(0.2), "binary", None), (bm.Beta(), "reflectivity", "mean reflectivity"),
-     (bm.Surface(), "surface", "chance that a cell stops a beam")],
-)  # fmt: skip
+@pytest.mark.parametrize(("prior", "kind", "mean"), [
+    (bm.Independent(0.2), "binary", None), (bm.Beta(), "reflectivity", "mean reflectivity"),
+    (bm.Surface(), "surface", "chance that a cell stops a beam"),
+])  # fmt: skip
 def test_a_run_names_its_quantity_and_has_intervals_where_it_is_a_number(prior, kind, mean):
     run = room_run(prior)
     heard = shown(run)

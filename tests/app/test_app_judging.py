@@ -13,28 +13,20 @@ from bayesmap.app.shown.result import Difference, difference, judge_chains, judg
 NAN = math.nan
 
 
-@pytest.mark.parametrize(
-    ("rhat", "ess", "sweeps", "apart", "over", "level", "why"),
-    [
-        (1.001, 900, 1000, 0.03, False, "good", "R-hat"),
-        (1.02, 900, 1000, 0.03, False, "fair", "R-hat"),
-        (1.001, 300, 1000, 0.03, False, "fair", "300 effective"),
-        (1.06, 900, 1000, 0.03, False, "bad", "R-hat"),
-        (1.001, 20, 1000, 0.03, False, "bad", "20 effective"),
-        (1.001, 900, 1000, 0.5, False, "bad", "cell (3, 4)"),
-        (NAN, NAN, 1000, 0.5, False, "bad", "cell (3, 4)"),
-        (NAN, NAN, 1000, 0.0, False, "good", "nothing varies"),  # a log joint that never changed
-        (NAN, NAN, 1000, None, True, "fair", "nothing varies"),  # of one chain, or a saved run
-        (2.0, 3, 20, None, False, None, ""),  # too early
-        (2.0, 3, 20, None, True, "bad", "R-hat"),
-        # of few sweeps that are over the log joint alone speaks: their means differ by chance
-        (1.465, 7, 10, 1.0, True, "bad", "R-hat"),
-        (1.001, 900, 150, 1.0, True, "good", "R-hat"),
-        (NAN, NAN, 1, None, False, None, ""),
-        (NAN, NAN, 1, None, True, "bad", "1 sweep is"),
-        (NAN, NAN, 3, None, True, "bad", "3 sweeps are"),
-    ],
-)
+@pytest.mark.parametrize(("rhat", "ess", "sweeps", "apart", "over", "level", "why"), [
+    (1.001, 900, 1000, 0.03, False, "good", "R-hat"), (1.02, 900, 1000, 0.03, False, "fair", "R-hat"),
+    (1.001, 300, 1000, 0.03, False, "fair", "300 effective"), (1.06, 900, 1000, 0.03, False, "bad", "R-hat"),
+    (1.001, 20, 1000, 0.03, False, "bad", "20 effective"), (1.001, 900, 1000, 0.5, False, "bad", "cell (3, 4)"),
+    (NAN, NAN, 1000, 0.5, False, "bad", "cell (3, 4)"),
+    (NAN, NAN, 1000, 0.0, False, "good", "nothing varies"),  # a log joint that never changed
+    (NAN, NAN, 1000, None, True, "fair", "nothing varies"),  # of one chain, or a saved run
+    (2.0, 3, 20, None, False, None, ""),  # too early
+    (2.0, 3, 20, None, True, "bad", "R-hat"),
+    # of few sweeps that are over the log joint alone speaks: their means differ by chance
+    (1.465, 7, 10, 1.0, True, "bad", "R-hat"), (1.001, 900, 150, 1.0, True, "good", "R-hat"),
+    (NAN, NAN, 1, None, False, None, ""), (NAN, NAN, 1, None, True, "bad", "1 sweep is"),
+    (NAN, NAN, 3, None, True, "bad", "3 sweeps are"),
+])  # fmt: skip
 def test_verdicts(rhat, ess, sweeps, apart, over, level, why):
     found = judge_chains(
         rhat, ess, sweeps, None if apart is None else Difference(apart, (3, 4), 2 * (apart > 0.25), 100), over=over
@@ -87,11 +79,10 @@ def test_the_difference_is_the_largest_among_the_observed_cells():
     assert difference(means, np.zeros((4, 5), dtype=bool)) is None
 
 
-@pytest.mark.parametrize(
-    ("ess", "level", "why"),
-    [(1.0, "bad", "one particle carries all the weight"), (1.2, "bad", "1.2 particles carry all the weight"),
-     (100, "fair", "100 effective particles"), (5000, "good", "5000 effective particles")],
-)  # fmt: skip
+@pytest.mark.parametrize(("ess", "level", "why"), [
+    (1.0, "bad", "one particle carries all the weight"), (1.2, "bad", "1.2 particles carry all the weight"),
+    (100, "fair", "100 effective particles"), (5000, "good", "5000 effective particles"),
+])  # fmt: skip
 def test_particles(ess, level, why):
     found = judge_particles(ess)
     assert (found.level, found.why) == (level, why)

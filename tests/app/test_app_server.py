@@ -132,19 +132,15 @@ def guarded(query="token=secret", *, host="127.0.0.1", name="127.0.0.1:8000", ki
 OWN, ALL, OUTSIDE = "127.0.0.1", "0.0.0.0", "192.168.1.5"
 
 
-@pytest.mark.parametrize(
-    ("options", "status"),
-    [
-        *[({"name": name}, 200) for name in ("127.0.0.1:8000", "localhost:8000", "LOCALHOST:8000")],
-        *[({"name": name}, 403) for name in ("192.168.1.5:8000", "evil.example:8000", OWN, "127.0.0.1:80", "", "[::1")],
-        *[({"host": host, "name": "192.168.1.5:8000"}, 200) for host in (OUTSIDE, ALL)],
-        ({"host": ALL, "name": "evil.example:8000"}, 403),
-        ({"host": "::1", "name": "[::1]:8000"}, 200),
-        *[({"query": query}, 403) for query in ("token=secre", "token=secret&token=x", "token=", "", "token=%C3%A9")],
-        ({"origin": "http://127.0.0.1:8000"}, 200),
-        *[({"origin": it}, 403) for it in ("http://127.0.0.1:8001", "https://127.0.0.1:8000", "null", "http://evil")],
-    ],
-)
+@pytest.mark.parametrize(("options", "status"), [
+    *[({"name": name}, 200) for name in ("127.0.0.1:8000", "localhost:8000", "LOCALHOST:8000")],
+    *[({"name": name}, 403) for name in ("192.168.1.5:8000", "evil.example:8000", OWN, "127.0.0.1:80", "", "[::1")],
+    *[({"host": host, "name": "192.168.1.5:8000"}, 200) for host in (OUTSIDE, ALL)],
+    ({"host": ALL, "name": "evil.example:8000"}, 403), ({"host": "::1", "name": "[::1]:8000"}, 200),
+    *[({"query": query}, 403) for query in ("token=secre", "token=secret&token=x", "token=", "", "token=%C3%A9")],
+    ({"origin": "http://127.0.0.1:8000"}, 200),
+    *[({"origin": it}, 403) for it in ("http://127.0.0.1:8001", "https://127.0.0.1:8000", "null", "http://evil")],
+])  # fmt: skip
 def test_the_guard_knows_names_tokens_and_origins_before_a_socket_is_opened(options, status):
     (first, *_) = guarded(**options)
     assert first["status"] == status
@@ -199,12 +195,11 @@ def test_an_edit_is_confirmed_and_a_run_ends_with_draws_and_files(page):
         assert len(buffers["data"]) > 100
 
 
-@pytest.mark.parametrize(
-    "data",
-    ["", "[]", '{"type": "boom", "seq": 5}', b"\xff\0", "[" * 50_000,
-     '{"type": "hello", "seq": 5, "document": {"version": 1}}', "x" * (1 << 20) + "x"],
-    ids=range(7),
-)  # fmt: skip
+@pytest.mark.parametrize("data", [
+    "", "[]", '{"type": "boom", "seq": 5}',
+    b"\xff\0", "[" * 50_000, '{"type": "hello", "seq": 5, "document": {"version": 1}}',
+    "x" * (1 << 20) + "x",
+], ids=range(7))  # fmt: skip
 def test_what_is_malformed_is_answered_by_an_error(page, data):
     page.socket.send(data)
     header, _ = page.until("error")
@@ -284,18 +279,11 @@ def test_a_port_that_is_taken_is_bad_input():
     assert result.stdout == ""
 
 
-@pytest.mark.parametrize(
-    ("name", "content", "said"),
-    [
-        ("run.nc", None, "no such file"),
-        ("run.nc", "nonsense", "saved run"),
-        ("run.nc", "", "saved run"),
-        ("document.json", "{", "document.json"),
-        ("document.json", '{"version": 7}', "document.json"),
-        ("document.json", '{"version": 1, "source": {"kind": "log", "name": "a", "scans": 1}}', "document.json"),
-    ],
-    ids=range(6),
-)
+@pytest.mark.parametrize(("name", "content", "said"), [
+    ("run.nc", None, "no such file"), ("run.nc", "nonsense", "saved run"), ("run.nc", "", "saved run"),
+    ("document.json", "{", "document.json"), ("document.json", '{"version": 7}', "document.json"),
+    ("document.json", '{"version": 1, "source": {"kind": "log", "name": "a", "scans": 1}}', "document.json"),
+], ids=range(6))  # fmt: skip
 def test_a_file_that_cannot_be_shown_is_bad_input(name, content, said, tmp_path):
     if content is not None:
         (tmp_path / name).write_text(content)

@@ -104,12 +104,10 @@ def test_walls_spare_sensors_which_are_added_up_to_the_limit_and_removed_down_to
     assert "last sensor" in acted.text
 
 
-@pytest.mark.parametrize(
-    "message",
-    [{"type": "walls", "cells": [[21, 0]], "wall": True, "stroke": 0}, {"type": "remove_sensor", "id": 9},
-     {"type": "undo"}, {"type": "redo"}, {"type": "scan", "index": 0}],
-    ids=lambda m: m["type"],
-)  # fmt: skip
+@pytest.mark.parametrize("message", [
+    {"type": "walls", "cells": [[21, 0]], "wall": True, "stroke": 0}, {"type": "remove_sensor", "id": 9},
+    {"type": "undo"}, {"type": "redo"}, {"type": "scan", "index": 0},
+], ids=lambda m: m["type"])  # fmt: skip
 def test_what_cannot_be_done_changes_nothing(message):
     acted = Acted()
     acted.picture()

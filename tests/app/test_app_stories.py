@@ -34,17 +34,14 @@ def test_states_change_the_start_and_solutions_their_state(tmp_path):
     assert (second.document, second.solution, second.layer) == (tutorial_document(), None, "entropy")
 
 
-@pytest.mark.parametrize(
-    ("step", "why"),
-    [
-        ({"state": {"noise": 99}}, r"step 2, state: noise \(m\): 99 is not a number from 0.01 to 5"),
-        ({"solution": {"nois": 1}}, "step 2, solution: there is no nois; there are: map, prior,"),
-        ({"task": None}, "step 2.task: None is not a text"), ({"tool": "pen"}, "step 2.tool: 'pen' is not one of"),
-        ({"tsk": ""}, "step 2: there is no tsk; there are: title, text, task, state"),
-        ({"state": {"map": ["..", ".."]}}, "step 2, state: the sensor cannot stand outside"),
-        ({"state": {"map": ["##", "#"]}}, "step 2, state: drawing: line 2 has 1 cells"),
-    ],
-)  # fmt: skip
+@pytest.mark.parametrize(("step", "why"), [
+    ({"state": {"noise": 99}}, r"step 2, state: noise \(m\): 99 is not a number from 0.01 to 5"),
+    ({"solution": {"nois": 1}}, "step 2, solution: there is no nois; there are: map, prior,"),
+    ({"task": None}, "step 2.task: None is not a text"), ({"tool": "pen"}, "step 2.tool: 'pen' is not one of"),
+    ({"tsk": ""}, "step 2: there is no tsk; there are: title, text, task, state"),
+    ({"state": {"map": ["..", ".."]}}, "step 2, state: the sensor cannot stand outside"),
+    ({"state": {"map": ["##", "#"]}}, "step 2, state: drawing: line 2 has 1 cells"),
+])  # fmt: skip
 def test_a_wrong_step_is_refused_with_its_number_and_its_key(tmp_path, step, why):
     with pytest.raises(BadInput, match=rf"own\.json: {why}.*docs/stories\.md"):
         told(tmp_path, **step)

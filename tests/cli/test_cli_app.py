@@ -53,15 +53,11 @@ def test_the_command_writes_a_figure_of_a_document_in_one_small_file(tmp_path):
     assert "http" not in target.read_text().split("data-module>")[0]
 
 
-@pytest.mark.parametrize(
-    ("changes", "target", "why"),
-    [
-        ({"pose_sigma": 0.1}, "figure.html", "known poses alone"),
-        ({"method": "propagate"}, "figure.html", "choose another method"),
-        ({}, "figure.pdf", "end its name in one of .html"),
-        ({}, "missing/figure.html", "make it first"),
-    ],
-)
+@pytest.mark.parametrize(("changes", "target", "why"), [
+    ({"pose_sigma": 0.1}, "figure.html", "known poses alone"),
+    ({"method": "propagate"}, "figure.html", "choose another method"),
+    ({}, "figure.pdf", "end its name in one of .html"), ({}, "missing/figure.html", "make it first"),
+])  # fmt: skip
 def test_what_cannot_be_exported_is_refused_with_the_remedy(tmp_path, changes, target, why):
     document = tmp_path / "document.json"
     document.write_text(json.dumps({**tutorial_document().to_json(), **changes}))

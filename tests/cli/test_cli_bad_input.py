@@ -29,16 +29,12 @@ def log(folder, text):
     return path
 
 
-@pytest.mark.parametrize(
-    ("text", "place", "remedy"),
-    [
-        (GOOD.format(t=1) + "FLASER 3 1.0 2.0 1.5 0.1\n", "line 2", "--skip-bad-lines"),
-        (GOOD.format(t=1) + NAN_POSE, "line 2", "--skip-bad-lines"),
-        (GOOD.format(t=1) + GOOD.format(t=2).replace("FLASER 3", "FLASER -3"), "line 2", "--skip-bad-lines"),
-        ("{}", "not a log of a known format", "CARMEN"),
-        ("", "empty", "my.log"),
-    ],
-)
+@pytest.mark.parametrize(("text", "place", "remedy"), [
+    (GOOD.format(t=1) + "FLASER 3 1.0 2.0 1.5 0.1\n", "line 2", "--skip-bad-lines"),
+    (GOOD.format(t=1) + NAN_POSE, "line 2", "--skip-bad-lines"),
+    (GOOD.format(t=1) + GOOD.format(t=2).replace("FLASER 3", "FLASER -3"), "line 2", "--skip-bad-lines"),
+    ("{}", "not a log of a known format", "CARMEN"), ("", "empty", "my.log"),
+])  # fmt: skip
 def test_logs(tmp_path, text, place, remedy):
     message = refuse("infer", log(tmp_path, text), "-o", tmp_path / "run")
     assert re.search(place, message)
@@ -46,57 +42,49 @@ def test_logs(tmp_path, text, place, remedy):
     assert not (tmp_path / "run").exists()
 
 
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        (["--sensor magic"], "unknown kind 'magic'; known: default"),
-        (["--resolution 1e-6"], "over the limit of 100,000,000; use a coarser resolution"),
-        (["--prior 0.3"], "prior: 0.3 is for binary walls; add --cells binary"),
-        (["--coupling fit"], "coupling: 'fit' is for binary walls; add --cells binary, or give a number"),
-        (["--method block"], "method: 'block' is for binary walls; add --cells binary"),
-        (["--order raster --cells reflectivity"], "order: 'raster' is for binary walls; add --cells binary"),
-        (["--start zeros"], "start: 'zeros' is for binary walls; add --cells binary"),
-        (["--sensor gaussian:0.05"], "need a sensor under which no reading is impossible, a BeamMixture"),
-        (["--holdout 1000"], "too few to hold out every 1000-th"),
-        (["--device cuda:9"], "there is: cpu"),
-        (["--device cuda:9 --cells binary"], "there is: cpu"),
-        (["--method exact --cells binary"], "exact"),
-        (["--grid nowhere.yaml"], "nowhere.yaml: cannot be read"),
-    ],
-)
+@pytest.mark.parametrize(("arguments", "message"), [
+    (["--sensor magic"], "unknown kind 'magic'; known: default"),
+    (["--resolution 1e-6"], "over the limit of 100,000,000; use a coarser resolution"),
+    (["--prior 0.3"], "prior: 0.3 is for binary walls; add --cells binary"),
+    (["--coupling fit"], "coupling: 'fit' is for binary walls; add --cells binary, or give a number"),
+    (["--method block"], "method: 'block' is for binary walls; add --cells binary"),
+    (["--order raster --cells reflectivity"], "order: 'raster' is for binary walls; add --cells binary"),
+    (["--start zeros"], "start: 'zeros' is for binary walls; add --cells binary"),
+    (["--sensor gaussian:0.05"], "need a sensor under which no reading is impossible, a BeamMixture"),
+    (["--holdout 1000"], "too few to hold out every 1000-th"), (["--device cuda:9"], "there is: cpu"),
+    (["--device cuda:9 --cells binary"], "there is: cpu"), (["--method exact --cells binary"], "exact"),
+    (["--grid nowhere.yaml"], "nowhere.yaml: cannot be read"),
+])  # fmt: skip
 def test_settings(office, tmp_path, arguments, message):
     assert message in refuse("infer", office, "-o", tmp_path / "run", *arguments)
     assert not (tmp_path / "run").exists()
 
 
-@pytest.mark.parametrize(
-    ("command", "setting", "value", "wanted"),
-    [
-        ("infer", "chains", "0", "a whole number of 1 or more, got 0"),
-        ("infer", "draws", "-1", "a whole number of 1 or more, got -1"),
-        ("infer", "warmup", "-1", "a whole number of 0 or more, got -1"),
-        ("infer", "warmup", "99999999999999999999", "1,000,000,000 at most, got 99999999999999999999"),
-        ("infer", "thin", "0", "a whole number of 1 or more, got 0"),
-        ("infer", "threads", "0", "a whole number from 1 to 1024, got 0"),
-        ("infer", "threads", "1000000", "a whole number from 1 to 1024, got 1000000"),
-        ("infer", "seed", "-3", "a whole number of 0 or more, got -3"),
-        ("infer", "holdout", "1", "2 or more, for every n-th scan, or 0, got 1"),
-        ("infer", "checkpoint_every", "-1", "0 or a positive number of seconds, got -1.0"),
-        ("infer", "checkpoint_every", "nan", "0 or a positive number of seconds, got nan"),
-        ("infer", "resolution", "-1", "a positive number of metres, got -1.0"),
-        ("infer", "max_range", "inf", "a positive number of metres, got inf"),
-        ("infer", "no_return", "nan", "the log's number in metres, or inf if it has none, got nan"),
-        ("infer", "thin_scans", "-1", "0 or a positive number of metres, got -1.0"),
-        ("infer", "prior", "1.5", "a number from 0 to 1, got 1.5"),
-        ("infer", "coupling", "-1", "a number from 0 to 50, or fit, got -1.0"),
-        ("infer", "hit_depth", "2", "a number from 0 to 1, got 2.0"),
-        ("simulate", "scans", "0", "a whole number of 1 or more, got 0"),
-        ("demo", "particles", "0", "a whole number of 1 or more, got 0"),
-        ("score", "holdout", "1", "2 or more, for every n-th scan, or 0, got 1"),
-        ("render", "frames", "0", "a whole number of 1 or more, got 0"),
-        ("export", "free_thresh", "-0.1", "a number from 0 to 1, got -0.1"),
-    ],
-)
+@pytest.mark.parametrize(("command", "setting", "value", "wanted"), [
+    ("infer", "chains", "0", "a whole number of 1 or more, got 0"),
+    ("infer", "draws", "-1", "a whole number of 1 or more, got -1"),
+    ("infer", "warmup", "-1", "a whole number of 0 or more, got -1"),
+    ("infer", "warmup", "99999999999999999999", "1,000,000,000 at most, got 99999999999999999999"),
+    ("infer", "thin", "0", "a whole number of 1 or more, got 0"),
+    ("infer", "threads", "0", "a whole number from 1 to 1024, got 0"),
+    ("infer", "threads", "1000000", "a whole number from 1 to 1024, got 1000000"),
+    ("infer", "seed", "-3", "a whole number of 0 or more, got -3"),
+    ("infer", "holdout", "1", "2 or more, for every n-th scan, or 0, got 1"),
+    ("infer", "checkpoint_every", "-1", "0 or a positive number of seconds, got -1.0"),
+    ("infer", "checkpoint_every", "nan", "0 or a positive number of seconds, got nan"),
+    ("infer", "resolution", "-1", "a positive number of metres, got -1.0"),
+    ("infer", "max_range", "inf", "a positive number of metres, got inf"),
+    ("infer", "no_return", "nan", "the log's number in metres, or inf if it has none, got nan"),
+    ("infer", "thin_scans", "-1", "0 or a positive number of metres, got -1.0"),
+    ("infer", "prior", "1.5", "a number from 0 to 1, got 1.5"),
+    ("infer", "coupling", "-1", "a number from 0 to 50, or fit, got -1.0"),
+    ("infer", "hit_depth", "2", "a number from 0 to 1, got 2.0"),
+    ("simulate", "scans", "0", "a whole number of 1 or more, got 0"),
+    ("demo", "particles", "0", "a whole number of 1 or more, got 0"),
+    ("score", "holdout", "1", "2 or more, for every n-th scan, or 0, got 1"),
+    ("render", "frames", "0", "a whole number of 1 or more, got 0"),
+    ("export", "free_thresh", "-0.1", "a number from 0 to 1, got -0.1"),
+])  # fmt: skip
 def test_numbers_are_refused_before_any_file_is_looked_at(tmp_path, command, setting, value, wanted):
     files = {"infer": 1, "score": 2, "render": 1, "export": 1}.get(command, 0) * [tmp_path / "nowhere"]
     flag = "--" + setting.replace("_", "-")
@@ -176,19 +164,14 @@ def test_a_damaged_checkpoint_is_not_resumed(office, office_run, tmp_path):
     assert "damaged or truncated" in refuse("infer", office, "-o", tmp_path, "--resume")
 
 
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        (["--pose 2,2,0"], r"pose 0 at \(2, 2\) m stands in the occupied cell \(2, 2\); move the robot"),
-        (["--world nowhere.txt --pose 0,0,0"], "no such file"),
-        (["--world building --size huge"], "size 'huge': give width and depth in metres"),
-        (["--world building --size 1x1"], "at least"),
-        (["--angles 1"], "give 2 to 100,000 beams"),
-        (["--fov 400"], r"must lie in \(0, 360\] degrees"),
-        (["--sensor gaussian:-1"], "positive"),
-        (["--max-range -3"], "--max-range must be a positive number of metres, got -3.0"),
-    ],
-)
+@pytest.mark.parametrize(("arguments", "message"), [
+    (["--pose 2,2,0"], r"pose 0 at \(2, 2\) m stands in the occupied cell \(2, 2\); move the robot"),
+    (["--world nowhere.txt --pose 0,0,0"], "no such file"),
+    (["--world building --size huge"], "size 'huge': give width and depth in metres"),
+    (["--world building --size 1x1"], "at least"), (["--angles 1"], "give 2 to 100,000 beams"),
+    (["--fov 400"], r"must lie in \(0, 360\] degrees"), (["--sensor gaussian:-1"], "positive"),
+    (["--max-range -3"], "--max-range must be a positive number of metres, got -3.0"),
+])  # fmt: skip
 def test_simulate(tmp_path, arguments, message):
     assert re.search(message, refuse("simulate", "-o", tmp_path / "my.log", *arguments))
     assert list(tmp_path.iterdir()) == []

@@ -63,24 +63,19 @@ def test_a_bare_key_holds_for_all_commands_that_have_it(tmp_path):
     assert read_pairs(["demo.seed=3"], "infer") == {"demo": {"seed": 3}}
 
 
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        ("[infer]\nresoluton = 1\n", "did you mean 'resolution'?"),
-        ("[infer]\nmax-range = 1\n", "did you mean 'max_range'?"),
-        ("[infre]\nchains = 1\n", "did you mean 'infer'?"),
-        ("chians = 1\n", "did you mean 'chains'?"),
-        ("[infer]\nchains = 'two'\n", "chains must be a whole number of 1 or more, got 'two'"),
-        ("[infer]\nchains = 2.5\n", "chains must be a whole number of 1 or more, got 2.5"),
-        ("[infer]\nstrict = 1\n", "strict must be true or false, got 1"),
-        ("[infer]\nprior = true\n", "prior must be a number from 0 to 1, got True"),
-        ("[infer]\ncoupling = true\n", "coupling must be a number from 0 to 50, or fit, got True"),
-        ('[infer]\ncoupling = "some"\n', "coupling must be a number from 0 to 50, or fit, got 'some'"),
-        ("[infer]\nmethod = 'magic'\n", "method must be one of gibbs, block, propagate, importance, exact, got"),
-        ("seed = -1\n", "--seed must be a whole number of 0 or more, got -1"),
-        ("[infer\n", "not valid TOML"),
-    ],
-)
+@pytest.mark.parametrize(("text", "message"), [
+    ("[infer]\nresoluton = 1\n", "did you mean 'resolution'?"),
+    ("[infer]\nmax-range = 1\n", "did you mean 'max_range'?"), ("[infre]\nchains = 1\n", "did you mean 'infer'?"),
+    ("chians = 1\n", "did you mean 'chains'?"),
+    ("[infer]\nchains = 'two'\n", "chains must be a whole number of 1 or more, got 'two'"),
+    ("[infer]\nchains = 2.5\n", "chains must be a whole number of 1 or more, got 2.5"),
+    ("[infer]\nstrict = 1\n", "strict must be true or false, got 1"),
+    ("[infer]\nprior = true\n", "prior must be a number from 0 to 1, got True"),
+    ("[infer]\ncoupling = true\n", "coupling must be a number from 0 to 50, or fit, got True"),
+    ('[infer]\ncoupling = "some"\n', "coupling must be a number from 0 to 50, or fit, got 'some'"),
+    ("[infer]\nmethod = 'magic'\n", "method must be one of gibbs, block, propagate, importance, exact, got"),
+    ("seed = -1\n", "--seed must be a whole number of 0 or more, got -1"), ("[infer\n", "not valid TOML"),
+])  # fmt: skip
 def test_mistakes_in_a_file_exit_3_and_name_it(tmp_path, text, message):
     path = write(tmp_path, text)
     result = call("config", "-c", path)
@@ -104,37 +99,25 @@ def test_only_one_section_is_printed_where_only_one_is_given():
     ) in lines
 
 
-@pytest.mark.parametrize(
-    ("text", "model"),
-    [
-        ("default", None),
-        ("gaussian:0.2", Gaussian(0.2)),
-        ("gaussian:0.02,sigma_per_m=0.005", Gaussian(0.02, 0.005)),
-        ("gaussian:sigma_m=0.1", Gaussian(0.1)),
-        ("student-t:0.1,dof=3", StudentT(0.1, 3.0)),
-        ("mixture", BeamMixture()),
-        ("mixture:0.1,p_random=0.2", BeamMixture(Gaussian(0.1), p_random=0.2)),
-        ("mixture:0.1,noise=student-t,dof=2", BeamMixture(StudentT(0.1, 2.0))),
-    ],
-)
+@pytest.mark.parametrize(("text", "model"), [
+    ("default", None), ("gaussian:0.2", Gaussian(0.2)), ("gaussian:0.02,sigma_per_m=0.005", Gaussian(0.02, 0.005)),
+    ("gaussian:sigma_m=0.1", Gaussian(0.1)), ("student-t:0.1,dof=3", StudentT(0.1, 3.0)), ("mixture", BeamMixture()),
+    ("mixture:0.1,p_random=0.2", BeamMixture(Gaussian(0.1), p_random=0.2)),
+    ("mixture:0.1,noise=student-t,dof=2", BeamMixture(StudentT(0.1, 2.0))),
+])  # fmt: skip
 def test_sensor_models_as_they_are_typed(text, model):
     assert sensor_of(text) == model
 
 
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        ("laser", "unknown kind 'laser'; known: default, fit (of infer), gaussian"),
-        ("gaussian", "gaussian needs its sigma_m, as in gaussian:0.05"),
-        ("gaussian:-0.2", "sigma_m must be a positive number of metres, got -0.2"),
-        ("gaussian:nan", "sigma_m must be a positive number"),
-        ("gaussian:wide", "'wide' is not a number"),
-        ("gaussian:0.1,0.2", "write '0.2' as name=value"),
-        ("gaussian:0.1,sigma=2", "no parameter 'sigma'"),
-        ("mixture:0.1,noise=pink", "noise must be gaussian or student-t"),
-        ("mixture:0.1,p_random=2", "p_random must lie inside"),
-    ],
-)
+@pytest.mark.parametrize(("text", "message"), [
+    ("laser", "unknown kind 'laser'; known: default, fit (of infer), gaussian"),
+    ("gaussian", "gaussian needs its sigma_m, as in gaussian:0.05"),
+    ("gaussian:-0.2", "sigma_m must be a positive number of metres, got -0.2"),
+    ("gaussian:nan", "sigma_m must be a positive number"), ("gaussian:wide", "'wide' is not a number"),
+    ("gaussian:0.1,0.2", "write '0.2' as name=value"), ("gaussian:0.1,sigma=2", "no parameter 'sigma'"),
+    ("mixture:0.1,noise=pink", "noise must be gaussian or student-t"),
+    ("mixture:0.1,p_random=2", "p_random must lie inside"),
+])  # fmt: skip
 def test_mistakes_in_a_sensor_model_are_named(text, message):
     with pytest.raises(BadInput, match=re.escape(message)):
         sensor_of(text)

@@ -221,14 +221,10 @@ def test_a_run_that_was_to_be_replaced_is_not_taken_for_the_new_one(logs, tmp_pa
         assert not (output / name / "outdated").exists()
 
 
-@pytest.mark.parametrize(
-    ("given", "message"),
-    [
-        (["nowhere/*.log"], "no file matches"),
-        (["EMPTY"], "a folder without logs"),
-        (["a/office.log", "b/office.log"], "office: two of the logs have this name"),
-    ],
-)
+@pytest.mark.parametrize(("given", "message"), [
+    (["nowhere/*.log"], "no file matches"), (["EMPTY"], "a folder without logs"),
+    (["a/office.log", "b/office.log"], "office: two of the logs have this name"),
+])  # fmt: skip
 def test_what_holds_no_logs_is_refused(given, message, tmp_path):
     (tmp_path / "EMPTY").mkdir()
     assert message in refusal_of("infer", *(tmp_path / one for one in given), "-o", tmp_path / "runs")

@@ -127,10 +127,9 @@ def test_what_cannot_be_followed_is_said(office, office_run, prior, tmp_path):
     assert len(result.stdout.splitlines()) == 1
 
 
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [(b"", "it ended without a scan"), (b"VERTEX_SE2 0 1 2 3\n", "only CARMEN logs and CSV tables can be followed")],
-)
+@pytest.mark.parametrize(("text", "message"), [
+    (b"", "it ended without a scan"), (b"VERTEX_SE2 0 1 2 3\n", "only CARMEN logs and CSV tables can be followed"),
+])  # fmt: skip
 def test_a_pipe_of_something_else(follow, text, message):
     process = follow("-", stdin=subprocess.PIPE)
     _, errors = process.communicate(text.decode(), timeout=PATIENCE_S)

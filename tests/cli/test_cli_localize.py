@@ -108,16 +108,13 @@ def test_a_map_of_another_program_is_located_in(office, truth_map, prior, tmp_pa
     assert np.median(off) < 0.3
 
 
-@pytest.mark.parametrize(
-    ("lines", "message"),
-    [
-        ("image: gone.pgm\nresolution: 0.1\norigin: [0, 0, 0]\n", "gone.pgm: cannot be read as an image"),
-        ("image: map.pgm\norigin: [0, 0, 0]\n", "has no 'resolution:'"),
-        ("image: map.pgm\nresolution: 0.1\norigin: [0, 0, 0.3]\n", "the map is turned by 0.3 rad"),
-        ("image: map.pgm\nresolution: 0.1\norigin: [0, 0, 0]\n", "no occupied cell that a beam could meet"),
-        (None, "no such file; give a saved run (.nc), or a map of map_server (.yaml)"),
-    ],
-)
+@pytest.mark.parametrize(("lines", "message"), [
+    ("image: gone.pgm\nresolution: 0.1\norigin: [0, 0, 0]\n", "gone.pgm: cannot be read as an image"),
+    ("image: map.pgm\norigin: [0, 0, 0]\n", "has no 'resolution:'"),
+    ("image: map.pgm\nresolution: 0.1\norigin: [0, 0, 0.3]\n", "the map is turned by 0.3 rad"),
+    ("image: map.pgm\nresolution: 0.1\norigin: [0, 0, 0]\n", "no occupied cell that a beam could meet"),
+    (None, "no such file; give a saved run (.nc), or a map of map_server (.yaml)"),
+])  # fmt: skip
 def test_bad_maps_are_named(office, tmp_path, lines, message):
     from PIL import Image
 
@@ -134,19 +131,14 @@ def test_chances_are_written_as_people_write_them():
     assert {chance: _per_cent(chance) for chance in told} == told
 
 
-@pytest.mark.parametrize(
-    ("arguments", "code", "message"),
-    [
-        (["--scans 50:60"], 3, "none of the log's 12 scans is among them"),
-        (["--scans five"], 2, "is not FIRST:LAST"),
-        (["--prior 1,2"], 2, "is not X,Y,DEGREES"),
-        (["--area 1,2,3"], 2, "is not X0,X1,Y0,Y1"),
-        (["--area 3,1,0,1"], 3, "--area 3,1,0,1: give X0 below X1, and Y0 below Y1"),
-        (["--prior 500,0,0"], 3, "prior: (500, 0) +- 0.5 m lies outside the map"),
-        (["-o", "where.txt"], 2, "end its name in one of .tum, .mcap"),
-        (["--device tpu:7"], 3, "device: 'tpu:7' is not on this machine"),
-        (["--beam-weight 2"], 3, "--beam-weight must be a number above 0, and 1 at most"),
-    ],
-)
+@pytest.mark.parametrize(("arguments", "code", "message"), [
+    (["--scans 50:60"], 3, "none of the log's 12 scans is among them"), (["--scans five"], 2, "is not FIRST:LAST"),
+    (["--prior 1,2"], 2, "is not X,Y,DEGREES"), (["--area 1,2,3"], 2, "is not X0,X1,Y0,Y1"),
+    (["--area 3,1,0,1"], 3, "--area 3,1,0,1: give X0 below X1, and Y0 below Y1"),
+    (["--prior 500,0,0"], 3, "prior: (500, 0) +- 0.5 m lies outside the map"),
+    (["-o", "where.txt"], 2, "end its name in one of .tum, .mcap"),
+    (["--device tpu:7"], 3, "device: 'tpu:7' is not on this machine"),
+    (["--beam-weight 2"], 3, "--beam-weight must be a number above 0, and 1 at most"),
+])  # fmt: skip
 def test_what_it_refuses(office, office_run, arguments, code, message):
     assert message in refusal_of("localize", office_run / "run.nc", office, *arguments, code=code)

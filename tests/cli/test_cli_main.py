@@ -85,18 +85,14 @@ def test_a_mistyped_command_gets_a_suggestion():
 LOOSE = RuntimeError("a loose wire")
 
 
-@pytest.mark.parametrize(
-    ("error", "code", "message"),
-    [
-        (LOOSE, 1, "unexpected RuntimeError: a loose wire; -v shows where"),
-        (OSError(28, "No space left on device", "run.nc"), 1, "run.nc: No space left on device"),
-        (PermissionError(13, "Permission denied", "x.log"), 3, "x.log: Permission denied; name another file or folder"),
-        (MemoryError(), 1, "out of memory"),
-        (RuntimeError("Failed to allocate 99 bytes on device 'cpu'"), 1, "out of memory"),
-        (KeyboardInterrupt(), 130, "interrupted"),
-        (bayesmap.BadInput("two\nlines"), 3, "two lines"),
-    ],
-)
+@pytest.mark.parametrize(("error", "code", "message"), [
+    (LOOSE, 1, "unexpected RuntimeError: a loose wire; -v shows where"),
+    (OSError(28, "No space left on device", "run.nc"), 1, "run.nc: No space left on device"),
+    (PermissionError(13, "Permission denied", "x.log"), 3, "x.log: Permission denied; name another file or folder"),
+    (MemoryError(), 1, "out of memory"),
+    (RuntimeError("Failed to allocate 99 bytes on device 'cpu'"), 1, "out of memory"),
+    (KeyboardInterrupt(), 130, "interrupted"), (bayesmap.BadInput("two\nlines"), 3, "two lines"),
+])  # fmt: skip
 def test_failures_are_one_line_and_verbose_shows_the_traceback(monkeypatch, office, tmp_path, error, code, message):
     def fail(*arguments, **options):
         raise error

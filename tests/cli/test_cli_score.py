@@ -97,19 +97,15 @@ def test_a_recording_is_read_as_it_was_for_the_run(recording, tmp_path):
         assert "choose one with --scan-topic" in refusal_of(*command)
 
 
-@pytest.mark.parametrize(
-    ("arguments", "code", "message"),
-    [
-        (("RUN", "nowhere.log"), 3, "nowhere.log: no such file"),
-        (("nowhere.nc", "LOG"), 3, "nowhere.nc: no such file"),
-        (("RUN", "LOG", "--all"), 3, "the run was made from 9 of its 12 scans"),
-        (("RUN", "LOG", "--holdout", "0"), 3, "--holdout 0 leaves nothing to score"),
-        (("RUN", "LOG", "--holdout", "1"), 3, "--holdout must be 2 or more, for every n-th scan, or 0, got 1"),
-        (("RUN", "LOG", "--picture", "scores.txt"), 3, "end its name in one of .png, .pdf, .svg"),
-        (("RUN", "LOG", "--holdout", "4", "--device", "tpu:7"), 3, "device: 'tpu:7' is not on this machine"),
-        (("RUN",), 2, "give LOG, whose held-out scans score the run"),
-    ],
-)
+@pytest.mark.parametrize(("arguments", "code", "message"), [
+    (("RUN", "nowhere.log"), 3, "nowhere.log: no such file"), (("nowhere.nc", "LOG"), 3, "nowhere.nc: no such file"),
+    (("RUN", "LOG", "--all"), 3, "the run was made from 9 of its 12 scans"),
+    (("RUN", "LOG", "--holdout", "0"), 3, "--holdout 0 leaves nothing to score"),
+    (("RUN", "LOG", "--holdout", "1"), 3, "--holdout must be 2 or more, for every n-th scan, or 0, got 1"),
+    (("RUN", "LOG", "--picture", "scores.txt"), 3, "end its name in one of .png, .pdf, .svg"),
+    (("RUN", "LOG", "--holdout", "4", "--device", "tpu:7"), 3, "device: 'tpu:7' is not on this machine"),
+    (("RUN",), 2, "give LOG, whose held-out scans score the run"),
+])  # fmt: skip
 def test_what_it_refuses(office, heldout_run, arguments, code, message):
     names = {"RUN": heldout_run[0], "LOG": office}
     result = call("score", *(names.get(a, a) for a in arguments))

@@ -117,19 +117,16 @@ def test_a_trajectory_without_a_map_gets_one(raw):
     assert found["relations"]["translation_m_mean"] < 1e-4
 
 
-@pytest.mark.parametrize(
-    ("arguments", "code", "message"),
-    [
-        (["office.log"], 2, "a log by itself; give --trajectory"),
-        (["office-truth.yaml"], 2, "give the LOG whose scans score"),
-        (["run/run.nc"], 2, "give LOG, whose held-out scans score the run, or --relations"),
-        (["run/run.nc", "--frame", "base"], 2, "--frame says whose --relations are known"),
-        (["office-truth.yaml", "office.log", "--trajectory-frame", "base"], 2, "give both"),
-        (["office-truth.yaml", "office.log", "--trajectory", "late.tum"], 3, "are both of one clock?"),
-        (["office-truth.yaml", "office.log", "--holdout", "0"], 3, "leaves nothing to score"),
-        (["run/run.nc", "--relations", "office.log"], 3, "line"),
-    ],
-)
+@pytest.mark.parametrize(("arguments", "code", "message"), [
+    (["office.log"], 2, "a log by itself; give --trajectory"),
+    (["office-truth.yaml"], 2, "give the LOG whose scans score"),
+    (["run/run.nc"], 2, "give LOG, whose held-out scans score the run, or --relations"),
+    (["run/run.nc", "--frame", "base"], 2, "--frame says whose --relations are known"),
+    (["office-truth.yaml", "office.log", "--trajectory-frame", "base"], 2, "give both"),
+    (["office-truth.yaml", "office.log", "--trajectory", "late.tum"], 3, "are both of one clock?"),
+    (["office-truth.yaml", "office.log", "--holdout", "0"], 3, "leaves nothing to score"),
+    (["run/run.nc", "--relations", "office.log"], 3, "line"),
+])  # fmt: skip
 def test_what_cannot_be_scored(raw, raw_run, arguments, code, message):
     scans = read_log(raw / "office.log")
     write_trajectory(raw / "late.tum", scans.poses, scans.stamps_s + 1e6)

@@ -83,14 +83,10 @@ def test_a_recording_holds_scans_odometry_and_the_place_of_the_laser(tmp_path):
     assert np.abs(drift[-1]).max() > 0.01
 
 
-@pytest.mark.parametrize(
-    ("line", "message"),
-    [
-        ("--format carmen -o a.mcap", "ends differently"),
-        ("--format mcap -o a.log", "ends differently"),
-        ("--minutes 1 -o a.log", "--world building"),
-    ],
-)
+@pytest.mark.parametrize(("line", "message"), [
+    ("--format carmen -o a.mcap", "ends differently"), ("--format mcap -o a.log", "ends differently"),
+    ("--minutes 1 -o a.log", "--world building"),
+])  # fmt: skip
 def test_a_recording_that_cannot_be_made_is_refused(tmp_path, monkeypatch, line, message):
     monkeypatch.chdir(tmp_path)
     assert message in refusal_of("simulate", line, code=3 if "minutes" in line else 2)

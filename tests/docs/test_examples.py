@@ -145,18 +145,15 @@ def test_what_examples_ask_of_the_library_is_there():
     assert [f"{name(path)}, {what}" for path, text in sources.items() for what in misused(text)] == []
 
 
-@pytest.mark.parametrize(
-    ("text", "what"),
-    [
-        ("import bayesmap as bm\nbm.infre(1)", ["line 2: bayesmap has no infre"]),
-        ("import bayesmap as bm\nbm.infer(1, drawz=3)", ["line 2: infer takes no drawz"]),
-        ("from bayesmap import gem", ["line 1: bayesmap has no gem"]),
-        ("from bayesmap import gen\ngen.nrmal(0.0, 1.0)", ["line 2: bayesmap.gen has no nrmal"]),
-        ("import bayesmap as bm\nbm.Grid.covring(3)\nbm.Grid((3, 3), 0.1, origin=(0, 0))", []),
-        ("import bayesmap as bm\nbm.Grid((3, 3), 0.1, orign=(0, 0))", ["line 2: Grid takes no orign"]),
-        ("import numpy as np\nnp.arnge(3)\nx.nothing(y=2)", []),
-    ],
-)
+@pytest.mark.parametrize(("text", "what"), [
+    ("import bayesmap as bm\nbm.infre(1)", ["line 2: bayesmap has no infre"]),
+    ("import bayesmap as bm\nbm.infer(1, drawz=3)", ["line 2: infer takes no drawz"]),
+    ("from bayesmap import gem", ["line 1: bayesmap has no gem"]),
+    ("from bayesmap import gen\ngen.nrmal(0.0, 1.0)", ["line 2: bayesmap.gen has no nrmal"]),
+    ("import bayesmap as bm\nbm.Grid.covring(3)\nbm.Grid((3, 3), 0.1, origin=(0, 0))", []),
+    ("import bayesmap as bm\nbm.Grid((3, 3), 0.1, orign=(0, 0))", ["line 2: Grid takes no orign"]),
+    ("import numpy as np\nnp.arnge(3)\nx.nothing(y=2)", []),
+])  # fmt: skip
 def test_what_the_library_lacks_is_noticed(text, what):
     assert misused(text) == what
 
@@ -249,13 +246,10 @@ def test_examples_are_found_with_their_lines_and_marks():
     ]  # fmt: skip
 
 
-@pytest.mark.parametrize(
-    ("mark", "below"),
-    [
-        *((mark, "```python\nx = 1\n```") for mark in ("example: not run", "example needs a.log", "example: needs")),
-        ("example: needs a.log", "Text."),
-    ],
-)
+@pytest.mark.parametrize(("mark", "below"), [
+    *((mark, "```python\nx = 1\n```") for mark in ("example: not run", "example needs a.log", "example: needs")),
+    ("example: needs a.log", "Text."),
+])  # fmt: skip
 def test_a_mark_that_says_nothing_or_stands_above_nothing_is_refused(mark, below):
     with pytest.raises(ValueError, match="line 1"):
         python_examples(f"<!-- {mark} -->\n{below}\n")

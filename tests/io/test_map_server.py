@@ -157,8 +157,7 @@ def test_a_bad_yaml_is_refused_with_the_reason(tmp_path, text, says):
 @pytest.mark.parametrize(("change", "says"), [
     ({"occupancy": np.full((2, 3), 1.5)}, r"occupancy\[0, 0\] is 1.5"),
     ({"occupancy": np.zeros((3, 2))}, "occupancy has shape"), ({"observed": np.ones((3, 2))}, "observed has shape"),
-    ({"mode": "fuzzy"}, "mode 'fuzzy' is not known"),
-    ({"occupied_thresh": 0.1}, "free_thresh < occupied_thresh"),
+    ({"mode": "fuzzy"}, "mode 'fuzzy' is not known"), ({"occupied_thresh": 0.1}, "free_thresh < occupied_thresh"),
     ({"path_yaml": "map.png"}, r"must end in \.yaml"),
 ])  # fmt: skip
 def test_a_map_that_cannot_be_written_leaves_no_file(tmp_path, change, says):

@@ -177,11 +177,10 @@ def test_a_table_that_a_spreadsheet_saved(tmp_path, delimiter, decimal):
     equal(read_log(written(tmp_path / "scans.csv", spreadsheet(scans, delimiter, decimal))), scans)
 
 
-@pytest.mark.parametrize(
-    "line",
-    ["# angles: -1.5 -0.25 1", "# angles: -1.5,-0.25,1", '"# angles: -1.5, -0.25, 1",,', "# angles: -1,5 -0,25 1,0",
-     "# angles: -1,5;-0,25;1,0;;"],
-)  # fmt: skip
+@pytest.mark.parametrize("line", [
+    "# angles: -1.5 -0.25 1", "# angles: -1.5,-0.25,1", '"# angles: -1.5, -0.25, 1",,',
+    "# angles: -1,5 -0,25 1,0", "# angles: -1,5;-0,25;1,0;;",
+])  # fmt: skip
 def test_angles_with_decimal_points_or_commas(tmp_path, line):
     for text, angles in ((line, [-1.5, -0.25, 1.0]), ("# angles: -1,0,1", [-1.0, 0.0, 1.0])):
         path = written(tmp_path / "scans.csv", text + "\nx;y;yaw;r_0;r_1;r_2\n0;0;0;1;2;3\n")
