@@ -164,6 +164,7 @@ def _put(value: Any, index: Any, n: int) -> Any:
 
 
 def _check_leading(value: Any, shape: tuple[int, ...]) -> None:
+    """Raise ShapeMismatch unless the leading axes of `value` are `shape`."""
     if jnp.shape(value)[: len(shape)] != shape:
         raise ShapeMismatch((), f"found {jnp.shape(value)}, expected {shape} for the leading axes")
 

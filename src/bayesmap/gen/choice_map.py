@@ -69,10 +69,7 @@ def components(address: Any) -> tuple[Any, ...]:
 
 
 class Builder:
-    """Builder of choice maps: `C["x", 0].set(v)`, `C.v(value)`, `C.d({...})`, `C.kw(...)` and `C.n()`.
-
-    `d`, `kw`, `from_mapping` and `switch` set, at the address, the map that `ChoiceMap`'s method of that name returns.
-    """
+    """Builder of choice maps: `C["x", 0].set(v)`, `C.v(value)`, `C.d({...})`, `C.kw(...)` and `C.n()`."""
 
     def __init__(self, base: "ChoiceMap | None", address: tuple[Any, ...]) -> None:
         # The map to change, None for the empty map, and the address at which a value is set.
@@ -106,15 +103,19 @@ class Builder:
         return ChoiceMap.empty()
 
     def d(self, mapping: dict[Any, Any]) -> "ChoiceMap":
+        """Return the base map with `ChoiceMap.d(mapping)` at the address."""
         return self.set(ChoiceMap.d(mapping))
 
     def kw(self, **values: Any) -> "ChoiceMap":
+        """Return the base map with `ChoiceMap.kw(**values)` at the address."""
         return self.set(ChoiceMap.kw(**values))
 
     def from_mapping(self, pairs: Iterable[tuple[Any, Any]]) -> "ChoiceMap":
+        """Return the base map with `ChoiceMap.from_mapping(pairs)` at the address."""
         return self.set(ChoiceMap.from_mapping(pairs))
 
     def switch(self, idx: Any, chms: Iterable["ChoiceMap"]) -> "ChoiceMap":
+        """Return the base map with `ChoiceMap.switch(idx, chms)` at the address."""
         return self.set(ChoiceMap.switch(idx, chms))
 
 
@@ -124,29 +125,104 @@ def _elements(tree: Any, index: Any) -> Any:
 
 
 class ChoiceMap(Outlined, Pytree):
-    """Base of choice maps. `ChoiceMapBuilder`, conventionally called `C`, makes them."""
+    """Base of choice maps. `ChoiceMapBuilder`, conventionally called `C`, makes them.
 
-    # Methods that each kind of node implements, with `outline` ------------------------------------
+    Five kinds of nodes derive from it: `Choice`, `Static`, `Indexed`, `Or` and `Switch`.
+    """
+
+    # Operations with a rule for each kind of node -------------------------------------------------
 
     def get_value(self) -> Any:
         """Return the value at the empty address, or None. It is a Mask if its presence is decided at run time."""
+        match self:
+            case Choice(value):
+                return value
+            case Switch(_, maps):
+                values = [chm.get_value() for chm in maps]
+                masks = [Mask.build(value) for value in values if value is not None]
+                return Mask.or_n(*masks) if masks else None
         return None
 
     def get_inner_map(self, component: Any) -> "ChoiceMap":
         """Return the submap one address component down."""
-        raise NotImplementedError
+        by_name = isinstance(component, str)
+        match self:
+            case Static(mapping) if by_name:
+                return mapping.get(component, Static({}))
+            case Static(mapping):
+                return Static({name: chm.get_inner_map(component) for name, chm in mapping.items()})
+            case Choice(value) if not by_name:
+                return Choice(_elements(value, component))
+            case Indexed(chm, index) if not by_name:
+                return _element_at(chm, index, component)
+            case Or(left, right):
+                return left.get_inner_map(component) | right.get_inner_map(component)
+            case Switch(idx, maps):
+                below = tuple(chm.get_inner_map(component) for chm in maps)
+                idx = idx if by_name or jnp.ndim(idx) == 0 else idx[component]
+                return Static({}) if all(chm.static_is_empty() for chm in below) else Switch(idx, below)
+        return Static({})
 
     def filter(self, selection: Any) -> "ChoiceMap":
         """Return the part whose addresses are selected. A flag selects everything or nothing."""
-        raise NotImplementedError
+        by_address = isinstance(selection, Selection)
+        match self:
+            case Choice() if by_address:
+                return self if selection.check() else Static({})
+            case Choice(value):
+                return ChoiceMap.choice(Mask.build(value, selection))
+            case Static(mapping):
+                below = {name: selection(name) if by_address else selection for name in mapping}
+                return Static.build({name: chm.filter(below[name]) for name, chm in mapping.items()})
+            case Indexed(chm, index):
+                return chm.filter(selection).extend(index)
+            case Or(left, right):
+                return left.filter(selection) | right.filter(selection)
+            case Switch(idx, maps):
+                return Switch(idx, tuple(chm.filter(selection) for chm in maps))
+        raise TypeError(f"{type(self).__name__} is no choice map")
 
     def paths(self) -> Iterator[tuple[Any, ...]]:
         """Yield the address of every value, without the indices of the elements of arrays."""
-        raise NotImplementedError
+        match self:
+            case Choice():
+                yield ()
+            case Static(mapping):
+                yield from ((name, *path) for name, chm in mapping.items() for path in chm.paths())
+            case Indexed(chm, index):
+                yield from ((index, *path) for path in chm.paths())
+            case Or(left, right):
+                yield from (path for chm in (left, right) for path in chm.paths())
+            case Switch(_, maps):
+                yield from dict.fromkeys(path for chm in maps for path in chm.paths())
 
     def static_is_empty(self) -> bool:
         """Return whether the map is known to be empty for all values of its arrays."""
+        match self:
+            case Static(mapping):
+                return not mapping
+            case Switch(_, maps):
+                return all(chm.static_is_empty() for chm in maps)
         return False
+
+    def outline(self, label: str = "") -> list[str]:
+        """Return the map as lines, one choice per line. The first begins with `label`."""
+        match self:
+            case Choice(value):
+                return [f"{label or '()'}: {leaf_text(value)}"]
+            case Static(mapping):
+                lines = [line for name, chm in mapping.items() for line in chm.outline(repr(name))] or ["(empty)"]
+                if not label:
+                    return lines
+                return [f"{label}:", *("  " + line for line in lines)] if mapping else [f"{label}: (empty)"]
+            case Indexed(chm, index):
+                return chm.outline(f"{label}[{leaf_text(index)}]")
+            case Or(left, right):
+                return [*left.outline(label), *right.outline(label)]
+            case Switch(idx, maps):
+                lines = ["  " + line for k, chm in enumerate(maps) for line in chm.outline(f"[{k}]")]
+                return [f"{label or 'switch'}: branch {leaf_text(idx)} of", *lines]
+        raise TypeError(f"{type(self).__name__} is no choice map")
 
     # Reading --------------------------------------------------------------------------------------
 
@@ -158,6 +234,7 @@ class ChoiceMap(Outlined, Pytree):
     __call__ = get_submap
 
     def __getitem__(self, address: Any) -> Any:
+        """Return the value at an address; raise ChoiceMapNoValueAtAddress if there is none."""
         value = self.get_submap(address).get_value()
         if value is None:
             raise ChoiceMapNoValueAtAddress(address)
@@ -222,6 +299,7 @@ class ChoiceMap(Outlined, Pytree):
 
     @staticmethod
     def empty() -> "ChoiceMap":
+        """Return the map without choices."""
         return Static({})
 
     @staticmethod
@@ -273,28 +351,14 @@ def _is_array(value: Any) -> bool:
     return hasattr(value, "shape") and hasattr(value, "dtype")
 
 
+# Kinds of nodes ---------------------------------------------------------------------------------------
+
+
 @dataclass
 class Choice(ChoiceMap):
     """A bare value: an array, or a Mask of one."""
 
     v: Any
-
-    def get_value(self) -> Any:
-        return self.v
-
-    def get_inner_map(self, component: Any) -> ChoiceMap:
-        return Static({}) if isinstance(component, str) else Choice(_elements(self.v, component))
-
-    def filter(self, selection: Any) -> ChoiceMap:
-        if isinstance(selection, Selection):
-            return self if selection.check() else Static({})
-        return ChoiceMap.choice(Mask.build(self.v, selection))
-
-    def paths(self) -> Iterator[tuple[Any, ...]]:
-        yield ()
-
-    def outline(self, label: str = "") -> list[str]:
-        return [f"{label or '()'}: {leaf_text(self.v)}"]
 
 
 @dataclass
@@ -307,30 +371,6 @@ class Static(ChoiceMap):
     def build(mapping: dict[str, ChoiceMap]) -> "Static":
         """Return the map without its empty submaps."""
         return Static({name: chm for name, chm in mapping.items() if not chm.static_is_empty()})
-
-    def get_inner_map(self, component: Any) -> ChoiceMap:
-        if isinstance(component, str):
-            return self.mapping.get(component, Static({}))
-        return Static({name: chm.get_inner_map(component) for name, chm in self.mapping.items()})
-
-    def filter(self, selection: Any) -> ChoiceMap:
-        def selection_below(name: str) -> Any:
-            return selection(name) if isinstance(selection, Selection) else selection
-
-        return Static.build({name: chm.filter(selection_below(name)) for name, chm in self.mapping.items()})
-
-    def paths(self) -> Iterator[tuple[Any, ...]]:
-        for name, chm in self.mapping.items():
-            yield from ((name, *path) for path in chm.paths())
-
-    def static_is_empty(self) -> bool:
-        return not self.mapping
-
-    def outline(self, label: str = "") -> list[str]:
-        if not self.mapping:
-            return [f"{label}: (empty)" if label else "(empty)"]
-        below = [line for name, sub in self.mapping.items() for line in sub.outline(repr(name))]
-        return [f"{label}:", *("  " + line for line in below)] if label else below
 
 
 @dataclass
@@ -347,28 +387,6 @@ class Indexed(ChoiceMap):
             raise ValueError("An address can hold one array of indices, and single indices before it")
         return Indexed(chm, addr)
 
-    def get_inner_map(self, component: Any) -> ChoiceMap:
-        if isinstance(component, str):
-            return Static({})
-        if isinstance(component, slice):
-            raise ValueError(
-                f"Slices are not allowed against array-shaped dynamic addresses: only {self.addr} is there"
-            )
-        hits = same_index(self.addr, component)
-        if jnp.ndim(self.addr) == 0:
-            return self.c.filter(hits)
-        first = jnp.argmax(hits)
-        return _elements(self.c, first).filter(jnp.asarray(hits)[first])  # type: ignore[no-any-return]
-
-    def filter(self, selection: Any) -> ChoiceMap:
-        return self.c.filter(selection).extend(self.addr)
-
-    def paths(self) -> Iterator[tuple[Any, ...]]:
-        yield from ((self.addr, *path) for path in self.c.paths())
-
-    def outline(self, label: str = "") -> list[str]:
-        return self.c.outline(f"{label}[{leaf_text(self.addr)}]")
-
 
 @dataclass
 class Or(ChoiceMap):
@@ -376,19 +394,6 @@ class Or(ChoiceMap):
 
     c1: ChoiceMap
     c2: ChoiceMap
-
-    def get_inner_map(self, component: Any) -> ChoiceMap:
-        return self.c1.get_inner_map(component) | self.c2.get_inner_map(component)
-
-    def filter(self, selection: Any) -> ChoiceMap:
-        return self.c1.filter(selection) | self.c2.filter(selection)
-
-    def paths(self) -> Iterator[tuple[Any, ...]]:
-        yield from self.c1.paths()
-        yield from self.c2.paths()
-
-    def outline(self, label: str = "") -> list[str]:
-        return [*self.c1.outline(label), *self.c2.outline(label)]
 
 
 @dataclass
@@ -398,28 +403,16 @@ class Switch(ChoiceMap):
     idx: Any
     chms: tuple[ChoiceMap, ...]
 
-    def get_value(self) -> Any:
-        values = [chm.get_value() for chm in self.chms]
-        present = [Mask.build(v) for v in values if v is not None]
-        return Mask.or_n(*present) if present else None
 
-    def get_inner_map(self, component: Any) -> ChoiceMap:
-        idx = self.idx if isinstance(component, str) or jnp.ndim(self.idx) == 0 else self.idx[component]
-        chms = tuple(chm.get_inner_map(component) for chm in self.chms)
-        return Static({}) if all(chm.static_is_empty() for chm in chms) else Switch(idx, chms)
-
-    def filter(self, selection: Any) -> ChoiceMap:
-        return Switch(self.idx, tuple(chm.filter(selection) for chm in self.chms))
-
-    def paths(self) -> Iterator[tuple[Any, ...]]:
-        yield from dict.fromkeys(path for chm in self.chms for path in chm.paths())
-
-    def static_is_empty(self) -> bool:
-        return all(chm.static_is_empty() for chm in self.chms)
-
-    def outline(self, label: str = "") -> list[str]:
-        head = f"{label or 'switch'}: branch {leaf_text(self.idx)} of"
-        return [head, *("  " + line for k, m in enumerate(self.chms) for line in m.outline(f"[{k}]"))]
+def _element_at(chm: ChoiceMap, index: Any, component: Any) -> ChoiceMap:
+    """Return the element `component` of a map at `index`, masked by whether the index holds this element."""
+    if isinstance(component, slice):
+        raise ValueError(f"Slices are not allowed against array-shaped dynamic addresses: only {index} is there")
+    hits = same_index(index, component)
+    if jnp.ndim(index) == 0:
+        return chm.filter(hits)
+    first = jnp.argmax(hits)
+    return _elements(chm, first).filter(jnp.asarray(hits)[first])  # type: ignore[no-any-return]
 
 
 def join(left: ChoiceMap, right: ChoiceMap) -> ChoiceMap:

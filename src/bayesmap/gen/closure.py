@@ -29,6 +29,7 @@ def as_path(address: Any) -> StaticAddress:
 
 
 def _trace_state() -> Any:
+    """Return a value that differs inside each JAX transformation, to find sites in a transformation."""
     return get_opaque_trace_state(convention="flax")  # type: ignore[no-untyped-call]
 
 
@@ -94,6 +95,7 @@ class Outer(GenerativeFunction):
 
 
 def _in_form(args: tuple[Any, ...], kwargs: dict[str, Any]) -> tuple[Any, ...]:
+    """Return arguments in the form of `handle_kwargs` if some are given by name."""
     return (args, kwargs) if kwargs else args
 
 
@@ -111,6 +113,7 @@ class GenerativeFunctionClosure(Outer):
 
     @property
     def inner(self) -> GenerativeFunction:  # type: ignore[override]
+        """The function that is called."""
         return self.gen_fn.handle_kwargs() if self.kwargs else self.gen_fn
 
     def inner_args(self, args: Arguments) -> Arguments:
@@ -120,6 +123,7 @@ class GenerativeFunctionClosure(Outer):
         return inner
 
     def __matmul__(self, address: Any) -> Any:
+        """Visit the site at `address` of the body that runs, and return the value of the call."""
         stack, path = getattr(_local, "stack", []), as_path(address)
         if not stack:
             raise AddressError(path, "`@` is for the body of a @gen function; call the closure with a key instead")

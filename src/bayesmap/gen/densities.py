@@ -102,6 +102,7 @@ def _event(logits: Any = None, probs: Any = None) -> Params:
 
 
 def _chance(p: Any) -> Params:
+    """Return (p, log p, log(1 - p))."""
     p = jnp.asarray(p, jnp.result_type(float))
     return p, jnp.log(p), jnp.log1p(-p)
 
@@ -148,10 +149,12 @@ def _real(draw: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def _failures(key: PRNGKey, p: Any, log_p: Any, log_not_p: Any, shape: tuple[int, ...]) -> Any:
+    """Draw the numbers of failures before the first success."""
     return jr.geometric(key, p, shape) - 1
 
 
 def _counts(value: Any) -> Any:
+    """Return elementwise whether the value is 0, 1, 2, ..."""
     return (value >= 0) & (value == jnp.floor(value))
 
 
@@ -161,22 +164,19 @@ def _masked_to_nonnegative(value: Any, logpdf: Any) -> Any:
 
 
 def _categorical_logpdf(value: Any, logits: Any) -> Any:
-    table = log_softmax(logits)
-    k = table.shape[-1]
-    shape = jnp.broadcast_shapes(jnp.shape(value), table.shape[:-1])
-    table = jnp.broadcast_to(table, (*shape, k))
-    index = jnp.broadcast_to(jnp.clip(value, 0, k - 1), shape).astype(jnp.int32)[..., None]
-    return jnp.where((value >= 0) & (value < k), jnp.take_along_axis(table, index, axis=-1)[..., 0], -jnp.inf)
+    """Return the log probability of each class number; -inf if there is no such class."""
+    log_p = log_softmax(logits)
+    n_classes = log_p.shape[-1]
+    shape = jnp.broadcast_shapes(jnp.shape(value), log_p.shape[:-1])
+    log_p = jnp.broadcast_to(log_p, (*shape, n_classes))
+    index = jnp.broadcast_to(jnp.clip(value, 0, n_classes - 1), shape).astype(jnp.int32)[..., None]
+    in_range = (value >= 0) & (value < n_classes)
+    return jnp.where(in_range, jnp.take_along_axis(log_p, index, axis=-1)[..., 0], -jnp.inf)
 
 
 def _logpdf_on_positive(logpdf: Callable[..., Any]) -> Callable[..., Any]:
     """Return a log density that is -inf, with gradient 0, for values that are not positive."""
     return lambda v, *params: jnp.where(v > 0, logpdf(jnp.where(v > 0, v, 1.0), *params), -jnp.inf)
-
-
-def _weibull_logpdf(v: Any, k: Any, scale: Any) -> Any:
-    z = v / scale
-    return jnp.log(k / scale) + (k - 1) * jnp.log(z) - z**k
 
 
 # Families of JAX --------------------------------------------------------------------------------------
@@ -186,12 +186,10 @@ flip = _named(
 )
 """True with probability `p`."""
 bernoulli = _named(
-    "bernoulli",
-    _bernoulli,
-    lambda key, shape, p, *_: (jr.uniform(key, shape) < p).astype(jnp.int32),
+    "bernoulli", _bernoulli, lambda key, shape, p, *_: (jr.uniform(key, shape) < p).astype(jnp.int32),
     lambda v, p, yes, no: jnp.where(v == 1, yes, jnp.where(v == 0, no, -jnp.inf)),
     support=lambda v: (v == 0) | (v == 1),
-)
+)  # fmt: skip
 """1 with probability `probs`, or log odds `logits`; int32."""
 categorical = _named(
     "categorical", _class_logits, _shaped(lambda key, logits, shape: jr.categorical(key, logits, shape=shape)),
@@ -218,16 +216,12 @@ exponential = _named(
 )  # fmt: skip
 poisson = _named(
     "poisson", "rate", _real(jr.poisson),
-    lambda v, rate: _masked_to_nonnegative(v, xlogy(v, rate) - rate - gammaln(v + 1.0)),
-    support=_counts,
+    lambda v, rate: _masked_to_nonnegative(v, xlogy(v, rate) - rate - gammaln(v + 1.0)), support=_counts,
 )  # fmt: skip
 geometric = _named(
-    "geometric",
-    _event,
-    _real(_failures),
-    lambda v, p, yes, no: _masked_to_nonnegative(v, yes + xlog1py(v, -p)),
+    "geometric", _event, _real(_failures), lambda v, p, yes, no: _masked_to_nonnegative(v, yes + xlog1py(v, -p)),
     support=_counts,
-)
+)  # fmt: skip
 """The number of failures before the first success."""
 binomial = _named(
     "binomial", lambda total_count, logits=None, probs=None: (total_count, *_event(logits, probs)[:1]),
@@ -258,7 +252,7 @@ truncated_normal = _named(
 )  # fmt: skip
 weibull = _named(
     "weibull", "concentration scale", lambda key, shape, k, s: jr.weibull_min(key, s, k, shape),
-    _logpdf_on_positive(_weibull_logpdf),
+    _logpdf_on_positive(lambda v, k, s: jnp.log(k / s) + (k - 1) * jnp.log(v / s) - (v / s) ** k),
 )  # fmt: skip
 chi2 = _named("chi2", "df", lambda key, shape, df: 2.0 * jr.gamma(key, df / 2, shape), st.chi2.logpdf)
 dirichlet = _named(
@@ -270,12 +264,11 @@ mv_normal = _named(
     batch=_event_batch,
 )  # fmt: skip
 mv_normal_diag = _named(
-    "mv_normal_diag",
-    lambda loc, scale_diag=1.0: (loc, scale_diag),
+    "mv_normal_diag", lambda loc, scale_diag=1.0: (loc, scale_diag),
     lambda key, shape, m, s: m + s * jr.normal(key, (*shape, jnp.broadcast_shapes(jnp.shape(m), jnp.shape(s))[-1])),
     lambda v, m, s: jnp.sum(st.norm.logpdf(v, m, s), axis=-1),
     batch=lambda m, s: jnp.broadcast_shapes(jnp.shape(m), jnp.shape(s))[:-1],
-)
+)  # fmt: skip
 
 # Families of TensorFlow Probability -------------------------------------------------------------------
 
@@ -325,6 +318,7 @@ class _ByName:
 
 
 def _tfp(class_name: str) -> TfpDistribution:
+    """Return the distribution of a class of TensorFlow Probability, which is imported when it is first used."""
     return TfpDistribution(_ByName(class_name), class_name)
 
 
@@ -384,9 +378,10 @@ class DiscreteHMMConfiguration(Pytree):
         return self._ring(self.adjacency_distance_obs, self.sigma_obs)
 
     def _ring(self, reach: int, sigma: float) -> Array:
+        """Return the logits of pairs of places on the ring, (n, n)."""
         n = self.linear_grid_dim
-        apart = np.abs(np.arange(n)[:, None] - np.arange(n))
-        distance = np.minimum(apart, n - apart)
+        difference = np.abs(np.arange(n)[:, None] - np.arange(n))
+        distance = np.minimum(difference, n - difference)
         far = -1.0 / sigma if sigma > 0 else -np.inf
         return jnp.asarray(np.where(distance <= reach, float(sigma) ** distance, far), jnp.result_type(float))
 
@@ -420,8 +415,8 @@ def filter_states(config: DiscreteHMMConfiguration, observations: IntArray) -> A
     """Return log p(state t, observations 0 .. t), (T, n), by the forward recursion of Rabiner (1989), equation 20."""
     start, move, emit = _log_probabilities(config)
 
-    def step(alpha: Array, seen: IntArray) -> tuple[Array, Array]:
-        alpha = logsumexp(alpha[:, None] + move, axis=0) + emit[:, seen]
+    def step(alpha: Array, observation: IntArray) -> tuple[Array, Array]:
+        alpha = logsumexp(alpha[:, None] + move, axis=0) + emit[:, observation]
         return alpha, alpha
 
     first = start + emit[:, observations[0]]
@@ -434,9 +429,9 @@ def sample_states(key: PRNGKey, config: DiscreteHMMConfiguration, observations: 
     alphas, move = filter_states(config, observations), _log_probabilities(config)[1]
     keys = jax.random.split(key, len(observations))
 
-    def step(after: IntArray, scanned: Any) -> tuple[IntArray, IntArray]:
+    def step(next_state: IntArray, scanned: Any) -> tuple[IntArray, IntArray]:
         key, alpha = scanned
-        state = jax.random.categorical(key, alpha + move[:, after])
+        state = jax.random.categorical(key, alpha + move[:, next_state])
         return state, state
 
     last = jax.random.categorical(keys[-1], alphas[-1])

@@ -71,7 +71,7 @@ class Trace(Outlined, Pytree):
         raise NotImplementedError
 
     def get_sample(self) -> ChoiceMap:
-        """Return `get_choices()`."""
+        """Return the choices by address: GenJAX's other name of `get_choices`."""
         return self.get_choices()
 
     def get_subtrace(self, *addresses: Any) -> "Trace":
@@ -159,6 +159,8 @@ def decorator_method(combinator: F) -> F:
 
 
 def _lookup(name: str) -> Callable[..., Any]:
+    """Return the method of the combinator that is registered as `name`."""
+
     def call(self: Any, *args: Any, **options: Any) -> Any:
         return _COMBINATORS[name](self, *args, **options)
 

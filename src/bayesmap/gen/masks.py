@@ -4,8 +4,7 @@ A Python bool is known while a program is traced, and decides which addresses a 
 this, even when its value is known: otherwise maps would have one structure inside `jax.jit` and another one outside.
 """
 
-import operator
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import AbstractContextManager, contextmanager
 from contextvars import ContextVar
 from functools import reduce
@@ -31,19 +30,9 @@ def is_known(flag: Any) -> bool:
     return isinstance(flag, bool | np.bool_)
 
 
-def _on_flags(known: Callable[[Any, Any], Any], traced: Callable[[Any, Any], Any]) -> Callable[[Flag, Flag], Flag]:
-    """Return an operation on two flags whose result is a Python bool if both flags are."""
-    return lambda f, g: bool(known(bool(f), bool(g))) if is_known(f) and is_known(g) else traced(f, g)
-
-
-both = _on_flags(operator.and_, jnp.logical_and)
-either = _on_flags(operator.or_, jnp.logical_or)
-exactly_one = _on_flags(operator.xor, jnp.logical_xor)
-
-
-def negation(f: Flag) -> Flag:
-    """Return not f."""
-    return not f if is_known(f) else jnp.logical_not(f)
+def both(f: Flag, g: Flag) -> Flag:
+    """Return whether both flags are True: a Python bool if both flags are known."""
+    return bool(f) and bool(g) if is_known(f) and is_known(g) else jnp.logical_and(f, g)
 
 
 def same_index(a: Any, b: Any) -> Flag:
@@ -67,6 +56,7 @@ _optional: ContextVar[bool] = ContextVar("optional", default=False)
 
 @contextmanager
 def _on(variable: ContextVar[bool]) -> Iterator[None]:
+    """Set a variable to True for the code inside."""
     token = variable.set(True)
     try:
         yield
@@ -161,23 +151,22 @@ class Mask(Pytree):
 
     def __or__(self, other: "Mask") -> "Mask":
         """Return this value where it is present, and the other value elsewhere."""
-        _check_same_shapes(self, other)
-        mine, theirs = self.primal_flag(), other.primal_flag()
+        mine, theirs = _flags_of_alike(self, other)
         if is_known(mine):
             return self if mine else other
-        return Mask(where(mine, self.value, other.value), either(mine, theirs))
+        return Mask(where(mine, self.value, other.value), jnp.logical_or(mine, theirs))
 
     def __xor__(self, other: "Mask") -> "Mask":
         """Return the value that is present, and nothing where both are."""
-        _check_same_shapes(self, other)
-        mine, theirs = self.primal_flag(), other.primal_flag()
+        mine, theirs = _flags_of_alike(self, other)
         if is_known(mine) and is_known(theirs):
             return Mask.build(self if mine else other, mine != theirs)
-        return Mask(where(mine, self.value, other.value), exactly_one(mine, theirs))
+        return Mask(where(mine, self.value, other.value), jnp.logical_xor(mine, theirs))
 
     def __invert__(self) -> "Mask":
         """Return the value with the opposite flag."""
-        return Mask(self.value, negation(self.primal_flag()))
+        flag = self.primal_flag()
+        return Mask(self.value, not flag if is_known(flag) else jnp.logical_not(flag))
 
     @staticmethod
     def or_n(first: "Mask", *others: "Mask") -> "Mask":
@@ -190,12 +179,14 @@ class Mask(Pytree):
         return reduce(lambda a, b: a ^ b, others, first)
 
 
-def _check_same_shapes(a: Mask, b: Mask) -> None:
+def _flags_of_alike(a: Mask, b: Mask) -> tuple[Flag, Flag]:
+    """Return the flags of two masks; raise ValueError unless both have one tree structure and the same shapes."""
     if bool(jax.tree.structure(a.value) != jax.tree.structure(b.value)):  # type: ignore[operator]
         raise ValueError("Cannot combine masks with different tree structures")
     for x, y in zip(jax.tree.leaves((a.value, a.flag)), jax.tree.leaves((b.value, b.flag)), strict=True):
         if jnp.shape(x) != jnp.shape(y):
             raise ValueError(f"Cannot combine masks with different array shapes: {jnp.shape(x)} vs {jnp.shape(y)}")
+    return a.primal_flag(), b.primal_flag()
 
 
 def overlay(first: Mask, second: Mask) -> Mask:

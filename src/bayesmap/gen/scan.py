@@ -150,6 +150,7 @@ def scan(*, n: int | None = None) -> Callable[[GenerativeFunction], Scan]:
     return lambda gen_fn: Scan(gen_fn.as_part(), n)
 
 
+# Functions of the module, and no closures: equal functions make equal traces, so that traces can be compared.
 def _pair(state: Any) -> tuple[Any, Any]:
     return state, state
 

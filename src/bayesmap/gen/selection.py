@@ -14,14 +14,17 @@ class SelectionBuilderType:
 
     @property
     def all(self) -> "Selection":
+        """The selection of every address."""
         return _ALL
 
     @property
     def none(self) -> "Selection":
+        """The selection of no address."""
         return _NONE
 
     @property
     def leaf(self) -> "Selection":
+        """The selection of the empty address alone."""
         return _Leaf()
 
 
@@ -35,11 +38,27 @@ class Selection(Pytree):
 
     def check(self) -> bool:
         """Return whether the empty address is selected."""
-        raise NotImplementedError
+        match self:
+            case _Every(selected):
+                return selected
+            case _Not(inner):
+                return not inner.check()
+            case _Or(left, right):
+                return left.check() or right.check()
+        return isinstance(self, _Leaf)
 
     def get_subselection(self, component: Any) -> "Selection":
         """Return the selection below one component."""
-        raise NotImplementedError
+        match self:
+            case _Every():
+                return self
+            case _At(inner, name) if name is ... or component == name:
+                return inner
+            case _Not(inner):
+                return ~inner.get_subselection(component)
+            case _Or(left, right):
+                return left.get_subselection(component) | right.get_subselection(component)
+        return _NONE
 
     @staticmethod
     def all() -> "Selection":
@@ -58,10 +77,10 @@ class Selection(Pytree):
 
     def extend(self, *address: Any) -> "Selection":
         """Return this selection moved below `address`."""
-        acc = self
+        selection = self
         for component in reversed(address):
-            acc = acc if acc == _NONE else _At(acc, component)
-        return acc
+            selection = selection if selection == _NONE else _At(selection, component)
+        return selection
 
     def complement(self) -> "Selection":
         """Return `~self`."""
@@ -72,12 +91,13 @@ class Selection(Pytree):
         return choices.filter(self)
 
     def __call__(self, address: Any) -> "Selection":
-        acc = self
+        """Return the selection below `address`."""
+        selection = self
         for component in address if isinstance(address, tuple) else (address,):
             if component is ...:
                 raise TypeError("`...` can stand in a selection, but not in an address that is looked up")
-            acc = acc.get_subselection(component)
-        return acc
+            selection = selection.get_subselection(component)
+        return selection
 
     def __getitem__(self, address: Any) -> bool:
         return self(address).check()
@@ -105,58 +125,34 @@ class _Every(Selection):
 
     selected: bool = static()
 
-    def check(self) -> bool:
-        return self.selected
-
-    def get_subselection(self, component: Any) -> Selection:
-        return self
-
-
-_ALL, _NONE = _Every(True), _Every(False)
-
 
 @dataclass
 class _Leaf(Selection):
-    def check(self) -> bool:
-        return True
-
-    def get_subselection(self, component: Any) -> Selection:
-        return _NONE
+    """The empty address alone."""
 
 
 @dataclass
 class _At(Selection):
+    """The addresses that `inner` selects below `component`; `...` stands for any one component."""
+
     inner: Selection
     component: Any = static()
-
-    def check(self) -> bool:
-        return False
-
-    def get_subselection(self, component: Any) -> Selection:
-        return self.inner if self.component is ... or component == self.component else _NONE
 
 
 @dataclass
 class _Not(Selection):
+    """The addresses that `inner` does not select."""
+
     inner: Selection
-
-    def check(self) -> bool:
-        return not self.inner.check()
-
-    def get_subselection(self, component: Any) -> Selection:
-        return ~self.inner.get_subselection(component)
 
 
 @dataclass
 class _Or(Selection):
+    """The addresses that at least one of two selections has."""
+
     left: Selection
     right: Selection
 
-    def check(self) -> bool:
-        return self.left.check() or self.right.check()
 
-    def get_subselection(self, component: Any) -> Selection:
-        return self.left.get_subselection(component) | self.right.get_subselection(component)
-
-
+_ALL, _NONE = _Every(True), _Every(False)
 SelectionBuilder = SelectionBuilderType()

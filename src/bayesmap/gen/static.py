@@ -70,19 +70,22 @@ class StaticTrace(Trace):
         return StaticTrace(gen_fn, args, subtraces, computed, tree, sources)
 
     def get_retval(self) -> Any:
+        """Return the return value, whose leaves come from `computed` and from the sites' traces."""
         computed = iter(self.computed)
         site_leaves = {path: jax.tree.leaves(t.get_retval()) for path, t in self.subtraces.items()}
         leaves = [next(computed) if s is None else site_leaves[s[0]][s[1]] for s in self.sources]
         return self.retval_tree.unflatten(leaves)
 
     def get_score(self) -> Score:
+        """Return the sum of the sites' scores."""
         return sum((t.get_score() for t in self.subtraces.values()), start=jnp.zeros(()))
 
     def get_choices(self) -> ChoiceMap:
-        parts = ((path, t.get_choices()) for path, t in self.subtraces.items())
-        return ChoiceMap.from_mapping(parts)
+        """Return the sites' choices below the sites' addresses."""
+        return ChoiceMap.from_mapping((path, t.get_choices()) for path, t in self.subtraces.items())
 
     def get_inner_trace(self, address: Any) -> Trace:
+        """Return the trace of the site at `address`, with the arguments that the body gave to the site."""
         path = as_path(address)
         _require_sites([path], list(self.subtraces))
         if self.args is None:
@@ -121,6 +124,7 @@ class _Run(Handler):
         return StaticTrace.build(gen_fn, args, retval, self.traces), jnp.asarray(self.weight, jnp.result_type(float))
 
     def visit(self, path: StaticAddress, gen_fn: Any, args: Arguments) -> Any:
+        """Trace the site, and return its value."""
         with _errors_below(path):
             trace, weight = self.trace_site(path, gen_fn, args, jax.random.fold_in(self.key, len(self.visited)))
         self.weight += weight
@@ -137,6 +141,7 @@ class _Assess(Handler):
         self.score: Score = jnp.zeros(())
 
     def visit(self, path: StaticAddress, gen_fn: Any, args: Arguments) -> Any:
+        """Score the site's choices, and return its value."""
         with _errors_below(path):
             score, retval = gen_fn.assess(self.choices(path), args)
         self.score += score
@@ -214,18 +219,18 @@ def _edit_by_rescoring(key: PRNGKey, old: Trace, gen_fn: Any, request: EditReque
     choices = old.get_choices()
     match request:
         case Update(constraint):
-            given, removed = constraint | choices, old.get_score()
+            new_constraint, removed_score = constraint | choices, old.get_score()
         case EmptyRequest():
-            given, removed = choices, old.get_score()
+            new_constraint, removed_score = choices, old.get_score()
         case Regenerate(selection):
-            given, removed = choices.filter(~selection), old.project(key, ~selection)
+            new_constraint, removed_score = choices.filter(~selection), old.project(key, ~selection)
         case _:
             trace, weight, _, _ = _edit_by_rescoring(key, old, gen_fn, EmptyRequest(), args)
             trace, edit_weight, retdiff, backward = request.edit(key, trace, Diff.no_change(args))
             return trace, weight + edit_weight, Diff.unknown_change(Diff.tree_primal(retdiff)), backward
-    trace, weight = gen_fn.generate(key, given, args)
+    trace, weight = gen_fn.generate(key, new_constraint, args)
     trace = in_dtypes_of(old, trace.with_args(None)).with_args(args)
-    return trace, weight - removed, Diff.unknown_change(trace.get_retval()), Update(choices)
+    return trace, weight - removed_score, Diff.unknown_change(trace.get_retval()), Update(choices)
 
 
 @contextmanager
@@ -283,9 +288,11 @@ class StaticGenerativeFunction(GenerativeFunction):
         return self.replace(by_name=True)
 
     def __get__(self, instance: Any, owner: Any = None) -> "StaticGenerativeFunction":
+        """Return the method of `instance`, as a plain Python function in a class does."""
         return self if instance is None else self.partial_apply(instance)
 
     def __reduce__(self) -> Any:
+        """Pickle the source by its name; the source of a local function is pickled as it is."""
         # The source's name in its module now stands for this object, so pickle finds the source through this object.
         if "<" in self.source.__qualname__:
             return StaticGenerativeFunction, (self.partial_args, self.source, self.by_name)
@@ -293,15 +300,18 @@ class StaticGenerativeFunction(GenerativeFunction):
         return _unpickle, (*where, self.partial_args, self.by_name)
 
     def simulate(self, key: PRNGKey, args: Arguments) -> StaticTrace:
+        """Run the body, and simulate each site."""
         return _Run(key, lambda path, gen_fn, args, key: (gen_fn.simulate(key, args), 0.0)).run(self, args)[0]
 
     def generate(self, key: PRNGKey, constraint: ChoiceMap, args: Arguments) -> tuple[StaticTrace, Weight]:
+        """Run the body, and generate each site with the part of the constraint at its address."""
         handler = _Run(key, lambda path, gen_fn, args, key: gen_fn.generate(key, constraint(path), args))
         outcome = handler.run(self, args)
         _require_reachable(constraint.paths(), handler.visited)
         return outcome
 
     def assess(self, choices: ChoiceMap, args: Arguments) -> tuple[Score, Any]:
+        """Run the body, and assess each site on the choices at its address."""
         handler = _Assess(choices)
         with running(handler):
             retval = self.call(args)
@@ -309,12 +319,13 @@ class StaticGenerativeFunction(GenerativeFunction):
         return handler.score, retval
 
     def project(self, key: PRNGKey, trace: Any, selection: Selection) -> Weight:
+        """Return the sum of the sites' projections."""
         parts = [t.project(key, selection(path)) for path, t in trace.subtraces.items()]
         return sum(parts, start=jnp.zeros(()))
 
     def edit(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
+        """Run the body on the new arguments, and edit each site on the way."""
         request_at = _requests_at_sites(request, self, list(trace.subtraces))
-        # Run the body on the new arguments, and edit each site on the way.
         handler = _Edit(key, trace, request_at, argdiffs)
         new, weight = handler.run(self, Diff.tree_primal(argdiffs))
         return new, weight, handler.with_known_changes(new.get_retval()), _backward_request(request, handler.backward)

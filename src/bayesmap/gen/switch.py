@@ -265,6 +265,7 @@ def switch(*gen_fns: GenerativeFunction) -> Switch:
 
 
 def _branch_of(flag: Any, if_args: Any, else_args: Any) -> tuple[Any, ...]:
+    """Return the arguments of a switch: branch 0 if the flag is True, else branch 1."""
     return jnp.where(flag, 0, 1), if_args, else_args
 
 

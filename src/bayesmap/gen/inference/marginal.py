@@ -52,10 +52,7 @@ class Marginal(SampleDistribution):
 
         Importance sampling would draw the open choice, and it needs exact densities of the choices that it draws.
         """
-        shown = self.gen_fn.choice_shapes(args)
-        missing = [path for path in shown.filter(self.selection).paths() if not constraint.get_selection()[path]]
-        if missing:
-            raise BadArguments(f"Target: a marginal needs values for all of its choices; missing: {missing}")
+        _require_all(self.gen_fn.choice_shapes(args).filter(self.selection), constraint)
 
     def _importance_sample(self, key: PRNGKey, shown: ChoiceMap, args: Arguments, n: int) -> tuple[Trace, Any]:
         """Return `n` runs that agree with `shown`, and their log weights, (n,)."""
@@ -92,9 +89,7 @@ class Marginal(SampleDistribution):
             trace, _ = self.gen_fn.generate(key, constraint, args)
             score = self.algorithm.estimate_normalizing_constant(key, Target(self.gen_fn, args, constraint))
         shown = trace.get_choices().filter(self.selection)
-        missing = shown.filter(~constraint.get_selection())
-        if not missing.static_is_empty():
-            raise NotImplementedError(f"a marginal needs all its choices or none; missing: {list(missing.paths())}")
+        _require_all(shown, constraint)
         return MarginalTrace(self, args, shown, trace.get_retval(), score), score
 
     def assess(self, choices: ChoiceMap, args: Arguments) -> tuple[Score, Any]:
@@ -124,6 +119,14 @@ class Marginal(SampleDistribution):
         if not trace.choices.filter(~selection).static_is_empty():
             raise NotImplementedError("a marginal's score cannot be split among its choices")
         return trace.score  # type: ignore[no-any-return]
+
+
+def _require_all(shown: ChoiceMap, constraint: ChoiceMap) -> None:
+    """Raise BadArguments if a choice in `shown` has no value in `constraint`."""
+    given = constraint.get_selection()
+    missing = [path for path in shown.paths() if not given[path]]
+    if missing:
+        raise BadArguments(f"a marginal needs values for all of its choices; missing: {missing}")
 
 
 @decorator_method

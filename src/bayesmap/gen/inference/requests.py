@@ -86,6 +86,7 @@ class HMC(EditRequest):
 
 
 def _kinetic(momentum: Any) -> Any:
+    """Return the kinetic energy of momenta with unit mass."""
     return sum(0.5 * jnp.sum(p**2) for p in jax.tree.leaves(momentum))
 
 
@@ -100,6 +101,7 @@ def SafeHMC(selection: Selection, eps: Any, L: int = 10) -> DiffAnnotate:
 
 
 def _unchanged(retdiff: Any) -> Any:
+    """Return `retdiff`; raise BadArguments unless all of it is marked unchanged."""
     if not Diff.static_check_no_change(retdiff):
         raise BadArguments("SafeHMC: the return value depends on a selected choice")
     return retdiff
