@@ -100,11 +100,14 @@ def agreement(name: str, posterior: Posterior) -> Iterator[Figure]:
     summary = bm.Run(posterior).summary()
     likelihood = f"of the log likelihood {summary.rhat_log_likelihood:.3f}"
     yield Figure(f"{name}/rhat_log_joint", summary.rhat_log_joint, "", against=likelihood)
-    judged = max(found.judged, 1)
+    judged = max(found.judged_cells, 1)
     yield Figure(
-        f"{name}/rhat_high", 100 * found.high / judged, "%", against=f"of {judged}; worst {found.rhat_max:.2f}"
+        f"{name}/rhat_high",
+        100 * found.rhat_high_cells / judged,
+        "%",
+        against=f"of {judged}; worst {found.rhat_max:.2f}",
     )
-    yield Figure(f"{name}/ess_low", 100 * found.low / judged, "%", against=f"least {found.ess_min:.0f}")
+    yield Figure(f"{name}/ess_low", 100 * found.ess_low_cells / judged, "%", against=f"least {found.ess_min:.0f}")
     traces = posterior.prior.traces(posterior.draws, np.flatnonzero(posterior.observed.ravel())).astype(float)
     of_chain = traces.mean(axis=1)
     walls = of_chain.mean(axis=0) > 0.2

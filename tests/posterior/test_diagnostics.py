@@ -88,13 +88,13 @@ def test_the_worst_cell_is_the_one_that_arviz_finds(seed, chains, draws, monkeyp
     if chains > 1:
         assert found.rhat_max == pytest.approx(np.nanmax(rhats), rel=1e-9)
     assert found.ess_min == pytest.approx(np.nanmin(sizes), rel=1e-9)
-    assert found.low == (np.array(sizes) < summary.ESS_LIMIT).sum()
-    assert found.judged == len(sizes) + found.disagreeing
+    assert found.ess_low_cells == (np.array(sizes) < summary.ESS_LIMIT).sum()
+    assert found.judged_cells == len(sizes) + found.disagreeing_cells
     constant = ~within
     same = (flat == flat[:1, :1]).all(axis=(0, 1))
-    assert found.unchanged == same.sum() >= 2
-    assert found.disagreeing == (constant & ~same).sum()
-    assert found.disagreeing >= (chains > 1)
+    assert found.unchanged_cells == same.sum() >= 2
+    assert found.disagreeing_cells == (constant & ~same).sum()
+    assert found.disagreeing_cells >= (chains > 1)
 
 
 def test_cells_can_be_left_out_and_one_chain_is_compared_with_itself():
@@ -124,7 +124,7 @@ def test_too_few_draws_and_constant_maps_have_no_diagnostics():
         numbers = [found.rhat_max, found.ess_min, rhat(values), bulk_ess(values), tail_ess(values)]
         assert np.isnan(numbers).all()
     found = diagnose(np.ones((3, 50, 4, 4), dtype=bool))
-    assert (found.unchanged, found.disagreeing) == (16, 0)
+    assert (found.unchanged_cells, found.disagreeing_cells) == (16, 0)
     assert np.isnan(found.rhat_max)
 
 

@@ -162,12 +162,12 @@ def residuals(noise, seed, count=COUNT):
 
 def fitted(found):
     noise = FIRST
-    for _ in fits.SHAPES:
+    for _ in fits.DOFS:
         noise = fits.refit_noise(noise, found, 1.0)
     return noise
 
 
-@pytest.mark.parametrize("dof", fits.SHAPES)
+@pytest.mark.parametrize("dof", fits.DOFS)
 def test_shape_scale_and_growth_are_found(dof):
     truth = bm.Gaussian(0.01, 0.003) if dof == math.inf else bm.StudentT(0.01, dof, 0.003)
     found = [fitted(residuals(truth, seed)) for seed in range(6)]

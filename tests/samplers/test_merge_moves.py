@@ -52,7 +52,7 @@ def noise_of(owner):
 def test_moments_are_those_of_the_readings_that_a_surface_stopped():
     cells, owner, points = wall()
     points[0] = [1.0, 0.85]  # far from the surface that stopped it: a passing object, or chance
-    found = moves.readings_of(cells, owner, points, noise_of(owner), GRID)
+    found = moves.explained_readings(cells, owner, points, noise_of(owner), GRID)
     for x, which in ((3, slice(1, 3)), (4, slice(3, 13)), (5, slice(13, 21))):
         mine, at = points[which], flat(x, 5)
         assert found.count[at] == len(mine)
@@ -62,7 +62,7 @@ def test_moments_are_those_of_the_readings_that_a_surface_stopped():
         assert found.noise[at] == pytest.approx(NOISE_M**2)
         for angle in (0.0, 0.7):
             u = np.array([np.cos(angle), np.sin(angle)])
-            assert moves.variance_in(found.moments[[at]], u[None])[0] == pytest.approx(u @ covariance @ u)
+            assert moves.variance_along(found.moments[[at]], u[None])[0] == pytest.approx(u @ covariance @ u)
     assert found.count.sum() == 20
 
 
@@ -71,8 +71,8 @@ def test_the_readings_of_the_fewer_go_to_the_neighbour_whose_axis_they_lie_on():
     cells[flat(4, 6)] = surface(4, 6, angle=np.pi / 2)  # next to them, too, but they lie beside its axis
     owner = np.append(owner, [flat(4, 6)] * 11).astype(np.int32)
     points = np.vstack([points, np.column_stack([np.full(11, 0.45), np.linspace(0.6, 0.7, 11)])])
-    found = moves.readings_of(cells, owner, points, noise_of(owner), GRID)
-    few, by, off = moves.best_neighbours(cells, found, moves.axes_of(cells), GRID)
+    found = moves.explained_readings(cells, owner, points, noise_of(owner), GRID)
+    few, by, off = moves.best_neighbours(cells, found, moves.surface_axes(cells), GRID)
     assert dict(zip(few.tolist(), by.tolist(), strict=True))[flat(3, 5)] in (flat(4, 5), flat(5, 5))
     assert dict(zip(few.tolist(), by.tolist(), strict=True))[flat(5, 5)] == flat(4, 5)
     assert flat(4, 6) not in by
@@ -83,8 +83,8 @@ def test_of_a_pair_only_one_gives_way_and_none_that_stops_many_or_whose_readings
     cells, owner, points = wall(((3, 5), (4, 5), (7, moves.MAX_READINGS + 1), (8, moves.MAX_READINGS + 2)))
     for angle, pairs in ((0.0, [[flat(3, 5), flat(4, 5)]]), (1.0, np.zeros((0, 2)))):
         cells[flat(4, 5)] = surface(4, 5, angle)
-        found = moves.readings_of(cells, owner, points, noise_of(owner), GRID)
-        few, by, _ = moves.best_neighbours(cells, found, moves.axes_of(cells), GRID)
+        found = moves.explained_readings(cells, owner, points, noise_of(owner), GRID)
+        few, by, _ = moves.best_neighbours(cells, found, moves.surface_axes(cells), GRID)
         np.testing.assert_array_equal(np.stack([few, by], -1), pairs)
 
 
@@ -92,9 +92,9 @@ def test_of_a_pair_only_one_gives_way_and_none_that_stops_many_or_whose_readings
 def test_a_lengthened_surface_keeps_its_line_and_its_square_and_reaches_the_readings(angle):
     cells, owner, points = wall()
     cells[flat(4, 5)] = surface(4, 5, angle)
-    found, axes = moves.readings_of(cells, owner, points, noise_of(owner), GRID), moves.axes_of(cells)
+    found, axes = moves.explained_readings(cells, owner, points, noise_of(owner), GRID), moves.surface_axes(cells)
     few, by = np.array([flat(3, 5)]), np.array([flat(4, 5)])
-    x, y, l11, l21, l22 = moves.lengthened(cells, found, axes, few, by, GRID)[0]
+    x, y, l11, l21, l22 = moves.lengthen(cells, found, axes, few, by, GRID)[0]
     assert abs(np.array([x - 0.45, y - 0.55])).max() <= 0.05
     off = -np.sin(angle) * (x - 0.45) + np.cos(angle) * (y - 0.55)
     assert off == pytest.approx(0, abs=1e-7)
@@ -152,8 +152,8 @@ def test_a_surface_that_took_one_in_takes_no_other_from_what_it_was_before():
 def lengthened_by(cells, owner, points, x):
     """What the surface in the middle becomes when it takes in that of column x."""
     new = moves.merge_moves(cells, np.zeros(GRID.n_cells, dtype=bool), owner, points, noise_of(owner), GRID)
-    (at,) = np.flatnonzero(new.where[:, 0] == flat(x, 5))
-    assert new.where[at, 1] == flat(5, 5)
+    (at,) = np.flatnonzero(new.index[:, 0] == flat(x, 5))
+    assert new.index[at, 1] == flat(5, 5)
     return new.cells[at, 1]
 
 
@@ -307,7 +307,7 @@ def test_what_gains_stays_and_what_does_not_is_taken_back():
 @pytest.mark.parametrize("cells", [1, 4])
 def test_places_that_are_tried_together_lie_apart_and_the_others_next_to_one_before_them(cells):
     places = np.random.default_rng(2).permutation(np.argwhere(np.ones(SHAPE, dtype=bool)))[:80]
-    chosen = moves.apart(places, cells, SHAPE)
+    chosen = moves.select_apart(places, cells, SHAPE)
     distance = abs(places[:, None] - places).max(axis=-1)
     for i in range(len(places)):
         earlier = distance[i, :i][chosen[:i]]

@@ -138,7 +138,7 @@ def test_warm_up_brings_the_acceptance_to_where_it_is_wanted():
     sampler, cells = sampler_of(scans, walls, UncertainPoses(0.1, 0.1))
     sampler = replace(sampler, factor=50 * sampler.factor)
     many = 200
-    state = sampler.init(np.broadcast_to(scans.poses, (many, 3, 3)), np.arange(many), 0)
+    state = PoseState(np.broadcast_to(scans.poses, (many, 3, 3)), np.zeros((many, 3)), np.arange(many), 0)
     cells = np.repeat(cells, many, axis=0)
     for step in range(200):
         state, _ = sampler.step(state, cells, adaptation_rate=(step + 1.0) ** -0.6)
@@ -153,7 +153,7 @@ def test_an_empty_hall_returns_the_prior():
     scans = bm.Scans(poses, [0.0, 1.0], np.full((200, 2), np.inf), max_range_m=3.0, min_range_m=0.1)
     prior = UncertainPoses(0.2, 0.1)
     sampler, cells = sampler_of(scans, empty, prior)
-    state = sampler.init(poses[None], np.arange(1), 1)
+    state = PoseState(poses[None], np.zeros((1, len(poses))), np.arange(1), 1)
     total, count = np.zeros(3), 0
     for _ in range(40):
         state, _ = sampler.step(state, cells, 20)

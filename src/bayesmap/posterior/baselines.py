@@ -1,18 +1,10 @@
 """Maps of other mappers as predictions, each with the best sensor for it: hit ratios, log-odds, and external maps.
 
-Hit ratios and log-odds come from two counts: the beams that stopped in a cell, and the beams that passed it. Each
-becomes a map of stop probabilities, and predicts readings by the formula of a posterior
-(`bayesmap.kernels.predict.density`).
-
-A plug-in map has no sensor model, so one is fitted to it, together with the hit depth and the baseline's own
-parameters. A fit on the scans that were counted would reward over-confidence. So there is an inner hold-out: every
-tenth of the training scans is left out of the counts and predicted. This is repeated with other tenths until there are
-`BEAMS_WANTED` beams. Scans of the final score are not used. Parameters have bounds, and the search is L-BFGS-B on their
-logarithms or logits, from several starts.
-
-An external map, made by another program, gives for each cell the probability that it is occupied, or that it is
-unknown. It does not say what that means for a beam. So the stop probabilities of cells called occupied (probability 1),
-free (0) and unknown are fitted along with the sensor; between the first two they follow the logit.
+docs/scoring.md explains the maps and their fits. A map of stop probabilities comes from counts of the beams that
+stopped in each cell and passed it, or from another program. It predicts readings by the formula of a posterior
+(`bayesmap.kernels.predict.density`). Its sensor, its hit depth and its own parameters maximise the score of training
+scans that are left out of the counts (`bayesmap.posterior.heldout.make_folds`). The search is L-BFGS-B on logarithms or
+logits, from several starts.
 """
 
 from __future__ import annotations
@@ -39,10 +31,10 @@ Values = dict[str, float]
 
 LAST_CLIMB = 8.0  # time of the last climb, which uses the full score, relative to a rough climb, for progress
 STEP = 2e-3  # step of the numeric gradient, in logarithms or logits: above the noise of stops in single precision
-GRADIENTS, MOST_STEPS = 20, 100  # usual number of gradients per climb, for progress, and most steps
-
-ROUGH, FINE = 1e-4, 1e-6
-"""Relative gain in score at which a climb ends: from each start, and then from the best of the results."""
+USUAL_GRADIENTS = 20  # per climb, for progress
+MOST_STEPS = 100  # per climb
+ROUGH = 1e-4  # relative gain in score at which the climb from each start ends
+FINE = 1e-6  # relative gain at which the last climb ends, from the best of these results
 
 
 @dataclass(frozen=True)
@@ -59,9 +51,9 @@ class Parameter:
         value = min(max(value, self.low), self.high)
         return math.log(value) - (math.log1p(-value) if self.share else 0.0)
 
-    def outer(self, moved: float) -> float:
+    def outer(self, inner: float) -> float:
         """Return the parameter from the number that the search moves."""
-        return 1.0 / (1.0 + math.exp(-moved)) if self.share else math.exp(moved)
+        return 1.0 / (1.0 + math.exp(-inner)) if self.share else math.exp(inner)
 
 
 SENSOR = (
@@ -92,7 +84,7 @@ def maximise(
     def climb(
         target: Callable[[Values], float], start: Mapping[str, float], tolerance: float, on_share: OnShare
     ) -> tuple[Values, float]:
-        usual, calls = GRADIENTS * (len(parameters) + 1), 0
+        usual, calls = USUAL_GRADIENTS * (len(parameters) + 1), 0
 
         def descend(point: NDArray[np.float64]) -> float:
             nonlocal calls
@@ -108,17 +100,17 @@ def maximise(
         on_share(1.0)
         return values_at(result.x), -float(result.fun)
 
-    *low, last = parts(on_progress, *(1.0 for _ in starts), LAST_CLIMB)
-    rough = [climb(rough_score, start, ROUGH, on_share) for start, on_share in zip(starts, low, strict=True)]
-    return climb(score, max(rough, key=lambda result: result[1])[0], FINE, last)
+    *rough_shares, on_last_share = parts(on_progress, *(1.0 for _ in starts), LAST_CLIMB)
+    rough = [climb(rough_score, start, ROUGH, on_share) for start, on_share in zip(starts, rough_shares, strict=True)]
+    return climb(score, max(rough, key=lambda result: result[1])[0], FINE, on_last_share)
 
 
-P_HIT, P_MISS = 0.7, 0.4
-P_LEAST, P_MOST = 0.1192, 0.971
-"""OctoMap's defaults: probabilities of a cell after a hit and after a miss, and bounds of a cell's probability."""
+# OctoMap's defaults:
+P_HIT = 0.7  # probability of a cell after a hit
+P_MISS = 0.4  # probability of a cell after a miss
+P_BOUNDS = (0.1192, 0.971)  # bounds of a cell's probability
 
-NOISES: tuple[float | None, ...] = (None, 4.0)
-"""Degrees of freedom of the noises that are tried: None for normal noise, and Student-t noise with heavy tails."""
+NOISE_DOFS: tuple[float | None, ...] = (None, 4.0)  # degrees of freedom of the noises that are tried; None for normal
 
 
 def hit_ratio(hits: Floats, passes: Floats, values: Mapping[str, float]) -> Floats:
@@ -130,8 +122,8 @@ def hit_ratio(hits: Floats, passes: Floats, values: Mapping[str, float]) -> Floa
 def log_odds(hits: Floats, passes: Floats, values: Mapping[str, float]) -> Floats:
     """Add logit p_hit for every hit and logit p_miss for every pass to logit p_start. Returns probabilities."""
     logit = {name: np.log(values[name]) - np.log1p(-values[name]) for name in ("p_hit", "p_miss", "p_start")}
-    total = logit["p_start"] + hits * logit["p_hit"] + passes * logit["p_miss"]
-    return np.asarray(1.0 / (1.0 + np.exp(-np.clip(total, -500.0, 500.0))))
+    summed = logit["p_start"] + hits * logit["p_hit"] + passes * logit["p_miss"]
+    return np.asarray(1.0 / (1.0 + np.exp(-np.clip(summed, -500.0, 500.0))))
 
 
 def log_odds_as_usual(hits: Floats, passes: Floats, values: Mapping[str, float]) -> Floats:
@@ -141,7 +133,7 @@ def log_odds_as_usual(hits: Floats, passes: Floats, values: Mapping[str, float])
 
 def log_odds_clamped(hits: Floats, passes: Floats, values: Mapping[str, float]) -> Floats:
     """Clamp `log_odds_as_usual` to OctoMap's interval, once and not after every update."""
-    return np.clip(log_odds_as_usual(hits, passes, values), P_LEAST, P_MOST)
+    return np.clip(log_odds_as_usual(hits, passes, values), *P_BOUNDS)
 
 
 @dataclass(frozen=True)
@@ -166,18 +158,16 @@ BASELINES = (
         "hit ratio", hit_ratio, (Parameter("a", 1e-5, 100.0), Parameter("b", 1e-5, 100.0)), ({"a": 0.1, "b": 0.5},)
     ),
     Baseline(
-        "log-odds, tuned",
-        log_odds,
+        "log-odds, tuned", log_odds,
         (
-            Parameter("p_hit", 0.5001, 1 - 1e-6, share=True),
-            Parameter("p_miss", 1e-6, 0.4999, share=True),
+            Parameter("p_hit", 0.5001, 1 - 1e-6, share=True), Parameter("p_miss", 1e-6, 0.4999, share=True),
             Parameter("p_start", 1e-4, 0.9, share=True),
         ),
         ({"p_hit": 0.7, "p_miss": 0.4, "p_start": 0.3}, {"p_hit": 0.6, "p_miss": 0.48, "p_start": 0.1}),
     ),
     Baseline("log-odds", log_odds_as_usual),
     Baseline("log-odds, clamped", log_odds_clamped),
-)
+)  # fmt: skip
 """The rows of the table. OctoMap's own numbers are the last row's."""
 
 
@@ -210,19 +200,19 @@ def fit_baseline(
     folds = make_folds(train, grid) if folds is None else folds
     default = default_sensor(grid.resolution)
     assert hasattr(default.noise, "sigma_m")
-    sensible = {
+    usual = {
         "scale_m": default.noise.sigma_m, "scale_per_m": 0.005, "p_random": default.p_random,
         "p_no_return": default.p_no_return, "p_short": default.p_short,
         "rate_short_per_m": default.rate_short_per_m, "hit_depth": HIT_DEPTH,
     }  # fmt: skip
-    wary = sensible | {"p_random": 0.3, "p_short": 0.5, "rate_short_per_m": 0.1}
-    starts = [sensor | dict(own) for own in baseline.starts for sensor in (sensible, wary)]
-    rough = [folds[0].thinned()] if len(folds[0].scans) >= 2 * THIN else folds[: -(-len(folds) // THIN)]
-    whole, part = together(folds), together(rough)
+    many_outliers = usual | {"p_random": 0.3, "p_short": 0.5, "rate_short_per_m": 0.1}
+    starts = [sensor | dict(own) for own in baseline.starts for sensor in (usual, many_outliers)]
+    rough = [folds[0].thinned()] if len(folds[0].scans) >= 2 * THIN else folds[: math.ceil(len(folds) / THIN)]
+    all_beams, rough_beams = together(folds), together(rough)
     fits: list[tuple[float, Values, float | None]] = []
-    climbs = [len(starts) + LAST_CLIMB] + [1 + LAST_CLIMB] * (len(NOISES) - 1)
-    for dof, on_share in zip(NOISES, parts(on_progress, *climbs), strict=True):
-        scores = partial(inner_score, whole, baseline, dof), partial(inner_score, part, baseline, dof)
+    climbs = [len(starts) + LAST_CLIMB] + [1 + LAST_CLIMB] * (len(NOISE_DOFS) - 1)
+    for dof, on_share in zip(NOISE_DOFS, parts(on_progress, *climbs), strict=True):
+        scores = partial(inner_score, all_beams, baseline, dof), partial(inner_score, rough_beams, baseline, dof)
         values, score = maximise(*scores, (*SENSOR, *baseline.own), starts, on_share)
         fits.append((score, values, dof))
         # Heavy tails start from the fit of normal noise: the other parameters change little.
@@ -235,10 +225,9 @@ def fit_baseline(
 
 
 EXTERNAL = (
-    Parameter("stop_occupied", 1e-3, 1 - 1e-6, share=True),
-    Parameter("stop_free", 1e-7, 0.5, share=True),
+    Parameter("stop_occupied", 1e-3, 1 - 1e-6, share=True), Parameter("stop_free", 1e-7, 0.5, share=True),
     Parameter("stop_unknown", 1e-7, 1 - 1e-3, share=True),
-)
+)  # fmt: skip
 EXTERNAL_STARTS = (
     {"stop_occupied": 0.9, "stop_free": 1e-3, "stop_unknown": 0.05},
     {"stop_occupied": 0.5, "stop_free": 0.01, "stop_unknown": 0.01},
@@ -249,17 +238,16 @@ def stop_probabilities(occupancy: Floats, values: Mapping[str, float]) -> Floats
     """Return the chance that a beam stops in each cell, from its occupancy, NaN where unknown; same shape."""
     ends = np.array([values["stop_free"], values["stop_occupied"]])
     low, high = np.log(ends) - np.log1p(-ends)
-    known = 1.0 / (1.0 + np.exp(-(low + (high - low) * np.nan_to_num(occupancy))))
-    return np.where(np.isnan(occupancy), values["stop_unknown"], known)
+    between = 1.0 / (1.0 + np.exp(-(low + (high - low) * np.nan_to_num(occupancy))))
+    return np.where(np.isnan(occupancy), values["stop_unknown"], between)
 
 
 def fit_external_map(name: str, occupancy: Floats, grid: Grid, train: Scans, on_progress: OnShare = ignored) -> Fitted:
     """Fit a sensor to an external map, and the stop probabilities of its occupied, free and unknown cells.
 
-    ``occupancy`` is the probability that each cell is occupied, (nx, ny), NaN where unknown. ``train`` are scans that
-    are not scored, at their poses in the map's frame.
-
-    Raises `BadInput` for shapes that do not fit, probabilities outside [0, 1], or scans that do not touch the map.
+    ``occupancy`` is the probability that each cell is occupied, (nx, ny), NaN where unknown. ``train`` holds scans that
+    are not scored, at poses in the map's frame. Raises `BadInput` if ``occupancy`` has another shape than the grid or
+    values outside [0, 1], or if no pose lies on the map.
     """
     values = np.asarray(occupancy, dtype=np.float64)
     if values.shape != grid.shape or (np.abs(np.nan_to_num(values, nan=0.5) - 0.5) > 0.5).any():

@@ -1,9 +1,9 @@
 """Decisions from a posterior: whether a path is free, which route to take, where to look next.
 
 `bayesmap.posterior.route` has the algorithms for paths. `expected_information` bounds the mutual information of a whole
-scan with the map from both sides, by joint draws: a scan is simulated in a draw and weighted in all of them.
-`beam_information` is the formula of FSMI for independent cells and beams. It is fast enough for thousands of poses. But
-it counts shared information of beams twice, and a cell that is known to stop half of the beams counts as unknown.
+scan with the map from both sides, by joint draws. `beam_information` is the formula of FSMI for independent cells and
+beams: fast enough for thousands of poses, but it counts shared information of beams twice. docs/decisions.md compares
+them.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
 from functools import partial
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -33,8 +33,7 @@ if TYPE_CHECKING:
     from bayesmap.sensors.model import SensorModel
 
 
-MIN_STOP_PROBABILITY = 1e-4
-"""Least distance of a stop probability from 0 and 1: a finite number of draws is no more precise."""
+MIN_STOP_PROBABILITY = 1e-4  # least distance of stop probabilities from 0 and 1: draws are no more precise
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,11 +83,10 @@ def expected_information(
 
     are at most, and at least, the information, on average over draws (Foster et al., "A unified stochastic gradient
     approach to designing Bayesian-optimal experiments", AISTATS 2020). The first is never over log D. The second is far
-    too large if every draw explains only its own scan. But beams are independent given the map. So a scan's information
-    is at most the sum over its beams, each by the second line. The smaller of the two values is the upper bound.
+    too large if every draw explains only its own scan. But beams are independent given the map, so the sum over beams
+    of the second line is an upper bound, too. The smaller of the two upper bounds is returned.
 
-    Draws are compared within each chain. Chains that have not mixed differ where the posterior does not, such as in
-    which of two cells a wall stands, and a scan would tell nearly all of them apart.
+    Draws are compared within each chain: chains that have not mixed differ where the posterior does not.
 
     ``cells`` holds the draws of the map, equally many of each chain, chain by chain: (D, N) stop probabilities or
     (D, N, 6) surfaces, as `bayesmap.cells.kind.CellPrior.stops`. Poses are in the world frame, (P, 3).
@@ -107,36 +105,37 @@ def expected_information(
     draw_index = np.arange(n_draws)
     # Pairs of draws of one chain.
     scan = np.repeat(draw_index, draws_per_chain)
-    other = np.tile(draw_index.reshape(chains, 1, draws_per_chain), (1, draws_per_chain, 1)).ravel()
+    other_draw = np.tile(draw_index.reshape(chains, 1, draws_per_chain), (1, draws_per_chain, 1)).ravel()
     bounds = np.empty((4, len(poses_world)))  # lower bound and its error, upper bound and its error
     limits = fan.limits
     # For each pose, simulate a scan in every draw, and weight each scan in every draw of its chain.
     for i, pose in enumerate(poses_world):
-        at = np.broadcast_to(pose, (n_draws, 3))
-        readings = draw_readings(maps, fan, at, draw_index, (seed, i, STREAM_VIEWS))
-        likelihood = ScanLikelihood(
-            Scans(at, fan.angles_rad, readings, limits.max_m, limits.min_m), grid, fan.sensor, hit_depth, device
-        )
-        weighed = likelihood.beams(maps, np.broadcast_to(pose, (len(scan), 3)), scan, other)
-        bounds[:, i] = _bounds(weighed.reshape(chains, draws_per_chain, draws_per_chain, -1))
+        poses_of_draws = np.broadcast_to(pose, (n_draws, 3))
+        readings = draw_readings(maps, fan, poses_of_draws, draw_index, (seed, i, STREAM_VIEWS))
+        scans = Scans(poses_of_draws, fan.angles_rad, readings, limits.max_m, limits.min_m)
+        likelihood = ScanLikelihood(scans, grid, fan.sensor, hit_depth, device)
+        log_p = likelihood.beams(maps, np.broadcast_to(pose, (len(scan), 3)), scan, other_draw)
+        bounds[:, i] = _bounds(log_p.reshape(chains, draws_per_chain, draws_per_chain, -1))
         on_progress((i + 1) / len(poses_world))
     return InformationGain(bounds[0], bounds[1], bounds[2], bounds[3], n_draws)
 
 
-def _bounds(weighed: Floats) -> tuple[float, float, float, float]:
+def _bounds(beam_log_p: Floats) -> tuple[float, float, float, float]:
     """Return both bounds with their errors, given log p(beam b of draw d's scan | draw e of chain c), (c, d, e, b)."""
-    chains, draws = weighed.shape[:2]
+    chains, draws = beam_log_p.shape[:2]
     draw_index = np.arange(draws)
-    others = np.where(np.eye(draws, dtype=bool), -np.inf, 0.0)
-    whole = weighed.sum(axis=3)
-    own = whole[:, draw_index, draw_index]
+    without_own = np.where(np.eye(draws, dtype=bool), -np.inf, 0.0)
+    scan_log_p = beam_log_p.sum(axis=3)
+    own_log_p = scan_log_p[:, draw_index, draw_index]
 
     def left_out(log_p: Floats) -> Floats:
-        hidden = log_p + others.reshape(draws, draws, *(1,) * (log_p.ndim - 3))
-        return np.asarray(special.logsumexp(hidden, axis=2) - math.log(draws - 1))
+        others = log_p + without_own.reshape(draws, draws, *(1,) * (log_p.ndim - 3))
+        return np.asarray(special.logsumexp(others, axis=2) - math.log(draws - 1))
 
-    lower = own - (special.logsumexp(whole, axis=2) - math.log(draws))
-    uppers = (own - left_out(whole), (weighed[:, draw_index, draw_index] - left_out(weighed)).sum(axis=2))
+    lower = own_log_p - (special.logsumexp(scan_log_p, axis=2) - math.log(draws))
+    by_scan = own_log_p - left_out(scan_log_p)
+    by_beam = (beam_log_p[:, draw_index, draw_index] - left_out(beam_log_p)).sum(axis=2)
+    uppers = (by_scan, by_beam)
     upper = min(uppers, key=lambda gains: float(gains.mean()))
     root = math.sqrt(chains * draws)
     return lower.mean(), lower.std(ddof=1) / root, upper.mean(), upper.std(ddof=1) / root
@@ -149,8 +148,8 @@ def beam_information(
     """Return the sum of FSMI over a scan's beams: their information about a map of independent cells, nats, (P,).
 
     ``occupied`` is the probability that each cell stops a beam, (nx, ny), and ``sigma_m`` the standard deviation of
-    readings. A reading is right with probability p = ``p_right``: it multiplies the odds of the cell in which it falls
-    by p / (1 - p), and those of the cells before it by (1 - p) / p.
+    readings. A reading is right with probability p = ``p_right``. It multiplies the odds of the cell in which it falls
+    by p / (1 - p), and the odds of each cell before it by (1 - p) / p.
     """
     from bayesmap.kernels.predict.view import independent_information
 
@@ -175,15 +174,12 @@ def best_views(nats: Floats, poses: Floats, count: int, apart_m: float) -> NDArr
     return np.array(best, dtype=np.intp)
 
 
-SEARCH_DRAWS = 60  # Number of draws that propose paths. All draws then judge each path.
-
-INFORMATION_PAIRS = 2500
-"""Default number of pairs of draws that are compared: 25 draws of each of four chains, or 50 independent draws."""
-
+SEARCH_DRAWS = 60  # draws that propose paths; all draws then judge each path
+INFORMATION_PAIRS = 2500  # default number of compared pairs: 25 draws of each of four chains, or 50 independent draws
 REACHABLE = 0.5  # least probability that the disc touches nothing at the position of a view
-
-HEADINGS, FULL_CIRCLE_RAD = 8, np.radians(350.0)
-"""Number of headings that are tried at each position, and field of view from which one heading is enough."""
+HEADINGS = 8  # headings that are tried at each position
+FULL_CIRCLE_RAD = np.radians(350.0)  # field of view from which one heading is enough
+MIN_SEPARATION = 0.05  # least distance of two views, as a share of the map's diagonal
 
 
 class Drawn(Protocol):
@@ -201,15 +197,15 @@ class Drawn(Protocol):
 def path_is_free(posterior: Drawn, path: ArrayLike, radius_m: float) -> routes.FreeProbability:
     """Compute the probability that a disc can move along a path (`bayesmap.posterior.route`).
 
-    Raises `BadInput` for no draws, no path, a path that leaves the map, or a radius that is not positive.
+    Raises `BadInput` if there are no draws, no path, or a radius that is not positive, or if the path leaves the map.
     """
     _need_draws(posterior, "free_probability")
     corners, grid = routes.checked_path(path), posterior.draws.grid
     _need_radius(radius_m)
     inside = ((corners >= np.array(grid.extent_m[::2])) & (corners <= np.array(grid.extent_m[1::2]))).all(axis=1)
     if not inside.all():
-        first = int(np.argmin(inside))
-        raise BadInput(f"path: point {first}, {corners[first].tolist()}, lies outside the map, {grid.extent_words()}")
+        i = int(np.argmin(inside))
+        raise BadInput(f"path: point {i}, {corners[i].tolist()}, lies outside the map, {grid.extent_words()}")
     cells = routes.cells_about(corners, radius_m, grid)
     batches = posterior.prior.drawn_stops(posterior.draws, cells)
     return routes.free_probability(routes.in_the_way(batches, cells, grid, corners, radius_m), posterior.draws.chains)
@@ -220,8 +216,7 @@ def shortest_safe_path(
 ) -> routes.Route:
     """Find the shortest path of a disc whose risk stays under a bound (`bayesmap.posterior.route`).
 
-    Raises `BadInput` for no draws; start or goal outside the map, or blocked; no path between them; a radius that is
-    not positive, or a risk outside (0, 1).
+    Raises `BadInput` as `routes.plan_route`, and if there are no draws, or the radius is not positive.
     """
     _need_draws(posterior, "plan")
     _need_radius(radius_m)
@@ -250,40 +245,41 @@ def information_of(
     if draws is not None and draws < 2:
         raise BadInput(f"information_gain: draws must be 2 or more, got {draws!r}")
     fan = Fan.of("information_gain", posterior, angles_rad, max_range_m, sensor)
-    where = asked_poses("information_gain", poses)
+    poses_world = asked_poses("information_gain", poses)
     chains = posterior.draws.chains if posterior.has_chains and posterior.draws.count > 1 else 1
-    each = int((INFORMATION_PAIRS / chains) ** 0.5) if draws is None else max(2, draws // chains)
-    thinned = posterior.draws.thinned(each * posterior.draws.chains if chains > 1 else each)
+    draws_per_chain = int((INFORMATION_PAIRS / chains) ** 0.5) if draws is None else max(2, draws // chains)
+    thinned = posterior.draws.thinned(draws_per_chain * chains)
     joint = expected_information(
-        np.concatenate(list(posterior.prior.drawn_stops(thinned))), posterior.grid, fan, where,
+        np.concatenate(list(posterior.prior.drawn_stops(thinned))), posterior.grid, fan, poses_world,
         hit_depth=float(posterior.settings["hit_depth"]), chains=chains, seed=seed, device=device,
         on_progress=on_progress,
     )  # fmt: skip
-    return replace(joint, independent=independent_information(posterior, where, fan, device))
+    return replace(joint, independent=independent_information(posterior, poses_world, fan, device))
 
 
 def independent_information(posterior: Posterior, poses: Floats, fan: Fan, device: str = "cpu") -> Floats:
     """Compute the formula for independent cells and beams, nats, (P,): its mean over the mean maps of the chains.
 
-    A cell that is a wall in one chain and free in another counts as known: chains that have not mixed differ, and a
-    scan tells nothing about that.
+    A cell that is a wall in one chain and free in another counts as known, because no scan tells why chains differ.
     """
-    sigma_m, draws = typical_sigma_m(fan.sensor, fan.limits.max_m), posterior.draws
+    draws, max_range_m = posterior.draws, fan.limits.max_m
     maps = [posterior.occupancy]
     if posterior.has_chains and draws.chains > 1:
         maps = [posterior.prior.mean_map(draws.of_chain(chain)) for chain in range(draws.chains)]
-    how: dict[str, Any] = {"max_range_m": fan.limits.max_m, "sigma_m": sigma_m, "device": device}
-    nats = [beam_information(occupied, posterior.grid, poses, fan.angles_rad, **how) for occupied in maps]
-    return np.asarray(np.mean(nats, axis=0))
+    information = partial(
+        beam_information, grid=posterior.grid, poses=poses, angles_rad=fan.angles_rad, max_range_m=max_range_m,
+        sigma_m=typical_sigma_m(fan.sensor, max_range_m), device=device,
+    )  # fmt: skip
+    return np.asarray(np.mean([information(occupied) for occupied in maps], axis=0))
 
 
 def typical_sigma_m(sensor: SensorModel, max_range_m: float) -> float:
     """Return a robust standard deviation of hits at a quarter of the largest range: half the middle 68 % of 4000, m."""
     from bayesmap.sensors.model import RangeLimits
 
-    at_m = 0.25 * max_range_m
-    drawn = sensor.sample(np.random.default_rng(0), np.full(4000, at_m), RangeLimits(0.0, max_range_m))
-    low, high = np.quantile(drawn[np.isfinite(drawn)], [0.16, 0.84])
+    distance_m = np.full(4000, 0.25 * max_range_m)
+    readings_m = sensor.sample(np.random.default_rng(0), distance_m, RangeLimits(0.0, max_range_m))
+    low, high = np.quantile(readings_m[np.isfinite(readings_m)], [0.16, 0.84])
     return float(max(0.5 * (high - low), 1e-3))
 
 
@@ -303,11 +299,10 @@ def next_views(
 ) -> Views:  # fmt: skip
     """Find the most informative poses among candidates that a robot can reach.
 
-    Candidates lie where a disc is free with probability `REACHABLE`, and a path over such positions connects them with
-    the robot's last position. The fast formula ranks all. Joint draws then compare twice as many as needed of the best,
-    apart from each other.
+    Candidates lie where a disc is free with probability `REACHABLE`, and free cells connect them with the robot's last
+    position. The fast formula ranks all candidates. Joint draws then compare the best, twice as many as ``views``.
 
-    Raises `BadInput` for no draws, counts below 1, or no such place.
+    Raises `BadInput` if there are no draws or no candidates, or if a count is below 1.
     """
     _need_draws(posterior, "explore")
     _need_radius(radius_m)
@@ -317,25 +312,23 @@ def next_views(
     search, weigh = parts(on_progress, 1.0, 2.0)
     fan = Fan.of("explore", posterior, None, None, None)
     # Rank candidates with all headings by the fast formula, and keep each one's best heading.
-    poses = _spread(posterior, blocked_anywhere(posterior, radius_m, search), candidates, seed)
+    poses = _draw_candidates(posterior, blocked_anywhere(posterior, radius_m, search), candidates, seed)
     headings = _headings(fan.angles_rad)
-    every = np.repeat(poses, len(headings), axis=0)
-    every[:, 2] += np.tile(headings, len(poses))
-    nats = independent_information(posterior, every, fan).reshape(len(poses), -1)
-    turn = nats.argmax(axis=1)
-    poses[:, 2] += headings[turn]
-    nats = nats[np.arange(len(poses)), turn]
-    # Compare the best by joint draws. They are apart by at least 5 % of the map's diagonal.
-    apart_m = 0.05 * float(np.hypot(*np.array(posterior.grid.shape))) * posterior.grid.resolution
-    few = best_views(nats, poses, 2 * views, apart_m)
-    expected = information_of(posterior, poses[few], draws=draws, seed=seed, on_progress=weigh)
+    turned = np.repeat(poses, len(headings), axis=0)
+    turned[:, 2] += np.tile(headings, len(poses))
+    nats = independent_information(posterior, turned, fan).reshape(len(poses), -1)
+    poses[:, 2] += headings[nats.argmax(axis=1)]
+    nats = nats.max(axis=1)
+    # Compare the best by joint draws.
+    apart_m = MIN_SEPARATION * float(np.hypot(*np.array(posterior.grid.shape))) * posterior.grid.resolution
+    compared = best_views(nats, poses, 2 * views, apart_m)
+    expected = information_of(posterior, poses[compared], draws=draws, seed=seed, on_progress=weigh)
     order = np.argsort(-expected.at_most, kind="stable")[:views]
-
     arrays = {f.name: getattr(expected, f.name)[order] for f in fields(expected) if f.name != "draws"}
-    return Views(poses, nats, few[order], replace(expected, **arrays))
+    return Views(poses, nats, compared[order], replace(expected, **arrays))
 
 
-def _spread(posterior: Posterior, blocked: Floats, count: int, seed: int) -> Floats:
+def _draw_candidates(posterior: Posterior, blocked: Floats, count: int, seed: int) -> Floats:
     """Draw at most ``count`` poses at random cells that the robot can reach, with yaw 0, (P, 3)."""
     from scipy import ndimage
 
@@ -350,8 +343,8 @@ def _spread(posterior: Posterior, blocked: Floats, count: int, seed: int) -> Flo
     nearest = cells[np.hypot(*(centres[tuple(cells.T)] - [x, y]).T).argmin()]
     reachable = np.argwhere(labels == labels[tuple(nearest)])
     rng = np.random.default_rng([seed, 6])
-    chosen = reachable[rng.permutation(len(reachable))[:count]]
-    return np.column_stack([centres[tuple(chosen.T)], np.zeros(len(chosen))])
+    selected = reachable[rng.permutation(len(reachable))[:count]]
+    return np.column_stack([centres[tuple(selected.T)], np.zeros(len(selected))])
 
 
 def _headings(angles_rad: Floats) -> Floats:
@@ -360,11 +353,13 @@ def _headings(angles_rad: Floats) -> Floats:
     return np.arange(count) / count * 2 * np.pi
 
 
-def _need_draws(posterior: Drawn, who: str) -> None:
+def _need_draws(posterior: Drawn, asked_by: str) -> None:
+    """Raise `BadInput` if there are no draws."""
     if posterior.draws.size == 0:
-        raise BadInput(f"{who}: the run has no draws; resume it, or take a method that draws maps")
+        raise BadInput(f"{asked_by}: the run has no draws; resume it, or take a method that draws maps")
 
 
 def _need_radius(radius_m: float) -> None:
+    """Raise `BadInput` unless the radius is positive."""
     if not 0 < radius_m < np.inf:
         raise BadInput(f"radius: must be a positive number of metres, got {radius_m!r}")

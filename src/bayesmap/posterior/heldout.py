@@ -47,32 +47,33 @@ def _thinned_from(train: Scans, scans: Scans) -> bool:
 def _matched(train: Scans, scans: Scans) -> NDArray[np.intp]:
     """Return the index of the run's scan that equals each scan, -1 if none, (S,)."""
     shared = train.own_angles_rad is None and scans.own_angles_rad is None
-    if shared and not _alike(train.angles_rad, scans.angles_rad):
+    if shared and not _equal_angles(train.angles_rad, scans.angles_rad):
         return np.full(len(scans), -1)
     stamped = train.stamps_s is not None and scans.stamps_s is not None
     # Match by fingerprints; then compare the angles of beams if scans have their own.
-    number_of = {name: i for i, name in enumerate(_fingerprints(train, stamped))}
-    match = np.array([number_of.get(name, -1) for name in _fingerprints(scans, stamped)], dtype=np.intp)
+    index_of = {fingerprint: i for i, fingerprint in enumerate(_fingerprints(train, stamped))}
+    match = np.array([index_of.get(fingerprint, -1) for fingerprint in _fingerprints(scans, stamped)], dtype=np.intp)
     if not shared:
         for scan in np.flatnonzero(match >= 0):
-            if not _alike(train.beams_of(int(match[scan]))[0], scans.beams_of(int(scan))[0]):
+            if not _equal_angles(train.beams_of(int(match[scan]))[0], scans.beams_of(int(scan))[0]):
                 match[scan] = -1
     return match
 
 
-def _alike(first: NDArray[np.float64], second: NDArray[np.float64]) -> bool:
-    return first.shape == second.shape and np.allclose(first, second)
+def _equal_angles(first_rad: Floats, second_rad: Floats) -> bool:
+    """Return whether two scans have as many beams, at the same angles up to rounding."""
+    return first_rad.shape == second_rad.shape and np.allclose(first_rad, second_rad)
 
 
 def _fingerprints(scans: Scans, stamped: bool) -> list[bytes]:
     """Return each scan's stamp and readings as bytes; with the pose if there is no stamp or no hit."""
-    names = []
+    fingerprints = []
     for i in range(len(scans)):
         ranges = scans.beams_of(i)[1]
-        at = scans.stamps_s[i] if stamped and scans.stamps_s is not None else scans.poses[i]
+        stamp = scans.stamps_s[i] if stamped and scans.stamps_s is not None else scans.poses[i]
         pose = b"" if np.isfinite(ranges).any() else scans.poses[i].tobytes()
-        names.append(at.tobytes() + pose + ranges.tobytes())
-    return names
+        fingerprints.append(stamp.tobytes() + pose + ranges.tobytes())
+    return fingerprints
 
 
 def unseen_scans(train: Scans, scans: Scans, every: int, where: str) -> Scans:
@@ -112,20 +113,16 @@ def unseen_scans(train: Scans, scans: Scans, every: int, where: str) -> Scans:
             f"{where}: the run was made without holding scans out, so there is none to score it on; make one with "
             f"bayesmap infer --holdout {every}"
         )
-    fitting = [n for n in range(2, MOST_EVERY) if (~seen == (np.arange(len(scans)) % n == n // 2)).all()]
-    hint = f"it was made with --holdout {fitting[0]}" if fitting else "other scans were held out"
+    periods = [n for n in range(2, MOST_EVERY) if (~seen == (np.arange(len(scans)) % n == n // 2)).all()]
+    hint = f"it was made with --holdout {periods[0]}" if periods else "other scans were held out"
     raise BadInput(
         f"{where}: with --holdout {every} the run has seen {(mask & seen).sum():,} of the {mask.sum():,} scans that "
         f"would score it; {hint}"
     )
 
 
-FOLDS = 10
-"""Each fold leaves out every tenth scan, as the protocol itself does: inner and outer counts are nearly as dense."""
-
-BEAMS_WANTED = 20_000
-"""Number of valid beams for a fit. With a dozen parameters, over-fitting costs about 6 / 20 000 nats per beam."""
-
+FOLDS = 10  # each fold leaves out every tenth scan, as the protocol does: inner and outer counts are as dense
+FIT_BEAMS = 20_000  # valid beams for a fit: a dozen parameters over-fit by about 6 / 20 000 nats per beam
 THIN = 4  # a rough search uses every fourth scan of a fold, or every fourth fold
 PAST_READING_M = 3.0  # distance past a reading to which a beam is traced for fitting: its density is flat there
 
@@ -139,36 +136,37 @@ class Fold:
     scans: Scans
     rays: Rays
 
+    @classmethod
+    def of(cls, hits: Floats, passes: Floats, scans: Scans, grid: Grid) -> Fold:
+        """Trace the fold's beams, as far as their density varies."""
+        from bayesmap.kernels.rays import trace_rays
+
+        reach = np.where(np.isfinite(scans.ranges_m), scans.ranges_m + PAST_READING_M, scans.max_range_m).ravel()
+        return cls(hits, passes, scans, trace_rays(scans, grid, reach_m=reach))
+
     def thinned(self) -> Fold:
         """Return the fold with every `THIN`-th of its scans, for a rough search. The counts stay."""
-        return _fold(self.hits, self.passes, self.scans.select(slice(None, None, THIN)), self.rays.grid)
-
-
-def _fold(hits: Floats, passes: Floats, scans: Scans, grid: Grid) -> Fold:
-    from bayesmap.kernels.rays import trace_rays
-
-    reach = np.where(np.isfinite(scans.ranges_m), scans.ranges_m + PAST_READING_M, scans.max_range_m).ravel()
-    return Fold(hits, passes, scans, trace_rays(scans, grid, reach_m=reach))
+        return Fold.of(self.hits, self.passes, self.scans.select(slice(None, None, THIN)), self.rays.grid)
 
 
 def make_folds(train: Scans, grid: Grid) -> list[Fold]:
-    """Make interleaved folds until they have `BEAMS_WANTED` beams; raise `BadInput` for too few scans."""
+    """Make interleaved folds until they have `FIT_BEAMS` beams; raise `BadInput` for too few scans."""
     from bayesmap.kernels.counts import count_hits
 
     folds: list[Fold] = []
-    count, beams = min(FOLDS, len(train)), 0
+    count, n_beams = min(FOLDS, len(train)), 0
     if count < 2:
         raise BadInput("score: baselines are fitted by holding out training scans, which takes two scans or more")
     hits, passes = count_hits(train, grid)
     for i in np.random.default_rng(0).permutation(count).tolist():  # a fixed order, but not that of the protocol
-        part = train.select(np.arange(len(train)) % count == i)
-        valid = int((part.readings != ReadingKind.INVALID).sum())
-        if valid == 0:
+        left_out = train.select(np.arange(len(train)) % count == i)
+        n_valid = int((left_out.readings != ReadingKind.INVALID).sum())
+        if n_valid == 0:
             continue
-        own_hits, own_passes = count_hits(part, grid)
-        folds.append(_fold((hits - own_hits).astype(float), (passes - own_passes).astype(float), part, grid))
-        beams += valid
-        if beams >= BEAMS_WANTED:
+        own_hits, own_passes = count_hits(left_out, grid)
+        folds.append(Fold.of((hits - own_hits).astype(float), (passes - own_passes).astype(float), left_out, grid))
+        n_beams += n_valid
+        if n_beams >= FIT_BEAMS:
             break
     if not folds:
         raise BadInput("score: none of the training scans has a valid reading to fit baselines on")
@@ -176,14 +174,14 @@ def make_folds(train: Scans, grid: Grid) -> list[Fold]:
 
 
 def one_fold(train: Scans, grid: Grid) -> list[Fold]:
-    """Make one fold of about `BEAMS_WANTED` beams for a fixed map; raise `BadInput` without valid reading."""
-    valid = (train.readings != ReadingKind.INVALID).sum(axis=1)
-    train, valid = train.select(valid > 0), valid[valid > 0]
-    if len(train) == 0:
+    """Make one fold of about `FIT_BEAMS` beams for a fixed map; raise `BadInput` without valid reading."""
+    n_valid = (train.readings != ReadingKind.INVALID).sum(axis=1)
+    usable = train.select(n_valid > 0)
+    if len(usable) == 0:
         raise BadInput("score: none of the training scans has a valid reading to fit a sensor on")
-    count = min(len(train), int(np.ceil(len(train) * BEAMS_WANTED / valid.sum())))
-    nothing = np.zeros(grid.shape).ravel()
-    return [_fold(nothing, nothing, train.select(np.arange(count) * len(train) // count), grid)]
+    count = min(len(usable), int(np.ceil(len(usable) * FIT_BEAMS / n_valid.sum())))
+    no_counts = np.zeros(grid.n_cells)
+    return [Fold.of(no_counts, no_counts, usable.select(np.arange(count) * len(usable) // count), grid)]
 
 
 @dataclass(frozen=True, eq=False)
@@ -197,17 +195,19 @@ class HeldOut:
 
 def together(folds: Sequence[Fold]) -> HeldOut:
     """Join folds for one prediction, which is faster than many small ones."""
-    rays = [fold.rays for fold in folds]
+    by_fold = [fold.rays for fold in folds]
     # Offsets of each fold's entries in the joined rays, and of its cells in the joined maps.
-    entries = np.cumsum([0, *(len(part.cells) for part in rays)])[:-1]
-    places = np.cumsum([0, *(len(part.touched) for part in rays)])[:-1]
+    entry_offsets = np.cumsum([0, *(len(rays.cells) for rays in by_fold)])[:-1]
+    cell_offsets = np.cumsum([0, *(len(rays.touched) for rays in by_fold)])[:-1]
 
-    def shifted(arrays: list[NDArray[np.int32]], by: NDArray[np.int_]) -> NDArray[np.int32]:
-        return np.concatenate([array + at for array, at in zip(arrays, by, strict=True)]).astype(np.int32)
+    def joined(name: str, shifts: NDArray[np.int_]) -> NDArray[np.int32]:
+        arrays = zip(by_fold, shifts, strict=True)
+        return np.concatenate([getattr(rays, name) + shift for rays, shift in arrays]).astype(np.int32)
 
     names = ("cells", "start_m", "direction", "range_m")
-    whole = {name: np.concatenate([getattr(part, name) for part in rays]) for name in names}
-    offsets = np.append(np.int32(0), shifted([part.offsets[1:] for part in rays], entries))
-    near = shifted([part.near for part in rays], entries)
-    joined = Rays(grid=rays[0].grid, offsets=offsets, near=near, limits=rays[0].limits, **whole)
-    return HeldOut(tuple(folds), joined, shifted([part.columns for part in rays], places))
+    unshifted = {name: np.concatenate([getattr(rays, name) for rays in by_fold]) for name in names}
+    lengths = np.concatenate([rays.lengths for rays in by_fold])
+    offsets = np.append(0, np.cumsum(lengths)).astype(np.int32)
+    near = joined("near", entry_offsets)
+    rays = Rays(grid=by_fold[0].grid, offsets=offsets, near=near, limits=by_fold[0].limits, **unshifted)
+    return HeldOut(tuple(folds), rays, joined("columns", cell_offsets))

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+import itertools
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -26,8 +27,7 @@ if TYPE_CHECKING:
     import xarray
 
 
-WITHOUT_CHAINS = ("exact", "importance", "propagate")
-"""Methods whose draws are independent: they have neither sweeps nor diagnostics of chains."""
+WITHOUT_CHAINS = ("exact", "importance", "propagate")  # methods whose draws are independent: they have no sweeps
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,7 +80,7 @@ class Posterior:
 
     @property
     def has_chains(self) -> bool:
-        """Whether the draws are those of Markov chains."""
+        """Whether the draws come from Markov chains."""
         return self.settings["method"] not in WITHOUT_CHAINS
 
 
@@ -132,6 +132,7 @@ def chains_of(posterior: Posterior) -> Chains:
 
 
 def _counts(model: Model, n_incidences: int) -> dict[str, int]:
+    """Return the numbers of scans, beams and crossed cells."""
     return {"scans": len(model.scans), "beams": model.scans.n_beams, "incidences": n_incidences}
 
 
@@ -155,17 +156,14 @@ def by_reading(posterior: Posterior, device: str = "cpu") -> NDArray[np.float32]
         raise BadInput("log likelihood by reading: needs draws, and a sensor model of bayesmap's")
     depth = float(posterior.settings["hit_depth"])
     likelihood = ScanLikelihood(scans, posterior.grid, posterior.sensor, depth, device)
-    moved = draws.values("poses") if "poses" in draws.arrays else None
-    valid, every = valid_readings(posterior), np.arange(len(scans))
+    drawn_poses = draws.values("poses") if "poses" in draws.arrays else None
+    valid, scan = valid_readings(posterior), np.arange(len(scans))
     out = np.empty((draws.chains, draws.count, len(valid[0])), np.float32)
-    stops: Iterator[NDArray[np.float32]] = (
-        cells for batch in posterior.prior.drawn_stops(draws) for cells in np.split(batch, len(batch))
-    )
+    stops = itertools.chain.from_iterable(posterior.prior.drawn_stops(draws))
     for (chain, draw), cells in zip(draws.numbers(), stops, strict=True):
-        poses = scans.poses if moved is None else moved[chain, draw]
-        one_map = device_maps([cells], posterior.grid, depth, device=device)
-        nats = likelihood.beams(one_map, poses, every, np.zeros_like(every))
-        out[chain, draw] = nats[valid]
+        poses = scans.poses if drawn_poses is None else drawn_poses[chain, draw]
+        one_map = device_maps([cells[None]], posterior.grid, depth, device=device)
+        out[chain, draw] = likelihood.beams(one_map, poses, scan, np.zeros_like(scan))[valid]
     return out
 
 

@@ -1,12 +1,7 @@
 """Predictions of readings by draws of a map: draws and quantiles of scans from any pose, and held-out residuals.
 
-The law of one beam is that of docs/scoring.md,
-
-    p(z) = mean over draws of [sum_i w_i p(z | d_i, s_i) + w_nowhere p(z | infinity)],
-
-and its quantile of level q is the least range z with P(reading <= z) >= q. `ScanPredictor` puts the draws on a device
-once, so that the scans from many poses cost little each. Beams of one drawn scan share a draw of the map, so draws tell
-how readings vary together. Long predictions report the share of their work that is done.
+docs/scoring.md states the law of a reading. Its quantile of level q is the least range z with P(reading <= z) >= q.
+Beams of one drawn scan share a draw of the map, so draws tell how readings vary together.
 """
 
 from __future__ import annotations
@@ -40,13 +35,13 @@ def ignored(share: float) -> None:
 
 
 def parts(on_progress: OnShare, *sizes: float) -> list[OnShare]:
-    """Return a callback for each part of some work, which takes the part's own share, by relative sizes."""
+    """Return a callback for each part of a task, to report the part's own share, given the parts' relative sizes."""
     ends = np.cumsum([0.0, *sizes]) / sum(sizes)
 
-    def of_part(begin: float, end: float) -> OnShare:
+    def report_part(begin: float, end: float) -> OnShare:
         return lambda share: on_progress(begin + (end - begin) * share)
 
-    return [of_part(begin, end) for begin, end in pairwise(ends.tolist())]
+    return [report_part(begin, end) for begin, end in pairwise(ends.tolist())]
 
 
 def watched(batches: Iterable[NDArray[Any]], total: int, on_progress: OnShare) -> Iterator[NDArray[Any]]:
@@ -59,7 +54,7 @@ def watched(batches: Iterable[NDArray[Any]], total: int, on_progress: OnShare) -
 
 
 def checked_levels(levels: Sequence[float]) -> Floats:
-    """Return the probabilities of quantiles as an array; refuse levels that do not rise or lie outside (0, 1)."""
+    """Return levels of quantiles as an array. Raises `BadInput` if they do not rise or lie outside (0, 1)."""
     probabilities = np.asarray(levels, dtype=np.float64)
     if probabilities.size == 0 or (np.diff([0.0, *probabilities, 1.0]) <= 0).any() or np.isnan(probabilities).any():
         raise BadInput(f"quantiles: levels must rise and lie inside (0, 1), got {list(levels)}")
@@ -67,11 +62,9 @@ def checked_levels(levels: Sequence[float]) -> Floats:
 
 
 MapStates = NDArray[np.float32]
-
-
 Batches = Callable[..., Iterator[MapStates]]
-"""Takes flat indices of cells (none: all), and yields their states in each draw, some draws at a time, each call anew:
-stop probabilities (draws, cells), or surfaces (draws, cells, 6) as in `bayesmap.kernels.predict.density`."""
+"""Takes flat indices of cells (none: all), and yields batches of draws of their states: stop probabilities
+(draws, cells), or surfaces (draws, cells, 6) as in `bayesmap.kernels.predict.density`."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,9 +88,9 @@ def fixed_maps(stop: NDArray[np.floating]) -> Batches:
 
 
 def predictor_of(posterior: Posterior, sensor: SensorModel | None = None) -> Predictor:
-    """Return the posterior's draws as a prediction under the run's own sensor model unless another is given.
+    """Return the posterior's draws as a prediction, under the run's sensor model unless another is given.
 
-    Raises `BadInput` if the posterior has no draws, or does not know its sensor model, or cannot use the one given.
+    Raises `BadInput` if the posterior has no draws, or does not know its sensor model.
     """
     sensor = posterior.sensor if sensor is None else sensor
     if sensor is None:
@@ -131,10 +124,7 @@ class ScanPredictor:
 
     @classmethod
     def of(cls, predictor: Predictor, limits: RangeLimits, device: str = "cpu") -> ScanPredictor:
-        """Put a predictor's draws on a device: 4 bytes for each cell of each draw, 32 where cells have surfaces.
-
-        Raises `BadInput` for no draws.
-        """
+        """Put a predictor's draws on a device: 4 bytes for each cell of each draw, 32 where cells have surfaces."""
         from bayesmap.kernels.predict.density import device_maps
 
         draws = device_maps(predictor.batches(), predictor.grid, predictor.hit_depth, device=device)
@@ -149,24 +139,24 @@ class ScanPredictor:
     ) -> NDArray[np.float64]:
         """Compute quantiles of the readings of one scan with beams at angles (A,), metres, (A, levels).
 
-        Levels rise inside (0, 1), and are met to within `GONE`. No return counts as +inf, too close as -inf, each where
-        it is an outcome of the sensor. Where draws of a cell's surface differ in where it stops the beam, its stops are
-        merged (docs/scoring.md, The common view).
-
-        Raises `BadInput` for levels that do not rise or lie outside (0, 1), or a sensor whose probabilities do not sum
-        to one.
+        Levels rise inside (0, 1), and are met to within `GONE`. No return counts as +inf, too close as -inf, each if it
+        is an outcome of the sensor. The stops of a cell's surface in all draws are merged (docs/scoring.md, The common
+        view). Raises `BadInput` as `checked_levels`, or if the sensor's probabilities do not sum to one.
         """
         from bayesmap.kernels.predict.stop_mixture import mix_device_stops, range_quantiles
         from bayesmap.kernels.rays import trace_rays
 
         probabilities = checked_levels(levels)
         angles = np.asarray(angles_rad, dtype=np.float64)
-        # A reading is needed to trace a beam and has no part in its prediction.
-        unread = np.full((1, len(angles)), np.inf)
-        scan = Scans(np.reshape(pose_world, (1, 3)), angles, unread, self.limits.max_m, self.limits.min_m)
+        scan = _unread_scans(np.reshape(pose_world, (1, 3)), angles, self.limits)
         device = self.draws.device
         law = mix_device_stops(trace_rays(scan, self.grid, device=device), self.draws, GONE)
         return range_quantiles(law, probabilities, self.sensor, device)
+
+
+def _unread_scans(poses: Floats, angles_rad: Floats, limits: RangeLimits) -> Scans:
+    """Return scans to trace beams whose readings are predicted; their own readings have no part in it."""
+    return Scans(poses, angles_rad, np.full((len(poses), len(angles_rad)), np.inf), limits.max_m, limits.min_m)
 
 
 @dataclass(frozen=True, eq=False)
@@ -207,12 +197,13 @@ def compare(scans: Scans, median_m: Floats, log_density: Floats) -> Residuals:
     """Compare readings with medians of their laws, (B,), infinite where typed, and log densities, (B,)."""
     beams = placed(scans)
     median = np.clip(median_m[beams], scans.min_range_m, scans.max_range_m)
-    reading = np.minimum(scans.ranges_m.ravel()[beams], scans.max_range_m)
-    drawn = np.where(np.isposinf(scans.ranges_m.ravel()[beams]), median, reading)
+    readings = scans.ranges_m.ravel()[beams]
+    capped = np.minimum(readings, scans.max_range_m)
+    length = np.where(np.isposinf(readings), median, capped)
     angle = scans.beam_angles_world().ravel()[beams]
     start = scans.beam_starts_world().reshape(-1, 2)[beams]
-    ends = start + drawn[:, None] * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
-    return Residuals(ends, reading - median, -log_density[beams], beams)
+    ends = start + length[:, None] * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    return Residuals(ends, capped - median, -log_density[beams], beams)
 
 
 @dataclass(frozen=True)
@@ -228,18 +219,17 @@ class SurfaceOffset:
 
 def surface_offset(mean: Floats, covariance: Floats, point: Floats, sensor: Floats) -> SurfaceOffset:
     """Return a point, (2,), in the frame of a surface of mean, (2,), and covariance, as a sensor, (2,), sees it."""
-    values, vectors = np.linalg.eigh(covariance)
-    normal, towards = vectors[:, 0], sensor - mean
-    if normal @ towards < 0:
+    variances, axes = np.linalg.eigh(covariance)
+    normal, to_sensor, to_point = axes[:, 0], sensor - mean, point - mean
+    if normal @ to_sensor < 0:
         normal = -normal
     # The sensor looks against the normal: its left is the normal turned clockwise.
-    left = np.array([normal[1], -normal[0]])
-    away = point - mean
-    distance = float(np.hypot(*towards))
-    cosine = float(normal @ towards) / distance if distance > 0 else 1.0
-    thickness, length = np.sqrt(np.maximum(values, 0.0))
-    across_m, along_m = float(normal @ away), float(left @ away)
-    return SurfaceOffset(across_m, along_m, float(thickness), float(length), math.acos(min(1.0, cosine)))
+    tangent = np.array([normal[1], -normal[0]])
+    distance = float(np.hypot(*to_sensor))
+    cosine = float(normal @ to_sensor) / distance if distance > 0 else 1.0
+    thickness, length = np.sqrt(np.maximum(variances, 0.0)).tolist()
+    incidence_rad = math.acos(min(1.0, cosine))
+    return SurfaceOffset(float(normal @ to_point), float(tangent @ to_point), thickness, length, incidence_rad)
 
 
 @dataclass(frozen=True, eq=False)
@@ -286,9 +276,9 @@ class Fan:
         cls, asked_by: str, posterior: Posterior, angles_rad: ArrayLike | None, max_range_m: float | None,
         sensor: SensorModel | None,
     ) -> Fan:  # fmt: skip
-        """Return the fan of the run's scans, with what is given instead.
+        """Return the fan of the run's scans, with other angles, largest range or sensor model if given.
 
-        Raises `BadInput` for invalid angles, a largest range that is not positive, or a sensor model that is not known.
+        Raises `BadInput` if the angles are invalid, the largest range is not positive, or no sensor model is known.
         """
         scans, law = posterior.scans, posterior.sensor if sensor is None else sensor
         if law is None:
@@ -307,8 +297,8 @@ def draw_readings(maps: DeviceMaps, fan: Fan, poses: Floats, draw: NDArray[np.in
 
     distance_m, spread_m = draw_scan_stops(maps, poses, draw, fan.angles_rad, fan.limits.max_m, mix(*key))
     rng = np.random.default_rng(key)
-    met = np.isfinite(distance_m)
-    distance_m[met] += spread_m[met] * rng.standard_normal(met.sum())
+    stopped = np.isfinite(distance_m)
+    distance_m[stopped] += spread_m[stopped] * rng.standard_normal(stopped.sum())
     return fan.sensor.sample(rng, np.maximum(distance_m, 0.0), fan.limits)
 
 
@@ -322,25 +312,23 @@ def predict(
     from bayesmap.kernels.predict.stop_mixture import mix_stops, range_quantiles
     from bayesmap.kernels.rays import trace_rays
 
-    fan, where = Fan.of("predict", posterior, angles_rad, max_range_m, sensor), asked_poses("predict", poses)
+    fan, poses_world = Fan.of("predict", posterior, angles_rad, max_range_m, sensor), asked_poses("predict", poses)
     grid, predictor = posterior.grid, predictor_of(posterior, fan.sensor)
-    outside = [i for i, (x, y, _) in enumerate(where) if grid.cell_at(x, y) is None]
-    if outside:
-        pose = where[outside[0]].tolist()
-        raise BadInput(f"predict: pose {outside[0]}, {pose}, lies outside the map, {grid.extent_words()}")
+    for i, (x, y, _) in enumerate(poses_world):
+        if grid.cell_at(x, y) is None:
+            pose = poses_world[i].tolist()
+            raise BadInput(f"predict: pose {i}, {pose}, lies outside the map, {grid.extent_words()}")
     quantiles, seed = checked_levels(levels), check_count("predict", "seed", seed, 0)
     thinned = posterior.draws.thinned(check_count("predict", "draws", draws, 1))
     # Draw all scans in one map after the other.
-    drawn: list[Floats] = []
+    draws_m: list[Floats] = []
     for batch in posterior.prior.drawn_stops(thinned):
-        maps, first = device_maps([batch], predictor.grid, predictor.hit_depth, device=device), len(drawn)
+        maps = device_maps([batch], predictor.grid, predictor.hit_depth, device=device)
         for i in range(len(batch)):
-            row = np.full(len(where), i)
-            drawn.append(draw_readings(maps, fan, where, row, (seed, first + i, STREAM_READINGS)))
-    # Mix the stops of all draws. A reading is needed to trace a beam and has no part in its prediction.
-    unread = np.full((len(where), len(fan.angles_rad)), np.inf)
-    scans = Scans(where, fan.angles_rad, unread, fan.limits.max_m, fan.limits.min_m)
-    rays = trace_rays(scans, grid, device=device)
+            draw, key = np.full(len(poses_world), i), (seed, len(draws_m), STREAM_READINGS)
+            draws_m.append(draw_readings(maps, fan, poses_world, draw, key))
+    # Mix the stops of all draws.
+    rays = trace_rays(_unread_scans(poses_world, fan.angles_rad, fan.limits), grid, device=device)
     law = mix_stops(rays, predictor.batches(rays.touched), predictor.hit_depth, device=device)
-    quantiles_m = range_quantiles(law, quantiles, fan.sensor, device).reshape(*unread.shape, -1)
-    return Prediction(where, fan.angles_rad, np.stack(drawn), quantiles, quantiles_m)
+    quantiles_m = range_quantiles(law, quantiles, fan.sensor, device).reshape(*draws_m[0].shape, -1)
+    return Prediction(poses_world, fan.angles_rad, np.stack(draws_m), quantiles, quantiles_m)

@@ -1,15 +1,11 @@
 """The probability that a disc moves along a path without touching anything, and the shortest path of bounded risk.
 
-In each draw of the map the disc either touches something or it does not. The probability is the share of draws in which
-it does not. Cells that are uncertain together, such as a door that is open or shut, count once. Planners use a product
-over cells, which counts such cells as often as there are cells.
+docs/decisions.md explains both. The probability is the share of draws of the map in which the disc touches nothing. An
+obstacle stops at least `SOLID` of the beams that come to it. For a cell without a surface the obstacle is its square.
+For a surface it is the ellipse of two standard deviations of the points where it stops beams.
 
-An obstacle stops at least `SOLID` of the beams that come to it. For a cell without a surface the obstacle is its
-square. For a surface it is the ellipse of two standard deviations of the points where it stops beams.
-
-The risk of a path is no sum over cells, so no search on a graph minimises it. But a search can propose paths. Each path
-minimises length plus a price per metre near possible obstacles. A ladder of prices gives paths from the shortest to the
-safest. The joint draws judge each, and the shortest path that is safe enough is returned.
+A search on a graph proposes paths that minimise length plus a price per metre near possible obstacles. Prices rise
+until the joint draws of the map judge a path as safe enough.
 """
 
 from __future__ import annotations
@@ -30,8 +26,7 @@ from bayesmap.space.planar import Floats
 SOLID = 0.1  # stop probability below which a cell counts as free, as in maps for navigation
 REACH_CELLS = 2.5  # greatest distance of any part of a surface from its cell's centre, in edges of a cell
 
-ALONG = np.array([-2.0, -1.0, 0.0, 1.0, 2.0])
-"""Points on the long axis of an ellipse at which its distance is computed, in standard deviations."""
+PROBE_SIGMAS = np.array([-2.0, -1.0, 0.0, 1.0, 2.0])  # points on the long axis from which distances are computed
 
 
 @dataclass(frozen=True)
@@ -52,7 +47,7 @@ class FreeProbability:
 
 
 def checked_path(path: ArrayLike) -> Floats:
-    """Return a path as points in the world frame, (P, 2); raise `BadInput` for another or no path."""
+    """Return a path as points in the world frame, (P, 2). Raises `BadInput` if it has another shape or no points."""
     try:
         points = np.atleast_2d(np.asarray(path, dtype=np.float64))
     except (TypeError, ValueError) as error:
@@ -70,11 +65,11 @@ def distance_to_path_m(points: Floats, path: Floats) -> Floats:
     starts, ends = (path[:-1], path[1:]) if len(path) > 1 else (path, path)
     nearest = np.full(points.shape[:-1], np.inf)
     for start, end in zip(starts, ends, strict=True):
-        way = end - start
-        length = float(way @ way)
-        along = np.clip((points - start) @ way / length, 0.0, 1.0) if length > 0 else np.zeros(points.shape[:-1])
-        away = points - start - along[..., None] * way
-        nearest = np.minimum(nearest, np.hypot(away[..., 0], away[..., 1]))
+        segment = end - start
+        square = float(segment @ segment)
+        share = np.clip((points - start) @ segment / square, 0.0, 1.0) if square > 0 else np.zeros(points.shape[:-1])
+        offset = points - start - share[..., None] * segment
+        nearest = np.minimum(nearest, np.hypot(offset[..., 0], offset[..., 1]))
     return nearest
 
 
@@ -92,14 +87,14 @@ def square_to_path_m(centres: Floats, edge_m: float, path: Floats) -> Floats:
 
 def _crosses(centres: Floats, half: float, start: Floats, end: Floats) -> NDArray[np.bool_]:
     """Return whether a segment meets each square, by the intervals of the segment between opposite sides (slabs)."""
-    way, enter, leave = end - start, np.zeros(len(centres)), np.ones(len(centres))
-    for axis in (0, 1):
+    enter, leave = np.zeros(len(centres)), np.ones(len(centres))  # as shares of the segment
+    for axis, length in enumerate(end - start):
         low, high = centres[:, axis] - half - start[axis], centres[:, axis] + half - start[axis]
-        if way[axis] == 0:
+        if length == 0:
             leave = np.where((low > 0) | (high < 0), -1.0, leave)
             continue
-        first, second = low / way[axis], high / way[axis]
-        enter, leave = np.maximum(enter, np.minimum(first, second)), np.minimum(leave, np.maximum(first, second))
+        enter = np.maximum(enter, np.minimum(low / length, high / length))
+        leave = np.minimum(leave, np.maximum(low / length, high / length))
     return np.asarray(enter <= leave)
 
 
@@ -113,8 +108,8 @@ def cells_about(path: Floats, radius_m: float, grid: Grid) -> NDArray[np.int32]:
         np.arange(max(low[0], 0), min(high[0], nx)), np.arange(max(low[1], 0), min(high[1], ny)), indexing="ij"
     )
     flat = (x * ny + y).ravel()
-    near = distance_to_path_m(centres_world(flat, grid), path) <= reach + 0.5 * math.sqrt(2) * grid.resolution
-    return np.asarray(flat[near], dtype=np.int32)
+    is_near = distance_to_path_m(centres_world(flat, grid), path) <= reach + 0.5 * math.sqrt(2) * grid.resolution
+    return np.asarray(flat[is_near], dtype=np.int32)
 
 
 def centres_world(flat: NDArray[np.integer], grid: Grid) -> Floats:
@@ -150,38 +145,37 @@ def _surface_touches(surface: Floats, origin: Floats, path: Floats, radius_m: fl
     """Return whether the two-sigma ellipse of each surface, (n, 6), comes within a radius of a path."""
     probes, short = _probes(surface, origin)
     # Half width of the ellipse of two deviations at the probes along its long axis.
-    width = short[:, None] * np.sqrt(np.maximum(4.0 - ALONG[None] ** 2, 0.0))
+    width = short[:, None] * np.sqrt(np.maximum(4.0 - PROBE_SIGMAS[None] ** 2, 0.0))
     return np.asarray((distance_to_path_m(probes, path) - width < radius_m).any(axis=1))
 
 
 def _probes(surface: Floats, origin: Floats | float = 0.0) -> tuple[Floats, Floats]:
     """Return points on each ellipse's long axis, (n, 5, 2), and its short standard deviation, (n,)."""
     l11, l21, l22 = surface[:, 3:].T
-    var_x, both, var_y = l11**2, l11 * l21, l21**2 + l22**2
-    half, off = 0.5 * (var_x + var_y), np.hypot(0.5 * (var_x - var_y), both)
-    angle = 0.5 * np.arctan2(2 * both, var_x - var_y)
-    axis = np.stack([np.cos(angle), np.sin(angle)], axis=-1) * np.sqrt(half + off)[:, None]
-    mean = surface[:, 1:3] + origin
-    return mean[:, None] + ALONG[None, :, None] * axis[:, None], np.sqrt(np.maximum(half - off, 0.0))
+    var_x, cov_xy, var_y = l11**2, l11 * l21, l21**2 + l22**2
+    mean_variance, half_difference = 0.5 * (var_x + var_y), np.hypot(0.5 * (var_x - var_y), cov_xy)
+    angle = 0.5 * np.arctan2(2 * cov_xy, var_x - var_y)
+    axis = np.stack([np.cos(angle), np.sin(angle)], axis=-1) * np.sqrt(mean_variance + half_difference)[:, None]
+    probes = (surface[:, 1:3] + origin)[:, None] + PROBE_SIGMAS[None, :, None] * axis[:, None]
+    return probes, np.sqrt(np.maximum(mean_variance - half_difference, 0.0))
 
 
 def free_probability(blocking: NDArray[np.bool_], chains: int) -> FreeProbability:
     """Compute the probability that nothing is in the way, with its Monte Carlo error.
 
-    The error is that of a share of independent draws, as many as the effective sample size. Half a free and half a
+    ``blocking`` is the mask of the cells in the way in each draw, chain after chain, (chains * draws, n). The error is
+    the standard error of a share of independent draws, as many as the effective sample size. Half a free and half a
     blocked draw are added, so that the error is positive if all draws agree.
-
-    ``blocking`` tells which cells are in the way in each draw, chain after chain, (chains * draws, n).
     """
-    from bayesmap.posterior.summary import plain_ess, split_chains
+    from bayesmap.posterior.summary import MIN_DRAWS_PER_CHAIN, plain_ess, split_chains
 
     blocked = blocking.any(axis=1).reshape(chains, -1)
     free = 1.0 - float(blocked.mean())
-    worth = float(blocked.size)
-    if blocked.shape[1] >= 4 and 0 < free < 1:
-        worth = min(worth, float(plain_ess(split_chains(blocked.astype(np.float64)))))
-    smoothed = (free * worth + 0.5) / (worth + 1.0)
-    error = math.sqrt(smoothed * (1 - smoothed) / max(worth, 1.0))
+    ess = float(blocked.size)
+    if blocked.shape[1] >= MIN_DRAWS_PER_CHAIN and 0 < free < 1:
+        ess = min(ess, float(plain_ess(split_chains(blocked.astype(np.float64)))))
+    smoothed = (free * ess + 0.5) / (ess + 1.0)
+    error = math.sqrt(smoothed * (1 - smoothed) / max(ess, 1.0))
     return FreeProbability(free, error, float(np.prod(1.0 - blocking.mean(axis=0))), blocked)
 
 
@@ -234,16 +228,15 @@ def blocked_probability(batches: Iterable[NDArray[np.float32]], grid: Grid, radi
     """Compute the probability that a disc at each cell's centre is blocked, (nx, ny), by batches of draws."""
     from scipy import ndimage
 
-    total, draws = np.zeros(grid.shape), 0
-    for batch in batches:
-        for stops in batch:
-            solid = _solid_squares(stops, grid)
-            if solid.any():
-                # The distance is from the centre of a square; to its edge it is half an edge less.
-                away_m = ndimage.distance_transform_edt(~solid) * grid.resolution - 0.5 * grid.resolution
-                total += away_m < radius_m
-            draws += 1
-    return total / max(draws, 1)
+    n_blocked, n_draws = np.zeros(grid.shape), 0
+    for stops in itertools.chain.from_iterable(batches):
+        solid = _solid_squares(stops, grid)
+        if solid.any():
+            # The transform's distance is from the centre of a square; to its edge it is half an edge less.
+            distance_m = ndimage.distance_transform_edt(~solid) * grid.resolution - 0.5 * grid.resolution
+            n_blocked += distance_m < radius_m
+        n_draws += 1
+    return n_blocked / max(n_draws, 1)
 
 
 def _solid_squares(stops: NDArray[np.float32], grid: Grid) -> NDArray[np.bool_]:
@@ -264,10 +257,8 @@ def plan_route(
     """Find the shortest path from start to goal, world frame, whose risk of touching something stays under a bound.
 
     ``blocked`` is the probability that the disc is blocked at each cell's centre, (nx, ny). ``judge`` returns the
-    probability that a path is free.
-
-    Raises `BadInput` for start or goal outside the grid, or blocked in nearly every draw; or no path at all between
-    them.
+    probability that a path is free. Raises `BadInput` if start or goal lies outside the grid or is blocked in nearly
+    every draw, or if no path leads from start to goal.
     """
     if not 0 < risk < 1:
         raise BadInput(f"plan: risk must lie inside (0, 1), got {risk!r}")
@@ -281,9 +272,9 @@ def plan_route(
                 "plan: no path leads from start to goal: the disc is blocked on all ways in nearly every draw; try a "
                 "smaller radius"
             )
-        whole = np.concatenate([start[None], centres_world(cells, grid)[1:-1], goal[None]])
+        through_centres = np.concatenate([start[None], centres_world(cells, grid)[1:-1], goal[None]])
         # Obstacles between the centres of two cells may be missed, so the straightened path may have the higher risk.
-        for path in (_straightened(whole, danger, grid, price), whole):
+        for path in (_straightened(through_centres, danger, grid, price), through_centres):
             free = judge(path)
             length_m = float(np.hypot(*np.diff(path, axis=0).T).sum())
             routes.append(Route(path, length_m, free, is_within_risk(free.probability, risk)))
@@ -293,12 +284,15 @@ def plan_route(
 
 
 def _cell_of(point: Floats, grid: Grid, blocked: Floats, name: str) -> int:
+    """Return the flat index of the cell of start or goal; raise `BadInput` if it is outside the map or blocked."""
     cell = np.floor(grid.to_cells(point)).astype(int)
-    at = f"{name} ({point[0]:.2f}, {point[1]:.2f} m)"
+    words = f"{name} ({point[0]:.2f}, {point[1]:.2f} m)"
     if not ((cell >= 0) & (cell < grid.shape)).all():
-        raise BadInput(f"plan: the {at} lies outside the map")
+        raise BadInput(f"plan: the {words} lies outside the map")
     if blocked[tuple(cell)] > MAX_BLOCKED_PROBABILITY:
-        raise BadInput(f"plan: at the {at} the disc touches something in every draw; move it, or take a smaller radius")
+        raise BadInput(
+            f"plan: at the {words} the disc touches something in every draw; move it, or take a smaller radius"
+        )
     return int(cell[0] * grid.shape[1] + cell[1])
 
 
@@ -314,35 +308,34 @@ def _cheapest(danger: Floats, price: float, shape: tuple[int, int], start: int, 
     # Edges cost their length, plus the price times the mean danger of the cells that they cross.
     rows, columns, costs = [], [], []
     for (dx, dy), crossed in STEPS.items():
-        here = np.nonzero((x + dx < nx) & (y + dy >= 0) & (y + dy < ny))[0]
-        along = np.stack([here + i * ny + j for i, j in ((0, 0), *crossed, (dx, dy))])
-        along = along[:, passable[along].all(axis=0)]
-        rows.append(along[0])
-        columns.append(along[-1])
-        costs.append(math.hypot(dx, dy) * (1.0 + price * flat[along].mean(axis=0)))
+        source = np.nonzero((x + dx < nx) & (y + dy >= 0) & (y + dy < ny))[0]
+        edges = np.stack([source + i * ny + j for i, j in ((0, 0), *crossed, (dx, dy))])
+        edges = edges[:, passable[edges].all(axis=0)]
+        rows.append(edges[0])
+        columns.append(edges[-1])
+        costs.append(math.hypot(dx, dy) * (1.0 + price * flat[edges].mean(axis=0)))
     graph = sparse.coo_array(
         (np.concatenate(costs), (np.concatenate(rows), np.concatenate(columns))), shape=(nx * ny, nx * ny)
     ).tocsr()
-    _, before = csgraph.dijkstra(graph, directed=False, indices=start, return_predecessors=True)
+    _, predecessors = csgraph.dijkstra(graph, directed=False, indices=start, return_predecessors=True)
     cells = [goal]
     while cells[-1] != start:
-        if before[cells[-1]] < 0:
+        if predecessors[cells[-1]] < 0:
             return None
-        cells.append(int(before[cells[-1]]))
+        cells.append(int(predecessors[cells[-1]]))
     return np.array(cells[::-1])
 
 
 def _straightened(path: Floats, danger: Floats, grid: Grid, price: float) -> Floats:
     """Return the path without corners that a straight line can skip at no higher cost."""
-    kept, i = [0], 0
-    while i < len(path) - 1:
-        j = len(path) - 1
-        costs = partial(_cost, danger=danger, grid=grid, price=price)
-        while j > i + 1 and costs(path[[i, j]]) > costs(path[i : j + 1]) + 1e-9:
+    cost = partial(_cost, danger=danger, grid=grid, price=price)
+    corners = [0]
+    while corners[-1] < len(path) - 1:
+        i, j = corners[-1], len(path) - 1
+        while j > i + 1 and cost(path[[i, j]]) > cost(path[i : j + 1]) + 1e-9:
             j = i + (j - i + 1) // 2 if j - i > 8 else j - 1
-        kept.append(j)
-        i = j
-    return path[kept]
+        corners.append(j)
+    return path[corners]
 
 
 def _cost(path: Floats, danger: Floats, grid: Grid, price: float) -> float:
@@ -353,6 +346,6 @@ def _cost(path: Floats, danger: Floats, grid: Grid, price: float) -> float:
         n = max(2, int(np.ceil(4 * length / grid.resolution)) + 1)
         points = start + np.linspace(0, 1, n)[:, None] * (end - start)
         cell = np.clip(np.floor(grid.to_cells(points)).astype(int), 0, np.array(grid.shape) - 1)
-        near = danger[cell[:, 0], cell[:, 1]]
-        total += length * (1.0 + price * float(near.mean())) if near.max() < MAX_DANGER else math.inf
+        dangers = danger[cell[:, 0], cell[:, 1]]
+        total += length * (1.0 + price * float(dangers.mean())) if dangers.max() < MAX_DANGER else math.inf
     return total

@@ -94,34 +94,33 @@ class ScanBlocks:
 
     def mean(self, values: Floats) -> Estimate:
         """Return the mean of all items. Its error is the standard deviation over replicates, NaN with one block."""
-        total, count = self.sums(values), self.sums(np.ones(len(values)))
         if self.weights.shape[1] < 2:
             return Estimate(float(values.mean()), float("nan"))
-        means = (self.weights @ total) / (self.weights @ count)
+        means = (self.weights @ self.sums(values)) / (self.weights @ self.sums(np.ones(len(values))))
         return Estimate(float(values.mean()), float(means.std()))
 
     def uniformity(self, pit: Floats) -> tuple[float, float]:
         """Return the Kolmogorov-Smirnov distance of the distribution of u from the uniform one, and its p-value.
 
         The distance is computed at the ends of `POINTS` intervals. The p-value is the share of replicates whose
-        distance from the distribution of all items is at least as large. (The textbook's table would take beams of one
-        scan for independent.) The p-value is NaN with a single block.
+        distance from the distribution of all items is at least as large, NaN with a single block. (The textbook's table
+        assumes independent beams.)
         """
         # Count the items per block and interval.
         points = np.arange(1, POINTS) / POINTS
         blocks = self.weights.shape[1]
-        cell = np.clip(np.ceil(pit * POINTS).astype(np.intp) - 1, 0, POINTS - 1)
-        counts = np.bincount(self.block * POINTS + cell, minlength=blocks * POINTS).reshape(blocks, POINTS)
-        reached = np.cumsum(counts, axis=1)
-        whole = reached.sum(axis=0)
-        shape = whole[:-1] / whole[-1]
-        distance = float(np.abs(shape - points).max())
+        interval = np.clip(np.ceil(pit * POINTS).astype(np.intp) - 1, 0, POINTS - 1)
+        counts = np.bincount(self.block * POINTS + interval, minlength=blocks * POINTS).reshape(blocks, POINTS)
+        cumulative = np.cumsum(counts, axis=1)
+        total = cumulative.sum(axis=0)
+        distribution = total[:-1] / total[-1]
+        distance = float(np.abs(distribution - points).max())
         if blocks < 2:
             return distance, float("nan")
         # Compare each replicate's distribution with that of all items.
-        replicates = self.weights @ reached
-        away = np.abs(replicates[:, :-1] / replicates[:, -1:] - shape).max(axis=1)
-        return distance, float((away >= distance).mean())
+        replicates = self.weights @ cumulative
+        distances = np.abs(replicates[:, :-1] / replicates[:, -1:] - distribution).max(axis=1)
+        return distance, float((distances >= distance).mean())
 
 
 def reliability(chance: Floats, happened: NDArray[np.bool_]) -> list[tuple[float, float, int]]:
@@ -131,9 +130,9 @@ def reliability(chance: Floats, happened: NDArray[np.bool_]) -> list[tuple[float
     also contains all smaller chances.
     """
     edges = np.concatenate([[0.0], np.logspace(-3, 0, 10)])
-    at = np.clip(np.searchsorted(edges, chance, side="left") - 1, 0, 9)
-    count, mean, share = (np.bincount(at, values, minlength=10) for values in (None, chance, happened))
-    return [(float(m / n), float(s / n), int(n)) for m, s, n in zip(mean, share, count, strict=True) if n]
+    bin_of_event = np.clip(np.searchsorted(edges, chance, side="left") - 1, 0, 9)
+    count, chances, events = (np.bincount(bin_of_event, values, minlength=10) for values in (None, chance, happened))
+    return [(float(p / n), float(k / n), int(n)) for p, k, n in zip(chances, events, count, strict=True) if n]
 
 
 def beam_log_scores(
@@ -159,10 +158,13 @@ def beam_log_scores(
     return log_densities(rays, batches, sensor, predictor.hit_depth, device=device)
 
 
-LEVELS, BINS = (0.5, 0.8, 0.95), 20  # probabilities of central intervals, and bins of the histogram of u
+LEVELS = (0.5, 0.8, 0.95)  # probabilities of central intervals
+BINS = 20  # of the histogram of u
 
-MIX, QUANTILES, EVENTS = 0.5, 12.0, 6.0
-"""Computing times of mixing a draw, of quantiles and of events, relative to the forecast of one draw, for progress."""
+# Computing times relative to the forecast of one draw, for progress.
+MIX_TIME = 0.5  # of mixing one draw
+QUANTILES_TIME = 12.0
+EVENTS_TIME = 6.0
 
 
 @dataclass(frozen=True)
@@ -191,8 +193,7 @@ class Score:
         by_beam: log predictive density of each valid reading, nats, (beams,); `bayesmap.compare_scores` compares them.
         scan_of_beam, reading_m: scan and reading of each beam, (beams,).
         pit_histogram: share of ``pit`` in each of 20 bins.
-        pit_distance: largest distance of the distribution of ``pit`` from the uniform one.
-        pit_p_value: probability of a distance at least as large by chance alone.
+        pit_distance, pit_p_value: result of `ScanBlocks.uniformity` for ``pit``.
         events: number of first-hit events: stretches of beams in cells that readings reached.
         brier, log_loss: mean over events of the two scores of "does the reading end here?". Lower is better.
         reliability: groups of events by predicted chance: (mean chance, share that happened, count).
@@ -255,6 +256,7 @@ class Score:
 
 
 def _numbers(**values: float) -> dict[str, float | None]:
+    """Return numbers as JSON values: None if not finite."""
     return {name: float(value) if math.isfinite(value) else None for name, value in values.items()}
 
 
@@ -278,15 +280,16 @@ def score_prediction(
     rays = trace_rays(scans, predictor.grid, device=device)
     # Predict: density and transform of each reading, quantiles of its law, and chances of first hits.
     depth, draws = predictor.hit_depth, predictor.draws
-    forecasting, mixing, at_quantiles, at_events = parts(on_progress, draws, MIX * draws, QUANTILES, EVENTS)
-    first, second = (watched(predictor.batches(rays.touched), draws, part) for part in (forecasting, mixing))
-    prediction = forecast(rays, first, sensor, depth, device=device)
-    law = mix_stops(rays, second, depth, device=device)
+    times = (draws, MIX_TIME * draws, QUANTILES_TIME, EVENTS_TIME)
+    forecasting, mixing, quantiles_done, events_done = parts(on_progress, *times)
+    batches, batches_again = (watched(predictor.batches(rays.touched), draws, part) for part in (forecasting, mixing))
+    prediction = forecast(rays, batches, sensor, depth, device=device)
+    law = mix_stops(rays, batches_again, depth, device=device)
     ends = sorted({0.5 - side * 0.5 * level for level in LEVELS for side in (1, -1)})
     quantiles = range_quantiles(law, np.array(ends), sensor, device)[valid]
-    at_quantiles(1.0)
+    quantiles_done(1.0)
     chance, stopped = first_hit_events(law, sensor, device)
-    at_events(1.0)
+    events_done(1.0)
 
     # Score the valid readings, with a bootstrap over scans.
     scan = np.repeat(np.arange(len(scans)), len(scans.angles_rad))
@@ -306,15 +309,15 @@ def score_prediction(
     event = stopped >= 0
     happened, p = stopped[event] == 1, chance[event].astype(np.float64)
     brier, loss = binary_scores(p, happened)
-    of_events = ScanBlocks.make(np.repeat(scan, rays.lengths)[event], seed)
-    none = Estimate(float("nan"), float("nan"))
+    event_blocks = ScanBlocks.make(np.repeat(scan, rays.lengths)[event], seed)
+    no_events = Estimate(float("nan"), float("nan"))
     return Score(
         scans=len(np.unique(scan[valid])), beams=int(valid.sum()), nats_per_beam=nats.value,
         nats_per_beam_error=nats.error, coverage=tuple(covers(level) for level in LEVELS), pit=pit,
         by_beam=prediction.log_density[valid], scan_of_beam=scan[valid], reading_m=ranges[valid],
         pit_histogram=tuple(pit_histogram(pit, BINS).tolist()), pit_distance=distance, pit_p_value=p_value,
-        events=len(p), brier=of_events.mean(brier) if len(p) else none,
-        log_loss=of_events.mean(loss) if len(p) else none, reliability=tuple(reliability(p, happened)),
+        events=len(p), brier=event_blocks.mean(brier) if len(p) else no_events,
+        log_loss=event_blocks.mean(loss) if len(p) else no_events, reliability=tuple(reliability(p, happened)),
         p_no_return=(float(prediction.p_no_return[valid].mean()), float(np.isposinf(ranges[valid]).mean())),
         sensor=describe(sensor), hit_depth=predictor.hit_depth,
     )  # fmt: skip

@@ -23,10 +23,10 @@ from bayesmap.posterior.posterior import Posterior
 from bayesmap.run.chains import PRECISION, map_error
 from bayesmap.space.planar import Floats, wrap_angle
 
-RHAT_LIMIT, ESS_LIMIT = 1.05, 100.0
-"""R-hat above which chains have not mixed, and effective sample size under which means are too noisy."""
-
+RHAT_LIMIT = 1.05  # R-hat above which chains have not mixed
+ESS_LIMIT = 100.0  # effective sample size under which means are too noisy
 CELLS_AT_ONCE = 4096  # cells whose traces are in memory at once
+MIN_DRAWS_PER_CHAIN = 4  # fewest draws of a chain with which its halves have a variance
 
 
 def split_chains(values: Floats) -> Floats:
@@ -53,7 +53,7 @@ def plain_rhat(chains: Floats) -> Floats:
 
 def rhat(values: Floats) -> float:
     """Compute the rank-normalised split R-hat, the larger of bulk and folded; NaN below four draws a chain."""
-    if values.shape[1] < 4:
+    if values.shape[1] < MIN_DRAWS_PER_CHAIN:
         return float("nan")
     halves = split_chains(values)
     folded = np.abs(halves - np.median(halves))
@@ -69,38 +69,37 @@ def plain_ess(chains: Floats) -> Floats:
     spectrum = np.fft.rfft(centred, length, axis=1)
     autocovariance = np.fft.irfft(np.abs(spectrum) ** 2, length, axis=1)[:, :n] / n  # (m, n, cells)
     within = autocovariance[:, 0].mean(axis=0) * n / (n - 1)
-    plus = within * (n - 1) / n
+    variance = within * (n - 1) / n
     if m > 1:
-        plus = plus + flat.mean(axis=1).var(axis=0, ddof=1)
+        variance = variance + flat.mean(axis=1).var(axis=0, ddof=1)
     with np.errstate(divide="ignore", invalid="ignore"):
-        rho = 1.0 - (within - autocovariance.mean(axis=0)) / plus  # (n, cells)
+        rho = 1.0 - (within - autocovariance.mean(axis=0)) / variance  # (n, cells)
     rho[0] = 1.0
-    # Geyer: add up neighbouring pairs, made monotone, until one is not positive; of that one the even lag alone.
-    pairs = max(1, -(-(n - 2) // 2))
+    # Geyer: add up neighbouring pairs, made monotone, until one is not positive. This pair adds its even lag alone.
+    pairs = max(1, (n - 1) // 2)
     even, odd = rho[0 : 2 * pairs : 2], rho[1 : 2 * pairs : 2]
     sums = even + odd
     positive = sums > 0
     stop = np.where(positive.all(axis=0), pairs - 1, np.argmin(positive, axis=0))
     monotone = np.minimum.accumulate(sums, axis=0)
-    before = np.arange(pairs)[:, None] < stop
-    tau = -1.0 + 2.0 * np.where(before, monotone, 0.0).sum(axis=0)
-    last = np.take_along_axis(even, stop[None], axis=0)[0]
-    tau += np.where(positive.all(axis=0), last, np.maximum(last, 0.0))
+    before_stop = np.arange(pairs)[:, None] < stop
+    tau = -1.0 + 2.0 * np.where(before_stop, monotone, 0.0).sum(axis=0)
+    even_at_stop = np.take_along_axis(even, stop[None], axis=0)[0]
+    tau += np.where(positive.all(axis=0), even_at_stop, np.maximum(even_at_stop, 0.0))
     tau = np.maximum(tau, 1.0 / np.log10(m * n))
     return np.asarray(m * n / tau).reshape(chains.shape[2:])
 
 
 def bulk_ess(values: Floats) -> float:
     """Compute the bulk effective sample size of one quantity, (chains, draws). NaN below four draws a chain."""
-    if values.shape[1] < 4:
+    if values.shape[1] < MIN_DRAWS_PER_CHAIN:
         return float("nan")
-    halves = split_chains(values)
-    return float(plain_ess(rank_normalise(halves)))
+    return float(plain_ess(rank_normalise(split_chains(values))))
 
 
 def tail_ess(values: Floats) -> float:
-    """Compute the tail effective sample size: the lesser of those of the 5 % and 95 % quantile indicators."""
-    if values.shape[1] < 4:
+    """Compute the tail effective sample size: the lesser of the indicators' at the 5 % and 95 % quantiles."""
+    if values.shape[1] < MIN_DRAWS_PER_CHAIN:
         return float("nan")
     low, high = np.quantile(values, [0.05, 0.95])
     halves = [split_chains((values <= q).astype(np.float64)) for q in (low, high)]
@@ -110,48 +109,48 @@ def tail_ess(values: Floats) -> float:
 
 @dataclass(frozen=True)
 class CellDiagnostics:
-    """Convergence over all cells of a map.
+    """Convergence over the cells of a map. `Summary` explains the fields.
 
     A cell is judged if its R-hat and effective sample size are known, or if its chains disagree.
     """
 
-    rhat_max: float  # largest split R-hat of any judged cell that changed in some chain; NaN if none did
-    ess_min: float  # smallest effective sample size of such a cell; for a 0/1 quantity bulk and tail are the same
-    unchanged: int | None  # cells with one value in all draws, without R-hat; None if states are numbers
-    disagreeing: int | None  # cells constant in each chain, but not the same in all; None if states are numbers
-    high: int  # cells with an R-hat over `RHAT_LIMIT`, those that disagree included
-    low: int  # cells with an effective sample size under `ESS_LIMIT`
-    judged: int
+    rhat_max: float
+    ess_min: float
+    unchanged_cells: int | None
+    disagreeing_cells: int | None
+    rhat_high_cells: int
+    ess_low_cells: int
+    judged_cells: int
 
 
 def diagnose_cells(prior: CellPrior, draws: Draws, among: NDArray[np.bool_]) -> CellDiagnostics:
     """Compute R-hat and effective sample size of the cells of a run, as their maps show them, not rank-normalised.
 
-    Everything but ``unchanged`` is the worst ``among`` some cells, (nx, ny): pass the observed ones. The others are
-    independent prior draws, and the worst of a hundred thousand of those is bad by chance.
+    Cells ``among`` some, (nx, ny), are judged: pass the observed cells. The others follow the prior, and the worst of
+    a hundred thousand prior draws is bad by chance. All cells of the grid count as unchanged or not.
     """
     constant, agreed = prior.constant_cells(draws)
     changed, disagreeing, unchanged = np.flatnonzero(among.ravel()), 0, None
     if constant is not None and agreed is not None:
         disagreeing = int((constant & ~agreed & among.ravel()).sum())
         changed, unchanged = np.flatnonzero(among.ravel() & ~constant), int(agreed.sum())
-    worst, least, high, low, judged = float("nan"), float("nan"), disagreeing, 0, disagreeing
-    if draws.count >= 4:
+    rhats, sizes = [np.zeros(0)], [np.zeros(0)]
+    if draws.count >= MIN_DRAWS_PER_CHAIN:
         for i in range(0, len(changed), CELLS_AT_ONCE):
             halves = split_chains(prior.traces(draws, changed[i : i + CELLS_AT_ONCE]).astype(np.float64))
             varied = np.ptp(halves.reshape(-1, halves.shape[-1]), axis=0) > 0
-            if not varied.any():
-                continue
-            rhats, sizes = plain_rhat(halves[..., varied]), plain_ess(halves[..., varied])
-            high += int((rhats > RHAT_LIMIT).sum())
-            low += int((sizes < ESS_LIMIT).sum())
-            judged += int(varied.sum())
-            worst = float(np.fmax(worst, np.fmax.reduce(rhats)))
-            least = float(np.fmin(least, np.fmin.reduce(sizes)))
-    return CellDiagnostics(worst, least, unchanged, None if unchanged is None else disagreeing, high, low, judged)
+            if varied.any():
+                rhats.append(plain_rhat(halves[..., varied]))
+                sizes.append(plain_ess(halves[..., varied]))
+    rhat_of_cell, size_of_cell = np.concatenate(rhats), np.concatenate(sizes)
+    return CellDiagnostics(
+        rhat_max=float(np.fmax.reduce(rhat_of_cell, initial=np.nan)),
+        ess_min=float(np.fmin.reduce(size_of_cell, initial=np.nan)), unchanged_cells=unchanged,
+        disagreeing_cells=None if unchanged is None else disagreeing,
+        rhat_high_cells=disagreeing + int((rhat_of_cell > RHAT_LIMIT).sum()),
+        ess_low_cells=int((size_of_cell < ESS_LIMIT).sum()), judged_cells=disagreeing + len(rhat_of_cell),
+    )  # fmt: skip
 
-
-MIN_DRAWS_PER_CHAIN = 4  # fewest draws of a chain with which its halves have a variance
 
 CHANCE_SHARE = 0.01
 """Share of the cells that may be over a limit without a warning. With 50 independent draws of each of four chains, one
@@ -159,28 +158,28 @@ cell in a thousand has an R-hat over 1.05, and four in a thousand have an estima
 chance."""
 
 TOLERANCE = 1.5
-"""Ratio of the map's error to the precision asked for from which a run warns: chains that end at their largest number
-of draws often fall a little short, and slow cells would take twice the time for it."""
+"""Ratio of the map's error to the requested precision from which a run warns: chains that end at their largest number
+of draws often fall a little short, and slow cells would take twice the time."""
 
 
 @dataclass(frozen=True)
-class Summary:
+class Summary(CellDiagnostics):
     """Diagnostics of a run. Numbers that the method does not have are NaN.
 
     Attributes:
-        rhat_log_joint, rhat_log_likelihood: rank-normalised split R-hat over the chains. The likelihood's is the
-            sharper test where many cells are unobserved, whose prior draws drown slow changes of the joint.
+        rhat_log_joint, rhat_log_likelihood: rank-normalised split R-hat over the chains. If many cells are unobserved,
+            the likelihood's is the sharper test: prior draws hide slow changes of the joint.
         ess_log_joint_bulk, ess_log_joint_tail: effective sample sizes of the log joint.
-        rhat_max, ess_min: worst over the observed cells that changed.
-        unchanged_cells: cells with one value in all draws; they have no R-hat and are counted apart.
-        disagreeing_cells: cells that never changed within a chain but differ between chains. Both are of walls, and
-            None where a cell's state is a number, which no two draws share.
+        rhat_max, ess_min: largest split R-hat and least effective sample size of the observed cells that changed.
+        unchanged_cells: cells with one value in all draws, which have no R-hat.
+        disagreeing_cells: observed cells that never changed within a chain but differ between chains. This and
+            ``unchanged_cells`` are None if a cell's state is a real number.
         map_error: Monte Carlo standard error of the mean map that 99 of 100 observed cells stay under, by batches and
-            chains (`bayesmap.run.chains.map_error`): what the run is judged by.
-        precision: what it should be.
-        rhat_high_cells: observed cells with an R-hat over 1.05, those that disagree included.
+            chains (`bayesmap.run.chains.map_error`). The run is judged by it.
+        precision: the requested ``map_error``.
+        rhat_high_cells: observed cells with an R-hat over 1.05, and those that disagree.
         ess_low_cells: observed cells with an effective sample size under 100.
-        judged_cells: observed cells that changed, and those that disagree: what the last two are parts of.
+        judged_cells: observed cells that changed, and those that disagree.
         effective_sample_size: of the weights, for importance sampling.
         microseconds_per_sweep: of one chain on one core.
         finished: false if stopped early.
@@ -190,15 +189,8 @@ class Summary:
     rhat_log_likelihood: float
     ess_log_joint_bulk: float
     ess_log_joint_tail: float
-    rhat_max: float
-    ess_min: float
-    unchanged_cells: int | None
-    disagreeing_cells: int | None
     map_error: float
     precision: float
-    rhat_high_cells: int
-    ess_low_cells: int
-    judged_cells: int
     effective_sample_size: float
     microseconds_per_sweep: float
     finished: bool
@@ -212,7 +204,8 @@ class Summary:
 
     def __str__(self) -> str:
         """Write what is good, what is doubtful with its remedy, the figures in words, and what they mean."""
-        lines = [*(f"good: {good}" for good in self.strengths()), *(f"doubtful: {one}" for one in self.problems())]
+        lines = [f"good: {strength}" for strength in self.strengths()]
+        lines += [f"doubtful: {problem}" for problem in self.problems()]
         if not math.isnan(self.rhat_log_joint):
             lines += [
                 f"R-hat: {self.rhat_log_joint:.3f} of the log joint, {self.rhat_log_likelihood:.3f} of the likelihood",
@@ -284,9 +277,9 @@ def summarise(posterior: Posterior) -> Summary:
     """Compute the diagnostics of a run."""
     nan = float("nan")
     markov, weights = posterior.has_chains, posterior.log_weights
-    # Traces without draws have no diagnostics.
-    kept = slice(None if markov else 0)
-    log_joint, log_likelihood = posterior.log_joint[:, kept], posterior.log_likelihood[:, kept]
+    # Independent draws have no diagnostics of chains.
+    draws_of_chains = slice(None if markov else 0)
+    log_joint, log_likelihood = posterior.log_joint[:, draws_of_chains], posterior.log_likelihood[:, draws_of_chains]
     chains, draws = log_joint.shape
     sweeps = posterior.sweep * max(1, chains)
     threads = int(posterior.settings.get("threads_used", 1))
@@ -295,12 +288,10 @@ def summarise(posterior: Posterior) -> Summary:
         cells = diagnose_cells(posterior.prior, posterior.draws, posterior.observed)
     enough = draws >= MIN_DRAWS_PER_CHAIN
     return Summary(
-        rhat_log_joint=rhat(log_joint), rhat_log_likelihood=rhat(log_likelihood),
-        ess_log_joint_bulk=bulk_ess(log_joint), ess_log_joint_tail=tail_ess(log_joint), rhat_max=cells.rhat_max,
-        ess_min=cells.ess_min, unchanged_cells=cells.unchanged, disagreeing_cells=cells.disagreeing,
+        **vars(cells), rhat_log_joint=rhat(log_joint), rhat_log_likelihood=rhat(log_likelihood),
+        ess_log_joint_bulk=bulk_ess(log_joint), ess_log_joint_tail=tail_ess(log_joint),
         map_error=map_error(posterior.prior, posterior.draws, posterior.observed) if enough else nan,
-        precision=(posterior.settings.get("precision") or PRECISION) if markov else nan, rhat_high_cells=cells.high,
-        ess_low_cells=cells.low, judged_cells=cells.judged,
+        precision=(posterior.settings.get("precision") or PRECISION) if markov else nan,
         effective_sample_size=float(1.0 / np.exp(2 * weights).sum()) if weights is not None else nan,
         microseconds_per_sweep=1e6 * posterior.seconds["sampling"] * threads / sweeps if markov and sweeps else nan,
         finished=posterior.finished,
@@ -314,11 +305,11 @@ class PoseSummary:
     Mean and covariance are ``by_approximation`` if chains have not mixed: their draws are far too alike.
     """
 
-    mean: Floats  # in the world frame, (S, 3); of headings the circular mean
+    mean: Floats  # in the world frame, (S, 3), with the circular mean of headings
     covariance: Floats  # of x, y and yaw, (S, 3, 3), metres and radians
     rhat: Floats  # split R-hat of the three, (S, 3); NaN below four draws a chain, or of a pose that never moved
     ess: Floats  # effective sample size of each part, (S, 3)
-    by_approximation: bool = False  # whether they are those of the approximation that chains started from
+    by_approximation: bool = False  # whether mean and covariance come from the approximation that chains started from
 
     def __repr__(self) -> str:
         """Return four lines: size, standard deviations, mixing, and source."""
@@ -369,15 +360,15 @@ class PoseSummary:
 
 def summarise_poses(poses: Floats) -> PoseSummary:
     """Summarise draws of poses, (chains, draws, S, 3)."""
-    flat = poses.reshape(-1, *poses.shape[2:])
+    flat = poses.reshape(-1, *poses.shape[2:])  # of all chains
     heading = np.arctan2(np.sin(flat[..., 2]).mean(axis=0), np.cos(flat[..., 2]).mean(axis=0))
     mean = np.concatenate([flat[..., :2].mean(axis=0), heading[:, None]], axis=-1)
-    error = poses - mean
-    error[..., 2] = wrap_angle(error[..., 2])
-    every = error.reshape(-1, *poses.shape[2:])
-    covariance = np.einsum("dsi,dsj->sij", every, every) / max(len(every) - 1, 1)
+    errors = poses - mean
+    errors[..., 2] = wrap_angle(errors[..., 2])
+    flat_errors = errors.reshape(flat.shape)
+    covariance = np.einsum("dsi,dsj->sij", flat_errors, flat_errors) / max(len(flat) - 1, 1)
     rhat = ess = np.full(mean.shape, np.nan)
-    if poses.shape[1] >= 4:
-        halves = split_chains(error)
+    if poses.shape[1] >= MIN_DRAWS_PER_CHAIN:
+        halves = split_chains(errors)
         rhat, ess = plain_rhat(halves), plain_ess(halves)
     return PoseSummary(mean, covariance, rhat, ess)

@@ -1,21 +1,9 @@
 """Score a trajectory against true relative poses: its errors, and whether its regions hold the truth.
 
-The measure of error is that of Kuemmerle, Steder, Dornhege, Ruhnke, Grisetti, Stachniss and Kleiner (2009), "On
-measuring the accuracy of SLAM algorithms", Autonomous Robots 27, equations 2 to 4: for every relation (i, j) with true
-relative pose d*, the error is e = (d*)^-1 * (x_i^-1 * x_j); its translation is |(e_x, e_y)|, its rotation |e_yaw|. It
-does not depend on the global frame, and a bend of the map counts once.
-
-If the trajectory says how sure it is, each error e has a covariance C, and
-
-    NEES = e' C^-1 e
-
-should be chi-squared with three degrees of freedom (Bar-Shalom, Li and Kirubarajan 2001, section 5.4). A region of
-probability p should hold the truth in a share p of relations. Where the law of relative poses is known (the Student-t
-approximation that `bayesmap.slam` finds, with scale matrices S and nu degrees of freedom), C is its covariance, and
-e' S^-1 e / 3 follows F(3, nu). Otherwise C is the covariance of the relative pose over the posterior's draws; estimated
-from D independent draws, NEES D (D - 3) / (3 (D + 1) (D - 1)) follows F(3, D - 3) instead (Hotelling).
-A trajectory that comes with covariances of single poses alone, and no draws, is taken as if its poses were
-independent: right for localizations in a known map, far too wide for neighbours in a SLAM trajectory.
+docs/scoring.md (Poses) explains the measures. Errors are those of Kuemmerle, Steder, Dornhege, Ruhnke, Grisetti,
+Stachniss and Kleiner (2009), "On measuring the accuracy of SLAM algorithms", Autonomous Robots 27, equations 2 to 4. A
+relation with true relative pose d* has the error e = (d*)^-1 * (x_i^-1 * x_j). With its covariance C, NEES = e' C^-1 e
+is chi-squared with three degrees of freedom (Bar-Shalom, Li and Kirubarajan 2001, section 5.4).
 """
 
 from __future__ import annotations
@@ -56,9 +44,9 @@ class Relations:
     def __len__(self) -> int:
         return len(self.first_s)
 
-    def select(self, chosen: NDArray[np.bool_] | NDArray[np.intp]) -> Relations:
-        """Return some of the relations."""
-        return Relations(self.first_s[chosen], self.second_s[chosen], self.relative[chosen])
+    def select(self, mask: NDArray[np.bool_] | NDArray[np.intp]) -> Relations:
+        """Return the relations of a mask, (N,), or of some indices."""
+        return Relations(self.first_s[mask], self.second_s[mask], self.relative[mask])
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,7 +54,7 @@ class RelationErrors:
     """Errors of a trajectory."""
 
     errors: Floats  # (x, y, yaw) of each relation that the trajectory covers, (M, 3)
-    covered: NDArray[np.bool_]  # which relations those are, (N,)
+    covered: NDArray[np.bool_]  # mask of the relations that the trajectory covers, (N,)
     in_gap: NDArray[np.bool_]  # relations within the trajectory's time that lack poses near them, (N,)
 
     @property
@@ -80,24 +68,24 @@ class RelationErrors:
         return np.asarray(np.abs(self.errors[:, 2]))
 
     def summary(self) -> dict[str, float]:
-        """Return mean, standard deviation and median of both, metres and degrees, and how many relations counted.
+        """Return mean, standard deviation and median of both sizes, in metres and degrees, and counts of relations.
 
-        ``in_gaps`` of those that are not covered lie between poses too far apart, the others outside the trajectory.
+        Relations are not covered if they lie ``in_gaps`` between poses, or outside the trajectory's time.
         """
         result: dict[str, float] = {
             "relations": len(self.errors), "not_covered": int((~self.covered).sum()), "in_gaps": int(self.in_gap.sum()),
         }  # fmt: skip
         for name, values in (("translation_m", self.translation_m), ("rotation_deg", np.degrees(self.rotation_rad))):
-            for word, statistic in (("mean", np.mean), ("std", np.std), ("median", np.median)):
-                result[f"{name}_{word}"] = float(statistic(values))
+            for statistic in (np.mean, np.std, np.median):
+                result[f"{name}_{statistic.__name__}"] = float(statistic(values))
         return result
 
 
 def relation_errors(stamps_s: Floats, poses: Floats, relations: Relations, *, exact: bool = False) -> RelationErrors:
     """Compute the errors of a trajectory by true relations, given its ascending stamps, (S,), and poses, (S, 3).
 
-    The poses are those of the frame that the relations are of. ``exact`` uses only relations whose both stamps are
-    those of poses. Otherwise poses are interpolated where their neighbours are at most `LONGEST_GAP_S` apart.
+    Poses and relations are of one frame. ``exact`` uses only relations whose two stamps are stamps of poses. Otherwise
+    poses are interpolated if their neighbours are at most `LONGEST_GAP_S` apart.
 
     Raises `BadInput` for arrays that do not fit, stamps that descend, or no relation that the trajectory covers.
     """
@@ -107,12 +95,13 @@ def relation_errors(stamps_s: Floats, poses: Floats, relations: Relations, *, ex
     if (np.diff(stamps_s) < 0).any():
         raise BadInput("relations: the trajectory's stamps must ascend; sort it by time")
     ends = relations.first_s, relations.second_s
-    within, near = (np.ones(len(relations), dtype=np.bool_) for _ in range(2))
-    for at_s in ends:
-        within &= (at_s >= stamps_s[0] - SLACK_S) & (at_s <= stamps_s[-1] + SLACK_S)
-        off_s, gap_s = _distance_to_nearest(stamps_s, at_s)
-        near &= (off_s <= SLACK_S) if exact else (off_s <= SLACK_S) | (gap_s <= LONGEST_GAP_S + SLACK_S)
-    covered = within & near
+    within, has_poses = (np.ones(len(relations), dtype=np.bool_) for _ in range(2))
+    for end_s in ends:
+        within &= (end_s >= stamps_s[0] - SLACK_S) & (end_s <= stamps_s[-1] + SLACK_S)
+        earlier_s, later_s = (stamps_s[index] for index in bracketing_indices(stamps_s, end_s))
+        at_pose = np.minimum(np.abs(end_s - later_s), np.abs(end_s - earlier_s)) <= SLACK_S
+        has_poses &= at_pose if exact else at_pose | (later_s - earlier_s <= LONGEST_GAP_S + SLACK_S)
+    covered = within & has_poses
     if not within.any():
         raise BadInput(
             f"relations: none of the {len(relations):,} relations lies within the trajectory's time, "
@@ -124,15 +113,9 @@ def relation_errors(stamps_s: Floats, poses: Floats, relations: Relations, *, ex
             f"relations: none of the {within.sum():,} relations within the trajectory's time has both of its times "
             f"{needed}; its poses are {np.median(np.diff(stamps_s)):.3g} s apart at the median: give one with more"
         )
-    first, second = (interpolate(stamps_s, poses, at_s[covered]) for at_s in ends)
+    first, second = (interpolate(stamps_s, poses, end_s[covered]) for end_s in ends)
     errors = compose(inverse(relations.relative[covered]), between(first, second))
     return RelationErrors(errors, covered, within & ~covered)
-
-
-def _distance_to_nearest(stamps_s: Floats, at_s: Floats) -> tuple[Floats, Floats]:
-    """Return how far times are from the nearest stamp, and the gap between the stamps around them, seconds, (N,)."""
-    earlier_s, later_s = (stamps_s[index] for index in bracketing_indices(stamps_s, at_s))
-    return np.minimum(np.abs(at_s - later_s), np.abs(at_s - earlier_s)), later_s - earlier_s
 
 
 LEVELS = (0.5, 0.8, 0.95)
@@ -144,13 +127,13 @@ class TrajectoryScore:
     """The accuracy of a trajectory, and the calibration of its regions.
 
     ``region`` is the least probability of a region around the estimate that holds the truth, (M,): uniform if the
-    covariances are right. It is None, as ``nees`` is, if the trajectory has no covariances.
+    covariances are right. ``nees``, (M,), and ``region`` are None if the trajectory has no covariances.
     """
 
     errors: RelationErrors  # of each relation, in the true frame of its second pose
-    nees: Floats | None = None  # of each relation, (M,)
+    nees: Floats | None = None
     region: Floats | None = None
-    assumed_independent: bool = False  # whether covariances of single poses were all there was
+    assumed_independent: bool = False  # whether the trajectory has covariances of single poses alone
     known_by: str = ""  # source of the covariances, in words
 
     def coverage(self, level: float) -> float:
@@ -175,75 +158,83 @@ def score_trajectory(
 ) -> TrajectoryScore:
     """Score a trajectory against true relative poses, whose stamps are of the same clock.
 
-    ``mount`` is the frame whose relations are known, in the frame of the trajectory, (3,); None: the trajectory's own.
-    ``exact`` is as in `relation_errors`. Raises `BadInput` for no relation within the trajectory's time, or none near
-    enough to its poses.
+    ``mount`` is the pose of the relations' frame in the trajectory's frame, (3,); None if they are one frame.
+    Covariances come from the law of relative poses, else from draws, else from single poses as if these were
+    independent. This suits localization, and is far too wide for neighbours in a SLAM trajectory.
+
+    ``exact`` and the errors raised are those of `relation_errors`.
     """
     moved = trajectory if mount is None else trajectory.of_frame(np.asarray(mount, dtype=np.float64))
-    stamps = np.arange(len(moved), dtype=np.float64) if moved.stamps_s is None else moved.stamps_s
-    errors = relation_errors(stamps, moved.poses, relations, exact=exact)
-    used = relations.select(errors.covered)
+    stamps_s = np.arange(len(moved), dtype=np.float64) if moved.stamps_s is None else moved.stamps_s
+    errors = relation_errors(stamps_s, moved.poses, relations, exact=exact)
+    covered = relations.select(errors.covered)
     if moved.relative is not None and len(moved) > 1:
-        nees, region = _by_law(moved.relative, stamps, used, errors.errors)
+        nees, region = _by_law(moved.relative, stamps_s, covered, errors.errors)
         return TrajectoryScore(errors, nees, region, known_by=moved.known_by)
     if moved.draws is not None and len(moved.draws) > 2 * DIMENSIONS:
-        nees, region = _by_draws(moved.draws, stamps, used)
+        nees, region = _by_draws(moved.draws, stamps_s, covered)
         return TrajectoryScore(errors, nees, region, known_by=moved.known_by)
     if moved.covariances is not None:
-        covariance = _independent(moved, stamps, used)
+        covariance = _independent(moved.poses, moved.covariances, stamps_s, covered)
         nees = np.einsum("ni,nij,nj->n", errors.errors, np.linalg.inv(covariance), errors.errors)
         return TrajectoryScore(errors, nees, scipy.stats.chi2.cdf(nees, DIMENSIONS), assumed_independent=True)
     return TrajectoryScore(errors)
 
 
 def _by_law(law: RelativeLaw, stamps_s: Floats, relations: Relations, errors: Floats) -> tuple[Floats, Floats]:
-    """Compute NEES and least region of each relation, by the law of the relative poses of the scans nearest in time."""
-    first, second = (_nearest(stamps_s, at) for at in (relations.first_s, relations.second_s))
+    """Compute NEES and least region of each relation, by the law of the relative poses of the scans nearest in time.
+
+    With the law's scale matrix S and degrees of freedom nu, e' S^-1 e / 3 follows F(3, nu).
+    """
+    first, second = (_nearest(stamps_s, end_s) for end_s in (relations.first_s, relations.second_s))
     # For two times about one scan the law of the step to a neighbouring scan is used, which is no surer.
     second = np.where(first == second, np.where(second > 0, second - 1, second + 1), second)
-    turn = np.swapaxes(rotation(relations.relative[:, 2]), 1, 2)
-    scale = turn @ law.scales(first, second) @ np.swapaxes(turn, 1, 2) + 1e-15 * np.eye(DIMENSIONS)
+    scale = _in_end_frame(law.scales(first, second), relations) + 1e-15 * np.eye(DIMENSIONS)
     square = np.einsum("ni,nij,nj->n", errors, np.linalg.inv(scale), errors)
     return square * (law.dof - 2.0) / law.dof, np.asarray(scipy.stats.f.cdf(square / DIMENSIONS, DIMENSIONS, law.dof))
 
 
-def _nearest(stamps_s: Floats, at_s: Floats) -> NDArray[np.intp]:
-    before, after = bracketing_indices(stamps_s, at_s)
-    return np.where(at_s - stamps_s[before] < stamps_s[after] - at_s, before, after)
+def _in_end_frame(covariance: Floats, relations: Relations) -> Floats:
+    """Turn covariances of relative poses, (M, 3, 3), into the true frame of the second pose."""
+    turn = np.swapaxes(rotation(relations.relative[:, 2]), 1, 2)
+    return np.asarray(turn @ covariance @ np.swapaxes(turn, 1, 2))
+
+
+def _nearest(stamps_s: Floats, times_s: Floats) -> NDArray[np.intp]:
+    """Return the index of the stamp nearest to each time."""
+    earlier, later = bracketing_indices(stamps_s, times_s)
+    return np.where(times_s - stamps_s[earlier] < stamps_s[later] - times_s, earlier, later)
 
 
 def _by_draws(draws: Floats, stamps_s: Floats, relations: Relations) -> tuple[Floats, Floats]:
-    """Compute NEES and least region of each relation, by the relative poses of the draws."""
+    """Compute NEES and least region of each relation, by the relative poses of D draws, taken as independent.
+
+    NEES D (D - 3) / (3 (D + 1) (D - 1)) follows F(3, D - 3) (Hotelling).
+    """
     count = len(draws)
-    off = np.empty((count, len(relations), DIMENSIONS))
-    undo = inverse(relations.relative)
+    errors = np.empty((count, len(relations), DIMENSIONS))
+    to_true = inverse(relations.relative)
     for d, poses in enumerate(draws):
-        first, second = (interpolate(stamps_s, poses, at) for at in (relations.first_s, relations.second_s))
-        off[d] = compose(undo, between(first, second))
-    anchor = off[0, :, 2].copy()
-    off[..., 2] = anchor + wrap_angle(off[..., 2] - anchor)
-    mean = off.mean(axis=0)
-    error = mean.copy()
-    error[:, 2] = wrap_angle(error[:, 2])
-    spread = off - mean
-    covariance = np.einsum("dni,dnj->nij", spread, spread) / (count - 1) + 1e-15 * np.eye(DIMENSIONS)
+        first, second = (interpolate(stamps_s, poses, end_s) for end_s in (relations.first_s, relations.second_s))
+        errors[d] = compose(to_true, between(first, second))
+    # Bring all yaws within half a turn of the first draw's before averaging.
+    anchor = errors[0, :, 2].copy()
+    errors[..., 2] = anchor + wrap_angle(errors[..., 2] - anchor)
+    mean = errors.mean(axis=0)
+    from_mean = errors - mean
+    error = np.column_stack([mean[:, :2], wrap_angle(mean[:, 2])])
+    covariance = np.einsum("dni,dnj->nij", from_mean, from_mean) / (count - 1) + 1e-15 * np.eye(DIMENSIONS)
     nees = np.einsum("ni,nij,nj->n", error, np.linalg.inv(covariance), error)
     scaled = nees * count * (count - DIMENSIONS) / (DIMENSIONS * (count + 1) * (count - 1))
     return nees, np.asarray(scipy.stats.f.cdf(scaled, DIMENSIONS, count - DIMENSIONS))
 
 
-def _independent(trajectory: Trajectory, stamps_s: Floats, relations: Relations) -> Floats:
-    """Return the covariance of each relation's error if the two poses, those nearest in time, are independent."""
-    assert trajectory.covariances is not None
-    ends = []
-    for at_s in (relations.first_s, relations.second_s):
-        pose = interpolate(stamps_s, trajectory.poses, at_s)
-        nearest = _nearest(stamps_s, at_s)
-        own = np.swapaxes(rotation(pose[:, 2]), 1, 2)  # world axes to the pose's own
-        ends.append((pose, own @ trajectory.covariances[nearest] @ np.swapaxes(own, 1, 2)))
-    (first, sure_first), (second, sure_second) = ends
-    by_first, by_second = between_jacobians(between(first, second))
-    covariance = by_first @ sure_first @ np.swapaxes(by_first, 1, 2)
-    covariance = covariance + by_second @ sure_second @ np.swapaxes(by_second, 1, 2)
-    turn = np.swapaxes(rotation(relations.relative[:, 2]), 1, 2)
-    return np.asarray(turn @ covariance @ np.swapaxes(turn, 1, 2))
+def _independent(poses: Floats, covariances: Floats, stamps_s: Floats, relations: Relations) -> Floats:
+    """Return the covariance of each relation's error if the two poses, nearest in time, are independent, (M, 3, 3)."""
+    ends_s = relations.first_s, relations.second_s
+    ends = [interpolate(stamps_s, poses, end_s) for end_s in ends_s]
+    total = np.zeros((len(relations), DIMENSIONS, DIMENSIONS))
+    for pose, end_s, jacobian in zip(ends, ends_s, between_jacobians(between(*ends)), strict=True):
+        from_world = jacobian @ np.swapaxes(rotation(pose[:, 2]), 1, 2)
+        total += from_world @ covariances[_nearest(stamps_s, end_s)] @ np.swapaxes(from_world, 1, 2)
+    return _in_end_frame(total, relations)

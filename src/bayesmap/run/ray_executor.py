@@ -27,7 +27,7 @@ from bayesmap.errors import BadInput, check_count
 from bayesmap.run.chains import Chains, EndRule, Record, SweepPlan, in_sequence, join, map_error, select_chains
 from bayesmap.run.runner import CheckpointTimer, Job, no_draws, sweeps
 from bayesmap.samplers.progress import Watch
-from bayesmap.samplers.sampler import ChainState, Snapshot, to_see
+from bayesmap.samplers.sampler import ChainState, Snapshot, draws_to_inspect
 from bayesmap.version import __version__
 
 
@@ -114,7 +114,7 @@ def observed_counts(
     run: str, job: Job, problem: list[Any], chain_ids: tuple[int, ...], snapshot: Snapshot,
     draws: Mapping[str, NDArray[Any]],
 ) -> NDArray[np.int32]:  # fmt: skip
-    """Count observed cells of chains at a snapshot, see `Sampler.observed_counts`; `to_see` selects the draws."""
+    """Count observed cells of chains at a snapshot, see `Sampler.observed_counts`."""
     state = job.sampler.init(cached(run, job, problem).problem, chain_ids, job.seed, snapshot)
     return job.sampler.observed_counts(state, draws)
 
@@ -350,7 +350,7 @@ class _RayRun:
         parts = [group.up_to(self.sweep) for group in self.groups]
         count = self.remote(observed_counts)
         counts = [
-            count(self.name, *self.shared, group.chain_ids, part.snapshot, to_see(part.draws))
+            count(self.name, *self.shared, group.chain_ids, part.snapshot, draws_to_inspect(part.draws))
             for group, part in zip(self.groups, parts, strict=True)
         ]
         return join([

@@ -25,7 +25,7 @@ from bayesmap.model import Model
 from bayesmap.run.chains import Chains, EndRule, Record, SweepPlan, map_error, observed_cells
 from bayesmap.samplers.fit import Parameters
 from bayesmap.samplers.progress import SILENT, Watch
-from bayesmap.samplers.sampler import PILOT, ChainState, Info, Keep, Sampler, Snapshot, to_see
+from bayesmap.samplers.sampler import PILOT, ChainState, Info, Keep, Sampler, Snapshot, draws_to_inspect
 
 
 @contextlib.contextmanager
@@ -139,7 +139,7 @@ def first_map(sampler: Sampler[Any, Any], problem: Any, model: Model, seed: int)
     draws = replace(no_draws(model, state, 1), arrays=info.draws)
     chains = Chains(
         draws, info.log_likelihood, info.log_prior, np.zeros((1, 0)), Snapshot(0),
-        sampler.observed_counts(state, to_see(draws)), {}, problem.n_incidences, {}, finished=False,
+        sampler.observed_counts(state, draws_to_inspect(draws)), {}, problem.n_incidences, {}, finished=False,
     )  # fmt: skip
     return chains, seconds
 
@@ -166,7 +166,7 @@ def run_chains(
     draw_bytes = sum(spec.empty(chains, 1, empty.shape_of(spec)).nbytes for spec in empty.specs)
 
     def observed_counts() -> NDArray[np.int32]:
-        return job.sampler.observed_counts(state, to_see(record.draws))
+        return job.sampler.observed_counts(state, draws_to_inspect(record.draws))
 
     def so_far() -> Chains:
         return record.chains(

@@ -1,20 +1,13 @@
 """Fit the sensor and the prior to the scans, by a pilot chain: stochastic expectation maximisation.
 
-The pilot is a short chain with a chain number of its own, which ends before the other chains begin. So the parameters
-depend on the seed and on the number of the pilot's sweeps, but not on the number of chains. In the first sweeps
-parameters move all the way to the new estimate, later a shrinking share of the way (Delyon, Lavielle and Moulines,
-1999).
+docs/surfaces.md (Fitting) and docs/inference.md describe the fits. The pilot has a chain number of its own and ends
+before the other chains begin, so the parameters do not depend on the number of chains. In the first sweeps parameters
+move all the way to the new estimate, later a shrinking share of the way (Delyon, Lavielle and Moulines, 1999).
 
-Sensor and Beta prior. After each sweep, the drawn stops give the distance of each reading from its surface. The
-expectation step splits the readings into returns of walls, passing objects and random readings. The maximisation step
-is in closed form except for the noise and the Beta.
-
-Noise. Real readings can scatter more than a normal law allows, so the noise may be Student's t, a mixture of normal
-laws of all scales.
-
-Coupling of an Ising prior. Each sweep of the pilot gives a whole map, with cells that no beam observes. The coupling
-moves towards the maximum of the pseudo-likelihood for this map (`bayesmap.cells.binary`). It converges where the
-posterior mean of the pseudo-likelihood's slope is zero. Unknown poses are fixed at the poses of the log.
+After each sweep, the expectation step splits the readings into returns of walls, passing objects and random readings,
+given the drawn stops. The maximisation step is in closed form except for the noise and the Beta. The coupling of an
+Ising prior moves towards the maximum of the pseudo-likelihood for the drawn map (`bayesmap.cells.binary`). Unknown
+poses are fixed at the poses of the log.
 """
 
 from __future__ import annotations
@@ -42,10 +35,11 @@ from bayesmap.samplers.walls import WallSampler
 from bayesmap.sensors.builtin import AdditiveNoise, BeamMixture, Gaussian, describe, from_description, noise_with
 from bayesmap.sensors.model import RangeLimits
 
-SHAPES = (3.0, 5.0, 9.0, 17.0, math.inf)  # degrees of freedom to try; odd numbers need no logarithm in kernels
+DOFS = (3.0, 5.0, 9.0, 17.0, math.inf)  # degrees of freedom to try; odd numbers need no logarithm in kernels
 LEAST_SCALE_M = 1e-3
 LEAST_GROWTH = 1e-6  # metres per metre
-FIRST_STEP, CLOSE = 0.1, 1e-3  # first step and final accuracy of the search, in logarithms of the noise's parameters
+FIRST_STEP = 0.1  # of the search, in logarithms of the noise's parameters
+ACCURACY = 1e-3  # of the search, in the same logarithms
 LEAST_WEIGHT = 10.0  # least number of readings, summed by weight, that changes the noise
 
 
@@ -66,41 +60,42 @@ class StopResiduals:
 
     def likeliest(self, dof: float, scale_m: float, per_m: float) -> tuple[float, Floats]:
         """Minimise the cost over scale and growth, from these values. Returns the cost, and the logarithms of both."""
-        first = np.log([scale_m, max(per_m, 1e-5)])
+        start = np.log([scale_m, max(per_m, 1e-5)])
+        simplex = start + FIRST_STEP * np.eye(3, 2, -1)
+        # Nelder-Mead is as fast as any method with two numbers, and uses no threads of linear algebra.
         result = scipy.optimize.minimize(
-            lambda logs: self.cost(dof, *np.exp(logs)),
-            first,
-            method="Nelder-Mead",  # as fast as any with two numbers, and without threads of linear algebra
+            lambda logs: self.cost(dof, *np.exp(logs)), start, method="Nelder-Mead",
             bounds=[(math.log(LEAST_SCALE_M), math.log(10.0)), (math.log(LEAST_GROWTH), 0.0)],
-            options={"initial_simplex": first + FIRST_STEP * np.eye(3, 2, -1), "xatol": CLOSE, "fatol": CLOSE**2},
-        )
+            options={"initial_simplex": simplex, "xatol": ACCURACY, "fatol": ACCURACY**2},
+        )  # fmt: skip
         return float(result.fun), result.x
 
 
 def refit_noise(noise: AdditiveNoise, residuals: StopResiduals, step: float) -> AdditiveNoise:
     """Move a noise by the share ``step`` of the way to the likeliest. A whole step may also move its degrees of freedom
-    to a neighbouring value of `SHAPES`.
+    to a neighbouring value of `DOFS`.
     """
-    readings = residuals.weight.sum()
-    if readings < LEAST_WEIGHT:
+    n_readings = residuals.weight.sum()
+    if n_readings < LEAST_WEIGHT:
         return noise
     numbers = noise.kernel_parameters()
     assert numbers is not None
     dof, scale_m, per_m = numbers.dof or math.inf, numbers.sigma_m, numbers.sigma_per_m
-    index = SHAPES.index(dof)
-    tried = SHAPES[max(index - 1, 0) : index + 2] if step == 1.0 else (dof,)
-    costs = {shape: residuals.likeliest(shape, scale_m, per_m) for shape in tried}
-    a_number_more = 0.5 * math.log(readings) / readings  # cost of the parameter dof (Schwarz 1978)
-    best = min(tried, key=lambda shape: costs[shape][0] + (a_number_more if shape < math.inf else 0.0))
-    present = np.log([scale_m, max(per_m, LEAST_GROWTH)])
-    return noise_with(best, *np.exp((1 - step) * present + step * costs[best][1]).tolist())
+    index = DOFS.index(dof)
+    candidates = DOFS[max(index - 1, 0) : index + 2] if step == 1.0 else (dof,)
+    fits = {dof: residuals.likeliest(dof, scale_m, per_m) for dof in candidates}
+    dof_cost = 0.5 * math.log(n_readings) / n_readings  # of the parameter dof (Schwarz 1978)
+    best = min(candidates, key=lambda dof: fits[dof][0] + (dof_cost if dof < math.inf else 0.0))
+    old_logs = np.log([scale_m, max(per_m, LEAST_GROWTH)])
+    return noise_with(best, *np.exp((1 - step) * old_logs + step * fits[best][1]).tolist())
 
 
 BEAMS_LOOKED_AT = 40_000  # beams used in each sweep, at most about
 PILOT_SWEEPS = 40  # most sweeps of the pilot of reflectivities and surfaces; a short warm-up has a shorter pilot
 SENSOR_SWEEPS = 30  # sweeps of the pilot that fits a sensor alone
 SPREAD_WITHOUT_SURFACE = 0.3  # standard deviation of stops in cells without surfaces, in edges, with which a fit starts
-FIRST_SWEEP, WHOLE_UNTIL = 3, 20  # the first sweep that moves parameters, and the last that moves them all the way
+FIRST_SWEEP = 3  # the first sweep that moves parameters
+WHOLE_UNTIL = 20  # the sweep until which parameters move all the way
 PRIOR_EVERY = 2  # sweeps from one move of the prior to the next
 LEAST_SHARE = 1e-5
 LEAST_RANDOM = 5e-4  # least share of random readings: a map of few scans may explain all theirs, but not new ones
@@ -195,9 +190,10 @@ def fit_sensor(
 
 def stops_of(state: StopState, beams: slice) -> DrawnStops:
     """Return the stops of the given beams in the last sweep, all chains together."""
-    each = [state.chains.stops(chain) for chain in range(state.chains.n_chains)]
-    stopped, distance_m, variance = (np.concatenate([p[beams] for p in parts]) for parts in zip(*each, strict=True))
-    range_m = np.tile(state.problem.rays.range_m[beams], len(each))
+    of_chains = [state.chains.stops(chain) for chain in range(state.chains.n_chains)]
+    fields = ([values[beams] for values in chains] for chains in zip(*of_chains, strict=True))
+    stopped, distance_m, variance = map(np.concatenate, fields)
+    range_m = np.tile(state.problem.rays.range_m[beams], len(of_chains))
     return DrawnStops(range_m, stopped, distance_m.astype(np.float64), variance.astype(np.float64))
 
 
@@ -208,64 +204,57 @@ def step_share(sweep: int, whole_until: int = WHOLE_UNTIL) -> float:
 
 def refit_sensor(sensor: BeamMixture, stops: DrawnStops, limits: RangeLimits, step: float) -> BeamMixture:
     """Move the sensor's parameters towards those that make the readings likeliest, given the stops."""
-    z, hit = stops.range_m, np.isfinite(stops.range_m)
+    hit, no_return = np.isfinite(stops.range_m), np.isposinf(stops.range_m)
     wall = hit & stops.stopped
-    silent = np.isposinf(z)
-    known, rate = 1.0 - sensor.p_random, sensor.rate_short_per_m
+    p_model, rate = 1.0 - sensor.p_random, sensor.rate_short_per_m
 
     # Expectation: probabilities that a reading is random, a passing object, or a return of the wall.
-    t = np.where(stops.stopped, np.minimum(stops.distance_m, limits.max_m), limits.max_m)
-    anything = np.where(hit, sensor.p_random / (limits.max_m - limits.min_m), 0.0)
-    reading = np.where(hit, z, 0.0)
-    passing = np.where(
-        hit & (reading < t), known * sensor.p_short * rate * np.exp(-rate * np.maximum(reading, 0.0)), 0.0
-    )
-    scale = np.sqrt(sensor.noise.scale_at(t) ** 2 + stops.variance)
-    standard = np.where(wall, reading - t, 0.0) / scale
-    unblocked = sensor.unblocked(t)
-    returned = np.where(
-        wall, known * unblocked * (1 - sensor.p_no_return) * np.exp(sensor.noise.log_density(standard)) / scale, 0.0
-    )
-    total = np.where(hit, anything + passing + returned, 1.0)
-    by_chance, by_object, by_wall = anything / total, passing / total, returned / total
+    wall_m = np.where(stops.stopped, np.minimum(stops.distance_m, limits.max_m), limits.max_m)
+    reading_m = np.where(hit, stops.range_m, 0.0)
+    random = np.where(hit, sensor.p_random / (limits.max_m - limits.min_m), 0.0)
+    short = p_model * sensor.p_short * rate * np.exp(-rate * np.maximum(reading_m, 0.0))
+    short = np.where(hit & (reading_m < wall_m), short, 0.0)
+    scale = np.sqrt(sensor.noise.scale_at(wall_m) ** 2 + stops.variance)
+    noise = np.exp(sensor.noise.log_density(np.where(wall, reading_m - wall_m, 0.0) / scale))
+    unblocked = sensor.unblocked(wall_m)
+    returned = np.where(wall, p_model * unblocked * (1 - sensor.p_no_return) * noise / scale, 0.0)
+    density = np.where(hit, random + short + returned, 1.0)
+    by_chance, by_object, by_wall = random / density, short / density, returned / density
 
     # Maximisation.
-    valid = float((hit | silent).sum())
-    p_random = _share(by_chance.sum(), valid, sensor.p_random)
+    p_random = _share(by_chance.sum(), float((hit | no_return).sum()), sensor.p_random)
     # A stop within range without a return was missed, or its reading lay out of range.
-    reached = stops.stopped & (stops.distance_m <= limits.max_m)
-    out_of_range = (1.0 - sensor.p_no_return) * sensor.noise.tail((limits.max_m - t) / scale)
+    in_range = stops.stopped & (stops.distance_m <= limits.max_m)
+    out_of_range = (1.0 - sensor.p_no_return) * sensor.noise.tail((limits.max_m - wall_m) / scale)
     share_missed = sensor.p_no_return / np.maximum(sensor.p_no_return + out_of_range, LEAST_SHARE)
-    missing = float((silent & reached) @ share_missed)
-    p_no_return = _share(missing, missing + by_wall.sum(), sensor.p_no_return)
+    n_missed = float((no_return & in_range) @ share_missed)
+    p_no_return = _share(n_missed, n_missed + by_wall.sum(), sensor.p_no_return)
     # Passing objects may also be behind the end of the beam, unobserved.
-    free = np.where(hit, by_wall, silent * 1.0)
-    behind = free * sensor.p_short * np.exp(-rate * t) / unblocked
+    unblocked_beams = np.where(hit, by_wall, no_return * 1.0)
+    behind = unblocked_beams * sensor.p_short * np.exp(-rate * wall_m) / unblocked
     # Objects too close to be measured are unobserved as well: this many per object further away.
     too_close = math.expm1(rate * limits.min_m)
-    seen, further = by_object.sum(), by_object.sum() + behind.sum()
-    objects = further * (1.0 + too_close)
-    p_short = _share(objects, seen + further * too_close + free.sum(), sensor.p_short)
-    metres = (by_object * reading).sum() + (behind * (t + 1.0 / rate)).sum()
-    metres += further * (too_close / rate - limits.min_m)
-    rate_new = (objects + PSEUDO_BEAMS) / (metres + PSEUDO_BEAMS / rate)
-    residuals = StopResiduals(reading[wall] - t[wall], t[wall], stops.variance[wall], by_wall[wall])
+    n_observed, n_further = by_object.sum(), by_object.sum() + behind.sum()
+    n_objects = n_further * (1.0 + too_close)
+    p_short = _share(n_objects, n_observed + n_further * too_close + unblocked_beams.sum(), sensor.p_short)
+    metres = (by_object * reading_m).sum() + (behind * (wall_m + 1.0 / rate)).sum()
+    metres += n_further * (too_close / rate - limits.min_m)
+    new_rate = (n_objects + PSEUDO_BEAMS) / (metres + PSEUDO_BEAMS / rate)
+    residuals = StopResiduals(reading_m[wall] - wall_m[wall], wall_m[wall], stops.variance[wall], by_wall[wall])
 
-    def moved(old: float, new: float) -> float:
+    def move(old: float, new: float) -> float:
         return float(math.exp((1 - step) * math.log(old) + step * math.log(new)))
 
     return BeamMixture(
-        noise=refit_noise(sensor.noise, residuals, step),
-        p_random=max(moved(sensor.p_random, p_random), LEAST_RANDOM),
-        p_no_return=moved(max(sensor.p_no_return, LEAST_SHARE), p_no_return),
-        p_short=moved(max(sensor.p_short, LEAST_SHARE), p_short),
-        rate_short_per_m=moved(rate, rate_new),
-    )
+        noise=refit_noise(sensor.noise, residuals, step), p_random=max(move(sensor.p_random, p_random), LEAST_RANDOM),
+        p_no_return=move(max(sensor.p_no_return, LEAST_SHARE), p_no_return),
+        p_short=move(max(sensor.p_short, LEAST_SHARE), p_short), rate_short_per_m=move(rate, new_rate),
+    )  # fmt: skip
 
 
-def _share(part: float, whole: float, present: float) -> float:
+def _share(count: float, total: float, present: float) -> float:
     """Estimate a share, drawn a little towards its present value."""
-    share = (part + PSEUDO_BEAMS * present) / (whole + PSEUDO_BEAMS)
+    share = (count + PSEUDO_BEAMS * present) / (total + PSEUDO_BEAMS)
     return float(min(max(share, LEAST_SHARE), 0.5))
 
 
@@ -277,13 +266,14 @@ def refit_prior(
     label's cells. Cells with negative ``met`` have not counted yet and are left out.
     """
     counted = met >= 0
-    if solid is None:
-        a, b = _likeliest_beta(prior.a, prior.b, hits[counted], met[counted], step)
-        return replace(prior, a=a, b=b)
-    free, full = counted & ~solid, counted & solid
+    free = counted if solid is None else counted & ~solid
     a, b = _likeliest_beta(prior.a, prior.b, hits[free], met[free], step)
-    a_solid, b_solid = _likeliest_beta(prior.a_solid, prior.b_solid, hits[full], met[full], step)
-    return replace(prior, a=a, b=b, a_solid=a_solid, b_solid=b_solid)
+    prior = replace(prior, a=a, b=b)
+    if solid is None:
+        return prior
+    full = counted & solid
+    a, b = _likeliest_beta(prior.a_solid, prior.b_solid, hits[full], met[full], step)
+    return replace(prior, a_solid=a, b_solid=b)
 
 
 def _likeliest_beta(
@@ -294,18 +284,18 @@ def _likeliest_beta(
         return a, b
     # Both counts as one integer: a hundred times as fast as searching equal pairs.
     base = int(met.max()) + 1
-    pairs, times = np.unique(hits.astype(np.int64) * base + met, return_counts=True)
-    h, p = (part.astype(np.float64) for part in np.divmod(pairs, base))
+    pairs, n_cells = np.unique(hits.astype(np.int64) * base + met, return_counts=True)
+    pair_hits, pair_met = (count.astype(np.float64) for count in np.divmod(pairs, base))
 
     def cost(logs: Floats) -> float:
         a, b = np.exp(logs)
-        terms = special.betaln(a + h, b + p) - special.betaln(a, b)
-        return float(-(times * terms).sum() / times.sum())
+        terms = special.betaln(a + pair_hits, b + pair_met) - special.betaln(a, b)
+        return float(-(n_cells * terms).sum() / n_cells.sum())
 
-    first = np.log([a, b])
+    start = np.log([a, b])
     bounds = [(math.log(1e-4), math.log(10.0)), (math.log(1e-3), math.log(100.0))]
-    result = scipy.optimize.minimize(cost, first, method="L-BFGS-B", bounds=bounds)
-    a, b = np.exp((1 - step) * first + step * result.x)
+    result = scipy.optimize.minimize(cost, start, method="L-BFGS-B", bounds=bounds)
+    a, b = np.exp((1 - step) * start + step * result.x)
     return float(a), float(b)
 
 

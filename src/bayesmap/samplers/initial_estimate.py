@@ -20,8 +20,8 @@ from bayesmap.space.grid import Grid
 CENTRE_WEIGHT_HITS = 0.3  # weight of the prior's centre, in hits
 FREE_PERIOD = 8  # update period, in sweeps, of cells in which no reading ends
 FAR_PERIOD = 16  # update period, in sweeps, of cells in which no reading ends, nor in the cells around them
-MIN_PASSES = 16  # a cell that fewer beams pass has the update period `FEW_PASSES_PERIOD`
-FEW_PASSES_PERIOD = 2  # in sweeps
+FEW_PASSES_PERIOD = 2  # update period, in sweeps, of cells in which no reading ends and that few beams pass
+MIN_PASSES = 16  # fewer passes are few
 ALONG_WALL_SIGMAS = 1.5  # first standard deviation of a surface along its wall, in standard deviations of end points
 INSIDE_SHARE = 0.98  # share of a cell's edge within which means start
 MAX_PRIOR_SURFACES = 1 << 16  # most surfaces drawn from the prior; more cells than that share them
@@ -76,49 +76,49 @@ def initial_estimate(rays: Rays, prior: Beta, device: str = "cpu") -> InitialEst
     centre = grid.centers_from_corner_m(ended_cells)
     hits_of_cell = hits[ended_cells]
 
-    def total(values: Floats) -> Floats:
+    def sum_by_cell(values: Floats) -> Floats:
         return np.bincount(index, values, len(ended_cells)).astype(np.float64)
 
     # Means and covariances, shrunk towards the prior.
     weight = hits_of_cell + CENTRE_WEIGHT_HITS
-    sums = [total(points[:, i]) + CENTRE_WEIGHT_HITS * centre[:, i] for i in (0, 1)]
+    sums = [sum_by_cell(points[:, i]) + CENTRE_WEIGHT_HITS * centre[:, i] for i in (0, 1)]
     mean = np.stack(sums, axis=-1) / weight[:, None]
     from_mean = points - mean[index]
     centre_from_mean = centre - mean
 
     def covariance(i: int, j: int) -> Floats:
-        scatter = total(from_mean[:, i] * from_mean[:, j])
+        scatter = sum_by_cell(from_mean[:, i] * from_mean[:, j])
         scatter += CENTRE_WEIGHT_HITS * centre_from_mean[:, i] * centre_from_mean[:, j]
         return np.asarray((scatter + (i == j) * 0.5 * (prior.first_spread * edge) ** 2) / (hits_of_cell + 1.0))
 
-    var_x, both, var_y = widen_along_wall(covariance(0, 0), covariance(0, 1), covariance(1, 1))
+    var_x, cov_xy, var_y = widen_along_wall(covariance(0, 0), covariance(0, 1), covariance(1, 1))
     # Cholesky factors; no surface is thinner than a thousandth of the edge.
     l11 = np.sqrt(var_x)
-    l21 = both / l11
+    l21 = cov_xy / l11
     l22 = np.sqrt(np.maximum(var_y - l21**2, (1e-3 * edge) ** 2))
-    # Cells far from all endpoint cells.
-    around = ndimage.binary_dilation((hits > 0).reshape(grid.shape), np.ones((3, 3))).ravel()
+    near_hits = ndimage.binary_dilation((hits > 0).reshape(grid.shape), np.ones((3, 3))).ravel()
     touched = rays.touched
+    passes = count_passes(rays, end_cell, device)[touched]
     return InitialEstimate(
-        touched=touched, hits=hits[touched], passes=count_passes(rays, end_cell, device)[touched], far=~around[touched],
+        touched=touched, hits=hits[touched], passes=passes, far=~near_hits[touched],
         mean_m=mean, factor_m=np.stack([l11, l21, l22], axis=-1),
     )  # fmt: skip
 
 
-def widen_along_wall(var_x: Floats, both: Floats, var_y: Floats) -> tuple[Floats, Floats, Floats]:
+def widen_along_wall(var_x: Floats, cov_xy: Floats, var_y: Floats) -> tuple[Floats, Floats, Floats]:
     """Return the covariances, xx, xy and yy, with `ALONG_WALL_SIGMAS` times the sigma along the longer axis: a surface
     that stops all beams of evenly spread readings must be wider than their scatter.
     """
-    angle, along = longer_axis(var_x, both, var_y)
-    more = (ALONG_WALL_SIGMAS**2 - 1.0) * along
+    angle, variance = longer_axis(var_x, cov_xy, var_y)
+    added = (ALONG_WALL_SIGMAS**2 - 1.0) * variance
     cosine, sine = np.cos(angle), np.sin(angle)
-    return var_x + more * cosine**2, both + more * cosine * sine, var_y + more * sine**2
+    return var_x + added * cosine**2, cov_xy + added * cosine * sine, var_y + added * sine**2
 
 
-def longer_axis(var_x: Floats, both: Floats, var_y: Floats) -> tuple[Floats, Floats]:
+def longer_axis(var_x: Floats, cov_xy: Floats, var_y: Floats) -> tuple[Floats, Floats]:
     """Return the angle of the longer axis of covariances, in radians from the first axis, and the variance along it."""
-    angle = 0.5 * np.arctan2(2 * both, var_x - var_y)
-    return angle, 0.5 * (var_x + var_y) + np.hypot(0.5 * (var_x - var_y), both)
+    angle = 0.5 * np.arctan2(2 * cov_xy, var_x - var_y)
+    return angle, 0.5 * (var_x + var_y) + np.hypot(0.5 * (var_x - var_y), cov_xy)
 
 
 def end_cells(rays: Rays) -> NDArray[np.int32]:
@@ -132,9 +132,9 @@ def end_cells(rays: Rays) -> NDArray[np.int32]:
     return np.where(inside & rays.touched_map().ravel()[flat], flat, -1).astype(np.int32)
 
 
-def counts_at_first(estimate: InitialEstimate, cells: int) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+def first_counts(estimate: InitialEstimate, n_cells: int) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
     """Estimate for each cell the beams that it stopped, and the beams that met it and passed, (N,) each."""
-    stopped, passed = np.zeros(cells, np.float32), np.zeros(cells, np.float32)
+    stopped, passed = np.zeros(n_cells, np.float32), np.zeros(n_cells, np.float32)
     stopped[estimate.touched] = estimate.hits
     # Half of the passes: if a wall fills part of a cell, passing beams mostly go beside the wall.
     passed[estimate.touched] = 0.5 * estimate.passes
@@ -145,7 +145,7 @@ def first_labels(estimate: InitialEstimate, prior: Beta, grid: Grid, rng: np.ran
     """Draw a chain's first labels of all cells of the grid, (N,), by sweeps of labels under the estimated counts.
     Regions that no beam observes agree slowly, and sweeps of labels alone are cheap.
     """
-    stopped, passed = (counts.astype(np.float64) for counts in counts_at_first(estimate, grid.n_cells))
+    stopped, passed = (counts.astype(np.float64) for counts in first_counts(estimate, grid.n_cells))
     log_odds = special.betaln(prior.a_solid + stopped, prior.b_solid + passed)
     log_odds -= special.betaln(prior.a_solid, prior.b_solid)
     log_odds -= special.betaln(prior.a + stopped, prior.b + passed) - special.betaln(prior.a, prior.b)
@@ -163,12 +163,9 @@ def draw_start_state(
     """
     grid, cells = rays.grid, rays.grid.n_cells
     state = np.zeros((cells, 6), dtype=np.float32)
-    stopped, passed = counts_at_first(estimate, cells)
-    if solid is None:
-        state[:, 0] = rng.beta(stopped + prior.a, passed + prior.b)
-    else:
-        a, b = prior.beta_given(solid)
-        state[:, 0] = rng.beta(stopped + a, passed + b)
+    stopped, passed = first_counts(estimate, cells)
+    a, b = (prior.a, prior.b) if solid is None else prior.beta_given(solid)
+    state[:, 0] = rng.beta(stopped + a, passed + b)
     if not prior.has_surfaces:
         return state
     # Surfaces of all cells, from the prior.
@@ -202,23 +199,16 @@ def steps(estimate: InitialEstimate, edge_m: float) -> NDArray[np.float32]:
     """Return step sizes and frames of the endpoint cells, (U, 8), see `bayesmap.kernels.surfaces.endpoint_cells`.
 
     Columns are the steps of logit, mean along, mean across, length, slant and thickness, and the frame's cosine, sine.
-
     Steps along the wall are a share of the cell's edge; steps across it shrink with the number of readings.
     """
     l11, l21, l22 = estimate.factor_m.T
     hits, passes = estimate.hits[estimate.endpoint], estimate.passes[estimate.endpoint]
-    angle, along = longer_axis(l11**2, l11 * l21, l21**2 + l22**2)
-    thickness = np.maximum(l11 * l22 / np.sqrt(along), 1e-3 * edge_m)  # the factor's determinant over the longer axis
+    angle, variance = longer_axis(l11**2, l11 * l21, l21**2 + l22**2)
+    # The factor's determinant over the standard deviation along the longer axis.
+    thickness = np.maximum(l11 * l22 / np.sqrt(variance), 1e-3 * edge_m)
     posterior_scale = 1.0 / np.sqrt(hits + 1.0)
-    logit = np.sqrt(1.0 / (hits + 1.0) + 1.0 / (0.5 * passes + 1.0))
+    logit = STEP_LOGIT * np.sqrt(1.0 / (hits + 1.0) + 1.0 / (0.5 * passes + 1.0))
+    along, length = (np.full(len(hits), step) for step in (STEP_ALONG_CELLS * edge_m, STEP_SIZE))
     across = STEP_ACROSS_SIGMAS * thickness * posterior_scale
-    out = np.zeros((len(hits), 8), dtype=np.float32)
-    out[:, 0] = STEP_LOGIT * logit
-    out[:, 1] = STEP_ALONG_CELLS * edge_m
-    out[:, 2] = across
-    out[:, 3] = STEP_SIZE
-    out[:, 4] = across
-    out[:, 5] = STEP_THICKNESS * posterior_scale
-    out[:, 6] = np.cos(angle)
-    out[:, 7] = np.sin(angle)
-    return out
+    columns = (logit, along, across, length, across, STEP_THICKNESS * posterior_scale, np.cos(angle), np.sin(angle))
+    return np.stack(columns, axis=-1).astype(np.float32)

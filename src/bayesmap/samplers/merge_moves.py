@@ -1,14 +1,8 @@
 """Merge moves: joint changes of two surfaces, during the warm-up of chains.
 
-Sweeps change one cell at a time: a surface that grows over the readings of a neighbour gains nothing while the
-neighbour still stops those beams. In a merge move a cell that stops few beams becomes free. The neighbour whose axis
-lies closest to its readings becomes longer along this axis, to reach them.
-
-Changes at places that are far enough apart are tried together. One sweep over the beams computes for each place whether
-the map explains its readings better than before; the other changes are undone. The criterion is the log likelihood of
-the readings that end in a square, less the cost of the surfaces that stop these beams. A surface has five parameters.
-Each costs half the logarithm of the number of beams that it stops (Schwarz 1978), and a solid cell costs the prior's
-log odds against it:
+In a merge move a cell that stops few beams becomes free, and the neighbour whose axis lies closest to its readings
+becomes longer along this axis, to reach them. docs/surfaces.md (Where chains start) gives the reasons. A move is kept
+if it raises the evidence, the log likelihood of nearby readings less the cost of the surfaces that stop their beams:
 
     sum over beams ( log p(z) - (log odds + 5/2 log (1 + n)) / n ),    n beams being stopped by the same cell.
 
@@ -38,7 +32,8 @@ if TYPE_CHECKING:
 Look = Callable[["ChainMaps"], Floats]
 
 NUMBERS = 5  # parameters of a surface: mean and covariance
-UPDATES_ALL, UPDATES_FEW = 1 << 24, (1 << 24) + 1  # sweep numbers past all chains': all cells are updated, or few
+UPDATES_ALL = 1 << 24  # number of a sweep, past the sweeps of all chains, that updates all cells
+UPDATES_FEW = UPDATES_ALL + 1  # number of a sweep that updates few cells
 EARLY_SHARE = 0.8  # share of the warm-up before the first merge moves
 MERGED_AGAIN = 2  # further merges, each after a tenth of the sweeps before the first, still in the warm-up
 
@@ -64,31 +59,31 @@ class ChainMaps:
 
 @dataclass(frozen=True, eq=False)
 class Changes:
-    """Changes to the map of one chain, in n places."""
+    """Changes to the map of one chain, at n sites."""
 
     middle: NDArray[np.intp]  # x and y of the cells around which the readings are compared, (n, 2)
-    where: NDArray[np.intp]  # flat indices of the cells that change, (n, k)
+    index: NDArray[np.intp]  # flat indices of the cells that change, (n, k)
     cells: NDArray[np.float32]  # new states of these cells, (n, k, 6)
     solid: NDArray[np.bool_]  # new labels, (n, k)
 
     def select(self, mask: NDArray[np.bool_]) -> Changes:
-        """Return the changes at the places of the mask, (n,)."""
-        return Changes(self.middle[mask], self.where[mask], self.cells[mask], self.solid[mask])
+        """Return the changes at the sites of the mask, (n,)."""
+        return Changes(self.middle[mask], self.index[mask], self.cells[mask], self.solid[mask])
 
 
 def evidence(chains: StopChains, chain: int, end_cell: NDArray[np.int32], prior: Beta) -> Floats:
     """Compute the sum above over the beams whose readings end in each cell, (N,), for a chain's last sweep.
     ``end_cell`` is the result of `bayesmap.samplers.initial_estimate.end_cells`, (B,).
     """
-    cells = chains.plan.rays.grid.n_cells
+    n_cells = chains.plan.rays.grid.n_cells
     owner = chains.stopped_by(chain)
     stopped = owner >= 0
-    beams = np.bincount(owner[stopped], minlength=cells)
+    n_beams = np.bincount(owner[stopped], minlength=n_cells)
     log_odds = max(0.0, math.log((1.0 - prior.mean) / prior.mean))
-    share = (log_odds + 0.5 * NUMBERS * np.log1p(beams)) / np.maximum(beams, 1)
-    value = chains.log_likelihood(chain) - np.where(stopped, share[owner], 0.0)
+    cost_of_beam = (log_odds + 0.5 * NUMBERS * np.log1p(n_beams)) / np.maximum(n_beams, 1)
+    beam_nats = chains.log_likelihood(chain) - np.where(stopped, cost_of_beam[owner], 0.0)
     ended = end_cell >= 0
-    return np.bincount(end_cell[ended], value[ended], cells).astype(np.float64)
+    return np.bincount(end_cell[ended], beam_nats[ended], n_cells).astype(np.float64)
 
 
 def look_with(problem: StopProblem, chains: StopChains, beta: float) -> Look:
@@ -108,50 +103,43 @@ def look_with(problem: StopProblem, chains: StopChains, beta: float) -> Look:
 def try_changes(
     maps: ChainMaps, changes: Sequence[Changes], look: Look, before: Floats, half: int, least: float
 ) -> list[NDArray[np.bool_]]:
-    """Change maps, and undo the changes that raise the evidence by less than ``least`` nats around their place.
+    """Change maps, and undo the changes that raise the evidence by less than ``least`` nats around their site.
 
-    The readings of ``half`` cells to each side of a place are compared; the places of a chain do not touch. ``before``
+    The readings of ``half`` cells to each side of a site are compared; the squares of a chain do not touch. ``before``
     is the evidence before the changes, (C, nx, ny); it is updated around the changes that stay. Returns the mask of
     changes that stay, for each chain.
     """
     olds = []
     for cells, solid, new in zip(maps.cells, maps.solid, changes, strict=True):
-        olds.append(Changes(new.middle, new.where, cells[new.where], solid[new.where]))
-        cells[new.where], solid[new.where] = new.cells, new.solid
+        olds.append(Changes(new.middle, new.index, cells[new.index], solid[new.index]))
+        cells[new.index], solid[new.index] = new.cells, new.solid
     after, stays = look(maps), []
     for chain, old in enumerate(olds):
-        shape = before.shape[1:]
         x, y = old.middle.T
-        stay = sums_over_squares(after[chain] - before[chain], half)[x, y] >= least
-        back = old.select(~stay)
-        maps.cells[chain][back.where], maps.solid[chain][back.where] = back.cells, back.solid
-        changed = covered(old.middle[stay], half, (shape[0], shape[1]))
-        before[chain][changed] = after[chain][changed]
+        # Sums over the square of cells around each cell.
+        gain = ndimage.uniform_filter(after[chain] - before[chain], 2 * half + 1, mode="constant") * (2 * half + 1) ** 2
+        stay = gain[x, y] >= least
+        undone = old.select(~stay)
+        maps.cells[chain][undone.index], maps.solid[chain][undone.index] = undone.cells, undone.solid
+        for site in old.middle[stay]:
+            square = _square(*site, half)
+            before[chain][square] = after[chain][square]
         stays.append(stay)
     return stays
 
 
-def sums_over_squares(values: Floats, half: int) -> Floats:
-    """Sum over the square of cells around each cell, ``half`` to each side, (nx, ny)."""
-    return np.asarray(ndimage.uniform_filter(values, 2 * half + 1, mode="constant") * (2 * half + 1) ** 2)
+def _square(x: int, y: int, half: int) -> tuple[slice, slice]:
+    """Return the cells of a square, ``half`` cells to each side of its middle, cut off at the grid's borders."""
+    return slice(max(0, x - half), x + half + 1), slice(max(0, y - half), y + half + 1)
 
 
-def apart(sites: NDArray[np.intp], cells: int, shape: tuple[int, int]) -> NDArray[np.bool_]:
-    """Select sites greedily, each more than ``cells`` cells from those already selected. Returns a mask, (n,)."""
-    near, chosen = np.zeros(shape, dtype=np.bool_), np.zeros(len(sites), dtype=np.bool_)
+def select_apart(sites: NDArray[np.intp], gap: int, shape: tuple[int, int]) -> NDArray[np.bool_]:
+    """Select sites greedily, each more than ``gap`` cells from the selected ones. Returns a mask, (n,)."""
+    excluded, selected = np.zeros(shape, dtype=np.bool_), np.zeros(len(sites), dtype=np.bool_)
     for i, (x, y) in enumerate(sites):
-        if not near[x, y]:
-            near[max(0, x - cells) : x + cells + 1, max(0, y - cells) : y + cells + 1] = True
-            chosen[i] = True
-    return chosen
-
-
-def covered(middles: NDArray[np.intp], half: int, shape: tuple[int, int]) -> NDArray[np.bool_]:
-    """Mark the cells of squares, (nx, ny)."""
-    out = np.zeros(shape, dtype=np.bool_)
-    for x, y in middles:
-        out[max(0, x - half) : x + half + 1, max(0, y - half) : y + half + 1] = True
-    return out
+        if not excluded[x, y]:
+            excluded[_square(x, y, gap)] = selected[i] = True
+    return selected
 
 
 def merge_sweeps(early_sweeps: int) -> list[int]:
@@ -163,19 +151,19 @@ def merge(problem: StopProblem, chains: StopChains, beta: float) -> None:
     """Merge surfaces that stop few beams with surfaces of neighbours, if that is better."""
     grid, rays, maps = problem.grid, problem.rays, ChainMaps.of(chains)
     look = look_with(problem, chains, beta)
-    seen = look(maps)
+    before = look(maps)
     owners = [chains.stopped_by(chain) for chain in range(chains.n_chains)]
-    range_m, known = np.where(np.isfinite(rays.range_m), rays.range_m, 0.0), problem.sensor.kernel_parameters()
+    range_m, noise = np.where(np.isfinite(rays.range_m), rays.range_m, 0.0), problem.sensor.kernel_parameters()
     # Without parameters of the sensor, the thickness of surfaces is used alone.
-    sigma_m = 0.0 * range_m if known is None else known.sigma_m + known.sigma_per_m * range_m
-    merge_surfaces(maps, rays.end_points_m(), sigma_m**2, owners, grid, look, seen)
+    sigma_m = 0.0 * range_m if noise is None else noise.sigma_m + noise.sigma_per_m * range_m
+    merge_surfaces(maps, rays.end_points_m(), sigma_m**2, owners, grid, look, before)
     maps.put(chains)
     chains.sweeps(UPDATES_ALL, 1, problem.sensor, problem.prior.kernel_numbers(grid.resolution), beta)
     maps.put(chains)  # the sweep updated the counts of beams, except in cells that tried a surface
 
 
 MAX_READINGS = 12  # most readings of a surface that may be merged: with more, removal is seldom better
-REACH = 2  # most cells, in x and in y, between a surface and the neighbour that takes it in
+REACH = 2  # most cells, in x and in y, from a surface to the neighbour that takes over its readings
 CLOSE = 3.0  # most cells between a reading and the mean of the surface that explains it
 MAX_OFF_SIGMAS = 2.5  # most RMS distance of readings from the neighbour's axis, in sigmas of surface and noise
 SOLID_FROM = 0.1  # reflectivity from which a cell counts as one that stops beams
@@ -214,8 +202,8 @@ def merge_surfaces(
     """Try for every surface that stops few beams whether a neighbour is better without it; change maps in place.
     Returns the number of removed surfaces of each chain.
 
-    The B beams have end points from the grid's corner, (B, 2), not finite if there is none, variances of their
-    ``noise``, square metres, and for each chain ``owners``, the flat index of the cell that stopped each, or -1.
+    The B beams have end points from the grid's corner, (B, 2), not finite if there is none, and variances of their
+    ``noise``, square metres. ``owners`` holds for each chain the flat index of the cell that stopped each beam, or -1.
     ``before`` is the evidence of the maps, (C, nx, ny).
     """
     chains = zip(maps.cells, maps.solid, owners, strict=True)
@@ -226,15 +214,15 @@ def merge_surfaces(
         tried = []
         for chain, waiting in enumerate(changes):
             # A change is valid only while the surfaces from which it was made are unchanged.
-            valid = waiting.select(~changed[chain][waiting.where].any(axis=1))
-            mask = apart(valid.middle, 2 * AROUND, grid.shape)
+            valid = waiting.select(~changed[chain][waiting.index].any(axis=1))
+            mask = select_apart(valid.middle, 2 * AROUND, grid.shape)
             tried.append(valid.select(mask))
             changes[chain] = valid.select(~mask)
         if not any(len(new.middle) for new in tried):
             break
         stays = try_changes(maps, tried, look, before, AROUND, MERGED_NATS)
         for chain, (new, stay) in enumerate(zip(tried, stays, strict=True)):
-            changed[chain][new.where[stay]] = True
+            changed[chain][new.index[stay]] = True
             removed[chain] += int(stay.sum())
     return removed
 
@@ -246,24 +234,24 @@ def merge_moves(
     """Propose for each surface that stops few beams its removal, and a longer surface of the neighbour whose axis lies
     closest to its readings. The moves with the closest axes come first.
     """
-    readings, axes = readings_of(cells, owner, end_points_m, noise, grid), axes_of(cells)
-    source, target, off = best_neighbours(cells, readings, axes, grid)
-    order = np.argsort(off, kind="stable")
+    readings, axes = explained_readings(cells, owner, end_points_m, noise, grid), surface_axes(cells)
+    source, target, distance = best_neighbours(cells, readings, axes, grid)
+    order = np.argsort(distance, kind="stable")
     source, target = source[order], target[order]
-    where = np.stack([source, target], axis=-1)
-    new = cells[where]
+    index = np.stack([source, target], axis=-1)
+    new = cells[index]
     new[:, 0, 0] = FREE
-    new[:, 1, 1:] = lengthened(cells, readings, axes, source, target, grid)
-    return Changes(np.stack(np.divmod(source, grid.shape[1]), axis=-1), where, new, solid[where])
+    new[:, 1, 1:] = lengthen(cells, readings, axes, source, target, grid)
+    return Changes(np.stack(np.divmod(source, grid.shape[1]), axis=-1), index, new, solid[index])
 
 
-def readings_of(
+def explained_readings(
     cells: NDArray[np.float32], owner: NDArray[np.int32], end_points_m: Floats, noise: Floats, grid: Grid
 ) -> ExplainedReadings:
     """Compute the moments of the readings that each surface explains."""
     stopped = np.flatnonzero((owner >= 0) & np.isfinite(end_points_m).all(axis=1))
-    away = end_points_m[stopped] - cells[owner[stopped], 1:3]
-    stopped = stopped[np.hypot(*away.T) < CLOSE * grid.resolution]
+    from_mean = end_points_m[stopped] - cells[owner[stopped], 1:3]
+    stopped = stopped[np.hypot(*from_mean.T) < CLOSE * grid.resolution]
     cell, points = owner[stopped], end_points_m[stopped]
     count = np.bincount(cell, minlength=grid.n_cells)
 
@@ -277,7 +265,7 @@ def readings_of(
     )
 
 
-def axes_of(cells: NDArray[np.float32]) -> SurfaceAxes:
+def surface_axes(cells: NDArray[np.float32]) -> SurfaceAxes:
     """Return the axes of the surfaces of cells, (N, 6)."""
     l11, l21, l22 = cells[:, 3:6].T.astype(np.float64)
     angle, along = longer_axis(l11**2, l11 * l21, l21**2 + l22**2)
@@ -285,7 +273,7 @@ def axes_of(cells: NDArray[np.float32]) -> SurfaceAxes:
     return SurfaceAxes(np.stack([np.cos(angle), np.sin(angle)], axis=-1), along, across)
 
 
-def variance_in(moments: Floats, direction: Floats) -> Floats:
+def variance_along(moments: Floats, direction: Floats) -> Floats:
     """Return the variance, in directions (n, 2), of points with second moments xx, xy and yy, (n, 3)."""
     x, y = direction.T
     return np.asarray(x * x * moments[:, 0] + 2 * x * y * moments[:, 1] + y * y * moments[:, 2])
@@ -295,7 +283,7 @@ def best_neighbours(
     cells: NDArray[np.float32], readings: ExplainedReadings, axes: SurfaceAxes, grid: Grid
 ) -> tuple[NDArray[np.intp], NDArray[np.intp], Floats]:
     """Find the cells that stop few beams, the neighbour of each whose axis lies closest to its readings, and the root
-    mean square distance between them, (n,) each.
+    mean square distance of the readings from this axis, in sigmas of surface and noise, (n,) each.
 
     Neighbours stop as many beams or more. Cells without a neighbour within `MAX_OFF_SIGMAS` are left out.
     """
@@ -308,20 +296,20 @@ def best_neighbours(
             other_x, other_y = x + step_x, y + step_y
             inside = (other_x >= 0) & (other_x < grid.shape[0]) & (other_y >= 0) & (other_y < grid.shape[1])
             other = np.where(inside, other_x * grid.shape[1] + other_y, source)
-            # Of two surfaces with equally many beams only one may take in the other: the order of cells decides.
-            theirs, own = readings.count[other], readings.count[source]
-            more = (theirs > own) | ((theirs == own) & (other > source))
+            # If two surfaces stop equally many beams, only one may take in the other: the order of cells decides.
+            other_count, own_count = readings.count[other], readings.count[source]
+            may_take = (other_count > own_count) | ((other_count == own_count) & (other > source))
             normal = np.stack([-axes.direction[other, 1], axes.direction[other, 0]], axis=-1)
-            off = ((readings.mean_m[source] - cells[other, 1:3]) * normal).sum(axis=1)
-            square = off**2 + variance_in(readings.moments[source], normal)
+            offset = ((readings.mean_m[source] - cells[other, 1:3]) * normal).sum(axis=1)
+            square = offset**2 + variance_along(readings.moments[source], normal)
             square /= axes.across[other] + readings.noise[source]
-            better = inside & stops[other] & more & (square < least)
+            better = inside & stops[other] & may_take & (square < least)
             least[better], target[better] = square[better], other[better]
     close = least <= MAX_OFF_SIGMAS**2
     return source[close], target[close], np.sqrt(least[close])
 
 
-def lengthened(
+def lengthen(
     cells: NDArray[np.float32], readings: ExplainedReadings, axes: SurfaceAxes, source: NDArray[np.intp],
     target: NDArray[np.intp], grid: Grid,
 ) -> Floats:  # fmt: skip
@@ -330,19 +318,19 @@ def lengthened(
     scatter.
     """
     mean, axis = cells[target, 1:3].astype(np.float64), axes.direction[target]
-    both = source, target
-    means = [((readings.mean_m[cell] - mean) * axis).sum(axis=1) for cell in both]
-    counts = [readings.count[cell] for cell in both]
+    pair = source, target
+    means = [((readings.mean_m[cell] - mean) * axis).sum(axis=1) for cell in pair]
+    counts = [readings.count[cell] for cell in pair]
     middle = (counts[0] * means[0] + counts[1] * means[1]) / (counts[0] + counts[1])
     # The axis leaves the square at the first crossing of one of its four sides.
     from_mean = grid.centers_from_corner_m(target) - mean
     sides = from_mean[..., None] + INSIDE_SHARE * 0.5 * grid.resolution * np.array([-1.0, 1.0])
-    at = np.sort(sides / np.where(np.abs(axis) < LEVEL, LEVEL, axis)[..., None], axis=-1)
-    moved = np.clip(middle, np.minimum(at[..., 0].max(axis=-1), 0.0), np.maximum(at[..., 1].min(axis=-1), 0.0))
-    spread = [variance_in(readings.moments[cell], axis) + (means[i] - moved) ** 2 for i, cell in enumerate(both)]
+    exits = np.sort(sides / np.where(np.abs(axis) < LEVEL, LEVEL, axis)[..., None], axis=-1)
+    shift = np.clip(middle, np.minimum(exits[..., 0].max(axis=-1), 0.0), np.maximum(exits[..., 1].min(axis=-1), 0.0))
+    spread = [variance_along(readings.moments[cell], axis) + (means[i] - shift) ** 2 for i, cell in enumerate(pair)]
     scatter = (counts[0] * spread[0] + counts[1] * spread[1]) / (counts[0] + counts[1])
     along, across, (x, y) = np.maximum(axes.along[target], ALONG_WALL_SIGMAS**2 * scatter), axes.across[target], axis.T
     l11 = np.sqrt(along * x**2 + across * y**2)
     l21 = (along - across) * x * y / l11
     l22 = np.sqrt(along * across) / l11
-    return np.column_stack([mean + moved[:, None] * axis, l11, l21, l22])
+    return np.column_stack([mean + shift[:, None] * axis, l11, l21, l22])

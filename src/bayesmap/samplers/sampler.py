@@ -1,9 +1,7 @@
 """The contract of all Markov chain samplers, as BlackJAX has it: `init` makes a state, `step` gives (state, info).
 
 A sampler is a value: it holds options and no state. `prepare` makes the data that all chains of a process share, such
-as traced beams. The number of a chain does not depend on where it runs. Every draw depends on (seed, number of the
-chain, sweep, site) alone. Other chains, threads, the division of sweeps into steps, and stops and resumptions do not
-matter.
+as traced beams. Every draw depends on (seed, number of the chain, sweep, site) alone (docs/inference.md).
 """
 
 from __future__ import annotations
@@ -40,7 +38,7 @@ PILOT = 1 << 32  # number of the pilot chain, which fits the sensor; no other ch
 
 @dataclass(frozen=True)
 class Keep:
-    """The draws to keep: those of the sweeps ``after + every``, ``after + 2 every``, ..., counted from 1."""
+    """The sweeps whose draws are kept: ``after + every``, ``after + 2 every``, ..., counted from 1."""
 
     after: int = 0  # number of first sweeps of which none is kept
     every: int = 0  # sweeps from one kept draw to the next; 0 keeps none
@@ -49,12 +47,11 @@ class Keep:
         """Return the sweeps that are kept among those after ``begin`` and up to ``end``."""
         if self.every == 0:
             return range(0)
-        past = max(0, begin - self.after)
-        first = self.after + (past // self.every + 1) * self.every
-        return range(first, end + 1, self.every)
+        n_done = max(0, begin - self.after) // self.every
+        return range(self.after + (n_done + 1) * self.every, end + 1, self.every)
 
 
-MAPS_TO_SEE = 8  # most draws per chain that decide which cells count as observed, whatever other chains hold
+MAPS_TO_INSPECT = 8  # most draws per chain that decide which cells count as observed
 
 
 @dataclass(frozen=True, eq=False)
@@ -168,14 +165,15 @@ class Sampler(Protocol[P, S]):
 
     def observed_counts(self, state: S, draws: Mapping[str, NDArray[Any]]) -> NDArray[np.int32]:
         """Count the draws in which at least one beam observes each cell, and the draws inspected, of all chains.
-        Returns (2, nx, ny). ``draws`` are those that `to_see` has selected; without draws, present maps are inspected.
+        Returns (2, nx, ny). `draws_to_inspect` selects ``draws``; without draws, the present maps are inspected.
         """
 
 
-def to_see(draws: Draws) -> dict[str, NDArray[Any]]:
-    """Select the draws for `Sampler.observed_counts`: `MAPS_TO_SEE` maps, evenly spread, without partial arrays. The
-    observed cells hardly differ from draw to draw, and all draws may be gigabytes, or on another machine.
+def draws_to_inspect(draws: Draws) -> dict[str, NDArray[Any]]:
+    """Select the draws for `Sampler.observed_counts`: `MAPS_TO_INSPECT` maps, evenly spread, without partial arrays.
+
+    The observed cells hardly differ from draw to draw, and all draws may be gigabytes, or on another machine.
     """
-    selected = np.unique(np.linspace(0, draws.count - 1, MAPS_TO_SEE).astype(np.intp)) if draws.count else slice(0)
-    whole = {spec.name for spec in draws.specs if spec.dims == ("x", "y")}
-    return {name: array[:, selected if name in whole else slice(0)] for name, array in draws.arrays.items()}
+    selected = np.unique(np.linspace(0, draws.count - 1, MAPS_TO_INSPECT).astype(np.intp)) if draws.count else slice(0)
+    on_grid = {spec.name for spec in draws.specs if spec.dims == ("x", "y")}
+    return {name: array[:, selected if name in on_grid else slice(0)] for name, array in draws.arrays.items()}

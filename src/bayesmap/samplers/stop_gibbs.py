@@ -81,24 +81,23 @@ class StopDraws:
             self._put_chances(chain, number, self._chains.in_squares(chain, sweep, True, self._solid.get(chain)))
         kept, prior = self._cells["cell"], self._problem.prior
         hits, met = (count[kept] for count in self._chains.counted(chain))
-        drawn, solid = (
-            self.arrays["reflectivity"][chain, number],
-            self._solid[chain][kept] if prior.has_labels else None,
-        )
+        solid = self._solid[chain][kept] if prior.has_labels else None
+        drawn = self.arrays["reflectivity"][chain, number]
         self._put("expected", chain, number, expected_reflectivity(hits, met, prior, drawn, solid))
 
     def _put_chances(self, chain: int, number: int, squares: InSquares) -> None:
         """Record the chances that squares stop beams; a square that no beam can reach takes the prior mean."""
         prior, kept = self._problem.prior, self._cells["cell"]
-        positions, known = self._among_touched
+        positions, touched = self._among_touched
         for name, values in (("stop_chance", squares.drawn), ("expected_stop_chance", squares.expected)):
             chances = np.full(len(kept), prior.mean, dtype=np.float32)
             if prior.has_labels:
                 chances[:] = prior.mean_given(self._solid[chain][kept])
-            chances[known] = np.minimum(values[positions[known]], np.float32(HIGHEST))
+            chances[touched] = np.minimum(values[positions[touched]], np.float32(HIGHEST))
             self._put(name, chain, number, chances)
 
     def _put(self, name: str, chain: int, number: int, values: NDArray[Any]) -> None:
+        """Store an array of a draw."""
         self.arrays[name][chain, number] = self._specs[name].stored(values)
 
 
@@ -108,20 +107,19 @@ def expected_reflectivity(
 ) -> NDArray[np.float32]:  # fmt: skip
     """Compute the mean of each cell's reflectivity given its counts, (a + hits) / (a + b + hits + met), (T,).
 
-    Given the stops of all beams and the surfaces, reflectivities are independent Betas, and the density of one more
-    beam is linear in each. So the density under these means is the mean density under draws (Rao and Blackwell). The
-    counts must be those of the sweep that began at the draw, with its surfaces. A cell that this sweep did not update
-    has the counts of its last update, an approximation: its correlation with later changes is lost.
+    The density of one more beam under these means is the mean density under draws (docs/surfaces.md, Predictions). The
+    counts must come from the sweep that began at the draw, with its surfaces. A cell that this sweep did not update has
+    the counts of its last update, an approximation: its correlation with later changes is lost.
 
-    Cells have stopped ``hits`` beams, and let ``met`` beams pass; where ``met`` is negative, a cell has not counted
-    yet, and the ``drawn`` reflectivity stays. Labels ``solid`` choose a and b. All are (T,).
+    Cells have stopped ``hits`` beams, and let ``met`` beams pass. If ``met`` is negative, a cell has not counted yet,
+    and the ``drawn`` reflectivity stays. Labels ``solid`` choose a and b. All are (T,).
     """
-    counted = hits.astype(np.float32)
-    total = counted + np.maximum(met, 0)
+    stopped = hits.astype(np.float32)
+    total = stopped + np.maximum(met, 0)
     a, b = (prior.a, prior.b) if solid is None else prior.beta_given(solid)
-    counted += np.asarray(a, dtype=np.float32)
+    stopped += np.asarray(a, dtype=np.float32)
     total += np.asarray(np.add(a, b), dtype=np.float32)
-    return np.minimum(np.where(met >= 0, counted / total, drawn), np.float32(HIGHEST))
+    return np.minimum(np.where(met >= 0, stopped / total, drawn), np.float32(HIGHEST))
 
 
 @dataclass(frozen=True, eq=False)
@@ -168,7 +166,7 @@ class StopGibbs:
         from bayesmap.kernels.surfaces.stop_chains import StopChains
 
         resume = Snapshot(0) if resume is None else resume
-        stored, kept = resume.arrays, problem.coordinates["cell"]
+        stored, cells = resume.arrays, problem.coordinates["cell"]
         keys = [mix(seed, chain, STREAM_SWEEPS) for chain in chain_ids]
         solid = self._labels(problem, chain_ids, seed, stored)
 
@@ -178,7 +176,7 @@ class StopGibbs:
                 problem.estimate, problem.prior, problem.rays, rng, None if solid is None else solid[chain]
             )
             if "state" in stored:
-                state[kept] = stored["state"][chain]
+                state[cells] = stored["state"][chain]
             return state
 
         def on_grid(name: str) -> NDArray[np.int32] | None:
@@ -186,7 +184,7 @@ class StopGibbs:
             if name not in stored:
                 return None
             out = np.zeros((len(chain_ids), 2, problem.grid.n_cells), dtype=np.int32)
-            out[..., kept] = stored[name]
+            out[..., cells] = stored[name]
             return out
 
         observed = on_grid("observed_counts")
@@ -284,10 +282,10 @@ class StopGibbs:
     def observed_counts(self, state: StopState, draws: Mapping[str, NDArray[Any]]) -> NDArray[np.int32]:
         """Count the kept sweeps (or the last) in which a beam observes each cell, and those inspected, (2, nx, ny)."""
         each = range(state.chains.n_chains)
-        counts = [state.chains.observed_counts(i).T if draws else self._observed_now(state, i) for i in each]
+        counts = [state.chains.observed_counts(i).T if draws else self._observed_at_present(state, i) for i in each]
         return np.reshape(np.sum(counts, axis=0), (2, *state.problem.grid.shape)).astype(np.int32)
 
-    def _observed_now(self, state: StopState, chain: int) -> NDArray[np.bool_]:
+    def _observed_at_present(self, state: StopState, chain: int) -> NDArray[np.bool_]:
         """Return whether a beam observes each cell in a chain's last sweep, and whether this is known, (2, N)."""
         if not state.problem.prior.has_surfaces:
             hits, met = state.chains.counted(chain)

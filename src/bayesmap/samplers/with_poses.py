@@ -3,10 +3,9 @@
 Both leave the joint posterior of map and trajectory invariant (Gibbs sampling in two blocks). Each chain has its own
 poses. After its poses have moved, its rays are traced again, and its cells stay.
 
-Given the map, scans depend on each other through the prior of the poses alone. Under independent priors all scans can
-move at once, under a motion model every second scan (`bayesmap.poses.prior.PoseLaw.colours`). A proposal is a normal
-step with the covariance of the scan's own likelihood and prior. The likelihood sums over the cells in which each beam
-may stop, and the next sweep draws these stops again (a collapsed Gibbs sampler: Liu, 1994).
+Given the map, only the prior couples the poses: `bayesmap.poses.prior.PoseLaw.colours` tells which scans can move at
+once. A proposal is a normal step with the covariance of the scan's own likelihood and prior. The likelihood sums over
+the cells in which a beam may stop, and the next sweep draws these stops again (a collapsed Gibbs sampler: Liu, 1994).
 """
 
 from __future__ import annotations
@@ -42,13 +41,13 @@ if TYPE_CHECKING:
     from bayesmap.kernels.predict.scan_likelihood import ScanLikelihood
 
 OPTIMAL = 2.38 / np.sqrt(3.0)  # length of steps, in standard deviations (Roberts, Gelman and Gilks, 1997)
-WANTED_ACCEPTANCE = 0.35  # share of accepted steps to which the sizes of steps adapt
+TARGET_ACCEPTANCE = 0.35  # share of accepted steps to which the sizes of steps adapt
 MOST_NATS = 2.0  # cap of a beam's change in a difference: past an edge its density jumps, and slopes say nothing
 
 
 @dataclass(frozen=True, eq=False)
 class PoseState:
-    """The present poses of some chains. Seed, chain and step determine the next random numbers."""
+    """The present poses of some chains. Seed, number of the chain and step determine the next random numbers."""
 
     poses: Floats  # in the world frame, (C, S, 3)
     log_scale: Floats  # logarithm of the size of the steps of each scan, (C, S); warm-up adapts it
@@ -65,10 +64,6 @@ class PoseMetropolis:
     prior: PoseLaw
     factor: Floats  # Cholesky factor of each scan's proposal covariance in world axes, (S, 3, 3) or (C, S, 3, 3)
 
-    def init(self, poses: Floats, chain_ids: NDArray[np.intp], seed: int) -> PoseState:
-        """Start chains at the given poses, (C, S, 3)."""
-        return PoseState(np.array(poses, dtype=np.float64), np.zeros(np.shape(poses)[:2]), np.asarray(chain_ids), seed)
-
     def step(
         self, state: PoseState, cells: NDArray[np.float32], n: int = 1, *, beta: float = 1.0,
         adaptation_rate: float = 0.0,
@@ -76,15 +71,15 @@ class PoseMetropolis:
         """Propose a new pose for every scan ``n`` times. Returns the chains, and the share of accepted steps, (C,).
 
         ``cells`` holds one map per chain, see `bayesmap.kernels.predict.scan_likelihood.ScanLikelihood.beams`. The size
-        of a scan's steps grows with accepted steps and shrinks with rejected ones (Robbins and Monro, 1951), at
-        ``adaptation_rate``; it is 0 once draws are kept.
+        of a scan's steps grows with accepted steps and shrinks with rejected ones (Robbins and Monro, 1951) at
+        ``adaptation_rate``, which must be 0 once draws are kept.
         """
         chains, scans = state.poses.shape[:2]
         poses, log_scale = state.poses.copy(), state.log_scale.copy()
         log_lik = self._log_likelihoods(cells, poses, np.arange(scans))
-        moved = np.zeros(chains)
+        share_accepted = np.zeros(chains)
         for step in range(state.step, state.step + n):
-            noise, level = self._random(state, step)
+            noise, log_uniform = self._random(state, step)
             shifts = np.exp(log_scale)[..., None] * (self.factor @ noise[..., None])[..., 0]
             accepted = np.zeros((chains, scans), dtype=np.bool_)
             for colour in self.prior.colours(scans):
@@ -93,14 +88,13 @@ class PoseMetropolis:
                 proposed_log_lik = self._log_likelihoods(cells, proposed, colour)
                 log_ratio = beta * (proposed_log_lik - log_lik[:, colour])
                 log_ratio += self.prior.log_change(poses, proposed)[:, colour]
-                accept = level[:, colour] < log_ratio
+                accept = log_uniform[:, colour] < log_ratio
                 accepted[:, colour] = accept
                 poses[:, colour] = np.where(accept[..., None], proposed[:, colour], poses[:, colour])
                 log_lik[:, colour] = np.where(accept, proposed_log_lik, log_lik[:, colour])
-            moved += accepted.mean(axis=1) / n
-            log_scale += adaptation_rate * (accepted - WANTED_ACCEPTANCE)
-        state = replace(state, poses=poses, log_scale=log_scale, step=state.step + n)
-        return state, moved
+            share_accepted += accepted.mean(axis=1) / n
+            log_scale += adaptation_rate * (accepted - TARGET_ACCEPTANCE)
+        return replace(state, poses=poses, log_scale=log_scale, step=state.step + n), share_accepted
 
     def _log_likelihoods(self, cells: NDArray[np.float32], poses: Floats, scans: NDArray[np.intp]) -> Floats:
         """Compute the log likelihood of some scans of every chain at their poses, (C, scans)."""
@@ -109,22 +103,22 @@ class PoseMetropolis:
 
     def _random(self, state: PoseState, step: int) -> tuple[Floats, Floats]:
         """Draw normal steps (C, S, 3) and logarithms of uniform numbers (C, S), from seed, chain and step alone."""
-        scans = state.poses.shape[1]
-        noise, level = np.empty(state.poses.shape), np.empty(state.poses.shape[:2])
+        noise, log_uniform = np.empty(state.poses.shape), np.empty(state.poses.shape[:2])
         for i, chain in enumerate(state.chain_ids):
             rng = np.random.default_rng([state.seed, int(chain), STREAM_POSES, step])
-            noise[i], level[i] = rng.standard_normal((scans, 3)), np.log(rng.random(scans))
-        return noise, level
+            noise[i] = rng.standard_normal(noise[i].shape)
+            log_uniform[i] = np.log(rng.random(log_uniform[i].shape))
+        return noise, log_uniform
 
 
 def proposal_factors(
     likelihood: ScanLikelihood, cells: NDArray[np.float32], poses: Floats, prior: PoseLaw, step_m: float
 ) -> Floats:
-    """Compute Cholesky factors of steps that fit each scan's posterior given one map, (1, N) or (1, N, 6). Returns (S,
-    3, 3).
+    """Return Cholesky factors of steps that fit each scan's posterior given one map, (1, N) or (1, N, 6): (S, 3, 3).
 
-    The likelihood's information is the sum over beams of the outer products of their log densities' gradients, from
-    central differences of ``step_m``, about the sensor's noise; angles move a point at the median range by as much.
+    The likelihood's information is the sum over beams of the outer products of the gradients of their log densities, by
+    central differences. These shift positions by ``step_m``, about the sensor's noise, and turn the scan so that a
+    point at the median range moves as far.
     """
     scans = len(poses)
     ranges = np.where(np.isfinite(likelihood.scans.ranges_m), likelihood.scans.ranges_m, np.nan)
@@ -137,8 +131,8 @@ def proposal_factors(
     for axis in range(3):
         shift = np.zeros((scans, 3))
         shift[:, axis] = step[:, axis]
-        ahead, behind = (likelihood.beams(cells, poses + sign * shift, scan, chain) for sign in (1.0, -1.0))
-        slopes.append(np.clip(ahead - behind, -MOST_NATS, MOST_NATS) / (2 * step[:, axis : axis + 1]))
+        forward, backward = (likelihood.beams(cells, poses + sign * shift, scan, chain) for sign in (1.0, -1.0))
+        slopes.append(np.clip(forward - backward, -MOST_NATS, MOST_NATS) / (2 * step[:, axis : axis + 1]))
     gradient = np.stack(slopes, axis=-1)  # (S, A, 3)
     information = np.einsum("sai,saj->sij", gradient, gradient) + prior.precision(poses)
     return np.asarray(OPTIMAL * np.linalg.cholesky(np.linalg.inv(information)))
@@ -146,8 +140,8 @@ def proposal_factors(
 
 EVERY = 5  # sweeps of the cells from one round of pose steps to the next
 STEPS = 3  # steps of every pose in a round
-DIFFERENCE_M = 0.02  # step of the differences from which slopes of the likelihood are taken: about the noise of a laser
-OF_STEPS = ("pose_log_scale", "pose_factor")
+DIFFERENCE_M = 0.02  # step of the central differences of the likelihood: about the noise of a laser
+STEP_ARRAYS = ("pose_log_scale", "pose_factor")  # of a snapshot
 
 
 class MovableSampler(Sampler[Any, Any], Protocol):
@@ -242,19 +236,19 @@ class WithPoses:
             log_scale, factor = np.zeros((len(chain_ids), scans)), np.zeros((len(chain_ids), scans, 3, 3))
             sweep = 0
         else:
-            poses, log_scale, factor = (resume.arrays[name] for name in ("poses", *OF_STEPS))
+            poses, log_scale, factor = (resume.arrays[name] for name in ("poses", *STEP_ARRAYS))
             sweep = resume.sweep
         state = PoseState(poses, log_scale, np.asarray(chain_ids), seed, sweep // self.every * self.pose_steps)
 
-        def chain_of(i: int) -> Any:
-            inner = None
+        def init_cells(i: int) -> Any:
+            cell_snapshot = None
             if resume is not None:
-                arrays = {n: a[i : i + 1] for n, a in resume.arrays.items() if n not in ("poses", *OF_STEPS)}
-                inner = Snapshot(resume.sweep, arrays)
-            at = self.cells.retrace(problem.cells, problem.at(poses[i]))
-            return self.cells.init(at, [chain_ids[i]], seed, inner, watch)
+                arrays = {n: a[i : i + 1] for n, a in resume.arrays.items() if n not in ("poses", *STEP_ARRAYS)}
+                cell_snapshot = Snapshot(resume.sweep, arrays)
+            retraced = self.cells.retrace(problem.cells, problem.at(poses[i]))
+            return self.cells.init(retraced, [chain_ids[i]], seed, cell_snapshot, watch)
 
-        cells = tuple(self._each(problem, chain_of, len(chain_ids)))
+        cells = tuple(self._map_chains(problem, init_cells, len(chain_ids)))
         return JointState(problem, sweep, cells, state, factor)
 
     def step(self, state: JointState, sweeps: int, beta: float = 1.0, keep: Keep = Keep()) -> tuple[JointState, Info]:
@@ -262,8 +256,8 @@ class WithPoses:
         end, infos, poses = state.sweep + sweeps, [], []
         while state.sweep < end:
             count = min(end, (state.sweep // self.every + 1) * self.every) - state.sweep
-            kept = len(keep.sweeps(state.sweep, state.sweep + count))
-            poses.append(np.repeat(state.poses.poses[:, None], kept, axis=1))
+            n_kept = len(keep.sweeps(state.sweep, state.sweep + count))
+            poses.append(np.repeat(state.poses.poses[:, None], n_kept, axis=1))
             log_prior = state.problem.law.log_prob(state.poses.poses)
             state, info = self._sweep_cells(state, count, beta, keep)
             infos.append(replace(info, log_prior=info.log_prior + log_prior[:, None]))
@@ -276,26 +270,31 @@ class WithPoses:
         """Return cells and poses, and the sizes of the steps."""
         of_chains = [self.cells.snapshot(chain).arrays for chain in state.cells]
         arrays = {name: np.concatenate([arrays[name] for arrays in of_chains]) for name in of_chains[0]}
-        steps = dict(zip(OF_STEPS, (state.poses.log_scale, state.factor), strict=True))
+        steps = dict(zip(STEP_ARRAYS, (state.poses.log_scale, state.factor), strict=True))
         return Snapshot(state.sweep, {**arrays, "poses": state.poses.poses, **steps})
 
     def observed_counts(self, state: JointState, draws: Mapping[str, NDArray[Any]]) -> NDArray[np.int32]:
         """Count the draws in which some beam observes each cell, and the draws inspected. Returns (2, nx, ny)."""
-        own = [
+        of_chains = [
             self.cells.observed_counts(chain, {name: a[i : i + 1] for name, a in draws.items() if name != POSES.name})
             for i, chain in enumerate(state.cells)
         ]
-        return np.asarray(np.sum(own, axis=0))
+        return np.asarray(np.sum(of_chains, axis=0))
 
     def _start(self, problem: PoseProblem, chain: int, seed: int) -> Floats:
+        """Return the first poses of a chain, (S, 3)."""
         if self.start is not None:
             return np.asarray(self.start[chain % len(self.start)], dtype=np.float64)
         return problem.law.sample(np.random.default_rng([seed, chain, STREAM_START_POSES]))
 
     def _sweep_cells(self, state: JointState, count: int, beta: float, keep: Keep) -> tuple[JointState, Info]:
-        done = self._each(state.problem, lambda i: self.cells.step(state.cells[i], count, beta, keep), len(state.cells))
-        state = replace(state, cells=tuple(chain for chain, _ in done), sweep=state.sweep + count)
-        return state, Info.joined([info for _, info in done], axis=0)
+        """Make some sweeps of the cells at fixed poses."""
+
+        def sweep(i: int) -> tuple[Any, Info]:
+            return self.cells.step(state.cells[i], count, beta, keep)
+
+        cells, infos = zip(*self._map_chains(state.problem, sweep, len(state.cells)), strict=True)
+        return replace(state, cells=cells, sweep=state.sweep + count), Info.joined(infos, axis=0)
 
     def _move(self, state: JointState, beta: float) -> JointState:
         """Make a round of pose steps, and trace the chains' rays at the new poses."""
@@ -309,20 +308,20 @@ class WithPoses:
             ])  # fmt: skip
         rounds = state.sweep // self.every
         rate = float(rounds**-0.6) if state.sweep <= self.adapt_until else 0.0
-        steps = PoseMetropolis(problem.likelihood, problem.law, factor)
-        poses, _ = steps.step(state.poses, cells, self.pose_steps, beta=beta, adaptation_rate=rate)
+        sampler = PoseMetropolis(problem.likelihood, problem.law, factor)
+        poses, _ = sampler.step(state.poses, cells, self.pose_steps, beta=beta, adaptation_rate=rate)
 
-        def moved(i: int) -> Any:
+        def move_cells(i: int) -> Any:
             if (poses.poses[i] == state.poses.poses[i]).all():
                 return state.cells[i]
             retraced = self.cells.retrace(problem.cells, problem.at(poses.poses[i]))
             return self.cells.moved(state.cells[i], retraced)
 
-        chains = tuple(self._each(problem, moved, len(state.cells)))
+        chains = tuple(self._map_chains(problem, move_cells, len(state.cells)))
         return replace(state, cells=chains, poses=poses, factor=factor)
 
-    def _each(self, problem: PoseProblem, work: Callable[[int], Any], count: int) -> list[Any]:
-        """Run the work for every chain; on the CPU, as many at once as there are threads."""
+    def _map_chains(self, problem: PoseProblem, work: Callable[[int], Any], count: int) -> list[Any]:
+        """Run the work for every chain: on the CPU in parallel threads, elsewhere one after the other."""
         from bayesmap.kernels.device import available_cores
 
         threads = min(problem.threads or available_cores(), count) if problem.device == "cpu" else 1
