@@ -115,14 +115,13 @@ def try_changes(
         cells[new.index], solid[new.index] = new.cells, new.solid
     after, stays = look(maps), []
     for chain, old in enumerate(olds):
-        x, y = old.middle.T
         # Sums over the square of cells around each cell.
         gain = ndimage.uniform_filter(after[chain] - before[chain], 2 * half + 1, mode="constant") * (2 * half + 1) ** 2
-        stay = gain[x, y] >= least
+        stay = gain[tuple(old.middle.T)] >= least
         undone = old.select(~stay)
         maps.cells[chain][undone.index], maps.solid[chain][undone.index] = undone.cells, undone.solid
-        for site in old.middle[stay]:
-            square = _square(*site, half)
+        for x, y in old.middle[stay]:
+            square = _square(x, y, half)
             before[chain][square] = after[chain][square]
         stays.append(stay)
     return stays
