@@ -12,8 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.poses.graph import Quadratic, normal_equations
-from bayesmap.poses.pose_gaussian import PoseGaussian
+from bayesmap.poses.graph import PoseGaussian, Quadratic, normal_equations
 from bayesmap.poses.trajectory import Trajectory
 from bayesmap.space.scans import Scans
 

@@ -3,8 +3,7 @@
 import numpy as np
 
 from bayesmap.poses.calibration import USUAL, MotionNoise, OdometryFit
-from bayesmap.poses.graph import Factors
-from bayesmap.poses.pose_gaussian import PoseGaussian
+from bayesmap.poses.graph import Factors, PoseGaussian
 from bayesmap.poses.trajectory import Calibration, LoopClosures, Trajectory
 from bayesmap.space.planar import between, compose
 

@@ -10,10 +10,16 @@ from tiers import full_but
 
 from bayesmap.kernels.match.line_pairs import pair_sums
 from bayesmap.poses import alignment
-from bayesmap.poses.alignment import Pairs, PointError, align, overlapping_pairs, point_error, with_point_error
-from bayesmap.poses.graph import Factors
-from bayesmap.poses.placement import place_scans
-from bayesmap.poses.pose_gaussian import DEGREES_OF_FREEDOM
+from bayesmap.poses.alignment import (
+    Pairs,
+    PointError,
+    align,
+    overlapping_pairs,
+    place_scans,
+    point_error,
+    with_point_error,
+)
+from bayesmap.poses.graph import DEGREES_OF_FREEDOM, Factors
 from bayesmap.poses.scan_geometry import scan_geometry
 from bayesmap.space.planar import between, transform
 from bayesmap.space.scans import Scans
@@ -31,7 +37,7 @@ def ring_geometry(full):
 
 def plain(geometry, i, j, z, reach):
     """The sums by NumPy: nearest point of all of j, mean normal, Geman and McClure's weight."""
-    points, normals, kind = geometry.host_points, geometry.host_normals, geometry.host_kind
+    points, normals, kind = geometry.host_points, geometry.normals.numpy(), geometry.host_kind
     second, first, cost = np.zeros((3, 3)), np.zeros(3), 0.0
     there = points[j][kind[j] > 0]
     index = np.nonzero(kind[j] > 0)[0]

@@ -8,7 +8,7 @@ import pytest
 from simulated import odometry_of, off, path_around, recording, ring, scans_of, worst_m
 
 from bayesmap.poses.calibration import stated_motions
-from bayesmap.poses.front_end import follow
+from bayesmap.poses.front_end import track_scans
 from bayesmap.poses.loops import key_path
 from bayesmap.poses.rejoin import MIN_PLACES, rejoin
 from bayesmap.poses.scan_geometry import scan_geometry
@@ -36,7 +36,7 @@ def followed(scans):
     """Return the geometry of scans and the front end's track."""
     geometry = scan_geometry(scans, farthest_m=30.0, threads=1)
     motions, impossible = stated_motions(scans.poses, scans.stamps_s)
-    return geometry, follow(geometry, motions, scans.stamps_s, impossible)
+    return geometry, track_scans(geometry, motions, scans.stamps_s, impossible)
 
 
 @cache

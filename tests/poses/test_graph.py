@@ -11,22 +11,23 @@ import scipy
 from simulated import ring, scans_of
 
 from bayesmap.poses import graph
-from bayesmap.poses.alignment import Alignment, Pairs, PointError
+from bayesmap.poses.alignment import Alignment, Pairs, PointError, place_scans
 from bayesmap.poses.graph import (
+    STRETCH_M,
     Factors,
+    PoseGaussian,
     Precision,
     Quadratic,
+    bend_covariances,
     normal_equations,
     quadratic,
     relative_covariances,
     solve_step,
 )
 from bayesmap.poses.key_alignment import flag_unexplained
-from bayesmap.poses.placement import place_scans
-from bayesmap.poses.pose_gaussian import STRETCH_M, PoseGaussian, bend_covariances
 from bayesmap.poses.scan_geometry import scan_geometry
 from bayesmap.poses.trajectory import with_arcs
-from bayesmap.space.planar import between, between_jacobians, compose, retract
+from bayesmap.space.planar import between, between_jacobians, compose
 from bayesmap.space.scans import Scans
 
 RNG = np.random.default_rng(8)
@@ -48,7 +49,7 @@ def factors(poses, first, second, sigma=0.02, noise=0.0):
 CIRCLE = circle()
 CHAIN = factors(CIRCLE, np.arange(COUNT - 1), np.arange(1, COUNT), noise=0.02)
 LOOP = factors(CIRCLE, [0, 1, 2], [COUNT - 1, COUNT - 2, COUNT - 1])
-STATES = retract(CIRCLE, 0.05 * RNG.normal(size=CIRCLE.shape))
+STATES = compose(CIRCLE, 0.05 * RNG.normal(size=CIRCLE.shape))
 
 
 def dense(parts, poses):
@@ -152,7 +153,7 @@ def aligned(seed, *, in_common):
     for _ in range(4):
         relative = between(poses[first], poses[second])
         part = Quadratic(first, second, relative, curvature, np.einsum("mij,mj->mi", curvature, relative - measured))
-        poses = retract(poses, solve_step(POSES, [part])[0])
+        poses = compose(poses, solve_step(POSES, [part])[0])
     relative = between(poses[first], poses[second])
     force = np.einsum("mij,mj->mi", curvature, relative - measured)
     return truth, PoseGaussian(poses, first, second, relative, curvature, force)
@@ -185,7 +186,7 @@ def test_covariances_without_shared_errors_are_far_too_small():
 def test_bends_move_relative_poses_as_they_move_poses_and_without_forces_there_are_none():
     _, gaussian = aligned(2, in_common=True)
     first, second, small = np.array([3, 40]), np.array([70, 12]), 1e-4
-    moved = [retract(gaussian.poses, small * bend) for bend in gaussian.bends]
+    moved = [compose(gaussian.poses, small * bend) for bend in gaussian.bends]
     now = between(gaussian.poses[first], gaussian.poses[second])
     off = np.stack([between(poses[first], poses[second]) - now for poses in moved]) / small
     brute = np.einsum("nmi,nmj->mij", off, off) / len(off)

@@ -7,8 +7,14 @@ from simulated import odometry_of, path_around, ring, scans_of, worst_m
 
 import bayesmap as bm
 from bayesmap.io.logs import read_log
-from bayesmap.poses.agreement import agreement, look_like_odometry
-from bayesmap.poses.log_checks import check_scans, correct_late_odometry, doubts, frozen_stretches
+from bayesmap.poses.log_checks import (
+    agreement,
+    check_scans,
+    correct_late_odometry,
+    doubts,
+    frozen_stretches,
+    look_like_odometry,
+)
 from bayesmap.poses.scan_geometry import scan_geometry
 from bayesmap.poses.slam import infer_trajectory
 from bayesmap.space.planar import between

@@ -3,10 +3,9 @@
 import numpy as np
 import pytest
 
-from bayesmap.poses import look_alikes, loops
-from bayesmap.poses.graph import Factors, optimise
-from bayesmap.poses.look_alikes import _doubtful, twist_squares, visits, weigh
-from bayesmap.poses.pose_gaussian import PoseGaussian
+from bayesmap.poses import key_graph, loops
+from bayesmap.poses.graph import Factors, PoseGaussian, optimise
+from bayesmap.poses.key_graph import _doubtful_visits, twist_squares, visits_of, weigh_visits
 from bayesmap.poses.slam import infer_trajectory
 from bayesmap.space.planar import between, compose
 from benchmarks.pose_cases import office, record
@@ -54,13 +53,13 @@ def test_a_right_visit_stays_and_a_wrong_one_is_left_out():
     rng = np.random.default_rng(1)
     chain, poses = chain_of(rng, noise=0.5)
     loops, there, weights = closed(chain, poses, [0.0, 0.0, 0.0], rng)
-    right = weigh(there, weights, chain, loops, ALONG)
+    right = weigh_visits(there, weights, chain, loops, ALONG)
     np.testing.assert_array_equal(right.poses, there)
     assert len(right.probabilities) == 0
     assert (right.weights > 0.5).all()
     loops, there, weights = closed(chain, poses, [3.5, 0.0, 0.0], rng)
     assert (weights > 0.5).all(), "each closure by itself is believed: all five agree"
-    wrong = weigh(there, weights, chain, loops, ALONG)
+    wrong = weigh_visits(there, weights, chain, loops, ALONG)
     np.testing.assert_allclose(wrong.poses, poses, atol=1e-3)
     assert not wrong.weights.any()
 
@@ -71,7 +70,7 @@ def test_a_doubtful_visit_is_reported_with_the_poses_without_it():
     told = []
     for shift in (0.5, 0.6, 0.7):
         loops, there, weights = closed(chain, poses, [shift, 0.0, 0.0], rng)
-        found = weigh(there, weights, chain, loops, ALONG)
+        found = weigh_visits(there, weights, chain, loops, ALONG)
         assert len(found.probabilities) <= 1
         told.append(float(found.probabilities[0]) if len(found.probabilities) else 0.0)
         if len(found.probabilities):
@@ -87,15 +86,15 @@ def test_the_distance_of_right_visits_is_half_a_chi_squared(noise, paths, calibr
     """60 paths: the mean of D is 1.5, its standard error 0.16; within four. Noise stated at half its size shows in
     20 paths: the mean is 6, its standard error 1.1.
     """
-    monkeypatch.setattr("bayesmap.poses.look_alikes.SAME_M", 0.0)
-    monkeypatch.setattr("bayesmap.poses.look_alikes.TOLD", 1e-9)
+    monkeypatch.setattr("bayesmap.poses.key_graph.AGREE_M", 0.0)
+    monkeypatch.setattr("bayesmap.poses.key_graph.SURE_LOG_ODDS", 20.7)
     distances = []
     for seed in range(paths):
         rng = np.random.default_rng(100 + seed)
         chain, poses = chain_of(rng, noise)
         loops, there, _ = closed(chain, poses, [0.0, 0.0, 0.0], rng)
         out, label = np.zeros(5, bool), np.zeros(5, np.intp)
-        found = list(_doubtful(there, chain, loops, label, out, np.zeros(1)))
+        found = list(_doubtful_visits(there, chain, loops, label, out, np.zeros(1)))
         distances.append(-found[0][0] if found else 0.0)
     assert (abs(np.mean(distances) - 1.5) < 0.65) == calibrated
 
@@ -107,7 +106,7 @@ def test_closures_of_one_visit_that_contradict_each_other_are_two():
     relative = loops.relative.copy()
     relative[3:] += [1.0, 0.0, 0.0]
     both = Factors(loops.first, loops.second, relative, loops.information)
-    label = visits(both, TRUTH, ALONG)
+    label = visits_of(both, TRUTH, ALONG)
     assert label[0] == label[1] == label[2] != label[3] == label[4]
 
 
@@ -172,8 +171,8 @@ def test_rooms_in_a_row_that_look_alike_are_distinguished(seed):
 @pytest.mark.full
 def test_steps_between_confused_rooms_are_named_as_leaps(monkeypatch):
     """Closures that the way rules out are taken all the same, and visits that look alike are believed."""
-    monkeypatch.setattr(look_alikes, "ODDS", 1e9)
-    monkeypatch.setattr(loops, "_possible", lambda closures, path, precision, most_off: np.ones(len(closures), bool))
+    monkeypatch.setattr(key_graph, "VISIT_ODDS", 1e9)
+    monkeypatch.setattr(loops, "_possible", lambda closures, path, precision, max_sigmas: np.ones(len(closures), bool))
     scans, truth = recorded(15)
     found = infer_trajectory(scans)
     assert farthest_m(found, truth) > 1.0

@@ -117,7 +117,7 @@ def test_the_result_does_not_depend_on_threads():
 def test_scans_are_found_where_they_were_taken_and_nothing_is_where_nothing_scores():
     points = [notched_geometry().points_of(2)]
     nothing = match(notched_grids(), points, [[50.0, 0.0, 0.0]], 0.5, 0.5, step_rad=STEP, min_score=0.1)
-    assert not nothing.found.any()
+    assert not nothing.has_pose.any()
     assert np.isnan(nothing.poses).all()
     found = match(notched_grids(), points, [[0.0, 0.0, 0.0]], 1.2, np.pi, step_rad=np.radians(1.0))
     off = between(POSES[2], found.poses[0, 0])

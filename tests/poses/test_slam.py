@@ -18,7 +18,7 @@ from bayesmap.io.logs import read_log
 from bayesmap.io.text.trajectories import read_relations
 from bayesmap.poses import key_alignment, map_scans
 from bayesmap.poses.alignment import Pairs
-from bayesmap.poses.key_alignment import KeyAlignment, Rematch
+from bayesmap.poses.key_alignment import KeyAlignment, LeaveOneOut
 from bayesmap.poses.map_scans import for_map
 from bayesmap.poses.slam import infer_trajectory
 from bayesmap.posterior.trajectory_scores import relation_errors
@@ -107,18 +107,20 @@ def test_a_scan_that_its_new_place_explains_worse_is_put_back(monkeypatch):
     better = poses + np.array([1.0, 0.0, 0.0])
     answers = iter(
         [
-            Rematch(np.full(4, 0.5), np.full(4, 0.9), better, np.array([False, True, True, False])),
-            Rematch(np.array([0.5, 0.8, 0.4, 0.5]), np.full(4, 0.9), better, np.array([False, False, True, False])),
-            Rematch(np.array([0.5, 0.8, 0.5, 0.5]), np.full(4, 0.9), better, np.zeros(4, bool)),
+            LeaveOneOut(np.full(4, 0.5), np.full(4, 0.9), better, np.array([False, True, True, False])),
+            LeaveOneOut(np.array([0.5, 0.8, 0.4, 0.5]), np.full(4, 0.9), better, np.array([False, False, True, False])),
+            LeaveOneOut(np.array([0.5, 0.8, 0.5, 0.5]), np.full(4, 0.9), better, np.zeros(4, bool)),
         ]
     )
     asked = []
-    monkeypatch.setattr(key_alignment, "rematch", lambda *_, among, **more: asked.append(among) or next(answers))
+    monkeypatch.setattr(
+        key_alignment, "match_without_itself", lambda *_, changed, **more: asked.append(changed) or next(answers)
+    )
     pairs = Pairs(np.array([0, 3], np.int32), np.array([1, 0], np.int32), np.array([0, 1, 1, 1, 2], np.int32))
     aligned = lambda self, stage, at, *rest, **more: SimpleNamespace(poses=at, pairs=pairs)  # noqa: E731
     monkeypatch.setattr(KeyAlignment, "align", aligned)
     alignment = KeyAlignment(None, None, 1.0, lambda track, stage, rounds: lambda done, at: None)
-    matched = alignment.improved(SimpleNamespace(poses=poses, pairs=pairs), None)
+    matched = alignment.improve(SimpleNamespace(poses=poses, pairs=pairs), None)
     assert [None if mask is None else mask.tolist() for mask in asked[:2]] == [None, [True, True, True, False]]
     np.testing.assert_array_equal(matched.alignment.poses[:, 0], [0.0, 1.0, 0.0, 0.0])
     np.testing.assert_array_equal(matched.scores, [0.5, 0.8, 0.5, 0.5])

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 from simulated import recording
 
-from bayesmap.poses.front_end import AGAIN_BELOW, _Path, follow, grid_half_width
+from bayesmap.poses.front_end import REMATCH_LOSS, _Path, grid_half_width, track_scans
 from bayesmap.poses.key_graph import chain_of, unconfirmed_links
 from bayesmap.poses.matcher import likelihood_grids
-from bayesmap.poses.next_scans import Elsewhere, Placed, Window, place_anywhere
+from bayesmap.poses.next_scans import PlacedScans, WideMatch, Window, search_widely
 from bayesmap.poses.odometry_factors import StatedOdometry, compose_factors
 from bayesmap.poses.scan_geometry import scan_geometry
 from bayesmap.space.planar import between, compose
@@ -24,7 +24,7 @@ def followed():
     """Return a third of a round: geometry, track, odometry's motions and the true poses."""
     scans, truth = recording(0.35)
     geometry, motions = scan_geometry(scans, threads=1), between(scans.poses[:-1], scans.poses[1:])
-    return geometry, follow(geometry, motions, scans.stamps_s), motions, truth
+    return geometry, track_scans(geometry, motions, scans.stamps_s), motions, truth
 
 
 def turned_from(poses, key, motion):
@@ -76,10 +76,10 @@ def test_a_scan_is_taken_as_far_as_noisy_odometry_allows(sigma_rad, taken):
     geometry, _, _, truth = followed()
     path = _Path(geometry, between(truth[:-1], truth[1:]), None, None)
     variance = np.array([[0.1, 0.1, sigma_rad]]) ** 2
-    found = Elsewhere(between(truth[0], truth[1]), np.eye(3), 0.95, False)
+    found = WideMatch(between(truth[0], truth[1]), np.eye(3), 0.95, False)
     stated = compose(found.pose, np.array([0.0, 0.0, 1.05]))[None]
-    placed = Placed(stated, variance, stated, np.eye(3)[None], np.zeros(1), np.zeros(1, bool))
-    assert path._slipped(1, placed, found) == taken
+    placed = PlacedScans(stated, variance, stated, np.eye(3)[None], np.zeros(1), np.zeros(1, bool))
+    assert path._accept_slip(1, placed, found) == taken
 
 
 @pytest.mark.parametrize(("score", "off_m", "kept"), [(0.95, 3.0, True), (0.4, 3.0, False), (0.95, 8.0, False)])
@@ -97,11 +97,11 @@ def test_a_scan_that_fits_worse_is_matched_from_those_before_it_and_a_short_moti
     """Of a batch those before it are taken; the next is predicted from the last of them."""
     geometry, _, motions, _ = followed()
     path = _Path(geometry, motions, None, None)
-    path.usual = 0.9
-    placed, _ = path._near(np.arange(1, 4))
-    placed.scores[:] = 0.9, 0.9 - 0.5 * AGAIN_BELOW, 0.9 - 1.5 * AGAIN_BELOW
-    path._take(np.arange(1, 4), placed, 3)
-    assert path.at == 2
+    path.usual_score = 0.9
+    placed, _ = path._place_near(np.arange(1, 4))
+    placed.scores[:] = 0.9, 0.9 - 0.5 * REMATCH_LOSS, 0.9 - 1.5 * REMATCH_LOSS
+    path._accept(np.arange(1, 4), placed, 3)
+    assert path.last == 2
     motions = np.tile([0.2, 0.0, 0.0], (20, 1))
     motions[9] = 0.0
     stated = [np.zeros(3)]
@@ -129,7 +129,7 @@ def test_few_points_do_not_refute_odometry(points, found):
     keys = np.arange(10)[::-1]
     grid = likelihood_grids(geometry, [keys], [truth[keys]], truth[9, :2], grid_half_width(geometry))
     window = Window(keys, truth[keys], grid)
-    place = place_anywhere(geometry, window, 12, compose(truth[12], np.array([-0.7, 0.2, 0.0])), 0.5)
+    place = search_widely(geometry, window, 12, compose(truth[12], np.array([-0.7, 0.2, 0.0])), 0.5)
     assert (place is not None) == found
     if place is not None:
         assert np.hypot(*between(truth[12], place.pose)[:2]) < 0.1

@@ -113,7 +113,7 @@ def test_points_follow_their_pose_and_jacobians_equal_finite_differences():
     np.testing.assert_allclose(p.transform(A, p.transform(B, points)), p.transform(p.compose(A, B), points), atol=1e-12)
     by_a, by_b = p.between_jacobians(p.between(A, B))
     for k, h in enumerate(np.eye(3) * 1e-6):
-        change_a = (p.between(p.retract(A, h), B) - p.between(p.retract(A, -h), B)) / 2e-6
-        change_b = (p.between(A, p.retract(B, h)) - p.between(A, p.retract(B, -h))) / 2e-6
+        change_a = (p.between(p.compose(A, h), B) - p.between(p.compose(A, -h), B)) / 2e-6
+        change_b = (p.between(A, p.compose(B, h)) - p.between(A, p.compose(B, -h))) / 2e-6
         np.testing.assert_allclose(by_a[..., k], change_a, atol=1e-7)
         np.testing.assert_allclose(by_b[..., k], change_b, atol=1e-7)

@@ -235,7 +235,7 @@ def opened_log(scans: Scans, name: str) -> OpenedLog:
     look like raw odometry are at first treated as odometry. Raises BadInput: the log has no scans.
     """
     from bayesmap.cells.kinds import P_WALL
-    from bayesmap.poses.agreement import look_like_odometry
+    from bayesmap.poses.log_checks import look_like_odometry
 
     grid = Grid.covering(scans, LOG_RESOLUTION_M)
     if max(grid.shape) > LARGEST_SIDE_OF_LOG:

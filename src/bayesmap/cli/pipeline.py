@@ -199,7 +199,7 @@ def read(console: Console, log: str, settings: SamplingSettings, *, without_pose
 def refuse_odometry(log: str, reading: LogReading) -> None:
     """Raise `BadInput` for poses at which walls stand in several places, as raw odometry or in degrees."""
     from bayesmap.io.logs import IN_DEGREES
-    from bayesmap.poses.agreement import DOUBLED, look_like_odometry
+    from bayesmap.poses.log_checks import DOUBLED, look_like_odometry
 
     if look_like_odometry(reading.scans):
         for note in reading.notes:

@@ -14,8 +14,7 @@ from bayesmap.errors import BadInput
 from bayesmap.io.log_reading import LogReading
 from bayesmap.io.logs import IN_DEGREES, RECORDINGS, describe_log, format_of
 from bayesmap.io.ros.recording import POSE_TYPES, SCAN_TYPES, TF_TYPES, TYPES
-from bayesmap.poses.agreement import DOUBLED, look_like_odometry
-from bayesmap.poses.log_checks import TOO_SELDOM, scans_come_often
+from bayesmap.poses.log_checks import DOUBLED, TOO_SELDOM, look_like_odometry, scans_come_often
 from bayesmap.space.scans import Scans
 
 CONVERTERS = {

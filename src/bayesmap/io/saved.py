@@ -377,8 +377,7 @@ def numbers_of(trajectory: Trajectory) -> dict[str, Any]:
 def trajectory_from(arrays: Mapping[str, NDArray[Any]], numbers: Mapping[str, Any]) -> Trajectory:
     """Return the trajectory, given the results of `arrays_of` and `numbers_of`."""
     from bayesmap.poses.calibration import MotionNoise, OdometryFit
-    from bayesmap.poses.graph import Factors
-    from bayesmap.poses.pose_gaussian import PoseGaussian
+    from bayesmap.poses.graph import Factors, PoseGaussian
     from bayesmap.poses.prior import Odometry
     from bayesmap.poses.trajectory import NO_ALTERNATIVES, Alternatives, Calibration, LoopClosures, Trajectory
 

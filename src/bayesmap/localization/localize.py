@@ -17,7 +17,7 @@ from bayesmap.localization.known_map import KnownMap, Trust
 from bayesmap.localization.particles import LEAST_SD, PoseMixture
 from bayesmap.poses.prior import Odometry
 from bayesmap.sensors.model import RangeLimits
-from bayesmap.space.planar import Floats, between, compose, rotation, swing, wrap_angle
+from bayesmap.space.planar import Floats, between, compose, frame_jacobians, rotation, wrap_angle
 from bayesmap.space.scans import Scans, asked_poses, check_sigma_rad
 from bayesmap.space.trajectory import Trajectory, step_to
 
@@ -243,7 +243,7 @@ def moved(belief: PoseBelief, motion: Floats, sigmas: Floats, trust: Trust, new:
     means = np.array([mode.mean for mode in modes])
     covariances = np.array([mode.covariance for mode in modes])
     ends = compose(means, motion)
-    shift, turn = swing(np.zeros(len(means)), ends - means), rotation(means[:, 2])
+    shift, turn = frame_jacobians(np.zeros(len(means)), ends - means), rotation(means[:, 2])
     noise = turn @ np.diag(sigmas**2 + LEAST_SD**2) @ np.swapaxes(turn, 1, 2)
     ends[:, 2] = wrap_angle(ends[:, 2])
     mass = np.log([mode.probability for mode in modes])

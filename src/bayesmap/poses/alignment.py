@@ -14,6 +14,8 @@ paired with nearer ones. So a shift changes the forces by only a share k < 1 of 
 an M-estimator is E[psi^2] / (k E[w])^2 per point (Huber 1967). Each of the two points of a pair has half of it. With
 noise of 1 cm k is 0.67, with 3 cm 0.57: if points scatter as widely as they are apart, the nearest is seldom the right
 one. `point_error` measures k and the variance from the pairs.
+
+`place_scans` refines each scan between key scans against the key scans that see the same walls.
 """
 
 from __future__ import annotations
@@ -25,17 +27,23 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.kernels.match.line_pairs import match_counts, pair_sums
-from bayesmap.poses.graph import Factors, Quadratic, quadratic, solve_step
-from bayesmap.poses.pose_gaussian import PoseGaussian
-from bayesmap.poses.scan_geometry import ScanGeometry
-from bayesmap.space.planar import Floats, between, retract
+from bayesmap.kernels.match.scan_refinement import Convergence, Refinement, refine_scans
+from bayesmap.poses.graph import Factors, PoseGaussian, Quadratic, quadratic, solve_step
+from bayesmap.poses.scan_geometry import ScanGeometry, offsets_of
+from bayesmap.space.planar import Floats, between, bracketing_indices, compose, evenly_spaced, nearest_index, rotation
 
-PARTNERS, TRIED = 20, 64  # most partners of a scan, and the number of near scans among which they are chosen
-AT_ONCE = 10  # partners within this many scans in time share the drift: at least half are from other times
-REACH_M, SCALE_M = (0.3, 0.08), (0.12, 0.03)  # pairing distance, Geman and McClure's c: round one, middle and on
-ALIKE, LEAST_MATCHED = 0.7, 0.2  # least cosine of paired normals, and share of a scan's points that match a partner
-SLACKS = 4.0  # of the mean information from errors of normals, subtracted: a pair's may be three times the mean
+MAX_PARTNERS = 20  # most partners of a scan
+MAX_TRIED = 64  # number of near scans among which partners are chosen
+SAME_VISIT_SCANS = 10  # partners within this many scans in time share the drift: at least half are from other times
+REACH_M = (0.3, 0.08)  # greatest distance of paired points: in the first round, and from the middle round on
+SCALE_M = (0.12, 0.03)  # Geman and McClure's c: in the first round, and from the middle round on
+TRIAL_REACH_M, TRIAL_SCALE_M = 0.3, 0.15  # reach and scale when partners are chosen
+TRIAL_BEAMS = 45  # approximate number of beams of a scan when partners are chosen
+MIN_COSINE = 0.7  # least cosine of paired normals
+MIN_MATCHED_SHARE = 0.2  # least share of a scan's points that match a partner
+SLACKS = 4.0  # factor on the subtracted mean information from errors of normals: a pair's may be three times the mean
 EARLY_BEAMS = 180  # at least so many beams of a scan are used until reach and scale have shrunk; then all
+SIGMA_BOUNDS_M = (0.002, 0.05)  # bounds on the estimated standard deviation of a point
 SLIP = 25.0  # odometry's cost grows less than quadratically beyond this squared Mahalanobis distance: wheels slip
 
 
@@ -63,8 +71,8 @@ class Alignment:
 
 
 def overlapping_pairs(geometry: ScanGeometry, poses: Floats, reach_m: float) -> Pairs:
-    """Select the partners of each of S scans at poses (S, 3): those whose walls explain most of its points. Sensors of
-    partners are at most ``reach_m`` apart. Some partners are near in time, the others from other visits.
+    """Select the partners of each of S scans at poses (S, 3): the scans whose walls explain most of its points. Sensors
+    of partners are at most ``reach_m`` apart. Some partners are near in time, the others from other visits.
     """
     from scipy.spatial import cKDTree
 
@@ -73,37 +81,38 @@ def overlapping_pairs(geometry: ScanGeometry, poses: Floats, reach_m: float) -> 
         return Pairs(np.empty(0, np.int32), np.empty(0, np.int32), np.zeros(count + 1, np.int32))
     # Find near scans, by a distance in which half a turn is as far as 3 m.
     tree = cKDTree(np.column_stack([poses[:, :2], np.cos(poses[:, 2]), np.sin(poses[:, 2])]) * [1.0, 1.0, 1.5, 1.5])
-    _, near = tree.query(tree.data, k=min(4 * TRIED, count), workers=1)
+    _, near = tree.query(tree.data, k=min(4 * MAX_TRIED, count), workers=1)
     source = np.repeat(np.arange(count), near.shape[1])
     target = near.ravel()
-    plain = np.hypot(*(poses[source, :2] - poses[target, :2]).T)
-    kept = (source != target) & (plain < reach_m)
-    close_in_time = np.abs(source - target) <= AT_ONCE
+    distance_m = np.hypot(*(poses[source, :2] - poses[target, :2]).T)
+    candidate = (source != target) & (distance_m < reach_m)
+    same_visit = np.abs(source - target) <= SAME_VISIT_SCANS
     # Keep all scans that are near in time, and the nearest of the others.
-    rank = np.cumsum((kept & ~close_in_time).reshape(count, -1), axis=1).ravel()
-    kept &= close_in_time | (rank <= TRIED)
-    source, target = source[kept].astype(np.int32), target[kept].astype(np.int32)
-    # Share of each scan's points that the other explains, from about 45 beams. 0.3 and 0.15 m are reach and scale.
-    stride = max(1, geometry.beams // 45)
+    rank = np.cumsum((candidate & ~same_visit).reshape(count, -1), axis=1).ravel()
+    candidate &= same_visit | (rank <= MAX_TRIED)
+    source, target = source[candidate].astype(np.int32), target[candidate].astype(np.int32)
+    # Compute the share of each scan's points that the other explains.
+    stride = max(1, geometry.beams // TRIAL_BEAMS)
     relative = between(poses[target], poses[source])
-    _, _, _, totals = pair_sums(geometry, None, source, target, relative, 0.3, 0.15, ALIKE, stride, geometry.threads)
+    _, _, _, totals = pair_sums(
+        geometry, None, source, target, relative, TRIAL_REACH_M, TRIAL_SCALE_M, MIN_COSINE, stride, geometry.threads
+    )
     sampled = np.maximum((geometry.host_kind[:, ::stride] > 0).sum(axis=1), 1)
     share = totals[:, 2] / sampled[source]
-    good = share > LEAST_MATCHED
+    good = share > MIN_MATCHED_SHARE
     source, target, share = source[good], target[good], share[good]
-    # Order the partners of each scan: other visits first, each group by share. Then fill the places of both groups.
-    late = np.abs(source.astype(np.int64) - target) <= AT_ONCE
-    order = np.lexsort((-share, late, source))
-    source, target, late = source[order], target[order], late[order]
-    number_all = _number_within(source)
-    others = np.bincount(source[~late], minlength=count)
-    room = np.where(late, PARTNERS - np.minimum(others[source], PARTNERS // 2), PARTNERS // 2)
-    within = np.where(late, number_all - others[source], number_all)
-    # If few are near in time, other scans take their places.
-    few = np.bincount(source[late], minlength=count)
-    room = np.where(late, room, np.maximum(room, PARTNERS - few[source]))
-    kept = within < room
-    source, target = source[kept], target[kept]
+    # Order the partners of each scan: other visits first, each group by share. Number each group from 0.
+    same_visit = np.abs(source.astype(np.int64) - target) <= SAME_VISIT_SCANS
+    order = np.lexsort((-share, same_visit, source))
+    source, target, same_visit = source[order], target[order], same_visit[order]
+    n_others = np.bincount(source[~same_visit], minlength=count)[source]
+    n_same = np.bincount(source[same_visit], minlength=count)[source]
+    rank = np.arange(len(source)) - np.searchsorted(source, source)
+    rank = np.where(same_visit, rank - n_others, rank)
+    # Each group has half of the partners, and what the other group leaves.
+    half = MAX_PARTNERS // 2
+    room = np.where(same_visit, MAX_PARTNERS - np.minimum(n_others, half), np.maximum(half, MAX_PARTNERS - n_same))
+    source, target = source[rank < room], target[rank < room]
     return Pairs(source, target, np.searchsorted(source, np.arange(count + 1)).astype(np.int32))
 
 
@@ -119,7 +128,7 @@ def align(
     from the middle round on. In the middle ``reselect`` returns new pairs for the poses. ``firm`` is the mask of
     odometry's relative poses without slip, (M,). ``on_progress`` is called with the number of rounds done and poses.
     """
-    count, sigma = len(poses), geometry.noise_m
+    count, sigma_m = len(poses), geometry.noise_m
     reach_m, scale_m = geometry.reach_m(*reach_m), geometry.scale_m(*scale_m)
     weights = np.ones((count, geometry.beams), np.float32)
     gaussian, totals = None, np.zeros((len(pairs), 5))
@@ -132,18 +141,17 @@ def align(
         if reselect is not None and number == (rounds + 1) // 2:
             pairs = reselect(poses)
         if number in (0, (rounds + 1) // 2, rounds - 2):
-            seen = between(poses[pairs.target], poses[pairs.source])
-            weights = _beam_weights(geometry, pairs, seen, reach, scale, stride)
+            relative = between(poses[pairs.target], poses[pairs.source])
+            weights = _beam_weights(geometry, pairs, relative, reach, scale, stride)
         # Solve for one step of laser and odometry, and estimate the noise from the residuals.
-        laser, totals = _laser(geometry, weights, poses, pairs, reach, scale, sigma, stride)
-        squares = odometry.squares(poses)
-        slipping = 1.0 / (1.0 + squares / SLIP)
-        wheels = quadratic(odometry, poses, slipping if firm is None else np.where(firm, 1.0, slipping))
+        laser, totals = _laser_cost(geometry, weights, poses, pairs, reach, scale, sigma_m, stride)
+        slip_weights = 1.0 / (1.0 + odometry.squares(poses) / SLIP)
+        wheels = quadratic(odometry, poses, slip_weights if firm is None else np.where(firm, 1.0, slip_weights))
         step, _ = solve_step(count, [laser, wheels])
-        poses = retract(poses, step)
+        poses = compose(poses, step)
         gaussian = _gaussian(poses, laser, wheels)
-        sigma = float(np.sqrt(max(totals[:, 0].sum() / max(totals[:, 1].sum(), 1e-9), 1e-8) / 2.0))
-        sigma = float(np.clip(sigma, 0.002, 0.05))
+        variance = max(totals[:, 0].sum() / max(totals[:, 1].sum(), 1e-9), 1e-8) / 2.0
+        sigma_m = float(np.clip(np.sqrt(variance), *SIGMA_BOUNDS_M))
         if on_progress is not None:
             on_progress(number + 1, poses)
         if share >= 1.0 and number > rounds // 2 + 1 and np.abs(step).max() < 2e-4:
@@ -151,64 +159,57 @@ def align(
     shares = np.bincount(pairs.source, totals[:, 2] / np.maximum(totals[:, 3], 1.0), count)
     matched = shares / np.maximum(np.bincount(pairs.source, minlength=count), 1)
     assert gaussian is not None
-    return Alignment(poses, pairs, sigma, gaussian, matched)
+    return Alignment(poses, pairs, sigma_m, gaussian, matched)
 
 
 def _beam_weights(
     geometry: ScanGeometry, pairs: Pairs, relative: Floats, reach: float, scale: float, stride: int = 1
 ) -> NDArray[np.float32]:
     """Return the weight of each beam in its pairs, (S, B), by the number of scans with which it is matched."""
-    ends = pairs.offsets, pairs.target
-    counts = match_counts(geometry, *ends, relative, reach, scale, ALIKE, stride, geometry.threads)
+    counts = match_counts(
+        geometry, pairs.offsets, pairs.target, relative, reach, scale, MIN_COSINE, stride, geometry.threads
+    )
     return np.asarray(0.5 / (1.0 + counts), dtype=np.float32)
 
 
 def _gaussian(poses: Floats, laser: Quadratic, wheels: Quadratic) -> PoseGaussian:
+    """Return the Gaussian of both costs. Only the laser's pairs have forces, since motions err independently."""
     first, second = np.concatenate([laser.first, wheels.first]), np.concatenate([laser.second, wheels.second])
     curvature = np.concatenate([laser.curvature, wheels.curvature])
     force = np.concatenate([laser.gradient, np.zeros_like(wheels.gradient)])
     return PoseGaussian(poses, first, second, between(poses[first], poses[second]), curvature, force)
 
 
-def _laser(
+def _laser_cost(
     geometry: ScanGeometry, weights: NDArray[np.float32], poses: Floats, pairs: Pairs, reach: float, scale: float,
-    sigma: float, stride: int,
+    sigma_m: float, stride: int,
 ) -> tuple[Quadratic, Floats]:  # fmt: skip
     """Return the laser's cost over the relative poses of pairs, and the totals of its sums."""
     relative = between(poses[pairs.target], poses[pairs.source])
-    ends = pairs.source, pairs.target
-    second, slack, first, totals = pair_sums(
-        geometry, weights, *ends, relative, reach, scale, ALIKE, stride, geometry.threads
+    hessian, slack, gradient, totals = pair_sums(
+        geometry, weights, pairs.source, pairs.target, relative, reach, scale, MIN_COSINE, stride, geometry.threads
     )
-    laser_information, gradient = without_slack(second, slack, first, sigma)
-    scaled, target, source = stride / sigma**2, pairs.target.astype(np.intp), pairs.source.astype(np.intp)
-    return Quadratic(target, source, relative, laser_information * scaled, gradient * scaled), totals
+    curvature, gradient = without_slack(hessian, slack, gradient, sigma_m)
+    factor, target, source = stride / sigma_m**2, pairs.target.astype(np.intp), pairs.source.astype(np.intp)
+    return Quadratic(target, source, relative, curvature * factor, gradient * factor), totals
 
 
-def without_slack(second: Floats, slack: Floats, first: Floats, sigma_m: float) -> tuple[Floats, Floats]:
+def without_slack(hessian: Floats, slack: Floats, gradient: Floats, sigma_m: float) -> tuple[Floats, Floats]:
     """Return second derivatives, (M, 3, 3), and first ones, (M, 3), without the part from errors of normals. The
     minimum of the quadratic cost stays. The cost becomes flat along directions that have only slack.
     """
-    laser_information = second - SLACKS * sigma_m**2 * slack
-    values, vectors = np.linalg.eigh(laser_information)
-    laser_information = (vectors * np.maximum(values, 0.0)[:, None, :]) @ np.swapaxes(vectors, 1, 2)
-    size = np.trace(second, axis1=1, axis2=2)[:, None, None]
-    ridge = second + np.eye(3) * (1e-6 * size + 1e-12)
-    minimum = np.linalg.solve(ridge, first[..., None])
-    return laser_information, (laser_information @ minimum)[..., 0]
-
-
-def _number_within(groups: NDArray[np.int32]) -> NDArray[np.intp]:
-    """Number the entries of each group from 0, for entries sorted by group."""
-    begins = np.concatenate([[True], groups[1:] != groups[:-1]]) if len(groups) else np.empty(0, bool)
-    at = np.nonzero(begins)[0]
-    return np.arange(len(groups)) - np.repeat(at, np.diff(np.append(at, len(groups))))
+    values, vectors = np.linalg.eigh(hessian - SLACKS * sigma_m**2 * slack)
+    curvature = (vectors * np.maximum(values, 0.0)[:, None, :]) @ np.swapaxes(vectors, 1, 2)
+    size = np.trace(hessian, axis1=1, axis2=2)[:, None, None]
+    ridge = hessian + np.eye(3) * (1e-6 * size + 1e-12)
+    minimum = np.linalg.solve(ridge, gradient[..., None])
+    return curvature, (curvature @ minimum)[..., 0]
 
 
 COUNTED_AGAIN = 0.1  # share of points' variance that shared errors of pairs contain too, as in simulated offices
 ERROR_PAIRS = 8000  # least number of pairs of scans, if there are so many, on which the error of points is measured
 LEVER_M = 4.0  # typical distance of points from the laser, metres, for turns
-LEAST_RESPONSE, MOST_RESPONSE = 0.2, 1.0  # bounds on k; if forces hardly respond to a shift, there are too few points
+RESPONSE_BOUNDS = (0.2, 1.0)  # bounds on k; if forces hardly respond to a shift, there are too few points
 
 
 @dataclass(frozen=True, eq=False)
@@ -230,33 +231,33 @@ def point_error(geometry: ScanGeometry, aligned: Alignment) -> PointError:
     reach, scale = geometry.reach_m(*REACH_M)[1], geometry.scale_m(*SCALE_M)[1]
     relative = between(aligned.poses[pairs.target], aligned.poses[pairs.source])
     weights = _beam_weights(geometry, pairs, relative, reach, scale)
-    every = slice(None, None, max(1, len(pairs) // ERROR_PAIRS))
-    source, target, relative = pairs.source[every].copy(), pairs.target[every].copy(), relative[every]
+    sampled = slice(None, None, max(1, len(pairs) // ERROR_PAIRS))
+    source, target, relative = pairs.source[sampled].copy(), pairs.target[sampled].copy(), relative[sampled]
 
     def sums(shift: Floats) -> tuple[Floats, Floats, Floats]:
-        moved = source, target, relative + shift
-        second, _, first, totals = pair_sums(geometry, weights, *moved, reach, scale, ALIKE, threads=geometry.threads)
-        return second, first, totals
+        hessian, _, gradient, totals = pair_sums(
+            geometry, weights, source, target, relative + shift, reach, scale, MIN_COSINE, threads=geometry.threads
+        )
+        return hessian, gradient, totals
 
-    second, _, totals = sums(np.zeros(3))
-    said = np.einsum("mii->i", second)
+    hessian, _, totals = sums(np.zeros(3))
+    curvature = np.einsum("mii->i", hessian)
     weight, force_sq = float(totals[:, 1].sum()), float(totals[:, 4].sum())
-    if not (said.min(initial=np.inf) > 0.0 and weight > 0.0):
+    if not (curvature.min(initial=np.inf) > 0.0 and weight > 0.0):
         return PointError(aligned.sigma_m, np.ones(3))
-    changed = np.empty(3)
+    # Measure how the gradient changes with a shift. Scans look any way, so that x and y share one response.
+    slope = np.empty(3)
     for axis, lever_m in enumerate((1.0, 1.0, LEVER_M)):
         shift = np.zeros(3)
         shift[axis] = 0.5 * aligned.sigma_m / lever_m
-        changed[axis] = (sums(shift)[1] - sums(-shift)[1])[:, axis].sum() / (2.0 * shift[axis])
-    along = (changed[0] + changed[1]) / (said[0] + said[1])  # scans look any way, so that x and y share one response
-    response = np.clip([along, along, changed[2] / said[2]], LEAST_RESPONSE, MOST_RESPONSE)
+        slope[axis] = (sums(shift)[1] - sums(-shift)[1])[:, axis].sum() / (2.0 * shift[axis])
+    of_shifts = (slope[0] + slope[1]) / (curvature[0] + curvature[1])
+    response = np.clip([of_shifts, of_shifts, slope[2] / curvature[2]], *RESPONSE_BOUNDS)
     return PointError(float(np.sqrt(0.5 * force_sq / weight)), response)
 
 
 def with_point_error(aligned: Alignment, error: PointError) -> PoseGaussian:
-    """Return the Gaussian of aligned scans with the laser's part scaled to a measured error of points. The
-    approximation is a Student's t, whose covariance is dof / (dof - 2) times its scale matrix.
-    """
+    """Return the Gaussian of aligned scans with the laser's part scaled to a measured error of points."""
     gaussian = aligned.gaussian
     scale = (aligned.sigma_m / error.scatter_m) ** 2 * gaussian.dof / (gaussian.dof - 2.0) / (1.0 - COUNTED_AGAIN)
     laser = np.arange(len(gaussian.first)) < len(aligned.pairs)
@@ -267,3 +268,101 @@ def with_point_error(aligned: Alignment, error: PointError) -> PoseGaussian:
         curvature=np.where(laser[:, None, None], curvature, gaussian.curvature),
         force=np.where(laser[:, None], force, gaussian.force),
     )
+
+
+MAX_COMPARED = 10  # key scans that each scan is compared with
+PRIOR_SIGMA = np.array([0.03, 0.03, np.radians(1.0)])  # sigmas of a scan before its beams are used
+CAUTION = 2.0  # factor on the scatter of points during refinement: rough first steps stay near the prior
+MIN_SIGMA_M = 0.005  # least scatter of points during refinement
+MAX_STEPS = 10  # most steps of a refinement
+PLACING_REACH_M = (0.2, 0.08)  # greatest distance of paired points: in the first and in the last step
+PLACING_SCALE_M = (0.1, 0.03)  # distance from which points count as outliers: in the first and in the last step
+
+
+@dataclass(frozen=True, eq=False)
+class Placement:
+    """Poses of all scans."""
+
+    poses: Floats  # (S, 3)
+    information: Floats  # of each pose given the key scans, in its own frame, (S, 3, 3)
+    explained: Floats  # share of each scan's points on walls of compared key scans, (S,); 1 for key scans
+
+    def own_covariance(self, keys: NDArray[np.intp]) -> Floats:
+        """Return the scale matrix of Student's t of each scan's pose given the key scans, (S, 3, 3); zero for keys."""
+        covariance = np.linalg.inv(self.information + np.diag(1.0 / PRIOR_SIGMA**2))
+        covariance[keys] = 0.0
+        return np.asarray(covariance)
+
+
+def place_scans(
+    geometry: ScanGeometry, poses: Floats, keys: NDArray[np.intp], aligned: Alignment, error: PointError
+) -> Placement:
+    """Refine every scan against the partners of the key scan nearest to it in time. Key scans keep their poses. All
+    scans start at ``poses``, (S, 3), and ``aligned`` holds the key scans alone.
+    """
+    count = len(poses)
+    scans = np.setdiff1d(np.arange(count), keys)
+    result, information, explained = poses.copy(), np.zeros((count, 3, 3)), np.ones(count)
+    result[keys] = aligned.poses
+    if not len(scans):
+        return Placement(result, information, explained)
+    # Refine all scans at once; each starts at its pose, which is also the mean of its prior.
+    offsets, compared = compared_keys(scans, keys, aligned)
+    targets, target_poses = keys[compared].astype(np.int32), aligned.poses[compared]
+    starts, turn = poses[scans], rotation(poses[scans, 2])
+    prior = turn @ np.diag(1.0 / PRIOR_SIGMA**2) @ np.swapaxes(turn, 1, 2)
+    reach, scale = geometry.reach_m(*PLACING_REACH_M), geometry.scale_m(*PLACING_SCALE_M)
+    refinement = Refinement(scans.astype(np.int32), offsets, targets, target_poses, starts, starts, prior)
+    convergence = Convergence(CAUTION * max(aligned.sigma_m, MIN_SIGMA_M), MAX_STEPS, reach, scale, MIN_COSINE)
+    result[scans], _, _ = refine_scans(geometry, refinement, convergence, geometry.threads)
+    # Compute the information of each pair of scans, and its sum over the pairs of a scan.
+    source = np.repeat(scans, np.diff(offsets)).astype(np.int32)
+    relative = between(target_poses, result[source])
+    pair_information, shares = _information(geometry, source, targets, relative, reach[1], scale[1], error)
+    information[scans] = np.add.reduceat(pair_information, offsets[:-1], axis=0)
+    explained[scans] = shares[scans]
+    return Placement(result, information, explained)
+
+
+def compared_keys(
+    scans: NDArray[np.intp], keys: NDArray[np.intp], aligned: Alignment
+) -> tuple[NDArray[np.int32], NDArray[np.intp]]:
+    """Select the key scans that each scan is compared with, as numbers among the keys.
+
+    They are the key scans before and after the scan, and partners of the nearer one, evenly from their list. Scan i has
+    the entries from ``offsets[i]`` to ``offsets[i + 1]``. Returns the offsets, and the key scans of all scans.
+    """
+    before, after = bracketing_indices(keys, scans)
+    nearer = nearest_index(keys, scans)
+    farther = np.where(nearer == before, after, before)
+    partners = np.split(aligned.pairs.target, aligned.pairs.offsets[1:-1])
+    near_keys = [np.append(evenly_spaced(own, MAX_COMPARED - 2), key) for key, own in enumerate(partners)]
+    compared = [np.union1d(near_keys[near], [far]) for near, far in zip(nearer, farther, strict=True)]
+    return offsets_of(compared), np.concatenate(compared).astype(np.intp)
+
+
+def _information(
+    geometry: ScanGeometry, source: NDArray[np.int32], target: NDArray[np.int32], relative: Floats, reach_m: float,
+    scale_m: float, error: PointError,
+) -> tuple[Floats, Floats]:  # fmt: skip
+    """Return the information of M pairs' points about the source scan's pose, in its frame, (M, 3, 3).
+
+    The second result is the share of each scan's points that any of its pairs explains, (S,). A point that fits one
+    wall well, or several walls half, counts fully. Points that lie out of sight of one key scan may be seen by another.
+
+    The target scan's pose is known. ``relative`` are poses of sources in the frames of targets, (M, 3), and pairs are
+    sorted by source. A beam that is matched with c scans has its own error once and the mean error of c others. Its
+    variance is sigma^2 (1 + 1 / c), so that it counts 1 / (c + 1) in each pair.
+    """
+    offsets = np.searchsorted(source, np.arange(len(geometry) + 1)).astype(np.int32)
+    counts = match_counts(geometry, offsets, target, relative, reach_m, scale_m, MIN_COSINE, threads=geometry.threads)
+    weights = (1.0 / (1.0 + counts)).astype(np.float32)
+    hessian, slack, gradient, _ = pair_sums(
+        geometry, weights, source, target, relative, reach_m, scale_m, MIN_COSINE, threads=geometry.threads
+    )
+    in_target = without_slack(hessian, slack, gradient, error.scatter_m)[0] / error.scatter_m**2
+    turn = rotation(relative[:, 2])
+    in_source = np.swapaxes(turn, 1, 2) @ in_target @ turn
+    points = np.maximum((geometry.host_kind > 0).sum(axis=1), 1)
+    explained = np.minimum(counts, 1.0).sum(axis=1) / points
+    return np.asarray(error.response[:, None] * in_source * error.response), np.asarray(explained, np.float64)

@@ -18,81 +18,83 @@ from bayesmap.poses.alignment import Alignment, Pairs, align, overlapping_pairs
 from bayesmap.poses.front_end import Track
 from bayesmap.poses.graph import DOUBTFUL_SQ, Factors
 from bayesmap.poses.key_graph import contradicted_links
-from bayesmap.poses.matcher import LikelihoodGrids, Pull, likelihood_grids, match
+from bayesmap.poses.matcher import ANY_SCORE, LikelihoodGrids, Pull, likelihood_grids, match
 from bayesmap.poses.scan_geometry import ScanGeometry
 from bayesmap.space.planar import Floats, between, compose
 
-WINDOW_M, WINDOW_RAD = 0.3, np.radians(6.0)  # half widths and half ranges of angle, narrow window
-WIDE_M, WIDE_RAD = 1.5, np.radians(40.0)  # and wide window
-NEAR = Pull(0.2, np.radians(5.0), 0.005)  # penalty in the narrow window for leaving the present pose
-CLEARLY_BETTER, WIDE_BETTER = 0.015, 0.12  # least gain in score, from 0 to 1, in the narrow and in the wide window
-AT_ONCE, POINTS, SIGMA_M = 24, 200, 0.06  # scans matched at once, their points, sigma of the grids, metres
+NARROW_M, NARROW_RAD = 0.3, np.radians(6.0)  # half width and half range of angles of the narrow window
+WIDE_M, WIDE_RAD = 1.5, np.radians(40.0)  # half width and half range of angles of the wide window
+NARROW_PULL = Pull(0.2, np.radians(5.0), 0.005)  # penalty in the narrow window for leaving the present pose
+NARROW_GAIN, WIDE_GAIN = 0.015, 0.12  # least gain in score, from 0 to 1, in the narrow and in the wide window
+SCANS_AT_ONCE = 24  # number of scans matched at once
+MAX_POINTS = 200  # most points of a scan that are matched
+SIGMA_M = 0.06  # scale of the likelihood grids
 
 
 @dataclass(frozen=True, eq=False)
-class Rematch:
+class LeaveOneOut:
     """The result of leave-one-out matching of S scans."""
 
     scores: Floats  # score of each scan at its pose, by its partners alone, from 0 to 1, (S,); 0 without partners
     best_scores: Floats  # score at the best pose in the window, (S,)
     best_poses: Floats  # best pose in the window, (S, 3)
-    moved: NDArray[np.bool_]  # mask of the scans whose best pose is clearly better, (S,)
+    is_better: NDArray[np.bool_]  # mask of the scans whose best pose is clearly better, (S,)
 
 
-def rematch(
+def match_without_itself(
     geometry: ScanGeometry, poses: Floats, pairs: Pairs, half_width_m: float, *, poor_score: float = 0.0,
-    search: bool = True, before: Rematch | None = None, among: NDArray[np.bool_] | None = None,
-) -> Rematch:  # fmt: skip
+    search: bool = True, before: LeaveOneOut | None = None, changed: NDArray[np.bool_] | None = None,
+) -> LeaveOneOut:  # fmt: skip
     """Match each of S scans at poses (S, 3) to its partners' likelihood grid.
 
-    Scans with a score below ``poor_score`` are searched for in the wide window, too. Without ``search`` the given poses
-    are only scored. Scans outside the mask ``among``, (S,), keep the scores of an earlier result ``before``.
+    Scans with a score below ``poor_score`` are searched for in the wide window, too. Without ``search`` the poses are
+    only scored. Scans outside the mask ``changed``, (S,), keep the scores of an earlier result ``before``.
     """
     count = len(poses)
     scores, best_scores, best_poses = np.zeros(count), np.zeros(count), poses.copy()
-    wide = np.zeros(count, np.bool_)
-    wanted = np.diff(pairs.offsets) > 0
-    if before is not None and among is not None:
-        wanted &= among
-        scores = np.where(among, 0.0, before.scores)
+    is_wide = np.zeros(count, np.bool_)
+    is_matched = np.diff(pairs.offsets) > 0
+    if before is not None and changed is not None:
+        is_matched &= changed
+        scores = np.where(changed, 0.0, before.scores)
         best_scores = scores.copy()
-    partnered = np.nonzero(wanted)[0]
+    scans = np.nonzero(is_matched)[0]
     grids: LikelihoodGrids | None = None
-    for begin in range(0, len(partnered), AT_ONCE):
+    for begin in range(0, len(scans), SCANS_AT_ONCE):
         # Make the grid of each scan's partners, in the scan's frame.
-        batch = partnered[begin : begin + AT_ONCE]
-        others = [pairs.target[pairs.offsets[k] : pairs.offsets[k + 1]].astype(np.intp) for k in batch]
-        local = [between(np.broadcast_to(poses[k], (len(m), 3)), poses[m]) for k, m in zip(batch, others, strict=True)]
-        reuse = grids if grids is not None and len(grids) == len(batch) else None
-        middles = np.zeros((len(batch), 2))
-        grids = likelihood_grids(geometry, others, local, middles, half_width_m, sigma_m=SIGMA_M, reuse=reuse)
-        # Score each scan at its pose. The least score of -9 accepts any.
-        points = [geometry.points_of(int(k), POINTS) for k in batch]
+        batch = scans[begin : begin + SCANS_AT_ONCE]
         origin = np.zeros((len(batch), 3))
-        now = match(grids, points, origin, 0.0, 0.0, min_score=-9.0).scores[:, 0]
-        scores[batch] = best_scores[batch] = now
+        partners = [pairs.target[pairs.offsets[k] : pairs.offsets[k + 1]].astype(np.intp) for k in batch]
+        relative = [between(poses[k], poses[own]) for k, own in zip(batch, partners, strict=True)]
+        reuse = grids if grids is not None and len(grids) == len(batch) else None
+        grids = likelihood_grids(
+            geometry, partners, relative, origin[:, :2], half_width_m, sigma_m=SIGMA_M, reuse=reuse
+        )
+        # Score each scan at its pose.
+        points = [geometry.points_of(int(k), MAX_POINTS) for k in batch]
+        present = match(grids, points, origin, 0.0, 0.0, min_score=ANY_SCORE).scores[:, 0]
+        scores[batch] = best_scores[batch] = present
         if not search:
             continue
         # Search the narrow window, and the wide one for scans that still score badly.
-        near = match(grids, points, origin, WINDOW_M, WINDOW_RAD, min_score=now, pull=NEAR)
-        found = near.found[:, 0]
-        best = np.where(found, near.scores[:, 0], now)
-        place = np.where(found[:, None], near.poses[:, 0], 0.0)
+        narrow = match(grids, points, origin, NARROW_M, NARROW_RAD, min_score=present, pull=NARROW_PULL)
+        better = narrow.has_pose[:, 0]
+        best = np.where(better, narrow.scores[:, 0], present)
+        offsets = np.where(better[:, None], narrow.poses[:, 0], 0.0)
         poor = np.nonzero(best < poor_score)[0]
         if len(poor):
-            far = match(
+            wide = match(
                 grids, [points[k] for k in poor], origin[poor], WIDE_M, WIDE_RAD, grid_of=poor,
-                min_score=best[poor] + WIDE_BETTER, step_rad=np.radians(1.0),
+                min_score=best[poor] + WIDE_GAIN, step_rad=np.radians(1.0),
             )  # fmt: skip
-            better = far.found[:, 0]
-            best[poor[better]], place[poor[better]] = far.scores[better, 0], far.poses[better, 0]
-            wide[batch[poor[better]]] = True
-        best_scores[batch], best_poses[batch] = best, compose(poses[batch], place)
-    moved = (best_scores > scores + CLEARLY_BETTER) | wide
-    return Rematch(scores, best_scores, best_poses, moved)
+            better = wide.has_pose[:, 0]
+            best[poor[better]], offsets[poor[better]] = wide.scores[better, 0], wide.poses[better, 0]
+            is_wide[batch[poor[better]]] = True
+        best_scores[batch], best_poses[batch] = best, compose(poses[batch], offsets)
+    return LeaveOneOut(scores, best_scores, best_poses, (best_scores > scores + NARROW_GAIN) | is_wide)
 
 
-FAR_BELOW = 0.55  # a scan is flagged if its score is below this share of the median score
+FLAGGED_SHARE = 0.55  # a scan is flagged if its score is below this share of the median score
 
 
 def flag_unexplained(explained: Floats, keys: NDArray[np.intp]) -> NDArray[np.bool_]:
@@ -103,23 +105,24 @@ def flag_unexplained(explained: Floats, keys: NDArray[np.intp]) -> NDArray[np.bo
     is_key = np.zeros(len(explained), np.bool_)
     is_key[keys] = True
     for group in (is_key, ~is_key):
-        usual = explained[group]
-        if len(usual) and np.median(usual) == 0.0:
-            usual = usual[usual > 0.0]
-        if len(usual):
-            flagged[group] = explained[group] < FAR_BELOW * np.median(usual)
+        scores = explained[group]
+        if len(scores) and np.median(scores) == 0.0:
+            scores = scores[scores > 0.0]
+        if len(scores):
+            flagged[group] = explained[group] < FLAGGED_SHARE * np.median(scores)
     return flagged
 
 
 OnRound = Callable[[int, Floats], None]  # called after each round with its number and the poses, (K, 3)
 MATCH_REACH = 0.8  # greatest distance between the sensors of compared scans, as a share of the grids' half width
-REMATCH_M = 14.0  # greatest half width of the grids for leave-one-out matching, metres
+MAX_HALF_WIDTH_M = 14.0  # greatest half width of the grids for leave-one-out matching, metres
 NARROW = {"reach_m": (0.15, 0.08), "scale_m": (0.06, 0.03)}  # for poses known to a decimetre
 IMPROVEMENTS = 2  # rounds of leave-one-out matching that move scans
+POOR_RATIO = 0.6  # a score is poor below this share of the median best score
 
 
 @dataclass(frozen=True, eq=False)
-class Rematched:
+class ScoredAlignment:
     """An alignment of K scans, and the score of each scan by its partners alone, from 0 to 1, (K,)."""
 
     alignment: Alignment
@@ -142,64 +145,63 @@ class KeyAlignment:
         """Align the key scans with odometry's factors, from poses (K, 3), which may be decimetres off if ``wide``.
         ``firm`` is the mask of odometry's links that keep their full weight, (K - 1,).
         """
-        reach_m = MATCH_REACH * self.half_width_m
 
-        def pairs(at: Floats) -> Pairs:
-            return overlapping_pairs(self.geometry, at, reach_m)
+        def select_pairs(poses: Floats) -> Pairs:
+            return overlapping_pairs(self.geometry, poses, MATCH_REACH * self.half_width_m)
 
         return align(
-            self.geometry, poses, factors, pairs(poses), rounds=rounds, firm=firm, reselect=pairs,
+            self.geometry, poses, factors, select_pairs(poses), rounds=rounds, firm=firm, reselect=select_pairs,
             on_progress=self.report(self.track, stage, rounds), **({} if wide else NARROW),
         )  # fmt: skip
 
-    def improved(self, aligned: Alignment, factors: Factors) -> Rematched:
+    def improve(self, aligned: Alignment, factors: Factors) -> ScoredAlignment:
         """Match each scan to the others, move scans that the others explain better elsewhere, and align all again. A
-        moved scan is put back for good if its score after the next alignment is lower than before the move.
+        moved scan goes back for good if its score after the next alignment is lower than before the move.
         """
         count = len(aligned.poses)
         callback = self.report(self.track, "rematch", IMPROVEMENTS + 1)
-        poor, old, before = 0.0, aligned.poses, np.zeros(count)
+        poor_score, poses_before, scores = 0.0, aligned.poses, np.zeros(count)
         moved, stays = np.zeros(count, np.bool_), np.zeros(count, np.bool_)
-        again, near = None, None
+        result, changed = None, None
         for number in range(IMPROVEMENTS + 1):
-            again = rematch(
-                self.geometry, aligned.poses, aligned.pairs, self._rematch_m, poor_score=poor,
-                search=number < IMPROVEMENTS, before=again, among=near,
+            result = match_without_itself(
+                self.geometry, aligned.poses, aligned.pairs, self._match_half_width_m, poor_score=poor_score,
+                search=number < IMPROVEMENTS, before=result, changed=changed,
             )  # fmt: skip
-            callback(number + 1, np.where(again.moved[:, None], again.best_poses, aligned.poses))
-            # Put back moved scans whose score fell, and move the others that match better elsewhere.
-            back = moved & (again.scores < before)
-            stays |= back
-            moved = again.moved & ~stays
-            before = np.where(back, before, again.scores)
-            if not (moved | back).any():
+            callback(number + 1, np.where(result.is_better[:, None], result.best_poses, aligned.poses))
+            # Return moved scans whose score fell, and move the others that match better elsewhere.
+            returned = moved & (result.scores < scores)
+            stays |= returned
+            moved = result.is_better & ~stays
+            scores = np.where(returned, scores, result.scores)
+            if not (moved | returned).any():
                 break
-            poor = 0.6 * float(np.median(again.best_scores))
-            poses = np.where(back[:, None], old, aligned.poses)
-            poses = np.where(moved[:, None], again.best_poses, poses)
-            old = aligned.poses
+            poor_score = POOR_RATIO * float(np.median(result.best_scores))
+            poses = np.where(returned[:, None], poses_before, aligned.poses)
+            poses = np.where(moved[:, None], result.best_poses, poses)
+            poses_before = aligned.poses
             aligned = self.align("aligned-rematched", poses, factors, 6, wide=False)
-            # Match only scans again that a move concerns: the moved ones, and those of which they are partners.
-            near = moved | back
-            near[aligned.pairs.source[near[aligned.pairs.target]]] = True
-        return Rematched(aligned, before)
+            # Match only scans again that a move concerns: the moved ones, and scans with a moved partner.
+            changed = moved | returned
+            changed[aligned.pairs.source[changed[aligned.pairs.target]]] = True
+        return ScoredAlignment(aligned, scores)
 
-    def without_leaps(self, matched: Rematched, factors: Factors) -> Rematched:
+    def without_leaps(self, matched: ScoredAlignment, factors: Factors) -> ScoredAlignment:
         """Align once more with firm odometry over leaps, if odometry agrees with the front end there. A leap is a step
-        that contradicts the front end's. The result is returned if it has fewer leaps.
+        that contradicts the front end's. Returns the new alignment if it has fewer leaps, else ``matched``.
         """
-        aligned, track = matched.alignment, self.track
-        leaps = contradicted_links(track, aligned.poses)
+        track, poses = self.track, matched.alignment.poses
+        leaps = contradicted_links(track, poses)
         firm = leaps & (factors.squares(track.poses[track.keys]) < DOUBTFUL_SQ)
         if not firm.any():
             return matched
-        held = self.align("aligned-rematched", aligned.poses, factors, wide=True, firm=firm)
+        held = self.align("aligned-rematched", poses, factors, wide=True, firm=firm)
         if contradicted_links(track, held.poses).sum() >= leaps.sum():
             return matched
-        again = rematch(self.geometry, held.poses, held.pairs, self._rematch_m, search=False)
-        return Rematched(held, again.scores)
+        result = match_without_itself(self.geometry, held.poses, held.pairs, self._match_half_width_m, search=False)
+        return ScoredAlignment(held, result.scores)
 
     @property
-    def _rematch_m(self) -> float:
+    def _match_half_width_m(self) -> float:
         """Half width of the grids for leave-one-out matching, metres."""
-        return min(self.half_width_m, REMATCH_M)
+        return min(self.half_width_m, MAX_HALF_WIDTH_M)

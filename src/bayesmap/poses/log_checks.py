@@ -1,6 +1,12 @@
-"""Checks of a log before its trajectory is inferred: enough scans, and odometry that stands still.
+"""Checks of a log before its trajectory is inferred: enough scans, frozen odometry, and poses that are raw odometry.
 
 Odometry may stand still although the robot moves in the scans: for a long time, or until odometry catches up.
+
+If poses are raw odometry, one wall appears at several positions, and beams pass through it. In a cell with h hits and p
+passes a beam stops with probability h / (h + p). The mean of this probability over all hits is the agreement of scans
+at their poses. Odometry is right over a few scans and wrong over many. So the agreement of all scans is divided by the
+agreement within windows of `WINDOW_SCANS` scans, each in its own map. Measured: 0.87 with the corrected poses of the
+Intel log and with true poses in a simulated office; 0.41 to 0.71 with raw odometry (Intel, ACES, Duke, simulated).
 """
 
 from __future__ import annotations
@@ -10,8 +16,9 @@ from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.poses.calibration import motion_variances
-from bayesmap.poses.matcher import likelihood_grids, match
+from bayesmap.poses.matcher import ANY_SCORE, likelihood_grids, match
 from bayesmap.poses.scan_geometry import ScanGeometry
+from bayesmap.space.grid import Grid
 from bayesmap.space.planar import Floats, between, compose, interpolate
 from bayesmap.space.scans import Scans
 from bayesmap.space.time_order import since_start
@@ -20,8 +27,8 @@ MAX_GAP_S = 0.5  # median time between scans above which they cannot be matched 
 TOO_SELDOM = "scans come too seldom to be followed without odometry, which takes 5 Hz or so"
 
 MIN_FROZEN_SCANS = 10  # fewest scans at one pose in a frozen stretch: odometry that is merely slow repeats less often
-MOVED_M = 0.2  # change of a reading, metres, that counts as one
-MOVED_SHARE = 0.3  # least share of changed readings if the robot moved: few change along a corridor
+CHANGE_M = 0.2  # least change of a reading that counts, metres
+CHANGED_SHARE = 0.3  # least share of changed readings if the robot moved: few change along a corridor
 MIN_COMMON_HITS = 8  # fewest beams with hits in both scans
 EQUAL_POSE_TOLERANCE = 1e-6  # metres and radians; stated poses that differ by less are equal, in spite of rounding
 MIN_SCORE_GAIN = 0.05  # least gain in score, from 0 to 1, of a scan at late odometry over stated odometry
@@ -66,31 +73,24 @@ def check_scans(scans: Scans, no_odometry: bool) -> None:
 
 def doubts(scans: Scans, no_odometry: bool) -> list[str]:
     """Return warnings about the odometry of scans in the order of time, one sentence each."""
-    if no_odometry:
-        return []
-    sentences = []
-    for first, last in frozen_stretches(scans):
-        when = since_start(scans.stamps_s, first, last)
-        sentences.append(
-            f"odometry stands still from scan {first} to {last}{when}, but the scans see the robot move: it may have "
-            "been frozen there; --no-odometry goes without"
-        )
-    return sentences
+    return [] if no_odometry else [
+        f"odometry stands still from scan {first} to {last}{since_start(scans.stamps_s, first, last)}, but the scans "
+        "see the robot move: it may have been frozen there; --no-odometry goes without"
+        for first, last in frozen_stretches(scans)
+    ]  # fmt: skip
 
 
 def frozen_stretches(scans: Scans) -> list[tuple[int, int]]:
     """Return first and last scan of each stretch of scans with one stated pose in which the robot moved, in order."""
-    stretches = _repeated(np.asarray((np.diff(scans.poses, axis=0) == 0.0).all(axis=1)))
+    runs = _runs((np.diff(scans.poses, axis=0) == 0.0).all(axis=1))
     return [
-        (first, last)
-        for first, last in stretches
-        if last - first + 1 >= MIN_FROZEN_SCANS and _moved(scans, first, last)
+        (first, last) for first, last in runs if last - first + 1 >= MIN_FROZEN_SCANS and _moved(scans, first, last)
     ]
 
 
-def _repeated(same: NDArray[np.bool_]) -> list[tuple[int, int]]:
+def _runs(as_before: NDArray[np.bool_]) -> list[tuple[int, int]]:
     """Return first and last scan of each run of equal poses, given which scans have the pose before them, (S - 1,)."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], same, [False]]).astype(int)))
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], as_before, [False]]).astype(int)))
     return [(int(first), int(last)) for first, last in edges.reshape(-1, 2)]
 
 
@@ -103,17 +103,17 @@ def correct_late_odometry(scans: Scans, geometry: ScanGeometry) -> Floats:
     the scan after it fits clearly better to the first scan of the repeated pose than to the last.
     """
     stated, result = scans.poses, scans.poses.copy()
-    for first, last in _repeated(np.asarray((np.abs(np.diff(stated, axis=0)) < EQUAL_POSE_TOLERANCE).all(axis=1))):
+    for first, last in _runs(np.asarray((np.abs(np.diff(stated, axis=0)) < EQUAL_POSE_TOLERANCE).all(axis=1))):
         if last + 1 >= len(scans):
             continue
         span = np.arange(first, last + 2)
-        when = span.astype(np.float64) if scans.stamps_s is None else scans.stamps_s[span]
-        if not (np.diff(when) > 0.0).all():
-            when = span.astype(np.float64)
-        whole = between(stated[first], stated[last + 1])
-        spread = interpolate(when[[0, -1]], np.stack([np.zeros(3), whole]), when)[1:-1]
-        if _motion_began_early(geometry, first, last, whole):
-            result[span[1:-1]] = compose(stated[first], spread)
+        times = span.astype(np.float64) if scans.stamps_s is None else scans.stamps_s[span]
+        if not (np.diff(times) > 0.0).all():
+            times = span.astype(np.float64)
+        motion = between(stated[first], stated[last + 1])
+        if _motion_began_early(geometry, first, last, motion):
+            parts = interpolate(times[[0, -1]], np.stack([np.zeros(3), motion]), times)[1:-1]
+            result[span[1:-1]] = compose(stated[first], parts)
     return result
 
 
@@ -128,26 +128,70 @@ def _motion_began_early(geometry: ScanGeometry, first: int, last: int, motion: F
     half_m = max(0.1, WINDOW_SIGMAS * float(sigma[0]))
     half_rad = max(np.radians(3.0), WINDOW_SIGMAS * float(sigma[2]))
     points = [geometry.points_of(last + 1, MAX_POINTS)] * 2
-    scores = match(grids, points, np.stack([motion] * 2), half_m, half_rad, min_score=-9.0).scores[:, 0]
+    scores = match(grids, points, np.stack([motion] * 2), half_m, half_rad, min_score=ANY_SCORE).scores[:, 0]
     return bool(scores[0] > scores[1] + MIN_SCORE_GAIN)
 
 
 def _moved(scans: Scans, first: int, last: int) -> bool:
     """Return whether most scans of a stretch's second half differ from its first scan."""
     later = range(first + (last - first + 1) // 2, last + 1)
-    off = [_differences(scans, first, scan) for scan in later]
-    seen = [float(np.quantile(each, 1.0 - MOVED_SHARE)) > MOVED_M for each in off if len(each) >= MIN_COMMON_HITS]
-    return 2 * sum(seen) > len(later)
+    changes_m = [_changes_m(scans, first, scan) for scan in later]
+    moved = [np.quantile(own, 1.0 - CHANGED_SHARE) > CHANGE_M for own in changes_m if len(own) >= MIN_COMMON_HITS]
+    return bool(2 * sum(moved) > len(later))
 
 
-def _differences(scans: Scans, first: int, second: int) -> Floats:
+def _changes_m(scans: Scans, first: int, second: int) -> Floats:
     """Return the absolute differences of two scans' hits, metres, of equal beams or of beams at the nearest angle."""
-    (angles, reference), (own, ranges) = scans.beams_of(first), scans.beams_of(second)
-    if scans.own_angles_rad is not None and len(angles) and len(own):
-        order = np.argsort(angles, kind="stable")
-        middles = 0.5 * (angles[order][1:] + angles[order][:-1])
-        reference = reference[order][np.searchsorted(middles, own)]
-    elif scans.own_angles_rad is not None:
-        return np.empty(0)
-    hit = np.isfinite(ranges) & np.isfinite(reference)
-    return np.abs(ranges[hit] - reference[hit])
+    (first_angles, first_ranges), (angles, ranges) = scans.beams_of(first), scans.beams_of(second)
+    if scans.own_angles_rad is not None:
+        if not (len(first_angles) and len(angles)):
+            return np.empty(0)
+        order = np.argsort(first_angles, kind="stable")
+        middles = 0.5 * (first_angles[order][1:] + first_angles[order][:-1])
+        first_ranges = first_ranges[order][np.searchsorted(middles, angles)]
+    hit = np.isfinite(ranges) & np.isfinite(first_ranges)
+    return np.abs(ranges[hit] - first_ranges[hit])
+
+
+WINDOW_SCANS = 15  # number of scans over which odometry is as good as the truth
+RAW_BELOW = 0.8  # relative agreement below which poses are raw odometry
+CELL_M = 0.2  # width of a cell in which hits and passes are counted, metres
+MAX_AGREEMENT_SCANS = 900  # most scans that are compared
+MAX_HIT_M = 15.0  # greatest range of hits that are used, metres: heading errors move far hits most, in any log
+DOUBLED = "at these poses the same walls stand in several places"  # in words
+
+
+def agreement(scans: Scans) -> float | None:
+    """Compute the agreement of all scans at their poses, relative to that of neighbours: about 0.9 for right poses.
+
+    The result is None if there are too few scans or hits. If a robot never comes back to a place, its scans agree with
+    any odometry.
+    """
+    if len(scans) > MAX_AGREEMENT_SCANS:
+        scans = scans.select(np.linspace(0, len(scans) - 1, MAX_AGREEMENT_SCANS).astype(np.intp))
+    if len(scans) < 2 * WINDOW_SCANS:
+        return None
+    scans = scans.limited(min(scans.max_range_m, max(MAX_HIT_M, 2 * scans.min_range_m)))
+    windows = (scans.select(slice(i, i + WINDOW_SCANS)) for i in range(0, len(scans), WINDOW_SCANS))
+    window_stops, window_hits = np.sum([_expected_stops(window) for window in windows], axis=0)
+    stops, hits = _expected_stops(scans)
+    if window_hits == 0 or window_stops == 0:
+        return None
+    return float(stops / hits / (window_stops / window_hits))
+
+
+def look_like_odometry(scans: Scans) -> bool:
+    """Return whether the scans at their poses disagree as they do with raw odometry."""
+    value = agreement(scans)
+    return value is not None and value < RAW_BELOW
+
+
+def _expected_stops(scans: Scans) -> tuple[float, float]:
+    """Return the sum over hits of the probability that a beam stops in the hit's cell, and the number of hits."""
+    from bayesmap.kernels.counts import count_hits
+
+    if not np.isfinite(scans.ranges_m).any():
+        return 0.0, 0.0
+    hits, passes = (np.asarray(n, dtype=np.float64).ravel() for n in count_hits(scans, Grid.covering(scans, CELL_M)))
+    hits, passes = hits[hits > 0], passes[hits > 0]
+    return float((hits**2 / (hits + passes)).sum()), float(hits.sum())

@@ -21,8 +21,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.poses.scan_geometry import ScanGeometry
+from bayesmap.poses.scan_geometry import ScanGeometry, offsets_of
 from bayesmap.space.planar import Floats, transform, wrap_angle
+
+ROUNDING = 1e-9  # added before a quotient is rounded down, so that whole quotients stay whole
+ANY_SCORE = -9.0  # least score that accepts any pose: a score less the penalty is above it
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,7 +43,7 @@ class LikelihoodGrids:
 
 
 def stamp_of(resolution: float, sigma_m: float) -> NDArray[np.uint8]:
-    """Return the likelihood around a single point: an odd square of bytes, out to about two standard deviations."""
+    """Return the likelihood around a single point, an odd square of bytes, out to about two standard deviations."""
     radius = max(1, int(np.ceil(2.0 * sigma_m / resolution)))
     offsets = np.arange(-radius, radius + 1) * resolution
     squared = offsets[:, None] ** 2 + offsets[None, :] ** 2
@@ -60,12 +63,11 @@ def likelihood_grids(
     from bayesmap.kernels.match.likelihood_grid import render_grids
 
     cells = int(np.ceil(2.0 * half_width_m / resolution))
-    offsets = np.concatenate([[0], np.cumsum([len(s) for s in scans])]).astype(np.int32)
     scan = np.concatenate([np.asarray(s, np.int32) for s in scans]) if len(scans) else np.zeros(0, np.int32)
     poses = np.concatenate([np.reshape(p, (-1, 3)) for p in scan_poses]) if len(scans) else np.zeros((0, 3))
     origins = np.asarray(centres, np.float64).reshape(-1, 2) - half_width_m
     pyramid = render_grids(
-        geometry, offsets, scan, poses, origins, resolution, stamp_of(resolution, sigma_m), spacing_m=sigma_m,
+        geometry, offsets_of(scans), scan, poses, origins, resolution, stamp_of(resolution, sigma_m), spacing_m=sigma_m,
         shape=(cells, cells), levels=levels, threads=geometry.threads,
         pyramid=None if reuse is None else reuse.pyramid,
     )  # fmt: skip
@@ -85,11 +87,11 @@ class Pull:
 class Matches:
     """The best poses of J jobs, up to M each, best first."""
 
-    scores: Floats  # scores of the poses, (J, M); -inf where no further pose scores above the least
+    scores: Floats  # scores of the poses, (J, M); -inf where no further pose has the least score
     poses: Floats  # poses in the grids' frame, (J, M, 3); NaN where there is none
 
     @property
-    def found(self) -> NDArray[np.bool_]:
+    def has_pose(self) -> NDArray[np.bool_]:
         """Mask of the entries with a pose, (J, M)."""
         return np.isfinite(self.scores)
 
@@ -102,16 +104,15 @@ def match(
 ) -> Matches:  # fmt: skip
     """Match points to grids, J jobs at once.
 
-    ``points`` are those of each job in the sensor's frame, (N, 2); ``grid_of`` its grid, (J,), by default grid j for
-    job j, or the only grid. A window's middle is a pose in the grids' frame, ``centres`` (J, 3). It reaches ``half_m``
-    metres: one number, (J,), or (J, 2) for x and y, and turns by ``half_rad``, one number or (J,), in steps of
-    ``step_rad``; pi or more is the full circle. Scores must exceed ``min_score``, a number or (J,): high values end
-    searches early. ``pull`` is the penalty for leaving the centre.
+    ``points`` are the points of each job in the sensor's frame, (N, 2). ``grid_of`` is the grid of each job, (J,), by
+    default grid j for job j, or the only grid. The window of a job has its middle at a pose in the grids' frame,
+    ``centres`` (J, 3). It reaches ``half_m`` metres: one number, (J,), or (J, 2) for x and y. Headings differ by up to
+    ``half_rad``, one number or (J,), in steps of ``step_rad``; pi or more is the full circle. Scores must exceed
+    ``min_score``, a number or (J,): high values end searches early. ``pull`` is the penalty for leaving the centre.
 
-    Up to ``modes`` poses per job are returned. Each further pose is the best that is apart from all before it, by more
-    than ``apart_m`` in x or in y, or ``apart_rad``, and that has at least ``min_score_ratio`` of the first one's score.
-    The result does not depend on ``threads_per_job``, which share a job. Raises `BadInput` for a window's centre that
-    is not finite.
+    Returns up to ``modes`` poses per job. Each further pose is the best that is apart from all before it, by more than
+    ``apart_m`` in x or in y, or ``apart_rad``, and that has at least ``min_score_ratio`` of the first pose's score. The
+    result does not depend on ``threads_per_job``, which share a job. Raises `BadInput` if a centre is not finite.
     """
     from bayesmap.kernels.match.branch_and_bound import Modes, Windows, search_grids
 
@@ -123,29 +124,25 @@ def match(
         grid_of = np.zeros(jobs, np.intp) if len(grids) == 1 else np.arange(jobs)
     half = np.asarray(half_m, np.float64)
     half = np.broadcast_to(half[:, None] if half.ndim == 1 else half, (jobs, 2))
-    turns = np.broadcast_to(np.asarray(half_rad, np.float64), (jobs,))
     if jobs == 0:
         return Matches(np.empty((0, modes)), np.empty((0, modes, 3)))
     # List all angles of all jobs as rows, with the penalty of each angle and per cell of distance.
-    deviations = [_deviations(float(t), step_rad) for t in turns]
-    rows = np.concatenate([[0], np.cumsum([len(d) for d in deviations])]).astype(np.int32)
-    off = np.concatenate(deviations)
-    job_of_row = np.repeat(np.arange(jobs), np.diff(rows))
-    angles = centres[job_of_row, 2] + off
+    deviations = [_deviations(float(turn), step_rad) for turn in np.broadcast_to(np.asarray(half_rad), (jobs,))]
+    rows, off = offsets_of(deviations), np.concatenate(deviations)
+    angles = np.repeat(centres[:, 2], np.diff(rows)) + off
     across, costs = 0.0, np.zeros(len(off))
     if pull is not None:
         across = pull.weight * grids.resolution**2 / (2.0 * pull.sigma_m**2)
         costs = pull.weight * off**2 / (2.0 * pull.sigma_rad**2)
     # Search, and convert the best rows and shifts to poses.
-    flat = np.concatenate([np.reshape(p, (-1, 2)) for p in points])
-    offsets = np.concatenate([[0], np.cumsum([len(p) for p in points])]).astype(np.int32)
-    cells = int(apart_m / grids.resolution + 1e-9)
-    apart = (int(apart_rad / step_rad + 1e-9), cells, cells)
+    cells = int(apart_m / grids.resolution + ROUNDING)
+    apart = (int(apart_rad / step_rad + ROUNDING), cells, cells)
     windows = Windows(
-        points=flat, point_offsets=offsets, grid=np.asarray(grid_of, np.int32),
-        centres=np.ascontiguousarray(centres[:, :2]), half_cells=np.round(half / grids.resolution).astype(np.int32),
-        angles_rad=angles, angle_costs=costs, row_offsets=rows,
-        least=np.array(np.broadcast_to(np.asarray(min_score, np.float64), (jobs,))), across=np.full(jobs, across),
+        points=np.concatenate([np.reshape(p, (-1, 2)) for p in points]), point_offsets=offsets_of(points),
+        grid=np.asarray(grid_of, np.int32), centres=np.ascontiguousarray(centres[:, :2]),
+        half_cells=np.round(half / grids.resolution).astype(np.int32), angles_rad=angles, angle_costs=costs,
+        row_offsets=rows, least=np.array(np.broadcast_to(np.asarray(min_score, np.float64), (jobs,))),
+        across=np.full(jobs, across),
     )  # fmt: skip
     scores, nodes = search_grids(grids, windows, Modes(modes, min_score_ratio, apart), threads_per_job, grids.threads)
     poses = np.full((jobs, modes, 3), np.nan)
@@ -163,8 +160,8 @@ def score_at(grids: LikelihoodGrids, grid: int, points: Floats, poses: Floats) -
     cells = np.floor((transform(poses[:, None], points[None]) - grids.origins[grid]) / grids.resolution).astype(int)
     inside = (cells >= 0).all(axis=-1) & (cells < values.shape).all(axis=-1)
     cells = np.where(inside[..., None], cells, 0)
-    found = np.where(inside, values[cells[..., 0], cells[..., 1]], 0)
-    return np.asarray(found.sum(axis=1, dtype=np.int64) / (255.0 * max(1, len(points))))
+    point_values = np.where(inside, values[cells[..., 0], cells[..., 1]], 0)
+    return np.asarray(point_values.sum(axis=1, dtype=np.int64) / (255.0 * max(1, len(points))))
 
 
 def _deviations(half_rad: float, step_rad: float) -> Floats:
@@ -172,5 +169,5 @@ def _deviations(half_rad: float, step_rad: float) -> Floats:
     if half_rad >= np.pi:
         count = int(np.ceil(2.0 * np.pi / step_rad))
         return np.asarray(-np.pi + np.arange(count) * (2.0 * np.pi / count))
-    steps = int(half_rad / step_rad + 1e-9)
+    steps = int(half_rad / step_rad + ROUNDING)
     return np.asarray(np.arange(-steps, steps + 1) * step_rad)

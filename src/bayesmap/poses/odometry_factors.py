@@ -10,17 +10,16 @@ from numpy.typing import NDArray
 
 from bayesmap.poses.alignment import Alignment
 from bayesmap.poses.calibration import OdometryFit, fit_odometry, motion_variances, stated_at, stated_motions
-from bayesmap.poses.front_end import UNKNOWN, Track
-from bayesmap.poses.graph import Factors, relative_covariances
+from bayesmap.poses.front_end import UNKNOWN_SIGMA, Track
+from bayesmap.poses.graph import Factors, PoseGaussian, relative_covariances
 from bayesmap.poses.log_checks import correct_late_odometry
-from bayesmap.poses.pose_gaussian import PoseGaussian
 from bayesmap.poses.scan_geometry import ScanGeometry
-from bayesmap.space.planar import Floats, between, chain_motions, compose, rotation, swing, wrap_yaw
+from bayesmap.space.planar import Floats, between, chain_motions, compose, frame_jacobians, rotation, wrap_yaw
 from bayesmap.space.scans import Scans
 
 FRONT_END_INFORMATION = np.diag(1.0 / np.array([0.1, 0.1, np.radians(3.0)]) ** 2)  # of links without odometry
 MEDIAN_MOTIONS = 7  # successive motions over which the median variance is taken
-UNKNOWN_MOTION_INFORMATION = np.diag(1.0 / UNKNOWN**2)  # keeps the parts of a broken path from drifting away
+UNKNOWN_MOTION_INFORMATION = np.diag(1.0 / UNKNOWN_SIGMA**2)  # keeps the parts of a broken path from drifting away
 
 
 @dataclass(frozen=True, eq=False)
@@ -142,7 +141,7 @@ def compose_factors(motions: Floats, variances: Floats, keys: NDArray[np.intp]) 
         active = np.nonzero(at < keys[1:])[0]
         motion, variance = motions[at[active]], variances[at[active]]
         turn = rotation(relative[active, 2])
-        shift = swing(relative[active, 2], motion)  # an earlier heading error shifts this motion's end
+        shift = frame_jacobians(relative[active, 2], motion)  # an earlier heading error shifts this motion's end
         covariance[active] = shift @ covariance[active] @ np.swapaxes(shift, 1, 2)
         covariance[active] += (turn * variance[:, None, :]) @ np.swapaxes(turn, 1, 2)
         relative[active] = compose(relative[active], motion)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence, Sized
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -9,16 +10,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.space.planar import Floats
+from bayesmap.space.planar import Floats, evenly_spaced
 from bayesmap.space.scans import Scans
 
-MIN_NOISE_M = 0.01  # least sd of a range: walls are rough, and robots move while they scan
-MAX_NOISE_M = 0.05  # greatest: with more, neighbouring walls could not be distinguished
+MIN_NOISE_M = 0.01  # least standard deviation of a range: walls are rough, and robots move while they scan
+MAX_NOISE_M = 0.05  # greatest one: with more, neighbouring walls could not be distinguished
 MAX_NOISE_SCANS = 300  # most scans from which the noise is estimated
 MIN_TRIPLES = 100  # fewest triples of neighbouring beams
 GAP_M, GAP_STEPS = 0.15, 3.5  # metres plus beam spacings beyond which neighbouring readings lie on different surfaces
-
-MEDIAN_OF_NORMAL = 0.6745
+MEDIAN_OF_NORMAL = 0.6745  # median absolute value of a standard normal variable
 
 
 def range_noise_m(ranges_m: Floats, step_rad: float) -> float:
@@ -29,21 +29,23 @@ def range_noise_m(ranges_m: Floats, step_rad: float) -> float:
     against corners and edges, which are few.
     """
     sampled = ranges_m[:: max(1, len(ranges_m) // MAX_NOISE_SCANS)]
-    before, here, after = sampled[:, :-2], sampled[:, 1:-1], sampled[:, 2:]
+    before, middle, after = sampled[:, :-2], sampled[:, 1:-1], sampled[:, 2:]
     with np.errstate(invalid="ignore", divide="ignore"):
-        gap = GAP_M + GAP_STEPS * step_rad * here
-        smooth = np.isfinite(before + here + after) & (here > 0) & (before > 0) & (after > 0)
-        smooth &= (np.abs(before - here) < gap) & (np.abs(after - here) < gap)
-        residual = here**2 * (1.0 / before + 1.0 / after - 2.0 * np.cos(step_rad) / here)
+        gap = GAP_M + GAP_STEPS * step_rad * middle
+        smooth = np.isfinite(before + middle + after) & (middle > 0) & (before > 0) & (after > 0)
+        smooth &= (np.abs(before - middle) < gap) & (np.abs(after - middle) < gap)
+        residual = middle**2 * (1.0 / before + 1.0 / after - 2.0 * np.cos(step_rad) / middle)
     if np.count_nonzero(smooth) < MIN_TRIPLES:
         return MIN_NOISE_M
     sigma = float(np.median(np.abs(residual[smooth]))) / MEDIAN_OF_NORMAL / np.sqrt(6.0)
     return float(np.clip(sigma, MIN_NOISE_M, MAX_NOISE_M))
 
 
-REACH_M, REACH_SIGMAS = 0.12, 10.0  # half the wall to which normals are fitted, m and sigmas: with less, scans slide
+NORMAL_REACH_M = 0.12  # least half length of wall to which normals are fitted: with less, scans slide
+NORMAL_REACH_SIGMAS = 10.0  # least half length of wall in standard deviations of a range
 NEAREST_M = 0.05  # range below which readings are hits on the robot itself, metres
-PAIR_SIGMAS, SCALE_SIGMAS = 6.0, 3.0  # least pairing distance and outlier scale, in sigmas of a range
+PAIR_SIGMAS = 6.0  # least pairing distance in standard deviations of a range
+SCALE_SIGMAS = 3.0  # least outlier scale in standard deviations of a range
 MERGED_RAD = np.radians(1.0)  # closer beams are merged to this spacing, so that points are about a cell apart
 BINS_A_BEAM = 4  # bins of angle per beam in the table of `Fans`
 
@@ -64,20 +66,17 @@ class Fans:
         beams = np.isfinite(angles_rad).sum(axis=1)
         rows: dict[bytes, int] = {}
         layout = np.array([rows.setdefault(row.tobytes(), len(rows)) for row in angles_rad])
-        first = np.array([np.argmax(layout == i) for i in range(len(rows))])  # scan of each layout
-        fans = [angles_rad[scan, : beams[scan]] for scan in first]
+        fans = [angles_rad[scan, : beams[scan]] for scan in np.unique(layout, return_index=True)[1]]
         steps = [float(np.median(np.diff(fan))) if len(fan) > 1 else np.pi for fan in fans]
         steps = [step if step > 0 else np.pi for step in steps]  # beams that repeat one direction have no step
-        circle = [
-            len(fan) > 8 and 2.0 * np.pi - (fan[-1] - fan[0]) < 1.9 * step
-            for fan, step in zip(fans, steps, strict=True)
-        ]
+        fans_steps = list(zip(fans, steps, strict=True))
+        circle = [len(fan) > 8 and 2.0 * np.pi - (fan[-1] - fan[0]) < 1.9 * step for fan, step in fans_steps]
         bins = int(np.clip(np.ceil(2.0 * np.pi / min(steps) * BINS_A_BEAM), 360, 1 << 16))
-        towards = np.array([_beam_of_angle(fan, step, bins) for fan, step in zip(fans, steps, strict=True)])
-        each = np.broadcast_to(layout, scans)
+        by_scan = np.broadcast_to(layout, scans)
         return cls(
-            np.broadcast_to(beams, scans).astype(np.int32), np.array(steps)[each],
-            np.array(circle, np.int32)[each], each.astype(np.int32), towards,
+            beams=np.broadcast_to(beams, scans).astype(np.int32), step_rad=np.array(steps)[by_scan],
+            full_circle=np.array(circle, np.int32)[by_scan], layout=by_scan.astype(np.int32),
+            beam_of_angle=np.array([_beam_of_angle(fan, step, bins) for fan, step in fans_steps]),
         )  # fmt: skip
 
     def select(self, scans: NDArray[np.intp]) -> Fans:
@@ -126,11 +125,6 @@ class ScanGeometry:
         return np.asarray(self.points.numpy())
 
     @cached_property
-    def host_normals(self) -> NDArray[np.float32]:
-        """The normals in main memory, (S, B, 2)."""
-        return np.asarray(self.normals.numpy())
-
-    @cached_property
     def host_kind(self) -> NDArray[np.uint8]:
         """The kinds in main memory, (S, B)."""
         return np.asarray(self.kind.numpy())
@@ -152,7 +146,7 @@ class ScanGeometry:
     def points_of(self, scan: int, most: int | None = None) -> Floats:
         """Return the points of one scan, (N, 2): all, or ``most`` of them, evenly spaced by beams."""
         points: Floats = self.host_points[scan][self.host_kind[scan] > 0].astype(np.float64)
-        return points if most is None or len(points) <= most else points[np.arange(most) * len(points) // most]
+        return points if most is None else evenly_spaced(points, most)
 
 
 def scan_geometry(
@@ -161,7 +155,8 @@ def scan_geometry(
     """Compute points and normals of scans, by the scans' own angles and limits. Their poses are not used.
 
     Neighbouring beams that are closer than `MERGED_RAD` are merged, unless scans have beams of their own. Hits beyond
-    ``farthest_m``, by default the sensor's largest range, are left out. Matching uses as many threads.
+    ``farthest_m``, by default the sensor's largest range, are left out. ``threads`` is also the number of threads for
+    matching.
     """
     from bayesmap.kernels.match.scan_geometry import points_and_normals
 
@@ -178,7 +173,7 @@ def scan_geometry(
     fans = Fans.of(middles, len(scans))
     step = float(np.median(fans.step_rad))
     noise = range_noise_m(np.where((ranges > nearest) & (ranges < limit), ranges, np.nan), step)
-    reach = max(REACH_M, REACH_SIGMAS * noise)
+    reach = max(NORMAL_REACH_M, NORMAL_REACH_SIGMAS * noise)
     arrays = points_and_normals(ranges, angles, nearest, limit, fans, reach, noise, device, threads)
     return ScanGeometry(*arrays, fans, limit, noise, device, threads)
 
@@ -189,11 +184,9 @@ def merged(
     """Merge groups of neighbouring beams whose spacing is at most half of ``spacing_rad``.
 
     A group's point lies at the mean angle of the readings on one surface, at their harmonic mean: inverse ranges of a
-    straight wall are linear in small angles. Readings on other surfaces than the median one are left out. Beams after
-    the last whole group are left out, too.
-
-    Points are the readings, (S, B), from ``nearest_m`` to ``farthest_m``. Angles of the beams ascend, (B,). Returns
-    readings (S, G), their angles (1, G) or (S, G), and the middles of the groups, (1, G).
+    straight wall are linear in small angles. Readings on other surfaces than the median reading's are left out, and
+    beams after the last whole group. Readings, (S, B), are valid from ``nearest_m`` to ``farthest_m``. Angles of the
+    beams ascend, (B,). Returns readings (S, G), their angles (1, G) or (S, G), and the middles of the groups, (1, G).
     """
     step = float(np.median(np.diff(angles_rad))) if len(angles_rad) > 1 else spacing_rad
     size = int(spacing_rad / step + 1e-3) if step > 0.0 else 1
@@ -214,6 +207,11 @@ def merged(
     none = count == 0
     middles = angles.mean(axis=1)[None]
     return np.where(none, readings[..., 0], mean), np.where(none, middles, angle), middles
+
+
+def offsets_of(parts: Sequence[Sized]) -> NDArray[np.int32]:
+    """Return the offset of each of N parts in their concatenation, and the total length, (N + 1,)."""
+    return np.concatenate([[0], np.cumsum([len(part) for part in parts])]).astype(np.int32)
 
 
 def _beam_of_angle(angles_rad: Floats, step_rad: float, bins: int) -> NDArray[np.int32]:

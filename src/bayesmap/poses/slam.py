@@ -14,15 +14,20 @@ from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.files import write_whole
-from bayesmap.poses.alignment import point_error, with_point_error
+from bayesmap.poses.alignment import place_scans, point_error, with_point_error
 from bayesmap.poses.calibration import angle_step_ratio
-from bayesmap.poses.front_end import Track, follow, grid_half_width
+from bayesmap.poses.front_end import Track, grid_half_width, track_scans
 from bayesmap.poses.key_alignment import KeyAlignment, flag_unexplained
-from bayesmap.poses.key_graph import ClosedGraph, close_loops, contradicted_links, poses_between_keys, unconfirmed_links
+from bayesmap.poses.key_graph import (
+    ClosedGraph,
+    WeighedGraph,
+    close_loops,
+    contradicted_links,
+    poses_between_keys,
+    unconfirmed_links,
+)
 from bayesmap.poses.log_checks import check_scans
-from bayesmap.poses.look_alikes import Weighed
 from bayesmap.poses.odometry_factors import StatedOdometry, stated_odometry
-from bayesmap.poses.placement import place_scans
 from bayesmap.poses.scan_geometry import scan_geometry
 from bayesmap.poses.trajectory import NO_ALTERNATIVES, Alternatives, Calibration, LoopClosures, Trajectory, calibrated
 from bayesmap.space.planar import Floats, between, compose, nearest_index, wrap_yaw
@@ -36,7 +41,7 @@ Arrays = dict[str, NDArray[Any]]
 Value = TypeVar("Value")
 
 MAX_POSE_REPORTS = 60  # most reports of poses during the front end
-CHECKPOINT_FORMAT = 3  # part of the name of a checkpoint; another number makes older checkpoints unused
+CHECKPOINT_FORMAT = 4  # part of the name of a checkpoint; another number makes older checkpoints unused
 FARTHEST_M = 30.0  # hits beyond are not matched: there beams are half a metre apart and more
 ANGLE_TOLERANCE = 0.003  # relative error of the angle between beams that is not corrected: half a degree in 180
 
@@ -77,8 +82,8 @@ def infer_trajectory(
 
     # The front end matches every scan to earlier scans, and finds motions that are stated the wrong way round.
     stated = odometry.motions if odometry.used else None, odometry.stamps_s, odometry.impossible
-    track = stages.get("front-end", Track, lambda: follow(geometry, *stated, report.of_front_end(odometry)))
-    odometry = odometry.reversed_at(track.against)
+    track = stages.get("front-end", Track, lambda: track_scans(geometry, *stated, report.of_front_end(odometry)))
+    odometry = odometry.reversed_at(track.is_reversed)
     keys = track.keys
 
     # Loops between key scans are closed.
@@ -106,7 +111,7 @@ def infer_trajectory(
     second = alignment.align("aligned-again", poses, factors, wide=ratio != 1.0)
 
     # Every key scan is matched without itself, and moved where the others explain it better.
-    matched = alignment.improved(second, factors)
+    matched = alignment.improve(second, factors)
     if odometry.used:
         matched = alignment.without_leaps(matched, factors)
     final = matched.alignment
@@ -148,7 +153,7 @@ def in_order_of_time(scans: Scans) -> tuple[NDArray[np.intp], Scans]:
     return timed.order, replace(scans.select(timed.order), stamps_s=timed.stamps_s)
 
 
-def alternatives_of(weighed: Weighed, keys: NDArray[np.intp], poses: Floats) -> tuple[Alternatives, Floats | None]:
+def alternatives_of(weighed: WeighedGraph, keys: NDArray[np.intp], poses: Floats) -> tuple[Alternatives, Floats | None]:
     """Return the alternatives to the keys' poses, (K, 3), and the steps to them that `PoseGaussian.elsewhere` holds."""
     if not len(weighed.probabilities):
         return NO_ALTERNATIVES, None

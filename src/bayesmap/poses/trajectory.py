@@ -8,10 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.poses.calibration import OdometryFit
-from bayesmap.poses.graph import Factors
-from bayesmap.poses.pose_gaussian import PoseGaussian
+from bayesmap.poses.graph import Factors, PoseGaussian
 from bayesmap.poses.prior import Odometry
-from bayesmap.space.planar import Floats, between, between_jacobians, compose, retract, rotation, swing
+from bayesmap.space.planar import Floats, between, between_jacobians, compose, frame_jacobians, rotation
 from bayesmap.space.scans import Scans, path_words
 
 
@@ -150,7 +149,7 @@ class Trajectory:
         # between(first, second) = in_a^-1 * between(a, b) * in_b
         turn = np.swapaxes(rotation(in_a[:, 2]), 1, 2)
         yaw = between(self.gaussian.poses[a], self.gaussian.poses[b])[:, 2]
-        chain = turn @ swing(yaw, in_b)
+        chain = turn @ frame_jacobians(yaw, in_b)
         result = chain @ keys @ np.swapaxes(chain, 1, 2)
         by_first, by_second = between_jacobians(between(self.poses[first], self.poses[second]))
         for jacobian, scans in ((by_first, first), (by_second, second)):
@@ -175,5 +174,5 @@ class Trajectory:
             rng = np.random.Generator(np.random.Philox(key=[seed & (2**64 - 1), first_draw + n + (1 << 32)]))
             stretch = np.sqrt(self.gaussian.dof / rng.chisquare(self.gaussian.dof, (len(self), 1)))
             own = stretch * np.einsum("sij,sj->si", root, rng.standard_normal((len(self), 3)))
-            draws[n] = retract(compose(keys[n][self.nearest_key], relative), own)
+            draws[n] = compose(compose(keys[n][self.nearest_key], relative), own)
         return draws

@@ -2,16 +2,19 @@
 
 A pose is also the motion from the world's frame to the pose's frame. Arrays broadcast, shape (..., 3).
 
-For estimation, a small change of a pose is a step in the pose's *own* frame: ``retract(pose, step) = compose(pose,
-step)``. Jacobians are with respect to these steps. The conventions are those of Sola, Deray, Atchuthan 2018, "A micro
-Lie theory", but the retraction is plain composition, not the exponential map.
+For estimation, a small change of a pose is a step in the pose's *own* frame: the new pose is ``compose(pose, step)``.
+Jacobians are with respect to these steps. The conventions are those of Sola, Deray, Atchuthan 2018, "A micro Lie
+theory", but the retraction is plain composition, not the exponential map.
 """
 
 from __future__ import annotations
 
+from typing import TypeVar
+
 import numpy as np
 from numpy.typing import NDArray
 
+Value = TypeVar("Value", bound=np.generic)
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.floating] | NDArray[np.integer]
 
@@ -41,6 +44,17 @@ def between(first: Floats, second: Floats) -> Floats:
     return np.stack([c * dx + s * dy, c * dy - s * dx, wrap_angle(second[..., 2] - first[..., 2])], axis=-1)
 
 
+def ways_and_turns(motions: Floats) -> tuple[Floats, Floats]:
+    """Return the lengths, metres, and the sizes of the turns, radians, of motions, (...) each."""
+    return np.hypot(motions[..., 0], motions[..., 1]), np.abs(motions[..., 2])
+
+
+def are_within(motions: Floats, way_m: float, turn_rad: float) -> NDArray[np.bool_]:
+    """Return which motions are shorter than ``way_m`` and turn by less than ``turn_rad``, (...)."""
+    ways, turns = ways_and_turns(motions)
+    return np.asarray((ways < way_m) & (turns < turn_rad))
+
+
 def chain_motions(start: Floats, motions: Floats) -> Floats:
     """Return the poses after each of N motions, (N, 3)."""
     poses, here = np.empty((len(motions), 3)), start
@@ -52,6 +66,11 @@ def chain_motions(start: Floats, motions: Floats) -> Floats:
 def inverse(pose: Floats) -> Floats:
     """Return the pose of the outer frame in the pose's own frame."""
     return between(pose, np.zeros(3))
+
+
+def evenly_spaced(values: NDArray[Value], most: int) -> NDArray[Value]:
+    """Return at most ``most`` of the values, (N, ...), evenly spaced."""
+    return values if len(values) <= most else values[np.arange(most) * len(values) // most]
 
 
 def bracketing_indices(ascending: Numbers, numbers: Numbers) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
@@ -80,11 +99,6 @@ def interpolate(stamps_s: Floats, poses: Floats, at_s: Floats) -> Floats:
     share = np.where(gap > 0, (at_s - stamps_s[before]) / np.where(gap > 0, gap, 1.0), 1.0)
     motion = between(poses[before], poses[before + 1])
     return compose(poses[before], motion * np.clip(share, 0.0, 1.0)[:, None])
-
-
-def retract(poses: Floats, steps: Floats) -> Floats:
-    """Return poses moved by steps (x, y, yaw), each given in its pose's own frame."""
-    return compose(poses, steps)
 
 
 def transform(pose: Floats, points: Floats) -> Floats:
@@ -118,18 +132,26 @@ def rotation(yaw_rad: Floats) -> Floats:
     return matrix
 
 
-def swing(yaw: Floats, at: Floats) -> Floats:
-    """Return the derivatives of N poses by the poses in whose frames they lie ``at``, (3,) or (N, 3), without their own
-    turn, (N, 3, 3). ``yaw`` are the yaws of the frames, (N,): a turn of a frame moves what lies in it sideways.
+def matrix_roots(matrices: Floats) -> Floats:
+    """Return a matrix R with R R^T = M for each positive semidefinite matrix M, (..., n, n)."""
+    values, vectors = np.linalg.eigh(matrices)
+    return np.asarray(vectors * np.sqrt(np.maximum(values, 0.0))[..., None, :])
+
+
+def frame_jacobians(frame_yaw: Floats, pose_in_frame: Floats) -> Floats:
+    """Return the derivatives of N poses in the world by steps of their frames in world axes, (N, 3, 3).
+
+    ``frame_yaw`` are the yaws of the frames, (N,), and ``pose_in_frame`` is (3,) or (N, 3). If a frame turns, the
+    pose in it moves sideways.
     """
-    result = np.tile(np.eye(3), (len(yaw), 1, 1))
-    result[:, 0, 2] = -np.sin(yaw) * at[..., 0] - np.cos(yaw) * at[..., 1]
-    result[:, 1, 2] = np.cos(yaw) * at[..., 0] - np.sin(yaw) * at[..., 1]
+    x, y, result = pose_in_frame[..., 0], pose_in_frame[..., 1], np.tile(np.eye(3), (len(frame_yaw), 1, 1))
+    result[:, 0, 2] = -np.sin(frame_yaw) * x - np.cos(frame_yaw) * y
+    result[:, 1, 2] = np.cos(frame_yaw) * x - np.sin(frame_yaw) * y
     return result
 
 
-def lever(yaw: Floats, mount: Floats) -> Floats:
-    """Return the derivatives of relative poses of a frame at ``mount``, (3,), by those of this frame, (N, 3, 3).
-    ``yaw`` are the turns from the first to the second poses, (N,).
+def mount_jacobians(yaw: Floats, mount: Floats) -> Floats:
+    """Return the derivatives of relative poses of a frame at ``mount``, (3,), by relative poses of this frame,
+    (N, 3, 3). ``yaw`` are the turns from the first to the second poses, (N,).
     """
-    return np.asarray(rotation(-mount[2]) @ swing(yaw, mount))
+    return np.asarray(rotation(-mount[2]) @ frame_jacobians(yaw, mount))

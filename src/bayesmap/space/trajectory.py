@@ -9,7 +9,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.space.planar import between, bracketing_indices, compose, interpolate, inverse, lever, swing, wrap_angle
+from bayesmap.space.planar import (
+    between,
+    bracketing_indices,
+    compose,
+    frame_jacobians,
+    interpolate,
+    inverse,
+    mount_jacobians,
+    wrap_angle,
+)
 from bayesmap.space.scans import as_poses, path_words
 
 SLACK_S = 0.002  # largest time outside a trajectory that counts as its end: logs are written with few digits
@@ -39,7 +48,7 @@ class RelativeLaw:
         """Return the law of another frame, at ``mount``, (3,), in this frame, whose poses are ``poses``, (S, 3)."""
 
         def scales(first: Indices, second: Indices) -> Floats:
-            turn = lever(between(poses[first], poses[second])[:, 2], mount)
+            turn = mount_jacobians(between(poses[first], poses[second])[:, 2], mount)
             return np.asarray(turn @ self.scales(first, second) @ np.swapaxes(turn, 1, 2))
 
         return RelativeLaw(scales, self.dof)
@@ -174,7 +183,7 @@ class Trajectory:
         poses = compose(self.poses, mount)
         covariances = self.covariances
         if covariances is not None:
-            shift = swing(self.poses[:, 2], np.asarray(mount))
+            shift = frame_jacobians(self.poses[:, 2], np.asarray(mount))
             covariances = shift @ covariances @ np.swapaxes(shift, 1, 2)
         draws = None if self.draws is None else compose(self.draws, mount)
         relative = None if self.relative is None else self.relative.of_frame(self.poses, np.asarray(mount))

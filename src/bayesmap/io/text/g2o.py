@@ -24,11 +24,11 @@ from bayesmap.files import write_text
 from bayesmap.io.log_reading import Account, LogOptions, LogReading
 from bayesmap.io.text.carmen import LASERS, LaserScan, Malformed, laser_reading, parse_floats, parse_laser
 from bayesmap.io.text.lines import log_lines
-from bayesmap.space.planar import Floats, between, between_jacobians, compose, inverse, lever, rotation
+from bayesmap.space.planar import Floats, between, between_jacobians, compose, inverse, mount_jacobians, rotation
 from bayesmap.space.trajectory import Trajectory
 
 if TYPE_CHECKING:
-    from bayesmap.poses.pose_gaussian import PoseGaussian
+    from bayesmap.poses.graph import PoseGaussian
     from bayesmap.poses.trajectory import Trajectory as Approximation
 
 
@@ -121,7 +121,7 @@ class Edges:
 
     def of_frame(self, mount: Floats) -> Edges:
         """Return the edges between poses of another frame, which lies at ``mount``, (3,), in this frame."""
-        back = np.linalg.inv(lever(self.relative[:, 2], mount))
+        back = np.linalg.inv(mount_jacobians(self.relative[:, 2], mount))
         moved = compose(inverse(mount), compose(self.relative, mount))
         return replace(self, relative=moved, information=np.swapaxes(back, 1, 2) @ self.information @ back)
 
