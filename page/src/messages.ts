@@ -229,7 +229,7 @@ export type ShowScan = {
 /** Ask for a file of the result or the document; answered by `download`. */
 export type Export = {
   type: "export";
-  what: "document" | "figure" | "html" | "map" | "run";
+  what: "document" | "figure" | "html" | "map" | "recording" | "run";
   seq?: number;
 };
 

@@ -15,12 +15,13 @@ import { HypothesisLayer } from "./layers/hypothesis";
 import { Stack, type Scene } from "./layers/layer";
 import { MarksLayer } from "./layers/marks";
 import { OverlayLayer } from "./layers/overlay";
-import { picture } from "./layers/picture";
+import { picture, stillLayers } from "./layers/picture";
 import { RaysLayer } from "./layers/rays";
 import { ReadingLayer } from "./layers/reading";
 import { GUTTER, Viewport } from "./layers/viewport";
 import { WhereLayer } from "./layers/where";
 import { bar } from "./panels/bar";
+import { besideCaptions, keepControl } from "./panels/beside";
 import { traceChart, weightChart } from "./panels/chart";
 import { decisionsPanel } from "./panels/decisions";
 import { helpDialog, newDialog, shareDialog } from "./panels/dialogs";
@@ -40,14 +41,16 @@ import { Ui } from "./panels/ui";
 import { Player, scanPanel, viewPanel } from "./panels/view";
 import { wherePanel } from "./panels/where";
 import type { Export } from "./messages";
-import type { MapDocument, Transport } from "./protocol";
+import { RECORDING, type MapDocument, type Transport } from "./protocol";
 import { snapshot } from "./snapshot";
+import { Beside } from "./state/beside";
 import { Session } from "./state/session";
 import type { Level } from "./state/status";
 import { linkedStep, stepFragment } from "./state/story";
 import CHARTS from "uplot/dist/uPlot.min.css";
 import STYLE from "./style.css";
 import { ThemeChoice } from "./theme";
+import { unpackFrame } from "./transport/frame";
 
 /** Pixels a cell from which on one cell is easily seen. */
 const SEEN_FROM_SCALE = 12;
@@ -80,6 +83,7 @@ export function mount(element: HTMLElement, transport: Transport, { embedded = f
   const hand = new Hand(session);
   const editor = new Editor(session, hand);
   const player = new Player(session);
+  const beside = new Beside(session);
   const ui = new Ui(session, hand, editor, command, (layer) => player.showLayer(layer), embedded);
 
   // the map
@@ -99,7 +103,12 @@ export function mount(element: HTMLElement, transport: Transport, { embedded = f
   const top = head(ui);
   const tools = bar(ui);
   const onMap = { chip: chip(ui), banner: banner(ui) };
-  const stage = h("main", { className: "stage" }, ...canvases, onMap.chip, onMap.banner);
+  const keptLayers = stillLayers();
+  const keptCanvases = keptLayers.map(({ name }) => h("canvas", { className: name }));
+  const keptStack = new Stack(keptLayers, keptCanvases);
+  const captions = besideCaptions(ui, beside);
+  const keptStage = h("div", { className: "beside" }, ...keptCanvases, captions.kept);
+  const stage = h("main", { className: "stage" }, ...canvases, captions.now, onMap.chip, onMap.banner, keptStage);
   const dressed = () => themes.theme;
   const scale = () => view.transform.scale;
   const legendOfMap = legend(ui, dressed, scale);
@@ -108,10 +117,12 @@ export function mount(element: HTMLElement, transport: Transport, { embedded = f
   const share = shareDialog(ui);
   const dialogs = { help: helpDialog(ui), new: newDialog(ui), share: share.dialog };
   const [sensors, model, inference, clear] = [sensorPanel(ui), modelPanel(ui), inferencePanel(ui), clearPanel(ui)];
+  const viewing = viewPanel(ui, player, shown, scale);
+  viewing.append(keepControl(ui, beside));
   const panels = [
     storyPanel(ui),
     decisionsPanel(ui), wherePanel(ui), ghostPanel(ui), evidencePanel(ui), logPanel(ui), posteriorPanel(ui, traceChart(ui, dressed), weightChart(ui, dressed)),
-    scanPanel(ui), readingPanel(ui), viewPanel(ui, player, shown, scale), sensors, model, posesPanel(ui), inference, clear,
+    scanPanel(ui), readingPanel(ui), viewing, sensors, model, posesPanel(ui), inference, clear,
   ];
   const panel = h("aside", { "aria-label": "Controls" }, ...panels);
   const isRun = () => session.recorded || session.document?.source.kind === "run";
@@ -163,6 +174,7 @@ export function mount(element: HTMLElement, transport: Transport, { embedded = f
     if (session.document && !begun) begin();
     if (session.document && String(session.shape) !== shape) {
       shape = String(session.shape);
+      if (beside.kept && String(beside.kept.shape) !== shape) beside.forget();
       view.fit(session.shape);
       hand.cursor = hand.hover = null;
       session.decisions.forget();
@@ -170,7 +182,10 @@ export function mount(element: HTMLElement, transport: Transport, { embedded = f
       session.ghost.refit();
       canvas.setAttribute("aria-label", `Map, ${session.shape[0]} by ${session.shape[1]} cells`);
     }
+    if (keptStage.hidden === Boolean(beside.kept)) layOut();
     stack.paint(scene());
+    beside.follow();
+    if (beside.kept) keptStack.paint({ ...scene(), session: beside.kept });
     if (fresh) {
       session.painted();
       player.step();
@@ -180,11 +195,21 @@ export function mount(element: HTMLElement, transport: Transport, { embedded = f
     mark(canvas, "data-tool", session.editable || READING.has(hand.tool) ? hand.tool : "pan");
     ui.refresh();
   }
-  const observer = new ResizeObserver(() => {
+  /** Gives the map its room: the whole stage, or half of it beside a kept result. */
+  function layOut() {
     const { width, height } = stage.getBoundingClientRect();
-    if (!width || !height) return;
-    view.resize(width, height, devicePixelRatio || 1);
+    if (!width || !height) return false;
+    keptStage.hidden = !beside.kept;
+    const tall = height > width;
+    stage.classList.toggle("shared", !keptStage.hidden);
+    stage.classList.toggle("tall", tall);
+    const half = keptStage.hidden ? 1 : 0.5;
+    view.resize(tall ? width : half * width, tall ? half * height : height, devicePixelRatio || 1);
     if (view.fitted) view.fit(session.shape);
+    return true;
+  }
+  const observer = new ResizeObserver(() => {
+    if (!layOut()) return;
     cancelAnimationFrame(frame);
     draw(); // at once: a canvas that was resized is blank
   });
@@ -220,7 +245,7 @@ export function mount(element: HTMLElement, transport: Transport, { embedded = f
     } else if (what.startsWith("export ")) session.act({ type: "export", what: what.slice(7) as Export["what"] });
     schedule();
   }
-  session.ondownload = (name, mime, data) => download(name, new Blob([data as Uint8Array<ArrayBuffer>], { type: mime }));
+  session.ondownload = (name, mime, data) => name === RECORDING ? beside.receive(unpackFrame(data.slice().buffer as ArrayBuffer)) : download(name, new Blob([data as Uint8Array<ArrayBuffer>], { type: mime }));
 
   const key = (event: KeyboardEvent) => {
     if (event.defaultPrevented || !session.document || Object.values(dialogs).some((dialog) => dialog.open)) return;
@@ -266,7 +291,7 @@ export function mount(element: HTMLElement, transport: Transport, { embedded = f
       shadow.replaceChildren();
     },
     /** What is known and shown, for tests. */
-    snapshot: () => snapshot(session, view, stack),
+    snapshot: () => snapshot(session, view, stack, beside),
     /** Where the centre of a cell is on the page. */
     cellToClient(x: number, y: number) {
       const box = canvas.getBoundingClientRect();

@@ -4,6 +4,9 @@ import type * as wire from "./messages";
 
 export type { Action, CellFacts, DrawCount, Grid, Limits, MapDocument, Notice, Patch, Quantity, Recording, Sensor, Source, Stage, State, Verdict } from "./messages";
 
+/** The export that is no file: a result to keep beside the next one. */
+export const RECORDING = "recording";
+
 export type Pair = [number, number];
 export type Point = { x: number; y: number };
 

@@ -2,10 +2,11 @@
 
 import type { Stack } from "./layers/layer";
 import type { Viewport } from "./layers/viewport";
+import type { Beside } from "./state/beside";
 import type { Session } from "./state/session";
 
 /** What is known and shown. */
-export function snapshot(session: Session, view: Viewport, stack: Stack) {
+export function snapshot(session: Session, view: Viewport, stack: Stack, { kept }: Beside) {
   const { shown, status } = session;
   return {
     document: session.effectiveDocument(),
@@ -40,6 +41,7 @@ export function snapshot(session: Session, view: Viewport, stack: Stack) {
     reading: { picked: session.reading.picked, found: session.reading.found, trouble: session.reading.trouble },
     evidence: { cell: session.evidence.cell, together: session.evidence.together, each: session.evidence.each && listsOf(session.evidence.each) },
     over: Boolean(session.flicker.under),
+    beside: kept && { layer: kept.layer, chain: kept.view.chain, draw: kept.draw, method: kept.shown?.method, probability: Array.from(kept.shown?.p ?? []) },
     overlay: session.overlay && { strokes: session.overlay.strokes.length / 5, trajectory: session.overlay.trajectory.length / 2 },
     worker: session.worker,
     running: session.running,

@@ -5,12 +5,13 @@ import { mock, test } from "node:test";
 import { fromFragment, takeFragment, toFragment } from "../src/fragment";
 import { fromBase64, packBits } from "../src/geometry/bits";
 import type { Action, Buffers, Connection, Field, MapDocument, Notice, Recording } from "../src/protocol";
+import { Beside } from "../src/state/beside";
 import { forget, keep, keptDocument, keepToken, onToken } from "../src/state/kept";
 import { unpackFrame, type WithBuffers } from "../src/transport/frame";
 import { readRecording, recordedTransport } from "../src/transport/recorded";
 import { webSocketTransport } from "../src/transport/socket";
 import { widgetTransport, type Model } from "../src/transport/widget";
-import { aDocument, LIMITS, LOG, wallsOf, type Message } from "./desk";
+import { aDocument, Desk, LIMITS, LOG, wallsOf, type Message } from "./desk";
 
 /** What the library says, where its tests run these (tests/app/test_page_logic.py). */
 const file = process.env.BAYESMAP_LIBRARY;
@@ -268,6 +269,36 @@ test("a recording says hello as a session does, and passes on what the session s
   const [, { pose, angles, ranges, exact, hit, ...known }] = recording();
   assert.deepEqual([scan.ids, scan.index, rays], [[1], null, { pose, angles, ranges, exact, hit }]);
   assert.deepEqual([field, { p, reached, trace, traced }], [FIELD, { p: known.p, reached: known.reached, trace: known.trace, traced: known.traced }]);
+});
+
+test("a result that is kept shows the layer, the chain and the draw of the one beside it", () => {
+  const desk = new Desk();
+  const beside = new Beside(desk.session);
+  const shown = () => {
+    beside.follow();
+    const { layer, chain, draw, p } = beside.kept!.shown!;
+    return { layer, cells: [...p].filter(Boolean).length, ...(layer === "draw" ? { chain, draw } : {}) };
+  };
+  beside.follow(); // nothing is kept
+  beside.keep();
+  assert.deepEqual(desk.asked("export"), [{ type: "export", what: "recording" }]);
+  beside.receive(recording({ field: { ...FIELD, about: [["method", "blocks"], ["prior", "0.5"]] } as unknown as Recording["field"] }));
+  assert.deepEqual(shown(), { layer: "mean", cells: 5 });
+  desk.state({ draws: { chains: 4, count: 30 } });
+  desk.field({ about: [["method", "single cells"], ["prior", "0.5"]] });
+  assert.deepEqual(beside.differences(), ["method single cells", "method blocks"]);
+  desk.field({ about: [["prior", "0.5"]] });
+  assert.deepEqual(beside.differences(), ["the same model and method", "method blocks"]);
+  for (const [draw, kept] of [[0, 0], [14, 1], [29, 2]]) {
+    desk.player.showDraw(draw, 1); // three of 30 draws were kept
+    assert.deepEqual(shown(), { layer: "draw", chain: 1, draw: kept, cells: 1 + kept });
+  }
+  desk.player.showDraw(29, 3); // there are two chains
+  assert.deepEqual(shown(), { layer: "draw", chain: 1, draw: 2, cells: 3 });
+  desk.player.showLayer("entropy");
+  assert.deepEqual([shown().layer, beside.kept!.layer], ["entropy", "entropy"]);
+  beside.forget();
+  assert.equal(beside.kept, null);
 });
 
 test("each draw of a recording is that chain's that draw, of walls and of numbers", () => {

@@ -155,6 +155,7 @@ def test_a_run_of_reflectivities_is_exported_too(tmp_path):
     assert np.abs(heard.answer(View("draw", 1, 2))[1]["p"] / 255.0 - run.map_of(1, 2)).max() < 0.005
     recording, numbers = recording_of(exported(heard, "html")[1].decode())
     assert recording["draws"] == {"chains": 2, "count": 10, "kept": 10, "bits": False}
+    assert unframe(exported(heard, "recording")[1])[0] == recording  # what the page keeps beside the next result
     assert np.array_equal(numbers["draws"][1, 2].reshape(run.grid.shape), heard.answer(View("draw", 1, 2))[1]["p"])
     assert np.array_equal(numbers["width"], heard.answer(View("width"))[1]["p"])
     occupancy, _ = saved_map(heard, tmp_path)

@@ -1,5 +1,7 @@
 """The posterior on the page: settings, runs, draws, traces, and how far the numbers can be trusted."""
 
+import re
+
 import numpy as np
 import playwright.sync_api as playwright
 import pytest
@@ -104,6 +106,28 @@ def numbers_along(page, part):
     assert all(0 <= word["left"] <= word["right"] <= word["wide"] for word in written), written
     below = [float(word["text"].replace(",", "")) for word in written if word["align"] == "center"]
     return [word["text"] for word in written if word["align"] != "center"], below
+
+
+def test_two_methods_stand_side_by_side_under_one_slider_of_draws(open_page):
+    page = open_page(document(**CLOSE, sweeps=20, burn_in=0))
+    whole = settled(page)["transform"]["scale"]
+    page.get_by_label("Keep this result beside the next").click()
+    until(page, "s.beside !== null")
+    page.get_by_text("Now: the same model and method.").wait_for()
+    page.get_by_label("Method", exact=True).select_option("block")
+    settled(page)
+    page.get_by_text(re.compile("Kept: method ")).wait_for()
+    assert snapshot(page)["beside"]["method"] == "gibbs"
+    assert snapshot(page)["transform"]["scale"] < whole
+    mean = snapshot(page)["beside"]["probability"]
+    show_layer(page, "One draw")
+    for draw in (0, 19):
+        show_draw(page, draw, 1)
+        until(page, f"s.beside.layer === 'draw' && s.beside.draw === {draw} && s.beside.chain === 1")
+        assert set(snapshot(page)["beside"]["probability"]) <= {0, 255}
+    assert snapshot(page)["beside"]["probability"] != mean
+    page.get_by_label("Keep this result beside the next").click()
+    until(page, f"s.beside === null && s.transform.scale === {whole}")
 
 
 @pytest.mark.parametrize("noise", [0.2, 0.01], ids=["short numbers", "long numbers"])

@@ -15,6 +15,11 @@ import { WhereLayer } from "./where";
 const WIDTH = 900;
 const RATIO = 2;
 
+/** What a map shows that no pointer is on. */
+export const stillLayers = (): Layer[] => [
+  new FieldLayer(), new HypothesisLayer(), new OverlayLayer(), new RaysLayer(), new MarksLayer(), new DecisionsLayer(), new WhereLayer(), new GhostLayer(),
+];
+
 /** A PNG of the map with its marks, without cursors. */
 export function picture({ session, look }: Scene): Promise<Blob | null> {
   const [nx, ny] = session.shape;
@@ -27,12 +32,8 @@ export function picture({ session, look }: Scene): Promise<Blob | null> {
   context.scale(RATIO, RATIO);
   context.fillStyle = look.theme.ground;
   context.fillRect(0, 0, view.width, view.height);
-  const layers: Layer[] = [
-    new FieldLayer(), new HypothesisLayer(), new OverlayLayer(), new RaysLayer(), new MarksLayer(), new DecisionsLayer(), new WhereLayer(),
-    new GhostLayer(),
-  ];
   const still: Scene = { session, view, look: { ...look, hover: null, cursor: null, selected: null } };
-  for (const layer of layers) {
+  for (const layer of stillLayers()) {
     if (!(layer.shows?.(still) ?? true)) continue;
     context.save();
     layer.paint(context, still);

@@ -2,8 +2,9 @@
 
 import { fromBase64, packBits, toBase64, unpackBits } from "../geometry/bits";
 import type { Field as Picture, Refusal, Scan as Readings } from "../messages";
-import type {
-  Action, Buffers, Connection, Field, Layer, Limits, MapDocument, Notice, Overlay, Pair, Quantity, Scan, Sent, Stage, State, Transport, View,
+import {
+  RECORDING, type Action, type Buffers, type Connection, type Field, type Layer, type Limits, type MapDocument, type Notice, type Overlay, type Pair,
+  type Quantity, type Scan, type Sent, type Stage, type State, type Transport, type View,
 } from "../protocol";
 import { forget, keep } from "./kept";
 import { FORESEEN, foresee, needsServer, NO_SERVER, type Foreseen } from "./foreseen";
@@ -286,7 +287,7 @@ export class Session {
         break;
       case "download":
         this.ondownload(notice.name, notice.mime, buffers.data as Uint8Array);
-        this.status.say(`Saved ${notice.name}${notice.note && `, ${notice.note}`}`, "info", this.acted);
+        this.status.say(notice.name === RECORDING ? "Kept beside" : `Saved ${notice.name}${notice.note && `, ${notice.note}`}`, "info", this.acted);
         break;
     }
     this.changed();

@@ -13,7 +13,6 @@ from pathlib import Path
 from starlette.requests import Request
 from starlette.responses import PlainTextResponse, Response
 
-from bayesmap.app.protocol.wire import frame
 from bayesmap.errors import BadInput
 
 MAX_FILE_BYTES = 1 << 30
@@ -47,14 +46,12 @@ async def open_dropped(request: Request) -> Response:
 
 def main(path: str) -> None:
     """Write the recording of a saved run to the standard output."""
-    from bayesmap.app.exports import record
+    from bayesmap.app.exports import framed
     from bayesmap.app.sources import OpenedRun, open_file
 
     opened = open_file(path)
     assert isinstance(opened, OpenedRun)
-    recording = frame(*record(opened.result))
-    assert isinstance(recording, bytes)
-    sys.stdout.buffer.write(recording)
+    sys.stdout.buffer.write(framed(opened.result))
 
 
 if __name__ == "__main__":

@@ -69,12 +69,14 @@ def export_report(question: Export, result: Result | None, client: int) -> Repor
 
 
 def file_of(result: Result, what: str) -> tuple[str, str, bytes]:
-    """Return name, media type and bytes of a file of a result: "run", "map" or the page, "html".
+    """Return name, media type and bytes of a file of a result: "run", "map", "recording" or the page, "html".
 
     Raises `BadInput` if a run has no draws to save.
     """
     if what == "html":
         return "bayesmap.html", "text/html", to_html(result).encode()
+    if what == "recording":
+        return "recording", "application/octet-stream", framed(result)
     with tempfile.TemporaryDirectory(prefix="bayesmap-") as folder:
         if what == "run":
             path = Path(folder) / "run.nc"
@@ -89,9 +91,14 @@ def file_of(result: Result, what: str) -> tuple[str, str, bytes]:
 
 def to_html(result: Result) -> str:
     """Return a page in one file that shows a result. It can be opened from a disk and loads nothing else."""
+    return one_file("recording", framed(result))
+
+
+def framed(result: Result) -> bytes:
+    """Return the recording of a result and its buffers as the page reads them."""
     recording = frame(*record(result))
     assert isinstance(recording, bytes)
-    return one_file("recording", recording)
+    return recording
 
 
 def record(result: Result) -> tuple[Recording, Buffers]:

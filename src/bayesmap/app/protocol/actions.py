@@ -149,7 +149,7 @@ class ShowScan(Action, frozen=True, tag="scan"):
 class Export(Action, frozen=True, tag="export"):
     """Ask for a file of the result or the document; answered by `download`."""
 
-    what: Literal["run", "map", "html", "figure", "document"]
+    what: Literal["run", "map", "html", "figure", "document", "recording"]
 
 
 class Inspect(Action, frozen=True, tag="inspect"):

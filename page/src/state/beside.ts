@@ -1,0 +1,54 @@
+// A result that is kept beside the one on show, under the same controls of layers and draws.
+
+import { RECORDING, type Buffers, type DrawCount, type Recording } from "../protocol";
+import { recordedTransport } from "../transport/recorded";
+import { Session } from "./session";
+
+export class Beside {
+  /** The session that plays the kept result, or null. */
+  kept: Session | null = null;
+  private draws: DrawCount & { kept: number } = { chains: 0, count: 0, kept: 0 };
+  private followed = "";
+
+  constructor(private readonly main: Session) {}
+
+  /** Asks for the result on show, to keep it. */
+  keep() {
+    this.main.act({ type: "export", what: RECORDING });
+  }
+
+  forget() {
+    this.kept = null;
+    this.main.changed();
+  }
+
+  /** The result to keep has come. */
+  receive(recording: [Recording, Buffers]) {
+    this.draws = recording[0].draws;
+    this.followed = "";
+    const transport = recordedTransport(recording);
+    this.kept = new Session(transport, this.main.changed);
+    transport.open();
+  }
+
+  /** Shows the layer, the chain and the draw of the main result. Not all draws are kept of a long run: the nearest is shown. */
+  follow() {
+    const { kept, main, draws } = this;
+    if (!kept) return;
+    const { layer, chain } = main.view;
+    const draw = layer === "draw" ? Math.round((main.draw * (draws.count - 1)) / Math.max(1, draws.kept - 1)) : null;
+    const wanted = { layer, chain: Math.max(0, Math.min(chain, draws.chains - 1)), draw };
+    if (JSON.stringify(wanted) !== this.followed) kept.act({ type: "view", ...wanted });
+    this.followed = JSON.stringify(wanted);
+    kept.take();
+  }
+
+  /** What tells the two results apart, in words: of the one on show, and of the kept one. */
+  differences(): [string, string] {
+    const now = this.main.shown?.about ?? [];
+    const then = this.kept?.shown?.about ?? [];
+    const apart = (rows: [string, string][], others: [string, string][]) =>
+      rows.filter(([name, words]) => !others.some(([other, same]) => other === name && same === words)).map(([name, words]) => `${name.toLowerCase()} ${words}`).join("; ");
+    return [apart(now, then) || "the same model and method", apart(then, now) || "the same model and method"];
+  }
+}
