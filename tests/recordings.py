@@ -119,7 +119,7 @@ def written(path: Path, messages, writer="mcap", definitions=None):
 
 
 def packed(content):
-    """By zstd in blocks of 4 kB, so that what breaks off can be unpacked as far as it goes."""
+    """Pack by zstd in blocks of 4 kB, so that a broken file can be unpacked as far as it goes."""
     packer = zstd().ZstdCompressor()
     blocks = (packer.compress(content[i : i + 4096], packer.FLUSH_BLOCK) for i in range(0, len(content), 4096))
     return b"".join(blocks) + packer.flush()

@@ -12,7 +12,7 @@ from bayesmap.errors import BadInput
 from bayesmap.files import write_whole, write_whole_folder
 
 
-def test_what_the_block_wrote_becomes_the_file_unless_it_fails(tmp_path):
+def test_a_block_s_output_becomes_the_file_unless_the_block_fails(tmp_path):
     path = tmp_path / "run.nc"
     with write_whole(path) as temporary:
         assert temporary.parent == tmp_path
@@ -35,14 +35,11 @@ def test_what_the_block_wrote_becomes_the_file_unless_it_fails(tmp_path):
     assert list(tmp_path.iterdir()) == [path]
 
 
-@pytest.mark.parametrize(
-    ("failure", "reason"),
-    [
-        (OSError(28, "No space left on device"), "No space left on device"),
-        (RuntimeError("NetCDF: HDF error"), "writing failed; is the disk full? (NetCDF: HDF error)"),
-        (sqlite3.OperationalError("disk I/O error"), "writing failed; is the disk full? (disk I/O error)"),
-    ],
-)
+@pytest.mark.parametrize(("failure", "reason"), [
+    (OSError(28, "No space left on device"), "No space left on device"),
+    (RuntimeError("NetCDF: HDF error"), "writing failed; is the disk full? (NetCDF: HDF error)"),
+    (sqlite3.OperationalError("disk I/O error"), "writing failed; is the disk full? (disk I/O error)"),
+])  # fmt: skip
 @pytest.mark.parametrize("write", [write_whole, lambda path: write_whole_folder(path, lambda old: True)])
 def test_a_full_disk_is_an_error_that_names_the_file_and_not_the_temporary_one(tmp_path, write, failure, reason):
     def fail():

@@ -31,9 +31,8 @@ def test_walls_have_the_likelihood_of_their_first_hits(name, lattice):
     for density in (0.0, 0.1, 0.5):
         walls = rng.random(GRID.shape) < density
         state = model.state({"walls": walls})
-        np.testing.assert_allclose(
-            model.beam_log_likelihoods(state), table.beam_log_likelihoods(walls), atol=2e-4, rtol=1e-5
-        )
+        expected = table.beam_log_likelihoods(walls)
+        np.testing.assert_allclose(model.beam_log_likelihoods(state), expected, atol=2e-4, rtol=1e-5)
         prior = np.log(0.2) * walls.sum() + np.log(0.8) * (~walls).sum()
         assert model.log_joint(state) == pytest.approx(prior + model.log_likelihood(state))
 
@@ -63,9 +62,8 @@ def test_reflectivities_and_surfaces_have_the_likelihood_of_the_definition(prior
 )
 def test_a_run_s_draw_is_a_state(prior):
     """Draws keep some cells only, in half precision; the others are as the prior has them."""
-    run = bm.infer(
-        scans(2), GRID, prior=prior, sensor=SENSOR, schedule=bm.Schedule(chains=1, warmup=10, draws=3), hit_depth=DEPTH
-    )
+    short = bm.Schedule(chains=1, warmup=10, draws=3)
+    run = bm.infer(scans(2), GRID, prior=prior, sensor=SENSOR, schedule=short, hit_depth=DEPTH)
     model, draws = Model(scans(2), GRID, prior, SENSOR, hit_depth=DEPTH), run.posterior.draws
     for number in range(3):
         cells = draws.cells(0, number)

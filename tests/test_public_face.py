@@ -77,25 +77,22 @@ def test_the_plain_call_needs_scans_and_a_grid_alone(scans):
     np.testing.assert_array_equal(plain.draws, said.draws)
 
 
-@pytest.mark.parametrize(
-    ("make", "message"),
-    [
-        (lambda scans: bm.infer(scans, GRID, schedule=100), r"schedule must be one such as bm.Schedule\(\), got 100"),
-        (lambda scans: bm.infer(scans, GRID, where="cuda:0"), r"where must be one such as bm.Where\(\), got 'cuda:0'"),
-        (lambda scans: bm.infer(scans, GRID, checkpoints="run.nc"), r"checkpoints must be one such as bm.Checkpoints"),
-        (lambda scans: bm.slam(scans, where=8), r"slam: where must be one such as bm.Where\(\), got 8"),
-        (lambda scans: bm.slam(scans, resolution=0.0), "grid: resolution must be a positive number of metres, got 0.0"),
-        (lambda scans: bm.slam(scans, resolution=1e-5), "cells is over the limit of 100,000,000; use a coarser"),
-        (lambda scans: bm.infer(scans, GRID, method=bm.Block()), r"Surface has one method, 'gibbs', got Block\("),
-        (lambda scans: bm.infer(scans, GRID, method=bm.Gibbs), "Surface has one method, 'gibbs', got <class"),
-        (lambda scans: bm.Where(executor="ray"), r"executor must be one such as bm.RayExecutor\(\), .*got 'ray'"),
-        (lambda scans: bm.Where(executor=bm.RayExecutor), "executor must be one such as"),
-        (lambda scans: bm.Where(device=0), "device must be a name such as 'cpu' or 'cuda:0', got 0"),
-        (lambda scans: bm.Checkpoints(resume="run.nc"), r"resume must be a run, such as bm.load\('run.nc'\)"),
-        (lambda scans: bm.Checkpoints(save="run.nc"), "save must be a function that takes a run, got 'run.nc'"),
-        (lambda scans: bm.Checkpoints(every_s=-1), "every_s must be 0 or a positive number of seconds, got -1"),
-    ],
-)
+@pytest.mark.parametrize(("make", "message"), [
+    (lambda scans: bm.infer(scans, GRID, schedule=100), r"schedule must be one such as bm.Schedule\(\), got 100"),
+    (lambda scans: bm.infer(scans, GRID, where="cuda:0"), r"where must be one such as bm.Where\(\), got 'cuda:0'"),
+    (lambda scans: bm.infer(scans, GRID, checkpoints="run.nc"), r"checkpoints must be one such as bm.Checkpoints"),
+    (lambda scans: bm.slam(scans, where=8), r"slam: where must be one such as bm.Where\(\), got 8"),
+    (lambda scans: bm.slam(scans, resolution=0.0), "grid: resolution must be a positive number of metres, got 0.0"),
+    (lambda scans: bm.slam(scans, resolution=1e-5), "cells is over the limit of 100,000,000; use a coarser"),
+    (lambda scans: bm.infer(scans, GRID, method=bm.Block()), r"Surface has one method, 'gibbs', got Block\("),
+    (lambda scans: bm.infer(scans, GRID, method=bm.Gibbs), "Surface has one method, 'gibbs', got <class"),
+    (lambda scans: bm.Where(executor="ray"), r"executor must be one such as bm.RayExecutor\(\), .*got 'ray'"),
+    (lambda scans: bm.Where(executor=bm.RayExecutor), "executor must be one such as"),
+    (lambda scans: bm.Where(device=0), "device must be a name such as 'cpu' or 'cuda:0', got 0"),
+    (lambda scans: bm.Checkpoints(resume="run.nc"), r"resume must be a run, such as bm.load\('run.nc'\)"),
+    (lambda scans: bm.Checkpoints(save="run.nc"), "save must be a function that takes a run, got 'run.nc'"),
+    (lambda scans: bm.Checkpoints(every_s=-1), "every_s must be 0 or a positive number of seconds, got -1"),
+])  # fmt: skip
 def test_values_that_group_arguments_are_checked(scans, make, message):
     with pytest.raises(bm.BadInput, match=message):
         make(scans)
@@ -109,9 +106,8 @@ def test_an_unknown_keyword_is_answered_with_the_nearest(function):
 
 
 def test_importance_has_weights_and_other_methods_say_that_they_have_none(scans, run):
-    weighted = bm.infer(
-        scans, GRID, prior=PRIOR, sensor=SENSOR, method=bm.Importance(particles=500), schedule=bm.Schedule(draws=5)
-    )
+    method, schedule = bm.Importance(particles=500), bm.Schedule(draws=5)
+    weighted = bm.infer(scans, GRID, prior=PRIOR, sensor=SENSOR, method=method, schedule=schedule)
     assert np.exp(weighted.log_weights).sum() == pytest.approx(1.0)
     with pytest.raises(bm.BadInput, match="method 'gibbs' has no importance weights"):
         run.log_weights  # noqa: B018
@@ -161,52 +157,42 @@ def test_arguments_that_make_no_sense_are_refused_with_place_and_remedy(scans, w
         infer(scans, **change)
 
 
-@pytest.mark.parametrize(
-    ("make", "message"),
-    [
-        (lambda: bm.Independent(1.5), r"p_wall must lie in \[0, 1\], got 1.5"),
-        (lambda: bm.Independent(np.nan), "p_wall must lie in"),
-        (lambda: bm.Independent(np.array([[0.5, -0.1]])), "p_wall must lie in .*got -0.1"),
-        (lambda: bm.Independent(np.array([0.5])), r"a number or an \(nx, ny\) array, got shape \(1,\)"),
-        (lambda: bm.ranges(WALLS[:2], GRID, POSE, ANGLES, 5.0), r"walls have shape \(2, 3\), but the grid is \(3, 3\)"),
-        (lambda: bm.ranges(WALLS, GRID, POSE, ANGLES, 0.0), "max_range_m must be a positive number of metres, got 0.0"),
-        (lambda: bm.ranges(WALLS, GRID, POSE, ANGLES, np.nan), "max_range_m must be a positive"),
-        (lambda: bm.ranges(WALLS, GRID, [0.5, 0.5], ANGLES, 5.0), r"poses has shape \(1, 2\), expected \(S, 3\)"),
-        (lambda: bm.ranges(WALLS, GRID, [0.5, np.nan, 0], ANGLES, 5.0), "pose of scan 0 is not finite"),
-        (lambda: bm.ranges(WALLS, GRID, POSE, [], 5.0), "at least one beam"),
-        (lambda: bm.ranges(WALLS, GRID, POSE, [0.0, np.inf], 5.0), "angle of beam 1 is not finite: inf"),
-        (
-            lambda: bm.simulate(WALLS, GRID, POSE, ANGLES, sensor=SENSOR, max_range_m=np.inf),
-            "max_range_m must be a positive",
-        ),
-        (
-            lambda: bm.simulate(WALLS, GRID, POSE, ANGLES, sensor=SENSOR, max_range_m=5.0, opacity=np.ones((2, 2))),
-            "opacity",
-        ),
-        (lambda: bm.simulate(WALLS, GRID, POSE, ANGLES, sensor=SENSOR, max_range_m=5.0, seed=-1), "seed"),
-        (lambda: bm.load("nowhere.nc"), "nowhere.nc: no such file"),
-        (lambda: bm.read_log("nowhere.log"), "nowhere.log"),
-    ],
-)
+def simulated(**change):
+    return bm.simulate(WALLS, GRID, POSE, ANGLES, **{"sensor": SENSOR, "max_range_m": 5.0} | change)
+
+
+@pytest.mark.parametrize(("make", "message"), [
+    (lambda: bm.Independent(1.5), r"p_wall must lie in \[0, 1\], got 1.5"),
+    (lambda: bm.Independent(np.nan), "p_wall must lie in"),
+    (lambda: bm.Independent(np.array([[0.5, -0.1]])), "p_wall must lie in .*got -0.1"),
+    (lambda: bm.Independent(np.array([0.5])), r"a number or an \(nx, ny\) array, got shape \(1,\)"),
+    (lambda: bm.ranges(WALLS[:2], GRID, POSE, ANGLES, 5.0), r"walls have shape \(2, 3\), but the grid is \(3, 3\)"),
+    (lambda: bm.ranges(WALLS, GRID, POSE, ANGLES, 0.0), "max_range_m must be a positive number of metres, got 0.0"),
+    (lambda: bm.ranges(WALLS, GRID, POSE, ANGLES, np.nan), "max_range_m must be a positive"),
+    (lambda: bm.ranges(WALLS, GRID, [0.5, 0.5], ANGLES, 5.0), r"poses has shape \(1, 2\), expected \(S, 3\)"),
+    (lambda: bm.ranges(WALLS, GRID, [0.5, np.nan, 0], ANGLES, 5.0), "pose of scan 0 is not finite"),
+    (lambda: bm.ranges(WALLS, GRID, POSE, [], 5.0), "at least one beam"),
+    (lambda: bm.ranges(WALLS, GRID, POSE, [0.0, np.inf], 5.0), "angle of beam 1 is not finite: inf"),
+    (lambda: simulated(max_range_m=np.inf), "max_range_m must be a positive"),
+    (lambda: simulated(opacity=np.ones((2, 2))), "opacity"), (lambda: simulated(seed=-1), "seed"),
+    (lambda: bm.load("nowhere.nc"), "nowhere.nc: no such file"), (lambda: bm.read_log("nowhere.log"), "nowhere.log"),
+])  # fmt: skip
 def test_bad_input_is_refused_before_anything_is_done(make, message):
     with pytest.raises(bm.BadInput, match=message):
         make()
 
 
-def test_numpy_s_numbers_are_numbers(scans):
+def test_numpy_s_numbers_are_numbers_and_walls_of_any_number_type_are_walls(scans):
     """Seeds from np.arange and noise levels from np.linspace are what loops over settings hand in."""
+    expected = bm.ranges(WALLS, GRID, POSE, ANGLES, 5.0)
+    for dtype in (np.uint8, np.int64, np.float64):
+        np.testing.assert_array_equal(bm.ranges(WALLS.astype(dtype), GRID, POSE, ANGLES, 5.0), expected)
     plain = infer(scans, seed=3, chains=2, draws=4, prior=bm.Independent(0.25), sensor=bm.Gaussian(0.5))
     numpy = infer(
         scans, seed=np.int64(3), chains=np.int32(2), draws=np.int64(4), prior=bm.Independent(np.float32(0.25)),
         sensor=bm.Gaussian(np.float32(0.5)), hit_depth=np.float32(0.0),
     )  # fmt: skip
     np.testing.assert_array_equal(numpy.draws, plain.draws)
-
-
-def test_walls_of_any_number_type_are_walls(scans):
-    expected = bm.ranges(WALLS, GRID, POSE, ANGLES, 5.0)
-    for dtype in (np.uint8, np.int64, np.float64):
-        np.testing.assert_array_equal(bm.ranges(WALLS.astype(dtype), GRID, POSE, ANGLES, 5.0), expected)
 
 
 def test_infer_does_not_touch_its_arguments(scans):
@@ -220,14 +206,9 @@ def test_infer_does_not_touch_its_arguments(scans):
 
 def test_nothing_is_printed():
     """Not by Warp either: standard output belongs to the user."""
-    code = (
-        "import numpy as np, bayesmap as bm\n"
-        "w, p = bm.worlds.tutorial()\n"
-        "bm.ranges(w, bm.worlds.TUTORIAL_GRID, p, [0.0], 5.0)\n"
-    )
+    code = "import bayesmap as bm; w, p = bm.worlds.tutorial(); bm.ranges(w, bm.worlds.TUTORIAL_GRID, p, [0.0], 5.0)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout == ""
-    assert done.stderr == ""
+    assert (done.stdout, done.stderr) == ("", "")
 
 
 def test_results_print_as_a_few_short_lines(run, scans):

@@ -65,28 +65,25 @@ LIMIT_S = 6.0
 """Of processor time: 3 s on a quiet core, and twice that where another thread keeps the same core busy."""
 
 
-@pytest.fixture(scope="module")
-def collection(tmp_path_factory):
-    told = tmp_path_factory.mktemp("collection") / "told.json"
-    path = os.pathsep.join([str(ROOT / "src"), os.environ.get("PYTHONPATH", "")])
+def run_python(arguments, folder, path):
+    """Run Python in a folder with a PYTHONPATH, without pytest's own environment; return its output."""
     environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTEST_")}
-    command = [sys.executable, "-c", COLLECT, str(told)]
-    done = subprocess.run(
-        command, cwd=ROOT, env=environment | {"PYTHONPATH": path}, capture_output=True, text=True, check=False
-    )
+    options = {"env": environment | {"PYTHONPATH": path}, "cwd": folder, "text": True}
+    done = subprocess.run([sys.executable, *arguments], capture_output=True, check=False, **options)
     assert done.returncode == 0, done.stdout + done.stderr
-    return json.loads(told.read_text())
+    return done.stdout
 
 
-def test_collecting_all_tests_opens_starts_and_writes_nothing(collection):
-    """What a module makes at import every worker makes, and a failure there ends the whole run."""
+def test_collecting_all_tests_takes_little_and_opens_starts_and_writes_nothing(tmp_path):
+    """Every worker makes what a module makes at import, and a failure there ends the whole run."""
+    told = tmp_path / "told.json"
+    path = os.pathsep.join([str(ROOT / "src"), os.environ.get("PYTHONPATH", "")])
+    run_python(["-c", COLLECT, str(told)], ROOT, path)
+    collection = json.loads(told.read_text())
     assert collection["code"] == 0
     assert collection["tests"] > 1000
     assert collection["events"] == []
     assert collection["started"] == {"JAX": False, "Warp": False}
-
-
-def test_collecting_all_tests_takes_little(collection):
     assert collection["used_s"] < LIMIT_S
 
 
@@ -95,7 +92,7 @@ def not_run(request):
     return request.config.pluginmanager.get_plugin(str(TESTS / "conftest.py")).not_run
 
 
-def test_what_was_not_run_is_counted_by_its_remedy(not_run):
+def test_tests_that_were_not_run_are_counted_by_their_remedy(not_run):
     browser = "no Chromium (apt install chromium-headless-shell)"
     log = "/somewhere/a.log is not there (set BAYESMAP_DATA)"
     assert not_run([browser, log, "no GPU", browser, log.replace("a.log", "b.log")], 7) == [
@@ -129,13 +126,8 @@ def test_the_last_lines_say_what_was_not_run_and_how_to_run_it(tmp_path, workers
     (tmp_path / "conftest.py").write_text((TESTS / "conftest.py").read_text())
     (tmp_path / "pytest.ini").write_text("[pytest]\nmarkers = full: of the second tier\n")
     options = ["-n", str(workers), "--dist", "loadgroup", *(["--full"] if full else [])]
-    command = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", *options]
-    environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTEST_")}
     path = os.pathsep.join([str(ROOT / "src"), str(TESTS), os.environ.get("PYTHONPATH", "")])
-    done = subprocess.run(
-        command, cwd=tmp_path, env=environment | {"PYTHONPATH": path}, capture_output=True, text=True, check=False
-    )
-    assert done.returncode == 0, done.stdout + done.stderr
-    assert ("4 passed, 1 skipped" if full else "1 passed, 1 skipped") in done.stdout
-    assert "1 browser test skipped: no Chromium (apt install chromium-headless-shell)" in done.stdout
-    assert ("tier `full` not selected: 3 tests (make test-all)" in done.stdout) != full
+    told = run_python(["-m", "pytest", "-p", "no:cacheprovider", *options], tmp_path, path)
+    assert ("4 passed, 1 skipped" if full else "1 passed, 1 skipped") in told
+    assert "1 browser test skipped: no Chromium (apt install chromium-headless-shell)" in told
+    assert ("tier `full` not selected: 3 tests (make test-all)" in told) != full

@@ -65,9 +65,8 @@ def distance_to_pixel(pos, direction, pixel, wall):
 
 def distance_to_pixels(pos, direction, walls):
     def row(i, cells):
-        return jax.vmap(lambda j, wall: distance_to_pixel(pos, direction, jnp.array([i, j]), wall))(
-            jnp.arange(walls.shape[1]), cells
-        )
+        distance = lambda j, wall: distance_to_pixel(pos, direction, jnp.array([i, j]), wall)  # noqa: E731
+        return jax.vmap(distance)(jnp.arange(walls.shape[1]), cells)
 
     return jnp.minimum(jnp.min(jax.vmap(row)(jnp.arange(walls.shape[0]), walls)), MAX_DISTANCE)
 

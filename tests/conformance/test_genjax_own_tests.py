@@ -25,7 +25,7 @@ def failed(found):
     return {name for name, passed in found.items() if not passed}
 
 
-def test_of_some_files_just_the_listed_tests_do_not_pass():
+def test_only_the_listed_tests_of_three_files_fail():
     found = outcomes(*SOME)
     files = tuple(Path(name).name for name in SOME)
     assert failed(found) == {name for name in LISTED if name.startswith(files)}

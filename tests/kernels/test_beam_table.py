@@ -2,8 +2,7 @@
 
 import numpy as np
 import pytest
-from oracle.enumeration import all_maps
-from oracle.formula import beams, distances
+from oracle.enumeration import all_maps, beams, distances
 from oracle.worlds import OwnSensor, make_case
 from test_rays import GRID, random_scans
 
@@ -26,11 +25,17 @@ of nats a metre."""
 
 
 @pytest.mark.parametrize("name", SENSORS)
-def test_the_log_likelihood_of_a_map_is_the_sum_over_beams_at_the_oracle_s_distances(name):
+def test_the_log_likelihood_of_a_map_is_the_sum_over_beams_at_the_oracle_s_distances(name, monkeypatch):
+    """The compiled likelihood, and that of NumPy for a sensor without formulas for kernels."""
+    monkeypatch.setattr(tracing, "SLICE", 100)  # several slices, not one
     sensor = SENSORS[name]
     for seed in range(10):
         scans = random_scans(seed)
-        table = trace(scans, GRID, sensor)
+        table, plain = trace(scans, GRID, sensor), trace(scans, GRID, OwnSensor(sensor))
+        np.testing.assert_array_equal(table.offsets, plain.offsets)
+        np.testing.assert_array_equal(table.cells, plain.cells)
+        np.testing.assert_allclose(table.loglik, plain.loglik, rtol=FLOAT32, atol=FLOAT32)
+        np.testing.assert_allclose(table.no_hit, plain.no_hit, rtol=1e-6, atol=1e-6)
         walls = np.random.default_rng([seed, 1]).random(GRID.shape) < [0.02, 0.1, 0.3, 0.9][seed % 4]
         starts, angles = beams(scans.poses, scans.angles_rad, GRID)
         d = distances(walls, starts, angles) * GRID.resolution
@@ -38,18 +43,6 @@ def test_the_log_likelihood_of_a_map_is_the_sum_over_beams_at_the_oracle_s_dista
         expected = sensor.log_likelihood(z, d, limits)
         np.testing.assert_allclose(table.beam_log_likelihoods(walls), expected, atol=FLAT_NATS + FLOAT32, rtol=1e-5)
         assert table.log_likelihood(walls) == pytest.approx(expected.sum(), abs=len(z) * (FLAT_NATS + FLOAT32))
-
-
-@pytest.mark.parametrize("name", SENSORS)
-def test_the_compiled_likelihood_equals_numpy_s(name, monkeypatch):
-    monkeypatch.setattr(tracing, "SLICE", 100)  # several slices, not one
-    for seed in range(5):
-        scans = random_scans(seed)
-        compiled, plain = trace(scans, GRID, SENSORS[name]), trace(scans, GRID, OwnSensor(SENSORS[name]))
-        np.testing.assert_array_equal(compiled.offsets, plain.offsets)
-        np.testing.assert_array_equal(compiled.cells, plain.cells)
-        np.testing.assert_allclose(compiled.loglik, plain.loglik, rtol=FLOAT32, atol=FLOAT32)
-        np.testing.assert_allclose(compiled.no_hit, plain.no_hit, rtol=1e-6, atol=1e-6)
 
 
 def test_a_robust_table_is_much_smaller_and_a_map_of_another_shape_is_refused():
@@ -72,7 +65,7 @@ def test_hit_depth_moves_hits_into_the_cell_by_that_share_of_the_chord(depth):
 
 
 @pytest.mark.parametrize("name", SENSORS)
-def test_the_index_is_a_permutation_of_the_table(name):
+def test_the_index_is_a_permutation_of_the_table_in_which_incidences_that_could_gain_come_first(name):
     table = trace(random_scans(1), GRID, SENSORS[name])
     index = index_by_cell(table)
     np.testing.assert_array_equal(np.sort(index.entry), np.arange(table.n_incidences))
@@ -81,15 +74,26 @@ def test_the_index_is_a_permutation_of_the_table(name):
     np.testing.assert_array_equal(table.loglik[index.entry], index.loglik)
     assert (table.offsets[index.beam] <= index.entry).all()
     assert (index.entry < table.offsets[index.beam + 1]).all()
+    for c in range(GRID.n_cells):
+        gain = -np.diff(np.append(index.gain_bound[index.offsets[c] : index.offsets[c + 1]], 0.0))
+        first_small = np.append(np.flatnonzero(gain < 5e-4), len(gain))[0]  # the kernel's limit is 1e-3 nats
+        assert (gain[first_small:] < 2e-3).all()
 
 
 @pytest.mark.parametrize("sensor", [bm.Gaussian(0.3), bm.BeamMixture(bm.Gaussian(0.1))], ids=["gaussian", "mixture"])
 @pytest.mark.parametrize("seed", range(4))
-def test_the_gain_bound_bounds_what_the_rest_of_a_cell_can_add(sensor, seed):
-    """Over all 512 maps of 3 x 3 cells: the gains of an incidence and those after it never add up to more."""
+def test_the_index_bounds_what_walls_can_add(sensor, seed):
+    """Over all 512 maps of 3 x 3 cells.
+
+    The gains of an incidence and of those after it in its cell never exceed the bound. The advantage is the least that
+    a wall is worth to a beam that hits it, in some map.
+    """
     case = make_case(seed, shape=(3, 3), n_poses=3, sensor=sensor)
     table = case.problem().table
     index = index_by_cell(table)
+    for b, e, advantage in zip(index.beam, index.entry, index.advantage, strict=True):
+        behind = np.append(table.loglik[e + 1 : table.offsets[b + 1]], table.no_hit[b])
+        assert advantage == pytest.approx(table.loglik[e] - behind.max(), abs=1e-5)
     maps = all_maps(9)
     for c in range(9):
         gains = np.zeros((len(maps), index.offsets[c + 1] - index.offsets[c]))
@@ -101,25 +105,6 @@ def test_the_gain_bound_bounds_what_the_rest_of_a_cell_can_add(sensor, seed):
         rest = np.cumsum(gains[:, ::-1], axis=1)[:, ::-1]
         bound = index.gain_bound[index.offsets[c] : index.offsets[c + 1]]
         assert (rest <= bound + 1e-4).all()  # sums of some dozen single-precision terms of up to some hundred nats
-
-
-@pytest.mark.parametrize("seed", range(4))
-def test_the_lead_is_the_least_that_a_wall_can_be_worth(seed):
-    """To a beam that hits it, over all maps of 3 x 3 cells; and some map has just that."""
-    table = make_case(seed, shape=(3, 3), n_poses=3, sensor=bm.BeamMixture(bm.Gaussian(0.2))).problem().table
-    index = index_by_cell(table)
-    for b, e, advantage in zip(index.beam, index.entry, index.advantage, strict=True):
-        behind = np.append(table.loglik[e + 1 : table.offsets[b + 1]], table.no_hit[b])
-        assert advantage == pytest.approx(table.loglik[e] - behind.max(), abs=1e-5)
-
-
-def test_incidences_that_could_gain_come_first():
-    index = index_by_cell(trace(random_scans(2), GRID, SENSORS["mixture"]))
-    for c in range(GRID.n_cells):
-        bound = np.append(index.gain_bound[index.offsets[c] : index.offsets[c + 1]], 0.0)
-        gain = -np.diff(bound)
-        first_small = np.append(np.flatnonzero(gain < 5e-4), len(gain))[0]  # the kernel's limit is 1e-3 nats
-        assert (gain[first_small:] < 2e-3).all()
 
 
 def test_table_and_index_do_not_depend_on_the_number_of_threads(monkeypatch):

@@ -1,4 +1,4 @@
-"""An endpoint cell's beams eight at a time say what they say one by one."""
+"""Fast ways of a sweep over surfaces: beams eight at a time, and lazy cells passed in one step, change no chain."""
 
 from functools import cache
 
@@ -9,6 +9,7 @@ from tiers import latin
 
 import bayesmap as bm
 from bayesmap.kernels.sensor_law import SensorLaw32, sensor_law
+from bayesmap.kernels.surfaces import stops
 from bayesmap.kernels.surfaces.cell import centre_of
 from bayesmap.kernels.surfaces.cell_draws import ActiveCells
 from bayesmap.kernels.surfaces.endpoint_beams import (
@@ -23,8 +24,11 @@ from bayesmap.kernels.surfaces.endpoint_beams import (
 from bayesmap.kernels.surfaces.endpoint_cells import NO_LEAST, BeamLists, listed_of, log_beams
 from bayesmap.kernels.surfaces.stops import ChainArrays, TracedRays
 from bayesmap.model import Model
+from bayesmap.samplers import initial_estimate
 from bayesmap.samplers.stop_gibbs import StopGibbs
 from bayesmap.sensors.model import RangeLimits
+
+wp.set_module_options({"enable_backward": False})
 
 PRIOR = bm.Surface(0.5, 1.0, mean_scale=0.4, spread=0.3, dof=3.0)
 HARD = bm.BeamMixture(bm.Gaussian(0.02, 0.01), p_random=0.05, p_no_return=0.1)
@@ -33,9 +37,6 @@ SHARP = bm.BeamMixture(bm.Gaussian(0.001), p_random=1e-9)
 TAILS = bm.BeamMixture(bm.StudentT(0.01, 5.0, 0.005), p_random=0.02, p_no_return=0.05)
 
 SENSORS = {"hard": HARD, "crowd": CROWD, "sharp": SHARP, "heavy tails": TAILS}
-
-
-wp.set_module_options({"enable_backward": False})
 
 
 @wp.kernel
@@ -81,7 +82,7 @@ def scans_of_a_room(rng, scans=60, beams=90):
 
 @cache
 def weighed(sensor, seed, worse=0.0):
-    """What `both_ways` says of a room's endpoint cells after a few sweeps, with random other surfaces.
+    """Weigh a room's endpoint cells by `both_ways` after a few sweeps, with random other surfaces.
 
     Returns (cells,) each: one by one, the leasts, in lanes, all beams, cut short, those without a lane, and stopped.
     """
@@ -108,7 +109,7 @@ def weighed(sensor, seed, worse=0.0):
 
 @pytest.mark.parametrize(("name", "worse"), latin(2, list(SENSORS), [0.0, 0.05]))
 def test_eight_at_a_time_say_what_each_says(name, worse):
-    """Where surfaces stand, and beside it."""
+    """Surfaces stand where their readings end, or beside it."""
     plain, least, lanes, whole, cut, others, stopped = weighed(SENSORS[name], 10, worse)
     close = 2e-5 * (1 + np.abs(plain)) + 2e-5 * stopped
     assert np.all(np.abs(whole - plain) <= close)
@@ -144,3 +145,66 @@ def test_lanes_are_for_mixtures_with_normal_noise_or_few_and_odd_degrees_of_free
     out = wp.zeros(1, dtype=wp.int32)
     wp.launch(is_for_lanes, dim=1, inputs=[law, beta, out])
     assert out.numpy()[0] == takes
+
+
+GRID = bm.Grid((40, 40), resolution=0.25)
+SENSOR = bm.BeamMixture(bm.Gaussian(0.03), p_random=0.05, p_no_return=0.05, p_short=0.05)
+PRIORS = {"reflectivities": bm.Beta(0.3, 1.0), "surfaces": bm.Surface(0.3, 1.0)}
+SWEEPS = 40
+
+
+@pytest.fixture(scope="module", params=PRIORS)
+def problem(request):
+    """A square room, seen from many places."""
+    rng = np.random.default_rng(5)
+    poses = np.column_stack([*rng.uniform(3.0, 7.0, (2, 60)), rng.uniform(-np.pi, np.pi, 60)])
+    walls = np.zeros(GRID.shape, dtype=bool)
+    walls[4:36, [4, 35]] = walls[[4, 35], 4:36] = True
+    scans = bm.simulate(walls, GRID, poses, np.linspace(-2.0, 2.0, 40), sensor=SENSOR, max_range_m=12.0, seed=3)
+    return StopGibbs().prepare(Model(scans, GRID, PRIORS[request.param], SENSOR), "cpu", 1)
+
+
+def swept(problem, sweeps=SWEEPS, resume=None):
+    """Log-likelihoods of each sweep, (1, sweeps), and a snapshot of the chain."""
+    sampler = StopGibbs()
+    state, info = sampler.step(sampler.init(problem, [0], 7, resume), sweeps)
+    return info.log_likelihood, sampler.snapshot(state)
+
+
+@pytest.fixture(scope="module")
+def whole(problem):
+    return swept(problem)
+
+
+def test_chains_are_those_of_beams_that_walk_all_their_cells(problem, whole, monkeypatch):
+    assert len({round(value, 3) for value in whole[0][0]}) > 4
+    monkeypatch.setattr(stops.UpdateSchedule, "updates_lazy", lambda self, sweep: True)
+    np.testing.assert_allclose(whole[0], swept(problem)[0], rtol=1e-5)
+
+
+def test_cells_that_were_let_pass_unseen_would_be_noticed(problem, whole, monkeypatch):
+    """The wrong twin: beams pass lazy cells as if these stopped none."""
+    mark_watched = stops.UpdateSchedule.mark_watched
+
+    def forgetful(self, rays, device):
+        lazy = mark_watched(self, rays, device)
+        lazy.zero_()
+        return lazy
+
+    monkeypatch.setattr(stops.UpdateSchedule, "mark_watched", forgetful)
+    assert abs(whole[0] - swept(problem)[0]).max() > 1.0
+
+
+@pytest.mark.parametrize("first", [3, 9, 16])
+def test_chains_that_go_on_between_two_updates_are_those_that_never_stopped(problem, whole, first):
+    _, begun = swept(problem, first)
+    rest, resumed = swept(problem, SWEEPS - first, begun)
+    np.testing.assert_array_equal(whole[0][:, first:], rest)
+    np.testing.assert_array_equal(whole[1].arrays["state"], resumed.arrays["state"])
+
+
+def test_lazy_cells_are_updated_together_and_seldom(problem):
+    every = initial_estimate.update_periods(problem.estimate)
+    assert {2, 8, 16} <= set(every.tolist())
+    schedule = stops.UpdateSchedule(problem.rays, every)
+    assert [sweep for sweep in range(32) if schedule.updates_lazy(sweep)] == [0, 8, 16, 24]

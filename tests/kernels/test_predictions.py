@@ -1,6 +1,7 @@
 """Predictive densities, cumulatives, quantiles and first-hit events against plain sums over cells and draws.
 
-A scan's likelihood at a pose equals what tracing the beams from there and predicting their readings says.
+A scan's likelihood at a pose equals the likelihood of beams that are traced from there, by the fast law and the plain
+one.
 """
 
 import dataclasses
@@ -14,10 +15,13 @@ from oracle.worlds import OwnSensor
 from tiers import latin
 
 import bayesmap as bm
-from bayesmap.kernels.predict.density import forecast, log_densities
+from bayesmap.kernels.match.fields import field_sums
+from bayesmap.kernels.predict.density import LEAST_CHANCE, device_maps, forecast, log_densities
+from bayesmap.kernels.predict.pose_weights import scan_log_likelihood
 from bayesmap.kernels.predict.scan_likelihood import ScanLikelihood
 from bayesmap.kernels.predict.stop_mixture import first_hit_events, mix_stops, range_quantiles
 from bayesmap.kernels.rays import trace_rays
+from bayesmap.sensors.model import RangeLimits
 
 GRID = bm.Grid((8, 6), 0.5, (-1.0, 2.0))
 SENSORS = {
@@ -47,7 +51,7 @@ def world(seed, kind="partial", poses=3):
 
 
 def batches(rays, *maps):
-    """Maps of the whole grid as predictions take them: the cells that beams touch."""
+    """Return maps of the whole grid as predictions take them: the cells that beams touch."""
     return [m[:, rays.touched] for m in maps]
 
 
@@ -209,7 +213,7 @@ def test_a_sensor_of_the_user_s_own_predicts_by_a_table_what_its_formula_says(na
     assert np.quantile(away, 0.95) < 0.05
 
 
-def test_what_cannot_be_predicted_is_refused():
+def test_predictions_without_draws_or_a_proper_density_are_refused():
     half = OwnSensor(bm.StudentT(0.1), 0.5)
     scans, maps = world(70)
     rays = trace_rays(scans, GRID)
@@ -223,7 +227,7 @@ def test_what_cannot_be_predicted_is_refused():
 
 
 def predicted(scans, maps, sensor):
-    """The same by tracing, one map after the other, (maps, S, A), invalid readings 0."""
+    """Log-likelihoods by tracing, one map after the other, (maps, S, A), invalid readings 0."""
     rays = trace_rays(scans, GRID)
     found = [log_densities(rays, [m[None, rays.touched]], sensor, DEPTH) for m in maps]
     return np.nan_to_num(np.array(found)).reshape(len(maps), *scans.ranges_m.shape)
@@ -271,5 +275,80 @@ def test_beams_that_left_while_the_sensor_moved_move_with_their_scan_and_company
     poses = np.repeat(scans.poses, 50, axis=0) + np.random.default_rng(1).normal(0, 0.2, (len(scan), 3))
     chain = np.zeros(len(scan), dtype=int)
     together = likelihood(maps, poses, scan, chain)
-    alone = [likelihood(maps, poses[i : i + 1], scan[i : i + 1], chain[i : i + 1])[0] for i in range(0, len(scan), 7)]
-    assert (together[::7] == alone).all()
+    for i in range(0, len(scan), 7):
+        assert likelihood(maps, poses[i : i + 1], scan[i : i + 1], chain[i : i + 1])[0] == together[i]
+
+
+LARGE_GRID = bm.Grid((60, 50), 0.1, (-1.0, 2.0))
+LASER = bm.BeamMixture(bm.Gaussian(0.02, 0.005), p_random=0.01, p_no_return=0.05, p_short=0.05)
+TAILS = bm.BeamMixture(bm.StudentT(0.02, 9.0, 0.005), p_random=0.01, p_no_return=0.05, p_short=0.05)
+FIELD_GRID = bm.Grid((30, 20), 0.1, (-1.0, 0.5))
+ANGLES = np.radians(np.arange(60) * 6.0)
+
+
+def states(kind, rng):
+    stop = np.where(rng.random((3, LARGE_GRID.n_cells)) < 0.05, rng.uniform(0.2, 1.0, (3, LARGE_GRID.n_cells)), 4e-3)
+    return stop.astype(np.float32) if kind == "plain" else surfaces_of(rng, LARGE_GRID, stop)
+
+
+def random_poses(rng, count, low, high):
+    """Draw poses with x, y between two corners and any heading, (count, 3)."""
+    return rng.uniform([*low, -4], [*high, 4], (count, 3))
+
+
+@pytest.mark.parametrize("laser", [LASER, TAILS], ids=["normal", "heavy tails"])
+@pytest.mark.parametrize("kind", ["plain", "surfaces"])
+def test_the_fast_law_is_the_plain_one(kind, laser):
+    rng = np.random.default_rng(1)
+    maps = states(kind, rng)
+    poses = random_poses(rng, 40, (-1.5, 1.5), (5.5, 7.5))
+    ranges = rng.uniform(0.0, 6.0, (2, 60))
+    ranges[:, ::7], ranges[0, 3], ranges[1, 4] = np.inf, np.nan, -np.inf
+    which, limits = rng.integers(0, 2, 40), RangeLimits(0.1, 6.0)
+    fast = scan_log_likelihood(device_maps([maps], LARGE_GRID, 0.5), poses, ANGLES, ranges, laser, limits, scan=which)
+    plain = ScanLikelihood(bm.Scans(np.zeros((2, 3)), ANGLES, ranges, 6.0, 0.1), LARGE_GRID, laser, 0.5)
+    for draw in range(3):
+        expected = plain(maps, poses, which, np.full(40, draw))
+        np.testing.assert_allclose(fast[:, draw], expected, rtol=2e-5, atol=2e-3)
+
+
+def test_cells_that_hardly_ever_stop_a_beam_cost_all_poses_alike():
+    """A beam that reads 4 m has passed some forty of them: what they take off differs little from pose to pose."""
+    rng = np.random.default_rng(3)
+    maps = states("plain", rng)
+    maps[maps < 0.1] = 0.9 * LEAST_CHANCE
+    poses = random_poses(rng, 40, (1, 4), (3, 5))
+    ranges = rng.uniform(0.0, 6.0, (1, 60))
+    packed, limits = device_maps([maps], LARGE_GRID, 0.5), RangeLimits(0.1, 6.0)
+    fast = scan_log_likelihood(packed, poses, ANGLES, ranges, LASER, limits)
+    plain = ScanLikelihood(bm.Scans(np.zeros((1, 3)), ANGLES, ranges, 6.0, 0.1), LARGE_GRID, LASER, 0.5)
+    for draw in range(3):
+        less = fast[:, draw] - plain(maps, poses, np.zeros(40, int), np.full(40, draw))
+        assert less.min() > 0.0
+        assert less.max() < 0.06 * len(ANGLES)
+        assert less.std() < 0.01 * len(ANGLES)
+
+
+def test_poses_are_weighed_under_first_draws_or_one_in_turn_and_sums_of_a_field_are_the_plain_formula_s():
+    rng = np.random.default_rng(4)
+    packed = device_maps([states("surfaces", rng)], LARGE_GRID, 0.5)
+    poses = random_poses(rng, 7, (0, 3), (4, 6))
+    given = (packed, poses, ANGLES, rng.uniform(0, 6, 60), LASER, RangeLimits(0.0, 6.0))
+    every = scan_log_likelihood(*given)
+    np.testing.assert_array_equal(scan_log_likelihood(*given, draws=2), every[:, :2])
+    turns = scan_log_likelihood(*given, in_turn=True)
+    np.testing.assert_array_equal(turns[:, 0], every[np.arange(7), np.arange(7) % 3])
+    rng = np.random.default_rng(0)
+    field = rng.integers(0, 256, FIELD_GRID.shape).astype(np.uint8)
+    points, poses = rng.uniform(-2, 2, (40, 2)), random_poses(rng, 50, (-1, 0.5), (2, 2.5))
+    cos, sin = np.cos(poses[:, 2:]), np.sin(poses[:, 2:])
+    x = cos * points[:, 0] - sin * points[:, 1] + poses[:, :1]
+    y = sin * points[:, 0] + cos * points[:, 1] + poses[:, 1:2]
+    cells = FIELD_GRID.to_cells(np.stack([x, y], axis=-1))
+    assert np.abs(cells - np.round(cells)).min() > 1e-5  # none lies so near a line that single precision decides
+    i, j = np.moveaxis(np.floor(cells).astype(int), -1, 0)
+    inside = (i >= 0) & (j >= 0) & (i < 30) & (j < 20)
+    expected = np.where(inside, field[np.clip(i, 0, 29), np.clip(j, 0, 19)], 0).sum(axis=1)
+    assert inside.any()
+    assert not inside.all()
+    np.testing.assert_array_equal(field_sums(field, FIELD_GRID, points, poses), expected)

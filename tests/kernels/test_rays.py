@@ -1,18 +1,24 @@
-"""Rays hold the cells that the tutorial's formula finds, in order, and where in them the beam is follows from its
-line.
+"""Rays hold the cells that the tutorial's formula finds, in order, and ray casting gives its distances.
+
+Distances jump where a beam grazes a corner, so a cast beam is judged only where the formula itself is sure: where it
+gives the same with edges that are 1e-11 and 1e-7 cells longer than the cell's side. It is sure of beams that touch a
+corner exactly: rounding moves them by less than 1e-11.
 """
 
 import dataclasses
 
 import numpy as np
 import pytest
-from oracle.formula import beams, touches
+from hypothesis import given
+from hypothesis import strategies as st
+from oracle.enumeration import beams, distances, touches
 from oracle.stop_worlds import scans_of_all_kinds
 
 import bayesmap as bm
 from bayesmap.beams.rays import Rays, around_readings
 from bayesmap.kernels.counts import count_hits
 from bayesmap.kernels.rays import stop_distances, trace_rays
+from bayesmap.kernels.walk import cast
 from bayesmap.kernels.walls.table import trace
 
 GRID = bm.Grid((13, 9), 0.25, (3.0, -1.0))
@@ -59,25 +65,20 @@ def test_cells_and_where_they_are_entered_are_the_formula_s(kind):
 
 @EVERYWHERE
 def test_a_stretch_begins_and_ends_on_its_cell_s_border_and_the_next_begins_no_earlier(kind):
-    rays, edge = trace_rays(random_scans(4, lattice=KINDS[kind]), GRID), GRID.resolution
-    enter, leave = rays.stretches()
-    beam, low = rays.beam_of_entry(), np.stack([rays.cells // GRID.shape[1], rays.cells % GRID.shape[1]], -1)
-    for distance, on_border in ((enter, True), ((enter + leave) / 2, False), (leave, True)):
-        at = (rays.start_m[beam] + distance[:, None] * rays.direction[beam]) / edge - low
-        assert ((at > -1e-8) & (at < 1 + 1e-8)).all()
-        if on_border:
-            assert (np.minimum(np.abs(at), np.abs(1 - at)).min(axis=1) < 1e-8).all()
-    assert (leave >= enter).all()
-    for b in range(rays.n_beams):
-        assert (np.diff(of_beam(enter, rays, b)) > -1e-9).all()
-
-
-@EVERYWHERE
-def test_compiled_stops_are_the_given_part_of_the_stretch(kind):
+    """Compiled stops lie at the given part of the stretch."""
     for seed, depth in enumerate((0.0, 0.25, 0.5, 1.0)):
         rays = trace_rays(random_scans(seed, lattice=KINDS[kind]), GRID)
         enter, leave = rays.stretches()
         np.testing.assert_allclose(stop_distances(rays, depth), enter + depth * (leave - enter), rtol=1e-6, atol=1e-8)
+    edge, beam = GRID.resolution, rays.beam_of_entry()
+    low = np.stack([rays.cells // GRID.shape[1], rays.cells % GRID.shape[1]], -1)
+    for distance, on_border in ((enter, True), ((enter + leave) / 2, False), (leave, True)):
+        at = (rays.start_m[beam] + distance[:, None] * rays.direction[beam]) / edge - low
+        assert ((at > -1e-8) & (at < 1 + 1e-8)).all()
+        assert not on_border or (np.minimum(np.abs(at), np.abs(1 - at)).min(axis=1) < 1e-8).all()
+    assert (leave >= enter).all()
+    for b in range(rays.n_beams):
+        assert (np.diff(of_beam(enter, rays, b)) > -1e-9).all()
 
 
 def test_a_start_next_to_a_grid_line_counts_as_on_it_in_the_walk_and_in_the_stretches():
@@ -202,3 +203,78 @@ def test_hits_and_passes_are_those_of_a_slow_count(kind):
         found = count_hits(scans, GRID)
         np.testing.assert_array_equal(found[0], hits)
         np.testing.assert_array_equal(found[1], passes)
+
+
+LONGEST = 60.0
+CELLS = 1e-9  # rounding over a few dozen cells is a thousand times smaller
+
+seeds = st.integers(0, 2**32 - 1)
+shapes = st.tuples(st.integers(1, 12), st.integers(1, 12))
+densities = st.sampled_from([0.05, 0.3, 0.7, 1.0])
+halves = st.integers(-8, 40).map(lambda n: n / 2)  # on lines, on corners, in cells' middles, in and out of the grid
+anywhere = st.floats(-5, 17, allow_nan=False)
+slopes = st.tuples(st.integers(-9, 9), st.integers(-9, 9)).filter(lambda s: s != (0, 0))
+
+
+def random_walls(seed, shape, density):
+    return np.random.default_rng(seed).random(shape) < density
+
+
+def assert_equal_to_the_formula(walls, starts, angles):
+    """Returns how many beams the formula was sure of."""
+    expected = distances(walls, starts, angles, longest=LONGEST)
+    sure = np.abs(expected - distances(walls, starts, angles, longest=LONGEST, slack=1e-7)) < CELLS
+    found, _ = cast(walls, starts, angles, LONGEST)
+    np.testing.assert_allclose(found[sure], expected[sure], atol=CELLS, rtol=0)
+    return sure.sum()
+
+
+@given(seeds, shapes, densities)
+def test_from_anywhere_at_any_angle(seed, shape, density):
+    rng = np.random.default_rng(seed)
+    starts = rng.uniform(-3, np.array(shape) + 3, (40, 2))
+    sure = assert_equal_to_the_formula(random_walls(seed, shape, density), starts, rng.uniform(-7, 7, 40))
+    assert sure >= 39
+
+
+@given(seeds, shapes, densities, halves, halves, slopes)
+def test_through_corners_and_along_lines_at_rational_slopes(seed, shape, density, x, y, slope):
+    walls = random_walls(seed, shape, density)
+    assert assert_equal_to_the_formula(walls, np.array([[x, y]]), np.array([np.arctan2(*slope)])) == 1
+
+
+@given(seeds, shapes, anywhere, halves, st.sampled_from([0.0, np.pi / 2, np.pi, -np.pi / 2]))
+def test_along_the_axes_from_anywhere(seed, shape, x, y, angle):
+    walls = random_walls(seed, shape, 0.4)
+    assert_equal_to_the_formula(walls, np.array([[x, y], [y, x]]), np.array([angle, angle]))
+
+
+@given(st.integers(-6, 6), st.integers(-6, 6), st.floats(1e-12, 1e-6), st.sampled_from([-1, 1]))
+def test_beams_a_hair_off_an_axis(x, y, tilt, sign):
+    """Around the angle where a direction starts to count as parallel to an edge."""
+    angle = np.array([0, 1, 2, 3]) * np.pi / 2 + sign * tilt
+    starts = np.tile([x + 0.5, y + 0.25], (4, 1))
+    assert_equal_to_the_formula(random_walls(1, (7, 7), 0.3), starts, angle)
+
+
+def test_long_beams_and_those_from_far_outside_keep_their_precision_and_look_no_further_than_their_hit():
+    walls = random_walls(2, (8, 8), 0.3)
+    rng = np.random.default_rng(6)
+    aim, angles = rng.uniform(0, 8, (300, 2)), rng.uniform(-np.pi, np.pi, 300)
+    starts = aim - 1e4 * np.column_stack([np.cos(angles), np.sin(angles)])
+    expected = distances(walls, starts, angles, longest=3e4)
+    sure = expected == distances(walls, starts, angles, longest=3e4, slack=1e-6)
+    found, _ = cast(walls, starts, angles, 3e4)
+    assert sure.sum() > 290
+    np.testing.assert_allclose(found[sure], expected[sure], atol=1e-6, rtol=0)  # 1e4 cells away, 1e-12 of them round
+    walls = np.zeros((2000, 2000), dtype=bool)
+    walls[-1, :] = walls[:, -1] = True
+    rng = np.random.default_rng(5)
+    starts, angles = rng.uniform(0, 3, (200, 2)), rng.uniform(0.001, np.pi / 2 - 0.001, 200)
+    found, _ = cast(walls, starts, angles, 1e4)
+    to_x, to_y = (1999 - starts[:, 0]) / np.cos(angles), (1999 - starts[:, 1]) / np.sin(angles)
+    np.testing.assert_allclose(found, np.minimum(to_x, to_y), atol=CELLS, rtol=0)
+    walls = np.zeros((100, 1), dtype=bool)
+    walls[10] = True
+    _, visits = cast(walls, np.array([[0.5, 0.5]]), np.array([0.0]), 1000.0)
+    assert visits[0] <= 11

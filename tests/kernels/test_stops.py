@@ -1,22 +1,34 @@
-"""Half a sweep: beams' stops follow their exact conditional; cells and squares of the grid are told what they mean.
+"""Half a sweep: beams' stops follow their exact conditional, and points of stops their law given the readings.
 
 Many copies of one little world in a known state, swept once, are independent draws of its stops. False alarms: `ALPHA`
-= 1e-4 over this module.
+= 1e-4 over the stops, and over the points.
 """
 
+import math
 from dataclasses import replace
 from functools import cache
 
 import numpy as np
 import pytest
 import scipy
-from oracle.stop_law import joint, paths_of, reading_law, stop_probabilities, stops
+import warp as wp
+from oracle.stop_law import joint, paths_of, reading_law, stops
 from oracle.stop_worlds import centres_of, copies, draw_worlds
-from oracle.verdict import ALPHA, goodness_of_fit, two_sided
+from oracle.verdict import ALPHA, goodness_of_fit
+from oracle.worlds import OwnSensor
+from tiers import full_but
 
 import bayesmap as bm
+from bayesmap.kernels import device
+from bayesmap.kernels.device import Float64s
+from bayesmap.kernels.random import mix
+from bayesmap.kernels.sensor_law import SensorLaw32, object_decay, sensor_law
 from bayesmap.kernels.surfaces.cell_draws import TRIES_EVERY
+from bayesmap.kernels.surfaces.square_counts import stop_point_m
 from bayesmap.samplers.initial_estimate import update_periods
+from bayesmap.sensors.model import RangeLimits
+
+wp.set_module_options({"enable_backward": False})
 
 GRID = bm.Grid((8, 2), 0.25)
 SENSOR = bm.BeamMixture(bm.Gaussian(0.04, 0.01), p_random=0.2, p_no_return=0.1, p_short=0.1, rate_short_per_m=0.6)
@@ -92,19 +104,12 @@ def test_stops_follow_their_exact_conditional_far_ones_too(kind):
         wrong = law * np.append(np.ones(entries), 1.25)
         if 0.05 < law[-1] / law.sum() < 0.95:
             assert goodness_of_fit(counts, wrong / wrong.sum()) < ALPHA / 40
-
-
-def test_wrong_stop_probabilities_would_be_noticed():
-    """The twin: a beam that forgets to lose weight on the way is told from the exact one by the same chi-square."""
-    paths, states, found = stops_counted("plain")
-    stopped, distance, variance = stops(paths, states, True)
-    law = reading_law(paths.range_m[:, None], distance, variance, SENSOR, paths.limits)
-    b, entries = 1, paths.there[1].sum()
-    assert not np.allclose(stop_probabilities(stopped)[b, :-1], stopped[b])
-    weight = np.append((stopped * law)[b, :entries], joint(paths, states, SENSOR, True)[b, -1])
-    counts = found[b, : entries + 1]
-    assert goodness_of_fit(counts, weight / weight.sum()) < ALPHA
-    assert two_sided(counts[-1], counts.sum(), weight[-1] / weight.sum()) < ALPHA
+    # Another twin: a beam that forgets to lose weight on the way.
+    stopped, distance, variance = stops(paths, states, kind == "plain")
+    readings = reading_law(paths.range_m[:, None], distance, variance, SENSOR, paths.limits)
+    n = paths.there[1].sum()
+    wrong = np.append((stopped * readings)[1, :n], joint(paths, states, SENSOR, kind == "plain")[1, -1])
+    assert goodness_of_fit(found[1, : n + 1], wrong / wrong.sum()) < ALPHA / 40
 
 
 @pytest.mark.parametrize("kind", PRIORS)
@@ -172,16 +177,14 @@ def reference_gains(worlds, states, candidates, field):
         stopped, distance, variance = stops(paths, cells, False)
         law = reading_law(paths.range_m[:, None], distance, variance, SENSOR, paths.limits)
         law = np.where(paths.far, floor, law)
-        entry = np.arange(stopped.shape[1])
-        terms.append(
-            np.where(entry < stop, np.log1p(-stopped), np.where(entry == stop, np.log(stopped * law + 1e-300), 0.0))
-        )
+        entry, stays = np.arange(stopped.shape[1]), np.log(stopped * law + 1e-300)
+        terms.append(np.where(entry < stop, np.log1p(-stopped), np.where(entry == stop, stays, 0.0)))
     ratio = np.where(paths.there, terms[1] - terms[0], 0.0)
     return np.bincount(paths.cell.ravel(), ratio.ravel(), len(rays.touched))
 
 
 def test_a_candidate_s_gain_is_the_ratio_of_what_all_beams_say():
-    """Also where a far stop takes back what the cells behind it were told: every beam here may stop far."""
+    """A far stop also takes back the counts of the cells behind it: every beam here may stop far."""
     one = copies(scans_of(READINGS), GRID, PRIORS["surfaces"], SENSOR, 300)
     turns = [sweep for sweep in range(32) if turn_of(one, sweep).any()]
     for sweep in turns[:6]:
@@ -219,7 +222,7 @@ def test_invalid_readings_and_empty_beams_say_nothing_and_draws_do_not_repeat_in
 
 
 def law_of_points(worlds, states, given_reading=True):
-    """Of each beam of one copy: the chance that the point of its stop lies in the square of each of its entries.
+    """The chance that the point of a beam's stop lies in the square of each of its entries, for each beam of one copy.
 
     Returns (B, K), and the chance that the beam passes each, (B, K).
     """
@@ -294,20 +297,92 @@ def test_the_chance_is_a_beta_of_the_counts(in_squares):
     assert scipy.stats.kstest(twin, "uniform").pvalue < ALPHA / TESTS
 
 
-@pytest.mark.parametrize("owner", [4, 5])
-def test_which_cell_a_surface_belongs_to_makes_no_difference(owner):
-    """One wall across the first row, just behind the edge between two of its cells, in the one cell or in the other."""
-    law = bm.BeamMixture(bm.Gaussian(0.02), p_random=0.01, p_no_return=0.01, p_short=0.01)
-    scans = bm.Scans([-0.1, 0.125, 0.0], np.linspace(-0.02, 0.02, 6), np.full((1, 6), 1.37), max_range_m=2.2)
-    world = np.zeros((GRID.n_cells, 6))
-    world[:, 0], world[:, 3], world[:, 5] = 1e-7, 0.05, 0.05
-    wall_x = 1.265  # the edge is at 1.25, the square behind it is that of column 5
-    cell = 2 * owner
-    world[cell] = 0.999, wall_x - (owner + 0.5) * 0.25, 0.0, 0.004, 0.0, 0.12
-    worlds, _, sampler = swept("surfaces", 200, one=world, scans=scans, sensor=law)
-    found = sampler.state.chains.in_squares(0, 0, kept=False)
-    columns = np.arange(GRID.n_cells) // 2
-    stopped = found.stopped[worlds.cells()].reshape(200, -1)
-    share = [stopped[:, columns == column].sum() / stopped.sum() for column in range(8)]
-    assert share[5] > 0.98
-    assert found.passed[worlds.cells()][:, columns == 4].sum() > 0.98 * 6 * 200
+LIMITS = RangeLimits(0.05, 8.0)
+DRAWS, POINT_TESTS = 3000, 20
+
+
+@wp.kernel
+def points(
+    law: SensorLaw32, reading: wp.float32, distance: wp.float32, variance: wp.float32, key: wp.uint64, out: Float64s
+):
+    i = wp.tid()
+    decay = object_decay(law, reading)
+    out[i] = stop_point_m(law, reading, decay, distance, variance, key, wp.uint64(i) * wp.uint64(4))
+
+
+law_of = cache(sensor_law)
+"""The law of a model of the user's own is tabulated, which takes seconds."""
+
+
+def draw_points(sensor, limits, reading_m, distance_m, spread_m, count, seed=0):
+    """Distances at which a beam with this reading was stopped by a surface at about the distance, (count,), metres."""
+    device.start()
+    out = wp.zeros(count, dtype=wp.float64, device="cpu")
+    law = law_of(sensor, limits, "cpu", SensorLaw32)
+    inputs = [law, reading_m, distance_m, spread_m**2, mix(seed, math.floor(1e6 * spread_m)), out]
+    wp.launch(points, dim=count, inputs=inputs, device="cpu")
+    return np.array(out.numpy())
+
+
+@cache
+class Late(OwnSensor):
+    """Readings come late by a third of the noise, so that the law is not symmetric."""
+
+    def __init__(self, sigma_m):
+        super().__init__(bm.BeamMixture(bm.Gaussian(sigma_m), p_random=0.1, p_no_return=0.1, p_short=0.1))
+        self.late_m = sigma_m / 3.0
+
+    def log_likelihood(self, range_m, distance_m, limits):
+        return super().log_likelihood(range_m, distance_m + self.late_m, limits)
+
+
+def plain_law(sensor, reading_m, distance_m, spread_m, given_reading=True):
+    """Distances, and the cumulative distribution there: a normal law times the reading's likelihood, added up."""
+    t = np.linspace(distance_m - 7 * spread_m, distance_m + 7 * spread_m, 20_001)
+    log_p = scipy.stats.norm.logpdf(t, distance_m, spread_m)
+    if given_reading:
+        log_p = log_p + sensor.log_likelihood(np.full_like(t, reading_m), t, LIMITS)
+    p = np.exp(log_p - log_p.max())
+    below = np.cumsum(p)
+    return t, below / below[-1]
+
+
+CASES = {
+    "a thick surface and a sharp sensor": (0.02, 3.05, 3.0, 0.06),
+    "a thin surface and a blunt sensor": (0.3, 3.05, 2.95, 0.02), "both alike": (0.1, 2.1, 2.0, 0.1),
+    "the surface's far end": (0.05, 3.25, 3.0, 0.08), "a reading from elsewhere": (0.05, 6.0, 2.0, 0.08),
+    "a reading before the surface": (0.05, 1.0, 2.0, 0.08), "no return": (0.05, np.inf, 4.0, 0.1),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", full_but(CASES, "the surface's far end", "no return"))
+def test_points_follow_the_surface_times_the_likelihood_of_the_reading(case):
+    sigma_m, reading_m, distance_m, spread_m = CASES[case]
+    sensor = Late(sigma_m)
+    found = draw_points(sensor, LIMITS, reading_m, distance_m, spread_m, DRAWS)
+
+    def p_value(given_reading):
+        t, below = plain_law(sensor, reading_m, distance_m, spread_m, given_reading)
+        return scipy.stats.kstest(found, lambda x: np.interp(x, t, below)).pvalue
+
+    assert p_value(True) > ALPHA / POINT_TESTS
+    if abs(reading_m - distance_m) < 4 * spread_m:  # else it says nothing of the point
+        assert p_value(False) < ALPHA / POINT_TESTS
+
+
+def test_points_of_a_mixture_lie_between_surface_and_reading_if_it_came_from_there():
+    """A surface without thickness has one point, and no point lies behind the beam's start."""
+    assert (draw_points(Late(0.05), LIMITS, 3.0, 2.9, 0.0, 10) == np.float32(2.9)).all()
+    assert draw_points(Late(0.05), LIMITS, 0.1, 0.02, 0.05, 500).min() >= 0
+    sensor = bm.BeamMixture(bm.Gaussian(0.05), p_random=0.2, p_no_return=0.1)
+    found = draw_points(sensor, LIMITS, 3.1, 3.0, 0.05, DRAWS)
+    density = sensor.stop_log_likelihood(np.array([3.1]), np.array([3.0]), np.array([0.05]), LIMITS)
+    chance = 0.2 / (LIMITS.max_m - LIMITS.min_m)
+    by_chance = chance / np.exp(density[0])
+
+    def below(x):
+        there = scipy.stats.norm.cdf(x, 3.05, 0.05 / np.sqrt(2))
+        return by_chance * scipy.stats.norm.cdf(x, 3.0, 0.05) + (1 - by_chance) * there
+
+    assert scipy.stats.kstest(found, below).pvalue > ALPHA / POINT_TESTS
+    assert scipy.stats.kstest(found, lambda x: scipy.stats.norm.cdf(x, 3.0, 0.05)).pvalue < ALPHA / POINT_TESTS

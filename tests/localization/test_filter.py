@@ -3,6 +3,7 @@
 In a map that is known exactly all places are found, and proposals come near the posterior at little cost.
 """
 
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -17,7 +18,6 @@ from bayesmap.localization.belief import PoseBelief
 from bayesmap.localization.filter import Prior, Scan, locate, refine_by_end_points, without_duplicates
 from bayesmap.localization.localize import InitialPose
 from bayesmap.localization.particles import DOF, PoseMixture, student_draws
-from bayesmap.sensors.model import RangeLimits
 from bayesmap.space.planar import wrap_angle
 
 
@@ -32,7 +32,7 @@ def belief(p_lost=0.0, count=2000):
     return PoseBelief(poses, np.repeat([0.75 / count, 0.25 / count], count), p_lost, 1.0)
 
 
-def test_modes_are_separated_areas_leave_room_for_being_lost_and_json_has_every_answer():
+def test_modes_are_separated_regions_hold_their_share_and_areas_leave_room_for_being_lost():
     one, two = belief().modes
     assert (one.probability, two.probability) == pytest.approx((0.75, 0.25))
     np.testing.assert_allclose(two.mean, [5, 2, 0], atol=0.01)
@@ -50,17 +50,12 @@ def test_modes_are_separated_areas_leave_room_for_being_lost_and_json_has_every_
     answer = belief(0.1).as_json()
     assert (len(answer["modes"]), answer["p_lost"]) == (2, pytest.approx(0.1))
     assert answer["region_95_m2"] > 0
-
-
-@pytest.mark.parametrize("level", [0.5, 0.8, 0.95])
-def test_a_region_holds_its_share_and_no_more(level):
-    found = belief()
-    region = found.region(level)
-    inside = region.contains(found.poses[:, :2])
-    assert found.weights[inside].sum() == pytest.approx(level, abs=0.03)
-    if level == 0.95:  # beside a region of that share about the first alone the second's is missing
-        assert region.contains([[5.0, 2.0]])[0]
-        assert region.area_m2 < np.pi * 0.1 * 0.05 * 10 + np.pi * 0.05**2 * 10
+    for level in (0.5, 0.8, 0.95):
+        region = belief().region(level)
+        inside = region.contains(belief().poses[:, :2])
+        assert belief().weights[inside].sum() == pytest.approx(level, abs=0.03)
+    assert region.contains([[5.0, 2.0]])[0]  # a region of that share about the first mode would leave out the second
+    assert region.area_m2 < np.pi * 0.1 * 0.05 * 10 + np.pi * 0.05**2 * 10
 
 
 def scan_of(scans):
@@ -132,6 +127,9 @@ def test_the_coarse_search_scores_every_position_and_heading(room):
     found = search._coarse_poses(field, points)
     scores = [plain(np.floor(pose[:2] / size).astype(int), pose[2]) for pose in found]
     assert max(scores) == best
+    assert len(search.search(field, ANGLES, np.full(len(ANGLES), np.inf), 5).poses) == 0
+    start = np.array([[2.1, 1.6, 1.05]])
+    assert search.refine(field, points, start, 1).scores[0] >= field.score(points, start)[0]  # refining never loses
 
 
 @pytest.mark.parametrize("seed", full_but(range(5), 0, 4))
@@ -149,15 +147,6 @@ def test_the_true_pose_is_found(room, seed):
         assert not (near & (np.abs(wrap_angle(found.poses[:i, 2] - pose[2])) < search.APART_RAD)).any()
 
 
-def test_refining_never_loses_and_a_scan_without_hits_has_no_candidates(room):
-    walls, grid, field = room
-    assert len(search.search(field, ANGLES, np.full(len(ANGLES), np.inf), 5).poses) == 0
-    scans = scan_from(walls, grid, np.array([2.0, 1.7, 1.0]))
-    points = search.end_points(ANGLES, scans.ranges_m[0], 90)
-    start = np.array([[2.1, 1.6, 1.05]])
-    assert search.refine(field, points, start, 1).scores[0] >= field.score(points, start)[0]
-
-
 NOWHERE = (np.zeros((40, 30), dtype=bool), 0.0)
 
 
@@ -173,12 +162,10 @@ def test_the_field_of_a_surface_is_its_widened_density_and_the_nearer_of_two_dra
     off = (cells + 0.5) * 0.025 - [2.05, 1.07]
     peak = np.exp(-0.5 * np.einsum("ni,ij,nj->n", off, np.linalg.inv(covariance), off))
     expected = np.log(search.SURFACE_FLOOR + (1 - search.SURFACE_FLOOR) * peak)
-    scores = field.log_worth(np.zeros((1, 2)), np.column_stack([(cells + 0.5) * 0.025, np.zeros(4)])) + np.log(
-        search.SURFACE_FLOOR
-    )
+    worth = field.log_worth(np.zeros((1, 2)), np.column_stack([(cells + 0.5) * 0.025, np.zeros(4)]))
+    scores = worth + np.log(search.SURFACE_FLOOR)
     np.testing.assert_allclose(scores, expected, atol=0.02)
     assert scores[3] == pytest.approx(np.log(search.SURFACE_FLOOR), abs=1e-9)
-    _, grid = walls_of(4.0, 3.0)
     states = np.zeros((2, grid.n_cells), dtype=np.float32)
     states[0, 20 * 30 + 10] = states[1, 25 * 30 + 10] = 1.0
     both = search.endpoint_field(states, grid, 0.02, *NOWHERE)
@@ -201,7 +188,7 @@ def test_unknown_cells_are_worth_more_than_open_ones_and_less_than_walls():
 
 
 def test_evenly_spread_draws_have_the_student_distribution_and_places_that_came_together_are_one():
-    """Of each coordinate, over 600 calls that share no random number; a wrong one is told once in 10 000 alarms."""
+    """Each coordinate over 600 calls that share no random number; false alarms: 1e-4 each."""
     rng = np.random.default_rng(0)
     draws = np.array([student_draws(16, rng)[7] for _ in range(600)])
     for k in range(3):
@@ -239,15 +226,11 @@ def test_a_wide_prior_is_narrowed_about_the_pose_but_by_a_scan_with_few_hits():
     here = known(walls, grid, scans, beam_weight=0.3)
     guess = InitialPose(truth + np.array([0.2, -0.15, 0.1]), 0.25, 0.15)
     prior = Prior(guess.components(), 0.0)
-    scan = Scan(ANGLES, scans.ranges_m[0], RangeLimits(0.0, 10.0))
+    scan = scan_of(scans)
     rng = np.random.default_rng(0)
     found = refine_by_end_points(guess.components(), lambda poses: prior.log_density(poses, here), here, scan, rng)
     assert len(found.means) == 1
     np.testing.assert_array_less(np.abs(found.means[0] - truth), [0.05, 0.05, 0.03])
     assert (np.sqrt(np.diag(found.covariances[0])) < [0.1, 0.1, 0.06]).all()
-    walls, grid = walls_of(4.0, 3.0)
-    scans = scan_from(walls, grid, np.array([1.5, 1.2, 0.4]))
-    places = InitialPose([1.0, 1.0, 0.0]).components()
-    blind = Scan(ANGLES, np.full(len(ANGLES), np.inf), RangeLimits(0.0, 10.0))
-    here = known(walls, grid, scans)
-    assert refine_by_end_points(places, np.zeros_like, here, blind, np.random.default_rng(0)) is places
+    blind, places = replace(scan, ranges_m=np.full(len(ANGLES), np.inf)), guess.components()
+    assert refine_by_end_points(places, np.zeros_like, here, blind, rng) is places

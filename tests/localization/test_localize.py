@@ -1,4 +1,7 @@
-"""The posterior of a pose is that of enumeration: all modes, stretched where nothing holds it, lost where lost."""
+"""The posterior of a pose is that of enumeration: all modes, stretched where nothing holds it, lost where lost.
+
+Maps of other programs: a law is fitted to the scans that are located, doubts are kept, errors survived.
+"""
 
 from dataclasses import replace
 
@@ -11,7 +14,8 @@ from tiers import full_but
 
 import bayesmap as bm
 from bayesmap.localization.belief import PoseBelief
-from bayesmap.localization.filter import rescale_by_place_weights
+from bayesmap.localization.external_map import ASSUMED, external_map, fit_law, searched
+from bayesmap.localization.filter import rescale_by_place_evidence
 from bayesmap.localization.known_map import KnownMap
 from bayesmap.localization.localize import InitialPose, localize
 from bayesmap.localization.search import likelihood_field
@@ -41,22 +45,6 @@ def test_the_posterior_is_that_of_enumerated_poses():
     assert (np.abs(means.mean(axis=0) - twin) / sd).max() > 0.3
 
 
-def test_places_are_weighed_by_half_the_beams_poses_in_one_by_all_and_a_seed_gives_one_posterior():
-    """Shares of places are the sums of other weights; within a place poses keep theirs."""
-    weights = np.array([0.5, 0.3, 0.15, 0.05])
-    group = np.array([0, 0, 1, 1])
-    shared = rescale_by_place_weights(weights, group, np.log([0.2, 0.2, 0.4, 0.2]))
-    np.testing.assert_allclose(shared, [0.4 * 0.625, 0.4 * 0.375, 0.6 * 0.75, 0.6 * 0.25])
-    np.testing.assert_array_equal(rescale_by_place_weights(weights, np.zeros(4, int), np.zeros(4)), weights)
-    # One place has no weight left: the other has it all.
-    shared = rescale_by_place_weights(weights, group, np.array([-np.inf, -np.inf, 0.0, 0.0]))
-    np.testing.assert_allclose(shared[:2], 0.0)
-    walls, grid = walls_of(4.0, 3.0)
-    scans = scan_from(walls, grid, np.array([1.5, 1.2, 0.4]))
-    here = known(walls, grid, scans)
-    np.testing.assert_array_equal(localize(here, scans, seed=4).last.poses, localize(here, scans, seed=4).last.poses)
-
-
 def test_the_odds_of_two_places_follow_half_the_log_likelihood():
     """Two places of a hall that is the same from both ends but for a post, and a scan whose beams all count as usual.
 
@@ -67,15 +55,13 @@ def test_the_odds_of_two_places_follow_half_the_log_likelihood():
     walls[36:38, 9:11] = True
     scans = scan_from(walls, grid, np.array([1.5, 1.2, 0.4]))
     here = known(walls, grid, scans)
-    both = [np.mean([_log_odds(replace(here, beam_weight=w), scans, s) for s in range(8)]) for w in (None, 5.4 / 36)]
+    np.testing.assert_array_equal(*(localize(here, scans, seed=4).last.poses for _ in range(2)))
+    both = []
+    for beam_weight in (None, 5.4 / 36):
+        found = [localize(replace(here, beam_weight=beam_weight), scans, seed=seed).modes for seed in range(8)]
+        both.append(np.mean([np.log(first.probability / second.probability) for first, second, *_ in found]))
     assert both[1] > 0.5
     assert both[0] / both[1] == pytest.approx(0.5, rel=0.2)
-
-
-def _log_odds(here, scans, seed):
-    found = localize(here, scans, seed=seed)
-    likely = [mode.probability for mode in found.modes]
-    return np.log(likely[0] / likely[1])
 
 
 def test_a_corridor_leaves_the_pose_along_it_open_and_a_hall_in_which_nothing_is_met_returns_the_prior():
@@ -97,8 +83,7 @@ def test_a_corridor_leaves_the_pose_along_it_open_and_a_hall_in_which_nothing_is
 @pytest.fixture(scope="module")
 def offices():
     made = [bm.worlds.building(seed, (20.0, 12.0), 0.1) for seed in (3, 8)]
-    routes = [bm.worlds.patrol(one, 120, 3) for one in made]
-    return made, routes
+    return made, [bm.worlds.patrol(building, 120, 3) for building in made]
 
 
 ROUND = np.radians(np.arange(90) * 4.0)
@@ -130,9 +115,8 @@ def test_a_robot_that_looks_past_the_edge_of_the_map_is_found(offices):
     near = np.flatnonzero((route[:, 0] > 8.5) & (route[:, 0] < 9.7))
     scans = scan_from(here.walls, here.grid, route[near], angles=ROUND)
     states = np.where(observed, here.walls, 0.08).astype(np.float32)
-    half = KnownMap.of_draws(
-        states.ravel()[None], here.grid, LASER, scans, occupancy=states.astype(float), observed=observed, hit_depth=0.0
-    )
+    shown = {"occupancy": states.astype(float), "observed": observed}
+    half = KnownMap.of_draws(states.ravel()[None], here.grid, LASER, scans, hit_depth=0.0, **shown)
     blind = replace(half, unknown_chance=0.0, field=likelihood_field(here.walls & observed, here.grid, half.free))
 
     def found(known_map):
@@ -210,9 +194,8 @@ def test_impossible_localizations_are_refused_and_no_probability_exceeds_one():
             bm.localize(where, given, **options)
     # One that reaches into the map is none.
     assert len(localize(here, scans, prior=InitialPose((-1.0, 1.0, 0.0), 1.0))) == 1
-    weights = np.full(6, 1.0 / 6) * (1 + 4e-16)
-    assert weights.sum() > 1.0
-    belief = PoseBelief(np.zeros((6, 3)), weights, 0.0, 0.0)
+    belief = PoseBelief(np.zeros((6, 3)), np.full(6, 1.0 / 6) * (1 + 4e-16), 0.0, 0.0)
+    assert belief.weights.sum() > 1.0
     assert (belief.modes[0].probability, belief.probability_in([-1.0, 1.0, -1.0, 1.0])) == (1.0, 1.0)
     for area in ([1.0, -1.0, -1.0, 1.0], [-1.0, 1.0, 1.0, -1.0], [-1.0, np.nan, -1.0, 1.0]):
         with pytest.raises(bm.BadInput, match="give x_min below x_max and y_min below y_max"):
@@ -221,7 +204,7 @@ def test_impossible_localizations_are_refused_and_no_probability_exceeds_one():
 
 @pytest.mark.parametrize("seed", full_but(range(4), 1, 2))
 def test_a_dense_prior_of_unknown_cells_does_not_hide_the_room(seed):
-    """Of a wide margin each draw has walls in one cell of five, as the prior says; the search must not find them.
+    """Each draw has walls in one cell of five of a wide margin, as the prior says; the search must not find them.
 
     A fifth of the readings are of things that are not on the map, so that even the right place does not fit in all.
     """
@@ -249,21 +232,119 @@ def test_scans_of_unlike_beams_are_located_as_equal_ones_are():
     walls, grid = walls_of(4.0, 3.0)
     truth = np.column_stack([np.linspace(1.2, 2.4, 6), np.full(6, 1.3), np.linspace(0.2, 0.8, 6)])
     fans = [-np.pi + 0.1 * i + np.arange(n) * 2 * np.pi / n for i, n in enumerate((36, 41, 33, 38, 0, 44))]
-    readings = [
-        scan_from(walls, grid, pose, angles=own).ranges_m[0] if len(own) else own
-        for pose, own in zip(truth, fans, strict=True)
-    ]
-    scans = bm.Scans(
-        truth + np.array([0.05, -0.05, 0.02]), *side_by_side(fans, readings), 10.0, stamps_s=np.arange(6.0)
-    )
+    beams = zip(truth, fans, strict=True)
+    readings = [scan_from(walls, grid, pose, angles=own).ranges_m[0] if len(own) else own for pose, own in beams]
+    stated = truth + np.array([0.05, -0.05, 0.02])
+    scans = bm.Scans(stated, *side_by_side(fans, readings), 10.0, stamps_s=np.arange(6.0))
     here = known(walls, grid, scans)
     for i, belief in enumerate(localize(here, scans, prior=InitialPose(truth[0], 0.3, 0.2)).beliefs):
         metres, radians = offset(belief.modes[0].mean, truth[i])
         assert metres < (0.3 if i == 4 else 0.1)
         assert np.degrees(radians) < 5.0
     shifted = replace(scans, own_angles_rad=scans.own_angles_rad + 0.3)  # a wrong twin: other beams
-    off = [
-        offset(b.modes[0].mean, truth[i])[1]
-        for i, b in enumerate(localize(here, shifted, prior=InitialPose(truth[0], 0.3, 0.4)).beliefs)
-    ]
+    beliefs = localize(here, shifted, prior=InitialPose(truth[0], 0.3, 0.4)).beliefs
+    off = [offset(belief.modes[0].mean, pose)[1] for belief, pose in zip(beliefs, truth, strict=True)]
     assert np.degrees(max(off)) > 10.0
+
+
+SHARP_LASER = bm.BeamMixture(bm.Gaussian(0.02), p_random=0.01, p_no_return=0.01, p_short=0.001)
+
+
+def drive(count=48):
+    """A round in a room of 6 by 4 m."""
+    turn = np.linspace(0.0, 4 * np.pi, count)
+    middle = np.array([3.0, 2.0])
+    at = middle + np.stack([1.6 * np.cos(turn), 0.9 * np.sin(turn)], axis=1)
+    return np.column_stack([at, turn + np.pi / 2])
+
+
+@pytest.fixture(scope="module")
+def room():
+    """A room, its scans with people in them at poses of odometry, the true poses, and a thick and shifted map of it."""
+    walls, grid = walls_of(6.0, 4.0)
+    truth = drive()
+    scans = scan_from(walls, grid, truth, SHARP_LASER, np.arange(72) * np.pi / 36)
+    rng = np.random.default_rng(0)
+    readings = scans.ranges_m.copy()
+    for row in readings:  # somebody stands on a sixth of the view
+        at = rng.integers(72) + np.arange(12)
+        row[at % 72] = np.minimum(row[at % 72], rng.uniform(0.4, 0.8))
+    scans = bm.Scans(scans.poses, scans.angles_rad, readings, 10.0)
+    occupancy = walls.astype(float)
+    occupancy[-2:] = occupancy[:2] = 1.0
+    occupancy[:, :25] = np.roll(occupancy[:, :25], 1, axis=0)
+    occupancy[2:4, 30:34] = np.nan
+    return occupancy, grid, scans.at(bm.simulate_odometry(truth, seed=1)), truth
+
+
+def test_scans_of_unlike_beams_are_searched_by_their_own(room):
+    """Angles tremble, and yaw makes up for it: the same readings fit as well; the twin's do not."""
+    occupancy, grid, _, truth = room
+    walls, few = occupancy > 0.5, truth[:6]
+    scans = scan_from(walls, grid, few, SHARP_LASER, np.arange(72) * np.pi / 36)
+    known = external_map(occupancy, grid, scans)
+    tremble = np.linspace(-0.3, 0.3, 6)[:, None]
+    own = replace(scans, own_angles_rad=scans.angles_by_scan() + tremble)
+    turned = few - tremble * [0.0, 0.0, 1.0]
+    usual, _ = searched(known, scans, few, 0)
+    assert searched(known, own, turned, 0)[0].right == pytest.approx(usual.right, abs=1e-3)
+    assert searched(known, own, few, 0)[0].right < usual.right - 0.1
+
+
+def test_the_fitted_law_is_that_of_the_scans_which_are_located_from_anywhere(room):
+    """A sixth of the beams meet somebody; walls are off by 10 cm and thick, so that noise is 2 to 15 cm."""
+    occupancy, grid, moved, truth = room
+    law = fit_law(occupancy, grid, moved)
+    assert law.scans >= 20
+    assert 0.08 < law.values["p_short"] + law.values["p_random"] < 0.5
+    assert 0.02 < law.values["scale_m"] < 0.15
+    assert 1.0 <= law.trust.place_readings <= law.trust.pose_readings <= 5.4
+    assert 0.0 < law.usual_fit.missed < 0.5
+    assert "independent readings (fitted on" in law.words()
+    found = localize(external_map(occupancy, grid, moved, law), moved)
+    off = np.array([offset(b.mean, pose)[0] for b, pose in zip(found.beliefs, truth, strict=True)])
+    assert (off[10:] < 0.3).all()
+    assert found.p_lost < 0.05
+
+
+def test_few_scans_fit_no_law_and_maps_without_walls_or_free_cells_are_refused(room):
+    occupancy, grid, moved, _ = room
+    law = fit_law(occupancy, grid, moved.select(slice(0, 10)))
+    assert (law.scans, law.values) == (0, ASSUMED)
+    assert "too few scans" in law.words()
+    with pytest.raises(bm.BadInput, match="no occupied cell that a beam could meet"):
+        external_map(np.zeros(grid.shape), grid, moved)
+    with pytest.raises(bm.BadInput, match="no free cell"):
+        external_map(np.where(occupancy > 0.5, 1.0, np.nan), grid, moved)
+
+
+def test_a_wrong_prior_is_given_up_when_the_scans_contradict_it():
+    """A hall that is the same from both ends but for a block, and a robot that is said to come from the wrong end.
+
+    From there all but a tenth of the beams fit, so that it does not look lost. The twin neither searches while it is
+    sure nor gives other places a chance, and stays where it was said to be.
+    """
+    walls, grid = walls_of(6.0, 4.0, alcove=False)
+    walls[46:52, 8:13] = True
+    truth = drive()
+    scans = scan_from(walls, grid, truth, SHARP_LASER, np.arange(72) * np.pi / 36)
+    turned = np.array([6.0, 4.0, np.pi]) + truth[0] * np.array([-1.0, -1.0, 1.0])
+    known = external_map(walls.astype(float), grid, scans)
+
+    def off(here):
+        beliefs = localize(here, scans, prior=InitialPose(turned, 0.2, 0.1)).beliefs[-8:]
+        return np.median([offset(b.mean, pose)[1] for b, pose in zip(beliefs, truth[-8:], strict=True)])
+
+    assert off(known) < 0.2
+    stubborn = replace(known.trust, carried=1e-12, search_way_m=np.inf, forgotten_nats=1.0)
+    assert off(replace(known, trust=stubborn)) > 3.0
+
+
+def test_places_share_by_powers_of_their_evidence():
+    """Odds are the prior's, times a power of what the scan says; within a place poses keep their shares."""
+    weights, group, mass = np.array([0.5, 0.3, 0.15, 0.05]), np.array([0, 0, 1, 1]), np.array([0.1, 0.9])
+    for power in (1.0, 0.5, 0.0):
+        shares = rescale_by_place_evidence(weights, group, mass, power)
+        odds = (0.1 / 0.9) * ((0.8 / 0.2) / (0.1 / 0.9)) ** power
+        assert shares[:2].sum() / shares[2:].sum() == pytest.approx(odds)
+        np.testing.assert_allclose(shares[:2] / shares[:2].sum(), [0.625, 0.375])

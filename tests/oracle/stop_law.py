@@ -71,7 +71,7 @@ def cross_surface(states, start, direction):
 
 
 def stops(paths, states, plain):
-    """Of every entry: the chance that its cell stops a beam that comes to it, and where. (..., B, K) each."""
+    """The chance that an entry's cell stops a beam that comes to it, and where, for every entry. (..., B, K) each."""
     cells = states[..., paths.cell, :]
     if plain:
         chance, distance, variance = np.ones(paths.cell.shape), paths.plain_m, np.zeros(paths.cell.shape)
@@ -284,7 +284,7 @@ def exact_reflectivities(paths, cells, prior, sensor, beta=1.0):
 
 
 def exact_labels(paths, shape, prior, sensor, beta=1.0):
-    """The same where cells have labels; and p(labels) of all 2^n ways of labelling the grid's n cells."""
+    """Enumerate cells with labels; also p(labels) of all 2^n ways of labelling the grid's n cells."""
     cells = shape[0] * shape[1]
     counts, log_readings = ways_to_stop(paths, cells, sensor, beta)
     solid = all_maps(cells)[:, None]  # (2^n, 1, n) beside the ways, (1, J, n)

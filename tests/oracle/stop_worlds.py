@@ -81,7 +81,7 @@ class Chain:
 
     @property
     def arrays(self):
-        """What kernels keep of it."""
+        """The chain's state on the device."""
         return self.state.chains._state
 
 
@@ -136,7 +136,7 @@ def build_worlds(scans, grid, prior, sensor, worlds, hit_depth=0.5):
 
 
 def copies(scans, grid, prior, sensor, count, hit_depth=0.5):
-    """The same world many times: a sweep of it makes independent draws."""
+    """Copy one world many times: a sweep of the copies makes independent draws."""
     many = replace(scans, poses=np.tile(scans.poses, (count, 1)), ranges_m=np.tile(scans.ranges_m, (count, 1)))
     return build_worlds(many, grid, prior, sensor, count, hit_depth)
 
@@ -169,9 +169,8 @@ def surfaces_of(rng, grid, stop):
     """Surfaces about the centres of all cells with these reflectivities (draws, N); none is thin. (draws, N, 6)."""
     out = np.zeros((*stop.shape, 6), dtype=np.float32)
     out[..., 0] = stop
-    out[..., 1:3] = (
-        grid.centers_from_corner_m(np.arange(grid.n_cells)) + rng.normal(0, 0.2, (*stop.shape, 2)) * grid.resolution
-    )
+    out[..., 1:3] = rng.normal(0, 0.2, (*stop.shape, 2)) * grid.resolution
+    out[..., 1:3] += grid.centers_from_corner_m(np.arange(grid.n_cells))
     out[..., 3], out[..., 5] = rng.uniform(0.1, 0.4, (2, *stop.shape)) * grid.resolution
     out[..., 4] = rng.normal(0, 0.1, stop.shape) * grid.resolution
     return out

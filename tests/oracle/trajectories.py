@@ -5,7 +5,7 @@ import numpy as np
 from bayesmap.poses.calibration import USUAL, MotionNoise, OdometryFit
 from bayesmap.poses.graph import Factors, PoseGaussian
 from bayesmap.poses.trajectory import Calibration, LoopClosures, Trajectory
-from bayesmap.space.planar import between, compose
+from bayesmap.space.planar import between, chain_motions, compose
 
 STEP = np.array([0.5, 0.0, np.pi / 8])
 
@@ -15,9 +15,7 @@ def round_way(keys=16, sigma=(0.01, 0.02, 0.005), closure=True, odometry=True, f
 
     ``force`` is that of errors that neighbours have in common; without it the covariances are those of the pairs alone.
     """
-    poses = np.zeros((keys, 3))
-    for k in range(1, keys):
-        poses[k] = compose(poses[k - 1], STEP)
+    poses = np.vstack([np.zeros(3), chain_motions(np.zeros(3), np.tile(STEP, (keys - 1, 1)))])
     order = np.arange(keys - 1)
     first, second = (np.append(order, 0), np.append(order + 1, keys - 1)) if closure else (order, order + 1)
     relative = between(poses[first], poses[second])

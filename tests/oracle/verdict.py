@@ -68,7 +68,7 @@ class Weighted:
 
     @cached_property
     def sorted(self):
-        """Of each number: the values in order, the weight up to each, and every draw's rank less a half, (D, N)."""
+        """The values of each number in order, the weight up to each, and every draw's rank less a half, (D, N)."""
         ladders, ranks = [], np.empty(self.values.T.shape)
         for values, rank in zip(self.values.T, ranks, strict=True):
             order = np.argsort(values)
@@ -87,7 +87,7 @@ def weighted(values, log_weight):
 
 
 def p_values(draws, law):
-    """Of the Kolmogorov-Smirnov distance of every marginal, and of the mean product of every pair of ranks."""
+    """P-values of the Kolmogorov-Smirnov distance of every marginal and of the mean product of every pair of ranks."""
     n, width = draws.shape
     size = 1 / (1 / n + 1 / law.size)
     ladders, theirs = law.sorted

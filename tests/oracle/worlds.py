@@ -3,8 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
-from oracle.enumeration import Exact, all_maps, enumerate_posterior, log_prior_of_all
-from oracle.formula import beams, distances
+from oracle.enumeration import Exact, all_maps, beams, distances, enumerate_posterior, log_prior_of_all
 from oracle.stop_law import gaussian, reading_law
 
 import bayesmap as bm

@@ -3,7 +3,7 @@
 import numpy as np
 
 from bayesmap.kernels.walk import cast
-from bayesmap.space.planar import between, compose
+from bayesmap.space.planar import between, chain_motions
 from bayesmap.space.scans import Scans
 
 RESOLUTION = 0.02
@@ -44,15 +44,19 @@ def path_around(laps=1.2, step_m=0.15, width_m=9.0, depth_m=7.0, corridor_m=2.0)
 def scans_of(walls, poses, beams=180, noise_m=0.01, seed=0, max_range_m=12.0, full=False):
     """Scans of a laser at true poses."""
     rng = np.random.default_rng(seed)
-    angles = (
-        np.linspace(-np.pi, np.pi, beams, endpoint=False) if full else -np.pi / 2 + np.pi / beams * np.arange(beams)
-    )
+    step, first = (2 * np.pi / beams, -np.pi) if full else (np.pi / beams, -np.pi / 2)
+    angles = first + step * np.arange(beams)
     starts = np.repeat(poses[:, :2], beams, axis=0) / RESOLUTION
     directions = (poses[:, 2:3] + angles).ravel()
     distance, _ = cast(walls, starts, directions, max_range_m / RESOLUTION)
     ranges = distance.reshape(len(poses), beams) * RESOLUTION
     ranges = np.where(ranges < max_range_m - 0.01, ranges + noise_m * rng.normal(size=ranges.shape), np.inf)
     return angles, ranges
+
+
+def poses_along(start, motions):
+    """Return the poses of a way, (motions + 1, 3): the start, and the pose after each motion."""
+    return np.vstack([start, chain_motions(start, motions)])
 
 
 def odometry_of(poses, seed=1, noise=1.0, turn_bias=0.0, scale=1.0):
@@ -62,15 +66,9 @@ def odometry_of(poses, seed=1, noise=1.0, turn_bias=0.0, scale=1.0):
     travelled = np.hypot(motions[:, 0], motions[:, 1])
     wrong = motions * np.array([scale, scale, 1.0])
     wrong[:, 2] += turn_bias * travelled
-    sigma = np.stack(
-        [0.05 * travelled + 0.002, 0.05 * travelled + 0.002, 0.05 * np.abs(motions[:, 2]) + 0.03 * travelled + 0.001],
-        -1,
-    )
-    wrong = wrong + noise * sigma * rng.normal(size=wrong.shape)
-    result = [np.array([1.0, 2.0, 0.5])]
-    for motion in wrong:
-        result.append(compose(result[-1], motion))
-    return np.array(result)
+    along = 0.05 * travelled + 0.002
+    sigma = np.stack([along, along, 0.05 * np.abs(motions[:, 2]) + 0.03 * travelled + 0.001], -1)
+    return poses_along(np.array([1.0, 2.0, 0.5]), wrong + noise * sigma * rng.normal(size=wrong.shape))
 
 
 def recording(laps=1.2, hz=5.0, laser_noise_m=0.01, **kwargs):

@@ -1,33 +1,28 @@
-"""Pose graphs: sparse against dense, loops that are wrong, covariances; scans that nothing explains are flagged.
+"""Pose graphs, sparse against dense, with loops that are wrong, and priors of poses, which are densities.
 
-Covariances hold what pairs of scans have wrong in common, and the arcs of a lost heading.
+Covariances hold what pairs of scans have wrong in common, and the arcs of a lost heading; scans that nothing explains
+are flagged. What samplers need of a prior follows from its density.
 """
 
 from dataclasses import replace
+from itertools import product
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 import scipy
 from simulated import ring, scans_of
 
+from bayesmap.errors import BadInput
 from bayesmap.poses import graph
 from bayesmap.poses.alignment import Alignment, Pairs, PointError, place_scans
-from bayesmap.poses.graph import (
-    STRETCH_M,
-    Factors,
-    PoseGaussian,
-    Precision,
-    Quadratic,
-    bend_covariances,
-    normal_equations,
-    quadratic,
-    relative_covariances,
-    solve_step,
-)
+from bayesmap.poses.graph import Factors, PoseGaussian, bend_covariances, normal_equations, quadratic
 from bayesmap.poses.key_alignment import flag_unexplained
+from bayesmap.poses.map_scans import key_scans
+from bayesmap.poses.prior import FREE, KnownPoses, Motions, Odometry, UncertainPoses
 from bayesmap.poses.scan_geometry import scan_geometry
 from bayesmap.poses.trajectory import with_arcs
-from bayesmap.space.planar import between, between_jacobians, compose
+from bayesmap.space.planar import between, between_jacobians, compose, wrap_angle
 from bayesmap.space.scans import Scans
 
 RNG = np.random.default_rng(8)
@@ -68,12 +63,12 @@ def dense(parts, poses):
 
 def test_a_sparse_step_and_relative_covariances_equal_the_dense_ones():
     matrix, gradient = dense([CHAIN, LOOP], STATES)
-    step, _ = solve_step(COUNT, [quadratic(CHAIN, STATES), quadratic(LOOP, STATES)])
+    step, _ = graph.solve_step(COUNT, [quadratic(CHAIN, STATES), quadratic(LOOP, STATES)])
     np.testing.assert_allclose(step.ravel(), -np.linalg.solve(matrix, gradient), rtol=1e-6, atol=1e-9)
     covariance = np.linalg.inv(matrix)
-    precision = Precision(normal_equations(COUNT, [quadratic(CHAIN, STATES), quadratic(LOOP, STATES)])[0])
+    precision = graph.Precision(normal_equations(COUNT, [quadratic(CHAIN, STATES), quadratic(LOOP, STATES)])[0])
     pairs = np.array([[0, 5], [3, 9], [11, 2], [4, 4], [6, 7], [0, 11]])
-    found = relative_covariances(precision, STATES, pairs[:, 0], pairs[:, 1])
+    found = graph.relative_covariances(precision, STATES, pairs[:, 0], pairs[:, 1])
     for (i, j), block in zip(pairs, found, strict=True):
         by_i, by_j = between_jacobians(between(STATES[i], STATES[j]))
         jacobian = np.zeros((3, 3 * COUNT))
@@ -87,23 +82,8 @@ def test_blocks_of_the_inverse_are_the_same_on_the_pattern_and_off_it():
     inverse = np.linalg.inv(matrix.toarray()).reshape(COUNT, 3, COUNT, 3)
     first, second = (a.ravel() for a in np.mgrid[:COUNT, :COUNT])
     for at_once in (2, 400):
-        found = Precision(matrix).blocks(first, second, at_once)
+        found = graph.Precision(matrix).blocks(first, second, at_once)
         np.testing.assert_allclose(found, inverse[first, :, second, :], rtol=1e-6, atol=1e-10)
-
-
-def test_the_pattern_holds_every_entry_of_the_factor():
-    """Random matrices: the pattern that elimination can fill, against the dense Cholesky factor."""
-    for seed in range(5):
-        rng = np.random.default_rng(seed)
-        links = rng.random((30, 30)) < 0.06
-        dense_matrix = np.where(links | links.T, 0.1 * rng.normal(), 0.0) + 5.0 * np.eye(30)
-        place = rng.permutation(30)
-        begin, row = graph.filled_pattern(scipy.sparse.csc_matrix(dense_matrix), place)
-        moved = np.empty_like(dense_matrix)
-        moved[np.ix_(place, place)] = dense_matrix
-        held = np.zeros((30, 30), bool)
-        held[row, np.repeat(np.arange(30), np.diff(begin))] = True
-        np.testing.assert_array_equal(held, np.abs(np.linalg.cholesky(moved)) > 0)
 
 
 def test_the_optimum_has_no_slope_and_a_wrong_loop_is_not_believed():
@@ -113,9 +93,8 @@ def test_the_optimum_has_no_slope_and_a_wrong_loop_is_not_believed():
     _, before = normal_equations(COUNT, [quadratic(CHAIN, STATES), quadratic(LOOP, STATES)])
     assert np.abs(gradient[3:]).max() < 1e-3 * np.abs(before[3:]).max()
     wrong = Factors(np.array([0]), np.array([6]), np.array([[9.0, 4.0, 1.0]]), np.eye(3)[None] / 0.02**2)
-    both = Factors(
-        *(np.concatenate([getattr(LOOP, n), getattr(wrong, n)]) for n in ("first", "second", "relative", "information"))
-    )
+    names = ("first", "second", "relative", "information")
+    both = Factors(*(np.concatenate([getattr(part, name) for part in (LOOP, wrong)]) for name in names))
     poses, weights = graph.optimise(STATES, CHAIN, both)
     assert weights[-1] < 0.01
     assert (weights[:3] > 0.5).all()
@@ -141,22 +120,18 @@ def aligned(seed, *, in_common):
     """Poses aligned to relative poses that err, all pairs of two stretches alike or each by itself."""
     truth, first, second = way()
     rng = np.random.default_rng(seed)
-    stretch = (STEP_M * np.arange(POSES) / STRETCH_M).astype(int)
+    stretch = (STEP_M * np.arange(POSES) / graph.STRETCH_M).astype(int)
     _, cluster = np.unique(np.stack([stretch[first], stretch[second]]), axis=1, return_inverse=True)
     cluster = cluster.ravel() if in_common else np.arange(len(first))
     errors = SIGMA * rng.standard_normal((cluster.max() + 1, 3))[cluster]
-    measured, curvature = (
-        between(truth[first], truth[second]) + errors,
-        np.tile(np.diag(SIGMA**-2.0), (len(first), 1, 1)),
-    )
-    poses = truth
-    for _ in range(4):
+    measured = between(truth[first], truth[second]) + errors
+    curvature, poses = np.tile(np.diag(SIGMA**-2.0), (len(first), 1, 1)), truth
+    for _ in range(5):
         relative = between(poses[first], poses[second])
-        part = Quadratic(first, second, relative, curvature, np.einsum("mij,mj->mi", curvature, relative - measured))
-        poses = compose(poses, solve_step(POSES, [part])[0])
-    relative = between(poses[first], poses[second])
-    force = np.einsum("mij,mj->mi", curvature, relative - measured)
-    return truth, PoseGaussian(poses, first, second, relative, curvature, force)
+        force = np.einsum("mij,mj->mi", curvature, relative - measured)
+        gaussian = PoseGaussian(poses, first, second, relative, curvature, force)
+        poses = compose(poses, graph.solve_step(POSES, [graph.Quadratic(first, second, relative, curvature, force)])[0])
+    return truth, gaussian
 
 
 def squares(truth, gaussian):
@@ -168,9 +143,7 @@ def squares(truth, gaussian):
 
 
 @pytest.mark.full
-@pytest.mark.parametrize(
-    ("in_common", "low", "high"), [(True, 0.5, 2.0), (False, 0.5, 1.2)], ids=["in common", "one by one"]
-)
+@pytest.mark.parametrize(("in_common", "low", "high"), [(True, 0.5, 2.0), (False, 0.5, 1.2)])
 def test_covariances_have_the_size_of_errors(in_common, low, high):
     """Means over 40 alignments; by their spread over seeds a false alarm has a chance under 1 in 10 000."""
     means = [squares(*aligned(seed, in_common=in_common)).mean() for seed in range(40)]
@@ -255,3 +228,146 @@ def test_a_scan_is_explained_by_several_key_scans_together_and_scans_of_nothing_
     explained[30] = 0.3
     flagged = flag_unexplained(explained, np.arange(0, 60, 2))
     np.testing.assert_array_equal(flagged, explained < 0.5)
+
+
+def trajectory(seed, scans=6):
+    rng = np.random.default_rng(seed)
+    return np.column_stack([rng.normal(0, 2, (scans, 2)), rng.uniform(-np.pi, np.pi, scans)])
+
+
+class Slipping:
+    """Odometry that says nothing of every fifth motion."""
+
+    def law(self, log):
+        motions = between(log[:-1], log[1:])
+        return Motions(motions, np.full(motions.shape, 0.05), p_slip=0.2).law(log)
+
+
+PRIORS = {
+    "uncertain": UncertainPoses(0.1, 0.05),
+    "odometry": Odometry(0.1, 0.05, 0.04, 0.2, 0.02, 0.01),
+    "slipping": Slipping(),
+}
+
+
+@pytest.mark.parametrize("name", PRIORS)
+def test_the_change_of_one_pose_or_of_a_colour_is_the_change_of_the_density(name):
+    """Moving all of a colour at once changes the density by the sum of their changes; of all scans it does not."""
+    law = PRIORS[name].law(trajectory(4))
+    rng = np.random.default_rng(5)
+    poses = law.sample(rng)
+    proposed = poses + rng.normal(0, 0.05, poses.shape)
+    changes, colours = law.log_change(poses, proposed), law.colours(len(poses))
+
+    def unlike(moved):
+        together = poses.copy()
+        together[moved] = proposed[moved]
+        return abs(law.log_prob(together) - law.log_prob(poses) - changes[moved].sum())
+
+    assert max(unlike(moved) for moved in [*colours, *np.concatenate(colours)[:, None]]) < 1e-8
+    assert name == "uncertain" or unlike(np.arange(1, len(poses))) > 1e-3
+
+
+@pytest.mark.parametrize("name", PRIORS)
+def test_the_precision_is_the_curvature_of_the_density(name):
+    law = PRIORS[name].law(trajectory(6))
+    poses = trajectory(6)  # where errors are zero, so that second derivatives of the motions have no part
+    precision, h = law.precision(poses), 1e-4
+    for i in np.concatenate(law.colours(len(poses))):
+        curvature = np.zeros((3, 3))
+        for a, b, sa, sb in product(range(3), range(3), (1, -1), (1, -1)):
+            one = poses.copy()
+            one[i, a] += sa * h
+            one[i, b] += sb * h
+            curvature[a, b] -= sa * sb * float(law.log_prob(one)) / (4 * h * h)
+        np.testing.assert_allclose(precision[i], curvature, rtol=2e-3, atol=np.abs(curvature).max() * 1e-4)
+
+
+def test_the_density_of_a_motion_integrates_to_one():
+    prior = Odometry(0.1, 0.05, 0.04, 0.2, 0.02, 0.01)
+    log = np.array([[0.0, 0.0, 0.4], [0.5, 0.1, 0.9]])
+    law = prior.law(log)
+    sigma = prior.sigmas(between(log[:1], log[1:]))[0]
+    axes = [np.linspace(-6 * s, 6 * s, 61) for s in (sigma[0], sigma[0], sigma[2])]
+    x, y, yaw = np.meshgrid(*axes, indexing="ij")
+    second = log[1] + np.stack([x, y, yaw], axis=-1)
+    poses = np.stack([np.broadcast_to(log[0], second.shape), second], axis=-2)
+    total = np.exp(law.log_prob(poses))
+    for axis in reversed(axes):
+        total = scipy.integrate.trapezoid(total, axis)
+    assert total == pytest.approx(1.0, abs=1e-4)
+
+
+def test_samples_of_odometry_have_its_errors_also_if_it_slips():
+    """Kolmogorov-Smirnov on every standardised error; false-alarm rate 1e-4 over the three, and over two that slip."""
+    log, prior = trajectory(8, 4000), PRIORS["odometry"]
+    poses = prior.law(log).sample(np.random.default_rng(9))
+    motions = between(log[:-1], log[1:])
+    error = between(poses[:-1], poses[1:]) - motions
+    error[:, 2] = wrap_angle(error[:, 2])
+    standard = error / prior.sigmas(motions)
+    for axis in range(3):
+        assert scipy.stats.kstest(standard[:, axis], "norm").pvalue > 1e-4 / 3
+        assert scipy.stats.kstest(1.15 * standard[:, axis], "norm").pvalue < 1e-4 / 3  # a wrong twin
+    poses = PRIORS["slipping"].law(log).sample(np.random.default_rng(13))
+    error = between(poses[:-1], poses[1:]) - motions
+
+    def mixture(p_slip):
+        return lambda e: (1 - p_slip) * scipy.stats.norm.cdf(e, scale=0.05) + p_slip * scipy.stats.norm.cdf(e)
+
+    for axis in range(2):  # headings wrap
+        assert scipy.stats.kstest(error[:, axis], mixture(0.2)).pvalue > 1e-4 / 2
+        assert scipy.stats.kstest(error[:, axis], mixture(0.3)).pvalue < 1e-4 / 2  # a wrong twin
+
+
+def test_a_motion_that_odometry_missed_pulls_at_no_pose():
+    """Intel's log states a pose twice while the robot turns by half a radian: 300 standard deviations."""
+    stood, turned = np.zeros((2, 3)), np.array([[0.0, 0.0, 0.0], [0.0, 0.05, 0.5]])
+    sigmas = np.array([[0.0025, 0.0013, 0.0017]])
+    back = turned.copy()
+    back[1, 2] -= 0.002
+    changes = {p: Motions(stood[1:], sigmas, p).law(stood).log_change(turned, back)[1] for p in (0.0, 0.01)}
+    assert changes[0.0] > 100  # what turned scans against the walls
+    assert 0 < changes[0.01] < 0.01
+    precision = Motions(stood[1:], sigmas, 0.01).law(stood).precision(turned)[1]
+    np.testing.assert_allclose(precision, np.diag(FREE**-2.0), atol=0.01)  # steps as long as the walls allow
+
+
+def test_known_poses_do_not_move_nor_does_the_first_of_odometry():
+    log = trajectory(10)
+    law = KnownPoses().law(log)
+    assert (law.colours(len(log)), law.log_prob(log), law.log_prob(log + 1e-9)) == ((), 0, -np.inf)
+    assert (law.sample(np.random.default_rng(0)) == log).all()
+    law = PRIORS["odometry"].law(trajectory(11))
+    assert 0 not in np.concatenate(law.colours(6))
+    assert law.log_prob(trajectory(11) + np.array([1e-3, 0, 0])) == -np.inf
+
+
+@pytest.mark.parametrize("make", [
+    lambda: UncertainPoses(0.0, 0.1),
+    lambda: UncertainPoses(0.1, float("nan")),
+    lambda: Odometry(m_per_m=-1.0),
+    lambda: Motions(np.zeros((1, 3)), np.ones((1, 3)), 1.0),
+])  # fmt: skip
+def test_senseless_numbers_are_refused(make):
+    with pytest.raises(BadInput, match=r"sigma|m_per_m|p_slip"):
+        make()
+
+
+TURNED = np.array([[0.0, 0.0, 0.0], [0.0, 0.05, 0.5], [0.0, 0.1, 1.0]])
+
+
+def test_odometry_that_missed_a_turn_does_not_turn_scans():
+    """The log says firmly that the robot stood still between two scans that the walls hold half a radian apart."""
+    scans = Scans(TURNED, np.array([0.0]), np.ones((3, 1)), 2.0)
+    stood = Factors(np.arange(2), np.arange(1, 3), np.zeros((2, 3)), np.tile(np.eye(3) / 0.002**2, (2, 1, 1)))
+    calibration = SimpleNamespace(angle_step_ratio=1.0)
+    found = SimpleNamespace(
+        keys=np.arange(3), order=np.arange(3), poses=TURNED, odometry=stood, calibration=calibration,
+        draw=lambda count, seed: np.tile(TURNED, (count, 1, 1)),
+    )  # fmt: skip
+    law = key_scans(scans, found, chains=2, seed=0).prior.law(TURNED)
+    turn = np.array([[0.0, 0.0, 0.0], [0.0, 0.0, 0.01], [0.0, 0.0, 0.01]])
+    assert abs(law.log_prob(TURNED - turn) - law.log_prob(TURNED)) < 0.1
+    still = np.zeros((3, 3))
+    assert law.log_prob(still) > law.log_prob(still + turn) + 5  # steps that it can have seen right, it still holds

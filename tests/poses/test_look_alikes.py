@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from simulated import poses_along
 
 from bayesmap.poses import key_graph, loops
 from bayesmap.poses.graph import Factors, PoseGaussian, optimise
@@ -10,18 +11,14 @@ from bayesmap.poses.slam import infer_trajectory
 from bayesmap.space.planar import between, compose
 from benchmarks.pose_cases import office, record
 
-KEYS = 60
 STEP_SIGMA = np.array([0.02, 0.02, np.radians(0.4)])
 CLOSURE_SIGMA = np.array([0.02, 0.02, np.radians(0.3)])
 
 
 def square(side=15, step_m=0.5):
     """True poses around a square, on from where they began for some more."""
-    poses = [np.zeros(3)]
-    for k in range(1, 4 * side + 12):
-        turn = np.pi / 2 if k % side == 0 else 0.0
-        poses.append(compose(poses[-1], np.array([step_m, 0.0, turn])))
-    return np.array(poses)
+    motions = [[step_m, 0.0, np.pi / 2 if k % side == 0 else 0.0] for k in range(1, 4 * side + 12)]
+    return poses_along(np.zeros(3), np.array(motions))
 
 
 TRUTH = square()
@@ -31,11 +28,9 @@ ALONG = 0.5 * np.arange(len(TRUTH))
 def chain_of(rng, noise=1.0):
     """Motions with noise, whose stated covariance is that of ``noise`` = 1, and the poses that they lead to."""
     motions = between(TRUTH[:-1], TRUTH[1:]) + noise * STEP_SIGMA * rng.normal(size=(len(TRUTH) - 1, 3))
-    poses = [TRUTH[0]]
-    for motion in motions:
-        poses.append(compose(poses[-1], motion))
     order = np.arange(len(motions))
-    return Factors(order, order + 1, motions, np.tile(np.diag(STEP_SIGMA**-2.0), (len(order), 1, 1))), np.array(poses)
+    factors = Factors(order, order + 1, motions, np.tile(np.diag(STEP_SIGMA**-2.0), (len(order), 1, 1)))
+    return factors, poses_along(TRUTH[0], motions)
 
 
 def closed(chain, poses, shift, rng):
@@ -119,9 +114,8 @@ def test_covariances_and_draws_hold_the_alternative():
     step[0, 3:, 1] = np.sqrt(0.2) * 2.0  # probability 0.2, 2 m to the side
     plain, other = PoseGaussian(*parts), PoseGaussian(*parts, elsewhere=step)
     before, after = (g.relative_covariances([0, 1], [4, 2]) for g in (plain, other))
-    np.testing.assert_allclose(
-        (after - before)[0], np.diag([0.0, 0.2 * 4.0, 0.0]) * other.scale_of_covariance, atol=1e-9
-    )
+    expected = np.diag([0.0, 0.2 * 4.0, 0.0]) * other.scale_of_covariance
+    np.testing.assert_allclose((after - before)[0], expected, atol=1e-9)
     np.testing.assert_allclose(after[1], before[1], atol=1e-12)
     draws = other.draw(1500, seed=1)
     # The scale matrix's share is stretched by Student's t: a variance of 0.8, known to 8 % or so.

@@ -53,12 +53,8 @@ def test_too_few_hits_tell_nothing_and_no_laser_is_taken_to_be_better_or_worse_t
     assert range_noise_m(np.full((3, 180), np.inf), 0.0175) == MIN_NOISE_M
     assert (range_noise_m(np.full((3, 2), 1.0), 0.0175), found_m(0.001)) == (MIN_NOISE_M, MIN_NOISE_M)
     assert found_m(0.2) == MAX_NOISE_M
-
-
-def test_beams_a_degree_apart_are_left_as_they_are():
-    angles, ranges = scans_of(ring(), path_around(1.0)[:3])
-    same = merged(ranges, np.sort(angles), 0.05, 30.0)
-    assert same[0] is ranges
+    angles, ranges = scans_of(ring(), path_around(1.0)[:3])  # beams a degree apart are left as they are
+    assert merged(ranges, np.sort(angles), 0.05, 30.0)[0] is ranges
     assert scan_geometry(Scans(np.zeros((3, 3)), ANGLES, wall(3.0, scans=3), max_range_m=30.0)).beams == 180
 
 
@@ -118,15 +114,13 @@ def test_a_noisy_laser_s_trajectory_is_right_and_knows_how_far(monkeypatch):
 
 def measured(poses, fans, seed=0, max_range_m=12.0):
     """Angles and noisy readings of one scan from each pose, with a fan (first angle, step, beams) each."""
-    rng, walls = np.random.default_rng(seed), ring()
     angles = [first + step * np.arange(beams) for first, step, beams in fans]
-    readings = []
-    for pose, own in zip(poses, angles, strict=True):
-        start = np.tile(pose[:2] / RESOLUTION, (len(own), 1))
-        distance, _ = cast(walls, start, pose[2] + own, max_range_m / RESOLUTION)
-        ranges = distance * RESOLUTION
-        readings.append(np.where(ranges < max_range_m, ranges + 0.01 * rng.normal(size=ranges.shape), np.inf))
-    return angles, readings
+    starts = np.repeat(poses[:, :2], [len(own) for own in angles], axis=0) / RESOLUTION
+    directions = np.concatenate([pose[2] + own for pose, own in zip(poses, angles, strict=True)])
+    ranges = cast(ring(), starts, directions, max_range_m / RESOLUTION)[0] * RESOLUTION
+    noise = 0.01 * np.random.default_rng(seed).normal(size=ranges.shape)
+    readings = np.where(ranges < max_range_m, ranges + noise, np.inf)
+    return angles, np.split(readings, np.cumsum([len(own) for own in angles])[:-1])
 
 
 def turning(scans, seed=7):
@@ -138,10 +132,8 @@ def turning(scans, seed=7):
 
 def alternating(scans):
     """Fans of a log of two layouts."""
-    return [
-        (-np.radians(89.75), np.radians(1.0), 180) if i % 2 else (-np.pi / 2, np.radians(1.0), 181)
-        for i in range(scans)
-    ]
+    fans = (-np.pi / 2, np.radians(1.0), 181), (-np.radians(89.75), np.radians(1.0), 180)
+    return [fans[i % 2] for i in range(scans)]
 
 
 @pytest.mark.parametrize("full", [False, True])
@@ -153,9 +145,8 @@ def test_windows_of_equal_scans_have_the_same_geometry(full):
     first, count = rng.integers(0, 10, len(poses)), rng.integers(120, 170, len(poses))
     window = (np.arange(180) >= first[:, None]) & (np.arange(180) < (first + count)[:, None])
     whole = Scans(poses, angles, np.where(window, ranges, np.nan), 12.0)
-    own = Scans(
-        poses, *side_by_side([angles[w] for w in window], [r[w] for r, w in zip(ranges, window, strict=True)]), 12.0
-    )
+    readings = [row[mask] for row, mask in zip(ranges, window, strict=True)]
+    own = Scans(poses, *side_by_side([angles[mask] for mask in window], readings), 12.0)
     a, b = scan_geometry(whole), scan_geometry(own)
     has = own.has_beam
     for name in ("points", "normals", "kind"):
@@ -168,7 +159,7 @@ def test_windows_of_equal_scans_have_the_same_geometry(full):
 
 @pytest.mark.parametrize("full", [False, True])
 def test_pairs_of_scans_match_as_well_with_angles_that_tremble(full):
-    """What one scan's first angle is off, its pose makes up for: the same points stand on the same walls."""
+    """A scan's pose makes up for the error of its first angle: equal points stand on equal walls."""
     poses = path_around(0.3)
     angles, ranges = scans_of(ring(), poses, full=full)
     rng = np.random.default_rng(4)

@@ -3,6 +3,7 @@
 Public logs from raw odometry, where they are at hand: thresholds leave room for other machines' rounding.
 """
 
+from collections import Counter
 from dataclasses import replace
 from functools import cache
 from types import SimpleNamespace
@@ -10,7 +11,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from data import intel_log
-from simulated import off, path_around, recording, ring, scans_of, worst_m
+from simulated import off, path_around, poses_along, recording, ring, scans_of, worst_m
 
 import bayesmap as bm
 from bayesmap.errors import BadInput
@@ -52,15 +53,6 @@ def test_a_loop_closes(trajectory):
     assert not trajectory.flagged.any()
 
 
-@pytest.mark.full
-def test_scans_out_of_order_give_the_same_poses(trajectory):
-    recorded, _ = loop_recording()
-    shuffled = np.random.default_rng(3).permutation(len(recorded))
-    again = infer_trajectory(recorded.select(shuffled), threads=1)
-    np.testing.assert_array_equal(again.poses, trajectory.poses)
-    np.testing.assert_array_equal(shuffled[again.order], np.arange(len(recorded)))
-
-
 def test_draws_have_the_spread_of_the_covariances(trajectory):
     """2000 draws: a standard deviation is known to about 4 %; with Student's tails, 15 % is seven deviations."""
     draws = trajectory.draw(2000, seed=4)
@@ -93,10 +85,8 @@ def test_odometry_that_never_goes_backwards_while_the_robot_does():
     truth = driven[index]
     motions = between(truth[:-1], truth[1:])
     motions[:, 0] = np.abs(motions[:, 0])
-    poses = [np.zeros(3)]
-    for motion in motions:
-        poses.append(compose(poses[-1], motion))
-    scans = replace(recorded.select(index), poses=np.array(poses), stamps_s=np.arange(len(index)) * 0.2)
+    stated = poses_along(np.zeros(3), motions)
+    scans = replace(recorded.select(index), poses=stated, stamps_s=np.arange(len(index)) * 0.2)
     result = infer_trajectory(scans, threads=1)
     assert worst_m(result.poses, truth) < 0.1
 
@@ -127,10 +117,13 @@ def test_a_scan_that_its_new_place_explains_worse_is_put_back(monkeypatch):
 
 
 def test_poses_are_reported_at_every_stage_and_come_nearer_the_truth(trajectory):
-    """The result is that of a run without reports and with another number of threads, bit for bit."""
+    """Scans out of order, with reports, by another number of threads, have the same poses bit for bit."""
     recorded, _ = loop_recording()
-    told = []
-    result = infer_trajectory(recorded, threads=3, on_poses=lambda stage, poses: told.append((stage, poses.copy())))
+    told, shuffled = [], np.random.default_rng(3).permutation(len(recorded))
+    result = infer_trajectory(
+        recorded.select(shuffled), threads=3, on_poses=lambda stage, poses: told.append((stage, poses.copy()))
+    )
+    np.testing.assert_array_equal(shuffled[result.order], np.arange(len(recorded)))
     for name in ("poses", "own_covariance"):
         np.testing.assert_array_equal(getattr(result, name), getattr(trajectory, name))
     np.testing.assert_array_equal(result.gaussian.curvature, trajectory.gaussian.curvature)
@@ -142,9 +135,7 @@ def test_poses_are_reported_at_every_stage_and_come_nearer_the_truth(trajectory)
     first, middle = told[0][1], told[stages.count("front end") // 2][1]
     # The robot begins where the log says, and goes on by odometry from where it was found.
     np.testing.assert_allclose(first[0], recorded.poses[0], atol=1e-12)
-    np.testing.assert_allclose(
-        between(middle[-2], middle[-1]), between(recorded.poses[-2], recorded.poses[-1]), atol=1e-9
-    )
+    np.testing.assert_allclose(between(*middle[-2:]), between(*recorded.poses[-2:]), atol=1e-9)
     errors = [off_loop_m(poses) for _, poses in told]
     assert errors[0] > 0.5 > 0.05 > errors[-1]
     assert errors[stages.index("aligned")] < errors[stages.index("loops") - 1]
@@ -181,9 +172,7 @@ def test_bad_input_is_refused_and_an_empty_hall_leaves_odometry_as_it_is():
     ranges[0, 0] = 5.0
     scans = replace(recorded.select(slice(0, 30)), ranges_m=ranges)
     result = infer_trajectory(scans, threads=1)
-    np.testing.assert_allclose(
-        between(result.poses[0], result.poses[20]), between(scans.poses[0], scans.poses[20]), atol=0.02
-    )
+    np.testing.assert_allclose(between(*result.poses[[0, 20]]), between(*scans.poses[[0, 20]]), atol=0.02)
 
 
 def test_the_posterior_stretches_along_a_corridor():
@@ -217,24 +206,17 @@ def test_few_beams_are_used_whole_and_then_the_cost_of_the_map_follows_the_area_
     once, often = (for_map(driven(laps), 0.1) for laps in (1.0, 4.0))
     assert len(often.angles_rad) == 180  # a degree apart
     assert once.ranges_m.size <= often.ranges_m.size < 1.2 * once.ranges_m.size
-    seen, all_seen = (
-        np.unique(np.floor(s.hit_points_world() / 0.1), axis=0, return_counts=True) for s in (often, driven(4.0))
-    )
-    shown = {tuple(cell) for cell in seen[0]}
-    walls = [tuple(cell) for cell, hits in zip(*all_seen, strict=True) if hits >= 30]
-    assert np.mean([cell in shown for cell in walls]) > 0.99
+    shown, hit = (Counter(map(tuple, np.floor(s.hit_points_world() / 0.1).tolist())) for s in (often, driven(4.0)))
+    assert np.mean([cell in shown for cell, hits in hit.items() if hits >= 30]) > 0.99
     monkeypatch.setattr(map_scans, "ENOUGH", 10**9)
     assert len(for_map(driven(4.0), 0.1)) == len(driven(4.0))
 
 
 def test_poses_of_many_key_scans_are_sampled_on_request_alone(monkeypatch):
     monkeypatch.setattr(map_scans, "SAMPLED", 3)
-    log = driven(0.3, beams=90)
-    short = bm.Schedule(chains=1, warmup=5, draws=2)
-    kinds = [
-        bm.slam(log, resolution=0.2, fast=fast, schedule=short).posterior.settings["poses"]["kind"]
-        for fast in (None, False)
-    ]
+    log, short = driven(0.3, beams=90), bm.Schedule(chains=1, warmup=5, draws=2)
+    runs = [bm.slam(log, resolution=0.2, fast=fast, schedule=short).posterior for fast in (None, False)]
+    kinds = [run.settings["poses"]["kind"] for run in runs]
     assert kinds[0] == "known" != kinds[1]
 
 
@@ -255,7 +237,7 @@ def test_intel_and_csail_where_odometry_comes_late_are_close_to_the_known_relati
 
 
 def test_a_loop_without_truth_closes():
-    """Where the robot ends, it sees walls that it saw from its first place: odometry doubles them by decimetres."""
+    """The robot ends where it sees walls of its first place: odometry doubles them by decimetres."""
     scans = read_log(intel_log("loop5-odometry.log.gz"))
     trajectory = infer_trajectory(scans)
     assert len(trajectory.closures) >= 3

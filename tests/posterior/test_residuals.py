@@ -9,7 +9,7 @@ from bayesmap.cells.arrays import Draws, pack
 from bayesmap.cells.binary import Independent
 from bayesmap.errors import BadInput
 from bayesmap.posterior.posterior import Posterior
-from bayesmap.posterior.prediction import compare, parts, predictor_of, residuals_of, surface_offset, watched
+from bayesmap.posterior.prediction import compare, predictor_of, residuals_of, surface_offset
 from bayesmap.posterior.scores import beam_log_scores
 from bayesmap.samplers.sampler import Snapshot
 from bayesmap.sensors.builtin import BeamMixture, Gaussian
@@ -92,26 +92,8 @@ def test_a_point_has_its_parts_across_and_along(turn_rad, side):
     assert found.along_m == pytest.approx(side * 0.3)
     assert (found.thickness_m, found.length_m) == pytest.approx((THICK_M, LONG_M))
     assert found.incidence_rad == pytest.approx(np.arctan2(0.5, 2.0))
-
-
-def test_behind_the_wall_is_negative():
-    found = surface_offset(np.zeros(2), wall(0.0), np.array([0.0, -0.05]), np.array([0.0, 3.0]))
-    assert (found.across_m, found.incidence_rad) == (pytest.approx(-0.05), pytest.approx(0.0))
-
-
-def test_parts_follow_each_other_by_their_sizes_and_watched_batches_are_reported_after_use():
-    shares = []
-    first, second, third = parts(shares.append, 1.0, 2.0, 5.0)
-    inner = parts(third, 1.0, 4.0)
-    for report, share in ((first, 0.5), (first, 1.0), (second, 0.5), (second, 1.0), (inner[0], 1.0), (inner[1], 1.0)):
-        report(share)
-    assert shares == pytest.approx([0.5 / 8, 1 / 8, 2 / 8, 3 / 8, 4 / 8, 1.0])
-    told = []
-    batches = [np.arange(6).reshape(3, 2), np.arange(2).reshape(1, 2)]
-    seen = [(batch, len(told)) for batch in watched(batches, 4, told.append)]
-    assert [batch for batch, _ in seen] == batches
-    assert [before for _, before in seen] == [0, 1]
-    assert told == [0.75, 1.0]
+    behind = surface_offset(np.zeros(2), wall(turn_rad), turn @ [0.0, -side * 0.05], turn @ [0.0, side * 3.0])
+    assert (behind.across_m, behind.incidence_rad) == pytest.approx((-0.05, 0.0), abs=1e-6)
 
 
 CELL_KINDS = [bm.Independent(0.2), bm.Beta(0.5, 1.0), bm.Surface(0.5, 1.0)]

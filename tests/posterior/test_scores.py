@@ -1,4 +1,7 @@
-"""Scores of runs on held-out scans, by hand where worlds are small, and what a run says about itself."""
+"""Scores of runs on held-out scans: by hand where worlds are small, calibrated where data come from the model itself.
+
+Seeds are fixed; false alarms of the statistical tests: 1e-4 each.
+"""
 
 import dataclasses
 import functools
@@ -9,11 +12,14 @@ import pytest
 import scipy
 import warp as wp
 from flat_options import infer
-from oracle.formula import beams, distances
+from oracle.enumeration import beams, distances
+from oracle.verdict import ALPHA
 from oracle.worlds import make_case
 
 import bayesmap as bm
 from bayesmap.cells import binary
+from bayesmap.kernels.rays import trace_rays
+from bayesmap.posterior import scores
 from bayesmap.posterior.posterior import entropy_bits
 from bayesmap.posterior.prediction import Predictor, fixed_maps, predictor_of
 from bayesmap.posterior.scores import beam_log_scores, score_prediction
@@ -76,7 +82,7 @@ def test_scores_that_cannot_be_are_refused(case, run, score):
 
 
 def test_the_device_is_the_caller_s_choice(case, run):
-    """Where there is no such device it is refused; where there is a GPU it gives what the CPU does."""
+    """An absent device is refused; a GPU gives the CPU's scores."""
     assert run.log_score(case.scans, device="cpu") == run.log_score(case.scans)
     for made in (run.log_score, functools.partial(bm.score, run)):
         with pytest.raises(bm.BadInput, match="device: 'tpu:7' is not on this machine"):
@@ -160,9 +166,8 @@ def test_three_beams_by_hand():
     for interval in found.coverage:
         assert interval.share.value == pytest.approx((abs(found.pit - 0.5) <= interval.level / 2).mean())
     half = found.coverage[0]
-    low, high = (
-        np.interp(level, below(np.linspace(0, 4, 40_001)), np.linspace(0, 4, 40_001)) for level in (0.25, 0.75)
-    )
+    ranges = np.linspace(0, 4, 40_001)
+    low, high = np.interp([0.25, 0.75], below(ranges), ranges)
     assert half.mean_width_m == pytest.approx(min(high, 4.0) - low, abs=1e-3)
     assert half.median_width_m == pytest.approx(half.mean_width_m)
 
@@ -196,3 +201,107 @@ def test_scans_that_never_reach_the_map_have_no_events_and_many_draws_are_taken_
     whole = bm.score(deep, case.scans).as_json()
     monkeypatch.setattr(binary, "BATCH_BYTES", 4 * 16 * 7)
     assert bm.score(deep, case.scans).as_json() == whole
+
+
+HALL = bm.Grid((20, 16), 0.25)
+LIMITS = RangeLimits(0.2, 4.0)
+DEPTH = 0.4
+SENSORS = {
+    "mixture": bm.BeamMixture(bm.Gaussian(0.05, 0.01), 0.05, 0.1, 0.1, 0.5),
+    "student-t mixture": bm.BeamMixture(bm.StudentT(0.05, 4.0), 0.02, 0.05, 0.05, 0.5),
+    "gaussian": bm.Gaussian(0.1),
+}
+
+
+def drawn_from_the_model(sensor, seed, scans=150, rays=24):
+    """Maps, and readings each drawn from one of them: stop by stop, then by the sensor."""
+    rng = np.random.default_rng(seed)
+    solid = np.where(rng.random(HALL.n_cells) < 0.12, 0.8, 0.005)
+    stop = np.clip(solid * rng.uniform(0.5, 1.2, (3, HALL.n_cells)), 0, 1).astype(np.float32)
+    poses = np.column_stack([rng.uniform(0.5, 3.5, (scans, 2)), rng.uniform(-4, 4, scans)])
+    blank = bm.Scans(poses, np.linspace(0, 6, rays), np.ones((scans, rays)), max_range_m=4.0, min_range_m=0.2)
+    traced = trace_rays(blank, HALL)
+    where = traced.distance_m(DEPTH)
+    d = np.full(blank.n_beams, np.inf)
+    for b in range(blank.n_beams):
+        mine = slice(traced.offsets[b], traced.offsets[b + 1])
+        halts = rng.random(mine.stop - mine.start) < stop[rng.integers(3), traced.cells[mine]]
+        if halts.any():
+            d[b] = where[mine][halts.argmax()]
+    z = sensor.sample(rng, d, LIMITS).reshape(scans, rays)
+    return Predictor(HALL, fixed_maps(stop), sensor, DEPTH), dataclasses.replace(blank, ranges_m=z)
+
+
+@pytest.mark.parametrize("name", SENSORS)
+def test_predictions_of_the_model_s_own_data_are_calibrated(name):
+    predictor, scans = drawn_from_the_model(SENSORS[name], 1)
+    found = scores.score_prediction(predictor, scans)
+    assert scipy.stats.kstest(found.pit, "uniform").pvalue > ALPHA
+    for interval in found.coverage:
+        inside_all = round(interval.share.value * found.beams)
+        assert scipy.stats.binomtest(inside_all, found.beams, interval.level).pvalue > ALPHA
+    # Each event has its chance given all before it: the sum of surprises is a martingale.
+    predicted = np.array([p * n for p, _, n in found.reliability]).sum()
+    happened = np.array([share * n for _, share, n in found.reliability]).sum()
+    assert abs(happened - predicted) < 4 * np.sqrt(found.brier.value * found.events)
+    if name != "gaussian":
+        p, share = found.p_no_return
+        assert abs(p - share) < 4 * np.sqrt(p * (1 - p) / found.beams)
+
+
+@pytest.mark.parametrize("change", [
+    {"sensor": bm.BeamMixture(bm.Gaussian(0.09, 0.01), 0.05, 0.1, 0.1, 0.5)},
+    {"sensor": bm.BeamMixture(bm.Gaussian(0.05, 0.01), 0.05, 0.2, 0.1, 0.5)},
+    {"hit_depth": 0.8},
+    {"batches": fixed_maps(np.full((1, HALL.n_cells), 0.11))},
+], ids=["noise too wide", "too many lost beams", "another depth", "a map of the mean"])  # fmt: skip
+def test_predictions_of_a_wrong_twin_are_not_calibrated(change):
+    """Power of the test above, and what is wrong never scores better."""
+    predictor, scans = drawn_from_the_model(SENSORS["mixture"], 1)
+    right = scores.score_prediction(predictor, scans)
+    wrong = scores.score_prediction(dataclasses.replace(predictor, **change), scans)
+    assert scipy.stats.kstest(wrong.pit, "uniform").pvalue < ALPHA
+    assert wrong.pit_p_value < 0.01 < right.pit_p_value
+    assert wrong.nats_per_beam < right.nats_per_beam
+    assert wrong.log_loss.value > right.log_loss.value
+
+
+def test_the_transform_spreads_atoms_and_histograms_intervals_scores_and_reliability_are_right_by_hand():
+    u, again = (scores.randomised_pit(np.array([0.2, 0.7] * 5000), np.array([0.2, 0.9] * 5000), 3) for _ in range(2))
+    assert (u[::2] == 0.2).all()
+    assert scipy.stats.kstest(u[1::2], "uniform", args=(0.7, 0.2)).pvalue > ALPHA
+    np.testing.assert_array_equal(u, again)
+    u = np.array([0.01, 0.3, 0.5, 0.74, 0.99])
+    np.testing.assert_allclose(scores.pit_histogram(u, 4), [0.2, 0.2, 0.4, 0.2])
+    assert scores.pit_histogram(np.array([0.0, 1.0]), 2).tolist() == [0.5, 0.5]
+    assert scores.inside(u, 0.5).tolist() == [False, True, True, True, False]
+    brier, loss = scores.binary_scores(np.array([0.2, 0.2]), np.array([True, False]))
+    np.testing.assert_allclose(brier, [0.64, 0.04])
+    np.testing.assert_allclose(loss, [-np.log(0.2), -np.log(0.8)])
+    chance = np.array([1e-5, 5e-4, 0.6, 0.8])
+    rows = scores.reliability(chance, np.array([False, False, True, True]))
+    assert [n for *_, n in rows] == [2, 2]
+    np.testing.assert_allclose(rows[1][:2], (0.7, 1.0))
+
+
+def test_errors_are_those_of_means_over_scans_and_the_test_of_uniformity_respects_them_too():
+    """Items of a scan are copies of one number: a bootstrap over items would be seven times too sure."""
+    rng = np.random.default_rng(1)
+    of_scan = rng.normal(size=200)
+    found = scores.ScanBlocks.make(np.repeat(np.arange(200), 50)).mean(np.repeat(of_scan, 50))
+    assert found.value == pytest.approx(of_scan.mean())
+    assert found.error == pytest.approx(of_scan.std() / np.sqrt(200), rel=0.1)
+    unequal = scores.ScanBlocks.make(np.array([0] * 9 + [1]))
+    assert unequal.mean(np.array([1.0] * 9 + [0.0])).value == pytest.approx(0.9)
+    single = scores.ScanBlocks.make(np.zeros(5, int))
+    assert np.isnan(single.mean(np.arange(5.0)).error)
+    distance, p = single.uniformity(np.linspace(0.01, 0.99, 5))
+    assert np.isnan(p)
+    assert 0 < distance < 0.5
+    rng = np.random.default_rng(2)
+    u = np.clip(np.repeat((np.arange(80) + 0.5) / 80, 40) + rng.normal(0, 0.02, 3200), 0, 1)
+    u = np.where(rng.random(3200) < 0.5, u, u**1.15)
+    block = np.repeat(rng.permutation(80), 40)
+    assert scipy.stats.kstest(u, "uniform").pvalue < 0.05
+    assert scores.ScanBlocks.make(block).uniformity(u)[1] > 0.2
+    assert scores.ScanBlocks.make(block).uniformity(u**2)[1] == 0.0

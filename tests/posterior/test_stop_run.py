@@ -9,7 +9,6 @@ from oracle.stop_worlds import beam_rays, scans_of_all_kinds
 from samplers.stop_rooms import surfaces_of
 
 import bayesmap as bm
-from bayesmap.cells.reflectivity import quantiles_of_halves
 from bayesmap.posterior.prediction import predictor_of
 from bayesmap.posterior.scores import beam_log_scores
 
@@ -52,9 +51,8 @@ def test_draws_and_their_mean_cover_the_grid(kind):
 
 def test_draws_and_intervals_of_untouched_cells_are_the_prior_s():
     scans = bm.Scans([-1.5, 3.2, 0.0], [0.0], [[1.2]], max_range_m=3.0)
-    run = bm.infer(
-        scans, GRID, prior=bm.Beta(1.0, 1.0), sensor=SENSOR, schedule=bm.Schedule(chains=1, warmup=5, draws=400)
-    )
+    schedule = bm.Schedule(chains=1, warmup=5, draws=400)
+    run = bm.infer(scans, GRID, prior=bm.Beta(1.0, 1.0), sensor=SENSOR, schedule=schedule)
     elsewhere = np.ones(GRID.shape, dtype=bool)
     elsewhere.ravel()[of(run, "cell")] = False
     assert elsewhere.sum() == 8
@@ -97,14 +95,12 @@ def test_mean_surfaces_are_means_over_draws_in_the_world_frame():
 
 def states_of(run, chain, draw, touched):
     """One draw's cells to predict by, (T', 6), in metres from the corner; every touched cell must have a surface."""
-    place = {int(flat): i for i, flat in enumerate(of(run, "cell"))}
     states = np.zeros((len(touched), 6))
-    for i, flat in enumerate(touched):
-        states[i, 0] = of(run, "expected")[chain, draw, place[int(flat)]]
-        if run.posterior.kind == "surface":
-            u = np.searchsorted(of(run, "surface_cell"), flat)
-            states[i, 1:] = surfaces_of(run.posterior)[chain, draw, u].astype(float) * 0.5
-            states[i, 1:3] += (np.array([flat // 3, flat % 3]) + 0.5) * 0.5
+    states[:, 0] = of(run, "expected")[chain, draw, np.searchsorted(of(run, "cell"), touched)]
+    if run.posterior.kind == "surface":
+        at = np.searchsorted(of(run, "surface_cell"), touched)
+        states[:, 1:] = surfaces_of(run.posterior)[chain, draw, at].astype(float) * GRID.resolution
+        states[:, 1:3] += GRID.centers_from_corner_m(touched)
     return states
 
 
@@ -116,10 +112,9 @@ def test_the_log_score_is_the_log_mean_density_of_the_reference(kind):
     held = scans_of_all_kinds(6, GRID, poses=7)
     rays = beam_rays(held, GRID, whole=True)
     paths, density = paths_of(rays, far=False), 0.0
-    for chain in range(2):
-        for draw in range(8):
-            states = states_of(run, chain, draw, rays.touched)
-            density = density + np.exp(log_likelihoods(paths, states, SENSOR, kind == "reflectivities")) / 16
+    for chain, draw in np.ndindex(2, 8):
+        states = states_of(run, chain, draw, rays.touched)
+        density = density + np.exp(log_likelihoods(paths, states, SENSOR, kind == "reflectivities")) / 16
     valid = ~np.isnan(held.ranges_m.ravel())
     mine = beam_log_scores(predictor_of(run.posterior), held)
     np.testing.assert_allclose(mine[valid], np.log(density)[valid], atol=2e-3)
@@ -149,13 +144,3 @@ def test_a_run_without_hits_has_no_surfaces_and_is_drawn():
     run = inferred(nothing, "surfaces", chains=2, warmup=1, draws=2)
     assert [part.shape for part in run.surfaces()] == [(0, 2), (0, 2, 2), (0,)]
     run.plot()
-
-
-@pytest.mark.parametrize("draws", [1, 2, 7, 200])
-def test_quantiles_of_halves_are_those_of_numpy(draws):
-    rng = np.random.default_rng(draws)
-    halves = rng.beta(0.1, 0.5, (draws, 50)).astype(np.float16)
-    halves[:, :5] = np.array([0.0, 1.0, 6e-8, 3e-5, 0.5], dtype=np.float16)
-    at = (0.0, 0.05, 0.5, 0.77, 1.0)
-    found = quantiles_of_halves(halves, at)
-    np.testing.assert_allclose(found, np.quantile(halves.astype(float), at, axis=0), rtol=1e-12, atol=1e-15)

@@ -114,17 +114,6 @@ def independent_errors(scale=1.0, seed=1):
     return path() + off, covariances
 
 
-def test_the_truth_has_no_error_in_its_own_frame_and_in_another():
-    truth = path()
-    score = score_trajectory(Trajectory(truth, STAMPS), relations_of(truth))
-    assert score.errors.summary()["translation_m_mean"] < 1e-9
-    assert score.as_json()["coverage"] is None
-    laser = Trajectory(truth, STAMPS)
-    base = compose(truth, MOUNT)
-    assert score_trajectory(laser, relations_of(base)).errors.summary()["translation_m_mean"] > 0.05
-    assert score_trajectory(laser, relations_of(base), MOUNT).errors.summary()["translation_m_mean"] < 1e-9
-
-
 def test_regions_of_right_covariances_hold_their_share_and_of_too_small_ones_less():
     """1000 independent relations: shares within 0.06 of the level (3.8 standard errors, 1 run in 3000 by chance)."""
     poses, covariances = independent_errors()
@@ -142,6 +131,14 @@ def test_regions_of_right_covariances_hold_their_share_and_of_too_small_ones_les
     score = score_trajectory(Trajectory(poses, STAMPS, covariances), relations_of(path()))
     assert score.coverage(0.8) < 0.6
     assert score.nees.mean() > 5
+
+    truth = path()
+    score = score_trajectory(Trajectory(truth, STAMPS), relations_of(truth))
+    assert (score.errors.summary()["translation_m_mean"] < 1e-9, score.as_json()["coverage"]) == (True, None)
+    of_base = relations_of(compose(truth, MOUNT))  # relations of another frame need its place on the robot
+    far, near = (score_trajectory(Trajectory(truth, STAMPS), of_base, *mount) for mount in ((), (MOUNT,)))
+    assert far.errors.summary()["translation_m_mean"] > 0.05
+    assert near.errors.summary()["translation_m_mean"] < 1e-9
 
 
 @pytest.mark.parametrize("count", [12, 60])
@@ -163,20 +160,19 @@ LASER_MOUNT = np.array([0.4, -0.3, 0.7])
 
 
 def relations_along(found, truth, gap, mount):
-    first = np.arange(0, len(found) - gap)
-    poses = compose(truth, mount)
+    first, poses = np.arange(0, len(found) - gap), compose(truth, mount)
     return Relations(found.stamps_s[first], found.stamps_s[first + gap], between(poses[first], poses[first + gap]))
 
 
-@pytest.mark.parametrize(
-    ("frame", "gap"), pairs_but(product(["same frame", "another frame"], [1, 7]), ("another frame", 7))
-)
+FRAMES = product(["same frame", "another frame"], [1, 7])
+
+
+@pytest.mark.parametrize(("frame", "gap"), pairs_but(FRAMES, ("another frame", 7)))
 def test_regions_of_the_approximation_hold_their_share(frame, gap):
     """300 true ways drawn from the approximation; shares within 0.06: over 3.5 standard errors, relations of a way
     being as dependent as if there were 3 of them. The twin, of two thirds of the spread, is caught.
     """
-    mount = LASER_MOUNT if frame == "another frame" else None
-    found = round_way()
+    mount, found = LASER_MOUNT if frame == "another frame" else None, round_way()
     shares = {1.0: [], 1.5: []}
     for truth in found.draw(300, seed=5):
         for stretch, held in shares.items():
@@ -209,7 +205,6 @@ def test_draws_of_chains_are_believed_if_they_have_mixed():
     assert [part for part in ("approximation", "have not mixed") if part not in there.known_by] == []
     figures = score_trajectory(there, relations_along(found, found.draw(1, 3)[0], 4, np.zeros(3)), exact=True).as_json()
     assert "have not mixed" in figures["known_by"]
-    found = round_way()
     scans = SimpleNamespace(stamps_s=found.stamps_s[found.keys])
     mixed = trajectory_of(SimpleNamespace(trajectory=found, poses=chains(found, 0.01, 0.0)), scans)
     assert mixed.relative is None
@@ -224,7 +219,8 @@ def test_a_summary_of_poses_uses_the_approximation_until_chains_mix_in_all_poses
     found = round_way()
     for between_chains, by_approximation in ((0.02, True), (0.0, False)):
         poses = chains(found, 1e-3, between_chains)
-        run = Run(_posterior_of(poses), found)
+        draws = SimpleNamespace(arrays={"poses": poses}, values=lambda name, poses=poses: poses)
+        run = Run(SimpleNamespace(draws=draws, occupancy=np.zeros(1)), found)
         summary = run.pose_summary()
         assert summary.by_approximation is by_approximation
         assert summary.mixed is not by_approximation
@@ -235,8 +231,3 @@ def test_a_summary_of_poses_uses_the_approximation_until_chains_mix_in_all_poses
     poses[:, :, 3] = poses[0, 0, 3]
     assert not summarise_poses(poses).mixed
     assert summarise_poses(poses).rhat_max == np.inf
-
-
-def _posterior_of(poses):
-    draws = SimpleNamespace(arrays={"poses": poses}, values=lambda name: poses)
-    return SimpleNamespace(draws=draws, occupancy=np.zeros(1))

@@ -14,7 +14,7 @@ from conformance.gen_tutorial_model import CENTER, PARAMS, full_model
 from oracle.enumeration import sweeps
 from oracle.verdict import ALPHA, least_p_value
 from oracle.worlds import make_case
-from programs.edits import of_case, single
+from test_mapping_edits import of_case, single
 from tiers import full_but, latin
 
 import bayesmap as bm
@@ -37,12 +37,6 @@ TABLE_CUT = 1e-4  # nats a beam: where the mixture's beam table ends early (FLAT
 
 def both(walls, readings):
     return C["walls"].set(walls) | C["readings"].set(readings)
-
-
-@pytest.fixture(scope="module")
-def tutorial():
-    grid = bm.Grid((21, 21), 1.0, (-0.5, -0.5))
-    return bm.mapping_model(grid, [10.0, 10.0, 0.0], ANGLES, bm.Independent(0.5), bm.Gaussian(0.2), max_range_m=42.0)
 
 
 @pytest.mark.parametrize(("name", "lattice"), latin(2, list(SENSORS), [False, True]))
@@ -73,33 +67,30 @@ def test_a_probability_for_each_cell_importance_weighs_by_what_is_given_and_proj
     trace, weight = jax.jit(lambda chm: model.importance(jr.key(0), chm, ()))(C["readings"].set(readings))
     walls = np.asarray(trace.get_choices()["walls"])
     np.testing.assert_allclose(weight, case.problem().table.log_likelihood(walls), rtol=1e-5)
-    np.testing.assert_allclose(trace.project(jr.key(0), gen.Selection.at["readings"]), weight, rtol=1e-6)
-    np.testing.assert_allclose(
-        trace.project(jr.key(0), gen.Selection.at["walls"]), case.prior.log_prob(walls, case.grid), rtol=1e-5
-    )
+    parts = [trace.project(jr.key(0), gen.Selection.at[name]) for name in ("readings", "walls")]
+    np.testing.assert_allclose(parts, [weight, case.prior.log_prob(walls, case.grid)], rtol=1e-5)
     empty, nothing = jax.jit(lambda: model.importance(jr.key(0), C.n(), ()))()
     assert nothing == 0.0
     assess = jax.jit(lambda chm: model.assess(chm, ())[0])
     np.testing.assert_allclose(empty.get_score(), assess(empty.get_choices()), rtol=1e-5)
 
 
-def test_assess_is_that_of_the_tutorial_s_own_program(tutorial):
+def test_assess_and_the_maps_drawn_are_those_of_the_tutorial_s_own_program():
+    grid = bm.worlds.TUTORIAL_GRID
+    sensor, pose = bm.Gaussian(0.2), [10.0, 10.0, 0.0]
+    tutorial = bm.mapping_model(grid, pose, ANGLES, bm.Independent(0.5), sensor, max_range_m=42.0)
+    drawn, prior = tutorial.simulate(jr.key(0), ()), gen.flip.repeat(n=21).repeat(n=21)
+    expected = prior.simulate(jr.fold_in(jr.key(0), 1), (0.5,)).get_retval()
+    np.testing.assert_array_equal(drawn.get_choices()["walls"], expected)
     rng = np.random.default_rng(0)
-    walls, pose = bm.worlds.tutorial()
-    readings = bm.simulate(walls, bm.Grid((21, 21), 1.0, (-0.5, -0.5)), pose, ANGLES, sensor=bm.Gaussian(0.2),
-                           max_range_m=42.0).ranges_m[0]  # fmt: skip
+    walls, _ = bm.worlds.tutorial()
+    readings = bm.simulate(walls, grid, pose, ANGLES, sensor=sensor, max_range_m=42.0).ranges_m[0]
     plain = jax.jit(lambda w: full_model.assess(both(w, jnp.asarray(readings)), (CENTER, PARAMS))[0])
     ours = jax.jit(lambda w: tutorial.assess(both(w, readings), ())[0])
     for w in (walls, np.zeros_like(walls), rng.random(walls.shape) < 0.1):
         # Beams at multiples of 45 degrees graze corners, where the tutorial's float32 hits or misses; they are the
-        # same in float64 (tests/kernels/test_ranges.py).
+        # same in float64 (tests/kernels/test_rays.py).
         np.testing.assert_allclose(ours(w), plain(w), rtol=2e-5)
-
-
-def test_equal_probabilities_draw_the_tutorial_s_maps(tutorial):
-    trace = tutorial.simulate(jr.key(0), ())
-    prior = gen.flip.repeat(n=21).repeat(n=21).simulate(jr.fold_in(jr.key(0), 1), (0.5,))
-    np.testing.assert_array_equal(trace.get_choices()["walls"], prior.get_retval())
 
 
 @pytest.mark.parametrize("name", full_but(list(SENSORS), "growing", "student mixture"))
@@ -150,7 +141,6 @@ def test_a_batch_of_traces_is_a_trace_which_can_be_pickled_and_equal_models_are_
     np.testing.assert_allclose(batch.get_score(), scores, rtol=1e-5)
     # Geometry and prior are no leaves: a batch does not repeat them.
     assert sum(leaf.size for leaf in jax.tree.leaves(batch)) <= 7 * (9 + 2 * case.scans.n_beams + 2)
-    case = make_case(7, shape=(3, 3))
     one, two = of_case(case), of_case(case)
     assert jax.tree.structure(one) == jax.tree.structure(two)
     trace = one.simulate(jr.key(0), ())

@@ -1,14 +1,21 @@
-"""The cost of a run is estimated before it begins, and what cannot fit into memory is refused with a remedy."""
+"""What a run costs, estimated before it begins, and when it ends: when the error of the mean map is small enough.
 
+Runs that cannot fit into memory are refused with a remedy. Where chains stop depends on nothing but their draws.
+"""
+
+import signal
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
+from flat_options import infer
+from scipy import stats
 
 import bayesmap as bm
 from bayesmap.api import Inference, estimate_slam
 from bayesmap.run import cost
-from bayesmap.run.chains import SweepPlan
+from bayesmap.run.chains import KNOWN_SHARE, MIN_BATCHES, EndRule, SweepPlan, map_error
 from bayesmap.run.cost import Sampling, Size, size_of
 
 SCANS = bm.Scans([[1.0, 1.0, 0.0], [2.0, 1.0, 0.0], [3.0, 1.0, 0.0]], [0.0], [[0.5], [0.5], [0.5]], max_range_m=5.0)
@@ -41,27 +48,19 @@ def test_incidences_and_the_size_of_a_draw_are_foreseen(prior):
     assert size.incidences == pytest.approx(run.posterior.counts["incidences"], rel=0.15)
     asked = Sampling("stop-gibbs", draws.specs, False, 1, SweepPlan(1, 1), False, False, 1)
     assert asked.draw_bytes(size) == pytest.approx(sum(array.nbytes for array in draws.arrays.values()), rel=0.3)
-
-
-def test_a_beam_without_return_ends_at_the_edge_of_the_grid():
-    scans = replace(SCANS, ranges_m=np.full((3, 1), np.inf), max_range_m=1e4)
-    size = size_of(scans, bm.Grid((40, 20), 0.1))
-    assert size.incidences == pytest.approx(cost.CELLS_A_CELL_LENGTH * (30 + 20 + 10))
+    silent = replace(SCANS, ranges_m=np.full((3, 1), np.inf), max_range_m=1e4)  # beams end at the edge of the grid
+    expected = pytest.approx(cost.CELLS_A_CELL_LENGTH * (30 + 20 + 10))
+    assert size_of(silent, bm.Grid((40, 20), 0.1)).incidences == expected
 
 
 INTEL = Size(147_420, 6_423_475, 147_287, 100_704, 10_844, 147_420)
 FIVE = Size(151_200, 5_881_192, 144_270, 90_000, 29_000, 2_160_000, 3000)
 
 
-@pytest.mark.parametrize(
-    ("size", "plan", "seconds", "memory_mb"),
-    [
-        (INTEL, SweepPlan(30, 50), 75.0, None),
-        (INTEL, SweepPlan(30, 10, 3), None, 614.0),
-        (FIVE, SweepPlan(30, 50), 124.0, 900.0),
-        (FIVE, SweepPlan(30, 72, 3), 254.0, 1052.0),
-    ],
-)
+@pytest.mark.parametrize(("size", "plan", "seconds", "memory_mb"), [
+    (INTEL, SweepPlan(30, 50), 75.0, None), (INTEL, SweepPlan(30, 10, 3), None, 614.0),
+    (FIVE, SweepPlan(30, 50), 124.0, 900.0), (FIVE, SweepPlan(30, 72, 3), 254.0, 1052.0),
+])  # fmt: skip
 def test_measured_runs_are_within_a_third_of_their_estimates(size, plan, seconds, memory_mb):
     """Processor times and peaks as docs/scale.md has them; the twin of another unit or a lost term is far outside."""
     sampling = Sampling("stop-gibbs", bm.Surface().arrays, True, 4, plan, True, False, 1)
@@ -79,39 +78,27 @@ def test_chains_that_may_end_early_have_two_estimates_and_a_limit_of_time_bounds
     many = room(0.02, 360)
     free, limited = (inference(many, schedule=bm.Schedule(seconds=s)).estimate().seconds[1] for s in (None, 3.0))
     assert limited < 0.5 * free
-
-
-def test_on_a_gpu_and_for_other_samplers_nothing_is_said_of_time():
     assert inference(room(), device="cuda:0").estimate() is None
-    grid = bm.Grid.covering(SCANS, 0.1)
+    grid = bm.Grid.covering(SCANS, 0.1)  # samplers whose time is unknown
     exact = Inference.of(SCANS, grid, bm.Independent(0.2), SENSOR, "propagate", SHORT, 0, None, 0.5, bm.Where())
     assert exact.estimate().seconds is None
     assert "GB of memory" in exact.estimate().words()
 
 
-@pytest.mark.parametrize(
-    ("scans", "grid", "option"),
-    [
-        (room(0.05, 360), None, "--thin-scans 0.1"),
-        (room(2.0, 4), bm.Grid((2000, 2000), 0.01), "--resolution 0.02"),
-    ],
-    ids=["scans that are close together", "small cells"],
-)
-def test_the_remedy_fits_the_cause_and_makes_it_fit(monkeypatch, scans, grid, option):
-    monkeypatch.setattr(cost, "memory_bytes", lambda: None)
-    most = inference(scans, grid).estimate().memory[1]
-    assert inference(scans, grid).estimate().remedy == ""
-    monkeypatch.setattr(cost, "memory_bytes", lambda: int(most / cost.MUCH_MEMORY) - 1)
-    assert inference(scans, grid).estimate().remedy == option
-
-
-def test_few_hits_far_away_are_cut_off(monkeypatch):
-    scans = room()
-    ranges = scans.ranges_m.copy()
+def test_the_remedy_fits_the_cause_and_makes_it_fit(monkeypatch):
+    """Scans that are close together are thinned, small cells enlarged, and few hits far away cut off."""
+    for scans, grid, option in (
+        (room(0.05, 360), None, "--thin-scans 0.1"), (room(2.0, 4), bm.Grid((2000, 2000), 0.01), "--resolution 0.02"),
+    ):  # fmt: skip
+        monkeypatch.setattr(cost, "memory_bytes", lambda: None)
+        most = inference(scans, grid).estimate().memory[1]
+        assert inference(scans, grid).estimate().remedy == ""
+        monkeypatch.setattr(cost, "memory_bytes", lambda most=most: int(most / cost.MUCH_MEMORY) - 1)
+        assert inference(scans, grid).estimate().remedy == option
+    ranges = room().ranges_m.copy()
     ranges[0, :3] = 300.0
-    far = replace(scans, ranges_m=ranges, max_range_m=400.0)
     monkeypatch.setattr(cost, "memory_bytes", lambda: int(9e8))
-    assert inference(far).estimate().remedy == "--max-range 10"
+    assert inference(replace(room(), ranges_m=ranges, max_range_m=400.0)).estimate().remedy == "--max-range 10"
 
 
 def test_a_long_run_is_shorter_with_fewer_scans_else_with_a_limit(monkeypatch):
@@ -132,7 +119,7 @@ def test_slam_is_estimated_from_as_many_scans_as_will_be_keys():
 
 
 @pytest.mark.parametrize("prior", [bm.Surface(), bm.Beta(), bm.Independent(0.2)], ids=["surfaces", "betas", "walls"])
-def test_what_cannot_fit_is_refused_unless_it_is_asked_for(monkeypatch, prior):
+def test_runs_that_cannot_fit_are_refused_unless_they_are_asked_for(monkeypatch, prior):
     grid = bm.Grid((40, 50), 0.1)
 
     def infer(**where):
@@ -147,19 +134,12 @@ def test_what_cannot_fit_is_refused_unless_it_is_asked_for(monkeypatch, prior):
     infer(any_size=True)
     monkeypatch.setattr(cost, "memory_bytes", lambda: None)
     infer()
-
-
-def test_slam_is_refused_before_the_trajectory(monkeypatch):
-    monkeypatch.setattr(cost, "memory_bytes", lambda: 1 << 20)
-    monkeypatch.setattr("bayesmap.poses.slam.infer_trajectory", None)
-    with pytest.raises(bm.BadInput, match="at least"):
-        bm.slam(room())
-
-
-def test_a_scan_that_is_far_from_all_others_is_named(monkeypatch):
     monkeypatch.setattr(cost, "memory_bytes", lambda: 1 << 20)
     with pytest.raises(bm.BadInput, match=r"scan 2 was taken at \(900, 1\) m, far from all others; correct its pose"):
-        bm.infer(FAR, bm.Grid.covering(FAR, 0.5), prior=bm.Surface(), sensor=SENSOR)
+        bm.infer(FAR, bm.Grid.covering(FAR, 0.5), prior=prior, sensor=SENSOR)
+    monkeypatch.setattr("bayesmap.poses.slam.infer_trajectory", None)  # slam is refused before the trajectory
+    with pytest.raises(bm.BadInput, match="at least"):
+        bm.slam(room())
 
 
 def test_containers_may_take_less_than_the_machine_has(monkeypatch, tmp_path):
@@ -171,3 +151,129 @@ def test_containers_may_take_less_than_the_machine_has(monkeypatch, tmp_path):
     assert cost.memory_bytes() != 12345
     monkeypatch.setattr(cost, "GROUP_LIMITS", (str(none), str(limit)))
     assert cost.memory_bytes() == 12345
+
+
+CELLS, CHAINS, DRAWS, STICKY = 4000, 4, 400, 0.8
+
+
+class Traces:
+    """Stands for cells and their draws: what each draw expects of each cell, (chains, draws, cells)."""
+
+    def __init__(self, values):
+        self.values, (self.chains, self.count, _) = values, values.shape
+
+    def expected_traces(self, draws, cells):
+        return self.values[:, :, cells]
+
+
+def error(values):
+    return map_error(Traces(values), Traces(values), np.ones((1, values.shape[-1]), dtype=bool))
+
+
+@cache
+def sticky_chains():
+    """Draw autoregressive chains of standard normal values: each is 0.8 of the one before it, and noise."""
+    rng = np.random.default_rng(4)
+    values = rng.standard_normal((CHAINS, DRAWS, CELLS))
+    for i in range(1, DRAWS):
+        values[:, i] = STICKY * values[:, i - 1] + np.sqrt(1 - STICKY**2) * values[:, i]
+    return values
+
+
+def expected_error(sd):
+    """The 99 % quantile of an estimate from eight batches whose mean has a standard deviation."""
+    degrees = MIN_BATCHES - 1
+    return sd * np.sqrt(stats.chi2(degrees).ppf(KNOWN_SHARE) / degrees)
+
+
+def test_the_error_is_that_of_the_mean_of_chains_that_mix_slowly():
+    """A quantile over 4000 cells has a relative error of 1 %; neighbouring batches are alike by 5 %."""
+    values = sticky_chains()
+    true = np.sqrt((1 + STICKY) / (1 - STICKY) / (CHAINS * DRAWS))
+    assert values.mean(axis=(0, 1)).std() == pytest.approx(true, rel=0.05)
+    assert error(values) == pytest.approx(expected_error(true), rel=0.1)
+    shuffled = np.random.default_rng(5).permuted(values.reshape(-1, CELLS), axis=0).reshape(values.shape)
+    assert error(shuffled) < 0.5 * expected_error(true)  # the twin: draws taken as independent
+
+
+def test_chains_that_disagree_or_have_too_few_draws_do_not_know_the_map():
+    """Nothing changes within a chain: each alone would be sure."""
+    apart = np.broadcast_to(np.array([0.0, 1.0, 0.0, 1.0])[:, None, None], (4, 50, 10))
+    assert error(apart) > 0.15
+    assert error(np.zeros((4, 50, 10))) == 0.0
+    for chains, draws in ((4, 3), (1, 15), (8, 1)):
+        assert error(np.zeros((chains, draws, 3))) == float("inf")
+        assert error(np.zeros((chains, draws + 1, 3))) == 0.0
+
+
+WALLS, POSE = bm.worlds.tutorial()
+GRID = bm.worlds.TUTORIAL_GRID
+ASKED = {"prior": bm.Independent(0.3), "sensor": bm.Gaussian(0.2), "warmup": 20, "draws": 400, "seed": 3}
+
+
+@cache
+def scans():
+    angles = np.linspace(0, 2 * np.pi, 40, endpoint=False)
+    return bm.simulate(WALLS, GRID, POSE, angles, sensor=bm.Gaussian(0.2), max_range_m=42.0, seed=0)
+
+
+@cache
+def stopped_early(threads=2):
+    return infer(scans(), GRID, precision=0.04, threads=threads, **ASKED)
+
+
+def test_chains_stop_at_the_first_mark_at_which_the_map_is_known_with_the_draws_of_longer_ones():
+    run, marks = stopped_early(), SweepPlan(20, 400, 1, 0.04).marks
+    at = marks.index(run.posterior.sweep)
+    assert run.finished
+    assert run.summary().map_error <= 0.04
+    assert run.summary().problems() == []
+    before = infer(scans(), GRID, **ASKED | {"draws": marks[at - 1] - 20})
+    assert before.summary().map_error > 0.04
+
+    longer = infer(scans(), GRID, **ASKED)
+    assert longer.n_draws == 400
+    np.testing.assert_array_equal(longer.draws[:, : run.n_draws], run.draws)
+    np.testing.assert_array_equal(stopped_early(threads=1).draws, run.draws)
+
+
+@pytest.mark.parametrize("after", [10, 20, 30, 41, 60])
+def test_a_run_that_is_stopped_and_goes_on_ends_where_it_would_have(after):
+    """Ctrl-C during warm-up, at its end, at a mark, and between two."""
+
+    def stop(event):
+        if event.stage in ("warm-up", "draws") and event.done >= after:
+            signal.raise_signal(signal.SIGINT)
+
+    stopped = infer(scans(), GRID, precision=0.04, on_progress=stop, **ASKED)
+    assert not stopped.finished
+    run = infer(scans(), GRID, precision=0.04, resume=stopped, **ASKED)
+    assert run.finished
+    np.testing.assert_array_equal(run.draws, stopped_early().draws)
+
+
+def test_a_limit_that_comes_first_is_said():
+    run = infer(scans(), GRID, precision=0.001, **ASKED | {"draws": 40})
+    assert run.n_draws == 40
+    [problem] = run.summary().problems()
+    assert "not to 0.001: draw more maps" in problem
+
+
+def test_a_default_run_stops_early_and_a_number_of_draws_is_kept_to():
+    cells = {"prior": bm.Independent(0.3), "sensor": bm.Gaussian(0.2), "seed": 3}
+    assert bm.infer(scans(), GRID, **cells).n_draws < 1000
+    assert bm.infer(scans(), GRID, schedule=bm.Schedule(draws=70), **cells).n_draws == 70
+    for precision in (0.0, -1.0, float("nan")):
+        with pytest.raises(bm.BadInput, match="precision must be a positive probability"):
+            bm.Schedule(precision=precision)
+
+
+def test_marks_are_fixed_and_progress_expects_the_first_and_then_what_the_error_asks_for():
+    assert SweepPlan(50, 60, 3, 0.03).marks == (80, 95, 110, 125, 143, 164, 191, 224)
+    assert SweepPlan(50, 60, 3).marks == ()
+    rule = EndRule(SweepPlan(50, 60, 3, 0.03), lambda: 0.06)
+    rule.check(20)
+    assert (rule.expected_sweeps(20), rule.error, rule.reached) == (80, None, False)
+    rule.check(80)
+    assert (rule.expected_sweeps(80), rule.error, rule.reached) == (50 + 4 * 30, 0.06, False)
+    assert EndRule(SweepPlan(50, 60, 3), lambda: 0.0).expected_sweeps(20) == 230

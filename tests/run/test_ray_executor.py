@@ -53,42 +53,42 @@ def quick(**change):
     return bm.RayExecutor(**{"segment_s": 0.01} | change)
 
 
+def as_threads(scans, kind, executor=None, on_progress=None, **change):
+    """Infer on the cluster, and check that threads draw the same; return the run."""
+    arguments = {**SHORT, **KINDS[kind], **change}
+    run = infer(scans, GRID, executor=executor or quick(), on_progress=on_progress, **arguments)
+    assert_same(run, infer(scans, GRID, **arguments))
+    return run
+
+
 @pytest.mark.parametrize("kind", full_but(list(KINDS), "surfaces and a fitted sensor"))
 def test_the_draws_are_those_of_threads(cluster, scans, kind):
-    arguments = {**SHORT, **KINDS[kind]}
-    assert_same(infer(scans, GRID, executor=quick(), **arguments), infer(scans, GRID, **arguments))
-
-
-def test_two_seeds_would_not_pass_for_one(scans):
-    """Power of all that compares runs here."""
-    one, other = (infer(scans, GRID, **{**SHORT, **KINDS["walls"], "seed": seed}) for seed in (5, 6))
-    with pytest.raises(AssertionError):
-        assert_same(one, other)
+    run = as_threads(scans, kind)
+    with pytest.raises(AssertionError):  # power of all that compares runs here
+        assert_same(run, infer(scans, GRID, **{**SHORT, **KINDS[kind], "seed": 6}))
 
 
 def test_chains_stop_where_those_of_threads_do(cluster, scans):
     """They stop at a precision, at marks that groups of chains reach at different times."""
-    arguments = {**SHORT, **KINDS["walls"], "draws": 400, "precision": 0.05}
     events = []
-    run = infer(scans, GRID, executor=quick(), on_progress=events.append, **arguments)
+    run = as_threads(scans, "walls", on_progress=events.append, draws=400, precision=0.05)
     assert run.n_draws < 400
     assert {event.total < 420 for event in events if event.error is not None} == {True}  # the estimated end
-    assert_same(run, infer(scans, GRID, **arguments))
 
 
 @pytest.mark.full
 @pytest.mark.parametrize("chains_per_task", [1, 2, 3])
 def test_how_chains_are_divided_makes_no_difference(cluster, scans, chains_per_task):
-    arguments = {**SHORT, **KINDS["walls"], "thin": 2}
-    run = infer(scans, GRID, executor=quick(chains_per_task=chains_per_task), **arguments)
-    assert_same(run, infer(scans, GRID, **arguments))
+    """Unknown poses make none either: each chain has poses of its own, and rays that follow them."""
+    as_threads(scans, "walls", quick(chains_per_task=chains_per_task), thin=2)
+    poses = UncertainPoses(0.05, 0.01)
+    as_threads(scans, "reflectivities", quick(chains_per_task=chains_per_task), poses=poses, warmup=7, draws=8)
 
 
 @pytest.mark.full
 @pytest.mark.parametrize("kind", ["walls", "surfaces and a fitted sensor"])
 def test_a_node_that_dies_costs_nothing_but_time(cluster, scans, kind):
     cluster.complete()
-    arguments = {**SHORT, **KINDS[kind], "warmup": 40, "draws": 60}
     killed = []
 
     def on_progress(event):
@@ -97,16 +97,8 @@ def test_a_node_that_dies_costs_nothing_but_time(cluster, scans, kind):
             cluster.kill()
             killed.append(event.done)
 
-    run = infer(scans, GRID, executor=quick(), on_progress=on_progress, **arguments)
+    as_threads(scans, kind, on_progress=on_progress, warmup=40, draws=60)
     assert killed
-    assert_same(run, infer(scans, GRID, **arguments))
-
-
-@pytest.mark.full
-def test_unknown_poses_come_out_alike(cluster, scans):
-    """Each chain has poses of its own, and rays that follow them."""
-    arguments = {**SHORT, **KINDS["reflectivities"], "poses": UncertainPoses(0.05, 0.01), "warmup": 7, "draws": 8}
-    assert_same(infer(scans, GRID, executor=quick(), **arguments), infer(scans, GRID, **arguments))
 
 
 @dataclass(frozen=True, eq=False)
@@ -206,7 +198,7 @@ def test_a_checkpoint_does_not_send_all_draws_back(cluster, scans, kind, monkeyp
     assert counts == ({8} if kind == "walls" else {0})
 
 
-def test_what_a_sampler_or_the_cluster_cannot_do_is_refused(cluster, scans):
+def test_tasks_that_the_cluster_cannot_run_are_refused(cluster, scans):
     for executor, device, message in (
         (quick(), "tpu:7", "each task has a GPU of its own"), (quick(cpus_per_task=64), "cpu", "each needs 64 CPUs"),
     ):  # fmt: skip
@@ -214,7 +206,7 @@ def test_what_a_sampler_or_the_cluster_cannot_do_is_refused(cluster, scans):
             infer(scans, GRID, executor=executor, device=device, **{**SHORT, **KINDS["walls"]})
 
 
-def test_numbers_that_make_no_sense_are_refused():
+def test_numbers_that_make_no_sense_are_refused_and_without_ray_the_remedy_is_named(scans, monkeypatch):
     for change, message in (
         ({"cpus_per_task": 0}, "cpus_per_task must be a whole number of 1 or more"),
         ({"chains_per_task": 0}, "chains_per_task must be a whole number of 1 or more"),
@@ -223,9 +215,6 @@ def test_numbers_that_make_no_sense_are_refused():
     ):
         with pytest.raises(bm.BadInput, match=message):
             bm.RayExecutor(**change)
-
-
-def test_without_ray_the_remedy_is_named(scans, monkeypatch):
     monkeypatch.setitem(sys.modules, "ray", None)
     with pytest.raises(bm.BadInput, match=r"pip install 'bayesmap\[ray\]'"):
         infer(scans, GRID, executor=bm.RayExecutor(), **{**SHORT, **KINDS["walls"]})

@@ -89,7 +89,7 @@ def draw_maps(rng, p, n, count):
 
 
 def run_sweeps(problem, method, order, starts, sweeps, seed, threads=None, beta=1.0):
-    """Where chains from the given maps (chains, n) stand after some sweeps at an inverse temperature, (chains, n)."""
+    """Return the maps of chains after sweeps from given maps (chains, n) at an inverse temperature, (chains, n)."""
     problem = replace(problem, threads=threads)
     starts = np.asarray(starts).reshape(-1, *problem.grid.shape)
     sampler = SAMPLERS[method][0](order, starts)
@@ -98,9 +98,8 @@ def run_sweeps(problem, method, order, starts, sweeps, seed, threads=None, beta=
 
 
 def chains_of(problem, method, order, chains=5, seed=3, schedule=None, start="prior", **options):
-    job = Job(
-        model_of(problem), SAMPLERS[method][0](order, start), schedule, seed, tuple(range(chains)), problem=problem
-    )
+    sampler = SAMPLERS[method][0](order, start)
+    job = Job(model_of(problem), sampler, schedule, seed, tuple(range(chains)), problem=problem)
     return run_chains(job, **options)
 
 

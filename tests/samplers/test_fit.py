@@ -1,4 +1,4 @@
-"""The fitted sensor and prior come near those that the readings were drawn from, and see the training scans only.
+"""What is estimated before the chains: the fitted sensor and prior, from training scans alone, and the initial map.
 
 Tolerances are in standard errors, from data sets drawn anew, and a part of the value where the model that fits is not
 quite the one that drew. False alarms: below 1e-4 for each test.
@@ -9,13 +9,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import scipy
 from oracle.stop_law import draw_readings, draw_states, paths_of
-from oracle.stop_worlds import beam_rays, centres_of, touching
+from oracle.stop_worlds import beam_rays, centres_of, scans_of_all_kinds, touching
 from stop_rooms import GRID, TRUTH, assert_same, infer, scans
 
 import bayesmap as bm
 from bayesmap.model import Model
 from bayesmap.samplers import fit as fits
+from bayesmap.samplers import initial_estimate as estimates
 from bayesmap.samplers.stop_problem import trace_stops
 from bayesmap.sensors.model import RangeLimits
 
@@ -23,7 +25,7 @@ SIX = ("sigma_m", "sigma_per_m", "p_random", "p_no_return", "p_short", "rate_sho
 
 
 def numbers(sensor):
-    """Of a noise with many degrees of freedom those of a normal one that scatters as much."""
+    """A sensor's numbers; a noise of many degrees of freedom counts as a normal one that scatters as much."""
     of_noise = sensor.noise.kernel_parameters()
     wider = np.sqrt(of_noise.dof / (of_noise.dof - 2.0)) if of_noise.dof else 1.0
     return np.array([wider * getattr(of_noise, name) if "sigma" in name else getattr(sensor, name) for name in SIX])
@@ -36,9 +38,8 @@ def fitted_to_known_stops(seed, least_m, count=12_000):
     variance = rng.uniform(0, 0.05**2, count)
     spread = np.where(np.isfinite(distance), np.sqrt(variance) * rng.standard_normal(count), 0.0)
     stopped = np.isfinite(distance)
-    stops = fits.DrawnStops(
-        TRUTH.sample(rng, distance + spread, limits), stopped, np.where(stopped, distance, 0.0), variance
-    )
+    readings = TRUTH.sample(rng, distance + spread, limits)
+    stops = fits.DrawnStops(readings, stopped, np.where(stopped, distance, 0.0), variance)
     sensor = bm.BeamMixture(bm.Gaussian(0.1, 0.001), p_random=0.2, p_no_return=0.2, p_short=0.2, rate_short_per_m=2.0)
     for _ in range(40):
         sensor = fits.refit_sensor(sensor, stops, limits, 1.0)
@@ -116,9 +117,8 @@ def test_binary_walls_can_have_a_fitted_sensor():
     model = Model(scans(), GRID, bm.Independent(0.1), TRUTH, hit_depth=0.5)
     found = fits.fit_sensor(model, "cpu", seed=0)
     assert 0.3 < found.p_random / TRUTH.p_random < 3
-    run = bm.infer(
-        scans(poses=5), GRID, prior=bm.Independent(0.1), sensor="fit", schedule=bm.Schedule(chains=1, warmup=5, draws=5)
-    )
+    short = bm.Schedule(chains=1, warmup=5, draws=5)
+    run = bm.infer(scans(poses=5), GRID, prior=bm.Independent(0.1), sensor="fit", schedule=short)
     assert isinstance(run.posterior.sensor, bm.BeamMixture)
 
 
@@ -141,9 +141,8 @@ def test_the_prior_s_counts_are_found_from_hits_and_passes():
 def test_steps_are_whole_while_the_map_is_coming_about_and_then_shrink():
     steps = [fits.step_share(sweep) for sweep in range(fits.FIRST_SWEEP, fits.PILOT_SWEEPS)]
     assert steps == sorted(steps, reverse=True)
-    assert (
-        steps[0] == steps[fits.WHOLE_UNTIL - fits.FIRST_SWEEP] == 1.0 > steps[fits.WHOLE_UNTIL - fits.FIRST_SWEEP + 1]
-    )
+    last_whole = fits.WHOLE_UNTIL - fits.FIRST_SWEEP
+    assert steps[0] == steps[last_whole] == 1.0 > steps[last_whole + 1]
     assert sum(step**2 for step in steps if step < 1) < 2  # noise is averaged out
 
 
@@ -152,7 +151,7 @@ FIRST = bm.Gaussian(0.02, 0.002)
 
 
 def residuals(noise, seed, count=COUNT):
-    """Of stops at 1 to 15 m whose surfaces spread up to 3 cm: the scale of a reading is that of both together."""
+    """Residuals of stops at 1 to 15 m whose surfaces spread up to 3 cm: both scales add up in quadrature."""
     rng = np.random.default_rng(seed)
     distance = rng.uniform(1.0, 15.0, count)
     variance = rng.uniform(0.0, 0.03, count) ** 2
@@ -195,3 +194,114 @@ def test_a_part_of_a_step_goes_a_part_of_the_way_leaves_the_shape_and_too_few_re
     assert isinstance(normal, bm.Gaussian)
     assert math.log(normal.sigma_m / FIRST.sigma_m) == pytest.approx(2 * math.log(half.sigma_m / FIRST.sigma_m))
     assert fits.refit_noise(FIRST, residuals(bm.Gaussian(0.02), 0, count=9), 1.0) is FIRST
+
+
+MIXTURE = bm.BeamMixture(bm.Gaussian(0.05))
+
+
+@pytest.fixture(scope="module")
+def problem():
+    grid = bm.Grid((7, 6), resolution=0.25, origin=(-1.0, 2.0))
+    scans = scans_of_all_kinds(9, grid, poses=30, limits=(0.1, 2.0))
+    return trace_stops(scans, grid, bm.Surface(), MIXTURE)
+
+
+def naive(rays):
+    """The touched cell in which each reading ends, and hits and passes by cell, beam by beam."""
+    edge, ny = rays.grid.resolution, rays.grid.shape[1]
+    distance_m = rays.distance_m(0.0)
+    ends, hits, passes = [], np.zeros(rays.grid.n_cells, int), np.zeros(rays.grid.n_cells, int)
+    for b, z in enumerate(rays.range_m):
+        end = -1
+        if np.isfinite(z):
+            x, y = np.floor((rays.start_m[b] + z * rays.direction[b].astype(float)) / edge).astype(int)
+            if 0 <= x < rays.grid.shape[0] and 0 <= y < ny and x * ny + y in rays.touched:
+                end = x * ny + y
+        ends.append(end)
+        if end >= 0:
+            hits[end] += 1
+        if np.isnan(z) or z < 0:
+            continue
+        for k in range(rays.offsets[b], rays.offsets[b + 1]):
+            if rays.cells[k] == end or distance_m[k] > z:
+                break
+            passes[rays.cells[k]] += 1
+    return np.array(ends), hits[rays.touched], passes[rays.touched]
+
+
+def test_counts_are_naive_counts(problem):
+    ends, hits, passes = naive(problem.rays)
+    estimate = problem.estimate
+    np.testing.assert_array_equal(estimates.end_cells(problem.rays), ends)
+    np.testing.assert_array_equal(estimate.touched, problem.rays.touched)
+    np.testing.assert_array_equal(estimate.hits, hits)
+    np.testing.assert_array_equal(estimate.passes, passes)
+    np.testing.assert_array_equal(estimate.endpoint, hits > 0)
+    assert hits.sum() > 20
+    assert passes.sum() > hits.sum()
+
+
+def test_moments_are_those_of_the_end_points_drawn_towards_the_prior_and_widened(problem):
+    rays, estimate = problem.rays, problem.estimate
+    cells, hits = estimate.endpoint_cells, estimate.hits[estimate.endpoint]
+    ends, centres = estimates.end_cells(rays), rays.grid.centers_from_corner_m(cells)
+    spread = 0.28 * rays.grid.resolution
+    for u in np.argsort(hits)[[0, -5, -2, -1]]:
+        points = rays.end_points_m()[ends == cells[u]]
+        weights = np.append(np.ones(len(points)), 0.3)
+        every = np.vstack([points, centres[u]])
+        mean = np.average(every, axis=0, weights=weights)
+        away = every - mean
+        covariance = ((away * weights[:, None]).T @ away + 0.5 * spread**2 * np.eye(2)) / (len(points) + 1)
+        l11, l21, l22 = estimate.factor_m[u]
+        factor = np.array([[l11, 0.0], [l21, l22]])
+        np.testing.assert_allclose(estimate.mean_m[u], mean, atol=1e-6)
+        (across, along), axes = np.linalg.eigh(covariance)
+        wide = axes @ np.diag([across, along * estimates.ALONG_WALL_SIGMAS**2]) @ axes.T
+        np.testing.assert_allclose(factor @ factor.T, wide, atol=1e-7)
+
+
+def test_endpoint_cells_step_in_a_frame_along_their_longer_axis_and_by_their_thickness_across(problem):
+    moved = estimates.steps(problem.estimate, problem.grid.resolution)
+    assert moved.shape == (problem.estimate.endpoint.sum(), 8)
+    assert (moved[:, :6] > 0).all()
+    hits = problem.estimate.hits[problem.estimate.endpoint]
+    for (l11, l21, l22), n, row in zip(problem.estimate.factor_m, hits, moved, strict=True):
+        factor = np.array([[l11, 0.0], [l21, l22]])
+        (across, along), axes = np.linalg.eigh(factor @ factor.T)
+        frame = row[6:].astype(float)
+        assert np.linalg.norm(frame) == pytest.approx(1.0, rel=1e-5)
+        if along > 1.01 * across:  # a round one has no longer axis
+            assert abs(frame @ axes[:, 1]) == pytest.approx(1.0, abs=1e-4)
+        assert row[2] == pytest.approx(estimates.STEP_ACROSS_SIGMAS * np.sqrt(across / (n + 1)), rel=1e-3)
+
+
+def test_every_cell_of_the_grid_has_a_start_those_without_beams_from_the_prior():
+    """Kolmogorov and Smirnov at 1e-6, and a twin: the cells in which readings end are not so distributed."""
+    grid = bm.Grid((60, 60), resolution=0.25)
+    scans = bm.Scans([7.0, 7.0, 0.3], [0.0, 0.5], [[1.2, 0.9]], max_range_m=2.0)
+    prior = bm.Surface(0.8, 1.5)
+    problem = trace_stops(scans, grid, prior, MIXTURE)
+    rng = np.random.default_rng(3)
+    states = [estimates.draw_start_state(problem.estimate, prior, problem.rays, rng) for _ in range(3)]
+    untouched = np.setdiff1d(np.arange(grid.n_cells), problem.rays.touched)
+    assert len(untouched) > 3000
+    surfaces = prior.sample_surfaces(np.random.default_rng(4), 20_000) * grid.resolution
+    for state in states:
+        away = state[untouched, 1:3] - grid.centers_from_corner_m(untouched)
+        assert scipy.stats.kstest(state[untouched, 0], scipy.stats.beta(prior.a, prior.b).cdf).pvalue > 1e-6
+        for drawn, expected in ((away[:, 0], surfaces[:, 0]), (state[untouched, 3], surfaces[:, 2])):
+            assert scipy.stats.ks_2samp(drawn, expected).pvalue > 1e-6
+        assert scipy.stats.ks_2samp(away[:, 0], 1.3 * surfaces[:, 0]).pvalue < 1e-6
+    assert (states[0][problem.estimate.endpoint_cells] != states[1][problem.estimate.endpoint_cells]).all()
+
+
+def test_end_points_outside_the_grid_past_what_beams_touch_or_that_did_not_return_belong_to_no_cell():
+    scans = bm.Scans([-0.5, 0.5, 0.0], [0.0, 0.4], [[7.0, 1.0]], max_range_m=9.0)
+    rays = beam_rays(scans, bm.Grid((3, 1)), margin_m=0.1)
+    np.testing.assert_array_equal(estimates.end_cells(rays), [-1, 0])
+    found = estimates.initial_estimate(rays, bm.Beta())
+    np.testing.assert_array_equal(found.hits, found.touched == 0)
+    scans = bm.Scans([0.5, 0.5, 0.0], np.arange(4) * np.pi / 2, [[np.inf, -np.inf, np.nan, 0.3]], max_range_m=2.0)
+    rays = beam_rays(scans, bm.Grid((1, 1)), margin_m=0.1)
+    np.testing.assert_array_equal(estimates.end_cells(rays), [-1, -1, -1, 0])

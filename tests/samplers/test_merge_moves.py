@@ -66,26 +66,28 @@ def test_moments_are_those_of_the_readings_that_a_surface_stopped():
     assert found.count.sum() == 20
 
 
+def neighbours(cells, owner, points):
+    """Pairs of cells, by number: whose readings go to which neighbour; and how many sigmas the readings are off."""
+    found = moves.explained_readings(cells, owner, points, noise_of(owner), GRID)
+    few, by, off = moves.best_neighbours(cells, found, moves.surface_axes(cells), GRID)
+    return dict(zip(few.tolist(), by.tolist(), strict=True)), off
+
+
 def test_the_readings_of_the_fewer_go_to_the_neighbour_whose_axis_they_lie_on():
+    """One cell of a pair gives way; none does that stops many beams, or whose readings lie beside the axis."""
     cells, owner, points = wall()
     cells[flat(4, 6)] = surface(4, 6, angle=np.pi / 2)  # next to them, too, but they lie beside its axis
     owner = np.append(owner, [flat(4, 6)] * 11).astype(np.int32)
     points = np.vstack([points, np.column_stack([np.full(11, 0.45), np.linspace(0.6, 0.7, 11)])])
-    found = moves.explained_readings(cells, owner, points, noise_of(owner), GRID)
-    few, by, off = moves.best_neighbours(cells, found, moves.surface_axes(cells), GRID)
-    assert dict(zip(few.tolist(), by.tolist(), strict=True))[flat(3, 5)] in (flat(4, 5), flat(5, 5))
-    assert dict(zip(few.tolist(), by.tolist(), strict=True))[flat(5, 5)] == flat(4, 5)
-    assert flat(4, 6) not in by
+    pairs, off = neighbours(cells, owner, points)
+    assert pairs[flat(3, 5)] in (flat(4, 5), flat(5, 5))
+    assert pairs[flat(5, 5)] == flat(4, 5)
+    assert flat(4, 6) not in pairs.values()
     assert (off < 1.0).all()
-
-
-def test_of_a_pair_only_one_gives_way_and_none_that_stops_many_or_whose_readings_lie_beside():
     cells, owner, points = wall(((3, 5), (4, 5), (7, moves.MAX_READINGS + 1), (8, moves.MAX_READINGS + 2)))
-    for angle, pairs in ((0.0, [[flat(3, 5), flat(4, 5)]]), (1.0, np.zeros((0, 2)))):
+    for angle, expected in ((0.0, {flat(3, 5): flat(4, 5)}), (1.0, {})):
         cells[flat(4, 5)] = surface(4, 5, angle)
-        found = moves.explained_readings(cells, owner, points, noise_of(owner), GRID)
-        few, by, _ = moves.best_neighbours(cells, found, moves.surface_axes(cells), GRID)
-        np.testing.assert_array_equal(np.stack([few, by], -1), pairs)
+        assert neighbours(cells, owner, points)[0] == expected
 
 
 @pytest.mark.parametrize("angle", [0.0, 0.05, np.pi, -0.05])
@@ -116,45 +118,25 @@ def merged_by(maps, owner, points, worth):
     return moves.merge_surfaces(maps, points, noise_of(owner), [owner], GRID, look, look(maps))
 
 
-@pytest.mark.parametrize(
-    ("worth", "pays"), [(2 * moves.MERGED_NATS, True), (moves.MERGED_NATS / 2, False), (-moves.MERGED_NATS, False)]
-)
-def test_what_does_not_pay_is_taken_back(worth, pays):
+def test_merges_that_do_not_pay_are_taken_back_and_a_surface_takes_in_one_neighbour_at_a_time():
+    """Two short surfaces, far apart on one wall, could each be taken in by the long one between them."""
     cells, owner, points = wall()
-    maps = moves.ChainMaps(cells[None].copy(), np.zeros((1, GRID.n_cells), dtype=bool))
-    gone = merged_by(maps, owner, points, worth)
-    left = np.flatnonzero(maps.cells[0, :, 0] > 0.1)
-    if pays:
+    for worth in (moves.MERGED_NATS / 2, -moves.MERGED_NATS, 2 * moves.MERGED_NATS):
+        maps = moves.ChainMaps(cells[None].copy(), np.zeros((1, GRID.n_cells), dtype=bool))
+        gone = merged_by(maps, owner, points, worth)
+        left = np.flatnonzero(maps.cells[0, :, 0] > 0.1)
         assert gone == [3 - len(left)]
-        assert len(left) < 3
+        assert (len(left) < 3) == (worth > moves.MERGED_NATS) != np.array_equal(maps.cells[0], cells)
         assert flat(4, 5) in left
-    else:
-        assert gone == [0]
-        np.testing.assert_array_equal(maps.cells[0], cells)
-
-
-def test_a_surface_that_took_one_in_takes_no_other_from_what_it_was_before():
-    """Of two short ones, far apart on the same wall, each would be taken in by the long one between them."""
     cells, owner, points = wall(((3, 3), (5, 40), (7, 3)))
     maps = moves.ChainMaps(cells[None].copy(), np.zeros((1, GRID.n_cells), dtype=bool))
-    alone = {}
-    for x, other in ((3, 7), (7, 3)):
-        one = cells.copy()
-        one[flat(other, 5), 0] = moves.FREE
-        alone[x] = lengthened_by(one, owner, points, x)
     assert merged_by(maps, owner, points, 10.0) == [1]
-    left = [x for x in (3, 7) if maps.cells[0, flat(x, 5), 0] > 0.1]
-    assert len(left) == 1
-    taken_in = 10 - left[0]
-    np.testing.assert_array_equal(maps.cells[0, flat(5, 5)], alone[taken_in])
-
-
-def lengthened_by(cells, owner, points, x):
-    """What the surface in the middle becomes when it takes in that of column x."""
+    (left,) = (x for x in (3, 7) if maps.cells[0, flat(x, 5), 0] > 0.1)
+    cells[flat(left, 5), 0] = moves.FREE
     new = moves.merge_moves(cells, np.zeros(GRID.n_cells, dtype=bool), owner, points, noise_of(owner), GRID)
-    (at,) = np.flatnonzero(new.index[:, 0] == flat(x, 5))
+    (at,) = np.flatnonzero(new.index[:, 0] == flat(10 - left, 5))
     assert new.index[at, 1] == flat(5, 5)
-    return new.cells[at, 1]
+    np.testing.assert_array_equal(maps.cells[0, flat(5, 5)], new.cells[at, 1])
 
 
 SURFACES = {"surfaces": PRIORS["surfaces"], "labelled surfaces": LABELLED["labelled surfaces"]}
@@ -165,26 +147,22 @@ def prepared(prior, early_sweeps=0):
     return sampler, sampler.prepare(Model(scans(), ROOM, prior, TRUTH, hit_depth=0.5), "cpu")
 
 
-@pytest.fixture(scope="module", params=SURFACES)
-def merged(request):
-    """Maps of chains after 20 sweeps, before and after merge moves, their evidence before, and the look."""
-    sampler, problem = prepared(SURFACES[request.param])
+@pytest.mark.parametrize("kind", SURFACES)
+def test_readings_are_explained_better_than_before_and_no_surface_leaves_its_cell(kind):
+    sampler, problem = prepared(SURFACES[kind])
     state, _ = sampler.step(sampler.init(problem, [0, 1], 0), 20)
     look, before = moves.look_with(problem, state.chains, 1.0), moves.ChainMaps.of(state.chains)
     seen = look(before)
     moves.merge(problem, state.chains, 1.0)
-    return before, moves.ChainMaps.of(state.chains), seen, look
-
-
-def test_readings_are_explained_better_than_before_and_no_surface_leaves_its_cell(merged):
-    before, after, seen, look = merged
+    after = moves.ChainMaps.of(state.chains)
     assert not np.array_equal(before.cells, after.cells)
     assert (look(after) - seen).sum() > 0
     away = after.cells[..., 1:3] - ROOM.centers_from_corner_m(np.arange(ROOM.n_cells))
     assert abs(away).max() <= 0.5 * ROOM.resolution + 1e-6
 
 
-def test_surfaces_are_joined_in_the_warm_up_alone():
+@pytest.mark.parametrize("cuts", [[30], [7, 3, 1, 1, 0, 1, 4, 13], [1] * 30])
+def test_surfaces_are_joined_in_the_warm_up_alone_after_the_same_sweeps_however_these_are_cut(monkeypatch, cuts):
     after = [moves.merge_sweeps(int(moves.EARLY_SHARE * warmup)) for warmup in range(60)]
     assert [len(sweeps) for sweeps in after] == 2 * [0] + 11 * [1] + 47 * [3]
     assert [warmup for warmup, sweeps in enumerate(after) if len(set(sweeps)) < len(sweeps)] == []
@@ -192,10 +170,6 @@ def test_surfaces_are_joined_in_the_warm_up_alone():
     sampler = sampler_of("stop-gibbs", ROOM, bm.Gibbs("radial"), 50)
     assert sampler == StopGibbs(early_sweeps=int(50 * moves.EARLY_SHARE))
     assert sampler_of("stop-gibbs", ROOM, bm.Gibbs("radial")) == StopGibbs()
-
-
-@pytest.mark.parametrize("cuts", [[30], [7, 3, 1, 1, 0, 1, 4, 13], [1] * 30])
-def test_surfaces_are_joined_after_the_same_sweeps_however_these_are_cut(monkeypatch, cuts):
     sampler, problem = prepared(PRIORS["surfaces"], 10)
     made, joined, sweeps = {}, [], StopChains.sweeps
 
@@ -270,21 +244,17 @@ def test_evidence_is_the_sum_over_beams_whose_readings_end_in_a_cell_and_a_look_
     np.testing.assert_array_equal(found, seen[0].ravel())
 
 
-def worth(truth):
-    """A look at maps whose cells are each worth minus a thousand times the square by which m is off ``truth``."""
-    return lambda maps: -1000 * (maps.cells[..., 0].astype(float) - truth).reshape(-1, *SHAPE) ** 2
-
-
-def maps_of(m):
-    cells = np.zeros((len(m), SHAPE[0] * SHAPE[1], 6), dtype=np.float32)
-    cells[..., 0] = m
-    return moves.ChainMaps(cells, np.zeros(cells.shape[:2], dtype=bool))
-
-
-def test_what_gains_stays_and_what_does_not_is_taken_back():
+def test_changes_that_gain_stay_and_others_are_taken_back():
+    """A look at maps gives each cell minus a thousand times the square by which m is off the truth."""
     rng = np.random.default_rng(0)
     truth, m = (rng.random((2, SHAPE[0] * SHAPE[1])) for _ in range(2))
-    maps, look = maps_of(m), worth(truth)
+    cells = np.zeros((*m.shape, 6), dtype=np.float32)
+    cells[..., 0] = m
+    maps = moves.ChainMaps(cells, np.zeros(m.shape, dtype=bool))
+
+    def look(maps):
+        return -1000 * (maps.cells[..., 0].astype(float) - truth).reshape(-1, *SHAPE) ** 2
+
     middle = np.argwhere(np.ones(SHAPE, dtype=bool))[:: 7 * SHAPE[1] // 4]
     where = (middle[:, 0] * SHAPE[1] + middle[:, 1])[:, None]
     new = [rng.random((len(where), 1)) for _ in range(2)]
@@ -303,13 +273,10 @@ def test_what_gains_stays_and_what_does_not_is_taken_back():
         np.testing.assert_array_equal(np.flatnonzero(maps.solid[chain]), np.sort(at[stays[chain]]))
     np.testing.assert_allclose(before, look(maps), atol=1e-3)
 
-
-@pytest.mark.parametrize("cells", [1, 4])
-def test_places_that_are_tried_together_lie_apart_and_the_others_next_to_one_before_them(cells):
-    places = np.random.default_rng(2).permutation(np.argwhere(np.ones(SHAPE, dtype=bool)))[:80]
-    chosen = moves.select_apart(places, cells, SHAPE)
+    places = rng.permutation(np.argwhere(np.ones(SHAPE, dtype=bool)))[:80]
     distance = abs(places[:, None] - places).max(axis=-1)
-    for i in range(len(places)):
-        earlier = distance[i, :i][chosen[:i]]
-        assert chosen[i] == (earlier.min(initial=99) > cells)
-    assert 1 < chosen.sum() < len(places)
+    for cells in (1, 4):  # sites that are tried together lie apart, and the others next to one before them
+        chosen = moves.select_apart(places, cells, SHAPE)
+        for i in range(len(places)):
+            assert chosen[i] == (distance[i, :i][chosen[:i]].min(initial=99) > cells)
+        assert 1 < chosen.sum() < len(places)

@@ -1,8 +1,12 @@
-"""Surfaces in one and two cells against importance sampling from the prior with 200 000 draws.
+"""Surfaces in one and two cells against importance sampling from the prior, and simulation-based calibration.
 
 A few thousand copies of a world side by side are independent chains; compared are the marginals of logit m, mean,
-log l11, l21 and log l22 of all cells, and the mean products of all pairs of their ranks. False alarms: `ALPHA` = 1e-4
-over this module.
+log l11, l21 and log l22 of all cells, and the mean products of all pairs of their ranks.
+
+Calibration of reflectivities and surfaces on random little worlds (Talts, Betancourt, Simpson, Vehtari and Gelman,
+2018): draw cells from the prior and readings from the cells; then the rank of any function of the true cells among the
+same function of posterior draws is uniform. 480 worlds, 23 draws of each, thinned until they are all but independent;
+chi-square over 12 bins of ranks. False alarms: `ALPHA` = 1e-4 for each of both.
 """
 
 from dataclasses import replace
@@ -10,9 +14,11 @@ from functools import lru_cache
 
 import numpy as np
 import pytest
+import scipy
 from oracle.stop_law import draw_states, log_likelihoods, log_prior, paths_of
-from oracle.stop_worlds import build_worlds, centres_of, copies
+from oracle.stop_worlds import build_worlds, centres_of, copies, draw_worlds, replaced
 from oracle.verdict import ALPHA, p_values, surface_coordinates, weighted
+from tiers import full_but
 
 import bayesmap as bm
 from bayesmap.samplers import initial_estimate
@@ -62,8 +68,7 @@ def _forget():
 @lru_cache(maxsize=1)
 def prior_states(shape, prior, anywhere=False):
     """Many states from the prior, in metres, and centres and edge of their cells."""
-    cell = np.arange(shape[0] * shape[1])
-    centres = (np.stack([cell // shape[1] + 0.5, cell % shape[1] + 0.5], axis=-1) * EDGE, EDGE)
+    centres = bm.Grid(shape, EDGE).centers_from_corner_m(np.arange(shape[0] * shape[1])), EDGE
     return draw_states(np.random.default_rng(31), prior, centres, (DRAWS,), anywhere=anywhere), centres
 
 
@@ -80,30 +85,23 @@ def by_importance(shape, scans, law, prior, beta=1.0, anywhere=False):
 def drawn(shape, scans, law, prior, sweeps, seed=17, beta=1.0, early_sweeps=0):
     worlds = copies(scans, bm.Grid(shape, EDGE), prior, law, COPIES)
     states = worlds.split(worlds.sweep(worlds.sampler(seed, early_sweeps=early_sweeps), sweeps, beta))
-    nx, ny = shape
-    cell = np.arange(nx * ny)
-    return surface_coordinates(states, np.stack([cell // ny + 0.5, cell % ny + 0.5], axis=-1), 1.0)
+    return surface_coordinates(states, bm.Grid(shape).centers_from_corner_m(np.arange(states.shape[1])), 1.0)
 
 
 @pytest.mark.full
 @pytest.mark.parametrize("name", CASES)
-def test_draws_follow_the_posterior(name):
+def test_draws_follow_the_posterior_also_after_a_search_for_a_start(name):
     """The landing run tries one of them, with its wrong twins."""
     case = CASES[name]
     law = by_importance(*case)
     assert law.size > 3 * COPIES
     assert p_values(drawn(*case, sweeps=400), law).min() > ALPHA / TESTS
-
-
-@pytest.mark.full
-@pytest.mark.parametrize("name", ["one cell, sharp", "two cells"])
-def test_draws_after_a_search_for_a_start_follow_it_too(name):
-    case = CASES[name]
-    assert p_values(drawn(*case, sweeps=300, early_sweeps=20), by_importance(*case)).min() > ALPHA / TESTS
+    if name in ("one cell, sharp", "two cells"):
+        assert p_values(drawn(*case, sweeps=300, early_sweeps=20), law).min() > ALPHA / TESTS
 
 
 def test_a_cell_that_holds_its_reflectivity_for_most_of_a_round_follows_it_too(monkeypatch):
-    """As one does that many beams pass."""
+    """A cell that many beams pass does so."""
     monkeypatch.setattr(initial_estimate, "MIN_PASSES", 0)
     case = CASES["one cell without readings"]
     assert p_values(drawn(*case, sweeps=400), by_importance(*case)).min() > ALPHA / TESTS
@@ -174,3 +172,86 @@ def test_the_oracle_s_prior_draws_have_the_oracle_s_prior_density():
     law = weighted(surface_coordinates(states, *centres), ratio)
     mine = surface_coordinates(draw_states(rng, other, centres, (1000,)), *centres)
     assert p_values(mine, law).min() > ALPHA / TESTS
+
+
+WORLDS, RANK_DRAWS, BINS, WARMUP = 480, 23, 12, 200
+SHAPE = (3, 2)
+GRID = bm.Grid(SHAPE, 0.4)
+RANK_TESTS = 100  # p-values in this module, at most
+PROJECTION = np.random.default_rng(0).normal(size=6)
+
+SENSOR = bm.BeamMixture(bm.Gaussian(0.06, 0.01), p_random=0.08, p_no_return=0.1, p_short=0.1, rate_short_per_m=0.6)
+RANK_CASES = {
+    "reflectivities": (bm.Beta(0.8, 1.2), SENSOR, 20),
+    "reflectivities by default": (bm.Beta(), SENSOR, 150),
+    "surfaces": (bm.Surface(1.0, 1.0, mean_scale=0.4, spread=0.3, dof=4.0, size_scale=0.5), SENSOR, 60),
+    "surfaces, few of them sharp": (
+        bm.Surface(0.5, 1.0), replace(SENSOR, noise=bm.Gaussian(0.02), p_random=0.03), 60,
+    ),
+}  # fmt: skip
+
+
+def functions(states, log_likelihood, plain):
+    """Scalars of each world's state (worlds, cells, 6), by name; (worlds,) each."""
+    m, at = states[..., 0], np.clip(states[..., 0], 1e-30, 1 - 1e-7)
+    out = {
+        "sum m": m.sum(axis=1), "a cell": m[:, 2], "projection": m @ PROJECTION, "likelihood": log_likelihood,
+        "log m": np.log(at).sum(axis=1), "log 1 - m": np.log1p(-at).sum(axis=1),
+    }  # fmt: skip
+    if not plain:
+        l11, l22 = np.log(states[..., 3]), np.log(states[..., 5])
+        out |= {
+            "x": states[:, 3, 1], "y": states[..., 2] @ PROJECTION, "l11": l11[:, 3], "l22": l22[:, 2],
+            "l21": states[..., 4] @ PROJECTION, "area": (l11 + l22).sum(axis=1), "m and area": (m * (l11 + l22))[:, 1],
+            "m and mean": (m * states[..., 1]).sum(axis=1),
+        }  # fmt: skip
+    return out
+
+
+def ranks(prior, sensor, thin, seed, wrong=None):
+    """Rank of the truth among draws, for each function and world; ``wrong`` replaces prior or sensor of the sampler."""
+    plain = not isinstance(prior, bm.Surface)
+    worlds, truth = draw_worlds(seed, GRID, prior, sensor, WORLDS, poses=2, beams=5)
+    if wrong is not None:
+        worlds = replace(worlds, problem=replaced(worlds.problem, **wrong))
+    rays = worlds.problem.rays
+    paths, rng = paths_of(rays), np.random.default_rng(seed)
+
+    def values(states):
+        log_likelihood = log_likelihoods(paths, states, sensor, plain).reshape(WORLDS, -1).sum(axis=1)
+        return functions(worlds.split(states), log_likelihood, plain)
+
+    single = truth.astype(np.float32).astype(float)  # equal is what single precision cannot tell apart
+    true = values(single)
+    sampler = worlds.sampler(seed)
+    worlds.sweep(sampler, WARMUP)
+    below, equal = ({name: np.zeros(WORLDS, dtype=int) for name in true} for _ in range(2))
+    for _ in range(RANK_DRAWS):
+        states = worlds.sweep(sampler, thin).astype(float)
+        for name, value in values(states).items():
+            same = abs(value - true[name]) < 1e-9
+            equal[name] += same
+            below[name] += (value < true[name]) & ~same
+    return {name: below[name] + rng.integers(0, equal[name] + 1) for name in true}
+
+
+def rank_p_values(found):
+    bins = np.array(list(found.values())) * BINS // (RANK_DRAWS + 1)
+    return np.array([scipy.stats.chisquare(np.bincount(row, minlength=BINS)).pvalue for row in bins])
+
+
+@pytest.mark.parametrize("name", full_but(RANK_CASES, "reflectivities"))
+def test_the_truth_ranks_uniformly_among_posterior_draws(name):
+    found = rank_p_values(ranks(*RANK_CASES[name], seed=len(name)))
+    assert found.min() > ALPHA / RANK_TESTS
+
+
+@pytest.mark.parametrize("what", ["prior", "sensor"])
+@pytest.mark.parametrize("name", full_but(["reflectivities", "surfaces"], "reflectivities"))
+def test_a_wrong_prior_and_a_wrong_sensor_are_rejected(name, what):
+    prior, sensor, thin = RANK_CASES[name]
+    wrong = {
+        "prior": {"prior": replace(prior, a=1.5 * prior.a)},
+        "sensor": {"sensor": replace(sensor, noise=bm.Gaussian(0.25)), "prior": prior},
+    }[what]
+    assert rank_p_values(ranks(prior, sensor, thin, seed=5, wrong=wrong)).min() < ALPHA / RANK_TESTS

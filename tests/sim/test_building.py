@@ -1,21 +1,21 @@
-"""Simulated buildings, and a robot's round through them."""
+"""Maps to simulate in: drawn as text, read from pictures, or built at random; and a robot's round through them."""
 
 import numpy as np
 import pytest
 import scipy
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as hnp
+from PIL import Image
 
 from bayesmap.errors import BadInput
-from bayesmap.worlds import building, patrol
+from bayesmap.sim.drawing import DRAWING, TUTORIAL_GRID, from_text, to_text, tutorial
+from bayesmap.worlds import building, from_image, from_map_image, from_occupancy, patrol
 
 CASES = [
     (0, (30.0, 20.0), 0.1), (1, (30.0, 20.0), 0.1), (2, (12.0, 8.0), 0.1), (3, (14.0, 37.0), 0.15),
     (4, (45.0, 33.0), 0.25), (5, (16.0, 12.0), 0.05),
 ]  # fmt: skip
-
-
-@pytest.fixture(params=CASES, ids=str, scope="module")
-def made(request):
-    return building(*request.param)
 
 
 def cells_of(room, made):
@@ -28,7 +28,10 @@ def flooded(free, start):
     return labels == labels[start]
 
 
-def test_every_room_can_be_reached_from_the_first_corridor(made):
+@pytest.mark.parametrize("case", CASES, ids=str)
+def test_a_building_is_closed_has_its_size_and_rooms_apart_that_can_all_be_reached(case):
+    _, size_m, resolution = case
+    made = building(*case)
     corridor = next(room for room in made.rooms if room.kind == "corridor")
     floor = np.zeros(made.walls.shape, dtype=bool)
     floor[cells_of(corridor, made)] = True
@@ -39,9 +42,6 @@ def test_every_room_can_be_reached_from_the_first_corridor(made):
         assert free.any(), room
         # Pockets behind furniture may be closed off, but not more than that.
         assert reached[cells_of(room, made)].sum() > 0.85 * free.sum(), room
-
-
-def test_the_outer_wall_is_closed_and_rooms_share_no_floor(made):
     kinds = [room.kind for room in made.rooms]
     assert (kinds.count("corridor") >= 1, kinds.count("lobby"), len(kinds) >= 4) == (True, 1, True)
     outside = flooded(~made.walls, (0, 0))
@@ -52,15 +52,11 @@ def test_the_outer_wall_is_closed_and_rooms_share_no_floor(made):
     for room in made.rooms:
         if room.kind != "corridor":  # a cross corridor runs through the long ones
             assert times[cells_of(room, made)].max() == 1, room
-
-
-def test_opacity_shows_walls_and_glass_and_the_size_is_the_one_asked_for(made, request):
     np.testing.assert_array_equal(made.opacity > 0, made.walls)
     assert made.opacity.max() == 1
     assert made.glass.any()
     assert made.walls[made.glass].all()
     np.testing.assert_allclose(made.opacity[made.glass], 1 - made.glass_pass)
-    _, size_m, resolution = request.node.callspec.params["made"]
     solid = np.argwhere(made.walls)
     size = (solid.max(axis=0) - solid.min(axis=0) + 1) * resolution
     np.testing.assert_allclose(size, size_m, atol=resolution / 2 + 1e-9)
@@ -93,31 +89,14 @@ def test_arguments_out_of_range_are_refused(arguments, says):
 ROUNDS = [(0, (30.0, 20.0), 0.1), (1, (20.0, 34.0), 0.25), (2, (14.0, 9.0), 0.05)]
 
 
-@pytest.fixture(params=ROUNDS, ids=str, scope="module")
-def toured(request):
-    return building(*request.param)
-
-
-@pytest.fixture(scope="module")
-def poses(toured):
-    return patrol(toured, 500, seed=3)
-
-
-def distance_to_walls(points, toured):
-    """Distance from points to the nearest closed wall square: the definition, without a transform."""
+@pytest.mark.parametrize("case", ROUNDS, ids=str)
+def test_the_robot_enters_every_room_looks_where_it_goes_and_keeps_a_quarter_of_a_metre_from_walls(case):
+    toured = building(*case)
+    poses = patrol(toured, 500, seed=3)
     low = np.asarray(toured.grid.origin) + np.argwhere(toured.walls) * toured.grid.resolution
-    result = []
-    for point in points:
+    for point in poses[:, :2]:  # to closed squares, by the definition, without a transform
         outside = np.maximum(np.maximum(low - point, point - low - toured.grid.resolution), 0)
-        result.append(np.sqrt((outside**2).sum(axis=1).min()))
-    return np.array(result)
-
-
-def test_no_pose_is_within_a_quarter_of_a_metre_of_a_wall(toured, poses):
-    assert distance_to_walls(poses[:, :2], toured).min() >= 0.25
-
-
-def test_the_robot_enters_every_room_and_passes_no_wall(toured, poses):
+        assert np.sqrt((outside**2).sum(axis=1).min()) >= 0.25
     x, y = poses[:, 0], poses[:, 1]
     for room in toured.rooms:
         x0, x1, y0, y1 = room.extent_m
@@ -127,9 +106,6 @@ def test_the_robot_enters_every_room_and_passes_no_wall(toured, poses):
     for a, b in zip(poses[:-1, :2], poses[1:, :2], strict=True):
         for share in np.linspace(0, 1, 20):
             assert not toured.walls[toured.grid.cell_at(*(a + share * (b - a)))]
-
-
-def test_the_robot_looks_where_it_goes_any_number_of_scans_covers_the_round_and_a_seed_repeats_it(toured, poses):
     travel = np.diff(poses[:, :2], axis=0)
     ahead = np.stack([np.cos(poses[:-1, 2]), np.sin(poses[:-1, 2])], axis=1)
     along = (travel * ahead).sum(axis=1) / np.hypot(*travel.T)
@@ -140,3 +116,117 @@ def test_the_robot_looks_where_it_goes_any_number_of_scans_covers_the_round_and_
     assert (patrol(toured, 1).shape, patrol(toured, 7).shape) == ((1, 3), (7, 3))
     with pytest.raises(BadInput, match="n_scans"):
         patrol(toured, 0)
+
+
+maps = hnp.arrays(bool, hnp.array_shapes(min_dims=2, max_dims=2, min_side=1, max_side=12))
+
+
+@given(maps, st.integers(0, 4), st.integers(0, 3), st.sampled_from(["\n", "\r\n"]))
+def test_drawings_are_read_back_whatever_their_blanks_and_line_ends(walls, indent, blank, newline):
+    np.testing.assert_array_equal(from_text(to_text(walls)), walls)
+    lines = [" " * indent + line + "  " for line in to_text(walls).splitlines()]
+    framed = newline.join([""] * blank + lines + [" "] * blank)
+    np.testing.assert_array_equal(from_text(framed), walls)
+
+
+@pytest.mark.parametrize(("text", "place"), [
+    ("...\n..\n", "line 2 has 2 cells, but line 1 has 3"), ("...\n\n...\n", "line 2 has 0 cells"),
+    ("..\n.o\n", "line 2, column 2: unknown character 'o'"), (" \n\n", "no lines"),
+    ("\n\n  .X\n  ?.", "line 4, column 3: unknown character '?'"), ("", "no lines"),
+])  # fmt: skip
+def test_a_bad_drawing_is_refused_with_its_place(text, place):
+    with pytest.raises(BadInput) as error:
+        from_text(text)
+    assert place in str(error.value)
+    with pytest.raises(BadInput, match="shape"):
+        to_text(np.zeros((2, 2, 2)))
+
+
+def test_the_tutorial_s_walls_are_indexed_as_it_indexes_them():
+    assert np.argwhere(from_text("..X\n#..\n")).tolist() == [[0, 2], [1, 0]]
+    walls, pose = tutorial()
+    lines = DRAWING.strip().split("\n")
+    assert walls.tolist() == [[character == "X" for character in line] for line in lines]  # the tutorial's own reading
+    assert walls[2, 14]  # in the drawing: third line, fifteenth column
+    assert not walls[14, 2]
+    assert (pose.tolist(), TUTORIAL_GRID.cell_at(10.2, 9.8)) == ([10.0, 10.0, 0.0], (10, 10))
+    walls[:] = True
+    assert not tutorial()[0].all()  # each call gives arrays of its own
+
+
+pictures = hnp.arrays(np.uint8, hnp.array_shapes(min_dims=2, max_dims=2, min_side=1, max_side=9))
+
+
+def test_the_top_left_of_a_picture_is_low_x_high_y_and_row_zero_of_an_occupancy_grid_the_bottom():
+    image = np.full((3, 5), 255, dtype=np.uint8)  # 3 rows, 5 columns
+    image[0, 0] = 0
+    walls = from_image(image)
+    assert (walls.shape, np.argwhere(walls).tolist()) == ((5, 3), [[0, 2]])
+    for unknown_is_wall in (False, True):
+        walls, _ = from_occupancy([[-1, 0, 100, 50, 51]], 0.1, unknown_is_wall=unknown_is_wall)
+        np.testing.assert_array_equal(walls[:, 0], [unknown_is_wall, False, True, False, True])
+    cells = np.zeros((3, 5), dtype=np.int8)
+    cells[0, 4] = 100
+    walls, grid = from_occupancy(cells, 0.05, origin=(-1.0, 2.0))
+    assert np.argwhere(walls).tolist() == [[4, 0]]
+    assert (grid.shape, grid.resolution, grid.origin) == ((5, 3), 0.05, (-1.0, 2.0))
+
+
+@given(pictures)
+def test_files_pil_images_and_arrays_agree(tmp_path_factory, picture):
+    path = tmp_path_factory.mktemp("image") / "map.png"
+    Image.fromarray(picture).save(path)
+    walls = from_image(picture)
+    np.testing.assert_array_equal(from_image(path), walls)
+    np.testing.assert_array_equal(from_image(str(path)), walls)
+    np.testing.assert_array_equal(from_image(Image.fromarray(picture)), walls)
+    np.testing.assert_array_equal(from_image(picture / 255.0), walls)
+    np.testing.assert_array_equal(from_image(np.dstack([picture] * 3)), walls)
+
+
+def test_dark_pixels_are_walls_transparent_ones_free_and_map_server_greys_occupied_unknown_free():
+    greys = np.array([[0.0, 0.29, 0.31, 1.0]])
+    np.testing.assert_array_equal(from_image(greys, threshold=0.3)[:, 0], [True, True, False, False])
+    black_but_clear = np.zeros((1, 2, 4), dtype=np.uint8)
+    black_but_clear[0, 1, 3] = 255
+    np.testing.assert_array_equal(from_image(black_but_clear)[:, 0], [False, True])
+    bits = Image.fromarray(np.array([[True, False]]))
+    assert bits.mode == "1"
+    np.testing.assert_array_equal(from_image(bits)[:, 0], [False, True])
+    image = np.array([[0, 130, 205, 254]], dtype=np.uint8)  # darkness 1, .49, .196, .004
+    walls, _ = from_map_image(image, 0.1, free_thresh=0.196)
+    np.testing.assert_array_equal(walls[:, 0], [True, False, False, False])
+    walls, _ = from_map_image(image, 0.1, free_thresh=0.19, unknown_is_wall=True)
+    np.testing.assert_array_equal(walls[:, 0], [True, True, True, False])
+
+
+@given(pictures)
+def test_negate_swaps_black_and_white(picture):
+    plain, _ = from_map_image(picture, 0.1)
+    negated, _ = from_map_image(255 - picture, 0.1, negate=True)
+    np.testing.assert_array_equal(plain, negated)
+
+
+@pytest.mark.parametrize(("cells", "says"), [
+    ([[0, 101]], "row 0, column 1 is 101"), ([[0], [-2]], "row 1, column 0 is -2"),
+    ([[float("nan")]], "row 0, column 0 is nan"), ([0, 100], "info.height and info.width"),
+    ([["wall"]], "array of numbers"),
+])  # fmt: skip
+def test_a_bad_occupancy_grid_is_refused_with_its_place(cells, says):
+    with pytest.raises(BadInput) as error:
+        from_occupancy(cells, 0.1)
+    assert says in str(error.value)
+
+
+def test_arrays_and_files_that_are_no_pictures_and_thresholds_out_of_order_are_refused(tmp_path):
+    for image in (0.0, np.zeros((2, 2, 2)), np.full((2, 2), 1.5), np.full((2, 2), np.nan), np.zeros((0, 3))):
+        with pytest.raises(BadInput, match="image:"):
+            from_image(np.atleast_1d(image))
+    (tmp_path / "map.png").write_text("no picture")
+    for name, says in (("map.png", r"map\.png: cannot be read as an image"), ("absent.png", r"absent\.png")):
+        with pytest.raises(BadInput, match=says):
+            from_image(tmp_path / name)
+    with pytest.raises(BadInput, match="free_thresh < occupied_thresh"):
+        from_map_image(np.zeros((2, 2)), 0.1, occupied_thresh=0.2, free_thresh=0.3)
+    with pytest.raises(BadInput, match="threshold"):
+        from_image(np.zeros((2, 2)), threshold=1.0)

@@ -1,8 +1,8 @@
-"""Range scans: what they refuse, fans of beams, beams with poses of their own, and beams that differ from scan to scan.
+"""Range scans: what they refuse, fans of beams, beams with poses of their own, and their order in time.
 
-What is computed from scans whose beams differ is what the same beams say in equal scans: "whole" has equal scans of
-which only a window of beams has readings, "own" only the beams of the windows; "turned" has the beams of "whole" at
-trembling angles that the poses' yaw makes up for.
+Beams may differ from scan to scan. Results from such scans equal those from the same beams in equal scans: "whole" has
+equal scans of which only a window of beams has readings, "own" only the beams of the windows; "turned" has the beams of
+"whole" at trembling angles that the poses' yaw makes up for. Late scans are sorted; a clock that was set back is not.
 """
 
 import math
@@ -18,6 +18,7 @@ from bayesmap.kernels.walls.table import trace
 from bayesmap.model import Model
 from bayesmap.posterior.heldout import unseen_scans
 from bayesmap.space.scans import fan, side_by_side
+from bayesmap.space.time_order import coarse_stamps_note, elapsed_s, moment, repeated_stamps, since_start, time_order
 
 SENSOR = bm.BeamMixture(bm.Gaussian(0.05), p_random=0.05, p_no_return=0.05, p_short=0.05)
 BEAMS, SCANS = 60, 16
@@ -62,7 +63,8 @@ def test_beams_with_poses_of_their_own_are_as_many_scans_of_one_beam():
     np.testing.assert_array_equal(train.beam_poses, beam_poses[[0, 2, 3]])
 
 
-def a_log():
+@pytest.fixture(scope="module")
+def log():
     rng = np.random.default_rng(5)
     walls = np.zeros((24, 20), dtype=bool)
     walls[[0, -1]] = walls[:, [0, -1]] = True
@@ -86,13 +88,8 @@ def a_log():
     }  # fmt: skip
 
 
-@pytest.fixture(scope="module")
-def log():
-    return a_log()
-
-
 def test_the_beams_are_those_of_the_windows_and_scans_may_have_none(log):
-    _, window, logs = log
+    grid, window, logs = log
     whole, own, turned = logs["whole"], logs["own"], logs["turned"]
     assert own.ranges_m.shape == (SCANS, window.sum(axis=1).max())
     assert own.n_beams == window.sum() == sum(own.counts().values())
@@ -110,14 +107,12 @@ def test_the_beams_are_those_of_the_windows_and_scans_may_have_none(log):
     again = replace(whole, angles_rad=np.tile(whole.angles_rad, (SCANS, 1)))  # equal angles are those of all scans
     assert again.own_angles_rad is None
     np.testing.assert_array_equal(again.angles_rad, whole.angles_rad)
-    own = log[2]["own"]
     angles, readings = own.own_angles_rad.copy(), own.ranges_m.copy()
     angles[3], readings[3] = np.nan, np.nan
     scans = replace(own, own_angles_rad=angles, ranges_m=readings)
     assert [len(part) for part in scans.beams_of(3)] == [0, 0]
     assert np.isfinite(scans.angles_by_scan()).all()
     np.testing.assert_array_equal(scans.stretched(1.1).has_beam, scans.has_beam)
-    grid = log[0]
     assert trace_rays(scans.select([3]), grid).n_incidences == 0
     with pytest.raises(bm.BadInput, match=r"angles_rad has shape \(16, 3\), expected"):
         replace(own, angles_rad=np.zeros((SCANS, 3)), own_angles_rad=None)
@@ -189,3 +184,92 @@ def test_headings_in_degrees_are_refused():
             call()
     turning = np.column_stack([np.ones(9), np.ones(9), np.linspace(0, 30, 9)])  # headings may add up
     assert len(bm.simulate(walls, grid, turning, [0.0], sensor=bm.Gaussian(0.1), max_range_m=9.0)) == 9
+
+
+EVEN = np.arange(400) * 0.1
+
+
+def is_sorted(stamps_s, expected_s=EVEN):
+    ordered = time_order(stamps_s)
+    np.testing.assert_array_equal(ordered.stamps_s, expected_s)
+    np.testing.assert_array_equal(stamps_s[ordered.order], expected_s)
+    assert ordered.steps == ()
+    return ordered
+
+
+@pytest.mark.parametrize("burst", [5, 20, 50])
+def test_bursts_and_single_scans_that_were_written_late_are_sorted(burst):
+    assert is_sorted(EVEN).reordered == 0
+    for seed in range(3):
+        order = np.random.default_rng(seed).permutation(400 // burst)
+        assert is_sorted(EVEN.reshape(-1, burst)[order].ravel()).reordered > 0
+    is_sorted(np.concatenate([EVEN[:50], EVEN[51:100], EVEN[50:51], EVEN[100:]]))
+
+
+@pytest.mark.parametrize("back_s", [1.6, 3.0, 15.0])
+def test_a_clock_that_was_set_back_keeps_the_order_of_the_log(back_s):
+    rng = np.random.default_rng(1)
+    stamps = EVEN + rng.uniform(-0.02, 0.02, 400)
+    stamps[200:] -= back_s
+    stamps[300:] -= back_s
+    ordered = time_order(stamps)
+    assert ordered.steps == (200, 300)
+    np.testing.assert_array_equal(ordered.order, np.arange(400))
+    assert (np.diff(ordered.stamps_s) > 0).all()
+    np.testing.assert_allclose(ordered.stamps_s, EVEN, atol=0.15)
+    np.testing.assert_allclose(ordered.back_s, back_s - 0.1, atol=0.05)
+    first, second = ordered.notes(stamps)
+    assert f"at scan 200 (at {moment(stamps[200])}) and stays so" in first
+    assert "at scan 300" in second
+
+
+def test_stamps_are_told_as_people_tell_time():
+    told = {59.31: "59.3 s", 0.0: "0.0 s", 1.7e9 + 0.96: "2023-11-14 22:13:21.0 UTC", 1e30: f"{1e30:.1f} s"}
+    assert {stamp: moment(stamp) for stamp in told} == told
+    assert since_start(EVEN + 1.7e9, 30, 60) == " (3.0 to 6.0 s after the first scan)"
+    assert since_start(EVEN, 30) == " (3.0 s after the first scan)"
+    assert since_start(None, 30) == ""
+
+
+@pytest.mark.parametrize("scans", [30, 129, 400, 5000])
+def test_a_shuffled_log_is_sorted(scans):
+    """Its stamps go back every other scan, which no clock does: 20 shuffles each."""
+    stamps = np.arange(scans) * 0.7
+    for seed in range(20):
+        is_sorted(np.random.default_rng(seed).permutation(stamps), stamps)
+
+
+EVERY_FIFTH = 1.7e9 + 0.2 * np.arange(200)
+
+
+def test_stamps_that_all_differ_are_exact_a_pause_in_coarse_ones_is_one_and_only_repeated_ones_are_coarse():
+    stamps = np.array([0.0, 0.2, 0.5, 9.0])
+    for bound in elapsed_s(stamps):
+        np.testing.assert_array_equal(bound, np.diff(stamps))
+    assert not repeated_stamps(stamps).any()
+    assert coarse_stamps_note(stamps) is None
+    assert elapsed_s(stamps[:1])[0].shape == elapsed_s(stamps[:0])[0].shape == (0,)
+    stamps = np.floor(EVERY_FIFTH + 60.0 * (np.arange(200) >= 100))
+    least_s, most_s = elapsed_s(stamps)
+    assert 59.0 <= least_s[99] <= 60.2 <= most_s[99] <= 62.0
+    stamps = np.append(EVERY_FIFTH[:100], np.repeat(EVERY_FIFTH[99], 20))
+    least_s, most_s = elapsed_s(stamps)
+    np.testing.assert_allclose(least_s[:98], 0.2, atol=1e-6)
+    np.testing.assert_array_equal(most_s[99:], np.inf)
+    np.testing.assert_array_equal(least_s[99:], 0.0)
+    np.testing.assert_array_equal(np.nonzero(repeated_stamps(stamps))[0], np.arange(99, 120))
+    assert coarse_stamps_note(stamps).startswith("stamps are coarse: 21 of 120 scans")
+
+
+@pytest.mark.parametrize(
+    "coarse",
+    [np.floor, np.round, np.ceil, lambda t: 10 * np.floor(t / 10), lambda t: t.astype(np.float32).astype(float)],
+    ids=["whole seconds", "rounded", "rounded up", "tens of seconds", "single precision"],
+)
+def test_the_true_time_lies_between_the_bounds_of_coarse_stamps(coarse):
+    stamps = coarse(EVERY_FIFTH)
+    least_s, most_s = elapsed_s(stamps)
+    assert (least_s <= 0.2 + 1e-6).all()
+    assert (most_s >= 0.2 - 1e-6).all()
+    assert repeated_stamps(stamps).mean() > 0.9
+    assert "stamps are coarse: " in coarse_stamps_note(stamps)

@@ -5,7 +5,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from matplotlib.colors import to_rgb
-from matplotlib.figure import Figure
 from matplotlib.patches import PathPatch
 from viz_case import CORNER, GRID, HIDDEN, cell, observed, occupancy, panel
 
@@ -25,20 +24,16 @@ def to_lab(rgb):
     return np.stack([116 * f[:, 1] - 16, 500 * (f[:, 0] - f[:, 1]), 200 * (f[:, 1] - f[:, 2])], axis=1)
 
 
-def test_equal_steps_of_probability_are_equal_steps_of_colour():
+def test_equal_steps_of_probability_are_equal_steps_of_colour_far_from_that_of_unobserved_cells():
     lab = to_lab(palette.probability_colors(64))
     steps = np.linalg.norm(np.diff(lab, axis=0), axis=1)
     assert steps.max() / steps.min() < 1.02
     assert (np.diff(lab[:, 0]) < 0).all()
     assert lab[0, 0] > 95
     assert lab[-1, 0] < 20
-
-
-def test_unobserved_is_far_from_every_colour_of_both_maps():
     unobserved = to_lab(np.array([to_rgb(palette.UNOBSERVED)]))[0]
-    steps = np.linspace(0, 1, 256)
     for colors in (palette.probability_colormap(), palette.uncertainty_colormap()):
-        apart = np.linalg.norm(to_lab(colors(steps)[:, :3]) - unobserved, axis=1)
+        apart = np.linalg.norm(to_lab(colors(np.linspace(0, 1, 256))[:, :3]) - unobserved, axis=1)
         assert apart.min() > 7  # 2 to 3 is just noticeable
         np.testing.assert_allclose(colors(np.ma.array([0.5], mask=[True]))[0, :3], to_rgb(palette.UNOBSERVED))
 
@@ -47,9 +42,11 @@ FREE, WALL = palette.probability_colors(2)
 ALL = (draw_probability, draw_entropy, draw_deviation, draw_sample)
 
 
-def test_a_wall_in_the_upper_right_is_dark_in_the_upper_right():
+def test_a_wall_in_the_upper_right_is_dark_in_the_upper_right_of_axes_in_metres():
     ax = panel()
     draw_probability(ax, GRID, occupancy())
+    assert (ax.get_xlabel(), ax.get_ylabel(), ax.get_aspect()) == ("x [m]", "y [m]", 1.0)
+    assert (ax.get_xlim(), ax.get_ylim()) == ((-1.0, 2.0), (2.0, 4.0))
     np.testing.assert_allclose(cell(ax, *CORNER), WALL, atol=0.01)
     for i, j in ((0, 0), (0, 3), (5, 0), (3, 3)):
         np.testing.assert_allclose(cell(ax, i, j), FREE, atol=0.01)
@@ -71,33 +68,16 @@ def test_unobserved_is_hatched_and_differs_from_free_and_from_even_odds():
     patches = [patch for patch in ax.artists + list(ax.patches) if isinstance(patch, PathPatch)]
     assert [patch.get_hatch() for patch in patches] == [palette.HATCH]
     assert patches[0].get_path().get_extents().bounds == pytest.approx((-1.0, 3.5, 0.5, 0.5))
-
-
-def test_a_draw_is_faded_where_no_beam_reached():
-    ax = panel()
     walls = occupancy() == 1.0
     walls[HIDDEN] = True
-    draw_sample(ax, GRID, walls, observed())
+    draw_sample(ax := panel(), GRID, walls, observed())  # a draw is faded where no beam reached
     np.testing.assert_allclose(cell(ax, *CORNER), WALL, atol=0.01)
     np.testing.assert_allclose(cell(ax, 1, 1), FREE, atol=0.01)
     assert np.abs(cell(ax, *HIDDEN) - to_rgb(palette.UNOBSERVED_WALL)).max() < 0.1
-
-
-def test_axes_are_in_metres_at_equal_scale():
-    ax = Figure().add_subplot()
-    draw_probability(ax, GRID, occupancy())
-    assert (ax.get_xlabel(), ax.get_ylabel()) == ("x [m]", "y [m]")
-    assert ax.get_xlim() == (-1.0, 2.0)
-    assert ax.get_ylim() == (2.0, 4.0)
-    assert ax.get_aspect() == 1.0
-
-
-def test_a_speckled_mask_of_a_large_map_is_one_artist_not_one_for_each_cell():
     grid = Grid(shape=(600, 600))
-    seen = np.random.default_rng(0).random(grid.shape) < 0.7
-    ax = panel()
-    draw_probability(ax, grid, np.zeros(grid.shape), seen)
-    assert len(ax.patches) + len(ax.collections) + len(ax.images) < 10
+    speckled = np.random.default_rng(0).random(grid.shape) < 0.7
+    draw_probability(ax := panel(), grid, np.zeros(grid.shape), speckled)
+    assert len(ax.patches) + len(ax.collections) + len(ax.images) < 10  # not one artist for each cell
 
 
 @pytest.mark.parametrize("seed", range(5))
@@ -159,24 +139,19 @@ def test_around_leaves_out_the_empty_borders():
     assert window(GRID, (-1e308, 1e308), (-1e308, 1e308))[0] == GRID
 
 
-@pytest.mark.parametrize(
-    ("x_m", "y_m", "says"),
-    [((5, 6), (2, 3), "outside the map, whose x runs from -1 to 2 m"), ((0, 1), (3, 2), "lower first"),
-     ((0, 1), (0, 1), "whose y runs from 2 to 4 m"), ((0, np.inf), (2, 3), "finite")],
-)  # fmt: skip
+@pytest.mark.parametrize(("x_m", "y_m", "says"), [
+    ((5, 6), (2, 3), "outside the map, whose x runs from -1 to 2 m"), ((0, 1), (3, 2), "lower first"),
+    ((0, 1), (0, 1), "whose y runs from 2 to 4 m"), ((0, np.inf), (2, 3), "finite"),
+])  # fmt: skip
 def test_a_window_that_shows_nothing_is_refused(x_m, y_m, says):
     with pytest.raises(BadInput, match=says):
         window(GRID, x_m, y_m)
 
 
-@pytest.mark.parametrize(
-    ("draw", "numbers", "top", "even"),
-    [
-        (draw_entropy, occupancy(), 1.0, 1.0),  # bits
-        (draw_deviation, np.sqrt(occupancy() * (1 - occupancy())), 0.5, 1.0),
-        (draw_width, occupancy(), 1.0, 0.5),
-    ],
-)
+@pytest.mark.parametrize(("draw", "numbers", "top", "even"), [
+    (draw_entropy, occupancy(), 1.0, 1.0), (draw_width, occupancy(), 1.0, 0.5),
+    (draw_deviation, np.sqrt(occupancy() * (1 - occupancy())), 0.5, 1.0),
+])  # fmt: skip
 def test_uncertainty_is_bright_where_odds_are_even(draw, numbers, top, even):
     ax = panel()
     assert draw(ax, GRID, numbers, observed()).get_clim() == (0.0, top)
@@ -191,19 +166,15 @@ def with_one(value):
     return numbers
 
 
-@pytest.mark.parametrize(
-    ("draw", "numbers", "mask", "says"),
-    [
-        *((draw, np.zeros((4, 6)), None, r"shape \(4, 6\), but the grid has \(6, 4\).*transpose") for draw in ALL),
-        *((draw, np.zeros(GRID.shape), np.ones(6, bool), r"observed has shape \(6,\)") for draw in ALL),
-        *((draw_probability, with_one(x), None, r"occupancy\[3, 2\] is .*\[0, 1\].*log odds") for x in (-0.01, 55.0)),
-        (draw_probability, with_one(np.nan), None, r"occupancy\[3, 2\] is nan.*observed="),
-        (draw_probability, [["a"]], None, "array of numbers"),
-        (draw_deviation, np.full(GRID.shape, 0.6), None, "square root"),
-        (draw_width, -occupancy(), None, "give upper minus lower"),
-        (draw_sample, occupancy(), None, "true or false"),
-    ],
-)
-def test_what_is_no_map_of_the_grid_is_named(draw, numbers, mask, says):
+@pytest.mark.parametrize(("draw", "numbers", "mask", "says"), [
+    *((draw, np.zeros((4, 6)), None, r"shape \(4, 6\), but the grid has \(6, 4\).*transpose") for draw in ALL),
+    *((draw, np.zeros(GRID.shape), np.ones(6, bool), r"observed has shape \(6,\)") for draw in ALL),
+    *((draw_probability, with_one(x), None, r"occupancy\[3, 2\] is .*\[0, 1\].*log odds") for x in (-0.01, 55.0)),
+    (draw_probability, with_one(np.nan), None, r"occupancy\[3, 2\] is nan.*observed="),
+    (draw_probability, [["a"]], None, "array of numbers"), (draw_sample, occupancy(), None, "true or false"),
+    (draw_deviation, np.full(GRID.shape, 0.6), None, "square root"),
+    (draw_width, -occupancy(), None, "give upper minus lower"),
+])  # fmt: skip
+def test_arrays_that_are_no_map_of_the_grid_are_named(draw, numbers, mask, says):
     with pytest.raises(BadInput, match=says):
         draw(panel(), GRID, numbers, mask)

@@ -1,4 +1,6 @@
-"""Outlines, rays, sensors and surfaces over a map."""
+"""Outlines, rays, sensors, surfaces, paths, views and trajectories over a map."""
+
+import io
 
 import numpy as np
 import pytest
@@ -8,7 +10,10 @@ from viz_case import CORNER, GRID, cell, observed, occupancy, panel, pixels, sca
 
 from bayesmap import viz
 from bayesmap.errors import BadInput
+from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
+from bayesmap.viz import trajectory as figures
+from bayesmap.viz.overlays import draw_route, route_figure, views_figure
 
 
 def test_outline_surrounds_the_true_wall():
@@ -22,6 +27,8 @@ def test_outline_surrounds_the_true_wall():
     assert rows.max() <= 11  # the upper right cell is pixels 0 to 9 from the top
     assert columns.min() >= 48
     np.testing.assert_allclose(cell(ax, *CORNER), viz.palette.probability_colors(2)[0], atol=0.1)
+    with pytest.raises(BadInput, match="true_walls must be true or false"):
+        viz.draw_truth_outline(panel(), GRID, occupancy())
 
 
 def test_rays_end_at_the_readings_and_lost_ones_at_the_largest_range():
@@ -36,17 +43,16 @@ def test_rays_end_at_the_readings_and_lost_ones_at_the_largest_range():
     assert lost.get_linestyles()[0][1] is not None  # dashed
     assert beams.get_linestyles()[0][1] is None
     assert not np.allclose(lost.get_colors()[0][:3], beams.get_colors()[0][:3])
-
-
-def test_rays_do_not_move_the_limits_of_a_map_but_set_those_of_an_empty_panel():
-    ax = panel()
-    viz.draw_probability(ax, GRID, occupancy())
-    viz.draw_rays(ax, scans())
-    assert ax.get_xlim() == (-1.0, 2.0)
+    assert ax.get_xlim() == (-1.0, 2.0)  # a map keeps its limits
     alone = Figure().add_subplot()
     viz.draw_rays(alone, scans())
     assert alone.get_xlim()[0] < -0.05
     assert alone.get_xlim()[1] > 1.6
+    on_the_way = np.array([[[0.0, 0.0, 0.0], [0.5, 1.0, 0.0]]])
+    moving = Scans(np.zeros(3), [0.0, np.pi / 2], [1.0, 1.0], max_range_m=2.0, beam_poses=on_the_way)
+    beams, points = viz.draw_rays(panel(), moving)
+    np.testing.assert_allclose(beams.get_segments(), [[[0, 0], [1, 0]], [[0.5, 1], [0.5, 2]]], atol=1e-12)
+    np.testing.assert_allclose(points.get_offsets(), moving.hit_points_world())
 
 
 def test_many_beams_are_thinned_evenly_and_readings_less():
@@ -58,17 +64,6 @@ def test_many_beams_are_thinned_evenly_and_readings_less():
     ends = np.array(beams.get_segments())[:, 1]
     np.testing.assert_allclose(ends[0], [1.0, 0.0])
     np.testing.assert_allclose(ends[-1], [np.cos(6), np.sin(6)])
-
-
-def test_beams_of_a_moving_sensor_start_where_each_was_sent():
-    on_the_way = np.array([[[0.0, 0.0, 0.0], [0.5, 1.0, 0.0]]])
-    moving = Scans(np.zeros(3), [0.0, np.pi / 2], [1.0, 1.0], max_range_m=2.0, beam_poses=on_the_way)
-    beams, points = viz.draw_rays(panel(), moving)
-    np.testing.assert_allclose(beams.get_segments(), [[[0, 0], [1, 0]], [[0.5, 1], [0.5, 2]]], atol=1e-12)
-    np.testing.assert_allclose(points.get_offsets(), moving.hit_points_world())
-
-
-def test_scans_without_any_end_point_draw_nothing():
     blind = Scans(poses=np.zeros(3), angles_rad=[0.0], ranges_m=[np.nan], max_range_m=2.0)
     assert viz.draw_rays(panel(), blind) == []
     with pytest.raises(BadInput, match="at least 1"):
@@ -83,6 +78,10 @@ def test_few_poses_are_arrows_and_many_a_trajectory():
     assert len(many) == 2
     assert many[0].get_label() == "trajectory"
     assert len(many[0].get_xdata()) == 40
+    with pytest.raises(BadInput, match="no pose"):
+        viz.draw_sensor(panel(), np.zeros((0, 3)))
+    with pytest.raises(BadInput, match=r"\(S, 3\)"):
+        viz.draw_sensor(panel(), np.zeros((2, 2)))
 
 
 @pytest.mark.parametrize("yaw", [0.0, np.pi / 2, np.pi, -np.pi / 2])
@@ -96,15 +95,6 @@ def test_the_arrow_points_along_the_yaw(yaw):
     forward = np.cos(yaw) * right + np.sin(yaw) * up
     sideways = np.abs(np.cos(yaw) * up - np.sin(yaw) * right)
     assert sideways[forward < -2].max() > 2 * sideways[forward > 3].max()  # wide wings behind, a tip before
-
-
-def test_poses_are_checked():
-    with pytest.raises(BadInput, match="no pose"):
-        viz.draw_sensor(panel(), np.zeros((0, 3)))
-    with pytest.raises(BadInput, match=r"\(S, 3\)"):
-        viz.draw_sensor(panel(), np.zeros((2, 2)))
-    with pytest.raises(BadInput, match="true_walls must be true or false"):
-        viz.draw_truth_outline(panel(), GRID, occupancy())
 
 
 def covariance(angle_rad, along_m, across_m):
@@ -131,16 +121,7 @@ def test_strokes_are_drawn_at_once_as_opaque_as_they_are_likely():
     np.testing.assert_allclose(lines.get_colors()[:, 3], [1.0, 0.25])  # the third could not be seen
 
 
-def test_the_figure_hatches_what_nobody_saw_and_takes_maps_without_surfaces():
-    figure = viz.surfaces_figure(GRID, np.zeros((0, 2)), np.zeros((0, 2, 2)), np.zeros(0), observed())
-    (ax,) = figure.axes
-    assert ax.get_aspect() == 1.0
-    assert (ax.get_xlabel(), ax.get_ylabel()) == ("x [m]", "y [m]")
-    assert "unobserved" in [text.get_text() for text in figure.legends[0].get_texts()]
-    figure.canvas.draw()
-
-
-def test_what_is_no_surface_is_named():
+def test_arrays_that_are_no_surfaces_are_named():
     for means, covariances, weights, says in (
         (np.zeros((2, 2)), np.zeros((1, 2, 2)), [1, 1], r"2 surfaces need .* got \(1, 2, 2\)"),
         (np.zeros((1, 3)), np.zeros((1, 2, 2)), [1], r"means \(n, 2\)"),
@@ -155,9 +136,124 @@ def test_what_is_no_surface_is_named():
             viz.draw_surfaces(panel(), means, covariances, weights)
 
 
-def test_surfaces_too_faint_to_be_seen_still_have_a_key():
+def test_maps_without_surfaces_that_can_be_seen_have_a_key_and_hatched_cells():
     for means, weights in ((np.zeros((0, 2)), []), ([[1.5, 2.25]], [0.001])):
         ax = panel()
         lines = viz.draw_surfaces(ax, means, [covariance(0.0, 0.1, 0.01)] * len(means) or np.zeros((0, 2, 2)), weights)
         assert len(lines.get_segments()) == 0
         assert [key.get_text() for key in ax.figure.legend(handles=[lines]).get_texts()] == ["surface"]
+    figure = viz.surfaces_figure(GRID, np.zeros((0, 2)), np.zeros((0, 2, 2)), np.zeros(0), observed())
+    assert (figure.axes[0].get_xlabel(), figure.axes[0].get_aspect()) == ("x [m]", 1.0)
+    assert "unobserved" in [text.get_text() for text in figure.legends[0].get_texts()]
+    figure.canvas.draw()
+
+
+FLOOR = Grid((20, 12), 0.5, (-2.0, 1.0))
+POSES = np.column_stack([np.linspace(0.5, 3.5, 20), np.linspace(1.0, 2.0, 20), np.zeros(20)])
+COVARIANCES = np.tile(np.diag([4e-4, 1e-4, 1e-5]), (20, 1, 1))
+MAP, SEEN = np.full(FLOOR.shape, 0.1), np.ones(FLOOR.shape, bool)
+
+
+def labels(figure):
+    return [text.get_text() for legend in figure.legends for text in legend.get_texts()]
+
+
+def test_before_and_after_have_a_panel_each_and_badly_explained_scans_are_marked():
+    ends = np.random.default_rng(0).uniform(0, 3, (50, 2))
+    figure = figures.before_and_after_figure(POSES + 0.3, ends, FLOOR, MAP, SEEN, POSES, COVARIANCES)
+    left, right = figure.axes[:2]
+    np.testing.assert_allclose(left.lines[0].get_xydata(), ends)
+    np.testing.assert_allclose(left.lines[1].get_xydata(), POSES[:, :2] + 0.3)
+    np.testing.assert_allclose(right.lines[0].get_xydata(), POSES[:, :2])
+    assert labels(figure)[:2] == ["raw odometry", "trajectory"]
+    flagged = np.arange(20) == 7
+    figure = figures.trajectory_figure(FLOOR, MAP, SEEN, POSES, COVARIANCES, flagged)
+    (line,) = [line for line in figure.axes[0].lines if line.get_label() == "badly explained scan"]
+    np.testing.assert_allclose(line.get_xydata(), POSES[flagged, :2])
+
+
+def test_ellipses_hold_95_percent_and_the_legend_says_how_much_they_are_magnified():
+    poses = np.repeat(POSES, 3, axis=0)
+    figure = figures.trajectory_figure(FLOOR, MAP, SEEN, poses, np.repeat(COVARIANCES, 3, axis=0))
+    (ellipses,) = [c for c in figure.axes[0].collections if type(c).__name__ == "EllipseCollection"]
+    (name,) = [label for label in labels(figure) if label.startswith("95 %")]
+    magnified = float(name.rsplit("drawn ")[1].split()[0]) if "drawn" in name else 1.0
+    widths, heights = ellipses.get_widths(), ellipses.get_heights()
+    places = ellipses.get_offsets()
+    gaps = np.hypot(*(places[:, None] - places).transpose(2, 0, 1)) + np.diag(np.full(len(places), np.inf))
+    assert 2 <= len(places) <= len(POSES)
+    assert gaps.min() >= widths[0]  # no two overlap
+    assert widths == pytest.approx(2 * magnified * np.sqrt(5.991 * 4e-4))
+    assert heights == pytest.approx(2 * magnified * np.sqrt(5.991 * 1e-4))
+
+
+MEAN = np.random.default_rng(0).random(FLOOR.shape)
+PATH = np.array([[0.0, 2.0], [3.0, 2.5], [3.0, 5.0]])
+
+
+def png_of(figure):
+    buffer = io.BytesIO()
+    figure.savefig(buffer, format="png")
+    return buffer.getvalue()
+
+
+def test_a_disc_sweeps_all_points_within_its_radius_of_the_path():
+    swept = draw_route(Figure().subplots(), PATH, 0.4).get_path()
+    rng = np.random.default_rng(1)
+    points = rng.uniform([-1, 1], [4, 6], (3000, 2))
+    along = np.concatenate([a + np.linspace(0, 1, 500)[:, None] * (b - a) for a, b in ((PATH[0], PATH[1]), PATH[1:])])
+    away = np.hypot(*(points[:, None] - along).transpose(2, 0, 1)).min(axis=1)
+    polygons = [type(swept)(corners) for corners in swept.to_polygons()]
+    inside = np.any([polygon.contains_points(points) for polygon in polygons], axis=0)
+    clear = np.abs(away - 0.4) > 0.02
+    assert (inside[clear] == (away < 0.4)[clear]).all()
+
+
+def test_a_route_is_named_and_drawn_over_the_map():
+    figure = route_figure(FLOOR, MEAN, None, PATH, 0.3, title="6 m, free with probability 0.9")
+    ax = figure.axes[0]
+    assert ax.get_title() == "6 m, free with probability 0.9"
+    assert {"path", "start", "goal", "what the robot sweeps"} <= set(ax.get_legend_handles_labels()[1])
+    assert png_of(figure) != png_of(route_figure(FLOOR, MEAN, None, PATH[:2], 0.3))
+    for path in ([], [[1.0]], 3.0):
+        with pytest.raises(BadInput, match="path"):
+            draw_route(Figure().subplots(), path, 0.3)
+
+
+def test_views_are_numbered_best_first():
+    poses = np.column_stack([np.linspace(-1, 6, 8), np.full(8, 3.0), np.zeros(8)])
+    figure = views_figure(FLOOR, MEAN, None, poses, np.arange(8.0), [7, 2], [31.4, 20.0])
+    assert [text.get_text() for text in figure.axes[0].texts] == ["1: 31", "2: 20"]
+    assert "best views: at most so many nats" in labels(figure)
+    assert [text.get_text() for text in figure.axes[1].get_yticklabels()] == ["tells least", "tells most"]
+    assert len(figure.axes) == 2  # the map and one colour bar
+    assert figure.axes[0].texts[0].xy[0] == pytest.approx(6.0)
+    assert png_of(figure)
+    with pytest.raises(BadInput, match="candidates"):
+        views_figure(FLOOR, MEAN, None, np.zeros((4, 3)), np.zeros(3), [], [])
+
+
+def test_the_end_of_a_stray_beam_does_not_widen_the_picture():
+    grid = Grid((200, 100), 0.1)
+    walls = np.zeros(grid.shape, bool)
+    walls[10:60, 10] = walls[10:60, 50] = True
+    poses = np.column_stack([np.linspace(2.0, 5.0, 20), np.full(20, 3.0), np.zeros(20)])
+
+    def limits(walls):
+        figure = figures.trajectory_figure(grid, walls.astype(float), np.ones_like(walls), poses, COVARIANCES)
+        return figure.axes[0].get_xlim()
+
+    stray = walls.copy()
+    stray[190, 50] = True
+    assert limits(stray) == limits(walls) == pytest.approx((0.0, 7.0))
+    stray[188:193, 50] = True
+    assert limits(stray)[1] > 19.0
+
+
+def test_loops_are_coloured_by_residual_and_the_worst_is_named():
+    residuals = np.array([[0.01, 0.0, 0.0], [0.0, 0.08, 0.02], [5.0, 0.0, 0.0], [0.0, 0.02, 0.0]])
+    first, second = np.array([0, 2, 4, 6]), np.array([10, 12, 14, 16])
+    figure = figures.loops_figure(POSES, first, second, residuals, np.array([1.0, 0.9, 0.0, 1.0]))
+    (lines,) = [c for c in figure.axes[0].collections if c.get_array() is not None]
+    np.testing.assert_allclose(lines.get_array(), [1.0, 2.0, 8.0])  # the rejected closure has no colour
+    assert "scans 2 and 12, 8.0 cm" in figure.axes[0].get_title()

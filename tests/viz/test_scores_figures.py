@@ -33,13 +33,10 @@ def test_shorter_is_blue_longer_is_orange_and_as_predicted_is_grey():
     assert np.ptp(grey) < 0.05
 
 
-def test_the_worst_are_larger_and_on_top():
+def test_the_worst_beams_are_larger_on_top_and_all_there_even_of_very_many():
     dots = viz.draw_residuals(panel(), np.zeros((4, 2)), [0.3, -0.5, 0.0, 0.1], viz.residual_scale([], 0.5))
     np.testing.assert_allclose(dots.get_array(), [0.0, 0.1, 0.3, -0.5])
     assert (np.diff(dots.get_sizes()) > 0).all()
-
-
-def test_of_very_many_beams_the_worst_are_all_there():
     rng = np.random.default_rng(0)
     values = rng.normal(0.0, 0.01, 3 * MAX_POINTS)
     values[:100] = 2.0
@@ -49,7 +46,7 @@ def test_of_very_many_beams_the_worst_are_all_there():
     assert (shown == 2.0).sum() == 100
 
 
-def test_scales():
+def test_colour_scales_hold_nine_residuals_of_ten():
     rng = np.random.default_rng(1)
     scale = viz.residual_scale(rng.normal(0.0, 0.2, 10_000))  # 90 % lie within 0.33
     assert (scale.low, scale.high) == (-0.5, 0.5)
@@ -62,7 +59,7 @@ def test_scales():
 
 
 def test_colours_stay_apart_without_red_and_green():
-    """As a deuteranope sees them (Vienot 1999): the ends differ from each other and from the middle."""
+    """A deuteranope (Vienot 1999) sees the ends differ from each other and from the middle."""
     seen = np.array([[0.29275, 0.70725, 0.0], [0.29275, 0.70725, 0.0], [-0.02234, 0.02234, 1.0]])
     short, grey, long = (np.array(viz.palette.residual_colormap()(v)[:3]) ** 2.2 @ seen.T for v in (0.0, 0.5, 1.0))
     for a, b in ((short, grey), (grey, long), (short, long)):
@@ -105,7 +102,7 @@ def test_panels_hold_histogram_coverage_and_reliability(score):
     assert [text.get_text() for text in figure.legends[0].get_texts()] == ["one", "two"]
 
 
-def test_a_line_per_chain_from_the_first_sweep():
+def test_traces_have_a_line_per_chain_and_running_means():
     traces = np.arange(12.0).reshape(3, 4)
     ax = Figure().add_subplot()
     viz.draw_log_joint(ax, traces, first_sweep=11)
@@ -114,9 +111,6 @@ def test_a_line_per_chain_from_the_first_sweep():
     np.testing.assert_array_equal(ax.lines[1].get_xdata(), [11, 12, 13, 14])
     np.testing.assert_array_equal(ax.lines[1].get_ydata(), traces[1])
     assert (ax.get_xlabel(), ax.get_ylabel()) == ("sweep", "log joint [nats]")
-
-
-def test_running_mean():
     ax = Figure().add_subplot()
     viz.draw_running_mean(ax, [1.0, 3.0, 5.0])
     np.testing.assert_allclose(ax.lines[0].get_ydata(), [1.0, 2.0, 3.0])
@@ -169,28 +163,18 @@ def test_weights_are_normalised_without_overflow_and_may_be_zero():
     assert "largest weight: 50 % of the sum" in texts(ax)
 
 
-@pytest.mark.parametrize(
-    ("draw", "numbers", "says"),
-    [
-        *(
-            (viz.trace_figure, [traces], r"\(chain, draw\)")
-            for traces in (np.zeros((2, 0)), np.zeros(0), np.zeros((1, 2, 3)))
-        ),
-        (viz.trace_figure, [[[0.0, -np.inf]]], r"log_joint\[0, 1\] is -inf"),
-        (lambda logs: viz.weights_figure(logs, range_nats=(0.0, -1.0)), [[0.0]], "range_nats"),
-        (viz.weights_figure, [[]], r"shape \(0,\)"),
-        (viz.weights_figure, [[[0.0]]], r"shape \(1, 1\)"),
-        (viz.weights_figure, [[0.0, np.nan]], "sample 1 is nan"),
-        (viz.weights_figure, [[np.inf]], "sample 0 is inf"),
-        (viz.weights_figure, [[-np.inf, -np.inf]], "every sample has weight zero"),
-        (viz.weights_figure, [["a"]], "array of numbers"),
-        (calibration_figure, [[]], "at least one score"),
-        (draw_dots, [np.zeros((2, 2)), [0.0]], r"shape \(2, 2\) and values \(1,\)"),
-        (draw_dots, [np.zeros((1, 3)), [0.0]], r"give \(n, 2\) and \(n,\)"),
-        (draw_dots, [[[0.0, np.nan]], [0.0]], "not finite"),
-        (draw_dots, [[[0.0, 0.0]], [np.inf]], "not finite"),
-    ],
-)
-def test_what_does_not_fit_is_named(draw, numbers, says):
+@pytest.mark.parametrize(("draw", "numbers", "says"), [
+    *((viz.trace_figure, [np.zeros(shape)], r"\(chain, draw\)") for shape in ((2, 0), 0, (1, 2, 3))),
+    (viz.trace_figure, [[[0.0, -np.inf]]], r"log_joint\[0, 1\] is -inf"),
+    (lambda logs: viz.weights_figure(logs, range_nats=(0.0, -1.0)), [[0.0]], "range_nats"),
+    (viz.weights_figure, [[]], r"shape \(0,\)"), (viz.weights_figure, [[[0.0]]], r"shape \(1, 1\)"),
+    (viz.weights_figure, [[0.0, np.nan]], "sample 1 is nan"), (viz.weights_figure, [[np.inf]], "sample 0 is inf"),
+    (viz.weights_figure, [[-np.inf, -np.inf]], "every sample has weight zero"),
+    (viz.weights_figure, [["a"]], "array of numbers"), (calibration_figure, [[]], "at least one score"),
+    (draw_dots, [np.zeros((2, 2)), [0.0]], r"shape \(2, 2\) and values \(1,\)"),
+    (draw_dots, [np.zeros((1, 3)), [0.0]], r"give \(n, 2\) and \(n,\)"),
+    (draw_dots, [[[0.0, np.nan]], [0.0]], "not finite"), (draw_dots, [[[0.0, 0.0]], [np.inf]], "not finite"),
+])  # fmt: skip
+def test_numbers_that_do_not_fit_a_figure_are_named(draw, numbers, says):
     with pytest.raises(BadInput, match=says):
         draw(*numbers)
