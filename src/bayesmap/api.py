@@ -27,18 +27,9 @@ from bayesmap.result import Run
 from bayesmap.run.chains import FIRST_MARK, RANDOM_STREAMS, Chains, SweepPlan, check_same, fingerprint
 from bayesmap.run.cost import TOUCHED_SHARE, Estimate, Sampling, estimate, size_of
 from bayesmap.run.runner import Job, ThreadExecutor, first_map, stop_on_interrupt
+from bayesmap.samplers import methods
 from bayesmap.samplers.fit import PILOT_SWEEPS, Parameters, first_sensor, fit, fit_coupling_to_scans, fit_sensor
-from bayesmap.samplers.methods import (
-    PARTICLES,
-    WITHOUT_CHAINS,
-    Gibbs,
-    Method,
-    Propagate,
-    method_of,
-    options_of,
-    sampler_of,
-    sampler_on_walls,
-)
+from bayesmap.samplers.methods import Gibbs, Method, Propagate
 from bayesmap.samplers.progress import Event as Event
 from bayesmap.samplers.progress import Watch
 from bayesmap.samplers.propagate import ROUNDS
@@ -53,8 +44,7 @@ from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
 FIT = "fit"
-TAKE_POSES = ("wall-gibbs", "wall-blocks", "stop-gibbs")
-"""Samplers that can sample unknown poses."""
+TAKE_POSES = ("wall-gibbs", "wall-blocks", "stop-gibbs")  # samplers that can sample unknown poses
 
 
 @near_names
@@ -140,7 +130,7 @@ class Inference:
         if not 0.0 <= hit_depth <= 1.0:
             raise BadInput(f"infer: hit_depth must lie in [0, 1], got {hit_depth!r}")
         # Choose the method, and make the model.
-        name, method = method_of(method, prior.methods, type(prior).__name__)
+        name, method = methods.method_of(method, prior.methods, type(prior).__name__)
         starts = getattr(method, "start_poses", None)
         if starts is not None and np.shape(starts)[1:] != scans.poses.shape:
             raise BadInput(f"infer: start_poses has shape {np.shape(starts)}, expected (chains, {len(scans)}, 3)")
@@ -161,7 +151,7 @@ class Inference:
 
         complete = schedule.completed(prior.sweeps_a_draw, default_draws)
         draws, thin = cast(int, complete.draws), cast(int, complete.thin)
-        particles = getattr(method, "particles", PARTICLES)
+        particles = getattr(method, "particles", methods.PARTICLES)
         request = DrawRequest(
             schedule.chains, draws, check_count("infer", "seed", seed, 0), particles, getattr(method, "rounds", ROUNDS)
         )
@@ -172,32 +162,32 @@ class Inference:
         """Fit sensor and prior, sample the posterior, and return the run."""
         began = time.perf_counter()
         executor = ThreadExecutor() if self.where.executor is None else self.where.executor
-        if not self.where.any_size and (foreseen := self.estimate()) is not None:
-            foreseen.refuse(self.model.scans)
+        if not self.where.any_size and (cost := self.estimate()) is not None:
+            cost.refuse(self.model.scans)
         # The settings hold everything that determines the draws. A stopped run must have the same arguments.
         settings = self._settings()
-        stopped = self._stopped(checkpoints.resume, settings)
+        stopped = self._posterior_to_resume(checkpoints.resume, settings)
         opening = _Opening(self, checkpoints, settings, stopped, began)
         # Fit the sensor and the prior.
-        model, parameters = self._fitted(opening, settings, stopped, watch)
+        model, parameters = self._fit_model(opening, settings, stopped, watch)
         seconds = {"fit": time.perf_counter() - began if "fitted" in settings else 0.0}
         settings["threads_used"] = self._threads_used()
         # Sample: independent maps, or chains.
         device, threads = self.where.device, self.where.threads
-        if self.kernel in WITHOUT_CHAINS:
+        if self.kernel in methods.WITHOUT_CHAINS:
             problem = trace_walls(model, device, threads)
             seconds["trace"] = time.perf_counter() - began - seconds["fit"]
-            draws = WITHOUT_CHAINS[self.kernel](problem, self.request, watch)
-            seconds["total"] = opening.passed()
+            draws = methods.WITHOUT_CHAINS[self.kernel](problem, self.request, watch)
+            seconds["total"] = opening.elapsed_s()
             return Run(posterior_of_draws(model, draws, problem.n_incidences, settings, seconds))
 
         def as_run(chains: Chains) -> Run:
-            seconds["total"] = opening.passed()
+            seconds["total"] = opening.elapsed_s()
             return Run(posterior_of_chains(model, chains, settings, seconds, parameters))
 
         # A pilot has begun the run already. If the chains run elsewhere, no beams are traced here.
-        prepared, here = None, isinstance(executor, ThreadExecutor) and not model.poses.unknown
-        if opening.is_needed and parameters is None and stopped is None and here:
+        prepared, is_local = None, isinstance(executor, ThreadExecutor) and not model.poses.unknown
+        if opening.is_needed and parameters is None and stopped is None and is_local:
             sampler = self._sampler(opening.plan.warmup)
             prepared = sampler.prepare(model, device, threads, watch)
             opening.begin(model, sampler, prepared)
@@ -207,11 +197,11 @@ class Inference:
             model, self._sampler(plan.warmup), plan, self.request.seed, tuple(range(self.request.chains)), device,
             threads, parameters, prepared,
         )  # fmt: skip
-        save, begun = checkpoints.save, None if stopped is None else chains_of(stopped)
+        save, earlier = checkpoints.save, None if stopped is None else chains_of(stopped)
         on_checkpoint = None if save is None else lambda chains: save(as_run(chains))
-        return as_run(executor.run(job, begun, watch, on_checkpoint, checkpoints.every_s))
+        return as_run(executor.run(job, earlier, watch, on_checkpoint, checkpoints.every_s))
 
-    def _fitted(
+    def _fit_model(
         self, opening: _Opening, settings: dict[str, Any], stopped: Posterior | None, watch: Watch
     ) -> tuple[Model, Parameters | None]:
         """Fit sensor and prior where asked for. Returns the model of the chains, and the parameters of a pilot."""
@@ -230,7 +220,7 @@ class Inference:
             model = replace(model, sensor=fit_sensor(model, device, seed=seed, threads=threads, watch=watch))
             settings["fitted"] = {"sensor": describe(model.sensor)}
         if model.cells.is_incomplete:  # the coupling of walls
-            walls = sampler_on_walls(self.kernel)
+            walls = methods.sampler_on_walls(self.kernel)
             prior = fit_coupling_to_scans(model, walls, device, seed=seed, threads=threads, watch=watch)
             model = replace(model, cells=prior)
             settings["fitted"] = {**settings.get("fitted", {}), "prior": prior.describe()}
@@ -248,31 +238,30 @@ class Inference:
         """
         if self.where.device != "cpu":
             return None
-        here = self.where.executor is None or isinstance(self.where.executor, ThreadExecutor)
+        is_local = self.where.executor is None or isinstance(self.where.executor, ThreadExecutor)
         sampling = Sampling(
-            self.kernel, self.model.arrays, self.model.cells.has_surfaces, self.request.chains if here else 1,
+            self.kernel, self.model.arrays, self.model.cells.has_surfaces, self.request.chains if is_local else 1,
             self.plan, self.is_fitted, self.model.poses.unknown, self._threads_used(),
         )  # fmt: skip
         size = size_of(self.model.scans, self.model.grid, log)
         if log is not None:
             size = replace(size, cells=min(size.cells, size.touched / TOUCHED_SHARE))
-        found = estimate(self.model.scans if log is None else log, self.model.grid, size, sampling)
-        # The pilot alone runs here, the chains elsewhere: their time is not known.
-        return found if here or found is None else replace(found, processor_s=None)
+        cost = estimate(self.model.scans if log is None else log, self.model.grid, size, sampling)
+        # If only the pilot runs here, and the chains elsewhere, their time is not known.
+        return cost if is_local or cost is None else replace(cost, processor_s=None)
 
     def _sampler(self, warmup: int) -> Sampler[Any, Any]:
         """Return the sampler of the chains."""
         method = cast(Gibbs, self.method)
         if not self.model.poses.unknown:
-            return sampler_of(self.kernel, self.model.grid, method, warmup)
-        sampler = sampler_of(self.kernel, self.model.grid, method)
+            return methods.sampler_of(self.kernel, self.model.grid, method, warmup)
+        sampler = methods.sampler_of(self.kernel, self.model.grid, method)
         return WithPoses(cast(MovableSampler, sampler), warmup, method.start_poses)
 
-    def _stopped(self, run: Run | None, settings: dict[str, Any]) -> Posterior | None:
+    def _posterior_to_resume(self, run: Run | None, settings: dict[str, Any]) -> Posterior | None:
         """Return the posterior of the run to resume; None without a run, or if it was stopped before its first sweep.
 
-        Raises:
-            BadInput: the run was made with other arguments.
+        Raises `BadInput` if the run was made with other arguments.
         """
         start = getattr(self.method, "start", None)
         starts = None if isinstance(start, str) else start, getattr(self.method, "start_poses", None)
@@ -289,9 +278,9 @@ class Inference:
         """Return everything that determines the draws, as JSON values."""
         request, plan = self.request, self.plan
         return {
-            "method": self.name, **options_of(self.kernel, self.model.grid, self.method), "chains": request.chains,
-            "warmup": plan.warmup, "draws": plan.draws, "thin": plan.thin, "precision": plan.precision,
-            "seed": request.seed, "particles": request.particles, "rounds": request.rounds,
+            "method": self.name, **methods.options_of(self.kernel, self.model.grid, self.method),
+            "chains": request.chains, "warmup": plan.warmup, "draws": plan.draws, "thin": plan.thin,
+            "precision": plan.precision, "seed": request.seed, "particles": request.particles, "rounds": request.rounds,
             "hit_depth": self.model.hit_depth, "prior": self.model.cells.describe(),
             "sensor": FIT if self.is_fitted else describe(self.model.sensor), "streams": RANDOM_STREAMS,
             "poses": self.model.poses.describe(),
@@ -336,7 +325,7 @@ class _Opening:
         """Return whether a first map is to be shown, or the time is limited."""
         return self._preview is not None or self.plan.seconds is not None
 
-    def passed(self) -> float:
+    def elapsed_s(self) -> float:
         """Return the seconds since the start of the run, earlier parts included."""
         return time.perf_counter() - self._began
 
@@ -345,19 +334,19 @@ class _Opening:
         if not self.is_needed:
             return
         plan, chains = self.plan, self._request.chains
-        at_known = replace(model, poses=KnownPoses())  # a first map samples no poses
-        first, sweep_s = first_map(sampler, problem, at_known, self._request.seed)
+        model = replace(model, poses=KnownPoses())  # a first map samples no poses
+        first, sweep_s = first_map(sampler, problem, model, self._request.seed)
         is_long = sweep_s * chains * (plan.warmup + FIRST_MARK * plan.thin) >= PREVIEW_FROM_S
         if self._preview is not None and is_long:
-            seconds = {"total": self.passed(), "fit": 0.0}
-            self._preview(Run(posterior_of_chains(at_known, first, self._settings, seconds, None)))
+            seconds = {"total": self.elapsed_s(), "fit": 0.0}
+            self._preview(Run(posterior_of_chains(model, first, self._settings, seconds, None)))
         if plan.seconds is not None:  # the pilot makes as many sweeps as the warm-up
-            self.plan = plan.shortened(sweep_s * (1 + chains), plan.seconds - self.passed())
+            self.plan = plan.shortened(sweep_s * (1 + chains), plan.seconds - self.elapsed_s())
 
     def remaining(self) -> SweepPlan:
         """Return the plan of the chains in the time that is left."""
         seconds = self.plan.seconds
-        return self.plan if seconds is None else replace(self.plan, seconds=max(0.0, seconds - self.passed()))
+        return self.plan if seconds is None else replace(self.plan, seconds=max(0.0, seconds - self.elapsed_s()))
 
 
 @near_names
@@ -395,10 +384,9 @@ def slam(
     from bayesmap.poses import map_scans
     from bayesmap.poses.slam import infer_trajectory
 
-    for name, value, kind in (
-        ("schedule", schedule, Schedule), ("where", where, Where), ("checkpoints", checkpoints, Checkpoints),
-    ):  # fmt: skip
-        need_value("slam", name, value, kind)
+    need_value("slam", "schedule", schedule, Schedule)
+    need_value("slam", "where", where, Where)
+    need_value("slam", "checkpoints", checkpoints, Checkpoints)
     # Read the log.
     if not isinstance(log, Scans):
         from bayesmap.io.logs import read_log
@@ -407,15 +395,15 @@ def slam(
     # Refuse an impossible grid at once: the map will cover the first scan, whose pose stays as odometry stated it.
     Grid.covering(log.select(slice(0, 1)), resolution)
 
-    def on_stage(stage: str, done: int, of: int) -> None:
+    def on_stage(stage: str, done: int, total: int) -> None:
         if on_progress is not None:
-            on_progress(Event(stage, done, of))  # type: ignore[arg-type]
+            on_progress(Event(stage, done, total))  # type: ignore[arg-type]
 
     # Refuse what cannot fit into memory.
     if not where.any_size:
-        foreseen = estimate_slam(log, resolution, prior, sensor, fast, no_odometry, schedule, where)
-        if foreseen is not None:
-            foreseen.refuse(log)
+        cost = estimate_slam(log, resolution, prior, sensor, fast, no_odometry, schedule, where)
+        if cost is not None:
+            cost.refuse(log)
 
     # Approximate the trajectory of all scans.
     trajectory = infer_trajectory(
@@ -431,8 +419,8 @@ def slam(
     fast = len(keys.scans) > map_scans.SAMPLED if fast is None else fast
 
     # Sample the map; unless ``fast``, sample the poses of the key scans too.
-    def with_trajectory(use: Callable[[Run], None] | None) -> Callable[[Run], None] | None:
-        return None if use is None else lambda run: use(replace(run, trajectory=trajectory))
+    def with_trajectory(callback: Callable[[Run], None] | None) -> Callable[[Run], None] | None:
+        return None if callback is None else lambda run: callback(replace(run, trajectory=trajectory))
 
     save, preview = with_trajectory(checkpoints.save), with_trajectory(checkpoints.preview)
     run = infer(

@@ -15,12 +15,9 @@ if TYPE_CHECKING:
     from bayesmap.poses.trajectory import Trajectory
     from bayesmap.result import Run
 
-CHECKPOINT_S = 30.0
-"""Default number of seconds between two checkpoints."""
-PREVIEW_FROM_S = 2.0
-"""A first map is drawn if the chains are expected to take at least this many seconds."""
-MORE_DRAWS = 10
-"""Factor on the default number of draws if the user asks for a better precision than the default."""
+CHECKPOINT_S = 30.0  # default number of seconds between two checkpoints
+PREVIEW_FROM_S = 2.0  # a first map is drawn if the chains are expected to take at least this many seconds
+MORE_DRAWS = 10  # factor on the default number of draws if the user asks for a better precision than the default
 
 
 def need_value(function: str, name: str, value: object, kind: type) -> None:

@@ -21,11 +21,9 @@ def write_whole(path: str | os.PathLike[str]) -> Iterator[Path]:
 
     The temporary file lies in the same folder, since a rename within a file system is atomic, and has the suffix of
     ``path``, since some libraries choose a format by it. It is flushed to disk before the rename: after an error, a
-    crash or a kill ``path`` holds either the old or the new content. A symbolic link's target is replaced.
-
-    Raises:
-        BadInput: the folder does not exist, or cannot be written to.
-        OSError: writing failed, as on a full disk; it names ``path``.
+    crash or a kill ``path`` holds either the old or the new content. A symbolic link's target is replaced. Raises
+    `BadInput` if the folder does not exist, or cannot be written to, and `OSError` if writing failed, as on a full
+    disk; it names ``path``.
     """
     target = Path(os.path.realpath(path))
     temporary = target.with_name(f".{target.stem}.{secrets.token_hex(4)}.partial{target.suffix}")
@@ -35,7 +33,7 @@ def write_whole(path: str | os.PathLike[str]) -> Iterator[Path]:
     except OSError as error:
         raise BadInput(f"{path}: cannot be written ({error.strerror}); name a file in a folder that is there") from None
     try:
-        with naming(path, temporary):
+        with errors_naming(path, temporary):
             yield temporary
             if target.exists():
                 temporary.chmod(target.stat().st_mode & 0o777)
@@ -49,8 +47,7 @@ def write_whole(path: str | os.PathLike[str]) -> Iterator[Path]:
 def write_text(path: str | os.PathLike[str], lines: Iterable[str]) -> Path:
     """Write lines of ASCII text, whole or not at all, gzipped if the name ends in .gz. Return the path.
 
-    Raises:
-        BadInput: the folder does not exist, or cannot be written to.
+    Raises `BadInput` if the folder does not exist, or cannot be written to.
     """
     target, content = Path(path), "".join(f"{line}\n" for line in lines).encode("ascii")
     with write_whole(target) as partial:
@@ -64,11 +61,9 @@ def write_whole_folder(path: str | os.PathLike[str], may_replace: Callable[[Path
     """Yield the name of a temporary folder, to be made by the block. If the block succeeds, it becomes ``path``.
 
     An older folder at ``path`` is removed whole, but only if ``may_replace`` accepts it: a typing error must not delete
-    a folder with other content. If the block raises an error, ``path`` is unchanged.
-
-    Raises:
-        BadInput: ``path`` may not be replaced, or its parent folder is missing or not writable.
-        OSError: writing failed, as on a full disk; it names ``path``.
+    a folder with other content. If the block raises an error, ``path`` is unchanged. Raises `BadInput` if ``path`` may
+    not be replaced, or its parent folder is missing or not writable, and `OSError` if writing failed, as on a full
+    disk; it names ``path``.
     """
     target = Path(os.path.realpath(path))
     if os.path.lexists(target) and not (target.is_dir() and (not any(target.iterdir()) or may_replace(target))):
@@ -80,11 +75,10 @@ def write_whole_folder(path: str | os.PathLike[str], may_replace: Callable[[Path
         temporary.mkdir()
         temporary.rmdir()
     except OSError as error:
-        raise BadInput(
-            f"{path}: cannot be written ({error.strerror}); name a folder inside one that is there, and yours"
-        ) from None
+        reason = f"cannot be written ({error.strerror}); name a folder inside one that is there, and yours"
+        raise BadInput(f"{path}: {reason}") from None
     try:
-        with naming(path, temporary):
+        with errors_naming(path, temporary):
             yield temporary
         # Move the old folder away, and back again if the new one cannot take its place.
         if target.exists():
@@ -101,7 +95,7 @@ def write_whole_folder(path: str | os.PathLike[str], may_replace: Callable[[Path
 
 
 @contextlib.contextmanager
-def naming(path: str | os.PathLike[str], temporary: Path) -> Iterator[None]:
+def errors_naming(path: str | os.PathLike[str], temporary: Path) -> Iterator[None]:
     """Convert a write error of any library into an `OSError` that names ``path``."""
     try:
         yield
@@ -136,8 +130,7 @@ def run_in(folder: str | os.PathLike[str]) -> str | None:
 def need_ending(path: str | os.PathLike[str], endings: tuple[str, ...], kind: str) -> tuple[Path, str]:
     """Return the path, and its ending in lower case without the dot.
 
-    Raises:
-        BadInput: an ending that is not among ``endings``, or a missing folder. Both are checked before the slow work.
+    Raises `BadInput` for an ending that is not among ``endings``, or a missing folder, before any slow work.
     """
     target = Path(path)
     ending = target.suffix.lower().removeprefix(".")

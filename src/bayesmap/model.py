@@ -30,8 +30,7 @@ from bayesmap.sensors.model import Floats, SensorModel
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
-BEAMS_AT_ONCE = 8192
-"""Number of beams that are traced together, which limits the memory."""
+BEAMS_AT_ONCE = 8192  # number of beams that are traced together, which limits the memory
 
 POSES = ArraySpec("poses", ("scan", "pose"), "float64", what="x, y in metres and yaw in radians, in the world frame")
 """The array of poses in a draw, if poses are unknown."""
@@ -69,8 +68,7 @@ class Model:
     def log_joint(self, state: State) -> float:
         """Compute the log density of a state and the readings, in nats, up to a constant of the priors.
 
-        Raises:
-            BadInput: poses of another shape than the scans'.
+        Raises `BadInput` for poses of another shape than the scans'.
         """
         poses = self.poses.law(self.scans.poses).log_prob(np.asarray(state.poses))
         return float(poses) + self.cells.log_prob(state.cells, self.grid) + self.log_likelihood(state)
@@ -82,8 +80,7 @@ class Model:
     def beam_log_likelihoods(self, state: State) -> Floats:
         """Compute log p(reading | state) of each beam, (B,), in nats; 0 for an invalid reading.
 
-        Raises:
-            BadInput: poses of another shape than the scans'.
+        Raises `BadInput` for poses of another shape than the scans'.
         """
         if np.shape(state.poses) != self.scans.poses.shape:
             raise BadInput(f"state: poses has shape {np.shape(state.poses)}, expected {self.scans.poses.shape}")

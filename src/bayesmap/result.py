@@ -37,8 +37,7 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 
-THUMBNAIL_PIXELS = 240
-"""Longer side, in pixels, of the picture of a run in a notebook."""
+THUMBNAIL_PIXELS = 240  # longer side, in pixels, of the picture of a run in a notebook
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -134,9 +133,7 @@ class Run:
         """Compute mean, covariance and R-hat of each scan's pose.
 
         If chains that started from an approximation have not mixed, return the approximation's mean and covariance.
-
-        Raises:
-            BadInput: a run that was stopped before its first draw.
+        Raises `BadInput` for a run that was stopped before its first draw.
         """
         from bayesmap.posterior.summary import summarise_poses
 
@@ -151,8 +148,8 @@ class Run:
     def interval(self, level: float = 0.9) -> tuple[Floats, Floats]:
         """Compute the central credible interval of each cell's chance to stop a beam: lower and upper ends, (nx, ny).
 
-        Raises:
-            BadInput: a level outside (0, 1), a run that was stopped before its first draw, or a run over binary walls.
+        Raises `BadInput` for a level outside (0, 1), a run that was stopped before its first draw, or a run over binary
+        walls.
         """
         if not 0 < level < 1:
             raise BadInput(f"interval: level must lie inside (0, 1), got {level!r}")
@@ -162,8 +159,7 @@ class Run:
     def surfaces(self) -> tuple[Floats, Floats, Floats]:
         """Return mean surfaces: means (U, 2) and covariances (U, 2, 2) in metres, and reflectivities (U,).
 
-        Raises:
-            BadInput: a run without surfaces or without draws.
+        Raises `BadInput` for a run without surfaces or without draws.
         """
         self._need_marginals()
         return self.posterior.prior.surfaces(self.posterior.draws)
@@ -177,8 +173,7 @@ class Run:
     def log_weights(self) -> Floats:
         """Return the normalised log weights of all particles of importance sampling, (particles,).
 
-        Raises:
-            BadInput: another method.
+        Raises `BadInput` for another method.
         """
         if self.posterior.log_weights is None:
             raise BadInput(f"run: method {self.posterior.settings['method']!r} has no importance weights")
@@ -200,10 +195,8 @@ class Run:
 
         The run has not seen these scans. Another ``sensor`` is needed only for a loaded run with your own sensor model.
         ``on_progress`` is called with the number of finished draws and their total. The device is "cpu", or a CUDA
-        device such as "cuda:0".
-
-        Raises:
-            BadInput: no draws, no valid reading, a sensor that cannot score this run, or no such device.
+        device such as "cuda:0". Raises `BadInput` for no draws, no valid reading, a sensor that cannot score this run,
+        or no such device.
         """
         scores = beam_log_scores(predictor_of(self.posterior, sensor), heldout_scans, on_progress, device)
         return float(scores[~np.isnan(scores)].mean())
@@ -213,10 +206,8 @@ class Run:
 
         The path has the corners of the way of the disc's centre, world frame, metres, (P, 2); one point for a standing
         disc. Returns ``.probability`` with its Monte Carlo ``.standard_error``, and ``.independent``: the product over
-        independent cells.
-
-        Raises:
-            BadInput: a run without draws, a path that is invalid or leaves the map, or a radius that is not positive.
+        independent cells. Raises `BadInput` for a run without draws, a path that is invalid or leaves the map, or a
+        radius that is not positive.
         """
         from bayesmap.posterior.decisions import path_is_free
 
@@ -226,10 +217,8 @@ class Run:
         """Plan the shortest path of a disc whose probability of touching something is at most ``risk``.
 
         Start and goal are points of the world frame in metres, (2,). Returns the path with its `free_probability`. If
-        no path is ``.within_risk``, it is the safest one.
-
-        Raises:
-            BadInput: a run without draws; start or goal outside the map or blocked in nearly every draw; no path.
+        no path is ``.within_risk``, it is the safest one. Raises `BadInput` for a run without draws, a start or
+        goal that is outside the map or blocked in nearly every draw, or if there is no path.
         """
         from bayesmap.posterior.decisions import shortest_safe_path
 
@@ -296,10 +285,8 @@ class Run:
 
         ``chain`` and ``draw`` count from 0. ``x`` and ``y`` are the cells' centres in the world frame, metres. Arrays
         over only a part of the cells have the indices of these cells as ``cell_x`` and ``cell_y``. ``by_reading`` adds
-        the log likelihood of every valid reading in every draw, at 4 bytes each, as ``reading_log_likelihood``.
-
-        Raises:
-            BadInput: xarray is not installed; with ``by_reading``, no draws or an unknown sensor model.
+        the log likelihood of every valid reading in every draw, at 4 bytes each, as ``reading_log_likelihood``. Raises
+        `BadInput` if xarray is not installed, and with ``by_reading`` for no draws or an unknown sensor model.
         """
         from bayesmap.posterior.posterior import dataset_of
 
@@ -318,12 +305,10 @@ class Run:
         save(self.posterior, path, on_progress, self.trajectory, by_reading=by_reading)
 
     def plot(self, **options: Any) -> Figure:
-        """Draw the mean map, its uncertainty, the readings and one draw, with surfaces if cells are large enough.
+        """Plot the mean map, its uncertainty, the readings and one draw, with surfaces if cells are large enough.
 
-        Options are those of `bayesmap.viz.figure.posterior_figure`.
-
-        Raises:
-            BadInput: a run that was stopped before its first draw.
+        Options are those of `bayesmap.viz.figure.posterior_figure`. Raises `BadInput` for a run that was stopped before
+        its first draw.
         """
         from bayesmap.viz.figure import posterior_figure
 
@@ -345,11 +330,8 @@ class Run:
         The path's ending chooses the format: map_server YAML, recordings for ROS 1 and 2, GeoTIFF, rerun or TUM, with
         the options of `bayesmap.io.exports.export_run`. Maps of occupied, free and unknown cells use the thresholds of
         the kind of cells by default. A cell of reflectivities below the free threshold is unknown unless enough beams
-        passed it (docs/defaults.md).
-
-        Raises:
-            BadInput: the map of a run that was stopped before its first draw, an unknown ending, or a file that cannot
-                be written.
+        passed it (docs/defaults.md). Raises `BadInput` for the map of a run that was stopped before its first draw, an
+        unknown ending, or a file that cannot be written.
         """
         from bayesmap.io.exports import TRAJECTORIES, export_format, export_run, known_cells
 
@@ -416,7 +398,7 @@ def _overview(posterior: Posterior) -> tuple[str, list[tuple[str, str]]]:
 
 
 def _thumbnail(occupancy: Floats, observed: NDArray[np.bool_]) -> tuple[tuple[int, int], bytes]:
-    """Draw the mean map, x to the right and y up. Return width and height in pixels, and the PNG file."""
+    """Return width and height in pixels, and the PNG file, of the mean map, x to the right and y up."""
     from PIL import Image
 
     from bayesmap.viz import palette
@@ -426,18 +408,14 @@ def _thumbnail(occupancy: Floats, observed: NDArray[np.bool_]) -> tuple[tuple[in
     pixels = np.rint(255 * colours[:, ::-1].transpose(1, 0, 2)).astype(np.uint8)
     scale = THUMBNAIL_PIXELS / max(occupancy.shape)
     width, height = (max(1, round(side * scale)) for side in occupancy.shape)
-    how = Image.Resampling.BOX if scale < 1 else Image.Resampling.NEAREST
+    resampling = Image.Resampling.BOX if scale < 1 else Image.Resampling.NEAREST
     buffer = io.BytesIO()
-    Image.fromarray(pixels).resize((width, height), how).save(buffer, format="PNG", optimize=True)
+    Image.fromarray(pixels).resize((width, height), resampling).save(buffer, format="PNG", optimize=True)
     return (width, height), buffer.getvalue()
 
 
 def load(path: str | os.PathLike[str]) -> Run:
-    """Read a saved run.
-
-    Raises:
-        BadInput: a file that is missing, damaged, or no run of bayesmap.
-    """
+    """Read a saved run. Raises `BadInput` for a file that is missing, damaged, or no run of bayesmap."""
     from bayesmap.io.saved import load_saved
 
     return Run(*load_saved(path))

@@ -101,14 +101,14 @@ def test_progress_of_all_logs_is_shown_and_ctrl_c_keeps_what_workers_have(logs, 
     """There is a checkpoint at the end of warm-up, and none after it that time would bring."""
     shown, at = [], []
 
-    def show(name, share):
+    def show(share, name):
         shown.append((name, share))
         found = re.search(r"(east|west) drawing ([\d,]+)/4,005", name)
         if found and not at:
             at.append((found[1], int(found[2].replace(",", ""))))
             os.kill(os.getpid(), signal.SIGINT)
 
-    monkeypatch.setattr(infer, "described_share", lambda console, begin: contextlib.nullcontext(show))
+    monkeypatch.setattr(infer, "share", lambda console, begin: contextlib.nullcontext(show))
     monkeypatch.setattr(infer, "STOP_S", 120.0)
     pair, options = (logs / "east.log", logs / "west.log"), (*short, "--executor", "ray", "--checkpoint-every", 3600)
     assert "stopping: what the workers have is fetched" in refusal_of(

@@ -141,7 +141,7 @@ def test_render_says_what_it_cannot_draw(office_run, tmp_path):
         (["--what draw --chain 3"], "this run has chains 1 to 2"),
         (["--what animation -o", tmp_path / "film.png"], ".gif, .webp"),
         (["-o", tmp_path / "picture.jpg"], ".png, .pdf, .svg"),
-        (["--what residuals"], "name their log by --heldout"),
+        (["--what residuals"], "give --heldout LOG"),
         (["--what surprise --heldout", tmp_path / "no.log"], "no.log"),
         (["--what mean --window 1,2"], "give X0,X1,Y0,Y1 in metres"),
         (["--what mean --window 900,901,0,1"], "lies outside the map"),

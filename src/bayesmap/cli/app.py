@@ -9,7 +9,7 @@ import click
 from bayesmap.cli.command import Call, command
 from bayesmap.cli.console import write_out
 from bayesmap.cli.keys import AppSettings
-from bayesmap.cli.translation import LOG, need_file, reading_of
+from bayesmap.cli.translation import LOG, log_options_of, need_file
 from bayesmap.errors import BadInput
 from bayesmap.files import need_ending, write_whole
 
@@ -51,7 +51,7 @@ def app(
     bayesmap app document.json --export figure.html
     bayesmap app --story tutorial --export story.html
     """
-    log_options = reading_of(call.settings())
+    log_options = log_options_of(call.settings())
     if file is not None:
         need_file(file, f"a saved run (.nc), a document of the page (.json), or {LOG}", runs=True)
 
@@ -63,12 +63,12 @@ def app(
     document = tutorial_document(seed)
     if file is not None and file.endswith(".json"):
         document, file = read_document(file), None
-    told_story = None
+    story_read = None
     if story is not None:
         if file is not None:
             raise BadInput(f"--story: a story has its own maps, and {file} is a file; leave one of the two out")
-        told_story = read_story(story, document)
-        document = told_story.steps[0].document
+        story_read = read_story(story, document)
+        document = story_read.steps[0].document
 
     if export is not None:
         if file is not None:
@@ -76,7 +76,7 @@ def app(
                 f"--export: {file} is no drawn world; open it with bayesmap app, and choose Export there, "
                 "which writes a page with its draws"
             )
-        _export_figure(call, document, told_story, export)
+        _export_figure(call, document, story_read, export)
         return
 
     call.console.say("starting the worker ..." if file is None else f"opening {file} ...")
@@ -92,7 +92,7 @@ def app(
 
             webbrowser.open(address)
 
-    serve(document, path=file, log_options=log_options, story=told_story, host=host, port=port, on_ready=show_address)
+    serve(document, path=file, log_options=log_options, story=story_read, host=host, port=port, on_ready=show_address)
 
 
 def _export_figure(call: Call[AppSettings], document: Document, story: Story | None, file: str) -> None:

@@ -116,9 +116,8 @@ def _known_name(name: str, known: Iterable[str], what: str) -> str:
         return name
     flat = name.replace("-", "_")
     near = [flat] if flat in names else difflib.get_close_matches(flat, names, n=1, cutoff=0.5)
-    raise WrongValue(
-        f"unknown {what} {name!r}; " + (f"did you mean {near[0]!r}?" if near else f"known: {', '.join(names)}")
-    )
+    hint = f"did you mean {near[0]!r}?" if near else f"known: {', '.join(names)}"
+    raise WrongValue(f"unknown {what} {name!r}; {hint}")
 
 
 def _store(layer: dict[str, dict[str, Value]], sections: list[str], name: str, value: Any) -> None:
@@ -210,13 +209,15 @@ def command(section: str | None) -> Callable[[Callable[..., None]], click.Comman
             as_json, bar = arguments.pop("as_json"), not arguments.pop("no_progress")
             console = Console(quiet=quiet, verbose=verbose, as_json=as_json, bar=bar)
             # Stack the sources of settings, and run the command.
-            by_file = read_file(config) if config is not None else {}
-            by_flags = {section: flags} if section is not None else {}
-            layers = by_file, read_pairs(pairs, section), by_flags
+            file_layer = read_file(config) if config is not None else {}
+            flag_layer = {section: flags} if section is not None else {}
+            layers = file_layer, read_pairs(pairs, section), flag_layer
             run(Call[Any](console, section or "", layers), **arguments)
 
         # The function's own options come first in the help, then the settings, then the common options.
-        decorated = click.command(help=_help(run.__doc__ or ""))(callback)
+        # In the help, a raw backslash-b of the docstring becomes the character that stops click from reflowing.
+        help_text = inspect.cleandoc(run.__doc__ or "").replace("\\b\n", "\b\n")
+        decorated = click.command(help=help_text)(callback)
         decorated.params = list(getattr(run, "__click_params__", []))[::-1]
         decorated.params += [_option(key) for key in keys] + list(COMMON)
         return decorated
@@ -224,42 +225,25 @@ def command(section: str | None) -> Callable[[Callable[..., None]], click.Comman
     return decorate
 
 
-def _help(docstring: str) -> str:
-    """Return the help text of a docstring: a raw backslash-b becomes the character that stops click from reflowing."""
-    return inspect.cleandoc(docstring).replace("\\b\n", "\b\n")
-
-
 def _option(key: Key) -> click.Option:
     if key.kind is bool:
         return click.Option([key.flag, key.name], is_flag=True, help=key.help.text)
-    shown = key.help.unset if key.default is None else f"{key.default}"
-    text = key.help.text + (f" [default: {shown}]" if shown else "")
+    default = key.help.unset if key.default is None else f"{key.default}"
+    text = key.help.text + (f" [default: {default}]" if default else "")
     return click.Option([key.flag, key.name], type=_click_type(key), metavar=key.help.metavar, help=text)
 
 
 def _click_type(key: Key) -> click.ParamType[Any]:
     if key.choices:
-        return click.Choice(key.choices) if key.kind is str else NumberOr(key.choices[0])
+        return click.Choice(key.choices) if key.kind is str else click.types.FuncParamType(_number_or(key.choices[0]))
     return click.types.convert_type(key.kind)
 
 
-class NumberOr(click.ParamType["float | str"]):
-    """A click type for a number or one word.
-
-    Attributes:
-        word: the word that is allowed instead of a number.
-    """
-
-    name = "number"
-
-    def __init__(self, word: str) -> None:
-        self.word = word
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float | str:
-        """Return the word, or the value as a number."""
-        if value == self.word:
-            return self.word
+def _number_or(word: str) -> Callable[[str], float | str]:
+    def convert(value: str) -> float | str:
         try:
-            return float(value)
+            return value if value == word else float(value)
         except ValueError:
-            self.fail(f"{value!r} is neither a number nor {self.word!r}", param, ctx)
+            raise click.BadParameter(f"{value!r} is neither a number nor {word!r}") from None
+
+    return convert

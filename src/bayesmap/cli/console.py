@@ -14,13 +14,18 @@ from typing import TYPE_CHECKING, Any, Literal, TextIO
 
 import click
 
+from bayesmap.version import __version__
+
 if TYPE_CHECKING:
     from rich.progress import TaskID
 
     from bayesmap.api import Event
 
-FAILURE, BAD_INPUT, PROBLEMS, INTERRUPTED = 1, 3, 4, 130
-"""Exit codes. Click adds 2 for wrong usage."""
+# Exit codes. Click adds 2 for wrong usage.
+FAILURE = 1
+BAD_INPUT = 3
+PROBLEMS = 4  # --strict, and the diagnostics found problems
+INTERRUPTED = 130
 
 VERBOSE = "bayesmap.verbose"
 """Key of the click context that stores whether the command is verbose; read when its failure is printed."""
@@ -76,8 +81,9 @@ def aligned(rows: Sequence[Sequence[str]]) -> Iterator[str]:
 
 
 def as_json(document: dict[str, Any]) -> str:
-    """Return a JSON document with the schema version, ending in a newline. NaN and infinity raise an error."""
-    return json.dumps({"schema_version": SCHEMA_VERSION, **document}, indent=2, allow_nan=False) + "\n"
+    """Return a JSON document with both versions, ending in a newline. NaN and infinity raise an error."""
+    versions = {"schema_version": SCHEMA_VERSION, "version": __version__}
+    return json.dumps({**versions, **document}, indent=2, allow_nan=False) + "\n"
 
 
 RESULTS = "bayesmap.results"
@@ -102,11 +108,7 @@ def reserve_stdout() -> None:
 
 
 def write_out(text: str) -> bool:
-    """Write to standard output. A reader that has closed it, such as ``head``, is no error.
-
-    Returns:
-        Whether there was still a reader.
-    """
+    """Write to standard output, and return whether there was still a reader, such as ``head``, which may close it."""
     context = click.get_current_context(silent=True)
     reserved = {} if context is None else context.meta
     results: TextIO = reserved.get(RESULTS) or sys.stdout
@@ -128,7 +130,7 @@ def complain(text: str) -> None:
 
 OnProgress = Callable[["Event"], None]
 Show = Callable[[str, str, int, int, str, int], None]
-"""Takes the stage, the counted unit, the count, the total, how well the map is known, and the units of warm-up."""
+"""Takes the stage, the counted unit, the count, the total, the quality of the map, and the units of warm-up."""
 
 STAGES = {
     "compile": ("compiling kernels, once", "kernels"),
@@ -151,8 +153,7 @@ STAGES = {
 }
 """Names of the stages of a run for the user, and the unit that is counted in each."""
 
-SAMPLING = ("warm-up", "draws")
-"""Stages that count sweeps of the chains."""
+SAMPLING = ("warm-up", "draws")  # stages that count sweeps of the chains
 
 SETTING_UP = ("compile", "trace", "start", "fit")
 """Stages in which a run can still fail before it has changed its folder."""
@@ -176,32 +177,29 @@ def _quality(event: Event) -> str:
 
 
 @contextlib.contextmanager
-def share(console: Console, name: str) -> Iterator[Callable[[float], None]]:
-    """Yield a function that shows the share of the work that is done, from 0 to 1."""
-    with described_share(console, name) as show:
-        yield lambda done: show(name, done)
+def share(console: Console, name: str) -> Iterator[Callable[..., None]]:
+    """Yield a function that shows the share of the work that is done, from 0 to 1, and a step other than ``name``."""
+    with _bar(console, name) as show:
+        yield lambda done, step=name: show(step, "%", round(1000 * done), 1000, "", 0)
 
 
-@contextlib.contextmanager
-def described_share(console: Console, begin: str) -> Iterator[Callable[[str, float], None]]:
-    """Yield a function that shows the current step and the share of the work that is done."""
-    with _bar(console, begin) as show:
-        yield lambda name, done: show(name, "%", round(1000 * done), 1000, "", 0)
+def exit_unless_good(*, finished: bool, problems: bool) -> None:
+    """Exit with 130 if the work was interrupted, or with 4 if it has problems that the user does not accept."""
+    if not finished or problems:
+        click.get_current_context().exit(PROBLEMS if finished else INTERRUPTED)
 
 
-SPEED_S = 600.0
-"""Seconds over which the progress bar averages the speed: sweeps of long logs take up to half a minute."""
-LINE_S = 60.0
-"""Seconds from one line of progress to the next if there is no terminal."""
+SPEED_S = 600.0  # seconds over which the progress bar averages the speed: sweeps of long logs take up to half a minute
+LINE_S = 60.0  # seconds from one line of progress to the next if there is no terminal
 
 
-def _count(unit: str, done: int, total: int, warmup: int, of: str) -> str:
+def _count(unit: str, done: int, total: int, warmup: int, separator: str) -> str:
     """Return a count in words. Warm-up and the draws after it are counted apart."""
     if unit == "%":
         return f"{100 * done // max(total, 1)} %"
     if warmup:
         done, total = (done, warmup) if done <= warmup else (done - warmup, total - warmup)
-    return f"{done:,}{of}{total:,} {unit}"
+    return f"{done:,}{separator}{total:,} {unit}"
 
 
 def _lines(console: Console) -> Show:
@@ -209,7 +207,7 @@ def _lines(console: Console) -> Show:
     began = last = time.monotonic()
     starts: dict[str, tuple[float, int]] = {}  # time and count at the first event of each stage
 
-    def show(name: str, unit: str, done: int, total: int, known: str, warmup: int) -> None:
+    def show(name: str, unit: str, done: int, total: int, quality: str, warmup: int) -> None:
         nonlocal last
         now = time.monotonic()
         start, first = starts.setdefault(name, (now, done))
@@ -219,7 +217,7 @@ def _lines(console: Console) -> Show:
         words = [f"{name}: {_count(unit, done, total, warmup, ' of ')}", f"{now - began:.0f} s passed"]
         if done > first:
             words.append(f"about {(now - start) * (total - done) / (done - first):.0f} s left")
-        console.say(", ".join([*words, *([known] if known else [])]))
+        console.say(", ".join([*words, *([quality] if quality else [])]))
 
     return show
 
@@ -235,35 +233,28 @@ def _bar(console: Console, begin: str) -> Iterator[Show]:
     from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
     bar = Progress(
-        SpinnerColumn(),
-        TextColumn("{task.description}"),
-        BarColumn(bar_width=24),
-        TextColumn("{task.fields[count]}"),
-        TimeRemainingColumn(),
-        TimeElapsedColumn(),
-        TextColumn("{task.fields[known]}"),
-        console=Console(stderr=True),
-        transient=True,
-        speed_estimate_period=SPEED_S,
-    )
+        SpinnerColumn(), TextColumn("{task.description}"), BarColumn(bar_width=24), TextColumn("{task.fields[count]}"),
+        TimeRemainingColumn(), TimeElapsedColumn(), TextColumn("{task.fields[quality]}"), console=Console(stderr=True),
+        transient=True, speed_estimate_period=SPEED_S,
+    )  # fmt: skip
     with bar:
-        shown = bar.add_task(begin, total=None, count="", known="")
+        visible = bar.add_task(begin, total=None, count="", quality="")
         # One task per counted unit, so that the estimated time does not mix rounds with sweeps. A task continues after
         # a checkpoint.
-        clocks: dict[tuple[str, int], TaskID] = {}
+        tasks: dict[tuple[str, int], TaskID] = {}
         sampling = [STAGES[stage][0] for stage in SAMPLING]
 
-        def show(name: str, unit: str, done: int, total: int, known: str, warmup: int) -> None:
-            nonlocal shown
+        def show(name: str, unit: str, done: int, total: int, quality: str, warmup: int) -> None:
+            nonlocal visible
             # If the precision ends the chains, the total of sweeps is an estimate that changes.
-            clock = (unit, 0 if name in sampling else total)
-            if clock not in clocks:
-                clocks[clock] = bar.add_task(name, total=total, completed=done, count="", known="")
-            if shown != clocks[clock]:
-                bar.update(shown, visible=False)
-                shown = clocks[clock]
-            count = _count(unit, done, total, warmup, "/") + " ETA"
-            bar.update(shown, description=name, completed=done, total=total, count=count, known=known, visible=True)
+            key = (unit, 0 if name in sampling else total)
+            if key not in tasks:
+                tasks[key] = bar.add_task(name, total=total, completed=done, count="", quality="")
+            if visible != tasks[key]:
+                bar.update(visible, visible=False)
+                visible = tasks[key]
+            words = {"description": name, "count": _count(unit, done, total, warmup, "/") + " ETA", "quality": quality}
+            bar.update(visible, completed=done, total=total, visible=True, **words)
 
         yield show
 

@@ -12,7 +12,6 @@ from bayesmap.cli.command import FORCE, Call, command
 from bayesmap.cli.console import progress, share, write_out
 from bayesmap.cli.keys import ExploreSettings, PlanSettings
 from bayesmap.cli.translation import need_free, numbers_of
-from bayesmap.version import __version__
 
 if TYPE_CHECKING:
     from bayesmap.posterior.decisions import Views
@@ -40,7 +39,7 @@ def plan(call: Call[PlanSettings], run_file: str, start: str, goal: str, output:
     """
     settings = call.settings()
     ends = [numbers_of(text, flag, "X,Y", (2,)) for text, flag in ((start, "--from"), (goal, "--to"))]
-    run, target = _opened(call, run_file, output, "plan.png", force)
+    run, target = _load_run(call, run_file, output, "plan.png", force)
     from bayesmap.posterior.decisions import shortest_safe_path
 
     with share(call.console, "looking at draws of the map") as report:
@@ -70,12 +69,8 @@ def plan(call: Call[PlanSettings], run_file: str, start: str, goal: str, output:
     write_out(f"{corners}{_route_sentence(route)}\n{target}\n")
 
 
-def _opened(call: Call[Any], run_file: str, output: str | None, name: str, force: bool) -> tuple[Run, Path]:
-    """Check the ending of the picture's name, load the run, and say whether its chains have converged.
-
-    Returns:
-        The run and the picture's path.
-    """
+def _load_run(call: Call[Any], run_file: str, output: str | None, name: str, force: bool) -> tuple[Run, Path]:
+    """Return the run and the picture's path, after checking its ending. Prints whether the chains have converged."""
     from bayesmap.files import need_ending
     from bayesmap.result import load
 
@@ -87,8 +82,8 @@ def _opened(call: Call[Any], run_file: str, output: str | None, name: str, force
     if run.n_draws:
         with progress(call.console, "comparing the chains"):
             summary = run.summary()
-        for good in summary.strengths():
-            call.console.say(f"good: {good}")
+        for strength in summary.strengths():
+            call.console.say(f"good: {strength}")
         for problem in summary.problems():
             call.console.warn(f"what follows may be wrong: {problem}")
     return run, target
@@ -110,17 +105,12 @@ def more_than(value: float, bound: float) -> str:
 
 
 def _route_document(route: Route, settings: PlanSettings) -> dict[str, Any]:
+    free = route.free
     return {
-        "version": __version__,
-        "path": route.path.tolist(),
-        "length_m": route.length_m,
-        "radius_m": settings.radius,
-        "risk": settings.risk,
-        "within_risk": route.within_risk,
-        "free_probability": route.free.probability,
-        "standard_error": route.free.standard_error,
-        "independent_cells": route.free.independent,
-    }
+        "path": route.path.tolist(), "length_m": route.length_m, "radius_m": settings.radius, "risk": settings.risk,
+        "within_risk": route.within_risk, "free_probability": free.probability, "standard_error": free.standard_error,
+        "independent_cells": free.independent,
+    }  # fmt: skip
 
 
 @command("explore")
@@ -140,53 +130,50 @@ def explore(call: Call[ExploreSettings], run_file: str, output: str | None, forc
     lower bound, too. The command warns first if the chains of the run have not converged.
     """
     settings = call.settings()
-    run, target = _opened(call, run_file, output, "explore.png", force)
+    run, target = _load_run(call, run_file, output, "explore.png", force)
     from bayesmap.posterior.decisions import next_views
 
     with share(call.console, "comparing views") as report:
-        found = next_views(
-            run.posterior, settings.candidates, settings.views, settings.radius,
-            draws=settings.draws, seed=settings.seed, on_progress=report,
+        views = next_views(
+            run.posterior, settings.candidates, settings.views, settings.radius, draws=settings.draws,
+            seed=settings.seed, on_progress=report,
         )  # fmt: skip
     from bayesmap.viz.figure import write_figure
     from bayesmap.viz.overlays import views_figure
 
+    information = views.information
     picture = views_figure(
-        run.grid, run.occupancy, run.observed, found.candidates, found.independent, found.best,
-        found.information.at_most,
-    )  # fmt: skip
+        run.grid, run.occupancy, run.observed, views.candidates, views.independent, views.best, information.at_most
+    )
     write_figure(picture, target)
+    best_views = _best_views_json(views)
     if call.console.as_json:
         document = {
-            "version": __version__, "run": run_file, "problems": run.summary().problems(),
-            "candidates": len(found.candidates),
-            "draws": found.information.draws, "views": _described_views(found), "outputs": {target.name: str(target)},
+            "run": run_file, "problems": run.summary().problems(), "candidates": len(views.candidates),
+            "draws": information.draws, "views": best_views, "outputs": {target.name: str(target)},
         }  # fmt: skip
         call.console.result(document, [])
         return
-    lines = [_view_line(rank, view) for rank, view in enumerate(_described_views(found), 1)]
+    lines = [_view_line(rank, view) for rank, view in enumerate(best_views, 1)]
     write_out("".join(f"{line}\n" for line in [*lines, target]))
 
 
-def _described_views(found: Views) -> list[dict[str, Any]]:
+def _best_views_json(views: Views) -> list[dict[str, Any]]:
     """Return the best views as JSON values, with their expected information in nats."""
-    information = found.information
+    information = views.information
     assert information.independent is not None
     return [
         {
-            "pose": [float(v) for v in found.candidates[i]],
-            "at_least_nats": float(information.at_least[k]),
-            "at_least_error": float(information.at_least_error[k]),
-            "at_most_nats": float(information.at_most[k]),
+            "pose": [float(v) for v in views.candidates[i]], "at_least_nats": float(information.at_least[k]),
+            "at_least_error": float(information.at_least_error[k]), "at_most_nats": float(information.at_most[k]),
             "at_most_error": float(information.at_most_error[k]),
             "independent_nats": float(information.independent[k]),
         }
-        for k, i in enumerate(found.best)
-    ]
+        for k, i in enumerate(views.best)
+    ]  # fmt: skip
 
 
 def _view_line(rank: int, view: dict[str, Any]) -> str:
-    """Return a view as a line of text."""
     x, y, yaw = view["pose"]
     return (
         f"{rank}: x {x:.2f} m  y {y:.2f} m  yaw {math.degrees(yaw):.0f} degrees  "

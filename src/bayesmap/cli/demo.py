@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from bayesmap.cli.command import Call, command
-from bayesmap.cli.console import INTERRUPTED, PROBLEMS, Console, as_json, progress
+from bayesmap.cli.console import Console, as_json, exit_unless_good, progress
 from bayesmap.cli.folder import run_document, write_utf8
 from bayesmap.cli.keys import DemoSettings
 from bayesmap.errors import BadInput
@@ -16,9 +16,9 @@ from bayesmap.errors import BadInput
 if TYPE_CHECKING:
     from bayesmap.result import Run
 
-BEAMS, SIGMA_M, MAX_RANGE_M = 100, 0.2, 42.0
-"""The tutorial's sensor: beams per scan, noise, and a range longer than the map's diagonal."""
-
+BEAMS = 100  # of the scan
+SIGMA_M = 0.2  # noise of the sensor
+MAX_RANGE_M = 42.0  # longer than the map's diagonal
 FILM_SWEEPS = 80  # sweeps in the film of a chain, one frame each
 COLLAPSED = 10.0  # effective sample size below which importance sampling is reported as collapsed
 
@@ -42,24 +42,22 @@ def demo(call: Call[DemoSettings], output: str, force: bool) -> None:
     except (FileExistsError, NotADirectoryError):
         raise BadInput(f"{folder}: not a folder; choose another with -o") from None
 
-    runs = _runs(call.console, call.settings())
+    runs = _infer_by_all_methods(call.console, call.settings())
     with progress(call.console, "drawing pictures and a film"):
-        outputs = [*_pictures(runs, folder), folder / "demo.json"]
+        outputs = [*_write_products(runs, folder), folder / "demo.json"]
     document = {
         **run_document(runs["gibbs"]), "heldout": None,
-        "runs": {name: _in_short(run) for name, run in runs.items()},
+        "runs": {name: _short_document(run) for name, run in runs.items()},
         "outputs": {path.name: str(path) for path in outputs},
     }  # fmt: skip
     write_utf8(folder / "demo.json", as_json(document))
-    _report(call.console, runs, folder)
+    _print_report(call.console, runs, folder)
     call.console.result(document, outputs)
-    if not all(run.finished for run in runs.values()):
-        click.get_current_context().exit(INTERRUPTED)
-    if call.settings().strict and document["problems"]:
-        click.get_current_context().exit(PROBLEMS)
+    finished = all(run.finished for run in runs.values())
+    exit_unless_good(finished=finished, problems=call.settings().strict and bool(document["problems"]))
 
 
-def _runs(console: Console, settings: DemoSettings) -> dict[str, Run]:
+def _infer_by_all_methods(console: Console, settings: DemoSettings) -> dict[str, Run]:
     """Return the runs of the three methods on one scan, and a run without warm-up for the film."""
     import numpy as np
 
@@ -81,14 +79,14 @@ def _runs(console: Console, settings: DemoSettings) -> dict[str, Run]:
     # Choose prior, method and schedule of each run.
     half, rare, where = Independent(0.5), Independent(0.05), Where(threads=settings.threads)
     long = Schedule(settings.chains, settings.warmup, settings.draws)
-    asked: dict[str, tuple[CellPrior, Method, Schedule]] = {
+    arguments: dict[str, tuple[CellPrior, Method, Schedule]] = {
         "gibbs": (half, Gibbs(), long),
         "block": (rare, Block(), long),
         "importance": (half, Importance(settings.particles), Schedule(chains=1, draws=1000)),
         "film": (half, Gibbs(), Schedule(chains=1, warmup=0, draws=FILM_SWEEPS)),
     }
     runs: dict[str, Run] = {}
-    for name, (prior, method, schedule) in asked.items():
+    for name, (prior, method, schedule) in arguments.items():
         with progress(console, "compiling" if not runs else "tracing beams") as report:
             runs[name] = infer(
                 scans, TUTORIAL_GRID, prior=prior, sensor=sensor, method=method, schedule=schedule, seed=seed,
@@ -99,7 +97,7 @@ def _runs(console: Console, settings: DemoSettings) -> dict[str, Run]:
     return runs
 
 
-def _pictures(runs: dict[str, Run], folder: Path) -> list[Path]:
+def _write_products(runs: dict[str, Run], folder: Path) -> list[Path]:
     import numpy as np
 
     from bayesmap.sim.drawing import tutorial
@@ -110,17 +108,19 @@ def _pictures(runs: dict[str, Run], folder: Path) -> list[Path]:
     walls, pose = tutorial()
     paths = []
 
-    def picture(name: str, figure: Any) -> None:
+    def write_picture(name: str, figure: Any) -> None:
         paths.append(folder / name)
         write_figure(figure, paths[-1])
 
-    picture("posterior.png", runs["gibbs"].plot(truth=walls, title="single-site Gibbs, prior 0.5"))
-    picture("posterior-block.png", runs["block"].plot(truth=walls, title="2 x 2 block Gibbs, prior 0.05"))
-    picture("posterior-importance.png", runs["importance"].plot(truth=walls, title="importance sampling, prior 0.5"))
+    write_picture("posterior.png", runs["gibbs"].plot(truth=walls, title="single-site Gibbs, prior 0.5"))
+    write_picture("posterior-block.png", runs["block"].plot(truth=walls, title="2 x 2 block Gibbs, prior 0.05"))
+    write_picture(
+        "posterior-importance.png", runs["importance"].plot(truth=walls, title="importance sampling, prior 0.5")
+    )
     weights = runs["importance"].log_weights
     # The tutorial's axis ends at -10 000 nats, but nearly all weights of this scan are lower: extend the axis.
     low = min(-10_000.0, 10_000.0 * float(np.floor(np.quantile(weights, 0.01) / 10_000.0)))
-    picture("weights-importance.png", weights_figure(weights, range_nats=(low, 0.0)))
+    write_picture("weights-importance.png", weights_figure(weights, range_nats=(low, 0.0)))
     film = runs["film"]
     for ending in ("gif", "webp"):
         paths.append(folder / f"chain.{ending}")
@@ -130,14 +130,14 @@ def _pictures(runs: dict[str, Run], folder: Path) -> list[Path]:
     return [*paths, *runs["gibbs"].export(folder / "map.yaml")]
 
 
-def _in_short(run: Run) -> dict[str, Any]:
+def _short_document(run: Run) -> dict[str, Any]:
     """Return the part of a run's document in which the methods differ."""
-    kept = ("method", "prior", "chains", "warmup", "draws", "sweeps", "seconds", "microseconds_per_sweep", "log_joint")
+    keys = ("method", "prior", "chains", "warmup", "draws", "sweeps", "seconds", "microseconds_per_sweep", "log_joint")
     document = run_document(run)
-    return {name: document[name] for name in (*kept, "log_evidence", "diagnostics", "problems")}
+    return {key: document[key] for key in (*keys, "log_evidence", "diagnostics", "problems")}
 
 
-def _report(console: Console, runs: dict[str, Run], folder: Path) -> None:
+def _print_report(console: Console, runs: dict[str, Run], folder: Path) -> None:
     for name, line in (("gibbs", "single-site Gibbs, prior 0.5:  "), ("block", "2 x 2 block Gibbs, prior 0.05: ")):
         summary, posterior = runs[name].summary(), runs[name].posterior
         console.say(

@@ -19,29 +19,50 @@ from bayesmap.version import __version__
 
 if TYPE_CHECKING:
     from bayesmap.result import Run
+    from bayesmap.space.grid import Grid
+
+
+SETTINGS = ("method", "order", "prior", "sensor", "hit_depth", "start", "seed", "chains", "warmup", "thin")
+"""Settings of a run that its document repeats."""
 
 
 def run_document(run: Run) -> dict[str, Any]:
     """Return the JSON document of a run: its settings, result, timings, diagnostics and problems."""
-    posterior, summary = run.posterior, run.summary()
-    settings, grid = posterior.settings, run.grid
-    joint = run.log_joint
-    diagnostics, no_joint = summary.as_json(), {"last": None, "mean": None}
+    posterior, summary, joint = run.posterior, run.summary(), run.log_joint
+    diagnostics = summary.as_json()
     return {
         "version": __version__,
-        "grid": {"shape": list(grid.shape), "resolution": grid.resolution, "origin": list(grid.origin)},
-        **{name: posterior.counts[name] for name in ("scans", "beams", "incidences")}, "cells": posterior.kind,
-        "states": posterior.prior.words.states, "fitted": settings.get("fitted"),
-        **{name: settings[name] for name in ("method", "order", "prior", "sensor", "hit_depth", "start", "seed")},
-        **{name: settings[name] for name in ("chains", "warmup", "thin")},
-        "draws": int(joint.shape[1]), "sweeps": posterior.sweep, "finished": run.finished,
+        "grid": grid_document(run.grid),
+        "scans": posterior.counts["scans"],
+        "beams": posterior.counts["beams"],
+        "incidences": posterior.counts["incidences"],
+        "cells": posterior.kind,
+        "states": posterior.prior.words.states,
+        "fitted": posterior.settings.get("fitted"),
+        **{name: posterior.settings[name] for name in SETTINGS},
+        "draws": int(joint.shape[1]),
+        "sweeps": posterior.sweep,
+        "finished": run.finished,
         "seconds": {name: round(value, 6) for name, value in posterior.seconds.items()},
-        "log_joint": {"last": finite(joint[:, -1].mean()), "mean": finite(joint.mean())} if joint.size else no_joint,
-        "log_evidence": finite(posterior.log_evidence), "unchanged_cells": diagnostics["unchanged_cells"] or 0,
-        **{name: diagnostics[name] for name in ("microseconds_per_sweep", "rhat_max", "ess_min")},
-        "diagnostics": diagnostics, "good": summary.strengths(), "problems": summary.problems(),
+        "log_joint": {
+            "last": finite(joint[:, -1].mean()) if joint.size else None,
+            "mean": finite(joint.mean()) if joint.size else None,
+        },
+        "log_evidence": finite(posterior.log_evidence),
+        "unchanged_cells": diagnostics["unchanged_cells"] or 0,
+        "microseconds_per_sweep": diagnostics["microseconds_per_sweep"],
+        "rhat_max": diagnostics["rhat_max"],
+        "ess_min": diagnostics["ess_min"],
+        "diagnostics": diagnostics,
+        "good": summary.strengths(),
+        "problems": summary.problems(),
         "peak_memory_mb": peak_memory_mb(),
-    }  # fmt: skip
+    }
+
+
+def grid_document(grid: Grid) -> dict[str, Any]:
+    """Return the numbers of a grid as JSON values."""
+    return {"shape": list(grid.shape), "resolution": grid.resolution, "origin": list(grid.origin)}
 
 
 def write_utf8(path: Path, text: str) -> None:
@@ -115,32 +136,30 @@ class Folder:
         return self.path / "outdated"
 
     def check(self, *, force: bool) -> None:
-        """Refuse a folder with a run, or files of its names, that the user neither replaces nor resumes; or unwritable.
+        """Refuse a folder that cannot be written, or whose run or files the user neither replaces nor resumes.
 
-        Raises `BadInput` if the folder holds a run, or files that a run would replace, is no folder, is not writable,
-        or has a name that is not UTF-8.
+        Raises `BadInput` also for a name that is not UTF-8.
         """
         try:
             str(self.path).encode()
         except UnicodeEncodeError:
             raise BadInput(f"{str(self.path)!a}: the name is not UTF-8; choose another folder with -o") from None
-        if self.run_path.exists() and not (force or self.resuming or self.outdated_path.exists()):
+        may_replace = force or self.resuming or self.outdated_path.exists()
+        if self.run_path.exists() and not may_replace:
             raise BadInput(
                 f"{self.run_path}: there is a run already; --resume goes on with it, --force replaces it, "
                 "-o takes another folder"
             )
-        others = [self.path / name for name in DERIVED]
-        older = next((path for path in others if path.exists()), None)
-        if older is not None and not (self.run_path.exists() or force or self.resuming or self.outdated_path.exists()):
-            begun = "--resume goes on with the run that wrote it, " if self.config_path.exists() else ""
-            raise BadInput(f"{older}: exists already; {begun}--force replaces it, -o takes another folder")
-        for place in (self.path, *self.path.parents):
-            if place.exists():
-                if not place.is_dir():
-                    raise BadInput(f"{place}: not a folder; choose another with -o")
-                if not os.access(place, os.W_OK):  # refuse before a long run, not after it
-                    raise BadInput(f"{place}: no permission to write there; choose another folder with -o")
-                break
+        older = next((path for name in DERIVED if (path := self.path / name).exists()), None)
+        if older is not None and not (self.run_path.exists() or may_replace):
+            resume = "--resume goes on with the run that wrote it, " if self.config_path.exists() else ""
+            raise BadInput(f"{older}: exists already; {resume}--force replaces it, -o takes another folder")
+        # Refuse an unwritable folder before a long run, not after it.
+        folder = next(path for path in (self.path, *self.path.parents) if path.exists())
+        if not folder.is_dir():
+            raise BadInput(f"{folder}: not a folder; choose another with -o")
+        if not os.access(folder, os.W_OK):
+            raise BadInput(f"{folder}: no permission to write there; choose another folder with -o")
 
     def mark_outdated(self, toml: str) -> None:
         """Mark an older run in the folder as to be replaced, perhaps by another process."""
@@ -154,9 +173,8 @@ class Folder:
         self._toml = toml
         try:
             self.path.mkdir(parents=True, exist_ok=True)
-            if self.run_path.exists() and not self.resuming:
-                write_utf8(self.outdated_path, toml)
-            else:
+            self.mark_outdated(toml)
+            if self.resuming or not self.run_path.exists():
                 self.discard_old_products()
         except OSError as error:
             raise BadInput(
@@ -180,8 +198,8 @@ class Folder:
             if not self.run_path.exists():
                 raise
             replacing = self.outdated_path.exists()
-            kept = "the run to be replaced" if replacing else "what was saved before, and --resume goes on"
-            reason = f"{error.strerror or error}; {self.run_path.name} still holds {kept}"
+            content = "the run to be replaced" if replacing else "what was saved before, and --resume goes on"
+            reason = f"{error.strerror or error}; {self.run_path.name} still holds {content}"
             raise OSError(error.errno, reason, error.filename) from error
         if self.outdated_path.exists():
             self.discard_old_products()
@@ -217,9 +235,9 @@ class Folder:
         """Save the run; if it has draws, also render it and export it for nav2. Returns the paths of the files."""
         with stage(self.console, "save") as report:
             self.save(run, report)
-        if run.n_draws == 0 and not run.finished:
-            return [self.run_path]
         paths = [self.run_path]
+        if run.n_draws == 0 and not run.finished:
+            return paths
         with progress(self.console, "drawing the map"):
             paths += self.render(run)
             if run.posterior.prior.has_surfaces and run.n_draws > 0:
@@ -231,5 +249,5 @@ class Folder:
         return paths
 
     def write_document(self, document: dict[str, Any]) -> None:
-        """Write the JSON document."""
+        """Write the JSON document of the run."""
         write_utf8(self.path / "summary.json", as_json(document))

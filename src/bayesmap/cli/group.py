@@ -27,7 +27,7 @@ COMMANDS = {
     "localize": "Say where scans were taken in a saved run's map.",
     "plan": "Find a short path in a saved run's map, and its risk.",
     "explore": "Say where in a saved run's map to look next.",
-    "render": "Draw a saved run.",
+    "render": "Render a saved run as pictures and films.",
     "export": "Write a saved run for robots and other programs.",
     "app": "Draw walls, drag the robot, watch the posterior live.",
     "config": "Print the effective settings as TOML.",
@@ -43,8 +43,7 @@ EPILOG = """Results go to standard output, progress and messages to standard err
 NO_PLACE = (errno.ENOENT, errno.ENOTDIR, errno.EEXIST, errno.EISDIR, errno.EACCES, errno.EPERM, errno.EROFS)
 """Operating system errors after which another path may help: bad input, not a failure."""
 
-NO_ROOM = "Failed to allocate"
-"""First words of Warp's error when there is no memory for an array."""
+NO_ROOM = "Failed to allocate"  # first words of Warp's error when there is no memory for an array
 
 
 class Commands(click.Group):
@@ -57,8 +56,8 @@ class Commands(click.Group):
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         """Load a command from its module, or refuse an unknown name."""
         if cmd_name not in COMMANDS:
-            near = difflib.get_close_matches(cmd_name, COMMANDS, n=1)
-            hint = f"; did you mean {near[0]!r}?" if near else f"; there are: {', '.join(COMMANDS)}"
+            close = difflib.get_close_matches(cmd_name, COMMANDS, n=1)
+            hint = f"; did you mean {close[0]!r}?" if close else f"; there are: {', '.join(COMMANDS)}"
             raise click.UsageError(f"no such command {cmd_name!r}{hint}", ctx)
         command = getattr(importlib.import_module(f"bayesmap.cli.{HOMES.get(cmd_name, cmd_name)}"), cmd_name)
         assert isinstance(command, click.Command)
@@ -74,7 +73,7 @@ class Commands(click.Group):
         """Run a command; print a failure as one line on standard error, and exit with its code."""
         try:
             if ctx.obj is not None:
-                ctx.obj()  # from here on Ctrl-C is an exception
+                ctx.obj()  # restores Python's handler: from here on Ctrl-C is an exception
             return super().invoke(ctx)
         except (click.ClickException, click.exceptions.Exit):
             raise
@@ -99,15 +98,15 @@ def explain(error: BaseException) -> tuple[int, str]:
     if isinstance(error, KeyboardInterrupt | click.Abort):
         return INTERRUPTED, "interrupted"
     if isinstance(error, OSError) and error.filename and error.errno in NO_PLACE:
-        return BAD_INPUT, f"{_of_system(error)}; name another file or folder, or see who may write there"
+        return BAD_INPUT, f"{_system_message(error)}; name another file or folder, or see who may write there"
     if isinstance(error, OSError):
-        return FAILURE, _of_system(error)
+        return FAILURE, _system_message(error)
     if isinstance(error, MemoryError) or str(error).startswith(NO_ROOM):
         return FAILURE, "out of memory; use a coarser --resolution, fewer chains, or fewer draws"
     return FAILURE, f"unexpected {type(error).__name__}: {error}"
 
 
-def _of_system(error: OSError) -> str:
+def _system_message(error: OSError) -> str:
     reason = error.strerror or str(error)
     return f"{error.filename}: {reason}" if error.filename else reason
 

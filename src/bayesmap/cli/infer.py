@@ -19,17 +19,7 @@ import msgspec
 
 from bayesmap.cli import pipeline
 from bayesmap.cli.command import Call, as_toml, command
-from bayesmap.cli.console import (
-    FAILURE,
-    INTERRUPTED,
-    PROBLEMS,
-    SAMPLING,
-    STAGES,
-    Console,
-    aligned,
-    described_share,
-    reserve_stdout,
-)
+from bayesmap.cli.console import FAILURE, SAMPLING, STAGES, Console, aligned, exit_unless_good, reserve_stdout, share
 from bayesmap.cli.folder import Folder, write_utf8
 from bayesmap.cli.keys import InferSettings
 from bayesmap.cli.pipeline import Task, infer_log, prepare, read, report, settings_in, stem
@@ -42,9 +32,10 @@ if TYPE_CHECKING:
 
 SETTINGS = "fleet.toml"  # file beside the folders of the runs: the settings of the last fleet
 RETRIES = 3  # number of times that a log is restarted from its last checkpoint after its worker has died
-WAIT_S, EVENT_S, STOP_S = 0.25, 1.0, 30.0
-"""Seconds between two checks of the workers, between two progress messages of a worker, and of waiting after Ctrl-C."""
-SHOWN = 3  # number of logs that the progress bar names
+WAIT_S = 0.25  # between two checks of the workers
+EVENT_S = 1.0  # between two progress messages of a worker
+STOP_S = 30.0  # longest wait for the workers after Ctrl-C
+NAMED_LOGS = 3  # number of logs that the progress bar names
 
 
 @dataclass
@@ -86,24 +77,27 @@ class Entry:
 
 def infer_fleet(call: Call[InferSettings], logs: list[str], output: Path, *, resume: bool, force: bool) -> None:
     """Infer each log into its folder under ``output``, and print a table; exit with code 1 if a log failed."""
-    names = Counter(map(stem, logs))
-    twice = next((name for name, times in names.items() if times > 1), None)
-    if twice is not None:
-        raise BadInput(f"{twice}: two of the logs have this name, so their runs would share a folder; rename one")
-    # Check what was typed, for all logs together and for each.
-    begun = settings_in(output / SETTINGS, "infer") if resume else None
-    settings = call.settings(begun)
+    name, count = Counter(map(stem, logs)).most_common(1)[0]
+    if count > 1:
+        raise BadInput(f"{name}: two of the logs have this name, so their runs would share a folder; rename one")
+    # Check the arguments, for all logs together and for each.
+    earlier = settings_in(output / SETTINGS, "infer") if resume else None
+    settings = call.settings(earlier)
     on_ray, address = ray_address(settings.executor)
     entries = [Entry(log, output / stem(log)) for log in logs]
     for entry in entries:
         try:
-            entry.task = prepare(call, entry.log, entry.path, resume=resume, force=force, begun=begun)
+            entry.task = prepare(call, entry.log, entry.path, resume=resume, force=force, earlier=earlier)
         except Exception as error:
             entry.fail(error, call.console)
     ready = [entry for entry in entries if entry.task is not None]
     # Save the settings before the first log begins: a resuming process may have to begin the other logs.
     if ready:
-        _keep_settings(ready, output, as_toml({"infer": settings}))
+        toml = as_toml({"infer": settings})
+        output.mkdir(parents=True, exist_ok=True)
+        write_utf8(output / SETTINGS, toml)
+        for entry in ready:
+            entry.ready.folder.mark_outdated(toml)
     # Infer the logs.
     try:
         if on_ray:
@@ -120,20 +114,10 @@ def infer_fleet(call: Call[InferSettings], logs: list[str], output: Path, *, res
         call.console.say(f"interrupted; what was checkpointed is kept, go on with:\n  {again}")
     document = {"runs": [entry.as_json() for entry in entries], "finished": finished}
     call.console.result(document, table(entries))
-    context = click.get_current_context()
-    if not finished:
-        context.exit(INTERRUPTED)
+    exit_unless_good(finished=finished, problems=False)
     if any(entry.error for entry in entries):
-        context.exit(FAILURE)
-    if any(entry.task is not None and entry.task.settings.strict and entry.problems for entry in entries):
-        context.exit(PROBLEMS)
-
-
-def _keep_settings(ready: list[Entry], output: Path, toml: str) -> None:
-    output.mkdir(parents=True, exist_ok=True)
-    write_utf8(output / SETTINGS, toml)
-    for entry in ready:
-        entry.ready.folder.mark_outdated(toml)
+        click.get_current_context().exit(FAILURE)
+    exit_unless_good(finished=True, problems=any(e.problems and e.ready.settings.strict for e in entries))
 
 
 def _infer_here(entry: Entry, console: Console) -> bool:
@@ -165,7 +149,7 @@ def table(entries: list[Entry]) -> Iterator[str]:
 
 
 @dataclass(frozen=True, eq=False)
-class Sent:
+class Message:
     """A message from a worker."""
 
     files: dict[str, bytes] = field(default_factory=dict)  # contents of the files in the run's folder, by name
@@ -177,54 +161,54 @@ class Mailbox:
     """A Ray actor that passes messages from the workers of a fleet to the process that started it."""
 
     def __init__(self) -> None:
-        self._sent: list[tuple[str, Sent]] = []
+        self._messages: list[tuple[str, Message]] = []
         self._stop = False
 
-    def send(self, log: str, sent: Sent) -> bool:
+    def send(self, log: str, message: Message) -> bool:
         """Store a worker's message about a log. Return whether the worker should stop."""
-        self._sent.append((log, sent))
+        self._messages.append((log, message))
         return self._stop
 
-    def take(self) -> list[tuple[str, Sent]]:
+    def take(self) -> list[tuple[str, Message]]:
         """Return the messages since the last call, in order."""
-        sent, self._sent = self._sent, []
-        return sent
+        messages, self._messages = self._messages, []
+        return messages
 
     def stop(self) -> None:
         """Ask all workers to stop."""
         self._stop = True
 
 
-def work(task: Task[InferSettings], reading: LogReading, before: dict[str, bytes], mailbox: Any) -> None:
-    """Infer a log in a worker's folder with the files ``before``, and send all files after each checkpoint."""
+def work(task: Task[InferSettings], log: LogReading, files: dict[str, bytes], mailbox: Any) -> None:
+    """Infer a log in a worker's folder that starts with the given files; send all files after each checkpoint."""
     import ray
 
     from bayesmap.run.runner import ThreadExecutor
 
     stopped, sent_at = False, 0.0
 
-    def send(sent: Sent) -> None:
+    def send(message: Message) -> None:
         nonlocal stopped, sent_at
-        stopped = ray.get(mailbox.send.remote(task.log, sent))
+        stopped = ray.get(mailbox.send.remote(task.log, message))
         sent_at = time.monotonic()
 
     def on_event(event: Event) -> None:
         if time.monotonic() - sent_at >= EVENT_S:
-            send(Sent(event=event))
+            send(Message(event=event))
 
     with tempfile.TemporaryDirectory(prefix="bayesmap-") as scratch:
 
-        def files() -> dict[str, bytes]:
+        def files_now() -> dict[str, bytes]:
             return {path.name: path.read_bytes() for path in Path(scratch).iterdir()}
 
-        for name, content in before.items():
+        for name, content in files.items():
             (Path(scratch) / name).write_bytes(content)
-        folder = Folder(Path(scratch), Console(quiet=True, bar=False), resuming=bool(before))
+        folder = Folder(Path(scratch), Console(quiet=True, bar=False), resuming=bool(files))
         document = infer_log(
-            replace(task, folder=folder), reading=reading, executor=ThreadExecutor(lambda: stopped),
-            on_saved=lambda: send(Sent(files())), on_event=on_event,
+            replace(task, folder=folder), log=log, executor=ThreadExecutor(lambda: stopped),
+            on_saved=lambda: send(Message(files_now())), on_event=on_event,
         )  # fmt: skip
-        send(Sent(files(), document if document["finished"] else None))
+        send(Message(files_now(), document if document["finished"] else None))
 
 
 class RayFleet:
@@ -236,7 +220,7 @@ class RayFleet:
         self.console, self.ray = console, connect(address)
         self.entries: dict[str, Entry] = {}
         self.running: dict[Any, Entry] = {}
-        self.readings: dict[str, Any] = {}
+        self.logs: dict[str, Any] = {}  # references to the logs that were read, by path
         # Run the mailbox on this process's node: if another node died with it, Ctrl-C would not reach the workers.
         here = self.ray.util.scheduling_strategies.NodeAffinitySchedulingStrategy(
             self.ray.get_runtime_context().get_node_id(), soft=False
@@ -248,11 +232,11 @@ class RayFleet:
         """Infer all logs, at most as many at once as the cluster can run. After Ctrl-C workers save first."""
         waiting, self.entries = list(reversed(entries)), {entry.log: entry for entry in entries}
         try:
-            with described_share(self.console, f"0 of {len(entries)} logs") as show:
+            with share(self.console, f"0 of {len(entries)} logs") as show:
                 while waiting or self.running:
                     while waiting and len(self.running) < self.most_at_once(waiting[-1]):
                         self._begin(waiting.pop())
-                    self._take_some()
+                    self._handle_messages()
                     show(*self._progress(len(entries) - len(waiting) - len(self.running), len(entries)))
         except KeyboardInterrupt:
             self._stop()
@@ -268,31 +252,31 @@ class RayFleet:
 
     def _begin(self, entry: Entry) -> None:
         try:
-            reading = read(self.console, entry.log, entry.ready.settings)
+            log = read(self.console, entry.log, entry.ready.settings)
         except Exception as error:
             entry.fail(error, self.console)
             return
-        self.readings[entry.log] = self.ray.put(reading)
+        self.logs[entry.log] = self.ray.put(log)
         self._submit(entry, resuming=entry.ready.folder.resuming)
 
     def _submit(self, entry: Entry, *, resuming: bool) -> None:
-        task, folder, before = entry.ready, entry.ready.folder, {}
+        task, folder, files = entry.ready, entry.ready.folder, {}
         if resuming and folder.run_path.exists() and not folder.outdated_path.exists():
-            before = {path.name: path.read_bytes() for path in (folder.run_path, folder.config_path) if path.exists()}
+            files = {path.name: path.read_bytes() for path in (folder.run_path, folder.config_path) if path.exists()}
         cpus, gpus = _threads(entry), int(task.settings.device != "cpu")
         # No retries by Ray: they would not resume from the last checkpoint.
         remote = self.ray.remote(work).options(num_cpus=cpus, num_gpus=gpus, max_retries=0)
         task = replace(task, settings=msgspec.structs.replace(task.settings, threads=cpus))
-        self.running[remote.remote(task, self.readings[entry.log], before, self.mailbox)] = entry
+        self.running[remote.remote(task, self.logs[entry.log], files, self.mailbox)] = entry
 
-    def _take_some(self) -> None:
+    def _handle_messages(self) -> None:
         """Wait `WAIT_S` for workers, store their messages, and handle the tasks that have ended."""
         from bayesmap.run.ray_executor import failed, outcome
 
         ended, _ = self.ray.wait(list(self.running), timeout=WAIT_S) if self.running else ([], None)
-        for log, sent in self.ray.get(self.mailbox.take.remote()):
+        for log, message in self.ray.get(self.mailbox.take.remote()):
             try:
-                self.keep(self.entries[log], sent)
+                self.keep(self.entries[log], message)
             except OSError as error:
                 self.entries[log].fail(error, self.console)
         for task in ended:
@@ -310,14 +294,14 @@ class RayFleet:
             except Exception as error:
                 entry.fail(error, self.console)
 
-    def keep(self, entry: Entry, sent: Sent) -> None:
+    def keep(self, entry: Entry, message: Message) -> None:
         """Store a worker's progress, and write the files of its message into the log's folder."""
         from bayesmap.files import write_whole
 
-        entry.event = sent.event or entry.event
-        if not sent.files:
+        entry.event = message.event or entry.event
+        if not message.files:
             return
-        folder, files = entry.ready.folder, dict(sent.files)
+        folder, files = entry.ready.folder, dict(message.files)
         folder.begin(files.pop(folder.config_path.name).decode())
         if folder.run_path.name in files and folder.outdated_path.exists():
             folder.discard_old_products()
@@ -325,11 +309,11 @@ class RayFleet:
         for name, content in files.items():
             with write_whole(folder.path / name) as partial:
                 partial.write_bytes(content)
-        if sent.document is not None:
-            outputs = {name: str(folder.path / name) for name in sent.document["outputs"]}
-            entry.document = {**sent.document, "outputs": outputs}
+        if message.document is not None:
+            outputs = {name: str(folder.path / name) for name in message.document["outputs"]}
+            entry.document = {**message.document, "outputs": outputs}
             folder.write_document(entry.document)
-            self.readings.pop(entry.log, None)
+            self.logs.pop(entry.log, None)
             self.console.say(f"{entry.log}: finished")
             report(self.console, entry.document)
 
@@ -342,16 +326,17 @@ class RayFleet:
         self.ray.get(self.mailbox.stop.remote())
         deadline = time.monotonic() + STOP_S
         while self.running and time.monotonic() < deadline:
-            self._take_some()
+            self._handle_messages()
 
-    def _progress(self, done: int, total: int) -> tuple[str, float]:
-        words, share = [f"{done} of {total} logs"], float(done)
+    def _progress(self, done: int, total: int) -> tuple[float, str]:
+        """Return the share of the work that is done, and the progress of the logs in words."""
+        words, logs_done = [f"{done} of {total} logs"], float(done)
         for entry in self.running.values():
             if (event := entry.event) is not None:
                 words.append(f"{entry.path.name} {STAGES[event.stage][0]} {event.done:,}/{event.total:,}")
-                share += event.done / event.total if event.stage in SAMPLING and event.total else 0.0
-        more = f", {len(words) - 1 - SHOWN} more" if len(words) > SHOWN + 1 else ""
-        return ", ".join(words[: SHOWN + 1]) + more, share / max(total, 1)
+                logs_done += event.done / event.total if event.stage in SAMPLING and event.total else 0.0
+        more = f", {len(words) - 1 - NAMED_LOGS} more" if len(words) > NAMED_LOGS + 1 else ""
+        return logs_done / max(total, 1), ", ".join(words[: NAMED_LOGS + 1]) + more
 
 
 def _threads(entry: Entry) -> int:
@@ -395,7 +380,7 @@ def infer(call: Call[InferSettings], logs: tuple[str, ...], output: str | None, 
     if several:
         infer_fleet(call, all_logs, Path(output or "runs"), resume=resume, force=force)
         return
-    # Check what was typed.
+    # Check the arguments.
     log = logs[0]
     folder = Path(output) if output else Path("runs") / pipeline.stem(log)
     task = pipeline.prepare(call, log, folder, resume=resume, force=force)

@@ -12,11 +12,11 @@ import msgspec
 
 from bayesmap.cli.command import Call, as_toml, command
 from bayesmap.cli.console import BAD_INPUT, counted, write_out
+from bayesmap.cli.folder import run_document, work_done
 from bayesmap.cli.keys import Settings, Value
 from bayesmap.cli.pipeline import cost_of_suggestion
 from bayesmap.cli.translation import LOG, need_file
 from bayesmap.errors import BadInput
-from bayesmap.version import __version__
 
 CUT = "cut short"  # words of the notes on damaged recordings
 
@@ -35,7 +35,7 @@ def info(call: Call[Settings], file: str) -> None:
     bayesmap info runs/office/run.nc --json
     """
     need_file(file, f"a saved run (.nc), or {LOG}", runs=True)
-    document = _saved_run(file) if is_saved_run(file) else _log(file)
+    document = _describe_run(file) if is_saved_run(file) else _describe_log(file)
     if call.console.as_json:
         call.console.result(document, [])
     else:
@@ -65,32 +65,29 @@ def is_saved_run(file: str) -> bool:
         raise BadInput(f"{file}: cannot be read: {error.strerror or error}") from None
 
 
-def _saved_run(file: str) -> dict[str, Any]:
-    from bayesmap.cli.folder import run_document
+def _describe_run(file: str) -> dict[str, Any]:
     from bayesmap.io.contents import scans_summary
     from bayesmap.result import load
 
     run = load(file)
-    described = run_document(run)
     return {
-        "version": __version__, "path": file, "format": "bayesmap run",
-        "run": {key: value for key, value in described.items() if key not in ("version", "peak_memory_mb")},
+        "path": file, "format": "bayesmap run",
+        "run": {key: value for key, value in run_document(run).items() if key not in ("version", "peak_memory_mb")},
         "sensors": [scans_summary(run.posterior.scans)], "notes": list(run.posterior.notes),
     }  # fmt: skip
 
 
-def _log(file: str) -> dict[str, Any]:
+def _describe_log(file: str) -> dict[str, Any]:
     from bayesmap.io.contents import contents_of
 
     contents = contents_of(file)
     start, end = contents.start_s, contents.end_s
     duration = None if start is None or end is None else round(end - start, 3)
-    told = {field.name: getattr(contents, field.name) for field in fields(contents) if field.name != "scans"}
+    document = {field.name: getattr(contents, field.name) for field in fields(contents) if field.name != "scans"}
     estimate = cost_of_suggestion(contents.suggestion, contents.scans)
     if estimate is not None and not estimate["fits"] and estimate["remedy"]:
-        told["suggestion"] += f" {estimate['remedy']}"
-    more = {"duration_s": duration, "notes": list(contents.notes), "estimate": estimate}
-    return {"version": __version__, **told, **more}
+        document["suggestion"] += f" {estimate['remedy']}"
+    return {**document, "duration_s": duration, "notes": list(contents.notes), "estimate": estimate}
 
 
 def _lines(document: dict[str, Any]) -> list[str]:
@@ -101,12 +98,12 @@ def _lines(document: dict[str, Any]) -> list[str]:
         lines += _run_lines(document["run"])
     topics = document.get("topics", [])
     if topics:
-        wide = max(len(topic["name"]) for topic in topics)
+        width = max(len(topic["name"]) for topic in topics)
         lines.append("messages:")
         for topic in topics:
             rate = f"  {topic['rate_hz']:.1f} Hz" if topic.get("rate_hz") else ""
             kind = f"  {topic['type']}" if "type" in topic else ""
-            lines.append(f"  {topic['name']:<{wide}}  {topic['count']:>8,}{rate:>10}{kind}".rstrip())
+            lines.append(f"  {topic['name']:<{width}}  {topic['count']:>8,}{rate:>10}{kind}".rstrip())
     if document.get("frames"):
         lines.append(f"frames: {', '.join(document['frames'])}")
     if document.get("pose_sources"):
@@ -115,22 +112,18 @@ def _lines(document: dict[str, Any]) -> list[str]:
         lines += _sensor_lines(sensor)
     lines += [f"note: {note}" for note in document["notes"]]
     if document.get("suggestion"):
-        cost = document["estimate"]
-        lines += ["to infer a map:"] if cost is None else [f"to infer a map ({cost['words']}):"]
-        lines += [f"  {document['suggestion']}"]
+        cost = f" ({document['estimate']['words']})" if document["estimate"] else ""
+        lines += [f"to infer a map{cost}:", f"  {document['suggestion']}"]
     return lines
 
 
 def _run_lines(run: dict[str, Any]) -> list[str]:
-    from bayesmap.cli.folder import work_done
-
     (nx, ny), resolution = run["grid"]["shape"], run["grid"]["resolution"]
     state = "finished" if run["finished"] else "not finished"
+    draws = f", {counted(run['draws'], 'draw')} each" if run["sweeps"] else ""
     lines = [
         f"grid: {nx} x {ny} cells of {resolution:g} m, {run['states']}",
-        f"method: {run['method']}, {work_done(run)}, {counted(run['draws'], 'draw')} each, {state}"
-        if run["sweeps"]
-        else f"method: {run['method']}, {work_done(run)}, {state}",
+        f"method: {run['method']}, {work_done(run)}{draws}, {state}",
     ]
     fitted = run["fitted"] or {}
     if "sensor" in fitted:
@@ -168,23 +161,17 @@ def _sensor_lines(sensor: dict[str, Any]) -> list[str]:
     ]
     if sensor.get("no_poses"):
         lines.append(f"  no poses: {sensor['no_poses']}")
-        return lines + _rest(sensor)
-    low, high = sensor["poses_from_m"], sensor["poses_to_m"]
-    by = f" by {sensor['poses']}" if sensor.get("poses") else ""
-    frames = f", {sensor['frame']} in {sensor['fixed_frame']}" if sensor.get("frame") else ""
-    lines.append(
-        f"  poses{by}{frames}: x {low[0]:g} to {high[0]:g} m, y {low[1]:g} to {high[1]:g} m, "
-        f"{sensor['travelled_m']:,.1f} m travelled"
-    )
-    return lines + _rest(sensor)
-
-
-def _rest(sensor: dict[str, Any]) -> list[str]:
-    skipped = sensor.get("skipped")
-    left_out = (
-        [f"  malformed messages or lines left out: {skipped:,}, first {sensor['first_skipped']}"] if skipped else []
-    )
-    return left_out + [f"  note: {note}" for note in sensor.get("notes", [])]
+    else:
+        low, high = sensor["poses_from_m"], sensor["poses_to_m"]
+        by = f" by {sensor['poses']}" if sensor.get("poses") else ""
+        frames = f", {sensor['frame']} in {sensor['fixed_frame']}" if sensor.get("frame") else ""
+        lines.append(
+            f"  poses{by}{frames}: x {low[0]:g} to {high[0]:g} m, y {low[1]:g} to {high[1]:g} m, "
+            f"{sensor['travelled_m']:,.1f} m travelled"
+        )
+    if skipped := sensor.get("skipped"):
+        lines.append(f"  malformed messages or lines left out: {skipped:,}, first {sensor['first_skipped']}")
+    return lines + [f"  note: {note}" for note in sensor.get("notes", [])]
 
 
 @command(None)
@@ -199,11 +186,11 @@ def config(call: Call[Settings]) -> None:
     """
     settings = call.all_settings()
     if call.console.as_json:
-        shown = {
+        tables = {
             section: {name: _as_json(value) for name, value in msgspec.structs.asdict(values).items()}
             for section, values in settings.items()
         }
-        call.console.result({"settings": shown}, [])
+        call.console.result({"settings": tables}, [])
     else:
         write_out(as_toml(settings))
 

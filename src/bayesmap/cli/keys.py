@@ -18,8 +18,7 @@ from bayesmap.errors import BadInput
 
 Value = bool | int | float | str | None
 
-MAX_WHOLE_NUMBER = 10**9
-"""The largest value of any whole number, except the seed."""
+MAX_WHOLE_NUMBER = 10**9  # the largest value of any whole number, except the seed
 
 
 @dataclass(frozen=True)
@@ -80,7 +79,7 @@ class Settings(msgspec.Struct, kw_only=True, frozen=True):
     """The settings of a command."""
 
 
-class ReadingSettings(Settings, kw_only=True, frozen=True):
+class LogSettings(Settings, kw_only=True, frozen=True):
     """Settings for reading a log. To score a run, read its log with the settings of the run."""
 
     no_return: Annotated[
@@ -112,7 +111,7 @@ class ReadingSettings(Settings, kw_only=True, frozen=True):
     ] = None
 
 
-class SamplingSettings(ReadingSettings, kw_only=True, frozen=True):
+class SamplingSettings(LogSettings, kw_only=True, frozen=True):
     """Settings that `infer` and `slam` share."""
 
     resolution: Annotated[Length, Help("Edge of a cell in metres.")] = 0.1
@@ -239,7 +238,7 @@ class DemoSettings(Settings, kw_only=True, frozen=True):
     strict: Strict = False
 
 
-class RenderSettings(ReadingSettings, kw_only=True, frozen=True):
+class RenderSettings(LogSettings, kw_only=True, frozen=True):
     """Settings of `render`."""
 
     what: Annotated[Picture, Help("What to draw.")] = "figure"
@@ -270,7 +269,7 @@ class ExportSettings(Settings, kw_only=True, frozen=True):
     frame: PosesOf = None
 
 
-class ScoreSettings(ReadingSettings, kw_only=True, frozen=True):
+class ScoreSettings(LogSettings, kw_only=True, frozen=True):
     """Settings of `score`."""
 
     holdout: Annotated[Every, Help("Every n-th scan was held out when the run was made.", metavar="N")] = 10
@@ -281,7 +280,7 @@ class ScoreSettings(ReadingSettings, kw_only=True, frozen=True):
     device: Device = "cpu"
 
 
-class LocalizeSettings(ReadingSettings, kw_only=True, frozen=True):
+class LocalizeSettings(LogSettings, kw_only=True, frozen=True):
     """Settings of `localize`."""
 
     beam_weight: Annotated[
@@ -296,7 +295,7 @@ class LocalizeSettings(ReadingSettings, kw_only=True, frozen=True):
     device: Device = "cpu"
 
 
-class AppSettings(ReadingSettings, kw_only=True, frozen=True):
+class AppSettings(LogSettings, kw_only=True, frozen=True):
     """Settings of `app`."""
 
 
@@ -366,37 +365,37 @@ class WrongValue(Exception):
 def keys_of(section: str) -> tuple[Key, ...]:
     """Return the settings of a command in the order of its help. The settings for reading a log come last."""
     settings = SECTIONS[section]
-    of_reading = ReadingSettings.__struct_fields__ if issubclass(settings, ReadingSettings) else ()
-    fields = sorted(msgspec.structs.fields(settings), key=lambda field: field.name in of_reading)
+    log_settings = LogSettings.__struct_fields__ if issubclass(settings, LogSettings) else ()
+    fields = sorted(msgspec.structs.fields(settings), key=lambda field: field.name in log_settings)
     return tuple(_key(field.name, field.type, field.default) for field in fields)
 
 
 def _key(name: str, annotation: Any, default: Value) -> Key:
     """Return the setting that an annotation describes."""
     types: list[Any] = []
-    beside: list[Any] = []
+    metadata: list[Any] = []
 
-    # Split the annotation, through unions and nesting, into types and what `Annotated` holds beside them.
-    def look(part: Any) -> None:
+    # Split the annotation, through unions and nesting, into types and the metadata of `Annotated`.
+    def split(part: Any) -> None:
         if get_origin(part) is Annotated:
-            beside.extend(part.__metadata__)
-            look(part.__origin__)
+            metadata.extend(part.__metadata__)
+            split(part.__origin__)
         elif get_origin(part) in (Union, UnionType):
             for inner in get_args(part):
-                look(inner)
+                split(inner)
         elif part is not type(None):
             types.append(part)
 
-    look(annotation)
+    split(annotation)
     choices = tuple(word for part in types if get_origin(part) is Literal for word in get_args(part))
     kind = next((part for part in types if isinstance(part, type)), str)
-    described = next(part for part in beside if isinstance(part, Help))
-    rule = next((part for part in beside if isinstance(part, Rule)), None)
-    return Key(name, annotation, kind, choices, default, described, rule)
+    help_text = next(part for part in metadata if isinstance(part, Help))
+    rule = next((part for part in metadata if isinstance(part, Rule)), None)
+    return Key(name, annotation, kind, choices, default, help_text, rule)
 
 
 def checked(key: Key, value: Any) -> Value:
-    """Return a value as its key's type; raise `WrongValue` for others, `BadInput` for a broken rule."""
+    """Return a value as its key's type. Raises `WrongValue` for another type, and `BadInput` for a broken rule."""
     if key.kind is int and isinstance(value, float) and value.is_integer():
         value = int(value)
     if key.kind is int and isinstance(value, int) and value > MAX_WHOLE_NUMBER and key.name != "seed":

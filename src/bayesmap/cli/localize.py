@@ -16,9 +16,8 @@ import click
 from bayesmap.cli.command import FORCE, Call, command
 from bayesmap.cli.console import INTERRUPTED, Console, share, write_out
 from bayesmap.cli.keys import LocalizeSettings
-from bayesmap.cli.translation import is_map, need_file, need_free, numbers_of, reading_of
+from bayesmap.cli.translation import is_map, log_options_of, need_file, need_free, numbers_of
 from bayesmap.errors import BadInput
-from bayesmap.version import __version__
 
 if TYPE_CHECKING:
     import numpy as np
@@ -33,10 +32,8 @@ if TYPE_CHECKING:
 
 IMAGES = (".pgm", ".png", ".bmp")
 ENDINGS = (".tum", ".mcap", ".bag", ".db3", ".jsonl")
-NOT_LIVE = ("scan_topic", "pose_topic", "fixed_frame", "trajectory")
-"""Settings that a text which is still being written cannot have."""
-SHOWN = 5
-"""Largest number of stretches of lost scans that are named."""
+NOT_LIVE = ("scan_topic", "pose_topic", "fixed_frame", "trajectory")  # settings that no log which grows can have
+NAMED_STRETCHES = 5  # largest number of stretches of lost scans that are named
 
 
 @command("localize")
@@ -53,18 +50,9 @@ SHOWN = 5
 @click.option("--area", metavar="X0,X1,Y0,Y1", help="Also print the probability of being in this rectangle, in metres.")
 @FORCE
 def localize(
-    call: Call[LocalizeSettings],
-    run_file: str,
-    log: str,
-    output: str | None,
-    follow: bool,
-    idle_s: float | None,
-    prior: str | None,
-    independent: bool,
-    span: str | None,
-    area: str | None,
-    force: bool,
-) -> None:
+    call: Call[LocalizeSettings], run_file: str, log: str, output: str | None, follow: bool, idle_s: float | None,
+    prior: str | None, independent: bool, span: str | None, area: str | None, force: bool,
+) -> None:  # fmt: skip
     r"""Compute the posterior of the pose of each scan of LOG, in the map of a saved run or of another program.
 
     \b
@@ -88,32 +76,32 @@ def localize(
     sensor law. It fits the final law to the scans located with certainty, and prints it. With --follow it keeps the
     cautious law.
     """
-    # Check what was typed.
+    # Check the arguments.
     if idle_s is not None and not follow:
         raise click.UsageError("--for says how long --follow waits: give both")
     target = None if output is None else _target(output, force)
-    near, corners = _near(prior), _area(area)
+    first_pose, corners = _initial_pose(prior), _area(area)
     live = follow and can_follow(call.console, log)
     if not live:
         need_file(log, "the log whose scans are to be located", runs=False)
     source = _map_of(run_file, call.settings())
-    question = _Question(call, log, source, span, near, independent)
+    request = _Request(call, log, source, span, first_pose, independent)
 
-    def tell(number: int, belief: PoseBelief) -> bool:
-        return write_out(json.dumps({"scan": number, **_answer(belief, corners)}, allow_nan=False) + "\n")
+    def print_belief(number: int, belief: PoseBelief) -> bool:
+        return write_out(json.dumps({"scan": number, **_belief_json(belief, corners)}, allow_nan=False) + "\n")
 
     # Locate the scans.
     interrupted = False
     if live:
-        located, interrupted = _locate_live(question, idle_s, tell)
+        located, interrupted = _locate_live(request, idle_s, print_belief)
     else:
-        located = _locate(question, tell if follow else None)
+        located = _locate(request, print_belief if follow else None)
     # Write and print the result.
-    found, lost = located.found, located.lost()
+    localization, lost = located.localization, located.lost()
     outputs = [] if target is None else _write(target, located)
     if lost:
         call.console.warn(
-            f"{len(lost):,} of {len(found):,} scans fit nowhere on the map: lost, or the map is outdated: "
+            f"{len(lost):,} of {len(localization):,} scans fit nowhere on the map: lost, or the map is outdated: "
             f"{located.stretches(lost)}"
         )
     if interrupted:
@@ -122,8 +110,8 @@ def localize(
         return
     if call.console.as_json:
         document = {
-            "version": __version__, "run": run_file, "log": log, "scans": len(found), "lost": len(lost),
-            "lost_scans": lost, "frame": found.frame, "last": _answer(found.last, corners),
+            "run": run_file, "log": log, "scans": len(localization), "lost": len(lost), "lost_scans": lost,
+            "frame": localization.frame, "last": _belief_json(localization.last, corners),
             "outputs": {path.name: str(path) for path in outputs},
         }  # fmt: skip
         call.console.result(document, outputs)
@@ -132,14 +120,14 @@ def localize(
 
 
 @dataclass(frozen=True, eq=False)
-class _Question:
+class _Request:
     """The scans of a log that are to be located in a map."""
 
     call: Call[LocalizeSettings]
     log: str
     map: _Map
     span: str | None  # scans to locate, as FIRST:LAST; None for all
-    near: InitialPose | None  # prior of the first pose; None if it may be anywhere
+    first_pose: InitialPose | None  # prior of the first pose; None if it may be anywhere
     independent: bool  # locate each scan by itself
 
     def options(self, mount: NDArray[np.float64] | None) -> dict[str, Any]:
@@ -150,10 +138,10 @@ class _Question:
         from bayesmap.space.planar import compose
         from bayesmap.space.trajectory import step_to
 
-        near, settings = self.near, self.call.settings()
-        if step_to(settings.frame, mount, "laser")[0] == "base" and near is not None:
-            near = replace(near, pose=compose(near.pose, mount))  # type: ignore[arg-type]
-        return {"prior": near, "independent": self.independent, "seed": settings.seed}
+        prior, settings = self.first_pose, self.call.settings()
+        if step_to(settings.frame, mount, "laser")[0] == "base" and prior is not None:
+            prior = replace(prior, pose=compose(prior.pose, mount))  # type: ignore[arg-type]
+        return {"prior": prior, "independent": self.independent, "seed": settings.seed}
 
 
 @dataclass(eq=False)
@@ -174,7 +162,7 @@ class _Located:
         return self.first + len(self.beliefs) - 1, latest.last
 
     @cached_property
-    def found(self) -> Localization:
+    def localization(self) -> Localization:
         """All posteriors of the frame; ask when all scans are located."""
         from bayesmap.localization.localize import Localization
 
@@ -197,71 +185,67 @@ class _Located:
         """Return numbers of scans, ascending, in words; of consecutive scans the first and the last."""
         starts = [scan for i, scan in enumerate(scans) if i == 0 or scans[i - 1] != scan - 1]
         ends = [scan for i, scan in enumerate(scans) if i == len(scans) - 1 or scans[i + 1] != scan + 1]
-        told = [self.name(*ends) for ends in itertools.islice(zip(starts, ends, strict=True), SHOWN)]
-        more = len(starts) - len(told)
-        return ", ".join(told) + (f", and {more:,} more stretches" if more > 0 else "")
+        names = [self.name(*ends) for ends in itertools.islice(zip(starts, ends, strict=True), NAMED_STRETCHES)]
+        more = len(starts) - len(names)
+        return ", ".join(names) + (f", and {more:,} more stretches" if more > 0 else "")
 
 
-def _locate(question: _Question, tell: Callable[[int, PoseBelief], bool] | None) -> _Located:
-    """Locate the scans that a log holds now; ``tell`` is called with the posterior of each."""
+def _locate(request: _Request, on_located: Callable[[int, PoseBelief], bool] | None) -> _Located:
+    """Locate the scans that a log holds now; ``on_located`` is called with number and posterior of each."""
     from bayesmap.io.logs import describe_log
     from bayesmap.localization.localize import localize
 
-    call, log = question.call, question.log
-    max_range_m, options = question.map.max_range_m(live=False), reading_of(call.settings())
-    reading = describe_log(log, max_range_m=max_range_m, without_poses=question.independent, **options)
-    for note in reading.notes:
-        call.console.say(f"{log}: {note}")
-    span, stamps_s = _span(question.span, len(reading.scans)), reading.scans.stamps_s
-    scans, mount = reading.scans.select(span), reading.scans.mount
-    located = _Located(
-        call.settings().frame, mount, range(len(reading.scans))[span][0], None if stamps_s is None else stamps_s[0]
-    )  # fmt: skip
-    given = question.options(mount)
-    known = question.map.known(call.console, scans, live=False)
+    call, path = request.call, request.log
+    max_range_m, options = request.map.max_range_m(live=False), log_options_of(call.settings())
+    log = describe_log(path, max_range_m=max_range_m, without_poses=request.independent, **options)
+    for note in log.notes:
+        call.console.say(f"{path}: {note}")
+    span, stamps_s, mount = _span(request.span, len(log.scans)), log.scans.stamps_s, log.scans.mount
+    scans, number = log.scans.select(span), range(len(log.scans))[span][0]
+    located = _Located(call.settings().frame, mount, number, None if stamps_s is None else stamps_s[0])
+    arguments = request.options(mount)
+    known_map = request.map.known(call.console, scans, live=False)
     with share(call.console, "locating scans") as report:
 
         def on_belief(number: int, belief: PoseBelief) -> None:
             report((number + 1) / len(scans))
             located.beliefs.append(belief)
-            if tell is not None:
-                tell(*located.latest())
+            if on_located is not None:
+                on_located(*located.latest())
 
-        localize(known, scans, on_belief=on_belief, **given)
+        localize(known_map, scans, on_belief=on_belief, **arguments)
     return located
 
 
 def _locate_live(
-    question: _Question, idle_s: float | None, tell: Callable[[int, PoseBelief], bool]
+    request: _Request, idle_s: float | None, on_located: Callable[[int, PoseBelief], bool]
 ) -> tuple[_Located, bool]:
     """Locate the scans of a log as they arrive, until the log ends, the reader closes the output, or Ctrl-C.
 
-    Returns:
-        All posteriors, and whether Ctrl-C ended the localization.
+    Returns all posteriors, and whether Ctrl-C ended the localization.
     """
     from bayesmap.localization.localize import follow
 
-    scans = scans_to_come(question, idle_s)
-    question.call.console.detail(f"{question.log}: waiting for scans")
-    number = _span(question.span).start or 0
-    located = _Located(question.call.settings().frame, None, number, None)
+    scans = live_scans_of(request, idle_s)
+    request.call.console.detail(f"{request.log}: waiting for scans")
+    located = _Located(request.call.settings().frame, None, _span(request.span).start or 0, None)
     interrupted = False
     try:
         # Prepare the map with the first scan: an external map takes the law of readings from it.
         for first in scans:
             located.mount, located.start_s = first.mount, None if first.stamps_s is None else first.stamps_s[0]
-            options = question.options(first.mount)
-            known = question.map.known(question.call.console, first, live=True)
-            for belief in follow(known, itertools.chain([first], scans), **options):
+            options = request.options(first.mount)
+            known_map = request.map.known(request.call.console, first, live=True)
+            for belief in follow(known_map, itertools.chain([first], scans), **options):
                 located.beliefs.append(belief)
-                if not tell(*located.latest()):
+                if not on_located(*located.latest()):
                     return located, False
     except KeyboardInterrupt:
         if not located.beliefs:
             raise
         interrupted = True
     if not located.beliefs:
-        raise BadInput(f"{question.log}: it ended without a scan")
+        raise BadInput(f"{request.log}: it ended without a scan")
     return located, interrupted
 
 
@@ -326,27 +310,27 @@ def _map_of(file: str, settings: LocalizeSettings) -> _Map:
     return _RunMap(load(file), settings)
 
 
-def _answer(belief: PoseBelief, corners: list[float] | None) -> dict[str, Any]:
+def _belief_json(belief: PoseBelief, corners: list[float] | None) -> dict[str, Any]:
     """Return a posterior as JSON values, with the probability of the area if there is one."""
-    answer = belief.as_json()
+    document = belief.as_json()
     if corners is not None:
-        answer["probability_in_area"] = belief.probability_in(corners)  # type: ignore[arg-type]
-    return answer
+        document["probability_in_area"] = belief.probability_in(corners)  # type: ignore[arg-type]
+    return document
 
 
 def _lines(located: _Located, corners: list[float] | None) -> list[str]:
     """Return the posterior of the last pose as lines of text: at most five modes, lost, and the area."""
-    found, last = located.found, located.first + len(located.found) - 1
-    lines = [f"the {found.frame} at {located.name(last, last)}:"]
-    for mode in found.modes[:5]:
+    localization, last = located.localization, located.first + len(located.beliefs) - 1
+    lines = [f"the {localization.frame} at {located.name(last, last)}:"]
+    for mode in localization.modes[:5]:
         (x, y, yaw), sd = mode.mean, [math.sqrt(v) for v in mode.covariance.diagonal()]
         lines.append(
             f"{100 * mode.probability:5.1f} %  x {x:.3f} +- {sd[0]:.3f} m  y {y:.3f} +- {sd[1]:.3f} m  "
             f"yaw {math.degrees(yaw):.2f} +- {math.degrees(sd[2]):.2f} degrees"
         )
-    lines.append(f"lost, or the map outdated: {_per_cent(found.p_lost)} %")
+    lines.append(f"lost, or the map outdated: {_per_cent(localization.p_lost)} %")
     if corners is not None:
-        lines.append(f"in the area: {100 * found.probability_in(corners):.1f} %")
+        lines.append(f"in the area: {100 * localization.probability_in(corners):.1f} %")
     return lines
 
 
@@ -362,11 +346,11 @@ def _write(target: Path, located: _Located) -> list[Path]:
     from bayesmap.files import write_whole
     from bayesmap.io.exports import export_trajectory
 
-    found = located.found
+    localization = located.localization
     if target.suffix != ".jsonl":
-        return list(export_trajectory(target, found.trajectory()))
+        return list(export_trajectory(target, localization.trajectory()))
     with write_whole(target) as partial:
-        numbered = enumerate(found.beliefs, located.first)
+        numbered = enumerate(localization.beliefs, located.first)
         rows = (json.dumps({"scan": i, **b.as_json()}, allow_nan=False) for i, b in numbered)
         partial.write_text("".join(f"{row}\n" for row in rows), encoding="ascii")
     return [target]
@@ -385,7 +369,7 @@ def _target(output: str, force: bool) -> Path:
     return target
 
 
-def _near(text: str | None) -> InitialPose | None:
+def _initial_pose(text: str | None) -> InitialPose | None:
     """Return the prior of the first pose that --prior describes."""
     from bayesmap.localization.localize import InitialPose
 
@@ -413,9 +397,9 @@ def _span(text: str | None, count: int | None = None) -> slice:
         span = slice(int(first) if first else None, int(last) if last else None)
     except ValueError:
         colon, span = "", slice(None)
-    start, to_come = span.start or 0, count is None
-    if not colon or (to_come and (start < 0 or (span.stop is not None and span.stop <= start))):
-        raise click.BadParameter(f"{text!r} is not FIRST:LAST" + " of scans to come" * to_come, param_hint="'--scans'")
+    start, live = span.start or 0, " of scans to come" if count is None else ""
+    if not colon or (live and (start < 0 or (span.stop is not None and span.stop <= start))):
+        raise click.BadParameter(f"{text!r} is not FIRST:LAST{live}", param_hint="'--scans'")
     if text is not None and count is not None and not range(count)[span]:
         raise BadInput(f"--scans {text}: none of the log's {count:,} scans is among them")
     return span
@@ -436,41 +420,33 @@ def can_follow(console: Console, log: str) -> bool:
     return False
 
 
-def scans_to_come(question: _Question, idle_s: float | None) -> Iterator[Scans]:
+def live_scans_of(request: _Request, idle_s: float | None) -> Iterator[Scans]:
     """Return the scans of a log that is still being written, one at a time, until none arrives for ``idle_s`` seconds.
 
-    Raises:
-        BadInput: a setting that such a log cannot have.
+    Raises `BadInput` for a setting that such a log cannot have.
     """
     from bayesmap.io.live import live_scans
 
-    console, log, settings = question.call.console, question.log, question.call.settings()
+    console, log, settings = request.call.console, request.log, request.call.settings()
     for name in NOT_LIVE:
         if (value := getattr(settings, name)) is not None:
             raise BadInput(f"{log}: --{name.replace('_', '-')} {value}: a log that is followed has its own poses alone")
-    span, max_range_m = _span(question.span), question.map.max_range_m(live=True)
+    span, max_range_m = _span(request.span), request.map.max_range_m(live=True)
     assert max_range_m is not None
     scans = live_scans(
-        log,
-        max_range_m=max_range_m,
-        no_return=settings.no_return,
-        skip_bad_lines=settings.skip_bad_lines,
-        idle_s=idle_s,
-        on_skipped=lambda line, reason: console.say(f"{log}: line {line} left out: {reason}"),
-        laser=reading_of(settings)["laser"],
-        without_poses=question.independent,
-    )
+        log, max_range_m=max_range_m, no_return=settings.no_return, skip_bad_lines=settings.skip_bad_lines,
+        idle_s=idle_s, on_skipped=lambda line, reason: console.say(f"{log}: line {line} left out: {reason}"),
+        laser=log_options_of(settings)["laser"], without_poses=request.independent,
+    )  # fmt: skip
     return itertools.islice(_thinned(scans, settings.thin_scans), span.start or 0, span.stop)
 
 
 def _thinned(scans: Iterable[Scans], spacing_m: float) -> Iterator[Scans]:
     """Yield the first scan, and then a scan each time the robot has travelled ``spacing_m``."""
-    travelled_m, at = math.inf, None
+    travelled_m, last = math.inf, None
     for scan in scans:
-        x, y = scan.poses[0, :2]
-        if at is not None:
-            travelled_m += math.hypot(x - at[0], y - at[1])
-        at = (x, y)
+        travelled_m += 0.0 if last is None else math.dist(scan.poses[0, :2], last)
+        last = scan.poses[0, :2]
         if travelled_m >= spacing_m * (1 - 1e-9):
             travelled_m = 0.0
             yield scan

@@ -14,9 +14,9 @@ import sys
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 MAX_ALLOCATIONS = 50_000
-"""New objects after which Python looks for cycles. At its 700 the search takes a tenth of the start of a command."""
+"""New objects after which Python looks for cycles. At Python's 700 the search takes a tenth of a command's start."""
 
-TYPE_CHECKING = False
+TYPE_CHECKING = False  # not from typing: this module imports little
 if TYPE_CHECKING:
     from types import FrameType
 
@@ -29,13 +29,15 @@ def main(arguments: list[str] | None = None) -> None:
     nohup, still ignores it.
     """
     if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
-        signal.signal(signal.SIGINT, _end)
+        signal.signal(signal.SIGINT, _end_at_once)
     gc.set_threshold(MAX_ALLOCATIONS)
     from bayesmap.cli.console import INTERRUPTED
     from bayesmap.cli.group import cli
 
     try:
-        cli.main(args=arguments, prog_name="bayesmap", obj=_raise_again)
+        cli.main(
+            args=arguments, prog_name="bayesmap", obj=_restore_interrupt
+        )  # called by the command group when a command begins
     except KeyboardInterrupt:
         _leave_interrupted()
     except BrokenPipeError:  # from --help or --version
@@ -50,7 +52,7 @@ def main(arguments: list[str] | None = None) -> None:
         raise
 
 
-def _end(number: int, frame: FrameType | None) -> None:
+def _end_at_once(number: int, frame: FrameType | None) -> None:
     """Handle Ctrl-C while commands are loaded: print one line and end the process at once."""
     try:
         os.write(2, b"bayesmap: error: interrupted\n")
@@ -58,9 +60,9 @@ def _end(number: int, frame: FrameType | None) -> None:
         os._exit(130)
 
 
-def _raise_again() -> None:
-    """Restore Python's handler, which raises KeyboardInterrupt. Called when a command begins."""
-    if signal.getsignal(signal.SIGINT) is _end:
+def _restore_interrupt() -> None:
+    """Restore Python's handler, which raises KeyboardInterrupt."""
+    if signal.getsignal(signal.SIGINT) is _end_at_once:
         signal.signal(signal.SIGINT, signal.default_int_handler)
 
 

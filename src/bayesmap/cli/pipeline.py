@@ -8,12 +8,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
-import click
-
 from bayesmap.cli import translation
 from bayesmap.cli.command import Call, Layer, as_toml, read_file
-from bayesmap.cli.console import INTERRUPTED, PROBLEMS, SETTING_UP, Console, counted, progress, stage
-from bayesmap.cli.folder import Folder
+from bayesmap.cli.console import SETTING_UP, Console, counted, exit_unless_good, progress, stage
+from bayesmap.cli.folder import Folder, run_document, work_done
 from bayesmap.cli.keys import InferSettings, SamplingSettings, SlamSettings
 from bayesmap.cli.translation import LOG, need_file
 from bayesmap.errors import BadInput
@@ -68,13 +66,12 @@ def announce(console: Console, estimate: Estimate | None) -> None:
 
 def cost_of_suggestion(suggestion: str | None, scans: Scans | None) -> dict[str, Any] | None:
     """Return the cost of a suggested command as JSON values; None if it is not known."""
-    from bayesmap.errors import BadInput
-
     if suggestion is None or scans is None:
         return None
-    slam, without = suggestion.startswith("bayesmap slam"), "--no-odometry" in suggestion.split()
+    slam = SlamSettings(no_odometry="--no-odometry" in suggestion.split())
     try:
-        cost = cost_of_slam(SlamSettings(no_odometry=without), scans) if slam else cost_of_infer(InferSettings(), scans)
+        is_slam = suggestion.startswith("bayesmap slam")
+        cost = cost_of_slam(slam, scans) if is_slam else cost_of_infer(InferSettings(), scans)
     except BadInput:  # the command itself says why
         return None
     if cost is None:
@@ -98,47 +95,48 @@ class Task(Generic[S]):
     settings: S  # settings of the command
 
 
-def prepare(call: Call[S], log: str, path: Path, *, resume: bool, force: bool, begun: Layer | None = None) -> Task[S]:
-    """Check the arguments for one log, and return its task; raise `BadInput`. ``begun``: settings to resume."""
+def prepare(call: Call[S], log: str, path: Path, *, resume: bool, force: bool, earlier: Layer | None = None) -> Task[S]:
+    """Return the task of one log, after checking the arguments. ``earlier`` are settings to resume, by default."""
     need_file(log, f"{LOG} (bayesmap info FILE says what is in one)", runs=False)
     folder = Folder(path, call.console, resuming=resume)
-    under = (settings_of(folder, call.section) or begun) if resume else None
+    under = (settings_of(folder, call.section) or earlier) if resume else None
     settings = translation.completed(call.settings(under))
     folder.check(force=force)
     return Task(log, folder, settings)
 
 
 def infer_log(
-    task: Task[InferSettings], *, reading: LogReading | None = None, executor: Executor | None = None,
+    task: Task[InferSettings], *, log: LogReading | None = None, executor: Executor | None = None,
     resume_command: str | None = None, on_saved: Callable[[], None] = lambda: None,
     on_event: Callable[[Event], None] = lambda event: None,
 ) -> dict[str, Any]:  # fmt: skip
     """Infer one log into its folder, print a report, and return the JSON document.
 
-    After Ctrl-C it prints ``resume_command``, and "finished" in the document is false. ``reading`` is the log if it has
-    been read already, ``executor`` runs the chains (None: this process), ``on_saved`` is called after each checkpoint.
+    After Ctrl-C it prints ``resume_command``, and "finished" in the document is false. ``log`` is given if it has been
+    read already, ``executor`` runs the chains (None: this process), ``on_saved`` is called after each checkpoint.
     """
     folder, every = task.folder, task.settings.holdout
     # Read the log.
-    if reading is None:
-        reading = read(folder.console, task.log, task.settings)
+    if log is None:
+        log = read(folder.console, task.log, task.settings)
     if not (task.settings.poses_as_given or folder.resuming):
-        refuse_odometry(task.log, reading)
+        refuse_odometry(task.log, log)
     # Split off the scans that are held out.
-    train, heldout = reading.scans.holdout(every) if every else (reading.scans, None)
+    train, heldout = log.scans.holdout(every) if every else (log.scans, None)
     # Load the run to resume.
     saved = load_interrupted(folder) if folder.resuming else None
     # Sample the posterior, with checkpoints.
-    run = sample(task, reading.scans, train, saved, executor, on_saved, on_event)
+    run = sample(task, log.scans, train, saved, executor, on_saved, on_event)
     # After Ctrl-C: leave the folder so that the run can go on.
     if not run.finished:
-        return keep_interrupted(folder, run, reading, resume_command)
-    # Finish: save the run, draw it, export it, score it.
-    document = finish(folder, run, reading, heldout, every)
+        return keep_interrupted(folder, run, log, resume_command)
+    # Finish: save the run, render it, export it, score it.
+    document = finish(folder, run, log, heldout, every)
     # Report.
     file = str(folder.run_path)
-    judge = ["score", file, task.log, "--holdout", str(every)] if every else ["explore", file]
-    report(folder.console, document, commands=[["app", file], judge, ["render", file]] if resume_command else ())
+    score_or_explore = ["score", file, task.log, "--holdout", str(every)] if every else ["explore", file]
+    commands = [["app", file], score_or_explore, ["render", file]]
+    report(folder.console, document, commands=commands if resume_command else ())
     return document
 
 
@@ -172,42 +170,42 @@ def load_interrupted(folder: Folder) -> Run | None:
     return run
 
 
-def read(console: Console, log: str, settings: SamplingSettings, *, without_poses: bool = False) -> LogReading:
+def read(console: Console, path: str, settings: SamplingSettings, *, without_poses: bool = False) -> LogReading:
     """Read a log, and print a summary of it."""
     from bayesmap.io.logs import describe_log
 
-    options = translation.reading_of(settings)
-    reading = describe_log(log, max_range_m=settings.max_range, without_poses=without_poses, **options)
-    scans, counts = reading.scans, reading.scans.counts()
-    code = reading.no_return_m
-    coded = "no code for no return" if code is None else f"{code:g} m is no return ({reading.no_return.origin})"
+    options = translation.log_options_of(settings)
+    log = describe_log(path, max_range_m=settings.max_range, without_poses=without_poses, **options)
+    scans, counts, code = log.scans, log.scans.counts(), log.no_return_m
+    code_words = "no code for no return" if code is None else f"{code:g} m is no return ({log.no_return.origin})"
     console.say(
-        f"{log}: {len(scans):,} scans, {scans.n_beams:,} beams, "
-        f"{counts['hit']:,} hits up to {scans.max_range_m:g} m; {coded}"
+        f"{path}: {len(scans):,} scans, {scans.n_beams:,} beams, "
+        f"{counts['hit']:,} hits up to {scans.max_range_m:g} m; {code_words}"
     )
     if counts["hit"] == 0:
-        console.warn(f"{log}: no reading is a hit, so there is no wall to find; check --max-range and --no-return")
-    for skip in reading.skipped[: 10 if not console.verbose else None]:
-        console.say(f"{log}: {skip} left out: {skip.reason}")
-    if len(reading.skipped) > 10 and not console.verbose:
-        console.say(f"{log}: {len(reading.skipped) - 10:,} more left out; -v lists them")
-    for note in reading.notes:
-        console.say(f"{log}: {note}")
-    return reading
+        console.warn(f"{path}: no reading is a hit, so there is no wall to find; check --max-range and --no-return")
+    listed = log.skipped if console.verbose else log.skipped[:10]
+    for skip in listed:
+        console.say(f"{path}: {skip} left out: {skip.reason}")
+    if len(log.skipped) > len(listed):
+        console.say(f"{path}: {len(log.skipped) - len(listed):,} more left out; -v lists them")
+    for note in log.notes:
+        console.say(f"{path}: {note}")
+    return log
 
 
-def refuse_odometry(log: str, reading: LogReading) -> None:
+def refuse_odometry(path: str, log: LogReading) -> None:
     """Raise `BadInput` for poses at which walls stand in several places, as raw odometry or in degrees."""
     from bayesmap.io.logs import IN_DEGREES
     from bayesmap.poses.log_checks import DOUBLED, look_like_odometry
 
-    if look_like_odometry(reading.scans):
-        for note in reading.notes:
+    if look_like_odometry(log.scans):
+        for note in log.notes:
             if note.endswith(IN_DEGREES):
-                raise BadInput(f"{log}: {note} Convert it to radians; --poses-as-given takes the poses as they are")
+                raise BadInput(f"{path}: {note} Convert it to radians; --poses-as-given takes the poses as they are")
         raise BadInput(
-            f"{log}: {DOUBLED}, as with raw odometry; `bayesmap slam {log}` infers the trajectory, too (bayesmap info "
-            "says more). To take the poses as they are, add --poses-as-given"
+            f"{path}: {DOUBLED}, as with raw odometry; `bayesmap slam {path}` infers the trajectory, too (bayesmap "
+            "info says more). To take the poses as they are, add --poses-as-given"
         )
 
 
@@ -262,26 +260,10 @@ def sample(
     return run
 
 
-def score_of(console: Console, run: Run, heldout: Scans | None, every: int) -> dict[str, Any] | None:
-    """Score the held-out scans; None if there are none."""
-    if heldout is None:
-        return None
-    valid = heldout.n_beams - heldout.counts()["invalid"]
-    with stage(console, "score") as on_progress:
-        nats = run.log_score(heldout, on_progress=on_progress)
-    return {"every": every, "beams": valid, "nats_per_beam": nats}
-
-
-def document_of(run: Run, reading: LogReading, score: dict[str, Any] | None, outputs: list[Path]) -> dict[str, Any]:
+def document_of(run: Run, log: LogReading, score: dict[str, Any] | None, outputs: list[Path]) -> dict[str, Any]:
     """Return the JSON document of a run."""
-    from bayesmap.cli.folder import run_document
-
-    return {
-        **run_document(run),
-        "heldout": score,
-        "log": reading.summary(),
-        "outputs": {path.name: str(path) for path in outputs},
-    }
+    names = {path.name: str(path) for path in outputs}
+    return {**run_document(run), "heldout": score, "log": log.summary(), "outputs": names}
 
 
 def report(
@@ -289,8 +271,6 @@ def report(
     commands: Sequence[Sequence[str]] = (),
 ) -> None:  # fmt: skip
     """Print the work of a run, what is good, what is doubtful with its remedy, and commands to give next."""
-    from bayesmap.cli.folder import work_done
-
     seconds, joint, score = document["seconds"], document["log_joint"], document["heldout"]
     mean = "" if joint["mean"] is None else f"; log joint {joint['mean']:,.1f} on average"
     console.say(
@@ -307,42 +287,43 @@ def report(
 
 
 def keep_interrupted(
-    folder: Folder, run: Run, reading: LogReading, resume_command: str | None, known: Sequence[Path] = ()
+    folder: Folder, run: Run, log: LogReading, resume_command: str | None, complete: Sequence[Path] = ()
 ) -> dict[str, Any]:
-    """Save an interrupted run, print how to resume it, and return its document. ``known``: complete files."""
-    kept: list[Path] = []
+    """Save an interrupted run, print how to resume it, and return its document. ``complete`` are finished files."""
+    outputs: list[Path] = []
+    go_on = f"; go on with:\n  {resume_command}"
     # Chains stopped before their first sweep may have an incomplete start, so they are not saved.
     if run.posterior.sweep > 0:
-        kept = folder.write_products(run)
-        done = counted(run.posterior.sweep, "sweep")
-        said = f"interrupted after {done}, saved in {folder.run_path}; go on with:\n  {resume_command}"
+        outputs = folder.write_products(run)
+        state = f"after {counted(run.posterior.sweep, 'sweep')}, saved in {folder.run_path}{go_on}"
     elif folder.resuming and folder.run_path.exists():
-        said = f"interrupted before the first sweep; {folder.run_path} is as it was; go on with:\n  {resume_command}"
+        state = f"before the first sweep; {folder.run_path} is as it was{go_on}"
     elif folder.run_path.exists() and not folder.begun:
-        said = f"interrupted before there was anything to save; {folder.run_path} is as it was"
-    elif known:
-        said = f"interrupted before the first sweep; {known[0]} is complete; go on with:\n  {resume_command}"
+        state = f"before there was anything to save; {folder.run_path} is as it was"
+    elif complete:
+        state = f"before the first sweep; {complete[0]} is complete{go_on}"
     else:
-        said = f"interrupted before there was anything to save; start again with:\n  {resume_command}"
+        state = f"before there was anything to save; start again with:\n  {resume_command}"
     if resume_command is not None:
-        folder.console.say(said)
-    return document_of(run, reading, None, kept)
+        folder.console.say(f"interrupted {state}")
+    return document_of(run, log, None, outputs)
 
 
 def print_result(call: Call[Any], document: dict[str, Any], *, strict: bool) -> None:
     """Print the result. Exit with 130 if the run was interrupted, or with 4 if it is strict and has problems."""
     call.console.result(document, document["outputs"].values())
-    if not document["finished"]:
-        click.get_current_context().exit(INTERRUPTED)
-    if strict and document["problems"]:
-        click.get_current_context().exit(PROBLEMS)
+    exit_unless_good(finished=document["finished"], problems=strict and bool(document["problems"]))
 
 
-def finish(folder: Folder, run: Run, reading: LogReading, heldout: Scans | None, every: int) -> dict[str, Any]:
-    """Save, draw and score a finished run, write its JSON document, and return the document."""
-    outputs = folder.write_products(run)
-    score = score_of(folder.console, run, heldout, every)
+def finish(folder: Folder, run: Run, log: LogReading, heldout: Scans | None, every: int) -> dict[str, Any]:
+    """Save, render and score a finished run, write its JSON document, and return the document."""
+    outputs, score = folder.write_products(run), None
+    if heldout is not None:
+        with stage(folder.console, "score") as on_progress:
+            nats = run.log_score(heldout, on_progress=on_progress)
+        valid = heldout.n_beams - heldout.counts()["invalid"]
+        score = {"every": every, "beams": valid, "nats_per_beam": nats}
     with progress(folder.console, "comparing the chains"):
-        document = document_of(run, reading, score, [*outputs, folder.path / "summary.json", folder.config_path])
+        document = document_of(run, log, score, [*outputs, folder.path / "summary.json", folder.config_path])
     folder.write_document(document)
     return document

@@ -14,7 +14,6 @@ from bayesmap.cli.console import share
 from bayesmap.cli.keys import ExportSettings, RenderSettings
 from bayesmap.cli.translation import heldout_scans, need_free
 from bayesmap.errors import BadInput
-from bayesmap.version import __version__
 
 if TYPE_CHECKING:
     import numpy as np
@@ -26,8 +25,6 @@ if TYPE_CHECKING:
     from bayesmap.space.scans import Scans
 
     Walls = NDArray[np.bool_]
-    Draw = NDArray[Any]
-    """Walls, or reflectivities in [0, 1]."""
 
 WHOLE = ("figure", "animation", "trace", "weights")  # pictures that always show the whole map
 
@@ -41,7 +38,7 @@ WHOLE = ("figure", "animation", "trace", "weights")  # pictures that always show
 def render(
     call: Call[RenderSettings], run_file: str, output: str | None, truth: str | None, heldout: str | None, force: bool
 ) -> None:
-    r"""Draw a saved run.
+    r"""Render a saved run as a picture or a film.
 
     By default the picture has the name of its kind, such as mean.png or animation.gif; surfaces are strokes.png.
 
@@ -72,7 +69,7 @@ def render(
         raise _without_draws(run_file, run)
     if settings.window is not None and what in WHOLE:
         raise BadInput(f"window: {what} shows the whole map; a single panel, such as --what mean, takes a window")
-    # Choose the part of the map, and draw.
+    # Choose the part of the map, and render it.
     grid, window = part_of(run, settings.window)
     walls = None if truth is None else truth_on(grid, truth)
     if what == "animation":
@@ -82,7 +79,7 @@ def render(
         write_animation(target, run.grid, draws, observed=run.observed, truth=walls, sweeps=numbers)
     elif what in ("residuals", "surprise"):
         if heldout is None:
-            raise BadInput(f"{what}: that of scans which the run did not see; name their log by --heldout")
+            raise BadInput(f"{what} needs the log of scans that the run did not use: give --heldout LOG")
         scans = heldout_scans(run, heldout, settings, settings.holdout)
         with share(call.console, "predicting held-out beams") as report:
             write_figure(_beams_figure(run, scans, what, grid, window, report), target)
@@ -90,7 +87,7 @@ def render(
         write_figure(_whole_figure(run, settings, walls), target)
     else:
         write_figure(_panel(run, settings, grid, window, walls), target)
-    document = {"version": __version__, "what": what, "run": run_file, "outputs": {target.name: str(target)}}
+    document = {"what": what, "run": run_file, "outputs": {target.name: str(target)}}
     call.console.result(document, [target])
 
 
@@ -115,27 +112,27 @@ def _panel(run: Run, settings: RenderSettings, grid: Grid, window: tuple[slice, 
     from bayesmap.viz.overlays import surfaces_figure
 
     what, label = settings.what, run.posterior.prior.words.mean
-    shown, observed = run.occupancy[window], run.observed[window]
+    values, observed = run.occupancy[window], run.observed[window]
     if what == "surfaces":
         return surfaces_figure(grid, *run.surfaces(), observed)
     if what == "log-odds":
         from bayesmap.viz.figure import Candidate, comparison_figure
 
         log_odds, seen = log_odds_map(run)
-        posterior = Candidate(f"posterior: {label}", shown, observed)
-        both = [Candidate("log-odds", log_odds[window], seen[window]), posterior]
-        return comparison_figure(grid, both, label="chance that a cell stops a beam")
+        posterior = Candidate(f"posterior: {label}", values, observed)
+        maps = [Candidate("log-odds", log_odds[window], seen[window]), posterior]
+        return comparison_figure(grid, maps, label="chance that a cell stops a beam")
     if what == "deviation" and run.posterior.prior.has_interval:
-        raise BadInput("deviation: that of binary walls; --what width shows how sure a reflectivity is")
+        raise BadInput("deviation is for binary walls; --what width shows how sure a reflectivity is")
     if what == "width":
         if not run.posterior.prior.has_interval:
             raise BadInput("width: a wall has no interval; --what entropy or deviation shows how sure it is")
         run.interval(0.9)  # raises `BadInput` for a run without draws
-        shown = run.posterior.prior.width(run.posterior.draws, 0.9)[window]
+        values = run.posterior.prior.width(run.posterior.draws, 0.9)[window]
     elif run.n_draws:
         draw = one_draw(run, settings.chain, settings.draw)
-        shown = draw[window] if what == "draw" else shown
-    return panel_figure(grid, what, shown, observed, truth=walls, label=label)
+        values = draw[window] if what == "draw" else values
+    return panel_figure(grid, what, values, observed, truth=walls, label=label)
 
 
 def _beams_figure(
@@ -152,25 +149,27 @@ def _beams_figure(
     return residuals_figure(grid, mean, residuals.ends_world, values, observed, scale=scale)
 
 
-def one_draw(run: Run, chain: int, draw: int) -> Draw:
-    """Return a draw, both numbers from 1, draw -1 the last; raise `BadInput` if it is not there."""
+def one_draw(run: Run, chain: int, draw: int) -> NDArray[Any]:
+    """Return a draw, (nx, ny): walls, or reflectivities. Numbers count from 1, and draw -1 is the last.
+
+    Raises `BadInput` if the run has no such draw.
+    """
     chains, draws = run.log_joint.shape
     if not 1 <= chain <= chains:
         raise BadInput(f"chain {chain}: this run has chains 1 to {chains}")
     if not (1 <= draw <= draws or -draws <= draw <= -1):
-        raise BadInput(
-            f"draw {draw}: this run has {draws:,} draws a chain" + (", 1 to that, or -1 for the last" * (draws > 0))
-        )
+        choices = ", 1 to that, or -1 for the last" if draws else ""
+        raise BadInput(f"draw {draw}: this run has {draws:,} draws a chain{choices}")
     return run.map_of(chain - 1, draw - (draw > 0))
 
 
-def frames(run: Run, chain: int, most: int) -> tuple[Draw, list[int]]:
+def frames(run: Run, chain: int, most: int) -> tuple[NDArray[Any], list[int]]:
     """Return at most ``most`` evenly spaced draws of a chain, and their numbers, from 1."""
     import numpy as np
 
     one_draw(run, chain, -1)  # raises `BadInput` for a chain that is not there
-    chosen = np.unique(np.linspace(0, run.n_draws - 1, min(most, run.n_draws)).round().astype(int))
-    return np.stack([run.map_of(chain - 1, i) for i in chosen.tolist()]), [int(i) + 1 for i in chosen]
+    numbers = np.unique(np.linspace(0, run.n_draws - 1, min(most, run.n_draws)).round().astype(int)).tolist()
+    return np.stack([run.map_of(chain - 1, i) for i in numbers]), [i + 1 for i in numbers]
 
 
 def truth_on(grid: Grid, path: str) -> Walls:
@@ -179,11 +178,10 @@ def truth_on(grid: Grid, path: str) -> Walls:
 
     from bayesmap.io.ros.maps import read_map
 
-    occupancy, own = read_map(path)
-    x, y = grid.centers_m()
-    points: Any = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1)
-    i, j = np.moveaxis(np.floor(own.to_cells(points)).astype(int), -1, 0)
-    inside = (i >= 0) & (i < own.shape[0]) & (j >= 0) & (j < own.shape[1])
+    occupancy, map_grid = read_map(path)
+    points: Any = np.stack(np.meshgrid(*grid.centers_m(), indexing="ij"), axis=-1)
+    i, j = np.moveaxis(np.floor(map_grid.to_cells(points)).astype(int), -1, 0)
+    inside = (i >= 0) & (i < map_grid.shape[0]) & (j >= 0) & (j < map_grid.shape[1])
     walls = np.zeros(grid.shape, dtype=np.bool_)
     walls[inside] = occupancy[i[inside], j[inside]] > 0.5
     return walls
@@ -258,10 +256,10 @@ def export(call: Call[ExportSettings], run_file: str, output: str | None, force:
     if not Path(target).parent.is_dir():
         raise BadInput(f"{Path(target).parent}: no such folder; make it first, or choose another with -o")
     run = load(run_file)
-    of_path = run.trajectory is not None and export_format(target, kind) in TRAJECTORIES
-    if np.isnan(run.occupancy).any() and not of_path:
+    is_trajectory = export_format(target, kind) in TRAJECTORIES
+    if np.isnan(run.occupancy).any() and not (is_trajectory and run.trajectory is not None):
         raise _without_draws(run_file, run)
-    if run.posterior.scans.mount is None and settings.frame is None and export_format(target, kind) in TRAJECTORIES:
+    if run.posterior.scans.mount is None and settings.frame is None and is_trajectory:
         call.console.say(
             f"{run_file}: nothing in it says where the laser sits on the robot, as in runs of older versions: these "
             "are poses of the laser"
@@ -270,5 +268,5 @@ def export(call: Call[ExportSettings], run_file: str, output: str | None, force:
         target, format=kind, mode=settings.mode, occupied_thresh=settings.occupied_thresh,
         free_thresh=settings.free_thresh, frame=settings.frame,
     )  # fmt: skip
-    document = {"version": __version__, "run": run_file, "outputs": {path.name: str(path) for path in outputs}}
+    document = {"run": run_file, "outputs": {path.name: str(path) for path in outputs}}
     call.console.result(document, outputs)

@@ -11,11 +11,11 @@ import click
 
 from bayesmap.cli.command import FORCE, Call, command
 from bayesmap.cli.console import aligned, progress, share, write_out
+from bayesmap.cli.info import is_saved_run
 from bayesmap.cli.keys import Frame, ScoreSettings
-from bayesmap.cli.translation import heldout_scans, is_map, need_file, need_free, reading_of
+from bayesmap.cli.translation import heldout_scans, is_map, log_options_of, need_file, need_free
 from bayesmap.errors import BadInput
 from bayesmap.files import need_ending
-from bayesmap.version import __version__
 
 if TYPE_CHECKING:
     import numpy as np
@@ -31,10 +31,10 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
     from bayesmap.posterior.trajectory_scores import TrajectoryScore
 
-LITTLE_NATS, MUCH_NATS, MANY_STRAYS, VERDICT_M = 0.3, 1.0, 40.0, 3.0
-"""Thresholds of the verdict on a map. The gain over no map, in nats per beam, must reach the first number for agreement
-in part, and the second for agreement. Above the third number agreement is only in part: it is the per cent of beams
-that meet something before a wall at the last distance."""
+LITTLE_NATS = 0.3  # gain over no map, per beam, from which a map agrees with scans in part
+MUCH_NATS = 1.0  # gain over no map, per beam, from which it agrees
+MANY_STRAYS = 40.0  # per cent of beams that meet something before a wall at `VERDICT_M`: above, it agrees in part
+VERDICT_M = 3.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,7 +63,7 @@ def score_run(
     from bayesmap.result import load, score
 
     run, settings = load(path), call.settings()
-    mount = run.posterior.scans.mount if settings.laser is None else reading_of(settings)["laser"]
+    mount = run.posterior.scans.mount if settings.laser is None else log_options_of(settings)["laser"]
     trajectory = trajectory_of(run, run.posterior.scans).of(frame, mount)
     if poses_too and frame is None and mount is None:
         call.console.warn(
@@ -84,7 +84,7 @@ def score_run(
         return Scored([], [], 0, trajectory)
     call.console.say(f"scoring {len(heldout):,} scans of {log} that the run has not seen")
     with share(call.console, f"scoring the {_name(run)}") as report:
-        rows = [(_name(run), score(run, heldout, **_how(settings), on_progress=report))]
+        rows = [(_name(run), score(run, heldout, **_score_options(settings), on_progress=report))]
     fits = _score_classic_maps(call, run.posterior.scans, run.grid, heldout, rows) if compare else []
     return Scored(rows, fits, every, trajectory)
 
@@ -100,9 +100,9 @@ def score_others(call: Call[ScoreSettings], path: str, log: str | None, frame: s
             raise click.UsageError(f"give the LOG whose scans score {path}")
         placed = placed_scans(log, settings, frame)
         call.console.say(f"scoring every {settings.holdout}-th scan of {log}: {len(placed.heldout):,}")
-        fit, own = score_map(call, path, placed)
-        rows, grid = [(fit.name, own)], fit.predictor.grid
-        words = verdict(fit, own, placed)
+        fit, map_score = score_map(call, path, placed)
+        rows, grid = [(fit.name, map_score)], fit.predictor.grid
+        words = verdict(fit, map_score, placed)
     else:
         if log is not None:
             raise click.UsageError(f"{path}: neither a saved run (.nc) nor a map (.yaml)")
@@ -111,13 +111,13 @@ def score_others(call: Call[ScoreSettings], path: str, log: str | None, frame: s
         placed = placed_scans(path, settings, frame)
         run = infer_map(call, placed)
         with share(call.console, f"scoring the {_name(run)}") as report:
-            rows = [(_name(run), score(run, placed.heldout, **_how(settings), on_progress=report))]
+            rows = [(_name(run), score(run, placed.heldout, **_score_options(settings), on_progress=report))]
         grid = run.grid
     fits = _score_classic_maps(call, placed.train, grid, placed.heldout, rows) if compare else []
     return Scored(rows, fits, settings.holdout, placed.trajectory, words)
 
 
-def _how(settings: ScoreSettings) -> dict[str, Any]:
+def _score_options(settings: ScoreSettings) -> dict[str, Any]:
     return {"seed": settings.seed, "device": settings.device}
 
 
@@ -142,7 +142,7 @@ def _score_classic_maps(
         with share(call.console, f"fitting {baseline.name}") as report:
             fit = fit_baseline(baseline, train, grid, folds, report)
         with share(call.console, f"scoring {baseline.name}") as report:
-            scored = score_prediction(fit.predictor, heldout, **_how(call.settings()), on_progress=report)
+            scored = score_prediction(fit.predictor, heldout, **_score_options(call.settings()), on_progress=report)
         fits.append(fit)
         rows.append((fit.name, scored))
     return fits
@@ -165,7 +165,7 @@ def placed_scans(log: str, settings: ScoreSettings, frame: str | None) -> Placed
 
     if settings.holdout == 0:
         raise BadInput("score: --holdout 0 leaves nothing to score; the sensor is fitted on the other scans")
-    options = reading_of(settings)
+    options = log_options_of(settings)
     scans = read_log(log, **options)
     path = options["trajectory"] or Trajectory(scans.poses, scans.stamps_s, frame="laser")
     train, heldout = scans.holdout(settings.holdout)
@@ -183,10 +183,12 @@ def score_map(call: Call[ScoreSettings], path: str, placed: Placed) -> tuple[Fit
     with share(call.console, f"fitting a sensor to {name}") as report:
         fit = fit_external_map(name, occupancy, grid, placed.train, report)
     with share(call.console, f"scoring {name}") as report:
-        return fit, score_prediction(fit.predictor, placed.heldout, **_how(call.settings()), on_progress=report)
+        return fit, score_prediction(
+            fit.predictor, placed.heldout, **_score_options(call.settings()), on_progress=report
+        )
 
 
-def verdict(fit: Fitted, own: Score, placed: Placed) -> str:
+def verdict(fit: Fitted, score: Score, placed: Placed) -> str:
     """Return in words whether a map agrees with the held-out scans, by its gain over no map in nats per beam."""
     import numpy as np
 
@@ -196,11 +198,11 @@ def verdict(fit: Fitted, own: Score, placed: Placed) -> str:
     heldout, values = placed.heldout, fit.values
     law = readings_anywhere(placed.train)
     beams = max(1, int((~np.isnan(heldout.ranges_m)).sum()))
-    gain = own.nats_per_beam - log_anywhere(law, heldout.ranges_m, placed.train.max_range_m) / beams
+    gain = score.nats_per_beam - log_anywhere(law, heldout.ranges_m, placed.train.max_range_m) / beams
     # Scatter about a wall at `VERDICT_M`, and beams that meet something else before it, in per cent.
-    off_m = values["scale_m"] + values["scale_per_m"] * VERDICT_M
-    met = values["p_short"] * -math.expm1(-values["rate_short_per_m"] * VERDICT_M)
-    strays = 100 * (values["p_random"] + (1 - values["p_random"]) * met)
+    scatter_m = values["scale_m"] + values["scale_per_m"] * VERDICT_M
+    p_object = values["p_short"] * -math.expm1(-values["rate_short_per_m"] * VERDICT_M)
+    strays = 100 * (values["p_random"] + (1 - values["p_random"]) * p_object)
     if gain < LITTLE_NATS:
         says = "does not agree with these scans: another place, another frame or scale, or wrong poses"
     elif gain < MUCH_NATS or strays > MANY_STRAYS:
@@ -209,7 +211,7 @@ def verdict(fit: Fitted, own: Score, placed: Placed) -> str:
         says = "agrees with these scans"
     return (
         f"{fit.name} {says}. It tells {gain:.2f} nats a beam more than no map would; walls {VERDICT_M:g} m away are "
-        f"met to {100 * off_m:.0f} cm, and {strays:.0f} % of beams met something else before them."
+        f"met to {100 * scatter_m:.0f} cm, and {strays:.0f} % of beams met something else before them."
     )
 
 
@@ -274,12 +276,13 @@ def score(
     Every --holdout-th scan is scored, and the fit uses the others. Without --trajectory the command uses LOG's own
     poses. Without a map it infers one from the trajectory.
     """
-    of_run = _is_run(run_file)
+    # A missing file that is no map counts as a run.
+    of_run = is_saved_run(run_file) or not (is_map(run_file) or Path(run_file).exists())
     if frame is not None and relations is None:
         raise click.UsageError("--frame says whose --relations are known; give both")
     if picture is not None:
         need_ending(picture, ("png", "pdf", "svg"), "figure")  # check before minutes of computation
-        need_free([Path(picture), _beside(picture)], force, "--picture")
+        need_free([Path(picture), _poses_picture(picture)], force, "--picture")
     # Score the map.
     if of_run:
         if log is None and relations is None:
@@ -295,36 +298,29 @@ def score(
         from bayesmap.posterior.trajectory_scores import score_trajectory
 
         poses = score_trajectory(scored.trajectory, read_relations(relations), exact=exact)
-    # Draw and print.
-    outputs = {} if picture is None else {path.name: str(path) for path in _draw(picture, scored.rows, poses)}
-    whose = str(scored.trajectory.frame)
+    # Render and print.
+    outputs = {} if picture is None else {path.name: str(path) for path in _render(picture, scored.rows, poses)}
+    relations_frame = str(scored.trajectory.frame)
     if call.console.as_json:
-        about = None if poses is None else {"file": relations, "frame": whose, **poses.as_json()}
-        call.console.result(_document(run_file, log, scored, about, outputs), [])
+        poses_json = None if poses is None else {"file": relations, "frame": relations_frame, **poses.as_json()}
+        call.console.result(_document(run_file, log, scored, poses_json, outputs), [])
         return
     if scored.verdict is not None:
         write_out(f"{scored.verdict}\n")
     if scored.rows:
-        table = [HEADINGS, *(_cells(name, own) for name, own in scored.rows)]
+        table = [HEADINGS, *(_cells(name, score) for name, score in scored.rows)]
         write_out("".join(f"{line}\n" for line in aligned(table)))
     if poses is not None:
-        write_out("".join(f"{line}\n" for line in lines_of(poses, whose, exact=exact, of_run=of_run)))
+        write_out("".join(f"{line}\n" for line in lines_of(poses, relations_frame, exact=exact, of_run=of_run)))
 
 
-def _is_run(path: str) -> bool:
-    """Return whether a path is a saved run. A missing file that is no map counts as one."""
-    from bayesmap.cli.info import is_saved_run
-
-    return is_saved_run(path) or not (is_map(path) or Path(path).exists())
-
-
-def _beside(picture: str) -> Path:
+def _poses_picture(picture: str) -> Path:
     """Return the path of the picture of poses beside that of beams."""
     return Path(picture).with_stem(f"{Path(picture).stem}-poses")
 
 
-def _draw(picture: str, rows: list[tuple[str, Score]], poses: TrajectoryScore | None) -> list[Path]:
-    """Draw calibration and pose errors, and return the paths. With both, the errors go to NAME-poses.png."""
+def _render(picture: str, rows: list[tuple[str, Score]], poses: TrajectoryScore | None) -> list[Path]:
+    """Render calibration and pose errors, and return the paths. With both, the errors go to NAME-poses.png."""
     from bayesmap.viz.figure import write_figure
     from bayesmap.viz.scores import calibration_figure, errors_figure
 
@@ -333,7 +329,7 @@ def _draw(picture: str, rows: list[tuple[str, Score]], poses: TrajectoryScore | 
         write_figure(calibration_figure(rows), target)
         written.append(target)
     if poses is not None:
-        written.append(_beside(picture) if rows else target)
+        written.append(_poses_picture(picture) if rows else target)
         write_figure(errors_figure(poses), written[-1])
     return written
 
@@ -344,15 +340,14 @@ def _document(
     baselines = []
     for (name, score), fit in zip(scored.rows[1:], scored.fits, strict=True):
         fitted = {key: float(value) for key, value in fit.values.items()}
-        more = {"fitted": fitted, "inner_nats_per_beam": fit.inner_nats_per_beam}
-        baselines.append({"map": name, **score.as_json(), **more})
-    document: dict[str, Any] = {"version": __version__, "run": path, "log": log}
+        inner = {"fitted": fitted, "inner_nats_per_beam": fit.inner_nats_per_beam}
+        baselines.append({"map": name, **score.as_json(), **inner})
+    document: dict[str, Any] = {"run": path, "log": log}
     if scored.rows:
-        name, own = scored.rows[0]
-        document["heldout"] = {
-            "every": scored.every or None, "scans": own.scans, "beams": own.beams, "nats_per_beam": own.nats_per_beam,
-        }  # fmt: skip
-        document["score"] = {"map": name, **own.as_json()}
+        name, score = scored.rows[0]
+        counts = {"scans": score.scans, "beams": score.beams, "nats_per_beam": score.nats_per_beam}
+        document["heldout"] = {"every": scored.every or None, **counts}
+        document["score"] = {"map": name, **score.as_json()}
     if scored.verdict is not None:
         document["verdict"] = scored.verdict
     return {**document, "baselines": baselines or None, "relations": poses, "outputs": outputs}
@@ -385,10 +380,10 @@ def lines_of(score: TrajectoryScore, frame: str, *, exact: bool, of_run: bool) -
         f"median {figures['rotation_deg_median']:.3f}",
     ]
     if figures["coverage"] is not None:
-        held = ", ".join(f"{100 * c['share']:.1f} of {100 * c['level']:g}" for c in figures["coverage"])
+        shares = ", ".join(f"{100 * c['share']:.1f} of {100 * c['level']:g}" for c in figures["coverage"])
         nees = figures["nees"]
         lines.append(
-            f"regions      hold {held} %, if relations are exact; "
+            f"regions      hold {shares} %, if relations are exact; "
             f"NEES {nees['mean']:.2f}, median {nees['median']:.2f} (3 is right)"
         )
         lines += [f"by           {score.known_by}"] if score.known_by else []

@@ -10,20 +10,12 @@ from typing import TYPE_CHECKING, Any
 import click
 import msgspec
 
+from bayesmap.cli import translation
 from bayesmap.cli.command import FORCE, Call, command
+from bayesmap.cli.folder import grid_document
 from bayesmap.cli.keys import SimulateSettings
-from bayesmap.cli.translation import (
-    MAPS,
-    ODOMETRY_HELP,
-    SENSOR_HELP,
-    is_map,
-    need_free,
-    odometry_of,
-    pose_of,
-    sensor_of,
-)
+from bayesmap.cli.translation import MAPS, is_map, need_free, odometry_of, pose_of, sensor_of
 from bayesmap.errors import BadInput
-from bayesmap.version import __version__
 
 if TYPE_CHECKING:
     import numpy as np
@@ -34,9 +26,7 @@ if TYPE_CHECKING:
 
 TURN_RAD_PER_S = 1.0  # turning rate of a simulated robot, used for the time stamps
 
-RARE = 1e-5
-"""Probability of a random reading of a simulated laser. It is small, since one far reading makes the map larger."""
-
+P_RANDOM = 1e-5  # probability of a random reading: it is small, since one far reading makes the map larger
 RATE_HZ = 10.0  # scans a second of a recording
 START_S = 1.7e9  # time stamp of its first scan
 
@@ -73,7 +63,7 @@ def simulate(call: Call[SimulateSettings], output: str | None, poses: tuple[str,
     {sensors}
     """
     settings = call.settings()
-    # Check what was typed.
+    # Check the arguments.
     recorded = settings.format == "mcap" if output is None else Path(output).suffix == ".mcap"
     if output is not None and settings.format not in (None, "mcap" if recorded else "carmen"):
         raise click.UsageError(f"-o {output}: the name of a log of --format {settings.format} ends differently")
@@ -94,12 +84,11 @@ def simulate(call: Call[SimulateSettings], output: str | None, poses: tuple[str,
     stem = log.name.removesuffix(".gz").removesuffix(".log").removesuffix(".mcap")
     truth, relations = log.with_name(f"{stem}-truth.yaml"), log.with_name(f"{stem}.relations")
     trajectory = truth.with_suffix(".tum")
-    written = [log, truth, truth.with_suffix(".pgm"), *([] if noise is None else [trajectory, relations])]
-    need_free(written, force)
-    typed_sensor = sensor_of(settings.sensor)
+    need_free([log, truth, truth.with_suffix(".pgm"), *([] if noise is None else [trajectory, relations])], force)
+    sensor = sensor_of(settings.sensor)
     # Make the world and the sensor.
     world = world_of(settings, poses, minutes)
-    sensor = world.sensor() if typed_sensor is None else typed_sensor
+    sensor = world.sensor() if sensor is None else sensor
     max_range_m = world.max_range_m if settings.max_range is None else settings.max_range
 
     import numpy as np
@@ -113,10 +102,8 @@ def simulate(call: Call[SimulateSettings], output: str | None, poses: tuple[str,
     from bayesmap.space.planar import compose
     from bayesmap.space.scans import fan
 
-    angles = fan(
-        world.beams if settings.angles is None else settings.angles,
-        world.fov_deg if settings.fov is None else settings.fov,
-    )
+    n_beams = world.beams if settings.angles is None else settings.angles
+    angles = fan(n_beams, world.fov_deg if settings.fov is None else settings.fov)
     # Draw the scans.
     base = world.poses
     laser = compose(base, np.array(mount)) if any(mount) else base
@@ -147,15 +134,14 @@ def simulate(call: Call[SimulateSettings], output: str | None, poses: tuple[str,
     # Print the result.
     grid = world.grid
     document = {
-        "version": __version__, "world": settings.world,
-        "grid": {"shape": list(grid.shape), "resolution": grid.resolution, "origin": list(grid.origin)},
-        "scans": len(scans), "beams": scans.n_beams, "readings": scans.counts(), "message": message,
+        "world": settings.world, "grid": grid_document(grid), "scans": len(scans), "beams": scans.n_beams,
+        "readings": scans.counts(), "message": message,
         "max_range_m": max_range_m, "sensor": describe(sensor), "odometry": None if noise is None else asdict(noise),
         "laser": list(mount), "seed": settings.seed, "outputs": {path.name: str(path) for path in outputs},
     }  # fmt: skip
-    poses_are = "true poses" if noise is None else "raw odometry"
+    poses_kind = "true poses" if noise is None else "raw odometry"
     call.console.say(
-        f"{log}: {len(scans):,} scans of {len(angles)} beams ({message}, {poses_are}) in {settings.world}, "
+        f"{log}: {len(scans):,} scans of {len(angles)} beams ({message}, {poses_kind}) in {settings.world}, "
         f"{grid.shape[0]} x {grid.shape[1]} cells of {grid.resolution:g} m"
     )
     call.console.result(document, outputs)
@@ -171,8 +157,8 @@ def _write_truth(
     outputs = [write_trajectory(trajectory, base, stamps_s, "base")]
     start, end = related_pairs(base, seed)
     if len(start):
-        true = between(base[start], base[end])
-        outputs.append(write_relations(relations, stamps_s[start], stamps_s[end], true))
+        relative = between(base[start], base[end])
+        outputs.append(write_relations(relations, stamps_s[start], stamps_s[end], relative))
     return outputs
 
 
@@ -196,8 +182,8 @@ class World:
         from bayesmap.sensors.builtin import BeamMixture, Gaussian
 
         if self.is_tutorial:
-            return BeamMixture(Gaussian(0.2), p_random=RARE, p_no_return=0.0, p_short=0.0)
-        return BeamMixture(Gaussian(LASER_SIGMA_M, LASER_SIGMA_PER_M), p_random=RARE)
+            return BeamMixture(Gaussian(0.2), p_random=P_RANDOM, p_no_return=0.0, p_short=0.0)
+        return BeamMixture(Gaussian(LASER_SIGMA_M, LASER_SIGMA_PER_M), p_random=P_RANDOM)
 
 
 def world_of(settings: SimulateSettings, poses: Sequence[str], minutes: float | None = None) -> World:
@@ -209,44 +195,42 @@ def world_of(settings: SimulateSettings, poses: Sequence[str], minutes: float | 
     import numpy as np
 
     name, resolution = settings.world or "tutorial", settings.resolution
-    typed = np.array([pose_of(text) for text in poses]) if poses else None
+    typed_poses = np.array([pose_of(text) for text in poses]) if poses else None
     if name == "tutorial":
-        return _tutorial(resolution, typed)
+        return _tutorial(resolution, typed_poses)
     if name == "building":
-        return _building(settings, typed, minutes)
+        return _building(settings, typed_poses, minutes)
     path = Path(name)
     if not path.is_file():
         raise BadInput(f"world {name!r}: no such file; give tutorial, building, a drawing, picture or map_server YAML")
-    if typed is None:
+    if typed_poses is None:
         raise click.UsageError(f"where is the robot in {name}? give --pose X,Y,DEGREES, once for each scan")
-    return World(*_from_file(path, resolution), typed)
+    return World(*_from_file(path, resolution), typed_poses)
 
 
-def _tutorial(resolution: float | None, typed: NDArray[np.float64] | None) -> World:
+def _tutorial(resolution: float | None, typed_poses: NDArray[np.float64] | None) -> World:
     from bayesmap.sim.drawing import TUTORIAL_GRID, tutorial
     from bayesmap.space.grid import Grid
 
     walls, pose = tutorial()
-    poses = pose[None] if typed is None else typed
-    grid = TUTORIAL_GRID
+    grid, poses = TUTORIAL_GRID, pose[None]
     if resolution is not None and resolution != grid.resolution:
         grid = Grid(grid.shape, resolution, (-resolution / 2, -resolution / 2))
-        poses = poses * (resolution, resolution, 1.0) if typed is None else poses
+        poses = poses * (resolution, resolution, 1.0)
+    poses = poses if typed_poses is None else typed_poses
     return World(walls, grid, poses, is_tutorial=True, beams=100, fov_deg=360.0, max_range_m=42.0)
 
 
-def _building(settings: SimulateSettings, typed: NDArray[np.float64] | None, minutes: float | None) -> World:
+def _building(settings: SimulateSettings, typed_poses: NDArray[np.float64] | None, minutes: float | None) -> World:
     from bayesmap.sim.building import building
     from bayesmap.sim.robot import drive, patrol
 
     plan, stamps_s = building(settings.seed, _size(settings.size), settings.resolution or 0.1), None
     if minutes is not None:
-        stamps_s, poses = drive(
-            plan, 60.0 * minutes, RATE_HZ,
-            speed_m_per_s=settings.speed, turn_rad_per_s=TURN_RAD_PER_S, seed=settings.seed,
-        )  # fmt: skip
+        speeds = {"speed_m_per_s": settings.speed, "turn_rad_per_s": TURN_RAD_PER_S}
+        stamps_s, poses = drive(plan, 60.0 * minutes, RATE_HZ, **speeds, seed=settings.seed)
     else:
-        poses = patrol(plan, settings.scans, settings.seed) if typed is None else typed
+        poses = patrol(plan, settings.scans, settings.seed) if typed_poses is None else typed_poses
     return World(plan.walls, plan.grid, poses, stamps_s, plan.opacity)
 
 
@@ -282,4 +266,4 @@ def _size(text: str) -> tuple[float, float]:
     return width, depth
 
 
-simulate.help = (simulate.help or "").format(sensors=SENSOR_HELP, odometry=ODOMETRY_HELP)
+simulate.help = (simulate.help or "").format(sensors=translation.SENSOR_HELP, odometry=translation.ODOMETRY_HELP)

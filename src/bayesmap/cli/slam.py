@@ -16,6 +16,7 @@ from bayesmap.cli.console import Console, progress
 from bayesmap.cli.folder import Folder
 from bayesmap.cli.keys import SlamSettings
 from bayesmap.cli.pipeline import Task
+from bayesmap.errors import BadInput
 from bayesmap.samplers.progress import Event
 
 if TYPE_CHECKING:
@@ -26,9 +27,11 @@ if TYPE_CHECKING:
     from bayesmap.poses.trajectory import Trajectory
     from bayesmap.result import Run
     from bayesmap.space.grid import Grid
+    from bayesmap.space.scans import Scans
 
 MANY_SCANS = 500  # scans from which the next command to score a trajectory takes one each 0.3 m
-SHOWN = 3  # number of doubtful stretches of odometry that are listed
+STAGES = "stages"  # folder of the finished stages of the trajectory, in the folder of the run
+LISTED_STRETCHES = 3  # number of doubtful stretches of odometry that are listed
 ALTERNATIVES_SHOWN = 5  # number of alternatives to the trajectory that are described
 
 
@@ -60,76 +63,70 @@ def slam(call: Call[SlamSettings], log: str, output: str | None, resume: bool, f
         raise click.UsageError("--resume goes on with a run and --force replaces it: give one of them")
     if call.settings().fast and call.settings().sample_poses:
         raise click.UsageError("--fast takes poses as known and --sample-poses samples them: give one of them")
-    # Check what was typed.
+    # Check the arguments.
     folder = Path(output) if output else Path("runs") / pipeline.stem(log)
     task = pipeline.prepare(call, log, folder, resume=resume, force=force)
     resume_command = shlex.join(["bayesmap", "slam", log, "-o", str(folder), "--resume"])
     # Read the log.
-    reading = pipeline.read(call.console, log, task.settings, without_poses=task.settings.no_odometry)
-    _check(call.console, reading, task.settings)
+    scan_log = pipeline.read(call.console, log, task.settings, without_poses=task.settings.no_odometry)
+    _check(call.console, scan_log, task.settings)
     # Load the run to resume.
     saved = pipeline.load_interrupted(task.folder) if task.folder.resuming else None
     if not task.folder.resuming:
-        estimate = pipeline.cost_of_slam(task.settings, reading.scans)
+        estimate = pipeline.cost_of_slam(task.settings, scan_log.scans)
         pipeline.announce(call.console, estimate)
         if estimate is not None and not task.settings.any_size:
-            estimate.refuse(reading.scans)
+            estimate.refuse(scan_log.scans)
     if force:
-        shutil.rmtree(_stages(task.folder), ignore_errors=True)
-    files = TrajectoryFiles(task.folder, reading, task.settings.resolution, _frame(reading, task.settings))
+        shutil.rmtree(folder / STAGES, ignore_errors=True)
+    from bayesmap.space.trajectory import step_to
+
+    # The frame of the trajectory; the base is refused if nothing says where the laser sits on it.
+    frame, _ = step_to(task.settings.frame, scan_log.scans.mount, "laser")
+    files = TrajectoryFiles(task.folder, scan_log, task.settings.resolution, frame)
     try:
         # Infer trajectory and map, with checkpoints. The trajectory is written before the chains of the map begin.
-        run = _slam(task, reading, saved, files)
+        run = _slam(task, scan_log.scans, saved, files)
         # After Ctrl-C: leave the folder so that the run can go on.
         if not run.finished:
-            document = pipeline.keep_interrupted(task.folder, run, reading, resume_command, files.written)
+            document = pipeline.keep_interrupted(task.folder, run, scan_log, resume_command, files.written)
             files.write()  # if an older run has just been replaced
             if run.n_draws > 0:
-                files.draw(run)
+                files.render(run)
             document["outputs"] |= {path.name: str(path) for path in files.written}
             pipeline.print_result(call, document, strict=task.settings.strict)
-        # Finish: save the run, draw it, export it.
+        # Finish: save the run, render it, export it.
         outputs = [*task.folder.write_products(run), *files.finish(run)]
     except KeyboardInterrupt:
         if task.folder.begun or resume:
             call.console.say(f"the stages that are done are kept; go on with:\n  {resume_command}")
         raise
     outputs += [folder / "summary.json", task.folder.config_path]
-    document = {**pipeline.document_of(run, reading, None, outputs), "trajectory": summary(run, files.frame)}
+    trajectory = summary(run, files.frame)
+    document = {**pipeline.document_of(run, scan_log, None, outputs), "trajectory": trajectory}
     task.folder.write_document(document)
     # Report.
-    told, file = document["trajectory"], str(task.folder.run_path)
-    thin = ["--thin-scans", "0.3"] if len(reading.scans) > MANY_SCANS else []  # score makes a map of its own
+    file = str(task.folder.run_path)
+    thin = ["--thin-scans", "0.3"] if len(scan_log.scans) > MANY_SCANS else []  # score makes a map of its own
     score = ["score", log, "--trajectory", str(folder / "trajectory.tum"), *thin]
     commands = [["app", file], score, ["explore", file]]
-    pipeline.report(call.console, document, good=_good(told), doubtful=_doubtful(told), commands=commands)
+    pipeline.report(call.console, document, good=_good(trajectory), doubtful=_doubtful(trajectory), commands=commands)
     pipeline.print_result(call, document, strict=task.settings.strict)
 
 
-def _stages(folder: Folder) -> Path:
-    return folder.path / "stages"
-
-
-def _frame(reading: LogReading, settings: SlamSettings) -> str:
-    """Return the frame of the trajectory; refuse the base if nothing says where the laser sits on it."""
-    from bayesmap.space.trajectory import step_to
-
-    return step_to(settings.frame, reading.scans.mount, "laser")[0]
-
-
-def _check(console: Console, reading: LogReading, settings: SlamSettings) -> None:
+def _check(console: Console, log: LogReading, settings: SlamSettings) -> None:
     """Refuse scans that cannot be inferred, before an older run is changed, and warn of doubtful odometry."""
     from bayesmap.poses.log_checks import check_scans, doubts
 
-    check_scans(reading.scans, settings.no_odometry)
-    found = doubts(reading.scans, settings.no_odometry)
-    for doubt in found[:SHOWN]:
-        console.warn(doubt)
-    if len(found) > SHOWN:
-        console.warn(f"odometry stands still like that in {len(found) - SHOWN:,} more stretches")
+    check_scans(log.scans, settings.no_odometry)
+    warnings = doubts(log.scans, settings.no_odometry)
+    for warning in warnings[:LISTED_STRETCHES]:
+        console.warn(warning)
+    if len(warnings) > LISTED_STRETCHES:
+        console.warn(f"odometry stands still like that in {len(warnings) - LISTED_STRETCHES:,} more stretches")
 
 
-def _slam(task: Task[SlamSettings], reading: LogReading, saved: Run | None, files: TrajectoryFiles) -> Run:
+def _slam(task: Task[SlamSettings], scans: Scans, saved: Run | None, files: TrajectoryFiles) -> Run:
     from bayesmap.api import slam
     from bayesmap.arguments import Checkpoints, Where
 
@@ -150,14 +147,14 @@ def _slam(task: Task[SlamSettings], reading: LogReading, saved: Run | None, file
 
         def on_preview(run: Run) -> None:
             folder.preview(run)
-            files.draw(run)
+            files.render(run)
 
         if saved is None:
             # Save the settings before the first stage: they are needed to resume the finished stages.
             folder.begin(toml)
-        stages, every_s = _stages(folder), settings.checkpoint_every
+        stages, every_s = folder.path / STAGES, settings.checkpoint_every
         run = slam(
-            reading.scans, resolution=settings.resolution, prior=translation.prior_of(settings),
+            scans, resolution=settings.resolution, prior=translation.prior_of(settings),
             sensor=translation.sensor_for(settings, settings.resolution),
             fast=True if settings.fast else False if settings.sample_poses else None, no_odometry=settings.no_odometry,
             schedule=translation.schedule_of(settings), seed=settings.seed, hit_depth=settings.hit_depth,
@@ -175,7 +172,7 @@ class TrajectoryFiles:
     """The trajectory of all scans in the folder, written once it is known and no older run is in it."""
 
     folder: Folder
-    reading: LogReading
+    log: LogReading
     resolution: float
     frame: str  # frame on the robot whose poses are written
     written: list[Path] = field(default_factory=list)
@@ -186,8 +183,6 @@ class TrajectoryFiles:
         self._trajectory = self._trajectory if trajectory is None else trajectory
         if self.written or self._trajectory is None or not self.folder.begun or self.folder.outdated_path.exists():
             return
-        from bayesmap.errors import BadInput
-
         try:
             self.written = self._write(self._trajectory)
         except (OSError, BadInput) as error:
@@ -196,24 +191,23 @@ class TrajectoryFiles:
             self.folder.console.say(f"the trajectory of the {self.frame}, at all scans: {self.written[0]}")
 
     def finish(self, run: Run) -> list[Path]:
-        """Write all files that are not written yet, and draw the trajectory on the map of the run."""
+        """Write all files that are not written yet, and render the trajectory on the map of the run."""
         assert self._trajectory is not None
         self.written = self.written or self._write(self._trajectory)
-        self.draw(run)
+        self.render(run)
         return self.written
 
-    def draw(self, run: Run) -> None:
-        """Draw the trajectory on the map of a run, if its files are written."""
+    def render(self, run: Run) -> None:
+        """Render the trajectory on the map of a run, if its files are written."""
         if self.written and self._trajectory is not None:
-            self._draw(self._trajectory, run.grid, run.occupancy, run.observed)
+            self._render(self._trajectory, run.grid, run.occupancy, run.observed)
 
-    def _draw(self, trajectory: Trajectory, grid: Grid, occupancy: NDArray[Any], observed: NDArray[np.bool_]) -> None:
+    def _render(self, trajectory: Trajectory, grid: Grid, occupancy: NDArray[Any], observed: NDArray[np.bool_]) -> None:
         from bayesmap.viz.figure import write_figure
         from bayesmap.viz.trajectory import trajectory_figure
 
-        figure = trajectory_figure(
-            grid, occupancy, observed, trajectory.poses, trajectory.covariances(), trajectory.flagged
-        )
+        poses, covariances = trajectory.poses, trajectory.covariances()
+        figure = trajectory_figure(grid, occupancy, observed, poses, covariances, trajectory.flagged)
         write_figure(figure, self.folder.path / "trajectory.png")
 
     def _write(self, trajectory: Trajectory) -> list[Path]:
@@ -229,28 +223,22 @@ class TrajectoryFiles:
 
         # Write the text files.
         path, closures = self.folder.path, trajectory.closures
-        moved = approximated(trajectory).of(self.frame, self.reading.scans.mount)
+        moved = approximated(trajectory).of(self.frame, self.log.scans.mount)
         texts = export_trajectory(path / "trajectory.tum", moved)
-        # Draw the trajectory.
-        scans = calibrated_keys(self.reading.scans, trajectory)
+        # Render the trajectory.
+        scans = calibrated_keys(self.log.scans, trajectory)
         grid = Grid.covering(scans, self.resolution)
         hit = np.zeros(grid.shape, np.bool_)
         hit[tuple(np.floor(grid.to_cells(scans.hit_points_world())).astype(np.intp).T)] = True
-        self._draw(trajectory, grid, hit.astype(float), hit)
-        # Draw odometry and loop closures.
-        others = [
-            (trajectory.alternative_poses(n), float(p)) for n, p in enumerate(trajectory.alternatives.probabilities)
-        ]
-        pictures = {
-            "loops.png": loops_figure(
-                trajectory.poses, closures.first, closures.second, closures.residuals, closures.weights, others
-            )
-        }
-        if self.reading.posed:
-            raw = self.reading.scans.poses[trajectory.order]
-            pictures["odometry.png"] = odometry_figure(
-                compose(trajectory.poses[0], between(raw[0], raw)), trajectory.poses
-            )
+        self._render(trajectory, grid, hit.astype(float), hit)
+        # Render odometry and loop closures.
+        poses, probabilities = trajectory.poses, trajectory.alternatives.probabilities
+        others = [(trajectory.alternative_poses(n), float(p)) for n, p in enumerate(probabilities)]
+        ends = closures.first, closures.second
+        pictures = {"loops.png": loops_figure(poses, *ends, closures.residuals, closures.weights, others)}
+        if self.log.posed:
+            raw = self.log.scans.poses[trajectory.order]
+            pictures["odometry.png"] = odometry_figure(compose(poses[0], between(raw[0], raw)), poses)
         for name, figure in pictures.items():
             write_figure(figure, path / name)
         return [*texts, *(path / name for name in ("trajectory.png", *pictures))]
@@ -264,7 +252,7 @@ def summary(run: Run, frame: str) -> dict[str, Any]:
     assert trajectory is not None
     sigma_m = np.sqrt(np.linalg.eigvalsh(trajectory.covariances()[:, :2, :2])[:, 1])
     fit = trajectory.calibration.odometry
-    out: dict[str, Any] = {
+    document: dict[str, Any] = {
         "frame": frame, "scans": len(trajectory), "key_scans": len(trajectory.keys),
         "map": {"scans": len(run.posterior.scans), "beams": run.posterior.scans.ranges_m.size},
         "loop_closures": int((trajectory.closures.weights > 0.5).sum()),
@@ -278,13 +266,13 @@ def summary(run: Run, frame: str) -> dict[str, Any]:
     if run.posterior.draws.count and run.posterior.settings["poses"]["kind"] != "known":
         poses = run.pose_summary()
         # With few draws a chain may never move a pose; that pose has no R-hat.
-        out["sampled"] = {
+        document["sampled"] = {
             "sigma_m": float(np.median(poses.sigma_m)), "sigma_rad": float(np.median(poses.sigma_rad)),
             "by_approximation": poses.by_approximation, "ess_min": poses.ess_min,
             "rhat_max": float(poses.rhat[np.isfinite(poses.rhat)].max(initial=1.0)),
             "unmoved": int((~np.isfinite(poses.rhat)).any(axis=-1).sum()),
         }  # fmt: skip
-    return out
+    return document
 
 
 def _alternative(trajectory: Trajectory, number: int) -> dict[str, Any]:
@@ -292,16 +280,12 @@ def _alternative(trajectory: Trajectory, number: int) -> dict[str, Any]:
 
     from bayesmap.space.planar import between
 
-    other, first, last = (
-        trajectory.alternatives,
-        trajectory.alternatives.first[number],
-        trajectory.alternatives.last[number],
-    )
-    there = trajectory.alternative_poses(number)
-    off = between(between(trajectory.poses[first], trajectory.poses[last]), between(there[first], there[last]))
+    alternatives, poses = trajectory.alternatives, trajectory.alternative_poses(number)
+    first, last = alternatives.first[number], alternatives.last[number]
+    offset = between(between(trajectory.poses[first], trajectory.poses[last]), between(poses[first], poses[last]))
     return {
-        "first": int(first), "last": int(last), "probability": float(other.probabilities[number]),
-        "off_m": float(np.hypot(off[0], off[1])), "off_degrees": float(np.degrees(np.abs(off[2]))),
+        "first": int(first), "last": int(last), "probability": float(alternatives.probabilities[number]),
+        "off_m": float(np.hypot(offset[0], offset[1])), "off_degrees": float(np.degrees(np.abs(offset[2]))),
     }  # fmt: skip
 
 

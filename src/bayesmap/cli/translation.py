@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeVar
 import click
 import msgspec
 
-from bayesmap.cli.keys import InferSettings, ReadingSettings, SamplingSettings
+from bayesmap.cli.keys import InferSettings, LogSettings, SamplingSettings
 from bayesmap.errors import BadInput
 from bayesmap.files import run_in
 
@@ -139,8 +139,6 @@ S = TypeVar("S", bound=SamplingSettings)
 
 BINARY_DRAWS = 100  # default number of draws per chain over binary walls
 
-THREADS, RAY = "threads", "ray"
-
 
 def completed(settings: S) -> S:
     """Fill in the hit depth; raise `BadInput` for settings that the cells do not have, or a bad sensor."""
@@ -217,9 +215,9 @@ def sensor_for(settings: SamplingSettings, resolution_m: float) -> SensorModel |
 
 def ray_address(executor: str) -> tuple[bool, str | None]:
     """Return whether chains run on Ray, and its address, or raise `BadInput`; None lets Ray find a cluster."""
-    if executor == THREADS:
+    if executor == "threads":
         return False, None
-    if executor == RAY:
+    if executor == "ray":
         return True, None
     if executor.startswith("ray://") and executor != "ray://":
         return True, executor
@@ -236,7 +234,7 @@ def executor_of(executor: str) -> Executor | None:
     return None
 
 
-def reading_of(settings: ReadingSettings) -> dict[str, Any]:
+def log_options_of(settings: LogSettings) -> dict[str, Any]:
     """Return the arguments of `bayesmap.read_log`."""
     names = ("no_return", "skip_bad_lines", "scan_topic", "pose_topic", "fixed_frame", "deskew")
     trajectory = None
@@ -246,12 +244,9 @@ def reading_of(settings: ReadingSettings) -> dict[str, Any]:
         trajectory = read_trajectory(settings.trajectory, settings.trajectory_frame)
     elif settings.trajectory_frame is not None:
         raise click.UsageError("--trajectory-frame is the frame of --trajectory: give both")
-    return {
-        "trajectory": trajectory,
-        **{name: getattr(settings, name) for name in names},
-        "thin_m": settings.thin_scans,
-        "laser": None if settings.laser is None else pose_of(settings.laser, "--laser"),
-    }
+    laser = None if settings.laser is None else pose_of(settings.laser, "--laser")
+    options = {name: getattr(settings, name) for name in names}
+    return {**options, "trajectory": trajectory, "thin_m": settings.thin_scans, "laser": laser}
 
 
 RECORDED = (".db3", ".mcap", ".zstd")  # file endings of a ROS 2 bag
@@ -316,7 +311,7 @@ def _is_recording(folder: Path) -> bool:
     return (folder / "metadata.yaml").exists() or recorded == 1
 
 
-def heldout_scans(run: Run, log: str, settings: ReadingSettings, every: int) -> Scans:
+def heldout_scans(run: Run, log: str, settings: LogSettings, every: int) -> Scans:
     """Return the scans of a log that a run has not seen, read with the run's largest range.
 
     If ``every`` is 0, the log is another one of the same place. Otherwise it is the run's own log, and the run held out
@@ -328,10 +323,10 @@ def heldout_scans(run: Run, log: str, settings: ReadingSettings, every: int) -> 
     from bayesmap.io.logs import read_log
     from bayesmap.posterior.heldout import moved_by, unseen_scans
 
-    train, options = run.posterior.scans, reading_of(settings)
+    train, options = run.posterior.scans, log_options_of(settings)
     laser = options.pop("laser")
-    needed = laser if settings.trajectory is not None else None
-    scans = read_log(log, max_range_m=train.max_range_m, laser=needed, **options)
+    first_laser = laser if settings.trajectory is not None else None
+    scans = read_log(log, max_range_m=train.max_range_m, laser=first_laser, **options)
     if laser is not None and moved_by(train, scans):
         scans = read_log(log, max_range_m=train.max_range_m, laser=laser, **options)  # as infer --laser read them
     return unseen_scans(train, scans, every, log)

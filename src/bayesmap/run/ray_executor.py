@@ -198,9 +198,8 @@ class RayExecutor:
     ) -> Chains:  # fmt: skip
         """Run all chains of the job. If stopped early, they end at the last mark that all chains have reached.
 
-        Raises:
-            BadInput: the sampler refuses the model, Ray is not installed, or the cluster cannot be used.
-            ConnectionError: the workers of a task died more than ``retries`` times.
+        Raises `BadInput` if the sampler refuses the model, Ray is not installed, or the cluster cannot be used, and
+        `ConnectionError` if the workers of a task died more than ``retries`` times.
         """
         ray = connect(self.address)
         try:
