@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import math
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -19,32 +20,25 @@ from bayesmap.model import Model
 from bayesmap.samplers.sampler import Info, Keep, Snapshot
 from bayesmap.sensors.model import RangeLimits
 
-PRECISION = 0.03
-"""Default error of the mean map at which chains stop. On a grey map an error of 0.1 is visible. An error of
-0.03 is not."""
+PRECISION = 0.03  # default error of the mean map at which chains stop: an error of 0.1 is visible on a grey map
 FIRST_MARK = 10  # draws per chain at the first estimate of the map's error
 MIN_DRAWS_PER_CHAIN = 2  # fewest draws per chain if the time ends a run
 MAX_WARMUP_SHARE = 0.4  # largest share of a limited time that warm-up may take
-MIN_BATCHES = 8  # Fewest batches of an estimate. With one batch per chain, and few chains, estimates scatter widely.
-KNOWN_SHARE = 0.99
-"""Share of the observed cells whose error is at most the reported error. The worst cell alone is uninformative."""
+MIN_BATCHES = 8  # fewest batches of an estimate: with one batch per chain, and few chains, estimates scatter widely
+KNOWN_SHARE = 0.99  # share of the observed cells whose error is at most the reported error
 CELLS_AT_ONCE = 8192  # per batch of `map_error`
 DENSITIES = ("log_likelihood", "log_prior", "warmup_log_joint")
 
 
 @dataclass(frozen=True)
 class SweepPlan:
-    """The plan of a chain's sweeps.
-
-    Chains stop early at a Monte Carlo error of ``precision``, see `map_error`, and after ``seconds``, once each has
-    `MIN_DRAWS_PER_CHAIN`; not if they are None.
-    """
+    """The plan of a chain's sweeps."""
 
     warmup: int  # number of sweeps before the first draw
     draws: int  # most draws per chain
     thin: int = 1  # sweeps from one draw to the next
-    precision: float | None = None
-    seconds: float | None = None
+    precision: float | None = None  # chains stop at this `map_error`; None: no limit
+    seconds: float | None = None  # chains stop after this time, once each has `MIN_DRAWS_PER_CHAIN`; None: no limit
 
     @property
     def sweeps(self) -> int:
@@ -71,18 +65,14 @@ class SweepPlan:
 
 
 class EndRule:
-    """Decides when chains may end before all their draws: when the map is known, or when the time is over.
-
-    ``reached`` tells if they may end. ``error`` is the latest `map_error`; None before the first mark.
-    """
+    """Decides when chains may end before all their draws: when the map is known, or when the time is over."""
 
     def __init__(self, plan: SweepPlan, error_of_map: Callable[[], float]) -> None:
         """Start the clock. ``error_of_map`` estimates the error of the map from all draws so far."""
         self._plan, self._error_of_map, self._began = plan, error_of_map, time.monotonic()
-        # Before the first estimate chains are expected to stop there.
-        self.reached = False
-        self._expected = next(iter(plan.marks), plan.sweeps)
-        self.error: float | None = None
+        self.reached = False  # whether the chains may end
+        self._expected = next(iter(plan.marks), plan.sweeps)  # number of sweeps at the expected end
+        self.error: float | None = None  # the latest `map_error`; None before the first mark
 
     def check(self, sweep: int) -> None:
         """Update the decision after a number of sweeps."""
@@ -150,29 +140,26 @@ def map_error(cells: CellPrior, draws: Draws, observed: NDArray[np.bool_]) -> fl
     draws per batch, and 0 without observed cells.
     """
     # The first draws are left out if batches of equal length do not cover all.
-    batches = -(-MIN_BATCHES // draws.chains)
+    batches = math.ceil(MIN_BATCHES / draws.chains)
     length = draws.count // batches
     if length < 2:
         return float("inf")
-    which = np.flatnonzero(observed.ravel())
-    errors = np.zeros(len(which))
-    for i in range(0, len(which), CELLS_AT_ONCE):
-        values = cells.expected_traces(draws, which[i : i + CELLS_AT_ONCE])[:, draws.count - batches * length :]
+    indices = np.flatnonzero(observed.ravel())
+    errors = np.zeros(len(indices))
+    for i in range(0, len(indices), CELLS_AT_ONCE):
+        values = cells.expected_traces(draws, indices[i : i + CELLS_AT_ONCE])[:, draws.count - batches * length :]
         means = values.reshape(draws.chains * batches, length, -1).mean(axis=1, dtype=np.float64)
         errors[i : i + CELLS_AT_ONCE] = means.std(axis=0, ddof=1) / np.sqrt(len(means))
-    return float(np.quantile(errors, KNOWN_SHARE)) if len(which) else 0.0
+    return float(np.quantile(errors, KNOWN_SHARE)) if len(indices) else 0.0
 
 
 def _concatenated(parts: Sequence[Chains], axis: int) -> Chains:
     """Return the last part with the draws and densities of all parts along an axis, and the sum of their seconds."""
     last = parts[-1]
-    draws = {name: np.concatenate([part.draws.arrays[name] for part in parts], axis) for name in last.draws.arrays}
-    densities: dict[str, Any] = {
-        name: np.concatenate([getattr(part, name) for part in parts], axis) for name in DENSITIES
-    }
-    seconds = {name: sum(part.seconds.get(name, 0.0) for part in parts) for name in last.seconds}
-    draws_of_all = replace(last.draws, arrays=draws)
-    return replace(last, draws=draws_of_all, seconds=seconds, statistics=parts[0].statistics, **densities)
+    arrays = {name: np.concatenate([part.draws.arrays[name] for part in parts], axis) for name in last.draws.arrays}
+    fields: dict[str, Any] = {name: np.concatenate([getattr(part, name) for part in parts], axis) for name in DENSITIES}
+    fields["seconds"] = {name: sum(part.seconds.get(name, 0.0) for part in parts) for name in last.seconds}
+    return replace(last, draws=replace(last.draws, arrays=arrays), statistics=parts[0].statistics, **fields)
 
 
 def join(parts: Sequence[Chains]) -> Chains:
@@ -231,23 +218,23 @@ class Record:
         self.warmed += warm
         # Kept sweeps: the parts of the log joint, and the draws.
         kept = self._keep.sweeps(begin, begin + sweeps)
-        new, at = slice(self.kept, self.kept + len(kept)), [sweep - begin - 1 for sweep in kept]
-        self._log_likelihood[:, new] = info.log_likelihood[:, at]
-        self._log_prior[:, new] = info.log_prior[:, at]
+        new, steps = slice(self.kept, self.kept + len(kept)), [sweep - begin - 1 for sweep in kept]
+        self._log_likelihood[:, new] = info.log_likelihood[:, steps]
+        self._log_prior[:, new] = info.log_prior[:, steps]
         for name, values in info.draws.items():
-            self._draws.arrays[name][:, new] = values if values.shape[1] == len(kept) else values[:, at]
+            self._draws.arrays[name][:, new] = values if values.shape[1] == len(kept) else values[:, steps]
         self.kept = new.stop
 
     def grown(self, plan: SweepPlan) -> Record:
         """Return this record with room for the draws of a longer plan, which may thin by a multiple of this one's."""
         record = Record(self.draws, plan)
         every = plan.thin // max(1, self._keep.every)
-        chosen = slice(every - 1, self.kept, every)
-        record.kept = len(range(self.kept)[chosen])
+        thinned = slice(every - 1, self.kept, every)
+        record.kept = len(range(self.kept)[thinned])
         for name, array in record._draws.arrays.items():
-            array[:, : record.kept] = self._draws.arrays[name][:, chosen]
-        record._log_likelihood[:, : record.kept] = self._log_likelihood[:, chosen]
-        record._log_prior[:, : record.kept] = self._log_prior[:, chosen]
+            array[:, : record.kept] = self._draws.arrays[name][:, thinned]
+        record._log_likelihood[:, : record.kept] = self._log_likelihood[:, thinned]
+        record._log_prior[:, : record.kept] = self._log_prior[:, thinned]
         return record
 
     @property
@@ -295,12 +282,7 @@ def check_same(saved: dict[str, Any], asked: dict[str, Any]) -> None:
             "resume: the saved run was made by a version of bayesmap with other random numbers; it can be looked at "
             "and scored, but not gone on with: start again"
         )
-    different = difference(saved, asked)
-    different = different or "scans or on another grid, or with another sensor"
-    raise BadInput(f"resume: the saved run was made with other {different}")
-
-
-def difference(saved: dict[str, Any], asked: dict[str, Any]) -> str | None:
-    """Return a description of the settings that differ; None if none does."""
     names = [name for name in asked if name not in (*NOT_ASKED_FOR, "streams") and saved.get(name) != asked[name]]
-    return "; ".join(f"{name} ({saved.get(name)!r}, now {asked[name]!r})" for name in names) or None
+    settings = "; ".join(f"{name} ({saved.get(name)!r}, now {asked[name]!r})" for name in names)
+    different = settings or "scans or on another grid, or with another sensor"
+    raise BadInput(f"resume: the saved run was made with other {different}")

@@ -23,13 +23,12 @@ from bayesmap.errors import BadInput
 from bayesmap.run.chains import FIRST_MARK, SweepPlan
 from bayesmap.space.grid import Grid, outlying, why_outlying
 from bayesmap.space.scans import Scans
+from bayesmap.space.time_order import steps_m
 
 LONG_S = 60.0  # a run that takes longer is announced
 MUCH_MEMORY = 0.5  # a run that takes more than this share of the memory is announced
-
-
+# Files with the memory limit of a container on Linux.
 GROUP_LIMITS = ("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes")
-"""Files with the memory limit of a container on Linux."""
 
 
 def memory_bytes() -> int | None:
@@ -73,19 +72,18 @@ TABLE = SamplerCost(None, None, 40.0, 0.0, 32.0, 8.0)
 
 POSES_FACTOR = 3.0  # ratio of a sweep that samples poses, too: 2 to 4 (MIT CSAIL; 305 000 beams of the five minutes)
 MATCH_S_A_SCAN = 7.4e-3  # time for the trajectory: 22 s for 3000 scans, 90 s for 12 000, of 720 beams
-FIXED_S, FILE_S_A_BYTE = 8.0, 40e-9
-"""Time for files and pictures: 17 to 20 s with 200 draws of 1.1 MB; with 40 draws 10 s."""
-BASE_BYTES, READING_BYTES = 390e6, 40.0  # peak of runs of 3000 beams; what 2.2 M readings added to the peak of `slam`
-ONCE_A_CELL = 100.0
-"""Bytes per cell beside the chains. A map of 2 million cells, three beams and one draw took 101, and 107 a chain."""
+FIXED_S = 8.0  # time for files and pictures: with 40 draws of 1.1 MB 10 s
+FILE_S_A_BYTE = 40e-9  # more time for them: with 200 draws 17 to 20 s
+BASE_BYTES = 390e6  # peak of runs of 3000 beams
+READING_BYTES = 40.0  # by what 2.2 M readings added to the peak of `slam`
+CELL_BYTES = 100.0  # beside the chains: a map of 2 million cells, three beams and one draw took 101, and 107 a chain
 
-CELLS_A_CELL_LENGTH = 4.0 / math.pi
-"""Mean number of cells that a line of the length of a cell's edge enters, over all directions."""
-MARGIN_CELLS = 4.0
-"""Cells behind a reading that are still traced: 1.5 cells and six standard deviations of 4 cm at 10 cm."""
-MEASURED_BEAMS, TRACED_BEAMS, POINTS = 500_000, 20_000, 64
-"""Most beams that are measured, most of which touched cells are counted, and points on each of these."""
-SQUARE = 4  # cells along the edge of the squares in which touched cells are counted
+CELLS_A_CELL_LENGTH = 4.0 / math.pi  # mean number of cells that a line of the length of a cell's edge enters
+MARGIN_CELLS = 4.0  # traced behind a reading: 1.5 cells and six standard deviations of 4 cm at 10 cm
+MEASURED_BEAMS = 500_000  # most beams that are measured
+TRACED_BEAMS = 20_000  # most beams whose touched cells are counted
+POINTS = 64  # on each of these beams
+SQUARE_CELLS = 4  # along the edge of the squares in which touched cells are counted
 TOUCHED_SHARE = 0.5  # share of the grid's cells that beams touch in a building, at least: 0.6 in most
 THINNED_M = (0.1, 0.2, 0.5, 1.0)  # distances between scans that are proposed
 
@@ -117,24 +115,25 @@ class Size:
 
 def size_of(scans: Scans, grid: Grid, log: Scans | None = None) -> Size:
     """Measure scans on a grid. ``log`` holds the scans whose trajectory is inferred first, if it is."""
-    every = -(-scans.ranges_m.size // MEASURED_BEAMS) if len(scans) else 1
-    readings, scans = (scans if log is None else log).ranges_m.size, scans.select(slice(None, None, max(1, every)))
+    every = max(1, math.ceil(scans.ranges_m.size / MEASURED_BEAMS))
+    readings, scans = (scans if log is None else log).ranges_m.size, scans.select(slice(None, None, every))
     # Lengths of the beams on the grid, in cells; a beam without return ends at the grid's edge.
     ranges = scans.ranges_m.ravel()
     used = ~np.isnan(ranges)
     start = grid.to_cells(scans.beam_starts_world()).reshape(-1, 2)[used]
     angle = scans.beam_angles_world().ravel()[used]
-    along = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    direction = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
     reading = np.where(np.isneginf(ranges[used]), scans.min_range_m, np.minimum(ranges[used], scans.max_range_m))
     with np.errstate(divide="ignore", invalid="ignore"):
-        to_side = np.where(along > 0, np.array(grid.shape) - start, -start) / along
-    to_edge = np.where(along == 0, np.inf, to_side).min(axis=-1)
+        to_side = np.where(direction > 0, np.array(grid.shape) - start, -start) / direction
+    to_edge = np.where(direction == 0, np.inf, to_side).min(axis=-1)
     length = np.clip(np.minimum(reading / grid.resolution + MARGIN_CELLS, to_edge), 0.0, None)
     # Squares that some beams touch, and cells in which readings end.
     few = slice(None, None, max(1, len(length) // TRACED_BEAMS))
-    points = start[few, None] + along[few, None] * (length[few, None, None] * np.linspace(0.0, 1.0, POINTS)[:, None])
-    squares = np.floor(points / SQUARE).astype(np.int64)
-    touched = len(np.unique(squares[..., 0] * (max(grid.shape) + 1) + squares[..., 1])) * SQUARE**2
+    distances = length[few, None, None] * np.linspace(0.0, 1.0, POINTS)[:, None]
+    points = start[few, None] + direction[few, None] * distances
+    squares = np.floor(points / SQUARE_CELLS).astype(np.int64)
+    touched = len(np.unique(squares[..., 0] * (max(grid.shape) + 1) + squares[..., 1])) * SQUARE_CELLS**2
     ends = np.floor(grid.to_cells(scans.hit_points_world())).astype(np.int64)
     endpoints = len(np.unique(ends[:, 0] * (grid.shape[1] + 1) + ends[:, 1]))
     return Size(
@@ -159,9 +158,9 @@ class Sampling:
     @property
     def constants(self) -> SamplerCost | None:
         """The constants of the sampler; None for one whose cost is not known."""
-        of_stops = SURFACES if self.surfaces else REFLECTIVITIES
-        known = {"stop-gibbs": of_stops, "wall-gibbs": WALLS, "wall-blocks": BLOCKS}
-        return known.get(self.sampler, None if self.sampler == "metropolis" else TABLE)
+        stops = SURFACES if self.surfaces else REFLECTIVITIES
+        costs = {"stop-gibbs": stops, "wall-gibbs": WALLS, "wall-blocks": BLOCKS}
+        return costs.get(self.sampler, None if self.sampler == "metropolis" else TABLE)
 
     @property
     def draws(self) -> tuple[int, int]:
@@ -172,11 +171,9 @@ class Sampling:
     def draw_bytes(self, size: Size) -> float:
         """Return the size of a draw of one chain."""
         cells = {"cell": size.cells if self.poses else size.touched, "surface_cell": size.endpoints, "scan": 0.0}
-        item = {"bits": 1 / 8, "half": 2.0}
-        return sum(
-            item.get(spec.storage, np.dtype(spec.dtype).itemsize) * cells.get(spec.dims[0], size.cells)
-            for spec in self.arrays
-        )
+        item_bytes = {"bits": 1 / 8, "half": 2.0}
+        sizes = ((spec, cells.get(spec.dims[0], size.cells)) for spec in self.arrays)
+        return sum(item_bytes.get(spec.storage, np.dtype(spec.dtype).itemsize) * count for spec, count in sizes)
 
     def memory(self, size: Size, draws: int) -> float:
         """Return the peak of the memory in bytes."""
@@ -184,7 +181,7 @@ class Sampling:
         assert cost is not None
         chain = cost.chain_cell * size.cells + cost.chain_beam * size.beams + cost.chain_incidence * size.incidences
         return (
-            BASE_BYTES + ONCE_A_CELL * size.cells + cost.incidence * size.incidences + self.chains * chain
+            BASE_BYTES + CELL_BYTES * size.cells + cost.incidence * size.incidences + self.chains * chain
             + self.chains * draws * self.draw_bytes(size) + READING_BYTES * size.readings
         )  # fmt: skip
 
@@ -235,14 +232,14 @@ class Estimate:
 
     def words(self) -> str:
         """Return the estimate in words, with the remedy if the run is long or large."""
-        of = "" if self.available is None else f" of {self.available / 1e9:.0f}"
-        text = f"{_between(*self.memory, 1e9)}{of} GB of memory"
+        available = "" if self.available is None else f" of {self.available / 1e9:.0f}"
+        text = f"{_between(*self.memory, 1e9)}{available} GB of memory"
         if self.seconds is not None:
             unit_s, unit = (3600.0, "hours") if self.seconds[1] > 5400 else (60.0, "minutes")
             unit_s, unit = (1.0, "s") if self.seconds[1] < 100 else (unit_s, unit)
             text = f"{_between(*self.seconds, unit_s)} {unit} on {self.cores} core{'s' * (self.cores > 1)}, and {text}"
-        advised = (self.is_long or self.is_large) and self.remedy
-        return f"about {text}" + (f"; less with {self.remedy}" if advised else "")
+        remedy = f"; less with {self.remedy}" if self.remedy and (self.is_long or self.is_large) else ""
+        return f"about {text}{remedy}"
 
     def refuse(self, scans: Scans) -> None:
         """Raise `BadInput` for a run that cannot fit into memory; it names the scan that lies furthest out."""
@@ -267,10 +264,10 @@ def estimate(scans: Scans, grid: Grid, size: Size, sampling: Sampling) -> Estima
     """Estimate the cost of a run here, with a remedy if it is long or large; None for an unknown sampler."""
     if sampling.constants is None:
         return None
-    plain = _estimate(size, sampling)
-    if plain.is_large:
-        return replace(plain, remedy=_smaller(scans, grid, size, sampling))
-    return replace(plain, remedy=_shorter(scans, size, sampling)) if plain.is_long else plain
+    cost = _estimate(size, sampling)
+    if cost.is_large:
+        return replace(cost, remedy=_options_for_memory(scans, grid, size, sampling))
+    return replace(cost, remedy=_option_for_time(scans, size, sampling)) if cost.is_long else cost
 
 
 def _estimate(size: Size, sampling: Sampling) -> Estimate:
@@ -279,7 +276,7 @@ def _estimate(size: Size, sampling: Sampling) -> Estimate:
     return Estimate((low[0], high[0]), time, sampling.cores, memory_bytes())
 
 
-def _shorter(scans: Scans, size: Size, sampling: Sampling) -> str:
+def _option_for_time(scans: Scans, size: Size, sampling: Sampling) -> str:
     """Return the option that makes a run shorter: fewer scans if they are close together, else a limit."""
     for spacing, share in _spacings(scans):
         if share <= 0.5 and (not size.matched or MATCH_S_A_SCAN * size.matched > LONG_S * sampling.cores):
@@ -287,7 +284,7 @@ def _shorter(scans: Scans, size: Size, sampling: Sampling) -> str:
     return "" if sampling.plan.seconds is not None else f"--seconds {LONG_S:g}"
 
 
-def _smaller(scans: Scans, grid: Grid, size: Size, sampling: Sampling) -> str:
+def _options_for_memory(scans: Scans, grid: Grid, size: Size, sampling: Sampling) -> str:
     """Return the options after which a run fits into `MUCH_MEMORY`, the one that fits the cause first."""
     words: list[str] = []
     for option, change in _changes(scans, grid, size, sampling):
@@ -299,21 +296,21 @@ def _smaller(scans: Scans, grid: Grid, size: Size, sampling: Sampling) -> str:
 
 
 def _changes(scans: Scans, grid: Grid, size: Size, sampling: Sampling) -> Iterator[tuple[str, tuple[Size, Sampling]]]:
-    """Yield options and what the run is with them; each with those before it."""
-    # Beams that come again and again, or cells and their draws?
+    """Yield options, each with the run after it and all options before it."""
+    # Which need more memory: beams, or cells and their draws?
     without_beams = replace(size, beams=0.0, incidences=0.0, readings=0.0)
-    of_beams = sampling.memory(size, sampling.plan.draws) - sampling.memory(without_beams, sampling.plan.draws)
-    of_cells = sampling.memory(without_beams, sampling.plan.draws) - BASE_BYTES
+    cell_bytes = sampling.memory(without_beams, sampling.plan.draws) - BASE_BYTES
+    beam_bytes = sampling.memory(size, sampling.plan.draws) - cell_bytes - BASE_BYTES
     # Few hits far away make the grid large.
     hits = scans.ranges_m[np.isfinite(scans.ranges_m)]
     nearly_all_m = math.ceil(np.percentile(hits, 99.0)) if hits.size else math.inf
-    if of_cells > of_beams and scans.min_range_m < nearly_all_m < 0.7 * hits.max():
+    if cell_bytes > beam_bytes and scans.min_range_m < nearly_all_m < 0.7 * hits.max():
         near = Grid.covering(scans.limited(nearly_all_m), grid.resolution)
         if near.n_cells < 0.7 * size.cells:
             share = near.n_cells / size.cells
             size = replace(size, cells=size.cells * share, touched=size.touched * share)
             yield f"--max-range {nearly_all_m:g}", (size, sampling)
-    if of_beams > of_cells:
+    if beam_bytes > cell_bytes:
         thin = size
         for spacing, share in _spacings(scans):
             thin = size.thinned(share)
@@ -328,8 +325,7 @@ def _changes(scans: Scans, grid: Grid, size: Size, sampling: Sampling) -> Iterat
 
 def _spacings(scans: Scans) -> Iterator[tuple[float, float]]:
     """Yield distances between scans, and the share of the scans that each leaves if it leaves some out."""
-    steps = np.hypot(*np.diff(scans.poses[:, :2], axis=0).T)
-    travelled = np.concatenate([[0.0], np.cumsum(steps)])
+    travelled = np.concatenate([[0.0], np.cumsum(steps_m(scans.poses))])
     for spacing in THINNED_M:
         share = len(np.unique(np.floor(travelled / spacing))) / max(len(scans), 1)
         if share < 0.8:

@@ -12,6 +12,7 @@ All groups end segments at the same numbers of sweeps, so that chains can be joi
 from __future__ import annotations
 
 import logging
+import math
 import time
 import uuid
 from bisect import bisect_right
@@ -42,8 +43,7 @@ def run_segment(
     """
     schedule, keep = job.schedule, job.schedule.keep
     began = time.perf_counter()
-    if state is None:
-        state = job.sampler.init(job.problem, job.chain_ids, job.seed, resume)
+    state = job.sampler.init(job.problem, job.chain_ids, job.seed, resume) if state is None else state
     assert state is not None
     started = time.perf_counter()
     begin, statistics = state.sweep, state.statistics if resume is None else {}
@@ -74,7 +74,7 @@ _cached: Cached | None = None
 
 
 def prepare(job: Job, version: str) -> tuple[Any, float]:
-    """Return the prepared problem and the seconds spent; raise `BadInput` for another version of bayesmap."""
+    """Return the prepared problem and the seconds spent. Raises `BadInput` for another version of bayesmap."""
     if version != __version__:
         raise BadInput(f"RayExecutor: a worker has bayesmap {__version__}, this process {version}; all need the same")
     began = time.perf_counter()
@@ -120,7 +120,7 @@ def observed_counts(
 
 
 def connect(address: str | None) -> Any:
-    """Return the `ray` module, connected to a cluster, or raise `BadInput`; an open connection is used."""
+    """Return the `ray` module, connected to a cluster. An open connection is used. Raises `BadInput`."""
     try:
         import ray
     except ImportError:
@@ -210,7 +210,7 @@ class RayExecutor:
     def groups(self, chains: int, tasks_at_once: int) -> list[slice]:
         """Divide chains into groups of neighbours, of sizes that differ by one at most."""
         if self.chains_per_task is not None:
-            number = -(-chains // self.chains_per_task)
+            number = math.ceil(chains / self.chains_per_task)
         else:
             number = min(chains, max(1, tasks_at_once))
         ends = [chains * (group + 1) // number for group in range(number)]
@@ -223,20 +223,18 @@ class Marks:
 
     schedule: SweepPlan
     segment_s: float  # seconds of work between two marks
-    at: list[int]  # marks so far, ascending
+    marks: list[int]  # so far, ascending
     per_sweep_s: float = 0.0  # seconds per sweep of the slowest group; 0 before it is measured
 
     def after(self, sweep: int) -> int:
         """Return the first mark after a number of sweeps."""
-        if sweep >= self.at[-1]:
-            before = self.at[-1] - self.at[-2] if len(self.at) > 1 else 0
-            most = max(1, GROWTH * before)
+        last, plan = self.marks[-1], self.schedule
+        if sweep >= last:
+            most = max(1, GROWTH * (last - self.marks[-2])) if len(self.marks) > 1 else 1
             count = most if self.per_sweep_s == 0 else min(most, int(self.segment_s / self.per_sweep_s))
-            until = self.at[-1] + max(1, count)
-            plan = self.schedule
-            ends = [end for end in (plan.warmup, *plan.marks, plan.sweeps) if end > self.at[-1]]
-            self.at.append(min([until, *ends]))
-        return self.at[bisect_right(self.at, sweep)]
+            ends = [end for end in (plan.warmup, *plan.marks, plan.sweeps) if end > last]
+            self.marks.append(min([last + max(1, count), *ends]))
+        return self.marks[bisect_right(self.marks, sweep)]
 
 
 @dataclass
@@ -271,17 +269,15 @@ class _RayRun:
         if on_gpu and job.device not in ("cuda", "cuda:0"):
             raise BadInput(f"RayExecutor: each task has a GPU of its own; write device 'cuda', not {job.device!r}")
         resources = ray.cluster_resources()
-        at_once = int(resources.get("GPU", 0) if on_gpu else resources.get("CPU", 0) // executor.cpus_per_task)
-        if at_once == 0:
+        tasks_at_once = int(resources.get("GPU", 0) if on_gpu else resources.get("CPU", 0) // executor.cpus_per_task)
+        if tasks_at_once == 0:
             need = "a GPU" if on_gpu else f"{executor.cpus_per_task} CPUs"
             raise BadInput(f"RayExecutor: no task can run: each needs {need}, and the cluster has too few")
-        self.options = {
-            "num_cpus": executor.cpus_per_task, "num_gpus": int(on_gpu), "max_retries": executor.retries,
-        }  # fmt: skip
+        self.options = {"num_cpus": executor.cpus_per_task, "num_gpus": int(on_gpu), "max_retries": executor.retries}
         ids = job.chain_ids
         self.groups = [
             Group(which, ids[which], None if resume is None else select_chains(resume, which))
-            for which in executor.groups(len(ids), at_once)
+            for which in executor.groups(len(ids), tasks_at_once)
         ]
         for group in self.groups:
             if group.resume is not None:
@@ -328,7 +324,7 @@ class _RayRun:
             last = self.sweep
             self.rule.check(last)
             for group in self.groups:
-                group.snapshots = {at: snapshot for at, snapshot in group.snapshots.items() if at >= last}
+                group.snapshots = {sweep: snapshot for sweep, snapshot in group.snapshots.items() if sweep >= last}
             if last > 0:
                 checkpoints.offer(lambda: replace(self.so_far(), finished=False), at_once=warmed_up)
         # Segments that still run end by themselves, in seconds. Never cancel them: Ray aborts this process if it
@@ -347,17 +343,17 @@ class _RayRun:
     def so_far(self) -> Chains:
         """Return all chains at the sweep of the slowest group."""
         parts = [group.up_to(self.sweep) for group in self.groups]
-        count = self.remote(observed_counts)
+        submit_count = self.remote(observed_counts)
         counts = [
-            count(self.name, *self.shared, group.chain_ids, part.snapshot, draws_to_inspect(part.draws))
+            submit_count(self.name, *self.shared, group.chain_ids, part.snapshot, draws_to_inspect(part.draws))
             for group, part in zip(self.groups, parts, strict=True)
         ]
         return join([
             replace(
-                part, observed_counts=outcome(self.ray, observed_counts),
+                part, observed_counts=outcome(self.ray, count),
                 seconds={**part.seconds, "trace": part.seconds["trace"] + self.trace_s},
             )
-            for part, observed_counts in zip(parts, counts, strict=True)
+            for part, count in zip(parts, counts, strict=True)
         ])  # fmt: skip
 
     def _share(self) -> None:
@@ -372,20 +368,17 @@ class _RayRun:
 
     def _note(self, group: Group, segment: Chains) -> None:
         """Store the result of a task, and report the progress of all chains."""
-        made = segment.sweep - max(group.sweep, 0)
+        new_sweeps = segment.sweep - max(group.sweep, 0)
         group.snapshots[segment.sweep] = segment.snapshot
         group.segments.append(replace(segment, snapshot=Snapshot(segment.sweep)))
-        if made > 0:
-            self.marks.per_sweep_s = max(self.marks.per_sweep_s, segment.seconds["sampling"] / made)
-        done = self.sweep
+        if new_sweeps > 0:
+            self.marks.per_sweep_s = max(self.marks.per_sweep_s, segment.seconds["sampling"] / new_sweeps)
+        done, warmup = self.sweep, self.job.schedule.warmup
         if segment.sweep == 0 or done < 0:
             started = sum(group.sweep >= 0 for group in self.groups)
             self.watch.report("start", started, len(self.groups))
         elif done > 0:
-            warming = done <= self.job.schedule.warmup
             log_joint = segment.log_joint if segment.log_joint.size else segment.warmup_log_joint
             mean = float(log_joint[:, -1].mean()) if log_joint.size else None
-            self.watch.report(
-                "warm-up" if warming else "draws", done, self.rule.expected_sweeps(done), mean, self.rule.error,
-                self.job.schedule.warmup,
-            )  # fmt: skip
+            total, error = self.rule.expected_sweeps(done), self.rule.error
+            self.watch.report("warm-up" if done <= warmup else "draws", done, total, mean, error, warmup)

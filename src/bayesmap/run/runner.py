@@ -57,6 +57,7 @@ def stop_on_interrupt() -> Iterator[Callable[[], bool]]:
 STEP_SECONDS = 0.25  # of work per step
 SECONDS_PER_INCIDENCE = 2e-8  # a first guess, for the first step; later steps use the measured time
 FIRST_STEP = 16  # most sweeps of the first step
+STEP_GROWTH = 16  # largest ratio of the sweeps of a step to those of the step before
 BUFFER_BYTES = 64 << 20  # most bytes of the draws of one step
 CHECKPOINT_SHARE = 0.05  # largest share of the time that checkpoints may take
 
@@ -91,17 +92,17 @@ def sweeps(
     (`STEP_SECONDS` if None), keeps at most ``most_kept`` draws, and ends at each number of sweeps in ``stops``.
     """
     seconds = STEP_SECONDS if step_seconds is None else step_seconds
-    per_sweep, most = SECONDS_PER_INCIDENCE * state.problem.n_incidences, FIRST_STEP
+    per_sweep_s, most = SECONDS_PER_INCIDENCE * state.problem.n_incidences, FIRST_STEP
     while state.sweep < until:
         # Sweeps of this step: by the measured speed, up to the next stop, and with few enough draws.
-        count = int(max(1, min(seconds / per_sweep if per_sweep > 0 else most, most, until - state.sweep)))
+        count = int(max(1, min(seconds / per_sweep_s if per_sweep_s > 0 else most, most, until - state.sweep)))
         count = min([count, *(stop - state.sweep for stop in stops if stop > state.sweep)])
         if most_kept is not None and keep.every:
             kept = keep.sweeps(state.sweep, state.sweep + count)
             count = kept[most_kept - 1] - state.sweep if len(kept) > most_kept else count
         began = time.perf_counter()
         state, info = sampler.step(state, count, beta, keep)
-        per_sweep, most = (time.perf_counter() - began) / count, 16 * count
+        per_sweep_s, most = (time.perf_counter() - began) / count, STEP_GROWTH * count
         yield state, info
 
 
@@ -148,7 +149,7 @@ def run_chains(
     job: Job, *, resume: Chains | None = None, watch: Watch = SILENT,
     on_checkpoint: Callable[[Chains], None] | None = None, checkpoint_every_s: float = 30.0,
 ) -> Chains:  # fmt: skip
-    """Run warm-up and draws of all chains of a job in this process, or continue those of ``resume``, bit for bit.
+    """Run warm-up and draws of all chains of a job in this process, or continue the chains of ``resume``, bit for bit.
 
     The watch gets progress after every step, and may stop the chains between two steps: then they are not ``finished``,
     even in the last step. ``on_checkpoint`` gets the chains so far at the end of warm-up, and every
@@ -198,10 +199,10 @@ def run_chains(
         before = state.sweep
         log_joint = float(np.mean(info.log_likelihood[:, -1] + info.log_prior[:, -1]))
         rule.check(state.sweep)
+        total = rule.expected_sweeps(state.sweep)
         watch.report(
-            "warm-up" if warming else "draws", state.sweep, rule.expected_sweeps(state.sweep), log_joint, rule.error,
-            schedule.warmup,
-        )  # fmt: skip
+            "warm-up" if warming else "draws", state.sweep, total, log_joint, error=rule.error, warmup=schedule.warmup
+        )
         checkpoints.offer(so_far, at_once=warming and state.sweep == schedule.warmup)
         began, stopped = time.perf_counter(), watch.should_stop()
     # A stop in the last step counts, too: the caller must not begin the work that follows the chains.
