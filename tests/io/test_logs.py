@@ -13,7 +13,8 @@ from recordings import read_or_refused
 
 import bayesmap as bm
 from bayesmap.errors import BadInput
-from bayesmap.io.logs import describe_log, jumps, read_log, steps_m, thinned
+from bayesmap.io.logs import describe_log, read_log
+from bayesmap.space.time_order import jumps, steps_m, thinned
 
 CORPUS = Path(__file__).with_name("corpus")
 

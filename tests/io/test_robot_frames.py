@@ -177,7 +177,7 @@ def test_two_publishers_of_odometry_are_refused_with_both_values(tmp_path, late,
     told = contents_of(file)
     assert told.suggestion.endswith("--pose-topic /odom")
     reason = message.split(";")[0].split(": ", 1)[1]
-    assert f"poses are those of /odom: without --pose-topic, {reason}" in told.sensors[0]["notes"]
+    assert f"poses are from /odom: without --pose-topic, {reason}" in told.sensors[0]["notes"]
 
 
 def test_two_publishers_of_the_map_leave_the_odometry_and_two_of_poses_are_refused(tmp_path):

@@ -251,8 +251,8 @@ SHAPES = [(2, 7, 13), (1, 1, 1), (3, 5, 100), (2, 0, 4), (2, 3, 0)]
 @pytest.mark.parametrize("shape", SHAPES)
 @pytest.mark.parametrize("kind", SPECS)
 def test_draws_come_back_and_are_counted(tmp_path, monkeypatch, kind, shape):
-    monkeypatch.setattr(saved_module, "CHUNK", 32)
-    monkeypatch.setattr(saved_module, "BLOCK", 70)
+    monkeypatch.setattr(saved_module, "CHUNK_NUMBERS", 32)
+    monkeypatch.setattr(saved_module, "BLOCK_NUMBERS", 70)
     spec, sizes = SPECS[kind], shape[2:]
     if len(spec.dims) == 2:
         sizes = (*sizes, 3)
@@ -271,7 +271,7 @@ def test_draws_come_back_and_are_counted(tmp_path, monkeypatch, kind, shape):
 
 
 def test_a_file_that_is_open_holds_one_chunk_of_each_array(tmp_path, monkeypatch):
-    monkeypatch.setattr(saved_module, "CHUNK", 32)
+    monkeypatch.setattr(saved_module, "CHUNK_NUMBERS", 32)
     spec = SPECS["plain"]
     with netCDF4.Dataset(tmp_path / "draws.nc", "w") as file:
         saved_module.write_draws(file, spec, np.zeros((2, 7, 13, 3)), (13, 3), lambda count: None)

@@ -16,6 +16,7 @@ from bayesmap.io.logs import IN_DEGREES, RECORDINGS, describe_log, format_of
 from bayesmap.io.ros.recording import POSE_TYPES, SCAN_TYPES, TF_TYPES, TYPES
 from bayesmap.poses.log_checks import DOUBLED, TOO_SELDOM, look_like_odometry, scans_come_often
 from bayesmap.space.scans import Scans
+from bayesmap.space.time_order import steps_m
 
 CONVERTERS = {
     "sensor_msgs/msg/PointCloud2": "pointcloud_to_laserscan turns its sensor_msgs/msg/PointCloud2 into scans",
@@ -44,31 +45,30 @@ class Contents:
 
 
 def contents_of(path: str | os.PathLike[str]) -> Contents:
-    """Describe a log or a recording, and count malformed parts; raise `BadInput` if it cannot be read."""
+    """Describe a log or a recording, and count malformed parts. Raises `BadInput` if it cannot be read."""
     if format_of(path) in RECORDINGS:
-        return _of_recording(path)
-    name = os.fspath(path)
-    account: dict[str, Any] = {"no_poses": None}
+        return _contents_of_recording(path)
+    name, no_poses = os.fspath(path), None
     try:
-        reading = describe_log(path, skip_bad_lines=True)
+        log = describe_log(path, skip_bad_lines=True)
     except BadInput as problem:
         try:
-            reading = describe_log(path, skip_bad_lines=True, without_poses=True)
+            log = describe_log(path, skip_bad_lines=True, without_poses=True)
         except BadInput:
             raise problem from None
-        account["no_poses"] = _reason(name, problem)
-    stamps = reading.scans.stamps_s
-    sensor = {**scans_summary(reading.scans), **_account(reading), **account}
+        no_poses = _reason(name, problem)
+    stamps = log.scans.stamps_s
+    sensor = {**scans_summary(log.scans), **_log_summary(log), "no_poses": no_poses}
     return Contents(
-        path=name, format=reading.format, start_s=None if stamps is None else float(stamps[0]),
+        path=name, format=log.format, start_s=None if stamps is None else float(stamps[0]),
         end_s=None if stamps is None else float(stamps[-1]),
-        topics=[{"name": kind, "count": count} for kind, count in reading.messages.items()], sensors=[sensor],
-        suggestion=_command(name, sensor, skip=bool(reading.skipped)), notes=(*reading.notes, *_about_poses(reading)),
-        scans=reading.scans,
+        topics=[{"name": kind, "count": count} for kind, count in log.messages.items()], sensors=[sensor],
+        suggestion=_command(name, sensor, skip=bool(log.skipped)), notes=(*log.notes, *_pose_remedies(log)),
+        scans=log.scans,
     )  # fmt: skip
 
 
-def _of_recording(path: str | os.PathLike[str]) -> Contents:
+def _contents_of_recording(path: str | os.PathLike[str]) -> Contents:
     from bayesmap.io.ros.containers import open_recording
     from bayesmap.io.ros.frames import FrameTree
     from bayesmap.io.ros.messages import read_messages  # loads rosbags
@@ -77,25 +77,26 @@ def _of_recording(path: str | os.PathLike[str]) -> Contents:
     # Topics with their rates, and the frames of /tf.
     name = os.fspath(path)
     recording = open_recording(path, salvage=True, types=TYPES)
-    spent_s = ((recording.end_ns or 0) - (recording.start_ns or 0)) * 1e-9
+    duration_s = ((recording.end_ns or 0) - (recording.start_ns or 0)) * 1e-9
     topics: list[dict[str, Any]] = []
     for t in recording.topics.values():
-        rate_hz = round((t.count - 1) / spent_s, 3) if t.count > 1 and spent_s > 0 else None
+        rate_hz = round((t.count - 1) / duration_s, 3) if t.count > 1 and duration_s > 0 else None
         topics.append({"name": t.name, "type": t.type, "count": t.count, "rate_hz": rate_hz})
     poses = PoseMessages()
     read_messages(recording, recording.of_type(TF_TYPES), poses, lambda *_: None)
     pose_sources = recording.of_type((*TF_TYPES, *POSE_TYPES))
     # Read the scans of each topic, and suggest a command for the best: with poses, then with most readings.
     scan_topics = recording.of_type(SCAN_TYPES)
-    read: dict[str, Scans] = {}
-    sensors = [_sensor(recording, topic, read) for topic in scan_topics]
+    scans_by_topic: dict[str, Scans] = {}
+    sensors = [_describe_sensor(recording, topic, scans_by_topic) for topic in scan_topics]
     usable = [sensor for sensor in sensors if sensor["error"] is None]
     best = max(usable, key=lambda s: (s["no_poses"] is None, s["scans"] * s["beams"]), default=None)
     types = {topic.type for topic in recording.topics.values() if topic.count}
     remedy = next((f": {tool}" for kind, tool in CONVERTERS.items() if kind in types), "")
     nothing = f"no topic holds range scans ({', '.join(SCAN_TYPES)}), so there is nothing to make a map from{remedy}"
-    suggestion = None
+    suggestion = scans = None
     if best is not None:
+        scans = scans_by_topic[best["topic"]]
         scan_topic = best["topic"] if len(scan_topics) > 1 else None
         suggestion = _command(name, best, scan_topic=scan_topic, skip=bool(recording.notes) or best["skipped"] > 0)
     return Contents(
@@ -103,61 +104,59 @@ def _of_recording(path: str | os.PathLike[str]) -> Contents:
         end_s=None if recording.end_ns is None else recording.end_ns * 1e-9, topics=topics,
         frames=FrameTree(poses.transforms).frames(), sensors=sensors,
         pose_sources=[{"name": t.name, "type": t.type, "count": t.count} for t in pose_sources], suggestion=suggestion,
-        notes=(*recording.notes, *(() if scan_topics else (nothing,))), scans=read[best["topic"]] if best else None,
+        notes=(*recording.notes, *(() if scan_topics else (nothing,))), scans=scans,
     )  # fmt: skip
 
 
-def _sensor(recording: Any, topic: Any, read: dict[str, Scans]) -> dict[str, Any]:
-    """Describe the scans of one topic, and the first source of poses that works for them; put them into ``read``."""
+def _describe_sensor(recording: Any, topic: Any, scans_by_topic: dict[str, Scans]) -> dict[str, Any]:
+    """Describe the scans of a topic by the first source of poses that works, and put them into ``scans_by_topic``."""
     account: dict[str, Any] = {
         "topic": topic.name, "type": topic.type, "pose_topic": None, "error": None, "no_poses": None,
     }  # fmt: skip
     tries: list[dict[str, Any]] = [{}, *({"pose_topic": t.name} for t in recording.of_type(POSE_TYPES))]
-    first: BadInput | None = None
-    for how in (*tries, {"without_poses": True}):
+    first_problem: BadInput | None = None
+    for options in (*tries, {"without_poses": True}):
         try:
-            reading = describe_log(recording.path, skip_bad_lines=True, scan_topic=topic.name, **how)
+            log = describe_log(recording.path, skip_bad_lines=True, scan_topic=topic.name, **options)
         except BadInput as problem:
-            first = first or problem
+            first_problem = first_problem or problem
             continue
-        read[topic.name] = reading.scans
-        sensor = {**account, "pose_topic": how.get("pose_topic"), **scans_summary(reading.scans), **_account(reading)}
-        why = _reason(recording.path, first)
-        if not reading.posed and first is not None:
-            sensor["no_poses"] = why
-        elif first is not None:
-            sensor["notes"].append(
-                f"poses are those of {reading.pose_source}: without --pose-topic, {why.partition(';')[0]}"
-            )
-        notes = [note for note in sensor["notes"] if note not in recording.notes]  # these are said once, of the file
-        return {**sensor, "notes": [*notes, *_about_poses(reading)]}
-    return {**account, "scans": topic.count, "beams": None, "error": _reason(recording.path, first)}
+        scans_by_topic[topic.name] = log.scans
+        sensor = {**account, "pose_topic": options.get("pose_topic"), **scans_summary(log.scans), **_log_summary(log)}
+        notes = [note for note in log.notes if note not in recording.notes]  # these are said once, of the file
+        if first_problem is not None:
+            reason = _reason(recording.path, first_problem)
+            if log.posed:
+                notes.append(f"poses are from {log.pose_source}: without --pose-topic, {reason.partition(';')[0]}")
+            else:
+                sensor["no_poses"] = reason
+        return {**sensor, "notes": [*notes, *_pose_remedies(log)]}
+    return {**account, "scans": topic.count, "beams": None, "error": _reason(recording.path, first_problem)}
 
 
 def _reason(path: str, problem: BadInput | None) -> str:
     return str(problem).removeprefix(f"{path}: ")
 
 
-def _account(reading: LogReading) -> dict[str, Any]:
-    first = next((f"{skip.what} {skip.line}: {skip.reason}" for skip in reading.skipped), None)
+def _log_summary(log: LogReading) -> dict[str, Any]:
+    first = next((f"{skip.what} {skip.line}: {skip.reason}" for skip in log.skipped), None)
     return {
-        "first_skipped": first, "message": reading.message, "frame": reading.sensor_frame, "poses": reading.pose_source,
-        "fixed_frame": reading.fixed_frame, "skipped": len(reading.skipped), "no_return_m": reading.no_return_m,
-        "max_range_origin": reading.max_range_origin,
-        "raw_odometry": reading.posed and look_like_odometry(reading.scans),
-        "followable": scans_come_often(reading.scans), "notes": list(reading.notes),
+        "first_skipped": first, "message": log.message, "frame": log.sensor_frame, "poses": log.pose_source,
+        "fixed_frame": log.fixed_frame, "skipped": len(log.skipped), "no_return_m": log.no_return_m,
+        "max_range_origin": log.max_range_origin, "raw_odometry": log.posed and look_like_odometry(log.scans),
+        "followable": scans_come_often(log.scans), "notes": list(log.notes),
     }  # fmt: skip
 
 
-def _about_poses(reading: LogReading) -> list[str]:
+def _pose_remedies(log: LogReading) -> list[str]:
     """Return remedies for poses at which one wall appears in several places, and for scans without poses."""
-    if not reading.posed:
-        return [] if scans_come_often(reading.scans) else [f"{TOO_SELDOM}: give them poses"]
-    if not look_like_odometry(reading.scans):
+    if not log.posed:
+        return [] if scans_come_often(log.scans) else [f"{TOO_SELDOM}: give them poses"]
+    if not look_like_odometry(log.scans):
         return []
-    degrees = any(note.endswith(IN_DEGREES) for note in reading.notes)
+    in_degrees = any(note.endswith(IN_DEGREES) for note in log.notes)
     return [
-        *(["if the yaw is in degrees, convert it to radians first"] if degrees else []),
+        *(["if the yaw is in degrees, convert it to radians first"] if in_degrees else []),
         f"{DOUBLED}. If the poses are raw odometry, bayesmap slam finds better ones; if they should be right, look at "
         "the notes, at where the laser sits (--laser X,Y,DEGREES; if it is upside down, its beams sweep the other "
         "way), and, in a recording, at --pose-topic and --fixed-frame",
@@ -176,7 +175,7 @@ def scans_summary(scans: Scans) -> dict[str, Any]:
         "min_range_m": scans.min_range_m, "max_range_m": scans.max_range_m,
         "longest_hit_m": round(float(hits.max()), 3) if hits.size else None, "readings": scans.counts(),
         "poses_from_m": [round(float(v), 3) for v in low], "poses_to_m": [round(float(v), 3) for v in high],
-        "travelled_m": round(math.fsum(np.hypot(*np.diff(scans.poses[:, :2], axis=0).T)), 3),
+        "travelled_m": round(math.fsum(steps_m(scans.poses)), 3),
     }  # fmt: skip
 
 

@@ -44,7 +44,7 @@ INTERVAL = 0.9  # probability of the interval from the layer lower to upper
 
 
 def export_format(path: str | os.PathLike[str], format: str | None = None) -> str:
-    """Return the format, by the path's ending if None; raise `BadInput` for unknown ones."""
+    """Return the format, by the path's ending if None. Raises `BadInput` for an unknown format or ending."""
     if format is not None:
         if format not in FORMATS:
             raise BadInput(f"export: format {format!r} is not known; use one of {', '.join(FORMATS)}")
@@ -63,7 +63,7 @@ def export_format(path: str | os.PathLike[str], format: str | None = None) -> st
 
 
 def existing(path: str | os.PathLike[str], format: str | None = None) -> Path | None:
-    """Return a file or folder that an export would replace, or None; raise `BadInput` for unknown formats."""
+    """Return a file or folder that an export would replace, or None. Raises `BadInput` for an unknown format."""
     target = Path(path)
     chosen, paths = export_format(path, format), [target]
     if chosen == "map-server":
@@ -96,24 +96,23 @@ def trajectory_of(run: object, scans: Scans) -> Trajectory:
     A run of `bayesmap.slam` gives the draws of its chains over poses if these have mixed, else its approximation of the
     poses of all scans. Other runs give their draws of poses, or else the poses of their scans.
     """
-    approximate = getattr(run, "trajectory", None)
+    approximation = getattr(run, "trajectory", None)
     draws = getattr(run, "poses", None)
     if draws is None or draws.ndim != 4 or draws.shape[0] * draws.shape[1] < 2 or (draws == draws[0, 0]).all():
-        if approximate is None:
+        if approximation is None:
             return Trajectory(scans.poses, scans.stamps_s, frame="laser")
-        return approximated(approximate)
+        return approximated(approximation)
     from bayesmap.posterior.summary import summarise_poses
 
     mixing = summarise_poses(draws)
     figures = f"R-hat up to {mixing.rhat_max:.3g}, effective sample size from {mixing.ess_min:.0f}"
+    unmixed = f"the chains over poses have not mixed ({figures})"
+    if approximation is not None and not mixing.mixed:
+        return approximated(approximation, f"{APPROXIMATION}: {unmixed}")
+    known_by = f"draws of poses, which are too alike: {unmixed}"
     if mixing.mixed:
         known_by = f"draws of the chains over poses, which have mixed ({figures})"
-        return replace(Trajectory.of_draws(draws, scans.stamps_s, known_by), frame="laser")
-    unmixed = f"the chains over poses have not mixed ({figures})"
-    if approximate is None:
-        known_by = f"draws of poses, which are too alike: {unmixed}"
-        return replace(Trajectory.of_draws(draws, scans.stamps_s, known_by), frame="laser")
-    return approximated(approximate, f"{APPROXIMATION}: {unmixed}")
+    return replace(Trajectory.of_draws(draws, scans.stamps_s, known_by), frame="laser")
 
 
 def approximated(trajectory: Approximation, known_by: str = APPROXIMATION) -> Trajectory:
@@ -130,10 +129,8 @@ def export_trajectory(
 
     An existing file is replaced. ``edges`` is the pose graph for g2o; if None, the chain of steps
     (`bayesmap.io.text.g2o.chain_edges`). Returns the paths of the files written. If covariances are known,
-    NAME-covariances.txt is written beside NAME.tum.
-
-    Raises `BadInput` for another ending or format, no pose, a graph of a trajectory without covariances, or a file that
-    cannot be written.
+    NAME-covariances.txt is written beside NAME.tum. Raises `BadInput` for another format, no pose, a graph of a
+    trajectory without covariances, or a file that cannot be written.
     """
     ending = Path(path).suffix.lower()
     chosen = {".tum": "tum", ".g2o": "g2o"}.get(ending, "trajectory") if format is None else format
@@ -147,8 +144,7 @@ def export_trajectory(
         written = (write_trajectory(path, trajectory.poses, trajectory.stamps_s, trajectory.frame),)
         if trajectory.covariances is None:
             return written
-        beside = covariances_path(path)
-        return (*written, write_covariances(beside, trajectory.covariances, trajectory.stamps_s))
+        return (*written, write_covariances(covariances_path(path), trajectory.covariances, trajectory.stamps_s))
     if chosen != "trajectory":
         raise BadInput(f"export: a trajectory is written as {', '.join(TRAJECTORIES)}, not as {chosen!r}")
     from bayesmap.io.ros.writer import write_trajectory_recording
@@ -187,7 +183,7 @@ def export_run(
     trajectory has, "base" or "laser"; by default the base, if the log said where the laser sits on it.
 
     Raises `BadInput` for an unknown ending, format or mode, a mode or threshold that the format does not take, an
-    optional package that is not installed, or a file that cannot be written; the message has the remedy.
+    optional package that is not installed, or a file that cannot be written.
     """
     chosen = export_format(path, format)
     thresholds = {"mode": mode, "occupied_thresh": occupied_thresh, "free_thresh": free_thresh}
@@ -200,15 +196,15 @@ def export_run(
     if frame is not None and chosen not in TRAJECTORIES:
         raise BadInput(f"{path}: {chosen} holds a map, and takes no frame; {', '.join(TRAJECTORIES)} hold a trajectory")
     grid, observed = run.grid, run.observed
+    known = observed if known is None else known
     stamp_s = float(scans.stamps_s[-1]) if scans.stamps_s is not None and len(scans) else None
     if chosen == "map-server":
         from bayesmap.io.ros.maps import write_map
 
-        return write_map(path, run.occupancy, grid, observed if known is None else known, **options)
+        return write_map(path, run.occupancy, grid, known, **options)
     if chosen == "occupancy-grid":
         from bayesmap.io.ros.writer import write_occupancy_grid
 
-        known = observed if known is None else known
         return (write_occupancy_grid(path, run.occupancy, grid, known, stamp_s=stamp_s, **options),)
     if chosen == "gridmap":
         from bayesmap.io.ros.writer import write_grid_map
@@ -220,9 +216,8 @@ def export_run(
     if chosen == "rerun":
         return (write_rerun(path, layers_of(run), grid, observed, scans=scans, trajectory=trajectory),)
     moved, edges = trajectory.of(frame, scans.mount), None
-    if (
-        chosen == "g2o" and trajectory.relative is not None and run.trajectory is not None
-    ):  # the trajectory is slam's approximation
+    is_approximation = trajectory.relative is not None and run.trajectory is not None
+    if chosen == "g2o" and is_approximation:
         from bayesmap.io.text.g2o import slam_edges
 
         edges = slam_edges(run.trajectory)
@@ -232,7 +227,8 @@ def export_run(
 
 
 EPOCH_FROM_S = 1e8  # stamps above this, in seconds, are dates; smaller ones count from the start of the log
-SENSOR_COLOR, TRAJECTORY_COLOR, SCAN_COLOR = (0, 158, 115), (0, 158, 115), (213, 94, 0)
+SENSOR_COLOR = TRAJECTORY_COLOR = (0, 158, 115)
+SCAN_COLOR = (213, 94, 0)
 WALL_COLORS = ((250, 250, 248), (20, 31, 66))
 UNCERTAINTY_COLORS = ((0, 32, 76), (124, 123, 120), (255, 233, 69))  # 0 to 1, linearly, as in `bayesmap.viz.palette`
 LEVEL = 0.95  # probability of the ellipses
@@ -286,8 +282,8 @@ def write_rerun(
         raise BadInput(f"{path}: .rrd needs rerun-sdk: pip install 'bayesmap[rerun]'") from None
 
     checked = as_layers(grid, layers, observed)
-    drawn = ["/trajectory", "/ellipses", "/sensor", "/scan"]
-    views = [rrb.Spatial2DView(origin="/", contents=[f"/map/{name}", *drawn], name=name) for name in checked]
+    overlays = ["/trajectory", "/ellipses", "/sensor", "/scan"]
+    views = [rrb.Spatial2DView(origin="/", contents=[f"/map/{name}", *overlays], name=name) for name in checked]
     target = Path(path)
     with write_whole(target) as partial:
         recording = rr.RecordingStream("bayesmap", send_properties=False)
@@ -316,7 +312,7 @@ def to_pixels(points_world: NDArray[np.float64], grid: Grid) -> NDArray[np.float
 
 
 def _log_scans(rr: Any, recording: Any, scans: Scans, grid: Grid) -> None:
-    at = to_pixels(scans.poses[:, :2], grid)
+    positions = to_pixels(scans.poses[:, :2], grid)
     times = [rr.TimeColumn("scan", sequence=np.arange(len(scans)))]
     if scans.stamps_s is not None:
         kind = "timestamp" if scans.stamps_s.min() > EPOCH_FROM_S else "duration"
@@ -325,7 +321,7 @@ def _log_scans(rr: Any, recording: Any, scans: Scans, grid: Grid) -> None:
     ends = to_pixels(scans.hit_points_world(), grid)
     recording.log("sensor", rr.Points2D.from_fields(colors=[SENSOR_COLOR], radii=[1.5]), static=True)
     recording.log("scan", rr.Points2D.from_fields(colors=[SCAN_COLOR], radii=[0.6]), static=True)
-    recording.send_columns("sensor", times, rr.Points2D.columns(positions=at))
+    recording.send_columns("sensor", times, rr.Points2D.columns(positions=positions))
     recording.send_columns("scan", times, rr.Points2D.columns(positions=ends).partition(lengths=hits))
 
 
@@ -334,8 +330,8 @@ def _log_trajectory(rr: Any, recording: Any, trajectory: Trajectory, grid: Grid)
     recording.log("trajectory", line, static=True)
     if trajectory.covariances is not None:
         outlines = ellipses(trajectory.poses[:, :2], trajectory.covariances[:, :2, :2], LEVEL)
-        drawn = rr.LineStrips2D(list(to_pixels(outlines, grid)), colors=[TRAJECTORY_COLOR], radii=[0.1])
-        recording.log("ellipses", drawn, static=True)
+        strips = rr.LineStrips2D(list(to_pixels(outlines, grid)), colors=[TRAJECTORY_COLOR], radii=[0.1])
+        recording.log("ellipses", strips, static=True)
 
 
 def _picture(values: NDArray[np.float32], colors: tuple[tuple[int, int, int], ...]) -> NDArray[np.uint8]:

@@ -19,9 +19,9 @@ import numpy as np
 
 from bayesmap.errors import BadInput
 from bayesmap.io.log_reading import Account, LogOptions, Pose
-from bayesmap.io.logs import LINES_LOOKED_AT, format_of
+from bayesmap.io.logs import MAX_FORMAT_LINES, format_of
 from bayesmap.io.returns import decode
-from bayesmap.io.text.carmen import KNOWN, LASERS, RAW, Malformed, message_name, parse_laser
+from bayesmap.io.text.carmen import KNOWN, LASERS, Malformed, message_name, parse_laser
 from bayesmap.io.text.csv import Bad, live_rows, starts_table
 from bayesmap.io.text.g2o import KNOWN as KNOWN_G2O
 from bayesmap.io.text.lines import GZIP_MAGIC, as_utf8, split_lines
@@ -34,7 +34,7 @@ CHUNK_BYTES = 1 << 16  # read at a time
 
 
 def can_be_followed(name: str) -> bool:
-    """Return true if a log can be read while it is written: text or pipe; raise `BadInput` if unreadable."""
+    """Return true if a log can be read while it is written: text or pipe. Raises `BadInput` if it is unreadable."""
     if name in STANDARD_INPUT:
         return True
     try:
@@ -58,11 +58,10 @@ def live_scans(
 ) -> Iterator[Scans]:  # fmt: skip
     """Yield the scans of a log as it is written, one at a time. The name is as for `live_lines`.
 
-    Longer readings than ``max_range_m`` are no return, and those from ``no_return`` on. ``on_skipped`` is called with
-    the number of each malformed line left out, and the reason. ``laser`` replaces the laser's pose on the robot in the
-    log. Tables without poses are accepted if ``without_poses`` is true.
-
-    Raises `BadInput` for a log that cannot be read, has another format, or has a malformed line.
+    Readings over ``max_range_m`` are no return, and readings from ``no_return`` on. ``on_skipped`` is called with the
+    number of each malformed line left out, and the reason. ``laser`` replaces the laser's pose on the robot in the log.
+    Tables without poses are accepted if ``without_poses`` is true. Raises `BadInput` for a log that cannot be read, has
+    another format, or has a malformed line.
     """
     options = LogOptions(no_return, skip_bad_lines, max_range_m, laser=laser, without_poses=without_poses)
     account = Account(name, "", options)
@@ -77,18 +76,18 @@ def live_scans(
         before.append((number, line))
         words = line.split(None, 1)
         if words and words[0] in {known.encode() for known in KNOWN}:
-            yield from _of_carmen(chain(before, lines), bad, options)
+            yield from _carmen_scans(chain(before, lines), bad, options)
             return
         if starts_table(line):
             yield from live_rows(name, chain(before, lines), bad, options)
             return
-        if number >= LINES_LOOKED_AT or b"\0" in line or (words and words[0] in KNOWN_G2O):
+        if number >= MAX_FORMAT_LINES or b"\0" in line or (words and words[0] in KNOWN_G2O):
             break
     if before:
         raise BadInput(f"{name}: only CARMEN logs and CSV tables can be followed, and these lines are of neither")
 
 
-def _of_carmen(lines: Iterable[tuple[int, bytes]], bad: Bad, options: LogOptions) -> Iterator[Scans]:
+def _carmen_scans(lines: Iterable[tuple[int, bytes]], bad: Bad, options: LogOptions) -> Iterator[Scans]:
     """Yield the scans of the first kind of laser message, each with its own beams, if it has readings."""
     kind, limit_m = "", options.max_range_m
     assert limit_m is not None
@@ -107,21 +106,17 @@ def _of_carmen(lines: Iterable[tuple[int, bytes]], bad: Bad, options: LogOptions
         stated = math.inf if scan.max_range_m is None else scan.max_range_m
         ranges, _ = decode(scan.readings_m[None], stated if options.no_return is None else options.no_return)
         ranges[ranges > limit_m] = np.inf
-        pose = scan.pose(options.laser)
-        mount = None if name in RAW else between(scan.robot_pose, scan.laser_pose)
-        mount = mount if options.laser is None else np.array(options.laser)
-        yield Scans(
-            pose[None], scan.fan.angles_rad(), ranges, limit_m, stamps_s=scan.numbers[None, 6], mount=mount
-        )  # fmt: skip
+        mount = between(scan.robot_pose, scan.laser_pose) if options.laser is None else np.array(options.laser)
+        pose, stamps = scan.pose(options.laser)[None], np.array([scan.stamp_s])
+        yield Scans(pose, scan.fan.angles_rad(), ranges, limit_m, stamps_s=stamps, mount=mount)
 
 
 def live_lines(name: str, idle_s: float | None = None) -> Iterator[tuple[int, bytes]]:
     """Yield the lines of a file, pipe or standard input ("-") with their numbers, from 1, as soon as each is whole.
 
     A pipe and standard input end when their last writer closes them. A file ends after ``idle_s`` seconds without new
-    data, if it is given; a last line without line end is then a line.
-
-    Raises `BadInput` for an input that cannot be read, was cut short, or has a line that is too long.
+    data, if it is given; a last line without line end is then a line. Raises `BadInput` for an input that cannot be
+    read, was cut short, or has a line that is too long.
     """
     return split_lines(name, as_utf8(_pieces(name, idle_s)))
 
@@ -133,7 +128,7 @@ def _pieces(name: str, idle_s: float | None) -> Iterator[bytes]:
         try:
             grows = not standard_input and stat.S_ISREG(os.fstat(descriptor).st_mode)
             if grows:
-                yield from _of_file(name, descriptor, idle_s)
+                yield from _file_pieces(name, descriptor, idle_s)
             while not grows and select.select([descriptor], [], [], idle_s)[0]:
                 if not (piece := os.read(descriptor, CHUNK_BYTES)):
                     return
@@ -145,7 +140,7 @@ def _pieces(name: str, idle_s: float | None) -> Iterator[bytes]:
         raise BadInput(f"{name}: cannot be read: {error.strerror or error}") from None
 
 
-def _of_file(name: str, descriptor: int, idle_s: float | None) -> Iterator[bytes]:
+def _file_pieces(name: str, descriptor: int, idle_s: float | None) -> Iterator[bytes]:
     read_bytes, last = 0, time.monotonic()
     while True:
         piece = os.read(descriptor, CHUNK_BYTES)

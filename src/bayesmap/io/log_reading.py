@@ -1,4 +1,4 @@
-"""The result of reading a log: its scans, and an account of how they were read."""
+"""A log that was read: its scans, and an account of how they were read."""
 
 from __future__ import annotations
 
@@ -19,7 +19,8 @@ from bayesmap.space.time_order import moment, time_order
 from bayesmap.space.trajectory import LONGEST_GAP_S, Trajectory
 
 Pose = tuple[float, float, float]  # x and y in metres, yaw in radians
-STEEPEST, LEVEL = math.cos(math.radians(45.0)), math.cos(math.radians(5.0))  # tilts: refused above, noted above
+STEEPEST = math.cos(math.radians(45.0))  # a sensor that is tilted more is refused
+LEVEL = math.cos(math.radians(5.0))  # a note names a larger tilt
 WITHOUT_POSES = "bayesmap slam --no-odometry needs no poses, if scans come at 5 Hz or so"
 
 
@@ -42,20 +43,20 @@ class LogOptions:
 
 @dataclass(frozen=True)
 class SkippedLine:
-    """A line, or message (``what``), that was left out on request: its number, from 1, and the reason."""
+    """A line or message that was left out on request."""
 
-    line: int
+    line: int  # its number, from 1
     reason: str
-    what: str = "line"
+    what: str = "line"  # or another kind of part, with its place, such as "message on /scan"
 
     def __str__(self) -> str:
-        kind, _, where = self.what.partition(" ")
-        return f"{kind} {self.line}" + (f" {where}" if where else "")
+        kind, _, place = self.what.partition(" ")
+        return f"{kind} {self.line} {place}".rstrip()
 
 
 @dataclass(frozen=True, eq=False)
 class LogReading:
-    """A log's scans, and how they were read. What the format does not name is None."""
+    """A log's scans, and how they were read. An attribute that the format does not have is None."""
 
     path: str  # the file or folder
     format: str  # "carmen", "g2o", "csv", "npz", "rawlog", "rosbag1", "rosbag2-sqlite3" or "mcap"
@@ -87,13 +88,13 @@ class LogReading:
         Raises `BadInput` for scans or a trajectory without stamps, no scan within its time, or poses of a base on which
         the place of the laser is not known.
         """
-        scans, of_laser = self.scans, trajectory.of("laser", self.scans.mount)
-        if scans.stamps_s is None or of_laser.stamps_s is None:
+        scans, laser_path = self.scans, trajectory.of("laser", self.scans.mount)
+        if scans.stamps_s is None or laser_path.stamps_s is None:
             raise BadInput(f"{self.path}: a trajectory places scans by their time, and {self.path} has no stamps")
-        poses, inside, near = of_laser.placed(scans.stamps_s)
-        start, end = of_laser.stamps_s[[0, -1]]
+        poses, inside, close = laser_path.placed(scans.stamps_s)
+        start, end = laser_path.stamps_s[[0, -1]]
         span = f"the trajectory reaches from {moment(start)} to {moment(end)}"
-        if not (inside & near).any():
+        if not (inside & close).any():
             first, last = scans.stamps_s[[0, -1]]
             raise BadInput(
                 f"{self.path}: its scans are from {moment(first)} to {moment(last)}, and {span}"
@@ -101,21 +102,20 @@ class LogReading:
                 + "; are both of one clock?"
             )
         frame = trajectory.frame or ("laser" if scans.mount is None else "base")
-        notes = [f"the scans stand at the poses of the given trajectory, taken as those of the {frame}"]
+        notes = [*self.notes, f"the scans stand at the poses of the given trajectory, taken as poses of the {frame}"]
         gap = f"its poses are over {LONGEST_GAP_S:g} s apart there"
-        for count, why in (((~inside).sum(), span), ((inside & ~near).sum(), gap)):
-            notes += [f"{count:,} scans were left out: {why}"] if count else []
-        scans = replace(scans, poses=poses, beam_poses=None).select(inside & near)
-        notes = [*self.notes, *notes]
+        for count, reason in (((~inside).sum(), span), ((inside & ~close).sum(), gap)):
+            notes += [f"{count:,} scans were left out: {reason}"] if count else []
+        scans = replace(scans, poses=poses, beam_poses=None).select(inside & close)
         return replace(self, scans=scans, posed=True, pose_source="trajectory", deskewed=False, notes=tuple(notes))
 
     def summary(self) -> dict[str, object]:
         """Return the account as plain data, ready for JSON."""
-        same = (
+        names = (
             "path", "format", "message", "max_range_origin", "reordered", "scan_topic", "pose_source", "fixed_frame",
             "sensor_frame", "deskewed", "thin_m", "posed",
         )  # fmt: skip
-        return {name: getattr(self, name) for name in same} | {
+        return {name: getattr(self, name) for name in names} | {
             "scans": len(self.scans), "beams": self.scans.n_beams, "readings": self.scans.counts(),
             "messages": dict(self.messages), "skipped_lines": len(self.skipped),
             "skipped": [{"line": skip.line, "what": skip.what, "reason": skip.reason} for skip in self.skipped[:100]],
@@ -128,26 +128,31 @@ class LogReading:
 
 @dataclass
 class Account:
-    """The account of a log while it is read, under the names of `LogReading`.
+    """The account of a log while it is read, under the names of `LogReading`."""
 
-    ``name`` is the path, and ``counts`` holds the number of lines, objects or messages of each kind. ``stamps_s`` are
-    the stamps of the scans in time order; None without stamps.
-    """
-
-    name: str
+    name: str  # path of the log
     format: str
     options: LogOptions
-    counts: Counter[str] = field(default_factory=Counter)
+    counts: Counter[str] = field(default_factory=Counter)  # of lines, objects or messages, by kind
     skipped: list[SkippedLine] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
-    stamps_s: Floats | None = None
+    stamps_s: Floats | None = None  # of the scans in time order; None without stamps
     reordered: int = 0
 
     def bad(self, line: int, reason: str) -> None:
-        """Record a malformed line that is left out; raise `BadInput` if the options do not allow it."""
+        """Record a malformed line that is left out. Raises `BadInput` if the options do not allow it."""
         if not self.options.skip_bad_lines:
             raise BadInput(f"{self.name}: line {line}: {reason}; repair it, or leave it out with --skip-bad-lines")
         self.skipped.append(SkippedLine(line, reason))
+
+    def contents(self) -> str:
+        """Return the commonest kinds of lines, objects or messages with their counts, in words."""
+        return ", ".join(f"{count:,} {kind}" for kind, count in self.counts.most_common(5)) or "nothing"
+
+    def malformed(self) -> str:
+        """Return the first part that was left out, and their number, to end an error message; "" if there is none."""
+        bad = self.skipped
+        return f"; {len(bad):,} malformed, first {bad[0]}: {bad[0].reason}" if bad else ""
 
     def no_poses(self, reason: str) -> BadInput:
         """Return the error for scans without poses, with a remedy."""
@@ -157,16 +162,16 @@ class Account:
         """Return the time order of the scans as indices, and store their stamps; without stamps, the file's order."""
         if stamps_s is None:
             return np.arange(count)
-        timed = time_order(stamps_s)
-        self.stamps_s, self.reordered = timed.stamps_s, timed.reordered
-        self.notes += timed.notes(stamps_s)
-        return timed.order
+        result = time_order(stamps_s)
+        self.stamps_s, self.reordered = result.stamps_s, result.reordered
+        self.notes += result.notes(stamps_s)
+        return result.order
 
     def which_way_up(self, heights: Floats, sensor: str, remedy: str = "") -> float:
         """Return 1 for an upright sensor, -1 for one upside down, and note a tilt.
 
-        ``heights`` are the vertical components of its z axis in each scan, (S,). It raises `BadInput`, with the remedy,
-        if the sensor does not scan the plane, or is upside down in some scans only.
+        ``heights`` are the vertical components of its z axis in each scan, (S,). Raises `BadInput`, with the remedy, if
+        the sensor does not scan the plane, or is upside down in some scans only.
         """
         steep = np.abs(heights) < STEEPEST
         if steep.any():
@@ -190,14 +195,14 @@ class Account:
             views=Views.of(poses, angles),
         )  # fmt: skip
 
-    def reading(
+    def scan_log(
         self, message: str, poses: Floats, angles_rad: Floats, readings: Readings, *,
-        beam_poses: Floats | None = None, mount: Pose | None = None, **about: Any,
+        beam_poses: Floats | None = None, mount: Pose | None = None, **attributes: Any,
     ) -> LogReading:  # fmt: skip
-        """Return the reading of the log, given the laser's poses (S, 3), the beams' angles and their readings.
+        """Return the log, given the laser's poses (S, 3), the beams' angles and their readings.
 
         ``beam_poses`` are the poses of all beams, (S, A, 3), ``mount`` is the laser's pose on the robot in the log if
-        it is known, and ``about`` are other attributes of `LogReading`.
+        it is known, and ``attributes`` are others of `LogReading`.
         """
         limit_m, mount = readings.max_range_m, self.options.laser or mount
         scans = Scans(
@@ -207,8 +212,8 @@ class Account:
         return LogReading(
             path=self.name, format=self.format, message=message, scans=scans.limited(limit_m),
             messages=dict(self.counts), skipped=tuple(sorted(self.skipped, key=lambda skip: skip.line)),
-            no_return=readings.no_return, max_range_origin=readings.max_range_origin,
-            reordered=self.reordered, notes=(*self.notes, *readings.notes), deskewed=beam_poses is not None, **about,
+            no_return=readings.no_return, max_range_origin=readings.max_range_origin, reordered=self.reordered,
+            notes=(*self.notes, *readings.notes), deskewed=beam_poses is not None, **attributes,
         )  # fmt: skip
 
 

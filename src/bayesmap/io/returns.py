@@ -32,9 +32,14 @@ from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
 
-TOP_SHARE, MIN_REPEATS, MIN_BEAMS, ISOLATION, MAX_CODES = 0.8, 10, 3, 2.0, 8
+TOP_SHARE = 0.8  # of the largest reading: candidates are larger; and of a candidate: repeats are compared with these
+MIN_REPEATS = 10  # fewest reports of a code, and least ratio to the average count of smaller values
+MIN_BEAMS = 3  # fewest beams that report a code
+ISOLATION = 2.0  # least ratio of an isolated code to any smaller reading
+MAX_CODES = 8  # most different values above a code
 MIN_VIEWS = 3  # fewest places, or separate directions from one place, from which a code must be reported
-SAME_PLACE_M, SAME_DIRECTION_RAD = 0.05, math.radians(1.0)
+SAME_PLACE_M = 0.05  # largest distance of scans from one place
+SAME_DIRECTION_RAD = math.radians(1.0)
 APART_STEPS = 2.5  # largest gap, in steps between beams, within one direction; a larger gap separates two directions
 PRINT_PRECISION_M = 1e-3  # tolerance of a code: 81.83 also stands for 81.8299 in the log
 FURTHEST_M = 1e6  # largest stated range that is accepted as a sensor's limit
@@ -44,7 +49,7 @@ FURTHEST_M = 1e6  # largest stated range that is accepted as a sensor's limit
 class NoReturn:
     """The number that a log writes for no return.
 
-    This and larger readings are no return; if it is zero or negative, all readings of zero and below. A number is
+    This and larger readings are no return. If it is zero or negative, all readings of zero and below are. A number is
     doubtful if it stands out like a code, but was reported from one place in one direction, like a wall. It is a hit.
     """
 
@@ -79,9 +84,9 @@ class Views:
         """Return the views of scans at poses (S, 3) with beams at angles (A,) or (S, A)."""
         place, first = np.zeros(len(poses), dtype=np.intp), 0
         for i in range(1, len(poses)):
-            moved = math.dist(poses[i, :2], poses[first, :2]) > SAME_PLACE_M
-            first = i if moved else first
-            place[i] = place[i - 1] + moved
+            has_moved = math.dist(poses[i, :2], poses[first, :2]) > SAME_PLACE_M
+            first = i if has_moved else first
+            place[i] = place[i - 1] + has_moved
         steps = np.abs(np.diff(angles_rad, axis=-1))
         step = float(np.nanmedian(steps)) if steps.size else 0.0
         return cls(place, poses[:, 2:] + angles_rad, step)
@@ -113,13 +118,11 @@ def decode(
     readings_m: NDArray[np.float64], no_return: float | None = None, sensor_max_m: float | None = None,
     views: Views | None = None,
 ) -> tuple[NDArray[np.float64], NoReturn]:  # fmt: skip
-    """Replace the codes in raw readings, (S, A), by those of REP-117. Returns the ranges, and the no-return code.
+    """Replace the codes in raw readings, (S, A), by the codes of REP-117. Returns the ranges, and the no-return code.
 
     Ranges are +inf for no return, and NaN for numbers that cannot be ranges. If ``no_return`` is infinity, the log has
     none; if it is None, the rules of this module find the code. Readings of the maximum range that the log states, and
-    larger ones, are no return, even if they are not repeated.
-
-    Raises `BadInput` if ``no_return`` is NaN or minus infinity.
+    larger ones, are no return, even if they are not repeated. Raises `BadInput` if ``no_return`` is NaN or -inf.
     """
     if no_return is not None and (math.isnan(no_return) or no_return == -math.inf):
         raise BadInput(f"--no-return {no_return}: give the log's number in metres, or inf if it has none")
@@ -137,31 +140,27 @@ def decode(
         if code is None and _count_beams(impossible) >= MIN_BEAMS:
             code = float(readings_m[impossible].max())
     # The readings that it covers.
-    if code is None:
-        coded = np.zeros(readings_m.shape, dtype=bool)
-    elif code > 0:
-        coded = finite & (readings_m >= code - PRINT_PRECISION_M)
-    else:
-        coded = impossible
+    is_coded = impossible if code is not None else np.zeros_like(impossible)
+    if code is not None and code > 0:
+        is_coded = finite & (readings_m >= code - PRINT_PRECISION_M)
     ranges = np.where(impossible, np.nan, readings_m)
-    ranges[coded] = np.inf
-    values = tuple(float(v) for v in np.unique(readings_m[coded])[:10])
+    ranges[is_coded] = np.inf
+    values = tuple(float(v) for v in np.unique(readings_m[is_coded])[:10])
     if no_return is None and not values and origin != "message":
         code, origin = None, "none"
     return ranges, NoReturn(code, origin, values, doubtful)
 
 
 def _code_at_top(readings_m: NDArray[np.float64], views: Views | None) -> tuple[float | None, float | None]:
-    """Find the smallest code, and a number that stands out in one direction only; None for each that is missing."""
+    """Return the smallest code, and a number that stands out in one direction only; None for each that is missing."""
     usable = np.isfinite(readings_m) & (readings_m > 0)
     if not usable.any():
         return None, None
-    if views is None:
-        once = usable
-    else:  # Counts are needed from 0.8 of the smallest candidate, itself 0.8 of the largest reading.
+    counted = usable
+    if views is not None:  # Counts are needed from 0.8 of the smallest candidate, itself 0.8 of the largest reading.
         top = usable & (readings_m >= TOP_SHARE**2 * readings_m[usable].max())
-        once = usable & ~views.repeated(readings_m, top)
-    standing_out = _standing_out(readings_m, once)
+        counted = usable & ~views.repeated(readings_m, top)
+    standing_out = _standing_out(readings_m, counted)
     if views is not None:
         standing_out = [value for value in standing_out if views.count(readings_m >= value) >= MIN_VIEWS]
     if standing_out or views is None:
@@ -215,9 +214,8 @@ def classify(
     """Classify raw readings, (S, A), as hits, no return, too close or invalid.
 
     The sensor's stated limits may be 0, NaN or nonsense. ``no_return`` and ``max_range_m`` are the user's, or None; a
-    no-return code of infinity means that the log has none. ``name`` is that of the file, for messages.
-
-    Raises `BadInput` if all readings are invalid, or a given number makes no sense.
+    no-return code of infinity means that the log has none. Error messages name the file, ``name``. Raises `BadInput` if
+    all readings are invalid, or a given number makes no sense.
     """
     # Check the stated limits.
     notes: list[str] = []
@@ -231,10 +229,10 @@ def classify(
     # Codes: a log with infinities has none.
     if no_return is None and np.isinf(readings_m).any():
         ranges = np.where(np.isfinite(readings_m) & (readings_m <= 0), np.nan, readings_m)
-        coded = NoReturn(None, "none")
+        code = NoReturn(None, "none")
     else:
-        ranges, coded = decode(readings_m, no_return, largest, views)
-        notes += coded.notes()
+        ranges, code = decode(readings_m, no_return, largest, views)
+        notes += code.notes()
     finite = np.isfinite(ranges)
     zeros = int((np.isfinite(readings_m) & (readings_m <= 0) & np.isnan(ranges)).sum())
     if zeros > 0.01 * readings_m.size:
@@ -243,15 +241,16 @@ def classify(
             "--no-return 0 takes them as no return"
         )
     # Finite numbers outside the limits.
-    near = finite & (ranges < smallest)
-    if near.any():
-        notes.append(f"{int(near.sum()):,} readings below the smallest range of {smallest:g} m were taken as invalid")
-    ranges[near] = np.nan
+    too_close = finite & (ranges < smallest)
+    if too_close.any():
+        count = int(too_close.sum())
+        notes.append(f"{count:,} readings below the smallest range of {smallest:g} m were taken as invalid")
+    ranges[too_close] = np.nan
     if largest is not None:
-        far = finite & (ranges > largest)
-        if far.any():
-            notes.append(f"{int(far.sum()):,} readings above the largest range of {largest:g} m are no return")
-        ranges[far] = np.inf
+        too_far = finite & (ranges > largest)
+        if too_far.any():
+            notes.append(f"{int(too_far.sum()):,} readings above the largest range of {largest:g} m are no return")
+        ranges[too_far] = np.inf
     if np.isnan(ranges).all():
         raise BadInput(
             f"{name}: none of {ranges.size:,} readings in {len(ranges):,} scans is valid (all are NaN, or outside "
@@ -264,7 +263,7 @@ def classify(
         limit, origin = largest_hit_m(name, ranges), "readings"
     if not (math.isfinite(limit) and limit > smallest):
         raise BadInput(f"{name}: --max-range {limit:g}: give more than the sensor's smallest range, {smallest:g} m")
-    return Readings(ranges, coded, smallest, float(limit), origin, tuple(notes))
+    return Readings(ranges, code, smallest, float(limit), origin, tuple(notes))
 
 
 def largest_hit_m(name: str, ranges_m: NDArray[np.float64], most_m: float = math.inf) -> float:

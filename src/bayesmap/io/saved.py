@@ -39,8 +39,8 @@ if TYPE_CHECKING:
 FORMAT = "bayesmap run"
 FORMAT_VERSION = 1
 
-BLOCK = 1 << 22  # numbers that are converted at a time, so that no whole copy of the draws is made
-CHUNK = 1 << 20  # numbers that are compressed together
+BLOCK_NUMBERS = 1 << 22  # converted at a time, so that no whole copy of the draws is made
+CHUNK_NUMBERS = 1 << 20  # compressed together
 UNTIE_NATS = 1e-4  # noise on log likelihoods by reading: arviz refuses a tail of weights that are all equal
 
 
@@ -52,9 +52,7 @@ def save(
     """Write a posterior, whole or not at all, with the approximation of all scans' poses, if there is one.
 
     ``on_progress`` is called with the count of the draws' numbers written so far, and their total. ``by_reading`` adds
-    the group ``log_likelihood``, which is not read back.
-
-    Raises `BadInput` for a folder that cannot be written to.
+    the group ``log_likelihood``, which is not read back. Raises `BadInput` for a folder that cannot be written to.
     """
     with write_whole(Path(path)) as partial, netCDF4.Dataset(partial, "w", format="NETCDF4") as file:
         _write(posterior, file, on_progress, trajectory)
@@ -102,21 +100,21 @@ def _write(
     x, y = grid.centers_m()
     for name, values in (("chain", np.arange(draws.chains)), ("draw", np.arange(draws.count)), ("x", x), ("y", y)):
         write_arrays(group, (name,), {name: values}, compressed=False)
-    for dimension, cells in draws.index.items():
-        places = {f"{dimension}_x": cells // grid.shape[1], f"{dimension}_y": cells % grid.shape[1]}
+    for dimension, index in draws.index.items():
+        coordinates = {f"{dimension}_x": index // grid.shape[1], f"{dimension}_y": index % grid.shape[1]}
         if not dimension.endswith("cell"):
-            places = {dimension: cells}
-        write_arrays(group, (dimension,), places)
-    numbers = sum(draws.size * math.prod(draws.shape_of(spec)) for spec in draws.specs)
+            coordinates = {dimension: index}
+        write_arrays(group, (dimension,), coordinates)
+    total = sum(draws.size * math.prod(draws.shape_of(spec)) for spec in draws.specs)
     done = 0
 
-    def written(count: int) -> None:
+    def on_written(count: int) -> None:
         nonlocal done
         done += count
-        on_progress(done, numbers)
+        on_progress(done, total)
 
     for spec in draws.specs:
-        write_draws(group, spec, draws.arrays[spec.name], draws.shape_of(spec), written)
+        write_draws(group, spec, draws.arrays[spec.name], draws.shape_of(spec), on_written)
         if spec.dims[0].endswith("cell"):  # so that xarray takes the places of cells for coordinates
             group[spec.name].coordinates = f"{spec.dims[0]}_x {spec.dims[0]}_y"
     # Log densities, scans, marginals, and the parameters and statistics that are arrays.
@@ -128,10 +126,10 @@ def _write(
     constant = _write_scans(file, scans)
     observed = posterior.observed.astype(np.int8)
     write_arrays(constant, ("x", "y"), {"occupancy": posterior.occupancy, "observed": observed})
-    some = {f"prior_{name}": np.asarray(values) for name, values in posterior.prior.parameters().items()}
-    some |= {f"statistic_{name}": np.asarray(values) for name, values in posterior.statistics.items()}
-    some |= {} if posterior.log_weights is None else {"log_weight": posterior.log_weights}
-    for name, values in some.items():
+    arrays = {f"prior_{name}": np.asarray(values) for name, values in posterior.prior.parameters().items()}
+    arrays |= {f"statistic_{name}": np.asarray(values) for name, values in posterior.statistics.items()}
+    arrays |= {} if posterior.log_weights is None else {"log_weight": posterior.log_weights}
+    for name, values in arrays.items():
         write_arrays(constant, tuple(f"{name}_{i}" for i in range(values.ndim)), {name: values})
     state = file.createGroup("chain_state")
     for name, values in posterior.snapshot.arrays.items():
@@ -156,13 +154,13 @@ def _write_scans(file: Any, scans: Scans) -> Any:
 
 
 def load_saved(path: str | os.PathLike[str]) -> tuple[Posterior, Trajectory | None]:
-    """Read a posterior, and its approximation of poses, if any; raise `BadInput` for other or damaged files."""
+    """Read a posterior, and its approximation of poses, if any. Raises `BadInput` for other or damaged files."""
     path = Path(path)
     if not path.is_file():
-        nothing = "a folder without a run; give a run.nc" if path.is_dir() else "no such file"
+        reason = "a folder without a run; give a run.nc" if path.is_dir() else "no such file"
         if (path.parent / "trajectory.tum").is_file():  # slam writes it before its first sweep
-            nothing = "no draws yet; trajectory.tum beside it is complete, and slam --resume draws the map"
-        raise BadInput(f"{path}: {run_in(path) or nothing}")
+            reason = "no draws yet; trajectory.tum beside it is complete, and slam --resume draws the map"
+        raise BadInput(f"{path}: {run_in(path) or reason}")
     try:
         with netCDF4.Dataset(path, "r") as file:
             file.set_auto_mask(False)
@@ -195,16 +193,16 @@ def _not_ours(attributes: dict[str, Any]) -> str | None:
 def _read(file: Any, header: dict[str, Any]) -> tuple[Posterior, Trajectory | None]:
     constant = file["constant_data"]
 
-    def named(prefix: str) -> dict[str, NDArray[Any]]:
+    def with_prefix(prefix: str) -> dict[str, NDArray[Any]]:
         names = [name for name in constant.variables if name.startswith(prefix)]
         return {name.removeprefix(prefix): np.asarray(constant[name][:]) for name in names}
 
-    prior = prior_from(header["prior"] | named("prior_"))
+    prior = prior_from(header["prior"] | with_prefix("prior_"))
     snapshot = Snapshot(header["sweep"], {name: v[:] for name, v in file["chain_state"].variables.items()})
     trajectory = None
     if "trajectory" in header:
-        saved = {name: variable[:] for name, variable in file["trajectory"].variables.items()}
-        trajectory = trajectory_from(saved, header["trajectory"])
+        arrays = {name: variable[:] for name, variable in file["trajectory"].variables.items()}
+        trajectory = trajectory_from(arrays, header["trajectory"])
     grid = Grid(tuple(header["grid"]["shape"]), header["grid"]["resolution"], tuple(header["grid"]["origin"]))
     draws, stats = file["posterior"], file["sample_stats"]
     specs = (*prior.arrays, POSES) if POSES.name in draws.variables else prior.arrays
@@ -219,7 +217,7 @@ def _read(file: Any, header: dict[str, Any]) -> tuple[Posterior, Trajectory | No
         observed=constant["observed"][:] != 0, log_likelihood=stats["log_likelihood"][:],
         log_prior=stats["log_prior"][:], warmup_log_joint=file["warmup_sample_stats"]["lp"][:],
         snapshot=snapshot, finished=header["finished"], seconds=header["seconds"], counts=header["counts"],
-        log_weights=_optional(constant, "log_weight"), statistics=named("statistic_"),
+        log_weights=_optional(constant, "log_weight"), statistics=with_prefix("statistic_"),
         log_evidence=header["log_evidence"], notes=tuple(header["notes"]),
     )  # fmt: skip
     return posterior, trajectory
@@ -254,22 +252,21 @@ def write_arrays(
     """Write arrays of the same dimensions; new dimensions get the arrays' sizes."""
     for name, values in arrays.items():
         _need_dimensions(group, dimensions, values.shape)
-        how = {"zlib": compressed, "complevel": 1, "fletcher32": bool(dimensions)}
-        group.createVariable(name, values.dtype, dimensions, **how)[:] = values
+        filters = {"zlib": compressed, "complevel": 1, "fletcher32": bool(dimensions)}
+        group.createVariable(name, values.dtype, dimensions, **filters)[:] = values
 
 
 def write_draws(
-    group: Any, spec: ArraySpec, stored: NDArray[Any], shape: tuple[int, ...], written: Callable[[int], None]
+    group: Any, spec: ArraySpec, stored: NDArray[Any], shape: tuple[int, ...], on_written: Callable[[int], None]
 ) -> None:
-    """Write a stored array of the draws, (chains, draws, ...); call ``written`` with the count of each block."""
-    # A chunk holds whole draws of one chain, about `CHUNK` numbers.
+    """Write a stored array of the draws, (chains, draws, ...); call ``on_written`` with the count of each block."""
+    # A chunk holds whole draws of one chain, about `CHUNK_NUMBERS` numbers.
     chains, draws = stored.shape[:2]
     dimensions, sizes = ("chain", "draw", *spec.dims), (chains, draws, *shape)
     _need_dimensions(group, dimensions, sizes)
     size, dtype = int(np.prod(shape)), {"bits": "i1", "half": "f4"}.get(spec.storage, spec.dtype)
-    deep = _depth(draws, size)
-    wide = tuple(max(1, part) for part in shape) if size <= CHUNK or len(shape) > 1 else (CHUNK,)
-    chunks = (1, max(1, min(deep, draws)), *wide)
+    draw_shape = tuple(max(1, part) for part in shape) if size <= CHUNK_NUMBERS or len(shape) > 1 else (CHUNK_NUMBERS,)
+    chunks = (1, _draws_per_chunk(draws, size), *draw_shape)
     variable = group.createVariable(
         spec.name, dtype, dimensions, zlib=True, complevel=1, shuffle=spec.storage != "bits", chunksizes=chunks,
         fletcher32=True,
@@ -282,20 +279,20 @@ def write_draws(
     for chain, block in _blocks(chains, draws, size):
         part = spec.values(stored[chain, block], shape)
         variable[chain, block] = part.view(np.int8) if spec.storage == "bits" else part.astype(dtype, copy=False)
-        written(part.size)
+        on_written(part.size)
 
 
 def read_draws(variable: Any, spec: ArraySpec, shape: tuple[int, ...]) -> NDArray[Any]:
-    """Return draws in their stored form; raise `ValueError` for sizes that do not fit the file's cells."""
+    """Return draws in their stored form. Raises `ValueError` for sizes that do not fit the file's cells."""
     chains, draws, *sizes = variable.shape
     if tuple(sizes) != shape:
         raise ValueError(f"{spec.name} has the sizes {sizes}, and not {shape}")
-    out = spec.empty(chains, draws, shape)
+    stored = spec.empty(chains, draws, shape)
     if variable.chunking() != "contiguous":
         variable.set_var_chunk_cache(size=math.prod(variable.chunking()) * variable.dtype.itemsize)
     for chain, block in _blocks(chains, draws, int(np.prod(shape))):
-        out[chain, block] = spec.stored(variable[chain, block])
-    return out
+        stored[chain, block] = spec.stored(variable[chain, block])
+    return stored
 
 
 def _need_dimensions(group: Any, dimensions: tuple[str, ...], sizes: tuple[int, ...]) -> None:
@@ -304,21 +301,21 @@ def _need_dimensions(group: Any, dimensions: tuple[str, ...], sizes: tuple[int, 
             group.createDimension(dimension, size)
 
 
-def _depth(draws: int, size: int) -> int:
-    return max(1, min(draws, CHUNK // max(size, 1)))
+def _draws_per_chunk(draws: int, size: int) -> int:
+    return max(1, min(draws, CHUNK_NUMBERS // max(size, 1)))
 
 
 def _blocks(chains: int, draws: int, size: int) -> Iterator[tuple[int, slice]]:
     """Yield the blocks of draws that are converted at a time, chain by chain."""
-    deep = _depth(draws, size)
-    at_once = max(1, BLOCK // max(size * deep, 1)) * deep  # whole chunks
+    per_chunk = _draws_per_chunk(draws, size)
+    at_once = max(1, BLOCK_NUMBERS // max(size * per_chunk, 1)) * per_chunk  # whole chunks
     for chain in range(chains if size else 0):
         for i in range(0, draws, at_once):
             yield chain, slice(i, min(i + at_once, draws))
 
 
-VECTOR, MATRIX = ("pose_part",), ("pose_part", "other_pose_part")
-
+VECTOR = ("pose_part",)
+MATRIX = ("pose_part", "other_pose_part")
 FIELDS: dict[str, tuple[str, ...]] = {
     "poses": ("scan", *VECTOR), "stamps_s": ("scan",), "nearest_key": ("scan",), "own_covariance": ("scan", *MATRIX),
     "explained": ("scan",), "flagged": ("scan",), "order": ("scan",), "keys": ("key",), "breaks": ("break",),
@@ -350,27 +347,26 @@ PARTS: dict[str, dict[str, tuple[str, ...]]] = {
 
 def arrays_of(trajectory: Trajectory) -> dict[str, tuple[tuple[str, ...], NDArray[Any]]]:
     """Return all arrays of a trajectory by their saved names, with their dimensions."""
-    every = [(name, dims, getattr(trajectory, name)) for name, dims in FIELDS.items()]
-    for part, fields in PARTS.items():
-        holder = getattr(trajectory, part)
-        if holder is not None and (part != "alternatives" or len(holder)):
-            every += [(f"{part}_{name}", dims, getattr(holder, name)) for name, dims in fields.items()]
-    return {name: (dims, _stored(values)) for name, dims, values in every if values is not None}
+    arrays = [(name, dims, getattr(trajectory, name)) for name, dims in FIELDS.items()]
+    for name, fields in PARTS.items():
+        part = getattr(trajectory, name)
+        if part is not None and (name != "alternatives" or len(part)):
+            arrays += [(f"{name}_{field}", dims, getattr(part, field)) for field, dims in fields.items()]
+    return {name: (dims, _stored(values)) for name, dims, values in arrays if values is not None}
 
 
 def numbers_of(trajectory: Trajectory) -> dict[str, Any]:
     """Return the parts of a trajectory that are no arrays, as JSON values."""
-    about = trajectory.calibration
-    fit = about.odometry
+    calibration, fit = trajectory.calibration, trajectory.calibration.odometry
     odometry = None if fit is None else {
         "slope": fit.slope.tolist(), "slope_sigma": fit.slope_sigma.tolist(),
         "systematic_covariance": fit.systematic_covariance.tolist(), "lag_s": float(fit.lag_s),
         "lag_sigma_s": float(fit.lag_sigma_s), "rates": fit.noise.rates.tolist(),
     }  # fmt: skip
     return {
-        "dof": trajectory.gaussian.dof, "angle_step_ratio": about.angle_step_ratio,
-        "point_sigma_m": about.point_sigma_m,
-        "noise": None if about.noise is None else asdict(about.noise), "odometry": odometry,
+        "dof": trajectory.gaussian.dof, "angle_step_ratio": calibration.angle_step_ratio,
+        "point_sigma_m": calibration.point_sigma_m, "odometry": odometry,
+        "noise": None if calibration.noise is None else asdict(calibration.noise),
     }  # fmt: skip
 
 
@@ -384,20 +380,20 @@ def trajectory_from(arrays: Mapping[str, NDArray[Any]], numbers: Mapping[str, An
     def part(name: str) -> dict[str, Any]:
         return {field: arrays.get(f"{name}_{field}") for field in PARTS[name]}
 
-    own: dict[str, Any] = {name: arrays.get(name) for name in FIELDS}
-    own["flagged"] = own["flagged"] != 0
-    about, noise = numbers["odometry"], numbers["noise"]
+    fields: dict[str, Any] = {name: arrays.get(name) for name in FIELDS}
+    fields["flagged"] = fields["flagged"] != 0
+    odometry, noise = numbers["odometry"], numbers["noise"]
     fit = None
-    if about is not None:
-        slope, sigma, rates = (np.array(about[name]) for name in ("slope", "slope_sigma", "rates"))
-        covariance = np.array(about.get("systematic_covariance", np.diag(sigma.ravel() ** 2)))
-        fit = OdometryFit(slope, covariance, about["lag_s"], about["lag_sigma_s"], MotionNoise(rates))
+    if odometry is not None:
+        slope, covariance, rates = (np.array(odometry[n]) for n in ("slope", "systematic_covariance", "rates"))
+        fit = OdometryFit(slope, covariance, odometry["lag_s"], odometry["lag_sigma_s"], MotionNoise(rates))
     calibration = Calibration(
         angle_step_ratio=numbers["angle_step_ratio"], odometry=fit, noise=None if noise is None else Odometry(**noise),
         point_sigma_m=numbers["point_sigma_m"], **part("calibration"),
     )  # fmt: skip
     return Trajectory(
-        **own, gaussian=PoseGaussian(**part("gaussian"), dof=numbers["dof"]), closures=LoopClosures(**part("closures")),
+        **fields, gaussian=PoseGaussian(**part("gaussian"), dof=numbers["dof"]),
+        closures=LoopClosures(**part("closures")),
         alternatives=Alternatives(**part("alternatives")) if "alternatives_first" in arrays else NO_ALTERNATIVES,
         odometry=Factors(**part("odometry")) if "odometry_first" in arrays else None, calibration=calibration,
     )  # fmt: skip

@@ -1,17 +1,28 @@
-"""The time order of scans. Their stamps may be coarse, come in bursts, or come from a clock that was set back."""
+"""The time order of scans, and their steps. Stamps may be coarse, come in bursts, or from a clock that was set back."""
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from datetime import UTC, datetime
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
+
+from bayesmap.errors import BadInput
+
+if TYPE_CHECKING:
+    from bayesmap.space.scans import Scans
 
 STEP_S = 1.0  # largest step back of stamps, seconds, that counts as scans logged late rather than as a clock set back
 MIN_SCANS_AFTER_STEP = 10  # fewest scans after a step back of the clock; half as many on each side must overlap
 SAME_S = 1e-3  # stamps that are closer, in seconds, are equal: no laser sweeps so fast
 TURNS = 0.7  # fewest changes between two alternating groups of scans, per scan of the smaller
+FASTEST_M_PER_S = 10.0  # largest speed of a robot in a building
+SHORTEST_JUMP_M = 0.2  # shortest step whose speed is judged: the time of shorter steps is too uncertain
+LONGEST_STEP_M = 2.0  # a longer step, of over `MEDIAN_STEPS` median steps, is a jump at any speed
+MEDIAN_STEPS = 10.0
 DATES_S = (1e8, 1e11)  # stamps between these are seconds since 1970; others count from another start
 
 
@@ -146,3 +157,40 @@ def _alternate(first: NDArray[np.float64], second: NDArray[np.float64]) -> bool:
     """Return true if two groups of stamps alternate one by one, rather than in bursts."""
     group = np.repeat([False, True], [len(first), len(second)])[np.argsort(np.concatenate([first, second]))]
     return bool((np.diff(group)).sum() >= TURNS * min(len(first), len(second)))
+
+
+def thinned(scans: Scans, spacing_m: float) -> Scans:
+    """Select the first scan, and then each scan at least ``spacing_m`` of travel after the last selected one.
+
+    The distance is measured along the path through all poses; turns on the spot do not count. Raises `BadInput` for a
+    spacing that is negative or not finite.
+    """
+    if not (math.isfinite(spacing_m) and spacing_m >= 0):
+        raise BadInput(f"thin: give the metres that the robot travels from scan to scan, got {spacing_m!r}")
+    if spacing_m == 0 or len(scans) == 0:
+        return scans
+    travelled = np.concatenate([[0.0], np.cumsum(steps_m(scans.poses))])
+    selected, i = [], 0
+    while i < len(scans):
+        selected.append(i)
+        # Slightly less, so that ten steps of 0.1 m make a metre; but always further than the present scan.
+        far = np.searchsorted(travelled, travelled[i] + spacing_m * (1 - 1e-9), side="left")
+        i = int(max(far, np.searchsorted(travelled, travelled[i], side="right")))
+    return scans.select(np.array(selected, dtype=np.intp))
+
+
+def steps_m(poses: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the distance from each pose to the next, shape (S - 1,)."""
+    with np.errstate(over="ignore"):
+        return np.asarray(np.hypot(*np.diff(poses[:, :2], axis=0).T))
+
+
+def jumps(scans: Scans) -> NDArray[np.intp]:
+    """Return scans over 0.2 m at over 10 m/s from the one before, or over 2 m and ten median steps, ascending."""
+    if len(scans) < 2:
+        return np.empty(0, dtype=np.intp)
+    steps = steps_m(scans.poses)
+    jump = (steps > LONGEST_STEP_M) & (steps > MEDIAN_STEPS * np.median(steps))
+    if scans.stamps_s is not None:
+        jump |= (steps > SHORTEST_JUMP_M) & (steps > FASTEST_M_PER_S * elapsed_s(scans.stamps_s)[1])
+    return np.nonzero(jump)[0] + 1

@@ -37,7 +37,7 @@ UNPACKERS: dict[str, tuple[bytes, Callable[[Any], Any]]] = {
     "bzip2": (b"BZh", bz2.BZ2File),
 }
 """First bytes of compressed files, and functions that unpack them."""
-AT_ONCE = 1 << 16  # bytes unpacked at a time
+CHUNK_BYTES = 1 << 16  # unpacked at a time
 
 RECORD_READERS: dict[str, tuple[bytes, Callable[[str | os.PathLike[str], raw.OnDamage], raw.Records]]] = {
     "rosbag1": (raw.BAG_MAGIC, raw.bag_records),
@@ -62,7 +62,7 @@ def reason_of(error: Exception) -> str:
 
 
 def unpack_zstd(packed: bytes, largest: int) -> bytes:
-    """Unpack data, or raise `NotUnpacked` if they are damaged, cut short, or larger than ``largest`` bytes."""
+    """Unpack data. Raises `NotUnpacked` if they are damaged, cut short, or larger than ``largest`` bytes."""
     try:
         unpacker = zstd().ZstdDecompressor()
         data = bytes(unpacker.decompress(packed, largest))
@@ -93,8 +93,8 @@ def first_bytes(path: str | os.PathLike[str], count: int) -> bytes:
             return b""
 
 
-def _at_hand(path: Path, stack: ExitStack, on_damage: raw.OnDamage) -> Path:
-    """Return the file, or a temporary unpacked copy: partial after damage, if ``on_damage`` returns."""
+def _unpacked_copy(path: Path, stack: ExitStack, on_damage: raw.OnDamage) -> Path:
+    """Return a temporary unpacked copy of a file, partial after damage if ``on_damage`` returns; or the file itself."""
     with path.open("rb") as file:
         kind = compression_of(file.read(4))
         if kind is None:
@@ -116,7 +116,7 @@ def _at_hand(path: Path, stack: ExitStack, on_damage: raw.OnDamage) -> Path:
     return folder / "unpacked"
 
 
-def _read(unpacked: Any, count: int = AT_ONCE) -> bytes:
+def _read(unpacked: Any, count: int = CHUNK_BYTES) -> bytes:
     try:
         return bytes(unpacked.read(count))
     except (EOFError, OSError, ValueError, zlib.error, zstd().ZstdError) as problem:
@@ -125,11 +125,10 @@ def _read(unpacked: Any, count: int = AT_ONCE) -> bytes:
 
 def container_of(path: str | os.PathLike[str]) -> str | None:
     """Return the format of a recording by its first bytes, ``"folder"`` for one of rosbag2's, None for other files."""
-    where = Path(path)
-    if where.is_dir():
-        inside = [entry.name for entry in where.iterdir()]
-        return "folder" if METADATA in inside or any(name.endswith(ENDINGS) for name in inside) else None
-    return format_by_start(first_bytes(where, 16))
+    if not Path(path).is_dir():
+        return format_by_start(first_bytes(path, 16))
+    names = [entry.name for entry in Path(path).iterdir()]
+    return "folder" if any(name == METADATA or name.endswith(ENDINGS) for name in names) else None
 
 
 def format_by_start(start: bytes) -> str | None:
@@ -143,10 +142,8 @@ def open_recording(path: str | os.PathLike[str], *, salvage: bool, types: Collec
     """Open a recording: a file of a format in `RECORD_READERS`, or a folder of rosbag2's.
 
     With ``salvage`` a damaged recording is read as far as possible, and a note describes the damage. Only damage to
-    messages of ``types`` counts.
-
-    Raises `BadInput` for a recording that is damaged (without ``salvage``), or cannot be read at all; a bag of another
-    version.
+    messages of ``types`` counts. Raises `BadInput` for a recording that is damaged (without ``salvage``) or cannot be
+    read at all, and for a bag of another version.
     """
     name = os.fspath(path)
     start = b"" if Path(path).is_dir() else first_bytes(path, 16)
@@ -157,42 +154,43 @@ def open_recording(path: str | os.PathLike[str], *, salvage: bool, types: Collec
             "ROS 1: rosbag fix OLD.bag NEW.bag"
         )
     try:
-        recording = _whole(path)
+        recording = _open_whole(path)
         if salvage:  # damage within may show only in reading
             for _ in recording.read(frozenset(t.name for t in recording.topics.values() if t.type in types)):
                 pass
     except Damaged as problem:
         if not salvage:
             raise BadInput(f"{name}: the recording is damaged or cut short ({problem}); {REMEDY}") from None
-        recording = _salvaged(path, str(problem))
+        recording = _open_damaged(path, str(problem))
     if not recording.topics:
-        raise BadInput(f"{name}: the recording holds no topic at all" + "".join(f"; {n}" for n in recording.notes))
+        notes = "".join(f"; {note}" for note in recording.notes)
+        raise BadInput(f"{name}: the recording holds no topic at all{notes}")
     return recording
 
 
-def _whole(path: str | os.PathLike[str]) -> Recording:
-    container = container_of(path)
-    files = [Path(path)]
-    notes: tuple[str, ...] = ()
-    if container == "folder":
-        if (Path(path) / METADATA).exists():
-            from rosbags.rosbag2 import Reader
+def _open_whole(path: str | os.PathLike[str]) -> Recording:
+    """Open a recording that is not damaged. Raises `Damaged` for others."""
+    if (Path(path) / METADATA).exists():
+        from rosbags.rosbag2 import Reader
 
-            mcap = any(".mcap" in entry.name for entry in Path(path).iterdir())
-            return _by_rosbags(path, "mcap" if mcap else "rosbag2-sqlite3", partial(Reader, Path(path)))
-        files, container = _files_of(path)
-        notes = (f"the folder has no {METADATA}, as when a recording was not ended; its {len(files)} files were read",)
-    assert container is not None
+        mcap = any(".mcap" in entry.name for entry in Path(path).iterdir())
+        return _by_rosbags(path, "mcap" if mcap else "rosbag2-sqlite3", partial(Reader, Path(path)))
+    files, container = _files_of(path)
+    note = f"the folder has no {METADATA}, as when a recording was not ended; its {len(files)} files were read"
     with ExitStack() as stack:
         parts = [
-            _by_rosbags(at, container, _rosbags_reader(at, container), is_file=True)
-            for at in (_at_hand(file, stack, raw.refuse) for file in files)
+            _by_rosbags(file, container, _rosbags_reader(file, container), is_file=True)
+            for file in (_unpacked_copy(file, stack, raw.refuse) for file in files)
         ]
-        return _joined(os.fspath(path), container, parts, notes, stack)
+        return _joined(os.fspath(path), container, parts, (note,) if Path(path).is_dir() else (), stack)
 
 
 def _files_of(path: str | os.PathLike[str]) -> tuple[list[Path], str]:
-    """Return the storage files of a folder without metadata, in the order of their names, and their format."""
+    """Return a file, or the storage files of a folder without metadata in the order of their names, and the format."""
+    if not Path(path).is_dir():
+        container = container_of(path)
+        assert container is not None
+        return [Path(path)], container
     files = [entry for entry in sorted(Path(path).iterdir()) if entry.name.endswith(ENDINGS)]
     # Leave out a packed file whose unpacked copy lies beside it.
     names = {file.name for file in files}
@@ -277,18 +275,18 @@ def _rosbags_topics(make: Callable[[], Any], container: str) -> tuple[dict[str, 
     topics: dict[str, Topic] = {}
     with _opened(make) as reader:
         for connection in sorted(reader.connections, key=lambda c: str(c.topic)):
-            before = topics.get(connection.topic)
-            if before is not None and before.type != connection.msgtype:
+            earlier = topics.get(connection.topic)
+            if earlier is not None and earlier.type != connection.msgtype:
                 continue
-            count = connection.msgcount + (before.count if before else 0)
+            count = connection.msgcount + (earlier.count if earlier else 0)
             language = "idl" if connection.msgdef.format.name == "IDL" else "msg"
             ros1 = ("ros1", connection.digest)
             topics[connection.topic] = Topic(
                 connection.topic, connection.msgtype, count, connection.msgdef.data, language,
                 *(ros1 if container == "rosbag1" else (connection.ext.serialization_format, "")),
             )  # fmt: skip
-        about = reader if container == "rosbag1" or not hasattr(reader, "metadata") else reader.metadata
-        times = about.start_time, about.end_time - 1
+        metadata = reader if container == "rosbag1" or not hasattr(reader, "metadata") else reader.metadata
+        times = metadata.start_time, metadata.end_time - 1
     return topics, times if any(topic.count for topic in topics.values()) else (None, None)
 
 
@@ -301,7 +299,7 @@ def _rosbags_messages(make: Callable[[], Any], topics: dict[str, Topic], names: 
 
 @contextmanager
 def _opened(make: Callable[[], Any]) -> Iterator[Any]:
-    """Open a reader of rosbags', and turn its errors, which are whatever its parsing meets, into `Damaged`."""
+    """Open a reader of rosbags', and turn its errors, which may be of any class, into `Damaged`."""
     try:
         reader = make()
         reader.open()
@@ -331,23 +329,21 @@ def _joined(path: str, container: str, parts: list[Recording], notes: tuple[str,
     return recording
 
 
-def _salvaged(path: str | os.PathLike[str], problem: str) -> Recording:
+def _open_damaged(path: str | os.PathLike[str], problem: str) -> Recording:
     """Return the readable part of a damaged recording, read record by record."""
-    name, container, files = os.fspath(path), container_of(path), [Path(path)]
+    name = os.fspath(path)
     try:
-        if container == "folder":
-            files, container = _files_of(path)
+        files, container = _files_of(path)
     except Damaged as damage:
         raise BadInput(f"{name}: the recording cannot be read ({problem}); {damage}") from None
-    assert container is not None
     reasons: list[str] = []
     with ExitStack() as stack:
         parts = [
-            _by_records(_at_hand(file, stack, reasons.append), container, reasons.append, lambda reason: None)
+            _by_records(_unpacked_copy(file, stack, reasons.append), container, reasons.append, lambda reason: None)
             for file in files
         ]
         reasons = list(dict.fromkeys(reasons)) or [problem]
         more = f", and {len(reasons) - 1} more" if len(reasons) > 1 else ""
-        held = sum(topic.count for part in parts for topic in part.topics.values())
-        note = f"the recording is damaged or cut short ({reasons[0]}{more}); {held:,} messages of it could be read"
+        count = sum(topic.count for part in parts for topic in part.topics.values())
+        note = f"the recording is damaged or cut short ({reasons[0]}{more}); {count:,} messages of it could be read"
         return _joined(name, container, parts, (note,), stack)

@@ -43,7 +43,7 @@ def close(first: Numbers, second: Numbers, tolerance: float) -> bool:
 class Samples:
     """The poses of a frame in another on one topic, in the order of receipt."""
 
-    static: bool = False
+    is_static: bool = False  # whether the topic is /tf_static
     topic: str = ""
     stamps_ns: list[int] = field(default_factory=list)
     received_ns: list[int] = field(default_factory=list)
@@ -57,7 +57,7 @@ class Samples:
 
     def select(self, which: slice) -> Samples:
         """Return the poses of a slice."""
-        return Samples(self.static, self.topic, self.stamps_ns[which], self.received_ns[which], self.values[which])
+        return Samples(self.is_static, self.topic, self.stamps_ns[which], self.received_ns[which], self.values[which])
 
     @classmethod
     def joined(cls, parts: Sequence[Samples]) -> Samples:
@@ -65,41 +65,41 @@ class Samples:
         if len(parts) == 1:
             return parts[0]
         return cls(
-            all(part.static for part in parts), ", ".join(part.topic for part in parts),
+            all(part.is_static for part in parts), ", ".join(part.topic for part in parts),
             [int(stamp) for part in parts for stamp in part.times_ns()],
             [time for part in parts for time in part.received_ns], [value for part in parts for value in part.values],
         )  # fmt: skip
 
     @property
-    def unstamped(self) -> bool:
-        """True if no message has a stamp."""
-        return not any(self.stamps_ns)
+    def has_stamps(self) -> bool:
+        """Return whether any message has a stamp."""
+        return any(self.stamps_ns)
 
     def times_ns(self) -> NDArray[np.int64]:
         """Return stamps, or times of receipt if no message has a stamp, (T,)."""
-        return np.array(self.received_ns if self.unstamped else self.stamps_ns, dtype=np.int64)
+        return np.array(self.stamps_ns if self.has_stamps else self.received_ns, dtype=np.int64)
 
     def last(self) -> Numbers:
         """Return the pose with the latest time."""
         times = self.times_ns()
         return self.values[len(times) - 1 - int(np.argmax(times[::-1]))]
 
-    def track(self, constant: bool = False, inverted: bool = False) -> Track:
+    def track(self, holds_always: bool = False, inverted: bool = False) -> Track:
         """Return the poses in time order, the last of several at one time. The options are fields of `Track`."""
         stamps = self.times_ns()
         order = np.argsort(stamps, kind="stable")
         order = order[np.append(np.diff(stamps[order]) > 0, True)]
         values = np.array(self.values, dtype=np.float64)[order]
         motions = RigidTransform.from_components(values[:, :3], Rotation.from_quat(values[:, 3:]))
-        return Track(stamps[order], motions, constant, inverted)
+        return Track(stamps[order], motions, holds_always, inverted)
 
-    def constant(self) -> bool:
+    def is_constant(self) -> bool:
         """Return true if the pose is the same at all times."""
-        return self.static or all(close(value, self.values[0], ROUNDING) for value in self.values)
+        return self.is_static or all(close(value, self.values[0], ROUNDING) for value in self.values)
 
 
 def numbers_of(position: object, rotation: object) -> Numbers:
-    """Return position and orientation of a message; raise `Malformed` if one is not finite, far off, or no rotation."""
+    """Return position and orientation of a message. Raises `Malformed` for numbers that are no pose, or too large."""
     p, q = position, rotation
     values = (p.x, p.y, p.z, q.x, q.y, q.z, q.w)  # type: ignore[attr-defined]
     x, y, z, qx, qy, qz, qw = values
@@ -111,7 +111,7 @@ def numbers_of(position: object, rotation: object) -> Numbers:
 
 
 def stamp_ns_of(header: Any) -> int:
-    """Return a header's time in nanoseconds; raise `Malformed` for a time before 1970, or after 2116."""
+    """Return a header's time in nanoseconds. Raises `Malformed` for a time before 1970, or after 2116."""
     stamp_ns = int(header.stamp.sec) * 10**9 + int(header.stamp.nanosec)
     if not 0 <= stamp_ns <= LATEST_NS:
         raise Malformed(f"has the time {stamp_ns} ns")
@@ -131,15 +131,14 @@ class Chain:
 
     def span_ns(self) -> tuple[int, int] | None:
         """Return the first and the last time at which all links are known; None if all are constant."""
-        stamps = [link.stamps_ns for link in self.links if not link.constant]
+        stamps = [link.stamps_ns for link in self.links if not link.holds_always]
         return (max(int(s[0]) for s in stamps), min(int(s[-1]) for s in stamps)) if stamps else None
 
     def covers(self, stamps_ns: NDArray[np.int64]) -> NDArray[np.bool_]:
         """Select the times at which all links are known."""
-        span = self.span_ns()
-        if span is None:
-            return np.ones(np.shape(stamps_ns), dtype=bool)
-        return np.asarray((stamps_ns >= span[0]) & (stamps_ns <= span[1]))
+        always = np.iinfo(np.int64)
+        start_ns, end_ns = self.span_ns() or (always.min, always.max)
+        return np.asarray((stamps_ns >= start_ns) & (stamps_ns <= end_ns))
 
     def at(self, stamps_ns: NDArray[np.int64]) -> RigidTransform:
         """Return the pose of the last frame in the first, at the given times, (T,)."""
@@ -151,20 +150,20 @@ class Chain:
     def in_gaps(self, stamps_ns: NDArray[np.int64], longest_s: float, furthest_m: float) -> NDArray[np.bool_]:
         """Select the times at which a transform is interpolated over a long time and a long way."""
         result = np.zeros(np.shape(stamps_ns), dtype=bool)
-        for track in (link for link in self.links if not link.constant and len(link.stamps_ns) > 1):
+        for track in (link for link in self.links if not link.holds_always and len(link.stamps_ns) > 1):
             before, _ = bracketing_indices(track.stamps_ns, stamps_ns)
             moved = np.diff(track.motions.translation, axis=0)[before]
-            long = np.diff(track.stamps_ns)[before] > longest_s * 1e9
-            result |= long & (np.linalg.norm(moved, axis=-1) > furthest_m)
+            is_long = np.diff(track.stamps_ns)[before] > longest_s * 1e9
+            result |= is_long & (np.linalg.norm(moved, axis=-1) > furthest_m)
         return result
 
     def sensor_on_body(self) -> tuple[float, float, float] | None:
         """Return the sensor's pose on the body by the last constant transforms; None if the last moves."""
-        fixed = list(takewhile(lambda link: link.constant, reversed(self.links)))
-        if not fixed:
+        fixed_links = list(takewhile(lambda link: link.holds_always, reversed(self.links)))
+        if not fixed_links:
             return None
         result = RigidTransform.identity()
-        for link in fixed:
+        for link in fixed_links:
             result = link.last() * result
         x, y, yaw = (float(v) for v in planar(result))
         return x, y, yaw
@@ -197,13 +196,13 @@ class FrameTree:
             places[child].setdefault(parent, []).append(samples)
         # The parent with most messages.
         for child, parents in places.items():
-            often = sorted(parents, key=lambda parent: -sum(len(part.values) for part in parents[parent]))
-            self._edges[child] = (often[0], tuple(parents[often[0]]))
-            if len(often) > 1:
-                self.rivals[child] = tuple(dict.fromkeys(part.topic for name in often for part in parents[name]))
+            names = sorted(parents, key=lambda parent: -sum(len(part.values) for part in parents[parent]))
+            self._edges[child] = (names[0], tuple(parents[names[0]]))
+            if len(names) > 1:
+                self.rivals[child] = tuple(dict.fromkeys(part.topic for name in names for part in parents[name]))
                 self.notes[child] = (
-                    f"frame {child!r} has {'two' if len(often) == 2 else len(often)} parents, "
-                    f"{' and '.join(repr(name) for name in often)} (on {', '.join(self.rivals[child])}); the one with "
+                    f"frame {child!r} has {'two' if len(names) == 2 else len(names)} parents, "
+                    f"{' and '.join(map(repr, names))} (on {', '.join(self.rivals[child])}); the one with "
                     "more messages was used"
                 )
 
@@ -235,14 +234,14 @@ class FrameTree:
             return None
         return Chain((*(self._link(f, True) for f in ways[0]), *(self._link(f, False) for f in ways[1])))
 
-    def links(self, fixed: str, sensor: str) -> list[tuple[str, str, tuple[Samples, ...]]]:
+    def transforms_between(self, fixed: str, sensor: str) -> list[tuple[str, str, tuple[Samples, ...]]]:
         """Return parent, child and the samples of each topic, for the transforms of a chain."""
         up, down = self._ways(fixed, sensor) or ([], [])
         return [(self._edges[child][0], child, self._edges[child][1]) for child in (*up, *down)]
 
     def _link(self, child: str, inverted: bool) -> Track:
         samples = Samples.joined(self._edges[child][1])
-        return samples.track(samples.constant(), inverted)
+        return samples.track(samples.is_constant(), inverted)
 
     def root(self, sensor: str) -> str:
         """Return the topmost frame above the sensor's frame."""
@@ -250,18 +249,17 @@ class FrameTree:
 
     def above(self, sensor: str, names: Iterable[str]) -> str | None:
         """Return the nearest frame above the sensor's with the first matching name (or ``robot/name``), or None."""
-        over = self.upwards(sensor)[1:]
-        return next((frame for name in names for frame in over if frame.rpartition("/")[2] == name), None)
+        frames = self.upwards(sensor)[1:]
+        return next((frame for name in names for frame in frames if frame.rpartition("/")[2] == name), None)
 
     def body(self, sensor: str, names: Iterable[str]) -> str | None:
         """Return the frame of the robot's body by its name: above the sensor's, or else fixed to it; or None."""
         names = tuple(names)
-        over = self.above(sensor, names)
-        if over is not None:
-            return over
-        beside = [f for f in self.frames() if f != sensor and self.root(f) == self.root(sensor)]
+        if (body := self.above(sensor, names)) is not None:
+            return body
+        others = [f for f in self.frames() if f != sensor and self.root(f) == self.root(sensor)]
         for name in names:
-            for frame in sorted(beside, key=len):
+            for frame in sorted(others, key=len):
                 chain = self.chain(frame, sensor) if frame.rpartition("/")[2] == name else None
                 if chain is not None and chain.span_ns() is None:
                     return frame
@@ -269,7 +267,7 @@ class FrameTree:
 
     def moves(self, frame: str) -> bool:
         """Return true if a transform between a frame and its root changes."""
-        return any(not Samples.joined(self._edges[f][1]).constant() for f in self.upwards(frame)[:-1])
+        return any(not Samples.joined(self._edges[f][1]).is_constant() for f in self.upwards(frame)[:-1])
 
 
 def planar(motion: RigidTransform) -> Floats:
@@ -285,15 +283,12 @@ def upright(motion: RigidTransform) -> Floats:
 
 @dataclass(frozen=True, eq=False)
 class Track:
-    """The pose of a frame in another over time: T motions, and their times in nanoseconds, strictly ascending.
+    """The pose of a frame in another over time: T motions."""
 
-    If it is constant, the last motion holds at all times. If it is inverted, `at` and `last` return inverse motions.
-    """
-
-    stamps_ns: NDArray[np.int64]
+    stamps_ns: NDArray[np.int64]  # strictly ascending, (T,)
     motions: Any
-    constant: bool = False
-    inverted: bool = False
+    holds_always: bool = False  # whether the last motion holds at all times
+    inverted: bool = False  # whether `at` and `last` return inverse motions
 
     def covers(self, stamps_ns: NDArray[np.int64]) -> NDArray[np.bool_]:
         """Select the times between the first and the last."""
@@ -301,16 +296,17 @@ class Track:
 
     def at(self, stamps_ns: NDArray[np.int64]) -> RigidTransform:
         """Return motions interpolated along lines and along the shorter arcs of rotations; outside, the nearest end."""
-        if self.constant:
+        if self.holds_always:
             return self.last()
         if len(self.stamps_ns) == 1:
             motion = self.motions[np.zeros(np.shape(stamps_ns), dtype=np.intp)]
-            return motion.inv() if self.inverted else motion
-        # Nanoseconds since 1970 exceed the precision of a double; those since the start of the track do not.
-        nodes = (self.stamps_ns - self.stamps_ns[0]).astype(np.float64)
-        at = (np.clip(stamps_ns, self.stamps_ns[0], self.stamps_ns[-1]) - self.stamps_ns[0]).astype(np.float64)
-        translation = make_interp_spline(nodes, self.motions.translation, k=1)(at)
-        motion = RigidTransform.from_components(translation, Slerp(nodes, self.motions.rotation)(at))
+        else:
+            # Nanoseconds since 1970 exceed the precision of a double; nanoseconds since the track's start do not.
+            start, end = self.stamps_ns[[0, -1]]
+            nodes = (self.stamps_ns - start).astype(np.float64)
+            times = (np.clip(stamps_ns, start, end) - start).astype(np.float64)
+            translation = make_interp_spline(nodes, self.motions.translation, k=1)(times)
+            motion = RigidTransform.from_components(translation, Slerp(nodes, self.motions.rotation)(times))
         return motion.inv() if self.inverted else motion
 
     def last(self) -> RigidTransform:

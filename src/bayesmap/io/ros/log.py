@@ -18,7 +18,7 @@ from bayesmap.errors import BadInput
 from bayesmap.io.log_reading import Account, LogOptions, LogReading, SkippedLine
 from bayesmap.io.ros import poses as pose_sources
 from bayesmap.io.ros.containers import open_recording
-from bayesmap.io.ros.frames import Chain, Samples, planar, upright
+from bayesmap.io.ros.frames import Chain, planar, upright
 from bayesmap.io.ros.messages import READABLE, Bad, LaserMessage, beams_of, of_one_frame, read_messages, scan_topic_of
 from bayesmap.io.ros.poses import PoseMessages
 from bayesmap.io.ros.recording import POSE_TYPES, TF_TYPES, TYPES, Recording, Topic
@@ -49,31 +49,31 @@ class ClockRun:
 class _Stream:
     """Stamps and times of receipt of one topic or transform, in the order of receipt."""
 
-    stamps: NDArray[np.int64]
-    received: NDArray[np.int64]
+    stamps_ns: NDArray[np.int64]
+    received_ns: NDArray[np.int64]
 
     def falls(self) -> NDArray[np.intp]:
         """Return the indices of messages whose stamp is far below that of the message before."""
-        return np.nonzero(np.diff(self.stamps) < -STEP_NS)[0] + 1
+        return np.nonzero(np.diff(self.stamps_ns) < -STEP_NS)[0] + 1
 
     def steps(self) -> list[int]:
         """Return the falls after which stamps ascend again, as they did before."""
         return [
             int(i)
             for i in self.falls()
-            if min(i, len(self.stamps) - i) >= MIN_MESSAGES
-            and _mostly_ascending(self.stamps[max(0, i - ORDERED_MESSAGES) : i])
-            and _mostly_ascending(self.stamps[i : i + ORDERED_MESSAGES])
+            if min(i, len(self.stamps_ns) - i) >= MIN_MESSAGES
+            and _mostly_ascending(self.stamps_ns[max(0, i - ORDERED_MESSAGES) : i])
+            and _mostly_ascending(self.stamps_ns[i : i + ORDERED_MESSAGES])
         ]
 
     def fall_near(self, start_ns: int, end_ns: int) -> int | None:
         """Return the first fall that a step of the clock between two times of receipt can explain, or None."""
-        falls = (int(i) for i in self.falls() if self.received[i] >= start_ns and self.received[i - 1] <= end_ns)
-        return next(falls, None)
+        received = self.received_ns
+        return next((int(i) for i in self.falls() if received[i] >= start_ns and received[i - 1] <= end_ns), None)
 
     def spans(self, time_ns: int) -> bool:
         """Return true if there are messages before and after a time."""
-        return bool(self.received[0] < time_ns - SLACK_NS and self.received[-1] > time_ns + SLACK_NS)
+        return bool(self.received_ns[0] < time_ns - SLACK_NS and self.received_ns[-1] > time_ns + SLACK_NS)
 
 
 def clock_runs(scans: list[LaserMessage], poses: PoseMessages) -> list[ClockRun]:
@@ -83,63 +83,62 @@ def clock_runs(scans: list[LaserMessage], poses: PoseMessages) -> list[ClockRun]
     """
     # Find the steps in the topic with most of them, and check that all topics make them.
     samples = [*poses.transforms.values(), *poses.poses.values()]
-    streams = [_stream_of([s.stamp_ns for s in scans], [s.received_ns for s in scans])]
-    streams += [_stream_of(part.stamps_ns, part.received_ns) for part in samples if not part.static]
+    scan_times = [s.stamp_ns for s in scans], [s.received_ns for s in scans]
+    streams = [_stream_of(*scan_times)]
+    streams += [_stream_of(part.stamps_ns, part.received_ns) for part in samples if not part.is_static]
     stamped = [stream for stream in streams if stream is not None]
-    leader = max(stamped, key=lambda stream: (len(stream.steps()), len(stream.stamps)), default=None)
+    leader = max(stamped, key=lambda stream: (len(stream.steps()), len(stream.stamps_ns)), default=None)
 
-    def all_fall(at_ns: int) -> bool:
-        return all(s.fall_near(at_ns - SLACK_NS, at_ns + SLACK_NS) is not None for s in stamped if s.spans(at_ns))
+    def all_fall(time_ns: int) -> bool:
+        window_ns = time_ns - SLACK_NS, time_ns + SLACK_NS
+        return all(stream.fall_near(*window_ns) is not None for stream in stamped if stream.spans(time_ns))
 
-    steps = [] if leader is None else [i for i in leader.steps() if all_fall(int(leader.received[i]))]
+    steps = [] if leader is None else [i for i in leader.steps() if all_fall(int(leader.received_ns[i]))]
     if leader is None or not steps:
         return [ClockRun(scans, poses)]
-    times = [int(leader.received[i]) for i in steps]
+    times_ns = [int(leader.received_ns[i]) for i in steps]
 
-    def parts_of(stamps: Sequence[int], received: Sequence[int]) -> list[slice]:
-        stream = _stream_of(stamps, received)
+    def slices_of(stamps_ns: Sequence[int], received_ns: Sequence[int]) -> list[slice]:
+        stream = _stream_of(stamps_ns, received_ns)
         edges = [0]
-        for at, end in zip(times, [*times[1:], 2**62], strict=True):
-            fall = None if stream is None else stream.fall_near(at - SLACK_NS, min(at + SLACK_NS, end - SLACK_NS))
-            edge = int(np.searchsorted(received, at)) if fall is None else fall
+        for time, end in zip(times_ns, [*times_ns[1:], 2**62], strict=True):
+            fall = None if stream is None else stream.fall_near(time - SLACK_NS, min(time + SLACK_NS, end - SLACK_NS))
+            edge = int(np.searchsorted(received_ns, time)) if fall is None else fall
             edges.append(max(edge, edges[-1]))
-        return [slice(a, b) for a, b in zip(edges, [*edges[1:], len(received)], strict=True)]
+        return [slice(start, end) for start, end in zip(edges, [*edges[1:], len(received_ns)], strict=True)]
 
-    def pieces_of(part: Samples) -> list[Samples]:
-        slices = parts_of(part.stamps_ns, part.received_ns)
-        constant = part.constant()
-        return [part if constant else part.select(piece) for piece in slices]
-
-    # Cut every topic at the steps.
-    runs = [PoseMessages() for _ in range(len(times) + 1)]
+    # Cut every topic at the steps; constant transforms hold in all runs.
+    runs = [PoseMessages() for _ in range(len(times_ns) + 1)]
     for kind in ("transforms", "poses"):
         for key, part in getattr(poses, kind).items():
-            for run, piece in zip(runs, pieces_of(part), strict=True):
+            is_constant = part.is_constant()
+            for run, which in zip(runs, slices_of(part.stamps_ns, part.received_ns), strict=True):
+                piece = part if is_constant else part.select(which)
                 if piece.values:
                     getattr(run, kind)[key] = piece
-    pieces = [scans[which] for which in parts_of([s.stamp_ns for s in scans], [s.received_ns for s in scans])]
-    befores = [int(leader.stamps[i - 1]) for i in steps]
-    backs = [before - int(leader.stamps[i]) for before, i in zip(befores, steps, strict=True)]
+    pieces = [scans[which] for which in slices_of(*scan_times)]
+    before_ns = [int(leader.stamps_ns[i - 1]) for i in steps]
+    back_ns = [before - int(leader.stamps_ns[i]) for before, i in zip(before_ns, steps, strict=True)]
     return [
         ClockRun(piece, run, back, before, run is runs[-1])
-        for piece, run, back, before in zip(pieces, runs, [0, *backs], [0, *befores], strict=True)
+        for piece, run, back, before in zip(pieces, runs, [0, *back_ns], [0, *before_ns], strict=True)
     ]
 
 
 def join_stamps(parts: Sequence[tuple[NDArray[np.int64], list[LaserMessage]]]) -> NDArray[np.int64]:
     """Return the stamps of the scans of all runs, (S,). Across a step they advance like the times of receipt."""
     joined = [parts[0][0]]
-    for (stamps, scans), (_, before) in zip(parts[1:], parts, strict=False):
-        later = max(scans[0].received_ns - before[-1].received_ns, 1)
-        joined.append(stamps - stamps[0] + joined[-1][-1] + later)
+    for (stamps_ns, scans), (_, scans_before) in zip(parts[1:], parts, strict=False):
+        gap_ns = max(scans[0].received_ns - scans_before[-1].received_ns, 1)
+        joined.append(stamps_ns - stamps_ns[0] + joined[-1][-1] + gap_ns)
     return np.concatenate(joined)
 
 
-def _stream_of(stamps: Sequence[int], received: Sequence[int]) -> _Stream | None:
+def _stream_of(stamps_ns: Sequence[int], received_ns: Sequence[int]) -> _Stream | None:
     """Return the stream, or None if no message has a stamp."""
-    if not len(stamps) or not any(stamps):
+    if not any(stamps_ns):
         return None
-    return _Stream(np.array(stamps, dtype=np.int64), np.array(received, dtype=np.int64))
+    return _Stream(np.array(stamps_ns, dtype=np.int64), np.array(received_ns, dtype=np.int64))
 
 
 def _mostly_ascending(stamps: NDArray[np.int64]) -> bool:
@@ -192,7 +191,7 @@ def _read_usable(recording: Recording, account: Account) -> _UsableMessages:
         if options.without_poses and on_topic != topic.name:
             return
         if not options.skip_bad_lines:
-            raise BadInput(f"{name}: message {number} on {on_topic} {reason}; leave such out with --skip-bad-lines")
+            raise BadInput(f"{name}: message {number} on {on_topic} {reason}; leave bad ones out with --skip-bad-lines")
         account.skipped.append(SkippedLine(number, reason, f"message on {on_topic}"))
 
     pose_topic = None if options.pose_topic is None else pose_sources.pose_topic_of(recording, options.pose_topic)
@@ -200,7 +199,7 @@ def _read_usable(recording: Recording, account: Account) -> _UsableMessages:
     poses = PoseMessages()
     received = read_messages(recording, [topic, *tf_topics, *([pose_topic] if pose_topic else [])], poses, bad)
     if not received:
-        raise BadInput(f"{name}: no message on {topic.name} can be used{_first_skipped(account.skipped)}")
+        raise BadInput(f"{name}: no message on {topic.name} can be used{account.malformed()}")
     usable = of_one_frame(topic.name, received, bad)
     if not usable:
         raise BadInput(f"{name}: no message on {topic.name} has a reading: their arrays of ranges are empty")
@@ -267,9 +266,8 @@ def _join_runs(runs: list[_PlacedRun], messages: _UsableMessages, account: Accou
     account.notes += dict.fromkeys(note for run in runs for note in run.notes)
     account.notes += _notes_on_scans(scans)
     if messages.n_empty:
-        account.notes.append(
-            f"{messages.n_empty:,} messages on {request.topic.name} have no readings, and were left out"
-        )
+        note = f"{messages.n_empty:,} messages on {request.topic.name} have no readings, and were left out"
+        account.notes.append(note)
     account.stamps_s = np.asarray(join_stamps([(run.stamps_ns, run.scans) for run in runs]) * 1e-9)
     account.reordered = sum(run.reordered for run in runs)
     # Angles, readings and poses.
@@ -277,7 +275,7 @@ def _join_runs(runs: list[_PlacedRun], messages: _UsableMessages, account: Accou
     moves = source.chain.span_ns() is not None or not source.posed  # otherwise no frame is known to be the body's
     angles, readings = beams_of(scans)
     angles, first_ray_poses = runs[0].sign * angles, np.concatenate([run.first_ray_poses for run in runs])
-    return account.reading(
+    return account.scan_log(
         request.topic.type, first_ray_poses, angles, account.classify(readings, limits, first_ray_poses, angles),
         beam_poses=_beam_poses(runs), mount=source.chain.sensor_on_body() if moves else None,
         scan_topic=request.topic.name, pose_source=source.label if source.posed else None,
@@ -327,13 +325,13 @@ def _sorted_by_time(
     order = np.argsort(stamps, kind="stable")
     kept: list[int] = []
     twice = repeated = 0
-    for i in order:
+    for i in order.tolist():
         if kept and stamps[i] == stamps[kept[-1]]:
             if scans[i].ranges_m.tobytes() == scans[kept[-1]].ranges_m.tobytes():
                 repeated += 1
                 continue
             twice += 1
-        kept.append(int(i))
+        kept.append(i)
     if repeated:
         notes.append(f"{repeated:,} scans of {topic} are in the recording twice, with time and readings; one was kept")
     if twice:
@@ -396,9 +394,8 @@ def _beam_poses(runs: list[_PlacedRun]) -> NDArray[np.float64] | None:
     poses = []
     for run in runs:
         times = np.pad(run.ray_times_ns, ((0, 0), (0, beams - run.ray_times_ns.shape[1])), mode="edge").ravel()
-        poses += [
-            planar(run.source.chain.at(times[i : i + BEAMS_AT_ONCE])) for i in range(0, len(times), BEAMS_AT_ONCE)
-        ]
+        blocks = (times[i : i + BEAMS_AT_ONCE] for i in range(0, len(times), BEAMS_AT_ONCE))
+        poses += [planar(run.source.chain.at(block)) for block in blocks]
     return np.concatenate(poses).reshape(-1, beams, 3)
 
 
@@ -441,8 +438,3 @@ def _notes_on_scans(scans: list[LaserMessage]) -> list[str]:
         (low, high), _ = limits.most_common(1)[0]
         notes.append(f"the scans state {len(limits)} different ranges; the commonest was used, {low:g} to {high:g} m")
     return notes
-
-
-def _first_skipped(skipped: list[SkippedLine]) -> str:
-    """Return the end of an error message that names the first skipped message; "" if none was skipped."""
-    return f"; the first: message {skipped[0].line} {skipped[0].reason}" if skipped else ""

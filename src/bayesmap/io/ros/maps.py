@@ -47,9 +47,8 @@ def from_image(image: ImageLike | Image, threshold: float = 0.5) -> NDArray[np.b
     The image is a path, a PIL image, or an array of shape (height, width), (height, width, 3) or (height, width, 4):
     bool (True is bright), whole numbers 0..255, or floats 0..1. Transparent pixels count as white. A pixel whose
     brightness, from 0 (black) to 1 (white), is below the threshold is a wall. Pixel (row r, column c) is ``walls[c,
-    height - 1 - r]``.
-
-    Raises `BadInput` for a file that is no image, an array of another shape or range, or a threshold outside (0, 1).
+    height - 1 - r]``. Raises `BadInput` for a file that is no image, an array of another shape or range, or a threshold
+    outside (0, 1).
     """
     if not 0 < threshold < 1:
         raise BadInput(f"image: threshold must lie between 0 (black) and 1 (white), got {threshold!r}")
@@ -62,7 +61,7 @@ def upright(rows: NDArray[T]) -> NDArray[T]:
 
 
 def brightness(image: ImageLike | Image) -> NDArray[np.float64]:
-    """Return each pixel's brightness, 0 to 1, (height, width), row 0 the top; raise `BadInput` for no image."""
+    """Return each pixel's brightness, 0 to 1, (height, width), row 0 the top. Raises `BadInput` for no image."""
     from PIL import Image as pil  # on first use: most programs never read an image
 
     if isinstance(image, str | os.PathLike):
@@ -87,7 +86,7 @@ def brightness(image: ImageLike | Image) -> NDArray[np.float64]:
         raise BadInput(f"image: {array.dtype} pixels; expected bool, whole numbers 0..255, or floats 0..1")
     top = 255.0 if array.dtype.kind in "ui" else 1.0
     values = array.astype(np.float64) / top
-    if not (math.isfinite(float(values.sum())) and values.min() >= 0 and values.max() <= 1):
+    if not (values.min() >= 0 and values.max() <= 1):  # not, if one is NaN
         raise BadInput(f"image: pixels from {array.min()} to {array.max()}; use whole numbers 0..255, or floats 0..1")
     if values.ndim == 2:
         return values
@@ -127,10 +126,10 @@ def in_percent(
     occupancy: ArrayLike, grid: Grid, observed: ArrayLike | None = None, *, mode: str = "scale",
     occupied_thresh: float | None = None, free_thresh: float | None = None,
 ) -> NDArray[np.int8]:  # fmt: skip
-    """Return the occupancy of every cell in per cent, shape (nx, ny), -1 where unknown.
+    """Return the occupancy of every cell in per cent, shape (nx, ny), -1 where unknown; arguments as in `write_map`.
 
-    Arguments are those of `write_map`. Raises `BadInput` for shapes that do not fit, probabilities outside [0, 1], an
-    unknown mode, or thresholds out of order.
+    Raises `BadInput` for shapes that do not fit, probabilities outside [0, 1], an unknown mode, or thresholds out of
+    order.
     """
     occupied, free = _thresholds(mode, occupied_thresh, free_thresh)
     p = as_probabilities(grid, occupancy, "occupancy", unknown=True)
@@ -204,8 +203,8 @@ def write_map(
 def read_map(path_yaml: str | os.PathLike[str]) -> tuple[NDArray[np.float64], Grid]:
     """Read a map as nav2's map_server does, by its YAML file, to which the path of the image is relative.
 
-    Returns occupancy, shape (nx, ny), in steps of 0.01, NaN where unknown; and the grid. Raises `BadInput` for a file
-    that cannot be read, a missing or wrong entry, or a map that is turned (yaw).
+    Returns the occupancy, shape (nx, ny), in steps of 0.01, NaN where unknown, and the grid. Raises `BadInput` for a
+    file that cannot be read, a missing or wrong entry, or a map that is turned (yaw).
     """
     path = Path(path_yaml)
     entries = _read_entries(path)
@@ -237,9 +236,8 @@ def from_map_image(
     The image is as for `from_image`, ``resolution`` the metres per pixel, and ``origin`` the world position in metres
     of the image's lower-left corner. With ``negate`` white is occupied and black is free. A pixel whose shade, from 0
     (white) to 1 (black), is above ``occupied_thresh`` is occupied, below ``free_thresh`` free, and unknown between: a
-    wall if ``unknown_is_wall``, else free.
-
-    Raises `BadInput` as `from_image`, or for thresholds that are not 0 <= free_thresh < occupied_thresh <= 1.
+    wall if ``unknown_is_wall``, else free. Raises `BadInput` as `from_image`, or for thresholds that are not 0 <=
+    free_thresh < occupied_thresh <= 1.
     """
     _check_thresholds(occupied_thresh, free_thresh)
     shade = brightness(image)
@@ -257,9 +255,7 @@ def from_occupancy(
     Cells have shape (height, width), and values 0 (free) to 100 (occupied), -1 unknown; row 0 is the *bottom*, as in
     ``nav_msgs/OccupancyGrid``: ``np.reshape(msg.data, (msg.info.height, msg.info.width))``. Cells above the threshold
     are walls, and unknown ones if ``unknown_is_wall``. ``resolution`` is in metres per cell, and ``origin`` is the
-    world position in metres of the lower-left corner.
-
-    Raises `BadInput` for another shape, or a value outside -1..100; the message names the cell.
+    world position in metres of the lower-left corner. Raises `BadInput` for another shape, or a value outside -1..100.
     """
     array = as_array(cells, "occupancy: cells")
     if array.ndim != 2 or array.size == 0:
@@ -267,9 +263,9 @@ def from_occupancy(
             f"occupancy: cells have shape {array.shape}, expected (height, width); "
             "reshape the data of a message by its info.height and info.width"
         )
-    bad = ~((array == -1) | ((array >= 0) & (array <= 100)))
-    if bad.any():
-        row, column = (int(k) for k in np.argwhere(bad)[0])
+    is_bad = ~((array == -1) | ((array >= 0) & (array <= 100)))
+    if is_bad.any():
+        row, column = (int(k) for k in np.argwhere(is_bad)[0])
         raise BadInput(
             f"occupancy: row {row}, column {column} is {array[row, column]:g}; "
             "expected 0 (free) to 100 (occupied), or -1 (unknown)"

@@ -28,7 +28,7 @@ from bayesmap.space.scans import MAX_BEAMS, Fan, fan_fault, side_by_side
 
 SAME_ANGLE_RAD = 1e-5  # largest difference of the first and last angles of equal fans: angles are in single precision
 
-TAKEN = "beam i was taken at angle_min + i * angle_increment, as the message is defined"
+AS_DEFINED = "beam i was taken at angle_min + i * angle_increment, as the message is defined"
 
 
 @dataclass(frozen=True)
@@ -62,7 +62,7 @@ class LaserMessage:
 
 
 def laser_message(type_name: str, message: Any, number: int, received_ns: int) -> LaserMessage:
-    """Return a message as a scan; raise `Malformed` for angles that do not fit its readings."""
+    """Return a message as a scan. Raises `Malformed` for angles that do not fit its readings."""
     if type_name == RANGE:
         layout, odd = Layout(1, 0.0, 0.0, frame_of(message.header.frame_id)), ""
         readings = np.array([message.range], dtype=np.float32)
@@ -102,21 +102,21 @@ def _layout(message: Any, beams: int) -> tuple[Layout, str]:
 def _odd_end(first: float, last: float, step: float, beams: int) -> str:
     """Return the contradiction between ``angle_max`` and the other angles, in words; "" if there is none."""
     if not math.isfinite(last):
-        return f"angle_max is {last:g}; {TAKEN}"
+        return f"angle_max is {last:g}; {AS_DEFINED}"
     # The beams may pass behind the sensor.
     steps = ((last + turn - first) / step for turn in (0.0, math.copysign(2 * math.pi, step)))
     counts = (round(min(max(count, -1e9), 1e9)) + 1 for count in steps)
-    counted = min(counts, key=lambda count: abs(count - beams))
-    if counted == beams:
+    count = min(counts, key=lambda count: abs(count - beams))
+    if count == beams:
         return ""
-    if abs(counted - beams) == 1:
-        return f"angle_max counts one beam {'more' if counted > beams else 'less'} than there are readings"
+    if abs(count - beams) == 1:
+        return f"angle_max counts one beam {'more' if count > beams else 'less'} than there are readings"
     if (last - first) * step < 0:
         return (
             f"angle_increment is {'negative' if step < 0 else 'positive'}, but angle_max lies the other way from "
-            f"angle_min; {TAKEN}. If the sensor turns the other way round, the map is a mirror image"
+            f"angle_min; {AS_DEFINED}. If the sensor turns the other way round, the map is a mirror image"
         )
-    return f"angle_max does not fit the number of readings and angle_increment; {TAKEN}"
+    return f"angle_max does not fit the number of readings and angle_increment; {AS_DEFINED}"
 
 
 def of_one_frame(topic: str, scans: list[LaserMessage], bad: Bad) -> list[LaserMessage]:
@@ -146,19 +146,19 @@ MAX_MESSAGE_BYTES = 1 << 28  # largest message; a larger size is taken for damag
 
 
 def scan_topic_of(recording: Recording, name: str | None) -> Topic:
-    """Return the named topic, or the only one of scans, or ranges; raise `BadInput` that lists the choices."""
+    """Return the named topic, or else the only topic of scans, or of ranges. Raises `BadInput` with the choices."""
     topics = recording.of_type(SCAN_TYPES)
-    have = f"no topic holds {' or '.join(SCAN_TYPES)}; there are {', '.join(map(str, recording.topics.values()))}"
-    have = f"scans are on {', '.join(map(str, topics))}" if topics else have
+    choices = f"no topic holds {' or '.join(SCAN_TYPES)}; there are {', '.join(map(str, recording.topics.values()))}"
+    choices = f"scans are on {', '.join(map(str, topics))}" if topics else choices
     if name is not None:
-        topic = recording.named("--scan-topic", name, SCAN_TYPES, have)
+        topic = recording.named("--scan-topic", name, SCAN_TYPES, choices)
     else:
         lasers = [topic for topic in topics if topic.type == LASER_SCAN] or topics
         if not lasers:
-            raise BadInput(f"{recording.path}: {have}" + "".join(f" ({note})" for note in recording.notes))
+            raise BadInput(f"{recording.path}: {choices}" + "".join(f" ({note})" for note in recording.notes))
         if len(lasers) > 1:
-            choices = ", ".join(map(str, lasers))
-            raise BadInput(f"{recording.path}: several topics hold scans; choose one with --scan-topic: {choices}")
+            names = ", ".join(map(str, lasers))
+            raise BadInput(f"{recording.path}: several topics hold scans; choose one with --scan-topic: {names}")
         topic = lasers[0]
     if topic.encoding not in READABLE:
         raise BadInput(f"{recording.path}: {topic.name} is in {topic.encoding!r}; {' and '.join(READABLE)} are read")
@@ -166,30 +166,29 @@ def scan_topic_of(recording: Recording, name: str | None) -> Topic:
 
 
 def read_messages(recording: Recording, topics: Iterable[Topic], poses: PoseMessages, bad: Bad) -> list[LaserMessage]:
-    """Return the scans on topics, and add other messages to poses; raise `BadInput` for a damaged recording."""
-    about = {topic.name: topic for topic in topics}
-    scans, numbers = list[LaserMessage](), Counter[str]()
+    """Return the scans on topics, and add other messages to poses. Raises `BadInput` for a damaged recording."""
+    by_name = {topic.name: topic for topic in topics}
+    scans, counts = list[LaserMessage](), Counter[str]()
     try:
-        stores = {topic.name: _store(topic) for topic in about.values()}
-        for message in recording.read(frozenset(about)):
-            topic = about[message.topic]
-            numbers[topic.name] += 1
-            number = numbers[topic.name]
+        stores = {topic.name: _store(topic) for topic in by_name.values()}
+        for message in recording.read(frozenset(by_name)):
+            topic = by_name[message.topic]
+            counts[topic.name] += 1
             try:
                 content = _content(stores[topic.name], topic, message.data)
                 if topic.type in SCAN_TYPES:
-                    scans.append(laser_message(topic.type, content, number, message.received_ns))
+                    scans.append(laser_message(topic.type, content, counts[topic.name], message.received_ns))
                 else:
                     poses.add(topic, content, message.received_ns)
             except Malformed as problem:
-                bad(topic.name, number, str(problem))
+                bad(topic.name, counts[topic.name], str(problem))
     except Damaged as problem:
         raise BadInput(f"{recording.path}: the recording is damaged or cut short ({problem}); {REMEDY}") from None
     return scans
 
 
 def _content(store: Any, topic: Topic, data: bytes) -> Any:
-    """Return a message with the fields of its definition as attributes; raise `Malformed` if they do not fit."""
+    """Return a message with the fields of its definition as attributes. Raises `Malformed` if they do not fit."""
     try:
         if topic.encoding == "ros1":
             return store.deserialize_ros1(data, topic.type)
@@ -216,7 +215,7 @@ def _store(topic: Topic) -> Any:
     """Return the definitions to read the messages of a topic: the recording's, or else those that ROS ships.
 
     Databases before ROS 2 Iron hold no definitions; the messages that are read here were equal in all versions before.
-    A definition that cannot be parsed, of a type or an MD5 sum that ROS does not know, raises `Damaged`.
+    Raises `Damaged` for a definition that cannot be parsed, of a type or an MD5 sum that ROS does not know.
     """
     shipped = _shipped(topic.encoding)
     if not topic.definition.strip():
@@ -250,24 +249,20 @@ def _parsed(topic: Topic) -> dict[str, Any]:
 def _complete(store: Any, shipped: Any) -> list[str]:
     """Add the missing types that the definitions of a store refer to. Returns their names."""
     added: list[str] = []
-    while missing := sorted(
-        {
-            name
-            for _, fields in store.fielddefs.values()
-            for _, (node, about) in fields
-            if (name := _named(node, about)) and name not in store.fielddefs
-        }
-    ):
+    while True:
+        fields = [field for _, fields in store.fielddefs.values() for _, field in fields]
+        missing = sorted({name for field in fields if (name := _message_type(*field))} - store.fielddefs.keys())
+        if not missing:
+            return added
         store.register({name: shipped.fielddefs[name] for name in missing})
         added += missing
-    return added
 
 
-def _named(node: Any, about: Any) -> str | None:
+def _message_type(node: Any, args: Any) -> str | None:
     """Return the type of a field, or of its elements, if it is a message; else None."""
     if node in (Nodetype.ARRAY, Nodetype.SEQUENCE):
-        node, about = about[0]
-    return str(about) if node == Nodetype.NAME else None
+        node, args = args[0]
+    return str(args) if node == Nodetype.NAME else None
 
 
 def _sum_of(store: Any, topic: Topic) -> str | None:

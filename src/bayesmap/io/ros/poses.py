@@ -14,21 +14,18 @@ from bayesmap.io.ros.publishers import contradiction
 from bayesmap.io.ros.recording import ODOMETRY, POSE, POSE_TYPES, TF_TYPES, Malformed, Recording, Topic
 
 BODIES = ("base_footprint", "base_link", "base")  # names of a robot's body, for poses that do not name their frame
-MOUNTS = ("base_link", "base_footprint", "base")  # that a user's mount refers to, likeliest first
+MOUNT_FRAMES = ("base_link", "base_footprint", "base")  # to which a user's mount refers, likeliest first
 
 
 @dataclass(frozen=True, eq=False)
 class PoseSource:
-    """The source of the sensor's poses: the topic's label, and the chain from the map's frame to the sensor's.
+    """The source of the sensor's poses."""
 
-    If the poses are not known (``posed`` is false), the chain only tells an upright sensor from an inverted one.
-    """
-
-    label: str
-    fixed_frame: str
-    chain: Chain
+    label: str  # the topics
+    fixed_frame: str  # frame of the map
+    chain: Chain  # from the map's frame to the sensor's
     notes: tuple[str, ...] = ()
-    posed: bool = True
+    posed: bool = True  # if false, poses are not known, and the chain only shows whether the sensor is upside down
 
 
 @dataclass(eq=False)
@@ -39,7 +36,7 @@ class PoseMessages:
     poses: dict[tuple[str, str], Samples] = field(default_factory=dict)
 
     def add(self, topic: Topic, message: Any, received_ns: int) -> None:
-        """Append a message of one of `TF_TYPES` or `POSE_TYPES`; raise `Malformed` for bad numbers or times."""
+        """Append a message of one of `TF_TYPES` or `POSE_TYPES`. Raises `Malformed` for bad numbers or times."""
         if topic.type in TF_TYPES:
             for entry in message.transforms:
                 ends = frame_of(entry.header.frame_id), frame_of(entry.child_frame_id)
@@ -59,37 +56,35 @@ class PoseMessages:
 
 def pose_topic_of(recording: Recording, name: str) -> Topic:
     """Return the topic of poses that the user names."""
-    held = ", ".join(map(str, recording.of_type((*POSE_TYPES, *TF_TYPES))))
-    have = f"poses are on {held}" if held else f"no topic holds poses ({', '.join((*POSE_TYPES, TF_TYPES[0]))})"
-    return recording.named("--pose-topic", name, (*POSE_TYPES, *TF_TYPES), have)
+    topics = ", ".join(map(str, recording.of_type((*POSE_TYPES, *TF_TYPES))))
+    choices = f"poses are on {topics}" if topics else f"no topic holds poses ({', '.join((*POSE_TYPES, TF_TYPES[0]))})"
+    return recording.named("--pose-topic", name, (*POSE_TYPES, *TF_TYPES), choices)
 
 
 def only_pose_topic(recording: Recording, scan_topic: str) -> Topic | None:
     """Return the topic of poses to use instead of /tf: the only one in the scans' namespace, or of all; or None."""
     topics = recording.of_type(POSE_TYPES)
-    for space in _spaces(scan_topic):
-        inside = [topic for topic in topics if _space(topic.name) == space]
-        if inside:
-            return inside[0] if len(inside) == 1 else None
-    return topics[0] if len(topics) == 1 else None
+    in_namespaces = ([t for t in topics if _namespace(t.name) == space] for space in _namespaces(scan_topic))
+    candidates = next(filter(None, in_namespaces), topics)
+    return candidates[0] if len(candidates) == 1 else None
 
 
 def frame_trees(messages: PoseMessages, scan_topic: str, pose_topic: str | None) -> list[FrameTree]:
-    """Return the frame tree of the preferred topics of transforms, and that of all topics if there are others.
+    """Return the frame tree of the preferred topics of transforms, and the tree of all topics if there are others.
 
-    Preferred are the topic that the user chose, the topics in its namespace and in the scans' namespace, and the topics
+    The topic that the user chose is preferred, the topics in its namespace and in the scans' namespace, and the topics
     in the enclosing namespaces. So in a recording of ``/robot1/tf`` and ``/robot2/tf`` each robot has its own frames.
     """
     topics = list(dict.fromkeys(topic for topic, _, _ in messages.transforms))
-    spaces = [*(_spaces(pose_topic) if pose_topic else ()), *_spaces(scan_topic)]
-    ranks = {topic: spaces.index(_space(topic)) for topic in topics if _space(topic) in spaces}
+    spaces = [*(_namespaces(pose_topic) if pose_topic else ()), *_namespaces(scan_topic)]
+    ranks = {topic: spaces.index(_namespace(topic)) for topic in topics if _namespace(topic) in spaces}
     if pose_topic in topics:
         ranks[pose_topic] = -1
-    # The other topics, in the order of what their namespace shares with that of the scans.
-    shared = {topic: len({*_spaces(topic)} & {*_spaces(scan_topic)}) for topic in topics}
-    every = {topic: ranks.get(topic, len(spaces) + 100 - shared[topic]) for topic in topics}
-    near = FrameTree(messages.transforms, ranks)
-    return [near] if len(ranks) == len(topics) else [near, FrameTree(messages.transforms, every)]
+    # The other topics, in the order of what their namespace shares with the scans' namespace.
+    shared = {topic: len({*_namespaces(topic)} & {*_namespaces(scan_topic)}) for topic in topics}
+    all_ranks = {topic: ranks.get(topic, len(spaces) + 100 - shared[topic]) for topic in topics}
+    preferred = FrameTree(messages.transforms, ranks)
+    return [preferred] if len(ranks) == len(topics) else [preferred, FrameTree(messages.transforms, all_ranks)]
 
 
 def fixed_frame_of(tree: FrameTree, sensor: str) -> str | None:
@@ -98,15 +93,15 @@ def fixed_frame_of(tree: FrameTree, sensor: str) -> str | None:
     return tree.root(sensor) if named is None and tree.moves(sensor) else named
 
 
-def _space(topic: str) -> str:
+def _namespace(topic: str) -> str:
     return topic.rpartition("/")[0]
 
 
-def _spaces(topic: str) -> list[str]:
+def _namespaces(topic: str) -> list[str]:
     """Return the namespaces around a topic, the nearest first: ``/a/b``, ``/a``, and the empty one."""
-    spaces = [_space(topic)]
+    spaces = [_namespace(topic)]
     while spaces[-1]:
-        spaces.append(_space(spaces[-1]))
+        spaces.append(_namespace(spaces[-1]))
     return spaces
 
 
@@ -115,11 +110,9 @@ def by_transforms(
 ) -> PoseSource | None:
     """Return the sensor's poses from transforms; None if no fixed frame is named or found.
 
-    ``trees`` are those of the preferred topics, and of all. The map is made in the named frame, or else in the best of
-    `FIXED_FRAMES` above the sensor. ``chosen`` is true if the user chose the topics.
-
-    Raises `BadInput` for an unknown frame, a frame that is not connected with the sensor's, or a transform with two
-    values.
+    ``trees`` are the results of `frame_trees`. The map is made in the named frame, or else in the best of
+    `FIXED_FRAMES` above the sensor. ``chosen`` is true if the user chose the topics. Raises `BadInput` for an unknown
+    frame, a frame that is not connected with the sensor's, or a transform with two values.
     """
     named = None if fixed_frame is None else frame_of(fixed_frame)
     for tree in trees:
@@ -132,19 +125,19 @@ def by_transforms(
             continue
         if fixed not in tree.upwards(sensor):
             notes.append(f"the frame {fixed!r} is not over that of the scans, {sensor!r}; if it moves, the map moves")
-        links = tree.links(fixed, sensor)
+        transforms = tree.transforms_between(fixed, sensor)
         notes += [
             f"there is a single message of the transform {parent} -> {child}; it was taken to hold at all times"
-            for parent, child, parts in links
-            if sum(len(part.values) for part in parts) == 1 and not parts[0].static
+            for parent, child, parts in transforms
+            if sum(len(part.values) for part in parts) == 1 and not parts[0].is_static
         ]
-        notes += checked(recording, tree, fixed, sensor)
-        notes += _beside(trees, tree, fixed, sensor)
+        notes += notes_on_values(recording, tree, fixed, sensor)
+        notes += _notes_on_namespace(trees, tree, fixed, sensor)
         if len(trees) > 1 and tree is not trees[-1] and not chosen:
             others = [t.name for t in recording.of_type(TF_TYPES) if t.name not in tree.topics]
             notes.append(f"transforms of other namespaces were not used: {', '.join(others)} (--pose-topic)")
-        moving = [parts for _, _, parts in links if not Samples.joined(parts).constant()]
-        topics = dict.fromkeys(part.topic for parts in moving or [p for _, _, p in links] for part in parts)
+        moving = [parts for _, _, parts in transforms if not Samples.joined(parts).is_constant()]
+        topics = dict.fromkeys(part.topic for parts in moving or [p for _, _, p in transforms] for part in parts)
         return PoseSource(", ".join(topics) or "/tf", fixed, chain, tuple(notes))
     if named is not None:
         tree = trees[-1]
@@ -153,19 +146,19 @@ def by_transforms(
     return None
 
 
-def _beside(trees: list[FrameTree], tree: FrameTree, fixed: str, sensor: str) -> list[str]:
+def _notes_on_namespace(trees: list[FrameTree], tree: FrameTree, fixed: str, sensor: str) -> list[str]:
     if len(trees) == 1 or tree is not trees[-1]:
         return []
-    topics = dict.fromkeys(part.topic for _, _, parts in tree.links(fixed, sensor) for part in parts)
+    topics = dict.fromkeys(part.topic for _, _, parts in tree.transforms_between(fixed, sensor) for part in parts)
     return [f"transforms were taken from {', '.join(topics)}, beside the namespace of the scans"]
 
 
-def checked(recording: Recording, tree: FrameTree, fixed: str, sensor: str) -> list[str]:
-    """Return notes on transforms with several values; raise `BadInput` if the user must choose one."""
+def notes_on_values(recording: Recording, tree: FrameTree, fixed: str, sensor: str) -> list[str]:
+    """Return notes on transforms with several values. Raises `BadInput` if the user must choose one."""
     notes = []
-    for parent, child, parts in tree.links(fixed, sensor):
+    for parent, child, parts in tree.transforms_between(fixed, sensor):
         rivals = tree.rivals.get(child, ())
-        if len({_space(topic) for topic in rivals}) > 1:
+        if len({_namespace(topic) for topic in rivals}) > 1:
             raise BadInput(f"{recording.path}: {tree.notes[child].partition(';')[0]}; {_choose(recording, rivals)}")
         if child in tree.notes:
             notes.append(tree.notes[child])
@@ -191,11 +184,11 @@ def _choose(recording: Recording, topics: Iterable[str]) -> str:
 
 
 def body_of(path: str, trees: list[FrameTree], sensor: str) -> str | None:
-    """Return the body's frame for a user's mount, or None; raise `BadInput` if the robot is not clear."""
+    """Return the body's frame for a user's mount, or None. Raises `BadInput` if the robot is not clear."""
     for tree in trees:
-        if sensor in tree.frames() and (connected := tree.body(sensor, MOUNTS)) is not None:
+        if sensor in tree.frames() and (connected := tree.body(sensor, MOUNT_FRAMES)) is not None:
             return connected
-        for name in MOUNTS:
+        for name in MOUNT_FRAMES:
             frames = [frame for frame in tree.frames() if frame.rpartition("/")[2] == name]
             own = [frame for frame in frames if sensor.startswith(frame.rpartition("/")[0] + "/")]
             frames = own if len(frames) > 1 and own else frames
@@ -213,22 +206,24 @@ def link_of(laser: Pose) -> Track:
     """Return the link of a chain from the robot's body to a laser that is mounted level at a pose."""
     x, y, yaw = laser
     numbers = (x, y, 0.0, 0.0, 0.0, math.sin(0.5 * yaw), math.cos(0.5 * yaw))
-    return Samples(True, "", [0], [0], [numbers]).track(constant=True)
+    return Samples(True, "", [0], [0], [numbers]).track(holds_always=True)
 
 
 def standing_still(trees: list[FrameTree], sensor: str) -> PoseSource:
-    """Return a source without poses. A constant transform from the body, if any, tells if the sensor is upside down."""
+    """Return a source without poses, with the chain from the body to the sensor if it is constant."""
     tree = next((tree for tree in trees if sensor in tree.frames()), trees[-1])
     body = tree.body(sensor, BODIES) if sensor in tree.frames() else None
     chain = tree.chain(body, sensor) if body is not None else None
-    still = chain is not None and all(link.constant for link in chain.links)
-    return PoseSource("", "", chain if chain is not None and still else Chain(()), posed=False)
+    return PoseSource("", "", chain if chain is not None and chain.span_ns() is None else Chain(()), posed=False)
 
 
 def by_topic(
     recording: Recording, topic: Topic, messages: PoseMessages, trees: list[FrameTree], sensor: str, laser: Pose | None
 ) -> PoseSource:
-    """Return the poses by a topic, with the user's mount or that of /tf; raise `BadInput` for none, or two values."""
+    """Return the poses by a topic, with the user's mount or the mount in /tf.
+
+    Raises `BadInput` if there are no poses, or two publishers contradict each other.
+    """
     # The frame and body with most poses.
     if not messages.poses:
         raise BadInput(f"{recording.path}: {topic.name} holds no pose that can be used")
@@ -243,30 +238,29 @@ def by_topic(
     conflict = contradiction(fixed or "?", body or "?", [samples])
     if conflict is not None:
         raise BadInput(f"{recording.path}: {conflict.text}; choose other poses with --pose-topic")
-    if samples.unstamped:
+    if not samples.has_stamps:
         notes.append(f"no message on {topic.name} says its time; the times of receipt were used")
     track = samples.track()
     if laser is not None:
         return PoseSource(topic.name, fixed or "?", Chain((track, link_of(laser))), tuple(notes))
     # The mount by /tf.
     tree = next((tree for tree in trees if _body(tree, body, sensor)), trees[-1])
-    guess = _body(tree, body, sensor) or body
-    if guess != body:
+    usual_body = _body(tree, body, sensor) or body
+    if usual_body != body:
         # The topic names no body, or one that is not in /tf: a frame with a usual name is taken.
-        notes.append(f"{topic.name} does not say whose pose it tells; taken as that of {guess!r}")
-        body = guess
-    offset = tree.chain(body, sensor) if body else None
-    if offset is None:
-        who = repr(body) if body else "the body"
+        notes.append(f"{topic.name} does not say whose pose it tells; taken as the pose of {usual_body!r}")
+        body = usual_body
+    mount = tree.chain(body, sensor) if body else None
+    if mount is None:
         notes.append(
-            f"no transform from {who} to {sensor!r} is known; the poses on {topic.name} were taken as the sensor's; "
-            "--laser X,Y,DEGREES says where it is on the robot"
+            f"no transform from {repr(body) if body else 'the body'} to {sensor!r} is known; the poses on {topic.name} "
+            "were taken as the sensor's; --laser X,Y,DEGREES says where it is on the robot"
         )
-        offset = Chain(())
+        mount = Chain(())
     elif body != sensor:
-        notes += checked(recording, tree, body, sensor)
-        notes += _beside(trees, tree, body, sensor)
-    return PoseSource(topic.name, fixed or "?", Chain((track, *offset.links)), tuple(notes))
+        notes += notes_on_values(recording, tree, body, sensor)
+        notes += _notes_on_namespace(trees, tree, body, sensor)
+    return PoseSource(topic.name, fixed or "?", Chain((track, *mount.links)), tuple(notes))
 
 
 def _body(tree: FrameTree, body: str, sensor: str) -> str | None:

@@ -18,8 +18,8 @@ from bayesmap.io.ros.frames import Numbers, Samples, close
 from bayesmap.space.planar import bracketing_indices
 from bayesmap.space.time_order import moment
 
-SAME = 1e-4  # largest difference of equal values, in metres and radians: 1 mm at 10 m
-APART = 0.01  # largest distance between two sources of motion, in metres and radians, that counts as noise
+SAME_WITHIN = 1e-4  # largest difference of equal values, in metres and radians: 1 mm at 10 m
+NOISE = 0.01  # largest distance between two sources of motion, in metres and radians, that counts as noise
 MUCH_SMOOTHER = 0.15  # largest ratio of the roughness of each of two publishers' motions to that of the joint one
 MIN_SAMPLES = 5  # fewest samples beside their neighbours' motion on one topic
 MIN_SAMPLES_BETWEEN = 3  # fewest such samples on several topics
@@ -34,28 +34,25 @@ OFTEN_AT_ONCE = 0.1  # share of repeated stamps above which samples are also che
 
 @dataclass(frozen=True)
 class Contradiction:
-    """Two values of one transform: a text that names both, and the topics that contradict each other, if several.
+    """Two values of one transform."""
 
-    After a fatal contradiction, no value can be used without a choice by the user.
-    """
-
-    text: str
-    topics: tuple[str, ...] = ()
-    fatal: bool = True
+    text: str  # names both values
+    topics: tuple[str, ...] = ()  # the topics that contradict each other, if there are several
+    fatal: bool = True  # whether no value can be used without a choice by the user
 
 
 def contradiction(parent: str, child: str, parts: Sequence[Samples]) -> Contradiction | None:
     """Return the contradiction between samples of a transform, one part per topic; None if they agree."""
     what = f"the transform {parent} -> {child}"
     if len(parts) > 1:
-        pair = _apart(parts)
+        pair = _contradicting_topics(parts)
         if pair is not None:
             (topic, first), (other, second) = pair
             text = f"{what} differs between topics: {topic} says {in_words(first)}, {other} says {in_words(second)}"
             return Contradiction(text, tuple(part.topic for part in parts))
     for part in parts:
-        if part.static:
-            values = _distinct(part.values)
+        if part.is_static:
+            values = _count_distinct(part.values)
             if len(values) > 1:
                 last = next(in_words(v) for v, _ in values if not differ(v, part.last()))
                 stated = " and ".join(f"{in_words(value)} ({count:,} x)" for value, count in values[:3])
@@ -63,19 +60,19 @@ def contradiction(parent: str, child: str, parts: Sequence[Samples]) -> Contradi
                 text = f"{what} has {number} values on {part.topic} that differ: {stated}; the last was used, {last} "
                 text += "(--laser X,Y,DEGREES says otherwise)"
                 return Contradiction(text, fatal=False)
-        elif (swing := _to_and_fro(part)) is not None:
-            at_s, away, back = swing
+        elif (swing := _alternating_values(part)) is not None:
+            time_s, value, neighbour = swing
             return Contradiction(
-                f"{what} on {part.topic} goes to and fro between values that differ: at {moment(at_s)} it is "
-                f"{in_words(away)}, and just before and after {in_words(back)}; it has two publishers, or the clock "
-                "of the recording started again"
+                f"{what} on {part.topic} goes to and fro between values that differ: at {moment(time_s)} it is "
+                f"{in_words(value)}, and just before and after {in_words(neighbour)}; it has two publishers, or the "
+                "clock of the recording started again"
             )
     return None
 
 
 def differ(first: Numbers, second: Numbers) -> bool:
-    """Return true if two poses differ by more than `SAME`."""
-    return not close(first, second, SAME)
+    """Return true if two poses differ by more than `SAME_WITHIN`."""
+    return not close(first, second, SAME_WITHIN)
 
 
 def in_words(values: Numbers) -> str:
@@ -89,13 +86,13 @@ def in_words(values: Numbers) -> str:
     more = "".join(
         f", {name} {math.degrees(angle):.4g} degrees"
         for name, angle in (("roll", roll), ("pitch", pitch))
-        if abs(angle) > SAME
+        if abs(angle) > SAME_WITHIN
     )
-    height = f", z {z:.4g} m" if abs(z) > SAME else ""
+    height = f", z {z:.4g} m" if abs(z) > SAME_WITHIN else ""
     return f"x {x + 0.0:.4g} m, y {y + 0.0:.4g} m{height}, yaw {math.degrees(yaw):.4g} degrees{more}"
 
 
-def _distinct(values: Sequence[Numbers]) -> list[tuple[Numbers, int]]:
+def _count_distinct(values: Sequence[Numbers]) -> list[tuple[Numbers, int]]:
     """Return the distinct values with their counts, in the order of first appearance; at most ten."""
     counts: dict[Numbers, int] = {}
     for value in values:
@@ -105,46 +102,43 @@ def _distinct(values: Sequence[Numbers]) -> list[tuple[Numbers, int]]:
     return list(counts.items())
 
 
-def _apart(parts: Sequence[Samples]) -> tuple[tuple[str, Numbers], tuple[str, Numbers]] | None:
+def _contradicting_topics(parts: Sequence[Samples]) -> tuple[tuple[str, Numbers], tuple[str, Numbers]] | None:
     """Return two topics with values that contradict each other; None if there are none."""
     # A constant value contradicts another constant value, and a moving one.
-    holds = [part for part in parts if part.constant()]
-    moving = [part for part in parts if not part.constant()]
-    for part in holds[1:]:
-        if differ(part.last(), holds[0].last()):
-            return (holds[0].topic, holds[0].last()), (part.topic, part.last())
-    for part in moving if holds else ():
-        away = next(value for value in part.values if differ(value, holds[0].last()))
-        return (holds[0].topic, holds[0].last()), (part.topic, away)
+    constant = [part for part in parts if part.is_constant()]
+    moving = [part for part in parts if not part.is_constant()]
+    for part in constant[1:]:
+        if differ(part.last(), constant[0].last()):
+            return (constant[0].topic, constant[0].last()), (part.topic, part.last())
+    if constant and moving:
+        other_value = next(value for value in moving[0].values if differ(value, constant[0].last()))
+        return (constant[0].topic, constant[0].last()), (moving[0].topic, other_value)
     if len(moving) < 2:
         return None
     # Motions contradict each other if they are far apart, differ at one time, or alternate.
     for other in moving[1:]:
-        pair = _off_the_way(moving[0], other)
+        pair = _values_far_apart(moving[0], other)
         if pair is not None:
             return (moving[0].topic, pair[0]), (other.topic, pair[1])
-    stamps, values, whose = _in_order(moving)
-    at_once = np.nonzero((np.diff(stamps) == 0) & (np.diff(whose) != 0))[0]
-    for i in at_once:
-        if differ(values[i], values[i + 1]):
-            return (moving[whose[i]].topic, values[i]), (moving[whose[i + 1]].topic, values[i + 1])
-    beside = two_motions(stamps, np.array(values), whose)
-    if beside is None:
+    stamps, values, part_of = _merge_samples(moving)
+    simultaneous = np.nonzero((np.diff(stamps) == 0) & (np.diff(part_of) != 0))[0]
+    i = next((i for i in simultaneous + 1 if differ(values[i - 1], values[i])), None)
+    i = two_motions(stamps, np.array(values), part_of) if i is None else i
+    if i is None:
         return None
-    return (moving[whose[beside]].topic, values[beside]), (moving[whose[beside - 1]].topic, values[beside - 1])
+    return (moving[part_of[i]].topic, values[i]), (moving[part_of[i - 1]].topic, values[i - 1])
 
 
-def _off_the_way(reference: Samples, other: Samples) -> tuple[Numbers, Numbers] | None:
+def _values_far_apart(reference: Samples, other: Samples) -> tuple[Numbers, Numbers] | None:
     """Return two values if half of the samples of a topic are over a step away from another topic's motion."""
     track, stamps = reference.track(), other.times_ns()
     inside = np.nonzero(track.covers(stamps))[0]
     if not len(inside):
         return None
     before, _ = bracketing_indices(track.stamps_ns, stamps[inside])
-    places = track.motions.translation
-    step = np.linalg.norm(np.diff(places, axis=0), axis=1)[before]
-    away = np.linalg.norm(np.array(other.values)[inside, :3] - track.at(stamps[inside]).translation, axis=1)
-    far = np.nonzero(away > step + APART)[0]
+    step = np.linalg.norm(np.diff(track.motions.translation, axis=0), axis=1)[before]
+    distance = np.linalg.norm(np.array(other.values)[inside, :3] - track.at(stamps[inside]).translation, axis=1)
+    far = np.nonzero(distance > step + NOISE)[0]
     if len(far) < len(inside) / 2:
         return None
     i = far[len(far) // 2]
@@ -152,24 +146,24 @@ def _off_the_way(reference: Samples, other: Samples) -> tuple[Numbers, Numbers] 
     return (*expected.translation[0], *expected.rotation.as_quat()[0]), other.values[inside[i]]
 
 
-def _in_order(parts: Sequence[Samples]) -> tuple[NDArray[np.int64], list[Numbers], NDArray[np.intp]]:
+def _merge_samples(parts: Sequence[Samples]) -> tuple[NDArray[np.int64], list[Numbers], NDArray[np.intp]]:
     """Return all samples by time, without repetitions: stamps, values, and the index of each sample's part."""
     stamps = np.concatenate([part.times_ns() for part in parts])
     values = [value for part in parts for value in part.values]
-    whose = np.repeat(np.arange(len(parts)), [len(part.values) for part in parts])
+    part_of = np.repeat(np.arange(len(parts)), [len(part.values) for part in parts])
     kept: list[int] = []
     for i in np.argsort(stamps, kind="stable"):
         if not any(stamps[j] == stamps[i] and not differ(values[j], values[i]) for j in kept[-3:]):
             kept.append(int(i))
-    return stamps[kept], [values[i] for i in kept], whose[kept]
+    return stamps[kept], [values[i] for i in kept], part_of[kept]
 
 
-def _to_and_fro(part: Samples) -> tuple[float, Numbers, Numbers] | None:
+def _alternating_values(part: Samples) -> tuple[float, Numbers, Numbers] | None:
     """Return a time, the value and the value before it if a topic has two publishers that differ; else None."""
-    if part.constant():
+    if part.is_constant():
         return None
-    stamps, values, whose = _in_order([part])
-    i = two_motions(stamps, np.array(values), whose)
+    stamps, values, part_of = _merge_samples([part])
+    i = two_motions(stamps, np.array(values), part_of)
     if i is None and len(values) - len(np.unique(stamps)) > OFTEN_AT_ONCE * len(values):
         order = np.argsort(part.received_ns, kind="stable")
         values = [part.values[k] for k in order]
@@ -179,13 +173,13 @@ def _to_and_fro(part: Samples) -> tuple[float, Numbers, Numbers] | None:
     return None if i is None else (float(stamps[i] * 1e-9), values[i], values[i - 1])
 
 
-def two_motions(stamps_ns: NDArray[np.int64], values: NDArray[np.float64], whose: NDArray[np.intp]) -> int | None:
+def two_motions(stamps_ns: NDArray[np.int64], values: NDArray[np.float64], part_of: NDArray[np.intp]) -> int | None:
     """Return the index of a sample beside the motion of its neighbours if samples come from two motions; else None.
 
     If two publishers alternate, the samples of each alone are smooth, and the offset between the two motions changes
     slowly. A jump, a corner or noise has one of these properties, but not both. Stamps ascend, (T,); values are
-    positions and quaternions, (T, 7). ``whose`` is the topic of each sample, (T,). With several topics, only samples
-    between those of another topic are judged.
+    positions and quaternions, (T, 7). ``part_of`` is the topic of each sample, (T,). With several topics, only samples
+    between samples of another topic are judged.
     """
     if len(stamps_ns) < 7:
         return None
@@ -198,34 +192,34 @@ def two_motions(stamps_ns: NDArray[np.int64], values: NDArray[np.float64], whose
     length = np.linalg.norm(ahead, axis=1, keepdims=True)
     ahead = np.where(length > 0, ahead / np.where(length > 0, length, 1.0), 0.0)
 
-    def beside(at: int, before: int, after: int) -> NDArray[np.float64]:
+    def offset_from_line(sample: int, before: int, after: int) -> NDArray[np.float64]:
         """Return a sample's offset from the line between two neighbours, less `MAX_LATE_STEPS` along the motion."""
-        i, j, k = middle + at, middle + before, middle + after
+        i, j, k = middle + sample, middle + before, middle + after
         span = seconds[k] - seconds[j]
         share = np.where(span > 0, (seconds[i] - seconds[j]) / np.where(span > 0, span, 1.0), 0.5)[:, None]
-        away = poses[i] - poses[j] * (1 - share) - poses[k] * share
-        along = np.sum(away * ahead, axis=1, keepdims=True)
-        return np.asarray(away - np.clip(along, -MAX_LATE_STEPS * length, MAX_LATE_STEPS * length) * ahead)
+        offset = poses[i] - poses[j] * (1 - share) - poses[k] * share
+        along = np.sum(offset * ahead, axis=1, keepdims=True)
+        return np.asarray(offset - np.clip(along, -MAX_LATE_STEPS * length, MAX_LATE_STEPS * length) * ahead)
 
-    def off(at: int, before: int, after: int) -> NDArray[np.float64]:
-        return np.asarray(np.linalg.norm(beside(at, before, after), axis=1))
+    def distance(sample: int, before: int, after: int) -> NDArray[np.float64]:
+        return np.asarray(np.linalg.norm(offset_from_line(sample, before, after), axis=1))
 
-    away, joint = beside(0, -1, 1), off(0, -1, 1)
+    offsets, roughness = offset_from_line(0, -1, 1), distance(0, -1, 1)
     # The neighbours must belong to the other publisher: smooth with the next or second next sample on their far side.
-    before = np.minimum(off(-1, -2, 1), off(-1, -3, 1))
-    after = np.minimum(off(1, -1, 2), off(1, -1, 3))
-    beyond = (joint > APART) & (np.maximum(before, after) < MUCH_SMOOTHER * joint)
-    several = len(np.unique(whose)) > 1
+    before = np.minimum(distance(-1, -2, 1), distance(-1, -3, 1))
+    after = np.minimum(distance(1, -1, 2), distance(1, -1, 3))
+    is_beside = (roughness > NOISE) & (np.maximum(before, after) < MUCH_SMOOTHER * roughness)
+    several = len(np.unique(part_of)) > 1
     if several:
-        beyond &= (whose[middle - 1] != whose[middle]) & (whose[middle + 1] != whose[middle])
-    count = int(beyond.sum())
+        is_beside &= (part_of[middle - 1] != part_of[middle]) & (part_of[middle + 1] != part_of[middle])
+    count = int(is_beside.sum())
     if count < (MIN_SAMPLES_BETWEEN if several else MIN_SAMPLES):
         return None
     # The offsets must change slowly.
-    first, second = away[beyond][:-1], away[beyond][1:]  # offsets of successive samples
+    first, second = offsets[is_beside][:-1], offsets[is_beside][1:]  # of successive samples
     largest = np.maximum(np.linalg.norm(first, axis=1), np.linalg.norm(second, axis=1))
     change = np.minimum(np.linalg.norm(first - second, axis=1), np.linalg.norm(first + second, axis=1)) / largest
     limits = [limit for share, limit in MAX_CHANGE_BY_SHARE if several or count >= share * len(seconds)]
     if float(np.median(change)) > limits[0]:
         return None
-    return int(middle[beyond][count // 2])
+    return int(middle[is_beside][count // 2])

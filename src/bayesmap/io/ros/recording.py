@@ -28,10 +28,12 @@ from urllib.parse import quote
 
 from bayesmap.errors import BadInput
 
-LASER_SCAN, RANGE = "sensor_msgs/msg/LaserScan", "sensor_msgs/msg/Range"
+LASER_SCAN = "sensor_msgs/msg/LaserScan"
+RANGE = "sensor_msgs/msg/Range"
 SCAN_TYPES = (LASER_SCAN, RANGE)
 TF_TYPES = ("tf2_msgs/msg/TFMessage", "tf/msg/tfMessage")
-ODOMETRY, POSE = "nav_msgs/msg/Odometry", "geometry_msgs/msg/PoseStamped"
+ODOMETRY = "nav_msgs/msg/Odometry"
+POSE = "geometry_msgs/msg/PoseStamped"
 POSE_TYPES = (ODOMETRY, POSE, "geometry_msgs/msg/PoseWithCovarianceStamped")
 TYPES = (*SCAN_TYPES, *POSE_TYPES, *TF_TYPES)  # types of messages that are read
 
@@ -70,31 +72,28 @@ class Topic:
 
 @dataclass(frozen=True, eq=False)
 class Recording:
-    """An open recording: topics in alphabetical order, times of receipt, and notes for the user.
-
-    ``read`` returns the messages on the given topics. It raises `Damaged` if it cannot read them all.
-    """
+    """An open recording."""
 
     path: str
     format: str  # ``"rosbag1"``, ``"rosbag2-sqlite3"`` or ``"mcap"``
-    topics: Mapping[str, Topic]
-    read: Callable[[frozenset[str]], Iterable[Message]]
+    topics: Mapping[str, Topic]  # in alphabetical order
+    read: Callable[[frozenset[str]], Iterable[Message]]  # all messages on topics; raises `Damaged` if it cannot
     start_ns: int | None = None  # of the first message; None if the container does not state it
     end_ns: int | None = None  # of the last message
-    notes: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()  # sentences for the user
 
     def of_type(self, types: Collection[str]) -> list[Topic]:
         """Return the topics of the given types that have messages."""
         return [topic for topic in self.topics.values() if topic.type in types and topic.count]
 
-    def named(self, option: str, name: str, types: Collection[str], have: str) -> Topic:
-        """Return the topic that the user names by an option; raise `BadInput`, ending with ``have``, for others."""
+    def named(self, option: str, name: str, types: Collection[str], choices: str) -> Topic:
+        """Return the topic that the user names by an option. Raises `BadInput`, with the choices, for others."""
         topic = self.topics.get(name) or self.topics.get("/" + name)
         if topic is not None and topic.type in types and topic.count:
             return topic
         fault = "there is no such topic" if topic is None else f"it is a topic of {topic.type}"
         fault = "it has no message" if topic is not None and topic.type in types else fault
-        raise BadInput(f"{self.path}: {option} {name}: {fault}; {have}")
+        raise BadInput(f"{self.path}: {option} {name}: {fault}; {choices}")
 
 
 class Connection(NamedTuple):
@@ -137,22 +136,25 @@ def topics_of(records: Records) -> tuple[dict[str, Topic], Times]:
 
 def messages_of(records: Records, topics: Mapping[str, Topic], names: frozenset[str]) -> Iterator[Message]:
     """Yield the messages on the topics ``names``, without those of another type than the topic's."""
-    chosen: dict[int, str] = {}
+    topic_of: dict[int, str] = {}  # by the id of the connection
     for record in records:
         if isinstance(record, Connection):
             name = record.topic.name
             if name in names and record.topic.type == topics[name].type:
-                chosen[record.id] = name
-        elif record.connection in chosen:
-            yield Message(chosen[record.connection], record.received_ns, record.data)
+                topic_of[record.id] = name
+        elif record.connection in topic_of:
+            yield Message(topic_of[record.connection], record.received_ns, record.data)
 
 
-BAG_MAGIC, MCAP_MAGIC, SQLITE_MAGIC = b"#ROSBAG V2.0\n", b"\x89MCAP0\r\n", b"SQLite format 3\0"
+BAG_MAGIC = b"#ROSBAG V2.0\n"
+MCAP_MAGIC = b"\x89MCAP0\r\n"
+SQLITE_MAGIC = b"SQLite format 3\0"
 BAG_MESSAGE, BAG_INDEX, BAG_CHUNK, BAG_CONNECTION = (bytes([op]) for op in (2, 4, 5, 7))
 FOOTER, SCHEMA, CHANNEL, MESSAGE, CHUNK, DATA_END = 2, 3, 4, 5, 6, 15
 LANGUAGES = {"ros1msg": "msg", "ros2msg": "msg", "ros2idl": "idl", "omgidl": "idl"}
 INDEX_ENTRY_BYTES = 12
-MAX_HEADER_BYTES, MAX_DATA_BYTES = 1 << 24, 1 << 30  # of one record; larger lengths are taken for damage
+MAX_HEADER_BYTES = 1 << 24  # of one record; larger lengths are taken for damage
+MAX_DATA_BYTES = 1 << 30
 OnDamage = Callable[[str], None]  # called with the reason for an unreadable part; raises to stop
 
 
@@ -170,7 +172,7 @@ def refuse(reason: str) -> None:
     raise Damaged(reason)
 
 
-def spelled_as_in_ros2(name: str) -> str:
+def ros2_type_name(name: str) -> str:
     """Return ``sensor_msgs/msg/LaserScan`` for ``sensor_msgs/LaserScan``."""
     package, slash, message = name.partition("/")
     return f"{package}/msg/{message}" if slash and "/" not in message else name
@@ -230,7 +232,7 @@ def _bag_header(file: BinaryIO, at: int) -> tuple[Any, int, int]:
 
 
 def _bag_chunk(header: Any, packed: bytes, cut: bool) -> Records:
-    """Return the records within a chunk; of one that is cut, those that are there."""
+    """Yield the records within a chunk. A chunk that is cut has its first records."""
     data, at = _unpacked(header.get("compression", b"").decode("ascii", "replace"), packed, MAX_DATA_BYTES), 0
     file = BytesIO(data)
     while at < len(data):
@@ -247,7 +249,7 @@ def _bag_chunk(header: Any, packed: bytes, cut: bool) -> Records:
 
 
 def _bag_record(header: Any, file: BinaryIO, length: int) -> Records:
-    """Return the message or connection whose data begin where the file is; nothing for other kinds of records."""
+    """Yield the message or connection whose data begin where the file is; nothing for other kinds of records."""
     from rosbags.rosbag1.reader import Header, ReaderError
 
     try:
@@ -255,9 +257,10 @@ def _bag_record(header: Any, file: BinaryIO, length: int) -> Records:
             yield Record(header.get_uint32("conn"), header.get_time("time"), file.read(length))
         elif header["op"] == BAG_CONNECTION:
             file.seek(-4, os.SEEK_CUR)  # the data are a second header, and the length before them is its length
-            about = Header.read(file)
-            definition, md5 = (about.get(key, b"").decode(errors="replace") for key in ("message_definition", "md5sum"))
-            name, type_name = header.get_string("topic"), spelled_as_in_ros2(about.get_string("type"))
+            fields = Header.read(file)
+            texts = (fields.get(key, b"").decode(errors="replace") for key in ("message_definition", "md5sum"))
+            definition, md5 = texts
+            name, type_name = header.get_string("topic"), ros2_type_name(fields.get_string("type"))
             yield Connection(header.get_uint32("conn"), Topic(name, type_name, 0, definition, "msg", "ros1", md5))
     except (ReaderError, UnicodeDecodeError) as error:
         raise _Unreadable(str(error)) from None
@@ -300,7 +303,7 @@ def mcap_records(path: str | os.PathLike[str], on_damage: OnDamage) -> Records:
 
 
 def _mcap_chunk(chunk: bytes, schemas: Schemas, cut: bool) -> Records:
-    """Return the records within a chunk; of one that is cut, those that are there."""
+    """Yield the records within a chunk. A chunk that is cut has its first records."""
     try:
         _, _, size, checksum = struct.unpack_from("<QQQI", chunk)
         (compression,), start = _texts(chunk, 28, 1)
@@ -338,7 +341,7 @@ def _mcap_record(kind: int, data: bytes, schemas: Schemas) -> Records:
             number, schema = struct.unpack_from("<HH", data)
             (topic, encoding), _ = _texts(data, 4, 2)
             type_name, language, text = schemas.get(schema, ("", "", ""))
-            language, type_name = LANGUAGES.get(language, language), spelled_as_in_ros2(type_name)
+            language, type_name = LANGUAGES.get(language, language), ros2_type_name(type_name)
             yield Connection(number, Topic(topic, type_name, 0, text, language, encoding))
     except (struct.error, UnicodeDecodeError) as error:
         raise _Unreadable(str(error)) from None

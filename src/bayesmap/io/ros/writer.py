@@ -40,9 +40,12 @@ NANOSECONDS = 1_000_000_000
 
 FRAME = "map"
 OCCUPANCY_GRID = "nav_msgs/msg/OccupancyGrid"
-GRID_MAP, GRID_MAP_INFO = "grid_map_msgs/msg/GridMap", "grid_map_msgs/msg/GridMapInfo"
-PATH, POSE = "nav_msgs/msg/Path", "geometry_msgs/msg/PoseWithCovarianceStamped"
-SCAN, TRANSFORMS = "sensor_msgs/msg/LaserScan", "tf2_msgs/msg/TFMessage"
+GRID_MAP = "grid_map_msgs/msg/GridMap"
+GRID_MAP_INFO = "grid_map_msgs/msg/GridMapInfo"
+PATH = "nav_msgs/msg/Path"
+POSE = "geometry_msgs/msg/PoseWithCovarianceStamped"
+SCAN = "sensor_msgs/msg/LaserScan"
+TRANSFORMS = "tf2_msgs/msg/TFMessage"
 
 IN_PLANE = np.array([0, 1, 5])  # indices of x, y and yaw among the six components of ROS covariances
 
@@ -57,20 +60,16 @@ _MAP = (
 
 @dataclass(frozen=True)
 class Channel:
-    """A topic, the type of its messages, and the messages, each with its time of receipt in seconds.
-
-    A message without a time gets 1 ns, because ROS refuses zero. If ``latched`` is true, late subscribers get the last
-    message.
-    """
+    """The messages on a topic."""
 
     topic: str
     type_name: str
-    messages: Sequence[tuple[float | None, Any]]
-    latched: bool = True
+    messages: Sequence[tuple[float | None, Any]]  # with times of receipt in seconds; None: 1 ns, as ROS refuses zero
+    latched: bool = True  # whether late subscribers get the last message
 
 
 def container_of(path: str | os.PathLike[str]) -> str:
-    """Return the ending of a path, one of `ENDINGS`, or raise `BadInput`. Without ending it is a folder."""
+    """Return the ending of a path, one of `ENDINGS`; a path without ending is a folder. Raises `BadInput`."""
     name = os.fspath(path)
     if name.endswith(os.sep) or Path(path).is_dir():
         return FOLDER
@@ -81,7 +80,7 @@ def container_of(path: str | os.PathLike[str]) -> str:
 
 
 class Recorder:
-    """Makes ROS messages, and writes them as a recording; raises `BadInput` for another ending of the path."""
+    """Makes ROS messages, and writes them as a recording. Raises `BadInput` for another ending of the path."""
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
         from rosbags.typesys import Stores, get_types_from_msg, get_typestore
@@ -124,7 +123,7 @@ class Recorder:
         return self.make(TRANSFORMS, transforms=[stamped])
 
     def write(self, *channels: Channel) -> Path:
-        """Write topics, whole or not at all, and return the path; raise `BadInput` if that is impossible."""
+        """Write topics, whole or not at all, and return the path. Raises `BadInput` if that is impossible."""
         target, ending = self.target, self.ending
         if ending == FOLDER:
             # The bag names its file after its folder, so it is made in a folder of the right name, and moved.
@@ -133,9 +132,9 @@ class Recorder:
                 os.replace(scratch / target.name, unfinished)
             return target
         with write_whole(target) as unfinished, _scratch(unfinished.parent) as scratch:
-            made = scratch / target.stem
-            self._write(made, channels)
-            os.replace(made if self.is_ros1 else made / (made.name + ending), unfinished)
+            bag = scratch / target.stem
+            self._write(bag, channels)
+            os.replace(bag if self.is_ros1 else bag / (bag.name + ending), unfinished)
         return target
 
     def _write(self, path: Path, channels: Sequence[Channel]) -> None:
@@ -150,19 +149,17 @@ class Recorder:
         with bag:
             connections = []
             for c in channels:
-                latch = {"callerid": "/bayesmap", "latching": int(c.latched)}
-                how = latch if self.is_ros1 else {"offered_qos_profiles": [_quality(c.latched)]}
-                connections.append(bag.add_connection(c.topic, c.type_name, typestore=self.store, **how))
-            for when, number, message in _in_order(channels):
-                bag.write(connections[number], when, serialize(message, channels[number].type_name))
+                ros1_options = {"callerid": "/bayesmap", "latching": int(c.latched)}
+                options = ros1_options if self.is_ros1 else {"offered_qos_profiles": [_quality(c.latched)]}
+                connections.append(bag.add_connection(c.topic, c.type_name, typestore=self.store, **options))
+            for time_ns, number, message in _in_time_order(channels):
+                bag.write(connections[number], time_ns, serialize(message, channels[number].type_name))
 
 
 def is_ros2_bag(folder: Path) -> bool:
     """Return true if a folder holds a ROS 2 bag and nothing else."""
-    files = list(folder.iterdir())
-    return any(file.name == "metadata.yaml" for file in files) and all(
-        file.name == "metadata.yaml" or file.suffix in (".db3", ".mcap") for file in files
-    )
+    others = [file for file in folder.iterdir() if file.suffix not in (".db3", ".mcap")]
+    return [file.name for file in others] == ["metadata.yaml"]
 
 
 @contextlib.contextmanager
@@ -172,14 +169,14 @@ def _scratch(parent: Path) -> Iterator[Path]:
         yield Path(folder)
 
 
-def _in_order(channels: Sequence[Channel]) -> list[tuple[int, int, Any]]:
+def _in_time_order(channels: Sequence[Channel]) -> list[tuple[int, int, Any]]:
     """Return the time in nanoseconds, the channel and the message of all messages, in time order."""
-    every = [
+    messages = [
         (max(1, round((stamp_s or 0.0) * NANOSECONDS)), number, message)
         for number, channel in enumerate(channels)
         for stamp_s, message in channel.messages
     ]
-    return sorted(every, key=lambda timed: timed[:2])
+    return sorted(messages, key=lambda timed: timed[:2])
 
 
 def _quality(latched: bool) -> Qos:
@@ -291,9 +288,9 @@ def write_scans(path: str | os.PathLike[str], scans: Scans, base: ArrayLike, mou
     limits = {"range_min": float(scans.min_range_m), "range_max": float(scans.max_range_m)}
     first, last, step = float(angles[0]), float(angles[-1]), float(angles[1] - angles[0])
     beams = {"angle_min": first, "angle_max": last, "angle_increment": step, "time_increment": 0.0, "scan_time": 0.0}
-    rest = {**beams, **limits, "intensities": np.zeros(0, np.float32)}
+    constant = {**beams, **limits, "intensities": np.zeros(0, np.float32)}
     readings = [
-        ros.make(SCAN, header=ros.header("laser", stamp), ranges=ranges.astype(np.float32), **rest)
+        ros.make(SCAN, header=ros.header("laser", stamp), ranges=ranges.astype(np.float32), **constant)
         for ranges, stamp in zip(scans.ranges_m, stamps, strict=True)
     ]
     poses = np.asarray(base, dtype=np.float64).tolist()

@@ -35,7 +35,7 @@ from bayesmap.errors import BadInput
 from bayesmap.files import write_text
 from bayesmap.io.log_reading import WITHOUT_POSES, Account, LogOptions, LogReading, Pose
 from bayesmap.io.returns import Readings, Views, decode, largest_hit_m
-from bayesmap.io.text.lines import log_lines, numbers_in
+from bayesmap.io.text.lines import log_lines, numbers_in, printable
 from bayesmap.space.planar import Floats, between, compose
 from bayesmap.space.scans import MAX_BEAMS, Fan, Scans, as_poses, fan_fault, side_by_side
 
@@ -58,25 +58,14 @@ class Malformed(Exception):
 
 @dataclass(frozen=True)
 class LaserLine:
-    """The scan of one line: its beams, its raw readings, (A,), and the sensor's largest range, if stated.
-
-    ``numbers`` are the laser's pose, the robot's pose and the time, (7,), all finite; missing poses are zero.
-    """
+    """The scan of one line. Poses and time are finite; missing poses are zero."""
 
     fan: Fan
-    readings_m: Floats
-    numbers: Floats
-    max_range_m: float | None
-
-    @property
-    def laser_pose(self) -> Floats:
-        """The pose of the laser in the line, (3,)."""
-        return self.numbers[:3]
-
-    @property
-    def robot_pose(self) -> Floats:
-        """The pose of the robot in the line, (3,)."""
-        return self.numbers[3:6]
+    readings_m: Floats  # raw, (A,)
+    laser_pose: Floats  # (3,)
+    robot_pose: Floats  # (3,)
+    stamp_s: float
+    max_range_m: float | None  # largest range of the sensor, if the line states it
 
     def pose(self, mount: Pose | None) -> Floats:
         """Return the pose of the laser, (3,): the robot's pose with the given mount, or the laser's in the line."""
@@ -89,41 +78,40 @@ LaserScan = tuple[LaserLine, Floats]  # a scan of a log, and the pose of the las
 def read_carmen(path: str | os.PathLike[str], options: LogOptions) -> LogReading:
     """Read the scans of a CARMEN log, plain or gzipped.
 
-    If a log holds several kinds of laser message, the kind with most scans is read. A note names the others.
-
-    Raises `BadInput` for a file that cannot be read, holds no scans, or has a malformed line (unless the options skip
-    it); the message names the file, the line and the remedy.
+    If a log holds several kinds of laser message, the kind with most scans is read. A note names the others. Raises
+    `BadInput` for a file that cannot be read or holds no scans, and for a malformed line, unless the options skip it.
     """
     account = Account(os.fspath(path), "carmen", options)
-    lasers: dict[str, list[LaserScan]] = {kind: [] for kind in (LASERS + RAW if options.without_poses else LASERS)}
+    kinds = LASERS + RAW if options.without_poses else LASERS
+    scans_by_kind: dict[str, list[LaserScan]] = {kind: [] for kind in kinds}
     number = 0
     for number, line in log_lines(account):
         try:
             kind = message_name(line)
             account.counts[kind] += 1
-            if kind in lasers:
+            if kind in scans_by_kind:
                 scan = parse_laser(kind, line.split())
-                lasers[kind].append((scan, scan.pose(options.laser)))
+                scans_by_kind[kind].append((scan, scan.pose(options.laser)))
             elif kind == "ODOM":
                 _check_odometry(line.split())
         except Malformed as problem:
             account.bad(number, str(problem))
     del account.counts[""]
-    if not any(lasers.values()):
-        raise BadInput(f"{account.name}: {_why_no_scans(number, account)}")
-    reading, fans = laser_reading(account, lasers)
+    if not any(scans_by_kind.values()):
+        raise BadInput(f"{account.name}: {_why_no_scans(number, account)}{account.malformed()}")
+    log, fans = scan_log_of(account, scans_by_kind)
     vertices = [
         f"the log also holds {account.counts[name]:,} {name} lines, which were not used: poses are those of the laser "
         "lines"
         for name in ("VERTEX_SE2", "VERTEX2")
         if account.counts[name]  # they come so late that the file was taken for a CARMEN log
     ]
-    unsure = _unsure_angles(fans) if reading.message in IMPLICIT else []
-    return replace(reading, notes=(*reading.notes, *unsure, *vertices))
+    unsure = _unsure_angles(fans) if log.message in IMPLICIT else []
+    return replace(log, notes=(*log.notes, *unsure, *vertices))
 
 
 def message_name(line: bytes) -> str:
-    """Return the line's first word, or "" for comments and blank lines; raise `Malformed` if it names no message."""
+    """Return the line's first word, or "" for comments and blank lines. Raises `Malformed` if it names no message."""
     if b"\0" in line:
         raise Malformed("binary data; a log is text")
     words = line.split(None, 1)
@@ -131,8 +119,7 @@ def message_name(line: bytes) -> str:
         return ""
     word = words[0]
     if len(word) > 64 or not _NAME.fullmatch(word):
-        start = word[:20].decode("ascii", "backslashreplace")
-        raise Malformed(f"starts with '{start}', which is not the name of a message")
+        raise Malformed(f"starts with '{printable(word)}', which is not the name of a message")
     name = word.decode("ascii")
     if name not in KNOWN and any(known.startswith(name) for known in KNOWN):
         raise Malformed(f"starts with '{name}': a message cut short")
@@ -140,7 +127,7 @@ def message_name(line: bytes) -> str:
 
 
 def parse_laser(kind: str, words: list[bytes]) -> LaserLine:
-    """Return the scan in the words of a line; raise `Malformed` if they do not follow the format of their kind."""
+    """Return the scan in the words of a line. Raises `Malformed` if they do not follow the format of their kind."""
     # Positions of the readings and the poses, from the counts in the line.
     count_at = 1 if kind in IMPLICIT else 8
     beams = _count(kind, words, count_at, "readings")
@@ -161,8 +148,9 @@ def parse_laser(kind: str, words: list[bytes]) -> LaserLine:
     numbers = np.append(np.zeros(6) if kind in RAW else numbers[:6], numbers[-2])
     if not np.isfinite(numbers).all():
         raise Malformed(f"{kind} has a pose or a time that is not finite: {numbers.tolist()}")
+    poses_and_stamp = numbers[:3], numbers[3:6], float(numbers[6])
     if kind in IMPLICIT:
-        return LaserLine(_implied_fan(kind, beams), readings, numbers, None)
+        return LaserLine(_implied_fan(kind, beams), readings, *poses_and_stamp, None)
     first, _, step, max_range = (float(v) for v in parse_floats(kind, words[2:6], 2))
     what = f"{kind} has start angle {first:g} and angular resolution {step:g}"
     if not (math.isfinite(first) and math.isfinite(step) and step > 0):
@@ -170,7 +158,7 @@ def parse_laser(kind: str, words: list[bytes]) -> LaserLine:
     if (fault := fan_fault(first, first + step * max(beams - 1, 0))) is not None:
         raise Malformed(f"{what}: {fault}")
     stated = max_range if math.isfinite(max_range) and max_range > 0 else None
-    return LaserLine(Fan(beams, first, step), readings, numbers, stated)
+    return LaserLine(Fan(beams, first, step), readings, *poses_and_stamp, stated)
 
 
 def _implied_fan(kind: str, beams: int) -> Fan:
@@ -180,22 +168,21 @@ def _implied_fan(kind: str, beams: int) -> Fan:
     return Fan(beams, -math.pi / 2, step if beams else 0.0)
 
 
-def _count(kind: str, words: list[bytes], at: int, what: str) -> int:
-    if at >= len(words):
+def _count(kind: str, words: list[bytes], position: int, what: str) -> int:
+    """Return the count of readings or remissions that stands at a position in the line."""
+    if position >= len(words):
         raise Malformed(f"{kind} ends after {len(words)} fields, before its number of {what}")
-    word = words[at]
+    word = words[position]
     if not word.isdigit() or not int(word[:9]) <= MAX_BEAMS:
-        shown = word[:20].decode("ascii", "backslashreplace")
-        raise Malformed(f"{kind} says '{shown}' for its number of {what}")
+        raise Malformed(f"{kind} says '{printable(word)}' for its number of {what}")
     return int(word)
 
 
-def parse_floats(kind: str, words: list[bytes], at: int) -> Floats:
-    """Return words as numbers, (N,), or raise `Malformed`; ``at`` is the index of the first word in its line."""
+def parse_floats(kind: str, words: list[bytes], first: int) -> Floats:
+    """Return words as numbers, (N,); the first word has the index ``first`` in its line. Raises `Malformed`."""
     numbers = numbers_in(words)
     if isinstance(numbers, int):
-        shown = words[numbers][:20].decode("ascii", "backslashreplace")
-        raise Malformed(f"{kind} has '{shown}' for a number, in field {at + numbers + 1}")
+        raise Malformed(f"{kind} has '{printable(words[numbers])}' for a number, in field {first + numbers + 1}")
     return numbers
 
 
@@ -206,24 +193,22 @@ def _check_odometry(words: list[bytes]) -> None:
         raise Malformed("ODOM has a number that is not finite")
 
 
-def laser_reading(account: Account, lasers: Mapping[str, Sequence[LaserScan]]) -> tuple[LogReading, list[Fan]]:
-    """Return the reading of the kind of message with most scans, and its fans, the commonest first."""
-    kind = max(lasers, key=lambda kind: len(lasers[kind]))
-    scans = [scan for scan, _ in lasers[kind] if scan.fan.beams]
-    empty = len(lasers[kind]) - len(scans)
+def scan_log_of(account: Account, scans_by_kind: Mapping[str, Sequence[LaserScan]]) -> tuple[LogReading, list[Fan]]:
+    """Return the scans of the kind of message with most scans, and their fans, the commonest first."""
+    kind = max(scans_by_kind, key=lambda kind: len(scans_by_kind[kind]))
+    scans = [scan for scan, _ in scans_by_kind[kind] if scan.fan.beams]
+    n_empty = len(scans_by_kind[kind]) - len(scans)
     if not scans:
-        raise BadInput(f"{account.name}: none of {empty:,} {kind} lines has a reading")
+        raise BadInput(f"{account.name}: none of {n_empty:,} {kind} lines has a reading")
     # Fans, poses and time order of the scans.
     fans = [fan for fan, _ in Counter(scan.fan for scan in scans).most_common()]
-    numbers = np.array([scan.numbers for scan in scans])
-    laser_poses, robot_poses, stamps_s = numbers[:, :3], numbers[:, 3:6], numbers[:, 6]
-    poses = np.array([pose for scan, pose in lasers[kind] if scan.fan.beams])
-    order = account.in_time_order(stamps_s, len(scans))
-    if empty:
-        account.notes.append(f"{empty:,} {kind} lines have no readings, and were left out")
+    poses = np.array([pose for scan, pose in scans_by_kind[kind] if scan.fan.beams])
+    order = account.in_time_order(np.array([scan.stamp_s for scan in scans]), len(scans))
+    if n_empty:
+        account.notes.append(f"{n_empty:,} {kind} lines have no readings, and were left out")
     account.notes += [
         f"the log also holds {len(others)} {other} scans, which were not used: {kind} has more or as many"
-        for other, others in lasers.items()
+        for other, others in scans_by_kind.items()
         if other != kind and others
     ]
     # Angles and readings as arrays, with NaN if scans differ in their beams; then the kinds of readings.
@@ -234,21 +219,22 @@ def laser_reading(account: Account, lasers: Mapping[str, Sequence[LaserScan]]) -
         angles, raw = side_by_side([scan.fan.angles_rad() for scan in scans], readings)
         angles = angles[order]
     stated_m = max((scan.max_range_m for scan in scans if scan.max_range_m is not None), default=None)
-    typed = _typed(account, raw[order], stated_m, Views.of(poses[order], angles))
+    classified = _classify(account, raw[order], stated_m, Views.of(poses[order], angles))
     # Median pose of the laser in the robot's frame.
+    robot_poses, laser_poses = (np.array([getattr(s, name) for s in scans]) for name in ("robot_pose", "laser_pose"))
     x, y, yaw = (float(v) for v in np.median(between(robot_poses, laser_poses), axis=0))
-    posed = kind not in RAW
-    return account.reading(kind, poses[order], angles, typed, mount=(x, y, yaw) if posed else None, posed=posed), fans
+    mount, posed = None if kind in RAW else (x, y, yaw), kind not in RAW
+    return account.scan_log(kind, poses[order], angles, classified, mount=mount, posed=posed), fans
 
 
-def _typed(account: Account, raw: Floats, stated_m: float | None, views: Views) -> Readings:
+def _classify(account: Account, raw: Floats, stated_m: float | None, views: Views) -> Readings:
     """Classify readings. The default largest range is the largest hit in whole metres, up to the no-return code."""
-    ranges, coded = decode(raw, account.options.no_return, stated_m, views)
+    ranges, no_return = decode(raw, account.options.no_return, stated_m, views)
     limit, origin = account.options.max_range_m, "given"
     if limit is None:
-        code = coded.code_m if coded.code_m is not None and coded.code_m > 0 else math.inf
+        code = no_return.code_m if no_return.code_m is not None and no_return.code_m > 0 else math.inf
         limit, origin = largest_hit_m(account.name, ranges, code), "readings"
-    return Readings(ranges, coded, 0.0, float(limit), origin, coded.notes())
+    return Readings(ranges, no_return, 0.0, float(limit), origin, no_return.notes())
 
 
 def _unsure_angles(fans: list[Fan]) -> list[str]:
@@ -264,14 +250,9 @@ def _unsure_angles(fans: list[Fan]) -> list[str]:
 def _why_no_scans(lines: int, account: Account) -> str:
     if lines == 0:
         return "the file is empty"
-    messages, skipped = account.counts, account.skipped
-    held = ", ".join(f"{count} {name}" for name, count in messages.most_common(5)) or "no message at all"
-    reason = f"no laser scans ({', '.join(LASERS)}) in {lines} lines; it holds {held}"
-    if any(name.startswith("RAWLASER") for name in messages):
-        reason += f" (RAWLASER lines have no pose: {WITHOUT_POSES})"
-    if skipped:
-        reason += f"; {len(skipped)} lines were malformed, first line {skipped[0].line}: {skipped[0].reason}"
-    return reason
+    raw = any(name.startswith("RAWLASER") for name in account.counts)
+    remedy = f" (RAWLASER lines have no pose: {WITHOUT_POSES})" if raw else ""
+    return f"no laser scans ({', '.join(LASERS)}) in {lines} lines; it holds {account.contents()}{remedy}"
 
 
 def write_carmen(path: str | os.PathLike[str], scans: Scans, robot_poses: Floats | None = None) -> str:
@@ -279,49 +260,47 @@ def write_carmen(path: str | os.PathLike[str], scans: Scans, robot_poses: Floats
 
     Ranges keep a tenth of a millimetre. A reading that is too close or invalid becomes 0, which is read back as
     invalid; hits at the sensor's maximum range and beyond become no return. Scans without stamps are written a second
-    apart. ``robot_poses`` are those of the robot's base, (S, 3), by default the laser's. Returns the kind of message
-    that was written: ``"FLASER"`` or ``"ROBOTLASER1"``.
-
-    Raises `BadInput` for no scan, a scan of less than two beams, or beams that are not equally far apart, which neither
-    message can state.
+    apart. ``robot_poses``, (S, 3), are poses of the robot's base, by default the laser's. Returns the kind of message
+    that was written: ``"FLASER"`` or ``"ROBOTLASER1"``. Raises `BadInput` for no scan, a scan of less than two beams,
+    or beams that are not equally far apart, which neither message can state.
     """
     if len(scans) == 0:
         raise BadInput("log: there are no scans to write")
     # Beams as fans, and the kinds of readings after rounding.
     angles = [scans.beams_of(scan)[0] for scan in range(1 if scans.own_angles_rad is None else len(scans))]
-    fans = [_even_fan(own) for own in angles]
+    fans = [_even_fan(scan_angles) for scan_angles in angles]
     ranges = scans.ranges_m
-    typed = np.where(np.isfinite(ranges) & (ranges > 0), np.round(ranges, 4), np.nan)
-    typed[np.isposinf(ranges) | (typed >= scans.max_range_m)] = np.inf
+    readings = np.where(np.isfinite(ranges) & (ranges > 0), np.round(ranges, 4), np.nan)
+    readings[np.isposinf(ranges) | (readings >= scans.max_range_m)] = np.inf
     # The kind of message, and the numbers of its readings.
-    numbers = _flaser_numbers(typed, scans) if all(_is_implied(own) for own in angles) else None
+    numbers = _flaser_numbers(readings, scans) if all(map(_is_implied, angles)) else None
     kind = "ROBOTLASER1" if numbers is None else "FLASER"
     if numbers is None:
-        numbers = np.where(np.isnan(typed), 0.0, np.minimum(typed, scans.max_range_m))
+        numbers = np.where(np.isnan(readings), 0.0, np.minimum(readings, scans.max_range_m))
     stamps = np.arange(len(scans), dtype=np.float64) if scans.stamps_s is None else scans.stamps_s
-    bases = scans.poses if robot_poses is None else as_poses(robot_poses)
-    if len(bases) != len(scans):
-        raise BadInput(f"log: {len(bases)} poses of the robot for {len(scans)} scans")
+    robot_poses = scans.poses if robot_poses is None else as_poses(robot_poses)
+    if len(robot_poses) != len(scans):
+        raise BadInput(f"log: {len(robot_poses)} poses of the robot for {len(scans)} scans")
 
     lines = ["# CARMEN log, written by bayesmap"]
     for scan, (stamp, has_beam) in enumerate(zip(stamps, scans.has_beam, strict=True)):
         fan = fans[scan % len(fans)]
         beams = f"{fan.beams} " + " ".join(f"{v:.4f}".rstrip("0").rstrip(".") for v in numbers[scan, has_beam])
-        poses = " ".join(f"{v:.6f}" for v in (*scans.poses[scan], *bases[scan]))
+        poses = " ".join(f"{v:.6f}" for v in (*scans.poses[scan], *robot_poses[scan]))
         end = f"{stamp:.6f} bayesmap {stamp - stamps[0]:.6f}"
         if kind == "FLASER":
             lines.append(f"FLASER {beams} {poses} {end}")
         else:
             # Laser type, first angle, field of view, step, maximum range, accuracy, remission mode.
-            sweep = fan.step_rad * (fan.beams - 1)
-            head = f"0 {fan.first_rad!r} {sweep!r} {fan.step_rad!r} {scans.max_range_m!r} 0.01 0"
+            span = fan.step_rad * (fan.beams - 1)
+            head = f"0 {fan.first_rad!r} {span!r} {fan.step_rad!r} {scans.max_range_m!r} 0.01 0"
             lines.append(f"ROBOTLASER1 {head} {beams} 0 {poses} 0 0 0 0 0 {end}")
     write_text(Path(path), lines)
     return kind
 
 
 def _even_fan(angles_rad: Floats) -> Fan:
-    """Return the fan of counter-clockwise beams that are equally far apart; raise `BadInput` for other beams."""
+    """Return the fan of counter-clockwise beams that are equally far apart. Raises `BadInput` for other beams."""
     if len(angles_rad) < 2:
         raise BadInput("log: a CARMEN log cannot say the angle of a single beam; take two or more")
     step = float((angles_rad[-1] - angles_rad[0]) / (len(angles_rad) - 1))
@@ -333,16 +312,15 @@ def _even_fan(angles_rad: Floats) -> Fan:
 
 def _is_implied(angles_rad: Floats) -> bool:
     """Return true if the reader derives these angles from their number alone, without a note."""
-    beams = len(angles_rad)
-    if beams not in (180, 181, 360, 361):
+    if (beams := len(angles_rad)) not in (180, 181, 360, 361):
         return False
     return bool(np.abs(_implied_fan("FLASER", beams).angles_rad() - angles_rad).max() <= ANGLE_TOLERANCE_RAD)
 
 
-def _flaser_numbers(typed: Floats, scans: Scans) -> Floats | None:
+def _flaser_numbers(readings: Floats, scans: Scans) -> Floats | None:
     """Return the numbers of FLASER lines, or None if the reader would not decode no return from them."""
-    hits = typed[np.isfinite(typed)]
-    far = max(NO_RETURN_CODE_M, 2.0 * math.ceil(hits.max() + 1.0) if hits.size else 0.0)
-    numbers = np.where(np.isnan(typed), 0.0, np.where(np.isposinf(typed), far, typed))
+    hits = readings[np.isfinite(readings)]
+    code_m = max(NO_RETURN_CODE_M, 2.0 * math.ceil(hits.max() + 1.0) if hits.size else 0.0)
+    numbers = np.where(np.isnan(readings), 0.0, np.where(np.isposinf(readings), code_m, readings))
     decoded, _ = decode(numbers, views=Views.of(scans.poses, scans.angles_by_scan()))
-    return numbers if np.array_equal(decoded, typed, equal_nan=True) else None
+    return numbers if np.array_equal(decoded, readings, equal_nan=True) else None

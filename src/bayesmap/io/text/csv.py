@@ -18,7 +18,7 @@ import numpy as np
 from bayesmap.errors import BadInput
 from bayesmap.io.log_reading import Account, LogOptions, LogReading
 from bayesmap.io.returns import classify
-from bayesmap.io.text.lines import log_lines, numbers_in
+from bayesmap.io.text.lines import log_lines, numbers_in, printable
 from bayesmap.space.planar import Floats, compose
 from bayesmap.space.scans import Scans, fan_fault, side_by_side
 
@@ -27,7 +27,8 @@ Bad = Callable[[int, str], None]  # function that is called with the number of a
 DELIMITERS = (b",", b";", b"\t")
 POSE = ("x", "y", "yaw")
 OWN_ANGLES = ("angle_min", "angle_increment")
-NANOSECONDS, RECEIVED = "nanoseconds", "received"
+NANOSECONDS = "nanoseconds"
+RECEIVED = "received"
 LATEST_S = 1e12  # largest stamp in seconds; larger stamps are nanoseconds
 SETTINGS = ("angle_min", "angle_increment", "angles", "range_min", "range_max")
 FURTHEST_M = 1e7  # larger coordinates are malformed
@@ -57,7 +58,7 @@ class _Table:
     bad: Bad
     settings: dict[str, list[float]] = field(default_factory=dict)  # from comments, and columns that never change
     columns: list[str] = field(default_factory=list)  # names of the columns that are read
-    at: list[int] = field(default_factory=list)  # their positions in a line
+    positions: list[int] = field(default_factory=list)  # their positions in a line
     width: int = 0  # fields per line
     lines: list[int] = field(default_factory=list)  # line numbers of `rows`
     rows: list[Floats] = field(default_factory=list)  # one number per column of `columns`
@@ -84,10 +85,10 @@ class _Table:
                 self.delimiter = max(DELIMITERS, key=line.count)
                 names = _names(line, self.delimiter)
                 self.width = len(names)
-                for at, column in enumerate(_as_read(names)):
+                for position, column in enumerate(_columns_of(names)):
                     if column and column not in self.columns:
                         self.columns.append(column)
-                        self.at.append(at)
+                        self.positions.append(position)
         elif text:
             fields = [part.strip().strip(b'"') for part in line.split(self.delimiter)]
             if not any(fields):
@@ -95,16 +96,15 @@ class _Table:
             if len(fields) != self.width:
                 self.bad(number, f"the row has {len(fields)} fields where the header has {self.width}")
                 return
-            words = [fields[i] or b"nan" for i in self.at]
+            words = [fields[i] or b"nan" for i in self.positions]
             if self.delimiter != b",":
                 words = [word.replace(b",", b".") for word in words]
-            self._append(number, words, self.at)
+            self._append(number, words, self.positions)
 
-    def _append(self, number: int, words: list[bytes], at: list[int]) -> None:
+    def _append(self, number: int, words: list[bytes], positions: list[int]) -> None:
         values = numbers_in(words)
         if isinstance(values, int):
-            shown = words[values][:20].decode("ascii", "backslashreplace")
-            self.bad(number, f"field {at[values] + 1} is '{shown}', not a number")
+            self.bad(number, f"field {positions[values] + 1} is '{printable(words[values])}', not a number")
             return
         self.lines.append(number)
         self.rows.append(values)
@@ -117,14 +117,14 @@ class _Table:
                 "record with ros2 bag record"
             )
         first = len(ROS2_FIELDS)
-        after = len(fields) - first
+        n_after = len(fields) - first
         # An empty array of intensities is one empty field.
-        count = after - 1 if fields[-1] == b"" else after // 2
-        if count < 1 or (fields[-1] != b"" and after % 2):
-            self.bad(number, f"{after} fields follow range_max: not readings, and as many intensities or none")
+        n_readings = n_after - 1 if fields[-1] == b"" else n_after // 2
+        if n_readings < 1 or (fields[-1] != b"" and n_after % 2):
+            self.bad(number, f"{n_after} fields follow range_max: not readings, and as many intensities or none")
             return
-        at = [i for i, name in enumerate(ROS2_FIELDS) if name] + list(range(first, first + count))
-        self._append(number, [fields[i] for i in at], at)
+        positions = [i for i, name in enumerate(ROS2_FIELDS) if name] + list(range(first, first + n_readings))
+        self._append(number, [fields[i] for i in positions], positions)
 
     def column(self, name: str, rows: Floats) -> Floats:
         """Return a column of the given rows, (N,); zeros if the table has no such column."""
@@ -157,7 +157,7 @@ class _Table:
         return set(POSE) <= set(self.columns)
 
     def scans(self) -> _Parts:
-        """Return the scans of the rows so far; raise `BadInput` if angles, or the column of scans, are missing."""
+        """Return the scans of the rows so far. Raises `BadInput` if angles, or the column of scans, are missing."""
         return _one_row_a_scan(self) if "r_0" in self.columns else _one_row_a_beam(self)
 
 
@@ -178,12 +178,12 @@ def _is_ros2_row(line: bytes) -> bool:
 
 def is_header(line: bytes) -> bool:
     """Return true if a line is the header of a table of scans."""
-    columns = set(_as_read(_names(line, max(DELIMITERS, key=line.count))))
+    columns = set(_columns_of(_names(line, max(DELIMITERS, key=line.count))))
     return "r_0" in columns or ({"angle", "range"} <= columns and bool({"scan", "stamp", *POSE} & columns))
 
 
 def read_csv(path: str | os.PathLike[str], options: LogOptions) -> LogReading:
-    """Read scans from a CSV table, plain or gzipped; raise `BadInput` if scans, angles or poses are missing."""
+    """Read scans from a CSV table, plain or gzipped. Raises `BadInput` if scans, angles or poses are missing."""
     account = Account(os.fspath(path), "csv", options)
     table = _Table(account.name, account.bad)
     for number, line in log_lines(account):
@@ -192,24 +192,22 @@ def read_csv(path: str | os.PathLike[str], options: LogOptions) -> LogReading:
     _need_poses(account, table)
     poses, angles, readings, stamps = table.scans()
     if not len(readings):
-        bad = account.skipped
-        first = f"; {len(bad)} rows were malformed, first line {bad[0].line}" if bad else ""
-        raise BadInput(f"{account.name}: the table has a header, but no scan{first}")
+        raise BadInput(f"{account.name}: the table has a header, but no scan{account.malformed()}")
     account.counts["rows"] = len(table.rows)
     order = account.in_time_order(stamps, len(readings))
     if options.laser is not None:
         poses = compose(poses, np.array(options.laser))
-    moving = poses.ndim == 3
     poses, angles = poses[order], angles if angles.ndim == 1 else angles[order]
-    first_poses = poses[:, 0] if moving else poses
-    typed = account.classify(readings[order], table.limits(), first_poses, angles)
+    first_poses, beam_poses = (poses[:, 0], poses) if poses.ndim == 3 else (poses, None)
+    classified = account.classify(readings[order], table.limits(), first_poses, angles)
     kind = "row of a scan" if "r_0" in table.columns else "row of a beam"
-    return account.reading(kind, first_poses, angles, typed, beam_poses=poses if moving else None, posed=table.posed)
+    return account.scan_log(kind, first_poses, angles, classified, beam_poses=beam_poses, posed=table.posed)
 
 
 def live_rows(name: str, lines: Iterable[tuple[int, bytes]], bad: Bad, options: LogOptions) -> Iterator[Scans]:
     """Yield the scans of a table of one row a scan as lines arrive. Errors are as in `read_csv`."""
     table, max_range_m = _Table(name, bad), options.max_range_m
+    mount = None if options.laser is None else np.array(options.laser)
     assert max_range_m is not None
     for number, line in lines:
         table.take(number, line)
@@ -221,7 +219,7 @@ def live_rows(name: str, lines: Iterable[tuple[int, bytes]], bad: Bad, options: 
             continue
         table.finish()
         poses, angles, readings, stamps = table.scans()
-        poses = poses if options.laser is None else compose(poses, np.array(options.laser))
+        poses = poses if mount is None else compose(poses, mount)
         table.lines, table.rows = [], []
         if len(readings):
             limits, code = table.limits(), options.no_return
@@ -229,7 +227,6 @@ def live_rows(name: str, lines: Iterable[tuple[int, bytes]], bad: Bad, options: 
                 code = limits[1] if limits[1] > 0 else math.inf
             if not np.isnan(readings).all():
                 readings = classify(name, readings, *limits, no_return=code, max_range_m=max_range_m).ranges_m
-            mount = None if options.laser is None else np.array(options.laser)
             scans = Scans(poses, angles, readings, max_range_m, limits[0], stamps_s=stamps, mount=mount)
             yield scans.limited(max_range_m)
 
@@ -243,16 +240,16 @@ def _names(line: bytes, delimiter: bytes) -> list[str]:
     return [part.decode("utf-8", "replace").strip().strip('"').lower() for part in line.split(delimiter)]
 
 
-def _as_read(names: list[str]) -> list[str]:
-    """Return the names of columns in this module; "" for columns that are not read."""
-    echoed = any(_ECHOED_BEAM.fullmatch(name) for name in names)
-    read = []
+def _columns_of(names: list[str]) -> list[str]:
+    """Return the names of a header's columns in this module; "" for columns that are not read."""
+    is_echoed = any(_ECHOED_BEAM.fullmatch(name) for name in names)
+    columns = []
     for name in names:
-        own = name in (*POSE, "stamp", "scan", "angle", "range", *OWN_ANGLES) or _BEAM.fullmatch(name)
-        beam = _ECHOED_BEAM.fullmatch(name) if echoed else None
-        known = ECHOED.get(name.removeprefix("field.").lstrip("./"), "") if echoed else ""
-        read.append(f"r_{int(beam[1])}" if beam else known or (name if own else ""))
-    return read
+        is_ours = name in (*POSE, "stamp", "scan", "angle", "range", *OWN_ANGLES) or _BEAM.fullmatch(name)
+        beam = _ECHOED_BEAM.fullmatch(name) if is_echoed else None
+        echoed = ECHOED.get(name.removeprefix("field.").lstrip("./"), "") if is_echoed else ""
+        columns.append(f"r_{int(beam[1])}" if beam else echoed or (name if is_ours else ""))
+    return columns
 
 
 def _setting(name: str, line: int, key: str, text: bytes) -> list[float]:
@@ -268,17 +265,17 @@ def _setting(name: str, line: int, key: str, text: bytes) -> list[float]:
     return values
 
 
-def _checked(table: _Table, needed: tuple[str, ...]) -> Floats:
+def _good_rows(table: _Table, needed: tuple[str, ...]) -> Floats:
     """Return all good rows as one array; rows without finite values in the ``needed`` columns are bad."""
     rows = np.array(table.rows).reshape(-1, len(table.columns))
     needed = tuple(name for name in needed if name in table.columns)
     columns = [table.columns.index(name) for name in needed]
-    fine = np.asarray((np.abs(rows[:, columns]) < FURTHEST_M * (1e6 if "stamp" in needed else 1)).all(axis=1))
-    for i in np.nonzero(~fine)[0]:
-        named = dict(zip(needed, rows[i, columns].tolist(), strict=False))
-        table.bad(table.lines[i], f"a number that must be finite is not, or is too large: {named}")
-    table.lines = [line for line, good in zip(table.lines, fine, strict=True) if good]
-    return rows[fine]
+    is_good = np.asarray((np.abs(rows[:, columns]) < FURTHEST_M * (1e6 if "stamp" in needed else 1)).all(axis=1))
+    for i in np.nonzero(~is_good)[0]:
+        values = dict(zip(needed, rows[i, columns].tolist(), strict=True))
+        table.bad(table.lines[i], f"a number that must be finite is not, or is too large: {values}")
+    table.lines = [line for line, good in zip(table.lines, is_good, strict=True) if good]
+    return rows[is_good]
 
 
 def _one_row_a_scan(table: _Table) -> _Parts:
@@ -287,18 +284,18 @@ def _one_row_a_scan(table: _Table) -> _Parts:
         raise BadInput(f"{table.name}: the columns of readings must be r_0 to r_{len(beams) - 1}, without gaps")
     # Readings, and the angles of each row if it has its own.
     own = OWN_ANGLES if set(OWN_ANGLES) <= set(table.columns) else ()
-    rows = _checked(table, (*POSE, *own, "stamp"))
+    rows = _good_rows(table, (*POSE, *own, "stamp"))
     readings = rows[:, [table.columns.index(f"r_{beam}") for beam in beams]]
-    fans = np.stack([table.column(name, rows) for name in own], axis=-1) if own else np.empty((0, 2))
     if not own:
         angles = _angles(table.name, table.settings, len(beams))
     else:
+        fans = np.stack([table.column(name, rows) for name in own], axis=-1)
         angles = _angles_of_rows(table, fans, readings)
-        fine = ~np.isnan(angles).all(axis=1)
-        if fine.all() and len(rows) and (fans[0] == fans).all():
+        is_good = ~np.isnan(angles).all(axis=1)
+        if is_good.all() and len(rows) and (fans[0] == fans).all():
             angles = _angles(table.name, {name: [float(v)] for name, v in zip(own, fans[0], strict=True)}, len(beams))
         else:
-            rows, angles, readings = rows[fine], angles[fine], readings[fine]
+            rows, angles, readings = rows[is_good], angles[is_good], readings[is_good]
     return _poses(table, rows), angles, readings, table.column("stamp", rows) if "stamp" in table.columns else None
 
 
@@ -309,8 +306,8 @@ def _poses(table: _Table, rows: Floats) -> Floats:
 
 def _angles_of_rows(table: _Table, fans: Floats, readings: Floats) -> Floats:
     """Return angles, (S, A), from each row's first angle and step, with NaN after its last reading and in bad rows."""
-    read = ~np.isnan(readings)
-    counts = np.where(read.any(axis=1), readings.shape[1] - read[:, ::-1].argmax(axis=1), 1)
+    is_read = ~np.isnan(readings)
+    counts = np.where(is_read.any(axis=1), readings.shape[1] - is_read[:, ::-1].argmax(axis=1), 1)
     angles = fans[:, :1] + fans[:, 1:] * np.arange(readings.shape[1])
     angles[np.arange(readings.shape[1]) >= counts[:, None]] = np.nan
     for i, (low, high) in enumerate(zip(np.nanmin(angles, axis=1), np.nanmax(angles, axis=1), strict=True)):
@@ -339,9 +336,8 @@ def _angles(name: str, settings: dict[str, list[float]], beams: int) -> Floats:
 def _one_row_a_beam(table: _Table) -> _Parts:
     key = next((column for column in ("scan", "stamp") if column in table.columns), None)
     if key is None:
-        need = "a column 'scan' or 'stamp', to tell the scans apart"
-        raise BadInput(f"{table.name}: a table of one row a beam needs {need}")
-    rows = _checked(table, (*POSE, "angle", key, "stamp"))
+        raise BadInput(f"{table.name}: a table of one row a beam needs a column 'scan' or 'stamp' to separate scans")
+    rows = _good_rows(table, (*POSE, "angle", key, "stamp"))
     if not len(rows):
         return np.empty((0, 3)), np.empty(0), np.empty((0, 0)), None
     poses = _poses(table, rows)
@@ -357,9 +353,9 @@ def _one_row_a_beam(table: _Table) -> _Parts:
     wide_angles, readings = side_by_side([angles[scan] for scan in scans], [ranges[scan] for scan in scans])
     # Missing beams of a scan get the pose of its last beam.
     last = np.array([scan.stop - 1 for scan in scans], dtype=np.intp)
-    at = np.array([scan.start for scan in scans], dtype=np.intp)[:, None] + np.arange(readings.shape[1])
-    beam_poses = poses[np.minimum(at, last[:, None])]
-    still = (beam_poses == beam_poses[:, :1]).all()
-    scan_poses = beam_poses[:, 0] if still and len(scans) else beam_poses
+    row = np.array([scan.start for scan in scans], dtype=np.intp)[:, None] + np.arange(readings.shape[1])
+    beam_poses = poses[np.minimum(row, last[:, None])]
+    stands = (beam_poses == beam_poses[:, :1]).all()
+    scan_poses = beam_poses[:, 0] if stands and len(scans) else beam_poses
     starts_s = stamps[[scan.start for scan in scans]] if "stamp" in table.columns else None
     return scan_poses, wide_angles, readings, starts_s

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from bayesmap.errors import BadInput
 from bayesmap.files import write_text
 from bayesmap.io.log_reading import Account, LogOptions, LogReading
-from bayesmap.io.text.carmen import LASERS, LaserScan, Malformed, laser_reading, parse_floats, parse_laser
+from bayesmap.io.text.carmen import LASERS, LaserLine, LaserScan, Malformed, parse_floats, parse_laser, scan_log_of
 from bayesmap.io.text.lines import log_lines
 from bayesmap.space.planar import Floats, between, between_jacobians, compose, inverse, mount_jacobians, rotation
 from bayesmap.space.trajectory import Trajectory
@@ -37,13 +37,14 @@ KNOWN = (*VERTICES, b"EDGE_SE2", b"VERTEX_SE3:QUAT", b"VERTEX_XY", b"PARAMS_SE2O
 """Words by which a g2o file is recognised."""
 FURTHEST_M = 1e7  # larger coordinates are malformed
 MIN_INFORMATION = 1e-3  # least information of an edge, 1 / m^2 and 1 / rad^2: other programs need invertible matrices
-SAMPLED, SEED = 300, 1  # number and seed of the random pairs of key scans that measure the effect of common errors
+SAMPLED_PAIRS = 300  # random pairs of key scans that measure the effect of common errors
+SEED = 1
 
 
 def read_g2o(path: str | os.PathLike[str], options: LogOptions) -> LogReading:
     """Read the scans of a g2o file, plain or gzipped. Errors are as in `bayesmap.io.text.carmen.read_carmen`."""
     account = Account(os.fspath(path), "g2o", options)
-    lasers: dict[str, list[LaserScan]] = {kind: [] for kind in LASERS}
+    scans_by_kind: dict[str, list[LaserScan]] = {kind: [] for kind in LASERS}
     vertex: Floats | None = None
     number = 0
     for number, line in log_lines(account):
@@ -63,21 +64,19 @@ def read_g2o(path: str | os.PathLike[str], options: LogOptions) -> LogReading:
                         f"{kind} does not follow a {' or '.join(word.decode() for word in VERTICES)} that says where "
                         "it was taken (a file without vertices is read by the poses in its laser lines)"
                     )
-                mount = _mount(scan.numbers) if options.laser is None else np.array(options.laser)
+                mount = _mount(scan) if options.laser is None else np.array(options.laser)
                 pose = compose(vertex, mount)
                 pose[2] = vertex[2] + mount[2]  # not wrapped: yaw beyond a turn may be in degrees, which a note says
-                lasers[kind].append((scan, pose))
+                scans_by_kind[kind].append((scan, pose))
         except Malformed as problem:
             account.bad(number, str(problem))
-    if not any(lasers.values()):
-        held = ", ".join(f"{count} {kind}" for kind, count in account.counts.most_common(5)) or "nothing"
-        bad = account.skipped
+    if not any(scans_by_kind.values()):
         raise BadInput(
             f"{account.name}: no vertex of the graph carries a scan ({', '.join(LASERS)}) in {number} lines; it holds "
-            f"{held}" + (f"; {len(bad)} lines were malformed, first line {bad[0].line}" if bad else "")
+            f"{account.contents()}{account.malformed()}"
         )
-    reading, _ = laser_reading(account, lasers)
-    return replace(reading, pose_source=max((v.decode() for v in VERTICES), key=lambda word: account.counts[word]))
+    log, _ = scan_log_of(account, scans_by_kind)
+    return replace(log, pose_source=max((v.decode() for v in VERTICES), key=lambda word: account.counts[word]))
 
 
 def _vertex(kind: str, words: list[bytes]) -> Floats:
@@ -89,10 +88,10 @@ def _vertex(kind: str, words: list[bytes]) -> Floats:
     return pose
 
 
-def _mount(numbers: Floats) -> Floats:
+def _mount(scan: LaserLine) -> Floats:
     """Return the pose of the laser on the robot, robot^-1 * laser, from the poses in a line."""
-    laser, robot = numbers[:3], numbers[3:6]
-    if np.abs(numbers[:6]).max() >= FURTHEST_M:
+    laser, robot = scan.laser_pose, scan.robot_pose
+    if np.abs([laser, robot]).max() >= FURTHEST_M:
         raise Malformed(f"the laser is at {laser.tolist()} and the robot at {robot.tolist()}")
     return between(robot, laser)
 
@@ -144,9 +143,8 @@ def chain_edges(trajectory: Trajectory) -> Edges:
     """Return the graph of successive poses of a trajectory: each pose in the frame of the pose before.
 
     The covariance of a step comes from the law of relative poses, or else from the draws. Without both, it is the sum
-    of the covariances of both poses, as if they were independent, which is too large.
-
-    Raises `BadInput` for a trajectory without draws and without covariances, or of a single pose.
+    of the covariances of both poses, as if they were independent, which is too large. Raises `BadInput` for a
+    trajectory without draws and without covariances, or of a single pose.
     """
     steps = len(trajectory) - 1
     if steps < 1:
@@ -155,13 +153,13 @@ def chain_edges(trajectory: Trajectory) -> Edges:
     if trajectory.relative is not None:
         covariance = trajectory.relative.covariances(np.arange(steps), np.arange(1, steps + 1))
     elif trajectory.draws is not None and len(trajectory.draws) > 3:
-        drawn = between(trajectory.draws[:, :-1], trajectory.draws[:, 1:])
-        error = between(np.broadcast_to(relative, drawn.shape), drawn)
-        covariance = np.einsum("dsi,dsj->sij", error, error) / (len(drawn) - 1)
+        step_draws = between(trajectory.draws[:, :-1], trajectory.draws[:, 1:])
+        error = between(np.broadcast_to(relative, step_draws.shape), step_draws)
+        covariance = np.einsum("dsi,dsj->sij", error, error) / (len(step_draws) - 1)
     elif trajectory.covariances is not None:
-        turn = rotation(-trajectory.poses[:, 2])  # from world axes to those of each pose
-        own = turn @ trajectory.covariances @ np.swapaxes(turn, 1, 2)
-        covariance = own[:-1] + own[1:]
+        turn = rotation(-trajectory.poses[:, 2])  # from world axes to the axes of each pose
+        in_own_axes = turn @ trajectory.covariances @ np.swapaxes(turn, 1, 2)
+        covariance = in_own_axes[:-1] + in_own_axes[1:]
     else:
         raise BadInput("graph: nothing is known of how sure these poses are; a graph needs covariances or draws")
     covariance = covariance + 1e-12 * np.eye(3)
@@ -176,20 +174,20 @@ def slam_edges(trajectory: Approximation) -> Edges:
     """
     # Edges between key scans.
     gaussian, keys = trajectory.gaussian, trajectory.keys
-    of_student = gaussian.dof / (gaussian.dof - 2.0)
-    values, vectors = np.linalg.eigh(gaussian.curvature / (of_student * _growth(gaussian)))
+    student_ratio = gaussian.dof / (gaussian.dof - 2.0)
+    values, vectors = np.linalg.eigh(gaussian.curvature / (student_ratio * _growth(gaussian)))
     information = (vectors * np.maximum(values, MIN_INFORMATION)[:, None, :]) @ np.swapaxes(vectors, 1, 2)
     # Edges from every other scan to its nearest key scan.
     others = np.setdiff1d(np.arange(len(trajectory)), keys)
     nearest = keys[trajectory.nearest_key[others]]
     beside = between(trajectory.poses[nearest], trajectory.poses[others])
     _, by_other = between_jacobians(beside)
-    own = of_student * by_other @ trajectory.own_covariance[others] @ np.swapaxes(by_other, 1, 2)
+    covariance = student_ratio * by_other @ trajectory.own_covariance[others] @ np.swapaxes(by_other, 1, 2)
     return Edges(
         np.concatenate([keys[gaussian.first], nearest]),
         np.concatenate([keys[gaussian.second], others]),
         np.concatenate([gaussian.relative, beside]),
-        np.concatenate([information, np.linalg.inv(own + 1e-12 * np.eye(3))]),
+        np.concatenate([information, np.linalg.inv(covariance + 1e-12 * np.eye(3))]),
     )
 
 
@@ -198,11 +196,11 @@ def _growth(gaussian: PoseGaussian) -> float:
     from bayesmap.poses.graph import relative_covariances
 
     rng = np.random.default_rng(SEED)
-    first, second = rng.integers(0, len(gaussian.poses), (2, SAMPLED))
+    first, second = rng.integers(0, len(gaussian.poses), (2, SAMPLED_PAIRS))
     first, second = first[first != second], second[first != second]
     if not len(first):
         return 1.0
     alone = relative_covariances(gaussian.precision, gaussian.poses, first, second)
     together = gaussian.relative_covariances(first, second)
-    grown = np.linalg.slogdet(together)[1] - np.linalg.slogdet(alone)[1]
-    return float(np.exp(grown.mean() / 3.0))
+    log_ratio = np.linalg.slogdet(together)[1] - np.linalg.slogdet(alone)[1]
+    return float(np.exp(log_ratio.mean() / 3.0))

@@ -33,7 +33,7 @@ def read_lines(path: str | os.PathLike[str]) -> Generator[tuple[int, bytes]]:
     editors write, is removed; UTF-16 after such a mark is turned into UTF-8.
 
     Raises `DamagedFile` for a damaged or truncated gzip stream, after all the whole lines that could be read, and
-    `BadInput` for no such file, no permission, or a line over `MAX_LINE_BYTES`.
+    `BadInput` for an unreadable file, or a line over `MAX_LINE_BYTES`.
     """
     name, last = os.fspath(path), 0
     chunks = file_chunks(path, lambda: f" after line {last}")
@@ -46,7 +46,7 @@ def read_lines(path: str | os.PathLike[str]) -> Generator[tuple[int, bytes]]:
 
 
 def log_lines(account: Account) -> Iterator[tuple[int, bytes]]:
-    """Yield the lines of a log; of a damaged log, those before the damage if the options allow it."""
+    """Yield the lines of a log. If the options allow it, a damaged log ends before the damage."""
     number = 0
     try:
         for number, line in read_lines(account.name):
@@ -71,11 +71,11 @@ def split_lines(name: str, pieces: Iterable[bytes]) -> Iterator[tuple[int, bytes
         yield number + 1, rest
 
 
-def file_chunks(path: str | os.PathLike[str], place: Callable[[], str] = str) -> Iterator[bytes]:
-    """Yield the content of a file in pieces, decompressed if it is gzipped; ``place`` names the position in messages.
+def file_chunks(path: str | os.PathLike[str], position: Callable[[], str] = str) -> Iterator[bytes]:
+    """Yield the content of a file in pieces, decompressed if it is gzipped; error messages name the ``position``.
 
-    Raises `DamagedFile` for a damaged or truncated gzip stream, after all that could be read, and `BadInput` for no
-    such file, or no permission.
+    Raises `DamagedFile` for a damaged or truncated gzip stream, after all that could be read, and `BadInput` for an
+    unreadable file.
     """
     name = os.fspath(path)
     try:
@@ -83,8 +83,8 @@ def file_chunks(path: str | os.PathLike[str], place: Callable[[], str] = str) ->
             yield from _chunks(file)
     except (EOFError, zlib.error) as error:
         raise DamagedFile(
-            f"{name}: the gzip file is damaged or cut short{place()} ({error}); copy it again, or read what is there "
-            "with --skip-bad-lines"
+            f"{name}: the gzip file is damaged or cut short{position()} ({error}); copy it again, or read what is "
+            "there with --skip-bad-lines"
         ) from None
     except OSError as error:
         raise BadInput(f"{name}: cannot be read: {error.strerror or error}") from None
@@ -135,6 +135,11 @@ def numbers_in(words: list[bytes]) -> NDArray[np.float64] | int:
     return next((i for i, word in enumerate(words) if not _is_number(word)), 0)
 
 
+def printable(word: bytes) -> str:
+    """Return the first 20 bytes of a word for a message."""
+    return word[:20].decode("ascii", "backslashreplace")
+
+
 def _is_number(word: bytes) -> bool:
     try:
         return b"_" not in word and float(word) is not None
@@ -142,11 +147,11 @@ def _is_number(word: bytes) -> bool:
         return False
 
 
-def read_table(path: str | os.PathLike[str], columns: int, form: str, nothing: str) -> NDArray[np.float64]:
+def read_table(path: str | os.PathLike[str], columns: int, form: str, empty: str) -> NDArray[np.float64]:
     """Return the numbers of a text file, plain or gzipped, (N, columns); commas are white space, # begins a comment.
 
-    Raises `BadInput` for a file that cannot be read, is empty (with the message ``nothing``), or has a line of another
-    form; the message names the line and the right ``form``.
+    Raises `BadInput` for a file that cannot be read, is empty (with the message ``empty``), or has a line of another
+    ``form``.
     """
     name, rows = os.fspath(path), []
     for number, line in read_lines(path):
@@ -158,5 +163,5 @@ def read_table(path: str | os.PathLike[str], columns: int, form: str, nothing: s
             raise BadInput(f"{name}: line {number}: a line is {columns} numbers: {form}")
         rows.append(row)
     if not rows:
-        raise BadInput(f"{name}: {nothing}")
+        raise BadInput(f"{name}: {empty}")
     return np.array(rows)

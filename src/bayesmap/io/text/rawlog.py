@@ -87,13 +87,13 @@ def object_at(data: bytes, at: int, names: re.Pattern[bytes]) -> Header | None:
 class Reader:
     """Reads the data of an object, one field after the other."""
 
-    def __init__(self, data: bytes, at: int) -> None:
-        self.data, self.at = data, at
+    def __init__(self, data: bytes, position: int) -> None:
+        self.data, self.position = data, position
 
     def take(self, form: str) -> tuple[float, ...]:
         """Return the next numbers, by their struct format, little-endian."""
-        values = struct.unpack_from("<" + form, self.data, self.at)
-        self.at += struct.calcsize("<" + form)
+        values = struct.unpack_from("<" + form, self.data, self.position)
+        self.position += struct.calcsize("<" + form)
         return values
 
     def number(self, form: str) -> float:
@@ -103,10 +103,10 @@ class Reader:
     def array(self, kind: str, count: int) -> NDArray[np.float64]:
         """Return the next numbers of one kind."""
         size = np.dtype(kind).itemsize * count
-        if not 0 <= size <= len(self.data) - self.at:
+        if not 0 <= size <= len(self.data) - self.position:
             raise UnreadableObject("is cut short")
-        values = np.frombuffer(self.data, kind, count, self.at).astype(np.float64)
-        self.at += size
+        values = np.frombuffer(self.data, kind, count, self.position).astype(np.float64)
+        self.position += size
         return values
 
     def text(self) -> str:
@@ -114,17 +114,17 @@ class Reader:
         (length,) = (int(v) for v in self.take("I"))
         if length > 1000:
             raise UnreadableObject("is damaged")
-        word = self.data[self.at : self.at + length]
-        self.at += length
+        word = self.data[self.position : self.position + length]
+        self.position += length
         return word.decode("utf-8", "replace")
 
     def header(self, *names: str) -> Header:
         """Return the header of an object within this one, which must belong to one of the classes ``names``."""
-        header = object_at(self.data, self.at, NAME)
+        header = object_at(self.data, self.position, NAME)
         if header is None or header.name not in names:
             name = "" if header is None else header.name
             raise UnreadableObject(f"holds {name!r} where {' or '.join(names)} is expected")
-        self.at = header.data
+        self.position = header.data
         return header
 
     def end(self, header: Header) -> None:
@@ -157,10 +157,10 @@ class Reader:
         """Return a CPose3D: position (3,) and rotation (3, 3)."""
         header = self.header("CPose3D")
         if header.version in (0, 1):
-            whole = self.matrix()
-            if whole.shape != (4, 4):
+            matrix = self.matrix()
+            if matrix.shape != (4, 4):
                 raise UnreadableObject("is damaged")
-            position, rotation = whole[:3, 3], whole[:3, :3]
+            position, rotation = matrix[:3, 3], matrix[:3, :3]
         elif header.version == 2:
             x, y, z, w, i, j, k = self.take("7d")
             position = np.array([x, y, z])
@@ -188,19 +188,19 @@ class Reader:
         ``trailing_fields`` holds the alternatives of each field as struct formats; the end mark decides between them.
         A format that starts with T starts with a flag, a byte, that must be 1. With F the flag must be 0.
         """
-        start = self.at
+        start = self.position
         for forms in product(*trailing_fields):
-            self.at = start
-            ended = all(map(self._passed, forms)) and self.data[self.at : self.at + 1] == bytes([END])
+            self.position = start
+            ended = all(map(self._skip_field, forms)) and self.data[self.position : self.position + 1] == bytes([END])
             if ended or not header.ended:
                 return
         raise UnreadableObject("does not end where it should")
 
-    def _passed(self, form: str) -> bool:
+    def _skip_field(self, form: str) -> bool:
         """Skip a field. Returns true if its flag has the required value."""
         flag = {"T": 1, "F": 0}.get(form[:1])
-        fits = flag is None or self.data[self.at : self.at + 1] == bytes([flag])
-        self.at += struct.calcsize("<" + form.replace("T", "x").replace("F", "x"))
+        fits = flag is None or self.data[self.position : self.position + 1] == bytes([flag])
+        self.position += struct.calcsize("<" + form.replace("T", "x").replace("F", "x"))
         return fits
 
 
@@ -253,10 +253,10 @@ def motion_of(reader: Reader, header: Header) -> tuple[int, Floats]:
     version = header.version
     if not 0 <= version <= 7:
         raise UnreadableObject("is not known: versions 0 to 7 are read")
-    by = int(reader.number("i")) if version >= 2 else BY_ODOMETRY
-    if version < 2 or by != BY_ODOMETRY:
+    method = int(reader.number("i")) if version >= 2 else BY_ODOMETRY
+    if version < 2 or method != BY_ODOMETRY:
         reader.header("CPosePDFGaussian", "CPosePDFGaussianInf")
-        return by, _checked(reader.pose_in_plane())  # what follows is not needed
+        return method, _checked(reader.pose_in_plane())  # what follows is not needed
     motion = _checked(reader.pose_in_plane())
     # Noise models, velocities and encoder ticks; old releases have floats, later ones doubles.
     if version == 2:
@@ -269,7 +269,7 @@ def motion_of(reader: Reader, header: Header) -> tuple[int, Floats]:
     else:
         trailing_fields += [["F", "T3d"], ["F", "T2i"]]
     reader.finish(header, [*trailing_fields, *([["Q"]] if version >= 6 else [])])
-    return by, motion
+    return method, motion
 
 
 def odometry_of(reader: Reader, header: Header) -> tuple[str, float | None, Floats]:
@@ -289,7 +289,9 @@ def _checked(pose: Floats) -> Floats:
     return pose
 
 
-SCAN, MOTION, ODOMETRY = "CObservation2DRangeScan", "CActionRobotMovement2D", "CObservationOdometry"
+SCAN = "CObservation2DRangeScan"
+MOTION = "CActionRobotMovement2D"
+ODOMETRY = "CObservationOdometry"
 COLLECTION = "CActionCollection"
 
 
@@ -305,21 +307,19 @@ def read_rawlog(path: str | os.PathLike[str], options: LogOptions) -> LogReading
     """Read the scans of a rawlog.
 
     Raises `BadInput` for a file that cannot be read, no scans, no poses (unless the options need none), or an object
-    that is damaged or of an unknown version (unless the options skip it); the message names the class.
+    that is damaged or of an unknown version (unless the options skip it).
     """
     account = Account(os.fspath(path), "rawlog", options)
     objects = _Objects(account, _content(account))
-    every = [scan for scan in objects.scans if len(scan.readings_m)]
-    if not every:
-        held = ", ".join(f"{count:,} {kind}" for kind, count in account.counts.most_common(5))
-        bad = f"; the first that cannot be read: {account.skipped[0].reason}" if account.skipped else ""
-        raise BadInput(f"{account.name}: the rawlog has no {SCAN}; it holds {held or 'nothing'}{bad}")
+    all_scans = [scan for scan in objects.scans if len(scan.readings_m)]
+    if not all_scans:
+        raise BadInput(f"{account.name}: the rawlog has no {SCAN}; it holds {account.contents()}{account.malformed()}")
     # Take the sensor with most scans.
-    (label, _), *others = Counter(scan.label for scan in every).most_common()
-    scans = [scan for scan in every if scan.label == label]
+    (label, _), *others = Counter(scan.label for scan in all_scans).most_common()
+    scans = [scan for scan in all_scans if scan.label == label]
+    unused = "which were not used"
     account.notes += [
-        f"the log also holds {count:,} scans of the sensor {other!r}, which were not used: {label!r} has more or as "
-        "many"
+        f"the log also holds {count:,} scans of the sensor {other!r}, {unused}: {label!r} has more or as many"
         for other, count in others
     ]
     # The robot's poses; scans outside the time of the odometry are left out.
@@ -345,10 +345,10 @@ def read_rawlog(path: str | os.PathLike[str], options: LogOptions) -> LogReading
     angles, readings = side_by_side([sign * s.angles_rad for s in scans], [s.readings_m for s in scans])
     angles = angles[0] if (angles == angles[0]).all() else angles[order]
     limit = Counter(scan.max_range_m for scan in scans).most_common(1)[0][0]
-    typed = account.classify(readings[order], (0.0, limit), poses, angles)
+    classified = account.classify(readings[order], (0.0, limit), poses, angles)
     x, y, yaw = (float(v) for v in np.median(mounts, axis=0))
     source = objects.source if posed else None
-    return account.reading(SCAN, poses, angles, typed, mount=(x, y, yaw), pose_source=source, posed=posed)
+    return account.scan_log(SCAN, poses, angles, classified, mount=(x, y, yaw), pose_source=source, posed=posed)
 
 
 def _content(account: Account) -> bytes:
@@ -408,11 +408,11 @@ class _Objects:
                 self.latest = (stamp_s, pose)
         else:
             return
-        self.read_until = reader.at
+        self.read_until = reader.position
 
     def robot_poses(self, scans: list[RawScan], stamps_s: Floats | None) -> tuple[Floats | None, NDArray[np.bool_]]:
         """Return the robot's pose at each scan, (S, 3), or None, and the mask of scans with a known pose, (S,)."""
-        everywhere = np.ones(len(scans), np.bool_)
+        all_scans = np.ones(len(scans), np.bool_)
         # By motions: compose them, preferring wheel odometry among the estimates of one motion.
         if any(self.collections):
             self.source = MOTION
@@ -420,14 +420,14 @@ class _Objects:
             for motions in self.collections:
                 best = min(motions, key=lambda m: m[0] != BY_ODOMETRY, default=(0, np.zeros(3)))
                 path.append(compose(path[-1], best[1]))
-            return np.array([path[scan.motions] for scan in scans]), everywhere
+            return np.array([path[scan.motions] for scan in scans]), all_scans
         if not self.odometry or stamps_s is None:
-            return None, everywhere
+            return None, all_scans
         # By odometry: interpolate the label with most poses.
         self.source = ODOMETRY
         label = max(self.odometry, key=lambda label: len(self.odometry[label]))
-        in_order = sorted(self.odometry[label], key=lambda reading: reading[0])
-        times, poses = np.array([t for t, _ in in_order]), np.array([pose for _, pose in in_order])
+        samples = sorted(self.odometry[label], key=lambda sample: sample[0])
+        times, poses = np.array([t for t, _ in samples]), np.array([pose for _, pose in samples])
         inside = (stamps_s >= times[0]) & (stamps_s <= times[-1])
         if not inside.all():
             self.account.notes.append(

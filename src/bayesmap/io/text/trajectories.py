@@ -52,8 +52,8 @@ def write_trajectory(
         f"{stamp:.9f} {x:.9f} {y:.9f} 0 0 0 {qz:.12f} {qw:.12f}"
         for stamp, (x, y, _), qz, qw in zip(stamps, poses, np.sin(half_yaw), np.cos(half_yaw), strict=True)
     )
-    of_frame = "" if frame is None else f"poses of the {frame}: "
-    return write_text(path, [f"# {of_frame}{what} tx ty tz qx qy qz qw", *rows])
+    owner = "" if frame is None else f"poses of the {frame}: "
+    return write_text(path, [f"# {owner}{what} tx ty tz qx qy qz qw", *rows])
 
 
 def covariances_path(path: str | os.PathLike[str]) -> Path:
@@ -82,17 +82,14 @@ def _stamps(stamps_s: ArrayLike | None, count: int) -> NDArray[np.float64]:
 def read_trajectory(path: str | os.PathLike[str], frame: str | None = None) -> Trajectory:
     """Read a TUM trajectory, in time order, with the file of `write_covariances` beside it, if any.
 
-    ``frame`` is that on the robot whose poses it has, "base" or "laser"; by default the one that its first line names,
-    if it was written by bayesmap, and else unknown.
-
-    Raises `BadInput` for a file that cannot be read, a line that is not eight numbers, a pose that is tilted out of the
-    plane, or covariances of another trajectory; the message names the line.
+    ``frame`` is the frame on the robot whose poses it has, "base" or "laser"; by default the frame that its first line
+    names, if it was written by bayesmap, and else unknown. Raises `BadInput` for a file that cannot be read, a line
+    that is not eight numbers, a pose that is tilted out of the plane, or covariances of another trajectory.
     """
     # Poses: the yaw of each quaternion.
-    name, nothing = os.fspath(path), "there is no pose in it"
-    rows = read_table(name, 8, "timestamp tx ty tz qx qy qz qw, is this a TUM trajectory?", nothing)
-    first = next((line for _, line in read_lines(name)), b"")
-    named = OWNER.match(first)
+    name, empty = os.fspath(path), "there is no pose in it"
+    rows = read_table(name, 8, "timestamp tx ty tz qx qy qz qw, is this a TUM trajectory?", empty)
+    owner = OWNER.match(next((line for _, line in read_lines(name)), b""))
     quaternion = rows[:, 4:8] / np.maximum(np.linalg.norm(rows[:, 4:8], axis=1, keepdims=True), 1e-12)
     tilted = np.hypot(quaternion[:, 0], quaternion[:, 1]) > UPRIGHT
     if tilted.any():
@@ -103,16 +100,16 @@ def read_trajectory(path: str | os.PathLike[str], frame: str | None = None) -> T
     # Covariances: the upper triangle of each matrix.
     covariances, beside = None, covariances_path(path)
     if beside.is_file():
-        table = read_table(beside, 7, "timestamp xx xy xyaw yy yyaw yawyaw", nothing)
+        table = read_table(beside, 7, "timestamp xx xy xyaw yy yyaw yawyaw", empty)
         if len(table) != len(rows) or np.abs(table[:, 0] - rows[:, 0]).max() > 1e-6:
             raise BadInput(f"{beside}: its stamps are not those of {name}; delete it, or write both anew")
         covariances = table[order][:, [1, 2, 3, 2, 4, 5, 3, 5, 6]].reshape(-1, 3, 3)
-    frame = frame or (named[1].decode() if named else None)
+    frame = frame or (owner[1].decode() if owner else None)
     return Trajectory(np.column_stack([rows[:, 1:3], yaw])[order], rows[order, 0], covariances, frame=frame)
 
 
 def read_relations(path: str | os.PathLike[str]) -> Relations:
-    """Read a file of relations, plain or gzipped; # begins a comment. Errors are as in `read_table`."""
+    """Read a file of relations, plain or gzipped; # begins a comment. Raises `BadInput` as `read_table`."""
     from bayesmap.posterior.trajectory_scores import Relations
 
     table = read_table(path, 8, "t1 t2 x y z roll pitch yaw", "no relations in it")

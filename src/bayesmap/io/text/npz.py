@@ -1,0 +1,90 @@
+"""Read scans from a NumPy archive (.npz), which holds them under the names of the fields of `bayesmap.Scans`.
+
+Readings have the codes of `bayesmap.Scans`; a no-return code is decoded only if the user gives it.
+"""
+
+from __future__ import annotations
+
+import os
+import warnings
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bayesmap.errors import BadInput
+from bayesmap.io.log_reading import Account, LogOptions, LogReading
+from bayesmap.io.returns import NoReturn, Readings, decode, largest_hit_m
+from bayesmap.space.planar import compose
+
+Arrays = dict[str, NDArray[np.float64]]
+NPZ_MAGIC = b"PK\x03\x04"
+NEEDED = ("poses", "angles_rad", "ranges_m")
+OPTIONAL = ("max_range_m", "min_range_m", "stamps_s", "beam_poses")
+
+
+def read_npz(path: str | os.PathLike[str], options: LogOptions) -> LogReading:
+    """Read scans from an .npz archive. Raises `BadInput` for an array that is missing or does not fit."""
+    account = Account(os.fspath(path), "npz", options)
+    name, arrays = account.name, _read_arrays(os.fspath(path))
+    posed = "poses" in arrays
+    if not posed and options.without_poses and "ranges_m" in arrays:
+        arrays["poses"] = np.zeros((len(np.atleast_2d(arrays["ranges_m"])), 3))
+    if arrays.keys() >= {"angles_rad", "ranges_m"} and "poses" not in arrays:
+        raise account.no_poses("the archive has no 'poses'")
+    missing = [key for key in NEEDED if key not in arrays]
+    if missing:
+        raise BadInput(f"{name}: the archive has no {missing[0]!r}; it has {', '.join(sorted(arrays)) or 'nothing'}")
+    if options.laser is not None:
+        for key in {"poses", "beam_poses"} & arrays.keys():
+            arrays[key] = compose(arrays[key], np.array(options.laser))
+    account.stamps_s = arrays.get("stamps_s")
+    try:
+        account.counts["scans"] = len(np.atleast_2d(arrays["ranges_m"]))
+        return account.scan_log(
+            "scans", arrays["poses"], arrays["angles_rad"], _readings(account, arrays),
+            beam_poses=arrays.get("beam_poses"), posed=posed,
+        )  # fmt: skip
+    except BadInput as problem:
+        raise BadInput(f"{name}: {str(problem).removeprefix(f'{name}: ')}") from None
+
+
+def _readings(account: Account, arrays: Arrays) -> Readings:
+    name, code = account.name, account.options.no_return
+    ranges, no_return = np.atleast_2d(arrays["ranges_m"]), NoReturn(None, "none")
+    if code is not None:
+        ranges, no_return = decode(ranges, code)
+    if not ranges.size or np.isnan(ranges).all():
+        raise BadInput(f"{name}: none of {ranges.size:,} readings is valid")
+    limit, origin = account.options.max_range_m, "given"
+    if limit is None and "max_range_m" in arrays:
+        limit, origin = _number(name, arrays, "max_range_m"), "message"
+    if limit is None:
+        limit, origin = largest_hit_m(name, ranges), "readings"
+    smallest = _number(name, arrays, "min_range_m") if "min_range_m" in arrays else 0.0
+    return Readings(ranges, no_return, smallest, limit, origin, ())
+
+
+def _read_arrays(name: str) -> Arrays:
+    arrays: Arrays = {}
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # about old or odd headers: the arrays are checked below
+            with Path(name).open("rb") as file, np.load(file, allow_pickle=False) as archive:
+                for key in archive.files:
+                    arrays[key] = np.asarray(archive[key])
+    except Exception as error:  # NumPy and zipfile raise many kinds of errors
+        reason = " ".join(str(error).split()) or type(error).__name__
+        raise BadInput(f"{name}: not a readable .npz archive; damaged or cut short? ({reason})") from None
+    for key in (*NEEDED, *OPTIONAL):
+        if key in arrays:
+            if arrays[key].dtype.kind not in "iuf":
+                raise BadInput(f"{name}: {key} holds {arrays[key].dtype}, not numbers")
+            arrays[key] = arrays[key].astype(np.float64)
+    return arrays
+
+
+def _number(name: str, arrays: Arrays, key: str) -> float:
+    if arrays[key].size != 1:
+        raise BadInput(f"{name}: {key} has shape {arrays[key].shape}, expected one number")
+    return float(arrays[key].reshape(()))
