@@ -41,6 +41,13 @@ class Help:
 Count = Annotated[int, Rule(lambda n: n >= 1, "a whole number of 1 or more")]
 CountFromZero = Annotated[int, Rule(lambda n: n >= 0, "a whole number of 0 or more")]
 Length = Annotated[float, Rule(lambda x: 0 < x < math.inf, "a positive number of metres")]
+LengthFromZero = Annotated[float, Rule(lambda x: 0 <= x < math.inf, "0 or a positive number of metres")]
+Seconds = Annotated[float, Rule(lambda x: 0 < x < math.inf, "a positive number of seconds")]
+SecondsFromZero = Annotated[float, Rule(lambda x: x >= 0, "0 or a positive number of seconds")]
+Speed = Annotated[float, Rule(lambda x: 0 < x < math.inf, "a positive number of metres a second")]
+NoReturn = Annotated[float, Rule(lambda x: not math.isnan(x), "the log's number in metres, or inf if it has none")]
+BeamWeight = Annotated[float, Rule(lambda x: 0 < x <= 1, "a number above 0, and 1 at most")]
+Probability = Annotated[float, Rule(lambda x: 0 < x < 1, "a probability between 0 and 1")]
 Share = Annotated[float, Rule(lambda x: 0 <= x <= 1, "a number from 0 to 1")]
 Every = Annotated[int, Rule(lambda n: n == 0 or n >= 2, "2 or more, for every n-th scan, or 0")]
 
@@ -83,8 +90,7 @@ class LogSettings(Settings, kw_only=True, frozen=True):
     """Settings for reading a log. To score a run, read its log with the settings of the run."""
 
     no_return: Annotated[
-        Annotated[float, Rule(lambda x: not math.isnan(x), "the log's number in metres, or inf if it has none")] | None,
-        Help("Number that means no return in the log; inf: none.", "found in the log", "METRES"),
+        NoReturn | None, Help("Number that means no return in the log; inf: none.", "found in the log", "METRES")
     ] = None
     skip_bad_lines: Annotated[bool, Help("Leave out malformed lines and messages instead of refusing the log.")] = False
     scan_topic: Annotated[
@@ -99,9 +105,7 @@ class LogSettings(Settings, kw_only=True, frozen=True):
     laser: Annotated[str | None, Help("Where the laser sits on the robot.", "as the log says", "X,Y,DEGREES")] = None
     deskew: Annotated[bool, Help("Give each beam the pose of its own time, from a recording's time_increment.")] = False
     thin_scans: Annotated[
-        float,
-        Rule(lambda x: 0 <= x < math.inf, "0 or a positive number of metres"),
-        Help("Keep one scan each time the robot has moved this far; 0: all.", metavar="METRES"),
+        LengthFromZero, Help("Keep one scan each time the robot has moved this far; 0: all.", metavar="METRES")
     ] = 0.0
     trajectory: Annotated[
         str | None, Help("Poses by time from this TUM file instead of the log's.", "the log's poses", "FILE.tum")
@@ -128,14 +132,11 @@ class SamplingSettings(LogSettings, kw_only=True, frozen=True):
         Count | None, Help("Sweeps from one kept map to the next.", "3; binary, or with draws given, 1")
     ] = None
     precision: Annotated[
-        float | None,
-        Rule(lambda x: 0 < x < 1, "a probability between 0 and 1"),
+        Probability | None,
         Help("Stop chains when 99 of 100 cells have this standard error or less.", "0.03; with draws given, none", "P"),
     ] = None
     seconds: Annotated[
-        float | None,
-        Rule(lambda x: 0 < x < math.inf, "a positive number of seconds"),
-        Help("Stop chains after this time, with the best map so far.", metavar="SECONDS"),
+        Seconds | None, Help("Stop chains after this time, with the best map so far.", metavar="SECONDS")
     ] = None
     seed: Seed = 0
     sensor: Annotated[str, Help("Sensor model: fit, or e.g. mixture:0.02 (see above).", metavar="MODEL")] = "default"
@@ -145,9 +146,7 @@ class SamplingSettings(LogSettings, kw_only=True, frozen=True):
     threads: Threads = None
     device: Device = "cpu"
     checkpoint_every: Annotated[
-        float,
-        Rule(lambda x: x >= 0, "0 or a positive number of seconds"),
-        Help("Seconds from one checkpoint to the next.", metavar="SECONDS"),
+        SecondsFromZero, Help("Seconds from one checkpoint to the next.", metavar="SECONDS")
     ] = 30.0
     any_size: Annotated[bool, Help("Begin a run that will not fit into memory, by its estimate.")] = False
     strict: Strict = False
@@ -219,9 +218,7 @@ class SimulateSettings(Settings, kw_only=True, frozen=True):
         str | None, Help("Where the laser sits on the robot.", "0,0,0; mcap: -0.1,0.03,180", "X,Y,DEGREES")
     ] = None
     speed: Annotated[
-        float,
-        Rule(lambda x: 0 < x < math.inf, "a positive number of metres a second"),
-        Help("Speed of the robot, used for the time stamps with --odometry.", metavar="M_PER_S"),
+        Speed, Help("Speed of the robot, used for the time stamps with --odometry.", metavar="M_PER_S")
     ] = 0.5
     seed: Seed = 0
 
@@ -284,7 +281,7 @@ class LocalizeSettings(LogSettings, kw_only=True, frozen=True):
     """Settings of `localize`."""
 
     beam_weight: Annotated[
-        Annotated[float, Rule(lambda x: 0 < x <= 1, "a number above 0, and 1 at most")] | None,
+        BeamWeight | None,
         Help(
             "Weight of one beam, as a fraction of an independent reading.",
             "5.4 / beams; which of several places: 2.7, or as fitted to MAP.yaml",
@@ -303,11 +300,7 @@ class PlanSettings(Settings, kw_only=True, frozen=True):
     """Settings of `plan`."""
 
     radius: Radius = 0.25
-    risk: Annotated[
-        float,
-        Rule(lambda x: 0 < x < 1, "a number above 0 and below 1"),
-        Help("Largest accepted probability of touching something."),
-    ] = 0.01
+    risk: Annotated[Probability, Help("Largest accepted probability of touching something.")] = 0.01
 
 
 class ExploreSettings(Settings, kw_only=True, frozen=True):

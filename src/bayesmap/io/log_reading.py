@@ -139,11 +139,12 @@ class Account:
     stamps_s: Floats | None = None  # of the scans in time order; None without stamps
     reordered: int = 0
 
-    def bad(self, line: int, reason: str) -> None:
-        """Record a malformed line that is left out. Raises `BadInput` if the options do not allow it."""
+    def bad(self, number: int, reason: str, what: str = "line") -> None:
+        """Record a malformed part that is left out. Raises `BadInput` if the options do not allow it."""
+        part = SkippedLine(number, reason, what)
         if not self.options.skip_bad_lines:
-            raise BadInput(f"{self.name}: line {line}: {reason}; repair it, or leave it out with --skip-bad-lines")
-        self.skipped.append(SkippedLine(line, reason))
+            raise BadInput(f"{self.name}: {part}: {reason}; repair it, or leave it out with --skip-bad-lines")
+        self.skipped.append(part)
 
     def contents(self) -> str:
         """Return the commonest kinds of lines, objects or messages with their counts, in words."""

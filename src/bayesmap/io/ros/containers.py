@@ -1,7 +1,7 @@
 """Open recordings: ROS 1 bags, and ROS 2's folders, databases and MCAP files, through rosbags if possible.
 
-Some sound recordings that rosbags refuses (MCAP of ROS 1 messages, MCAP without an index and out of order) are read
-record by record. Damaged recordings are read this way, too, if the user asks for it.
+Some sound recordings that rosbags refuses (MCAP of ROS 1 messages, MCAP without an index and out of order, old bags)
+are read record by record. Damaged recordings are read this way, too, if the user asks for it.
 
 ``ros2 bag record --compression-mode file`` writes ``.db3.zstd`` and ``.mcap.zstd`` files, and users compress recordings
 with gzip or bzip2. rosbags unpacks only folders whose ``metadata.yaml`` states the compression. Here compressed files
@@ -14,14 +14,13 @@ import bz2
 import gzip
 import os
 import shutil
-import struct
 import tempfile
 import weakref
 import zlib
 from collections.abc import Callable, Collection, Iterable, Iterator
 from contextlib import ExitStack, closing, contextmanager
 from dataclasses import replace
-from functools import cache, partial
+from functools import partial
 from heapq import merge
 from pathlib import Path
 from typing import Any
@@ -45,6 +44,7 @@ RECORD_READERS: dict[str, tuple[bytes, Callable[[str | os.PathLike[str], raw.OnD
     "mcap": (raw.MCAP_MAGIC, raw.mcap_records),
 }
 """First bytes of files by format, and functions that read their records one by one."""
+RECORD_BY_RECORD = ("rosbag1", "mcap")  # formats whose readers here read sound files that rosbags refuses
 ANY_BAG = b"#ROSBAG V"
 
 ENDINGS = tuple(name + packed for name in (".db3", ".mcap") for packed in ("", ".zstd", ".zst"))
@@ -203,40 +203,19 @@ def _files_of(path: str | os.PathLike[str]) -> tuple[list[Path], str]:
 
 def _rosbags_reader(path: Path, container: str) -> Callable[[], Any]:
     if container == "rosbag1":
-        return partial(_bag_reader(), path)
+        from rosbags.rosbag1 import Reader
+
+        return partial(Reader, path)
     from rosbags.rosbag2.reader import Reader as Reader2
 
     return partial(Reader2.STORAGE_PLUGINS[".mcap" if container == "mcap" else ".db3"], path)
 
 
-@cache
-def _bag_reader() -> type:
-    """Return rosbags' reader of ROS 1 bags, changed to take the length of index records from their count."""
-    from rosbags.rosbag1 import Reader
-    from rosbags.rosbag1.reader import Header, IndexData, RecordType, read_bytes, read_uint32
-
-    class BagReader(Reader):
-        def read_index_data(self, pos: int, indexes: dict[int, list[IndexData]]) -> None:
-            assert self.bio is not None
-            start = self.bio.tell()
-            try:
-                super().read_index_data(pos, indexes)
-            except AssertionError:  # a header in another order, or a length that is not that of its entries
-                self.bio.seek(start)
-                header = Header.read(self.bio, RecordType.IDXDATA)
-                read_uint32(self.bio)
-                connection, count = header.get_uint32("conn"), header.get_uint32("count")
-                entries = struct.iter_unpack("<III", read_bytes(self.bio, count * raw.INDEX_ENTRY_BYTES))
-                indexes[connection] += [IndexData(s * 10**9 + ns, pos, offset) for s, ns, offset in entries]
-
-    return BagReader
-
-
 def _by_rosbags(
     path: str | os.PathLike[str], container: str, reader: Callable[[], Any], *, is_file: bool = False
 ) -> Recording:
-    """Return a recording that rosbags reads; an MCAP file that it refuses is read record by record."""
-    by_records = container == "mcap" and is_file
+    """Return a recording that rosbags reads. An MCAP file or a bag that it refuses is read record by record."""
+    by_records = container in RECORD_BY_RECORD and is_file
     try:
         topics, times = _rosbags_topics(reader, container)
     except Damaged as problem:
@@ -253,7 +232,7 @@ def _by_rosbags(
         except Damaged:
             if not by_records:
                 raise
-            return list(messages_of(raw.mcap_records(path, raw.refuse), topics, names))
+            return list(messages_of(RECORD_READERS[container][1](path, raw.refuse), topics, names))
 
     return Recording(os.fspath(path), container, topics, read, *times)
 

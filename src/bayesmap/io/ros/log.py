@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.io.log_reading import Account, LogOptions, LogReading, SkippedLine
+from bayesmap.io.log_reading import Account, LogOptions, LogReading
 from bayesmap.io.ros import poses as pose_sources
 from bayesmap.io.ros.containers import open_recording
 from bayesmap.io.ros.frames import Chain, planar, upright
@@ -161,38 +161,28 @@ def read_recording(path: str | os.PathLike[str], options: LogOptions) -> LogRead
 
 
 @dataclass(frozen=True, eq=False)
-class _Request:
-    """The topics of scans and of poses to read, and the frame of the sensor."""
+class _Messages:
+    """The usable messages of a recording, from which scans and poses are made."""
 
     recording: Recording
-    topic: Topic
-    pose_topic: Topic | None
-    sensor: str
-    bad: Bad
-
-
-@dataclass(frozen=True, eq=False)
-class _UsableMessages:
-    """The messages of a recording from which scans and poses are made."""
-
-    request: _Request
+    topic: Topic  # of the scans
+    sensor: str  # frame of the scans
     scans: list[LaserMessage]  # with readings, in one frame, in the order of receipt
-    poses: PoseMessages
     n_empty: int  # number of scans without readings
-    only_pose_topic: Topic | None  # the only topic of poses, if it replaces /tf
+    pose_topic: Topic | None  # chosen by the user, or the only topic of poses
+    poses: PoseMessages
+    bad: Bad
+    replaces_tf: bool = False  # whether the only topic of poses replaces /tf
 
 
-def _read_usable(recording: Recording, account: Account) -> _UsableMessages:
+def _read_usable(recording: Recording, account: Account) -> _Messages:
     """Read the messages of scans and poses. Raises `BadInput` if no scan has a reading."""
     name, options = account.name, account.options
     topic = scan_topic_of(recording, options.scan_topic)
 
     def bad(on_topic: str, number: int, reason: str) -> None:
-        if options.without_poses and on_topic != topic.name:
-            return
-        if not options.skip_bad_lines:
-            raise BadInput(f"{name}: message {number} on {on_topic} {reason}; leave bad ones out with --skip-bad-lines")
-        account.skipped.append(SkippedLine(number, reason, f"message on {on_topic}"))
+        if not options.without_poses or on_topic == topic.name:
+            account.bad(number, reason, f"message on {on_topic}")
 
     pose_topic = None if options.pose_topic is None else pose_sources.pose_topic_of(recording, options.pose_topic)
     tf_topics = [t for t in recording.of_type(TF_TYPES) if t.encoding in READABLE]
@@ -203,12 +193,12 @@ def _read_usable(recording: Recording, account: Account) -> _UsableMessages:
     usable = of_one_frame(topic.name, received, bad)
     if not usable:
         raise BadInput(f"{name}: no message on {topic.name} has a reading: their arrays of ranges are empty")
-    request = _Request(recording, topic, pose_topic, usable[0].layout.frame, bad)
-    only = None
+    n_empty = sum(not scan.layout.beams for scan in received)
+    messages = _Messages(recording, topic, usable[0].layout.frame, usable, n_empty, pose_topic, poses, bad)
     if pose_topic is None and options.fixed_frame is None and not options.without_poses:
-        only = _read_only_pose_topic(request, options, poses)
-        request = replace(request, pose_topic=only)
-    return _UsableMessages(request, usable, poses, sum(not scan.layout.beams for scan in received), only)
+        only = _read_only_pose_topic(messages, options)
+        messages = replace(messages, pose_topic=only, replaces_tf=only is not None)
+    return messages
 
 
 @dataclass(frozen=True, eq=False)
@@ -225,12 +215,12 @@ class _PlacedRun:
     notes: tuple[str, ...]
 
 
-def _place_runs(messages: _UsableMessages, account: Account) -> list[_PlacedRun]:
+def _place_runs(messages: _Messages, account: Account) -> list[_PlacedRun]:
     """Return the runs of the clock with the poses of their scans, without the runs in which no scan has a pose."""
     placed: list[_PlacedRun] = []
     for run in clock_runs(messages.scans, messages.poses):
         try:
-            placed_run = _place_run(run, messages.request, replace(account, notes=[]))
+            placed_run = _place_run(run, messages, replace(account, notes=[]))
         except BadInput as problem:
             if not placed and run.is_last:
                 raise
@@ -245,28 +235,26 @@ def _place_runs(messages: _UsableMessages, account: Account) -> list[_PlacedRun]
             )
         placed.append(placed_run)
     if any(run.sign != placed[0].sign for run in placed):
-        raise BadInput(
-            f"{account.name}: the frame {messages.request.sensor!r} is upright in some scans and upside down in others"
-        )
+        sensor = messages.sensor
+        raise BadInput(f"{account.name}: the frame {sensor!r} is upright in some scans and upside down in others")
     return placed
 
 
-def _join_runs(runs: list[_PlacedRun], messages: _UsableMessages, account: Account) -> LogReading:
+def _join_runs(runs: list[_PlacedRun], messages: _Messages, account: Account) -> LogReading:
     """Return the scans of all runs as one log, and complete the account."""
-    request, source = messages.request, runs[0].source
+    topic, sensor, source = messages.topic, messages.sensor, runs[0].source
     scans = [scan for run in runs for scan in run.scans]
     # Notes and stamps.
-    if messages.only_pose_topic is not None:
-        several = len(request.recording.of_type(POSE_TYPES)) > 1
+    if messages.replaces_tf and messages.pose_topic is not None:
+        several = len(messages.recording.of_type(POSE_TYPES)) > 1
         account.notes.append(
-            f"/tf connects {request.sensor!r} with no fixed frame; poses were taken from "
-            f"{messages.only_pose_topic.name}, the only topic of poses"
-            + (f" in the namespace of {request.topic.name}" if several else "")
+            f"/tf connects {sensor!r} with no fixed frame; poses were taken from {messages.pose_topic.name}, the only "
+            "topic of poses" + (f" in the namespace of {topic.name}" if several else "")
         )
     account.notes += dict.fromkeys(note for run in runs for note in run.notes)
     account.notes += _notes_on_scans(scans)
     if messages.n_empty:
-        note = f"{messages.n_empty:,} messages on {request.topic.name} have no readings, and were left out"
+        note = f"{messages.n_empty:,} messages on {topic.name} have no readings, and were left out"
         account.notes.append(note)
     account.stamps_s = np.asarray(join_stamps([(run.stamps_ns, run.scans) for run in runs]) * 1e-9)
     account.reordered = sum(run.reordered for run in runs)
@@ -276,20 +264,20 @@ def _join_runs(runs: list[_PlacedRun], messages: _UsableMessages, account: Accou
     angles, readings = beams_of(scans)
     angles, first_ray_poses = runs[0].sign * angles, np.concatenate([run.first_ray_poses for run in runs])
     return account.scan_log(
-        request.topic.type, first_ray_poses, angles, account.classify(readings, limits, first_ray_poses, angles),
+        topic.type, first_ray_poses, angles, account.classify(readings, limits, first_ray_poses, angles),
         beam_poses=_beam_poses(runs), mount=source.chain.sensor_on_body() if moves else None,
-        scan_topic=request.topic.name, pose_source=source.label if source.posed else None,
-        fixed_frame=source.fixed_frame if source.posed else None, sensor_frame=request.sensor, posed=source.posed,
+        scan_topic=topic.name, pose_source=source.label if source.posed else None,
+        fixed_frame=source.fixed_frame if source.posed else None, sensor_frame=sensor, posed=source.posed,
     )  # fmt: skip
 
 
-def _place_run(run: ClockRun, request: _Request, account: Account) -> _PlacedRun:
+def _place_run(run: ClockRun, messages: _Messages, account: Account) -> _PlacedRun:
     """Return the scans of a run in time order with their poses, without the scans that have no pose."""
     if not run.scans:
         raise BadInput(f"{account.name}: no scan was received in it")
-    source = _pose_source(request, run.poses, account.options)
+    source = _pose_source(messages, run.poses, account.options)
     account.notes += source.notes
-    stamps, scans, reordered = _sorted_by_time(run.scans, request, account)
+    stamps, scans, reordered = _sorted_by_time(run.scans, messages, account)
     ray_times = _ray_times_ns(stamps, scans, account)
     inside = np.asarray(source.chain.covers(ray_times).all(axis=1))
     if source.posed:
@@ -298,24 +286,24 @@ def _place_run(run: ClockRun, request: _Request, account: Account) -> _PlacedRun
     stamps, ray_times = stamps[inside], ray_times[inside]
     motion = source.chain.at(stamps)
     remedy = "; choose another topic with --scan-topic"
-    sign = account.which_way_up(upright(motion), f"the frame {request.sensor!r}", remedy)
+    sign = account.which_way_up(upright(motion), f"the frame {messages.sensor!r}", remedy)
     first_ray_poses = planar(motion) if source.posed else np.zeros((len(stamps), 3))
     return _PlacedRun(source, scans, stamps, ray_times, first_ray_poses, sign, reordered, tuple(account.notes))
 
 
 def _sorted_by_time(
-    scans: list[LaserMessage], request: _Request, account: Account
+    scans: list[LaserMessage], messages: _Messages, account: Account
 ) -> tuple[NDArray[np.int64], list[LaserMessage], int]:
     """Return the ascending times of the first rays, the scans in this order, and the number of late scans."""
     # Times, or times of receipt if no message has a time.
-    topic, notes = request.topic.name, account.notes
+    topic, notes = messages.topic.name, account.notes
     if not any(scan.stamp_ns for scan in scans):
         notes.append(f"no message on {topic} says its time; the times of receipt were used")
         stamps = np.array([scan.received_ns for scan in scans], dtype=np.int64)
     else:
         for scan in scans:
             if not scan.stamp_ns:
-                request.bad(topic, scan.number, "does not say its time, as the others do")
+                messages.bad(topic, scan.number, "does not say its time, as the others do")
         scans = [scan for scan in scans if scan.stamp_ns]
         stamps = np.array([scan.stamp_ns for scan in scans], dtype=np.int64)
     reordered = int((stamps < np.maximum.accumulate(stamps)).sum())
@@ -399,23 +387,24 @@ def _beam_poses(runs: list[_PlacedRun]) -> NDArray[np.float64] | None:
     return np.concatenate(poses).reshape(-1, beams, 3)
 
 
-def _read_only_pose_topic(request: _Request, options: LogOptions, poses: PoseMessages) -> Topic | None:
+def _read_only_pose_topic(messages: _Messages, options: LogOptions) -> Topic | None:
     """Read and return the only topic of poses if /tf does not place the sensor; else None."""
-    only = pose_sources.only_pose_topic(request.recording, request.topic.name)
+    recording, topic, sensor = messages.recording, messages.topic.name, messages.sensor
+    only = pose_sources.only_pose_topic(recording, topic)
     if only is None:
         return None
-    trees = pose_sources.frame_trees(poses, request.topic.name, None)
-    body = pose_sources.body_of(request.recording.path, trees, request.sensor) if options.laser else request.sensor
+    trees = pose_sources.frame_trees(messages.poses, topic, None)
+    body = pose_sources.body_of(recording.path, trees, sensor) if options.laser else sensor
     if body is not None and any(pose_sources.fixed_frame_of(tree, body) is not None for tree in trees):
         return None
-    read_messages(request.recording, [only], poses, request.bad)
+    read_messages(recording, [only], messages.poses, messages.bad)
     return only
 
 
-def _pose_source(request: _Request, poses: PoseMessages, options: LogOptions) -> pose_sources.PoseSource:
+def _pose_source(messages: _Messages, poses: PoseMessages, options: LogOptions) -> pose_sources.PoseSource:
     """Return the source of the sensor's poses: the chosen topic, or /tf; option ``laser`` replaces its mount."""
-    recording, sensor, pose_topic, laser = request.recording, request.sensor, request.pose_topic, options.laser
-    trees = pose_sources.frame_trees(poses, request.topic.name, None if pose_topic is None else pose_topic.name)
+    recording, sensor, pose_topic, laser = messages.recording, messages.sensor, messages.pose_topic, options.laser
+    trees = pose_sources.frame_trees(poses, messages.topic.name, None if pose_topic is None else pose_topic.name)
     if options.without_poses:
         return pose_sources.standing_still(trees, sensor)
     if pose_topic is not None and pose_topic.type in POSE_TYPES:

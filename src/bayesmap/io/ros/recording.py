@@ -149,7 +149,7 @@ def messages_of(records: Records, topics: Mapping[str, Topic], names: frozenset[
 BAG_MAGIC = b"#ROSBAG V2.0\n"
 MCAP_MAGIC = b"\x89MCAP0\r\n"
 SQLITE_MAGIC = b"SQLite format 3\0"
-BAG_MESSAGE, BAG_INDEX, BAG_CHUNK, BAG_CONNECTION = (bytes([op]) for op in (2, 4, 5, 7))
+BAG_MESSAGE, BAG_HEADER, BAG_INDEX, BAG_CHUNK, BAG_CONNECTION = (bytes([op]) for op in (2, 3, 4, 5, 7))
 FOOTER, SCHEMA, CHANNEL, MESSAGE, CHUNK, DATA_END = 2, 3, 4, 5, 6, 15
 LANGUAGES = {"ros1msg": "msg", "ros2msg": "msg", "ros2idl": "idl", "omgidl": "idl"}
 INDEX_ENTRY_BYTES = 12
@@ -190,6 +190,8 @@ def bag_records(path: str | os.PathLike[str], on_damage: OnDamage) -> Records:
                 on_damage(f"at byte {at:,}: {problem}")
                 return
             kind = header["op"]
+            if kind == BAG_HEADER and not any(header.get("index_pos", b"?")):
+                on_damage("it is not indexed, since it was never closed")
             if kind == BAG_INDEX and len(header.get("count", b"")) == 4:
                 # As in ROS, the count decides the length: bags of 2010 state wrong lengths.
                 length = INDEX_ENTRY_BYTES * header.get_uint32("count")
