@@ -96,7 +96,7 @@ def test_views_are_printed_best_first_and_drawn(office_run, tmp_path):
     (["plan", "--from", "1,2", "--to", "3"], 2, "is not X,Y"), (["plan", "--from", "1,2"], 2, "Missing option '--to'"),
     (["plan", "--from", "900,2", "--to", "1,2"], 3, "outside the map"),
     (["plan", "--from", "1,2", "--to", "1,2", "--radius", "0"], 3, "--radius must be a positive"),
-    (["plan", "--from", "1,2", "--to", "1,2", "--risk", "1"], 3, "--risk must be a number above 0"),
+    (["plan", "--from", "1,2", "--to", "1,2", "--risk", "1"], 3, "--risk must be a probability between 0 and 1"),
     (["plan", "--from", "1,2", "--to", "1,2", "-o", "way.txt"], 3, "end its name in one of"),
     (["explore", "--candidates", "0"], 3, "--candidates must be"),
     (["explore", "--draws", "1"], 3, "draws must be 2 or more"), (["explore", "--radius", "50"], 3, "smaller radius"),
