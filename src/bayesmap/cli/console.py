@@ -253,8 +253,10 @@ def _bar(console: Console, begin: str) -> Iterator[Show]:
             if visible != tasks[key]:
                 bar.update(visible, visible=False)
                 visible = tasks[key]
-            words = {"description": name, "count": _count(unit, done, total, warmup, "/") + " ETA", "quality": quality}
-            bar.update(visible, completed=done, total=total, visible=True, **words)
+            count = _count(unit, done, total, warmup, "/") + " ETA"
+            bar.update(
+                visible, description=name, completed=done, total=total, count=count, quality=quality, visible=True
+            )
 
         yield show
 

@@ -157,10 +157,10 @@ def load_saved(path: str | os.PathLike[str]) -> tuple[Posterior, Trajectory | No
     """Read a posterior, and its approximation of poses, if any. Raises `BadInput` for other or damaged files."""
     path = Path(path)
     if not path.is_file():
-        reason = "a folder without a run; give a run.nc" if path.is_dir() else "no such file"
+        state = "a folder without a run; give a run.nc" if path.is_dir() else "no such file"
         if (path.parent / "trajectory.tum").is_file():  # slam writes it before its first sweep
-            reason = "no draws yet; trajectory.tum beside it is complete, and slam --resume draws the map"
-        raise BadInput(f"{path}: {run_in(path) or reason}")
+            state = "no draws yet; trajectory.tum beside it is complete, and slam --resume draws the map"
+        raise BadInput(f"{path}: {run_in(path) or state}")
     try:
         with netCDF4.Dataset(path, "r") as file:
             file.set_auto_mask(False)

@@ -122,7 +122,7 @@ def _contradicting_topics(parts: Sequence[Samples]) -> tuple[tuple[str, Numbers]
             return (moving[0].topic, pair[0]), (other.topic, pair[1])
     stamps, values, part_of = _merge_samples(moving)
     simultaneous = np.nonzero((np.diff(stamps) == 0) & (np.diff(part_of) != 0))[0]
-    i = next((i for i in simultaneous + 1 if differ(values[i - 1], values[i])), None)
+    i = next((int(i) for i in simultaneous + 1 if differ(values[i - 1], values[i])), None)
     i = two_motions(stamps, np.array(values), part_of) if i is None else i
     if i is None:
         return None
