@@ -20,7 +20,7 @@ import bayesmap as bm
 from bayesmap.cells import arrays as cell_arrays
 from bayesmap.cells.arrays import as_halves, count_walls, pack, unpack
 from bayesmap.cells.kinds import prior_from
-from bayesmap.cells.reflectivity import counts_behind
+from bayesmap.cells.reflectivity import recover_counts
 from bayesmap.io.ros.maps import read_map
 from bayesmap.kernels.surfaces.cell_draws import log_gamma
 from bayesmap.run import runner
@@ -128,7 +128,7 @@ def test_thinned_draws_are_some_of_each_chain(run):
 def test_counts_of_beams_are_read_off_expected_chances(a, b):
     stopped, passed = (counts.ravel().astype(float) for counts in np.mgrid[0:8, 0:12])
     expected = ((a + stopped) / (a + b + stopped + passed)).astype(np.float16).astype(float)
-    found = counts_behind(expected, np.full_like(stopped, a), np.full_like(stopped, b))
+    found = recover_counts(expected, np.full_like(stopped, a), np.full_like(stopped, b))
     np.testing.assert_array_equal(found, [stopped, passed])
 
 

@@ -55,13 +55,11 @@ class Rays:
     grid: Grid  # the grid whose cells are meant
     offsets: NDArray[np.int32]  # the entries of beam b are offsets[b]:offsets[b + 1]; shape (B + 1,), int32
     cells: NDArray[np.int32]  # flat index x * ny + y of the touched cell, shape (K,), int32
-    # first entry of each beam at which a stop may explain the reading, shape (B,), int32; its first entry if that is
-    # unknown
-    near: NDArray[np.int32]
+    near: NDArray[np.int32]  # first entry of each beam at which a stop may explain the reading, shape (B,), int32
     start_m: Floats  # start of each beam, shape (B, 2)
     direction: Floats  # unit vector of each beam, shape (B, 2)
     range_m: Floats  # reading of each beam, coded as in `bayesmap.space.scans.Scans`, shape (B,)
-    limits: RangeLimits  # the sensor's span
+    limits: RangeLimits  # the sensor's least and largest range
 
     @property
     def n_beams(self) -> int:
@@ -95,31 +93,29 @@ class Rays:
     @cached_property
     def touched(self) -> NDArray[np.int32]:
         """Return the flat indices of the cells that any beam touches, ascending."""
-        seen = np.zeros(self.grid.n_cells, dtype=np.bool_)
-        seen[self.cells] = True
-        return np.flatnonzero(seen).astype(np.int32)
+        is_touched = np.zeros(self.grid.n_cells, dtype=np.bool_)
+        is_touched[self.cells] = True
+        return np.flatnonzero(is_touched).astype(np.int32)
 
     def touched_map(self) -> NDArray[np.bool_]:
         """Mark the cells that some beam touches, (nx, ny)."""
-        seen = np.zeros(self.grid.n_cells, dtype=np.bool_)
-        seen[self.touched] = True
-        return seen.reshape(self.grid.shape)
+        is_touched = np.zeros(self.grid.n_cells, dtype=np.bool_)
+        is_touched[self.touched] = True
+        return is_touched.reshape(self.grid.shape)
 
     def stretches(self) -> tuple[Floats, Floats]:
-        """Return the distances at which each beam enters and leaves each of its cells, metres, (K,) each: the plain
-        reference.
-        """
+        """Return where each beam enters and leaves each of its cells, metres, (K,) each: the plain reference."""
         beam, ny = self.beam_of_entry(), self.grid.shape[1]
         enter, leave = np.zeros(len(beam)), np.full(len(beam), np.inf)
         holds_start = np.ones(len(beam), dtype=np.bool_)
         for axis, cell in enumerate((self.cells // ny, self.cells % ny)):
-            start, along = self.start_m[:, axis] / self.grid.resolution, self.direction[:, axis]
-            moves = np.abs(along) >= PARALLEL
-            per_cell = 1.0 / np.where(moves, along, 1.0)
-            first = np.where(along > 0, np.ceil(start - TIE) - 1, np.floor(start + TIE))
-            side = cell + (along < 0)[beam]
+            start, cosine = self.start_m[:, axis] / self.grid.resolution, self.direction[:, axis]
+            moves = np.abs(cosine) >= PARALLEL
+            per_cell = 1.0 / np.where(moves, cosine, 1.0)
+            first = np.where(cosine > 0, np.ceil(start - TIE) - 1, np.floor(start + TIE))
+            side = cell + (cosine < 0)[beam]
             t_in = (side - start[beam]) * per_cell[beam]
-            t_out = (side + np.sign(along)[beam] - start[beam]) * per_cell[beam]
+            t_out = (side + np.sign(cosine)[beam] - start[beam]) * per_cell[beam]
             enter = np.where(moves[beam], np.maximum(enter, t_in), enter)
             leave = np.where(moves[beam], np.minimum(leave, t_out), leave)
             holds_start &= ~moves[beam] | (cell == first[beam])
@@ -140,9 +136,9 @@ class Rays:
     @cached_property
     def columns(self) -> NDArray[np.int32]:
         """Return the position of each entry's cell among the touched cells, (K,), for maps of touched cells only."""
-        number = np.empty(self.grid.n_cells, dtype=np.int32)
-        number[self.touched] = np.arange(len(self.touched), dtype=np.int32)
-        return number[self.cells]
+        column_of_cell = np.empty(self.grid.n_cells, dtype=np.int32)
+        column_of_cell[self.touched] = np.arange(len(self.touched), dtype=np.int32)
+        return column_of_cell[self.cells]
 
 
 def around_readings(scans: Scans, margin_m: float | Floats, resolution_m: float) -> tuple[Floats, Floats]:
@@ -160,20 +156,15 @@ def around_readings(scans: Scans, margin_m: float | Floats, resolution_m: float)
 
 
 CROSSING_WIDTH = 2.2  # w above
-
-DIRECTION_RAD = 0.005
-"""omega above: between 4 and 8 thousandths held-out scans are predicted best (docs/lab/surfaces.md)."""
+DIRECTION_RAD = 0.005  # omega above: 4 to 8 mrad predict held-out scans best (docs/lab/surfaces.md)
 
 
 class Stops(NamedTuple):
-    """For every entry of rays, (K,) each: the chance that a beam which gets there stops, and the distance of the stop.
+    """The stop that a map offers at every entry of rays, (K,) each."""
 
-    The distance is known up to a spread, its standard deviation. The unit is metres.
-    """
-
-    chance: Floats
-    distance_m: Floats
-    spread_m: Floats
+    chance: Floats  # chance that a beam which reaches the entry's cell is stopped in it
+    distance_m: Floats  # mean distance of the stop
+    spread_m: Floats  # standard deviation of the distance
 
 
 def stops_of(rays: Rays, states: NDArray[np.floating], hit_depth: float) -> Stops:
@@ -182,17 +173,17 @@ def stops_of(rays: Rays, states: NDArray[np.floating], hit_depth: float) -> Stop
     ``states`` are stop probabilities of the grid's cells, (N,), at ``hit_depth`` of their stretches, or surfaces, (N,
     6): reflectivity, mean x and y in metres from the grid's lower left corner, and l11, l21, l22 of Sigma = L L'.
     """
-    here = np.asarray(states, dtype=np.float64)[rays.cells]
-    if here.ndim == 1:
+    state = np.asarray(states, dtype=np.float64)[rays.cells]
+    if state.ndim == 1:
         enter, leave = rays.stretches()
-        return Stops(here, enter + hit_depth * (leave - enter), np.zeros(len(here)))
+        return Stops(state, enter + hit_depth * (leave - enter), np.zeros(len(state)))
     beam = rays.beam_of_entry()
-    along = rays.direction[beam]
-    normal = np.stack([-along[:, 1], along[:, 0]], axis=-1)
-    to_mean = here[:, 1:3] - rays.start_m[beam]
-    depth, offset = (to_mean * along).sum(axis=-1), (to_mean * normal).sum(axis=-1)
-    l11, l21, l22 = here[:, 3:].T
-    u_1, u_2 = l11 * along[:, 0] + l21 * along[:, 1], l22 * along[:, 1]  # L' u
+    direction = rays.direction[beam]
+    normal = np.stack([-direction[:, 1], direction[:, 0]], axis=-1)
+    to_mean = state[:, 1:3] - rays.start_m[beam]
+    depth, offset = (to_mean * direction).sum(axis=-1), (to_mean * normal).sum(axis=-1)
+    l11, l21, l22 = state[:, 3:].T
+    u_1, u_2 = l11 * direction[:, 0] + l21 * direction[:, 1], l22 * direction[:, 1]  # L' u
     n_1, n_2 = l11 * normal[:, 0] + l21 * normal[:, 1], l22 * normal[:, 1]  # L' n
     across, mixed = n_1**2 + n_2**2, u_1 * n_1 + u_2 * n_2
     crosses = 1.0 / (1.0 + (offset**2 / (CROSSING_WIDTH**2 * across)) ** 3)
@@ -201,4 +192,4 @@ def stops_of(rays: Rays, states: NDArray[np.floating], hit_depth: float) -> Stop
     distance = np.maximum(depth - mixed / widened * offset, 0.0)
     # u' Sigma u - mixed^2 / widened, without a difference of large numbers.
     variance = ((l11 * l22) ** 2 + off_line * (u_1**2 + u_2**2)) / widened
-    return Stops(here[:, 0] * crosses, distance, np.sqrt(variance))
+    return Stops(state[:, 0] * crosses, distance, np.sqrt(variance))

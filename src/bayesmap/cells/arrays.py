@@ -60,14 +60,14 @@ OF_CELLS = ("cell", "surface_cell")  # dimensions that index a subset of the gri
 
 @dataclass(frozen=True)
 class ArraySpec:
-    """An array of a draw. ``dims`` are the dimensions beside chain and draw: ("x", "y") for the whole grid, ("cell",)
-    for the cells that a beam touches, ("surface_cell",) for the cells in which a reading ends.
-    """
+    """An array of a draw."""
 
     name: str  # in `Cells`, in saved runs and in `Run.dataset`
+    # dimensions beside chain and draw: ("x", "y") for the whole grid, ("cell",) for the cells that a beam touches,
+    # ("surface_cell",) for the cells in which a reading ends
     dims: tuple[str, ...]
-    dtype: str  # of the values
-    storage: Literal["bits", "half", "plain"] = "plain"  # in memory: packed booleans, half precision, or as they are
+    dtype: str  # type of the values
+    storage: Literal["bits", "half", "plain"] = "plain"  # form in memory: packed booleans, half precision, unchanged
     what: str = ""  # description, with the unit
 
     def stored(self, values: NDArray[Any]) -> NDArray[Any]:
@@ -120,9 +120,8 @@ class Draws:
 
     def thinned(self, most: int) -> Draws:
         """Select at most ``most`` draws, evenly spread over every chain, but at least one of each chain."""
-        each = min(self.count, max(1, most // self.chains))
-        chosen = np.linspace(0, self.count - 1, each).round().astype(np.intp)
-        return self.select(chosen)
+        per_chain = min(self.count, max(1, most // self.chains))
+        return self.select(np.linspace(0, self.count - 1, per_chain).round().astype(np.intp))
 
     def of_chain(self, chain: int) -> Draws:
         """Select the draws of one chain."""
@@ -138,9 +137,7 @@ class Draws:
         return tuple(sizes[dim] if dim in sizes else len(self.index[dim]) for dim in spec.dims)
 
     def cells(self, chain: int, draw: int) -> dict[str, NDArray[Any]]:
-        """Return the arrays of one draw as values. Arrays of cells are spread over the grid, (nx, ny), with NaN in
-        cells that the draw does not store (`bayesmap.cells.kind.CellPrior.completed` fills them).
-        """
+        """Return one draw's arrays as values. Arrays of cells are spread over the grid, with NaN in unstored cells."""
         arrays = {}
         for spec in self.specs:
             values = spec.values(self.arrays[spec.name][chain, draw], self.shape_of(spec))

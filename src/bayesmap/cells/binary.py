@@ -25,7 +25,6 @@ coupling, and its maximum is consistent as maps grow. Cells that the prior fixes
 from __future__ import annotations
 
 import math
-from abc import abstractmethod
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar, Literal
@@ -44,7 +43,7 @@ from bayesmap.space.grid import Grid
 
 @dataclass(frozen=True, eq=False)
 class BinaryWalls(CellPrior):
-    """The base class of priors of walls. `Independent` documents ``p_wall``."""
+    """The base class of priors of walls; its own cells are independent. `Independent` documents ``p_wall``."""
 
     p_wall: float | Floats
 
@@ -59,8 +58,7 @@ class BinaryWalls(CellPrior):
     has_walls: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
-        name = type(self).__name__
-        p = np.asarray(self.p_wall, dtype=np.float64)
+        name, p = type(self).__name__, np.asarray(self.p_wall, dtype=np.float64)
         if p.ndim not in (0, 2):
             raise BadInput(f"{name}: p_wall must be a number or an (nx, ny) array, got shape {p.shape}")
         if not ((p >= 0) & (p <= 1)).all():
@@ -72,9 +70,7 @@ class BinaryWalls(CellPrior):
         return 0.0
 
     def probabilities(self, grid: Grid) -> Floats:
-        """Return the wall probability of every cell if its neighbours have a balance of 0, (nx, ny). Raises BadInput:
-        ``p_wall`` is an array of another shape than the grid's.
-        """
+        """Return each cell's wall probability at a balance of 0, (nx, ny). Raises `BadInput` if ``p_wall`` misfits."""
         p = np.asarray(self.p_wall, dtype=np.float64)
         if p.ndim == 2 and p.shape != grid.shape:
             raise BadInput(f"{type(self).__name__}: p_wall has shape {p.shape}, but the grid is {grid.shape}")
@@ -90,13 +86,16 @@ class BinaryWalls(CellPrior):
         """Compute the prior log odds of a wall in one cell, given the other cells of a map, (nx, ny)."""
         return float(self._logit(grid)[site]) + self.pair_coupling * balance_at(walls, site)
 
-    @abstractmethod
     def log_prob(self, cells: Cells | NDArray[np.bool_], grid: Grid) -> float:
         """Compute log p(walls), in nats; ``cells`` may be a map of walls."""
+        walls = cells["walls"] if isinstance(cells, Mapping) else cells
+        p = self.probabilities(grid)
+        with np.errstate(divide="ignore"):
+            return float(np.where(walls, np.log(p), np.log1p(-p)).sum())
 
-    @abstractmethod
     def sample(self, rng: np.random.Generator, grid: Grid) -> NDArray[np.bool_]:
         """Draw a map of walls, shape (nx, ny)."""
+        return np.asarray(rng.random(grid.shape) < self.probabilities(grid))
 
     def sample_maps(self, rng: np.random.Generator, grid: Grid, count: int) -> NDArray[np.bool_]:
         """Draw maps independently, (count, nx, ny)."""
@@ -127,15 +126,15 @@ class BinaryWalls(CellPrior):
         return np.asarray((counts / draws.size).reshape(draws.grid.shape))
 
     def interval(self, draws: Draws, level: float) -> tuple[Floats, Floats]:
-        """Raise `BadInput`: quantiles of zeros and ones are 0 or 1, and less informative than their mean."""
+        """Raise `BadInput`, because quantiles of zeros and ones are 0 or 1, and tell less than their mean."""
         raise BadInput(
             "interval: a wall is there or not, and has no interval; the entropy of its probability shows how sure it is"
         )
 
     def traces(self, draws: Draws, cells: NDArray[np.intp]) -> NDArray[np.bool_]:
         """Return the walls of the given cells in all draws, (chains, draws, n)."""
-        bytes_read, position = np.unique(cells // 8, return_inverse=True)
-        bits = np.unpackbits(draws.arrays["walls"][:, :, bytes_read], axis=-1)
+        byte_indices, position = np.unique(cells // 8, return_inverse=True)
+        bits = np.unpackbits(draws.arrays["walls"][:, :, byte_indices], axis=-1)
         return bits[:, :, position * 8 + cells % 8].view(np.bool_)
 
     def constant_cells(self, draws: Draws) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
@@ -158,6 +157,11 @@ class BinaryWalls(CellPrior):
         p = np.asarray(self.p_wall, dtype=np.float64)
         return {"p_wall": p} if p.ndim else {}
 
+    def describe(self) -> dict[str, Any]:
+        """Return the prior as plain JSON values."""
+        p = np.asarray(self.p_wall)
+        return {"kind": type(self).__name__.lower(), "p_wall": float(p) if p.ndim == 0 else "per cell"}
+
 
 @dataclass(frozen=True, eq=False)
 class Independent(BinaryWalls):
@@ -170,25 +174,9 @@ class Independent(BinaryWalls):
         BadInput: a probability outside [0, 1].
     """
 
-    def log_prob(self, cells: Cells | NDArray[np.bool_], grid: Grid) -> float:
-        """Compute log p(walls), in nats; ``cells`` may be a map of walls."""
-        walls = cells["walls"] if isinstance(cells, Mapping) else cells
-        p = self.probabilities(grid)
-        with np.errstate(divide="ignore"):
-            return float(np.where(walls, np.log(p), np.log1p(-p)).sum())
-
-    def sample(self, rng: np.random.Generator, grid: Grid) -> NDArray[np.bool_]:
-        """Draw a map of walls, shape (nx, ny)."""
-        return np.asarray(rng.random(grid.shape) < self.probabilities(grid))
-
     def mean_stop(self, grid: Grid) -> Floats:
         """Return the prior probability of a wall, (nx, ny)."""
         return self.probabilities(grid)
-
-    def describe(self) -> dict[str, Any]:
-        """Return the prior as plain JSON values."""
-        p = np.asarray(self.p_wall)
-        return {"kind": "independent", "p_wall": float(p) if p.ndim == 0 else "per cell"}
 
 
 FIT = "fit"
@@ -230,26 +218,24 @@ class Ising(BinaryWalls):
 
     @property
     def pair_coupling(self) -> float:
-        """Log prior added by each pair of alike neighbours. Raises BadInput: the coupling is still to be fitted."""
+        """Log prior added by each pair of alike neighbours. Raises `BadInput` if the coupling is still to be fitted."""
         if isinstance(self.coupling, str):
             raise BadInput("Ising: the coupling is not fitted yet; infer does it, or fit_coupling, or give a number")
         return float(self.coupling)
 
     def log_prob(self, cells: Cells | NDArray[np.bool_], grid: Grid) -> float:
         """Compute log p(walls) in nats, up to its normalising constant."""
-        walls = np.asarray(cells["walls"] if not isinstance(cells, np.ndarray) else cells) != 0
-        return Independent(self.p_wall).log_prob(walls, grid) + self.pair_coupling * pairs_alike(walls)
+        walls = np.asarray(cells["walls"] if isinstance(cells, Mapping) else cells) != 0
+        return super().log_prob(walls, grid) + self.pair_coupling * pairs_alike(walls)
 
     def sample(self, rng: np.random.Generator, grid: Grid) -> NDArray[np.bool_]:
-        """Draw a map of walls exactly, shape (nx, ny). Errors are those of `sample_maps`."""
+        """Draw a map of walls exactly, shape (nx, ny). Raises `BadInput` as `sample_maps` does."""
         if self.pair_coupling == 0.0:
-            return Independent(self.p_wall).sample(rng, grid)
+            return super().sample(rng, grid)
         return np.asarray(perfect_draws(rng, self._logit(grid), self.pair_coupling, 1)[0])
 
     def sample_maps(self, rng: np.random.Generator, grid: Grid, count: int) -> NDArray[np.bool_]:
-        """Draw maps independently and exactly, (count, nx, ny). Raises BadInput: so strong a coupling that exact draws
-        take too long.
-        """
+        """Draw exact maps independently, (count, nx, ny). Raises `BadInput` if the coupling makes this too slow."""
         if self.pair_coupling == 0.0:
             return super().sample_maps(rng, grid, count)
         return perfect_draws(rng, self._logit(grid), self.pair_coupling, count)
@@ -275,10 +261,10 @@ class Ising(BinaryWalls):
     def describe(self) -> dict[str, Any]:
         """Return the prior as plain JSON values."""
         coupling = self.coupling if isinstance(self.coupling, str) else float(self.coupling)
-        return {**Independent(self.p_wall).describe(), "kind": "ising", "coupling": coupling}
+        return {**super().describe(), "coupling": coupling}
 
 
-LARGEST_FITTED = 4.0  # largest coupling of a fit: for a map of alike cells alone, the likeliest coupling is infinite
+LARGEST_FITTED = 4.0  # largest fitted coupling: for a map of alike cells alone, the likeliest coupling is infinite
 
 
 def fit_coupling(walls: ArrayLike, p_wall: ArrayLike) -> float:
@@ -292,7 +278,7 @@ def fit_coupling(walls: ArrayLike, p_wall: ArrayLike) -> float:
         The coupling of greatest pseudo-likelihood between 0 and 4.
 
     Raises:
-        BadInput: walls of a shape that is no map's, or probabilities outside [0, 1] or of another shape than a map.
+        BadInput: walls that are no maps, or probabilities outside [0, 1] or of another shape than a map.
     """
     maps = np.asarray(walls) != 0
     if maps.ndim not in (2, 3) or maps.size == 0:
@@ -302,20 +288,19 @@ def fit_coupling(walls: ArrayLike, p_wall: ArrayLike) -> float:
         raise BadInput(f"fit_coupling: p_wall has shape {p.shape}, but the maps are {maps.shape[-2:]}")
     if not ((p >= 0) & (p <= 1)).all():
         raise BadInput("fit_coupling: p_wall must lie in [0, 1]")
-    return likeliest(*counts(maps, p))
+    return maximise_pseudo_likelihood(*count_by_balance(maps, p))
 
 
-def counts(maps: NDArray[np.bool_], p_wall: Floats) -> tuple[Floats, Floats, Floats, Floats]:
+def count_by_balance(maps: NDArray[np.bool_], p_wall: Floats) -> tuple[Floats, Floats, Floats, Floats]:
     """Count cells and walls by log-odds and balance. Returns log-odds, balances, and numbers of cells and of walls. If
     all cells have one probability, there are nine entries, for the balances -4 to 4. Else each cell has its own.
     """
-    balance = walls_less_free(maps)
-    p = np.broadcast_to(p_wall, maps.shape)
-    vary = (p > 0) & (p < 1)
+    balance, p = walls_less_free(maps), np.broadcast_to(p_wall, maps.shape)
+    vary = (p > 0) & (p < 1)  # cells that the prior does not fix
     if p_wall.ndim == 0:
-        n = np.bincount(balance[vary] + 4, minlength=9).astype(np.float64)
-        m = np.bincount(balance[vary] + 4, weights=maps[vary], minlength=9).astype(np.float64)
-        return np.full(9, float(special.logit(p_wall))), np.arange(-4.0, 5.0), n, m
+        cells = np.bincount(balance[vary] + 4, minlength=9).astype(np.float64)
+        walls = np.bincount(balance[vary] + 4, weights=maps[vary], minlength=9).astype(np.float64)
+        return np.full(9, float(special.logit(p_wall))), np.arange(-4.0, 5.0), cells, walls
     cells = np.ones(int(vary.sum()))
     return np.asarray(special.logit(p[vary])), balance[vary].astype(np.float64), cells, maps[vary].astype(np.float64)
 
@@ -323,11 +308,11 @@ def counts(maps: NDArray[np.bool_], p_wall: Floats) -> tuple[Floats, Floats, Flo
 def walls_less_free(maps: NDArray[np.bool_]) -> NDArray[np.int64]:
     """Count the walls less the free cells among the neighbours of every cell, (..., nx, ny)."""
     signs = np.pad(np.where(maps, 1, -1), [(0, 0)] * (maps.ndim - 2) + [(1, 1), (1, 1)])
-    across = signs[..., :-2, 1:-1] + signs[..., 2:, 1:-1]
-    return np.asarray(across + signs[..., 1:-1, :-2] + signs[..., 1:-1, 2:], dtype=np.int64)
+    in_x = signs[..., :-2, 1:-1] + signs[..., 2:, 1:-1]
+    return np.asarray(in_x + signs[..., 1:-1, :-2] + signs[..., 1:-1, 2:], dtype=np.int64)
 
 
-def likeliest(logit: Floats, balance: Floats, cells: Floats, walls: Floats) -> float:
+def maximise_pseudo_likelihood(logit: Floats, balance: Floats, cells: Floats, walls: Floats) -> float:
     """Find the coupling at which the slope of the log pseudo-likelihood is zero, from 0 to `LARGEST_FITTED`."""
 
     def slope(coupling: float) -> float:

@@ -30,11 +30,11 @@ MOST_SWEEPS = 4096  # most sweeps from the past: if the maps have not met by the
 def perfect_draws(rng: np.random.Generator, logit: Floats, coupling: float, count: int) -> NDArray[np.bool_]:
     """Draw maps of an Ising field of positive coupling independently and exactly, (count, nx, ny).
 
-    ``logit`` holds the log-odds of a wall at a balance of 0, (nx, ny); infinite in fixed cells. Raises BadInput: the
-    coupling is so strong, and the log-odds so near to zero, that the maps do not meet.
+    ``logit`` holds the log-odds of a wall at a balance of 0, (nx, ny); infinite in fixed cells. Raises `BadInput` if
+    the coupling is so strong, and the log-odds so near to zero, that the maps do not meet.
     """
     seeds: list[int] = []  # seed k makes the numbers of the sweeps from time -2^k to -2^(k - 1); seed 0 from -1 to 0
-    out = np.empty((count, *logit.shape), dtype=np.bool_)
+    draws = np.empty((count, *logit.shape), dtype=np.bool_)
     apart = np.arange(count)  # the draws whose two maps have not met yet
     while len(apart):
         if 1 << len(seeds) > MOST_SWEEPS:
@@ -47,16 +47,16 @@ def perfect_draws(rng: np.random.Generator, logit: Floats, coupling: float, coun
         # Send the map of free cells (low) and the map of walls (high) through all sweeps, the oldest first.
         low, high = (_padded(np.full((len(apart), *logit.shape), state, dtype=np.int8)) for state in (-1, 1))
         for k in range(len(seeds) - 1, -1, -1):
-            of_level = np.random.default_rng(seeds[k])
+            sweep_rng = np.random.default_rng(seeds[k])
             for _ in range(max(1, (1 << k) // 2)):
-                levels = _levels(of_level.random((count, *logit.shape))[apart], logit, coupling)
+                levels = _wall_levels(sweep_rng.random((count, *logit.shape))[apart], logit, coupling)
                 _sweep(low, levels)
                 _sweep(high, levels)
         # Draws whose two maps have met are done.
         met = (low == high).all(axis=(1, 2))
-        out[apart[met]] = low[met, 1:-1, 1:-1] > 0
+        draws[apart[met]] = low[met, 1:-1, 1:-1] > 0
         apart = apart[~met]
-    return out
+    return draws
 
 
 def rough_draw(rng: np.random.Generator, logit: Floats, coupling: float, sweeps: int) -> NDArray[np.bool_]:
@@ -64,7 +64,7 @@ def rough_draw(rng: np.random.Generator, logit: Floats, coupling: float, sweeps:
     walls = rng.random(logit.shape) < special.expit(logit)
     field = _padded(np.where(walls, 1, -1).astype(np.int8)[None])
     for _ in range(sweeps):
-        _sweep(field, _levels(rng.random((1, *logit.shape)), logit, coupling))
+        _sweep(field, _wall_levels(rng.random((1, *logit.shape)), logit, coupling))
     return np.asarray(field[0, 1:-1, 1:-1] > 0)
 
 
@@ -73,17 +73,16 @@ def _padded(signs: NDArray[np.int8]) -> NDArray[np.int8]:
     return np.pad(signs, ((0, 0), (1, 1), (1, 1)))
 
 
-def _levels(u: Floats, logit: Floats, coupling: float) -> NDArray[np.int8]:
-    """Return the balance of neighbours above which each cell becomes a wall, given its uniform number. A cell is a wall
-    if u < expit(logit + coupling * balance), that is, if balance > (logit(u) - logit) / coupling.
-    """
+def _wall_levels(u: Floats, logit: Floats, coupling: float) -> NDArray[np.int8]:
+    """Return the balance of neighbours above which each cell becomes a wall, given its uniform number u."""
+    # A cell is a wall if u < expit(logit + coupling * balance).
     with np.errstate(divide="ignore"):
-        needed = np.clip((special.logit(u) - logit) / coupling, -9, 9)
-    return np.asarray(np.floor(needed), dtype=np.int8)
+        level = np.clip((special.logit(u) - logit) / coupling, -9, 9)
+    return np.asarray(np.floor(level), dtype=np.int8)
 
 
 def _sweep(field: NDArray[np.int8], levels: NDArray[np.int8]) -> None:
-    """Make one sweep of all maps, in place."""
+    """Make one sweep of all maps, in place, given the `_wall_levels` of their cells."""
     inner = field[:, 1:-1, 1:-1]
     x, y = np.ogrid[: inner.shape[1], : inner.shape[2]]
     for parity in (0, 1):
@@ -94,7 +93,7 @@ def _sweep(field: NDArray[np.int8], levels: NDArray[np.int8]) -> None:
 
 SOLID = ArraySpec("solid", ("x", "y"), "bool", "bits", "whether the cell's label is solid; else it is free")
 
-HALVINGS = 60  # of [0, 1] in `mixture_quantiles`: below double precision
+HALVINGS = 60  # halvings of [0, 1] in `mixture_quantiles`: the rest is below double precision
 
 
 def pairs_alike(cells: NDArray[np.bool_]) -> int:
@@ -109,12 +108,12 @@ def balance_at(cells: NDArray[np.bool_], site: tuple[int, int]) -> int:
     return sum(1 if cells[i, j] else -1 for i, j in around if 0 <= i < nx and 0 <= j < ny)
 
 
-def of_draw(draws: Draws, chain: int, draw: int) -> NDArray[np.bool_]:
+def labels_of_draw(draws: Draws, chain: int, draw: int) -> NDArray[np.bool_]:
     """Return the labels of one draw, flat, (N,)."""
     return unpack(draws.arrays[SOLID.name][chain, draw], draws.grid.shape).ravel()
 
 
-def share_solid(draws: Draws) -> Floats:
+def solid_share(draws: Draws) -> Floats:
     """Return the share of all draws in which each cell is solid, flat, (N,)."""
     packed = draws.arrays[SOLID.name]
     counts = count_walls(packed.reshape(-1, packed.shape[-1]), draws.grid.n_cells)
@@ -124,17 +123,18 @@ def share_solid(draws: Draws) -> Floats:
 def mixture_quantiles(
     share: Floats, free: tuple[float, float], solid: tuple[float, float], tails: tuple[float, float]
 ) -> Floats:
-    """Compute quantiles of reflectivities by bisection, (len(tails), N). ``share`` is the probability that each cell is
-    solid, (N,); ``free`` and ``solid`` hold a and b of two Beta laws.
+    """Compute quantiles of reflectivities by bisection, (len(tails), N).
+
+    ``share`` is each cell's probability of being solid, (N,). ``free`` and ``solid`` hold a and b of two Beta laws.
     """
     # Cells with the same share have the same quantiles: compute them once per distinct share.
-    kinds, which = np.unique(share, return_inverse=True)
-    out = np.empty((len(tails), len(kinds)))
-    for row, tail in zip(out, tails, strict=True):
-        low, high = np.zeros(len(kinds)), np.ones(len(kinds))
+    shares, share_index = np.unique(share, return_inverse=True)
+    quantiles = np.empty((len(tails), len(shares)))
+    for row, tail in zip(quantiles, tails, strict=True):
+        low, high = np.zeros(len(shares)), np.ones(len(shares))
         for _ in range(HALVINGS):
             middle = 0.5 * (low + high)
-            below = (1 - kinds) * special.betainc(*free, middle) + kinds * special.betainc(*solid, middle) < tail
+            below = (1 - shares) * special.betainc(*free, middle) + shares * special.betainc(*solid, middle) < tail
             low, high = np.where(below, middle, low), np.where(below, high, middle)
         row[:] = 0.5 * (low + high)
-    return out[:, which.ravel()]
+    return quantiles[:, share_index.ravel()]

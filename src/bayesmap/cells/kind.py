@@ -122,21 +122,18 @@ class CellPrior(ABC):
         """
 
     def mean_stop(self, grid: Grid) -> Floats:
-        """Return the prior mean of the probability that a cell stops a beam that meets its surface, (nx, ny). The
-        default estimates it from 200 prior draws; override it if it is known.
-        """
+        """Return the prior mean of the probability that a cell stops a beam, (nx, ny); by default from 200 draws."""
         rng = np.random.default_rng(0)
         maps = [self._chance(self.sample_cells(rng, grid), grid) for _ in range(200)]
         return np.asarray(np.mean(maps, axis=0, dtype=np.float64))
 
     def _chance(self, cells: Cells, grid: Grid) -> NDArray[np.floating]:
+        """Return the probability that each cell stops a beam that meets its surface, (nx, ny)."""
         stops = self.stops(cells, grid)
         return (stops if stops.ndim == 1 else stops[:, 0]).reshape(grid.shape)
 
     def completed(self, cells: Cells, grid: Grid) -> Cells:
-        """Return the map with a state of the prior in the cells that are NaN because their draw does not store them.
-        The default returns the map itself, which is right if a draw stores all cells of the grid.
-        """
+        """Return a map with states of the prior in its NaN cells, which draws do not store. The default has none."""
         return cells
 
     # Draws
@@ -153,9 +150,7 @@ class CellPrior(ABC):
         return total / draws.size if draws.size else np.full(draws.grid.shape, np.nan)
 
     def interval(self, draws: Draws, level: float) -> tuple[Floats, Floats]:
-        """Return the central credible interval of `map_of`: lower and upper end, (nx, ny) each. Raises BadInput: a kind
-        whose states have no interval.
-        """
+        """Return the central credible interval of `map_of`, (nx, ny) each. Raises `BadInput` if the kind has none."""
         maps = np.stack([self.map_of(draws, chain, draw) for chain, draw in draws.numbers()]).astype(np.float64)
         lower, upper = np.quantile(maps, [0.5 * (1 - level), 0.5 * (1 + level)], axis=0)
         return lower, upper
@@ -169,41 +164,34 @@ class CellPrior(ABC):
         return None
 
     def width(self, draws: Draws, level: float) -> Floats:
-        """Return the width of each cell's interval, (nx, ny): the posterior's, or the evidence's where that is wider. A
-        prior that is nearly sure makes the posterior's interval narrow after a single beam.
-        """
-        posterior, evidence = self.interval(draws, level), self.evidence_interval(draws, level)
-        width = posterior[1] - posterior[0]
-        return width if evidence is None else np.maximum(width, evidence[1] - evidence[0])
+        """Return the width of each cell's posterior or evidence interval, (nx, ny), whichever is wider."""
+        # A prior that is nearly sure makes the posterior's interval narrow after a single beam.
+        lower, upper = self.interval(draws, level)
+        evidence = self.evidence_interval(draws, level)
+        return upper - lower if evidence is None else np.maximum(upper - lower, evidence[1] - evidence[0])
 
     def traces(self, draws: Draws, cells: NDArray[np.intp]) -> NDArray[Any]:
         """Return `map_of` at the given cells in all draws, (chains, draws, n), for diagnostics of convergence."""
-        out = [self.map_of(draws, chain, draw).ravel()[cells] for chain, draw in draws.numbers()]
-        return np.reshape(out, (draws.chains, draws.count, len(cells)))
+        values = [self.map_of(draws, chain, draw).ravel()[cells] for chain, draw in draws.numbers()]
+        return np.reshape(values, (draws.chains, draws.count, len(cells)))
 
     def expected_traces(self, draws: Draws, cells: NDArray[np.intp]) -> NDArray[Any]:
         """Return the draws' expected values of the given cells, (chains, draws, n); their mean is `mean_map`."""
         return self.traces(draws, cells)
 
     def constant_cells(self, draws: Draws) -> tuple[NDArray[np.bool_] | None, NDArray[np.bool_] | None]:
-        """Find the cells with one value in all draws of each chain, and in all draws of all chains, (N,) each. Both are
-        None if a state is a continuous number, which no two draws share.
-        """
+        """Find the cells with one value in all draws of each chain, and of all chains, (N,); None for real numbers."""
         return None, None
 
     def surfaces(self, draws: Draws) -> tuple[Floats, Floats, Floats]:
-        """Return mean surfaces for pictures: means (U, 2) and covariances (U, 2, 2) in metres, and reflectivities (U,).
-        Raises BadInput: this kind has no surfaces.
-        """
+        """Return mean surfaces: means (U, 2), covariances (U, 2, 2), reflectivities (U,). Raises `BadInput` if none."""
         raise BadInput(
             f"surfaces: the cells of this run are {self.words.states}, without surfaces; infer with prior=Surface(), "
             "or --cells surface"
         )
 
     def predictive_stops(self, draws: Draws, cells: NDArray[np.int32] | None = None) -> Iterator[NDArray[np.float32]]:
-        """Yield the stops of each draw in the ``cells`` (flat indices; all if None), in batches of draws. Predictions
-        read them: (draws, n), or (draws, n, 6) for surfaces, in the units of `stops`.
-        """
+        """Yield the `stops` of ``cells``, flat (all if None), in batches of draws: (draws, n), or (draws, n, 6)."""
         batch: list[NDArray[np.float32]] = []
         for chain, draw in draws.numbers():
             stops = self.stops(draws.cells(chain, draw), draws.grid)
@@ -215,10 +203,9 @@ class CellPrior(ABC):
             yield np.stack(batch)
 
     def drawn_stops(self, draws: Draws, cells: NDArray[np.int32] | None = None) -> Iterator[NDArray[np.float32]]:
-        """Yield the stops of each draw as `predictive_stops` does, but from drawn states alone, without expectations.
+        """Yield `predictive_stops` of drawn states alone, without expectations, for decisions on single draws.
 
-        Decisions read them, to see if a path is free in a draw, and how well two draws can be told apart. The default
-        is `predictive_stops`, which is right if it yields drawn states.
+        The default is `predictive_stops` itself, which is right if it yields drawn states.
         """
         return self.predictive_stops(draws, cells)
 

@@ -26,12 +26,12 @@ _NAMED: dict[str, type[CellPrior]] = {
 
 
 def prior_from(description: Mapping[str, Any]) -> CellPrior:
-    """Return the prior of a description. Raises BadInput: no loaded module defines the kind."""
+    """Return the prior of a description. Raises `BadInput` if no loaded module defines the kind."""
     kind = str(description.get("kind"))
-    named = _NAMED.get(kind, KINDS.get(kind))
-    if named is None:
+    prior_class = _NAMED.get(kind, KINDS.get(kind))
+    if prior_class is None:
         raise BadInput(f"cells of kind {kind!r} are not known here; import the module that defines them first")
-    return named.from_description(description)
+    return prior_class.from_description(description)
 
 
 P_WALL = 0.2  # buildings are mostly free space, and unobserved cells should look unlike walls and free

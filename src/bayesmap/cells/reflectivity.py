@@ -23,19 +23,19 @@ from bayesmap.cells.kind import BATCH_BYTES, CellPrior, Cells, Floats, Words
 from bayesmap.errors import BadInput
 from bayesmap.space.grid import Grid
 
-MIN_REFLECTIVITY = 1e-30  # least and
+MIN_REFLECTIVITY = 1e-30  # least reflectivity whose log odds single precision can hold
 MAX_REFLECTIVITY = 1.0 - 1e-7  # largest reflectivity whose log odds single precision can hold
-CELLS_AT_ONCE = 8192  # per batch of `interval`
+CELLS_AT_ONCE = 8192  # cells per batch of `interval`
 HALF_ROUNDING = 2.0**-11  # relative error of half precision
-MAX_STOPS = 32  # stopped beams that `counts_behind` tries; a cell with more is well known
+MAX_STOPS = 32  # stopped beams that `recover_counts` tries; a cell with more is well known
 POOL_CELLS = 1 << 16  # size of the pool of prior states for cells that no beam touched
 MIN_DRAWS = 100  # least default number of draws per chain
 MAX_DRAWS = 200  # largest default number of draws per chain
 MIN_DRAWS_UNTHINNED = 50  # least default number if every sweep is kept: a further draw then adds less
 BEAMS_AT_MIN_DRAWS = 100_000  # with this many beams or more, the default is the least number
 MAX_DRAW_BYTES = 1 << 30  # most bytes of all chains' draws, if beams were to touch every cell of the grid
-BYTES_A_CELL = 4  # per draw: two arrays in half precision
-POOL_SEED = 1  # of the pool of states drawn from the prior
+BYTES_A_CELL = 4  # bytes of a cell in a draw: two arrays in half precision
+POOL_SEED = 1  # seed of the pool of states drawn from the prior
 
 
 class KernelNumbers(NamedTuple):
@@ -142,9 +142,7 @@ class Beta(CellPrior):
         return log_density + self.coupling * ising_field.pairs_alike(solid)
 
     def sample_cells(self, rng: np.random.Generator, grid: Grid) -> dict[str, NDArray[Any]]:
-        """Draw a map. Raises BadInput: the coupling is so strong, and the grid so large, that exact draws of the labels
-        take too long.
-        """
+        """Draw a map. Raises `BadInput` if coupling and grid are so large that exact draws of labels take too long."""
         if not self.has_labels:
             m = rng.beta(self.a, self.b, grid.shape).astype(np.float32)
             return {"reflectivity": m, "expected": m}
@@ -206,7 +204,7 @@ class Beta(CellPrior):
         """
         elsewhere: Floats | float = self.mean
         if self.has_labels:
-            elsewhere = self.mean_given(ising_field.of_draw(draws, chain, draw))
+            elsewhere = self.mean_given(ising_field.labels_of_draw(draws, chain, draw))
         return draws.to_grid(draws.arrays[self.shown[0]][chain, draw], "cell", elsewhere)
 
     def mean_map(self, draws: Draws) -> Floats:
@@ -216,7 +214,7 @@ class Beta(CellPrior):
         """
         if draws.size == 0:
             return np.full(draws.grid.shape, np.nan)
-        elsewhere = self.mean_given(ising_field.share_solid(draws)) if self.has_labels else self.mean
+        elsewhere = self.mean_given(ising_field.solid_share(draws)) if self.has_labels else self.mean
         return draws.to_grid(draws.arrays[self.shown[1]].mean(axis=(0, 1), dtype=np.float64), "cell", elsewhere)
 
     def interval(self, draws: Draws, level: float) -> tuple[Floats, Floats]:
@@ -231,20 +229,21 @@ class Beta(CellPrior):
         # Untouched cells: quantiles of the prior.
         if self.has_labels:
             betas = (self.a, self.b), (self.a_solid, self.b_solid)
-            before = ising_field.mixture_quantiles(ising_field.share_solid(draws), *betas, tails)
+            elsewhere = ising_field.mixture_quantiles(ising_field.solid_share(draws), *betas, tails)
         else:
-            before = special.betaincinv(self.a, self.b, tails)
-        lower, upper = (draws.to_grid(ends[i], "cell", before[i]) for i in (0, 1))
+            elsewhere = special.betaincinv(self.a, self.b, tails)
+        lower, upper = (draws.to_grid(ends[i], "cell", elsewhere[i]) for i in (0, 1))
         return lower, upper
 
     def evidence_interval(self, draws: Draws, level: float) -> tuple[Floats, Floats]:
         """Return the central interval under a uniform prior, by the beams counted in each chain's last draw."""
         cells = draws.index["cell"]
-        counts = np.zeros((2, len(cells)))
+        counts, solid = np.zeros((2, len(cells))), np.zeros(len(cells), np.bool_)
         for chain in range(draws.chains):
-            solid = ising_field.of_draw(draws, chain, -1)[cells] if self.has_labels else np.zeros(len(cells), np.bool_)
+            if self.has_labels:
+                solid = ising_field.labels_of_draw(draws, chain, -1)[cells]
             expected = draws.arrays[self.shown[1]][chain, -1].astype(np.float64)
-            counts += np.stack(counts_behind(expected, *self.beta_given(solid))) / draws.chains
+            counts += np.stack(recover_counts(expected, *self.beta_given(solid))) / draws.chains
         tails = (0.5 * (1 - level), 0.5 * (1 + level))
         (stopped, passed), group = np.unique(counts, axis=1, return_inverse=True)
         ends = [special.betaincinv(1.0 + stopped, 1.0 + passed, tail)[group.ravel()] for tail in tails]
@@ -269,7 +268,7 @@ class Beta(CellPrior):
         return self._stops_of_draws(draws, cells, drawn=False)
 
     def drawn_stops(self, draws: Draws, cells: NDArray[np.int32] | None = None) -> Iterator[NDArray[np.float32]]:
-        """Yield the stops with drawn reflectivities; those of untouched cells are drawn from the prior."""
+        """Yield the stops with drawn reflectivities; untouched cells draw their reflectivities from the prior."""
         return self._stops_of_draws(draws, cells, drawn=True)
 
     def _stops_of_draws(
@@ -279,8 +278,7 @@ class Beta(CellPrior):
         cells = np.arange(draws.grid.n_cells, dtype=np.int32) if cells is None else cells
         # Draws hold the touched cells; the others follow the prior.
         position, stored = positions_in(draws.index["cell"], cells)
-        position = position[stored]
-        stored_at = np.flatnonzero(stored)
+        position, stored_indices = position[stored], np.flatnonzero(stored)
         prior_reflectivities = self._prior_reflectivities(cells, drawn=drawn)
         reflectivities = draws.arrays["reflectivity" if drawn else "expected"]
         write_surfaces = self.surface_writer(draws, cells)
@@ -293,20 +291,18 @@ class Beta(CellPrior):
             for stops, (chain, draw) in zip(batch, numbers[i : i + at_once], strict=True):
                 write_surfaces(stops, chain, draw)
                 m = stops[:, 0] if self.has_surfaces else stops
-                solid = ising_field.of_draw(draws, chain, draw)[cells] if self.has_labels else None
+                solid = ising_field.labels_of_draw(draws, chain, draw)[cells] if self.has_labels else None
                 m[:] = prior_reflectivities(solid)
-                m[stored_at] = reflectivities[chain, draw][position]
+                m[stored_indices] = reflectivities[chain, draw][position]
             yield batch
 
     def _prior_reflectivities(
         self, cells: NDArray[np.int32], *, drawn: bool
     ) -> Callable[[NDArray[np.bool_] | None], NDArray[np.floating] | float]:
-        """Return a function that gives the cells' reflectivities by the prior, from their labels if they have labels.
-
-        They are prior means, or draws. Pools of draws are made once; each call reads them from another random offset.
-        """
+        """Return a function from the cells' labels (None if they have none) to prior means or draws, (n,)."""
         if not drawn:
             return lambda solid: self.mean if solid is None else self.mean_given(solid)
+        # Pools of draws are made once; each call reads them from another random offset.
         rng = np.random.default_rng(POOL_SEED)
         betas = [(self.a, self.b), (self.a_solid, self.b_solid)][: 1 + self.has_labels]
         pools = [rng.beta(a, b, POOL_CELLS).astype(np.float32) for a, b in betas]
@@ -339,31 +335,30 @@ def positions_in(stored: NDArray[np.int32], cells: NDArray[np.int32]) -> tuple[N
     return position, is_stored
 
 
-def counts_behind(expected: Floats, a: Floats, b: Floats) -> tuple[Floats, Floats]:
+def recover_counts(expected: Floats, a: Floats, b: Floats) -> tuple[Floats, Floats]:
     """Find the least counts of stopped and of passing beams that give the expected chances (a + stopped) / (a + b + n).
 
-    The number n of beams must be whole, up to the rounding of half precision: this tells the counts apart. Counts above
-    `MAX_STOPS` stopped beams are returned as that many or more.
+    The number n of beams must be whole, up to the rounding of half precision: this tells the counts apart. A cell that
+    stopped more than `MAX_STOPS` beams gets at least this count.
     """
     chance = np.clip(expected, HALF_ROUNDING**2, 1.0 - 0.5 * HALF_ROUNDING)
     stopped, beams = np.zeros_like(chance), np.zeros_like(chance)
-    left = np.arange(len(chance))
+    pending = np.arange(len(chance))
     for count in range(MAX_STOPS + 1):
-        n = (a[left] + count) / chance[left] - (a[left] + b[left])
+        n = (a[pending] + count) / chance[pending] - (a[pending] + b[pending])
         whole = np.rint(n)
-        fits = (np.abs(n - whole) <= HALF_ROUNDING * (n + a[left] + b[left])) & (whole >= count)
+        fits = (np.abs(n - whole) <= HALF_ROUNDING * (n + a[pending] + b[pending])) & (whole >= count)
         fits |= count == MAX_STOPS
-        stopped[left[fits]], beams[left[fits]] = count, np.maximum(whole[fits], count)
-        left = left[~fits]
+        stopped[pending[fits]], beams[pending[fits]] = count, np.maximum(whole[fits], count)
+        pending = pending[~fits]
     return stopped, beams - stopped
 
 
-def quantiles_of_halves(draws: NDArray[np.float16], at: tuple[float, ...]) -> Floats:
-    """Compute quantiles of nonnegative half-precision numbers (draws, cells), linear between draws: (len(at), cells).
-    It equals `numpy.quantile`, ten times as fast: the bits of these numbers, read as integers, have the same order.
-    """
+def quantiles_of_halves(draws: NDArray[np.float16], tails: tuple[float, ...]) -> Floats:
+    """Compute `numpy.quantile` of nonnegative halves (draws, cells), ten times as fast: (len(tails), cells)."""
+    # The bits of these numbers, read as integers, have the same order.
     ordered = np.sort(np.ascontiguousarray(draws.T).view(np.uint16), axis=1).view(np.float16)
-    rank = np.array(at) * (len(draws) - 1)
+    rank = np.array(tails) * (len(draws) - 1)
     below = np.floor(rank).astype(np.intp)
     low, high = (ordered[:, k].T.astype(np.float64) for k in (below, np.minimum(below + 1, len(draws) - 1)))
     return np.asarray(low + (high - low) * (rank - below)[:, None])

@@ -27,8 +27,8 @@ PARTS = ("mean_x", "mean_y", "l11", "l21", "l22")  # mean from the cell's centre
 
 
 def _spec(part: str) -> ArraySpec:
-    what = f"{part} of the surface, from the cell's centre" if part.startswith("mean") else f"{part} of its covariance"
-    return ArraySpec(f"surface_{part}", ("surface_cell",), "float32", "half", f"{what}, in edges of a cell")
+    text = f"{part} of the surface, from the cell's centre" if part.startswith("mean") else f"{part} of its covariance"
+    return ArraySpec(f"surface_{part}", ("surface_cell",), "float32", "half", f"{text}, in edges of a cell")
 
 
 STOP_CHANCES = tuple(
@@ -117,16 +117,16 @@ class Surface(Beta):
     def sample_surfaces(self, rng: np.random.Generator, count: int) -> Floats:
         """Draw surfaces in edges, (count, 5): mean x, y from the centre, then l11, l21, l22 of Sigma = L L'."""
         # Rejection sampling: the factor exp(-tr Sigma / (2 kappa^2)) is the probability of acceptance.
-        out = np.zeros((count, 5))
-        left = np.arange(count)
-        while len(left):
-            drawn = self._sample_unbounded(rng, len(left))
+        surfaces = np.zeros((count, 5))
+        pending = np.arange(count)
+        while len(pending):
+            candidates = self._sample_unbounded(rng, len(pending))
             with np.errstate(over="ignore"):  # infinite sizes are rejected, as they should be
-                size = (drawn[:, 2:] ** 2).sum(axis=1) / self.size_scale**2
-            accepted = rng.random(len(left)) < np.exp(-0.5 * size)
-            out[left[accepted]] = drawn[accepted]
-            left = left[~accepted]
-        return out
+                size = (candidates[:, 2:] ** 2).sum(axis=1) / self.size_scale**2
+            accepted = rng.random(len(pending)) < np.exp(-0.5 * size)
+            surfaces[pending[accepted]] = candidates[accepted]
+            pending = pending[~accepted]
+        return surfaces
 
     def _sample_unbounded(self, rng: np.random.Generator, count: int) -> Floats:
         """Draw surfaces without the factor that bounds their size, (count, 5).
@@ -145,18 +145,19 @@ class Surface(Beta):
     def stops(self, cells: Cells, grid: Grid) -> NDArray[np.floating]:
         """Return reflectivities and surfaces, (N, 6), lengths in metres from the grid's corner."""
         parts = [np.ravel(cells[f"surface_{part}"]) for part in PARTS]
-        out = np.stack([np.ravel(cells["reflectivity"]), *parts], axis=-1).astype(np.float32)
-        out[:, 1:] *= grid.resolution
-        out[:, 1:3] += grid.centers_from_corner_m(np.arange(grid.n_cells))
-        return out
+        stops = np.stack([np.ravel(cells["reflectivity"]), *parts], axis=-1).astype(np.float32)
+        stops[:, 1:] *= grid.resolution
+        stops[:, 1:3] += grid.centers_from_corner_m(np.arange(grid.n_cells))
+        return stops
 
     def completed(self, cells: Cells, grid: Grid) -> Cells:
         """Return the map with prior draws of surfaces in cells in which no reading ends; the seed is fixed."""
         fresh = self.sample_surfaces(np.random.default_rng(0), grid.n_cells).reshape(*grid.shape, len(PARTS))
-        names = [f"surface_{part}" for part in PARTS]
-        parts = {name: np.asarray(cells[name], dtype=np.float64) for name in names}
-        drawn = {name: np.where(np.isnan(parts[name]), fresh[..., i], parts[name]) for i, name in enumerate(names)}
-        return {**super().completed(cells, grid), **drawn}
+        complete = dict(super().completed(cells, grid))
+        for i, name in enumerate(f"surface_{part}" for part in PARTS):
+            stored = np.asarray(cells[name], dtype=np.float64)
+            complete[name] = np.where(np.isnan(stored), fresh[..., i], stored)
+        return complete
 
     def kernel_numbers(self, edge_m: float) -> KernelNumbers:
         """Return the prior's parameters for kernels."""
@@ -166,39 +167,34 @@ class Surface(Beta):
         )  # fmt: skip
 
     def surfaces(self, draws: Draws) -> tuple[Floats, Floats, Floats]:
-        """Compute the posterior mean surfaces of the cells in which a reading ends: means in the world frame in metres,
-        (U, 2); covariances of the points in m^2, (U, 2, 2); and mean reflectivities of the cells, (U,).
+        """Compute the posterior mean surfaces of the cells in which a reading ends.
+
+        Returns means in the world frame in metres, (U, 2); covariances of the points in m^2, (U, 2, 2); and mean
+        reflectivities of the cells, (U,).
         """
         edge, cells = draws.grid.resolution, draws.index["surface_cell"]
-        mean, second = np.zeros((len(cells), 2)), np.zeros((len(cells), 2, 2))
+        mean, covariance = np.zeros((len(cells), 2)), np.zeros((len(cells), 2, 2))
         # Sum means and covariances over draws.
-        for chain, draw in draws.numbers():
-            x, y, l11, l21, l22 = (
-                draws.arrays[f"surface_{part}"][chain, draw].astype(np.float64) * edge for part in PARTS
-            )
+        for draw in draws.numbers():
+            x, y, l11, l21, l22 = (draws.arrays[f"surface_{part}"][draw].astype(np.float64) * edge for part in PARTS)
             mean += np.stack([x, y], axis=-1)
-            second[:, 0, 0] += l11**2
-            second[:, 0, 1] += l11 * l21
-            second[:, 1, 1] += l21**2 + l22**2
-        second[:, 1, 0] = second[:, 0, 1]
+            covariance[:, 0, 0] += l11**2
+            covariance[:, 0, 1] += l11 * l21
+            covariance[:, 1, 1] += l21**2 + l22**2
+        covariance[:, 1, 0] = covariance[:, 0, 1]
         # Divide by the number of draws, and look up the reflectivities of the same cells.
-        n = max(draws.size, 1)
+        n_draws = max(draws.size, 1)
+        mean = draws.grid.centers_from_corner_m(cells) + np.array(draws.grid.origin) + mean / n_draws
         position, _ = positions_in(draws.index["cell"], cells)
         reflectivity = draws.arrays["expected"][..., position].mean(axis=(0, 1), dtype=np.float64)
-        return (
-            draws.grid.centers_from_corner_m(cells) + np.array(draws.grid.origin) + mean / n,
-            second / n,
-            reflectivity,
-        )
+        return mean, covariance / n_draws, reflectivity
 
     def surface_writer(self, draws: Draws, cells: NDArray[np.int32]) -> Callable[[NDArray[np.float32], int, int], None]:
-        """Return a function that writes the surfaces of the cells in a draw, by chain and draw, into stops, (n, 6).
-        Surfaces that draws do not store almost follow the prior, and are drawn from it.
-        """
+        """Return a function that writes the surfaces of the cells in a draw, by chain and draw, into stops, (n, 6)."""
         position, stored = positions_in(draws.index["surface_cell"], cells)
         position, centre, rng = position[stored], draws.grid.centers_from_corner_m(cells), np.random.default_rng(0)
-        # The pool of prior surfaces is drawn once; each draw of the map reads it from another random offset. The
-        # surface of a cell does not depend on the other cells.
+        # Surfaces that draws do not store almost follow the prior, and are drawn from it. The pool of prior surfaces is
+        # drawn once; each draw of the map reads it from another random offset, as surfaces are independent.
         pool = self.sample_surfaces(rng, POOL_CELLS).astype(np.float32)
 
         def write(stops: NDArray[np.float32], chain: int, draw: int) -> None:

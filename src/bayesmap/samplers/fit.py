@@ -22,7 +22,7 @@ import scipy
 from numpy.typing import NDArray
 from scipy import special
 
-from bayesmap.cells.binary import Ising, counts, likeliest
+from bayesmap.cells.binary import Ising, count_by_balance, maximise_pseudo_likelihood
 from bayesmap.cells.kind import CellPrior, Floats
 from bayesmap.cells.kinds import prior_from
 from bayesmap.cells.reflectivity import Beta
@@ -316,7 +316,7 @@ def fit_coupling_to_scans(
     for sweep in range(COUPLING_SWEEPS):
         state, info = sampler.step(state, 1)
         walls = state.walls().reshape(problem.grid.shape) != 0
-        best = likeliest(*counts(walls, np.asarray(prior.p_wall, dtype=np.float64)))
+        best = maximise_pseudo_likelihood(*count_by_balance(walls, np.asarray(prior.p_wall, dtype=np.float64)))
         step = step_share(sweep, COUPLING_WHOLE_UNTIL)
         prior = replace(prior, coupling=prior.pair_coupling + step * (best - prior.pair_coupling))
         state = replace(state, problem=state.problem.under(prior))
