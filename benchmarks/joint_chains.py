@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from scipy.stats import norm, qmc
 
 import bayesmap as bm
-from bayesmap.kernels.predict.scan_likelihood import ScanLikelihood
+from bayesmap.kernels.predict.density import ScanLikelihood
 from bayesmap.poses.prior import UncertainPoses
 from bayesmap.posterior.summary import rhat
 from bayesmap.sim.building import building

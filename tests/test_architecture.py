@@ -157,7 +157,7 @@ def test_every_room_and_family_is_known():
 def test_an_import_between_families_is_noticed():
     assert crosses_families("kernels.walls.gibbs", "kernels.match.line_pairs")
     assert crosses_families("kernels.walk", "kernels.walls.chains")
-    assert not crosses_families("kernels.predict.view", "kernels.surfaces.cell")
+    assert not crosses_families("kernels.predict.view", "kernels.surfaces.surface")
     assert crosses_families("io.text.carmen", "io.ros.recording")
     assert crosses_families("io.text.carmen", "io.logs")
     assert crosses_families("io.returns", "io.text.carmen")

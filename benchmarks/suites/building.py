@@ -59,7 +59,8 @@ def run(device: str, with_peers: bool) -> Iterator[Figure]:
     yield timed("building/table_and_index", table_and_index, unit="s", scale=1, repeats=5)
     problem = build()
     yield Figure("building/incidences", problem.table.n_incidences * 1e-6, "M")
-    memory = problem.table.nbytes + sum(array.nbytes for array in vars(problem.index).values())
+    arrays = [*vars(problem.table).values(), *vars(problem.index).values()]
+    memory = sum(array.nbytes for array in arrays if hasattr(array, "nbytes"))
     yield Figure("building/table_bytes", memory / problem.table.n_incidences, "B/incidence")
 
     beliefs = Beliefs(problem.table, problem.logit, device)

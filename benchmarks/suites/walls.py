@@ -8,8 +8,7 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 import bayesmap as bm
-from bayesmap.kernels.counts import count_hits
-from bayesmap.kernels.rays import trace_rays
+from bayesmap.kernels.rays import count_hits, trace_rays
 from bayesmap.posterior.baselines import BASELINES, fit_baseline
 from bayesmap.posterior.posterior import Posterior
 from bayesmap.posterior.scores import score_prediction

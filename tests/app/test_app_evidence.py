@@ -22,8 +22,7 @@ from bayesmap.app.display import histogram
 from bayesmap.app.edits import tutorial_document
 from bayesmap.app.protocol.actions import Inspect
 from bayesmap.kernels.rays import trace_rays
-from bayesmap.kernels.walls.maps import log_likelihoods
-from bayesmap.kernels.walls.table import trace
+from bayesmap.kernels.walls.table import log_likelihoods, trace
 from bayesmap.posterior.prediction import Predictor, fixed_maps
 
 SENSOR = bm.BeamMixture(bm.Gaussian(0.2), p_random=0.05, p_no_return=0.05)

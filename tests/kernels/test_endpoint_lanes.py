@@ -10,19 +10,19 @@ from tiers import latin
 import bayesmap as bm
 from bayesmap.kernels.sensor_law import SensorLaw32, sensor_law
 from bayesmap.kernels.surfaces import stops
-from bayesmap.kernels.surfaces.cell import centre_of
 from bayesmap.kernels.surfaces.cell_draws import ActiveCells
 from bayesmap.kernels.surfaces.endpoint_beams import (
     UNKNOWN,
     EndpointCells,
     LaneBlocks,
+    fill_blocks,
+    fits_lanes,
     log_stops,
     log_stops_in_lanes,
-    put_in_blocks,
-    takes_lanes,
 )
 from bayesmap.kernels.surfaces.endpoint_cells import NO_LEAST, BeamLists, listed_of, log_beams
 from bayesmap.kernels.surfaces.stops import ChainArrays, TracedRays
+from bayesmap.kernels.surfaces.surface import centre_of
 from bayesmap.model import Model
 from bayesmap.samplers import initial_estimate
 from bayesmap.samplers.stop_gibbs import StopGibbs
@@ -53,7 +53,7 @@ def both_ways(
     listed = listed_of(lists, 0, u, begin, end, state.last_hits[c])
     one = state.beta
     out[0, u] = log_stops(law, one, rays, endpoints, listed, centre, cell, NO_LEAST)
-    others = put_in_blocks(blocks, 0, u, rays, endpoints, listed)
+    others = fill_blocks(blocks, 0, u, rays, endpoints, listed)
     beams = wp.vec2i(listed.passing_end - listed.passing_begin, listed.stopped_end - listed.stopped_begin - others)
     out[1, u] = log_stops_in_lanes(law, blocks, 0, u, beams, centre, cell, NO_LEAST)
     out[2, u] = log_beams(law, one, rays, endpoints, blocks, 0, u, listed, others, centre, cell, leasts[u])
@@ -63,7 +63,7 @@ def both_ways(
 
 @wp.kernel
 def is_for_lanes(law: SensorLaw32, beta: wp.float32, out: wp.array(dtype=wp.int32)):
-    out[0] = wp.where(takes_lanes(law, beta), 1, 0)
+    out[0] = wp.where(fits_lanes(law, beta), 1, 0)
 
 
 def scans_of_a_room(rng, scans=60, beams=90):

@@ -15,10 +15,9 @@ from oracle.worlds import OwnSensor
 from tiers import latin
 
 import bayesmap as bm
-from bayesmap.kernels.match.fields import field_sums
-from bayesmap.kernels.predict.density import LEAST_CHANCE, device_maps, forecast, log_densities
+from bayesmap.kernels.match.likelihood_grid import field_sums
+from bayesmap.kernels.predict.density import LEAST_CHANCE, ScanLikelihood, device_maps, forecast, log_densities
 from bayesmap.kernels.predict.pose_weights import scan_log_likelihood
-from bayesmap.kernels.predict.scan_likelihood import ScanLikelihood
 from bayesmap.kernels.predict.stop_mixture import first_hit_events, mix_stops, range_quantiles
 from bayesmap.kernels.rays import trace_rays
 from bayesmap.sensors.model import RangeLimits

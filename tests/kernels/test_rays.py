@@ -16,9 +16,8 @@ from oracle.stop_worlds import scans_of_all_kinds
 
 import bayesmap as bm
 from bayesmap.beams.rays import Rays, around_readings
-from bayesmap.kernels.counts import count_hits
-from bayesmap.kernels.rays import stop_distances, trace_rays
-from bayesmap.kernels.walk import cast
+from bayesmap.kernels.rays import count_hits, stop_distances, trace_rays
+from bayesmap.kernels.walk import cast_beams
 from bayesmap.kernels.walls.table import trace
 
 GRID = bm.Grid((13, 9), 0.25, (3.0, -1.0))
@@ -224,7 +223,7 @@ def assert_equal_to_the_formula(walls, starts, angles):
     """Returns how many beams the formula was sure of."""
     expected = distances(walls, starts, angles, longest=LONGEST)
     sure = np.abs(expected - distances(walls, starts, angles, longest=LONGEST, slack=1e-7)) < CELLS
-    found, _ = cast(walls, starts, angles, LONGEST)
+    found, _ = cast_beams(walls, starts, angles, LONGEST)
     np.testing.assert_allclose(found[sure], expected[sure], atol=CELLS, rtol=0)
     return sure.sum()
 
@@ -264,17 +263,17 @@ def test_long_beams_and_those_from_far_outside_keep_their_precision_and_look_no_
     starts = aim - 1e4 * np.column_stack([np.cos(angles), np.sin(angles)])
     expected = distances(walls, starts, angles, longest=3e4)
     sure = expected == distances(walls, starts, angles, longest=3e4, slack=1e-6)
-    found, _ = cast(walls, starts, angles, 3e4)
+    found, _ = cast_beams(walls, starts, angles, 3e4)
     assert sure.sum() > 290
     np.testing.assert_allclose(found[sure], expected[sure], atol=1e-6, rtol=0)  # 1e4 cells away, 1e-12 of them round
     walls = np.zeros((2000, 2000), dtype=bool)
     walls[-1, :] = walls[:, -1] = True
     rng = np.random.default_rng(5)
     starts, angles = rng.uniform(0, 3, (200, 2)), rng.uniform(0.001, np.pi / 2 - 0.001, 200)
-    found, _ = cast(walls, starts, angles, 1e4)
+    found, _ = cast_beams(walls, starts, angles, 1e4)
     to_x, to_y = (1999 - starts[:, 0]) / np.cos(angles), (1999 - starts[:, 1]) / np.sin(angles)
     np.testing.assert_allclose(found, np.minimum(to_x, to_y), atol=CELLS, rtol=0)
     walls = np.zeros((100, 1), dtype=bool)
     walls[10] = True
-    _, visits = cast(walls, np.array([[0.5, 0.5]]), np.array([0.0]), 1000.0)
+    _, visits = cast_beams(walls, np.array([[0.5, 0.5]]), np.array([0.0]), 1000.0)
     assert visits[0] <= 11

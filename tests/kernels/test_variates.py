@@ -15,14 +15,14 @@ import bayesmap as bm
 from bayesmap.kernels.device import Float64s
 from bayesmap.kernels.random import (
     PER_GAMMA,
-    beta_or_nothing,
+    beta_or_zero,
     beta_variate,
     log_gamma_variate,
     nearly_normal,
     normal,
     random_bits,
 )
-from bayesmap.kernels.surfaces.cell import Cell, PriorNumbers, fresh_surface
+from bayesmap.kernels.surfaces.surface import Cell, PriorNumbers, fresh_surface
 
 wp.set_module_options({"enable_backward": False})
 
@@ -59,9 +59,9 @@ def draw_beta(key: wp.uint64, a: wp.float64, b: wp.float64, out: Float64s):
 
 
 @wp.kernel
-def draw_beta_or_nothing(key: wp.uint64, a: wp.float64, b: wp.float64, out: Float64s):
+def draw_beta_or_zero(key: wp.uint64, a: wp.float64, b: wp.float64, out: Float64s):
     i = wp.tid()
-    out[i] = beta_or_nothing(a, b, key, at(i))
+    out[i] = beta_or_zero(a, b, key, at(i))
 
 
 @wp.kernel
@@ -112,7 +112,7 @@ def test_beta_variates(a, b):
 
 @pytest.mark.parametrize(("a", "b"), [(0.01, 0.2), (0.01, 3.0), (0.02, 300.0), (2.0, 3.0)])
 def test_beta_variates_under_e_to_the_minus_70_are_nothing_and_all_others_what_they_are(a, b):
-    exact, mine = drawn(draw_beta, a, b), drawn(draw_beta_or_nothing, a, b)
+    exact, mine = drawn(draw_beta, a, b), drawn(draw_beta_or_zero, a, b)
     nothing = (mine == 0) & (exact > 0)
     assert (exact[nothing] < np.exp(-70.0)).all()
     np.testing.assert_array_equal(mine[~nothing], exact[~nothing])

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from bayesmap.kernels.walk import cast
+from bayesmap.kernels.walk import cast_beams
 from bayesmap.space.planar import between, chain_motions
 from bayesmap.space.scans import Scans
 
@@ -48,7 +48,7 @@ def scans_of(walls, poses, beams=180, noise_m=0.01, seed=0, max_range_m=12.0, fu
     angles = first + step * np.arange(beams)
     starts = np.repeat(poses[:, :2], beams, axis=0) / RESOLUTION
     directions = (poses[:, 2:3] + angles).ravel()
-    distance, _ = cast(walls, starts, directions, max_range_m / RESOLUTION)
+    distance, _ = cast_beams(walls, starts, directions, max_range_m / RESOLUTION)
     ranges = distance.reshape(len(poses), beams) * RESOLUTION
     ranges = np.where(ranges < max_range_m - 0.01, ranges + noise_m * rng.normal(size=ranges.shape), np.inf)
     return angles, ranges

@@ -11,7 +11,7 @@ from simulated import RESOLUTION, odometry_of, off, path_around, recording, ring
 from tiers import latin
 
 from bayesmap.kernels.match.line_pairs import Agreement, pair_sums, view_counts
-from bayesmap.kernels.walk import cast
+from bayesmap.kernels.walk import cast_beams
 from bayesmap.poses import calibration
 from bayesmap.poses import scan_geometry as geometry_module
 from bayesmap.poses.calibration import angle_step_ratio
@@ -117,7 +117,7 @@ def measured(poses, fans, seed=0, max_range_m=12.0):
     angles = [first + step * np.arange(beams) for first, step, beams in fans]
     starts = np.repeat(poses[:, :2], [len(own) for own in angles], axis=0) / RESOLUTION
     directions = np.concatenate([pose[2] + own for pose, own in zip(poses, angles, strict=True)])
-    ranges = cast(ring(), starts, directions, max_range_m / RESOLUTION)[0] * RESOLUTION
+    ranges = cast_beams(ring(), starts, directions, max_range_m / RESOLUTION)[0] * RESOLUTION
     noise = 0.01 * np.random.default_rng(seed).normal(size=ranges.shape)
     readings = np.where(ranges < max_range_m, ranges + noise, np.inf)
     return angles, np.split(readings, np.cumsum([len(own) for own in angles])[:-1])

@@ -10,9 +10,8 @@ import pytest
 
 import bayesmap as bm
 from bayesmap.errors import BadInput
-from bayesmap.kernels.counts import count_hits
 from bayesmap.kernels.predict.density import log_densities
-from bayesmap.kernels.rays import trace_rays
+from bayesmap.kernels.rays import count_hits, trace_rays
 from bayesmap.posterior import baselines, heldout
 from bayesmap.posterior.baselines import hit_ratio
 from bayesmap.posterior.heldout import make_folds, together

@@ -57,7 +57,7 @@ def scans_of(name):
 def together(monkeypatch):
     """All chains in each launch, as on a GPU, and started soon: a thousand times as fast as one after the other."""
     monkeypatch.setattr(initial_estimate, "LABEL_SWEEPS", 1)
-    monkeypatch.setattr(stop_chains.StopChains, "_each", lambda self, work, tasks: work(range(self.n_chains)))
+    monkeypatch.setattr(stop_chains.StopChains, "_map", lambda self, work, tasks: work(range(self.n_chains)))
 
 
 @cache
@@ -123,13 +123,13 @@ def test_wrong_betas_and_a_conditional_that_does_not_look_at_the_cell_s_own_beam
 
 def test_a_conditional_that_looks_at_half_of_the_cells_alone_is_rejected(monkeypatch):
     """The other colour keeps the labels that it had at first."""
-    phases = stop_chains.StopChains._part
+    phases = stop_chains.StopChains._launch_part
 
     def one_colour(self, phase, at):
         if phase[0] is not cell_draws.draw_labels or phase[2][0] == 0:
             phases(self, phase, at)
 
-    monkeypatch.setattr(stop_chains.StopChains, "_part", one_colour)
+    monkeypatch.setattr(stop_chains.StopChains, "_launch_part", one_colour)
     assert least(drawn.__wrapped__("a row"), exact("a row")) < ALPHA / TESTS
 
 

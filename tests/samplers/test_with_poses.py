@@ -17,7 +17,7 @@ from oracle.verdict import ALPHA, goodness_of_fit
 from tiers import latin
 
 import bayesmap as bm
-from bayesmap.kernels.predict.scan_likelihood import ScanLikelihood
+from bayesmap.kernels.predict.density import ScanLikelihood
 from bayesmap.model import Model
 from bayesmap.poses.prior import Odometry, UncertainPoses
 from bayesmap.run.chains import SweepPlan

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import bayesmap as bm
-from bayesmap.kernels.predict.scan_likelihood import ScanLikelihood
+from bayesmap.kernels.predict.density import ScanLikelihood
 from bayesmap.kernels.rays import trace_rays
 from bayesmap.kernels.walls.table import trace
 from bayesmap.model import Model

@@ -1,4 +1,4 @@
-// Importance sampling from the prior, as in bayesmap.kernels.walls.maps: a map is drawn again from its number.
+// Importance sampling from the prior, as in bayesmap.kernels.walls.table: a map is drawn again from its number.
 
 import type { Problem } from "./chain";
 import { randomBits, type Word } from "./random";

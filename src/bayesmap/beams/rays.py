@@ -13,16 +13,14 @@ square (`Rays.stretches`; `bayesmap.kernels.rays.stretch` compiled):
 - an axis along which the beam does not move (a direction cosine below `PARALLEL`) limits nothing.
 
 `stops_of` is the plain reference for every kernel that draws or predicts stops. A cell has a probability of stopping
-beams at its hit depth, or a surface: reflectivity m, mean mu, and covariance Sigma of the points where beams stop
-(normal distributions as in maps of Biber and Strasser, 2003). A beam from p in direction u, with normal n, passes the
-mean at the offset o = n . (mu - p); across the beam the surface has the standard deviation v = sqrt(n' Sigma n). The
-beam meets the surface with probability
+beams at its hit depth, or a surface: reflectivity m, mean mu, and covariance Sigma of the points where beams stop. A
+beam from p in direction u, with normal n, passes the mean at the offset o = n . (mu - p); across the beam the surface
+has the standard deviation v = sqrt(n' Sigma n). The beam meets the surface with probability
 
     g = 1 / (1 + (o / (w v))^6)
 
-which is nearly one where it crosses the surface's body and nearly zero beside it; w = 2.2 was measured
-(docs/surfaces.md). It is then stopped with probability m, at the distance t ~ N(t*, s^2), the law of a point of the
-surface *given that it lies on the beam*:
+which is nearly one where it crosses the surface's body and nearly zero beside it (docs/surfaces.md). It is then stopped
+with probability m, at the distance t ~ N(t*, s^2), the law of a point of the surface *given that it lies on the beam*:
 
     t* = u . (mu - p) - (u' Sigma n / c^2) o        s^2 = u' Sigma u - (u' Sigma n)^2 / c^2
 

@@ -39,11 +39,6 @@ class BeamTable:
         """Return the number of beam-cell incidences: the work of one sweep."""
         return len(self.cells)
 
-    @property
-    def nbytes(self) -> int:
-        """Return the memory of the table itself, in bytes."""
-        return sum(a.nbytes for a in (self.offsets, self.cells, self.loglik, self.no_hit))
-
     def touched_map(self) -> NDArray[np.bool_]:
         """Mark the cells that at least one beam touches, (nx, ny)."""
         seen = np.zeros(self.grid.n_cells, dtype=np.bool_)
@@ -87,8 +82,7 @@ class CellIndex:
     entry: NDArray[np.int32]  # index into the beam table, shape (K,), int32
     beam: NDArray[np.int32]  # the beam of that entry, shape (K,), int32
     loglik: NDArray[np.float32]  # the entry's log-likelihood, shape (K,), float32
-    # upper bound, for any map, of the sum that this incidence and those after it in the cell add to the log-odds of a
-    # wall, shape (K,), float32. Incidences that can gain come first
+    # upper bound, for any map, of what this incidence and all after it in the cell add to the log-odds of a wall, (K,),
+    # float32. Incidences that can gain come first
     gain_bound: NDArray[np.float32]
-    # log-likelihood of a first hit here minus that of the likeliest outcome behind it, (K,), float32
-    advantage: NDArray[np.float32]
+    advantage: NDArray[np.float32]  # log-likelihood of a first hit here minus the largest one behind it, (K,), float32

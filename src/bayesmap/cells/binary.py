@@ -4,21 +4,20 @@ Cells of `Independent` are independent. `Ising` favours alike neighbours:
 
     p(walls) proportional to  prod_c p^m_c (1 - p)^(1 - m_c)  exp(coupling * sum over pairs [m_a = m_b])
 
-over all pairs of cells a, b of the grid that share an edge; m_c is 1 in a wall and 0 in a free cell. This is the model
-of Ising (1925), and the auto-logistic model of Besag (*Spatial interaction and the statistical analysis of lattice
-systems*, 1974). Given its neighbours a cell is a wall with log-odds
+over all pairs of cells a, b of the grid that share an edge; m_c is 1 in a wall and 0 in a free cell (Ising, 1925;
+Besag, *Spatial interaction and the statistical analysis of lattice systems*, 1974). Given its neighbours a cell is a
+wall with log-odds
 
     logit(p) + coupling * (walls - free cells among its neighbours)
 
 so p is the probability of a wall with as many walls as free cells around it. It is *not* the share of walls: among free
-neighbours a wall is rarer than p. At a coupling of 0, p is the share, and the prior is `Independent`. The density omits
-the normalising sum over all maps, which cannot be computed on large grids. So the coupling is fitted by the
-pseudo-likelihood, the product of every cell's probability given its neighbours (Besag, *Statistical analysis of
-non-lattice data*, 1975):
+neighbours a wall is rarer than p. The density omits the normalising sum over all maps, which cannot be computed on
+large grids. So the coupling is fitted by the pseudo-likelihood, the product of every cell's probability given its
+neighbours (Besag, *Statistical analysis of non-lattice data*, 1975):
 
     log PL(coupling) = sum_c  m_c eta_c - log(1 + exp(eta_c)),     eta_c = logit(p_c) + coupling * balance_c
 
-The balance of c is the number of walls less that of free cells among its neighbours. The log PL is concave in the
+The balance of c is the number of walls less the number of free cells among its neighbours. The log PL is concave in the
 coupling, and its maximum is consistent as maps grow. Cells that the prior fixes count as neighbours only.
 """
 

@@ -38,33 +38,20 @@ KINDS: dict[str, type[CellPrior]] = {}  # kinds by name: subclasses of `CellPrio
 
 
 class CellPrior(ABC):
-    """A kind of cells with its prior.
+    """A kind of cells with its prior."""
 
-    Attributes:
-        words: names of the kind and its maps.
-        arrays: specifications of the arrays of a draw.
-        methods: sampler of each supported method of `bayesmap.infer`, the default first (see
-            `bayesmap.samplers.methods`).
-        hit_depth: default stop of a beam in a cell, as a fraction of the beam's chord.
-        sensor_is_fitted: true if the command line fits the sensor unless one is given.
-        has_interval: true if a cell's state is a number with an interval.
-        has_surfaces: true if cells have surfaces.
-        sweeps_a_draw: default number of sweeps from one draw to the next.
-        has_walls: true if a cell is a wall or free. Users can then choose a wall probability, a start and an order of
-            cells, and fit a coupling.
-        thresholds: mean stop probabilities for a robot's map: a cell above the first is occupied, below the second
-            free if `evidence_interval` agrees (docs/defaults.md), else unknown; None leaves them to the format.
-    """
-
-    words: ClassVar[Words]
-    arrays: ClassVar[tuple[ArraySpec, ...]]
+    words: ClassVar[Words]  # names of the kind and its maps
+    arrays: ClassVar[tuple[ArraySpec, ...]]  # specifications of the arrays of a draw
+    # sampler of each supported method of `bayesmap.infer`, the default first (see `bayesmap.samplers.methods`)
     methods: ClassVar[Mapping[str, str]] = {"metropolis": "metropolis"}
-    hit_depth: ClassVar[float] = 0.5
-    sensor_is_fitted: ClassVar[bool] = False
-    has_interval: ClassVar[bool] = True
+    hit_depth: ClassVar[float] = 0.5  # default stop of a beam in a cell, as a fraction of the beam's chord
+    sensor_is_fitted: ClassVar[bool] = False  # whether the command line fits the sensor unless one is given
+    has_interval: ClassVar[bool] = True  # whether a cell's state is a number with an interval
     has_surfaces: ClassVar[bool] = False
-    sweeps_a_draw: ClassVar[int] = 1
-    has_walls: ClassVar[bool] = False
+    sweeps_a_draw: ClassVar[int] = 1  # default number of sweeps from one draw to the next
+    has_walls: ClassVar[bool] = False  # if so, a wall probability, a start, an order and a coupling can be chosen
+    # mean stop probabilities for a robot's map: a cell above the first is occupied, below the second free if
+    # `evidence_interval` agrees (docs/defaults.md), else unknown; None leaves them to the format
     thresholds: ClassVar[tuple[float, float] | None] = None
 
     @property
@@ -102,10 +89,9 @@ class CellPrior(ABC):
     def propose(
         self, cells: Cells, site: tuple[int, int], rng: np.random.Generator, grid: Grid
     ) -> tuple[dict[str, Any], float]:
-        """Propose another state for one cell, for `bayesmap.samplers.metropolis`.
+        """Propose a cell's new value of every array. Returns it and the log of prior ratio times proposal ratio.
 
-        The default draws a state from the prior, which is right if the prior makes cells independent. Returns the
-        cell's new value of every array, and the log of prior ratio times proposal ratio.
+        The default draws from the prior, which is right if the prior makes cells independent.
         """
         fresh = self.sample_cells(rng, Grid((1, 1), grid.resolution))
         return {name: values[0, 0] for name, values in fresh.items()}, 0.0
@@ -114,12 +100,7 @@ class CellPrior(ABC):
 
     @abstractmethod
     def stops(self, cells: Cells, grid: Grid) -> NDArray[np.floating]:
-        """Return the cells' stops, in the form that the law of stops and the predictive kernel read.
-
-        Without surfaces, it is the probability that each cell stops a beam that comes to it, (N,), at the hit depth.
-        With surfaces, (N, 6): reflectivity, mean x and y in metres from the grid's lower left corner, and the Cholesky
-        factor l11, l21, l22 of the covariance in metres. Cell (x, y) is ``x * ny + y``.
-        """
+        """Return the stops of all cells as `bayesmap.beams.rays.stops_of` takes them. Cell (x, y) is x * ny + y."""
 
     def mean_stop(self, grid: Grid) -> Floats:
         """Return the prior mean of the probability that a cell stops a beam, (nx, ny); by default from 200 draws."""
@@ -158,8 +139,7 @@ class CellPrior(ABC):
     def evidence_interval(self, draws: Draws, level: float) -> tuple[Floats, Floats] | None:
         """Return the central interval of each cell's chance to stop a beam under a uniform prior, (nx, ny) each.
 
-        It says what the beams alone tell: a cell that few beams reached has a wide one, whatever its prior says. The
-        default is None: this kind counts no beams.
+        A cell that few beams reached has a wide one, whatever its prior says. The default is None: no beam is counted.
         """
         return None
 

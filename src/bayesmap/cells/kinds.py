@@ -1,7 +1,7 @@
 """The built-in kinds of cells by name, the prior of a description, and the defaults for a laser log.
 
-The defaults fit any building: the noise is that of a good laser, widened because the wall's position within its cell
-is unknown. They were chosen among a few round values by held-out score on a public office log (docs/lab/maps.md).
+The defaults fit any building. The noise of a good laser is widened, because the wall's position within its cell is
+unknown. They were chosen among a few round values by held-out score on a public office log (docs/lab/maps.md).
 """
 
 from __future__ import annotations

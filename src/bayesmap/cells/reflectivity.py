@@ -1,8 +1,7 @@
 """Reflectivities: a cell stops some of the beams that come to it.
 
 Binary walls are too rigid for glass, chair legs, people and cells that a wall fills in part. Here a cell has a
-reflectivity m in [0, 1], the chance that it stops a beam. A stopped beam stops at the cell's hit depth.
-`Beta` says how cells are coupled.
+reflectivity m in [0, 1], the chance that it stops a beam at the cell's hit depth.
 """
 
 from __future__ import annotations
@@ -39,10 +38,7 @@ POOL_SEED = 1  # seed of the pool of states drawn from the prior
 
 
 class KernelNumbers(NamedTuple):
-    """The parameters of a prior in the form of `bayesmap.kernels.surfaces.cell`, lengths in metres.
-
-    They belong to reflectivities (a, b), labels (coupling, a_solid, b_solid) and surfaces (the others).
-    """
+    """Parameters of reflectivities (a, b), labels (coupling, a_solid, b_solid) and surfaces (the others), in metres."""
 
     a: float
     b: float
@@ -128,7 +124,7 @@ class Beta(CellPrior):
 
     @property
     def first_spread(self) -> float:
-        """Spread of a cell's readings for the initial estimate, in edges of a cell."""
+        """Size of surfaces for the initial estimate, in edges of a cell."""
         return 0.3
 
     def log_prob(self, cells: Cells, grid: Grid) -> float:
@@ -180,11 +176,9 @@ class Beta(CellPrior):
         return np.full(grid.shape, self.mean)
 
     def default_draws(self, beams: int, cells: int, chains: int, thin: int = 1) -> int:
-        """Return the default number of draws per chain, between 100 (50 if ``thin`` is 1) and 200.
+        """Return the default number of draws per chain, between 100 (50 if ``thin`` is 1) and 200 (docs/defaults.md).
 
-        Their time is that of 100 (50) draws with 100 000 beams. With fewer beams the map is less certain, so its
-        predictions need more draws (docs/defaults.md), and a sweep is faster. Large grids reduce the number towards the
-        minimum, to fit the draws into 1 GiB.
+        They take the time of 100 (50) draws with 100 000 beams. Large grids get fewer, to fit the draws into 1 GiB.
         """
         fewest = MIN_DRAWS_UNTHINNED if thin == 1 else MIN_DRAWS
         affordable = BEAMS_AT_MIN_DRAWS * fewest // max(beams, 1)
@@ -192,26 +186,21 @@ class Beta(CellPrior):
         return max(fewest, min(affordable, fitting, MAX_DRAWS))
 
     def kernel_numbers(self, edge_m: float) -> KernelNumbers:
-        """Return the prior's parameters for kernels, which ignore those of surfaces here."""
+        """Return the prior's parameters for kernels, which ignore the parameters of surfaces here."""
         return KernelNumbers(
             self.a, self.b, edge_m, edge_m**2, 3.0, edge_m, 0.5 * edge_m, self.coupling, self.a_solid, self.b_solid
         )
 
     def map_of(self, draws: Draws, chain: int, draw: int) -> Floats:
-        """Return the chance that each cell stops a beam in one draw, (nx, ny).
-
-        Untouched cells have the prior's mean, given their label if cells have labels.
-        """
+        """Return each cell's chance to stop a beam in one draw, (nx, ny); untouched cells have the prior's mean."""
         elsewhere: Floats | float = self.mean
         if self.has_labels:
             elsewhere = self.mean_given(ising_field.labels_of_draw(draws, chain, draw))
         return draws.to_grid(draws.arrays[self.shown[0]][chain, draw], "cell", elsewhere)
 
     def mean_map(self, draws: Draws) -> Floats:
-        """Return the mean of the draws' expected chances to stop a beam, (nx, ny); NaN without draws.
-
-        It has the same limit as the mean of drawn chances, and less noise. Untouched cells are as in `map_of`.
-        """
+        """Return the mean of the draws' expected chances to stop a beam, (nx, ny); NaN without draws."""
+        # It has the same limit as the mean of drawn chances, and less noise.
         if draws.size == 0:
             return np.full(draws.grid.shape, np.nan)
         elsewhere = self.mean_given(ising_field.solid_share(draws)) if self.has_labels else self.mean
@@ -259,12 +248,9 @@ class Beta(CellPrior):
         return np.asarray(draws.arrays[self.shown[1]][:, :, np.searchsorted(draws.index["cell"], cells)])
 
     def predictive_stops(self, draws: Draws, cells: NDArray[np.int32] | None = None) -> Iterator[NDArray[np.float32]]:
-        """Yield the stops of each draw with expected reflectivities, in batches of draws.
-
-        The density of a reading is linear in each cell's reflectivity. So expected reflectivities give the same mean
-        density over draws as drawn reflectivities, with less noise. Untouched cells have the prior's mean, given their
-        label if cells have labels.
-        """
+        """Yield the stops of each draw with expected reflectivities; untouched cells have the prior's mean."""
+        # The density of a reading is linear in each cell's reflectivity. So expected reflectivities give the same mean
+        # density over draws as drawn reflectivities, with less noise.
         return self._stops_of_draws(draws, cells, drawn=False)
 
     def drawn_stops(self, draws: Draws, cells: NDArray[np.int32] | None = None) -> Iterator[NDArray[np.float32]]:

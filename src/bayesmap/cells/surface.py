@@ -1,7 +1,7 @@
 """Surfaces: each cell has a reflectivity, and a normal distribution of the points at which it stops beams.
 
 Normal-distributions-transform maps (Biber and Strasser, 2003) store the same distribution; here it is inferred.
-`bayesmap.kernels.surfaces.cell` computes how a surface stops a beam.
+`bayesmap.kernels.surfaces.surface` computes how a surface stops a beam.
 """
 
 from __future__ import annotations
@@ -31,6 +31,7 @@ def _spec(part: str) -> ArraySpec:
     return ArraySpec(f"surface_{part}", ("surface_cell",), "float32", "half", f"{text}, in edges of a cell")
 
 
+# Values that maps show. They count all stops in a square, whichever cell the surface belongs to.
 STOP_CHANCES = tuple(
     ArraySpec(name, ("cell",), "float32", "half", meaning)
     for name, meaning in (
@@ -38,8 +39,6 @@ STOP_CHANCES = tuple(
         ("expected_stop_chance", "mean of the stop chance given where the draw's beams stop"),
     )
 )
-"""Values that maps show. They count all stops in a square, whichever cell the surface belongs to
-(`bayesmap.kernels.surfaces.square_counts`)."""
 
 
 @dataclass(frozen=True)
@@ -92,13 +91,11 @@ class Surface(Beta):
         return self.spread
 
     def log_prob(self, cells: Cells, grid: Grid) -> float:
-        """Compute the log density of (logit m, mean, log l11, l21, log l22) of all cells, up to a constant, in metres.
-
-        Powers of l11 and l22 combine |Sigma|^-(nu + 3)/2 = (l11 l22)^-(nu + 3) and the Jacobian 4 l11^3 l22^2.
-        """
+        """Compute the log density of (logit m, mean, log l11, l21, log l22) of all cells, up to a constant, metres."""
         edge = grid.resolution
         x, y, l11, l21, l22 = (np.asarray(cells[f"surface_{part}"], dtype=np.float64) * edge for part in PARTS)
-        # Inverse Wishart: determinant and Jacobian, then -psi / 2 times the trace of the inverse of Sigma.
+        # Inverse Wishart: |Sigma|^-(nu + 3)/2 = (l11 l22)^-(nu + 3) times the Jacobian 4 l11^3 l22^2, then -psi / 2
+        # times the trace of the inverse of Sigma.
         q = l21 / (l11 * l22)
         shape = -self.dof * np.log(l11) - (self.dof + 1) * np.log(l22)
         shape -= 0.5 * (self.spread * edge) ** 2 * (1 / l11**2 + 1 / l22**2 + q**2)
@@ -129,10 +126,8 @@ class Surface(Beta):
         return surfaces
 
     def _sample_unbounded(self, rng: np.random.Generator, count: int) -> Floats:
-        """Draw surfaces without the factor that bounds their size, (count, 5).
-
-        Means are truncated normals by inversion; Cholesky factors invert Bartlett's factor of the Wishart law.
-        """
+        """Draw surfaces without the factor that bounds their size, (count, 5)."""
+        # Means are truncated normals by inversion; Cholesky factors invert Bartlett's factor of the Wishart law.
         a11 = np.sqrt(rng.chisquare(self.dof, count))
         a22 = np.sqrt(rng.chisquare(self.dof - 1.0, count))
         a21 = rng.standard_normal(count)

@@ -212,7 +212,7 @@ def _without_draws(run_file: str, run: Run) -> BadInput:
 
 def log_odds_map(run: Run) -> tuple[NDArray[np.float64], Walls]:
     """Compute the log-odds map of the run's scans, with OctoMap's numbers, unclamped, and a mask of the seen cells."""
-    from bayesmap.kernels.counts import count_hits
+    from bayesmap.kernels.rays import count_hits
     from bayesmap.posterior.baselines import log_odds_as_usual
 
     hits, passes = (counts.reshape(run.grid.shape) for counts in count_hits(run.posterior.scans, run.grid))

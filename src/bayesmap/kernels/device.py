@@ -1,8 +1,7 @@
 """Start Warp, put arrays on a device, and launch a kernel on all cores.
 
-Warp runs a CPU launch on the calling thread and releases the GIL, so `launch` runs one slice per thread, the first on
-its own. Kernels take the index of their first element first, and write only to their own elements: threads do not
-change the result.
+Warp runs a CPU launch on the calling thread and releases the GIL, so `launch` runs one slice per thread. Kernels write
+only to their own elements: threads do not change the result.
 """
 
 import contextlib
@@ -20,17 +19,15 @@ from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
 
+# Arrays in main memory; then arrays on a device, with one dimension (s) and with two (Rows).
 Floats = NDArray[np.float64]
 Singles = NDArray[np.float32]
 Ints = NDArray[np.int32]
-"""Types of arrays in main memory."""
 Int32s, Float32s = wp.array(dtype=wp.int32), wp.array(dtype=wp.float32)
 Float64s, Uint8s = wp.array(dtype=wp.float64), wp.array(dtype=wp.uint8)
 Vec2ds, Vec3ds = wp.array(dtype=wp.vec2d), wp.array(dtype=wp.vec3d)
-"""Types of arrays on a device."""
 Int32Rows, Float32Rows = wp.array2d(dtype=wp.int32), wp.array2d(dtype=wp.float32)
 Float64Rows, Uint8Rows = wp.array2d(dtype=wp.float64), wp.array2d(dtype=wp.uint8)
-"""Types of arrays with two dimensions on a device."""
 
 _STARTING = threading.Lock()
 
@@ -67,7 +64,7 @@ def _no_stderr() -> Iterator[None]:
 
 
 def resolve(name: str = "cpu") -> str:
-    """Check a device name such as "cpu" or "cuda:0". Raises BadInput: no such device on this machine."""
+    """Return Warp's name of a device such as "cpu" or "cuda:0". Raises `BadInput` if this machine does not have it."""
     start()
     known = [device.alias for device in wp.get_devices()]
     alias = "cuda:0" if name == "cuda" else name
@@ -84,16 +81,14 @@ def to_device(array: np.ndarray[Any, Any], dtype: Any, device: str) -> Any:
 
 
 def pack(kind: Any, device: str, /, **values: Any) -> Any:
-    """Return a struct for kernels, with arrays of the types of its fields. A NumPy array is put on the device. A shape,
-    a tuple, stands for an array of zeros where the field is an array.
-    """
+    """Return a struct for kernels. NumPy arrays are put on the device; for an array, a shape stands for zeros."""
     packed = kind()
     for name, value in values.items():
-        setattr(packed, name, _argument(value, kind.vars[name].type, device))
+        setattr(packed, name, _as_argument(value, kind.vars[name].type, device))
     return packed
 
 
-def _argument(value: Any, kind: Any, device: str) -> Any:
+def _as_argument(value: Any, kind: Any, device: str) -> Any:
     """Return a value for a field or an argument of this type, see `pack`."""
     if isinstance(value, np.ndarray):
         return to_device(value, kind.dtype, device)
@@ -109,6 +104,11 @@ def load_kernels(kernel: Any, device: str) -> None:
 
 
 FEW_BEAMS = 1_000  # fewer beams than this are traced before a second thread has started, which takes 0.2 ms
+
+
+def ceil_div(a: Any, b: int) -> Any:
+    """Return a / b rounded up, for integers and arrays of integers."""
+    return -(-a // b)
 
 
 def available_cores() -> int:
@@ -139,10 +139,10 @@ def launch(
 ) -> list[Any]:
     """Run ``kernel(first, *inputs)`` over ``size`` elements from ``begin`` on; on the CPU, one slice per thread.
 
-    NumPy arrays among the inputs are put on the device with the types of the kernel's arguments. A shape, a tuple,
-    stands for an output, zero at first. Returns the outputs in main memory.
+    ``first`` is the index of a slice's first element. NumPy arrays among the inputs are put on the device with the
+    types of the kernel's arguments. A shape, a tuple, stands for an output, zero at first. Returns the outputs.
     """
-    arguments = [_argument(value, a.type, device) for value, a in zip(inputs, kernel.adj.args[1:], strict=True)]
+    arguments = [_as_argument(value, a.type, device) for value, a in zip(inputs, kernel.adj.args[1:], strict=True)]
     threads = min(threads or available_cores(), size) if device == "cpu" else 1
     if size > 0 and threads == 1:
         wp.launch(kernel, dim=size, inputs=[begin, *arguments], device=device)

@@ -38,14 +38,14 @@ def law_table_to_device(law: TabulatedLaw, device: str, least: float = -math.inf
 
 @wp.func
 def node(x: wp.float32, nodes: int) -> wp.vec2:
-    """Return the node below x in [0, 1], and the share of the way from there to the next node."""
-    at = wp.clamp(x, wp.float32(0.0), wp.float32(1.0)) * wp.float32(nodes - 1)
-    low = wp.min(wp.floor(at), wp.float32(nodes - 2))
-    return wp.vec2(low, at - low)
+    """Return the index of the node below x in [0, 1], and the share of the way from there to the next node."""
+    position = wp.clamp(x, wp.float32(0.0), wp.float32(1.0)) * wp.float32(nodes - 1)
+    low = wp.min(wp.floor(position), wp.float32(nodes - 2))
+    return wp.vec2(low, position - low)
 
 
 @wp.func
-def interpolated(values: Float32s, x: wp.float32) -> wp.float32:
+def interpolate(values: Float32s, x: wp.float32) -> wp.float32:
     """Interpolate linearly between evenly spaced nodes."""
     n = node(x, values.shape[0])
     i = int(n[0])
@@ -53,42 +53,42 @@ def interpolated(values: Float32s, x: wp.float32) -> wp.float32:
 
 
 @wp.func
-def in_plane(values: Float32Rows, x: wp.float32, y: wp.float32) -> wp.float32:
+def interpolate_2d(values: Float32Rows, x: wp.float32, y: wp.float32) -> wp.float32:
     """Interpolate bilinearly in two dimensions."""
     n = node(x, values.shape[0])
     i = int(n[0])
-    low = interpolated(values[i], y)
-    return low + n[1] * (interpolated(values[i + 1], y) - low)
+    low = interpolate(values[i], y)
+    return low + n[1] * (interpolate(values[i + 1], y) - low)
 
 
 @wp.func
-def in_space(values: wp.array3d(dtype=wp.float32), x: wp.float32, y: wp.float32, z: wp.float32) -> wp.float32:
+def interpolate_3d(values: wp.array3d(dtype=wp.float32), x: wp.float32, y: wp.float32, z: wp.float32) -> wp.float32:
     """Interpolate trilinearly in three dimensions."""
     n = node(x, values.shape[0])
     i = int(n[0])
-    low = in_plane(values[i], y, z)
-    return low + n[1] * (in_plane(values[i + 1], y, z) - low)
+    low = interpolate_2d(values[i], y, z)
+    return low + n[1] * (interpolate_2d(values[i + 1], y, z) - low)
 
 
 @wp.func
 def readings_scale_m(table: LawTable, distance_m: wp.float32, max_m: wp.float32) -> wp.float32:
     """Return the scale on which readings scatter about a stop at the distance, metres."""
-    return interpolated(table.scale_m, distance_m / max_m)
+    return interpolate(table.scale_m, distance_m / max_m)
 
 
 @wp.func
-def spread_node(scale: wp.float32, variance: wp.float32) -> wp.float32:
-    """Return the place of a spread among its nodes, 0 to 1."""
+def spread_coordinate(scale: wp.float32, variance: wp.float32) -> wp.float32:
+    """Return the coordinate of a spread among its nodes, 0 to 1."""
     spread = wp.min(wp.sqrt(variance) / scale, WIDEST_SPREAD)
     return spread / (wp.float32(1.0) + spread) * (wp.float32(1.0) + WIDEST_SPREAD) / WIDEST_SPREAD
 
 
 @wp.func
-def offset_node(table: LawTable, off: wp.float32) -> wp.float32:
-    """Return the place of a standard offset among its nodes, 0 to 1."""
-    size = wp.abs(off)
-    grown = wp.log(size + wp.sqrt(size * size + wp.float32(1.0)))
-    return wp.float32(0.5) + wp.float32(0.5) * wp.sign(off) * grown / table.most
+def offset_coordinate(table: LawTable, offset: wp.float32) -> wp.float32:
+    """Return the coordinate of a standard offset among its nodes, 0 to 1."""
+    size = wp.abs(offset)
+    arsinh = wp.log(size + wp.sqrt(size * size + wp.float32(1.0)))
+    return wp.float32(0.5) + wp.float32(0.5) * wp.sign(offset) * arsinh / table.most
 
 
 @wp.func
@@ -111,16 +111,16 @@ def unbounded_log_density(table: LawTable, reading_m: Any, distance_m: Any, vari
     if d > top:
         if typed:
             return type(reading_m)(table.log_typed_nowhere[wp.where(z > wp.float32(0.0), 1, 0)])
-        return type(reading_m)(interpolated(table.log_nowhere, (z - table.low_m) / (table.high_m - table.low_m)))
+        return type(reading_m)(interpolate(table.log_nowhere, (z - table.low_m) / (table.high_m - table.low_m)))
     # Interpolate at distance, spread and offset.
-    along = d / top
+    depth = d / top
     scale = readings_scale_m(table, d, top)
-    part = spread_node(scale, wp.float32(variance))
+    spread = spread_coordinate(scale, wp.float32(variance))
     if typed:
-        return type(reading_m)(in_plane(table.log_typed[wp.where(z > wp.float32(0.0), 1, 0)], part, along))
+        return type(reading_m)(interpolate_2d(table.log_typed[wp.where(z > wp.float32(0.0), 1, 0)], spread, depth))
     width = wp.sqrt(scale * scale + wp.float32(variance))
-    off = offset_node(table, (z - d) / width)
-    return type(reading_m)(in_space(table.log_density, part, along, off) - wp.log(width))
+    offset = offset_coordinate(table, (z - d) / width)
+    return type(reading_m)(interpolate_3d(table.log_density, spread, depth, offset) - wp.log(width))
 
 
 @wp.func
@@ -133,9 +133,8 @@ def table_cumulative(table: LawTable, reading_m: Any, distance_m: Any, variance:
     if table.typed != 0:
         z = wp.clamp(z, table.min_m, top)
     if d > top:
-        return type(reading_m)(interpolated(table.below_nowhere, (z - table.low_m) / (table.high_m - table.low_m)))
-    along = d / top
+        return type(reading_m)(interpolate(table.below_nowhere, (z - table.low_m) / (table.high_m - table.low_m)))
     scale = readings_scale_m(table, d, top)
-    width = wp.sqrt(scale * scale + wp.float32(variance))
-    off = offset_node(table, (z - d) / width)
-    return type(reading_m)(in_space(table.below, spread_node(scale, wp.float32(variance)), along, off))
+    spread = spread_coordinate(scale, wp.float32(variance))
+    offset = offset_coordinate(table, (z - d) / wp.sqrt(scale * scale + wp.float32(variance)))
+    return type(reading_m)(interpolate_3d(table.below, spread, d / top, offset))

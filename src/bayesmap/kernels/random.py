@@ -1,8 +1,7 @@
 """Counter-based random numbers, permutations and variates: each depends on its key and its counter alone.
 
 The generator is SplitMix64 (Steele, Lea and Flood, OOPSLA 2014) read at a given counter. A key stands for (seed, chain,
-stream), a counter for (sweep, cell). So results do not depend on the number of threads, and a resumed chain repeats
-exactly what an uninterrupted chain draws.
+stream), a counter for (sweep, cell): results do not depend on threads, and a resumed chain repeats exactly.
 """
 
 import warp as wp
@@ -30,9 +29,11 @@ def to_uniform(bits: wp.uint64) -> wp.float64:
     return (wp.float64(bits >> wp.uint64(11)) + wp.float64(0.5)) * TO_UNIT
 
 
-BEAMS, CELLS, MEETINGS, SURFACES = (wp.constant(part) for part in range(4))
-"""Parts of a sweep. BEAMS: stops of beams. CELLS: reflectivities, labels, and surfaces of free cells. In cells in which
-readings end, MEETINGS: which passing beams met the surface; SURFACES: the steps of the surface."""
+# Parts of a sweep.
+BEAMS = wp.constant(0)  # stops of beams
+CELLS = wp.constant(1)  # reflectivities, labels, and surfaces of cells in which no reading ends
+MEETINGS = wp.constant(2)  # which passing beams met the surfaces of cells in which readings end
+SURFACES = wp.constant(3)  # steps of these surfaces
 
 
 @wp.func
@@ -66,11 +67,9 @@ def scramble(x: wp.uint32, key: wp.uint32) -> wp.uint32:
 
 @wp.func
 def shuffled(i: wp.uint32, size: wp.uint32, bits: wp.uint32, key: wp.uint64) -> wp.uint32:
-    """Return element i of a pseudo-random permutation of range(size), for a size of at most 2^bits.
-
-    A Feistel cipher with four rounds; a result outside the range is enciphered again until it falls inside (cycle
-    walking; Black and Rogaway, *Ciphers with arbitrary finite domains*, 2002).
-    """
+    """Return element i of a pseudo-random permutation of range(size), for a size of at most 2^bits."""
+    # A Feistel cipher with four rounds. A result outside the range is enciphered again until it falls inside (cycle
+    # walking; Black and Rogaway, *Ciphers with arbitrary finite domains*, 2002).
     low_bits = bits / wp.uint32(2)
     low_mask = (wp.uint32(1) << low_bits) - wp.uint32(1)
     high_mask = (wp.uint32(1) << (bits - low_bits)) - wp.uint32(1)
@@ -99,7 +98,7 @@ TWO_PI = wp.constant(wp.float64(6.283185307179586))
 SQUEEZE = wp.constant(wp.float64(0.0331))  # constant of Marsaglia and Tsang's quick acceptance
 MIDDLE = wp.constant(wp.float32(2.0 * 0xFFFF))  # mean of the sum of four numbers from 0 to 0xFFFF
 PER_DEVIATION = wp.constant(wp.float32((3.0 / (0x10000**2 - 1.0)) ** 0.5))  # their variance is (2^32 - 1) / 12 each
-NOTHING = wp.constant(wp.float64(-100.0))  # log of a negligible factor, see `beta_or_nothing`
+LOG_NEGLIGIBLE = wp.constant(wp.float64(-100.0))  # log of a negligible factor, see `beta_or_zero`
 PER_GAMMA = 64  # counters reserved per gamma variate: its rejection fails 1 in 20 times, never 30 times in a row
 
 
@@ -122,12 +121,9 @@ def nearly_normal(bits: wp.uint64) -> wp.float32:
 
 @wp.func
 def log_gamma_variate(shape: wp.float64, key: wp.uint64, counter: wp.uint64) -> wp.float64:
-    """Return the logarithm of a gamma variate of scale 1 (Marsaglia and Tsang, 2000); takes `PER_GAMMA` counters.
-
-    A shape below one is raised by one, and the variate is multiplied by U^(1/shape). This factor can underflow, so the
-    result is a logarithm.
-    """
-    # d, c: constants of the method; n: next counter; x: normal variate; u: uniform number; v: proposal over d.
+    """Return the logarithm of a gamma variate of scale 1 (Marsaglia and Tsang, 2000); takes `PER_GAMMA` counters."""
+    # A shape below one is raised by one, and the variate is multiplied by U^(1/shape), which can underflow: hence the
+    # logarithm. d, c: constants of the method; n: next counter; x: normal variate; u: uniform number; v: proposal / d.
     one = wp.float64(1.0)
     raised = wp.where(shape < one, shape + one, shape)
     d = raised - one / wp.float64(3.0)
@@ -164,13 +160,11 @@ def beta_variate(a: wp.float64, b: wp.float64, key: wp.uint64, counter: wp.uint6
 
 
 @wp.func
-def beta_or_nothing(a: wp.float64, b: wp.float64, key: wp.uint64, counter: wp.uint64) -> wp.float64:
-    """Return a beta variate, or 0 if it would be below e^-70; the latter usually costs a single logarithm.
-
-    A gamma variate of shape a < 1 is a variate of shape a + 1 times U^(1/a). If that factor is at most e^-100, the
-    variate is negligible beside a variate whose shape is over one.
-    """
+def beta_or_zero(a: wp.float64, b: wp.float64, key: wp.uint64, counter: wp.uint64) -> wp.float64:
+    """Return a beta variate, or 0 if it would be below e^-70, which usually costs a single logarithm."""
+    # A gamma variate of shape a < 1 is a variate of shape a + 1 times U^(1/a). If this factor is at most e^-100, the
+    # variate is negligible beside a variate whose shape is over one.
     one = wp.float64(1.0)
-    if a < one and b > one and wp.log(to_uniform(random_bits(key, counter))) < NOTHING * a:
+    if a < one and b > one and wp.log(to_uniform(random_bits(key, counter))) < LOG_NEGLIGIBLE * a:
         return wp.float64(0.0)
     return beta_variate(a, b, key, counter)

@@ -1,4 +1,4 @@
-"""Trace rays: count the cells of each beam, then list them. Compute where a beam crosses a cell."""
+"""Trace rays: list the cells of each beam, compute where it crosses them, and count hits and passes of cells."""
 
 from collections.abc import Callable
 from typing import Any
@@ -7,11 +7,11 @@ import numpy as np
 import warp as wp
 from numpy.typing import ArrayLike
 
-from bayesmap.beams.rays import MAX_INCIDENCES, PARALLEL, Rays
+from bayesmap.beams.rays import MAX_INCIDENCES, Rays
 from bayesmap.errors import BadInput
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.device import Float32s, Float64s, Floats, Int32s, Ints, Singles, Vec2ds
-from bayesmap.kernels.walk import Walk, cell_before, is_inside, walk_begin, walk_next
+from bayesmap.kernels.device import Float32s, Float64s, Floats, Int32Rows, Int32s, Ints, Singles, Uint8s, Vec2ds
+from bayesmap.kernels.walk import PARALLEL, Walk, cell_before, is_inside, walk_begin, walk_next
 from bayesmap.sensors.model import RangeLimits
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
@@ -19,8 +19,6 @@ from bayesmap.space.scans import Scans
 wp.set_module_options({"enable_backward": False})
 
 BEAMS_AT_ONCE = 1 << 16  # beams traced between two reports of progress
-
-LEAST_COSINE = wp.constant(wp.float64(PARALLEL))
 
 
 @wp.struct
@@ -55,14 +53,14 @@ class Slab:
 
 
 @wp.func
-def slab_of(start: wp.float64, along: wp.float64) -> Slab:
-    """Return one axis of a line from its start and its direction, in units of cells."""
+def slab_of(start: wp.float64, cosine: wp.float64) -> Slab:
+    """Return one axis of a line from its start, in units of cells, and its direction cosine."""
     s = Slab()
     s.start = start
-    if wp.abs(along) >= LEAST_COSINE:
-        s.per_cell = wp.float64(1.0) / along
-        s.onward = wp.where(along > wp.float64(0.0), 1, -1)
-        s.side = wp.where(along > wp.float64(0.0), 0, 1)
+    if wp.abs(cosine) >= PARALLEL:
+        s.per_cell = wp.float64(1.0) / cosine
+        s.onward = wp.where(cosine > wp.float64(0.0), 1, -1)
+        s.side = wp.where(cosine > wp.float64(0.0), 0, 1)
         s.first = cell_before(start, s.onward)
     return s
 
@@ -112,14 +110,14 @@ def stretch(line: Line, cell: int) -> wp.vec2d:
     leave = wp.float64(1.0e300)
     holds_start = bool(True)
     if line.x.onward != 0:
-        at = wp.float64(x + line.x.side) - line.x.start
-        enter = wp.max(enter, at * line.x.per_cell)
-        leave = (at + wp.float64(line.x.onward)) * line.x.per_cell
+        to_side_x = wp.float64(x + line.x.side) - line.x.start
+        enter = wp.max(enter, to_side_x * line.x.per_cell)
+        leave = (to_side_x + wp.float64(line.x.onward)) * line.x.per_cell
         holds_start = x == line.x.first
     if line.y.onward != 0:
-        at_y = wp.float64(y + line.y.side) - line.y.start
-        enter = wp.max(enter, at_y * line.y.per_cell)
-        leave = wp.min(leave, (at_y + wp.float64(line.y.onward)) * line.y.per_cell)
+        to_side_y = wp.float64(y + line.y.side) - line.y.start
+        enter = wp.max(enter, to_side_y * line.y.per_cell)
+        leave = wp.min(leave, (to_side_y + wp.float64(line.y.onward)) * line.y.per_cell)
         holds_start = holds_start and y == line.y.first
     leave = wp.max(leave, zero)
     # The cell of the start is met where the beam leaves it.
@@ -153,24 +151,22 @@ def first_past(line: Line, cells: Int32s, begin: int, end: int, distance_m: wp.f
 def list_cells(
     first: int, lines: Lines, reach_m: Float64s, near_m: Float64s, offsets: Int32s, cells: Int32s, near: Int32s
 ):
-    """One thread per beam: write its cells, and find the first cell that it enters at ``near_m`` or later. Without room
-    for cells nothing is written: at an infinite ``near_m``, ``near`` is then the number of cells.
-    """
-    # b: beam; w: its walk; k: next entry.
+    """One thread per beam: write its cells, and the entry of the first cell that it enters at ``near_m`` or later."""
+    # b: beam; w: its walk; k: next entry. Without room for cells, and at an infinite ``near_m``, cells are counted.
     b = first + wp.tid()
     k = offsets[b]
-    begins = near_m[b] / lines.edge_m
+    near_distance = near_m[b] / lines.edge_m
     w = walk_along(line_of(lines, b), lines.nx, reach_m[b])
-    entered = int(k)
+    near_entry = int(k)
     while w.distance <= w.end:
         if is_inside(w, lines.nx, lines.ny):
             if cells.shape[0] > 0:
                 cells[k] = w.cell_x * lines.ny + w.cell_y
             k += 1
-            if w.distance < begins:
-                entered = k
+            if w.distance < near_distance:
+                near_entry = k
         w = walk_next(w)
-    near[b] = entered
+    near[b] = near_entry
 
 
 @wp.kernel
@@ -211,16 +207,16 @@ def beam_lines(scans: Scans, grid: Grid) -> tuple[Floats, Floats]:
 
 def trace_rays(
     scans: Scans, grid: Grid, *, poses_world: ArrayLike | None = None, reach_m: Floats | None = None,
-    near_m: Floats | None = None, device: str = "cpu", on_progress: Callable[[int, int], None] = lambda done,
-    total: None,
+    near_m: Floats | None = None, device: str = "cpu",
+    on_progress: Callable[[int, int], None] = lambda done, total: None,
 ) -> Rays:  # fmt: skip
     """Follow every beam of S scans of A beams through a grid: beam ``s * A + a`` of the rays is beam a of scan s.
 
     Beams with invalid readings, and beams that a scan does not have, get no entry. ``poses_world`` are other poses for
     the scans, as `bayesmap.space.scans.Scans.at` takes them. Each beam is followed for ``reach_m``, (B,), at most to
     the sensor's largest range, the default. No stop before ``near_m``, (B,), could explain its reading; 0 if None.
-    ``on_progress`` gets the beams done and all beams; each beam is followed twice. Raises BadInput: more incidences
-    than 32-bit indices can count.
+    ``on_progress`` gets the beams done and all beams; each beam is followed twice. Raises `BadInput` if 32-bit indices
+    cannot count the incidences.
     """
     device = devices.resolve(device)
     scans = scans if poses_world is None else scans.at(poses_world)
@@ -231,7 +227,7 @@ def trace_rays(
     lines = lines_to_device(start_m, direction, grid, device)
     reach = devices.to_device(reach, wp.float64, device)
 
-    def follow(beams_before: int, near_m: Floats, offsets: Ints, cells: Any) -> Ints:
+    def follow_beams(beams_before: int, near_m: Floats, offsets: Ints, cells: Any) -> Ints:
         """Follow all beams, a piece at a time. Returns the ``near`` of `list_cells`."""
         near = wp.empty(beams, dtype=wp.int32, device=device)
         arrays = [devices.to_device(near_m, wp.float64, device), devices.to_device(offsets, wp.int32, device)]
@@ -243,16 +239,16 @@ def trace_rays(
         return np.asarray(near.numpy())
 
     # The first walk counts the cells of each beam, the second lists them.
-    counts = follow(0, np.full(beams, np.inf), np.zeros(beams), wp.empty(0, dtype=wp.int32, device=device))
+    counts = follow_beams(0, np.full(beams, np.inf), np.zeros(beams), wp.empty(0, dtype=wp.int32, device=device))
     offsets = offsets_of(counts)
     cells = wp.empty(int(offsets[-1]), dtype=wp.int32, device=device)
-    near = follow(beams, np.zeros(beams) if near_m is None else near_m, offsets, cells)
+    near = follow_beams(beams, np.zeros(beams) if near_m is None else near_m, offsets, cells)
     limits = RangeLimits(scans.min_range_m, scans.max_range_m)
     return Rays(grid, offsets, cells.numpy(), near, start_m, direction, ranges, limits)
 
 
 def offsets_of(counts: Ints) -> Ints:
-    """Return the first entry of each beam, and the end of the last beam's, (B + 1,); refuse over 2^31 entries."""
+    """Return the first entry of each beam and the number of entries, (B + 1,). Raises `BadInput` if over 2^31 - 1."""
     ends = np.cumsum(counts, dtype=np.int64)
     total = int(ends[-1]) if len(ends) else 0
     if total > MAX_INCIDENCES:
@@ -261,3 +257,68 @@ def offsets_of(counts: Ints) -> Ints:
             "use a coarser resolution, a shorter --max-range, or fewer scans"
         )
     return np.concatenate([[0], ends]).astype(np.int32)
+
+
+@wp.kernel
+def count_hits_and_passes(
+    first: int, lines: Lines, reach_m: Float64s, hit: Uint8s, bounds: Int32s, hits: Int32Rows, passes: Int32Rows
+):
+    """One thread per share of the beams: count hits and passes in rows of its own, (threads, cells)."""
+    # t: thread; b: beam; w: its walk; last: last cell of the grid touched.
+    t = first + wp.tid()
+    for b in range(bounds[t], bounds[t + 1]):
+        w = walk_along(line_of(lines, b), lines.nx, reach_m[b])
+        ends_inside = w.end >= reach_m[b] / lines.edge_m
+        last = int(-1)
+        while w.distance <= w.end:
+            if is_inside(w, lines.nx, lines.ny):
+                if last >= 0:
+                    passes[t, last] = passes[t, last] + 1
+                last = w.cell_x * lines.ny + w.cell_y
+            w = walk_next(w)
+        if last >= 0:
+            if hit[b] != wp.uint8(0) and ends_inside:
+                hits[t, last] = hits[t, last] + 1
+            else:
+                passes[t, last] = passes[t, last] + 1
+
+
+def count_hits(scans: Scans, grid: Grid, device: str = "cpu") -> tuple[Ints, Ints]:
+    """Count the beams that stopped in each cell and the beams that passed it, (nx * ny,) each.
+
+    A hit stops in the last cell touched at its range; outside the grid it passes all cells. A beam without return
+    passes all cells up to the sensor's range. Beams that are too close or invalid do not count.
+    """
+    device = devices.resolve(device)
+    ranges = scans.ranges_m.ravel()
+    hit = np.isfinite(ranges)
+    reach_m = np.where(hit, ranges, np.where(np.isposinf(ranges), scans.max_range_m, -1.0))
+    threads = devices.available_cores()
+    bounds = np.linspace(0, len(ranges), threads + 1).astype(np.int32)
+    counts = (threads, grid.n_cells)
+    inputs = [lines_to_device(*beam_lines(scans, grid), grid, device), reach_m, hit, bounds, counts, counts]
+    hits, passes = devices.launch(count_hits_and_passes, threads, inputs, device)
+    return hits.sum(axis=0, dtype=np.int32), passes.sum(axis=0, dtype=np.int32)
+
+
+@wp.kernel
+def add_passes(
+    first: int, offsets: Int32s, cells: Int32s, distance_m: Float32s, range_m: Float32s, end_cell: Int32s,
+    passes: Int32s,
+):  # fmt: skip
+    """One thread per beam: add one to every cell before the one in which its reading ends."""
+    b = first + wp.tid()
+    reading = range_m[b]
+    if wp.isnan(reading) or reading < wp.float32(0.0):
+        return
+    for k in range(offsets[b], offsets[b + 1]):
+        c = cells[k]
+        if c == end_cell[b] or distance_m[k] > reading:
+            return
+        wp.atomic_add(passes, c, 1)
+
+
+def count_passes(rays: Rays, end_cell: Ints, device: str) -> Ints:
+    """Count the beams that pass each cell of the grid before the cells in which they end, flat, (B,). Returns (N,)."""
+    inputs = [rays.offsets, rays.cells, stop_distances(rays, 0.0, device), rays.range_m, end_cell, (rays.grid.n_cells,)]
+    return np.asarray(devices.launch(add_passes, rays.n_beams, inputs, device, 1)[0])

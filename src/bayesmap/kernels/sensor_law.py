@@ -20,8 +20,8 @@ from bayesmap.sensors.tabulated import tabulated
 SIGMAS_TO_CERTAINTY = wp.constant(wp.float64(9.0))  # standard deviations past which the normal's cumulative is 0 or 1
 INV_SQRT_2 = wp.constant(wp.float64(0.7071067811865476))
 INV_PI = wp.constant(wp.float64(0.3183098861837907))
-MOST_TERMS = wp.constant(wp.float64(16.0))  # of the finite sums in `student_below`
-MAX_STEPS = wp.constant(400)  # of the continued fraction; it takes some tens
+MOST_TERMS = wp.constant(wp.float64(16.0))  # most terms of the finite sums in `student_below`
+MAX_STEPS = wp.constant(400)  # most steps of the continued fraction; it takes some tens
 TINY = wp.constant(wp.float64(1.0e-300))  # replaces zero in Lentz's method
 CLOSE = wp.constant(wp.float64(1.0e-14))  # relative change at which the continued fraction ends
 MOST_POWER = 16  # largest whole power computed by multiplication; a Student-t of more degrees is nearly normal
@@ -39,9 +39,8 @@ def noise_log_density(law: Any, square: Any):
 
 @wp.func
 def noise_density(law: Any, square: Any):
-    """Return the density of the standard noise of a sensor's law, at a squared distance. Student's t with an odd number
-    of degrees of freedom is height / (1 + square / dof)^power, without logarithms.
-    """
+    """Return the density of the standard noise of a sensor's law, at a squared distance."""
+    # Student's t with an odd number of degrees of freedom is height / (1 + square / dof)^power, without logarithms.
     if law.power > 0:
         base = type(square)(1.0) + square / law.dof
         product = base
@@ -92,10 +91,9 @@ def not_zero(x: wp.float64) -> wp.float64:
 
 @wp.func
 def student_below(dof: wp.float64, log_height: wp.float64, t: wp.float64) -> wp.float64:
-    """Return P(T <= t) for Student's t: half an incomplete beta function of (dof / 2, 1 / 2) at dof / (dof + t^2). For
-    whole dof it is a finite sum (Abramowitz and Stegun 26.7.3 and 26.7.4), which is ten times as fast.
-    """
-    # a: dof / 2; x: argument of the incomplete beta function; y: 1 - x.
+    """Return P(T <= t) for Student's t: half an incomplete beta function of (dof / 2, 1 / 2) at dof / (dof + t^2)."""
+    # a: dof / 2; x: argument of the incomplete beta function; y: 1 - x. For whole dof the function is a finite sum
+    # (Abramowitz and Stegun 26.7.3 and 26.7.4), which is ten times as fast.
     half = wp.float64(0.5)
     one = wp.float64(1.0)
     if t == wp.float64(0.0):
@@ -130,7 +128,10 @@ def student_below(dof: wp.float64, log_height: wp.float64, t: wp.float64) -> wp.
     return wp.where(t > wp.float64(0.0), one - tail, tail)
 
 
-NOISE, MIXTURE, TABLE = (wp.constant(i) for i in range(3))  # noise alone, the robust mixture, any other model
+# Kinds of laws.
+NOISE = wp.constant(0)  # noise alone
+MIXTURE = wp.constant(1)  # the robust mixture
+TABLE = wp.constant(2)  # any other model
 FAR_SQ = wp.constant(wp.float64(81.0))  # squared standard distance past which normal noise adds nothing
 MIN_PROBABILITY = wp.constant(wp.float64(math.exp(LOG_IMPOSSIBLE)))  # least probability of a typed reading
 TAIL = 1e-10  # probability of noise that cumulative probabilities leave out
@@ -149,8 +150,8 @@ def _law(name: str, real: Any) -> Any:
         "certain_sq",  # squared standard distance past which the noise's tail is below `TAIL`
         "series",  # for smaller x the fifth term of exp(-x) is below the precision
     )  # fmt: skip
-    whole = {"kind": int, "power": int}  # power: see `noise_density`
-    annotations: dict[str, Any] = whole | {"table": LawTable} | dict.fromkeys(reals, real)
+    others = {"kind": int, "power": int, "table": LawTable}  # power: see `noise_density`
+    annotations: dict[str, Any] = others | dict.fromkeys(reals, real)
     return wp.struct(type(name, (), {"__annotations__": annotations, "__module__": __name__, "__qualname__": name}))
 
 
@@ -159,15 +160,12 @@ SensorLaw32 = _law("SensorLaw32", wp.float32)
 
 
 def sensor_law(sensor: SensorModel, limits: RangeLimits, device: str, law: Any = SensorLaw64) -> Any:
-    """Pack a sensor's numbers for kernels, as a `SensorLaw64` or a `SensorLaw32`.
-
-    Densities of a tabulated model are at least exp(`LOG_IMPOSSIBLE`) in single precision, so that no beam makes a map
-    impossible for the sampler of stops. Predictions, in double precision, have no such bound.
-    """
+    """Pack a sensor's numbers for kernels, as a `SensorLaw64` or a `SensorLaw32`."""
     packed = law()
     packed.min_m, packed.max_m = limits.min_m, limits.max_m
     model = sensor.kernel_parameters()
     if model is None:
+        # For the sampler of stops, in single precision, no beam may make a map impossible. Predictions have no bound.
         least = LOG_IMPOSSIBLE if law is SensorLaw32 else -math.inf
         packed.kind, packed.peak = TABLE, math.inf
         packed.table = law_table_to_device(tabulated(sensor, limits), device, least)
@@ -260,10 +258,9 @@ def mixed_density(law: Any, reading_m: Any, decay: Any, distance_m: Any, returne
 
 @wp.func
 def stop_density(law: Any, reading_m: Any, decay: Any, distance_m: Any, variance: Any):
-    """Return p(reading | the beam stops at about the distance): a density, or the probability of a typed reading.
-    ``decay`` is `object_decay` of the reading. The distance is infinite if the beam stops nowhere.
-    """
-    # wall: the distance, at most the largest range; free: chance that no passing object blocks the beam.
+    """Return p(reading | the beam stops at about the distance): a density, or the probability of a typed reading."""
+    # decay: `object_decay` of the reading; distance_m: infinite if the beam stops nowhere; wall: the distance, at most
+    # the largest range; free: chance that no passing object blocks the beam.
     if law.kind != MIXTURE:
         return wp.exp(stop_log_density_without_objects(law, reading_m, distance_m, variance))
     one = type(variance)(1.0)
@@ -313,7 +310,7 @@ def lowest_density(law: Any, reading_m: Any):
 
 @wp.func
 def stop_log_density_without_objects(law: Any, reading_m: Any, distance_m: Any, variance: Any):
-    """Return log p(reading | stop) for noise alone and for a table; typed readings of noise stand for the limits."""
+    """Return log p(reading | stop) for noise alone and for a table; a typed reading of noise stands for a limit."""
     if law.kind == TABLE:
         return table_log_density(law.table, reading_m, distance_m, variance, law.max_m)
     z = reading_m
@@ -347,8 +344,8 @@ def cumulative(law: Any, reading_m: Any, distance_m: Any, variance: Any):
     if law.kind == NOISE:
         return noise_below(law, (reading_m - wall) / wp.sqrt(variance_at(law, wall, variance)))
     z = wp.clamp(reading_m, law.min_m, law.max_m)
-    known = met_or_returned(law, z, wp.exp(-law.rate_short_per_m * z), distance_m, variance)
-    return random_below(law, z) + law.p_known * known
+    not_random = not_random_below(law, z, wp.exp(-law.rate_short_per_m * z), distance_m, variance)
+    return random_below(law, z) + law.p_known * not_random
 
 
 @wp.func
@@ -358,11 +355,10 @@ def random_below(law: Any, z: Any):
 
 
 @wp.func
-def met_or_returned(law: Any, z: Any, decay: Any, distance_m: Any, variance: Any):
-    """Return P(reading <= z | it is not random) of the mixture: from a passing object, or from the stop. ``decay`` is
-    `object_decay` of z, which all stops share: a stop far behind z costs no exponential.
-    """
-    # met: chance of a passing object before z and before the stop; returned: chance of a return below z.
+def not_random_below(law: Any, z: Any, decay: Any, distance_m: Any, variance: Any):
+    """Return P(reading <= z | it is not random) of the mixture: from a passing object, or from the stop."""
+    # decay: `object_decay` of z, which all stops share: a stop far behind z costs no exponential; met: chance of
+    # a passing object before z and before the stop; returned: chance of a return below z.
     one = type(z)(1.0)
     if is_behind(law, z, distance_m, variance):
         return law.p_short * (one - decay)
@@ -379,7 +375,7 @@ def met_or_returned(law: Any, z: Any, decay: Any, distance_m: Any, variance: Any
 
 @wp.func
 def is_behind(law: Any, z: Any, distance_m: Any, variance: Any):
-    """Return whether a stop lies so far behind z that nothing returns from it below z."""
+    """Return whether a stop lies so far behind z that no return from it is below z."""
     if distance_m > law.max_m:
         return True
     error = distance_m - z
@@ -388,6 +384,6 @@ def is_behind(law: Any, z: Any, distance_m: Any, variance: Any):
 
 @wp.func
 def is_before(law: Any, z: Any, distance_m: Any, variance: Any):
-    """Return whether a stop lies so far before z that all that returns from it is below z."""
+    """Return whether a stop lies so far before z that every return from it is below z."""
     error = z - wp.min(distance_m, law.max_m)
     return error > type(z)(0.0) and error * error > law.certain_sq * variance_at(law, distance_m, variance)

@@ -2,7 +2,7 @@
 
 Cells are closed squares: a beam through a corner touches all cells that meet there, and a beam along a grid line
 touches the cells on both sides. The cell of the start is touched where the beam leaves it. These are the rules of the
-tutorial's formula, the minimum over the four edges of every wall pixel. The steps are those of Amanatides and Woo
+tutorial's formula, the minimum over the four edges of every wall pixel. The steps follow Amanatides and Woo
 (1987), with ties kept. The walk counts in units of cells. It starts one cell *before* any grid line that the start lies
 on, so that both sides are touched at distance zero, and at the grid's border when the sensor is outside.
 """
@@ -13,13 +13,14 @@ import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
+from bayesmap.beams import rays
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.device import Float64s, Floats, Int32s, Ints, Uint8Rows
 
 wp.set_module_options({"enable_backward": False})
 
-TIE = wp.constant(wp.float64(1.0e-9))  # cells: closer than this to a corner or a line is on it
-PARALLEL = wp.constant(wp.float64(1.0e-10))  # direction cosines below this are zero, as in the tutorial
+TIE = wp.constant(wp.float64(rays.TIE))
+PARALLEL = wp.constant(wp.float64(rays.PARALLEL))
 NEVER = wp.constant(wp.float64(1.0e300))  # distance of a grid line that the beam does not cross
 SIDE_X = wp.constant(1)  # the cell beside the current one in x is touched too
 SIDE_Y = wp.constant(2)
@@ -27,7 +28,7 @@ SIDE_Y = wp.constant(2)
 
 @wp.struct
 class Walk:
-    """The state of a walk, in cells: ``cell_x, cell_y`` is touched at ``distance``; the walk is over past ``end``."""
+    """The state of a walk, in cells. It touches the cell (cell_x, cell_y) at ``distance``, and is over past ``end``."""
 
     cell_x: int
     cell_y: int
@@ -61,7 +62,10 @@ def cell_before(p: wp.float64, step: int) -> int:
 def walk_begin(
     px: wp.float64, py: wp.float64, ux: wp.float64, uy: wp.float64, nx: int, ny: int, longest: wp.float64
 ) -> Walk:
-    """Start at (px, py) in direction (ux, uy), in a grid of nx x ny cells, for at most ``longest`` cells."""
+    """Return the walk of a beam from (px, py) in direction (ux, uy), at its first touch.
+
+    Coordinates are in cells from the corner of a grid of nx x ny cells; the beam is at most ``longest`` cells long.
+    """
     zero = wp.float64(0.0)
     one = wp.float64(1.0)
     # w: the walk. Per axis: step and gap, and the distances at which the beam enters and leaves the grid.
@@ -157,7 +161,7 @@ def first_hit_ranges(
     first: int, walls: Uint8Rows, start_x: Float64s, start_y: Float64s, angle_rad: Float64s, longest: wp.float64,
     distance: Float64s, visits: Int32s,
 ):  # fmt: skip
-    """One thread per beam: walk to the first wall."""
+    """One thread per beam: walk to the first wall. Outputs are ``distance`` and the number of ``visits``."""
     # b: beam; w: its walk; n: cells of the grid visited.
     b = first + wp.tid()
     nx = walls.shape[0]
@@ -176,11 +180,13 @@ def first_hit_ranges(
     visits[b] = n
 
 
-def cast(
+def cast_beams(
     walls: NDArray[Any], starts_cells: Floats, angles_rad: Floats, longest_cells: float, device: str = "cpu"
 ) -> tuple[Floats, Ints]:
-    """Compute each beam's capped distance to its first wall, and the number of cells visited, (B,) each. Walls are
-    non-zero elements, (nx, ny); starts and distances are in cells from the grid's origin.
+    """Compute each beam's distance to its first wall, in cells, and the number of cells visited, (B,) each.
+
+    Walls are non-zero elements, (nx, ny). Starts are in cells from the grid's corner, (B, 2). A beam that meets no wall
+    has the distance ``longest_cells``.
     """
     device = devices.resolve(device)
     x, y = np.asarray(starts_cells).T

@@ -43,7 +43,7 @@ class Field:
 
     def score(self, points: Floats, poses: Floats) -> Floats:
         """Return the mean fine value, scaled to [0, 1], of points (N, 2) in the sensor's frame, at each pose, (P,)."""
-        from bayesmap.kernels.match.fields import field_sums
+        from bayesmap.kernels.match.likelihood_grid import field_sums
 
         return np.asarray(field_sums(self.fine, self.grid, points, poses) / (TOP * max(1, len(points))))
 
@@ -109,7 +109,7 @@ class EndpointField:
         """Return the sum of the points' log worth, relative to points far from all surfaces, at each pose, (P,), nats.
         Points are in the sensor's frame, (N, 2), and poses in the world frame, (P, 3).
         """
-        from bayesmap.kernels.match.fields import field_sums
+        from bayesmap.kernels.match.likelihood_grid import field_sums
 
         return np.asarray(field_sums(self.values, self.grid, points, poses) * (-math.log(SURFACE_FLOOR) / TOP))
 
@@ -120,7 +120,7 @@ def endpoint_field(
     """Compute the field of the draws of a map, as `KnownMap.of_draws` takes them. ``noise_m`` is the standard deviation
     of a reading. An ``unknown`` cell stops a beam with probability ``chance``.
     """
-    from bayesmap.kernels.match.fields import spread
+    from bayesmap.kernels.match.likelihood_grid import render_field
 
     parts = max(1, math.ceil(grid.resolution / FINE_M - 1e-9))
     parts = max(1, min(parts, math.isqrt(MOST_CELLS // grid.n_cells)))
@@ -129,7 +129,7 @@ def endpoint_field(
     # A fine cell stands for all points within it, so that no surface is narrower than half a cell.
     round_ = np.array([1.0, 0.0, 1.0])
     covariances = (covariances + round_ * noise_m**2) / fine.resolution**2 + 0.25 * round_
-    peaks = spread(means / fine.resolution, covariances, strengths, fine.shape)
+    peaks = render_field(means / fine.resolution, covariances, strengths, fine.shape)
     # A surface spreads by about a third of a cell, or is off its middle by as much.
     worth = worth_of_unknown(chance, math.hypot(noise_m, 0.3 * grid.resolution), grid.resolution)
     np.maximum(peaks, np.where(unknown, worth, 0.0).repeat(parts, axis=0).repeat(parts, axis=1), out=peaks)

@@ -188,7 +188,7 @@ def look_like_odometry(scans: Scans) -> bool:
 
 def _expected_stops(scans: Scans) -> tuple[float, float]:
     """Return the sum over hits of the probability that a beam stops in the hit's cell, and the number of hits."""
-    from bayesmap.kernels.counts import count_hits
+    from bayesmap.kernels.rays import count_hits
 
     if not np.isfinite(scans.ranges_m).any():
         return 0.0, 0.0

@@ -142,7 +142,7 @@ def match(
         grid=np.asarray(grid_of, np.int32), centres=np.ascontiguousarray(centres[:, :2]),
         half_cells=np.round(half / grids.resolution).astype(np.int32), angles_rad=angles, angle_costs=costs,
         row_offsets=rows, least=np.array(np.broadcast_to(np.asarray(min_score, np.float64), (jobs,))),
-        across=np.full(jobs, across),
+        off_centre_costs=np.full(jobs, across),
     )  # fmt: skip
     scores, nodes = search_grids(grids, windows, Modes(modes, min_score_ratio, apart), threads_per_job, grids.threads)
     poses = np.full((jobs, modes, 3), np.nan)

@@ -130,17 +130,17 @@ class ScanGeometry:
         return np.asarray(self.kind.numpy())
 
     @cached_property
-    def packed(self) -> dict[int, Any]:
-        """The structs that kernels read, by stride."""
+    def packed(self) -> dict[int | str, Any]:
+        """The structs that kernels read, by stride, and equal weights of the beams."""
         return {}
 
     def select(self, scans: NDArray[np.intp]) -> ScanGeometry:
         """Return the geometry of some of the scans, copied."""
-        from bayesmap.kernels.match.scan_geometry import selected
+        from bayesmap.kernels.match.scan_geometry import select_rows
 
         return replace(
-            self, points=selected(self.points, scans), normals=selected(self.normals, scans),
-            kind=selected(self.kind, scans), spread=selected(self.spread, scans), fans=self.fans.select(scans),
+            self, points=select_rows(self.points, scans), normals=select_rows(self.normals, scans),
+            kind=select_rows(self.kind, scans), spread=select_rows(self.spread, scans), fans=self.fans.select(scans),
         )  # fmt: skip
 
     def points_of(self, scan: int, most: int | None = None) -> Floats:

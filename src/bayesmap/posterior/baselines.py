@@ -195,7 +195,7 @@ def fit_baseline(
     baseline: Baseline, train: Scans, grid: Grid, folds: Sequence[Fold] | None = None, on_progress: OnShare = ignored
 ) -> Fitted:
     """Fit a baseline's sensor, hit depth and parameters on the training scans, or on given ``folds`` of them."""
-    from bayesmap.kernels.counts import count_hits
+    from bayesmap.kernels.rays import count_hits
 
     folds = make_folds(train, grid) if folds is None else folds
     default = default_sensor(grid.resolution)

@@ -93,8 +93,7 @@ def expected_information(
 
     Raises `BadInput` for poses that are not valid, or fewer than two draws of a chain.
     """
-    from bayesmap.kernels.predict.density import device_maps
-    from bayesmap.kernels.predict.scan_likelihood import ScanLikelihood
+    from bayesmap.kernels.predict.density import ScanLikelihood, device_maps
 
     poses_world = as_poses(poses)
     n_draws = len(cells)

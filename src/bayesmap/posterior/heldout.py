@@ -151,7 +151,7 @@ class Fold:
 
 def make_folds(train: Scans, grid: Grid) -> list[Fold]:
     """Make interleaved folds until they have `FIT_BEAMS` beams; raise `BadInput` for too few scans."""
-    from bayesmap.kernels.counts import count_hits
+    from bayesmap.kernels.rays import count_hits
 
     folds: list[Fold] = []
     count, n_beams = min(FOLDS, len(train)), 0

@@ -148,8 +148,7 @@ def by_reading(posterior: Posterior, device: str = "cpu") -> NDArray[np.float32]
     Densities are per metre for ranges. Cells and poses are those of the draw; a reading's stop is summed out. Raises
     `BadInput` for a run without draws, or whose sensor model is not one of bayesmap's.
     """
-    from bayesmap.kernels.predict.density import device_maps
-    from bayesmap.kernels.predict.scan_likelihood import ScanLikelihood
+    from bayesmap.kernels.predict.density import ScanLikelihood, device_maps
 
     draws, scans = posterior.draws, posterior.scans
     if posterior.sensor is None or not draws.size:

@@ -63,7 +63,7 @@ class InitialEstimate:
 
 def initial_estimate(rays: Rays, prior: Beta, device: str = "cpu") -> InitialEstimate:
     """Count hits and passes, and fit a normal distribution to each cell's end points."""
-    from bayesmap.kernels.counts import count_passes
+    from bayesmap.kernels.rays import count_passes
 
     # Hits of each cell.
     grid, edge = rays.grid, rays.grid.resolution

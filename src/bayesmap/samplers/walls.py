@@ -171,7 +171,7 @@ class WallSampler(ABC):
 
     def observed_counts(self, state: WallState, draws: Mapping[str, NDArray[Any]]) -> NDArray[np.int32]:
         """Count the draws (or present maps) in which a beam reaches each cell, and those inspected, (2, nx, ny)."""
-        from bayesmap.kernels.walls.maps import reach_frequency
+        from bayesmap.kernels.walls.table import reach_frequency
 
         packed, shape = draws.get("walls"), state.problem.grid.shape
         if packed is None or packed.shape[1] == 0:

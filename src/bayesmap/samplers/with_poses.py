@@ -38,7 +38,7 @@ from bayesmap.samplers.sampler import (
 from bayesmap.sensors.model import SensorModel
 
 if TYPE_CHECKING:
-    from bayesmap.kernels.predict.scan_likelihood import ScanLikelihood
+    from bayesmap.kernels.predict.density import ScanLikelihood
 
 OPTIMAL = 2.38 / np.sqrt(3.0)  # length of steps, in standard deviations (Roberts, Gelman and Gilks, 1997)
 TARGET_ACCEPTANCE = 0.35  # share of accepted steps to which the sizes of steps adapt
@@ -70,7 +70,7 @@ class PoseMetropolis:
     ) -> tuple[PoseState, Floats]:  # fmt: skip
         """Propose a new pose for every scan ``n`` times. Returns the chains, and the share of accepted steps, (C,).
 
-        ``cells`` holds one map per chain, see `bayesmap.kernels.predict.scan_likelihood.ScanLikelihood.beams`. The size
+        ``cells`` holds one map per chain, see `bayesmap.kernels.predict.density.ScanLikelihood.beams`. The size
         of a scan's steps grows with accepted steps and shrinks with rejected ones (Robbins and Monro, 1951) at
         ``adaptation_rate``, which must be 0 once draws are kept.
         """
@@ -180,7 +180,7 @@ class PoseProblem(Problem):
     @cached_property
     def likelihood(self) -> ScanLikelihood:
         """The likelihood of scans at poses."""
-        from bayesmap.kernels.predict.scan_likelihood import ScanLikelihood
+        from bayesmap.kernels.predict.density import ScanLikelihood
 
         model = self.model
         return ScanLikelihood(model.scans, model.grid, model.sensor, model.hit_depth, self.device)

@@ -47,7 +47,7 @@ class Particles:
 
     def maps(self, particles: NDArray[np.intp]) -> NDArray[np.bool_]:
         """Return the maps of the given particles, (n, nx, ny)."""
-        from bayesmap.kernels.walls.maps import particle_maps
+        from bayesmap.kernels.walls.table import particle_maps
 
         if self.problem.coupling != 0.0:
             return _coupled_maps(self.problem, self.key, particles)
@@ -104,7 +104,7 @@ def sample_importance(
 
 def _weigh(problem: WallProblem, key: int, first: int, count: int) -> Floats:
     """Compute log p(readings | map) of particles first .. first + count - 1."""
-    from bayesmap.kernels.walls.maps import log_likelihoods, particle_log_weights
+    from bayesmap.kernels.walls.table import log_likelihoods, particle_log_weights
 
     if problem.coupling == 0.0:
         return particle_log_weights(problem.device_table, problem.device_prior, key, first, count, problem.device)
@@ -281,7 +281,7 @@ def _drawn(
     occupancy: Floats, **results: Any,
 ) -> IndependentDraws:  # fmt: skip
     """Draw maps for every chain; ``results`` are further fields of `IndependentDraws`."""
-    from bayesmap.kernels.walls.maps import log_likelihoods, reach_frequency
+    from bayesmap.kernels.walls.table import log_likelihoods, reach_frequency
 
     rngs = [np.random.default_rng([request.seed, chain, STREAM_START]) for chain in range(request.chains)]
     walls = np.stack([draw(rng, request.draws) for rng in rngs])

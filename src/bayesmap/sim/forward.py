@@ -88,14 +88,14 @@ def _distances(
     max_range_m: float, device: str,
 ) -> NDArray[np.float64]:  # fmt: skip
     """Cast all beams. Returns ranges in metres, (S, A), capped at ``max_range_m``."""
-    from bayesmap.kernels.walk import cast  # loads Warp
+    from bayesmap.kernels.walk import cast_beams  # loads Warp
 
     _check_walls(walls, grid)
     if not max_range_m > 0:
         raise BadInput(f"ranges: max_range_m must be a positive number of metres, got {max_range_m!r}")
     starts = np.repeat(grid.to_cells(poses[:, :2]), len(angles_rad), axis=0)
     directions = (poses[:, 2:3] + angles_rad[None, :]).ravel()
-    distances, _ = cast(walls, starts, directions, max_range_m / grid.resolution, device)
+    distances, _ = cast_beams(walls, starts, directions, max_range_m / grid.resolution, device)
     metres = np.minimum(distances * grid.resolution, max_range_m)
     return metres.reshape(len(poses), len(angles_rad))
 

@@ -89,7 +89,7 @@ def coarse_map(counts: NDArray[np.int64], prior: CellPrior, p_wall: float) -> ND
 
 def counted_map(scans: Scans, grid: Grid) -> Counted:
     """Return the hit-count map of scans at their poses."""
-    from bayesmap.kernels.counts import count_hits
+    from bayesmap.kernels.rays import count_hits
 
     hits, passes = (np.asarray(n, dtype=np.float64).reshape(grid.shape) for n in count_hits(thinned(scans), grid))
     seen = hits + passes > 0

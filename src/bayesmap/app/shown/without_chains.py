@@ -12,8 +12,8 @@ from scipy import special
 from bayesmap.app.shown.result import CHAINS, SAVED_DRAWS, Figures, Floats, Found, Result, judge_particles
 from bayesmap.beams.table import BeamTable
 from bayesmap.kernels.random import mix
-from bayesmap.kernels.walls.maps import particle_log_weights, reach_frequency
 from bayesmap.kernels.walls.propagate import Beliefs
+from bayesmap.kernels.walls.table import particle_log_weights, reach_frequency
 from bayesmap.posterior.posterior import posterior_of_draws
 from bayesmap.result import Run
 from bayesmap.samplers.propagate import DAMPING, ROUNDS, Marginals

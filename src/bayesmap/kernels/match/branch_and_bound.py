@@ -17,7 +17,6 @@ from bayesmap.kernels.device import Float64Rows, Float64s, Floats, Int32s, Ints,
 
 wp.set_module_options({"enable_backward": False})
 
-
 FEW_POINTS = 100_000  # fewer points, at all angles of all jobs, are looked up before a second thread has started
 
 Pyramid = wp.array4d(dtype=wp.uint8)  # likelihood grids with their maxima over blocks: (grids, levels, nx, ny)
@@ -33,14 +32,14 @@ class SearchJobs:
     half_x: Int32s  # the window's half width, cells
     half_y: Int32s
     least: Float64s  # scores must exceed this
-    across: Float64s  # cost of a squared cell off the centre, in units of the score
+    off_centre_cost: Float64s  # cost of a squared cell off the centre, in units of the score
     row_cost: Float64s  # cost of each angle
     cells: wp.array2d(dtype=wp.vec2i)  # cells of each row's points, with the sensor at the window's centre
 
 
 @wp.struct
 class Roots:
-    """The largest blocks of all jobs: those of job j are ``order[begin[j]:begin[j + 1]]``, best bound first."""
+    """The largest blocks of all jobs: job j has ``order[begin[j]:begin[j + 1]]``, best bound first."""
 
     begin: Int32s
     order: Int32s
@@ -49,7 +48,7 @@ class Roots:
 
 
 @wp.struct
-class Taken:
+class EarlierModes:
     """The earlier poses of each job, (J, modes), as (row, dx, dy), and how far a further mode must lie from them."""
 
     node: wp.array2d(dtype=wp.vec3i)
@@ -92,13 +91,13 @@ def block_score(jobs: SearchJobs, pyramid: Pyramid, j: int, row: int, level: int
 
 
 @wp.func
-def off_centre(offset: int, width: int) -> wp.float64:
+def least_offset_sq(offset: int, width: int) -> wp.float64:
     """Return the least squared distance from 0 within offset .. offset + width - 1."""
     last = offset + width - 1
     if offset <= 0 and last >= 0:
         return wp.float64(0.0)
-    near = wp.float64(wp.min(wp.abs(offset), wp.abs(last)))
-    return near * near
+    least = wp.float64(wp.min(wp.abs(offset), wp.abs(last)))
+    return least * least
 
 
 @wp.func
@@ -107,8 +106,8 @@ def block_bound(jobs: SearchJobs, pyramid: Pyramid, j: int, row: int, level: int
     points = jobs.point_end[j] - jobs.point_begin[j]
     scale = wp.float64(1.0) / (wp.float64(255.0) * wp.float64(wp.max(points, 1)))
     width = 1 << level
-    cost = jobs.row_cost[row] + jobs.across[j] * (off_centre(dx, width) + off_centre(dy, width))
-    return wp.float64(block_score(jobs, pyramid, j, row, level, dx, dy)) * scale - cost
+    offset_cost = jobs.off_centre_cost[j] * (least_offset_sq(dx, width) + least_offset_sq(dy, width))
+    return wp.float64(block_score(jobs, pyramid, j, row, level, dx, dy)) * scale - (jobs.row_cost[row] + offset_cost)
 
 
 @wp.kernel
@@ -117,7 +116,7 @@ def bound_blocks(
     resolution: wp.float64, points: Vec2ds, node_begin: Int32s, pyramid: Pyramid, roots: Roots,
 ):  # fmt: skip
     """One thread per angle of a job: compute the cells of its points, and bound the scores of the largest blocks."""
-    # The cells are those with the sensor at the window's centre.
+    # row: angle; j: job; k: point; n: node. Cells are computed with the sensor at the window's centre.
     row = first + wp.tid()
     j = job_of_row[row]
     corner = origin[jobs.grid[j]]
@@ -145,11 +144,11 @@ def bound_blocks(
 
 
 @wp.func
-def is_taken(taken: Taken, j: int, row: int, dx: int, dy: int, width: int) -> bool:
-    """Return whether a whole block lies within ``taken.apart`` of an earlier pose."""
-    apart = taken.apart
-    for m in range(taken.count):
-        t = taken.node[j, m]
+def is_near_earlier(earlier: EarlierModes, j: int, row: int, dx: int, dy: int, width: int) -> bool:
+    """Return whether a whole block lies within ``earlier.apart`` of an earlier pose."""
+    apart = earlier.apart
+    for m in range(earlier.count):
+        t = earlier.node[j, m]
         if wp.abs(row - t[0]) <= apart[0]:
             if dx >= t[1] - apart[1] and dx + width - 1 <= t[1] + apart[1]:
                 if dy >= t[2] - apart[2] and dy + width - 1 <= t[2] + apart[2]:
@@ -159,12 +158,12 @@ def is_taken(taken: Taken, j: int, row: int, dx: int, dy: int, width: int) -> bo
 
 @wp.kernel
 def search_blocks(
-    first: int, strands: int, jobs: SearchJobs, roots: Roots, pyramid: Pyramid, taken: Taken, stack: Stack, best: Best
-):
-    """One thread per strand of a job: search every ``strands``-th of its largest blocks depth first, best bound first.
-    Strands share the best score of the job. An outdated value costs time, but does not change the result.
-    """
+    first: int, strands: int, jobs: SearchJobs, roots: Roots, pyramid: Pyramid, earlier: EarlierModes, stack: Stack,
+    best: Best,
+):  # fmt: skip
+    """One thread per strand of a job: search every ``strands``-th of its largest blocks, best bound first."""
     # t: strand; j: job; q: position in the order of blocks; mine, winner: best of the strand; depth: size of its stack.
+    # Strands share the best score of the job. An outdated value costs time, but does not change the result.
     t = first + wp.tid()
     j = t / strands
     mine = wp.float64(jobs.least[j])
@@ -210,7 +209,7 @@ def search_blocks(
                 dy = y0 + half * (child % 2)
                 if dx > jobs.half_x[j] or dy > jobs.half_y[j]:
                     continue
-                if is_taken(taken, j, row, dx, dy, half):
+                if is_near_earlier(earlier, j, row, dx, dy, half):
                     continue
                 score = block_bound(jobs, pyramid, j, row, level - 1, dx, dy)
                 if score < limit or score <= jobs.least[j]:
@@ -240,78 +239,73 @@ class Windows:
     angle_costs: Floats  # cost of each angle, in units of the score
     row_offsets: Ints  # job j has the rows from row_offsets[j] to row_offsets[j + 1]
     least: Floats  # bound that scores must exceed, (J,)
-    across: Floats  # cost of a squared cell off the centre, in units of the score, (J,)
+    off_centre_costs: Floats  # cost of a squared cell off the centre, in units of the score, (J,)
 
 
 @dataclass(frozen=True)
 class Modes:
-    """The number of poses searched in each job, and what makes a further pose another mode.
-
-    A further pose must exceed ``share`` of the first pose's score, and differ from earlier poses by more than ``apart``
-    rows, cells in x, or cells in y.
-    """
+    """The number of poses searched in each job, and what makes a further pose another mode."""
 
     count: int
-    share: float
-    apart: tuple[int, int, int]
+    share: float  # a further pose must exceed this share of the first pose's score
+    apart: tuple[int, int, int]  # and differ from earlier poses by more than these rows, cells in x, or cells in y
 
 
 def search_grids(
     grids: Any, windows: Windows, modes: Modes, strands: int, threads: int | None = None
 ) -> tuple[Floats, NDArray[np.int64]]:
     """Find the best poses of each job: scores (J, modes), -inf where there is none, and (row, dx, dy), (J, modes, 3).
+
     ``grids`` are `bayesmap.poses.matcher.LikelihoodGrids`; ``strands`` threads share a job.
     """
     pyramid, device = grids.pyramid, grids.device
-    count, strands_of_all = len(windows.grid), len(windows.grid) * strands
-    looked_up = len(windows.angles_rad) * len(windows.points) / max(count, 1)
-    threads = 1 if looked_up < FEW_POINTS else threads
-    jobs, roots = _prepared(grids, windows, threads)
+    n_jobs, n_strands = len(windows.grid), len(windows.grid) * strands
+    n_look_ups = len(windows.angles_rad) * len(windows.points) / max(n_jobs, 1)
+    threads = 1 if n_look_ups < FEW_POINTS else threads
+    jobs, roots = _bound_roots(grids, windows, threads)
     deepest = 4 * pyramid.shape[1] + 4  # four children a level
-    taken = devices.pack(Taken, device, apart=wp.vec3i(*modes.apart))
-    stack = devices.pack(Stack, device, bound=(strands_of_all, deepest), node=(strands_of_all, deepest))
-    best = devices.pack(Best, device, score=(strands_of_all,), node=(strands_of_all,))
+    earlier = devices.pack(EarlierModes, device, apart=wp.vec3i(*modes.apart))
+    stack = devices.pack(Stack, device, bound=(n_strands, deepest), node=(n_strands, deepest))
+    best = devices.pack(Best, device, score=(n_strands,), node=(n_strands,))
     least = windows.least
-    scores = np.full((count, modes.count), -np.inf)
-    nodes = np.zeros((count, modes.count, 3), dtype=np.int64)
+    scores = np.full((n_jobs, modes.count), -np.inf)
+    nodes = np.zeros((n_jobs, modes.count, 3), dtype=np.int64)
     nodes[..., 0] = -1
     for mode in range(modes.count):
         if mode > 0:  # without a first pose there are no further ones
             least = np.where(np.isfinite(scores[:, 0]), np.maximum(least, modes.share * scores[:, 0]), np.inf)
         jobs.least = devices.to_device(least, wp.float64, device)
-        known = np.where(nodes[..., :1] >= 0, nodes, -(1 << 28)).astype(np.int32)
-        taken.node, taken.count = devices.to_device(known, wp.vec3i, device), mode
+        earlier_nodes = np.where(nodes[..., :1] >= 0, nodes, -(1 << 28)).astype(np.int32)
+        earlier.node, earlier.count = devices.to_device(earlier_nodes, wp.vec3i, device), mode
         best.incumbent = devices.to_device(least.copy(), wp.float64, device)
-        inputs = [strands, jobs, roots, pyramid, taken, stack, best]
-        devices.launch(search_blocks, strands_of_all, inputs, device, threads)
-        # Of each job's strands take the best, among equal scores the first by angle, x and y.
-        found = best.node.numpy().reshape(count, strands, 3)
-        value = np.where(found[..., 0] >= 0, best.score.numpy().reshape(count, strands), -np.inf)
-        winner = np.lexsort((found[..., 2], found[..., 1], found[..., 0], -value))[:, 0]
-        scores[:, mode], nodes[:, mode] = value[np.arange(count), winner], found[np.arange(count), winner]
+        inputs = [strands, jobs, roots, pyramid, earlier, stack, best]
+        devices.launch(search_blocks, n_strands, inputs, device, threads)
+        # Take the best of each job's strands, among equal scores the first by angle, x and y.
+        node = best.node.numpy().reshape(n_jobs, strands, 3)
+        score = np.where(node[..., 0] >= 0, best.score.numpy().reshape(n_jobs, strands), -np.inf)
+        winner = np.arange(n_jobs), np.lexsort((node[..., 2], node[..., 1], node[..., 0], -score))[:, 0]
+        scores[:, mode], nodes[:, mode] = score[winner], node[winner]
     return scores, nodes
 
 
-def _prepared(grids: Any, windows: Windows, threads: int | None) -> tuple[Any, Any]:
+def _bound_roots(grids: Any, windows: Windows, threads: int | None) -> tuple[Any, Any]:
     """Put the jobs on the device, and their largest blocks with their bounds."""
     pyramid, device = grids.pyramid, grids.device
     count, rows = len(windows.grid), len(windows.angles_rad)
     width = 1 << (pyramid.shape[1] - 1)
     half_x, half_y = np.ascontiguousarray(windows.half_cells.T)
     # Arrays that kernels fill whole are not zeroed first.
-    most = int(np.diff(windows.point_offsets).max(initial=1))
-    cells = wp.empty((rows, most), dtype=wp.vec2i, device=device)
+    most_points = int(np.diff(windows.point_offsets).max(initial=1))
     jobs = devices.pack(
         SearchJobs, device, point_begin=windows.point_offsets[:-1], point_end=windows.point_offsets[1:],
-        grid=windows.grid, half_x=half_x, half_y=half_y, across=windows.across, row_cost=windows.angle_costs,
-        cells=cells,
+        grid=windows.grid, half_x=half_x, half_y=half_y, off_centre_cost=windows.off_centre_costs,
+        row_cost=windows.angle_costs, cells=wp.empty((rows, most_points), dtype=wp.vec2i, device=device),
     )  # fmt: skip
     job_of_row = np.repeat(np.arange(count, dtype=np.int32), np.diff(windows.row_offsets))
     blocks = np.prod(2 * windows.half_cells // width + 1, axis=1)
     node_begin = np.concatenate([[0], np.cumsum(blocks[job_of_row])])
     job_nodes = node_begin[windows.row_offsets].astype(np.int32)
-    nodes = int(node_begin[-1])
-    bound, node = (wp.empty(nodes, dtype=kind, device=device) for kind in (wp.float64, wp.vec3i))
+    bound, node = (wp.empty(int(node_begin[-1]), dtype=kind, device=device) for kind in (wp.float64, wp.vec3i))
     roots = devices.pack(Roots, device, bound=bound, node=node)
     inputs = [jobs, job_of_row, windows.angles_rad, windows.centres, grids.origins, grids.resolution, windows.points,
               node_begin[:-1], pyramid, roots]  # fmt: skip

@@ -7,8 +7,8 @@ offset in x and y, with less weight: two scans do not return the same points.
 
 Let z = (x, y, yaw) be the pose of i in j's frame. H = sum w J J^T and g = sum w J e are the second and first
 derivatives of half the cost by z (Gauss-Newton). ``slack`` is the part of H that comes from errors of the normals and
-is no information: sum w spread T T^T. Here T is the derivative of the offset *along* the wall, and spread the variance
-of the normal's angle for points of unit variance. Along a corridor H is slack alone.
+is no information: sum w spread T T^T, T the derivative of the offset *along* the wall, spread the variance of the
+normal's angle for points of unit variance. Along a corridor H is slack alone.
 """
 
 from dataclasses import dataclass
@@ -19,13 +19,13 @@ import warp as wp
 
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.device import Float32Rows, Float64Rows, Floats, Int32Rows, Int32s, Ints, Singles, Vec3ds
-from bayesmap.kernels.match.scan_geometry import ScanArrays, neighbour, scan_arrays, widest_gap
+from bayesmap.kernels.match.scan_geometry import WITH_NORMAL, ScanArrays, equal_weights, max_gap, neighbour, scan_arrays
 from bayesmap.space.planar import inverse
 
 wp.set_module_options({"enable_backward": False})
 
 MOST_BEAMS = wp.constant(25)  # most beams searched to either side
-DENSE = wp.constant(0.15)  # metres: points of less dense surfaces, such as walls that beams graze, fix no pose
+WIDEST_SPACING_M = wp.constant(0.15)  # points of less dense surfaces, such as walls that beams graze, fix no pose
 
 
 @wp.struct
@@ -67,20 +67,20 @@ def turns_of(p: wp.vec2f) -> float:
 
 
 @wp.func
-def beam_towards(scene: ScanArrays, j: int, at: wp.vec2f) -> int:
-    """Return the beam of scan j that points towards a point; -1 where there is none."""
+def beam_towards(scene: ScanArrays, j: int, point: wp.vec2f) -> int:
+    """Return the beam of scan j that points towards a point; -1 if there is none."""
     bins = scene.beam_of_angle.shape[1]
-    bin = int((turns_of(at) + 0.5) * float(bins))
+    bin = int((turns_of(point) + 0.5) * float(bins))
     return scene.beam_of_angle[scene.layout[j], wp.clamp(bin, 0, bins - 1)]
 
 
 @wp.func
-def nearest_point(scene: ScanArrays, j: int, at: wp.vec2f, reach: float) -> int:
-    """Return the nearest point of scan j within reach, among beams towards ``at``; -1 for none, -2 out of view."""
-    middle = beam_towards(scene, j, at)
+def nearest_point(scene: ScanArrays, j: int, point: wp.vec2f, reach: float) -> int:
+    """Return the beam of the nearest point of scan j within reach; -1 if there is none, -2 if out of view."""
+    middle = beam_towards(scene, j, point)
     if middle < 0:
         return -2
-    away = wp.length(at)
+    away = wp.length(point)
     step = scene.step[j]
     u = wp.min(1.0, reach / wp.max(away, 1.0e-6))
     # No point within reach is further off by angle than asin(u) <= u + (pi / 2 - 1) u^3.
@@ -100,7 +100,7 @@ def nearest_point(scene: ScanArrays, j: int, at: wp.vec2f, reach: float) -> int:
         if low < 0 and circle:
             low += beams
         if low >= 0:
-            d = wp.length_sq(scene.points[j, low] - at)
+            d = wp.length_sq(scene.points[j, low] - point)
             if d <= closest:
                 closest = d
                 nearest = low
@@ -108,7 +108,7 @@ def nearest_point(scene: ScanArrays, j: int, at: wp.vec2f, reach: float) -> int:
         if high >= beams and circle:
             high -= beams
         if k > 0 and high < beams:
-            d = wp.length_sq(scene.points[j, high] - at)
+            d = wp.length_sq(scene.points[j, high] - point)
             if d < closest:
                 closest = d
                 nearest = high
@@ -155,7 +155,8 @@ def pair_scans(
     scene: ScanArrays, weights: Float32Rows, i: int, j: int, z: wp.vec3d, rule: PairRule, stride: int
 ) -> Sums:
     """Sum over every ``stride``-th point of scan i on scan j, with i at pose z in j's frame."""
-    # b: beam of i; r: its point turned by z; at: the point in j's frame; n, m: normals of the two points.
+    # b: beam of i; r: its point turned by z; point: the point in j's frame; other: its partner; d: offset from the
+    # partner; e: residual; w: weight; n, m: normals of the two points.
     turn = turn_by(z)
     shift = shift_by(z)
     second = wp.mat33f()
@@ -170,17 +171,17 @@ def pair_scans(
         if scene.kind[i, b] == wp.uint8(0):
             continue
         r = turn * scene.points[i, b]
-        at = r + shift
-        other = nearest_point(scene, j, at, rule.reach)
+        point = r + shift
+        other = nearest_point(scene, j, point, rule.reach)
         if other == -2:
             continue
         seen += 1
         if other < 0:
             continue
-        d = at - scene.points[j, other]
-        own = scene.kind[i, b] == wp.uint8(2)
-        theirs = scene.kind[j, other] == wp.uint8(2)
-        if own and theirs:
+        d = point - scene.points[j, other]
+        has_normal = scene.kind[i, b] == WITH_NORMAL
+        other_has_normal = scene.kind[j, other] == WITH_NORMAL
+        if has_normal and other_has_normal:
             # Both points have normals: e is the offset along their mean u, with the derivative across.
             n = turn * scene.normals[i, b]
             m = scene.normals[j, other]
@@ -201,13 +202,13 @@ def pair_scans(
             cost += w * e * e
             total += w
             matched += 1
-        elif not own and not theirs:
+        elif not has_normal and not other_has_normal:
             # Neither point has a normal: both components of the offset count.
-            apart = 0.5 * neighbour_distance(scene, j, other)
-            if apart > DENSE:
+            spacing = 0.5 * neighbour_distance(scene, j, other)
+            if spacing > WIDEST_SPACING_M:
                 continue
-            w = 1.0 / (1.0 + wp.length_sq(d) / (rule.scale * rule.scale + apart * apart))
-            w = w * w * weights[i, b] * (0.01 * 0.01) / (apart * apart)
+            w = 1.0 / (1.0 + wp.length_sq(d) / (rule.scale * rule.scale + spacing * spacing))
+            w = w * w * weights[i, b] * (0.01 * 0.01) / (spacing * spacing)
             second += wp.mat33f(w, 0.0, -w * r[1], 0.0, w, w * r[0], 0.0, 0.0, w * wp.length_sq(r))
             first += w * wp.vec3f(d[0], d[1], r[0] * d[1] - r[1] * d[0])
             matched += 1
@@ -216,12 +217,12 @@ def pair_scans(
 
 @wp.struct
 class PairSums:
-    """The `Sums` of all pairs of scans, see `pair_sums`."""
+    """The `Sums` of all pairs of scans."""
 
     second: wp.array(dtype=wp.mat33d)
     slack: wp.array(dtype=wp.mat33d)
     gradient: Vec3ds
-    totals: Float64Rows
+    totals: Float64Rows  # cost, weight, matched, seen, force_sq
 
 
 @wp.kernel
@@ -246,12 +247,9 @@ def pair_sums(
     geometry: Any, weights: Singles | None, source: Ints, target: Ints, relative: Floats, reach_m: float,
     scale_m: float, alike: float, stride: int = 1, threads: int | None = None,
 ) -> tuple[Floats, Floats, Floats, Floats]:  # fmt: skip
-    """Compute H (P, 3, 3), slack (P, 3, 3), g (P, 3) and totals (P, 5) of pairs of scans. Totals are cost, weight,
-    points matched, points within the other scan's view, and the squares of the points' forces.
-    """
+    """Compute H (P, 3, 3), slack (P, 3, 3), g (P, 3) and totals (P, 5) of pairs of scans; see `Sums` for the totals."""
     device, count = geometry.device, len(source)
-    if weights is None:
-        weights = np.ones((len(geometry), geometry.beams), np.float32)
+    weights = equal_weights(geometry) if weights is None else weights
     rule = devices.pack(PairRule, device, reach=reach_m, scale=scale_m, alike=alike)
     out = devices.pack(PairSums, device, second=(count,), slack=(count,), gradient=(count,), totals=(count, 5))
     inputs = [scan_arrays(geometry, stride), weights, source, target, relative, rule, out]
@@ -273,19 +271,19 @@ def count_matches(
         for b in range(0, scene.kind.shape[1], scene.stride):
             if scene.kind[i, b] == wp.uint8(0):
                 continue
-            at = turn * scene.points[i, b] + shift
-            other = nearest_point(scene, j, at, rule.reach)
+            point = turn * scene.points[i, b] + shift
+            other = nearest_point(scene, j, point, rule.reach)
             if other < 0 or scene.kind[i, b] != scene.kind[j, wp.max(other, 0)]:
                 continue
-            d = at - scene.points[j, other]
-            e2 = wp.length_sq(d)
-            if scene.kind[i, b] == wp.uint8(2):
+            d = point - scene.points[j, other]
+            error_sq = wp.length_sq(d)
+            if scene.kind[i, b] == WITH_NORMAL:
                 m = scene.normals[j, other]
                 if wp.dot(turn * scene.normals[i, b], m) < rule.alike:
                     continue
                 e = wp.dot(m, d)
-                e2 = e * e
-            w = 1.0 / (1.0 + e2 / (rule.scale * rule.scale))
+                error_sq = e * e
+            w = 1.0 / (1.0 + error_sq / (rule.scale * rule.scale))
             counts[i, b] = counts[i, b] + w * w
 
 
@@ -293,16 +291,14 @@ def match_counts(
     geometry: Any, offsets: Ints, target: Ints, relative: Floats, reach_m: float, scale_m: float, alike: float,
     stride: int = 1, threads: int | None = None,
 ) -> Singles:  # fmt: skip
-    """Count the partners with which each beam is paired, (S, B); scan s has the pairs offsets[s] .. offsets[s + 1].
-    Only every ``stride``-th beam is counted; the others have the count 0.
-    """
+    """Count the partners of every ``stride``-th beam, (S, B); scan s has the pairs offsets[s] to offsets[s + 1]."""
     scans, rule = len(geometry), devices.pack(PairRule, geometry.device, reach=reach_m, scale=scale_m, alike=alike)
     inputs = [scan_arrays(geometry, stride), offsets, target, relative, rule, (scans, geometry.beams)]
     return np.asarray(devices.launch(count_matches, scans, inputs, geometry.device, threads)[0])
 
 
 @wp.func
-def near_wall(scene: ScanArrays, j: int, beam: int, at: wp.vec2f, near: float) -> int:
+def is_near_wall(scene: ScanArrays, j: int, beam: int, point: wp.vec2f, near: float) -> int:
     """Return 1 if a point is near the wall between the points of a beam of scan j and the next beam, else 0."""
     beams = scene.beams[j]
     a = beam
@@ -318,11 +314,11 @@ def near_wall(scene: ScanArrays, j: int, beam: int, at: wp.vec2f, near: float) -
     p = scene.points[j, a]
     d = scene.points[j, b] - p
     size = wp.length(d)
-    if size > widest_gap(scene.step[j], wp.length(p)):
+    if size > max_gap(scene.step[j], wp.length(p)):
         return 0
-    here = at - p
-    share = wp.clamp(wp.dot(here, d) / wp.max(size * size, 1.0e-9), 0.0, 1.0)
-    return wp.where(wp.length(here - share * d) < near, 1, 0)
+    to_point = point - p
+    share = wp.clamp(wp.dot(to_point, d) / wp.max(size * size, 1.0e-9), 0.0, 1.0)
+    return wp.where(wp.length(to_point - share * d) < near, 1, 0)
 
 
 @wp.kernel
@@ -330,9 +326,9 @@ def compare_views(
     first: int, scene: ScanArrays, source: Int32s, target: Int32s, relative: Vec3ds, near: float, clear: float,
     counts: Int32Rows,
 ):  # fmt: skip
-    """One thread per pair: count the points of the source that match the target, that contradict it, and all points. A
-    point contradicts if three neighbouring beams of the target all hit something ``clear`` metres beyond it.
-    """
+    """One thread per pair: count the points of the source that match the target, that contradict it, and all points."""
+    # p: pair; i, j: source and target; k: beam of the source. A point contradicts the target if three neighbouring
+    # beams of the target all hit something ``clear`` metres beyond it.
     p = first + wp.tid()
     i = source[p]
     j = target[p]
@@ -345,17 +341,17 @@ def compare_views(
         if scene.kind[i, k] == wp.uint8(0):
             continue
         total += 1
-        at = turn * scene.points[i, k] + shift
-        if nearest_point(scene, j, at, near) >= 0:
+        point = turn * scene.points[i, k] + shift
+        if nearest_point(scene, j, point, near) >= 0:
             matched += 1
             continue
-        middle = beam_towards(scene, j, at)
+        middle = beam_towards(scene, j, point)
         if middle < 0:
             continue
-        if near_wall(scene, j, middle - 1, at, near) + near_wall(scene, j, middle, at, near) > 0:
+        if is_near_wall(scene, j, middle - 1, point, near) + is_near_wall(scene, j, middle, point, near) > 0:
             matched += 1
             continue
-        away = wp.length(at)
+        away = wp.length(point)
         through = int(0)
         for d in range(-1, 2):
             c = neighbour(middle, d, scene.beams[j], scene.full_circle[j])
@@ -381,8 +377,9 @@ class Agreement:
 def view_counts(
     geometry: Any, source: Ints, target: Ints, relative: Floats, agreement: Agreement, threads: int | None = None
 ) -> Ints:
-    """Count the points of each source: matched by the target, contradicting it, all; (P, 3). ``relative`` holds the
-    poses of sources in the frames of targets, (P, 3).
+    """Count the points of each source that match the target, that contradict it, and all, (P, 3).
+
+    ``relative`` holds the poses of sources in the frames of targets, (P, 3).
     """
     scene, pairs = scan_arrays(geometry, max(1, geometry.beams // agreement.beams)), len(source)
     inputs = [scene, source, target, relative, agreement.near_m, agreement.clear_m, (pairs, 3)]
@@ -392,8 +389,6 @@ def view_counts(
 def mutual_view_counts(
     geometry: Any, first: Ints, second: Ints, relative: Floats, agreement: Agreement, threads: int | None = None
 ) -> Ints:
-    """Sum `view_counts` of the second scans in the views of the first, and of the first in those of the second, (P, 3).
-    ``relative`` are the poses of the second in the frames of the first, (P, 3).
-    """
+    """Sum `view_counts` in both directions, (P, 3); ``relative`` are the poses of the second in the first's frame."""
     counts = view_counts(geometry, second, first, relative, agreement, threads)
     return counts + view_counts(geometry, first, second, inverse(relative), agreement, threads)

@@ -14,7 +14,8 @@ wp.set_module_options({"enable_backward": False})
 POINT = wp.constant(wp.uint8(1))
 WITH_NORMAL = wp.constant(wp.uint8(2))
 NOWHERE_M = wp.constant(wp.float32(1.0e6))  # where beams without a point end: too far to be nearest to any point
-REACHES = wp.constant(3)  # fits tried per beam, each twice as wide as the one before
+MOST_FITS = wp.constant(3)  # fits tried per beam, each twice as wide as the one before
+MOST_NEIGHBOURS = wp.constant(40)  # beams to either side, this one included
 
 
 @wp.struct
@@ -45,7 +46,7 @@ def neighbour(beam: int, steps: int, beams: int, full_circle: int) -> int:
 
 
 @wp.func
-def widest_gap(step_rad: wp.float32, away: wp.float32) -> wp.float32:
+def max_gap(step_rad: wp.float32, away: wp.float32) -> wp.float32:
     """Return how far apart the points of two neighbouring beams on one surface may lie, ``away`` from the laser."""
     return wp.float32(0.05) + wp.float32(3.5) * (step_rad * away)
 
@@ -76,9 +77,10 @@ def scan_normals(
 
     Neighbours are consecutive beams without a gap, at first within ``reach_m``. The reach is doubled as long as the
     wall stays straight within ``noise_m``. A piece whose direction the noise hides has no normal. ``spread`` is the
-    variance of the normal's angle per variance of a point, in 1 / m^2: one over the sum of squared distances along the
-    line.
+    variance of the normal's angle per variance of a point: one over the sum of squared distances along the line.
     """
+    # s: scan; b: beam; c: neighbouring beam; n, sums, squares: number of points, and sums of their offsets; a, h, c2:
+    # their scatter matrix; along, across: its eigenvalues.
     s = first + wp.tid()
     beams = beams_of[s]
     step_rad = step_of[s]
@@ -91,16 +93,16 @@ def scan_normals(
         here = points[s, b]
         away = wp.length(here)
         apart = step_rad * away  # between neighbouring beams on a wall seen head-on
-        gap = wp.max(widest_gap(step_rad, away), wp.float32(5.0) * noise_m)
+        gap = wp.max(max_gap(step_rad, away), wp.float32(5.0) * noise_m)
         farthest = wp.max(wp.max(wp.float32(0.5), wp.float32(20.0) * noise_m), wp.float32(2.2) * apart)
         reach = reach_m
-        for fit in range(REACHES):
+        for fit in range(MOST_FITS):
             n = float(1.0)
             sums = wp.vec2f()
             squares = wp.mat22f()
             for side in range(2):
                 last = here
-                for k in range(1, 40):
+                for k in range(1, MOST_NEIGHBOURS):
                     c = neighbour(b, wp.where(side == 0, -k, k), beams, full_circle)
                     if c < 0:
                         break
@@ -151,10 +153,10 @@ def points_and_normals(
     ranges_m: Floats, angles_rad: Floats, nearest_m: float, farthest_m: float, fans: Any, reach_m: float,
     noise_m: float, device: str = "cpu", threads: int | None = None,
 ) -> tuple[Any, Any, Any, Any]:  # fmt: skip
-    """Compute points (S, B), normals (S, B), kinds (S, B) and spreads (S, B) of scans, as arrays on the device.
+    """Compute points, normals, kinds and spreads of scans, (S, B) each, as arrays on the device.
 
-    Readings are (S, B), NaN past a scan's last beam; ascending angles (1, B) for all scans, or (S, B). Points are those
-    between ``nearest_m`` and ``farthest_m``, with the standard deviation ``noise_m``. ``fans`` is a
+    Readings are (S, B), NaN past a scan's last beam; ascending angles (1, B) for all scans, or (S, B). Readings between
+    ``nearest_m`` and ``farthest_m`` are points, with the standard deviation ``noise_m``. ``fans`` is a
     `bayesmap.poses.scan_geometry.Fans`. For ``reach_m`` see `scan_normals`.
     """
     device = devices.resolve(device)
@@ -181,6 +183,14 @@ def scan_arrays(geometry: Any, stride: int = 1) -> Any:
     return packed[stride]
 
 
-def selected(array: Any, scans: NDArray[np.intp]) -> Any:
-    """Copy some rows of an array on a device."""
-    return wp.array(np.ascontiguousarray(array.numpy()[scans]), dtype=array.dtype, device=array.device)
+def equal_weights(geometry: Any) -> Any:
+    """Return equal weights of all beams, (S, B), on the geometry's device; front ends use them for every scan."""
+    if "weights" not in geometry.packed:
+        shape = (len(geometry), geometry.beams)
+        geometry.packed["weights"] = wp.full(shape, 1.0, dtype=wp.float32, device=geometry.device)
+    return geometry.packed["weights"]
+
+
+def select_rows(array: Any, rows: NDArray[np.intp]) -> Any:
+    """Copy rows of an array on a device."""
+    return wp.array(np.ascontiguousarray(array.numpy()[rows]), dtype=array.dtype, device=array.device)

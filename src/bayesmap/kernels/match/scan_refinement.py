@@ -8,10 +8,11 @@ import warp as wp
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.device import Float32Rows, Float64Rows, Floats, Int32s, Ints, Vec3ds
 from bayesmap.kernels.match.line_pairs import PairRule, pair_scans, symmetric
-from bayesmap.kernels.match.scan_geometry import ScanArrays, scan_arrays
+from bayesmap.kernels.match.scan_geometry import ScanArrays, equal_weights, scan_arrays
 
 wp.set_module_options({"enable_backward": False})
 
+LONGEST_STEP = wp.constant(wp.float64(0.5))  # metres plus radians
 STILL = wp.constant(wp.float64(1.0e-5))  # metres plus radians: steps below this end the iteration
 
 
@@ -20,8 +21,8 @@ def turn_of(yaw: wp.float64) -> wp.mat33d:
     """Return the matrix that turns steps (x, y, yaw) in a frame at this yaw into the axes of the outer frame."""
     c = wp.cos(yaw)
     s = wp.sin(yaw)
-    o = wp.float64(0.0)
-    return wp.mat33d(c, -s, o, s, c, o, o, o, wp.float64(1.0))
+    zero = wp.float64(0.0)
+    return wp.mat33d(c, -s, zero, s, c, zero, zero, zero, wp.float64(1.0))
 
 
 @wp.func
@@ -78,12 +79,9 @@ def refine(
     first: int, scene: ScanArrays, weights: Float32Rows, jobs: RefinementArrays, schedule: ConvergenceNumbers,
     out: Refined,
 ):  # fmt: skip
-    """One thread per job: minimise the cost of prior and pairs; reach and scale shrink from the first step to the last.
-
-    While they shrink, only every other point is used. Coordinates are those of the world's axes. The information is
-    that of the pairs alone, less slack.
-    """
-    # k: job; i: its scan; x: its pose; q: entry of a fixed scan.
+    """One thread per job: minimise the cost of prior and pairs, with a reach and a scale that shrink step by step."""
+    # k: job; i: its scan; x: its pose along the world's axes; q: entry of a fixed scan. While reach and scale shrink,
+    # only every other point is used. The information comes from the pairs alone, less slack.
     k = first + wp.tid()
     i = jobs.scans[k]
     x = jobs.starts[k]
@@ -118,21 +116,21 @@ def refine(
             weight += wp.float64(sums.weight)
             matched += sums.matched
             seen += sums.seen
-        off = x - jobs.priors[k]
-        off = wp.vec3d(off[0], off[1], wrap_angle(off[2]))
+        offset = x - jobs.priors[k]
+        offset = wp.vec3d(offset[0], offset[1], wrap_angle(offset[2]))
         # H (H + s^2 S)^-1 H: about H if the slack S is small, and never negative.
         ridge = wp.identity(n=3, dtype=wp.float64) * wp.float64(1.0e-6)
         trusted = second * wp.inverse(second + slack * (schedule.sigma_m * schedule.sigma_m) + ridge)
         laser_information = trusted * second * gain
         pull = trusted * gradient * gain
         whole = laser_information + jobs.prior_information[k]
-        move = wp.inverse(whole) * (pull + jobs.prior_information[k] * off)
+        move = wp.inverse(whole) * (pull + jobs.prior_information[k] * offset)
         length = wp.abs(move[0]) + wp.abs(move[1]) + wp.abs(move[2])
         if not wp.isfinite(length):
             move = wp.vec3d()
             length = wp.float64(0.0)
-        if length > wp.float64(0.5):
-            move = move * (wp.float64(0.5) / length)
+        if length > LONGEST_STEP:
+            move = move * (LONGEST_STEP / length)
         x = x - move
         information = laser_information
         out.totals[k, 0] = cost
@@ -172,25 +170,14 @@ class Convergence:
 def refine_scans(
     geometry: Any, refinement: Refinement, convergence: Convergence, threads: int | None = None
 ) -> tuple[Floats, Floats, Floats]:
-    """Refine poses. Returns poses (J, 3), information by pairs (J, 3, 3), world axes, and totals of `pair_sums`, (J,
-    4).
+    """Refine poses. Returns poses (J, 3), information by pairs in the world's axes (J, 3, 3), and totals (J, 4).
+
+    Totals are cost, weight, points matched, and points seen, as in `line_pairs.Sums`.
     """
     device, count = geometry.device, len(refinement.scans)
     jobs = devices.pack(RefinementArrays, device, **vars(refinement))
     schedule = devices.pack(ConvergenceNumbers, device, **vars(convergence))
     out = devices.pack(Refined, device, pose=(count,), information=(count,), totals=(count, 4))
-    weights = _ones(len(geometry), geometry.beams, device)
-    devices.launch(refine, count, [scan_arrays(geometry), weights, jobs, schedule, out], device, threads)
+    inputs = [scan_arrays(geometry), equal_weights(geometry), jobs, schedule, out]
+    devices.launch(refine, count, inputs, device, threads)
     return out.pose.numpy(), out.information.numpy(), out.totals.numpy()
-
-
-_ONES: dict[tuple[int, int, str], Any] = {}
-
-
-def _ones(scans: int, beams: int, device: str) -> Any:
-    """Return equal weights of all beams; they are cached, because front ends use them for every scan."""
-    key = (scans, beams, device)
-    if key not in _ONES:
-        _ONES.clear()
-        _ONES[key] = wp.full((scans, beams), 1.0, dtype=wp.float32, device=device)
-    return _ONES[key]

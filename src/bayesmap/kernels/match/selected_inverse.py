@@ -39,11 +39,10 @@ def invert_on_pattern(
 
 
 def selected_inverse(begin: Ints, row: Ints, lower: Floats, pivot: Floats) -> Floats:
-    """Compute the entries of (L D L^T)^-1 on the pattern of L, in the order of L's entries.
+    """Compute the entries of (L D L^T)^-1 on the pattern of L (Takahashi, Fagan and Chin, 1973), in L's order.
 
-    Takahashi, Fagan and Chin (1973), "Formation of a sparse bus impedance matrix and its application to short circuit
-    study". Column j of L has the entries begin[j] to begin[j + 1], with ascending rows, the diagonal first; ``lower``
-    holds them with a unit diagonal, ``pivot`` the diagonal of D, (n,). The pattern must be closed under elimination.
+    Column j of L has the entries begin[j] to begin[j + 1], with ascending rows, the diagonal first; ``lower`` holds
+    them with a unit diagonal, ``pivot`` the diagonal of D, (n,). The pattern must be closed under elimination.
     """
     devices.start()
     sums = (int(np.diff(begin).max(initial=1)),)

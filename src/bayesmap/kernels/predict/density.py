@@ -1,32 +1,37 @@
-"""Predict readings from draws of a map: densities and cumulative probabilities, averaged over the draws.
+"""Predict readings from draws of a map, averaged over the draws, and compute the likelihood of scans at any poses.
 
 A map has a stop probability m in [0, 1] for every cell, 0 or 1 for binary walls. A beam stops in the i-th cell that it
 meets with probability ``w_i = m_i prod_{j < i} (1 - m_j)``, at a distance d_i known up to a spread s_i, or nowhere:
 
     p(z) = sum_i w_i p(z | d_i, s_i) + prod_j (1 - m_j) p(z | infinity)
 
-The predictive law is the mean over draws.
+The predictive law is the mean over draws. The likelihood of a scan follows this law under one map. Its beams walk the
+grid from the pose, so no rays are traced beforehand.
 """
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 import warp as wp
+from numpy.typing import NDArray
 
 from bayesmap.beams.rays import Rays
 from bayesmap.errors import BadInput
 from bayesmap.kernels import device as devices
+from bayesmap.kernels import rays as traced
 from bayesmap.kernels import sensor_law as laws
-from bayesmap.kernels.device import Float32Rows, Float64s, Floats, Int32s, Ints, Singles, Uint8Rows
-from bayesmap.kernels.rays import Line, RayArrays, distance_at, first_past, line_from, line_of, rays_to_device
+from bayesmap.kernels.device import Float32Rows, Float64Rows, Float64s, Floats, Int32s, Ints, Singles, Uint8Rows
+from bayesmap.kernels.rays import Line, RayArrays, line_from, line_of, rays_to_device, walk_along
 from bayesmap.kernels.sensor_law import MIXTURE, NOISE, SensorLaw64
-from bayesmap.kernels.surfaces.cell import Cell, Ray, cells_to_device, cross_surface
-from bayesmap.kernels.walk import NEVER, Walk
+from bayesmap.kernels.surfaces.surface import REFLECTIVITY, Cell, Ray, cells_to_device, cross_surface
+from bayesmap.kernels.walk import NEVER, Walk, is_inside, walk_next
 from bayesmap.sensors.model import RangeLimits, SensorModel
 from bayesmap.sensors.tabulated import tabulated
 from bayesmap.space.grid import Grid
+from bayesmap.space.scans import Scans
 
 wp.set_module_options({"enable_backward": False})
 
@@ -77,9 +82,9 @@ def grid_frame(grid: Grid) -> Frame:
 def surface_stop(maps: MapArrays, row: int, column: int, line: Line) -> wp.vec3d:
     """Return the result of `stop_in` for a surface."""
     state = maps.surface[row, column]
-    met = cross_surface(state, Ray(wp.vec2(line.start_m), wp.vec2(line.direction)))
-    chance = wp.float64(state[0]) * wp.float64(met.chance)
-    return wp.vec3d(chance, wp.float64(met.distance_m), wp.float64(met.variance))
+    crossing = cross_surface(state, Ray(wp.vec2(line.start_m), wp.vec2(line.direction)))
+    chance = wp.float64(state[REFLECTIVITY]) * wp.float64(crossing.chance)
+    return wp.vec3d(chance, wp.float64(crossing.distance_m), wp.float64(crossing.variance))
 
 
 @wp.func
@@ -99,15 +104,13 @@ def stop_on_walk(maps: MapArrays, row: int, line: Line, w: Walk) -> wp.vec3d:
 
 @wp.func
 def stop_in(maps: MapArrays, row: int, column: int, line: Line, cell: int) -> wp.vec3d:
-    """Return the chance that a beam which reaches a cell stops in it, and distance and variance of the stop, metres.
-    The map is in ``row``, and has the cell in ``column``; ``cell`` is its flat index in the grid.
-    """
+    """Return chance, distance and variance of the stop of a beam in ``cell``, which has ``column`` of map ``row``."""
     if maps.surfaces != 0:
         return surface_stop(maps, row, column, line)
     chance = wp.float64(maps.stop[row, column])
     if chance == wp.float64(0.0):
         return wp.vec3d(chance, chance, chance)
-    return wp.vec3d(chance, distance_at(line, cell, maps.depth), wp.float64(0.0))
+    return wp.vec3d(chance, traced.distance_at(line, cell, maps.depth), wp.float64(0.0))
 
 
 def maps_to_device(states: StopStates, hit_depth: float, device: str) -> Any:
@@ -138,15 +141,20 @@ class DeviceMaps:
 
 
 def device_maps(batches: Iterable[StopStates], grid: Grid, hit_depth: float, *, device: str = "cpu") -> DeviceMaps:
-    """Put draws of all cells of a grid on a device; refuse none."""
+    """Put draws of all cells of a grid on a device. Raises `BadInput` if there is none."""
     device = devices.resolve(device)
     draws = list(batches)
-    if not sum(map(len, draws)):
-        raise BadInput("score: there is no draw to predict from")
+    require_draws(sum(map(len, draws)))
     states = np.concatenate(draws)
     arrays = maps_to_device(states, hit_depth, device)
     arrays.empty = devices.to_device((states[..., 0] if states.ndim == 3 else states) < LEAST_CHANCE, wp.uint8, device)
     return DeviceMaps(arrays, len(states), grid, device)
+
+
+def require_draws(draws: int) -> None:
+    """Raise `BadInput` if there are no draws."""
+    if draws == 0:
+        raise BadInput("score: there is no draw to predict from")
 
 
 # A beam is followed until its chance to get so far is below this. The limit is lower for noise alone, under which an
@@ -167,7 +175,7 @@ def add_log(sums: wp.vec2d, value: wp.float64) -> wp.vec2d:
 
 @wp.func
 def no_sum(law: SensorLaw64) -> wp.vec2d:
-    """Return an empty running sum: a log-sum-exp, or for a mixture, whose floor avoids underflow, a plain sum."""
+    """Return an empty running sum: a log-sum-exp, or a plain sum for a mixture, whose floor avoids underflow."""
     return wp.vec2d(wp.where(law.kind == MIXTURE, wp.float64(0.0), wp.float64(-1.0e300)), wp.float64(0.0))
 
 
@@ -182,7 +190,7 @@ def add_stop(
 
 
 @wp.func
-def weight_of_nothing(law: SensorLaw64) -> wp.float64:
+def negligible_weight(law: SensorLaw64) -> wp.float64:
     """Return the weight below which a beam is not followed further."""
     return wp.where(law.kind == MIXTURE, GONE_ROBUST, GONE)
 
@@ -205,10 +213,9 @@ def add_forecasts(
     first: int, law: SensorLaw64, rays: RayArrays, columns: Int32s, maps: MapArrays, draws: int, with_cumulative: int,
     out: ForecastSums,
 ):  # fmt: skip
-    """One thread per beam: add the law of its reading under each draw of a batch to running sums. A stop past the
-    beam's reach gives the reading the same density as no stop.
-    """
-    # b: beam; z: its reading; d: draw; k: entry; past: first entry beyond the reach; at: the reading, or its limit.
+    """One thread per beam: add the law of its reading under each draw of a batch to running sums."""
+    # b: beam; z: its reading; z_limit: the reading, or the limit that a typed reading stands for; d: draw; k: entry;
+    # beyond: first entry past the reach, whose stops give the reading the same density as no stop.
     b = first + wp.tid()
     z = out.range_m[b]
     if wp.isnan(z):
@@ -217,17 +224,17 @@ def add_forecasts(
     line = line_of(rays.lines, b)
     nowhere = wp.vec3d(one, wp.float64(wp.inf), wp.float64(0.0))
     sums = wp.vec2d(out.most[b], out.total[b])
-    at = z
+    z_limit = z
     if wp.isinf(z):
-        at = wp.where(z > wp.float64(0.0), law.max_m, law.min_m)
-    gone = weight_of_nothing(law)
+        z_limit = wp.where(z > wp.float64(0.0), law.max_m, law.min_m)
+    gone = negligible_weight(law)
     decay = laws.object_decay(law, z)
-    past = first_past(line, rays.cells, rays.offsets[b], rays.offsets[b + 1], out.reach_m[b], wp.float64(0.0))
+    beyond = traced.first_past(line, rays.cells, rays.offsets[b], rays.offsets[b + 1], out.reach_m[b], wp.float64(0.0))
     for d in range(draws):
         survive = wp.float64(1.0)
         for i in range(rays.offsets[b + 1] - rays.offsets[b] + 1):
             k = rays.offsets[b] + i
-            if k == past:
+            if k == beyond:
                 sums = add_stop(law, sums, survive, z, decay, nowhere)
                 if with_cumulative == 0:
                     break
@@ -238,10 +245,10 @@ def add_forecasts(
                 weight = survive * stop[0]
                 survive = survive * (one - stop[0])
             if weight > wp.float64(0.0):
-                if k < past:
+                if k < beyond:
                     sums = add_stop(law, sums, weight, z, decay, stop)
                 if with_cumulative != 0:
-                    out.below[b] = out.below[b] + weight * laws.cumulative(law, at, stop[1], stop[2])
+                    out.below[b] = out.below[b] + weight * laws.cumulative(law, z_limit, stop[1], stop[2])
                     if law.kind != NOISE:
                         out.below_max[b] = out.below_max[b] + weight * laws.cumulative(law, law.max_m, stop[1], stop[2])
                         out.below_min[b] = out.below_min[b] + weight * laws.cumulative(law, law.min_m, stop[1], stop[2])
@@ -263,7 +270,7 @@ class Forecast:
 
 
 def law_with_cumulative(sensor: SensorModel, limits: RangeLimits, device: str) -> Any:
-    """Return the law for kernels that need cumulatives; refuse a model whose probabilities do not add up to one."""
+    """Return the law for kernels that need cumulatives. Raises `BadInput` if probabilities do not add up to one."""
     law = laws.sensor_law(sensor, limits, device)
     if sensor.kernel_parameters() is None and not tabulated(sensor, limits).has_cumulative:
         raise BadInput(
@@ -280,7 +287,7 @@ def are_typed(sensor: SensorModel, limits: RangeLimits) -> bool:
 
 
 def explained_within_m(range_m: Floats, sensor: SensorModel, limits: RangeLimits, resolution_m: float) -> Floats:
-    """Return the distance past which a stop explains a reading no better than no stop, metres; infinite if none."""
+    """Return the distance past which a stop explains a reading no better than no stop, metres; infinity if none."""
     return np.asarray(sensor.reach_m(range_m, limits) + CELLS_PAST_REACH * resolution_m)
 
 
@@ -291,20 +298,19 @@ def _sums(
     """Compute log densities, and mean cumulative probabilities at the reading and at both limits."""
     device = devices.resolve(device)
     law = (law_with_cumulative if with_cumulative else laws.sensor_law)(sensor, rays.limits, device)
-    beams, asked = rays.n_beams, (rays.n_beams if with_cumulative else 1,)
+    beams, cumulatives = rays.n_beams, (rays.n_beams if with_cumulative else 1,)
     reach_m = explained_within_m(rays.range_m, sensor, rays.limits, rays.grid.resolution)
     sums = devices.pack(
-        ForecastSums, device, range_m=rays.range_m, reach_m=reach_m, total=(beams,), below=asked, below_max=asked,
-        below_min=asked, most=np.full(beams, 0.0 if law.kind == MIXTURE else -1.0e300),
+        ForecastSums, device, range_m=rays.range_m, reach_m=reach_m, total=(beams,), below=cumulatives,
+        below_max=cumulatives, below_min=cumulatives, most=np.full(beams, 0.0 if law.kind == MIXTURE else -1.0e300),
     )  # fmt: skip
-    fixed = [rays_to_device(rays, device), devices.to_device(columns, wp.int32, device)]
+    rays_and_columns = [rays_to_device(rays, device), devices.to_device(columns, wp.int32, device)]
     draws = 0
     for batch in batches:
         draws += len(batch)
-        inputs = [law, *fixed, maps_to_device(batch, hit_depth, device), len(batch), int(with_cumulative)]
+        inputs = [law, *rays_and_columns, maps_to_device(batch, hit_depth, device), len(batch), int(with_cumulative)]
         devices.launch(add_forecasts, beams, [*inputs, sums], device, 1 if beams < FEW_BEAMS else None)
-    if draws == 0:
-        raise BadInput("score: there is no draw to predict from")
+    require_draws(draws)
     with np.errstate(divide="ignore"):
         log_density = sums.most.numpy() + np.log(sums.total.numpy() / draws)
     log_density[np.isnan(rays.range_m)] = np.nan
@@ -315,8 +321,7 @@ def log_densities(
     rays: Rays, batches: Iterable[StopStates], sensor: SensorModel, hit_depth: float, *, columns: Ints | None = None,
     device: str = "cpu",
 ) -> Floats:  # fmt: skip
-    """Compute the log predictive density of every reading, (B,), also of beams traced only as far as their reading
-    reaches.
+    """Compute the log predictive density of every reading, (B,), even if beams are traced only as far as it reaches.
 
     ``columns`` are the columns of the entries' cells in the draws, (K,).
     """
@@ -326,17 +331,108 @@ def log_densities(
 def forecast(
     rays: Rays, batches: Iterable[StopStates], sensor: SensorModel, hit_depth: float, *, device: str = "cpu"
 ) -> Forecast:
-    """Predict the reading of every beam, traced over its whole length, under the mean over draws of the law above.
+    """Predict the reading of every beam, traced over its whole length, under the mean of the law over draws.
 
     The columns of the draws are the cells ``rays.touched``. In a cell without a surface, a beam stops at the share
-    ``hit_depth`` of its stretch. Raises BadInput: no draws, or a sensor of the user's own whose probabilities do not
-    add up to one.
+    ``hit_depth`` of its stretch. Raises `BadInput` if there are no draws, or if the probabilities of a sensor of the
+    user's own do not add up to one.
     """
-    log_density, (at, at_max, at_min) = _sums(rays, rays.columns, batches, sensor, hit_depth, device, True)
+    log_density, cumulative = _sums(rays, rays.columns, batches, sensor, hit_depth, device, True)
+    below, below_max, below_min = cumulative
     z = rays.range_m
     typed = are_typed(sensor, rays.limits)
     nan = np.where(np.isnan(z), np.nan, 0.0)
-    none, close = (1.0 - at_max, at_min) if typed else (np.zeros_like(at), np.zeros_like(at))
-    low = np.where(np.isneginf(z) & typed, 0.0, np.where(np.isposinf(z) & typed, at_max, at))
-    high = np.where(np.isposinf(z) & typed, 1.0, at)
+    none, close = (1.0 - below_max, below_min) if typed else (np.zeros_like(below), np.zeros_like(below))
+    low = np.where(np.isneginf(z) & typed, 0.0, np.where(np.isposinf(z) & typed, below_max, below))
+    high = np.where(np.isposinf(z) & typed, 1.0, below)
     return Forecast(log_density, *(np.clip(a, 0.0, 1.0) + nan for a in (low, high, none, close)))
+
+
+@wp.kernel
+def beam_log_likelihoods(
+    first: int, law: SensorLaw64, frame: Frame, maps: MapArrays, poses: Float64Rows, scan: Int32s, chain: Int32s,
+    beams: int, mounts: Float64Rows, range_m: Float64s, out: Float64s,
+):  # fmt: skip
+    """One thread per beam of a pose: compute log p(reading | cells, pose)."""
+    # i: thread; row: pose; b: beam of all scans; z: its reading; w: its walk; m: its mount (start and angle in its
+    # scan's frame), of which there is one per angle or one per beam.
+    i = first + wp.tid()
+    row = i / beams
+    b = scan[row] * beams + i % beams
+    z = range_m[b]
+    if wp.isnan(z):
+        return
+    m = i % beams
+    if mounts.shape[0] > beams:
+        m = b
+    one = wp.float64(1.0)
+    yaw = poses[row, 2]
+    x = poses[row, 0] + wp.cos(yaw) * mounts[m, 0] - wp.sin(yaw) * mounts[m, 1]
+    y = poses[row, 1] + wp.sin(yaw) * mounts[m, 0] + wp.cos(yaw) * mounts[m, 1]
+    line = line_in(frame, x, y, yaw + mounts[m, 2])
+    gone = negligible_weight(law)
+    decay = laws.object_decay(law, z)
+    sums = no_sum(law)
+    survive = wp.float64(1.0)
+    w = walk_along(line, frame.nx, law.max_m)
+    while w.distance <= w.end and survive >= gone:
+        if is_inside(w, frame.nx, frame.ny):
+            stop = stop_on_walk(maps, chain[row], line, w)
+            weight = survive * stop[0]
+            survive = survive * (one - stop[0])
+            if weight > wp.float64(0.0):
+                with_variance = wp.vec3d(weight, stop[1], stop[2] * stop[2])
+                sums = add_stop(law, sums, weight, z, decay, with_variance)
+        w = walk_next(w)
+    if survive > wp.float64(0.0):
+        sums = add_stop(law, sums, survive, z, decay, wp.vec3d(survive, wp.float64(wp.inf), wp.float64(0.0)))
+    out[i] = sums[0] + wp.log(sums[1])
+
+
+@dataclass(frozen=True, eq=False)
+class ScanLikelihood:
+    """The likelihood of scans at any poses under any cells. Beams keep their starts and angles relative to the pose."""
+
+    scans: Scans
+    grid: Grid
+    sensor: SensorModel
+    hit_depth: float  # share of its chord in a cell without a surface at which a beam stops
+    device: str = "cpu"
+
+    def beams(
+        self, cells: Singles | DeviceMaps, poses: Floats, scan: NDArray[np.intp], chain: NDArray[np.intp]
+    ) -> Floats:
+        """Compute the log density of each reading at poses in the world frame, invalid ones 0, in nats, (P, A).
+
+        ``cells`` holds a map of the whole grid per chain, see `StopStates`; `DeviceMaps` are not copied. ``scan`` and
+        ``chain`` are the indices of the scan and of the map at each pose, (P,).
+        """
+        device, beams = devices.resolve(self.device), self.scans.ranges_m.shape[1]
+        limits = RangeLimits(self.scans.min_range_m, self.scans.max_range_m)
+        law, size = laws.sensor_law(self.sensor, limits, device), len(poses) * beams
+        maps = cells.arrays if isinstance(cells, DeviceMaps) else maps_to_device(cells, self.hit_depth, device)
+        inputs = [law, grid_frame(self.grid), maps, poses, scan, chain, beams, *self._on_device, (size,)]
+        (out,) = devices.launch(beam_log_likelihoods, size, inputs, device, devices.threads_for(size))
+        return np.asarray(out.reshape(len(poses), beams))
+
+    def __call__(self, cells: Singles, poses: Floats, scan: NDArray[np.intp], chain: NDArray[np.intp]) -> Floats:
+        """Compute the log-likelihood of each scan at its pose, (P,): the sum of `beams`."""
+        return np.asarray(self.beams(cells, poses, scan, chain).sum(axis=1))
+
+    @cached_property
+    def _on_device(self) -> tuple[Any, Any]:
+        """Return the mounts of beams and the readings on the device."""
+        scans = self.scans
+        readings = devices.to_device(scans.ranges_m.ravel(), wp.float64, self.device)
+        mounts = np.zeros((len(scans.angles_rad), 3))
+        mounts[:, 2] = scans.angles_rad
+        if scans.own_angles_rad is not None:
+            mounts = np.zeros((*scans.ranges_m.shape, 3))
+            mounts[..., 2] = scans.angles_by_scan()
+            mounts = mounts.reshape(-1, 3)
+        if scans.beam_poses is not None:
+            dx, dy = np.moveaxis(scans.beam_poses[..., :2] - scans.poses[:, None, :2], -1, 0)
+            yaw = scans.poses[:, 2:3]
+            x, y = np.cos(yaw) * dx + np.sin(yaw) * dy, np.cos(yaw) * dy - np.sin(yaw) * dx
+            mounts = np.stack([x, y, scans.beam_angles_world() - yaw], axis=-1).reshape(-1, 3)
+        return devices.to_device(mounts, wp.float64, self.device), readings

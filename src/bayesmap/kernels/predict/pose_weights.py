@@ -1,11 +1,11 @@
 """Weigh poses fast: the log-likelihood of a scan at many poses under many draws of a map.
 
-The law is that of `bayesmap.kernels.predict.scan_likelihood`, in single precision, for mixtures. It is fast because
+The law is the one of `bayesmap.kernels.predict.density`, in single precision, for mixtures. It is fast because
 
 - the map stays on the device between calls, and one thread does a whole scan;
-- a beam's walk ends a margin past its reading: the rest has the density of a beam that meets nothing;
+- a beam's walk ends a margin past its reading: any later stop has the density of a beam that meets nothing;
 - before the reading, it matters whether the beam is stopped, not where;
-- cells that stop almost no beam, such as most of a floor, are skipped.
+- cells that stop almost no beam (most of a floor) are skipped.
 """
 
 from functools import lru_cache
@@ -20,17 +20,14 @@ from bayesmap.kernels import sensor_law as laws
 from bayesmap.kernels.device import Float64Rows, Float64s, Floats, Int32s
 from bayesmap.kernels.predict.density import DeviceMaps, Frame, MapArrays, grid_frame
 from bayesmap.kernels.sensor_law import SensorLaw32
-from bayesmap.kernels.surfaces.cell import Ray, cross_surface, crossing_probability
+from bayesmap.kernels.surfaces.surface import REFLECTIVITY, Ray, cross_surface, crossing_probability
 from bayesmap.sensors.model import RangeLimits, SensorModel
 
 wp.set_module_options({"enable_backward": False})
 
-PAST_SCALES = wp.constant(wp.float32(6.0))
-PAST_CELLS = wp.constant(wp.float32(4.0))
-"""Distance from a reading within which the place of the stop matters: noise scales plus cells (a surface is smaller
-than its cell)."""
-
-
+# Distance from a reading within which the position of the stop matters: noise scales plus cells.
+MARGIN_SCALES = wp.constant(wp.float32(6.0))
+MARGIN_CELLS = wp.constant(wp.float32(4.0))  # a surface is smaller than its cell
 UNLIKELY = wp.constant(wp.float32(1.0e-6))  # a smaller chance of a stop is skipped
 HUGE = wp.constant(wp.float32(1.0e30))  # distance of a grid line that the beam does not cross
 GONE_FAST = wp.constant(wp.float32(1.0e-12))  # a beam is followed until its chance to get so far is below this
@@ -40,7 +37,7 @@ ZERO = wp.constant(wp.float32(0.0))
 
 @wp.func
 def next_line(p: wp.float32, u: wp.float32) -> wp.float32:
-    """Return the distance to the next grid line of one axis, in cells."""
+    """Return the distance to the next grid line of one axis, in cells, from a coordinate and a direction cosine."""
     if wp.abs(u) < wp.float32(1.0e-9):
         return HUGE
     cell = wp.floor(p)
@@ -50,16 +47,22 @@ def next_line(p: wp.float32, u: wp.float32) -> wp.float32:
 
 
 @wp.func
+def stop_chance(maps: MapArrays, draw: int, cell: int, ray: Ray) -> wp.float32:
+    """Return the chance that a beam which comes to a cell stops in it."""
+    if maps.surfaces != 0:
+        state = maps.surface[draw, cell]
+        return state[REFLECTIVITY] * crossing_probability(state, ray)
+    return maps.stop[draw, cell]
+
+
+@wp.func
 def reading_log_density(
     law: SensorLaw32, frame: Frame, maps: MapArrays, draw: int, x: wp.float32, y: wp.float32, angle: wp.float32,
     z: wp.float32,
 ) -> wp.float32:  # fmt: skip
-    """Return log p(reading | map, beam) for a beam from (x, y), in metres from the grid's corner.
-
-    The walk is that of Amanatides and Woo (1987), without a rule for corners. The cell of the sensor is touched where
-    the beam leaves it.
-    """
-    # Start of the walk, in cells: position p, cell c, distance of the next grid lines, and gap between lines.
+    """Return log p(reading | map, beam) for a beam from (x, y), in metres from the grid's corner."""
+    # The walk is the one of Amanatides and Woo (1987), without a rule for corners. The cell of the sensor is touched
+    # where the beam leaves it. Start, in cells: position p, cell c, distance of the next grid lines, gap between lines.
     resolution = wp.float32(frame.resolution)
     depth = wp.float32(maps.depth)
     ux = wp.cos(angle)
@@ -74,54 +77,45 @@ def reading_log_density(
     next_y = next_line(py, uy)
     gap_x = wp.where(next_x < HUGE, wp.abs(ONE / ux), HUGE)
     gap_y = wp.where(next_y < HUGE, wp.abs(ONE / uy), HUGE)
-    # Distances between which the place of the stop matters: near and past.
+    # Distances, in cells, between which the position of the stop matters.
     ray = Ray(wp.vec2(x, y), wp.vec2(ux, uy))
     decay = laws.object_decay(law, z)
-    past = law.max_m
+    last_relevant = law.max_m
     end = wp.clamp(z, ZERO, law.max_m)
-    margin = PAST_SCALES * wp.sqrt(laws.variance_at(law, end, ZERO)) + PAST_CELLS * resolution
-    near = (end - margin) / resolution
+    margin = MARGIN_SCALES * wp.sqrt(laws.variance_at(law, end, ZERO)) + MARGIN_CELLS * resolution
+    first_relevant = (end - margin) / resolution
     if wp.isfinite(z):
-        past = wp.min(past, z + margin)
-    past = past / resolution
-    entered = wp.min(next_x, next_y)
+        last_relevant = wp.min(last_relevant, z + margin)
+    last_relevant = last_relevant / resolution
+    # Walk, and sum the density over stops: chance of getting to the cell, times chance and density of its stop.
+    entry = wp.min(next_x, next_y)
     total = ZERO
     survive = ONE
-    while entered <= past and survive > GONE_FAST:
-        left = wp.min(next_x, next_y)
+    while entry <= last_relevant and survive > GONE_FAST:
+        exit = wp.min(next_x, next_y)
         if cx >= 0 and cx < frame.nx and cy >= 0 and cy < frame.ny:
             cell = cx * frame.ny + cy
-            if entered >= near:
-                chance = ZERO
-                distance = (entered + depth * (left - entered)) * resolution
-                variance = ZERO
-                if maps.surfaces != 0:
-                    state = maps.surface[draw, cell]
-                    chance = state[0] * crossing_probability(state, ray)
-                    if chance > UNLIKELY:
-                        met = cross_surface(state, ray)
-                        distance = met.distance_m
-                        variance = met.variance
-                else:
-                    chance = maps.stop[draw, cell]
+            if entry >= first_relevant:
+                chance = stop_chance(maps, draw, cell, ray)
                 if chance > UNLIKELY:
+                    distance = (entry + depth * (exit - entry)) * resolution
+                    variance = ZERO
+                    if maps.surfaces != 0:
+                        crossing = cross_surface(maps.surface[draw, cell], ray)
+                        distance = crossing.distance_m
+                        variance = crossing.variance
                     total += survive * chance * laws.stop_density(law, z, decay, distance, variance)
                     survive = survive * (ONE - chance)
             elif maps.empty[draw, cell] == wp.uint8(0):
-                chance = ZERO
-                if maps.surfaces != 0:
-                    state = maps.surface[draw, cell]
-                    chance = state[0] * crossing_probability(state, ray)
-                else:
-                    chance = maps.stop[draw, cell]
+                chance = stop_chance(maps, draw, cell, ray)
                 density = law.uniform
                 if not wp.isfinite(z):
-                    distance = (entered + depth * (left - entered)) * resolution
+                    distance = (entry + depth * (exit - entry)) * resolution
                     density = laws.stop_density(law, z, decay, distance, ZERO)
                 total += survive * chance * density
                 survive = survive * (ONE - chance)
         # Step to the next cell; end outside the grid.
-        entered = left
+        entry = exit
         if next_x < next_y:
             cx += step_x
             next_x += gap_x
@@ -129,29 +123,28 @@ def reading_log_density(
             cy += step_y
             next_y += gap_y
         if (cx < 0 and step_x < 0) or (cy < 0 and step_y < 0):
-            entered = HUGE
+            entry = HUGE
         if (cx >= frame.nx and step_x > 0) or (cy >= frame.ny and step_y > 0):
-            entered = HUGE
+            entry = HUGE
     return wp.log(wp.max(total + survive * laws.no_stop_density(law, z, decay), wp.float32(1.0e-30)))
 
 
 @wp.kernel
 def scan_log_likelihoods(
-    first: int, law: SensorLaw32, frame: Frame, maps: MapArrays, draws: int, in_turn: int, poses: Float64Rows,
+    first: int, law: SensorLaw32, frame: Frame, maps: MapArrays, columns: int, cycle: int, poses: Float64Rows,
     scan: Int32s, angle_rad: Float64s, range_m: Float64Rows, out: Float64Rows,
 ):  # fmt: skip
-    """One thread per pose and draw: sum log p(reading | map, pose) over beams. If ``in_turn`` is positive, pose p is
-    weighed under draw p modulo ``in_turn`` alone; else under all draws.
-    """
+    """One thread per pose and column of the result: sum log p(reading | map, pose) over beams."""
     # t: thread; p: pose; d: draw; b: beam.
     t = first + wp.tid()
-    p = t / draws
-    column = t - p * draws
+    p = t / columns
+    column = t - p * columns
     d = column
-    if in_turn > 0:  # threads are in the order of draws: poses of one draw read the same cells
-        each = (poses.shape[0] + in_turn - 1) / in_turn
-        d = t / each
-        p = (t - d * each) * in_turn + d
+    # In turn: pose p is weighed under draw p mod cycle. Threads are grouped by draw, whose poses read the same cells.
+    if cycle > 0:
+        poses_a_draw = (poses.shape[0] + cycle - 1) / cycle
+        d = t / poses_a_draw
+        p = (t - d * poses_a_draw) * cycle + d
         column = 0
         if p >= poses.shape[0]:
             return
@@ -177,16 +170,14 @@ def scan_log_likelihood(
 ) -> Floats:  # fmt: skip
     """Compute the log-likelihood of scans at poses under draws of the map, nats, (P, D); invalid readings count 0.
 
-    Readings are those of one scan, (A,), or of several, (S, A). ``scan`` is the index of the scan at each pose, (P,);
-    None for the first. The first ``draws`` of the map are used. If ``in_turn``, each pose is weighed under one draw,
-    the draws in turn; the result is (P, 1).
+    Readings belong to one scan, (A,), or to several, (S, A). ``scan`` is the index of the scan at each pose, (P,); None
+    for the first. The first ``draws`` of the map are used. If ``in_turn``, each pose is weighed under one draw, the
+    draws in turn; the result is (P, 1).
     """
-    count = len(poses)
-    draws = maps.draws if draws is None else min(draws, maps.draws)
-    cycle = draws if in_turn else 0
-    draws = 1 if in_turn else draws
-    scan = np.zeros(count, np.intp) if scan is None else scan
-    inputs = [_law(sensor, limits, maps.device), grid_frame(maps.grid), maps.arrays, draws, cycle]
-    inputs += [poses, scan, angles_rad, np.atleast_2d(ranges_m), (count, draws)]
-    size = -(-count // cycle) * cycle if in_turn else count * draws
-    return np.asarray(devices.launch(scan_log_likelihoods, size, inputs, maps.device, threads)[0])
+    n_poses, n_draws = len(poses), maps.draws if draws is None else min(draws, maps.draws)
+    columns, cycle = (1, n_draws) if in_turn else (n_draws, 0)
+    scan = np.zeros(n_poses, np.intp) if scan is None else scan
+    inputs = [_law(sensor, limits, maps.device), grid_frame(maps.grid), maps.arrays, columns, cycle]
+    inputs += [poses, scan, angles_rad, np.atleast_2d(ranges_m), (n_poses, columns)]
+    n_threads = devices.ceil_div(n_poses, cycle) * cycle if in_turn else n_poses * n_draws
+    return np.asarray(devices.launch(scan_log_likelihoods, n_threads, inputs, maps.device, threads)[0])

@@ -1,8 +1,7 @@
 """Mix the stops of beams over draws, and predict from the mixture: chances of first hits, and quantiles of ranges.
 
 The predictive law is linear in the weights of stops, so a prediction needs only their means over the draws. The stops
-in one cell are merged into one with their mean distance; their scatter is added to its spread. Quantiles are found by
-bisection. Under the robust mixture, stops far before or behind the remaining span are not evaluated again.
+in one cell are merged into one with their mean distance; their scatter is added to its spread.
 """
 
 from collections.abc import Iterable
@@ -14,7 +13,6 @@ import warp as wp
 from numpy.typing import NDArray
 
 from bayesmap.beams.rays import Rays
-from bayesmap.errors import BadInput
 from bayesmap.kernels import device as devices
 from bayesmap.kernels import sensor_law as laws
 from bayesmap.kernels.device import Float32s, Float64Rows, Float64s, Floats, Int32s, Ints, Singles
@@ -25,7 +23,7 @@ from bayesmap.kernels.sensor_law import MIXTURE, SensorLaw64
 from bayesmap.sensors.model import SensorModel
 
 wp.set_module_options({"enable_backward": False, "max_unroll": 1})  # halvings unrolled take minutes to compile
-LEAST_CHANCE = wp.constant(wp.float64(1.0e-12))  # least chance of an event, and of getting to it
+LEAST_EVENT_CHANCE = wp.constant(wp.float64(1.0e-12))  # least chance of an event, and of getting to it
 LEAST_WEIGHT = wp.constant(wp.float64(1.0e-10))  # stops of less weight are skipped: a thousand of them add nothing
 MOST_CHANCE = wp.constant(wp.float64(1.0 - 1.0e-7))  # largest chance that single precision distinguishes from one
 
@@ -36,7 +34,7 @@ class StopSums:
 
     weight: Float32s  # weight of the stop at each entry
     shift: Float32s  # weighted distance of the stop, from where it is without a surface
-    square: Float32s  # weighted square of that, variance included
+    square: Float32s  # weighted square of this distance, variance included
     no_stop: Float64s  # chance that a beam stops nowhere
 
 
@@ -57,9 +55,9 @@ def add_stops(
             if w > wp.float64(0.0):
                 out.weight[k] = out.weight[k] + wp.float32(w)
                 if maps.surfaces != 0:
-                    away = stop[1] - distance_at(line, rays.cells[k], maps.depth)
-                    out.shift[k] = out.shift[k] + wp.float32(w * away)
-                    out.square[k] = out.square[k] + wp.float32(w * (away * away + stop[2]))
+                    shift = stop[1] - distance_at(line, rays.cells[k], maps.depth)
+                    out.shift[k] = out.shift[k] + wp.float32(w * shift)
+                    out.square[k] = out.square[k] + wp.float32(w * (shift * shift + stop[2]))
                 if survive < gone:
                     break
         out.no_stop[b] = out.no_stop[b] + survive
@@ -77,33 +75,30 @@ class StopMixture:
 
 
 def mix_stops(rays: Rays, batches: Iterable[StopStates], hit_depth: float, *, device: str = "cpu") -> StopMixture:
-    """Average the stops of each beam over draws; arguments as of `density.forecast`. Raises BadInput: no draws."""
+    """Average the stops of each beam over draws, see `density.forecast`. Raises `BadInput` if there are no draws."""
     device = devices.resolve(device)
     on_device = ((density.maps_to_device(batch, hit_depth, device), len(batch)) for batch in batches)
-    return _mixed(rays, rays.columns, on_device, hit_depth, device, float(LEAST_CHANCE))
+    return _mix(rays, rays.columns, on_device, hit_depth, device, float(LEAST_EVENT_CHANCE))
 
 
 def mix_device_stops(rays: Rays, maps: DeviceMaps, gone: float) -> StopMixture:
-    """Average the stops of each beam over draws of all cells that are on a device already. A beam whose chance to get
-    to a cell is below ``gone`` counts as one that stops nowhere.
-    """
-    return _mixed(rays, rays.cells, [(maps.arrays, maps.draws)], maps.arrays.depth, maps.device, gone)
+    """Average the stops of each beam over draws of all cells; below the chance ``gone`` to get on, it stops nowhere."""
+    return _mix(rays, rays.cells, [(maps.arrays, maps.draws)], maps.arrays.depth, maps.device, gone)
 
 
-def _mixed(
+def _mix(
     rays: Rays, columns: Ints, batches: Iterable[tuple[Any, int]], hit_depth: float, device: str, gone: float
 ) -> StopMixture:
-    """Average over batches of maps; ``columns`` are the places of the entries' cells in the maps."""
+    """Average over batches of maps; ``columns`` are the columns of the entries' cells in the maps."""
     entries = (rays.n_incidences,)
     sums = devices.pack(StopSums, device, weight=entries, shift=entries, square=entries, no_stop=(rays.n_beams,))
-    fixed = [rays_to_device(rays, device), devices.to_device(columns, wp.int32, device)]
+    rays_and_columns = [rays_to_device(rays, device), devices.to_device(columns, wp.int32, device)]
     draws = 0
     for maps, count in batches:
         draws += count
-        inputs = [*fixed, maps, count, gone, sums]
+        inputs = [*rays_and_columns, maps, count, gone, sums]
         devices.launch(add_stops, rays.n_beams, inputs, device, devices.threads_for(rays.n_beams))
-    if draws == 0:
-        raise BadInput("score: there is no draw to predict from")
+    density.require_draws(draws)
     weight, shift, square = (a.numpy() for a in (sums.weight, sums.shift, sums.square))
     total = np.where(weight > 0, weight, np.float32(1.0))
     mean = shift / total
@@ -139,10 +134,9 @@ def find_events(
     first: int, law: SensorLaw64, stops: StopMixtureArrays, rays: RayArrays, range_m: Float64s, chance: Float32s,
     stopped: wp.array(dtype=wp.int8),
 ):  # fmt: skip
-    """One thread per beam: compute the chance that its reading ends in each stretch that it reaches, and the outcome.
-    ``stopped`` is -1 if the reading does not reach the stretch, or if the stretch has no length.
-    """
-    # b: beam; z: its reading; k: entry; before, after: cumulative probability at the stretch's two ends.
+    """One thread per beam: compute the chance that its reading ends in each stretch that it reaches, and if it does."""
+    # b: beam; z: its reading; k: entry; before, after: cumulative probability at the stretch's two ends; stopped: stays
+    # -1 if the reading does not reach the stretch, or if the stretch has no length.
     b = first + wp.tid()
     z = range_m[b]
     one = wp.float64(1.0)
@@ -163,8 +157,8 @@ def find_events(
             if before < wp.float64(0.0):
                 before = mixture_below(law, stops, b, enter)
             after = mixture_below(law, stops, b, leave)
-            p = (after - before) / wp.max(one - before, LEAST_CHANCE)
-            chance[k] = wp.float32(wp.clamp(p, LEAST_CHANCE, MOST_CHANCE))
+            p = (after - before) / wp.max(one - before, LEAST_EVENT_CHANCE)
+            chance[k] = wp.float32(wp.clamp(p, LEAST_EVENT_CHANCE, MOST_CHANCE))
             stopped[k] = wp.where(z < leave, wp.int8(1), wp.int8(0))
             before = after
 
@@ -180,8 +174,7 @@ def stops_to_device(stops: StopMixture, device: str) -> Any:
 def first_hit_events(stops: StopMixture, sensor: SensorModel, device: str = "cpu") -> tuple[Singles, NDArray[np.int8]]:
     """Predict, for each stretch of a beam in a cell that its reading reaches, whether the reading ends there.
 
-    Let F be the beam's predictive cumulative and [a, b) the stretch. The chance is ``(F(b) - F(a)) / (1 - F(a))``. The
-    product of the probabilities of a beam's events is the probability of the cell in which its reading ends. Returns
+    With the beam's predictive cumulative F and the stretch [a, b), the chance is (F(b) - F(a)) / (1 - F(a)). Returns
     chances and outcomes, (K,) each: 1 if the reading ended there, 0 if it went on, -1 without an event.
     """
     device = devices.resolve(device)
@@ -199,22 +192,19 @@ HALVINGS = wp.constant(15)  # halvings of the span of ranges: quantiles are off 
 
 @wp.struct
 class LevelSearch:
-    """The search for the range of a level. The range lies between ``low`` and ``high``.
-
-    Stops before ``begin`` return readings below the range, and stops from ``end`` on return readings behind it.
-    """
+    """The search for the range of a level, which lies between ``low`` and ``high``."""
 
     low: wp.float64
     high: wp.float64
-    begin: int
-    end: int
+    begin: int  # stops before this entry return readings below the range
+    end: int  # stops from this entry on return readings behind it
     below: wp.float64  # sum over stops before begin: weight times the chance of a reading that is not random
     behind: wp.float64  # weight of the stops from end on
     total: wp.float64  # weight of all stops
 
 
 @wp.func
-def halved(law: SensorLaw64, stops: StopMixtureArrays, s: LevelSearch, level: wp.float64) -> LevelSearch:
+def halve_span(law: SensorLaw64, stops: StopMixtureArrays, s: LevelSearch, level: wp.float64) -> LevelSearch:
     """Return the half of the span that holds the level, for the robust mixture; decided stops are evaluated once."""
     # z: middle of the span; p: probability of a reading below z that is not random; k: entry.
     z = wp.float64(0.5) * (s.low + s.high)
@@ -224,7 +214,7 @@ def halved(law: SensorLaw64, stops: StopMixtureArrays, s: LevelSearch, level: wp
         weight = wp.float64(stops.weight[k])
         if weight > LEAST_WEIGHT:
             at = wp.float64(stops.distance_m[k])
-            p += weight * laws.met_or_returned(law, z, decay, at, wp.float64(stops.variance[k]))
+            p += weight * laws.not_random_below(law, z, decay, at, wp.float64(stops.variance[k]))
     if s.total * laws.random_below(law, z) + law.p_known * p < level:
         # Upper half: decide the stops whose returns all lie below z.
         s.low = z
@@ -237,7 +227,7 @@ def halved(law: SensorLaw64, stops: StopMixtureArrays, s: LevelSearch, level: wp
             going = laws.is_before(law, z, at, variance) or weight <= LEAST_WEIGHT
             if going:
                 if weight > LEAST_WEIGHT:
-                    s.below += weight * laws.met_or_returned(law, z, decay, at, variance)
+                    s.below += weight * laws.not_random_below(law, z, decay, at, variance)
                 s.begin += 1
     else:
         # Lower half: decide the stops whose returns all lie behind z.
@@ -282,7 +272,7 @@ def find_quantiles(
             sought.end = stops.offsets[b + 1]
             sought.behind = stops.no_stop[b]
             for _j in range(HALVINGS):
-                sought = halved(law, stops, sought, level)
+                sought = halve_span(law, stops, sought, level)
             quantiles[b, i] = sought.high
         else:
             low = start
@@ -298,14 +288,11 @@ def find_quantiles(
 
 
 def range_quantiles(stops: StopMixture, levels: Floats, sensor: SensorModel, device: str = "cpu") -> Floats:
-    """Compute quantiles of each beam's reading at ascending levels, metres, (B, levels). No return counts as +inf, too
-    close as -inf. A sensor that is noise alone may read from minus to twice its largest range.
-    """
-    device = devices.resolve(device)
-    limits = stops.rays.limits
+    """Compute quantiles of readings at ascending levels, metres, (B, levels); no return is inf, too close -inf."""
+    device, limits, beams = devices.resolve(device), stops.rays.limits, stops.rays.n_beams
     law = density.law_with_cumulative(sensor, limits, device)
     typed = density.are_typed(sensor, limits)
+    # A sensor that is noise alone may read from minus to twice its largest range.
     low, high = (limits.min_m, limits.max_m) if typed else (-limits.max_m, 2.0 * limits.max_m)
-    beams = stops.rays.n_beams
     inputs = [law, stops_to_device(stops, device), np.asarray(levels), low, high, (beams, len(levels))]
     return np.asarray(devices.launch(find_quantiles, beams, inputs, device)[0])

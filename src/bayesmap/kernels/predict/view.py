@@ -36,15 +36,15 @@ def line_of_view(frame: Frame, views: Views, b: int) -> Line:
 
 
 @wp.kernel
-def draw_scan(
+def draw_stop_distances(
     first: int, frame: Frame, maps: MapArrays, views: Views, draw: Int32s, key: wp.uint64, distance_m: Float64s,
     spread_m: Float64s,
 ):  # fmt: skip
-    """One thread per beam of a pose: draw the distance at which it stops; infinite if nowhere."""
+    """One thread per beam of a pose: draw the distance at which it stops, infinite if nowhere, and its spread."""
     # b: beam; w: its walk.
     b = first + wp.tid()
     line = line_of_view(frame, views, b)
-    left = to_uniform(random_bits(key, wp.uint64(b)))  # the beam stops once ``survive`` is below this
+    u = to_uniform(random_bits(key, wp.uint64(b)))  # the beam stops once ``survive`` is below this
     survive = wp.float64(1.0)
     distance_m[b] = wp.float64(wp.inf)
     w = walk_along(line, frame.nx, views.longest_m)
@@ -52,7 +52,7 @@ def draw_scan(
         if is_inside(w, frame.nx, frame.ny):
             stop = stop_on_walk(maps, draw[b / views.angles.shape[0]], line, w)
             survive = survive * (wp.float64(1.0) - stop[0])
-            if survive < left:
+            if survive < u:
                 distance_m[b] = stop[1]
                 spread_m[b] = stop[2]
                 return
@@ -64,14 +64,13 @@ def draw_scan_stops(
 ) -> tuple[Floats, Floats]:
     """Draw where the beams of a scan at each pose stop, in the map of the pose.
 
-    ``draw`` is the index of each pose's map, (P,), and ``poses`` are in the world frame, (P, 3). Beams at
-    ``angles_rad`` (A,) in the sensor's frame are followed to ``longest_m``. Returns distances in metres, infinite for a
-    beam that meets nothing, and their standard deviations, (P, A) each.
+    ``draw`` is the index of each pose's map, (P,); poses are in the world frame, (P, 3), angles in the sensor's, (A,).
+    Returns distances, at most ``longest_m`` or infinite, and their standard deviations, (P, A) each.
     """
     beams = (len(poses) * len(angles_rad),)
     views = devices.pack(Views, maps.device, poses=poses, angles=angles_rad, longest_m=longest_m)
     inputs = [grid_frame(maps.grid), maps.arrays, views, draw, key, beams, beams]
-    distance_m, spread_m = devices.launch(draw_scan, beams[0], inputs, maps.device)
+    distance_m, spread_m = devices.launch(draw_stop_distances, beams[0], inputs, maps.device)
     return distance_m.reshape(len(poses), -1), spread_m.reshape(len(poses), -1)
 
 
@@ -95,7 +94,7 @@ def exit_distance(w: Walk) -> wp.float64:
 
 @wp.kernel
 def add_beam_information(
-    first: int, frame: Frame, views: Views, occupied: Float64s, of_hit: Float64s, of_pass: Float64s,
+    first: int, frame: Frame, views: Views, occupied: Float64s, hit_nats: Float64s, pass_nats: Float64s,
     sigma_m: wp.float64, out: Float64s,
 ):  # fmt: skip
     """One thread per beam: sum FSMI's information over cells that stop the beam and cells of the reading.
@@ -132,7 +131,7 @@ def add_beam_information(
                     if is_crossed(behind):
                         behind_enter = exit_distance(behind)
                         if is_inside(behind, frame.nx, frame.ny):
-                            learnt += of_pass[behind.cell_x * frame.ny + behind.cell_y]
+                            learnt += pass_nats[behind.cell_x * frame.ny + behind.cell_y]
                     behind = walk_next(behind)
                 # A third walk, ahead, visits the cells k of readings about this stop.
                 ahead = behind
@@ -147,8 +146,8 @@ def add_beam_information(
                         below_over = normal_below((over - middle) / sigma)
                         if is_inside(ahead, frame.nx, frame.ny):
                             cell = ahead.cell_x * frame.ny + ahead.cell_y
-                            total += weight * (below_over - below) * (known + of_hit[cell])
-                            known += of_pass[cell]
+                            total += weight * (below_over - below) * (known + hit_nats[cell])
+                            known += pass_nats[cell]
                         begin = over
                         below = below_over
                     ahead = walk_next(ahead)
@@ -158,7 +157,7 @@ def add_beam_information(
     if survive > MIN_SURVIVAL:
         while behind.distance <= behind.end:
             if is_inside(behind, frame.nx, frame.ny) and is_crossed(behind):
-                learnt += of_pass[behind.cell_x * frame.ny + behind.cell_y]
+                learnt += pass_nats[behind.cell_x * frame.ny + behind.cell_y]
             behind = walk_next(behind)
         total += survive * learnt
     out[b] = total
@@ -176,9 +175,8 @@ def independent_information(
     """Compute the fast Shannon mutual information of every beam with a map of independent cells, in nats, (P, A).
 
     Zhang, Henderson, Sze and Karaman, *FSMI* (ICRA 2019), equation 14, with the exact integrals of the noise.
-
-    Cells stop beams with probabilities inside (0, 1), (N,). Readings have the standard deviation ``sigma_m``. A
-    reading in a cell multiplies the cell's odds by ``hit_factor``, over 1; a reading behind it by ``pass_factor``.
+    ``occupied`` are probabilities inside (0, 1), (N,). Readings have the standard deviation ``sigma_m``. A reading in a
+    cell multiplies the cell's odds by ``hit_factor``, over 1; a reading behind it by ``pass_factor``.
     """
     device, beams = devices.resolve(device), len(poses) * len(angles_rad)
     odds = occupied / (1.0 - occupied)

@@ -1,23 +1,17 @@
-r"""The second half of a sweep: draw the cells, given where the beams stopped, and sum the chain's log joint.
+"""The second half of a sweep: draw the cells, given where the beams stopped, and sum the chain's log joint.
 
 Cells in which readings end have their own kernel (`bayesmap.kernels.surfaces.endpoint_cells`). Each of the other cells
 does one of two things:
 
-- It draws its reflectivity, m ~ Beta(a + hits, b + met), with a and b those of its label if cells have labels.
+- It draws its reflectivity, m ~ Beta(a + hits, b + met), with a and b of its label if cells have labels.
 - It tries a candidate for its surface, drawn from the prior, and accepts it with probability min(1, exp(gain)). The
   gain is the beams' part of the ratio (`bayesmap.kernels.surfaces.stops`).
 
-A label, free or solid, is drawn before the reflectivity, given its four neighbours' labels and its own counts. Let h be
-the beams that met a cell's surface and were stopped, and n the beams that met it and passed. With the reflectivity
-integrated out (a Beta-binomial),
-
-    p(solid | all others) / p(free | all others)
-        = exp(coupling * (solid - free among its neighbours)) * r(a_solid, b_solid) / r(a, b),
-    r(a, b) = B(a + h, b + n) / B(a, b)
-
-Both draws are a Gibbs step of the pair. Cells that learn nothing in a sweep keep both. A cell that no beam touches
-draws its reflectivity only when beams may come to it. The grid is a checkerboard: cells of one colour have no neighbour
-among them, and can be drawn at once. Sums run over slices of fixed size, so they do not depend on threads.
+A label is drawn before the reflectivity, given its four neighbours' labels and its own counts, with the reflectivity
+integrated out (docs/surfaces.md): a Gibbs step of the pair. Cells that learn nothing in a sweep keep both. A cell that
+no beam touches draws its reflectivity only when beams may come to it. The grid is a checkerboard: cells of one colour
+have no neighbour among them, and can be drawn at once. Sums run over slices of fixed size, so they do not depend on
+threads.
 """
 
 import math
@@ -28,10 +22,10 @@ import warp as wp
 
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.device import Float32s, Float64Rows, Int32s, Ints, Uint8s
-from bayesmap.kernels.random import CELLS, beta_or_nothing, beta_variate, random_bits, sweep_key, to_uniform
-from bayesmap.kernels.surfaces import cell as surface
-from bayesmap.kernels.surfaces.cell import REFLECTIVITY, TRYING, Cell, PriorNumbers
-from bayesmap.kernels.surfaces.stops import GAIN_UNITS, LEARNS, MIN_REFLECTIVITY, ChainArrays
+from bayesmap.kernels.random import CELLS, beta_or_zero, beta_variate, random_bits, sweep_key, to_uniform
+from bayesmap.kernels.surfaces import surface
+from bayesmap.kernels.surfaces.stops import GAIN_UNITS, LEARNS, NEGLIGIBLE_REFLECTIVITY, ChainArrays
+from bayesmap.kernels.surfaces.surface import REFLECTIVITY, TRYING, Cell, PriorNumbers
 from bayesmap.kernels.walls.chains import draw_wall, pairs_alike, walls_less_free
 
 wp.set_module_options({"enable_backward": False})
@@ -39,10 +33,7 @@ wp.set_module_options({"enable_backward": False})
 FROM_UNITS = wp.constant(wp.float64(1.0 / GAIN_UNITS))  # from units of `ChainArrays.gain` to nats
 HIDDEN = wp.constant(wp.float32(0.0))  # a cell that tries no candidate
 FRESH = wp.constant(wp.float32(1.0))  # a cell that tries a candidate from the prior
-TRIES_EVERY = wp.constant(4)
-"""Updates per candidate of a cell in which no reading ends. It tries none if it stops almost no beam. In the other
-updates it draws its reflectivity."""
-
+TRIES_EVERY = wp.constant(4)  # updates per candidate of a cell in which no reading ends; the others draw reflectivity
 SILENT_EVERY = wp.constant(3)  # sweeps between two surfaces from the prior in a cell whose surface no beam observes
 
 # Random counters of one cell in one sweep, part CELLS; `square_counts` defines a further one.
@@ -73,18 +64,18 @@ def tries(sweep: int, period: int, c: int) -> bool:
 
 @wp.func
 def is_silent(sweep: int, period: int, c: int, m: wp.float32, stopped_in: int) -> bool:
-    """Return whether a cell in which no reading ends takes another surface from the prior at the end of a sweep: in
-    some sweeps, if it stopped no beam and its reflectivity is too small for passing beams to be informative.
-    """
-    return period != 0 and (sweep + c) % SILENT_EVERY == 0 and m <= MIN_REFLECTIVITY and stopped_in != sweep
+    """Return whether a cell in which no reading ends takes another surface from the prior at the end of a sweep."""
+    # It does so in some sweeps, if it stopped no beam and its reflectivity is too small for passing beams to tell.
+    return period != 0 and (sweep + c) % SILENT_EVERY == 0 and m <= NEGLIGIBLE_REFLECTIVITY and stopped_in != sweep
 
 
 @wp.func
-def renewed_surface(prior: PriorNumbers, centre: wp.vec2, cell: Cell, key: wp.uint64, at: wp.uint64) -> Cell:
-    """Draw another surface for a cell that no beam observes, from the prior with its size penalty."""
-    candidate = surface.fresh_surface(prior, centre, cell, key, at + AT_SILENT)
-    log_ratio = surface.log_size_penalty(prior, candidate) - surface.log_size_penalty(prior, cell)
-    accepted = wp.log(to_uniform(random_bits(key, at + AT_SILENT - wp.uint64(1)))) < log_ratio
+def accept_surface(
+    prior: PriorNumbers, centre: wp.vec2, cell: Cell, candidate: Cell, gain: wp.float64, key: wp.uint64, at: wp.uint64
+) -> Cell:
+    """Return a candidate from the prior, if it is accepted given the beams' log ratio ``gain``; else the cell."""
+    log_ratio = gain + (surface.log_size_penalty(prior, candidate) - surface.log_size_penalty(prior, cell))
+    accepted = wp.log(to_uniform(random_bits(key, at))) < log_ratio
     if accepted and surface.is_own(prior, centre, candidate):
         return candidate
     return cell
@@ -95,16 +86,14 @@ def begin_sweep(
     first: int, sweep: int, without_surfaces: int, prior: PriorNumbers, prior_moved: int, active: ActiveCells,
     state: ChainArrays, log_prior: Float32s,
 ):  # fmt: skip
-    """One thread per chain's cell, before a sweep: reset the counts of its beams, and draw a candidate if it tries one.
-    ``log_prior`` of a cell is computed again if the last sweep can have changed it.
-    """
-    # i: thread; a: position among the active cells; c: cell of the grid; here: cell in the arrays of all chains.
+    """One thread per chain's cell, before a sweep: reset the counts of its beams, and draw its candidate if any."""
+    # i: thread; u: position among the active cells; c: cell of the grid; here: cell in the arrays of all chains.
     i = first + wp.tid()
     chain = i // active.cell.shape[0]
-    a = i - chain * active.cell.shape[0]
-    c = active.cell[a]
+    u = i - chain * active.cell.shape[0]
+    c = active.cell[u]
     here = chain * state.n_cells + c
-    period = int(active.period[a])
+    period = int(active.period[u])
     last_m = state.fixed_m[here]  # in the sweep before
     learns = True
     if period != 0:
@@ -115,6 +104,7 @@ def begin_sweep(
         return
     cell = state.cells[here]
     centre = surface.centre_of(c, active.ny, active.edge_m)
+    # Compute the log prior again if the last sweep can have changed it.
     if moved:
         density = surface.log_reflectivity_prior(prior, state.solid[here], cell[REFLECTIVITY])
         if without_surfaces == 0:
@@ -127,7 +117,7 @@ def begin_sweep(
             learns = False  # `endpoint_cells` counts its beams
         elif learns and tries(sweep, period, c):
             # If passing beams are not informative, the cell takes surfaces from the prior instead.
-            learns = cell[REFLECTIVITY] > MIN_REFLECTIVITY
+            learns = cell[REFLECTIVITY] > NEGLIGIBLE_REFLECTIVITY
             if learns:
                 trying = FRESH
                 key = sweep_key(state.keys[chain], sweep, CELLS)
@@ -146,7 +136,7 @@ def begin_sweep(
 
 
 @wp.func
-def counted_beams(state: ChainArrays, chain: int, c: int) -> wp.vec2i:
+def count_beams(state: ChainArrays, chain: int, c: int) -> wp.vec2i:
     """Sum a cell's hits, and the beams that met it and passed, over the parts of the beams."""
     counts = wp.vec2i(0, 0)
     for part in range(state.parts):
@@ -160,13 +150,13 @@ def update_free_cells(
     first: int, sweep: int, without_surfaces: int, prior: PriorNumbers, active: ActiveCells, state: ChainArrays
 ):
     """One thread per chain's cell: decide on its candidate, draw its reflectivity, or renew its surface."""
-    # i: thread; place: position among the active cells; c: cell of the grid; here: cell in the arrays of all chains.
+    # i: thread; u: position among the active cells; c: cell of the grid; here: cell in the arrays of all chains.
     i = first + wp.tid()
     chain = i // active.cell.shape[0]
-    place = i - chain * active.cell.shape[0]
-    c = active.cell[place]
+    u = i - chain * active.cell.shape[0]
+    c = active.cell[u]
     here = chain * state.n_cells + c
-    period = int(active.period[place])
+    period = int(active.period[u])
     last_m = state.fixed_m[here]
     learns = last_m == LEARNS
     if not learns and (without_surfaces != 0 or not is_silent(sweep, period, c, last_m, state.stopped_in[here])):
@@ -178,25 +168,22 @@ def update_free_cells(
     # Update reflectivity or surface.
     if learns:
         if cell[TRYING] == HIDDEN:
-            beams = counted_beams(state, chain, c)
+            beams = count_beams(state, chain, c)
             counts = surface.pseudo_counts(prior, state.solid[here])
             a = counts[0] + wp.float64(beams[0])
             b = counts[1] + wp.float64(beams[1])
-            cell[REFLECTIVITY] = wp.float32(beta_or_nothing(a, b, key, at + AT_BETA))
+            cell[REFLECTIVITY] = wp.float32(beta_or_zero(a, b, key, at + AT_BETA))
             state.last_hits[here] = beams[0]
             state.last_met[here] = beams[1]
         else:
-            gain = wp.int64(0)
+            units = wp.int64(0)
             for part in range(state.parts):
-                gain += state.gain[chain * state.parts + part, c]
-            candidate = state.candidates[here]
-            log_ratio = wp.float64(gain) * FROM_UNITS
-            log_ratio += surface.log_size_penalty(prior, candidate) - surface.log_size_penalty(prior, cell)
-            accepted = wp.log(to_uniform(random_bits(key, at + AT_ACCEPT))) < log_ratio
-            if accepted and surface.is_own(prior, centre, candidate):
-                cell = candidate
+                units += state.gain[chain * state.parts + part, c]
+            gain = wp.float64(units) * FROM_UNITS
+            cell = accept_surface(prior, centre, cell, state.candidates[here], gain, key, at + AT_ACCEPT)
     if without_surfaces == 0 and is_silent(sweep, period, c, cell[REFLECTIVITY], state.stopped_in[here]):
-        cell = renewed_surface(prior, centre, cell, key, at)
+        candidate = surface.fresh_surface(prior, centre, cell, key, at + AT_SILENT)
+        cell = accept_surface(prior, centre, cell, candidate, wp.float64(0.0), key, at + AT_SILENT - wp.uint64(1))
     cell[TRYING] = HIDDEN
     state.cells[here] = cell
 
@@ -221,11 +208,11 @@ def sum_slices(first: int, size: int, values: Float32s, slices: Float64Rows):
     """One thread per slice of a chain's ``size`` values: sum the slice."""
     i = first + wp.tid()
     chain = i // slices.shape[1]
-    begin = (i - chain * slices.shape[1]) * WIDTH
+    part = i - chain * slices.shape[1]
     total = wp.float64(0.0)
-    for k in range(begin, wp.min(begin + WIDTH, size)):
+    for k in range(part * WIDTH, wp.min((part + 1) * WIDTH, size)):
         total += wp.float64(values[chain * size + k])
-    slices[chain, i - chain * slices.shape[1]] = total
+    slices[chain, part] = total
 
 
 @wp.kernel
@@ -239,26 +226,29 @@ def sum_label_prior(first: int, nx: int, ny: int, prior: PriorNumbers, state: Ch
     slices[chain, part] = prior.coupling * wp.float64(alike)
 
 
+@wp.func
+def add_row(total: wp.float64, rows: Float64Rows, chain: int) -> wp.float64:
+    """Add the numbers of a chain's row to a total, one after the other."""
+    for k in range(rows.shape[1]):
+        total += rows[chain, k]
+    return total
+
+
 @wp.kernel
-def sum_of_slices(
-    first: int, column: int, one: Float64Rows, other: Float64Rows, beside_other: Float64Rows, one_total: Float64Rows,
-    other_total: Float64Rows,
+def sum_log_joint(
+    first: int, column: int, beams: Float64Rows, cells: Float64Rows, labels: Float64Rows, log_likelihood: Float64Rows,
+    log_prior: Float64Rows,
 ):  # fmt: skip
-    """One thread per chain: sum the slices of two quantities into a column; the second quantity has two sets."""
+    """One thread per chain: sum the slices of its log-likelihood and of its log prior into a column."""
     chain = first + wp.tid()
-    total = wp.float64(0.0)
-    for k in range(one.shape[1]):
-        total += one[chain, k]
-    one_total[chain, column] = total
-    total = wp.float64(0.0)
-    for k in range(other.shape[1]):
-        total += other[chain, k]
-    for k in range(beside_other.shape[1]):
-        total += beside_other[chain, k]
-    other_total[chain, column] = total
+    log_likelihood[chain, column] = add_row(wp.float64(0.0), beams, chain)
+    log_prior[chain, column] = add_row(add_row(wp.float64(0.0), cells, chain), labels, chain)
 
 
-UNTOUCHED, TOUCHED, COUNTED = 0, 1, 2  # of a cell: no beam touches it; some do; `endpoint_cells` counts them
+# Status of a cell.
+UNTOUCHED = 0  # no beam touches it
+TOUCHED = 1  # some beams touch it
+COUNTED = 2  # `endpoint_cells` counts these beams
 
 HALF_LOG_TWO_PI = wp.constant(wp.float64(0.5 * math.log(2.0 * math.pi)))
 LARGE = wp.constant(wp.float64(10.0))  # argument from which Stirling's series is used
@@ -266,12 +256,12 @@ STIRLING_1, STIRLING_3, STIRLING_5 = (wp.constant(wp.float64(c)) for c in (1 / 1
 STIRLING_7, STIRLING_9, STIRLING_11 = (wp.constant(wp.float64(c)) for c in (-1 / 1680, 1 / 1188, -691 / 360360))
 
 
-def known_to_device(cells: int, touched: Ints, counted: Ints, device: str) -> Any:
-    """Put the knowledge of each cell on a device, by flat indices of the cells that are touched and counted."""
-    known = np.full(cells, UNTOUCHED, dtype=np.uint8)
-    known[touched] = TOUCHED
-    known[counted] = COUNTED
-    return devices.to_device(known, wp.uint8, device)
+def status_to_device(cells: int, touched: Ints, counted: Ints, device: str) -> Any:
+    """Put the status of each cell on a device, by flat indices of the cells that are touched and counted."""
+    status = np.full(cells, UNTOUCHED, dtype=np.uint8)
+    status[touched] = TOUCHED
+    status[counted] = COUNTED
+    return devices.to_device(status, wp.uint8, device)
 
 
 @wp.func
@@ -310,13 +300,12 @@ def draw_labels(
     if (x + y) % 2 != colour:
         return
     log_odds = prior.coupling * wp.float64(walls_less_free(state.solid, cell_0, c, nx, ny))
-    what = int(known[c])
-    if what != UNTOUCHED:
+    if int(known[c]) != UNTOUCHED:
         beams = wp.vec2i(state.last_hits[here], state.last_met[here])
-        if what != COUNTED:
+        if int(known[c]) != COUNTED:
             if state.fixed_m[here] != LEARNS or state.cells[here][TRYING] != wp.float32(0.0):
                 return
-            beams = counted_beams(state, chain, c)
+            beams = count_beams(state, chain, c)
         h = wp.float64(beams[0])
         n = wp.float64(beams[1])
         log_odds += log_beta(prior.a_solid + h, prior.b_solid + n) - prior.log_beta_solid

@@ -7,9 +7,8 @@ With g the chance of meeting the surface,
 
 A cell evaluates its beams again for every step of its surface. `log_stops` takes one beam after the other, for any
 sensor. `log_stops_in_lanes` evaluates eight at once in wide registers: nearly all hits of a mixture whose noise is
-normal or Student's t of few and odd degrees of freedom. These are copied side by side first.
-
-A *block* is eight beams: one `Lanes` for each of their numbers. Left-over lanes hold beams that do not count.
+normal or Student's t of few and odd degrees of freedom. These beams are first copied to *blocks* of eight: one `Lanes`
+for each of their numbers. Left-over lanes hold beams that do not count.
 """
 
 import numpy as np
@@ -19,24 +18,24 @@ from bayesmap.beams.rays import Rays
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.device import Float32Rows, Int32s, Ints, Singles
 from bayesmap.kernels.sensor_law import FAR_SQ, MIXTURE, SensorLaw32
-from bayesmap.kernels.surfaces import cell as surface
-from bayesmap.kernels.surfaces.cell import CROSSING_WIDTH_SQ, L11, L21, L22, MEAN_X, MEAN_Y, REFLECTIVITY, Cell
-from bayesmap.kernels.surfaces.stops import MIN_FACTOR, TracedRays, hit_law
+from bayesmap.kernels.surfaces import surface
+from bayesmap.kernels.surfaces.stops import MIN_FACTOR, TracedRays, hit_density
+from bayesmap.kernels.surfaces.surface import CROSSING_WIDTH_SQ, L11, L21, L22, MEAN_X, MEAN_Y, REFLECTIVITY, Cell
 
 MIN_PRODUCT = wp.constant(wp.float32(1.0e-20))  # products are turned into logarithms before they underflow
 
 
 @wp.struct
 class EndpointCells:
-    """Incidences of the cells in which readings end: those of cell ``cell[u]`` are ``offsets[u]:offsets[u + 1]``."""
+    """Incidences of the cells in which readings end: cell ``cell[u]`` has ``offsets[u]:offsets[u + 1]``."""
 
     cell: Int32s
     offsets: Int32s
     # of each incidence
     entry: Int32s  # its entry in the rays
     beam: Int32s
-    passing: wp.array(dtype=wp.vec3)  # offset of the cell's centre from the beam, and direction of the beam
-    reading: wp.array(dtype=wp.vec2)  # distance of the centre along the beam, and the reading, metres
+    line: wp.array(dtype=wp.vec3)  # offset of the cell's centre from the beam, metres, and direction of the beam
+    centre_and_range: wp.array(dtype=wp.vec2)  # distance of the centre along the beam, and the reading, metres
     # of each cell
     step: wp.array(dtype=Cell)  # frame and sizes of its steps, see `bayesmap.kernels.surfaces.endpoint_cells`
 
@@ -47,25 +46,24 @@ def endpoint_cells_to_device(rays: Rays, cells: Ints, steps: Singles, device: st
     listed[cells] = True
     entry = np.nonzero(listed[rays.cells])[0].astype(np.int32)
     entry = entry[np.argsort(rays.cells[entry], kind="stable")]
-    of_entry = rays.cells[entry]
+    cell_of_entry = rays.cells[entry]
     beam = np.searchsorted(rays.offsets, entry, side="right") - 1
-    away = rays.grid.centers_from_corner_m(of_entry) - rays.start_m[beam]
+    to_centre = rays.grid.centers_from_corner_m(cell_of_entry) - rays.start_m[beam]
     ux, uy = rays.direction[beam].astype(np.float64).T
-    passing = np.stack([ux * away[:, 1] - uy * away[:, 0], ux, uy], axis=-1)
-    reading = np.stack([(away * rays.direction[beam]).sum(axis=1), rays.range_m[beam]], axis=-1)
-    bounds = np.concatenate([np.searchsorted(of_entry, cells), [len(entry)]])
+    line = np.stack([ux * to_centre[:, 1] - uy * to_centre[:, 0], ux, uy], axis=-1)
+    centre_and_range = np.stack([(to_centre * rays.direction[beam]).sum(axis=1), rays.range_m[beam]], axis=-1)
     return devices.pack(
-        EndpointCells, device, cell=cells, offsets=bounds, entry=entry, beam=beam, passing=passing, reading=reading,
-        step=steps,
+        EndpointCells, device, cell=cells, step=steps, entry=entry, beam=beam, line=line,
+        offsets=np.append(np.searchsorted(cell_of_entry, cells), len(entry)), centre_and_range=centre_and_range,
     )  # fmt: skip
 
 
 @wp.func
-def crossing_probability_of(passing: wp.vec3, dx: wp.float32, dy: wp.float32, cell: Cell) -> wp.float32:
+def crossing_probability_of(line: wp.vec3, dx: wp.float32, dy: wp.float32, cell: Cell) -> wp.float32:
     """Return the chance of meeting a surface whose mean lies (dx, dy) from the cell's centre."""
-    offset = passing[0] + passing[1] * dy - passing[2] * dx
-    across_1 = cell[L21] * passing[1] - cell[L11] * passing[2]
-    across_2 = cell[L22] * passing[1]
+    offset = line[0] + line[1] * dy - line[2] * dx
+    across_1 = cell[L21] * line[1] - cell[L11] * line[2]
+    across_2 = cell[L22] * line[1]
     return surface.crossing_probability_at(offset, across_1 * across_1 + across_2 * across_2)
 
 
@@ -85,10 +83,9 @@ def log_stops(
     law: SensorLaw32, beta: wp.float32, rays: TracedRays, endpoints: EndpointCells, listed: Listed, centre: wp.vec2,
     cell: Cell, least: wp.float64,
 ) -> wp.float64:  # fmt: skip
-    """Evaluate the formula at the top, for one surface and the listed beams. A sum below ``least`` is returned
-    unfinished: stopped beams come first, because every passing beam makes the sum smaller.
-    """
-    # i: position in the list; e: incidence; b: beam; product: factors since the last logarithm.
+    """Compute log p(stops, readings | m, surface) of the listed beams. A sum below ``least`` is returned unfinished."""
+    # i: position in the list; e: incidence; b: beam; product: factors since the last logarithm. Stopped beams come
+    # first, because every passing beam makes the sum smaller.
     one = wp.float32(1.0)
     total = wp.float64(0.0)
     product = one
@@ -98,12 +95,13 @@ def log_stops(
     for i in range(listed.stopped_begin, listed.stopped_end):
         e = listed.entries[i]
         b = endpoints.beam[e]
-        way = endpoints.passing[e]
-        offset = way[0] + way[1] * dy - way[2] * dx
-        ahead = endpoints.reading[e][0] + way[1] * dx + way[2] * dy
-        met = surface.cross_at(offset, ahead, cell, way[1], way[2])
-        p = hit_law(law, beta, endpoints.entry[e], rays.near[b], endpoints.reading[e][1], rays.decay[b], met)
-        product = product * wp.max(m * met.chance * p, MIN_FACTOR)
+        line = endpoints.line[e]
+        offset = line[0] + line[1] * dy - line[2] * dx
+        ahead = endpoints.centre_and_range[e][0] + line[1] * dx + line[2] * dy
+        crossing = surface.cross_at(offset, ahead, cell, line[1], line[2])
+        reading = endpoints.centre_and_range[e][1]
+        p = hit_density(law, beta, endpoints.entry[e], rays.near[b], reading, rays.decay[b], crossing)
+        product = product * wp.max(m * crossing.chance * p, MIN_FACTOR)
         if product < MIN_PRODUCT or product > one / MIN_PRODUCT:
             total += wp.log(wp.float64(product))
             product = one
@@ -114,7 +112,7 @@ def log_stops(
     product = one
     floor = wp.max(MIN_PRODUCT, wp.float32(wp.exp(least - total)))
     for i in range(listed.passing_begin, listed.passing_end):
-        g = crossing_probability_of(endpoints.passing[listed.entries[i]], dx, dy, cell)
+        g = crossing_probability_of(endpoints.line[listed.entries[i]], dx, dy, cell)
         product = product * wp.max(one - m * g, MIN_FACTOR)
         if product < floor:
             total += wp.log(wp.float64(product))
@@ -125,35 +123,41 @@ def log_stops(
     return total + wp.log(wp.float64(product))
 
 
-WIDTH = 8
+WIDTH = 8  # beams of a block
 Lanes = wp.types.vector(length=WIDTH, dtype=wp.float32)  # one number of each of eight beams
-OF_STOPPED = wp.constant(7)  # per stopped beam: line (3), distance of the centre, reading, decay, 1 if it counts
-OF_PASSING = wp.constant(3)  # numbers per passing beam: offset and direction at the centre
-PRODUCTS = wp.constant(2)  # lanes before the blocks: product and least product, see `log_stops_in_lanes`
+# The lanes of a block: a passing beam has a line only.
+OFFSET = wp.constant(0)  # offset of the cell's centre from the beam
+LINE_X = wp.constant(1)  # direction of the beam
+LINE_Y = wp.constant(2)
+PASSING_LANES = wp.constant(3)  # number of lanes so far
+CENTRE = wp.constant(3)  # distance of the centre along the beam
+READING = wp.constant(4)
+DECAY = wp.constant(5)
+COUNTS = wp.constant(6)  # 1 if the beam counts, 0 if it only fills a lane
+STOPPED_LANES = wp.constant(7)  # number of all lanes
+PRODUCT_LANES = wp.constant(2)  # lanes before the blocks: product and least product, see `log_stops_in_lanes`
 CHUNK = wp.constant(4)  # blocks whose factors are multiplied before the product is turned into a logarithm
 SMALLEST = wp.constant(wp.float32(1.0e-35))  # a smaller product may have underflowed
 STEEP = wp.constant(wp.float32(1.0e30))  # slope of the step function `positive`
 MOST_EXPONENT = wp.constant(wp.float32(41.0))
-AWAY = wp.constant(wp.float32(1.0e3))  # metres: no surface of a cell is met at this offset
+FAR_OFFSET_M = wp.constant(wp.float32(1.0e3))  # no surface of a cell is met at this offset
 UNKNOWN = wp.constant(wp.float64(1.0e300))  # stands for a sum that could not be computed
 
 
 @wp.struct
 class LaneBlocks:
-    """Working memory for the blocks of one cell per thread: a row of numbers, and the same memory as lanes.
-
-    The blocks of cell u begin at ``begin[u]`` of its row, counted in lanes; at 0 if each row belongs to one thread.
-    """
+    """Working memory for the blocks of one cell per thread."""
 
     numbers: Float32Rows
-    lanes: wp.array2d(dtype=Lanes)
-    begin: Int32s
+    lanes: wp.array2d(dtype=Lanes)  # the memory of ``numbers``
+    begin: Int32s  # first lane of each cell's blocks in its row; 0 if each row belongs to one thread
 
 
 def room_for_blocks(endpoints: EndpointCells, rows: int, device: str) -> LaneBlocks:
     """Allocate blocks for each row: on a GPU for all cells, on the CPU for the cell with the most blocks."""
-    incidences = np.diff(endpoints.offsets.numpy())
-    lanes = int(PRODUCTS) + int(OF_PASSING) + int(OF_STOPPED) * (1 + -(-incidences // WIDTH))
+    # Upper bound: each kind fills at most one block in part, and a stopped beam takes more lanes than a passing one.
+    blocks = devices.ceil_div(np.diff(endpoints.offsets.numpy()), WIDTH)
+    lanes = int(PRODUCT_LANES) + int(PASSING_LANES) + int(STOPPED_LANES) * (1 + blocks)
     begin = np.zeros(len(lanes), dtype=np.int64) if device == "cpu" else np.cumsum(lanes) - lanes
     size = int((begin + lanes).max(initial=0))
     on_device = LaneBlocks()
@@ -164,23 +168,21 @@ def room_for_blocks(endpoints: EndpointCells, rows: int, device: str) -> LaneBlo
 
 
 @wp.func
-def takes_lanes(law: SensorLaw32, beta: wp.float32) -> bool:
+def fits_lanes(law: SensorLaw32, beta: wp.float32) -> bool:
     """Return whether hits of this law can be computed in lanes."""
     return law.kind == MIXTURE and (law.dof == wp.float32(0.0) or law.power > 0) and beta == wp.float32(1.0)
 
 
 @wp.func
-def blocks_of(beams: int) -> int:
+def block_count(beams: int) -> int:
     """Return the number of blocks for a number of beams."""
     return (beams + WIDTH - 1) // WIDTH
 
 
 @wp.func
 def exponential(x: Lanes) -> Lanes:
-    """Compute exp(x) of eight numbers to a relative error of 5e-6, x clipped at -41 and 41.
-
-    The method is Taylor's series at x / 64, squared six times. The exponential of the C library takes one number only.
-    """
+    """Compute exp(x) of eight numbers to a relative error of 5e-6, x clipped at -41 and 41."""
+    # Taylor's series at x / 64, squared six times. The exponential of the C library takes one number only.
     one = Lanes(wp.float32(1.0))
     most = Lanes(MOST_EXPONENT)
     z = wp.float32(1.0 / 64.0) * wp.max(wp.min(x, most), -most)
@@ -216,7 +218,7 @@ def positive(x: Lanes) -> Lanes:
 
 
 @wp.func
-def chance_of(offset: Lanes, across: Lanes) -> Lanes:
+def crossing_probability_lanes(offset: Lanes, across: Lanes) -> Lanes:
     """Compute `crossing_probability_at` for each beam."""
     one = Lanes(wp.float32(1.0))
     r = wp.cw_div(wp.cw_mul(offset, offset), CROSSING_WIDTH_SQ * across)
@@ -224,16 +226,16 @@ def chance_of(offset: Lanes, across: Lanes) -> Lanes:
 
 
 @wp.func
-def density_of(law: SensorLaw32, reading: Lanes, decay: Lanes, distance: Lanes, variance: Lanes) -> Lanes:
-    """Compute `stop_density` of finite readings, for a mixture that `takes_lanes`."""
-    # known: 1 if the stop lies within the sensor's range (and near, for normal noise), else 0.
+def stop_density_lanes(law: SensorLaw32, reading: Lanes, decay: Lanes, distance: Lanes, variance: Lanes) -> Lanes:
+    """Compute `stop_density` of finite readings, for a mixture that `fits_lanes`."""
+    # returns: 1 if the stop lies within the sensor's range (for normal noise, also near the reading), else 0.
     one = Lanes(wp.float32(1.0))
     scale = Lanes(law.sigma_m) + law.sigma_per_m * distance
     total = wp.cw_mul(scale, scale) + variance
     error = reading - distance
     square = wp.cw_mul(error, error)
     limit = Lanes(law.max_m)
-    known = positive(limit - distance)
+    returns = positive(limit - distance)
     precision = wp.cw_div(one, total)
     standard_sq = wp.cw_mul(square, precision)
     # Density of the noise.
@@ -245,84 +247,85 @@ def density_of(law: SensorLaw32, reading: Lanes, decay: Lanes, distance: Lanes, 
             product = wp.cw_mul(product, base)
         noise = wp.cw_div(one, product)
     else:
-        known = wp.cw_mul(known, positive(wp.float32(FAR_SQ) * total - square))
+        returns = wp.cw_mul(returns, positive(wp.float32(FAR_SQ) * total - square))
         noise = exponential(wp.float32(-0.5) * standard_sq)
     noise = wp.cw_mul(noise, square_root(precision))
     # Add returns, random readings and passing objects.
-    past = wp.cw_mul(decay, exponential(law.rate_short_per_m * error))
-    unblocked = (wp.float32(1.0) - law.p_short) * one + law.p_short * past
-    returned = law.p_known * law.p_return * law.height * wp.cw_mul(unblocked, wp.cw_mul(known, noise))
+    decay_at_stop = wp.cw_mul(decay, exponential(law.rate_short_per_m * error))
+    unblocked = (wp.float32(1.0) - law.p_short) * one + law.p_short * decay_at_stop
+    returned = law.p_known * law.p_return * law.height * wp.cw_mul(unblocked, wp.cw_mul(returns, noise))
     before = positive(wp.min(distance, limit) - reading)
     return Lanes(law.uniform) + returned + law.passing * wp.cw_mul(before, decay)
 
 
 @wp.func
-def stopped_blocks_at(passing: int) -> int:
+def stopped_blocks_begin(passing: int) -> int:
     """Return where a cell's blocks of stopped beams begin, relative to its first lane: after the passing beams."""
-    return PRODUCTS + OF_PASSING * blocks_of(passing)
+    return PRODUCT_LANES + PASSING_LANES * block_count(passing)
 
 
 @wp.func
-def put_line(blocks: LaneBlocks, row: int, at: int, numbers: int, i: int, passing: wp.vec3) -> int:
-    """Put the line of beam i into the blocks at ``at``, with ``numbers`` per beam. Returns the index of its first."""
-    first = (at + numbers * (i // WIDTH)) * WIDTH + i % WIDTH
-    blocks.numbers[row, first] = passing[0]
-    blocks.numbers[row, first + WIDTH] = passing[1]
-    blocks.numbers[row, first + 2 * WIDTH] = passing[2]
+def write_line(blocks: LaneBlocks, row: int, begin: int, lanes: int, i: int, line: wp.vec3) -> int:
+    """Write the line of beam i to the blocks of ``lanes`` lanes from ``begin`` on. Returns the index of its offset."""
+    first = (begin + lanes * (i // WIDTH)) * WIDTH + i % WIDTH
+    blocks.numbers[row, first + OFFSET * WIDTH] = line[0]
+    blocks.numbers[row, first + LINE_X * WIDTH] = line[1]
+    blocks.numbers[row, first + LINE_Y * WIDTH] = line[2]
     return first
 
 
 @wp.func
-def put_stopped(
-    blocks: LaneBlocks, row: int, at: int, i: int, passing: wp.vec3, reading: wp.vec2, decay: wp.float32,
+def write_stopped(
+    blocks: LaneBlocks, row: int, begin: int, i: int, line: wp.vec3, centre_and_range: wp.vec2, decay: wp.float32,
     counts: wp.float32,
 ):  # fmt: skip
-    """Put the i-th stopped beam into the blocks that begin at ``at``; a beam that ``counts`` 0 only fills a lane."""
-    first = put_line(blocks, row, at, OF_STOPPED, i, passing)
-    blocks.numbers[row, first + 3 * WIDTH] = reading[0]
-    blocks.numbers[row, first + 4 * WIDTH] = reading[1]
-    blocks.numbers[row, first + 5 * WIDTH] = decay
-    blocks.numbers[row, first + 6 * WIDTH] = counts
+    """Write the i-th stopped beam to the blocks from ``begin`` on."""
+    first = write_line(blocks, row, begin, STOPPED_LANES, i, line)
+    blocks.numbers[row, first + CENTRE * WIDTH] = centre_and_range[0]
+    blocks.numbers[row, first + READING * WIDTH] = centre_and_range[1]
+    blocks.numbers[row, first + DECAY * WIDTH] = decay
+    blocks.numbers[row, first + COUNTS * WIDTH] = counts
 
 
 @wp.func
-def put_in_blocks(
+def fill_blocks(
     blocks: LaneBlocks, row: int, u: int, rays: TracedRays, endpoints: EndpointCells, listed: Listed
 ) -> int:
-    """Put a cell's listed beams into its blocks: all passing beams, and the stopped beams that lanes can compute. Other
-    stopped beams move to the head of their list. Returns their number.
-    """
+    """Copy a cell's beams to its blocks. Returns the number of stopped beams that lanes cannot compute."""
+    # These beams move to the head of their list.
     # Passing beams, and beams far away that fill the last block.
-    passing = listed.passing_end - listed.passing_begin
-    passing_at = blocks.begin[u] + PRODUCTS
-    for i in range(passing):
-        put_line(blocks, row, passing_at, OF_PASSING, i, endpoints.passing[listed.entries[listed.passing_begin + i]])
-    for i in range(passing, WIDTH * blocks_of(passing)):
-        put_line(blocks, row, passing_at, OF_PASSING, i, wp.vec3(AWAY, wp.float32(0.0), wp.float32(1.0)))
+    n_passing = listed.passing_end - listed.passing_begin
+    begin = blocks.begin[u] + PRODUCT_LANES
+    for i in range(n_passing):
+        write_line(blocks, row, begin, PASSING_LANES, i, endpoints.line[listed.entries[listed.passing_begin + i]])
+    far_line = wp.vec3(FAR_OFFSET_M, wp.float32(0.0), wp.float32(1.0))
+    for i in range(n_passing, WIDTH * block_count(n_passing)):
+        write_line(blocks, row, begin, PASSING_LANES, i, far_line)
     # Stopped beams, and beams that do not count.
-    at = blocks.begin[u] + stopped_blocks_at(passing)
-    others = int(0)
-    put = int(0)
+    stopped_begin = blocks.begin[u] + stopped_blocks_begin(n_passing)
+    n_others = int(0)
+    n_stopped = int(0)
     for i in range(listed.stopped_begin, listed.stopped_end):
         e = listed.entries[i]
         b = endpoints.beam[e]
-        reading = endpoints.reading[e]
-        if endpoints.entry[e] >= rays.near[b] and wp.isfinite(reading[1]):
-            put_stopped(blocks, row, at, put, endpoints.passing[e], reading, rays.decay[b], wp.float32(1.0))
-            put = put + 1
+        numbers = endpoints.centre_and_range[e]
+        if endpoints.entry[e] >= rays.near[b] and wp.isfinite(numbers[1]):
+            one = wp.float32(1.0)
+            write_stopped(blocks, row, stopped_begin, n_stopped, endpoints.line[e], numbers, rays.decay[b], one)
+            n_stopped = n_stopped + 1
         else:
-            head = listed.stopped_begin + others
+            head = listed.stopped_begin + n_others
             listed.entries[i] = listed.entries[head]
             listed.entries[head] = e
-            others = others + 1
-    none = wp.vec3(wp.float32(0.0), wp.float32(0.0), wp.float32(1.0))
-    for i in range(put, WIDTH * blocks_of(put)):
-        put_stopped(blocks, row, at, i, none, wp.vec2(), wp.float32(0.0), wp.float32(0.0))
-    return others
+            n_others = n_others + 1
+    no_line = wp.vec3(wp.float32(0.0), wp.float32(0.0), wp.float32(1.0))
+    for i in range(n_stopped, WIDTH * block_count(n_stopped)):
+        write_stopped(blocks, row, stopped_begin, i, no_line, wp.vec2(), wp.float32(0.0), wp.float32(0.0))
+    return n_others
 
 
 @wp.func
-def log_of_product(blocks: LaneBlocks, row: int, begin: int) -> wp.float64:
+def log_product(blocks: LaneBlocks, row: int, begin: int) -> wp.float64:
     """Return the log of the product of all lanes at ``begin``; UNKNOWN if one of them was too small."""
     if wp.min(blocks.lanes[row, begin + 1]) < SMALLEST:
         return UNKNOWN
@@ -338,11 +341,9 @@ def log_stops_in_lanes(
     law: SensorLaw32, blocks: LaneBlocks, row: int, u: int, beams: wp.vec2i, centre: wp.vec2, cell: Cell,
     least: wp.float64,
 ) -> wp.float64:  # fmt: skip
-    """Compute `log_stops` of the beams in blocks; UNKNOWN if a product was too small.
-
-    ``beams`` are the numbers of passing and of stopped beams. The product and the smallest product so far are stored in
-    every round, because compilers vectorise eight lanes that are stored together.
-    """
+    """Compute `log_stops` of the beams in blocks; UNKNOWN if a product was too small."""
+    # beams: numbers of passing and of stopped beams. The product and the smallest product so far are stored in every
+    # round, because compilers vectorise eight lanes that are stored together.
     begin = blocks.begin[u]
     one = Lanes(wp.float32(1.0))
     m = cell[REFLECTIVITY]
@@ -351,9 +352,9 @@ def log_stops_in_lanes(
     l22 = cell[L22]
     dx = cell[MEAN_X] - centre[0]
     dy = cell[MEAN_Y] - centre[1]
-    passing_blocks = blocks_of(beams[0])
-    stopped_blocks = blocks_of(beams[1])
-    stopped_at = begin + stopped_blocks_at(beams[0])
+    passing_blocks = block_count(beams[0])
+    stopped_blocks = block_count(beams[1])
+    stopped_begin = begin + stopped_blocks_begin(beams[0])
     total = wp.float64(beams[1]) * wp.log(wp.float64(wp.max(m, MIN_FACTOR)) * wp.float64(law.peak))
     area = l11 * l22
     per_peak = wp.float32(1.0) / law.peak
@@ -362,11 +363,11 @@ def log_stops_in_lanes(
         product = one
         smallest = one
         for i in range(chunk, wp.min(chunk + CHUNK, stopped_blocks)):
-            at = stopped_at + OF_STOPPED * i
-            ux = blocks.lanes[row, at + 1]
-            uy = blocks.lanes[row, at + 2]
-            offset = blocks.lanes[row, at] + dy * ux - dx * uy
-            ahead = blocks.lanes[row, at + 3] + dx * ux + dy * uy
+            at = stopped_begin + STOPPED_LANES * i
+            ux = blocks.lanes[row, at + LINE_X]
+            uy = blocks.lanes[row, at + LINE_Y]
+            offset = blocks.lanes[row, at + OFFSET] + dy * ux - dx * uy
+            ahead = blocks.lanes[row, at + CENTRE] + dx * ux + dy * uy
             across_1 = l21 * ux - l11 * uy
             across_2 = l22 * ux
             along_1 = l11 * ux + l21 * uy
@@ -379,40 +380,41 @@ def log_stops_in_lanes(
             distance = wp.max(ahead - wp.cw_mul(slope, offset), Lanes(wp.float32(0.0)))
             along = wp.cw_mul(along_1, along_1) + wp.cw_mul(along_2, along_2)
             variance = wp.cw_mul(Lanes(area * area) + wp.cw_mul(unsure, along), per_across)
-            p = density_of(law, blocks.lanes[row, at + 4], blocks.lanes[row, at + 5], distance, variance)
-            factor = wp.max(per_peak * wp.cw_mul(chance_of(offset, body), p), Lanes(MIN_FACTOR))
-            counts = blocks.lanes[row, at + 6]
+            reading = blocks.lanes[row, at + READING]
+            p = stop_density_lanes(law, reading, blocks.lanes[row, at + DECAY], distance, variance)
+            factor = wp.max(per_peak * wp.cw_mul(crossing_probability_lanes(offset, body), p), Lanes(MIN_FACTOR))
+            counts = blocks.lanes[row, at + COUNTS]
             product = wp.cw_mul(product, wp.cw_mul(counts, factor) + (one - counts))
             smallest = wp.min(smallest, product)
             blocks.lanes[row, begin] = product
             blocks.lanes[row, begin + 1] = smallest
-        part = log_of_product(blocks, row, begin)
-        if part == UNKNOWN:
+        log_stopped = log_product(blocks, row, begin)
+        if log_stopped == UNKNOWN:
             return UNKNOWN
-        total += part
+        total += log_stopped
     if total < least:
         return total
 
-    # Passing beams: the arithmetic of `crossing_probability`; i: block; place: its first lane.
+    # Passing beams: the arithmetic of `crossing_probability`; i: block; passing_at: its first lane.
     for chunk in range(0, passing_blocks, CHUNK):
         passed = one
         lowest = one
         for i in range(chunk, wp.min(chunk + CHUNK, passing_blocks)):
-            place = begin + PRODUCTS + OF_PASSING * i
-            vx = blocks.lanes[row, place + 1]
-            vy = blocks.lanes[row, place + 2]
+            passing_at = begin + PRODUCT_LANES + PASSING_LANES * i
+            vx = blocks.lanes[row, passing_at + LINE_X]
+            vy = blocks.lanes[row, passing_at + LINE_Y]
             side_1 = l21 * vx - l11 * vy
             side_2 = l22 * vx
             side = wp.cw_mul(side_1, side_1) + wp.cw_mul(side_2, side_2)
-            met = chance_of(blocks.lanes[row, place] + dy * vx - dx * vy, side)
-            passed = wp.cw_mul(passed, wp.max(one - m * met, Lanes(MIN_FACTOR)))
+            chance = crossing_probability_lanes(blocks.lanes[row, passing_at + OFFSET] + dy * vx - dx * vy, side)
+            passed = wp.cw_mul(passed, wp.max(one - m * chance, Lanes(MIN_FACTOR)))
             lowest = wp.min(lowest, passed)
             blocks.lanes[row, begin] = passed
             blocks.lanes[row, begin + 1] = lowest
-        passed_log = log_of_product(blocks, row, begin)
-        if passed_log == UNKNOWN:
+        log_passing = log_product(blocks, row, begin)
+        if log_passing == UNKNOWN:
             return UNKNOWN
-        total += passed_log
+        total += log_passing
         if total < least:
             return total
     return total

@@ -1,59 +1,50 @@
 """Update the cells in which readings end: all of a sweep's work on these cells.
 
-Given where the beams stopped, such a cell counts the beams that met its surface and went on. Labels are drawn, and the
+Given where the beams stopped, the cell counts the beams that met its surface and went on. Labels are drawn, and the
 reflectivity. Then reflectivity and surface move together by a few Metropolis steps, which do not use the counts.
 
-The beams hardly determine where *along* a wall a surface lies and how far it extends. They determine its place and its
-thickness *across* the wall to millimetres. So each cell has a frame whose first axis points along its wall
+The beams hardly determine where *along* a wall a surface lies and how far it extends, but they determine its position
+and thickness *across* the wall to millimetres. So each cell has a frame whose first axis points along its wall
 (`bayesmap.samplers.initial_estimate`). A cell in its frame is a `Cell` with the mean from the cell's centre and the
-Cholesky factor in these axes.
-
-A row of step sizes holds the sizes for logit m, mean along, mean across, log l11, l21 and log l22, and the frame's
-cosine and sine. They are fixed beforehand: they may not depend on the state that a step changes.
+Cholesky factor in these axes. A row of step sizes holds the sizes for logit m, mean along, mean across, log l11, l21
+and log l22, and the frame's cosine and sine. They are fixed beforehand: they may not depend on the state that a step
+changes.
 """
 
 import warp as wp
 
+from bayesmap.kernels import random
 from bayesmap.kernels.device import Int32Rows
-from bayesmap.kernels.random import (
-    CELLS,
-    MEETINGS,
-    SURFACES,
-    beta_variate,
-    nearly_normal,
-    random_bits,
-    sweep_key,
-    to_uniform,
-)
+from bayesmap.kernels.random import nearly_normal, random_bits, sweep_key, to_uniform
 from bayesmap.kernels.sensor_law import SensorLaw32
-from bayesmap.kernels.surfaces import cell as surface
-from bayesmap.kernels.surfaces import endpoint_beams
-from bayesmap.kernels.surfaces.cell import L11, L21, L22, MEAN_X, MEAN_Y, REFLECTIVITY, Cell, PriorNumbers
+from bayesmap.kernels.surfaces import endpoint_beams, surface
 from bayesmap.kernels.surfaces.cell_draws import AT_ACCEPT, AT_BETA, PER_CELL, ActiveCells
 from bayesmap.kernels.surfaces.endpoint_beams import EndpointCells, LaneBlocks, Listed
 from bayesmap.kernels.surfaces.stops import ChainArrays, TracedRays
+from bayesmap.kernels.surfaces.surface import L11, L21, L22, MEAN_X, MEAN_Y, REFLECTIVITY, Cell, PriorNumbers
 
 wp.set_module_options({"enable_backward": False})
 
-COSINE, SINE = 6, 7
+COSINE = 6  # elements of a row of step sizes
+SINE = 7
 SHORT = wp.constant(wp.float32(0.3))  # size of short steps, relative to the others
-LEAST_M = wp.constant(wp.float64(1.0e-30))  # range of m within which logit m takes steps:
-MOST_M = wp.constant(wp.float64(1.0 - 1.0e-7))  # beyond it, single precision could not reverse a step
-THINNEST = wp.constant(wp.float32(1.0e-12))  # least variance after rounding, square metres
+LEAST_M = wp.constant(wp.float64(1.0e-30))  # least and
+MOST_M = wp.constant(wp.float64(1.0 - 1.0e-7))  # largest m at which single precision can reverse a step of logit m
+LEAST_VARIANCE = wp.constant(wp.float32(1.0e-12))  # after rounding, square metres
 
 
 @wp.func
-def turned(cell: Cell, cosine: wp.float32, sine: wp.float32) -> Cell:
+def turn_surface(cell: Cell, cosine: wp.float32, sine: wp.float32) -> Cell:
     """Return the surface in axes turned by an angle: the factor of R Sigma R', with its determinant unchanged."""
     x = cell[MEAN_X]
     y = cell[MEAN_Y]
     var_x = cell[L11] * cell[L11]
-    both = cell[L11] * cell[L21]
+    covariance = cell[L11] * cell[L21]
     var_y = cell[L21] * cell[L21] + cell[L22] * cell[L22]
     area = cell[L11] * cell[L22]
-    cross = wp.float32(2.0) * cosine * sine * both
-    first = wp.sqrt(wp.max(cosine * cosine * var_x + cross + sine * sine * var_y, THINNEST))
-    mixed = cosine * sine * (var_y - var_x) + (cosine * cosine - sine * sine) * both
+    cross = wp.float32(2.0) * cosine * sine * covariance
+    first = wp.sqrt(wp.max(cosine * cosine * var_x + cross + sine * sine * var_y, LEAST_VARIANCE))
+    mixed = cosine * sine * (var_y - var_x) + (cosine * cosine - sine * sine) * covariance
     cell[MEAN_X] = cosine * x + sine * y
     cell[MEAN_Y] = cosine * y - sine * x
     cell[L11] = first
@@ -67,30 +58,28 @@ def into_frame(cell: Cell, step: Cell, centre: wp.vec2) -> Cell:
     """Return the cell in its frame."""
     cell[MEAN_X] = cell[MEAN_X] - centre[0]
     cell[MEAN_Y] = cell[MEAN_Y] - centre[1]
-    return turned(cell, step[COSINE], step[SINE])
+    return turn_surface(cell, step[COSINE], step[SINE])
 
 
 @wp.func
 def out_of_frame(cell: Cell, step: Cell, centre: wp.vec2) -> Cell:
     """Return the cell in the grid's axes."""
-    cell = turned(cell, step[COSINE], -step[SINE])
+    cell = turn_surface(cell, step[COSINE], -step[SINE])
     cell[MEAN_X] = cell[MEAN_X] + centre[0]
     cell[MEAN_Y] = cell[MEAN_Y] + centre[1]
     return cell
 
 
 @wp.func
-def stepped(cell: Cell, step: Cell, key: wp.uint64, at: wp.uint64, i: int) -> Cell:
-    """Return the cell, in its frame, moved by a random step, half of the time a short one.
-
-    Even steps i change logit m, mean along and size, which beams hardly determine: a wide surface that stops few beams
-    looks like a small one that stops many. Odd steps change mean across, slope and thickness.
-    """
-    size = wp.where(random_bits(key, at) & wp.uint64(1) == wp.uint64(0), SHORT, wp.float32(1.0))
+def propose_step(cell: Cell, step: Cell, key: wp.uint64, counter: wp.uint64, i: int) -> Cell:
+    """Return the cell, in its frame, moved by the i-th random step, half of the time a short one."""
+    # Even steps change logit m, mean along and size, which beams hardly determine: a wide surface that stops few beams
+    # looks like a small one that stops many. Odd steps change mean across, slope and thickness.
+    size = wp.where(random_bits(key, counter) & wp.uint64(1) == wp.uint64(0), SHORT, wp.float32(1.0))
     one = wp.float64(1.0)
-    e_1 = size * nearly_normal(random_bits(key, at + wp.uint64(1)))
-    e_2 = size * nearly_normal(random_bits(key, at + wp.uint64(2)))
-    e_3 = size * nearly_normal(random_bits(key, at + wp.uint64(3)))
+    e_1 = size * nearly_normal(random_bits(key, counter + wp.uint64(1)))
+    e_2 = size * nearly_normal(random_bits(key, counter + wp.uint64(2)))
+    e_3 = size * nearly_normal(random_bits(key, counter + wp.uint64(3)))
     if i % 2 == 0:
         m = wp.float64(cell[REFLECTIVITY])
         odds = m / wp.max(one - m, LEAST_M) * wp.float64(wp.exp(e_3 * step[REFLECTIVITY]))
@@ -120,42 +109,37 @@ def log_cell_prior(prior: PriorNumbers, solid: wp.uint8, cell: Cell) -> wp.float
 
 @wp.struct
 class BeamLists:
-    """Working memory for lists of incidences, one row per chain.
+    """Working memory for lists of incidences, one row per chain."""
 
-    The list of a cell begins with its ``passes[chain, u]`` passing beams, and ends with the beams that it stops.
-    """
-
-    entries: Int32Rows
-    passes: Int32Rows
+    entries: Int32Rows  # the list of a cell begins with its passing beams, and ends with the beams that it stops
+    passes: Int32Rows  # number of passing beams of each cell
 
 
 @wp.func
 def listed_of(lists: BeamLists, chain: int, u: int, begin: int, end: int, hits: int) -> Listed:
-    """Return the lists of a cell that has the incidences from ``begin`` to ``end`` and stops ``hits`` beams."""
+    """Return the lists of a cell with the incidences from ``begin`` to ``end``, which stops ``hits`` beams."""
     return Listed(lists.entries[chain], begin, begin + lists.passes[chain, u], end - hits, end)
 
 
 @wp.func
 def log_beams(
     law: SensorLaw32, beta: wp.float32, rays: TracedRays, endpoints: EndpointCells, blocks: LaneBlocks, row: int,
-    u: int, listed: Listed, others: int, centre: wp.vec2, cell: Cell, least: wp.float64,
+    u: int, listed: Listed, n_others: int, centre: wp.vec2, cell: Cell, least: wp.float64,
 ) -> wp.float64:  # fmt: skip
-    """Compute `log_stops` of a cell's beams: in lanes as far as possible, the rest one by one. ``others`` is the number
-    of stopped beams that are not in blocks, the first of their list; -1 without blocks.
-    """
+    """Compute `log_stops` of a cell's beams: in lanes as far as possible, the rest one by one."""
+    # n_others: number of stopped beams, the first of their list, that are not in blocks; -1 without blocks.
     passing_end = listed.passing_end
     stopped_end = listed.stopped_end
     total = wp.float64(0.0)
-    if others >= 0:
-        beams = wp.vec2i(passing_end - listed.passing_begin, stopped_end - listed.stopped_begin - others)
-        total = endpoint_beams.log_stops_in_lanes(
-            law, blocks, row, u, beams, centre, cell, wp.where(others == 0, least, NO_LEAST)
-        )
+    if n_others >= 0:
+        beams = wp.vec2i(passing_end - listed.passing_begin, stopped_end - listed.stopped_begin - n_others)
+        lanes_least = wp.where(n_others == 0, least, NO_LEAST)
+        total = endpoint_beams.log_stops_in_lanes(law, blocks, row, u, beams, centre, cell, lanes_least)
         if total == endpoint_beams.UNKNOWN:
             total = wp.float64(0.0)
         else:
             passing_end = listed.passing_begin
-            stopped_end = listed.stopped_begin + others
+            stopped_end = listed.stopped_begin + n_others
     if listed.passing_begin < passing_end or listed.stopped_begin < stopped_end:
         rest = Listed(listed.entries, listed.passing_begin, passing_end, listed.stopped_begin, stopped_end)
         total += endpoint_beams.log_stops(law, beta, rays, endpoints, rest, centre, cell, least - total)
@@ -166,19 +150,18 @@ def log_beams(
 def count_endpoint_cells(
     first: int, sweep: int, endpoints: EndpointCells, active: ActiveCells, state: ChainArrays, lists: BeamLists
 ):
-    """One thread per chain's cell in which readings end: list its incidences, and count its beams. ``last_hits`` counts
-    the beams that stopped, ``last_met`` the passing beams that met the surface.
-    """
-    # u: number of the endpoint cell; c: cell of the grid; here: cell in the arrays of all chains; e: incidence.
-    i_cell = first + wp.tid()
-    chain = i_cell // endpoints.cell.shape[0]
-    u = i_cell - chain * endpoints.cell.shape[0]
+    """One thread per chain's cell in which readings end: list its incidences, and count stopped and meeting beams."""
+    # i: thread; u: number of the endpoint cell; c: cell of the grid; here: cell in the arrays of all chains; e:
+    # incidence.
+    i = first + wp.tid()
+    chain = i // endpoints.cell.shape[0]
+    u = i - chain * endpoints.cell.shape[0]
     c = endpoints.cell[u]
     here = chain * state.n_cells + c
     beam_0 = chain * state.n_beams
     entries = lists.entries[chain]
     one = wp.float32(1.0)
-    key = sweep_key(state.keys[chain], sweep, MEETINGS)
+    key = sweep_key(state.keys[chain], sweep, random.MEETINGS)
     cell = state.cells[here]
     centre = surface.centre_of(c, active.ny, active.edge_m)
     m = cell[REFLECTIVITY]
@@ -187,26 +170,26 @@ def count_endpoint_cells(
     begin = endpoints.offsets[u]
     end = endpoints.offsets[u + 1]
     # List passing beams from the front, stopped beams from the back.
-    passed = begin
-    stopped = end
+    passing_end = begin
+    stopped_begin = end
     for e in range(begin, end):
         k = endpoints.entry[e]
         stop = state.stop[beam_0 + endpoints.beam[e]]
         if k < stop:
-            entries[passed] = e
-            passed = passed + 1
+            entries[passing_end] = e
+            passing_end = passing_end + 1
         elif k == stop:
-            stopped = stopped - 1
-            entries[stopped] = e
+            stopped_begin = stopped_begin - 1
+            entries[stopped_begin] = e
     # Draw which passing beams met the surface.
     n_met = int(0)
-    for i in range(begin, passed):
-        e = entries[i]
-        g = endpoint_beams.crossing_probability_of(endpoints.passing[e], dx, dy, cell)
+    for j in range(begin, passing_end):
+        e = entries[j]
+        g = endpoint_beams.crossing_probability_of(endpoints.line[e], dx, dy, cell)
         x = wp.float32(to_uniform(random_bits(key, wp.uint64(e))))
         n_met += wp.where(x * (one - m * g) < g * (one - m), 1, 0)
-    lists.passes[chain, u] = passed - begin
-    state.last_hits[here] = end - stopped
+    lists.passes[chain, u] = passing_end - begin
+    state.last_hits[here] = end - stopped_begin
     state.last_met[here] = n_met
 
 
@@ -216,47 +199,48 @@ def update_endpoint_cells(
     endpoints: EndpointCells, active: ActiveCells, state: ChainArrays, lists: BeamLists, blocks: LaneBlocks,
 ):  # fmt: skip
     """One thread per chain's cell in which readings end: draw its reflectivity, then step reflectivity and surface."""
-    # u: number of the endpoint cell; c: cell of the grid; here: cell in the arrays of all chains.
-    i_cell = first + wp.tid()
-    chain = i_cell // endpoints.cell.shape[0]
-    u = i_cell - chain * endpoints.cell.shape[0]
+    # i: thread; u: number of the endpoint cell; c: cell of the grid; here: cell in the arrays of all chains.
+    i = first + wp.tid()
+    chain = i // endpoints.cell.shape[0]
+    u = i - chain * endpoints.cell.shape[0]
     c = endpoints.cell[u]
     here = chain * state.n_cells + c
-    key = sweep_key(state.keys[chain], sweep, SURFACES)
-    at = wp.uint64(c) * PER_CELL
+    counter = wp.uint64(c) * PER_CELL
     cell = state.cells[here]
     solid = state.solid[here]
     centre = surface.centre_of(c, active.ny, active.edge_m)
-    begin = endpoints.offsets[u]
-    end = endpoints.offsets[u + 1]
-    listed = listed_of(lists, chain, u, begin, end, state.last_hits[here])
+    # Draw the reflectivity from its Beta.
     counts = surface.pseudo_counts(prior, solid)
     a = counts[0] + wp.float64(state.last_hits[here])
     b = counts[1] + wp.float64(state.last_met[here])
-    cell[REFLECTIVITY] = wp.float32(beta_variate(a, b, sweep_key(state.keys[chain], sweep, CELLS), at + AT_BETA))
-
+    beta_key = sweep_key(state.keys[chain], sweep, random.CELLS)
+    cell[REFLECTIVITY] = wp.float32(random.beta_variate(a, b, beta_key, counter + AT_BETA))
+    # Copy the beams to blocks, if the law allows it.
+    listed = listed_of(lists, chain, u, endpoints.offsets[u], endpoints.offsets[u + 1], state.last_hits[here])
+    row = chain * state.parts + part
+    n_others = int(-1)
+    if endpoint_beams.fits_lanes(law, state.beta):
+        n_others = endpoint_beams.fill_blocks(blocks, row, u, rays, endpoints, listed)
+    # Metropolis steps. Round 0 computes the present log joint, so that the long function is called in one place.
+    key = sweep_key(state.keys[chain], sweep, random.SURFACES)
     step = endpoints.step[u]
     framed = into_frame(cell, step, centre)
-    row = chain * state.parts + part
-    others = int(-1)
-    if endpoint_beams.takes_lanes(law, state.beta):
-        others = endpoint_beams.put_in_blocks(blocks, row, u, rays, endpoints, listed)
-    present = wp.float64(0.0)
     candidate = framed
     moved = cell
-    for i in range(steps + 1):  # round 0 computes the present log joint: the long function is called in one place
+    present = wp.float64(0.0)
+    for k in range(steps + 1):
         least = NO_LEAST
-        if i > 0:
-            here_at = at + AT_STEP * wp.uint64(i)
-            candidate = stepped(framed, step, key, here_at + wp.uint64(1), i - 1)
+        if k > 0:
+            step_counter = counter + AT_STEP * wp.uint64(k)
+            candidate = propose_step(framed, step, key, step_counter + wp.uint64(1), k - 1)
             moved = out_of_frame(candidate, step, centre)
-            least = present + wp.log(to_uniform(random_bits(key, here_at + AT_ACCEPT)))
-        if i == 0 or surface.is_own(prior, centre, moved):
-            value = log_cell_prior(prior, solid, candidate)
-            value += log_beams(
-                law, state.beta, rays, endpoints, blocks, row, u, listed, others, centre, moved, least - value
+            least = present + wp.log(to_uniform(random_bits(key, step_counter + AT_ACCEPT)))
+        if k == 0 or surface.is_own(prior, centre, moved):
+            log_joint = log_cell_prior(prior, solid, candidate)
+            log_joint += log_beams(
+                law, state.beta, rays, endpoints, blocks, row, u, listed, n_others, centre, moved, least - log_joint
             )  # fmt: skip
-            if value > least:
+            if log_joint > least:
                 framed = candidate
-                present = value
+                present = log_joint
     state.cells[here] = out_of_frame(framed, step, centre)

@@ -1,27 +1,14 @@
-r"""Count the beams stopped inside each square of the grid, and the beams that pass it, for maps of surfaces.
+"""Count the beams stopped inside each square of the grid, and the beams that pass it, for maps of surfaces.
 
 A surface may extend beyond the square of its cell. So a beam's stop is counted in the square that holds the point at
-which it was stopped. The beam passes the squares before that point, and does not count behind it. Let S be the beams
-stopped in a square, P the beams that pass it, and q the chance that a beam which comes to the square is stopped:
-
-    q | stops ~ Beta(a + S, b + P)
-
-If cells have labels, a and b are those of the square's own cell when the sweep began: a kept draw shows that map.
-
-If a surface stops a beam at about t* with variance s^2 (`bayesmap.kernels.surfaces.cell`), the distance t of the point
-follows
+which it was stopped, and q ~ Beta(a + S, b + P) of a square follows (docs/surfaces.md, "What a map of surfaces shows").
+If a surface stops a beam at about t* with variance s^2 (`bayesmap.beams.rays`), the distance t of the point follows
 
     p(t | z) proportional to N(t; t*, s^2) p(z | t).
 
-If a mixture's reading z returned from the point, with the sensor's variance sigma^2,
-
-    t | z ~ N((sigma^2 t* + s^2 z) / (sigma^2 + s^2), sigma^2 s^2 / (sigma^2 + s^2)).
-
-Any other reading of a mixture is independent of the point: t ~ N(t*, s^2).
-
-Under a tabulated law t is chosen from candidates with weights p(t | z) / q(t) (sampling importance resampling, Rubin
-1987). Half lie at quantiles of the surface's law, half at quantiles of the law that the reading suggests, evenly spread
-with one random shift; q is the density of both halves together.
+Under a mixture this is a normal law. Under a tabulated law t is chosen from candidates with weights p(t | z) / q(t)
+(sampling importance resampling, Rubin 1987). Half lie at quantiles of the surface's law, half at quantiles of the law
+that the reading suggests, evenly spread with one random shift; q is the density of both halves together.
 """
 
 from typing import Any, NamedTuple
@@ -33,20 +20,21 @@ from bayesmap.beams.rays import Rays
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.device import Float32s, Int32s, Ints, Singles, Uint8s
 from bayesmap.kernels.law_table import readings_scale_m, table_log_density
-from bayesmap.kernels.random import BEAMS, CELLS, beta_or_nothing, normal, random_bits, sweep_key, to_uniform
+from bayesmap.kernels.random import BEAMS, CELLS, beta_or_zero, normal, random_bits, sweep_key, to_uniform
 from bayesmap.kernels.rays import Lines, line_of, lines_to_device, stretch
 from bayesmap.kernels.sensor_law import TABLE, SensorLaw32, mixed_density, returned_density, variance_at
-from bayesmap.kernels.surfaces.cell import PriorNumbers, pseudo_counts
 from bayesmap.kernels.surfaces.cell_draws import PER_CELL
 from bayesmap.kernels.surfaces.stops import ChainArrays, TracedRays
+from bayesmap.kernels.surfaces.surface import PriorNumbers, pseudo_counts
 
 wp.set_module_options({"enable_backward": False})
 
-CANDIDATES, HALF, PER_HALF = wp.constant(32), wp.constant(16), wp.constant(wp.float64(1.0 / 16.0))
-"""The number of candidates, the number in each half, and one over the number in each half."""
+CANDIDATES = wp.constant(32)
+HALF = wp.constant(16)  # candidates of each of the two laws
+PER_HALF = wp.constant(wp.float64(1.0 / 16.0))
 LOGISTIC = wp.constant(wp.float64(0.6))  # scale of a logistic in place of a normal: longer tails, known quantiles
-LEAST_SPREAD = wp.constant(wp.float64(1.0e-12))  # square metres: a thinner surface counts as one point
-NEVER = wp.constant(wp.float64(-1.0e300))  # log weight of an impossible candidate
+LEAST_VARIANCE = wp.constant(wp.float64(1.0e-12))  # square metres: a thinner surface counts as one point
+IMPOSSIBLE = wp.constant(wp.float64(-1.0e300))  # log weight of an impossible candidate
 
 
 @wp.func
@@ -56,19 +44,19 @@ def stop_point_m(
 ) -> wp.float64:  # fmt: skip
     """Draw the distance at which a beam was stopped, given its reading, metres, never negative; takes 4 counters."""
     mean = wp.float64(distance)
-    spread = wp.float64(variance)
+    variance_sq_m = wp.float64(variance)
     if law.kind == TABLE:
-        if spread > LEAST_SPREAD:
-            return wp.max(point_by_table_m(law, reading, mean, spread, key, counter), wp.float64(0.0))
+        if variance_sq_m > LEAST_VARIANCE:
+            return wp.max(point_by_table_m(law, reading, mean, variance_sq_m, key, counter), wp.float64(0.0))
         return wp.max(mean, wp.float64(0.0))
     if wp.isfinite(reading):
-        from_there = returned_density(law, reading, decay, distance, variance)
+        returned = returned_density(law, reading, decay, distance, variance)
         u = wp.float32(to_uniform(random_bits(key, counter)))
-        if u * mixed_density(law, reading, decay, distance, from_there) < from_there:
+        if u * mixed_density(law, reading, decay, distance, returned) < returned:
             total = wp.float64(variance_at(law, distance, variance))
-            mean += spread / total * (wp.float64(reading) - mean)
-            spread = spread * (total - spread) / total
-    point = mean + wp.sqrt(wp.max(spread, wp.float64(0.0))) * normal(key, counter + wp.uint64(1))
+            mean += variance_sq_m / total * (wp.float64(reading) - mean)
+            variance_sq_m = variance_sq_m * (total - variance_sq_m) / total
+    point = mean + wp.sqrt(wp.max(variance_sq_m, wp.float64(0.0))) * normal(key, counter + wp.uint64(1))
     return wp.max(point, wp.float64(0.0))
 
 
@@ -81,43 +69,43 @@ def logistic_density(x: wp.float64, middle: wp.float64, scale: wp.float64) -> wp
 
 @wp.func
 def point_by_table_m(
-    law: SensorLaw32, reading: wp.float32, mean: wp.float64, spread: wp.float64, key: wp.uint64, counter: wp.uint64
+    law: SensorLaw32, reading: wp.float32, mean: wp.float64, variance: wp.float64, key: wp.uint64, counter: wp.uint64
 ) -> wp.float64:
     """Draw the distance under a tabulated law, metres; it may be negative."""
     # Middle and scale of the two laws of candidates: the surface's, and the one that the reading suggests.
     one = wp.float64(1.0)
-    scale = LOGISTIC * wp.sqrt(spread)
-    near = mean
-    near_scale = scale
+    scale = LOGISTIC * wp.sqrt(variance)
+    suggested = mean
+    suggested_scale = scale
     if wp.isfinite(reading):
         sigma = wp.float64(readings_scale_m(law.table, wp.float32(mean), law.max_m))
-        total = spread + sigma * sigma
-        near = mean + spread / total * (wp.float64(reading) - mean)
-        near_scale = LOGISTIC * wp.sqrt(spread * sigma * sigma / total)
+        total = variance + sigma * sigma
+        suggested = mean + variance / total * (wp.float64(reading) - mean)
+        suggested_scale = LOGISTIC * wp.sqrt(variance * sigma * sigma / total)
     shift = to_uniform(random_bits(key, counter))
     target = to_uniform(random_bits(key, counter + wp.uint64(1)))
     # Weights are summed relative to the largest so far. Each candidate replaces the chosen one with its share of the
     # weights so far. One uniform number serves all choices: it is rescaled to be uniform again after each.
     chosen = mean
-    most = NEVER
+    most = IMPOSSIBLE
     total_weight = wp.float64(0.0)
     number = int(0)
     while number < CANDIDATES:
         middle = mean
         width = scale
-        place = number
+        rank = number
         if number >= HALF:
-            middle = near
-            width = near_scale
-            place = number - HALF
+            middle = suggested
+            width = suggested_scale
+            rank = number - HALF
         number = number + 1
-        u = (wp.float64(place) + shift) * PER_HALF
+        u = (wp.float64(rank) + shift) * PER_HALF
         t = middle + width * wp.log(u / (one - u))
         log_weight = wp.float64(table_log_density(law.table, reading, wp.float32(t), wp.float32(0.0), law.max_m))
-        log_weight -= wp.float64(0.5) * (t - mean) * (t - mean) / spread
-        log_weight -= wp.log(logistic_density(t, mean, scale) + logistic_density(t, near, near_scale))
+        log_weight -= wp.float64(0.5) * (t - mean) * (t - mean) / variance
+        log_weight -= wp.log(logistic_density(t, mean, scale) + logistic_density(t, suggested, suggested_scale))
         if t < wp.float64(0.0):
-            log_weight = NEVER
+            log_weight = IMPOSSIBLE
         if log_weight > most:
             total_weight = total_weight * wp.exp(most - log_weight)
             most = log_weight
@@ -142,9 +130,9 @@ class SquareArrays:
 
     lines: Lines  # of the beams
     touched: Int32s  # cells of the touched squares, flat
-    crossings: Int32s  # beams that cross the square
-    stopped: Int32s  # beams stopped inside it
-    behind: Int32s  # beams stopped before it
+    crossings: Int32s  # beams that cross the square, or would if they were not stopped before it
+    stopped_inside: Int32s
+    stopped_before: Int32s
     drawn: Float32s  # chance q drawn for each touched square
     expected: Float32s  # mean of q given the counts
 
@@ -153,7 +141,7 @@ class SquareArrays:
 def count_in_squares(
     chain: int, sweep: int, law: SensorLaw32, rays: TracedRays, state: ChainArrays, squares: SquareArrays
 ):
-    """One thread per beam of a chain: count it in the square in which it was stopped, and in each square behind."""
+    """One thread per beam of a chain: count it as stopped in one square, and as stopped before each square behind."""
     # b: beam; i: beam in the arrays of all chains; k: entry, from the last one back to the stop.
     b = wp.tid()
     i = chain * state.n_beams + b
@@ -168,34 +156,33 @@ def count_in_squares(
     point = stop_point_m(law, rays.range_m[b], rays.decay[b], where[0], where[1], key, counter)
     line = line_of(squares.lines, b)
     k = end - 1
-    crossed = stretch(line, rays.cells[k])
-    if point > crossed[1]:  # further than the beam is followed
+    interval = stretch(line, rays.cells[k])
+    if point > interval[1]:  # further than the beam is followed
         return
-    while k > begin and crossed[0] > point:
-        wp.atomic_add(squares.behind, rays.cells[k], 1)
+    while k > begin and interval[0] > point:
+        wp.atomic_add(squares.stopped_before, rays.cells[k], 1)
         k -= 1
-        crossed = stretch(line, rays.cells[k])
-    wp.atomic_add(squares.stopped, rays.cells[k], 1)
+        interval = stretch(line, rays.cells[k])
+    wp.atomic_add(squares.stopped_inside, rays.cells[k], 1)
 
 
 @wp.kernel
 def draw_stop_chances(
     chain: int, sweep: int, prior: PriorNumbers, state: ChainArrays, squares: SquareArrays, solid: Uint8s, kept: int
 ):
-    """One thread per touched cell: draw q as above, and compute its mean (a + S) / (a + b + S + P). If the draw is
-    kept, ``observed_counts`` counts the draw, and whether some beam comes to the square.
-    """
+    """One thread per touched cell: draw q from its Beta posterior, compute its mean, and count a kept draw."""
     i = wp.tid()
     c = squares.touched[i]
     here = chain * state.n_cells + c
+    arrived = squares.crossings[c] - squares.stopped_before[c]
     counts = pseudo_counts(prior, solid[c])
-    a = counts[0] + wp.float64(squares.stopped[c])
-    b = counts[1] + wp.float64(squares.crossings[c] - squares.stopped[c] - squares.behind[c])
+    a = counts[0] + wp.float64(squares.stopped_inside[c])
+    b = counts[1] + wp.float64(arrived - squares.stopped_inside[c])
     key = sweep_key(state.keys[chain], sweep, CELLS)
-    squares.drawn[i] = wp.float32(beta_or_nothing(a, b, key, wp.uint64(c) * PER_CELL + AT_SQUARE))
+    squares.drawn[i] = wp.float32(beta_or_zero(a, b, key, wp.uint64(c) * PER_CELL + AT_SQUARE))
     squares.expected[i] = wp.float32(a / (a + b))
     if kept != 0:
-        observed = wp.where(squares.crossings[c] > squares.behind[c], 1, 0)
+        observed = wp.where(arrived > 0, 1, 0)
         state.observed_counts[here] = state.observed_counts[here] + wp.vec2i(observed, 1)
 
 
@@ -210,14 +197,14 @@ class InSquares(NamedTuple):
 
 def square_arrays(rays: Rays, chains: int, device: str) -> list[Any]:
     """Return working memory for the counts of each chain."""
-    cells, touched = (rays.grid.n_cells,), (len(rays.touched),)
+    by_cell, by_touched = (rays.grid.n_cells,), (len(rays.touched),)
     lines = lines_to_device(rays.start_m, rays.direction, rays.grid, device)
-    crossings = np.bincount(rays.cells, minlength=rays.grid.n_cells)
-    shared = [devices.to_device(a, wp.int32, device) for a in (rays.touched, crossings)]
+    counts = np.bincount(rays.cells, minlength=rays.grid.n_cells)
+    touched, crossings = (devices.to_device(a, wp.int32, device) for a in (rays.touched, counts))
     return [
         devices.pack(
-            SquareArrays, device, lines=lines, touched=shared[0], crossings=shared[1], stopped=cells, behind=cells,
-            drawn=touched, expected=touched,
+            SquareArrays, device, lines=lines, touched=touched, crossings=crossings, stopped_inside=by_cell,
+            stopped_before=by_cell, drawn=by_touched, expected=by_touched,
         )
         for _ in range(chains)
     ]  # fmt: skip

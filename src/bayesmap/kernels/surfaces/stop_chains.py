@@ -1,9 +1,9 @@
 """Chains of reflectivities and surfaces on a device, and their sweeps.
 
-On a GPU each kernel is launched once for all chains, with one thread per chain's cell or beam, and counts are atomic.
-On the CPU each chain is one task from its first sweep to its last. If there are more threads than chains, a chain's
-beams are divided into parts, one per thread, each with its own counts. Counts are integers, and floating-point sums run
-over slices of fixed size. So the result does not depend on threads or on other chains.
+On a GPU each kernel is launched once for all chains, with one thread per chain's cell or beam. On the CPU each chain is
+one task from its first sweep to its last. If there are more threads than chains, a chain's beams are divided into
+parts, one per thread. Counts are integers, and floating-point sums run over slices of fixed size. So the result does
+not depend on threads or on other chains.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -21,10 +21,12 @@ from bayesmap.kernels import device as devices
 from bayesmap.kernels.device import Floats, Ints, Singles
 from bayesmap.kernels.sensor_law import SensorLaw32, sensor_law
 from bayesmap.kernels.surfaces import cell_draws, endpoint_cells, stops
-from bayesmap.kernels.surfaces.cell import cells_to_device, packed_prior
 from bayesmap.kernels.surfaces.endpoint_beams import endpoint_cells_to_device, room_for_blocks
 from bayesmap.kernels.surfaces.square_counts import InSquares, count_in_squares, draw_stop_chances, square_arrays
+from bayesmap.kernels.surfaces.surface import cells_to_device, pack_prior
 from bayesmap.sensors.model import SensorModel
+
+Launch = tuple[Any, int, list[Any]]  # a kernel, the number of a chain's elements, and the kernel's inputs
 
 STATE_SIZE = 6  # numbers of a `Cell` that belong to its state; the other two do not
 KERNELS = (
@@ -46,8 +48,7 @@ class Plan:
     """The parts that the sweeps of all chains share."""
 
     rays: Rays  # the beams, with flat indices of the grid's cells
-    # update period of each touched cell, in sweeps, (T,); 0 for cells in which readings end: every sweep updates them
-    periods: NDArray[np.uint8]
+    periods: NDArray[np.uint8]  # update period of each touched cell, in sweeps, (T,), see `cell_draws.ActiveCells`
     endpoints: Ints  # the cells in which readings end, flat, ascending, (U,)
     steps: Singles  # sizes and frames of these cells' steps, (U, 8)
     distance_m: Singles | None  # distance of a stop at each entry, if cells have no surfaces, (K,)
@@ -63,12 +64,14 @@ class StopChains:
     ) -> None:  # fmt: skip
         """Put chains on the device, one per key.
 
-        ``states`` returns the cells of a chain, (N, 6); ``solid`` holds their labels, (C, N), if they have any.
-        ``counts`` (C, 2, N) and ``observed_counts`` (C, N, 2) are those of chains that continue.
+        ``states`` returns the cells of a chain, (N, 6); ``solid`` holds their labels, (C, N), if they have any. Chains
+        that continue have ``counts`` (C, 2, N) and ``observed_counts`` (C, N, 2).
         """
-        self.plan, device = plan, plan.device
-        self.device, self.without_surfaces, self.n_chains = device, int(plan.distance_m is not None), len(keys)
-        chains, cells, beams, touched = len(keys), plan.rays.grid.n_cells, plan.rays.n_beams, len(plan.rays.touched)
+        self.plan = plan
+        self.device = device = plan.device
+        self.n_chains = chains = len(keys)
+        self.without_surfaces = int(plan.distance_m is not None)
+        cells, beams, touched = plan.rays.grid.n_cells, plan.rays.n_beams, len(plan.rays.touched)
         self.threads = (threads or devices.available_cores()) if device == "cpu" else 1
         self._rays = stops.traced_rays_to_device(plan.rays, plan.distance_m, device)
         self._schedule = stops.UpdateSchedule(plan.rays, plan.periods)
@@ -78,36 +81,35 @@ class StopChains:
             cell_draws.ActiveCells, device, cell=plan.rays.touched, period=plan.periods, ny=plan.rays.grid.shape[1],
             edge_m=plan.rays.grid.resolution,
         )  # fmt: skip
-        counted = plan.endpoints[: 0 if self.without_surfaces else None]
-        self._known = cell_draws.known_to_device(cells, plan.rays.touched, counted, device)
+        counted = plan.endpoints[:0] if self.without_surfaces else plan.endpoints
+        self._status = cell_draws.status_to_device(cells, plan.rays.touched, counted, device)
         self._law: tuple[Any, ...] = ()
         self._packed: tuple[Any, Any] | None = None
         self._squares = square_arrays(plan.rays, 0 if self.without_surfaces else chains, device)
 
         # The state of all chains, with labels and counts from the host if given.
-        parts = max(1, -(-self.threads // chains))
-        of_cells, of_beams, of_parts = (chains * cells,), (chains * beams,), (chains * parts, cells)
-        unknown = np.full(of_cells, -1, dtype=np.int32)
+        parts = devices.ceil_div(self.threads, chains)
+        by_cell, by_beam, by_part = (chains * cells,), (chains * beams,), (chains * parts, cells)
+        unknown = np.full(by_cell, -1, dtype=np.int32)
         self._state: Any = devices.pack(
             stops.ChainArrays, device, n_cells=cells, n_beams=beams, parts=parts, beta=1.0,
-            keys=np.array(keys, dtype=np.uint64), cells=of_cells,
-            solid=of_cells if solid is None else solid.ravel().astype(np.uint8),
-            fixed_m=np.full(of_cells, stops.LEARNS, dtype=np.float32),
-            candidates=(1,) if self.without_surfaces else of_cells, met=of_parts, hits=of_parts, gain=of_parts,
-            stop=np.full(of_beams, -1, dtype=np.int32), where=of_beams, stopped_in=unknown, log_likelihood=of_beams,
-            lazy_free=of_beams, last_hits=of_cells if counts is None else counts[:, 0].flatten(),
+            keys=np.array(keys, dtype=np.uint64), cells=by_cell,
+            solid=by_cell if solid is None else solid.ravel().astype(np.uint8),
+            fixed_m=np.full(by_cell, stops.LEARNS, dtype=np.float32),
+            candidates=(1,) if self.without_surfaces else by_cell, met=by_part, hits=by_part, gain=by_part,
+            stop=np.full(by_beam, -1, dtype=np.int32), where=by_beam, stopped_in=unknown, log_likelihood=by_beam,
+            lazy_free=by_beam, last_hits=by_cell if counts is None else counts[:, 0].flatten(),
             last_met=unknown.copy() if counts is None else counts[:, 1].flatten(),
-            observed_counts=of_cells if observed_counts is None else np.array(observed_counts).reshape(-1, 2),
+            observed_counts=by_cell if observed_counts is None else np.array(observed_counts).reshape(-1, 2),
         )  # fmt: skip
         for chain in range(chains):
             self.put_cells(chain, states(chain))
-        # Working memory of the kernels.
-        listed = (chains, self._endpoints.entry.shape[0])
-        passes = (chains, len(plan.endpoints))
-        self._lists = devices.pack(endpoint_cells.BeamLists, device, entries=listed, passes=passes)
+        # Working memory of the kernels. Without labels, the slices of their prior stay zero.
+        incidences, passes = (chains, self._endpoints.entry.shape[0]), (chains, len(plan.endpoints))
+        self._lists = devices.pack(endpoint_cells.BeamLists, device, entries=incidences, passes=passes)
         self._blocks = room_for_blocks(self._endpoints, chains * parts, device)
         self._log_priors = wp.zeros(chains * touched, dtype=wp.float32, device=device)
-        slices = (-(-max(size, 1) // cell_draws.SLICE) for size in (beams, touched, cells))  # of labels: may stay zero
+        slices = [max(devices.ceil_div(size, cell_draws.SLICE), 1) for size in (beams, touched, cells)]
         self._slices = [wp.zeros((chains, count), dtype=wp.float64, device=device) for count in slices]
 
     def sweeps(
@@ -115,88 +117,86 @@ class StopChains:
         steps: int = endpoint_cells.STEPS, observing_after: int | None = None,
         before: Callable[[int, int], None] | None = None, after: Callable[[int, int], None] | None = None,
     ) -> tuple[Floats, Floats]:  # fmt: skip
-        """Advance every chain by some sweeps, which are numbered from 0, at the inverse temperature ``beta``.
+        """Advance every chain by ``count`` sweeps, numbered from ``first``, at the inverse temperature ``beta``.
 
         A surface makes ``steps`` Metropolis steps in a sweep, at most 24: a cell has random counters for this many.
         With 0, cells stay. From sweep ``observing_after`` on, the cells which beams observe are counted; with surfaces
         `in_squares` counts them. The callbacks get the numbers of chain and sweep, ``after`` on the thread of the
         sweep. Returns log-likelihood and log prior of the cells *before* each sweep, (chains, count) each.
         """
-        packed = packed_prior(prior)
+        packed = pack_prior(prior)
         law = sensor_law(sensor, self.plan.rays.limits, self.device, SensorLaw32)
         moved, starts = self._law != (sensor, prior, beta), not self.swept
         self._law, self._packed, self._state.beta = (sensor, prior, beta), (law, packed), beta
         if moved:
-            self._launch(stops.decay_of_readings, self.plan.rays.n_beams, [law, self._rays])
+            self._launch(stops.compute_decays, self.plan.rays.n_beams, [law, self._rays])
         zeros = partial(wp.zeros, (self.n_chains, count), dtype=wp.float64, device=self.device)
         likelihood, log_prior = zeros(), zeros()
         beams, touched = self.plan.rays.n_beams, len(self.plan.rays.touched)
         endpoints = 0 if self.without_surfaces else len(self.plan.endpoints)
-        state = self._state
+        state, all_chains = self._state, range(self.n_chains)
         shape, cells = self.plan.rays.grid.shape, state.n_cells
-        at_ends = [self._endpoints, self._active, state, self._lists]
+        endpoint_inputs = [self._endpoints, self._active, state, self._lists]
         beam_sums, cell_sums, label_sums = self._slices
 
-        def of_cells(number: int) -> list[tuple[Any, int, list[Any]]]:
+        def cell_launches(sweep: int) -> list[Launch]:
             """Return the kernels that draw the cells given the stops."""
-            out = [(endpoint_cells.count_endpoint_cells, endpoints, [number, *at_ends])]
+            out = [(endpoint_cells.count_endpoint_cells, endpoints, [sweep, *endpoint_inputs])]
             if prior.coupling > 0:
                 out.append((cell_draws.sum_label_prior, label_sums.shape[1], [*shape, packed, state, label_sums]))
-                labelled = [number, *shape, packed, self._known, state]
-                out += [(cell_draws.draw_labels, cells, [colour, *labelled]) for colour in (0, 1)]
-            out.append(
-                (cell_draws.update_free_cells, touched, [number, self.without_surfaces, packed, self._active, state])
-            )
-            inputs = [number, steps, law, packed, self._rays, *at_ends, self._blocks]
+                inputs = [sweep, *shape, packed, self._status, state]
+                out += [(cell_draws.draw_labels, cells, [colour, *inputs]) for colour in (0, 1)]
+            inputs = [sweep, self.without_surfaces, packed, self._active, state]
+            out.append((cell_draws.update_free_cells, touched, inputs))
+            inputs = [sweep, steps, law, packed, self._rays, *endpoint_inputs, self._blocks]
             out.append((endpoint_cells.update_endpoint_cells, endpoints, inputs))
-            if self.without_surfaces and observing_after is not None and number >= observing_after:
+            if self.without_surfaces and observing_after is not None and sweep >= observing_after:
                 out.append((cell_draws.count_observed, touched, [self._active, state]))
             return out
 
-        def phases(i: int) -> list[tuple[Any, int, list[Any]]]:
-            """Return the kernels of a sweep in their order, with the number of a chain's elements and the inputs."""
-            number, changed = first + i, int(moved and i == 0)
-            lazy, lazy_before = (int(self._schedule.updates_lazy(sweep)) for sweep in (number, number - 1))
-            begin = [number, self.without_surfaces, packed, changed, self._active, state, self._log_priors]
-            out = [(cell_draws.begin_sweep, touched, begin)]
+        def sweep_launches(i: int) -> list[Launch]:
+            """Return the kernels of the i-th sweep in their order."""
+            sweep, changed = first + i, int(moved and i == 0)
+            lazy, lazy_before = (int(self._schedule.updates_lazy(number)) for number in (sweep, sweep - 1))
+            inputs = [sweep, self.without_surfaces, packed, changed, self._active, state, self._log_priors]
+            out = [(cell_draws.begin_sweep, touched, inputs)]
             if not lazy and (lazy_before or (starts and i == 0)):
                 out.append((stops.pass_lazy_cells, beams, [self._lazy, self._rays, state]))
-            out.append((stops.draw_stops, beams, [number, lazy, law, self._rays, state]))
+            out.append((stops.draw_stops, beams, [sweep, lazy, law, self._rays, state]))
             if steps > 0:
-                out += of_cells(number)
+                out += cell_launches(sweep)
             out.append((cell_draws.sum_slices, beam_sums.shape[1], [beams, state.log_likelihood, beam_sums]))
             out.append((cell_draws.sum_slices, cell_sums.shape[1], [touched, self._log_priors, cell_sums]))
-            out.append((cell_draws.sum_of_slices, 1, [i, beam_sums, cell_sums, label_sums, likelihood, log_prior]))
+            out.append((cell_draws.sum_log_joint, 1, [i, beam_sums, cell_sums, label_sums, likelihood, log_prior]))
             return out
 
-        def note(call: Callable[[int, int], None] | None, chains: range, i: int) -> None:
-            if call is not None:
-                for chain in chains:
-                    call(chain, first + i)
+        def report(callback: Callable[[int, int], None] | None, chains: range, i: int) -> None:
+            for chain in chains:
+                if callback is not None:
+                    callback(chain, first + i)
 
-        def all_sweeps(chains: range) -> None:
+        def make_sweeps(chains: range, run: Callable[[Launch], None]) -> None:
             for i in range(count):
-                note(before, chains, i)
-                for phase in phases(i):
-                    self._part(phase, (chains, 0))
-                note(after, chains, i)
+                report(before, chains, i)
+                for launch in sweep_launches(i):
+                    run(launch)
+                report(after, chains, i)
+
+        def sweep_alone(chains: range) -> None:
+            make_sweeps(chains, lambda launch: self._launch_part(launch, (chains, 0)))
 
         if self.device != "cpu":
-            all_sweeps(range(self.n_chains))
-        elif self._state.parts == 1:
-            self._each(all_sweeps, [range(chain, chain + 1) for chain in range(self.n_chains)])
+            sweep_alone(all_chains)
+        elif state.parts == 1:
+            self._map(sweep_alone, [range(chain, chain + 1) for chain in all_chains])
         else:
-            parts = [(range(i, i + 1), part) for i in range(self.n_chains) for part in range(self._state.parts)]
-            for i in range(count):
-                note(before, range(self.n_chains), i)
-                for phase in phases(i):
-                    self._each(partial(self._part, phase), parts)
-                note(after, range(self.n_chains), i)
+            parts = [(range(chain, chain + 1), part) for chain in all_chains for part in range(state.parts)]
+            make_sweeps(all_chains, lambda launch: self._map(partial(self._launch_part, launch), parts))
         return likelihood.numpy(), log_prior.numpy()
 
-    def _part(self, phase: tuple[Any, int, list[Any]], at: tuple[range, int]) -> None:
+    def _launch_part(self, launch: Launch, chains_and_part: tuple[range, int]) -> None:
         """Launch a kernel over a part of the elements of neighbouring chains."""
-        (kernel, size, inputs), (chains, part) = phase, at
+        (kernel, size, inputs), (chains, part) = launch, chains_and_part
         begin, end = (size * i // self._state.parts for i in (part, part + 1))
         if len(chains) > 1:
             end = size * len(chains)
@@ -209,13 +209,13 @@ class StopChains:
     def _launch(self, kernel: Any, size: int, inputs: list[Any]) -> None:
         wp.launch(kernel, dim=size, inputs=[0, *inputs], device=self.device)
 
-    def _each(self, work: Callable[[Any], None], tasks: Sequence[Any]) -> None:
+    def _map(self, work: Callable[[Any], None], tasks: Sequence[Any]) -> None:
+        """Do all tasks, on the pool of threads if there are several of both."""
         if self.threads == 1 or len(tasks) == 1:
             for task in tasks:
                 work(task)
             return
-        for kernel in KERNELS:
-            devices.load_kernels(kernel, self.device)
+        list(load_stop_kernels(self.device))
         list(devices.thread_pool(self.threads).map(work, tasks))
 
     def _of(self, array: Any, chain: int) -> NDArray[Any]:
@@ -229,10 +229,10 @@ class StopChains:
 
     def put_cells(self, chain: int, states: Singles, solid: NDArray[np.bool_] | None = None) -> None:
         """Replace the cells of a chain, (N, 6), and their labels, (N,), if cells have labels."""
-        here = slice(chain * self._state.n_cells, (chain + 1) * self._state.n_cells)
-        wp.copy(self._state.cells[here], cells_to_device(states, self.device))
+        of_chain = slice(chain * self._state.n_cells, (chain + 1) * self._state.n_cells)
+        wp.copy(self._state.cells[of_chain], cells_to_device(states, self.device))
         if solid is not None:
-            wp.copy(self._state.solid[here], wp.array(solid.astype(np.uint8), dtype=wp.uint8, device=self.device))
+            wp.copy(self._state.solid[of_chain], wp.array(solid.astype(np.uint8), dtype=wp.uint8, device=self.device))
         self._law, self._packed = (), None  # numbers computed from the cells before are out of date
 
     def solid(self, chain: int) -> NDArray[np.bool_]:
@@ -240,16 +240,16 @@ class StopChains:
         return self._of(self._state.solid, chain).view(np.bool_)
 
     def draw_untouched(self, sweep: int) -> None:
-        """Draw the reflectivities of cells that no beam touches given their labels, before the sweep with this number.
-        Sweeps do not draw them: these cells matter only when beams may come to them.
-        """
+        """Draw the reflectivities of cells that no beam touches, which sweeps leave out, before the sweep ``sweep``."""
         assert self._packed is not None, "no sweep has been made"
         size = self.n_chains * self._state.n_cells
-        self._launch(cell_draws.draw_untouched, size, [sweep, self._packed[1], self._known, self._state])
+        self._launch(cell_draws.draw_untouched, size, [sweep, self._packed[1], self._status, self._state])
 
     def counted(self, chain: int) -> tuple[Ints, Ints]:
-        """Return the beams that each cell stopped, and those that met its surface and passed, (N,) each, of the sweep
-        in which it last drew its reflectivity; before that, met is -1. Valid until the next sweep.
+        """Return the beams that each cell stopped, and the beams that met its surface and passed, (N,) each.
+
+        They were counted when the cell last drew its reflectivity (before it, the second count is -1). The arrays are
+        valid until the next sweep.
         """
         return self._of(self._state.last_hits, chain), self._of(self._state.last_met, chain)
 
@@ -259,15 +259,15 @@ class StopChains:
         return self._packed is not None
 
     def in_squares(self, chain: int, sweep: int, kept: bool, solid: NDArray[np.bool_] | None = None) -> InSquares:
-        """Count the stops of a chain with surfaces in each square, after its last sweep, which has this number. If
-        ``kept``, `observed_counts` counts the draw. ``solid`` holds the labels before the sweep, (N,), if there are
-        any.
+        """Count the stops of a chain with surfaces in each square, after its last sweep, which has this number.
+
+        If ``kept``, `observed_counts` counts the draw. ``solid`` holds the labels before the sweep, (N,), if any.
         """
         assert self._squares, "cells without surfaces stop beams inside their own squares"
         assert self._packed is not None, "no sweep has been made"
         (law, prior), squares, touched, state = self._packed, self._squares[chain], self.plan.rays.touched, self._state
-        squares.stopped.zero_()
-        squares.behind.zero_()
+        squares.stopped_inside.zero_()
+        squares.stopped_before.zero_()
         inputs = [chain, sweep, law, self._rays, state, squares]
         wp.launch(count_in_squares, dim=state.n_beams, inputs=inputs, device=self.device)
         labels = state.solid[chain * state.n_cells : (chain + 1) * state.n_cells]
@@ -275,12 +275,14 @@ class StopChains:
             labels = devices.to_device(solid, wp.uint8, self.device)
         inputs = [chain, sweep, prior, state, squares, labels, int(kept)]
         wp.launch(draw_stop_chances, dim=len(touched), inputs=inputs, device=self.device)
-        crossings, stopped, behind = (a.numpy()[touched] for a in (squares.crossings, squares.stopped, squares.behind))
+        arrays = squares.crossings, squares.stopped_inside, squares.stopped_before
+        crossings, stopped, stopped_before = (a.numpy()[touched] for a in arrays)
         chances = (np.array(a.numpy()) for a in (squares.drawn, squares.expected))
-        return InSquares(stopped, crossings - stopped - behind, *chances)
+        return InSquares(stopped, crossings - stopped - stopped_before, *chances)
 
     def observed_counts(self, chain: int) -> Ints:
-        """Return the draws in which some beam observes each cell, and those inspected, (N, 2), until the next sweep.
+        """Return the draws in which some beam observes each cell, and the draws inspected, (N, 2); see `counted`.
+
         With surfaces the kept draws are inspected, without surfaces the sweeps in which the cell has counted.
         """
         return self._of(self._state.observed_counts, chain)
@@ -293,9 +295,9 @@ class StopChains:
         """Return the cell that stopped each beam of a chain in its last sweep, flat; -1 for none, (B,)."""
         stop, rays = self._of(self._state.stop, chain), self.plan.rays
         stopped = stop < rays.offsets[1:]
-        out = np.full(len(stop), -1, dtype=np.int32)  # the rays may have no cells at all
-        out[stopped] = rays.cells[stop[stopped]]
-        return out
+        cells = np.full(len(stop), -1, dtype=np.int32)  # the rays may have no cells at all
+        cells[stopped] = rays.cells[stop[stopped]]
+        return cells
 
     def stops(self, chain: int) -> tuple[NDArray[np.bool_], Singles, Singles]:
         """Return whether each beam of a chain stopped, at what distance in metres and with what variance, (B,) each."""

@@ -1,21 +1,16 @@
-"""The first half of a sweep: draw where every beam stops, given the cells.
+"""The first half of a sweep: draw where every beam stops, given the cells (docs/surfaces.md, "The sampler").
 
 In each cell a beam meets the surface with chance g, and is then stopped with probability m. Let a = m g, and let T be
 the product of 1 - a over the cells before. The posterior probability of a stop is proportional to T a p(z | stop). Far
 before the reading, p(z | stop) is the constant density of a random reading: these cells cost one multiplication each.
 
-In most sweeps a cell learns whether a passing beam *met* the surface. Given that the beam passed, this has probability
-g (1 - m) / (1 - a). The counts of beams that met the surface and of beams that were stopped are those of the
-reflectivity's Beta. In sweeps that try a candidate for its surface, the cell learns log (1 - m g') / (1 - m g), the
-beam's part of the Metropolis ratio. Both are summed as integers: the result does not depend on the order of beams.
+A cell learns whether a passing beam *met* its surface, which has probability g (1 - m) / (1 - a). In a sweep that tries
+a candidate for the surface, the cell learns log (1 - m g') / (1 - m g) instead, the beam's part of the Metropolis
+ratio. Both are summed as integers: the result does not depend on the order of beams.
 
-Most cells are free, with evidence of hundreds of beams in every sweep. They are updated *lazily*: in a few sweeps only,
-all lazy cells in the same sweeps. The product over a beam's lazy cells far before its reading,
-
-    prod over lazy far cells (1 - m g),
-
-is computed once after each update (`pass_lazy_cells`). The other far cells, in which readings end or few beams pass,
-are *watched*: every sweep walks them.
+Most cells are free, and are updated *lazily*, all in the same sweeps. The product of 1 - m g over a beam's lazy cells
+far before its reading is computed once after each update (`pass_lazy_cells`). The other far cells, in which readings
+end or few beams pass, are *watched*: every sweep walks them.
 
 At an inverse temperature beta the law of the reading is p(z | stop)^beta; the law of stops given the cells is not
 tempered. For walls, 0 or 1, this is the likelihood to the power of beta.
@@ -30,11 +25,11 @@ from numpy.typing import NDArray
 from bayesmap.beams.rays import Rays
 from bayesmap.kernels import device as devices
 from bayesmap.kernels import sensor_law as laws
-from bayesmap.kernels.device import Float32s, Int32Rows, Int32s, Ints, Singles, Uint8s
+from bayesmap.kernels.device import Float32s, Int32Rows, Int32s, Singles, Uint8s
 from bayesmap.kernels.random import BEAMS, random_bits, sweep_key, to_uniform
 from bayesmap.kernels.sensor_law import SensorLaw32
-from bayesmap.kernels.surfaces import cell as surface
-from bayesmap.kernels.surfaces.cell import REFLECTIVITY, TRYING, Cell, Crossing, Ray
+from bayesmap.kernels.surfaces import surface
+from bayesmap.kernels.surfaces.surface import REFLECTIVITY, TRYING, Cell, Crossing, Ray
 
 wp.set_module_options({"enable_backward": False})
 
@@ -45,7 +40,7 @@ TO_UNIT_24 = wp.constant(wp.float32(1.0 / (1 << 24)))  # from 24 random bits to 
 
 FAR = wp.constant(-1)  # a stop before the near entries
 LEARNS = wp.constant(wp.float32(-1.0))  # in `ChainArrays.fixed_m`: the cell counts beams in this sweep
-MIN_REFLECTIVITY = wp.constant(wp.float32(2.0**-26))  # for smaller m, 1 - m is 1 in single precision
+NEGLIGIBLE_REFLECTIVITY = wp.constant(wp.float32(2.0**-26))  # for smaller m, 1 - m is 1 in single precision
 MIN_RELATIVE_WEIGHT = wp.constant(wp.float32(2.0**-26))  # relative weight below single precision
 
 # First random counters of a sweep, one per purpose; the entry or beam is added.
@@ -66,29 +61,23 @@ class TracedRays:
     start_m: wp.array(dtype=wp.vec2)
     direction: wp.array(dtype=wp.vec2)
     range_m: Float32s
-    decay: Float32s  # see `decay_of_readings`
+    decay: Float32s  # see `compute_decays`
     watched_offsets: Int32s  # first element of each beam in ``watched``
     watched: Int32s  # far entries whose cells are not lazy
 
 
-def traced_rays_to_device(rays: Rays, distance_m: Singles | None, device: str, cells: Ints | None = None) -> Any:
-    """Put rays on a device, with the distance of a stop at each entry if cells have no surfaces, (K,). ``cells``
-    replaces the flat indices of the entries' cells by other numbers, (K,).
-    """
+def traced_rays_to_device(rays: Rays, distance_m: Singles | None, device: str) -> Any:
+    """Put rays on a device, with the distance of a stop at each entry if cells have no surfaces, (K,)."""
     return devices.pack(
-        TracedRays, device, without_surfaces=int(distance_m is not None), offsets=rays.offsets,
-        cells=rays.cells if cells is None else cells, near=rays.near, start_m=rays.start_m, direction=rays.direction,
-        distance_m=np.zeros(1) if distance_m is None else distance_m, range_m=rays.range_m,
-        decay=wp.zeros(rays.n_beams, dtype=wp.float32, device=device),
+        TracedRays, device, without_surfaces=int(distance_m is not None), offsets=rays.offsets, cells=rays.cells,
+        near=rays.near, start_m=rays.start_m, direction=rays.direction, range_m=rays.range_m, decay=(rays.n_beams,),
+        distance_m=np.zeros(1) if distance_m is None else distance_m,
     )  # fmt: skip
 
 
 @wp.struct
 class ChainArrays:
-    """All chains on a device: their cells, the counts of beams in this sweep, and where the beams stopped.
-
-    Cell c of the grid in chain n is element ``n * n_cells + c``, beam b is element ``n * n_beams + b``.
-    """
+    """All chains on a device. Cell c of chain n is element ``n * n_cells + c``, beam b is ``n * n_beams + b``."""
 
     n_cells: int
     n_beams: int
@@ -114,7 +103,7 @@ class ChainArrays:
 
 @wp.func
 def tempered(p: wp.float32, beta: wp.float32) -> wp.float32:
-    """Return a density at an inverse temperature."""
+    """Return the density p^beta at the inverse temperature beta."""
     if beta == wp.float32(1.0):
         return p
     return wp.pow(p, beta)
@@ -135,19 +124,19 @@ def in_units(log_ratio: wp.float32) -> wp.int64:
 
 
 @wp.func
-def pass_by(
+def count_pass(
     state: ChainArrays, chain: int, part: int, c: int, cell: Cell, g: wp.float32, ray: Ray, key: wp.uint64, k: int,
     sign: int,
 ):  # fmt: skip
     """Count that a beam passed a cell; with sign -1, undo the count."""
-    # m: reflectivity; g, other: chances of meeting the cell's surface and its candidate; u: uniform number.
+    # m: reflectivity; g, candidate_g: chances of meeting the cell's surface and its candidate; u: uniform number.
     one = wp.float32(1.0)
-    m = cell[0]
+    m = cell[REFLECTIVITY]
     row = chain * state.parts + part
     if cell[TRYING] != wp.float32(0.0):
-        other = surface.crossing_probability(state.candidates[chain * state.n_cells + c], ray)
-        ratio = wp.log(wp.max(one - m * other, MIN_FACTOR) / wp.max(one - m * g, MIN_FACTOR))
-        wp.atomic_add(state.gain, row, c, wp.int64(sign) * in_units(ratio))
+        candidate_g = surface.crossing_probability(state.candidates[chain * state.n_cells + c], ray)
+        log_ratio = wp.log(wp.max(one - m * candidate_g, MIN_FACTOR) / wp.max(one - m * g, MIN_FACTOR))
+        wp.atomic_add(state.gain, row, c, wp.int64(sign) * in_units(log_ratio))
         return
     u = wp.float32(random_bits(key, wp.uint64(k)) >> wp.uint64(40)) * TO_UNIT_24
     if u * (one - m * g) < g * (one - m):
@@ -155,7 +144,7 @@ def pass_by(
 
 
 @wp.func
-def chance_at(rays: TracedRays, cell: Cell, ray: Ray) -> wp.float32:
+def meeting_chance(rays: TracedRays, cell: Cell, ray: Ray) -> wp.float32:
     """Return the chance of meeting a cell's surface; 1 if cells have no surfaces."""
     if rays.without_surfaces != 0:
         return wp.float32(1.0)
@@ -163,7 +152,7 @@ def chance_at(rays: TracedRays, cell: Cell, ray: Ray) -> wp.float32:
 
 
 @wp.kernel
-def decay_of_readings(first: int, law: SensorLaw32, rays: TracedRays):
+def compute_decays(first: int, law: SensorLaw32, rays: TracedRays):
     """One thread per beam: compute `object_decay` of its reading, which all chains and sweeps share."""
     b = first + wp.tid()
     rays.decay[b] = laws.object_decay(law, rays.range_m[b])
@@ -174,7 +163,7 @@ def draw_stops(
     first: int, part: int, sweep: int, lazy_updates: int, law: SensorLaw32, rays: TracedRays, state: ChainArrays
 ):
     """One thread per chain's beam: draw and count its stop. ``lazy_updates`` is 1 if the sweep updates lazy cells."""
-    # i: beam in the arrays of all chains; b: beam; k: entry; c: cell of the grid; m, g, a: see above; free: T.
+    # i: beam in the arrays of all chains; b: beam; k: entry; c: cell of the grid; m, g, a: see the module; free: T.
     i = first + wp.tid()
     chain = i // state.n_beams
     b = i - chain * state.n_beams
@@ -209,12 +198,12 @@ def draw_stops(
             k_far = rays.watched[far]
         c_far = rays.cells[k_far]
         m_far = state.fixed_m[cell_0 + c_far]
-        if m_far < wp.float32(0.0) or m_far > MIN_REFLECTIVITY:
+        if m_far < wp.float32(0.0) or m_far > NEGLIGIBLE_REFLECTIVITY:
             cell_far = state.cells[cell_0 + c_far]
-            g_far = chance_at(rays, cell_far, ray)
-            free = free * (one - cell_far[0] * g_far)
+            g_far = meeting_chance(rays, cell_far, ray)
+            free = free * (one - cell_far[REFLECTIVITY] * g_far)
             if m_far < wp.float32(0.0):
-                pass_by(state, chain, part, c_far, cell_far, g_far, ray, key, k_far, 1)
+                count_pass(state, chain, part, c_far, cell_far, g_far, ray, key, k_far, 1)
     stopped_far = one - free
     total = wp.float64(tempered(law.uniform, state.beta)) * wp.float64(stopped_far)
     choice = FAR
@@ -230,12 +219,12 @@ def draw_stops(
         m_near = state.fixed_m[cell_0 + c_near]
         if m_near < wp.float32(0.0):
             some_learn = 1
-        if m_near < wp.float32(0.0) or m_near * free > bound or m_near > MIN_REFLECTIVITY:
+        if m_near < wp.float32(0.0) or m_near * free > bound or m_near > NEGLIGIBLE_REFLECTIVITY:
             cell_near = state.cells[cell_0 + c_near]
-            if cell_near[0] * free > bound:
-                met = cross_cell(rays, k_near, cell_near, ray)
-                a = cell_near[0] * met.chance
-                p = tempered(laws.stop_density(law, reading, decay, met.distance_m, met.variance), state.beta)
+            if cell_near[REFLECTIVITY] * free > bound:
+                crossing = cross_cell(rays, k_near, cell_near, ray)
+                a = cell_near[REFLECTIVITY] * crossing.chance
+                p = tempered(laws.stop_density(law, reading, decay, crossing.distance_m, crossing.variance), state.beta)
                 weight = wp.float64(free * a * p)
                 total += weight
                 bound = wp.max(bound, negligible * wp.float32(total))
@@ -243,8 +232,8 @@ def draw_stops(
                 if u * total < weight:
                     choice = k_near
                 free = free * (one - a)
-            elif cell_near[0] > MIN_REFLECTIVITY:
-                free = free * (one - cell_near[0] * chance_at(rays, cell_near, ray))
+            elif cell_near[REFLECTIVITY] > NEGLIGIBLE_REFLECTIVITY:
+                free = free * (one - cell_near[REFLECTIVITY] * meeting_chance(rays, cell_near, ray))
             if free <= bound:
                 break  # further stops, often many behind a wall, have no weight
     nowhere = wp.float64(free * tempered(laws.no_stop_density(law, reading, decay), state.beta))
@@ -261,19 +250,19 @@ def draw_stops(
         for k in range(begin, near):
             c = rays.cells[k]
             cell = state.cells[cell_0 + c]
-            g = chance_at(rays, cell, ray)
-            past = past * (one - cell[0] * g)
+            g = meeting_chance(rays, cell, ray)
+            past = past * (one - cell[REFLECTIVITY] * g)
             if choice == FAR and (one - past >= target or k == near - 1):
                 choice = k
             if choice != FAR and state.fixed_m[cell_0 + c] < wp.float32(0.0):
-                pass_by(state, chain, part, c, cell, g, ray, key, k, -1)
+                count_pass(state, chain, part, c, cell, g, ray, key, k, -1)
     # Count passes of near cells before the stop.
     for k_passed in range(near, wp.where(some_learn != 0, wp.min(choice, end), near)):
         c_passed = rays.cells[k_passed]
         if state.fixed_m[cell_0 + c_passed] < wp.float32(0.0):
             cell_passed = state.cells[cell_0 + c_passed]
-            g_passed = chance_at(rays, cell_passed, ray)
-            pass_by(state, chain, part, c_passed, cell_passed, g_passed, ray, key, k_passed, 1)
+            g_passed = meeting_chance(rays, cell_passed, ray)
+            count_pass(state, chain, part, c_passed, cell_passed, g_passed, ray, key, k_passed, 1)
 
     # Store the stop, and count it in its cell.
     state.stop[i] = choice
@@ -289,29 +278,28 @@ def draw_stops(
         wp.atomic_add(state.hits, row, c_stop, 1)
         if cell_stop[TRYING] != wp.float32(0.0):
             new = surface.cross_surface(state.candidates[chain * state.n_cells + c_stop], ray)
-            after = wp.max(new.chance * hit_law(law, state.beta, choice, near, reading, decay, new), MIN_FACTOR)
-            before = wp.max(
-                stopped.chance * hit_law(law, state.beta, choice, near, reading, decay, stopped), MIN_FACTOR
-            )
-            wp.atomic_add(state.gain, row, c_stop, in_units(wp.log(after / before)))
+            new_density = hit_density(law, state.beta, choice, near, reading, decay, new)
+            old_density = hit_density(law, state.beta, choice, near, reading, decay, stopped)
+            ratio = wp.max(new.chance * new_density, MIN_FACTOR) / wp.max(stopped.chance * old_density, MIN_FACTOR)
+            wp.atomic_add(state.gain, row, c_stop, in_units(wp.log(ratio)))
 
 
 @wp.func
-def hit_law(
-    law: SensorLaw32, beta: wp.float32, k: int, near: int, reading: wp.float32, decay: wp.float32, met: Crossing
+def hit_density(
+    law: SensorLaw32, beta: wp.float32, k: int, near: int, reading: wp.float32, decay: wp.float32, crossing: Crossing
 ) -> wp.float32:
     """Return p(z | stop)^beta at entry k; before the near entries, the density of a random reading."""
     if k < near:
         return tempered(law.uniform, beta)
-    return tempered(laws.stop_density(law, reading, decay, met.distance_m, met.variance), beta)
+    return tempered(laws.stop_density(law, reading, decay, crossing.distance_m, crossing.variance), beta)
 
 
-OFTEN = 2  # longest update period of watched cells, in sweeps
+LONGEST_WATCHED_PERIOD = 2  # longest update period of watched cells, in sweeps
 
 
 @wp.kernel
 def pass_lazy_cells(first: int, lazy: Uint8s, rays: TracedRays, state: ChainArrays):
-    """One thread per chain's beam: compute the product above over the far cells that ``lazy`` marks."""
+    """One thread per chain's beam: compute its chance to pass the far cells that ``lazy`` marks."""
     i = first + wp.tid()
     chain = i // state.n_beams
     b = i - chain * state.n_beams
@@ -320,9 +308,9 @@ def pass_lazy_cells(first: int, lazy: Uint8s, rays: TracedRays, state: ChainArra
     free = wp.float32(1.0)
     for k in range(rays.offsets[b], rays.near[b]):
         c = rays.cells[k]
-        if lazy[c] != wp.uint8(0) and state.fixed_m[cell_0 + c] > MIN_REFLECTIVITY:
+        if lazy[c] != wp.uint8(0) and state.fixed_m[cell_0 + c] > NEGLIGIBLE_REFLECTIVITY:
             cell = state.cells[cell_0 + c]
-            free = free * (wp.float32(1.0) - cell[REFLECTIVITY] * chance_at(rays, cell, ray))
+            free = free * (wp.float32(1.0) - cell[REFLECTIVITY] * meeting_chance(rays, cell, ray))
     state.lazy_free[i] = free
 
 
@@ -331,9 +319,10 @@ class UpdateSchedule:
 
     def __init__(self, rays: Rays, periods: NDArray[np.uint8]) -> None:
         """Select the lazy cells by ``periods``, see `bayesmap.kernels.surfaces.stop_chains.Plan`, (T,)."""
-        self._periods = [int(period) for period in np.unique(periods[periods > OFTEN])]
+        is_lazy = periods > LONGEST_WATCHED_PERIOD
+        self._periods = [int(period) for period in np.unique(periods[is_lazy])]
         self._lazy = np.zeros(rays.grid.n_cells, dtype=np.bool_)
-        self._lazy[rays.touched[periods > OFTEN]] = True
+        self._lazy[rays.touched[is_lazy]] = True
         self._rays = rays
 
     def updates_lazy(self, sweep: int) -> bool:

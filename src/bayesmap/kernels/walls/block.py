@@ -4,7 +4,7 @@ A sweep draws the four cells of a block together, from their 16 joint states giv
 every position of the grid, so every pair of neighbours is drawn together. Such a step can move a wall sideways.
 
 Take a beam that reaches the block. Let l_1, l_2, ... be the log-likelihoods of its hits on the block's cells, in the
-order of the beam, and l_out that of its first wall outside the block, or of "no hit". The beam adds to a state's log
+order of the beam, and l_out the one of its first wall outside the block, or of "no hit". The beam adds to a state's log
 weight l_j for the first j that is a wall in the state, else l_out. The coupling adds its equal pairs.
 """
 
@@ -51,8 +51,8 @@ def cell_of_block(blocks: BlockArrays, x: int, y: int, j: int) -> int:
 
 
 @wp.func
-def place_in_block(c: int, x: int, y: int, ny: int) -> int:
-    """Return the place of cell c in the block at (x, y), 0 to 3, or -1 if it lies outside."""
+def index_in_block(c: int, x: int, y: int, ny: int) -> int:
+    """Return the index of cell c in the block at (x, y), 0 to 3, or -1 if it lies outside."""
     dx = c // ny - x
     dy = c % ny - y
     if dx < 0 or dx > 1 or dy < 0 or dy > 1:
@@ -62,7 +62,7 @@ def place_in_block(c: int, x: int, y: int, ny: int) -> int:
 
 @wp.kernel
 def list_block_beams(first: int, filling: int, bounds: Int32s, t: Table, blocks: BlockArrays, counts: Int32s):
-    """One thread per range of block columns: count the beams of each block, or fill in their entries."""
+    """One thread per range of block columns: count the beams of each block; if ``filling``, write their entries."""
     # b: beam; k, j: its entries; (x, y): one of the four blocks that hold the entry's cell; i: incidence of the block.
     thread = first + wp.tid()
     for b in range(t.offsets.shape[0] - 1):
@@ -76,7 +76,7 @@ def list_block_beams(first: int, filling: int, bounds: Int32s, t: Table, blocks:
                     # Has the beam met this block before?
                     seen = int(0)
                     for j in range(wp.max(t.offsets[b], k - LOOK_BACK), k):
-                        if place_in_block(t.cells[j], x, y, blocks.ny) >= 0:
+                        if index_in_block(t.cells[j], x, y, blocks.ny) >= 0:
                             seen = 1
                     block = x * blocks.rows + y
                     if seen == 0:
@@ -110,16 +110,15 @@ def list_blocks(table: BeamTable, device: str) -> BlockArrays:
     # Second launch: fill in the beams and their entries.
     offsets = np.zeros(len(counts) + 1, dtype=np.int32)
     np.cumsum(counts, out=offsets[1:])
-    blocks.beam, blocks.first, blocks.last = (
-        wp.empty(int(offsets[-1]), dtype=wp.int32, device="cpu") for _ in range(3)
-    )
+    entries = [wp.empty(total, dtype=wp.int32, device="cpu") for _ in range(3)]
+    blocks.beam, blocks.first, blocks.last = entries
     devices.launch(list_block_beams, threads, [1, bounds, on_host, blocks, offsets[:-1].copy()], "cpu")
 
     state = np.arange(16)
     takes = [((state >> j) & 1) * ((state & free) == 0) for free in range(16) for j in range(4)]
     blocks.offsets = devices.to_device(offsets, wp.int32, device)
     blocks.takes = devices.to_device(np.array(takes), Weights, device)
-    blocks.beam, blocks.first, blocks.last = (a.to(device) for a in (blocks.beam, blocks.first, blocks.last))
+    blocks.beam, blocks.first, blocks.last = (a.to(device) for a in entries)
     return blocks
 
 
@@ -140,21 +139,21 @@ def block_weights(t: Table, blocks: BlockArrays, chain: Chain, block: int, x: in
         if f >= k:  # else a wall stands before the block
             last = blocks.last[i]
             end = t.offsets[b + 1]
-            # The first wall outside the block: the beam's first wall, or the next one if that lies in the block.
+            # The first wall outside the block: the beam's first wall, or the next one if it lies in the block.
             out = f
             l_out = chain.current[b]
-            if f <= last and place_in_block(t.cells[wp.min(f, end - 1)], x, y, blocks.ny) >= 0:
+            if f <= last and index_in_block(t.cells[wp.min(f, end - 1)], x, y, blocks.ny) >= 0:
                 out = f + 1
                 while out < end:
                     c = t.cells[out]
-                    if chain.walls[c] != wp.uint8(0) and place_in_block(c, x, y, blocks.ny) < 0:
+                    if chain.walls[c] != wp.uint8(0) and index_in_block(c, x, y, blocks.ny) < 0:
                         break
                     out += 1
                 l_out = chains.entry_loglik(t, b, out, end)
             # Add l_j to the states in which j is the first wall of the beam.
             free = int(0)
             for e in range(k, wp.min(last + 1, out)):
-                j = place_in_block(t.cells[e], x, y, blocks.ny)
+                j = index_in_block(t.cells[e], x, y, blocks.ny)
                 if j >= 0:
                     weights = weights + wp.float64(t.loglik[e] - l_out) * blocks.takes[4 * free + j]
                     free = free | (1 << j)
@@ -299,4 +298,4 @@ def block_sweeps(
                             chains.put_wall(t, chain, c)
                         if ((state >> j) & 1) == 0 and chain.walls[c] != wp.uint8(0):
                             chains.remove_wall(t, chain, c)
-        chains.keep(kept, sweeps, n, s, chain, chains.log_prior(prior, chain.walls))
+        chains.store_sweep(kept, sweeps, n, s, chain, chains.log_prior(prior, chain.walls))

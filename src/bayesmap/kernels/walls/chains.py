@@ -3,15 +3,7 @@
 `bayesmap.cells.binary` has the prior. Given all other cells, a cell is a wall with the log-odds logit(p) + coupling *
 (walls - free cells among its neighbours). At a coupling of 0 no neighbour is read.
 
-The walls alone determine the state of a chain, so only the walls are saved. The state holds
-
-- for every beam, `first_wall`: the table entry of its first wall, or the end of its entries;
-- for every beam, `current`: the log-likelihood of its reading;
-- for every cell, `reached`: the number of beams that have no wall before it;
-- for every cell, `log_likelihood_gain`: the log-likelihood with a wall there less the one without. By `known` it is the
-  exact sum, a bound, or unknown. If a beam's first wall moves, it becomes unknown in the cells that the beam reached or
-  now reaches.
-
+The walls alone determine the state of a chain, so only the walls are saved. `Chain` documents the rest of the state.
 Kernels of walls use these short names: t for the table, c for a cell, b for a beam, k and e for entries of the table.
 """
 
@@ -142,14 +134,12 @@ def wall_prior_to_device(
 
 @wp.struct
 class Table:
-    """The beam table and its index by cells, on a device."""
+    """The beam table (`BeamTable`) and its index by cells (`CellIndex`) on a device."""
 
-    # the table: see `BeamTable`
     offsets: Int32s
     cells: Int32s
     loglik: Float32s
     no_hit: Float32s
-    # its index by cells: see `CellIndex`
     cell_offsets: Int32s
     cell_entry: Int32s
     cell_beam: Int32s
@@ -165,14 +155,14 @@ EXACT = wp.constant(wp.uint8(2))  # the sum is the gain
 
 @wp.struct
 class Chain:
-    """The state of one chain, as described above."""
+    """The state of one chain. If a beam's first wall moves, gains become unknown where it reached or now reaches."""
 
     walls: Uint8s  # 1 for a wall
-    first_wall: Int32s
-    current: Float32s
-    reached: Int32s
-    log_likelihood_gain: Float32s  # exact sum or bound, depending on ``known``
-    known: Uint8s  # UNKNOWN, BOUND or EXACT
+    first_wall: Int32s  # table entry of each beam's first wall, or the end of its entries
+    current: Float32s  # log-likelihood of each beam's reading
+    reached: Int32s  # number of beams that have no wall before each cell
+    log_likelihood_gain: Float32s  # log-likelihood with a wall in each cell less the one without
+    known: Uint8s  # whether this gain is UNKNOWN, a BOUND or EXACT
 
 
 @wp.struct
@@ -213,10 +203,10 @@ class Kept:
 @wp.func
 def site_of(sweeps: Sweeps, i: int, shuffle_key: wp.uint64) -> int:
     """Return the i-th site of a sweep."""
-    place = i
+    rank = i
     if sweeps.shuffle_bits > wp.uint32(0):
-        place = int(shuffled(wp.uint32(i), wp.uint32(sweeps.order.shape[0]), sweeps.shuffle_bits, shuffle_key))
-    return sweeps.order[place]
+        rank = int(shuffled(wp.uint32(i), wp.uint32(sweeps.order.shape[0]), sweeps.shuffle_bits, shuffle_key))
+    return sweeps.order[rank]
 
 
 @wp.func
@@ -307,7 +297,7 @@ def remove_wall(t: Table, chain: Chain, c: int):
 
 
 @wp.func
-def keep_walls(walls: Uint8s, packed: Uint8s):
+def pack_walls(walls: Uint8s, packed: Uint8s):
     """Pack a map as `numpy.packbits` does."""
     for j in range(packed.shape[0]):
         bits = int(0)
@@ -318,7 +308,7 @@ def keep_walls(walls: Uint8s, packed: Uint8s):
 
 @wp.func
 def log_likelihood(current: Float32s) -> wp.float64:
-    """Sum log p(readings | walls) in a fixed order, so that a resumed chain repeats it exactly."""
+    """Return log p(readings | walls), summed in a fixed order, so that a resumed chain repeats it exactly."""
     total = wp.float64(0.0)
     for b in range(current.shape[0]):
         total += wp.float64(current[b])
@@ -326,13 +316,13 @@ def log_likelihood(current: Float32s) -> wp.float64:
 
 
 @wp.func
-def keep(kept: Kept, sweeps: Sweeps, n: int, s: int, chain: Chain, log_prior: wp.float64):
+def store_sweep(kept: Kept, sweeps: Sweeps, n: int, s: int, chain: Chain, log_prior: wp.float64):
     """Store the log densities of chain n after sweep ``sweeps.first_sweep + s``, and its map if it is kept."""
     kept.log_likelihoods[n, s] = sweeps.beta * log_likelihood(chain.current)
     kept.log_priors[n, s] = log_prior
-    past = sweeps.first_sweep + s + 1 - kept.first_kept
-    if kept.draws.shape[1] > 0 and past >= 0 and past % kept.every == 0:
-        keep_walls(chain.walls, kept.draws[n, past // kept.every])
+    sweeps_since = sweeps.first_sweep + s + 1 - kept.first_kept
+    if kept.draws.shape[1] > 0 and sweeps_since >= 0 and sweeps_since % kept.every == 0:
+        pack_walls(chain.walls, kept.draws[n, sweeps_since // kept.every])
 
 
 def table_to_device(table: BeamTable, index: CellIndex | None, device: str) -> Any:
@@ -346,15 +336,13 @@ class WallChains:
     """The states of several chains on a device, one row per chain; ``shape`` is the number of chains and of cells."""
 
     def __init__(self, table: Any, walls: NDArray[np.uint8], keys: Sequence[int], device: str) -> None:
-        self.device = device
-        self.shape = chains, cells = walls.shape
-        beams = table.no_hit.shape[0]
-        of_beams, of_cells = (chains, beams), (chains, cells)
+        self.device, self.shape = device, walls.shape
+        by_beam, by_cell = (len(walls), table.no_hit.shape[0]), walls.shape
         self.states: Any = devices.pack(
             WallChainArrays, device, walls=np.array(walls, dtype=np.uint8), keys=np.array(keys, dtype=np.uint64),
-            first_wall=of_beams, current=of_beams, reached=of_cells, log_likelihood_gain=of_cells, known=of_cells,
+            first_wall=by_beam, current=by_beam, reached=by_cell, log_likelihood_gain=by_cell, known=by_cell,
         )  # fmt: skip
-        devices.launch(derive_state, chains, [table, self.states], device)
+        devices.launch(derive_state, len(walls), [table, self.states], device)
 
 
 def run_sweeps(
@@ -363,16 +351,14 @@ def run_sweeps(
 ) -> tuple[devices.Floats, devices.Floats, NDArray[np.uint8]]:  # fmt: skip
     """Advance the chains in place by ``count`` sweeps of a kernel, numbered from ``first_sweep``, one chain per thread.
 
-    The kernel takes ``tables`` first, then the prior. Each sweep visits the sites in the given order, or shuffles it.
-    ``kept`` holds the numbers, from 1, of the sweeps whose maps are kept. ``beta`` is the inverse temperature. Returns
-    log-likelihoods and log priors after each sweep, (chains, sweeps), and the packed maps, (chains, kept, bytes).
+    Each sweep visits the sites in the given order, or shuffles it. ``kept`` holds the numbers, from 1, of the sweeps
+    whose maps are kept. ``beta`` is the inverse temperature. Returns log-likelihoods and log priors after each sweep,
+    (chains, sweeps), and the packed maps, (chains, kept, bytes).
     """
     n, cells = chains.shape
     device = chains.device
-    bits = cipher_bits(len(order)) if shuffle else 0
-    sweeps = devices.pack(
-        Sweeps, device, first_sweep=first_sweep, count=count, beta=beta, order=order, shuffle_bits=bits
-    )
+    sweeps = devices.pack(Sweeps, device, first_sweep=first_sweep, count=count, beta=beta, order=order)
+    sweeps.shuffle_bits = cipher_bits(len(order)) if shuffle else 0
     out = devices.pack(
         Kept, device, first_kept=kept.start, every=kept.step, draws=(n, len(kept), (cells + 7) // 8),
         log_likelihoods=(n, count), log_priors=(n, count),

@@ -1,13 +1,9 @@
 """Single-site Gibbs sweeps on binary walls.
 
 The log-odds of a cell are the prior's, given its neighbours if they are coupled, plus the cell's gain: a sum over the
-beams that reach the cell. Three shortcuts keep a sweep from visiting every incidence. None changes a draw.
-
-- A cell that no beam reaches is drawn from the prior. Its beams are not visited.
-- The sum of a free cell is stored until one of its beams moves. It contains likelihoods alone: neighbours may change.
-- If a bound leaves a chance below e^-20 of the other state, the bound replaces the sum. The exact sum is computed only
-  if the uniform number falls into that remainder. The bound is `CellIndex.gain_bound` for a free cell and
-  `CellIndex.advantage` for a wall.
+beams that reach the cell. Shortcuts that change no draw keep a sweep from visiting every incidence (docs/inference.md):
+a cell that no beam reaches is drawn from the prior, the gain of a free cell is stored until one of its beams moves, and
+if a bound leaves a chance below e^-20 of the other state, the exact sum waits until the uniform number demands it.
 """
 
 import warp as wp
@@ -38,15 +34,13 @@ def wall_gain(t: Table, chain: Chain, c: int) -> wp.float64:
 
 
 @wp.func
-def sum_gain(t: Table, chain: Chain, c: int, enough: wp.float64):
-    """Store the gain of a wall in free cell c: the exact sum, or a bound as soon as the sum must stay below ``enough``.
-    `cell_gain_bound` bounds the terms from incidence i on.
-    """
+def sum_gain(t: Table, chain: Chain, c: int, least: wp.float64):
+    """Store the gain of a wall in free cell c: the exact sum, or a bound once the sum must stay below ``least``."""
     gain = wp.float64(0.0)
     known = EXACT
     for i in range(t.cell_offsets[c], t.cell_offsets[c + 1]):
-        bound = gain + wp.float64(t.cell_gain_bound[i])
-        if bound < enough:
+        bound = gain + wp.float64(t.cell_gain_bound[i])  # gain_bound covers all terms from i on
+        if bound < least:
             gain = bound
             known = BOUND
             break
@@ -115,4 +109,4 @@ def gibbs_sweeps(
                     chains.remove_wall(t, chain, c)
             elif draw_free_cell(t, prior, chain, sweeps.beta, c, to_uniform(bits)):
                 chains.put_wall(t, chain, c)
-        chains.keep(kept, sweeps, n, s, chain, chains.log_prior(prior, chain.walls))
+        chains.store_sweep(kept, sweeps, n, s, chain, chains.log_prior(prior, chain.walls))

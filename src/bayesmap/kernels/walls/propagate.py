@@ -1,7 +1,7 @@
 """Belief propagation with ray potentials: all messages of a beam in one backward and one forward pass.
 
 A beam has the cells 1..n. Let p_i be their cavity wall probabilities, l_i the likelihood of a first hit on cell i and
-l_out that of no hit, all relative to the beam's largest. Then
+l_out the likelihood of no hit, all relative to the beam's largest. Then
 
     S_i = p_{i+1} l_{i+1} + (1 - p_{i+1}) S_{i+1},  S_n = l_out       expected likelihood if cells up to i are free
     T_i = prod_{j<i} (1 - p_j)                                        chance that all cells before i are free
@@ -40,7 +40,7 @@ class BeliefArrays:
     offsets: Int32s  # offsets of the beam table
     cells: Int32s  # cells of the beam table
     relative: Float32s  # likelihood of each entry, relative to its beam's largest
-    relative_no_hit: Float32s  # likelihood of no hit, likewise
+    relative_no_hit: Float32s  # likelihood of no hit, relative to its beam's largest
     ratio: Float32s  # the message of each entry's beam to its cell
     behind: Float32s  # working memory for S
     product: Float32Rows  # product of the messages to each cell, one row per part
@@ -51,20 +51,20 @@ class BeliefArrays:
 
 
 @wp.kernel
-def relative_likelihood(first: int, beta: wp.float32, loglik: Float32s, no_hit: Float32s, beliefs: BeliefArrays):
+def fill_relative(first: int, beta: wp.float32, loglik: Float32s, no_hit: Float32s, beliefs: BeliefArrays):
     """One thread per beam: compute likelihoods relative to the beam's largest, at an inverse temperature."""
     b = first + wp.tid()
     most = no_hit[b]
     for k in range(beliefs.offsets[b], beliefs.offsets[b + 1]):
         most = wp.max(most, loglik[k])
     last = wp.float32(1.0)
-    value = wp.float32(1.0)
+    likelihood = wp.float32(1.0)
     for k in range(beliefs.offsets[b], beliefs.offsets[b + 1]):
-        now = beta * (loglik[k] - most)
-        if now != last:  # long stretches of a beam share one value
-            value = wp.max(wp.exp(now), TINY)
-            last = now
-        beliefs.relative[k] = value
+        log_ratio = beta * (loglik[k] - most)
+        if log_ratio != last:  # long stretches of a beam share one value
+            likelihood = wp.max(wp.exp(log_ratio), TINY)
+            last = log_ratio
+        beliefs.relative[k] = likelihood
     beliefs.relative_no_hit[b] = wp.max(wp.exp(beta * (no_hit[b] - most)), TINY)
 
 
@@ -130,7 +130,7 @@ def softplus(x: wp.float64) -> wp.float64:
 
 @wp.func
 def from_neighbour(belief: wp.float32, received: wp.float32, coupling: wp.float64) -> wp.float64:
-    """Return the message of a cell to a neighbour, log-odds, from its belief less the message of that neighbour."""
+    """Return the message of a cell to a neighbour, log-odds, from its belief less the neighbour's own message."""
     h = wp.clamp(wp.float64(belief - received), wp.float64(-1000.0), wp.float64(1000.0))
     return softplus(coupling + h) - (coupling + softplus(h - coupling))
 
@@ -140,10 +140,8 @@ def neighbour_messages(
     first: int, nx: int, ny: int, coupling: wp.float64, damping: wp.float32, belief: Float32s, last: Float32Rows,
     messages: Float32Rows,
 ):  # fmt: skip
-    """One thread per cell: compute the log-odds that it receives from its neighbours, 0 where there is none. Rows of
-    the messages are (x - 1, x + 1, y - 1, y + 1).
-    """
-    # c: receiving cell; d: sending neighbour.
+    """One thread per cell: compute the log-odds that it receives from its neighbours, 0 where there is none."""
+    # c: receiving cell; d: sending neighbour. Rows of the messages are (x - 1, x + 1, y - 1, y + 1).
     c = first + wp.tid()
     x = c // ny
     y = c - x * ny
@@ -182,10 +180,7 @@ GPU_PARTS = 256
 
 
 class Beliefs:
-    """Messages and beliefs of one problem.
-
-    Memory: 12 bytes per incidence of the table and, if neighbours are coupled, 32 bytes per cell.
-    """
+    """Messages and beliefs of one problem: 12 bytes per incidence of the table; if coupled, also 32 bytes per cell."""
 
     def __init__(self, table: BeamTable, logit: Floats, device: str, beta: float = 1.0, coupling: float = 0.0) -> None:
         cells, incidences, beams = table.grid.n_cells, table.n_incidences, table.n_beams
@@ -201,9 +196,9 @@ class Beliefs:
         self._arrays, self._device, self._cells, self._parts = arrays, device, cells, parts
         self._shape, self._coupling = table.grid.shape, coupling
         sides = 4 if coupling else 0
-        # Two buffers: new messages depend on those of the last round only, whatever the order of threads.
+        # Two buffers: new messages depend on the last round only, whatever the order of threads.
         self._sides, self._next_sides = (wp.zeros((sides, cells), dtype=wp.float32, device=device) for _ in range(2))
-        devices.launch(relative_likelihood, beams, [beta, table.loglik, table.no_hit, arrays], device)
+        devices.launch(fill_relative, beams, [beta, table.loglik, table.no_hit, arrays], device)
         self._gather()
 
     def round(self, damping: float, threads: int | None = None) -> None:

@@ -1,31 +1,30 @@
-"""Build the beam table of some scans, and its index by cells."""
+"""Build the beam table of scans and its index by cells, and evaluate maps of walls on it.
+
+Maps of particles are not stored: each can be drawn again from its counter.
+"""
+
+from typing import Any
 
 import numpy as np
 import warp as wp
+from numpy.typing import NDArray
 
 from bayesmap.beams.rays import Rays
 from bayesmap.beams.table import BeamTable, CellIndex
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.device import Float32s, Float64s, Floats, Int32s, Singles
-from bayesmap.kernels.rays import (
-    RayArrays,
-    distance_at,
-    first_past,
-    line_of,
-    rays_to_device,
-    stop_distances,
-    trace_rays,
-)
+from bayesmap.kernels import rays as traced
+from bayesmap.kernels.device import Float32s, Float64s, Floats, Int32s, Singles, Uint8Rows
+from bayesmap.kernels.random import random_bits
 from bayesmap.kernels.sensor_law import MIXTURE, SensorLaw64, object_decay, sensor_law, stop_log_density
-from bayesmap.kernels.walls.chains import Table, table_to_device
+from bayesmap.kernels.walls.chains import Table, WallPriorArrays, draw_from_prior, table_to_device
 from bayesmap.sensors.model import RangeLimits, SensorModel
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
 wp.set_module_options({"enable_backward": False})
 
-WIDTHS = wp.constant(wp.float64(9.0))  # scales past which normal noise adds nothing to a mixture
-GAIN = wp.constant(wp.float32(1.0e-3))  # nats: incidences that can gain less than this come last in their cell
+NOISE_SCALES = wp.constant(wp.float64(9.0))  # scales past which normal noise adds nothing to a mixture
+LEAST_GAIN = wp.constant(wp.float32(1.0e-3))  # nats: incidences that can gain less than this come last in their cell
 SLICE = 1 << 20  # entries per call of NumPy, if a model has no compiled likelihood
 
 
@@ -37,28 +36,29 @@ def trace(
 
     A beam stops at the fraction ``hit_depth`` of its chord in a cell: 0 is the edge where it enters (the tutorial's
     closed squares). It is followed ``reach_m`` far, (B,); by default as far as its reading depends on stops. Raises
-    BadInput: more incidences than 32-bit indices can count.
+    `BadInput` if 32-bit indices cannot count the incidences.
     """
     if reach_m is None:
         reach_m = sensor.reach_m(scans.ranges_m.ravel(), RangeLimits(scans.min_range_m, scans.max_range_m))
-    return table_of(trace_rays(scans, grid, reach_m=reach_m, device=device), sensor, hit_depth=hit_depth, device=device)
+    rays = traced.trace_rays(scans, grid, reach_m=reach_m, device=device)
+    return table_of(rays, sensor, hit_depth=hit_depth, device=device)
 
 
 def table_of(rays: Rays, sensor: SensorModel, *, hit_depth: float = 0.0, device: str = "cpu") -> BeamTable:
-    """Build the beam table of some rays; the arguments are those of `trace`."""
+    """Build the beam table of rays; `trace` documents the arguments."""
     device = devices.resolve(device)
     if sensor.kernel_parameters() is None:
-        loglik, no_hit = _by_model(sensor, rays, stop_distances(rays, hit_depth, device))
+        loglik, no_hit = _fill_by_model(sensor, rays, traced.stop_distances(rays, hit_depth, device))
     else:
-        filled = [wp.empty(n, dtype=wp.float32, device=device) for n in (rays.n_incidences, rays.n_beams)]
+        outputs = [wp.empty(n, dtype=wp.float32, device=device) for n in (rays.n_incidences, rays.n_beams)]
         law = sensor_law(sensor, rays.limits, device)
-        inputs = [law, rays_to_device(rays, device), hit_depth, rays.range_m, *filled]
+        inputs = [law, traced.rays_to_device(rays, device), hit_depth, rays.range_m, *outputs]
         devices.launch(fill_likelihood, rays.n_beams, inputs, device, devices.threads_for(rays.n_beams))
-        loglik, no_hit = (a.numpy() for a in filled)
+        loglik, no_hit = (a.numpy() for a in outputs)
     return BeamTable(grid=rays.grid, offsets=rays.offsets, cells=rays.cells, loglik=loglik, no_hit=no_hit)
 
 
-def _by_model(sensor: SensorModel, rays: Rays, loglik: Singles) -> tuple[Singles, Singles]:
+def _fill_by_model(sensor: SensorModel, rays: Rays, loglik: Singles) -> tuple[Singles, Singles]:
     """Fill in the likelihoods by the model's own NumPy formula; ``loglik`` holds distances, and is overwritten."""
     no_hit = sensor.log_likelihood(rays.range_m, np.full(rays.n_beams, np.inf), rays.limits).astype(np.float32)
     beam = rays.beam_of_entry()
@@ -71,12 +71,10 @@ def _by_model(sensor: SensorModel, rays: Rays, loglik: Singles) -> tuple[Singles
 
 @wp.kernel
 def fill_likelihood(
-    first: int, law: SensorLaw64, rays: RayArrays, depth: wp.float64, range_m: Float64s, loglik: Float32s,
+    first: int, law: SensorLaw64, rays: traced.RayArrays, depth: wp.float64, range_m: Float64s, loglik: Float32s,
     no_hit: Float32s,
 ):  # fmt: skip
-    """One thread per beam: compute the log-likelihood of each entry, and of no hit. All stops before a mixture's normal
-    noise share one likelihood, and so do all behind it; bisection finds their entries.
-    """
+    """One thread per beam: compute the log-likelihood of each entry, and of no hit."""
     # b: beam; z: its reading; k: its entry.
     b = first + wp.tid()
     z = range_m[b]
@@ -87,24 +85,26 @@ def fill_likelihood(
     zero = wp.float64(0.0)
     begin = rays.offsets[b]
     end = rays.offsets[b + 1]
-    line = line_of(rays.lines, b)
+    line = traced.line_of(rays.lines, b)
     decay = object_decay(law, z)
     no_hit[b] = wp.float32(stop_log_density(law, z, decay, wp.float64(wp.inf), zero))
-    # Entries [near, behind) depend on the noise.
+    # Entries [near, behind) depend on the noise. All stops before a mixture's normal noise share one likelihood, and so
+    # do all stops behind it. Bisection finds their entries.
     near = begin
     behind = end
     if law.kind == MIXTURE and law.dof == zero and wp.isfinite(z):
-        begins = (z - WIDTHS * law.sigma_m) / (one + WIDTHS * law.sigma_per_m)
-        near = first_past(line, rays.cells, begin, end, begins, depth)
-        if WIDTHS * law.sigma_per_m < one:
-            ends = (z + WIDTHS * law.sigma_m) / (one - WIDTHS * law.sigma_per_m)
-            behind = first_past(line, rays.cells, near, end, ends, depth)
+        least = (z - NOISE_SCALES * law.sigma_m) / (one + NOISE_SCALES * law.sigma_per_m)
+        near = traced.first_past(line, rays.cells, begin, end, least, depth)
+        if NOISE_SCALES * law.sigma_per_m < one:
+            most = (z + NOISE_SCALES * law.sigma_m) / (one - NOISE_SCALES * law.sigma_per_m)
+            behind = traced.first_past(line, rays.cells, near, end, most, depth)
         if near > begin:
             before = wp.float32(wp.log(law.uniform))
             for k in range(begin, near):
                 loglik[k] = before
     for k in range(near, behind):
-        loglik[k] = wp.float32(stop_log_density(law, z, decay, distance_at(line, rays.cells[k], depth), zero))
+        distance = traced.distance_at(line, rays.cells[k], depth)
+        loglik[k] = wp.float32(stop_log_density(law, z, decay, distance, zero))
     if behind < end:
         after = no_hit[b]
         if z < law.max_m:
@@ -128,30 +128,15 @@ def beam_extremes(first: int, t: Table, lowest: Float32s, advantage: Float32s):
     lowest[b] = least
 
 
-@wp.struct
-class IndexArrays:
-    """A `CellIndex` on a device."""
-
-    offsets: Int32s
-    entry: Int32s
-    beam: Int32s
-    loglik: Float32s
-    gain_bound: Float32s
-    advantage: Float32s
-
-
 @wp.kernel
 def scatter_entries(
-    first: int, cell_bounds: Int32s, table: Table, lowest: Float32s, advantage: Float32s, filled: Int32s,
-    index: IndexArrays,
-):  # fmt: skip
-    """One thread per range of cells: list their incidences, in one pass over the table those that can gain more than
-    `GAIN`, in the next the others; then sum their bounds. ``filled`` is the next free incidence of each cell.
-    """
-    # t: thread; c: cell; b: beam; k: entry of the table; i: incidence of the cell.
-    t = first + wp.tid()
-    low = cell_bounds[t]
-    high = cell_bounds[t + 1]
+    first: int, cell_bounds: Int32s, table: Table, lowest: Float32s, advantage: Float32s, next_free: Int32s
+):
+    """One thread per range of cells: write their index, with incidences that can gain over `LEAST_GAIN` first."""
+    # thread: range of cells; c: cell; b: beam; k: entry of the table; i: incidence of the cell, from next_free[c] on.
+    thread = first + wp.tid()
+    low = cell_bounds[thread]
+    high = cell_bounds[thread + 1]
     for gaining in range(2):
         for b in range(table.no_hit.shape[0]):
             least = lowest[b]
@@ -159,21 +144,21 @@ def scatter_entries(
                 c = table.cells[k]
                 if c >= low and c < high:
                     gain = table.loglik[k] - least
-                    if (gain > GAIN) == (gaining == 0):
-                        i = filled[c]
-                        filled[c] = i + 1
-                        index.entry[i] = k
-                        index.beam[i] = b
-                        index.loglik[i] = table.loglik[k]
-                        index.gain_bound[i] = gain
-                        index.advantage[i] = advantage[k]
+                    if (gain > LEAST_GAIN) == (gaining == 0):
+                        i = next_free[c]
+                        next_free[c] = i + 1
+                        table.cell_entry[i] = k
+                        table.cell_beam[i] = b
+                        table.cell_loglik[i] = table.loglik[k]
+                        table.cell_gain_bound[i] = gain
+                        table.cell_advantage[i] = advantage[k]
     # A bound covers an incidence and all after it: sum from the last to the first.
     for c in range(low, high):
         bound = wp.float32(0.0)
-        for j in range(index.offsets[c + 1] - index.offsets[c]):
-            i = index.offsets[c + 1] - 1 - j
-            bound += index.gain_bound[i]
-            index.gain_bound[i] = bound
+        for j in range(table.cell_offsets[c + 1] - table.cell_offsets[c]):
+            i = table.cell_offsets[c + 1] - 1 - j
+            bound += table.cell_gain_bound[i]
+            table.cell_gain_bound[i] = bound
 
 
 def index_by_cell(table: BeamTable) -> CellIndex:
@@ -185,11 +170,109 @@ def index_by_cell(table: BeamTable) -> CellIndex:
     threads = devices.available_cores()
     shares = np.linspace(0, entries, threads + 1)[1:-1]
     bounds = np.concatenate([[0], np.searchsorted(offsets, shares), [cells]]).astype(np.int32)
-
-    on_host = table_to_device(table, None, "cpu")
-    extremes = devices.launch(beam_extremes, table.n_beams, [on_host, (table.n_beams,), (entries,)], "cpu")
+    # Kernels fill in the index, whose arrays on the device are its own.
     integers = {name: np.empty(entries, dtype=np.int32) for name in ("entry", "beam")}
     reals = {name: np.empty(entries, dtype=np.float32) for name in ("loglik", "gain_bound", "advantage")}
-    index = devices.pack(IndexArrays, "cpu", offsets=offsets, **integers, **reals)
-    devices.launch(scatter_entries, threads, [bounds, on_host, *extremes, offsets[:-1].copy(), index], "cpu")
-    return CellIndex(offsets=offsets, **integers, **reals)
+    index = CellIndex(offsets=offsets, **integers, **reals)
+    on_host = table_to_device(table, index, "cpu")
+    extremes = devices.launch(beam_extremes, table.n_beams, [on_host, (table.n_beams,), (entries,)], "cpu")
+    devices.launch(scatter_entries, threads, [bounds, on_host, *extremes, offsets[:-1].copy()], "cpu")
+    return index
+
+
+DeviceTable = Any  # a `Table` on a device, from `table_to_device`
+DevicePrior = Any  # `WallPriorArrays` on a device, from `wall_prior_to_device`
+
+
+@wp.func
+def particle_wall(prior: WallPriorArrays, key: wp.uint64, particle: wp.uint64, n_cells: wp.uint64, c: int) -> bool:
+    """Return whether cell c is a wall in the map of a particle."""
+    return draw_from_prior(prior, c, random_bits(key, particle * n_cells + wp.uint64(c)))
+
+
+@wp.kernel
+def weigh_particles(
+    first: int, t: Table, prior: WallPriorArrays, key: wp.uint64, particle_0: wp.uint64, log_weights: Float64s
+):
+    """One thread per particle: compute log p(readings | its map). Only cells that beams reach are drawn."""
+    i = first + wp.tid()
+    particle = particle_0 + wp.uint64(i)
+    n_cells = wp.uint64(prior.level.shape[0])
+    total = wp.float64(0.0)
+    for b in range(t.no_hit.shape[0]):
+        term = t.no_hit[b]
+        for k in range(t.offsets[b], t.offsets[b + 1]):
+            if particle_wall(prior, key, particle, n_cells, t.cells[k]):
+                term = t.loglik[k]
+                break
+        total += wp.float64(term)
+    log_weights[i] = total
+
+
+@wp.kernel
+def draw_particles(
+    first: int, prior: WallPriorArrays, key: wp.uint64, particles: wp.array(dtype=wp.uint64), walls: Uint8Rows
+):
+    """One thread per particle: write its whole map."""
+    i = first + wp.tid()
+    n_cells = walls.shape[1]
+    for c in range(n_cells):
+        wall = particle_wall(prior, key, particles[i], wp.uint64(n_cells), c)
+        walls[i, c] = wp.uint8(wp.where(wall, 1, 0))
+
+
+def particle_log_weights(
+    table: DeviceTable, prior: DevicePrior, key: int, first_particle: int, count: int, device: str
+) -> Floats:
+    """Compute the log weights of ``count`` particles from ``first_particle`` on, (count,)."""
+    return np.asarray(devices.launch(weigh_particles, count, [table, prior, key, first_particle, (count,)], device)[0])
+
+
+def particle_maps(prior: DevicePrior, key: int, particles: NDArray[np.intp], device: str) -> NDArray[np.uint8]:
+    """Return the maps of the given particles, (n, N)."""
+    walls = (len(particles), prior.level.shape[0])
+    return np.asarray(devices.launch(draw_particles, len(particles), [prior, key, particles, walls], device)[0])
+
+
+@wp.kernel
+def sum_log_likelihoods(first: int, t: Table, packed: Uint8Rows, total: Float64s):
+    """One thread per packed map: compute log p(readings | map); each beam ends at its first wall."""
+    d = first + wp.tid()
+    value = wp.float64(0.0)
+    for b in range(t.no_hit.shape[0]):
+        term = t.no_hit[b]
+        for k in range(t.offsets[b], t.offsets[b + 1]):
+            c = t.cells[k]
+            if ((int(packed[d, c // 8]) >> (7 - c % 8)) & 1) != 0:
+                term = t.loglik[k]
+                break
+        value += wp.float64(term)
+    total[d] = value
+
+
+def log_likelihoods(table: BeamTable, packed: NDArray[np.uint8], device: str = "cpu") -> Floats:
+    """Compute log p(all readings | map) of each packed map (draws, bytes), (draws,)."""
+    device = devices.resolve(device)
+    inputs = [table_to_device(table, None, device), packed, (len(packed),)]
+    return np.asarray(devices.launch(sum_log_likelihoods, len(packed), inputs, device)[0])
+
+
+@wp.kernel
+def mark_reached(first: int, t: Table, walls: Uint8Rows, reached: Uint8Rows):
+    """One thread per map: mark every cell up to each beam's first wall."""
+    m = first + wp.tid()
+    for b in range(t.no_hit.shape[0]):
+        for k in range(t.offsets[b], t.offsets[b + 1]):
+            c = t.cells[k]
+            reached[m, c] = wp.uint8(1)
+            if walls[m, c] != wp.uint8(0):
+                break
+
+
+def reach_frequency(table: BeamTable, maps: NDArray[np.bool_], device: str = "cpu") -> Floats:
+    """Compute the share of the maps (n, nx, ny) in which at least one beam reaches each cell, (nx, ny)."""
+    device = devices.resolve(device)
+    flat = np.reshape(maps, (len(maps), -1))
+    inputs = [table_to_device(table, None, device), flat, flat.shape]
+    (reached,) = devices.launch(mark_reached, len(flat), inputs, device)
+    return np.asarray(reached.mean(axis=0).reshape(table.grid.shape))

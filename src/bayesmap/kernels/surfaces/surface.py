@@ -1,9 +1,8 @@
-r"""A cell with a surface: the beams that meet it (`bayesmap.beams.rays` states the law), and its prior.
+r"""The surface of a cell: the beams that meet it (`bayesmap.beams.rays` states the law), and its prior.
 
-The prior of a surface is mu ~ N(centre, tau^2 I) inside the cell's own square. Sigma has the density of an
-InverseWishart(nu, psi I) times exp(-tr Sigma / (2 kappa^2)), which keeps surfaces from growing beyond their cell: beams
-of other cells are no evidence against it. Steps are taken in mu, log l11, l21 and log l22 of Sigma = L L'. In these
-coordinates the density inside the square is proportional to
+`bayesmap.cells.surface.Surface` states the prior. Its factor exp(-tr Sigma / (2 kappa^2)) keeps surfaces from growing
+beyond their cell: beams of other cells are no evidence against it. Steps are taken in mu, log l11, l21 and log l22 of
+Sigma = L L'. In these coordinates the density inside the cell's square is proportional to
 
     exp(-|mu - centre|^2 / (2 tau^2)) l11^-nu l22^-(nu + 1) exp(-psi/2 tr Sigma^-1 - tr Sigma / (2 kappa^2)):
 
@@ -16,19 +15,23 @@ import numpy as np
 import warp as wp
 from scipy import special
 
+from bayesmap.beams.rays import CROSSING_WIDTH, DIRECTION_RAD
 from bayesmap.cells.reflectivity import KernelNumbers
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.device import Singles
 from bayesmap.kernels.random import PER_GAMMA, log_gamma_variate, normal
 
-CROSSING_WIDTH_SQ = wp.constant(wp.float32(2.2**2))  # w squared, see `bayesmap.beams.rays`
-DIRECTION_SQ = wp.constant(wp.float32(0.005**2))  # omega squared: 4 to 8 mrad predict best (docs/lab/surfaces.md)
+CROSSING_WIDTH_SQ = wp.constant(wp.float32(CROSSING_WIDTH**2))
+DIRECTION_SQ = wp.constant(wp.float32(DIRECTION_RAD**2))
 
-Cell = wp.types.vector(length=8, dtype=wp.float32)
-"""A cell's state: reflectivity, mean x and y (metres from the grid's corner), Cholesky factor l11, l21, l22 of Sigma,
-1 while a candidate for its surface is tried (else 0), and an unused number."""
-
-REFLECTIVITY, MEAN_X, MEAN_Y, L11, L21, L22, TRYING = range(7)
+Cell = wp.types.vector(length=8, dtype=wp.float32)  # a cell's state; its last number is not used
+REFLECTIVITY = 0
+MEAN_X = 1  # metres from the grid's corner
+MEAN_Y = 2
+L11 = 3  # Cholesky factor of Sigma
+L21 = 4
+L22 = 5
+TRYING = 6  # 1 while a candidate for the surface is tried, else 0
 
 
 def cells_to_device(states: Singles, device: str) -> Any:
@@ -79,15 +82,14 @@ def cross_at(offset: wp.float32, ahead: wp.float32, cell: Cell, ux: wp.float32, 
     l21 = cell[L21]
     l22 = cell[L22]
     # across, along: L' n and L' u; body: n' Sigma n; unsure: variance from the beam's direction.
-    one = wp.float32(1.0)
-    across_1 = l21 * ux - l11 * uy  # L' n
+    across_1 = l21 * ux - l11 * uy
     across_2 = l22 * ux
-    along_1 = l11 * ux + l21 * uy  # L' u
+    along_1 = l11 * ux + l21 * uy
     along_2 = l22 * uy
     depth = wp.max(ahead, wp.float32(0.0))
     body = across_1 * across_1 + across_2 * across_2
     unsure = DIRECTION_SQ * depth * depth
-    per_across = one / (body + unsure)
+    per_across = wp.float32(1.0) / (body + unsure)
     slope = (along_1 * across_1 + along_2 * across_2) * per_across
     area = l11 * l22
     # |Sigma + unsure n n'| / w^2 = (|Sigma| + unsure u' Sigma u) / w^2: no difference of large numbers
@@ -104,15 +106,12 @@ def cross_surface(cell: Cell, ray: Ray) -> Crossing:
     return cross_at(u[0] * ry - u[1] * rx, u[0] * rx + u[1] * ry, cell, u[0], u[1])
 
 
-MEAN_TRIES = wp.constant(8)  # draws of a mean's coordinate, at most
+MEAN_TRIES = wp.constant(8)  # most draws of a mean's coordinate
 
 
 @wp.struct
 class PriorNumbers:
-    """Beta(a, b) of the reflectivity, and the surface's prior as above.
-
-    With a coupling, a and b are those of free cells, and ``log_beta`` and ``log_beta_solid`` log normalisers; else 0.
-    """
+    """`KernelNumbers`, and if cells have labels, log normalisers of their Betas; else these are 0."""
 
     a: wp.float64
     b: wp.float64
@@ -128,7 +127,7 @@ class PriorNumbers:
     log_beta_solid: wp.float64
 
 
-def packed_prior(numbers: KernelNumbers) -> Any:
+def pack_prior(numbers: KernelNumbers) -> Any:
     """Pack a prior as kernels read it."""
     packed = devices.pack(PriorNumbers, "cpu", **numbers._asdict())
     if numbers.coupling > 0:
@@ -161,34 +160,31 @@ def is_own(prior: PriorNumbers, centre: wp.vec2, cell: Cell) -> bool:
 
 
 @wp.func
-def mean_within(prior: PriorNumbers, key: wp.uint64, at: wp.uint64) -> wp.float32:
-    """Draw a coordinate of a mean, relative to the cell's centre, by rejection; takes 2 `MEAN_TRIES` counters. Under
-    the default prior one try in five fails. All fail once in 300 000 times; that candidate is not accepted.
-    """
-    x = prior.tau_m * normal(key, at)
+def draw_mean_coordinate(prior: PriorNumbers, key: wp.uint64, counter: wp.uint64) -> wp.float32:
+    """Draw a coordinate of a mean, relative to the cell's centre, by rejection; takes 2 `MEAN_TRIES` counters."""
+    # Under the default prior one try in five fails. All fail once in 300 000 times; that candidate is not accepted.
+    x = prior.tau_m * normal(key, counter)
     for i in range(1, MEAN_TRIES):
         if wp.abs(x) > prior.half_m:
-            x = prior.tau_m * normal(key, at + wp.uint64(2 * i))
+            x = prior.tau_m * normal(key, counter + wp.uint64(2 * i))
     return wp.float32(x)
 
 
 @wp.func
-def fresh_surface(prior: PriorNumbers, centre: wp.vec2, cell: Cell, key: wp.uint64, at: wp.uint64) -> Cell:
-    """Return the cell with a surface drawn from the prior without `log_size_penalty`, which the acceptance includes.
-
-    Sigma^-1 = A A' / psi with Bartlett's lower triangular A. The inverse has the upper factor A^-T sqrt(psi), which
-    becomes a lower factor when x and y are exchanged; the law is symmetric in them.
-    """
+def fresh_surface(prior: PriorNumbers, centre: wp.vec2, cell: Cell, key: wp.uint64, counter: wp.uint64) -> Cell:
+    """Return the cell with a surface drawn from the prior without `log_size_penalty`, which the acceptance includes."""
+    # Sigma^-1 = A A' / psi with Bartlett's lower triangular A. The inverse has the upper factor A^-T sqrt(psi), which
+    # becomes a lower factor when x and y are exchanged; the law is symmetric in them. n: next counter.
     half = wp.float64(0.5)
-    a11 = wp.exp(half * (log_gamma_variate(half * prior.nu, key, at) + wp.log(wp.float64(2.0))))
-    at_2 = at + wp.uint64(PER_GAMMA)
+    n = counter + wp.uint64(PER_GAMMA)
+    a11 = wp.exp(half * (log_gamma_variate(half * prior.nu, key, counter) + wp.log(wp.float64(2.0))))
     shape = half * (prior.nu - wp.float64(1.0))
-    a22 = wp.exp(half * (log_gamma_variate(shape, key, at_2) + wp.log(wp.float64(2.0))))
-    n = at_2 + wp.uint64(PER_GAMMA)
+    a22 = wp.exp(half * (log_gamma_variate(shape, key, n) + wp.log(wp.float64(2.0))))
+    n = n + wp.uint64(PER_GAMMA)
     a21 = normal(key, n)
     scale = wp.sqrt(prior.psi_m2)
-    cell[MEAN_X] = centre[0] + mean_within(prior, key, n + wp.uint64(2))
-    cell[MEAN_Y] = centre[1] + mean_within(prior, key, n + wp.uint64(2 + 2 * MEAN_TRIES))
+    cell[MEAN_X] = centre[0] + draw_mean_coordinate(prior, key, n + wp.uint64(2))
+    cell[MEAN_Y] = centre[1] + draw_mean_coordinate(prior, key, n + wp.uint64(2 + 2 * MEAN_TRIES))
     cell[L11] = wp.float32(scale / a22)
     cell[L21] = wp.float32(-scale * a21 / (a11 * a22))
     cell[L22] = wp.float32(scale / a11)
@@ -197,7 +193,7 @@ def fresh_surface(prior: PriorNumbers, centre: wp.vec2, cell: Cell, key: wp.uint
 
 @wp.func
 def log_surface_prior(prior: PriorNumbers, centre: wp.vec2, cell: Cell) -> wp.float64:
-    """Return the log density of a surface in the coordinates above, up to a constant."""
+    """Return the log density of a surface in the coordinates of its steps, up to a constant."""
     # (x, y): mean relative to the centre; q: the lower left entry of L^-1, up to its sign.
     x = wp.float64(cell[MEAN_X] - centre[0])
     y = wp.float64(cell[MEAN_Y] - centre[1])
@@ -224,7 +220,7 @@ def log_size_penalty(prior: PriorNumbers, cell: Cell) -> wp.float64:
 @wp.func
 def log_reflectivity_prior(prior: PriorNumbers, solid: wp.uint8, m: wp.float32) -> wp.float32:
     """Return the log density of logit m given the label; without labels, up to a constant."""
-    at = wp.clamp(m, wp.float32(1.0e-30), wp.float32(1.0 - 1.0e-7))
+    m = wp.clamp(m, wp.float32(1.0e-30), wp.float32(1.0 - 1.0e-7))
     counts = pseudo_counts(prior, solid)
-    density = wp.float32(counts[0]) * wp.log(at) + wp.float32(counts[1]) * wp.log(wp.float32(1.0) - at)
+    density = wp.float32(counts[0]) * wp.log(m) + wp.float32(counts[1]) * wp.log(wp.float32(1.0) - m)
     return density - wp.float32(wp.where(solid != wp.uint8(0), prior.log_beta_solid, prior.log_beta))
