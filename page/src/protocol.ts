@@ -56,6 +56,8 @@ export type Transport = {
   open: () => void;
   /** Reads a saved run by the server: its recording. Hears what share of the file has been sent. */
   read?: (file: File, heard: (share: number) => void) => Promise<ArrayBuffer>;
+  /** The result on show, of a page that samples by itself; null before there is one. */
+  record?: () => [wire.Recording, Buffers] | null;
   /** Tries again now. */
   retry?: () => void;
   close: () => void;

@@ -7,6 +7,7 @@ import { test } from "node:test";
 import { packBits, toBase64 } from "../src/geometry/bits";
 import type { Figure } from "../src/messages";
 import type { MapDocument } from "../src/protocol";
+import { Beside } from "../src/state/beside";
 import { Session } from "../src/state/session";
 import { localTransport } from "../src/transport/local";
 
@@ -44,6 +45,31 @@ class Shown {
     return this.session.shown!.p[x * this.session.shape[1] + y] / 255;
   }
 }
+
+test("a figure keeps a result with its draws beside the next one", () => {
+  const page = new Shown({ sweeps: 40, prior: 0.3, method: "gibbs", burn_in: 0 });
+  const before = page.finish();
+  const beside = new Beside(page.session);
+  beside.keep();
+  beside.follow();
+  assert.deepEqual(beside.kept!.shown!.p, before.p);
+  const draw = (number: number) => {
+    page.session.act({ type: "view", layer: "draw", chain: 1, draw: number });
+    page.session.take();
+    beside.follow();
+    return [page.session.shown!, beside.kept!.shown!].map(({ p, log_joint }) => [log_joint, ...p]);
+  };
+  for (const number of [0, 17, 39]) {
+    const [ours, theirs] = draw(number);
+    assert.deepEqual(ours, theirs); // the same result still
+  }
+  page.session.act({ type: "set", patch: { method: "block" } });
+  page.finish();
+  assert.match(String(beside.differences()), /method Gibbs sampling, 2 x 2 blocks,method Gibbs sampling, cell by cell/);
+  const [ours, theirs] = draw(5);
+  assert.notDeepEqual(ours, theirs);
+  assert.equal(beside.kept!.shown!.draw, 5);
+});
 
 test("a figure shows the posterior of what it is given, and of what is drawn in it", () => {
   const page = new Shown({ sweeps: 300, noise: 0.4 });

@@ -2,7 +2,7 @@
 
 import { packBits, unpackBits } from "../geometry/bits";
 import type { Field as Picture, Figure, Verdict } from "../messages";
-import type { Buffers, MapDocument, View } from "../protocol";
+import type { Buffers, MapDocument, Recording, View } from "../protocol";
 import { blockSweep, listBlocks, type Blocks } from "../sampler/blocks";
 import { Chain, type Problem, type Sites } from "../sampler/chain";
 import { rhatAndEss } from "../sampler/diagnostics";
@@ -112,6 +112,22 @@ export class Job {
     return [picture, { p, reached: inLevels(this.reached()), ...this.trace(), ...(weights && { weights: weights.weights }) }];
   }
 
+  /** The result with its draws, for a page that plays it. */
+  recording(rays: Buffers): [Recording, Buffers] {
+    const { document } = this;
+    const { chains, count } = this.draws;
+    const [field, buffers] = this.picture({ layer: "mean", chain: 0, draw: null }, 1, 0, true);
+    const beams = Uint32Array.from({ length: this.cells }, (_, c) => this.beamsThrough(c));
+    const { log_joint, draws } = this.recorded();
+    const ids = document.sensors.map(({ id }) => id);
+    return [{ version: 1, document, field, ids, draws: { chains, count, kept: count, bits: true }, log_joint }, { ...buffers, ...rays, beams, draws }];
+  }
+
+  /** The draws of all chains, packed, and the log joint of each. */
+  protected recorded(): { log_joint: number[][]; draws: Uint8Array } {
+    return { log_joint: [], draws: new Uint8Array(0) };
+  }
+
   /** The log joint of the first sweeps, and of later ones evenly. */
   private trace() {
     const rows = this.logJoint;
@@ -217,6 +233,12 @@ export class Chains extends Job {
 
   get draws() {
     return this.kept[0].length ? { chains: CHAINS, count: this.kept[0].length } : NONE;
+  }
+
+  protected recorded() {
+    const { joint, kept, thin } = this;
+    const draws = Uint8Array.from(kept.flatMap((maps) => maps.flatMap((map) => [...map])));
+    return { log_joint: joint.map((row) => row.filter((_, sweep) => (sweep + 1) % thin === 0)), draws };
   }
 
   private means(): Float64Array[] {

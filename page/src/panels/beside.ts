@@ -10,7 +10,7 @@ export function keepControl(ui: Ui, beside: Beside) {
   const { session } = ui;
   const title = "Change the method, the order, the prior or the map, and compare: both results follow the layer and the draw";
   const control = ui.checkbox("Keep this result beside the next", () => beside.kept !== null, (on) => (on ? beside.keep() : beside.forget()), title);
-  ui.visible(control, () => session.answers && (beside.kept !== null || session.shown !== null));
+  ui.visible(control, () => session.locates && (beside.kept !== null || session.shown !== null));
   return control;
 }
 

@@ -12,9 +12,13 @@ export class Beside {
 
   constructor(private readonly main: Session) {}
 
-  /** Asks for the result on show, to keep it. */
+  /** Keeps the result on show: the server's, or the page's own. */
   keep() {
-    this.main.act({ type: "export", what: RECORDING });
+    const { transport } = this.main;
+    if (!transport.record) return this.main.act({ type: "export", what: RECORDING });
+    const recording = transport.record();
+    if (recording) this.receive(recording);
+    this.main.changed();
   }
 
   forget() {

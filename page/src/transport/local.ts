@@ -4,7 +4,7 @@ import { checked, edit, History, Refused } from "../figure/edits";
 import { Chains, Job, Weighing } from "../figure/jobs";
 import { fromBase64, inflate } from "../geometry/bits";
 import type { Figure } from "../messages";
-import type { Action, MapDocument, Sent, Transport, View } from "../protocol";
+import type { Action, Buffers, MapDocument, Sent, Transport, View } from "../protocol";
 import { mix, normal } from "../sampler/random";
 import { locate } from "../sampler/where";
 import { beamsOf, fan, problemOf, rangesOf } from "../sampler/world";
@@ -45,7 +45,7 @@ export function localTransport(figure: Figure, later: (work: () => void) => void
   let job: Job | null = null;
   let [waiting, closed] = [false, false];
   let [began, framed] = [0, 0];
-  let scan: { ranges: Float32Array; hit: Uint8Array } | null = null;
+  let scan: (Buffers & { ranges: Float32Array; hit: Uint8Array }) | null = null;
 
   const say = (text: string, level: "info" | "warning") => transport.onmessage({ type: "status", text, level }, {});
   const state = () =>
@@ -210,6 +210,7 @@ export function localTransport(figure: Figure, later: (work: () => void) => void
         state();
       }
     },
+    record: () => job && scan && job.recording(scan),
     close: () => {
       closed = true;
     },
