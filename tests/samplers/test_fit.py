@@ -115,7 +115,7 @@ def test_a_pilot_is_as_long_as_the_warm_up_or_as_it_helps_and_a_given_sensor_and
 
 def test_binary_walls_can_have_a_fitted_sensor():
     model = Model(scans(), GRID, bm.Independent(0.1), TRUTH, hit_depth=0.5)
-    found = fits.fit_sensor(model, "cpu", seed=0)
+    found = fits.fit_sensor(model, "cpu", seed=0, threads=None)
     assert 0.3 < found.p_random / TRUTH.p_random < 3
     short = bm.Schedule(chains=1, warmup=5, draws=5)
     run = bm.infer(scans(poses=5), GRID, prior=bm.Independent(0.1), sensor="fit", schedule=short)

@@ -182,8 +182,7 @@ def total(scores: Any) -> Any:
 def replace_term(sum_: Any, old: Any, new: Any, afresh: Callable[[], Any]) -> Any:
     """Return a sum after one of its terms changed, in time that does not grow with the number of terms.
 
-    Rounding errors add up to about sqrt(k) units in the last place after k changes. A sum that is not finite is
-    recomputed by `afresh`.
+    After k changes, rounding errors are sqrt(k) units in the last place. `afresh` recomputes a sum that is not finite.
     """
     moved = sum_ + (new - old)
     if is_concrete(moved):  # outside jit, a cond of fresh closures would be compiled at every edit

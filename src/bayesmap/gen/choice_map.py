@@ -1,8 +1,7 @@
 """Choice maps: values of random choices by address, as in `C["walls"].set(w) | C["readings"].set(z)`, and their text.
 
 An address is a name, an index, or a tuple of names and indices. A vectorised model stores its values as whole arrays:
-`chm["v"]` is `chm[:, "v"]`, and `chm[0, "v"]` is its first element. A name selects a submap; an index selects from the
-leading axis of everything below it.
+`chm["v"]` is `chm[:, "v"]`, and `chm[0, "v"]` its first element. An index selects from the leading axis of all arrays.
 
 A flag may be an array, such as a mask's flag or a comparison of index arrays. Such a flag does not change which
 addresses a map has: the map stores the value as a Mask.

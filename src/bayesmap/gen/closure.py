@@ -254,8 +254,7 @@ def dimap(
 ) -> Callable[[GenerativeFunction], Dimap]:
     """Return a decorator that transforms arguments by `pre` and the return value by `post`.
 
-    `pre` returns the inner function's arguments as a tuple. `post` takes (arguments, inner arguments, inner return
-    value).
+    `pre` returns the inner arguments as a tuple. `post` takes (arguments, inner arguments, inner return value).
     """
     return lambda gen_fn: Dimap(gen_fn.as_part(), pre, post)
 

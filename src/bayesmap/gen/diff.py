@@ -162,9 +162,8 @@ def dataflow(fn: Callable[..., Any], *inputs: Any) -> list[Origin] | None:
         sources = frozenset[int]().union(*(o.inputs for o, _ in operands))
         images = frozenset[int]()
         if eqn.primitive.name in _ELEMENTWISE:
-            images = frozenset(
-                k for k in sources if all(k not in o.inputs or (same and k in o.images) for o, same in operands)
-            )
+            others = (o.inputs - o.images if same else o.inputs for o, same in operands)
+            images = sources.difference(*others)
         for out in eqn.outvars:
             origins[out] = Origin(sources, images)
     return [origin(v) for v in jaxpr.outvars]

@@ -37,9 +37,8 @@ class DistributionTrace(Trace):
 class Distribution(GenerativeFunction):
     """Base of distributions whose density may be an estimate: implement `random_weighted` and `estimate_logpdf`.
 
-    They are a pair as in Lew et al., Probabilistic programming with stochastic probabilities (2023). 1 / exp(score) of
-    `random_weighted` is an unbiased estimate of 1 / density at the draw; exp of `estimate_logpdf` is an unbiased
-    estimate of the density.
+    They are a pair as in Lew et al., Probabilistic programming with stochastic probabilities (2023). Unbiased estimates
+    are exp(-score) of `random_weighted`, of 1 / density at the draw, and exp of `estimate_logpdf`, of the density.
     """
 
     def random_weighted(self, key: PRNGKey, *args: Any) -> tuple[Score, Any]:

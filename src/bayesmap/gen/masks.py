@@ -105,9 +105,7 @@ class Mask(Pytree):
 
     @staticmethod
     def build(value: Any, flag: Flag = True) -> "Mask":
-        """Return a value, or the value of a Mask, with a flag. For a Mask both flags must hold, and the new flag's
-        shape must be a prefix of the old one's.
-        """
+        """Return a value with a flag. A Mask gets both flags, and the new flag's shape must be a prefix of its own."""
         if not isinstance(value, Mask):
             return Mask(value, flag)
         old, new = jnp.shape(value.flag), jnp.shape(flag)

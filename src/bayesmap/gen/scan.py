@@ -40,9 +40,7 @@ class Scan(Vectorised):
             raise TypeError(f"scan takes two arguments, (state, inputs), not {len(args)}")
         sizes = dict.fromkeys(jnp.shape(leaf)[0] for leaf in jax.tree.leaves(args[1]))
         if len(sizes) > 1:
-            raise ValueError(
-                f"scan got values with different leading axis sizes: {', '.join(f'{size}' for size in sizes)}."
-            )
+            raise ValueError(f"scan got values with different leading axis sizes: {', '.join(map(str, sizes))}.")
         if self.n is None and not sizes:
             raise TypeError("scan needs n= where there are no inputs")
         return self.n if self.n is not None else next(iter(sizes))
@@ -144,8 +142,8 @@ class Scan(Vectorised):
 def scan(*, n: int | None = None) -> Callable[[GenerativeFunction], Scan]:
     """Return a decorator that turns `(state, x) -> (state, y)` into `(state, xs) -> (last state, ys)`.
 
-    Step t uses the key `fold_in(key of step t - 1, t)`. Addresses of its choices begin with t. The number `n` of steps
-    is needed if `xs` is None.
+    Step t uses the key `fold_in(key of step t - 1, t)`. Addresses of its choices begin with t. If `xs` is None, the
+    number of steps is `n`.
     """
     return lambda gen_fn: Scan(gen_fn.as_part(), n)
 

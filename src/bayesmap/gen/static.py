@@ -105,8 +105,7 @@ class StaticTrace(Trace):
 class _Run(Handler):
     """A run that records a trace for each site, and the sum of the sites' weights.
 
-    `trace_site(path, function, arguments, key)` returns the site's (trace, weight). The keys are `fold_in(key, 1)`,
-    `fold_in(key, 2)`, ...
+    `trace_site(path, function, arguments, key)` returns a site's (trace, weight). Site i has the key `fold_in(key, i)`.
     """
 
     def __init__(self, key: PRNGKey, trace_site: Callable[..., tuple[Trace, Any]]) -> None:
@@ -153,8 +152,7 @@ class _Edit(_Run):
 
     `request_at(path)` returns the request for a site. `flow` stores the origins of the body's outputs, as returned by
     `_body_dataflow`. `input_changes` are the changes of the leaves of the body's function and arguments.
-    `return_changes` are the changes of the leaves of each site's return value. `n_outputs` counts the leaves of the
-    body's outputs so far.
+    `return_changes` are the changes of the leaves of each site's return value. `n_outputs` counts the leaves so far.
     """
 
     def __init__(self, key: PRNGKey, old: StaticTrace, request_at: RequestAt, argdiffs: Any):
@@ -370,8 +368,7 @@ def gen(source: Callable[..., Any]) -> StaticGenerativeFunction:
 
     In its body `g(*args) @ "address"` calls a generative function and records its choices under the address, which no
     other call may have (AddressReuse). `@ ()` records a call's choices as the function's own choices. The i-th call
-    uses `fold_in(key, i)`, with i from 1. Given choices that do not match the addresses raise MissingAddress or
-    UnknownAddress.
+    uses `fold_in(key, i)`, with i from 1. Raises MissingAddress or UnknownAddress if choices do not match addresses.
     """
     gen_fn = StaticGenerativeFunction((), source)
     for name in (*functools.WRAPPER_ASSIGNMENTS, "__wrapped__"):

@@ -94,8 +94,7 @@ class MaskCombinator(Outer):
 def mask(gen_fn: GenerativeFunction) -> MaskCombinator:
     """Return a generative function with an additional first argument, a flag.
 
-    If the flag is False, the choices do not count: the score is 0, and choices and return value are Masks whose flag is
-    False.
+    If the flag is False, the score is 0, and choices and return value are Masks whose flag is False.
     """
     return MaskCombinator(gen_fn.as_part())
 
@@ -139,8 +138,7 @@ class SwitchTrace(Trace):
 def run_branch(index: Any, thunks: Sequence[Callable[[], tuple[Any, Any]]]) -> tuple[tuple[Any, ...], Any]:
     """Run thunk number `index`. Each thunk returns (own result, shared result).
 
-    Returns (own results of all thunks, with zeros for those that did not run; shared result of the one that ran, in the
-    thunks' common dtypes and shapes).
+    Returns (own results of all thunks, zeros for thunks that did not run; shared result in common dtypes and shapes).
     """
     blank, shapes = zip(*(jax.eval_shape(t) for t in thunks), strict=True)
     common = jax.tree.map(lambda *s: (jnp.broadcast_shapes(*(x.shape for x in s)), jnp.result_type(*s)), *shapes)
@@ -258,8 +256,7 @@ def switch(*gen_fns: GenerativeFunction) -> Switch:
     """Return a generative function that runs one of `gen_fns`. Its first argument is the number of the function.
 
     The other arguments are one tuple per function. Return values are converted to common shapes and dtypes. Unless the
-    number is a Python int, the choices are Masks. A known number that is out of range raises an error. A traced number
-    out of range counts as the nearest one.
+    number is a Python int, the choices are Masks. A known number out of range raises an error; a traced one is clipped.
     """
     return Switch(tuple(fn.as_part() for fn in gen_fns))
 

@@ -1,7 +1,6 @@
 """Generative functions mapped over axes of their arguments.
 
-A mapped distribution is a distribution over arrays: `flip.repeat(n=21).repeat(n=21)` stores one (21, 21) array and one
-score.
+A mapped distribution is one over arrays: `flip.repeat(n=21).repeat(n=21)` stores one (21, 21) array and one score.
 """
 
 from collections.abc import Callable
@@ -245,10 +244,7 @@ def vmap(*, in_axes: InAxes = 0) -> Callable[[GenerativeFunction], Any]:
     """Return a decorator that maps a generative function over axes of its arguments.
 
     The i-th element uses the key `split(key, n)[i]`. Choices and return values have a leading axis, and the address of
-    a choice of element i begins with i.
-
-    The axes `in_axes` are given and checked as for `jax.vmap`, one entry per argument. None shares an argument among
-    the elements.
+    a choice of element i begins with i. `in_axes` is as for `jax.vmap`, with one entry per argument: None shares it.
     """
     return lambda gen_fn: _mapped(gen_fn, tuple(in_axes) if isinstance(in_axes, list) else in_axes, None)
 

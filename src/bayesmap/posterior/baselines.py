@@ -28,6 +28,7 @@ from bayesmap.space.planar import Floats
 from bayesmap.space.scans import Scans
 
 Values = dict[str, float]
+Target = Callable[[Values], float]  # to be maximised
 
 LAST_CLIMB = 8.0  # time of the last climb, which uses the full score, relative to a rough climb, for progress
 STEP = 2e-3  # step of the numeric gradient, in logarithms or logits: above the noise of stops in single precision
@@ -73,17 +74,15 @@ def sensor_of(values: Mapping[str, float], dof: float | None) -> BeamMixture:
 
 
 def maximise(
-    score: Callable[[Values], float], rough_score: Callable[[Values], float], parameters: Sequence[Parameter],
-    starts: Sequence[Mapping[str, float]], on_progress: OnShare = ignored,
+    score: Target, rough_score: Target, parameters: Sequence[Parameter], starts: Sequence[Mapping[str, float]],
+    on_progress: OnShare = ignored,
 ) -> tuple[Values, float]:  # fmt: skip
     """Find the values of the highest score, and the score, from the best of rough climbs from all starts."""
 
     def values_at(point: NDArray[np.float64]) -> Values:
         return {p.name: p.outer(x) for p, x in zip(parameters, point.tolist(), strict=True)}
 
-    def climb(
-        target: Callable[[Values], float], start: Mapping[str, float], tolerance: float, on_share: OnShare
-    ) -> tuple[Values, float]:
+    def climb(target: Target, start: Mapping[str, float], tolerance: float, on_share: OnShare) -> tuple[Values, float]:
         usual, calls = USUAL_GRADIENTS * (len(parameters) + 1), 0
 
         def descend(point: NDArray[np.float64]) -> float:

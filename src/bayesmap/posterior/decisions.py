@@ -2,8 +2,7 @@
 
 `bayesmap.posterior.route` has the algorithms for paths. `expected_information` bounds the mutual information of a whole
 scan with the map from both sides, by joint draws. `beam_information` is the formula of FSMI for independent cells and
-beams: fast enough for thousands of poses, but it counts shared information of beams twice. docs/decisions.md compares
-them.
+beams: fast enough for thousands of poses, but it counts shared information of beams twice (docs/decisions.md).
 """
 
 from __future__ import annotations
@@ -40,8 +39,7 @@ MIN_STOP_PROBABILITY = 1e-4  # least distance of stop probabilities from 0 and 1
 class InformationGain:
     """Bounds on the expected information of one more scan from each of P poses.
 
-    The information lies between two estimates, on average over draws. With many informative beams they lie apart, and
-    more draws bring them closer.
+    The information lies between two estimates, on average over draws. More draws bring them closer.
 
     Attributes:
         at_least: lower bound for each pose, nats, (P,); no more than the logarithm of the number of draws of a chain.

@@ -1,7 +1,6 @@
 """Held-out scans: scans of a log that may score a run, and folds of the training scans for fits.
 
-A run is scored on scans that it has not used. Baselines and external maps are fitted on training scans that are left
-out of their counts.
+Baselines and external maps are fitted on folds: training scans that are left out of their counts.
 """
 
 from __future__ import annotations

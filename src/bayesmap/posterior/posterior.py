@@ -179,10 +179,8 @@ def dataset_of(posterior: Posterior, with_readings: bool) -> xarray.Dataset:
         spec.name: (("chain", "draw", *spec.dims), draws.values(spec.name), {"long_name": spec.what})
         for spec in draws.specs
     }
-    densities = {
-        "lp": posterior.log_joint, "log_likelihood": posterior.log_likelihood, "log_prior": posterior.log_prior,
-    }  # fmt: skip
-    variables |= {name: (("chain", "draw"), values, {"units": "nats"}) for name, values in densities.items()}
+    for name, density in (("lp", "log_joint"), ("log_likelihood", "log_likelihood"), ("log_prior", "log_prior")):
+        variables[name] = (("chain", "draw"), getattr(posterior, density), {"units": "nats"})
     words = posterior.prior.words
     variables["occupancy"] = (("x", "y"), posterior.occupancy, {"long_name": words.mean})
     variables["observed"] = (("x", "y"), posterior.observed, {"long_name": "some beam says something of the cell"})

@@ -134,9 +134,7 @@ class ScanPredictor:
         """Return this predictor with at most ``most`` of the draws, evenly spread."""
         return replace(self, draws=self.draws.thinned(most))
 
-    def quantiles(
-        self, pose_world: ArrayLike, angles_rad: ArrayLike, levels: Sequence[float] = CENTRAL_80
-    ) -> NDArray[np.float64]:
+    def quantiles(self, pose_world: ArrayLike, angles_rad: ArrayLike, levels: Sequence[float] = CENTRAL_80) -> Floats:
         """Compute quantiles of the readings of one scan with beams at angles (A,), metres, (A, levels).
 
         Levels rise inside (0, 1), and are met to within `GONE`. No return counts as +inf, too close as -inf, each if it

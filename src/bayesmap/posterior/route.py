@@ -104,10 +104,8 @@ def cells_about(path: Floats, radius_m: float, grid: Grid) -> NDArray[np.int32]:
     reach = radius_m + REACH_CELLS * grid.resolution
     low = np.floor(grid.to_cells(path.min(axis=0) - reach)).astype(int)
     high = np.ceil(grid.to_cells(path.max(axis=0) + reach)).astype(int)
-    x, y = np.meshgrid(
-        np.arange(max(low[0], 0), min(high[0], nx)), np.arange(max(low[1], 0), min(high[1], ny)), indexing="ij"
-    )
-    flat = (x * ny + y).ravel()
+    x, y = np.arange(max(low[0], 0), min(high[0], nx)), np.arange(max(low[1], 0), min(high[1], ny))
+    flat = np.add.outer(x * ny, y).ravel()
     is_near = distance_to_path_m(centres_world(flat, grid), path) <= reach + 0.5 * math.sqrt(2) * grid.resolution
     return np.asarray(flat[is_near], dtype=np.int32)
 
@@ -290,9 +288,7 @@ def _cell_of(point: Floats, grid: Grid, blocked: Floats, name: str) -> int:
     if not ((cell >= 0) & (cell < grid.shape)).all():
         raise BadInput(f"plan: the {words} lies outside the map")
     if blocked[tuple(cell)] > MAX_BLOCKED_PROBABILITY:
-        raise BadInput(
-            f"plan: at the {words} the disc touches something in every draw; move it, or take a smaller radius"
-        )
+        raise BadInput(f"plan: at the {words} the disc is blocked in every draw; move it, or take a smaller radius")
     return int(cell[0] * grid.shape[1] + cell[1])
 
 
@@ -314,9 +310,8 @@ def _cheapest(danger: Floats, price: float, shape: tuple[int, int], start: int, 
         rows.append(edges[0])
         columns.append(edges[-1])
         costs.append(math.hypot(dx, dy) * (1.0 + price * flat[edges].mean(axis=0)))
-    graph = sparse.coo_array(
-        (np.concatenate(costs), (np.concatenate(rows), np.concatenate(columns))), shape=(nx * ny, nx * ny)
-    ).tocsr()
+    ends = np.concatenate(rows), np.concatenate(columns)
+    graph = sparse.coo_array((np.concatenate(costs), ends), shape=(nx * ny, nx * ny)).tocsr()
     _, predecessors = csgraph.dijkstra(graph, directed=False, indices=start, return_predecessors=True)
     cells = [goal]
     while cells[-1] != start:

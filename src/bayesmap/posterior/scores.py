@@ -103,8 +103,8 @@ class ScanBlocks:
         """Return the Kolmogorov-Smirnov distance of the distribution of u from the uniform one, and its p-value.
 
         The distance is computed at the ends of `POINTS` intervals. The p-value is the share of replicates whose
-        distance from the distribution of all items is at least as large, NaN with a single block. (The textbook's table
-        assumes independent beams.)
+        distance from the distribution of all items is at least as large (textbooks assume independent beams). It is
+        NaN with a single block.
         """
         # Count the items per block and interval.
         points = np.arange(1, POINTS) / POINTS
@@ -126,8 +126,7 @@ class ScanBlocks:
 def reliability(chance: Floats, happened: NDArray[np.bool_]) -> list[tuple[float, float, int]]:
     """Group events by predicted chance. Returns (mean chance, share that happened, count) for each non-empty bin.
 
-    Chances of first hits are mostly small. So bins have equal widths in ``log10 chance`` from -3 to 0. The first bin
-    also contains all smaller chances.
+    Chances of first hits are mostly small. So bins have equal widths in ``log10 chance`` from -3, or less, to 0.
     """
     edges = np.concatenate([[0.0], np.logspace(-3, 0, 10)])
     bin_of_event = np.clip(np.searchsorted(edges, chance, side="left") - 1, 0, 9)
@@ -265,8 +264,8 @@ def score_prediction(
 ) -> Score:
     """Score a prediction on scans that had no part in it.
 
-    ``seed`` is that of the randomised transform and of the bootstrap. Raises `BadInput` for no valid reading, no draw,
-    or a sensor model that kernels do not know.
+    ``seed`` seeds the randomised transform and the bootstrap. Raises `BadInput` if no reading is valid or there is no
+    draw.
     """
     from bayesmap.kernels.predict.density import forecast
     from bayesmap.kernels.predict.stop_mixture import first_hit_events, mix_stops, range_quantiles

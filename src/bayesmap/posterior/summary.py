@@ -152,14 +152,10 @@ def diagnose_cells(prior: CellPrior, draws: Draws, among: NDArray[np.bool_]) -> 
     )  # fmt: skip
 
 
+# Share of the cells that may be over a limit without a warning. With 50 independent draws of each of four chains, one
+# cell in a thousand has an R-hat over 1.05, and four in a thousand an effective sample size under 100, by chance.
 CHANCE_SHARE = 0.01
-"""Share of the cells that may be over a limit without a warning. With 50 independent draws of each of four chains, one
-cell in a thousand has an R-hat over 1.05, and four in a thousand have an estimated effective sample size under 100, by
-chance."""
-
-TOLERANCE = 1.5
-"""Ratio of the map's error to the requested precision from which a run warns: chains that end at their largest number
-of draws often fall a little short, and slow cells would take twice the time."""
+TOLERANCE = 1.5  # ratio of the map's error to the requested precision from which a run warns: slow cells fall short
 
 
 @dataclass(frozen=True)
@@ -197,10 +193,8 @@ class Summary(CellDiagnostics):
 
     def as_json(self) -> dict[str, Any]:
         """Return the diagnostics as JSON values: NaN and infinity become null."""
-        return {
-            name: None if isinstance(value, float) and not math.isfinite(value) else value
-            for name, value in asdict(self).items()
-        }
+        values = asdict(self).items()
+        return {name: None if isinstance(x, float) and not math.isfinite(x) else x for name, x in values}
 
     def __str__(self) -> str:
         """Write what is good, what is doubtful with its remedy, the figures in words, and what they mean."""
@@ -263,9 +257,8 @@ class Summary(CellDiagnostics):
                 "more maps (draws)"
             )
         if self.effective_sample_size < ESS_LIMIT:
-            problems.append(
-                f"importance sampling has an effective sample size of {self.effective_sample_size:.1f}: use 'gibbs'"
-            )
+            ess = self.effective_sample_size
+            problems.append(f"importance sampling has an effective sample size of {ess:.1f}: use 'gibbs'")
         return problems
 
 

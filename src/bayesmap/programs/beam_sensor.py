@@ -1,9 +1,8 @@
 """Sensors as generative functions of the walls: the law of readings, the base of all sensors, the one at known poses.
 
-A trace at known poses keeps the readings and the position of each beam's first hit. Let a cell stand at position m of a
-beam whose first hit is at position f. A change of the cell matters to this beam only if the cell becomes a wall before
-the hit (m < f), or if the cell was the hit and is removed (m = f); then the hit moves to the next wall behind it. An
-edit of a cell reads the beams through this cell alone.
+A trace at known poses keeps the readings and the position of each beam's first hit. A changed cell matters to a beam
+only if it becomes a wall before the hit, or if it was the hit and is removed; then the hit moves to the next wall. So
+an edit of a cell reads the beams through this cell alone.
 """
 
 from __future__ import annotations
@@ -54,7 +53,7 @@ class ReadingLaw(ExactDensity):
         keys = jr.split(key, 6)
         wall = jnp.minimum(d, limits.max_m)
         noise = jr.t(keys[0], s.dof, d.shape) if s.dof > 0 else jr.normal(keys[0], d.shape)
-        reading = wall + (s.sigma_m + s.sigma_per_m * wall) * noise
+        reading = wall + self._scale(wall) * noise
         if not s.robust:
             return reading
         # The events of `BeamMixture` in reverse order: an earlier event there overrules a later one.
@@ -84,6 +83,7 @@ class ReadingLaw(ExactDensity):
         return jnp.where(jnp.isnan(z), 0.0, by_kind)
 
     def _scale(self, wall: Any) -> Any:
+        """Return the scale of the noise at a distance, metres."""
         return self.parameters.sigma_m + self.parameters.sigma_per_m * wall
 
     def _log_noise(self, reading: Any, wall: Any) -> Any:
@@ -104,7 +104,7 @@ class ReadingLaw(ExactDensity):
             return jnp.where(x > 0, half, 1.0 - half)
         return ndtr(-x)
 
-    def _mixture(self, z: Any, wall: Any, seen: Any) -> Any:
+    def _mixture(self, z: Any, wall: Any, in_range: Any) -> Any:
         """Return the log density by the formula of `bayesmap.sensors.builtin` for the kind of each reading."""
         s, limits = self.parameters, self.limits
 
@@ -113,8 +113,8 @@ class ReadingLaw(ExactDensity):
 
         finite = jnp.isfinite(z)
         reading = jnp.where(finite, z, limits.max_m)
-        returned = jnp.where(seen, unblocked(wall) * (1.0 - s.p_no_return), 0.0)
-        lost = unblocked(wall) * jnp.where(seen, s.p_no_return, 1.0)
+        returned = jnp.where(in_range, unblocked(wall) * (1.0 - s.p_no_return), 0.0)
+        lost = unblocked(wall) * jnp.where(in_range, s.p_no_return, 1.0)
         passing = s.p_short * s.rate_short_per_m * jnp.exp(-s.rate_short_per_m * jnp.maximum(reading, 0.0))
         short = jnp.where(reading < wall, passing, 0.0)
         noise = jnp.exp(self._log_noise(reading, wall))
@@ -123,15 +123,15 @@ class ReadingLaw(ExactDensity):
         scale = self._scale(wall)
         above = self._tail((limits.max_m - wall) / scale)
         below = self._tail((wall - limits.min_m) / scale)  # the noise is symmetric
-        none = (1 - s.p_random) * (lost + returned * above)
+        no_return = (1 - s.p_random) * (lost + returned * above)
         blocked = -s.p_short * jnp.expm1(-s.rate_short_per_m * jnp.minimum(wall, limits.min_m))
-        close = (1 - s.p_random) * (blocked + returned * below)
-        by_kind = jnp.where(finite, hit, jnp.where(z > 0, none, close))
+        too_close = (1 - s.p_random) * (blocked + returned * below)
+        by_kind = jnp.where(finite, hit, jnp.where(z > 0, no_return, too_close))
         return jnp.maximum(jnp.log(by_kind), LOG_IMPOSSIBLE)
 
 
 def reading_law(sensor: SensorModel, limits: RangeLimits) -> ReadingLaw:
-    """Return the law of a sensor model. Raises BadInput: the sensor model has no `kernel_parameters`."""
+    """Return the law of a sensor model. Raises `BadInput` if the model has no `kernel_parameters`."""
     parameters = sensor.kernel_parameters()
     if parameters is None:
         raise BadInput(
@@ -183,6 +183,7 @@ class BeamGeometry:
 
     @cached_property
     def _digest(self) -> bytes:
+        """The hash of all fields."""
         digest = hashlib.sha256()
         for f in dataclasses.fields(self):
             array = np.asarray(getattr(self, f.name))
@@ -239,8 +240,8 @@ class ReadingsTrace(Trace):
         return ChoiceMap.choice(self.readings)
 
     @property
-    def seen(self) -> Any:
-        """The part of the trace that says where beams hit, in the form that the sensor's `look` returns."""
+    def hits(self) -> Any:
+        """The part of the trace that says where beams hit, in the form that the sensor's `find_hits` returns."""
         raise NotImplementedError
 
 
@@ -251,57 +252,59 @@ class RangeSensor(GenerativeFunction):
 
     law: ReadingLaw
 
-    def look(self, args: Arguments) -> Any:
-        """Return where all beams hit, in the form that traces keep as `seen`."""
+    def find_hits(self, args: Arguments) -> Any:
+        """Return where all beams hit, in the form that traces keep as `hits`."""
         raise NotImplementedError
 
-    def law_args(self, args: Arguments, seen: Any) -> Arguments:
+    def law_args(self, args: Arguments, hits: Any) -> Arguments:
         """Return the law's arguments."""
         raise NotImplementedError
 
-    def trace(self, args: Arguments, seen: Any, readings: Any) -> Trace:
+    def trace(self, args: Arguments, hits: Any, readings: Any) -> Trace:
         """Return the trace of a run."""
         raise NotImplementedError
 
-    def change(self, trace: Any, args: Arguments, tangents: Sequence[Change]) -> tuple[Any, Weight] | None:
+    def change_hits(self, trace: Any, args: Arguments, tangents: Sequence[Change]) -> tuple[Any, Weight] | None:
         """Return where beams hit after a small change of arguments, and the log-likelihood's change; else None."""
         raise NotImplementedError
 
     def simulate(self, key: PRNGKey, args: Arguments) -> Trace:
-        seen = self.look(args)
-        return self.trace(args, seen, self.law.draw(key, self.law_args(args, seen)))
+        hits = self.find_hits(args)
+        return self.trace(args, hits, self.law.draw(key, self.law_args(args, hits)))
 
     def assess(self, choices: ChoiceMap, args: Arguments) -> tuple[Score, Any]:
-        return self.law.assess(choices, self.law_args(args, self.look(args)))
+        return self.law.assess(choices, self.law_args(args, self.find_hits(args)))
 
     def generate(self, key: PRNGKey, constraint: ChoiceMap, args: Arguments) -> tuple[Trace, Weight]:
-        seen = self.look(args)
-        inner, weight = self.law.generate(key, constraint, self.law_args(args, seen))
-        return self.trace(args, seen, inner.get_retval()), weight
+        hits = self.find_hits(args)
+        inner, weight = self.law.generate(key, constraint, self.law_args(args, hits))
+        return self.trace(args, hits, inner.get_retval()), weight
 
     def project(self, key: PRNGKey, trace: Any, selection: Selection) -> Weight:
         score = trace.get_score()
         return score if selection.check() else jnp.zeros_like(score)
 
     def edit(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
+        keeps_readings = False
         match request:
             case IndexRequest(i, Update(constraint)):
-                request = Update(constraint.extend(i))
-        keeps = (isinstance(request, Update) and request.constraint.static_is_empty()) or (
-            isinstance(request, Regenerate) and not request.selection.check()
-        )
+                request, keeps_readings = Update(constraint.extend(i)), constraint.static_is_empty()
+            case Update(constraint):
+                keeps_readings = constraint.static_is_empty()
+            case Regenerate(selection):
+                keeps_readings = not selection.check()
         args, unchanged = Diff.tree_primal(argdiffs), Diff.static_check_no_change(argdiffs)
-        if keeps and unchanged:
+        if keeps_readings and unchanged:
             return EmptyRequest().edit(key, trace, argdiffs)
-        if keeps and (changed := self.change(trace, args, Diff.tangents(argdiffs))) is not None:
-            seen, weight = changed
-            new = self.trace(args, seen, trace.readings)
+        if keeps_readings and (change := self.change_hits(trace, args, Diff.tangents(argdiffs))) is not None:
+            hits, weight = change
+            new = self.trace(args, hits, trace.readings)
             return new, weight, Diff.no_change(trace.readings), Update(ChoiceMap.empty())
-        seen = trace.seen if unchanged else self.look(args)
-        old = DistributionTrace(self.law, self.law_args(args, trace.seen), trace.readings, trace.get_score())
-        law_diffs = Diff.unknown_change(self.law_args(args, seen))
+        hits = trace.hits if unchanged else self.find_hits(args)
+        old = DistributionTrace(self.law, self.law_args(args, trace.hits), trace.readings, trace.get_score())
+        law_diffs = Diff.unknown_change(self.law_args(args, hits))
         inner, weight, retdiff, backward = self.law.edit(key, old, request, law_diffs)
-        return self.trace(args, seen, inner.get_retval()), weight, retdiff, backward
+        return self.trace(args, hits, inner.get_retval()), weight, retdiff, backward
 
 
 def checked_walls(walls: Any, shape: tuple[int, int]) -> Any:
@@ -319,7 +322,7 @@ class BeamTrace(ReadingsTrace):
     readings: Any  # metres, in the sensor's `readings_shape`
 
     @property
-    def seen(self) -> Any:
+    def hits(self) -> Any:
         return self.first_hit
 
     def get_score(self) -> Score:
@@ -340,24 +343,24 @@ class BeamSensor(RangeSensor):
         """Return the position of each beam's first wall, (B,), from all beams."""
         geometry = self.geometry
         cells = geometry.cells[:, : geometry.longest]
-        known = jnp.append(checked_walls(walls, geometry.shape).reshape(-1) != 0, True)  # the sentinel is a wall
+        is_wall = jnp.append(checked_walls(walls, geometry.shape).reshape(-1) != 0, True)  # the sentinel is a wall
         positions = jnp.arange(geometry.longest, dtype=geometry.position_dtype)
-        return jnp.where(known[cells], positions, positions[-1]).min(axis=1)
+        return jnp.where(is_wall[cells], positions, positions[-1]).min(axis=1)
 
     def distances_at(self, first_hit: Any) -> Any:
         """Return the distances in metres of the first walls, (..., B); inf where there is none."""
         return jnp.asarray(self.geometry.distance_m)[jnp.arange(self.geometry.n_beams), first_hit]
 
-    def look(self, args: Arguments) -> Any:
+    def find_hits(self, args: Arguments) -> Any:
         return self.first_hits(*args)
 
-    def law_args(self, args: Arguments, seen: Any) -> Arguments:
-        return (self.distances_at(seen).reshape(self.readings_shape),)
+    def law_args(self, args: Arguments, hits: Any) -> Arguments:
+        return (self.distances_at(hits).reshape(self.readings_shape),)
 
-    def trace(self, args: Arguments, seen: Any, readings: Any) -> BeamTrace:
-        return BeamTrace(self, args, seen, readings)
+    def trace(self, args: Arguments, hits: Any, readings: Any) -> BeamTrace:
+        return BeamTrace(self, args, hits, readings)
 
-    def change(self, trace: Any, args: Arguments, tangents: Sequence[Change]) -> tuple[Any, Weight] | None:
+    def change_hits(self, trace: Any, args: Arguments, tangents: Sequence[Change]) -> tuple[Any, Weight] | None:
         match tangents:
             case [IndexChange((i, j))]:
                 return self._change_cells(trace.first_hit, trace.readings, args[0], i, j)  # type: ignore[no-any-return]
@@ -388,6 +391,7 @@ class BeamSensor(RangeSensor):
         return jax.lax.fori_loop(0, len(cells), change, (first_hit, jnp.zeros((), readings.dtype)))  # type: ignore[no-any-return]
 
     def _change_cell(self, walls: Any, cell: Any, first_hit: Any, readings: Any) -> tuple[Any, Weight]:
+        """Return the first hits, and the change of the log-likelihood, after one cell changed, by groups of beams."""
         geometry, is_wall = self.geometry, self._wall_at(walls, cell)
         offsets, beams, positions = map(jnp.asarray, (geometry.offsets, geometry.beam, geometry.position))
         distance_m = jnp.asarray(geometry.distance_m)
@@ -395,18 +399,18 @@ class BeamSensor(RangeSensor):
 
         def group(state: tuple[Any, Any, Any]) -> tuple[Any, Any, Any]:
             k, first_hit, weight = state
-            here = k + jnp.arange(GROUP, dtype=jnp.int32) < end
+            valid = k + jnp.arange(GROUP, dtype=jnp.int32) < end  # the rest of the last group is padding
             beam = jax.lax.dynamic_slice(beams, (k,), (GROUP,))
-            at = jax.lax.dynamic_slice(positions, (k,), (GROUP,))
+            position = jax.lax.dynamic_slice(positions, (k,), (GROUP,))
             old = first_hit[beam].astype(jnp.int32)
-            uncovered = here & ~is_wall & (at == old)
-            new = jnp.where(here & is_wall, jnp.minimum(at, old), old)
+            uncovered = valid & ~is_wall & (position == old)
+            new = jnp.where(valid & is_wall, jnp.minimum(position, old), old)
             new = self._next_walls(walls, beam, new, uncovered)
             gain = self.law.logpdf(readings[beam], distance_m[beam, new])
             gain -= self.law.logpdf(readings[beam], distance_m[beam, old])
             weight += jnp.where(new != old, gain, 0.0).sum()
-            where_to = jnp.where(here, beam, geometry.n_beams)  # outside: dropped
-            first_hit = first_hit.at[where_to].set(new.astype(first_hit.dtype), mode="drop")
+            target = jnp.where(valid, beam, geometry.n_beams)  # padding has a target that is dropped
+            first_hit = first_hit.at[target].set(new.astype(first_hit.dtype), mode="drop")
             return k + GROUP, first_hit, weight
 
         start = (offsets[cell], first_hit, jnp.zeros((), readings.dtype))
@@ -425,8 +429,8 @@ class BeamSensor(RangeSensor):
 
         def look(state: tuple[Any, Any]) -> tuple[Any, Any]:
             position, searching = state
-            seen = cells[beam[:, None], position[:, None] + 1 + ahead]
-            wall = (seen == n_cells) | self._wall_at(walls, jnp.minimum(seen, n_cells - 1))
+            next_cells = cells[beam[:, None], position[:, None] + 1 + ahead]
+            wall = (next_cells == n_cells) | self._wall_at(walls, jnp.minimum(next_cells, n_cells - 1))
             step = jnp.where(wall, ahead, LOOK).min(axis=1)
             hit = step < LOOK
             position = jnp.where(searching, position + jnp.where(hit, step + 1, LOOK), position)

@@ -80,8 +80,7 @@ def mapping_model(
         poses = gen.mv_normal_diag.vmap(in_axes=(0, None))(guesses, sigma)
 
     Then one more choice, "poses", is drawn first, with the prior's addresses below it, and the function returns (poses,
-    walls, readings). An edit of a pose walks the beams of this scan alone; an edit of a wall checks for every beam
-    whether it crosses the cell.
+    walls, readings). An edit of a pose walks the beams of its scan; an edit of a wall checks all beams.
 
     Args:
         grid: the grid of the walls.
@@ -95,8 +94,7 @@ def mapping_model(
         hit_depth: where in a cell a beam stops, as a fraction of its chord: 0 at the near edge, as in the tutorial.
 
     Raises:
-        BadInput: shapes do not fit, numbers are not finite, the sensor has no likelihood on JAX, or the prior couples
-            neighbours.
+        BadInput: shapes do not fit, numbers are not finite, the sensor is not known on JAX, or the prior is coupled.
     """
     remedy = "use infer, or write a program that draws its walls and gives them to sensor_model"
     prior = Independent.of(prior, "mapping_model", remedy)
@@ -104,10 +102,10 @@ def mapping_model(
     options = {"max_range_m": max_range_m, "min_range_m": min_range_m, "hit_depth": hit_depth}
     if isinstance(poses, GenerativeFunction):
         _check_pose_prior(poses)
-        moving = pose_sensor_model(grid, angles_rad, sensor, **options)
-        return _poses_map_and_readings.partial_apply(poses, walls, moving)
-    beams = sensor_model(grid, poses, angles_rad, sensor, **options)
-    return _map_and_readings.partial_apply(walls, beams)
+        return _poses_map_and_readings.partial_apply(
+            poses, walls, pose_sensor_model(grid, angles_rad, sensor, **options)
+        )
+    return _map_and_readings.partial_apply(walls, sensor_model(grid, poses, angles_rad, sensor, **options))
 
 
 def sensor_model(
@@ -125,9 +123,9 @@ def sensor_model(
 
     Arguments and errors as for `mapping_model`.
     """
-    many, angles, limits = as_poses(poses), as_angles(angles_rad), _limits(min_range_m, max_range_m)
-    shape = (len(angles),) if np.ndim(poses) == 1 else (len(many), len(angles))
-    return BeamSensor(beam_geometry(grid, many, angles, limits, hit_depth), reading_law(sensor, limits), shape)
+    scan_poses, angles, limits = as_poses(poses), as_angles(angles_rad), _limits(min_range_m, max_range_m)
+    shape = (len(angles),) if np.ndim(poses) == 1 else (len(scan_poses), len(angles))
+    return BeamSensor(beam_geometry(grid, scan_poses, angles, limits, hit_depth), reading_law(sensor, limits), shape)
 
 
 def pose_sensor_model(
@@ -150,6 +148,7 @@ def pose_sensor_model(
 
 
 def _limits(min_range_m: float, max_range_m: float) -> RangeLimits:
+    """Return the sensor's limits; raise `BadInput` if they are out of order."""
     check_limits(min_range_m, max_range_m)
     return RangeLimits(float(min_range_m), float(max_range_m))
 
@@ -157,12 +156,12 @@ def _limits(min_range_m: float, max_range_m: float) -> RangeLimits:
 def _check_pose_prior(prior: GenerativeFunction) -> None:
     """Raise BadInput unless the prior returns poses."""
     try:
-        drawn = jax.eval_shape(lambda key: prior.simulate(key, ()).get_retval(), jax.random.key(0))
+        poses = jax.eval_shape(lambda key: prior.simulate(key, ()).get_retval(), jax.random.key(0))
     except TypeError as error:
         raise BadInput(f"mapping_model: the prior of the poses must run without arguments; it says: {error}") from None
-    shape = getattr(drawn, "shape", None)
+    shape = getattr(poses, "shape", None)
     if shape is None or len(shape) not in (1, 2) or shape[-1] != 3:
-        raise BadInput(f"mapping_model: the prior of the poses must return an array (3,) or (S, 3), found {drawn}")
+        raise BadInput(f"mapping_model: the prior of the poses must return an array (3,) or (S, 3), found {poses}")
 
 
 @dataclass
@@ -187,6 +186,7 @@ class _Walls(Pytree):
 
 @gen
 def _map_and_readings(prior: _Walls, sensor: BeamSensor) -> Any:
+    """Draw a map and its readings at known poses."""
     walls = prior.draw() @ "walls"
     readings = sensor(walls) @ "readings"
     return walls, readings
@@ -194,6 +194,7 @@ def _map_and_readings(prior: _Walls, sensor: BeamSensor) -> Any:
 
 @gen
 def _poses_map_and_readings(pose_prior: GenerativeFunction, prior: _Walls, sensor: PoseSensor) -> Any:
+    """Draw poses, a map and its readings."""
     poses = (pose_prior if isinstance(pose_prior, GenerativeFunctionClosure) else pose_prior()) @ "poses"
     walls = prior.draw() @ "walls"
     readings = sensor(walls, poses) @ "readings"

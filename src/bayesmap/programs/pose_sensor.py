@@ -1,8 +1,7 @@
 """The sensor as a generative function of walls and poses, for unknown poses; walks of beams through a grid on JAX.
 
 A trace keeps the readings, the poses and the wall at which each beam ends. An edit of a pose walks the beams of this
-scan alone. An edit of a wall checks for every beam whether it crosses the cell, which takes no walk; only beams that
-lose their wall walk on to the next wall.
+scan alone. An edit of a wall checks all beams without a walk, and only beams that lose their wall walk on to the next.
 
 The cells of beams from unknown poses cannot be listed in advance, as `bayesmap.programs.beam_sensor` does for known
 poses. Each beam walks from cell to cell: Amanatides and Woo, "A fast voxel traversal algorithm for ray tracing" (1987).
@@ -60,13 +59,14 @@ def first_cells(beams: Beams, shape: tuple[int, int]) -> tuple[Any, Any]:
     """Return each beam's first cell on the grid, (..., 2), and whether the beam touches the grid, (...)."""
     size = jnp.array(shape)
     enter, leave = span(beams, jnp.zeros_like(beams.start), size.astype(beams.start.dtype))
-    at = beams.start + jnp.maximum(enter, 0)[..., None] * beams.direction
-    return jnp.clip(jnp.floor(at).astype(jnp.int32), 0, size - 1), (enter <= leave) & (leave >= 0)
+    entry = beams.start + jnp.maximum(enter, 0)[..., None] * beams.direction
+    return jnp.clip(jnp.floor(entry).astype(jnp.int32), 0, size - 1), (enter <= leave) & (leave >= 0)
 
 
 def first_walls(walls: Any, beams: Beams, cell: Any, active: Any) -> Any:
-    """Return the first wall at or behind a cell, (K, 2), of each active beam, on a map (nx, ny). Returns flat indices x
-    * ny + y, (K,) int32; nx * ny for a beam that meets no wall or is not active.
+    """Return the first wall at or behind a cell, (K, 2), of each active beam, on a map (nx, ny), as flat indices, (K,).
+
+    The index is nx * ny for a beam that meets no wall or is not active.
     """
     shape = jnp.array(jnp.shape(walls))
     nx, ny = jnp.shape(walls)
@@ -85,8 +85,8 @@ def first_walls(walls: Any, beams: Beams, cell: Any, active: Any) -> Any:
         border = border + jnp.where(crossed, gap, 0)
         return cell, border, hit, active & ~is_wall & ((cell >= 0) & (cell < shape)).all(axis=-1)
 
-    none = jnp.full(jnp.shape(active), nx * ny, jnp.int32)
-    return jax.lax.while_loop(lambda state: state[3].any(), walk, (cell, border, none, active))[2]
+    no_hit = jnp.full(jnp.shape(active), nx * ny, jnp.int32)
+    return jax.lax.while_loop(lambda state: state[3].any(), walk, (cell, border, no_hit, active))[2]
 
 
 GROUP = 8  # the number of beams without their wall that walk on at once
@@ -101,7 +101,7 @@ class PoseTrace(ReadingsTrace):
     readings: Any  # metres, (A,) or (S, A)
 
     @property
-    def seen(self) -> tuple[Any, Any]:
+    def hits(self) -> tuple[Any, Any]:
         return self.poses, self.ends
 
     def get_score(self) -> Score:
@@ -136,9 +136,9 @@ class PoseSensor(RangeSensor):
         """Return the distances in metres of the cells `ends` (..., S, A); inf where there is no cell."""
         ny = self.grid.shape[1]
         enter, leave = cell_span(self.beams(poses), jnp.stack([ends // ny, ends % ny], axis=-1))
-        # a beam that starts inside a cell ends at the far side, as everywhere in this library
-        at = jnp.where(enter >= 0, enter + self.hit_depth * jnp.maximum(leave - enter, 0), leave)
-        return jnp.where(ends < self.grid.n_cells, at * self.grid.resolution, jnp.inf)
+        # A beam that starts inside a cell ends at the far side, as everywhere in this library.
+        distance = jnp.where(enter >= 0, enter + self.hit_depth * jnp.maximum(leave - enter, 0), leave)
+        return jnp.where(ends < self.grid.n_cells, distance * self.grid.resolution, jnp.inf)
 
     def _read(self, args: Arguments) -> tuple[Any, Any]:
         """Return the walls, and the poses as (S, 3)."""
@@ -148,26 +148,26 @@ class PoseSensor(RangeSensor):
             raise BadInput(f"sensor model: the argument poses has shape {jnp.shape(poses)}, expected (3,) or (S, 3)")
         return walls, jnp.asarray(poses, jnp.result_type(float)).reshape(-1, 3)
 
-    def look(self, args: Arguments) -> tuple[Any, Any]:
+    def find_hits(self, args: Arguments) -> tuple[Any, Any]:
         walls, poses = self._read(args)
         return poses, self.ends(walls, poses)
 
-    def law_args(self, args: Arguments, seen: tuple[Any, Any]) -> Arguments:
-        return (self.distances_m(*seen).reshape((*jnp.shape(args[1])[:-1], -1)),)
+    def law_args(self, args: Arguments, hits: tuple[Any, Any]) -> Arguments:
+        return (self.distances_m(*hits).reshape((*jnp.shape(args[1])[:-1], -1)),)
 
-    def trace(self, args: Arguments, seen: tuple[Any, Any], readings: Any) -> PoseTrace:
-        return PoseTrace(self, args, *seen, readings)
+    def trace(self, args: Arguments, hits: tuple[Any, Any], readings: Any) -> PoseTrace:
+        return PoseTrace(self, args, *hits, readings)
 
-    def change(self, trace: Any, args: Arguments, tangents: Sequence[Change]) -> tuple[Any, Weight] | None:
+    def change_hits(self, trace: Any, args: Arguments, tangents: Sequence[Change]) -> tuple[Any, Weight] | None:
         walls, poses = self._read(args)
-        of_walls, of_poses = tangents
-        if of_walls != NoChange and not isinstance(of_walls, IndexChange):
+        wall_change, pose_change = tangents
+        if wall_change != NoChange and not isinstance(wall_change, IndexChange):
             return None
         ends, readings = trace.ends, trace.readings.reshape(trace.ends.shape)
         weight = jnp.zeros((), readings.dtype)
-        if isinstance(of_walls, IndexChange):
-            ends, weight = self._change_cells(trace.poses, ends, readings, walls, *of_walls.index)
-        if of_poses != NoChange:
+        if isinstance(wall_change, IndexChange):
+            ends, weight = self._change_cells(trace.poses, ends, readings, walls, *wall_change.index)
+        if pose_change != NoChange:
             ends, gain = self._move_scans(trace.poses, ends, readings, walls, poses)
             weight += gain
         return (poses, ends), weight
@@ -175,24 +175,22 @@ class PoseSensor(RangeSensor):
     # Some scans, some cells -------------------------------------------------------------------------
 
     @partial(jax.jit, inline=True)  # else every edit outside of `jit` would compile its loops again
-    def _move_scans(self, before: Any, ends: Any, readings: Any, walls: Any, poses: Any) -> tuple[Any, Weight]:
-        """Return the ends, and the change of the log-likelihood, after the poses `before` changed to `poses`.
+    def _move_scans(self, old_poses: Any, ends: Any, readings: Any, walls: Any, poses: Any) -> tuple[Any, Weight]:
+        """Return the ends, and the change of the log-likelihood, after `old_poses` changed to `poses`.
 
-        A comparison finds the poses that differ, whatever edit changed them: a prior may move one pose alone, or the
-        state of a motion model with all poses that follow from it.
+        A comparison finds the poses that differ, whatever edit changed them.
         """
 
-        def move(state: tuple[Any, Any, Any]) -> tuple[Any, Any, Any]:
-            moved, ends, weight = state
-            s = moved.argmax()
-            old_m = self.distances_m(before[s], ends[s])
+        def move_scan(state: tuple[Any, Any, Any]) -> tuple[Any, Any, Any]:
+            to_move, ends, weight = state
+            s = to_move.argmax()
+            old_m = self.distances_m(old_poses[s], ends[s])
             new = self.ends(walls, poses[s][None])[0]
             gain = self.law.logpdf(readings[s], self.distances_m(poses[s], new)) - self.law.logpdf(readings[s], old_m)
-            return moved.at[s].set(False), ends.at[s].set(new), weight + gain.sum()
+            return to_move.at[s].set(False), ends.at[s].set(new), weight + gain.sum()
 
-        moved = (before != poses).any(axis=-1)
-        start = (moved, ends, jnp.zeros((), readings.dtype))
-        _, ends, weight = jax.lax.while_loop(lambda state: state[0].any(), move, start)
+        start = ((old_poses != poses).any(axis=-1), ends, jnp.zeros((), readings.dtype))
+        _, ends, weight = jax.lax.while_loop(lambda state: state[0].any(), move_scan, start)
         return ends, weight
 
     @partial(jax.jit, inline=True)
@@ -214,13 +212,13 @@ class PoseSensor(RangeSensor):
 
     def _change_cell(self, beams: Beams, ends: Any, walls: Any, cell: Any) -> Any:
         """Return the ends (B,) of all beams on the new map; `ends` are right except for the change of this cell."""
-        ny, none = self.grid.shape[1], self.grid.n_cells
-        here = cell[0] * ny + cell[1]
+        ny, no_end = self.grid.shape[1], self.grid.n_cells
+        flat = cell[0] * ny + cell[1]
         is_wall = walls[cell[0], cell[1]] != 0
         enter, leave = cell_span(beams, cell)
         end_enter, _ = cell_span(beams, jnp.stack([ends // ny, ends % ny], axis=-1))
-        nearer = (ends == none) | (enter < end_enter)
-        ends = jnp.where(is_wall & (enter <= leave) & (leave >= 0) & nearer, here, ends)
+        nearer = (ends == no_end) | (enter < end_enter)
+        ends = jnp.where(is_wall & (enter <= leave) & (leave >= 0) & nearer, flat, ends)
 
         def walk_on(state: tuple[Any, Any]) -> tuple[Any, Any]:
             ends, lost = state
@@ -229,4 +227,4 @@ class PoseSensor(RangeSensor):
             next_ends = first_walls(walls, group_beams, jnp.broadcast_to(cell, (GROUP, 2)), group < len(ends))
             return ends.at[group].set(next_ends, mode="drop"), lost.at[group].set(False, mode="drop")
 
-        return jax.lax.while_loop(lambda state: state[1].any(), walk_on, (ends, ~is_wall & (ends == here)))[0]
+        return jax.lax.while_loop(lambda state: state[1].any(), walk_on, (ends, ~is_wall & (ends == flat)))[0]

@@ -6,8 +6,7 @@ move all the way to the new estimate, later a shrinking share of the way (Delyon
 
 After each sweep, the expectation step splits the readings into returns of walls, passing objects and random readings,
 given the drawn stops. The maximisation step is in closed form except for the noise and the Beta. The coupling of an
-Ising prior moves towards the maximum of the pseudo-likelihood for the drawn map (`bayesmap.cells.binary`). Unknown
-poses are fixed at the poses of the log.
+Ising prior moves towards the maximum of the pseudo-likelihood for the drawn map. Unknown poses stay at the log's.
 """
 
 from __future__ import annotations
@@ -35,6 +34,7 @@ from bayesmap.samplers.walls import WallSampler
 from bayesmap.sensors.builtin import AdditiveNoise, BeamMixture, Gaussian, describe, from_description, noise_with
 from bayesmap.sensors.model import RangeLimits
 
+Counts = NDArray[np.int32]
 DOFS = (3.0, 5.0, 9.0, 17.0, math.inf)  # degrees of freedom to try; odd numbers need no logarithm in kernels
 LEAST_SCALE_M = 1e-3
 LEAST_GROWTH = 1e-6  # metres per metre
@@ -72,9 +72,7 @@ class StopResiduals:
 
 
 def refit_noise(noise: AdditiveNoise, residuals: StopResiduals, step: float) -> AdditiveNoise:
-    """Move a noise by the share ``step`` of the way to the likeliest. A whole step may also move its degrees of freedom
-    to a neighbouring value of `DOFS`.
-    """
+    """Move a noise by the share ``step`` of the way to the likeliest; a whole step also to a neighbour in `DOFS`."""
     n_readings = residuals.weight.sum()
     if n_readings < LEAST_WEIGHT:
         return noise
@@ -176,15 +174,11 @@ def pilot_sweeps(
         yield Parameters(sensor, prior), info
 
 
-def fit_sensor(
-    model: Model, device: str, *, seed: int, threads: int | None = None, watch: Watch = SILENT
-) -> BeamMixture:
-    """Fit the sensor to the model's scans by a pilot over reflectivities. Raises BadInput: too many incidences."""
-    prior = Beta()
-    sensor = first_sensor(prior, model.grid.resolution)
-    problem = trace_stops(
-        model.scans, model.grid, prior, sensor, hit_depth=model.hit_depth, device=device, threads=threads
-    )
+def fit_sensor(model: Model, device: str, *, seed: int, threads: int | None, watch: Watch = SILENT) -> BeamMixture:
+    """Fit the sensor to the model's scans by a pilot over reflectivities. Raises `BadInput` as `trace_stops`."""
+    scans, grid, depth, prior = model.scans, model.grid, model.hit_depth, Beta()
+    sensor = first_sensor(prior, grid.resolution)
+    problem = trace_stops(scans, grid, prior, sensor, hit_depth=depth, device=device, threads=threads)
     return fit(problem, seed, SENSOR_SWEEPS, watch).sensor
 
 
@@ -258,10 +252,7 @@ def _share(count: float, total: float, present: float) -> float:
     return float(min(max(share, LEAST_SHARE), 0.5))
 
 
-def refit_prior(
-    prior: Beta, hits: NDArray[np.int32], met: NDArray[np.int32], step: float,
-    solid: NDArray[np.bool_] | None = None,
-) -> Beta:  # fmt: skip
+def refit_prior(prior: Beta, hits: Counts, met: Counts, step: float, solid: NDArray[np.bool_] | None = None) -> Beta:
     """Move the Beta's counts towards those that make hits and passes likeliest, reflectivities integrated out, in each
     label's cells. Cells with negative ``met`` have not counted yet and are left out.
     """
@@ -276,9 +267,7 @@ def refit_prior(
     return replace(prior, a_solid=a, b_solid=b)
 
 
-def _likeliest_beta(
-    a: float, b: float, hits: NDArray[np.int32], met: NDArray[np.int32], step: float
-) -> tuple[float, float]:
+def _likeliest_beta(a: float, b: float, hits: Counts, met: Counts, step: float) -> tuple[float, float]:
     """Move a Beta's counts towards those that make hits and passes likeliest; without counts they stay."""
     if not len(hits):
         return a, b

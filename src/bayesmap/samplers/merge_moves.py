@@ -106,8 +106,7 @@ def try_changes(
     """Change maps, and undo the changes that raise the evidence by less than ``least`` nats around their site.
 
     The readings of ``half`` cells to each side of a site are compared; the squares of a chain do not touch. ``before``
-    is the evidence before the changes, (C, nx, ny); it is updated around the changes that stay. Returns the mask of
-    changes that stay, for each chain.
+    is the evidence before the changes, (C, nx, ny); it is updated around the changes that stay. Returns their masks.
     """
     olds = []
     for cells, solid, new in zip(maps.cells, maps.solid, changes, strict=True):
@@ -259,9 +258,8 @@ def explained_readings(
 
     middle = np.stack([mean(points[:, 0]), mean(points[:, 1])], axis=-1)
     x, y = (points - middle[cell]).T
-    return ExplainedReadings(
-        count, middle, np.stack([mean(x * x), mean(x * y), mean(y * y)], axis=-1), mean(noise[stopped])
-    )
+    moments = np.stack([mean(x * x), mean(x * y), mean(y * y)], axis=-1)
+    return ExplainedReadings(count, middle, moments, mean(noise[stopped]))
 
 
 def surface_axes(cells: NDArray[np.float32]) -> SurfaceAxes:
@@ -312,9 +310,9 @@ def lengthen(
     cells: NDArray[np.float32], readings: ExplainedReadings, axes: SurfaceAxes, source: NDArray[np.intp],
     target: NDArray[np.intp], grid: Grid,
 ) -> Floats:  # fmt: skip
-    """Lengthen the surfaces of ``target`` to reach the readings of ``source``. Returns mean, l11, l21, l22, (n, 5). A
-    surface moves along its axis, within its square, to the middle of both cells' readings, and becomes as long as their
-    scatter.
+    """Lengthen the surfaces of ``target`` to reach the readings of ``source``. Returns mean, l11, l21, l22, (n, 5).
+
+    A surface moves along its axis, within its square, to the mean of both cells' readings, and gets their scatter.
     """
     mean, axis = cells[target, 1:3].astype(np.float64), axes.direction[target]
     pair = source, target

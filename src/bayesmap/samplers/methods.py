@@ -50,12 +50,12 @@ class Gibbs:
     name: ClassVar[str] = "gibbs"
 
     def __post_init__(self) -> None:
-        where = type(self).__name__
+        kind = type(self).__name__
         if self.order not in get_args(Order):
-            raise BadInput(f"{where}: order must be one of {', '.join(get_args(Order))}, got {self.order!r}")
+            raise BadInput(f"{kind}: order must be one of {', '.join(get_args(Order))}, got {self.order!r}")
         if isinstance(self.start, str) and self.start not in get_args(Start):
-            raise BadInput(f"{where}: start must be one of {', '.join(get_args(Start))} or a map, got {self.start!r}")
-        check_count(where, "rounds", self.rounds, 1)
+            raise BadInput(f"{kind}: start must be one of {', '.join(get_args(Start))} or a map, got {self.start!r}")
+        check_count(kind, "rounds", self.rounds, 1)
 
 
 @dataclass(frozen=True, eq=False)
@@ -121,17 +121,16 @@ WITHOUT_CHAINS: Mapping[str, Callable[[WallProblem, DrawRequest, Watch], Indepen
 """Samplers by name: `CellPrior.methods` of a kind of cells maps the names of methods to these entries."""
 
 
-def method_of(method: Method | str | None, known: Mapping[str, str], kind: str) -> tuple[str, Method]:
+def method_of(method: Method | str | None, samplers: Mapping[str, str], kind: str) -> tuple[str, Method]:
     """Return the name of a method, and the method with its options; None gives the first method of the kind of cells.
 
-    ``known`` holds the names of the kind's methods, and of their samplers. Raises BadInput: this kind of cells has no
-    such method.
+    ``samplers`` maps the names of the kind's methods to their samplers. Raises `BadInput` for another method.
     """
     if method is None:
-        method = next(iter(known))
+        method = next(iter(samplers))
     name = method if isinstance(method, str) else getattr(method, "name", "")
-    if name not in known or isinstance(method, type):
-        words = f"one method, {next(iter(known))!r}" if len(known) == 1 else f"the methods {', '.join(known)}"
+    if name not in samplers or isinstance(method, type):
+        words = f"one method, {next(iter(samplers))!r}" if len(samplers) == 1 else f"the methods {', '.join(samplers)}"
         raise BadInput(f"infer: {kind} has {words}, got {method!r}")
     return name, METHODS.get(name, Gibbs)() if isinstance(method, str) else method
 

@@ -88,9 +88,7 @@ class Metropolis:
     def step(
         self, state: MetropolisState, sweeps: int, beta: float = 1.0, keep: Keep = Keep()
     ) -> tuple[MetropolisState, Info]:
-        """Make some sweeps of all chains; a kept draw is the map after its sweep. Overwrites the maps of ``state``: use
-        only the returned state.
-        """
+        """Make some sweeps of all chains, in place; a kept draw is the map after its sweep."""
         problem, chains = state.problem, len(state.maps)
         prior, sizes = problem.model.cells, {"x": problem.grid.shape[0], "y": problem.grid.shape[1]}
         kept = keep.sweeps(state.sweep, state.sweep + sweeps)

@@ -41,12 +41,11 @@ def propagate(
 
     If no cell lies on two beams and neighbours are not coupled, one undamped round is exact. If beams and coupled
     neighbours form a tree, the result is exact after as many rounds as the tree is wide. Otherwise the marginals are
-    approximate, and usually too certain. Above a coupling of about 0.7, they may show only one of two possible states
-    of a whole region.
+    approximate, and usually too certain (docs/inference.md).
 
     Rounds end when no probability changes by more than ``tolerance``. ``damping`` in [0, 1) is the weight of the old
-    message in the new one, geometrically; ``beta`` is the inverse temperature of the likelihood. Raises BadInput:
-    rounds or damping out of range.
+    message in the new one, geometrically; ``beta`` is the inverse temperature. Raises `BadInput` if rounds or damping
+    are out of range.
     """
     from bayesmap.kernels.walls.propagate import Beliefs
 
@@ -60,8 +59,8 @@ def propagate(
     changes, mean_changes = [], []
     for number in range(rounds):
         beliefs.round(damping, problem.threads)
-        before, p_wall = p_wall, special.expit(beliefs.log_odds().astype(np.float64))
-        change = np.abs(p_wall - before)
+        old_p_wall, p_wall = p_wall, special.expit(beliefs.log_odds().astype(np.float64))
+        change = np.abs(p_wall - old_p_wall)
         changes.append(float(change.max()))
         mean_changes.append(float(change[observed].mean()) if observed.any() else 0.0)
         watch.report("propagate", number + 1, rounds)

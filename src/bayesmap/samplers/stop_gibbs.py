@@ -134,8 +134,7 @@ class StopState(ChainState):
 @dataclass(frozen=True)
 class StopGibbs:
     """Sweeps of stops, labels, reflectivities and surfaces. In the first ``early_sweeps``, surfaces take
-    `EARLY_SURFACE_STEPS` Metropolis steps; then they are merged (`bayesmap.samplers.merge_moves.merge_sweeps`), not at
-    all if 0.
+    `EARLY_SURFACE_STEPS` Metropolis steps; then, if there were any, they are merged (`merge_sweeps`).
     """
 
     early_sweeps: int = 0
@@ -172,9 +171,8 @@ class StopGibbs:
 
         def states(chain: int) -> NDArray[np.float32]:
             rng = np.random.default_rng([seed, chain_ids[chain], STREAM_START])
-            state = draw_start_state(
-                problem.estimate, problem.prior, problem.rays, rng, None if solid is None else solid[chain]
-            )
+            labels = None if solid is None else solid[chain]
+            state = draw_start_state(problem.estimate, problem.prior, problem.rays, rng, labels)
             if "state" in stored:
                 state[cells] = stored["state"][chain]
             return state
@@ -269,11 +267,11 @@ class StopGibbs:
 
     def snapshot(self, state: StopState) -> Snapshot:
         """Return the kept cells' states and counts, (C, T, 6) and (C, 2, T), and labels of all cells, packed."""
-        chains, kept = state.chains, state.problem.coordinates["cell"]
+        chains, cells = state.chains, state.problem.coordinates["cell"]
         arrays = {
-            "state": _of_chains(chains.cells, chains, lambda cells: cells[kept]),
-            "counts": _of_chains(chains.counted, chains, lambda counts: np.stack(counts)[:, kept]),
-            "observed_counts": _of_chains(chains.observed_counts, chains, lambda counts: counts[kept].T),
+            "state": _of_chains(lambda chain: chains.cells(chain)[cells], chains),
+            "counts": _of_chains(lambda chain: np.stack(chains.counted(chain))[:, cells], chains),
+            "observed_counts": _of_chains(lambda chain: chains.observed_counts(chain)[cells].T, chains),
         }
         if state.problem.prior.has_labels:
             arrays[SOLID.name] = np.packbits(_of_chains(chains.solid, chains), axis=-1)
@@ -298,11 +296,9 @@ class StopGibbs:
         return out
 
 
-def _of_chains(
-    values: Callable[[int], Any], chains: StopChains, part: Callable[[Any], Any] = lambda values: values
-) -> NDArray[Any]:
-    """Stack a part of the values of every chain, (C, ...)."""
-    return np.stack([part(values(chain)) for chain in range(chains.n_chains)])
+def _of_chains(values: Callable[[int], Any], chains: StopChains) -> NDArray[Any]:
+    """Stack the values of every chain, (C, ...)."""
+    return np.stack([values(chain) for chain in range(chains.n_chains)])
 
 
 def _plan(problem: StopProblem) -> Plan:

@@ -1,7 +1,6 @@
 """Markov chain samplers of binary walls: single cells and 2 x 2 blocks, and where their chains start.
 
-docs/inference.md describes the methods; `bayesmap.kernels.walls.gibbs` and `bayesmap.kernels.walls.block` hold the
-updates.
+docs/inference.md describes the methods; `bayesmap.kernels.walls` has the updates.
 """
 
 from __future__ import annotations
@@ -9,7 +8,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -101,10 +100,18 @@ class WallSampler(ABC):
     order: Order = "radial"
     start: Start | NDArray[np.bool_] | None = None
     rounds: int = ROUNDS
+    site_edge: ClassVar[int]  # cells along a side of a site
 
-    @abstractmethod
     def sites(self, problem: WallProblem) -> NDArray[np.int32]:
-        """Return the sites of a sweep in their order (the order "random" shuffles them in every sweep)."""
+        """Return the sites of a sweep in their order (the order "random" shuffles them in every sweep).
+
+        Site ``x * rows + y`` has its lower-left cell at (x, y), for all positions on the grid.
+        """
+        columns, rows = (max(1, n + 1 - self.site_edge) for n in problem.grid.shape)
+        if self.order == "radial":
+            distance = radial_distance(problem)[:columns, :rows]
+            return np.argsort(distance.ravel(), kind="stable").astype(np.int32)
+        return np.arange(columns * rows, dtype=np.int32)
 
     @abstractmethod
     def kernel(self, problem: WallProblem) -> SweepKernel:
@@ -188,9 +195,9 @@ def radial_distance(problem: WallProblem) -> NDArray[np.int64]:
 
     nx, ny = problem.grid.shape
     cells = np.floor(problem.grid.to_cells(problem.poses[:, :2])).astype(np.int64)
-    away = np.ones((nx, ny), dtype=np.uint8)
-    away[np.clip(cells[:, 0], 0, nx - 1), np.clip(cells[:, 1], 0, ny - 1)] = 0
-    return np.asarray(ndimage.distance_transform_cdt(away, metric="taxicab"), dtype=np.int64)
+    no_sensor = np.ones((nx, ny), dtype=np.uint8)
+    no_sensor[np.clip(cells[:, 0], 0, nx - 1), np.clip(cells[:, 1], 0, ny - 1)] = 0
+    return np.asarray(ndimage.distance_transform_cdt(no_sensor, metric="taxicab"), dtype=np.int64)
 
 
 @dataclass(frozen=True, eq=False)
@@ -201,11 +208,7 @@ class WallGibbs(WallSampler):
     drawn after the wall in the same sweep; "random", another permutation in each sweep.
     """
 
-    def sites(self, problem: WallProblem) -> NDArray[np.int32]:
-        """Return the flat indices of all cells."""
-        if self.order == "radial":
-            return np.argsort(radial_distance(problem).ravel(), kind="stable").astype(np.int32)
-        return np.arange(problem.grid.n_cells, dtype=np.int32)
+    site_edge = 1
 
     def kernel(self, problem: WallProblem) -> SweepKernel:
         """Return the single-site kernel and the table, which is all that it reads."""
@@ -222,14 +225,7 @@ class WallBlocks(WallSampler):
     moves in one step; single cells would have to remove it before its beams meet another wall.
     """
 
-    def sites(self, problem: WallProblem) -> NDArray[np.int32]:
-        """Return the block numbers ``x * rows + y`` of all positions of the lower-left cell."""
-        nx, ny = problem.grid.shape
-        columns, rows = max(1, nx - 1), max(1, ny - 1)
-        if self.order == "radial":
-            distance = radial_distance(problem)[:columns, :rows]
-            return np.argsort(distance.ravel(), kind="stable").astype(np.int32)
-        return np.arange(columns * rows, dtype=np.int32)
+    site_edge = 2
 
     def kernel(self, problem: WallProblem) -> SweepKernel:
         """Return the block kernel with the table and its own list of beams by block."""

@@ -1,8 +1,7 @@
 """Methods on binary walls that need no Markov chain: their draws are independent.
 
 Exact enumeration is the reference against which every sampler is tested. Self-normalised importance sampling from the
-prior shows why better methods are needed: its weights collapse. Belief propagation gives marginals, from which cells
-are drawn independently.
+prior shows why better methods are needed: its weights collapse. Belief propagation gives independent marginals.
 """
 
 from __future__ import annotations

@@ -73,7 +73,7 @@ class AdditiveNoise(SensorModel):
     def _standard(
         self, range_m: Floats, distance_m: Floats, spread_m: Floats | float, limits: RangeLimits
     ) -> tuple[Floats, Floats]:
-        """Return the noise of each reading in units of its scale, and that scale; typed readings are the limits."""
+        """Return the noise of each reading in units of its scale, and the scale. Typed readings count as the limits."""
         low, high = (np.where(np.isinf(range_m), limit, range_m) for limit in (limits.min_m, limits.max_m))
         expected = np.minimum(distance_m, limits.max_m)
         scale = np.hypot(self.scale_at(expected), spread_m)
@@ -197,8 +197,7 @@ class BeamMixture(SensorModel):
         p_short: probability that there is a passing object on the line of the beam.
         rate_short_per_m: rate of the exponential distance of passing objects.
 
-    Raises `BadInput` for a probability outside its interval (``p_random`` must be positive), or a rate that is not
-    positive.
+    Raises `BadInput` if a probability is outside its interval, or if ``p_random`` or the rate is not positive.
     """
 
     noise: AdditiveNoise = field(default_factory=lambda: Gaussian(0.05))

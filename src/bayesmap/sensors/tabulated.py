@@ -6,8 +6,7 @@ known up to a spread s, and let w = sqrt(scale(d)^2 + s^2). The density is store
 
     log (w p(z | d, s))  at nodes of  d,  s / (s + scale(d))  and  asinh((z - d) / w)
 
-where it is smooth. Typed readings have probabilities at nodes of distance and spread, the law of a beam that stops
-nowhere has nodes of the reading alone.
+where it is smooth. Typed readings have nodes of distance and spread, beams that stop nowhere nodes of the reading.
 """
 
 from __future__ import annotations
@@ -23,9 +22,10 @@ from bayesmap.sensors.model import Floats, RangeLimits, SensorModel
 
 Table = NDArray[np.float32]
 
-DISTANCES, SPREADS, OFFSETS, TYPED, NOWHERE = 33, 8, 193, 513, 4097
-"""Numbers of nodes: of distance, spread and offset of a range; of the distance for typed readings; and of the range of
-a beam that stops nowhere."""
+# Numbers of nodes:
+DISTANCES, SPREADS, OFFSETS = 33, 8, 193  # of a range
+TYPED = 513  # of the distance for typed readings
+NOWHERE = 4097  # of the range of a beam that stops nowhere
 
 WIDEST = 63.0  # the widest spread, in scales: wider spreads are clipped to it
 LOG_LEAST = -1e6  # least log density at a node, in nats: minus infinity cannot be interpolated

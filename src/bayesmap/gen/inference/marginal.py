@@ -66,9 +66,8 @@ class Marginal(SampleDistribution):
         if self.algorithm is not None:
             hidden = choices.filter(~self.selection)
             target = Target(self.gen_fn, args, shown)
-            score = self.algorithm.estimate_reciprocal_normalizing_constant(
-                estimate_key, target, hidden, trace.get_score()
-            )
+            estimate = self.algorithm.estimate_reciprocal_normalizing_constant
+            score = estimate(estimate_key, target, hidden, trace.get_score())
             return MarginalTrace(self, args, shown, trace.get_retval(), score)
         # Conditional importance sampling: this run is one of the particles, else 1 / density would be biased.
         # `project` uses no randomness, so that the reuse of the key has no effect.

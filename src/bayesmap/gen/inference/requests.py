@@ -56,9 +56,7 @@ class HMC(EditRequest):
         start = choices.filter(self.selection)
         for path in start.paths():
             if not jnp.issubdtype(jnp.result_type(start[path]), jnp.floating):
-                raise TypeError(
-                    f"HMC moves real choices; {format_address(path)} has dtype {jnp.result_type(start[path])}"
-                )
+                raise TypeError(f"HMC moves real choices; {format_address(path)} is {jnp.result_type(start[path])}")
 
         def log_density(values: ChoiceMap) -> Any:
             return current.get_gen_fn().assess(values | choices, args)[0]

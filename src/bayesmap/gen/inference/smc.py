@@ -50,8 +50,8 @@ class SampleDistribution(Distribution):
 class Algorithm(SampleDistribution):
     """Base of inference algorithms: distributions over a target's open choices, with estimated densities.
 
-    `random_weighted(key, target)` returns (log density estimate, choices), and `estimate_logpdf(key, choices, target)`
-    returns the estimate for given choices.
+    `random_weighted(key, target)` returns (log density estimate, choices); `estimate_logpdf(key, choices, target)` the
+    estimate alone.
     """
 
     def estimate_normalizing_constant(self, key: PRNGKey, target: Target) -> Weight:
