@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from bayesmap.cells.kinds import LASER_SIGMA_M, LASER_SIGMA_PER_M
 from bayesmap.io.ros.writer import write_scans
-from bayesmap.sensors.builtin import BeamMixture, Gaussian
+from bayesmap.sensors.model import BeamMixture, Gaussian
 from bayesmap.sim.building import building
 from bayesmap.sim.forward import simulate
 from bayesmap.sim.robot import OdometryNoise, drive, simulate_odometry

@@ -22,7 +22,7 @@ from scipy import stats
 
 from bayesmap.poses.slam import infer_trajectory
 from bayesmap.poses.trajectory import Trajectory
-from bayesmap.sensors.builtin import Gaussian
+from bayesmap.sensors.model import Gaussian
 from bayesmap.sim.building import building
 from bayesmap.sim.forward import simulate
 from bayesmap.sim.robot import OdometryNoise, patrol, simulate_odometry, travel_times_s

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from bayesmap.poses.slam import infer_trajectory
 from bayesmap.poses.trajectory import Trajectory
-from bayesmap.sensors.builtin import BeamMixture, Gaussian
+from bayesmap.sensors.model import BeamMixture, Gaussian
 from bayesmap.sim.building import Building, building
 from bayesmap.sim.forward import simulate
 from bayesmap.sim.robot import OdometryNoise, patrol, simulate_odometry, travel_times_s

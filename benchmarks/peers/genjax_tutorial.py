@@ -20,16 +20,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 from genjax import ChoiceMapBuilder as C
-from genjax_model import (
-    CENTER,
-    GRID_SIZE,
-    TRUE_WALLS,
-    ModelParams,
-    full_model,
-    log_joint,
-    observe,
-    walls_prior,
-)
+from genjax_model import CENTER, GRID_SIZE, TRUE_WALLS, ModelParams, full_model, log_joint, observe, walls_prior
 
 PARTICLES = 10_000
 

@@ -37,7 +37,7 @@ if TYPE_CHECKING:
     from bayesmap.samplers.methods import (
         Block as Block, Exact as Exact, Gibbs as Gibbs, Importance as Importance, Propagate as Propagate,
     )  # fmt: skip
-    from bayesmap.sensors.builtin import BeamMixture as BeamMixture, Gaussian as Gaussian, StudentT as StudentT
+    from bayesmap.sensors.model import BeamMixture as BeamMixture, Gaussian as Gaussian, StudentT as StudentT
     from bayesmap.sensors.model import SensorModel as SensorModel
     from bayesmap.sim.forward import ranges as ranges, simulate as simulate
     from bayesmap.sim.robot import OdometryNoise as OdometryNoise, simulate_odometry as simulate_odometry
@@ -53,10 +53,10 @@ _NAMES = {
     "io.text.trajectories": ("read_trajectory",), "localization.known_map": ("KnownMap",),
     "localization.localize": ("InitialPose", "localize"), "poses.prior": ("KnownPoses", "Odometry", "UncertainPoses"),
     "posterior.decisions": ("InformationGain",), "posterior.route": ("FreeProbability", "Route"),
-    "posterior.scores": ("compare_scores",),
-    "programs.mapping": ("mapping_model",), "result": ("Run", "load", "score"), "run.ray_executor": ("RayExecutor",),
+    "posterior.scores": ("compare_scores",), "programs.mapping": ("mapping_model",),
+    "result": ("Run", "load", "score"), "run.ray_executor": ("RayExecutor",),
     "samplers.methods": ("Block", "Exact", "Gibbs", "Importance", "Propagate"),
-    "sensors.builtin": ("BeamMixture", "Gaussian", "StudentT"), "sensors.model": ("SensorModel",),
+    "sensors.model": ("BeamMixture", "Gaussian", "SensorModel", "StudentT"),
     "sim.forward": ("ranges", "simulate"), "sim.robot": ("OdometryNoise", "simulate_odometry"), "space.grid": ("Grid",),
     "space.scans": ("ReadingKind", "Scans"), "worlds": ("worlds",),
 }

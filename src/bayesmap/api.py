@@ -30,16 +30,13 @@ from bayesmap.run.runner import Job, ThreadExecutor, first_map, stop_on_interrup
 from bayesmap.samplers import methods
 from bayesmap.samplers.fit import PILOT_SWEEPS, Parameters, first_sensor, fit, fit_coupling_to_scans, fit_sensor
 from bayesmap.samplers.methods import Gibbs, Method, Propagate
-from bayesmap.samplers.progress import Event as Event
-from bayesmap.samplers.progress import Watch
-from bayesmap.samplers.propagate import ROUNDS
-from bayesmap.samplers.sampler import Sampler
+from bayesmap.samplers.sampler import Event as Event
+from bayesmap.samplers.sampler import Sampler, Watch
 from bayesmap.samplers.stop_gibbs import StopGibbs
 from bayesmap.samplers.wall_problem import trace_walls
 from bayesmap.samplers.with_poses import MovableSampler, WithPoses
-from bayesmap.samplers.without_chains import DrawRequest
-from bayesmap.sensors.builtin import describe
-from bayesmap.sensors.model import SensorModel
+from bayesmap.samplers.without_chains import ROUNDS, DrawRequest
+from bayesmap.sensors.model import SensorModel, describe
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 

@@ -12,8 +12,8 @@ from bayesmap.app.protocol.document import Sensor
 from bayesmap.app.scene import simulated_scene
 from bayesmap.app.shown.chains import starts
 from bayesmap.app.shown.without_chains import Preview
-from bayesmap.samplers.propagate import propagate
 from bayesmap.samplers.wall_problem import WallProblem
+from bayesmap.samplers.without_chains import propagate
 
 BUILDING = new_document("building", (80, 60), tutorial_document())
 SENSOR = BUILDING.sensors[0]

@@ -13,7 +13,7 @@ from bayesmap.io.logs import read_log
 from bayesmap.io.ros.maps import read_map
 from bayesmap.run import runner
 from bayesmap.samplers.fit import first_sensor
-from bayesmap.sensors.builtin import describe
+from bayesmap.sensors.model import describe
 from bayesmap.space.planar import compose, inverse
 
 KEYS = {

@@ -99,7 +99,7 @@ def test_a_stage_that_comes_between_does_not_stop_the_clock(monkeypatch):
 def test_every_stage_has_a_name():
     from typing import get_args
 
-    from bayesmap.samplers.progress import Stage
+    from bayesmap.samplers.sampler import Stage
 
     assert set(STAGES) == set(get_args(Stage))
     assert set(SETTING_UP) <= set(STAGES)

@@ -5,11 +5,13 @@ public notebooks import. A name is looked for in the counterpart, then in all of
 """
 
 import importlib
+import operator
 import pkgutil
 import sys
 import types
 from typing import Any
 
+import jax.numpy as jnp
 import numpy as np
 import pytest
 
@@ -36,8 +38,7 @@ COUNTERPARTS = {
     "gen.inference.smc": "inference.smc _src.inference.smc _src.inference.sp",
     "gen.choice_map": "pretty _src.core.generative.choice_map",
     "gen.typing": "typing _src.core.generative.concepts _src.core.typing",
-    "gen.edits": "core.requests _src.core.generative.requests",
-    "gen.generative_function": "_src.core.generative.generative_function",
+    "gen.generative_function": ("core.requests _src.core.generative.requests _src.core.generative.generative_function"),
     "gen.closure": "_src.generative_functions.combinators.dimap",
     "gen.switch": (
         "_src.generative_functions.combinators.mask _src.generative_functions.combinators.mixture "
@@ -69,9 +70,18 @@ def _tree_choose(idx: Any, values: Any) -> Any:
     return run_branch(idx % len(values), [lambda value=value: ((), value) for value in values])[1]
 
 
+def _on_flags(known: Any, traced: Any) -> Any:
+    """An operation on flags, whose result is a Python bool if all flags are."""
+    return lambda *flags: bool(known(*map(bool, flags))) if all(map(masks.is_known, flags)) else traced(*flags)
+
+
 INTERNAL = {
     "FlagOp": types.SimpleNamespace(
-        and_=masks.both, or_=masks.either, xor_=masks.exactly_one, not_=masks.negation, where=masks.where
+        and_=masks.both,
+        or_=_on_flags(operator.or_, jnp.logical_or),
+        xor_=_on_flags(operator.xor, jnp.logical_xor),
+        not_=_on_flags(operator.not_, jnp.logical_not),
+        where=masks.where,
     ),
     "multi_switch": _multi_switch,
     "tree_choose": _tree_choose,

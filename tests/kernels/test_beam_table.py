@@ -10,8 +10,7 @@ import bayesmap as bm
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.walls import table as tracing
 from bayesmap.kernels.walls.table import index_by_cell, trace
-from bayesmap.sensors.builtin import FLAT_NATS
-from bayesmap.sensors.model import RangeLimits
+from bayesmap.sensors.model import FLAT_NATS, RangeLimits
 
 SENSORS = {
     "gaussian": bm.Gaussian(0.3), "growing": bm.Gaussian(0.1, 0.1), "student-t": bm.StudentT(0.2, 3.0, 0.02),

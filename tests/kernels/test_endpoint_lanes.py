@@ -24,7 +24,7 @@ from bayesmap.kernels.surfaces.endpoint_cells import NO_LEAST, BeamLists, listed
 from bayesmap.kernels.surfaces.stops import ChainArrays, TracedRays
 from bayesmap.kernels.surfaces.surface import centre_of
 from bayesmap.model import Model
-from bayesmap.samplers import initial_estimate
+from bayesmap.samplers import stop_problem
 from bayesmap.samplers.stop_gibbs import StopGibbs
 from bayesmap.sensors.model import RangeLimits
 
@@ -204,7 +204,7 @@ def test_chains_that_go_on_between_two_updates_are_those_that_never_stopped(prob
 
 
 def test_lazy_cells_are_updated_together_and_seldom(problem):
-    every = initial_estimate.update_periods(problem.estimate)
+    every = stop_problem.update_periods(problem.estimate)
     assert {2, 8, 16} <= set(every.tolist())
     schedule = stops.UpdateSchedule(problem.rays, every)
     assert [sweep for sweep in range(32) if schedule.updates_lazy(sweep)] == [0, 8, 16, 24]

@@ -25,7 +25,7 @@ from bayesmap.kernels.random import mix
 from bayesmap.kernels.sensor_law import SensorLaw32, object_decay, sensor_law
 from bayesmap.kernels.surfaces.cell_draws import TRIES_EVERY
 from bayesmap.kernels.surfaces.square_counts import stop_point_m
-from bayesmap.samplers.initial_estimate import update_periods
+from bayesmap.samplers.stop_problem import update_periods
 from bayesmap.sensors.model import RangeLimits
 
 wp.set_module_options({"enable_backward": False})

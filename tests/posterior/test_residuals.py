@@ -12,7 +12,7 @@ from bayesmap.posterior.posterior import Posterior
 from bayesmap.posterior.prediction import compare, predictor_of, residuals_of, surface_offset
 from bayesmap.posterior.scores import beam_log_scores
 from bayesmap.samplers.sampler import Snapshot
-from bayesmap.sensors.builtin import BeamMixture, Gaussian
+from bayesmap.sensors.model import BeamMixture, Gaussian
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 

@@ -17,8 +17,7 @@ from bayesmap.poses.prior import UncertainPoses
 from bayesmap.run import ray_executor
 from bayesmap.run.chains import SweepPlan
 from bayesmap.run.runner import Job, ThreadExecutor
-from bayesmap.samplers.progress import Watch
-from bayesmap.samplers.sampler import Keep
+from bayesmap.samplers.sampler import Keep, Watch
 from bayesmap.samplers.walls import WallGibbs
 
 pytestmark = [

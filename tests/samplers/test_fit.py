@@ -17,7 +17,7 @@ from stop_rooms import GRID, TRUTH, assert_same, infer, scans
 import bayesmap as bm
 from bayesmap.model import Model
 from bayesmap.samplers import fit as fits
-from bayesmap.samplers import initial_estimate as estimates
+from bayesmap.samplers import stop_problem as estimates
 from bayesmap.samplers.stop_problem import trace_stops
 from bayesmap.sensors.model import RangeLimits
 

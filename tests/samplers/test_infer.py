@@ -25,7 +25,7 @@ from bayesmap.kernels.walls.chains import WallChains, derive_state
 from bayesmap.kernels.walls.table import trace
 from bayesmap.run import runner
 from bayesmap.run.chains import MIN_DRAWS_PER_CHAIN, SweepPlan, join
-from bayesmap.samplers.progress import Watch
+from bayesmap.samplers.sampler import Watch
 from bayesmap.samplers.wall_problem import WallProblem
 
 MARKOV = ["gibbs", "block"]

@@ -22,7 +22,7 @@ from tiers import full_but
 
 import bayesmap as bm
 from bayesmap.kernels.surfaces import cell_draws, stop_chains
-from bayesmap.samplers import initial_estimate
+from bayesmap.samplers import stop_problem
 from bayesmap.samplers.stop_gibbs import StopGibbs
 from bayesmap.samplers.stop_problem import trace_stops
 
@@ -56,7 +56,7 @@ def scans_of(name):
 @pytest.fixture(autouse=True)
 def together(monkeypatch):
     """All chains in each launch, as on a GPU, and started soon: a thousand times as fast as one after the other."""
-    monkeypatch.setattr(initial_estimate, "LABEL_SWEEPS", 1)
+    monkeypatch.setattr(stop_problem, "LABEL_SWEEPS", 1)
     monkeypatch.setattr(stop_chains.StopChains, "_map", lambda self, work, tasks: work(range(self.n_chains)))
 
 

@@ -12,9 +12,9 @@ from bayesmap.kernels.surfaces.stop_chains import StopChains
 from bayesmap.model import Model
 from bayesmap.samplers import merge_moves as moves
 from bayesmap.samplers import stop_gibbs
-from bayesmap.samplers.initial_estimate import end_cells
 from bayesmap.samplers.methods import sampler_of
 from bayesmap.samplers.stop_gibbs import StopGibbs
+from bayesmap.samplers.stop_problem import end_cells
 
 GRID = bm.Grid((12, 9), resolution=0.1)
 NOISE_M = 0.01

@@ -11,10 +11,10 @@ from oracle.worlds import make_case, scorer
 import bayesmap as bm
 from bayesmap.kernels.walls.propagate import Beliefs
 from bayesmap.kernels.walls.table import trace
-from bayesmap.samplers.progress import Watch
-from bayesmap.samplers.propagate import propagate, propagate_to_start
+from bayesmap.samplers.sampler import Watch
 from bayesmap.samplers.wall_problem import WallProblem
 from bayesmap.samplers.walls import default_start, start_maps
+from bayesmap.samplers.without_chains import propagate, propagate_to_start
 
 SINGLE = 2e-4  # log-odds: messages are kept in single precision, and some dozens are added
 

@@ -19,7 +19,7 @@ from tiers import full_but, pairs_but
 
 import bayesmap as bm
 from bayesmap.cells.surface import PARTS
-from bayesmap.samplers import initial_estimate, stop_gibbs
+from bayesmap.samplers import stop_gibbs, stop_problem
 from bayesmap.samplers.sampler import Keep
 
 COPIES = 4000
@@ -99,7 +99,7 @@ def test_the_prior_of_logs_too_and_cells_that_hold_their_reflectivity_for_most_o
         for level in (1e-20, 1e-10, 1e-5, 1e-3, 0.1, 0.5, 0.9, 0.99):
             below = int((m[:, cell] < level).sum())
             assert scipy.stats.binomtest(below, COPIES, exact.cdf(cell)(level)[0]).pvalue > ALPHA / TESTS
-    monkeypatch.setattr(initial_estimate, "MIN_PASSES", 0)
+    monkeypatch.setattr(stop_problem, "MIN_PASSES", 0)
     scans, grid, prior, law = SQUARE
     m, exact = drawn(scans, grid, prior, law, 600), exact_of(scans, grid, prior, law)
     assert p_values(m, exact).min() > ALPHA / TESTS

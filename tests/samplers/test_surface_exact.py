@@ -21,7 +21,7 @@ from oracle.verdict import ALPHA, p_values, surface_coordinates, weighted
 from tiers import full_but
 
 import bayesmap as bm
-from bayesmap.samplers import initial_estimate
+from bayesmap.samplers import stop_problem
 
 DRAWS, AT_ONCE, COPIES = 200_000, 50_000, 1800
 TESTS = 1000  # p-values in this module, at most
@@ -102,7 +102,7 @@ def test_draws_follow_the_posterior_also_after_a_search_for_a_start(name):
 
 def test_a_cell_that_holds_its_reflectivity_for_most_of_a_round_follows_it_too(monkeypatch):
     """A cell that many beams pass does so."""
-    monkeypatch.setattr(initial_estimate, "MIN_PASSES", 0)
+    monkeypatch.setattr(stop_problem, "MIN_PASSES", 0)
     case = CASES["one cell without readings"]
     assert p_values(drawn(*case, sweeps=400), by_importance(*case)).min() > ALPHA / TESTS
 

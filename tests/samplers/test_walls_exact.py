@@ -30,7 +30,7 @@ from bayesmap.beams.table import BeamTable
 from bayesmap.kernels.walls.table import trace
 from bayesmap.model import Model
 from bayesmap.samplers.metropolis import Metropolis
-from bayesmap.samplers.progress import Watch
+from bayesmap.samplers.sampler import Watch
 from bayesmap.samplers.wall_problem import WallProblem
 from bayesmap.samplers.without_chains import enumerate_maps, sample_importance
 

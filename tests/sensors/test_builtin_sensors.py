@@ -26,8 +26,7 @@ from bayesmap.kernels import device as devices
 from bayesmap.kernels.sensor_law import SensorLaw32, SensorLaw64, cumulative, object_decay, sensor_law, stop_log_density
 from bayesmap.posterior.prediction import predictor_of
 from bayesmap.posterior.scores import beam_log_scores
-from bayesmap.sensors.builtin import FLAT_NATS, describe, from_description
-from bayesmap.sensors.model import RangeLimits
+from bayesmap.sensors.model import FLAT_NATS, RangeLimits, describe, from_description
 
 wp.set_module_options({"enable_backward": False})
 

@@ -19,8 +19,7 @@ from bayesmap.cells.kind import CellPrior
 from bayesmap.model import Model
 from bayesmap.samplers.sampler import STREAM_NOISE
 from bayesmap.samplers.wall_problem import WallProblem
-from bayesmap.sensors.builtin import AdditiveNoise, Gaussian
-from bayesmap.sensors.model import SensorModel
+from bayesmap.sensors.model import AdditiveNoise, Gaussian, SensorModel
 from bayesmap.sim.forward import ranges
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans, fan

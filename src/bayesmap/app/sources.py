@@ -31,8 +31,7 @@ from bayesmap.cells.kind import CellPrior
 from bayesmap.cells.kinds import BUILT_IN
 from bayesmap.errors import BadInput
 from bayesmap.result import Run, load
-from bayesmap.sensors.builtin import Gaussian
-from bayesmap.sensors.model import SensorModel
+from bayesmap.sensors.model import Gaussian, SensorModel
 from bayesmap.space.grid import Grid, bounds_m
 from bayesmap.space.scans import Scans
 

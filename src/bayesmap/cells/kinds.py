@@ -15,7 +15,7 @@ from bayesmap.cells.kind import KINDS, CellPrior
 from bayesmap.cells.reflectivity import Beta
 from bayesmap.cells.surface import Surface
 from bayesmap.errors import BadInput
-from bayesmap.sensors.builtin import BeamMixture, Gaussian
+from bayesmap.sensors.model import BeamMixture, Gaussian
 
 BUILT_IN: dict[str, type[CellPrior]] = {cls.words.kind: cls for cls in (Independent, Beta, Surface)}
 

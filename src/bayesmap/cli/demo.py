@@ -66,7 +66,7 @@ def _infer_by_all_methods(console: Console, settings: DemoSettings) -> dict[str,
     from bayesmap.cells.binary import Independent
     from bayesmap.cells.kind import CellPrior
     from bayesmap.samplers.methods import Block, Gibbs, Importance, Method
-    from bayesmap.sensors.builtin import Gaussian
+    from bayesmap.sensors.model import Gaussian
     from bayesmap.sim.drawing import TUTORIAL_GRID, tutorial
     from bayesmap.sim.forward import simulate
 

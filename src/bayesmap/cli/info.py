@@ -134,7 +134,7 @@ def _run_lines(run: dict[str, Any]) -> list[str]:
 
 
 def _sensor_words(sensor: dict[str, Any]) -> str:
-    from bayesmap.sensors.builtin import from_description
+    from bayesmap.sensors.model import from_description
 
     model = from_description(sensor)
     noise = None if model is None else model.kernel_parameters()

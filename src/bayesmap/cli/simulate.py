@@ -96,7 +96,7 @@ def simulate(call: Call[SimulateSettings], output: str | None, poses: tuple[str,
     from bayesmap.io.ros.maps import write_map
     from bayesmap.io.ros.writer import write_scans
     from bayesmap.io.text.carmen import write_carmen
-    from bayesmap.sensors.builtin import describe
+    from bayesmap.sensors.model import describe
     from bayesmap.sim import forward
     from bayesmap.sim.robot import simulate_odometry, travel_times_s
     from bayesmap.space.planar import compose
@@ -179,7 +179,7 @@ class World:
     def sensor(self) -> SensorModel:
         """Return the default sensor: the tutorial's noise with typed no-returns, or that of a good laser."""
         from bayesmap.cells.kinds import LASER_SIGMA_M, LASER_SIGMA_PER_M
-        from bayesmap.sensors.builtin import BeamMixture, Gaussian
+        from bayesmap.sensors.model import BeamMixture, Gaussian
 
         if self.is_tutorial:
             return BeamMixture(Gaussian(0.2), p_random=P_RANDOM, p_no_return=0.0, p_short=0.0)

@@ -17,7 +17,7 @@ from bayesmap.cli.folder import Folder
 from bayesmap.cli.keys import SlamSettings
 from bayesmap.cli.pipeline import Task
 from bayesmap.errors import BadInput
-from bayesmap.samplers.progress import Event
+from bayesmap.samplers.sampler import Event
 
 if TYPE_CHECKING:
     import numpy as np

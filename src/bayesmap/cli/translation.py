@@ -62,7 +62,7 @@ def sensor_of(text: str) -> SensorModel | None:
     """Return the sensor model of a text, None for ``default``; raise `BadInput` for an invalid one."""
     if text == "default":
         return None
-    from bayesmap.sensors.builtin import KINDS, from_description
+    from bayesmap.sensors.model import KINDS, from_description
 
     # Split the text into the kind of the model and its parameters.
     kind, _, rest = text.partition(":")

@@ -10,8 +10,16 @@ from bayesmap.gen.axes import total, vectorise
 from bayesmap.gen.choice_map import ChoiceMap
 from bayesmap.gen.closure import dimap, map
 from bayesmap.gen.diff import Diff
-from bayesmap.gen.edits import Edited, EditRequest, EmptyRequest, IndexRequest
-from bayesmap.gen.generative_function import GenerativeFunction, OuterTrace, Trace, decorator_method
+from bayesmap.gen.generative_function import (
+    Edited,
+    EditRequest,
+    EmptyRequest,
+    GenerativeFunction,
+    IndexRequest,
+    OuterTrace,
+    Trace,
+    decorator_method,
+)
 from bayesmap.gen.pytree import dataclass, nth, static
 from bayesmap.gen.switch import mask
 from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight

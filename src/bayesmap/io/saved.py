@@ -28,7 +28,7 @@ from bayesmap.files import run_in, write_whole
 from bayesmap.model import POSES
 from bayesmap.posterior.posterior import Posterior
 from bayesmap.samplers.sampler import Snapshot
-from bayesmap.sensors.builtin import describe, from_description
+from bayesmap.sensors.model import describe, from_description
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 from bayesmap.version import __version__

@@ -13,8 +13,7 @@ import warp as wp
 from scipy import special
 
 from bayesmap.kernels.law_table import LawTable, law_table_to_device, table_cumulative, table_log_density
-from bayesmap.sensors.builtin import LOG_IMPOSSIBLE
-from bayesmap.sensors.model import RangeLimits, SensorModel
+from bayesmap.sensors.model import LOG_IMPOSSIBLE, RangeLimits, SensorModel
 from bayesmap.sensors.tabulated import tabulated
 
 SIGMAS_TO_CERTAINTY = wp.constant(wp.float64(9.0))  # standard deviations past which the normal's cumulative is 0 or 1

@@ -14,8 +14,7 @@ from numpy.typing import NDArray
 from bayesmap.errors import BadInput
 from bayesmap.localization.particles import log_sum
 from bayesmap.localization.search import EndpointField, Field, endpoint_field, likelihood_field
-from bayesmap.sensors.builtin import BeamMixture, Gaussian, StudentT
-from bayesmap.sensors.model import RangeLimits, SensorModel
+from bayesmap.sensors.model import BeamMixture, Gaussian, RangeLimits, SensorModel, StudentT
 from bayesmap.space.planar import Floats
 
 if TYPE_CHECKING:

@@ -22,7 +22,7 @@ from bayesmap.cells.kinds import HIT_DEPTH, default_sensor
 from bayesmap.errors import BadInput
 from bayesmap.posterior.heldout import THIN, Fold, HeldOut, make_folds, one_fold, together
 from bayesmap.posterior.prediction import OnShare, Predictor, fixed_maps, ignored, parts
-from bayesmap.sensors.builtin import BeamMixture, noise_with
+from bayesmap.sensors.model import BeamMixture, noise_with
 from bayesmap.space.grid import Grid
 from bayesmap.space.planar import Floats
 from bayesmap.space.scans import Scans

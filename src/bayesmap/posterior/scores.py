@@ -24,8 +24,7 @@ from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.posterior.prediction import OnShare, Predictor, ignored, parts, watched
-from bayesmap.sensors.builtin import describe
-from bayesmap.sensors.model import RangeLimits
+from bayesmap.sensors.model import RangeLimits, describe
 from bayesmap.space.planar import Floats
 from bayesmap.space.scans import ReadingKind, Scans
 

@@ -25,13 +25,20 @@ from bayesmap.errors import BadInput
 from bayesmap.gen.choice_map import ChoiceMap
 from bayesmap.gen.diff import Change, Diff, IndexChange
 from bayesmap.gen.distribution import DistributionTrace, ExactDensity
-from bayesmap.gen.edits import Edited, EditRequest, EmptyRequest, IndexRequest, Regenerate, Update
-from bayesmap.gen.generative_function import GenerativeFunction, Trace
+from bayesmap.gen.generative_function import (
+    Edited,
+    EditRequest,
+    EmptyRequest,
+    GenerativeFunction,
+    IndexRequest,
+    Regenerate,
+    Trace,
+    Update,
+)
 from bayesmap.gen.pytree import dataclass, static
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
-from bayesmap.sensors.builtin import LOG_IMPOSSIBLE
-from bayesmap.sensors.model import KernelParameters, RangeLimits, SensorModel
+from bayesmap.sensors.model import LOG_IMPOSSIBLE, KernelParameters, RangeLimits, SensorModel
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
@@ -105,7 +112,7 @@ class ReadingLaw(ExactDensity):
         return ndtr(-x)
 
     def _mixture(self, z: Any, wall: Any, in_range: Any) -> Any:
-        """Return the log density by the formula of `bayesmap.sensors.builtin` for the kind of each reading."""
+        """Return the log density by the formula of `bayesmap.sensors.model` for the kind of each reading."""
         s, limits = self.parameters, self.limits
 
         def unblocked(distance: Any) -> Any:

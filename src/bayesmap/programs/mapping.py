@@ -22,8 +22,7 @@ from bayesmap.gen.choice_map import ChoiceMap
 from bayesmap.gen.closure import GenerativeFunctionClosure
 from bayesmap.gen.densities import flip
 from bayesmap.gen.diff import Diff, IndexChange
-from bayesmap.gen.edits import Edited, EditRequest, IndexRequest, Update
-from bayesmap.gen.generative_function import GenerativeFunction, Trace
+from bayesmap.gen.generative_function import Edited, EditRequest, GenerativeFunction, IndexRequest, Trace, Update
 from bayesmap.gen.pytree import Pytree, dataclass, static
 from bayesmap.gen.static import StaticGenerativeFunction, gen
 from bayesmap.gen.typing import PRNGKey
@@ -102,9 +101,8 @@ def mapping_model(
     options = {"max_range_m": max_range_m, "min_range_m": min_range_m, "hit_depth": hit_depth}
     if isinstance(poses, GenerativeFunction):
         _check_pose_prior(poses)
-        return _poses_map_and_readings.partial_apply(
-            poses, walls, pose_sensor_model(grid, angles_rad, sensor, **options)
-        )
+        pose_sensor = pose_sensor_model(grid, angles_rad, sensor, **options)
+        return _poses_map_and_readings.partial_apply(poses, walls, pose_sensor)
     return _map_and_readings.partial_apply(walls, sensor_model(grid, poses, angles_rad, sensor, **options))
 
 

@@ -27,8 +27,7 @@ from numpy.typing import NDArray
 from bayesmap.errors import BadInput, check_count
 from bayesmap.run.chains import Chains, EndRule, Record, SweepPlan, in_sequence, join, map_error, select_chains
 from bayesmap.run.runner import CheckpointTimer, Job, no_draws, sweeps
-from bayesmap.samplers.progress import Watch
-from bayesmap.samplers.sampler import ChainState, Snapshot, draws_to_inspect
+from bayesmap.samplers.sampler import ChainState, Snapshot, Watch, draws_to_inspect
 from bayesmap.version import __version__
 
 

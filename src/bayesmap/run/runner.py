@@ -24,8 +24,7 @@ from bayesmap.cells.arrays import Draws
 from bayesmap.model import Model
 from bayesmap.run.chains import Chains, EndRule, Record, SweepPlan, map_error, observed_cells
 from bayesmap.samplers.fit import Parameters
-from bayesmap.samplers.progress import SILENT, Watch
-from bayesmap.samplers.sampler import PILOT, ChainState, Info, Keep, Sampler, Snapshot, draws_to_inspect
+from bayesmap.samplers.sampler import PILOT, SILENT, ChainState, Info, Keep, Sampler, Snapshot, Watch, draws_to_inspect
 
 
 @contextlib.contextmanager

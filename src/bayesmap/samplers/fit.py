@@ -26,13 +26,19 @@ from bayesmap.cells.kind import CellPrior, Floats
 from bayesmap.cells.kinds import prior_from
 from bayesmap.cells.reflectivity import Beta
 from bayesmap.model import Model
-from bayesmap.samplers.progress import SILENT, Watch
-from bayesmap.samplers.sampler import PILOT, Info, Keep
+from bayesmap.samplers.sampler import PILOT, SILENT, Info, Keep, Watch
 from bayesmap.samplers.stop_gibbs import StopGibbs, StopState
 from bayesmap.samplers.stop_problem import StopProblem, trace_stops
 from bayesmap.samplers.walls import WallSampler
-from bayesmap.sensors.builtin import AdditiveNoise, BeamMixture, Gaussian, describe, from_description, noise_with
-from bayesmap.sensors.model import RangeLimits
+from bayesmap.sensors.model import (
+    AdditiveNoise,
+    BeamMixture,
+    Gaussian,
+    RangeLimits,
+    describe,
+    from_description,
+    noise_with,
+)
 
 Counts = NDArray[np.int32]
 DOFS = (3.0, 5.0, 9.0, 17.0, math.inf)  # degrees of freedom to try; odd numbers need no logarithm in kernels

@@ -22,8 +22,7 @@ from scipy import ndimage
 
 from bayesmap.cells.kind import Floats
 from bayesmap.cells.reflectivity import Beta
-from bayesmap.samplers.initial_estimate import ALONG_WALL_SIGMAS, INSIDE_SHARE, end_cells, longer_axis
-from bayesmap.samplers.stop_problem import StopProblem
+from bayesmap.samplers.stop_problem import ALONG_WALL_SIGMAS, INSIDE_SHARE, StopProblem, end_cells, longer_axis
 from bayesmap.space.grid import Grid
 
 if TYPE_CHECKING:
@@ -73,7 +72,7 @@ class Changes:
 
 def evidence(chains: StopChains, chain: int, end_cell: NDArray[np.int32], prior: Beta) -> Floats:
     """Compute the sum above over the beams whose readings end in each cell, (N,), for a chain's last sweep.
-    ``end_cell`` is the result of `bayesmap.samplers.initial_estimate.end_cells`, (B,).
+    ``end_cell`` is the result of `bayesmap.samplers.stop_problem.end_cells`, (B,).
     """
     n_cells = chains.plan.rays.grid.n_cells
     owner = chains.stopped_by(chain)

@@ -13,13 +13,18 @@ from bayesmap.cells.kind import Floats
 from bayesmap.errors import BadInput, check_count
 from bayesmap.samplers.merge_moves import EARLY_SHARE
 from bayesmap.samplers.metropolis import Metropolis
-from bayesmap.samplers.progress import Watch
-from bayesmap.samplers.propagate import ROUNDS
-from bayesmap.samplers.sampler import Sampler
+from bayesmap.samplers.sampler import Sampler, Watch
 from bayesmap.samplers.stop_gibbs import StopGibbs
 from bayesmap.samplers.wall_problem import WallProblem
 from bayesmap.samplers.walls import Order, Start, WallBlocks, WallGibbs, WallSampler, default_start
-from bayesmap.samplers.without_chains import DrawRequest, IndependentDraws, belief_propagation, exact, importance
+from bayesmap.samplers.without_chains import (
+    ROUNDS,
+    DrawRequest,
+    IndependentDraws,
+    belief_propagation,
+    exact,
+    importance,
+)
 from bayesmap.space.grid import Grid
 
 PARTICLES = 100_000

@@ -18,8 +18,17 @@ from numpy.typing import NDArray
 from bayesmap.beams.rays import Rays
 from bayesmap.cells.kind import Floats
 from bayesmap.model import Model, log_likelihoods
-from bayesmap.samplers.progress import SILENT, Watch
-from bayesmap.samplers.sampler import STREAM_START, STREAM_SWEEPS, ChainState, Info, Keep, RaysProblem, Snapshot
+from bayesmap.samplers.sampler import (
+    SILENT,
+    STREAM_START,
+    STREAM_SWEEPS,
+    ChainState,
+    Info,
+    Keep,
+    RaysProblem,
+    Snapshot,
+    Watch,
+)
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,9 +6,9 @@ as traced beams. Every draw depends on (seed, number of the chain, sweep, site) 
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, Protocol, TypeVar
+from typing import Any, Literal, Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,8 +18,47 @@ from bayesmap.beams.table import BeamTable
 from bayesmap.cells.arrays import Draws
 from bayesmap.cells.kind import Floats
 from bayesmap.model import Model
-from bayesmap.samplers.progress import SILENT, Watch
 from bayesmap.space.grid import Grid
+
+Stage = Literal[
+    "trace", "compile", "start", "fit", "propagate", "warm-up", "draws", "particles", "save", "score",
+    "front end", "loops", "aligned", "aligned-again", "aligned-rematched", "rematch", "placing",
+]  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Event:
+    """Progress of a run: ``done`` of ``total`` units of a stage, and results so far."""
+
+    stage: Stage
+    done: int
+    total: int  # an estimate, if the error decides how long chains run
+    log_joint: float | None = None  # mean over the chains
+    error: float | None = None  # Monte Carlo error of the map, see `bayesmap.run.chains.map_error`
+    warmup: int = 0  # units of the total that are warm-up
+
+
+@dataclass(frozen=True)
+class Watch:
+    """The receiver of progress, and the callback between two pieces of work that returns true to stop a run."""
+
+    on_progress: Callable[[Event], None] | None = None
+    should_stop: Callable[[], bool] = lambda: False
+
+    def report(
+        self, stage: Stage, done: int, total: int, log_joint: float | None = None, error: float | None = None,
+        warmup: int = 0,
+    ) -> None:  # fmt: skip
+        """Report the progress of a stage."""
+        if self.on_progress is not None:
+            self.on_progress(Event(stage, done, total, log_joint, error, warmup))
+
+    def of(self, stage: Stage) -> Callable[[int, int], None]:
+        """Return a callback for one stage."""
+        return lambda done, total: self.report(stage, done, total)
+
+
+SILENT = Watch()
 
 STREAM_SWEEPS = 1  # sweeps of cells
 STREAM_START = 2  # start of cells

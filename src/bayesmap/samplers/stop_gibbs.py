@@ -19,11 +19,26 @@ from bayesmap.cells.ising_field import SOLID
 from bayesmap.cells.reflectivity import Beta, positions_in
 from bayesmap.cells.surface import PARTS
 from bayesmap.model import Model
-from bayesmap.samplers.initial_estimate import draw_start_state, first_labels, steps, update_periods
 from bayesmap.samplers.merge_moves import merge, merge_sweeps
-from bayesmap.samplers.progress import SILENT, Watch
-from bayesmap.samplers.sampler import STREAM_LABELS, STREAM_START, STREAM_SWEEPS, ChainState, Info, Keep, Snapshot
-from bayesmap.samplers.stop_problem import StopProblem, trace_stops
+from bayesmap.samplers.sampler import (
+    SILENT,
+    STREAM_LABELS,
+    STREAM_START,
+    STREAM_SWEEPS,
+    ChainState,
+    Info,
+    Keep,
+    Snapshot,
+    Watch,
+)
+from bayesmap.samplers.stop_problem import (
+    StopProblem,
+    draw_start_state,
+    first_labels,
+    steps,
+    trace_stops,
+    update_periods,
+)
 
 if TYPE_CHECKING:
     from bayesmap.kernels.surfaces.square_counts import InSquares

@@ -1,4 +1,8 @@
-"""The input of the sampler of stops: beams, and the prior of cells that stop some of them."""
+"""The input of the sampler of stops: beams, the prior of cells that stop some of them, and where chains start.
+
+The initial estimate keeps hits and their scatter per cell, as maps of the normal distributions transform do (Stoyanov,
+Saarinen et al., 2013). It sets starts of chains and sizes of steps.
+"""
 
 from __future__ import annotations
 
@@ -8,19 +12,214 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import ndimage
+from scipy import ndimage, special
 
 from bayesmap.beams.rays import Rays, around_readings
+from bayesmap.cells.ising_field import rough_draw
 from bayesmap.cells.kind import Floats
 from bayesmap.cells.reflectivity import Beta
 from bayesmap.errors import BadInput
-from bayesmap.samplers.initial_estimate import InitialEstimate, initial_estimate
-from bayesmap.samplers.progress import SILENT, Watch
-from bayesmap.samplers.sampler import RaysProblem, with_cached
-from bayesmap.sensors.builtin import BeamMixture, Gaussian, StudentT
-from bayesmap.sensors.model import RangeLimits, SensorModel
+from bayesmap.samplers.sampler import SILENT, RaysProblem, Watch, with_cached
+from bayesmap.sensors.model import BeamMixture, Gaussian, RangeLimits, SensorModel, StudentT
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
+
+CENTRE_WEIGHT_HITS = 0.3  # weight of the prior's centre, in hits
+FREE_PERIOD = 8  # update period, in sweeps, of cells in which no reading ends
+FAR_PERIOD = 16  # update period, in sweeps, of cells in which no reading ends, nor in the cells around them
+FEW_PASSES_PERIOD = 2  # update period, in sweeps, of cells in which no reading ends and that few beams pass
+MIN_PASSES = 16  # fewer passes are few
+ALONG_WALL_SIGMAS = 1.5  # first standard deviation of a surface along its wall, in standard deviations of end points
+INSIDE_SHARE = 0.98  # share of a cell's edge within which means start
+MAX_PRIOR_SURFACES = 1 << 16  # most surfaces drawn from the prior; more cells than that share them
+LABEL_SWEEPS = 30  # sweeps of the first labels
+
+# Sizes of Metropolis steps: with these, a third to a half of the steps are accepted.
+STEP_LOGIT = 1.0  # of the reflectivity's logit, in its standard deviations given the counts
+STEP_ALONG_CELLS = 0.25  # of the mean along the wall, in edges of a cell
+STEP_ACROSS_SIGMAS = 1.5  # of the mean across the wall, and of the slant, in standard deviations of the posterior
+STEP_SIZE = 0.5  # of the logarithm of the length
+STEP_THICKNESS = 1.2  # of the logarithm of the thickness, in standard deviations of the posterior
+
+
+@dataclass(frozen=True, eq=False)
+class InitialEstimate:
+    """Counts and moments of the readings in each of the T cells that beams touch.
+
+    Readings end in U of them, the endpoint cells. Means of their end points, from the grid's corner, are shrunk towards
+    the cell's centre; covariances are shrunk towards the prior's size, then widened by `widen_along_wall`.
+    """
+
+    touched: NDArray[np.int32]  # flat indices of the cells, ascending, (T,)
+    hits: NDArray[np.int32]  # number of readings that end in the cell, (T,)
+    passes: NDArray[np.int32]  # number of beams that pass the cell, (T,)
+    far: NDArray[np.bool_]  # cells in which no reading ends, nor in any of the eight cells around them, (T,)
+    mean_m: Floats  # (U, 2)
+    factor_m: Floats  # Cholesky factors of the covariances: l11, l21, l22, (U, 3)
+
+    @property
+    def endpoint(self) -> NDArray[np.bool_]:
+        """Whether a reading ends in the cell, (T,)."""
+        return np.asarray(self.hits > 0)
+
+    @property
+    def endpoint_cells(self) -> NDArray[np.int32]:
+        """Flat indices of the endpoint cells, ascending, (U,)."""
+        return self.touched[self.endpoint]
+
+
+def initial_estimate(rays: Rays, prior: Beta, device: str = "cpu") -> InitialEstimate:
+    """Count hits and passes, and fit a normal distribution to each cell's end points."""
+    from bayesmap.kernels.rays import count_passes
+
+    # Hits of each cell.
+    grid, edge = rays.grid, rays.grid.resolution
+    end_cell = end_cells(rays)
+    ended = end_cell >= 0
+    hits = np.bincount(end_cell[ended], minlength=grid.n_cells).astype(np.int32)
+    ended_cells = np.flatnonzero(hits)
+    index = np.searchsorted(ended_cells, end_cell[ended])
+    points = rays.end_points_m()[ended]
+    centre = grid.centers_from_corner_m(ended_cells)
+    hits_of_cell = hits[ended_cells]
+
+    def sum_by_cell(values: Floats) -> Floats:
+        return np.bincount(index, values, len(ended_cells)).astype(np.float64)
+
+    # Means and covariances, shrunk towards the prior.
+    weight = hits_of_cell + CENTRE_WEIGHT_HITS
+    sums = [sum_by_cell(points[:, i]) + CENTRE_WEIGHT_HITS * centre[:, i] for i in (0, 1)]
+    mean = np.stack(sums, axis=-1) / weight[:, None]
+    from_mean = points - mean[index]
+    centre_from_mean = centre - mean
+
+    def covariance(i: int, j: int) -> Floats:
+        scatter = sum_by_cell(from_mean[:, i] * from_mean[:, j])
+        scatter += CENTRE_WEIGHT_HITS * centre_from_mean[:, i] * centre_from_mean[:, j]
+        return np.asarray((scatter + (i == j) * 0.5 * (prior.first_spread * edge) ** 2) / (hits_of_cell + 1.0))
+
+    var_x, cov_xy, var_y = widen_along_wall(covariance(0, 0), covariance(0, 1), covariance(1, 1))
+    # Cholesky factors; no surface is thinner than a thousandth of the edge.
+    l11 = np.sqrt(var_x)
+    l21 = cov_xy / l11
+    l22 = np.sqrt(np.maximum(var_y - l21**2, (1e-3 * edge) ** 2))
+    near_hits = ndimage.binary_dilation((hits > 0).reshape(grid.shape), np.ones((3, 3))).ravel()
+    touched = rays.touched
+    passes = count_passes(rays, end_cell, device)[touched]
+    return InitialEstimate(
+        touched=touched, hits=hits[touched], passes=passes, far=~near_hits[touched],
+        mean_m=mean, factor_m=np.stack([l11, l21, l22], axis=-1),
+    )  # fmt: skip
+
+
+def widen_along_wall(var_x: Floats, cov_xy: Floats, var_y: Floats) -> tuple[Floats, Floats, Floats]:
+    """Return the covariances, xx, xy and yy, with `ALONG_WALL_SIGMAS` times the sigma along the longer axis: a surface
+    that stops all beams of evenly spread readings must be wider than their scatter.
+    """
+    angle, variance = longer_axis(var_x, cov_xy, var_y)
+    added = (ALONG_WALL_SIGMAS**2 - 1.0) * variance
+    cosine, sine = np.cos(angle), np.sin(angle)
+    return var_x + added * cosine**2, cov_xy + added * cosine * sine, var_y + added * sine**2
+
+
+def longer_axis(var_x: Floats, cov_xy: Floats, var_y: Floats) -> tuple[Floats, Floats]:
+    """Return the angle of the longer axis of covariances, in radians from the first axis, and the variance along it."""
+    angle = 0.5 * np.arctan2(2 * cov_xy, var_x - var_y)
+    return angle, 0.5 * (var_x + var_y) + np.hypot(0.5 * (var_x - var_y), cov_xy)
+
+
+def end_cells(rays: Rays) -> NDArray[np.int32]:
+    """Return the flat index of the touched cell in which each reading ends, (B,); -1 if there is none."""
+    nx, ny = rays.grid.shape
+    points = rays.end_points_m()
+    finite: NDArray[np.bool_] = np.asarray(np.isfinite(points).all(axis=1))
+    cell = np.floor(np.where(finite[:, None], points, -1.0) / rays.grid.resolution).astype(np.int64)
+    inside = finite & (cell >= 0).all(axis=1) & (cell < (nx, ny)).all(axis=1)
+    flat = np.where(inside, cell[:, 0] * ny + cell[:, 1], 0)
+    return np.where(inside & rays.touched_map().ravel()[flat], flat, -1).astype(np.int32)
+
+
+def first_counts(estimate: InitialEstimate, n_cells: int) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """Estimate for each cell the beams that it stopped, and the beams that met it and passed, (N,) each."""
+    stopped, passed = np.zeros(n_cells, np.float32), np.zeros(n_cells, np.float32)
+    stopped[estimate.touched] = estimate.hits
+    # Half of the passes: if a wall fills part of a cell, passing beams mostly go beside the wall.
+    passed[estimate.touched] = 0.5 * estimate.passes
+    return stopped, passed
+
+
+def first_labels(estimate: InitialEstimate, prior: Beta, grid: Grid, rng: np.random.Generator) -> NDArray[np.bool_]:
+    """Draw a chain's first labels of all cells of the grid, (N,), by sweeps of labels under the estimated counts.
+    Regions that no beam observes agree slowly, and sweeps of labels alone are cheap.
+    """
+    stopped, passed = (counts.astype(np.float64) for counts in first_counts(estimate, grid.n_cells))
+    log_odds = special.betaln(prior.a_solid + stopped, prior.b_solid + passed)
+    log_odds -= special.betaln(prior.a_solid, prior.b_solid)
+    log_odds -= special.betaln(prior.a + stopped, prior.b + passed) - special.betaln(prior.a, prior.b)
+    return rough_draw(rng, log_odds.reshape(grid.shape), prior.coupling, LABEL_SWEEPS).ravel()
+
+
+def draw_start_state(
+    estimate: InitialEstimate, prior: Beta, rays: Rays, rng: np.random.Generator,
+    solid: NDArray[np.bool_] | None = None,
+) -> NDArray[np.float32]:  # fmt: skip
+    """Draw a chain's first state of all cells of the grid, (N, 6), scattered about the estimate like the posterior.
+
+    Columns are the reflectivity, the mean's x and y from the grid's corner, and l11, l21 and l22. ``solid`` holds
+    labels, (N,), if any. Without readings, a cell takes its surface from the prior; without beams, its whole state.
+    """
+    grid, cells = rays.grid, rays.grid.n_cells
+    state = np.zeros((cells, 6), dtype=np.float32)
+    stopped, passed = first_counts(estimate, cells)
+    a, b = (prior.a, prior.b) if solid is None else prior.beta_given(solid)
+    state[:, 0] = rng.beta(stopped + a, passed + b)
+    if not prior.has_surfaces:
+        return state
+    # Surfaces of all cells, from the prior.
+    pool = prior.sample_surfaces(rng, min(cells, MAX_PRIOR_SURFACES)) * grid.resolution
+    state[:, 1:] = pool if cells <= MAX_PRIOR_SURFACES else pool[rng.integers(MAX_PRIOR_SURFACES, size=cells)]
+    state[:, 1:3] += grid.centers_from_corner_m(np.arange(cells))
+    # Surfaces of endpoint cells, about the estimate; their scatter falls with the number of readings.
+    endpoints = estimate.endpoint_cells
+    width = 1.0 / np.sqrt(estimate.hits[estimate.endpoint] + 1.0)
+    l11, l21, l22 = estimate.factor_m.T * np.exp(0.5 * width * rng.standard_normal((3, len(endpoints))))
+    e1, e2 = width * rng.standard_normal((2, len(endpoints)))
+    mean = estimate.mean_m + np.stack([l11 * e1, l21 * e1 + l22 * e2], axis=-1)
+    centre = grid.centers_from_corner_m(endpoints)
+    half = INSIDE_SHARE * 0.5 * grid.resolution
+    mean = np.clip(mean, centre - half, centre + half)
+    state[endpoints, 1:] = np.column_stack([mean, l11, l21, l22])
+    return state
+
+
+def update_periods(estimate: InitialEstimate) -> NDArray[np.uint8]:
+    """Return the update period of each cell, in sweeps, (T,): 0 for endpoint cells, which every sweep updates.
+
+    Most cells that beams cross are free, and a sweep changes little in them, above all far from all readings. A cell
+    that few beams pass costs little, and may not be free: a large reflectivity would stay until its next update.
+    """
+    free = np.where(estimate.passes < MIN_PASSES, FEW_PASSES_PERIOD, np.where(estimate.far, FAR_PERIOD, FREE_PERIOD))
+    return np.where(estimate.endpoint, 0, free).astype(np.uint8)
+
+
+def steps(estimate: InitialEstimate, edge_m: float) -> NDArray[np.float32]:
+    """Return step sizes and frames of the endpoint cells, (U, 8), see `bayesmap.kernels.surfaces.endpoint_cells`.
+
+    Columns are the steps of logit, mean along, mean across, length, slant and thickness, and the frame's cosine, sine.
+    Steps along the wall are a share of the cell's edge; steps across it shrink with the number of readings.
+    """
+    l11, l21, l22 = estimate.factor_m.T
+    hits, passes = estimate.hits[estimate.endpoint], estimate.passes[estimate.endpoint]
+    angle, variance = longer_axis(l11**2, l11 * l21, l21**2 + l22**2)
+    # The factor's determinant over the standard deviation along the longer axis.
+    thickness = np.maximum(l11 * l22 / np.sqrt(variance), 1e-3 * edge_m)
+    posterior_scale = 1.0 / np.sqrt(hits + 1.0)
+    logit = STEP_LOGIT * np.sqrt(1.0 / (hits + 1.0) + 1.0 / (0.5 * passes + 1.0))
+    along, length = (np.full(len(hits), step) for step in (STEP_ALONG_CELLS * edge_m, STEP_SIZE))
+    across = STEP_ACROSS_SIGMAS * thickness * posterior_scale
+    columns = (logit, along, across, length, across, STEP_THICKNESS * posterior_scale, np.cos(angle), np.sin(angle))
+    return np.stack(columns, axis=-1).astype(np.float32)
+
 
 CELLS_AROUND = 1.5  # cells from a stop within which a reading may be its return; elsewhere it is random
 SIGMAS_AROUND = 6.0  # standard deviations that are added to this distance

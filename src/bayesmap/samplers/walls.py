@@ -1,6 +1,6 @@
 """Markov chain samplers of binary walls: single cells and 2 x 2 blocks, and where their chains start.
 
-docs/inference.md describes the methods; `bayesmap.kernels.walls` has the updates.
+docs/inference.md describes the methods, `bayesmap.kernels.walls.gibbs` and `bayesmap.kernels.walls.block` the updates.
 """
 
 from __future__ import annotations
@@ -17,10 +17,9 @@ from bayesmap.cells.arrays import unpack
 from bayesmap.cells.kind import Floats
 from bayesmap.errors import BadInput
 from bayesmap.model import Model
-from bayesmap.samplers.progress import SILENT, Watch
-from bayesmap.samplers.propagate import ROUNDS, Marginals, propagate_to_start
-from bayesmap.samplers.sampler import STREAM_START, STREAM_SWEEPS, ChainState, Info, Keep, Snapshot
+from bayesmap.samplers.sampler import SILENT, STREAM_START, STREAM_SWEEPS, ChainState, Info, Keep, Snapshot, Watch
 from bayesmap.samplers.wall_problem import WallProblem, trace_walls
+from bayesmap.samplers.without_chains import ROUNDS, Marginals, propagate_to_start
 from bayesmap.space.grid import Grid
 
 if TYPE_CHECKING:

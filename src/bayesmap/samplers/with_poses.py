@@ -24,8 +24,8 @@ from bayesmap.beams.table import BeamTable
 from bayesmap.cells.kind import CellPrior, Floats
 from bayesmap.model import POSES, Model
 from bayesmap.poses.prior import PoseLaw
-from bayesmap.samplers.progress import SILENT, Watch
 from bayesmap.samplers.sampler import (
+    SILENT,
     STREAM_POSES,
     STREAM_START_POSES,
     ChainState,
@@ -34,6 +34,7 @@ from bayesmap.samplers.sampler import (
     Problem,
     Sampler,
     Snapshot,
+    Watch,
 )
 from bayesmap.sensors.model import SensorModel
 

@@ -17,8 +17,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.sensors.builtin import LOG_IMPOSSIBLE
-from bayesmap.sensors.model import Floats, RangeLimits, SensorModel
+from bayesmap.sensors.model import LOG_IMPOSSIBLE, Floats, RangeLimits, SensorModel
 
 Table = NDArray[np.float32]
 
@@ -42,7 +41,7 @@ class TabulatedLaw:
     low_m: float  # first node of the range of a beam that stops nowhere
     high_m: float  # last node of the range of a beam that stops nowhere
     # true if no return and too close are separate outcomes, and ranges stay within the limits. Otherwise they stand
-    # for the limits, as in `bayesmap.sensors.builtin.AdditiveNoise`
+    # for the limits, as in `bayesmap.sensors.model.AdditiveNoise`
     typed: bool
     scale_m: Table  # scale of readings about a stop at each distance, (D,)
     most: float  # the largest node of asinh((z - d) / w)

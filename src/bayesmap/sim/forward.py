@@ -6,8 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput, check_count, near_names
-from bayesmap.sensors.builtin import AdditiveNoise
-from bayesmap.sensors.model import RangeLimits, SensorModel
+from bayesmap.sensors.model import AdditiveNoise, RangeLimits, SensorModel
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans, as_angles, as_poses, asked_poses, check_limits
 

@@ -24,8 +24,7 @@ from bayesmap.localization.filter import Scan, locate
 from bayesmap.localization.known_map import KnownMap
 from bayesmap.localization.localize import localize
 from bayesmap.samplers.sampler import STREAM_TYPICAL
-from bayesmap.sensors.builtin import Gaussian
-from bayesmap.sensors.model import RangeLimits
+from bayesmap.sensors.model import Gaussian, RangeLimits
 from bayesmap.sim.forward import ranges
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans, fan

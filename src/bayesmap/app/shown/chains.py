@@ -45,12 +45,12 @@ from bayesmap.run.chains import Record, SweepPlan
 from bayesmap.run.runner import BUFFER_BYTES, no_draws, sweeps
 from bayesmap.samplers.fit import PILOT_SWEEPS, first_sensor, pilot_sweeps
 from bayesmap.samplers.methods import Gibbs, sampler_of
-from bayesmap.samplers.propagate import Marginals
 from bayesmap.samplers.sampler import Keep, Problem, Sampler
 from bayesmap.samplers.wall_problem import WallProblem
 from bayesmap.samplers.walls import Start, start_maps
 from bayesmap.samplers.with_poses import MovableSampler, PoseProblem, WithPoses
-from bayesmap.sensors.builtin import Gaussian
+from bayesmap.samplers.without_chains import Marginals
+from bayesmap.sensors.model import Gaussian
 
 POSE_CHAINS = 16  # number of chains if poses are uncertain: a map holds its sensors, so each stays near its start
 STEP_SECONDS = 0.015  # the duration of one step of the chains. The worker reads its pipe between two steps

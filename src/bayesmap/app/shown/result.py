@@ -24,8 +24,7 @@ from bayesmap.model import Model
 from bayesmap.posterior.summary import CHANCE_SHARE, RHAT_LIMIT, bulk_ess, rhat
 from bayesmap.result import Run
 from bayesmap.run.chains import RANDOM_STREAMS
-from bayesmap.sensors.builtin import describe
-from bayesmap.sensors.model import SensorModel
+from bayesmap.sensors.model import SensorModel, describe
 
 Floats = NDArray[np.float64]
 OneMap = tuple[NDArray[Any], int, int]  # a map (nx, ny), its chain and its draw

@@ -16,12 +16,14 @@ from bayesmap.kernels.walls.propagate import Beliefs
 from bayesmap.kernels.walls.table import particle_log_weights, reach_frequency
 from bayesmap.posterior.posterior import posterior_of_draws
 from bayesmap.result import Run
-from bayesmap.samplers.propagate import DAMPING, ROUNDS, Marginals
 from bayesmap.samplers.sampler import STREAM_PARTICLES
 from bayesmap.samplers.wall_problem import WallProblem, log_odds
 from bayesmap.samplers.without_chains import (
+    DAMPING,
+    ROUNDS,
     DrawRequest,
     IndependentDraws,
+    Marginals,
     Particles,
     draws_by_beliefs,
     draws_by_importance,
@@ -51,7 +53,7 @@ def reach_by_means(table: BeamTable, p_wall: Floats) -> Floats:
 
 
 class Preview(Found):
-    """Belief propagation as in `bayesmap.samplers.propagate`, one round at a time.
+    """Belief propagation as in `bayesmap.samplers.without_chains`, one round at a time.
 
     Cells that no beam touches keep the prior exactly, so the rounds leave them out. On 500 x 500 cells with one sensor
     they are most of the map. Beliefs have ``converged`` when they changed by less than `TOLERANCE`, or all rounds that
