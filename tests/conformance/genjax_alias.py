@@ -38,7 +38,8 @@ COUNTERPARTS = {
     "gen.inference.smc": "inference.smc _src.inference.smc _src.inference.sp",
     "gen.choice_map": "pretty _src.core.generative.choice_map",
     "gen.typing": "typing _src.core.generative.concepts _src.core.typing",
-    "gen.generative_function": ("core.requests _src.core.generative.requests _src.core.generative.generative_function"),
+    "gen.edits": "core.requests _src.core.generative.requests",
+    "gen.generative_function": "_src.core.generative.generative_function",
     "gen.closure": "_src.generative_functions.combinators.dimap",
     "gen.switch": (
         "_src.generative_functions.combinators.mask _src.generative_functions.combinators.mixture "

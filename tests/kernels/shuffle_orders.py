@@ -5,7 +5,7 @@ import warp as wp
 
 from bayesmap.kernels import device
 from bayesmap.kernels.random import cipher_bits, mix, random_bits, shuffled
-from bayesmap.samplers.sampler import STREAM_SWEEPS
+from bayesmap.samplers.sampler import Stream
 
 wp.set_module_options({"enable_backward": False})
 
@@ -34,7 +34,7 @@ def shuffles(size, keys):
 def shuffles_of_chains(size, seed, chains, sweep):
     """The orders in which the chains of a run visit ``size`` sites in a sweep, (chains, size)."""
     device.start()
-    keys = [mix(seed, chain, STREAM_SWEEPS) for chain in range(chains)]
+    keys = [mix(seed, chain, Stream.SWEEPS) for chain in range(chains)]
     keys = wp.array(np.array(keys, dtype=np.uint64), dtype=wp.uint64, device="cpu")
     mixed = wp.empty(chains, dtype=wp.uint64, device="cpu")
     wp.launch(sweep_keys, dim=chains, inputs=[sweep, keys, mixed], device="cpu")

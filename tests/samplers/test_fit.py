@@ -283,7 +283,7 @@ def test_every_cell_of_the_grid_has_a_start_those_without_beams_from_the_prior()
     prior = bm.Surface(0.8, 1.5)
     problem = trace_stops(scans, grid, prior, MIXTURE)
     rng = np.random.default_rng(3)
-    states = [estimates.draw_start_state(problem.estimate, prior, problem.rays, rng) for _ in range(3)]
+    states = [estimates.draw_start(problem.estimate, prior, problem.rays, rng) for _ in range(3)]
     untouched = np.setdiff1d(np.arange(grid.n_cells), problem.rays.touched)
     assert len(untouched) > 3000
     surfaces = prior.sample_surfaces(np.random.default_rng(4), 20_000) * grid.resolution

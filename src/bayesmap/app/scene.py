@@ -17,7 +17,7 @@ from bayesmap.beams.table import BeamTable
 from bayesmap.cells.binary import BinaryWalls, Independent
 from bayesmap.cells.kind import CellPrior
 from bayesmap.model import Model
-from bayesmap.samplers.sampler import STREAM_NOISE
+from bayesmap.samplers.sampler import Stream
 from bayesmap.samplers.wall_problem import WallProblem
 from bayesmap.sensors.model import AdditiveNoise, Gaussian, SensorModel
 from bayesmap.sim.forward import ranges
@@ -87,7 +87,7 @@ def scene_of_file(
 
 def standard_noise(seed: int, sensor: int, angles: int) -> NDArray[np.float64]:
     """Draw standard normal numbers, (A,). Each depends only on the seed, the sensor and the beam's number."""
-    return np.random.default_rng([seed, sensor, STREAM_NOISE]).standard_normal(angles)
+    return np.random.default_rng([seed, sensor, Stream.NOISE]).standard_normal(angles)
 
 
 def simulate_document(document: Document) -> tuple[Scans, NDArray[np.float64]]:

@@ -25,7 +25,7 @@ from bayesmap.gen.densities import (
 )
 from bayesmap.gen.diff import Change, Diff, IndexChange, NoChange, UnknownChange
 from bayesmap.gen.distribution import Distribution, ExactDensity, exact_density
-from bayesmap.gen.generative_function import (
+from bayesmap.gen.edits import (
     DiffAnnotate, EditRequest, EmptyRequest, IndexRequest, Regenerate, StaticRequest, Update, VectorRequest,
 )
 from bayesmap.gen.errors import (

@@ -10,16 +10,9 @@ from jax.extend.core import get_opaque_trace_state
 
 from bayesmap.gen.choice_map import ChoiceMap
 from bayesmap.gen.diff import Diff, dataflow
+from bayesmap.gen.edits import Edited, EditRequest
 from bayesmap.gen.errors import AddressError, AddressReuse, NotAnAddress
-from bayesmap.gen.generative_function import (
-    Edited,
-    EditRequest,
-    GenerativeFunction,
-    OuterTrace,
-    Trace,
-    decorator_method,
-    method,
-)
+from bayesmap.gen.generative_function import GenerativeFunction, OuterTrace, Trace, decorator_method, method
 from bayesmap.gen.pytree import dataclass, static
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.typing import Arguments, PRNGKey, Score, StaticAddress, Weight

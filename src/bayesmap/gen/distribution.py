@@ -11,8 +11,9 @@ import numpy as np
 from bayesmap.gen.axes import dense
 from bayesmap.gen.choice_map import ChoiceMap
 from bayesmap.gen.diff import Diff
+from bayesmap.gen.edits import Edited, EditRequest, Regenerate, Update
 from bayesmap.gen.errors import BadArguments, MissingAddress, NotSupportedEditRequest, OutsideSupport, ShapeMismatch
-from bayesmap.gen.generative_function import Edited, EditRequest, GenerativeFunction, Regenerate, Trace, Update
+from bayesmap.gen.generative_function import GenerativeFunction, Trace
 from bayesmap.gen.masks import Mask, check, in_optional_part, is_concrete, where
 from bayesmap.gen.pytree import Const, dataclass, static
 from bayesmap.gen.selection import Selection

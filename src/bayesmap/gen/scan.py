@@ -10,16 +10,8 @@ from bayesmap.gen.axes import total, vectorise
 from bayesmap.gen.choice_map import ChoiceMap
 from bayesmap.gen.closure import dimap, map
 from bayesmap.gen.diff import Diff
-from bayesmap.gen.generative_function import (
-    Edited,
-    EditRequest,
-    EmptyRequest,
-    GenerativeFunction,
-    IndexRequest,
-    OuterTrace,
-    Trace,
-    decorator_method,
-)
+from bayesmap.gen.edits import Edited, EditRequest, EmptyRequest, IndexRequest
+from bayesmap.gen.generative_function import GenerativeFunction, OuterTrace, Trace, decorator_method
 from bayesmap.gen.pytree import dataclass, nth, static
 from bayesmap.gen.switch import mask
 from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
@@ -48,7 +40,7 @@ class Scan(Vectorised):
             raise TypeError(f"scan takes two arguments, (state, inputs), not {len(args)}")
         sizes = dict.fromkeys(jnp.shape(leaf)[0] for leaf in jax.tree.leaves(args[1]))
         if len(sizes) > 1:
-            raise ValueError(f"scan got values with different leading axis sizes: {', '.join(map(str, sizes))}.")
+            raise ValueError(f"scan got values with different leading axis sizes: {', '.join(f'{n}' for n in sizes)}.")
         if self.n is None and not sizes:
             raise TypeError("scan needs n= where there are no inputs")
         return self.n if self.n is not None else next(iter(sizes))

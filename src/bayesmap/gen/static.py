@@ -12,18 +12,9 @@ import jax.numpy as jnp
 from bayesmap.gen.choice_map import ChoiceMap
 from bayesmap.gen.closure import Handler, as_path, running
 from bayesmap.gen.diff import Change, Diff, NoChange, Origin, UnknownChange, dataflow
+from bayesmap.gen.edits import Edited, EditRequest, EmptyRequest, Regenerate, StaticRequest, Update
 from bayesmap.gen.errors import AddressError, NotSupportedEditRequest, UnknownAddress, format_address
-from bayesmap.gen.generative_function import (
-    Edited,
-    EditRequest,
-    EmptyRequest,
-    GenerativeFunction,
-    Regenerate,
-    StaticRequest,
-    Trace,
-    Update,
-    in_dtypes_of,
-)
+from bayesmap.gen.generative_function import GenerativeFunction, Trace, in_dtypes_of
 from bayesmap.gen.pytree import dataclass, static
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.typing import Arguments, PRNGKey, Score, StaticAddress, Weight

@@ -13,19 +13,9 @@ from bayesmap.gen.choice_map import ChoiceMap
 from bayesmap.gen.closure import Outer, contramap
 from bayesmap.gen.densities import categorical
 from bayesmap.gen.diff import Diff, NoChange
+from bayesmap.gen.edits import Edited, EditRequest, EmptyRequest, Regenerate, Update
 from bayesmap.gen.errors import AddressError, BadArguments, NotSupportedEditRequest, UnknownAddress
-from bayesmap.gen.generative_function import (
-    Edited,
-    EditRequest,
-    EmptyRequest,
-    GenerativeFunction,
-    OuterTrace,
-    Regenerate,
-    Trace,
-    Update,
-    in_dtypes_of,
-    method,
-)
+from bayesmap.gen.generative_function import GenerativeFunction, OuterTrace, Trace, in_dtypes_of, method
 from bayesmap.gen.masks import Mask, is_concrete, optional_part, where
 from bayesmap.gen.pytree import dataclass
 from bayesmap.gen.selection import Selection

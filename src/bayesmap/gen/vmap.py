@@ -13,20 +13,9 @@ from bayesmap.gen.axes import Mapped, check_index, map_over, replace_term, total
 from bayesmap.gen.choice_map import ChoiceMap, Indexed
 from bayesmap.gen.diff import Change, Diff, IndexChange, NoChange, UnknownChange
 from bayesmap.gen.distribution import DistributionTrace, ExactDensity
+from bayesmap.gen.edits import Edited, EditRequest, EmptyRequest, IndexRequest, Regenerate, Update, VectorRequest
 from bayesmap.gen.errors import NotSupportedEditRequest
-from bayesmap.gen.generative_function import (
-    Edited,
-    EditRequest,
-    EmptyRequest,
-    GenerativeFunction,
-    IndexRequest,
-    OuterTrace,
-    Regenerate,
-    Trace,
-    Update,
-    VectorRequest,
-    decorator_method,
-)
+from bayesmap.gen.generative_function import GenerativeFunction, OuterTrace, Trace, decorator_method
 from bayesmap.gen.pytree import dataclass, nth, static
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.typing import Arguments, InAxes, PRNGKey, Score, Weight

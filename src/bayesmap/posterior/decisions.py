@@ -21,7 +21,7 @@ from bayesmap.errors import BadInput
 from bayesmap.posterior import route as routes
 from bayesmap.posterior.posterior import Posterior
 from bayesmap.posterior.prediction import Fan, OnShare, draw_readings, ignored, parts, watched
-from bayesmap.samplers.sampler import STREAM_VIEWS
+from bayesmap.samplers.sampler import Stream
 from bayesmap.space.grid import Grid
 from bayesmap.space.planar import Floats
 from bayesmap.space.scans import Scans, as_angles, as_poses, asked_poses
@@ -108,7 +108,7 @@ def expected_information(
     # For each pose, simulate a scan in every draw, and weight each scan in every draw of its chain.
     for i, pose in enumerate(poses_world):
         poses_of_draws = np.broadcast_to(pose, (n_draws, 3))
-        readings = draw_readings(maps, fan, poses_of_draws, draw_index, (seed, i, STREAM_VIEWS))
+        readings = draw_readings(maps, fan, poses_of_draws, draw_index, (seed, i, Stream.VIEWS))
         scans = Scans(poses_of_draws, fan.angles_rad, readings, limits.max_m, limits.min_m)
         likelihood = ScanLikelihood(scans, grid, fan.sensor, hit_depth, device)
         log_p = likelihood.beams(maps, np.broadcast_to(pose, (len(scan), 3)), scan, other_draw)

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput, check_count
 from bayesmap.posterior.posterior import Posterior
-from bayesmap.samplers.sampler import STREAM_READINGS
+from bayesmap.samplers.sampler import Stream
 from bayesmap.sensors.model import RangeLimits, SensorModel
 from bayesmap.space.grid import Grid
 from bayesmap.space.planar import Floats
@@ -323,7 +323,7 @@ def predict(
     for batch in posterior.prior.drawn_stops(thinned):
         maps = device_maps([batch], predictor.grid, predictor.hit_depth, device=device)
         for i in range(len(batch)):
-            draw, key = np.full(len(poses_world), i), (seed, len(draws_m), STREAM_READINGS)
+            draw, key = np.full(len(poses_world), i), (seed, len(draws_m), Stream.READINGS)
             draws_m.append(draw_readings(maps, fan, poses_world, draw, key))
     # Mix the stops of all draws.
     rays = trace_rays(_unread_scans(poses_world, fan.angles_rad, fan.limits), grid, device=device)

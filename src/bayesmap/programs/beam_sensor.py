@@ -25,16 +25,8 @@ from bayesmap.errors import BadInput
 from bayesmap.gen.choice_map import ChoiceMap
 from bayesmap.gen.diff import Change, Diff, IndexChange
 from bayesmap.gen.distribution import DistributionTrace, ExactDensity
-from bayesmap.gen.generative_function import (
-    Edited,
-    EditRequest,
-    EmptyRequest,
-    GenerativeFunction,
-    IndexRequest,
-    Regenerate,
-    Trace,
-    Update,
-)
+from bayesmap.gen.edits import Edited, EditRequest, EmptyRequest, IndexRequest, Regenerate, Update
+from bayesmap.gen.generative_function import GenerativeFunction, Trace
 from bayesmap.gen.pytree import dataclass, static
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight

@@ -22,7 +22,8 @@ from bayesmap.gen.choice_map import ChoiceMap
 from bayesmap.gen.closure import GenerativeFunctionClosure
 from bayesmap.gen.densities import flip
 from bayesmap.gen.diff import Diff, IndexChange
-from bayesmap.gen.generative_function import Edited, EditRequest, GenerativeFunction, IndexRequest, Trace, Update
+from bayesmap.gen.edits import Edited, EditRequest, IndexRequest, Update
+from bayesmap.gen.generative_function import GenerativeFunction, Trace
 from bayesmap.gen.pytree import Pytree, dataclass, static
 from bayesmap.gen.static import StaticGenerativeFunction, gen
 from bayesmap.gen.typing import PRNGKey

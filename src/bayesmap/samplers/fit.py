@@ -30,15 +30,7 @@ from bayesmap.samplers.sampler import PILOT, SILENT, Info, Keep, Watch
 from bayesmap.samplers.stop_gibbs import StopGibbs, StopState
 from bayesmap.samplers.stop_problem import StopProblem, trace_stops
 from bayesmap.samplers.walls import WallSampler
-from bayesmap.sensors.model import (
-    AdditiveNoise,
-    BeamMixture,
-    Gaussian,
-    RangeLimits,
-    describe,
-    from_description,
-    noise_with,
-)
+from bayesmap.sensors.model import AdditiveNoise, BeamMixture, RangeLimits, describe, from_description, noise_with
 
 Counts = NDArray[np.int32]
 DOFS = (3.0, 5.0, 9.0, 17.0, math.inf)  # degrees of freedom to try; odd numbers need no logarithm in kernels
@@ -138,7 +130,7 @@ class DrawnStops:
 def first_sensor(prior: CellPrior, resolution_m: float) -> BeamMixture:
     """Return the sensor with which a fit starts: a laser with few outliers."""
     sigma_m = 0.02 if prior.has_surfaces else math.hypot(0.02, SPREAD_WITHOUT_SURFACE * resolution_m)
-    return BeamMixture(Gaussian(sigma_m, 0.003), p_random=0.02, p_no_return=0.01, p_short=0.02)
+    return BeamMixture(noise_with(math.inf, sigma_m, 0.003), p_random=0.02, p_no_return=0.01, p_short=0.02)
 
 
 def fit(problem: StopProblem, seed: int, sweeps: int, watch: Watch = SILENT) -> Parameters:

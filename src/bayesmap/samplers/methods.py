@@ -17,14 +17,7 @@ from bayesmap.samplers.sampler import Sampler, Watch
 from bayesmap.samplers.stop_gibbs import StopGibbs
 from bayesmap.samplers.wall_problem import WallProblem
 from bayesmap.samplers.walls import Order, Start, WallBlocks, WallGibbs, WallSampler, default_start
-from bayesmap.samplers.without_chains import (
-    ROUNDS,
-    DrawRequest,
-    IndependentDraws,
-    belief_propagation,
-    exact,
-    importance,
-)
+from bayesmap.samplers.without_chains import ROUNDS, DrawRequest, IndependentDraws, exact, importance, propagation
 from bayesmap.space.grid import Grid
 
 PARTICLES = 100_000
@@ -121,7 +114,7 @@ METHODS: Mapping[str, type[Method]] = {kind.name: kind for kind in (Gibbs, Block
 ON_WALLS: Mapping[str, type[WallSampler]] = {"wall-gibbs": WallGibbs, "wall-blocks": WallBlocks}
 ON_ANY: Mapping[str, Callable[[], Sampler[Any, Any]]] = {"stop-gibbs": StopGibbs, "metropolis": Metropolis}
 WITHOUT_CHAINS: Mapping[str, Callable[[WallProblem, DrawRequest, Watch], IndependentDraws]] = {
-    "exact": exact, "importance": importance, "propagate": belief_propagation,
+    "exact": exact, "importance": importance, "propagate": propagation,
 }  # fmt: skip
 """Samplers by name: `CellPrior.methods` of a kind of cells maps the names of methods to these entries."""
 

@@ -18,17 +18,7 @@ from numpy.typing import NDArray
 from bayesmap.beams.rays import Rays
 from bayesmap.cells.kind import Floats
 from bayesmap.model import Model, log_likelihoods
-from bayesmap.samplers.sampler import (
-    SILENT,
-    STREAM_START,
-    STREAM_SWEEPS,
-    ChainState,
-    Info,
-    Keep,
-    RaysProblem,
-    Snapshot,
-    Watch,
-)
+from bayesmap.samplers.sampler import SILENT, ChainState, Info, Keep, RaysProblem, Snapshot, Stream, Watch
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,7 +77,7 @@ class Metropolis:
     ) -> MetropolisState:  # fmt: skip
         """Start chains at draws from the prior, or at the maps of a snapshot."""
         if resume is None:
-            rngs = [np.random.default_rng([seed, chain, STREAM_START]) for chain in chain_ids]
+            rngs = [np.random.default_rng([seed, chain, Stream.START]) for chain in chain_ids]
             starts = [problem.model.cells.sample_cells(rng, problem.grid) for rng in rngs]
         else:
             starts = [{name: a[i].copy() for name, a in resume.arrays.items()} for i in range(len(chain_ids))]
@@ -107,7 +97,7 @@ class Metropolis:
             beam_log_likelihoods = problem.log_likelihoods(cells, beta, problem.rays)
             for i in range(sweeps):
                 number = state.sweep + i
-                rng = np.random.default_rng([state.seed, state.chain_ids[chain], STREAM_SWEEPS, number])
+                rng = np.random.default_rng([state.seed, state.chain_ids[chain], Stream.SWEEPS, number])
                 beam_log_likelihoods = _sweep(problem, cells, beam_log_likelihoods, beta, rng)
                 log_likelihood[chain, i] = beam_log_likelihoods.sum()
                 log_prior[chain, i] = prior.log_prob(cells, problem.grid)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from enum import IntEnum
 from typing import Any, Literal, Protocol, TypeVar
 
 import numpy as np
@@ -60,17 +61,21 @@ class Watch:
 
 SILENT = Watch()
 
-STREAM_SWEEPS = 1  # sweeps of cells
-STREAM_START = 2  # start of cells
-STREAM_PARTICLES = 3  # maps of importance sampling
-STREAM_POSES = 4  # moves of poses
-STREAM_VIEWS = 5  # scans simulated for the expected information
-STREAM_START_POSES = 6  # start of poses
-STREAM_LABELS = 7  # start of labels
-STREAM_READINGS = 8  # readings that a run predicts
-STREAM_NOISE = 11  # readings of the page's simulated sensors
-STREAM_TYPICAL = 12  # poses of typical scans in a world that is drawn on the page
-"""Numbers of all streams of random numbers. Two streams of one number would draw the same numbers from one seed."""
+
+class Stream(IntEnum):
+    """Numbers of all streams of random numbers. Two streams of one number would draw the same numbers from one seed."""
+
+    SWEEPS = 1  # sweeps of cells
+    START = 2  # start of cells
+    PARTICLES = 3  # maps of importance sampling
+    POSES = 4  # moves of poses
+    VIEWS = 5  # scans simulated for the expected information
+    START_POSES = 6  # start of poses
+    LABELS = 7  # start of labels
+    READINGS = 8  # readings that a run predicts
+    NOISE = 11  # readings of the page's simulated sensors
+    TYPICAL = 12  # poses of typical scans in a world that is drawn on the page
+
 
 PILOT = 1 << 32  # number of the pilot chain, which fits the sensor; no other chain has this number
 

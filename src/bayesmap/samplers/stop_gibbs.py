@@ -20,25 +20,8 @@ from bayesmap.cells.reflectivity import Beta, positions_in
 from bayesmap.cells.surface import PARTS
 from bayesmap.model import Model
 from bayesmap.samplers.merge_moves import merge, merge_sweeps
-from bayesmap.samplers.sampler import (
-    SILENT,
-    STREAM_LABELS,
-    STREAM_START,
-    STREAM_SWEEPS,
-    ChainState,
-    Info,
-    Keep,
-    Snapshot,
-    Watch,
-)
-from bayesmap.samplers.stop_problem import (
-    StopProblem,
-    draw_start_state,
-    first_labels,
-    steps,
-    trace_stops,
-    update_periods,
-)
+from bayesmap.samplers.sampler import SILENT, ChainState, Info, Keep, Snapshot, Stream, Watch
+from bayesmap.samplers.stop_problem import StopProblem, draw_start, first_labels, steps, trace_stops, update_periods
 
 if TYPE_CHECKING:
     from bayesmap.kernels.surfaces.square_counts import InSquares
@@ -181,13 +164,13 @@ class StopGibbs:
 
         resume = Snapshot(0) if resume is None else resume
         stored, cells = resume.arrays, problem.coordinates["cell"]
-        keys = [mix(seed, chain, STREAM_SWEEPS) for chain in chain_ids]
+        keys = [mix(seed, chain, Stream.SWEEPS) for chain in chain_ids]
         solid = self._labels(problem, chain_ids, seed, stored)
 
         def states(chain: int) -> NDArray[np.float32]:
-            rng = np.random.default_rng([seed, chain_ids[chain], STREAM_START])
+            rng = np.random.default_rng([seed, chain_ids[chain], Stream.START])
             labels = None if solid is None else solid[chain]
-            state = draw_start_state(problem.estimate, problem.prior, problem.rays, rng, labels)
+            state = draw_start(problem.estimate, problem.prior, problem.rays, rng, labels)
             if "state" in stored:
                 state[cells] = stored["state"][chain]
             return state
@@ -216,7 +199,7 @@ class StopGibbs:
         cells = problem.grid.n_cells
         if SOLID.name in stored:
             return np.unpackbits(stored[SOLID.name], axis=-1, count=cells).view(np.bool_)
-        rngs = [np.random.default_rng([seed, chain, STREAM_LABELS]) for chain in chain_ids]
+        rngs = [np.random.default_rng([seed, chain, Stream.LABELS]) for chain in chain_ids]
         return np.stack([first_labels(problem.estimate, problem.prior, problem.grid, rng) for rng in rngs])
 
     def retrace(self, problem: StopProblem, model: Model) -> StopProblem:

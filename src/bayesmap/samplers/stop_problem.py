@@ -159,7 +159,7 @@ def first_labels(estimate: InitialEstimate, prior: Beta, grid: Grid, rng: np.ran
     return rough_draw(rng, log_odds.reshape(grid.shape), prior.coupling, LABEL_SWEEPS).ravel()
 
 
-def draw_start_state(
+def draw_start(
     estimate: InitialEstimate, prior: Beta, rays: Rays, rng: np.random.Generator,
     solid: NDArray[np.bool_] | None = None,
 ) -> NDArray[np.float32]:  # fmt: skip

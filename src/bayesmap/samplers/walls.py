@@ -17,7 +17,7 @@ from bayesmap.cells.arrays import unpack
 from bayesmap.cells.kind import Floats
 from bayesmap.errors import BadInput
 from bayesmap.model import Model
-from bayesmap.samplers.sampler import SILENT, STREAM_START, STREAM_SWEEPS, ChainState, Info, Keep, Snapshot, Watch
+from bayesmap.samplers.sampler import SILENT, ChainState, Info, Keep, Snapshot, Stream, Watch
 from bayesmap.samplers.wall_problem import WallProblem, trace_walls
 from bayesmap.samplers.without_chains import ROUNDS, Marginals, propagate_to_start
 from bayesmap.space.grid import Grid
@@ -59,7 +59,7 @@ def start_maps(
         return np.asarray(maps[list(chains)] != 0 if one_each else np.broadcast_to(maps != 0, shape))
     if start in ("zeros", "ones"):
         return np.full(shape, start == "ones")
-    rngs = (np.random.default_rng([seed, chain, STREAM_START]) for chain in chains)
+    rngs = (np.random.default_rng([seed, chain, Stream.START]) for chain in chains)
     prior = np.stack([problem.prior.start(rng, grid) for rng in rngs])
     if start == "prior":
         return prior
@@ -139,7 +139,7 @@ class WallSampler(ABC):
         else:
             maps = resume.arrays["walls"].reshape(len(chain_ids), *problem.grid.shape) != 0
         maps = problem.admit(maps).reshape(len(maps), -1)
-        keys = [mix(seed, chain, STREAM_SWEEPS) for chain in chain_ids]
+        keys = [mix(seed, chain, Stream.SWEEPS) for chain in chain_ids]
         chains = WallChains(problem.device_table, maps.astype(np.uint8), keys, problem.device)
         sweep = 0 if resume is None else resume.sweep
         return WallState(problem, sweep, chains, kernel, self.sites(problem), keys, statistics=statistics)

@@ -24,18 +24,7 @@ from bayesmap.beams.table import BeamTable
 from bayesmap.cells.kind import CellPrior, Floats
 from bayesmap.model import POSES, Model
 from bayesmap.poses.prior import PoseLaw
-from bayesmap.samplers.sampler import (
-    SILENT,
-    STREAM_POSES,
-    STREAM_START_POSES,
-    ChainState,
-    Info,
-    Keep,
-    Problem,
-    Sampler,
-    Snapshot,
-    Watch,
-)
+from bayesmap.samplers.sampler import SILENT, ChainState, Info, Keep, Problem, Sampler, Snapshot, Stream, Watch
 from bayesmap.sensors.model import SensorModel
 
 if TYPE_CHECKING:
@@ -106,7 +95,7 @@ class PoseMetropolis:
         """Draw normal steps (C, S, 3) and logarithms of uniform numbers (C, S), from seed, chain and step alone."""
         noise, log_uniform = np.empty(state.poses.shape), np.empty(state.poses.shape[:2])
         for i, chain in enumerate(state.chain_ids):
-            rng = np.random.default_rng([state.seed, int(chain), STREAM_POSES, step])
+            rng = np.random.default_rng([state.seed, int(chain), Stream.POSES, step])
             noise[i] = rng.standard_normal(noise[i].shape)
             log_uniform[i] = np.log(rng.random(log_uniform[i].shape))
         return noise, log_uniform
@@ -286,7 +275,7 @@ class WithPoses:
         """Return the first poses of a chain, (S, 3)."""
         if self.start is not None:
             return np.asarray(self.start[chain % len(self.start)], dtype=np.float64)
-        return problem.law.sample(np.random.default_rng([seed, chain, STREAM_START_POSES]))
+        return problem.law.sample(np.random.default_rng([seed, chain, Stream.START_POSES]))
 
     def _sweep_cells(self, state: JointState, count: int, beta: float, keep: Keep) -> tuple[JointState, Info]:
         """Make some sweeps of the cells at fixed poses."""

@@ -19,7 +19,7 @@ from scipy import special
 from bayesmap.cells.arrays import pack
 from bayesmap.cells.kind import Floats
 from bayesmap.errors import BadInput, check_count
-from bayesmap.samplers.sampler import SILENT, STREAM_PARTICLES, STREAM_START, Watch
+from bayesmap.samplers.sampler import SILENT, Stream, Watch
 from bayesmap.samplers.wall_problem import WallProblem
 
 DAMPING = 0.5
@@ -147,7 +147,7 @@ def sample_importance(
     from bayesmap.kernels.random import mix
 
     particles = check_count("importance", "particles", particles, 1)
-    key = mix(seed, 0, STREAM_PARTICLES)
+    key = mix(seed, 0, Stream.PARTICLES)
     batches: list[Floats] = []
     began = time.perf_counter()
     size, done = 256, 0
@@ -327,7 +327,7 @@ def draws_by_importance(problem: WallProblem, request: DrawRequest, particles: P
     )  # fmt: skip
 
 
-def belief_propagation(problem: WallProblem, request: DrawRequest, watch: Watch) -> IndependentDraws:
+def propagation(problem: WallProblem, request: DrawRequest, watch: Watch) -> IndependentDraws:
     """Propagate beliefs, and draw each cell independently: belief propagation gives marginals alone."""
     return draws_by_beliefs(problem, request, propagate(problem, rounds=request.rounds, watch=watch))
 
@@ -348,7 +348,7 @@ def _drawn(
     """Draw maps for every chain; ``results`` are further fields of `IndependentDraws`."""
     from bayesmap.kernels.walls.table import log_likelihoods, reach_frequency
 
-    rngs = [np.random.default_rng([request.seed, chain, STREAM_START]) for chain in range(request.chains)]
+    rngs = [np.random.default_rng([request.seed, chain, Stream.START]) for chain in range(request.chains)]
     walls = np.stack([draw(rng, request.draws) for rng in rngs])
     packed = pack(walls)
     flat = walls.reshape(-1, *problem.grid.shape)

@@ -23,7 +23,7 @@ from bayesmap.localization.belief import PoseBelief
 from bayesmap.localization.filter import Scan, locate
 from bayesmap.localization.known_map import KnownMap
 from bayesmap.localization.localize import localize
-from bayesmap.samplers.sampler import STREAM_TYPICAL
+from bayesmap.samplers.sampler import Stream
 from bayesmap.sensors.model import Gaussian, RangeLimits
 from bayesmap.sim.forward import ranges
 from bayesmap.space.grid import Grid
@@ -94,7 +94,7 @@ def drawn_map(document: Document) -> KnownMap:
 def _typical_scans(document: Document) -> Scans:
     """Simulate scans at random poses in a drawn world. Their readings are typical of this world."""
     grid = document.grid
-    rng = np.random.default_rng([document.seed, STREAM_TYPICAL])
+    rng = np.random.default_rng([document.seed, Stream.TYPICAL])
     free = np.argwhere(~document.is_wall)
     if not len(free):
         raise BadInput("the map has no free cell in which a robot could be")

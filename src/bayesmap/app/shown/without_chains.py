@@ -16,7 +16,7 @@ from bayesmap.kernels.walls.propagate import Beliefs
 from bayesmap.kernels.walls.table import particle_log_weights, reach_frequency
 from bayesmap.posterior.posterior import posterior_of_draws
 from bayesmap.result import Run
-from bayesmap.samplers.sampler import STREAM_PARTICLES
+from bayesmap.samplers.sampler import Stream
 from bayesmap.samplers.wall_problem import WallProblem, log_odds
 from bayesmap.samplers.without_chains import (
     DAMPING,
@@ -115,7 +115,7 @@ class Weighing(Found):
 
     def __init__(self, problem: WallProblem, total: int, seed: int) -> None:
         self.problem, self.total, self.count = problem, total, 0
-        self._key = mix(seed, 0, STREAM_PARTICLES)
+        self._key = mix(seed, 0, Stream.PARTICLES)
         self._log_weights = np.empty(total)
         self._piece = FIRST_PIECE
         self._seconds = 0.0

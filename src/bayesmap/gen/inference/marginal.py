@@ -9,16 +9,9 @@ from jax.scipy.special import logsumexp
 
 from bayesmap.gen.choice_map import ChoiceMap
 from bayesmap.gen.diff import Diff
+from bayesmap.gen.edits import Edited, EditRequest, Regenerate, Update
 from bayesmap.gen.errors import BadArguments, NotSupportedEditRequest
-from bayesmap.gen.generative_function import (
-    Edited,
-    EditRequest,
-    GenerativeFunction,
-    Regenerate,
-    Trace,
-    Update,
-    decorator_method,
-)
+from bayesmap.gen.generative_function import GenerativeFunction, Trace, decorator_method
 from bayesmap.gen.inference.smc import Algorithm, SampleDistribution, Target
 from bayesmap.gen.pytree import dataclass, nth, static
 from bayesmap.gen.selection import Selection

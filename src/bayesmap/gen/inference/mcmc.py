@@ -6,7 +6,8 @@ from typing import Any, NamedTuple
 import jax
 import jax.numpy as jnp
 
-from bayesmap.gen.generative_function import EditRequest, Trace
+from bayesmap.gen.edits import EditRequest
+from bayesmap.gen.generative_function import Trace
 from bayesmap.gen.typing import Array, BoolArray, PRNGKey
 
 Kernel = Callable[[PRNGKey, Any], tuple[Any, BoolArray]]

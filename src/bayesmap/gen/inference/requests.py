@@ -9,16 +9,9 @@ from jax.flatten_util import ravel_pytree
 
 from bayesmap.gen.choice_map import ChoiceMap
 from bayesmap.gen.diff import Diff
+from bayesmap.gen.edits import DiffAnnotate, Edited, EditRequest, EmptyRequest, Update
 from bayesmap.gen.errors import BadArguments, format_address
-from bayesmap.gen.generative_function import (
-    DiffAnnotate,
-    Edited,
-    EditRequest,
-    EmptyRequest,
-    GenerativeFunction,
-    Trace,
-    Update,
-)
+from bayesmap.gen.generative_function import GenerativeFunction, Trace
 from bayesmap.gen.pytree import dataclass, static
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.typing import PRNGKey

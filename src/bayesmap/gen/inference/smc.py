@@ -9,8 +9,9 @@ from jax.scipy.special import logsumexp
 from bayesmap.gen.axes import total, vectorise
 from bayesmap.gen.choice_map import ChoiceMap
 from bayesmap.gen.distribution import Distribution
+from bayesmap.gen.edits import EditRequest
 from bayesmap.gen.errors import BadArguments
-from bayesmap.gen.generative_function import EditRequest, GenerativeFunction, Trace
+from bayesmap.gen.generative_function import GenerativeFunction, Trace
 from bayesmap.gen.pytree import Pytree, dataclass, nth, static
 from bayesmap.gen.scan import ScanTrace, scan
 from bayesmap.gen.typing import Array, IntArray, PRNGKey, Score, Weight
