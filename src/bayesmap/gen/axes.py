@@ -55,9 +55,7 @@ class Mapped(NamedTuple):
 
 
 def map_over(in_axes: InAxes, args: tuple[Any, ...], n: int | None = None) -> Mapped:
-    """Return the leaves of `args` with their mapped axes, which are given and checked as for `jax.vmap`. None with the
-    number `n` of elements repeats the same arguments.
-    """
+    """Return the leaves of `args` with their mapped axes, as for `jax.vmap`; None and `n` repeat the arguments."""
     # Let `jax.vmap` check the axes; then give each leaf its axis.
     axes = tuple(in_axes) if isinstance(in_axes, list) else in_axes
     jax.vmap(lambda *_: 0, in_axes=axes, out_axes=None, axis_size=n)(*args)
@@ -173,33 +171,29 @@ def _check_leading(value: Any, shape: tuple[int, ...]) -> None:
 
 
 def total(scores: Any) -> Any:
-    """Return the sum of an array of scores, shape (). Without the barrier XLA merges this sum with the sums inside the
-    scores into one long loop, which loses a digit.
-    """
+    """Return the sum of an array of scores, shape ()."""
+    # Without the barrier XLA merges this sum with the sums inside the scores into one loop, which loses a digit.
     return jnp.sum(jax.lax.optimization_barrier(scores))  # type: ignore[no-untyped-call]
 
 
 def replace_term(sum_: Any, old: Any, new: Any, afresh: Callable[[], Any]) -> Any:
-    """Return a sum after one of its terms changed, in time that does not grow with the number of terms.
-
-    After k changes, rounding errors are sqrt(k) units in the last place. `afresh` recomputes a sum that is not finite.
+    """Return a sum after one of its terms changed, in time that does not grow with the number of terms. After k
+    changes, rounding errors are sqrt(k) units in the last place. `afresh` recomputes a sum that is not finite.
     """
-    moved = sum_ + (new - old)
-    if is_concrete(moved):  # outside jit, a cond of fresh closures would be compiled at every edit
-        return moved if bool(jnp.isfinite(moved)) else afresh()
-    return jax.lax.cond(jnp.isfinite(moved), lambda: moved, afresh)
+    new_sum = sum_ + (new - old)
+    if is_concrete(new_sum):  # outside jit, a cond of fresh closures would be compiled at every edit
+        return new_sum if bool(jnp.isfinite(new_sum)) else afresh()
+    return jax.lax.cond(jnp.isfinite(new_sum), lambda: new_sum, afresh)
 
 
 # Chunks -----------------------------------------------------------------------------------------------
 
-CACHE_BYTES, DEVICE_BYTES = 1 << 20, 1 << 28
-"""Largest size of an intermediate array of a chunk, bytes: on a CPU, and on an accelerator."""
+CACHE_BYTES = 1 << 20  # largest intermediate array of a chunk on a CPU
+DEVICE_BYTES = 1 << 28  # largest intermediate array of a chunk on an accelerator
 
 
 def in_chunks(fn: Callable[..., Any], *args: Any) -> Any:
-    """Return `fn(*args)`. Under `jax.vmap` run elements in chunks, so that every intermediate array is small. XLA moves
-    work that all elements share out of the loop over chunks. In one large batch it may repeat this work.
-    """
+    """Return `fn(*args)`. Under `jax.vmap` run elements in chunks, so that every intermediate array is small."""
     leaves, treedef = jax.tree.flatten(args)
     traced = [k for k, x in enumerate(leaves) if isinstance(x, jax.core.Tracer)]
     if not traced:

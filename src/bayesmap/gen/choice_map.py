@@ -3,8 +3,7 @@
 An address is a name, an index, or a tuple of names and indices. A vectorised model stores its values as whole arrays:
 `chm["v"]` is `chm[:, "v"]`, and `chm[0, "v"]` its first element. An index selects from the leading axis of all arrays.
 
-A flag may be an array, such as a mask's flag or a comparison of index arrays. Such a flag does not change which
-addresses a map has: the map stores the value as a Mask.
+A flag may be an array, such as a comparison of index arrays. Then the map stores the value as a Mask.
 """
 
 import operator
@@ -303,9 +302,8 @@ class ChoiceMap(Outlined, Pytree):
 
     @staticmethod
     def choice(value: Any) -> "ChoiceMap":
-        """Return the map of a bare value at the empty address.
-
-        The map is empty for an array without elements, and for a Mask whose flag is Python's False.
+        """Return the map of a bare value at the empty address. The map is empty for an array without elements, and for
+        a Mask whose flag is Python's False.
         """
         if isinstance(value, Mask):
             value = value.flatten()

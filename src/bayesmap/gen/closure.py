@@ -103,8 +103,7 @@ def _in_form(args: tuple[Any, ...], kwargs: dict[str, Any]) -> tuple[Any, ...]:
 class GenerativeFunctionClosure(Outer):
     """`m(x)`: a site with `@ "address"`, a draw with `(key)`, or `m` with `x` before its arguments.
 
-    Its traces are traces of `m`, whose arguments include `x`. Where some arguments are given by name, the traces'
-    arguments have the form that `m.handle_kwargs()` takes.
+    Its traces are traces of `m`, or of `m.handle_kwargs()` if some arguments are named. Their arguments include `x`.
     """
 
     gen_fn: GenerativeFunction
@@ -231,10 +230,12 @@ class Dimap(Outer):
 
 
 def _same_args(*args: Any) -> tuple[Any, ...]:
+    """Return the arguments: the default of `pre`."""
     return args
 
 
 def _same_retval(args: Any, inner_args: Any, retval: Any) -> Any:
+    """Return the return value: the default of `post`."""
     return retval
 
 
@@ -252,9 +253,8 @@ class _OfRetval:
 def dimap(
     *, pre: Callable[..., Any] = _same_args, post: Callable[..., Any] = _same_retval
 ) -> Callable[[GenerativeFunction], Dimap]:
-    """Return a decorator that transforms arguments by `pre` and the return value by `post`.
-
-    `pre` returns the inner arguments as a tuple. `post` takes (arguments, inner arguments, inner return value).
+    """Return a decorator that transforms arguments by `pre` and the return value by `post`. `pre` returns the inner
+    arguments as a tuple. `post` takes (arguments, inner arguments, inner return value).
     """
     return lambda gen_fn: Dimap(gen_fn.as_part(), pre, post)
 

@@ -280,7 +280,7 @@ class TfpDistribution(KeywordDensity):
     make: Callable[..., Any] = static()
     name: str = static()
 
-    def _made(self, args: tuple[Any, ...], kwargs: dict[str, Any]) -> tuple[Any, tuple[int, ...]]:
+    def _make(self, args: tuple[Any, ...], kwargs: dict[str, Any]) -> tuple[Any, tuple[int, ...]]:
         """Return (the library's distribution, shape of independent draws)."""
         args, kwargs = self.split(args, kwargs)
         shape = draw_shape(kwargs.pop("sample_shape", ()))
@@ -288,12 +288,12 @@ class TfpDistribution(KeywordDensity):
 
     def sample(self, key: PRNGKey, *args: Any, **kwargs: Any) -> Any:
         with warnings.catch_warnings(action="ignore"):  # the library warns of its own use of JAX
-            made, shape = self._made(args, kwargs)
-            return made.sample(seed=key, sample_shape=shape)
+            distribution, shape = self._make(args, kwargs)
+            return distribution.sample(seed=key, sample_shape=shape)
 
     def logpdf(self, value: Any, *args: Any, **kwargs: Any) -> Any:
         with warnings.catch_warnings(action="ignore"):
-            return self._made(args, kwargs)[0].log_prob(value)
+            return self._make(args, kwargs)[0].log_prob(value)
 
 
 def tfp_distribution(dist: Callable[..., Any], name: str | None = None) -> TfpDistribution:
@@ -353,8 +353,8 @@ zipf = _tfp("Zipf")
 class DiscreteHMMConfiguration(Pytree):
     """A hidden Markov model on a ring of `linear_grid_dim` places.
 
-    The logit of a place at distance d is sigma ** d within the adjacency distance, and -1 / sigma beyond it. The first
-    state follows a move from the middle of the ring.
+    Logits of places at distance d are sigma ** d within the adjacency distance, -1 / sigma beyond it. The first state
+    follows a move from the middle of the ring.
     """
 
     linear_grid_dim: int = static()

@@ -126,9 +126,7 @@ def draw_shape(sample_shape: Any) -> tuple[int, ...]:
     try:
         return tuple(map(operator.index, shape)) if np.ndim(shape) else (operator.index(shape),)
     except TypeError:
-        raise BadArguments(
-            f"sample_shape is a number of draws or a tuple of lengths (under jit as a Const), not {shape!r}"
-        ) from None
+        raise BadArguments(f"sample_shape is a number or a tuple of lengths (in jit a Const), not {shape!r}") from None
 
 
 class ExactDensity(Distribution):
@@ -194,15 +192,15 @@ class ExactDensity(Distribution):
         if jnp.shape(value) != expected.shape:
             raise ShapeMismatch((), f"found {jnp.shape(value)}, expected {expected.shape}")
         value = jnp.asarray(value)
-        real, exact = (jnp.issubdtype(dtype, jnp.floating) for dtype in (expected.dtype, value.dtype))
+        draws_real, is_real = (jnp.issubdtype(dtype, jnp.floating) for dtype in (expected.dtype, value.dtype))
         # A copy, so that no two sites share one array: traces tell values apart by identity.
-        kept = jnp.array(value, expected.dtype if real and not exact else value.dtype, copy=True)
+        copy = jnp.array(value, expected.dtype if draws_real and not is_real else value.dtype, copy=True)
         if value.dtype == jnp.bool_:
-            return kept, given, 0.0
-        possible = self.in_support(kept)
-        if not real:
+            return copy, given, 0.0
+        possible = self.in_support(copy)
+        if not draws_real:
             possible = jnp.logical_and(value.astype(expected.dtype) == value, possible)
-        return kept, given, self._penalty(value, given, possible, expected.dtype)
+        return copy, given, self._penalty(value, given, possible, expected.dtype)
 
     def _penalty(self, value: Any, given: Any, possible: Any, dtype: Any) -> Any:
         """Return 0 if the value is possible, else -inf; raise if a known value is impossible."""

@@ -94,10 +94,7 @@ class Trace(Outlined, Pytree):
         return self.replace(args=args)
 
     def edit(self, key: PRNGKey, request: EditRequest, argdiffs: Any = None) -> Edited:
-        """Carry out a request. Without `argdiffs` the arguments stay the same.
-
-        Returns (new trace, weight, retdiff, backward request).
-        """
+        """Return (new trace, weight, retdiff, backward request). Without `argdiffs` the arguments stay the same."""
         if not isinstance(request, EditRequest):
             raise TypeError(f"edit takes an EditRequest, such as Update(choices), not {type(request).__name__}")
         return request.edit(key, self, Diff.no_change(self.get_args()) if argdiffs is None else argdiffs)

@@ -65,9 +65,8 @@ def _on(variable: ContextVar[bool]) -> Iterator[None]:
 
 
 def do_checkify() -> AbstractContextManager[None]:
-    """Let the code inside check that it uses no value whose flag is False.
-
-    Compiled code reports through `jax.experimental.checkify.checkify`; other code raises at once.
+    """Let the code inside check that it uses no value whose flag is False. Compiled code reports through
+    `jax.experimental.checkify.checkify`; other code raises at once.
     """
     return _on(_checking)
 
@@ -132,9 +131,8 @@ class Mask(Pytree):
         return self.flag.primal if isinstance(self.flag, Diff) else self.flag
 
     def unmask(self, default: Any = None) -> Any:
-        """Return the value. Where the flag is False return `default`, or without one whatever is stored there.
-
-        Inside `do_checkify` a flag that is False is an error if there is no default.
+        """Return the value. Where the flag is False return `default`, or without one whatever is stored there. Inside
+        `do_checkify` a flag that is False is an error if there is no default.
         """
         if default is not None:
             return where(self.primal_flag(), self.value, default)
@@ -149,17 +147,17 @@ class Mask(Pytree):
 
     def __or__(self, other: "Mask") -> "Mask":
         """Return this value where it is present, and the other value elsewhere."""
-        mine, theirs = _flags_of_alike(self, other)
-        if is_known(mine):
-            return self if mine else other
-        return Mask(where(mine, self.value, other.value), jnp.logical_or(mine, theirs))
+        flag, other_flag = _flags_of_alike(self, other)
+        if is_known(flag):
+            return self if flag else other
+        return Mask(where(flag, self.value, other.value), jnp.logical_or(flag, other_flag))
 
     def __xor__(self, other: "Mask") -> "Mask":
         """Return the value that is present, and nothing where both are."""
-        mine, theirs = _flags_of_alike(self, other)
-        if is_known(mine) and is_known(theirs):
-            return Mask.build(self if mine else other, mine != theirs)
-        return Mask(where(mine, self.value, other.value), jnp.logical_xor(mine, theirs))
+        flag, other_flag = _flags_of_alike(self, other)
+        if is_known(flag) and is_known(other_flag):
+            return Mask.build(self if flag else other, flag != other_flag)
+        return Mask(where(flag, self.value, other.value), jnp.logical_xor(flag, other_flag))
 
     def __invert__(self) -> "Mask":
         """Return the value with the opposite flag."""

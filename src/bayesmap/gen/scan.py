@@ -54,8 +54,8 @@ class Scan(Vectorised):
             t, x, mapped = scanned
             key = jax.random.fold_in(key, t)
             trace, weight, more = step(key, (state, x), mapped)
-            after, out = trace.get_retval()
-            return (key, after), (trace.with_args(None), state, out, weight, more)
+            next_state, out = trace.get_retval()
+            return (key, next_state), (trace.with_args(None), state, out, weight, more)
 
         start = (key, jax.tree.map(jnp.asarray, args[0]))
         (_, state), (inner, carries, out, weights, more) = jax.lax.scan(
@@ -82,8 +82,8 @@ class Scan(Vectorised):
         n = self.length(args)
         each = vectorise(choices, n)
         if n == 0:  # arrays without elements are in no choice map, and simulating draws nothing
-            none = self.simulate(jax.random.key(0), args)
-            return none.get_score(), none.get_retval()
+            empty = self.simulate(jax.random.key(0), args)
+            return empty.get_score(), empty.get_retval()
         start = jax.tree.map(jnp.asarray, args[0])
         state, (scores, out) = jax.lax.scan(step, start, (args[1], each), length=n)
         return total(scores), (state, out)
@@ -105,7 +105,7 @@ class Scan(Vectorised):
         """Edit step i, and the steps after it if the state after step i may differ."""
         # Move the trace to the new arguments first, then edit step i alone.
         args = Diff.tree_primal(argdiffs)
-        trace, before, _, _ = EmptyRequest().edit(key, trace, argdiffs)
+        trace, args_weight, _, _ = EmptyRequest().edit(key, trace, argdiffs)
         old, *step_args = nth((trace.inner, trace.carries, args[1]), i)
         new, weight, retdiff, back = request.edit(key, old, Diff.no_change(tuple(step_args)))
         state_diff, out = retdiff[0], new.get_retval()[1]
@@ -120,7 +120,7 @@ class Scan(Vectorised):
             inner = store(trace.inner, new)
             result = ScanTrace(self, args, inner, trace.carries, retval, total(inner.get_score()))
             diff = (Diff.no_change(retval[0]), Diff.unknown_change(retval[1]))
-            return result, before + weight, diff, IndexRequest(i, back)
+            return result, args_weight + weight, diff, IndexRequest(i, back)
 
         # Otherwise run all steps: those before i stay, step i is the edited one, and later ones get their new state.
         def step(key: PRNGKey, step_args: Any, mapped: Any) -> Any:
@@ -128,22 +128,20 @@ class Scan(Vectorised):
 
             def follow() -> tuple[Trace, Weight]:
                 diffs = (Diff.unknown_change(step_args[0]), Diff.no_change(step_args[1]))
-                moved, weight, _, _ = EmptyRequest().edit(key, inner, diffs)
-                return moved.with_args(None), weight
+                new, weight, _, _ = EmptyRequest().edit(key, inner, diffs)
+                return new.with_args(None), weight
 
             options = [lambda: (inner, jnp.zeros(())), lambda: (new, weight), follow]
             return (*jax.lax.switch(jnp.sign(s - i) + 1, options), None)
 
         result, change, _ = self._loop(key, args, step, (trace.inner, jnp.arange(self.length(args))))
-        return result, before + change, Diff.unknown_change(result.retval), IndexRequest(i, back)
+        return result, args_weight + change, Diff.unknown_change(result.retval), IndexRequest(i, back)
 
 
 @decorator_method
 def scan(*, n: int | None = None) -> Callable[[GenerativeFunction], Scan]:
-    """Return a decorator that turns `(state, x) -> (state, y)` into `(state, xs) -> (last state, ys)`.
-
-    Step t uses the key `fold_in(key of step t - 1, t)`. Addresses of its choices begin with t. If `xs` is None, the
-    number of steps is `n`.
+    """Return a decorator that turns `(state, x) -> (state, y)` into `(state, xs) -> (last state, ys)`. Step t uses the
+    key `fold_in(key of step t - 1, t)`. Addresses of its choices begin with t. Without `xs` give `n`.
     """
     return lambda gen_fn: Scan(gen_fn.as_part(), n)
 
@@ -195,9 +193,8 @@ def iterate(*, n: int) -> Callable[[GenerativeFunction], Any]:
 
 @decorator_method
 def masked_iterate() -> Callable[[GenerativeFunction], Any]:
-    """Return a decorator that turns `state -> state` into `(state, flags) -> states`, with all n + 1 states.
-
-    If a step's flag is False, its choices do not count, but the step still changes the state.
+    """Return a decorator that turns `state -> state` into `(state, flags) -> states`, with all n + 1 states. If a
+    step's flag is False, its choices do not count, but the step still changes the state.
     """
     return lambda gen_fn: dimap(post=_all)(_steps(_flagged(gen_fn)))
 

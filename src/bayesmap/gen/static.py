@@ -195,9 +195,8 @@ class _Edit(_Run):
 
 
 def _body_dataflow(old: StaticTrace, args: Arguments) -> list[Origin] | None:
-    """Return the origins of the leaves of each site's function and arguments, in order, and of the return value.
-
-    Return None if the body needs the values of its arguments. Then every change is unknown.
+    """Return the origins of the leaves of each site's function and arguments, in order, and of the return value. Return
+    None if the body needs the values of its arguments. Then every change is unknown.
     """
 
     def body(gen_fn: Any, args: Arguments, *retvals: Any) -> Any:
@@ -209,10 +208,8 @@ def _body_dataflow(old: StaticTrace, args: Arguments) -> list[Origin] | None:
 
 
 def _edit_by_rescoring(key: PRNGKey, old: Trace, gen_fn: Any, request: EditRequest, args: Arguments) -> Edited:
-    """Edit the trace of a function that the body defined again and that may differ, by scoring the whole trace.
-
-    A request that depends on addresses alone becomes a call of `generate`. Any other request edits the function's trace
-    with the old choices; the weights of the two steps add up.
+    """Edit the trace of a function that the body defined again and that may differ, by scoring the whole trace. A
+    request that depends on addresses alone becomes a call of `generate`. Another request edits the rescored trace.
     """
     choices = old.get_choices()
     match request:

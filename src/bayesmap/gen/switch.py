@@ -76,12 +76,12 @@ class MaskCombinator(Outer):
         if not isinstance(request, Update | EmptyRequest | Regenerate):
             raise NotSupportedEditRequest(self, request)
         args = Diff.tree_primal(argdiffs)
-        before, after = jnp.asarray(trace.flag), jnp.asarray(_flag(args))
+        old_flag, new_flag = jnp.asarray(trace.flag), jnp.asarray(_flag(args))
         inner, weight, retdiff, back = request.edit(key, trace.inner, argdiffs[1:])
         new = self.wrap(args, inner)
         # The edit's weight counts if the flag is and was True. A flag that changes adds or removes a score.
-        switched = jnp.where(after, inner.get_score(), 0.0) - jnp.where(before, trace.inner.get_score(), 0.0)
-        weight = jnp.where(before & after, weight, jnp.where(before == after, 0.0, switched))
+        switched = jnp.where(new_flag, inner.get_score(), 0.0) - jnp.where(old_flag, trace.inner.get_score(), 0.0)
+        weight = jnp.where(old_flag & new_flag, weight, jnp.where(old_flag == new_flag, 0.0, switched))
         retval = new.get_retval()
         unchanged = argdiffs[0].tangent == NoChange and Diff.static_check_no_change(retdiff)
         return new, weight, (Diff.no_change if unchanged else Diff.unknown_change)(retval), back
@@ -92,9 +92,8 @@ class MaskCombinator(Outer):
 
 @method
 def mask(gen_fn: GenerativeFunction) -> MaskCombinator:
-    """Return a generative function with an additional first argument, a flag.
-
-    If the flag is False, the score is 0, and choices and return value are Masks whose flag is False.
+    """Return a generative function with an additional first argument, a flag. If the flag is False, the score is 0, and
+    choices and return value are Masks whose flag is False.
     """
     return MaskCombinator(gen_fn.as_part())
 
@@ -136,9 +135,8 @@ class SwitchTrace(Trace):
 
 
 def run_branch(index: Any, thunks: Sequence[Callable[[], tuple[Any, Any]]]) -> tuple[tuple[Any, ...], Any]:
-    """Run thunk number `index`. Each thunk returns (own result, shared result).
-
-    Returns (own results of all thunks, zeros for thunks that did not run; shared result in common dtypes and shapes).
+    """Run thunk number `index`. Each thunk returns (own result, shared result). Returns (own results of all thunks,
+    zeros for thunks that did not run; shared result in common dtypes and shapes).
     """
     blank, shapes = zip(*(jax.eval_shape(t) for t in thunks), strict=True)
     common = jax.tree.map(lambda *s: (jnp.broadcast_shapes(*(x.shape for x in s)), jnp.result_type(*s)), *shapes)
@@ -188,11 +186,10 @@ class Switch(GenerativeFunction):
 
     def _parts(self, choices: ChoiceMap, args: Sequence[Any]) -> list[ChoiceMap]:
         """Return for each branch the choices that it can make; raise UnknownAddress if no branch has a choice."""
-        known = [fn.choice_shapes(a).get_selection() for fn, a in zip(self.branches, args, strict=True)]
-        everything = reduce(operator.or_, known)
-        for path in choices.filter(~everything).paths():
+        selections = [fn.choice_shapes(a).get_selection() for fn, a in zip(self.branches, args, strict=True)]
+        for path in choices.filter(~reduce(operator.or_, selections)).paths():
             raise UnknownAddress(path, "no branch has it")
-        return [choices.filter(sel) for sel in known]
+        return [choices.filter(selection) for selection in selections]
 
     def simulate(self, key: PRNGKey, args: Arguments) -> SwitchTrace:
         _, rest = self._read(args)
@@ -213,9 +210,8 @@ class Switch(GenerativeFunction):
             return run_branch(index, thunks)[1]  # type: ignore[no-any-return]
 
     def edit(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
-        """Edit the branch that stays active, or draw a newly active branch anew. These draws add no weight.
-
-        The backward request restores the old branch's choices. The caller must restore the old index.
+        """Edit the branch that stays active, or draw a newly active branch anew. These draws add no weight. The
+        backward request restores the old branch's choices. The caller must restore the old index.
         """
         if not isinstance(request, Update | EmptyRequest | Regenerate):
             raise NotSupportedEditRequest(self, request)
@@ -227,10 +223,10 @@ class Switch(GenerativeFunction):
         # Thunk k edits branch k if it was active, and otherwise generates it.
         def thunk(k: int) -> Callable[[], Any]:
             fn, old, diff = self.branches[k], trace.branches[k], diffs[k]
-            mine = Update(parts[k]) if isinstance(request, Update) else request
+            branch_request = Update(parts[k]) if isinstance(request, Update) else request
 
             def edit() -> Any:
-                new, weight, _, _ = mine.edit(key, old, diff)
+                new, weight, _, _ = branch_request.edit(key, old, diff)
                 return new.with_args(None), weight
 
             def fresh() -> Any:
@@ -274,9 +270,8 @@ def or_else(if_fn: GenerativeFunction, else_fn: GenerativeFunction) -> Any:
 
 @method
 def mix(*gen_fns: GenerativeFunction) -> Any:
-    """Return a mixture. Its arguments are the logits, then one tuple of arguments per component.
-
-    Its choices are "mixture_component", and the component's choices under "component_sample".
+    """Return a mixture. Its arguments are the logits, then one tuple of arguments per component. Its choices are
+    "mixture_component", and the component's choices under "component_sample".
     """
     chosen = switch(*gen_fns)
 

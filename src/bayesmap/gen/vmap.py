@@ -69,19 +69,19 @@ class Product(ExactDensity):
         """Change one element, without reading any other."""
         args = Diff.tree_primal(argdiffs)
         # Move the trace to the new arguments first.
-        trace, before, _, _ = EmptyRequest().edit(key, trace, argdiffs)
+        trace, args_weight, _, _ = EmptyRequest().edit(key, trace, argdiffs)
         mapped = self._map(args)
         i = check_index(i, mapped.n)
         # Edit the element's own trace, and store its value and score.
-        here = mapped.element(i)
+        element_args = mapped.element(i)
         value = trace.value[i]
-        element = DistributionTrace(self.inner, here, value, self.inner.score(value, here))
-        edited, weight, retdiff, back = request.edit(key, element, Diff.no_change(here))
+        element = DistributionTrace(self.inner, element_args, value, self.inner.score(value, element_args))
+        edited, weight, retdiff, back = request.edit(key, element, Diff.no_change(element_args))
         new_value = trace.value.at[i].set(edited.get_retval())
         below = retdiff.tangent.index if isinstance(retdiff.tangent, IndexChange) else ()
         score = replace_term(trace.score, element.score, edited.get_score(), lambda: self.score(new_value, args))
         new = DistributionTrace(self, args, new_value, score)
-        return new, before + weight, Diff(new_value, IndexChange((i, *below))), IndexRequest(i, back)
+        return new, args_weight + weight, Diff(new_value, IndexChange((i, *below))), IndexRequest(i, back)
 
 
 class Vectorised(GenerativeFunction):
@@ -181,11 +181,11 @@ class Vmap(Vectorised):
 
     def assess(self, choices: ChoiceMap, args: Arguments) -> tuple[Score, Any]:
         mapped = self._map(args)
-        each = vectorise(choices, mapped.n)
+        choices = vectorise(choices, mapped.n)
         if mapped.n == 0:  # arrays without elements are in no choice map, and simulating draws nothing
-            none = self.simulate(jax.random.key(0), args)
-            return none.get_score(), none.get_retval()
-        scores, retvals = mapped.vmap(self.inner.assess, each)
+            empty = self.simulate(jax.random.key(0), args)
+            return empty.get_score(), empty.get_retval()
+        scores, retvals = mapped.vmap(self.inner.assess, choices)
         return total(scores), retvals
 
     def edit_all(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
@@ -212,18 +212,19 @@ class Vmap(Vectorised):
         """Change one element, without reading any other."""
         args = Diff.tree_primal(argdiffs)
         # Move the trace to the new arguments first, then edit the element's own trace.
-        trace, before, _, _ = EmptyRequest().edit(key, trace, argdiffs)
+        trace, args_weight, _, _ = EmptyRequest().edit(key, trace, argdiffs)
         element = nth(trace.inner, i)
         new, weight, retdiff, back = request.edit(key, element, Diff.no_change(self._map(args).element(i)))
 
-        def store(old: Any, was: Any, now: Any) -> Any:
-            return old if now is was else old.at[i].set(now)
+        def store(stack: Any, old: Any, new: Any) -> Any:
+            return stack if new is old else stack.at[i].set(new)
 
         inner = jax.tree.map(store, trace.inner, element, new.with_args(None))
         retval = inner.get_retval()
-        moved = [_at(i, t) for t in Diff.tangents(retdiff)]
+        changes = [_at(i, t) for t in Diff.tangents(retdiff)]
         score = replace_term(trace.score, element.get_score(), new.get_score(), lambda: total(inner.get_score()))
-        return VmapTrace(self, args, inner, score), before + weight, Diff.zip(retval, moved), IndexRequest(i, back)
+        retdiff = Diff.zip(retval, changes)
+        return VmapTrace(self, args, inner, score), args_weight + weight, retdiff, IndexRequest(i, back)
 
 
 def _at(i: Any, tangent: Change) -> Change:

@@ -3,8 +3,7 @@
 docs/scoring.md explains the maps and their fits. A map of stop probabilities comes from counts of the beams that
 stopped in each cell and passed it, or from another program. It predicts readings by the formula of a posterior
 (`bayesmap.kernels.predict.density`). Its sensor, its hit depth and its own parameters maximise the score of training
-scans that are left out of the counts (`bayesmap.posterior.heldout.make_folds`). The search is L-BFGS-B on logarithms or
-logits, from several starts.
+scans that are left out of the counts (`bayesmap.posterior.heldout.make_folds`).
 """
 
 from __future__ import annotations

@@ -192,9 +192,8 @@ class Drawn(Protocol):
 
 
 def path_is_free(posterior: Drawn, path: ArrayLike, radius_m: float) -> routes.FreeProbability:
-    """Compute the probability that a disc can move along a path (`bayesmap.posterior.route`).
-
-    Raises `BadInput` if there are no draws, no path, or a radius that is not positive, or if the path leaves the map.
+    """Compute the probability that a disc can move along a path (`bayesmap.posterior.route`). Raises `BadInput` if
+    there are no draws, no path, or a radius that is not positive, or if the path leaves the map.
     """
     _need_draws(posterior, "free_probability")
     corners, grid = routes.checked_path(path), posterior.draws.grid
@@ -211,9 +210,8 @@ def path_is_free(posterior: Drawn, path: ArrayLike, radius_m: float) -> routes.F
 def shortest_safe_path(
     posterior: Drawn, start: ArrayLike, goal: ArrayLike, radius_m: float, risk: float, on_progress: OnShare = ignored
 ) -> routes.Route:
-    """Find the shortest path of a disc whose risk stays under a bound (`bayesmap.posterior.route`).
-
-    Raises `BadInput` as `routes.plan_route`, and if there are no draws, or the radius is not positive.
+    """Find the shortest path of a disc whose risk stays under a bound (`bayesmap.posterior.route`). Raises `BadInput`
+    as `routes.plan_route`, and if there are no draws, or the radius is not positive.
     """
     _need_draws(posterior, "plan")
     _need_radius(radius_m)
@@ -255,9 +253,8 @@ def information_of(
 
 
 def independent_information(posterior: Posterior, poses: Floats, fan: Fan, device: str = "cpu") -> Floats:
-    """Compute the formula for independent cells and beams, nats, (P,): its mean over the mean maps of the chains.
-
-    A cell that is a wall in one chain and free in another counts as known, because no scan tells why chains differ.
+    """Compute the formula for independent cells and beams, nats, (P,): its mean over the mean maps of the chains. A
+    cell that is a wall in one chain and free in another counts as known, because no scan tells why chains differ.
     """
     draws, max_range_m = posterior.draws, fan.limits.max_m
     maps = [posterior.occupancy]

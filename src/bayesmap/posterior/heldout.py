@@ -75,8 +75,8 @@ def _fingerprints(scans: Scans, stamped: bool) -> list[bytes]:
     return fingerprints
 
 
-def unseen_scans(train: Scans, scans: Scans, every: int, where: str) -> Scans:
-    """Return every ``every``-th scan of a log, as `Scans.holdout` does, or all if 0. ``where`` names the log in errors.
+def unseen_scans(train: Scans, scans: Scans, every: int, log: str) -> Scans:
+    """Return every ``every``-th scan of a log, as `Scans.holdout` does, or all if 0. ``log`` is its name for errors.
 
     Raises:
         NoneHeldOut: the run has used all scans, or has moved its scans, so that the poses of the others are unknown.
@@ -86,20 +86,20 @@ def unseen_scans(train: Scans, scans: Scans, every: int, where: str) -> Scans:
     if every == 0:
         if seen.any():
             raise BadInput(
-                f"{where}: the run was made from {seen.sum():,} of its {len(scans):,} scans; --all is for another "
+                f"{log}: the run was made from {seen.sum():,} of its {len(scans):,} scans; --all is for another "
                 "recording, and scans that were trained on would flatter the run; leave it out, or give --holdout"
             )
         return scans
     thinned = not seen.any() and _thinned_from(train, scans)
     if not seen.any() and not thinned:
         raise BadInput(
-            f"{where}: none of the run's scans is in it: not the log that the run was made from, or read with another "
+            f"{log}: none of the run's scans is in it: not the log that the run was made from, or read with another "
             "--no-return, topic or --deskew; to score another recording of the same place whole, give --all"
         )
     if thinned or moved_by(train, scans):
         raise NoneHeldOut(
-            f"{where}: the run has its scans elsewhere than this log, as bayesmap slam does, so none is left to judge "
-            f"its map by; bayesmap score {where} --trajectory DIR/trajectory.tum judges a map along its path"
+            f"{log}: the run has its scans elsewhere than this log, as bayesmap slam does, so none is left to judge "
+            f"its map by; bayesmap score {log} --trajectory DIR/trajectory.tum judges a map along its path"
         )
     # Check that the run was made with this hold-out.
     mask = np.arange(len(scans)) % max(every, 2) == every // 2
@@ -109,13 +109,13 @@ def unseen_scans(train: Scans, scans: Scans, every: int, where: str) -> Scans:
         return scans.select(mask)
     if seen.all():
         raise NoneHeldOut(
-            f"{where}: the run was made without holding scans out, so there is none to score it on; make one with "
+            f"{log}: the run was made without holding scans out, so there is none to score it on; make one with "
             f"bayesmap infer --holdout {every}"
         )
     periods = [n for n in range(2, MOST_EVERY) if (~seen == (np.arange(len(scans)) % n == n // 2)).all()]
     hint = f"it was made with --holdout {periods[0]}" if periods else "other scans were held out"
     raise BadInput(
-        f"{where}: with --holdout {every} the run has seen {(mask & seen).sum():,} of the {mask.sum():,} scans that "
+        f"{log}: with --holdout {every} the run has seen {(mask & seen).sum():,} of the {mask.sum():,} scans that "
         f"would score it; {hint}"
     )
 

@@ -175,10 +175,7 @@ def dataset_of(posterior: Posterior, with_readings: bool) -> xarray.Dataset:
     # Arrays of the draws, then densities, then marginals.
     draws, ny = posterior.draws, posterior.grid.shape[1]
     x, y = posterior.grid.centers_m()
-    variables = {
-        spec.name: (("chain", "draw", *spec.dims), draws.values(spec.name), {"long_name": spec.what})
-        for spec in draws.specs
-    }
+    variables = {s.name: (("chain", "draw", *s.dims), draws.values(s.name), {"long_name": s.what}) for s in draws.specs}
     for name, density in (("lp", "log_joint"), ("log_likelihood", "log_likelihood"), ("log_prior", "log_prior")):
         variables[name] = (("chain", "draw"), getattr(posterior, density), {"units": "nats"})
     words = posterior.prior.words

@@ -88,9 +88,8 @@ def fixed_maps(stop: NDArray[np.floating]) -> Batches:
 
 
 def predictor_of(posterior: Posterior, sensor: SensorModel | None = None) -> Predictor:
-    """Return the posterior's draws as a prediction, under the run's sensor model unless another is given.
-
-    Raises `BadInput` if the posterior has no draws, or does not know its sensor model.
+    """Return the posterior's draws as a prediction, under the run's sensor model unless another is given. Raises
+    `BadInput` if the posterior has no draws, or does not know its sensor model.
     """
     sensor = posterior.sensor if sensor is None else sensor
     if sensor is None:
@@ -274,9 +273,8 @@ class Fan:
         cls, asked_by: str, posterior: Posterior, angles_rad: ArrayLike | None, max_range_m: float | None,
         sensor: SensorModel | None,
     ) -> Fan:  # fmt: skip
-        """Return the fan of the run's scans, with other angles, largest range or sensor model if given.
-
-        Raises `BadInput` if the angles are invalid, the largest range is not positive, or no sensor model is known.
+        """Return the fan of the run's scans, with other angles, largest range or sensor model if given. Raises
+        `BadInput` if the angles are invalid, the largest range is not positive, or no sensor model is known.
         """
         scans, law = posterior.scans, posterior.sensor if sensor is None else sensor
         if law is None:

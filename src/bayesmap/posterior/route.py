@@ -255,8 +255,7 @@ def plan_route(
     """Find the shortest path from start to goal, world frame, whose risk of touching something stays under a bound.
 
     ``blocked`` is the probability that the disc is blocked at each cell's centre, (nx, ny). ``judge`` returns the
-    probability that a path is free. Raises `BadInput` if start or goal lies outside the grid or is blocked in nearly
-    every draw, or if no path leads from start to goal.
+    probability that a path is free. Raises `BadInput` if start or goal is outside the grid or blocked, or without path.
     """
     if not 0 < risk < 1:
         raise BadInput(f"plan: risk must lie inside (0, 1), got {risk!r}")

@@ -33,9 +33,8 @@ POINTS = 100  # number of intervals of u at whose ends its distribution is compa
 
 
 def randomised_pit(low: Floats, high: Floats, seed: int = 0) -> Floats:
-    """Compute the randomised probability integral transform of each reading, (B,); NaN where ``low`` is NaN.
-
-    ``low`` and ``high`` are P(reading < z) and P(reading <= z) at the observed reading z, (B,).
+    """Compute the randomised probability integral transform of each reading, (B,); NaN where ``low`` is NaN. ``low``
+    and ``high`` are P(reading < z) and P(reading <= z) at the observed reading z, (B,).
     """
     return low + np.random.default_rng([seed, 0x917]).random(low.shape) * (high - low)
 
@@ -102,8 +101,7 @@ class ScanBlocks:
         """Return the Kolmogorov-Smirnov distance of the distribution of u from the uniform one, and its p-value.
 
         The distance is computed at the ends of `POINTS` intervals. The p-value is the share of replicates whose
-        distance from the distribution of all items is at least as large (textbooks assume independent beams). It is
-        NaN with a single block.
+        distance from the distribution of all items is at least as large, NaN with a single block.
         """
         # Count the items per block and interval.
         points = np.arange(1, POINTS) / POINTS
@@ -124,7 +122,6 @@ class ScanBlocks:
 
 def reliability(chance: Floats, happened: NDArray[np.bool_]) -> list[tuple[float, float, int]]:
     """Group events by predicted chance. Returns (mean chance, share that happened, count) for each non-empty bin.
-
     Chances of first hits are mostly small. So bins have equal widths in ``log10 chance`` from -3, or less, to 0.
     """
     edges = np.concatenate([[0.0], np.logspace(-3, 0, 10)])
@@ -140,9 +137,7 @@ def beam_log_scores(
     """Compute the log predictive density of every reading, log mean over draws of p(reading | draw), (B,).
 
     Densities are per metre for hits, probabilities for typed readings, in nats; NaN where a reading is invalid. They
-    equal those of `score_prediction` bit for bit.
-
-    Raises `BadInput` for no valid reading, or no draw.
+    equal `Score.by_beam` bit for bit. Raises `BadInput` without a valid reading or a draw.
     """
     from bayesmap.kernels.predict.density import explained_within_m, log_densities
     from bayesmap.kernels.rays import trace_rays
@@ -261,10 +256,8 @@ def _numbers(**values: float) -> dict[str, float | None]:
 def score_prediction(
     predictor: Predictor, scans: Scans, *, seed: int = 0, device: str = "cpu", on_progress: OnShare = ignored
 ) -> Score:
-    """Score a prediction on scans that had no part in it.
-
-    ``seed`` seeds the randomised transform and the bootstrap. Raises `BadInput` if no reading is valid or there is no
-    draw.
+    """Score a prediction on scans that had no part in it. ``seed`` seeds the randomised transform and the bootstrap.
+    Raises `BadInput` without a valid reading or a draw.
     """
     from bayesmap.kernels.predict.density import forecast
     from bayesmap.kernels.predict.stop_mixture import first_hit_events, mix_stops, range_quantiles

@@ -21,9 +21,8 @@ from bayesmap.space.planar import (
     between,
     between_jacobians,
     bracketing_indices,
-    compose,
     interpolate,
-    inverse,
+    nearest_index,
     rotation,
     wrap_angle,
 )
@@ -69,7 +68,6 @@ class RelationErrors:
 
     def summary(self) -> dict[str, float]:
         """Return mean, standard deviation and median of both sizes, in metres and degrees, and counts of relations.
-
         Relations are not covered if they lie ``in_gaps`` between poses, or outside the trajectory's time.
         """
         result: dict[str, float] = {
@@ -114,7 +112,7 @@ def relation_errors(stamps_s: Floats, poses: Floats, relations: Relations, *, ex
             f"{needed}; its poses are {np.median(np.diff(stamps_s)):.3g} s apart at the median: give one with more"
         )
     first, second = (interpolate(stamps_s, poses, end_s[covered]) for end_s in ends)
-    errors = compose(inverse(relations.relative[covered]), between(first, second))
+    errors = between(relations.relative[covered], between(first, second))
     return RelationErrors(errors, covered, within & ~covered)
 
 
@@ -183,10 +181,9 @@ def score_trajectory(
 
 def _by_law(law: RelativeLaw, stamps_s: Floats, relations: Relations, errors: Floats) -> tuple[Floats, Floats]:
     """Compute NEES and least region of each relation, by the law of the relative poses of the scans nearest in time.
-
     With the law's scale matrix S and degrees of freedom nu, e' S^-1 e / 3 follows F(3, nu).
     """
-    first, second = (_nearest(stamps_s, end_s) for end_s in (relations.first_s, relations.second_s))
+    first, second = (nearest_index(stamps_s, end_s) for end_s in (relations.first_s, relations.second_s))
     # For two times about one scan the law of the step to a neighbouring scan is used, which is no surer.
     second = np.where(first == second, np.where(second > 0, second - 1, second + 1), second)
     scale = _in_end_frame(law.scales(first, second), relations) + 1e-15 * np.eye(DIMENSIONS)
@@ -200,23 +197,15 @@ def _in_end_frame(covariance: Floats, relations: Relations) -> Floats:
     return np.asarray(turn @ covariance @ np.swapaxes(turn, 1, 2))
 
 
-def _nearest(stamps_s: Floats, times_s: Floats) -> NDArray[np.intp]:
-    """Return the index of the stamp nearest to each time."""
-    earlier, later = bracketing_indices(stamps_s, times_s)
-    return np.where(times_s - stamps_s[earlier] < stamps_s[later] - times_s, earlier, later)
-
-
 def _by_draws(draws: Floats, stamps_s: Floats, relations: Relations) -> tuple[Floats, Floats]:
     """Compute NEES and least region of each relation, by the relative poses of D draws, taken as independent.
-
     NEES D (D - 3) / (3 (D + 1) (D - 1)) follows F(3, D - 3) (Hotelling).
     """
     count = len(draws)
     errors = np.empty((count, len(relations), DIMENSIONS))
-    to_true = inverse(relations.relative)
     for d, poses in enumerate(draws):
         first, second = (interpolate(stamps_s, poses, end_s) for end_s in (relations.first_s, relations.second_s))
-        errors[d] = compose(to_true, between(first, second))
+        errors[d] = between(relations.relative, between(first, second))
     # Bring all yaws within half a turn of the first draw's before averaging.
     anchor = errors[0, :, 2].copy()
     errors[..., 2] = anchor + wrap_angle(errors[..., 2] - anchor)
@@ -236,5 +225,5 @@ def _independent(poses: Floats, covariances: Floats, stamps_s: Floats, relations
     total = np.zeros((len(relations), DIMENSIONS, DIMENSIONS))
     for pose, end_s, jacobian in zip(ends, ends_s, between_jacobians(between(*ends)), strict=True):
         from_world = jacobian @ np.swapaxes(rotation(pose[:, 2]), 1, 2)
-        total += from_world @ covariances[_nearest(stamps_s, end_s)] @ np.swapaxes(from_world, 1, 2)
+        total += from_world @ covariances[nearest_index(stamps_s, end_s)] @ np.swapaxes(from_world, 1, 2)
     return _in_end_frame(total, relations)

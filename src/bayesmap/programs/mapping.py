@@ -71,8 +71,7 @@ def mapping_model(
     - "readings", metres, float, shape (A,) for a single pose of shape (3,), else (S, A): the ranges of `Scans`,
       typed readings included (`inf` no return, `-inf` too close, NaN invalid).
 
-    An edit of one wall costs time in proportion to the beams through that cell. Make a model once and use it many
-    times, because this function traces the beams.
+    An edit of one wall costs time in proportion to the beams through that cell. Make a model once: it traces all beams.
 
     If `poses` is a generative function, the poses are unknown and it is their prior:
 
@@ -133,14 +132,8 @@ def pose_sensor_model(
 ) -> PoseSensor:  # fmt: skip
     """Return the sensor alone, for unknown poses: a generative function of walls (nx, ny) and poses (3,) or (S, 3).
 
-    Use it in models with your own priors, or with known walls (localization):
-
-        @gen
-        def model(walls):
-            pose = my_prior() @ "pose"
-            return sensor(walls, pose) @ "readings"
-
-    Arguments and errors as for `mapping_model`.
+    Use it as `sensor_model`, by `sensor(walls, poses) @ "readings"`, or with known walls for localization. Arguments
+    and errors as for `mapping_model`.
     """
     angles, law = as_angles(angles_rad), reading_law(sensor, _limits(min_range_m, max_range_m))
     return PoseSensor(grid, tuple(angles.tolist()), law, float(hit_depth))

@@ -65,7 +65,6 @@ def first_cells(beams: Beams, shape: tuple[int, int]) -> tuple[Any, Any]:
 
 def first_walls(walls: Any, beams: Beams, cell: Any, active: Any) -> Any:
     """Return the first wall at or behind a cell, (K, 2), of each active beam, on a map (nx, ny), as flat indices, (K,).
-
     The index is nx * ny for a beam that meets no wall or is not active.
     """
     shape = jnp.array(jnp.shape(walls))
@@ -176,10 +175,7 @@ class PoseSensor(RangeSensor):
 
     @partial(jax.jit, inline=True)  # else every edit outside of `jit` would compile its loops again
     def _move_scans(self, old_poses: Any, ends: Any, readings: Any, walls: Any, poses: Any) -> tuple[Any, Weight]:
-        """Return the ends, and the change of the log-likelihood, after `old_poses` changed to `poses`.
-
-        A comparison finds the poses that differ, whatever edit changed them.
-        """
+        """Return the ends, and the change of the log-likelihood, after all scans that differ have moved to `poses`."""
 
         def move_scan(state: tuple[Any, Any, Any]) -> tuple[Any, Any, Any]:
             to_move, ends, weight = state

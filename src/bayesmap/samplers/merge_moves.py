@@ -173,23 +173,21 @@ MERGE_ROUNDS = 3  # most rounds of merges; five more gain nothing that held-out 
 
 @dataclass(frozen=True, eq=False)
 class ExplainedReadings:
-    """The readings that each cell's surface stopped: count, mean (N, 2), second central moments xx, xy and yy (N, 3),
-    and mean variance of the noise, square metres, (N,).
-    """
+    """The readings that each cell's surface stopped."""
 
-    count: NDArray[np.intp]
-    mean_m: Floats
-    moments: Floats
-    noise: Floats
+    count: NDArray[np.intp]  # (N,)
+    mean_m: Floats  # (N, 2)
+    moments: Floats  # second central moments xx, xy and yy, (N, 3)
+    noise: Floats  # mean variance of the noise, square metres, (N,)
 
 
 @dataclass(frozen=True, eq=False)
 class SurfaceAxes:
-    """Direction of the longer axis of surfaces (N, 2), and variances along and across it, (N,)."""
+    """The longer axes of surfaces."""
 
-    direction: Floats
-    along: Floats
-    across: Floats
+    direction: Floats  # unit vectors, (N, 2)
+    along: Floats  # variance along the axis, (N,)
+    across: Floats  # variance across the axis, (N,)
 
 
 def merge_surfaces(
@@ -309,9 +307,8 @@ def lengthen(
     cells: NDArray[np.float32], readings: ExplainedReadings, axes: SurfaceAxes, source: NDArray[np.intp],
     target: NDArray[np.intp], grid: Grid,
 ) -> Floats:  # fmt: skip
-    """Lengthen the surfaces of ``target`` to reach the readings of ``source``. Returns mean, l11, l21, l22, (n, 5).
-
-    A surface moves along its axis, within its square, to the mean of both cells' readings, and gets their scatter.
+    """Lengthen the surfaces of ``target`` to reach the readings of ``source``. Returns mean, l11, l21, l22, (n, 5). A
+    surface moves along its axis, within its square, to the mean of both cells' readings, and gets their scatter.
     """
     mean, axis = cells[target, 1:3].astype(np.float64), axes.direction[target]
     pair = source, target

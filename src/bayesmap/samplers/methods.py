@@ -58,9 +58,7 @@ class Gibbs:
 
 @dataclass(frozen=True, eq=False)
 class Block(Gibbs):
-    """Draw overlapping blocks of 2 x 2 binary cells: where walls are rare, single cells mix slowly. The attributes are
-    those of `Gibbs`; the order is that of the blocks.
-    """
+    """Draw overlapping blocks of 2 x 2 binary cells, with the options of `Gibbs`: rare walls mix faster."""
 
     name: ClassVar[str] = "block"
 
@@ -69,11 +67,7 @@ class Block(Gibbs):
 class Propagate:
     """Propagate beliefs along the beams, for binary walls: approximate marginals at once.
 
-    Attributes:
-        rounds: most rounds.
-
-    Raises:
-        BadInput: no rounds.
+    ``rounds`` is the largest number of rounds. Raises `BadInput` if it is less than 1.
     """
 
     rounds: int = ROUNDS
@@ -87,11 +81,7 @@ class Propagate:
 class Importance:
     """Weigh maps that are drawn from the prior, for binary walls: for teaching, since the weights collapse.
 
-    Attributes:
-        particles: number of maps drawn.
-
-    Raises:
-        BadInput: no particles.
+    ``particles`` is the number of maps. Raises `BadInput` if it is less than 1.
     """
 
     particles: int = PARTICLES
@@ -121,7 +111,6 @@ WITHOUT_CHAINS: Mapping[str, Callable[[WallProblem, DrawRequest, Watch], Indepen
 
 def method_of(method: Method | str | None, samplers: Mapping[str, str], kind: str) -> tuple[str, Method]:
     """Return the name of a method, and the method with its options; None gives the first method of the kind of cells.
-
     ``samplers`` maps the names of the kind's methods to their samplers. Raises `BadInput` for another method.
     """
     if method is None:

@@ -126,7 +126,7 @@ def _sweep(
     for c, beams in enumerate(problem.beams_of):
         site = (c // ny, c % ny)
         proposal, log_ratio = problem.model.cells.propose(cells, site, rng, problem.grid)
-        before = {name: cells[name][site].copy() for name in proposal}
+        old = {name: cells[name][site].copy() for name in proposal}
         for name, value in proposal.items():
             cells[name][site] = value
         if len(beams):
@@ -136,6 +136,6 @@ def _sweep(
             if len(beams):
                 beam_log_likelihoods[beams] = proposed
         else:
-            for name, value in before.items():
+            for name, value in old.items():
                 cells[name][site] = value
     return beam_log_likelihoods

@@ -189,7 +189,7 @@ class Sampler(Protocol[P, S]):
 
     def prepare(self, model: Model, device: str, threads: int | None = None, watch: Watch = SILENT) -> P:
         """Trace the model's beams, and prepare all other data that chains share, with all cores if ``threads`` is None.
-        Raises BadInput: a model that this sampler cannot sample.
+        Raises `BadInput` if this sampler cannot sample the model.
         """
 
     def init(
@@ -198,10 +198,8 @@ class Sampler(Protocol[P, S]):
         """Start chains with these numbers, or continue from a snapshot of them."""
 
     def step(self, state: S, sweeps: int, beta: float = 1.0, keep: Keep = Keep()) -> tuple[S, Info]:
-        """Make some sweeps of all chains. Do not use the given state afterwards.
-
-        ``beta`` is the inverse temperature, the power of p(reading | stop) (of the likelihood for binary walls): 0
-        samples the prior and 1 the posterior.
+        """Make some sweeps of all chains. Do not use the given state afterwards. ``beta`` is the inverse temperature,
+        the power of p(reading | stop) (of the likelihood for binary walls): 0 samples the prior and 1 the posterior.
         """
 
     def snapshot(self, state: S) -> Snapshot:
@@ -215,7 +213,6 @@ class Sampler(Protocol[P, S]):
 
 def draws_to_inspect(draws: Draws) -> dict[str, NDArray[Any]]:
     """Select the draws for `Sampler.observed_counts`: `MAPS_TO_INSPECT` maps, evenly spread, without partial arrays.
-
     The observed cells hardly differ from draw to draw, and all draws may be gigabytes, or on another machine.
     """
     selected = np.unique(np.linspace(0, draws.count - 1, MAPS_TO_INSPECT).astype(np.intp)) if draws.count else slice(0)

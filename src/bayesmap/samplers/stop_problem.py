@@ -260,8 +260,8 @@ class StopProblem(RaysProblem):
         """Return this problem for poses that may move: draws keep all cells, and surfaces around present end points."""
         ends = np.zeros(self.grid.n_cells, dtype=np.bool_)
         ends[self.estimate.endpoint_cells] = True
-        near = ndimage.binary_dilation(ends.reshape(self.grid.shape), np.ones((3, 3)), iterations=CELLS_MOVED)
-        surfaces = {"surface_cell": np.nonzero(near.ravel())[0].astype(np.int32)} if self.prior.has_surfaces else {}
+        reachable = ndimage.binary_dilation(ends.reshape(self.grid.shape), np.ones((3, 3)), iterations=CELLS_MOVED)
+        surfaces = {"surface_cell": np.flatnonzero(reachable).astype(np.int32)} if self.prior.has_surfaces else {}
         return replace(self, kept={"cell": np.arange(self.grid.n_cells, dtype=np.int32)} | surfaces)
 
     @cached_property

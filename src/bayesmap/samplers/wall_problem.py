@@ -82,9 +82,7 @@ class WallProblem(Problem):
         return self.table.log_likelihood(walls) + self.prior.log_prob(walls, self.table.grid)
 
     def admit(self, walls: NDArray[np.bool_]) -> NDArray[np.bool_]:
-        """Return one map or several, (..., nx, ny), with the cells that the prior fixes set accordingly. Raises
-        BadInput: walls of another shape than the grid's.
-        """
+        """Return maps, (..., nx, ny), with the cells that the prior fixes. Raises `BadInput` for another shape."""
         shape = self.table.grid.shape
         if np.shape(walls)[-2:] != shape:
             self.table.check_walls(walls)
@@ -99,7 +97,7 @@ def log_odds(p_wall: Floats) -> Floats:
 
 
 def trace_walls(model: Model, device: str = "cpu", threads: int | None = None) -> WallProblem:
-    """Trace the beam table of binary walls. Raises BadInput: another prior, no such device, or too many incidences."""
+    """Trace the beam table. Raises `BadInput` for another prior, an unknown device, or too many incidences."""
     from bayesmap.kernels.device import resolve
     from bayesmap.kernels.walls.table import trace
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -70,11 +70,7 @@ def start_maps(
     return np.where(uninformed, prior, marginals.p_wall > 0.5)
 
 
-class SweepKernel(NamedTuple):
-    """A kernel that makes sweeps, and the tables that are its first arguments."""
-
-    function: Any
-    tables: list[Any]
+SweepKernel = tuple[Any, list[Any]]  # a kernel that makes sweeps, and the tables that are its first arguments
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,9 +98,8 @@ class WallSampler(ABC):
     site_edge: ClassVar[int]  # cells along a side of a site
 
     def sites(self, problem: WallProblem) -> NDArray[np.int32]:
-        """Return the sites of a sweep in their order (the order "random" shuffles them in every sweep).
-
-        Site ``x * rows + y`` has its lower-left cell at (x, y), for all positions on the grid.
+        """Return the sites of a sweep in their order (the order "random" shuffles them in every sweep). Site ``x * rows
+        + y`` has its lower-left cell at (x, y), for all positions on the grid.
         """
         columns, rows = (max(1, n + 1 - self.site_edge) for n in problem.grid.shape)
         if self.order == "radial":
@@ -215,7 +210,7 @@ class WallGibbs(WallSampler):
         from bayesmap.kernels.walls.gibbs import gibbs_sweeps
 
         load_kernels(gibbs_sweeps, problem.device)
-        return SweepKernel(gibbs_sweeps, [problem.device_table])
+        return gibbs_sweeps, [problem.device_table]
 
 
 @dataclass(frozen=True, eq=False)
@@ -232,4 +227,4 @@ class WallBlocks(WallSampler):
         from bayesmap.kernels.walls.block import block_sweeps, list_blocks
 
         load_kernels(block_sweeps, problem.device)
-        return SweepKernel(block_sweeps, [problem.device_table, list_blocks(problem.table, problem.device)])
+        return block_sweeps, [problem.device_table, list_blocks(problem.table, problem.device)]

@@ -125,8 +125,8 @@ class Particles:
         mean = np.zeros(self.problem.table.grid.shape)
         batch = max(1, BATCH_CELLS // mean.size)
         for i in range(0, len(heavy), batch):
-            part = heavy[i : i + batch]
-            mean += np.tensordot(np.exp(self.log_weights[part]), self.maps(part), axes=1)
+            particles = heavy[i : i + batch]
+            mean += np.tensordot(np.exp(self.log_weights[particles]), self.maps(particles), axes=1)
         mean /= np.exp(self.log_weights[heavy]).sum()
         if self.problem.coupling != 0.0:
             return mean
@@ -263,6 +263,7 @@ def enumerate_maps(problem: WallProblem) -> Enumeration:
 
 
 def _bits(state: NDArray[np.int64], bit: NDArray[np.int64]) -> NDArray[np.bool_]:
+    """Return whether bits of states are set."""
     return np.asarray(state >> bit & 1 == 1)
 
 
@@ -308,8 +309,8 @@ class IndependentDraws:
 
 def exact(problem: WallProblem, request: DrawRequest, watch: Watch) -> IndependentDraws:
     """Enumerate the whole posterior, and draw from it."""
-    whole = enumerate_maps(problem)
-    return _drawn(problem, request, whole.sample, whole.marginals(), log_evidence=whole.log_evidence)
+    posterior = enumerate_maps(problem)
+    return _draw(problem, request, posterior.sample, posterior.marginals(), log_evidence=posterior.log_evidence)
 
 
 def importance(problem: WallProblem, request: DrawRequest, watch: Watch) -> IndependentDraws:
@@ -320,7 +321,7 @@ def importance(problem: WallProblem, request: DrawRequest, watch: Watch) -> Inde
 
 def draws_by_importance(problem: WallProblem, request: DrawRequest, particles: Particles) -> IndependentDraws:
     """Resample draws from particles that have been weighed."""
-    return _drawn(
+    return _draw(
         problem, request, lambda rng, count: particles.maps(particles.resample(rng, count)), particles.occupancy(),
         log_weights=particles.log_weights, log_evidence=particles.log_evidence, seconds=particles.seconds,
         finished=particles.finished,
@@ -334,14 +335,14 @@ def propagation(problem: WallProblem, request: DrawRequest, watch: Watch) -> Ind
 
 def draws_by_beliefs(problem: WallProblem, request: DrawRequest, marginals: Marginals) -> IndependentDraws:
     """Draw each cell independently from beliefs that have been propagated."""
-    return _drawn(
+    return _draw(
         problem, request, lambda rng, count: rng.random((count, *marginals.p_wall.shape)) < marginals.p_wall,
         marginals.p_wall, statistics={"belief_changes": marginals.changes}, seconds=marginals.seconds,
         finished=marginals.finished,
     )  # fmt: skip
 
 
-def _drawn(
+def _draw(
     problem: WallProblem, request: DrawRequest, draw: Callable[[np.random.Generator, int], NDArray[np.bool_]],
     occupancy: Floats, **results: Any,
 ) -> IndependentDraws:  # fmt: skip

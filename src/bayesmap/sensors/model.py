@@ -62,16 +62,14 @@ class SensorModel(ABC):
 
     @abstractmethod
     def log_likelihood(self, range_m: Floats, distance_m: Floats, limits: RangeLimits) -> Floats:
-        """Return log p(range | distance) in nats, broadcast over both.
-
-        It is a log density for a hit, a log probability for no return and too close, and 0 for an invalid reading.
+        """Return log p(range | distance) in nats, broadcast over both. It is a log density for a hit, a log probability
+        for no return and too close, and 0 for an invalid reading.
         """
 
     @abstractmethod
     def reach_m(self, range_m: Floats, limits: RangeLimits) -> Floats:
-        """Return for each reading the distance past which `log_likelihood` no longer changes; ``inf`` if none.
-
-        The table has one entry for the rest of the beam, with ``log_likelihood(range, inf)``.
+        """Return for each reading the distance past which `log_likelihood` no longer changes; ``inf`` if none. The
+        table has one entry for the rest of the beam, with ``log_likelihood(range, inf)``.
         """
 
     @abstractmethod
@@ -109,9 +107,9 @@ STANDARD = np.linspace(-6.0, 6.0, 97)  # nodes of a stop, in standard deviations
 
 def _mean_over_stops(model: SensorModel, z: Floats, d: Floats, s: Floats, limits: RangeLimits) -> Floats:
     """Return the log mean of p(z | t) over t ~ N(d, s^2), t >= 0, by a midpoint rule dense at z too, (n,)."""
-    crowded = np.sinh(np.linspace(-9.0, 9.0, 122)) / math.sinh(9.0)
-    near = np.where(np.isfinite(z), z, np.where(z > 0, limits.max_m, limits.min_m))
-    t = np.concatenate([d + s * STANDARD[:, None], near + 12.0 * s * crowded[:, None]])
+    dense_at_0 = np.sinh(np.linspace(-9.0, 9.0, 122)) / math.sinh(9.0)
+    reading = np.where(np.isfinite(z), z, np.where(z > 0, limits.max_m, limits.min_m))
+    t = np.concatenate([d + s * STANDARD[:, None], reading + 12.0 * s * dense_at_0[:, None]])
     t = np.sort(np.clip(t, np.maximum(d - 6.0 * s, 0.0), d + 6.0 * s), axis=0)
     middle, width = 0.5 * (t[1:] + t[:-1]), np.diff(t, axis=0)
     with np.errstate(divide="ignore"):
@@ -270,6 +268,7 @@ def noise_with(dof: float, scale_m: float, scale_per_m: float) -> Gaussian | Stu
 
 
 def _check_scale(model: str, name: str, scale_m: float, per_m: float) -> None:
+    """Raise `BadInput` unless the scale is positive and its growth is not negative."""
     if not (math.isfinite(scale_m) and scale_m > 0):
         raise BadInput(f"{model}: {name} must be a positive number of metres, got {scale_m!r}")
     if not (math.isfinite(per_m) and per_m >= 0):
@@ -324,10 +323,10 @@ class BeamMixture(SensorModel):
         """Return the log-likelihood with the noise widened to ``sqrt(scale(d)^2 + spread^2)``."""
         z, d, s = np.broadcast_arrays(range_m, distance_m, spread_m)
         p = np.ones(z.shape)  # an invalid reading says nothing
-        finite, none, close = np.isfinite(z), np.isposinf(z), np.isneginf(z)
-        p[finite] = self._hit(z[finite], d[finite], s[finite], limits)
-        p[none] = self._no_return(d[none], s[none], limits)
-        p[close] = self._too_close(d[close], s[close], limits)
+        hit, no_return, too_close = np.isfinite(z), np.isposinf(z), np.isneginf(z)
+        p[hit] = self._hit(z[hit], d[hit], s[hit], limits)
+        p[no_return] = self._no_return(d[no_return], s[no_return], limits)
+        p[too_close] = self._too_close(d[too_close], s[too_close], limits)
         with np.errstate(divide="ignore"):
             return np.asarray(np.maximum(np.log(p), LOG_IMPOSSIBLE))
 
@@ -336,6 +335,7 @@ class BeamMixture(SensorModel):
         return np.where(d <= limits.max_m, self.unblocked(d) * (1.0 - self.p_no_return), 0.0)
 
     def _hit(self, z: Floats, d: Floats, spread_m: Floats, limits: RangeLimits) -> Floats:
+        """Return p(z | d) of ranges."""
         wall_m = np.minimum(d, limits.max_m)
         scale = np.hypot(self.noise.scale_at(wall_m), spread_m)
         noise = np.exp(self.noise.log_density((z - wall_m) / scale)) / scale
@@ -345,6 +345,7 @@ class BeamMixture(SensorModel):
         return np.asarray(uniform + (1 - self.p_random) * (short + self._returned(d, limits) * noise))
 
     def _no_return(self, d: Floats, spread_m: Floats, limits: RangeLimits) -> Floats:
+        """Return P(no return | d)."""
         # Sums of small terms, here and below: differences of numbers near one would lose the small ones.
         wall_m, returned = np.minimum(d, limits.max_m), self._returned(d, limits)
         lost = self.unblocked(wall_m) * np.where(d <= limits.max_m, self.p_no_return, 1.0)
@@ -352,6 +353,7 @@ class BeamMixture(SensorModel):
         return np.asarray((1 - self.p_random) * (lost + returned * above))
 
     def _too_close(self, d: Floats, spread_m: Floats, limits: RangeLimits) -> Floats:
+        """Return P(too close | d)."""
         wall_m, returned = np.minimum(d, limits.max_m), self._returned(d, limits)
         blocked = self.blocked(np.minimum(wall_m, limits.min_m))
         below = self.noise.tail((wall_m - limits.min_m) / np.hypot(self.noise.scale_at(wall_m), spread_m))  # symmetric
@@ -411,11 +413,8 @@ class BeamMixture(SensorModel):
         return replace(noise, robust=True, **{name: getattr(self, name) for name in names})
 
 
-BISECTIONS = 16
-"""Bisections in `BeamMixture.reach_m`: accurate to 1/65536 of the sensor's range, and rounded up to the safe side."""
-
-LOG_IMPOSSIBLE = -30.0  # least log-likelihood of a typed reading, so that no single beam makes a map impossible
-
+BISECTIONS = 16  # in `BeamMixture.reach_m`: accurate to 1/65536 of the sensor's range, and rounded up
+LOG_IMPOSSIBLE = -30.0  # least log-likelihood of a reading, so that no single beam makes a map impossible
 
 KINDS: dict[str, type[Any]] = {"gaussian": Gaussian, "student-t": StudentT, "mixture": BeamMixture}
 
@@ -424,15 +423,12 @@ def describe(sensor: SensorModel) -> dict[str, Any]:
     """Return a model's kind and parameters as plain JSON values; for the user's own model, its name alone."""
     for kind, cls in KINDS.items():
         if type(sensor) is cls:
-            values: dict[str, Any] = {f.name: _plain(getattr(sensor, f.name)) for f in fields(cls)}  # type: ignore[arg-type]
+            values: dict[str, Any] = {f.name: getattr(sensor, f.name) for f in fields(cls)}  # type: ignore[arg-type]
             if isinstance(sensor, BeamMixture):
                 values["noise"] = describe(sensor.noise)
-            return {"kind": kind, **values}
+            plain = {name: x.item() if isinstance(x, np.generic) else x for name, x in values.items()}
+            return {"kind": kind, **plain}
     return {"kind": type(sensor).__name__}
-
-
-def _plain(value: Any) -> Any:
-    return value.item() if isinstance(value, np.generic) else value
 
 
 def from_description(description: dict[str, Any]) -> SensorModel | None:
@@ -442,10 +438,10 @@ def from_description(description: dict[str, Any]) -> SensorModel | None:
     cls = KINDS.get(str(kind))
     if cls is None:
         return None
-    known = [f.name for f in fields(cls)]
-    unknown = sorted(set(values) - set(known))
+    names = [f.name for f in fields(cls)]
+    unknown = sorted(set(values) - set(names))
     if unknown:
-        raise BadInput(f"sensor: {kind!r} has no parameter {unknown[0]!r}; it has: {', '.join(known)}")
+        raise BadInput(f"sensor: {kind!r} has no parameter {unknown[0]!r}; it has: {', '.join(names)}")
     if cls is BeamMixture and "noise" in values:
         noise = from_description(values["noise"])
         if not isinstance(noise, AdditiveNoise):

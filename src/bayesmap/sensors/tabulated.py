@@ -63,21 +63,18 @@ def tabulated(sensor: SensorModel, limits: RangeLimits) -> TabulatedLaw:
     try:
         hash(sensor)
     except TypeError:
-        return _tabulated(sensor, limits)
-    return _remembered(sensor, limits)
-
-
-@lru_cache(maxsize=4)
-def _remembered(sensor: SensorModel, limits: RangeLimits) -> TabulatedLaw:
+        return _tabulated.__wrapped__(sensor, limits)
     return _tabulated(sensor, limits)
 
 
+@lru_cache(maxsize=4)
 def _tabulated(sensor: SensorModel, limits: RangeLimits) -> TabulatedLaw:
+    """Compute a sensor's law at all nodes."""
     # Nodes of distance d, spread s and offset: d, s, w and z are (S, D, V).
     distance = np.linspace(0.0, limits.max_m, DISTANCES)
     scale = scales(sensor, distance, limits)
-    part = np.linspace(0.0, WIDEST / (1.0 + WIDEST), SPREADS)[:, None]
-    spread = part / (1.0 - part) * scale  # (S, D)
+    share = np.linspace(0.0, WIDEST / (1.0 + WIDEST), SPREADS)[:, None]
+    spread = share / (1.0 - share) * scale  # (S, D)
     width = np.hypot(scale, spread)
     span = 2.0 * limits.max_m
     most = float(np.arcsinh(span / scale.min()))
@@ -87,72 +84,63 @@ def _tabulated(sensor: SensorModel, limits: RangeLimits) -> TabulatedLaw:
     z = d + w * offset
     inside = np.clip(z, limits.min_m, limits.max_m)
     typed = _is_typed(sensor, limits)
-    log_density = _by_slices(sensor, z, d, s, limits)
+    log_density = np.stack([sensor.stop_log_likelihood(z[i], d[i], s[i], limits) for i in range(SPREADS)])
     if typed:
         # Interpolation needs nodes on both sides of a limit: if the formula ends there, the limit's value continues it.
-        stuck = (log_density <= LOG_IMPOSSIBLE) & (inside != z)
-        log_density[stuck] = sensor.stop_log_likelihood(inside[stuck], d[stuck], s[stuck], limits)
-    log_density = _floored(log_density) + np.log(w)
+        ended = (log_density <= LOG_IMPOSSIBLE) & (inside != z)
+        log_density[ended] = sensor.stop_log_likelihood(inside[ended], d[ended], s[ended], limits)
+    log_density = np.maximum(log_density, LOG_LEAST) + np.log(w)
     # Typed readings, and the cumulative, which begins with too close.
-    at = np.linspace(0.0, limits.max_m, TYPED)
-    at_scale = np.interp(at, distance, scale)
-    typed_spread = part / (1.0 - part) * at_scale
-    log_typed = np.stack([_typed(sensor, code, at, typed_spread, limits) for code in (-np.inf, np.inf)])
-    close = np.exp(np.stack([np.interp(distance, at, row) for row in log_typed[0]]))[..., None]
+    typed_distance = np.linspace(0.0, limits.max_m, TYPED)
+    typed_spread = share / (1.0 - share) * np.interp(typed_distance, distance, scale)
+    log_typed = np.stack([_typed(sensor, code, typed_distance, typed_spread, limits) for code in (-np.inf, np.inf)])
+    too_close = np.exp(np.stack([np.interp(distance, typed_distance, row) for row in log_typed[0]]))[..., None]
     below = _cumulated(np.exp(log_density) / w, z)
     if typed:
-        at_least = [np.interp(limits.min_m, z[i], below[i]) for i in np.ndindex(z.shape[:2])]
-        below += close - np.reshape(at_least, z.shape[:2])[..., None]
+        below_least = [np.interp(limits.min_m, z[i], below[i]) for i in np.ndindex(z.shape[:2])]
+        below += too_close - np.reshape(below_least, z.shape[:2])[..., None]
     # Beams that stop nowhere.
     low, high = (limits.min_m, limits.max_m) if typed else (-limits.max_m, 2.0 * limits.max_m)
     r = np.linspace(low, high, NOWHERE)
-    log_nowhere = _floored(sensor.log_likelihood(r, np.full(NOWHERE, np.inf), limits))
+    log_nowhere = np.maximum(sensor.log_likelihood(r, np.full(NOWHERE, np.inf), limits), LOG_LEAST)
     ends = sensor.log_likelihood(np.array([-np.inf, np.inf]), np.full(2, np.inf), limits)
     nowhere = _cumulated(np.exp(log_nowhere), r) + (np.exp(ends[0]) if typed else 0.0)
-    f32 = np.float32
-    own_cumulative = type(sensor).cumulative is not SensorModel.cumulative
-    if own_cumulative:
+    if type(sensor).cumulative is not SensorModel.cumulative:
         below = np.stack([sensor.cumulative(z[i], d[i], limits, spread_m=s[i]) for i in range(SPREADS)])
         nowhere = sensor.cumulative(r, np.full(NOWHERE, np.inf), limits)
     elif not typed and np.abs(below[0, :, -1] - 1.0).max() > SLACK:
         below, nowhere = np.full_like(below, np.nan), np.full_like(nowhere, np.nan)
+    f32, (log_close, log_no_return) = np.float32, np.maximum(ends, LOG_LEAST).tolist()
     return TabulatedLaw(
-        limits.min_m, low, high, typed, scale.astype(f32), most, log_density.astype(f32),
-        np.clip(below, 0.0, 1.0).astype(f32), log_typed.astype(f32), log_nowhere.astype(f32),
-        np.clip(nowhere, 0.0, 1.0).astype(f32), (float(_floored(ends[0])), float(_floored(ends[1]))),
+        min_m=limits.min_m, low_m=low, high_m=high, typed=typed, scale_m=scale.astype(f32), most=most,
+        log_density=log_density.astype(f32), below=np.clip(below, 0.0, 1.0).astype(f32),
+        log_typed=log_typed.astype(f32), log_nowhere=log_nowhere.astype(f32),
+        below_nowhere=np.clip(nowhere, 0.0, 1.0).astype(f32), log_typed_nowhere=(log_close, log_no_return),
     )  # fmt: skip
 
 
 def scales(sensor: SensorModel, distance_m: Floats, limits: RangeLimits) -> Floats:
-    """Return the scale on which readings scatter about stops at each distance, (D,): a line fitted to samples.
-
-    Nodes depend on it, so it must be smooth, and roughly right where most of the density is.
+    """Return the scale on which readings scatter about stops at each distance, (D,): a line fitted to samples. Nodes
+    depend on it, so it must be smooth, and roughly right where most of the density is.
     """
     # Next to the limits, an unknown half of the readings is lost.
     span = limits.max_m - limits.min_m
     stop = np.linspace(limits.min_m + 0.1 * span, limits.max_m - 0.1 * span, DISTANCES)
-    drawn = sensor.sample(np.random.default_rng(0), np.repeat(stop[:, None], SAMPLES, axis=1), limits)
-    away = np.where(np.isfinite(drawn), np.abs(drawn - stop[:, None]), np.nan)
-    known = np.isfinite(away).sum(axis=1) >= SAMPLES // 8
-    if not known.any():
+    readings = sensor.sample(np.random.default_rng(0), np.repeat(stop[:, None], SAMPLES, axis=1), limits)
+    error = np.where(np.isfinite(readings), np.abs(readings - stop[:, None]), np.nan)
+    enough = np.isfinite(error).sum(axis=1) >= SAMPLES // 8
+    if not enough.any():
         return np.full(len(distance_m), 0.1 * span)
     # A quarter of a normal distribution lies within 0.32 standard deviations.
-    quarter = np.nanquantile(away[known], 0.25, axis=1) / 0.32
-    line = np.polynomial.Polynomial.fit(stop[known], quarter, min(1, known.sum() - 1))
-    return np.asarray(np.clip(line(distance_m), max(0.5 * quarter.min(), LEAST_SCALE_M), limits.max_m))
-
-
-def _floored(log_p: Floats) -> Floats:
-    return np.maximum(log_p, LOG_LEAST)
-
-
-def _by_slices(sensor: SensorModel, z: Floats, d: Floats, s: Floats, limits: RangeLimits) -> Floats:
-    return np.stack([sensor.stop_log_likelihood(*one, limits) for one in zip(z, d, s, strict=True)])
+    sigma = np.nanquantile(error[enough], 0.25, axis=1) / 0.32
+    line = np.polynomial.Polynomial.fit(stop[enough], sigma, min(1, enough.sum() - 1))
+    return np.asarray(np.clip(line(distance_m), max(0.5 * sigma.min(), LEAST_SCALE_M), limits.max_m))
 
 
 def _typed(sensor: SensorModel, code: float, d: Floats, s: Floats, limits: RangeLimits) -> Floats:
-    z = np.full(d.shape, code)
-    return np.stack([_floored(sensor.stop_log_likelihood(z, d, one, limits)) for one in s])
+    """Return the log probabilities of a typed reading, (S, D), for distances, (D,), and spreads, (S, D)."""
+    log_p = [sensor.stop_log_likelihood(np.full(d.shape, code), d, spread, limits) for spread in s]
+    return np.maximum(np.stack(log_p), LOG_LEAST)
 
 
 def _is_typed(sensor: SensorModel, limits: RangeLimits) -> bool:

@@ -48,9 +48,8 @@ class Marginal(SampleDistribution):
         return self.generate(key, value, args)[1]
 
     def check_conditioning(self, constraint: ChoiceMap, args: Arguments) -> None:
-        """Raise BadArguments if `constraint` leaves a selected choice open.
-
-        Importance sampling would draw the open choice, and it needs exact densities of the choices that it draws.
+        """Raise BadArguments if `constraint` leaves a selected choice open. Importance sampling would draw the open
+        choice, and it needs exact densities of the choices that it draws.
         """
         _require_all(self.gen_fn.choice_shapes(args).filter(self.selection), constraint)
 

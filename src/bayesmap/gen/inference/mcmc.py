@@ -22,9 +22,8 @@ class Chain(NamedTuple):
 
 
 def metropolis_hastings(request: EditRequest | Callable[[Trace], EditRequest]) -> Kernel:
-    """Return a kernel (key, trace) -> (trace, accepted) that makes an edit with probability min(1, exp(weight)).
-
-    The request is an edit, or a function of the trace that returns the edit.
+    """Return a kernel (key, trace) -> (trace, accepted) that makes an edit with probability min(1, exp(weight)). The
+    request is an edit, or a function of the trace that returns the edit.
     """
 
     def kernel(key: PRNGKey, trace: Trace) -> tuple[Trace, BoolArray]:
@@ -41,9 +40,8 @@ def run_chain(
     key: PRNGKey, trace: Trace, kernel: Kernel, n: int,
     collect: Callable[[Trace], Any] = lambda trace: trace.get_choices(),
 ) -> Chain:  # fmt: skip
-    """Apply a kernel `n` times, with the key `fold_in(key, t)` in step t, and return values of each trace.
-
-    A longer run begins with the steps of a shorter one. For several chains use `jax.vmap` over keys and traces.
+    """Apply a kernel `n` times, with the key `fold_in(key, t)` in step t, and return values of each trace. A longer run
+    begins with the steps of a shorter one. For several chains use `jax.vmap` over keys and traces.
     """
 
     def step(trace: Any, t: Any) -> Any:
@@ -57,7 +55,6 @@ def run_chain(
 
 def split_rhat(draws: Array) -> Array:
     """Return split R-hat, which is near 1 if chains agree (Gelman et al., Bayesian Data Analysis 3, section 11.4).
-
     Draws are (chains, draws, ...), and R-hat is (...), one for each variable; NaN for draws that do not vary.
     """
     half = draws.shape[1] // 2
@@ -68,9 +65,8 @@ def split_rhat(draws: Array) -> Array:
 
 
 def effective_sample_size(draws: Array) -> Array:
-    """Return the bulk effective sample size by Geyer's initial positive sequence (BDA3, section 11.5).
-
-    Draws are (chains, draws, ...), and the result is (...), one for each variable; NaN for draws that do not vary.
+    """Return the bulk effective sample size by Geyer's initial positive sequence (BDA3, section 11.5). Draws are
+    (chains, draws, ...), and the result is (...), one for each variable; NaN for draws that do not vary.
     """
     # Autocovariances by the Fourier transform, averaged over chains.
     m, n = draws.shape[:2]

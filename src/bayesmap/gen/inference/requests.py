@@ -51,7 +51,7 @@ class HMC(EditRequest):
     def edit(self, key: PRNGKey, trace: Trace, argdiffs: Any) -> Edited:
         momentum_key, edit_key = jax.random.split(key)
         # Move the trace to the new arguments, and check that the selected choices are real.
-        current, before, _, _ = EmptyRequest().edit(edit_key, trace, argdiffs)
+        current, args_weight, _, _ = EmptyRequest().edit(edit_key, trace, argdiffs)
         args, choices = Diff.tree_primal(argdiffs), current.get_choices()
         start = choices.filter(self.selection)
         for path in start.paths():
@@ -80,7 +80,7 @@ class HMC(EditRequest):
         position, final, gradient = jax.lax.fori_loop(0, self.L, leapfrog, state)
         final = drift(final, gradient, -self.eps / 2)
         new, weight, retdiff, _ = Update(position).edit(edit_key, current, Diff.no_change(args))
-        return new, before + weight + _kinetic(momentum) - _kinetic(final), retdiff, self
+        return new, args_weight + weight + _kinetic(momentum) - _kinetic(final), retdiff, self
 
 
 def _kinetic(momentum: Any) -> Any:

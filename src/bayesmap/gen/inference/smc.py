@@ -50,8 +50,7 @@ class SampleDistribution(Distribution):
 class Algorithm(SampleDistribution):
     """Base of inference algorithms: distributions over a target's open choices, with estimated densities.
 
-    `random_weighted(key, target)` returns (log density estimate, choices); `estimate_logpdf(key, choices, target)` the
-    estimate alone.
+    `random_weighted(key, target)` returns (estimate, choices), `estimate_logpdf(key, choices, target)` an estimate.
     """
 
     def estimate_normalizing_constant(self, key: PRNGKey, target: Target) -> Weight:
@@ -62,7 +61,6 @@ class Algorithm(SampleDistribution):
         self, key: PRNGKey, target: Target, latent_choices: ChoiceMap, w: Score
     ) -> Weight:
         """Return an estimate x of the log evidence, such that exp(-x) is an unbiased estimate of 1 / evidence.
-
         `latent_choices` are a draw from the target, and `w` is their joint log density with the given choices.
         """
         raise NotImplementedError
@@ -110,9 +108,8 @@ class ParticleCollection(Pytree):
         return ParticleCollection(nth(self.particles, chosen), mean)
 
     def edit(self, key: PRNGKey, request: EditRequest, argdiffs: Any = None) -> "ParticleCollection":
-        """Edit every trace, and multiply its weight by the edit's weight: a step of sequential Monte Carlo.
-
-        The new arguments of all traces are `argdiffs`, as `Diff` leaves; None keeps the arguments.
+        """Edit every trace, and multiply its weight by the edit's weight: a step of sequential Monte Carlo. The new
+        arguments of all traces are `argdiffs`, as `Diff` leaves; None keeps the arguments.
         """
         keys = jax.random.split(key, self.log_weights.shape[0])
         particles, weights = jax.vmap(lambda key, trace: trace.edit(key, request, argdiffs)[:2])(keys, self.particles)
@@ -191,17 +188,18 @@ class ImportanceK(SMCAlgorithm):
         return self.k_particles
 
     def run_smc(self, key: PRNGKey) -> ParticleCollection:
-        return ParticleCollection(*jax.vmap(self._one)(jax.random.split(key, self.k_particles)))
+        return ParticleCollection(*jax.vmap(self._draw_particle)(jax.random.split(key, self.k_particles)))
 
     def run_csmc(self, key: PRNGKey, retained: ChoiceMap) -> ParticleCollection:
         *keys, last_key = jax.random.split(key, self.k_particles)
         last = jax.tree.map(lambda x: jnp.asarray(x)[None], self._retained(last_key, retained))
         if not keys:
             return ParticleCollection(*last)
-        others = jax.vmap(self._one)(jnp.stack(keys))
+        others = jax.vmap(self._draw_particle)(jnp.stack(keys))
         return ParticleCollection(*jax.tree.map(lambda a, b: jnp.concatenate([a, b]), others, last))
 
-    def _one(self, key: PRNGKey) -> tuple[Trace, Weight]:
+    def _draw_particle(self, key: PRNGKey) -> tuple[Trace, Weight]:
+        """Return a trace whose open choices come from the proposal and the model, and its log weight."""
         propose_key, model_key = jax.random.split(key)
         proposed, log_q = self._propose(propose_key)
         trace, weight = self.target.importance(model_key, proposed)
@@ -218,7 +216,7 @@ class ImportanceK(SMCAlgorithm):
         return choices, score
 
     def _retained(self, key: PRNGKey, choices: ChoiceMap) -> tuple[Trace, Weight]:
-        """Return the trace with these open choices, and the weight that it would have in `_one`."""
+        """Return the trace with these open choices, and its weight if `_draw_particle` had drawn it."""
         trace_key, score_key, project_key = jax.random.split(key, 3)
         trace, _ = self.target.importance(trace_key, choices)
         # The weight is the score, less the model's density of what it drew itself and the proposal's density.
@@ -249,22 +247,23 @@ class ChangeTarget(SMCAlgorithm):
 
     def run_smc(self, key: PRNGKey) -> ParticleCollection:
         run_key, key = jax.random.split(key)
-        return self._reweighted(key, self.prev.run_smc(run_key))
+        return self._reweight(key, self.prev.run_smc(run_key))
 
     def run_csmc(self, key: PRNGKey, retained: ChoiceMap) -> ParticleCollection:
         run_key, key = jax.random.split(key)
-        return self._reweighted(key, self.prev.run_csmc(run_key, retained))
+        return self._reweight(key, self.prev.run_csmc(run_key, retained))
 
-    def _reweighted(self, key: PRNGKey, old: ParticleCollection) -> ParticleCollection:
-        before = self.prev.get_final_target()
+    def _reweight(self, key: PRNGKey, old: ParticleCollection) -> ParticleCollection:
+        """Return traces of the new target with the open choices of the old particles."""
+        old_target = self.prev.get_final_target()
 
-        def reweighted(key: PRNGKey, particle: Trace, log_weight: Weight) -> tuple[Trace, Weight]:
-            latent = before.filter_to_unconstrained(particle.get_choices())
+        def reweight(key: PRNGKey, particle: Trace, log_weight: Weight) -> tuple[Trace, Weight]:
+            latent = old_target.filter_to_unconstrained(particle.get_choices())
             new, weight = self.target.importance(key, latent)
             return new, log_weight + weight - particle.get_score()
 
         keys = jax.random.split(key, self.get_num_particles())
-        return ParticleCollection(*jax.vmap(reweighted)(keys, old.particles, old.log_weights))
+        return ParticleCollection(*jax.vmap(reweight)(keys, old.particles, old.log_weights))
 
 
 def particle_filter(
@@ -284,8 +283,7 @@ def particle_filter(
         history: True to keep whole trajectories, the ancestors of each last particle (smoothing).
 
     Returns:
-        (particles, log of an unbiased estimate of the evidence). The particles are traces of the last step, or with
-        `history` of `kernel.scan()` on `args`.
+        (particles, log of an unbiased estimate of the evidence). Particles are traces of the last step, or of the scan.
     """
     state, xs = args
     leaves = jax.tree.leaves(xs)
@@ -298,25 +296,25 @@ def particle_filter(
         states, log_weights, _ = carry
         t, x, choices = scanned
         resample_key, move_key = jax.random.split(jax.random.fold_in(key, t))
-        before = ParticleCollection(states, log_weights)
+        particles = ParticleCollection(states, log_weights)
 
         def resample() -> tuple[Any, Array, IntArray]:
             parents = systematic(resample_key, log_weights)
-            mean = jnp.full_like(log_weights, before.get_log_marginal_likelihood_estimate())
+            mean = jnp.full_like(log_weights, particles.get_log_marginal_likelihood_estimate())
             return nth(states, parents), mean, parents
 
-        low = before.effective_sample_size() < threshold * k
+        low = particles.effective_sample_size() < threshold * k
         states, log_weights, parents = jax.lax.cond(low, resample, lambda: (states, log_weights, jnp.arange(k)))
 
         # Move each particle, and weight it by the step's given choices.
         def move(key: PRNGKey, state: Any) -> Any:
             trace, weight = kernel.generate(key, choices, (state, x))
-            after, y = trace.get_retval()
-            return (trace if not history else trace.with_args(None)), weight, after, y
+            new_state, y = trace.get_retval()
+            return (trace if not history else trace.with_args(None)), weight, new_state, y
 
-        traces, weights, after, y = jax.vmap(move)(_streams(move_key, k), states)
-        kept = (traces, states, y, parents) if history else None
-        return (after, log_weights + weights, None if history else traces), kept
+        traces, weights, new_states, y = jax.vmap(move)(_streams(move_key, k), states)
+        recorded = (traces, states, y, parents) if history else None
+        return (new_states, log_weights + weights, None if history else traces), recorded
 
     start = jax.tree.map(lambda s: jnp.broadcast_to(s, (k, *jnp.shape(s))), state)
     inputs = (jnp.arange(n), xs, vectorise(constraint, n))
@@ -324,16 +322,15 @@ def particle_filter(
     if not history:  # the carry holds the last step's traces: begin with zeros of their shapes
         shapes = jax.eval_shape(lambda: step(carry, nth(inputs, 0))[0][2])
         carry = (*carry[:2], jax.tree.map(lambda s: jnp.zeros(s.shape, s.dtype), shapes))
-    (states, log_weights, last), kept = jax.lax.scan(step, carry, inputs, length=n)
-    particles: Any = _trajectories(kernel, args, n, states, *kept) if history else last
+    (states, log_weights, last), recorded = jax.lax.scan(step, carry, inputs, length=n)
+    particles: Any = _trajectories(kernel, args, n, states, *recorded) if history else last
     result = ParticleCollection(particles, log_weights)
     return result, result.get_log_marginal_likelihood_estimate()
 
 
 def _streams(key: PRNGKey, k: int) -> PRNGKey:
-    """Return `k` keys of independent streams, like `jax.random.split`, but without a random draw per key. Threefry's
-    streams are independent for any two keys (Salmon et al. 2011), so consecutive numbers may be keys.
-    """
+    """Return `k` keys of independent streams, like `jax.random.split`, but without a random draw per key."""
+    # Threefry's streams are independent for any two keys (Salmon et al. 2011), so consecutive numbers may be keys.
     if not jnp.issubdtype(key.dtype, jax.dtypes.prng_key) or "threefry" not in str(jax.random.key_impl(key)):
         return jax.random.split(key, k)
     first, second = jax.random.key_data(key)
@@ -345,12 +342,11 @@ def _streams(key: PRNGKey, k: int) -> PRNGKey:
 def _trajectories(
     kernel: GenerativeFunction, args: Any, n: int, last: Any, traces: Any, carries: Any, y: Any, parents: Any
 ) -> ScanTrace:
-    """Return the traces of `kernel.scan(n=n)`, one per particle, from the steps' traces (n, k, ...). Particle j of step
-    t + 1 comes from particle `parents[t + 1, j]` of step t.
-    """
+    """Return the traces of `kernel.scan(n=n)`, one per particle, from the steps' traces (n, k, ...)."""
     k = parents.shape[1]
 
-    # Follow the parents back from the last step: the lineage is each particle's ancestor at each step, (n, k).
+    # Particle j of step t + 1 comes from particle `parents[t + 1, j]` of step t. Follow the parents back from the last
+    # step: the lineage is each particle's ancestor at each step, (n, k).
     def back(index: IntArray, parents: IntArray) -> tuple[IntArray, IntArray]:
         return parents[index], index
 
