@@ -121,9 +121,9 @@ def test_the_density_and_place_of_the_stop_are_kept(kind):
     beams, stop = np.arange(len(paths.range_m)), chosen(worlds, field).ravel()
     some = stop < paths.there.sum(axis=1)
     at = (beams[some], stop[some])
-    where = field.where.numpy()[some]
-    np.testing.assert_allclose(where[:, 0], distance[at], atol=1e-4)
-    np.testing.assert_allclose(where[:, 1], variance[at], rtol=1e-3, atol=1e-7)
+    moments = field.stop_moments.numpy()[some]
+    np.testing.assert_allclose(moments[:, 0], distance[at], atol=1e-4)
+    np.testing.assert_allclose(moments[:, 1], variance[at], rtol=1e-3, atol=1e-7)
 
 
 def turn_of(worlds, sweep):

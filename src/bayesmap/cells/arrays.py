@@ -151,7 +151,7 @@ class Draws:
 
     def to_grid(self, values: NDArray[Any], dimension: str, elsewhere: float | NDArray[Any]) -> NDArray[np.float64]:
         """Spread the values of indexed cells, (..., n), over the grid, (..., nx, ny); other cells get ``elsewhere``."""
-        out = np.empty((*values.shape[:-1], self.grid.n_cells))
-        out[...] = np.ravel(elsewhere) if np.ndim(elsewhere) else elsewhere
-        out[..., self.index[dimension]] = values
-        return out.reshape(*values.shape[:-1], *self.grid.shape)
+        spread = np.empty((*values.shape[:-1], self.grid.n_cells))
+        spread[...] = np.ravel(elsewhere) if np.ndim(elsewhere) else elsewhere
+        spread[..., self.index[dimension]] = values
+        return spread.reshape(*values.shape[:-1], *self.grid.shape)

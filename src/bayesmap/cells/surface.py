@@ -27,6 +27,7 @@ PARTS = ("mean_x", "mean_y", "l11", "l21", "l22")  # mean from the cell's centre
 
 
 def _spec(part: str) -> ArraySpec:
+    """Return the specification of the array of one part of all surfaces."""
     text = f"{part} of the surface, from the cell's centre" if part.startswith("mean") else f"{part} of its covariance"
     return ArraySpec(f"surface_{part}", ("surface_cell",), "float32", "half", f"{text}, in edges of a cell")
 

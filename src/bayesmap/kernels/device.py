@@ -66,10 +66,10 @@ def _no_stderr() -> Iterator[None]:
 def resolve(name: str = "cpu") -> str:
     """Return Warp's name of a device such as "cpu" or "cuda:0". Raises `BadInput` if this machine does not have it."""
     start()
-    known = [device.alias for device in wp.get_devices()]
+    names = [device.alias for device in wp.get_devices()]
     alias = "cuda:0" if name == "cuda" else name
-    if alias not in known:
-        raise BadInput(f"device: {name!r} is not on this machine; there is: {', '.join(known)}")
+    if alias not in names:
+        raise BadInput(f"device: {name!r} is not on this machine; there is: {', '.join(names)}")
     return alias
 
 

@@ -41,19 +41,19 @@ def stamp_points(
         for b in range(scene.points.shape[1]):
             if scene.kind[s, b] == wp.uint8(0):
                 continue
-            here = scene.points[s, b]
+            point = scene.points[s, b]
             to_next = wp.vec2f()
             stamps = int(1)
             c = neighbour(b, 1, scene.beams[s], scene.full_circle[s])
             if c >= 0:
                 if scene.kind[s, c] != wp.uint8(0):
-                    apart = wp.length(scene.points[s, c] - here)
-                    if apart > spacing and apart < max_gap(scene.step[s], wp.length(here)):
+                    apart = wp.length(scene.points[s, c] - point)
+                    if apart > spacing and apart < max_gap(scene.step[s], wp.length(point)):
                         stamps = 1 + int(apart / spacing)
-                        to_next = (scene.points[s, c] - here) / wp.float32(stamps)
+                        to_next = (scene.points[s, c] - point) / wp.float32(stamps)
             for k in range(stamps):
-                px = wp.float64(here[0] + wp.float32(k) * to_next[0])
-                py = wp.float64(here[1] + wp.float32(k) * to_next[1])
+                px = wp.float64(point[0] + wp.float32(k) * to_next[0])
+                py = wp.float64(point[1] + wp.float32(k) * to_next[1])
                 cx = int(wp.floor((p[0] + cosine * px - sine * py - origin[g][0]) / resolution))
                 cy = int(wp.floor((p[1] + sine * px + cosine * py - origin[g][1]) / resolution))
                 if cy < -radius or cy >= ny + radius:

@@ -120,12 +120,12 @@ def neighbour_distance(scene: ScanArrays, j: int, beam: int) -> float:
     """Return the spacing of returns on a surface: the distance of the nearer neighbouring point, 0.1 to 2 m."""
     beams = scene.beams[j]
     nearest = float(2.0)
-    here = scene.points[j, beam]
+    point = scene.points[j, beam]
     for side in range(2):
         c = neighbour(beam, 2 * side - 1, beams, scene.full_circle[j])
         if c >= 0:
             if scene.kind[j, c] != wp.uint8(0):
-                nearest = wp.min(nearest, wp.length(scene.points[j, c] - here))
+                nearest = wp.min(nearest, wp.length(scene.points[j, c] - point))
     return wp.max(nearest, 0.1)
 
 

@@ -90,8 +90,8 @@ def scan_normals(
         spread[s, b] = wp.float32(0.0)
         if kind[s, b] == wp.uint8(0):
             continue
-        here = points[s, b]
-        away = wp.length(here)
+        point = points[s, b]
+        away = wp.length(point)
         apart = step_rad * away  # between neighbouring beams on a wall seen head-on
         gap = wp.max(max_gap(step_rad, away), wp.float32(5.0) * noise_m)
         farthest = wp.max(wp.max(wp.float32(0.5), wp.float32(20.0) * noise_m), wp.float32(2.2) * apart)
@@ -101,7 +101,7 @@ def scan_normals(
             sums = wp.vec2f()
             squares = wp.mat22f()
             for side in range(2):
-                last = here
+                last = point
                 for k in range(1, MOST_NEIGHBOURS):
                     c = neighbour(b, wp.where(side == 0, -k, k), beams, full_circle)
                     if c < 0:
@@ -111,7 +111,7 @@ def scan_normals(
                     other = points[s, c]
                     if wp.length(other - last) > gap:
                         break
-                    d = other - here
+                    d = other - point
                     distance = wp.length(d)
                     if distance > farthest:
                         break
@@ -140,7 +140,7 @@ def scan_normals(
                 continue  # noise hides the direction of so short a piece: a longer one may show it
             turn = wp.float32(0.5) * wp.atan2(wp.float32(2.0) * h, a - c2)
             normal = wp.vec2f(-wp.sin(turn), wp.cos(turn))
-            if normal[0] * here[0] + normal[1] * here[1] > wp.float32(0.0):
+            if normal[0] * point[0] + normal[1] * point[1] > wp.float32(0.0):
                 normal = -normal  # towards the laser
             normals[s, b] = normal
             spread[s, b] = wp.float32(1.0) / wp.max(along, wp.float32(1.0e-6))

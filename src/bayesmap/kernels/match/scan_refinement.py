@@ -71,7 +71,7 @@ class Refined:
 
     pose: Vec3ds
     information: wp.array(dtype=wp.mat33d)
-    totals: Float64Rows
+    totals: Float64Rows  # cost, weight, matched, seen of `line_pairs.Sums`
 
 
 @wp.kernel
@@ -170,10 +170,7 @@ class Convergence:
 def refine_scans(
     geometry: Any, refinement: Refinement, convergence: Convergence, threads: int | None = None
 ) -> tuple[Floats, Floats, Floats]:
-    """Refine poses. Returns poses (J, 3), information by pairs in the world's axes (J, 3, 3), and totals (J, 4).
-
-    Totals are cost, weight, points matched, and points seen, as in `line_pairs.Sums`.
-    """
+    """Refine poses. Returns poses (J, 3), information by pairs in the world's axes (J, 3, 3), and totals (J, 4)."""
     device, count = geometry.device, len(refinement.scans)
     jobs = devices.pack(RefinementArrays, device, **vars(refinement))
     schedule = devices.pack(ConvergenceNumbers, device, **vars(convergence))

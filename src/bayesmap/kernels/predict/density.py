@@ -227,7 +227,7 @@ def add_forecasts(
     z_limit = z
     if wp.isinf(z):
         z_limit = wp.where(z > wp.float64(0.0), law.max_m, law.min_m)
-    gone = negligible_weight(law)
+    least_survival = negligible_weight(law)
     decay = laws.object_decay(law, z)
     beyond = traced.first_past(line, rays.cells, rays.offsets[b], rays.offsets[b + 1], out.reach_m[b], wp.float64(0.0))
     for d in range(draws):
@@ -252,7 +252,7 @@ def add_forecasts(
                     if law.kind != NOISE:
                         out.below_max[b] = out.below_max[b] + weight * laws.cumulative(law, law.max_m, stop[1], stop[2])
                         out.below_min[b] = out.below_min[b] + weight * laws.cumulative(law, law.min_m, stop[1], stop[2])
-                if survive < gone:
+                if survive < least_survival:
                     break
     out.most[b] = sums[0]
     out.total[b] = sums[1]
@@ -321,10 +321,8 @@ def log_densities(
     rays: Rays, batches: Iterable[StopStates], sensor: SensorModel, hit_depth: float, *, columns: Ints | None = None,
     device: str = "cpu",
 ) -> Floats:  # fmt: skip
-    """Compute the log predictive density of every reading, (B,), even if beams are traced only as far as it reaches.
-
-    ``columns`` are the columns of the entries' cells in the draws, (K,).
-    """
+    """Compute the log predictive density of every reading, (B,), of beams traced at least as far as it reaches."""
+    # columns: the columns of the entries' cells in the draws, (K,)
     return _sums(rays, rays.columns if columns is None else columns, batches, sensor, hit_depth, device, False)[0]
 
 
@@ -370,12 +368,12 @@ def beam_log_likelihoods(
     x = poses[row, 0] + wp.cos(yaw) * mounts[m, 0] - wp.sin(yaw) * mounts[m, 1]
     y = poses[row, 1] + wp.sin(yaw) * mounts[m, 0] + wp.cos(yaw) * mounts[m, 1]
     line = line_in(frame, x, y, yaw + mounts[m, 2])
-    gone = negligible_weight(law)
+    least_survival = negligible_weight(law)
     decay = laws.object_decay(law, z)
     sums = no_sum(law)
     survive = wp.float64(1.0)
     w = walk_along(line, frame.nx, law.max_m)
-    while w.distance <= w.end and survive >= gone:
+    while w.distance <= w.end and survive >= least_survival:
         if is_inside(w, frame.nx, frame.ny):
             stop = stop_on_walk(maps, chain[row], line, w)
             weight = survive * stop[0]

@@ -161,6 +161,7 @@ def scan_log_likelihoods(
 
 @lru_cache(maxsize=64)
 def _law(sensor: SensorModel, limits: RangeLimits, device: str) -> Any:
+    """Return the law of a sensor in single precision; it is packed once."""
     return laws.sensor_law(sensor, limits, device, SensorLaw32)
 
 

@@ -40,9 +40,9 @@ class StopSums:
 
 @wp.kernel
 def add_stops(
-    first: int, rays: RayArrays, columns: Int32s, maps: MapArrays, draws: int, gone: wp.float64, out: StopSums
+    first: int, rays: RayArrays, columns: Int32s, maps: MapArrays, draws: int, least_survival: wp.float64, out: StopSums
 ):
-    """One thread per beam: add each stop's weight and moments, until the beam's chance is below ``gone``."""
+    """One thread per beam: add each stop's weight and moments, until the beam's chance is below ``least_survival``."""
     # b: beam; d: draw; k: entry; w: weight of its stop.
     b = first + wp.tid()
     line = line_of(rays.lines, b)
@@ -58,7 +58,7 @@ def add_stops(
                     shift = stop[1] - distance_at(line, rays.cells[k], maps.depth)
                     out.shift[k] = out.shift[k] + wp.float32(w * shift)
                     out.square[k] = out.square[k] + wp.float32(w * (shift * shift + stop[2]))
-                if survive < gone:
+                if survive < least_survival:
                     break
         out.no_stop[b] = out.no_stop[b] + survive
 
@@ -81,13 +81,13 @@ def mix_stops(rays: Rays, batches: Iterable[StopStates], hit_depth: float, *, de
     return _mix(rays, rays.columns, on_device, hit_depth, device, float(LEAST_EVENT_CHANCE))
 
 
-def mix_device_stops(rays: Rays, maps: DeviceMaps, gone: float) -> StopMixture:
-    """Average the stops of each beam over draws of all cells; below the chance ``gone`` to get on, it stops nowhere."""
-    return _mix(rays, rays.cells, [(maps.arrays, maps.draws)], maps.arrays.depth, maps.device, gone)
+def mix_device_stops(rays: Rays, maps: DeviceMaps, least_survival: float) -> StopMixture:
+    """Average the stops over draws of all cells. Below ``least_survival`` a beam counts as one that stops nowhere."""
+    return _mix(rays, rays.cells, [(maps.arrays, maps.draws)], maps.arrays.depth, maps.device, least_survival)
 
 
 def _mix(
-    rays: Rays, columns: Ints, batches: Iterable[tuple[Any, int]], hit_depth: float, device: str, gone: float
+    rays: Rays, columns: Ints, batches: Iterable[tuple[Any, int]], hit_depth: float, device: str, least_survival: float
 ) -> StopMixture:
     """Average over batches of maps; ``columns`` are the columns of the entries' cells in the maps."""
     entries = (rays.n_incidences,)
@@ -96,7 +96,7 @@ def _mix(
     draws = 0
     for maps, count in batches:
         draws += count
-        inputs = [*rays_and_columns, maps, count, gone, sums]
+        inputs = [*rays_and_columns, maps, count, least_survival, sums]
         devices.launch(add_stops, rays.n_beams, inputs, device, devices.threads_for(rays.n_beams))
     density.require_draws(draws)
     weight, shift, square = (a.numpy() for a in (sums.weight, sums.shift, sums.square))
@@ -213,32 +213,32 @@ def halve_span(law: SensorLaw64, stops: StopMixtureArrays, s: LevelSearch, level
     for k in range(s.begin, s.end):
         weight = wp.float64(stops.weight[k])
         if weight > LEAST_WEIGHT:
-            at = wp.float64(stops.distance_m[k])
-            p += weight * laws.not_random_below(law, z, decay, at, wp.float64(stops.variance[k]))
+            distance = wp.float64(stops.distance_m[k])
+            p += weight * laws.not_random_below(law, z, decay, distance, wp.float64(stops.variance[k]))
     if s.total * laws.random_below(law, z) + law.p_known * p < level:
         # Upper half: decide the stops whose returns all lie below z.
         s.low = z
-        going = bool(True)
-        while going and s.begin < s.end:
+        is_decided = bool(True)
+        while is_decided and s.begin < s.end:
             k = s.begin
-            at = wp.float64(stops.distance_m[k])
+            distance = wp.float64(stops.distance_m[k])
             variance = wp.float64(stops.variance[k])
             weight = wp.float64(stops.weight[k])
-            going = laws.is_before(law, z, at, variance) or weight <= LEAST_WEIGHT
-            if going:
+            is_decided = laws.is_before(law, z, distance, variance) or weight <= LEAST_WEIGHT
+            if is_decided:
                 if weight > LEAST_WEIGHT:
-                    s.below += weight * laws.not_random_below(law, z, decay, at, variance)
+                    s.below += weight * laws.not_random_below(law, z, decay, distance, variance)
                 s.begin += 1
     else:
         # Lower half: decide the stops whose returns all lie behind z.
         s.high = z
-        going = bool(True)
-        while going and s.begin < s.end:
+        is_decided = bool(True)
+        while is_decided and s.begin < s.end:
             k = s.end - 1
             weight = wp.float64(stops.weight[k])
             behind = laws.is_behind(law, z, wp.float64(stops.distance_m[k]), wp.float64(stops.variance[k]))
-            going = behind or weight <= LEAST_WEIGHT
-            if going:
+            is_decided = behind or weight <= LEAST_WEIGHT
+            if is_decided:
                 if weight > LEAST_WEIGHT:
                     s.behind += weight
                 s.end -= 1

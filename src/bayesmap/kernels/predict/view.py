@@ -113,7 +113,7 @@ def add_beam_information(
     # information of passes before the first cell k that a reading of such a stop can fall into.
     behind = walk_along(line_of_view(frame, views, b), frame.nx, views.longest_m)
     behind_enter = wp.float64(0.0)  # the walk touches the cell in which it starts at its exit
-    learnt = wp.float64(0.0)
+    passed_nats = wp.float64(0.0)
     w = behind
     enter = wp.float64(0.0)
     while w.distance <= w.end and survive > MIN_SURVIVAL:
@@ -131,25 +131,25 @@ def add_beam_information(
                     if is_crossed(behind):
                         behind_enter = exit_distance(behind)
                         if is_inside(behind, frame.nx, frame.ny):
-                            learnt += pass_nats[behind.cell_x * frame.ny + behind.cell_y]
+                            passed_nats += pass_nats[behind.cell_x * frame.ny + behind.cell_y]
                     behind = walk_next(behind)
                 # A third walk, ahead, visits the cells k of readings about this stop.
                 ahead = behind
-                begin = behind_enter
-                known = learnt
+                entry = behind_enter
+                ahead_nats = passed_nats
                 below = wp.float64(0.0)
                 if weight > MIN_SURVIVAL:
-                    below = normal_below((begin - middle) / sigma)
-                while weight > MIN_SURVIVAL and ahead.distance <= ahead.end and begin < high:
+                    below = normal_below((entry - middle) / sigma)
+                while weight > MIN_SURVIVAL and ahead.distance <= ahead.end and entry < high:
                     if is_crossed(ahead):
-                        over = exit_distance(ahead)
-                        below_over = normal_below((over - middle) / sigma)
+                        exit = exit_distance(ahead)
+                        below_exit = normal_below((exit - middle) / sigma)
                         if is_inside(ahead, frame.nx, frame.ny):
                             cell = ahead.cell_x * frame.ny + ahead.cell_y
-                            total += weight * (below_over - below) * (known + hit_nats[cell])
-                            known += pass_nats[cell]
-                        begin = over
-                        below = below_over
+                            total += weight * (below_exit - below) * (ahead_nats + hit_nats[cell])
+                            ahead_nats += pass_nats[cell]
+                        entry = exit
+                        below = below_exit
                     ahead = walk_next(ahead)
             enter = leave
         w = walk_next(w)
@@ -157,9 +157,9 @@ def add_beam_information(
     if survive > MIN_SURVIVAL:
         while behind.distance <= behind.end:
             if is_inside(behind, frame.nx, frame.ny) and is_crossed(behind):
-                learnt += pass_nats[behind.cell_x * frame.ny + behind.cell_y]
+                passed_nats += pass_nats[behind.cell_x * frame.ny + behind.cell_y]
             behind = walk_next(behind)
-        total += survive * learnt
+        total += survive * passed_nats
     out[b] = total
 
 

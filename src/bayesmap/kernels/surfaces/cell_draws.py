@@ -57,7 +57,7 @@ class ActiveCells:
 
 
 @wp.func
-def tries(sweep: int, period: int, c: int) -> bool:
+def tries_candidate(sweep: int, period: int, c: int) -> bool:
     """Return whether a cell in which no reading ends tries a candidate when it is updated, if it has surfaces."""
     return (sweep // period + c) % TRIES_EVERY == 0
 
@@ -71,11 +71,12 @@ def is_silent(sweep: int, period: int, c: int, m: wp.float32, stopped_in: int) -
 
 @wp.func
 def accept_surface(
-    prior: PriorNumbers, centre: wp.vec2, cell: Cell, candidate: Cell, gain: wp.float64, key: wp.uint64, at: wp.uint64
-) -> Cell:
+    prior: PriorNumbers, centre: wp.vec2, cell: Cell, candidate: Cell, gain: wp.float64, key: wp.uint64,
+    counter: wp.uint64,
+) -> Cell:  # fmt: skip
     """Return a candidate from the prior, if it is accepted given the beams' log ratio ``gain``; else the cell."""
     log_ratio = gain + (surface.log_size_penalty(prior, candidate) - surface.log_size_penalty(prior, cell))
-    accepted = wp.log(to_uniform(random_bits(key, at))) < log_ratio
+    accepted = wp.log(to_uniform(random_bits(key, counter))) < log_ratio
     if accepted and surface.is_own(prior, centre, candidate):
         return candidate
     return cell
@@ -87,26 +88,26 @@ def begin_sweep(
     state: ChainArrays, log_prior: Float32s,
 ):  # fmt: skip
     """One thread per chain's cell, before a sweep: reset the counts of its beams, and draw its candidate if any."""
-    # i: thread; u: position among the active cells; c: cell of the grid; here: cell in the arrays of all chains.
+    # i: thread; u: position among the active cells; c: cell of the grid; element: cell in the arrays of all chains.
     i = first + wp.tid()
     chain = i // active.cell.shape[0]
     u = i - chain * active.cell.shape[0]
     c = active.cell[u]
-    here = chain * state.n_cells + c
+    element = chain * state.n_cells + c
     period = int(active.period[u])
-    last_m = state.fixed_m[here]  # in the sweep before
+    last_m = state.fixed_m[element]  # in the sweep before
     learns = True
     if period != 0:
         learns = sweep % period == 0
-    renewed = without_surfaces == 0 and is_silent(sweep - 1, period, c, last_m, state.stopped_in[here])
-    moved = prior_moved != 0 or period == 0 or renewed or last_m == LEARNS
-    if not moved and not learns:
+    renewed = without_surfaces == 0 and is_silent(sweep - 1, period, c, last_m, state.stopped_in[element])
+    outdated = prior_moved != 0 or period == 0 or renewed or last_m == LEARNS
+    if not outdated and not learns:
         return
-    cell = state.cells[here]
+    cell = state.cells[element]
     centre = surface.centre_of(c, active.ny, active.edge_m)
     # Compute the log prior again if the last sweep can have changed it.
-    if moved:
-        density = surface.log_reflectivity_prior(prior, state.solid[here], cell[REFLECTIVITY])
+    if outdated:
+        density = surface.log_reflectivity_prior(prior, state.solid[element], cell[REFLECTIVITY])
         if without_surfaces == 0:
             density += wp.float32(surface.log_surface_prior(prior, centre, cell))
         log_prior[i] = density
@@ -115,24 +116,24 @@ def begin_sweep(
     if without_surfaces == 0:
         if period == 0:
             learns = False  # `endpoint_cells` counts its beams
-        elif learns and tries(sweep, period, c):
+        elif learns and tries_candidate(sweep, period, c):
             # If passing beams are not informative, the cell takes surfaces from the prior instead.
             learns = cell[REFLECTIVITY] > NEGLIGIBLE_REFLECTIVITY
             if learns:
                 trying = FRESH
                 key = sweep_key(state.keys[chain], sweep, CELLS)
-                at = wp.uint64(c) * PER_CELL + AT_FRESH
-                state.candidates[here] = surface.fresh_surface(prior, centre, cell, key, at)
+                counter = wp.uint64(c) * PER_CELL + AT_FRESH
+                state.candidates[element] = surface.fresh_surface(prior, centre, cell, key, counter)
     if learns:
         for part in range(state.parts):
             row = chain * state.parts + part
             state.met[row, c] = 0
             state.hits[row, c] = 0
             state.gain[row, c] = wp.int64(0)
-    state.fixed_m[here] = wp.where(learns, LEARNS, cell[REFLECTIVITY])
+    state.fixed_m[element] = wp.where(learns, LEARNS, cell[REFLECTIVITY])
     if cell[TRYING] != trying:
         cell[TRYING] = trying
-        state.cells[here] = cell
+        state.cells[element] = cell
 
 
 @wp.func
@@ -150,42 +151,42 @@ def update_free_cells(
     first: int, sweep: int, without_surfaces: int, prior: PriorNumbers, active: ActiveCells, state: ChainArrays
 ):
     """One thread per chain's cell: decide on its candidate, draw its reflectivity, or renew its surface."""
-    # i: thread; u: position among the active cells; c: cell of the grid; here: cell in the arrays of all chains.
+    # i: thread; u: position among the active cells; c: cell of the grid; element: cell in the arrays of all chains.
     i = first + wp.tid()
     chain = i // active.cell.shape[0]
     u = i - chain * active.cell.shape[0]
     c = active.cell[u]
-    here = chain * state.n_cells + c
+    element = chain * state.n_cells + c
     period = int(active.period[u])
-    last_m = state.fixed_m[here]
+    last_m = state.fixed_m[element]
     learns = last_m == LEARNS
-    if not learns and (without_surfaces != 0 or not is_silent(sweep, period, c, last_m, state.stopped_in[here])):
+    if not learns and (without_surfaces != 0 or not is_silent(sweep, period, c, last_m, state.stopped_in[element])):
         return
-    cell = state.cells[here]
+    cell = state.cells[element]
     key = sweep_key(state.keys[chain], sweep, CELLS)
-    at = wp.uint64(c) * PER_CELL
+    counter = wp.uint64(c) * PER_CELL
     centre = surface.centre_of(c, active.ny, active.edge_m)
     # Update reflectivity or surface.
     if learns:
         if cell[TRYING] == HIDDEN:
             beams = count_beams(state, chain, c)
-            counts = surface.pseudo_counts(prior, state.solid[here])
+            counts = surface.pseudo_counts(prior, state.solid[element])
             a = counts[0] + wp.float64(beams[0])
             b = counts[1] + wp.float64(beams[1])
-            cell[REFLECTIVITY] = wp.float32(beta_or_zero(a, b, key, at + AT_BETA))
-            state.last_hits[here] = beams[0]
-            state.last_met[here] = beams[1]
+            cell[REFLECTIVITY] = wp.float32(beta_or_zero(a, b, key, counter + AT_BETA))
+            state.last_hits[element] = beams[0]
+            state.last_met[element] = beams[1]
         else:
             units = wp.int64(0)
             for part in range(state.parts):
                 units += state.gain[chain * state.parts + part, c]
             gain = wp.float64(units) * FROM_UNITS
-            cell = accept_surface(prior, centre, cell, state.candidates[here], gain, key, at + AT_ACCEPT)
-    if without_surfaces == 0 and is_silent(sweep, period, c, cell[REFLECTIVITY], state.stopped_in[here]):
-        candidate = surface.fresh_surface(prior, centre, cell, key, at + AT_SILENT)
-        cell = accept_surface(prior, centre, cell, candidate, wp.float64(0.0), key, at + AT_SILENT - wp.uint64(1))
+            cell = accept_surface(prior, centre, cell, state.candidates[element], gain, key, counter + AT_ACCEPT)
+    if without_surfaces == 0 and is_silent(sweep, period, c, cell[REFLECTIVITY], state.stopped_in[element]):
+        candidate = surface.fresh_surface(prior, centre, cell, key, counter + AT_SILENT)
+        cell = accept_surface(prior, centre, cell, candidate, wp.float64(0.0), key, counter + AT_SILENT - wp.uint64(1))
     cell[TRYING] = HIDDEN
-    state.cells[here] = cell
+    state.cells[element] = cell
 
 
 @wp.kernel
@@ -193,10 +194,10 @@ def count_observed(first: int, active: ActiveCells, state: ChainArrays):
     """One thread per chain's cell, after a sweep: count it as inspected, and as observed, if it has counted beams."""
     i = first + wp.tid()
     chain = i // active.cell.shape[0]
-    here = chain * state.n_cells + active.cell[i - chain * active.cell.shape[0]]
-    if state.last_met[here] >= 0:
-        observed = wp.where(state.last_hits[here] + state.last_met[here] > 0, 1, 0)
-        state.observed_counts[here] = state.observed_counts[here] + wp.vec2i(observed, 1)
+    element = chain * state.n_cells + active.cell[i - chain * active.cell.shape[0]]
+    if state.last_met[element] >= 0:
+        observed = wp.where(state.last_hits[element] + state.last_met[element] > 0, 1, 0)
+        state.observed_counts[element] = state.observed_counts[element] + wp.vec2i(observed, 1)
 
 
 SLICE = 4096  # numbers summed by one thread
@@ -287,23 +288,23 @@ def log_beta(a: wp.float64, b: wp.float64) -> wp.float64:
 
 @wp.kernel
 def draw_labels(
-    first: int, colour: int, sweep: int, nx: int, ny: int, prior: PriorNumbers, known: Uint8s, state: ChainArrays
+    first: int, colour: int, sweep: int, nx: int, ny: int, prior: PriorNumbers, status: Uint8s, state: ChainArrays
 ):
     """One thread per chain's cell: draw its label, if it has the colour and is updated in this sweep or untouched."""
-    # c: cell of the grid; here: cell in the arrays of all chains; h: hits; n: beams that met the surface and passed.
-    here = first + wp.tid()
-    chain = here // state.n_cells
+    # c: cell of the grid; element: cell in the arrays of all chains; h: hits; n: beams that met the surface and passed.
+    element = first + wp.tid()
+    chain = element // state.n_cells
     cell_0 = chain * state.n_cells
-    c = here - cell_0
+    c = element - cell_0
     x = c // ny
     y = c - x * ny
     if (x + y) % 2 != colour:
         return
     log_odds = prior.coupling * wp.float64(walls_less_free(state.solid, cell_0, c, nx, ny))
-    if int(known[c]) != UNTOUCHED:
-        beams = wp.vec2i(state.last_hits[here], state.last_met[here])
-        if int(known[c]) != COUNTED:
-            if state.fixed_m[here] != LEARNS or state.cells[here][TRYING] != wp.float32(0.0):
+    if int(status[c]) != UNTOUCHED:
+        beams = wp.vec2i(state.last_hits[element], state.last_met[element])
+        if int(status[c]) != COUNTED:
+            if state.fixed_m[element] != LEARNS or state.cells[element][TRYING] != wp.float32(0.0):
                 return
             beams = count_beams(state, chain, c)
         h = wp.float64(beams[0])
@@ -312,20 +313,20 @@ def draw_labels(
         log_odds -= log_beta(prior.a + h, prior.b + n) - prior.log_beta
     key = sweep_key(state.keys[chain], sweep, CELLS)
     is_solid = draw_wall(log_odds, to_uniform(random_bits(key, wp.uint64(c) * PER_CELL + AT_LABEL)))
-    state.solid[here] = wp.uint8(wp.where(is_solid, 1, 0))
+    state.solid[element] = wp.uint8(wp.where(is_solid, 1, 0))
 
 
 @wp.kernel
-def draw_untouched(first: int, sweep: int, prior: PriorNumbers, known: Uint8s, state: ChainArrays):
+def draw_untouched(first: int, sweep: int, prior: PriorNumbers, status: Uint8s, state: ChainArrays):
     """One thread per chain's cell: draw the reflectivity of a cell that no beam touches, given its label."""
-    here = first + wp.tid()
-    chain = here // state.n_cells
-    c = here - chain * state.n_cells
-    if int(known[c]) != UNTOUCHED:
+    element = first + wp.tid()
+    chain = element // state.n_cells
+    c = element - chain * state.n_cells
+    if int(status[c]) != UNTOUCHED:
         return
-    at = wp.uint64(c) * PER_CELL + AT_UNTOUCHED
-    counts = surface.pseudo_counts(prior, state.solid[here])
+    counter = wp.uint64(c) * PER_CELL + AT_UNTOUCHED
+    counts = surface.pseudo_counts(prior, state.solid[element])
     key = sweep_key(state.keys[chain], sweep, CELLS)
-    cell = state.cells[here]
-    cell[REFLECTIVITY] = wp.float32(beta_variate(counts[0], counts[1], key, at))
-    state.cells[here] = cell
+    cell = state.cells[element]
+    cell[REFLECTIVITY] = wp.float32(beta_variate(counts[0], counts[1], key, counter))
+    state.cells[element] = cell

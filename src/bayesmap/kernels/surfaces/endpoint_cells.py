@@ -151,18 +151,18 @@ def count_endpoint_cells(
     first: int, sweep: int, endpoints: EndpointCells, active: ActiveCells, state: ChainArrays, lists: BeamLists
 ):
     """One thread per chain's cell in which readings end: list its incidences, and count stopped and meeting beams."""
-    # i: thread; u: number of the endpoint cell; c: cell of the grid; here: cell in the arrays of all chains; e:
+    # i: thread; u: number of the endpoint cell; c: cell of the grid; element: cell in the arrays of all chains; e:
     # incidence.
     i = first + wp.tid()
     chain = i // endpoints.cell.shape[0]
     u = i - chain * endpoints.cell.shape[0]
     c = endpoints.cell[u]
-    here = chain * state.n_cells + c
+    element = chain * state.n_cells + c
     beam_0 = chain * state.n_beams
     entries = lists.entries[chain]
     one = wp.float32(1.0)
     key = sweep_key(state.keys[chain], sweep, random.MEETINGS)
-    cell = state.cells[here]
+    cell = state.cells[element]
     centre = surface.centre_of(c, active.ny, active.edge_m)
     m = cell[REFLECTIVITY]
     dx = cell[MEAN_X] - centre[0]
@@ -189,8 +189,8 @@ def count_endpoint_cells(
         x = wp.float32(to_uniform(random_bits(key, wp.uint64(e))))
         n_met += wp.where(x * (one - m * g) < g * (one - m), 1, 0)
     lists.passes[chain, u] = passing_end - begin
-    state.last_hits[here] = end - stopped_begin
-    state.last_met[here] = n_met
+    state.last_hits[element] = end - stopped_begin
+    state.last_met[element] = n_met
 
 
 @wp.kernel
@@ -199,24 +199,24 @@ def update_endpoint_cells(
     endpoints: EndpointCells, active: ActiveCells, state: ChainArrays, lists: BeamLists, blocks: LaneBlocks,
 ):  # fmt: skip
     """One thread per chain's cell in which readings end: draw its reflectivity, then step reflectivity and surface."""
-    # i: thread; u: number of the endpoint cell; c: cell of the grid; here: cell in the arrays of all chains.
+    # i: thread; u: number of the endpoint cell; c: cell of the grid; element: cell in the arrays of all chains.
     i = first + wp.tid()
     chain = i // endpoints.cell.shape[0]
     u = i - chain * endpoints.cell.shape[0]
     c = endpoints.cell[u]
-    here = chain * state.n_cells + c
+    element = chain * state.n_cells + c
     counter = wp.uint64(c) * PER_CELL
-    cell = state.cells[here]
-    solid = state.solid[here]
+    cell = state.cells[element]
+    solid = state.solid[element]
     centre = surface.centre_of(c, active.ny, active.edge_m)
     # Draw the reflectivity from its Beta.
     counts = surface.pseudo_counts(prior, solid)
-    a = counts[0] + wp.float64(state.last_hits[here])
-    b = counts[1] + wp.float64(state.last_met[here])
+    a = counts[0] + wp.float64(state.last_hits[element])
+    b = counts[1] + wp.float64(state.last_met[element])
     beta_key = sweep_key(state.keys[chain], sweep, random.CELLS)
     cell[REFLECTIVITY] = wp.float32(random.beta_variate(a, b, beta_key, counter + AT_BETA))
     # Copy the beams to blocks, if the law allows it.
-    listed = listed_of(lists, chain, u, endpoints.offsets[u], endpoints.offsets[u + 1], state.last_hits[here])
+    listed = listed_of(lists, chain, u, endpoints.offsets[u], endpoints.offsets[u + 1], state.last_hits[element])
     row = chain * state.parts + part
     n_others = int(-1)
     if endpoint_beams.fits_lanes(law, state.beta):
@@ -243,4 +243,4 @@ def update_endpoint_cells(
             if log_joint > least:
                 framed = candidate
                 present = log_joint
-    state.cells[here] = out_of_frame(framed, step, centre)
+    state.cells[element] = out_of_frame(framed, step, centre)

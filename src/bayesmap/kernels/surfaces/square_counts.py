@@ -151,9 +151,9 @@ def count_in_squares(
     if stop < begin or stop >= end:
         return
     counter = STREAM_POINT + wp.uint64(b) * wp.uint64(4)
-    where = state.where[i]
+    moments = state.stop_moments[i]
     key = sweep_key(state.keys[chain], sweep, BEAMS)
-    point = stop_point_m(law, rays.range_m[b], rays.decay[b], where[0], where[1], key, counter)
+    point = stop_point_m(law, rays.range_m[b], rays.decay[b], moments[0], moments[1], key, counter)
     line = line_of(squares.lines, b)
     k = end - 1
     interval = stretch(line, rays.cells[k])
@@ -173,7 +173,7 @@ def draw_stop_chances(
     """One thread per touched cell: draw q from its Beta posterior, compute its mean, and count a kept draw."""
     i = wp.tid()
     c = squares.touched[i]
-    here = chain * state.n_cells + c
+    element = chain * state.n_cells + c
     arrived = squares.crossings[c] - squares.stopped_before[c]
     counts = pseudo_counts(prior, solid[c])
     a = counts[0] + wp.float64(squares.stopped_inside[c])
@@ -183,7 +183,7 @@ def draw_stop_chances(
     squares.expected[i] = wp.float32(a / (a + b))
     if kept != 0:
         observed = wp.where(arrived > 0, 1, 0)
-        state.observed_counts[here] = state.observed_counts[here] + wp.vec2i(observed, 1)
+        state.observed_counts[element] = state.observed_counts[element] + wp.vec2i(observed, 1)
 
 
 class InSquares(NamedTuple):

@@ -97,8 +97,8 @@ class StopChains:
             solid=by_cell if solid is None else solid.ravel().astype(np.uint8),
             fixed_m=np.full(by_cell, stops.LEARNS, dtype=np.float32),
             candidates=(1,) if self.without_surfaces else by_cell, met=by_part, hits=by_part, gain=by_part,
-            stop=np.full(by_beam, -1, dtype=np.int32), where=by_beam, stopped_in=unknown, log_likelihood=by_beam,
-            lazy_free=by_beam, last_hits=by_cell if counts is None else counts[:, 0].flatten(),
+            stop=np.full(by_beam, -1, dtype=np.int32), stop_moments=by_beam, stopped_in=unknown, log_likelihood=by_beam,
+            lazy_survival=by_beam, last_hits=by_cell if counts is None else counts[:, 0].flatten(),
             last_met=unknown.copy() if counts is None else counts[:, 1].flatten(),
             observed_counts=by_cell if observed_counts is None else np.array(observed_counts).reshape(-1, 2),
         )  # fmt: skip
@@ -141,34 +141,34 @@ class StopChains:
 
         def cell_launches(sweep: int) -> list[Launch]:
             """Return the kernels that draw the cells given the stops."""
-            out = [(endpoint_cells.count_endpoint_cells, endpoints, [sweep, *endpoint_inputs])]
+            launches = [(endpoint_cells.count_endpoint_cells, endpoints, [sweep, *endpoint_inputs])]
             if prior.coupling > 0:
-                out.append((cell_draws.sum_label_prior, label_sums.shape[1], [*shape, packed, state, label_sums]))
+                launches.append((cell_draws.sum_label_prior, label_sums.shape[1], [*shape, packed, state, label_sums]))
                 inputs = [sweep, *shape, packed, self._status, state]
-                out += [(cell_draws.draw_labels, cells, [colour, *inputs]) for colour in (0, 1)]
+                launches += [(cell_draws.draw_labels, cells, [colour, *inputs]) for colour in (0, 1)]
             inputs = [sweep, self.without_surfaces, packed, self._active, state]
-            out.append((cell_draws.update_free_cells, touched, inputs))
+            launches.append((cell_draws.update_free_cells, touched, inputs))
             inputs = [sweep, steps, law, packed, self._rays, *endpoint_inputs, self._blocks]
-            out.append((endpoint_cells.update_endpoint_cells, endpoints, inputs))
+            launches.append((endpoint_cells.update_endpoint_cells, endpoints, inputs))
             if self.without_surfaces and observing_after is not None and sweep >= observing_after:
-                out.append((cell_draws.count_observed, touched, [self._active, state]))
-            return out
+                launches.append((cell_draws.count_observed, touched, [self._active, state]))
+            return launches
 
         def sweep_launches(i: int) -> list[Launch]:
             """Return the kernels of the i-th sweep in their order."""
             sweep, changed = first + i, int(moved and i == 0)
             lazy, lazy_before = (int(self._schedule.updates_lazy(number)) for number in (sweep, sweep - 1))
             inputs = [sweep, self.without_surfaces, packed, changed, self._active, state, self._log_priors]
-            out = [(cell_draws.begin_sweep, touched, inputs)]
+            launches = [(cell_draws.begin_sweep, touched, inputs)]
             if not lazy and (lazy_before or (starts and i == 0)):
-                out.append((stops.pass_lazy_cells, beams, [self._lazy, self._rays, state]))
-            out.append((stops.draw_stops, beams, [sweep, lazy, law, self._rays, state]))
+                launches.append((stops.pass_lazy_cells, beams, [self._lazy, self._rays, state]))
+            launches.append((stops.draw_stops, beams, [sweep, lazy, law, self._rays, state]))
             if steps > 0:
-                out += cell_launches(sweep)
-            out.append((cell_draws.sum_slices, beam_sums.shape[1], [beams, state.log_likelihood, beam_sums]))
-            out.append((cell_draws.sum_slices, cell_sums.shape[1], [touched, self._log_priors, cell_sums]))
-            out.append((cell_draws.sum_log_joint, 1, [i, beam_sums, cell_sums, label_sums, likelihood, log_prior]))
-            return out
+                launches += cell_launches(sweep)
+            launches.append((cell_draws.sum_slices, beam_sums.shape[1], [beams, state.log_likelihood, beam_sums]))
+            launches.append((cell_draws.sum_slices, cell_sums.shape[1], [touched, self._log_priors, cell_sums]))
+            launches.append((cell_draws.sum_log_joint, 1, [i, beam_sums, cell_sums, label_sums, likelihood, log_prior]))
+            return launches
 
         def report(callback: Callable[[int, int], None] | None, chains: range, i: int) -> None:
             for chain in chains:
@@ -176,6 +176,7 @@ class StopChains:
                     callback(chain, first + i)
 
         def make_sweeps(chains: range, run: Callable[[Launch], None]) -> None:
+            """Make all sweeps of some chains; ``run`` runs a kernel for all of them."""
             for i in range(count):
                 report(before, chains, i)
                 for launch in sweep_launches(i):
@@ -183,6 +184,7 @@ class StopChains:
                 report(after, chains, i)
 
         def sweep_alone(chains: range) -> None:
+            """Make all sweeps of neighbouring chains on this thread."""
             make_sweeps(chains, lambda launch: self._launch_part(launch, (chains, 0)))
 
         if self.device != "cpu":
@@ -207,6 +209,7 @@ class StopChains:
             wp.launch(kernel, dim=end - begin, inputs=inputs, device=self.device)
 
     def _launch(self, kernel: Any, size: int, inputs: list[Any]) -> None:
+        """Launch a kernel over ``size`` elements."""
         wp.launch(kernel, dim=size, inputs=[0, *inputs], device=self.device)
 
     def _map(self, work: Callable[[Any], None], tasks: Sequence[Any]) -> None:
@@ -301,5 +304,5 @@ class StopChains:
 
     def stops(self, chain: int) -> tuple[NDArray[np.bool_], Singles, Singles]:
         """Return whether each beam of a chain stopped, at what distance in metres and with what variance, (B,) each."""
-        where = self._of(self._state.where, chain)
-        return self._of(self._state.stop, chain) < self.plan.rays.offsets[1:], where[:, 0].copy(), where[:, 1].copy()
+        distance_m, variance = self._of(self._state.stop_moments, chain).T.copy()
+        return self._of(self._state.stop, chain) < self.plan.rays.offsets[1:], distance_m, variance

@@ -91,9 +91,9 @@ class ChainArrays:
     met: Int32Rows  # (chains * parts, n_cells): beams that met the surface and passed
     hits: Int32Rows  # beams that stopped
     gain: wp.array2d(dtype=wp.int64)  # log ratio for the candidate, in units of 2^-24 nats
-    lazy_free: Float32s  # each beam's chance to pass its lazy far cells
+    lazy_survival: Float32s  # each beam's chance to pass its lazy far cells
     stop: Int32s  # the entry at which the beam stopped; the end of its entries if it stopped nowhere
-    where: wp.array(dtype=wp.vec2)  # distance and variance of that stop
+    stop_moments: wp.array(dtype=wp.vec2)  # distance and variance of that stop
     stopped_in: Int32s  # the last sweep in which a cell stopped a beam
     log_likelihood: Float32s  # log-likelihood of the beam's reading, summed over all stops
     last_hits: Int32s  # beams that stopped in a cell when it last drew its reflectivity
@@ -163,7 +163,7 @@ def draw_stops(
     first: int, part: int, sweep: int, lazy_updates: int, law: SensorLaw32, rays: TracedRays, state: ChainArrays
 ):
     """One thread per chain's beam: draw and count its stop. ``lazy_updates`` is 1 if the sweep updates lazy cells."""
-    # i: beam in the arrays of all chains; b: beam; k: entry; c: cell of the grid; m, g, a: see the module; free: T.
+    # i: beam in the arrays of all chains; b: beam; k: entry; c: cell of the grid; m, g, a: see the module; survive: T.
     i = first + wp.tid()
     chain = i // state.n_beams
     b = i - chain * state.n_beams
@@ -184,11 +184,11 @@ def draw_stops(
     ray = Ray(rays.start_m[b], rays.direction[b])
 
     # Far entries: multiply up T, and count passes in cells that learn.
-    free = one
+    survive = one
     far_begin = begin
     far_end = near
     if lazy_updates == 0:
-        free = state.lazy_free[i]
+        survive = state.lazy_survival[i]
         far_begin = rays.watched_offsets[b]
         far_end = rays.watched_offsets[b + 1]
     # Each loop has its own names: Warp would carry shared ones, and whole cells, from round to round.
@@ -201,10 +201,10 @@ def draw_stops(
         if m_far < wp.float32(0.0) or m_far > NEGLIGIBLE_REFLECTIVITY:
             cell_far = state.cells[cell_0 + c_far]
             g_far = meeting_chance(rays, cell_far, ray)
-            free = free * (one - cell_far[REFLECTIVITY] * g_far)
+            survive = survive * (one - cell_far[REFLECTIVITY] * g_far)
             if m_far < wp.float32(0.0):
                 count_pass(state, chain, part, c_far, cell_far, g_far, ray, key, k_far, 1)
-    stopped_far = one - free
+    stopped_far = one - survive
     total = wp.float64(tempered(law.uniform, state.beta)) * wp.float64(stopped_far)
     choice = FAR
 
@@ -219,24 +219,24 @@ def draw_stops(
         m_near = state.fixed_m[cell_0 + c_near]
         if m_near < wp.float32(0.0):
             some_learn = 1
-        if m_near < wp.float32(0.0) or m_near * free > bound or m_near > NEGLIGIBLE_REFLECTIVITY:
+        if m_near < wp.float32(0.0) or m_near * survive > bound or m_near > NEGLIGIBLE_REFLECTIVITY:
             cell_near = state.cells[cell_0 + c_near]
-            if cell_near[REFLECTIVITY] * free > bound:
+            if cell_near[REFLECTIVITY] * survive > bound:
                 crossing = cross_cell(rays, k_near, cell_near, ray)
                 a = cell_near[REFLECTIVITY] * crossing.chance
                 p = tempered(laws.stop_density(law, reading, decay, crossing.distance_m, crossing.variance), state.beta)
-                weight = wp.float64(free * a * p)
+                weight = wp.float64(survive * a * p)
                 total += weight
                 bound = wp.max(bound, negligible * wp.float32(total))
                 u = to_uniform(random_bits(key, STREAM_CHOICE + wp.uint64(k_near)))
                 if u * total < weight:
                     choice = k_near
-                free = free * (one - a)
+                survive = survive * (one - a)
             elif cell_near[REFLECTIVITY] > NEGLIGIBLE_REFLECTIVITY:
-                free = free * (one - cell_near[REFLECTIVITY] * meeting_chance(rays, cell_near, ray))
-            if free <= bound:
+                survive = survive * (one - cell_near[REFLECTIVITY] * meeting_chance(rays, cell_near, ray))
+            if survive <= bound:
                 break  # further stops, often many behind a wall, have no weight
-    nowhere = wp.float64(free * tempered(laws.no_stop_density(law, reading, decay), state.beta))
+    nowhere = wp.float64(survive * tempered(laws.no_stop_density(law, reading, decay), state.beta))
     total += nowhere
     if to_uniform(random_bits(key, STREAM_END + wp.uint64(b))) * total < nowhere:
         choice = end
@@ -246,13 +246,13 @@ def draw_stops(
     if choice == FAR:
         # Rare: find the far cell, and undo the counts from this cell on.
         target = wp.float32(to_uniform(random_bits(key, STREAM_FAR + wp.uint64(b)))) * stopped_far
-        past = wp.float32(1.0)
+        survive_far = wp.float32(1.0)
         for k in range(begin, near):
             c = rays.cells[k]
             cell = state.cells[cell_0 + c]
             g = meeting_chance(rays, cell, ray)
-            past = past * (one - cell[REFLECTIVITY] * g)
-            if choice == FAR and (one - past >= target or k == near - 1):
+            survive_far = survive_far * (one - cell[REFLECTIVITY] * g)
+            if choice == FAR and (one - survive_far >= target or k == near - 1):
                 choice = k
             if choice != FAR and state.fixed_m[cell_0 + c] < wp.float32(0.0):
                 count_pass(state, chain, part, c, cell, g, ray, key, k, -1)
@@ -270,7 +270,7 @@ def draw_stops(
         c_stop = rays.cells[choice]
         cell_stop = state.cells[cell_0 + c_stop]
         stopped = cross_cell(rays, choice, cell_stop, ray)
-        state.where[i] = wp.vec2(stopped.distance_m, stopped.variance)
+        state.stop_moments[i] = wp.vec2(stopped.distance_m, stopped.variance)
         state.stopped_in[cell_0 + c_stop] = sweep
         if state.fixed_m[cell_0 + c_stop] >= wp.float32(0.0):
             return  # the cell does not count in this sweep, or `endpoint_cells` counts for it
@@ -305,13 +305,13 @@ def pass_lazy_cells(first: int, lazy: Uint8s, rays: TracedRays, state: ChainArra
     b = i - chain * state.n_beams
     cell_0 = chain * state.n_cells
     ray = Ray(rays.start_m[b], rays.direction[b])
-    free = wp.float32(1.0)
+    survive = wp.float32(1.0)
     for k in range(rays.offsets[b], rays.near[b]):
         c = rays.cells[k]
         if lazy[c] != wp.uint8(0) and state.fixed_m[cell_0 + c] > NEGLIGIBLE_REFLECTIVITY:
             cell = state.cells[cell_0 + c]
-            free = free * (wp.float32(1.0) - cell[REFLECTIVITY] * meeting_chance(rays, cell, ray))
-    state.lazy_free[i] = free
+            survive = survive * (wp.float32(1.0) - cell[REFLECTIVITY] * meeting_chance(rays, cell, ray))
+    state.lazy_survival[i] = survive
 
 
 class UpdateSchedule:

@@ -140,22 +140,22 @@ def block_weights(t: Table, blocks: BlockArrays, chain: Chain, block: int, x: in
             last = blocks.last[i]
             end = t.offsets[b + 1]
             # The first wall outside the block: the beam's first wall, or the next one if it lies in the block.
-            out = f
-            l_out = chain.current[b]
+            outside = f
+            outside_loglik = chain.current[b]
             if f <= last and index_in_block(t.cells[wp.min(f, end - 1)], x, y, blocks.ny) >= 0:
-                out = f + 1
-                while out < end:
-                    c = t.cells[out]
+                outside = f + 1
+                while outside < end:
+                    c = t.cells[outside]
                     if chain.walls[c] != wp.uint8(0) and index_in_block(c, x, y, blocks.ny) < 0:
                         break
-                    out += 1
-                l_out = chains.entry_loglik(t, b, out, end)
+                    outside += 1
+                outside_loglik = chains.entry_loglik(t, b, outside, end)
             # Add l_j to the states in which j is the first wall of the beam.
             free = int(0)
-            for e in range(k, wp.min(last + 1, out)):
+            for e in range(k, wp.min(last + 1, outside)):
                 j = index_in_block(t.cells[e], x, y, blocks.ny)
                 if j >= 0:
-                    weights = weights + wp.float64(t.loglik[e] - l_out) * blocks.takes[4 * free + j]
+                    weights = weights + wp.float64(t.loglik[e] - outside_loglik) * blocks.takes[4 * free + j]
                     free = free | (1 << j)
     return weights
 

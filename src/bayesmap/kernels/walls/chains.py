@@ -60,16 +60,16 @@ def walls_less_free(walls: Uint8s, cell_0: int, c: int, nx: int, ny: int) -> int
     """Count walls minus free cells among the neighbours of cell c; the map begins at element ``cell_0``."""
     x = c // ny
     y = c - x * ny
-    here = cell_0 + c
+    element = cell_0 + c
     balance = int(0)
     if x > 0:
-        balance += wp.where(walls[here - ny] != wp.uint8(0), 1, -1)
+        balance += wp.where(walls[element - ny] != wp.uint8(0), 1, -1)
     if x < nx - 1:
-        balance += wp.where(walls[here + ny] != wp.uint8(0), 1, -1)
+        balance += wp.where(walls[element + ny] != wp.uint8(0), 1, -1)
     if y > 0:
-        balance += wp.where(walls[here - 1] != wp.uint8(0), 1, -1)
+        balance += wp.where(walls[element - 1] != wp.uint8(0), 1, -1)
     if y < ny - 1:
-        balance += wp.where(walls[here + 1] != wp.uint8(0), 1, -1)
+        balance += wp.where(walls[element + 1] != wp.uint8(0), 1, -1)
     return balance
 
 
@@ -95,10 +95,10 @@ def pairs_alike(walls: Uint8s, cell_0: int, begin: int, end: int, nx: int, ny: i
     pairs = int(0)
     for c in range(begin, end):
         x = c // ny
-        here = cell_0 + c
-        if x < nx - 1 and walls[here] == walls[here + ny]:
+        element = cell_0 + c
+        if x < nx - 1 and walls[element] == walls[element + ny]:
             pairs += 1
-        if c - x * ny < ny - 1 and walls[here] == walls[here + 1]:
+        if c - x * ny < ny - 1 and walls[element] == walls[element + 1]:
             pairs += 1
     return pairs
 

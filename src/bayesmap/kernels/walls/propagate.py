@@ -215,4 +215,5 @@ class Beliefs:
         return np.array(self._arrays.belief.numpy())
 
     def _gather(self) -> None:
+        """Sum the messages to every cell."""
         devices.launch(cell_beliefs, self._cells, [self._sides, self._arrays], self._device)
