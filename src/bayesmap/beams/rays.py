@@ -80,8 +80,9 @@ class Rays:
         offsets = np.concatenate([[0], np.cumsum(lengths)]).astype(np.int32)
         entries = np.repeat(self.offsets[beams] - offsets[:-1], lengths) + np.arange(offsets[-1])
         return Rays(
-            self.grid, offsets, self.cells[entries], offsets[:-1] + self.near[beams] - self.offsets[beams],
-            self.start_m[beams], self.direction[beams], self.range_m[beams], self.limits,
+            grid=self.grid, offsets=offsets, cells=self.cells[entries], limits=self.limits,
+            near=offsets[:-1] + self.near[beams] - self.offsets[beams], start_m=self.start_m[beams],
+            direction=self.direction[beams], range_m=self.range_m[beams],
         )  # fmt: skip
 
     def beam_of_entry(self) -> NDArray[np.int32]:
@@ -143,8 +144,7 @@ def around_readings(scans: Scans, margin_m: float | Floats, resolution_m: float)
     """Return ``reach_m`` and ``near_m`` of `bayesmap.kernels.rays.trace_rays` around readings, (B,) each.
 
     If a reading is no hit, they are the sensor's largest range and 0. ``margin_m`` is the largest distance of a stop
-    from its reading, noise and surface included, one number or (B,). Stops are weighed from one cell before the margin
-    on.
+    from its reading, one number or (B,). Stops are weighed from one cell before the margin on.
     """
     ranges = scans.ranges_m.ravel()
     finite = np.isfinite(ranges)

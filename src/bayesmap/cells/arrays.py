@@ -42,11 +42,9 @@ def count_walls(packed: NDArray[np.uint8], cells: int) -> NDArray[np.int64]:
 
 
 def as_halves(values: NDArray[np.floating]) -> NDArray[np.float16]:
-    """Return exactly `values.astype(np.float16)`, in a fifth of the time if many numbers are close to zero.
-
-    NumPy takes 80 ns for each number that becomes a subnormal half, and most reflectivities do. The bits of a subnormal
-    half, without its sign, are its multiple of the smallest subnormal half.
-    """
+    """Return exactly `values.astype(np.float16)`, in a fifth of the time if many numbers are close to zero."""
+    # NumPy takes 80 ns for each number that becomes a subnormal half, and most reflectivities do. The bits of a
+    # subnormal half, without its sign, are its multiple of the smallest subnormal half.
     size = np.abs(values)
     small = size < LEAST_NORMAL
     halves: NDArray[np.float16] = np.where(small, values.dtype.type(0), values).astype(np.float16)

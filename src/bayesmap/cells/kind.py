@@ -61,11 +61,7 @@ class CellPrior(ABC):
 
     @classmethod
     def of(cls, prior: CellPrior, asked_by: str, remedy: str = "") -> Self:
-        """Return the prior itself if it is of this kind, for functions that work with one kind alone.
-
-        Raises:
-            BadInput: a prior of another kind. The message names the function ``asked_by``, and the remedy.
-        """
+        """Return the prior. Raises `BadInput`, which names ``asked_by`` and the remedy, if it is of another kind."""
         if not isinstance(prior, cls):
             advice = f"; {remedy}" if remedy else ""
             raise BadInput(f"{asked_by}: the prior must be {cls.__name__}, got {type(prior).__name__}{advice}")

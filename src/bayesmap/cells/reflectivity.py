@@ -188,8 +188,9 @@ class Beta(CellPrior):
     def kernel_numbers(self, edge_m: float) -> KernelNumbers:
         """Return the prior's parameters for kernels, which ignore the parameters of surfaces here."""
         return KernelNumbers(
-            self.a, self.b, edge_m, edge_m**2, 3.0, edge_m, 0.5 * edge_m, self.coupling, self.a_solid, self.b_solid
-        )
+            a=self.a, b=self.b, tau_m=edge_m, psi_m2=edge_m**2, nu=3.0, kappa_m=edge_m, half_m=0.5 * edge_m,
+            coupling=self.coupling, a_solid=self.a_solid, b_solid=self.b_solid,
+        )  # fmt: skip
 
     def map_of(self, draws: Draws, chain: int, draw: int) -> Floats:
         """Return each cell's chance to stop a beam in one draw, (nx, ny); untouched cells have the prior's mean."""

@@ -158,8 +158,9 @@ class Surface(Beta):
     def kernel_numbers(self, edge_m: float) -> KernelNumbers:
         """Return the prior's parameters for kernels."""
         return KernelNumbers(
-            self.a, self.b, self.mean_scale * edge_m, (self.spread * edge_m) ** 2, self.dof, self.size_scale * edge_m,
-            0.5 * edge_m, self.coupling, self.a_solid, self.b_solid,
+            a=self.a, b=self.b, tau_m=self.mean_scale * edge_m, psi_m2=(self.spread * edge_m) ** 2, nu=self.dof,
+            kappa_m=self.size_scale * edge_m, half_m=0.5 * edge_m, coupling=self.coupling, a_solid=self.a_solid,
+            b_solid=self.b_solid,
         )  # fmt: skip
 
     def surfaces(self, draws: Draws) -> tuple[Floats, Floats, Floats]:

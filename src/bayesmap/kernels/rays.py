@@ -244,7 +244,10 @@ def trace_rays(
     cells = wp.empty(int(offsets[-1]), dtype=wp.int32, device=device)
     near = follow_beams(beams, np.zeros(beams) if near_m is None else near_m, offsets, cells)
     limits = RangeLimits(scans.min_range_m, scans.max_range_m)
-    return Rays(grid, offsets, cells.numpy(), near, start_m, direction, ranges, limits)
+    return Rays(
+        grid=grid, offsets=offsets, cells=cells.numpy(), near=near, start_m=start_m, direction=direction,
+        range_m=ranges, limits=limits,
+    )  # fmt: skip
 
 
 def offsets_of(counts: Ints) -> Ints:

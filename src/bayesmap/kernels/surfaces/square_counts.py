@@ -6,9 +6,10 @@ If a surface stops a beam at about t* with variance s^2 (`bayesmap.beams.rays`),
 
     p(t | z) proportional to N(t; t*, s^2) p(z | t).
 
-Under a mixture this is a normal law. Under a tabulated law t is chosen from candidates with weights p(t | z) / q(t)
-(sampling importance resampling, Rubin 1987). Half lie at quantiles of the surface's law, half at quantiles of the law
-that the reading suggests, evenly spread with one random shift; q is the density of both halves together.
+Under a mixture this is N(t*, s^2), or proportional to N(t; t*, s^2) N(t; z, sigma^2) if the reading returned from the
+point. Under a tabulated law t is chosen from candidates with weights p(t | z) / q(t) (sampling importance resampling,
+Rubin 1987). Half lie at quantiles of the surface's law, half at quantiles of the law that the reading suggests, evenly
+spread with one random shift; q is the density of both halves together.
 """
 
 from typing import Any, NamedTuple
