@@ -293,12 +293,13 @@ def with_scans(messages, *scans):
     return [*without(messages, "/scan"), *(("/scan", SCAN, t, scan) for t, scan in scans)]
 
 
-def refused(path, **options):
-    """Return the one sentence by which a log is refused; it begins with the path."""
+def refused(path, *parts, **options):
+    """Return the one sentence by which a log is refused; it begins with the path and has some parts."""
     with pytest.raises(bm.BadInput) as error:
         describe_log(path, **options)
     assert str(error.value).startswith(str(path))
     assert "\n" not in str(error.value)
+    assert [part for part in parts if part not in str(error.value)] == []
     return str(error.value)
 
 

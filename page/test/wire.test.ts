@@ -13,7 +13,7 @@ import { webSocketTransport } from "../src/transport/socket";
 import { widgetTransport, type Model } from "../src/transport/widget";
 import { aDocument, Desk, LIMITS, LOG, wallsOf, type Message } from "./desk";
 
-/** What the library says, where its tests run these (tests/app/test_page_logic.py). */
+/** What the library says, where its tests run these (tests/app/test_page_build.py). */
 const file = process.env.BAYESMAP_LIBRARY;
 const library = file ? JSON.parse(readFileSync(file, "utf8")) : null;
 const withoutLibrary = "run by pytest, this is compared with the library";

@@ -4,7 +4,7 @@ import contextlib
 
 import pytest
 from building_log import room_run
-from page_driver import ARGUMENTS, CHROMIUM, DESKTOP, WAIT_SECONDS, document, listen, served, until, watch_for_trouble
+from page_driver import ARGUMENTS, CHROMIUM, WAIT_SECONDS, document, new_context, served, until, watch_for_trouble
 from warm_worker import FORKS, Forked
 
 import bayesmap as bm
@@ -50,14 +50,10 @@ def open_page(browser):
     troubles = []
     with contextlib.ExitStack() as opened:
 
-        def open_(where, *, quiet=True, heard=None, **options):
+        def open_(where, *, quiet=True, **options):
             if isinstance(where, dict):
                 where, _ = opened.enter_context(served(started=parse_document(where)))
-            context = opened.enter_context(contextlib.closing(browser.new_context(**{**DESKTOP, **options})))
-            context.set_default_timeout(1000 * WAIT_SECONDS)
-            page = context.new_page()
-            if heard is not None:
-                listen(page, heard)
+            page = opened.enter_context(contextlib.closing(new_context(browser, **options))).new_page()
             if quiet:
                 watch_for_trouble(page, troubles)
             page.goto(where)

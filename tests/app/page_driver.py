@@ -9,6 +9,7 @@ import shutil
 import threading
 import time
 import zlib
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -17,7 +18,7 @@ from PIL import Image
 from bayesmap.app import server as app_server
 from bayesmap.app.edits import tutorial_document
 from bayesmap.app.hub import Hub
-from bayesmap.app.protocol.wire import parse_document, unframe
+from bayesmap.app.protocol.wire import parse_document
 from bayesmap.app.scene import simulated_scene
 from bayesmap.app.shown.without_chains import Preview
 
@@ -30,90 +31,19 @@ ARGUMENTS = (
 )  # fmt: skip
 WAIT_SECONDS = 180.0
 """How long anything may take that a page does, on a machine that others use, too."""
+PROBES = Path(__file__).with_name("probes.js")
 DESKTOP = {"viewport": {"width": 1280, "height": 860}, "color_scheme": "light"}
 
 NO_WALLS = base64.b64encode(bytes(56)).decode()
-"""Of 21 x 21 cells."""
-
-READ = """
-() => {
-  const s = bayesmap.snapshot();
-  const bytes = (a) => { let t = ""; for (const v of a) t += String.fromCharCode(v); return btoa(t); };
-  const plain = ([name, value]) => [name, value?.buffer ? Array.from(value, String) : value];
-  const scan = s.scan && Object.fromEntries(Object.entries(s.scan).map(plain));
-  const observed = bytes(s.reached.map((share) => Number(share >= 128)));
-  return {...s, probability: bytes(s.probability), observed, walls: bytes(s.walls), scan};
-}
-"""
+"""The packed walls of an empty map of 21 x 21 cells."""
 
 
-BRIEFLY = """
-() => {
-  const s = window.bayesmap?.snapshot();
-  const { generation, connected, worker, running, seq, status, stage, painted, events } = s ?? {};
-  const { trace, traced, ...shown } = painted ?? {};
-  const { method, cells, sweeps } = s?.document ?? {};
-  const known = { generation, connected, worker, running, seq, status, stage, shown, method, cells, sweeps, events };
-  return JSON.stringify(known);
-}
-"""
-"""What a wait in vain tells."""
-
-NEXT_FRAME = "() => new Promise((done) => requestAnimationFrame(() => done()))"
-"""What is known is painted in the next frame, and callbacks run in the order in which they were asked for."""
-
-STILL = """
-() => new Promise((done) => {
-  let before = "", frames = 0;
-  const look = () => {
-    const { layers, events, seq } = bayesmap.snapshot();
-    const now = JSON.stringify([layers, events.paints, seq]);
-    frames = now === before && seq.sent === seq.confirmed ? frames + 1 : 0;
-    before = now;
-    if (frames === 12) done();
-    else requestAnimationFrame(look);
-  };
-  look();
-})
-"""
-
-END = """(beam) => {
-  const { scan, document } = bayesmap.snapshot();
-  const { resolution, origin } = document.grid;
-  const angle = scan.pose[2] + scan.angles[beam];
-  const half = (v, axis) => (v - origin[axis]) / resolution - 0.5;
-  const end = [Math.cos, Math.sin].map((f, axis) => half(scan.pose[axis] + scan.ranges[beam] * f(angle), axis));
-  return bayesmap.cellToClient(...end);
-}"""
-"""Where a beam of the scan on show ended, on the page."""
-
-WRITTEN = """() => {
-  // what is written on canvases, and where, from now on
-  window.written = [];
-  const { fillText } = CanvasRenderingContext2D.prototype;
-  CanvasRenderingContext2D.prototype.fillText = function (text, x, y, ...rest) {
-    const { a, e } = this.getTransform();
-    const wide = this.measureText(text).width;
-    const from = x - ({ right: wide, end: wide, center: wide / 2 }[this.textAlign] ?? 0);
-    window.written.push({ text, left: a * from + e, right: a * (from + wide) + e, y, align: this.textAlign,
-                          chart: Boolean(this.canvas.closest(".chart")), wide: this.canvas.width });
-    return fillText.call(this, text, x, y, ...rest);
-  };
-}"""
-
-WATCH = """
-() => {
-  window.seen = [];
-  let last;
-  const look = () => {
-    const s = bayesmap.snapshot();
-    const now = JSON.stringify(EXPRESSION);
-    if (now !== last) window.seen.push(JSON.parse((last = now)));
-    requestAnimationFrame(look);
-  };
-  look();
-}
-"""
+def new_context(browser, wait_s=WAIT_SECONDS, **options):
+    """Open a context of a browser whose pages have the probes."""
+    context = browser.new_context(**{**DESKTOP, **options})
+    context.add_init_script(path=PROBES)
+    context.set_default_timeout(1000 * wait_s)
+    return context
 
 
 class Served:
@@ -181,12 +111,12 @@ DONE = "s.painted.sweeps >= s.document.sweeps || s.painted.approximate && !/auto
 
 
 def document(**changes):
-    """The tutorial's document as JSON, with changes."""
+    """Return the tutorial's document as JSON, with changes."""
     return {**tutorial_document().to_json(), **changes}
 
 
 def propagated(json_document):
-    """The readings of a document, and what belief propagation says of them."""
+    """Return the scene of a document, and belief propagation on it."""
     scene = simulated_scene(parse_document(json_document))
     preview = Preview(scene.near)
     while not preview.converged:
@@ -195,23 +125,23 @@ def propagated(json_document):
 
 
 def fragment(json_document):
-    """What a share link puts after the address."""
+    """Return the part of a share link after the address."""
     deflate = zlib.compressobj(9, zlib.DEFLATED, -15)
     packed = deflate.compress(json.dumps(json_document).encode()) + deflate.flush()
     return "#m=" + base64.urlsafe_b64encode(packed).decode().rstrip("=")
 
 
 def snapshot(page):
-    """What the page knows and shows; arrays indexed [x, y]."""
-    found = page.evaluate(READ)
-    shape = found["document"]["grid"]["shape"]
+    """Return what the page knows and shows; arrays indexed [x, y]."""
+    shown = page.evaluate("probes.read()")
+    shape = shown["document"]["grid"]["shape"]
     for name in ("probability", "observed", "walls"):
-        found[name] = np.frombuffer(base64.b64decode(found[name]), dtype=np.uint8).reshape(shape).astype(int)
-    for name, values in (found["scan"] or {}).items():
+        shown[name] = np.frombuffer(base64.b64decode(shown[name]), dtype=np.uint8).reshape(shape).astype(int)
+    for name, values in (shown["scan"] or {}).items():
         if isinstance(values, list):
             numbers = [value.replace("Infinity", "inf") if isinstance(value, str) else value for value in values]
-            found["scan"][name] = np.array(numbers, dtype=float)
-    return found
+            shown["scan"][name] = np.array(numbers, dtype=float)
+    return shown
 
 
 def until(page, condition, argument=None):
@@ -222,28 +152,19 @@ def until(page, condition, argument=None):
     wrapped = f"(argument) => {{ const s = window.bayesmap?.snapshot(); return Boolean(s && ({condition})); }}"
     deadline = time.monotonic() + WAIT_SECONDS
     while not page.evaluate(wrapped, argument):
-        assert time.monotonic() < deadline, f"never: {condition}; the page knows {page.evaluate(BRIEFLY)}"
+        assert time.monotonic() < deadline, f"never: {condition}; the page knows {page.evaluate('probes.brief()')}"
         page.wait_for_timeout(15)
-    page.evaluate(NEXT_FRAME)
+    page.evaluate("probes.nextFrame()")
 
 
 def still(page):
     """Wait until all actions are confirmed and nothing has been painted for some frames."""
-    page.evaluate(STILL)
+    page.evaluate("probes.still()")
 
 
 def watch(page, expression):
     """From now on, `window.seen` is all values that an expression of the snapshot `s` takes from frame to frame."""
-    page.evaluate(WATCH.replace("EXPRESSION", expression))
-
-
-def listen(page, heard):
-    """Add the header of every message that the page is sent to a list; before it opens its address."""
-
-    def hear(payload):
-        heard.append(unframe(payload)[0] if isinstance(payload, bytes) else json.loads(payload))
-
-    page.on("websocket", lambda socket: socket.on("framereceived", hear))
+    page.evaluate(f"probes.watch((s) => ({expression}))")
 
 
 OWN = ("http://127.0.0.1:", "ws://127.0.0.1:", "blob:", "data:", "file:", "about:")
@@ -271,18 +192,18 @@ def settled(page):
 def serious(page):
     """The serious violations that axe finds on a page: rules, and an element of each."""
     axe = pytest.importorskip("axe_playwright_python.sync_playwright").Axe()
-    found = axe.run(page).response["violations"]
-    return [(rule["id"], rule["nodes"][0]["html"]) for rule in found if rule["impact"] in ("serious", "critical")]
+    violations = axe.run(page).response["violations"]
+    return [(rule["id"], rule["nodes"][0]["html"]) for rule in violations if rule["impact"] in ("serious", "critical")]
 
 
 def centre(page, x, y):
-    """Where a cell is on the page, in CSS pixels."""
+    """Return the place of a cell's centre on the page, in CSS pixels."""
     point = page.evaluate("([x, y]) => bayesmap.cellToClient(x, y)", [x, y])
     return point["x"], point["y"]
 
 
 def colour_at(page, x, y, offset=(0.0, 0.0)):
-    """Median colour of the few pixels about a cell's centre, or off it by a fraction of a cell; 0 to 255."""
+    """Return the median colour of the few pixels about a cell's centre, or off it by a fraction of a cell; 0 to 255."""
     left, top = centre(page, x, y)
     scale = page.evaluate("bayesmap.snapshot().transform.scale")
     left, top = left + offset[0] * scale, top - offset[1] * scale
@@ -292,5 +213,5 @@ def colour_at(page, x, y, offset=(0.0, 0.0)):
 
 
 def brightness_at(page, x, y, offset=(0.0, 0.0)):
-    """0 is black, 255 white."""
+    """Return the brightness of a cell's centre, from 0 for black to 255 for white."""
     return float(colour_at(page, x, y, offset).mean())

@@ -15,7 +15,7 @@ from bayesmap.app.protocol.wire import unframe
 
 @contextlib.contextmanager
 def serving(*arguments):
-    """The command's process and the address that it printed; ended with Ctrl-C."""
+    """Start the command; gives its process and the address that it printed, and ends it with Ctrl-C."""
     process = start("app", "--no-browser", *arguments)
     try:
         address = process.stdout.readline().strip()
@@ -32,16 +32,38 @@ def serving(*arguments):
 
 
 def socket_address(address):
-    """Of the page's socket."""
+    """Return the address of the page's socket."""
     return address.replace("http", "ws", 1).replace("/?", "/socket?")
 
 
-class Page:
-    """Sends numbered messages and reads until something comes."""
+class Talk:
+    """Sends numbered messages and reads until something comes; how, a subclass says."""
+
+    seq = 0
+
+    def send(self, kind, **fields):
+        self.seq += 1
+        self.deliver({"type": kind, "seq": self.seq, **fields})
+
+    def until(self, kind, like=lambda header: True):
+        """Return header and buffers of the next message of a kind for which a condition holds."""
+        deadline = time.monotonic() + PATIENCE_S
+        while time.monotonic() < deadline:
+            header, buffers = self.read()
+            if header["type"] == kind and like(header):
+                return header, buffers
+        raise AssertionError(f"no {kind} came within {PATIENCE_S:.0f} s")
+
+    def confirmed(self):
+        """Return the state after the last message."""
+        return self.until("state", lambda header: header["seq"] >= self.seq)[0]
+
+
+class Page(Talk):
+    """Talks to a server through the page's socket."""
 
     def __init__(self, address, **options):
         self.connection = connect(socket_address(address), compression=None, max_size=None, **options)
-        self.seq = 0
 
     def __enter__(self):
         self.socket = self.connection.__enter__()
@@ -51,26 +73,12 @@ class Page:
     def __exit__(self, *_):
         self.connection.__exit__(None, None, None)
 
-    def send(self, kind, **fields):
-        self.seq += 1
-        self.socket.send(json.dumps({"type": kind, "seq": self.seq, **fields}))
+    def deliver(self, message):
+        self.socket.send(json.dumps(message))
 
     def read(self):
         data = self.socket.recv(timeout=PATIENCE_S)
         return unframe(data) if isinstance(data, bytes) else (json.loads(data), {})
-
-    def until(self, kind, like=lambda header: True):
-        """The next message of a kind that is as wanted."""
-        deadline = time.monotonic() + PATIENCE_S
-        while time.monotonic() < deadline:
-            header, buffers = self.read()
-            if header["type"] == kind and like(header):
-                return header, buffers
-        raise AssertionError(f"no {kind} came within {PATIENCE_S:.0f} s")
-
-    def confirmed(self):
-        """The state after the last message."""
-        return self.until("state", lambda header: header["seq"] >= self.seq)[0]
 
     def closed(self):
         """Read until the server closes, which is an exception."""
@@ -79,7 +87,7 @@ class Page:
 
 
 def children(pid):
-    """Processes of a process."""
+    """Return the numbers of a process's own processes."""
     tasks = Path(f"/proc/{pid}/task").glob("*/children")
     return [int(child) for path in tasks for child in path.read_text().split()]
 

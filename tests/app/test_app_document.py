@@ -55,7 +55,7 @@ def test_a_document_goes_through_json_and_through_a_pipe_unchanged(document):
     assert pickle.loads(pickle.dumps(document)) == document
 
 
-def test_what_was_left_out_is_written_with_its_default():
+def test_fields_that_are_left_out_are_written_with_their_defaults():
     left_out = {name: GOOD[name] for name in ("grid", "walls")}
     whole = Document(TUTORIAL_GRID, tutorial_document().walls, (Sensor(1, 10.0, 10.0),))
     assert parse_document({**left_out, "sensors": [{"id": 1, "x": 10, "y": 10}]}).to_json() == whole.to_json()
@@ -94,16 +94,16 @@ GOOD = tutorial_document().to_json()
     ("fov", 7.0, "field of view"), ("max_range", -5, "longest range"), ("start", "here", "start"),
     ("readings", 3, "readings"),
 ])  # fmt: skip
-def test_what_a_document_may_not_hold_is_refused_by_name(key, value, named):
+def test_wrong_values_in_a_document_are_refused_by_name(key, value, named):
     with pytest.raises(Refused, match=named):
         parse_document({**GOOD, key: value})
 
 
 def test_a_document_of_a_file_names_it_and_holds_its_settings_alone():
     source = {"kind": "log", "name": "office.log", "scans": 7}
-    found = parse_document({**GOOD, "source": source, "walls": "", "sensors": [], "prior": 0.25, "noise": 99})
-    assert (found.source.name, found.source.scans, found.prior) == ("office.log", 7, 0.25)
-    assert not found.is_wall.any()
+    document = parse_document({**GOOD, "source": source, "walls": "", "sensors": [], "prior": 0.25, "noise": 99})
+    assert (document.source.name, document.source.scans, document.prior) == ("office.log", 7, 0.25)
+    assert not document.is_wall.any()
     with pytest.raises(Refused, match="file"):
         parse_simulation({**GOOD, "source": source})
 

@@ -1,4 +1,4 @@
-"""The engine: right numbers, the same ones however it was interrupted, and frames that say what they are."""
+"""The engine gives the library's numbers, however it was interrupted, and frames that say what they are."""
 
 import subprocess
 import sys
@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from acted_engine import TINY, Heard
+from acted import Heard
 from flat_options import infer
 
 import bayesmap as bm
@@ -23,53 +23,17 @@ from bayesmap.run.runner import Job, run_chains
 from bayesmap.samplers.fit import PILOT_SWEEPS, first_sensor, fit
 from bayesmap.samplers.stop_gibbs import StopGibbs
 from bayesmap.samplers.walls import WallGibbs
-from bayesmap.samplers.without_chains import enumerate_maps, sample_importance
-
-OFF = 0.03
-"""More than three standard errors of a mean of effective size 3000, at worst; seeds are fixed."""
-
-
-def exact(document):
-    return enumerate_maps(simulated_scene(document).problem).marginals()
+from bayesmap.samplers.without_chains import sample_importance
 
 
 def probability(field):
     return field[1]["p"] / 255
 
 
-@pytest.mark.parametrize(
-    ("method", "mode", "changes"),
-    [("gibbs", "live", {}), ("block", "run", {}), ("importance", "run", {"noise": 4.0, "sweeps": 100_000})]
-    + [pytest.param(*case, {}, marks=pytest.mark.full) for case in (("gibbs", "run"), ("block", "live"))],
-)
-def test_a_tiny_map_has_the_exact_posterior(method, mode, changes):
-    document = replace(TINY, method=method, **changes)
-    field = Heard().infer(document, mode)
-    assert field[0]["method"] == method
-    assert field[0]["ess"] > 3000
-    assert np.abs(probability(field) - exact(document)).max() < OFF
-
-
-def test_another_noise_would_be_noticed():
-    """Power of the test above: readings from another seed lead elsewhere."""
-    assert np.abs(exact(TINY) - exact(replace(TINY, seed=2))).max() > 3 * OFF
-
-
 @pytest.mark.parametrize("prior", [0.0, 1.0])
 def test_a_prior_that_fixes_every_cell_is_the_answer(prior):
     field = Heard().infer(replace(tutorial_document(), prior=prior, sweeps=5))
     assert (field[1]["p"] == 255 * prior).all()
-
-
-@pytest.mark.parametrize("method", ["gibbs", "block", "propagate"])
-def test_unobserved_cells_follow_the_prior(method):
-    heard = Heard()
-    for prior in (0.5, 0.05):
-        document = replace(new_document("tutorial", (31, 31), tutorial_document()), prior=prior, method=method)
-        _, buffers = heard.infer(document)
-        hidden = buffers["p"][buffers["reached"] < 128]
-        assert 100 < len(hidden) < 31 * 31
-        assert abs(hidden.mean() / 255 - prior) < 0.02
 
 
 def test_a_job_is_a_preview_and_then_chains_to_their_last_sweep():
@@ -87,7 +51,7 @@ def test_a_job_is_a_preview_and_then_chains_to_their_last_sweep():
     assert heard.all("finished")[-1]["draws"] == DrawCount(2, 1000)
 
 
-def test_the_same_document_gives_the_same_posterior_however_it_was_interrupted():
+def test_interruptions_do_not_change_the_posterior_of_a_document():
     document = replace(tutorial_document(), sweeps=300)
     alone = probability(Heard().infer(document))
     heard = Heard()
@@ -121,18 +85,18 @@ def test_the_burn_in_is_left_out_of_mean_diagnostics_and_saved_runs(burn_in, mod
 
 @pytest.mark.parametrize("method", ["gibbs", "block"])
 def test_a_run_is_that_of_the_library(method):
-    document = replace(tutorial_document(), sweeps=40, method=method)
+    document = replace(tutorial_document(), sweeps=40, method=method, prior=0.25)
     heard = Heard()
     header, buffers = heard.infer(document, "run")
     run = infer(
-        simulate_document(document)[0], document.grid, prior=bm.Independent(0.5), sensor=bm.Gaussian(0.2),
+        simulate_document(document)[0], document.grid, prior=bm.Independent(0.25), sensor=bm.Gaussian(0.2),
         method=method, chains=2, warmup=0, draws=40, seed=0, start="prior",
     )  # fmt: skip
     assert header["draws"] == {"chains": 2, "count": 40}
     assert header["burned"] == 4  # a tenth is left out of the mean
     touched = heard.engine._result.found.problem.touched()
-    assert np.array_equal(buffers["p"][touched], np.rint(255 * run.draws[:, 4:].mean(axis=(0, 1)))[touched])
-    assert (buffers["p"][~touched] == 128).all()
+    np.testing.assert_allclose(buffers["p"][touched], 255 * run.draws[:, 4:].mean(axis=(0, 1))[touched], atol=0.5001)
+    assert (buffers["p"][~touched] == 64).all()  # cells that no beam touches follow the prior
     for chain, draw in ((0, 0), (1, 39), (0, 17)):
         header, buffers = heard.answer(View("draw", chain, draw))
         assert (header["chain"], header["draw"]) == (chain, draw)
@@ -227,13 +191,6 @@ def test_the_worker_loads_neither_jax_nor_matplotlib():
     assert done.stdout.strip() == "set()"
 
 
-def test_clearing_inference_shows_the_prior():
-    header, buffers = Heard().infer(replace(tutorial_document(), prior=0.2), "clear")
-    assert header["method"] == "none"
-    assert (buffers["p"] == 51).all()
-    assert not buffers["reached"].any()
-
-
 def test_the_scan_says_where_beams_truly_end_and_a_cell_counts_its_beams():
     heard = Heard()
     heard.infer(replace(tutorial_document(), noise=0.01), "preview")
@@ -257,7 +214,7 @@ def test_many_sweeps_of_a_large_map_are_thinned_to_fit():
 
 @pytest.mark.parametrize("cells", ["reflectivity", "surface"])
 def test_other_kinds_of_cells_run_on_the_page_as_in_the_library_and_are_saved(cells, tmp_path):
-    """The same runner: a pilot fits the sensor, and the draws are those of the library's chains under it."""
+    """A pilot fits the sensor, and the draws are those of the library's chains under it."""
     document = replace(tutorial_document(), cells=cells, sweeps=8, noise=0.1, angles=40, burn_in=0.0)
     heard = Heard()
     header, field = heard.infer(document, "run")

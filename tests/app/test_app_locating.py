@@ -6,15 +6,14 @@ from functools import cache
 
 import numpy as np
 import pytest
-from acted_engine import Heard
-from acted_session import Acted
+from acted import Acted, Heard
 from poses.simulated import recording
 
-from bayesmap.app.edits import adopted, tutorial_document, with_resolution
+from bayesmap.app.edits import adopted, with_resolution
 from bayesmap.app.protocol.actions import Cancel, Export, Inspect, ShowScan
 from bayesmap.app.protocol.document import Refused
 from bayesmap.app.protocol.notices import DrawCount
-from bayesmap.app.protocol.tasks import Infer, Remember
+from bayesmap.app.protocol.tasks import Infer, Located, OnGrid, Ready, Remember
 from bayesmap.app.protocol.wire import parse_document
 from bayesmap.app.shown.hit_maps import MOST_SCANS, counted_map, grown, thinned
 from bayesmap.app.sources import opened_log
@@ -55,7 +54,7 @@ def test_poses_are_taken_for_what_they_look_like():
     assert opened_log(raw_scans().at(recorded()[1]), "true.log").document.poses == "logged"
 
 
-def test_before_run_the_log_is_shown_as_it_is_and_can_be_asked_and_saved_but_is_no_run():
+def test_a_log_before_its_run_is_shown_as_logged_and_answers_questions():
     heard = Heard(raw_log())
     header, buffers = heard.infer(raw_log().document)
     assert header["method"] == "counts"
@@ -90,12 +89,9 @@ def test_run_bends_the_trajectory_stage_by_stage_and_then_samples_the_cells(foun
     assert errors[0] > 0.5
     assert errors[-1] < 0.05
     pictured = [r.header for r in found.reports if r.header["type"] in ("stage", "overlay")]
-    of_overlay = [
-        before["name"]
-        for before, now in itertools.pairwise(pictured)
-        if now["type"] == "overlay" and before["type"] == "stage"
-    ]
-    assert errors[of_overlay.index("aligned")] < 0.5 * errors[0]
+    pairs = itertools.pairwise(pictured)
+    drawn = [stage["name"] for stage, way in pairs if (stage["type"], way["type"]) == ("stage", "overlay")]
+    assert errors[drawn.index("aligned")] < 0.5 * errors[0]
     begun = [next(header for header in found.all("stage") if header["name"] == name) for name in stages[2:]]
     assert {header["done"] for header in begun} == {0}  # each is named as it begins, not after its first round
     # Every picture of a stage comes with the rays of the scan on show, at its present pose.
@@ -115,7 +111,7 @@ def test_run_bends_the_trajectory_stage_by_stage_and_then_samples_the_cells(foun
     assert found.all("ongrid")[-1]["grid"] == grid == found.engine._result.document.grid
 
 
-def test_what_was_inferred_is_kept_and_told_to_the_next_worker(found):
+def test_an_inferred_trajectory_is_kept_and_told_to_the_next_worker(found):
     known = found.all("located")[0]["trajectory"]
     heard = Heard(raw_log())
     heard.engine.take(Remember(known.poses, known.angles_rad))
@@ -188,7 +184,7 @@ def test_trouble_of_the_inference_is_reported():
     assert "no scan has a single hit" in heard.last("failed")[0]["text"]
 
 
-def test_the_same_log_gives_the_same_bits_again_and_scans_stay_in_its_order(found):
+def test_a_log_gives_equal_poses_again_and_scans_stay_in_its_order(found):
     shuffled = np.random.default_rng(3).permutation(len(raw_scans()))
     scans = raw_scans().select(shuffled)
     job = TrajectoryJob(Infer(1, few_sweeps(), "run"), scans, raw_log().document.grid)
@@ -220,14 +216,14 @@ def test_the_session_takes_over_the_grid_and_keeps_the_trajectory_for_the_next_w
     acted.act("hello")
     acted.act("run")
     grid = Grid((30, 40), 0.1, (-1.0, 2.0))
-    acted.hear("grid", acted.session.generation, grid=grid)
+    acted.hear(OnGrid(grid, generation=0))
     assert acted.state["document"]["grid"]["shape"] == [30, 40]
     assert not acted.state["can_undo"]
     known = Remember(np.zeros((2, 3)), np.zeros(4))
-    acted.hear("trajectory", acted.session.generation, found=known)
+    acted.hear(Located(known, generation=0))
     acted.session.worker_lost()
     before = len(acted.tasks)
-    acted.hear("ready", None)
+    acted.hear(Ready())
     kinds = [type(task) for task in acted.tasks[before:]]
     assert kinds == [Remember, Infer]
     assert acted.inferred[-1].mode == "run"  # it was under way
@@ -235,18 +231,6 @@ def test_the_session_takes_over_the_grid_and_keeps_the_trajectory_for_the_next_w
     assert acted.inferred[-1].document.poses == "logged"
     acted.act("undo")
     assert acted.inferred[-1].document.poses == "odometry"
-
-
-def test_poses_are_a_setting_of_logs_alone():
-    acted = Acted()
-    acted.act("hello")
-    acted.act("set", patch={"poses": "odometry"})
-    assert "there is no log" in acted.text
-    acted = Acted(raw_log().document)
-    acted.act("hello")
-    acted.act("set", patch={"pose_sigma": 0.5})
-    assert "pose_sigma cannot be changed" in acted.text
-    assert parse_document(tutorial_document().to_json()).poses == "logged"
 
 
 def test_a_link_to_a_log_that_was_inferred_fits_the_log_as_it_is_opened():

@@ -4,15 +4,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from acted_engine import Heard
-from acted_session import Acted
+from acted import Acted, Heard
 from building_log import ANGLES, room_scans
 
 import bayesmap as bm
-from bayesmap.app.edits import new_document
+from bayesmap.app.edits import new_document, tutorial_document
 from bayesmap.app.protocol.actions import MoveGhost, ShowScan
 from bayesmap.app.protocol.document import Source
-from bayesmap.app.protocol.notices import View
+from bayesmap.app.protocol.notices import Overlay, View
 from bayesmap.app.protocol.wire import parse_document
 from bayesmap.app.scene import hits
 from bayesmap.app.shown.hit_maps import HitCounts, coarse_map
@@ -37,7 +36,7 @@ def acted(log):
 
 
 def test_a_new_map_where_a_log_was_opened_has_its_own_readings(log):
-    """Not those of the log, on the new map's cells."""
+    """The readings are not those of the log on the new map's cells."""
     new = replace(new_document("tutorial", (21, 21), log.document), sweeps=5)
     here = Heard(log)
     here.infer(replace(log.document, sweeps=2))
@@ -67,7 +66,7 @@ def test_a_page_that_comes_after_the_log_was_left_is_sent_no_trajectory(acted):
         acted.session.join(2)
         return {header["type"] for header in acted.act("hello", client=2)}
 
-    acted.hear("overlay", acted.session.generation)
+    acted.hear(Overlay(generation=0))
     assert "overlay" in sent()
     acted.act("new", shape=[21, 21], world="tutorial")
     acted.picture()
@@ -83,14 +82,18 @@ def test_cells_that_are_too_small_are_refused_with_the_least_size(log):
     assert acted.session.document.grid.resolution == 0.1
 
 
-@pytest.mark.parametrize("kind", ["simulation", "run"])
-def test_only_a_log_has_these_settings(kind, log):
-    acted = Acted(None if kind == "simulation" else replace(log.document, source=Source("run", "run.nc", 12)))
-    for patch in ({"resolution": 0.2}, {"scans_used": 3}):
-        before = acted.session.document
-        acted.act("set", patch=patch)
-        assert "only" in acted.text
-        assert acted.session.document is before
+@pytest.mark.parametrize(("kind", "patch", "words"), [
+    *[(kind, patch, "only") for kind in ("simulation", "run") for patch in ({"resolution": 0.2}, {"scans_used": 3})],
+    ("simulation", {"poses": "odometry"}, "there is no log"),
+    ("log", {"pose_sigma": 0.5}, "pose_sigma cannot be changed"),
+])  # fmt: skip
+def test_settings_of_another_kind_of_source_are_refused(kind, patch, words, log):
+    run = replace(log.document, source=Source("run", "run.nc", 12))
+    acted = Acted({"simulation": None, "log": log.document, "run": run}[kind])
+    before = acted.session.document
+    acted.act("set", patch=patch)
+    assert words in acted.text
+    assert acted.session.document is before
 
 
 def test_a_drag_along_the_log_is_coarse_and_one_step_and_letting_go_samples(acted, log):
@@ -154,14 +157,11 @@ def test_the_posterior_of_the_first_scans_is_that_of_a_log_of_them(log):
 
 
 def test_first_beams_are_those_of_the_first_scans(log):
-    whole, some = log.scene(log.document), log.scene(replace(log.document, scans_used=3))
-    table = some.problem.table
-    assert table.n_beams == 3 * len(ANGLES)
-    walls = np.random.default_rng(0).random(table.grid.shape) < 0.1
-    np.testing.assert_array_equal(
-        table.beam_log_likelihoods(walls), whole.problem.table.beam_log_likelihoods(walls)[: table.n_beams]
-    )
-    assert first_beams(whole.problem.table, 0).n_incidences == 0
+    whole, few = log.scene(log.document).problem.table, log.scene(replace(log.document, scans_used=3)).problem.table
+    walls = np.random.default_rng(0).random(few.grid.shape) < 0.1
+    assert few.n_beams == 3 * len(ANGLES)
+    np.testing.assert_array_equal(few.beam_log_likelihoods(walls), whole.beam_log_likelihoods(walls)[: few.n_beams])
+    assert first_beams(whole, 0).n_incidences == 0
 
 
 def plain_counts(scans, grid):
@@ -245,12 +245,6 @@ def test_surfaces_of_a_log_are_counted_first_then_shown_by_the_draws_of_the_chai
     for k in (1, 2, 7):
         mean = np.mean(maps[k // 2 : k], axis=0)[touched]
         np.testing.assert_allclose(pilots[k - 1][1]["p"][touched], 255 * mean, atol=0.6)
-    # and the surfaces of the finished chains lie over their log
-    strokes = surfaces.last("overlay")[1]["strokes"]
-    _, mean, _, reflectivity = surfaces.engine._result.surfaces
-    seen = reflectivity >= 0.1
-    assert 0 < seen.sum() == len(strokes)
-    np.testing.assert_allclose((strokes[:, :2] + strokes[:, 2:4]) / 2, mean[seen], atol=1e-5)
     # the same readings are fitted once
     surfaces.reports.clear()
     _, again = surfaces.infer(surfaces_of(log), "live")
@@ -261,7 +255,7 @@ def test_surfaces_of_a_log_are_counted_first_then_shown_by_the_draws_of_the_chai
     assert "pilot" in [f["method"] for f in surfaces.all("field")]
 
 
-def test_while_the_sensor_is_fitted_draws_intervals_and_surfaces_can_be_looked_at(log, monkeypatch):
+def test_draws_intervals_and_surfaces_are_shown_while_the_sensor_is_fitted(log, monkeypatch):
     monkeypatch.setattr("bayesmap.app.display.OVERLAY_SECONDS", 0.0)
     heard = Heard(log)
     heard.engine._display.due = lambda: True
@@ -282,10 +276,10 @@ def test_while_the_sensor_is_fitted_draws_intervals_and_surfaces_can_be_looked_a
 
 
 def test_a_cleared_inference_shows_the_prior_of_the_chosen_cells(log):
-    for cells, mean in (("binary", log.document.prior), ("surface", bm.Surface().mean)):
-        heard = Heard(log)
-        document = replace(log.document, cells=cells, grid=Grid.covering(log.scans, 0.2))
-        _, cleared = heard.infer(document, "clear")
-        assert heard.all("field")[-1]["quantity"]["kind"] == cells
-        assert heard.all("field")[-1]["method"] == "none"
-        np.testing.assert_allclose(cleared["p"] / 255, mean, atol=0.5 / 255 + 1e-9)
+    drawn = replace(tutorial_document(), prior=0.2)
+    surfaces = replace(log.document, cells="surface", grid=Grid.covering(log.scans, 0.2))
+    for heard, document, mean in ((Heard(), drawn, 0.2), (Heard(log), surfaces, bm.Surface().mean)):
+        header, buffers = heard.infer(document, "clear")
+        assert (header["quantity"]["kind"], header["method"]) == (document.cells, "none")
+        np.testing.assert_allclose(buffers["p"] / 255, mean, atol=0.5 / 255 + 1e-9)
+        assert not buffers["reached"].any()

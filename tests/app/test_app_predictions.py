@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from acted_engine import Heard, shown
+from acted import Heard, shown
 from building_log import ANGLES, GRID, SENSOR, room_run, room_scans
 
 import bayesmap as bm
@@ -39,10 +39,10 @@ def test_a_virtual_scan_is_the_library_s_law_by_a_few_of_the_draws_while_the_han
     header, moving = heard.answer(MoveGhost(*POSE, coarse=True))
     assert (header["coarse"], header["draws"]) == (True, FEW_DRAWS)
     (states,) = whole.batches()
-    some = states[np.linspace(0, len(states) - 1, FEW_DRAWS).round().astype(int)]
-    law = ScanPredictor.of(replace(whole, batches=lambda cells=None: iter([some]), draws=FEW_DRAWS), limits)
-    found = np.column_stack([moving[name] for name in QUANTILES])
-    np.testing.assert_allclose(found, law.quantiles(POSE, ANGLES), atol=1e-5)
+    few_states = states[np.linspace(0, len(states) - 1, FEW_DRAWS).round().astype(int)]
+    law = ScanPredictor.of(replace(whole, batches=lambda cells=None: iter([few_states]), draws=FEW_DRAWS), limits)
+    quantiles = np.column_stack([moving[name] for name in QUANTILES])
+    np.testing.assert_allclose(quantiles, law.quantiles(POSE, ANGLES), atol=1e-5)
     _, again = heard.answer(MoveGhost(*POSE))
     assert all(np.array_equal(again[name], at_rest[name]) for name in QUANTILES)
     assert not np.array_equal(moving["median"], at_rest["median"])
@@ -122,13 +122,13 @@ def compared(run, scan, beam):
 def test_a_reading_is_compared_along_its_beam_and_across_and_along_its_wall():
     run = room_run(bm.Surface(), draws=10, thin=10)  # so far apart that a mean surface has its wall's direction
     scans, beam = run.posterior.scans, straight_ahead_on_the_lower_wall(run)
-    found = compared(run, 0, beam)
+    answer = compared(run, 0, beam)
     law = ScanPredictor.of(predictor_of(run.posterior), limits_of(run))
-    assert found["range"] == pytest.approx(scans.ranges_m[0, beam])
-    ends = [np.inf if found[name] is None else found[name] for name in QUANTILES]
+    assert answer["range"] == pytest.approx(scans.ranges_m[0, beam])
+    ends = [np.inf if answer[name] is None else answer[name] for name in QUANTILES]
     assert ends == pytest.approx(law.quantiles(scans.poses[0], ANGLES[[beam]])[0], abs=2e-3)
-    assert found["residual"] == pytest.approx(found["range"] - found["median"])
-    wall = found["wall"]
+    assert answer["residual"] == pytest.approx(answer["range"] - answer["median"])
+    wall = answer["wall"]
     assert wall["incidence_rad"] < 0.6
     assert abs(wall["across_m"]) < 0.15
     assert abs(wall["along_m"]) < 0.25
@@ -138,22 +138,22 @@ def test_a_reading_is_compared_along_its_beam_and_across_and_along_its_wall():
     moved[0, beam] += 0.05
     longer = replace(run, posterior=replace(run.posterior, scans=replace(scans, ranges_m=moved)))
     further = compared(longer, 0, beam)
-    assert further["residual"] == pytest.approx(found["residual"] + 0.05, abs=1e-6)
+    assert further["residual"] == pytest.approx(answer["residual"] + 0.05, abs=1e-6)
     mean, covariance, _ = run.surfaces()
     heading = scans.poses[0, 2] + ANGLES[beam]
     ahead = np.array([np.cos(heading), np.sin(heading)])
-    nearest = int(np.argmin(np.hypot(*(mean - scans.poses[0, :2] - found["range"] * ahead).T)))
+    nearest = int(np.argmin(np.hypot(*(mean - scans.poses[0, :2] - answer["range"] * ahead).T)))
     cosine = abs(np.linalg.eigh(covariance[nearest])[1][:, 0] @ ahead)
     assert further["wall"]["across_m"] - wall["across_m"] == pytest.approx(-0.05 * cosine, abs=5e-3)
 
 
 def test_no_return_has_no_residual_but_a_probability_and_other_cells_no_wall(surfaces):
-    found = compared(surfaces, *np.argwhere(np.isposinf(surfaces.posterior.scans.ranges_m))[0].tolist())
-    assert (found["reading"], found["range"], found["residual"]) == ("none", None, None)
-    assert 0 < found["no_return"] < 0.5
-    found = compared(room_run(bm.Beta()), 0, 45)
-    assert found["wall"] is None
-    assert np.isfinite(found["residual"])
+    answer = compared(surfaces, *np.argwhere(np.isposinf(surfaces.posterior.scans.ranges_m))[0].tolist())
+    assert (answer["reading"], answer["range"], answer["residual"]) == ("none", None, None)
+    assert 0 < answer["no_return"] < 0.5
+    answer = compared(room_run(bm.Beta()), 0, 45)
+    assert answer["wall"] is None
+    assert np.isfinite(answer["residual"])
 
 
 FIRST, COUNT = [0, 3, 7, 1] * 3, [91, 60, 75, 83] * 3

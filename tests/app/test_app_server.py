@@ -9,14 +9,11 @@ import signal
 import socket
 import threading
 import time
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from urllib.parse import urlsplit
 
-import numpy as np
 import pytest
-from cli.shell import PATIENCE_S, start
-from click.testing import CliRunner
+from cli.shell import PATIENCE_S, refusal_of, start
 from page_driver import served
 from page_socket import Page, children, ended, serving, socket_address
 from websockets.exceptions import ConnectionClosed, InvalidStatus
@@ -26,15 +23,8 @@ from bayesmap.app.edits import tutorial_document
 from bayesmap.app.protocol.tasks import Alive, Infer, Ready, Report, ShowScan
 from bayesmap.app.server import Guard
 from bayesmap.app.worker import Reporter, Supervisor, still_valid
-from bayesmap.cli.group import cli
 
 SILENCE_S = 4.0
-
-
-def call(*arguments):
-    """The result of a command, on a thread: beside a test with a browser an event loop may be running on this one."""
-    with ThreadPoolExecutor(1) as thread:
-        return thread.submit(CliRunner().invoke, cli, [str(a) for a in arguments]).result(PATIENCE_S)
 
 
 @pytest.fixture(scope="module")
@@ -52,22 +42,20 @@ def page(address):
         yield found
 
 
-def get(address, path=None, **headers):
+def get(address, path=None, body=None, **headers):
     parts = urlsplit(address)
     connection = http.client.HTTPConnection(parts.hostname, parts.port, timeout=PATIENCE_S)
     with contextlib.closing(connection):
-        connection.request("GET", f"{parts.path}?{parts.query}" if path is None else path, headers=headers)
+        path = f"{parts.path}?{parts.query}" if path is None else path
+        connection.request("POST" if body else "GET", path, body, headers)
         answer = connection.getresponse()
         return answer.status, answer.read().decode(), answer.headers
 
 
 def test_only_saved_runs_of_those_who_have_the_token_are_read(address):
-    parts = urlsplit(address)
-    for query, expected in ((parts.query, 415), (f"{parts.query}&name=../x.log", 415), ("name=x.nc", 403)):
-        connection = http.client.HTTPConnection(parts.hostname, parts.port, timeout=PATIENCE_S)
-        with contextlib.closing(connection):
-            connection.request("POST", f"/open?{query}", body=b"x")
-            assert connection.getresponse().status == expected
+    token = urlsplit(address).query
+    for query, expected in ((token, 415), (f"{token}&name=../x.log", 415), ("name=x.nc", 403)):
+        assert get(address, f"/open?{query}", body=b"x")[0] == expected
 
 
 def test_the_page_and_its_module_are_served_with_a_policy(address):
@@ -87,7 +75,7 @@ def test_the_page_and_its_module_are_served_with_a_policy(address):
     assert get(address, f"/elsewhere?{token}")[0] == 404
 
 
-def test_without_the_token_and_from_another_host_or_origin_there_is_nothing(address):
+def test_a_request_without_the_token_or_from_another_host_or_origin_gets_nothing(address):
     for path in ("/", "/mapview.js", "/?token=guess"):
         status, text, _ = get(address, path)
         assert status == 403
@@ -104,7 +92,7 @@ def test_without_the_token_and_from_another_host_or_origin_there_is_nothing(addr
 
 
 async def inner(scope, receive, send):
-    """What is guarded: answers everything."""
+    """Answer everything, as the guarded application."""
     await receive()
     if scope["type"] == "websocket":
         await send({"type": "websocket.accept"})
@@ -114,7 +102,7 @@ async def inner(scope, receive, send):
 
 
 def guarded(query="token=secret", *, host="127.0.0.1", name="127.0.0.1:8000", kind="http", origin=None):
-    """The messages with which a guarded application answers."""
+    """Return the messages with which a guarded application answers."""
     headers = [(b"host", name.encode())] + ([(b"origin", origin.encode())] if origin else [])
     scope = {"type": kind, "method": "GET", "path": "/", "query_string": query.encode(), "headers": headers}
     sent = []
@@ -152,18 +140,7 @@ def test_the_guard_knows_names_tokens_and_origins_before_a_socket_is_opened(opti
     assert message.get("code") == (None if status == 200 else 1008)
 
 
-def test_a_page_is_welcomed_and_shown_the_picture(address):
-    with Page(address) as page:
-        header, _ = page.read()
-        assert (header["type"], header["limits"]["side"]) == ("welcome", [2, 500])
-        page.confirmed()
-        scan = page.until("scan")[1]
-        assert scan["ranges"].shape == (1, len(scan["angles"]))
-        field = page.until("field")[1]
-        assert field["p"].shape == field["reached"].shape == (21, 21)
-
-
-def test_of_jobs_that_wait_the_last_and_those_it_goes_on_from_are_done():
+def test_a_worker_does_the_last_waiting_job_and_those_it_goes_on_from():
     document = tutorial_document()
     first, other = Infer(1, document, "live"), Infer(2, replace(document, seed=1), "live")
     runs = [Infer(n, document, "run") for n in (3, 4)]
@@ -173,34 +150,12 @@ def test_of_jobs_that_wait_the_last_and_those_it_goes_on_from_are_done():
     assert still_valid([first, other, runs[0]]) == [runs[0]]
 
 
-def test_an_edit_is_confirmed_and_a_run_ends_with_draws_and_files(page):
-    page.send("walls", cells=[[10, 12]], wall=True, stroke=1)
-    state = page.confirmed()
-    header, _ = page.until("field", lambda h: h["generation"] == state["generation"])
-    assert header["approximate"]
-    header, _ = page.until("field", lambda h: not h["approximate"])
-    assert header["generation"] == state["generation"]
-    page.send("set", patch={"sweeps": 200})
-    page.send("run")
-    state, _ = page.until("state", lambda h: h["draws"]["count"] == 400)  # 200 of Live, which Run goes on from
-    assert state["draws"]["chains"] == 2
-    assert not state["running"]
-    page.send("view", layer="draw", chain=1, draw=3)
-    _, buffers = page.until("field", lambda h: h["layer"] == "draw")
-    assert set(np.unique(buffers["p"])) == {0, 255}
-    for what, name in (("html", "bayesmap.html"), ("map", "map.zip"), ("document", "document.json")):
-        page.send("export", what=what)
-        header, buffers = page.until("download")
-        assert header["name"] == name
-        assert len(buffers["data"]) > 100
-
-
 @pytest.mark.parametrize("data", [
     "", "[]", '{"type": "boom", "seq": 5}',
     b"\xff\0", "[" * 50_000, '{"type": "hello", "seq": 5, "document": {"version": 1}}',
     "x" * (1 << 20) + "x",
 ], ids=range(7))  # fmt: skip
-def test_what_is_malformed_is_answered_by_an_error(page, data):
+def test_malformed_messages_are_answered_by_an_error(page, data):
     page.socket.send(data)
     header, _ = page.until("error")
     assert header["text"]
@@ -269,27 +224,18 @@ def test_a_killed_server_takes_its_worker_along():
         ended(worker)
 
 
-def test_a_port_that_is_taken_is_bad_input():
-    with contextlib.closing(socket.socket()) as taken:
-        taken.bind(("127.0.0.1", 0))
-        taken.listen()
-        result = call("app", "--no-browser", "--port", taken.getsockname()[1])
-    assert result.exit_code == 3
-    assert "--port" in result.stderr
-    assert result.stdout == ""
-
-
-@pytest.mark.parametrize(("name", "content", "said"), [
-    ("run.nc", None, "no such file"), ("run.nc", "nonsense", "saved run"), ("run.nc", "", "saved run"),
-    ("document.json", "{", "document.json"), ("document.json", '{"version": 7}', "document.json"),
-    ("document.json", '{"version": 1, "source": {"kind": "log", "name": "a", "scans": 1}}', "document.json"),
+@pytest.mark.parametrize(("name", "content"), [
+    ("run.nc", None), ("run.nc", "nonsense"), ("run.nc", ""), ("document.json", "{"),
+    ("document.json", '{"version": 7}'),
+    ("document.json", '{"version": 1, "source": {"kind": "log", "name": "a", "scans": 1}}'),
 ], ids=range(6))  # fmt: skip
-def test_a_file_that_cannot_be_shown_is_bad_input(name, content, said, tmp_path):
+def test_a_file_that_cannot_be_shown_and_a_port_that_is_taken_are_bad_input(name, content, tmp_path):
     if content is not None:
         (tmp_path / name).write_text(content)
-    result = call("app", "--no-browser", tmp_path / name)
-    assert result.exit_code == 3, result.output
-    assert said in result.stderr
+    reason = "no such file" if content is None else {"run.nc": "saved run"}.get(name, name)
+    assert reason in refusal_of("app", "--no-browser", tmp_path / name)
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        assert "--port" in refusal_of("app", "--no-browser", "--port", taken.getsockname()[1])
 
 
 @pytest.mark.parametrize("what", [signal.SIGSTOP, signal.SIGKILL])

@@ -9,6 +9,7 @@ import time
 import numpy as np
 import pytest
 from building_log import tutorial_run
+from page_socket import PATIENCE_S, Talk
 
 import bayesmap as bm
 from bayesmap.app import session
@@ -17,30 +18,23 @@ from bayesmap.app.protocol.notices import DrawCount
 from bayesmap.app.protocol.tasks import Finished, Report
 
 pytest.importorskip("anywidget")
-PATIENCE_S = 60.0
 
 
-class View:
+class View(Talk):
     """Stands for the page in the notebook."""
 
     def __init__(self, widget, monkeypatch):
-        self.widget, self.inbox, self.seq = widget, queue.Queue(), 0
+        self.widget, self.inbox = widget, queue.Queue()
         monkeypatch.setattr(widget, "send", lambda content, buffers=None: self.inbox.put((content, buffers or [])))
 
-    def send(self, kind, **fields):
-        self.seq += 1
-        self.widget._handle_custom_msg({"type": kind, "seq": self.seq, **fields}, [])
+    def deliver(self, message):
+        self.widget._handle_custom_msg(message, [])
 
-    def until(self, kind, like=lambda header: True):
-        while True:
-            header, buffers = self.inbox.get(timeout=PATIENCE_S)
-            header = json.loads(json.dumps(header))  # as the notebook sends it
-            if header["type"] == kind and like(header):
-                arrays = {
-                    entry["name"]: np.frombuffer(data, entry["dtype"]).reshape(entry["shape"])
-                    for entry, data in zip(header["buffers"], buffers, strict=True)
-                }
-                return header, arrays
+    def read(self):
+        content, buffers = self.inbox.get(timeout=PATIENCE_S)
+        header = json.loads(json.dumps(content))  # as the notebook sends it
+        pairs = zip(header.get("buffers", []), buffers, strict=True)
+        return header, {at["name"]: np.frombuffer(data, at["dtype"]).reshape(at["shape"]) for at, data in pairs}
 
 
 @pytest.fixture
@@ -67,7 +61,7 @@ def test_the_live_page_infers(shown):
     _, arrays = view.until("field", lambda h: not h["approximate"])
     assert arrays["p"].shape == (15, 16)
     view.send("walls", cells=[[3, 2]], wall=True, stroke=1)
-    state, _ = view.until("state", lambda h: h["seq"] == view.seq)
+    state = view.confirmed()
     assert state["document"] == view.widget.document
     view.until("field", lambda h: h["generation"] == state["generation"] == view.widget.generation)
 
@@ -89,7 +83,7 @@ def test_a_report_that_comes_while_an_edit_is_applied_waits_for_it(shown, monkey
     done = Finished(DrawCount(1, 1), generation=view.widget.generation)
     view.widget._hear(Report(done))  # as a thread of the supervisor's calls it; it tells of the state
     editing.join()
-    state, _ = view.until("state", lambda h: h["seq"] == view.seq)
+    state = view.confirmed()
     assert state["document"] == view.widget.document
 
 
@@ -105,7 +99,7 @@ def test_a_run_is_shown_with_its_draws(shown):
     assert "data-recording" in view.widget.to_html()
 
 
-def test_what_is_malformed_is_answered_by_an_error(shown):
+def test_malformed_messages_are_answered_by_an_error(shown):
     view = shown()
     for content in (None, [], {"type": "nonsense", "seq": 9}):
         view.widget._handle_custom_msg(content, [])

@@ -1,13 +1,110 @@
-"""What hands do to the map, by mouse, keys and fingers: walls without gaps, a robot that the posterior follows."""
+"""The page opens and paints a posterior, and follows hands: by mouse, keys and fingers."""
 
 import io
 
 import numpy as np
 import playwright.sync_api as playwright
 import pytest
-from page_driver import NO_WALLS, centre, colour_at, document, settled, snapshot, still, until, watch
-from page_hands import act, choose, click, press, press_and_drag, show_layer, undo
+from page_driver import (
+    NO_WALLS,
+    brightness_at,
+    centre,
+    colour_at,
+    document,
+    serious,
+    settled,
+    snapshot,
+    still,
+    until,
+    watch,
+)
+from page_hands import act, choose, click, enter, press, press_and_drag, show_layer, undo
 from PIL import Image
+from tiers import pairs_but
+
+
+def test_the_first_picture_is_the_posterior_of_the_tutorial_and_pixels_tell_what_is_known(page):
+    for label in ("Rays", "Readings"):
+        page.get_by_role("checkbox", name=label).uncheck()
+    shown = settled(page)
+    assert shown["document"]["grid"]["shape"] == [21, 21]
+    assert shown["connected"]
+    assert shown["painted"]["method"] == "gibbs"
+    assert not shown["painted"]["approximate"]
+    p, seen, walls = shown["probability"] / 255, shown["observed"] > 0, shown["walls"] > 0
+    assert 100 < seen.sum() < 400
+    assert p[seen & walls].mean() > 0.7
+    assert p[seen & ~walls].mean() < 0.05
+    assert abs(p[~seen].mean() - 0.5) < 0.05
+    free = colour_at(page, 10, 12)
+    assert seen[10, 12]
+    assert brightness_at(page, 10, 12) > 235
+    assert brightness_at(page, *np.argwhere(seen & (p > 0.98))[0].tolist()) < 90
+    assert not seen[20, 0]
+    red, _, blue = colour_at(page, 20, 0)
+    assert red - blue > 12  # warm: hatched where nothing was observed
+    assert free[0] - free[2] < 6  # not warm
+    theme = page.get_by_role("button", name="Theme")
+    for name, bright in (("light", True), ("dark", False), ("automatic", True)):
+        theme.click()
+        assert theme.get_attribute("aria-label") == f"Theme: {name}"
+        assert (brightness_at(page, 10, 12) > 190) == bright
+    page.mouse.move(*centre(page, 10, 12))  # zoomed in on, a cell is even up to its corners
+    for _ in range(8):
+        page.mouse.wheel(0, -240)
+    until(page, "s.transform.scale > 80")
+    assert min(brightness_at(page, 10, 12, (off, off)) for off in (0.3, -0.3)) > 235
+
+
+SCHEMES = pytest.mark.parametrize("scheme", ["light", pytest.param("dark", marks=pytest.mark.full)])
+
+
+@SCHEMES
+def test_axe_finds_no_serious_violation(open_page, scheme):
+    page = open_page(document(), color_scheme=scheme, bypass_csp=True)
+    settled(page)
+    for reach in (lambda: None, lambda: page.keyboard.press("?"), lambda: press(page, "New map")):
+        page.keyboard.press("Escape")
+        reach()
+        assert serious(page) == []
+
+
+@pytest.mark.full
+@SCHEMES
+def test_axe_finds_none_on_a_run_and_its_answers_either(open_page, room, scheme):
+    page = open_page(room[1], color_scheme=scheme, bypass_csp=True)
+    for tool, known in (("Where am I?", "s.where.found"), ("Look next", "s.decisions.views")):
+        choose(page, tool)
+        until(page, known)
+        assert serious(page) == []
+
+
+def test_each_page_looks_where_it_likes_and_undoes_what_it_did(open_page, page):
+    other = open_page(page.url)
+    choose(other, "One draw")
+    until(other, "s.painted.layer === 'draw'")
+    enter(page, "Prior P(wall)", 0.45)
+    assert settled(page)["painted"]["layer"] == "mean"
+    until(other, "s.document.prior === 0.45 && s.painted.layer === 'draw' && s.painted.generation === s.generation")
+    assert other.get_by_role("button", name="Undo").is_disabled()
+    choose(other, "Mean")
+    until(other, "s.painted.layer === 'mean'")
+    assert np.array_equal(settled(other)["probability"], settled(page)["probability"])
+    undo(page)
+
+
+def test_the_tools_fit_into_a_window_of_any_width(open_page):
+    page = open_page(document())
+    for width in (
+        1400, 1361, 1360, 1300, 1280, 1261, 1260, 1201, 1200, 1000, 901, 900, 800, 761, 760, 700, 641, 640, 451, 450,
+        421, 420, 381, 380, 320,
+    ):  # fmt: skip
+        page.set_viewport_size({"width": width, "height": 860})
+        until(page, "true")
+        assert page.evaluate("document.documentElement.scrollWidth") <= width
+        whole, seen = page.locator(".bar").evaluate("(bar) => [bar.scrollWidth, bar.clientWidth]")
+        assert whole <= seen, width
+
 
 PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True, "device_scale_factor": 2}
 
@@ -29,21 +126,6 @@ def test_a_fast_drag_over_twenty_cells_leaves_no_gaps_and_one_undo_restores(open
     assert settled(page)["walls"].sum() == 20
 
 
-def test_a_new_map_of_another_size_can_be_undone(page):
-    settled(page)
-    press(page, "New map")
-    page.get_by_label("World").select_option("blank")
-    page.get_by_role("spinbutton", name="Width").fill("40")
-    page.get_by_label("Height").fill("30")
-    act(page, lambda: press(page, "Create"))
-    assert settled(page)["walls"].shape == (40, 30)
-    x, y = centre(page, 39, 29)
-    assert 0 < x < 960
-    assert 0 < y < 860
-    act(page, lambda: page.keyboard.press("Control+z"))
-    assert settled(page)["walls"].shape == (21, 21)
-
-
 def test_each_layer_is_painted_only_when_what_it_shows_changes(page):
     settled(page)
 
@@ -63,7 +145,7 @@ def test_each_layer_is_painted_only_when_what_it_shows_changes(page):
     paints(lambda: choose(page, "Entropy"), "field")
     show_layer(page, "Mean")
     # sheets with nothing on them are hidden, and not painted
-    hidden = page.locator(".stage canvas").evaluate_all(
+    hidden = page.locator(".stage > canvas").evaluate_all(
         "(all) => all.filter((one) => getComputedStyle(one).visibility === 'hidden').map((one) => one.className)"
     )
     assert set(hidden) == {"hypothesis", "overlay", "reading", "evidence", "decisions", "where", "ghost"}
@@ -123,14 +205,6 @@ CONTROLS = (
     "New map,Share,Export,Help,Draw,Zoom in,Whole map,Run,Live,Mean,True walls,Rays,Readings,Prior P(wall),Noise (m),"
     "Angles,Method,Order,Sweeps,Seed,Clear walls,Clear inference,Selected sensor,Add a sensor"
 )
-FOCUS = """() => {
-  const e = document.querySelector("[data-bayesmap]").shadowRoot.activeElement;
-  if (!e) return null;
-  const ring = (x) => getComputedStyle(x).outlineStyle !== "none";
-  const name = e.getAttribute("aria-label") ?? e.labels?.[0]?.textContent ?? e.textContent;
-  return [name.trim(), ring(e) || ring(e.closest("label") ?? e), e.tagName];
-}"""
-"""Of the control that has the focus: its name, whether that is seen, and its kind."""
 
 
 def test_every_control_is_reached_by_tab_and_shows_its_focus(page):
@@ -138,7 +212,7 @@ def test_every_control_is_reached_by_tab_and_shows_its_focus(page):
     reached = []
     for _ in range(60):
         page.keyboard.press("Tab")
-        reached.append(page.evaluate(FOCUS))
+        reached.append(page.evaluate("probes.focus()"))
     reached = [entry for entry in reached if entry]
     names = {name for name, _, _ in reached}
     assert all(seen for _, seen, _ in reached), [name for name, seen, _ in reached if not seen]
@@ -162,12 +236,12 @@ def test_help_and_menus_open_and_close_by_keys_and_a_click_shows_no_frame_around
     assert page.get_by_role("radio", name="Draw", exact=True).is_checked(timeout=1000)
     page.keyboard.press("Escape")
     dialog.wait_for(state="hidden")
-    assert page.evaluate(FOCUS)[1:] == [True, "CANVAS"]
+    assert page.evaluate("probes.focus()")[1:] == [True, "CANVAS"]
     page.keyboard.press("p")
     click(page, 10, 14)
-    assert page.evaluate(FOCUS)[1:] == [False, "CANVAS"]
+    assert page.evaluate("probes.focus()")[1:] == [False, "CANVAS"]
     page.keyboard.press("ArrowUp")
-    assert page.evaluate(FOCUS)[1:] == [True, "CANVAS"]
+    assert page.evaluate("probes.focus()")[1:] == [True, "CANVAS"]
 
 
 @pytest.fixture
@@ -198,36 +272,31 @@ def test_a_finger_draws_and_a_tap_draws_one_cell(phone):
     assert settled(phone)["walls"][5, 17]
 
 
-def test_everything_fits_and_fingers_find_it(phone):
-    assert phone.evaluate("document.documentElement.scrollWidth") <= 390
-    for role, name in (("button", "Run"), ("button", "Undo"), ("radio", "Erase"), ("button", "Whole map")):
-        box = phone.get_by_role(role, name=name, exact=True).bounding_box()
-        assert box["x"] >= 0
-        assert box["x"] + box["width"] <= 390
-        assert min(box["width"], box["height"]) >= 34
-    phone.get_by_role("slider", name="Prior").fill("0.2")  # reached by scrolling the panel
-    until(phone, "s.document.prior === 0.2")
-    low, high = centre(phone, 0, 0), centre(phone, 20, 20)
-    assert 0 < low[0] < high[0] < 390
-    assert 0 < high[1] < low[1] < 844 * 0.6
+SIZES = [(390, 844), (844, 390), (320, 640)]
 
 
-@pytest.mark.full
-@pytest.mark.parametrize(("width", "height"), [(844, 390), (320, 640)], ids=["in landscape", "small"])
-def test_other_phones_have_a_large_map_every_tool_and_a_whole_status(open_page, room, width, height):
-    phone = {**PHONE, "viewport": {"width": width, "height": height}}
-    page = open_page(document(), **phone)
+@pytest.mark.parametrize(("width", "height"), pairs_but(SIZES, (390, 844)))
+def test_a_phone_has_a_large_map_and_every_tool_in_reach_of_a_finger(open_page, width, height):
+    page = open_page(document(), **{**PHONE, "viewport": {"width": width, "height": height}})
     settled(page)
     page.get_by_role("button", name="More tools").click()
     assert page.evaluate("document.documentElement.scrollWidth") <= width
-    tools = [("radio", tool) for tool in ("Draw", "Pan", "Where am I?", "Ghost")]
-    buttons = [("button", name) for name in ("Fewer tools", "Whole map", "Export", "Run")]
+    tools = [("radio", tool) for tool in ("Draw", "Erase", "Pan", "Where am I?", "Ghost")]
+    buttons = [("button", name) for name in ("Fewer tools", "Undo", "Whole map", "Export", "Run")]
     for role, name in (*tools, *buttons):
         box = page.get_by_role(role, name=name, exact=True).bounding_box()
         assert 0 <= box["x"] <= box["x"] + box["width"] <= width
         assert 0 <= box["y"] <= box["y"] + box["height"] <= height
+        assert min(box["width"], box["height"]) >= (34 if width < height else 30), name
     assert 21 * snapshot(page)["transform"]["scale"] > 0.7 * min(width, height)
-    page = open_page(room[1], **phone)
+    page.get_by_role("slider", name="Prior").fill("0.2")  # reached by scrolling the panel
+    until(page, "s.document.prior === 0.2")
+
+
+@pytest.mark.full
+@pytest.mark.parametrize(("width", "height"), SIZES[1:], ids=["in landscape", "small"])
+def test_other_phones_show_a_run_s_whole_status_and_its_ghost(open_page, room, width, height):
+    page = open_page(room[1], **{**PHONE, "viewport": {"width": width, "height": height}})
     status = page.locator("footer").get_by_role("status")
     playwright.expect(status).to_have_text("Ready, but the chains have not converged")
     wide, room_for_it = status.evaluate("(status) => [status.scrollWidth, status.clientWidth]")

@@ -46,14 +46,14 @@ def _serve(end, path, reading):
 @cache
 def _warm_context():
     """Start the process from which workers are forked; it imports this module, which then loads the worker."""
-    found = multiprocessing.get_context("forkserver")
-    found.set_forkserver_preload([__name__])
+    context = multiprocessing.get_context("forkserver")
+    context.set_forkserver_preload([__name__])
     path = [str(Path(__file__).parent), *filter(None, [os.environ.get("PYTHONPATH")])]
     with pytest.MonkeyPatch.context() as environment:
         environment.setenv(LOADS, "1")
         environment.setenv("PYTHONPATH", os.pathsep.join(path))
         forkserver.ensure_running()
-    return found
+    return context
 
 
 if LOADS in os.environ:

@@ -1,6 +1,8 @@
 """A small building's log, simulated once, and a recording."""
 
+import gzip
 import math
+from functools import cache
 
 import numpy as np
 import pytest
@@ -31,10 +33,31 @@ def prior(office):
 
 @pytest.fixture(scope="session")
 def office_run(office, tmp_path_factory):
-    """That log, inferred."""
+    """The folder of a run over that log."""
     folder = tmp_path_factory.mktemp("run") / "office"
     succeed("infer", office, "-o", folder, *SHORT)
     return folder
+
+
+@pytest.fixture(scope="session")
+def held_out(office, tmp_path_factory):
+    """Infer the log without every fourth scan, once for each kind of cells; returns the run, and what infer printed."""
+
+    @cache
+    def inferred(cells):
+        folder = tmp_path_factory.mktemp("held-out") / cells
+        return folder / "run.nc", json_of("infer", office, "-o", folder, *SHORT, "--holdout 4 --json --cells", cells)
+
+    return inferred
+
+
+@pytest.fixture
+def cut_log(office, tmp_path):
+    """The log, packed, and cut in the middle of a line."""
+    path = tmp_path / "cut.log.gz"
+    packed = gzip.compress(office.read_bytes(), mtime=0)
+    path.write_bytes(packed[: len(packed) // 2])
+    return path
 
 
 @pytest.fixture(scope="session")

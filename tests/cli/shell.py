@@ -5,11 +5,11 @@ from __future__ import annotations
 import contextlib
 import json
 import os
-import select
 import signal
 import subprocess
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -52,14 +52,21 @@ def json_of(*arguments: object) -> Any:
 
 
 def refusal_of(*arguments: object, code: int = 3) -> str:
-    """Return the standard error of a command that ends with an exit code."""
+    """Return the standard error of a command that ends with an exit code.
+
+    A command that is refused prints nothing on standard output; bad input is named by one last line.
+    """
     result = call(*arguments)
-    assert result.exit_code == code, (result.exit_code, result.stderr)
+    assert result.exit_code == code, (result.exit_code, result.stderr, result.exception)
+    assert code not in (2, 3) or result.stdout == ""
+    if code == 3:
+        assert result.stderr.splitlines()[-1].startswith("bayesmap: error: ")
+        assert "Traceback" not in result.stderr
     return result.stderr
 
 
 def after(statement: str, command: list[str]) -> list[str]:
-    """The command, in a process that first does something to itself that outlives exec.
+    """Return the command of a process that first does something to itself that outlives exec.
 
     Not by `preexec_fn`, which forks: in a test process that has loaded JAX that is a warning, hence an error.
     """
@@ -68,25 +75,22 @@ def after(statement: str, command: list[str]) -> list[str]:
 
 def start(*arguments: object, first: str | None = None, **options: Any) -> subprocess.Popen[str]:
     """Start a process of its own, as a terminal does: with Ctrl-C in force; ``first`` is done as in `after`."""
-    command = [*COMMAND, *words(arguments)]
-    environment = {**os.environ, "PYTHONPATH": str(SOURCE)}
-    return subprocess.Popen(
-        command if first is None else after(first, command),
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        env=environment,
-        **options,
-    )
+    command = [*COMMAND, *words(arguments)] if first is None else after(first, [*COMMAND, *words(arguments)])
+    environment, pipe = {**os.environ, "PYTHONPATH": str(SOURCE)}, subprocess.PIPE
+    return subprocess.Popen(command, stdout=pipe, stderr=pipe, text=True, env=environment, **options)
 
 
-def interrupt_at_checkpoint(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Press Ctrl-C as soon as the first checkpoint is there."""
+def press_ctrl_c(_: Run) -> None:
+    os.kill(os.getpid(), signal.SIGINT)
+
+
+def interrupt_at_checkpoint(monkeypatch: pytest.MonkeyPatch, press: Callable[[Run], None] = press_ctrl_c) -> None:
+    """Press Ctrl-C as soon as the first checkpoint is there, or do something else then."""
     save = Folder.checkpoint
 
     def checkpoint(self: Folder, run: Run, *told: object) -> None:
-        save(self, run)
-        os.kill(os.getpid(), signal.SIGINT)
+        save(self, run, *told)
+        press(run)
 
     monkeypatch.setattr(Folder, "checkpoint", checkpoint)
 
@@ -94,6 +98,11 @@ def interrupt_at_checkpoint(monkeypatch: pytest.MonkeyPatch) -> None:
 def interrupt_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
     """Press Ctrl-C before the first sweep of any chain."""
     monkeypatch.setattr("bayesmap.api.stop_on_interrupt", lambda: contextlib.nullcontext(lambda: True))
+
+
+def contents(folder: Path) -> dict[str, bytes]:
+    """Return the bytes of the files in a folder, by name."""
+    return {path.name: path.read_bytes() for path in folder.iterdir() if path.is_file()}
 
 
 def assert_same_draws(folder: Path, other: Path) -> None:
@@ -125,24 +134,3 @@ def wait_for(path: Path, process: subprocess.Popen[str]) -> None:
         assert process.poll() is None, process.communicate()
         assert time.monotonic() < deadline, f"waited {PATIENCE_S} s for {path}"
         time.sleep(0.02)
-
-
-class Listener:
-    """Lines of a process's standard output as they come; none later than patience allows."""
-
-    def __init__(self, process: subprocess.Popen[str]) -> None:
-        self.process, self.rest = process, b""
-
-    def line(self) -> str:
-        """Return the next line."""
-        stdout = self.process.stdout
-        assert stdout is not None
-        deadline = time.monotonic() + PATIENCE_S
-        while b"\n" not in self.rest:
-            ready, _, _ = select.select([stdout], [], [], max(0.0, deadline - time.monotonic()))
-            assert ready, f"waited {PATIENCE_S} s for a line of {self.process.args}"
-            piece = os.read(stdout.fileno(), 1 << 16)
-            assert piece, self.process.communicate()
-            self.rest += piece
-        line, _, self.rest = self.rest.partition(b"\n")
-        return line.decode()

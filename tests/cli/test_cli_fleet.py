@@ -35,7 +35,7 @@ def logs(office, tmp_path):
 
 
 def check(result, output, alone):
-    """What must come out of the folder of logs."""
+    """Check the table, the folders and the draws of a folder of logs."""
     assert result.exit_code == 1, result.stderr
     rows = {row["log"].rpartition("/")[2]: row for row in json.loads(result.stdout)["runs"]}
     assert set(rows) == {"broken.log", "east.log", "west.log"}
@@ -57,34 +57,45 @@ FLEET = ("--holdout 4 --cells binary --resolution 0.25 --chains 2 --warmup 5 --d
 """Walls, of which a worker has little to load; surfaces are drawn on a cluster in tests/run/test_ray_executor.py."""
 
 
-@pytest.fixture(scope="module")
-def alone(office, tmp_path_factory):
-    """The same log inferred alone, with the fleet's settings."""
-    folder = tmp_path_factory.mktemp("fleet") / "alone"
-    succeed("infer", office, "-o", folder, *FLEET)
-    return folder
+@pytest.fixture
+def alone(held_out):
+    """The folder of a run over one of the logs alone, with the fleet's settings."""
+    return held_out("binary")[0].parent
 
 
 def test_a_folder_of_logs_is_inferred_and_a_broken_one_fails_alone(logs, tmp_path, alone):
     check(call("infer", logs, "-o", tmp_path / "runs", "--json", *FLEET), tmp_path / "runs", alone)
 
 
-def test_on_a_cluster_too(logs, tmp_path, alone, cluster):
+def test_a_folder_of_logs_is_inferred_on_a_cluster(logs, tmp_path, alone, cluster):
     check(call("infer", logs, "-o", tmp_path / "runs", "--json --executor ray", *FLEET), tmp_path / "runs", alone)
+
+
+def at_first_checkpoint(monkeypatch, act, on_ray):
+    """Do something at the first checkpoint; returns a list that has an entry as soon as it is done."""
+    keeper, name = (infer.RayFleet, "keep") if on_ray else (Folder, "checkpoint")
+    keep, done = getattr(keeper, name), []
+
+    def keep_and_act(self, *given):
+        keep(self, *given)
+        if not done and not (on_ray and not given[1].files):
+            done.append(True)
+            act()
+
+    monkeypatch.setattr(keeper, name, keep_and_act)
+    return done
+
+
+def interrupt_the_first(monkeypatch, on_ray):
+    """Press Ctrl-C at the first checkpoint, when the other log has not begun."""
+    at_first_checkpoint(monkeypatch, lambda: os.kill(os.getpid(), signal.SIGINT), on_ray)
+    monkeypatch.setattr(infer.RayFleet, "most_at_once", lambda self, entry: 1)
 
 
 @pytest.mark.full
 def test_a_log_whose_node_dies_goes_on_elsewhere(logs, tmp_path, alone, cluster, monkeypatch):
     cluster.complete()
-    keep, killed = infer.RayFleet.keep, []
-
-    def keep_and_kill(self, entry, sent):
-        keep(self, entry, sent)
-        if sent.files and not killed:
-            cluster.kill()
-            killed.append(entry)
-
-    monkeypatch.setattr(infer.RayFleet, "keep", keep_and_kill)
+    killed = at_first_checkpoint(monkeypatch, cluster.kill, on_ray=True)
     every = "--json --executor ray --checkpoint-every 0"
     check(call("infer", logs, "-o", tmp_path / "runs", every, *FLEET), tmp_path / "runs", alone)
     assert killed
@@ -103,17 +114,16 @@ def test_progress_of_all_logs_is_shown_and_ctrl_c_keeps_what_workers_have(logs, 
 
     def show(share, name):
         shown.append((name, share))
-        found = re.search(r"(east|west) drawing ([\d,]+)/4,005", name)
-        if found and not at:
-            at.append((found[1], int(found[2].replace(",", ""))))
+        match = re.search(r"(east|west) drawing ([\d,]+)/4,005", name)
+        if match and not at:
+            at.append((match[1], int(match[2].replace(",", ""))))
             os.kill(os.getpid(), signal.SIGINT)
 
     monkeypatch.setattr(infer, "share", lambda console, begin: contextlib.nullcontext(show))
     monkeypatch.setattr(infer, "STOP_S", 120.0)
     pair, options = (logs / "east.log", logs / "west.log"), (*short, "--executor", "ray", "--checkpoint-every", 3600)
-    assert "stopping: what the workers have is fetched" in refusal_of(
-        "infer", *pair, "-o", tmp_path / "runs", *options, "--draws 4000", code=130
-    )
+    told = refusal_of("infer", *pair, "-o", tmp_path / "runs", *options, "--draws 4000", code=130)
+    assert "stopping: what the workers have is fetched" in told
     ((name, done),) = at
     run = bm.load(tmp_path / "runs" / name / "run.nc")
     assert 5 < done <= run.posterior.sweep < 4005
@@ -123,8 +133,8 @@ def test_progress_of_all_logs_is_shown_and_ctrl_c_keeps_what_workers_have(logs, 
 
 
 @pytest.mark.full
-def test_what_tells_workers_of_ctrl_c_is_on_the_commands_own_node(cluster):
-    """On any other they would not hear of it once that node has died."""
+def test_the_mailbox_that_tells_workers_of_ctrl_c_is_on_the_commands_own_node(cluster):
+    """Workers would hear nothing from a mailbox on a node that has died."""
     import ray
 
     cluster.complete()
@@ -138,7 +148,7 @@ def test_what_tells_workers_of_ctrl_c_is_on_the_commands_own_node(cluster):
 
 @pytest.mark.full
 @pytest.mark.parametrize("several", [True, False])
-def test_what_ray_prints_after_the_run_is_not_in_the_document(logs, tmp_path, short, cluster, monkeypatch, several):
+def test_words_of_ray_after_the_run_are_not_in_the_document(logs, tmp_path, short, cluster, monkeypatch, several):
     """A node that died is reported some time later, on what Python takes for standard output then."""
 
     def and_print(made):
@@ -167,21 +177,6 @@ def test_a_pattern_and_several_names_are_several_logs(logs, tmp_path, short):
     succeed(*named, "--resume")
 
 
-def interrupt_the_first(monkeypatch, on_ray):
-    """Press Ctrl-C at the first checkpoint, when the other log has not begun."""
-    keeper, name = (infer.RayFleet, "keep") if on_ray else (Folder, "checkpoint")
-    keep, pressed = getattr(keeper, name), []
-
-    def keep_and_press(self, *given):
-        keep(self, *given)
-        if not pressed and not (on_ray and not given[1].files):
-            pressed.append(True)
-            os.kill(os.getpid(), signal.SIGINT)
-
-    monkeypatch.setattr(keeper, name, keep_and_press)
-    monkeypatch.setattr(infer.RayFleet, "most_at_once", lambda self, entry: 1)
-
-
 @pytest.mark.parametrize("executor", full_but(["threads", "ray"], "threads"))
 def test_a_resumed_fleet_begins_the_other_logs_with_its_settings(logs, tmp_path, alone, monkeypatch, request, executor):
     if executor == "ray":
@@ -208,9 +203,8 @@ def test_a_run_that_was_to_be_replaced_is_not_taken_for_the_new_one(logs, tmp_pa
     with monkeypatch.context() as patch:
         interrupt_the_first(patch, on_ray=False)
         refusal_of("infer", *pair, "-o", output, *short, "--seed 2 --force", code=130)
-    assert bm.load(output / "west" / "run.nc").posterior.settings["seed"] == 1, (
-        "it goes when its log begins, not before"
-    )
+    # The old run goes when its log begins, not before.
+    assert bm.load(output / "west" / "run.nc").posterior.settings["seed"] == 1
     # The settings need not be said again, of a log alone neither.
     succeed("infer", pair[1], "-o", output / "west", "--resume")
     succeed("infer", *pair, "-o", output, "--resume")
@@ -225,13 +219,12 @@ def test_a_run_that_was_to_be_replaced_is_not_taken_for_the_new_one(logs, tmp_pa
     (["nowhere/*.log"], "no file matches"), (["EMPTY"], "a folder without logs"),
     (["a/office.log", "b/office.log"], "office: two of the logs have this name"),
 ])  # fmt: skip
-def test_what_holds_no_logs_is_refused(given, message, tmp_path):
+def test_paths_without_logs_are_refused(given, message, tmp_path):
     (tmp_path / "EMPTY").mkdir()
     assert message in refusal_of("infer", *(tmp_path / one for one in given), "-o", tmp_path / "runs")
 
 
 @pytest.mark.parametrize("executor", ["dask", "ray://", "ray:"])
 def test_an_executor_that_is_none_is_refused(office, tmp_path, executor):
-    assert "--executor must be threads, ray or ray://HOST:PORT" in refusal_of(
-        "infer", office, "-o", tmp_path / "run", "--executor", executor
-    )
+    refusal = refusal_of("infer", office, "-o", tmp_path / "run", "--executor", executor)
+    assert "--executor must be threads, ray or ray://HOST:PORT" in refusal

@@ -1,17 +1,19 @@
-"""`infer`: what it leaves behind, what its document says, and that nothing is lost."""
+"""infer: what it leaves behind, what its document says, and what it needs."""
 
 import json
 
 import numpy as np
 import pytest
 from shell import call, json_of, refusal_of, succeed
-from tiers import full_but
+from tiers import full_but, pairs_but
 
 import bayesmap as bm
 from bayesmap.cells.kinds import prior_from
+from bayesmap.cli.console import Console
+from bayesmap.cli.pipeline import announce, cost_of_suggestion
 from bayesmap.io.logs import read_log
 from bayesmap.io.ros.maps import read_map
-from bayesmap.run import runner
+from bayesmap.run import cost, runner
 from bayesmap.samplers.fit import first_sensor
 from bayesmap.sensors.model import describe
 from bayesmap.space.planar import compose, inverse
@@ -81,7 +83,7 @@ def test_everything_is_left_in_the_folder_and_told_in_the_document(office, tmp_p
 
 
 def test_a_run_is_not_overwritten_unless_told(office, tmp_path, short):
-    """Without --json standard output has the paths."""
+    """Standard output has the paths unless --json is given."""
     folder = tmp_path / "run"
     result = succeed("infer", office, "-o", folder, *short)
     assert {line.rsplit("/", 1)[-1] for line in result.stdout.split()} == WITH_SURFACES
@@ -97,13 +99,12 @@ def test_a_run_is_not_overwritten_unless_told(office, tmp_path, short):
     assert bm.load(folder / "run.nc").posterior.settings["seed"] == 9
 
 
-@pytest.mark.parametrize("cells", full_but(["surface", "binary"], "surface"))
-def test_strict_exits_4_but_leaves_everything(office, tmp_path, short, cells):
-    """Of three draws nothing can be judged, which is a problem too."""
-    result = call("infer", office, "-o", tmp_path / "run", *short, "--cells", cells, "--draws 3 --strict --json")
+def test_strict_exits_4_but_leaves_everything(office, tmp_path, short):
+    """Three draws are too few to judge anything, which is a problem too."""
+    result = call("infer", office, "-o", tmp_path / "run", *short, "--draws 3 --strict --json")
     assert result.exit_code == 4, result.stderr
     assert any("nothing can be judged" in problem for problem in json.loads(result.stdout)["problems"])
-    assert {path.name for path in (tmp_path / "run").iterdir()} == (WITH_SURFACES if cells == "surface" else FILES)
+    assert {path.name for path in (tmp_path / "run").iterdir()} == WITH_SURFACES
 
 
 WORK = {
@@ -129,19 +130,15 @@ def test_binary_walls_with_a_fitted_sensor(office, tmp_path, short):
     assert json_of("infer", office, "-o", tmp_path / "run", "--resume --json")["fitted"]["sensor"] == sensor
 
 
-def test_a_sensor_that_is_given_is_not_fitted(office, tmp_path, short):
-    document = json_of("infer", office, "-o", tmp_path / "run", *short, "--sensor mixture:0.03 --json")
+def test_a_sensor_and_cells_that_are_given_are_taken(office, tmp_path, short):
+    truth = office.with_name("office-truth.yaml")
+    document = json_of("infer", office, "-o", tmp_path / "run", *short, "--sensor mixture:0.03 --json --grid", truth)
     assert document["sensor"]["noise"] == {"kind": "gaussian", "sigma_m": 0.03, "sigma_per_m": 0.0}
     assert document["fitted"] is None
     run = bm.load(tmp_path / "run" / "run.nc")
     assert run.posterior.sensor == bm.BeamMixture(bm.Gaussian(0.03))
     assert run.posterior.prior == bm.Surface()
-
-
-def test_the_cells_of_a_given_map(office, tmp_path, short):
-    truth = office.with_name("office-truth.yaml")
-    succeed("infer", office, "-o", tmp_path / "run", *short, "--grid", truth)
-    assert bm.load(tmp_path / "run" / "run.nc").grid == read_map(truth)[1]
+    assert run.grid == read_map(truth)[1]
 
 
 def test_bad_lines_are_refused_or_listed(office, tmp_path, short):
@@ -166,37 +163,27 @@ def test_how_many_draws_a_short_log_gets_is_kept_with_the_run(office, tmp_path, 
     assert f"\ndraws = {draws} " in (tmp_path / "run" / "config.toml").read_text()
 
 
-@pytest.mark.parametrize("coupling", full_but(["0.7", "fit"], "fit"))
-def test_walls_whose_neighbours_are_coupled(office, tmp_path, short, coupling):
-    options = ("--cells binary --coupling", coupling, "--prior 0.3 --json")
-    result = succeed("infer", office, "-o", tmp_path / "run", *short, *options)
+COUPLED = [("binary", "0.7"), ("binary", "fit"), ("reflectivity", "0.7"), ("surface", "0.7")]
+
+
+@pytest.mark.parametrize(("cells", "coupling"), pairs_but(COUPLED, ("binary", "fit"), ("surface", "0.7")))
+def test_walls_or_labels_of_neighbours_are_coupled(office, tmp_path, short, cells, coupling):
+    options = ("--json --cells", cells, "--coupling", coupling, *(["--prior 0.3"] if cells == "binary" else []))
+    document = json_of("infer", office, "-o", tmp_path / "run", *short, *options)
     prior = bm.load(tmp_path / "run" / "run.nc").posterior.prior
-    assert isinstance(prior, bm.Ising)
-    assert prior.p_wall == 0.3
-    document = json.loads(result.stdout)
     about = call("info", tmp_path / "run" / "run.nc").stdout
-    if coupling == "fit":
-        assert document["fitted"]["prior"] == prior.describe()
-        assert f"fitted coupling: {prior.coupling:.3g}" in about
+    assert (f"fitted coupling: {prior.coupling:.3g}" in about) == (coupling == "fit")
+    assert ("fitted coupling" in about) == (coupling == "fit")
+    if cells == "binary":
+        assert (type(prior), prior.p_wall) == (bm.Ising, 0.3)
+        assert coupling == "fit" or prior.coupling == 0.7
+        assert (document["fitted"] or document)["prior"] == prior.describe()
     else:
-        assert document["prior"] == bm.Ising(0.3, 0.7).describe() == prior.describe()
-        assert "fitted" not in about
+        assert (prior.words.kind, prior.coupling, document["prior"]["coupling"]) == (cells, 0.7, 0.7)
+        assert document["fitted"]["prior"] == prior.describe()
+        assert document["fitted"]["prior"]["a_solid"] != document["prior"]["a_solid"]
     written = (tmp_path / "run" / "config.toml").read_text()
-    assert f"coupling = {coupling if coupling == '0.7' else repr(coupling).replace(chr(39), chr(34))}" in written
-
-
-@pytest.mark.parametrize("cells", full_but(["surface", "reflectivity"], "surface"))
-def test_labels_of_neighbours_are_coupled(office, tmp_path, short, cells):
-    result = succeed("infer", office, "-o", tmp_path / "run", *short, "--cells", cells, "--coupling 0.7 --json")
-    prior = bm.load(tmp_path / "run" / "run.nc").posterior.prior
-    assert prior.words.kind == cells
-    assert prior.coupling == 0.7
-    document = json.loads(result.stdout)
-    assert document["prior"]["coupling"] == 0.7
-    assert document["fitted"]["prior"] == prior.describe()
-    assert document["fitted"]["prior"]["a_solid"] != document["prior"]["a_solid"]
-    assert "fitted coupling" not in call("info", tmp_path / "run" / "run.nc").stdout
-    assert "coupling = 0.7" in (tmp_path / "run" / "config.toml").read_text()
+    assert ('coupling = "fit"' if coupling == "fit" else "coupling = 0.7") in written
 
 
 def test_a_log_without_a_hit_is_warned_of(office, tmp_path, short):
@@ -204,8 +191,8 @@ def test_a_log_without_a_hit_is_warned_of(office, tmp_path, short):
     assert f"warning: {office}: no reading is a hit" in result.stderr
 
 
-def test_where_the_laser_sits_is_said_and_kept_with_the_run(office, office_run, tmp_path, short):
-    """The same log whose poses are the robot's gives the same run, by flag or from the file."""
+def test_the_laser_s_place_on_the_robot_is_kept_with_the_run(office, office_run, tmp_path, short):
+    """A log of the robot's poses gives an equal run, whether a flag or the file says where the laser sits."""
     scans, mount = read_log(office), np.array([0.2, -0.1, np.pi / 2])
     log = tmp_path / "robot.npz"
     robot = compose(scans.poses, inverse(mount))
@@ -213,8 +200,7 @@ def test_where_the_laser_sits_is_said_and_kept_with_the_run(office, office_run, 
         log, poses=robot, angles_rad=scans.angles_rad, ranges_m=scans.ranges_m, stamps_s=scans.stamps_s,
         max_range_m=scans.max_range_m,
     )  # fmt: skip
-    laser = "--laser 0.2,-0.1,90"
-    held = "--holdout 4"
+    laser, held = "--laser 0.2,-0.1,90", "--holdout 4"
     succeed("infer", log, "-o", tmp_path / "run", *short, laser, held)
     run = bm.load(tmp_path / "run" / "run.nc")
     train, _ = scans.holdout(4)
@@ -270,3 +256,44 @@ def test_a_yaw_in_degrees_is_refused_for_what_it_is(tmp_path):
     assert "is it in degrees? Convert it to radians" in refusal
     assert "slam" not in refusal
     assert "convert it to radians first" in succeed("info", tmp_path / "a.npz").stdout
+
+
+SMALL = 1 << 20
+
+
+def test_a_long_run_is_announced_with_a_shorter_one(capsys):
+    for most_s, said in (
+        (119.0, ""),
+        (130.0, "this takes about 5.0 to 65 s on 2 cores, and 1.0 to 2.0 of 25 GB of memory"),
+    ):
+        announce(Console(), cost.Estimate((1e9, 2e9), (10.0, most_s), 2, 25 * 10**9, "--seconds 60"))
+        assert capsys.readouterr().err == (f"{said}; less with --seconds 60\n" if said else "")
+
+
+def test_a_run_that_cannot_fit_is_refused_and_nothing_is_written(office, tmp_path, short, monkeypatch):
+    monkeypatch.setattr(cost, "memory_bytes", lambda: SMALL)
+    refusal = refusal_of("infer", office, "-o", tmp_path / "run", *short)
+    assert "bayesmap: error: memory: this takes at least 0.4 GB, and there are 0.0: make it smaller with --" in refusal
+    assert not (tmp_path / "run").exists()
+    insisted = succeed("infer", office, "-o", tmp_path / "run", "--any-size --cells binary", *short)
+    assert "this takes about " in insisted.stderr
+
+
+def test_info_gives_the_cost_of_its_command_and_an_option_if_it_cannot_fit(office, monkeypatch):
+    told = json_of("info", office, "--json")
+    assert told["suggestion"] == f"bayesmap infer {office}"
+    estimate = told["estimate"]
+    assert estimate["fits"]
+    assert 0 < estimate["seconds"][0] <= estimate["seconds"][1]
+    assert estimate["memory_bytes"][1] > 3e8
+    monkeypatch.setattr(cost, "memory_bytes", lambda: SMALL)
+    told = json_of("info", office, "--json")
+    assert told["suggestion"] == f"bayesmap infer {office} {told['estimate']['remedy']}"
+    assert f"({told['estimate']['words']}):\n  {told['suggestion']}\n" in call("info", office).stdout
+
+
+def test_the_cost_of_slam_has_the_trajectory_too(raw_log):
+    scans = read_log(raw_log)
+    slam, infer = (cost_of_suggestion(f"bayesmap {command} log", scans)["seconds"] for command in ("slam", "infer"))
+    assert slam[0] > infer[0]
+    assert cost_of_suggestion(None, scans) is None

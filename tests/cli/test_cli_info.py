@@ -1,15 +1,18 @@
-"""bayesmap info: what is in a file; and bayesmap infer on a recording."""
+"""info says what is in a file; app opens it, or writes a figure of it."""
 
-import gzip
 import json
 import re
+import signal
 
 import numpy as np
 import pytest
 from recordings import SCAN, header, laser, written
-from shell import call, json_of, refusal_of, succeed
+from shell import PATIENCE_S, call, json_of, refusal_of, start, succeed
 
 import bayesmap as bm
+from bayesmap.app.edits import tutorial_document
+from bayesmap.app.sources import open_file
+from bayesmap.errors import BadInput
 from bayesmap.io.logs import read_log
 
 
@@ -45,10 +48,7 @@ def test_settings_of_recordings_come_from_toml_and_set_too(recording, tmp_path, 
 
 
 def test_two_lasers_and_none_chosen_is_bad_input(recording, tmp_path):
-    assert (
-        "choose one with --scan-topic: /rear ("
-        in refusal_of("infer", recording, "-o", tmp_path / "run").splitlines()[-1]
-    )
+    assert "choose one with --scan-topic: /rear (" in refusal_of("infer", recording, "-o", tmp_path / "run")
     assert not (tmp_path / "run").exists()
 
 
@@ -64,23 +64,19 @@ def test_a_cut_recording_is_bad_input_and_info_tells_what_is_left(recording, tmp
     assert len(read_log(cut, scan_topic="/scan", skip_bad_lines=True)) == 6
 
 
-def test_info_names_the_place_where_a_log_is_cut(office, tmp_path):
-    cut = tmp_path / "cut.log.gz"
-    whole = gzip.compress(office.read_bytes(), mtime=0)
-    cut.write_bytes(whole[: len(whole) // 2])
-    told = call("info", cut)
+def test_info_names_the_place_where_a_log_is_cut(cut_log):
+    told = call("info", cut_log)
     assert told.exit_code == 3
-    assert re.search(
-        r"cut.log.gz: read in part: \d+ scans, without malformed messages or lines \(1\); infer and slam", told.stderr
-    )
+    words = r"cut.log.gz: read in part: \d+ scans, without malformed messages or lines \(1\); infer and slam"
+    assert re.search(words, told.stderr)
     assert len(re.findall(r"first line [1-9]\d*: the gzip file is damaged or cut short", told.output)) == 1
 
 
 def test_info_on_a_carmen_log_and_on_a_saved_run(office, office_run):
-    told = json.loads(call("info", office, "--json").stdout)
+    told = json_of("info", office, "--json")
     assert (told["format"], told["sensors"][0]["scans"], told["sensors"][0]["beams"]) == ("carmen", 12, 60)
     assert told["suggestion"] == f"bayesmap infer {office}"
-    run = json.loads(call("info", office_run / "run.nc", "--json").stdout)
+    run = json_of("info", office_run / "run.nc", "--json")
     assert run["format"] == "bayesmap run"
     assert run["run"]["scans"] == run["sensors"][0]["scans"] == 12
     shown = call("info", office_run / "run.nc").stdout
@@ -99,37 +95,27 @@ def test_info_says_so_where_the_fitted_noise_has_heavy_tails(office_run, tmp_pat
 
 
 @pytest.mark.parametrize("content", [None, b"", b"prose\n", b"\x89HDF\r\n\x1a\n"])
-def test_what_cannot_be_told_is_bad_input(tmp_path, content):
+def test_a_file_of_no_known_format_is_bad_input(tmp_path, content):
     path = tmp_path / "file"
     if content is not None:
         path.write_bytes(content)
-    result = call("info", path)
-    assert result.exit_code == 3
-    assert result.stdout == ""
-    assert result.stderr.startswith(f"bayesmap: error: {path}: ")
+    assert refusal_of("info", path).startswith(f"bayesmap: error: {path}: ")
 
 
-@pytest.fixture(scope="module")
-def alone(tmp_path_factory):
-    """Write a table of scans alone, with so many seconds from scan to scan; returns a function of the seconds."""
-    folder = tmp_path_factory.mktemp("alone")
-
-    def written(every_s):
-        path = folder / f"{every_s}.csv"
-        rows = "".join(f"{every_s * i},{1 + 0.01 * i},1.5,2\n" for i in range(40))
-        path.write_text("# angle_min: -0.5\n# angle_increment: 0.5\nstamp,r_0,r_1,r_2\n" + rows)
-        return path
-
-    return written
+def scans_alone(path, every_s):
+    """Write a table of scans alone, with so many seconds from scan to scan."""
+    rows = "".join(f"{every_s * i},{1 + 0.01 * i},1.5,2\n" for i in range(40))
+    path.write_text("# angle_min: -0.5\n# angle_increment: 0.5\nstamp,r_0,r_1,r_2\n" + rows)
+    return path
 
 
-def test_scans_alone_are_described_and_the_command_needs_no_poses(alone):
-    path = alone(0.1)
+def test_scans_alone_are_described_and_the_command_needs_no_poses(tmp_path):
+    path = scans_alone(tmp_path / "scans.csv", 0.1)
     shown = succeed("info", path)
     assert "40 of 3 beams" in shown.stdout
     assert "  no poses: nothing says where the scans were taken" in shown.stdout
     assert shown.stdout.endswith(f"  bayesmap slam {path} --no-odometry\n")
-    told = json.loads(call("info", alone(1.0), "--json").stdout)
+    told = json_of("info", scans_alone(tmp_path / "seldom.csv", 1.0), "--json")
     assert told["suggestion"] is None
     assert "too seldom" in told["notes"][-1]
     assert "bayesmap slam --no-odometry needs no poses" in refusal_of("infer", path)
@@ -167,3 +153,51 @@ def test_poses_under_which_walls_stand_twice_are_not_always_raw_odometry(tmp_pat
     shown = call("info", turned).stdout
     assert "the same walls stand in several places" in shown
     assert "--laser X,Y,DEGREES" in shown
+
+
+@pytest.mark.parametrize("command", ["infer", "slam", "localize", "score", "render", "app"])
+def test_every_command_that_reads_a_log_has_the_option_that_refusals_name(command):
+    assert "--skip-bad-lines" in call(command, "--help").stdout
+
+
+def test_a_cut_log_is_refused_and_shown_as_far_as_it_goes_with_the_option_that_is_named(cut_log):
+    with pytest.raises(BadInput, match="--skip-bad-lines"):
+        open_file(str(cut_log))
+    process = start("app", "--no-browser -q", cut_log, "--skip-bad-lines")
+    try:
+        assert process.stdout.readline().startswith("http://127.0.0.1:")
+    finally:
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate(timeout=PATIENCE_S)
+    assert (process.returncode, errors) == (0, "")
+
+
+def test_settings_of_reading_reach_the_log(office):
+    whole = open_file(str(office)).document.source.scans
+    assert open_file(str(office), thin_m=1.0).document.source.scans < whole
+    printed = json.loads(json.dumps({"no_return": float("inf")}))  # as the worker is told
+    assert open_file(str(office), **printed).document.source.scans == whole
+
+
+def test_the_command_writes_a_figure_of_a_document_in_one_small_file(tmp_path):
+    document, target = tmp_path / "document.json", tmp_path / "figure.html"
+    document.write_text(json.dumps({**tutorial_document().to_json(), "prior": 0.1}))
+    assert succeed("app", document, "--export", target).stdout.strip() == str(target)
+    assert 50_000 < target.stat().st_size < 400_000
+    assert "http" not in target.read_text().split("data-module>")[0]
+
+
+@pytest.mark.parametrize(("changes", "target", "why"), [
+    ({"pose_sigma": 0.1}, "figure.html", "known poses alone"),
+    ({"method": "propagate"}, "figure.html", "choose another method"),
+    ({}, "figure.pdf", "end its name in one of .html"), ({}, "missing/figure.html", "make it first"),
+])  # fmt: skip
+def test_a_figure_that_cannot_be_exported_is_refused_with_the_remedy(tmp_path, changes, target, why):
+    document = tmp_path / "document.json"
+    document.write_text(json.dumps({**tutorial_document().to_json(), **changes}))
+    assert why in refusal_of("app", document, "--export", tmp_path / target)
+    assert not (tmp_path / target).exists()
+
+
+def test_a_log_is_no_figure(office, tmp_path):
+    assert "is no drawn world" in refusal_of("app", office, "--export", tmp_path / "figure.html")

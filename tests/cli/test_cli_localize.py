@@ -1,12 +1,18 @@
-"""`localize`: answers as text, as JSON, line by line, and as trajectories."""
+"""localize: answers as text, as JSON, as trajectories, and line by line while a log is written."""
 
+import gzip
 import json
+import os
 import re
+import signal
+import subprocess
+import time
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from shell import call, json_of, refusal_of, succeed
+from shell import PATIENCE_S, call, json_of, refusal_of, start, succeed, write_table
+from tiers import full_but
 
 from bayesmap.cli.localize import _per_cent
 from bayesmap.io.logs import read_log
@@ -15,12 +21,13 @@ from bayesmap.space.planar import compose, inverse
 
 
 @pytest.fixture(scope="module")
-def answers(office, office_run, prior):
-    result = succeed("localize", office_run / "run.nc", office, "--follow --for 0 --no-progress", *prior)
-    return [json.loads(line) for line in result.stdout.splitlines()]
+def lines(office, office_run, prior):
+    """Return the line that is printed for each scan of the log."""
+    return succeed("localize", office_run / "run.nc", office, "--follow --for 0", *prior).stdout.splitlines()
 
 
-def test_a_line_for_each_scan_as_it_is_known(office, answers):
+def test_a_line_for_each_scan_as_it_is_known(office, lines):
+    answers = [json.loads(line) for line in lines]
     assert [answer["scan"] for answer in answers] == list(range(12))
     truth = read_log(office).poses
     off = [np.hypot(*(np.array(a["mean"][:2]) - pose[:2])) for a, pose in zip(answers, truth, strict=True)]
@@ -31,13 +38,13 @@ def test_a_line_for_each_scan_as_it_is_known(office, answers):
 
 
 @pytest.mark.parametrize("ending", [".tum", ".mcap", ".jsonl"])
-def test_trajectories_are_written(office, office_run, answers, prior, tmp_path, ending):
+def test_trajectories_are_written(office, office_run, lines, prior, tmp_path, ending):
     target = tmp_path / f"where{ending}"
     area = "--area -100,100,-100,100"
     document = json_of("localize", office_run / "run.nc", office, *prior, "-o", target, "--json", area)
     assert document["scans"] == 12
     last = document["last"]
-    assert last["mean"] == answers[-1]["mean"]
+    assert last["mean"] == json.loads(lines[-1])["mean"]
     assert last["probability_in_area"] == pytest.approx(1 - last["p_lost"])
     assert str(target) in document["outputs"].values()
     if ending == ".tum":
@@ -58,7 +65,7 @@ def test_a_single_scan_with_a_prior(office, office_run):
 
 
 def test_poses_are_those_of_the_frame_that_is_asked_for(office, office_run, tmp_path):
-    """With the laser 2 m before the base and turned by 90 degrees, and the pose of that frame as prior."""
+    """The laser sits 2 m before the base, turned by 90 degrees; the prior is of the frame that is asked for."""
     mount, scans = np.array([2.0, 0.0, np.pi / 2]), read_log(office, laser=(2.0, 0.0, np.pi / 2))
     laser, found = scans.poses[3], {}
     for frame, pose in (("base", compose(laser, inverse(mount))), ("laser", laser)):
@@ -89,16 +96,10 @@ def test_lost_scans_are_named_with_their_times(office, office_run, monkeypatch):
     assert f"4 of 7 scans fit nowhere on the map: lost, or the map is outdated: {told}" in result.stderr
 
 
-@pytest.fixture(scope="module")
-def truth_map(office):
-    """The building's true map, as map_server has it."""
-    return office.with_name(f"{office.stem}-truth.yaml")
-
-
 @pytest.mark.parametrize("follow", [(), ("--follow --for 0",)])
-def test_a_map_of_another_program_is_located_in(office, truth_map, prior, tmp_path, follow):
-    """The law is said to be assumed, for twelve scans are too few to fit one."""
-    target = tmp_path / "where.jsonl"
+def test_a_map_of_another_program_is_located_in(office, prior, tmp_path, follow):
+    """Twelve scans are too few to fit a sensor model, which the command says."""
+    truth_map, target = office.with_name("office-truth.yaml"), tmp_path / "where.jsonl"
     result = succeed("localize", truth_map, office, *prior, *follow, "-o", target, "--no-progress")
     if not follow:
         assert "assumed: too few scans are located to fit it" in result.stderr
@@ -133,12 +134,130 @@ def test_chances_are_written_as_people_write_them():
 
 @pytest.mark.parametrize(("arguments", "code", "message"), [
     (["--scans 50:60"], 3, "none of the log's 12 scans is among them"), (["--scans five"], 2, "is not FIRST:LAST"),
-    (["--prior 1,2"], 2, "is not X,Y,DEGREES"), (["--area 1,2,3"], 2, "is not X0,X1,Y0,Y1"),
+    (["--for 2"], 2, "--for says how long --follow waits"), (["--prior 1,2"], 2, "is not X,Y,DEGREES"),
+    (["--area 1,2,3"], 2, "is not X0,X1,Y0,Y1"),
     (["--area 3,1,0,1"], 3, "--area 3,1,0,1: give X0 below X1, and Y0 below Y1"),
     (["--prior 500,0,0"], 3, "prior: (500, 0) +- 0.5 m lies outside the map"),
     (["-o", "where.txt"], 2, "end its name in one of .tum, .mcap"),
     (["--device tpu:7"], 3, "device: 'tpu:7' is not on this machine"),
     (["--beam-weight 2"], 3, "--beam-weight must be a number above 0, and 1 at most"),
 ])  # fmt: skip
-def test_what_it_refuses(office, office_run, arguments, code, message):
+def test_localize_refuses_wrong_options(office, office_run, arguments, code, message):
     assert message in refusal_of("localize", office_run / "run.nc", office, *arguments, code=code)
+
+
+@pytest.fixture
+def follow(office_run, prior):
+    """Start to follow; what still runs in the end is killed."""
+    begun = []
+
+    def begin(log, *options, **how):
+        process = start("localize", office_run / "run.nc", log, "--follow", *prior, *options, **how)
+        begun.append(process)
+        return process
+
+    yield begin
+    for process in begun:
+        process.kill()
+        process.communicate()
+
+
+def pieces_of(office):
+    """Split the log after each scan; what stands before the first scan belongs to it."""
+    return re.findall(rb".*?ROBOTLASER1 [^\n]*\n", office.read_bytes(), re.DOTALL)
+
+
+def test_a_file_that_grows_is_followed_until_ctrl_c(office, lines, follow, tmp_path):
+    scans, log, target = pieces_of(office), tmp_path / "growing.log", tmp_path / "where.jsonl"
+    log.write_bytes(scans[0])
+    process = follow(log, "-o", target)
+    assert process.stdout.readline().strip() == lines[0]
+    with log.open("ab") as file:
+        for scan, answer in zip(scans[1:4], lines[1:4], strict=True):
+            file.write(scan[:40])  # half a line is none
+            file.flush()
+            time.sleep(0.2)
+            file.write(scan[40:])
+            file.flush()
+            assert process.stdout.readline().strip() == answer
+    process.send_signal(signal.SIGINT)
+    _, errors = process.communicate(timeout=PATIENCE_S)
+    assert process.returncode == 130, errors
+    assert [json.loads(line)["scan"] for line in target.read_text().splitlines()] == [0, 1, 2, 3]
+
+
+def test_a_pipe_is_followed_until_its_writer_has_gone(office, lines, follow, tmp_path):
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    process = follow(pipe)
+    with pipe.open("wb", buffering=0) as file:
+        for scan, answer in zip(pieces_of(office)[:3], lines[:3], strict=True):
+            file.write(scan)
+            assert process.stdout.readline().strip() == answer
+    _, errors = process.communicate(timeout=PATIENCE_S)
+    assert process.returncode == 0, errors
+
+
+@pytest.mark.parametrize("name", full_but(["-", "/dev/stdin"], "-"))
+def test_standard_input_is_followed(office, lines, follow, name):
+    process = follow(name, stdin=subprocess.PIPE)
+    out, errors = process.communicate(office.read_text(), timeout=PATIENCE_S)
+    assert process.returncode == 0, errors
+    assert out.splitlines() == lines
+
+
+def test_a_reader_that_has_gone_is_the_end(office, follow, tmp_path):
+    log = tmp_path / "growing.log"
+    scans = pieces_of(office)
+    log.write_bytes(scans[0])
+    process = follow(log)
+    process.stdout.readline()
+    process.stdout.close()
+    with log.open("ab") as file:
+        file.write(scans[1])
+    assert process.wait(timeout=PATIENCE_S) == 0
+
+
+def test_a_table_is_followed_as_the_whole_of_it_is_read(office, office_run, prior, lines, tmp_path):
+    table = write_table(tmp_path / "scans.csv", read_log(office))
+    result = succeed("localize", office_run / "run.nc", table, "--follow --for 0", *prior)
+    means = [json.loads(line)["mean"] for line in result.stdout.splitlines()]
+    np.testing.assert_allclose(means, [json.loads(line)["mean"] for line in lines], atol=1e-3)
+
+
+def test_scans_may_be_chosen_and_bad_lines_left_out(office, office_run, prior, lines, tmp_path):
+    log, scans = tmp_path / "some.log", pieces_of(office)
+    log.write_bytes(scans[0] + scans[1][:60] + b"\n" + b"".join(scans[1:]))
+    arguments = ("localize", office_run / "run.nc", log, "--follow", "--for", "0", *prior)
+    refused = call(*arguments)
+    assert refused.exit_code == 3
+    assert "line" in refused.stderr
+    assert refused.stdout.splitlines() == lines[:1]
+    chosen = succeed(*arguments, "--skip-bad-lines --scans 0:2")
+    assert chosen.stdout.splitlines() == lines[:2]
+    assert "left out" in chosen.stderr
+
+
+def test_a_format_that_cannot_be_followed_is_named(office, office_run, prior, tmp_path):
+    packed = tmp_path / "office.log.gz"
+    packed.write_bytes(gzip.compress(office.read_bytes()))
+    result = succeed("localize", office_run / "run.nc", packed, "--follow --scans 0:1", *prior)
+    assert "only CARMEN logs and CSV tables can be followed while they are written" in result.stderr
+    assert len(result.stdout.splitlines()) == 1
+
+
+@pytest.mark.parametrize(("text", "message"), [
+    (b"", "it ended without a scan"), (b"VERTEX_SE2 0 1 2 3\n", "only CARMEN logs and CSV tables can be followed"),
+])  # fmt: skip
+def test_a_pipe_of_something_else(follow, text, message):
+    process = follow("-", stdin=subprocess.PIPE)
+    _, errors = process.communicate(text.decode(), timeout=PATIENCE_S)
+    assert process.returncode == 3
+    assert message in errors
+
+
+@pytest.mark.parametrize("command", ["infer", "info"])
+def test_other_commands_refuse_a_pipe(command, tmp_path):
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    assert "a pipe, and this needs a file" in refusal_of(command, pipe)

@@ -101,7 +101,7 @@ def test_views_are_printed_best_first_and_drawn(office_run, tmp_path):
     (["explore", "--candidates", "0"], 3, "--candidates must be"),
     (["explore", "--draws", "1"], 3, "draws must be 2 or more"), (["explore", "--radius", "50"], 3, "smaller radius"),
 ])  # fmt: skip
-def test_what_is_refused(office_run, arguments, code, message):
+def test_plan_and_explore_refuse_wrong_options(office_run, arguments, code, message):
     command, *rest = arguments
     assert message in refusal_of(command, office_run / "run.nc", *rest, code=code)
 

@@ -1,41 +1,43 @@
-"""What a terminal shows of a run: every stage by its name, with a count where there is one; elsewhere nothing."""
+"""A terminal shows each stage of a run, and Ctrl-C in its first moments is one line."""
 
+import contextlib
+import json
 import os
 import pty
 import re
+import signal
 import subprocess
+import sys
+import threading
 
 import pytest
-from shell import COMMAND, SOURCE, call, succeed, words
+from shell import COMMAND, PATIENCE_S, SOURCE, after, call, start, succeed, wait_for, words
 from tiers import full_but
 
+import bayesmap as bm
 from bayesmap.api import Event
 from bayesmap.cli.console import SETTING_UP, STAGES, Console, progress
+from bayesmap.run.runner import stop_on_interrupt
 
 
 def on_a_terminal(*arguments):
-    """What a command writes to a terminal."""
+    """Return what a command writes to a terminal."""
     ours, theirs = pty.openpty()
     environment = {**os.environ, "PYTHONPATH": str(SOURCE), "TERM": "xterm", "COLUMNS": "100", "NO_COLOR": "1"}
     command = [*COMMAND, *words(arguments)]
     process = subprocess.Popen(command, stdin=theirs, stdout=theirs, stderr=theirs, env=environment)
     os.close(theirs)
-    written = b""
-    while True:
-        try:
-            part = os.read(ours, 1 << 16)
-        except OSError:  # the other end is closed
-            break
-        if not part:
-            break
-        written += part
-    os.close(ours)
-    assert process.wait() == 0, written.decode()
-    return written.decode()
+    parts = []
+    with contextlib.suppress(OSError), open(ours, "rb", buffering=0) as screen:  # an error: the other end is closed
+        while part := screen.read(1 << 16):
+            parts.append(part)
+    shown = b"".join(parts).decode()
+    assert process.wait() == 0, shown
+    return shown
 
 
 @pytest.mark.parametrize("cells", full_but(["surface", "binary"], "surface"))
-def test_what_follows_the_chains_is_named_too(office, tmp_path, cells):
+def test_stages_after_the_chains_are_named_too(office, tmp_path, cells):
     asked = ("infer", office, "--resolution 0.25 --warmup 4 --draws 4 --holdout 2 --cells", cells)
     shown = on_a_terminal(*asked, "-o", tmp_path / "seen")
     for name in ("tracing beams", "saving", "drawing the map", "scoring held-out beams", "comparing the chains"):
@@ -105,7 +107,7 @@ def test_every_stage_has_a_name():
     assert set(SETTING_UP) <= set(STAGES)
 
 
-def test_without_a_terminal_a_line_per_minute_says_how_far_it_is(monkeypatch, capsys):
+def test_a_line_a_minute_says_how_far_a_run_is_if_there_is_no_terminal(monkeypatch, capsys):
     now = [0.0]
     monkeypatch.setattr("bayesmap.cli.console.time.monotonic", lambda: now[0])
     with progress(Console(), "matching scans") as show:
@@ -132,3 +134,104 @@ def test_without_a_terminal_a_line_per_minute_says_how_far_it_is(monkeypatch, ca
                 now[0] += 100.0
                 show(Event("draws", 10, 110))
         assert capsys.readouterr().err == ""
+
+
+IGNORE = "import signal\nsignal.signal(signal.SIGINT, signal.SIG_IGN)"
+
+PRESS = """
+import os, signal, sys
+
+def press(event, given):
+    if event == "import" and given[0] == sys.argv[1]:
+        sys.argv[1] = ""
+        os.kill(os.getpid(), signal.SIGINT)
+
+sys.addaudithook(press)
+from bayesmap.cli.main import main
+main(sys.argv[2:])
+"""
+"""Presses Ctrl-C when a module begins to be loaded."""
+
+
+def interrupted(module, *arguments, ignoring=False):
+    """The exit code and both streams of a process that gets Ctrl-C when it loads a module."""
+    command = [sys.executable, "-c", PRESS, module, *map(str, arguments)]
+    environment = {**os.environ, "PYTHONPATH": str(SOURCE)}
+    if ignoring:
+        command = after(IGNORE, command)
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+    return done.returncode, done.stdout, done.stderr
+
+
+FIRST = ("bayesmap.cli.group", "difflib", "click", "click.core", "bayesmap.cli.console", "bayesmap.errors")
+THEN = ("bayesmap.cli.keys", "bayesmap.cli.folder", "bayesmap.io.logs", "numpy", "bayesmap.space.scans")
+
+
+@pytest.mark.parametrize("module", full_but(FIRST, "bayesmap.cli.group", "click.core"))
+def test_ctrl_c_while_the_command_line_is_loaded_is_one_line(module):
+    assert interrupted(module, "--help") == (130, "", "bayesmap: error: interrupted\n")
+
+
+@pytest.mark.parametrize("module", full_but(THEN, "bayesmap.cli.folder", "numpy"))
+def test_ctrl_c_while_a_command_is_loaded_is_one_line_and_leaves_no_folder(office, tmp_path, module):
+    told = interrupted(module, "infer", office, "-o", tmp_path / "run")
+    assert told == (130, "", "bayesmap: error: interrupted\n")
+    assert not (tmp_path / "run").exists()
+
+
+def test_a_process_that_ignores_ctrl_c_goes_on_ignoring_it():
+    code, shown, _ = interrupted("click", "--version", ignoring=True)
+    assert code == 0
+    assert shown.startswith("bayesmap, version")
+
+
+def test_an_ignored_ctrl_c_does_not_stop_a_run(office, tmp_path, short):
+    """Standard output is data alone, and there is no bar, if there is no terminal."""
+    folder = tmp_path / "run"
+    process = start("infer", office, "-o", folder, *short[:-1], "--checkpoint-every 0 --json", first=IGNORE)
+    wait_for(folder / "run.nc", process)
+    process.send_signal(signal.SIGINT)
+    out, errors = process.communicate()
+    assert process.returncode == 0, errors
+    assert json.loads(out)["schema_version"] == 1
+    assert "\x1b" not in out + errors
+    assert "\r" not in errors
+    assert bm.load(folder / "run.nc").finished
+
+
+@pytest.mark.full
+def test_an_ignored_ctrl_c_does_not_end_the_page():
+    process = start("app", "--no-browser", first=IGNORE)
+    try:
+        assert process.stdout.readline().startswith("http://")
+        process.send_signal(signal.SIGINT)
+        with pytest.raises(subprocess.TimeoutExpired):
+            process.wait(2.0)
+        process.terminate()
+        process.communicate(timeout=PATIENCE_S)
+        assert process.returncode is not None
+    finally:
+        process.kill()
+        process.communicate()
+
+
+def test_ctrl_c_is_a_request_only_where_it_can_come():
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        with stop_on_interrupt() as stopped:
+            signal.raise_signal(signal.SIGINT)
+            assert not stopped()
+            assert signal.getsignal(signal.SIGINT) is signal.SIG_IGN
+    finally:
+        signal.signal(signal.SIGINT, before)
+    with stop_on_interrupt() as stopped:
+        signal.raise_signal(signal.SIGINT)
+        assert stopped()
+    elsewhere = threading.Thread(target=_never_stopped)
+    elsewhere.start()
+    elsewhere.join()
+
+
+def _never_stopped():
+    with stop_on_interrupt() as stopped:
+        assert not stopped()

@@ -1,13 +1,18 @@
-"""`bayesmap slam`: from a log with raw odometry to map and trajectory, stopped and resumed."""
+"""bayesmap slam: from a log with raw odometry to map and trajectory, stopped and resumed."""
 
 import json
+import os
+import shlex
+import signal
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from shell import SLAM, json_of, refusal_of, succeed, write_table
+from shell import SLAM, call, contents, json_of, refusal_of, succeed, write_table
+from tiers import full_but
 
 import bayesmap as bm
+import bayesmap.api
 from bayesmap.cli.console import Console
 from bayesmap.cli.pipeline import report
 from bayesmap.cli.slam import _doubtful, _good
@@ -18,8 +23,7 @@ from bayesmap.space.trajectory import FRAMES
 
 OUTPUTS = {
     "run.nc", "map.yaml", "map.pgm", "posterior.png", "trajectory.tum", "trajectory.png", "odometry.png", "loops.png",
-    "surfaces.png",
-    "summary.json", "config.toml",
+    "surfaces.png", "summary.json", "config.toml",
 }  # fmt: skip
 
 
@@ -64,9 +68,8 @@ def test_export_writes_the_frame_that_is_asked_for(slam_run, tmp_path, frame, en
         poses = read_trajectory(path).poses
     laser = bm.load(run).trajectory.poses
     mount = np.array([0.2, -0.1, 0.0])
-    np.testing.assert_allclose(
-        poses[:, :2], (laser if frame == "laser" else compose(laser, inverse(mount)))[:, :2], atol=1e-6
-    )
+    expected = laser if frame == "laser" else compose(laser, inverse(mount))
+    np.testing.assert_allclose(poses[:, :2], expected[:, :2], atol=1e-6)
     assert "holds a map, and takes no frame" in refusal_of("export", run, "-o", tmp_path / "map.yaml", "--frame", frame)
 
 
@@ -89,9 +92,8 @@ def test_chains_that_have_not_mixed_are_warned_of_and_not_believed(slam_run, raw
     run = bm.load(folder / "run.nc")
     assert run.trajectory is not None
     assert run.pose_summary().by_approximation
-    relations = json_of(
-        "score", folder / "run.nc", "--relations", raw_log.with_suffix(".relations"), "--laser 0,0,0 --json"
-    )["relations"]
+    true = ("--relations", raw_log.with_suffix(".relations"))
+    relations = json_of("score", folder / "run.nc", *true, "--laser 0,0,0 --json")["relations"]
     assert relations["known_by"].startswith("the Student-t approximation")
     assert "have not mixed" in relations["known_by"]
     assert relations["nees"]["median"] > 0
@@ -118,7 +120,7 @@ def test_fast_stops_after_the_approximation_and_resume_uses_its_stages(raw_log, 
     assert bm.load(folder / "run.nc").trajectory is not None
 
 
-def test_what_cannot_be_inferred_is_refused(raw_log, tmp_path):
+def test_slam_refuses_options_and_logs_that_do_not_fit(raw_log, tmp_path):
     assert "5 Hz" in refusal_of("slam", raw_log, "--no-odometry -o", tmp_path / "run")
     refusal_of("slam", raw_log, "--resume --force", code=2)
     scans = bm.read_log(raw_log)
@@ -164,3 +166,108 @@ def test_scans_alone_need_no_poses(tmp_path):
     tum = np.loadtxt(folder / "trajectory.tum")[:, 1:3]
     ways = [np.linalg.norm(poses - poses[0], axis=1) for poses in (tum, scans.poses[:, :2])]
     np.testing.assert_allclose(*ways, atol=0.1)  # over 4.7 m; the first scans know no speed yet
+
+
+OTHERS = "--fast --resolution 0.5 --threads 2"
+SAME = ("trajectory.tum", "trajectory-covariances.txt", "map.pgm", "config.toml")
+
+
+def slam_until(monkeypatch, stage, *arguments):
+    """Press Ctrl-C when a stage of the approximation, or the first sweep of the chains, is reported."""
+    real = bayesmap.api.slam
+
+    def slam(*given, on_progress, **options):
+        def told(event):
+            on_progress(event)
+            if event.stage == stage:
+                os.kill(os.getpid(), signal.SIGINT)
+
+        return real(*given, on_progress=told, **options)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(bayesmap.api, "slam", slam)
+        stopped = call("slam", *arguments)
+    assert stopped.exit_code == 130, stopped.stderr
+    return stopped
+
+
+def printed(stderr):
+    """Return the arguments of the command that was printed."""
+    (line,) = (line for line in stderr.splitlines() if line.endswith("--resume"))
+    name, *arguments = shlex.split(line)
+    assert name == "bayesmap"
+    return arguments
+
+
+def assert_same(folder, whole):
+    for name in SAME:
+        assert (folder / name).read_bytes() == (whole / name).read_bytes(), name
+    run, other = bm.load(folder / "run.nc"), bm.load(whole / "run.nc")
+    assert run.finished
+    np.testing.assert_array_equal(run.poses, other.poses)
+    np.testing.assert_array_equal(run.occupancy, other.occupancy)
+
+
+@pytest.mark.parametrize("stage", full_but(["front end", "loops", "aligned", "warm-up"], "loops"))
+def test_the_printed_command_ends_as_if_nothing_had_stopped_it(raw_log, slam_run, tmp_path, monkeypatch, stage):
+    stopped = slam_until(monkeypatch, stage, raw_log, "-o", tmp_path / "run", SLAM)
+    succeed(*printed(stopped.stderr))
+    assert_same(tmp_path / "run", slam_run[0])
+
+
+@pytest.mark.parametrize("stage", ["fit", "warm-up"])
+def test_the_trajectory_and_a_first_map_precede_the_chains(raw_log, slam_run, tmp_path, monkeypatch, stage):
+    whole, folder = slam_run[0], tmp_path / "run"
+    monkeypatch.setattr("bayesmap.api.PREVIEW_FROM_S", 0.0)
+    stopped = slam_until(monkeypatch, stage, raw_log, "-o", folder, SLAM, "--json")
+    assert stopped.stderr.count("the trajectory of the base, at all scans: ") == 1
+    assert stopped.stderr.count("a first, rough map: ") == 1
+    for name in SAME[:2]:
+        assert (folder / name).read_bytes() == (whole / name).read_bytes(), name
+    files = {path.name for path in folder.iterdir()}
+    assert files >= {"trajectory.png", "odometry.png", "loops.png", "posterior.png", "map.yaml"}
+    assert json.loads(stopped.stdout)["outputs"].keys() >= {*SAME[:2], "trajectory.png", "loops.png"}
+    assert (folder / "trajectory.png").read_bytes() != (whole / "trajectory.png").read_bytes()
+    if stage == "fit":
+        assert f"{folder}/trajectory.tum is complete" in stopped.stderr
+        assert "run.nc" not in files
+        refusal = refusal_of("export", folder / "run.nc", "-o", tmp_path / "path.tum")
+        assert "no draws yet; trajectory.tum beside it is complete" in refusal
+        return
+    succeed("export", folder / "run.nc", "-o", tmp_path / "path.tum")
+    assert (tmp_path / "path.tum").read_bytes() == (whole / "trajectory.tum").read_bytes()
+    refusal = refusal_of("export", folder / "run.nc", "-o", tmp_path / "map.yaml")
+    assert f"go on with it by bayesmap slam LOG -o {folder} --resume" in refusal
+
+
+@pytest.mark.full
+@pytest.mark.parametrize("stage", ["front end", "fit", "warm-up"])
+def test_resume_continues_the_new_run_and_not_the_one_it_replaces(raw_log, slam_run, tmp_path, monkeypatch, stage):
+    whole, folder = slam_run[0], tmp_path / "run"
+    succeed("slam", raw_log, "-o", folder, OTHERS)
+    before = contents(folder)
+    stopped = slam_until(monkeypatch, stage, raw_log, "-o", folder, SLAM, "--force")
+    left = contents(folder)
+    if stage == "warm-up":  # the new run has taken its place
+        assert all(left[name] == (whole / name).read_bytes() for name in SAME[:2])
+    else:
+        assert left.pop("outdated")
+        assert left == before
+    succeed(*printed(stopped.stderr))
+    assert_same(folder, whole)
+    assert not (folder / "outdated").exists()
+
+
+def test_an_older_run_stays_where_nothing_can_be_inferred(raw_log, slam_run):
+    before = contents(slam_run[0])
+    refusal_of("slam", raw_log, "-o", slam_run[0], "--force --no-odometry")
+    assert contents(slam_run[0]) == before
+
+
+def test_ctrl_c_before_the_run_has_begun_prints_no_command(raw_log, slam_run, monkeypatch):
+    monkeypatch.setattr("bayesmap.cli.folder.Folder.begin", lambda self, toml: os.kill(os.getpid(), signal.SIGINT))
+    assert "--resume" not in refusal_of("slam", raw_log, "-o", slam_run[0], "--force", OTHERS, code=130)
+
+
+def test_a_folder_that_cannot_be_written_is_bad_input(raw_log):
+    assert refusal_of("slam", raw_log, "-o", "/proc/run", SLAM).splitlines()[-1].startswith("bayesmap: error: /proc")

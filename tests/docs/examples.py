@@ -85,7 +85,7 @@ def shell_words(page: str) -> list[tuple[int, list[str]]]:
 
 
 def _words(text: str) -> list[str]:
-    """What a shell makes of a line that calls bayesmap or make; nothing of any other."""
+    """Split a line that calls bayesmap or make as a shell does; any other line has no words."""
     text = re.sub(r"^(?:\$ )?(?:[A-Z_]+=(?:\"[^\"]*\"|\S+) )*(?:\.venv/bin/)?", "", text)
     if not re.match(r"(?:bayesmap|make) [a-z]", text):
         return []

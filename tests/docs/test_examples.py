@@ -21,7 +21,7 @@ import bayesmap as bm
 from bayesmap.cli.group import COMMANDS, cli
 
 LIMIT_S = 1800
-"""For all examples of a page, which take half a minute on a quiet machine."""
+"""A limit for all examples of a page, which take half a minute on a quiet machine."""
 
 RUN = """
 import json, sys
@@ -43,7 +43,7 @@ SHELL = [(page, *found) for page in PAGES for found in shell_words(page.read_tex
 
 
 def why_not(example):
-    """Why an example cannot run here; "" if it can."""
+    """Return why an example cannot run here; "" if it can."""
     if example.needs.isidentifier():
         return "" if find_spec(example.needs) else f"the module {example.needs} is not installed"
     missing = example.needs and not (FOLDER / example.needs).exists()
@@ -138,7 +138,7 @@ def code_of(page):
     return "\n".join(lines)
 
 
-def test_what_examples_ask_of_the_library_is_there():
+def test_names_and_arguments_in_examples_exist():
     """The examples of all pages and the notebooks, without running them: what is renamed is noticed at once."""
     sources = {page: code_of(page) for page in PAGES if EXAMPLES[page]}
     sources |= {path: path.read_text(encoding="utf-8") for path in TUTORIAL.glob("*.py")}
@@ -154,7 +154,7 @@ def test_what_examples_ask_of_the_library_is_there():
     ("import bayesmap as bm\nbm.Grid((3, 3), 0.1, orign=(0, 0))", ["line 2: Grid takes no orign"]),
     ("import numpy as np\nnp.arnge(3)\nx.nothing(y=2)", []),
 ])  # fmt: skip
-def test_what_the_library_lacks_is_noticed(text, what):
+def test_names_and_arguments_that_do_not_exist_are_noticed(text, what):
     assert misused(text) == what
 
 
@@ -189,8 +189,11 @@ def understood(words):
 
 
 def test_every_command_is_shown_somewhere():
+    """The finder of examples finds lines for the shell, and blocks with each kind of mark."""
     shown = {words[1] for _, _, words in SHELL}  # `make demo` is one
     assert set(COMMANDS) - shown == set()
+    assert sum(map(len, EXAMPLES.values())) > 100
+    assert all(any(getattr(example, mark) for _, example in MARKED) for mark in ("needs", "not_run"))
 
 
 REFUSED = (
@@ -203,47 +206,6 @@ REFUSED = (
 def test_a_line_that_would_be_refused_is_noticed(line):
     with pytest.raises((click.UsageError, AssertionError)):
         understood(line.split())
-
-
-PAGE = """# Title
-
-```python
-x = 1
-```
-
-Text with `bayesmap info FILE`, and `bayesmap` alone.
-
-    bayesmap infer LOG -o "a b"   # a comment
-    BENCH="x y" make bench
-
-<!-- example: needs some.log -->
-```python
-y = open("some.log")
-```
-
-<!-- example: not run, because it asks for a robot -->
-
-```python
-drive()
-```
-
-```sh
-.venv/bin/bayesmap app
-other program
-```
-"""
-
-
-def test_examples_are_found_with_their_lines_and_marks():
-    assert python_examples(PAGE) == [
-        Example(4, "x = 1\n"),
-        Example(14, 'y = open("some.log")\n', needs="some.log"),
-        Example(20, "drive()\n", not_run="it asks for a robot"),
-    ]
-    assert shell_words(PAGE) == [
-        (7, ["bayesmap", "info", "FILE"]), (9, ["bayesmap", "infer", "LOG", "-o", "a b"]), (10, ["make", "bench"]),
-        (24, ["bayesmap", "app"]),
-    ]  # fmt: skip
 
 
 @pytest.mark.parametrize(("mark", "below"), [

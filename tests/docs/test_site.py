@@ -122,7 +122,7 @@ NOT_LOADED = (
 )  # fmt: skip
 
 
-def test_what_a_page_loads_from_elsewhere_is_found(site):
+def test_elements_that_load_from_elsewhere_are_found(site):
     assert [len(site.loaded_from_elsewhere(text)) for text in LOADED] == [1] * len(LOADED)
     assert [site.loaded_from_elsewhere(text) for text in NOT_LOADED] == [[]] * len(NOT_LOADED)
 

@@ -58,7 +58,7 @@ def test_a_page_is_made_of_its_notebook(name):
 
 
 @every_page
-def test_what_a_page_shows_of_its_checks_and_figures_is_folded(name):
+def test_checks_and_figures_of_a_page_are_folded(name):
     """The code that a reader sees first draws no figure."""
     shown = [cell.text for cell in render.cells(source_of(name)) if cell.is_code and not cell.folded]
     assert [text for text in shown if re.search(r"\b(panels|show)\(", text)] == []
@@ -82,7 +82,7 @@ def definitions(source):
     return {node.name: ast.dump(node) for node in ast.parse(source).body if isinstance(node, ast.FunctionDef)}
 
 
-def test_what_two_pages_define_is_the_same_on_both():
+def test_functions_that_two_pages_define_are_equal():
     """The second page says so of the model that it repeats."""
     first, second = definitions(source_of("mapping")), definitions(source_of("gibbs"))
     assert {"walls_prior", "distances_to_cells", "exact_range", "beam", "full_model"} <= first.keys() & second.keys()

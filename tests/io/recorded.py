@@ -5,6 +5,7 @@ The map has no symmetry, so that a flip, a turn or a transpose cannot pass for i
 
 import sqlite3
 from dataclasses import dataclass
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -50,41 +51,41 @@ def read_db3(path):
         ).fetchall()
     finally:
         database.close()
-    found = []
+    records = []
     for topic, type_name, time_ns, data, qos, definition, encoding in rows:
         decode = Ros2().decoder_for("cdr", Schema(id=1, data=definition.encode(), encoding=encoding, name=type_name))
-        found.append(Recorded(topic, type_name, time_ns, decode(data), yaml.safe_load(qos)))
-    return found
+        records.append(Recorded(topic, type_name, time_ns, decode(data), yaml.safe_load(qos)))
+    return records
 
 
 def read_folder(path):
-    """A ROS 2 bag: the file that its metadata names."""
+    """Read a ROS 2 bag: the file that its metadata names."""
     about = yaml.safe_load((path / "metadata.yaml").read_text())["rosbag2_bagfile_information"]
     assert about["storage_identifier"] == "sqlite3"
     assert {file.name for file in path.iterdir()} == {"metadata.yaml", *about["relative_file_paths"]}
     (topic,) = about["topics_with_message_count"]
     (file,) = about["relative_file_paths"]
-    (found,) = read_db3(path / file)
+    (record,) = read_db3(path / file)
     assert topic["message_count"] == about["message_count"] == 1
-    assert topic["topic_metadata"]["name"] == found.topic
-    assert yaml.safe_load(topic["topic_metadata"]["offered_qos_profiles"]) == found.qos
-    assert about["starting_time"]["nanoseconds_since_epoch"] == found.time_ns
-    return [found]
+    assert topic["topic_metadata"]["name"] == record.topic
+    assert yaml.safe_load(topic["topic_metadata"]["offered_qos_profiles"]) == record.qos
+    assert about["starting_time"]["nanoseconds_since_epoch"] == record.time_ns
+    return [record]
 
 
 def read_bag(path):
-    """ROS 1: the container by rosbags, which wrote it (no other reader runs without ROS); messages by mcap_ros1."""
+    """Read a ROS 1 bag by rosbags, which wrote it (no other reader runs without ROS), and its messages by mcap_ros1."""
     from rosbags.rosbag1 import Reader
 
-    found = []
+    records = []
     with Reader(path) as bag:
         for connection, time_ns, data in bag.messages():
             name = connection.msgtype.replace("/msg/", "/")
             schema = Schema(id=1, data=connection.msgdef.data.encode(), encoding="ros1msg", name=name)
             message = Ros1().decoder_for("ros1", schema)(data)
             assert message._md5sum == connection.digest
-            found.append(Recorded(connection.topic, name, time_ns, message, connection.ext.latching))
-    return found
+            records.append(Recorded(connection.topic, name, time_ns, message, connection.ext.latching))
+    return records
 
 
 READERS = {".bag": read_bag, ".mcap": read_mcap, ".db3": read_db3, "": read_folder}
@@ -94,7 +95,7 @@ GRID = Grid(shape=(5, 3), resolution=0.25, origin=(-1.5, 2.0))
 
 
 def occupancy():
-    """Every cell differs from every other."""
+    """Return occupancies that differ from cell to cell."""
     return np.arange(15).reshape(5, 3)[::-1] / 20 + 0.01
 
 
@@ -110,27 +111,13 @@ def scans(stamps=(100.5, 101.25, 103.0)):
     return Scans(poses, np.array([0.0, 0.5]), ranges, 2.0, stamps_s=None if stamps is None else np.array(stamps))
 
 
-@dataclass(frozen=True)
-class BinaryRun:
-    grid: Grid = GRID
-
-    @property
-    def occupancy(self):
-        return occupancy()
-
-    @property
-    def entropy(self):
-        p = occupancy()
-        return -p * np.log2(p) - (1 - p) * np.log2(1 - p)
-
-    @property
-    def observed(self):
-        return observed()
+def binary_run(**more):
+    """Return what an export reads of a run."""
+    p = occupancy()
+    entropy = -p * np.log2(p) - (1 - p) * np.log2(1 - p)
+    return SimpleNamespace(grid=GRID, occupancy=p, entropy=entropy, observed=observed(), **more)
 
 
-class ReflectivityRun(BinaryRun):
-    """One whose cells hold a number, so that there are intervals."""
-
-    def interval(self, level):
-        assert level == 0.9
-        return self.occupancy / 2, (1 + self.occupancy) / 2
+def reflectivity_run():
+    """Return a run whose cells hold a number, so that there are intervals of 90 %."""
+    return binary_run(interval={0.9: (occupancy() / 2, (1 + occupancy()) / 2)}.__getitem__)

@@ -11,7 +11,7 @@ from typing import get_args
 import numpy as np
 import pytest
 from PIL import Image
-from recorded import GRID, READERS, BinaryRun, ReflectivityRun, observed, occupancy, scans
+from recorded import GRID, READERS, binary_run, observed, occupancy, reflectivity_run, scans
 
 from bayesmap.cli.keys import Export
 from bayesmap.errors import BadInput
@@ -59,8 +59,8 @@ def name(request):
 def test_every_ending_writes_whole_files_and_replaces_old_ones(tmp_path, name):
     target = tmp_path / name
     assert existing(target) is None
-    outputs = export_run(target, BinaryRun(), scans())
-    assert (existing(target), export_run(target, BinaryRun(), scans())) == (target, outputs)
+    outputs = export_run(target, binary_run(), scans())
+    assert (existing(target), export_run(target, binary_run(), scans())) == (target, outputs)
     assert (outputs[0], set(tmp_path.iterdir())) == (target, set(outputs))
 
 
@@ -72,14 +72,14 @@ def test_an_image_that_would_be_replaced_counts_as_existing(tmp_path):
     assert existing(tmp_path / "folder") is None
 
 
-class Refusing(BinaryRun):
-    def interval(self, level):
-        raise BadInput("walls have none")
+def refuse_interval(level):
+    raise BadInput("walls have none")
 
 
 def test_walls_have_no_interval_and_reflectivities_do(tmp_path):
-    assert list(layers_of(BinaryRun())) == list(layers_of(Refusing())) == ["mean", "entropy"]
-    (path,) = export_run(tmp_path / "m.mcap", ReflectivityRun(), scans(), format="gridmap")
+    for run in (binary_run(), binary_run(interval=refuse_interval)):
+        assert list(layers_of(run)) == ["mean", "entropy"]
+    (path,) = export_run(tmp_path / "m.mcap", reflectivity_run(), scans(), format="gridmap")
     (found,) = READERS[".mcap"](path)
     assert list(found.message.layers) == ["mean", "entropy", "lower", "upper"]
     assert found.time_ns == 103_000_000_000  # of the last scan
@@ -89,17 +89,17 @@ def test_walls_have_no_interval_and_reflectivities_do(tmp_path):
 
 def test_recordings_are_in_per_cent_and_yaml_is_trinary_unless_told(tmp_path):
     for options, values in (({}, {-1, 1, 6, 11, 21}), ({"mode": "trinary"}, {-1, 0, 100})):
-        (path,) = export_run(tmp_path / "m.mcap", BinaryRun(), scans(), **options)
+        (path,) = export_run(tmp_path / "m.mcap", binary_run(), scans(), **options)
         assert values <= set(READERS[".mcap"](path)[0].message.data)
-    assert "mode: trinary" in export_run(tmp_path / "m.yaml", BinaryRun(), scans())[0].read_text()
-    assert "mode: raw" in export_run(tmp_path / "m.yaml", BinaryRun(), scans(), mode="raw")[0].read_text()
+    assert "mode: trinary" in export_run(tmp_path / "m.yaml", binary_run(), scans())[0].read_text()
+    assert "mode: raw" in export_run(tmp_path / "m.yaml", binary_run(), scans(), mode="raw")[0].read_text()
 
 
 @pytest.mark.parametrize("option", [{"mode": "scale"}, {"free_thresh": 0.1}, {"occupied_thresh": 0.9}])
 @pytest.mark.parametrize(("path", "format"), [("m.tif", None), ("m.tum", None), ("m.rrd", None), ("m.bag", "gridmap")])
 def test_formats_that_keep_the_numbers_take_no_thresholds(tmp_path, path, format, option):
     with pytest.raises(BadInput, match=f"takes no {next(iter(option))}; leave it out, or choose map-server"):
-        export_run(tmp_path / path, BinaryRun(), scans(), format=format, **option)
+        export_run(tmp_path / path, binary_run(), scans(), format=format, **option)
     assert list(tmp_path.iterdir()) == []
 
 
@@ -107,7 +107,7 @@ def test_a_folder_that_is_none_is_named(tmp_path, name):
     (tmp_path / "file").write_text("no folder")
     for folder in (tmp_path / "file", tmp_path / "nowhere"):
         with pytest.raises(BadInput, match="cannot be written"):
-            export_run(folder / name, BinaryRun(), scans())
+            export_run(folder / name, binary_run(), scans())
     assert [path.name for path in tmp_path.iterdir()] == ["file"]
 
 
@@ -115,7 +115,7 @@ LAYERS = {"mean": occupancy(), "entropy": 1 - occupancy()}
 
 
 def expected(values):
-    """Rows from the top, NaN where no beam reached."""
+    """Return rows from the top, NaN where no beam reached."""
     return np.where(observed(), values, np.nan).T[::-1].astype(np.float32)
 
 
@@ -140,14 +140,14 @@ def test_a_geotiff_is_right_for_other_libraries_than_the_one_that_wrote_it(tmp_p
 
 
 def columns_of(path):
-    """Every column of the recording, by entity and component, as lists of rows."""
+    """Return every column of the recording, by entity and component, as lists of rows."""
     chunk = pytest.importorskip("rerun.chunk")
-    found = {}
+    columns = {}
     for piece in chunk.RrdReader(path).stream():
         batch = piece.to_record_batch()
         for name, column in zip(batch.schema.names, batch.columns, strict=True):
-            found.setdefault((piece.entity_path, name), []).extend(column.to_pylist())
-    return found
+            columns.setdefault((piece.entity_path, name), []).extend(column.to_pylist())
+    return columns
 
 
 def find(columns, entity, ending):
@@ -203,8 +203,8 @@ def test_stamps_that_count_from_a_start_are_durations(tmp_path):
 def test_a_trajectory_is_drawn_with_its_ellipses(tmp_path):
     poses = np.array([[-1.0, 2.2, 0.0], [-0.5, 2.6, 1.0]])
     covariances = np.stack([np.diag([0.01, 0.04, 0.01]), np.diag([0.01, 0.01, 0.01])])
-    there = Trajectory(poses, covariances=covariances)
-    columns = columns_of(write_rerun(tmp_path / "walk.rrd", LAYERS, GRID, trajectory=there))
+    trajectory = Trajectory(poses, covariances=covariances)
+    columns = columns_of(write_rerun(tmp_path / "walk.rrd", LAYERS, GRID, trajectory=trajectory))
     ((line,),) = find(columns, "/trajectory", "LineStrips2D:strips")
     np.testing.assert_allclose(line, exports.to_pixels(poses[:, :2], GRID), rtol=1e-6)
     (outlines,) = find(columns, "/ellipses", "LineStrips2D:strips")
@@ -216,7 +216,7 @@ def test_a_trajectory_is_drawn_with_its_ellipses(tmp_path):
 @pytest.mark.parametrize(
     ("library", "extra", "write"), [("rasterio", "geotiff", write_geotiff), ("rerun", "rerun", write_rerun)]
 )
-def test_without_the_library_the_remedy_is_named(tmp_path, monkeypatch, library, extra, write):
+def test_a_missing_library_is_named_with_the_remedy(tmp_path, monkeypatch, library, extra, write):
     real = builtins.__import__
 
     def absent(name, *rest, **named):
@@ -231,7 +231,7 @@ def test_without_the_library_the_remedy_is_named(tmp_path, monkeypatch, library,
 
 
 @pytest.mark.parametrize("ending", READERS)
-def test_others_read_the_map_in_every_container(tmp_path, ending):
+def test_other_libraries_read_the_map_in_every_container(tmp_path, ending):
     path = tmp_path / f"floor{ending}"
     assert write_occupancy_grid(path, occupancy(), GRID, observed(), stamp_s=976052857.25) == path
     (found,) = READERS[ending](path)
@@ -357,7 +357,7 @@ CELLS, MAP = (occupancy(), GRID), "floor.mcap"
     (write_grid_map, MAP, ({"mean": occupancy().T}, GRID), {}, r"layer 'mean' has shape \(3, 5\)"),
     (write_grid_map, MAP, ({"mean": np.full(GRID.shape, np.inf)}, GRID), {}, r"layer 'mean'\[0, 0\] is inf"),
 ])  # fmt: skip
-def test_what_cannot_be_written_leaves_no_file(tmp_path, write, name, arguments, options, says):
+def test_a_map_that_no_recording_can_hold_leaves_no_file(tmp_path, write, name, arguments, options, says):
     with pytest.raises(BadInput, match=says):
         write(tmp_path / name, *arguments, **options)
     assert list(tmp_path.iterdir()) == []

@@ -16,52 +16,30 @@ resolutions = st.floats(1e-6, 10.0)
 corners = st.tuples(st.floats(-1e5, 1e5), st.floats(-1e5, 1e5))
 
 
-def nav2_reads(path_yaml):
-    """OccupancyGrid data, shape (height, width), row 0 the bottom: nav2's rules, written again, by other libraries."""
-    entries = yaml.safe_load(path_yaml.read_text())
-    image = Image.open(path_yaml.parent / entries["image"])
-    occupied, free = entries["occupied_thresh"], entries["free_thresh"]
-    has_alpha, rgba = "A" in image.getbands(), image.convert("RGBA")
-    data = np.empty((image.height, image.width), dtype=int)
-    for y in range(image.height):
-        for x in range(image.width):
-            red, green, blue, alpha = rgba.getpixel((x, y))
-            channels = [red, green, blue]
-            if entries["mode"] == "trinary" and has_alpha:
-                channels.append(alpha)
-            shade = sum(channels) / len(channels) / 255
-            occ = shade if entries["negate"] else 1 - shade
-            if entries["mode"] == "raw":
-                cell = round(shade * 255) if round(shade * 255) <= 100 else -1
-            elif entries["mode"] == "scale" and has_alpha and alpha != 255:
-                cell = -1
-            elif occupied < occ:
-                cell = 100
-            elif occ < free:
-                cell = 0
-            elif entries["mode"] == "trinary":
-                cell = -1
-            else:
-                cell = round((occ - free) / (occupied - free) * 100)
-            data[image.height - y - 1, x] = cell
-    return data, entries["resolution"], entries["origin"]
+def nav2_reads(path_yaml, newer=False):
+    """Read a map by nav2's rules, written again; returns cells (height, width) from the bottom, and the YAML's entries.
 
-
-def newer_nav2_reads(path_yaml):
-    """The same by the rules of nav2 from 2025 on: single precision, bounds included, transparent is unknown."""
+    Versions from 2025 on compute in single precision, include the bounds, and take what is transparent for unknown.
+    """
     entries = yaml.safe_load(path_yaml.read_text())
     with Image.open(path_yaml.parent / entries["image"]) as image:
-        has_alpha = "A" in image.getbands()
-        grey = np.asarray(image.convert("L"))
-        alpha = np.asarray(image.convert("RGBA"))[..., 3]
-    if entries["mode"] == "raw":
-        signed = grey.view(np.int8)  # greys over 127 turn negative: out of bounds, as those over 100 are
-        return np.where((signed < 0) | (signed > 100), -1, signed)[::-1]
-    occ = np.float32(1) - grey.astype(np.float32) / np.float32(255)
-    occupied, free = np.float32(entries["occupied_thresh"]), np.float32(entries["free_thresh"])
-    between = np.floor((occ - free) / (occupied - free) * 100 + 0.5) if entries["mode"] == "scale" else -1
-    cells = np.where(occ >= occupied, 100, np.where(occ <= free, 0, between)).astype(int)
-    return (np.where(alpha < 255, -1, cells) if has_alpha else cells)[::-1]
+        has_alpha, grey = "A" in image.getbands(), np.asarray(image.convert("L"))
+        rgba = np.asarray(image.convert("RGBA"))
+    number, mode = (np.float32 if newer else np.float64), entries["mode"]
+    occupied, free = number(entries["occupied_thresh"]), number(entries["free_thresh"])
+    shade = grey / number(255)
+    if not newer:
+        shade = (rgba if mode == "trinary" and has_alpha else rgba[..., :3]).mean(axis=-1) / 255
+    if mode == "raw":
+        cells = np.rint(255 * shade).astype(int)
+        return np.where(cells > 100, -1, cells)[::-1], entries
+    occ = shade if entries["negate"] else number(1) - shade
+    scaled = (occ - free) / (occupied - free) * 100
+    between = -1 if mode == "trinary" else np.floor(scaled + 0.5) if newer else np.rint(scaled)
+    is_occupied, is_free = (occ >= occupied, occ <= free) if newer else (occ > occupied, occ < free)
+    cells = np.where(is_occupied, 100, np.where(is_free, 0, between)).astype(int)
+    unknown = has_alpha and (newer or mode == "scale")
+    return np.where(unknown & (rgba[..., 3] < 255), -1, cells)[::-1], entries
 
 
 @pytest.mark.parametrize("mode", MODES)
@@ -71,10 +49,10 @@ def test_nav2_reads_a_map_as_it_was_meant_and_so_do_we(tmp_path_factory, mode, o
     grid = Grid(occupancy.shape, resolution, origin)
     path, image = write_map(tmp_path_factory.mktemp("map") / "m.yaml", occupancy, grid, observed, mode=mode)
     assert image.suffix == (".png" if mode == "scale" and not observed.all() else ".pgm")
-    data, read_resolution, read_origin = nav2_reads(path)
-    cells = data.T
-    assert read_resolution == grid.resolution
-    assert read_origin == pytest.approx([*grid.origin, 0.0], rel=1e-12, abs=0.0)
+    read_cells, entries = nav2_reads(path)
+    cells = read_cells.T
+    assert entries["resolution"] == grid.resolution
+    assert entries["origin"] == pytest.approx([*grid.origin, 0.0], rel=1e-12, abs=0.0)
     if mode == "trinary":
         expected = np.where(occupancy > 0.65, 100, np.where(occupancy < 0.25, 0, -1))
     else:
@@ -85,13 +63,13 @@ def test_nav2_reads_a_map_as_it_was_meant_and_so_do_we(tmp_path_factory, mode, o
     assert (cells[~observed] == -1).all()
     if mode == "scale":
         assert (cells[observed] >= 0).all()
-    newer = newer_nav2_reads(path).T
+    newer = nav2_reads(path, newer=True)[0].T
     # Older versions round halves to even and in double precision: they may differ by one per cent.
     assert np.abs(cells - newer).max() <= (1 if mode == "scale" else 0)
     np.testing.assert_array_equal(cells == -1, newer == -1)
     read, read_grid = read_map(path)
     np.testing.assert_array_equal(read, np.where(cells == -1, np.nan, cells / 100))
-    assert read_grid == Grid(grid.shape, grid.resolution, tuple(read_origin[:2]))
+    assert read_grid == Grid(grid.shape, grid.resolution, tuple(entries["origin"][:2]))
 
 
 def test_an_origin_is_written_without_the_noise_of_floating_point(tmp_path):

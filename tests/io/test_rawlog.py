@@ -135,7 +135,7 @@ def frame(style, *observations):
 
 
 def in_frames(style, scans, **options):
-    """A log of motions and sensory frames; the first motion leads to the first pose."""
+    """Return a log of motions and sensory frames; the first motion leads to the first pose."""
     robot, before, parts = path_of(TIMES), np.zeros(3), []
     for pose, row, at in zip(robot, scans.ranges_m, scans.stamps_s, strict=True):
         parts += [collection(style, motion(style, between(before, pose)))]
@@ -145,7 +145,7 @@ def in_frames(style, scans, **options):
 
 
 def in_observations(style, scans, at=None, **options):
-    """A log of observations one by one: odometry at times of its own."""
+    """Return a log of observations one by one, with odometry at times of its own."""
     times = (np.arange(13) * 0.5 if at is None else at) + scans.stamps_s[0]
     parts = [(t, odometry(style, pose, t)) for t, pose in zip(times, path_of(times - scans.stamps_s[0]), strict=True)]
     parts += [(t, scan(style, row, t, **options)) for t, row in zip(scans.stamps_s, scans.ranges_m, strict=True)]
@@ -187,14 +187,13 @@ def test_scans_between_readings_of_odometry(tmp_path, release, zipped):
     assert "4 scans were left out" in outside.notes[0]
 
 
-def test_where_stamps_repeat_the_log_s_order_counts_and_a_motion_by_matching_where_there_is_no_other(tmp_path):
+def test_order_counts_if_stamps_repeat_and_matched_motions_if_there_are_no_others(tmp_path):
     style, scans = STYLES["MRPT 2"], known(TIMES)
     parts = [odometry(style, pose, 100.0) + scan(style, row, 100.0)
              for pose, row in zip(path_of(TIMES), scans.ranges_m, strict=True)]  # fmt: skip
     reading = describe_log(written(tmp_path / "log", b"".join(parts)))
     same(reading.scans, scans, timed=False)
     assert any("stamps are coarse" in note for note in reading.notes)
-    style, scans = STYLES["MRPT 2"], known(TIMES)
     robot = path_of(TIMES)
     steps = [between(a, b) for a, b in zip([np.zeros(3), *robot[:-1]], robot, strict=True)]
     wrong = [0.5, 0.5, 0.5]
@@ -229,7 +228,6 @@ def test_objects_of_other_classes_lie_between_other_lasers_are_named_and_scans_a
     same(reading.scans, scans)
     assert "also holds 5 scans of the sensor 'REAR'" in reading.notes[0]
     assert (reading.messages["CObservationImage"], reading.messages["CSensoryFrame"]) == (12, 6)
-    style, scans = STYLES["MRPT 2"], known(TIMES)
     alone = b"".join(scan(style, row, at) for row, at in zip(scans.ranges_m, scans.stamps_s, strict=True))
     path = written(tmp_path / "alone", alone)
     assert "bayesmap slam --no-odometry" in refused(path)
@@ -241,14 +239,13 @@ def test_objects_of_other_classes_lie_between_other_lasers_are_named_and_scans_a
 
 
 def test_invalid_readings_are_no_return_only_at_the_maximum_and_logs_without_scans_or_cut_are_refused(tmp_path):
-    style = STYLES["MRPT 2"]
+    style, whole_scans = STYLES["MRPT 2"], known(TIMES)
     row = np.array([1.0, np.inf, np.nan, 2.0] + [5.0] * 37)
     scans = read_log(written(tmp_path / "log", odometry(style, (0, 0, 0), 1.0) + scan(style, row, 1.0)))
     np.testing.assert_array_equal(scans.ranges_m[0], row)
-    style, scans = STYLES["MRPT 2"], known(TIMES)
     only = odometry(style, (0, 0, 0), 1.0)
     assert "it holds 1 CObservationOdometry" in refused(written(tmp_path / "odometry", only))
-    whole = written(tmp_path / "log", in_frames(style, scans)).read_bytes()
+    whole = written(tmp_path / "log", in_frames(style, whole_scans)).read_bytes()
     cut = tmp_path / "cut"
     cut.write_bytes(whole[: len(whole) * 2 // 3])
     assert "--skip-bad-lines" in refused(cut)
@@ -262,7 +259,7 @@ def test_invalid_readings_are_no_return_only_at_the_maximum_and_logs_without_sca
     (lambda d: d.replace(b"CPose3D\x03", b"CPose3D\x09", 1), "CPose3D of version 9"),
     (lambda d: d[: len(d) - 100], "is cut short"),
 ])  # fmt: skip
-def test_what_cannot_be_read_is_named_and_left_out_on_request(tmp_path, change, message):
+def test_objects_that_cannot_be_read_are_named_and_left_out_on_request(tmp_path, change, message):
     path = written(tmp_path / "log", change(in_frames(STYLES["MRPT 2"], known(TIMES))))
     assert message in refused(path)
     reading = describe_log(path, skip_bad_lines=True)

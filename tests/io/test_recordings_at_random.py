@@ -15,6 +15,7 @@ import pytest
 import recordings as r
 from hypothesis import HealthCheck, Phase, given, note, settings
 from hypothesis import strategies as st
+from tiers import full_but
 
 import bayesmap as bm
 from bayesmap.io.logs import describe_log
@@ -38,13 +39,13 @@ class Robot:
     sent: list = field(default_factory=list)  # the laser's pose in the room at each scan
 
     def pose(self, t):
-        """In the room, at times, (T, 3)."""
+        """Return poses in the room at some times, (T, 3)."""
         a = 2 * np.pi * (self.phase + self.turns * np.asarray(t))
         return np.stack([4.3 + 1.2 * np.cos(a), 2.4 + 0.9 * np.sin(a), a + 1.3], -1)
 
 
 def seen_from(frame, poses):
-    """Poses of the room in a frame of the room."""
+    """Return poses of the room as seen from a frame of the room."""
     x, y, turn = frame
     dx, dy = np.moveaxis(poses[..., :2] - [x, y], -1, 0)
     c, s = math.cos(turn), math.sin(turn)
@@ -53,7 +54,7 @@ def seen_from(frame, poses):
 
 @dataclass
 class Drive:
-    """What a robot sends in one run: messages, by the times that their stamps say."""
+    """The messages of a robot in one run, by the times that their stamps say."""
 
     robot: Robot
     scan_times: Any
@@ -62,7 +63,7 @@ class Drive:
     by_topic: bool = False
     static: bool = True
     away: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    """By how much poses are off the truth: a second publisher."""
+    """The offset of a second publisher's poses from the truth."""
     messages: list = field(default_factory=list)
 
     def poses(self, times):
@@ -102,7 +103,7 @@ class Drive:
 
 
 def exact(scans, bot, frame):
-    """Whether scans are those that a robot sent, at their poses in a frame of the room, beam by beam."""
+    """Tell whether scans are those that a robot sent, at their poses in a frame of the room, beam by beam."""
     numbers = np.rint(10 * (scans.ranges_m[:, 0] - 1.0)).astype(int)
     expected = seen_from(frame, np.array(bot.sent)[numbers])
     off = [scans.poses[:, :2] - expected[:, :2], np.sin(scans.poses[:, 2] - expected[:, 2])]
@@ -129,7 +130,7 @@ def angles_of(draw):
 
 
 def robots_of(draw, styles=("spaces", "prefixes", "both", "within")):
-    """One to three robots: with topics and frames of their own, or frames alone, or topics alone."""
+    """Draw one to three robots: with topics and frames of their own, or frames alone, or topics alone."""
     count, style = draw(st.integers(1, 3)), draw(st.sampled_from(styles))
     small = st.floats(-0.3, 0.3)
     chain = draw(st.sampled_from([(), ("map",), ("world", "map"), ("earth", "map"), ("world",)]))
@@ -148,7 +149,7 @@ def robots_of(draw, styles=("spaces", "prefixes", "both", "within")):
 
 
 def drive_of(draw, robot, **options):
-    """Times of scans and poses that overlap, at rates of their own."""
+    """Draw times of scans and poses that overlap, at rates of their own."""
     scans, poses = draw(st.integers(8, 30)), draw(st.integers(30, 80))
     length = draw(st.floats(3.0, 6.0))
     scan_times = np.sort(np.linspace(0.3, length - 0.3, scans) + draw(st.floats(-0.2, 0.2)))
@@ -166,7 +167,7 @@ FAULTS = dict.fromkeys(HARMLESS, ()) | {
 
 @st.composite
 def recordings(draw, fault):
-    """A recording with one fault, and the words by which it must be named if it does harm."""
+    """Draw a recording with one fault, and the words by which it must be named if it does harm."""
     robots = robots_of(draw, *([("prefixes",)] if fault == "moving world" else []))
     if fault == "others' transforms alone":
         robots = robots[:1]
@@ -259,22 +260,14 @@ def exact_or_named(recorded, writer):
     assert any(cause in words for cause in recorded.causes)
 
 
-AS_THEY_ARE = {"suppress_health_check": list(HealthCheck), "phases": [Phase.generate]}
-"""A recording that fails is not made smaller: that takes minutes, and it is short anyway."""
-LANDING, FULL = 3, 150
-"""Recordings of each fault: over 40 in the landing run, over 2000 in all."""
-
-
+@pytest.mark.parametrize("examples", full_but([3, 150], 3))
 @pytest.mark.parametrize("fault", FAULTS)
-@given(data=st.data())
-@settings(max_examples=LANDING, **AS_THEY_ARE)
-def test_a_recording_is_read_exactly_or_its_fault_is_named(fault, data):
-    exact_or_named(data.draw(recordings(fault)), data.draw(st.sampled_from(WRITERS)))
+def test_a_recording_is_read_exactly_or_its_fault_is_named(fault, examples):
+    """A recording that fails is not made smaller: that takes minutes, and it is short anyway."""
 
+    @settings(max_examples=examples, suppress_health_check=list(HealthCheck), phases=[Phase.generate])
+    @given(st.data())
+    def read(data):
+        exact_or_named(data.draw(recordings(fault)), data.draw(st.sampled_from(WRITERS)))
 
-@pytest.mark.full
-@pytest.mark.parametrize("fault", FAULTS)
-@given(data=st.data())
-@settings(max_examples=FULL, **AS_THEY_ARE)
-def test_many_recordings_are_read_exactly_or_their_faults_are_named(fault, data):
-    exact_or_named(data.draw(recordings(fault)), data.draw(st.sampled_from(WRITERS)))
+    read()

@@ -15,7 +15,7 @@ from bayesmap.io.ros.publishers import contradiction
 
 
 def way(number):
-    """The path of robot 1, 2 or 3: far from the others."""
+    """Return the path of robot 1, 2 or 3, far from the others."""
     return lambda seconds: r.path_of(seconds) + np.array([0.4, -0.7, 0.5]) * number
 
 
@@ -24,7 +24,7 @@ def mount(number):
 
 
 def fleet(**options):
-    """Three robots with the same times, and their scans as they were simulated."""
+    """Return three robots with equal times, and their scans as they were simulated."""
     return [r.robot(path=way(n), mount=mount(n), **{k: v.format(n) for k, v in options.items()}) for n in (1, 2, 3)]
 
 
@@ -75,10 +75,8 @@ def test_the_nearest_of_two_maps_over_the_sensor_is_taken(tmp_path):
 def test_namespaces_of_transforms_that_scans_have_not_are_to_be_chosen_from(tmp_path):
     robots = [r.robot(path=way(n), mount=mount(n), space=f"/laser{n}", tf_space=f"/robot{n}") for n in (1, 2)]
     file = r.written(tmp_path / "two", r.merged(*(messages for messages, _ in robots)))
-    message = r.refused(file, scan_topic="/laser2/scan")
-    assert "differs between topics: /robot1/tf" in message
-    assert "choose one with --pose-topic: /robot1/tf" in message
-    assert "/robot2/tf (tf2_msgs" in message
+    parts = ("differs between topics: /robot1/tf", "choose one with --pose-topic: /robot1/tf", "/robot2/tf (tf2_msgs")
+    r.refused(file, *parts, scan_topic="/laser2/scan")
     same(describe_log(file, scan_topic="/laser2/scan", pose_topic="/robot2/tf").scans, robots[1][1])
     alone = describe_log(r.written(tmp_path / "one", robots[0][0]))
     same(alone.scans, robots[0][1])
@@ -88,9 +86,8 @@ def test_namespaces_of_transforms_that_scans_have_not_are_to_be_chosen_from(tmp_
 def test_a_map_of_the_whole_fleet_is_found_beside_each_robot_s_transforms(tmp_path):
     robots = fleet(space="/robot{}", prefix="robot{}_")
     messages = [m for part, _ in robots for m in part]
-    messages += [
-        ("/tf_static", r.TF, 0.0, r.tf(r.transform(0.0, "map", f"robot{n}_map", 1, 2, 0.3))) for n in (1, 2, 3)
-    ]
+    tops = [r.transform(0.0, "map", f"robot{n}_map", 1, 2, 0.3) for n in (1, 2, 3)]
+    messages += [("/tf_static", r.TF, 0.0, r.tf(top)) for top in tops]
     file = r.written(tmp_path, r.merged(messages))
     for n, (_, scans) in enumerate(robots, 1):
         reading = describe_log(file, scan_topic=f"/robot{n}/scan")
@@ -110,20 +107,16 @@ def test_odometry_of_the_scans_namespace_is_taken_where_there_are_no_transforms(
 
 def test_a_topic_that_tells_other_transforms_is_to_be_chosen_from(tmp_path):
     messages, scans = r.robot()
-    others = [m for m in r.robot(path=way(1), late=0.01)[0] if m[0] == "/tf"]
-    others = [("/tf_other", *m[1:]) for m in others]
+    others = [("/tf_other", *m[1:]) for m in r.robot(path=way(1), late=0.01)[0] if m[0] == "/tf"]
     file = r.written(tmp_path, r.merged(messages, others))
-    message = r.refused(file)
-    assert "the transform odom -> base_link differs between topics: /tf says x " in message
-    assert "choose one with --pose-topic: /tf (tf2_msgs/msg/TFMessage, 42 messages), /tf_other (" in message
+    choice = "choose one with --pose-topic: /tf (tf2_msgs/msg/TFMessage, 42 messages), /tf_other ("
+    r.refused(file, "the transform odom -> base_link differs between topics: /tf says x ", choice)
     same(describe_log(file, pose_topic="/tf").scans, scans)
 
 
 def mounts(topic, *values, **angles):
-    return [
-        (topic, r.TF, 0.1 * i, r.tf(r.transform(0.1 * i, "base_link", "laser", *v, **angles)))
-        for i, v in enumerate(values)
-    ]
+    stamped = [(0.1 * i, value) for i, value in enumerate(values)]
+    return [(topic, r.TF, t, r.tf(r.transform(t, "base_link", "laser", *v, **angles))) for t, v in stamped]
 
 
 def test_a_static_transform_may_be_repeated(tmp_path):
@@ -157,9 +150,8 @@ def test_a_transform_that_is_static_and_not_is_to_be_chosen(tmp_path, moving):
     messages, scans = r.robot()
     still = r.transform(0.0, "odom", "base_link", 1.0, 2.0, 0.5) if moving else r.transform(0.0, "map", "odom", 1, 2, 0)
     file = r.written(tmp_path, r.merged([("/tf_static", r.TF, 0.0, r.tf(still))], messages))
-    message = r.refused(file)
-    assert f"the transform {'odom -> base_link' if moving else 'map -> odom'} differs between topics" in message
-    assert [part for part in ("/tf_static says x 1 m, y 2 m", "--pose-topic: ") if part not in message] == []
+    joint = "odom -> base_link" if moving else "map -> odom"
+    r.refused(file, f"the transform {joint} differs between topics", "/tf_static says x 1 m, y 2 m", "--pose-topic: ")
     same(describe_log(file, pose_topic="/tf").scans, scans)
 
 
@@ -170,9 +162,8 @@ def test_two_publishers_of_odometry_are_refused_with_both_values(tmp_path, late,
     others = [m for m in r.robot(path=lambda t: r.path_of(t) + away, late=late)[0] if m[0] == "/tf"]
     others = [m for m in others if m[3]["transforms"][0]["child_frame_id"] == "base_link"]
     file = r.written(tmp_path, r.merged(messages, others))
-    message = r.refused(file)
-    assert "the transform odom -> base_link on /tf goes to and fro between values that differ: at " in message
-    assert [part for part in ("two publishers", "--pose-topic: /odom") if part not in message] == []
+    fault = "the transform odom -> base_link on /tf goes to and fro between values that differ: at "
+    message = r.refused(file, fault, "two publishers", "--pose-topic: /odom")
     same(describe_log(file, pose_topic="/odom").scans, scans)
     told = contents_of(file)
     assert told.suggestion.endswith("--pose-topic /odom")
@@ -188,13 +179,12 @@ def test_two_publishers_of_the_map_leave_the_odometry_and_two_of_poses_are_refus
     assert describe_log(file, fixed_frame="odom").fixed_frame == "odom"
     messages, _ = r.robot(tf_poses=False, odom=True)
     others = [m for m in r.robot(tf_poses=False, odom=True, path=way(1), late=0.1)[0] if m[0] == "/odom"]
-    assert "odom -> base_link on /odom goes to and fro" in r.refused(
-        r.written(tmp_path / "other", r.merged(messages, others))
-    )
+    both = r.written(tmp_path / "other", r.merged(messages, others))
+    r.refused(both, "odom -> base_link on /odom goes to and fro")
 
 
 def a_track(rng, samples, noise, late_s=0.0, away=(0.0, 0.0, 0.0)):
-    """Odometry at about 10 Hz: turns, stops, jumps; noise in metres and radians."""
+    """Return odometry at about 10 Hz with turns, stops and jumps; noise in metres and radians."""
     t = 0.1 * np.arange(samples) + rng.uniform(0, 0.02, samples)
     speed = np.repeat(rng.choice([0.0, 0.3, 1.0], samples // 10 + 1), 10)[:samples]
     yaw = np.cumsum(0.1 * np.repeat(rng.choice([0.0, -0.5, 0.8], samples // 10 + 1), 10)[:samples])
@@ -224,7 +214,7 @@ def test_one_noisy_publisher_is_not_taken_for_two_and_two_are(noise):
 
 
 def received_later(messages, seconds):
-    """What is received later than its stamps say, by the recorder's own clock."""
+    """Delay messages: they are received later than their stamps say, by the recorder's own clock."""
     return [(topic, kind, t + seconds, message) for topic, kind, t, message in messages]
 
 
@@ -290,9 +280,8 @@ def test_a_track_goes_through_its_poses_and_straight_between():
     motions, start = some(5, 4), 1_700_000_000_000_000_000
     track = Track(start + np.array([0, 10, 30, 40]), motions)
     np.testing.assert_allclose(track.at(track.stamps_ns).as_matrix(), motions.as_matrix(), atol=1e-12)
-    np.testing.assert_allclose(
-        track.at(start + np.array([-5, 45])).as_matrix(), motions[[0, 3]].as_matrix(), atol=1e-12
-    )
+    outside = track.at(start + np.array([-5, 45]))
+    np.testing.assert_allclose(outside.as_matrix(), motions[[0, 3]].as_matrix(), atol=1e-12)
     halfway = track.at(start + np.array([20]))
     np.testing.assert_allclose(halfway.translation[0], (motions.translation[1] + motions.translation[2]) / 2)
     turn = motions.rotation[1].inv() * motions.rotation[2]

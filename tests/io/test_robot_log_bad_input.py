@@ -21,7 +21,7 @@ CONTAINERS = ("rosbag1", "db3", "mcap", "mcap-zstd", "mcap-lz4", "mcap-plain", "
 
 @pytest.fixture(scope="module")
 def whole(tmp_path_factory):
-    """The same recording in each container; its name says nothing of it."""
+    """One recording in each container; its name does not say which."""
     messages, _ = r.robot(odom=True)
     folder = tmp_path_factory.mktemp("whole")
     return {
@@ -36,8 +36,7 @@ def test_a_truncated_recording_is_refused_and_read_as_far_as_it_goes_on_request(
     content = whole[writer].read_bytes()
     path = tmp_path / "cut"
     path.write_bytes(content[: int(len(content) * 0.75)])  # without the index at the end and a little of the data
-    message = r.refused(path)
-    assert [part for part in ("damaged or cut short", "--skip-bad-lines") if part not in message] == []
+    r.refused(path, "damaged or cut short", "--skip-bad-lines")
     try:
         reading = describe_log(path, skip_bad_lines=True, pose_topic="/odom")
     except bm.BadInput:
@@ -104,9 +103,7 @@ def test_a_damaged_row_of_a_database_is_named_and_left_out_on_request(tmp_path, 
             "ON topic_id = topics.id WHERE name = '/scan' LIMIT 1)"
         )
     database.close()
-    message = r.refused(path)
-    assert "message 1 on /scan" in message
-    assert says in message
+    r.refused(path, "message 1 on /scan", says)
     assert len(describe_log(path, skip_bad_lines=True).skipped) == 1
 
 
@@ -163,12 +160,11 @@ REFUSED = {
 
 
 @pytest.mark.parametrize(("make", "options", "parts"), REFUSED.values(), ids=REFUSED)
-def test_what_must_be_chosen_or_cannot_be_used_is_refused_with_what_is_there(tmp_path, make, options, parts):
-    message = r.refused(r.written(tmp_path, make()), **options)
-    assert [part for part in parts if part not in message] == []
+def test_recordings_with_a_choice_or_without_use_are_refused_with_their_topics(tmp_path, make, options, parts):
+    r.refused(r.written(tmp_path, make()), *parts, **options)
 
 
-def test_of_two_lasers_the_chosen_one_is_read_and_a_storm_of_nan_leaves_the_other_scans(tmp_path):
+def test_the_chosen_laser_is_read_and_a_scan_of_nan_leaves_the_others(tmp_path):
     assert len(read_log(r.written(tmp_path, two_lasers()), scan_topic="/rear")) == 4
     nothing = [math.nan] * 41
     messages, scans = replaced({"ranges": nothing})
@@ -204,8 +200,7 @@ def pose(position, orientation):
 def test_a_scan_or_pose_that_cannot_be_used_is_named_and_left_out_on_request(tmp_path, topic, change, reason):
     messages, scans = replaced(change, topic, tf_poses=False, odom=True)
     path = r.written(tmp_path, messages)
-    message = r.refused(path)
-    assert [part for part in (f"message 5 on {topic}", reason, "--skip-bad-lines") if part not in message] == []
+    r.refused(path, f"message 5 on {topic}", reason, "--skip-bad-lines")
     reading = describe_log(path, skip_bad_lines=True)
     left = np.delete(scans.ranges_m, 4, axis=0) if topic == "/scan" else scans.ranges_m
     np.testing.assert_array_equal(reading.scans.ranges_m, left)

@@ -34,9 +34,8 @@ def case():
 
 
 def infer(case, **options):
-    return bm.infer(
-        case.scans, case.grid, **grouped(**{"prior": case.prior, "sensor": case.sensor, "draws": 20, **options})
-    )
+    options = {"prior": case.prior, "sensor": case.sensor, "draws": 20, **options}
+    return bm.infer(case.scans, case.grid, **grouped(**options))
 
 
 def assert_equal_runs(one, other):
@@ -191,7 +190,7 @@ CHANGES = [
 
 @pytest.mark.parametrize(("part", "values"), CHANGES)
 def test_a_header_that_was_tampered_with_is_refused_by_the_file_s_name(saved, part, values, tmp_path):
-    """By a hand or a bad disk, so without a new checksum."""
+    """A hand or a bad disk changes the header and writes no new checksum."""
     copy = damaged(saved[1], tmp_path, saved[1].read_bytes())
     with netCDF4.Dataset(copy, "a") as file:
         header = json.loads(file.getncattr("bayesmap"))
@@ -204,7 +203,7 @@ def test_a_header_that_was_tampered_with_is_refused_by_the_file_s_name(saved, pa
         bm.load(copy)
 
 
-def test_what_is_no_saved_run_is_refused(saved, tmp_path):
+def test_files_that_are_no_saved_run_are_refused(saved, tmp_path):
     with pytest.raises(bm.BadInput, match=r"nothing\.nc: no such file"):
         bm.load(tmp_path / "nothing.nc")
     (tmp_path / "text.nc").write_text("hello")

@@ -81,7 +81,7 @@ def test_tum_of_others_is_sorted_and_read_whatever_its_quaternions_signs(tmp_pat
     ("", "there is no pose in it"), ("1 2 3\n", "line 1: a line is 8 numbers"),
     ("1 0 0 0 0.7 0 0 0.7\n", "pose 0 is tilted"), ("1 0 0 0 0 0 nan 1\n", "line 1: a line is 8 numbers"),
 ])  # fmt: skip
-def test_what_is_no_tum_trajectory(tmp_path, content, message):
+def test_files_that_are_no_tum_trajectory_are_refused(tmp_path, content, message):
     (tmp_path / "a.tum").write_text(content)
     with pytest.raises(BadInput, match=message):
         read_trajectory(tmp_path / "a.tum")
@@ -177,14 +177,14 @@ def test_numpy_reads_stamps_and_scipy_turns_and_without_stamps_poses_are_numbere
     (np.zeros((2, 3)), [1.0], r"one finite stamp a pose, \(2,\), got shape \(1,\)"),
     (np.zeros((1, 3)), [np.nan], "one finite stamp"), (np.zeros((1, 2)), None, r"expected \(S, 3\)"),
 ])  # fmt: skip
-def test_what_is_no_trajectory_leaves_no_file(tmp_path, poses, stamps, says):
+def test_poses_that_are_no_trajectory_leave_no_file(tmp_path, poses, stamps, says):
     with pytest.raises(BadInput, match=says):
         write_trajectory(tmp_path / "poses.tum", poses, stamps)
     assert list(tmp_path.iterdir()) == []
 
 
 def written(found, path):
-    """The graph as a file's lines say it: vertices, and edges as factors."""
+    """Export the graph, and read its lines: vertices, and edges as factors."""
     run = SimpleNamespace(trajectory=found, grid=None, observed=None)
     export_run(path, run, SimpleNamespace(stamps_s=None, mount=None))
     lines = [line.split() for line in path.read_text().splitlines()]

@@ -1,4 +1,4 @@
-"""Stories: the file of an author is read, or refused with the step and the key that are wrong; ours, in one file."""
+"""Figures that sample without a server, and stories: read, refused with the step and the key, and gone through."""
 
 import json
 import re
@@ -6,7 +6,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from acted import Acted
 from page_driver import snapshot, until
+from page_hands import click
 
 from bayesmap.app.edits import tutorial_document
 from bayesmap.app.figures import to_figure
@@ -14,13 +16,44 @@ from bayesmap.app.session import Session
 from bayesmap.app.stories import OURS, read_story
 from bayesmap.errors import BadInput
 
+
+def test_the_live_page_exports_a_figure_of_what_is_drawn_from_known_poses():
+    acted = Acted()
+    assert [said["name"] for said in acted.act("export", what="figure")] == ["figure.html"]
+    acted.act("set", patch={"pose_sigma": 0.2})
+    acted.act("export", what="figure")
+    assert "set the uncertainty of the poses to 0" in acted.text
+
+
+def test_a_figure_is_sampled_in_the_page_as_it_is_drawn_in(open_page, tmp_path):
+    (tmp_path / "figure.html").write_text(to_figure(tutorial_document()), encoding="utf-8")
+    page = open_page((tmp_path / "figure.html").as_uri())
+    until(page, "s.painted?.sweeps === s.document.sweeps")
+    first = snapshot(page)
+    sure = first["probability"] > 250
+    assert first["painted"]["method"] == "gibbs"
+    assert sure.sum() > 20
+    assert tutorial_document().is_wall[sure].mean() > 0.9
+    assert max(first["probability"][[10, 8], 10]) < 25
+    click(page, 8, 10)  # a wall is drawn beside the robot
+    until(page, "s.painted.generation > 1 && s.painted.sweeps === s.document.sweeps")
+    shown = snapshot(page)
+    assert shown["walls"][8, 10] == 1
+    assert shown["probability"][8, 10] > 250
+    for name in ("Path", "Ghost", "Evidence"):  # only a server can answer these
+        assert not page.get_by_role("radio", name=name, exact=True).is_visible()
+    page.get_by_role("button", name="Export", exact=True).click()
+    offered = page.locator(".menu button:visible").all_inner_texts()
+    assert offered == ["Picture (PNG)", "Document (JSON)"]
+
+
 PAGE = (Path(__file__).parents[2] / "docs/stories.md").read_text(encoding="utf-8")
 EXAMPLE = json.loads(re.search("```json\n(.*?)```", PAGE, re.DOTALL)[1])
 DONE = "s.painted.generation === s.generation && s.painted.sweeps === s.document.sweeps"
 
 
 def told(tmp_path, **second):
-    """The story of the documentation's example with changes to its second step."""
+    """Read the story of the documentation's example with changes to its second step."""
     first, other = EXAMPLE["steps"]
     (tmp_path / "own.json").write_text(json.dumps({**EXAMPLE, "steps": [first, {**other, **second}]}))
     return read_story(str(tmp_path / "own.json"), tutorial_document(7))
@@ -47,7 +80,7 @@ def test_a_wrong_step_is_refused_with_its_number_and_its_key(tmp_path, step, why
         told(tmp_path, **step)
 
 
-def test_what_is_no_story_and_what_a_figure_cannot_tell_is_refused(tmp_path):
+def test_files_without_a_story_and_steps_that_no_figure_has_are_refused(tmp_path):
     for step, why in (
         ({"tool": "path"}, "step 2: tool: a figure has no path"),
         ({"state": {"method": "propagate"}}, "step 2: method"),
