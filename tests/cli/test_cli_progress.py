@@ -121,6 +121,11 @@ def test_a_line_a_minute_says_how_far_a_run_is_if_there_is_no_terminal(monkeypat
         "drawing: 50 of 110 sweeps, 120 s passed, about 180 s left",
         "drawing: 70 of 110 sweeps, 180 s passed, about 120 s left",
     ]
+    with progress(Console(), "matching scans") as show:
+        for minute in (5.0, 6.0):
+            now[0] = 60.0 * minute
+            show(Event("loops", int(minute) - 5, 3))
+    assert capsys.readouterr().err.endswith("closing loops: 1 of 3 rounds, 121 s passed\n")  # rounds differ in length
     now[0] = 1000.0
     with progress(Console(), "matching scans") as show:
         for sweep, stage in ((10, "warm-up"), (30, "warm-up"), (40, "draws")):

@@ -190,6 +190,7 @@ def exit_unless_good(*, finished: bool, problems: bool) -> None:
 
 
 SPEED_S = 600.0  # seconds over which the progress bar averages the speed: sweeps of long logs take up to half a minute
+FEW_STEPS = 5  # so few steps differ too much in length to foretell the time that is left
 LINE_S = 60.0  # seconds from one line of progress to the next if there is no terminal
 
 
@@ -215,7 +216,7 @@ def _lines(console: Console) -> Show:
             return
         last = now
         words = [f"{name}: {_count(unit, done, total, warmup, ' of ')}", f"{now - began:.0f} s passed"]
-        if done > first:
+        if done > first and total > FEW_STEPS:
             words.append(f"about {(now - start) * (total - done) / (done - first):.0f} s left")
         console.say(", ".join([*words, *([quality] if quality else [])]))
 
@@ -253,9 +254,10 @@ def _bar(console: Console, begin: str) -> Iterator[Show]:
             if visible != tasks[key]:
                 bar.update(visible, visible=False)
                 visible = tasks[key]
-            count = _count(unit, done, total, warmup, "/") + " ETA"
+            length = total if total > FEW_STEPS else None  # without it the bar foretells nothing
+            count = _count(unit, done, total, warmup, "/") + " ETA" * (length is not None)
             bar.update(
-                visible, description=name, completed=done, total=total, count=count, quality=quality, visible=True
+                visible, description=name, completed=done, total=length, count=count, quality=quality, visible=True
             )
 
         yield show
