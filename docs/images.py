@@ -13,7 +13,7 @@ from bayesmap.cli.render import log_odds_map
 from bayesmap.sim.drawing import TUTORIAL_GRID
 from bayesmap.viz.figure import Candidate, comparison_figure, write_figure
 from bayesmap.viz.maps import window
-from bayesmap.viz.overlays import draw_surfaces
+from bayesmap.viz.overlays import plot_surfaces
 from bayesmap.viz.palette import SURFACE
 from bayesmap.viz.trajectory import before_and_after_figure
 
@@ -35,7 +35,7 @@ def building() -> None:
         Candidate("posterior over surfaces", run.occupancy[cut], run.observed[cut]),
     ]
     figure = comparison_figure(part, maps, label="chance that a cell stops a beam")
-    draw_surfaces(figure.axes[1], *run.surfaces(), color=SURFACE)
+    plot_surfaces(figure.axes[1], *run.surfaces(), color=SURFACE)
     write_figure(figure, IMAGES / "building.png")
 
 

@@ -243,8 +243,8 @@ def draw_places(ax, places, color):
 
 figure, axes = panels("guessed poses, map from them", "both inferred", "true poses, map from them", size_in=3.6)
 for ax, p_wall in zip(axes, (at_guesses.occupancy, occupancy, at_truth.occupancy), strict=True):
-    viz.draw_probability(ax, grid, p_wall)
-    viz.draw_truth_outline(ax, grid, true_walls)
+    viz.plot_probability(ax, grid, p_wall)
+    viz.plot_truth_outline(ax, grid, true_walls)
     ax.plot(*true_poses[:, :2].T, "+", color=TRUTH, markersize=7, zorder=6)
 draw_places(axes[0], np.asarray(guesses), CHAINS[0])
 draw_places(axes[1], poses[:, ::4], CHAINS[0])

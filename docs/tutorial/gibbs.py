@@ -148,8 +148,8 @@ assert log_joint(chain[4]) < log_joint(true_walls) - 10_000
 assert all(abs(log_joint(walls) - log_joint(true_walls)) < 60 for walls in chain[19:])
 figure, axes = panels(*(f"sweep {n}" for n in (1, 3, 6, 12)))
 for ax, n in zip(axes, (1, 3, 6, 12), strict=True):
-    viz.draw_sample(ax, grid, chain[n - 1])
-    viz.draw_truth_outline(ax, grid, true_walls)
+    viz.plot_sample(ax, grid, chain[n - 1])
+    viz.plot_truth_outline(ax, grid, true_walls)
 show(figure, "gibbs.png", "The chain after some sweeps, from an empty map. Outlined: the true walls.")
 
 # %% [markdown]
@@ -170,11 +170,11 @@ print(f"cells that no beam comes within two metres of: walls in {share[unseen].m
 assert share[passed].mean() < 0.01
 assert abs(share[unseen].mean() - 0.5) < 0.02
 figure, axes = panels("one draw", "probability of a wall", "uncertainty")
-viz.draw_sample(axes[0], grid, chain[-1])
-viz.draw_probability(axes[1], grid, share)
-viz.draw_entropy(axes[2], grid, share)
+viz.plot_sample(axes[0], grid, chain[-1])
+viz.plot_probability(axes[1], grid, share)
+viz.plot_entropy(axes[2], grid, share)
 for ax in axes[:2]:
-    viz.draw_truth_outline(ax, grid, true_walls)
+    viz.plot_truth_outline(ax, grid, true_walls)
 show(figure, "posterior.png", "A draw of the posterior, the mean of a hundred, and its entropy: bright is uncertain.")
 
 # %% [markdown]
@@ -293,7 +293,7 @@ radial_chain = np.asarray(gibbs_chain(sweep_keys[:12], empty, RADIAL))
 shown = (0, 1, 4, 8)
 figure, axes = panels(*(f"ring {r}" for r in shown), "place in the sweep", size_in=2.6)
 for ax, r in zip(axes, shown, strict=False):
-    viz.draw_sample(ax, grid, np.asarray(ring == r).reshape(21, 21))
+    viz.plot_sample(ax, grid, np.asarray(ring == r).reshape(21, 21))
 place = np.empty(441, int)
 place[np.asarray(RADIAL @ jnp.array([21, 1]))] = np.arange(441)
 image = axes[-1].imshow(place.reshape(21, 21).T, origin="lower", cmap="viridis")
@@ -304,8 +304,8 @@ show(
 )
 figure, axes = panels(*(f"raster, sweep {n}" for n in (2, 4)), *(f"radial, sweep {n}" for n in (2, 4)))
 for ax, walls in zip(axes, (chain[1], chain[3], radial_chain[1], radial_chain[3]), strict=True):
-    viz.draw_sample(ax, grid, walls)
-    viz.draw_truth_outline(ax, grid, true_walls)
+    viz.plot_sample(ax, grid, walls)
+    viz.plot_truth_outline(ax, grid, true_walls)
 show(figure, "orders.png", "The same random numbers in two orders, from an empty map. Outlined: the true walls.")
 
 # %% [markdown]
@@ -417,8 +417,8 @@ for n in (1, 2, 5, 10, 20, 30):
 assert log_joint(block_chain[-1], RARE) > log_joint(true_walls, RARE) - 30
 figure, axes = panels("one cell at a time: sweep 100", "blocks: sweep 3", "blocks: sweep 10", "blocks: sweep 30")
 for ax, walls in zip(axes, (stuck, block_chain[3], block_chain[10], block_chain[30]), strict=True):
-    viz.draw_sample(ax, grid, walls)
-    viz.draw_truth_outline(ax, grid, true_walls)
+    viz.plot_sample(ax, grid, walls)
+    viz.plot_truth_outline(ax, grid, true_walls)
 show(figure, "blocks.png", "Walls are rare: single cells are stuck, blocks are not. Outlined: the true walls.")
 
 # %% [markdown]

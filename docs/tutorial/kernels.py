@@ -108,9 +108,9 @@ assert differs.mean() < 0.01
 assert run.summary().rhat_max < 1.01
 figure, axes = panels("gen, 3800 sweeps", "kernels, 20 000 sweeps", "uncertainty")
 for ax, mean in zip(axes[:2], (by_edits, run.occupancy), strict=True):
-    viz.draw_probability(ax, grid, mean)
-    viz.draw_truth_outline(ax, grid, true_walls)
-viz.draw_entropy(axes[2], grid, run.occupancy)
+    viz.plot_probability(ax, grid, mean)
+    viz.plot_truth_outline(ax, grid, true_walls)
+viz.plot_entropy(axes[2], grid, run.occupancy)
 show(figure, "agree.png", "Posterior probability of a wall, twice, and its entropy: bright is uncertain.")
 
 # %% [markdown]
@@ -275,11 +275,11 @@ for poses in (stops[:1], stops):
 assert several[1].entropy.sum() < 0.8 * several[0].entropy.sum()
 figure, axes = panels("one pose", "entropy", "five poses", "entropy")
 for at, poses, inferred in ((0, stops[:1], several[0]), (2, stops, several[1])):
-    viz.draw_probability(axes[at], grid, inferred.occupancy)
-    viz.draw_truth_outline(axes[at], grid, true_walls)
+    viz.plot_probability(axes[at], grid, inferred.occupancy)
+    viz.plot_truth_outline(axes[at], grid, true_walls)
     for stop in poses:
-        viz.draw_sensor(axes[at], stop)
-    viz.draw_entropy(axes[at + 1], grid, inferred.occupancy)
+        viz.plot_sensor(axes[at], stop)
+    viz.plot_entropy(axes[at + 1], grid, inferred.occupancy)
 show(figure, "poses.png", "The posterior and its entropy after a scan from one place, and after scans from five.")
 
 # %% [markdown]
@@ -326,10 +326,10 @@ assert mapped.log_score(held_out) > guess.log_score(held_out) - 0.05
 assert mapped.occupancy[walls_seen].mean() > 0.7
 assert mapped.occupancy[free_seen].mean() < 0.02
 figure, axes = panels("probability of a wall", "entropy", size_in=4.4, height_in=3.2)
-viz.draw_probability(axes[0], office.grid, mapped.occupancy, mapped.observed)
-viz.draw_truth_outline(axes[0], office.grid, office.walls)
-viz.draw_sensor(axes[0], route)
-viz.draw_entropy(axes[1], office.grid, mapped.occupancy, mapped.observed)
+viz.plot_probability(axes[0], office.grid, mapped.occupancy, mapped.observed)
+viz.plot_truth_outline(axes[0], office.grid, office.walls)
+viz.plot_sensor(axes[0], route)
+viz.plot_entropy(axes[1], office.grid, mapped.occupancy, mapped.observed)
 show(figure, "building.png", "An office, with the robot's way. Outlined: the true walls. Hatched: no beam came there.")
 
 # %% [markdown]

@@ -122,15 +122,15 @@ def on_the_map(*titles, size_in=3.1):
     """Panels that show the map."""
     figure, axes = panels(*titles, size_in=size_in)
     for ax in axes:
-        viz.draw_sample(ax, grid, true_walls)
+        viz.plot_sample(ax, grid, true_walls)
         ax.set(xlim=(-0.5, 20.5), ylim=(-0.5, 20.5))
     return figure, axes
 
 
 figure, (left, right) = on_the_map("the robot and its scan", "what it knows", size_in=3.4)
 seen = {"angles_rad": np.asarray(ANGLES), "ranges_m": np.asarray(readings)[None], "max_range_m": MAX_RANGE_M}
-viz.draw_rays(left, bm.Scans(poses=np.asarray(true_pose), **seen))
-viz.draw_sensor(left, np.asarray(true_pose))
+viz.plot_rays(left, bm.Scans(poses=np.asarray(true_pose), **seen))
+viz.plot_sensor(left, np.asarray(true_pose))
 words = [f"at {60 * k} degrees: {r:.1f} m" for k, r in enumerate(readings)]
 right.text(7, 9, "\n".join(words), ha="center", va="center", color=TRUTH, fontsize=8)
 show(figure, "pose-scan.png", "A scan of six beams, and what the robot has: the map and six numbers.")
@@ -248,7 +248,7 @@ axes[0].imshow(
 )
 draw_poses(axes[1], first_poses)
 for ax in axes:
-    viz.draw_sensor(ax, np.asarray(true_pose))
+    viz.plot_sensor(ax, np.asarray(true_pose))
 show(figure, "pose-posterior.png", "Where the robot may be after one scan. The arrow is where it is.")
 
 # %% [markdown]
@@ -358,7 +358,7 @@ for ax, t in zip(axes, (0, 1, 5, N_STEPS), strict=True):
     draw_poses(ax, filtered[t - 1] if t else first_poses)
     way = np.concatenate([true_pose[None], true_path[:t]])
     ax.plot(*way[:, :2].T, color=TRUTH, linewidth=1)
-    viz.draw_sensor(ax, way[-1])
+    viz.plot_sensor(ax, way[-1])
 show(
     figure,
     "filter.png",

@@ -53,8 +53,8 @@ print(f"the robot stands at x = {pose[0]:g} m, y = {pose[1]:g} m")
 
 # %% Code of the figure tags=["hide-input"]
 figure, (ax,) = panels("the true map")
-viz.draw_sample(ax, grid, true_walls)
-viz.draw_sensor(ax, pose)
+viz.plot_sample(ax, grid, true_walls)
+viz.plot_sensor(ax, pose)
 show(figure, "map.png", "The true map. Dark cells are walls; the arrow is the robot.")
 
 # %% [markdown]
@@ -168,7 +168,7 @@ assert np.isclose(trace.get_score(), 441 * np.log(0.5), rtol=1e-5)
 assert abs(prior_maps.mean() - 0.5) < 5 * 0.5 / np.sqrt(200 * 441)
 figure, axes = panels("prior draw 1", "prior draw 2", "prior draw 3")
 for ax, drawn in zip(axes, prior_maps, strict=False):
-    viz.draw_sample(ax, grid, drawn)
+    viz.plot_sample(ax, grid, drawn)
 show(
     figure,
     "prior.png",
@@ -246,9 +246,9 @@ scans = bm.Scans(poses=pose, angles_rad=angles_rad, ranges_m=np.asarray(readings
 without_noise = bm.Scans(poses=pose, angles_rad=angles_rad, ranges_m=library, max_range_m=MAX_RANGE_M)
 figure, axes = panels("exact", "noisy", "what the robot knows")
 for ax, seen, walls in zip(axes, (without_noise, scans, scans), (true_walls, true_walls, 0 * true_walls), strict=True):
-    viz.draw_sample(ax, grid, walls)
-    viz.draw_rays(ax, seen)
-    viz.draw_sensor(ax, pose)
+    viz.plot_sample(ax, grid, walls)
+    viz.plot_rays(ax, seen)
+    viz.plot_sensor(ax, pose)
     ax.set(xlim=(-0.5, 20.5), ylim=(-0.5, 20.5))
 show(figure, "readings.png", "Exact readings, noisy readings, and the noisy ones without the map: the data.")
 
@@ -354,15 +354,15 @@ for particles in (1_000, 10_000, 100_000, 1_000_000):
 
 # %% Code of the figures tags=["hide-input"]
 figure, (ax,) = panels("", size_in=6.0, height_in=3.0)
-viz.draw_weights(ax, weighed.log_weights, range_nats=(-50_000.0, 0.0))
+viz.plot_weights(ax, weighed.log_weights, range_nats=(-50_000.0, 0.0))
 ax.set_title(f"{len(weighed.log_weights):,} maps, effective sample size {size:.1f}", fontsize=10)
 for note in ax.texts:
     note.set_fontsize(9)
 show(figure, "weights.png", "A million log weights. The one at the right has all the weight; the others have none.")
 figure, (ax,) = panels("best of a million")
-viz.draw_sample(ax, grid, weighed.draws[0, 0])
-viz.draw_truth_outline(ax, grid, true_walls)
-viz.draw_sensor(ax, pose)
+viz.plot_sample(ax, grid, weighed.draws[0, 0])
+viz.plot_truth_outline(ax, grid, true_walls)
+viz.plot_sensor(ax, pose)
 show(figure, "importance.png", "The map that has all the weight. Outlined: the true walls.")
 
 # %% [markdown]

@@ -33,7 +33,7 @@ from bayesmap import viz
 from bayesmap.sim.building import building
 from bayesmap.sim.robot import patrol
 from bayesmap.space.planar import between, compose, wrap_angle
-from bayesmap.viz.trajectory import AFTER, BEFORE, draw_ellipses
+from bayesmap.viz.trajectory import AFTER, BEFORE, plot_ellipses
 
 # %% [markdown]
 # ## The robot's log
@@ -93,7 +93,7 @@ def on_the_building(ax):
 
 
 figure, axes = panels("the building and the robot's way", "as wheels and laser report it", size_in=4.6, height_in=3.8)
-viz.draw_sample(axes[0], office.grid, office.walls)
+viz.plot_sample(axes[0], office.grid, office.walls)
 draw_path(axes[0], true_poses, AFTER)
 axes[1].plot(*ends_of(log, raw_poses).T, ",", color="#8a8a8a", zorder=1)
 draw_path(axes[1], raw_poses, BEFORE)
@@ -155,11 +155,11 @@ figure, axes = panels("raw and inferred", "95 % regions, 20 times as large", siz
 draw_path(axes[0], compose(found.poses[0], in_frame_of_first(raw_poses)), BEFORE, "raw odometry")
 draw_path(axes[0], found.poses, AFTER, "inferred")
 axes[0].legend(fontsize=8, frameon=False)
-viz.draw_probability(axes[1], run.grid, run.occupancy, run.observed)
+viz.plot_probability(axes[1], run.grid, run.occupancy, run.observed)
 draw_path(axes[1], found.poses, AFTER)
 on_the_building(axes[1])
 some = np.arange(0, len(found), 4)
-draw_ellipses(axes[1], found.poses[some, :2], covariances[some, :2, :2], 20.0)
+plot_ellipses(axes[1], found.poses[some, :2], covariances[some, :2, :2], 20.0)
 show(
     figure,
     "odometry-trajectory.png",
@@ -188,9 +188,9 @@ for name, where in (("walls", wall), ("free floor", ~wall)):
 # %% tags=["hide-input"]
 assert (run.occupancy[run.observed & ~wall] > 0.5).mean() < 0.1
 figure, axes = panels("chance that a cell stops a beam", "how far draws differ", size_in=4.6, height_in=3.8)
-viz.draw_probability(axes[0], run.grid, run.occupancy, run.observed)
+viz.plot_probability(axes[0], run.grid, run.occupancy, run.observed)
 deviation = run.draws.reshape(-1, *run.grid.shape).std(axis=0)
-viz.draw_deviation(axes[1], run.grid, deviation, run.observed)
+viz.plot_deviation(axes[1], run.grid, deviation, run.observed)
 for ax in axes:
     on_the_building(ax)
 show(figure, "odometry-map.png", "The map, and the standard deviation of its draws: bright is uncertain.")
@@ -214,7 +214,7 @@ assert 1.0 < 1e3 * drawn[:, :2].std(axis=0).max() < 20.0
 
 # %% tags=["hide-input"]
 figure, axes = panels("around the least sure pose", "its draws", size_in=4.2, height_in=3.8)
-viz.draw_deviation(axes[0], run.grid, deviation, run.observed)
+viz.plot_deviation(axes[0], run.grid, deviation, run.observed)
 axes[0].plot(*true_poses[:, :2].T, color=AFTER, linewidth=0.7)
 axes[0].plot(*found.poses[worst, :2], "s", color=BEFORE, markersize=6, markerfacecolor="none")
 axes[0].set(xlim=found.poses[worst, 0] + np.array([-3, 3]), ylim=found.poses[worst, 1] + np.array([-2.7, 2.7]))
@@ -285,7 +285,7 @@ assert np.mean(right) > 0.5
 assert off[-1] < 100
 figure, axes = panels("one scan", "twelve scans on the way", size_in=4.6, height_in=3.8)
 for ax in axes:
-    viz.draw_probability(ax, run.grid, run.occupancy, run.observed)
+    viz.plot_probability(ax, run.grid, run.occupancy, run.observed)
     on_the_building(ax)
 for mode in alone[least].modes[:5]:
     turned = mode.mean[2]
@@ -294,7 +294,7 @@ for mode in alone[least].modes[:5]:
     axes[0].plot(*(mode.mean[:2, None] + np.outer([np.cos(turned), np.sin(turned)], [0, 0.7])), color=BEFORE)
 axes[0].plot(*somewhere[least, :2], "+", color=AFTER, markersize=12, markeredgewidth=2)
 draw_path(axes[1], np.array([belief.mean for belief in tracked.beliefs]), AFTER)
-draw_ellipses(
+plot_ellipses(
     axes[1],
     np.array([belief.mean[:2] for belief in tracked.beliefs]),
     np.array([belief.covariance[:2, :2] for belief in tracked.beliefs]),

@@ -10,7 +10,7 @@ from viz_case import CORNER, GRID, HIDDEN, cell, observed, occupancy, panel
 
 from bayesmap.errors import BadInput
 from bayesmap.space.grid import Grid
-from bayesmap.viz import draw_deviation, draw_entropy, draw_probability, draw_sample, draw_width, palette
+from bayesmap.viz import palette, plot_deviation, plot_entropy, plot_probability, plot_sample, plot_width
 from bayesmap.viz.maps import boundary_segments, boxes, window, window_around
 
 
@@ -39,12 +39,12 @@ def test_equal_steps_of_probability_are_equal_steps_of_colour_far_from_that_of_u
 
 
 FREE, WALL = palette.probability_colors(2)
-ALL = (draw_probability, draw_entropy, draw_deviation, draw_sample)
+ALL = (plot_probability, plot_entropy, plot_deviation, plot_sample)
 
 
 def test_a_wall_in_the_upper_right_is_dark_in_the_upper_right_of_axes_in_metres():
     ax = panel()
-    draw_probability(ax, GRID, occupancy())
+    plot_probability(ax, GRID, occupancy())
     assert (ax.get_xlabel(), ax.get_ylabel(), ax.get_aspect()) == ("x [m]", "y [m]", 1.0)
     assert (ax.get_xlim(), ax.get_ylim()) == ((-1.0, 2.0), (2.0, 4.0))
     np.testing.assert_allclose(cell(ax, *CORNER), WALL, atol=0.01)
@@ -52,14 +52,14 @@ def test_a_wall_in_the_upper_right_is_dark_in_the_upper_right_of_axes_in_metres(
         np.testing.assert_allclose(cell(ax, i, j), FREE, atol=0.01)
     assert WALL.mean() < cell(ax, 2, 1).mean() < FREE.mean()
     assert not ax.artists  # without a mask nothing is hatched
-    draw_probability(ax, GRID, np.full(GRID.shape, 1.0 + 1e-6, dtype=np.float32))  # rounding is no error
+    plot_probability(ax, GRID, np.full(GRID.shape, 1.0 + 1e-6, dtype=np.float32))  # rounding is no error
 
 
 def test_unobserved_is_hatched_and_differs_from_free_and_from_even_odds():
     ax = panel()
     p = occupancy()
     p[HIDDEN] = 0.0
-    draw_probability(ax, GRID, p, observed())
+    plot_probability(ax, GRID, p, observed())
     hidden = cell(ax, *HIDDEN)
     assert np.abs(hidden - FREE).max() > 0.08
     assert hidden[0] > hidden[2] + 0.05  # warm
@@ -70,13 +70,13 @@ def test_unobserved_is_hatched_and_differs_from_free_and_from_even_odds():
     assert patches[0].get_path().get_extents().bounds == pytest.approx((-1.0, 3.5, 0.5, 0.5))
     walls = occupancy() == 1.0
     walls[HIDDEN] = True
-    draw_sample(ax := panel(), GRID, walls, observed())  # a draw is faded where no beam reached
+    plot_sample(ax := panel(), GRID, walls, observed())  # a draw is faded where no beam reached
     np.testing.assert_allclose(cell(ax, *CORNER), WALL, atol=0.01)
     np.testing.assert_allclose(cell(ax, 1, 1), FREE, atol=0.01)
     assert np.abs(cell(ax, *HIDDEN) - to_rgb(palette.UNOBSERVED_WALL)).max() < 0.1
     grid = Grid(shape=(600, 600))
     speckled = np.random.default_rng(0).random(grid.shape) < 0.7
-    draw_probability(ax := panel(), grid, np.zeros(grid.shape), speckled)
+    plot_probability(ax := panel(), grid, np.zeros(grid.shape), speckled)
     assert len(ax.patches) + len(ax.collections) + len(ax.images) < 10  # not one artist for each cell
 
 
@@ -149,15 +149,15 @@ def test_a_window_that_shows_nothing_is_refused(x_m, y_m, says):
 
 
 @pytest.mark.parametrize(("draw", "numbers", "top", "even"), [
-    (draw_entropy, occupancy(), 1.0, 1.0), (draw_width, occupancy(), 1.0, 0.5),
-    (draw_deviation, np.sqrt(occupancy() * (1 - occupancy())), 0.5, 1.0),
+    (plot_entropy, occupancy(), 1.0, 1.0), (plot_width, occupancy(), 1.0, 0.5),
+    (plot_deviation, np.sqrt(occupancy() * (1 - occupancy())), 0.5, 1.0),
 ])  # fmt: skip
 def test_uncertainty_is_bright_where_odds_are_even(draw, numbers, top, even):
     ax = panel()
     assert draw(ax, GRID, numbers, observed()).get_clim() == (0.0, top)
     colors = palette.uncertainty_colormap()
     np.testing.assert_allclose(cell(ax, 2, 1), colors(even)[:3], atol=0.01)
-    np.testing.assert_allclose(cell(ax, *CORNER), colors(1.0 if draw is draw_width else 0.0)[:3], atol=0.01)
+    np.testing.assert_allclose(cell(ax, *CORNER), colors(1.0 if draw is plot_width else 0.0)[:3], atol=0.01)
 
 
 def with_one(value):
@@ -169,11 +169,11 @@ def with_one(value):
 @pytest.mark.parametrize(("draw", "numbers", "mask", "says"), [
     *((draw, np.zeros((4, 6)), None, r"shape \(4, 6\), but the grid has \(6, 4\).*transpose") for draw in ALL),
     *((draw, np.zeros(GRID.shape), np.ones(6, bool), r"observed has shape \(6,\)") for draw in ALL),
-    *((draw_probability, with_one(x), None, r"occupancy\[3, 2\] is .*\[0, 1\].*log odds") for x in (-0.01, 55.0)),
-    (draw_probability, with_one(np.nan), None, r"occupancy\[3, 2\] is nan.*observed="),
-    (draw_probability, [["a"]], None, "array of numbers"), (draw_sample, occupancy(), None, "true or false"),
-    (draw_deviation, np.full(GRID.shape, 0.6), None, "square root"),
-    (draw_width, -occupancy(), None, "give upper minus lower"),
+    *((plot_probability, with_one(x), None, r"occupancy\[3, 2\] is .*\[0, 1\].*log odds") for x in (-0.01, 55.0)),
+    (plot_probability, with_one(np.nan), None, r"occupancy\[3, 2\] is nan.*observed="),
+    (plot_probability, [["a"]], None, "array of numbers"), (plot_sample, occupancy(), None, "true or false"),
+    (plot_deviation, np.full(GRID.shape, 0.6), None, "square root"),
+    (plot_width, -occupancy(), None, "give upper minus lower"),
 ])  # fmt: skip
 def test_arrays_that_are_no_map_of_the_grid_are_named(draw, numbers, mask, says):
     with pytest.raises(BadInput, match=says):

@@ -13,14 +13,14 @@ from bayesmap.errors import BadInput
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 from bayesmap.viz import trajectory as figures
-from bayesmap.viz.overlays import draw_route, route_figure, views_figure
+from bayesmap.viz.overlays import plot_route, route_figure, views_figure
 
 
 def test_outline_surrounds_the_true_wall():
     ax = panel()
-    viz.draw_probability(ax, GRID, np.zeros(GRID.shape))
+    viz.plot_probability(ax, GRID, np.zeros(GRID.shape))
     before = pixels(ax.figure)
-    lines = viz.draw_truth_outline(ax, GRID, occupancy() == 1.0)
+    lines = viz.plot_truth_outline(ax, GRID, occupancy() == 1.0)
     assert lines.get_label() == "true walls"
     changed = np.abs(pixels(ax.figure) - before).max(axis=2) > 0.1
     rows, columns = np.nonzero(changed)
@@ -28,13 +28,13 @@ def test_outline_surrounds_the_true_wall():
     assert columns.min() >= 48
     np.testing.assert_allclose(cell(ax, *CORNER), viz.palette.probability_colors(2)[0], atol=0.1)
     with pytest.raises(BadInput, match="true_walls must be true or false"):
-        viz.draw_truth_outline(panel(), GRID, occupancy())
+        viz.plot_truth_outline(panel(), GRID, occupancy())
 
 
 def test_rays_end_at_the_readings_and_lost_ones_at_the_largest_range():
     ax = panel()
-    viz.draw_probability(ax, GRID, occupancy())
-    beams, points, lost = viz.draw_rays(ax, scans())
+    viz.plot_probability(ax, GRID, occupancy())
+    beams, points, lost = viz.plot_rays(ax, scans())
     assert [artist.get_label() for artist in (beams, points, lost)] == ["beam", "reading", "no return"]
     np.testing.assert_allclose(np.array(beams.get_segments())[:, 1], [[1.05, 2.75], [-0.05, 2.75]])
     np.testing.assert_allclose(points.get_offsets(), [[1.05, 2.75], [-0.05, 2.75]])
@@ -45,12 +45,12 @@ def test_rays_end_at_the_readings_and_lost_ones_at_the_largest_range():
     assert not np.allclose(lost.get_colors()[0][:3], beams.get_colors()[0][:3])
     assert ax.get_xlim() == (-1.0, 2.0)  # a map keeps its limits
     alone = Figure().add_subplot()
-    viz.draw_rays(alone, scans())
+    viz.plot_rays(alone, scans())
     assert alone.get_xlim()[0] < -0.05
     assert alone.get_xlim()[1] > 1.6
     on_the_way = np.array([[[0.0, 0.0, 0.0], [0.5, 1.0, 0.0]]])
     moving = Scans(np.zeros(3), [0.0, np.pi / 2], [1.0, 1.0], max_range_m=2.0, beam_poses=on_the_way)
-    beams, points = viz.draw_rays(panel(), moving)
+    beams, points = viz.plot_rays(panel(), moving)
     np.testing.assert_allclose(beams.get_segments(), [[[0, 0], [1, 0]], [[0.5, 1], [0.5, 2]]], atol=1e-12)
     np.testing.assert_allclose(points.get_offsets(), moving.hit_points_world())
 
@@ -58,38 +58,38 @@ def test_rays_end_at_the_readings_and_lost_ones_at_the_largest_range():
 def test_many_beams_are_thinned_evenly_and_readings_less():
     n = 1000
     many = Scans(poses=np.zeros((10, 3)), angles_rad=np.linspace(0, 6, n), ranges_m=np.ones((10, n)), max_range_m=2.0)
-    beams, points = viz.draw_rays(panel(), many, max_beams=50, max_readings=300)
+    beams, points = viz.plot_rays(panel(), many, max_beams=50, max_readings=300)
     assert len(beams.get_segments()) == 50
     assert len(points.get_offsets()) == 300
     ends = np.array(beams.get_segments())[:, 1]
     np.testing.assert_allclose(ends[0], [1.0, 0.0])
     np.testing.assert_allclose(ends[-1], [np.cos(6), np.sin(6)])
     blind = Scans(poses=np.zeros(3), angles_rad=[0.0], ranges_m=[np.nan], max_range_m=2.0)
-    assert viz.draw_rays(panel(), blind) == []
+    assert viz.plot_rays(panel(), blind) == []
     with pytest.raises(BadInput, match="at least 1"):
-        viz.draw_rays(panel(), blind, max_beams=0)
+        viz.plot_rays(panel(), blind, max_beams=0)
 
 
 def test_few_poses_are_arrows_and_many_a_trajectory():
-    few = viz.draw_sensor(panel(), np.zeros((3, 3)))
+    few = viz.plot_sensor(panel(), np.zeros((3, 3)))
     assert len(few) == 3
     assert few[0].get_label() == "sensor"
-    many = viz.draw_sensor(panel(), np.random.default_rng(0).random((40, 3)))
+    many = viz.plot_sensor(panel(), np.random.default_rng(0).random((40, 3)))
     assert len(many) == 2
     assert many[0].get_label() == "trajectory"
     assert len(many[0].get_xdata()) == 40
     with pytest.raises(BadInput, match="no pose"):
-        viz.draw_sensor(panel(), np.zeros((0, 3)))
+        viz.plot_sensor(panel(), np.zeros((0, 3)))
     with pytest.raises(BadInput, match=r"\(S, 3\)"):
-        viz.draw_sensor(panel(), np.zeros((2, 2)))
+        viz.plot_sensor(panel(), np.zeros((2, 2)))
 
 
 @pytest.mark.parametrize("yaw", [0.0, np.pi / 2, np.pi, -np.pi / 2])
 def test_the_arrow_points_along_the_yaw(yaw):
     ax = panel()
-    viz.draw_probability(ax, GRID, np.zeros(GRID.shape))
+    viz.plot_probability(ax, GRID, np.zeros(GRID.shape))
     before = pixels(ax.figure)
-    viz.draw_sensor(ax, [0.5, 3.0, yaw])  # the middle of the panel: pixel (30, 20)
+    viz.plot_sensor(ax, [0.5, 3.0, yaw])  # the middle of the panel: pixel (30, 20)
     rows, columns = np.nonzero(np.abs(pixels(ax.figure) - before)[..., 0] > 0.3)
     right, up = columns + 0.5 - 30, 20 - rows - 0.5
     forward = np.cos(yaw) * right + np.sin(yaw) * up
@@ -116,7 +116,7 @@ def test_a_stroke_runs_two_deviations_each_way_along_the_wall(angle_rad):
 def test_strokes_are_drawn_at_once_as_opaque_as_they_are_likely():
     ax = panel()
     means = [[-0.5, 3.75], [1.5, 2.25], [1.5, 3.75]]
-    lines = viz.draw_surfaces(ax, means, [covariance(0.0, 0.1, 0.01)] * 3, [1.0, 0.25, 0.001])
+    lines = viz.plot_surfaces(ax, means, [covariance(0.0, 0.1, 0.01)] * 3, [1.0, 0.25, 0.001])
     assert [type(artist) for artist in ax.collections] == [LineCollection]
     np.testing.assert_allclose(lines.get_colors()[:, 3], [1.0, 0.25])  # the third could not be seen
 
@@ -133,13 +133,13 @@ def test_arrays_that_are_no_surfaces_are_named():
         (np.zeros((1, 2)), [np.eye(2)], [1, 1], "one a surface"),
     ):
         with pytest.raises(BadInput, match=says):
-            viz.draw_surfaces(panel(), means, covariances, weights)
+            viz.plot_surfaces(panel(), means, covariances, weights)
 
 
 def test_maps_without_surfaces_that_can_be_seen_have_a_key_and_hatched_cells():
     for means, weights in ((np.zeros((0, 2)), []), ([[1.5, 2.25]], [0.001])):
         ax = panel()
-        lines = viz.draw_surfaces(ax, means, [covariance(0.0, 0.1, 0.01)] * len(means) or np.zeros((0, 2, 2)), weights)
+        lines = viz.plot_surfaces(ax, means, [covariance(0.0, 0.1, 0.01)] * len(means) or np.zeros((0, 2, 2)), weights)
         assert len(lines.get_segments()) == 0
         assert [key.get_text() for key in ax.figure.legend(handles=[lines]).get_texts()] == ["surface"]
     figure = viz.surfaces_figure(GRID, np.zeros((0, 2)), np.zeros((0, 2, 2)), np.zeros(0), observed())
@@ -198,7 +198,7 @@ def png_of(figure):
 
 
 def test_a_disc_sweeps_all_points_within_its_radius_of_the_path():
-    swept = draw_route(Figure().subplots(), PATH, 0.4).get_path()
+    swept = plot_route(Figure().subplots(), PATH, 0.4).get_path()
     rng = np.random.default_rng(1)
     points = rng.uniform([-1, 1], [4, 6], (3000, 2))
     along = np.concatenate([a + np.linspace(0, 1, 500)[:, None] * (b - a) for a, b in ((PATH[0], PATH[1]), PATH[1:])])
@@ -217,7 +217,7 @@ def test_a_route_is_named_and_drawn_over_the_map():
     assert png_of(figure) != png_of(route_figure(FLOOR, MEAN, None, PATH[:2], 0.3))
     for path in ([], [[1.0]], 3.0):
         with pytest.raises(BadInput, match="path"):
-            draw_route(Figure().subplots(), path, 0.3)
+            plot_route(Figure().subplots(), path, 0.3)
 
 
 def test_views_are_numbered_best_first():

@@ -12,17 +12,17 @@ from bayesmap import viz
 from bayesmap.errors import BadInput
 from bayesmap.posterior.prediction import Predictor, fixed_maps
 from bayesmap.posterior.scores import score_prediction
-from bayesmap.viz.diagnostics import effective_sample_size, normalized
+from bayesmap.viz.diagnostics import effective_sample_size, normalize_log_weights
 from bayesmap.viz.scores import MAX_POINTS, calibration_figure
 
 
 def draw_dots(ends, values):
-    return viz.draw_residuals(panel(), ends, values, viz.residual_scale([], 0.5))
+    return viz.plot_residuals(panel(), ends, values, viz.residual_scale([], 0.5))
 
 
 def test_shorter_is_blue_longer_is_orange_and_as_predicted_is_grey():
     ax = panel()
-    dots = viz.draw_residuals(ax, [[0, 3], [0.5, 3], [1, 3]], [-1.0, 0.0, 1.0], viz.residual_scale([], 0.5))
+    dots = viz.plot_residuals(ax, [[0, 3], [0.5, 3], [1, 3]], [-1.0, 0.0, 1.0], viz.residual_scale([], 0.5))
     ax.figure.canvas.draw()
     colors = {
         tuple(xy): color[:3] for xy, color in zip(dots.get_offsets().tolist(), dots.get_facecolors(), strict=True)
@@ -34,13 +34,13 @@ def test_shorter_is_blue_longer_is_orange_and_as_predicted_is_grey():
 
 
 def test_the_worst_beams_are_larger_on_top_and_all_there_even_of_very_many():
-    dots = viz.draw_residuals(panel(), np.zeros((4, 2)), [0.3, -0.5, 0.0, 0.1], viz.residual_scale([], 0.5))
+    dots = viz.plot_residuals(panel(), np.zeros((4, 2)), [0.3, -0.5, 0.0, 0.1], viz.residual_scale([], 0.5))
     np.testing.assert_allclose(dots.get_array(), [0.0, 0.1, 0.3, -0.5])
     assert (np.diff(dots.get_sizes()) > 0).all()
     rng = np.random.default_rng(0)
     values = rng.normal(0.0, 0.01, 3 * MAX_POINTS)
     values[:100] = 2.0
-    dots = viz.draw_residuals(panel(), np.zeros((len(values), 2)), values, viz.residual_scale(values))
+    dots = viz.plot_residuals(panel(), np.zeros((len(values), 2)), values, viz.residual_scale(values))
     shown = dots.get_array()
     assert len(shown) <= MAX_POINTS
     assert (shown == 2.0).sum() == 100
@@ -105,14 +105,14 @@ def test_panels_hold_histogram_coverage_and_reliability(score):
 def test_traces_have_a_line_per_chain_and_running_means():
     traces = np.arange(12.0).reshape(3, 4)
     ax = Figure().add_subplot()
-    viz.draw_log_joint(ax, traces, first_sweep=11)
+    viz.plot_log_joint(ax, traces, first_sweep=11)
     assert [line.get_label() for line in ax.lines] == ["chain 1", "chain 2", "chain 3"]
     assert len({line.get_color() for line in ax.lines}) == 3
     np.testing.assert_array_equal(ax.lines[1].get_xdata(), [11, 12, 13, 14])
     np.testing.assert_array_equal(ax.lines[1].get_ydata(), traces[1])
     assert (ax.get_xlabel(), ax.get_ylabel()) == ("sweep", "log joint [nats]")
     ax = Figure().add_subplot()
-    viz.draw_running_mean(ax, [1.0, 3.0, 5.0])
+    viz.plot_running_mean(ax, [1.0, 3.0, 5.0])
     np.testing.assert_allclose(ax.lines[0].get_ydata(), [1.0, 2.0, 3.0])
 
 
@@ -120,7 +120,7 @@ def test_a_long_trace_keeps_its_one_spike():
     trace = np.zeros((1, 1_000_000))
     trace[0, 654_321] = -50.0
     ax = Figure().add_subplot()
-    viz.draw_log_joint(ax, trace)
+    viz.plot_log_joint(ax, trace)
     x, y = ax.lines[0].get_data()
     assert len(x) < 5000
     assert x[np.argmin(y)] == 654_322
@@ -141,7 +141,7 @@ def test_collapse_shows_as_one_sample_at_the_right():
     logs = np.linspace(-20_000, -5_000, 1000)
     logs[123] = -700.0
     ax = Figure().add_subplot()
-    counts = viz.draw_weights(ax, logs)
+    counts = viz.plot_weights(ax, logs)
     assert counts[-1] == 1
     assert counts[60:-1].sum() == 0
     assert "1,000 samples, effective sample size 1.0" in texts(ax)
@@ -154,12 +154,12 @@ def test_collapse_shows_as_one_sample_at_the_right():
 
 
 def test_weights_are_normalised_without_overflow_and_may_be_zero():
-    logs = normalized(np.full(250, -12_345.0))
+    logs = normalize_log_weights(np.full(250, -12_345.0))
     np.testing.assert_allclose(logs, -np.log(250))
     assert effective_sample_size(logs) == pytest.approx(250)
-    np.testing.assert_allclose(np.exp(normalized([-np.inf, 1e6, 1e6 + np.log(3)])), [0.0, 0.25, 0.75])
+    np.testing.assert_allclose(np.exp(normalize_log_weights([-np.inf, 1e6, 1e6 + np.log(3)])), [0.0, 0.25, 0.75])
     ax = viz.weights_figure([-np.inf, 0.0]).axes[0]
-    viz.draw_weights(ax, np.log([1.0, 1.0, 2.0]), range_nats=(-5.0, 0.0))
+    viz.plot_weights(ax, np.log([1.0, 1.0, 2.0]), range_nats=(-5.0, 0.0))
     assert "largest weight: 50 % of the sum" in texts(ax)
 
 

@@ -24,14 +24,13 @@ from bayesmap.space.grid import ROUNDING, Grid, as_mask, as_observed
 from bayesmap.space.scans import as_poses
 from bayesmap.viz import palette
 
-LEVELS = 128  # Levels of probability in a frame. Finer levels look alike, and fewer colours give smaller files.
-
+LEVELS = 128  # levels of probability in a frame; finer levels look alike, and fewer colours give smaller files
+# Palette indices of other colours, after the levels of probability.
 BACKGROUND, UNOBSERVED, HATCH, TRUTH, SENSOR, FRAME = range(LEVELS, LEVELS + 6)
-"""Palette indices of other colours, after the levels of probability."""
-
-TARGET_PX = 560  # Least length of the longer side. Cells are enlarged by the smallest whole number that reaches it.
-
-MARGIN_PX, CAPTION_PX, HATCH_PITCH_PX = 10, 30, 7  # margin around the map, height of the caption, hatch distance
+TARGET_PX = 560  # least length of the longer side; cells are enlarged by the smallest whole number that reaches it
+MARGIN_PX = 10  # margin around the map
+CAPTION_PX = 30  # height of the caption
+HATCH_PITCH_PX = 7  # distance of the hatch's lines
 LAST_FRAME_MS = 1500  # least time of the last frame: the result stays visible before the animation starts again
 
 
@@ -43,12 +42,12 @@ def write_animation(
     """Write the draws of one chain, (n, nx, ny), as an animation without end, .gif or .webp, whole or not at all.
 
     Draws are walls, or probabilities in [0, 1]; ``running_mean`` shows the mean of all draws so far in place of each.
-    Cells that are not ``observed``, (nx, ny), are hatched; None: all are. The true walls, (nx, ny), are outlined, and
-    poses x, y, yaw of the sensor, (S, 3) or (3,), drawn as dots. ``sweeps`` are the numbers under the frames; None: 1
-    to n. The rate is at most 50 frames a second, since viewers slow down faster animations.
+    Cells that are not ``observed``, (nx, ny), are hatched; None: all are observed. ``truth``, (nx, ny), holds true
+    walls, which are outlined. ``poses`` of the sensor, (S, 3) or (3,), become dots. ``sweeps`` are the numbers under
+    the frames; None: 1 to n. The rate is at most 50 frames a second, since viewers slow down faster animations.
 
-    Raises `BadInput` for another ending, a missing folder, no draw, shapes that differ from the grid's, numbers outside
-    [0, 1], or a rate out of bounds, and `OSError` if writing failed.
+    Raises `BadInput` if the ending is another, the folder is missing, there is no draw, a shape differs from the
+    grid's, a number is outside [0, 1], or the rate is out of bounds. Raises `OSError` if writing failed.
     """
     target, ending = need_ending(path, ("gif", "webp"), "animation")
     if not 0.0 < frames_per_second <= 50.0:
@@ -59,15 +58,15 @@ def write_animation(
     # GIF stores hundredths of a second. Viewers round other durations in different ways.
     step_ms = 10 * max(2, round(100.0 / frames_per_second))
     durations = [step_ms] * (len(np.asarray(draws)) - 1) + [max(step_ms, LAST_FRAME_MS)]
-    film: dict[str, Any] = {"format": ending, "save_all": True, "duration": durations, "loop": 0}
+    save_options: dict[str, Any] = {"format": ending, "save_all": True, "duration": durations, "loop": 0}
     if ending == "gif":
-        film |= {"optimize": False, "disposal": 1}
+        save_options |= {"optimize": False, "disposal": 1}
     else:
         # Lossless keeps the edges of cells sharp. The least effort is three times faster, and files are hardly larger.
-        film |= {"lossless": True, "method": 0, "quality": 0}
+        save_options |= {"lossless": True, "method": 0, "quality": 0}
         frames = (frame.convert("RGB") for frame in frames)
     buffer = io.BytesIO()
-    next(frames).save(buffer, append_images=frames, **film)
+    next(frames).save(buffer, append_images=frames, **save_options)
     with write_whole(target) as partial:
         partial.write_bytes(buffer.getvalue())
 
@@ -88,8 +87,10 @@ def render_frames(
         for count, (draw, label) in enumerate(zip(chain, labels, strict=True), start=1):
             if running_mean:
                 total += draw
-            shown = total / count if running_mean else draw
-            yield canvas.frame(shown, f"mean of {count} draws, to sweep {label}" if running_mean else f"sweep {label}")
+            probability = total / count if running_mean else draw
+            yield canvas.frame(
+                probability, f"mean of {count} draws, to sweep {label}" if running_mean else f"sweep {label}"
+            )
 
     return frames()
 
@@ -134,7 +135,7 @@ class _Canvas:
         return image
 
     def _caption(self, text: str) -> NDArray[np.uint8]:
-        """Draw the caption under the map, in smooth type with the shades of probability."""
+        """Return the caption's pixels, in smooth type with the shades of probability."""
         strip = Image.new("L", (self.size[0], CAPTION_PX), 0)
         anchor = (MARGIN_PX, CAPTION_PX // 2 - 4)
         ImageDraw.Draw(strip).text(anchor, text, fill=LEVELS - 1, font=self.font, anchor="lm")
@@ -146,21 +147,21 @@ class _Canvas:
         return cells.T[::-1].repeat(self.scale, axis=0).repeat(self.scale, axis=1)
 
     def _outline(self, walls: NDArray[np.bool_]) -> None:
-        """Draw a line around the walls, outside them, so that the walls stay visible."""
+        """Mark a line around the walls, outside them, so that the walls stay visible."""
         solid = np.zeros(self.marks.shape, dtype=np.bool_)
         solid[self.inside] = self._enlarge(walls.astype(np.uint8)) == 1
         grown = ndimage.binary_dilation(solid, np.ones((3, 3)), iterations=max(1, self.scale // 12))
         self.marks[grown & ~solid] = TRUTH
 
     def _dots(self, grid: Grid, poses: NDArray[np.float64]) -> None:
-        """Draw a dot with a light rim at each pose."""
-        radius = float(np.clip(0.3 * self.scale, 2.0, 6.0))
+        """Mark a dot with a light rim at each pose."""
+        dot_px = float(np.clip(0.3 * self.scale, 2.0, 6.0))
         image = Image.fromarray(self.marks)
-        draw = ImageDraw.Draw(image)
+        pen = ImageDraw.Draw(image)
         for u, v in grid.to_cells(poses[:, :2]) * self.scale:
             x, y = MARGIN_PX + u, self.marks.shape[0] - MARGIN_PX - v
-            for reach, color in ((radius + 1.5, BACKGROUND), (radius, SENSOR)):
-                draw.ellipse((x - reach, y - reach, x + reach, y + reach), fill=color)
+            for radius, color in ((dot_px + 1.5, BACKGROUND), (dot_px, SENSOR)):
+                pen.ellipse((x - radius, y - radius, x + radius, y + radius), fill=color)
         self.marks = np.asarray(image)
 
 
@@ -177,9 +178,9 @@ def _as_chain(grid: Grid, draws: ArrayLike) -> NDArray[Any]:
     if chain.dtype.kind not in "buif":
         raise BadInput(f"animation: draws must be an array of numbers, not of {chain.dtype}")
     if chain.ndim != 3 or chain.shape[1:] != grid.shape:
+        own = f"(n, {grid.shape[0]}, {grid.shape[1]})"
         raise BadInput(
-            f"animation: draws has shape {chain.shape}, but a chain on this grid is (n, {grid.shape[0]}, "
-            f"{grid.shape[1]}); choose one chain, as run.draws[0]"
+            f"animation: draws has shape {chain.shape}, a chain on this grid {own}; choose one chain, as run.draws[0]"
         )
     if len(chain) == 0:
         raise BadInput("animation: the chain is empty; an animation needs at least one draw")

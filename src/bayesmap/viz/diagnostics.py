@@ -1,4 +1,4 @@
-"""Diagnostic pictures of a sampler: the log joint of each chain, and the weights of importance sampling."""
+"""Diagnostic plots of a sampler: the log joint of each chain, and the weights of importance sampling."""
 
 from __future__ import annotations
 
@@ -7,53 +7,53 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import ArrayLike, NDArray
+from scipy.special import log_softmax
 
 from bayesmap.errors import BadInput
 from bayesmap.space.scans import as_array
 from bayesmap.viz import palette
 
-MAX_POINTS = 4000
-"""Largest number of points of a trace. Longer traces show minimum and maximum of each stretch, so spikes stay."""
+MAX_POINTS = 4000  # most points of a trace; a longer trace shows minimum and maximum of each stretch, so spikes stay
+MAX_CHAINS_IN_LEGEND = 8
+TRACE_BINS = 40  # bins of the histogram of the log joint
+WEIGHT_BINS = 100  # bins of the histogram of weights
+TUTORIAL_RANGE_NATS = (-10_000.0, 0.0)  # range of the tutorial's histogram of weights
+WHOLE_SHARE = 0.9995  # a larger share of the sum of weights rounds to 100 %, in tenths of a per cent
 
-MAX_KEYS = 8  # largest number of chains in a legend
-BINS = 100  # number of bins of the histogram of weights
-TUTORIAL_RANGE = (-10_000.0, 0.0)  # range of the tutorial's histogram of weights, in nats
-ALL = 0.9995  # share of the sum of weights that rounds to all of it, in tenths of a per cent
 
+def plot_log_joint(ax: Axes, log_joint: ArrayLike, *, first_sweep: int = 1) -> None:
+    """Plot the trace of the log joint density, nats, (chain, draw) or (draw,), a line per chain.
 
-def draw_log_joint(ax: Axes, log_joint: ArrayLike, *, first_sweep: int = 1) -> None:
-    """Draw the trace of the log joint density, nats, (chain, draw) or (draw,), a line per chain.
-
-    ``first_sweep`` is the number of the sweep that gave the first draw. Raises `BadInput` for another shape, no draw at
-    all, or a number that is not finite.
+    ``first_sweep`` is the number of the sweep that gave the first draw. Raises `BadInput` if the shape is another, if
+    there is no draw, or if a number is not finite.
     """
-    _draw_lines(ax, _as_traces(log_joint), first_sweep, "log joint [nats]", linewidth=0.8, alpha=0.9)
+    _plot_lines(ax, _as_traces(log_joint), first_sweep, "log joint [nats]", linewidth=0.8, alpha=0.9)
 
 
-def draw_running_mean(ax: Axes, log_joint: ArrayLike, *, first_sweep: int = 1) -> None:
-    """Draw the mean of the log joint over all draws so far, a line per chain.
+def plot_running_mean(ax: Axes, log_joint: ArrayLike, *, first_sweep: int = 1) -> None:
+    """Plot the mean of the log joint over all draws so far, a line per chain, with the arguments of `plot_log_joint`.
 
     The band is the mean over all chains, plus and minus one standard deviation of the draws. Chains have not mixed if
-    their lines end far apart on this scale. Arguments and errors are those of `draw_log_joint`.
+    their lines end far apart on this scale.
     """
     traces = _as_traces(log_joint)
     means = np.cumsum(traces, axis=1) / np.arange(1, traces.shape[1] + 1)
     center, spread = float(traces.mean()), float(traces.std(axis=1).mean())
     ax.axhspan(center - spread, center + spread, color=palette.FRAME, alpha=0.12, linewidth=0.0)
-    _draw_lines(ax, means, first_sweep, "running mean [nats]", linewidth=1.2)
+    _plot_lines(ax, means, first_sweep, "running mean [nats]", linewidth=1.2)
 
 
 def trace_figure(log_joint: ArrayLike, *, first_sweep: int = 1) -> Figure:
-    """Draw trace, running mean and histogram of each chain's log joint, as `draw_log_joint` takes it."""
+    """Return a figure of each chain's trace, running mean and histogram, with the arguments of `plot_log_joint`."""
     traces = _as_traces(log_joint)
     figure = palette.blank_figure(7.6, 4.6)
     axes = figure.subplots(2, 2, width_ratios=[4.0, 1.0], sharex="col", sharey="row")
-    draw_log_joint(axes[0, 0], traces, first_sweep=first_sweep)
+    plot_log_joint(axes[0, 0], traces, first_sweep=first_sweep)
     axes[0, 0].set_xlabel("")
-    draw_running_mean(axes[1, 0], traces, first_sweep=first_sweep)
+    plot_running_mean(axes[1, 0], traces, first_sweep=first_sweep)
     # Histograms beside the trace, with shared bins.
     low, high = float(traces.min()), float(traces.max())
-    edges = np.linspace(low, high if high > low else low + 1.0, 41)
+    edges = np.linspace(low, high if high > low else low + 1.0, TRACE_BINS + 1)
     for chain, trace in enumerate(traces):
         counts = np.histogram(trace, bins=edges)[0]
         axes[0, 1].stairs(counts, edges, orientation="horizontal", color=palette.chain_color(chain), linewidth=1.0)
@@ -61,7 +61,7 @@ def trace_figure(log_joint: ArrayLike, *, first_sweep: int = 1) -> Figure:
     axes[0, 1].set(xlabel="draws", xlim=(0.0, None))
     axes[0, 1].spines[["top", "right"]].set_visible(False)
     axes[1, 1].set_axis_off()
-    if 1 < len(traces) <= MAX_KEYS:
+    if 1 < len(traces) <= MAX_CHAINS_IN_LEGEND:
         axes[1, 1].legend(*axes[1, 0].get_legend_handles_labels(), loc="center", frameon=False)
     return figure
 
@@ -80,7 +80,7 @@ def _as_traces(log_joint: ArrayLike) -> NDArray[np.float64]:
 
 
 def _thinned(trace: NDArray[np.float64], first_sweep: int) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
-    """Return the sweep numbers and values to draw, about `MAX_POINTS` at most."""
+    """Return the sweep numbers and values of the points to plot, at most about `MAX_POINTS`."""
     n = len(trace)
     index = np.arange(n)
     if n > MAX_POINTS:
@@ -89,7 +89,7 @@ def _thinned(trace: NDArray[np.float64], first_sweep: int) -> tuple[NDArray[np.i
     return index + first_sweep, trace[index]
 
 
-def _draw_lines(ax: Axes, traces: NDArray[np.float64], first_sweep: int, label: str, **style: float) -> None:
+def _plot_lines(ax: Axes, traces: NDArray[np.float64], first_sweep: int, label: str, **style: float) -> None:
     for chain, trace in enumerate(traces):
         sweep, values = _thinned(trace, first_sweep)
         ax.plot(sweep, values, color=palette.chain_color(chain), label=f"chain {chain + 1}", **style)  # type: ignore[arg-type]
@@ -101,22 +101,22 @@ def _draw_lines(ax: Axes, traces: NDArray[np.float64], first_sweep: int, label: 
     ax.spines[["top", "right"]].set_visible(False)
 
 
-def draw_weights(
-    ax: Axes, log_weights: ArrayLike, *, range_nats: tuple[float, float] = TUTORIAL_RANGE
+def plot_weights(
+    ax: Axes, log_weights: ArrayLike, *, range_nats: tuple[float, float] = TUTORIAL_RANGE_NATS
 ) -> NDArray[np.intp]:
-    """Draw a histogram of the normalised log weights, mark the largest, and write the effective sample size above.
+    """Plot a histogram of the normalised log weights, mark the largest, and write the effective sample size above.
 
     If one sample has nearly all the weight, the effective sample size is 1: importance sampling has collapsed, as in
     the tutorial. Counts are on a logarithmic scale. Weights need not be normalised; -inf is a weight of zero. The
-    number of weights below the histogram's ``range_nats`` is written in the panel. Returns the counts, (100,). Raises
-    `BadInput` for no weight at all, all of them zero, one that is NaN or +inf, or a range that is empty.
+    number of weights below ``range_nats`` is written in the panel. Returns the counts, (100,). Raises `BadInput` if
+    there is no weight, if all are zero, if one is NaN or +inf, or if the range is empty.
     """
-    logs = normalized(log_weights)
+    logs = normalize_log_weights(log_weights)
     low, high = range_nats
     if not (np.isfinite(low) and np.isfinite(high) and low < high):
         raise BadInput(f"weights: range_nats must rise from a finite number to another, got ({low}, {high})")
     # The histogram, with the effective sample size as title.
-    counts, edges = np.histogram(logs, bins=BINS, range=(low, high))
+    counts, edges = np.histogram(logs, bins=WEIGHT_BINS, range=(low, high))
     ax.stairs(counts, edges, fill=True, color=palette.RAY, alpha=0.85)
     ax.set_yscale("log")
     ax.set(xlim=(low - 0.01 * (high - low), high + 0.025 * (high - low)))
@@ -129,29 +129,33 @@ def draw_weights(
     largest = float(logs.max())
     if largest >= low:
         share = float(np.exp(largest))
-        note = "one sample has all the weight" if share > ALL else f"largest weight: {100 * share:.3g} % of the sum"
-        near_right = largest > 0.5 * (low + high)
+        note = (
+            "one sample has all the weight"
+            if share > WHOLE_SHARE
+            else f"largest weight: {100 * share:.3g} % of the sum"
+        )
+        in_right_half = largest > 0.5 * (low + high)
         ax.axvline(largest, color=palette.TRUTH, linewidth=1.2, label="largest")
         ax.annotate(
-            note, (largest, 0.93), xycoords=("data", "axes fraction"), xytext=(-6.0 if near_right else 6.0, 0.0),
-            textcoords="offset points", ha="right" if near_right else "left", va="center", color=palette.TRUTH,
+            note, (largest, 0.93), xycoords=("data", "axes fraction"), xytext=(-6.0 if in_right_half else 6.0, 0.0),
+            textcoords="offset points", ha="right" if in_right_half else "left", va="center", color=palette.TRUTH,
         )  # fmt: skip
-    below = int(np.count_nonzero(logs < low))
-    if below:
-        ax.text(0.02, 0.93, f"{below:,} below {low:,g}", transform=ax.transAxes, va="center", color=palette.TEXT)
+    n_below = int(np.count_nonzero(logs < low))
+    if n_below:
+        ax.text(0.02, 0.93, f"{n_below:,} below {low:,g}", transform=ax.transAxes, va="center", color=palette.TEXT)
     ax.spines[["top", "right"]].set_visible(False)
     return np.asarray(counts)
 
 
-def weights_figure(log_weights: ArrayLike, *, range_nats: tuple[float, float] = TUTORIAL_RANGE) -> Figure:
-    """Return a figure of `draw_weights`, with its arguments and errors."""
+def weights_figure(log_weights: ArrayLike, *, range_nats: tuple[float, float] = TUTORIAL_RANGE_NATS) -> Figure:
+    """Return a figure of `plot_weights`, with its arguments and errors."""
     figure = palette.blank_figure(6.4, 3.2)
-    draw_weights(figure.add_subplot(), log_weights, range_nats=range_nats)
+    plot_weights(figure.add_subplot(), log_weights, range_nats=range_nats)
     return figure
 
 
-def normalized(log_weights: ArrayLike) -> NDArray[np.float64]:
-    """Return log weights whose weights add up to 1, (n,); raise `BadInput` for none, NaN or +inf."""
+def normalize_log_weights(log_weights: ArrayLike) -> NDArray[np.float64]:
+    """Return log weights whose weights add up to 1, (n,). Raises `BadInput` if there is none, or one is NaN or +inf."""
     logs = as_array(log_weights, "log_weights")
     if logs.ndim != 1 or len(logs) == 0:
         raise BadInput(f"weights: log_weights has shape {logs.shape}; give one number per sample, shape (n,), n >= 1")
@@ -159,11 +163,9 @@ def normalized(log_weights: ArrayLike) -> NDArray[np.float64]:
     if wrong.any():
         sample = int(np.argmax(wrong))
         raise BadInput(f"weights: log weight of sample {sample} is {logs[sample]}; it must be a number or -inf")
-    largest = logs.max()
-    if np.isneginf(largest):
+    if np.isneginf(logs.max()):
         raise BadInput("weights: every sample has weight zero; draw more samples, or allow for more noise")
-    shifted = logs - largest
-    return np.asarray(shifted - np.log(np.exp(shifted).sum()))
+    return np.asarray(log_softmax(logs))
 
 
 def effective_sample_size(normalized_logs: NDArray[np.float64]) -> float:

@@ -1,7 +1,7 @@
 """Figures of maps: an overview of a posterior, a single map, and maps side by side.
 
-This module computes the layout in whole pixels instead of using a layout engine. Every cell of a map is the same whole
-number of pixels wide and high, so walls one cell thick stay sharp and equally thick.
+The layout is computed in whole pixels, without a layout engine. Every cell of a map is the same whole number of pixels
+wide and high, so walls one cell thick stay sharp and equally thick.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from bayesmap.files import need_ending, write_whole
 from bayesmap.space.grid import Grid, as_observed
 from bayesmap.space.scans import Scans
 from bayesmap.viz import maps, overlays, palette
-from bayesmap.viz.overlays import draw_surfaces, draw_truth_outline
+from bayesmap.viz.overlays import plot_surfaces, plot_truth_outline
 
 FONT_PT = 9.0
 COARSE_CELLS = 100  # largest side of a map, in cells, in which an outline of the true walls does not hide cells
@@ -39,18 +39,19 @@ PANEL_IN = 3.4  # longest side of a panel in inches
 TALL_IN = 5.0  # height of a panel if the map is at least twice as high as wide
 WIDE_IN = 7.0  # width of stacked panels, for a map much wider than high
 LEAST_SLOT_IN = 1.9  # least width for a panel with its title and colour bar
-LETTER_IN, LINE_IN = 0.075, 0.2  # width of a digit and line height of the tick labels
+LETTER_IN = 0.075  # width of a digit of the tick labels
+LINE_IN = 0.2  # line height of the tick labels
 LEAST_DPI, MOST_DPI = 160.0, 320.0
-
-LEFT_IN, RIGHT_IN, TOP_IN, GAP_IN = 0.46, 0.2, 0.32, 0.25
-TITLE_IN, LABEL_IN, BAR_IN, LEGEND_IN = 0.32, 0.42, 0.48, 0.36
-"""Heights of the figure's title, the x axis' labels, the colour bar below them, and the legend."""
-
+LEFT_IN, RIGHT_IN, TOP_IN, GAP_IN = 0.46, 0.2, 0.32, 0.25  # room at the sides of a panel, and between panels
+TITLE_IN = 0.32  # height of the figure's title
+LABEL_IN = 0.42  # height of the labels below the x axis
+BAR_IN = 0.48  # height of the colour bar below these labels
+LEGEND_IN = 0.36  # height of the legend
+LEGEND_KEY_IN = 0.95  # typical width of a key in the legend
+NO_BAR_IN = 0.9  # width that a figure saves without a colour bar
+BAR_TICKS = [0.0, 0.25, 0.5, 0.75, 1.0]
 WIDTH_LABEL = "width of the 90 % interval"
-
-Surfaces = tuple[ArrayLike, ArrayLike, ArrayLike]
-"""Means (n, 2) and covariances (n, 2, 2) in metres, and reflectivities (n,)."""
-
+Surfaces = tuple[ArrayLike, ArrayLike, ArrayLike]  # means (n, 2), covariances (n, 2, 2) in metres, reflectivities (n,)
 _rc_lock = threading.Lock()
 
 
@@ -83,7 +84,7 @@ class Layout:
 
 
 def lay_out(grid: Grid, panels: int, *, bars: int, titled: bool) -> Layout:
-    """Arrange 1 to 4 panels: a row, a square, or stacked if long. The first ``bars`` have a colour bar."""
+    """Arrange 1 to 4 panels in a row, a square or a column. The first ``bars`` panels have a colour bar."""
     # Columns and rows.
     nx, ny = grid.shape
     tall = ny >= 2 * nx
@@ -127,7 +128,7 @@ def lay_out(grid: Grid, panels: int, *, bars: int, titled: bool) -> Layout:
 
 
 def _tick_letters(low: float, high: float) -> int:
-    """Return the length of the longest tick label on an axis from low to high, as the widest choice of ticks has it."""
+    """Return the number of letters of the longest tick label on an axis from low to high."""
     formatter = ScalarFormatter(useOffset=False)
     formatter.create_dummy_axis()
     ticks = [float(tick) for tick in maps.tick_locator(6).tick_values(low, high)]
@@ -139,65 +140,71 @@ def posterior_figure(
     truth: ArrayLike | None = None, scans: Scans | None = None, title: str | None = None,
     label: str = "probability of wall", width: ArrayLike | None = None, surfaces: Surfaces | None = None,
 ) -> Figure:  # fmt: skip
-    """Draw an overview of the posterior: the mean, its uncertainty, the readings, and one draw.
+    """Return an overview of the posterior: the mean, its uncertainty, the readings, and one draw.
 
     ``occupancy`` is the posterior probability of wall, (nx, ny), and ``label`` its name. Cells that are not
-    ``observed``, (nx, ny), are hatched; None: all are. ``draw`` is one draw of the map, walls or numbers in [0, 1],
-    (nx, ny), and ``scans`` have the rays, readings and poses; None: no such panel. True walls, (nx, ny), are outlined
-    over the readings; if cells are large enough, or without readings, over mean and draw too. ``width``, that of the 90
-    % interval of each reflectivity, (nx, ny), as `CellPrior.width` returns it, replaces the entropy of a wall. Surfaces
-    are drawn as strokes over the mean if cells are large enough on the page.
+    ``observed``, (nx, ny), are hatched; None: all are observed. ``draw`` is one draw of the map, walls or numbers in
+    [0, 1], (nx, ny); None: no panel of a draw. ``scans`` have the rays, readings and poses; None: no panel of readings.
+    ``truth`` holds true walls, (nx, ny), which are outlined over the readings. If cells are large enough, or without
+    readings, they are outlined over mean and draw too. ``width`` is the width of each reflectivity's 90 % interval,
+    (nx, ny), as `CellPrior.width` returns it. It replaces the entropy of a wall. Surfaces are strokes over the mean if
+    cells are large enough on the page.
 
-    Raises `BadInput` for shapes that differ from the grid's, probabilities outside [0, 1], or a truth that is not 0 or
-    1.
+    Raises `BadInput` if a shape differs from the grid's, a probability is outside [0, 1], or the truth is not 0 or 1.
     """
     # Choose the panels, and lay them out.
-    seen = as_observed(grid, observed)
+    observed_mask = as_observed(grid, observed)
     scans = scans if scans is not None and len(scans) else None
-    doubt = "entropy" if width is None else "width"
-    shown = ["mean", doubt] + ["data"] * (scans is not None) + ["draw"] * (draw is not None)
-    layout = lay_out(grid, len(shown), bars=2, titled=title is not None)
+    uncertain = "entropy" if width is None else "width"
+    titles = {"mean": "posterior mean", uncertain: "uncertainty"}
+    titles |= {"data": "readings"} if scans is not None else {}
+    titles |= {"draw": "one draw"} if draw is not None else {}
+    layout = lay_out(grid, len(titles), bars=2, titled=title is not None)
     figure = layout.blank_figure()
     panels = {
         name: figure.add_axes(layout.fractions(*corner, *layout.panel), label=name)
-        for name, corner in zip(shown, layout.corners, strict=True)
+        for name, corner in zip(titles, layout.corners, strict=True)
     }
-    # Draw the images, then the overlays.
-    mean = maps.draw_probability(panels["mean"], grid, occupancy, seen)
+    # Plot the images, then the overlays.
+    mean = maps.plot_probability(panels["mean"], grid, occupancy, observed_mask)
     if width is None:
-        uncertainty, unit = maps.draw_entropy(panels[doubt], grid, occupancy, seen), "entropy [bits]"
+        uncertainty, unit = maps.plot_entropy(panels[uncertain], grid, occupancy, observed_mask), "entropy [bits]"
     else:
-        uncertainty, unit = maps.draw_width(panels[doubt], grid, width, seen), WIDTH_LABEL
+        uncertainty, unit = maps.plot_width(panels[uncertain], grid, width, observed_mask), WIDTH_LABEL
     images = [mean, uncertainty]
     if "data" in panels:
-        images.append(maps.draw_sample(panels["data"], grid, np.zeros(grid.shape, dtype=np.bool_), seen))
-    if "draw" in panels:
-        assert draw is not None
-        images.append(maps.draw_one(panels["draw"], grid, draw, seen))
+        images.append(maps.plot_sample(panels["data"], grid, np.zeros(grid.shape, dtype=np.bool_), observed_mask))
+    if draw is not None:
+        images.append(maps.plot_draw(panels["draw"], grid, draw, observed_mask))
     for image in images:
         image.set_interpolation("nearest" if layout.exact else "auto")
-    keys = _draw_overlays(panels, grid, truth, scans)
-    if surfaces is not None:
-        keys += _draw_strokes(panels["mean"], grid, surfaces, 72.0 * layout.panel[0] / layout.dpi / grid.shape[0])
+    keys = _plot_overlays(panels, grid, truth, scans)
+    cell_pt = 72.0 * layout.panel[0] / layout.dpi / grid.shape[0]
+    if surfaces is not None and cell_pt >= LEAST_STROKE_PT:
+        width_pt, longest_m = float(np.clip(cell_pt / 5.0, 0.6, 1.6)), 1.5 * grid.resolution
+        color = palette.SURFACE
+        keys.append(plot_surfaces(panels["mean"], *surfaces, width_pt=width_pt, longest_m=longest_m, color=color))
     # Write titles, colour bars and legend.
-    titles = {"data": "readings", "mean": "posterior mean", doubt: "uncertainty", "draw": "one draw"}
     for position, (name, panel) in enumerate(panels.items()):
-        letter(panel, titles[name], layout.most_ticks, leftmost=position % layout.columns == 0)
-    ticks = [0.0, 0.25, 0.5, 0.75, 1.0]
-    color_bar(figure, layout, layout.corners[0], mean, label, ticks)
-    color_bar(figure, layout, layout.corners[1], uncertainty, unit, ticks)
-    walls = "draw" in panels and bool(np.isin(np.asarray(draw), (0, 1)).all())
-    _legend(figure, keys, walls=walls, unobserved=not seen.all())
+        label_panel(panel, titles[name], layout.most_ticks, leftmost=position % layout.columns == 0)
+    color_bar(figure, layout, layout.corners[0], mean, label)
+    color_bar(figure, layout, layout.corners[1], uncertainty, unit)
+    patches: list[Artist] = []
+    if draw is not None and np.isin(np.asarray(draw), (0, 1)).all():
+        colors = palette.probability_colors(2)
+        patches = [
+            Patch(facecolor=tuple(color), edgecolor=palette.FRAME, linewidth=0.6, label=name)
+            for name, color in zip(("free", "wall"), colors.tolist(), strict=True)
+        ]
+    place_legend(figure, [*patches, *([] if observed_mask.all() else [maps.hatch_patch()]), *keys])
     layout.title(figure, title)
     return figure
 
 
 def write_figure(figure: Figure, path: str | os.PathLike[str]) -> None:
-    """Write a figure as PNG, PDF or SVG, by the path's ending, whole or not at all; equal figures give equal bytes.
+    """Write a figure as PNG, PDF or SVG, by the path's ending, whole or not at all. Equal figures give equal bytes.
 
-    Raises:
-        BadInput: another ending than .png, .pdf or .svg, or a folder that does not exist.
-        OSError: writing failed.
+    Raises `BadInput` if the ending is another, or the folder does not exist. Raises `OSError` if writing failed.
     """
     target, ending = need_ending(path, ("png", "pdf", "svg"), "figure")
     # No date and no random identifiers, so that equal pictures are equal files.
@@ -210,33 +217,24 @@ def write_figure(figure: Figure, path: str | os.PathLike[str]) -> None:
         partial.write_bytes(buffer.getvalue())
 
 
-def _draw_overlays(panels: dict[str, Axes], grid: Grid, truth: ArrayLike | None, scans: Scans | None) -> list[Artist]:
-    """Draw the true walls, the rays and the sensor over suitable panels, and return one legend key of each."""
-    coarse = max(grid.shape) <= COARSE_CELLS
+def _plot_overlays(panels: dict[str, Axes], grid: Grid, truth: ArrayLike | None, scans: Scans | None) -> list[Artist]:
+    """Plot the true walls, the rays and the sensor over suitable panels, and return one legend key of each."""
     keys: list[Artist] = []
     if truth is not None:
         over = [name for name in panels if name not in ("entropy", "width")]
-        if "data" in panels and not coarse:
+        if "data" in panels and max(grid.shape) > COARSE_CELLS:
             over = ["data"]
-        outlines = [overlays.draw_truth_outline(panels[name], grid, truth) for name in over]
+        outlines = [overlays.plot_truth_outline(panels[name], grid, truth) for name in over]
         keys.append(outlines[0])
     if scans is not None:
-        keys += overlays.draw_rays(panels["data"], scans)
+        keys += overlays.plot_rays(panels["data"], scans)
         over = [name for name in panels if name == "data" or len(scans) <= overlays.MAX_ARROWS]
-        marks = [overlays.draw_sensor(panels[name], scans.poses) for name in over]
+        marks = [overlays.plot_sensor(panels[name], scans.poses) for name in over]
         keys.append(marks[0][0])
     return keys
 
 
-def _draw_strokes(panel: Axes, grid: Grid, surfaces: Surfaces, cell_pt: float) -> list[Artist]:
-    """Draw the surfaces, a fifth of a cell thick, and return their legend key; draw none if cells are too small."""
-    if cell_pt < LEAST_STROKE_PT:
-        return []
-    width_pt, longest_m = float(np.clip(cell_pt / 5.0, 0.6, 1.6)), 1.5 * grid.resolution
-    return [draw_surfaces(panel, *surfaces, width_pt=width_pt, longest_m=longest_m, color=palette.SURFACE)]
-
-
-def letter(panel: Axes, title: str, most_ticks: tuple[int, int], *, leftmost: bool) -> None:
+def label_panel(panel: Axes, title: str, most_ticks: tuple[int, int], *, leftmost: bool) -> None:
     """Set the panel's title and fonts. Only the leftmost panel labels the y axis."""
     panel.set_title(title, fontsize=FONT_PT + 1.0, pad=5.0, color=palette.TEXT)
     panel.xaxis.label.set(fontsize=FONT_PT, color=palette.TEXT)
@@ -248,39 +246,28 @@ def letter(panel: Axes, title: str, most_ticks: tuple[int, int], *, leftmost: bo
         panel.set_ylabel("")
 
 
-def color_bar(
-    figure: Figure, layout: Layout, corner: tuple[int, int], image: AxesImage, label: str, ticks: list[float]
-) -> None:
-    """Draw a thin horizontal bar under the panel's x label, never too narrow to read."""
+def color_bar(figure: Figure, layout: Layout, corner: tuple[int, int], image: AxesImage, label: str) -> None:
+    """Add a thin horizontal bar under the panel's x label, never too narrow to read."""
     width = max(0.7 * layout.panel[0], 1.5 * layout.dpi)
     left = corner[0] + (layout.panel[0] - width) / 2.0
     box = layout.fractions(left, corner[1] - 0.58 * layout.dpi, width, 0.09 * layout.dpi)
-    bar = figure.colorbar(image, cax=figure.add_axes(box, label=label), orientation="horizontal", ticks=ticks)
+    bar = figure.colorbar(image, cax=figure.add_axes(box, label=label), orientation="horizontal", ticks=BAR_TICKS)
     bar.set_label(label, labelpad=2.0, fontsize=FONT_PT, color=palette.TEXT)
     bar.ax.tick_params(length=2.0, width=0.6, pad=1.5, labelsize=FONT_PT - 1.5, colors=palette.TEXT)
     bar.ax.xaxis.set_major_formatter("{x:g}")
     bar.outline.set(edgecolor=palette.FRAME, linewidth=0.6)
 
 
-def _legend(figure: Figure, keys: list[Artist], *, walls: bool, unobserved: bool) -> None:
-    colors = (tuple(color) for color in palette.probability_colors(2).tolist())
-    patches: list[Artist] = [
-        Patch(facecolor=color, edgecolor=palette.FRAME, linewidth=0.6, label=label)
-        for color, label in zip(colors, ("free", "wall"), strict=True)
-    ]
-    place_legend(figure, [*(patches if walls else []), *([maps.hatch_patch()] if unobserved else []), *keys])
-
-
 def place_legend(figure: Figure, handles: list[Artist]) -> None:
     """Place the legend keys under the panels, in as many rows as they need."""
     if not handles:
         return
-    # A key takes about 0.95 inch; use more rows if one would be wider than the figure.
-    per_row = max(1, int(figure.get_figwidth() / 0.95))
+    # Use more rows if one row would be wider than the figure, and fill them evenly.
+    rows = math.ceil(len(handles) / max(1, int(figure.get_figwidth() / LEGEND_KEY_IN)))
     legend = figure.legend(
-        handles=handles, loc="lower center", bbox_to_anchor=(0.5, 0.0),
-        ncols=-(-len(handles) // -(-len(handles) // per_row)), frameon=False, fontsize=FONT_PT,
-        labelcolor=palette.TEXT, handlelength=1.6, handletextpad=0.6, columnspacing=1.4, borderaxespad=0.5,
+        handles=handles, loc="lower center", bbox_to_anchor=(0.5, 0.0), ncols=math.ceil(len(handles) / rows),
+        frameon=False, fontsize=FONT_PT, labelcolor=palette.TEXT, handlelength=1.6, handletextpad=0.6,
+        columnspacing=1.4, borderaxespad=0.5,
     )  # fmt: skip
     # Many marks are faint and small on the map; their legend keys must be visible.
     for key in legend.legend_handles:
@@ -290,36 +277,33 @@ def place_legend(figure: Figure, handles: list[Artist]) -> None:
             key.set_sizes([9.0])
 
 
-NO_BAR_IN = 0.9  # width that a figure saves without a colour bar
-
-
 def panel_figure(
     grid: Grid, what: str, values: NDArray[Any], observed: ArrayLike | None = None, *, truth: ArrayLike | None = None,
     label: str = "probability of wall",
 ) -> Figure:  # fmt: skip
-    """Draw a single map of values, (nx, ny), with its colour bar.
+    """Return a figure of a single map of values, (nx, ny), with its colour bar.
 
-    ``what`` is "mean", "entropy" or "deviation" (values: probabilities of a wall; "deviation" draws their standard
+    ``what`` is "mean", "entropy" or "deviation" (values: probabilities of a wall; "deviation" shows their standard
     deviations), "width" (values: widths of intervals), or "draw" (values: walls or numbers in [0, 1]). Cells that are
     not ``observed`` are hatched. ``truth``, (nx, ny), is outlined. ``label`` names the values of "mean", and of a draw
     in [0, 1].
 
-    Raises `BadInput` for shapes or values that do not fit.
+    Raises `BadInput` if shapes or values do not fit.
     """
     figure, axes = maps.map_figure(grid, dpi=max(160.0, 1.1 * max(grid.shape) / maps.HEIGHT_IN))
     walls = what == "draw" and np.isin(values, (0, 1)).all()
-    draw, words = {
-        "mean": (maps.draw_probability, label), "entropy": (maps.draw_entropy, "entropy [bits]"),
-        "deviation": (maps.draw_deviation, "standard deviation"), "width": (maps.draw_width, WIDTH_LABEL),
-        "draw": (maps.draw_one, "" if walls else label.removeprefix("mean ")),
+    plot, bar_label = {
+        "mean": (maps.plot_probability, label), "entropy": (maps.plot_entropy, "entropy [bits]"),
+        "deviation": (maps.plot_deviation, "standard deviation"), "width": (maps.plot_width, WIDTH_LABEL),
+        "draw": (maps.plot_draw, "" if walls else label.removeprefix("mean ")),
     }[what]  # fmt: skip
-    image = draw(axes, grid, np.sqrt(values * (1.0 - values)) if what == "deviation" else values, observed)
-    if not words:
-        figure.set_figwidth(figure.get_figwidth() - NO_BAR_IN)
+    image = plot(axes, grid, np.sqrt(values * (1.0 - values)) if what == "deviation" else values, observed)
+    if bar_label:
+        figure.colorbar(image, ax=axes, label=bar_label, shrink=0.8)
     else:
-        figure.colorbar(image, ax=axes, label=words, shrink=0.8)
+        figure.set_figwidth(figure.get_figwidth() - NO_BAR_IN)
     if truth is not None:
-        draw_truth_outline(axes, grid, truth)
+        plot_truth_outline(axes, grid, truth)
     return figure
 
 
@@ -336,24 +320,22 @@ class Candidate:
 def comparison_figure(
     grid: Grid, candidates: Sequence[Candidate], *, label: str = "probability of wall", title: str | None = None
 ) -> Figure:
-    """Draw two to four maps of one grid with one colour bar; raise `BadInput` for shapes that do not fit."""
+    """Return a figure of two to four maps of one grid. Raises `BadInput` if their number or a shape does not fit."""
     if not 2 <= len(candidates) <= 4:
         raise BadInput(f"picture: compare two to four maps, got {len(candidates)}")
     layout = lay_out(grid, len(candidates), bars=len(candidates), titled=title is not None)
     figure = layout.blank_figure()
-    everywhere = True
-    for position, (candidate, corner) in enumerate(zip(candidates, layout.corners, strict=True)):
+    masks = [as_observed(grid, candidate.observed) for candidate in candidates]
+    for position, (candidate, mask, corner) in enumerate(zip(candidates, masks, layout.corners, strict=True)):
         panel = figure.add_axes(layout.fractions(*corner, *layout.panel), label=f"{position}: {candidate.title}")
-        seen = as_observed(grid, candidate.observed)
-        everywhere &= bool(seen.all())
-        image = maps.draw_probability(panel, grid, candidate.occupancy, seen)
+        image = maps.plot_probability(panel, grid, candidate.occupancy, mask)
         image.set_interpolation("nearest" if layout.exact else "auto")
         text = candidate.title + (f": {candidate.note}" if candidate.note else "")
-        letter(panel, text, layout.most_ticks, leftmost=position % layout.columns == 0)
+        label_panel(panel, text, layout.most_ticks, leftmost=position % layout.columns == 0)
+    # One colour bar, below the middle of the last row.
     last_row = layout.corners[-layout.columns :]
-    middle = sum(left for left, _ in last_row) // len(last_row), last_row[0][1]
-    color_bar(figure, layout, middle, image, label, [0.0, 0.25, 0.5, 0.75, 1.0])
-    if not everywhere:
+    color_bar(figure, layout, (sum(left for left, _ in last_row) // len(last_row), last_row[0][1]), image, label)
+    if not np.all(masks):
         place_legend(figure, [maps.hatch_patch()])
     layout.title(figure, title)
     return figure

@@ -1,9 +1,9 @@
 """Panels that show a map of cells, windows for close-ups, and the edges of outlines and hatches.
 
 All arrays are indexed ``[x, y]`` with shape ``(nx, ny)``. A panel shows metres of the world frame, x to the right and y
-up, at equal scale. `bayesmap.viz.overlays` draws outlines, rays, sensors and surfaces over a map.
+up, at equal scale. `bayesmap.viz.overlays` plots outlines, rays, sensors and surfaces over a map.
 
-Cells are joined into runs, since a picture of a building with one patch per cell takes minutes. The number of runs
+Cells are joined into strips, since a picture of a building with one patch per cell takes minutes. The number of strips
 grows with the length of the boundary, not with the area.
 """
 
@@ -25,27 +25,31 @@ from bayesmap.errors import BadInput
 from bayesmap.space.grid import ROUNDING, Grid, as_mask, as_numbers, as_observed, as_probabilities
 from bayesmap.viz import palette
 
-Cut = tuple[slice, slice]
+Window = tuple[slice, slice]  # the slices that cut a part of a map from an array (nx, ny)
+ALONE = 3  # a wall with fewer walls in the 5 x 5 cells around it, itself included, may be the end of a stray beam
+HEIGHT_IN = 5.6  # height of a map's panel with the labels below it
+BAR_IN = 1.3  # room for the labels at the left of a map, and for the colour bar at its right
+LABELS_IN = 0.55  # height of the labels below a map
 
 
 def boundary_segments(grid: Grid, mask: NDArray[np.bool_]) -> NDArray[np.float64]:
     """Return the boundary of a mask, (nx, ny), false outside, as joined segments, metres, (M, 2, 2)."""
-    # Edges where the mask changes, joined into runs in each direction.
+    # Edges where the mask changes, joined into strips in each direction.
     padded = np.pad(mask, 1)
-    x, y0, y1 = _runs(padded[1:, 1:-1] != padded[:-1, 1:-1])  # (nx + 1, ny): edges with x constant
-    y, x0, x1 = _runs((padded[1:-1, 1:] != padded[1:-1, :-1]).T)  # (ny + 1, nx): edges with y constant
-    upright, level = np.array([[x, y0], [x, y1]]), np.array([[x0, y], [x1, y]])
-    return _to_world(grid, np.concatenate([upright, level], axis=-1))
+    x, y0, y1 = _strips(padded[1:, 1:-1] != padded[:-1, 1:-1])  # (nx + 1, ny): edges with x constant
+    y, x0, x1 = _strips((padded[1:-1, 1:] != padded[1:-1, :-1]).T)  # (ny + 1, nx): edges with y constant
+    vertical, horizontal = np.array([[x, y0], [x, y1]]), np.array([[x0, y], [x1, y]])
+    return _to_world(grid, np.concatenate([vertical, horizontal], axis=-1))
 
 
 def boxes(grid: Grid, mask: NDArray[np.bool_]) -> NDArray[np.float64]:
-    """Return disjoint boxes that cover the true cells, each a run along y: counter-clockwise outlines, m, (M, 5, 2)."""
-    x, y0, y1 = _runs(mask)
+    """Cover the true cells by strips along y. Returns their counter-clockwise outlines, metres, (M, 5, 2)."""
+    x, y0, y1 = _strips(mask)
     return _to_world(grid, np.array([[x, y0], [x + 1, y0], [x + 1, y1], [x, y1], [x, y0]]))
 
 
-def _runs(mask: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]:
-    """Return the row, the first column and the column after the last of every run of true along axis 1."""
+def _strips(mask: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]:
+    """Return the row, the first column and the column after the last of every strip of true along axis 1."""
     steps = np.diff(np.pad(mask, ((0, 0), (1, 1))).astype(np.int8), axis=1)
     row, start = np.nonzero(steps == 1)
     stop = np.nonzero(steps == -1)[1]
@@ -57,13 +61,13 @@ def _to_world(grid: Grid, cells: NDArray[np.intp]) -> NDArray[np.float64]:
     return np.asarray(np.asarray(grid.origin) + grid.resolution * np.moveaxis(cells, -1, 0))
 
 
-def window(grid: Grid, x_m: tuple[float, float], y_m: tuple[float, float]) -> tuple[Grid, Cut]:
+def window(grid: Grid, x_m: tuple[float, float], y_m: tuple[float, float]) -> tuple[Grid, Window]:
     """Return the grid of the cells that a rectangle of the world touches, and the slices that cut it from (nx, ny).
 
-    ``x_m`` are the rectangle's left and right edge, ``y_m`` its lower and upper edge. Raises `BadInput` for edges out
-    of order or not finite, or a rectangle outside the grid.
+    ``x_m`` are the rectangle's left and right edge, ``y_m`` its lower and upper edge. Raises `BadInput` if edges are
+    out of order or not finite, or if the rectangle lies outside the grid.
     """
-    cut, origin = [], []
+    slices, origin = [], []
     for axis, (low, high) in enumerate((x_m, y_m)):
         if not (math.isfinite(low) and math.isfinite(high) and low < high):
             raise BadInput(f"picture: the window's edges must be finite, and the lower first, got {low:g} to {high:g}")
@@ -78,28 +82,22 @@ def window(grid: Grid, x_m: tuple[float, float], y_m: tuple[float, float]) -> tu
                 f"picture: the window {low:g} to {high:g} m lies outside the map, whose {'xy'[axis]} runs from "
                 f"{edges[0]:g} to {edges[1]:g} m"
             )
-        cut.append(slice(start, stop))
+        slices.append(slice(start, stop))
         origin.append(grid.origin[axis] + start * grid.resolution)
-    shape = (cut[0].stop - cut[0].start, cut[1].stop - cut[1].start)
-    return Grid(shape, grid.resolution, (origin[0], origin[1])), (cut[0], cut[1])
+    shape = (slices[0].stop - slices[0].start, slices[1].stop - slices[1].start)
+    return Grid(shape, grid.resolution, (origin[0], origin[1])), (slices[0], slices[1])
 
 
-def window_around(grid: Grid, mask: ArrayLike, margin_m: float = 1.0) -> tuple[Grid, Cut]:
+def window_around(grid: Grid, mask: ArrayLike, margin_m: float = 1.0) -> tuple[Grid, Window]:
     """Return the `window` around the true cells of a mask, (nx, ny), and a margin; the whole grid if none."""
-    cells = as_mask(grid, mask, "mask")
-    edges = []
-    for axis in (0, 1):
-        lines = np.flatnonzero(cells.any(axis=1 - axis))
-        low, high = (int(lines[0]), int(lines[-1]) + 1) if len(lines) else (0, grid.shape[axis])
-        start = grid.origin[axis]
-        edges.append((start + low * grid.resolution - margin_m, start + high * grid.resolution + margin_m))
-    return window(grid, edges[0], edges[1])
+    cells = np.argwhere(as_mask(grid, mask, "mask"))
+    first, end = (cells.min(axis=0), cells.max(axis=0) + 1) if len(cells) else (np.zeros(2), np.array(grid.shape))
+    low = np.array(grid.origin) + first * grid.resolution - margin_m
+    high = np.array(grid.origin) + end * grid.resolution + margin_m
+    return window(grid, (low[0], high[0]), (low[1], high[1]))
 
 
-ALONE = 3  # a wall with fewer walls in the 5 x 5 cells around it, itself included, may be the end of a stray beam
-
-
-def window_of_walls(grid: Grid, walls: ArrayLike, points_m: ArrayLike, margin_m: float = 1.0) -> tuple[Grid, Cut]:
+def window_of_walls(grid: Grid, walls: ArrayLike, points_m: ArrayLike, margin_m: float = 1.0) -> tuple[Grid, Window]:
     """Return the window around points, (n, 2), and walls, a mask (nx, ny), without walls that stand alone."""
     from scipy.ndimage import convolve
 
@@ -110,64 +108,59 @@ def window_of_walls(grid: Grid, walls: ArrayLike, points_m: ArrayLike, margin_m:
     return window_around(grid, mask, margin_m)
 
 
-HEIGHT_IN, BAR_IN = 5.6, 1.3
-"""Height of a map's panel with the labels below, and the room for labels at its left and a colour bar at its right."""
-LABELS_IN = 0.55
-
-
-def draw_probability(ax: Axes, grid: Grid, occupancy: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
-    """Draw the probability of wall per cell, (nx, ny): free is light, wall is dark, unobserved is hatched.
+def plot_probability(ax: Axes, grid: Grid, occupancy: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
+    """Plot the probability of wall per cell, (nx, ny): free is light, wall is dark, unobserved is hatched.
 
     ``observed`` is a mask of the cells that a beam reached, (nx, ny); None: all cells. Returns the image, from 0 to 1,
-    for a colour bar. Raises `BadInput` for shapes that differ from the grid's, or probabilities outside [0, 1].
+    for a colour bar. Raises `BadInput` if a shape differs from the grid's, or a probability is outside [0, 1].
     """
     probability = as_probabilities(grid, occupancy, "occupancy")
-    return _show(ax, grid, probability, as_observed(grid, observed), palette.probability_colormap(), 1.0)
+    return _plot_cells(ax, grid, probability, as_observed(grid, observed), palette.probability_colormap(), 1.0)
 
 
-def draw_entropy(ax: Axes, grid: Grid, occupancy: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
-    """Draw the entropy of each cell, 0 to 1 bit, given its probability, as `draw_probability` does."""
+def plot_entropy(ax: Axes, grid: Grid, occupancy: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
+    """Plot the entropy of each cell, 0 to 1 bit, given its probability of wall, as `plot_probability` does."""
     from bayesmap.posterior.posterior import entropy_bits
 
     bits = entropy_bits(as_probabilities(grid, occupancy, "occupancy"))
-    return _show(ax, grid, bits, as_observed(grid, observed), palette.uncertainty_colormap(), 1.0)
+    return _plot_cells(ax, grid, bits, as_observed(grid, observed), palette.uncertainty_colormap(), 1.0)
 
 
-def draw_deviation(ax: Axes, grid: Grid, deviation: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
-    """Draw each cell's posterior standard deviation, in [0, 0.5], as `draw_probability` draws probabilities."""
+def plot_deviation(ax: Axes, grid: Grid, deviation: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
+    """Plot each cell's posterior standard deviation, in [0, 0.5], as `plot_probability` plots probabilities."""
     reason = "the standard deviation of a number in [0, 1] lies in [0, 0.5]; take the square root if this is a variance"
-    return _show_uncertainty(ax, grid, deviation, observed, "deviation", 0.5, reason)
+    return _plot_uncertainty(ax, grid, deviation, observed, "deviation", 0.5, reason)
 
 
-def draw_width(ax: Axes, grid: Grid, width: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
-    """Draw the width of each cell's posterior interval, in [0, 1], as `draw_probability` draws probabilities."""
+def plot_width(ax: Axes, grid: Grid, width: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
+    """Plot the width of each cell's posterior interval, in [0, 1], as `plot_probability` plots probabilities."""
     reason = "the bounds of a number in [0, 1] are 0 to 1 apart; give upper minus lower"
-    return _show_uncertainty(ax, grid, width, observed, "width", 1.0, reason)
+    return _plot_uncertainty(ax, grid, width, observed, "width", 1.0, reason)
 
 
-def _show_uncertainty(
+def _plot_uncertainty(
     ax: Axes, grid: Grid, values: ArrayLike, observed: ArrayLike | None, name: str, top: float, reason: str
 ) -> AxesImage:
-    """Check that values lie between 0 and ``top``, and draw them as uncertainty."""
+    """Check that values lie between 0 and ``top``, and plot them as uncertainty."""
     numbers = as_numbers(grid, values, name)
     if numbers.min() < -ROUNDING or numbers.max() > top + ROUNDING:
         raise BadInput(f"picture: {name} runs from {numbers.min():g} to {numbers.max():g}, and {reason}")
-    return _show(ax, grid, numbers, as_observed(grid, observed), palette.uncertainty_colormap(), top)
+    return _plot_cells(ax, grid, numbers, as_observed(grid, observed), palette.uncertainty_colormap(), top)
 
 
-def draw_sample(ax: Axes, grid: Grid, walls: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
-    """Draw a draw of walls, true or 1, as `draw_probability` does; unobserved cells are faded: they are the prior's."""
+def plot_sample(ax: Axes, grid: Grid, walls: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
+    """Plot a draw of walls, true or 1, as `plot_probability` does. Unobserved cells are faded: they are the prior's."""
     seen = as_observed(grid, observed)
     kind = np.where(seen, 0, 2) + as_mask(grid, walls, "walls")
-    return _show(ax, grid, kind.astype(np.float64), seen, palette.draw_colormap(), 3.0, hide=False)
+    return _plot_cells(ax, grid, kind.astype(np.float64), seen, palette.draw_colormap(), 3.0, hide=False)
 
 
-def draw_one(ax: Axes, grid: Grid, draw: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
-    """Draw one draw of the map: walls by `draw_sample`, reflectivities in [0, 1] by `draw_probability`."""
+def plot_draw(ax: Axes, grid: Grid, draw: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
+    """Plot one draw of the map: walls by `plot_sample`, reflectivities in [0, 1] by `plot_probability`."""
     array = np.asarray(draw)
     if array.dtype == np.bool_ or np.isin(array, (0, 1)).all():
-        return draw_sample(ax, grid, array, observed)
-    return draw_probability(ax, grid, array, observed)
+        return plot_sample(ax, grid, array, observed)
+    return plot_probability(ax, grid, array, observed)
 
 
 def map_figure(
@@ -214,11 +207,11 @@ def hatch_patch(path: Path | None = None) -> PathPatch:
     return patch
 
 
-def _show(
+def _plot_cells(
     ax: Axes, grid: Grid, values: NDArray[np.float64], observed: NDArray[np.bool_], colors: Colormap, top: float, *,
     hide: bool = True,
 ) -> AxesImage:  # fmt: skip
-    """Draw an image of the cells from 0 to ``top``, hatched where unobserved; ``hide`` leaves out their values."""
+    """Plot cells from 0 to ``top``. Unobserved cells are hatched; with ``hide`` their values are left out."""
     # Enlarged cells stay sharp squares. If there are more cells than pixels, colours are averaged, so that a thin wall
     # fades instead of vanishing.
     image = ax.imshow(

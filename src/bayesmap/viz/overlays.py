@@ -28,12 +28,16 @@ from bayesmap.space.scans import ReadingKind, Scans, as_array, as_poses
 from bayesmap.viz import maps, palette
 from bayesmap.viz.maps import boundary_segments
 
-MAX_ARROWS = 12
-"""Largest number of poses with an arrow each. More poses are drawn as a trajectory with one arrow at its end."""
+MAX_ARROWS = 12  # most poses with an arrow each; more poses become a trajectory with one arrow at its end
+DEVIATIONS = 2.0  # standard deviations from the mean to each end of a stroke
+FAINTEST = 0.02  # least weight of a plotted surface: fainter ones would be invisible, and most cells are free
+LEAST_WIDTH_PT, MOST_WIDTH_PT = 0.8, 2.5  # limits of a stroke's width
+FOOT_IN = 0.6  # height of the legend below the map, inches
+CIRCLE_CORNERS = 24  # corners in the outline of a disc
 
 
-def draw_truth_outline(ax: Axes, grid: Grid, true_walls: ArrayLike) -> LineCollection:
-    """Draw the outline of the true walls, (nx, ny), as "true walls"; raise `BadInput` for another shape."""
+def plot_truth_outline(ax: Axes, grid: Grid, true_walls: ArrayLike) -> LineCollection:
+    """Plot the outline of the true walls, (nx, ny), labelled "true walls". Raises `BadInput` if the shape differs."""
     lines = LineCollection(
         list(boundary_segments(grid, as_mask(grid, true_walls, "true_walls"))), colors=palette.TRUTH,
         linewidths=1.2 if max(grid.shape) <= 100 else 0.5, capstyle="projecting", label="true walls", zorder=3.0,
@@ -43,64 +47,65 @@ def draw_truth_outline(ax: Axes, grid: Grid, true_walls: ArrayLike) -> LineColle
     return lines
 
 
-def draw_rays(
+def plot_rays(
     ax: Axes, scans: Scans, max_beams: int = 400, max_readings: int = 20_000
 ) -> list[LineCollection | PathCollection]:
-    """Draw beams with their end points, and beams without return as dashed lines to the largest range.
+    """Plot beams with their end points, and beams without return as dashed lines to the largest range.
 
     Readings that are too close or invalid have no end point and are left out. If there are more beams or end points
-    than the limits, an evenly spaced part is drawn, always the same one. Points hide less than lines, so their limit is
-    higher. Returns the artists, labelled "beam", "reading" and "no return", in this order, without those missing.
+    than the limits, an evenly spaced part is shown, always the same one. Points hide less than lines, so their limit is
+    higher. Returns the artists labelled "beam", "reading" and "no return", in this order, without empty ones.
 
-    Raises `BadInput` for ``max_beams`` or ``max_readings`` below 1.
+    Raises `BadInput` if ``max_beams`` or ``max_readings`` is below 1.
     """
     if max_beams < 1 or max_readings < 1:
-        raise BadInput(f"picture: draw at least 1 beam and 1 reading, got {max_beams} and {max_readings}")
+        raise BadInput(f"picture: show at least 1 beam and 1 reading, got {max_beams} and {max_readings}")
     kinds = scans.readings.ravel()
     beams = _spread(np.flatnonzero((kinds == ReadingKind.HIT) | (kinds == ReadingKind.NO_RETURN)), max_beams)
     hit, lost = beams[kinds[beams] == ReadingKind.HIT], beams[kinds[beams] == ReadingKind.NO_RETURN]
     points = _spread(np.flatnonzero(kinds == ReadingKind.HIT), max_readings)
     # The more rays, the fainter each: they must not hide the map.
     alpha = float(np.clip(60.0 / max(len(beams), 1), 0.12, 0.55))
-    drawn: list[LineCollection | PathCollection] = []
+    artists: list[LineCollection | PathCollection] = []
     if len(hit):
         rays = list(_rays(scans, hit))
-        drawn.append(LineCollection(rays, colors=palette.RAY, linewidths=0.6, alpha=alpha, label="beam", zorder=3.2))
-        ax.add_collection(drawn[-1])
+        artists.append(LineCollection(rays, colors=palette.RAY, linewidths=0.6, alpha=alpha, label="beam", zorder=3.2))
+        ax.add_collection(artists[-1])
     if len(points):
         (x, y), area_pt2 = _rays(scans, points)[:, 1].T, float(np.clip(1000.0 / len(points), 0.5, 7.0))
-        drawn.append(ax.scatter(x, y, s=area_pt2, color=palette.READING, linewidths=0.0, label="reading", zorder=3.4))
+        artists.append(ax.scatter(x, y, s=area_pt2, color=palette.READING, linewidths=0.0, label="reading", zorder=3.4))
     if len(lost):
         dashed = LineCollection(
             list(_rays(scans, lost)), colors=palette.NO_RETURN, linewidths=0.7, linestyles=[(0.0, (4.0, 3.0))],
             alpha=min(1.0, 1.5 * alpha), label="no return", zorder=3.1,
         )  # fmt: skip
-        drawn.append(dashed)
+        artists.append(dashed)
         ax.add_collection(dashed)
     ax.autoscale_view()
-    return drawn
+    return artists
 
 
-def draw_sensor(ax: Axes, poses: ArrayLike) -> list[Line2D]:
-    """Draw the sensor as an arrow along its yaw. Many poses are drawn as a trajectory that ends in an arrow.
+def plot_sensor(ax: Axes, poses: ArrayLike) -> list[Line2D]:
+    """Plot the sensor as an arrow along its yaw. Many poses become a trajectory that ends in an arrow.
 
     ``poses`` are (S, 3) or (3,): x, y in metres and yaw in radians. Returns the marks; the first is labelled "sensor"
-    or "trajectory". Raises `BadInput` for another shape, no pose, or a number that is not finite.
+    or "trajectory". Raises `BadInput` if the shape is another, there is no pose, or a number is not finite.
     """
-    where = as_poses(poses)
-    if len(where) == 0:
+    poses_world = as_poses(poses)
+    if len(poses_world) == 0:
         raise BadInput("picture: there is no pose to draw the sensor at; pass at least one (x, y, yaw)")
-    drawn: list[Line2D] = []
-    many = len(where) > MAX_ARROWS
+    marks: list[Line2D] = []
+    many = len(poses_world) > MAX_ARROWS
     if many:
-        drawn += ax.plot(*where[:, :2].T, color=palette.SENSOR, linewidth=0.9, solid_joinstyle="round", zorder=3.5)
-    for x, y, yaw in where[-1:] if many else where:
-        drawn += ax.plot(
+        x, y = poses_world[:, :2].T
+        marks += ax.plot(x, y, color=palette.SENSOR, linewidth=0.9, solid_joinstyle="round", zorder=3.5)
+    for x, y, yaw in poses_world[-1:] if many else poses_world:
+        marks += ax.plot(
             x, y, marker=_arrow(yaw), markersize=10.5, markerfacecolor=palette.SENSOR,
             markeredgecolor="white", markeredgewidth=0.6, linestyle="none", zorder=3.6, clip_on=True,
         )  # fmt: skip
-    drawn[0].set_label("trajectory" if many else "sensor")
-    return drawn
+    marks[0].set_label("trajectory" if many else "sensor")
+    return marks
 
 
 def _spread(beams: NDArray[np.intp], most: int) -> NDArray[np.intp]:
@@ -111,7 +116,7 @@ def _spread(beams: NDArray[np.intp], most: int) -> NDArray[np.intp]:
 
 
 def _rays(scans: Scans, beams: NDArray[np.intp]) -> NDArray[np.float64]:
-    """Return start and end of the beams with these flat indices, metres, (n, 2, 2); no return has the largest range."""
+    """Return start and end of beams, by flat index, metres, (n, 2, 2). Without a return, the range is the largest."""
     angles = scans.beam_angles_world().ravel()[beams]
     ranges = scans.ranges_m.ravel()[beams]
     ranges = np.where(np.isposinf(ranges), scans.max_range_m, ranges)
@@ -125,19 +130,13 @@ def _arrow(yaw_rad: float) -> MarkerStyle:
     return MarkerStyle(Path(outline, closed=True), transform=Affine2D().rotate(yaw_rad))
 
 
-DEVIATIONS = 2.0  # standard deviations from the mean to each end of a stroke
-FAINTEST = 0.02  # Least weight of a drawn surface. Fainter ones would be invisible, and most cells are free.
-
-LEAST_WIDTH_PT, MOST_WIDTH_PT = 0.8, 2.5
-
-
 def surface_strokes(
     means_world: ArrayLike, covariances_m2: ArrayLike, longest_m: float = np.inf
 ) -> NDArray[np.float64]:
     """Return both ends of the strokes of n surfaces, by means (n, 2) and covariances (n, 2, 2), metres, (n, 2, 2).
 
-    Strokes longer than ``longest_m`` are cut. Raises `BadInput` for shapes that do not fit, numbers that are not
-    finite, or a matrix that is no covariance.
+    Strokes longer than ``longest_m`` are cut. Raises `BadInput` if shapes do not fit, a number is not finite, or a
+    matrix is no covariance.
     """
     means, covariances = as_array(means_world, "means_world"), as_array(covariances_m2, "covariances_m2")
     n = len(means)
@@ -157,25 +156,25 @@ def surface_strokes(
     return np.stack([means - half, means + half], axis=1)
 
 
-def draw_surfaces(
+def plot_surfaces(
     ax: Axes, means_world: ArrayLike, covariances_m2: ArrayLike, weights: ArrayLike, *, width_pt: float = 1.0,
     longest_m: float = np.inf, color: str | None = None,
 ) -> LineCollection:  # fmt: skip
-    """Draw one stroke per surface, from `surface_strokes`. Its opacity is the surface's weight in [0, 1], (n,).
+    """Plot one stroke per surface, from `surface_strokes`. Its opacity is the surface's weight in [0, 1], (n,).
 
     Strokes fainter than `FAINTEST` are left out. By default they have the colour of walls. The label is "surface".
-    Raises `BadInput` for shapes that do not fit, weights outside [0, 1], or what `surface_strokes` refuses.
+    Raises `BadInput` if shapes do not fit, a weight is outside [0, 1], or `surface_strokes` raises it.
     """
     strokes, alpha = surface_strokes(means_world, covariances_m2, longest_m), as_array(weights, "weights")
     if alpha.shape != (len(strokes),) or not ((alpha >= 0.0) & (alpha <= 1.0)).all():
         raise BadInput(f"picture: weights must be {len(strokes)} numbers in [0, 1], one a surface")
-    seen = alpha >= FAINTEST
+    visible = alpha >= FAINTEST
     ink = to_rgba(tuple(palette.probability_colors(2)[1]) if color is None else color)
     # An empty collection needs one colour too, for its legend key.
-    colors = np.tile(ink, (max(int(seen.sum()), 1), 1))
-    if seen.any():
-        colors[:, 3] = alpha[seen]
-    lines = LineCollection(list(strokes[seen]), colors=colors, linewidths=width_pt, capstyle="round", zorder=2.5)
+    colors = np.tile(ink, (max(int(visible.sum()), 1), 1))
+    if visible.any():
+        colors[:, 3] = alpha[visible]
+    lines = LineCollection(list(strokes[visible]), colors=colors, linewidths=width_pt, capstyle="round", zorder=2.5)
     lines.set_label("surface")
     ax.add_collection(lines, autolim=False)
     return lines
@@ -184,15 +183,15 @@ def draw_surfaces(
 def surfaces_figure(
     grid: Grid, means_world: ArrayLike, covariances_m2: ArrayLike, weights: ArrayLike, observed: ArrayLike | None = None
 ) -> Figure:
-    """Draw all surfaces of a map, as `draw_surfaces` takes them, and hatch cells that are not ``observed``."""
+    """Return a figure of all surfaces of a map, with the arguments of `plot_surfaces`. Unobserved cells are hatched."""
     figure, axes = maps.map_figure(grid, aspects=(0.4, 2.5), bar_in=0.7, foot_in=0.35, dpi=200)
-    maps.draw_sample(axes, grid, np.zeros(grid.shape, dtype=np.bool_), observed)
+    maps.plot_sample(axes, grid, np.zeros(grid.shape, dtype=np.bool_), observed)
     # A stroke is a third of a cell thick, within limits.
     cell_pt = 72.0 * maps.HEIGHT_IN / max(grid.shape)
     width_pt = float(np.clip(cell_pt / 3.0, LEAST_WIDTH_PT, MOST_WIDTH_PT))
     # Hits of a cell lie in the cell: a longer stroke only shows that the surface is uncertain.
     longest_m = 1.5 * grid.resolution
-    draw_surfaces(axes, means_world, covariances_m2, weights, width_pt=width_pt, longest_m=longest_m)
+    plot_surfaces(axes, means_world, covariances_m2, weights, width_pt=width_pt, longest_m=longest_m)
     ink = tuple(palette.probability_colors(2)[1])
     keys = [Line2D([], [], color=ink, alpha=a, linewidth=2.0, label=f"stops {100 * a:.0f} %") for a in (1.0, 0.5, 0.2)]
     figure.legend(
@@ -202,25 +201,24 @@ def surfaces_figure(
     return figure
 
 
-FOOT_IN = 0.6  # height of the legend below the map, inches
-CIRCLE = 24  # number of corners in the outline of a disc
-
-
 def route_figure(
     grid: Grid, occupancy: ArrayLike, observed: ArrayLike | None, path: ArrayLike, radius_m: float, *, title: str = "",
     label: str = "probability of wall",
 ) -> Figure:  # fmt: skip
-    """Draw a path, (P, 2), over the mean map, and what a disc sweeps; raise `BadInput` for other shapes."""
+    """Return a figure of a path, (P, 2), and the area that a disc sweeps along it, over the mean map.
+
+    Raises `BadInput` if a shape differs.
+    """
     figure, ax = maps.map_figure(grid, aspects=(0.5, 3.0), foot_in=FOOT_IN)
-    image = maps.draw_probability(ax, grid, occupancy, observed)
+    image = maps.plot_probability(ax, grid, occupancy, observed)
     figure.colorbar(image, ax=ax, label=label, shrink=0.8)
-    draw_route(ax, path, radius_m)
+    plot_route(ax, path, radius_m)
     ax.set_title(title, fontsize=9)
     return _with_legend(figure)
 
 
-def draw_route(ax: Axes, path: ArrayLike, radius_m: float) -> PathPatch:
-    """Draw a path, (P, 2) in the world frame, and the area that a disc sweeps along it."""
+def plot_route(ax: Axes, path: ArrayLike, radius_m: float) -> PathPatch:
+    """Plot a path, (P, 2) in the world frame, and the area that a disc sweeps along it."""
     corners = np.asarray(path, dtype=np.float64)
     if corners.ndim != 2 or corners.shape[1] != 2 or len(corners) == 0:
         raise BadInput(f"picture: the path has shape {corners.shape}; give (P, 2)")
@@ -237,39 +235,37 @@ def views_figure(
     grid: Grid, occupancy: ArrayLike, observed: ArrayLike | None, candidates: ArrayLike, nats: ArrayLike,
     best: ArrayLike, best_nats: ArrayLike,
 ) -> Figure:  # fmt: skip
-    """Draw candidate views, (P, 3), over the mean map, coloured by the fast formula for their information, (P,).
+    """Return a figure of candidate views, (P, 3), over the mean map, coloured by a fast formula for their information.
 
-    ``best`` holds indices of candidates, the best first, (V,). They are drawn as numbered arrows with the upper bounds
-    of their information in nats, ``best_nats``, (V,). The colours have no numbers, since another formula gives them.
-
-    Raises `BadInput` for shapes that do not fit.
+    ``nats`` holds this information, (P,). ``best`` holds indices of candidates, the best first, (V,). They become
+    numbered arrows with the upper bounds of their information, ``best_nats``, (V,). The colours have no numbers, since
+    another formula gives them. Raises `BadInput` if shapes do not fit.
     """
     figure, ax = maps.map_figure(grid, aspects=(0.5, 3.0), foot_in=FOOT_IN)
-    maps.draw_probability(ax, grid, occupancy, observed)
-    dots = draw_candidates(ax, candidates, nats)
+    maps.plot_probability(ax, grid, occupancy, observed)
+    dots = plot_candidates(ax, candidates, nats)
     bar = figure.colorbar(dots, ax=ax, label="candidates, by the fast formula", shrink=0.8)
     low, high = dots.get_clim()
     bar.set_ticks([low, high], labels=["tells least", "tells most"])
-    poses, gains = np.asarray(candidates, dtype=np.float64), np.asarray(best_nats, dtype=np.float64)
-    for rank, (i, gain) in enumerate(zip(np.asarray(best, dtype=np.intp).tolist(), gains, strict=True), 1):
-        draw_sensor(ax, poses[i])[0].set_label("best views: at most so many nats" if rank == 1 else "_")
+    poses = np.asarray(candidates, dtype=np.float64)[np.asarray(best, dtype=np.intp)]
+    for rank, (pose, bound_nats) in enumerate(zip(poses, np.asarray(best_nats, dtype=np.float64), strict=True), 1):
+        plot_sensor(ax, pose)[0].set_label("best views: at most so many nats" if rank == 1 else "_")
         ax.annotate(
-            f"{rank}: {gain:.0f}",
-            (poses[i, 0], poses[i, 1]), xytext=(7, 7), textcoords="offset points", fontsize=8,
+            f"{rank}: {bound_nats:.0f}", (pose[0], pose[1]), xytext=(7, 7), textcoords="offset points", fontsize=8,
             fontweight="bold", color=palette.TEXT, zorder=3.8,
             bbox={"boxstyle": "round,pad=0.15", "fc": "white", "ec": "none", "alpha": 0.8},
         )  # fmt: skip
     return _with_legend(figure)
 
 
-def draw_candidates(ax: Axes, candidates: ArrayLike, nats: ArrayLike) -> PathCollection:
-    """Draw a dot at each candidate, the most informative ones on top."""
-    poses, gains = np.asarray(candidates, dtype=np.float64), np.asarray(nats, dtype=np.float64)
-    if poses.ndim != 2 or poses.shape[1] != 3 or gains.shape != poses.shape[:1]:
-        raise BadInput(f"picture: candidates have shape {poses.shape} and nats {gains.shape}; give (P, 3) and (P,)")
-    order = np.argsort(gains)
+def plot_candidates(ax: Axes, candidates: ArrayLike, nats: ArrayLike) -> PathCollection:
+    """Plot a dot at each candidate, the most informative ones on top."""
+    poses, values = np.asarray(candidates, dtype=np.float64), np.asarray(nats, dtype=np.float64)
+    if poses.ndim != 2 or poses.shape[1] != 3 or values.shape != poses.shape[:1]:
+        raise BadInput(f"picture: candidates have shape {poses.shape} and nats {values.shape}; give (P, 3) and (P,)")
+    order = np.argsort(values)
     return ax.scatter(
-        poses[order, 0], poses[order, 1], c=gains[order], cmap=palette.surprise_colormap(), s=16, linewidths=0.4,
+        poses[order, 0], poses[order, 1], c=values[order], cmap=palette.surprise_colormap(), s=16, linewidths=0.4,
         edgecolors="white", label="candidates", zorder=3.3,
     )  # fmt: skip
 
@@ -281,14 +277,14 @@ def _with_legend(figure: Figure) -> Figure:
 
 def _swept(corners: Floats, radius_m: float) -> Path:
     """Return the union of discs along a polyline, as overlapping outlines of the same orientation."""
-    turn = np.arange(CIRCLE) / CIRCLE * 2 * np.pi
-    circle = radius_m * np.stack([np.cos(turn), np.sin(turn)], axis=-1)
+    angles = np.linspace(0.0, 2 * np.pi, CIRCLE_CORNERS, endpoint=False)
+    circle = radius_m * np.stack([np.cos(angles), np.sin(angles)], axis=-1)
     shapes = [corner + circle for corner in corners]
+    # A rectangle joins the discs at both ends of each leg.
     for start, end in itertools.pairwise(corners):
-        # A rectangle joins the discs at both ends.
-        way = end - start
-        length = float(np.hypot(*way))
+        leg = end - start
+        length = float(np.hypot(*leg))
         if length > 0:
-            side = radius_m * np.array([-way[1], way[0]]) / length
+            side = radius_m * np.array([-leg[1], leg[0]]) / length
             shapes.append(np.stack([start - side, end - side, end + side, start + side]))
     return Path.make_compound_path(*(Path(np.concatenate([shape, shape[:1]]), closed=True) for shape in shapes))

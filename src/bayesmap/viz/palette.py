@@ -24,15 +24,17 @@ from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 from numpy.typing import NDArray
 
-PAPER_LAB: Final = (98.0, 0.0, 1.0)
-INK_LAB: Final = (14.0, 6.0, -24.0)
-"""Ends of the probability colours in CIELAB (D65): nearly white, and a blue so dark that it reads as ink."""
+# Colours that end in _LAB are in CIELAB (D65).
+PAPER_LAB: Final = (98.0, 0.0, 1.0)  # probability 0: nearly white
+INK_LAB: Final = (14.0, 6.0, -24.0)  # probability 1: a blue so dark that it reads as ink
+SHORTER_LAB: Final = (46.0, -2.0, -44.0)  # a reading shorter than predicted
+NEUTRAL_LAB: Final = (88.0, 0.0, -1.0)  # a reading as predicted
+LONGER_LAB: Final = (50.0, 48.0, 60.0)  # a reading longer than predicted
+ALARMING_LAB: Final = (28.0, 40.0, 30.0)  # the largest surprise
 
 UNOBSERVED: Final = "#EFE7D8"
 UNOBSERVED_HATCH: Final = "#BFAE92"
-UNOBSERVED_WALL: Final = "#C9BDA8"
-"""Wall of a draw in a cell that no beam reached. It comes from the prior, so it is faded."""
-
+UNOBSERVED_WALL: Final = "#C9BDA8"  # wall of a draw in a cell that no beam reached: faded, since the prior gives it
 TRUTH: Final = "#D55E00"
 RAY: Final = "#0072B2"
 READING: Final = "#0072B2"
@@ -42,18 +44,10 @@ SURFACE: Final = "#56B4E9"
 TEXT: Final = "#2B2F36"
 FRAME: Final = "#6B7078"
 
-SHORTER_LAB: Final = (46.0, -2.0, -44.0)
-NEUTRAL_LAB: Final = (88.0, 0.0, -1.0)
-LONGER_LAB: Final = (50.0, 48.0, 60.0)
-ALARMING_LAB: Final = (28.0, 40.0, 30.0)
-"""Colours of residuals and surprise in CIELAB; the last is for the largest surprise."""
-
+# Line colours of the chains, in order, repeated for more chains.
 CHAINS: Final = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
-"""Line colours of the chains, in order, repeated for more chains."""
-
 HATCH: Final = "//////"
 HATCH_WIDTH_PT: Final = 0.6
-
 PAD_IN: Final = 0.08  # margin around the panels of a figure, inches
 
 
@@ -90,18 +84,18 @@ def uncertainty_colormap() -> Colormap:
 
 def residual_colormap() -> Colormap:
     """Return the colours of residuals, from shorter than predicted to longer."""
-    return ListedColormap(_through(SHORTER_LAB, NEUTRAL_LAB, LONGER_LAB).tolist(), name="bayesmap.residual")
+    return ListedColormap(_blend_lab(SHORTER_LAB, NEUTRAL_LAB, LONGER_LAB).tolist(), name="bayesmap.residual")
 
 
 def surprise_colormap() -> Colormap:
     """Return the colours of surprise: expected is light grey; the more surprising, the darker and redder."""
-    return ListedColormap(_through(NEUTRAL_LAB, LONGER_LAB, ALARMING_LAB).tolist(), name="bayesmap.surprise")
+    return ListedColormap(_blend_lab(NEUTRAL_LAB, LONGER_LAB, ALARMING_LAB).tolist(), name="bayesmap.surprise")
 
 
-def _through(*ends: tuple[float, float, float]) -> NDArray[np.float64]:
+def _blend_lab(*ends: tuple[float, float, float]) -> NDArray[np.float64]:
     """Return 256 colours in equal steps along straight lines in CIELAB, sRGB in [0, 1], shape (256, 3)."""
-    at, knots = np.linspace(0.0, len(ends) - 1.0, 256), np.arange(len(ends))
-    return lab_to_srgb(np.stack([np.interp(at, knots, part) for part in np.array(ends).T], axis=1))
+    steps, knots = np.linspace(0.0, len(ends) - 1.0, 256), np.arange(len(ends))
+    return lab_to_srgb(np.stack([np.interp(steps, knots, channel) for channel in np.array(ends).T], axis=1))
 
 
 def draw_colormap() -> ListedColormap:

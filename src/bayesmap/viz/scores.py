@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -24,13 +25,14 @@ if TYPE_CHECKING:
     from bayesmap.posterior.trajectory_scores import TrajectoryScore
 
 LEVELS = np.linspace(0.02, 0.98, 49)
-LEAST_EVENTS = 20  # least number of events for a share to be drawn
+LEAST_EVENTS = 20  # least number of events for a share to be plotted
+FAINT = 0.3  # opacity of the map below the dots
+MAX_POINTS = 60_000  # most end points; more are thinned evenly, but the worst `MAX_POINTS` / 2 all stay
+Rows = Sequence[tuple[str, "Score"]]  # maps by name, with their scores
 
-Rows = Sequence[tuple[str, "Score"]]
 
-
-def draw_pit(ax: Axes, rows: Rows) -> None:
-    """Draw histograms of the probability integral transform: flat if the predictive laws are calibrated.
+def plot_pit(ax: Axes, rows: Rows) -> None:
+    """Plot histograms of the probability integral transform, which are flat if the predictive laws are calibrated.
 
     High ends mean that predictions are too narrow, a hump in the middle that they are too wide. A slope means that they
     are biased: too far or too near.
@@ -43,8 +45,8 @@ def draw_pit(ax: Axes, rows: Rows) -> None:
     ax.set(xlabel="predictive probability of a shorter reading", ylabel="density", xlim=(0, 1), ylim=(0, None))
 
 
-def draw_coverage(ax: Axes, rows: Rows) -> None:
-    """Draw the share of readings in central intervals against their probability: the diagonal is right."""
+def plot_coverage(ax: Axes, rows: Rows) -> None:
+    """Plot the share of readings in central intervals by their probability. A calibrated model follows the diagonal."""
     from bayesmap.posterior.scores import inside
 
     for i, (name, score) in enumerate(rows):
@@ -55,15 +57,13 @@ def draw_coverage(ax: Axes, rows: Rows) -> None:
     ax.set_aspect("equal")
 
 
-def draw_reliability(ax: Axes, rows: Rows) -> None:
-    """Draw the share of first hits against their predicted chance: the diagonal is right."""
+def plot_reliability(ax: Axes, rows: Rows) -> None:
+    """Plot the share of first hits by their predicted chance. A calibrated model follows the diagonal."""
     for i, (name, score) in enumerate(rows):
         points = [(p, share) for p, share, count in score.reliability if count >= LEAST_EVENTS and share > 0]
         if points:
-            ax.plot(
-                *zip(*points, strict=True), color=palette.chain_color(i), marker="o", markersize=3, linewidth=1.0,
-                label=name,
-            )  # fmt: skip
+            color = palette.chain_color(i)
+            ax.plot(*zip(*points, strict=True), color=color, marker="o", markersize=3, linewidth=1.0, label=name)
     ax.plot([1e-4, 1], [1e-4, 1], color=palette.FRAME, linewidth=0.8, linestyle=":")
     ax.set(xscale="log", yscale="log", xlim=(1e-4, 1.0), ylim=(1e-4, 1.0))
     ax.set(xlabel="predicted chance of a first hit", ylabel="share that were")
@@ -71,15 +71,15 @@ def draw_reliability(ax: Axes, rows: Rows) -> None:
 
 
 def calibration_figure(rows: Rows) -> Figure:
-    """Draw PIT, coverage and reliability, a line per map (name and score); raise `BadInput` for none."""
+    """Return a figure of PIT, coverage and reliability, a line per map. Raises `BadInput` if there is no map."""
     if not rows:
         raise BadInput("calibration: give at least one score")
     figure = palette.blank_figure(10.2, 3.7)
     axes = figure.subplots(1, 3)
-    draws = (draw_pit, draw_coverage, draw_reliability)
+    panels = (plot_pit, plot_coverage, plot_reliability)
     titles = ("readings in their predictive law", "central intervals", "first hits")
-    for ax, draw, title in zip(axes, draws, titles, strict=True):
-        draw(ax, rows)
+    for ax, plot, title in zip(axes, panels, titles, strict=True):
+        plot(ax, rows)
         ax.spines[["top", "right"]].set_visible(False)
         ax.set_title(title, fontsize=9.0)
     keys = axes[0].get_legend_handles_labels()
@@ -87,8 +87,8 @@ def calibration_figure(rows: Rows) -> Figure:
     return figure
 
 
-def draw_distribution(ax: Axes, errors: NDArray[np.float64], label: str) -> None:
-    """Draw the cumulative distribution of errors, with its mean and median."""
+def plot_distribution(ax: Axes, errors: NDArray[np.float64], label: str) -> None:
+    """Plot the cumulative distribution of errors, with its mean and median."""
     ordered = np.sort(errors)
     share = np.arange(1, len(ordered) + 1) / len(ordered)
     ax.step(ordered, share, where="post", color=palette.CHAINS[0], linewidth=1.2)
@@ -102,8 +102,8 @@ def draw_distribution(ax: Axes, errors: NDArray[np.float64], label: str) -> None
     ax.legend(loc="lower right", frameon=False)
 
 
-def draw_region_coverage(ax: Axes, score: TrajectoryScore) -> None:
-    """Draw the share of true relations in regions against their probability: the diagonal is right."""
+def plot_region_coverage(ax: Axes, score: TrajectoryScore) -> None:
+    """Plot the share of true relations in regions by their probability. A calibrated model follows the diagonal."""
     levels = np.linspace(0.0, 1.0, 101)
     ax.plot(levels, [score.coverage(level) for level in levels], color=palette.CHAINS[0], linewidth=1.2)
     ax.plot([0, 1], [0, 1], color=palette.FRAME, linewidth=0.8, linestyle=":")
@@ -112,23 +112,17 @@ def draw_region_coverage(ax: Axes, score: TrajectoryScore) -> None:
 
 
 def errors_figure(score: TrajectoryScore) -> Figure:
-    """Draw the distributions of both errors, and coverage if the trajectory has covariances."""
+    """Return a figure of the distributions of both errors, and of coverage if the trajectory has covariances."""
     panels = 2 if score.region is None else 3
     figure = palette.blank_figure(3.4 * panels, 3.4)
     axes = figure.subplots(1, panels)
-    draw_distribution(axes[0], 100 * score.errors.translation_m, "error of translation [cm]")
-    draw_distribution(axes[1], np.degrees(score.errors.rotation_rad), "error of rotation [degrees]")
+    plot_distribution(axes[0], 100 * score.errors.translation_m, "error of translation [cm]")
+    plot_distribution(axes[1], np.degrees(score.errors.rotation_rad), "error of rotation [degrees]")
     if score.region is not None:
-        draw_region_coverage(axes[2], score)
+        plot_region_coverage(axes[2], score)
     for ax in axes:
         ax.spines[["top", "right"]].set_visible(False)
     return figure
-
-
-FAINT = 0.3  # opacity of the map below the dots
-
-MAX_POINTS = 60_000
-"""Largest number of end points. More are thinned evenly, but the worst `MAX_POINTS` / 2 are all kept."""
 
 
 @dataclass(frozen=True)
@@ -139,6 +133,7 @@ class Scale:
     low: float
     high: float
     label: str
+    symmetric: bool = False  # whether zero in the middle is best; else the low end is best
 
 
 def residual_scale(residuals_m: ArrayLike, limit_m: float | None = None) -> Scale:
@@ -148,7 +143,7 @@ def residual_scale(residuals_m: ArrayLike, limit_m: float | None = None) -> Scal
         limit_m = maps.round_number(max(0.05, np.quantile(np.abs(values), 0.9) if values.size else 0.0), up=True)
     if not limit_m > 0.0:
         raise BadInput(f"picture: the limit of the residuals must be a positive number of metres, got {limit_m:g}")
-    return Scale(palette.residual_colormap(), -limit_m, limit_m, "reading minus predicted median [m]")
+    return Scale(palette.residual_colormap(), -limit_m, limit_m, "reading minus predicted median [m]", symmetric=True)
 
 
 def surprise_scale(surprises: ArrayLike) -> Scale:
@@ -158,21 +153,22 @@ def surprise_scale(surprises: ArrayLike) -> Scale:
     return Scale(palette.surprise_colormap(), low, max(high, low + 1e-3), "surprise: minus log score [nats]")
 
 
-def draw_residuals(ax: Axes, ends_world: ArrayLike, values: ArrayLike, scale: Scale) -> PathCollection:
-    """Draw end points, (n, 2), by value, (n,), the worst on top; raise `BadInput` for other shapes or NaN."""
+def plot_residuals(ax: Axes, ends_world: ArrayLike, values: ArrayLike, scale: Scale) -> PathCollection:
+    """Plot end points, (n, 2), by value, (n,), the worst on top. Raises `BadInput` if a shape differs or one is NaN."""
     ends, numbers = as_array(ends_world, "ends_world"), as_array(values, "values")
     if ends.shape != (len(numbers), 2) or numbers.ndim != 1:
         raise BadInput(f"picture: end points have shape {ends.shape} and values {numbers.shape}; give (n, 2) and (n,)")
     if not (np.isfinite(ends).all() and np.isfinite(numbers).all()):
         raise BadInput("picture: an end point or its value is not finite; leave out invalid readings")
     # Sort by severity, from 0 (as predicted) to 1 (the end of the scale), and thin.
-    middle = 0.0 if scale.low == -scale.high else scale.low
-    severity = np.clip((np.abs(numbers) if middle == 0.0 else numbers - middle) / (scale.high - middle), 0.0, 1.0)
+    best = 0.0 if scale.symmetric else scale.low
+    severity = np.clip((np.abs(numbers) if scale.symmetric else numbers - best) / (scale.high - best), 0.0, 1.0)
     order = np.argsort(severity, kind="stable")
     if len(order) > MAX_POINTS:
         worst = order[-MAX_POINTS // 2 :]
         rest = order[: len(order) - len(worst)]
-        order = np.concatenate([rest[:: -(-len(rest) // (MAX_POINTS - len(worst)))], worst])
+        order = np.concatenate([rest[:: math.ceil(len(rest) / (MAX_POINTS - len(worst)))], worst])
+    # The area of a dot shrinks with the number of dots, and grows with severity.
     unit_pt2 = float(np.clip(12_000.0 / max(len(order), 1), 0.6, 14.0))
     return ax.scatter(
         ends[order, 0], ends[order, 1], c=numbers[order], s=unit_pt2 * (0.6 + 2.4 * severity[order]),
@@ -184,17 +180,15 @@ def residuals_figure(
     grid: Grid, occupancy: ArrayLike, ends_world: ArrayLike, values: ArrayLike, observed: ArrayLike | None = None, *,
     scale: Scale | None = None,
 ) -> Figure:  # fmt: skip
-    """Draw the end points of held-out beams, (n, 2), over the faded posterior mean.
+    """Return a figure of the end points of held-out beams, (n, 2), over the faded posterior mean.
 
     The values, (n,), are residuals in metres, or surprises in nats with `surprise_scale`. The default scale is
-    `residual_scale`.
-
-    Raises `BadInput` for shapes or values that do not fit.
+    `residual_scale`. Raises `BadInput` if shapes or values do not fit.
     """
     scale = residual_scale(values) if scale is None else scale
     figure, axes = maps.map_figure(grid, aspects=(0.4, 2.5), dpi=200)
-    maps.draw_probability(axes, grid, occupancy, observed).set_alpha(FAINT)
-    dots = draw_residuals(axes, ends_world, values, scale)
+    maps.plot_probability(axes, grid, occupancy, observed).set_alpha(FAINT)
+    dots = plot_residuals(axes, ends_world, values, scale)
     bar = figure.colorbar(dots, ax=axes, label=scale.label, shrink=0.8, extend="both")
     bar.ax.tick_params(colors=palette.TEXT)
     bar.outline.set(edgecolor=palette.FRAME, linewidth=0.6)
