@@ -33,7 +33,7 @@ from bayesmap import viz
 from bayesmap.sim.building import building
 from bayesmap.sim.robot import patrol
 from bayesmap.space.planar import between, compose, wrap_angle
-from bayesmap.viz.trajectory import AFTER, BEFORE, plot_ellipses
+from bayesmap.viz.trajectory import INFERRED_COLOR, ODOMETRY_COLOR, plot_ellipses
 
 # %% [markdown]
 # ## The robot's log
@@ -94,9 +94,9 @@ def on_the_building(ax):
 
 figure, axes = panels("the building and the robot's way", "as wheels and laser report it", size_in=4.6, height_in=3.8)
 viz.plot_sample(axes[0], office.grid, office.walls)
-draw_path(axes[0], true_poses, AFTER)
+draw_path(axes[0], true_poses, INFERRED_COLOR)
 axes[1].plot(*ends_of(log, raw_poses).T, ",", color="#8a8a8a", zorder=1)
-draw_path(axes[1], raw_poses, BEFORE)
+draw_path(axes[1], raw_poses, ODOMETRY_COLOR)
 show(
     figure,
     "odometry-raw.png",
@@ -152,11 +152,11 @@ print(f"standard deviations: {np.median(sigma_mm):.1f} mm, at most {sigma_mm.max
 assert error_m.max() < 0.05
 assert 0.3 < squares.mean() < 6.0
 figure, axes = panels("raw and inferred", "95 % regions, 20 times as large", size_in=4.6, height_in=3.8)
-draw_path(axes[0], compose(found.poses[0], in_frame_of_first(raw_poses)), BEFORE, "raw odometry")
-draw_path(axes[0], found.poses, AFTER, "inferred")
+draw_path(axes[0], compose(found.poses[0], in_frame_of_first(raw_poses)), ODOMETRY_COLOR, "raw odometry")
+draw_path(axes[0], found.poses, INFERRED_COLOR, "inferred")
 axes[0].legend(fontsize=8, frameon=False)
 viz.plot_probability(axes[1], run.grid, run.occupancy, run.observed)
-draw_path(axes[1], found.poses, AFTER)
+draw_path(axes[1], found.poses, INFERRED_COLOR)
 on_the_building(axes[1])
 some = np.arange(0, len(found), 4)
 plot_ellipses(axes[1], found.poses[some, :2], covariances[some, :2, :2], 20.0)
@@ -215,8 +215,8 @@ assert 1.0 < 1e3 * drawn[:, :2].std(axis=0).max() < 20.0
 # %% tags=["hide-input"]
 figure, axes = panels("around the least sure pose", "its draws", size_in=4.2, height_in=3.8)
 viz.plot_deviation(axes[0], run.grid, deviation, run.observed)
-axes[0].plot(*true_poses[:, :2].T, color=AFTER, linewidth=0.7)
-axes[0].plot(*found.poses[worst, :2], "s", color=BEFORE, markersize=6, markerfacecolor="none")
+axes[0].plot(*true_poses[:, :2].T, color=INFERRED_COLOR, linewidth=0.7)
+axes[0].plot(*found.poses[worst, :2], "s", color=ODOMETRY_COLOR, markersize=6, markerfacecolor="none")
 axes[0].set(xlim=found.poses[worst, 0] + np.array([-3, 3]), ylim=found.poses[worst, 1] + np.array([-2.7, 2.7]))
 for chain in range(2):
     axes[1].plot(
@@ -289,11 +289,13 @@ for ax in axes:
     on_the_building(ax)
 for mode in alone[least].modes[:5]:
     turned = mode.mean[2]
-    axes[0].plot(*mode.mean[:2], "o", color=BEFORE, markersize=4 + 14 * mode.probability, markerfacecolor="none")
+    axes[0].plot(
+        *mode.mean[:2], "o", color=ODOMETRY_COLOR, markersize=4 + 14 * mode.probability, markerfacecolor="none"
+    )
     axes[0].annotate(f"{mode.probability:.2f}", mode.mean[:2], (6, 6), textcoords="offset points", fontsize=8)
-    axes[0].plot(*(mode.mean[:2, None] + np.outer([np.cos(turned), np.sin(turned)], [0, 0.7])), color=BEFORE)
-axes[0].plot(*somewhere[least, :2], "+", color=AFTER, markersize=12, markeredgewidth=2)
-draw_path(axes[1], np.array([belief.mean for belief in tracked.beliefs]), AFTER)
+    axes[0].plot(*(mode.mean[:2, None] + np.outer([np.cos(turned), np.sin(turned)], [0, 0.7])), color=ODOMETRY_COLOR)
+axes[0].plot(*somewhere[least, :2], "+", color=INFERRED_COLOR, markersize=12, markeredgewidth=2)
+draw_path(axes[1], np.array([belief.mean for belief in tracked.beliefs]), INFERRED_COLOR)
 plot_ellipses(
     axes[1],
     np.array([belief.mean[:2] for belief in tracked.beliefs]),

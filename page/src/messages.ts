@@ -682,17 +682,20 @@ export type Recording = {
   log_joint: number[][];
 };
 
-/** The limits by which chains and particles are judged. */
-export type Judging = {
+/** The limits by which chains and particles are judged. R-hat and effective sample size: Vehtari et al. (2021). */
+export type VerdictLimits = {
   rhat_limit: number;
   good_rhat: number;
+  /** This many effective draws make R-hat reliable. */
   good_ess: number;
   bad_ess: number;
-  /** Of chains that go on. */
+  /** With fewer, running chains get no verdict, and their means are not compared. */
   fewest_sweeps: number;
+  /** R-hat needs two draws in each half of a chain. */
   fewest_diagnosed: number;
+  /** Of a cell's means in two chains: 5 standard errors of 200 draws at p = 1/2. */
   bad_difference: number;
-  /** Limit of the misfit of maps. */
+  /** One of 30 000 true maps has a larger misfit. */
   misfit_sigmas: number;
   /** Share of the cells in which means of chains may differ by more. */
   chance_share: number;
@@ -705,7 +708,7 @@ export type Figure = {
   limits: Limits;
   /** Prior of walls or free cells up to which method "auto" means blocks. */
   rare_walls: number;
-  judging: Judging;
+  judging: VerdictLimits;
   story: Story | null;
 };
 

@@ -12,13 +12,13 @@ from bayesmap.app.edits import tutorial_document
 from bayesmap.app.engine import Engine
 from bayesmap.app.exports import file_of
 from bayesmap.app.protocol.actions import Cancel, ShowScan
-from bayesmap.app.protocol.document import Document, Sensor, packed
+from bayesmap.app.protocol.document import Document, Sensor, pack_walls
 from bayesmap.app.protocol.notices import DrawCount, Field, Notice, Quantity, View
 from bayesmap.app.protocol.tasks import Ask, Infer, Ready, Report, Show
 from bayesmap.app.protocol.wire import check, frame
 from bayesmap.app.session import Session, ToPage
 from bayesmap.app.shown.chains import Stream
-from bayesmap.app.sources import opened_run
+from bayesmap.app.sources import open_run
 from bayesmap.space.grid import Grid
 
 PAGE = 7
@@ -27,7 +27,7 @@ PAGE = 7
 
 TINY = Document(
     Grid((3, 3), 1.0, (-0.5, -0.5)),
-    packed(np.array([[0, 0, 1], [0, 0, 0], [1, 0, 1]], dtype=bool)),
+    pack_walls(np.array([[0, 0, 1], [0, 0, 0], [1, 0, 1]], dtype=bool)),
     (Sensor(1, 0.1, 1.2, 0.3),),
     prior=0.3, noise=0.6, angles=12, max_range=6.0, sweeps=20_000, seed=1,
 )  # fmt: skip
@@ -83,7 +83,7 @@ class Heard:
 
     def chains_run(self):
         """Tell whether chains made the result on show."""
-        return self.engine._result is not None and isinstance(self.engine._result.found, Stream)
+        return self.engine._result is not None and isinstance(self.engine._result.estimate, Stream)
 
     def finish(self):
         """Do the rest of the job."""
@@ -105,7 +105,7 @@ class Heard:
 
     def saved_run(self, folder):
         """Save the result on show, and load it."""
-        (folder / "run.nc").write_bytes(file_of(self.engine._result, "run")[2])
+        (folder / "run.nc").write_bytes(file_of(self.engine._result, "run")[1])
         return bm.load(folder / "run.nc")
 
     def every(self, kind):
@@ -123,7 +123,7 @@ class Heard:
 
 def shown(run, **options):
     """Return an engine that shows a run."""
-    heard = Heard(opened_run(run, "run.nc"))
+    heard = Heard(open_run(run, "run.nc"))
     heard.infer(heard.engine._opened.document, **options)
     return heard
 

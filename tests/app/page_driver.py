@@ -118,7 +118,7 @@ def document(**changes):
 def propagated(json_document):
     """Return the scene of a document, and belief propagation on it."""
     scene = simulated_scene(parse_document(json_document))
-    preview = Preview(scene.near)
+    preview = Preview(scene.near_problem)
     while not preview.converged:
         preview.round()
     return scene, preview

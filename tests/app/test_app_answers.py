@@ -11,20 +11,21 @@ from msgspec import structs
 
 import bayesmap as bm
 from bayesmap.app.answers.evidence import (
-    MOST_DRAWN,
+    MOST_LISTED,
     BeamRatios,
     log_ratios,
     one_beam_each,
-    strongest,
-    summed,
+    strongest_beams,
+    sum_evidence,
     wall_ratios,
 )
 from bayesmap.app.answers.whereabouts import Locator
 from bayesmap.app.display import histogram
 from bayesmap.app.edits import tutorial_document
 from bayesmap.app.protocol.actions import FindPath, FindViews, Inspect, ShowScan, WhereAmI
-from bayesmap.app.protocol.document import Sensor, no_walls, packed
-from bayesmap.app.sources import opened_log, opened_run
+from bayesmap.app.protocol.document import Sensor, no_walls, pack_walls
+from bayesmap.app.protocol.notices import CellFacts
+from bayesmap.app.sources import open_log, open_run
 from bayesmap.kernels.rays import trace_rays
 from bayesmap.kernels.walls.table import log_likelihoods, trace
 from bayesmap.posterior.decisions import path_is_free
@@ -74,7 +75,7 @@ def test_views_stand_where_it_is_free_and_tell_more_where_less_is_known():
     assert nats[own] < 0.7 * nats.max()  # looking again from the same place tells less
     walls = np.zeros((120, 80), dtype=bool)  # a large map has no more places than can be told apart
     grid = replace(DOCUMENT.grid, shape=(120, 80))
-    heard.infer(replace(DOCUMENT, grid=grid, walls=packed(walls), max_range=60.0, sweeps=5), "live")
+    heard.infer(replace(DOCUMENT, grid=grid, walls=pack_walls(walls), max_range=60.0, sweeps=5), "live")
     assert 0 < len(heard.answer(FindViews())[1]["nats"]) <= 400
 
 
@@ -87,7 +88,7 @@ def asked(document, sensor=1):
 def square(**changes):
     walls = np.zeros((21, 21), dtype=bool)
     walls[4:17, [4, 16]] = walls[[4, 16], 4:17] = True
-    return replace(tutorial_document(), walls=packed(walls), noise=0.05, **changes)
+    return replace(tutorial_document(), walls=pack_walls(walls), noise=0.05, **changes)
 
 
 def test_the_robot_of_the_tutorial_knows_where_it_is():
@@ -138,7 +139,7 @@ def test_a_scan_of_no_place_is_lost():
     """Its readings are as common as the map's own, but in an order that no place has."""
     run = bent_room_run()
     ranges_m = np.random.default_rng(3).permuted(run.posterior.scans.ranges_m, axis=1)
-    result = opened_run(run, "run.nc").result
+    result = open_run(run, "run.nc").result
     result = replace(result, scene=replace(result.scene, scans=replace(run.posterior.scans, ranges_m=ranges_m)))
     notice, _ = Locator().answer(WhereAmI(), result, 0, 1)
     assert notice.p_lost > 0.5
@@ -151,7 +152,7 @@ def test_a_question_waits_for_a_picture_or_is_answered_by_a_reason():
     assert heard.ask(WhereAmI(1)) == []
     heard.finish()
     assert (heard.last("where")[0]["picture"], heard.last("where")[0]["trouble"]) == (1, "")
-    log = opened_log(bent_room_run().posterior.scans, "x.log")
+    log = open_log(bent_room_run().posterior.scans, "x.log")
     heard = Heard(log)
     heard.infer(log.document, "preview")
     assert "run Gibbs" in heard.answer(WhereAmI())[0]["trouble"]
@@ -181,7 +182,7 @@ def test_evidence_for_a_wall_is_the_mean_over_all_maps_of_the_other_cells():
             density = np.exp(table.no_hit[b] if first is None else log_p[first])
             mean[walls[list(cells).index(cell)]] += weight * density
         ratios.append(np.log(mean[True] / mean[False]))
-    evidence = summed(wall_ratios(table, p, cell))
+    evidence = CellFacts(2, 1, False, **sum_evidence(wall_ratios(table, p, cell)))
     assert evidence.beams == len(ratios) > 0
     assert evidence.nats_for - evidence.nats_against == pytest.approx(sum(ratios), abs=1e-5)
     assert evidence.beams_for == sum(r > 0.005 for r in ratios)
@@ -236,12 +237,12 @@ def test_the_strongest_beams_come_first_with_their_ends():
     readings = np.array([[1.0, np.inf], [2.0, -np.inf], [np.nan, 3.0]])
     poses = np.array([[1.0, 1.0, 0.0], [2.0, 0.0, np.pi], [0.0, 5.0, 0.1]])
     scans = bm.Scans(poses, np.array([0.0, np.pi / 2]), readings, max_range_m=6.0, min_range_m=0.5)
-    beams = strongest(BeamRatios(np.array([0, 1, 2, 3]), np.array([0.5, -2.0, 0.004, 1.0]), 8, 2), scans)
+    beams = strongest_beams(BeamRatios(np.array([0, 1, 2, 3]), np.array([0.5, -2.0, 0.004, 1.0]), 8, 2), scans)
     assert [beams[name].tolist() for name in ("nats", "scan", "beam")] == [[-2.0, 1.0, 0.5], [0, 1, 0], [1, 1, 0]]
     np.testing.assert_allclose(beams["start"], [[1, 1], [2, 0], [1, 1]])
     np.testing.assert_allclose(beams["end"], [[1, 7], [2, -0.5], [2, 1]], atol=1e-12)  # no return, too close, a hit
     many = BeamRatios(np.zeros(500, dtype=np.intp), np.linspace(0.01, 5, 500), 500, 1)
-    assert strongest(many, scans)["nats"].tolist() == many.nats[: -MOST_DRAWN - 1 : -1].tolist()
+    assert strongest_beams(many, scans)["nats"].tolist() == many.nats[: -MOST_LISTED - 1 : -1].tolist()
 
 
 def density(rays, beam, stop):
@@ -294,7 +295,7 @@ def test_prior_and_beams_given_one_draw_are_the_log_odds_by_which_gibbs_draws_th
     document = replace(tutorial_document(), prior=0.3, noise=0.6, angles=30, sweeps=40)
     heard = Heard()
     heard.infer(document)
-    stream = heard.engine._result.found
+    stream = heard.engine._result.estimate
     for (x, y), chain, draw in (((12, 6), 0, 5), ((8, 10), 1, 39), ((11, 10), 0, 0)):
         facts, buffers = heard.answer(Inspect(x, y, each=True, chain=chain, draw=draw))
         maps = np.repeat(stream.draw(chain, draw)[0][None].astype(bool), 2, axis=0)

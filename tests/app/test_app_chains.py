@@ -15,14 +15,14 @@ from bayesmap.app.protocol.document import Sensor
 from bayesmap.app.scene import simulate_document, simulated_scene
 from bayesmap.app.shown.chains import (
     POSE_CHAINS,
-    SMALLEST_HEADING_RAD,
-    SMALLEST_POSE_M,
+    SMALLEST_SIGMA_M,
+    SMALLEST_SIGMA_RAD,
     chains_of_walls,
+    first_maps_of,
     pose_prior,
     pose_starts,
-    starts,
 )
-from bayesmap.app.shown.result import Difference, difference, judge_chains, judge_particles, misfit_of
+from bayesmap.app.shown.result import Difference, VerdictLimits, compare_means, judge_chains, judge_particles, misfit_of
 from bayesmap.app.shown.without_chains import Preview
 from bayesmap.kernels.walls.table import trace
 from bayesmap.samplers.wall_problem import WallProblem
@@ -31,7 +31,7 @@ from bayesmap.samplers.without_chains import enumerate_maps, propagate
 
 def test_known_poses_are_sampled_as_known():
     scene = simulated_scene(TINY)
-    assert not chains_of_walls(scene, TINY, starts(scene.problem, TINY, None)).model.poses.unknown
+    assert not chains_of_walls(scene, TINY, first_maps_of(scene.problem, TINY, None)).model.poses.unknown
 
 
 @pytest.mark.parametrize(
@@ -42,14 +42,14 @@ def test_a_run_is_that_of_the_library_and_saved_with_its_poses(changes, tmp_path
     heard = Heard()
     heard.infer(document, "run")
     scans, _ = simulate_document(document)
-    sigma_m = max(document.pose_sigma, SMALLEST_POSE_M)
+    sigma_m = max(document.pose_sigma, SMALLEST_SIGMA_M)
     run = infer(
         scans, document.grid, prior=bm.Independent(0.5), sensor=bm.Gaussian(0.2), method=document.sampler,
-        chains=POSE_CHAINS, warmup=0, draws=6, start=starts(simulated_scene(document).problem, document, None),
-        poses=bm.UncertainPoses(sigma_m, max(document.heading_sigma, SMALLEST_HEADING_RAD)),
+        chains=POSE_CHAINS, warmup=0, draws=6, start=first_maps_of(simulated_scene(document).problem, document, None),
+        poses=bm.UncertainPoses(sigma_m, max(document.heading_sigma, SMALLEST_SIGMA_RAD)),
         start_poses=pose_starts(document, POSE_CHAINS), seed=0,
     )  # fmt: skip
-    stream = heard.engine._result.found
+    stream = heard.engine._result.estimate
     assert np.array_equal(stream.draws.arrays["walls"], run.posterior.draws.arrays["walls"])
     assert np.array_equal(stream.draws.arrays["poses"], run.poses)
     assert np.array_equal(stream.log_joint(), run.log_joint)
@@ -120,11 +120,12 @@ def test_methods_that_take_poses_as_known_do_so(method):
 
 def test_chains_at_several_shifts_are_judged_at_each_and_told_what_would_help(monkeypatch):
     for module in ("chains", "result"):
-        monkeypatch.setattr(f"bayesmap.app.shown.{module}.FEWEST_SWEEPS", 40)  # sweeps of sixteen chains take long
+        limits = VerdictLimits(fewest_sweeps=40)  # sweeps of sixteen chains take long
+        monkeypatch.setattr(f"bayesmap.app.shown.{module}.LIMITS", limits)
     document = replace(tutorial_document(), pose_sigma=1.0, sweeps=40, angles=40)
     heard = Heard()
     header, _ = heard.infer(document)
-    stream = heard.engine._result.found
+    stream = heard.engine._result.estimate
     places = np.unique(stream.shifts, axis=0)
     assert len(places) > 1
     verdict = header["verdict"]
@@ -158,7 +159,7 @@ def previewed(problem, rounds=math.inf):
 @pytest.mark.parametrize("name", CASES)
 def test_beams_that_end_past_their_readings_say_what_whole_ones_say(name):
     scene = simulated_scene(CASES[name])
-    near, whole = previewed(scene.near, 6), previewed(scene.problem, 6)
+    near, whole = previewed(scene.near_problem, 6), previewed(scene.problem, 6)
     least = 0.5 if name == "a building" else 1.0  # there most of a beam is left out
     assert near.problem.table.n_incidences <= least * whole.problem.table.n_incidences
     assert np.abs(near.mean() - whole.mean()).max() < 1e-5
@@ -169,7 +170,7 @@ def test_beams_that_end_at_their_readings_say_something_else(monkeypatch):
     """The wrong twin of the test above is told apart."""
     monkeypatch.setattr(scanning, "NEAR_SIGMAS", 0.5)
     scene = simulated_scene(tutorial_document())
-    assert np.abs(previewed(scene.near, 6).mean() - previewed(scene.problem, 6).mean()).max() > 0.05
+    assert np.abs(previewed(scene.near_problem, 6).mean() - previewed(scene.problem, 6).mean()).max() > 0.05
 
 
 def test_another_prior_shares_the_beams_that_there_are():
@@ -177,7 +178,7 @@ def test_another_prior_shares_the_beams_that_there_are():
     untouched = scene.with_prior(0.3)
     assert "problem" not in vars(untouched)
     assert untouched.problem.prior.p_wall == untouched.near.prior.p_wall == 0.3
-    table, near = scene.problem.table, scene.near.table
+    table, near = scene.problem.table, scene.near_problem.table
     other = scene.with_prior(0.2)
     assert (other.problem.table, other.near.table) == (table, near)
     assert other.problem.prior.p_wall == other.near.prior.p_wall == 0.2
@@ -189,16 +190,16 @@ def test_a_preview_is_the_library_s_belief_propagation_and_one_chain_of_two_star
     preview, whole = previewed(problem), propagate(WallProblem(problem.table, problem.prior, problem.poses))
     assert preview.rounds == len(whole.changes)
     assert np.abs(preview.mean() - whole.p_wall).max() < 1e-5
-    begun = starts(problem, document, preview)
+    begun = first_maps_of(problem, document, preview)
     assert begun.shape == (2, 21, 21)
     sure = np.abs(preview.mean() - 0.5) > 0.4
     assert np.array_equal(begun[0][sure], preview.mean()[sure] > 0.5)
     assert not begun[1].any()
-    assert not starts(problem, replace(document, start="empty"), None).any()
-    drawn = starts(problem, replace(document, start="prior"), None)
+    assert not first_maps_of(problem, replace(document, start="empty"), None).any()
+    drawn = first_maps_of(problem, replace(document, start="prior"), None)
     assert 0.4 < drawn.mean() < 0.6
     assert not np.array_equal(drawn[0], drawn[1])
-    assert np.array_equal(starts(problem, document, None), drawn)
+    assert np.array_equal(first_maps_of(problem, document, None), drawn)
 
 
 NAN = math.nan
@@ -220,7 +221,7 @@ NAN = math.nan
 ])  # fmt: skip
 def test_chains_are_judged_by_r_hat_effective_draws_and_their_difference(rhat, ess, sweeps, apart, over, level, why):
     largest = None if apart is None else Difference(apart, (3, 4), 2 * (apart > 0.25), 100)
-    verdict = judge_chains(rhat, ess, sweeps, largest, over=over)
+    verdict = judge_chains(rhat, ess, sweeps, largest, ended=over)
     assert (verdict and verdict.level) == level
     assert verdict is None or why in verdict.why
     assert verdict is None or ("(3, 4)" in verdict.why) == ("(3, 4)" in why)
@@ -245,8 +246,8 @@ def test_rare_walls_cell_by_cell_from_the_prior_are_seen_to_be_impossible_and_bl
     document = replace(tutorial_document(), prior=0.05, method=method, start="prior", sweeps=250, seed=3)
     heard = Heard()
     verdict = heard.infer(document)[0]["verdict"]
-    stream = heard.engine._result.found
-    likelihood = stream._log_likelihood[:, stream._past[0].sweep :]
+    stream = heard.engine._result.estimate
+    likelihood = stream._log_likelihood[:, stream._checkpoints[0].sweep :]
     assert (misfit_of(likelihood, document.noise, document.angles) is None) == (method == "block")
     assert (verdict["level"] == "bad") == (method == "gibbs")
 
@@ -262,11 +263,11 @@ def test_the_difference_is_the_largest_among_the_observed_cells():
     means = np.zeros((3, 4, 5))
     means[0, 1, 2], means[2, 3, 3] = 0.5, 0.9
     among = np.ones((4, 5), dtype=bool)
-    assert difference(means, among) == Difference(0.9, (3, 3), 2, 20)
+    assert compare_means(means, among) == Difference(0.9, (3, 3), 2, 20)
     among[3, 3] = False
-    assert difference(means, among) == Difference(0.5, (1, 2), 1, 19)
-    assert difference(means[:1], among) is None
-    assert difference(means, np.zeros((4, 5), dtype=bool)) is None
+    assert compare_means(means, among) == Difference(0.5, (1, 2), 1, 19)
+    assert compare_means(means[:1], among) is None
+    assert compare_means(means, np.zeros((4, 5), dtype=bool)) is None
 
 
 @pytest.mark.parametrize(("ess", "level", "why"), [

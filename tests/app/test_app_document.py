@@ -10,7 +10,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from bayesmap.app.edits import new_document, tutorial_document
-from bayesmap.app.protocol.document import BOUNDS, Document, Refused, Sensor, packed
+from bayesmap.app.protocol.document import BOUNDS, Document, Refused, Sensor, pack_walls
 from bayesmap.app.protocol.wire import (
     ACTIONS,
     MAX_BYTES,
@@ -46,7 +46,7 @@ def documents(draw):
         "order": st.sampled_from(["raster", "radial", "random"]), "sweeps": st.integers(1, 100_000),
         "seed": st.integers(0, 2**31 - 1),
     }  # fmt: skip
-    return Document(grid, packed(cells), tuple(sensors), **draw(st.fixed_dictionaries(settings)))
+    return Document(grid, pack_walls(cells), tuple(sensors), **draw(st.fixed_dictionaries(settings)))
 
 
 @given(documents())
@@ -64,7 +64,7 @@ def test_fields_that_are_left_out_are_written_with_their_defaults():
 def test_walls_are_packed_as_the_page_s_description_says_and_cannot_be_written_to():
     cells = np.zeros((3, 4), dtype=bool)
     cells[0, 0] = cells[2, 3] = True  # bits 0 and 11 of 12
-    document = Document(Grid((3, 4)), packed(cells), (Sensor(1, 0.5, 1.5),))
+    document = Document(Grid((3, 4)), pack_walls(cells), (Sensor(1, 0.5, 1.5),))
     assert document.to_json()["walls"] == "gBA="  # 1000 0000 0001 0000
     assert np.array_equal(parse_document(document.to_json()).is_wall, cells)
     with pytest.raises(ValueError, match="read-only"):

@@ -15,7 +15,7 @@ from bayesmap.app.protocol.actions import Cancel, Inspect
 from bayesmap.app.protocol.notices import DrawCount, View
 from bayesmap.app.scene import simulate_document, simulated_scene
 from bayesmap.app.shown.chains import DRAW_BYTES, Stream
-from bayesmap.app.shown.result import FEWEST_SWEEPS
+from bayesmap.app.shown.result import LIMITS
 from bayesmap.model import Model
 from bayesmap.posterior.summary import bulk_ess
 from bayesmap.run.chains import SweepPlan
@@ -47,7 +47,7 @@ def test_a_job_is_a_preview_and_then_chains_to_their_last_sweep():
     assert fields[0]["approximate"]
     assert fields[-1]["sweeps"] == fields[-1]["total"] == 1000
     assert 0.9 < fields[-1]["rhat"] < 1.1
-    assert fields[-1]["ess"] == pytest.approx(bulk_ess(heard.engine._result.found.log_joint()[:, 100:]))
+    assert fields[-1]["ess"] == pytest.approx(bulk_ess(heard.engine._result.estimate.log_joint()[:, 100:]))
     assert heard.all("finished")[-1]["draws"] == DrawCount(2, 1000)
 
 
@@ -73,7 +73,7 @@ def test_the_burn_in_is_left_out_of_mean_diagnostics_and_saved_runs(burn_in, mod
     header, buffers = fields[-1]
     first = header["burned"]
     assert first == round(100 * burn_in)
-    found = heard.engine._result.found
+    found = heard.engine._result.estimate
     assert header["ess"] == pytest.approx(bulk_ess(found.log_joint()[:, first:]))
     if mode == "run":
         saved = heard.saved_run(tmp_path)
@@ -94,7 +94,7 @@ def test_a_run_is_that_of_the_library(method):
     )  # fmt: skip
     assert header["draws"] == {"chains": 2, "count": 40}
     assert header["burned"] == 4  # a tenth is left out of the mean
-    touched = heard.engine._result.found.problem.touched()
+    touched = heard.engine._result.estimate.problem.touched()
     np.testing.assert_allclose(buffers["p"][touched], 255 * run.draws[:, 4:].mean(axis=(0, 1))[touched], atol=0.5001)
     assert (buffers["p"][~touched] == 64).all()  # cells that no beam touches follow the prior
     for chain, draw in ((0, 0), (1, 39), (0, 17)):
@@ -110,13 +110,13 @@ def test_run_goes_on_from_the_draws_of_live_and_of_a_run(most, steps, burn_in, m
     document = replace(tutorial_document(), sweeps=20, burn_in=burn_in)
     whole = Heard()
     whole.infer(replace(document, sweeps=60), "live")
-    reference = whole.engine._result.found
+    reference = whole.engine._result.estimate
     monkeypatch.setattr("bayesmap.app.shown.chains.DRAW_BYTES", most * reference._draw_bytes)
     heard = Heard()
     heard.infer(document, "live", steps=steps)
     for _ in range(2):
         header, _ = heard.infer(document, "run")
-    found = heard.engine._result.found
+    found = heard.engine._result.estimate
     assert header["sweeps"] == header["total"] == found.total >= 60
     assert header["draws"]["count"] == found.draws.count == found.total // found.thin <= most
     assert np.array_equal(found.log_joint()[:, :60], reference.log_joint())
@@ -149,7 +149,7 @@ def test_cancelled_and_few_sweeps_are_kept_and_judged_once_they_are_over():
     heard.ask(Cancel())
     assert not heard.engine.busy
     field, count = heard.last("field")[0], heard.all("finished")[-1]["draws"].count
-    assert 0 < count == field["sweeps"] < FEWEST_SWEEPS
+    assert 0 < count == field["sweeps"] < LIMITS.fewest_sweeps
     assert field["verdict"]["level"] == "bad"
     assert heard.answer(View("mean"))[0]["verdict"] == field["verdict"]
     assert heard.answer(View("draw", 0, count - 1))[0]["draw"] == count - 1
@@ -186,7 +186,8 @@ def test_a_fault_is_told_and_the_engine_goes_on(monkeypatch, capsys):
 
 
 def test_the_worker_loads_neither_jax_nor_matplotlib():
-    code = "import bayesmap.app.worker as w, sys; w._warm(); print({'jax', 'matplotlib', 'netCDF4'} & set(sys.modules))"
+    load = "import bayesmap.app.worker as w, sys; w._load_kernels()"
+    code = f"{load}; print({{'jax', 'matplotlib', 'netCDF4'}} & set(sys.modules))"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "set()"
 

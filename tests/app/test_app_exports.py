@@ -151,7 +151,7 @@ def test_the_map_of_chains_calls_free_what_four_beams_passed_as_that_of_a_run(tm
     heard.saved_run(tmp_path).export(tmp_path / "own.yaml")
     occupancy, _ = saved_map(heard, tmp_path)
     assert np.array_equal(occupancy, read_map(tmp_path / "own.yaml")[0], equal_nan=True)
-    found = heard.engine._result.found
+    found = heard.engine._result.estimate
     thin = found.observed() & (found.mean() < found.prior.thresholds[1]) & np.isnan(occupancy)
     assert thin.any()  # few beams passed there
 

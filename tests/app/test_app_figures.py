@@ -1,4 +1,4 @@
-"""Figures that sample without a server, and stories: read, refused with the step and the key, and gone through."""
+"""Progress that sample without a server, and stories: read, refused with the step and the key, and gone through."""
 
 import json
 import re

@@ -9,15 +9,15 @@ import pytest
 from acted import Acted, Heard
 from poses.simulated import recording
 
-from bayesmap.app.edits import adopted, with_resolution
+from bayesmap.app.edits import adopt_document, with_resolution
 from bayesmap.app.protocol.actions import Cancel, Export, Inspect, ShowScan
 from bayesmap.app.protocol.document import Refused
 from bayesmap.app.protocol.notices import DrawCount
 from bayesmap.app.protocol.tasks import Infer, Located, OnGrid, Ready, Remember
 from bayesmap.app.protocol.wire import parse_document
-from bayesmap.app.shown.hit_maps import MOST_SCANS, counted_map, grown, thinned
-from bayesmap.app.sources import opened_log
-from bayesmap.app.trajectory import ASK_TO_RUN, STAGE_TEXTS, TrajectoryJob, at_inferred_poses
+from bayesmap.app.shown.hit_maps import MOST_SCANS, grow_grid, hit_count_map, thin_scans
+from bayesmap.app.sources import open_log
+from bayesmap.app.trajectory import ASK_TO_RUN, STAGE_TEXTS, TrajectoryJob, move_to_trajectory
 from bayesmap.poses.slam import in_order_of_time
 from bayesmap.space.grid import Grid
 
@@ -34,7 +34,7 @@ def raw_scans():
 
 @cache
 def raw_log():
-    return opened_log(raw_scans(), "raw.log")
+    return open_log(raw_scans(), "raw.log")
 
 
 def few_sweeps():
@@ -51,7 +51,7 @@ def found():
 
 def test_poses_are_taken_for_what_they_look_like():
     assert raw_log().document.poses == "odometry"
-    assert opened_log(raw_scans().at(recorded()[1]), "true.log").document.poses == "logged"
+    assert open_log(raw_scans().at(recorded()[1]), "true.log").document.poses == "logged"
 
 
 def test_a_log_before_its_run_is_shown_as_logged_and_answers_questions():
@@ -60,7 +60,7 @@ def test_a_log_before_its_run_is_shown_as_logged_and_answers_questions():
     assert header["method"] == "counts"
     assert heard.last("status")[0]["text"] == ASK_TO_RUN
     assert heard.all("stage") == []
-    counted = counted_map(raw_scans(), raw_log().document.grid)
+    counted = hit_count_map(raw_scans(), raw_log().document.grid)
     assert np.abs(buffers["p"] / 255 - counted.mean()).max() <= 0.5 / 255 + 1e-9
     assert np.array_equal(buffers["reached"] == 255, counted.observed())
     assert np.allclose(heard.last("overlay")[1]["trajectory"], raw_scans().poses[:, :2], atol=1e-5)
@@ -106,7 +106,7 @@ def test_run_bends_the_trajectory_stage_by_stage_and_then_samples_the_cells(foun
     placed, sizes = found.engine._log_trajectory.placed.scans, []
     for scans in (raw_scans(), placed):  # the map sharpens: at wrong poses more cells seem to be walls
         grid = Grid.covering(scans, 0.1)
-        sizes.append((counted_map(scans, grid).mean() > 0.5).sum())
+        sizes.append((hit_count_map(scans, grid).mean() > 0.5).sum())
     assert sizes[1] < 0.8 * sizes[0]
     assert found.all("ongrid")[-1]["grid"] == grid == found.engine._result.document.grid
 
@@ -135,7 +135,9 @@ def test_a_log_that_was_located_is_mapped_on_cells_of_any_size_from_the_first_of
     assert header["method"] == "counts"  # nobody knows yet where the robot was
     raw = Grid.covering(raw_scans(), 0.2)
     assert coarse.grid == raw
-    assert np.abs(buffers["p"] / 255 - counted_map(raw_scans().select(slice(40)), raw).mean()).max() <= 0.5 / 255 + 1e-9
+    assert (
+        np.abs(buffers["p"] / 255 - hit_count_map(raw_scans().select(slice(40)), raw).mean()).max() <= 0.5 / 255 + 1e-9
+    )
     known = found.all("located")[0]["trajectory"]
     heard.engine.take(Remember(known.poses, known.angles_rad))
     placed = heard.engine._log_trajectory.placed.scans
@@ -147,7 +149,7 @@ def test_a_log_that_was_located_is_mapped_on_cells_of_any_size_from_the_first_of
         assert header["method"] == result.method == method
         assert heard.last("ongrid")[0]["grid"] == grid == result.document.grid
         assert buffers["p"].shape == grid.shape
-        assert len(result.scene.used_scans) == 40
+        assert result.scene.n_used == 40
         assert np.array_equal(result.scene.scans.poses, placed.poses)
     beams = 40 * len(placed.angles_rad)
     assert result.scene.problem.table.n_beams == beams < placed.ranges_m.size
@@ -177,7 +179,7 @@ def test_another_job_takes_the_place_of_the_inference():
 
 def test_trouble_of_the_inference_is_reported():
     blind = replace(raw_scans(), ranges_m=np.full_like(raw_scans().ranges_m, np.inf))
-    log = opened_log(blind, "blind.log")
+    log = open_log(blind, "blind.log")
     heard = Heard(log)
     heard.infer(replace(log.document, poses="odometry"), "run", steps=0)
     heard.finish()
@@ -189,7 +191,7 @@ def test_a_log_gives_equal_poses_again_and_scans_stay_in_its_order(found):
     scans = raw_scans().select(shuffled)
     job = TrajectoryJob(Infer(1, few_sweeps(), "run"), scans, raw_log().document.grid)
     steps = [step for step in job.steps() if step is not None]
-    last = at_inferred_poses(scans, job.trajectory)
+    last = move_to_trajectory(scans, job.trajectory)
     assert np.array_equal(in_order_of_time(scans)[0], np.argsort(scans.stamps_s))
     assert np.array_equal(last.stamps_s, scans.stamps_s)
     assert np.array_equal(last.poses, found.engine._log_trajectory.placed.scans.poses[shuffled])
@@ -198,17 +200,17 @@ def test_a_log_gives_equal_poses_again_and_scans_stay_in_its_order(found):
 
 def test_the_map_only_grows_and_on_the_same_lattice():
     grid = raw_log().document.grid
-    assert grown(grid, raw_scans()) == grid
+    assert grow_grid(grid, raw_scans()) == grid
     away = raw_scans().at(raw_scans().poses + np.array([-3.33, 0.0, 0.0]))
-    larger = grown(grid, away)
+    larger = grow_grid(grid, away)
     x0, x1, y0, y1 = larger.extent_m
     assert x0 < grid.extent_m[0]
     assert x1 == pytest.approx(grid.extent_m[1])
     assert (y0, y1) == pytest.approx(grid.extent_m[2:])
     assert (grid.origin[0] - x0) / 0.1 == pytest.approx(round((grid.origin[0] - x0) / 0.1))
-    assert counted_map(away, larger).observed().sum() > 1000
+    assert hit_count_map(away, larger).observed().sum() > 1000
     many = raw_scans().select(np.arange(2000) % len(raw_scans()))
-    assert len(thinned(many)) == MOST_SCANS
+    assert len(thin_scans(many)) == MOST_SCANS
 
 
 def test_the_session_takes_over_the_grid_and_keeps_the_trajectory_for_the_next_worker():
@@ -236,8 +238,8 @@ def test_the_session_takes_over_the_grid_and_keeps_the_trajectory_for_the_next_w
 def test_a_link_to_a_log_that_was_inferred_fits_the_log_as_it_is_opened():
     inferred = replace(raw_log().document.on_grid(Grid((30, 40), 0.1)), sweeps=77)
     brought = parse_document({**inferred.to_json(), "walls": ""})
-    assert adopted(raw_log().document, brought).sweeps == 77
-    assert adopted(raw_log().document, brought).grid == raw_log().document.grid
+    assert adopt_document(raw_log().document, brought).sweeps == 77
+    assert adopt_document(raw_log().document, brought).grid == raw_log().document.grid
     as_logged = [replace(document, poses="logged") for document in (raw_log().document, brought)]
     with pytest.raises(Refused):
-        adopted(*as_logged)
+        adopt_document(*as_logged)

@@ -13,9 +13,9 @@ from bayesmap.app.protocol.actions import MoveGhost, ShowScan
 from bayesmap.app.protocol.document import Source
 from bayesmap.app.protocol.notices import Overlay, View
 from bayesmap.app.protocol.wire import parse_document
-from bayesmap.app.scene import hits
-from bayesmap.app.shown.hit_maps import HitCounts, coarse_map
-from bayesmap.app.sources import OpenedLog, first_beams, opened_log
+from bayesmap.app.scene import hit_mask
+from bayesmap.app.shown.hit_maps import HitCounts, stop_probabilities
+from bayesmap.app.sources import OpenedLog, first_beams, open_log
 from bayesmap.cells.arrays import Draws
 from bayesmap.samplers.fit import first_sensor, pilot_sweeps
 from bayesmap.samplers.sampler import Keep
@@ -25,7 +25,7 @@ from bayesmap.space.grid import Grid
 
 @pytest.fixture(scope="module")
 def log():
-    return opened_log(room_scans(), "room.log")
+    return open_log(room_scans(), "room.log")
 
 
 @pytest.fixture
@@ -193,7 +193,7 @@ def test_counts_are_those_of_a_plain_walk_whatever_the_way_to_them(log):
         off = np.abs(found[1] - expected[1])
         assert off.sum() <= 0.05 * expected[1].sum()
     np.testing.assert_array_equal(counts.first(None), counts.first(12))
-    assert counts.first(1)[0].sum() == hits(scene)[0].sum()
+    assert counts.first(1)[0].sum() == hit_mask(scene)[0].sum()
 
 
 @pytest.mark.parametrize("cells", ["binary", "reflectivity", "surface"])
@@ -207,7 +207,7 @@ def test_the_coarse_picture_is_made_of_counts_at_once(log, cells):
     scene = log.scene(replace(document, scans_used=None))
     counts = HitCounts(scene.scans, scene.problem.table).first(6)
     prior = {"binary": bm.Independent(0.2), "reflectivity": bm.Beta(), "surface": bm.Surface()}[cells]
-    np.testing.assert_array_equal(buffers["p"].ravel(), np.rint(255 * coarse_map(counts, prior, 0.2)))
+    np.testing.assert_array_equal(buffers["p"].ravel(), np.rint(255 * stop_probabilities(counts, prior, 0.2)))
     observed = buffers["reached"].ravel() > 0
     np.testing.assert_array_equal(observed, counts.any(axis=0))
     p = buffers["p"].ravel() / 255
@@ -225,7 +225,7 @@ def surfaces_of(log):
 
 def test_surfaces_of_a_log_are_counted_first_then_shown_by_the_draws_of_the_chain_that_fits_the_sensor_once(log):
     surfaces = Heard(log)
-    surfaces.engine._display.due = lambda: True
+    surfaces.engine._display.frame_is_due = lambda: True
     _, first = surfaces.infer(surfaces_of(log), "run")
     fields = surfaces.every("field")
     methods = [header["method"] for header, _ in fields]
@@ -258,7 +258,7 @@ def test_surfaces_of_a_log_are_counted_first_then_shown_by_the_draws_of_the_chai
 def test_draws_intervals_and_surfaces_are_shown_while_the_sensor_is_fitted(log, monkeypatch):
     monkeypatch.setattr("bayesmap.app.display.OVERLAY_SECONDS", 0.0)
     heard = Heard(log)
-    heard.engine._display.due = lambda: True
+    heard.engine._display.frame_is_due = lambda: True
     heard.infer(surfaces_of(log), "run", steps=9)
     assert heard.last("field")[0]["method"] == "pilot"
     heard.ask(View("draw"))

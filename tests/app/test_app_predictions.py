@@ -84,13 +84,13 @@ def test_it_works_on_live_posteriors_and_says_how_many_draws_there_are(mode, dra
 
 
 def test_chains_rest_while_it_is_moved(monkeypatch):
-    monkeypatch.setattr("bayesmap.app.engine.GHOST_SECONDS", 60.0)  # this process may be kept waiting
+    monkeypatch.setattr("bayesmap.app.engine.VIRTUAL_SCAN_SECONDS", 60.0)  # this process may be kept waiting
     heard = Heard()
     heard.infer_until(replace(tutorial_document(), sweeps=100_000), heard.chains_run)
     heard.answer(MoveGhost(6.0, 15.0, 0.0))
-    before = heard.engine._result.found.sweep
+    before = heard.engine._result.estimate.sweep
     heard.engine.advance()
-    assert heard.engine._result.found.sweep == before
+    assert heard.engine._result.estimate.sweep == before
 
 
 def test_its_draws_are_those_of_the_last_sweep_once_chains_are_done(monkeypatch):

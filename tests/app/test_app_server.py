@@ -22,7 +22,7 @@ from websockets.sync.client import connect
 from bayesmap.app.edits import tutorial_document
 from bayesmap.app.protocol.tasks import Alive, Infer, Ready, Report, ShowScan
 from bayesmap.app.server import Guard
-from bayesmap.app.worker import Reporter, Supervisor, still_valid
+from bayesmap.app.worker import Reporter, Supervisor, drop_outdated
 
 SILENCE_S = 4.0
 
@@ -145,9 +145,9 @@ def test_a_worker_does_the_last_waiting_job_and_those_it_goes_on_from():
     first, other = Infer(1, document, "live"), Infer(2, replace(document, seed=1), "live")
     runs = [Infer(n, document, "run") for n in (3, 4)]
     show = ShowScan(0)
-    assert still_valid([other, show, first, *runs]) == [show, first, *runs]
-    assert still_valid([first, *runs, other]) == [other]
-    assert still_valid([first, other, runs[0]]) == [runs[0]]
+    assert drop_outdated([other, show, first, *runs]) == [show, first, *runs]
+    assert drop_outdated([first, *runs, other]) == [other]
+    assert drop_outdated([first, other, runs[0]]) == [runs[0]]
 
 
 @pytest.mark.parametrize("data", [

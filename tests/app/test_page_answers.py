@@ -9,7 +9,8 @@ from building_log import ANGLES
 from page_driver import centre, colour_at, document, propagated, settled, snapshot, until
 from page_hands import act, choose, click, press_and_drag
 
-from bayesmap.app.answers.evidence import strongest, summed, wall_ratios
+from bayesmap.app.answers.evidence import strongest_beams, sum_evidence, wall_ratios
+from bayesmap.app.protocol.notices import CellFacts
 from bayesmap.posterior.prediction import ScanPredictor, predictor_of
 from bayesmap.sensors.model import RangeLimits
 
@@ -110,7 +111,7 @@ def test_the_beams_of_a_cell_are_counted_under_the_hand_and_drawn_where_it_click
         sure = np.argwhere(preview.observed() & cells)
         x, y = sure[len(sure) // 2].tolist()
         ratios = wall_ratios(scene.problem.table, p_wall.ravel(), x * p_wall.shape[1] + y)
-        known, expected = summed(ratios), strongest(ratios, scene.scans)
+        known, expected = CellFacts(0, 0, True, **sum_evidence(ratios)), strongest_beams(ratios, scene.scans)
         assert (known.nats_for > known.nats_against) == is_wall
         page.mouse.move(*centre(page, x, y))
         for words in (f"Cell {x}, {y}", f"{known.beams} beam", f"for a wall {known.beams_for}, "):

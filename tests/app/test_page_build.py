@@ -20,12 +20,12 @@ from page_driver import document, fragment
 import bayesmap as bm
 from bayesmap.app.edits import tutorial_document
 from bayesmap.app.protocol.actions import Export, Inspect, ShowScan
-from bayesmap.app.protocol.document import Sensor, packed
+from bayesmap.app.protocol.document import Sensor, pack_walls
 from bayesmap.app.protocol.notices import LIMITS, View
 from bayesmap.app.protocol.tasks import Remember
 from bayesmap.app.protocol.wire import frame
 from bayesmap.app.scene import simulated_scene
-from bayesmap.app.sources import opened_log
+from bayesmap.app.sources import open_log
 from bayesmap.posterior.summary import bulk_ess, rhat
 from bayesmap.samplers.walls import WallBlocks, WallGibbs
 from bayesmap.samplers.without_chains import sample_importance
@@ -44,7 +44,7 @@ def drawn(**settings):
 
 def of_log(cells, mode, poses="logged"):
     scans = room_scans()
-    opened = opened_log(scans, "room.log")
+    opened = open_log(scans, "room.log")
     heard = Heard(opened)
     if poses == "odometry":  # as a worker that is told what an earlier one has inferred
         heard.engine.take(Remember(scans.poses + np.array([0.2, 0.1, 0.02]), scans.angles_rad))
@@ -114,7 +114,7 @@ def small_document(**settings):
     walls[[3, 10], [4, 6]] = False
     grid = bm.Grid((14, 9), 0.25, (-1.0, 0.4))
     sensors = (Sensor(1, -0.125, 1.5, 0.3), Sensor(2, 1.6, 2.0, 2.0))
-    changes = {"walls": packed(walls), "sensors": sensors, "angles": 25, "fov": 3.0, "noise": 0.1, "max_range": 1.8}
+    changes = {"walls": pack_walls(walls), "sensors": sensors, "angles": 25, "fov": 3.0, "noise": 0.1, "max_range": 1.8}
     return replace(tutorial_document(), grid=grid, **{**changes, **settings})
 
 
@@ -154,7 +154,7 @@ def particles_of(document):
     return {
         **scene_of(document, scene), "log_weights": particles.log_weights.tolist(),
         "log_evidence": particles.log_evidence, "effective_sample_size": particles.effective_sample_size,
-        "heaviest": base64.b64encode(packed(heaviest)).decode(),
+        "heaviest": base64.b64encode(pack_walls(heaviest)).decode(),
     }  # fmt: skip
 
 

@@ -57,4 +57,4 @@ def _warm_context():
 
 
 if LOADS in os.environ:
-    worker._warm()
+    worker._load_kernels()

@@ -15,7 +15,7 @@ from oracle.worlds import make_case, random_prior
 from tiers import full_but, latin, pairs_but
 
 import bayesmap as bm
-from bayesmap.app.sources import opened_run
+from bayesmap.app.sources import open_run
 from bayesmap.cells.binary import LARGEST_FITTED, walls_less_free
 from bayesmap.cells.ising_field import rough_draw
 from bayesmap.model import Model
@@ -131,9 +131,9 @@ def test_its_runs_are_scored_drawn_exported_and_opened_on_the_page(tmp_path):
     assert np.isfinite(bm.score(run, case.scans).nats_per_beam)
     assert run.plot().axes
     assert all(path.stat().st_size > 0 for path in run.export(tmp_path / "map.yaml"))
-    result = opened_run(run, "run.nc").result
+    result = open_run(run, "run.nc").result
     assert result.prior is case.prior
-    np.testing.assert_array_equal(result.found.mean(), run.occupancy)
+    np.testing.assert_array_equal(result.estimate.mean(), run.occupancy)
     assert result.document.prior == 0.3
 
 

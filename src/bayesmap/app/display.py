@@ -12,16 +12,16 @@ from numpy.typing import NDArray
 
 from bayesmap.app.protocol.notices import OWN_LAYERS, AnyNotice, DrawCount, Field, Overlay, View
 from bayesmap.app.protocol.tasks import Buffers, Finished, Infer, OnGrid, Report, Show, Signal
-from bayesmap.app.scene import Scene, rays
+from bayesmap.app.scene import Scene, scan_message
 from bayesmap.app.shown.result import Result
 from bayesmap.space.grid import Grid
 
 FRAME_SECONDS = 0.08  # least time between two fields
 OVERLAY_SECONDS = 2.0  # least time between two overlays of the surfaces of chains that go on
 LEVELS = 255  # the number that stands for a probability of one
-TRACED = 300  # evenly chosen points of the trace in a field
+TRACE_POINTS = 300  # evenly chosen points of the trace in a field
 FIRST_SWEEPS = 100  # first sweeps that are all included in the trace
-LEAST_REFLECTIVITY = 0.1  # surfaces with a smaller reflectivity are not drawn
+LEAST_REFLECTIVITY = 0.1  # surfaces with a smaller reflectivity are not shown
 WEIGHT_BINS = 24  # the number of bins of a histogram of log weights
 
 OnReport = Callable[[Report], None]
@@ -31,16 +31,15 @@ class Display:
     """Makes the reports of one job after another."""
 
     def __init__(self, on_report: OnReport) -> None:
-        self._send = on_report
+        self._on_report = on_report
         self.generation, self.grid = -1, Grid((1, 1))  # number and grid of the present picture
         self._views: dict[int, View] = {}  # the views of pages that get their own fields
-        self._began = 0.0
-        self._framed = self._overlaid = 0.0
+        self._began_s = self._frame_sent_s = self._overlay_sent_s = 0.0
 
     def begin(self, task: Infer) -> None:
         """Begin the reports of another job."""
         self.generation, self.grid = task.generation, task.document.grid
-        self._began = time.perf_counter()
+        self._began_s = time.perf_counter()
 
     def show(self, task: Show, result: Result | None) -> None:
         """Change the view of a page. If there is a result, send the page the field of that view."""
@@ -48,79 +47,79 @@ class Display:
         if task.view.layer in OWN_LAYERS:
             self._views[task.client] = task.view
         if result is not None:
-            self._field(task.view, result, task.client)
+            self._send_field(task.view, result, task.client)
 
-    def report(self, message: AnyNotice | Signal, buffers: Buffers | None = None, client: int | None = None) -> None:
+    def send(self, message: AnyNotice | Signal, buffers: Buffers | None = None, client: int | None = None) -> None:
         """Send any message."""
-        self._send(Report(message, buffers or {}, client))
+        self._on_report(Report(message, buffers or {}, client))
 
-    def frame(self, result: Result) -> None:
+    def send_frame(self, result: Result) -> None:
         """Send a field to every page."""
         for client, view in ((None, View("mean")), *self._views.items()):
-            self._field(view, result, client)
-        self._framed = time.perf_counter()
-        if result.prior.has_surfaces and self._framed - self._overlaid > OVERLAY_SECONDS:
-            self.overlay(result)
+            self._send_field(view, result, client)
+        self._frame_sent_s = time.perf_counter()
+        if result.prior.has_surfaces and self._frame_sent_s - self._overlay_sent_s > OVERLAY_SECONDS:
+            self.send_overlay(result)
 
-    def _field(self, view: View, result: Result, client: int | None) -> None:
+    def _send_field(self, view: View, result: Result, client: int | None) -> None:
         """Send a field to one page, or to all pages without fields of their own."""
-        self.report(*field_of(result, view, self.generation, round(1e3 * self.elapsed_s(), 1)), client)
+        self.send(*field_of(result, view, self.generation, round(1e3 * self.elapsed_s(), 1)), client)
 
-    def rays(self, scene: Scene, scan: int | None) -> None:
+    def send_scan(self, scene: Scene, scan: int | None) -> None:
         """Send the beams of one scan, or of all sensors."""
-        self.report(*rays(scene, scan, self.generation))
+        self.send(*scan_message(scene, scan, self.generation))
 
-    def overlay(self, result: Result) -> None:
+    def send_overlay(self, result: Result) -> None:
         """Send the overlay of a file: surfaces and trajectory."""
         if not result.document.simulated:
-            self.report(Overlay(generation=self.generation), overlay_of(result))
-            self._overlaid = time.perf_counter()
+            self.send(Overlay(generation=self.generation), overlay_of(result))
+            self._overlay_sent_s = time.perf_counter()
 
-    def on_grid(self, grid: Grid) -> None:
+    def send_grid(self, grid: Grid) -> None:
         """Report the map's grid if it has changed."""
         if grid != self.grid:
             self.grid = grid
-            self.report(OnGrid(grid, generation=self.generation))
+            self.send(OnGrid(grid, generation=self.generation))
 
-    def finished(self, result: Result | None) -> None:
+    def send_finished(self, result: Result | None) -> None:
         """Report that the job is done."""
         draws = DrawCount() if result is None else result.draw_count
-        self.report(Finished(draws, generation=self.generation))
+        self.send(Finished(draws, generation=self.generation))
 
     def elapsed_s(self) -> float:
         """Return the seconds since the job began."""
-        return time.perf_counter() - self._began
+        return time.perf_counter() - self._began_s
 
-    def due(self) -> bool:
-        """Return whether another frame is due."""
-        return time.perf_counter() - self._framed > FRAME_SECONDS
+    def frame_is_due(self) -> bool:
+        """Return whether the last frame was sent more than `FRAME_SECONDS` ago."""
+        return time.perf_counter() - self._frame_sent_s > FRAME_SECONDS
 
 
 def field_of(result: Result, view: View, generation: int, milliseconds: float) -> tuple[Field, Buffers]:
     """Return the field of a view and its buffers. If the draw or the interval does not exist, return the mean."""
-    found, layer, chain, number, lowest = result.found, view.layer, None, None, None
-    trace, traced = trace_of(found.log_joint())
+    estimate, layer, chain, number, lowest = result.estimate, view.layer, None, None, None
+    trace, traced = thin_trace(estimate.log_joint())
     buffers: dict[str, NDArray[np.generic]] = {"trace": trace, "traced": traced}
-    if found.log_weights is not None:
-        buffers["weights"], lowest = histogram(found.log_weights)
-    one = found.draw(view.chain, view.draw) if layer == "draw" else None
-    figures = found.figures(result.over)
-    if one is not None:
-        numbers, chain, number = one
-        figures = replace(figures, log_joint=found.log_joint_of_draw(chain, number))
+    if estimate.log_weights is not None:
+        buffers["weights"], lowest = histogram(estimate.log_weights)
+    drawn = estimate.draw(view.chain, view.draw) if layer == "draw" else None
+    progress = estimate.progress(result.ended)
+    if drawn is not None:
+        numbers, chain, number = drawn
+        progress = replace(progress, log_joint=estimate.log_joint_of_draw(chain, number))
     elif layer == "width" and result.width is not None:
         numbers = result.width
     else:
-        layer, numbers = "mean" if layer in OWN_LAYERS else layer, found.mean()
+        layer, numbers = "mean" if layer in OWN_LAYERS else layer, estimate.mean()
     field = Field(
-        generation=generation, layer=layer, method=result.method, approximate=found.approximate,
-        **figures.as_fields(), draws=result.draw_count, quantity=result.quantity,
-        about=result.about, milliseconds=milliseconds, chain=chain, draw=number, averaged=found.averaged, lowest=lowest,
+        generation=generation, layer=layer, method=result.method, approximate=estimate.approximate,
+        **progress.as_fields(), draws=result.draw_count, quantity=result.quantity, about=result.about,
+        milliseconds=milliseconds, chain=chain, draw=number, averaged=estimate.averaged, lowest=lowest,
     )  # fmt: skip
-    return field, {"p": levels(numbers), "reached": levels(found.reached()), **buffers}
+    return field, {"p": to_levels(numbers), "reached": to_levels(estimate.reached()), **buffers}
 
 
-def levels(numbers: NDArray[Any]) -> NDArray[np.uint8]:
+def to_levels(numbers: NDArray[Any]) -> NDArray[np.uint8]:
     """Return numbers from 0 to 1 in 255ths."""
     return np.rint(numbers * np.float32(LEVELS)).astype(np.uint8)
 
@@ -130,23 +129,25 @@ def overlay_of(result: Result) -> dict[str, NDArray[np.float32]]:
     return {"strokes": strokes_of(result), "trajectory": result.scan_poses[:, :2].astype(np.float32)}
 
 
-def trace_of(log_joint: NDArray[np.float64]) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-    """Thin a trace, (chains, n), to all of the first sweeps and evenly chosen later sweeps. Returns the log joint at
-    these sweeps, (chains, m), and the sweeps, counted from 1, (m,).
+def thin_trace(log_joint: NDArray[np.float64]) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """Thin a trace, (chains, n), to all of the first sweeps and evenly chosen later sweeps.
+
+    Returns the log joint at these sweeps, (chains, m), and the sweeps, counted from 1, (m,).
     """
     count = log_joint.shape[1]
-    later = np.linspace(1, count, min(count, TRACED)).round().astype(int) if count else np.zeros(0, dtype=int)
-    chosen = np.union1d(np.arange(1, min(count, FIRST_SWEEPS) + 1), later)
-    return log_joint[:, chosen - 1].astype(np.float32), chosen.astype(np.float32)
+    later = np.linspace(1, count, min(count, TRACE_POINTS)).round().astype(int) if count else np.zeros(0, dtype=int)
+    sweeps = np.union1d(np.arange(1, min(count, FIRST_SWEEPS) + 1), later)
+    return log_joint[:, sweeps - 1].astype(np.float32), sweeps.astype(np.float32)
 
 
 def histogram(log_weights: NDArray[np.float64]) -> tuple[NDArray[np.float32], float]:
-    """Count log weights in bins of equal width up to the largest. Returns the counts, (WEIGHT_BINS,), and the lower
-    edge of the first bin, in nats relative to the largest log weight.
+    """Count log weights in bins of equal width up to the largest.
+
+    Returns the counts, (WEIGHT_BINS,), and the lower edge of the first bin, in nats relative to the largest log weight.
     """
-    below = log_weights - log_weights.max()
-    lowest = min(-1.0, float(below[np.isfinite(below)].min()))
-    counts, _ = np.histogram(below, WEIGHT_BINS, (lowest, 0.0))
+    relative = log_weights - log_weights.max()
+    lowest = min(-1.0, float(relative[np.isfinite(relative)].min()))
+    counts, _ = np.histogram(relative, WEIGHT_BINS, (lowest, 0.0))
     return counts.astype(np.float32), lowest
 
 
@@ -156,7 +157,7 @@ def strokes_of(result: Result) -> NDArray[np.float32]:
         return np.zeros((0, 5), dtype=np.float32)
     _, mean, covariance, reflectivity = result.surfaces
     # Each segment reaches two standard deviations to both sides, along the covariance's longest axis.
-    values, vectors = np.linalg.eigh(covariance)
-    half = 2.0 * np.sqrt(np.maximum(values[:, 1], 0.0))[:, None] * vectors[:, :, 1]
+    variances, axes = np.linalg.eigh(covariance)
+    half = 2.0 * np.sqrt(np.maximum(variances[:, 1], 0.0))[:, None] * axes[:, :, 1]
     strokes = np.column_stack([mean - half, mean + half, reflectivity])
     return strokes[reflectivity >= LEAST_REFLECTIVITY].astype(np.float32)

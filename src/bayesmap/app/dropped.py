@@ -19,10 +19,7 @@ MAX_FILE_BYTES = 1 << 30
 
 
 async def open_dropped(request: Request) -> Response:
-    """Answer a saved run, the body of the request, with its recording; or say what is wrong with it.
-
-    The query has the name of the file.
-    """
+    """Answer a saved run, the request's body, with its recording or a text about its fault. The query has its name."""
     name = Path(request.query_params.get("name", "")).name
     if not name.endswith(".nc"):
         return PlainTextResponse("not a saved run (.nc)", status_code=415)
@@ -46,12 +43,12 @@ async def open_dropped(request: Request) -> Response:
 
 def main(path: str) -> None:
     """Write the recording of a saved run to the standard output."""
-    from bayesmap.app.exports import framed
+    from bayesmap.app.exports import encode_recording, record
     from bayesmap.app.sources import OpenedRun, open_file
 
     opened = open_file(path)
     assert isinstance(opened, OpenedRun)
-    sys.stdout.buffer.write(framed(opened.result))
+    sys.stdout.buffer.write(encode_recording(*record(opened.result)))
 
 
 if __name__ == "__main__":

@@ -24,7 +24,7 @@ from bayesmap.app.protocol.document import (
     Sensor,
     Source,
     check_stand,
-    packed,
+    pack_walls,
     settings_of,
 )
 from bayesmap.sim.drawing import TUTORIAL_GRID, tutorial
@@ -38,7 +38,7 @@ def tutorial_document(seed: int = 0) -> Document:
     """Return the tutorial's map and robot."""
     walls, (x, y, yaw) = tutorial()
     return Document(
-        TUTORIAL_GRID, packed(walls), (Sensor(1, float(x), float(y), float(yaw)),), method="auto", seed=seed
+        TUTORIAL_GRID, pack_walls(walls), (Sensor(1, float(x), float(y), float(yaw)),), method="auto", seed=seed
     )
 
 
@@ -46,44 +46,44 @@ def new_document(world: actions.World, shape: tuple[int, int], before: Document)
     """Return a document with a new map, and the settings of the document before as far as they fit.
 
     The sensor's longest range is twice the longer side, as in the tutorial: every beam can leave the map. Raises
-    Refused: the shape does not fit the world.
+    `Refused` if the shape does not fit the world.
     """
     noise, sensor = 0.2, None
     if world == "blank":
         walls, grid = np.zeros(shape, dtype=np.bool_), Grid(shape, 1.0, (-0.5, -0.5))
     elif world == "tutorial":
         (walls, robot), grid = tutorial(), Grid(shape, 1.0, (-0.5, -0.5))
-        x, y = (at + (n - have) // 2 for at, n, have in zip(robot, shape, walls.shape, strict=False))
-        walls, sensor = _centred(walls, shape), Sensor(1, float(x), float(y))
+        x, y = robot[:2] + (np.array(shape) - walls.shape) // 2
+        walls, sensor = _center_map(walls, shape), Sensor(1, float(x), float(y))
     else:
-        walls, grid = _floor(shape, before.seed)
+        walls, grid = _building(shape, before.seed)
         noise = BUILDING_NOISE_M
     return replace(
-        before, grid=grid, walls=packed(walls), source=Source(), scans_used=None, poses="logged", cells="binary",
+        before, grid=grid, walls=pack_walls(walls), source=Source(), scans_used=None, poses="logged", cells="binary",
         sensors=(_first_sensor(walls, grid) if sensor is None else sensor,),
         noise=noise, angles=min(1000, max(10, before.angles)), max_range=2.0 * max(shape) * grid.resolution,
     )  # fmt: skip
 
 
-def _centred(walls: NDArray[np.bool_], shape: tuple[int, int]) -> NDArray[np.bool_]:
-    """Return a map moved to the middle of a grid of another shape; parts that do not fit are cut off."""
-    result = np.zeros(shape, dtype=np.bool_)
-    shift = [(want - have) // 2 for have, want in zip(walls.shape, shape, strict=True)]
-    kept = np.argwhere(walls) + shift
-    inside = ((kept >= 0) & (kept < shape)).all(axis=1)
-    result[kept[inside, 0], kept[inside, 1]] = True
-    return result
+def _center_map(walls: NDArray[np.bool_], shape: tuple[int, int]) -> NDArray[np.bool_]:
+    """Return a map moved to the middle of a grid of another shape. Parts that do not fit are cut off."""
+    centred = np.zeros(shape, dtype=np.bool_)
+    cells = np.argwhere(walls) + (np.array(shape) - walls.shape) // 2
+    cells = cells[((cells >= 0) & (cells < shape)).all(axis=1)]
+    centred[cells[:, 0], cells[:, 1]] = True
+    return centred
 
 
-def _floor(shape: tuple[int, int], seed: int) -> tuple[NDArray[np.bool_], Grid]:
+def _building(shape: tuple[int, int], seed: int) -> tuple[NDArray[np.bool_], Grid]:
+    """Return the walls of a building and their grid, of the finest cells that fit. Raises `Refused` if none fit."""
     from bayesmap.sim.building import MARGIN_M, SMALLEST_M, building
 
     for resolution in (0.1, 0.25):
         margin = round(MARGIN_M / resolution)
-        size = tuple((n - 2 * margin) * resolution for n in shape)
-        if max(size) >= SMALLEST_M[0] and min(size) >= SMALLEST_M[1]:
-            made = building(seed, (size[0], size[1]), resolution)
-            return _centred(made.walls, shape), Grid(shape, resolution, (0.0, 0.0))
+        size_m = ((shape[0] - 2 * margin) * resolution, (shape[1] - 2 * margin) * resolution)
+        if max(size_m) >= SMALLEST_M[0] and min(size_m) >= SMALLEST_M[1]:
+            walls = building(seed, size_m, resolution).walls
+            return _center_map(walls, shape), Grid(shape, resolution, (0.0, 0.0))
     least = [round(v / 0.25) + 4 for v in SMALLEST_M]
     raise Refused(f"new: a building does not fit {shape[0]} x {shape[1]} cells", f"{least[0]} x {least[1]} are enough")
 
@@ -107,14 +107,14 @@ A = TypeVar("A", bound=actions.Action)
 
 
 def edit(document: Document, action: actions.Edit) -> tuple[Document, str]:
-    """Return the document after an action, and a remark if it was done in part. Raises Refused: it cannot be done."""
+    """Return the document after an action, and a remark if only a part was done. Raises `Refused` if none can be."""
     if not document.simulated and not isinstance(action, actions.ChangeSettings | actions.New):
         raise Refused(f"{document.source.name} is a file, which cannot be edited", "begin a new map")
     match action:
         case actions.Walls():
-            return _walls(document, action)
+            return _draw_walls(document, action)
         case actions.ChangeSettings():
-            return _set(document, action), ""
+            return _change_settings(document, action), ""
         case actions.AddSensor():
             return _add_sensor(document, action), ""
         case actions.MoveSensor():
@@ -127,7 +127,7 @@ def edit(document: Document, action: actions.Edit) -> tuple[Document, str]:
             return new_document(action.world, action.shape, document), ""
 
 
-def _set(document: Document, action: actions.ChangeSettings) -> Document:
+def _change_settings(document: Document, action: actions.ChangeSettings) -> Document:
     changed = actions.changes(action.patch)
     if "resolution" in changed:
         document = with_resolution(document, changed.pop("resolution"))
@@ -140,16 +140,16 @@ def _set(document: Document, action: actions.ChangeSettings) -> Document:
     return replace(document, **changed)
 
 
-def _walls(document: Document, action: actions.Walls) -> tuple[Document, str]:
+def _draw_walls(document: Document, action: actions.Walls) -> tuple[Document, str]:
     cells = np.array(action.cells)
     if (cells >= document.grid.shape).any():
         raise Refused("walls: a cell outside the map", f"the map has {document.grid.shape} cells")
     is_wall = document.is_wall.copy()
     is_wall[cells[:, 0], cells[:, 1]] = action.wall
-    taken = [cell for cell in document.sensor_cells() if is_wall[cell]]
-    for cell in taken:
+    occupied = [cell for cell in document.sensor_cells() if is_wall[cell]]
+    for cell in occupied:
         is_wall[cell] = False
-    remark = f"a sensor stands in cell ({taken[0][0]}, {taken[0][1]}): it stays free" if taken else ""
+    remark = f"a sensor stands in cell ({occupied[0][0]}, {occupied[0][1]}): it stays free" if occupied else ""
     return document.with_walls(is_wall), remark
 
 
@@ -157,18 +157,16 @@ def _add_sensor(document: Document, action: actions.AddSensor) -> Document:
     sensors = document.sensors
     if len(sensors) >= SENSORS[1]:
         raise Refused(f"there are {len(sensors)} sensors already", "remove one first")
-    number = max((sensor.id for sensor in sensors), default=0) + 1
-    placed = Sensor(number, action.x, action.y, action.yaw)
-    check_stand(document, placed)
-    return replace(document, sensors=(*sensors, placed))
+    added = Sensor(max((sensor.id for sensor in sensors), default=0) + 1, action.x, action.y, action.yaw)
+    check_stand(document, added)
+    return replace(document, sensors=(*sensors, added))
 
 
 def _move_sensor(document: Document, action: actions.MoveSensor) -> Document:
     old = _sensor_of(document, action.id)
-    place = {axis: value for axis in ("x", "y", "yaw") if (value := getattr(action, axis)) is not None}
-    placed = replace(old, **place)
-    check_stand(document, placed)
-    return replace(document, sensors=tuple(placed if sensor is old else sensor for sensor in document.sensors))
+    moved = replace(old, **{axis: v for axis in ("x", "y", "yaw") if (v := getattr(action, axis)) is not None})
+    check_stand(document, moved)
+    return replace(document, sensors=tuple(moved if sensor is old else sensor for sensor in document.sensors))
 
 
 def _remove_sensor(document: Document, action: actions.RemoveSensor) -> Document:
@@ -196,7 +194,7 @@ def gesture_of(action: actions.Action, client: int) -> tuple[Any, ...] | None:
     return None
 
 
-def merged(before: actions.Action, after: A) -> A | None:
+def merge_actions(before: actions.Action, after: A) -> A | None:
     """Return one action that replaces two actions of one gesture; None if they cannot be merged."""
     if isinstance(before, actions.ChangeSettings) and isinstance(after, actions.ChangeSettings):
         patch = structs.replace(before.patch, **actions.changes(after.patch))
@@ -210,30 +208,32 @@ def merged(before: actions.Action, after: A) -> A | None:
     return None
 
 
-def adopted(present: Document, brought: Document) -> Document:
-    """Return the document to show: the brought simulation, or the present file with the settings of the brought one.
-    Raises Refused: the documents show different files, or only one of them shows a file.
+def adopt_document(present: Document, other: Document) -> Document:
+    """Return the document to show for a page's other document: its simulation, or its settings for the present file.
+
+    Raises `Refused` if the documents show different files, or only one of them shows a file.
     """
-    if brought.simulated and present.simulated:
-        return brought
-    if brought.source == present.source:
+    if other.simulated and present.simulated:
+        return other
+    if other.source == present.source:
         # The size of a map along an inferred trajectory is not known before.
-        any_size = "odometry" in (brought.poses, present.poses)
-        shown, resolution_m = present, brought.grid.resolution
-        if brought.grid != present.grid and not (any_size and resolution_m == present.grid.resolution):
-            shown = with_resolution(present, resolution_m)
-        if any_size or brought.grid == shown.grid:
-            settings = {name: getattr(brought, name) for name in settings_of(present.source.kind)}
-            used = settings.pop("scans_used", None)
-            return replace(shown if used is None else with_scans_used(shown, used), **settings)
-    names = ["a map that was drawn" if one.simulated else one.source.name for one in (present, brought)]
-    remedy = f"start bayesmap app {'without a file' if brought.simulated else f'with {brought.source.name}'}"
+        any_size = "odometry" in (other.poses, present.poses)
+        document, resolution_m = present, other.grid.resolution
+        if other.grid != present.grid and not (any_size and resolution_m == present.grid.resolution):
+            document = with_resolution(present, resolution_m)
+        if any_size or other.grid == document.grid:
+            settings = {name: getattr(other, name) for name in settings_of(present.source.kind)}
+            n_used = settings.pop("scans_used", None)
+            return replace(document if n_used is None else with_scans_used(document, n_used), **settings)
+    names = ["a map that was drawn" if shown.simulated else shown.source.name for shown in (present, other)]
+    remedy = f"start bayesmap app {'without a file' if other.simulated else f'with {other.source.name}'}"
     raise Refused(f"this server shows {names[0]}, not {names[1]}", remedy)
 
 
 def with_resolution(document: Document, resolution_m: float) -> Document:
-    """Return the document of a log with another cell size. The grid depends on the log and the cell size alone. Raises
-    Refused: the document shows no log, or the map would have too many cells.
+    """Return the document of a log with another cell size. The grid depends on the log and the cell size alone.
+
+    Raises `Refused` if the document shows no log, or the map would have too many cells.
     """
     bounds = document.source.bounds
     if document.source.kind != "log" or bounds is None:
@@ -249,15 +249,15 @@ def with_resolution(document: Document, resolution_m: float) -> Document:
 
 
 def with_scans_used(document: Document, scans: int | None) -> Document:
-    """Return the document of a log with the map of its first scans; None: all. Raises Refused: it shows no log."""
+    """Return the document of a log with the map of its first scans; None: all. Raises `Refused` if it shows no log."""
     if document.source.kind != "log":
         raise Refused("only of a log some of the scans can be left out")
     return replace(document, scans_used=None if scans is None or scans >= document.source.scans else scans)
 
 
-From = tuple[int, actions.AnyAction]
+ActionOfPage = tuple[int, actions.AnyAction]  # the number of a page, and its action
 T = TypeVar("T")
-DEPTH = 200  # steps that can be undone
+MOST_STEPS = 200  # steps that can be undone
 MOST_UNPAINTED = 2  # unpainted pictures at which the edits of a page wait
 
 
@@ -276,7 +276,7 @@ class History(Generic[T]):
             return self
         if gesture is not None and gesture == self.gesture:
             return replace(self, present=state, future=())
-        return History(state, (*self.past, (self.present, author))[-DEPTH:], (), gesture)
+        return History(state, (*self.past, (self.present, author))[-MOST_STEPS:], (), gesture)
 
     def undo(self) -> History[T]:
         """Return the history one step back, or this history if there is no earlier state."""
@@ -290,7 +290,7 @@ class History(Generic[T]):
         if not self.future:
             return self
         *future, (state, author) = self.future
-        return History(state, (*self.past, (self.present, author))[-DEPTH:], tuple(future))
+        return History(state, (*self.past, (self.present, author))[-MOST_STEPS:], tuple(future))
 
 
 class Pace:
@@ -298,25 +298,25 @@ class Pace:
 
     def __init__(self) -> None:
         self.computing = False  # whether the first picture of the present generation is still being computed
-        self._waiting: From | None = None
+        self._waiting: ActionOfPage | None = None
         self._unpainted: dict[int, list[int]] = {}
 
-    def take(self, client: int, action: actions.AnyAction) -> list[From]:
+    def take(self, client: int, action: actions.AnyAction) -> list[ActionOfPage]:
         """Accept an action; return the actions to apply now, in order."""
         if gesture_of(action, client) is None or not self._must_wait(client):
-            return [*self._let_go(), (client, action)]
+            return [*self._release(), (client, action)]
         before, self._waiting = self._waiting, (client, action)
         if before is None:
             return []
-        both = merged(before[1], action) if before[0] == client else None
-        if both is None:
+        merged = merge_actions(before[1], action) if before[0] == client else None
+        if merged is None:
             return [before]
-        self._waiting = client, both
+        self._waiting = client, merged
         return []
 
-    def due(self) -> list[From]:
+    def due(self) -> list[ActionOfPage]:
         """Return the waiting action, if it need not wait any longer."""
-        return [] if self._waiting is None or self._must_wait(self._waiting[0]) else self._let_go()
+        return [] if self._waiting is None or self._must_wait(self._waiting[0]) else self._release()
 
     def sent(self, client: int | None, generation: int) -> None:
         """Record that a picture is sent to a page, or to all. Pages that never report painting are not waited for."""
@@ -335,6 +335,6 @@ class Pace:
     def _must_wait(self, client: int) -> bool:
         return self.computing or len(self._unpainted.get(client, ())) >= MOST_UNPAINTED
 
-    def _let_go(self) -> list[From]:
+    def _release(self) -> list[ActionOfPage]:
         waiting, self._waiting = self._waiting, None
         return [] if waiting is None else [waiting]

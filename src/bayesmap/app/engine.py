@@ -1,8 +1,8 @@
 """The engine turns tasks into reports. It does one job at a time, in short steps, so that a new task never waits long.
 
-A job depends on its document alone. Readings depend on the seed, and the start of live chains depends on the beliefs
-from these readings. Every sweep's draws depend on (seed, chain, sweep, cell). So the same document gives the same
-posterior, however often edits interrupted the chains. The last state of earlier chains is therefore not used.
+A job depends on its document alone: the readings on its seed, the start of live chains on the beliefs from these
+readings, and every sweep's draws on (seed, chain, sweep, cell). So the same document gives the same posterior, however
+often edits interrupted the chains. The last state of earlier chains is therefore not used.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from dataclasses import replace
 
 from msgspec import structs
 
-from bayesmap.app.answers.questions import Answers, Now
+from bayesmap.app.answers.questions import Answers, Snapshot
 from bayesmap.app.display import Display, OnReport
 from bayesmap.app.exports import export_report
 from bayesmap.app.protocol.actions import Cancel, Export, MoveGhost, ShowScan, WhereAmI
@@ -23,8 +23,8 @@ from bayesmap.app.protocol.document import CHAIN_METHODS, SETTINGS_OF_CHAINS, Do
 from bayesmap.app.protocol.notices import Status
 from bayesmap.app.protocol.tasks import Ask, Failed, Infer, Remember, Show, Task
 from bayesmap.app.scene import Scene, simulated_scene
-from bayesmap.app.shown.chains import Fitted, Pilot, Stream, chains_of_walls, fit_by_pilot, pose_prior, starts
-from bayesmap.app.shown.result import Result, nothing_yet
+from bayesmap.app.shown.chains import Fitted, Pilot, Stream, chains_of_walls, first_maps_of, fit_by_pilot, pose_prior
+from bayesmap.app.shown.result import Result, prior_result
 from bayesmap.app.shown.without_chains import Preview, Weighing
 from bayesmap.app.sources import OpenedLog, OpenedRun
 from bayesmap.app.trajectory import LogTrajectory, Step
@@ -33,14 +33,15 @@ from bayesmap.errors import BadInput
 PREVIEW_SECONDS = 0.015  # time of belief propagation before the first picture
 FEWEST_ROUNDS = 3  # rounds of belief propagation before the first picture
 PAUSE_SECONDS = 0.03  # pause before chains are set up: a moving hand sends its next edit in this time
-GHOST_SECONDS, REST_SECONDS = 0.06, 0.002  # rest of chains after a virtual scan, for the next one; its short sleeps
+VIRTUAL_SCAN_SECONDS = 0.06  # chains rest for this time after a virtual scan, since the next one follows soon
+REST_SECONDS = 0.002  # duration of a short sleep while chains rest
 
 
 class Engine:
     """Holds the present job and its result."""
 
     def __init__(self, on_report: OnReport, opened: OpenedRun | OpenedLog | None = None) -> None:
-        self._send = on_report
+        self._on_report = on_report
         self._opened = opened
         self._log_trajectory = LogTrajectory(opened) if isinstance(opened, OpenedLog) else None
         self._display = Display(on_report)
@@ -48,14 +49,14 @@ class Engine:
         self._job: Iterator[None] | None = None
         self._task: Infer | None = None
         self._scene: Scene | None = None
-        self._scene_of: Document | None = None
+        self._scene_document: Document | None = None  # the document of the scene
         self._result: Result | None = None
-        self._before: Result | None = None  # the last result of the job before
-        self._more = 0  # sweeps that the present job's chains do besides those of its document
+        self._earlier_result: Result | None = None  # the last result of the job before
+        self._extra_sweeps = 0  # sweeps that the present job's chains do besides the sweeps of its document
         self._waiting: list[Ask] = []  # questions that came before there was a result
         self._answers = Answers()
-        self._fitted: tuple[Document, Fitted] | None = None  # what the last pilot fitted, and for which document
-        self._rest_until = 0.0
+        self._fitted: tuple[Document, Fitted] | None = None  # the last pilot's document, and its fit
+        self._rest_until_s = 0.0
 
     @property
     def busy(self) -> bool:
@@ -65,10 +66,10 @@ class Engine:
     def take(self, task: Task) -> None:
         """Answer a question, or begin another job."""
         if isinstance(task, Infer) and task.mode == "run" and self._has_live_chains_of(task.document):
-            self._task, self._more = task, self._more + task.document.sweeps
+            self._task, self._extra_sweeps = task, self._extra_sweeps + task.document.sweeps
             self._display.begin(task)
         elif isinstance(task, Infer):
-            self._before, self._more = self._result, 0
+            self._earlier_result, self._extra_sweeps = self._result, 0
             self._task, self._result, self._scan = task, None, task.scan
             self._display.begin(task)
             self._job = self._work(task)
@@ -79,17 +80,18 @@ class Engine:
         elif isinstance(task, ShowScan):
             self._scan = task.index
             if self._scene is not None and self._opened is not None:
-                self._display.rays(self._scene, task.index)
+                self._display.send_scan(self._scene, task.index)
         elif isinstance(task, Ask):
             self._ask(task)
         elif isinstance(task, Remember) and self._log_trajectory is not None:
             self._log_trajectory.remember(task)
 
     def _has_live_chains_of(self, document: Document) -> bool:
-        """Return whether the present job makes chains of this document, with which a run goes on."""
-        of_chains = document.sampler in CHAIN_METHODS or document.cells != "binary"
-        known = self._task is not None and self._task.mode == "live" and self._task.document == document
-        return self._job is not None and known and of_chains and not document.from_odometry
+        """Return whether the present job makes chains of this document, which a run can continue."""
+        if self._job is None or self._task is None or document.from_odometry:
+            return False
+        chains = document.sampler in CHAIN_METHODS or document.cells != "binary"
+        return chains and self._task.mode == "live" and self._task.document == document
 
     def _ask(self, task: Ask) -> None:
         """Answer a question. If it needs a result and there is none yet, it waits."""
@@ -97,18 +99,18 @@ class Engine:
         if isinstance(question, Export | WhereAmI) and self._result is None and self._job is not None:
             self._waiting.append(task)
         elif isinstance(question, Export):
-            self._send(export_report(question, self._result, task.client))
+            self._on_report(export_report(question, self._result, task.client))
         else:
-            now = Now(self._scene, self._result, self._scan, self._display.generation)
-            self._send(self._answers.answer(question, now, task.client))
+            snapshot = Snapshot(self._scene, self._result, self._scan, self._display.generation)
+            self._on_report(self._answers.answer(question, snapshot, task.client))
             if isinstance(question, MoveGhost):
-                self._rest_until = time.perf_counter() + GHOST_SECONDS
+                self._rest_until_s = time.perf_counter() + VIRTUAL_SCAN_SECONDS
 
     def advance(self) -> None:
         """Do a step of the job: some milliseconds on a small map, one round or sweep on the largest."""
         if self._job is None:
             return
-        if time.perf_counter() < self._rest_until:
+        if time.perf_counter() < self._rest_until_s:
             time.sleep(REST_SECONDS)
             return
         try:
@@ -127,7 +129,7 @@ class Engine:
 
     def _fail(self, text: str) -> None:
         self._job = None
-        self._display.report(Failed(text, generation=self._display.generation))
+        self._display.send(Failed(text, generation=self._display.generation))
 
     # Jobs
 
@@ -137,50 +139,50 @@ class Engine:
         if document.source.kind == "run":
             assert isinstance(self._opened, OpenedRun)
             self._result = self._opened.result
-            self._scene, self._scene_of = self._result.scene, document
-            self._display.rays(self._scene, task.scan)
-            self._display.frame(self._result)
-            self._display.overlay(self._result)
-            self._display.finished(self._result)
+            self._scene, self._scene_document = self._result.scene, document
+            self._display.send_scan(self._scene, task.scan)
+            self._display.send_frame(self._result)
+            self._display.send_overlay(self._result)
+            self._display.send_finished(self._result)
             return
         if document.from_odometry and not (yield from self._localize(structs.replace(task, document=document))):
             return
-        scene, document = self._readings(document)
-        self._display.rays(scene, None if document.simulated else task.scan)
+        scene, document = self._scene_for(document)
+        self._display.send_scan(scene, None if document.simulated else task.scan)
         if task.mode == "coarse":
-            self._count(document)
-            self._display.finished(self._result)
+            self._show_hit_counts(document)
+            self._display.send_finished(self._result)
             return
         chains = self._chains_of(document) if task.mode == "run" else None
-        self._before = None
+        self._earlier_result = None
         if chains is not None:
-            self._more = document.sweeps
+            self._extra_sweeps = document.sweeps
             yield from self._stream(scene, document, chains)
             return
-        self._display.overlay(nothing_yet(scene, document))
+        self._display.send_overlay(prior_result(scene, document))
         if task.mode == "clear":
-            self._result = nothing_yet(scene, document)
-            self._display.frame(self._result)
+            self._result = prior_result(scene, document)
+            self._display.send_frame(self._result)
             return
         if document.cells != "binary":
             yield from self._sweep_fitted(scene, document)
             return
         self._fitted = None
         if task.mode == "run" and document.method == "importance":
-            yield from self._weigh(scene, document)
+            yield from self._stream(scene, document, Weighing(scene.problem, document.sweeps, document.seed))
         elif task.mode == "run" and document.method in CHAIN_METHODS and document.simulated:
             yield from self._sweep(scene, document, None)
         else:
             yield from self._preview(scene, document, task)
 
     def _preview(self, scene: Scene, document: Document, task: Infer) -> Iterator[None]:
-        """Show belief propagation, then chains that start from it unless only the preview is asked for."""
-        preview, chains = Preview(scene.near), task.mode != "preview" and document.method in CHAIN_METHODS
+        """Show belief propagation, then chains that start from it, unless the mode is "preview"."""
+        preview, chains = Preview(scene.near_problem), task.mode != "preview" and document.method in CHAIN_METHODS
         # Belief propagation treats poses as known. If they are uncertain, chains make the first picture.
         quiet = task.mode != "preview" and pose_prior(document) is not None
         yield from self._propagate(scene, document, preview, quiet=quiet)
         if not chains:
-            self._display.finished(self._result)
+            self._display.send_finished(self._result)
             return
         if not quiet and self._display.elapsed_s() > PREVIEW_SECONDS / 2:
             until = time.perf_counter() + PAUSE_SECONDS
@@ -190,132 +192,119 @@ class Engine:
         yield from self._sweep(scene, document, preview)
 
     def _chains_of(self, document: Document) -> Stream | None:
-        """Return the chains of the job before, of Live or an earlier run, if they sample this document."""
-        before = self._before
-        if before is None or before.document != document or not isinstance(before.found, Stream):
+        """Return the chains of the job before if they sample this document."""
+        result = self._earlier_result
+        if result is None or result.document != document or not isinstance(result.estimate, Stream):
             return None
-        return before.found
+        return result.estimate
 
     def _localize(self, task: Infer) -> Generator[None, None, bool]:
-        """Infer the trajectory of a log, with pictures of the stages; return whether it is known now."""
+        """Infer the trajectory of a log, with pictures of the stages. Returns whether it is known now."""
         log_trajectory = self._log_trajectory
         assert log_trajectory is not None
         with closing(log_trajectory.steps(task)) as steps:
             for step in steps:
                 if isinstance(step, Step):
-                    self._step(step)
+                    self._show_step(step)
                 elif step is not None:
-                    self._display.report(step)
+                    self._display.send(step)
                 yield
         if log_trajectory.placed is None:
-            self._display.finished(self._result)
+            self._display.send_finished(self._result)
             return False
         self._result = None
         return True
 
-    def _step(self, step: Step) -> None:
+    def _show_step(self, step: Step) -> None:
         """Show the map along the poses so far."""
-        self._display.on_grid(step.grid)
+        self._display.send_grid(step.grid)
         self._result = step.result
-        self._scene, self._scene_of = step.result.scene, None
+        self._scene, self._scene_document = step.result.scene, None
         if step.stage is not None:
-            self._display.report(step.stage)
+            self._display.send(step.stage)
         if step.text:
-            self._display.report(Status(step.text, "info"))
-        self._display.rays(self._scene, self._scan)
-        self._display.overlay(self._result)
-        self._display.frame(self._result)
+            self._display.send(Status(step.text, "info"))
+        self._display.send_scan(self._scene, self._scan)
+        self._display.send_overlay(self._result)
+        self._display.send_frame(self._result)
 
-    def _readings(self, document: Document) -> tuple[Scene, Document]:
+    def _scene_for(self, document: Document) -> tuple[Scene, Document]:
         """Return the scene of a document, and the document on the scene's grid. Unchanged readings are reused."""
-        new = document.simulated  # a map may be begun where a log was opened
-        log = None if new or self._log_trajectory is None else self._log_trajectory.log_of(document)
+        # A map may be begun where a log was opened.
+        log = None if document.simulated or self._log_trajectory is None else self._log_trajectory.log_of(document)
         if log is not None:
             document = log.on_cells(document)
-        self._display.on_grid(document.grid)
-        before, same = self._scene_of, ("cells", *SETTINGS_OF_CHAINS)
-        if self._scene is not None and before is not None and before.alike_but(document, same):
-            scene = self._scene if before.prior == document.prior else self._scene.with_prior(document.prior)
+        self._display.send_grid(document.grid)
+        earlier, ignored = self._scene_document, ("cells", *SETTINGS_OF_CHAINS)
+        if self._scene is not None and earlier is not None and earlier.equals_except(document, ignored):
+            scene = self._scene if earlier.prior == document.prior else self._scene.with_prior(document.prior)
         else:
             scene = simulated_scene(document) if log is None else log.scene(document)
-        self._scene, self._scene_of = scene, document
+        self._scene, self._scene_document = scene, document
         return scene, document
 
-    def _count(self, document: Document) -> None:
+    def _show_hit_counts(self, document: Document) -> None:
         """Show the hit-count map of a log."""
         assert self._log_trajectory is not None
         self._result = self._log_trajectory.log_of(document).coarse(document)
         if self._result.prior.has_surfaces:  # the surfaces on show may be of other scans
-            self._display.overlay(self._result)
-        self._display.frame(self._result)
+            self._display.send_overlay(self._result)
+        self._display.send_frame(self._result)
 
     def _propagate(self, scene: Scene, document: Document, preview: Preview, *, quiet: bool) -> Iterator[None]:
         """Do rounds of belief propagation, and show the picture when its time is up, now and then, and at the end."""
-        shown = -1  # the number of rounds in the last picture
+        pictured = False  # whether the first picture has been shown
         while True:
-            enough = not quiet and preview.rounds >= FEWEST_ROUNDS and self._display.elapsed_s() > PREVIEW_SECONDS
-            last = preview.converged and not quiet
-            if last or (enough and (shown < 0 or self._display.due())) or (shown >= 0 and self._display.due()):
+            in_time = preview.rounds >= FEWEST_ROUNDS and self._display.elapsed_s() > PREVIEW_SECONDS
+            due = self._display.frame_is_due() if pictured else in_time
+            if not quiet and (preview.converged or due):
                 self._result = Result(scene, document, "propagate", preview)
-                self._display.frame(self._result)
-                shown = preview.rounds
+                self._display.send_frame(self._result)
+                pictured = True
             if preview.converged:
                 return
             preview.round()
             # Before the first picture, a small map's rounds are too short to look for tasks between them.
-            if shown >= 0 or self._display.elapsed_s() > PREVIEW_SECONDS:
+            if pictured or self._display.elapsed_s() > PREVIEW_SECONDS:
                 yield
 
     def _sweep(self, scene: Scene, document: Document, preview: Preview | None) -> Iterator[None]:
         """Run chains of walls, with frames at intervals and one at the end."""
-        begun = starts(scene.problem, document, preview)
+        first_maps = first_maps_of(scene.problem, document, preview)
         yield
-        yield from self._stream(scene, document, chains_of_walls(scene, document, begun))
+        yield from self._stream(scene, document, chains_of_walls(scene, document, first_maps))
 
     def _sweep_fitted(self, scene: Scene, document: Document) -> Iterator[None]:
         """Run chains of another kind of cells, after a pilot has fitted the sensor."""
         if not document.simulated:
-            self._count(document)
+            self._show_hit_counts(document)
         yield
 
         def show(pilot: Pilot) -> None:
             self._result = Result(scene, document, "pilot", pilot)
-            if self._display.due():
-                self._display.frame(self._result)
+            if self._display.frame_is_due():
+                self._display.send_frame(self._result)
 
-        if self._fitted is None or not self._fitted[0].alike_but(document, SETTINGS_OF_CHAINS):
+        if self._fitted is None or not self._fitted[0].equals_except(document, SETTINGS_OF_CHAINS):
             self._fitted = None  # free the old problem first: two may not fit in memory
             self._fitted = document, (yield from fit_by_pilot(scene, document, show))
-        model, sampler, problem = self._fitted[1]
-        stream = Stream(model, sampler, problem, document)
-        yield from self._stream(scene, document, stream)
+        yield from self._stream(scene, document, Stream(*self._fitted[1], document))
 
-    def _stream(self, scene: Scene, document: Document, stream: Stream) -> Iterator[None]:
-        ended = False
-        while not ended:
+    def _stream(self, scene: Scene, document: Document, estimate: Stream | Weighing) -> Iterator[None]:
+        """Run chains or importance sampling, with frames at intervals and one at the end."""
+        while True:
             yield
-            if self._more:
-                stream.go_on(self._more)
-                self._more = 0
-            stream.advance()
-            ended = stream.done
-            self._result = Result(scene, document, document.method, stream)
-            if self._display.due() or ended:
-                self._display.frame(self._result)
-            if ended:
-                self._display.overlay(self._result)
-        self._display.finished(self._result)
-
-    def _weigh(self, scene: Scene, document: Document) -> Iterator[None]:
-        """Run importance sampling, with frames at intervals and one at the end."""
-        weighing = Weighing(scene.problem, document.sweeps, document.seed)
-        while weighing.count < weighing.total:
-            yield
-            weighing.advance()
-            self._result = Result(scene, document, "importance", weighing)
-            if self._display.due() or weighing.count == weighing.total:
-                self._display.frame(self._result)
-        self._display.finished(self._result)
+            if isinstance(estimate, Stream) and self._extra_sweeps:
+                estimate.extend(self._extra_sweeps)
+                self._extra_sweeps = 0
+            estimate.advance()
+            self._result = Result(scene, document, document.method, estimate)
+            if estimate.done or self._display.frame_is_due():
+                self._display.send_frame(self._result)
+            if estimate.done:
+                break
+        self._display.send_overlay(self._result)
+        self._display.send_finished(self._result)
 
     def _cancel(self) -> None:
         """Stop the job and show its result once more. If there is none yet, show the preview."""
@@ -325,6 +314,6 @@ class Engine:
             self._job = self._work(structs.replace(self._task, mode="preview"))
             return
         self._job = None
-        self._result = replace(self._result, over=True)
-        self._display.frame(self._result)
-        self._display.finished(self._result)
+        self._result = replace(self._result, ended=True)
+        self._display.send_frame(self._result)
+        self._display.send_finished(self._result)

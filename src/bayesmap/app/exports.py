@@ -1,6 +1,6 @@
 """Files of a result: the saved run, the map for map_server, and the page in one file.
 
-The page in one file holds the page's module and the result as a recording, and needs no server (docs/app.md).
+The page in one file contains the page's module and the result as a recording, and needs no server (docs/app.md).
 """
 
 from __future__ import annotations
@@ -15,14 +15,14 @@ import numpy as np
 from msgspec import Struct, structs
 from numpy.typing import NDArray
 
-from bayesmap.app.display import field_of, levels, overlay_of
-from bayesmap.app.figures import one_file
+from bayesmap.app.display import field_of, overlay_of, to_levels
+from bayesmap.app.figures import page_in_one_file
 from bayesmap.app.protocol.actions import Export
 from bayesmap.app.protocol.document import Document
 from bayesmap.app.protocol.notices import Download, DrawCount, Field, Status, View
 from bayesmap.app.protocol.tasks import Buffers, Report
 from bayesmap.app.protocol.wire import frame
-from bayesmap.app.scene import ray_buffers
+from bayesmap.app.scene import scan_buffers
 from bayesmap.app.shown.result import Result
 from bayesmap.errors import BadInput
 
@@ -61,56 +61,56 @@ def export_report(question: Export, result: Result | None, client: int) -> Repor
     try:
         if result is None:
             raise BadInput("there is nothing to export yet")
-        name, media_type, data = file_of(result, question.what)
+        download, data = file_of(result, question.what)
     except (BadInput, OSError) as error:
         return Report(Status(str(error), "warning"), {}, client)
-    remark = _say_draws_included(result) if question.what == "html" else ""
-    return Report(Download(name, media_type, remark), {"data": data}, client)
+    return Report(download, {"data": data}, client)
 
 
-def file_of(result: Result, what: str) -> tuple[str, str, bytes]:
-    """Return name, media type and bytes of a file of a result: "run", "map", "recording" or the page, "html".
+def file_of(result: Result, what: str) -> tuple[Download, bytes]:
+    """Return a file of a result: "run", "map", "recording" or the page, "html".
 
     Raises `BadInput` if a run has no draws to save.
     """
-    if what == "html":
-        return "bayesmap.html", "text/html", to_html(result).encode()
     if what == "recording":
-        return "recording", "application/octet-stream", framed(result)
+        return Download("recording", "application/octet-stream"), encode_recording(*record(result))
+    if what == "html":
+        recording, buffers = record(result)
+        note = _say_draws_included(recording.draws)
+        return Download("bayesmap.html", "text/html", note), to_html(recording, buffers).encode()
     with tempfile.TemporaryDirectory(prefix="bayesmap-") as folder:
         if what == "run":
             path = Path(folder) / "run.nc"
             result.as_run().save(path)
-            return "run.nc", "application/x-netcdf", path.read_bytes()
+            return Download("run.nc", "application/x-netcdf"), path.read_bytes()
         archive = io.BytesIO()
         with zipfile.ZipFile(archive, "w", zipfile.ZIP_DEFLATED) as files:
-            for path in result.found.write_map(Path(folder) / "map.yaml", result):
+            for path in result.estimate.write_map(Path(folder) / "map.yaml", result):
                 files.write(path, path.name)
-        return "map.zip", "application/zip", archive.getvalue()
+        return Download("map.zip", "application/zip"), archive.getvalue()
 
 
-def to_html(result: Result) -> str:
-    """Return a page in one file that shows a result. It can be opened from a disk and loads nothing else."""
-    return one_file("recording", framed(result))
+def to_html(recording: Recording, buffers: Buffers) -> str:
+    """Return a page in one file that shows a recording. It can be opened from a disk and loads nothing else."""
+    return page_in_one_file("recording", encode_recording(recording, buffers))
 
 
-def framed(result: Result) -> bytes:
-    """Return the recording of a result and its buffers as the page reads them."""
-    recording = frame(*record(result))
-    assert isinstance(recording, bytes)
-    return recording
+def encode_recording(recording: Recording, buffers: Buffers) -> bytes:
+    """Return a recording and its buffers as the page reads them."""
+    data = frame(recording, buffers)
+    assert isinstance(data, bytes)
+    return data
 
 
 def record(result: Result) -> tuple[Recording, Buffers]:
     """Return the recording of a result, which the page's `recordedTransport` plays, and its buffers."""
-    draw_indices = _recorded_draw_indices(result)
-    draws, buffers = _packed_draws(result, draw_indices)
+    draw_indices, draws, packed_draws = _pack_draws(result)
     field, field_buffers = field_of(result, View("mean"), 1, 0.0)
-    buffers |= field_buffers
+    beam_cells = result.scene.problem.table.cells
+    n_beams = np.bincount(beam_cells, minlength=result.document.grid.n_cells).astype(np.uint32)
+    buffers: dict[str, NDArray[Any] | bytes] = {"draws": packed_draws, **field_buffers, "beams": n_beams}
     if result.width is not None:
-        buffers["width"] = field_of(result, View("width"), 1, 0.0)[1]["p"]
-    cells = result.scene.problem.table.cells
-    buffers["beams"] = np.bincount(cells, minlength=result.document.grid.n_cells).astype(np.uint32)
+        buffers["width"] = to_levels(result.width)
     if not result.document.simulated:
         buffers |= overlay_of(result)
     # Long logs are thinned evenly, so that the file stays at a few megabytes.
@@ -118,42 +118,33 @@ def record(result: Result) -> tuple[Recording, Buffers]:
     recording = Recording(
         document=result.document, field=structs.replace(field, draws=DrawCount(draws.chains, draws.count)),
         ids=[result.scene.ids[i] for i in scan_indices], draws=draws,
-        log_joint=result.found.log_joint_of_draws()[:, draw_indices].tolist(),
+        log_joint=result.estimate.log_joint_of_draws()[:, draw_indices].tolist(),
     )  # fmt: skip
-    return recording, {**buffers, **ray_buffers(result.scene, scan_indices)}
+    return recording, {**buffers, **scan_buffers(result.scene, scan_indices)}
 
 
-def _recorded_draw_indices(result: Result) -> NDArray[np.intp]:
-    """Return the indices of the draws of each chain that a recording contains."""
-    kept = result.found.kept
-    if kept is None:
-        return np.zeros(0, dtype=np.intp)
-    n_bytes = kept.chains * result.document.grid.n_cells // (8 if kept.specs[0].storage == "bits" else 1)
-    return evenly_spaced(kept.count, min(MOST_DRAWS // kept.chains, MOST_DRAW_BYTES // max(1, n_bytes)))
-
-
-def _packed_draws(result: Result, indices: NDArray[np.intp]) -> tuple[RecordedDraws, dict[str, NDArray[Any] | bytes]]:
-    """Return the draws of each chain at `indices`: packed walls, or maps in 255ths."""
-    kept = result.found.kept
-    if kept is None:
-        return RecordedDraws(), {"draws": np.zeros((0, 0, 0), dtype=np.uint8)}
-    bits = kept.specs[0].storage == "bits"
+def _pack_draws(result: Result) -> tuple[NDArray[np.intp], RecordedDraws, NDArray[Any]]:
+    """Return the indices of the recorded draws of each chain, their counts, and packed walls, or maps in 255ths."""
+    draws = result.estimate.kept_draws
+    if draws is None:
+        return np.zeros(0, dtype=np.intp), RecordedDraws(), np.zeros((0, 0, 0), dtype=np.uint8)
+    bits = draws.specs[0].storage == "bits"
+    draw_bytes = draws.chains * result.document.grid.n_cells // (8 if bits else 1)
+    indices = evenly_spaced(draws.count, min(MOST_DRAWS // draws.chains, MOST_DRAW_BYTES // max(1, draw_bytes)))
     if bits:
-        draws = np.asarray(kept.arrays[kept.specs[0].name])[:, indices]
+        packed = np.asarray(draws.arrays[draws.specs[0].name])[:, indices]
     else:
-        chains = range(kept.chains)
-        draws = np.array([[levels(result.prior.map_of(kept, c, int(d))).ravel() for d in indices] for c in chains])
-    return RecordedDraws(kept.chains, len(indices), kept.count, bits), {"draws": draws}
+        chains = range(draws.chains)
+        packed = np.array([[to_levels(result.prior.map_of(draws, c, int(d))).ravel() for d in indices] for c in chains])
+    return indices, RecordedDraws(draws.chains, len(indices), draws.count, bits), packed
 
 
-def _say_draws_included(result: Result) -> str:
+def _say_draws_included(draws: RecordedDraws) -> str:
     """Return a phrase that says how many of the kept draws the file contains."""
-    kept = result.found.kept
-    if kept is None or not kept.count:
+    if not draws.kept:
         return "without draws: none were kept"
-    included = len(_recorded_draw_indices(result))
-    limit = f"; at most {MOST_DRAWS:,} draws and {MOST_DRAW_BYTES >> 20} MB fit" if included < kept.count else ""
-    return f"with {included:,} of the {kept.count:,} draws of each chain{limit}"
+    limit = f"; at most {MOST_DRAWS:,} draws and {MOST_DRAW_BYTES >> 20} MB fit" if draws.count < draws.kept else ""
+    return f"with {draws.count:,} of the {draws.kept:,} draws of each chain{limit}"
 
 
 def evenly_spaced(count: int, most: int) -> NDArray[np.intp]:

@@ -7,35 +7,11 @@ import zlib
 from importlib import resources
 from typing import Literal
 
-import msgspec
 from msgspec import Struct
 
-from bayesmap.app.protocol.document import RARE_WALLS, Document, Refused, plain
+from bayesmap.app.protocol.document import RARE_WALLS, Document, Refused, encode_json
 from bayesmap.app.protocol.notices import LIMITS, Limits, Story, Tool
-from bayesmap.app.shown.result import (
-    BAD_DIFFERENCE,
-    BAD_ESS,
-    FEWEST_DIAGNOSED,
-    FEWEST_SWEEPS,
-    GOOD_ESS,
-    GOOD_RHAT,
-    MISFIT_SIGMAS,
-)
-from bayesmap.posterior.summary import CHANCE_SHARE, RHAT_LIMIT
-
-
-class Judging(Struct, frozen=True):
-    """The limits by which chains and particles are judged."""
-
-    rhat_limit: float = RHAT_LIMIT
-    good_rhat: float = GOOD_RHAT
-    good_ess: float = GOOD_ESS
-    bad_ess: float = BAD_ESS
-    fewest_sweeps: int = FEWEST_SWEEPS  # of chains that go on
-    fewest_diagnosed: int = FEWEST_DIAGNOSED
-    bad_difference: float = BAD_DIFFERENCE
-    misfit_sigmas: float = MISFIT_SIGMAS  # limit of the misfit of maps
-    chance_share: float = CHANCE_SHARE  # share of the cells in which means of chains may differ by more
+from bayesmap.app.shown.result import VerdictLimits
 
 
 class Figure(Struct, frozen=True, kw_only=True):
@@ -45,13 +21,13 @@ class Figure(Struct, frozen=True, kw_only=True):
     document: Document
     limits: Limits = LIMITS
     rare_walls: float = RARE_WALLS  # prior of walls or free cells up to which method "auto" means blocks
-    judging: Judging = Judging()
+    judging: VerdictLimits = VerdictLimits()
     story: Story | None = None
 
 
-TOOLS: tuple[Tool, ...] = ("draw", "erase", "sensor", "pan", "where")
-"""The tools of a figure."""
+TOOLS: tuple[Tool, ...] = ("draw", "erase", "sensor", "pan", "where")  # the tools of a figure
 
+# The beginning of every page, up to what a page adds to its head.
 HEAD = """<!doctype html>
 <html lang="en">
 <head>
@@ -61,7 +37,6 @@ HEAD = """<!doctype html>
 <title>bayesmap</title>
 <link rel="icon" href="data:,">
 """
-"""The beginning of every page, up to what a page adds to its head."""
 
 PAGE = (
     HEAD
@@ -84,34 +59,35 @@ await import(URL.createObjectURL(new Blob([text], {{ type: "text/javascript" }})
 )
 
 
-def static(name: str) -> str:
+def read_static(name: str) -> str:
     """Return the text of one of the page's static files."""
     return resources.files("bayesmap.app").joinpath("static", name).read_text(encoding="utf-8")
 
 
-def one_file(kind: Literal["recording", "figure"], data: bytes) -> str:
+def page_in_one_file(kind: Literal["recording", "figure"], data: bytes) -> str:
     """Return a page in one file, with the page's module and its data. It loads nothing else."""
-    return PAGE.format(kind=kind, data=_packed(data), module=_packed(static("mapview.js").encode()))
+    return PAGE.format(kind=kind, data=_compress(data), module=_compress(read_static("mapview.js").encode()))
 
 
 def to_figure(document: Document, story: Story | None = None) -> str:
-    """Return a page in one file in which a drawn world, and the steps of a story, are edited and sampled without a
-    server. Raises Refused: a document shows a file, has uncertain poses, or asks for belief propagation; or a step
-    holds a tool that a figure lacks.
+    """Return a page in one file that samples a drawn world, and the steps of a story, without a server.
+
+    Raises `Refused` if a document shows a file, has uncertain poses, or asks for belief propagation, or if a figure
+    lacks the tool of a step.
     """
     for number, step in enumerate(story.steps if story else (), start=1):
         try:
             if step.tool not in TOOLS:
                 raise Refused(f"tool: a figure has no {step.tool}", f"there are: {', '.join(TOOLS)}")
-            for one in filter(None, (step.document, step.solution)):
-                _check_sampled(one)
+            for step_document in filter(None, (step.document, step.solution)):
+                _check_can_sample(step_document)
         except Refused as refused:
             raise Refused(f"step {number}: {refused.text}", refused.remedy) from None
-    _check_sampled(document)
-    return one_file("figure", msgspec.json.encode(Figure(document=document, story=story), enc_hook=plain))
+    _check_can_sample(document)
+    return page_in_one_file("figure", encode_json(Figure(document=document, story=story)))
 
 
-def _check_sampled(document: Document) -> None:
+def _check_can_sample(document: Document) -> None:
     if not document.simulated:
         raise Refused(f"{document.source.name} is a file, and a figure shows a drawn world", "begin a new map")
     if document.pose_sigma > 0 or document.heading_sigma > 0:
@@ -120,7 +96,7 @@ def _check_sampled(document: Document) -> None:
         raise Refused("method: a figure has no belief propagation", "choose another method")
 
 
-def _packed(data: bytes) -> str:
+def _compress(data: bytes) -> str:
     """Compress by raw deflate, which the browser's DecompressionStream reads, and return base64."""
-    packer = zlib.compressobj(9, zlib.DEFLATED, -15)  # the best compression, and no header around the data
-    return base64.b64encode(packer.compress(data) + packer.flush()).decode()
+    deflate = zlib.compressobj(9, zlib.DEFLATED, -15)  # the best compression, and no header around the data
+    return base64.b64encode(deflate.compress(data) + deflate.flush()).decode()

@@ -24,20 +24,20 @@ class Outbox:
 
     def __init__(self) -> None:
         self._waiting: deque[tuple[AnyNotice, Buffers]] = deque()
-        self._some = asyncio.Event()
+        self._filled = asyncio.Event()
 
     def put(self, message: AnyNotice, buffers: Buffers) -> None:
         """Add a message. It replaces a waiting message of its type if only the newest matters."""
         if isinstance(message, REPLACED):
             self._waiting = deque(entry for entry in self._waiting if type(entry[0]) is not type(message))
         self._waiting.append((message, buffers))
-        self._some.set()
+        self._filled.set()
 
     async def get(self) -> str | bytes:
         """Wait for the oldest message, and return it in the socket's format."""
         while not self._waiting:
-            self._some.clear()
-            await self._some.wait()
+            self._filled.clear()
+            await self._filled.wait()
         return frame(*self._waiting.popleft())
 
 
@@ -45,21 +45,20 @@ class Hub:
     """Connects pages and worker on one event loop, which also receives the reports of the supervisor's threads."""
 
     def __init__(
-        self, document: Document, path: str | None = None, reading: Mapping[str, Any] | None = None,
+        self, document: Document, path: str | None = None, log_options: Mapping[str, Any] | None = None,
         story: Story | None = None,
     ) -> None:  # fmt: skip
         self.session = Session(document, story)  # the session that the pages share
         self.pictured = asyncio.Event()  # event that is set when there is a first field, or an error instead
         self._loop = asyncio.get_running_loop()
-        self._supervisor = Supervisor(
-            self._from_thread(self._hear), self._from_thread(self._lost), path, reading=reading
-        )
+        on_report, on_lost = self._from_thread(self._receive_report), self._from_thread(self._worker_lost)
+        self._supervisor = Supervisor(on_report, on_lost, path, log_options=log_options)
         self._pages: dict[int, Outbox] = {}
         self._numbers = itertools.count(1)
         self._unusable: str | None = None
 
     async def start(self) -> None:
-        """Start the worker and wait for its first picture. Raises BadInput: the file cannot be shown."""
+        """Start the worker and wait for its first picture. Raises `BadInput` if the file cannot be shown."""
         self._supervisor.start()
         await self.pictured.wait()
         if self._unusable is not None:
@@ -73,13 +72,13 @@ class Hub:
         """Connect a page; return its number and its outbox."""
         client = next(self._numbers)
         self._pages[client] = Outbox()
-        self._do(self.session.join(client))
+        self._carry_out(self.session.join(client))
         return client, self._pages[client]
 
     def leave(self, client: int) -> None:
         """Disconnect a page."""
         self._pages.pop(client, None)
-        self._do(self.session.leave(client))
+        self._carry_out(self.session.leave(client))
 
     def receive(self, client: int, data: str | bytes) -> None:
         """Read and apply a message of a page."""
@@ -88,13 +87,14 @@ class Hub:
         except Refused as refused:
             self.refuse(client, refused, seq_of(data))
             return
-        self._do(self.session.receive(client, action))
+        self._carry_out(self.session.receive(client, action))
 
     def refuse(self, client: int, refused: Refused, seq: int | None = None) -> None:
         """Tell a page that a message was refused."""
         self._pages[client].put(refusal(refused, seq), {})
 
-    def _do(self, effects: Effects) -> None:
+    def _carry_out(self, effects: Effects) -> None:
+        """Send messages to pages, and tasks to the worker."""
         for effect in effects:
             if not isinstance(effect, ToPage):
                 self._supervisor.send(effect)
@@ -103,17 +103,17 @@ class Hub:
                 if effect.client is None or effect.client == client:
                     outbox.put(effect.message, effect.buffers)
 
-    def _hear(self, report: Report) -> None:
+    def _receive_report(self, report: Report) -> None:
         if isinstance(report.message, Unusable):
             self._unusable = report.message.text
             self.pictured.set()
             return
-        self._do(self.session.receive_report(report))
+        self._carry_out(self.session.receive_report(report))
         if isinstance(report.message, Field | Failed):
             self.pictured.set()
 
-    def _lost(self) -> None:
-        self._do(self.session.worker_lost())
+    def _worker_lost(self) -> None:
+        self._carry_out(self.session.worker_lost())
 
     def _from_thread(self, call: Callable[..., None]) -> Callable[..., None]:
         """Return a function for other threads that calls `call` on the event loop."""

@@ -25,7 +25,7 @@ from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans, fan
 
 BLUR_SIGMAS = 5.0  # a reading within this many standard deviations of the longest range counts as no return
-NEAR_SIGMAS = 13.0  # how far past its reading a preview follows a beam: farther stops are 1e-30 as likely
+CUT_SIGMAS = 13.0  # how far past its reading a preview follows a beam: farther stops are 1e-30 as likely
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,31 +45,27 @@ class Scene:
     # function that traces these beams only a little past their readings; None means `trace`
     trace_near: Callable[[], BeamTable] | None = None
     hit_depth: float = 0.0  # depth in a cell at which a beam is expected to stop
-    used: int | None = None  # number of first scans used for the map; None means all scans
-
-    @property
-    def used_scans(self) -> Scans:
-        """The scans used for the map."""
-        return self.scans if self.used is None else self.scans.select(slice(self.used))
+    n_used: int | None = None  # number of first scans used for the map; None means all scans
 
     @cached_property
     def problem(self) -> WallProblem:
         """The problem of the beam table and the prior."""
-        return WallProblem(self.trace(), self.prior, self.scans.poses[: self.used])
+        return WallProblem(self.trace(), self.prior, self.scans.poses[: self.n_used])
 
     @cached_property
-    def near(self) -> WallProblem:
+    def near_problem(self) -> WallProblem:
         """The problem with beams that end a little past their readings."""
-        return WallProblem((self.trace_near or self.trace)(), self.prior, self.scans.poses[: self.used])
+        return WallProblem((self.trace_near or self.trace)(), self.prior, self.scans.poses[: self.n_used])
 
     def model(self, cells: CellPrior) -> Model:
         """Return the model in which cells of a kind explain the readings."""
-        return Model(self.used_scans, self.grid, cells, self.sensor, hit_depth=self.hit_depth)
+        scans = self.scans if self.n_used is None else self.scans.select(slice(self.n_used))
+        return Model(scans, self.grid, cells, self.sensor, hit_depth=self.hit_depth)
 
     def with_prior(self, p_wall: float) -> Scene:
         """Return the scene under another prior, with the beam tables and indices that exist already."""
         other = replace(self, prior=Independent(p_wall))
-        for name in ("problem", "near"):
+        for name in ("problem", "near_problem"):
             if (problem := vars(self).get(name)) is not None:
                 vars(other)[name] = problem.under(other.prior)
         return other
@@ -77,12 +73,13 @@ class Scene:
 
 def scene_of_file(
     scans: Scans, grid: Grid, sensor: SensorModel, p_wall: float, table: BeamTable, hit_depth: float = 0.0,
-    used: int | None = None,
+    n_used: int | None = None,
 ) -> Scene:  # fmt: skip
     """Return the scene of a file. Its scans are numbered from 1, and its noise-free ranges are unknown."""
-    ids, exact_m = tuple(range(1, len(scans) + 1)), np.zeros((0, len(scans.angles_rad)))
-    prior = Independent(p_wall)
-    return Scene(scans, exact_m, ids, sensor, grid, prior, lambda: table, hit_depth=hit_depth, used=used)
+    return Scene(
+        scans, np.zeros((0, len(scans.angles_rad))), tuple(range(1, len(scans) + 1)), sensor, grid,
+        Independent(p_wall), lambda: table, hit_depth=hit_depth, n_used=n_used,
+    )  # fmt: skip
 
 
 def standard_noise(seed: int, sensor: int, angles: int) -> NDArray[np.float64]:
@@ -94,26 +91,26 @@ def simulate_document(document: Document) -> tuple[Scans, NDArray[np.float64]]:
     """Simulate the scans of all sensors; return them and the noise-free ranges, (S, A)."""
     poses = np.array([(s.x, s.y, s.yaw) for s in document.sensors])
     angles = fan(document.angles, math.degrees(document.fov))
-    exact = ranges(document.is_wall, document.grid, poses, angles, document.max_range)
+    exact_m = ranges(document.is_wall, document.grid, poses, angles, document.max_range)
     noise = np.stack([standard_noise(document.seed, s.id, document.angles) for s in document.sensors])
-    readings = exact + (document.noise if document.readings == "noisy" else 0.0) * noise
-    return Scans(poses, angles, readings, max_range_m=document.max_range), exact
+    ranges_m = exact_m + (document.noise if document.readings == "noisy" else 0.0) * noise
+    return Scans(poses, angles, ranges_m, max_range_m=document.max_range), exact_m
 
 
 def simulated_scene(document: Document) -> Scene:
     """Simulate the readings of a drawn world."""
     from bayesmap.kernels.walls.table import trace
 
-    scans, exact = simulate_document(document)
+    scans, exact_m = simulate_document(document)
     sensor, grid, ids = Gaussian(document.noise), document.grid, tuple(s.id for s in document.sensors)
     # Cutting beams past their readings does not change belief propagation: the omitted cells send messages equal to 1.
-    near_m = scans.ranges_m.ravel() + NEAR_SIGMAS * sensor.sigma_m
-    whole, near = partial(trace, scans, grid, sensor), partial(trace, scans, grid, sensor, reach_m=near_m)
-    return Scene(scans, exact, ids, sensor, grid, Independent(document.prior), whole, near)
+    reach_m = scans.ranges_m.ravel() + CUT_SIGMAS * sensor.sigma_m
+    trace_all, trace_near = partial(trace, scans, grid, sensor), partial(trace, scans, grid, sensor, reach_m=reach_m)
+    return Scene(scans, exact_m, ids, sensor, grid, Independent(document.prior), trace_all, trace_near)
 
 
-def hits(scene: Scene) -> NDArray[np.bool_]:
-    """Find the beams that hit something, (S, A): exactly in a simulation, else by readings below the longest range.
+def hit_mask(scene: Scene) -> NDArray[np.bool_]:
+    """Mark the beams that hit something, (S, A): exactly in a simulation, else by readings below the longest range.
 
     A beam without a return may read the longest range, plus additive noise. So readings within `BLUR_SIGMAS` of the
     longest range count as no return.
@@ -127,20 +124,20 @@ def hits(scene: Scene) -> NDArray[np.bool_]:
     return np.asarray(np.isfinite(ranges_m) & (ranges_m < limit - BLUR_SIGMAS * blur))
 
 
-def rays(scene: Scene, scan: int | None, generation: int) -> tuple[Scan, Buffers]:
+def scan_message(scene: Scene, scan: int | None, generation: int) -> tuple[Scan, Buffers]:
     """Return the message `Scan` and its buffers: all scans of a simulation, or one scan of a file."""
     rows = np.arange(len(scene.scans)) if scan is None else np.array([scan])
-    return Scan([scene.ids[i] for i in rows], scan, generation=generation), ray_buffers(scene, rows)
+    return Scan([scene.ids[i] for i in rows], scan, generation=generation), scan_buffers(scene, rows)
 
 
-def ray_buffers(scene: Scene, rows: NDArray[np.intp]) -> Buffers:
+def scan_buffers(scene: Scene, rows: NDArray[np.intp]) -> Buffers:
     """Return the buffers of some scans. If scans differ in their beam angles, angles have one row per scan."""
-    scans, exact = scene.scans, scene.exact_m
+    scans, exact_m = scene.scans, scene.exact_m
     angles = scans.angles_rad if scans.own_angles_rad is None else scans.angles_by_scan()[rows]
     return {
         "pose": scans.poses[rows],
         "angles": angles.astype(np.float32),
         "ranges": scans.ranges_m[rows].astype(np.float32),
-        "exact": (exact[rows] if len(exact) else exact).astype(np.float32),
-        "hit": hits(scene)[rows].astype(np.uint8),
+        "exact": (exact_m[rows] if len(exact_m) else exact_m).astype(np.float32),
+        "hit": hit_mask(scene)[rows].astype(np.uint8),
     }

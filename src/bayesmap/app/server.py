@@ -28,7 +28,7 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from bayesmap.app.dropped import open_dropped
-from bayesmap.app.figures import HEAD, static
+from bayesmap.app.figures import HEAD, read_static
 from bayesmap.app.hub import Hub, Outbox
 from bayesmap.app.protocol.document import Document, Refused
 from bayesmap.app.protocol.notices import Story
@@ -97,10 +97,10 @@ class Guard:
         if scope["type"] not in ("http", "websocket"):
             await self.app(scope, receive, send)
             return
-        why = self.objection(scope)
-        if why is not None and scope["type"] == "websocket":
+        objection = self.objection(scope)
+        if objection is not None and scope["type"] == "websocket":
             await receive()
-            await send({"type": "websocket.close", "code": POLICY_VIOLATION, "reason": why})
+            await send({"type": "websocket.close", "code": POLICY_VIOLATION, "reason": objection})
             return
 
         async def with_headers(message: Message) -> None:
@@ -108,15 +108,15 @@ class Guard:
                 headers = MutableHeaders(scope=message)
                 host = _header(scope, b"host")
                 for name, value in HEADERS.items():
-                    sockets, scripts = (f" ws://{host}", "'self'") if why is None else ("", f"'{SCRIPT_HASH}'")
+                    sockets, scripts = (f" ws://{host}", "'self'") if objection is None else ("", f"'{SCRIPT_HASH}'")
                     headers[name] = value.format(sockets=sockets, scripts=scripts)
             await send(message)
 
         answer: ASGIApp = self.app
-        if why == WRONG_TOKEN and scope.get("path") == "/":
+        if objection == WRONG_TOKEN and scope.get("path") == "/":
             answer = HTMLResponse(PAGE, status_code=403)
-        elif why is not None:
-            answer = PlainTextResponse(f"{why}\n", status_code=403)
+        elif objection is not None:
+            answer = PlainTextResponse(f"{objection}\n", status_code=403)
         await answer(scope, receive, with_headers if scope["type"] == "http" else send)
 
     def objection(self, scope: Scope) -> str | None:
@@ -128,16 +128,13 @@ class Guard:
             parts = urlsplit(origin)
             if parts.scheme != "http" or not self.knows(parts.netloc):
                 return "requests from other pages are refused"
-        given = parse_qs(scope.get("query_string", b"").decode("latin-1")).get("token", [""])
-        if not secrets.compare_digest(given[-1].encode(), self.token):
-            return WRONG_TOKEN
-        return None
+        tokens = parse_qs(scope.get("query_string", b"").decode("latin-1")).get("token", [""])
+        return None if secrets.compare_digest(tokens[-1].encode(), self.token) else WRONG_TOKEN
 
     def knows(self, host: str) -> bool:
         """Return whether a host with its port is this server."""
         name, _, port = host.lower().rpartition(":")
-        known = name in self.names or (self.any_address and _is_address(name))
-        return known and port == str(self.port)
+        return port == str(self.port) and (name in self.names or (self.any_address and _is_address(name)))
 
 
 def _is_address(name: str) -> bool:
@@ -160,33 +157,32 @@ MAX_EXCESS_MESSAGES = 2000  # number of messages over the rate after which a pag
 MAX_READ_BYTES = 4 * MAX_BYTES  # a longer message closes the connection; one over `MAX_BYTES` gets an error
 
 
-class Rate:
+class RateLimit:
     """Rate limit for messages by a token bucket: `BURST_MESSAGES` tokens, refilled at `MESSAGES_PER_SECOND`."""
 
     def __init__(self) -> None:
-        self._left, self._at = float(BURST_MESSAGES), time.monotonic()
-        self.over = 0
+        self._tokens, self._refilled_s = float(BURST_MESSAGES), time.monotonic()
+        self.n_refused = 0
 
     def allow(self) -> bool:
         """Return whether one more message is allowed now."""
-        now = time.monotonic()
-        self._left = min(BURST_MESSAGES, self._left + (now - self._at) * MESSAGES_PER_SECOND)
-        self._at = now
-        if self._left < 1:
-            self.over += 1
-            return False
-        self._left -= 1
-        return True
+        now_s = time.monotonic()
+        self._tokens = min(BURST_MESSAGES, self._tokens + (now_s - self._refilled_s) * MESSAGES_PER_SECOND)
+        self._refilled_s = now_s
+        allowed = self._tokens >= 1
+        self._tokens -= allowed
+        self.n_refused += not allowed
+        return allowed
 
 
 def application(hub: Hub, token: str, host: str, port: int) -> Guard:
     """Return the ASGI application: the page, its module, and the socket."""
 
     def page(request: Request) -> Response:
-        return HTMLResponse(static("index.html").replace("__TOKEN__", token))
+        return HTMLResponse(read_static("index.html").replace("__TOKEN__", token))
 
     def module(request: Request) -> Response:
-        return Response(static("mapview.js"), media_type="text/javascript")
+        return Response(read_static("mapview.js"), media_type="text/javascript")
 
     async def connect(socket: WebSocket) -> None:
         await socket.accept()
@@ -211,15 +207,15 @@ async def _send(socket: WebSocket, outbox: Outbox) -> None:
 
 
 async def _receive(socket: WebSocket, hub: Hub, client: int) -> None:
-    rate = Rate()
+    limit = RateLimit()
     while True:
         event = await socket.receive()
         if event["type"] != "websocket.receive":
             return
-        if not rate.allow():
-            if rate.over % MESSAGES_PER_SECOND == 1:
+        if not limit.allow():
+            if limit.n_refused % MESSAGES_PER_SECOND == 1:
                 hub.refuse(client, Refused("too many messages", f"send at most {MESSAGES_PER_SECOND} a second"))
-            if rate.over > MAX_EXCESS_MESSAGES:
+            if limit.n_refused > MAX_EXCESS_MESSAGES:
                 await socket.close(POLICY_VIOLATION, "too many messages")
                 return
             continue
@@ -228,7 +224,7 @@ async def _receive(socket: WebSocket, hub: Hub, client: int) -> None:
 
 
 def listen(host: str, port: int) -> socket.socket:
-    """Return a listening socket. Port 0 means any free port. Raises BadInput: the address is not available."""
+    """Return a listening socket. Port 0 means any free port. Raises `BadInput` if the address is not available."""
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
     # With TCP given explicitly, asyncio sends small messages at once. Else each waits for the last one's receipt.
     listener = socket.socket(family, socket.SOCK_STREAM, socket.IPPROTO_TCP)
@@ -257,22 +253,21 @@ class _Server(uvicorn.Server):
     @contextlib.contextmanager
     def capture_signals(self) -> Iterator[None]:
         # uvicorn would handle Ctrl-C even in a process that was started to ignore it.
-        before = signal.getsignal(signal.SIGINT)
+        handler = signal.getsignal(signal.SIGINT)
         with super().capture_signals():
-            if before is signal.SIG_IGN:
-                signal.signal(signal.SIGINT, before)
+            if handler is signal.SIG_IGN:
+                signal.signal(signal.SIGINT, handler)
             yield
 
 
 async def _serve(
-    hub_of: Callable[[], Hub], listener: socket.socket, host: str, announce: Callable[[str], None],
-    server_of: Callable[[uvicorn.Config, Callable[[], None]], uvicorn.Server] = _Server,
+    make_hub: Callable[[], Hub], listener: socket.socket, host: str, announce: Callable[[str], None],
+    make_server: Callable[[uvicorn.Config, Callable[[], None]], uvicorn.Server] = _Server,
 ) -> None:  # fmt: skip
-    port = listener.getsockname()[1]
-    token = secrets.token_urlsafe(24)
-    hub = hub_of()
+    """Serve a hub, and announce the page's address when requests are accepted and a picture is there."""
+    port, token, hub = listener.getsockname()[1], secrets.token_urlsafe(24), make_hub()
     name = f"[{host}]" if ":" in host else host
-    shown = {"0.0.0.0": "127.0.0.1", "[::]": "[::1]"}.get(name, name)
+    name = {"0.0.0.0": "127.0.0.1", "[::]": "[::1]"}.get(name, name)
     try:
         await hub.start()
         config = uvicorn.Config(
@@ -280,7 +275,7 @@ async def _serve(
             ws_per_message_deflate=False,  # it costs more time on loopback than it saves
             lifespan="off", log_level="error", access_log=False, server_header=False, timeout_graceful_shutdown=1,
         )  # fmt: skip
-        await server_of(config, lambda: announce(f"http://{shown}:{port}/?token={token}")).serve(sockets=[listener])
+        await make_server(config, lambda: announce(f"http://{name}:{port}/?token={token}")).serve(sockets=[listener])
     finally:
         hub.stop()
 
@@ -292,8 +287,8 @@ def serve(
     """Serve the page until Ctrl-C. ``on_ready`` gets its address when requests are accepted and a picture is there.
 
     ``path`` is a saved run, or a log that `bayesmap.read_log` reads with ``log_options``; without one, ``document`` is
-    shown first. ``story`` is told beside the map. Port 0 means any free port. Raises BadInput: the port is taken, or
-    the file cannot be shown. Raises KeyboardInterrupt: Ctrl-C before the server is ready.
+    shown first. ``story`` is told beside the map. Port 0 means any free port. Raises `BadInput` if the port is taken,
+    or the file cannot be shown, and `KeyboardInterrupt` if Ctrl-C comes before the server is ready.
     """
     with contextlib.closing(listen(host, port)) as listener:
         ready = False

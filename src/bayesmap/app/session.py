@@ -12,10 +12,10 @@ from typing import Literal, get_args
 
 import msgspec
 
-from bayesmap.app.edits import From, History, Pace, adopted, edit, gesture_of
+from bayesmap.app.edits import ActionOfPage, History, Pace, adopt_document, edit, gesture_of
 from bayesmap.app.figures import to_figure
 from bayesmap.app.protocol import actions, notices, tasks
-from bayesmap.app.protocol.document import VERSION, Document, Refused, plain
+from bayesmap.app.protocol.document import VERSION, Document, Refused, encode_json
 from bayesmap.app.protocol.wire import parse_document
 
 QUESTIONS = get_args(actions.Question)
@@ -41,8 +41,8 @@ class Session:
     """One document, shown on any number of pages."""
 
     def __init__(self, document: Document, story: notices.Story | None = None) -> None:
-        self._story = story  # told beside the map
-        self.history = History(document)  # the document, and its states before and after
+        self._story = story  # shown beside the map
+        self.history = History(document)  # the document, and its earlier and undone states
         self.generation = 0  # number of the present picture (docs/app.md)
         self.live = True  # whether edits restart the chains
         self.running = False  # whether a run is under way
@@ -93,14 +93,14 @@ class Session:
         self._pace.forget(client)
         effects = self._apply_all(self._pace.due())
         self._last_seqs.pop(client, None)
-        return [*effects, *self._forget_view(client), *self._states()]
+        return [*effects, *self._forget_view(client), *self._state_for_all()]
 
     def _forget_view(self, client: int) -> Effects:
         """Forget the view of a page, so that the worker makes no field for it."""
         view = self._views.pop(client, None)
         return [] if view is None else [tasks.Show(client, notices.View("mean"))]
 
-    def _apply_all(self, due: list[From]) -> Effects:
+    def _apply_all(self, due: list[ActionOfPage]) -> Effects:
         """Apply actions of pages in order; return their effects."""
         return [effect for client, action in due for effect in self._apply_or_refuse(client, action)]
 
@@ -110,56 +110,56 @@ class Session:
         try:
             return self._dispatch(client, action)
         except Refused as refusal:
-            return [_status(str(refusal), "warning", client), *self._states()]
+            return [_status(str(refusal), "warning", client), *self._state_for_all()]
 
     def _dispatch(self, client: int, action: actions.AnyAction) -> Effects:
         """Apply an action by its kind. Raises `Refused` if it cannot be applied."""
         match action:
             case actions.Hello():
-                return self._hello(client, action)
+                return self._answer_hello(client, action)
             case actions.Clear(what="inference"):
                 return self._restart("clear")
             case actions.Undo():
-                return self._step(client, self.history.undo(), self.history.past, "undo")
+                return self._undo_or_redo(client, self.history.undo(), self.history.past, "undo")
             case actions.Redo():
-                return self._step(client, self.history.redo(), self.history.future, "redo")
+                return self._undo_or_redo(client, self.history.redo(), self.history.future, "redo")
             case actions.Run():
                 if self.document.source.kind == "run":
                     raise Refused("a saved run is shown as it is", "begin a new map to run inference")
                 return self._restart("run")
             case actions.Cancel():
-                return [action, *self._states()]
+                return [action, *self._state_for_all()]
             case actions.Live():
                 self.live = action.on
                 if self.running or self.document.source.kind == "run":
-                    return self._states()
-                return self._restart() if self.live else [actions.Cancel(), *self._states()]
+                    return self._state_for_all()
+                return self._restart() if self.live else [actions.Cancel(), *self._state_for_all()]
             case actions.ShowView():
                 self._views[client] = notices.View(action.layer, action.chain, action.draw)
-                return [tasks.Show(client, self._views[client]), *self._states()]
+                return [tasks.Show(client, self._views[client]), *self._state_for_all()]
             case actions.ShowScan():
                 scans = self.document.source.scans
                 if action.index >= scans:
                     raise Refused(f"there is no scan {action.index}", f"there are {scans}, from 0" if scans else "")
                 self.scan = action.index
-                return [action, *self._states()]
+                return [action, *self._state_for_all()]
             case actions.Export(what="document"):
-                data = msgspec.json.format(msgspec.json.encode(self.document, enc_hook=plain), indent=1) + b"\n"
+                data = msgspec.json.format(encode_json(self.document), indent=1) + b"\n"
                 return [ToPage(notices.Download("document.json", "application/json"), {"data": data}, client)]
             case actions.Export(what="figure"):
                 download = notices.Download("figure.html", "text/html", "which samples by itself")
                 return [ToPage(download, {"data": to_figure(self.document, self._story).encode()}, client)]
             case actions.Export():
-                return [tasks.Ask(client, action), *self._states()]
+                return [tasks.Ask(client, action), *self._state_for_all()]
             case _:
                 assert isinstance(action, EDITS)
-                return self._edit(client, action)
+                return self._apply_edit(client, action)
 
-    def _edit(self, client: int, action: actions.Edit) -> Effects:
+    def _apply_edit(self, client: int, action: actions.Edit) -> Effects:
         """Change the document by an edit, and restart inference if the document has changed."""
         before = self.document
-        after, remark = edit(before, action)
-        self.history = self.history.push(after, gesture_of(action, client), client)
+        document, remark = edit(before, action)
+        self.history = self.history.push(document, gesture_of(action, client), client)
         effects: Effects = [_status(remark, "warning", client)] if remark else []
         coarse = False
         if isinstance(action, actions.ChangeSettings):
@@ -168,37 +168,37 @@ class Session:
                 self.scan = (self.document.scans_used or self.document.source.scans) - 1
         coarse_ends = self._mode == "coarse" and not coarse
         if self.document is before and not coarse_ends:
-            return [*effects, *self._states()]
+            return [*effects, *self._state_for_all()]
         return effects + self._restart("coarse" if coarse else None)
 
-    def _hello(self, client: int, action: actions.Hello) -> Effects:
+    def _answer_hello(self, client: int, action: actions.Hello) -> Effects:
         """Send the state and the last messages to a page. Adopt the document that it brings, if possible."""
         effects: Effects = []
         if action.document is not None:
             try:
-                brought = parse_document(action.document)
+                page_document = parse_document(action.document)
             except Refused as refused:
                 return [ToPage(refusal(refused, action.seq), {}, client)]
             try:
-                document = adopted(self.document, brought)
+                document = adopt_document(self.document, page_document)
             except Refused as refused:
                 effects.append(_status(str(refused), "warning", client))
             else:
                 self.history = self.history.push(document, author=client)
                 if self.document is document:
                     return self._restart()
-        effects.append(self._state(client))
+        effects.append(self._state_for(client))
         return effects + [replace(self._last_sent[kind], client=client) for kind in REPLAYED if kind in self._last_sent]
 
     def _may_step(self, client: int, steps: Steps) -> bool:
         """Return whether the last step was made by this page, or by a page that has disconnected."""
         return bool(steps) and (steps[-1][1] == client or steps[-1][1] not in self._last_seqs)
 
-    def _step(self, client: int, history: History[Document], steps: Steps, name: str) -> Effects:
+    def _undo_or_redo(self, client: int, history: History[Document], steps: Steps, name: str) -> Effects:
         """Move to `history`, if the page may undo or redo (`name`) the last of `steps`."""
         if not self._may_step(client, steps):
             text = f"the last step was made in another tab: {name} it there" if steps else f"nothing to {name}"
-            return [_status(text, "info", client), *self._states()]
+            return [_status(text, "info", client), *self._state_for_all()]
         self.history = history
         return self._restart()
 
@@ -208,20 +208,20 @@ class Session:
         """Return the effects of a worker's report. A report of an older generation has none."""
         message = report.message
         if isinstance(message, tasks.Ready):
-            return self._ready(message.document)
+            return self._restart_in_new_worker(message.document)
         if getattr(message, "generation", self.generation) != self.generation:
             return []
         match message:
             case tasks.Finished():
                 self.running = self.working = False
                 self.draws = message.draws
-                return [*self._states(), *self._picture_computed()]
+                return [*self._state_for_all(), *self._picture_computed()]
             case tasks.Failed():
                 self.running = self.working = False
-                return [_status(message.text, "error"), *self._states(), *self._picture_computed()]
+                return [_status(message.text, "error"), *self._state_for_all(), *self._picture_computed()]
             case tasks.OnGrid():
                 self.history = replace(self.history, present=self.document.on_grid(message.grid))
-                return self._states()
+                return self._state_for_all()
             case tasks.Located():
                 self._trajectory = message.trajectory
                 return []
@@ -249,7 +249,7 @@ class Session:
         text = "the worker stopped and is being restarted; the map is kept"
         return [ToPage(notices.Worker("restarted")), _status(text, "warning")]
 
-    def _ready(self, document: Document | None) -> Effects:
+    def _restart_in_new_worker(self, document: Document | None) -> Effects:
         """Restart inference in a new worker, at first on the document of the file that it has opened."""
         self.worker_ready = True
         if document is not None and self.generation == 0:
@@ -264,7 +264,7 @@ class Session:
         self._pace.computing = False
         return self._apply_all(self._pace.due())
 
-    # What follows from both
+    # Consequences of actions and reports
 
     def _default_mode(self) -> tasks.Mode:
         """Return the mode of inference after an edit."""
@@ -283,13 +283,13 @@ class Session:
         self.scan = min(self.scan, max(0, self.document.source.scans - 1))
         task = tasks.Infer(self.generation, self.document, self._mode, self.scan)
         # The state comes first: a page must get a generation's number before its picture.
-        return [*self._states(), task]
+        return [*self._state_for_all(), task]
 
-    def _states(self) -> Effects:
+    def _state_for_all(self) -> Effects:
         """Return the present state for every page."""
-        return [self._state(client) for client in self._last_seqs]
+        return [self._state_for(client) for client in self._last_seqs]
 
-    def _state(self, client: int) -> ToPage:
+    def _state_for(self, client: int) -> ToPage:
         """Return the present state for one page."""
         state = notices.State(
             document=self.document, generation=self.generation, seq=self._last_seqs.get(client, 0),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -22,8 +23,8 @@ from bayesmap.app.protocol.document import (
 )
 from bayesmap.app.protocol.wire import parse_simulation
 from bayesmap.app.scene import Scene, scene_of_file
-from bayesmap.app.shown.hit_maps import Counted, HitCounts, coarse_map
-from bayesmap.app.shown.result import Figures, Floats, Found, OneMap, Result, judge_chains, rhat_and_ess
+from bayesmap.app.shown.hit_maps import HitCountMap, HitCounts, stop_probabilities
+from bayesmap.app.shown.result import Estimate, Floats, MapOfDraw, Progress, Result, judge_chains, rhat_and_ess
 from bayesmap.beams.table import BeamTable
 from bayesmap.cells.arrays import Draws
 from bayesmap.cells.binary import Independent
@@ -59,20 +60,20 @@ class OpenedRun:
         return Result(scene, self.document, str(posterior.settings.get("method", "gibbs")), SavedRun(self.run))
 
 
-class SavedRun(Found):
-    """The draws of a saved run."""
+class SavedRun(Estimate):
+    """The estimate of a saved run."""
 
     def __init__(self, run: Run) -> None:
         self.run = run
 
-    def figures(self, over: bool) -> Figures:
+    def progress(self, ended: bool) -> Progress:
         sweeps, joint = self.run.posterior.sweep, self.run.log_joint
         seconds = self.run.posterior.seconds["total"]
         if not joint.size:
-            return Figures(sweeps, sweeps, seconds=seconds)
+            return Progress(sweeps, sweeps, seconds=seconds)
         rhat, ess = rhat_and_ess(joint)
-        verdict = judge_chains(rhat, ess, sweeps, None, over=True)
-        return Figures(sweeps, sweeps, ess, rhat, float(joint[:, -1].mean()), verdict, seconds=seconds)
+        verdict = judge_chains(rhat, ess, sweeps, None, ended=True)
+        return Progress(sweeps, sweeps, ess, rhat, float(joint[:, -1].mean()), verdict, seconds=seconds)
 
     @property
     def prior(self) -> CellPrior:
@@ -83,13 +84,13 @@ class SavedRun(Found):
         return self.run.posterior.settings.get("poses") or {"kind": "known"}
 
     @property
-    def law(self) -> None:
-        """None: the scene has the run's sensor model already. Raises BadInput: this model is not built in."""
+    def sensor_and_depth(self) -> None:
+        """None: the scene has the run's sensor model already. Raises `BadInput` if this model is not built in."""
         if self.run.posterior.sensor is None:
             raise BadInput("the run's sensor model is not one of bayesmap's, so nothing can be predicted")
 
     @property
-    def kept(self) -> Draws | None:
+    def kept_draws(self) -> Draws | None:
         return self.run.posterior.draws if self.run.posterior.draws.count else None
 
     @property
@@ -111,13 +112,12 @@ class SavedRun(Found):
     def log_joint(self) -> Floats:
         return self.run.log_joint
 
-    def draw(self, chain: int | None, number: int | None) -> OneMap | None:
+    def draw(self, chain: int | None, number: int | None) -> MapOfDraw | None:
         if not self.run.n_draws:
             return None
         last = self.run.n_draws - 1
-        which = min(chain or 0, len(self.run.log_joint) - 1)
-        index = last if number is None else min(number, last)
-        return self.run.map_of(which, index), which, index
+        chain, number = min(chain or 0, len(self.run.log_joint) - 1), last if number is None else min(number, last)
+        return self.run.map_of(chain, number), chain, number
 
     def as_run(self, result: Result) -> Run:
         return self.run
@@ -141,8 +141,9 @@ class OpenedLog:
         self._traced: Traced | None = None
 
     def on_cells(self, document: Document) -> Document:
-        """Return a document of this log on a grid of its cell size that covers what the scans saw. If this grid is too
-        large, use the grid on which the log is first shown.
+        """Return a document of this log on a grid of its cell size that covers what the scans saw.
+
+        If this grid is too large, use the grid on which the log is first shown.
         """
         own, bounds = self.document.grid, self.document.source.bounds
         if bounds is None or document.grid.resolution == own.resolution:
@@ -152,10 +153,10 @@ class OpenedLog:
 
     def scene(self, document: Document) -> Scene:
         """Return the scene of the log's first scans under the document's prior."""
-        traced, used = self._trace(document.grid), document.scans_used
-        table = traced.table if used is None else first_beams(traced.table, used * len(self.scans.angles_rad))
+        traced, n_used = self._trace(document.grid), document.scans_used
+        table = traced.table if n_used is None else first_beams(traced.table, n_used * len(self.scans.angles_rad))
         depth = Independent.hit_depth
-        return scene_of_file(self.scans, document.grid, traced.sensor, document.prior, table, depth, used)
+        return scene_of_file(self.scans, document.grid, traced.sensor, document.prior, table, depth, n_used)
 
     def coarse(self, document: Document) -> Result:
         """Return the hit-count map of the first scans."""
@@ -164,13 +165,13 @@ class OpenedLog:
             traced.counts = HitCounts(self.scans, traced.table)
         counts = traced.counts.first(document.scans_used)
         prior = None if document.cells == "binary" else BUILT_IN[document.cells]()
-        p_wall = coarse_map(counts, Independent(document.prior) if prior is None else prior, document.prior)
+        p_stop = stop_probabilities(counts, Independent(document.prior) if prior is None else prior, document.prior)
         shape = document.grid.shape
-        counted = Counted(p_wall.reshape(shape), counts.any(axis=0).reshape(shape), prior)
-        return Result(self.scene(document), document, "hits", counted)
+        hit_map = HitCountMap(p_stop.reshape(shape), counts.any(axis=0).reshape(shape), prior)
+        return Result(self.scene(document), document, "hits", hit_map)
 
     def _trace(self, grid: Grid) -> Traced:
-        """Return the beams traced on a grid. Those on the last grid are kept."""
+        """Return the beams traced on a grid. The last grid's are cached."""
         from bayesmap.cells.kinds import default_sensor
         from bayesmap.kernels.walls.table import trace
 
@@ -191,7 +192,7 @@ def first_beams(table: BeamTable, beams: int) -> BeamTable:
 
 
 def read_document(path: str) -> Document:
-    """Read a document that the page has exported (``.json``). Raises BadInput: it is not one; names the file."""
+    """Read a document that the page has exported (``.json``). Raises `BadInput`, with its name, if it is none."""
     try:
         return parse_simulation(json.loads(Path(path).read_text(encoding="utf-8")))
     except (OSError, ValueError, RecursionError) as error:
@@ -199,27 +200,28 @@ def read_document(path: str) -> Document:
         raise BadInput(f"{path}: {why}; give a document that the page has exported") from None
 
 
-def open_file(path: str, **reading: Any) -> OpenedRun | OpenedLog:
-    """Open a saved run (``.nc``) or a log, which is read with the options ``reading`` of `bayesmap.read_log`. Raises
-    BadInput: the file does not exist, or is neither a saved run nor a log.
+def open_file(path: str, **log_options: Any) -> OpenedRun | OpenedLog:
+    """Open a saved run (``.nc``) or a log, which is read with the options of `bayesmap.read_log`.
+
+    Raises `BadInput` if the file does not exist, or is neither a saved run nor a log.
     """
     if not Path(path).exists():
         raise BadInput(f"{path}: no such file; give a saved run (.nc) or a log of range scans")
     if path.endswith(".nc"):
-        return opened_run(load(path), Path(path).name)
+        return open_run(load(path), Path(path).name)
     from bayesmap.io.logs import read_log
 
-    return opened_log(read_log(path, **reading), Path(path).name)
+    return open_log(read_log(path, **log_options), Path(path).name)
 
 
-def opened_run(run: Run, name: str) -> OpenedRun:
-    """Open a run that is in memory. Raises BadInput: the map is too large for the page."""
+def open_run(run: Run, name: str) -> OpenedRun:
+    """Open a run that is in memory. Raises `BadInput` if the map is too large for the page."""
     settings, scans = run.posterior.settings, run.posterior.scans
-    p = settings.get("prior", {}).get("p_wall", 0.5)
+    p_wall = settings.get("prior", {}).get("p_wall")
     method = settings.get("method")
-    document = _document(run.grid, scans, Source("run", name, len(scans)), p if isinstance(p, int | float) else 0.5)
+    prior = p_wall if isinstance(p_wall, int | float) else 0.5
     document = replace(
-        document,
+        _document(run.grid, scans, Source("run", name, len(scans)), prior),
         method=method if method in METHODS else "gibbs",
         order=settings.get("order") or "radial",  # other kinds of cells than walls have no order
         cells=run.posterior.prior.words.kind,  # type: ignore[arg-type]
@@ -229,16 +231,17 @@ def opened_run(run: Run, name: str) -> OpenedRun:
     return OpenedRun(document, run)
 
 
-def opened_log(scans: Scans, name: str) -> OpenedLog:
-    """Open scans as a log, on cells of 10 cm, or on larger cells if a side would have more than 1000 cells. Poses that
-    look like raw odometry are at first treated as odometry. Raises BadInput: the log has no scans.
+def open_log(scans: Scans, name: str) -> OpenedLog:
+    """Open scans as a log, on cells of 10 cm, or on larger cells if a side would have more than 1000 cells.
+
+    Poses that look like raw odometry are at first treated as odometry. Raises `BadInput` if the log has no scans.
     """
     from bayesmap.cells.kinds import P_WALL
     from bayesmap.poses.log_checks import look_like_odometry
 
     grid = Grid.covering(scans, LOG_RESOLUTION_M)
     if max(grid.shape) > LARGEST_SIDE_OF_LOG:
-        grid = Grid.covering(scans, LOG_RESOLUTION_M * -(-max(grid.shape) // LARGEST_SIDE_OF_LOG))
+        grid = Grid.covering(scans, LOG_RESOLUTION_M * math.ceil(max(grid.shape) / LARGEST_SIDE_OF_LOG))
     document = _document(grid, scans, Source("log", name, len(scans)), P_WALL)
     source = replace(document.source, bounds=bounds_m(scans))
     document = replace(document, sweeps=LOG_SWEEPS, source=source)

@@ -11,20 +11,17 @@ from typing import Annotated, Any
 
 from msgspec import Meta, Struct
 
-from bayesmap.app.figures import static
+from bayesmap.app.figures import read_static
 from bayesmap.app.protocol.actions import Layer
-from bayesmap.app.protocol.document import Document, Refused, packed
+from bayesmap.app.protocol.document import Document, Refused, pack_walls
 from bayesmap.app.protocol.notices import Step, Story, Tool
-from bayesmap.app.protocol.wire import converted, parse_simulation
+from bayesmap.app.protocol.wire import convert, parse_simulation
 from bayesmap.errors import BadInput
 from bayesmap.sim.drawing import from_text
 
-OURS = "tutorial"
-"""The name by which the command line knows the story that is shipped in the package."""
-
-KEYS = ("map", *(one.name for one in fields(Document)))
-"""What a state may change: everything in a document, and the walls as rows of text."""
-
+OURS = "tutorial"  # the name of the story that is shipped in the package
+# Keys that a state may change: all fields of a document, and the walls as rows of text.
+KEYS = ("map", *(field.name for field in fields(Document)))
 Text = Annotated[str, Meta(min_length=1, max_length=1000)]
 
 
@@ -49,50 +46,44 @@ class WrittenStory(Struct, frozen=True, forbid_unknown_fields=True):
 
 
 def read_story(path: str, document: Document) -> Story:
-    """Read a story from a file; "tutorial" is the story of the package.
+    """Read a story from a JSON file, whose start changes a document. The path "tutorial" is the package's story.
 
-    Args:
-        path: the file, JSON.
-        document: what the story's start changes.
-
-    Raises:
-        BadInput: no JSON, or not a story; the message names the file, the step and the key.
+    Raises `BadInput`, with the file, the step and the key, if the file is not JSON or not a story.
     """
     try:
-        values = json.loads(static("story.json") if path == OURS else Path(path).read_text(encoding="utf-8"))
-        written = converted(values, WrittenStory, "story")
-        start = _changed(document, written.start, "start")
-        return Story(written.title, [_step(values, i, start) for i, values in enumerate(written.steps, start=1)])
+        values = json.loads(read_static("story.json") if path == OURS else Path(path).read_text(encoding="utf-8"))
+        written = convert(values, WrittenStory, "story")
+        start = _change_document(document, written.start, "start")
+        return Story(written.title, [_read_step(step, i, start) for i, step in enumerate(written.steps, start=1)])
     except (OSError, ValueError, RecursionError) as error:
         why = error.strerror if isinstance(error, OSError) else error if isinstance(error, BadInput) else "not JSON"
         raise BadInput(f"{path}: {why}; docs/stories.md describes the format") from None
 
 
-def _step(values: Mapping[str, Any], number: int, start: Document) -> Step:
+def _read_step(values: Mapping[str, Any], number: int, start: Document) -> Step:
     place = f"step {number}"
-    step = converted(values, WrittenStep, place)
-    document = _changed(start, step.state, f"{place}, state")
-    solution = None if step.solution is None else _changed(document, step.solution, f"{place}, solution")
+    step = convert(values, WrittenStep, place)
+    document = _change_document(start, step.state, f"{place}, state")
+    solution = None if step.solution is None else _change_document(document, step.solution, f"{place}, solution")
     return Step(
         title=step.title, text=step.text, task=step.task, document=document, solution=solution, layer=step.layer,
         tool=step.tool,
     )  # fmt: skip
 
 
-def _changed(document: Document, changes: Mapping[str, Any], place: str) -> Document:
+def _change_document(document: Document, changes: Mapping[str, Any], place: str) -> Document:
     """Return a document with an author's changes.
 
-    Raises:
-        Refused: an unknown key or an invalid value; the message begins with the place.
+    Raises `Refused`, with the place, if a key is unknown or a value is invalid.
     """
     try:
         if unknown := sorted(changes.keys() - set(KEYS)):
             raise Refused(f"there is no {unknown[0]}", f"there are: {', '.join(KEYS)}")
         values = {**document.to_json(), **changes}
         if "map" in values:
-            is_wall = from_text("\n".join(converted(values.pop("map"), list[str], "map")))[::-1].T
+            is_wall = from_text("\n".join(convert(values.pop("map"), list[str], "map")))[::-1].T
             grid = values["grid"] if isinstance(values["grid"], dict) else {}
-            walls = base64.b64encode(packed(is_wall)).decode()
+            walls = base64.b64encode(pack_walls(is_wall)).decode()
             values |= {"grid": {**grid, "shape": is_wall.shape}, "walls": walls}
         return parse_simulation(values)
     except BadInput as error:

@@ -11,14 +11,14 @@ from pathlib import Path
 from typing import Any
 
 from bayesmap.app.edits import tutorial_document
-from bayesmap.app.exports import to_html
-from bayesmap.app.figures import static
+from bayesmap.app.exports import record, to_html
+from bayesmap.app.figures import read_static
 from bayesmap.app.protocol.document import Refused
 from bayesmap.app.protocol.notices import AnyNotice
 from bayesmap.app.protocol.tasks import Buffers, Report, Unusable
 from bayesmap.app.protocol.wire import check, parse_simulation, seq_of, with_arrays
 from bayesmap.app.session import Effects, Session, ToPage, refusal
-from bayesmap.app.sources import opened_run
+from bayesmap.app.sources import open_run
 from bayesmap.app.worker import Supervisor
 from bayesmap.errors import BadInput
 from bayesmap.result import Run
@@ -47,7 +47,7 @@ class MapWidget(anywidget.AnyWidget):
         BadInput: the document is invalid.
     """
 
-    _esm = static("mapview.js")
+    _esm = read_static("mapview.js")
     _supervisor: Supervisor | None = None
     _folder: tempfile.TemporaryDirectory[str] | None = None
 
@@ -57,11 +57,12 @@ class MapWidget(anywidget.AnyWidget):
         super().__init__(**options)
         self._run = run
         first = tutorial_document(seed) if document is None else parse_simulation(dict(document))
-        self._session = Session(first if run is None else opened_run(run, "run").document)
-        # without an event loop, the threads of the supervisor call the session themselves
-        self._one_at_a_time = threading.RLock()
+        self._session = Session(first if run is None else open_run(run, "run").document)
+        self._session_lock = (
+            threading.RLock()
+        )  # without an event loop, the supervisor's threads call the session directly
         self._later = _on_this_loop()
-        self.on_msg(self._receive)
+        self.on_msg(self._receive_message)
         self._end_with_notebook()
 
     @property
@@ -75,12 +76,10 @@ class MapWidget(anywidget.AnyWidget):
         return self._session.generation
 
     def to_html(self) -> str:
-        """Return a page in one file that shows the run. Raises BadInput: the widget is a live page; use the page's
-        export.
-        """
+        """Return a page in one file that shows the run. Raises `BadInput` if the widget is a live page."""
         if self._run is None:
             raise BadInput("MapWidget: a live page is exported from the page itself")
-        return to_html(opened_run(self._run, "run").result)
+        return to_html(*record(open_run(self._run, "run").result))
 
     def close(self) -> None:
         """End the worker and the widget."""
@@ -109,7 +108,7 @@ class MapWidget(anywidget.AnyWidget):
 
         # each visitor of an app has a thread; when the visitor leaves, nothing is closed, but the thread ends
         thread = threading.current_thread()
-        if thread is not threading.main_thread() and _loop() is not None:
+        if thread is not threading.main_thread() and _running_loop() is not None:
 
             def end_after() -> None:
                 thread.join()
@@ -117,18 +116,18 @@ class MapWidget(anywidget.AnyWidget):
 
             threading.Thread(target=end_after, name="bayesmap-end", daemon=True).start()
 
-    def _receive(self, _widget: object, content: Any, _buffers: object) -> None:
+    def _receive_message(self, _widget: object, content: Any, _buffers: object) -> None:
         """Read and apply a message from the view."""
         self._start()
-        with self._one_at_a_time:
+        with self._session_lock:
             if isinstance(content, dict) and content.get("type") == "hello":
-                self._do(self._session.join(CLIENT))
+                self._carry_out(self._session.join(CLIENT))
             try:
                 action = check(content)
             except Refused as refused:
                 self._post(refusal(refused, seq_of(content if isinstance(content, dict) else {})), {})
                 return
-            self._do(self._session.receive(CLIENT, action))
+            self._carry_out(self._session.receive(CLIENT, action))
 
     def _start(self) -> None:
         if self._supervisor is not None:
@@ -139,20 +138,22 @@ class MapWidget(anywidget.AnyWidget):
             path = str(Path(self._folder.name) / "run.nc")
             self._run.save(path)
         self._supervisor = Supervisor(
-            lambda report: self._later(lambda: self._hear(report)), lambda: self._later(self._lost), path
+            lambda report: self._later(lambda: self._receive_report(report)),
+            lambda: self._later(self._worker_lost),
+            path,
         )
         self._supervisor.start()
 
-    def _hear(self, report: Report) -> None:
+    def _receive_report(self, report: Report) -> None:
         if not isinstance(report.message, Unusable):
-            with self._one_at_a_time:
-                self._do(self._session.receive_report(report))
+            with self._session_lock:
+                self._carry_out(self._session.receive_report(report))
 
-    def _lost(self) -> None:
-        with self._one_at_a_time:
-            self._do(self._session.worker_lost())
+    def _worker_lost(self) -> None:
+        with self._session_lock:
+            self._carry_out(self._session.worker_lost())
 
-    def _do(self, effects: Effects) -> None:
+    def _carry_out(self, effects: Effects) -> None:
         for effect in effects:
             if isinstance(effect, ToPage):
                 self._post(effect.message, effect.buffers)
@@ -166,7 +167,7 @@ class MapWidget(anywidget.AnyWidget):
 
 def _on_this_loop() -> Callable[[Callable[[], None]], None]:
     """Return a function that runs a call on the notebook's event loop, or directly if there is no loop."""
-    loop = _loop()
+    loop = _running_loop()
     if loop is None:
         return lambda call: call()
     context = contextvars.copy_context()
@@ -178,7 +179,7 @@ def _on_this_loop() -> Callable[[Callable[[], None]], None]:
     return later
 
 
-def _loop() -> asyncio.AbstractEventLoop | None:
+def _running_loop() -> asyncio.AbstractEventLoop | None:
     try:
         return asyncio.get_running_loop()
     except RuntimeError:

@@ -24,6 +24,10 @@ from bayesmap.errors import BadInput
 
 T = TypeVar("T")
 NICE = 3  # niceness of the worker: page and server come first; at 10 other programs left it a tenth of a core
+QUICK_DEATH_SECONDS = 5.0  # a worker that ends sooner is restarted after a pause
+LONGEST_PAUSE_SECONDS = 8.0  # limit of the pause, which grows each time
+SILENT_SECONDS = 15.0  # a worker that sends no report for this time is replaced
+SLOW_BIRTH_SECONDS = 60.0  # extra time of a new worker, which may load Python from a cold disk
 
 
 class Reporter:
@@ -31,50 +35,50 @@ class Reporter:
 
     def __init__(self, pipe: Connection) -> None:
         self._pipe, self._lock = pipe, threading.Lock()
-        threading.Thread(target=self._live, name="bayesmap_alive", daemon=True).start()
+        threading.Thread(target=self._send_alive, name="bayesmap_alive", daemon=True).start()
 
     def __call__(self, report: Report) -> None:
         """Send a report."""
         with self._lock:
             self._pipe.send(report)
 
-    def _live(self) -> None:
+    def _send_alive(self) -> None:
         with contextlib.suppress(OSError):
             while True:
                 self(Report(Alive()))
                 time.sleep(ALIVE_SECONDS)
 
 
-def serve(pipe: Connection, path: str | None, reading: dict[str, Any]) -> None:
+def run_tasks(pipe: Connection, path: str | None, log_options: dict[str, Any]) -> None:
     """Do the tasks from the pipe until its other end is closed.
 
     The first report is `Unusable` if the file cannot be opened. Else it is `Ready` with the file's document, after a
-    small map has been inferred, so that all kernels are loaded. ``reading`` are options of `bayesmap.read_log`.
+    small map has been inferred, so that all kernels are loaded. ``log_options`` are options of `bayesmap.read_log`.
     """
     from bayesmap.app.engine import Engine
     from bayesmap.app.sources import open_file
 
     report = Reporter(pipe)
     try:
-        opened = open_file(path, **reading) if path is not None else None
+        opened = open_file(path, **log_options) if path is not None else None
     except (BadInput, OSError) as error:
         report(Report(Unusable(str(error))))
         return
-    _warm()
+    _load_kernels()
     engine = Engine(report, opened)
     report(Report(Ready(None if opened is None else opened.document)))
     while True:
         tasks: list[Task] = []
         while pipe.poll(0 if engine.busy or tasks else None):
             tasks.append(pipe.recv())
-        for task in still_valid(tasks):
+        for task in drop_outdated(tasks):
             engine.take(task)
         engine.advance()
 
 
-def still_valid(tasks: Sequence[T]) -> list[T]:
-    """Return the tasks without outdated jobs: of `Infer`, the last and those from whose chains it goes on."""
-    kept: list[T] = []
+def drop_outdated(tasks: Sequence[T]) -> list[T]:
+    """Return the tasks without outdated jobs: the last `Infer` stays, and earlier ones whose chains it continues."""
+    valid: list[T] = []
     later: Infer | None = None
     outdated = False
     for task in reversed(tasks):
@@ -83,11 +87,11 @@ def still_valid(tasks: Sequence[T]) -> list[T]:
             if outdated:
                 continue
             later = task
-        kept.append(task)
-    return kept[::-1]
+        valid.append(task)
+    return valid[::-1]
 
 
-def _warm() -> None:
+def _load_kernels() -> None:
     """Load every kernel that a page may need, by inferring a small map."""
     from dataclasses import replace
 
@@ -103,32 +107,22 @@ def _warm() -> None:
 
 
 def main(arguments: list[str]) -> None:
-    """Run the worker. Arguments: ``descriptor [path reading]``: the inherited pipe, the file, its options as JSON."""
+    """Run the worker. Arguments: the inherited pipe's descriptor, and for a file its path and its options as JSON."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the server, which closes the pipe
     with contextlib.suppress(AttributeError, OSError):
         os.nice(NICE)
     pipe: Any = Connection(int(arguments[0]))
-    path, reading = (arguments[1], json.loads(arguments[2])) if len(arguments) > 1 else (None, {})
+    path, log_options = (arguments[1], json.loads(arguments[2])) if len(arguments) > 1 else (None, {})
     try:
-        serve(pipe, path, reading)
+        run_tasks(pipe, path, log_options)
     except (EOFError, BrokenPipeError, ConnectionResetError):
         os._exit(0)  # the server has gone
 
 
-if __name__ == "__main__":
-    main(sys.argv[1:])
-
-
-QUICK_DEATH_SECONDS = 5.0  # a worker that ends sooner is restarted after a pause
-LONGEST_PAUSE_SECONDS = 8.0  # limit of the pause, which grows each time
-SILENT_SECONDS = 15.0  # a worker that sends no report for this time is replaced
-SLOW_BIRTH_SECONDS = 60.0  # extra time of a new worker, which may load Python from a cold disk
-
-
-def start_worker(end: socket.socket, path: str | None, reading: Mapping[str, Any]) -> subprocess.Popen[bytes]:
-    """Start a worker with one end of a socket pair; it inherits nothing else of the caller."""
+def start_worker(end: socket.socket, path: str | None, log_options: Mapping[str, Any]) -> subprocess.Popen[bytes]:
+    """Start a worker with one end of a socket pair. It inherits nothing else of the caller."""
     command = [sys.executable, "-m", "bayesmap.app.worker", str(end.fileno())]
-    command += [path, json.dumps(reading)] if path is not None else []
+    command += [path, json.dumps(log_options)] if path is not None else []
     return subprocess.Popen(command, pass_fds=[end.fileno()], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
 
 
@@ -136,22 +130,22 @@ class Supervisor:
     """Keeps one worker process running.
 
     ``on_report`` gets every report, on a thread of the supervisor; ``on_lost`` is called when a worker has died, before
-    another starts. The worker opens the file ``path``, a log with the options ``reading`` of `bayesmap.read_log`. It is
+    another starts. The worker opens the file ``path``, a log with ``log_options`` of `bayesmap.read_log`. It is
     replaced after ``silence_s`` seconds without a report.
     """
 
     def __init__(
         self, on_report: Callable[[Report], None], on_lost: Callable[[], None], path: str | None = None,
-        silence_s: float = SILENT_SECONDS, reading: Mapping[str, Any] | None = None,
+        silence_s: float = SILENT_SECONDS, log_options: Mapping[str, Any] | None = None,
     ) -> None:  # fmt: skip
         self._on_report, self._on_lost, self._path = on_report, on_lost, path
-        self._silence_s, self._reading = silence_s, dict(reading or {})
+        self._silence_s, self._log_options = silence_s, dict(log_options or {})
         self._tasks: queue.SimpleQueue[Task | None] = queue.SimpleQueue()
         self._stopping = threading.Event()
         self._lock = threading.Lock()
         self._process: subprocess.Popen[bytes] | None = None
         self._pipe: Connection | None = None
-        self._heard = 0.0
+        self._heard_s = 0.0  # time of the last report
 
     @property
     def pid(self) -> int | None:
@@ -160,8 +154,8 @@ class Supervisor:
 
     def start(self) -> None:
         """Start the worker and the threads."""
-        for run in (self._listen, self._pass_on, self._watch):
-            threading.Thread(target=run, name=f"bayesmap{run.__name__}", daemon=True).start()
+        for loop in (self._listen, self._forward_tasks, self._watch):
+            threading.Thread(target=loop, name=f"bayesmap{loop.__name__}", daemon=True).start()
 
     def send(self, task: Task) -> None:
         """Queue a task for the worker, and return at once."""
@@ -185,25 +179,26 @@ class Supervisor:
                 self._pipe = None
 
     def _spawn(self) -> Connection | None:
+        """Start a worker and return its pipe; None if the supervisor has stopped."""
         with self._lock:
             if self._stopping.is_set():
                 return None
             ours, theirs = socket.socketpair()
             with theirs:
-                self._process = start_worker(theirs, self._path, self._reading)
+                self._process = start_worker(theirs, self._path, self._log_options)
             self._pipe = Connection(ours.detach())
-            self._heard = time.monotonic() + SLOW_BIRTH_SECONDS
+            self._heard_s = time.monotonic() + SLOW_BIRTH_SECONDS
             return self._pipe
 
     def _listen(self) -> None:
         """Start a worker and pass on its reports. When its pipe ends, start another."""
         pause = 0.0
         while (pipe := self._spawn()) is not None:
-            born = time.monotonic()
+            born_s = time.monotonic()
             with contextlib.suppress(EOFError, OSError):
                 while True:
                     report = pipe.recv()
-                    self._heard = time.monotonic()
+                    self._heard_s = time.monotonic()
                     if isinstance(report.message, Alive):
                         continue
                     self._on_report(report)
@@ -213,7 +208,7 @@ class Supervisor:
                 return
             self._end()
             self._on_lost()
-            quick = time.monotonic() - born < QUICK_DEATH_SECONDS
+            quick = time.monotonic() - born_s < QUICK_DEATH_SECONDS
             pause = min(LONGEST_PAUSE_SECONDS, max(0.25, 2 * pause)) if quick else 0.0
             self._stopping.wait(pause)
 
@@ -222,19 +217,23 @@ class Supervisor:
         while not self._stopping.wait(ALIVE_SECONDS):
             with self._lock:
                 process = self._process
-                if process is not None and time.monotonic() - self._heard > self._silence_s:
+                if process is not None and time.monotonic() - self._heard_s > self._silence_s:
                     process.kill()
 
-    def _pass_on(self) -> None:
+    def _forward_tasks(self) -> None:
         """Write tasks to the pipe, without outdated jobs."""
         while True:
             tasks = [self._tasks.get()]
             while not self._tasks.empty():
                 tasks.append(self._tasks.get())
-            for task in still_valid(tasks):
+            for task in drop_outdated(tasks):
                 if task is None:
                     return
                 if (pipe := self._pipe) is not None:
                     # After a death the session sends the whole document to the next worker.
                     with contextlib.suppress(OSError):
                         pipe.send(task)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

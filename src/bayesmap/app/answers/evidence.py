@@ -6,13 +6,15 @@ reflectivity is 0 in every draw.
 
     log [mean over draws of p(z | draw)] - log [mean over draws of p(z | draw with the cell emptied)].
 
-The draws are from the posterior given all readings, including this reading. Each beam is averaged over the draws
-separately. So the sum over beams is not the log ratio of all readings together.
+The posterior draws depend on all readings, including this reading. Each beam is averaged over the draws separately. So
+the sum over beams is not the log ratio of all readings together.
 """
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,9 +27,9 @@ from bayesmap.posterior.prediction import Predictor
 from bayesmap.space.scans import Scans
 
 MOST_BEAMS = 2000  # most beams evaluated per cell for walls; each also counts for beams left out
-MOST_BEAMS_OF_STOPS = 500  # the same for other kinds of cells
-SILENT_NATS = 0.005  # a beam with a smaller log ratio counts neither for nor against
-MOST_DRAWN = 100  # the largest number of beams per cell that a page gets one by one: those with the largest log ratios
+MOST_BEAMS_OF_STOPS = 500  # most beams evaluated per cell for other kinds of cells
+NEUTRAL_NATS = 0.005  # a beam with a smaller log ratio counts neither for nor against
+MOST_LISTED = 100  # most beams per cell that a page gets one by one: the ones with the largest log ratios
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,89 +42,80 @@ class BeamRatios:
     every: int  # number of beams that each evaluated beam counts for
 
 
-@dataclass(frozen=True)
-class Evidence:
-    """Summed evidence about one cell."""
-
-    beams: int  # number of beams that touch the cell
-    beams_for: int  # number of beams whose readings are more likely with an obstacle than without
-    nats_for: float  # sum of the log ratios of these beams
-    beams_against: int  # number of beams whose readings are less likely with an obstacle
-    nats_against: float  # absolute sum of the log ratios of these beams
-
-
 def wall_ratios(table: BeamTable, p_wall: NDArray[np.float64], cell: int) -> BeamRatios:
     """Compute log p(z | wall in the cell) - log p(z | cell free) of every beam through a cell, given by its flat index.
 
     Both likelihoods are averaged over the cell at which the beam first meets a wall. Every other cell is a wall
     independently, with its own probability ``p_wall``, (N,).
     """
-    places, beams, every = _through(table, cell, MOST_BEAMS)
-    pairs = zip(beams.tolist(), places[::every].tolist(), strict=True)
-    nats = np.array([_log_ratio(table, p_wall, beam, place) for beam, place in pairs], dtype=np.float64)
-    return BeamRatios(beams, nats, len(places), every)
+    entries, beams, every = _beams_through(table, cell, MOST_BEAMS)
+    pairs = zip(beams.tolist(), entries[::every].tolist(), strict=True)
+    nats = np.array([_log_ratio(table, p_wall, beam, entry) for beam, entry in pairs], dtype=np.float64)
+    return BeamRatios(beams, nats, len(entries), every)
 
 
 def stop_ratios(result: Result, table: BeamTable, cell: int) -> BeamRatios | None:
-    """Compute each reading's log likelihood ratio, under the map against the cell emptied; None without draws. Raises
-    BadInput: the run's sensor model is not built in.
+    """Compute the log ratio of every beam through a cell: the map against the cell emptied. None without draws.
+
+    Raises `BadInput` if the run's sensor model is not built in.
     """
-    if result.found.at_hand is None:
+    if result.estimate.available_draws is None:
         return None
     predictor, _ = predictor_of_result(result)
-    places, beams, every = _through(table, cell, MOST_BEAMS_OF_STOPS)
+    entries, beams, every = _beams_through(table, cell, MOST_BEAMS_OF_STOPS)
     scans = one_beam_each(result.scene.scans.at(result.scan_poses), beams)
-    return BeamRatios(beams, log_ratios(predictor, scans, cell), len(places), every)
+    return BeamRatios(beams, log_ratios(predictor, scans, cell), len(entries), every)
 
 
-def _through(table: BeamTable, cell: int, most: int) -> tuple[NDArray[np.intp], NDArray[np.intp], int]:
+def _beams_through(table: BeamTable, cell: int, most: int) -> tuple[NDArray[np.intp], NDArray[np.intp], int]:
     """Return a cell's entries in a table, the beams of every n-th entry, and n, chosen for at most `most` beams."""
-    places = np.flatnonzero(table.cells == cell)
-    every = max(1, -(-len(places) // most))
-    return places, np.searchsorted(table.offsets, places[::every], side="right") - 1, every
+    entries = np.flatnonzero(table.cells == cell)
+    every = max(1, math.ceil(len(entries) / most))
+    return entries, np.searchsorted(table.offsets, entries[::every], side="right") - 1, every
 
 
-def summed(ratios: BeamRatios) -> Evidence:
-    """Count the beams for and against an obstacle in the cell, and sum their log ratios."""
+def sum_evidence(ratios: BeamRatios) -> dict[str, Any]:
+    """Count the beams for and against an obstacle in the cell, and sum their log ratios, as fields of `CellFacts`."""
     nats, every = ratios.nats, ratios.every
-    in_favour, against = nats > SILENT_NATS, nats < -SILENT_NATS
-    return Evidence(
-        ratios.through, every * int(in_favour.sum()), every * float(nats[in_favour].sum()),
-        every * int(against.sum()), every * abs(float(nats[against].sum())),
-    )  # fmt: skip
+    in_favour, against = nats > NEUTRAL_NATS, nats < -NEUTRAL_NATS
+    return {
+        "beams": ratios.through,
+        "beams_for": every * int(in_favour.sum()), "nats_for": every * float(nats[in_favour].sum()),
+        "beams_against": every * int(against.sum()), "nats_against": every * abs(float(nats[against].sum())),
+    }  # fmt: skip
 
 
-def strongest(ratios: BeamRatios, scans: Scans) -> dict[str, NDArray[np.float64]]:
+def strongest_beams(ratios: BeamRatios, scans: Scans) -> dict[str, NDArray[np.float64]]:
     """Return the beams with the largest log ratios, the strongest first. Scans are at the poses that saw the cell.
 
     The buffers are both ends of each beam in the world, ``start`` and ``end`` (M, 2), metres; the log ratio, ``nats``
     (M,); and the indices ``scan`` and ``beam``, (M,). A beam without a return ends at the sensor's longest range.
     """
-    order = np.argsort(-np.abs(ratios.nats), kind="stable")[:MOST_DRAWN]
-    order = order[np.abs(ratios.nats[order]) > SILENT_NATS]
-    chosen = ratios.beams[order]
-    start = scans.beam_starts_world().reshape(-1, 2)[chosen]
-    angle = scans.beam_angles_world().ravel()[chosen]
-    length = np.clip(scans.ranges_m.ravel()[chosen], scans.min_range_m, scans.max_range_m)
+    order = np.argsort(-np.abs(ratios.nats), kind="stable")[:MOST_LISTED]
+    order = order[np.abs(ratios.nats[order]) > NEUTRAL_NATS]
+    beams = ratios.beams[order]
+    start = scans.beam_starts_world().reshape(-1, 2)[beams]
+    angle = scans.beam_angles_world().ravel()[beams]
+    length = np.clip(scans.ranges_m.ravel()[beams], scans.min_range_m, scans.max_range_m)
     end = start + length[:, None] * np.column_stack([np.cos(angle), np.sin(angle)])
-    scan, beam = np.divmod(chosen, scans.ranges_m.shape[1])
+    scan, beam = np.divmod(beams, scans.ranges_m.shape[1])
     return {
         "start": start, "end": end, "nats": ratios.nats[order], "scan": scan.astype(float), "beam": beam.astype(float),
     }  # fmt: skip
 
 
-def _log_ratio(table: BeamTable, p_wall: NDArray[np.float64], beam: int, place: int) -> float:
-    """Return log p(z | wall) - log p(z | free) of one beam; `place` is the table entry of the cell in question."""
+def _log_ratio(table: BeamTable, p_wall: NDArray[np.float64], beam: int, entry: int) -> float:
+    """Return log p(z | wall) - log p(z | free) of one beam; `entry` is the table entry of the cell in question."""
     begin, end = int(table.offsets[beam]), int(table.offsets[beam + 1])
     log_p = np.append(table.loglik[begin:end], table.no_hit[beam]).astype(np.float64)
-    stop = np.append(p_wall[table.cells[begin:end]], 1.0)  # past the last cell the beam meets nothing
-    means = []
+    p_stop = np.append(p_wall[table.cells[begin:end]], 1.0)  # past the last cell the beam meets nothing
+    log_means = []
     for state in (1.0, 0.0):
-        stop[place - begin] = state
+        p_stop[entry - begin] = state
         with np.errstate(divide="ignore"):  # log 0 of a sure or an impossible wall
-            log_stop, log_pass = np.log(stop), np.log1p(-stop[:-1])
-        means.append(special.logsumexp(np.append(0.0, np.cumsum(log_pass)) + log_stop + log_p))
-    return float(np.nan_to_num(means[0] - means[1]))
+            log_stop, log_pass = np.log(p_stop), np.log1p(-p_stop[:-1])
+        log_means.append(special.logsumexp(np.append(0.0, np.cumsum(log_pass)) + log_stop + log_p))
+    return float(np.nan_to_num(log_means[0] - log_means[1]))
 
 
 def one_beam_each(scans: Scans, beams: NDArray[np.intp]) -> Scans:
@@ -146,13 +139,11 @@ def log_ratios(predictor: Predictor, scans: Scans, cell: int) -> NDArray[np.floa
     column = int(np.searchsorted(rays.touched, cell))
     if column == len(rays.touched) or rays.touched[column] != cell:
         return np.zeros(scans.ranges_m.size)
-    # Copy the draws, and empty the cell in every copy.
+    # Compare with copies of the draws in which the cell is empty.
     maps = list(predictor.batches(rays.touched))
+    log_p = log_densities(rays, maps, predictor.sensor, predictor.hit_depth)
     emptied = [batch.copy() for batch in maps]
     for batch in emptied:
-        if batch.ndim == 3:
-            batch[:, column, 0] = 0.0  # the reflectivity of its surface
-        else:
-            batch[:, column] = 0.0
-    as_it_is, without = (log_densities(rays, some, predictor.sensor, predictor.hit_depth) for some in (maps, emptied))
-    return np.nan_to_num(as_it_is - without)
+        reflectivities = batch[:, :, 0] if batch.ndim == 3 else batch
+        reflectivities[:, column] = 0.0
+    return np.nan_to_num(log_p - log_densities(rays, emptied, predictor.sensor, predictor.hit_depth))

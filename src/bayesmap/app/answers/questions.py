@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.app.answers.evidence import BeamRatios, stop_ratios, strongest, summed, wall_ratios
-from bayesmap.app.answers.predictions import GhostPredictor, compared_beam
+from bayesmap.app.answers.evidence import BeamRatios, stop_ratios, strongest_beams, sum_evidence, wall_ratios
+from bayesmap.app.answers.predictions import VirtualScanPredictor, compare_beam
 from bayesmap.app.answers.whereabouts import Locator
 from bayesmap.app.protocol.actions import CompareBeam, FindPath, FindViews, Inspect, MoveGhost, Question, WhereAmI
 from bayesmap.app.protocol.document import Document
@@ -29,14 +29,14 @@ ANSWERED_BY: Mapping[type, Literal["path", "views", "ghost", "beam"]] = {
 }  # fmt: skip
 """Questions about the posterior, and the types of the messages that answer them."""
 
-MOST_VIEWS = 400  # the largest number of places in the map of expected information
+MOST_VIEWS = 400  # most places in the map of expected information
 PASSABLE = 0.3  # a sensor may stand in a cell whose probability of stopping a beam is below this
 HEADINGS = 8  # headings tried per place
 MOST_ANGLES = 180  # most beams per view, evenly chosen; each also counts for the beams left out
 
 
 @dataclass(frozen=True, eq=False)
-class Now:
+class Snapshot:
     """The state of the worker when a question comes."""
 
     scene: Scene | None  # the readings
@@ -49,16 +49,16 @@ class Answers:
     """Answers questions. Predictors and maps are kept for later questions."""
 
     def __init__(self) -> None:
-        self._ghost = GhostPredictor()
+        self._virtual_scans = VirtualScanPredictor()
         self._locator = Locator()
 
-    def answer(self, question: Question, now: Now, client: int) -> Report:
+    def answer(self, question: Question, snapshot: Snapshot, client: int) -> Report:
         """Answer the question of a page."""
         if isinstance(question, Inspect):
-            return Report(*cell_facts(question, now), client)
-        result, generation = now.result, now.generation
+            return Report(*cell_facts(question, snapshot), client)
+        result, generation = snapshot.result, snapshot.generation
         if isinstance(question, WhereAmI):
-            return Report(*self._locator.answer(question, result, now.scan, generation), client)
+            return Report(*self._locator.answer(question, result, snapshot.scan, generation), client)
         try:
             if result is None:
                 raise BadInput("there is nothing to decide by yet")
@@ -68,17 +68,17 @@ class Answers:
                 case FindViews():
                     return Report(*views(result, generation), client)
                 case MoveGhost():
-                    return Report(*self._ghost.answer(result, question, generation), client)
+                    return Report(*self._virtual_scans.answer(result, question, generation), client)
                 case CompareBeam():
-                    return Report(compared_beam(result, question, generation), {}, client)
+                    return Report(compare_beam(result, question, generation), {}, client)
         except BadInput as error:
             return Report(Undecided(str(error), ANSWERED_BY[type(question)], generation=generation), {}, client)
 
 
-def cell_facts(question: Inspect, now: Now) -> tuple[AnyNotice, Buffers]:
+def cell_facts(question: Inspect, snapshot: Snapshot) -> tuple[AnyNotice, Buffers]:
     """Count the beams that touch a cell, and sum their evidence for and against an obstacle in it."""
-    x, y, result = question.x, question.y, now.result
-    table = None if now.scene is None else now.scene.problem.table
+    x, y, result = question.x, question.y, snapshot.result
+    table = None if snapshot.scene is None else snapshot.scene.problem.table
     if table is None or x >= table.grid.shape[0] or y >= table.grid.shape[1]:
         return CellFacts(x, y, question.each, 0), {}
     cell = x * table.grid.shape[1] + y
@@ -87,40 +87,39 @@ def cell_facts(question: Inspect, now: Now) -> tuple[AnyNotice, Buffers]:
     ratios = None if result is None else _ratios(result, table, cell)
     if result is None or ratios is None:
         return CellFacts(x, y, question.each, int(np.count_nonzero(table.cells == cell))), {}
-    facts = CellFacts(x, y, question.each, **asdict(summed(ratios)))
-    return facts, strongest(ratios, result.scene.scans.at(result.scan_poses)) if question.each else {}
+    facts = CellFacts(x, y, question.each, **sum_evidence(ratios))
+    return facts, strongest_beams(ratios, result.scene.scans.at(result.scan_poses)) if question.each else {}
 
 
 def _facts_of_wall(question: Inspect, result: Result, table: BeamTable) -> tuple[AnyNotice, Buffers]:
     """Return the evidence about a wall, given the mean or one draw of the other cells, and the trace of the cell."""
-    prior = BinaryWalls.of(result.prior, "the evidence about a wall")
+    prior, estimate = BinaryWalls.of(result.prior, "the evidence about a wall"), result.estimate
     site = question.x, question.y
     cell = int(np.ravel_multi_index(site, table.grid.shape))
-    kept, model = result.found.kept, result.found.model
-    known_poses = result.found.scan_poses is None and (model is None or not model.poses.unknown)
-    one = None if question.draw is None or not known_poses else result.found.draw(question.chain, question.draw)
-    p_wall, chain, draw = (result.found.mean(), None, None) if one is None else one
+    known_poses = estimate.scan_poses is None and (estimate.model is None or not estimate.model.poses.unknown)
+    drawn = estimate.draw(question.chain, question.draw) if question.draw is not None and known_poses else None
+    p_wall, chain, draw = (estimate.mean(), None, None) if drawn is None else drawn
     ratios = wall_ratios(table, p_wall.ravel().astype(float), cell)
     # The log odds by which Gibbs sampling draws the cell: the prior's, and those of all beams.
     prior_nats = log_odds = None
-    if one is not None:
+    if drawn is not None:
         prior_log_odds = prior.log_odds(p_wall.astype(np.bool_), site, table.grid)
         if math.isfinite(prior_log_odds):
             prior_nats = prior_log_odds
             log_odds = prior_nats + ratios.every * float(ratios.nats.sum())
-    facts = CellFacts(
-        *site, True, **asdict(summed(ratios)), draw=draw, chain=chain, prior_nats=prior_nats, log_odds=log_odds
-    )  # fmt: skip
-    buffers = strongest(ratios, result.scene.scans.at(result.scan_poses))
-    if kept is None:
-        return facts, buffers
-    return facts, {**buffers, "trace": prior.traces(kept, np.array([cell]))[:, :, 0].astype(np.uint8)}
+    evidence = sum_evidence(ratios)
+    facts = CellFacts(*site, True, **evidence, draw=draw, chain=chain, prior_nats=prior_nats, log_odds=log_odds)
+    buffers = strongest_beams(ratios, result.scene.scans.at(result.scan_poses))
+    if estimate.kept_draws is not None:
+        trace = prior.traces(estimate.kept_draws, np.array([cell]))[:, :, 0]
+        buffers |= {"trace": trace.astype(np.uint8)}
+    return facts, buffers
 
 
 def _ratios(result: Result, table: BeamTable, cell: int) -> BeamRatios | None:
     """Return the log ratios of the beams through a cell; None if they cannot be computed."""
     if result.prior.words.kind == "binary":
-        return wall_ratios(table, result.found.mean().ravel(), cell)
+        return wall_ratios(table, result.estimate.mean().ravel(), cell)
     try:
         return stop_ratios(result, table, cell)
     except BadInput:
@@ -128,7 +127,7 @@ def _ratios(result: Result, table: BeamTable, cell: int) -> BeamRatios | None:
 
 
 def safe_path(result: Result, question: FindPath, generation: int) -> SafePath:
-    """Find the shortest path that is safe enough, and how probably it is free. Raises BadInput: no draws or no path."""
+    """Find the shortest path that is safe enough. Raises `BadInput` if there are no draws, or no path."""
     route = shortest_safe_path(result.maps, question.start, question.goal, question.radius, question.risk)
     free = route.free
     return SafePath(
@@ -142,26 +141,26 @@ def views(result: Result, generation: int) -> tuple[Views, Buffers]:
     """Compute the information expected from one more scan, in nats, at a lattice of free places.
 
     The formula treats cells and beams as independent (`bayesmap.posterior.decisions.beam_information`). Raises
-    BadInput: there is no place at which a sensor could stand.
+    `BadInput` if there is no place at which a sensor could stand.
     """
     # Candidate places, and a thinned fan of beams.
-    document, mean = result.document, result.found.mean()
-    poses, spacing_m = _lattice(document, mean, result.found.observed())
+    document, mean = result.document, result.estimate.mean()
+    poses, spacing_m = _lattice(document, mean, result.estimate.observed())
     scans = result.scene.scans
-    every = -(-len(scans.angles_rad) // MOST_ANGLES)
+    every = math.ceil(len(scans.angles_rad) / MOST_ANGLES)
     angles = scans.angles_rad[::every]
     # Headings to try at each place: one if the sensor sees all round. Even then its beams span a little under 2 pi rad.
     full = document.fov >= 2 * math.pi if document.simulated else np.ptp(angles) > 6.1
-    turns = np.zeros(1) if full else np.arange(HEADINGS) * 2 * math.pi / HEADINGS
+    headings_rad = np.zeros(1) if full else np.arange(HEADINGS) * 2 * math.pi / HEADINGS
     # Every place with every heading, and the information there, (places, headings).
-    many = np.repeat(poses, len(turns), axis=0)
-    many[:, 2] += np.tile(turns, len(poses))
+    candidates = np.repeat(poses, len(headings_rad), axis=0)
+    candidates[:, 2] += np.tile(headings_rad, len(poses))
     nats = every * beam_information(
-        mean, document.grid, many, angles,
+        mean, document.grid, candidates, angles,
         max_range_m=scans.max_range_m, sigma_m=typical_sigma_m(result.scene.sensor, scans.max_range_m),
     ).reshape(len(poses), -1)  # fmt: skip
     # Keep the best heading of each place.
-    poses[:, 2] = turns[nats.argmax(axis=1)]
+    poses[:, 2] = headings_rad[nats.argmax(axis=1)]
     buffers = {"pose": poses.astype(np.float32), "nats": nats.max(axis=1).astype(np.float32)}
     return Views(spacing_m, generation=generation), buffers
 
@@ -169,7 +168,10 @@ def views(result: Result, generation: int) -> tuple[Views, Buffers]:
 def _lattice(
     document: Document, mean: NDArray[np.float64], observed: NDArray[np.bool_]
 ) -> tuple[NDArray[np.float64], float]:
-    """Return poses at the centres of free cells, at most `MOST_VIEWS`, (P, 3), and their spacing in metres."""
+    """Return poses at the centres of free cells, at most `MOST_VIEWS`, (P, 3), and their spacing in metres.
+
+    Raises `BadInput` if no cell is known to be free.
+    """
     grid = document.grid
     free = observed & (mean < PASSABLE)
     if not free.any():

@@ -16,7 +16,7 @@ from bayesmap.app.protocol.actions import WhereAmI
 from bayesmap.app.protocol.document import Document
 from bayesmap.app.protocol.notices import Place, Whereabouts
 from bayesmap.app.protocol.tasks import Buffers
-from bayesmap.app.scene import hits
+from bayesmap.app.scene import hit_mask
 from bayesmap.app.shown.result import Result
 from bayesmap.errors import BadInput
 from bayesmap.localization.belief import PoseBelief
@@ -29,10 +29,10 @@ from bayesmap.sim.forward import ranges
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans, fan
 
-FINEST_M = 0.125  # the search tries centres of cells: cells of a drawn map are divided down to this edge
-MOST_CELLS = 1_000_000  # the largest number of divided cells: with more, cells are divided into fewer parts
+FINEST_M = 0.125  # cells of a drawn map are divided down to this edge, since the search tries centres of cells
+MOST_CELLS = 1_000_000  # most divided cells: with more, cells are divided into fewer parts
 TYPICAL_SCANS = 100  # number of typical scans of a drawn world
-MOST_POSES = 1000  # the largest number of poses sent to the page: those with the largest weights
+MOST_POSES = 1000  # most poses sent to the page: those with the largest weights
 
 
 class Locator:
@@ -58,36 +58,35 @@ class Locator:
             return Whereabouts(generation, trouble=str(error).removeprefix("localize: ")), {}
         heaviest = np.argsort(belief.weights, kind="stable")[-MOST_POSES:]
         cloud = {"pose": belief.poses[heaviest], "weight": belief.weights[heaviest]}
-        return Whereabouts(
-            generation, sensor=sensor_id, index=scan_index, pose=scans.poses[0].tolist(), modes=places(belief),
-            p_lost=float(belief.p_lost), nats_per_beam=float(belief.nats_per_beam),
-        ), {name: values.astype(np.float32) for name, values in cloud.items()}  # fmt: skip
+        where = Whereabouts(
+            generation, sensor=sensor_id, index=scan_index, pose=scans.poses[0].tolist(),
+            modes=modes_as_places(belief), p_lost=float(belief.p_lost), nats_per_beam=float(belief.nats_per_beam),
+        )  # fmt: skip
+        return where, {name: values.astype(np.float32) for name, values in cloud.items()}
 
     def _known_map(self, result: Result) -> KnownMap:
         """Return the known map of a result. It is prepared again only if a value that it depends on has changed."""
         document = result.document
-        key: Hashable = result.found
+        key: Hashable = result.estimate
         if document.simulated:
             key = (document.walls, document.grid, document.noise, document.max_range, document.angles, document.fov)
         if self._known is None or key != self._key:
-            if result.found.kept is None and not document.simulated:
+            if result.estimate.kept_draws is None and not document.simulated:
                 raise BadInput("a scan is located by draws of the map, and there are none yet; run Gibbs")
-            self._known = drawn_map(document) if document.simulated else KnownMap.of_run(result.as_run())
+            self._known = known_map_of_drawing(document) if document.simulated else KnownMap.of_run(result.as_run())
             self._key = key
         return self._known
 
 
-def drawn_map(document: Document) -> KnownMap:
+def known_map_of_drawing(document: Document) -> KnownMap:
     """Return the walls of a drawn world as a known map. Raises `BadInput` if it has no free cell."""
-    grid, walls = document.grid, document.is_wall
-    parts = max(1, math.ceil(grid.resolution / FINEST_M - 1e-9))
-    parts = max(1, min(parts, math.isqrt(MOST_CELLS // grid.n_cells)))
-    fine = np.repeat(np.repeat(walls, parts, axis=0), parts, axis=1).astype(np.float64)
-    shape = (fine.shape[0], fine.shape[1])
+    grid = document.grid
+    parts = max(1, min(math.ceil(grid.resolution / FINEST_M - 1e-9), math.isqrt(MOST_CELLS // grid.n_cells)))
+    fine_walls = document.is_wall.repeat(parts, axis=0).repeat(parts, axis=1).astype(np.float64)
+    fine_grid = Grid((grid.shape[0] * parts, grid.shape[1] * parts), grid.resolution / parts, grid.origin)
     return KnownMap.of_draws(
-        fine.reshape(1, -1).astype(np.float32), Grid(shape, grid.resolution / parts, grid.origin),
-        Gaussian(document.noise), _typical_scans(document), occupancy=fine,
-        observed=np.ones(shape, dtype=np.bool_), hit_depth=0.0, beam_weight=1.0,
+        fine_walls.reshape(1, -1).astype(np.float32), fine_grid, Gaussian(document.noise), _typical_scans(document),
+        occupancy=fine_walls, observed=np.ones(fine_grid.shape, dtype=np.bool_), hit_depth=0.0, beam_weight=1.0,
     )  # fmt: skip
 
 
@@ -116,15 +115,14 @@ def _locate(known: KnownMap, scans: Scans, document: Document) -> PoseBelief:
     return locate(known, scan, np.random.default_rng(document.seed))
 
 
-def places(belief: PoseBelief) -> list[Place]:
+def modes_as_places(belief: PoseBelief) -> list[Place]:
     """Return the modes of a belief as places where the robot may be, the most probable first."""
-    place_list = []
+    places = []
     for mode in belief.modes:
-        largest_variance = np.linalg.eigvalsh(mode.covariance[:2, :2])[-1]
-        sigma_m = float(np.sqrt(largest_variance))
+        sigma_m = float(np.sqrt(np.linalg.eigvalsh(mode.covariance[:2, :2])[-1]))
         sigma_rad = float(np.sqrt(mode.covariance[2, 2]))
-        place_list.append(Place(**mode.as_json(), sigma_m=sigma_m, sigma_rad=sigma_rad))
-    return place_list
+        places.append(Place(**mode.as_json(), sigma_m=sigma_m, sigma_rad=sigma_rad))
+    return places
 
 
 def _scan_of(question: WhereAmI, result: Result, scan: int) -> tuple[Scans, int | None, int | None]:
@@ -135,5 +133,5 @@ def _scan_of(question: WhereAmI, result: Result, scan: int) -> tuple[Scans, int 
     row = scene.ids.index(question.sensor) if question.sensor in scene.ids else 0
     sensor_scan = scene.scans.select(slice(row, row + 1))
     # The reading of a beam that met nothing is the longest range plus noise. Mark such readings as no return.
-    readings = np.where(hits(scene)[[row]], sensor_scan.ranges_m, np.inf)
-    return replace(sensor_scan, ranges_m=readings), scene.ids[row], None
+    ranges_m = np.where(hit_mask(scene)[[row]], sensor_scan.ranges_m, np.inf)
+    return replace(sensor_scan, ranges_m=ranges_m), scene.ids[row], None

@@ -23,10 +23,9 @@ from bayesmap.space.grid import Grid
 VERSION: Final = 1
 CHAIN_METHODS = ("gibbs", "block")  # methods that are Markov chains
 
+# If walls or free cells are at most this probable a priori, method "auto" means 2 x 2 blocks. Single-site moves then
+# seldom leave a wrong map: a wall has to go before its neighbour can come.
 RARE_WALLS = 0.2
-"""If walls or free cells are at most this probable a priori, method "auto" means 2 x 2 blocks. Single-site moves then
-seldom leave a wrong map: a wall has to go before its neighbour can come."""
-
 SMALLEST_NOISE_M = 0.01  # the smallest noise of the sensor model: a density needs a width
 SIDE = (2, 500)  # least and most cells per side of a drawn map
 LARGEST_SIDE_OF_FILE = 4000  # most cells per side of a map from a file
@@ -112,16 +111,15 @@ class Settings:
     scans_used: Annotated[int, Meta(ge=1, le=10**9, title="scans used")] | None = None
 
 
-SETTINGS = tuple(one.name for one in fields(Settings))
+SETTINGS = tuple(setting.name for setting in fields(Settings))
+# Settings that affect only the chains: neither the readings nor the pilot that fits the sensor depends on them.
 SETTINGS_OF_CHAINS = ("prior", "pose_sigma", "heading_sigma", "method", "order", "start", "sweeps", "burn_in")
-"""Settings that affect only the chains: neither the readings nor the pilot that fits the sensor depends on them."""
-
+# Settings that a page cannot change, because the file fixes them or because only a log has them.
 FIXED_BY_FILE: Mapping[Kind, tuple[str, ...]] = {
     "simulation": ("poses", "scans_used"),
     "log": ("noise", "angles", "max_range", "fov", "readings", "pose_sigma", "heading_sigma"),
     "run": SETTINGS,
 }
-"""Settings that a page cannot change, because the file fixes them or because only a log has them."""
 
 
 @dataclass(frozen=True)
@@ -136,7 +134,7 @@ class Document(Settings):
 
     def __getstate__(self) -> dict[str, Any]:
         """Return the fields only, for pickling. Cached values are computed anew."""
-        return {one.name: getattr(self, one.name) for one in fields(self)}
+        return {field.name: getattr(self, field.name) for field in fields(self)}
 
     @cached_property
     def is_wall(self) -> NDArray[np.bool_]:
@@ -163,18 +161,14 @@ class Document(Settings):
             return self.method
         return "block" if min(self.prior, 1 - self.prior) <= RARE_WALLS else "gibbs"
 
-    def alike_but(self, other: Document, names: Iterable[str]) -> bool:
+    def equals_except(self, other: Document, names: Iterable[str]) -> bool:
         """Return whether two documents differ at most in the named fields."""
         return self == replace(other, **{name: getattr(self, name) for name in names})
 
     def sensor_cells(self) -> dict[tuple[int, int], int]:
         """Return the cells in which sensors stand, with their ids."""
-        cells = {}
-        for sensor in self.sensors:
-            cell = self.grid.cell_at(sensor.x, sensor.y)
-            if cell is not None:
-                cells[cell] = sensor.id
-        return cells
+        cells = ((self.grid.cell_at(sensor.x, sensor.y), sensor.id) for sensor in self.sensors)
+        return {cell: sensor_id for cell, sensor_id in cells if cell is not None}
 
     def on_grid(self, grid: Grid) -> Document:
         """Return the document on other cells, without walls."""
@@ -186,23 +180,28 @@ class Document(Settings):
 
     def with_walls(self, is_wall: NDArray[np.bool_]) -> Document:
         """Return the document with another map, (nx, ny), or this document if the map is the same."""
-        walls = packed(is_wall)
+        walls = pack_walls(is_wall)
         return self if walls == self.walls else replace(self, walls=walls)
 
     def to_json(self) -> dict[str, Any]:
         """Return the document as JSON values."""
-        values: dict[str, Any] = msgspec.json.decode(msgspec.json.encode(self, enc_hook=plain))
+        values: dict[str, Any] = msgspec.json.decode(encode_json(self))
         return values
 
 
-def plain(value: object) -> object:
+def to_plain_number(value: object) -> object:
     """Return a NumPy number as a Python number, for JSON."""
     if isinstance(value, np.generic):
         return value.item()
     raise NotImplementedError
 
 
-def packed(is_wall: NDArray[np.bool_]) -> bytes:
+def encode_json(value: object) -> bytes:
+    """Return a value as JSON text. NumPy numbers become plain numbers."""
+    return msgspec.json.encode(value, enc_hook=to_plain_number)
+
+
+def pack_walls(is_wall: NDArray[np.bool_]) -> bytes:
     """Pack a map, (nx, ny), eight cells per byte."""
     return np.packbits(is_wall.ravel()).tobytes()
 
@@ -232,9 +231,7 @@ BOUNDS: Mapping[str, tuple[float, float]] = {
 
 
 def check_document(document: Document) -> None:
-    """Check what depends on more than one field: sizes that belong together, sensors in free cells, a file's name.
-    Raises Refused: the document is not consistent.
-    """
+    """Check that fields fit together: sizes, sensors in free cells, a file's name. Raises `Refused` if they do not."""
     grid = document.grid
     most = SIDE if document.simulated else (1, LARGEST_SIDE_OF_FILE)
     if not most[0] <= min(grid.shape) <= max(grid.shape) <= most[1]:
@@ -259,7 +256,7 @@ def check_document(document: Document) -> None:
 
 
 def check_stand(document: Document, sensor: Sensor) -> None:
-    """Check that a sensor stands inside the grid and in a free cell. Raises Refused: it does not."""
+    """Check that a sensor stands inside the grid and in a free cell. Raises `Refused` if it does not."""
     cell = document.grid.cell_at(sensor.x, sensor.y)
     if cell is None:
         raise Refused(f"the sensor cannot stand outside the map, at ({sensor.x:.2f}, {sensor.y:.2f}) m")

@@ -15,7 +15,15 @@ from msgspec import ValidationError, inspect
 from numpy.typing import NDArray
 
 from bayesmap.app.protocol.actions import AnyAction
-from bayesmap.app.protocol.document import FIXED_BY_FILE, Document, Refused, Source, check_document, plain
+from bayesmap.app.protocol.document import (
+    FIXED_BY_FILE,
+    Document,
+    Refused,
+    Source,
+    check_document,
+    encode_json,
+    to_plain_number,
+)
 from bayesmap.app.protocol.tasks import Buffers
 
 MAX_BYTES = 1 << 20
@@ -25,8 +33,9 @@ T = TypeVar("T")
 
 
 def parse(data: str | bytes) -> AnyAction:
-    """Read a message from the page; unknown fields are left out. Raises Refused: the message is too long, not JSON or
-    of unknown type, or one of its values is invalid.
+    """Read a message from the page; unknown fields are left out.
+
+    Raises `Refused` if the message is too long, not JSON or of unknown type, or one of its values is invalid.
     """
     if len(data) > MAX_BYTES or (isinstance(data, str) and len(data.encode("utf-8", "replace")) > MAX_BYTES):
         raise Refused(f"a message of more than {MAX_BYTES:,} bytes", "send it in parts")
@@ -39,13 +48,13 @@ def parse(data: str | bytes) -> AnyAction:
 
 
 def check(value: object) -> AnyAction:
-    """Read a message that has been decoded to JSON values. Raises Refused: see `parse`."""
+    """Read a message that has been decoded to JSON values. Raises `Refused` as `parse` does."""
     if not isinstance(value, dict):
         raise Refused("a message that is not an object", "send one as in docs/app.md")
     kind = value.get("type")
     if not isinstance(kind, str) or kind not in ACTIONS:
         raise Refused(f"a message of unknown type {str(kind)[:40]!r}", f"there are: {', '.join(ACTIONS)}")
-    action: AnyAction = converted(value, ACTIONS[kind], kind)
+    action: AnyAction = convert(value, ACTIONS[kind], kind)
     return action
 
 
@@ -59,17 +68,17 @@ def seq_of(data: str | bytes | Mapping[str, Any]) -> int | None:
 def parse_document(value: object) -> Document:
     """Read a document.
 
-    A document that shows a file holds no walls and no sensors, only the file's name, its grid and the settings that can
-    be changed. `bayesmap.app.edits.adopted` decides how it is used. Raises Refused: a value is invalid; the message
-    names its place.
+    A document that shows a file has no walls and no sensors, only the file's name, its grid and the settings that can
+    be changed. `bayesmap.app.edits.adopt_document` decides how it is used. Raises `Refused`, with the place of the
+    value, if a value is invalid.
     """
     if not isinstance(value, Mapping):
         raise Refused("document: not an object", "send one as in docs/app.md")
-    source = converted(value.get("source", {}), Source, "source")
-    known = {name: held for name, held in value.items() if name not in FIXED_BY_FILE[source.kind]}
+    source = convert(value.get("source", {}), Source, "source")
+    fields = {name: field for name, field in value.items() if name not in FIXED_BY_FILE[source.kind]}
     if source.kind != "simulation":
-        known |= {"walls": "", "sensors": []}
-    document = converted(known, Document)
+        fields |= {"walls": "", "sensors": []}
+    document = convert(fields, Document)
     # Rebuild sensors and source: as decoded, they would be written without their default values.
     document = replace(document, sensors=tuple(map(replace, document.sensors)), source=replace(document.source))
     check_document(document)
@@ -77,60 +86,59 @@ def parse_document(value: object) -> Document:
 
 
 def parse_simulation(value: object) -> Document:
-    """Read the document of a simulation. Raises Refused: see `parse_document`; or the document shows a file."""
+    """Read the document of a simulation. Raises `Refused` as `parse_document` does, or if the document shows a file."""
     document = parse_document(value)
     if not document.simulated:
         raise Refused(f"document: shows the file {document.source.name}", "start bayesmap app with that file")
     return document
 
 
-def converted(value: object, kind: type[T], place: str = "") -> T:
+def convert(value: object, kind: type[T], place: str = "") -> T:
     """Convert JSON values to a type of the protocol. `Refused` names an invalid value's place, under ``place``."""
     try:
         return msgspec.convert(value, kind)
     except (ValidationError, RecursionError) as error:
-        raise _explained(str(error), value, inspect.type_info(kind), place) from None
+        raise _explain(str(error), value, inspect.type_info(kind), place) from None
 
 
-def _explained(text: str, value: Any, kind: inspect.Type, place: str) -> Refused:
+def _explain(text: str, value: Any, kind: inspect.Type, place: str) -> Refused:
     """Explain an error in the words of the page: "noise (m): 7 is not a number from 0 to 5"."""
-    what, _, path = text.partition(" - at `$")
-    if not re.match("Expected|Invalid|Object|Number|Integer", what):
-        return Refused(what)  # raised by a type's own check
-    missing = re.fullmatch(r"Object missing required field `(\w+)`", what)
-    unknown = re.fullmatch(r"Object contains unknown field `(\w+)`", what)
+    fault, _, path = text.partition(" - at `$")
+    if not re.match("Expected|Invalid|Object|Number|Integer", fault):
+        return Refused(fault)  # raised by a type's own check
+    missing = re.fullmatch(r"Object missing required field `(\w+)`", fault)
+    unknown = re.fullmatch(r"Object contains unknown field `(\w+)`", fault)
     # Follow the path from field to field, to the type and value at its end.
     steps: list[str | int] = [int(index) if index else name for name, index in _STEP.findall(path)]
-    title = ""
     for step in [*steps, *(missing.groups() if missing else ())]:
-        field = next((one for one in _fields(kind) if one.encode_name == step), None)
+        field = next((field for field in _fields(kind) if field.encode_name == step), None)
         kind, title = (_item(kind, step), "") if field is None else (field.type, _title(field.type))
         place = f"{place}[{step}]" if isinstance(step, int) else title or ".".join(filter(None, (place, step)))
         value = None if missing and step == missing[1] else value[step]
     if missing:
-        return Refused(f"{place}: missing", f"give {_described(kind)}")
+        return Refused(f"{place}: missing", f"give {_describe(kind)}")
     if unknown:
-        names = ", ".join(one.encode_name for one in _fields(kind))
+        names = ", ".join(field.encode_name for field in _fields(kind))
         return Refused(f"{place}: there is no {unknown[1]}", f"there are: {names}")
-    shown = repr(value)
-    return Refused(f"{place}: {shown if len(shown) <= 40 else shown[:37] + '...'} is not {_described(kind)}")
+    text = repr(value)
+    return Refused(f"{place}: {text if len(text) <= 40 else text[:37] + '...'} is not {_describe(kind)}")
 
 
 def _fields(kind: inspect.Type) -> tuple[inspect.Field, ...]:
-    return getattr(_plain(kind), "fields", ())
+    return getattr(_without_null(kind), "fields", ())
 
 
 def _item(kind: inspect.Type, step: str | int) -> inspect.Type:
-    inner = _plain(kind)
+    inner = _without_null(kind)
     return inner.item_types[int(step)] if isinstance(inner, inspect.TupleType) else getattr(inner, "item_type", inner)
 
 
-def _plain(kind: inspect.Type) -> inspect.Type:
+def _without_null(kind: inspect.Type) -> inspect.Type:
     """Return a type without its title, and without null as another choice."""
     if isinstance(kind, inspect.Metadata):
-        return _plain(kind.type)
+        return _without_null(kind.type)
     if isinstance(kind, inspect.UnionType):
-        return _plain(next(one for one in kind.types if not isinstance(one, inspect.NoneType)))
+        return _without_null(next(choice for choice in kind.types if not isinstance(choice, inspect.NoneType)))
     return kind
 
 
@@ -140,9 +148,9 @@ def _title(kind: inspect.Type) -> str:
     return str((kind.extra_json_schema or {}).get("title", "")) if isinstance(kind, inspect.Metadata) else ""
 
 
-def _described(kind: inspect.Type) -> str:
+def _describe(kind: inspect.Type) -> str:
     """Describe the values of a type in words."""
-    kind = _plain(kind)
+    kind = _without_null(kind)
     if isinstance(kind, inspect.IntType | inspect.FloatType):
         most = kind.le if kind.lt is None else kind.lt - 1
         noun = "a whole number" if isinstance(kind, inspect.IntType) else "a number"
@@ -152,7 +160,7 @@ def _described(kind: inspect.Type) -> str:
     if isinstance(kind, inspect.LiteralType):
         return ("one of " if len(kind.values) > 1 else "") + ", ".join(map(str, kind.values))
     if isinstance(kind, inspect.TupleType):
-        return f"a list of {len(kind.item_types)}, each {_described(kind.item_types[0])}"
+        return f"a list of {len(kind.item_types)}, each {_describe(kind.item_types[0])}"
     if isinstance(kind, inspect.CollectionType):
         least = f"{kind.min_length:,} to" if kind.min_length else "at most"
         return f"a list of {least} {kind.max_length:,}" if kind.max_length else "a list"
@@ -175,7 +183,7 @@ def _decoded(data: str | bytes) -> Any:
 def frame(message: object, buffers: Buffers) -> str | bytes:
     """Return a message in the socket's format: text, or binary if it has buffers."""
     if not buffers:
-        return msgspec.json.encode(message, enc_hook=plain).decode()
+        return encode_json(message).decode()
     header, arrays = with_arrays(message, buffers)
     text = msgspec.json.encode(header)
     parts = [struct.pack("<I", len(text)), text]
@@ -189,20 +197,20 @@ def with_arrays(message: object, buffers: Buffers) -> tuple[dict[str, Any], list
     """Return a message as JSON values with a list of its buffers, and the buffers, little-endian and contiguous."""
     arrays = {name: _as_array(value) for name, value in buffers.items()}
     listed = [{"name": name, "dtype": str(a.dtype), "shape": list(a.shape)} for name, a in arrays.items()]
-    return {**msgspec.to_builtins(message, enc_hook=plain), "buffers": listed}, list(arrays.values())
+    return {**msgspec.to_builtins(message, enc_hook=to_plain_number), "buffers": listed}, list(arrays.values())
 
 
 def unframe(data: bytes) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
     """Return the message and the buffers of a binary frame."""
     (length,) = struct.unpack_from("<I", data)
     header = json.loads(data[4 : 4 + length])
-    at = 4 + length
+    offset = 4 + length
     buffers = {}
     for entry in header.pop("buffers"):
         count = int(np.prod(entry["shape"], dtype=np.int64))
-        array = np.frombuffer(data, dtype=np.dtype(entry["dtype"]).newbyteorder("<"), count=count, offset=at)
+        array = np.frombuffer(data, dtype=np.dtype(entry["dtype"]).newbyteorder("<"), count=count, offset=offset)
         buffers[entry["name"]] = array.reshape(entry["shape"])
-        at += array.nbytes + -array.nbytes % ALIGNMENT
+        offset += array.nbytes + -array.nbytes % ALIGNMENT
     return header, buffers
 
 

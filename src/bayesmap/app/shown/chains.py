@@ -20,26 +20,14 @@ from numpy.typing import NDArray
 from bayesmap.app.protocol.document import CHAIN_METHODS, Document
 from bayesmap.app.protocol.notices import Verdict
 from bayesmap.app.scene import Scene
-from bayesmap.app.shown.result import (
-    CHAINS,
-    FEWEST_SWEEPS,
-    Figures,
-    Floats,
-    Found,
-    OneMap,
-    Result,
-    difference,
-    judge_chains,
-    misfit_of,
-    rhat_and_ess,
-)
+from bayesmap.app.shown import result as results
+from bayesmap.app.shown.result import CHAINS, LIMITS, Estimate, Floats, MapOfDraw, Progress, Result
 from bayesmap.app.shown.without_chains import Preview
 from bayesmap.cells.arrays import Draws
 from bayesmap.cells.kinds import BUILT_IN
 from bayesmap.model import Model
 from bayesmap.poses.prior import PosePrior, UncertainPoses
 from bayesmap.posterior.posterior import posterior_of_chains
-from bayesmap.posterior.summary import RHAT_LIMIT
 from bayesmap.result import Run
 from bayesmap.run.chains import Record, SweepPlan
 from bayesmap.run.runner import BUFFER_BYTES, no_draws, sweeps
@@ -52,19 +40,20 @@ from bayesmap.samplers.with_poses import MovableSampler, PoseProblem, WithPoses
 from bayesmap.samplers.without_chains import Marginals
 from bayesmap.sensors.model import Gaussian
 
-POSE_CHAINS = 16  # number of chains if poses are uncertain: a map holds its sensors, so each stays near its start
+POSE_CHAINS = 16  # number of chains if poses are uncertain: a map fixes its sensors, so each stays near its start
 STEP_SECONDS = 0.015  # the duration of one step of the chains. The worker reads its pipe between two steps
 DRAW_BYTES = 128 << 20  # memory of a run's kept draws, which are thinned to fit
-LOOKS = 32  # the number of times per run that observed cells are counted, besides sweeps 1, 2, 4 and so on
-DIAGNOSIS_SHARE = 0.1  # largest share of time spent on diagnostics; the last figures are shown meanwhile
-RECENT, RECENT_BYTES = 200, 16 << 20  # draws per chain that answer questions while chains run; bytes of a pilot's
-SMALLEST_POSE_M = 0.001  # standard deviation of a position if only headings are uncertain,
-SMALLEST_HEADING_RAD = math.radians(0.05)  # and of a heading if only positions are: a density needs a width
+OBSERVED_COUNTS = 32  # the number of times per run that observed cells are counted, besides sweeps 1, 2, 4 and so on
+DIAGNOSIS_SHARE = 0.1  # largest share of time spent on diagnostics; the last numbers are shown meanwhile
+RECENT_DRAWS = 200  # draws per chain that answer questions while chains run
+RECENT_BYTES = 16 << 20  # most bytes of a pilot's draws
+SMALLEST_SIGMA_M = 0.001  # standard deviation of a position if only headings are uncertain: a density needs a width
+SMALLEST_SIGMA_RAD = math.radians(0.05)  # standard deviation of a heading if only positions are uncertain
 FARTHEST_SIGMAS = 4.0  # largest shift of a chain's start, in standard deviations
-EVENLY = (0.7548776662466927, 0.5698402909980532)  # spreads shifts evenly (additive recurrence, Roberts, 2018)
+EVEN_STEPS = (0.7548776662466927, 0.5698402909980532)  # spreads shifts evenly (additive recurrence, Roberts, 2018)
 
 
-def joined(before: Draws | None, after: Draws, most: int = RECENT) -> Draws:
+def append_draws(before: Draws | None, after: Draws, most: int) -> Draws:
     """Return the last draws of two blocks: at most `most` per chain, and at most `RECENT_BYTES`."""
     draw_bytes = sum(a[:, :1].nbytes for a in after.arrays.values())
     last = min(most, max(1, RECENT_BYTES // max(draw_bytes, 1)))
@@ -74,7 +63,7 @@ def joined(before: Draws | None, after: Draws, most: int = RECENT) -> Draws:
     return replace(after, arrays=both)
 
 
-class Past(NamedTuple):
+class Checkpoint(NamedTuple):
     """Sums of a stream after some sweeps."""
 
     sweep: int  # number of sweeps done
@@ -82,20 +71,21 @@ class Past(NamedTuple):
     observed_counts: NDArray[np.int32]  # see `Sampler.observed_counts`
 
 
-class Stream(Found):
+class Stream(Estimate):
     """Chains of any kind of cells, advanced step by step from their start to their last sweep."""
 
     def __init__(self, model: Model, sampler: Sampler[Any, Any], problem: Problem, document: Document) -> None:
-        self._burn_in = document.burn_in
+        self._burn_in = document.burn_in  # share of the sweeps
         self.model: Model = model
-        self.asked_poses: Mapping[str, Any] = model.poses.describe()
+        self.requested_poses: Mapping[str, Any] = model.poses.describe()
         self.problem, self._sampler = problem, sampler
         self.n_chains = POSE_CHAINS if model.poses.unknown else CHAINS
         self.state = sampler.init(problem, range(self.n_chains), document.seed)
         empty = no_draws(model, self.state, self.n_chains)
         self._draw_bytes = sum(spec.empty(self.n_chains, 1, empty.shape_of(spec)).nbytes for spec in empty.specs)
-        self.total, self.thin, self._record = 0, 1, Record(empty, SweepPlan(0, 0))  # sweeps to do; sweeps per kept draw
-        # What the steps have found so far: latest draws, sums for the means, diagnostics, counts and trace.
+        self.total, self.thin = 0, 1  # sweeps to do; sweeps per kept draw
+        self._record = Record(empty, SweepPlan(0, 0))
+        # Results of the steps so far: latest draws, sums for the means, diagnostics, counts and trace.
         self.seconds = 0.0
         self.shifts = np.zeros((self.n_chains, 2))  # cells by which map and sensors of a chain are shifted, always
         self._latest = empty
@@ -105,11 +95,11 @@ class Stream(Found):
         self._observed_counts = np.zeros((2, *model.grid.shape), dtype=np.int32)
         self._log_likelihood = self._log_joint = np.zeros((self.n_chains, 0))
         # The sums after the burn-in, and after later sweeps at which a longer burn-in may end.
-        self._past = [Past(0, np.zeros_like(self._sums), self._observed_counts.copy())]
-        self.go_on(document.sweeps)
+        self._checkpoints = [Checkpoint(0, np.zeros_like(self._sums), self._observed_counts.copy())]
+        self.extend(document.sweeps)
 
-    def go_on(self, count: int) -> None:
-        """Let the chains do `count` more sweeps from where they are. All draws so far are kept, if they fit."""
+    def extend(self, count: int) -> None:
+        """Let the chains do `count` more sweeps from their present states. All draws so far are kept, if they fit."""
         # Thin the kept draws until they fit, and round the sweeps up to a whole number of kept draws.
         total = self.total + count
         self.thin *= math.ceil(total * self._draw_bytes / (DRAW_BYTES * self.thin))
@@ -119,11 +109,12 @@ class Stream(Found):
         self._log_joint, self._log_likelihood = np.pad(self._log_joint, more), np.pad(self._log_likelihood, more)
         # Count observed cells at fixed sweeps. The length of a step depends on the machine, but the page must not.
         doubling = (2**k for k in range(self.total.bit_length()))
-        self._last_burned = int(self._burn_in * self.total) // self.thin * self.thin
-        self._look_at = {*doubling, *(self.total * k // LOOKS for k in range(1, LOOKS + 1)), self._last_burned} - {0}
+        evenly = (self.total * k // OBSERVED_COUNTS for k in range(1, OBSERVED_COUNTS + 1))
+        self._burn_in_end = int(self._burn_in * self.total) // self.thin * self.thin
+        self._count_at = {*doubling, *evenly, self._burn_in_end} - {0}
         self._steps = sweeps(
             self._sampler, self.state, self.total, keep=Keep(every=1), step_seconds=STEP_SECONDS,
-            most_kept=max(1, BUFFER_BYTES // max(self._draw_bytes, 1)), stops=tuple(sorted(self._look_at)),
+            most_kept=max(1, BUFFER_BYTES // max(self._draw_bytes, 1)), stops=tuple(sorted(self._count_at)),
         )  # fmt: skip
         self.done, self._diagnose_at = False, 0.0
 
@@ -139,26 +130,26 @@ class Stream(Found):
         self._record.add(info, before)
         self._log_likelihood[:, before : self.sweep] = info.log_likelihood
         self._log_joint[:, before : self.sweep] = info.log_likelihood + info.log_prior
-        if self.sweep in self._look_at:
+        if self.sweep in self._count_at:
             self._observed_counts += self._sampler.observed_counts(self.state, {})
-            if self.sweep <= self._last_burned:
-                self._past.append(Past(self.sweep, self._sums.copy(), self._observed_counts.copy()))
-            while len(self._past) > 1 and self._past[1].sweep <= self._burn_in * self.sweep:
-                del self._past[0]
-        if self.done and self._past[0].sweep < self._last_burned:
-            self._burn(self._last_burned)
+            if self.sweep <= self._burn_in_end:
+                self._checkpoints.append(Checkpoint(self.sweep, self._sums.copy(), self._observed_counts.copy()))
+            while len(self._checkpoints) > 1 and self._checkpoints[1].sweep <= self._burn_in * self.sweep:
+                del self._checkpoints[0]
+        if self.done and self._checkpoints[0].sweep < self._burn_in_end:
+            self._burn_in_until(self._burn_in_end)
         self.seconds += time.perf_counter() - began
 
-    def _burn(self, sweep: int) -> None:
-        """Leave out the sweeps before this one, at which no sums were kept, by means of the kept draws."""
+    def _burn_in_until(self, sweep: int) -> None:
+        """Leave out the sweeps before this one, by their kept draws, since there is no checkpoint of their sums."""
         first = self.draws.select(slice(sweep // self.thin))
         maps = [self.model.cells.mean_map(first.of_chain(chain)) * sweep for chain in range(self.n_chains)]
-        self._past = [Past(sweep, np.array(maps), self._past[0].observed_counts)]
+        self._checkpoints = [Checkpoint(sweep, np.array(maps), self._checkpoints[0].observed_counts)]
 
     @property
     def poses(self) -> Mapping[str, Any]:
-        """The prior of the poses that was asked for: the model's may be a little wider, see `SMALLEST_POSE_M`."""
-        return self.asked_poses
+        """The document's prior of the poses. The model's may be a little wider, see `SMALLEST_SIGMA_M`."""
+        return self.requested_poses
 
     @property
     def draws(self) -> Draws:
@@ -168,8 +159,7 @@ class Stream(Found):
     def mean(self) -> Floats:
         """Return the probability that a cell stops a beam, averaged over the sweeps after the burn-in, (nx, ny).
 
-        If poses are known, cells that no beam touches get the exact prior mean. The mean of their draws would converge
-        to it.
+        If poses are known, cells that no beam touches get the exact prior mean, to which their draws converge.
         """
         mean = self.means().mean(axis=0)
         if self.model.poses.unknown:  # from other poses beams touch other cells
@@ -178,83 +168,82 @@ class Stream(Found):
 
     def means(self) -> Floats:
         """Return the mean map of each chain, (chains, nx, ny)."""
-        burned = self._past[0]
+        burned = self._checkpoints[0]
         return (self._sums - burned.sums) / max(1, self.sweep - burned.sweep)
 
     def reached(self) -> Floats:
-        observed, inspected = self._observed_counts - self._past[0].observed_counts
+        observed, inspected = self._observed_counts - self._checkpoints[0].observed_counts
         return np.asarray(observed / np.maximum(1, inspected))
 
-    def draw(self, chain: int | None, number: int | None) -> OneMap:
+    def draw(self, chain: int | None, number: int | None) -> MapOfDraw:
         """Return one kept draw; the last one if that number does not exist, or the latest draw before the first."""
-        draws, which = self.draws, min(chain or 0, self.n_chains - 1)
+        draws, chain = self.draws, min(chain or 0, self.n_chains - 1)
         if draws.count == 0:
-            return self.model.cells.map_of(self._latest, which, -1), which, 0
+            return self.model.cells.map_of(self._latest, chain, -1), chain, 0
         number = draws.count - 1 if number is None else min(number, draws.count - 1)
-        return self.model.cells.map_of(draws, which, number), which, number
+        return self.model.cells.map_of(draws, chain, number), chain, number
 
     def log_joint(self) -> Floats:
         return self._log_joint[:, : self.sweep]
 
     @property
-    def kept(self) -> Draws | None:
+    def kept_draws(self) -> Draws | None:
         return self.draws if self.draws.count else None
 
     @property
-    def at_hand(self) -> Draws | None:
-        """The kept draws after the burn-in: all once the chains are done, some before; at first the latest draws."""
-        kept = self.draws.select(slice(self._past[0].sweep // self.thin, None))
+    def available_draws(self) -> Draws | None:
+        """The kept draws after the burn-in, thinned until the chains are done; at first the latest draws."""
+        kept = self.draws.select(slice(self._checkpoints[0].sweep // self.thin, None))
         draws = kept if kept.count else self._latest
-        return None if not draws.count else draws if self.done else draws.thinned(RECENT * self.n_chains)
+        return None if not draws.count else draws if self.done else draws.thinned(RECENT_DRAWS * self.n_chains)
 
-    def figures(self, over: bool) -> Figures:
-        """Return the sweeps done, and the diagnostics of the chains. While the chains run, R-hat and effective sample
-        size may be those of an earlier sweep.
+    def progress(self, ended: bool) -> Progress:
+        """Return the sweeps done, and the diagnostics of the chains.
+
+        While the chains run, R-hat and effective sample size may be of an earlier sweep.
         """
-        joint, now = self.log_joint(), time.perf_counter()
-        if now >= self._diagnose_at or (self.done and self._diagnosed < self.sweep):
-            self._rhat, self._ess = rhat_and_ess(joint[:, self._past[0].sweep :])
+        burned, joint, now_s = self._checkpoints[0].sweep, self.log_joint(), time.perf_counter()
+        if now_s >= self._diagnose_at or (self.done and self._diagnosed < self.sweep):
+            self._rhat, self._ess = results.rhat_and_ess(joint[:, burned:])
             self._diagnosed = self.sweep
-            self._diagnose_at = math.inf if self.done else now + (time.perf_counter() - now) / DIAGNOSIS_SHARE
-        last = float(joint[:, -1].mean()) if joint.shape[1] else math.nan
-        apart = difference(self.means(), self.observed())
-        mean = self.model.cells.words.mean
-        sensor, scans = self.model.sensor, self.model.scans
-        misfit = None
+            self._diagnose_at = math.inf if self.done else now_s + (time.perf_counter() - now_s) / DIAGNOSIS_SHARE
+        misfit, sensor = None, self.model.sensor
         if isinstance(sensor, Gaussian) and not self.model.poses.unknown:
-            likelihood = self._log_likelihood[:, self._past[0].sweep : self.sweep]
-            misfit = misfit_of(likelihood, sensor.sigma_m, scans.ranges_m.size)
-        verdict = judge_chains(
-            self._rhat, self._ess, self.sweep, apart, over=over or self.done, mean=mean, misfit=misfit
+            log_likelihood = self._log_likelihood[:, burned : self.sweep]
+            misfit = results.misfit_of(log_likelihood, sensor.sigma_m, self.model.scans.ranges_m.size)
+        verdict = results.judge_chains(
+            self._rhat, self._ess, self.sweep, results.compare_means(self.means(), self.observed()),
+            ended=ended or self.done, mean=self.model.cells.words.mean, misfit=misfit,
         )  # fmt: skip
-        verdict = self._at_shifts(verdict)
-        return Figures(
-            self.sweep, self.total, self._ess, self._rhat, last, verdict, self._past[0].sweep, self.seconds
+        return Progress(
+            self.sweep, self.total, self._ess, self._rhat, float(joint[:, -1].mean()) if joint.shape[1] else math.nan,
+            self._judge_shifts(verdict), burned, self.seconds,
         )  # fmt: skip
 
-    def _at_shifts(self, verdict: Verdict | None) -> Verdict | None:
-        """Return the verdict on chains that stand at several shifts: that of those which share one."""
-        places, which = np.unique(self.shifts, axis=0, return_inverse=True)
-        if verdict is None or verdict.level != "bad" or len(places) < 2 or self.sweep < FEWEST_SWEEPS:
+    def _judge_shifts(self, verdict: Verdict | None) -> Verdict | None:
+        """Judge chains at several shifts: chains at one shift must agree. Other verdicts are returned unchanged."""
+        shifts, shift_of_chain = np.unique(self.shifts, axis=0, return_inverse=True)
+        if verdict is None or verdict.level != "bad" or len(shifts) < 2 or self.sweep < LIMITS.fewest_sweeps:
             return verdict
-        joint = self.log_joint()[:, self._past[0].sweep :]
-        largest = np.nanmax([1.0, *(rhat_and_ess(joint[which.ravel() == k])[0] for k in range(len(places)))])
+        joint = self.log_joint()[:, self._checkpoints[0].sweep :]
+        groups = [joint[shift_of_chain.ravel() == k] for k in range(len(shifts))]
+        largest = np.nanmax([1.0, *(results.rhat_and_ess(group)[0] for group in groups)])
         why = (
-            f"chains stand at {len(places)} shifts of map and sensors together, in the shares that the poses' prior "
+            f"chains stand at {len(shifts)} shifts of map and sensors together, in the shares that the poses' prior "
             f"gives them, and none moves from one to another. Blocks and more sweeps do not change that; another "
             f"sensor or surer poses leave fewer. At each shift R-hat is at most {largest:.2f}"
         )
-        return Verdict("fair" if largest <= RHAT_LIMIT else "bad", why)
+        return Verdict("fair" if largest <= LIMITS.rhat_limit else "bad", why)
 
     def as_run(self, result: Result) -> Run:
-        if self.kept is None:
+        if self.kept_draws is None:
             return super().as_run(result)
         chains = self._record.chains(
             snapshot=self._sampler.snapshot(self.state), observed_counts=self._observed_counts, statistics={},
             n_incidences=self.problem.n_incidences, finished=self.done,
             seconds={"trace": 0.0, "warm_start": 0.0, "sampling": self.seconds},
         )  # fmt: skip
-        burned = self._past[0]
+        burned = self._checkpoints[0]
         first = burned.sweep // self.thin
         chains = replace(
             chains, draws=chains.draws.select(slice(first, None)), log_likelihood=chains.log_likelihood[:, first:],
@@ -273,7 +262,7 @@ def pose_prior(document: Document) -> PosePrior | None:
     sigma_m, sigma_rad = document.pose_sigma, document.heading_sigma
     if not document.simulated or document.sampler not in CHAIN_METHODS or not (sigma_m > 0 or sigma_rad > 0):
         return None
-    return UncertainPoses(max(sigma_m, SMALLEST_POSE_M), max(sigma_rad, SMALLEST_HEADING_RAD))
+    return UncertainPoses(max(sigma_m, SMALLEST_SIGMA_M), max(sigma_rad, SMALLEST_SIGMA_RAD))
 
 
 def pose_starts(document: Document, chains: int) -> NDArray[np.float64]:
@@ -285,43 +274,42 @@ def pose_starts(document: Document, chains: int) -> NDArray[np.float64]:
     of a cell are avoided: walls would not fit the cells, and chains would take long to leave such a start.
     """
     poses = np.array([(sensor.x, sensor.y, sensor.yaw) for sensor in document.sensors])
-    sigma = max(document.pose_sigma, SMALLEST_POSE_M) / math.sqrt(len(poses)) / document.grid.resolution
+    sigma = max(document.pose_sigma, SMALLEST_SIGMA_M) / math.sqrt(len(poses)) / document.grid.resolution
     most = math.ceil(FARTHEST_SIGMAS * sigma)
     cells = np.arange(-most, most + 1)
-    shares = np.cumsum(np.exp(-0.5 * (cells / sigma) ** 2))
+    cumulative = np.cumsum(np.exp(-0.5 * (cells / sigma) ** 2))
     # Evenly spread points of the unit square, one per chain, become shifts by the inverse distribution function.
-    points = (0.5 + np.outer(np.arange(chains), EVENLY)) % 1.0
-    shifts = cells[np.searchsorted(shares / shares[-1], points)] * document.grid.resolution
+    points = (0.5 + np.outer(np.arange(chains), EVEN_STEPS)) % 1.0
+    shifts = cells[np.searchsorted(cumulative / cumulative[-1], points)] * document.grid.resolution
     starts = np.repeat(poses[None], chains, axis=0)
     starts[:, :, :2] += shifts[:, None]
     return starts
 
 
-def chains_of_walls(scene: Scene, document: Document, begun: NDArray[np.bool_]) -> Stream:
-    """Prepare chains that start from the maps `begun`, one per chain, (chains, nx, ny).
+def chains_of_walls(scene: Scene, document: Document, first_maps: NDArray[np.bool_]) -> Stream:
+    """Prepare chains that start from the given maps, one per chain, (chains, nx, ny).
 
     Uncertain poses are sampled together with the walls, as in `bayesmap.infer(..., poses=UncertainPoses(...))` without
     warm-up. They start from `pose_starts`.
     """
     walls = scene.problem
     model = scene.model(walls.prior)
-    name = walls.prior.methods[document.sampler]
-    sampler = sampler_of(name, walls.grid, Gibbs(document.order, begun))
+    sampler = sampler_of(walls.prior.methods[document.sampler], walls.grid, Gibbs(document.order, first_maps))
     poses = pose_prior(document)
     if poses is None:
         return Stream(model, sampler, walls, document)
     model = replace(model, poses=poses)
     joint = PoseProblem(model, walls.for_any_poses(), walls.device, walls.threads)
-    # 0: without warm-up, the sizes of pose steps are not adapted.
-    both = WithPoses(cast(MovableSampler, sampler), 0, pose_starts(document, POSE_CHAINS))
-    stream = Stream(model, both, joint, document)
-    first = pose_starts(document, POSE_CHAINS)[:, 0, :2] - pose_starts(document, 1)[0, 0, :2]
-    stream.shifts = np.rint(first / document.grid.resolution)
-    stream.asked_poses = {"kind": "uncertain", "sigma_m": document.pose_sigma, "sigma_rad": document.heading_sigma}
+    first_poses = pose_starts(document, POSE_CHAINS)
+    # Without warm-up (0), the sizes of pose steps are not adapted.
+    stream = Stream(model, WithPoses(cast(MovableSampler, sampler), 0, first_poses), joint, document)
+    shifts_m = first_poses[:, 0, :2] - pose_starts(document, 1)[0, 0, :2]
+    stream.shifts = np.rint(shifts_m / document.grid.resolution)
+    stream.requested_poses = {"kind": "uncertain", "sigma_m": document.pose_sigma, "sigma_rad": document.heading_sigma}
     return stream
 
 
-def starts(problem: WallProblem, document: Document, preview: Preview | None) -> NDArray[np.bool_]:
+def first_maps_of(problem: WallProblem, document: Document, preview: Preview | None) -> NDArray[np.bool_]:
     """Return the map from which each chain starts, (chains, nx, ny). It depends on the document alone.
 
     Without a preview, the start "auto" means prior draws. After a preview, the chains of a simulation start alternately
@@ -346,10 +334,8 @@ def starts(problem: WallProblem, document: Document, preview: Preview | None) ->
     return likely
 
 
-class Pilot(Found):
-    """The chain that fits sensor and prior before the main chains begin: the model fitted in ``sweep`` of ``total``
-    sweeps, and the latter half of the draws.
-    """
+class Pilot(Estimate):
+    """The chain that fits sensor and prior: the model after ``sweep`` of ``total`` sweeps, and the later draws."""
 
     approximate = True
 
@@ -359,12 +345,12 @@ class Pilot(Found):
         self._touched = touched
 
     @property
-    def at_hand(self) -> Draws:
+    def available_draws(self) -> Draws:
         """The latter half of the pilot's draws."""
         return self.draws
 
-    def figures(self, over: bool) -> Figures:
-        return Figures(self.sweep, self.total)
+    def progress(self, ended: bool) -> Progress:
+        return Progress(self.sweep, self.total)
 
     @cached_property
     def _mean(self) -> Floats:
@@ -377,7 +363,7 @@ class Pilot(Found):
         """Return 1 in the cells that a beam touches, and 0 in the others, (nx, ny)."""
         return self._touched.astype(np.float64)
 
-    def draw(self, chain: int | None, number: int | None) -> OneMap:
+    def draw(self, chain: int | None, number: int | None) -> MapOfDraw:
         """Return the pilot's last draw."""
         return self.model.cells.map_of(self.draws, 0, -1), 0, 0
 
@@ -386,8 +372,9 @@ Fitted = tuple[Model, Any, Any]  # model under fitted sensor and prior, its samp
 
 
 def fit_by_pilot(scene: Scene, document: Document, show: Callable[[Pilot], None]) -> Generator[None, None, Fitted]:
-    """Fit sensor and prior to the readings in short steps, by the document's kind of cells and seed; ``show`` gets the
-    pilot after every sweep. Return the fitted model, its sampler and its problem.
+    """Fit sensor and prior to the readings in short steps; return the fitted model, its sampler and its problem.
+
+    The document gives the kind of cells and the seed. ``show`` gets the pilot after every sweep.
     """
     prior = BUILT_IN[document.cells]()
     first = first_sensor(prior, document.grid.resolution)
@@ -401,7 +388,7 @@ def fit_by_pilot(scene: Scene, document: Document, show: Callable[[Pilot], None]
     for sweep, (fit, info) in enumerate(pilot, 1):
         problem, model = problem.under(fit.sensor, fit.prior), replace(model, sensor=fit.sensor, cells=fit.prior)
         latest = Draws(model.grid, fit.prior.arrays, info.draws, problem.coordinates)
-        draws = joined(draws, latest, math.ceil(sweep / 2))
+        draws = append_draws(draws, latest, math.ceil(sweep / 2))
         show(Pilot(model, draws, sweep, PILOT_SWEEPS, touched))
         yield
     return model, sampler, sampler.prepare(model, "cpu")  # traces beams as far as the fitted noise reaches

@@ -1,4 +1,4 @@
-"""Hit-count maps, available immediately: for the first scans of a log, or for a trajectory still being inferred.
+"""Hit-count maps, which are computed at once: for the first scans of a log, or along a trajectory being inferred.
 
 Along such a trajectory, doubled walls and beams that pass through walls show which poses are still wrong. Wall
 probabilities are OctoMap's log-odds (`bayesmap.posterior.baselines`).
@@ -22,8 +22,8 @@ from bayesmap.space.scans import Scans
 MOST_SCANS = 800  # most scans in a map along changing poses, evenly chosen: it is computed again and again
 
 
-class Counted(FixedMap):
-    """A map computed from counts of hits and passes."""
+class HitCountMap(FixedMap):
+    """A map of wall probabilities from counts of hits and passes."""
 
     approximate = True
 
@@ -58,60 +58,61 @@ class HitCounts:
         self._passes_before = passes_so_far[table.offsets[::width]]
         self._hits = hit_cell[has_hit]
         self._hits_before = np.concatenate([[0], np.cumsum(has_hit)])[::width]
-        # Counts of the first `_at` scans, (2, N): hits and passes.
-        self._at = 0
-        self._now = np.zeros((2, grid.n_cells), dtype=np.int64)
+        self._counts = np.zeros((2, grid.n_cells), dtype=np.int64)  # hits and passes of the first `_n_counted` scans
+        self._n_counted = 0
 
     def first(self, scans: int | None) -> NDArray[np.int64]:
         """Return the hits and passes in the first scans, or in all scans if None, (2, N)."""
         target = self._scans if scans is None else min(scans, self._scans)
         # Add or subtract only the scans between the last number and this one.
-        low, high = sorted((self._at, target))
-        sign = 1 if target >= self._at else -1
-        parts = ((self._hits, self._hits_before), (self._passes, self._passes_before))
-        for row, (cells, before) in enumerate(parts):
-            self._now[row] += sign * np.bincount(cells[before[low] : before[high]], minlength=self._n_cells)
-        self._at = target
-        return self._now.copy()
+        low, high = sorted((self._n_counted, target))
+        sign = 1 if target >= self._n_counted else -1
+        hits_and_passes = ((self._hits, self._hits_before), (self._passes, self._passes_before))
+        for row, (cells, before) in enumerate(hits_and_passes):
+            self._counts[row] += sign * np.bincount(cells[before[low] : before[high]], minlength=self._n_cells)
+        self._n_counted = target
+        return self._counts.copy()
 
 
-def coarse_map(counts: NDArray[np.int64], prior: CellPrior, p_wall: float) -> NDArray[np.float64]:
-    """Return each cell's wall probability by OctoMap, (N,), from hits and passes, (2, N), and the prior ``p_wall``; for
-    other kinds of cells, the share of beams that stop.
+def stop_probabilities(counts: NDArray[np.int64], prior: CellPrior, p_wall: float) -> NDArray[np.float64]:
+    """Return each cell's probability that a beam stops, (N,), from hits and passes, (2, N).
+
+    For walls, it is OctoMap's, from the prior ``p_wall``. For other kinds of cells, it is the share of beams that stop.
     """
     hits, passes = counts.astype(np.float64)
-    a, b = getattr(prior, "a", None), getattr(prior, "b", None)
-    if a is not None and b is not None:
-        return hit_ratio(hits, passes, {"a": a, "b": b})
+    if hasattr(prior, "a") and hasattr(prior, "b"):
+        return hit_ratio(hits, passes, {"a": prior.a, "b": prior.b})
     start = float(np.clip(p_wall, 1e-4, 1 - 1e-4))
     return log_odds(hits, passes, {"p_hit": P_HIT, "p_miss": P_MISS, "p_start": start})
 
 
-def counted_map(scans: Scans, grid: Grid) -> Counted:
+def hit_count_map(scans: Scans, grid: Grid) -> HitCountMap:
     """Return the hit-count map of scans at their poses."""
     from bayesmap.kernels.rays import count_hits
 
-    hits, passes = (np.asarray(n, dtype=np.float64).reshape(grid.shape) for n in count_hits(thinned(scans), grid))
-    seen = hits + passes > 0
-    return Counted(np.where(seen, log_odds_as_usual(hits, passes, {}), 0.5), seen)
+    counts = count_hits(thin_scans(scans), grid)
+    hits, passes = (np.asarray(n, dtype=np.float64).reshape(grid.shape) for n in counts)
+    observed = hits + passes > 0
+    return HitCountMap(np.where(observed, log_odds_as_usual(hits, passes, {}), 0.5), observed)
 
 
-def thinned(scans: Scans) -> Scans:
+def thin_scans(scans: Scans) -> Scans:
     """Return at most `MOST_SCANS` of the scans, evenly chosen."""
     if len(scans) <= MOST_SCANS:
         return scans
     return scans.select(np.linspace(0, len(scans) - 1, MOST_SCANS).astype(np.intp))
 
 
-def grown(grid: Grid, scans: Scans) -> Grid:
-    """Return the grid, enlarged by whole cells until it covers the scans. The grid never shrinks, so that the picture
-    does not jump with every correction of the poses.
+def grow_grid(grid: Grid, scans: Scans) -> Grid:
+    """Return the grid, enlarged by whole cells until it covers the scans.
+
+    The grid never shrinks, so that the picture does not jump with every correction of the poses.
     """
     # The first cell and the end of the enlarged grid, in cells of the old grid. 1e-6 absorbs rounding.
-    needed = Grid.covering(thinned(scans), grid.resolution, margin_m=0.0)
-    low = np.minimum(np.floor((np.array(needed.origin) - grid.origin) / grid.resolution + 1e-6), 0).astype(int)
-    ends = (np.array(needed.origin) - grid.origin) / grid.resolution + needed.shape
-    high = np.maximum(np.ceil(ends - 1e-6), grid.shape).astype(int)
+    needed = Grid.covering(thin_scans(scans), grid.resolution, margin_m=0.0)
+    first = (np.array(needed.origin) - grid.origin) / grid.resolution
+    low = np.minimum(np.floor(first + 1e-6), 0).astype(int)
+    high = np.maximum(np.ceil(first + needed.shape - 1e-6), grid.shape).astype(int)
     shape = (int(high[0] - low[0]), int(high[1] - low[1]))
     if shape == grid.shape or max(shape) > LARGEST_SIDE_OF_FILE:
         return grid
@@ -119,8 +120,8 @@ def grown(grid: Grid, scans: Scans) -> Grid:
     return Grid(shape, grid.resolution, (x, y))
 
 
-def scene_along(scans: Scans, grid: Grid, p_wall: float) -> Scene:
-    """Return a scene of scans without tracing their beams: enough to show rays and poses."""
-    none, empty = np.zeros(0, np.float32), np.zeros(0, np.int32)
-    table = BeamTable(grid, np.zeros(1, np.int32), empty, none, none)
+def untraced_scene(scans: Scans, grid: Grid, p_wall: float) -> Scene:
+    """Return a scene of scans with an empty beam table, which is enough to show rays and poses."""
+    no_numbers = np.zeros(0, np.float32)
+    table = BeamTable(grid, np.zeros(1, np.int32), np.zeros(0, np.int32), no_numbers, no_numbers)
     return scene_of_file(scans, grid, default_sensor(grid.resolution), p_wall, table)

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from msgspec import Struct
 from numpy.typing import NDArray
 
 from bayesmap.app.protocol.document import Document
@@ -27,18 +28,27 @@ from bayesmap.run.chains import RANDOM_STREAMS
 from bayesmap.sensors.model import SensorModel, describe
 
 Floats = NDArray[np.float64]
-OneMap = tuple[NDArray[Any], int, int]  # a map (nx, ny), its chain and its draw
+MapOfDraw = tuple[NDArray[Any], int, int]  # a map (nx, ny), its chain and its draw
 CHAINS = 2  # chains in the saved run of a method without chains
-SAVED_DRAWS = 500  # independent draws per chain in such a run
+SAVED_DRAWS = 500  # independent draws per chain in this run
 INTERVAL_DRAWS = 60  # the number of draws used for credible intervals
-GOOD_RHAT = 1.01  # limits of Vehtari et al. (2021) for R-hat and effective sample size:
-GOOD_ESS = 400.0  # 400 effective draws make R-hat reliable
-BAD_ESS = 50.0  # a smaller effective sample size is bad
-FEWEST_SWEEPS = 200  # with fewer, running chains get no verdict, and differences of their means are not judged
-FEWEST_DIAGNOSED = 4  # the fewest sweeps for R-hat, which needs two draws in each half of a chain
-MISFIT_SIGMAS = 4.0  # the limit of a misfit in standard deviations: one of 30 000 true maps is over it
-BAD_DIFFERENCE = 0.25  # largest good difference of a cell's chain means: 5 standard errors of 200 draws at p = 1/2
 
+
+class VerdictLimits(Struct, frozen=True):
+    """The limits by which chains and particles are judged. R-hat and effective sample size: Vehtari et al. (2021)."""
+
+    rhat_limit: float = RHAT_LIMIT
+    good_rhat: float = 1.01
+    good_ess: float = 400.0  # this many effective draws make R-hat reliable
+    bad_ess: float = 50.0
+    fewest_sweeps: int = 200  # with fewer, running chains get no verdict, and their means are not compared
+    fewest_diagnosed: int = 4  # R-hat needs two draws in each half of a chain
+    bad_difference: float = 0.25  # of a cell's means in two chains: 5 standard errors of 200 draws at p = 1/2
+    misfit_sigmas: float = 4.0  # one of 30 000 true maps has a larger misfit
+    chance_share: float = CHANCE_SHARE  # share of the cells in which means of chains may differ by more
+
+
+LIMITS = VerdictLimits()
 
 METHODS = {
     "gibbs": "Gibbs sampling, cell by cell", "block": "Gibbs sampling, 2 x 2 blocks", "exact": "all maps enumerated",
@@ -49,21 +59,22 @@ METHODS = {
 COUNTS = ("hits", "counts")  # methods without prior and sensor
 
 
-def in_words(description: Mapping[str, Any]) -> str:
-    """Return a description of a prior or a sensor in words: "gaussian: sigma 0.2 m"."""
+def describe_in_words(description: Mapping[str, Any]) -> str:
+    """Describe a prior or a sensor in words: "gaussian: sigma 0.2 m"."""
     parts = []
     for name, value in description.items():
         unit = next((u for u in ("m", "rad") if name.endswith(f"_{u}") and not name.endswith(f"_per_{u}")), "")
         if isinstance(value, Mapping):
-            parts.append(f"{name} {in_words(value)}")
+            parts.append(f"{name} {describe_in_words(value)}")
         elif name == "p_wall" or (name != "kind" and value not in (None, 0)):
             number = f"{value:.4g}" if isinstance(value, float) else str(value)
-            parts.append(f"{name.removesuffix(f'_{unit}').replace('_', ' ')} {number} {unit}".strip())
+            words = name.removesuffix(f"_{unit}").replace("_", " ")
+            parts.append(f"{words} {number} {unit}".strip())
     return f"{description['kind']}: {', '.join(parts)}" if parts else str(description["kind"])
 
 
 @dataclass(frozen=True)
-class Figures:
+class Progress:
     """Progress and diagnostics of a result."""
 
     sweeps: int = 0  # number of sweeps, rounds or particles done
@@ -83,7 +94,7 @@ class Figures:
         return {**counts, **finite, "verdict": self.verdict}
 
 
-class Found(ABC):
+class Estimate(ABC):
     """The estimate of one method. The defaults fit a method without draws."""
 
     approximate = False  # whether the mean is a quick approximation of the posterior mean
@@ -105,9 +116,9 @@ class Found(ABC):
         """Return the cells that a beam reaches with a probability of at least a half, (nx, ny)."""
         return self.reached() >= 0.5
 
-    def figures(self, over: bool) -> Figures:
-        """Return progress and diagnostics; `over` means that the method will not go on."""
-        return Figures()
+    def progress(self, ended: bool) -> Progress:
+        """Return progress and diagnostics; `ended` means that the method will not go on."""
+        return Progress()
 
     @property
     def prior(self) -> CellPrior | None:
@@ -120,21 +131,21 @@ class Found(ABC):
         return {"kind": "known"} if self.model is None else self.model.poses.describe()
 
     @property
-    def law(self) -> tuple[SensorModel, float] | None:
+    def sensor_and_depth(self) -> tuple[SensorModel, float] | None:
         """The sensor model and the hit depth that predict readings, if they differ from the scene's."""
         return None if self.model is None else (self.model.sensor, self.model.hit_depth)
 
     @property
-    def kept(self) -> Draws | None:
+    def kept_draws(self) -> Draws | None:
         """The kept draws, if there are any."""
         return None
 
     @property
-    def at_hand(self) -> Draws | None:
+    def available_draws(self) -> Draws | None:
         """The kept draws, or the latest draws of chains that keep none."""
-        return self.kept
+        return self.kept_draws
 
-    def draw(self, chain: int | None, number: int | None) -> OneMap | None:
+    def draw(self, chain: int | None, number: int | None) -> MapOfDraw | None:
         """Return one draw; the last draw if that number does not exist."""
         return None
 
@@ -144,13 +155,13 @@ class Found(ABC):
 
     def log_joint_of_draws(self) -> Floats:
         """Return the log joint of every kept draw, (chains, n)."""
-        count = 0 if self.kept is None else self.kept.count
+        count = 0 if self.kept_draws is None else self.kept_draws.count
         return self.log_joint()[:, self.thin - 1 :: self.thin][:, :count]
 
     def log_joint_of_draw(self, chain: int, number: int) -> float:
-        """Return the log joint of one draw; without kept draws, that of the chain's last sweep."""
-        joint = self.log_joint() if self.kept is None else self.log_joint_of_draws()
-        return float(joint[chain, -1 if self.kept is None else number]) if joint.size else math.nan
+        """Return the log joint of one draw; without kept draws, of the chain's last sweep."""
+        joint = self.log_joint() if self.kept_draws is None else self.log_joint_of_draws()
+        return float(joint[chain, -1 if self.kept_draws is None else number]) if joint.size else math.nan
 
     @property
     def log_weights(self) -> Floats | None:
@@ -163,9 +174,7 @@ class Found(ABC):
         return None
 
     def as_run(self, result: Result) -> Run:
-        """Return the estimate as a run, like that of `bayesmap.infer`. Raises BadInput: the method has no draws, or
-        none was kept.
-        """
+        """Return the estimate as a run, as `bayesmap.infer` does. Raises `BadInput` if there are no kept draws."""
         raise BadInput("there are no draws to save; run inference first")
 
     def write_map(self, target: Path, result: Result) -> list[Path]:
@@ -175,7 +184,7 @@ class Found(ABC):
 
         mean, prior = np.clip(self.mean(), 0.0, 1.0), result.prior
         occupied, free = prior.thresholds or (None, None)
-        known = known_cells(prior, self.at_hand, mean, self.observed())
+        known = known_cells(prior, self.available_draws, mean, self.observed())
         grid = result.document.grid
         return list(write_map(target, mean, grid, known, occupied_thresh=occupied, free_thresh=free))
 
@@ -195,48 +204,47 @@ class Result:
     scene: Scene  # the readings
     document: Document  # the document
     method: str  # name of the inference method
-    found: Found  # estimate of the method
-    over: bool = False  # whether chains were cancelled, and will not go on
+    estimate: Estimate  # estimate of the method
+    ended: bool = False  # whether chains were cancelled, and will not go on
 
     @property
     def prior(self) -> CellPrior:
         """The prior of the cells on show, which also names their quantities."""
-        return self.found.prior or self.scene.prior
+        return self.estimate.prior or self.scene.prior
 
     @property
-    def law(self) -> tuple[SensorModel, float]:
-        """The sensor model and the hit depth that predict readings. Raises BadInput: the run's sensor model is not
-        built in.
-        """
-        return self.found.law or (self.scene.sensor, self.scene.hit_depth)
+    def sensor_and_depth(self) -> tuple[SensorModel, float]:
+        """The sensor model and the hit depth that predict readings. Raises `BadInput` if a run's model is not ours."""
+        return self.estimate.sensor_and_depth or (self.scene.sensor, self.scene.hit_depth)
 
     @property
     def maps(self) -> Maps:
-        """The kept draws, or the latest draws of chains that keep none. Raises BadInput: the method has no draws."""
-        if self.found.at_hand is not None:
-            return Maps(self.prior, self.found.at_hand)
+        """The kept draws, or the latest draws of chains that keep none. Raises `BadInput` if there are no draws."""
+        if self.estimate.available_draws is not None:
+            return Maps(self.prior, self.estimate.available_draws)
         raise BadInput("a path is judged by draws of the map, and there are none yet; run Gibbs")
 
     @cached_property
     def scan_poses(self) -> Floats:
         """The poses of the scans, (S, 3)."""
-        poses = self.found.scan_poses
+        poses = self.estimate.scan_poses
         return self.scene.scans.poses if poses is None else poses
 
     @cached_property
     def width(self) -> Floats | None:
         """The width of each cell's central 90 % interval, (nx, ny); None for walls, or without draws."""
-        draws = self.found.at_hand
+        draws = self.estimate.available_draws
         if draws is None or not self.prior.has_interval:
             return None
         return self.prior.width(draws.thinned(INTERVAL_DRAWS), 0.9)
 
     @cached_property
     def surfaces(self) -> tuple[NDArray[np.int32], Floats, Floats, Floats] | None:
-        """The mean surfaces: cells, means in the world frame (U, 2), covariances (U, 2, 2), reflectivities (U,). None
-        without draws, or if cells have no surfaces.
+        """The mean surfaces: cells, means (U, 2) in the world frame, covariances (U, 2, 2), reflectivities (U,).
+
+        None without draws, or if cells have no surfaces.
         """
-        draws = self.found.at_hand
+        draws = self.estimate.available_draws
         if draws is None or not self.prior.has_surfaces:
             return None
         return draws.index["surface_cell"], *self.prior.surfaces(draws)
@@ -257,43 +265,39 @@ class Result:
         if self.method in COUNTS:
             return rows
         try:
-            sensor, depth = self.law
-            law = in_words(describe(sensor)) + (f", {depth:g} cells deep" if depth else "")
+            model, hit_depth = self.sensor_and_depth
+            sensor = describe_in_words(describe(model)) + (f", {hit_depth:g} cells deep" if hit_depth else "")
         except BadInput:
-            law = "not one of bayesmap's"
-        poses = in_words(self.found.poses)
-        return [*rows, ("Prior", in_words(self.prior.describe())), ("Sensor", law), ("Poses", poses)]
+            sensor = "not one of bayesmap's"
+        poses = describe_in_words(self.estimate.poses)
+        return [*rows, ("Prior", describe_in_words(self.prior.describe())), ("Sensor", sensor), ("Poses", poses)]
 
     @property
     def draw_count(self) -> DrawCount:
         """The number of kept draws."""
-        kept = self.found.kept
-        return DrawCount() if kept is None else DrawCount(kept.chains, kept.count)
+        draws = self.estimate.kept_draws
+        return DrawCount() if draws is None else DrawCount(draws.chains, draws.count)
 
     def as_run(self) -> Run:
-        """Return the result as a run, like that of `bayesmap.infer`. Raises BadInput: the method has no draws, or none
-        was kept.
-        """
-        return self.found.as_run(self)
+        """Return the result as a run, as `bayesmap.infer` does. Raises `BadInput` if there are no kept draws."""
+        return self.estimate.as_run(self)
 
     def settings_of_run(
         self, model: Model, *, chains: int, draws: int, warmup: int = 0, thin: int = 1, rounds: int = 0
     ) -> dict[str, Any]:
         """Return the settings that `bayesmap.infer` writes into a saved run."""
-        asked = self.document
+        document = self.document
         return {
-            "method": self.method, "order": asked.order, "chains": chains, "warmup": warmup, "draws": draws,
-            "thin": thin, "seed": asked.seed, "start": "prior" if asked.simulated else "propagate",
-            "particles": asked.sweeps, "rounds": rounds, "hit_depth": model.hit_depth, "prior": model.cells.describe(),
-            "sensor": describe(model.sensor), "streams": RANDOM_STREAMS, "poses": model.poses.describe(),
-            "fingerprint": "made by the page",
+            "method": self.method, "order": document.order, "chains": chains, "warmup": warmup, "draws": draws,
+            "thin": thin, "seed": document.seed, "start": "prior" if document.simulated else "propagate",
+            "particles": document.sweeps, "rounds": rounds, "hit_depth": model.hit_depth,
+            "prior": model.cells.describe(), "sensor": describe(model.sensor), "streams": RANDOM_STREAMS,
+            "poses": model.poses.describe(), "fingerprint": "made by the page",
         }  # fmt: skip
 
 
-class FixedMap(Found):
-    """A map that does not change any more: mean stop probabilities and observed cells, (nx, ny) each, and the prior of
-    cells other than walls.
-    """
+class FixedMap(Estimate):
+    """A map that does not change any more: mean stop probabilities and observed cells, (nx, ny) each."""
 
     def __init__(self, mean: Floats, observed: NDArray[np.bool_], prior: CellPrior | None = None) -> None:
         self._mean, self._observed, self._prior = mean, observed, prior
@@ -310,17 +314,17 @@ class FixedMap(Found):
         return self._observed.astype(np.float64)
 
 
-class Nothing(FixedMap):
+class PriorMap(FixedMap):
     """The prior, before inference begins."""
 
 
-def nothing_yet(scene: Scene, document: Document) -> Result:
+def prior_result(scene: Scene, document: Document) -> Result:
     """Return the result before inference begins: the prior."""
     # For other kinds of cells, the scene's prior of walls does not apply.
     other = document.cells != scene.prior.words.kind
     prior: CellPrior = BUILT_IN[document.cells]() if other else scene.prior
-    found = Nothing(prior.mean_stop(scene.grid), np.zeros(scene.grid.shape, dtype=np.bool_), prior)
-    return Result(scene, document, "none", found)
+    estimate = PriorMap(prior.mean_stop(scene.grid), np.zeros(scene.grid.shape, dtype=np.bool_), prior)
+    return Result(scene, document, "none", estimate)
 
 
 def rhat_and_ess(log_joint: Floats) -> tuple[float, float]:
@@ -333,85 +337,79 @@ def rhat_and_ess(log_joint: Floats) -> tuple[float, float]:
 class Difference:
     """Differences between the means of chains."""
 
-    by: float  # largest difference
-    cell: tuple[int, int]  # cell in which it is
-    cells: int  # number of cells in which it is more than `BAD_DIFFERENCE`
-    among: int  # number of cells compared
+    largest: float  # largest difference
+    cell: tuple[int, int]  # cell with the largest difference
+    n_bad: int  # number of cells with a difference over `VerdictLimits.bad_difference`
+    n_compared: int  # number of cells compared
 
 
-def difference(means: Floats, among: NDArray[np.bool_]) -> Difference | None:
-    """Find the largest difference between means, (chains, nx, ny), in cells `among`, (nx, ny); None without any."""
-    if len(means) < 2 or not among.any():
+def compare_means(means: Floats, mask: NDArray[np.bool_]) -> Difference | None:
+    """Compare the mean maps of chains, (chains, nx, ny), in the cells of a mask, (nx, ny); None without any."""
+    if len(means) < 2 or not mask.any():
         return None
-    spread = np.where(among, means.max(axis=0) - means.min(axis=0), 0.0)
-    i, j = np.unravel_index(np.argmax(spread), spread.shape)
-    far = int((spread > BAD_DIFFERENCE).sum())
-    return Difference(float(spread[i, j]), (int(i), int(j)), far, int(among.sum()))
+    ranges = np.where(mask, np.ptp(means, axis=0), 0.0)
+    i, j = np.unravel_index(np.argmax(ranges), ranges.shape)
+    n_bad = int((ranges > LIMITS.bad_difference).sum())
+    return Difference(float(ranges[i, j]), (int(i), int(j)), n_bad, int(mask.sum()))
 
 
 def judge_chains(
-    rhat: float, ess: float, sweeps: int, apart: Difference | None, *, over: bool = False, mean: str = "P(wall)",
+    rhat: float, ess: float, sweeps: int, difference: Difference | None, *, ended: bool = False, mean: str = "P(wall)",
     misfit: float | None = None,
 ) -> Verdict | None:  # fmt: skip
     """Return the verdict on chains, or None if it is too early.
 
-    Chains that are over (finished, cancelled or saved) get a verdict even after few sweeps. Means of few draws differ
+    Chains that have ended (finished, cancelled or saved) get a verdict even after few sweeps. Means of few draws differ
     by chance, so then only the log joint is judged. As in the summary of a run, one cell in a hundred may differ.
-    `mean` is the name of what differs. `misfit` is that of maps that contradict the readings, see `misfit_of`.
+    ``mean`` names the quantity whose means are compared. ``misfit`` is the result of `misfit_of`.
     """
-    few = sweeps < FEWEST_SWEEPS
-    if few and not over:
+    few = sweeps < LIMITS.fewest_sweeps
+    if few and not ended:
         return None
-    if apart is not None and apart.cells > CHANCE_SHARE * apart.among and not few:
-        x, y = apart.cell
-        where = f"in {apart.cells:,} of {apart.among:,} observed cells, most in cell ({x}, {y}), by {apart.by:.2f}"
-        return Verdict("bad", f"{mean} differs by over {BAD_DIFFERENCE} between the chains {where}", apart.cell)
-    if 0 < sweeps < FEWEST_DIAGNOSED:
+    if difference is not None and difference.n_bad > LIMITS.chance_share * difference.n_compared and not few:
+        (x, y), n_bad, n_compared = difference.cell, difference.n_bad, difference.n_compared
+        where = f"in {n_bad:,} of {n_compared:,} observed cells, most in cell ({x}, {y}), by {difference.largest:.2f}"
+        why = f"{mean} differs by over {LIMITS.bad_difference} between the chains {where}"
+        return Verdict("bad", why, difference.cell)
+    if 0 < sweeps < LIMITS.fewest_diagnosed:
         return Verdict("bad", f"{sweeps} {'sweep is' if sweeps == 1 else 'sweeps are'} too few to judge")
-    if rhat > RHAT_LIMIT:
-        return Verdict("bad", f"R-hat is {rhat:.2f}, over {RHAT_LIMIT}")
+    if rhat > LIMITS.rhat_limit:
+        return Verdict("bad", f"R-hat is {rhat:.2f}, over {LIMITS.rhat_limit}")
     if misfit is not None:
         why = f"the chains agree, but on maps that the readings contradict: they differ by {misfit:.3g} times the noise"
         return Verdict("bad", why)
     if not (np.isfinite(rhat) and np.isfinite(ess)):
         why = "nothing varies: the log joint is the same in all draws of all chains"
-        return Verdict("fair" if apart is None else "good", why)
-    if ess < BAD_ESS:
+        return Verdict("fair" if difference is None else "good", why)
+    if ess < LIMITS.bad_ess:
         return Verdict("bad", f"only {ess:.0f} effective draws")
-    if rhat > GOOD_RHAT or ess < GOOD_ESS:
-        why = f"R-hat {rhat:.3f} and {ess:.0f} effective draws; {GOOD_RHAT} and {GOOD_ESS:.0f} are good"
-        return Verdict("fair", why)
+    if rhat > LIMITS.good_rhat or ess < LIMITS.good_ess:
+        good = f"{LIMITS.good_rhat} and {LIMITS.good_ess:.0f} are good"
+        return Verdict("fair", f"R-hat {rhat:.3f} and {ess:.0f} effective draws; {good}")
     return Verdict("good", f"R-hat {rhat:.3f}, {ess:.0f} effective draws")
 
 
-def misfit_of(log_likelihood: Floats, sigma_m: float, beams: int) -> float | None:
-    """Return how far maps are from readings with normal noise, if they contradict them: a posterior predictive check.
+def misfit_of(log_likelihood: Floats, sigma_m: float, n_beams: int) -> float | None:
+    """Return by how much maps contradict readings with normal noise: a posterior predictive check.
 
     The squared differences between readings and map, over the noise's variance, sum to a chi-squared variable if the
-    map is true. Its upper limit is approximated by Wilson and Hilferty's formula.
-
-    Args:
-        log_likelihood: that of each draw, (chains, n).
-        sigma_m: standard deviation of the noise, metres.
-        beams: number of readings.
-
-    Returns:
-        The root mean square of the differences over the noise's standard deviation, of the worst chain; None if no
-        chain is over the limit, or without draws.
+    map is true. Its upper limit is approximated by Wilson and Hilferty's formula. ``log_likelihood`` has a number for
+    each draw, (chains, n). Returns the root mean square of the differences of the worst chain, in standard deviations
+    of the noise; None if no chain is over the limit, or without draws.
     """
-    if not beams or not log_likelihood.size:
+    if not n_beams or not log_likelihood.size:
         return None
-    peak = -beams * math.log(sigma_m * math.sqrt(2 * math.pi))
-    squares = 2 * (peak - float(log_likelihood.mean(axis=1).min()))
-    narrow = 2 / (9 * beams)
-    limit = beams * (1 - narrow + MISFIT_SIGMAS * math.sqrt(narrow)) ** 3
-    return math.sqrt(squares / beams) if squares > limit else None
+    peak = -n_beams * math.log(sigma_m * math.sqrt(2 * math.pi))
+    chi_squared = 2 * (peak - float(log_likelihood.mean(axis=1).min()))
+    variance = 2 / (9 * n_beams)  # of the cube root of a chi-squared variable over its mean
+    limit = n_beams * (1 - variance + LIMITS.misfit_sigmas * math.sqrt(variance)) ** 3
+    return math.sqrt(chi_squared / n_beams) if chi_squared > limit else None
 
 
 def judge_particles(ess: float) -> Verdict:
     """Return the verdict on weighted particles."""
-    if ess < BAD_ESS:
+    if ess < LIMITS.bad_ess:
         number = f"{ess:.1f}"
         carry = "one particle carries" if number == "1.0" else f"{number} particles carry"
         return Verdict("bad", f"{carry} all the weight")
-    return Verdict("good" if ess >= GOOD_ESS else "fair", f"{ess:.0f} effective particles")
+    return Verdict("good" if ess >= LIMITS.good_ess else "fair", f"{ess:.0f} effective particles")

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import special
 
-from bayesmap.app.shown.result import CHAINS, SAVED_DRAWS, Figures, Floats, Found, Result, judge_particles
+from bayesmap.app.shown.result import CHAINS, SAVED_DRAWS, Estimate, Floats, Progress, Result, judge_particles
 from bayesmap.beams.table import BeamTable
 from bayesmap.kernels.random import mix
 from bayesmap.kernels.walls.propagate import Beliefs
@@ -36,15 +36,13 @@ PIECE_SECONDS = 0.015  # duration of a step of importance sampling
 FIRST_PIECE = 64  # particles in the first step
 
 
-def touched(table: BeamTable) -> tuple[NDArray[np.intp], BeamTable]:
+def without_untouched_cells(table: BeamTable) -> tuple[NDArray[np.intp], BeamTable]:
     """Return the flat indices of the M cells that beams touch, and the beam table with cells renumbered 0 to M - 1."""
-    seen = np.zeros(table.grid.n_cells, dtype=np.bool_)
-    seen[table.cells] = True
-    cells = np.flatnonzero(seen)
-    place = np.zeros(table.grid.n_cells, dtype=np.int32)
-    place[cells] = np.arange(len(cells), dtype=np.int32)
+    cells = np.flatnonzero(table.touched_map())
+    numbers = np.zeros(table.grid.n_cells, dtype=np.int32)
+    numbers[cells] = np.arange(len(cells), dtype=np.int32)
     small = Grid((max(1, len(cells)), 1))
-    return cells, BeamTable(small, table.offsets, place[table.cells], table.loglik, table.no_hit)
+    return cells, BeamTable(small, table.offsets, numbers[table.cells], table.loglik, table.no_hit)
 
 
 def reach_by_means(table: BeamTable, p_wall: Floats) -> Floats:
@@ -52,19 +50,18 @@ def reach_by_means(table: BeamTable, p_wall: Floats) -> Floats:
     return reach_frequency(table, p_wall > np.arange(0.1, 1.0, 0.2)[:, None, None])
 
 
-class Preview(Found):
+class Preview(Estimate):
     """Belief propagation as in `bayesmap.samplers.without_chains`, one round at a time.
 
     Cells that no beam touches keep the prior exactly, so the rounds leave them out. On 500 x 500 cells with one sensor
-    they are most of the map. Beliefs have ``converged`` when they changed by less than `TOLERANCE`, or all rounds that
-    are allowed are done.
+    they are most of the map. Beliefs have ``converged`` when they change by less than `TOLERANCE`, or after `ROUNDS`.
     """
 
     approximate = True
 
     def __init__(self, problem: WallProblem) -> None:
         self.problem = problem
-        self.cells, self.table = touched(problem.table)  # cells that beams touch, and the beam table over them
+        self.cells, self.table = without_untouched_cells(problem.table)  # touched cells, and the beam table over them
         self.rounds, self._seconds = 0, 0.0
         self._threads = 1 if problem.table.n_incidences < THREADS_FROM_INCIDENCES else None
         self._p = problem.p_wall[self.cells]
@@ -100,8 +97,8 @@ class Preview(Found):
         """Return the current marginals, for starts of chains and for independent draws."""
         return Marginals(self.mean(), np.zeros(0), np.zeros(0), self.converged, self.converged, 0.0)
 
-    def figures(self, over: bool) -> Figures:
-        return Figures(sweeps=self.rounds, seconds=self._seconds)
+    def progress(self, ended: bool) -> Progress:
+        return Progress(sweeps=self.rounds, seconds=self._seconds)
 
     def as_run(self, result: Result) -> Run:
         began, document = time.perf_counter(), result.document
@@ -110,11 +107,12 @@ class Preview(Found):
         return _run_of_draws(result, self.problem, draws, began, self.rounds)
 
 
-class Weighing(Found):
+class Weighing(Estimate):
     """Importance sampling with the particles of `bayesmap.samplers.without_chains`, weighed in short steps."""
 
     def __init__(self, problem: WallProblem, total: int, seed: int) -> None:
-        self.problem, self.total, self.count = problem, total, 0
+        self.problem, self.total = problem, total
+        self.count = 0  # particles weighed so far
         self._key = mix(seed, 0, Stream.PARTICLES)
         self._log_weights = np.empty(total)
         self._piece = FIRST_PIECE
@@ -123,17 +121,16 @@ class Weighing(Found):
     def advance(self) -> None:
         """Weigh more particles: about `PIECE_SECONDS` of work."""
         began = time.perf_counter()
-        n = min(self._piece, self.total - self.count)
-        problem = self.problem
-        log_weights = particle_log_weights(
+        n, problem = min(self._piece, self.total - self.count), self.problem
+        self._log_weights[self.count : self.count + n] = particle_log_weights(
             problem.device_table, problem.device_prior, self._key, self.count, n, problem.device
         )
-        self._log_weights[self.count : self.count + n] = log_weights
         self.count += n
-        spent = time.perf_counter() - began
-        self._seconds += spent
+        self.done = self.count == self.total
+        seconds = time.perf_counter() - began
+        self._seconds += seconds
         # Choose the next step's size by this step's speed; it grows at most fourfold.
-        self._piece = int(np.clip(n * PIECE_SECONDS / max(spent, 1e-9), 1, 4 * self._piece))
+        self._piece = int(np.clip(n * PIECE_SECONDS / max(seconds, 1e-9), 1, 4 * self._piece))
 
     @property
     def particles(self) -> Particles:
@@ -142,12 +139,12 @@ class Weighing(Found):
         log_total = float(special.logsumexp(log_weights))
         return Particles(
             log_weights=log_weights - log_total, log_evidence=log_total - float(np.log(self.count)),
-            problem=self.problem, key=self._key, seconds=self._seconds, finished=self.count == self.total,
+            problem=self.problem, key=self._key, seconds=self._seconds, finished=self.done,
         )  # fmt: skip
 
-    def figures(self, over: bool) -> Figures:
+    def progress(self, ended: bool) -> Progress:
         ess = self.particles.effective_sample_size
-        return Figures(self.count, self.total, ess, verdict=judge_particles(ess), seconds=self._seconds)
+        return Progress(self.count, self.total, ess, verdict=judge_particles(ess), seconds=self._seconds)
 
     @property
     def log_weights(self) -> Floats:
