@@ -14,8 +14,8 @@ from bayesmap.sim.drawing import TUTORIAL_GRID
 from bayesmap.viz.figure import Candidate, comparison_figure, write_figure
 from bayesmap.viz.maps import window
 from bayesmap.viz.overlays import plot_surfaces
-from bayesmap.viz.palette import SURFACE
-from bayesmap.viz.trajectory import before_and_after_figure
+from bayesmap.viz.palette import SURFACE, blank_figure
+from bayesmap.viz.trajectory import ODOMETRY_COLOR, SIZE_IN, crop_to_walls, plot_trajectory
 
 IMAGES = Path(__file__).with_name("images")
 ROOMS = (6.0, 19.0), (-5.0, 6.5)  # x and y of the building's picture, metres
@@ -49,9 +49,15 @@ def trajectory() -> None:
     angles = some.poses[:, 2:] + some.angles_rad
     ends = some.poses[:, None, :2] + some.ranges_m[..., None] * np.stack([np.cos(angles), np.sin(angles)], axis=-1)
     ends = ends[np.isfinite(some.ranges_m)]
-    figure = before_and_after_figure(
-        raw.poses, ends, run.grid, run.occupancy, run.observed, found.poses, found.covariances()
-    )
+    grid, occupancy, observed = crop_to_walls(run.grid, run.occupancy, run.observed, found.poses)
+    figure = blank_figure(1.5 * SIZE_IN, SIZE_IN * 0.75 * grid.shape[1] / grid.shape[0] + 0.8, dpi=110)
+    left, right = figure.subplots(1, 2)
+    left.plot(*ends.T, ",", color="#8a8a8a", zorder=1)
+    left.plot(*raw.poses[:, :2].T, color=ODOMETRY_COLOR, linewidth=0.9, label="raw odometry")
+    left.set(aspect="equal", xlabel="x [m]", ylabel="y [m]", title="what wheels and laser report")
+    plot_trajectory(right, grid, occupancy, observed, found.poses, found.covariances())
+    right.set(xlabel="x [m]", ylabel="y [m]", title="inferred")
+    figure.legend(loc="outside lower center", ncols=3, frameon=False, fontsize=9)
     write_figure(figure, IMAGES / "slam.png")
 
 

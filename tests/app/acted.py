@@ -17,7 +17,7 @@ from bayesmap.app.protocol.notices import DrawCount, Field, Notice, Quantity, Vi
 from bayesmap.app.protocol.tasks import Ask, Infer, Ready, Report, Show
 from bayesmap.app.protocol.wire import check, frame
 from bayesmap.app.session import Session, ToPage
-from bayesmap.app.shown.chains import Stream
+from bayesmap.app.shown.chains import RunningChains
 from bayesmap.app.sources import open_run
 from bayesmap.space.grid import Grid
 
@@ -83,7 +83,7 @@ class Heard:
 
     def chains_run(self):
         """Tell whether chains made the result on show."""
-        return self.engine._result is not None and isinstance(self.engine._result.estimate, Stream)
+        return self.engine._result is not None and isinstance(self.engine._result.estimate, RunningChains)
 
     def finish(self):
         """Do the rest of the job."""

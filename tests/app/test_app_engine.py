@@ -14,7 +14,7 @@ from bayesmap.app.edits import new_document, tutorial_document
 from bayesmap.app.protocol.actions import Cancel, Inspect
 from bayesmap.app.protocol.notices import DrawCount, View
 from bayesmap.app.scene import simulate_document, simulated_scene
-from bayesmap.app.shown.chains import DRAW_BYTES, Stream
+from bayesmap.app.shown.chains import DRAW_BYTES, RunningChains
 from bayesmap.app.shown.result import LIMITS
 from bayesmap.model import Model
 from bayesmap.posterior.summary import bulk_ess
@@ -208,7 +208,7 @@ def test_many_sweeps_of_a_large_map_are_thinned_to_fit():
     scene = simulated_scene(new_document("blank", (500, 500), tutorial_document()))
     model, start = scene.model(scene.problem.prior), np.zeros((2, 500, 500), dtype=bool)
     document = replace(tutorial_document(), sweeps=6000)
-    stream = Stream(model, WallGibbs("radial", start), scene.problem, document)
+    stream = RunningChains(model, WallGibbs("radial", start), scene.problem, document)
     assert (stream.thin, stream.total) == (3, 6000)
     assert stream._record._draws.arrays["walls"].nbytes <= DRAW_BYTES
 

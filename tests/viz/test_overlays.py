@@ -158,14 +158,7 @@ def labels(figure):
     return [text.get_text() for legend in figure.legends for text in legend.get_texts()]
 
 
-def test_before_and_after_have_a_panel_each_and_badly_explained_scans_are_marked():
-    ends = np.random.default_rng(0).uniform(0, 3, (50, 2))
-    figure = figures.before_and_after_figure(POSES + 0.3, ends, FLOOR, MAP, SEEN, POSES, COVARIANCES)
-    left, right = figure.axes[:2]
-    np.testing.assert_allclose(left.lines[0].get_xydata(), ends)
-    np.testing.assert_allclose(left.lines[1].get_xydata(), POSES[:, :2] + 0.3)
-    np.testing.assert_allclose(right.lines[0].get_xydata(), POSES[:, :2])
-    assert labels(figure)[:2] == ["raw odometry", "trajectory"]
+def test_badly_explained_scans_are_marked():
     flagged = np.arange(20) == 7
     figure = figures.trajectory_figure(FLOOR, MAP, SEEN, POSES, COVARIANCES, flagged)
     (line,) = [line for line in figure.axes[0].lines if line.get_label() == "badly explained scan"]

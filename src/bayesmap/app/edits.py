@@ -17,15 +17,15 @@ from numpy.typing import NDArray
 from bayesmap.app.protocol import actions
 from bayesmap.app.protocol.document import (
     FIXED_BY_FILE,
-    LARGEST_SIDE_OF_LOG,
+    MAX_LOG_SIDE,
     SENSORS,
+    SETTINGS,
     Document,
     Refused,
     Sensor,
     Source,
     check_stand,
     pack_walls,
-    settings_of,
 )
 from bayesmap.sim.drawing import TUTORIAL_GRID, tutorial
 from bayesmap.space.grid import Grid
@@ -222,7 +222,8 @@ def adopt_document(present: Document, other: Document) -> Document:
         if other.grid != present.grid and not (any_size and resolution_m == present.grid.resolution):
             document = with_resolution(present, resolution_m)
         if any_size or other.grid == document.grid:
-            settings = {name: getattr(other, name) for name in settings_of(present.source.kind)}
+            fixed = FIXED_BY_FILE[present.source.kind]
+            settings = {name: getattr(other, name) for name in SETTINGS if name not in fixed}
             n_used = settings.pop("scans_used", None)
             return replace(document if n_used is None else with_scans_used(document, n_used), **settings)
     names = ["a map that was drawn" if shown.simulated else shown.source.name for shown in (present, other)]
@@ -239,11 +240,11 @@ def with_resolution(document: Document, resolution_m: float) -> Document:
     if document.source.kind != "log" or bounds is None:
         raise Refused("only a log is shown on cells of any size")
     grid = Grid.over(*bounds, resolution_m)
-    if max(grid.shape) > LARGEST_SIDE_OF_LOG:
-        least = max(high - low for low, high in zip(*bounds, strict=True)) / (LARGEST_SIDE_OF_LOG - 1)
+    if max(grid.shape) > MAX_LOG_SIDE:
+        least = max(high - low for low, high in zip(*bounds, strict=True)) / (MAX_LOG_SIDE - 1)
         raise Refused(
             f"cells of {resolution_m:g} m make a map of {grid.shape[0]} x {grid.shape[1]} cells, more than "
-            f"{LARGEST_SIDE_OF_LOG} a side", f"give at least {least:.3f} m"
+            f"{MAX_LOG_SIDE} a side", f"give at least {least:.3f} m"
         )  # fmt: skip
     return document.on_grid(grid)
 

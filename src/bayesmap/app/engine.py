@@ -23,7 +23,15 @@ from bayesmap.app.protocol.document import CHAIN_METHODS, SETTINGS_OF_CHAINS, Do
 from bayesmap.app.protocol.notices import Status
 from bayesmap.app.protocol.tasks import Ask, Failed, Infer, Remember, Show, Task
 from bayesmap.app.scene import Scene, simulated_scene
-from bayesmap.app.shown.chains import Fitted, Pilot, Stream, chains_of_walls, first_maps_of, fit_by_pilot, pose_prior
+from bayesmap.app.shown.chains import (
+    Fitted,
+    Pilot,
+    RunningChains,
+    chains_of_walls,
+    first_maps_of,
+    fit_by_pilot,
+    pose_prior,
+)
 from bayesmap.app.shown.result import Result, prior_result
 from bayesmap.app.shown.without_chains import Preview, Weighing
 from bayesmap.app.sources import OpenedLog, OpenedRun
@@ -191,10 +199,10 @@ class Engine:
                 yield
         yield from self._sweep(scene, document, preview)
 
-    def _chains_of(self, document: Document) -> Stream | None:
+    def _chains_of(self, document: Document) -> RunningChains | None:
         """Return the chains of the job before if they sample this document."""
         result = self._earlier_result
-        if result is None or result.document != document or not isinstance(result.estimate, Stream):
+        if result is None or result.document != document or not isinstance(result.estimate, RunningChains):
             return None
         return result.estimate
 
@@ -288,13 +296,13 @@ class Engine:
         if self._fitted is None or not self._fitted[0].equals_except(document, SETTINGS_OF_CHAINS):
             self._fitted = None  # free the old problem first: two may not fit in memory
             self._fitted = document, (yield from fit_by_pilot(scene, document, show))
-        yield from self._stream(scene, document, Stream(*self._fitted[1], document))
+        yield from self._stream(scene, document, RunningChains(*self._fitted[1], document))
 
-    def _stream(self, scene: Scene, document: Document, estimate: Stream | Weighing) -> Iterator[None]:
+    def _stream(self, scene: Scene, document: Document, estimate: RunningChains | Weighing) -> Iterator[None]:
         """Run chains or importance sampling, with frames at intervals and one at the end."""
         while True:
             yield
-            if isinstance(estimate, Stream) and self._extra_sweeps:
+            if isinstance(estimate, RunningChains) and self._extra_sweeps:
                 estimate.extend(self._extra_sweeps)
                 self._extra_sweeps = 0
             estimate.advance()

@@ -101,16 +101,15 @@ class Session:
         return [] if view is None else [tasks.Show(client, notices.View("mean"))]
 
     def _apply_all(self, due: list[ActionOfPage]) -> Effects:
-        """Apply actions of pages in order; return their effects."""
-        return [effect for client, action in due for effect in self._apply_or_refuse(client, action)]
-
-    def _apply_or_refuse(self, client: int, action: actions.AnyAction) -> Effects:
-        """Apply an action, or return the reason why it is refused."""
-        self._last_seqs[client] = action.seq
-        try:
-            return self._dispatch(client, action)
-        except Refused as refusal:
-            return [_status(str(refusal), "warning", client), *self._state_for_all()]
+        """Apply actions of pages in order. Returns their effects, or the reasons why they are refused."""
+        effects: Effects = []
+        for client, action in due:
+            self._last_seqs[client] = action.seq
+            try:
+                effects += self._dispatch(client, action)
+            except Refused as refused:
+                effects += [_status(str(refused), "warning", client), *self._state_for_all()]
+        return effects
 
     def _dispatch(self, client: int, action: actions.AnyAction) -> Effects:
         """Apply an action by its kind. Raises `Refused` if it cannot be applied."""

@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 
 from bayesmap.app.protocol.document import (
-    LARGEST_SIDE_OF_FILE,
-    LARGEST_SIDE_OF_LOG,
+    MAX_FILE_SIDE,
+    MAX_LOG_SIDE,
     METHODS,
     Document,
     Refused,
@@ -149,7 +149,7 @@ class OpenedLog:
         if bounds is None or document.grid.resolution == own.resolution:
             return document.on_grid(own)
         grid = Grid.over(*bounds, document.grid.resolution)
-        return document.on_grid(own if max(grid.shape) > LARGEST_SIDE_OF_LOG else grid)
+        return document.on_grid(own if max(grid.shape) > MAX_LOG_SIDE else grid)
 
     def scene(self, document: Document) -> Scene:
         """Return the scene of the log's first scans under the document's prior."""
@@ -240,8 +240,8 @@ def open_log(scans: Scans, name: str) -> OpenedLog:
     from bayesmap.poses.log_checks import look_like_odometry
 
     grid = Grid.covering(scans, LOG_RESOLUTION_M)
-    if max(grid.shape) > LARGEST_SIDE_OF_LOG:
-        grid = Grid.covering(scans, LOG_RESOLUTION_M * math.ceil(max(grid.shape) / LARGEST_SIDE_OF_LOG))
+    if max(grid.shape) > MAX_LOG_SIDE:
+        grid = Grid.covering(scans, LOG_RESOLUTION_M * math.ceil(max(grid.shape) / MAX_LOG_SIDE))
     document = _document(grid, scans, Source("log", name, len(scans)), P_WALL)
     source = replace(document.source, bounds=bounds_m(scans))
     document = replace(document, sweeps=LOG_SWEEPS, source=source)
@@ -249,8 +249,8 @@ def open_log(scans: Scans, name: str) -> OpenedLog:
 
 
 def _document(grid: Grid, scans: Scans, source: Source, prior: float) -> Document:
-    if max(grid.shape) > LARGEST_SIDE_OF_FILE:
-        raise BadInput(f"{source.name}: {grid.shape} cells are too many for the page, at most {LARGEST_SIDE_OF_FILE}")
+    if max(grid.shape) > MAX_FILE_SIDE:
+        raise BadInput(f"{source.name}: {grid.shape} cells are too many for the page, at most {MAX_FILE_SIDE}")
     return Document(
         grid=grid, walls=no_walls(grid), sensors=(), prior=float(prior), angles=len(scans.angles_rad),
         max_range=scans.max_range_m, source=source,

@@ -43,24 +43,25 @@ def trajectory_figure(
 
     Flagged scans, a mask (S,), are marked. Parts of the map that hold only the ends of stray beams are cut off.
     """
-    grid, occupancy, observed = _crop_to_walls(grid, occupancy, observed, poses)
+    grid, occupancy, observed = crop_to_walls(grid, occupancy, observed, poses)
     figure, ax = _axes(grid.shape)
-    _plot_map(ax, grid, occupancy, observed, poses, covariances)
+    plot_trajectory(ax, grid, occupancy, observed, poses, covariances)
     if flagged is not None and flagged.any():
         ax.plot(*poses[flagged, :2].T, "x", color=FLAGGED_COLOR, markersize=5, label="badly explained scan", zorder=5)
     return _finish(figure, ax)
 
 
-def _crop_to_walls(grid: Grid, occupancy: ArrayLike, observed: ArrayLike, poses: Floats) -> tuple[Grid, Floats, Mask]:
+def crop_to_walls(grid: Grid, occupancy: ArrayLike, observed: ArrayLike, poses: Floats) -> tuple[Grid, Floats, Mask]:
     """Return grid, occupancy and mask of observed cells in the window around walls and poses."""
     values, mask = np.asarray(occupancy, dtype=np.float64), np.asarray(observed, dtype=np.bool_)
     inner, window = maps.window_of_walls(grid, mask & (values > 0.5), poses[:, :2])
     return inner, values[window], mask[window]
 
 
-def _plot_map(
+def plot_trajectory(
     ax: Axes, grid: Grid, occupancy: ArrayLike, observed: ArrayLike, poses: Floats, covariances: Floats
 ) -> None:
+    """Plot a map, a trajectory, (S, 3), and 95 % ellipses of its covariances, (S, 3, 3)."""
     maps.plot_probability(ax, grid, occupancy, observed)
     ax.plot(poses[:, 0], poses[:, 1], color=INFERRED_COLOR, linewidth=0.8, label="trajectory", zorder=3)
     sigma_m = np.sqrt(np.maximum(np.linalg.eigvalsh(covariances[:, :2, :2])[:, 1], 0.0))
@@ -79,27 +80,6 @@ def _select_disjoint(centres: Floats, radii: Floats) -> list[int]:
         if (np.hypot(*(centres[selected] - centre).T) >= radii[selected] + radius).all():
             selected.append(i)
     return selected
-
-
-def before_and_after_figure(
-    raw: Floats, ends: Floats, grid: Grid, occupancy: ArrayLike, observed: ArrayLike, poses: Floats, covariances: Floats
-) -> Figure:
-    """Return a figure of raw odometry with its end points, and beside it the inferred trajectory on its map.
-
-    ``raw`` and ``poses`` are (S, 3), ``covariances`` (S, 3, 3). ``ends`` are the end points of readings from the raw
-    poses, (N, 2) in metres.
-    """
-    grid, occupancy, observed = _crop_to_walls(grid, occupancy, observed, poses)
-    height = SIZE_IN * 0.75 * grid.shape[1] / grid.shape[0] + 0.8
-    figure = palette.blank_figure(1.5 * SIZE_IN, height, dpi=110)
-    left, right = figure.subplots(1, 2)
-    left.plot(*ends.T, ",", color="#8a8a8a", zorder=1)
-    left.plot(raw[:, 0], raw[:, 1], color=ODOMETRY_COLOR, linewidth=0.9, label="raw odometry")
-    left.set(aspect="equal", xlabel="x [m]", ylabel="y [m]", title="what wheels and laser report")
-    _plot_map(right, grid, occupancy, observed, poses, covariances)
-    right.set(xlabel="x [m]", ylabel="y [m]", title="inferred")
-    figure.legend(loc="outside lower center", ncols=3, frameon=False, fontsize=9)
-    return figure
 
 
 def odometry_figure(raw: Floats, inferred: Floats) -> Figure:

@@ -28,8 +28,8 @@ CHAIN_METHODS = ("gibbs", "block")  # methods that are Markov chains
 RARE_WALLS = 0.2
 SMALLEST_NOISE_M = 0.01  # the smallest noise of the sensor model: a density needs a width
 SIDE = (2, 500)  # least and most cells per side of a drawn map
-LARGEST_SIDE_OF_FILE = 4000  # most cells per side of a map from a file
-LARGEST_SIDE_OF_LOG = 1000  # the largest number of cells per side of a map that is inferred from a log
+MAX_FILE_SIDE = 4000  # most cells per side of a map from a file
+MAX_LOG_SIDE = 1000  # the largest number of cells per side of a map that is inferred from a log
 SENSORS = (1, 32)  # least and most sensors
 RESOLUTIONS_M = (0.02, 2.0)  # smallest and largest cells that a page can choose for a log
 ANY_RESOLUTION_M = (1e-3, 1e3)  # smallest and largest cells of any document
@@ -211,11 +211,6 @@ def no_walls(grid: Grid) -> bytes:
     return bytes((grid.n_cells + 7) // 8)
 
 
-def settings_of(kind: Kind) -> tuple[str, ...]:
-    """Return the names of the settings that a page can change, for this kind of source."""
-    return tuple(name for name in SETTINGS if name not in FIXED_BY_FILE[kind])
-
-
 def bounds_of(hint: object) -> tuple[float, float] | None:
     """Return the smallest and largest value of a type that is declared with limits; None for other types."""
     (meta,) = getattr(hint, "__metadata__", None) or (None,)
@@ -233,7 +228,7 @@ BOUNDS: Mapping[str, tuple[float, float]] = {
 def check_document(document: Document) -> None:
     """Check that fields fit together: sizes, sensors in free cells, a file's name. Raises `Refused` if they do not."""
     grid = document.grid
-    most = SIDE if document.simulated else (1, LARGEST_SIDE_OF_FILE)
+    most = SIDE if document.simulated else (1, MAX_FILE_SIDE)
     if not most[0] <= min(grid.shape) <= max(grid.shape) <= most[1]:
         raise Refused(f"grid.shape: a map of {grid.shape} cells", f"give {most[0]} to {most[1]} cells a side")
     if not ANY_RESOLUTION_M[0] <= grid.resolution <= ANY_RESOLUTION_M[1]:

@@ -9,7 +9,7 @@ from msgspec import Struct, defstruct
 from bayesmap.app.protocol.actions import FindPath, Layer
 from bayesmap.app.protocol.document import (
     BOUNDS,
-    LARGEST_SIDE_OF_LOG,
+    MAX_LOG_SIDE,
     RESOLUTIONS_M,
     SENSORS,
     SIDE,
@@ -35,7 +35,7 @@ class OfPicture(Notice, frozen=True, kw_only=True):
 _PATH = get_type_hints(FindPath, include_extras=True)
 _LIMITS = {
     **BOUNDS, "radius": bounds_of(_PATH["radius"]), "risk": bounds_of(_PATH["risk"]), "side": SIDE, "sensors": SENSORS,
-    "resolution": RESOLUTIONS_M, "side_of_log": (1, LARGEST_SIDE_OF_LOG),
+    "resolution": RESOLUTIONS_M, "side_of_log": (1, MAX_LOG_SIDE),
 }  # fmt: skip
 
 if TYPE_CHECKING:

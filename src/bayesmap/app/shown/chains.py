@@ -71,7 +71,7 @@ class Checkpoint(NamedTuple):
     observed_counts: NDArray[np.int32]  # see `Sampler.observed_counts`
 
 
-class Stream(Estimate):
+class RunningChains(Estimate):
     """Chains of any kind of cells, advanced step by step from their start to their last sweep."""
 
     def __init__(self, model: Model, sampler: Sampler[Any, Any], problem: Problem, document: Document) -> None:
@@ -286,7 +286,7 @@ def pose_starts(document: Document, chains: int) -> NDArray[np.float64]:
     return starts
 
 
-def chains_of_walls(scene: Scene, document: Document, first_maps: NDArray[np.bool_]) -> Stream:
+def chains_of_walls(scene: Scene, document: Document, first_maps: NDArray[np.bool_]) -> RunningChains:
     """Prepare chains that start from the given maps, one per chain, (chains, nx, ny).
 
     Uncertain poses are sampled together with the walls, as in `bayesmap.infer(..., poses=UncertainPoses(...))` without
@@ -297,12 +297,12 @@ def chains_of_walls(scene: Scene, document: Document, first_maps: NDArray[np.boo
     sampler = sampler_of(walls.prior.methods[document.sampler], walls.grid, Gibbs(document.order, first_maps))
     poses = pose_prior(document)
     if poses is None:
-        return Stream(model, sampler, walls, document)
+        return RunningChains(model, sampler, walls, document)
     model = replace(model, poses=poses)
     joint = PoseProblem(model, walls.for_any_poses(), walls.device, walls.threads)
     first_poses = pose_starts(document, POSE_CHAINS)
     # Without warm-up (0), the sizes of pose steps are not adapted.
-    stream = Stream(model, WithPoses(cast(MovableSampler, sampler), 0, first_poses), joint, document)
+    stream = RunningChains(model, WithPoses(cast(MovableSampler, sampler), 0, first_poses), joint, document)
     shifts_m = first_poses[:, 0, :2] - pose_starts(document, 1)[0, 0, :2]
     stream.shifts = np.rint(shifts_m / document.grid.resolution)
     stream.requested_poses = {"kind": "uncertain", "sigma_m": document.pose_sigma, "sigma_rad": document.heading_sigma}

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.app.protocol.document import LARGEST_SIDE_OF_FILE
+from bayesmap.app.protocol.document import MAX_FILE_SIDE
 from bayesmap.app.scene import Scene, scene_of_file
 from bayesmap.app.shown.result import FixedMap
 from bayesmap.beams.table import BeamTable
@@ -114,7 +114,7 @@ def grow_grid(grid: Grid, scans: Scans) -> Grid:
     low = np.minimum(np.floor(first + 1e-6), 0).astype(int)
     high = np.maximum(np.ceil(first + needed.shape - 1e-6), grid.shape).astype(int)
     shape = (int(high[0] - low[0]), int(high[1] - low[1]))
-    if shape == grid.shape or max(shape) > LARGEST_SIDE_OF_FILE:
+    if shape == grid.shape or max(shape) > MAX_FILE_SIDE:
         return grid
     x, y = (np.array(grid.origin) + low * grid.resolution).tolist()
     return Grid(shape, grid.resolution, (x, y))

@@ -87,11 +87,10 @@ class Progress:
     seconds: float = math.nan  # time spent on sweeps, rounds or particles
 
     def as_fields(self) -> dict[str, Any]:
-        """Return the fields of a message; numbers that are not finite become None."""
-        numbers = {"ess": self.ess, "rhat": self.rhat, "log_joint": self.log_joint, "seconds": self.seconds}
-        finite = {name: float(value) if math.isfinite(value) else None for name, value in numbers.items()}
-        counts = {"sweeps": self.sweeps, "total": self.total, "burned": self.burned}
-        return {**counts, **finite, "verdict": self.verdict}
+        """Return the fields of a message. Numbers that are not finite become None."""
+        numbers = {name: value for name, value in vars(self).items() if name != "verdict"}
+        finite = {name: value if math.isfinite(value) else None for name, value in numbers.items()}
+        return {**finite, "verdict": self.verdict}
 
 
 class Estimate(ABC):
