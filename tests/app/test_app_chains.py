@@ -168,7 +168,7 @@ def test_beams_that_end_past_their_readings_say_what_whole_ones_say(name):
 
 def test_beams_that_end_at_their_readings_say_something_else(monkeypatch):
     """The wrong twin of the test above is told apart."""
-    monkeypatch.setattr(scanning, "NEAR_SIGMAS", 0.5)
+    monkeypatch.setattr(scanning, "CUT_SIGMAS", 0.5)
     scene = simulated_scene(tutorial_document())
     assert np.abs(previewed(scene.near_problem, 6).mean() - previewed(scene.problem, 6).mean()).max() > 0.05
 
@@ -177,11 +177,11 @@ def test_another_prior_shares_the_beams_that_there_are():
     scene = simulated_scene(tutorial_document())
     untouched = scene.with_prior(0.3)
     assert "problem" not in vars(untouched)
-    assert untouched.problem.prior.p_wall == untouched.near.prior.p_wall == 0.3
+    assert untouched.problem.prior.p_wall == untouched.near_problem.prior.p_wall == 0.3
     table, near = scene.problem.table, scene.near_problem.table
     other = scene.with_prior(0.2)
-    assert (other.problem.table, other.near.table) == (table, near)
-    assert other.problem.prior.p_wall == other.near.prior.p_wall == 0.2
+    assert (other.problem.table, other.near_problem.table) == (table, near)
+    assert other.problem.prior.p_wall == other.near_problem.prior.p_wall == 0.2
 
 
 def test_a_preview_is_the_library_s_belief_propagation_and_one_chain_of_two_starts_from_it():

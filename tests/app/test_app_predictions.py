@@ -100,7 +100,7 @@ def test_its_draws_are_those_of_the_last_sweep_once_chains_are_done(monkeypatch)
 
     def asked(x):
         heard.answer(MoveGhost(x, 15.0, 0.0))
-        return heard.engine._answers._ghost._predictor
+        return heard.engine._answers._virtual_scans._predictor
 
     held = asked(6.0)
     assert asked(6.1) is held  # nothing was put there twice
