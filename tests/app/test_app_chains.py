@@ -255,8 +255,7 @@ def test_rare_walls_cell_by_cell_from_the_prior_are_seen_to_be_impossible_and_bl
 def test_settings_are_told_as_they_were_set():
     heard = Heard()
     about = dict(heard.infer(replace(tutorial_document(), prior=0.0, pose_sigma=0.2, sweeps=5))[0]["about"])
-    assert about["Prior"] == "independent: p wall 0"
-    assert about["Poses"] == "uncertain: sigma 0.2 m"
+    assert (about["Prior"], about["Poses"]) == ("independent: p wall 0", "uncertain: sigma 0.2 m")
 
 
 def test_the_difference_is_the_largest_among_the_observed_cells():

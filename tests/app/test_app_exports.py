@@ -100,8 +100,7 @@ def test_a_run_names_its_quantity_and_has_intervals_where_it_is_a_number(prior, 
     run = room_run(prior)
     heard = shown(run)
     header, _ = heard.last("field")
-    assert header["quantity"]["kind"] == kind
-    assert header["quantity"]["interval"] == (kind != "binary")
+    assert (header["quantity"]["kind"], header["quantity"]["interval"]) == (kind, kind != "binary")
     assert mean is None or header["quantity"]["mean"] == mean
     document = heard.engine._opened.document
     assert (document.cells, document.order) == (kind, "radial")  # in share links and exported documents, too

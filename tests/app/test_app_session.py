@@ -84,8 +84,7 @@ def test_a_sensor_cannot_go_into_a_wall_or_outside(x, y, named):
     acted.picture()
     assert named in acted.text
     assert acted.session.document is before
-    assert acted.session.generation == generation
-    assert acted.state["seq"] == acted.seq
+    assert (acted.session.generation, acted.state["seq"]) == (generation, acted.seq)
 
 
 def test_walls_spare_sensors_which_are_added_up_to_the_limit_and_removed_down_to_one():
@@ -151,8 +150,7 @@ def test_a_drag_is_shown_as_far_as_its_page_paints(paints, pictures):
     dragged(acted, 8, paints == "in time")
     assert len(acted.inferred) == 1 + pictures
     acted.painted()
-    assert acted.inferred[-1].document.sensors[0].x == 10.08
-    assert acted.state["seq"] == acted.seq
+    assert (acted.inferred[-1].document.sensors[0].x, acted.state["seq"]) == (10.08, acted.seq)
 
 
 def test_edits_that_waited_for_a_page_are_applied_when_it_leaves():
@@ -254,8 +252,7 @@ def test_a_page_undoes_its_own_steps_and_those_of_pages_that_have_gone():
 
 def test_the_document_is_exported_without_the_worker_and_live_off_leaves_the_preview():
     acted = Acted()
-    assert acted.act("export", what="document")[0]["type"] == "download"
-    assert acted.asked == []
+    assert (acted.act("export", what="document")[0]["type"], acted.asked) == ("download", [])
     acted.act("live", on=False)
     acted.act("set", patch={"prior": 0.1})
     assert acted.inferred[-1].mode == "preview"
@@ -270,8 +267,7 @@ def test_a_worker_that_died_is_given_everything_again():
     lost = acted.do(acted.session.worker_lost())
     assert [m["type"] for m in lost] == ["worker", "status"]
     acted.hear(Ready())
-    assert acted.inferred[-1].document.prior == 0.1
-    assert acted.tasks[-2] == Show(1, View("entropy"))
+    assert (acted.inferred[-1].document.prior, acted.tasks[-2]) == (0.1, Show(1, View("entropy")))
 
 
 def test_a_scan_of_a_file_can_be_chosen():

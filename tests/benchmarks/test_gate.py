@@ -24,8 +24,7 @@ def quick_yardstick(monkeypatch):
 def test_the_best_repeat_counts_and_more_can_be_taken():
     samples = iter([5.0, 4.0, 6.0, 2.0, 7.0, 8.0])
     first = repeated(lambda: next(samples), lambda all_: Figure("a", min(all_), "s"), repeats=3)
-    assert first.value == 4.0
-    assert first.yardstick_s == 1.0
+    assert (first.value, first.yardstick_s) == (4.0, 1.0)
     assert first.again().value == 2.0
 
 
@@ -41,8 +40,7 @@ def test_a_ratio_is_of_the_fastest_of_each_measured_in_turn(monkeypatch):
     found = ratio("r", *both, repeats=3, against=lambda seconds: f"{seconds:g} s")
     assert found.value == 10.0
     assert found.spread == (30 / 9, 45.0)
-    assert found.against == "20 s"
-    assert found.better == "higher"
+    assert (found.against, found.better) == ("20 s", "higher")
     assert calls == ["theirs", "ours"] * 3
 
 
@@ -62,8 +60,7 @@ def test_a_derived_figure_measures_its_sources_again():
     samples = iter([4.0, 2.0, 3.0, 1.0])
     one = repeated(lambda: next(samples), lambda all_: Figure("a", min(all_), "s"), repeats=1)
     double = derived("d", [one, Figure("fixed", 10.0, "MB")], sum)
-    assert double.value == 14.0
-    assert double.again().value == 12.0
+    assert (double.value, double.again().value) == (14.0, 12.0)
     assert double.again().again().value == 11.0
 
 
@@ -155,8 +152,7 @@ class Machine:
 ], ids=["a busy moment", "no worse", "slow for ever"])  # fmt: skip
 def test_a_busy_moment_is_waited_out_and_a_machine_that_stays_slow_is_not(times, value, pauses):
     machine = Machine(*times)
-    assert machine.confirmed().value == value
-    assert machine.slept == list(PAUSES_S[:pauses])
+    assert (machine.confirmed().value, machine.slept) == (value, list(PAUSES_S[:pauses]))
 
 
 def test_a_ratio_to_a_peer_fails_nothing():

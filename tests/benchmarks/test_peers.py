@@ -66,8 +66,7 @@ def started(code, timeout_s=60.0, *arguments):
 
 def test_a_peer_says_what_it_is_and_repeats_when_told():
     with started(PEER, 60.0, "--case", "a", "--in-turn") as process:
-        assert process.about["peer"] == "toy"
-        assert process.about["log_joint_of_truth"] == -0.5
+        assert (process.about["peer"], process.about["log_joint_of_truth"]) == ("toy", -0.5)
         assert set(process.about["versions"]) == {"python", "numpy"}
         seconds = [process.seconds() for _ in range(3)]
         assert [answer["seconds"] for answer in process.answers] == seconds

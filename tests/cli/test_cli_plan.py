@@ -30,8 +30,7 @@ def test_a_plan_as_text_ends_with_its_probability_and_picture(plan, ends, tmp_pa
     picture = tmp_path / "way.png"
     result = succeed(*plan, "--radius 0.1 -o", picture)
     *corners, sentence, written = result.stdout.splitlines()
-    assert corners[0] == ends[0]
-    assert corners[-1] == ends[1]
+    assert (corners[0], corners[-1]) == (ends[0], ends[1])
     assert "free with probability" in sentence
     assert "independent cells" in sentence
     assert written == str(picture)
