@@ -287,7 +287,7 @@ def _cell_of(point: Floats, grid: Grid, blocked: Floats, name: str) -> int:
     if not ((cell >= 0) & (cell < grid.shape)).all():
         raise BadInput(f"plan: the {words} lies outside the map")
     if blocked[tuple(cell)] > MAX_BLOCKED_PROBABILITY:
-        raise BadInput(f"plan: at the {words} the disc is blocked in every draw; move it, or take a smaller radius")
+        raise BadInput(f"plan: at the {words} the disc touches something in all draws; move it or use a smaller radius")
     return int(cell[0] * grid.shape[1] + cell[1])
 
 
