@@ -7,14 +7,14 @@ import json
 import math
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from bayesmap.cli.command import FORCE, Call, command
-from bayesmap.cli.console import INTERRUPTED, Console, share, write_out
+from bayesmap.cli.console import Console, exit_unless_good, share, write_out
 from bayesmap.cli.keys import LocalizeSettings
 from bayesmap.cli.translation import is_map, log_options_of, need_file, need_free, numbers_of
 from bayesmap.errors import BadInput
@@ -26,7 +26,6 @@ if TYPE_CHECKING:
     from bayesmap.localization.belief import PoseBelief
     from bayesmap.localization.known_map import KnownMap
     from bayesmap.localization.localize import InitialPose, Localization
-    from bayesmap.result import Run
     from bayesmap.space.grid import Grid
     from bayesmap.space.scans import Scans
 
@@ -104,8 +103,7 @@ def localize(
             f"{len(lost):,} of {len(localization):,} scans fit nowhere on the map: lost, or the map is outdated: "
             f"{located.stretches(lost)}"
         )
-    if interrupted:
-        click.get_current_context().exit(INTERRUPTED)
+    exit_unless_good(finished=not interrupted, problems=False)
     if follow:
         return
     if call.console.as_json:
@@ -196,7 +194,7 @@ def _locate(request: _Request, on_located: Callable[[int, PoseBelief], bool] | N
     from bayesmap.localization.localize import localize
 
     call, path = request.call, request.log
-    max_range_m, options = request.map.max_range_m(live=False), log_options_of(call.settings())
+    max_range_m, options = request.map.max_range_m, log_options_of(call.settings())
     log = describe_log(path, max_range_m=max_range_m, without_poses=request.independent, **options)
     for note in log.notes:
         call.console.say(f"{path}: {note}")
@@ -204,7 +202,7 @@ def _locate(request: _Request, on_located: Callable[[int, PoseBelief], bool] | N
     scans, number = log.scans.select(span), range(len(log.scans))[span][0]
     located = _Located(call.settings().frame, mount, number, None if stamps_s is None else stamps_s[0])
     arguments = request.options(mount)
-    known_map = request.map.known(call.console, scans, live=False)
+    known_map = request.map.known(call.console, scans, False)
     with share(call.console, "locating scans") as report:
 
         def on_belief(number: int, belief: PoseBelief) -> None:
@@ -235,7 +233,7 @@ def _locate_live(
         for first in scans:
             located.mount, located.start_s = first.mount, None if first.stamps_s is None else first.stamps_s[0]
             options = request.options(first.mount)
-            known_map = request.map.known(request.call.console, first, live=True)
+            known_map = request.map.known(request.call.console, first, True)
             for belief in follow(known_map, itertools.chain([first], scans), **options):
                 located.beliefs.append(belief)
                 if not on_located(*located.latest()):
@@ -250,50 +248,12 @@ def _locate_live(
 
 
 @dataclass(frozen=True, eq=False)
-class _RunMap:
-    """The map of a saved run."""
+class _Map:
+    """The map in which scans are located."""
 
-    run: Run
-    settings: LocalizeSettings
-
-    def max_range_m(self, live: bool) -> float | None:
-        """Return the largest range of the sensor."""
-        return self.run.posterior.scans.max_range_m
-
-    def known(self, console: Console, scans: Scans, live: bool) -> KnownMap:
-        """Return the map in the form in which scans are located."""
-        from bayesmap.localization.known_map import KnownMap
-
-        return KnownMap.of_run(self.run, beam_weight=self.settings.beam_weight, device=self.settings.device)
-
-
-@dataclass(frozen=True, eq=False)
-class _ExternalMap:
-    """The map of another program: its wall probabilities, (nx, ny), NaN where unknown, and its grid."""
-
-    occupancy: NDArray[np.float64]
-    grid: Grid
-    settings: LocalizeSettings
-
-    def max_range_m(self, live: bool) -> float | None:
-        """Return the largest range: the map's diagonal for a live log, otherwise None, which takes that of the log."""
-        return self.grid.resolution * math.hypot(*self.grid.shape) if live else None
-
-    def known(self, console: Console, scans: Scans, live: bool) -> KnownMap:
-        """Return the map with a sensor law: fitted to the scans, or the cautious default for a live log."""
-        from bayesmap.localization.external_map import external_map, fit_law
-
-        settings, law = self.settings, None
-        if not live:
-            with share(console, "fitting what the map means") as report:
-                law = fit_law(self.occupancy, self.grid, scans, settings.seed, report)
-            console.say(law.words())
-        return external_map(
-            self.occupancy, self.grid, scans, law, beam_weight=settings.beam_weight, device=settings.device
-        )
-
-
-_Map = _RunMap | _ExternalMap
+    max_range_m: float | None  # largest range of the sensor; None: that of the log
+    live_max_range_m: float  # largest range for a log that is still being written
+    known: Callable[[Console, Scans, bool], KnownMap]  # prepares the map, given scans, and whether their log is live
 
 
 def _map_of(file: str, settings: LocalizeSettings) -> _Map:
@@ -302,12 +262,32 @@ def _map_of(file: str, settings: LocalizeSettings) -> _Map:
         from bayesmap.io.ros.maps import read_map
 
         need_file(file, "a saved run (.nc), or a map of map_server (.yaml)", runs=True)
-        return _ExternalMap(*read_map(file), settings)
+        occupancy, grid = read_map(file)
+        diagonal_m = grid.resolution * math.hypot(*grid.shape)
+        return _Map(None, diagonal_m, partial(_external_map, occupancy, grid, settings))
+    from bayesmap.localization.known_map import KnownMap
     from bayesmap.result import load
 
     if Path(file).suffix.lower() in IMAGES and Path(file).exists():
         raise BadInput(f"{file}: the image of a map; give the YAML file that names it and says where it lies")
-    return _RunMap(load(file), settings)
+    run = load(file)
+    max_range_m = run.posterior.scans.max_range_m
+    beam_weight, device = settings.beam_weight, settings.device
+    return _Map(max_range_m, max_range_m, lambda *_: KnownMap.of_run(run, beam_weight=beam_weight, device=device))
+
+
+def _external_map(
+    occupancy: NDArray[np.float64], grid: Grid, settings: LocalizeSettings, console: Console, scans: Scans, live: bool
+) -> KnownMap:
+    """Return a map with a sensor law: fitted to the scans, or the cautious default for a live log."""
+    from bayesmap.localization.external_map import external_map, fit_law
+
+    law = None
+    if not live:
+        with share(console, "fitting what the map means") as report:
+            law = fit_law(occupancy, grid, scans, settings.seed, report)
+        console.say(law.words())
+    return external_map(occupancy, grid, scans, law, beam_weight=settings.beam_weight, device=settings.device)
 
 
 def _belief_json(belief: PoseBelief, corners: list[float] | None) -> dict[str, Any]:
@@ -431,12 +411,12 @@ def live_scans_of(request: _Request, idle_s: float | None) -> Iterator[Scans]:
     for name in NOT_LIVE:
         if (value := getattr(settings, name)) is not None:
             raise BadInput(f"{log}: --{name.replace('_', '-')} {value}: a log that is followed has its own poses alone")
-    span, max_range_m = _span(request.span), request.map.max_range_m(live=True)
-    assert max_range_m is not None
+    span = _span(request.span)
     scans = live_scans(
-        log, max_range_m=max_range_m, no_return=settings.no_return, skip_bad_lines=settings.skip_bad_lines,
-        idle_s=idle_s, on_skipped=lambda line, reason: console.say(f"{log}: line {line} left out: {reason}"),
-        laser=log_options_of(settings)["laser"], without_poses=request.independent,
+        log, max_range_m=request.map.live_max_range_m, no_return=settings.no_return, idle_s=idle_s,
+        skip_bad_lines=settings.skip_bad_lines, laser=log_options_of(settings)["laser"],
+        on_skipped=lambda line, reason: console.say(f"{log}: line {line} left out: {reason}"),
+        without_poses=request.independent,
     )  # fmt: skip
     return itertools.islice(_thinned(scans, settings.thin_scans), span.start or 0, span.stop)
 

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from bayesmap.posterior.baselines import Fitted
+    from bayesmap.posterior.prediction import Predictor
     from bayesmap.posterior.scores import Score
     from bayesmap.result import Run
     from bayesmap.space.grid import Grid
@@ -60,7 +61,8 @@ def score_run(
     """
     from bayesmap.io.exports import trajectory_of
     from bayesmap.posterior.heldout import NoneHeldOut
-    from bayesmap.result import load, score
+    from bayesmap.posterior.prediction import predictor_of
+    from bayesmap.result import load
 
     run, settings = load(path), call.settings()
     mount = run.posterior.scans.mount if settings.laser is None else log_options_of(settings)["laser"]
@@ -83,15 +85,14 @@ def score_run(
         call.console.say(f"only the poses are scored, not the map: {error}")
         return Scored([], [], 0, trajectory)
     call.console.say(f"scoring {len(heldout):,} scans of {log} that the run has not seen")
-    with share(call.console, f"scoring the {_name(run)}") as report:
-        rows = [(_name(run), score(run, heldout, **_score_options(settings), on_progress=report))]
+    rows = [_score(call, _name(run), predictor_of(run.posterior), heldout)]
     fits = _score_classic_maps(call, run.posterior.scans, run.grid, heldout, rows) if compare else []
     return Scored(rows, fits, every, trajectory)
 
 
 def score_others(call: Call[ScoreSettings], path: str, log: str | None, frame: str | None, *, compare: bool) -> Scored:
     """Score a map of another program, or a trajectory by a map inferred from it, on scans of ``log``."""
-    from bayesmap.result import score
+    from bayesmap.posterior.prediction import predictor_of
 
     settings, words = call.settings(), None
     # Score a given map, or infer one from the trajectory and score that.
@@ -100,9 +101,9 @@ def score_others(call: Call[ScoreSettings], path: str, log: str | None, frame: s
             raise click.UsageError(f"give the LOG whose scans score {path}")
         placed = placed_scans(log, settings, frame)
         call.console.say(f"scoring every {settings.holdout}-th scan of {log}: {len(placed.heldout):,}")
-        fit, map_score = score_map(call, path, placed)
-        rows, grid = [(fit.name, map_score)], fit.predictor.grid
-        words = verdict(fit, map_score, placed)
+        fit = fit_map(call, path, placed)
+        rows, grid = [_score(call, fit.name, fit.predictor, placed.heldout)], fit.predictor.grid
+        words = verdict(fit, rows[0][1], placed)
     else:
         if log is not None:
             raise click.UsageError(f"{path}: neither a saved run (.nc) nor a map (.yaml)")
@@ -110,15 +111,18 @@ def score_others(call: Call[ScoreSettings], path: str, log: str | None, frame: s
             raise click.UsageError(f"{path}: a log by itself; give --trajectory, or the run or map to score on it")
         placed = placed_scans(path, settings, frame)
         run = infer_map(call, placed)
-        with share(call.console, f"scoring the {_name(run)}") as report:
-            rows = [(_name(run), score(run, placed.heldout, **_score_options(settings), on_progress=report))]
-        grid = run.grid
+        rows, grid = [_score(call, _name(run), predictor_of(run.posterior), placed.heldout)], run.grid
     fits = _score_classic_maps(call, placed.train, grid, placed.heldout, rows) if compare else []
     return Scored(rows, fits, settings.holdout, placed.trajectory, words)
 
 
-def _score_options(settings: ScoreSettings) -> dict[str, Any]:
-    return {"seed": settings.seed, "device": settings.device}
+def _score(call: Call[ScoreSettings], name: str, predictor: Predictor, heldout: Scans) -> tuple[str, Score]:
+    """Score a map's predictions. Returns a row of the table."""
+    from bayesmap.posterior.scores import score_prediction
+
+    seed, device = call.settings().seed, call.settings().device
+    with share(call.console, f"scoring {name}") as report:
+        return name, score_prediction(predictor, heldout, seed=seed, device=device, on_progress=report)
 
 
 def _name(run: Run) -> str:
@@ -132,7 +136,6 @@ def _score_classic_maps(
     """Fit hit ratios and log-odds to the training scans, add a row for each, and return the fits."""
     from bayesmap.posterior.baselines import BASELINES, fit_baseline
     from bayesmap.posterior.heldout import make_folds
-    from bayesmap.posterior.scores import score_prediction
 
     with progress(call.console, "tracing beams"):
         folds = make_folds(train, grid)
@@ -141,10 +144,8 @@ def _score_classic_maps(
         call.console.say(f"fitting {baseline.name} to the scans that are not scored")
         with share(call.console, f"fitting {baseline.name}") as report:
             fit = fit_baseline(baseline, train, grid, folds, report)
-        with share(call.console, f"scoring {baseline.name}") as report:
-            scored = score_prediction(fit.predictor, heldout, **_score_options(call.settings()), on_progress=report)
         fits.append(fit)
-        rows.append((fit.name, scored))
+        rows.append(_score(call, fit.name, fit.predictor, heldout))
     return fits
 
 
@@ -172,20 +173,15 @@ def placed_scans(log: str, settings: ScoreSettings, frame: str | None) -> Placed
     return Placed(train, heldout, path.of(frame, scans.mount))
 
 
-def score_map(call: Call[ScoreSettings], path: str, placed: Placed) -> tuple[Fitted, Score]:
-    """Fit a sensor to a map on the training scans, and score the map on the held-out scans."""
+def fit_map(call: Call[ScoreSettings], path: str, placed: Placed) -> Fitted:
+    """Fit a sensor to a map of another program on the training scans."""
     from bayesmap.io.ros.maps import read_map
     from bayesmap.posterior.baselines import fit_external_map
-    from bayesmap.posterior.scores import score_prediction
 
     occupancy, grid = read_map(path)
     name = Path(path).name
     with share(call.console, f"fitting a sensor to {name}") as report:
-        fit = fit_external_map(name, occupancy, grid, placed.train, report)
-    with share(call.console, f"scoring {name}") as report:
-        return fit, score_prediction(
-            fit.predictor, placed.heldout, **_score_options(call.settings()), on_progress=report
-        )
+        return fit_external_map(name, occupancy, grid, placed.train, report)
 
 
 def verdict(fit: Fitted, score: Score, placed: Placed) -> str:

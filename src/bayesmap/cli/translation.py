@@ -141,7 +141,7 @@ BINARY_DRAWS = 100  # default number of draws per chain over binary walls
 
 
 def completed(settings: S) -> S:
-    """Fill in the hit depth; raise `BadInput` for settings that the cells do not have, or a bad sensor."""
+    """Fill in the hit depth. Raises `BadInput` for settings that the cells do not have, or a bad sensor."""
     from bayesmap.cells.kinds import BUILT_IN
 
     kind = BUILT_IN[settings.cells]
@@ -202,19 +202,19 @@ def prior_of(settings: SamplingSettings) -> CellPrior:
 
 
 def sensor_for(settings: SamplingSettings, resolution_m: float) -> SensorModel | Literal["fit"]:
-    """Return the chosen sensor. By default it is fitted; for binary walls it is that of a good laser."""
+    """Return the chosen sensor. By default it is fitted, or for binary walls a good laser."""
     from bayesmap.cells.kinds import BUILT_IN, default_sensor
 
     if settings.sensor == "fit":
         return "fit"
-    chosen = sensor_of(settings.sensor)
-    if chosen is not None:
-        return chosen
+    sensor = sensor_of(settings.sensor)
+    if sensor is not None:
+        return sensor
     return "fit" if BUILT_IN[settings.cells].sensor_is_fitted else default_sensor(resolution_m)
 
 
 def ray_address(executor: str) -> tuple[bool, str | None]:
-    """Return whether chains run on Ray, and its address, or raise `BadInput`; None lets Ray find a cluster."""
+    """Return whether chains run on Ray, and its address; None lets Ray find a cluster. Raises `BadInput`."""
     if executor == "threads":
         return False, None
     if executor == "ray":
@@ -227,11 +227,11 @@ def ray_address(executor: str) -> tuple[bool, str | None]:
 def executor_of(executor: str) -> Executor | None:
     """Return the executor that a setting names; None for the threads of this process."""
     on_ray, address = ray_address(executor)
-    if on_ray:
-        from bayesmap.run.ray_executor import RayExecutor
+    if not on_ray:
+        return None
+    from bayesmap.run.ray_executor import RayExecutor
 
-        return RayExecutor(address)
-    return None
+    return RayExecutor(address)
 
 
 def log_options_of(settings: LogSettings) -> dict[str, Any]:

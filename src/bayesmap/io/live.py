@@ -122,20 +122,16 @@ def live_lines(name: str, idle_s: float | None = None) -> Iterator[tuple[int, by
 
 
 def _pieces(name: str, idle_s: float | None) -> Iterator[bytes]:
-    standard_input = name in STANDARD_INPUT
+    from_stdin = name in STANDARD_INPUT
     try:
-        descriptor = 0 if standard_input else os.open(name, os.O_RDONLY)
-        try:
-            grows = not standard_input and stat.S_ISREG(os.fstat(descriptor).st_mode)
+        with open(0 if from_stdin else name, "rb", buffering=0, closefd=not from_stdin) as file:
+            grows = not from_stdin and stat.S_ISREG(os.fstat(file.fileno()).st_mode)
             if grows:
-                yield from _file_pieces(name, descriptor, idle_s)
-            while not grows and select.select([descriptor], [], [], idle_s)[0]:
-                if not (piece := os.read(descriptor, CHUNK_BYTES)):
+                yield from _file_pieces(name, file.fileno(), idle_s)
+            while not grows and select.select([file], [], [], idle_s)[0]:
+                if not (piece := file.read(CHUNK_BYTES)):
                     return
                 yield piece
-        finally:
-            if not standard_input:
-                os.close(descriptor)
     except OSError as error:
         raise BadInput(f"{name}: cannot be read: {error.strerror or error}") from None
 

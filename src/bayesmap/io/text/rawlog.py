@@ -384,10 +384,8 @@ class _Objects:
             except (UnreadableObject, struct.error) as problem:
                 fault = str(problem) if isinstance(problem, UnreadableObject) else "is cut short"
                 number = account.counts[header.name]
-                reason = f"{header.name} (object {number} of its class, version {header.version}) {fault}"
-                if not account.options.skip_bad_lines:
-                    raise BadInput(f"{account.name}: {reason}; leave such objects out with --skip-bad-lines") from None
-                account.skipped.append(SkippedLine(number, reason, f"{header.name} in the log"))
+                reason = f"object {number} of its class, of version {header.version}, {fault}"
+                account.bad(number, reason, f"{header.name} in the log")
 
     def _take(self, reader: Reader, header: Header) -> None:
         if header.name == SCAN:
