@@ -44,14 +44,16 @@ def write_whole(path: str | os.PathLike[str]) -> Iterator[Path]:
         temporary.unlink(missing_ok=True)
 
 
-def write_text(path: str | os.PathLike[str], lines: Iterable[str]) -> Path:
-    """Write lines of ASCII text, whole or not at all, gzipped if the name ends in .gz. Return the path.
+def write_file(path: str | os.PathLike[str], content: bytes | str | Iterable[str]) -> Path:
+    """Write bytes, a text or lines of text, whole or not at all, gzipped if the name ends in .gz. Returns the path.
 
     Raises `BadInput` if the folder does not exist, or cannot be written to.
     """
-    target, content = Path(path), "".join(f"{line}\n" for line in lines).encode("ascii")
+    target = Path(path)
+    if not isinstance(content, bytes):
+        content = (content if isinstance(content, str) else "".join(f"{line}\n" for line in content)).encode()
     with write_whole(target) as partial:
-        # No time stamp and no name in the header: the same lines give the same bytes.
+        # No time stamp and no name in the header: the same content gives the same bytes.
         partial.write_bytes(gzip.compress(content, mtime=0) if target.suffix == ".gz" else content)
     return target
 

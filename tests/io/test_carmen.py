@@ -100,7 +100,7 @@ def test_lines_state_angles_largest_range_and_the_laser_s_pose_and_its_offset_is
     np.testing.assert_allclose(reading.scans.angles_rad, [-0.2, 0.0, 0.2], atol=1e-12)
     np.testing.assert_array_equal(reading.scans.poses, [[1.0, 2.0, 0.5]])
     np.testing.assert_array_equal(reading.scans.ranges_m, [[1.0, np.inf, np.inf]])
-    assert (reading.message, reading.no_return.origin, reading.no_return_m) == ("ROBOTLASER1", "message", 50.0)
+    assert (reading.message, reading.no_return.origin, reading.no_return.code_m) == ("ROBOTLASER1", "message", 50.0)
     robot, offset = np.array([2.0, 1.0, np.pi / 2]), 0.3
     laser = (2.0, 1.0 + offset, np.pi / 2)  # 0.3 m ahead of a robot that looks along +y
     reading = read(flaser([1.0, 2.0], laser, robot))

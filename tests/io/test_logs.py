@@ -87,7 +87,7 @@ def test_the_intel_log_is_read_as_its_description_says():
     scans = reading.scans
     assert scans.ranges_m.shape == (910, 180)
     assert reading.messages == {"FLASER": 910, "ODOM": 14541, "NEFF": 910}
-    assert (reading.no_return_m, reading.no_return.origin) == (81.83, "found")
+    assert (reading.no_return.code_m, reading.no_return.origin) == (81.83, "found")
     assert scans.counts() == {"hit": 159628, "no_return": 4172, "too_close": 0, "invalid": 0}
     assert (scans.max_range_m, scans.ranges_m.min()) == (26.0, 0.23)
     np.testing.assert_allclose(np.degrees(scans.angles_rad), np.arange(-90, 90), atol=1e-9)

@@ -303,7 +303,7 @@ def test_an_archive_holds_the_fields_of_scans(tmp_path):
     np.savez_compressed(path, min_range_m=scans.min_range_m, **fields)
     reading = describe_log(path)
     same(reading.scans, scans)
-    assert (reading.format, reading.no_return_m) == ("npz", None)
+    assert (reading.format, reading.no_return.code_m) == ("npz", None)
     moving = np.repeat(scans.poses[:, None], len(ANGLES), axis=1)
     np.savez(path, **{k: fields[k] for k in ("poses", "angles_rad", "ranges_m")}, beam_poses=moving)
     reading = describe_log(path)

@@ -11,7 +11,7 @@ from bayesmap.cli.console import write_out
 from bayesmap.cli.keys import AppSettings
 from bayesmap.cli.translation import LOG, log_options_of, need_file
 from bayesmap.errors import BadInput
-from bayesmap.files import need_ending, write_whole
+from bayesmap.files import need_ending, write_file
 
 if TYPE_CHECKING:
     from bayesmap.app.protocol.document import Document
@@ -101,6 +101,5 @@ def _export_figure(call: Call[AppSettings], document: Document, story: Story | N
 
     target, _ = need_ending(file, ("html",), "--export")
     page = to_figure(document, story).encode()
-    with write_whole(target) as unfinished:
-        unfinished.write_bytes(page)
+    write_file(target, page)
     call.console.result({"path": str(target), "bytes": len(page)}, [target])

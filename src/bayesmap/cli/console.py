@@ -96,15 +96,9 @@ def reserve_stdout() -> None:
     Ray prints events of its nodes on standard output at any time, even long after the chains.
     """
     context = click.get_current_context()
-    if RESULTS in context.meta:
-        return
-    results = context.meta[RESULTS] = sys.stdout
-    sys.stdout = sys.stderr
-
-    def give_back() -> None:
-        sys.stdout = results
-
-    context.call_on_close(give_back)
+    if RESULTS not in context.meta:
+        context.meta[RESULTS] = sys.stdout
+        context.with_resource(contextlib.redirect_stdout(sys.stderr))
 
 
 def write_out(text: str) -> bool:

@@ -9,9 +9,10 @@ import click
 
 from bayesmap.cli.command import Call, command
 from bayesmap.cli.console import Console, as_json, exit_unless_good, progress
-from bayesmap.cli.folder import run_document, write_utf8
+from bayesmap.cli.folder import run_document
 from bayesmap.cli.keys import DemoSettings
 from bayesmap.errors import BadInput
+from bayesmap.files import write_file
 
 if TYPE_CHECKING:
     from bayesmap.result import Run
@@ -50,7 +51,7 @@ def demo(call: Call[DemoSettings], output: str, force: bool) -> None:
         "runs": {name: _short_document(run) for name, run in runs.items()},
         "outputs": {path.name: str(path) for path in outputs},
     }  # fmt: skip
-    write_utf8(folder / "demo.json", as_json(document))
+    write_file(folder / "demo.json", as_json(document))
     _print_report(call.console, runs, folder)
     call.console.result(document, outputs)
     finished = all(run.finished for run in runs.values())

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from bayesmap.cli.console import Console, as_json, counted, progress, stage
 from bayesmap.errors import BadInput
-from bayesmap.files import write_whole
+from bayesmap.files import write_file
 from bayesmap.version import __version__
 
 if TYPE_CHECKING:
@@ -65,12 +65,6 @@ def grid_document(grid: Grid) -> dict[str, Any]:
     return {"shape": list(grid.shape), "resolution": grid.resolution, "origin": list(grid.origin)}
 
 
-def write_utf8(path: Path, text: str) -> None:
-    """Write a text file, whole or not at all."""
-    with write_whole(path) as partial:
-        partial.write_text(text, encoding="utf-8")
-
-
 def work_done(document: dict[str, Any]) -> str:
     """Return the work of a run in words: "4 chains of 100 sweeps", or "4,000 independent maps" without chains."""
     from bayesmap.posterior.posterior import WITHOUT_CHAINS
@@ -118,22 +112,10 @@ class Folder:
     _previewed: bool = field(default=False, init=False)
 
     def __post_init__(self) -> None:
+        self.run_path = self.path / "run.nc"  # the saved run, which is also its checkpoint
+        self.config_path = self.path / "config.toml"  # the settings that the run was started with
+        self.outdated_path = self.path / "outdated"  # marks a run as to be replaced; holds the settings of the new run
         self.resuming = self.resuming and not self.outdated_path.exists()
-
-    @property
-    def run_path(self) -> Path:
-        """Return the path of the saved run, which is also its checkpoint."""
-        return self.path / "run.nc"
-
-    @property
-    def config_path(self) -> Path:
-        """Return the path of the settings that the run was started with."""
-        return self.path / "config.toml"
-
-    @property
-    def outdated_path(self) -> Path:
-        """Return the path of the file that marks a run as to be replaced. It holds the settings of the new run."""
-        return self.path / "outdated"
 
     def check(self, *, force: bool) -> None:
         """Refuse a folder that cannot be written, or whose run or files the user neither replaces nor resumes.
@@ -164,7 +146,7 @@ class Folder:
     def mark_outdated(self, toml: str) -> None:
         """Mark an older run in the folder as to be replaced, perhaps by another process."""
         if self.run_path.exists() and not self.resuming:
-            write_utf8(self.outdated_path, toml)
+            write_file(self.outdated_path, toml)
 
     def begin(self, toml: str) -> None:
         """Save the settings of a run that has started, to resume it; raise `BadInput` if that is impossible."""
@@ -185,7 +167,7 @@ class Folder:
 
     def discard_old_products(self) -> None:
         """Save the settings of the new run, and remove the files made from the older run that it replaces."""
-        write_utf8(self.config_path, self._toml)
+        write_file(self.config_path, self._toml)
         for name in () if self._previewed else DERIVED:
             (self.path / name).unlink(missing_ok=True)
         self.outdated_path.unlink(missing_ok=True)
@@ -250,4 +232,4 @@ class Folder:
 
     def write_document(self, document: dict[str, Any]) -> None:
         """Write the JSON document of the run."""
-        write_utf8(self.path / "summary.json", as_json(document))
+        write_file(self.path / "summary.json", as_json(document))

@@ -20,11 +20,12 @@ import msgspec
 from bayesmap.cli import pipeline
 from bayesmap.cli.command import Call, as_toml, command
 from bayesmap.cli.console import FAILURE, SAMPLING, STAGES, Console, aligned, exit_unless_good, reserve_stdout, share
-from bayesmap.cli.folder import Folder, write_utf8
+from bayesmap.cli.folder import Folder
 from bayesmap.cli.keys import InferSettings
 from bayesmap.cli.pipeline import Task, infer_log, prepare, read, report, settings_in, stem
 from bayesmap.cli.translation import SENSOR_HELP, executor_of, logs_of, ray_address
 from bayesmap.errors import BadInput
+from bayesmap.files import write_file
 
 if TYPE_CHECKING:
     from bayesmap.api import Event
@@ -95,7 +96,7 @@ def infer_fleet(call: Call[InferSettings], logs: list[str], output: Path, *, res
     if ready:
         toml = as_toml({"infer": settings})
         output.mkdir(parents=True, exist_ok=True)
-        write_utf8(output / SETTINGS, toml)
+        write_file(output / SETTINGS, toml)
         for entry in ready:
             entry.ready.folder.mark_outdated(toml)
     # Infer the logs.
@@ -248,7 +249,7 @@ class RayFleet:
 
     def most_at_once(self, entry: Entry) -> int:
         """Return the number of logs that the cluster can infer at the same time."""
-        return max(1, int(self.ray.cluster_resources().get("CPU", 1)) // _threads(entry))
+        return max(1, int(self.ray.cluster_resources().get("CPU", 1)) // (entry.ready.settings.threads or 1))
 
     def _begin(self, entry: Entry) -> None:
         try:
@@ -263,7 +264,7 @@ class RayFleet:
         task, folder, files = entry.ready, entry.ready.folder, {}
         if resuming and folder.run_path.exists() and not folder.outdated_path.exists():
             files = {path.name: path.read_bytes() for path in (folder.run_path, folder.config_path) if path.exists()}
-        cpus, gpus = _threads(entry), int(task.settings.device != "cpu")
+        cpus, gpus = task.settings.threads or 1, int(task.settings.device != "cpu")
         # No retries by Ray: they would not resume from the last checkpoint.
         remote = self.ray.remote(work).options(num_cpus=cpus, num_gpus=gpus, max_retries=0)
         task = replace(task, settings=msgspec.structs.replace(task.settings, threads=cpus))
@@ -296,8 +297,6 @@ class RayFleet:
 
     def keep(self, entry: Entry, message: Message) -> None:
         """Store a worker's progress, and write the files of its message into the log's folder."""
-        from bayesmap.files import write_whole
-
         entry.event = message.event or entry.event
         if not message.files:
             return
@@ -307,8 +306,7 @@ class RayFleet:
             folder.discard_old_products()
         files.pop("summary.json", None)
         for name, content in files.items():
-            with write_whole(folder.path / name) as partial:
-                partial.write_bytes(content)
+            write_file(folder.path / name, content)
         if message.document is not None:
             outputs = {name: str(folder.path / name) for name in message.document["outputs"]}
             entry.document = {**message.document, "outputs": outputs}
@@ -337,10 +335,6 @@ class RayFleet:
                 logs_done += event.done / event.total if event.stage in SAMPLING and event.total else 0.0
         more = f", {len(words) - 1 - NAMED_LOGS} more" if len(words) > NAMED_LOGS + 1 else ""
         return logs_done / max(total, 1), ", ".join(words[: NAMED_LOGS + 1]) + more
-
-
-def _threads(entry: Entry) -> int:
-    return entry.ready.settings.threads or 1
 
 
 @command("infer")

@@ -323,17 +323,14 @@ def _per_cent(probability: float) -> str:
 
 def _write(target: Path, located: _Located) -> list[Path]:
     """Write the trajectory, or all posteriors for .jsonl, and return the paths."""
-    from bayesmap.files import write_whole
+    from bayesmap.files import write_file
     from bayesmap.io.exports import export_trajectory
 
     localization = located.localization
     if target.suffix != ".jsonl":
         return list(export_trajectory(target, localization.trajectory()))
-    with write_whole(target) as partial:
-        numbered = enumerate(localization.beliefs, located.first)
-        rows = (json.dumps({"scan": i, **b.as_json()}, allow_nan=False) for i, b in numbered)
-        partial.write_text("".join(f"{row}\n" for row in rows), encoding="ascii")
-    return [target]
+    numbered = enumerate(localization.beliefs, located.first)
+    return [write_file(target, (json.dumps({"scan": i, **b.as_json()}, allow_nan=False) for i, b in numbered))]
 
 
 def _target(output: str, force: bool) -> Path:

@@ -99,7 +99,9 @@ def prepare(call: Call[S], log: str, path: Path, *, resume: bool, force: bool, e
     """Return the task of one log, after checking the arguments. ``earlier`` are settings to resume, by default."""
     need_file(log, f"{LOG} (bayesmap info FILE says what is in one)", runs=False)
     folder = Folder(path, call.console, resuming=resume)
-    under = (settings_of(folder, call.section) or earlier) if resume else None
+    # Resume the settings of the run in the folder, or of the run that replaces it.
+    config = folder.outdated_path if folder.outdated_path.exists() else folder.config_path
+    under = (settings_in(config, call.section) or earlier) if resume else None
     settings = translation.completed(call.settings(under))
     folder.check(force=force)
     return Task(log, folder, settings)
@@ -148,11 +150,6 @@ def stem(log: str) -> str:
     return name or "log"
 
 
-def settings_of(folder: Folder, section: str) -> Layer:
-    """Return the settings of the run in the folder, or of the run that replaces it; empty if there is neither."""
-    return settings_in(folder.outdated_path if folder.outdated_path.exists() else folder.config_path, section)
-
-
 def settings_in(config: Path, section: str) -> Layer:
     """Return a command's settings from a file; empty if there is no file."""
     return {k: v for k, v in read_file(config).items() if k == section} if config.exists() else {}
@@ -176,7 +173,7 @@ def read(console: Console, path: str, settings: SamplingSettings, *, without_pos
 
     options = translation.log_options_of(settings)
     log = describe_log(path, max_range_m=settings.max_range, without_poses=without_poses, **options)
-    scans, counts, code = log.scans, log.scans.counts(), log.no_return_m
+    scans, counts, code = log.scans, log.scans.counts(), log.no_return.code_m
     code_words = "no code for no return" if code is None else f"{code:g} m is no return ({log.no_return.origin})"
     console.say(
         f"{path}: {len(scans):,} scans, {scans.n_beams:,} beams, "

@@ -142,7 +142,7 @@ def _log_summary(log: LogReading) -> dict[str, Any]:
     first = next((f"{skip.what} {skip.line}: {skip.reason}" for skip in log.skipped), None)
     return {
         "first_skipped": first, "message": log.message, "frame": log.sensor_frame, "poses": log.pose_source,
-        "fixed_frame": log.fixed_frame, "skipped": len(log.skipped), "no_return_m": log.no_return_m,
+        "fixed_frame": log.fixed_frame, "skipped": len(log.skipped), "no_return_m": log.no_return.code_m,
         "max_range_origin": log.max_range_origin, "raw_odometry": log.posed and look_like_odometry(log.scans),
         "followable": scans_come_often(log.scans), "notes": list(log.notes),
     }  # fmt: skip

@@ -77,11 +77,6 @@ class LogReading:
     scans_read: int | None = None  # before thinning; None if they were not thinned
     posed: bool = True  # true if the poses are known; if not, all are zero
 
-    @property
-    def no_return_m(self) -> float | None:
-        """The number in metres that means "no return" in this log, or None."""
-        return self.no_return.code_m
-
     def placed(self, trajectory: Trajectory) -> LogReading:
         """Return the scans at interpolated poses of a trajectory; scans outside its times and in gaps are left out.
 

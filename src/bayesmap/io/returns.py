@@ -1,10 +1,8 @@
 """Classify the readings of a log as hits, no return, too close or invalid, as docs/file-formats.md says.
 
-A number below ``range_min``, zero and negative numbers included, is invalid: the message definition asks to discard it,
-and drivers write it for several reasons.
-
-**Codes.** Logs older than ROS have no infinity: a sensor without a return wrote a number of its own, such as 81.83,
-81.91, 50, 51.15, 32.76, 0 or -1. As ranges, these numbers would add walls that do not exist.
+A number below ``range_min``, zero and negative numbers included, is invalid, as the message definition says. Logs older
+than ROS have no infinity: a sensor without a return wrote a number of its own, a code, such as 81.83, 81.91, 50, 51.15,
+32.76, 0 or -1. As ranges, these numbers would add walls that do not exist.
 
 **The rule at the top.** A code is the largest number in the log, or nearly the largest, and it is often repeated.
 The candidates are distinct readings within 20 % of the largest, with at most 8 different values above. The code is the

@@ -4,9 +4,8 @@ The model and the traced beams go into the cluster's object store once. The chai
 group runs in segments of a few seconds. A segment is one Ray task: it takes a snapshot of the chains, and returns the
 new draws and the next snapshot, which this process stores. If a worker or a node dies, Ray runs the lost segment again
 elsewhere. The draws are the same, because a segment depends on its arguments only. A worker process caches the problem,
-and the chains of its last segment, to save time.
-
-All groups end segments at the same numbers of sweeps, so that chains can be joined at the sweep of the slowest group.
+and the chains of its last segment, to save time. All groups end segments at the same numbers of sweeps, so that chains
+can be joined at the sweep of the slowest group.
 """
 
 from __future__ import annotations

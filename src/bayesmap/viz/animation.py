@@ -19,7 +19,7 @@ from PIL import Image, ImageDraw, ImageFont
 from scipy import ndimage
 
 from bayesmap.errors import BadInput
-from bayesmap.files import need_ending, write_whole
+from bayesmap.files import need_ending, write_file
 from bayesmap.space.grid import ROUNDING, Grid, as_mask, as_observed
 from bayesmap.space.scans import as_poses
 from bayesmap.viz import palette
@@ -67,8 +67,7 @@ def write_animation(
         frames = (frame.convert("RGB") for frame in frames)
     buffer = io.BytesIO()
     next(frames).save(buffer, append_images=frames, **save_options)
-    with write_whole(target) as partial:
-        partial.write_bytes(buffer.getvalue())
+    write_file(target, buffer.getvalue())
 
 
 def render_frames(

@@ -26,7 +26,7 @@ from matplotlib.ticker import ScalarFormatter
 from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.files import need_ending, write_whole
+from bayesmap.files import need_ending, write_file
 from bayesmap.space.grid import Grid, as_observed
 from bayesmap.space.scans import Scans
 from bayesmap.viz import maps, overlays, palette
@@ -213,8 +213,7 @@ def write_figure(figure: Figure, path: str | os.PathLike[str]) -> None:
     # These settings are global in matplotlib, hence the lock.
     with _rc_lock, rc_context({"svg.hashsalt": "bayesmap", "pdf.fonttype": 42}):
         figure.savefig(buffer, format=ending, dpi="figure", metadata=undated)
-    with write_whole(target) as partial:
-        partial.write_bytes(buffer.getvalue())
+    write_file(target, buffer.getvalue())
 
 
 def _plot_overlays(panels: dict[str, Axes], grid: Grid, truth: ArrayLike | None, scans: Scans | None) -> list[Artist]:

@@ -3,9 +3,8 @@
 Some sound recordings that rosbags refuses (MCAP of ROS 1 messages, MCAP without an index and out of order, old bags)
 are read record by record. Damaged recordings are read this way, too, if the user asks for it.
 
-``ros2 bag record --compression-mode file`` writes ``.db3.zstd`` and ``.mcap.zstd`` files, and users compress recordings
-with gzip or bzip2. rosbags unpacks only folders whose ``metadata.yaml`` states the compression. Here compressed files
-are unpacked to temporary files, which exist as long as the recording is open.
+rosbags unpacks only folders whose ``metadata.yaml`` states the compression. Here compressed files (``.db3.zstd``, gzip,
+bzip2) are unpacked to temporary files, which exist as long as the recording is open.
 """
 
 from __future__ import annotations

@@ -27,7 +27,7 @@ import yaml
 from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.files import write_whole
+from bayesmap.files import write_file, write_whole
 from bayesmap.space.grid import Grid, as_observed, as_probabilities
 from bayesmap.space.scans import as_array
 
@@ -194,10 +194,8 @@ def write_map(
         "image": path_image.name, "mode": mode, "resolution": float(grid.resolution),
         "origin": [float(x), float(y), 0], "negate": 0, "occupied_thresh": float(occupied), "free_thresh": float(free),
     }  # fmt: skip
-    with write_whole(target) as temporary:
-        text = yaml.safe_dump(entries, sort_keys=False, default_flow_style=None, allow_unicode=True)
-        temporary.write_text(text, encoding="utf-8")
-    return target, path_image
+    text = yaml.safe_dump(entries, sort_keys=False, default_flow_style=None, allow_unicode=True)
+    return write_file(target, text), path_image
 
 
 def read_map(path_yaml: str | os.PathLike[str]) -> tuple[NDArray[np.float64], Grid]:

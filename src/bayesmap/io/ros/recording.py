@@ -153,6 +153,7 @@ BAG_MESSAGE, BAG_HEADER, BAG_INDEX, BAG_CHUNK, BAG_CONNECTION = (bytes([op]) for
 FOOTER, SCHEMA, CHANNEL, MESSAGE, CHUNK, DATA_END = 2, 3, 4, 5, 6, 15
 LANGUAGES = {"ros1msg": "msg", "ros2msg": "msg", "ros2idl": "idl", "omgidl": "idl"}
 INDEX_ENTRY_BYTES = 12
+MCAP_HEAD = struct.Struct("<BQ")  # kind and length of a record
 MAX_HEADER_BYTES = 1 << 24  # of one record; larger lengths are taken for damage
 MAX_DATA_BYTES = 1 << 30
 OnDamage = Callable[[str], None]  # called with the reason for an unreadable part; raises to stop
@@ -260,8 +261,8 @@ def _bag_record(header: Any, file: BinaryIO, length: int) -> Records:
         elif header["op"] == BAG_CONNECTION:
             file.seek(-4, os.SEEK_CUR)  # the data are a second header, and the length before them is its length
             fields = Header.read(file)
-            texts = (fields.get(key, b"").decode(errors="replace") for key in ("message_definition", "md5sum"))
-            definition, md5 = texts
+            keys = ("message_definition", "md5sum")
+            definition, md5 = (fields.get(key, b"").decode(errors="replace") for key in keys)
             name, type_name = header.get_string("topic"), ros2_type_name(fields.get_string("type"))
             yield Connection(header.get_uint32("conn"), Topic(name, type_name, 0, definition, "msg", "ros1", md5))
     except (ReaderError, UnicodeDecodeError) as error:
@@ -279,29 +280,30 @@ def mcap_records(path: str | os.PathLike[str], on_damage: OnDamage) -> Records:
         at = len(MCAP_MAGIC)
         while True:
             file.seek(at)
-            head = file.read(9)
-            if len(head) < 9:
+            head = file.read(MCAP_HEAD.size)
+            if len(head) < MCAP_HEAD.size:
                 on_damage(f"it ends at byte {size:,}, without the end that MCAP has")
                 return
-            kind, length = struct.unpack("<BQ", head)
+            kind, length = MCAP_HEAD.unpack(head)
             if kind in (FOOTER, DATA_END):
                 file.seek(max(size - len(MCAP_MAGIC), 0))
                 if file.read() != MCAP_MAGIC:
                     on_damage(f"the end at byte {size:,} is not that of MCAP")
                 return
-            cut = at + 9 + length > size
+            end = at + MCAP_HEAD.size + length
+            cut = end > size
             if cut:
                 on_damage(f"the record at byte {at:,} is longer than the file")
-            held = min(length, size - at - 9)
-            if kind == CHUNK and held <= MAX_DATA_BYTES:
-                chunk = _mcap_chunk(file.read(held), schemas, cut)
+            length = min(length, size - at - MCAP_HEAD.size)
+            if kind == CHUNK and length <= MAX_DATA_BYTES:
+                chunk = _mcap_chunk(file.read(length), schemas, cut)
                 yield from _until_damage(chunk, f"the chunk at byte {at:,}", on_damage)
             elif not cut and kind in (SCHEMA, CHANNEL, MESSAGE) and length <= MAX_DATA_BYTES:
                 record = _mcap_record(kind, file.read(length), schemas)
                 yield from _until_damage(record, f"the record at byte {at:,}", on_damage)
             if cut:
                 return
-            at += 9 + length
+            at = end
 
 
 def _mcap_chunk(chunk: bytes, schemas: Schemas, cut: bool) -> Records:
@@ -320,12 +322,12 @@ def _mcap_chunk(chunk: bytes, schemas: Schemas, cut: bool) -> Records:
     if not cut and checksum and crc32(data) != checksum:
         raise _Unreadable("its checksum does not match")
     at = 0
-    while at + 9 <= len(data):
-        kind, length = struct.unpack_from("<BQ", data, at)
-        if at + 9 + length > len(data):
+    while (start := at + MCAP_HEAD.size) <= len(data):
+        kind, length = MCAP_HEAD.unpack_from(data, at)
+        if start + length > len(data):
             break
-        yield from _mcap_record(kind, data[at + 9 : at + 9 + length], schemas)
-        at += 9 + length
+        yield from _mcap_record(kind, data[start : start + length], schemas)
+        at = start + length
     if at < len(data) and not cut:
         raise _Unreadable("its records are longer than it is")
 

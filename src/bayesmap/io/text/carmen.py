@@ -7,16 +7,13 @@
     ODOM x y theta tv rv accel  ipc_timestamp host logger_timestamp
 
 RLASER and ROBOTLASER2 are the rear laser's messages, in the same two formats. RAWLASER1 to RAWLASER5 are ROBOTLASER1
-without poses and velocities, and are read only if no poses are needed. Scans are sorted by their ipc_timestamp, because
-logs are not always in that order.
+without poses and velocities, and are read only if no poses are needed. Scans are sorted by their ipc_timestamp. FLASER
+lines, which every tool reads, are written if the reader's rules find both the angles and no return in them.
 
-**Angles.** ROBOTLASER1 lines state their first angle and the step. By CARMEN's own rule the first beam of FLASER is at
--90 degrees. Beams are 1 degree apart if there are 180 or 181, half a degree if 360 or 361, a quarter if 400 or 401; any
-other number spreads over 180 degrees. (The rule puts 401 beams from -90 to +10 degrees, but a SICK in its 100-degree
-mode looked from -50 to +50.)
-
-**Writing.** FLASER lines, which every tool reads, are written if the reader's rules find both the angles and no return
-in them; else ROBOTLASER1 lines.
+ROBOTLASER1 lines state their first angle and the step. By CARMEN's own rule the first beam of FLASER is at -90 degrees.
+Beams are 1 degree apart if there are 180 or 181, half a degree if 360 or 361, a quarter if 400 or 401; any other number
+spreads over 180 degrees. (The rule puts 401 beams from -90 to +10 degrees, but a SICK in its 100-degree mode looked
+from -50 to +50.)
 """
 
 from __future__ import annotations
@@ -32,7 +29,7 @@ from pathlib import Path
 import numpy as np
 
 from bayesmap.errors import BadInput
-from bayesmap.files import write_text
+from bayesmap.files import write_file
 from bayesmap.io.log_reading import WITHOUT_POSES, Account, LogOptions, LogReading, Pose
 from bayesmap.io.returns import Readings, Views, decode, largest_hit_m
 from bayesmap.io.text.lines import log_lines, numbers_in, printable
@@ -295,7 +292,7 @@ def write_carmen(path: str | os.PathLike[str], scans: Scans, robot_poses: Floats
             span = fan.step_rad * (fan.beams - 1)
             head = f"0 {fan.first_rad!r} {span!r} {fan.step_rad!r} {scans.max_range_m!r} 0.01 0"
             lines.append(f"ROBOTLASER1 {head} {beams} 0 {poses} 0 0 0 0 0 {end}")
-    write_text(Path(path), lines)
+    write_file(Path(path), lines)
     return kind
 
 

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.files import write_text
+from bayesmap.files import write_file
 from bayesmap.io.log_reading import Account, LogOptions, LogReading
 from bayesmap.io.text.carmen import LASERS, LaserLine, LaserScan, Malformed, parse_floats, parse_laser, scan_log_of
 from bayesmap.io.text.lines import log_lines
@@ -136,7 +136,7 @@ def write_g2o(path: str | os.PathLike[str], poses_world: Floats, edges: Edges) -
     for i, j, relative, information in zip(edges.first, edges.second, edges.relative, edges.information, strict=True):
         numbers = [f"{v:.9f}" for v in relative] + [f"{v:.17g}" for v in information[upper]]
         lines.append(f"EDGE_SE2 {i} {j} " + " ".join(numbers))
-    return write_text(path, lines)
+    return write_file(path, lines)
 
 
 def chain_edges(trajectory: Trajectory) -> Edges:

@@ -3,12 +3,9 @@
 docs/file-formats.md describes TUM files, and the second file for covariances. A pose in the plane has tz = qx = qy = 0
 and (qz, qw) = (sin, cos) of half its yaw.
 
-Relations have one line each in the format of Kuemmerle et al. (2009), "On measuring the accuracy of SLAM algorithms":
-
-    t_i t_j x y z roll pitch yaw
-
-This is the true pose at time t_j in the frame of the pose at time t_i, in metres and radians. In the plane z, roll and
-pitch are 0.
+Relations have one line each, ``t_i t_j x y z roll pitch yaw``, in the format of Kuemmerle et al. (2009), "On measuring
+the accuracy of SLAM algorithms": the true pose at time t_j in the frame of the pose at time t_i, in metres and radians.
+In the plane z, roll and pitch are 0.
 """
 
 from __future__ import annotations
@@ -22,7 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.files import write_text
+from bayesmap.files import write_file
 from bayesmap.io.text.lines import read_lines, read_table
 from bayesmap.space.scans import as_poses
 from bayesmap.space.trajectory import Trajectory
@@ -53,7 +50,7 @@ def write_trajectory(
         for stamp, (x, y, _), qz, qw in zip(stamps, poses, np.sin(half_yaw), np.cos(half_yaw), strict=True)
     )
     owner = "" if frame is None else f"poses of the {frame}: "
-    return write_text(path, [f"# {owner}{what} tx ty tz qx qy qz qw", *rows])
+    return write_file(path, [f"# {owner}{what} tx ty tz qx qy qz qw", *rows])
 
 
 def covariances_path(path: str | os.PathLike[str]) -> Path:
@@ -69,7 +66,7 @@ def write_covariances(path: str | os.PathLike[str], covariances: ArrayLike, stam
         raise BadInput(f"trajectory: covariances must be finite, (S, 3, 3), got shape {values.shape}")
     rows = zip(_stamps(stamps_s, len(values)), values[:, *np.triu_indices(3)], strict=True)
     lines = (f"{stamp:.9f} " + " ".join(f"{v:.9e}" for v in row) for stamp, row in rows)
-    return write_text(path, ["# timestamp xx xy xyaw yy yyaw yawyaw", *lines])
+    return write_file(path, ["# timestamp xx xy xyaw yy yyaw yawyaw", *lines])
 
 
 def _stamps(stamps_s: ArrayLike | None, count: int) -> NDArray[np.float64]:
@@ -127,4 +124,4 @@ def write_relations(path: str | os.PathLike[str], first_s: ArrayLike, second_s: 
         raise BadInput(f"relations: stamps {starts.shape} and {ends.shape} and poses {poses.shape}, (N,) and (N, 3)")
     rows = zip(starts, ends, poses, strict=True)
     lines = (f"{i:.6f} {j:.6f} {x:.9f} {y:.9f} 0 0 0 {yaw:.9f}" for i, j, (x, y, yaw) in rows)
-    return write_text(path, lines)
+    return write_file(path, lines)
