@@ -37,8 +37,8 @@ def near_names(function: Callable[P, R]) -> Callable[P, R]:
     def call(*args: P.args, **options: P.kwargs) -> R:
         for name in options:
             if name not in known:
-                near = difflib.get_close_matches(name, known, n=1)
-                hint = f". Did you mean {near[0]!r}?" if near else ""
+                close = difflib.get_close_matches(name, known, n=1)
+                hint = f". Did you mean {close[0]!r}?" if close else ""
                 raise TypeError(f"{function.__name__}() got an unexpected keyword argument {name!r}{hint}")
         return function(*args, **options)
 

@@ -403,8 +403,8 @@ def _thumbnail(occupancy: Floats, observed: NDArray[np.bool_]) -> tuple[tuple[in
 
     from bayesmap.viz import palette
 
-    shown = np.ma.masked_array(np.nan_to_num(occupancy, nan=0.5), ~observed)
-    colours = palette.probability_colormap()(shown)[..., :3]
+    observed_mean = np.ma.masked_array(np.nan_to_num(occupancy, nan=0.5), ~observed)
+    colours = palette.probability_colormap()(observed_mean)[..., :3]
     pixels = np.rint(255 * colours[:, ::-1].transpose(1, 0, 2)).astype(np.uint8)
     scale = THUMBNAIL_PIXELS / max(occupancy.shape)
     width, height = (max(1, round(side * scale)) for side in occupancy.shape)

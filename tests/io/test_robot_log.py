@@ -198,7 +198,7 @@ def test_a_scan_that_is_there_twice_counts_once_and_poses_that_jump_are_named(tm
         messages.append(("/scan", r.SCAN, 0.1 * i, r.laser(0.1 * i, [1.0, 2.0, 3.0], np.array([-1.0, 0, 1.0]))))
     reading = describe_log(r.written(tmp_path / "other", messages), pose_topic="/odom")
     assert len(reading.scans) == 20
-    assert "1 poses jump: the first is that of scan 12" in reading.notes[-1]
+    assert "1 poses jump: the first is the pose of scan 12" in reading.notes[-1]
 
 
 def test_sonars_are_scans_of_one_beam_and_are_chosen_one_at_a_time(tmp_path):

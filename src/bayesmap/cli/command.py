@@ -115,8 +115,8 @@ def _known_name(name: str, known: Iterable[str], what: str) -> str:
     if name in names:
         return name
     flat = name.replace("-", "_")
-    near = [flat] if flat in names else difflib.get_close_matches(flat, names, n=1, cutoff=0.5)
-    hint = f"did you mean {near[0]!r}?" if near else f"known: {', '.join(names)}"
+    close = [flat] if flat in names else difflib.get_close_matches(flat, names, n=1, cutoff=0.5)
+    hint = f"did you mean {close[0]!r}?" if close else f"known: {', '.join(names)}"
     raise WrongValue(f"unknown {what} {name!r}; {hint}")
 
 

@@ -223,10 +223,10 @@ class RayFleet:
         self.running: dict[Any, Entry] = {}
         self.logs: dict[str, Any] = {}  # references to the logs that were read, by path
         # Run the mailbox on this process's node: if another node died with it, Ctrl-C would not reach the workers.
-        here = self.ray.util.scheduling_strategies.NodeAffinitySchedulingStrategy(
+        own_node = self.ray.util.scheduling_strategies.NodeAffinitySchedulingStrategy(
             self.ray.get_runtime_context().get_node_id(), soft=False
         )
-        self.mailbox = self.ray.remote(Mailbox).options(num_cpus=0, scheduling_strategy=here).remote()
+        self.mailbox = self.ray.remote(Mailbox).options(num_cpus=0, scheduling_strategy=own_node).remote()
         self.stopping = False
 
     def run(self, entries: list[Entry]) -> None:

@@ -204,11 +204,11 @@ def _jumps(log: LogReading) -> str | None:
     scan = int(jumped[0])
     step = float(steps_m(scans.poses)[scan - 1])
     gap_s = 0.0 if scans.stamps_s is None else float(scans.stamps_s[scan] - scans.stamps_s[scan - 1])
-    when = f" in {gap_s:.3g} s" if abs(gap_s) >= SAME_S else ""
-    where = since_start(scans.stamps_s, scan)
+    duration = f" in {gap_s:.3g} s" if abs(gap_s) >= SAME_S else ""
+    time = since_start(scans.stamps_s, scan)
     return (
-        f"{len(jumped):,} poses jump: the first is that of scan {scan}{where}, {step:.3g} m "
-        f"from the one before{when}; walls will appear twice if the poses are wrong"
+        f"{len(jumped):,} poses jump: the first is the pose of scan {scan}{time}, {step:.3g} m "
+        f"from the one before{duration}; walls will appear twice if the poses are wrong"
     )
 
 

@@ -125,13 +125,13 @@ def size_of(scans: Scans, grid: Grid, log: Scans | None = None) -> Size:
     direction = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
     reading = np.where(np.isneginf(ranges[used]), scans.min_range_m, np.minimum(ranges[used], scans.max_range_m))
     with np.errstate(divide="ignore", invalid="ignore"):
-        to_side = np.where(direction > 0, np.array(grid.shape) - start, -start) / direction
-    to_edge = np.where(direction == 0, np.inf, to_side).min(axis=-1)
-    length = np.clip(np.minimum(reading / grid.resolution + MARGIN_CELLS, to_edge), 0.0, None)
+        side_distances = np.where(direction > 0, np.array(grid.shape) - start, -start) / direction
+    edge_distance = np.where(direction == 0, np.inf, side_distances).min(axis=-1)
+    length = np.clip(np.minimum(reading / grid.resolution + MARGIN_CELLS, edge_distance), 0.0, None)
     # Squares that some beams touch, and cells in which readings end.
-    few = slice(None, None, max(1, len(length) // TRACED_BEAMS))
-    distances = length[few, None, None] * np.linspace(0.0, 1.0, POINTS)[:, None]
-    points = start[few, None] + direction[few, None] * distances
+    sampled = slice(None, None, max(1, len(length) // TRACED_BEAMS))
+    distances = length[sampled, None, None] * np.linspace(0.0, 1.0, POINTS)[:, None]
+    points = start[sampled, None] + direction[sampled, None] * distances
     squares = np.floor(points / SQUARE_CELLS).astype(np.int64)
     touched = len(np.unique(squares[..., 0] * (max(grid.shape) + 1) + squares[..., 1])) * SQUARE_CELLS**2
     ends = np.floor(grid.to_cells(scans.hit_points_world())).astype(np.int64)
@@ -305,9 +305,9 @@ def _changes(scans: Scans, grid: Grid, size: Size, sampling: Sampling) -> Iterat
     hits = scans.ranges_m[np.isfinite(scans.ranges_m)]
     nearly_all_m = math.ceil(np.percentile(hits, 99.0)) if hits.size else math.inf
     if cell_bytes > beam_bytes and scans.min_range_m < nearly_all_m < 0.7 * hits.max():
-        near = Grid.covering(scans.limited(nearly_all_m), grid.resolution)
-        if near.n_cells < 0.7 * size.cells:
-            share = near.n_cells / size.cells
+        smaller_grid = Grid.covering(scans.limited(nearly_all_m), grid.resolution)
+        if smaller_grid.n_cells < 0.7 * size.cells:
+            share = smaller_grid.n_cells / size.cells
             size = replace(size, cells=size.cells * share, touched=size.touched * share)
             yield f"--max-range {nearly_all_m:g}", (size, sampling)
     if beam_bytes > cell_bytes:

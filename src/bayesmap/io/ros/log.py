@@ -420,8 +420,8 @@ def _pose_source(messages: _Messages, poses: PoseMessages, options: LogOptions) 
 
 def _notes_on_scans(scans: list[LaserMessage]) -> list[str]:
     """Return notes on unusual scans, and on limits of range that differ from scan to scan."""
-    counts = Counter(scan.odd for scan in scans if scan.odd)
-    notes = [f"in {count:,} of {len(scans):,} scans {odd}" for odd, count in counts.items()]
+    counts = Counter(scan.oddity for scan in scans if scan.oddity)
+    notes = [f"in {count:,} of {len(scans):,} scans {oddity}" for oddity, count in counts.items()]
     limits = Counter(scan.limits_m for scan in scans)
     if len(limits) > 1:
         (low, high), _ = limits.most_common(1)[0]

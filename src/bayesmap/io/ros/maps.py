@@ -296,8 +296,8 @@ def _read_entries(path: Path) -> dict[str, Any]:
         raise BadInput(f"{path}: cannot be read: {error.strerror}") from None
     except yaml.YAMLError as error:
         mark = getattr(error, "context_mark", None) or getattr(error, "problem_mark", None)
-        where = f"line {mark.line + 1}: " if mark is not None else ""
-        raise BadInput(f"{path}: {where}not YAML: {getattr(error, 'problem', None) or error}") from None
+        line = f"line {mark.line + 1}: " if mark is not None else ""
+        raise BadInput(f"{path}: {line}not YAML: {getattr(error, 'problem', None) or error}") from None
     if not isinstance(entries, dict):
         raise BadInput(f"{path}: line 1: expected 'key: value', as in a map of map_server")
     return entries

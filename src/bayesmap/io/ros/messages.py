@@ -58,20 +58,20 @@ class LaserMessage:
     ranges_m: NDArray[np.float32]  # raw readings, (A,)
     limits_m: tuple[float, float]  # smallest and largest range
     ray_interval_s: float  # from one ray to the next (``time_increment``)
-    odd: str = ""  # an unusual but acceptable property, in words
+    oddity: str = ""  # an unusual but acceptable property, in words
 
 
 def laser_message(type_name: str, message: Any, number: int, received_ns: int) -> LaserMessage:
     """Return a message as a scan. Raises `Malformed` for angles that do not fit its readings."""
     if type_name == RANGE:
-        layout, odd = Layout(1, 0.0, 0.0, frame_of(message.header.frame_id)), ""
+        layout, oddity = Layout(1, 0.0, 0.0, frame_of(message.header.frame_id)), ""
         readings = np.array([message.range], dtype=np.float32)
         limits, interval = (float(message.min_range), float(message.max_range)), 0.0
     else:
         readings = np.asarray(message.ranges, dtype=np.float32)
-        layout, odd = _layout(message, len(readings))
+        layout, oddity = _layout(message, len(readings))
         limits, interval = (float(message.range_min), float(message.range_max)), float(message.time_increment)
-    return LaserMessage(number, received_ns, stamp_ns_of(message.header), layout, readings, limits, interval, odd)
+    return LaserMessage(number, received_ns, stamp_ns_of(message.header), layout, readings, limits, interval, oddity)
 
 
 def _layout(message: Any, beams: int) -> tuple[Layout, str]:
@@ -87,19 +87,19 @@ def _layout(message: Any, beams: int) -> tuple[Layout, str]:
         return Layout(1, first, 0.0, frame), ""
     if not math.isfinite(step):
         raise Malformed(f"has angle_increment {step:g}")
-    odd = ""
+    oddity = ""
     if step == 0:
         if first == last or not math.isfinite(last):
             raise Malformed(f"has {beams} readings, but angle_increment 0 and angle_max {last:g}")
         step = (last - first) / (beams - 1)
-        odd = "angle_increment is 0; it was taken from angle_min and angle_max"
+        oddity = "angle_increment is 0; it was taken from angle_min and angle_max"
     end = first + step * (beams - 1)
     if (fault := fan_fault(min(first, end), max(first, end))) is not None:
         raise Malformed(f"has {beams} readings, angle_min {first:g} and angle_increment {step:g}: {fault}")
-    return Layout(beams, first, step, frame), odd or _odd_end(first, last, step, beams)
+    return Layout(beams, first, step, frame), oddity or _end_oddity(first, last, step, beams)
 
 
-def _odd_end(first: float, last: float, step: float, beams: int) -> str:
+def _end_oddity(first: float, last: float, step: float, beams: int) -> str:
     """Return the contradiction between ``angle_max`` and the other angles, in words; "" if there is none."""
     if not math.isfinite(last):
         return f"angle_max is {last:g}; {AS_DEFINED}"

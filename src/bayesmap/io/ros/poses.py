@@ -290,5 +290,5 @@ def no_poses(path: str, tree: FrameTree, sensor: str, pose_topics: list[Topic]) 
 
 def _frames(tree: FrameTree) -> str:
     frames = tree.frames()
-    shown = ", ".join(frames[:30]) + (f" and {len(frames) - 30} more" if len(frames) > 30 else "")
-    return f"known frames: {shown}" if frames else "no frame is known"
+    listed = ", ".join(frames[:30]) + (f" and {len(frames) - 30} more" if len(frames) > 30 else "")
+    return f"known frames: {listed}" if frames else "no frame is known"

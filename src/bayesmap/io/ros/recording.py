@@ -182,13 +182,13 @@ def ros2_type_name(name: str) -> str:
 def bag_records(path: str | os.PathLike[str], on_damage: OnDamage) -> Records:
     """Yield the connections and messages of a ROS 1 bag of format 2.0, in the order of the file."""
     size = os.path.getsize(path)
-    at = len(BAG_MAGIC)
+    position = len(BAG_MAGIC)
     with Path(path).open("rb") as file:
-        while at < size:
+        while position < size:
             try:
-                header, data_at, length = _bag_header(file, at)
+                header, data_position, length = _bag_header(file, position)
             except _Unreadable as problem:
-                on_damage(f"at byte {at:,}: {problem}")
+                on_damage(f"at byte {position:,}: {problem}")
                 return
             kind = header["op"]
             if kind == BAG_HEADER and not any(header.get("index_pos", b"?")):
@@ -196,17 +196,18 @@ def bag_records(path: str | os.PathLike[str], on_damage: OnDamage) -> Records:
             if kind == BAG_INDEX and len(header.get("count", b"")) == 4:
                 # As in ROS, the count decides the length: bags of 2010 state wrong lengths.
                 length = INDEX_ENTRY_BYTES * header.get_uint32("count")
-            cut = data_at + length > size
+            cut = data_position + length > size
             if cut:
-                on_damage(f"the record at byte {at:,} is longer than the file")
+                on_damage(f"the record at byte {position:,} is longer than the file")
             if kind == BAG_CHUNK:
-                data = file.read(min(length, size - data_at, MAX_DATA_BYTES))
-                yield from _until_damage(_bag_chunk(header, data, cut), f"the chunk at byte {at:,}", on_damage)
+                data = file.read(min(length, size - data_position, MAX_DATA_BYTES))
+                yield from _until_damage(_bag_chunk(header, data, cut), f"the chunk at byte {position:,}", on_damage)
             elif not cut and length <= MAX_DATA_BYTES:
-                yield from _until_damage(_bag_record(header, file, length), f"the record at byte {at:,}", on_damage)
+                record = _bag_record(header, file, length)
+                yield from _until_damage(record, f"the record at byte {position:,}", on_damage)
             if cut:
                 return
-            at = data_at + length
+            position = data_position + length
 
 
 def _until_damage(records: Records, what: str, on_damage: OnDamage) -> Records:
@@ -216,15 +217,15 @@ def _until_damage(records: Records, what: str, on_damage: OnDamage) -> Records:
         on_damage(f"{what} cannot be read: {problem}")
 
 
-def _bag_header(file: BinaryIO, at: int) -> tuple[Any, int, int]:
+def _bag_header(file: BinaryIO, position: int) -> tuple[Any, int, int]:
     """Return the header of the record at a byte, and the position and length of its data, where the file then is."""
     from rosbags.rosbag1.reader import Header, ReaderError, read_uint32
 
-    file.seek(at)
+    file.seek(position)
     stated = int.from_bytes(file.read(4), "little")
     if stated > MAX_HEADER_BYTES:
         raise _Unreadable(f"a record says that its header has {stated:,} bytes")
-    file.seek(at)
+    file.seek(position)
     try:
         header, length = Header.read(file), read_uint32(file)
     except (ReaderError, UnicodeDecodeError) as error:
@@ -236,19 +237,19 @@ def _bag_header(file: BinaryIO, at: int) -> tuple[Any, int, int]:
 
 def _bag_chunk(header: Any, packed: bytes, cut: bool) -> Records:
     """Yield the records within a chunk. A chunk that is cut has its first records."""
-    data, at = _unpacked(header.get("compression", b"").decode("ascii", "replace"), packed, MAX_DATA_BYTES), 0
+    data, position = _unpacked(header.get("compression", b"").decode("ascii", "replace"), packed, MAX_DATA_BYTES), 0
     file = BytesIO(data)
-    while at < len(data):
+    while position < len(data):
         try:
-            inner, data_at, length = _bag_header(file, at)
-            if data_at + length > len(data):
+            inner, data_position, length = _bag_header(file, position)
+            if data_position + length > len(data):
                 raise _Unreadable("its records are longer than it is")
         except _Unreadable:
             if cut:
                 return
             raise
         yield from _bag_record(inner, file, length)
-        at = data_at + length
+        position = data_position + length
 
 
 def _bag_record(header: Any, file: BinaryIO, length: int) -> Records:
@@ -277,9 +278,9 @@ def mcap_records(path: str | os.PathLike[str], on_damage: OnDamage) -> Records:
     size = os.path.getsize(path)
     schemas: Schemas = {}
     with Path(path).open("rb") as file:
-        at = len(MCAP_MAGIC)
+        position = len(MCAP_MAGIC)
         while True:
-            file.seek(at)
+            file.seek(position)
             head = file.read(MCAP_HEAD.size)
             if len(head) < MCAP_HEAD.size:
                 on_damage(f"it ends at byte {size:,}, without the end that MCAP has")
@@ -290,20 +291,20 @@ def mcap_records(path: str | os.PathLike[str], on_damage: OnDamage) -> Records:
                 if file.read() != MCAP_MAGIC:
                     on_damage(f"the end at byte {size:,} is not that of MCAP")
                 return
-            end = at + MCAP_HEAD.size + length
+            end = position + MCAP_HEAD.size + length
             cut = end > size
             if cut:
-                on_damage(f"the record at byte {at:,} is longer than the file")
-            length = min(length, size - at - MCAP_HEAD.size)
+                on_damage(f"the record at byte {position:,} is longer than the file")
+            length = min(length, size - position - MCAP_HEAD.size)
             if kind == CHUNK and length <= MAX_DATA_BYTES:
                 chunk = _mcap_chunk(file.read(length), schemas, cut)
-                yield from _until_damage(chunk, f"the chunk at byte {at:,}", on_damage)
+                yield from _until_damage(chunk, f"the chunk at byte {position:,}", on_damage)
             elif not cut and kind in (SCHEMA, CHANNEL, MESSAGE) and length <= MAX_DATA_BYTES:
                 record = _mcap_record(kind, file.read(length), schemas)
-                yield from _until_damage(record, f"the record at byte {at:,}", on_damage)
+                yield from _until_damage(record, f"the record at byte {position:,}", on_damage)
             if cut:
                 return
-            at = end
+            position = end
 
 
 def _mcap_chunk(chunk: bytes, schemas: Schemas, cut: bool) -> Records:
@@ -321,14 +322,14 @@ def _mcap_chunk(chunk: bytes, schemas: Schemas, cut: bool) -> Records:
         raise _Unreadable(f"it holds {len(data):,} bytes where it says {size:,}")
     if not cut and checksum and crc32(data) != checksum:
         raise _Unreadable("its checksum does not match")
-    at = 0
-    while (start := at + MCAP_HEAD.size) <= len(data):
-        kind, length = MCAP_HEAD.unpack_from(data, at)
+    position = 0
+    while (start := position + MCAP_HEAD.size) <= len(data):
+        kind, length = MCAP_HEAD.unpack_from(data, position)
         if start + length > len(data):
             break
         yield from _mcap_record(kind, data[start : start + length], schemas)
-        at = start + length
-    if at < len(data) and not cut:
+        position = start + length
+    if position < len(data) and not cut:
         raise _Unreadable("its records are longer than it is")
 
 
@@ -351,16 +352,16 @@ def _mcap_record(kind: int, data: bytes, schemas: Schemas) -> Records:
         raise _Unreadable(str(error)) from None
 
 
-def _texts(data: bytes, at: int, count: int) -> tuple[list[str], int]:
+def _texts(data: bytes, position: int, count: int) -> tuple[list[str], int]:
     """Return texts, each stored after its length, and the end of the last."""
     texts = []
     for _ in range(count):
-        (length,) = struct.unpack_from("<I", data, at)
-        if at + 4 + length > len(data):
+        (length,) = struct.unpack_from("<I", data, position)
+        if position + 4 + length > len(data):
             raise _Unreadable("a text is longer than its record")
-        texts.append(data[at + 4 : at + 4 + length].decode())
-        at += 4 + length
-    return texts, at
+        texts.append(data[position + 4 : position + 4 + length].decode())
+        position += 4 + length
+    return texts, position
 
 
 def _unpacked(compression: str, packed: bytes, largest: int) -> bytes:
@@ -386,9 +387,9 @@ def sqlite_records(path: str | os.PathLike[str], on_damage: OnDamage) -> Records
     import sqlite3  # only a few recordings are read this way
 
     # Immutable: a journal beside it is not replayed, so that nothing is ever written.
-    where = f"file:{quote(str(Path(path).absolute()))}?mode=ro&immutable=1"
+    uri = f"file:{quote(str(Path(path).absolute()))}?mode=ro&immutable=1"
     try:
-        with closing(sqlite3.connect(where, uri=True)) as database:
+        with closing(sqlite3.connect(uri, uri=True)) as database:
             database.text_factory = lambda text: text.decode(errors="replace")
             yield from _sqlite_connections(database.execute)
             messages = "SELECT topic_id, timestamp, data FROM messages NOT INDEXED ORDER BY id"

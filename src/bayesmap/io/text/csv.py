@@ -283,17 +283,17 @@ def _one_row_a_scan(table: _Table) -> _Parts:
     if beams != list(range(len(beams))):
         raise BadInput(f"{table.name}: the columns of readings must be r_0 to r_{len(beams) - 1}, without gaps")
     # Readings, and the angles of each row if it has its own.
-    own = OWN_ANGLES if set(OWN_ANGLES) <= set(table.columns) else ()
-    rows = _good_rows(table, (*POSE, *own, "stamp"))
+    angle_columns = OWN_ANGLES if set(OWN_ANGLES) <= set(table.columns) else ()
+    rows = _good_rows(table, (*POSE, *angle_columns, "stamp"))
     readings = rows[:, [table.columns.index(f"r_{beam}") for beam in beams]]
-    if not own:
+    if not angle_columns:
         angles = _angles(table.name, table.settings, len(beams))
     else:
-        fans = np.stack([table.column(name, rows) for name in own], axis=-1)
+        fans = np.stack([table.column(name, rows) for name in angle_columns], axis=-1)
         angles = _angles_of_rows(table, fans, readings)
         is_good = ~np.isnan(angles).all(axis=1)
         if is_good.all() and len(rows) and (fans[0] == fans).all():
-            angles = _angles(table.name, {name: [float(v)] for name, v in zip(own, fans[0], strict=True)}, len(beams))
+            angles = _angles(table.name, dict(zip(angle_columns, fans[:1].T.tolist(), strict=True)), len(beams))
         else:
             rows, angles, readings = rows[is_good], angles[is_good], readings[is_good]
     return _poses(table, rows), angles, readings, table.column("stamp", rows) if "stamp" in table.columns else None

@@ -72,11 +72,11 @@ class RawScan:
     odometry: Floats | None = None  # last pose of the odometry before the scan, if it has the scan's stamp
 
 
-def object_at(data: bytes, at: int, names: re.Pattern[bytes]) -> Header | None:
+def object_at(data: bytes, position: int, names: re.Pattern[bytes]) -> Header | None:
     """Return the header of an object that begins at a byte, if its class is one of ``names``; else None."""
-    flagged = at < len(data) and data[at] & 0x80
-    start = at + (1 if flagged else 4)
-    length = data[at] & 0x7F if flagged else int.from_bytes(data[at:start], "little")
+    flagged = position < len(data) and data[position] & 0x80
+    start = position + (1 if flagged else 4)
+    length = data[position] & 0x7F if flagged else int.from_bytes(data[position:start], "little")
     end, size = start + length, 1 if flagged else 4
     name = names.fullmatch(data, start, end) if length <= MAX_NAME_BYTES else None
     if name is None or end + size > len(data):
@@ -241,8 +241,8 @@ def scan_of(reader: Reader, header: Header, motions: int) -> RawScan:
         raise UnreadableObject("has a pose or an aperture that is not finite")
     if count and (fault := fan_fault(float(angles.min()), float(angles.max()))) is not None:
         raise UnreadableObject(f": {fault}")
-    far = np.isfinite(max_range) & (ranges >= max_range - 1e-3) | np.isposinf(ranges)
-    readings = np.where(valid, ranges, np.where(far, np.inf, np.where(ranges <= 0.0, ranges, np.nan)))
+    is_far = np.isfinite(max_range) & (ranges >= max_range - 1e-3) | np.isposinf(ranges)
+    readings = np.where(valid, ranges, np.where(is_far, np.inf, np.where(ranges <= 0.0, ranges, np.nan)))
     yaw = math.atan2(rotation[1, 0], rotation[0, 0])
     mount = (float(position[0]), float(position[1]), yaw)
     return RawScan(label, stamp_s, angles, readings, mount, float(rotation[2, 2]), float(max_range), motions)
@@ -374,8 +374,8 @@ class _Objects:
         self.read_until = 0
         self.latest: tuple[float, Floats] | None = None
         for match in CLASS.finditer(data):
-            at = match.start() - (1 if match.start() and data[match.start() - 1] & 0x80 else 4)
-            header = object_at(data, at, CLASS) if at >= 0 else None
+            position = match.start() - (1 if match.start() and data[match.start() - 1] & 0x80 else 4)
+            header = object_at(data, position, CLASS) if position >= 0 else None
             if header is None or header.data <= self.read_until or header.name.startswith("CPose"):
                 continue
             account.counts[header.name] += 1
