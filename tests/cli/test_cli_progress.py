@@ -40,7 +40,7 @@ def on_a_terminal(*arguments):
 def test_stages_after_the_chains_are_named_too(office, tmp_path, cells):
     asked = ("infer", office, "--resolution 0.25 --warmup 4 --draws 4 --holdout 2 --cells", cells)
     shown = on_a_terminal(*asked, "-o", tmp_path / "seen")
-    for name in ("tracing beams", "saving", "drawing the map", "scoring held-out beams", "comparing the chains"):
+    for name in ("tracing beams", "saving", "rendering the map", "scoring held-out beams", "comparing the chains"):
         assert name in shown, name
     assert "sweeps ETA" in shown
     assert "log joint" in shown

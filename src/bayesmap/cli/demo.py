@@ -44,7 +44,7 @@ def demo(call: Call[DemoSettings], output: str, force: bool) -> None:
         raise BadInput(f"{folder}: not a folder; choose another with -o") from None
 
     runs = _infer_by_all_methods(call.console, call.settings())
-    with progress(call.console, "drawing pictures and a film"):
+    with progress(call.console, "rendering pictures and a film"):
         outputs = [*_write_products(runs, folder), folder / "demo.json"]
     document = {
         **run_document(runs["gibbs"]), "heldout": None,

@@ -220,7 +220,7 @@ class Folder:
         paths = [self.run_path]
         if run.n_draws == 0 and not run.finished:
             return paths
-        with progress(self.console, "drawing the map"):
+        with progress(self.console, "rendering the map"):
             paths += self.render(run)
             if run.posterior.prior.has_surfaces and run.n_draws > 0:
                 from bayesmap.viz.figure import write_figure

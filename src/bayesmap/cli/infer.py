@@ -29,7 +29,7 @@ from bayesmap.files import write_file
 
 if TYPE_CHECKING:
     from bayesmap.api import Event
-    from bayesmap.io.log_reading import LogReading
+    from bayesmap.io.log_reading import ScanLog
 
 SETTINGS = "fleet.toml"  # file beside the folders of the runs: the settings of the last fleet
 RETRIES = 3  # number of times that a log is restarted from its last checkpoint after its worker has died
@@ -180,7 +180,7 @@ class Mailbox:
         self._stop = True
 
 
-def work(task: Task[InferSettings], log: LogReading, files: dict[str, bytes], mailbox: Any) -> None:
+def work(task: Task[InferSettings], log: ScanLog, files: dict[str, bytes], mailbox: Any) -> None:
     """Infer a log in a worker's folder that starts with the given files; send all files after each checkpoint."""
     import ray
 

@@ -238,12 +238,12 @@ class DemoSettings(Settings, kw_only=True, frozen=True):
 class RenderSettings(LogSettings, kw_only=True, frozen=True):
     """Settings of `render`."""
 
-    what: Annotated[Picture, Help("What to draw.")] = "figure"
+    what: Annotated[Picture, Help("What to render.")] = "figure"
     chain: Annotated[Count, Help("Chain whose draws are shown, from 1.")] = 1
     draw: Annotated[int, Help("Draw that is shown, from 1; -1 is the last.")] = -1
     frames: Annotated[Count, Help("Frames of an animation, at most.")] = 100
     window: Annotated[
-        str | None, Help("Part of the map to draw, in metres, or: observed.", "all of it", "X0,X1,Y0,Y1")
+        str | None, Help("Part of the map to render, in metres, or: observed.", "all of it", "X0,X1,Y0,Y1")
     ] = None
     holdout: Annotated[
         Every, Help("Every n-th scan of --heldout was held out; 0: use all scans of another recording.", metavar="N")

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from bayesmap.api import Event
-    from bayesmap.io.log_reading import LogReading
+    from bayesmap.io.log_reading import ScanLog
     from bayesmap.result import Run
     from bayesmap.run.cost import Estimate
     from bayesmap.run.runner import Executor
@@ -108,7 +108,7 @@ def prepare(call: Call[S], log: str, path: Path, *, resume: bool, force: bool, e
 
 
 def infer_log(
-    task: Task[InferSettings], *, log: LogReading | None = None, executor: Executor | None = None,
+    task: Task[InferSettings], *, log: ScanLog | None = None, executor: Executor | None = None,
     resume_command: str | None = None, on_saved: Callable[[], None] = lambda: None,
     on_event: Callable[[Event], None] = lambda event: None,
 ) -> dict[str, Any]:  # fmt: skip
@@ -167,7 +167,7 @@ def load_interrupted(folder: Folder) -> Run | None:
     return run
 
 
-def read(console: Console, path: str, settings: SamplingSettings, *, without_poses: bool = False) -> LogReading:
+def read(console: Console, path: str, settings: SamplingSettings, *, without_poses: bool = False) -> ScanLog:
     """Read a log, and print a summary of it."""
     from bayesmap.io.logs import describe_log
 
@@ -191,7 +191,7 @@ def read(console: Console, path: str, settings: SamplingSettings, *, without_pos
     return log
 
 
-def refuse_odometry(path: str, log: LogReading) -> None:
+def refuse_odometry(path: str, log: ScanLog) -> None:
     """Raise `BadInput` for poses at which walls stand in several places, as raw odometry or in degrees."""
     from bayesmap.io.logs import IN_DEGREES
     from bayesmap.poses.log_checks import DOUBLED, look_like_odometry
@@ -257,7 +257,7 @@ def sample(
     return run
 
 
-def document_of(run: Run, log: LogReading, score: dict[str, Any] | None, outputs: list[Path]) -> dict[str, Any]:
+def document_of(run: Run, log: ScanLog, score: dict[str, Any] | None, outputs: list[Path]) -> dict[str, Any]:
     """Return the JSON document of a run."""
     names = {path.name: str(path) for path in outputs}
     return {**run_document(run), "heldout": score, "log": log.summary(), "outputs": names}
@@ -284,7 +284,7 @@ def report(
 
 
 def keep_interrupted(
-    folder: Folder, run: Run, log: LogReading, resume_command: str | None, complete: Sequence[Path] = ()
+    folder: Folder, run: Run, log: ScanLog, resume_command: str | None, complete: Sequence[Path] = ()
 ) -> dict[str, Any]:
     """Save an interrupted run, print how to resume it, and return its document. ``complete`` are finished files."""
     outputs: list[Path] = []
@@ -312,7 +312,7 @@ def print_result(call: Call[Any], document: dict[str, Any], *, strict: bool) -> 
     exit_unless_good(finished=document["finished"], problems=strict and bool(document["problems"]))
 
 
-def finish(folder: Folder, run: Run, log: LogReading, heldout: Scans | None, every: int) -> dict[str, Any]:
+def finish(folder: Folder, run: Run, log: ScanLog, heldout: Scans | None, every: int) -> dict[str, Any]:
     """Save, render and score a finished run, write its JSON document, and return the document."""
     outputs, score = folder.write_products(run), None
     if heldout is not None:

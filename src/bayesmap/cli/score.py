@@ -242,7 +242,7 @@ HEADINGS = ("map", "nats/beam", "50 %", "80 %", "95 %", "80 % width", "PIT", "Br
     help="Frame of --relations. [default: base, if it is known where the laser sits on it]",
 )  # fmt: skip
 @click.option("--exact", is_flag=True, help="Score only relations at times of poses, not between poses.")
-@click.option("--picture", metavar="FILE", help="Draw calibration and errors: .png, .pdf or .svg.")
+@click.option("--picture", metavar="FILE", help="Plot calibration and errors: .png, .pdf or .svg.")
 @FORCE
 def score(
     call: Call[ScoreSettings], run_file: str, log: str | None, whole: bool, compare: bool, relations: str | None,

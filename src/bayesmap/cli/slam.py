@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from bayesmap.io.log_reading import LogReading
+    from bayesmap.io.log_reading import ScanLog
     from bayesmap.poses.trajectory import Trajectory
     from bayesmap.result import Run
     from bayesmap.space.grid import Grid
@@ -114,7 +114,7 @@ def slam(call: Call[SlamSettings], log: str, output: str | None, resume: bool, f
     pipeline.print_result(call, document, strict=task.settings.strict)
 
 
-def _check(console: Console, log: LogReading, settings: SlamSettings) -> None:
+def _check(console: Console, log: ScanLog, settings: SlamSettings) -> None:
     """Refuse scans that cannot be inferred, before an older run is changed, and warn of doubtful odometry."""
     from bayesmap.poses.log_checks import check_scans, doubts
 
@@ -172,7 +172,7 @@ class TrajectoryFiles:
     """The trajectory of all scans in the folder, written once it is known and no older run is in it."""
 
     folder: Folder
-    log: LogReading
+    log: ScanLog
     resolution: float
     frame: str  # frame on the robot whose poses are written
     written: list[Path] = field(default_factory=list)

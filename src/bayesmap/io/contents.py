@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from bayesmap.errors import BadInput
-from bayesmap.io.log_reading import LogReading
+from bayesmap.io.log_reading import ScanLog
 from bayesmap.io.logs import IN_DEGREES, RECORDINGS, describe_log, format_of
 from bayesmap.io.ros.recording import POSE_TYPES, SCAN_TYPES, TF_TYPES, TYPES
 from bayesmap.poses.log_checks import DOUBLED, TOO_SELDOM, look_like_odometry, scans_come_often
@@ -32,7 +32,7 @@ class Contents:
     """The contents of a file or folder, ready for JSON, and sentences for the user."""
 
     path: str
-    format: str  # as in `LogReading`
+    format: str  # as in `ScanLog`
     start_s: float | None  # first time in seconds; None without times
     end_s: float | None
     topics: list[dict[str, Any]]  # name, type, count and rate; in a log, name and count of each message
@@ -138,7 +138,7 @@ def _reason(path: str, problem: BadInput | None) -> str:
     return str(problem).removeprefix(f"{path}: ")
 
 
-def _log_summary(log: LogReading) -> dict[str, Any]:
+def _log_summary(log: ScanLog) -> dict[str, Any]:
     first = next((f"{skip.what} {skip.line}: {skip.reason}" for skip in log.skipped), None)
     return {
         "first_skipped": first, "message": log.message, "frame": log.sensor_frame, "poses": log.pose_source,
@@ -148,7 +148,7 @@ def _log_summary(log: LogReading) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _pose_remedies(log: LogReading) -> list[str]:
+def _pose_remedies(log: ScanLog) -> list[str]:
     """Return remedies for poses at which one wall appears in several places, and for scans without poses."""
     if not log.posed:
         return [] if scans_come_often(log.scans) else [f"{TOO_SELDOM}: give them poses"]

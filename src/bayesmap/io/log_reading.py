@@ -55,7 +55,7 @@ class SkippedLine:
 
 
 @dataclass(frozen=True, eq=False)
-class LogReading:
+class ScanLog:
     """A log's scans, and how they were read. An attribute that the format does not have is None."""
 
     path: str  # the file or folder
@@ -77,7 +77,7 @@ class LogReading:
     scans_read: int | None = None  # before thinning; None if they were not thinned
     posed: bool = True  # true if the poses are known; if not, all are zero
 
-    def placed(self, trajectory: Trajectory) -> LogReading:
+    def placed(self, trajectory: Trajectory) -> ScanLog:
         """Return the scans at interpolated poses of a trajectory; scans outside its times and in gaps are left out.
 
         Raises `BadInput` for scans or a trajectory without stamps, no scan within its time, or poses of a base on which
@@ -123,7 +123,7 @@ class LogReading:
 
 @dataclass
 class Account:
-    """The account of a log while it is read, under the names of `LogReading`."""
+    """The account of a log while it is read, under the names of `ScanLog`."""
 
     name: str  # path of the log
     format: str
@@ -194,18 +194,18 @@ class Account:
     def scan_log(
         self, message: str, poses: Floats, angles_rad: Floats, readings: Readings, *,
         beam_poses: Floats | None = None, mount: Pose | None = None, **attributes: Any,
-    ) -> LogReading:  # fmt: skip
+    ) -> ScanLog:  # fmt: skip
         """Return the log, given the laser's poses (S, 3), the beams' angles and their readings.
 
         ``beam_poses`` are the poses of all beams, (S, A, 3), ``mount`` is the laser's pose on the robot in the log if
-        it is known, and ``attributes`` are others of `LogReading`.
+        it is known, and ``attributes`` are others of `ScanLog`.
         """
         limit_m, mount = readings.max_range_m, self.options.laser or mount
         scans = Scans(
             poses, angles_rad, readings.ranges_m, limit_m, readings.min_range_m, stamps_s=self.stamps_s,
             beam_poses=beam_poses, mount=None if mount is None else np.array(mount),
         )  # fmt: skip
-        return LogReading(
+        return ScanLog(
             path=self.name, format=self.format, message=message, scans=scans.limited(limit_m),
             messages=dict(self.counts), skipped=tuple(sorted(self.skipped, key=lambda skip: skip.line)),
             no_return=readings.no_return, max_range_origin=readings.max_range_origin, reordered=self.reordered,

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from bayesmap.errors import BadInput, near_names
-from bayesmap.io.log_reading import LogOptions, LogReading, Pose
+from bayesmap.io.log_reading import LogOptions, Pose, ScanLog
 from bayesmap.io.ros.containers import METADATA, compression_of, container_of, first_bytes, format_by_start
 from bayesmap.io.text.carmen import KNOWN, read_carmen
 from bayesmap.io.text.csv import read_csv, starts_table
@@ -83,7 +83,7 @@ def read_log(
     ).scans  # fmt: skip
 
 
-def describe_log(path: str | os.PathLike[str], **options: Any) -> LogReading:
+def describe_log(path: str | os.PathLike[str], **options: Any) -> ScanLog:
     """Read a log as `read_log` does. Returns the scans with an account: skipped lines, no-return code, notes."""
     trajectory = options.pop("trajectory", None)
     if trajectory is not None and not isinstance(trajectory, Trajectory):
@@ -91,7 +91,7 @@ def describe_log(path: str | os.PathLike[str], **options: Any) -> LogReading:
     return _read(path, LogOptions(**options, trajectory=trajectory))
 
 
-def _read(path: str | os.PathLike[str], options: LogOptions) -> LogReading:
+def _read(path: str | os.PathLike[str], options: LogOptions) -> ScanLog:
     # Check the options, and read the log by its format.
     laser = options.laser
     if laser is not None and not (len(laser) == 3 and all(map(math.isfinite, laser))):
@@ -187,7 +187,7 @@ def _text_format(name: str) -> str:
     )
 
 
-def _coarse_stamps(log: LogReading) -> str | None:
+def _coarse_stamps(log: ScanLog) -> str | None:
     """Return a note if the stamps are too coarse."""
     stamps = log.scans.stamps_s
     note = None if stamps is None else coarse_stamps_note(stamps)
@@ -196,7 +196,7 @@ def _coarse_stamps(log: LogReading) -> str | None:
     return note
 
 
-def _jumps(log: LogReading) -> str | None:
+def _jumps(log: ScanLog) -> str | None:
     """Return a note if poses jump."""
     scans, jumped = log.scans, jumps(log.scans)
     if not len(jumped):
@@ -212,7 +212,7 @@ def _jumps(log: LogReading) -> str | None:
     )
 
 
-def _own_beams(log: LogReading) -> str | None:
+def _own_beams(log: ScanLog) -> str | None:
     """Return a note if the beams differ from scan to scan."""
     own = log.scans.own_angles_rad
     if own is None:
@@ -223,7 +223,7 @@ def _own_beams(log: LogReading) -> str | None:
     return f"the scans have {beams}; each keeps its own"
 
 
-def _degrees(log: LogReading) -> str | None:
+def _degrees(log: ScanLog) -> str | None:
     """Return a note if yaw looks like degrees: beyond a turn, in steps that are large for radians."""
     yaw = log.scans.poses[:, 2]
     steps = np.abs(np.diff(yaw))

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.io.log_reading import Account, LogOptions, LogReading
+from bayesmap.io.log_reading import Account, LogOptions, ScanLog
 from bayesmap.io.ros import poses as pose_sources
 from bayesmap.io.ros.containers import open_recording
 from bayesmap.io.ros.frames import Chain, planar, upright
@@ -146,7 +146,7 @@ def _mostly_ascending(stamps: NDArray[np.int64]) -> bool:
     return bool((np.diff(stamps) < 0).sum() <= 1)
 
 
-def read_recording(path: str | os.PathLike[str], options: LogOptions) -> LogReading:
+def read_recording(path: str | os.PathLike[str], options: LogOptions) -> ScanLog:
     """Read the scans of one topic of a recording, with their poses.
 
     Raises `BadInput` for a damaged recording or message, a missing topic or frame, several to choose from, or no scan
@@ -240,7 +240,7 @@ def _place_runs(messages: _Messages, account: Account) -> list[_PlacedRun]:
     return placed
 
 
-def _join_runs(runs: list[_PlacedRun], messages: _Messages, account: Account) -> LogReading:
+def _join_runs(runs: list[_PlacedRun], messages: _Messages, account: Account) -> ScanLog:
     """Return the scans of all runs as one log, and complete the account."""
     topic, sensor, source = messages.topic, messages.sensor, runs[0].source
     scans = [scan for run in runs for scan in run.scans]

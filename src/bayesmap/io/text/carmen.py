@@ -30,7 +30,7 @@ import numpy as np
 
 from bayesmap.errors import BadInput
 from bayesmap.files import write_file
-from bayesmap.io.log_reading import WITHOUT_POSES, Account, LogOptions, LogReading, Pose
+from bayesmap.io.log_reading import WITHOUT_POSES, Account, LogOptions, Pose, ScanLog
 from bayesmap.io.returns import Readings, Views, decode, largest_hit_m
 from bayesmap.io.text.lines import log_lines, numbers_in, printable
 from bayesmap.space.planar import Floats, between, compose
@@ -72,7 +72,7 @@ class LaserLine:
 LaserScan = tuple[LaserLine, Floats]  # a scan of a log, and the pose of the laser in the world, (3,)
 
 
-def read_carmen(path: str | os.PathLike[str], options: LogOptions) -> LogReading:
+def read_carmen(path: str | os.PathLike[str], options: LogOptions) -> ScanLog:
     """Read the scans of a CARMEN log, plain or gzipped.
 
     If a log holds several kinds of laser message, the kind with most scans is read. A note names the others. Raises
@@ -190,7 +190,7 @@ def _check_odometry(words: list[bytes]) -> None:
         raise Malformed("ODOM has a number that is not finite")
 
 
-def scan_log_of(account: Account, scans_by_kind: Mapping[str, Sequence[LaserScan]]) -> tuple[LogReading, list[Fan]]:
+def scan_log_of(account: Account, scans_by_kind: Mapping[str, Sequence[LaserScan]]) -> tuple[ScanLog, list[Fan]]:
     """Return the scans of the kind of message with most scans, and their fans, the commonest first."""
     kind = max(scans_by_kind, key=lambda kind: len(scans_by_kind[kind]))
     scans = [scan for scan, _ in scans_by_kind[kind] if scan.fan.beams]

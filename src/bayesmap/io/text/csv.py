@@ -16,7 +16,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from bayesmap.errors import BadInput
-from bayesmap.io.log_reading import Account, LogOptions, LogReading
+from bayesmap.io.log_reading import Account, LogOptions, ScanLog
 from bayesmap.io.returns import classify
 from bayesmap.io.text.lines import log_lines, numbers_in, printable
 from bayesmap.space.planar import Floats, compose
@@ -182,7 +182,7 @@ def is_header(line: bytes) -> bool:
     return "r_0" in columns or ({"angle", "range"} <= columns and bool({"scan", "stamp", *POSE} & columns))
 
 
-def read_csv(path: str | os.PathLike[str], options: LogOptions) -> LogReading:
+def read_csv(path: str | os.PathLike[str], options: LogOptions) -> ScanLog:
     """Read scans from a CSV table, plain or gzipped. Raises `BadInput` if scans, angles or poses are missing."""
     account = Account(os.fspath(path), "csv", options)
     table = _Table(account.name, account.bad)

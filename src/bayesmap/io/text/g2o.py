@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.files import write_file
-from bayesmap.io.log_reading import Account, LogOptions, LogReading
+from bayesmap.io.log_reading import Account, LogOptions, ScanLog
 from bayesmap.io.text.carmen import LASERS, LaserLine, LaserScan, Malformed, parse_floats, parse_laser, scan_log_of
 from bayesmap.io.text.lines import log_lines
 from bayesmap.space.planar import Floats, between, between_jacobians, compose, inverse, mount_jacobians, rotation
@@ -41,7 +41,7 @@ SAMPLED_PAIRS = 300  # random pairs of key scans that measure the effect of comm
 SEED = 1
 
 
-def read_g2o(path: str | os.PathLike[str], options: LogOptions) -> LogReading:
+def read_g2o(path: str | os.PathLike[str], options: LogOptions) -> ScanLog:
     """Read the scans of a g2o file, plain or gzipped. Errors are as in `bayesmap.io.text.carmen.read_carmen`."""
     account = Account(os.fspath(path), "g2o", options)
     scans_by_kind: dict[str, list[LaserScan]] = {kind: [] for kind in LASERS}

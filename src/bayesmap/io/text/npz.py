@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.io.log_reading import Account, LogOptions, LogReading
+from bayesmap.io.log_reading import Account, LogOptions, ScanLog
 from bayesmap.io.returns import NoReturn, Readings, decode, largest_hit_m
 from bayesmap.space.planar import compose
 
@@ -23,7 +23,7 @@ NEEDED = ("poses", "angles_rad", "ranges_m")
 OPTIONAL = ("max_range_m", "min_range_m", "stamps_s", "beam_poses")
 
 
-def read_npz(path: str | os.PathLike[str], options: LogOptions) -> LogReading:
+def read_npz(path: str | os.PathLike[str], options: LogOptions) -> ScanLog:
     """Read scans from an .npz archive. Raises `BadInput` for an array that is missing or does not fit."""
     account = Account(os.fspath(path), "npz", options)
     name, arrays = account.name, _read_arrays(os.fspath(path))

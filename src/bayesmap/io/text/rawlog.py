@@ -27,7 +27,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.io.log_reading import Account, LogOptions, LogReading, Pose, SkippedLine
+from bayesmap.io.log_reading import Account, LogOptions, Pose, ScanLog, SkippedLine
 from bayesmap.io.text.lines import file_chunks
 from bayesmap.space.planar import Floats, compose, interpolate
 from bayesmap.space.scans import MAX_BEAMS, fan_fault, side_by_side
@@ -303,7 +303,7 @@ def starts_as_rawlog(path: Path) -> bool:
         return False
 
 
-def read_rawlog(path: str | os.PathLike[str], options: LogOptions) -> LogReading:
+def read_rawlog(path: str | os.PathLike[str], options: LogOptions) -> ScanLog:
     """Read the scans of a rawlog.
 
     Raises `BadInput` for a file that cannot be read, no scans, no poses (unless the options need none), or an object
