@@ -366,7 +366,7 @@ def slam(
         no_odometry: do not read the poses of the log; scans must come at about 5 Hz.
         schedule: numbers of chains, warm-up sweeps and draws; by default every sweep after warm-up is kept.
         seed: seed of all random numbers.
-        hit_depth: point in a cell where a beam stops, see `bayesmap.infer`; None: that of the kind of cells.
+        hit_depth: point in a cell where a beam stops, see `bayesmap.infer`; None: the default of the kind of cells.
         where: threads, device and executor; by default all cores of this machine.
         checkpoints: the run to resume, the function that saves the run so far, and the folder for finished stages of
             the approximation; by default none of them.

@@ -45,7 +45,7 @@ class Schedule:
             below 0.03 allows up to ten times the default number of draws.
         seconds: time after which chains stop with the draws that they have, at least two each, counted from the start
             of the inference. A slow map has a shorter warm-up then. Without ``precision`` or ``draws``, chains use all
-            of the time. Draws are those of a longer run, but their number depends on the machine. None: no limit.
+            of the time. Draws equal the draws of a longer run, but their number depends on the machine. None: no limit.
 
     Raises:
         BadInput: a count that is not a whole number or is too small, or a precision or time that is not positive.
@@ -118,7 +118,7 @@ class Checkpoints:
     """The run to resume, and how to save a run while it continues.
 
     Attributes:
-        resume: stopped run to resume, made with the same arguments. The result equals that of a run without a stop,
+        resume: stopped run to resume, made with the same arguments. The result equals the result of a run without a stop,
             bit for bit.
         save: function called with the run so far at the end of warm-up and every ``every_s`` seconds, such as
             ``lambda run: run.save("run.nc")``.

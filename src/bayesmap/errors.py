@@ -22,7 +22,7 @@ class BadInput(ValueError):
 
 
 def check_count(where: str, name: str, value: int, least: int) -> int:
-    """Return the argument ``name`` of ``where`` as an int; raise BadInput unless it is whole and at least ``least``."""
+    """Return an argument as an int. Raises `BadInput` unless it is a whole number of ``least`` or more."""
     number = hasattr(value, "__float__") and not isinstance(value, bool | str)
     if not number or not math.isfinite(value) or value != int(value) or value < least:
         raise BadInput(f"{where}: {name} must be a whole number of {least} or more, got {value!r}")

@@ -58,7 +58,7 @@ class Model:
 
     @property
     def arrays(self) -> tuple[ArraySpec, ...]:
-        """Return the arrays of a draw: those of its cells, and the poses if they are unknown."""
+        """Return the arrays of a draw: its cells' arrays, and the poses if they are unknown."""
         return (*self.cells.arrays, POSES) if self.poses.unknown else self.cells.arrays
 
     def state(self, cells: Cells) -> State:

@@ -232,8 +232,8 @@ class Run:
 
         Args:
             poses: poses in the world frame, (P, 3).
-            angles_rad: angles of the beams in the sensor's frame, (A,); None: those of the run's scans.
-            max_range_m: largest range of the sensor; None: that of the run's scans.
+            angles_rad: angles of the beams in the sensor's frame, (A,); None: as in the run's scans.
+            max_range_m: largest range of the sensor; None: as in the run's scans.
             sensor: law of the new readings; None: the run's.
             draws: number of compared draws; more draws tighten the bounds, and the work grows with their square.
             seed: seed of the simulated scans.
@@ -260,10 +260,10 @@ class Run:
 
         Args:
             poses: poses in the world frame, (3,) or (P, 3).
-            angles_rad: angles of the beams in the sensor's frame, (A,); None: those of the run's scans.
+            angles_rad: angles of the beams in the sensor's frame, (A,); None: as in the run's scans.
             levels: probabilities of the quantiles, rising, inside (0, 1).
             draws: largest number of maps that readings are drawn from.
-            max_range_m: largest range of the sensor; None: that of the run's scans.
+            max_range_m: largest range of the sensor; None: as in the run's scans.
             sensor: law of the readings; None: the run's.
             seed: seed of the drawn readings.
 
@@ -307,7 +307,7 @@ class Run:
     def plot(self, **options: Any) -> Figure:
         """Plot the mean map, its uncertainty, the readings and one draw, with surfaces if cells are large enough.
 
-        Options are those of `bayesmap.viz.figure.posterior_figure`. Raises `BadInput` for a run that was stopped before
+        Takes the options of `bayesmap.viz.figure.posterior_figure`. Raises `BadInput` for a run that was stopped before
         its first draw.
         """
         from bayesmap.viz.figure import posterior_figure

@@ -149,7 +149,7 @@ class Folder:
             write_file(self.outdated_path, toml)
 
     def begin(self, toml: str) -> None:
-        """Save the settings of a run that has started, to resume it; raise `BadInput` if that is impossible."""
+        """Save the settings of a run that has started, to resume it. Raises `BadInput` if that is impossible."""
         if self.begun:
             return
         self._toml = toml

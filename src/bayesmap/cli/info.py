@@ -53,7 +53,7 @@ def info(call: Call[Settings], file: str) -> None:
 
 
 def is_saved_run(file: str) -> bool:
-    """Return whether a file begins as a saved run; raise `BadInput` if it cannot be read."""
+    """Return whether a file begins as a saved run. Raises `BadInput` if it cannot be read."""
     from bayesmap.io.logs import SAVED_RUNS
 
     if not Path(file).is_file():

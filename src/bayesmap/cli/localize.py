@@ -68,8 +68,8 @@ def localize(
     motions between scans count. The command returns the likeliest pose with its covariance, all likely poses with
     their probabilities, and the probability of being lost: the scan comes from outside the map, or the map is outdated.
 
-    Poses, also those of --prior and --area, are those of the robot's base, if the log says where the laser sits on it,
-    and else of the laser (--frame). Scans are numbered as in the log, from 0.
+    Poses, also in --prior and --area, are poses of the robot's base, if the log says where the laser sits on it, and
+    else of the laser (--frame). Scans are numbered as in the log, from 0.
 
     A map of another program (map_server YAML) has no sensor law. The command first locates scans under a cautious
     sensor law. It fits the final law to the scans located with certainty, and prints it. With --follow it keeps the
@@ -129,7 +129,7 @@ class _Request:
     independent: bool  # locate each scan by itself
 
     def options(self, mount: NDArray[np.float64] | None) -> dict[str, Any]:
-        """Return the arguments that both ways of localization share; the prior becomes that of the laser.
+        """Return the arguments that both ways of localization share. The prior becomes a prior of the laser's pose.
 
         ``mount`` is the pose of the laser on the robot, (3,), if it is known. Without it --frame base is refused.
         """
@@ -251,7 +251,7 @@ def _locate_live(
 class _Map:
     """The map in which scans are located."""
 
-    max_range_m: float | None  # largest range of the sensor; None: that of the log
+    max_range_m: float | None  # largest range of the sensor; None: as in the log
     live_max_range_m: float  # largest range for a log that is still being written
     known: Callable[[Console, Scans, bool], KnownMap]  # prepares the map, given scans, and whether their log is live
 

@@ -188,7 +188,7 @@ def truth_on(grid: Grid, path: str) -> Walls:
 
 
 def part_of(run: Run, text: str | None) -> tuple[Grid, tuple[slice, slice]]:
-    """Return grid and slices of the map's part in a window (None: all); raise `BadInput` for another text."""
+    """Return grid and slices of the map's part in a window (None: all). Raises `BadInput` for another text."""
     from bayesmap.viz.maps import window, window_around
 
     if text is None:
@@ -240,7 +240,7 @@ def export(call: Call[ExportSettings], run_file: str, output: str | None, force:
     --format trajectory nav_msgs/Path, and PoseWithCovarianceStamped, in a
                         recording
 
-    Poses are those of the robot's base, if the log says where the laser sits on it, and else of the laser (--frame).
+    Poses are poses of the robot's base, if the log says where the laser sits on it, and else of the laser (--frame).
     The layers are mean and entropy. If the state of a cell is a number, the bounds of its 90 % interval are layers too.
     """
     import numpy as np

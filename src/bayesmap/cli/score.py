@@ -55,7 +55,7 @@ def score_run(
 ) -> Scored:  # fmt: skip
     """Score a saved run on the scans of a log that it has not seen. Without a log return only its trajectory.
 
-    ``frame`` is that of the trajectory, see `bayesmap.space.trajectory.Trajectory.of`. ``whole`` scores all scans of
+    ``frame`` is the trajectory's frame, see `bayesmap.space.trajectory.Trajectory.of`. ``whole`` scores all scans of
     the log, ``compare`` classic maps too. With ``poses_too``, the poses are scored afterwards, and a run without
     held-out scans is accepted.
     """
@@ -159,7 +159,7 @@ class Placed:
 
 
 def placed_scans(log: str, settings: ScoreSettings, frame: str | None) -> Placed:
-    """Return a log's scans at its poses, or at those of ``settings.trajectory``, and their trajectory."""
+    """Return a log's scans at its poses, or at the poses of ``settings.trajectory``, and their trajectory."""
     need_file(log, "the log that the map was made from", runs=False)
     from bayesmap.io.logs import read_log
     from bayesmap.space.trajectory import Trajectory
@@ -311,7 +311,7 @@ def score(
 
 
 def _poses_picture(picture: str) -> Path:
-    """Return the path of the picture of poses beside that of beams."""
+    """Return the path of the picture of poses, beside the picture of beams."""
     return Path(picture).with_stem(f"{Path(picture).stem}-poses")
 
 
@@ -358,7 +358,7 @@ def _cells(name: str, score: Score) -> tuple[str, ...]:
 
 
 def lines_of(score: TrajectoryScore, frame: str, *, exact: bool, of_run: bool) -> list[str]:
-    """Return the score of poses as lines of text. ``frame`` is that of the relations; ``of_run``: of a saved run."""
+    """Return the score of poses, of a saved run if ``of_run``, as lines of text. ``frame`` is the relations' frame."""
     from bayesmap.space.trajectory import LONGEST_GAP_S
 
     figures = score.as_json()

@@ -177,7 +177,7 @@ class World:
     max_range_m: float = 30.0
 
     def sensor(self) -> SensorModel:
-        """Return the default sensor: the tutorial's noise with typed no-returns, or that of a good laser."""
+        """Return the default sensor: the tutorial's noise with typed no-returns, or a good laser."""
         from bayesmap.cells.kinds import LASER_SIGMA_M, LASER_SIGMA_PER_M
         from bayesmap.sensors.model import BeamMixture, Gaussian
 

@@ -245,7 +245,7 @@ class TrajectoryFiles:
 
 
 def summary(run: Run, frame: str) -> dict[str, Any]:
-    """Return the inferred trajectory in short, as JSON values; ``frame`` is that of its file."""
+    """Return the inferred trajectory in short, as JSON values; ``frame`` is the frame of its file."""
     import numpy as np
 
     trajectory = run.trajectory

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 
 def numbers_of(text: str, flag: str, form: str, counts: tuple[int, ...]) -> list[float]:
-    """Return an option's numbers, named by ``form``, such as "X,Y"; raise `click.BadParameter` for others."""
+    """Return an option's numbers, named by ``form``, such as "X,Y". Raises `click.BadParameter` for others."""
     try:
         numbers = [float(part) for part in text.split(",")]
     except ValueError:
@@ -45,7 +45,7 @@ def numbers_of(text: str, flag: str, form: str, counts: tuple[int, ...]) -> list
 
 
 def pose_of(text: str, flag: str = "--pose") -> tuple[float, float, float]:
-    """Return a pose in metres and radians, from a text in metres and degrees; raise `click.BadParameter`."""
+    """Return a pose in metres and radians, from a text in metres and degrees. Raises `click.BadParameter`."""
     x, y, degrees = numbers_of(text, flag, "X,Y,DEGREES", (3,))
     return x, y, math.radians(degrees)
 
@@ -59,7 +59,7 @@ _FIRST = {"gaussian": "sigma_m", "student-t": "scale_m"}
 
 
 def sensor_of(text: str) -> SensorModel | None:
-    """Return the sensor model of a text, None for ``default``; raise `BadInput` for an invalid one."""
+    """Return the sensor model of a text, None for ``default``. Raises `BadInput` for an invalid one."""
     if text == "default":
         return None
     from bayesmap.sensors.model import KINDS, from_description
@@ -110,7 +110,7 @@ TRUE_ODOMETRY = "true"
 
 
 def odometry_of(text: str) -> OdometryNoise | None:
-    """Return the odometry of a text, None for ``true``; raise `BadInput` for an invalid one."""
+    """Return the odometry of a text, None for ``true``. Raises `BadInput` for an invalid one."""
     if text == TRUE_ODOMETRY:
         return None
     from bayesmap.sim.robot import OdometryNoise

@@ -1,7 +1,7 @@
 """Write a posterior as a file for other programs. The format's name, or the path's ending, selects the writer.
 
 docs/file-formats.md describes the formats. Rows of a GeoTIFF (rasterio) and of rerun's pictures (rerun-sdk) run from
-the top, the largest y. rerun's coordinates are those of the picture, in cells, with y downwards.
+the top, the largest y. rerun's coordinates are cells of the picture, with y downwards.
 """
 
 from __future__ import annotations

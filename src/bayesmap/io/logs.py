@@ -67,7 +67,7 @@ def read_log(
         fixed_frame: frame of /tf in which to map, in a recording; by default map, else odom, else world.
         deskew: true to give each beam of a recording the sensor's pose at its own time.
         thin_m: least distance in metres that the robot travels between two kept scans; 0 keeps all.
-        laser: pose of the laser on the robot, x and y in metres and yaw in radians, which replaces that of the log. The
+        laser: pose of the laser on the robot, x and y in metres and yaw in radians, which replaces the log's. The
             log's poses are then taken as the robot's.
         without_poses: true to accept scans without poses, which become zero; poses of recordings are not read.
         trajectory: poses to use instead of the log's: a TUM file, or `read_trajectory`. A scan gets the pose at its

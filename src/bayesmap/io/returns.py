@@ -8,7 +8,7 @@ than ROS have no infinity: a sensor without a return wrote a number of its own, 
 The candidates are distinct readings within 20 % of the largest, with at most 8 different values above. The code is the
 smallest candidate v that
 
-- was reported at least 10 times, and 10 times as often as an average value of those in [0.8 v, v); or
+- was reported at least 10 times, and 10 times as often as an average value in [0.8 v, v); or
 - was reported (or exceeded) at least 3 times, and is at least twice any smaller reading (for short logs);
 
 in both cases by at least 3 different beams, and from 3 places or in 3 separate directions. A number that is repeated

@@ -60,7 +60,7 @@ class SweepPlan:
         return tuple(marks)
 
     def shortened(self, sweep_s: float, left_s: float) -> SweepPlan:
-        """Return the plan with a warm-up of at most `MAX_WARMUP_SHARE` of the seconds left, given those of a sweep."""
+        """Return the plan with a warm-up of at most `MAX_WARMUP_SHARE` of the seconds left, given the seconds of a sweep."""
         return replace(self, warmup=min(self.warmup, max(1, int(MAX_WARMUP_SHARE * left_s / sweep_s))))
 
 
@@ -185,7 +185,7 @@ def select_chains(chains: Chains, which: slice) -> Chains:
 
 
 def in_sequence(parts: Sequence[Chains]) -> Chains:
-    """Join consecutive sweeps of the same chains. Snapshot and observed counts are those of the last part."""
+    """Join consecutive sweeps of the same chains. Snapshot and observed counts come from the last part."""
     return _concatenated(parts, 1)
 
 
@@ -193,7 +193,7 @@ class Record:
     """The draws and traces of chains, which grow as the chains advance."""
 
     def __init__(self, empty: Draws, plan: SweepPlan, resume: Chains | None = None) -> None:
-        """Allocate arrays for the plan's draws, and copy those of ``resume``; ``empty`` has the specs."""
+        """Allocate arrays for the plan's draws, and copy the draws of ``resume``; ``empty`` has the specs."""
         chains = next(iter(empty.arrays.values())).shape[0]
         arrays = {spec.name: spec.empty(chains, plan.draws, empty.shape_of(spec)) for spec in empty.specs}
         self._draws = replace(empty, arrays=arrays)

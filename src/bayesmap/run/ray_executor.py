@@ -154,7 +154,7 @@ def failed(error: Exception) -> ConnectionError:
 
 
 WAIT_S = 0.25  # longest time between two checks whether to stop, seconds
-GROWTH = 16  # largest ratio of the sweeps of a segment to those of the segment before
+GROWTH = 16  # largest ratio of the sweeps of a segment to the sweeps of the segment before
 
 
 @dataclass(frozen=True)
@@ -217,7 +217,7 @@ class RayExecutor:
 
 @dataclass
 class Marks:
-    """Numbers of sweeps at which segments of all groups end, with those of warm-up and of the schedule."""
+    """Numbers of sweeps at which segments of all groups end, with the ends of warm-up and of the schedule."""
 
     schedule: SweepPlan
     segment_s: float  # seconds of work between two marks

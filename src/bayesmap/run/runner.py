@@ -56,7 +56,7 @@ def stop_on_interrupt() -> Iterator[Callable[[], bool]]:
 STEP_SECONDS = 0.25  # of work per step
 SECONDS_PER_INCIDENCE = 2e-8  # a first guess, for the first step; later steps use the measured time
 FIRST_STEP = 16  # most sweeps of the first step
-STEP_GROWTH = 16  # largest ratio of the sweeps of a step to those of the step before
+STEP_GROWTH = 16  # largest ratio of the sweeps of a step to the sweeps of the step before
 BUFFER_BYTES = 64 << 20  # most bytes of the draws of one step
 CHECKPOINT_SHARE = 0.05  # largest share of the time that checkpoints may take
 
@@ -72,7 +72,7 @@ class Job:
     chain_ids: tuple[int, ...]  # numbers of the chains among all chains of the run
     device: str = "cpu"
     threads: int | None = None  # all cores if None
-    parameters: Parameters | None = None  # sensor and prior that were fitted beforehand; None for those of the model
+    parameters: Parameters | None = None  # sensor and prior that were fitted beforehand; None: the model's
     problem: Any = None  # the sampler's prepared problem, if this process has it already
 
     @property

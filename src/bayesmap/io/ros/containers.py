@@ -132,7 +132,7 @@ def container_of(path: str | os.PathLike[str]) -> str | None:
 
 def format_by_start(start: bytes) -> str | None:
     """Return the format of a recording by its first 16 bytes, unpacked; None for other files."""
-    if start.startswith(ANY_BAG):  # of any version: `open_recording` refuses those that it cannot read
+    if start.startswith(ANY_BAG):  # of any version: `open_recording` refuses other versions than 2.0
         return "rosbag1"
     return next((name for name, (magic, _) in RECORD_READERS.items() if start.startswith(magic)), None)
 

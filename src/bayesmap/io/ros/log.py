@@ -53,7 +53,7 @@ class _Stream:
     received_ns: NDArray[np.int64]
 
     def falls(self) -> NDArray[np.intp]:
-        """Return the indices of messages whose stamp is far below that of the message before."""
+        """Return the indices of messages whose stamp is far below the stamp of the message before."""
         return np.nonzero(np.diff(self.stamps_ns) < -STEP_NS)[0] + 1
 
     def steps(self) -> list[int]:

@@ -212,7 +212,7 @@ def _shipped(encoding: str) -> Any:
 
 
 def _store(topic: Topic) -> Any:
-    """Return the definitions to read the messages of a topic: the recording's, or else those that ROS ships.
+    """Return the definitions to read the messages of a topic: the recording's, or else ROS's own.
 
     Databases before ROS 2 Iron hold no definitions; the messages that are read here were equal in all versions before.
     Raises `Damaged` for a definition that cannot be parsed, of a type or an MD5 sum that ROS does not know.

@@ -20,7 +20,7 @@ from bayesmap.space.time_order import moment
 
 SAME_WITHIN = 1e-4  # largest difference of equal values, in metres and radians: 1 mm at 10 m
 NOISE = 0.01  # largest distance between two sources of motion, in metres and radians, that counts as noise
-MUCH_SMOOTHER = 0.15  # largest ratio of the roughness of each of two publishers' motions to that of the joint one
+MUCH_SMOOTHER = 0.15  # largest ratio of the roughness of each of two publishers' motions to the joint motion's
 MIN_SAMPLES = 5  # fewest samples beside their neighbours' motion on one topic
 MIN_SAMPLES_BETWEEN = 3  # fewest such samples on several topics
 

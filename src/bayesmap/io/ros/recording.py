@@ -135,7 +135,7 @@ def topics_of(records: Records) -> tuple[dict[str, Topic], Times]:
 
 
 def messages_of(records: Records, topics: Mapping[str, Topic], names: frozenset[str]) -> Iterator[Message]:
-    """Yield the messages on the topics ``names``, without those of another type than the topic's."""
+    """Yield the messages on the topics ``names``, without messages of another type than the topic's."""
     topic_of: dict[int, str] = {}  # by the id of the connection
     for record in records:
         if isinstance(record, Connection):

@@ -180,7 +180,7 @@ def _in_time_order(channels: Sequence[Channel]) -> list[tuple[int, int, Any]]:
 
 
 def _quality(latched: bool) -> Qos:
-    """Return the quality of service, without deadlines; if latched, that of nav2's map_server."""
+    """Return the quality of service, without deadlines; if latched, as nav2's map_server has it."""
     from rosbags.interfaces import Qos, QosDurability, QosHistory, QosLiveliness, QosReliability, QosTime
 
     never = QosTime(9_223_372_036, 854_775_807)  # RMW_DURATION_INFINITE
@@ -198,7 +198,7 @@ def write_occupancy_grid(
 ) -> Path:  # fmt: skip
     """Write a map as the one message of a recording, an OccupancyGrid. Returns the path.
 
-    Arguments and errors are those of `bayesmap.io.ros.maps.in_percent` and `Recorder`.
+    Arguments and errors are as in `bayesmap.io.ros.maps.in_percent` and `Recorder`.
     """
     from bayesmap.io.ros.maps import in_percent
 

@@ -98,16 +98,12 @@ def _mount(scan: LaserLine) -> Floats:
 
 @dataclass(frozen=True, eq=False)
 class Edges:
-    """Measured relative poses: indices of the two poses, (E,) each, and the second in the frame of the first, (E, 3).
+    """Measured relative poses. Raises `BadInput` for shapes that do not fit, or a matrix not positive definite."""
 
-    The information is the inverse covariance of the measurement in the frame of the first, (E, 3, 3). Shapes that do
-    not fit, or a matrix that is not positive definite, raise `BadInput`.
-    """
-
-    first: NDArray[np.intp]
-    second: NDArray[np.intp]
-    relative: Floats
-    information: Floats
+    first: NDArray[np.intp]  # indices of the first poses, (E,)
+    second: NDArray[np.intp]  # indices of the second poses, (E,)
+    relative: Floats  # the second poses in the frames of the first, (E, 3)
+    information: Floats  # inverse covariances of the measurements in the frames of the first, (E, 3, 3)
 
     def __post_init__(self) -> None:
         count = len(self.first)
@@ -126,7 +122,7 @@ class Edges:
 
 
 def write_g2o(path: str | os.PathLike[str], poses_world: Floats, edges: Edges) -> Path:
-    """Write a pose graph, whole or not at all; raise `BadInput` for an edge to a missing pose."""
+    """Write a pose graph, whole or not at all. Raises `BadInput` for an edge to a missing pose."""
     count = len(poses_world)
     ends = np.concatenate([edges.first, edges.second])
     if len(ends) and (ends.min() < 0 or ends.max() >= count):

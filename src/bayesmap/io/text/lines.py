@@ -58,7 +58,7 @@ def log_lines(account: Account) -> Iterator[tuple[int, bytes]]:
 
 
 def split_lines(name: str, pieces: Iterable[bytes]) -> Iterator[tuple[int, bytes]]:
-    """Yield numbered lines of a text that comes in pieces; raise `BadInput` over `MAX_LINE_BYTES`."""
+    """Yield numbered lines of a text that comes in pieces. Raises `BadInput` over `MAX_LINE_BYTES`."""
     number, rest = 0, b""
     for piece in pieces:
         *lines, rest = (rest + piece).split(b"\n")

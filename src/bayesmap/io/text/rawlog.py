@@ -205,7 +205,7 @@ class Reader:
 
 
 def scan_of(reader: Reader, header: Header, motions: int) -> RawScan:
-    """Return a CObservation2DRangeScan; raise `UnreadableObject` for another version, or damage."""
+    """Return a CObservation2DRangeScan. Raises `UnreadableObject` for another version, or damage."""
     version = header.version
     if not 0 <= version <= 8:
         raise UnreadableObject("is not known: versions 0 to 8 are read")
