@@ -118,8 +118,7 @@ class Checkpoints:
     """The run to resume, and how to save a run while it continues.
 
     Attributes:
-        resume: stopped run to resume, made with the same arguments. The result equals the result of a run without a stop,
-            bit for bit.
+        resume: stopped run to resume, made with the same arguments. The result equals an unstopped run, bit for bit.
         save: function called with the run so far at the end of warm-up and every ``every_s`` seconds, such as
             ``lambda run: run.save("run.nc")``.
         every_s: seconds between two calls of ``save``; more if ``save`` is so slow that it would delay the chains.

@@ -60,7 +60,7 @@ class SweepPlan:
         return tuple(marks)
 
     def shortened(self, sweep_s: float, left_s: float) -> SweepPlan:
-        """Return the plan with a warm-up of at most `MAX_WARMUP_SHARE` of the seconds left, given the seconds of a sweep."""
+        """Return the plan with a warm-up of at most `MAX_WARMUP_SHARE` of the time left, given the time of a sweep."""
         return replace(self, warmup=min(self.warmup, max(1, int(MAX_WARMUP_SHARE * left_s / sweep_s))))
 
 
