@@ -336,19 +336,16 @@ class Run:
         from bayesmap.io.exports import TRAJECTORIES, export_format, export_run, known_cells
 
         # The trajectory of `slam` is known before the first draw.
-        if self.trajectory is None or export_format(path, options.get("format")) not in TRAJECTORIES:
+        chosen, thresholds = export_format(path, options.get("format")), self.prior.thresholds
+        if self.trajectory is None or chosen not in TRAJECTORIES:
             self._need_marginals()
-        thresholds, mode = self.posterior.prior.thresholds, options.get("mode")
-        if thresholds is not None:
-            if mode is None and export_format(path, options.get("format")) == "map-server":
-                mode = "trinary"
-            if mode == "trinary":
-                for name, value in zip(("occupied_thresh", "free_thresh"), thresholds, strict=True):
-                    options[name] = value if options.get(name) is None else options[name]
-            prior, draws, free_thresh = self.posterior.prior, self.posterior.draws, options.get("free_thresh")
-            known = known_cells(prior, draws, self.occupancy, self.observed, free_thresh)
-            return export_run(path, self, self.posterior.scans, known=known, **options)
-        return export_run(path, self, self.posterior.scans, **options)
+        mode = options.get("mode") or ("trinary" if chosen == "map-server" else None)
+        if thresholds is not None and mode == "trinary":
+            for name, value in zip(("occupied_thresh", "free_thresh"), thresholds, strict=True):
+                options[name] = value if options.get(name) is None else options[name]
+        free_thresh = options.get("free_thresh")
+        known = known_cells(self.prior, self.posterior.draws, self.occupancy, self.observed, free_thresh)
+        return export_run(path, self, self.posterior.scans, known=known, **options)
 
     def __repr__(self) -> str:
         """Return five lines: the map, the scans, the method, the log joint, and the time."""

@@ -27,11 +27,8 @@ BAD_INPUT = 3
 PROBLEMS = 4  # --strict, and the diagnostics found problems
 INTERRUPTED = 130
 
-VERBOSE = "bayesmap.verbose"
-"""Key of the click context that stores whether the command is verbose; read when its failure is printed."""
-
-SCHEMA_VERSION = 1
-"""Version of the JSON documents. It grows when a key changes its meaning or disappears, not for new keys."""
+VERBOSE = "bayesmap.verbose"  # key of the click context: whether the command is verbose, also about its failure
+SCHEMA_VERSION = 1  # of JSON documents: it grows when a key changes its meaning or disappears, not for new keys
 
 
 @dataclass(frozen=True)
@@ -86,8 +83,7 @@ def as_json(document: dict[str, Any]) -> str:
     return json.dumps({**versions, **document}, indent=2, allow_nan=False) + "\n"
 
 
-RESULTS = "bayesmap.results"
-"""Key of the click context that stores standard output while prints of libraries go to standard error."""
+RESULTS = "bayesmap.results"  # key of the click context: standard output while libraries print on standard error
 
 
 def reserve_stdout() -> None:
@@ -148,9 +144,7 @@ STAGES = {
 """Names of the stages of a run for the user, and the unit that is counted in each."""
 
 SAMPLING = ("warm-up", "draws")  # stages that count sweeps of the chains
-
-SETTING_UP = ("compile", "trace", "start", "fit")
-"""Stages in which a run can still fail before it has changed its folder."""
+SETTING_UP = ("compile", "trace", "start", "fit")  # stages in which a run has not changed its folder yet
 
 
 @contextlib.contextmanager

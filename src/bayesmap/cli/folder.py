@@ -30,6 +30,7 @@ def run_document(run: Run) -> dict[str, Any]:
     """Return the JSON document of a run: its settings, result, timings, diagnostics and problems."""
     posterior, summary, joint = run.posterior, run.summary(), run.log_joint
     diagnostics = summary.as_json()
+    last, mean = (finite(joint[:, -1].mean()), finite(joint.mean())) if joint.size else (None, None)
     return {
         "version": __version__,
         "grid": grid_document(run.grid),
@@ -44,10 +45,7 @@ def run_document(run: Run) -> dict[str, Any]:
         "sweeps": posterior.sweep,
         "finished": run.finished,
         "seconds": {name: round(value, 6) for name, value in posterior.seconds.items()},
-        "log_joint": {
-            "last": finite(joint[:, -1].mean()) if joint.size else None,
-            "mean": finite(joint.mean()) if joint.size else None,
-        },
+        "log_joint": {"last": last, "mean": mean},
         "log_evidence": finite(posterior.log_evidence),
         "unchanged_cells": diagnostics["unchanged_cells"] or 0,
         "microseconds_per_sweep": diagnostics["microseconds_per_sweep"],

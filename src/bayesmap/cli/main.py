@@ -13,8 +13,7 @@ import sys
 # takes more time than all our products of large ones.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
-MAX_ALLOCATIONS = 50_000
-"""New objects after which Python looks for cycles. At Python's 700 the search takes a tenth of a command's start."""
+MAX_ALLOCATIONS = 50_000  # new objects between searches for cycles: at Python's 700 they take a tenth of a start
 
 TYPE_CHECKING = False  # not from typing: this module imports little
 if TYPE_CHECKING:

@@ -161,8 +161,10 @@ def known_cells(
     An observed cell below the free threshold is unknown unless the beams alone show that it stops fewer than half of
     all beams: four passed it, and none stopped. This holds for kinds of cells that count beams.
     """
-    evidence = prior.evidence_interval(draws, 0.9) if draws is not None and draws.count else None
-    if prior.thresholds is None or evidence is None:
+    if prior.thresholds is None or draws is None or not draws.count:
+        return observed
+    evidence = prior.evidence_interval(draws, 0.9)
+    if evidence is None:
         return observed
     limit = prior.thresholds[1] if free_thresh is None else free_thresh
     return observed & ((evidence[1] < 0.5) | (occupancy >= limit))
