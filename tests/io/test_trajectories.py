@@ -271,7 +271,7 @@ def test_the_frame_is_what_the_file_says_or_the_base_if_it_is_known(log, tmp_pat
     of_base = named == "base" or (named is None and laser is not None)
     expected = compose(BASE, np.array(LASER_ON_BASE)) if of_base else BASE
     np.testing.assert_allclose(reading.scans.poses, expected, atol=1e-8)
-    assert f"taken as those of the {'base' if of_base else 'laser'}" in reading.notes[0]
+    assert f"taken as poses of the {'base' if of_base else 'laser'}" in reading.notes[0]
     scans = read_log(log, trajectory=read_trajectory(theirs, frame="laser"), laser=laser)
     np.testing.assert_allclose(scans.poses, BASE, atol=1e-8)
 
