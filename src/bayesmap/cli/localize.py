@@ -83,8 +83,7 @@ def localize(
     live = follow and can_follow(call.console, log)
     if not live:
         need_file(log, "the log whose scans are to be located", runs=False)
-    source = _map_of(run_file, call.settings())
-    request = _Request(call, log, source, span, first_pose, independent)
+    request = _Request(call, log, _map_of(run_file, call.settings()), span, first_pose, independent)
 
     def print_belief(number: int, belief: PoseBelief) -> bool:
         return write_out(json.dumps({"scan": number, **_belief_json(belief, corners)}, allow_nan=False) + "\n")

@@ -318,8 +318,7 @@ def finish(folder: Folder, run: Run, log: ScanLog, heldout: Scans | None, every:
     if heldout is not None:
         with stage(folder.console, "score") as on_progress:
             nats = run.log_score(heldout, on_progress=on_progress)
-        valid = heldout.n_beams - heldout.counts()["invalid"]
-        score = {"every": every, "beams": valid, "nats_per_beam": nats}
+        score = {"every": every, "beams": heldout.n_beams - heldout.counts()["invalid"], "nats_per_beam": nats}
     with progress(folder.console, "comparing the chains"):
         document = document_of(run, log, score, [*outputs, folder.path / "summary.json", folder.config_path])
     folder.write_document(document)

@@ -172,8 +172,7 @@ def _code_at_top(readings_m: NDArray[np.float64], views: Views | None) -> tuple[
 def _standing_out(readings_m: NDArray[np.float64], usable: NDArray[np.bool_]) -> list[float]:
     """Return the numbers at the top that are repeated, or isolated, among the usable readings; ascending."""
     # Candidates at the top, and the usual count of a value in [0.8 v, v) for each candidate v.
-    positive = readings_m[usable]
-    values, counts = np.unique(positive, return_counts=True)
+    values, counts = np.unique(readings_m[usable], return_counts=True)
     before = np.concatenate([[0], np.cumsum(counts)])  # readings below values[i]
     candidates = np.nonzero(values >= TOP_SHARE * values[-1])[0][-1 - MAX_CODES :]
     window = np.searchsorted(values, TOP_SHARE * values[candidates])  # start of [0.8 v, v)

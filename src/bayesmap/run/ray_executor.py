@@ -373,8 +373,7 @@ class _RayRun:
             self.marks.per_sweep_s = max(self.marks.per_sweep_s, segment.seconds["sampling"] / new_sweeps)
         done, warmup = self.sweep, self.job.schedule.warmup
         if segment.sweep == 0 or done < 0:
-            started = sum(group.sweep >= 0 for group in self.groups)
-            self.watch.report("start", started, len(self.groups))
+            self.watch.report("start", sum(group.sweep >= 0 for group in self.groups), len(self.groups))
         elif done > 0:
             log_joint = segment.log_joint if segment.log_joint.size else segment.warmup_log_joint
             mean = float(log_joint[:, -1].mean()) if log_joint.size else None

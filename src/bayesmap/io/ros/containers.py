@@ -292,8 +292,7 @@ def _joined(path: str, container: str, parts: list[Recording], notes: tuple[str,
     topics: dict[str, Topic] = {}
     for part in parts:
         for name, topic in part.topics.items():
-            count = topics[name].count if name in topics else 0
-            topics[name] = replace(topic, count=topic.count + count)
+            topics[name] = replace(topic, count=topic.count + (topics[name].count if name in topics else 0))
     start_ns = min((part.start_ns for part in parts if part.start_ns is not None), default=None)
     end_ns = max((part.end_ns for part in parts if part.end_ns is not None), default=None)
 

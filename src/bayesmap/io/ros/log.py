@@ -193,8 +193,10 @@ def _read_usable(recording: Recording, account: Account) -> _Messages:
     usable = of_one_frame(topic.name, received, bad)
     if not usable:
         raise BadInput(f"{name}: no message on {topic.name} has a reading: their arrays of ranges are empty")
-    n_empty = sum(not scan.layout.beams for scan in received)
-    messages = _Messages(recording, topic, usable[0].layout.frame, usable, n_empty, pose_topic, poses, bad)
+    messages = _Messages(
+        recording, topic, sensor=usable[0].layout.frame, scans=usable, pose_topic=pose_topic, poses=poses, bad=bad,
+        n_empty=sum(not scan.layout.beams for scan in received),
+    )  # fmt: skip
     if pose_topic is None and options.fixed_frame is None and not options.without_poses:
         only = _read_only_pose_topic(messages, options)
         messages = replace(messages, pose_topic=only, replaces_tf=only is not None)

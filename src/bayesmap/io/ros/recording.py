@@ -130,8 +130,7 @@ def topics_of(records: Records) -> tuple[dict[str, Topic], Times]:
             start_ns = time if start_ns is None else min(start_ns, time)
             end_ns = time if end_ns is None else max(end_ns, time)
     first = {topic.name: topic for topic in reversed(connections.values())}
-    topics = {name: replace(first[name], count=counts[name]) for name in sorted(first)}
-    return topics, (start_ns, end_ns)
+    return {name: replace(first[name], count=counts[name]) for name in sorted(first)}, (start_ns, end_ns)
 
 
 def messages_of(records: Records, topics: Mapping[str, Topic], names: frozenset[str]) -> Iterator[Message]:

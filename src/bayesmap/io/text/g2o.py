@@ -191,8 +191,7 @@ def _growth(gaussian: PoseGaussian) -> float:
     """Return the geometric mean ratio of relative covariances with common errors to those without."""
     from bayesmap.poses.graph import relative_covariances
 
-    rng = np.random.default_rng(SEED)
-    first, second = rng.integers(0, len(gaussian.poses), (2, SAMPLED_PAIRS))
+    first, second = np.random.default_rng(SEED).integers(0, len(gaussian.poses), (2, SAMPLED_PAIRS))
     first, second = first[first != second], second[first != second]
     if not len(first):
         return 1.0

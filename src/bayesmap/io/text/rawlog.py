@@ -243,8 +243,7 @@ def scan_of(reader: Reader, header: Header, motions: int) -> RawScan:
         raise UnreadableObject(f": {fault}")
     is_far = np.isfinite(max_range) & (ranges >= max_range - 1e-3) | np.isposinf(ranges)
     readings = np.where(valid, ranges, np.where(is_far, np.inf, np.where(ranges <= 0.0, ranges, np.nan)))
-    yaw = math.atan2(rotation[1, 0], rotation[0, 0])
-    mount = (float(position[0]), float(position[1]), yaw)
+    mount = (float(position[0]), float(position[1]), math.atan2(rotation[1, 0], rotation[0, 0]))
     return RawScan(label, stamp_s, angles, readings, mount, float(rotation[2, 2]), float(max_range), motions)
 
 
