@@ -191,8 +191,8 @@ class Inference:
         plan = opening.remaining()
         settings["warmup"] = plan.warmup
         job = Job(
-            model, self._sampler(plan.warmup), plan, self.request.seed, tuple(range(self.request.chains)), device,
-            threads, parameters, prepared,
+            model, self._sampler(plan.warmup), plan, self.request.seed, chain_ids=tuple(range(self.request.chains)),
+            device=device, threads=threads, parameters=parameters, problem=prepared,
         )  # fmt: skip
         save, earlier = checkpoints.save, None if stopped is None else chains_of(stopped)
         on_checkpoint = None if save is None else lambda chains: save(as_run(chains))
@@ -237,8 +237,8 @@ class Inference:
             return None
         is_local = self.where.executor is None or isinstance(self.where.executor, ThreadExecutor)
         sampling = Sampling(
-            self.kernel, self.model.arrays, self.model.cells.has_surfaces, self.request.chains if is_local else 1,
-            self.plan, self.is_fitted, self.model.poses.unknown, self._threads_used(),
+            self.kernel, self.model.arrays, self.model.cells.has_surfaces, plan=self.plan, fitted=self.is_fitted,
+            chains=self.request.chains if is_local else 1, poses=self.model.poses.unknown, cores=self._threads_used(),
         )  # fmt: skip
         size = size_of(self.model.scans, self.model.grid, log)
         if log is not None:
