@@ -240,7 +240,7 @@ def scan_of(reader: Reader, header: Header, motions: int) -> RawScan:
     if not (math.isfinite(aperture) and np.isfinite(position).all() and np.isfinite(rotation).all()):
         raise UnreadableObject("has a pose or an aperture that is not finite")
     if count and (fault := fan_fault(float(angles.min()), float(angles.max()))) is not None:
-        raise UnreadableObject(f": {fault}")
+        raise UnreadableObject(f"has impossible angles: {fault}")
     is_far = np.isfinite(max_range) & (ranges >= max_range - 1e-3) | np.isposinf(ranges)
     readings = np.where(valid, ranges, np.where(is_far, np.inf, np.where(ranges <= 0.0, ranges, np.nan)))
     mount = (float(position[0]), float(position[1]), math.atan2(rotation[1, 0], rotation[0, 0]))
@@ -382,9 +382,8 @@ class _Objects:
                 self._take(Reader(data, header.data), header)
             except (UnreadableObject, struct.error) as problem:
                 fault = str(problem) if isinstance(problem, UnreadableObject) else "is cut short"
-                number = account.counts[header.name]
-                reason = f"object {number} of its class, of version {header.version}, {fault}"
-                account.bad(number, reason, f"{header.name} in the log")
+                reason = f"version {header.version} {fault}"
+                account.bad(account.counts[header.name], reason, f"{header.name} in the log")
 
     def _take(self, reader: Reader, header: Header) -> None:
         if header.name == SCAN:
