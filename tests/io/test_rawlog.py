@@ -253,7 +253,7 @@ def test_invalid_readings_are_no_return_only_at_the_maximum_and_logs_without_sca
 
 
 @pytest.mark.parametrize(("change", "message"), [
-    (lambda d: d.replace(b"DRangeScan\x07", b"DRangeScan\x63", 1), "CObservation2DRangeScan 1 in the log: version 99 is not known"),
+    (lambda d: d.replace(b"DRangeScan\x07", b"DRangeScan\x63", 1), "2DRangeScan 1 in the log: version 99 is not known"),
     (lambda d: d.replace(b"Movement2D\x07", b"Movement2D\x15", 1), "CActionRobotMovement2D 1 in the log: version 21"),
     (lambda d: d.replace(b"LASER", b"LASE", 1), "does not end where it should"),
     (lambda d: d.replace(b"CPose3D\x03", b"CPose3D\x09", 1), "CPose3D of version 9"),
