@@ -156,7 +156,7 @@ def test_a_map_is_inferred_and_scored_along_a_given_trajectory(raw, tmp_path):
     log, given = raw / "office.log", ("--trajectory", raw / "office-truth.tum", "--max-range 12")
     options = "--resolution 0.25 --chains 2 --warmup 5 --draws 5 --holdout 4 --no-progress"
     result = succeed("infer", log, *given, "-o", tmp_path, options)
-    assert "the scans stand at the poses of the given trajectory, taken as those of the base" in result.stderr
+    assert "the scans stand at the poses of the given trajectory, taken as poses of the base" in result.stderr
     truth = read_trajectory(raw / "office-truth.tum").of_frame(np.array([0.2, 0.0, 0.0]))
     held = np.arange(40) % 4 == 2
     np.testing.assert_allclose(load(tmp_path / "run.nc").posterior.scans.poses, truth.poses[~held], atol=1e-6)
