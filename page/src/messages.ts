@@ -328,7 +328,7 @@ export type Step = {
   tool: "draw" | "erase" | "evidence" | "ghost" | "look" | "pan" | "path" | "sensor" | "where";
 };
 
-/** Steps that are told beside the map. */
+/** Steps that are shown beside the map. */
 export type Story = {
   title: string;
   steps: Step[];
@@ -669,7 +669,7 @@ export type RecordedDraws = {
   bits: boolean;
 };
 
-/** The result in a page in one file: the messages of a session, for a page without one. Buffers: those of `Field` for the mean; width uint8 (nx, ny) if there are intervals; beams uint32 (nx, ny), the beams through each cell; draws uint8 (chains, count, bytes of a map); those of `Scan` for all recorded scans, with one row of angles for each scan if scans differ in them; for a file those of `Overlay`. */
+/** The result in a page in one file: the messages of a session, for a page without one. Buffers: the buffers of `Field` for the mean; width uint8 (nx, ny) if there are intervals; beams uint32 (nx, ny), the beams through each cell; draws uint8 (chains, count, bytes of a map); the buffers of `Scan` for all recorded scans, with one row of angles for each scan if scans differ in them; for a file the buffers of `Overlay`. */
 export type Recording = {
   version: 1;
   document: MapDocument;

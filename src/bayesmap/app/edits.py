@@ -135,8 +135,8 @@ def _change_settings(document: Document, action: actions.ChangeSettings) -> Docu
         document = with_scans_used(document, changed.pop("scans_used"))
     fixed = sorted(set(changed) & set(FIXED_BY_FILE[document.source.kind]))
     if fixed:
-        why = "there is no log" if document.simulated else f"it is that of {document.source.name}"
-        raise Refused(f"{fixed[0]} cannot be changed: {why}")
+        reason = "there is no log" if document.simulated else f"it is that of {document.source.name}"
+        raise Refused(f"{fixed[0]} cannot be changed: {reason}")
     return replace(document, **changed)
 
 
@@ -232,10 +232,7 @@ def adopt_document(present: Document, other: Document) -> Document:
 
 
 def with_resolution(document: Document, resolution_m: float) -> Document:
-    """Return the document of a log with another cell size. The grid depends on the log and the cell size alone.
-
-    Raises `Refused` if the document shows no log, or the map would have too many cells.
-    """
+    """Return the document of a log with another cell size. Raises `Refused` without a log, or for too many cells."""
     bounds = document.source.bounds
     if document.source.kind != "log" or bounds is None:
         raise Refused("only a log is shown on cells of any size")

@@ -287,7 +287,7 @@ def serve(
     """Serve the page until Ctrl-C. ``on_ready`` gets its address when requests are accepted and a picture is there.
 
     ``path`` is a saved run, or a log that `bayesmap.read_log` reads with ``log_options``; without one, ``document`` is
-    shown first. ``story`` is told beside the map. Port 0 means any free port. Raises `BadInput` if the port is taken,
+    shown first. ``story`` is shown beside the map. Port 0 means any free port. Raises `BadInput` if the port is taken,
     or the file cannot be shown, and `KeyboardInterrupt` if Ctrl-C comes before the server is ready.
     """
     with contextlib.closing(listen(host, port)) as listener:

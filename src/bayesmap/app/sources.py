@@ -141,10 +141,7 @@ class OpenedLog:
         self._traced: Traced | None = None
 
     def on_cells(self, document: Document) -> Document:
-        """Return a document of this log on a grid of its cell size that covers what the scans saw.
-
-        If this grid is too large, use the grid on which the log is first shown.
-        """
+        """Return a document of this log on cells of its size, or on the log's own grid if they are too many."""
         own, bounds = self.document.grid, self.document.source.bounds
         if bounds is None or document.grid.resolution == own.resolution:
             return document.on_grid(own)
@@ -201,10 +198,7 @@ def read_document(path: str) -> Document:
 
 
 def open_file(path: str, **log_options: Any) -> OpenedRun | OpenedLog:
-    """Open a saved run (``.nc``) or a log, which is read with the options of `bayesmap.read_log`.
-
-    Raises `BadInput` if the file does not exist, or is neither a saved run nor a log.
-    """
+    """Open a saved run (``.nc``) or a log, with options of `bayesmap.read_log`. Raises `BadInput` if it is neither."""
     if not Path(path).exists():
         raise BadInput(f"{path}: no such file; give a saved run (.nc) or a log of range scans")
     if path.endswith(".nc"):

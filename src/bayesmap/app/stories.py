@@ -1,4 +1,4 @@
-"""Stories: steps that are told beside the map, read from the file that an author writes (docs/stories.md)."""
+"""Stories: steps that are shown beside the map, read from the file that an author writes (docs/stories.md)."""
 
 from __future__ import annotations
 
@@ -72,10 +72,7 @@ def _read_step(values: Mapping[str, Any], number: int, start: Document) -> Step:
 
 
 def _change_document(document: Document, changes: Mapping[str, Any], place: str) -> Document:
-    """Return a document with an author's changes.
-
-    Raises `Refused`, with the place, if a key is unknown or a value is invalid.
-    """
+    """Return a document with an author's changes. Raises `Refused`, with the place, if a change is invalid."""
     try:
         if unknown := sorted(changes.keys() - set(KEYS)):
             raise Refused(f"there is no {unknown[0]}", f"there are: {', '.join(KEYS)}")

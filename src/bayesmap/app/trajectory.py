@@ -96,10 +96,7 @@ class TrajectoryJob:
         self._stop.set()
 
     def steps(self) -> Generator[Step | Stage | Status | None, None, None]:
-        """Yield pictures and progress, and None while there is none, until the job has ended.
-
-        Raises `BadInput` as `infer_trajectory` does.
-        """
+        """Yield pictures and progress, and None while there is none. Raises `BadInput` as `infer_trajectory` does."""
         try:
             while True:
                 alive = self._thread.is_alive()
@@ -183,7 +180,7 @@ class LogTrajectory:
 
     def remember(self, task: Remember) -> None:
         """Take over the trajectory that an earlier worker inferred."""
-        self._place(replace(self.log.scans.at(task.poses), angles_rad=task.angles_rad, own_angles_rad=None))
+        self._place_scans(replace(self.log.scans.at(task.poses), angles_rad=task.angles_rad, own_angles_rad=None))
 
     def steps(self, task: Infer) -> Generator[Step | Stage | Located | Status | None, None, None]:
         """Yield steps and reports until the log can be mapped, and None while there is nothing new.
@@ -209,11 +206,11 @@ class LogTrajectory:
             yield from steps
         assert job.trajectory is not None
         placed = move_to_trajectory(scans, job.trajectory)
-        self._place(placed)
+        self._place_scans(placed)
         own = placed.own_angles_rad
         trajectory = Remember(placed.poses, placed.angles_rad if own is None else own)
         yield Located(trajectory, generation=task.generation)
         yield Status(describe_trajectory(scans, job.trajectory), "info")
 
-    def _place(self, scans: Scans) -> None:
+    def _place_scans(self, scans: Scans) -> None:
         self.placed = open_log(scans, self.log.document.source.name)

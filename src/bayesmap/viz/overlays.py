@@ -218,7 +218,7 @@ def route_figure(
 
 
 def plot_route(ax: Axes, path: ArrayLike, radius_m: float) -> PathPatch:
-    """Plot a path, (P, 2) in the world frame, and the area that a disc sweeps along it."""
+    """Return a figure of a path, (P, 2), and what a disc sweeps along it. Raises `BadInput` if a shape differs."""
     corners = np.asarray(path, dtype=np.float64)
     if corners.ndim != 2 or corners.shape[1] != 2 or len(corners) == 0:
         raise BadInput(f"picture: the path has shape {corners.shape}; give (P, 2)")

@@ -46,10 +46,7 @@ class VirtualScanPredictor:
         self._n_draws = 0
 
     def answer(self, result: Result, question: MoveGhost, generation: int) -> tuple[GhostScan, Buffers]:
-        """Predict the scan at a pose, and find the real scan that was taken nearest.
-
-        Raises `BadInput` if there is nothing to predict from, or the sensor's density does not integrate to one.
-        """
+        """Predict the scan at a pose, and find the nearest real scan. Raises `BadInput` if nothing can be predicted."""
         began_s = time.perf_counter()
         predictor, n_draws = self._predictor_of(result, question.coarse)
         document, scans = result.document, result.scene.scans
@@ -121,10 +118,7 @@ def nearest_scan(
 
 
 def compare_beam(result: Result, question: CompareBeam, generation: int) -> ComparedBeam:
-    """Compare a reading with its prediction.
-
-    Raises `BadInput` if there is nothing to predict from, or the sensor's density does not integrate to one.
-    """
+    """Compare a reading with its prediction. Raises `BadInput` if nothing can be predicted."""
     from bayesmap.kernels.predict.density import forecast
     from bayesmap.kernels.predict.stop_mixture import mix_stops, range_quantiles
     from bayesmap.kernels.rays import trace_rays

@@ -100,7 +100,7 @@ def _facts_of_wall(question: Inspect, result: Result, table: BeamTable) -> tuple
     drawn = estimate.draw(question.chain, question.draw) if question.draw is not None and known_poses else None
     p_wall, chain, draw = (estimate.mean(), None, None) if drawn is None else drawn
     ratios = wall_ratios(table, p_wall.ravel().astype(float), cell)
-    # The log odds by which Gibbs sampling draws the cell: the prior's, and those of all beams.
+    # The log odds by which Gibbs sampling draws the cell: the log odds of the prior plus the log ratios of all beams.
     prior_nats = log_odds = None
     if drawn is not None:
         prior_log_odds = prior.log_odds(p_wall.astype(np.bool_), site, table.grid)

@@ -39,7 +39,7 @@ class Locator:
     """Locates one scan at a time, and keeps the prepared map for the next."""
 
     def __init__(self) -> None:
-        self._known: KnownMap | None = None
+        self._known_map: KnownMap | None = None
         self._key: Hashable = None
 
     def answer(
@@ -53,7 +53,7 @@ class Locator:
             if result is None:
                 raise BadInput("there is no map to be located in yet")
             scans, sensor_id, scan_index = _scan_of(question, result, scan)
-            belief = _locate(self._known_map(result), scans, result.document)
+            belief = _locate(self._known_map_of(result), scans, result.document)
         except BadInput as error:
             return Whereabouts(generation, trouble=str(error).removeprefix("localize: ")), {}
         heaviest = np.argsort(belief.weights, kind="stable")[-MOST_POSES:]
@@ -64,18 +64,18 @@ class Locator:
         )  # fmt: skip
         return where, {name: values.astype(np.float32) for name, values in cloud.items()}
 
-    def _known_map(self, result: Result) -> KnownMap:
+    def _known_map_of(self, result: Result) -> KnownMap:
         """Return the known map of a result. It is prepared again only if a value that it depends on has changed."""
         document = result.document
         key: Hashable = result.estimate
         if document.simulated:
             key = (document.walls, document.grid, document.noise, document.max_range, document.angles, document.fov)
-        if self._known is None or key != self._key:
+        if self._known_map is None or key != self._key:
             if result.estimate.kept_draws is None and not document.simulated:
                 raise BadInput("a scan is located by draws of the map, and there are none yet; run Gibbs")
-            self._known = known_map_of_drawing(document) if document.simulated else KnownMap.of_run(result.as_run())
+            self._known_map = known_map_of_drawing(document) if document.simulated else KnownMap.of_run(result.as_run())
             self._key = key
-        return self._known
+        return self._known_map
 
 
 def known_map_of_drawing(document: Document) -> KnownMap:

@@ -67,7 +67,7 @@ class Step(Struct, frozen=True, kw_only=True):
 
 
 class Story(Struct, frozen=True):
-    """Steps that are told beside the map."""
+    """Steps that are shown beside the map."""
 
     title: str
     steps: list[Step]

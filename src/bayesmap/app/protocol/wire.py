@@ -33,10 +33,7 @@ T = TypeVar("T")
 
 
 def parse(data: str | bytes) -> AnyAction:
-    """Read a message from the page; unknown fields are left out.
-
-    Raises `Refused` if the message is too long, not JSON or of unknown type, or one of its values is invalid.
-    """
+    """Read a message from the page; unknown fields are left out. Raises `Refused` if the message is invalid."""
     if len(data) > MAX_BYTES or (isinstance(data, str) and len(data.encode("utf-8", "replace")) > MAX_BYTES):
         raise Refused(f"a message of more than {MAX_BYTES:,} bytes", "send it in parts")
     try:

@@ -57,10 +57,11 @@ def append_draws(before: Draws | None, after: Draws, most: int) -> Draws:
     """Return the last draws of two blocks: at most `most` per chain, and at most `RECENT_BYTES`."""
     draw_bytes = sum(a[:, :1].nbytes for a in after.arrays.values())
     last = min(most, max(1, RECENT_BYTES // max(draw_bytes, 1)))
-    if before is None or before.index.keys() != after.index.keys():
-        before = replace(after, arrays={name: a[:, :0] for name, a in after.arrays.items()})
-    both = {name: np.concatenate([before.arrays[name], a], axis=1)[:, -last:] for name, a in after.arrays.items()}
-    return replace(after, arrays=both)
+    blocks: tuple[Draws, ...] = (after,)
+    if before is not None and before.index.keys() == after.index.keys():
+        blocks = (before, after)
+    joined = {name: np.concatenate([block.arrays[name] for block in blocks], axis=1) for name in after.arrays}
+    return replace(after, arrays={name: a[:, -last:] for name, a in joined.items()})
 
 
 class Checkpoint(NamedTuple):
@@ -198,10 +199,7 @@ class RunningChains(Estimate):
         return None if not draws.count else draws if self.done else draws.thinned(RECENT_DRAWS * self.n_chains)
 
     def progress(self, ended: bool) -> Progress:
-        """Return the sweeps done, and the diagnostics of the chains.
-
-        While the chains run, R-hat and effective sample size may be of an earlier sweep.
-        """
+        """Return the sweeps done and the diagnostics, which may be of an earlier sweep while the chains run."""
         burned, joint, now_s = self._checkpoints[0].sweep, self.log_joint(), time.perf_counter()
         if now_s >= self._diagnose_at or (self.done and self._diagnosed < self.sweep):
             self._rhat, self._ess = results.rhat_and_ess(joint[:, burned:])
@@ -271,7 +269,7 @@ def pose_starts(document: Document, chains: int) -> NDArray[np.float64]:
     A map and all its sensors can be shifted together by whole cells. The likelihood then changes only at the border. So
     the posterior has a mode at every shift s. With S sensors, the prior weight of a mode is exp(-S s^2 / (2 sigma^2)).
     No chain moves from one mode to the next, so chains are distributed over the modes by these weights. Shifts by parts
-    of a cell are avoided: walls would not fit the cells, and chains would take long to leave such a start.
+    of a cell are avoided: walls would not fit the cells, and chains would take long to leave the start.
     """
     poses = np.array([(sensor.x, sensor.y, sensor.yaw) for sensor in document.sensors])
     sigma = max(document.pose_sigma, SMALLEST_SIGMA_M) / math.sqrt(len(poses)) / document.grid.resolution

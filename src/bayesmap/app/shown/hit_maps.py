@@ -1,6 +1,6 @@
 """Hit-count maps, which are computed at once: for the first scans of a log, or along a trajectory being inferred.
 
-Along such a trajectory, doubled walls and beams that pass through walls show which poses are still wrong. Wall
+Along a wrong trajectory, doubled walls and beams that pass through walls show which poses are still wrong. Wall
 probabilities are OctoMap's log-odds (`bayesmap.posterior.baselines`).
 """
 
@@ -104,10 +104,7 @@ def thin_scans(scans: Scans) -> Scans:
 
 
 def grow_grid(grid: Grid, scans: Scans) -> Grid:
-    """Return the grid, enlarged by whole cells until it covers the scans.
-
-    The grid never shrinks, so that the picture does not jump with every correction of the poses.
-    """
+    """Return the grid, enlarged by whole cells until it covers the scans. It never shrinks: the picture must stay."""
     # The first cell and the end of the enlarged grid, in cells of the old grid. 1e-6 absorbs rounding.
     needed = Grid.covering(thin_scans(scans), grid.resolution, margin_m=0.0)
     first = (np.array(needed.origin) - grid.origin) / grid.resolution
