@@ -17,7 +17,6 @@ from bayesmap.cli.folder import Folder
 from bayesmap.cli.keys import SlamSettings
 from bayesmap.cli.pipeline import Task
 from bayesmap.errors import BadInput
-from bayesmap.samplers.sampler import Event
 
 if TYPE_CHECKING:
     import numpy as np
@@ -127,7 +126,7 @@ def _check(console: Console, log: ScanLog, settings: SlamSettings) -> None:
 
 
 def _slam(task: Task[SlamSettings], scans: Scans, saved: Run | None, files: TrajectoryFiles) -> Run:
-    from bayesmap.api import slam
+    from bayesmap.api import Event, slam
     from bayesmap.arguments import Checkpoints, Where
 
     folder, settings = task.folder, task.settings
