@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 FOLDER = Path(os.environ.get("BAYESMAP_DATA", Path(__file__).resolve().parents[2] / "shared" / "data"))
-"""Where they are looked for."""
+"""The folder of the recordings."""
 
 
 def intel_log(name: str) -> Path:

@@ -95,7 +95,7 @@ def forbidden(here, module):
     return None if LEVEL[target] < LEVEL[here] else f"{here} may not import {module}"
 
 
-def test_imports_point_one_way():
+def test_imports_point_one_way_and_one_that_points_up_is_noticed():
     """The public face is left out: it reaches everywhere, on first use."""
     offenders = [
         f"{path}:{line}: {reason}"
@@ -105,9 +105,6 @@ def test_imports_point_one_way():
         if (reason := forbidden(home(path), module))
     ]
     assert not offenders
-
-
-def test_an_import_that_points_up_is_noticed():
     assert forbidden("kernels", "bayesmap.samplers.walls") == "kernels may not import bayesmap.samplers.walls"
     assert forbidden("kernels", "bayesmap.infer") == "kernels may not import bayesmap.infer"
     assert forbidden("kernels", "bayesmap.attic") == "bayesmap.attic is in no room that this test knows"
@@ -137,7 +134,7 @@ def crosses_families(here, module):
     return bool(same_room and mine and other and mine[0] != other[0] and other[1] >= mine[1])
 
 
-def test_families_of_a_room_import_lower_ones():
+def test_families_of_a_room_import_lower_ones_and_an_import_between_them_is_noticed():
     offenders = [
         f"{name} imports {other}"
         for name, path in MODULES.items()
@@ -145,16 +142,6 @@ def test_families_of_a_room_import_lower_ones():
         if crosses_families(name.removeprefix("bayesmap."), other.removeprefix("bayesmap."))
     ]
     assert not offenders
-
-
-def test_every_room_and_family_is_known():
-    assert {home(path) for path in FILES} - {""} <= set(LEVEL)
-    for room, levels in FAMILIES.items():
-        folders = {f"{room}.{path.parent.name}" for path in (SOURCE / room).glob("*/__init__.py")}
-        assert folders <= set().union(*levels)
-
-
-def test_an_import_between_families_is_noticed():
     assert crosses_families("kernels.walls.gibbs", "kernels.match.line_pairs")
     assert crosses_families("kernels.walk", "kernels.walls.chains")
     assert not crosses_families("kernels.predict.view", "kernels.surfaces.surface")
@@ -165,6 +152,10 @@ def test_an_import_between_families_is_noticed():
     assert not crosses_families("io.ros.log", "io.returns")
     assert not crosses_families("io.ros.log", "io.ros.poses")
     assert not crosses_families("io.ros.log", "space.grid")
+    assert {home(path) for path in FILES} - {""} <= set(LEVEL)  # every room and family is known
+    for room, levels in FAMILIES.items():
+        folders = {f"{room}.{path.parent.name}" for path in (SOURCE / room).glob("*/__init__.py")}
+        assert folders <= set().union(*levels)
 
 
 def test_heavy_libraries_have_a_room_each():
@@ -239,14 +230,11 @@ def circles(graph):
     return sorted(map(set, together), key=sorted)
 
 
-def test_no_modules_import_one_another():
+def test_no_modules_import_one_another_and_circles_are_found():
     graph = {name: set(imported_modules(parsed(path), MODULES)) for name, path in MODULES.items()}
     del graph["bayesmap"]  # the public face reaches everywhere, on first use
     graph = {name: {other for other in others if other in graph} for name, others in graph.items()}
     assert circles(graph) == []
-
-
-def test_circles_are_found():
     graph = {"a": {"b"}, "b": {"c"}, "c": {"a", "d"}, "d": {"e"}, "e": {"d"}, "f": {"a"}, "g": {"g"}}
     assert circles(graph) == [{"a", "b", "c"}, {"d", "e"}, {"g"}]
     assert circles({"a": {"b", "c"}, "b": {"c"}, "c": set()}) == []
@@ -276,14 +264,11 @@ def imported_scripts(path, paths):
     return {found for name in names if (found := Path(f"{name.resolve()}.ts")) in paths}
 
 
-def test_no_scripts_of_the_page_import_one_another():
+def test_no_scripts_of_the_page_import_one_another_and_imports_are_found_wherever_they_stand(tmp_path):
     paths = {path.resolve() for path in scripts_of_the_page() if path.suffix == ".ts"}
     graph = {path: imported_scripts(path, paths) for path in paths}
     assert not paths or sum(map(len, graph.values())) > len(paths)
     assert [{path.name for path in circle} for circle in circles(graph)] == []
-
-
-def test_a_script_s_imports_are_found_wherever_they_stand(tmp_path):
     (tmp_path / "a.ts").write_text("""import { b } from "./b";
 import type {
   C,
@@ -380,11 +365,6 @@ def loaded_after(code):
     return set(json.loads(done.stdout.splitlines()[-1]))
 
 
-def test_importing_the_package_loads_nothing_heavy():
-    heavy = {"jax", "warp", "matplotlib", "scipy", "xarray", "netCDF4", "arviz_base", "arviz_stats", "numpy"}
-    assert not loaded_after("import bayesmap") & heavy
-
-
 HELP = """
 import sys, runpy, io, contextlib
 sys.argv = ["bayesmap", "--help"]
@@ -395,7 +375,9 @@ assert "infer" in out.getvalue()
 """
 
 
-def test_asking_for_help_loads_nothing_heavy():
+def test_importing_the_package_and_asking_for_help_load_nothing_heavy():
+    heavy = {"jax", "warp", "matplotlib", "scipy", "xarray", "netCDF4", "arviz_base", "arviz_stats", "numpy"}
+    assert not loaded_after("import bayesmap") & heavy
     assert not loaded_after(HELP) & {"jax", "warp", "matplotlib"}
     assert "warp" in loaded_after("import bayesmap.kernels.walk")  # power of both tests
 

@@ -52,8 +52,6 @@ def test_a_full_disk_is_an_error_that_names_the_file_and_not_the_temporary_one(t
     assert raised.value.strerror == reason
     assert list(tmp_path.iterdir()) == []
 
-
-def test_an_error_about_another_file_keeps_its_name(tmp_path):
     def read_something_else():
         with write_whole(tmp_path / "run"):
             (tmp_path / "other").read_text()
@@ -63,7 +61,7 @@ def test_an_error_about_another_file_keeps_its_name(tmp_path):
     assert raised.value.filename == str(tmp_path / "other")
 
 
-def test_permissions_are_the_old_files_or_the_usual_ones(tmp_path):
+def test_permissions_and_links_stay_and_a_missing_folder_is_noticed_first(tmp_path):
     old, new, usual = tmp_path / "old", tmp_path / "new", tmp_path / "usual"
     old.write_text("")
     old.chmod(0o640)
@@ -74,8 +72,6 @@ def test_permissions_are_the_old_files_or_the_usual_ones(tmp_path):
     assert old.stat().st_mode & 0o777 == 0o640
     assert new.stat().st_mode == usual.stat().st_mode
 
-
-def test_a_link_keeps_pointing_to_the_file_that_is_replaced_and_a_missing_folder_is_noticed_first(tmp_path):
     with pytest.raises(BadInput, match="absent"), write_whole(tmp_path / "absent" / "file"):
         pytest.fail("the block must not run")
     (tmp_path / "there").mkdir()

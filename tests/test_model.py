@@ -9,7 +9,6 @@ from oracle.stop_worlds import beam_rays, scans_of_all_kinds
 import bayesmap as bm
 from bayesmap.kernels.walls.table import trace
 from bayesmap.model import Model, State
-from bayesmap.poses.prior import UncertainPoses
 
 GRID = bm.Grid((6, 5), 0.5, (-1.0, 2.0))
 DEPTH = 0.3
@@ -75,21 +74,12 @@ def test_a_run_s_draw_is_a_state(prior):
         assert model.log_likelihood(state) == pytest.approx(reported, abs=max(slack, 1e-3 * model.scans.n_beams))
 
 
-def test_readings_integrate_to_one_under_any_map():
-    z = np.append(np.linspace(0.1, 3.0, 4001), [np.inf, -np.inf])
-    beams = bm.Scans(np.tile([-0.8, 2.3, 0.4], (len(z), 1)), [0.0], z[:, None], max_range_m=3.0, min_range_m=0.1)
-    for prior in (bm.Beta(0.5, 1.0), bm.Surface(0.5, 1.0)):
-        model = Model(beams, GRID, prior, SENSOR, hit_depth=DEPTH)
-        p = np.exp(model.beam_log_likelihoods(model.state(map_of(prior, 7))))
-        assert np.trapezoid(p[:-2], z[:-2]) + p[-2:].sum() == pytest.approx(1.0, abs=2e-3)
-
-
-def test_poses_that_move_are_weighed_where_they_are():
+def test_poses_that_move_are_weighed_where_they_are_and_many_beams_some_at_a_time(monkeypatch):
     there = scans(3)
     rng = np.random.default_rng(4)
     poses = there.poses + rng.normal(0, 0.1, there.poses.shape)
     prior, cells = bm.Surface(0.5, 1.0), map_of(bm.Surface(0.5, 1.0), 4)
-    model = Model(there, GRID, prior, SENSOR, UncertainPoses(0.1, 0.1))
+    model = Model(there, GRID, prior, SENSOR, bm.UncertainPoses(0.1, 0.1))
     moved = Model(there.at(poses), GRID, prior, SENSOR)
     at = State(cells, SENSOR, poses)
     assert model.log_likelihood(at) == pytest.approx(moved.log_likelihood(moved.state(cells)))
@@ -102,10 +92,6 @@ def test_poses_that_move_are_weighed_where_they_are():
     with pytest.raises(bm.BadInput, match=r"state: poses has shape \(1, 3\)"):
         fixed.log_joint(State(cells, SENSOR, poses[:1]))
 
-
-def test_many_beams_are_weighed_some_at_a_time(monkeypatch):
-    model = Model(scans(5), GRID, bm.Surface(), SENSOR)
-    state = model.state(map_of(bm.Surface(), 5))
-    whole = model.beam_log_likelihoods(state)
+    whole = moved.beam_log_likelihoods(moved.state(cells))  # many beams are weighed some at a time
     monkeypatch.setattr("bayesmap.model.BEAMS_AT_ONCE", 1)
-    np.testing.assert_allclose(model.beam_log_likelihoods(state), whole)
+    np.testing.assert_allclose(moved.beam_log_likelihoods(moved.state(cells)), whole)

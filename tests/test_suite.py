@@ -62,7 +62,7 @@ with open(sys.argv[1], "w") as file:
 """Collects all tests and says what that did. What compiling Python takes, which bytecode files save, is left out."""
 
 LIMIT_S = 6.0
-"""Of processor time: 3 s on a quiet core, and twice that where another thread keeps the same core busy."""
+"""Seconds of processor time: 3 on a quiet core, and twice that where another thread keeps the same core busy."""
 
 
 def run_python(arguments, folder, path):

@@ -20,6 +20,7 @@ from bayesmap.kernels.predict.density import LEAST_CHANCE, ScanLikelihood, devic
 from bayesmap.kernels.predict.pose_weights import scan_log_likelihood
 from bayesmap.kernels.predict.stop_mixture import first_hit_events, mix_stops, range_quantiles
 from bayesmap.kernels.rays import trace_rays
+from bayesmap.posterior.prediction import CENTRAL_80, Predictor, ScanPredictor, fixed_maps
 from bayesmap.sensors.model import RangeLimits
 
 GRID = bm.Grid((8, 6), 0.5, (-1.0, 2.0))
@@ -69,13 +70,6 @@ def plain_stops(rays, maps):
     return stop_probabilities(stopped), distance, spread
 
 
-def plain_density(rays, maps, sensor, z):
-    """The mean over draws of p(reading), (B,)."""
-    weight, distance, spread = plain_stops(rays, maps)
-    p = np.exp(sensor.stop_log_likelihood(z[:, None], distance, spread, rays.limits))
-    return (weight * p).sum(axis=-1).mean(axis=0)
-
-
 def plain_below(rays, maps, sensor, z):
     """The mean over draws of P(reading <= z), (B,)."""
     weight, distance, spread = plain_stops(rays, maps)
@@ -89,8 +83,9 @@ def test_densities_are_the_plain_sums(name, kind):
         scans, maps = world(seed, kind)
         rays, z = trace_rays(scans, GRID), scans.ranges_m.ravel()
         found = forecast(rays, batches(rays, maps[:1], maps[1:]), sensor, DEPTH)
-        valid = ~np.isnan(z)
-        expected = np.log(plain_density(rays, maps, sensor, z))
+        valid, (weight, distance, spread) = ~np.isnan(z), plain_stops(rays, maps)
+        p = np.exp(sensor.stop_log_likelihood(z[:, None], distance, spread, rays.limits))
+        expected = np.log((weight * p).sum(axis=-1).mean(axis=0))
         np.testing.assert_allclose(found.log_density[valid], expected[valid], atol=KINDS[kind])
         assert np.isnan(found.log_density[~valid]).all()
         alone = log_densities(rays, batches(rays, maps), sensor, DEPTH)
@@ -156,6 +151,29 @@ def test_quantiles_rise_and_belong_to_the_cumulative(name):
             np.testing.assert_array_equal(np.isneginf(q[:, i]), at.p_too_close >= level)
         else:
             assert inner.all()
+
+
+@pytest.mark.parametrize("kind", ["partial", "surfaces"])
+def test_quantiles_of_a_scan_at_a_pose_are_where_the_plain_cumulative_reaches_their_levels(kind):
+    """To a millimetre or a thousandth. Surfaces are alike in all draws: nothing is merged. The twin: one draw's."""
+    sensor, limits = SENSORS["mixture"], RangeLimits(0.2, 5.0)
+    _, maps = world(50, kind)
+    if kind == "surfaces":
+        maps[..., 1:] = maps[0, :, 1:]
+    angles, pose = np.linspace(-1.5, 1.4, 9), np.array([0.3, 3.1, 0.7])
+    rays = trace_rays(bm.Scans(pose, angles, np.full((1, 9), np.inf), limits.max_m, limits.min_m), GRID)
+
+    def agree(draws):
+        predictor = Predictor(GRID, fixed_maps(draws), sensor, DEPTH, len(draws))
+        found = ScanPredictor.of(predictor, limits).quantiles(pose, angles)
+        for level, q in zip(CENTRAL_80, found.T, strict=True):
+            before = plain_below(rays, maps, sensor, np.minimum(q - 1e-3, limits.max_m)) <= level + 1e-3
+            if not (plain_below(rays, maps, sensor, q + 1e-3) >= level - 1e-3).all() or not before[q > 0].all():
+                return False
+        return np.isfinite(found).any()
+
+    assert agree(maps)
+    assert not agree(maps[:1])
 
 
 @pytest.mark.parametrize("name", ["mixture", "gaussian"])
@@ -232,16 +250,12 @@ def predicted(scans, maps, sensor):
     return np.nan_to_num(np.array(found)).reshape(len(maps), *scans.ranges_m.shape)
 
 
-def moved(scans, seed):
-    rng = np.random.default_rng(seed)
-    return replace(scans, poses=scans.poses + rng.normal(0, [0.3, 0.3, 0.5], scans.poses.shape))
-
-
 @pytest.mark.parametrize(("name", "kind"), CASES)
 def test_scans_at_other_poses_have_the_likelihood_of_beams_traced_there(name, kind):
     for seed in range(4):
         scans, maps = world(seed, kind)
-        there = moved(scans, seed)
+        off = np.random.default_rng(seed).normal(0, [0.3, 0.3, 0.5], scans.poses.shape)
+        there = replace(scans, poses=scans.poses + off)
         chain, scan = (a.ravel() for a in np.meshgrid(np.arange(3), np.arange(len(scans)), indexing="ij"))
         likelihood = ScanLikelihood(scans, GRID, SENSORS[name], DEPTH)
         found = likelihood.beams(maps, np.tile(there.poses, (3, 1)), scan, chain)

@@ -3,7 +3,6 @@
 import numpy as np
 
 import bayesmap as bm
-from bayesmap.localization.known_map import KnownMap
 from bayesmap.sensors.model import RangeLimits
 
 LASER = bm.BeamMixture(bm.Gaussian(0.03), p_random=0.02, p_no_return=0.01, p_short=0.01)
@@ -22,7 +21,7 @@ def walls_of(width, depth, resolution=0.1, alcove=True):
 
 def known(walls, grid, scans, sensor=LASER, observed=None, **options):
     seen = np.ones(grid.shape, dtype=bool) if observed is None else observed
-    return KnownMap.of_draws(
+    return bm.KnownMap.of_draws(
         walls.ravel()[None].astype(np.float32), grid, sensor, scans, occupancy=walls.astype(float), observed=seen,
         hit_depth=0.0, **options,
     )  # fmt: skip

@@ -13,7 +13,7 @@ import pytest
 import scipy
 from simulated import ring, scans_of
 
-from bayesmap.errors import BadInput
+import bayesmap as bm
 from bayesmap.poses import graph
 from bayesmap.poses.alignment import Alignment, Pairs, PointError, place_scans
 from bayesmap.poses.graph import Factors, PoseGaussian, bend_covariances, normal_equations, quadratic
@@ -23,15 +23,9 @@ from bayesmap.poses.prior import FREE, KnownPoses, Motions, Odometry, UncertainP
 from bayesmap.poses.scan_geometry import scan_geometry
 from bayesmap.poses.trajectory import with_arcs
 from bayesmap.space.planar import between, between_jacobians, compose, wrap_angle
-from bayesmap.space.scans import Scans
 
 RNG = np.random.default_rng(8)
 COUNT = 12
-
-
-def circle():
-    angle = np.arange(COUNT) * 2 * np.pi / COUNT
-    return np.column_stack([3 * np.cos(angle), 3 * np.sin(angle), angle + np.pi / 2])
 
 
 def factors(poses, first, second, sigma=0.02, noise=0.0):
@@ -41,7 +35,8 @@ def factors(poses, first, second, sigma=0.02, noise=0.0):
     return Factors(first, second, relative, root @ np.swapaxes(root, 1, 2) / sigma**2)
 
 
-CIRCLE = circle()
+TURN = np.arange(COUNT) * 2 * np.pi / COUNT
+CIRCLE = np.column_stack([3 * np.cos(TURN), 3 * np.sin(TURN), TURN + np.pi / 2])
 CHAIN = factors(CIRCLE, np.arange(COUNT - 1), np.arange(1, COUNT), noise=0.02)
 LOOP = factors(CIRCLE, [0, 1, 2], [COUNT - 1, COUNT - 2, COUNT - 1])
 STATES = compose(CIRCLE, 0.05 * RNG.normal(size=CIRCLE.shape))
@@ -217,7 +212,7 @@ def test_a_scan_is_explained_by_several_key_scans_together_and_scans_of_nothing_
     angles, ranges = scans_of(ring(), poses, full=True)
     ranges[0, :90], ranges[2, 90:] = np.inf, np.inf
     ranges[3] = scans_of(ring(), np.array([[8.0, 3.5, 2.0]]), full=True)[1]
-    geometry = scan_geometry(Scans(poses, angles, ranges, max_range_m=12.0))
+    geometry = scan_geometry(bm.Scans(poses, angles, ranges, max_range_m=12.0))
     keys, ends = np.array([0, 2]), np.array([0, 1], np.int32)
     pairs = Pairs(ends, ends[::-1], np.arange(3, dtype=np.int32))
     aligned = Alignment(poses[keys], pairs, 0.01, None, np.ones(2))
@@ -350,7 +345,7 @@ def test_known_poses_do_not_move_nor_does_the_first_of_odometry():
     lambda: Motions(np.zeros((1, 3)), np.ones((1, 3)), 1.0),
 ])  # fmt: skip
 def test_senseless_numbers_are_refused(make):
-    with pytest.raises(BadInput, match=r"sigma|m_per_m|p_slip"):
+    with pytest.raises(bm.BadInput, match=r"sigma|m_per_m|p_slip"):
         make()
 
 
@@ -359,7 +354,7 @@ TURNED = np.array([[0.0, 0.0, 0.0], [0.0, 0.05, 0.5], [0.0, 0.1, 1.0]])
 
 def test_odometry_that_missed_a_turn_does_not_turn_scans():
     """The log says firmly that the robot stood still between two scans that the walls hold half a radian apart."""
-    scans = Scans(TURNED, np.array([0.0]), np.ones((3, 1)), 2.0)
+    scans = bm.Scans(TURNED, np.array([0.0]), np.ones((3, 1)), 2.0)
     stood = Factors(np.arange(2), np.arange(1, 3), np.zeros((2, 3)), np.tile(np.eye(3) / 0.002**2, (2, 1, 1)))
     calibration = SimpleNamespace(angle_step_ratio=1.0)
     found = SimpleNamespace(

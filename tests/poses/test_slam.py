@@ -14,7 +14,6 @@ from data import intel_log
 from simulated import off, path_around, poses_along, recording, ring, scans_of, worst_m
 
 import bayesmap as bm
-from bayesmap.errors import BadInput
 from bayesmap.io.logs import read_log
 from bayesmap.io.text.trajectories import read_relations
 from bayesmap.poses import key_alignment, map_scans
@@ -24,7 +23,6 @@ from bayesmap.poses.map_scans import for_map
 from bayesmap.poses.slam import infer_trajectory
 from bayesmap.posterior.trajectory_scores import relation_errors
 from bayesmap.space.planar import between, compose, wrap_angle
-from bayesmap.space.scans import Scans
 
 
 @cache
@@ -165,7 +163,7 @@ def test_bad_input_is_refused_and_an_empty_hall_leaves_odometry_as_it_is():
         (replace(recorded, ranges_m=np.full(recorded.ranges_m.shape, np.inf)), "nothing to match"),
         (replace(recorded, stamps_s=np.arange(len(recorded)) * 2.0), "5 Hz"),
     ):
-        with pytest.raises(BadInput, match=message):
+        with pytest.raises(bm.BadInput, match=message):
             infer_trajectory(scans, no_odometry=message == "5 Hz")
     # No beam returns but one: there is nothing to match, and the relative poses are odometry's.
     ranges = np.full(recorded.ranges_m[:30].shape, np.inf)
@@ -183,7 +181,7 @@ def test_the_posterior_stretches_along_a_corridor():
     ranges = np.where(exact < 8.0, exact, np.inf) + 0.01 * rng.normal(size=(40, 180))
     steps = 0.3 + 0.03 * rng.normal(size=40)
     poses = np.column_stack([np.cumsum(steps), np.zeros(40), np.zeros(40)])
-    scans = Scans(poses, angles, ranges, max_range_m=8.0, stamps_s=np.arange(40.0))
+    scans = bm.Scans(poses, angles, ranges, max_range_m=8.0, stamps_s=np.arange(40.0))
     result = infer_trajectory(scans, threads=1)
     sigma = np.sqrt(np.diag(result.relative_covariances([5], [30])[0]))
     assert sigma[0] > 5.0 * sigma[1]
@@ -194,7 +192,7 @@ def test_the_posterior_stretches_along_a_corridor():
 def driven(laps, beams=720):
     poses = path_around(laps, step_m=0.4)
     angles, ranges = scans_of(ring(), poses, beams=beams)
-    return Scans(poses, angles, ranges, max_range_m=12.0)
+    return bm.Scans(poses, angles, ranges, max_range_m=12.0)
 
 
 def test_few_beams_are_used_whole_and_then_the_cost_of_the_map_follows_the_area_seen(monkeypatch):
@@ -263,7 +261,7 @@ def drone_log(name):
     w, x, y, z = rows[:, 15:19].T
     truth = np.column_stack([rows[:, 12:14], np.arctan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y**2 + z**2))])
     stamps = np.arange(len(rows)) / 15.0 + rows[:, 1]
-    scans = Scans(odometry, wrap_angle(angles)[order], ranges[:, order], 4.0, min_range_m=0.02, stamps_s=stamps)
+    scans = bm.Scans(odometry, wrap_angle(angles)[order], ranges[:, order], 4.0, min_range_m=0.02, stamps_s=stamps)
     return scans, truth, np.flatnonzero(rows[:, 2] == 0)
 
 

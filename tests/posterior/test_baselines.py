@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 import bayesmap as bm
-from bayesmap.errors import BadInput
 from bayesmap.kernels.predict.density import log_densities
 from bayesmap.kernels.rays import count_hits, trace_rays
 from bayesmap.posterior import baselines, heldout
@@ -28,15 +27,12 @@ def log():
     return bm.Scans(rng.uniform(0, 5, (20, 3)), np.linspace(0, 1, 8), readings, max_range_m=6.0)
 
 
-def test_a_scan_is_known_by_its_pose_and_readings(log):
+def test_a_scan_is_known_by_readings_and_pose_or_stamp_and_moved_or_thinned_ones_cannot_judge(log):
     seen = heldout.seen_by(log.select(slice(2, 5)), log)
     np.testing.assert_array_equal(np.flatnonzero(seen), [2, 3, 4])
     moved = dataclasses.replace(log, poses=log.poses + 1.0)
     assert not heldout.seen_by(log, moved).any()
     assert not heldout.seen_by(log, dataclasses.replace(log, angles_rad=log.angles_rad + 0.1)).any()
-
-
-def test_scans_with_stamps_may_have_inferred_poses_and_moved_or_thinned_ones_cannot_judge(log):
     stamped = dataclasses.replace(log, stamps_s=np.arange(20.0))
     run = dataclasses.replace(stamped, poses=stamped.poses + 1.0).select(slice(2, 8))
     np.testing.assert_array_equal(np.flatnonzero(heldout.seen_by(run, stamped)), np.arange(2, 8))
@@ -56,7 +52,7 @@ def test_scans_with_stamps_may_have_inferred_poses_and_moved_or_thinned_ones_can
     with pytest.raises(heldout.NoneHeldOut, match="elsewhere"):
         heldout.unseen_scans(run.select(slice(2, 8)), stamped, 4, "log")
     other = dataclasses.replace(stamped, stamps_s=stamped.stamps_s + 0.5)
-    with pytest.raises(BadInput, match="none of the run's scans"):
+    with pytest.raises(bm.BadInput, match="none of the run's scans"):
         heldout.unseen_scans(run, other, 4, "log")
 
 

@@ -11,14 +11,12 @@ from hypothesis import strategies as st
 from oracle.enumeration import beams, distances
 
 import bayesmap as bm
-from bayesmap.errors import BadInput
 from bayesmap.kernels.predict.density import device_maps
 from bayesmap.kernels.predict.view import draw_scan_stops, independent_information
 from bayesmap.posterior import route as routes
 from bayesmap.posterior.decisions import best_views, expected_information, next_views, typical_sigma_m
 from bayesmap.posterior.prediction import Fan
 from bayesmap.sensors.model import RangeLimits
-from bayesmap.space.grid import Grid
 
 ANGLES = np.linspace(-np.pi, np.pi, 120, endpoint=False)
 SENSOR = bm.BeamMixture(bm.Gaussian(0.05), p_random=0.01, p_no_return=0.01)
@@ -107,7 +105,7 @@ def test_the_typical_spread_is_that_of_the_noise_and_a_run_without_draws_decides
     assert typical_sigma_m(bm.Gaussian(0.07), 10.0) == pytest.approx(0.07, rel=0.05)
     _, grid, scans = room()
     run = infer(scans, grid, prior=bm.Independent(0.1), sensor=SENSOR, chains=1, warmup=1, draws=0)
-    with pytest.raises(BadInput, match="no draws"):
+    with pytest.raises(bm.BadInput, match="no draws"):
         run.free_probability([[0.0, 0.0]], 0.2)
 
 
@@ -122,7 +120,7 @@ def test_the_typical_spread_is_that_of_the_noise_and_a_run_without_draws_decides
     (lambda run: next_views(run.posterior, 10, 1, 9.0), "smaller radius"),
 ])  # fmt: skip
 def test_impossible_decisions_are_refused(run, call, words):
-    with pytest.raises(BadInput, match=words):
+    with pytest.raises(bm.BadInput, match=words):
         call(run)
 
 
@@ -197,7 +195,7 @@ def test_a_known_map_leaves_nothing_to_learn_one_draw_is_too_few_and_the_best_vi
     known = np.tile(np.random.default_rng(3).random(GRID.n_cells) < 0.3, (20, 1)).astype(np.float32)
     found = expected_information(known, GRID, fan(bm.Gaussian(0.2)), POSE)
     assert (found.at_least[0], found.at_most[0]) == pytest.approx((0.0, 0.0), abs=1e-9)
-    with pytest.raises(BadInput, match="draws"):
+    with pytest.raises(bm.BadInput, match="draws"):
         expected_information(known[:1], GRID, fan(bm.Gaussian(0.1)), POSE)
     poses = np.array([[0.0, 0, 0], [0.1, 0, 1], [2.0, 0, 0], [5.0, 0, 0]])
     assert best_views(np.array([4.0, 3.9, 2.0, 1.0]), poses, 2, 1.0).tolist() == [0, 2]
@@ -273,21 +271,15 @@ def test_independent_cells_give_the_double_sum(seed):
     np.testing.assert_allclose(found, plain, rtol=1e-4, atol=1e-6)
 
 
-SMALL = Grid((12, 10), 0.5, (-1.0, 2.0))
+SMALL = bm.Grid((12, 10), 0.5, (-1.0, 2.0))
 BENT = np.array([[0.0, 3.0], [3.0, 3.2], [3.5, 5.0]])
-
-
-def sampled(path, count=4000):
-    """Points along a polyline, closely."""
-    parts = [a + np.linspace(0, 1, count)[:, None] * (b - a) for a, b in itertools.pairwise(path)]
-    return np.concatenate(parts)
 
 
 @given(st.integers(0, 10_000))
 def test_distances_are_those_of_points_sampled_along_the_path(seed):
     rng = np.random.default_rng(seed)
     path, points = rng.uniform(-3, 3, (3, 2)), rng.uniform(-4, 4, (5, 2))
-    dense = sampled(path)
+    dense = np.concatenate([a + np.linspace(0, 1, 4000)[:, None] * (b - a) for a, b in itertools.pairwise(path)])
     plain = np.hypot(*(points[:, None] - dense).transpose(2, 0, 1)).min(axis=1)
     np.testing.assert_allclose(routes.distance_to_path_m(points, path), plain, atol=3e-3)
     outside = np.maximum(np.abs(points[:, None] - dense) - 0.25, 0.0)
@@ -301,7 +293,6 @@ def test_no_cell_that_can_touch_the_disc_is_left_out_and_cells_without_surfaces_
     near = routes.distance_to_path_m(routes.centres_world(every, SMALL), BENT) < 0.3 + 2.5 * 0.5
     assert set(every[near]) <= set(cells)
     assert len(cells) < SMALL.n_cells
-    cells = routes.cells_about(BENT, 0.3, SMALL)
     rng = np.random.default_rng(0)
     stops = rng.choice([0.0, 0.05, 0.2, 1.0], size=(7, len(cells))).astype(np.float32)
     found = routes.in_the_way([stops[:3], stops[3:]], cells, SMALL, BENT, 0.3)
@@ -367,11 +358,11 @@ def test_the_probability_of_a_free_path_and_its_error():
 
 @pytest.mark.parametrize("path", [[], [[0.0]], [[0.0, float("nan")]], "here", [[1.0, 2.0, 3.0]]])
 def test_a_path_that_is_none_is_refused(path):
-    with pytest.raises(BadInput, match="path"):
+    with pytest.raises(bm.BadInput, match="path"):
         routes.checked_path(path)
 
 
-TWO_ROOMS = Grid((40, 30), 0.25, (0.0, 0.0))
+TWO_ROOMS = bm.Grid((40, 30), 0.25, (0.0, 0.0))
 RADIUS = 0.3
 
 
@@ -419,7 +410,7 @@ def test_the_safest_path_is_returned_if_all_are_too_risky_and_impossible_plans_a
         (draws, (-1.0, 1.0), 0.1, "outside"), (draws, (5.1, 4.0), 0.1, "touches"), (draws, (2.0, 5.7), 1.5, "risk"),
         (closed, (2.0, 5.7), 0.1, "no path"),
     ):  # fmt: skip
-        with pytest.raises(BadInput, match=message):
+        with pytest.raises(bm.BadInput, match=message):
             route(maps, risk, start)
 
 
@@ -430,7 +421,7 @@ def test_a_route_in_an_empty_hall_is_straight_and_goes_round_walls_without_cutti
         start, goal = rng.uniform([1, 1], [9, 6.5], (2, 2))
         found = route(empty, 0.01, tuple(start), tuple(goal))
         assert found.length_m <= np.hypot(*(goal - start)) * 1.001 + 1e-6
-    grid = Grid((6, 5), 1.0, (-0.5, -0.5))
+    grid = bm.Grid((6, 5), 1.0, (-0.5, -0.5))
     walls = np.zeros((8, *grid.shape), dtype=np.float32)
     walls[:, 2, 3:] = 1.0
     found = route(walls.reshape(8, -1), 0.05, (1.0, 3.0), (4.0, 3.0), grid, 0.25)

@@ -1,4 +1,4 @@
-"""Predicted readings and scans against the plain definition, log likelihoods by reading, and runs that arviz reads."""
+"""Predicted readings and scans, log likelihoods by reading, residuals of held-out ones, and runs that arviz reads."""
 
 import dataclasses
 
@@ -7,13 +7,15 @@ import pytest
 import scipy
 from flat_options import infer
 from oracle.enumeration import beams, distances
-from oracle.stop_law import cross_surface
+from oracle.stop_worlds import scans_of_all_kinds
 from oracle.worlds import make_case
 
 import bayesmap as bm
-from bayesmap.errors import BadInput
-from bayesmap.posterior.prediction import CENTRAL_80, Predictor, ScanPredictor, fixed_maps
-from bayesmap.samplers.sampler import Stream
+from bayesmap.cells.arrays import Draws, pack
+from bayesmap.posterior.posterior import Posterior
+from bayesmap.posterior.prediction import compare, predictor_of, residuals_of, surface_offset
+from bayesmap.posterior.scores import beam_log_scores
+from bayesmap.samplers.sampler import Snapshot, Stream
 from bayesmap.sensors.model import RangeLimits
 
 SENSOR = bm.BeamMixture(bm.Gaussian(0.3), p_no_return=0.1)
@@ -88,8 +90,9 @@ def test_sensor_prior_and_drawn_poses_are_those_of_the_run_and_impossible_predic
         found = run.dataset(by_reading=True)
         np.testing.assert_allclose(found["reading_log_likelihood"].sum("reading"), found["log_likelihood"], atol=1e-2)
     for words, asked in {
-        "pose 0, .* outside the map": {"poses": [99.0, 0.0, 0.0]}, "levels must rise": {"levels": (0.5, 0.2)},
-        "draws": {"draws": 0}, "predict: max_range_m": {"max_range_m": -1.0},
+        "pose 0, .* outside the map": {"poses": [99.0, 0.0, 0.0]}, "draws": {"draws": 0},
+        "predict: max_range_m": {"max_range_m": -1.0}, "levels must rise": {"levels": (0.5, 0.2)},
+        "levels must": {"levels": ()}, "levels must r": {"levels": (0.5, 0.5)}, "levels": {"levels": (0.5, 1.0)},
     }.items():  # fmt: skip
         with pytest.raises(bm.BadInput, match=words):
             run.predict(**{"poses": run.posterior.scans.poses[0], **asked})
@@ -141,109 +144,95 @@ def test_arviz_reads_a_saved_run(run, tmp_path):
     tree.close()
 
 
-GRID = bm.Grid((12, 9), 0.5, (-1.0, 2.0))
-LIMITS = RangeLimits(0.2, 5.0)
-SHARP_SENSOR = bm.BeamMixture(bm.Gaussian(0.05), 0.02, 0.05, 0.1, 0.4)
-DEPTH = 0.5
-STEP_M = 1e-4
-POSE = (1.3, 4.1, 0.7)
-ANGLES = np.linspace(-1.5, 1.4, 9)
-RANGES = np.linspace(LIMITS.min_m, LIMITS.max_m, 20_001)
-OFF_M = 1e-3
-"""Of a quantile: a 30 000th of the span, the step of the plain walk, and that of the ranges."""
+CORRIDOR = bm.Grid((10, 1))
+PRIOR = bm.Independent(0.5)
+SHARP = bm.BeamMixture(bm.Gaussian(0.05), p_random=0.01, p_no_return=0.01, p_short=0.0)
 
 
-def cells_met(angle):
-    """Cells on a beam in order, and where it enters and leaves each, by steps of a tenth of a millimetre.
-
-    The cell of the start is met where the beam leaves it.
-    """
-    t = np.arange(0.0, LIMITS.max_m, STEP_M)
-    heading = POSE[2] + angle
-    u = (POSE[0] - GRID.origin[0] + t * np.cos(heading)) / GRID.resolution
-    v = (POSE[1] - GRID.origin[1] + t * np.sin(heading)) / GRID.resolution
-    inside = (u >= 0) & (u < GRID.shape[0]) & (v >= 0) & (v < GRID.shape[1])
-    flat = np.where(inside, np.floor(u) * GRID.shape[1] + np.floor(v), -1).astype(int)
-    first = np.flatnonzero(np.diff(flat, prepend=-2))
-    last = np.append(first[1:], len(t))
-    cells, enter, leave = flat[first], t[first], np.append(t, LIMITS.max_m)[last]
-    enter[0] = leave[0]
-    return cells[cells >= 0], enter[cells >= 0], leave[cells >= 0]
+def ahead(*ranges, max_range_m=9.0):
+    """Beams from the middle of the corridor's first cell, ahead it."""
+    poses = np.tile([0.5, 0.5, 0.0], (len(ranges), 1))
+    return bm.Scans(poses, np.zeros(1), np.array(ranges, dtype=float)[:, None], max_range_m)
 
 
-def law(stops):
-    """P(reading <= each of RANGES), of stops (weight, distance, spread)."""
-    total = np.zeros(len(RANGES))
-    for weight, distance, spread in stops:
-        sensor = bm.BeamMixture(bm.Gaussian(np.hypot(0.05, spread)), 0.02, 0.05, 0.1, 0.4)
-        total += weight * sensor.cumulative(RANGES, np.full(len(RANGES), distance), LIMITS)
-    return total
+def posterior_of(*draws, grid=CORRIDOR):
+    """A posterior of given draws, each a list of walls, of beams that stop in the middle of cells."""
+    walls = np.zeros((len(draws), grid.n_cells), dtype=np.uint8)
+    for row, cells in zip(walls, draws, strict=True):
+        row[list(cells)] = 1
+    packed = pack(walls.reshape(-1, *grid.shape) != 0)
+    none = np.zeros((1, len(draws)))
+    return Posterior(
+        scans=ahead(1.0), sensor=SHARP, prior=PRIOR, settings={"hit_depth": 0.5, "method": "gibbs"},
+        draws=Draws(grid, PRIOR.arrays, {"walls": packed[None]}), occupancy=walls.mean(axis=0).reshape(grid.shape),
+        observed=np.ones(grid.shape, dtype=bool), log_likelihood=none, log_prior=none, warmup_log_joint=none,
+        snapshot=Snapshot(1), finished=True, seconds={}, counts={},
+    )  # fmt: skip
 
 
-def along(chances, distances, spreads):
-    free = 1.0
-    for chance, distance, spread in zip(chances, distances, spreads, strict=True):
-        yield free * chance, distance, spread
-        free *= 1 - chance
-    yield free, np.inf, 0.0
+def test_a_wall_is_where_readings_are_measured_from_by_the_median_over_draws():
+    told = []
+    found = residuals_of(predictor_of(posterior_of([6])), ahead(6.0, 5.5, 6.5), on_progress=told.append)
+    assert told == pytest.approx([1 / 3, 1.0])
+    np.testing.assert_allclose(found.residual_m, [0.0, -0.5, 0.5], atol=2e-3)  # the wall's middle is 6 m away
+    np.testing.assert_allclose(found.ends_world, [[6.5, 0.5], [6.0, 0.5], [7.0, 0.5]])
+    np.testing.assert_array_equal(found.beams, [0, 1, 2])
+    assert found.surprise_nats[0] < found.surprise_nats[1] - 3
+    for draws, expected in (([[4], [4], [8]], 4), ([[4], [8], [8]], 8), ([[], [], [4]], 9)):
+        found = residuals_of(predictor_of(posterior_of(*draws)), ahead(5.0), on_progress=told.append)
+        assert told[-1] == pytest.approx(1.0)
+        np.testing.assert_allclose(found.residual_m, [5.0 - expected], atol=0.1)  # noise moves a median a little
 
 
-def quantile(below, level):
-    """The least of RANGES that readings stay below with a probability: the definition."""
-    if below[0] >= level:
-        return -np.inf
-    return RANGES[np.argmax(below >= level)] if below[-1] >= level else np.inf
+def test_no_return_lies_at_the_median_moved_beams_end_where_each_began_and_scans_without_any_are_refused():
+    scans = ahead(np.inf, np.inf, 4.0, np.nan, -np.inf)
+    found = compare(scans, np.array([6.0, np.inf, np.inf, 6.0, 6.0]), np.arange(5.0))
+    np.testing.assert_array_equal(found.beams, [0, 1, 2])
+    np.testing.assert_allclose(found.residual_m, [3.0, 0.0, -5.0])
+    np.testing.assert_allclose(found.ends_world[:, 0], [6.5, 9.5, 4.5])
+    np.testing.assert_array_equal(found.surprise_nats, [0, -1, -2])
+    beam_poses = np.array([[[0.0, 0.0, 0.0], [1.0, 0.0, np.pi / 2]]])
+    scans = bm.Scans([[0.0, 0.0, 0.0]], [0.0, np.pi / 2], [[2.0, 3.0]], 9.0, beam_poses=beam_poses)
+    found = compare(scans, np.full(2, 1.0), np.zeros(2))
+    np.testing.assert_allclose(found.ends_world, [[2.0, 0.0], [-2.0, 0.0]], atol=1e-12)
+    with pytest.raises(bm.BadInput, match="none of the scans has a hit or a no-return"):
+        residuals_of(predictor_of(posterior_of([6])), ahead(np.nan, -np.inf))
 
 
-def expected(draws_of_beam):
-    """Quantiles of the mean over draws of each beam's law."""
-    return [[quantile(np.mean(laws, axis=0), level) for level in CENTRAL_80] for laws in draws_of_beam]
+THICK_M, LONG_M = 0.01, 0.2
 
 
-def predicted(states, **options):
-    predictor = Predictor(GRID, fixed_maps(states), SHARP_SENSOR, DEPTH, len(states))
-    return ScanPredictor.of(predictor, LIMITS).quantiles(POSE, ANGLES, **options)
+def wall(direction_rad):
+    """Covariance of a wall that runs in a direction."""
+    t = np.array([np.cos(direction_rad), np.sin(direction_rad)])
+    n = np.array([-t[1], t[0]])
+    return LONG_M**2 * np.outer(t, t) + THICK_M**2 * np.outer(n, n)
 
 
-def stop_maps():
-    rng = np.random.default_rng(3)
-    stop = rng.beta(0.3, 1.5, (3, GRID.n_cells))
-    stop[rng.random(stop.shape) < 0.1] = 1.0
-    return stop.astype(np.float32)
+@pytest.mark.parametrize("turn_rad", [0.0, 0.7, 2.5, -1.2])
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_a_point_has_its_parts_across_and_along(turn_rad, side):
+    """A wall ahead x at the origin, a sensor above or below it, all turned about the origin."""
+    turn = np.array([[np.cos(turn_rad), -np.sin(turn_rad)], [np.sin(turn_rad), np.cos(turn_rad)]])
+    sensor, point = turn @ [0.5, side * 2.0], turn @ [0.3, side * 0.04]
+    found = surface_offset(np.zeros(2), wall(turn_rad), point, sensor)
+    assert found.across_m == pytest.approx(0.04)  # in front of it, on whichever side the sensor stands
+    # the sensor above looks down, so that larger x is on its left; from below it is on its right
+    assert found.along_m == pytest.approx(side * 0.3)
+    assert (found.thickness_m, found.length_m) == pytest.approx((THICK_M, LONG_M))
+    assert found.incidence_rad == pytest.approx(np.arctan2(0.5, 2.0))
+    behind = surface_offset(np.zeros(2), wall(turn_rad), turn @ [0.0, -side * 0.05], turn @ [0.0, side * 3.0])
+    assert (behind.across_m, behind.incidence_rad) == pytest.approx((-0.05, 0.0), abs=1e-6)
 
 
-def test_quantiles_are_those_of_the_mean_over_draws():
-    maps = stop_maps()
-    laws = []
-    for angle in ANGLES:
-        cells, enter, leave = cells_met(angle)
-        where = enter + DEPTH * (leave - enter)
-        laws.append([law(along(one[cells].astype(float), where, np.zeros(len(cells)))) for one in maps])
-    found = predicted(maps)
-    assert np.isinf(expected(laws)).any()  # a beam that probably comes back from nothing is among them
-    np.testing.assert_allclose(found, expected(laws), atol=OFF_M)
-    one_draw = expected([each[:1] for each in laws])
-    assert not np.allclose(found, one_draw, atol=0.05)  # another law would be noticed
-
-
-def test_quantiles_of_surfaces_are_where_a_beam_crosses_them_and_levels_must_rise_inside_zero_and_one():
-    rng = np.random.default_rng(4)
-    states = np.zeros((2, GRID.n_cells, 6), np.float32)
-    states[..., 0] = rng.beta(0.6, 1.0, (2, GRID.n_cells))
-    mean = GRID.centers_from_corner_m(np.arange(GRID.n_cells)) + rng.uniform(-0.2, 0.2, (GRID.n_cells, 2))
-    shape = np.column_stack([rng.uniform(0.05, 0.2, GRID.n_cells), rng.normal(0, 0.05, GRID.n_cells)])
-    states[..., 1:3], states[..., 3:5], states[..., 5] = mean, shape, 0.04  # alike in both draws: nothing is merged
-    start = np.array(POSE[:2]) - GRID.origin
-    laws = []
-    for angle in ANGLES:
-        cells, _, _ = cells_met(angle)
-        direction = np.array([np.cos(POSE[2] + angle), np.sin(POSE[2] + angle)])
-        chance, distance, variance = cross_surface(states[0, cells].astype(float), start, direction)
-        stops = [one[cells, 0] * chance for one in states.astype(float)]
-        laws.append([law(along(chances, distance, np.sqrt(variance))) for chances in stops])
-    np.testing.assert_allclose(predicted(states), expected(laws), atol=OFF_M)
-    for levels in ((), (0.5, 0.5), (0.9, 0.1), (0.0, 0.5), (0.5, 1.0)):
-        with pytest.raises(BadInput, match="levels must rise"):
-            predicted(stop_maps(), levels=levels)
-    with pytest.raises(BadInput, match="no draw"):
-        predicted(stop_maps()[:0])
+@pytest.mark.parametrize("prior", [bm.Independent(0.2), bm.Beta(0.5, 1.0), bm.Surface(0.5, 1.0)])
+def test_all_scores_give_equal_densities_bit_for_bit(prior):
+    """The log score, the whole score, and the surprise of residuals are one kernel's, for every kind of cells."""
+    grid, sensor = bm.Grid((4, 3), 0.5, (-1.0, 2.0)), bm.BeamMixture(bm.Gaussian(0.05, 0.01), p_no_return=0.1)
+    train, held = scans_of_all_kinds(5, grid, poses=20), scans_of_all_kinds(6, grid, poses=7)
+    run = bm.infer(train, grid, prior=prior, sensor=sensor, schedule=bm.Schedule(chains=2, warmup=5, draws=8))
+    for other in (None, bm.BeamMixture(bm.StudentT(0.1)), bm.Gaussian(0.2)):
+        assert run.log_score(held, sensor=other) == bm.score(run, held, sensor=other).nats_per_beam
+    predictor = predictor_of(run.posterior)
+    found = residuals_of(predictor, held)
+    np.testing.assert_array_equal(found.surprise_nats, -beam_log_scores(predictor, held)[found.beams])

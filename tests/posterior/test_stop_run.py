@@ -1,4 +1,4 @@
-"""What users get from a run over reflectivities or surfaces is what its draws say."""
+"""Users get from a run over reflectivities or surfaces what its draws say."""
 
 from functools import cache
 
@@ -76,7 +76,7 @@ def test_intervals_are_quantiles_of_the_draws(kind):
             run.interval(level)
 
 
-def test_mean_surfaces_are_means_over_draws_in_the_world_frame():
+def test_mean_surfaces_are_means_over_draws_in_the_world_frame_and_a_run_without_hits_has_none():
     run = run_of("surfaces")
     mean, covariance, reflectivity = run_of("surfaces").surfaces()
     flat = of(run, "surface_cell")
@@ -91,6 +91,10 @@ def test_mean_surfaces_are_means_over_draws_in_the_world_frame():
         assert reflectivity[u] == pytest.approx(m.mean())
     with pytest.raises(bm.BadInput, match=r"Surface\(\)"):
         run_of("reflectivities").surfaces()
+    nothing = bm.Scans(TRAIN.poses, TRAIN.angles_rad, np.full(TRAIN.ranges_m.shape, np.inf), max_range_m=0.4)
+    run = inferred(nothing, "surfaces", chains=2, warmup=1, draws=2)  # without hits
+    assert [part.shape for part in run.surfaces()] == [(0, 2), (0, 2, 2), (0,)]
+    run.plot()
 
 
 def states_of(run, chain, draw, touched):
@@ -137,10 +141,3 @@ def test_cells_that_no_beam_of_the_run_touched_are_scored_by_the_prior(kind):
         assert score == pytest.approx(expected, abs=1e-5)
     else:
         assert -1.5 < score < 0.0
-
-
-def test_a_run_without_hits_has_no_surfaces_and_is_drawn():
-    nothing = bm.Scans(TRAIN.poses, TRAIN.angles_rad, np.full(TRAIN.ranges_m.shape, np.inf), max_range_m=0.4)
-    run = inferred(nothing, "surfaces", chains=2, warmup=1, draws=2)
-    assert [part.shape for part in run.surfaces()] == [(0, 2), (0, 2, 2), (0,)]
-    run.plot()

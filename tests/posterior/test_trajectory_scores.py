@@ -10,12 +10,11 @@ import scipy
 from oracle.trajectories import round_way
 from tiers import pairs_but
 
-from bayesmap.errors import BadInput
+import bayesmap as bm
 from bayesmap.io.exports import trajectory_of
 from bayesmap.io.text.trajectories import read_relations
 from bayesmap.posterior.summary import summarise_poses
 from bayesmap.posterior.trajectory_scores import LEVELS, Relations, relation_errors, score_trajectory
-from bayesmap.result import Run
 from bayesmap.space.planar import between, compose, wrap_angle
 from bayesmap.space.trajectory import Trajectory
 
@@ -58,7 +57,7 @@ def test_times_between_poses_are_interpolated_but_not_across_a_gap_or_outside():
     np.testing.assert_array_equal(exact.in_gap, [True, False, True, True, False])
     off = Relations(FIRST + 0.4, SECOND - 0.4, TRUTH.relative)
     for strictly, where in ((False, "at a pose, or between two at most 0.3 s apart"), (True, "pose;")):
-        with pytest.raises(BadInput, match=f"none of the 3 relations within .* {where}.*its poses are 1 s apart"):
+        with pytest.raises(bm.BadInput, match=f"none of the 3 relations within .* {where}.*its poses are 1 s apart"):
             relation_errors(SECONDS, POSES, off, exact=strictly)
     relations = Relations(np.array([0.05, -0.3]), np.array([0.2, 0.1]), np.zeros((2, 3)))
     straight = np.column_stack([SECONDS, SECONDS * 0, SECONDS * 0])
@@ -76,7 +75,7 @@ def test_a_file_of_relations_is_read_and_bad_input_is_refused(tmp_path):
         found = read_relations(tmp_path / name)
         np.testing.assert_allclose(found.first_s, [1.5, 2.0])
         np.testing.assert_allclose(found.relative, [[0.1, 0.2, 0.3], [1.0, 2.0, -0.5]])
-    with pytest.raises(BadInput, match="cannot be read"):
+    with pytest.raises(bm.BadInput, match="cannot be read"):
         read_relations(tmp_path / "missing")
     first = "1 2 0 0 0 0 0 0\n"
     for text, message in (
@@ -84,10 +83,10 @@ def test_a_file_of_relations_is_read_and_bad_input_is_refused(tmp_path):
         (first + "1 2 3 4 5 6 7 nan\n", "line 2"),
     ):  # fmt: skip
         (tmp_path / "bad").write_text(text)
-        with pytest.raises(BadInput, match=message):
+        with pytest.raises(bm.BadInput, match=message):
             read_relations(tmp_path / "bad")
     for stamps, message in ((SECONDS + 1e6, "one clock"), (SECONDS[::-1], "ascend"), (SECONDS[:4], "shapes")):
-        with pytest.raises(BadInput, match=message):
+        with pytest.raises(bm.BadInput, match=message):
             relation_errors(stamps, POSES, TRUTH)
 
 
@@ -220,7 +219,7 @@ def test_a_summary_of_poses_uses_the_approximation_until_chains_mix_in_all_poses
     for between_chains, by_approximation in ((0.02, True), (0.0, False)):
         poses = chains(found, 1e-3, between_chains)
         draws = SimpleNamespace(arrays={"poses": poses}, values=lambda name, poses=poses: poses)
-        run = Run(SimpleNamespace(draws=draws, occupancy=np.zeros(1)), found)
+        run = bm.Run(SimpleNamespace(draws=draws, occupancy=np.zeros(1)), found)
         summary = run.pose_summary()
         assert summary.by_approximation is by_approximation
         assert summary.mixed is not by_approximation

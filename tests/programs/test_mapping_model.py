@@ -14,7 +14,7 @@ from conformance.gen_tutorial_model import CENTER, PARAMS, full_model
 from oracle.enumeration import sweeps
 from oracle.verdict import ALPHA, least_p_value
 from oracle.worlds import make_case
-from test_mapping_edits import of_case, single
+from test_mapping_edits import single
 from tiers import full_but, latin
 
 import bayesmap as bm
@@ -33,6 +33,12 @@ SENSORS = {
     "student mixture": bm.BeamMixture(bm.StudentT(0.1, dof=2.5), p_random=0.1, p_no_return=0.2, p_short=0.3),
 }  # fmt: skip
 TABLE_CUT = 1e-4  # nats a beam: where the mixture's beam table ends early (FLAT_NATS)
+
+
+def of_case(case):
+    scans = case.scans
+    limits = {"max_range_m": scans.max_range_m, "min_range_m": scans.min_range_m}
+    return bm.mapping_model(case.grid, scans.poses, scans.angles_rad, case.prior, case.sensor, **limits)
 
 
 def both(walls, readings):

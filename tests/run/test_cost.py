@@ -1,4 +1,4 @@
-"""What a run costs, estimated before it begins, and when it ends: when the error of the mean map is small enough.
+"""The cost of a run is estimated before it begins; it ends when the error of the mean map is small enough.
 
 Runs that cannot fit into memory are refused with a remedy. Where chains stop depends on nothing but their draws.
 """
@@ -85,7 +85,7 @@ def test_chains_that_may_end_early_have_two_estimates_and_a_limit_of_time_bounds
     assert "GB of memory" in exact.estimate().words()
 
 
-def test_the_remedy_fits_the_cause_and_makes_it_fit(monkeypatch):
+def test_the_remedy_fits_the_cause_and_makes_it_fit_and_a_long_run_is_shorter_with_fewer_scans_or_a_limit(monkeypatch):
     """Scans that are close together are thinned, small cells enlarged, and few hits far away cut off."""
     for scans, grid, option in (
         (room(0.05, 360), None, "--thin-scans 0.1"), (room(2.0, 4), bm.Grid((2000, 2000), 0.01), "--resolution 0.02"),
@@ -99,9 +99,6 @@ def test_the_remedy_fits_the_cause_and_makes_it_fit(monkeypatch):
     ranges[0, :3] = 300.0
     monkeypatch.setattr(cost, "memory_bytes", lambda: int(9e8))
     assert inference(replace(room(), ranges_m=ranges, max_range_m=400.0)).estimate().remedy == "--max-range 10"
-
-
-def test_a_long_run_is_shorter_with_fewer_scans_else_with_a_limit(monkeypatch):
     monkeypatch.setattr(cost, "LONG_S", 1e-3)
     monkeypatch.setattr(cost, "memory_bytes", lambda: None)
     assert "; less with --thin-scans 0.1" in inference(room(0.02)).estimate().words()
@@ -252,14 +249,11 @@ def test_a_run_that_is_stopped_and_goes_on_ends_where_it_would_have(after):
     np.testing.assert_array_equal(run.draws, stopped_early().draws)
 
 
-def test_a_limit_that_comes_first_is_said():
+def test_a_default_run_stops_early_a_number_of_draws_is_kept_to_and_a_limit_that_comes_first_is_said():
     run = infer(scans(), GRID, precision=0.001, **ASKED | {"draws": 40})
     assert run.n_draws == 40
     [problem] = run.summary().problems()
     assert "not to 0.001: draw more maps" in problem
-
-
-def test_a_default_run_stops_early_and_a_number_of_draws_is_kept_to():
     cells = {"prior": bm.Independent(0.3), "sensor": bm.Gaussian(0.2), "seed": 3}
     assert bm.infer(scans(), GRID, **cells).n_draws < 1000
     assert bm.infer(scans(), GRID, schedule=bm.Schedule(draws=70), **cells).n_draws == 70

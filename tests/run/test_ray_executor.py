@@ -13,7 +13,6 @@ from tiers import full_but
 
 import bayesmap as bm
 from bayesmap.model import Model
-from bayesmap.poses.prior import UncertainPoses
 from bayesmap.run import ray_executor
 from bayesmap.run.chains import SweepPlan
 from bayesmap.run.runner import Job, ThreadExecutor
@@ -80,7 +79,7 @@ def test_chains_stop_where_those_of_threads_do(cluster, scans):
 def test_how_chains_are_divided_makes_no_difference(cluster, scans, chains_per_task):
     """Unknown poses make none either: each chain has poses of its own, and rays that follow them."""
     as_threads(scans, "walls", quick(chains_per_task=chains_per_task), thin=2)
-    poses = UncertainPoses(0.05, 0.01)
+    poses = bm.UncertainPoses(0.05, 0.01)
     as_threads(scans, "reflectivities", quick(chains_per_task=chains_per_task), poses=poses, warmup=7, draws=8)
 
 

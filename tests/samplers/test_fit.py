@@ -1,4 +1,4 @@
-"""What is estimated before the chains: the fitted sensor and prior, from training scans alone, and the initial map.
+"""Estimates before the chains: the fitted sensor and prior, from training scans alone, and the initial map.
 
 Tolerances are in standard errors, from data sets drawn anew, and a part of the value where the model that fits is not
 quite the one that drew. False alarms: below 1e-4 for each test.

@@ -85,26 +85,6 @@ def test_chains_may_start_from_a_map(case, method):
         np.testing.assert_array_equal(walls.reshape(4, 4, 4) != 0, np.stack([start] * 4))
 
 
-@pytest.mark.parametrize("method", MARKOV)
-@pytest.mark.parametrize("start", ["prior", "zeros", "ones", "propagate"])
-def test_a_run_stopped_by_ctrl_c_goes_on_to_the_same_end(case, method, start, monkeypatch):
-    monkeypatch.setattr(runner, "STEP_SECONDS", 0.0)
-    options = {"method": method, "start": start, "warmup": 10, "draws": 20, "thin": 2, "seed": 5}
-    whole = infer(case, **options)
-
-    def interrupt(event):
-        if event.stage in ("warm-up", "draws") and event.done in (4, 30):
-            signal.raise_signal(signal.SIGINT)
-
-    first = infer(case, on_progress=interrupt, **options)
-    assert not first.finished
-    assert first.posterior.sweep == 4
-    second = infer(case, on_progress=interrupt, resume=first, **options)
-    assert not second.finished
-    assert (second.posterior.sweep, second.draws.shape[1]) == (30, 10)
-    assert_same(infer(case, resume=second, **options), whole)
-
-
 def test_ctrl_c_during_the_warm_start_goes_on_to_the_same_end():
     """On the tutorial's map one round and twenty rounds do not give one start."""
     walls, pose = bm.worlds.tutorial()

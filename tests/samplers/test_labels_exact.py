@@ -113,24 +113,23 @@ def test_a_coupling_that_is_a_little_wrong_is_rejected(name):
         assert least(found, exact(name, coupling=wrong)) < ALPHA / TESTS
 
 
-def test_wrong_betas_and_a_conditional_that_does_not_look_at_the_cell_s_own_beams_are_rejected(monkeypatch):
+def test_wrong_betas_and_a_conditional_that_leaves_out_the_cell_s_own_beams_or_half_of_the_cells_are_rejected(
+    monkeypatch,
+):
     found, prior = drawn("a square"), CASES["a square"][2]
     for wrong in ({"a_solid": 1.5 * prior.a_solid}, {"b": 1.4 * prior.b}, {"a": prior.a_solid, "b": prior.b_solid}):
         assert least(found, exact("a square", **wrong)) < ALPHA / TESTS
-    monkeypatch.setattr(cell_draws, "TOUCHED", cell_draws.UNTOUCHED)
-    assert least(drawn.__wrapped__("a square"), exact("a square")) < ALPHA / TESTS
-
-
-def test_a_conditional_that_looks_at_half_of_the_cells_alone_is_rejected(monkeypatch):
-    """The other colour keeps the labels that it had at first."""
     phases = stop_chains.StopChains._launch_part
 
-    def one_colour(self, phase, at):
+    def one_colour(self, phase, at):  # the other colour keeps the labels that it had at first
         if phase[0] is not cell_draws.draw_labels or phase[2][0] == 0:
             phases(self, phase, at)
 
-    monkeypatch.setattr(stop_chains.StopChains, "_launch_part", one_colour)
-    assert least(drawn.__wrapped__("a row"), exact("a row")) < ALPHA / TESTS
+    with monkeypatch.context() as patch:
+        patch.setattr(stop_chains.StopChains, "_launch_part", one_colour)
+        assert least(drawn.__wrapped__("a row"), exact("a row")) < ALPHA / TESTS
+    monkeypatch.setattr(cell_draws, "TOUCHED", cell_draws.UNTOUCHED)
+    assert least(drawn.__wrapped__("a square"), exact("a square")) < ALPHA / TESTS
 
 
 @pytest.mark.parametrize("beta", full_but([0.0, 0.4], 0.4))

@@ -155,7 +155,7 @@ HELD_OUT = bm.Scans(
     [[0.6, np.inf], [1.2, 0.9], [0.8, -np.inf]], max_range_m=2.0, min_range_m=0.15,
 )  # fmt: skip
 LEFT = {"reflectivities": 0.4, "rare walls": 0.65, "surfaces": 0.85}
-"""Of the variance of a single draw's density, at most: a third, a half and three quarters were found."""
+"""The most that is left of the variance of a single draw's density; a third, a half and three quarters were found."""
 
 PREDICTED = {
     "reflectivities": ((2, 2), bm.Beta(0.5, 1.5)),

@@ -75,30 +75,23 @@ def test_any_cutting_into_steps_gives_the_same_run(kind, step_seconds, monkeypat
 @pytest.mark.parametrize(
     ("kind", "thin"), pairs_but(product(ALL, [1, 3]), ("surfaces", 1), ("labelled reflectivities", 3))
 )
-def test_a_run_stopped_at_any_sweep_goes_on_bit_for_bit(kind, thin):
+def test_a_run_stopped_at_any_sweep_and_saved_goes_on_bit_for_bit(kind, thin, tmp_path):
     options = {"warmup": 12, "draws": 4, "thin": thin}
     stops = []
     whole = infer(kind, on_checkpoint=stops.append, checkpoint_every_s=0.0, **options)
     assert [run.posterior.sweep for run in stops] == list(range(1, 12 + 4 * thin + 1))
     assert not any(run.finished for run in stops)
+    whole.save(tmp_path / "whole.nc")
+    assert_same(bm.load(tmp_path / "whole.nc"), whole)
     # The search for starts ends after 9 sweeps, where surfaces are merged, and the warm-up after 12.
     for sweep in (1, 5, 9, 10, 12, 14):
         stop = stops[sweep - 1]
-        assert_same(infer(kind, resume=stop, **options), whole)
-
-
-@pytest.mark.parametrize("kind", full_but(ALL, "surfaces", "labelled reflectivities"))
-def test_a_run_saved_and_loaded_at_any_sweep_goes_on_bit_for_bit(kind, tmp_path):
-    stops = []
-    whole = infer(kind, on_checkpoint=stops.append, checkpoint_every_s=0.0)
-    whole.save(tmp_path / "whole.nc")
-    assert_same(bm.load(tmp_path / "whole.nc"), whole)
-    for stop in (stops[7], stops[14]):
         stop.save(tmp_path / "part.nc")
-        assert_same(infer(kind, resume=bm.load(tmp_path / "part.nc")), whole)
+        part = stop if sweep in (5, 12) else bm.load(tmp_path / "part.nc")
+        assert_same(infer(kind, resume=part, **options), whole)
     if kind in LABELLED:
         with pytest.raises(bm.BadInput, match="made with other prior"):
-            infer(kind, prior=replace(LABELLED[kind], coupling=0.5), resume=bm.load(tmp_path / "part.nc"))
+            infer(kind, prior=replace(LABELLED[kind], coupling=0.5), resume=part, **options)
 
 
 def test_progress_is_told_of_the_fit_warm_up_and_draws_to_the_last_sweep():
@@ -245,22 +238,17 @@ def test_half_a_thousand_scans_of_one_pose_and_a_grid_of_one_cell():
     assert_sound(infer("surfaces", many, grid=bm.Grid((1, 1)), chains=1))
 
 
-@pytest.mark.parametrize("a", [1e-6, 1e-3, 50.0])
-@pytest.mark.parametrize("b", [1e-6, 500.0])
-def test_priors_of_any_size_give_reflectivities(a, b):
-    run = infer("reflectivities", room(), prior=bm.Beta(a, b), sensor=TRUTH, draws=3)
+SHAPES = [{"spread": 1e-5}, {"spread": 5.0, "size_scale": 10.0}, {"dof": 1.01}, {"dof": 500.0}, {"mean_scale": 1e-4}]
+EXTREME = [*(bm.Beta(a, b) for a in (1e-6, 1e-3, 50.0) for b in (1e-6, 500.0)), *(bm.Surface(**s) for s in SHAPES)]
+
+
+@pytest.mark.parametrize("prior", EXTREME, ids=str)
+def test_priors_of_any_size_and_shape_give_sound_runs(prior):
+    sharp = bm.BeamMixture(bm.Gaussian(1e-3, 1e-4))
+    sensor, warmup = (sharp, 40) if prior.has_surfaces else (TRUTH, 12)
+    run = infer("surfaces", room(), prior=prior, sensor=sensor, warmup=warmup, draws=3)
     assert_sound(run)
     assert np.isfinite(run.log_score(room()))
-
-
-@pytest.mark.parametrize(
-    "shape",
-    [{"spread": 1e-5}, {"spread": 5.0, "size_scale": 10.0}, {"dof": 1.01}, {"dof": 500.0}, {"mean_scale": 1e-4}],
-    ids=str,
-)
-def test_priors_of_any_shape_give_surfaces(shape):
-    sharp = bm.BeamMixture(bm.Gaussian(1e-3, 1e-4))
-    assert_sound(infer("surfaces", room(), prior=bm.Surface(**shape), sensor=sharp, warmup=40))
 
 
 @pytest.mark.parametrize("sensor", [bm.Gaussian(0.1), bm.StudentT(0.1)])

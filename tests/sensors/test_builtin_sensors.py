@@ -127,9 +127,8 @@ TRAIN, HELD = (scans_of_all_kinds(seed, GRID, poses=12) for seed in (1, 2))
 
 @pytest.fixture(scope="module")
 def sonar():
-    code = next(block for block in re.findall(r"```python\n(.*?)```", PAGE.read_text(), re.DOTALL) if "Sonar" in block)
-    names = {"__name__": "sonar"}
-    exec(code, names)
+    blocks, names = re.findall(r"```python\n(.*?)```", PAGE.read_text(), re.DOTALL), {"__name__": "sonar"}
+    exec(next(block for block in blocks if "Sonar" in block), names)
     return names["Sonar"](0.15)
 
 

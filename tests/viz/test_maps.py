@@ -8,8 +8,7 @@ from matplotlib.colors import to_rgb
 from matplotlib.patches import PathPatch
 from viz_case import CORNER, GRID, HIDDEN, cell, observed, occupancy, panel
 
-from bayesmap.errors import BadInput
-from bayesmap.space.grid import Grid
+import bayesmap as bm
 from bayesmap.viz import palette, plot_deviation, plot_entropy, plot_probability, plot_sample, plot_width
 from bayesmap.viz.maps import boundary_segments, boxes, window, window_around
 
@@ -74,15 +73,15 @@ def test_unobserved_is_hatched_and_differs_from_free_and_from_even_odds():
     np.testing.assert_allclose(cell(ax, *CORNER), WALL, atol=0.01)
     np.testing.assert_allclose(cell(ax, 1, 1), FREE, atol=0.01)
     assert np.abs(cell(ax, *HIDDEN) - to_rgb(palette.UNOBSERVED_WALL)).max() < 0.1
-    grid = Grid(shape=(600, 600))
+    grid = bm.Grid(shape=(600, 600))
     speckled = np.random.default_rng(0).random(grid.shape) < 0.7
     plot_probability(ax := panel(), grid, np.zeros(grid.shape), speckled)
     assert len(ax.patches) + len(ax.collections) + len(ax.images) < 10  # not one artist for each cell
 
 
 @pytest.mark.parametrize("seed", range(5))
-def test_segments_are_the_edges_between_unlike_cells(seed):
-    grid = Grid(shape=(7, 5), resolution=0.5, origin=(10.0, -1.0))
+def test_segments_are_the_edges_between_unlike_cells_and_boxes_cover_the_mask(seed):
+    grid = bm.Grid(shape=(7, 5), resolution=0.5, origin=(10.0, -1.0))
     mask = np.random.default_rng(seed).random(grid.shape) < 0.5
 
     def wall(i, j):
@@ -97,13 +96,10 @@ def test_segments_are_the_edges_between_unlike_cells(seed):
     assert set(found) == expected
     straight = np.zeros((7, 5), dtype=bool)
     straight[3, 1:4] = True
-    assert len(boundary_segments(Grid(shape=(7, 5)), straight)) == 4  # one a side
+    assert len(boundary_segments(bm.Grid(shape=(7, 5)), straight)) == 4  # one a side
 
-
-def test_boxes_cover_the_mask_and_no_more():
-    mask = np.random.default_rng(1).random((20, 30)) < 0.4
     covered = np.zeros(mask.shape, dtype=int)
-    for box in boxes(Grid(shape=mask.shape), mask).astype(int):
+    for box in boxes(bm.Grid(shape=mask.shape), mask).astype(int):
         (x0, y0), (x1, y1) = box[0], box[2]
         covered[x0:x1, y0:y1] += 1
     np.testing.assert_array_equal(covered, mask)
@@ -128,7 +124,7 @@ def test_a_window_holds_its_rectangle_and_less_than_a_cell_more(x0, x1, y0, y1):
         np.testing.assert_allclose(whole[where], some)
 
 
-def test_around_leaves_out_the_empty_borders():
+def test_windows_around_a_mask_leave_out_empty_borders_and_those_that_show_nothing_are_refused():
     mask = np.zeros(GRID.shape, dtype=bool)
     mask[2:4, 1] = True
     assert window_around(GRID, mask, 0.0)[1] == (slice(2, 4), slice(1, 2))
@@ -138,14 +134,12 @@ def test_around_leaves_out_the_empty_borders():
     assert window(GRID, (-0.5, 0.5), (2.5, 3.0))[1] == (slice(1, 3), slice(1, 2))  # edges take no neighbours
     assert window(GRID, (-1e308, 1e308), (-1e308, 1e308))[0] == GRID
 
-
-@pytest.mark.parametrize(("x_m", "y_m", "says"), [
-    ((5, 6), (2, 3), "outside the map, whose x runs from -1 to 2 m"), ((0, 1), (3, 2), "lower first"),
-    ((0, 1), (0, 1), "whose y runs from 2 to 4 m"), ((0, np.inf), (2, 3), "finite"),
-])  # fmt: skip
-def test_a_window_that_shows_nothing_is_refused(x_m, y_m, says):
-    with pytest.raises(BadInput, match=says):
-        window(GRID, x_m, y_m)
+    for x_m, y_m, says in (
+        ((5, 6), (2, 3), "outside the map, whose x runs from -1 to 2 m"), ((0, 1), (3, 2), "lower first"),
+        ((0, 1), (0, 1), "whose y runs from 2 to 4 m"), ((0, np.inf), (2, 3), "finite"),
+    ):  # fmt: skip
+        with pytest.raises(bm.BadInput, match=says):
+            window(GRID, x_m, y_m)
 
 
 @pytest.mark.parametrize(("draw", "numbers", "top", "even"), [
@@ -176,5 +170,5 @@ def with_one(value):
     (plot_width, -occupancy(), None, "give upper minus lower"),
 ])  # fmt: skip
 def test_arrays_that_are_no_map_of_the_grid_are_named(draw, numbers, mask, says):
-    with pytest.raises(BadInput, match=says):
+    with pytest.raises(bm.BadInput, match=says):
         draw(panel(), GRID, numbers, mask)

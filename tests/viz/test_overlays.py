@@ -8,10 +8,8 @@ from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from viz_case import CORNER, GRID, cell, observed, occupancy, panel, pixels, scans
 
+import bayesmap as bm
 from bayesmap import viz
-from bayesmap.errors import BadInput
-from bayesmap.space.grid import Grid
-from bayesmap.space.scans import Scans
 from bayesmap.viz import trajectory as figures
 from bayesmap.viz.overlays import plot_route, route_figure, views_figure
 
@@ -27,7 +25,7 @@ def test_outline_surrounds_the_true_wall():
     assert rows.max() <= 11  # the upper right cell is pixels 0 to 9 from the top
     assert columns.min() >= 48
     np.testing.assert_allclose(cell(ax, *CORNER), viz.palette.probability_colors(2)[0], atol=0.1)
-    with pytest.raises(BadInput, match="true_walls must be true or false"):
+    with pytest.raises(bm.BadInput, match="true_walls must be true or false"):
         viz.plot_truth_outline(panel(), GRID, occupancy())
 
 
@@ -49,7 +47,7 @@ def test_rays_end_at_the_readings_and_lost_ones_at_the_largest_range():
     assert alone.get_xlim()[0] < -0.05
     assert alone.get_xlim()[1] > 1.6
     on_the_way = np.array([[[0.0, 0.0, 0.0], [0.5, 1.0, 0.0]]])
-    moving = Scans(np.zeros(3), [0.0, np.pi / 2], [1.0, 1.0], max_range_m=2.0, beam_poses=on_the_way)
+    moving = bm.Scans(np.zeros(3), [0.0, np.pi / 2], [1.0, 1.0], max_range_m=2.0, beam_poses=on_the_way)
     beams, points = viz.plot_rays(panel(), moving)
     np.testing.assert_allclose(beams.get_segments(), [[[0, 0], [1, 0]], [[0.5, 1], [0.5, 2]]], atol=1e-12)
     np.testing.assert_allclose(points.get_offsets(), moving.hit_points_world())
@@ -57,16 +55,16 @@ def test_rays_end_at_the_readings_and_lost_ones_at_the_largest_range():
 
 def test_many_beams_are_thinned_evenly_and_readings_less():
     n = 1000
-    many = Scans(poses=np.zeros((10, 3)), angles_rad=np.linspace(0, 6, n), ranges_m=np.ones((10, n)), max_range_m=2.0)
+    many = bm.Scans(np.zeros((10, 3)), np.linspace(0, 6, n), np.ones((10, n)), max_range_m=2.0)
     beams, points = viz.plot_rays(panel(), many, max_beams=50, max_readings=300)
     assert len(beams.get_segments()) == 50
     assert len(points.get_offsets()) == 300
     ends = np.array(beams.get_segments())[:, 1]
     np.testing.assert_allclose(ends[0], [1.0, 0.0])
     np.testing.assert_allclose(ends[-1], [np.cos(6), np.sin(6)])
-    blind = Scans(poses=np.zeros(3), angles_rad=[0.0], ranges_m=[np.nan], max_range_m=2.0)
+    blind = bm.Scans(poses=np.zeros(3), angles_rad=[0.0], ranges_m=[np.nan], max_range_m=2.0)
     assert viz.plot_rays(panel(), blind) == []
-    with pytest.raises(BadInput, match="at least 1"):
+    with pytest.raises(bm.BadInput, match="at least 1"):
         viz.plot_rays(panel(), blind, max_beams=0)
 
 
@@ -78,9 +76,9 @@ def test_few_poses_are_arrows_and_many_a_trajectory():
     assert len(many) == 2
     assert many[0].get_label() == "trajectory"
     assert len(many[0].get_xdata()) == 40
-    with pytest.raises(BadInput, match="no pose"):
+    with pytest.raises(bm.BadInput, match="no pose"):
         viz.plot_sensor(panel(), np.zeros((0, 3)))
-    with pytest.raises(BadInput, match=r"\(S, 3\)"):
+    with pytest.raises(bm.BadInput, match=r"\(S, 3\)"):
         viz.plot_sensor(panel(), np.zeros((2, 2)))
 
 
@@ -132,7 +130,7 @@ def test_arrays_that_are_no_surfaces_are_named():
         (np.zeros((1, 2)), [np.eye(2)], [np.nan], "weights must be"),
         (np.zeros((1, 2)), [np.eye(2)], [1, 1], "one a surface"),
     ):
-        with pytest.raises(BadInput, match=says):
+        with pytest.raises(bm.BadInput, match=says):
             viz.plot_surfaces(panel(), means, covariances, weights)
 
 
@@ -148,7 +146,7 @@ def test_maps_without_surfaces_that_can_be_seen_have_a_key_and_hatched_cells():
     figure.canvas.draw()
 
 
-FLOOR = Grid((20, 12), 0.5, (-2.0, 1.0))
+FLOOR = bm.Grid((20, 12), 0.5, (-2.0, 1.0))
 POSES = np.column_stack([np.linspace(0.5, 3.5, 20), np.linspace(1.0, 2.0, 20), np.zeros(20)])
 COVARIANCES = np.tile(np.diag([4e-4, 1e-4, 1e-5]), (20, 1, 1))
 MAP, SEEN = np.full(FLOOR.shape, 0.1), np.ones(FLOOR.shape, bool)
@@ -209,7 +207,7 @@ def test_a_route_is_named_and_drawn_over_the_map():
     assert {"path", "start", "goal", "what the robot sweeps"} <= set(ax.get_legend_handles_labels()[1])
     assert png_of(figure) != png_of(route_figure(FLOOR, MEAN, None, PATH[:2], 0.3))
     for path in ([], [[1.0]], 3.0):
-        with pytest.raises(BadInput, match="path"):
+        with pytest.raises(bm.BadInput, match="path"):
             plot_route(Figure().subplots(), path, 0.3)
 
 
@@ -222,12 +220,12 @@ def test_views_are_numbered_best_first():
     assert len(figure.axes) == 2  # the map and one colour bar
     assert figure.axes[0].texts[0].xy[0] == pytest.approx(6.0)
     assert png_of(figure)
-    with pytest.raises(BadInput, match="candidates"):
+    with pytest.raises(bm.BadInput, match="candidates"):
         views_figure(FLOOR, MEAN, None, np.zeros((4, 3)), np.zeros(3), [], [])
 
 
 def test_the_end_of_a_stray_beam_does_not_widen_the_picture():
-    grid = Grid((200, 100), 0.1)
+    grid = bm.Grid((200, 100), 0.1)
     walls = np.zeros(grid.shape, bool)
     walls[10:60, 10] = walls[10:60, 50] = True
     poses = np.column_stack([np.linspace(2.0, 5.0, 20), np.full(20, 3.0), np.zeros(20)])

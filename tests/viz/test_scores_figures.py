@@ -9,7 +9,6 @@ from viz_case import GRID, observed, occupancy, panel
 
 import bayesmap as bm
 from bayesmap import viz
-from bayesmap.errors import BadInput
 from bayesmap.posterior.prediction import Predictor, fixed_maps
 from bayesmap.posterior.scores import score_prediction
 from bayesmap.viz.diagnostics import effective_sample_size, normalize_log_weights
@@ -54,12 +53,10 @@ def test_colour_scales_hold_nine_residuals_of_ten():
     assert viz.residual_scale([]).high == 0.05
     surprise = viz.surprise_scale(np.linspace(-1.0, 1.0, 101))
     assert (surprise.low, surprise.high) == pytest.approx((0.0, 0.98))
-    with pytest.raises(BadInput, match="limit of the residuals"):
+    with pytest.raises(bm.BadInput, match="limit of the residuals"):
         viz.residual_scale([1.0], -1.0)
 
-
-def test_colours_stay_apart_without_red_and_green():
-    """A deuteranope (Vienot 1999) sees the ends differ from each other and from the middle."""
+    # A deuteranope (Vienot 1999) sees the ends differ from each other and from the middle.
     seen = np.array([[0.29275, 0.70725, 0.0], [0.29275, 0.70725, 0.0], [-0.02234, 0.02234, 1.0]])
     short, grey, long = (np.array(viz.palette.residual_colormap()(v)[:3]) ** 2.2 @ seen.T for v in (0.0, 0.5, 1.0))
     for a, b in ((short, grey), (grey, long), (short, long)):
@@ -126,8 +123,6 @@ def test_a_long_trace_keeps_its_one_spike():
     assert x[np.argmin(y)] == 654_322
     assert (x[0], x[-1]) == (1, 1_000_000)
 
-
-def test_figure_has_a_legend_for_several_chains_only():
     assert viz.trace_figure(np.random.default_rng(0).random((2, 50))).axes[3].get_legend() is not None
     assert viz.trace_figure(np.zeros((1, 50))).axes[3].get_legend() is None
     viz.trace_figure(np.zeros((20, 1))).draw_without_rendering()
@@ -152,8 +147,7 @@ def test_collapse_shows_as_one_sample_at_the_right():
     (line,) = ax.lines
     np.testing.assert_allclose(line.get_xdata(), 0.0, atol=1e-9)
 
-
-def test_weights_are_normalised_without_overflow_and_may_be_zero():
+    # Weights are normalised without overflow, and may be zero.
     logs = normalize_log_weights(np.full(250, -12_345.0))
     np.testing.assert_allclose(logs, -np.log(250))
     assert effective_sample_size(logs) == pytest.approx(250)
@@ -176,5 +170,5 @@ def test_weights_are_normalised_without_overflow_and_may_be_zero():
     (draw_dots, [[[0.0, np.nan]], [0.0]], "not finite"), (draw_dots, [[[0.0, 0.0]], [np.inf]], "not finite"),
 ])  # fmt: skip
 def test_numbers_that_do_not_fit_a_figure_are_named(draw, numbers, says):
-    with pytest.raises(BadInput, match=says):
+    with pytest.raises(bm.BadInput, match=says):
         draw(*numbers)

@@ -4,10 +4,9 @@ import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from bayesmap.space.grid import Grid
-from bayesmap.space.scans import Scans
+import bayesmap as bm
 
-GRID = Grid(shape=(6, 4), resolution=0.5, origin=(-1.0, 2.0))
+GRID = bm.Grid(shape=(6, 4), resolution=0.5, origin=(-1.0, 2.0))
 CORNER = (5, 3)
 """The cell in the upper right."""
 HIDDEN = (0, 3)
@@ -30,7 +29,7 @@ def observed():
 def scans():
     ranges = np.array([[0.8, np.inf, -np.inf, np.nan, 0.3]])
     angles = np.linspace(0.0, np.pi, 5)
-    return Scans(poses=np.array([[0.25, 2.75, 0.0]]), angles_rad=angles, ranges_m=ranges, max_range_m=2.0)
+    return bm.Scans(poses=np.array([[0.25, 2.75, 0.0]]), angles_rad=angles, ranges_m=ranges, max_range_m=2.0)
 
 
 def panel():
