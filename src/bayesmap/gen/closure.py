@@ -179,8 +179,9 @@ class Applied(Outer):
 
     def edit(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
         held_args, held_kwargs = Diff.no_change((self.held_args, self.held_kwargs))
-        inner, weight, retdiff, back = request.edit(key, trace.inner, _in_form((*held_args, *argdiffs), held_kwargs))
-        return self.wrap(Diff.tree_primal(argdiffs), inner), weight, retdiff, back
+        inner_diffs = _in_form((*held_args, *argdiffs), held_kwargs)
+        inner, weight, retdiff, backward = request.edit(key, trace.inner, inner_diffs)
+        return self.wrap(Diff.tree_primal(argdiffs), inner), weight, retdiff, backward
 
 
 @method
@@ -223,10 +224,10 @@ class Dimap(Outer):
 
     def edit(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
         inner_diffs = _changes(self.inner_args, argdiffs)
-        inner, weight, inner_retdiff, back = request.edit(key, trace.inner, inner_diffs)
+        inner, weight, inner_retdiff, backward = request.edit(key, trace.inner, inner_diffs)
         retdiff = _changes(self.post, argdiffs, inner_diffs, inner_retdiff)
         args, retval = Diff.tree_primal((argdiffs, retdiff))
-        return TransformedTrace(self, args, inner.with_args(None), retval), weight, retdiff, back
+        return TransformedTrace(self, args, inner.with_args(None), retval), weight, retdiff, backward
 
 
 def _same_args(*args: Any) -> tuple[Any, ...]:

@@ -126,7 +126,8 @@ def draw_shape(sample_shape: Any) -> tuple[int, ...]:
     try:
         return tuple(map(operator.index, shape)) if np.ndim(shape) else (operator.index(shape),)
     except TypeError:
-        raise BadArguments(f"sample_shape is a number or a tuple of lengths (in jit a Const), not {shape!r}") from None
+        choices = "a number of draws or a tuple of lengths (under jit as a Const)"
+        raise BadArguments(f"sample_shape is {choices}, not {shape!r}") from None
 
 
 class ExactDensity(Distribution):

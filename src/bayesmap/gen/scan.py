@@ -95,11 +95,11 @@ class Scan(Vectorised):
         def step(key: PRNGKey, args: Any, mapped: Any) -> Any:
             inner, request = mapped
             diffs = (Diff.unknown_change(args[0]), mark(args[1]))
-            new, weight, _, back = request.edit(key, inner, diffs)
-            return new, weight, back
+            new, weight, _, backward = request.edit(key, inner, diffs)
+            return new, weight, backward
 
-        new, weight, back = self._loop(key, args, step, (trace.inner, request))
-        return new, weight, Diff.unknown_change(new.retval), undo_all(back)
+        new, weight, backward = self._loop(key, args, step, (trace.inner, request))
+        return new, weight, Diff.unknown_change(new.retval), undo_all(backward)
 
     def edit_one(self, key: PRNGKey, trace: Any, i: Any, request: EditRequest, argdiffs: Any) -> Edited:
         """Edit step i, and the steps after it if the state after step i may differ."""
@@ -107,7 +107,7 @@ class Scan(Vectorised):
         args = Diff.tree_primal(argdiffs)
         trace, args_weight, _, _ = EmptyRequest().edit(key, trace, argdiffs)
         old, *step_args = nth((trace.inner, trace.carries, args[1]), i)
-        new, weight, retdiff, back = request.edit(key, old, Diff.no_change(tuple(step_args)))
+        new, weight, retdiff, backward = request.edit(key, old, Diff.no_change(tuple(step_args)))
         state_diff, out = retdiff[0], new.get_retval()[1]
         new = new.with_args(None)
 
@@ -120,7 +120,7 @@ class Scan(Vectorised):
             inner = store(trace.inner, new)
             result = ScanTrace(self, args, inner, trace.carries, retval, total(inner.get_score()))
             diff = (Diff.no_change(retval[0]), Diff.unknown_change(retval[1]))
-            return result, args_weight + weight, diff, IndexRequest(i, back)
+            return result, args_weight + weight, diff, IndexRequest(i, backward)
 
         # Otherwise run all steps: those before i stay, step i is the edited one, and later ones get their new state.
         def step(key: PRNGKey, step_args: Any, mapped: Any) -> Any:
@@ -135,7 +135,7 @@ class Scan(Vectorised):
             return (*jax.lax.switch(jnp.sign(s - i) + 1, options), None)
 
         result, change, _ = self._loop(key, args, step, (trace.inner, jnp.arange(self.length(args))))
-        return result, args_weight + change, Diff.unknown_change(result.retval), IndexRequest(i, back)
+        return result, args_weight + change, Diff.unknown_change(result.retval), IndexRequest(i, backward)
 
 
 @decorator_method

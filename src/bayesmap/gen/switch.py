@@ -77,14 +77,14 @@ class MaskCombinator(Outer):
             raise NotSupportedEditRequest(self, request)
         args = Diff.tree_primal(argdiffs)
         old_flag, new_flag = jnp.asarray(trace.flag), jnp.asarray(_flag(args))
-        inner, weight, retdiff, back = request.edit(key, trace.inner, argdiffs[1:])
+        inner, weight, retdiff, backward = request.edit(key, trace.inner, argdiffs[1:])
         new = self.wrap(args, inner)
         # The edit's weight counts if the flag is and was True. A flag that changes adds or removes a score.
         switched = jnp.where(new_flag, inner.get_score(), 0.0) - jnp.where(old_flag, trace.inner.get_score(), 0.0)
         weight = jnp.where(old_flag & new_flag, weight, jnp.where(old_flag == new_flag, 0.0, switched))
         retval = new.get_retval()
         unchanged = argdiffs[0].tangent == NoChange and Diff.static_check_no_change(retdiff)
-        return new, weight, (Diff.no_change if unchanged else Diff.unknown_change)(retval), back
+        return new, weight, (Diff.no_change if unchanged else Diff.unknown_change)(retval), backward
 
     def project(self, key: PRNGKey, trace: Any, selection: Selection) -> Weight:
         return jnp.where(trace.flag, super().project(key, trace, selection), 0.0)

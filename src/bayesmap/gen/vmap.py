@@ -76,12 +76,12 @@ class Product(ExactDensity):
         element_args = mapped.element(i)
         value = trace.value[i]
         element = DistributionTrace(self.inner, element_args, value, self.inner.score(value, element_args))
-        edited, weight, retdiff, back = request.edit(key, element, Diff.no_change(element_args))
+        edited, weight, retdiff, backward = request.edit(key, element, Diff.no_change(element_args))
         new_value = trace.value.at[i].set(edited.get_retval())
         below = retdiff.tangent.index if isinstance(retdiff.tangent, IndexChange) else ()
         score = replace_term(trace.score, element.score, edited.get_score(), lambda: self.score(new_value, args))
         new = DistributionTrace(self, args, new_value, score)
-        return new, args_weight + weight, Diff(new_value, IndexChange((i, *below))), IndexRequest(i, back)
+        return new, args_weight + weight, Diff(new_value, IndexChange((i, *below))), IndexRequest(i, backward)
 
 
 class Vectorised(GenerativeFunction):
@@ -127,13 +127,13 @@ class Vectorised(GenerativeFunction):
 
 def as_update(edited: Edited) -> Edited:
     """Return the outcome of an update of one element, with the way back as an Update instead of an IndexRequest."""
-    new, weight, retdiff, back = edited
-    return new, weight, retdiff, Update(back.request.constraint.extend(back.idx))  # type: ignore[attr-defined]
+    new, weight, retdiff, backward = edited
+    return new, weight, retdiff, Update(backward.request.constraint.extend(backward.idx))  # type: ignore[attr-defined]
 
 
-def undo_all(back: EditRequest) -> EditRequest:
+def undo_all(backward: EditRequest) -> EditRequest:
     """Return the request that undoes an edit of every run, given the runs' backward requests, stacked."""
-    return back if isinstance(back, Update | EmptyRequest) else VectorRequest(back)
+    return backward if isinstance(backward, Update | EmptyRequest) else VectorRequest(backward)
 
 
 @dataclass
@@ -200,13 +200,13 @@ class Vmap(Vectorised):
         tangents = [t if axis is None else of_elements(t) for t, axis in pairs]
 
         def element(key: PRNGKey, inner: Trace, request: EditRequest, args: Arguments) -> Any:
-            new, weight, retdiff, back = request.edit(key, inner, Diff.zip(args, tangents))
+            new, weight, retdiff, backward = request.edit(key, inner, Diff.zip(args, tangents))
             blurred = [of_elements(t) for t in Diff.tangents(retdiff)]
-            return new.with_args(None), weight, Diff.zip(Diff.tree_primal(retdiff), blurred), back
+            return new.with_args(None), weight, Diff.zip(Diff.tree_primal(retdiff), blurred), backward
 
         keys = jax.random.split(key, mapped.n)
-        inner, weights, retdiff, back = mapped.vmap(element, keys, trace.inner, request)
-        return self._trace(args, inner), total(weights), retdiff, undo_all(back)
+        inner, weights, retdiff, backward = mapped.vmap(element, keys, trace.inner, request)
+        return self._trace(args, inner), total(weights), retdiff, undo_all(backward)
 
     def edit_one(self, key: PRNGKey, trace: Any, i: Any, request: EditRequest, argdiffs: Any) -> Edited:
         """Change one element, without reading any other."""
@@ -214,7 +214,7 @@ class Vmap(Vectorised):
         # Move the trace to the new arguments first, then edit the element's own trace.
         trace, args_weight, _, _ = EmptyRequest().edit(key, trace, argdiffs)
         element = nth(trace.inner, i)
-        new, weight, retdiff, back = request.edit(key, element, Diff.no_change(self._map(args).element(i)))
+        new, weight, retdiff, backward = request.edit(key, element, Diff.no_change(self._map(args).element(i)))
 
         def store(stack: Any, old: Any, new: Any) -> Any:
             return stack if new is old else stack.at[i].set(new)
@@ -224,7 +224,7 @@ class Vmap(Vectorised):
         changes = [_at(i, t) for t in Diff.tangents(retdiff)]
         score = replace_term(trace.score, element.get_score(), new.get_score(), lambda: total(inner.get_score()))
         retdiff = Diff.zip(retval, changes)
-        return VmapTrace(self, args, inner, score), args_weight + weight, retdiff, IndexRequest(i, back)
+        return VmapTrace(self, args, inner, score), args_weight + weight, retdiff, IndexRequest(i, backward)
 
 
 def _at(i: Any, tangent: Change) -> Change:

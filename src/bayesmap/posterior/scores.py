@@ -6,8 +6,7 @@ follow the predictive law, then the probability integral transform
     u = P(reading < z) + v P(reading = z),    v uniform on (0, 1),
 
 is uniform. The randomisation v spreads the atoms at "no return" and "too close" over their probability (Czado, Gneiting
-and Held, *Predictive model assessment for count data*, Biometrics 2009). A central interval of probability p contains
-the reading if ``|u - 1/2| <= p / 2``.
+and Held, Biometrics 2009). A central interval of probability p contains the reading if ``|u - 1/2| <= p / 2``.
 
 Beams of one scan share the error of its pose, so standard errors come from a bootstrap whose blocks are whole scans.
 """

@@ -16,16 +16,8 @@ import scipy
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.space.planar import (
-    Floats,
-    between,
-    between_jacobians,
-    bracketing_indices,
-    interpolate,
-    nearest_index,
-    rotation,
-    wrap_angle,
-)
+from bayesmap.space import planar
+from bayesmap.space.planar import Floats, between, interpolate, nearest_index, rotation, wrap_angle
 from bayesmap.space.time_order import moment
 from bayesmap.space.trajectory import LONGEST_GAP_S, RelativeLaw, Trajectory
 
@@ -96,7 +88,7 @@ def relation_errors(stamps_s: Floats, poses: Floats, relations: Relations, *, ex
     within, has_poses = (np.ones(len(relations), dtype=np.bool_) for _ in range(2))
     for end_s in ends:
         within &= (end_s >= stamps_s[0] - SLACK_S) & (end_s <= stamps_s[-1] + SLACK_S)
-        earlier_s, later_s = (stamps_s[index] for index in bracketing_indices(stamps_s, end_s))
+        earlier_s, later_s = (stamps_s[index] for index in planar.bracketing_indices(stamps_s, end_s))
         at_pose = np.minimum(np.abs(end_s - later_s), np.abs(end_s - earlier_s)) <= SLACK_S
         has_poses &= at_pose if exact else at_pose | (later_s - earlier_s <= LONGEST_GAP_S + SLACK_S)
     covered = within & has_poses
@@ -223,7 +215,7 @@ def _independent(poses: Floats, covariances: Floats, stamps_s: Floats, relations
     ends_s = relations.first_s, relations.second_s
     ends = [interpolate(stamps_s, poses, end_s) for end_s in ends_s]
     total = np.zeros((len(relations), DIMENSIONS, DIMENSIONS))
-    for pose, end_s, jacobian in zip(ends, ends_s, between_jacobians(between(*ends)), strict=True):
+    for pose, end_s, jacobian in zip(ends, ends_s, planar.between_jacobians(between(*ends)), strict=True):
         from_world = jacobian @ np.swapaxes(rotation(pose[:, 2]), 1, 2)
         total += from_world @ covariances[nearest_index(stamps_s, end_s)] @ np.swapaxes(from_world, 1, 2)
     return _in_end_frame(total, relations)

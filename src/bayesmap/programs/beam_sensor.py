@@ -1,8 +1,7 @@
 """Sensors as generative functions of the walls: the law of readings, the base of all sensors, the one at known poses.
 
 A trace at known poses keeps the readings and the position of each beam's first hit. A changed cell matters to a beam
-only if it becomes a wall before the hit, or if it was the hit and is removed; then the hit moves to the next wall. So
-an edit of a cell reads the beams through this cell alone.
+only if it becomes a wall before the hit, or was the hit and is removed. So an edit reads the beams through its cell.
 """
 
 from __future__ import annotations

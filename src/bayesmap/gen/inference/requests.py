@@ -55,8 +55,9 @@ class HMC(EditRequest):
         args, choices = Diff.tree_primal(argdiffs), current.get_choices()
         start = choices.filter(self.selection)
         for path in start.paths():
-            if not jnp.issubdtype(jnp.result_type(start[path]), jnp.floating):
-                raise TypeError(f"HMC moves real choices; {format_address(path)} is {jnp.result_type(start[path])}")
+            dtype = jnp.result_type(start[path])
+            if not jnp.issubdtype(dtype, jnp.floating):
+                raise TypeError(f"HMC moves real choices; {format_address(path)} has dtype {dtype}")
 
         def log_density(values: ChoiceMap) -> Any:
             return current.get_gen_fn().assess(values | choices, args)[0]
