@@ -130,10 +130,7 @@ def overlay_of(result: Result) -> dict[str, NDArray[np.float32]]:
 
 
 def thin_trace(log_joint: NDArray[np.float64]) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-    """Thin a trace, (chains, n), to all of the first sweeps and evenly chosen later sweeps.
-
-    Returns the log joint at these sweeps, (chains, m), and the sweeps, counted from 1, (m,).
-    """
+    """Return the log joint at all first and evenly chosen later sweeps, (chains, m), and these sweeps, from 1, (m,)."""
     count = log_joint.shape[1]
     later = np.linspace(1, count, min(count, TRACE_POINTS)).round().astype(int) if count else np.zeros(0, dtype=int)
     sweeps = np.union1d(np.arange(1, min(count, FIRST_SWEEPS) + 1), later)

@@ -68,10 +68,7 @@ def export_report(question: Export, result: Result | None, client: int) -> Repor
 
 
 def file_of(result: Result, what: str) -> tuple[Download, bytes]:
-    """Return a file of a result: "run", "map", "recording" or the page, "html".
-
-    Raises `BadInput` if a run has no draws to save.
-    """
+    """Return a "run", "map", "recording" or page ("html") of a result. Raises `BadInput` if a run has no draws."""
     if what == "recording":
         return Download("recording", "application/octet-stream"), encode_recording(*record(result))
     if what == "html":

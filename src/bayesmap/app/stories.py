@@ -46,10 +46,7 @@ class WrittenStory(Struct, frozen=True, forbid_unknown_fields=True):
 
 
 def read_story(path: str, document: Document) -> Story:
-    """Read a story from a JSON file, whose start changes a document. The path "tutorial" is the package's story.
-
-    Raises `BadInput`, with the file, the step and the key, if the file is not JSON or not a story.
-    """
+    """Read a story from a JSON file, or "tutorial". Raises `BadInput`, with file, step and key, if it is no story."""
     try:
         values = json.loads(read_static("story.json") if path == OURS else Path(path).read_text(encoding="utf-8"))
         written = convert(values, WrittenStory, "story")

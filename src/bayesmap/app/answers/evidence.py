@@ -55,10 +55,7 @@ def wall_ratios(table: BeamTable, p_wall: NDArray[np.float64], cell: int) -> Bea
 
 
 def stop_ratios(result: Result, table: BeamTable, cell: int) -> BeamRatios | None:
-    """Compute the log ratio of every beam through a cell: the map against the cell emptied. None without draws.
-
-    Raises `BadInput` if the run's sensor model is not built in.
-    """
+    """Compare, for each beam through a cell, the map and the map with the cell emptied. None without draws."""
     if result.estimate.available_draws is None:
         return None
     predictor, _ = predictor_of_result(result)
