@@ -302,7 +302,6 @@ def test_other_phones_show_a_run_s_whole_status_and_its_ghost(open_page, room, w
     wide, room_for_it = status.evaluate("(status) => [status.scrollWidth, status.clientWidth]")
     assert wide <= room_for_it + 1
     playwright.expect(page.get_by_text("Touch a cell")).to_be_visible()
-    page.get_by_role("button", name="More tools").click()
     choose(page, "Ghost")
     until(page, "s.ghost.fan")
     drag_a_finger(page, (6, 20), (10, 20), (12, 12))

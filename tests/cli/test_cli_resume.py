@@ -240,7 +240,7 @@ def test_out_of_memory_before_the_first_checkpoint_it_is_as_it_was(office, finis
     monkeypatch.setattr("bayesmap.api.infer", real)
     succeed("infer", office, "-o", finished, "--resume")
     assert bm.load(finished / "run.nc").posterior.settings["seed"] == 5
-    assert contents(finished).keys() == before.keys()
+    assert contents(finished).keys() ^ before.keys() == ({"surfaces.png"} if where == "propagate" else set())
 
 
 def test_the_first_checkpoint_removes_the_old_run_and_its_products(office, finished, short, monkeypatch):
