@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.poses.graph import PoseGaussian, Quadratic, normal_equations
-from bayesmap.poses.trajectory import Trajectory
+from bayesmap.poses.trajectory import InferredTrajectory
 from bayesmap.space.scans import Scans
 
 Floats = NDArray[np.float64]
@@ -25,7 +25,9 @@ def every_other_beam(scans: Scans, first: int) -> Scans:
                  min_range_m=scans.min_range_m, stamps_s=scans.stamps_s)  # fmt: skip
 
 
-def difference_scales(one: Trajectory, other: Trajectory, first: NDArray[np.intp], second: NDArray[np.intp]) -> Floats:
+def difference_scales(
+    one: InferredTrajectory, other: InferredTrajectory, first: NDArray[np.intp], second: NDArray[np.intp]
+) -> Floats:
     """Scale matrices of what relative poses of pairs of scans differ by, (N, 3, 3)."""
     return _laser_alone(one).relative_covariances(first, second) + _laser_alone(other).relative_covariances(
         first, second
@@ -70,7 +72,7 @@ class _LaserAlone(PoseGaussian):
         return _Dense(inverse @ laser @ inverse)
 
 
-def _laser_alone(found: Trajectory) -> Trajectory:
+def _laser_alone(found: InferredTrajectory) -> InferredTrajectory:
     gaussian = found.gaussian
     laser = len(gaussian.first) - (0 if found.odometry is None else len(found.odometry))
     fields = {name: getattr(gaussian, name) for name in ("poses", "first", "second", "relative", "curvature", "force")}

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from scipy import stats
 
 from bayesmap.poses.slam import infer_trajectory
-from bayesmap.poses.trajectory import Trajectory
+from bayesmap.poses.trajectory import InferredTrajectory
 from bayesmap.sensors.model import Gaussian
 from bayesmap.sim.building import building
 from bayesmap.sim.forward import simulate
@@ -273,7 +273,7 @@ class Outcome:
     outside_t: int
 
 
-def judge(found: Trajectory, truth: Floats, seed: int = 0) -> Outcome:
+def judge(found: InferredTrajectory, truth: Floats, seed: int = 0) -> Outcome:
     """Hold relations of near scans against the truth, and failures against what was announced."""
     rng = np.random.default_rng(seed)
     first, second = np.sort(rng.integers(0, len(truth), (2, 8 * PAIRS)), axis=0)
@@ -306,7 +306,7 @@ def judge(found: Trajectory, truth: Floats, seed: int = 0) -> Outcome:
     return Outcome(float(np.median(error)), float(error.max()), len(failed), *unannounced)
 
 
-def announced_scans(found: Trajectory) -> list[int]:
+def announced_scans(found: InferredTrajectory) -> list[int]:
     """Return the scans before which a break or a leap is announced."""
     return sorted({*found.breaks.tolist(), *found.leaps.tolist()})
 

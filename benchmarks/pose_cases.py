@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.poses.slam import infer_trajectory
-from bayesmap.poses.trajectory import Trajectory
+from bayesmap.poses.trajectory import InferredTrajectory
 from bayesmap.sensors.model import BeamMixture, Gaussian
 from bayesmap.sim.building import Building, building
 from bayesmap.sim.forward import simulate
@@ -270,7 +270,7 @@ def off(poses: Floats, truth: Floats) -> Floats:
     return np.asarray(np.hypot(*((a - mean_a) @ turn.T + mean_b - b).T))
 
 
-def row(name: str) -> tuple[str, Trajectory]:
+def row(name: str) -> tuple[str, InferredTrajectory]:
     """Infer the trajectory of a case; the row of the table."""
     case = CASES[name]()
     begin = time.process_time()

@@ -19,7 +19,7 @@ from bayesmap.io.text.trajectories import read_relations
 from bayesmap.localization.known_map import KnownMap
 from bayesmap.poses.key_graph import poses_between_keys
 from bayesmap.poses.slam import infer_trajectory
-from bayesmap.poses.trajectory import Trajectory
+from bayesmap.poses.trajectory import InferredTrajectory
 from bayesmap.posterior.prediction import predictor_of
 from bayesmap.posterior.scores import beam_log_scores
 from bayesmap.posterior.trajectory_scores import relation_errors
@@ -210,7 +210,7 @@ def heldout() -> Iterator[Figure]:
                  against="the same, each beam by itself")  # fmt: skip
 
 
-def at_poses(scans: Scans, found: Trajectory, poses: Floats) -> Scans:
+def at_poses(scans: Scans, found: InferredTrajectory, poses: Floats) -> Scans:
     """Scans at inferred poses, with the beam angles that were found."""
     return Scans(poses, found.calibration.angles_rad, scans.ranges_m, max_range_m=scans.max_range_m,
                  min_range_m=scans.min_range_m, stamps_s=scans.stamps_s)  # fmt: skip

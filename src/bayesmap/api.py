@@ -413,7 +413,7 @@ def slam(
     keys = map_scans.key_scans(log, trajectory, schedule.chains, seed)
     grid = Grid.covering(keys.scans, resolution)
     cells = Surface() if prior is None else prior
-    fast = len(keys.scans) > map_scans.SAMPLED if fast is None else fast
+    fast = len(keys.scans) > map_scans.MAX_SAMPLED_KEYS if fast is None else fast
 
     # Sample the map; unless ``fast``, sample the poses of the key scans too.
     def with_trajectory(callback: Callable[[Run], None] | None) -> Callable[[Run], None] | None:
@@ -440,7 +440,7 @@ def estimate_slam(
     keys = map_scans.keys_by_odometry(log, no_odometry)
     if len(log) < 2 or not np.isfinite(keys.ranges_m).any():
         return None  # refused with its reason later
-    fast = len(keys) > map_scans.SAMPLED if fast is None else fast
+    fast = len(keys) > map_scans.MAX_SAMPLED_KEYS if fast is None else fast
     try:
         grid = Grid.covering(keys, resolution)
     except BadInput:  # odometry leaps, which the trajectory will mend

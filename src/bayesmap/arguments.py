@@ -12,7 +12,7 @@ from bayesmap.run.chains import PRECISION
 from bayesmap.run.runner import Executor
 
 if TYPE_CHECKING:
-    from bayesmap.poses.trajectory import Trajectory
+    from bayesmap.poses.trajectory import InferredTrajectory
     from bayesmap.result import Run
 
 CHECKPOINT_S = 30.0  # default number of seconds between two checkpoints
@@ -136,7 +136,7 @@ class Checkpoints:
     every_s: float = CHECKPOINT_S
     stages: str | os.PathLike[str] | None = None
     preview: Callable[[Run], None] | None = None
-    trajectory: Callable[[Trajectory], None] | None = None
+    trajectory: Callable[[InferredTrajectory], None] | None = None
 
     def __post_init__(self) -> None:
         if self.resume is not None and not hasattr(self.resume, "posterior"):

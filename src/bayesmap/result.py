@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from bayesmap.cells.kind import CellPrior
-    from bayesmap.poses.trajectory import Trajectory
+    from bayesmap.poses.trajectory import InferredTrajectory
     from bayesmap.posterior.decisions import InformationGain
     from bayesmap.posterior.prediction import Prediction
     from bayesmap.posterior.route import FreeProbability, Route
@@ -50,7 +50,7 @@ class Run:
     """
 
     posterior: Posterior
-    trajectory: Trajectory | None = None
+    trajectory: InferredTrajectory | None = None
 
     @property
     def grid(self) -> Grid:

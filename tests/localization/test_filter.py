@@ -14,9 +14,8 @@ from tiers import full_but
 
 import bayesmap as bm
 from bayesmap.localization import search
-from bayesmap.localization.belief import PoseBelief
+from bayesmap.localization.belief import DOF, PoseBelief, PoseMixture, student_draws
 from bayesmap.localization.filter import Prior, Scan, locate, refine_by_end_points, without_duplicates
-from bayesmap.localization.particles import DOF, PoseMixture, student_draws
 from bayesmap.space.planar import wrap_angle
 
 
@@ -89,7 +88,7 @@ def test_the_coarse_search_scores_every_position_and_heading(room):
     """The best of its poses is the best of the whole lattice, by the plain sum."""
     walls, grid, field = room
     scans = scan_from(walls, grid, np.array([2.0, 1.7, 1.0]))
-    points = search.end_points(ANGLES, scans.ranges_m[0], search.POINTS)
+    points = search.end_points(ANGLES, scans.ranges_m[0], search.COARSE_POINTS)
     (mx, my), size = field.coarse_grid.shape, field.coarse_grid.resolution
 
     def plain(cell, heading):
@@ -194,7 +193,7 @@ def test_unequal_draws_of_places_leave_the_integral_right():
     assert all(np.bincount(run.place).tolist() == [60, 20] for run in runs)
     assert np.mean([np.exp(run.log_evidence) for run in runs]) == pytest.approx(1.0, abs=0.05)
     assert np.mean([run.weights[run.place == 0].sum() for run in runs]) == pytest.approx(0.75, abs=0.05)
-    assert places.shared_out(40).tolist() == [40, round(40 * np.sqrt(1 / 3))]
+    assert places.draw_counts(40).tolist() == [40, round(40 * np.sqrt(1 / 3))]
 
 
 def test_a_wide_prior_is_narrowed_about_the_pose_but_by_a_scan_with_few_hits():

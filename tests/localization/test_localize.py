@@ -14,7 +14,7 @@ from tiers import full_but
 
 import bayesmap as bm
 from bayesmap.localization.belief import PoseBelief
-from bayesmap.localization.external_map import ASSUMED, external_map, fit_law, searched
+from bayesmap.localization.external_map import ASSUMED, external_map, fit_law, search_single_scans
 from bayesmap.localization.filter import rescale_by_place_evidence
 from bayesmap.localization.localize import InitialPose, localize
 from bayesmap.localization.search import likelihood_field
@@ -295,9 +295,9 @@ def test_scans_of_unlike_beams_are_searched_by_their_own(room):
     tremble = np.linspace(-0.3, 0.3, 6)[:, None]
     own = replace(scans, own_angles_rad=scans.angles_by_scan() + tremble)
     turned = few - tremble * [0.0, 0.0, 1.0]
-    usual, _ = searched(known, scans, few, 0)
-    assert searched(known, own, turned, 0)[0].right == pytest.approx(usual.right, abs=1e-3)
-    assert searched(known, own, few, 0)[0].right < usual.right - 0.1
+    usual, _ = search_single_scans(known, scans, 0)
+    assert search_single_scans(known, own.at(turned), 0)[0].right == pytest.approx(usual.right, abs=1e-3)
+    assert search_single_scans(known, own, 0)[0].right < usual.right - 0.1
 
 
 def test_the_fitted_law_is_that_of_the_scans_which_are_located_from_anywhere(room):
@@ -345,7 +345,7 @@ def test_a_wrong_prior_is_given_up_when_the_scans_contradict_it():
         return np.median([offset(b.mean, pose)[1] for b, pose in zip(beliefs, truth[-8:], strict=True)])
 
     assert off(known) < 0.2
-    stubborn = replace(known.trust, carried=1e-12, search_way_m=np.inf, forgotten_nats=1.0)
+    stubborn = replace(known.trust, p_carried=1e-12, search_way_m=np.inf, forgotten_nats=1.0)
     assert off(replace(known, trust=stubborn)) > 3.0
 
 

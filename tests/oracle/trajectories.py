@@ -4,7 +4,7 @@ import numpy as np
 
 from bayesmap.poses.calibration import USUAL, MotionNoise, OdometryFit
 from bayesmap.poses.graph import Factors, PoseGaussian
-from bayesmap.poses.trajectory import Calibration, LoopClosures, Trajectory
+from bayesmap.poses.trajectory import Calibration, InferredTrajectory, LoopClosures
 from bayesmap.space.planar import between, chain_motions, compose
 
 STEP = np.array([0.5, 0.0, np.pi / 8])
@@ -32,12 +32,12 @@ def round_way(keys=16, sigma=(0.01, 0.02, 0.005), closure=True, odometry=True, f
     seen = between(every[:1], every[-1:])
     none = np.empty(0, np.intp)
     fit = OdometryFit(np.full((3, 3), 0.01), 1e-6 * np.eye(9), 0.09, 0.01, MotionNoise(USUAL))
-    return Trajectory(
+    return InferredTrajectory(
         poses=every, stamps_s=10.0 + np.arange(scans), keys=at, gaussian=gaussian,
         nearest_key=np.insert(np.arange(keys), 1, 0), own_covariance=own, explained=np.ones(scans),
         flagged=np.arange(scans) == 1, breaks=none, leaps=np.array([3], np.intp),
         closures=LoopClosures(*ends, seen, np.zeros((1, 3)), np.ones(1)), order=np.arange(scans),
         calibration=Calibration(1.001, np.linspace(-1, 1, 5), fit if odometry else None,
-                                fit.noise.of_scans(relative) if odometry else None, 0.006),
+                                fit.noise.as_odometry(relative) if odometry else None, 0.006),
         odometry=step if odometry else None,
     )  # fmt: skip

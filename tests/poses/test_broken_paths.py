@@ -13,11 +13,19 @@ from simulated import odometry_of, off, path_around, poses_along, recording, rin
 from tiers import full_but
 
 from bayesmap.poses.calibration import stated_motions
-from bayesmap.poses.front_end import REMATCH_LOSS, _Path, grid_half_width, track_scans
+from bayesmap.poses.front_end import (
+    REMATCH_LOSS,
+    PlacedScans,
+    WideMatch,
+    Window,
+    _Path,
+    grid_half_width,
+    search_widely,
+    track_scans,
+)
 from bayesmap.poses.key_graph import chain_of, unconfirmed_links
 from bayesmap.poses.loops import key_path
 from bayesmap.poses.matcher import likelihood_grids
-from bayesmap.poses.next_scans import PlacedScans, WideMatch, Window, search_widely
 from bayesmap.poses.odometry_factors import StatedOdometry, compose_factors
 from bayesmap.poses.rejoin import MIN_PLACES, rejoin
 from bayesmap.poses.scan_geometry import scan_geometry
@@ -248,7 +256,7 @@ def test_a_scan_that_fits_worse_is_matched_from_those_before_it_and_a_short_moti
     def variances(motions):
         return 0.01 * np.abs(motions[:, :1]) * np.ones(3) + 1e-8
 
-    factors = odometry._corrected(track, odometry.poses, np.zeros((3, 3)), variances)
+    factors = odometry._factors(track, odometry.poses, np.zeros((3, 3)), variances)
     np.testing.assert_allclose(factors.information[9], factors.information[3], rtol=1e-6)
 
 

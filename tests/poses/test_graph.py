@@ -19,7 +19,7 @@ from bayesmap.poses.alignment import Alignment, Pairs, PointError, place_scans
 from bayesmap.poses.graph import Factors, PoseGaussian, bend_covariances, normal_equations, quadratic
 from bayesmap.poses.key_alignment import flag_unexplained
 from bayesmap.poses.map_scans import key_scans
-from bayesmap.poses.prior import FREE, KnownPoses, Motions, Odometry, UncertainPoses
+from bayesmap.poses.prior import FREE_SIGMA, KnownPoses, Motions, Odometry, UncertainPoses
 from bayesmap.poses.scan_geometry import scan_geometry
 from bayesmap.poses.trajectory import with_arcs
 from bayesmap.space.planar import between, between_jacobians, compose, wrap_angle
@@ -325,7 +325,7 @@ def test_a_motion_that_odometry_missed_pulls_at_no_pose():
     assert changes[0.0] > 100  # what turned scans against the walls
     assert 0 < changes[0.01] < 0.01
     precision = Motions(stood[1:], sigmas, 0.01).law(stood).precision(turned)[1]
-    np.testing.assert_allclose(precision, np.diag(FREE**-2.0), atol=0.01)  # steps as long as the walls allow
+    np.testing.assert_allclose(precision, np.diag(FREE_SIGMA**-2.0), atol=0.01)  # steps as long as the walls allow
 
 
 def test_known_poses_do_not_move_nor_does_the_first_of_odometry():

@@ -144,14 +144,15 @@ def test_real_logs(name):
 RATES = np.array([[4e-3, 2e-3, 1e-6], [1e-3, 1e-3, 1e-6], [2e-3, 5e-3, 1e-7]])
 
 
-def way(count, seed):
+def features_of_motions(count, seed):
     """Ways, turns and numbers of scans of motions."""
     rng = np.random.default_rng(seed)
-    return rng.uniform(0.0, 0.6, count), rng.uniform(0.0, 0.5, count) * (rng.random(count) < 0.4), np.full(count, 3.0)
+    ways, turns = rng.uniform(0.0, 0.6, count), rng.uniform(0.0, 0.5, count) * (rng.random(count) < 0.4)
+    return np.stack([ways, turns, np.full(count, 3.0)], axis=-1)
 
 
-def errors_of(noise, ways, turns, scans, seed):
-    sigma = np.sqrt(np.stack([ways, turns, scans], axis=-1) @ noise.rates.T)
+def errors_of(noise, features, seed):
+    sigma = np.sqrt(features @ noise.rates.T)
     return sigma * np.random.default_rng(seed).normal(size=sigma.shape)
 
 
@@ -162,7 +163,7 @@ def test_variances_of_parts_and_the_noise_of_single_scans_add_up_to_that_of_the_
     np.testing.assert_allclose(noise.variances(parts).sum(axis=0), whole, rtol=1e-12)
     rng = np.random.default_rng(3)
     motions = np.stack([rng.uniform(0, 0.2, 500), np.zeros(500), rng.normal(0, 0.1, 500)], axis=-1)
-    one = MotionNoise(RATES).of_scans(motions)
+    one = MotionNoise(RATES).as_odometry(motions)
     total = MotionNoise(RATES).variances(motions)[:, 2].sum()
     np.testing.assert_allclose((one.sigmas(motions)[:, 2] ** 2).sum(), total, rtol=1e-9)
 
@@ -170,12 +171,11 @@ def test_variances_of_parts_and_the_noise_of_single_scans_add_up_to_that_of_the_
 @pytest.mark.parametrize("slips", [0, 30])
 def test_the_noise_is_found_whether_wheels_slip_or_not(slips):
     """1500 motions tell rates of variances to about 8 %, and 2 % of slips of half a metre add a fifth."""
-    ways, turns, scans = way(1500, 1)
-    errors = errors_of(MotionNoise(RATES), ways, turns, scans, 2)
+    features = features_of_motions(1500, 1)
+    errors = errors_of(MotionNoise(RATES), features, 2)
     errors[:slips] += 0.5
-    found = fit_noise(errors, ways, turns, scans, np.full((1500, 3), 1e-8))
-    expected = np.stack([ways, turns, scans], axis=-1) @ RATES.T
-    ratio = (np.stack([ways, turns, scans], axis=-1) @ found.rates.T).mean(axis=0) / expected.mean(axis=0)
+    found = fit_noise(errors, features, np.full((1500, 3), 1e-8))
+    ratio = (features @ found.rates.T).mean(axis=0) / (features @ RATES.T).mean(axis=0)
     assert (np.abs(ratio - 1.0) < (0.4 if slips else 0.2)).all()
 
 
@@ -185,25 +185,25 @@ def test_the_noise_is_found_where_the_laser_is_blind_or_tells_not_much_more_than
     Then motions are found by a laser half as noisy as odometry that is ten times as noisy as usual. A motion that both
     found errs less than the laser alone, and differs from odometry by less than odometry errs.
     """
-    ways, turns, scans = way(600, 4)
-    errors = errors_of(MotionNoise(RATES), ways, turns, scans, 5)
+    features = features_of_motions(600, 4)
+    errors = errors_of(MotionNoise(RATES), features, 5)
     blind = np.arange(600) % 2 == 0
     errors[blind] = 0.0
     variance = np.where(blind[:, None], 1.0, 1e-8) * np.ones(3)
-    found, seen = fit_noise(errors, ways, turns, scans, variance), ~blind
-    alone = fit_noise(errors[seen], ways[seen], turns[seen], scans[seen], variance[seen])
+    found, seen = fit_noise(errors, features, variance), ~blind
+    alone = fit_noise(errors[seen], features[seen], variance[seen])
     np.testing.assert_allclose(found.rates, alone.rates, rtol=1e-6)
-    np.testing.assert_array_equal(fit_noise(errors, ways, turns, scans, np.ones((600, 3))).rates, USUAL)
-    ways, turns, scans = way(1500, 8)
+    np.testing.assert_array_equal(fit_noise(errors, features, np.ones((600, 3))).rates, USUAL)
+    features = features_of_motions(1500, 8)
     noise = MotionNoise(100.0 * USUAL)
-    errors, variance = errors_of(noise, ways, turns, scans, 9), noise.over(ways, turns, scans)
+    errors, variance = errors_of(noise, features, 9), features @ noise.rates.T
     laser = np.sqrt(0.25 * variance) * np.random.default_rng(10).normal(size=variance.shape)
     left, known = (errors - laser) * 0.8, 0.2 * variance  # of stated less found, and of what was found
-    rates = fit_noise(left, ways, turns, scans, known, variance).rates
-    ratio = MotionNoise(rates).over(ways, turns, scans).mean(axis=0) / variance.mean(axis=0)
+    rates = fit_noise(left, features, known, variance).rates
+    ratio = (features @ rates.T).mean(axis=0) / variance.mean(axis=0)
     assert (np.abs(ratio - 1.0) < 0.25).all()
-    blind = fit_noise(np.zeros((1500, 3)), ways, turns, scans, variance, variance)
-    np.testing.assert_allclose(blind.over(ways, turns, scans).sum(axis=0), variance.sum(axis=0))
+    blind = fit_noise(np.zeros((1500, 3)), features, variance, variance)
+    np.testing.assert_allclose((features @ blind.rates.T).sum(axis=0), variance.sum(axis=0))
 
 
 def straight_on(noise_rad, count=800, scale=1.03, seed=7):
@@ -282,11 +282,11 @@ def test_angles_that_are_stated_wrong_are_found_and_noise_is_not_taken_for_them(
 def test_rates_are_the_most_probable_ones_also_at_their_bounds(seed):
     """Some motions do not turn and some do not err: their rates go to the bound. No step of 1 % makes them likelier."""
     rng = np.random.default_rng(seed)
-    ways, turns, scans = way(200, seed)
-    features = np.stack([ways, turns * (seed % 2), scans], axis=-1)
+    features = features_of_motions(200, seed)
+    features[:, 1] *= seed % 2
     errors = np.sqrt(features @ (USUAL[0] * np.exp(rng.normal(0.0, 3.0, 3)))) * rng.normal(size=200) * (seed > 1)
     known = np.full(200, 1e-9)
-    found = calibration._rates(errors, features, known, USUAL[0])
+    found = calibration._fit_rates(errors, features, known, USUAL[0])
 
     def cost(rates):
         variance, nu = features @ rates, calibration.DEGREES_OF_FREEDOM

@@ -200,18 +200,18 @@ def test_few_beams_are_used_whole_and_then_the_cost_of_the_map_follows_the_area_
     few = driven(1.0)
     assert for_map(few, 0.1) is few
     monkeypatch.setattr(map_scans, "MANY_BEAMS", 10_000)
-    monkeypatch.setattr(map_scans, "ENOUGH", 5)
+    monkeypatch.setattr(map_scans, "ENOUGH_HITS", 5)
     once, often = (for_map(driven(laps), 0.1) for laps in (1.0, 4.0))
     assert len(often.angles_rad) == 180  # a degree apart
     assert once.ranges_m.size <= often.ranges_m.size < 1.2 * once.ranges_m.size
     shown, hit = (Counter(map(tuple, np.floor(s.hit_points_world() / 0.1).tolist())) for s in (often, driven(4.0)))
     assert np.mean([cell in shown for cell, hits in hit.items() if hits >= 30]) > 0.99
-    monkeypatch.setattr(map_scans, "ENOUGH", 10**9)
+    monkeypatch.setattr(map_scans, "ENOUGH_HITS", 10**9)
     assert len(for_map(driven(4.0), 0.1)) == len(driven(4.0))
 
 
 def test_poses_of_many_key_scans_are_sampled_on_request_alone(monkeypatch):
-    monkeypatch.setattr(map_scans, "SAMPLED", 3)
+    monkeypatch.setattr(map_scans, "MAX_SAMPLED_KEYS", 3)
     log, short = driven(0.3, beams=90), bm.Schedule(chains=1, warmup=5, draws=2)
     runs = [bm.slam(log, resolution=0.2, fast=fast, schedule=short).posterior for fast in (None, False)]
     kinds = [run.settings["poses"]["kind"] for run in runs]

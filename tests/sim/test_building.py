@@ -12,7 +12,7 @@ from tiers import full_but
 
 import bayesmap as bm
 from bayesmap.sim.drawing import DRAWING, TUTORIAL_GRID, from_text, to_text, tutorial
-from bayesmap.sim.robot import NEAR_M, OdometryNoise, related_pairs, simulate_odometry, travel_times_s
+from bayesmap.sim.robot import RELATED_M, OdometryNoise, related_pairs, simulate_odometry, travel_times_s
 from bayesmap.space.planar import between, wrap_angle
 from bayesmap.worlds import building, from_image, from_map_image, from_occupancy, patrol
 
@@ -393,7 +393,7 @@ def test_pairs_are_near_different_and_from_near_and_far_in_time():
     start, end = related_pairs(path, seed=1)
     assert (end > start).all()
     assert len(np.unique(np.stack([start, end]), axis=1).T) == len(start)
-    assert np.hypot(*(path[start, :2] - path[end, :2]).T).max() <= NEAR_M
+    assert np.hypot(*(path[start, :2] - path[end, :2]).T).max() <= RELATED_M
     assert set(zip(range(299), range(1, 300), strict=True)) <= set(zip(start.tolist(), end.tolist(), strict=True))
     assert (end - start > 80).sum() > 20  # a round later
     assert len(related_pairs(path[:1])[0]) == 0

@@ -20,6 +20,7 @@ from bayesmap.kernels.rays import trace_rays
 from bayesmap.kernels.walls.table import trace
 from bayesmap.model import Model
 from bayesmap.posterior.heldout import unseen_scans
+from bayesmap.space import arrays
 from bayesmap.space import planar as p
 from bayesmap.space.grid import outlying
 from bayesmap.space.scans import fan, side_by_side
@@ -355,16 +356,17 @@ def test_angles_are_wrapped_and_interpolated_the_short_way_between_neighbours():
     for count in (1, 2):  # one pose holds at all times
         alone = p.interpolate(np.zeros(count), np.tile([[1.0, 2.0, 0.5]], (count, 1)), np.array([-1.0, 0.0, 1.0]))
         np.testing.assert_allclose(alone, [[1.0, 2.0, 0.5]] * 3)
-    before, after = p.bracketing_indices(np.array([1.0, 2.0, 4.0]), np.array([0.0, 1.5, 2.0, 3.0, 9.0]))
+    before, after = arrays.bracketing_indices(np.array([1.0, 2.0, 4.0]), np.array([0.0, 1.5, 2.0, 3.0, 9.0]))
     assert (before.tolist(), after.tolist()) == ([0, 0, 0, 1, 1], [1, 1, 1, 2, 2])
     alone = np.array([5]), np.array([1, 5, 9])
-    assert [index.tolist() for index in (*p.bracketing_indices(*alone), p.nearest_index(*alone))] == [[0, 0, 0]] * 3
+    indices = *arrays.bracketing_indices(*alone), arrays.nearest_index(*alone)
+    assert [index.tolist() for index in indices] == [[0, 0, 0]] * 3
 
 
 @given(st.lists(st.integers(-50, 50), min_size=1, max_size=8, unique=True), st.integers(-60, 60))
 def test_the_nearest_is_the_nearest_of_all_and_of_two_the_earlier(numbers, number):
     ascending = np.sort(numbers)
-    assert p.nearest_index(ascending, np.array([number]))[0] == np.argmin(np.abs(ascending - number))
+    assert arrays.nearest_index(ascending, np.array([number]))[0] == np.argmin(np.abs(ascending - number))
 
 
 A, B = np.random.default_rng(5).normal(0.0, 2.0, (2, 20, 3))

@@ -24,7 +24,7 @@ from bayesmap.app.shown.hit_maps import HitCountMap, grow_grid, hit_count_map, u
 from bayesmap.app.shown.result import Result
 from bayesmap.app.sources import OpenedLog, open_log
 from bayesmap.poses.slam import in_order_of_time, infer_trajectory
-from bayesmap.poses.trajectory import Trajectory, calibrated
+from bayesmap.poses.trajectory import InferredTrajectory, calibrated
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
@@ -77,7 +77,7 @@ class TrajectoryJob:
     _last: threading.Thread | None = None  # the thread of the process's last job
 
     def __init__(self, task: Infer, scans: Scans, grid: Grid) -> None:
-        self.trajectory: Trajectory | None = None  # the trajectory, when the job has ended
+        self.trajectory: InferredTrajectory | None = None  # the trajectory, when the job has ended
         self.error: BaseException | None = None  # the error that ended the job instead
         self._task, self._scans, self._grid = task, scans, grid
         self._time_order, _ = in_order_of_time(scans)
@@ -152,12 +152,12 @@ class TrajectoryJob:
         self._next_picture_s = now_s + max(PICTURE_SECONDS, (now_s - began_s) / PICTURE_SHARE)
 
 
-def move_to_trajectory(scans: Scans, trajectory: Trajectory) -> Scans:
+def move_to_trajectory(scans: Scans, trajectory: InferredTrajectory) -> Scans:
     """Return the scans at their inferred poses, with the inferred angles between beams, in the order of the log."""
     return calibrated(scans.at(trajectory.poses[np.argsort(trajectory.order)]), trajectory.calibration.angle_step_ratio)
 
 
-def describe_trajectory(scans: Scans, trajectory: Trajectory) -> str:
+def describe_trajectory(scans: Scans, trajectory: InferredTrajectory) -> str:
     """Describe an inferred trajectory in words."""
     shift = scans.poses - trajectory.poses[np.argsort(trajectory.order)]
     moved_m = float(np.hypot(shift[:, 0], shift[:, 1]).max())

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from bayesmap.io.log_reading import ScanLog
-    from bayesmap.poses.trajectory import Trajectory
+    from bayesmap.poses.trajectory import InferredTrajectory
     from bayesmap.result import Run
     from bayesmap.space.grid import Grid
     from bayesmap.space.scans import Scans
@@ -175,9 +175,9 @@ class TrajectoryFiles:
     resolution: float
     frame: str  # frame on the robot whose poses are written
     written: list[Path] = field(default_factory=list)
-    _trajectory: Trajectory | None = field(default=None, init=False)
+    _trajectory: InferredTrajectory | None = field(default=None, init=False)
 
-    def write(self, trajectory: Trajectory | None = None) -> None:
+    def write(self, trajectory: InferredTrajectory | None = None) -> None:
         """Write all files, unless that is done or must wait."""
         self._trajectory = self._trajectory if trajectory is None else trajectory
         if self.written or self._trajectory is None or not self.folder.begun or self.folder.outdated_path.exists():
@@ -201,7 +201,9 @@ class TrajectoryFiles:
         if self.written and self._trajectory is not None:
             self._render(self._trajectory, run.grid, run.occupancy, run.observed)
 
-    def _render(self, trajectory: Trajectory, grid: Grid, occupancy: NDArray[Any], observed: NDArray[np.bool_]) -> None:
+    def _render(
+        self, trajectory: InferredTrajectory, grid: Grid, occupancy: NDArray[Any], observed: NDArray[np.bool_]
+    ) -> None:
         from bayesmap.viz.figure import write_figure
         from bayesmap.viz.trajectory import trajectory_figure
 
@@ -209,7 +211,7 @@ class TrajectoryFiles:
         figure = trajectory_figure(grid, occupancy, observed, poses, covariances, trajectory.flagged)
         write_figure(figure, self.folder.path / "trajectory.png")
 
-    def _write(self, trajectory: Trajectory) -> list[Path]:
+    def _write(self, trajectory: InferredTrajectory) -> list[Path]:
         """Write all files. The map in the picture is made of the cells that the key scans hit."""
         import numpy as np
 
@@ -274,7 +276,7 @@ def summary(run: Run, frame: str) -> dict[str, Any]:
     return document
 
 
-def _alternative(trajectory: Trajectory, number: int) -> dict[str, Any]:
+def _alternative(trajectory: InferredTrajectory, number: int) -> dict[str, Any]:
     import numpy as np
 
     from bayesmap.space.planar import between

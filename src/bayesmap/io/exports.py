@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from bayesmap.cells.arrays import Draws
     from bayesmap.cells.kind import CellPrior
     from bayesmap.io.text.g2o import Edges
-    from bayesmap.poses.trajectory import Trajectory as Approximation
+    from bayesmap.poses.trajectory import InferredTrajectory
 
 RECORDINGS = tuple(ending for ending in ENDINGS if ending != FOLDER)
 FORMATS = {
@@ -115,7 +115,7 @@ def trajectory_of(run: object, scans: Scans) -> Trajectory:
     return replace(Trajectory.of_draws(draws, scans.stamps_s, known_by), frame="laser")
 
 
-def approximated(trajectory: Approximation, known_by: str = APPROXIMATION) -> Trajectory:
+def approximated(trajectory: InferredTrajectory, known_by: str = APPROXIMATION) -> Trajectory:
     """Return the approximate trajectory of `bayesmap.slam` with its law of relative poses."""
     law = RelativeLaw(trajectory.relative_covariances, trajectory.gaussian.dof)
     covariances = trajectory.covariances()

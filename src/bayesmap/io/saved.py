@@ -34,7 +34,7 @@ from bayesmap.space.scans import Scans
 from bayesmap.version import __version__
 
 if TYPE_CHECKING:
-    from bayesmap.poses.trajectory import Trajectory
+    from bayesmap.poses.trajectory import InferredTrajectory
 
 FORMAT = "bayesmap run"
 FORMAT_VERSION = 1
@@ -46,7 +46,7 @@ UNTIE_NATS = 1e-4  # noise on log likelihoods by reading: arviz refuses a tail o
 
 def save(
     posterior: Posterior, path: str | os.PathLike[str],
-    on_progress: Callable[[int, int], None] = lambda done, total: None, trajectory: Trajectory | None = None,
+    on_progress: Callable[[int, int], None] = lambda done, total: None, trajectory: InferredTrajectory | None = None,
     *, by_reading: bool = False,
 ) -> None:  # fmt: skip
     """Write a posterior, whole or not at all, with the approximation of all scans' poses, if there is one.
@@ -75,7 +75,7 @@ def _write_by_reading(posterior: Posterior, file: Any) -> None:
 
 
 def _write(
-    posterior: Posterior, file: Any, on_progress: Callable[[int, int], None], trajectory: Trajectory | None
+    posterior: Posterior, file: Any, on_progress: Callable[[int, int], None], trajectory: InferredTrajectory | None
 ) -> None:
     # The header: all that is no array, as JSON with a checksum.
     grid, scans, draws = posterior.grid, posterior.scans, posterior.draws
@@ -153,7 +153,7 @@ def _write_scans(file: Any, scans: Scans) -> Any:
     return constant
 
 
-def load_saved(path: str | os.PathLike[str]) -> tuple[Posterior, Trajectory | None]:
+def load_saved(path: str | os.PathLike[str]) -> tuple[Posterior, InferredTrajectory | None]:
     """Read a posterior, and its approximation of poses, if any. Raises `BadInput` for other or damaged files."""
     path = Path(path)
     if not path.is_file():
@@ -190,7 +190,7 @@ def _not_ours(attributes: dict[str, Any]) -> str | None:
     )
 
 
-def _read(file: Any, header: dict[str, Any]) -> tuple[Posterior, Trajectory | None]:
+def _read(file: Any, header: dict[str, Any]) -> tuple[Posterior, InferredTrajectory | None]:
     constant = file["constant_data"]
 
     def with_prefix(prefix: str) -> dict[str, NDArray[Any]]:
@@ -345,7 +345,7 @@ PARTS: dict[str, dict[str, tuple[str, ...]]] = {
 """Arrays of the trajectory's parts with their dimensions, saved as part_name."""
 
 
-def arrays_of(trajectory: Trajectory) -> dict[str, tuple[tuple[str, ...], NDArray[Any]]]:
+def arrays_of(trajectory: InferredTrajectory) -> dict[str, tuple[tuple[str, ...], NDArray[Any]]]:
     """Return all arrays of a trajectory by their saved names, with their dimensions."""
     arrays = [(name, dims, getattr(trajectory, name)) for name, dims in FIELDS.items()]
     for name, fields in PARTS.items():
@@ -355,7 +355,7 @@ def arrays_of(trajectory: Trajectory) -> dict[str, tuple[tuple[str, ...], NDArra
     return {name: (dims, _stored(values)) for name, dims, values in arrays if values is not None}
 
 
-def numbers_of(trajectory: Trajectory) -> dict[str, Any]:
+def numbers_of(trajectory: InferredTrajectory) -> dict[str, Any]:
     """Return the parts of a trajectory that are no arrays, as JSON values."""
     calibration, fit = trajectory.calibration, trajectory.calibration.odometry
     odometry = None if fit is None else {
@@ -370,12 +370,12 @@ def numbers_of(trajectory: Trajectory) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def trajectory_from(arrays: Mapping[str, NDArray[Any]], numbers: Mapping[str, Any]) -> Trajectory:
+def trajectory_from(arrays: Mapping[str, NDArray[Any]], numbers: Mapping[str, Any]) -> InferredTrajectory:
     """Return the trajectory, given the results of `arrays_of` and `numbers_of`."""
     from bayesmap.poses.calibration import MotionNoise, OdometryFit
     from bayesmap.poses.graph import Factors, PoseGaussian
     from bayesmap.poses.prior import Odometry
-    from bayesmap.poses.trajectory import NO_ALTERNATIVES, Alternatives, Calibration, LoopClosures, Trajectory
+    from bayesmap.poses.trajectory import NO_ALTERNATIVES, Alternatives, Calibration, InferredTrajectory, LoopClosures
 
     def part(name: str) -> dict[str, Any]:
         return {field: arrays.get(f"{name}_{field}") for field in PARTS[name]}
@@ -391,7 +391,7 @@ def trajectory_from(arrays: Mapping[str, NDArray[Any]], numbers: Mapping[str, An
         angle_step_ratio=numbers["angle_step_ratio"], odometry=fit, noise=None if noise is None else Odometry(**noise),
         point_sigma_m=numbers["point_sigma_m"], **part("calibration"),
     )  # fmt: skip
-    return Trajectory(
+    return InferredTrajectory(
         **fields, gaussian=PoseGaussian(**part("gaussian"), dof=numbers["dof"]),
         closures=LoopClosures(**part("closures")),
         alternatives=Alternatives(**part("alternatives")) if "alternatives_first" in arrays else NO_ALTERNATIVES,

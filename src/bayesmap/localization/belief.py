@@ -1,22 +1,182 @@
-"""The posterior of a pose: weighted poses, their modes, and the probability that all of them are wrong."""
+"""The posterior of a pose: weighted poses, their modes, and the importance sampling that gives them.
+
+Each round draws from a mixture of Student distributions about the present places, weights the draws by
+target / proposal, and moves the places to the weighted means (population Monte Carlo; Cappe, Guillin, Marin and
+Robert 2004). The last round's weights are unbiased for the posterior, and their mean for its normaliser. Draws are
+spread evenly: they are points of a lattice with a random shift, so that each point has the law of a single draw.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from scipy.special import gammaincinv, gammaln, ndtri
 
 from bayesmap.errors import BadInput
+from bayesmap.space.arrays import Indices, Mask
 from bayesmap.space.planar import Floats, compose, wrap_angle
 from bayesmap.space.trajectory import ellipses
 
+DOF = 5.0  # degrees of freedom of proposals
+STUDENT_CONSTANT = gammaln((DOF + 3) / 2) - gammaln(DOF / 2) - 1.5 * np.log(DOF * np.pi)
+LATTICE = 1.1673039782614187 ** -np.arange(1.0, 5.0)  # steps of the lattice of draws
+MIN_SIGMA = np.array([0.004, 0.004, np.radians(0.1)])  # least standard deviations of a proposal
+SAME_MODE_SIGMAS = 2.0  # places nearer than this are one mode, in standard deviations
+SAME_MODE_XY_YAW = np.array([0.2, 0.2, np.radians(7.0)])  # places nearer than this are one mode: metres, radians
+EFFECTIVE_SHARE = 0.3  # weights are tempered until this share of a place's draws is effective
+EFFECTIVE_DRAWS = 16.0  # or until this number of draws is effective
+MIN_TEMPERING = 1e-3  # least power to which weights are tempered
+NEGLIGIBLE_NATS = 15.0  # difference in log mass from the greatest beyond which places are dropped
+
+
+def log_sum(logs: Floats) -> Floats:
+    """Compute log sum exp over the last axis. SciPy's function is far slower for small arrays."""
+    greatest = logs.max(axis=-1, keepdims=True)
+    greatest = np.where(np.isfinite(greatest), greatest, 0.0)
+    with np.errstate(divide="ignore"):
+        return np.asarray(np.log(np.exp(logs - greatest).sum(axis=-1)) + greatest[..., 0])
+
+
+@dataclass(frozen=True, eq=False)
+class PoseMixture:
+    """K places, each with a mean pose, a covariance and a mass."""
+
+    means: Floats  # (K, 3)
+    covariances: Floats  # (K, 3, 3)
+    log_mass: Floats  # log of each place's share of the target, up to a constant, (K,)
+
+    def best(self, most: int, within_nats: float = NEGLIGIBLE_NATS) -> PoseMixture:
+        """Return the ``most`` places of greatest mass, none more than ``within_nats`` below the first."""
+        order = np.argsort(-self.log_mass, kind="stable")[:most]
+        order = order[self.log_mass[order] > self.log_mass[order[0]] - within_nats]
+        return self.select(order)
+
+    def select(self, places: Sequence[int] | Indices) -> PoseMixture:
+        """Return the places with these numbers."""
+        return PoseMixture(self.means[places], self.covariances[places], self.log_mass[places])
+
+    def draw(self, target: Callable[[Floats], Floats], count: int | Indices, rng: np.random.Generator) -> Population:
+        """Draw ``count`` poses from each place, one number or (K,), and weight them. Masses of places are not used.
+        ``target`` is the log density of poses (P, 3), not normalised, (P,).
+        """
+        counts = np.broadcast_to(count, len(self.means))
+        place = np.repeat(np.arange(len(counts)), counts)
+        roots = np.linalg.cholesky(self.covariances)
+        poses = self.means[place] + np.matmul(roots[place], student_draws(len(place), rng)[..., None])[..., 0]
+        poses[:, 2] = wrap_angle(poses[:, 2])
+        log_target = target(poses)
+        log_weights = log_target - log_sum(self._student_logs(poses) + np.log(counts / counts.sum()))
+        # Truncated importance sampling (Ionides 2008): no weight exceeds the mean by more than the root of their count.
+        limit = log_sum(log_weights) - 0.5 * np.log(len(poses))
+        return Population(poses, np.minimum(log_weights, limit), place, log_target)
+
+    def draw_counts(self, most: int, min_share: float = 1 / 3) -> Indices:
+        """Return the number of draws of each place, (K,): by the root of its mass, at least ``min_share * most``."""
+        shares = np.exp(0.5 * (self.log_mass - self.log_mass.max()))
+        return np.asarray(np.maximum(np.round(most * shares), int(most * min_share)), dtype=np.intp)
+
+    def groups_of(self, poses: Floats) -> Indices:
+        """Label poses by place, (P,). Places of one mode share a label."""
+        from scipy.sparse.csgraph import connected_components
+
+        if len(self.means) == 1:
+            return np.zeros(len(poses), dtype=np.intp)
+        off = self.means[:, None] - self.means
+        off[..., 2] = wrap_angle(off[..., 2])
+        both = np.linalg.inv(self.covariances[:, None] + self.covariances)
+        near = np.einsum("kli,klij,klj->kl", off, both, off) < SAME_MODE_SIGMAS**2
+        near |= (np.abs(off) < SAME_MODE_XY_YAW).all(axis=2)
+        _, group = connected_components(near, directed=False)
+        return np.asarray(group[self._student_logs(poses).argmax(axis=1)], dtype=np.intp)
+
+    def squared_distances(self, poses: Floats) -> tuple[Floats, Floats]:
+        """Return squared Mahalanobis distances of poses from the places, (P, K), and half of log determinants, (K,)."""
+        off = poses - self.means[:, None]
+        off[..., 2] = wrap_angle(off[..., 2])
+        inverse = np.linalg.inv(self.covariances)
+        squared = (np.matmul(off, inverse) * off).sum(axis=-1)
+        return np.ascontiguousarray(squared.T), -0.5 * np.linalg.slogdet(inverse)[1]
+
+    def _student_logs(self, poses: Floats) -> Floats:
+        """Return the log density of each place's Student distribution, (P, K)."""
+        squared, half_log_det = self.squared_distances(poses)
+        return np.asarray(STUDENT_CONSTANT - half_log_det - 0.5 * (DOF + 3) * np.log1p(squared / DOF))
+
+    def weigh(self, population: Population) -> PoseMixture:
+        """Return the places with new masses: the sums of the weights of the draws from each place."""
+        masses = [log_sum(population.log_weights[population.place == k]) for k in range(len(self.means))]
+        return PoseMixture(self.means, self.covariances, np.array(masses))
+
+    def adapt(self, population: Population, widen: float = 1.5) -> tuple[PoseMixture, float]:
+        """Return the places at the weighted moments of their draws, and the least tempering: the power of the weights.
+        With a power of 1 the proposals are near the target. With a lower power, another round will improve them.
+        """
+        count, min_tempering = len(self.means), 1.0
+        means, covariances, log_mass = self.means.copy(), self.covariances.copy(), np.full(count, -np.inf)
+        for k in range(count):
+            own = population.place == k
+            logs = population.log_weights[own]
+            greatest = logs.max()
+            if not np.isfinite(greatest):
+                continue
+            logs = logs - greatest
+            weights = np.exp(logs)
+            log_mass[k] = greatest + np.log(weights.sum())
+            # Temper the weights until several draws are effective: a single dominant draw has no spread.
+            tempering, effective = 1.0, min(EFFECTIVE_SHARE * len(logs), EFFECTIVE_DRAWS)
+            while weights.sum() ** 2 < effective * (weights @ weights) and tempering > MIN_TEMPERING:
+                tempering *= 0.8
+                weights = np.exp(tempering * logs)
+            weights /= weights.sum()
+            off = population.poses[own] - means[k]
+            off[:, 2] = wrap_angle(off[:, 2])
+            shift = weights @ off
+            error = off - shift
+            covariances[k] = widen * np.einsum("n,ni,nj->ij", weights, error, error) + np.diag(MIN_SIGMA**2)
+            means[k] += shift
+            min_tempering = min(min_tempering, tempering)
+        return PoseMixture(means, covariances, log_mass), min_tempering
+
+
+@dataclass(frozen=True, eq=False)
+class Population:
+    """N weighted poses. Their mean weight, of target / proposal, estimates the target's normaliser."""
+
+    poses: Floats  # (N, 3)
+    log_weights: Floats  # log of target / proposal, not normalised, (N,)
+    place: Indices  # number of the place from which each pose was drawn, (N,)
+    log_target: Floats  # (N,)
+
+    @property
+    def log_evidence(self) -> float:
+        """Log of the integral of the target."""
+        return float(log_sum(self.log_weights) - np.log(len(self.poses)))
+
+    @property
+    def weights(self) -> Floats:
+        """Normalised weights, (N,)."""
+        return np.asarray(np.exp(self.log_weights - log_sum(self.log_weights)))
+
+
+def student_draws(count: int, rng: np.random.Generator) -> Floats:
+    """Draw from the standard Student distribution in three dimensions, evenly spread, (N, 3). The lattice is Roberts'
+    (2018), powers of the root of x^5 = x + 1, shifted at random (Cranley and Patterson 1976).
+    """
+    even = (rng.random(4) + np.arange(count)[:, None] * LATTICE) % 1.0
+    even = np.clip(even, 1e-12, 1.0 - 1e-12)
+    stretch = np.sqrt(0.5 * DOF / gammaincinv(0.5 * DOF, even[:, 3:]))
+    return np.asarray(stretch * ndtri(even[:, :3]))
+
+
 NEAR_M, NEAR_RAD = 0.2, np.radians(7.0)  # chains of poses with steps shorter than this belong to one mode
-FINEST_SD = np.array([0.002, 0.002, np.radians(0.05)])  # least standard deviations of a mode, whatever its poses say
-LINKING = 0.995  # share of the weight whose poses link others into modes
-LEAST_MODE = 1e-4  # least probability of a mode that is listed
+MIN_MODE_SIGMA = np.array([0.002, 0.002, np.radians(0.05)])  # least standard deviations of a mode
+LINKING_WEIGHT = 0.995  # share of the weight whose poses link others into modes
+MIN_PROBABILITY = 1e-4  # least probability of a mode that is listed
+REGION_DRAWS = 4000  # number of draws by which a region is computed
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,7 +202,7 @@ class Region:
     level: float  # the probability
     area_m2: float
 
-    def contains(self, positions: Floats) -> NDArray[np.bool_]:
+    def contains(self, positions: Floats) -> Mask:
         """Return which positions lie inside, (N, 2) to (N,)."""
         return np.asarray(_density(np.atleast_2d(np.asarray(positions, dtype=np.float64)), *self.modes) >= self.density)
 
@@ -56,7 +216,7 @@ class PoseBelief:
     p_lost: float  # probability that the robot is elsewhere, or the map outdated
     nats_per_beam: float  # log density of the scan's readings under the best pose, per beam
     stamp_s: float | None = None  # stamp of the scan
-    mode_of: NDArray[np.intp] | None = None  # the mode of each pose, (N,); None: poses near each other make one
+    mode_of: Indices | None = None  # the mode of each pose, (N,); None: poses near each other make one
     shared_error: Floats | None = None  # standard deviations of the map's error, (3,): modes are wider by it
 
     def __repr__(self) -> str:
@@ -74,7 +234,7 @@ class PoseBelief:
     @cached_property
     def modes(self) -> tuple[Mode, ...]:
         """The places where the robot may be, the likeliest first."""
-        modes = self.places(LEAST_MODE)
+        modes = self.places(MIN_PROBABILITY)
         if self.shared_error is None:
             return modes
         wider = np.diag(self.shared_error**2)
@@ -82,20 +242,20 @@ class PoseBelief:
 
     def places(self, least: float) -> tuple[Mode, ...]:
         """Return the places of at least this probability, the likeliest first, without the map's shared error."""
-        label = _clusters(self.poses, self.weights) if self.mode_of is None else self.mode_of
+        mode_of = _clusters(self.poses, self.weights) if self.mode_of is None else self.mode_of
         modes = []
-        for number in np.unique(label):
-            own = label == number
-            share = float(self.weights[own].sum())
-            if share >= least:
-                mean, covariance = _moments(self.poses[own], self.weights[own] / share)
-                modes.append(Mode(mean, covariance + np.diag(FINEST_SD**2), min(share, 1.0)))
+        for number in np.unique(mode_of):
+            own = mode_of == number
+            probability = float(self.weights[own].sum())
+            if probability >= least:
+                mean, covariance = _moments(self.poses[own], self.weights[own] / probability)
+                modes.append(Mode(mean, covariance + np.diag(MIN_MODE_SIGMA**2), min(probability, 1.0)))
         return tuple(sorted(modes, key=lambda mode: -mode.probability))
 
     def of_frame(self, step: Floats) -> PoseBelief:
         """Return the posterior of another frame on the robot, whose pose in this frame is ``step``, (3,)."""
-        label = _clusters(self.poses, self.weights) if self.mode_of is None else self.mode_of
-        return replace(self, poses=compose(self.poses, step), mode_of=label)
+        mode_of = _clusters(self.poses, self.weights) if self.mode_of is None else self.mode_of
+        return replace(self, poses=compose(self.poses, step), mode_of=mode_of)
 
     @property
     def mean(self) -> Floats:
@@ -104,7 +264,7 @@ class PoseBelief:
 
     @property
     def covariance(self) -> Floats:
-        """Covariance of the likeliest mode, (3, 3); `total_covariance` has all modes in it."""
+        """Covariance of the likeliest mode, (3, 3)."""
         return self.modes[0].covariance
 
     @property
@@ -113,9 +273,7 @@ class PoseBelief:
         return _moments(self.poses, self.weights)[1]
 
     def region(self, level: float = 0.95) -> Region:
-        """Return the smallest region of positions that holds a probability, all modes taken as normal. Raises BadInput:
-        a level outside (0, 1).
-        """
+        """Return the smallest region with probability ``level``. Raises `BadInput` if it is not in (0, 1)."""
         if not 0 < level < 1:
             raise BadInput(f"region: level must lie inside (0, 1), got {level!r}")
         means = np.array([mode.mean[:2] for mode in self.modes])
@@ -123,10 +281,10 @@ class PoseBelief:
         shares = np.array([mode.probability for mode in self.modes])
         modes = (means, covariances, shares / shares.sum())
         rng = np.random.default_rng(0)
-        which = rng.choice(len(shares), 4000, p=modes[2])
+        mode = rng.choice(len(shares), REGION_DRAWS, p=modes[2])
         roots = np.linalg.cholesky(covariances)
-        drawn = means[which] + np.einsum("nij,nj->ni", roots[which], rng.standard_normal((4000, 2)))
-        density = _density(drawn, *modes)
+        draws = means[mode] + np.einsum("nij,nj->ni", roots[mode], rng.standard_normal((REGION_DRAWS, 2)))
+        density = _density(draws, *modes)
         least = float(np.quantile(density, 1.0 - level))
         # The area is the mean over draws of 1 / density inside.
         return Region(modes, least, level, float((1.0 / density[density >= least]).sum() / len(density)))
@@ -137,10 +295,8 @@ class PoseBelief:
         return ellipses(np.array([mode.mean[:2] for mode in self.modes]), covariances, level)
 
     def probability_in(self, area: Floats) -> float:
-        """Compute the probability that the robot is on the map and in a polygon.
-
-        ``area`` holds its corners in order, (K, 2), metres; or (x_min, x_max, y_min, y_max). Anything else raises
-        `BadInput`.
+        """Compute the probability that the robot is on the map and in a polygon of corners in order, (K, 2), metres, or
+        in (x_min, x_max, y_min, y_max). Raises `BadInput` for anything else.
         """
         corners = np.asarray(area, dtype=np.float64)
         if corners.shape == (4,):
@@ -162,7 +318,7 @@ class PoseBelief:
 
 
 def _moments(poses: Floats, weights: Floats) -> tuple[Floats, Floats]:
-    """Return mean and covariance of weighted poses; those of the yaw are about its circular mean."""
+    """Return mean and covariance of weighted poses. Yaws count from their circular mean."""
     centre = np.arctan2(weights @ np.sin(poses[:, 2]), weights @ np.cos(poses[:, 2]))
     off = poses.copy()
     off[:, 2] = wrap_angle(poses[:, 2] - centre)
@@ -173,21 +329,20 @@ def _moments(poses: Floats, weights: Floats) -> tuple[Floats, Floats]:
     return mean, covariance
 
 
-def _clusters(poses: Floats, weights: Floats) -> NDArray[np.intp]:
+def _clusters(poses: Floats, weights: Floats) -> Indices:
     """Label poses linked by steps of less than `NEAR_M` and `NEAR_RAD`, (N,); light ones get the nearest label."""
     from scipy.sparse.csgraph import connected_components
     from scipy.spatial import cKDTree
 
-    turn = NEAR_M / NEAR_RAD
-    seat = np.column_stack([poses[:, :2], turn * np.sin(poses[:, 2]), turn * np.cos(poses[:, 2])])
+    radius_m = NEAR_M / NEAR_RAD
+    points = np.column_stack([poses[:, :2], radius_m * np.sin(poses[:, 2]), radius_m * np.cos(poses[:, 2])])
     order = np.argsort(-weights, kind="stable")
-    # The poses that hold nearly all weight: strays between two modes must not link them.
-    heavy = order[: int(np.searchsorted(np.cumsum(weights[order]), LINKING * weights.sum())) + 1]
-    tree = cKDTree(seat[heavy])
-    _, own = connected_components(tree.sparse_distance_matrix(tree, NEAR_M, output_type="coo_matrix"), directed=False)
-    label = np.empty(len(poses), dtype=np.intp)
-    label[:] = own[tree.query(seat)[1]]
-    return label
+    # Only poses that hold nearly all weight link others: strays between two modes must not link them.
+    heavy = order[: int(np.searchsorted(np.cumsum(weights[order]), LINKING_WEIGHT * weights.sum())) + 1]
+    tree = cKDTree(points[heavy])
+    links = tree.sparse_distance_matrix(tree, NEAR_M, output_type="coo_matrix")
+    _, label = connected_components(links, directed=False)
+    return np.asarray(label[tree.query(points)[1]], dtype=np.intp)
 
 
 def _density(positions: Floats, means: Floats, covariances: Floats, shares: Floats) -> Floats:
@@ -198,11 +353,11 @@ def _density(positions: Floats, means: Floats, covariances: Floats, shares: Floa
     return np.asarray((shares * np.sqrt(np.linalg.det(inverse)) / (2 * np.pi) * np.exp(-0.5 * squared)).sum(axis=1))
 
 
-def _inside(positions: Floats, corners: Floats) -> NDArray[np.bool_]:
+def _inside(positions: Floats, corners: Floats) -> Mask:
     """Return which positions lie in a polygon: an odd number of its sides lies to their right."""
     x, y = positions[:, :1], positions[:, 1:]
     (ax, ay), (bx, by) = corners.T, np.roll(corners, -1, axis=0).T
     crosses = (ay > y) != (by > y)
     with np.errstate(divide="ignore", invalid="ignore"):
-        at = ax + (y - ay) * (bx - ax) / (by - ay)
-    return np.asarray((crosses & (x < at)).sum(axis=1) % 2 == 1)
+        crossing_x = ax + (y - ay) * (bx - ax) / (by - ay)
+    return np.asarray((crosses & (x < crossing_x)).sum(axis=1) % 2 == 1)

@@ -15,22 +15,22 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import expit
 
-from bayesmap.localization.belief import PoseBelief
-from bayesmap.localization.known_map import INDEPENDENT_BEAMS, KnownMap
-from bayesmap.localization.particles import NEGLIGIBLE_NATS, Population, PoseMixture, log_sum
+from bayesmap.localization.belief import NEGLIGIBLE_NATS, Population, PoseBelief, PoseMixture, log_sum
+from bayesmap.localization.known_map import INDEPENDENT_BEAMS, KnownMap, log_anywhere, n_valid
 from bayesmap.localization.search import MIN_POINTS, end_points, search
 from bayesmap.sensors.model import RangeLimits
+from bayesmap.space.arrays import Indices
 from bayesmap.space.planar import Floats, wrap_angle
 
 POINTS = 60  # end points per scan; they affect the number of rounds, not the results
 POINT_WEIGHT = 2.0  # weight of an end point relative to a beam's
 MAX_REFINEMENTS = 3  # most rounds in which places are moved; one less for several places, which come from a search
-END_TEMPERING = 0.6  # rounds end when the weights are tempered by a power above this, see `PoseMixture.adapted`
+END_TEMPERING = 0.6  # rounds end when the weights are tempered by a power above this, see `PoseMixture.adapt`
 DRAWS_PER_ROUND = 240  # draws per round for all places together
 MIN_DRAWS_PER_PLACE = 24  # least draws per place
 
@@ -45,14 +45,14 @@ def refine_by_end_points(
     if len(points) < MIN_POINTS:
         return places
     hits = int(np.isfinite(scan.ranges_m).sum())
-    point_weight = POINT_WEIGHT * known.weight_of(scan.ranges_m) * hits / len(points)
+    point_weight = POINT_WEIGHT * known.beam_weight_for_pose(scan.ranges_m) * hits / len(points)
 
     def target(poses: Floats) -> Floats:
         return np.asarray(log_prior(poses) + point_weight * known.endpoints.log_worth(points, poses))
 
     draws_per_place = max(MIN_DRAWS_PER_PLACE, DRAWS_PER_ROUND // len(places.means))
     for _ in range(MAX_REFINEMENTS if len(places.means) == 1 else MAX_REFINEMENTS - 1):
-        places, tempering = places.adapted(places.draw(target, draws_per_place, rng))
+        places, tempering = places.adapt(places.draw(target, draws_per_place, rng))
         places = places.best(len(places.means))
         if tempering > END_TEMPERING:
             break
@@ -68,8 +68,8 @@ ROUND_BEAMS = 40  # approximate number of beams of a scan that are used before t
 SEARCH_SD = np.array([0.06, 0.06, np.radians(1.2)])  # of a pose of a search from the best pose near it: m, m, rad
 UNIFORM_DRAWS = 3000  # poses that are drawn over the whole map if a search finds nothing
 LOST_AT_FIRST = 0.02  # probability that the robot is not on the map, or the map outdated, before the first scan
-GETS_LOST = 1e-3  # probability per scan that a robot on the map gets lost
-IS_FOUND = 0.05  # probability per scan that a lost robot is back on the map
+P_GETS_LOST = 1e-3  # probability per scan that a robot on the map gets lost
+P_FOUND = 0.05  # probability per scan that a lost robot is back on the map
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,13 +109,10 @@ def update(known: KnownMap, prior: Prior, scan: Scan, rng: np.random.Generator, 
     """Compute the posterior of a scan's pose. If ``look_everywhere``, or without components, search the whole map."""
 
     def target(thin: int, draws: int | None = None) -> Target:
-        return Target(known, prior, scan, thin, known.weight_of(scan.ranges_m), draws)
-
-    def log_prior(poses: Floats) -> Floats:
-        return prior.log_density(poses, known)
+        return target_of(known, prior, scan, thin, known.beam_weight_for_pose(scan.ranges_m), draws)
 
     def without_negligible(places: PoseMixture) -> PoseMixture:
-        return places.best(known.trust.kept, max(NEGLIGIBLE_NATS, known.trust.forgotten_nats))
+        return places.best(known.trust.max_places, max(NEGLIGIBLE_NATS, known.trust.forgotten_nats))
 
     thin = max(1, len(scan.angles_rad) // ROUND_BEAMS)
     places = _starting_places(known, prior, scan, look_everywhere=look_everywhere)
@@ -123,19 +120,19 @@ def update(known: KnownMap, prior: Prior, scan: Scan, rng: np.random.Generator, 
     if places is None:
         population = draw_uniform_population(known, target(thin), rng)
     else:
-        places = refine_by_end_points(places, log_prior, known, scan, rng)
-        least_draws = known.trust.least_draws
+        places = refine_by_end_points(places, partial(prior.log_density, known=known), known, scan, rng)
+        min_share = known.trust.min_draw_share
         if len(places.means) > 1:
             # Drop negligible places by few draws of poses, under one draw of the map.
-            places = without_negligible(places.weighed(places.draw(target(thin, 1), SELECTION_DRAWS, rng)))
+            places = without_negligible(places.weigh(places.draw(target(thin, 1), SELECTION_DRAWS, rng)))
         for _ in range(ROUNDS):
-            counts = places.shared_out(ROUND_DRAWS, least_draws)
-            places, tempering = places.adapted(places.draw(target(thin), counts, rng))
+            counts = places.draw_counts(ROUND_DRAWS, min_share)
+            places, tempering = places.adapt(places.draw(target(thin), counts, rng))
             places = without_negligible(places)
             if tempering > END_TEMPERING:
                 break
         # Draw and weight the final poses, with all beams.
-        population = places.draw(target(1), places.shared_out(LAST_ROUND_DRAWS, least_draws), rng)
+        population = places.draw(target(1), places.draw_counts(LAST_ROUND_DRAWS, min_share), rng)
         group = places.groups_of(population.poses)
         if known.trust.shared_way_m > 0.0:
             mass_before = _prior_mass_of_places(prior, places, int(group.max()) + 1)
@@ -143,9 +140,7 @@ def update(known: KnownMap, prior: Prior, scan: Scan, rng: np.random.Generator, 
 
 
 def _starting_places(known: KnownMap, prior: Prior, scan: Scan, *, look_everywhere: bool) -> PoseMixture | None:
-    """Return the places to begin with, from the prior and a search. Return None if the prior is uniform and the search
-    finds no place.
-    """
+    """Return the places of the prior and of a search, or None if the prior is uniform and the search finds no place."""
     candidates = None
     if look_everywhere or prior.components is None:
         poses = search(known.field, scan.angles_rad, scan.ranges_m, CANDIDATES).poses
@@ -164,31 +159,28 @@ def _mixture_at(poses: Floats) -> PoseMixture:
     return PoseMixture(poses, np.broadcast_to(np.diag(SEARCH_SD**2), (len(poses), 3, 3)), np.zeros(len(poses)))
 
 
-@dataclass(frozen=True, eq=False)
-class Target:
-    """Log prior plus log-likelihood of poses, with every ``thin``-th beam.
+Target = Callable[[Floats], Floats]  # the log density of poses (P, 3), not normalised, (P,)
+
+
+def target_of(
+    known: KnownMap, prior: Prior, scan: Scan, thin: int, beam_weight: float, draws: int | None = None
+) -> Target:
+    """Return the function that computes log prior plus log-likelihood of poses, with every ``thin``-th beam.
 
     Each pose is weighted under one draw of the map, taken in turn from the first ``draws`` draws, or from all.
+    ``beam_weight`` is the power of the likelihood of each beam.
     """
 
-    known: KnownMap
-    prior: Prior
-    scan: Scan
-    thin: int
-    beam_weight: float  # power of the likelihood of each beam
-    draws: int | None = None
-
-    def __call__(self, poses: Floats) -> Floats:
-        """Compute the log density of poses (P, 3), not normalised, (P,)."""
-        log_density = np.array(self.prior.log_density(poses, self.known))
-        possible = np.isfinite(log_density)
+    def log_density(poses: Floats) -> Floats:
+        result = np.array(prior.log_density(poses, known))
+        possible = np.isfinite(result)
         if possible.any():
-            scan = self.scan
-            log_density[possible] += self.known.log_likelihood(
-                poses[possible], scan.angles_rad, scan.ranges_m, scan.limits, self.thin, self.draws, self.beam_weight,
-                in_turn=True,
-            )  # fmt: skip
-        return log_density
+            result[possible] += known.log_likelihood(
+                poses[possible], scan.angles_rad, scan.ranges_m, scan.limits, thin, draws, beam_weight, in_turn=True
+            )
+        return result
+
+    return log_density
 
 
 def draw_uniform_population(known: KnownMap, target: Target, rng: np.random.Generator) -> Population:
@@ -203,7 +195,7 @@ def draw_uniform_population(known: KnownMap, target: Target, rng: np.random.Gene
 
 
 def belief_of(
-    known: KnownMap, prior: Prior, scan: Scan, population: Population, group: NDArray[np.intp] | None,
+    known: KnownMap, prior: Prior, scan: Scan, population: Population, group: Indices | None,
     mass_before: Floats | None = None,
 ) -> PoseBelief:  # fmt: skip
     """Return the posterior of a population, with the probability of being lost.
@@ -218,7 +210,7 @@ def belief_of(
         group = np.zeros(len(weights), dtype=np.intp)  # one mode, spread over the whole map
     # Share the mass among places. Between places a scan is worth fewer readings than for the pose within a place.
     log_likelihood = _log_likelihood(known, prior, population)
-    evidence_power = known.weight_between_places(scan.ranges_m) / known.weight_of(scan.ranges_m)
+    evidence_power = known.beam_weight_for_place(scan.ranges_m) / known.beam_weight_for_pose(scan.ranges_m)
     if mass_before is None:
         weights = rescale_by_place_weights(weights, group, _reweight_beams(population, log_likelihood, evidence_power))
     else:
@@ -228,25 +220,23 @@ def belief_of(
         return replace(belief, p_lost=prior.lost)  # a scan without hits does not tell whether the robot is lost
     # Compare with the evidence of readings anywhere.
     log_evidence, fit = _evidence_and_fit(known, scan, population, log_likelihood, belief)
-    log_elsewhere = known.log_elsewhere(scan.ranges_m, known.weight_of_fit(scan.ranges_m))
+    log_elsewhere = known.beam_weight_for_fit(scan.ranges_m) * log_anywhere(
+        known.elsewhere, scan.ranges_m, known.max_range_m
+    )
     with np.errstate(divide="ignore"):
         log_odds = np.log(prior.lost) - np.log1p(-prior.lost) + log_elsewhere - log_evidence
     return replace(belief, p_lost=float(expit(log_odds)), nats_per_beam=fit)
 
 
-def rescale_by_place_weights(weights: Floats, group: NDArray[np.intp], log_weights: Floats) -> Floats:
-    """Rescale weights, (N,), so that places have the shares given by ``log_weights``, (N,). ``group`` is the place of
-    each weight, (N,). The ratios within each place stay.
-    """
+def rescale_by_place_weights(weights: Floats, group: Indices, log_weights: Floats) -> Floats:
+    """Rescale weights, (N,), so that places, ``group``, (N,), have the shares by ``log_weights``, (N,)."""
     if not group.any() or not np.isfinite(log_weights).any():
         return weights
     shares = np.bincount(group, np.exp(log_weights - log_sum(log_weights)), group.max() + 1)
     return _rescale_to_shares(weights, group, np.asarray(shares, np.float64))
 
 
-def rescale_by_place_evidence(
-    weights: Floats, group: NDArray[np.intp], mass_before: Floats, evidence_power: float
-) -> Floats:
+def rescale_by_place_evidence(weights: Floats, group: Indices, mass_before: Floats, evidence_power: float) -> Floats:
     """Rescale weights, (N,), so that places have shares by a power of the evidence. The ratios within each place stay.
     With a power of 0 the shares are ``mass_before``, (K,), as before the scan; with 1 the sums of the weights.
     """
@@ -258,7 +248,7 @@ def rescale_by_place_evidence(
     return _rescale_to_shares(weights, group, np.exp(logs - log_sum(logs)))
 
 
-def _rescale_to_shares(weights: Floats, group: NDArray[np.intp], shares: Floats) -> Floats:
+def _rescale_to_shares(weights: Floats, group: Indices, shares: Floats) -> Floats:
     """Rescale weights so that each place has its share."""
     sums = np.bincount(group, weights, len(shares))
     return np.asarray(weights * np.divide(shares, sums, out=np.zeros_like(sums), where=sums > 0)[group])
@@ -294,17 +284,16 @@ def _evidence_and_fit(
     """Return the log evidence of the likeliest mode, and the log-likelihood per beam at the best pose, nats. Beams have
     more weight here, because a scan tells more about whether it fits at all than about its exact pose.
     """
-    beam_weight = known.weight_of(scan.ranges_m)
-    logs = _reweight_beams(population, log_likelihood, known.weight_of_fit(scan.ranges_m) / beam_weight)
+    beam_weight = known.beam_weight_for_pose(scan.ranges_m)
+    logs = _reweight_beams(population, log_likelihood, known.beam_weight_for_fit(scan.ranges_m) / beam_weight)
     if belief.mode_of is not None:
         likeliest = np.bincount(belief.mode_of, belief.weights).argmax()
         logs = np.where(belief.mode_of == likeliest, logs, -np.inf)
     log_evidence = float(log_sum(logs) - np.log(len(logs)))
-    beams = max(1, int((~np.isnan(scan.ranges_m)).sum()))
-    return log_evidence, float(log_likelihood[int(np.argmax(logs))] / beam_weight / beams)
+    return log_evidence, float(log_likelihood[int(np.argmax(logs))] / beam_weight / n_valid(scan.ranges_m))
 
 
-# Settings of `locate`.
+# Settings of `locate`
 LOCATE_CANDIDATES = 32  # most places of the search
 LOCATE_PLACES = 16  # most places kept after a round
 RISING_ROUNDS = 6  # rounds in which the beams' weight rises
@@ -319,25 +308,23 @@ SAME_PLACE_XY_YAW = np.array([0.02, 0.02, np.radians(1.0)])  # places nearer tha
 def locate(known: KnownMap, scan: Scan, rng: np.random.Generator) -> PoseBelief:
     """Compute the posterior of a scan's pose on a map known exactly; its ``beam_weight`` is the likelihood's power."""
     prior = Prior()
-    valid_beams = max(1, int((~np.isnan(scan.ranges_m)).sum()))
-    last_weight = known.weight_of(scan.ranges_m)
-    first_weight = min(last_weight, INDEPENDENT_BEAMS / valid_beams)
+    last_weight = known.beam_weight_for_pose(scan.ranges_m)
+    first_weight = min(last_weight, INDEPENDENT_BEAMS / n_valid(scan.ranges_m))
 
     def target(beam_weight: float, thin: int = 1) -> Target:
-        return Target(known, prior, scan, thin, beam_weight)
+        return target_of(known, prior, scan, thin, beam_weight)
 
     thin = max(1, len(scan.angles_rad) // LOCATE_BEAMS)
-
     candidates = search(known.field, scan.angles_rad, scan.ranges_m, LOCATE_CANDIDATES)
     if len(candidates.poses) == 0:
         return belief_of(known, prior, scan, draw_uniform_population(known, target(last_weight), rng), None)
     places = _mixture_at(candidates.poses)
     # Adapt the places while the beams' weight rises, then at the final weight.
     for beam_weight in np.geomspace(first_weight, last_weight, RISING_ROUNDS):
-        places, _ = places.adapted(places.draw(target(float(beam_weight), thin), LOCATE_ROUND_DRAWS, rng))
+        places, _ = places.adapt(places.draw(target(float(beam_weight), thin), LOCATE_ROUND_DRAWS, rng))
         places = without_duplicates(places).best(LOCATE_PLACES)
     for _ in range(MAX_FINAL_ROUNDS):
-        places, tempering = places.adapted(places.draw(target(last_weight), LOCATE_ROUND_DRAWS, rng))
+        places, tempering = places.adapt(places.draw(target(last_weight), LOCATE_ROUND_DRAWS, rng))
         places = without_duplicates(places).best(LOCATE_PLACES)
         if tempering > END_TEMPERING:
             break

@@ -12,9 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.localization.particles import log_sum
+from bayesmap.localization.belief import log_sum
 from bayesmap.localization.search import EndpointField, Field, endpoint_field, likelihood_field
 from bayesmap.sensors.model import BeamMixture, Gaussian, RangeLimits, SensorModel, StudentT
+from bayesmap.space.arrays import Mask
 from bayesmap.space.planar import Floats
 
 if TYPE_CHECKING:
@@ -41,19 +42,17 @@ BINS = 60  # number of range bins in the law of readings anywhere
 
 @dataclass(frozen=True)
 class Trust:
-    """The trust in a map: the worth of a scan in independent readings, and how long other places are kept. Scans along
-    ``shared_way_m`` of path share their errors: after a shorter way, a scan counts by the way's share of it.
-    """
+    """The trust in a map: the worth of a scan in independent readings, and how long other places are kept."""
 
-    pose_readings: float = INDEPENDENT_BEAMS
-    place_readings: float = BEAMS_BETWEEN_PLACES
-    fit_readings: float = 5.0 * INDEPENDENT_BEAMS
-    shared_way_m: float = 0.0
-    carried: float = 1e-3  # probability per scan that counts in full that the robot was carried anywhere on the map
+    pose_readings: float = INDEPENDENT_BEAMS  # worth for the pose within a place
+    place_readings: float = BEAMS_BETWEEN_PLACES  # worth for choosing among several places
+    fit_readings: float = 5.0 * INDEPENDENT_BEAMS  # worth for deciding whether a scan was taken on the map
+    shared_way_m: float = 0.0  # scans along this way share their errors: after less, a scan counts by the way's share
+    p_carried: float = 1e-3  # probability per scan that counts in full that the robot was carried anywhere on the map
     shared_error_m: float = 0.0  # standard deviation of an error of the map that all beams of a scan share
     search_way_m: float = math.inf  # way after which the whole map is searched again, even if one place is certain
-    kept: int = 5  # most places that are weighted with all beams
-    least_draws: float = 1 / 3  # least draws per place, as a share of the likeliest place's draws
+    max_places: int = 5  # most places that are weighted with all beams
+    min_draw_share: float = 1 / 3  # least draws per place, as a share of the likeliest place's draws
     forgotten_nats: float = math.log(1e4)  # log probability below the likeliest place's at which a place is dropped
 
 
@@ -67,37 +66,21 @@ class UsualFit:
 
 @dataclass(frozen=True, eq=False)
 class KnownMap:
-    """A map posterior, ready to locate scans in. `KnownMap.of_run` makes it once for any number of scans.
-
-    Attributes:
-        packed: some of the map's draws, for kernels.
-        field: likelihood field for the search.
-        free: mask of cells in which a robot may be, (nx, ny).
-        unknown: mask of unknown cells, (nx, ny).
-        unknown_chance: stop probability of unknown cells in the search: their mean over draws, or the mean of known
-            cells if that is less.
-        elsewhere: log density of a reading, per metre, in each of `BINS` bins up to the largest range, and log
-            probability of no return, for scans taken anywhere.
-        max_range_m: largest range of the scans behind ``elsewhere``.
-        typical_m: median of their readings.
-        beam_weight: weight of a beam, as a share of an independent reading; None for the weight by ``trust``.
-        trust: trust in the map.
-        usual_fit: fit of scans at their own places; None if unknown.
-    """
+    """A map posterior, ready to locate scans in. `KnownMap.of_run` makes it once for any number of scans."""
 
     grid: Grid
-    packed: DeviceMaps
+    packed: DeviceMaps  # draws of the map, for kernels
     sensor: SensorModel
-    field: Field
-    free: NDArray[np.bool_]
-    unknown: NDArray[np.bool_]
-    unknown_chance: float
-    elsewhere: Floats
-    max_range_m: float
-    typical_m: float
-    beam_weight: float | None = None
+    field: Field  # likelihood field for the search
+    free: Mask  # mask of cells in which a robot may be, (nx, ny)
+    unknown: Mask  # mask of unknown cells, (nx, ny)
+    unknown_chance: float  # stop probability of unknown cells in the search
+    elsewhere: Floats  # law of readings of scans taken anywhere, see `readings_anywhere`
+    max_range_m: float  # largest range of these scans
+    typical_m: float  # median of their readings
+    beam_weight: float | None = None  # weight of a beam, as a share of an independent reading; None: by ``trust``
     trust: Trust = dataclasses.field(default_factory=Trust)
-    usual_fit: UsualFit | None = None
+    usual_fit: UsualFit | None = None  # fit of scans at their own places; None if unknown
 
     def __repr__(self) -> str:
         """Return two lines: the grid, and the cells in which a robot may be."""
@@ -110,15 +93,15 @@ class KnownMap:
         """Return the prepared map of a run that `bayesmap.infer` or `bayesmap.load` returned.
 
         It uses ``draws`` draws, spread over chains, or all if there are fewer. ``beam_weight`` is the weight of a beam,
-        as a share of an independent reading; None for the weight by `INDEPENDENT_BEAMS`. Raises BadInput: a run without
-        draws, or a sensor model of the user's own.
+        as a share of an independent reading; None for the weight by `INDEPENDENT_BEAMS`. Raises `BadInput` if the run
+        has no draws, or a sensor model of the user's own.
         """
         from bayesmap.posterior.prediction import predictor_of
 
         predictor = predictor_of(run.posterior)
-        numbers = set(np.unique(np.linspace(0, predictor.draws - 1, min(draws, predictor.draws)).astype(int)).tolist())
-        every = enumerate(state for batch in predictor.batches(None) for state in batch)
-        states = np.stack([state.copy() for number, state in every if number in numbers])
+        chosen = set(np.linspace(0, predictor.draws - 1, min(draws, predictor.draws)).astype(int).tolist())
+        numbered = enumerate(state for batch in predictor.batches(None) for state in batch)
+        states = np.stack([state.copy() for number, state in numbered if number in chosen])
         return cls.of_draws(
             states, run.grid, predictor.sensor, run.posterior.scans, occupancy=np.asarray(run.occupancy),
             observed=np.asarray(run.observed), hit_depth=predictor.hit_depth, beam_weight=beam_weight, device=device,
@@ -127,19 +110,19 @@ class KnownMap:
     @classmethod
     def of_draws(
         cls, states: NDArray[np.float32], grid: Grid, sensor: SensorModel, scans: Scans, *, occupancy: Floats,
-        observed: NDArray[np.bool_], hit_depth: float = 0.5, beam_weight: float | None = None, device: str = "cpu",
+        observed: Mask, hit_depth: float = 0.5, beam_weight: float | None = None, device: str = "cpu",
     ) -> KnownMap:  # fmt: skip
         """Return the prepared map of draws: stop probabilities (D, N), or surfaces (D, N, 6), of all N cells.
 
         ``scans`` are typical scans, for the law of readings anywhere. ``occupancy`` is the mean probability that each
         cell stops a beam, and ``observed`` the mask of known cells, (nx, ny). Other arguments are as in `of_run`.
-        Raises BadInput: no free cell, or a sensor model of the user's own.
+        Raises `BadInput` if no cell is free, or for a sensor model of the user's own.
         """
         from bayesmap.kernels.predict.density import device_maps
 
         readings = scans.ranges_m[np.isfinite(scans.ranges_m)]
         known = np.where(observed, np.asarray(occupancy, dtype=np.float64), 0.0)
-        free: NDArray[np.bool_] = np.logical_and(observed, known < PASSABLE)
+        free: Mask = np.logical_and(observed, known < PASSABLE)
         if not free.any():
             raise BadInput("localize: the map has no free cell in which a robot could be")
         unknown = np.logical_not(observed)
@@ -162,38 +145,36 @@ class KnownMap:
 
     @cached_property
     def shared_error(self) -> Floats | None:
-        """Standard deviations of a pose's error from the map's shared error, (3,); None without a shared error.
-
-        The yaw's is half the shared error over a typical reading: walls on one side that are off turn the pose.
+        """Standard deviations of a pose's error from the map's shared error, (3,); None without one. A typical reading
+        that is off by half the error turns the pose.
         """
-        off = self.trust.shared_error_m
-        return None if off == 0.0 else np.array([off, off, 0.5 * off / self.typical_m])
-
-    def _readings(self, ranges_m: Floats, worth: float) -> float:
-        """Return the weight of each beam of a scan that is worth ``worth`` independent readings."""
-        valid = max(1, int((~np.isnan(ranges_m)).sum()))
-        return min(1.0, worth / valid) if self.beam_weight is None else self.beam_weight
+        error_m = self.trust.shared_error_m
+        return None if error_m == 0.0 else np.array([error_m, error_m, 0.5 * error_m / self.typical_m])
 
     @cached_property
     def free_area_m2(self) -> float:
         """Area in which a robot may be, square metres."""
         return float(self.free.sum() * self.grid.resolution**2)
 
-    def weight_of(self, ranges_m: Floats) -> float:
+    def beam_weight_for_pose(self, ranges_m: Floats) -> float:
         """Return the weight of each beam of a scan for the pose within a place."""
-        return self._readings(ranges_m, self.trust.pose_readings)
+        return self._beam_weight(ranges_m, self.trust.pose_readings)
 
-    def weight_between_places(self, ranges_m: Floats) -> float:
+    def beam_weight_for_place(self, ranges_m: Floats) -> float:
         """Return the weight of each beam for choosing among several places."""
-        return self._readings(ranges_m, self.trust.place_readings)
+        return self._beam_weight(ranges_m, self.trust.place_readings)
 
-    def weight_of_fit(self, ranges_m: Floats) -> float:
+    def beam_weight_for_fit(self, ranges_m: Floats) -> float:
         """Return the weight of each beam for deciding whether the scan was taken on the map."""
         if self.beam_weight is not None:
             return min(1.0, self.beam_weight * self.trust.fit_readings / self.trust.pose_readings)
-        return self._readings(ranges_m, self.trust.fit_readings)
+        return self._beam_weight(ranges_m, self.trust.fit_readings)
 
-    def is_free(self, poses: Floats) -> NDArray[np.bool_]:
+    def _beam_weight(self, ranges_m: Floats, readings: float) -> float:
+        """Return the weight of each beam of a scan that is worth a number of independent readings."""
+        return min(1.0, readings / n_valid(ranges_m)) if self.beam_weight is None else self.beam_weight
+
+    def is_free(self, poses: Floats) -> Mask:
         """Return whether each pose lies in a free cell, (P,)."""
         x, y = np.floor(self.grid.to_cells(poses[:, :2])).astype(int).T
         nx, ny = self.grid.shape
@@ -208,7 +189,7 @@ class KnownMap:
 
         It is log mean_d exp(w sum_b log p(z_b | map d, pose)), from every ``thin``-th beam and the first ``draws``
         draws, or all. The weight w is scaled up if beams are left out; None is the map's own. With ``in_turn`` each
-        pose uses a single draw, in turn: weights of drawn poses are then right on average over the draws of the map.
+        pose uses a single draw, in turn: importance weights are then right on average over the draws of the map.
         """
         from bayesmap.kernels.predict.pose_weights import scan_log_likelihood
 
@@ -216,13 +197,14 @@ class KnownMap:
             self.packed, poses, angles_rad[::thin], ranges_m[::thin], self.sensor, limits, draws=draws,
             in_turn=in_turn, threads=1,
         )  # fmt: skip
-        used = max(1, int((~np.isnan(ranges_m[::thin])).sum()))
-        scale = (self.weight_of(ranges_m) if weight is None else weight) * int((~np.isnan(ranges_m)).sum()) / used
+        weight = self.beam_weight_for_pose(ranges_m) if weight is None else weight
+        scale = weight * int((~np.isnan(ranges_m)).sum()) / n_valid(ranges_m[::thin])
         return np.asarray(log_sum(scale * logs) - np.log(logs.shape[1]))
 
-    def log_elsewhere(self, ranges_m: Floats, weight: float) -> float:
-        """Compute the log-likelihood of a scan that was taken elsewhere, by the law of readings anywhere."""
-        return weight * log_anywhere(self.elsewhere, ranges_m, self.max_range_m)
+
+def n_valid(ranges_m: Floats) -> int:
+    """Return the number of valid readings, at least 1."""
+    return max(1, int((~np.isnan(ranges_m)).sum()))
 
 
 def log_anywhere(law: Floats, ranges_m: Floats, max_range_m: float) -> float:
@@ -234,19 +216,19 @@ def log_anywhere(law: Floats, ranges_m: Floats, max_range_m: float) -> float:
 
 
 def readings_anywhere(scans: Scans) -> Floats:
-    """Return the law of a reading at no particular pose: log density per bin, then log probability of no return."""
-    readings = scans.ranges_m
-    counts, _ = np.histogram(readings[np.isfinite(readings)], bins=BINS, range=(0.0, scans.max_range_m))
-    none = int(np.isposinf(readings).sum())
-    total = counts.sum() + none + BINS + 1.0
+    """Return the law of a reading at no particular pose: the log density, per metre, in each of `BINS` bins up to the
+    largest range, and the log probability of no return, (BINS + 1,).
+    """
+    ranges = scans.ranges_m
+    counts, _ = np.histogram(ranges[np.isfinite(ranges)], bins=BINS, range=(0.0, scans.max_range_m))
+    n_no_return = int(np.isposinf(ranges).sum())
+    total = counts.sum() + n_no_return + BINS + 1.0
     density = (counts + 1.0) / total / (scans.max_range_m / BINS)
-    return np.asarray(np.log(np.append(density, (none + 1.0) / total)))
+    return np.asarray(np.log(np.append(density, (n_no_return + 1.0) / total)))
 
 
 def _compilable(sensor: SensorModel) -> SensorModel:
-    """Return a mixture that kernels can compute. Pure noise gets 1 % of each outlier, so that every pose is possible.
-    Raises BadInput: a model of the user's own.
-    """
+    """Return a mixture for kernels; noise gets 1 % of each outlier. Raises `BadInput` for a model of the user's own."""
     if isinstance(sensor, Gaussian | StudentT):
         return BeamMixture(sensor, p_random=0.01, p_no_return=0.01, p_short=0.01)
     if isinstance(sensor, BeamMixture) and isinstance(sensor.noise, Gaussian | StudentT):

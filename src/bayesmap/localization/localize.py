@@ -11,13 +11,12 @@ from numpy.typing import ArrayLike
 from scipy.special import ndtr
 
 from bayesmap.errors import BadInput, check_count, near_names
-from bayesmap.localization.belief import Mode, PoseBelief, Region
-from bayesmap.localization.filter import GETS_LOST, IS_FOUND, LOST_AT_FIRST, Prior, Scan, update
+from bayesmap.localization.belief import MIN_SIGMA, Mode, PoseBelief, PoseMixture, Region
+from bayesmap.localization.filter import LOST_AT_FIRST, P_FOUND, P_GETS_LOST, Prior, Scan, update
 from bayesmap.localization.known_map import KnownMap, Trust
-from bayesmap.localization.particles import LEAST_SD, PoseMixture
 from bayesmap.poses.prior import Odometry
 from bayesmap.sensors.model import RangeLimits
-from bayesmap.space.planar import Floats, between, compose, frame_jacobians, rotation, wrap_angle
+from bayesmap.space.planar import Floats, between, compose, frame_jacobians, rotation
 from bayesmap.space.scans import Scans, asked_poses, check_sigma_rad
 from bayesmap.space.trajectory import Trajectory, step_to
 
@@ -40,7 +39,7 @@ class InitialPose:
         sigma_rad: standard deviation of the yaw.
 
     Raises:
-        BadInput: a pose that is not one, or a standard deviation that is not positive.
+        BadInput: a pose of another shape, numbers that are not finite, or a standard deviation that is not positive.
     """
 
     pose: ArrayLike
@@ -63,13 +62,13 @@ class InitialPose:
     def share_in(self, grid: Grid) -> float:
         """Compute the probability of a position on the map's grid."""
         low, high = (np.array(grid.extent_m[side::2]) for side in (0, 1))
-        at = np.asarray(self.pose)[:2]
-        return float(np.prod(ndtr((high - at) / self.sigma_m) - ndtr((low - at) / self.sigma_m)))
+        xy = np.asarray(self.pose)[:2]
+        return float(np.prod(ndtr((high - xy) / self.sigma_m) - ndtr((low - xy) / self.sigma_m)))
 
 
 @dataclass(frozen=True, eq=False)
 class Localization:
-    """Posteriors of the poses of scans. Its properties are those of the last scan."""
+    """Posteriors of the poses of scans. Moments, modes and probabilities are those of the last scan."""
 
     beliefs: tuple[PoseBelief, ...]  # posterior of each scan's pose, given all scans up to it
     frame: str = "laser"  # frame on the robot whose poses these are, "base" or "laser"
@@ -118,19 +117,15 @@ class Localization:
     def trajectory(self) -> Trajectory:
         """Return means and covariances of all scans' poses."""
         stamps = [belief.stamp_s for belief in self.beliefs]
-        known = None if any(stamp is None for stamp in stamps) else np.array(stamps, dtype=np.float64)
+        stamps_s = None if None in stamps else np.array(stamps, dtype=np.float64)
         poses = np.array([belief.mean for belief in self.beliefs])
         covariances = np.array([belief.covariance for belief in self.beliefs])
-        return Trajectory(poses, known, covariances, frame=self.frame)
+        return Trajectory(poses, stamps_s, covariances, frame=self.frame)
 
     def of(self, frame: str | None, mount: Floats | None) -> Localization:
-        """Return the posteriors of the robot's base, or of its laser, which sits at ``mount``, (3,), on the base.
-
-        ``frame`` is "base" or "laser"; the default is the base if the mount is known, and else the laser. Another frame
-        without a mount raises `BadInput`.
-        """
-        asked, step = step_to(frame, mount, self.frame)
-        return Localization(self.beliefs if step is None else tuple(b.of_frame(step) for b in self.beliefs), asked)
+        """Return the posteriors of the robot's base, or of its laser at ``mount``, (3,), as `step_to` says."""
+        new_frame, step = step_to(frame, mount, self.frame)
+        return Localization(self.beliefs if step is None else tuple(b.of_frame(step) for b in self.beliefs), new_frame)
 
 
 @near_names
@@ -172,42 +167,38 @@ def follow(
     known: KnownMap, scans: Scans | Iterable[Scans], prior: InitialPose | None = None, odometry: Odometry | None = None,
     independent: bool = False, seed: int = 0,
 ) -> Iterator[PoseBelief]:  # fmt: skip
-    """Yield the posterior of each scan, with the arguments of `localize`. Scans may also come one at a time: each
-    posterior is yielded before the next scan is asked for.
-    """
+    """Yield the posterior of each scan, with the arguments of `localize`, before the next scan is asked for."""
     odometry = Odometry() if odometry is None else odometry
     _check(known, prior, odometry)
     rng = np.random.default_rng(check_count("localize", "seed", seed, 0))
     anywhere = Prior() if known.usual_fit is None else Prior(lost=max(LOST_AT_FIRST, known.usual_fit.missed))
-    first = anywhere if prior is None else Prior(prior.components(), known.trust.carried, LOST_AT_FIRST)
-    believed, belief = first, None
-    pose, since_search_m = np.zeros(3), 0.0
-    trust = known.trust
-    each = (scans.select(slice(i, i + 1)) for i in range(len(scans))) if isinstance(scans, Scans) else scans
-    for single in each:
-        stamp = None if single.stamps_s is None else float(single.stamps_s[0])
+    pose_prior = anywhere if prior is None else Prior(prior.components(), known.trust.p_carried, LOST_AT_FIRST)
+    belief, pose, since_search_m, trust = None, np.zeros(3), 0.0, known.trust
+    singles = (scans.select(slice(i, i + 1)) for i in range(len(scans))) if isinstance(scans, Scans) else scans
+    for single in singles:
+        stamp_s = None if single.stamps_s is None else float(single.stamps_s[0])
         limits = RangeLimits(single.min_range_m, single.max_range_m)
         angles, ranges = single.beams_of(0)
         if not len(angles):  # a beam without a reading has no evidence, like no beam
             angles, ranges = single.angles_rad, single.ranges_m[0]
-        before, pose, new = pose, single.poses[0], 1.0
+        pose_before, pose, new_share = pose, single.poses[0], 1.0
         # Predict by odometry; a short way makes only part of the scan's evidence new.
-        if belief is not None and not independent:
-            motion = between(before, pose)
+        if independent:
+            pose_prior = anywhere
+        elif belief is not None:
+            motion = between(pose_before, pose)
             way_m = float(np.hypot(motion[0], motion[1]) + TURN_M * abs(motion[2]))
             since_search_m += way_m
             if way_m < trust.shared_way_m:
-                new = max(MIN_NEW_SHARE, way_m / trust.shared_way_m)
-            believed = moved(belief, motion, odometry.sigmas(motion), trust, new)
+                new_share = max(MIN_NEW_SHARE, way_m / trust.shared_way_m)
+            pose_prior = predict(belief, motion, odometry.sigmas(motion), trust, new_share)
         # Search the whole map if the pose is uncertain, or after a long way.
         unsure = belief is None or belief.p_lost > 0.5 or belief.modes[0].probability < MIN_SURE_PROBABILITY
-        everywhere = independent or unsure or since_search_m >= trust.search_way_m
-        if everywhere:
+        search_all = independent or unsure or since_search_m >= trust.search_way_m
+        if search_all:
             since_search_m = 0.0
-        if independent:
-            believed = anywhere
-        scan = Scan(angles, ranges, limits, stamp, new)
-        belief = update(known, believed, scan, rng, look_everywhere=everywhere)
+        scan = Scan(angles, ranges, limits, stamp_s, new_share)
+        belief = update(known, pose_prior, scan, rng, look_everywhere=search_all)
         yield belief
 
 
@@ -220,7 +211,7 @@ def _known(run: Any, device: str) -> KnownMap:
 
 
 def _check(known: KnownMap, prior: InitialPose | None, odometry: Odometry) -> None:
-    """Raise BadInput for a prior or odometry of another type, and for a prior outside the map."""
+    """Raise `BadInput` for a prior or odometry of another type, and for a prior outside the map."""
     if not isinstance(odometry, Odometry):
         raise BadInput(f"localize: odometry must be such as bm.Odometry(), got {odometry!r}")
     if prior is None:
@@ -235,20 +226,19 @@ def _check(known: KnownMap, prior: InitialPose | None, odometry: Odometry) -> No
         )
 
 
-def moved(belief: PoseBelief, motion: Floats, sigmas: Floats, trust: Trust, new: float = 1.0) -> Prior:
-    """Return the prior of the pose after a motion that odometry reports in the frame of the old pose, (3,), with errors
-    of these ``sigmas``. ``new`` is the share of the next scan's evidence that is new.
+def predict(belief: PoseBelief, motion: Floats, sigmas: Floats, trust: Trust, new_share: float = 1.0) -> Prior:
+    """Return the prior of the pose after a motion that odometry reports in the frame of the old pose, (3,). The motion
+    has errors of these ``sigmas``, (3,). ``new_share`` is the share of the next scan's evidence that is new.
     """
     modes = belief.places(float(np.exp(-trust.forgotten_nats)))
     means = np.array([mode.mean for mode in modes])
     covariances = np.array([mode.covariance for mode in modes])
     ends = compose(means, motion)
     shift, turn = frame_jacobians(np.zeros(len(means)), ends - means), rotation(means[:, 2])
-    noise = turn @ np.diag(sigmas**2 + LEAST_SD**2) @ np.swapaxes(turn, 1, 2)
-    ends[:, 2] = wrap_angle(ends[:, 2])
-    mass = np.log([mode.probability for mode in modes])
-    components = PoseMixture(ends, shift @ covariances @ np.swapaxes(shift, 1, 2) + noise, mass)
-    lost = belief.p_lost * (1.0 - new * IS_FOUND) + (1.0 - belief.p_lost) * new * GETS_LOST
+    noise = turn @ np.diag(sigmas**2 + MIN_SIGMA**2) @ np.swapaxes(turn, 1, 2)
+    log_mass = np.log([mode.probability for mode in modes])
+    components = PoseMixture(ends, shift @ covariances @ np.swapaxes(shift, 1, 2) + noise, log_mass)
     # A lost robot may return to any position.
-    carried = new * trust.carried
-    return Prior(components, carried + (1.0 - carried) * min(belief.p_lost * new * IS_FOUND, 0.5), lost)
+    p_found, p_carried = new_share * P_FOUND, new_share * trust.p_carried
+    uniform = p_carried + (1.0 - p_carried) * min(belief.p_lost * new_share * P_FOUND, 0.5)
+    return Prior(components, uniform, belief.p_lost * (1.0 - p_found) + (1.0 - belief.p_lost) * new_share * P_GETS_LOST)

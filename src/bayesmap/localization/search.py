@@ -22,13 +22,15 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from bayesmap.space.arrays import Indices, Mask, evenly_spaced
 from bayesmap.space.grid import Grid
 from bayesmap.space.planar import Floats, wrap_angle
 
-SIGMA_M = 0.12  # scale of the field about an obstacle, metres: errors of map and pose that a search must tolerate
+SIGMA_M = 0.12  # scale of the field about an obstacle: errors of map and pose that a search must tolerate
 SOLID = 0.3  # stop probability from which a cell counts as a wall
 FLOOR = 0.01  # worth of a point in the open, relative to one on a wall; fields are linear in the logarithm of the worth
-COARSE_M, TOP = 0.3, 255  # width of a coarse cell, metres, and the value of a fine cell on a wall
+COARSE_M = 0.3  # width of a coarse cell
+TOP = 255  # value of a fine cell on a wall
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,7 +41,7 @@ class Field:
     fine: NDArray[np.uint8]  # values from 0 to 255, (nx, ny)
     coarse_grid: Grid  # with the origin of the fine grid
     coarse: NDArray[np.uint16]  # values from 0 to 255, (mx, my)
-    open: NDArray[np.bool_]  # mask of coarse cells in which a robot can be, (mx, my)
+    open: Mask  # mask of coarse cells in which a robot can be, (mx, my)
 
     def score(self, points: Floats, poses: Floats) -> Floats:
         """Return the mean fine value, scaled to [0, 1], of points (N, 2) in the sensor's frame, at each pose, (P,)."""
@@ -49,11 +51,10 @@ class Field:
 
 
 def likelihood_field(
-    occupancy: Floats, grid: Grid, robot_may_be: NDArray[np.bool_], unknown: NDArray[np.bool_] | None = None,
-    chance: float = 0.0,
-) -> Field:  # fmt: skip
-    """Compute the likelihood field of a map from the probability that each cell stops a beam, 0 where unknown. Masks
-    are (nx, ny); ``chance`` is the probability that an unknown cell stops a beam.
+    occupancy: Floats, grid: Grid, free: Mask, unknown: Mask | None = None, chance: float = 0.0
+) -> Field:
+    """Compute the likelihood field of a map from the probability that each cell stops a beam, 0 where unknown. Masks of
+    free and of unknown cells are (nx, ny). ``chance`` is the probability that an unknown cell stops a beam.
     """
     # Fine field: maximum over shifted copies of the strengths, out to two standard deviations.
     strength = np.clip(np.nan_to_num(occupancy) / SOLID, 0.0, 1.0)
@@ -71,17 +72,15 @@ def likelihood_field(
         np.maximum(fine, np.where(unknown, 1.0 - math.log(max(worth, FLOOR)) / math.log(FLOOR), 0.0), out=fine)
     # Coarse field: maximum over squares of fine cells.
     stride = max(1, round(COARSE_M / grid.resolution))
-    shape = (-(-nx // stride), -(-ny // stride))
+    shape = (math.ceil(nx / stride), math.ceil(ny / stride))
     coarse_grid = Grid(shape, grid.resolution * stride, grid.origin)
     blocks = _blocks(np.round(TOP * fine), stride, shape).max(axis=(1, 3))
-    is_open = np.asarray(_blocks(robot_may_be, stride, shape).any(axis=(1, 3)), dtype=np.bool_)
+    is_open = np.asarray(_blocks(free, stride, shape).any(axis=(1, 3)), dtype=np.bool_)
     return Field(grid, np.round(TOP * fine).astype(np.uint8), coarse_grid, blocks.astype(np.uint16), is_open)
 
 
 def worth_of_unknown(chance: float, sigma_m: float, resolution: float) -> float:
-    """Compute the density of readings in cells that stop a beam with a probability, relative to its peak on a wall.
-    ``sigma_m`` is the standard deviation of a reading on a wall. The result is at most 1.
-    """
+    """Compute the density of readings in cells of this stop ``chance``, relative to its peak on a wall, at most 1."""
     return min(1.0, chance / resolution * sigma_m * math.sqrt(2.0 * math.pi))
 
 
@@ -93,9 +92,10 @@ def _blocks(values: NDArray[np.generic], stride: int, shape: tuple[int, int]) ->
     return padded.reshape(mx, stride, my, stride)
 
 
-FINE_M, MOST_CELLS = 0.025, 16_000_000  # width of the cells of an `EndpointField`, metres, and greatest number of cells
+FINE_M = 0.025  # width of the cells of an `EndpointField`
+MAX_CELLS = 16_000_000  # most cells of an `EndpointField`
 SURFACE_FLOOR = 0.02  # worth of a point far from all surfaces, relative to one on a surface
-FAINT = 0.1  # cells that stop beams with a lower probability have no surface in an `EndpointField`
+MIN_STOP = 0.1  # cells that stop beams with a lower probability have no surface in an `EndpointField`
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,16 +106,14 @@ class EndpointField:
     values: NDArray[np.uint8]  # 0 (far from all surfaces) to 255 (on a surface), (nx, ny)
 
     def log_worth(self, points: Floats, poses: Floats) -> Floats:
-        """Return the sum of the points' log worth, relative to points far from all surfaces, at each pose, (P,), nats.
-        Points are in the sensor's frame, (N, 2), and poses in the world frame, (P, 3).
-        """
+        """Return the sum of the log worth of points (N, 2) at each pose, (P,), relative to points in the open."""
         from bayesmap.kernels.match.likelihood_grid import field_sums
 
         return np.asarray(field_sums(self.values, self.grid, points, poses) * (-math.log(SURFACE_FLOOR) / TOP))
 
 
 def endpoint_field(
-    states: NDArray[np.float32], grid: Grid, noise_m: float, unknown: NDArray[np.bool_], chance: float
+    states: NDArray[np.float32], grid: Grid, noise_m: float, unknown: Mask, chance: float
 ) -> EndpointField:
     """Compute the field of the draws of a map, as `KnownMap.of_draws` takes them. ``noise_m`` is the standard deviation
     of a reading. An ``unknown`` cell stops a beam with probability ``chance``.
@@ -123,12 +121,12 @@ def endpoint_field(
     from bayesmap.kernels.match.likelihood_grid import render_field
 
     parts = max(1, math.ceil(grid.resolution / FINE_M - 1e-9))
-    parts = max(1, min(parts, math.isqrt(MOST_CELLS // grid.n_cells)))
+    parts = max(1, min(parts, math.isqrt(MAX_CELLS // grid.n_cells)))
     fine = Grid((grid.shape[0] * parts, grid.shape[1] * parts), grid.resolution / parts, grid.origin)
     means, covariances, strengths = _surfaces(states, grid, ~unknown.ravel())
     # A fine cell stands for all points within it, so that no surface is narrower than half a cell.
-    round_ = np.array([1.0, 0.0, 1.0])
-    covariances = (covariances + round_ * noise_m**2) / fine.resolution**2 + 0.25 * round_
+    isotropic = np.array([1.0, 0.0, 1.0])
+    covariances = (covariances + isotropic * noise_m**2) / fine.resolution**2 + 0.25 * isotropic
     peaks = render_field(means / fine.resolution, covariances, strengths, fine.shape)
     # A surface spreads by about a third of a cell, or is off its middle by as much.
     worth = worth_of_unknown(chance, math.hypot(noise_m, 0.3 * grid.resolution), grid.resolution)
@@ -137,25 +135,27 @@ def endpoint_field(
     return EndpointField(fine, np.round(TOP * logs).astype(np.uint8))
 
 
-def _surfaces(states: NDArray[np.float32], grid: Grid, known: NDArray[np.bool_]) -> tuple[Floats, Floats, Floats]:
+def _surfaces(states: NDArray[np.float32], grid: Grid, known: Mask) -> tuple[Floats, Floats, Floats]:
     """Return means from the grid's corner (K, 2), covariances xx, xy, yy (K, 3), metres, and strengths, of all draws.
     Unknown cells are left out: draws follow the prior there, and together they have surfaces almost everywhere.
     """
     chances = states[..., 0] if states.ndim == 3 else states
-    which = np.nonzero((chances > FAINT) & known)
-    strengths = np.asarray(np.minimum(chances[which].astype(np.float64) / SOLID, 1.0))
+    solid = np.nonzero((chances > MIN_STOP) & known)
+    strengths = np.asarray(np.minimum(chances[solid].astype(np.float64) / SOLID, 1.0))
     if states.ndim == 3:
-        own = states[which].astype(np.float64)
-        l11, l21, l22 = own[:, 3:6].T
-        return np.asarray(own[:, 1:3]), np.stack([l11**2, l11 * l21, l21**2 + l22**2], axis=1), strengths
-    cells = np.stack(np.unravel_index(which[1], grid.shape), axis=1)
-    flat = grid.resolution**2 / 12.0  # of a point anywhere in the cell
-    return np.asarray((cells + 0.5) * grid.resolution), np.tile([flat, 0.0, flat], (len(cells), 1)), strengths
+        surfaces = states[solid].astype(np.float64)
+        l11, l21, l22 = surfaces[:, 3:6].T
+        return np.asarray(surfaces[:, 1:3]), np.stack([l11**2, l11 * l21, l21**2 + l22**2], axis=1), strengths
+    variance = grid.resolution**2 / 12.0  # of a point anywhere in the cell
+    covariances = np.tile([variance, 0.0, variance], (len(strengths), 1))
+    return grid.centers_from_corner_m(solid[1]), covariances, strengths
 
 
-HEADINGS, POINTS, FINE_POINTS = 90, 48, 60  # headings and points in the coarse search, points in the refinement
+HEADINGS = 90  # headings in the coarse search
+COARSE_POINTS, FINE_POINTS = 48, 60  # points in the coarse search, and in the refinement
 MIN_POINTS = 8  # fewest points of a search: fewer points fit walls anywhere
-BLOCK, SQUARES = 4, 240  # side of squares that keep their best position, in coarse cells; squares to refine
+BLOCK = 4  # side of squares that keep their best position, in coarse cells
+SQUARES = 240  # squares to refine
 APART_M, APART_RAD = 0.3, np.radians(8.0)  # least distances between candidates: in x or y, or in yaw
 
 
@@ -169,17 +169,13 @@ class Candidates:
 
 def end_points(angles_rad: Floats, ranges_m: Floats, most: int, furthest_m: float = np.inf) -> Floats:
     """Return end points of a scan's beams in the sensor's frame, (N, 2): at most ``most``, evenly spaced by beams."""
-    hit = np.flatnonzero(np.isfinite(ranges_m) & (ranges_m > 0) & (ranges_m < furthest_m))
-    if len(hit) > most:
-        hit = hit[np.arange(most) * len(hit) // most]
+    hit = evenly_spaced(np.flatnonzero(np.isfinite(ranges_m) & (ranges_m > 0) & (ranges_m < furthest_m)), most)
     return np.stack([np.cos(angles_rad[hit]), np.sin(angles_rad[hit])], axis=-1) * ranges_m[hit, None]
 
 
 def search(field: Field, angles_rad: Floats, ranges_m: Floats, most: int) -> Candidates:
-    """Find the best poses of a scan, A angles and readings, over a whole map. All are more than `APART_M` or
-    `APART_RAD` from each other. A scan with fewer hits than `MIN_POINTS` has none.
-    """
-    points = end_points(angles_rad, ranges_m, POINTS)
+    """Find the best poses of a scan over a whole map, all apart; none with fewer hits than `MIN_POINTS`."""
+    points = end_points(angles_rad, ranges_m, COARSE_POINTS)
     coarse = _coarse_poses(field, points) if len(points) >= MIN_POINTS else np.empty((0, 3))
     if len(coarse) == 0:
         return Candidates(np.empty((0, 3)), np.empty(0))
@@ -191,12 +187,12 @@ def refine(field: Field, points: Floats, poses: Floats, most: int) -> Candidates
     step_m, step_rad = 0.5 * field.coarse_grid.resolution, np.pi / HEADINGS
     scores = field.score(points, poses)
     offsets = np.stack(np.meshgrid([-1, 0, 1], [-1, 0, 1], [-1, 0, 1], indexing="ij"), axis=-1).reshape(-1, 3)
-    for keep in (len(poses), 4 * most, 2 * most):
-        order = _apart(poses, np.argsort(-scores, kind="stable"), keep, 0.5 * step_m, 0.5 * step_rad)
-        around = poses[order, None] + offsets * np.array([step_m, step_m, step_rad])
-        neighbour_scores = field.score(points, around.reshape(-1, 3)).reshape(len(order), -1)
-        best = neighbour_scores.argmax(axis=1)
-        poses, scores = around[np.arange(len(order)), best], neighbour_scores[np.arange(len(order)), best]
+    for count in (len(poses), 4 * most, 2 * most):
+        order = _apart(poses, np.argsort(-scores, kind="stable"), count, 0.5 * step_m, 0.5 * step_rad)
+        neighbours = poses[order, None] + offsets * np.array([step_m, step_m, step_rad])
+        neighbour_scores = field.score(points, neighbours.reshape(-1, 3)).reshape(len(order), -1)
+        best = np.arange(len(order)), neighbour_scores.argmax(axis=1)
+        poses, scores = neighbours[best], neighbour_scores[best]
         step_m, step_rad = 0.5 * step_m, 0.5 * step_rad
     order = _apart(poses, np.argsort(-scores, kind="stable"), most, APART_M, APART_RAD)
     poses = poses[order]
@@ -215,50 +211,46 @@ def _coarse_poses(field: Field, points: Floats) -> Floats:
     exact = np.pad(field.coarse, ((reach, reach + 1), (0, reach))).ravel()
     flat = ((exact * levels + TOP // 2) // TOP).astype(np.uint8)
     span = (mx - 1) * width + my
-    bx, by = -(-mx // BLOCK), -(-my // BLOCK)
+    bx, by = math.ceil(mx / BLOCK), math.ceil(my / BLOCK)
     is_open = np.zeros((bx * BLOCK, by * BLOCK), dtype=np.uint8)
     is_open[:mx, :my] = field.open
     headings = np.arange(HEADINGS) * (2 * np.pi / HEADINGS)
     # Positions are the middles of coarse cells.
     cos, sin = np.cos(headings)[:, None], np.sin(headings)[:, None]
-    i = np.floor((cos * points[:, 0] - sin * points[:, 1]) / resolution + 0.5).astype(int)
-    j = np.floor((sin * points[:, 0] + cos * points[:, 1]) / resolution + 0.5).astype(int)
-    shifts = (reach + i) * width + j
+    shift_x = np.floor((cos * points[:, 0] - sin * points[:, 1]) / resolution + 0.5).astype(int)
+    shift_y = np.floor((sin * points[:, 0] + cos * points[:, 1]) / resolution + 0.5).astype(int)
+    shifts = (reach + shift_x) * width + shift_y
     best = np.empty((HEADINGS, bx, by), dtype=np.uint8)
     total = np.zeros(mx * width, dtype=np.uint8)
-    framed = np.zeros((bx * BLOCK, by * BLOCK), dtype=np.uint8)
+    sums = np.zeros((bx * BLOCK, by * BLOCK), dtype=np.uint8)
     # Sum the shifted fields per heading, and keep the best position of each square.
     for h in range(HEADINGS):
         total[:] = 0
         for shift in shifts[h].tolist():
             np.add(total[:span], flat[shift : shift + span], out=total[:span])
-        np.multiply(total.reshape(mx, width)[:, :my], is_open[:mx, :my], out=framed[:mx, :my])
-        rows = np.maximum.reduce([framed[k::BLOCK] for k in range(BLOCK)])
+        np.multiply(total.reshape(mx, width)[:, :my], is_open[:mx, :my], out=sums[:mx, :my])
+        rows = np.maximum.reduce([sums[k::BLOCK] for k in range(BLOCK)])
         best[h] = np.maximum.reduce([rows[:, k::BLOCK] for k in range(BLOCK)])
     chosen = np.argpartition(best.ravel(), -min(SQUARES, best.size))[-min(SQUARES, best.size) :]
     chosen = chosen[best.ravel()[chosen] > 0]
-    turn, x, y = np.unravel_index(chosen, best.shape)
-    # The best position within a square is found for the chosen squares alone.
+    heading, x, y = np.unravel_index(chosen, best.shape)
+    # Find the best position within each chosen square.
     k = np.arange(BLOCK * BLOCK)
     cell_x, cell_y = x[:, None] * BLOCK + k // BLOCK, y[:, None] * BLOCK + k % BLOCK
-    at = (cell_x * width + cell_y)[:, :, None] + shifts[turn][:, None, :]
-    sums = exact[np.minimum(at, len(flat) - 1)].sum(axis=2, dtype=np.int64) * is_open[cell_x, cell_y]
-    within = sums.argmax(axis=1)
-    cell = np.stack([cell_x, cell_y], axis=-1)[np.arange(len(chosen)), within]
-    return np.column_stack([np.array(field.grid.origin) + (cell + 0.5) * resolution, headings[turn]])
+    indices = (cell_x * width + cell_y)[:, :, None] + shifts[heading][:, None, :]
+    exact_sums = exact[np.minimum(indices, len(flat) - 1)].sum(axis=2, dtype=np.int64) * is_open[cell_x, cell_y]
+    cells = np.stack([cell_x, cell_y], axis=-1)[np.arange(len(chosen)), exact_sums.argmax(axis=1)]
+    return np.column_stack([np.array(field.grid.origin) + (cells + 0.5) * resolution, headings[heading]])
 
 
-def _apart(poses: Floats, order: NDArray[np.intp], most: int, apart_m: float, apart_rad: float) -> NDArray[np.intp]:
+def _apart(poses: Floats, order: Indices, most: int, apart_m: float, apart_rad: float) -> Indices:
     """Select the first poses of an order that are all apart from each other, at most ``most``."""
-    ordered = poses[order]
-    off = np.abs(ordered[:, None] - ordered)
+    off = np.abs(poses[order][:, None] - poses[order])
     near = (off[..., 0] < apart_m) & (off[..., 1] < apart_m) & (np.abs(wrap_angle(off[..., 2])) < apart_rad)
-    free = np.ones(len(order), dtype=np.bool_)
-    kept: list[int] = []
+    is_apart = np.ones(len(order), dtype=np.bool_)
+    selected: list[int] = []
     for k in range(len(order)):
-        if free[k]:
-            kept.append(k)
-            if len(kept) == most:
-                break
-            free &= ~near[k]
-    return order[np.array(kept, dtype=np.intp)]
+        if is_apart[k] and len(selected) < most:
+            selected.append(k)
+            is_apart &= ~near[k]
+    return order[np.array(selected, dtype=np.intp)]

@@ -29,8 +29,9 @@ from numpy.typing import NDArray
 from bayesmap.kernels.match.line_pairs import match_counts, pair_sums
 from bayesmap.kernels.match.scan_refinement import Convergence, Refinement, refine_scans
 from bayesmap.poses.graph import Factors, PoseGaussian, Quadratic, quadratic, solve_step
-from bayesmap.poses.scan_geometry import ScanGeometry, offsets_of
-from bayesmap.space.planar import Floats, between, bracketing_indices, compose, evenly_spaced, nearest_index, rotation
+from bayesmap.poses.scan_geometry import ScanGeometry
+from bayesmap.space.arrays import Indices, Mask, bracketing_indices, evenly_spaced, nearest_index, offsets_of
+from bayesmap.space.planar import Floats, between, compose, rotation
 
 MAX_PARTNERS = 20  # most partners of a scan
 MAX_TRIED = 64  # number of near scans among which partners are chosen
@@ -71,9 +72,7 @@ class Alignment:
 
 
 def overlapping_pairs(geometry: ScanGeometry, poses: Floats, reach_m: float) -> Pairs:
-    """Select the partners of each of S scans at poses (S, 3): the scans whose walls explain most of its points. Sensors
-    of partners are at most ``reach_m`` apart. Some partners are near in time, the others from other visits.
-    """
+    """Select partners of scans at poses (S, 3): scans up to ``reach_m`` apart whose walls explain most points."""
     from scipy.spatial import cKDTree
 
     count = len(poses)
@@ -119,7 +118,7 @@ def overlapping_pairs(geometry: ScanGeometry, poses: Floats, reach_m: float) -> 
 def align(
     geometry: ScanGeometry, poses: Floats, odometry: Factors, pairs: Pairs, *, rounds: int = 10,
     reach_m: tuple[float, float] = REACH_M, scale_m: tuple[float, float] = SCALE_M,
-    firm: NDArray[np.bool_] | None = None, reselect: Callable[[Floats], Pairs] | None = None,
+    firm: Mask | None = None, reselect: Callable[[Floats], Pairs] | None = None,
     on_progress: Callable[[int, Floats], None] | None = None,
 ) -> Alignment:  # fmt: skip
     """Align S scans with all their partners and with odometry.
@@ -195,9 +194,7 @@ def _laser_cost(
 
 
 def without_slack(hessian: Floats, slack: Floats, gradient: Floats, sigma_m: float) -> tuple[Floats, Floats]:
-    """Return second derivatives, (M, 3, 3), and first ones, (M, 3), without the part from errors of normals. The
-    minimum of the quadratic cost stays. The cost becomes flat along directions that have only slack.
-    """
+    """Return second derivatives, (M, 3, 3), and first ones, (M, 3), without the part from errors of normals."""
     values, vectors = np.linalg.eigh(hessian - SLACKS * sigma_m**2 * slack)
     curvature = (vectors * np.maximum(values, 0.0)[:, None, :]) @ np.swapaxes(vectors, 1, 2)
     size = np.trace(hessian, axis1=1, axis2=2)[:, None, None]
@@ -287,7 +284,7 @@ class Placement:
     information: Floats  # of each pose given the key scans, in its own frame, (S, 3, 3)
     explained: Floats  # share of each scan's points on walls of compared key scans, (S,); 1 for key scans
 
-    def own_covariance(self, keys: NDArray[np.intp]) -> Floats:
+    def own_covariance(self, keys: Indices) -> Floats:
         """Return the scale matrix of Student's t of each scan's pose given the key scans, (S, 3, 3); zero for keys."""
         covariance = np.linalg.inv(self.information + np.diag(1.0 / PRIOR_SIGMA**2))
         covariance[keys] = 0.0
@@ -295,7 +292,7 @@ class Placement:
 
 
 def place_scans(
-    geometry: ScanGeometry, poses: Floats, keys: NDArray[np.intp], aligned: Alignment, error: PointError
+    geometry: ScanGeometry, poses: Floats, keys: Indices, aligned: Alignment, error: PointError
 ) -> Placement:
     """Refine every scan against the partners of the key scan nearest to it in time. Key scans keep their poses. All
     scans start at ``poses``, (S, 3), and ``aligned`` holds the key scans alone.
@@ -324,13 +321,9 @@ def place_scans(
     return Placement(result, information, explained)
 
 
-def compared_keys(
-    scans: NDArray[np.intp], keys: NDArray[np.intp], aligned: Alignment
-) -> tuple[NDArray[np.int32], NDArray[np.intp]]:
-    """Select the key scans that each scan is compared with, as numbers among the keys.
-
-    They are the key scans before and after the scan, and partners of the nearer one, evenly from their list. Scan i has
-    the entries from ``offsets[i]`` to ``offsets[i + 1]``. Returns the offsets, and the key scans of all scans.
+def compared_keys(scans: Indices, keys: Indices, aligned: Alignment) -> tuple[NDArray[np.int32], Indices]:
+    """Select the key scans that each scan is compared with: those before and after it, and partners of the nearer one.
+    Returns offsets of the scans, and the numbers among the keys of all scans' key scans.
     """
     before, after = bracketing_indices(keys, scans)
     nearer = nearest_index(keys, scans)

@@ -6,7 +6,7 @@ point that odometry follows. To first order odometry then states
     stated = (1 + C) true - lag (v_end - v_begin).
 
 C is a constant matrix. Scan matching gives the true motion. v is the stated velocity at the motion's begin and end: if
-odometry's stamps are late by ``lag``, its motion is that of another interval. The stated motion is regressed on the
+odometry's stamps are late by ``lag``, its motion belongs to another interval. The stated motion is regressed on the
 matched one, which has smaller errors. (In the opposite regression, the noise of a robot that drives straight on would
 look like a scale of 0.) A stated motion is corrected by 1 + B = 1 / (1 + C).
 `RunningOdometry` learns C and the noise during the front end, by recursive least squares. `fit_odometry` fits C,
@@ -17,8 +17,8 @@ frame of the motion, have the variances
 
     v = per_m d + per_rad a + per_scan n.
 
-So the variances of parts of a motion add up to that of the whole, with 1 scan per second as with 10. (The squares of
-`bayesmap.poses.prior.Odometry` do not: ten short motions have a tenth of the variance of the whole motion.)
+So the variances of parts of a motion add up to the variance of the whole, with 1 scan per second as with 10. (The
+squares of `bayesmap.poses.prior.Odometry` do not: ten short motions have a tenth of the variance of the whole motion.)
 
 Angles. A scan with a wrong angle between its beams is stretched around the laser, so that scans do not fit each other.
 The angle with the lowest residual is estimated. The first beam's angle stays as stated, because a turn of all beams is
@@ -35,42 +35,38 @@ from numpy.typing import NDArray
 from bayesmap.kernels.match.scan_refinement import Convergence, Refinement, refine_scans
 from bayesmap.poses.prior import Odometry
 from bayesmap.poses.scan_geometry import scan_geometry
-from bayesmap.space.planar import Floats, between, interpolate, wrap_angle, wrap_yaw
+from bayesmap.space.arrays import Indices, Mask, evenly_spaced, matrix_roots
+from bayesmap.space.planar import Floats, between, interpolate, ways_and_turns, wrap_angle, wrap_yaw
 from bayesmap.space.scans import Scans
 from bayesmap.space.time_order import elapsed_s, repeated_stamps
 
-FAST_M_PER_S = 3.0  # greatest possible speed of a robot: faster motions count as impossible
+MAX_SPEED_M_PER_S = 3.0  # greatest possible speed of a robot: faster motions count as impossible
 COMMON = Odometry(0.1, 0.05, 0.05, 0.1, 0.01, 0.01)  # noise of ordinary robots; a robot's noise is a multiple
-FIRST_RATIO, PRIOR_COUNT = 3.0, 12.0  # prior of this multiple, and the number of motions that the prior counts as
+FIRST_RATIO = 3.0  # prior of this multiple
+PRIOR_COUNT = 12.0  # number of motions that the prior counts as
 MEMORY = 300.0  # number of motions over which the noise is averaged, since floors differ
 SLOPE_SIGMA = 0.15  # prior standard deviation of the entries of C: 15 % of the motion
 
 
-def stated_motions(poses: Floats, stamps_s: Floats | None) -> tuple[Floats, NDArray[np.bool_]]:
+def stated_motions(poses: Floats, stamps_s: Floats | None) -> tuple[Floats, Mask]:
     """Return the motions from scan to scan in the earlier one's frame, (S - 1, 3), and which are impossible, (S - 1,).
 
     Repeated stamps bound the time of a motion. A motion is impossible if it is too fast for the longest time, or if it
     is much longer than usual and too fast for the shortest time.
     """
     motions = between(poses[:-1], poses[1:])
-    length = np.hypot(motions[:, 0], motions[:, 1])
-    unusual = length > max(2.0, 20.0 * float(np.median(length)) if len(length) else 2.0)
+    ways_m, _ = ways_and_turns(motions)
+    unusual = ways_m > max(2.0, 20.0 * float(np.median(ways_m)) if len(ways_m) else 2.0)
     if stamps_s is None:
         return motions, unusual
-    least_s, most_s = elapsed_s(stamps_s)
-    return motions, (length > _farthest_m(most_s)) | (unusual & (length > _farthest_m(least_s)))
-
-
-def _farthest_m(elapsed: Floats) -> Floats:
-    return np.asarray(FAST_M_PER_S * (elapsed + 0.3) + 0.5)
+    farthest_m = [MAX_SPEED_M_PER_S * (seconds + 0.3) + 0.5 for seconds in elapsed_s(stamps_s)]
+    return motions, (ways_m > farthest_m[1]) | (unusual & (ways_m > farthest_m[0]))
 
 
 def motion_variances(motions: Floats, ratios: Floats) -> Floats:
-    """Return variances of x, y and yaw of motions, (..., 3), whose noise is ``ratios`` times `COMMON`. ``ratios`` are
-    those of position and heading, (2,). A heading error half-way moves the rest of a motion sideways.
-    """
+    """Return variances of x, y and yaw of motions, (..., 3), with noise of ``ratios``, (2,), times `COMMON`."""
     variance = (COMMON.sigmas(motions) * ratios[[0, 0, 1]]) ** 2
-    lever_m = 0.5 * np.hypot(motions[..., 0], motions[..., 1])
+    lever_m = 0.5 * ways_and_turns(motions)[0]
     variance[..., :2] += (lever_m**2 * variance[..., 2])[..., None]
     return np.asarray(variance)
 
@@ -89,12 +85,7 @@ class RunningOdometry:
         self._squares = np.array([PRIOR_COUNT * FIRST_RATIO**2] * 2)
         self._count = PRIOR_COUNT
         self._systematic: Floats = np.zeros((3, 3))
-        self._slope: Floats = np.zeros((3, 3))
-
-    @property
-    def slope(self) -> Floats:
-        """B = 1 / (1 + C) - 1, (3, 3): the correction of a stated motion is B times this motion."""
-        return self._slope
+        self.slope: Floats = np.zeros((3, 3))  # B: the correction of a stated motion is B times this motion
 
     @property
     def ratios(self) -> Floats:
@@ -103,7 +94,7 @@ class RunningOdometry:
 
     def corrected(self, motions: Floats) -> Floats:
         """Return stated motions with the systematic error removed, (..., 3)."""
-        return wrap_yaw(motions + motions @ self._slope.T)
+        return wrap_yaw(motions + motions @ self.slope.T)
 
     def variances(self, motions: Floats) -> Floats:
         """Return variances of x, y and yaw of each motion's remaining error, (..., 3)."""
@@ -113,36 +104,34 @@ class RunningOdometry:
         """Learn the systematic error from a longer motion: as stated, as matched, and the matching's variance, (3,)."""
         error = wrap_yaw(stated - matched)
         variance = self.variances(stated) + laser_variance
-        rest = wrap_yaw(error - self._systematic @ matched)
-        if not (rest**2 < 16.0 * variance).all():
+        residual = wrap_yaw(error - self._systematic @ matched)
+        if not (residual**2 < 16.0 * variance).all():
             return
         # One weight for the three: the entries of C share a normal matrix.
         gain = float(np.exp(-np.mean(np.log(np.maximum(variance, 1e-6))))) * SLOPE_SIGMA**2
         self._normal += gain * np.outer(matched, matched)
         self._moment += gain * np.outer(error, matched)
         self._systematic = np.asarray(np.linalg.solve(self._normal, self._moment.T).T, np.float64)
-        self._slope = inverse_slope(self._systematic)
+        self.slope = inverse_slope(self._systematic)
 
     def learn_noise(self, stated: Floats, matched: Floats, laser_variance: Floats) -> None:
         """Learn the noise from a motion from scan to scan: as stated, as matched, and the matching's variance, (3,)."""
-        rest = wrap_yaw(matched - stated - self._slope @ stated)
-        base = COMMON.sigmas(stated) ** 2
-        excess = np.maximum(rest**2 - laser_variance, 0.0) / base
-        keep = 1.0 - 1.0 / MEMORY
+        residual = wrap_yaw(matched - stated - self.slope @ stated)
+        excess = np.maximum(residual**2 - laser_variance, 0.0) / COMMON.sigmas(stated) ** 2
+        forgetting = 1.0 - 1.0 / MEMORY
         limit = 25.0 * self._squares / self._count
-        self._squares = keep * self._squares + np.minimum([0.5 * (excess[0] + excess[1]), excess[2]], limit)
-        self._count = keep * self._count + 1.0
+        self._squares = forgetting * self._squares + np.minimum([0.5 * (excess[0] + excess[1]), excess[2]], limit)
+        self._count = forgetting * self._count + 1.0
 
 
 USUAL = np.array([[1e-3, 1e-3, 1e-5], [5e-4, 5e-4, 1e-5], [1e-3, 2e-3, 1e-6]])
 """Variance rates of ordinary robots: rows x, y, yaw; columns per metre, per radian, per scan."""
 
 FACTOR_SIGMA = np.log(10.0)  # prior standard deviation of the logarithm of each rate: a factor of ten either way
-TELLING_SHARE = 0.5  # a motion is fitted if its matched variance is below this share of the expected one
-MIN_FITTED_MOTIONS = 20
+INFORMATIVE_SHARE = 0.5  # a motion is fitted if its matched variance is below this share of the expected one
+MIN_FITTED_MOTIONS = 20  # fewest informative motions to which an axis is fitted
 MAX_LOG = 9.0  # greatest size of the logarithm of a rate, in units of `USUAL`
-
-DEGREES_OF_FREEDOM = 4.0
+DEGREES_OF_FREEDOM = 4.0  # nu of Student's t in the cost
 CONSISTENT = 1.2718  # 1 / E[(nu + 1) z^2 / (nu + z^2)] for a standard normal z and nu = 4
 
 
@@ -154,56 +143,48 @@ class MotionNoise:
 
     def variances(self, motions: Floats) -> Floats:
         """Return variances of x, y and yaw of motions from scan to scan, (..., 3)."""
-        ways, turns = np.hypot(motions[..., 0], motions[..., 1]), np.abs(motions[..., 2])
-        return self.over(ways, turns, np.ones_like(ways))
+        ways_m, turns_rad = ways_and_turns(motions)
+        return np.asarray(np.stack([ways_m, turns_rad, np.ones_like(ways_m)], axis=-1) @ self.rates.T)
 
-    def over(self, ways_m: Floats, turns_rad: Floats, scans: Floats) -> Floats:
-        """Return variances of x, y and yaw over path lengths, total turns and numbers of scans, (..., 3)."""
-        return np.asarray(_features(ways_m, turns_rad, scans) @ self.rates.T)
-
-    def of_scans(self, motions: Floats) -> Odometry:
+    def as_odometry(self, motions: Floats) -> Odometry:
         """Return the noise as parameters of `Odometry` that give equal total variances over motions, (S - 1, 3)."""
-        ways, turns = np.hypot(motions[:, 0], motions[:, 1]), np.abs(motions[:, 2])
-        per_m = ways.sum() / max(float((ways**2).sum()), 1e-12)
-        per_rad = turns.sum() / max(float((turns**2).sum()), 1e-12)
-        place, yaw = self.rates[:2].mean(axis=0), self.rates[2]
-        return Odometry(
-            float(np.sqrt(place[0] * per_m)), float(np.sqrt(place[1] * per_rad)), float(np.sqrt(yaw[0] * per_m)),
-            float(np.sqrt(yaw[1] * per_rad)), float(np.sqrt(place[2])), float(np.sqrt(yaw[2])),
-        )  # fmt: skip
+        ways_m, turns_rad = ways_and_turns(motions)
+        per_m = ways_m.sum() / max(float((ways_m**2).sum()), 1e-12)
+        per_rad = turns_rad.sum() / max(float((turns_rad**2).sum()), 1e-12)
+        position, yaw = self.rates[:2].mean(axis=0), self.rates[2]
+        squares = (position[0] * per_m, position[1] * per_rad, yaw[0] * per_m, yaw[1] * per_rad, position[2], yaw[2])
+        return Odometry(*(float(np.sqrt(square)) for square in squares))
 
 
 def fit_noise(
-    errors: Floats, ways_m: Floats, turns_rad: Floats, scans: Floats, known_variance: Floats,
-    expected_variance: Floats | None = None,
-) -> MotionNoise:  # fmt: skip
+    errors: Floats, features: Floats, known_variance: Floats, expected_variance: Floats | None = None
+) -> MotionNoise:
     """Fit variance rates to errors of M motions by maximum likelihood under a wide prior.
 
     The cost of an error e of variance v is log v / 2 + 1.27 (nu + 1) / 2 log(1 + e^2 / (nu v)): Student's t with
     nu = 4, made consistent for the normal distribution and robust against slips.
 
-    Each motion has a path length, a total turn (of absolute values) and a number of scans, (M,). ``known_variance`` is
-    that of the motions as estimated by odometry and laser together, (M, 3). ``expected_variance`` is that of odometry's
-    errors before the fit, (M, 3); by default an ordinary robot's.
+    The features of a motion are its path length, its total turn (of absolute values) and its number of scans, (M, 3).
+    ``known_variance`` is the variance of the motions as estimated by odometry and laser together, (M, 3).
+    ``expected_variance`` is the variance of odometry's errors before the fit, (M, 3); by default an ordinary robot's.
     """
-    features = _features(ways_m, turns_rad, scans)
     usual = features @ USUAL.T
     expected = usual if expected_variance is None else expected_variance
     # With too few informative motions, the noise is as expected, and no less than usual.
     rates = USUAL * np.maximum(1.0, expected.sum(axis=0) / np.maximum(usual.sum(axis=0), 1e-12))[:, None]
     for axis in range(3):
         # Use motions that the laser measures much more precisely than odometry.
-        tells = known_variance[:, axis] < TELLING_SHARE * expected[:, axis]
-        if tells.sum() >= MIN_FITTED_MOTIONS:
-            rates[axis] = _rates(errors[tells, axis], features[tells], known_variance[tells, axis], USUAL[axis])
+        used = known_variance[:, axis] < INFORMATIVE_SHARE * expected[:, axis]
+        if used.sum() >= MIN_FITTED_MOTIONS:
+            rates[axis] = _fit_rates(errors[used, axis], features[used], known_variance[used, axis], USUAL[axis])
     return MotionNoise(rates)
 
 
-def _rates(errors: Floats, features: Floats, known_variance: Floats, usual: Floats) -> Floats:
+def _fit_rates(errors: Floats, features: Floats, known_variance: Floats, usual: Floats) -> Floats:
     """Fit the rates of one axis, (3,), by L-BFGS in their logarithms.
 
-    The motions were estimated with odometry. So the mean square of its error is that of the residual plus the motions'
-    variance. Products are summed without BLAS, whose threads would take longer to meet than to add.
+    The motions were estimated with odometry. So the mean square of its error is the mean square of the residual plus
+    the motions' variance. Products are summed without BLAS, whose threads would take longer to meet than to add.
     """
     from scipy.optimize import minimize
 
@@ -223,18 +204,17 @@ def _rates(errors: Floats, features: Floats, known_variance: Floats, usual: Floa
     return np.asarray(usual * np.exp(optimum.x))
 
 
-def _features(ways_m: Floats, turns_rad: Floats, scans: Floats) -> Floats:
-    return np.stack([ways_m, turns_rad, scans], axis=-1).astype(np.float64)
-
-
 VELOCITY_OVER_S = 0.4  # time over which a stated velocity is averaged, seconds
-LAG_SIGMA_S, MOST_LAG_S = 0.2, 0.5  # prior standard deviation and greatest size of the lag
-PAIRS = 400  # most pairs of scans from which the angle between beams is estimated
-
-JACKKNIFE_GROUPS = 20
+LAG_SIGMA_S = 0.2  # prior standard deviation of the lag
+MAX_LAG_S = 0.5  # greatest size of the lag
+FIT_ROUNDS = 6  # rounds of robust least squares and of the fit of the noise
+MAX_PAIRS = 400  # most pairs of scans from which the angle between beams is estimated
+MIN_PAIRS = 20  # fewest such pairs
+MIN_TURN_RAD, MAX_TURN_RAD = np.radians(25.0), np.radians(130.0)  # bounds on the turn between scans of such a pair
+MAX_STRETCH = 0.0125  # greatest relative change of the angle that is tried
+JACKKNIFE_GROUPS = 20  # groups of pairs, for the standard error of the angle
 MIN_STANDARD_ERRORS = 4.0  # standard errors beyond which the angle is changed
 MIN_STANDARD_ERRORS_TO_REGULAR = 2.0  # the same, if the new angle is within one standard error of a regular angle
-
 REGULAR_WITHIN = 0.005  # relative accuracy of the estimated angle between beams
 
 
@@ -257,15 +237,12 @@ class OdometryFit:
         """Return the changes of corrected motions, (M, 3), by the standard errors of C, (9, M, 3). The changes are
         independent of each other. A change dC of C changes B by -(1 + B) dC (1 + B).
         """
-        values, vectors = np.linalg.eigh(self.systematic_covariance)
-        changes = (vectors * np.sqrt(np.maximum(values, 0.0))).T.reshape(9, 3, 3)
+        changes = matrix_roots(self.systematic_covariance).T.reshape(9, 3, 3)
         return np.asarray(-corrected @ np.swapaxes((np.eye(3) + self.slope) @ changes, 1, 2))
 
 
 def stated_at(poses: Floats, stamps_s: Floats | None, lag_s: float) -> Floats:
-    """Return odometry's poses at the scans' stamps, (S, 3), if its own stamps are late by ``lag_s``. Scans that share
-    their stamp with others keep their poses.
-    """
+    """Return odometry's poses at the scans' stamps, (S, 3), if it is late by ``lag_s``; equal stamps keep theirs."""
     if stamps_s is None or lag_s == 0.0:
         return poses
     late = interpolate(stamps_s, poses, stamps_s + lag_s)
@@ -281,59 +258,54 @@ def velocities(poses: Floats, stamps_s: Floats) -> Floats:
 
 
 def fit_odometry(
-    stated: Floats, stamps_s: Floats | None, known: Floats, scans: NDArray[np.intp], laser_variance: Floats,
+    stated: Floats, stamps_s: Floats | None, known: Floats, scans: Indices, laser_variance: Floats,
     expected_variance: Floats | None = None,
 ) -> OdometryFit:  # fmt: skip
     """Fit B, the lag and the noise to K of the scans whose poses are ``known``, (K, 3); their indices ascend.
 
     ``stated`` are odometry's poses of all scans, (S, 3). Without stamps, (S,), the lag is 0; scans with equal stamps do
-    not affect it. ``laser_variance`` is that of the known motions, (K - 1, 3): large along corridors.
-    ``expected_variance`` is that of odometry's errors before the fit, (K - 1, 3); by default an ordinary robot's.
+    not affect it. ``laser_variance`` is the variance of the known motions, (K - 1, 3): large along corridors.
+    ``expected_variance`` is the variance of odometry's errors before the fit, (K - 1, 3); by default an ordinary
+    robot's.
     """
     # Errors of odometry between known scans, and the changes of velocity that a lag multiplies.
     motion = between(known[:-1], known[1:])
     error = wrap_yaw(between(stated[scans[:-1]], stated[scans[1:]]) - motion)
-    change = np.zeros_like(motion)
+    velocity_change = np.zeros_like(motion)
     if stamps_s is not None:
-        speed, told = velocities(stated, stamps_s), ~repeated_stamps(stamps_s)[scans]
-        change = np.where((told[:-1] & told[1:])[:, None], speed[scans[:-1]] - speed[scans[1:]], 0.0)
-    timed = change.any()
-    steps = between(stated[:-1], stated[1:])
-    ways, turns = (_over(size, scans) for size in (np.hypot(steps[:, 0], steps[:, 1]), np.abs(steps[:, 2])))
-    parts = np.diff(scans).astype(np.float64)
-    noise = fit_noise(error, ways, turns, parts, laser_variance, expected_variance)
+        velocity, is_timed = velocities(stated, stamps_s)[scans], ~repeated_stamps(stamps_s)[scans]
+        velocity_change = np.where((is_timed[:-1] & is_timed[1:])[:, None], velocity[:-1] - velocity[1:], 0.0)
+
+    def residuals(coefficients: Floats) -> Floats:
+        return wrap_yaw(error - motion @ coefficients[:9].reshape(3, 3).T - coefficients[9] * velocity_change)
+
+    # Path lengths, turns and numbers of scans between known scans, by sums over motions from scan to scan.
+    sizes = np.cumsum(ways_and_turns(between(stated[:-1], stated[1:])), axis=1)
+    ways_m, turns_rad = np.diff(np.concatenate([[[0.0], [0.0]], sizes], axis=1)[:, scans], axis=1)
+    features = np.stack([ways_m, turns_rad, np.diff(scans)], axis=-1)
+    noise = fit_noise(error, features, laser_variance, expected_variance)
     # Ten coefficients: the entries of C, and the lag. Alternate robust least squares and the fit of the noise.
     coefficients = np.zeros(10)
     covariance = np.eye(10)
-    for _ in range(6):
-        variance = laser_variance + noise.over(ways, turns, parts)
+    for _ in range(FIT_ROUNDS):
+        variance = laser_variance + features @ noise.rates.T
         normal = np.diag(np.append(np.full(9, SLOPE_SIGMA**-2.0), LAG_SIGMA_S**-2.0))
         moment = np.zeros(10)
-        rest = _left(error, motion, change, coefficients)
-        weight = 1.0 / variance / (1.0 + (rest**2 / variance).sum(axis=1, keepdims=True) / 9.0)
+        squares = (residuals(coefficients) ** 2 / variance).sum(axis=1, keepdims=True)
+        weight = 1.0 / variance / (1.0 + squares / 9.0)
         for axis in range(3):
             design = np.zeros((len(motion), 10))
             design[:, 3 * axis : 3 * axis + 3] = motion
-            design[:, 9] = change[:, axis]
+            design[:, 9] = velocity_change[:, axis]
             normal += design.T @ (design * weight[:, axis : axis + 1])
             moment += design.T @ (error[:, axis] * weight[:, axis])
         coefficients = np.asarray(np.linalg.solve(normal, moment), np.float64)
-        coefficients[9] = np.clip(coefficients[9], -MOST_LAG_S, MOST_LAG_S)
+        coefficients[9] = np.clip(coefficients[9], -MAX_LAG_S, MAX_LAG_S)
         covariance = np.linalg.inv(normal)
-        rest = _left(error, motion, change, coefficients)
-        noise = fit_noise(rest, ways, turns, parts, laser_variance, expected_variance)
-    lag_s = float(coefficients[9]) if timed else 0.0
+        noise = fit_noise(residuals(coefficients), features, laser_variance, expected_variance)
+    lag_s = float(coefficients[9]) if velocity_change.any() else 0.0
     slope = inverse_slope(coefficients[:9].reshape(3, 3))
     return OdometryFit(slope, covariance[:9, :9], lag_s, float(np.sqrt(covariance[9, 9])), noise)
-
-
-def _left(error: Floats, motion: Floats, change: Floats, coefficients: Floats) -> Floats:
-    return wrap_yaw(error - motion @ coefficients[:9].reshape(3, 3).T - coefficients[9] * change)
-
-
-def _over(sizes: Floats, scans: NDArray[np.intp]) -> Floats:
-    """Return sums of sizes of motions from scan to scan, (S - 1,), between the given scans, (K - 1,)."""
-    return np.asarray(np.diff(np.concatenate([[0.0], np.cumsum(sizes)])[scans]))
 
 
 def angle_step_ratio(
@@ -352,51 +324,51 @@ def angle_step_ratio(
     step = float(np.nanmedian(scans.steps_rad)) if scans.steps_rad.size else np.pi
     if np.median(scans.sweep_rad) + 1.5 * step > 2.0 * np.pi:
         return 1.0
-    turned = np.abs(wrap_angle(poses[source, 2] - poses[target, 2]))
-    useful = np.nonzero((turned > np.radians(25.0)) & (turned < np.radians(130.0)))[0]
-    if len(useful) < 20:
+    # Select pairs that are turned against each other, and their scans.
+    turns = np.abs(wrap_angle(poses[source, 2] - poses[target, 2]))
+    pairs = np.nonzero((turns > MIN_TURN_RAD) & (turns < MAX_TURN_RAD))[0]
+    if len(pairs) < MIN_PAIRS:
         return 1.0
-    useful = useful[np.arange(min(len(useful), PAIRS)) * len(useful) // min(len(useful), PAIRS)]
-    needed, at = np.unique(np.concatenate([source[useful], target[useful]]), return_inverse=True)
-    first, second = at[: len(useful)].astype(np.int32), at[len(useful) :].astype(np.int32)
-    selected, selected_poses = scans.select(needed), poses[needed]
-    weak = np.tile(np.diag([25.0, 25.0, 100.0]), (len(useful), 1, 1))
-    offsets = np.arange(len(useful) + 1, dtype=np.int32)
+    pairs = evenly_spaced(pairs, MAX_PAIRS)
+    used, ends = np.unique(np.stack([source[pairs], target[pairs]]), return_inverse=True)
+    first, second = ends.reshape(2, -1).astype(np.int32)
+    selected, selected_poses = scans.select(used), poses[used]
+    weak_prior = np.tile(np.diag([25.0, 25.0, 100.0]), (len(pairs), 1, 1))
+    offsets = np.arange(len(pairs) + 1, dtype=np.int32)
 
     def residuals(factor: float) -> Floats:
         geometry = scan_geometry(selected.stretched(factor), farthest_m=farthest_m, threads=threads)
         # Beams are stretched from the first one. Turn the pose back, so that the middle beam keeps its direction.
         start = selected_poses.copy()
         start[:, 2] -= 0.5 * (factor - 1.0) * selected.sweep_rad
-        jobs = Refinement(first, offsets, second, start[second], start[first], start[first], weak)
+        jobs = Refinement(first, offsets, second, start[second], start[first], start[first], weak_prior)
         convergence = Convergence(0.02, 10, geometry.reach_m(0.2, 0.15), geometry.scale_m(0.05, 0.03), 0.7)
         _, _, totals = refine_scans(geometry, jobs, convergence, threads)
         return 1.0 - totals[:, 1] / np.maximum(totals[:, 3], 1.0)
 
-    factors = 1.0 + np.linspace(-0.0125, 0.0125, 11)
-    values = np.array([residuals(float(f)) for f in factors])
+    # Find the factor with the lowest residual, and its standard error (Efron and Tibshirani 1993, ch. 11).
+    factors = 1.0 + np.linspace(-MAX_STRETCH, MAX_STRETCH, 11)
+    values = np.array([residuals(float(factor)) for factor in factors])
     lowest = _lowest(factors, values.mean(axis=1))
-    groups = np.arange(len(useful)) % JACKKNIFE_GROUPS
+    groups = np.arange(len(pairs)) % JACKKNIFE_GROUPS
     without = np.array([_lowest(factors, values[:, groups != group].mean(axis=1)) for group in range(JACKKNIFE_GROUPS)])
-    # The jackknife's standard error (Efron and Tibshirani 1993, ch. 11).
     error = np.sqrt((JACKKNIFE_GROUPS - 1) / JACKKNIFE_GROUPS * ((without - without.mean()) ** 2).sum())
-    if not abs(lowest - 1.0) <= 0.0125:
-        return 1.0  # outside the range that was tried
+    if not abs(lowest - 1.0) <= MAX_STRETCH:
+        return 1.0
     regular = _regular(lowest, float(np.degrees(step)))
-    sure = (
-        MIN_STANDARD_ERRORS_TO_REGULAR if regular != lowest and abs(lowest - regular) < error else MIN_STANDARD_ERRORS
-    )
-    return regular if abs(lowest - 1.0) > sure * error else 1.0
+    is_regular = regular != lowest and abs(lowest - regular) < error
+    min_errors = MIN_STANDARD_ERRORS_TO_REGULAR if is_regular else MIN_STANDARD_ERRORS
+    return regular if abs(lowest - 1.0) > min_errors * error else 1.0
 
 
 def _lowest(factors: Floats, values: Floats) -> float:
-    """Return the minimum of the parabola through values; NaN if it has none."""
+    """Return the minimum of the parabola through values, or NaN if the parabola has none."""
     bend, tilt, _ = np.polyfit(factors - 1.0, values, 2)
     return float(1.0 - tilt / (2.0 * bend)) if bend > 0.0 else float("nan")
 
 
 def _regular(factor: float, stated_deg: float) -> float:
-    """Return the factor of the nearest regular angle, as stated or a multiple of 1/8 degree, if it is as likely."""
+    """Return the factor of the nearest regular angle, as stated or a multiple of 1/8 degree, if it is near enough."""
     regular = round(8.0 * factor * stated_deg) / 8.0 / stated_deg
     nearest = min((1.0, regular), key=lambda f: abs(factor - f))
     return nearest if regular > 0 and abs(factor / nearest - 1.0) < REGULAR_WITHIN else factor

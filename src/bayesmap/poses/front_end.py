@@ -1,12 +1,14 @@
 """The front end: every scan is matched to the latest key scans, in the order of time.
 
-Scans that lie close together are matched to the same key scans at once (`bayesmap.poses.next_scans`). The first scan
-that has moved far enough, or that the key scans do not explain, becomes a key scan. Later scans are matched anew.
+A scan is searched for in the window that odometry allows. Branch and bound finds the best pose on the likelihood grid
+of the latest key scans. Point-to-line pairs refine it, with odometry's Gaussian as prior. Scans that lie close together
+are matched to the same key scans at once. The first scan that has moved far enough, or that the key scans do not
+explain, becomes a key scan. Later scans are matched anew.
 
-A scan may contradict the key scans at every pose that odometry allows. If one of the next scans fits again, somebody
-walked by, and the scan gets odometry's pose. If none fits, odometry was wrong, or the robot was carried. The path then
-breaks, and later scans are matched only to scans after the break. `bayesmap.poses.rejoin` joins the parts by places
-that were seen from both.
+A scan contradicts the key scans if points of one lie in free space of the other, at every pose that odometry allows. If
+one of the next scans fits again, somebody walked by, and the scan gets odometry's pose. If none fits, odometry was
+wrong, or the robot was carried. The path then breaks, and later scans are matched only to scans after the break.
+`bayesmap.poses.rejoin` joins the parts by places that were seen from both.
 """
 
 from __future__ import annotations
@@ -15,22 +17,169 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from bayesmap.kernels.match.line_pairs import Agreement, mutual_view_counts
+from bayesmap.kernels.match.scan_refinement import Convergence, Refinement, refine_scans
 from bayesmap.poses.calibration import RunningOdometry
 from bayesmap.poses.graph import DOUBTFUL_SQ
-from bayesmap.poses.matcher import likelihood_grids
-from bayesmap.poses.next_scans import (
-    PlacedScans,
-    WideMatch,
-    Window,
-    contradicts,
-    place_near,
-    predict,
-    search_widely,
-)  # fmt: skip
+from bayesmap.poses.matcher import ANY_SCORE, LikelihoodGrids, Pull, likelihood_grids, match
 from bayesmap.poses.scan_geometry import ScanGeometry
-from bayesmap.space.planar import Floats, between, chain_motions, ways_and_turns, wrap_yaw
+from bayesmap.space.arrays import Indices, Mask
+from bayesmap.space.planar import Floats, between, chain_motions, compose, rotation, ways_and_turns, wrap_yaw
+from bayesmap.space.time_order import SAME_S
+
+UNUSUAL_LOSS = 0.04  # scans this far below the usual score may have gone backwards, unreported by odometry
+BACKWARDS_GAIN = 0.05  # least gain in score for going backwards: along a wall both directions fit
+WIDE_M = 1.0  # half width of the wide search, metres
+WIDE_STAGES = ((np.radians(45.0), 0.1), (np.pi, 0.15))  # half ranges of angle, and the least gain in score of each
+MIN_GAIN_POINTS = 6.0  # least gain in score as a number of points, for scans with few points
+POINT_SIGMA_M = 0.02  # sigma of a point-to-line residual: the laser's noise, rough walls, a scan's own distortion
+MAX_POINTS = 200  # most points of a scan that are matched
+REACH_M = (0.3, 0.12)  # greatest distance of paired points: in the first step and in the last
+SCALE_M = (0.15, 0.05)  # distance from which points count as outliers: in the first step and in the last
+MIN_COSINE = 0.7  # least cosine of paired normals
+REFINEMENT_STEPS = 8  # most steps of a refinement
+BATCH_KEYS = 6  # number of newest key scans against which scans are refined, if several scans are placed at once
+VIEW_AGREEMENT = Agreement(near_m=0.2, clear_m=0.5, beams=90)  # limits for a scan and a key scan
+MAX_AGAINST_SHARE = 0.2  # largest share of contradicting points: people walk
+MIN_JUDGED_POINTS = 60  # fewest points that decide
+
+
+@dataclass(frozen=True, eq=False)
+class Window:
+    """The latest key scans: indices, newest first, (W,), poses, (W, 3), and likelihood grid."""
+
+    keys: Indices
+    poses: Floats
+    grid: LikelihoodGrids
+
+
+@dataclass(frozen=True, eq=False)
+class PlacedScans:
+    """Poses of N scans, by odometry and the window."""
+
+    predicted: Floats  # poses predicted by odometry, (N, 3)
+    variance: Floats  # variance of the prediction, x, y and yaw in the poses' own frames, (N, 3)
+    poses: Floats  # poses after matching, (N, 3)
+    information: Floats  # inverse covariance by the laser alone, in the poses' own frames, (N, 3, 3)
+    scores: Floats  # fit of each scan to the window, from 0 to 1, (N,)
+    is_reversed: Mask  # mask of scans before which the robot moved opposite to odometry, (N,)
+
+
+def predict(
+    poses: Floats, last: int, count: int, motions: Floats | None, stamps_s: Floats | None, odometry: RunningOdometry
+) -> tuple[Floats, Floats]:
+    """Predict poses of ``count`` scans after scan ``last``, and variances in their own frames, (N, 3) each."""
+    if motions is None:
+        gap_s = gap_before_s = 0.2
+        if stamps_s is not None and last > 0 and (np.diff(stamps_s[last - 1 : last + 2]) >= SAME_S).all():
+            gap_before_s, gap_s = np.diff(stamps_s[last - 1 : last + 2])
+        motion = between(poses[last - 1], poses[last]) if last > 0 else np.zeros(3)
+        sigma = np.array([0.05 + 0.5 * min(gap_s, 1.0)] * 2 + [np.radians(4.0) + 0.6 * min(gap_s, 1.0)])
+        return compose(poses[last], motion * min(gap_s / gap_before_s, 1.5))[None], sigma[None] ** 2
+    stated = motions[last : last + count]
+    return chain_motions(poses[last], odometry.corrected(stated)), np.cumsum(odometry.variances(stated), axis=0)
+
+
+def place_near(
+    geometry: ScanGeometry, window: Window, scans: Indices, predicted: Floats, variance: Floats,
+    backwards: Floats | None, usual_score: float,
+) -> PlacedScans:  # fmt: skip
+    """Match N scans near predicted poses, or near poses ``backwards`` against odometry's motion, (N, 3) each."""
+    # Search the windows that odometry allows.
+    points = [geometry.points_of(int(scan), MAX_POINTS) for scan in scans]
+    sigma = np.sqrt(variance)
+    half_m = np.clip(3.5 * sigma[:, :2].max(axis=1), 0.1, 1.5)
+    half_rad = np.clip(3.5 * sigma[:, 2], np.radians(1.5), np.radians(60.0))
+    sigma_m, sigma_rad = float(sigma[:, :2].max()), float(sigma[:, 2].max())
+    pull = Pull(max(sigma_m, 0.03), max(sigma_rad, np.radians(1.0)))
+    best = match(window.grid, points, predicted, half_m, half_rad, min_score=ANY_SCORE, pull=pull)
+    start, scores = best.poses[:, 0], best.scores[:, 0]
+    # Try the motion backwards for scans that fit worse than usual.
+    centre, is_reversed = predicted.copy(), np.zeros(len(scans), np.bool_)
+    doubtful = np.nonzero(scores < usual_score - UNUSUAL_LOSS)[0]
+    if backwards is not None and len(doubtful):
+        doubtful_points = [points[k] for k in doubtful]
+        back = match(
+            window.grid, doubtful_points, backwards[doubtful], half_m[doubtful], half_rad[doubtful],
+            min_score=scores[doubtful] + _min_gains(BACKWARDS_GAIN, doubtful_points), pull=pull,
+        )  # fmt: skip
+        better = back.has_pose[:, 0]
+        moved = doubtful[better]
+        start[moved], scores[moved] = back.poses[better, 0], back.scores[better, 0]
+        centre[moved], is_reversed[moved] = backwards[moved], True
+    poses, information = _refine(geometry, window, scans, start, centre, variance)
+    return PlacedScans(predicted, variance, poses, information, scores, is_reversed)
+
+
+@dataclass(frozen=True, eq=False)
+class WideMatch:
+    """A pose from a wide search, (3,), with the laser's information, (3, 3), and score.
+
+    ``near`` is True if it lies within `WIDE_M` and the first angle of `WIDE_STAGES` of the prediction.
+    """
+
+    pose: Floats
+    information: Floats
+    score: float
+    near: bool
+
+
+def search_widely(
+    geometry: ScanGeometry, window: Window, scan: int, predicted: Floats, score: float
+) -> WideMatch | None:
+    """Return the best pose in wide windows about a prediction, (3,), or None if no score is clearly above ``score``."""
+    points = [geometry.points_of(scan, MAX_POINTS)]
+    for stage, (wide_rad, gain) in enumerate(WIDE_STAGES):
+        wide = match(
+            window.grid, points, predicted[None], WIDE_M, wide_rad, min_score=score + _min_gains(gain, points),
+            pull=Pull(WIDE_M, wide_rad), step_rad=np.radians(1.0),
+        )  # fmt: skip
+        if wide.has_pose[0, 0]:
+            variance = np.array([[0.05, 0.05, 0.02]])  # odometry was wrong: centre the prior at the new pose instead
+            start = wide.poses[:, 0]
+            poses, information = _refine(geometry, window, np.array([scan]), start, start, variance)
+            return WideMatch(poses[0], information[0], float(wide.scores[0, 0]), stage == 0)
+    return None
+
+
+def _min_gains(gain: float, points: list[Floats]) -> Floats:
+    """Return the least gain in score of each of N scans, (N,): ``gain``, and at least `MIN_GAIN_POINTS` points."""
+    return np.maximum(gain, MIN_GAIN_POINTS / np.maximum([len(p) for p in points], 1))
+
+
+def contradicts(geometry: ScanGeometry, window: Window, scan: int, pose: Floats) -> bool:
+    """Return whether a scan at a pose contradicts the window's key scans: beams pass through surfaces of the other."""
+    keys, scans = window.keys.astype(np.int32), np.full(len(window.keys), scan, np.int32)
+    relative = between(window.poses, pose)
+    counts = mutual_view_counts(geometry, keys, scans, relative, VIEW_AGREEMENT, geometry.threads)
+    matched, against, _ = counts.sum(axis=0)
+    judged = int(matched + against)
+    return judged >= MIN_JUDGED_POINTS and against > MAX_AGAINST_SHARE * judged
+
+
+def _refine(
+    geometry: ScanGeometry, window: Window, scans: Indices, start: Floats, predicted: Floats, variance: Floats
+) -> tuple[Floats, Floats]:
+    """Return poses refined under odometry's Gaussian, and the laser's information in the poses' own frames."""
+    jobs = len(scans)
+    newest = slice(None, None if jobs == 1 else BATCH_KEYS)
+    keys, poses = window.keys[newest], window.poses[newest]
+    # Add an error of about a centimetre for the pose before.
+    own_information = np.array([np.diag(1.0 / (v + np.array([1e-4, 1e-4, 2.5e-5]))) for v in variance])
+    turn = rotation(predicted[:, 2])
+    prior_information = turn @ own_information @ np.swapaxes(turn, 1, 2)
+    refinement = Refinement(
+        scans.astype(np.int32), np.arange(jobs + 1, dtype=np.int32) * len(keys), np.tile(keys, jobs).astype(np.int32),
+        np.tile(poses, (jobs, 1)), start, predicted, prior_information,
+    )  # fmt: skip
+    sigma_m = max(POINT_SIGMA_M, geometry.noise_m)
+    reach, scale = geometry.reach_m(*REACH_M), geometry.scale_m(*SCALE_M)
+    convergence = Convergence(sigma_m, REFINEMENT_STEPS, reach, scale, MIN_COSINE)
+    refined, laser_information, _ = refine_scans(geometry, refinement, convergence, geometry.threads)
+    turn = rotation(refined[:, 2])
+    return refined, np.swapaxes(turn, 1, 2) @ laser_information @ turn
+
 
 KEY_DISTANCE_M, KEY_TURN_RAD = 0.4, np.radians(20.0)  # a scan this far from the last key scan becomes a key scan
 KEY_SCORE = 0.5  # a scan with a lower score becomes a key scan, too
@@ -57,16 +206,16 @@ class Track:
     information: Floats  # of each pose by the laser, given earlier key scans, in its own frame, (S, 3, 3)
     odometry_variance: Floats  # variance of odometry's motion from the key scan before, x, y and yaw, (S, 3)
     scores: Floats  # fit of each scan to the key scans, from 0 to 1, (S,); 1 for the first
-    keys: NDArray[np.intp]  # indices of the key scans, ascending
-    broken: NDArray[np.bool_]  # scans that begin a new part of the path: nothing confirms the motion before them, (S,)
-    is_reversed: NDArray[np.bool_]  # scans before which the robot moved opposite to odometry, (S,)
+    keys: Indices  # indices of the key scans, ascending
+    broken: Mask  # scans that begin a new part of the path: nothing confirms the motion before them, (S,)
+    is_reversed: Mask  # scans before which the robot moved opposite to odometry, (S,)
     slope: Floats  # correction of odometry's systematic error, (3, 3)
     noise_ratios: Floats  # odometry's noise as a multiple of an ordinary robot's, position and heading, (2,)
 
 
 def track_scans(
     geometry: ScanGeometry, motions: Floats | None, stamps_s: Floats | None,
-    impossible: NDArray[np.bool_] | None = None, on_progress: Callable[[int, Floats], None] | None = None,
+    impossible: Mask | None = None, on_progress: Callable[[int, Floats], None] | None = None,
 ) -> Track:  # fmt: skip
     """Match every scan to earlier key scans.
 
@@ -90,9 +239,8 @@ class _Path:
     """The path up to scan ``last``, the last one with a pose. ``keys[part_begin]`` begins the present part."""
 
     def __init__(
-        self, geometry: ScanGeometry, motions: Floats | None, stamps_s: Floats | None,
-        impossible: NDArray[np.bool_] | None,
-    ) -> None:  # fmt: skip
+        self, geometry: ScanGeometry, motions: Floats | None, stamps_s: Floats | None, impossible: Mask | None
+    ) -> None:
         count = len(geometry)
         self.geometry, self.stamps_s = geometry, stamps_s
         self.half_width_m = grid_half_width(geometry)
@@ -142,7 +290,7 @@ class _Path:
         else:
             self._break(scan, placed, match)
 
-    def _accept(self, batch: NDArray[np.intp], placed: PlacedScans, count: int) -> None:
+    def _accept(self, batch: Indices, placed: PlacedScans, count: int) -> None:
         """Accept the first ``count`` scans of a batch, up to one that becomes a key scan."""
         for k in range(count):
             if k and placed.scores[k] < self.usual_score - REMATCH_LOSS:
@@ -155,7 +303,7 @@ class _Path:
                 self._add_key(scan)
                 break
 
-    def _leave_out(self, batch: NDArray[np.intp], placed: PlacedScans, next_fit: int) -> None:
+    def _leave_out(self, batch: Indices, placed: PlacedScans, next_fit: int) -> None:
         """Give odometry's poses to the scans before number ``next_fit`` of the batch, which becomes a key scan."""
         for k in range(next_fit + 1):
             self._store(int(batch[k]), placed, k)
@@ -237,7 +385,7 @@ class _Path:
         self.keys.append(scan)
         self.variance_since_key = np.zeros(3)
 
-    def _place_near(self, scans: NDArray[np.intp]) -> tuple[PlacedScans, NDArray[np.bool_]]:
+    def _place_near(self, scans: Indices) -> tuple[PlacedScans, Mask]:
         """Place the next scans near odometry's poses. Returns them, and the mask of those that contradict the keys."""
         here, span = self.poses[self.last], slice(self.last, int(scans[-1]))
         predicted, variance = predict(self.poses, self.last, len(scans), self.motions, self.stamps_s, self.odometry)
@@ -251,9 +399,7 @@ class _Path:
         return placed, wrong
 
     def _is_doubtful(self, scan: int, placed: PlacedScans, k: int) -> bool:
-        """Return whether a badly explained scan contradicts the key scans, fits far away, or has an uncertain pose. If
-        the scan fits clearly better near by, ``placed`` gets that pose.
-        """
+        """Return whether a poor scan contradicts the keys or fits far away. Move it if it fits better near by."""
         if contradicts(self.geometry, self.window, scan, placed.poses[k]):
             return True
         if (np.sqrt(_posterior_variance(placed, k)) > LOST_SIGMA).any():
@@ -263,7 +409,7 @@ class _Path:
             placed.poses[k], placed.information[k], placed.scores[k] = match.pose, match.information, match.score
         return match is not None and not match.near
 
-    def _batch(self) -> NDArray[np.intp]:
+    def _batch(self) -> Indices:
         """Return the scans to match next: those that odometry predicts near the last key scan, and one more."""
         if self.motions is None:
             return np.array([self.last + 1])
@@ -274,7 +420,7 @@ class _Path:
         count = int(np.argmin(near) if not near.all() else len(near) - 1)
         return np.arange(self.last + 1, self.last + 2 + count)
 
-    def _scans_ahead(self) -> NDArray[np.intp]:
+    def _scans_ahead(self) -> Indices:
         """Return the scans in which a fit is sought after a contradiction: at most `AHEAD_SCANS`, none over a break."""
         assert self.motions is not None
         motions = self.motions[self.last : self.last + AHEAD_SCANS]

@@ -28,7 +28,8 @@ from numpy.typing import NDArray
 from scipy import sparse
 from scipy.sparse.linalg import splu
 
-from bayesmap.space.planar import Floats, between, between_jacobians, compose, matrix_roots, ways_and_turns, wrap_yaw
+from bayesmap.space.arrays import Indices, Mask, matrix_roots
+from bayesmap.space.planar import Floats, between, between_jacobians, compose, ways_and_turns, wrap_yaw
 
 COLUMNS = 16  # columns solved at once: with hundreds BLAS starts threads for tiny blocks, and takes 80 times as long
 
@@ -47,9 +48,9 @@ class Precision:
         parts = np.split(right, range(COLUMNS, right.shape[1], COLUMNS), axis=1)
         return np.concatenate([self._factor.solve(part) for part in parts], axis=1)
 
-    def blocks(self, first: NDArray[np.intp], second: NDArray[np.intp], at_once: int = 400) -> Floats:
-        """Return the inverse's blocks of M pairs of poses, (M, 3, 3): rows of the first, columns of the second. Columns
-        are solved for ``at_once`` poses at a time. Memory grows with ``at_once`` times the number of poses.
+    def blocks(self, first: Indices, second: Indices, at_once: int = 400) -> Floats:
+        """Return the inverse's blocks of M pairs of poses, (M, 3, 3): rows of the first, columns of the second. Memory
+        grows with ``at_once`` times the number of poses.
         """
         three = np.arange(3)
         result, known = self._on_pattern(3 * first[:, None, None] + three[:, None], 3 * second[:, None, None] + three)
@@ -72,7 +73,7 @@ class Precision:
             result[missing[own]] = np.swapaxes(blocks, 1, 2) if transposed else blocks
         return result
 
-    def _on_pattern(self, row: NDArray[np.intp], column: NDArray[np.intp]) -> tuple[Floats, NDArray[np.bool_]]:
+    def _on_pattern(self, row: Indices, column: Indices) -> tuple[Floats, Mask]:
         """Return entries of the inverse, and a mask of those in the pattern. Other entries are 0."""
         keys, values = self._selected
         order = self._factor.perm_c
@@ -129,12 +130,8 @@ def filled_pattern(matrix: Any, order: NDArray[np.integer]) -> tuple[NDArray[np.
     return starts.astype(np.int32), np.concatenate(columns).astype(np.int32)
 
 
-def relative_covariances(
-    precision: Precision, poses: Floats, first: NDArray[np.intp], second: NDArray[np.intp]
-) -> Floats:
-    """Compute the covariance of between(first, second) for M pairs of poses, in the first's frame, (M, 3, 3).
-    ``precision`` is that of steps in the poses' own frames.
-    """
+def relative_covariances(precision: Precision, poses: Floats, first: Indices, second: Indices) -> Floats:
+    """Compute the covariance of between(first, second) for M pairs of poses, in the first's frame, (M, 3, 3)."""
     by_first, by_second = between_jacobians(between(poses[first], poses[second]))
     indices = np.arange(len(poses))
     own = precision.blocks(indices, indices)
@@ -154,8 +151,8 @@ DOUBTFUL_SQ = 11.3  # squared Mahalanobis distance of a doubtful loop: 99 % quan
 class Factors:
     """Measured relative poses between M pairs of poses."""
 
-    first: NDArray[np.intp]  # indices of the poses, (M,)
-    second: NDArray[np.intp]
+    first: Indices  # indices of the poses, (M,)
+    second: Indices
     relative: Floats  # the second pose in the frame of the first, as measured, (M, 3)
     information: Floats  # inverse covariance of the measured relative pose, in the first's frame, (M, 3, 3)
 
@@ -176,13 +173,13 @@ class Factors:
         scale_sq = relaxation * DOUBTFUL_SQ
         return np.asarray((scale_sq / (self.squares(poses) + scale_sq)) ** 2)
 
-    def disagreements(self, poses: Floats, a: NDArray[np.intp], b: NDArray[np.intp]) -> Floats:
+    def disagreements(self, poses: Floats, a: Indices, b: Indices) -> Floats:
         """Return the difference of each factor ``a`` from the relative pose that factor ``b`` implies, (P, 3)."""
         first, second = self.first, self.second
         to_second = compose(self.relative[b], between(poses[second[b]], poses[second[a]]))
         return between(self.relative[a], compose(between(poses[first[a]], poses[first[b]]), to_second))
 
-    def select(self, chosen: NDArray[np.bool_] | NDArray[np.intp]) -> Self:
+    def select(self, chosen: Mask | Indices) -> Self:
         """Return the chosen factors."""
         return replace(self, **{field.name: getattr(self, field.name)[chosen] for field in fields(self)})
 
@@ -191,8 +188,8 @@ class Factors:
 class Quadratic:
     """A quadratic cost over relative poses z of M pairs: second derivatives (M, 3, 3) and first ones (M, 3) by z."""
 
-    first: NDArray[np.intp]
-    second: NDArray[np.intp]
+    first: Indices
+    second: Indices
     relative: Floats
     curvature: Floats
     gradient: Floats
@@ -281,7 +278,7 @@ def optimise(
     return poses, weights
 
 
-def _add_to_rows(target: Floats, rows: NDArray[np.intp], values: Floats) -> None:
+def _add_to_rows(target: Floats, rows: Indices, values: Floats) -> None:
     """Add values to rows of the target, in order, so that the result has the same bits every time."""
     size = int(np.prod(values.shape[1:]))
     flat_values, flat_target = values.reshape(len(values), size), target.reshape(len(target), size)
@@ -312,7 +309,7 @@ def sample_bends(poses: Floats, laser: Quadratic, precision: Precision) -> Float
     return bends
 
 
-def bend_covariances(bends: Floats, poses: Floats, first: NDArray[np.intp], second: NDArray[np.intp]) -> Floats:
+def bend_covariances(bends: Floats, poses: Floats, first: Indices, second: Indices) -> Floats:
     """Compute the covariance of between(first, second) by bends alone, in the first's frame, (M, 3, 3)."""
     by_first, by_second = between_jacobians(between(poses[first], poses[second]))
     result = np.zeros((len(first), 3, 3))
@@ -337,8 +334,8 @@ class PoseGaussian:
     """
 
     poses: Floats  # the most probable ones, (K, 3)
-    first: NDArray[np.intp]  # indices of the poses that a part of the cost ties together, (M,)
-    second: NDArray[np.intp]
+    first: Indices  # indices of the poses that a part of the cost ties together, (M,)
+    second: Indices
     relative: Floats  # the second pose in the frame of the first, (M, 3)
     curvature: Floats  # second derivatives of the cost by it, (M, 3, 3)
     force: Floats  # first derivatives, (M, 3), which cancel in total. Zero where parts err independently.
@@ -361,9 +358,7 @@ class PoseGaussian:
         return np.concatenate([shared * np.sqrt(count / len(shared)), *(steps * np.sqrt(count) for steps in others)])
 
     def steps_by(self, changes: Floats) -> Floats:
-        """Return the steps of the poses if the last M parts measure other relative poses, (N, K, 3). ``changes`` are
-        those of the measured relative poses, (N, M, 3).
-        """
+        """Return steps of the poses, (N, K, 3), if the last M relative poses change by ``changes``, (N, M, 3)."""
         last = slice(len(self.first) - changes.shape[1], None)
         ends, relative, curvature = (self.first[last], self.second[last]), self.relative[last], self.curvature[last]
         steps = np.empty((len(changes), len(self.poses), 3))
@@ -381,7 +376,7 @@ class PoseGaussian:
     def _part(self) -> Quadratic:
         return Quadratic(self.first, self.second, self.relative, self.curvature, self.force)
 
-    def relative_covariances(self, first: NDArray[np.intp], second: NDArray[np.intp]) -> Floats:
+    def relative_covariances(self, first: Indices, second: Indices) -> Floats:
         """Return the scale matrix of Student's t of between(first, second), in the first's frame, (N, 3, 3)."""
         first, second = np.asarray(first), np.asarray(second)
         shared = self.scale_of_covariance * bend_covariances(self.bends, self.poses, first, second)

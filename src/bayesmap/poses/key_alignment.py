@@ -12,7 +12,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bayesmap.poses.alignment import Alignment, Pairs, align, overlapping_pairs
 from bayesmap.poses.front_end import Track
@@ -20,6 +19,7 @@ from bayesmap.poses.graph import DOUBTFUL_SQ, Factors
 from bayesmap.poses.key_graph import contradicted_links
 from bayesmap.poses.matcher import ANY_SCORE, LikelihoodGrids, Pull, likelihood_grids, match
 from bayesmap.poses.scan_geometry import ScanGeometry
+from bayesmap.space.arrays import Indices, Mask
 from bayesmap.space.planar import Floats, between, compose
 
 NARROW_M, NARROW_RAD = 0.3, np.radians(6.0)  # half width and half range of angles of the narrow window
@@ -38,12 +38,12 @@ class LeaveOneOut:
     scores: Floats  # score of each scan at its pose, by its partners alone, from 0 to 1, (S,); 0 without partners
     best_scores: Floats  # score at the best pose in the window, (S,)
     best_poses: Floats  # best pose in the window, (S, 3)
-    is_better: NDArray[np.bool_]  # mask of the scans whose best pose is clearly better, (S,)
+    is_better: Mask  # mask of the scans whose best pose is clearly better, (S,)
 
 
 def match_without_itself(
     geometry: ScanGeometry, poses: Floats, pairs: Pairs, half_width_m: float, *, poor_score: float = 0.0,
-    search: bool = True, before: LeaveOneOut | None = None, changed: NDArray[np.bool_] | None = None,
+    search: bool = True, before: LeaveOneOut | None = None, changed: Mask | None = None,
 ) -> LeaveOneOut:  # fmt: skip
     """Match each of S scans at poses (S, 3) to its partners' likelihood grid.
 
@@ -97,7 +97,7 @@ def match_without_itself(
 FLAGGED_SHARE = 0.55  # a scan is flagged if its score is below this share of the median score
 
 
-def flag_unexplained(explained: Floats, keys: NDArray[np.intp]) -> NDArray[np.bool_]:
+def flag_unexplained(explained: Floats, keys: Indices) -> Mask:
     """Flag scans whose scores ``explained``, (S,), are far below the median. Returns a mask, (S,). Key scans and other
     scans have separate medians. A median of 0 is replaced by the median of the positive scores.
     """
@@ -139,12 +139,9 @@ class KeyAlignment:
     report: Callable[[Track, str, int], OnRound]  # returns the callback of a stage with a number of rounds
 
     def align(
-        self, stage: str, poses: Floats, factors: Factors, rounds: int = 8, *, wide: bool,
-        firm: NDArray[np.bool_] | None = None,
-    ) -> Alignment:  # fmt: skip
-        """Align the key scans with odometry's factors, from poses (K, 3), which may be decimetres off if ``wide``.
-        ``firm`` is the mask of odometry's links that keep their full weight, (K - 1,).
-        """
+        self, stage: str, poses: Floats, factors: Factors, rounds: int = 8, *, wide: bool, firm: Mask | None = None
+    ) -> Alignment:
+        """Align the key scans with odometry's factors; poses may be decimetres off if ``wide``. ``firm``: no slip."""
 
         def select_pairs(poses: Floats) -> Pairs:
             return overlapping_pairs(self.geometry, poses, MATCH_REACH * self.half_width_m)

@@ -17,15 +17,22 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from bayesmap.poses.front_end import SLIP_LOSS, UNKNOWN_SIGMA, WINDOW_KEYS, Track, grid_half_width
+from bayesmap.poses.front_end import (
+    MAX_POINTS,
+    MIN_GAIN_POINTS,
+    SLIP_LOSS,
+    UNKNOWN_SIGMA,
+    WINDOW_KEYS,
+    Track,
+    grid_half_width,
+)
 from bayesmap.poses.graph import Factors, optimise, quadratic, relative_covariances, solve_step
 from bayesmap.poses.loops import Closures, KeyPath, Search, find_closures, key_path, no_closures
 from bayesmap.poses.matcher import LikelihoodGrids, likelihood_grids, match, score_at
-from bayesmap.poses.next_scans import MAX_POINTS, MIN_GAIN_POINTS
 from bayesmap.poses.rejoin import MIN_PLACES, SAME_M, SAME_RAD, Joint, is_consistent, rejoin
 from bayesmap.poses.scan_geometry import ScanGeometry
+from bayesmap.space.arrays import Indices, Mask
 from bayesmap.space.planar import Floats, are_within, between, compose, rotation, wrap_angle, wrap_yaw
 
 DEFLATION = 4.0  # divisor of the information of the front end's links, whose windows overlap
@@ -56,7 +63,7 @@ class ClosedGraph:
     """Key scans with loops closed."""
 
     closures: Closures  # loop closures of the last round
-    joined: NDArray[np.bool_]  # mask of the parts of the path that are joined to an earlier part, (P,)
+    joined: Mask  # mask of the parts of the path that are joined to an earlier part, (P,)
     weighed: WeighedGraph  # poses of the keys, Geman and McClure's weights of the closures, and alternative poses
 
 
@@ -83,24 +90,22 @@ def chain_of(track: Track, poses: Floats) -> Factors:
     return Factors(order, order + 1, relative, np.asarray(np.linalg.inv(covariance), np.float64))
 
 
-def _fitted_after_break(track: Track) -> NDArray[np.bool_]:
+def _fitted_after_break(track: Track) -> Mask:
     """Select steps over a break of the path after which the next key scan fitted as well as usual, (K - 1,)."""
     after = track.keys[1:]
     return np.asarray(track.broken[after] & (track.scores[after] > np.median(track.scores) - SLIP_LOSS))
 
 
-def contradicted_links(track: Track, poses: Floats, sigmas: float = LEAP_SIGMAS) -> NDArray[np.bool_]:
-    """Find the leaps in poses of the keys, (K, 3): steps that differ much from the front end's. Returns (K - 1,).
-
-    A leap lies more than ``sigmas`` standard deviations, and `LEAP_M` or `LEAP_RAD`, off the front end's step. There
-    loops or pairs of scans pull the two sides apart, and they cannot all be right.
+def contradicted_links(track: Track, poses: Floats, sigmas: float = LEAP_SIGMAS) -> Mask:
+    """Find the leaps in poses of the keys, (K, 3), and return a mask, (K - 1,). A leap lies more than ``sigmas``
+    standard deviations, and `LEAP_M` or `LEAP_RAD`, off the front end's step. Loops contradict each other there.
     """
     chain = chain_of(track, track.poses[track.keys])
     leaps = ~are_within(chain.errors(poses), LEAP_M, LEAP_RAD) & (chain.squares(poses) > sigmas**2)
     return np.asarray(leaps & ~track.broken[track.keys[1:]])
 
 
-def unconfirmed_links(geometry: ScanGeometry, track: Track, odometry: Factors, poses: Floats) -> NDArray[np.bool_]:
+def unconfirmed_links(geometry: ScanGeometry, track: Track, odometry: Factors, poses: Floats) -> Mask:
     """Find doubtful steps of the keys' poses, (K, 3), and return a mask, (K - 1,). There are three cases.
 
     * Odometry contradicts the step, and the key scans before do not confirm it: they explain the next key scan badly,
@@ -130,9 +135,7 @@ def unconfirmed_links(geometry: ScanGeometry, track: Track, odometry: Factors, p
 def _fits_elsewhere(
     grid: LikelihoodGrids, points: Floats, step: Floats, score: float, usual_score: float, odometry: Factors
 ) -> bool:
-    """Check whether another pose that odometry allows fits a scan as well as usual, and clearly better than a step.
-    ``points`` are the scan's, (N, 2), ``step`` is its pose after the step, and ``score`` its score there.
-    """
+    """Check whether another pose that odometry allows fits as well as usual, and clearly better than a step."""
     stated, information = odometry.relative, odometry.information[0]
     sigma = np.sqrt(np.diag(np.linalg.inv(information)))
     min_score = max(usual_score - SLIP_LOSS, score + max(CONFIRMED_LOSS, MIN_GAIN_POINTS / max(len(points), 1)))
@@ -148,13 +151,9 @@ def _fits_elsewhere(
     return bool(allowed and not are_within(between(step, pose), LEAP_M, LEAP_RAD))
 
 
-def poses_between_keys(
-    track_poses: Floats, keys: NDArray[np.intp], key_poses: Floats, broken: NDArray[np.bool_] | None = None
-) -> Floats:
-    """Return all scans' poses, (S, 3), from new poses of the keys, (K, 3).
-
-    Each scan keeps its motion from the key before. The discrepancy at the next key is spread evenly over the scans
-    between the two keys, unless the path is broken there: ``broken`` marks the scans after a break, (S,).
+def poses_between_keys(track_poses: Floats, keys: Indices, key_poses: Floats, broken: Mask | None = None) -> Floats:
+    """Return all scans' poses, (S, 3), from new poses of the keys, (K, 3). The discrepancy at the next key is spread
+    evenly over the scans before it, unless the path is broken there: ``broken`` marks scans after a break, (S,).
     """
     count = len(track_poses)
     before = np.clip(np.searchsorted(keys, np.arange(count), side="right") - 1, 0, len(keys) - 1)
@@ -240,15 +239,13 @@ class WeighedGraph:
     weights: Floats  # weight of each closure, from 0 to 1, (M,); 0 if its visit is wrong
     alternatives: Floats  # poses of the keys if one doubtful visit is decided the other way, (A, K, 3)
     probabilities: Floats  # probabilities of the alternatives, (A,)
-    first: NDArray[np.intp]  # first key of the stretch of path that depends on the visit, (A,)
-    last: NDArray[np.intp]  # last key of this stretch, (A,)
+    first: Indices  # first key of the stretch of path that depends on the visit, (A,)
+    last: Indices  # last key of this stretch, (A,)
 
 
-def visits_of(loops: Factors, poses: Floats, path_m: Floats) -> NDArray[np.intp]:
+def visits_of(loops: Factors, poses: Floats, path_m: Floats) -> Indices:
     """Return the number of each closure's visit, (M,). Closures of a visit agree, and are near each other at both ends.
-
-    The poses of the keys, (K, 3), must be right over a few metres. ``path_m`` is the distance of each key along the
-    path, metres, (K,).
+    The poses of the keys, (K, 3), must be right over a few metres. ``path_m`` is their distance along the path, (K,).
     """
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import connected_components
@@ -262,10 +259,8 @@ def visits_of(loops: Factors, poses: Floats, path_m: Floats) -> NDArray[np.intp]
 
 
 def weigh_visits(poses: Floats, weights: Floats, chain: Factors, loops: Factors, path_m: Floats) -> WeighedGraph:
-    """Remove the visits that are probably wrong, one after the other, and find the alternatives to the result.
-
-    ``poses``, (K, 3), and ``weights`` of the loops, (M,), are the solution of the graph of chain and loops. ``path_m``
-    is the distance of each key along the path, metres, (K,).
+    """Remove the visits that are probably wrong, one after the other, and find the alternatives to the result. The
+    arguments are the solution of the graph of chain and loops, and the keys' distances along the path, metres, (K,).
     """
     visit, removed = visits_of(loops, poses, path_m), np.zeros(len(loops), np.bool_)
     odds = np.zeros(int(visit.max(initial=-1)) + 1)
@@ -299,7 +294,7 @@ def weigh_visits(poses: Floats, weights: Floats, chain: Factors, loops: Factors,
 
 
 def _doubtful_visits(
-    poses: Floats, chain: Factors, loops: Factors, visit: NDArray[np.intp], removed: NDArray[np.bool_], odds: Floats
+    poses: Floats, chain: Factors, loops: Factors, visit: Indices, removed: Mask, odds: Floats
 ) -> Iterator[tuple[float, int, Floats]]:
     """Yield visits that may be wrong: the log odds that each is right, its number, and the poses without it."""
     weights = loops.robust_weights(poses)

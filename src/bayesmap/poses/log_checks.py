@@ -12,12 +12,12 @@ Intel log and with true poses in a simulated office; 0.41 to 0.71 with raw odome
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.poses.calibration import motion_variances
 from bayesmap.poses.matcher import ANY_SCORE, likelihood_grids, match
 from bayesmap.poses.scan_geometry import ScanGeometry
+from bayesmap.space.arrays import Mask
 from bayesmap.space.grid import Grid
 from bayesmap.space.planar import Floats, between, compose, interpolate
 from bayesmap.space.scans import Scans
@@ -50,10 +50,8 @@ def scans_come_often(scans: Scans) -> bool:
 
 
 def check_scans(scans: Scans, no_odometry: bool) -> None:
-    """Check that a trajectory can be inferred from scans.
-
-    Raises `BadInput` for fewer than two scans, scans without a single hit, odometry that stands still all the time
-    although the robot moves, or no odometry and too few scans per second.
+    """Raise `BadInput` unless a trajectory can be inferred. There must be two scans and a hit; odometry must not stand
+    still all the time although the robot moves; without odometry scans must come often.
     """
     if len(scans) < 2:
         raise BadInput(f"slam: a trajectory needs two scans or more, got {len(scans)}")
@@ -88,7 +86,7 @@ def frozen_stretches(scans: Scans) -> list[tuple[int, int]]:
     ]
 
 
-def _runs(as_before: NDArray[np.bool_]) -> list[tuple[int, int]]:
+def _runs(as_before: Mask) -> list[tuple[int, int]]:
     """Return first and last scan of each run of equal poses, given which scans have the pose before them, (S - 1,)."""
     edges = np.flatnonzero(np.diff(np.concatenate([[False], as_before, [False]]).astype(int)))
     return [(int(first), int(last)) for first, last in edges.reshape(-1, 2)]
@@ -162,10 +160,8 @@ DOUBLED = "at these poses the same walls stand in several places"  # in words
 
 
 def agreement(scans: Scans) -> float | None:
-    """Compute the agreement of all scans at their poses, relative to that of neighbours: about 0.9 for right poses.
-
-    The result is None if there are too few scans or hits. If a robot never comes back to a place, its scans agree with
-    any odometry.
+    """Compute the agreement of all scans at their poses, relative to that of neighbours: about 0.9 for right poses. The
+    result is None if there are too few scans or hits. Without returns to a place, any odometry agrees.
     """
     if len(scans) > MAX_AGREEMENT_SCANS:
         scans = scans.select(np.linspace(0, len(scans) - 1, MAX_AGREEMENT_SCANS).astype(np.intp))

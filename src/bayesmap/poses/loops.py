@@ -20,17 +20,9 @@ from bayesmap.kernels.match.line_pairs import Agreement, mutual_view_counts
 from bayesmap.kernels.match.scan_refinement import Convergence, Refinement, refine_scans
 from bayesmap.poses.graph import Factors, Precision, relative_covariances
 from bayesmap.poses.matcher import likelihood_grids, match
-from bayesmap.poses.scan_geometry import ScanGeometry, offsets_of
-from bayesmap.space.planar import (
-    Floats,
-    are_within,
-    between,
-    compose,
-    transform,
-    ways_and_turns,
-    wrap_angle,
-    wrap_yaw,
-)  # fmt: skip
+from bayesmap.poses.scan_geometry import ScanGeometry
+from bayesmap.space.arrays import Indices, Mask, offsets_of
+from bayesmap.space.planar import Floats, are_within, between, compose, transform, ways_and_turns, wrap_angle, wrap_yaw
 
 GAP_M = 1000.0  # length that a break counts as: no submap reaches over it, and places on both sides may close
 MIN_PLACES = 120.0  # least number of places that a path is divided into: a small loop has few places that close it
@@ -43,10 +35,10 @@ class KeyPath:
     """K key scans in the order of time."""
 
     geometry: ScanGeometry  # geometry of all scans
-    keys: NDArray[np.intp]  # indices of the key scans, (K,)
+    keys: Indices  # indices of the key scans, (K,)
     poses: Floats  # poses of the keys, (K, 3). Relative poses within a submap must be right.
     path_m: Floats  # distance of each key along the path, metres, with gaps of `GAP_M` where it breaks, (K,)
-    parts: NDArray[np.intp]  # number of the part of the path that each key belongs to, ascending, (K,)
+    parts: Indices  # number of the part of the path that each key belongs to, ascending, (K,)
 
     def __len__(self) -> int:
         return len(self.keys)
@@ -55,11 +47,11 @@ class KeyPath:
         """Return this path with its keys at other poses, (K, 3)."""
         return key_path(self.geometry, self.keys, poses, np.diff(self.parts, prepend=self.parts[0]) > 0)
 
-    def scans(self, members: NDArray[np.intp]) -> NDArray[np.int32]:
+    def scans(self, members: Indices) -> NDArray[np.int32]:
         """Return the scan indices of N keys, as kernels take them, (N,)."""
         return self.keys[members].astype(np.int32)
 
-    def places(self, spacing_m: float) -> NDArray[np.intp]:
+    def places(self, spacing_m: float) -> Indices:
         """Select keys this far apart along the path, or nearer where the path is short, ascending."""
         # Distances with breaks as long as one spacing, so that both sides of a break get places.
         steps = np.diff(self.path_m, prepend=0.0)
@@ -67,13 +59,13 @@ class KeyPath:
         spacing = float(np.clip(ways[-1] / MIN_PLACES, 0.4, spacing_m))
         return np.unique(np.searchsorted(ways, np.arange(0.0, ways[-1] + spacing, spacing)).clip(0, len(self) - 1))
 
-    def submap_members(self, key: int, half_length_m: float) -> NDArray[np.intp]:
+    def submap_members(self, key: int, half_length_m: float) -> Indices:
         """Return the keys of a key's submap, ascending: all within a distance along the path, thinned."""
         low, high = np.searchsorted(self.path_m, [self.path_m[key] - half_length_m, self.path_m[key] + half_length_m])
         members = np.arange(low, max(high, key + 1))
         return members[:: math.ceil(len(members) / MAX_MEMBERS)]
 
-    def poses_from(self, key: int, members: NDArray[np.intp]) -> Floats:
+    def poses_from(self, key: int, members: Indices) -> Floats:
         """Return the poses of N keys in the frame of one key, (N, 3)."""
         return between(self.poses[key], self.poses[members])
 
@@ -85,7 +77,7 @@ class KeyPath:
         return points[:: max(1, math.ceil(len(points) / most))]
 
 
-def key_path(geometry: ScanGeometry, keys: NDArray[np.intp], poses: Floats, begins: NDArray[np.bool_]) -> KeyPath:
+def key_path(geometry: ScanGeometry, keys: Indices, poses: Floats, begins: Mask) -> KeyPath:
     """Return the path of key scans at poses (K, 3). The mask ``begins``, (K,), marks keys that begin a new part."""
     ways, turns = ways_and_turns(between(poses[:-1], poses[1:]))
     path_m = np.concatenate([[0.0], np.cumsum(np.where(begins[1:], GAP_M, ways + TURN_M * turns))])
@@ -124,11 +116,11 @@ class Closures(Factors):
     """Relative poses between M pairs of key scans that saw the same place; the first of a pair is the earlier one."""
 
     scores: Floats  # fit of the second's submap, from 0 to 1, (M,)
-    support: NDArray[np.intp]  # number of other closures that imply the same relative pose, (M,)
+    support: Indices  # number of other closures that imply the same relative pose, (M,)
 
 
 def match_submaps(
-    path: KeyPath, first: NDArray[np.intp], second: NDArray[np.intp], centres: Floats, half_m: Floats,
+    path: KeyPath, first: Indices, second: Indices, centres: Floats, half_m: Floats,
     half_rad: Floats, half_width_m: float, least_score: float, fineness: Fineness = FINE,
 ) -> Closures:  # fmt: skip
     """Match the submaps of M pairs of key scans, and return the closures that both ends confirm.
@@ -163,12 +155,8 @@ def match_submaps(
     return concatenate_closures(parts)
 
 
-def _refine(
-    path: KeyPath, first: NDArray[np.intp], second: NDArray[np.intp], start: Floats, scores: Floats
-) -> Closures:
-    """Refine the second's scan against the scans of the first's submap, in the first's frame, from ``start``, (M, 3).
-    Returns the closures that stay near the start and that the views of both ends confirm.
-    """
+def _refine(path: KeyPath, first: Indices, second: Indices, start: Floats, scores: Floats) -> Closures:
+    """Refine closures from ``start``, (M, 3), scan against submap. Returns those that both ends confirm."""
     # List the scans of all first submaps one after the other, with their poses in the first key's frame.
     members = [path.submap_members(int(key), EARLIER_HALF_M) for key in first]
     offsets, others = offsets_of(members), np.concatenate(members)
@@ -184,9 +172,7 @@ def _refine(
     return Closures(first, second, refined, information, scores, np.zeros(len(first), np.intp)).select(confirmed)
 
 
-def _ends_agree(
-    path: KeyPath, first: NDArray[np.intp], second: NDArray[np.intp], relative: Floats
-) -> NDArray[np.bool_]:
+def _ends_agree(path: KeyPath, first: Indices, second: Indices, relative: Floats) -> Mask:
     """Return whether the scans around both ends of each closure agree on the surfaces that both can see, (M,)."""
     # Pair every second scan around the first end with every second scan around the second.
     pairs = []
@@ -256,9 +242,7 @@ class Search:
 def find_closures(
     path: KeyPath, precision: Precision, half_width_m: float, search: Search, *, within_parts: bool = False
 ) -> Closures:
-    """Find closures among all key scans, or only within the parts of a broken path. ``precision`` is the precision of
-    the graph of the keys, and ``half_width_m`` is the half width of submaps' grids.
-    """
+    """Find closures among all key scans, or only within parts of a broken path, by the graph's precision."""
     first, second, sigma = _candidates(path, precision, half_width_m, search, within_parts)
     if not len(first):
         return no_closures()
@@ -269,7 +253,7 @@ def find_closures(
     return select_supported(closures.select(_possible(closures, path, precision, search.max_sigmas_off)), path)
 
 
-def _possible(closures: Closures, path: KeyPath, precision: Precision, max_sigmas: float) -> NDArray[np.bool_]:
+def _possible(closures: Closures, path: KeyPath, precision: Precision, max_sigmas: float) -> Mask:
     """Return whether each closure is within ``max_sigmas`` standard deviations of the graph's relative pose, (M,)."""
     if not len(closures):
         return np.zeros(0, np.bool_)
@@ -281,11 +265,9 @@ def _possible(closures: Closures, path: KeyPath, precision: Precision, max_sigma
 
 def _candidates(
     path: KeyPath, precision: Precision, half_width_m: float, search: Search, within_parts: bool
-) -> tuple[NDArray[np.intp], NDArray[np.intp], Floats]:
-    """Return pairs (earlier, later) of key scans to try, and standard deviations of their relative poses, (M, 3).
-
-    Each visit of a place gives two pairs: with the scan from the most similar pose, and with the scan that looks at the
-    same spot. The two scans may face each other if the laser sees half a circle.
+) -> tuple[Indices, Indices, Floats]:
+    """Return pairs (earlier, later) of key scans to try, and standard deviations of their relative poses, (M, 3). Each
+    visit of a place gives two pairs, since two scans may face each other: the nearest poses, and the nearest views.
     """
     # Select pairs of places that are far apart along the path and near each other on the map.
     path_m, poses, places = path.path_m, path.poses, path.places(search.spacing_m)

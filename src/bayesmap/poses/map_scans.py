@@ -5,18 +5,19 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bayesmap.poses.front_end import KEY_DISTANCE_M, KEY_TURN_RAD
-from bayesmap.poses.prior import FREE, Motions, PosePrior
-from bayesmap.poses.trajectory import Trajectory, calibrated
-from bayesmap.space.planar import between, compose, wrap_angle
+from bayesmap.poses.prior import FREE_SIGMA, Motions, PosePrior
+from bayesmap.poses.trajectory import InferredTrajectory, calibrated
+from bayesmap.space.planar import Floats, between, compose, wrap_angle
 from bayesmap.space.scans import Scans
 
-SAMPLED = 100  # most key scans whose poses are sampled with the map: chains over more do not mix
-MANY_BEAMS, STEP_RAD = 100_000, np.radians(1.0)  # with more beams, only beams so far apart are used
-ENOUGH, LEAST_NEW = 20, 0.2  # a scan is left out if a smaller share of its hits is in cells with few hits
-SCANS_A_KEY = 7  # scans for each key scan at 10 Hz and half a metre a second: 3000 scans had 426 key scans
+MAX_SAMPLED_KEYS = 100  # most key scans whose poses are sampled with the map: chains over more do not mix
+MANY_BEAMS = 100_000  # with more beams, only some beams and scans are used
+STEP_RAD = np.radians(1.0)  # least angle between beams that are used then
+ENOUGH_HITS = 20  # a cell with fewer hits counts as new
+MIN_NEW_SHARE = 0.2  # a scan is left out if a smaller share of its hits is in new cells
+SCANS_PER_KEY = 7  # scans for each key scan at 10 Hz and half a metre a second: 3000 scans had 426 key scans
 
 P_SLIP = 0.01
 """Probability that odometry is no evidence of a motion. In the Intel log eight motions of 891 are off by 200 to 350
@@ -30,42 +31,41 @@ class KeyScans:
 
     scans: Scans  # the key scans at their most probable poses, beam angles calibrated
     prior: PosePrior  # prior of their poses: odometry, corrected for its systematic error
-    starts: NDArray[np.float64]  # poses from which chains start, one trajectory each, (chains, K, 3)
+    starts: Floats  # poses from which chains start, one trajectory each, (chains, K, 3)
 
 
-def key_scans(log: Scans, found: Trajectory, chains: int, seed: int) -> KeyScans:
+def key_scans(log: Scans, trajectory: InferredTrajectory, chains: int, seed: int) -> KeyScans:
     """Select the key scans of a log with raw odometry, with prior and starts from the approximate trajectory."""
-    scans = calibrated_keys(log, found)
+    scans = calibrated_keys(log, trajectory)
     # All trajectories share the first pose: it is the frame of the map.
-    drawn = found.draw(chains, seed)[:, found.keys]
-    starts = compose(scans.poses[0], between(drawn[:, :1], drawn))
-    return KeyScans(scans, _prior_of(found), starts)
+    draws = trajectory.draw(chains, seed)[:, trajectory.keys]
+    starts = compose(scans.poses[0], between(draws[:, :1], draws))
+    return KeyScans(scans, _prior_of(trajectory), starts)
 
 
 def keys_by_odometry(log: Scans, no_odometry: bool) -> Scans:
     """Select about as many scans as the trajectory will have key scans, by the motions that odometry states."""
     if no_odometry or len(log) < 2:
-        return log.select(slice(None, None, SCANS_A_KEY))
+        return log.select(slice(None, None, SCANS_PER_KEY))
     keys = [0]
     for scan, pose in enumerate(log.poses):
-        away = pose - log.poses[keys[-1]]
-        if np.hypot(away[0], away[1]) > KEY_DISTANCE_M or abs(wrap_angle(away[2])) > KEY_TURN_RAD:
+        off = pose - log.poses[keys[-1]]
+        if np.hypot(off[0], off[1]) > KEY_DISTANCE_M or abs(wrap_angle(off[2])) > KEY_TURN_RAD:
             keys.append(scan)
     return log.select(np.array(keys, np.intp))
 
 
-def calibrated_keys(log: Scans, found: Trajectory) -> Scans:
+def calibrated_keys(log: Scans, trajectory: InferredTrajectory) -> Scans:
     """Return the key scans of a log at their most probable poses, beam angles calibrated."""
-    keys = found.keys
-    in_time = log.select(found.order)
-    return calibrated(in_time, found.calibration.angle_step_ratio).select(keys).at(found.poses[keys])
+    keys, ratio = trajectory.keys, trajectory.calibration.angle_step_ratio
+    return calibrated(log.select(trajectory.order), ratio).select(keys).at(trajectory.poses[keys])
 
 
-def _prior_of(found: Trajectory) -> PosePrior:
+def _prior_of(trajectory: InferredTrajectory) -> PosePrior:
     """Return the prior of motions between key scans: odometry, or a wide prior where there is none."""
-    relative = np.zeros((len(found.keys) - 1, 3))
-    sigmas = relative + FREE
-    factors = found.odometry
+    relative = np.zeros((len(trajectory.keys) - 1, 3))
+    sigmas = relative + FREE_SIGMA
+    factors = trajectory.odometry
     if factors is not None:
         covariance = np.linalg.inv(factors.information)
         relative[factors.first] = factors.relative
@@ -74,21 +74,21 @@ def _prior_of(found: Trajectory) -> PosePrior:
 
 
 def for_map(keys: Scans, resolution: float) -> Scans:
-    """Select the beams of key scans, and the scans that see walls with few hits, so that cost follows the area seen.
-    Fewer than `MANY_BEAMS` beams are used whole. Scans are chosen in the order of time, by the hits of those before.
+    """Select beams and scans that see walls with few hits, so that cost follows the area seen; all if there are few
+    beams.
     """
     if keys.ranges_m.size <= MANY_BEAMS:
         return keys
-    every = int(STEP_RAD / max(float(np.nanmedian(keys.steps_rad)), 1e-6) + 1e-3)
-    if every > 1 and keys.own_angles_rad is None:
-        beams = None if keys.beam_poses is None else keys.beam_poses[:, ::every]
-        angles, ranges = keys.angles_rad[::every], keys.ranges_m[:, ::every]
-        keys = replace(keys, angles_rad=angles, ranges_m=ranges, beam_poses=beams)
+    stride = int(STEP_RAD / max(float(np.nanmedian(keys.steps_rad)), 1e-6) + 1e-3)
+    if stride > 1 and keys.own_angles_rad is None:
+        beam_poses = None if keys.beam_poses is None else keys.beam_poses[:, ::stride]
+        angles, ranges = keys.angles_rad[::stride], keys.ranges_m[:, ::stride]
+        keys = replace(keys, angles_rad=angles, ranges_m=ranges, beam_poses=beam_poses)
     cells = np.floor(keys.hit_points_world() / resolution).astype(np.int64)
     cell = np.unique(cells, axis=0, return_inverse=True)[1].ravel()
     hits, chosen = np.zeros(cell.max(initial=0) + 1, np.int64), []
     for scan, own in enumerate(np.split(cell, np.cumsum(np.isfinite(keys.ranges_m).sum(axis=1))[:-1])):
-        if not len(own) or (hits[own] < ENOUGH).mean() >= LEAST_NEW:
+        if not len(own) or (hits[own] < ENOUGH_HITS).mean() >= MIN_NEW_SHARE:
             chosen.append(scan)
             hits += np.bincount(own, minlength=len(hits))
     return keys.select(np.array(chosen, np.intp))

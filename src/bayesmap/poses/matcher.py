@@ -21,7 +21,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.poses.scan_geometry import ScanGeometry, offsets_of
+from bayesmap.poses.scan_geometry import ScanGeometry
+from bayesmap.space.arrays import Indices, Mask, offsets_of
 from bayesmap.space.planar import Floats, transform, wrap_angle
 
 ROUNDING = 1e-9  # added before a quotient is rounded down, so that whole quotients stay whole
@@ -51,7 +52,7 @@ def stamp_of(resolution: float, sigma_m: float) -> NDArray[np.uint8]:
 
 
 def likelihood_grids(
-    geometry: ScanGeometry, scans: Sequence[NDArray[np.intp]], scan_poses: Sequence[Floats], centres: Floats,
+    geometry: ScanGeometry, scans: Sequence[Indices], scan_poses: Sequence[Floats], centres: Floats,
     half_width_m: float, *, resolution: float = 0.05, sigma_m: float = 0.07, levels: int = 4,
     reuse: LikelihoodGrids | None = None,
 ) -> LikelihoodGrids:  # fmt: skip
@@ -91,14 +92,14 @@ class Matches:
     poses: Floats  # poses in the grids' frame, (J, M, 3); NaN where there is none
 
     @property
-    def has_pose(self) -> NDArray[np.bool_]:
+    def has_pose(self) -> Mask:
         """Mask of the entries with a pose, (J, M)."""
         return np.isfinite(self.scores)
 
 
 def match(
     grids: LikelihoodGrids, points: Sequence[Floats], centres: Floats, half_m: Floats | float,
-    half_rad: Floats | float, *, grid_of: NDArray[np.intp] | None = None, step_rad: float = np.radians(0.5),
+    half_rad: Floats | float, *, grid_of: Indices | None = None, step_rad: float = np.radians(0.5),
     min_score: Floats | float = 0.0, pull: Pull | None = None, modes: int = 1, min_score_ratio: float = 0.0,
     apart_m: float = 0.5, apart_rad: float = np.radians(10.0), threads_per_job: int = 1,
 ) -> Matches:  # fmt: skip

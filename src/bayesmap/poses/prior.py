@@ -9,40 +9,35 @@ import hashlib
 import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.space.planar import Floats, between, compose, rotation, wrap_yaw
+from bayesmap.space.arrays import Indices
+from bayesmap.space.planar import Floats, between, chain_motions, rotation, ways_and_turns, wrap_yaw
 from bayesmap.space.scans import check_sigma_rad
 
 LOG_ROOT_TWO_PI = 0.5 * math.log(2 * math.pi)
 
-FREE = np.array([1.0, 1.0, 1.0])  # sd, m and rad, of a motion that odometry does not know: typical ones
+FREE_SIGMA = np.ones(3)  # standard deviations of a motion that odometry does not know, metres and radians
 
 
-class PoseLaw(ABC):
+class PoseLaw(Protocol):
     """A density over the poses of S scans, (S, 3) in the world frame; leading dimensions broadcast."""
 
-    @abstractmethod
     def log_prob(self, poses: Floats) -> Floats:
         """Compute the log density of whole trajectories, (..., S, 3) to (...)."""
 
-    @abstractmethod
     def log_change(self, poses: Floats, proposed: Floats) -> Floats:
         """Compute the change of `log_prob` if one scan alone moves to its proposed pose, for each scan, (..., S)."""
 
-    @abstractmethod
     def precision(self, poses: Floats) -> Floats:
         """Return the precision of each pose given the others, in world axes, (S, 3, 3)."""
 
-    @abstractmethod
-    def colours(self, n_scans: int) -> tuple[NDArray[np.intp], ...]:
+    def colours(self, n_scans: int) -> tuple[Indices, ...]:
         """Return groups of the scans that may move. Scans of one group are independent given all others."""
 
-    @abstractmethod
     def sample(self, rng: np.random.Generator) -> Floats:
         """Draw poses, (S, 3)."""
 
@@ -148,9 +143,9 @@ class Odometry(PosePrior):
 
     def sigmas(self, motions: Floats) -> Floats:
         """Return standard deviations of x, y and yaw of the error of each motion, (..., 3)."""
-        travelled, turned = np.hypot(motions[..., 0], motions[..., 1]), np.abs(motions[..., 2])
-        xy = np.sqrt((self.m_per_m * travelled) ** 2 + (self.m_per_rad * turned) ** 2 + self.still_m**2)
-        yaw = np.sqrt((self.rad_per_m * travelled) ** 2 + (self.rad_per_rad * turned) ** 2 + self.still_rad**2)
+        ways_m, turns_rad = ways_and_turns(motions)
+        xy = np.sqrt((self.m_per_m * ways_m) ** 2 + (self.m_per_rad * turns_rad) ** 2 + self.still_m**2)
+        yaw = np.sqrt((self.rad_per_m * ways_m) ** 2 + (self.rad_per_rad * turns_rad) ** 2 + self.still_rad**2)
         return np.stack([xy, xy, yaw], axis=-1)
 
 
@@ -159,21 +154,17 @@ class Motions(PosePrior):
     """Each motion from scan to scan is normal about a given one, such as corrected odometry.
 
     With probability ``p_slip`` the given motion does not depend on the true one: a wheel slipped, or the log repeats a
-    pose while the robot turns. Then the motion is normal about the given one with the standard deviations of `FREE`.
-
-    Attributes:
-        relative: each scan's pose in the frame of the one before, (S - 1, 3).
-        sigmas: standard deviations of their x, y and yaw, (S - 1, 3).
-        p_slip: probability that a motion has errors of the size of `FREE`.
+    pose while the robot turns. Then the motion is normal about the given one with the standard deviations of
+    `FREE_SIGMA`.
 
     Raises:
         BadInput: shapes that do not fit together, deviations that are not positive, or a probability outside [0, 1).
     """
 
     kind = "motions"
-    relative: Floats
-    sigmas: Floats
-    p_slip: float = 0.0
+    relative: Floats  # each scan's pose in the frame of the one before, (S - 1, 3)
+    sigmas: Floats  # standard deviations of their x, y and yaw, (S - 1, 3)
+    p_slip: float = 0.0  # probability that a motion has errors of the size of `FREE_SIGMA`
 
     def __post_init__(self) -> None:
         if not 0 <= self.p_slip < 1:
@@ -184,9 +175,7 @@ class Motions(PosePrior):
             raise BadInput("Motions: all standard deviations must be positive numbers")
 
     def law(self, log_poses: Floats) -> PoseLaw:
-        """Return a Markov chain of poses that starts at the log's first. Raises BadInput: the number of scans is not
-        the number of motions plus one.
-        """
+        """Return a Markov chain of poses from the log's first. Raises `BadInput` for another number of scans."""
         if len(log_poses) != len(self.relative) + 1:
             raise BadInput(f"Motions: {len(self.relative)} motions, but {len(log_poses)} scans")
         return _Markov(log_poses[0], self.relative, self.sigmas, self.p_slip)
@@ -199,7 +188,7 @@ class Motions(PosePrior):
 
 
 @dataclass(frozen=True, eq=False)
-class _Fixed(PoseLaw):
+class _Fixed:
     poses: Floats
 
     def log_prob(self, poses: Floats) -> Floats:
@@ -212,7 +201,7 @@ class _Fixed(PoseLaw):
     def precision(self, poses: Floats) -> Floats:
         return np.broadcast_to(np.eye(3) * 1e30, (len(self.poses), 3, 3))
 
-    def colours(self, n_scans: int) -> tuple[NDArray[np.intp], ...]:
+    def colours(self, n_scans: int) -> tuple[Indices, ...]:
         return ()
 
     def sample(self, rng: np.random.Generator) -> Floats:
@@ -220,23 +209,23 @@ class _Fixed(PoseLaw):
 
 
 @dataclass(frozen=True, eq=False)
-class _Independent(PoseLaw):
+class _Independent:
     mean: Floats
     sigma: Floats
 
-    def _each(self, poses: Floats) -> Floats:
-        return _normal(wrap_yaw(poses - self.mean), self.sigma)
+    def _log_densities(self, poses: Floats) -> Floats:
+        return _log_normal(wrap_yaw(poses - self.mean), self.sigma)
 
     def log_prob(self, poses: Floats) -> Floats:
-        return np.asarray(self._each(poses).sum(axis=-1))
+        return np.asarray(self._log_densities(poses).sum(axis=-1))
 
     def log_change(self, poses: Floats, proposed: Floats) -> Floats:
-        return self._each(proposed) - self._each(poses)
+        return self._log_densities(proposed) - self._log_densities(poses)
 
     def precision(self, poses: Floats) -> Floats:
         return np.broadcast_to(np.diag(self.sigma**-2.0), (len(self.mean), 3, 3))
 
-    def colours(self, n_scans: int) -> tuple[NDArray[np.intp], ...]:
+    def colours(self, n_scans: int) -> tuple[Indices, ...]:
         return (np.arange(n_scans),)
 
     def sample(self, rng: np.random.Generator) -> Floats:
@@ -244,74 +233,63 @@ class _Independent(PoseLaw):
 
 
 @dataclass(frozen=True, eq=False)
-class _Markov(PoseLaw):
+class _Markov:
     first: Floats
     motions: Floats  # (S - 1, 3), from scan to scan in the earlier one's frame
-    sigmas: Floats  # of their errors
-    p_slip: float = 0.0  # that a motion has errors of the size of FREE instead
+    sigmas: Floats  # standard deviations of their errors, (S - 1, 3)
+    p_slip: float = 0.0  # probability that a motion has errors of the size of `FREE_SIGMA` instead
 
     def _factors(self, before: Floats, after: Floats) -> Floats:
-        """Log density of each motion, (..., S - 1)."""
-        error = self._errors(before, after)
-        if not self.p_slip:
-            return _normal(error, self.sigmas)
-        return np.logaddexp(*self._kinds(error))
+        """Return the log density of each motion, (..., S - 1)."""
+        error = wrap_yaw(between(before, after) - self.motions)
+        return np.logaddexp(*self._joint(error)) if self.p_slip else _log_normal(error, self.sigmas)
 
-    def _errors(self, before: Floats, after: Floats) -> Floats:
-        return wrap_yaw(between(before, after) - self.motions)
-
-    def _kinds(self, error: Floats) -> tuple[Floats, Floats]:
-        """Return log joint densities of errors: of motions without slip, and of motions with slip."""
-        known, free = _normal(error, self.sigmas), _normal(error, np.maximum(self.sigmas, FREE))
-        return known + math.log1p(-self.p_slip), free + math.log(self.p_slip)
+    def _joint(self, error: Floats) -> tuple[Floats, Floats]:
+        """Return log joint densities of errors and no slip, and of errors and a slip, (..., S - 1) each."""
+        no_slip, slip = _log_normal(error, self.sigmas), _log_normal(error, np.maximum(self.sigmas, FREE_SIGMA))
+        return no_slip + math.log1p(-self.p_slip), slip + math.log(self.p_slip)
 
     def log_prob(self, poses: Floats) -> Floats:
         chain = self._factors(poses[..., :-1, :], poses[..., 1:, :]).sum(axis=-1)
         return np.where((poses[..., 0, :] == self.first).all(axis=-1), chain, -np.inf)
 
     def log_change(self, poses: Floats, proposed: Floats) -> Floats:
-        now = self._factors(poses[..., :-1, :], poses[..., 1:, :])
+        present = self._factors(poses[..., :-1, :], poses[..., 1:, :])
         change = np.zeros(poses.shape[:-1])
-        change[..., 1:] += self._factors(poses[..., :-1, :], proposed[..., 1:, :]) - now
-        change[..., :-1] += self._factors(proposed[..., :-1, :], poses[..., 1:, :]) - now
+        change[..., 1:] += self._factors(poses[..., :-1, :], proposed[..., 1:, :]) - present
+        change[..., :-1] += self._factors(proposed[..., :-1, :], poses[..., 1:, :]) - present
         change[..., 0] = -np.inf
         return change
 
     def precision(self, poses: Floats) -> Floats:
-        weights = self.sigmas**-2.0
+        motions, weights = between(poses[:-1], poses[1:]), self.sigmas**-2.0
         if self.p_slip:
-            known, free = self._kinds(self._errors(poses[:-1], poses[1:]))
-            slipped = np.exp(free - np.logaddexp(known, free))[:, None]
-            weights = (1.0 - slipped) * weights + slipped * np.maximum(self.sigmas, FREE) ** -2.0
-        out = np.zeros((len(poses), 3, 3))
+            no_slip, slip = self._joint(wrap_yaw(motions - self.motions))
+            p_slipped = np.exp(slip - np.logaddexp(no_slip, slip))[:, None]
+            weights = (1.0 - p_slipped) * weights + p_slipped * np.maximum(self.sigmas, FREE_SIGMA) ** -2.0
         # The error of a motion, in the earlier pose's frame, is e = R(-yaw) (p' - p) - motion.
-        later = rotation(-poses[:-1, 2])
-        seen, earlier = between(poses[:-1], poses[1:]), -later
-        earlier[:, 0, 2], earlier[:, 1, 2] = seen[:, 1], -seen[:, 0]
-        out[1:] += np.einsum("sji,sj,sjk->sik", later, weights, later)
-        out[:-1] += np.einsum("sji,sj,sjk->sik", earlier, weights, earlier)
-        if len(poses) == 1:
-            out[0] = np.eye(3)
-        return out
+        by_later = rotation(-poses[:-1, 2])
+        by_earlier = -by_later
+        by_earlier[:, 0, 2], by_earlier[:, 1, 2] = motions[:, 1], -motions[:, 0]
+        precision = np.zeros((len(poses), 3, 3))
+        precision[1:] += np.einsum("sji,sj,sjk->sik", by_later, weights, by_later)
+        precision[:-1] += np.einsum("sji,sj,sjk->sik", by_earlier, weights, by_earlier)
+        return precision if len(poses) > 1 else np.eye(3)[None]
 
-    def colours(self, n_scans: int) -> tuple[NDArray[np.intp], ...]:
+    def colours(self, n_scans: int) -> tuple[Indices, ...]:
         groups = np.arange(1, n_scans, 2), np.arange(2, n_scans, 2)
         return tuple(group for group in groups if len(group))
 
     def sample(self, rng: np.random.Generator) -> Floats:
-        poses = np.empty((len(self.motions) + 1, 3))
-        poses[0] = self.first
         sigmas = self.sigmas
         if self.p_slip:
             slipped = rng.random(len(sigmas)) < self.p_slip
-            sigmas = np.where(slipped[:, None], np.maximum(sigmas, FREE), sigmas)
+            sigmas = np.where(slipped[:, None], np.maximum(sigmas, FREE_SIGMA), sigmas)
         noisy = self.motions + sigmas * rng.standard_normal(self.motions.shape)
-        for i, motion in enumerate(noisy):
-            poses[i + 1] = compose(poses[i], motion)
-        return poses
+        return np.vstack([self.first, chain_motions(self.first, noisy)])
 
 
-def _normal(error: Floats, sigma: Floats) -> Floats:
+def _log_normal(error: Floats, sigma: Floats) -> Floats:
     """Return the log density of independent normal errors of x, y and yaw, (..., 3) to (...)."""
     return np.asarray((-0.5 * (error / sigma) ** 2 - np.log(sigma) - LOG_ROOT_TWO_PI).sum(axis=-1))
 

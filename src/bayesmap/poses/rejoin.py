@@ -12,11 +12,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bayesmap.kernels.match.line_pairs import Agreement, mutual_view_counts
 from bayesmap.poses.loops import Closures, Fineness, KeyPath, concatenate_closures, match_submaps, no_closures
-from bayesmap.space.planar import Floats, are_within, between, compose, evenly_spaced, inverse, wrap_angle
+from bayesmap.space.arrays import Indices, Mask, evenly_spaced
+from bayesmap.space.planar import Floats, are_within, between, compose, inverse, wrap_angle
 
 NEAR_M = 3.0  # greatest distance of places of other parts that are compared near by, and half width of their windows
 NEAR_PLACES = 6  # number of the nearest places of other parts that are compared
@@ -53,7 +53,7 @@ class Joint:
     votes: float
 
 
-def rejoin(path: KeyPath, half_width_m: float) -> tuple[Floats, NDArray[np.bool_]]:
+def rejoin(path: KeyPath, half_width_m: float) -> tuple[Floats, Mask]:
     """Join the parts of a path of K key scans whose poses are right within each part.
 
     Returns the poses with every joined part moved, (K, 3), and a mask of the parts that are joined to an earlier part,
@@ -103,7 +103,7 @@ def _surest_joint(pairs: Iterator[list[Joint]], islands: KeyPath, rival_share: f
     return best
 
 
-PlacePairs = tuple[NDArray[np.intp], NDArray[np.intp], Floats]
+PlacePairs = tuple[Indices, Indices, Floats]
 """Keys of the first places, ascending, and of the second ones, (M,), and middles of windows in the first's frame."""
 
 
@@ -129,14 +129,14 @@ def _far_pairs(path: KeyPath, turn: int) -> PlacePairs:
     return first[is_longer], second[is_longer], np.zeros((int(is_longer.sum()), 3))
 
 
-def _length_ranks(path: KeyPath) -> NDArray[np.intp]:
+def _length_ranks(path: KeyPath) -> Indices:
     """Return the rank of each part by its number of key scans, (P,). The shorter part of a pair is searched for."""
     rank = np.empty(int(path.parts[-1]) + 1, np.intp)
     rank[np.lexsort((-np.arange(len(rank)), np.bincount(path.parts)))] = np.arange(len(rank))
     return rank
 
 
-def _distinct_views(path: KeyPath, places: NDArray[np.intp]) -> NDArray[np.intp]:
+def _distinct_views(path: KeyPath, places: Indices) -> Indices:
     """Remove places that are near an earlier place of the same part, with a similar heading."""
     chosen: list[int] = []
     for place in places.tolist():
@@ -146,7 +146,7 @@ def _distinct_views(path: KeyPath, places: NDArray[np.intp]) -> NDArray[np.intp]
     return np.array(chosen, np.intp)
 
 
-def _queries(path: KeyPath, turn: int) -> NDArray[np.intp]:
+def _queries(path: KeyPath, turn: int) -> Indices:
     """Return the query places of a turn, from all parts but the longest: every `TURNS`-th of an even selection."""
     places, rank = path.places(QUERY_SPACING_M), _length_ranks(path)
     most = min(MAX_PART_QUERIES, max(2 * MIN_PLACES, MAX_QUERIES // max(1, len(rank) - 1)))
@@ -205,11 +205,10 @@ def is_consistent(islands: KeyPath, joint: Joint) -> bool:
     return bool(against <= MAX_AGAINST_SHARE * (matched + against))
 
 
-def _assemble(path: KeyPath, islands: KeyPath) -> tuple[Floats, NDArray[np.bool_]]:
-    """Bring all islands to one frame. Returns poses, (K, 3), and which parts are joined to an earlier part, (P,).
-
-    An island that is not joined keeps the front end's motion from the part before. ``path`` has the front end's poses,
-    which are right within a part. An island has the number of its first part.
+def _assemble(path: KeyPath, islands: KeyPath) -> tuple[Floats, Mask]:
+    """Bring all islands to one frame. Returns poses, (K, 3), and which parts are joined to an earlier part, (P,). An
+    island that is not joined keeps its motion from the part before on ``path``. An island has the number of its first
+    part.
     """
     poses, parts = path.poses, path.parts
     result, joined = islands.poses.copy(), np.ones(int(parts[-1]) + 1, np.bool_)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence, Sized
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -10,7 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.space.planar import Floats, evenly_spaced
+from bayesmap.space.arrays import Indices, evenly_spaced
+from bayesmap.space.planar import Floats
 from bayesmap.space.scans import Scans
 
 MIN_NOISE_M = 0.01  # least standard deviation of a range: walls are rough, and robots move while they scan
@@ -79,7 +79,7 @@ class Fans:
             beam_of_angle=np.array([_beam_of_angle(fan, step, bins) for fan, step in fans_steps]),
         )  # fmt: skip
 
-    def select(self, scans: NDArray[np.intp]) -> Fans:
+    def select(self, scans: Indices) -> Fans:
         """Return the fans of some of the scans."""
         return replace(
             self, beams=self.beams[scans], step_rad=self.step_rad[scans], full_circle=self.full_circle[scans],
@@ -134,7 +134,7 @@ class ScanGeometry:
         """The structs that kernels read, by stride, and equal weights of the beams."""
         return {}
 
-    def select(self, scans: NDArray[np.intp]) -> ScanGeometry:
+    def select(self, scans: Indices) -> ScanGeometry:
         """Return the geometry of some of the scans, copied."""
         from bayesmap.kernels.match.scan_geometry import select_rows
 
@@ -207,11 +207,6 @@ def merged(
     none = count == 0
     middles = angles.mean(axis=1)[None]
     return np.where(none, readings[..., 0], mean), np.where(none, middles, angle), middles
-
-
-def offsets_of(parts: Sequence[Sized]) -> NDArray[np.int32]:
-    """Return the offset of each of N parts in their concatenation, and the total length, (N + 1,)."""
-    return np.concatenate([[0], np.cumsum([len(part) for part in parts])]).astype(np.int32)
 
 
 def _beam_of_angle(angles_rad: Floats, step_rad: float, bins: int) -> NDArray[np.int32]:

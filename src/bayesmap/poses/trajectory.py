@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bayesmap.poses.calibration import OdometryFit
 from bayesmap.poses.graph import Factors, PoseGaussian
 from bayesmap.poses.prior import Odometry
+from bayesmap.space.arrays import Indices, Mask, matrix_roots
 from bayesmap.space.planar import Floats, between, between_jacobians, compose, frame_jacobians, rotation
 from bayesmap.space.scans import Scans, path_words
 
@@ -18,11 +18,11 @@ from bayesmap.space.scans import Scans, path_words
 class LoopClosures:
     """Places that the robot came back to."""
 
-    first: NDArray[np.intp]  # indices of the scans, (M,)
-    second: NDArray[np.intp]
+    first: Indices  # indices of the scans, (M,)
+    second: Indices
     relative: Floats  # the second's pose in the first's frame, as matched, (M, 3)
-    residuals: Floats  # difference of the final poses from that, x, y, yaw, (M, 3)
-    weights: Floats  # how far each is believed, from 0 to 1, (M,)
+    residuals: Floats  # difference of the final poses from ``relative``, x, y, yaw, (M, 3)
+    weights: Floats  # robust weight of each, from 0 to 1, (M,)
 
     def __len__(self) -> int:
         return len(self.first)
@@ -30,13 +30,12 @@ class LoopClosures:
 
 @dataclass(frozen=True, eq=False)
 class Alternatives:
-    """Other trajectories that are not excluded, each with another pose of one stretch of the path.
-
-    The stretch depends on a visit that may be of another place.
+    """Other possible trajectories. In each, one stretch of the path has another pose: it depends on a visit that may
+    be of another place.
     """
 
-    first: NDArray[np.intp]  # scan at the beginning of the stretch, (A,)
-    last: NDArray[np.intp]  # scan at its end, (A,)
+    first: Indices  # scan at the beginning of the stretch, (A,)
+    last: Indices  # scan at its end, (A,)
     probabilities: Floats  # that the alternative is right and not the trajectory, (A,)
     poses: Floats  # of the key scans in each alternative, (A, K, 3)
 
@@ -64,61 +63,41 @@ def calibrated(scans: Scans, angle_step_ratio: float) -> Scans:
 
 
 def with_arcs(scale: Floats, dof: float) -> Floats:
-    """Return scale matrices of relative poses, (N, 3, 3), with the second order of what errors of the heading do.
+    """Return scale matrices of relative poses, (N, 3, 3), with the second-order effect of heading errors added.
 
     An error phi of the heading turns the way after it: its end moves by phi times the lever across, and by -phi^2 / 2
     times the lever along. The lever is the covariance of position and heading over the variance of the heading, turned
-    by a right angle. The mean of phi^4 is that of Student's t, whose degrees of freedom are over 4.
+    by a right angle. The mean of phi^4 follows from Student's t with ``dof`` degrees of freedom, over 4.
     """
     along = np.stack([scale[:, 1, 2], -scale[:, 0, 2], np.zeros(len(scale))], axis=1)
     return np.asarray(scale + 0.75 * dof / (dof - 4.0) * along[:, :, None] * along[:, None, :])
 
 
 @dataclass(frozen=True, eq=False)
-class Trajectory:
+class InferredTrajectory:
     """Poses of all scans with their uncertainty.
 
-    The uncertainty is that of Student's t with ``gaussian.dof`` degrees of freedom over the poses of key scans. Scans
-    between them move with the key scan nearest in time, plus an uncertainty of their own.
-
-    Attributes:
-        poses: of the laser, in the map's frame, in which the first scan is where odometry stated it; (S, 3).
-        stamps_s: (S,), ascending, or None.
-        keys: indices of the key scans, (K,).
-        gaussian: over the poses of the key scans.
-        nearest_key: position among the keys of each scan's, (S,).
-        own_covariance: scale matrix of Student's t of each scan about its key scan, in its own frame, (S, 3, 3); zero
-            for key scans.
-        explained: share of each scan's points that other scans explain, from 0 to 1, (S,).
-        flagged: scans that stay badly explained by the others, (S,): one in two was off in simulated logs.
-        breaks: scans before which neither odometry nor the laser confirms the motion: the robot was carried, or data
-            are missing; indices.
-        closures: loop closures.
-        calibration: of laser and odometry.
-        order: index in the log of each scan, where that was not in order of time.
-        odometry: factors of corrected odometry between key scans; None where there was none.
-        leaps: scans before which the poses move as neither odometry nor the front end did, because loops hold the
-            path before and after where they cannot both be; or odometry refutes the motion, and the scans just before
-            explain the scan badly; or another place that odometry allows explains it as usual. Indices.
-        alternatives: poses if a visit was of another place that looks alike, or is one after all. Covariances and
-            draws contain their spread.
+    The poses of key scans follow Student's t with ``gaussian.dof`` degrees of freedom. Scans between them move with
+    the key scan nearest in time, plus an uncertainty of their own.
     """
 
-    poses: Floats
-    stamps_s: Floats | None
-    keys: NDArray[np.intp]
-    gaussian: PoseGaussian
-    nearest_key: NDArray[np.intp]
-    own_covariance: Floats
-    explained: Floats
-    flagged: NDArray[np.bool_]
-    breaks: NDArray[np.intp]
+    poses: Floats  # poses of the laser in the map's frame, in which the first scan is where odometry stated it, (S, 3)
+    stamps_s: Floats | None  # times of the scans, (S,), ascending
+    keys: Indices  # indices of the key scans, (K,)
+    gaussian: PoseGaussian  # distribution of the poses of the key scans
+    nearest_key: Indices  # position among the keys of each scan's nearest key, (S,)
+    own_covariance: Floats  # scale matrix of Student's t of each scan about its key, own frame, (S, 3, 3); keys have 0
+    explained: Floats  # share of each scan's points that other scans explain, from 0 to 1, (S,)
+    flagged: Mask  # mask of scans that stay badly explained, (S,): one in two was off in simulated logs
+    breaks: Indices  # indices of scans before which neither odometry nor the laser confirms the motion
     closures: LoopClosures
     calibration: Calibration
-    order: NDArray[np.intp]
-    odometry: Factors | None = None
-    leaps: NDArray[np.intp] = field(default_factory=lambda: np.empty(0, np.intp))
-    alternatives: Alternatives = NO_ALTERNATIVES
+    order: Indices  # index in the log of each scan, (S,)
+    odometry: Factors | None = None  # factors of corrected odometry between key scans; None without odometry
+    leaps: Indices = field(default_factory=lambda: np.empty(0, np.intp))
+    """Indices of scans before which the motion is doubtful: it contradicts the front end or odometry, see
+    `bayesmap.poses.key_graph.contradicted_links` and `unconfirmed_links`."""
+    alternatives: Alternatives = NO_ALTERNATIVES  # covariances and draws contain their spread
 
     def __len__(self) -> int:
         return len(self.poses)
@@ -137,20 +116,18 @@ class Trajectory:
         keys = self.alternatives.poses[number]
         return compose(keys[self.nearest_key], between(self.gaussian.poses[self.nearest_key], self.poses))
 
-    def relative_covariances(self, first: NDArray[np.intp], second: NDArray[np.intp]) -> Floats:
-        """Return scale matrices of Student's t of the relative poses of scans, in the first's frame, (N, 3, 3).
-        Covariances are dof / (dof - 2) times as large, where dof is ``gaussian.dof``.
-        """
+    def relative_covariances(self, first: Indices, second: Indices) -> Floats:
+        """Return scale matrices of Student's t of relative poses, in the first's frame, (N, 3, 3)."""
         first, second = np.asarray(first, np.intp), np.asarray(second, np.intp)
         a, b = self.nearest_key[first], self.nearest_key[second]
-        keys = self.gaussian.relative_covariances(a, b)
+        key_covariances = self.gaussian.relative_covariances(a, b)
         in_a = between(self.gaussian.poses[a], self.poses[first])
         in_b = between(self.gaussian.poses[b], self.poses[second])
         # between(first, second) = in_a^-1 * between(a, b) * in_b
         turn = np.swapaxes(rotation(in_a[:, 2]), 1, 2)
         yaw = between(self.gaussian.poses[a], self.gaussian.poses[b])[:, 2]
         chain = turn @ frame_jacobians(yaw, in_b)
-        result = chain @ keys @ np.swapaxes(chain, 1, 2)
+        result = chain @ key_covariances @ np.swapaxes(chain, 1, 2)
         by_first, by_second = between_jacobians(between(self.poses[first], self.poses[second]))
         for jacobian, scans in ((by_first, first), (by_second, second)):
             result += jacobian @ self.own_covariance[scans] @ np.swapaxes(jacobian, 1, 2)
@@ -164,11 +141,10 @@ class Trajectory:
         return np.asarray(dof / (dof - 2.0) * turn @ relative @ turn.T)
 
     def draw(self, count: int, seed: int, first_draw: int = 0) -> Floats:
-        """Draw trajectories of all scans, (count, S, 3); draw n depends on (seed, n) alone."""
+        """Draw trajectories of all scans, (count, S, 3). Draw n depends on (seed, n) alone."""
         keys = self.gaussian.draw(count, seed, first_draw)
         relative = between(self.gaussian.poses[self.nearest_key], self.poses)
-        values, vectors = np.linalg.eigh(self.own_covariance)
-        root = vectors * np.sqrt(np.maximum(values, 0.0))[:, None, :]
+        root = matrix_roots(self.own_covariance)
         draws = np.empty((count, len(self), 3))
         for n in range(count):
             rng = np.random.Generator(np.random.Philox(key=[seed & (2**64 - 1), first_draw + n + (1 << 32)]))

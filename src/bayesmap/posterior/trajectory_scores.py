@@ -16,8 +16,13 @@ import scipy
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
+<<<<<<< HEAD
 from bayesmap.space import planar
 from bayesmap.space.planar import Floats, between, interpolate, nearest_index, rotation, wrap_angle
+=======
+from bayesmap.space.arrays import bracketing_indices, nearest_index
+from bayesmap.space.planar import Floats, between, between_jacobians, interpolate, rotation, wrap_angle
+>>>>>>> cfa7ec73 (Name the parts of poses, localization, sim and space by their nouns)
 from bayesmap.space.time_order import moment
 from bayesmap.space.trajectory import LONGEST_GAP_S, RelativeLaw, Trajectory
 

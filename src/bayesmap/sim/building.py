@@ -8,8 +8,7 @@ The plan runs along x, in whole cells. Rows of rooms alternate with corridors, s
     corridor
     row             facade, windows
 
-Cross corridors join the corridors and cut the core. Each piece of a row is then split at random into rooms, until none
-is too wide.
+Cross corridors join the corridors and cut the core. Each piece of a row is then split at random into rooms.
 """
 
 from __future__ import annotations
@@ -19,21 +18,26 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput, check_count
 from bayesmap.sim.furniture import RoomFloor, furnish
+from bayesmap.space.arrays import Mask
 from bayesmap.space.grid import Grid
+from bayesmap.space.planar import Floats
 
-ROW_DEPTH_M, CORRIDOR_M, CROSS_CORRIDOR_M, CROSS_EVERY_M = 5.2, 1.8, 1.6, 16.0
-INNER_WALL_M, MIN_ROOM_M = 0.12, 2.6  # wall thickness, least width of a room
-OUTER_WALL_M = 0.3
+ROW_DEPTH_M = 5.2  # approximate depth of a row of rooms
+CORRIDOR_M, CROSS_CORRIDOR_M = 1.8, 1.6  # widths of corridors along x, and across
+CROSS_SPACING_M = 16.0  # approximate distance between cross corridors
+INNER_WALL_M, OUTER_WALL_M = 0.12, 0.3  # thicknesses of walls
+MIN_ROOM_M = 2.6  # least width of a room
 MARGIN_M = 0.5  # width of the open ground around the building
-DOOR_M, WIDE_DOOR_M = 0.9, 1.6
-DOOR_CLEAR_M = 1.1  # depth of the floor that is kept free on both sides of a door
-SMALLEST_M = (12.0, 8.0)  # long and short side of the smallest building
-STOP_SPLITTING_M = ((3.4, 0.42), (4.6, 0.30), (6.5, 0.18), (9.5, 0.10))
-"""Widths in metres with their probabilities: a piece narrower than a random one of these widths is not split."""
+DOOR_M, WIDE_DOOR_M = 0.9, 1.6  # widths of doors
+DOOR_CLEAR_M = 1.1  # depth of the floor that stays free on both sides of a door
+MIN_SIZE_M = (12.0, 8.0)  # long and short side of the smallest building
+MAX_CELLS = 50_000_000  # most cells of a building
+UNSPLIT_WIDTHS_M, UNSPLIT_CHANCES = (3.4, 4.6, 6.5, 9.5), (0.42, 0.30, 0.18, 0.10)
+"""A piece of a row is not split if it is narrower than a width that is drawn from these, with these probabilities."""
+WIDE_ROOM_M = 6.2  # width beyond which a room is an open plan, and has two doors
 
 
 @dataclass(frozen=True)
@@ -46,7 +50,7 @@ class Space:
     y0: int
     y1: int
     corridors: tuple[int, ...] = ()  # sides with a corridor along them: -1 (towards smaller y), +1, or both
-    facade: bool = False  # true if it touches the outer wall along its length
+    facade: bool = False  # whether it touches the outer wall along its length
 
     @property
     def width(self) -> int:
@@ -63,20 +67,20 @@ def lay_out(rng: np.random.Generator, x0: int, x1: int, y0: int, y1: int, resolu
     cross = _cross_corridors(rng, x0, x1, len(corridors), resolution)
     spaces = [Space("corridor", x0, x1, low, high) for low, high in corridors]
     core = (corridors[0][1], corridors[-1][0])
-    through = [rng.random() < 0.5 for _ in cross]
-    for (a, b), to_facade in zip(cross, through, strict=True):
-        spaces.append(Space("corridor", a, b, core[0], y1 if to_facade else core[1]))
+    reach_facade = [rng.random() < 0.5 for _ in cross]
+    for (left, right), to_facade in zip(cross, reach_facade, strict=True):
+        spaces.append(Space("corridor", left, right, core[0], y1 if to_facade else core[1]))
     # Split each row of rooms between the cross corridors.
     for index, (low, high, is_corridor) in enumerate(bands):
         if is_corridor:
             continue
         below = index > 0 and bands[index - 1][2]
         above = index + 1 < len(bands) and bands[index + 1][2]
-        sides, facade = (-1,) * below + (1,) * above, low == y0 or high == y1
-        in_core = core[0] <= low and high <= core[1]
-        cuts = [gap for gap, far in zip(cross, through, strict=True) if in_core or (far and low >= core[1])]
-        for a, b in _between(x0, x1, cuts, wall):
-            for left, right in _split(rng, a, b, resolution):
+        sides = tuple(side for side, has_corridor in ((-1, below), (1, above)) if has_corridor)
+        in_core, facade = core[0] <= low and high <= core[1], low == y0 or high == y1
+        cuts = [gap for gap, far in zip(cross, reach_facade, strict=True) if in_core or (far and low >= core[1])]
+        for start, end in _between(x0, x1, cuts, wall):
+            for left, right in _split(rng, start, end, resolution):
                 spaces.append(Space("office", left, right, low, high, sides, facade))
     return _name_rooms(rng, spaces, resolution)
 
@@ -87,7 +91,7 @@ def inner_wall_cells(resolution: float) -> int:
 
 
 def _bands(rng: np.random.Generator, y0: int, y1: int, resolution: float) -> list[tuple[int, int, bool]]:
-    """Divide y0 to y1 into rooms about `ROW_DEPTH_M` deep and corridors: first cell, end, whether a corridor."""
+    """Divide y0 to y1 into rows of rooms and corridors. Returns the first cell, the end, and whether a corridor."""
     wall, corridor = inner_wall_cells(resolution), round(CORRIDOR_M / resolution)
 
     def room_cells(rows: int) -> int:
@@ -99,9 +103,9 @@ def _bands(rng: np.random.Generator, y0: int, y1: int, resolution: float) -> lis
     ends = np.rint(np.cumsum(share) / share.sum() * room_cells(rows)).astype(int)
     depths = iter(np.diff(ends, prepend=0).tolist())
     bands, y = [], y0
-    for what in _order(rows):
-        end = y + (corridor if what == "corridor" else next(depths))
-        bands.append((y, end, what == "corridor"))
+    for kind in _order(rows):
+        end = y + (corridor if kind == "corridor" else next(depths))
+        bands.append((y, end, kind == "corridor"))
         y = end + wall
     return bands
 
@@ -123,31 +127,30 @@ def _cross_corridors(
     if corridors < 2:
         return []
     width, length = round(CROSS_CORRIDOR_M / resolution), x1 - x0
-    n = max(1, round(length * resolution / CROSS_EVERY_M))
-    middles = (np.arange(n) + 0.5 + rng.uniform(-0.18, 0.18, n)) / n * length + x0
+    count = max(1, round(length * resolution / CROSS_SPACING_M))
+    middles = (np.arange(count) + 0.5 + rng.uniform(-0.18, 0.18, count)) / count * length + x0
     return [(int(middle) - width // 2, int(middle) - width // 2 + width) for middle in middles]
 
 
 def _between(x0: int, x1: int, gaps: list[tuple[int, int]], wall: int) -> Iterator[tuple[int, int]]:
     """Yield the parts of x0..x1 between the gaps and their walls."""
     start = x0
-    for a, b in sorted(gaps):
-        yield start, a - wall
-        start = b + wall
+    for gap_start, gap_end in sorted(gaps):
+        yield start, gap_start - wall
+        start = gap_end + wall
     yield start, x1
 
 
 def _split(rng: np.random.Generator, x0: int, x1: int, resolution: float) -> Iterator[tuple[int, int]]:
     """Yield the rooms of x0..x1, which is split in two recursively until pieces are narrow enough."""
     wall, least = inner_wall_cells(resolution), round(MIN_ROOM_M / resolution)
-    widths, chances = zip(*STOP_SPLITTING_M, strict=True)
-    if x1 - x0 < 2 * least + wall or (x1 - x0) * resolution < rng.choice(widths, p=chances):
+    if x1 - x0 < 2 * least + wall or (x1 - x0) * resolution < rng.choice(UNSPLIT_WIDTHS_M, p=UNSPLIT_CHANCES):
         yield x0, x1
         return
-    at = int(x0 + (x1 - x0) * rng.uniform(0.35, 0.65))
-    at = min(max(at, x0 + least), x1 - least - wall)
-    yield from _split(rng, x0, at, resolution)
-    yield from _split(rng, at + wall, x1, resolution)
+    cut = int(x0 + (x1 - x0) * rng.uniform(0.35, 0.65))
+    cut = min(max(cut, x0 + least), x1 - least - wall)
+    yield from _split(rng, x0, cut, resolution)
+    yield from _split(rng, cut + wall, x1, resolution)
 
 
 def _name_rooms(rng: np.random.Generator, spaces: list[Space], resolution: float) -> tuple[Space, ...]:
@@ -156,16 +159,16 @@ def _name_rooms(rng: np.random.Generator, spaces: list[Space], resolution: float
     middle = np.mean([(space.x0 + space.x1) / 2 for space in facade])
     lobby = min(facade, key=lambda space: abs((space.x0 + space.x1) / 2 - middle) + 1e6 * space.y0)
 
-    def named(space: Space) -> Space:
+    def kind_of(space: Space) -> str:
         if space.kind == "corridor":
-            return space
-        return replace(space, kind="lobby" if space is lobby else _kind(rng, space.width * resolution, space.facade))
+            return space.kind
+        return "lobby" if space is lobby else _draw_kind(rng, space.width * resolution, space.facade)
 
-    return tuple(map(named, spaces))
+    return tuple(replace(space, kind=kind_of(space)) for space in spaces)
 
 
-def _kind(rng: np.random.Generator, width_m: float, facade: bool) -> str:
-    if width_m > 6.2:
+def _draw_kind(rng: np.random.Generator, width_m: float, facade: bool) -> str:
+    if width_m > WIDE_ROOM_M:
         return "open plan"
     if width_m > 4.4:
         return "meeting" if rng.random() < 0.6 else "office"
@@ -176,16 +179,10 @@ def _kind(rng: np.random.Generator, width_m: float, facade: bool) -> str:
 
 @dataclass(frozen=True)
 class Room:
-    """A room or corridor of a building.
-
-    Attributes:
-        kind: ``"corridor"``, ``"office"``, ``"meeting"``, ``"open plan"``, ``"lobby"``, ``"store"``,
-            ``"washroom"``, ``"kitchen"`` or ``"server"``.
-        extent_m: ``(x_min, x_max, y_min, y_max)`` of its floor in the world frame.
-    """
+    """A room or corridor of a building, of a kind that `bayesmap.sim.furniture.FURNISHERS` names."""
 
     kind: str
-    extent_m: tuple[float, float, float, float]
+    extent_m: tuple[float, float, float, float]  # x_min, x_max, y_min, y_max of its floor in the world frame
 
 
 @dataclass(frozen=True, eq=False)
@@ -194,17 +191,17 @@ class Building:
 
     Attributes:
         grid: the grid of the arrays.
-        walls: true for cells that are not empty, furniture included, shape (nx, ny).
-        glass: the wall cells that are glass, shape (nx, ny).
-        opacity: the chance that a beam which enters a cell stops there, shape (nx, ny): 1 for walls,
-            ``1 - glass_pass`` for glass, less than 1 for legs thinner than a cell, 0 for free cells.
-        glass_pass: the chance that a beam passes a cell of glass.
+        walls: mask of cells that are not empty, furniture included, (nx, ny).
+        glass: mask of the wall cells that are glass, (nx, ny).
+        opacity: chance that a beam which enters a cell stops there, (nx, ny): 1 for walls, ``1 - glass_pass`` for
+            glass, less than 1 for legs thinner than a cell, 0 for free cells.
+        glass_pass: chance that a beam passes a cell of glass.
     """
 
     grid: Grid
-    walls: NDArray[np.bool_]
-    glass: NDArray[np.bool_]
-    opacity: NDArray[np.float64]
+    walls: Mask
+    glass: Mask
+    opacity: Floats
     rooms: tuple[Room, ...]
     glass_pass: float
 
@@ -229,9 +226,9 @@ def building(
     if not 0 <= clutter <= 2:
         raise BadInput(f"building: clutter must be 0 (none) to 2 (crowded), got {clutter!r}")
     long, short = max(size_m), min(size_m)
-    if not all(map(math.isfinite, size_m)) or long < SMALLEST_M[0] or short < SMALLEST_M[1]:
-        raise BadInput(f"building: size_m must be at least {SMALLEST_M} metres, got {size_m!r}")
-    if long / resolution * short / resolution > 50_000_000:
+    if not all(map(math.isfinite, size_m)) or long < MIN_SIZE_M[0] or short < MIN_SIZE_M[1]:
+        raise BadInput(f"building: size_m must be at least {MIN_SIZE_M} metres, got {size_m!r}")
+    if long / resolution * short / resolution > MAX_CELLS:
         raise BadInput(f"building: {size_m!r} metres at {resolution} m is too many cells; use a coarser one")
     # Build with the long side along x, then turn the arrays if that side is y.
     plan = _Construction(np.random.default_rng(check_count("building", "seed", seed, 0)), (long, short), resolution)
@@ -259,7 +256,7 @@ class _Construction:
         self.opacity = np.zeros((nx, ny))
         self.opacity[margin : nx - margin, margin : ny - margin] = 1.0
         self.glass = np.zeros((nx, ny), dtype=bool)
-        self.keep = np.zeros((nx, ny), dtype=bool)
+        self.keep_free = np.zeros((nx, ny), dtype=bool)
         self.spaces = lay_out(rng, *self.inside, resolution)
 
     def cells(self, length_m: float) -> int:
@@ -271,40 +268,41 @@ class _Construction:
         corridors = [space for space in self.spaces if space.kind == "corridor"]
         for room in self.spaces:
             if room.kind != "corridor":
-                self.doors(room)
-                self.windows(room)
+                self.add_doors(room)
+                self.add_windows(room)
         for corridor in corridors:
-            self.end_windows(corridor)
-            self.keep_junctions(corridor, corridors)
+            self.add_end_windows(corridor)
+            self.keep_junctions_free(corridor, corridors)
         for space in self.spaces:
             self.furnish(space, clutter)
 
-    def doors(self, room: Space) -> None:
+    def add_doors(self, room: Space) -> None:
         """Cut a door to the corridor near a corner, two for wide rooms; put glass along the lobby and some rooms."""
         side = int(self.rng.choice(room.corridors))
-        wide = room.width * self.resolution > 6.2
-        both_corners = [True, False] if wide else [bool(self.rng.random() < 0.5)]
+        wide = room.width * self.resolution > WIDE_ROOM_M
+        corners = [True, False] if wide else [bool(self.rng.random() < 0.5)]
         if room.kind == "lobby" or (room.kind in ("meeting", "open plan") and self.rng.random() < 0.6):
             y0, y1 = self.wall_rows(room, side)
             frame = self.cells(0.2)
-            self.pane(room.x0 + frame, room.x1 - frame, y0, y1, along_x=True)
-        for left in both_corners:
-            self.door(room, side, left)
+            self.add_pane(room.x0 + frame, room.x1 - frame, y0, y1, along_x=True)
+        for left in corners:
+            self.add_door(room, side, left)
 
-    def door(self, room: Space, side: int, left: bool) -> None:
+    def add_door(self, room: Space, side: int, left: bool) -> None:
+        """Cut one door near the left or right corner, keep the floor before it free, and hang most leaves."""
         wide = room.kind in ("lobby", "open plan") and room.width * self.resolution > 4
         opening = self.cells(WIDE_DOOR_M if wide else DOOR_M)
         opening += 1 - opening % 2  # odd, so that the middle of a cell is the middle of the door
         offset = self.cells(float(self.rng.uniform(0.2, 0.45)))
-        a = room.x0 + offset if left else room.x1 - offset - opening
+        x0 = room.x0 + offset if left else room.x1 - offset - opening
         y0, y1 = self.wall_rows(room, side)
-        self.opacity[a : a + opening, y0:y1] = 0.0
-        self.glass[a : a + opening, y0:y1] = False
+        self.opacity[x0 : x0 + opening, y0:y1] = 0.0
+        self.glass[x0 : x0 + opening, y0:y1] = False
         clear, beside = self.cells(DOOR_CLEAR_M), self.cells(0.1)
-        self.keep[a - beside : a + opening + beside, y0 - clear : y1 + clear] = True
+        self.keep_free[x0 - beside : x0 + opening + beside, y0 - clear : y1 + clear] = True
         if not wide and self.rng.random() < 0.6:
             # The leaf stands open at a right angle, with its hinge nearer to the side wall.
-            hinge = a - 1 if left else a + opening
+            hinge = x0 - 1 if left else x0 + opening
             leaf = slice(y0 - opening, y0) if side > 0 else slice(y1, y1 + opening)
             self.opacity[hinge, leaf] = 1.0
 
@@ -313,44 +311,45 @@ class _Construction:
         thickness = inner_wall_cells(self.resolution)
         return (room.y1, room.y1 + thickness) if side > 0 else (room.y0 - thickness, room.y0)
 
-    def windows(self, room: Space) -> None:
+    def add_windows(self, room: Space) -> None:
         """Put windows down to the floor in some facade rooms; the sill of other windows is above the laser."""
         ix0, ix1, iy0, iy1 = self.inside
         chance = {"lobby": 1.0, "open plan": 0.75, "meeting": 0.6}.get(room.kind, 0.4)
         if room.facade and self.rng.random() < chance:
             half, middle = int(room.width * self.rng.uniform(0.5, 0.85) / 2), (room.x0 + room.x1) // 2
-            for row in (iy0 - self.outer,) * (room.y0 == iy0) + (iy1,) * (room.y1 == iy1):
-                self.window(middle - half, middle + half, row, row + self.outer, along_x=True)
+            for touches, row in ((room.y0 == iy0, iy0 - self.outer), (room.y1 == iy1, iy1)):
+                if touches:
+                    self.add_window(middle - half, middle + half, row, row + self.outer, along_x=True)
         for touches, column in ((room.x0 == ix0, ix0 - self.outer), (room.x1 == ix1, ix1)):
             if touches and self.rng.random() < 0.5:
                 half, middle = int((room.y1 - room.y0) * 0.3), (room.y0 + room.y1) // 2
-                self.window(column, column + self.outer, middle - half, middle + half, along_x=False)
+                self.add_window(column, column + self.outer, middle - half, middle + half, along_x=False)
 
-    def end_windows(self, corridor: Space) -> None:
+    def add_end_windows(self, corridor: Space) -> None:
         """Put a window at each end of a corridor that meets the facade."""
         ix0, ix1, _, iy1 = self.inside
         edge = self.cells(0.3)
         if corridor.x0 == ix0:
             y0, y1 = corridor.y0 + edge, corridor.y1 - edge
-            self.window(ix0 - self.outer, ix0, y0, y1, along_x=False)
-            self.window(ix1, ix1 + self.outer, y0, y1, along_x=False)
+            self.add_window(ix0 - self.outer, ix0, y0, y1, along_x=False)
+            self.add_window(ix1, ix1 + self.outer, y0, y1, along_x=False)
         elif corridor.y1 == iy1:
-            self.window(corridor.x0 + edge, corridor.x1 - edge, iy1, iy1 + self.outer, along_x=True)
+            self.add_window(corridor.x0 + edge, corridor.x1 - edge, iy1, iy1 + self.outer, along_x=True)
 
-    def keep_junctions(self, cross: Space, corridors: list[Space]) -> None:
+    def keep_junctions_free(self, cross: Space, corridors: list[Space]) -> None:
         """Keep furniture out of the junctions of a cross corridor with other corridors."""
         thickness, clear = inner_wall_cells(self.resolution), self.cells(DOOR_CLEAR_M)
         for corridor in corridors:
             if corridor.x0 < cross.x0 and corridor.y0 <= cross.y1 + thickness and cross.y0 <= corridor.y1:
-                self.keep[cross.x0 : cross.x1, corridor.y0 - clear : corridor.y1 + clear] = True
+                self.keep_free[cross.x0 : cross.x1, corridor.y0 - clear : corridor.y1 + clear] = True
 
-    def window(self, x0: int, x1: int, y0: int, y1: int, *, along_x: bool) -> None:
+    def add_window(self, x0: int, x1: int, y0: int, y1: int, *, along_x: bool) -> None:
         """Put a pane in the middle of the outer wall, with free cells on both sides."""
         self.opacity[x0:x1, y0:y1] = 0.0
         x, y = (x0 + x1) // 2, (y0 + y1) // 2
-        self.pane(*((x0, x1, y, y + 1) if along_x else (x, x + 1, y0, y1)), along_x=along_x)
+        self.add_pane(*((x0, x1, y, y + 1) if along_x else (x, x + 1, y0, y1)), along_x=along_x)
 
-    def pane(self, x0: int, x1: int, y0: int, y1: int, *, along_x: bool) -> None:
+    def add_pane(self, x0: int, x1: int, y0: int, y1: int, *, along_x: bool) -> None:
         """Put glass with a mullion every 1.2 m."""
         self.opacity[x0:x1, y0:y1] = 1.0
         self.glass[x0:x1, y0:y1] = True
@@ -358,8 +357,9 @@ class _Construction:
         self.glass[x0 : x1 : every if along_x else 1, y0 : y1 : 1 if along_x else every] = False
 
     def furnish(self, space: Space, clutter: float) -> None:
-        around = np.s_[space.x0 - 1 : space.x1 + 1, space.y0 - 1 : space.y1 + 1]
-        opacity, keep = self.opacity[around], self.keep[around]
-        if space.corridors == (1,):  # y points away from the corridor
-            opacity, keep = opacity[:, ::-1], keep[:, ::-1]
-        furnish(RoomFloor(opacity, keep, self.resolution, self.rng), space.kind, clutter)
+        """Furnish a space. In its frame y points away from the corridor."""
+        cells = np.s_[space.x0 - 1 : space.x1 + 1, space.y0 - 1 : space.y1 + 1]
+        opacity, keep_free = self.opacity[cells], self.keep_free[cells]
+        if space.corridors == (1,):
+            opacity, keep_free = opacity[:, ::-1], keep_free[:, ::-1]
+        furnish(RoomFloor(opacity, keep_free, self.resolution, self.rng), space.kind, clutter)

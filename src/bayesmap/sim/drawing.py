@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from bayesmap.errors import BadInput
+from bayesmap.space.arrays import Mask
 from bayesmap.space.grid import Grid
+from bayesmap.space.planar import Floats
 
 FREE = "."
-WALLS = "X#"
-"""Characters of walls; `to_text` writes the first."""
+WALLS = "X#"  # characters of walls; `to_text` writes the first
 
 
-def from_text(text: str) -> NDArray[np.bool_]:
+def from_text(text: str) -> Mask:
     """Read walls from a text drawing: ``.`` is free, ``X`` or ``#`` is a wall.
 
     As in the tutorial, lines are the *first* index: ``walls[i, j]`` is line ``i``, column ``j``. Maps are indexed
@@ -27,10 +28,10 @@ def from_text(text: str) -> NDArray[np.bool_]:
     (counted from 1 in the whole text) and the column.
     """
     numbered = [(number, line.rstrip()) for number, line in enumerate(text.splitlines(), start=1)]
-    drawn = [k for k, (_, line) in enumerate(numbered) if line]
-    if not drawn:
+    filled = [k for k, (_, line) in enumerate(numbered) if line]
+    if not filled:
         raise BadInput("drawing: the text has no lines; draw free cells as '.' and walls as 'X' or '#'")
-    numbered = numbered[drawn[0] : drawn[-1] + 1]
+    numbered = numbered[filled[0] : filled[-1] + 1]
     indent = min(len(line) - len(line.lstrip()) for _, line in numbered)
     first, width = numbered[0][0], len(numbered[0][1]) - indent
     for number, line in numbered:
@@ -49,7 +50,7 @@ def from_text(text: str) -> NDArray[np.bool_]:
 
 
 def to_text(walls: ArrayLike) -> str:
-    """Return a drawing that `from_text` reads, of walls (lines, columns); raise `BadInput` for other shapes."""
+    """Return a drawing of walls (lines, columns) that `from_text` reads. Raises `BadInput` for other shapes."""
     array = np.asarray(walls).astype(bool)
     if array.ndim != 2 or array.size == 0:
         raise BadInput(f"drawing: walls must have shape (lines, columns), got {array.shape}")
@@ -83,9 +84,8 @@ DRAWING = """
 """
 
 
-def tutorial() -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
-    """Return the tutorial's walls, (21, 21), line i of the drawing at x = i, and the robot's pose (10, 10, 0), (3,).
-
-    They lie on `TUTORIAL_GRID`, in metres and radians.
+def tutorial() -> tuple[Mask, Floats]:
+    """Return the walls on `TUTORIAL_GRID`, (21, 21), line i of the drawing at x = i, and the robot's pose (10, 10, 0),
+    (3,).
     """
     return from_text(DRAWING), np.array([10.0, 10.0, 0.0])

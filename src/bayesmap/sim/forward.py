@@ -3,27 +3,27 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from bayesmap.errors import BadInput, check_count, near_names
 from bayesmap.sensors.model import AdditiveNoise, RangeLimits, SensorModel
+from bayesmap.space.arrays import Mask
 from bayesmap.space.grid import Grid
+from bayesmap.space.planar import Floats
 from bayesmap.space.scans import Scans, as_angles, as_poses, asked_poses, check_limits
 
 
 def ranges(
-    walls: NDArray[np.bool_], grid: Grid, poses: ArrayLike, angles_rad: ArrayLike, max_range_m: float, *,
-    device: str = "cpu",
-) -> NDArray[np.float64]:  # fmt: skip
+    walls: Mask, grid: Grid, poses: ArrayLike, angles_rad: ArrayLike, max_range_m: float, *, device: str = "cpu"
+) -> Floats:
     """Compute noise-free ranges: the distance from each pose to the first wall along each beam, capped.
 
-    Walls are true (or non-zero), shape (nx, ny). Poses are (x, y, yaw) in the world frame, shape (3,) or (S, 3), and
-    angles are those in the sensor frame, shape (A,). Cells are closed squares: a beam that touches a corner hits all
-    cells that meet there. From inside a wall the range is the distance to the exit edge. Both rules follow from the
-    minimum distance over the edges of all wall cells.
+    Walls are true (or non-zero), (nx, ny). Poses are (x, y, yaw) in the world frame, (3,) or (S, 3), and angles are in
+    the sensor frame, (A,). Cells are closed squares: a beam that touches a corner hits all cells that meet there. From
+    inside a wall the range is the distance to the exit edge.
 
-    Returns metres, at most ``max_range_m``, shape (A,) for a pose of shape (3,), else (S, A). Raises `BadInput` for
-    shapes that do not fit, numbers that are not finite, or a cap that is not positive.
+    Returns metres, at most ``max_range_m``, (A,) for a pose of shape (3,), else (S, A). Raises `BadInput` for shapes
+    that do not fit, numbers that are not finite, or a cap that is not positive.
     """
     poses_world = as_poses(poses)
     distances = _distances(walls, grid, poses_world, as_angles(angles_rad), max_range_m, device)
@@ -32,8 +32,8 @@ def ranges(
 
 @near_names
 def simulate(
-    walls: NDArray[np.bool_], grid: Grid, poses: ArrayLike, angles_rad: ArrayLike, *, sensor: SensorModel,
-    max_range_m: float, min_range_m: float = 0.0, seed: int = 0, opacity: NDArray[np.float64] | None = None,
+    walls: Mask, grid: Grid, poses: ArrayLike, angles_rad: ArrayLike, *, sensor: SensorModel,
+    max_range_m: float, min_range_m: float = 0.0, seed: int = 0, opacity: Floats | None = None,
     typed: bool = False, device: str = "cpu",
 ) -> Scans:  # fmt: skip
     """Draw scans from a sensor model in a known world.
@@ -75,17 +75,14 @@ def simulate(
         ])  # fmt: skip
     readings = sensor.sample(rng, distances, RangeLimits(min_range_m, max_range_m))
     if typed:
-        nothing = readings > max_range_m
-        if isinstance(sensor, AdditiveNoise):  # other sensor models produce no return themselves
-            nothing |= distances > max_range_m
-        readings = np.where(nothing, np.inf, readings)
+        no_return = readings > max_range_m
+        if isinstance(sensor, AdditiveNoise):  # other sensor models draw no returns themselves
+            no_return |= distances > max_range_m
+        readings = np.where(no_return, np.inf, readings)
     return Scans(poses_world, angles, readings, max_range_m=max_range_m, min_range_m=min_range_m)
 
 
-def _distances(
-    walls: NDArray[np.bool_], grid: Grid, poses: NDArray[np.float64], angles_rad: NDArray[np.float64],
-    max_range_m: float, device: str,
-) -> NDArray[np.float64]:  # fmt: skip
+def _distances(walls: Mask, grid: Grid, poses: Floats, angles_rad: Floats, max_range_m: float, device: str) -> Floats:
     """Cast all beams. Returns ranges in metres, (S, A), capped at ``max_range_m``."""
     from bayesmap.kernels.walk import cast_beams  # loads Warp
 
@@ -99,6 +96,6 @@ def _distances(
     return metres.reshape(len(poses), len(angles_rad))
 
 
-def _check_walls(walls: NDArray[np.bool_], grid: Grid) -> None:
+def _check_walls(walls: Mask, grid: Grid) -> None:
     if np.shape(walls) != grid.shape:
         raise BadInput(f"map: walls have shape {np.shape(walls)}, but the grid is {grid.shape}")

@@ -15,9 +15,7 @@ from numpy.typing import NDArray
 
 ROBOT_CLEARANCE_M = 0.25  # smallest distance between a pose of a simulated robot and a wall
 
-LATTICE_M = 0.1
-"""Approximate distance between nodes of the planning lattice, on every k-th cell (every cell if cells are larger)."""
-
+LATTICE_M = 0.1  # approximate distance between nodes of the planning lattice, on every k-th cell
 SOLID = 1.0  # opacity: the chance that a cell stops a beam
 LEG = 0.5  # opacity of a leg, which is thinner than a cell: about half of the beams that enter its cell pass
 MAX_CUT_OFF_M2 = 0.4  # largest floor that a piece may make unreachable, besides the floor under it
@@ -27,7 +25,7 @@ Rectangle = tuple[float, float, float, float, float]
 
 
 def wall_distance_m(walls: NDArray[np.bool_], resolution: float) -> NDArray[np.float64]:
-    """Return the distance in metres between the centres of every cell and of the nearest wall cell, shape (nx, ny)."""
+    """Return the distance in metres from the centre of every cell to the centre of the nearest wall cell, (nx, ny)."""
     from scipy import ndimage  # takes half a second, so it is imported only if needed
 
     if not walls.any():
@@ -41,10 +39,8 @@ def lattice_stride(resolution: float) -> int:
 
 
 def passage_m(resolution: float) -> float:
-    """Return the distance from a node to the centre of a wall cell that keeps paths clear by `ROBOT_CLEARANCE_M`.
-
-    The edge of a wall is nearer than its centre by up to half a cell's diagonal. A point of the path is off the lattice
-    by up to half the lattice's diagonal.
+    """Return the distance from a node to the centre of a wall cell that keeps paths clear by `ROBOT_CLEARANCE_M`: half
+    a cell's diagonal and half the lattice's diagonal are added.
     """
     return ROBOT_CLEARANCE_M + (1 + lattice_stride(resolution)) * resolution / math.sqrt(2)
 
@@ -54,7 +50,7 @@ class RoomFloor:
     """A room to furnish. Its frame, in metres: x along the corridor wall, y away from the corridor."""
 
     opacity: NDArray[np.float64]  # of the room's cells and the walls around them, (nx + 2, ny + 2), changed in place
-    keep: NDArray[np.bool_]  # mask of door openings and the cells in front of them, where nothing may stand
+    keep_free: NDArray[np.bool_]  # mask of door openings and the cells in front of them, where nothing may stand
     resolution: float
     rng: np.random.Generator
 
@@ -65,29 +61,29 @@ class RoomFloor:
         return (nx - 2) * self.resolution, (ny - 2) * self.resolution
 
     def place(self, *rectangles: Rectangle) -> bool:
-        """Place a piece, given by its parts, if all of it fits. Returns true if it was placed."""
-        # Draw the parts, at least one cell wide each, unless a part meets a wall, a door area or another piece.
+        """Place a piece, given by its parts, if all of it fits. Returns whether it was placed."""
+        # Fill the parts, at least one cell wide each, unless a part meets a wall, a door area or another piece.
         trial = self.opacity.copy()
         nx, ny = trial.shape
         for x, y, width, depth, opacity in rectangles:
-            a, b = (1 + round(v / self.resolution) for v in (x, x + width))
-            c, d = (1 + round(v / self.resolution) for v in (y, y + depth))
-            b, d = max(b, a + 1), max(d, c + 1)
-            if min(a, c) < 1 or b > nx - 1 or d > ny - 1 or self.keep[a:b, c:d].any() or trial[a:b, c:d].any():
+            x0, x1, y0, y1 = (1 + round(v / self.resolution) for v in (x, x + width, y, y + depth))
+            cells = np.s_[x0 : max(x1, x0 + 1), y0 : max(y1, y0 + 1)]
+            outside = min(x0, y0) < 1 or cells[0].stop > nx - 1 or cells[1].stop > ny - 1
+            if outside or self.keep_free[cells].any() or trial[cells].any():
                 return False
-            trial[a:b, c:d] = opacity
+            trial[cells] = opacity
         if not self._leaves_floor_reachable(trial):
             return False
         self.opacity[...] = trial
         return True
 
     def _leaves_floor_reachable(self, opacity: NDArray[np.float64]) -> bool:
-        """Return true if a robot can pass between all doors, and reach all floor but `MAX_CUT_OFF_M2`."""
+        """Return whether a robot can pass between all doors, and reach all floor but `MAX_CUT_OFF_M2`."""
         from scipy import ndimage
 
         passable = wall_distance_m(opacity > 0, self.resolution) >= passage_m(self.resolution)
         labels, _ = ndimage.label(passable)
-        doors = np.unique(labels[self.keep & passable])
+        doors = np.unique(labels[self.keep_free & passable])
         if len(doors) != 1:
             return False
         reached_m2, floor_m2 = (float(mask.sum()) * self.resolution**2 for mask in (labels == doors[0], passable))
@@ -145,9 +141,10 @@ def _table(room: RoomFloor, clutter: float) -> None:
     for k in range(int(length / 0.8)):
         for side in (-1, 1):
             if room.rng.random() < 0.85 * min(clutter, 1):
-                run = (k + 0.5) * length / int(length / 0.8) - 0.1
-                off = across / 2 + side * (across / 2 + 0.25) - 0.1
-                _chair(room, x + (run if along_x else off), y + (off if along_x else run))
+                lengthwise = (k + 0.5) * length / int(length / 0.8) - 0.1
+                crosswise = across / 2 + side * (across / 2 + 0.25) - 0.1
+                dx, dy = (lengthwise, crosswise) if along_x else (crosswise, lengthwise)
+                _chair(room, x + dx, y + dy)
 
 
 def _meeting(room: RoomFloor, clutter: float) -> None:
@@ -215,8 +212,7 @@ def _lobby(room: RoomFloor, clutter: float) -> None:
 
 def _corridor(room: RoomFloor, clutter: float) -> None:
     for _ in range(room.rng.poisson(0.12 * clutter * max(room.size_m))):
-        length = room.rng.choice([0.3, 0.6, 0.8, 1.2])
-        _against_wall(room, float(length), 0.4)
+        _against_wall(room, float(room.rng.choice([0.3, 0.6, 0.8, 1.2])), 0.4)
 
 
 def _cabinets(room: RoomFloor, count: int) -> None:
@@ -224,12 +220,12 @@ def _cabinets(room: RoomFloor, count: int) -> None:
         _against_wall(room, float(room.rng.choice([0.8, 1.0, 1.6])), 0.45)
 
 
-def _against_wall(room: RoomFloor, length: float, depth_of_piece: float, tries: int = 6) -> None:
-    """Place a solid piece with its back to a wall, at a random position that fits, if one is found."""
+def _against_wall(room: RoomFloor, length: float, thickness: float, tries: int = 6) -> None:
+    """Place a solid piece with its back to a wall, at a random position that fits, if there is one."""
     width, depth = room.size_m
     for _ in range(tries):
         side = room.rng.integers(4)
-        w, d = (length, depth_of_piece) if side < 2 else (depth_of_piece, length)
+        w, d = (length, thickness) if side < 2 else (thickness, length)
         if w > width or d > depth:
             continue
         x = room.rng.uniform(0, width - w) if side < 2 else (0.0, width - w)[side - 2]

@@ -16,11 +16,12 @@ from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from bayesmap.errors import BadInput, check_count
 from bayesmap.sim.furniture import lattice_stride, passage_m, wall_distance_m
-from bayesmap.space.planar import Floats, between, compose, interpolate, wrap_angle
+from bayesmap.space.arrays import Indices
+from bayesmap.space.planar import Floats, between, compose, interpolate, ways_and_turns, wrap_angle, wrap_yaw
 from bayesmap.space.scans import as_poses
 
 if TYPE_CHECKING:
@@ -28,13 +29,13 @@ if TYPE_CHECKING:
 
     from bayesmap.sim.building import Building
 
-WALL_DISLIKE = 4.0  # extra cost of a path close to walls, relative to open floor: robots keep to the middle
+WALL_COST = 4.0  # extra cost of a path close to walls, relative to open floor: robots keep to the middle
 SMOOTHING_M = 0.5  # twice the standard deviation of the filter that rounds corners
 HEADING_M = 0.2  # distance over which the direction of travel is measured
-STANDING_M = 1e-9  # shortest straight with a direction; a shorter step is one turn
-NEAR_M = 4.0  # largest distance of related poses: poses further apart see different walls
-PAIRS_A_POSE = 3  # on average
-PATROL_POSES = 4000  # of one round of a driven building
+MIN_STRAIGHT_M = 1e-9  # shortest straight with a direction; a shorter step is one turn
+RELATED_M = 4.0  # largest distance of related poses: poses further apart see different walls
+PAIRS_PER_POSE = 3  # mean number of related pairs per pose
+PATROL_POSES = 4000  # poses of one round of a driven building
 
 
 def patrol(building: Building, n_scans: int, seed: int = 0) -> Floats:
@@ -44,20 +45,24 @@ def patrol(building: Building, n_scans: int, seed: int = 0) -> Floats:
     decides. It takes shortest paths that prefer open floor, and looks along its way. No pose is within
     `ROBOT_CLEARANCE_M` of a wall. Scans are taken at equal distances; about one per metre shows every room from inside.
 
-    Raises `BadInput` for ``n_scans`` below 1, or a building without floor that a robot can pass.
+    Raises `BadInput` if ``n_scans`` is below 1, or the building has no floor that a robot can pass.
     """
     if n_scans < 1:
         raise BadInput(f"patrol: n_scans must be at least 1, got {n_scans!r}")
     lattice = _Lattice(building)
-    stops = lattice.stops(np.random.default_rng(check_count("patrol", "seed", seed, 0)))
+    stops = lattice.choose_stops(np.random.default_rng(check_count("patrol", "seed", seed, 0)))
     path = _smooth(lattice.tour(stops), lattice)
     length_m = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(path, axis=0).T))])
-    at_m = np.linspace(0.0, length_m[-1], n_scans)
-    xy = _points_along(path, length_m, at_m)
+    scan_m = np.linspace(0.0, length_m[-1], n_scans)
+
+    def points(at_m: Floats) -> Floats:
+        return np.stack([np.interp(at_m, length_m, path[:, k]) for k in (0, 1)], axis=1)
+
     # The direction of travel over `HEADING_M`, not of one step of the lattice; at the end, over the last `HEADING_M`.
-    heading = _points_along(path, length_m, at_m + HEADING_M) - xy
-    arrived = np.hypot(*heading.T) < 1e-9
-    heading[arrived] = (xy - _points_along(path, length_m, at_m - HEADING_M))[arrived]
+    xy = points(scan_m)
+    heading = points(scan_m + HEADING_M) - xy
+    at_end = np.hypot(*heading.T) < 1e-9
+    heading[at_end] = (xy - points(scan_m - HEADING_M))[at_end]
     return np.column_stack([xy, np.arctan2(heading[:, 1], heading[:, 0])])
 
 
@@ -66,22 +71,16 @@ def drive(
     turn_rad_per_s: float = 1.0, seed: int = 0,
 ) -> tuple[Floats, Floats]:  # fmt: skip
     """Simulate a robot that goes round a building and back, again and again: times from 0, (S,), and poses, (S, 3)."""
-    once = patrol(building, PATROL_POSES, seed)
-    rounds = [once]
+    round_poses = patrol(building, PATROL_POSES, seed)
+    rounds = [round_poses]
     while travel_times_s(np.concatenate(rounds), speed_m_per_s, turn_rad_per_s)[-1] < seconds:
-        rounds.append(once if len(rounds) % 2 == 0 else once[::-1] + np.array([0.0, 0.0, math.pi]))
+        rounds.append(round_poses if len(rounds) % 2 == 0 else round_poses[::-1] + np.array([0.0, 0.0, math.pi]))
     way = np.concatenate(rounds)
     times_s = travel_times_s(way, speed_m_per_s, turn_rad_per_s)
     yaw = way[0, 2] + np.concatenate([[0.0], np.cumsum(wrap_angle(np.diff(way[:, 2])))])
-    at_s = np.arange(0.0, seconds, 1.0 / rate_hz)
-    poses = np.column_stack([np.interp(at_s, times_s, column) for column in (way[:, 0], way[:, 1], yaw)])
-    poses[:, 2] = wrap_angle(poses[:, 2])
-    return at_s, poses
-
-
-def _points_along(path_m: Floats, length_m: Floats, at_m: Floats) -> Floats:
-    """Return the points of a path at lengths ``at_m`` along it; beyond the ends, the end points."""
-    return np.stack([np.interp(at_m, length_m, path_m[:, k]) for k in (0, 1)], axis=1)
+    scan_times_s = np.arange(0.0, seconds, 1.0 / rate_hz)
+    columns = (way[:, 0], way[:, 1], yaw)
+    return scan_times_s, wrap_yaw(np.column_stack([np.interp(scan_times_s, times_s, column) for column in columns]))
 
 
 class _Lattice:
@@ -93,14 +92,13 @@ class _Lattice:
         self.building, self.resolution = building, building.grid.resolution
         # Distance to walls at every k-th cell.
         stride = lattice_stride(self.resolution)
+        nodes = slice(stride // 2, None, stride)
         self.clearance_m = wall_distance_m(building.walls, self.resolution)
-        start = stride // 2
-        clearance = self.clearance_m[start::stride, start::stride].copy()
-        centers = building.grid.centers_m()
-        x, y = centers[0][start::stride], centers[1][start::stride]
+        clearance = self.clearance_m[nodes, nodes].copy()
+        x, y = (centers[nodes] for centers in building.grid.centers_m())
         # Keep the largest connected part inside the building.
         grounds, _ = ndimage.label(~building.walls)
-        inside = grounds[start::stride, start::stride] != grounds[0, 0]
+        inside = grounds[nodes, nodes] != grounds[0, 0]
         fits = inside & (clearance >= passage_m(self.resolution))
         labels, count = ndimage.label(fits, structure=np.ones((3, 3)))
         if count == 0:
@@ -112,34 +110,35 @@ class _Lattice:
         self.graph = self._links(fits.shape, stride * self.resolution)
 
     def _links(self, shape: tuple[int, ...], spacing_m: float) -> sparse.csr_array:
+        """Return the costs of the links between neighbouring nodes."""
         from scipy import sparse
 
         number = np.full(shape, -1)
         number[tuple(self.nodes.T)] = np.arange(len(self.nodes))
         padded = np.pad(number, 1, constant_values=-1)
-        dislike = 1 + WALL_DISLIKE * np.exp(-(self.node_clearance_m - passage_m(self.resolution)) / 0.2)
+        node_cost = 1 + WALL_COST * np.exp(-(self.node_clearance_m - passage_m(self.resolution)) / 0.2)
         rows, columns, costs = [], [], []
         for di, dj in ((1, 0), (0, 1), (1, 1), (1, -1)):
             other = padded[1 + di : 1 + di + shape[0], 1 + dj : 1 + dj + shape[1]]
             linked = (number >= 0) & (other >= 0)
             rows.append(number[linked])
             columns.append(other[linked])
-            costs.append(spacing_m * np.hypot(di, dj) * (dislike[rows[-1]] + dislike[columns[-1]]) / 2)
+            costs.append(spacing_m * np.hypot(di, dj) * (node_cost[rows[-1]] + node_cost[columns[-1]]) / 2)
         entries = (np.concatenate(costs), (np.concatenate(rows), np.concatenate(columns)))
         return sparse.csr_array(entries, shape=(len(self.nodes), len(self.nodes)))
 
-    def stops(self, rng: np.random.Generator) -> list[int]:
+    def choose_stops(self, rng: np.random.Generator) -> list[int]:
         """Choose one node in each reachable room, on open floor near a random point of the room's middle."""
         stops = []
         x, y = self.points_m.T
         for room in sorted(self.building.rooms, key=lambda room: room.kind != "corridor"):
             x0, x1, y0, y1 = room.extent_m
-            here = np.nonzero((x > x0) & (x < x1) & (y > y0) & (y < y1))[0]
-            if len(here) == 0:
+            nodes = np.nonzero((x > x0) & (x < x1) & (y > y0) & (y < y1))[0]
+            if len(nodes) == 0:
                 continue
-            aim = np.array([x0, y0]) + rng.uniform(0.3, 0.7, 2) * (x1 - x0, y1 - y0)
-            distance = np.hypot(*(self.points_m[here] - aim).T)
-            stops.append(int(here[np.argmin(distance - np.minimum(self.node_clearance_m[here], 0.8))]))
+            goal = np.array([x0, y0]) + rng.uniform(0.3, 0.7, 2) * (x1 - x0, y1 - y0)
+            distance = np.hypot(*(self.points_m[nodes] - goal).T)
+            stops.append(int(nodes[np.argmin(distance - np.minimum(self.node_clearance_m[nodes], 0.8))]))
         return stops
 
     def tour(self, stops: list[int]) -> Floats:
@@ -149,17 +148,17 @@ class _Lattice:
         if not stops:
             return self.points_m[:1]
         cost, before = csgraph.dijkstra(self.graph, directed=False, indices=stops, return_predecessors=True)
-        left, here = set(range(1, len(stops))), 0
+        remaining, present = set(range(1, len(stops))), 0
         nodes = [stops[0]]
-        while left:
-            nearest = min(left, key=lambda k: cost[here, stops[k]])
+        while remaining:
+            nearest = min(remaining, key=lambda stop: cost[present, stops[stop]])
             # Follow the predecessors back from the next stop to the present one.
             leg = [stops[nearest]]
-            while leg[-1] != stops[here]:
-                leg.append(int(before[here, leg[-1]]))
+            while leg[-1] != stops[present]:
+                leg.append(int(before[present, leg[-1]]))
             nodes.extend(leg[-2::-1])
-            left.discard(nearest)
-            here = nearest
+            remaining.discard(nearest)
+            present = nearest
         return np.asarray(self.points_m[nodes])
 
 
@@ -254,11 +253,10 @@ def travel_times_s(poses_world: ArrayLike, speed_m_per_s: float, turn_rad_per_s:
         if not (math.isfinite(value) and value > 0):
             raise BadInput(f"odometry: the {name} must be a positive number, got {value!r}")
     poses = as_poses(poses_world)
-    steps = between(poses[:-1], poses[1:])
-    ways, turns = np.hypot(steps[:, 0], steps[:, 1]), np.abs(steps[:, 2])
-    took = np.maximum(ways / speed_m_per_s, turns / turn_rad_per_s)
+    ways_m, turns_rad = ways_and_turns(between(poses[:-1], poses[1:]))
+    steps_s = np.maximum(ways_m / speed_m_per_s, turns_rad / turn_rad_per_s)
     # Stamps ascend even if the robot stands still.
-    return np.concatenate([[0.0], np.cumsum(np.maximum(took, 1e-3))])
+    return np.concatenate([[0.0], np.cumsum(np.maximum(steps_s, 1e-3))])
 
 
 def _reported_steps(steps: Floats, noise: OdometryNoise, rng: np.random.Generator) -> Floats:
@@ -266,22 +264,21 @@ def _reported_steps(steps: Floats, noise: OdometryNoise, rng: np.random.Generato
     # Divide each step into turn, straight, turn.
     normals, slips = rng.standard_normal((len(steps), 4)), rng.random((len(steps), 2))
     distance = np.hypot(steps[:, 0], steps[:, 1])
-    first = np.where(distance > STANDING_M, np.arctan2(steps[:, 1], steps[:, 0]), 0.0)
+    first = np.where(distance > MIN_STRAIGHT_M, np.arctan2(steps[:, 1], steps[:, 0]), 0.0)
     backwards = np.abs(first) > math.pi / 2  # a robot that reverses does not turn about first
     first = np.where(backwards, wrap_angle(first + math.pi), first)
     last = wrap_angle(steps[:, 2] - first)
     signed = np.where(backwards, -distance, distance)
-
     # Add noise to the straight and the turns.
     turned = np.abs(first) + np.abs(last)
-    spread = np.sqrt(noise.distance_per_m**2 * distance + noise.distance_per_rad**2 * turned)
-    reported = (1.0 + noise.distance_scale) * signed + spread * normals[:, 0]
+    sigma = np.sqrt(noise.distance_per_m**2 * distance + noise.distance_per_rad**2 * turned)
+    reported = (1.0 + noise.distance_scale) * signed + sigma * normals[:, 0]
 
-    def turn(true: Floats, normal: Floats) -> Floats:
+    def noisy_turn(true: Floats, normal: Floats) -> Floats:
         sigma = np.sqrt(noise.turn_per_m**2 * distance / 2 + noise.turn_per_rad**2 * np.abs(true))
         return np.asarray((1.0 + noise.turn_scale) * true + noise.drift_rad_per_m * distance / 2 + sigma * normal)
 
-    first, last = turn(first, normals[:, 1]), turn(last, normals[:, 2])
+    first, last = noisy_turn(first, normals[:, 1]), noisy_turn(last, normals[:, 2])
     # Slips: exponential distance, normal yaw.
     slipped = slips[:, 0] < -np.expm1(-noise.slips_per_m * (distance + turned))
     reported = reported + np.where(slipped, -noise.slip_m * np.log1p(-slips[:, 1]), 0.0)
@@ -289,8 +286,8 @@ def _reported_steps(steps: Floats, noise: OdometryNoise, rng: np.random.Generato
     return np.stack([reported * np.cos(first), reported * np.sin(first), wrap_angle(first + last)], axis=-1)
 
 
-def related_pairs(poses_world: Floats, seed: int = 0) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Choose pairs of poses up to `NEAR_M` apart: successive poses, and on average two others per pose.
+def related_pairs(poses_world: Floats, seed: int = 0) -> tuple[Indices, Indices]:
+    """Choose pairs of poses up to `RELATED_M` apart: successive poses, and on average two others per pose.
 
     Kuemmerle et al. (2009) relate poses whose scans a person can align: neighbours in time, and places seen again.
     Returns the indices of the earlier and the later pose of each pair, ascending, each pair once.
@@ -300,14 +297,14 @@ def related_pairs(poses_world: Floats, seed: int = 0) -> tuple[NDArray[np.intp],
     if count < 2:
         return np.empty(0, np.intp), np.empty(0, np.intp)
     pairs = np.stack([np.arange(count - 1), np.arange(1, count)], axis=1)
-    start = rng.integers(0, count - 1, PAIRS_A_POSE * 4 * count)
+    start = rng.integers(0, count - 1, PAIRS_PER_POSE * 4 * count)
     # Candidates at log-uniform gaps in time, so that pairs seconds apart are as frequent as pairs minutes apart.
     gap = np.exp(rng.uniform(0.0, np.log(count), len(start))).astype(np.intp)
     far = np.stack([start, start + gap], axis=1)[start + gap < count]
     pairs = np.concatenate([pairs, far])
-    # Keep distinct pairs that are close enough, up to the number wanted.
+    # Select distinct pairs that are close enough, `PAIRS_PER_POSE` on average.
     pairs = pairs[np.sort(np.unique(pairs, axis=0, return_index=True)[1])]
-    apart = np.hypot(*(poses_world[pairs[:, 0], :2] - poses_world[pairs[:, 1], :2]).T)
-    kept = pairs[apart <= NEAR_M][: PAIRS_A_POSE * count]
-    order = np.lexsort((kept[:, 1], kept[:, 0]))
-    return kept[order, 0], kept[order, 1]
+    distance_m = np.hypot(*(poses_world[pairs[:, 0], :2] - poses_world[pairs[:, 1], :2]).T)
+    pairs = pairs[distance_m <= RELATED_M][: PAIRS_PER_POSE * count]
+    earlier, later = pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))].T
+    return earlier, later

@@ -10,6 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
+from bayesmap.space.arrays import Indices, Mask
+from bayesmap.space.planar import Floats
 from bayesmap.space.scans import Scans, as_array
 from bayesmap.space.time_order import since_start
 
@@ -71,18 +73,18 @@ class Grid:
         x0, x1, y0, y1 = self.extent_m
         return f"x {x0:g} to {x1:g}, y {y0:g} to {y1:g} m"
 
-    def centers_m(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def centers_m(self) -> tuple[Floats, Floats]:
         """Return the world x of the cell columns, shape (nx,), and world y of the cell rows, shape (ny,)."""
         (x0, y0), (nx, ny) = self.origin, self.shape
         x, y = (np.arange(n) + 0.5 for n in (nx, ny))
         return np.asarray(x0 + self.resolution * x), np.asarray(y0 + self.resolution * y)
 
-    def centers_from_corner_m(self, cells: NDArray[np.integer]) -> NDArray[np.float64]:
+    def centers_from_corner_m(self, cells: NDArray[np.integer]) -> Floats:
         """Return centres of cells, given flat indices ``x * ny + y``, in metres from the grid's corner, (n, 2)."""
         ny = self.shape[1]
         return np.stack([cells // ny + 0.5, cells % ny + 0.5], axis=-1) * self.resolution
 
-    def to_cells(self, points_world: NDArray[np.float64]) -> NDArray[np.float64]:
+    def to_cells(self, points_world: Floats) -> Floats:
         """Return world points, ``(..., 2)`` in metres, in units of cells from the origin, ``(..., 2)``."""
         points = np.asarray(points_world, dtype=np.float64)
         return np.asarray((points - np.asarray(self.origin)) / self.resolution)
@@ -112,8 +114,7 @@ class Grid:
     @classmethod
     def over(cls, low: tuple[float, float], high: tuple[float, float], resolution: float) -> Grid:
         """Return the smallest grid that holds a rectangle from its lower left to its upper right corner, world metres.
-
-        The origin is a multiple of the resolution. More than `MAX_CELLS` cells raise `BadInput`.
+        The origin is a multiple of the resolution. Raises `BadInput` for more than `MAX_CELLS` cells.
         """
         shape, (x, y) = _whole_cells(low, high, resolution)
         return cls(shape=shape, resolution=resolution, origin=(x * resolution, y * resolution))
@@ -144,7 +145,7 @@ def _large(nx: int, ny: int) -> str:
     return f"{nx:.6g} x {ny:.6g} cells"
 
 
-def outlying(scans: Scans) -> NDArray[np.intp]:
+def outlying(scans: Scans) -> Indices:
     """Select scans whose reach exceeds `MAX_REACH_RATIO` times the median reach. Returns indices, the furthest first.
 
     The reach is the distance of the pose from the median pose plus the longest hit. If more than one scan, and more
@@ -157,7 +158,7 @@ def outlying(scans: Scans) -> NDArray[np.intp]:
     return far[np.argsort(-reach[far], kind="stable")]
 
 
-def _offsets_m(scans: Scans) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _offsets_m(scans: Scans) -> tuple[Floats, Floats]:
     """Return each pose's larger distance along x or y from the median pose, and its longest hit, metres, (S,) each."""
     away = np.abs(scans.poses[:, :2] - np.median(scans.poses[:, :2], axis=0)).max(axis=1)
     return np.asarray(away), np.asarray(np.where(np.isfinite(scans.ranges_m), scans.ranges_m, 0.0).max(axis=1))
@@ -183,7 +184,7 @@ def why_outlying(scans: Scans, scan: int) -> str:
 ROUNDING = 1e-5  # largest excess over the bounds that is accepted: rounding in single precision
 
 
-def as_numbers(grid: Grid, values: ArrayLike, name: str, *, unknown: bool = False) -> NDArray[np.float64]:
+def as_numbers(grid: Grid, values: ArrayLike, name: str, *, unknown: bool = False) -> Floats:
     """Return one finite number per cell, shape (nx, ny), or raise BadInput; with ``unknown``, NaN is accepted too."""
     array = as_array(values, name)
     _need_shape(grid, array.shape, name)
@@ -195,7 +196,7 @@ def as_numbers(grid: Grid, values: ArrayLike, name: str, *, unknown: bool = Fals
     return array
 
 
-def as_probabilities(grid: Grid, values: ArrayLike, name: str, *, unknown: bool = False) -> NDArray[np.float64]:
+def as_probabilities(grid: Grid, values: ArrayLike, name: str, *, unknown: bool = False) -> Floats:
     """Return one probability per cell, shape (nx, ny), as `as_numbers`; `ROUNDING` outside [0, 1] is accepted."""
     array = as_numbers(grid, values, name, unknown=unknown)
     outside = (array < -ROUNDING) | (array > 1.0 + ROUNDING)
@@ -208,7 +209,7 @@ def as_probabilities(grid: Grid, values: ArrayLike, name: str, *, unknown: bool 
     return np.clip(array, 0.0, 1.0)
 
 
-def as_mask(grid: Grid, values: ArrayLike, name: str) -> NDArray[np.bool_]:
+def as_mask(grid: Grid, values: ArrayLike, name: str) -> Mask:
     """Return true or false per cell, shape (nx, ny), or raise BadInput; numbers are accepted if all are 0 or 1."""
     array = np.asarray(values)
     _need_shape(grid, array.shape, name)
@@ -220,7 +221,7 @@ def as_mask(grid: Grid, values: ArrayLike, name: str) -> NDArray[np.bool_]:
     return np.asarray(numbers == 1.0)
 
 
-def as_observed(grid: Grid, observed: ArrayLike | None) -> NDArray[np.bool_]:
+def as_observed(grid: Grid, observed: ArrayLike | None) -> Mask:
     """Return the cells that a beam reached, shape (nx, ny); None stands for all."""
     return np.ones(grid.shape, dtype=np.bool_) if observed is None else as_mask(grid, observed, "observed")
 

@@ -9,14 +9,12 @@ theory", but the retraction is plain composition, not the exponential map.
 
 from __future__ import annotations
 
-from typing import TypeVar
-
 import numpy as np
 from numpy.typing import NDArray
 
-Value = TypeVar("Value", bound=np.generic)
+from bayesmap.space.arrays import Mask
+
 Floats = NDArray[np.float64]
-Numbers = NDArray[np.floating] | NDArray[np.integer]
 
 
 def wrap_angle(angle_rad: Floats) -> Floats:
@@ -49,7 +47,7 @@ def ways_and_turns(motions: Floats) -> tuple[Floats, Floats]:
     return np.hypot(motions[..., 0], motions[..., 1]), np.abs(motions[..., 2])
 
 
-def are_within(motions: Floats, way_m: float, turn_rad: float) -> NDArray[np.bool_]:
+def are_within(motions: Floats, way_m: float, turn_rad: float) -> Mask:
     """Return which motions are shorter than ``way_m`` and turn by less than ``turn_rad``, (...)."""
     ways, turns = ways_and_turns(motions)
     return np.asarray((ways < way_m) & (turns < turn_rad))
@@ -66,26 +64,6 @@ def chain_motions(start: Floats, motions: Floats) -> Floats:
 def inverse(pose: Floats) -> Floats:
     """Return the pose of the outer frame in the pose's own frame."""
     return between(pose, np.zeros(3))
-
-
-def evenly_spaced(values: NDArray[Value], most: int) -> NDArray[Value]:
-    """Return at most ``most`` of the values, (N, ...), evenly spaced."""
-    return values if len(values) <= most else values[np.arange(most) * len(values) // most]
-
-
-def bracketing_indices(ascending: Numbers, numbers: Numbers) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Return the indices in ``ascending``, (S,), before and after each of ``numbers``, (N,) each. Outside, the indices
-    are the two at that end; a single ascending number is its own neighbour.
-    """
-    last = len(ascending) - 1
-    after = np.clip(np.searchsorted(ascending, numbers), 1, max(1, last))
-    return after - 1, np.minimum(after, last)
-
-
-def nearest_index(ascending: Numbers, numbers: Numbers) -> NDArray[np.intp]:
-    """Return the index in ``ascending``, (S,), nearest to each of ``numbers``, (N,); of two, the first."""
-    before, after = bracketing_indices(ascending, numbers)
-    return np.where(np.abs(numbers - ascending[before]) <= np.abs(ascending[after] - numbers), before, after)
 
 
 def interpolate(stamps_s: Floats, poses: Floats, at_s: Floats) -> Floats:
@@ -110,9 +88,7 @@ def transform(pose: Floats, points: Floats) -> Floats:
 
 
 def between_jacobians(relative: Floats) -> tuple[Floats, Floats]:
-    """Return the Jacobians of ``between(a, b)`` for steps of a and of b, each in its own frame: (..., 3, 3) each. Rows
-    are the components (x, y, yaw) of the relative pose, which is given in the frame of a.
-    """
+    """Return the Jacobians of ``between(a, b)`` for steps of a and of b, each in its own frame, (..., 3, 3) each."""
     by_a = np.zeros((*relative.shape[:-1], 3, 3))
     by_a[..., 0, 0] = by_a[..., 1, 1] = by_a[..., 2, 2] = -1.0
     by_a[..., 0, 2] = relative[..., 1]
@@ -132,17 +108,9 @@ def rotation(yaw_rad: Floats) -> Floats:
     return matrix
 
 
-def matrix_roots(matrices: Floats) -> Floats:
-    """Return a matrix R with R R^T = M for each positive semidefinite matrix M, (..., n, n)."""
-    values, vectors = np.linalg.eigh(matrices)
-    return np.asarray(vectors * np.sqrt(np.maximum(values, 0.0))[..., None, :])
-
-
 def frame_jacobians(frame_yaw: Floats, pose_in_frame: Floats) -> Floats:
-    """Return the derivatives of N poses in the world by steps of their frames in world axes, (N, 3, 3).
-
-    ``frame_yaw`` are the yaws of the frames, (N,), and ``pose_in_frame`` is (3,) or (N, 3). If a frame turns, the
-    pose in it moves sideways.
+    """Return derivatives of poses ``pose_in_frame``, (3,) or (N, 3), by steps of their frames in world axes, (N, 3, 3).
+    ``frame_yaw`` are the yaws of the frames, (N,). If a frame turns, the pose in it moves sideways.
     """
     x, y, result = pose_in_frame[..., 0], pose_in_frame[..., 1], np.tile(np.eye(3), (len(frame_yaw), 1, 1))
     result[:, 0, 2] = -np.sin(frame_yaw) * x - np.cos(frame_yaw) * y
@@ -151,7 +119,5 @@ def frame_jacobians(frame_yaw: Floats, pose_in_frame: Floats) -> Floats:
 
 
 def mount_jacobians(yaw: Floats, mount: Floats) -> Floats:
-    """Return the derivatives of relative poses of a frame at ``mount``, (3,), by relative poses of this frame,
-    (N, 3, 3). ``yaw`` are the turns from the first to the second poses, (N,).
-    """
+    """Return derivatives of relative poses of a frame at ``mount``, (3,), by those of this frame, (N, 3, 3)."""
     return np.asarray(rotation(-mount[2]) @ frame_jacobians(yaw, mount))

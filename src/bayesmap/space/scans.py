@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.space.planar import between, compose
+from bayesmap.space.arrays import Indices, Mask
+from bayesmap.space.planar import Floats, between, compose
 
 MOST_TURNS = 1.1  # largest width of a fan of beams in turns: beams may overlap a little at the end of a turn
 
@@ -58,15 +59,15 @@ class Scans:
             without an angle, or a range limit that is not positive. The message names the array, the scan and the beam.
     """
 
-    poses: NDArray[np.float64]
-    angles_rad: NDArray[np.float64]
-    ranges_m: NDArray[np.float64]
+    poses: Floats
+    angles_rad: Floats
+    ranges_m: Floats
     max_range_m: float
     min_range_m: float = 0.0
-    stamps_s: NDArray[np.float64] | None = None
-    beam_poses: NDArray[np.float64] | None = None
-    own_angles_rad: NDArray[np.float64] | None = None
-    mount: NDArray[np.float64] | None = None
+    stamps_s: Floats | None = None
+    beam_poses: Floats | None = None
+    own_angles_rad: Floats | None = None
+    mount: Floats | None = None
 
     def __post_init__(self) -> None:
         poses = as_poses(self.poses)
@@ -130,22 +131,21 @@ class Scans:
         return int(self.ranges_m.size if self.own_angles_rad is None else np.isfinite(self.own_angles_rad).sum())
 
     @property
-    def has_beam(self) -> NDArray[np.bool_]:
+    def has_beam(self) -> Mask:
         """Mask of the beams that each scan has, shape (S, A)."""
         if self.own_angles_rad is None:
             return np.broadcast_to(np.True_, self.ranges_m.shape)
         return np.isfinite(self.own_angles_rad)
 
-    def angles_by_scan(self) -> NDArray[np.float64]:
-        """Return beam angles in the sensor frame, (S, A), all finite.
-
-        If a scan has no such beam, the angle is that of the largest scan; it has no effect, because the reading is NaN.
+    def angles_by_scan(self) -> Floats:
+        """Return beam angles in the sensor frame, (S, A), all finite. A beam that a scan lacks has the largest scan's
+        angle.
         """
         if self.own_angles_rad is None:
             return np.broadcast_to(self.angles_rad, self.ranges_m.shape)
         return np.where(np.isnan(self.own_angles_rad), self.angles_rad, self.own_angles_rad)
 
-    def beams_of(self, scan: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def beams_of(self, scan: int) -> tuple[Floats, Floats]:
         """Return angles and readings of the beams of one scan, shape (N,) each."""
         if self.own_angles_rad is None:
             return self.angles_rad, self.ranges_m[scan]
@@ -167,18 +167,18 @@ class Scans:
         tally = np.bincount(kinds.ravel(), minlength=len(ReadingKind))
         return {kind.name.lower(): int(tally[kind]) for kind in ReadingKind}
 
-    def beam_angles_world(self) -> NDArray[np.float64]:
+    def beam_angles_world(self) -> Floats:
         """Return the direction of every beam in the world frame, radians, shape (S, A)."""
         yaw = self.poses[:, 2:3] if self.beam_poses is None else self.beam_poses[..., 2]
         return np.asarray(yaw + self.angles_by_scan())
 
-    def beam_starts_world(self) -> NDArray[np.float64]:
+    def beam_starts_world(self) -> Floats:
         """Return the start of every beam, metres in the world frame, shape (S, A, 2)."""
         if self.beam_poses is not None:
             return self.beam_poses[..., :2]
         return np.broadcast_to(self.poses[:, None, :2], (*self.ranges_m.shape, 2))
 
-    def hit_points_world(self) -> NDArray[np.float64]:
+    def hit_points_world(self) -> Floats:
         """Return the end points of the beams that hit something, metres, shape (H, 2)."""
         angles = self.beam_angles_world()
         hit = np.isfinite(self.ranges_m)
@@ -186,7 +186,7 @@ class Scans:
         ends = np.stack([np.cos(angles[hit]), np.sin(angles[hit])], axis=-1) * ranges[:, None]
         return np.asarray(self.beam_starts_world()[hit] + ends)
 
-    def select(self, scans: NDArray[np.intp] | NDArray[np.bool_] | slice) -> Scans:
+    def select(self, scans: Indices | Mask | slice) -> Scans:
         """Return the scans at the given indices, mask or slice."""
         names = ("poses", "ranges_m", "stamps_s", "beam_poses", "own_angles_rad")
         held = {name: array for name in names if (array := getattr(self, name)) is not None}
@@ -201,7 +201,7 @@ class Scans:
         return replace(self, angles_rad=angles, own_angles_rad=own)
 
     @property
-    def sweep_rad(self) -> NDArray[np.float64]:
+    def sweep_rad(self) -> Floats:
         """The angle from the first to the last beam of each scan, (S,) or one for all, ()."""
         if self.own_angles_rad is None:
             return np.asarray(self.angles_rad[-1] - self.angles_rad[0])
@@ -209,11 +209,11 @@ class Scans:
         return last - first
 
     @property
-    def steps_rad(self) -> NDArray[np.float64]:
+    def steps_rad(self) -> Floats:
         """The angle from each beam to the next, (A - 1,), or (S, A - 1) with NaN for missing beams."""
         return np.diff(self.angles_rad if self.own_angles_rad is None else self.own_angles_rad, axis=-1)
 
-    def _first_and_last(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def _first_and_last(self) -> tuple[Floats, Floats]:
         """Return the angles of the first and last beam of each scan, (S,) each; 0 for a scan without beams."""
         has = self.has_beam
         ends = has.argmax(axis=1), has.shape[1] - 1 - has[:, ::-1].argmax(axis=1)
@@ -221,9 +221,8 @@ class Scans:
         return angles[np.arange(len(self)), ends[0]], angles[np.arange(len(self)), ends[1]]
 
     def at(self, poses_world: ArrayLike) -> Scans:
-        """Return the same readings at other scan poses, (S, 3). Poses of single beams move with their scan's pose.
-
-        Poses of another shape, or poses that are not finite, raise `BadInput`.
+        """Return the readings at other poses, (S, 3). Poses of beams move with their scan's. Raises `BadInput` as
+        `as_poses`.
         """
         poses = as_poses(poses_world)
         if poses.shape != self.poses.shape:
@@ -234,9 +233,8 @@ class Scans:
         return replace(self, poses=poses, beam_poses=compose(poses[:, None], seen_from_scan))
 
     def holdout(self, every: int) -> tuple[Scans, Scans]:
-        """Split into (training, held out): every ``every``-th scan, from ``every // 2`` on, is held out.
-
-        A number below 2, or so large that no scan is held out, raises `BadInput`.
+        """Split into (training, held out): every ``every``-th scan, from ``every // 2`` on, is held out. Raises
+        `BadInput` for a number below 2, or so large that no scan is held out.
         """
         if every < 2:
             raise BadInput(f"holdout: hold out every n-th scan with n >= 2, got {every}")
@@ -253,7 +251,7 @@ class Scans:
         return replace(self, ranges_m=ranges, max_range_m=max_range_m)
 
 
-def as_poses(poses: ArrayLike) -> NDArray[np.float64]:
+def as_poses(poses: ArrayLike) -> Floats:
     """Return poses as an (S, 3) array; raise `BadInput` for another shape, or a number that is not finite."""
     array = np.atleast_2d(as_array(poses, "scans: poses"))
     if array.ndim != 2 or array.shape[1] != 3:
@@ -264,7 +262,7 @@ def as_poses(poses: ArrayLike) -> NDArray[np.float64]:
     return array
 
 
-def asked_poses(asked_by: str, poses: ArrayLike) -> NDArray[np.float64]:
+def asked_poses(asked_by: str, poses: ArrayLike) -> Floats:
     """Return poses that a user stated, (P, 3); raise `BadInput` as `as_poses`, or for headings that are degrees.
     Headings may add up along a path, so those are refused that begin, or change at once, by over two turns.
     """
@@ -284,13 +282,13 @@ def check_sigma_rad(asked_by: str, sigma_rad: float) -> None:
         raise BadInput(f"{asked_by}: sigma_rad is over half a turn: {sigma_rad:g} radians; are these degrees?")
 
 
-def path_words(poses: NDArray[np.float64], stamps_s: NDArray[np.float64] | None) -> str:
+def path_words(poses: Floats, stamps_s: Floats | None) -> str:
     """Return the length of a path, and its duration if there are stamps, in words."""
     words = f"{np.hypot(*np.diff(poses[:, :2], axis=0).T).sum():,.1f} m"
     return words if stamps_s is None or not len(stamps_s) else f"{words} in {np.ptp(stamps_s):,.1f} s"
 
 
-def as_angles(angles_rad: ArrayLike) -> NDArray[np.float64]:
+def as_angles(angles_rad: ArrayLike) -> Floats:
     """Return beam angles as an (A,) array; raise `BadInput` for another shape, no angle, or one that is not finite."""
     array = np.atleast_1d(as_array(angles_rad, "scans: angles_rad"))
     if array.ndim != 1 or len(array) == 0:
@@ -303,9 +301,7 @@ def as_angles(angles_rad: ArrayLike) -> NDArray[np.float64]:
     return array
 
 
-def _as_own_angles(
-    largest: ArrayLike, own: ArrayLike, ranges_m: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], NDArray[np.float64] | None]:
+def _as_own_angles(largest: ArrayLike, own: ArrayLike, ranges_m: Floats) -> tuple[Floats, Floats | None]:
     """Return the angles of the largest scan, (A,), and of each scan, (S, A), or None if all scans have the same."""
     # Check shapes and angles: a missing beam has the angle NaN and the reading NaN.
     each = as_array(own, "scans: angles_rad")
@@ -341,7 +337,7 @@ class Fan:
     first_rad: float
     step_rad: float
 
-    def angles_rad(self) -> NDArray[np.float64]:
+    def angles_rad(self) -> Floats:
         """Return the angle of each beam, (A,)."""
         return np.asarray(self.first_rad + self.step_rad * np.arange(self.beams))
 
@@ -350,9 +346,7 @@ class Fan:
         return f"{self.beams} beams {step:.4g} degrees apart from {first:.4g}"
 
 
-def side_by_side(
-    angles_rad: Sequence[NDArray[np.float64]], readings_m: Sequence[NDArray[np.floating]]
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def side_by_side(angles_rad: Sequence[Floats], readings_m: Sequence[NDArray[np.floating]]) -> tuple[Floats, Floats]:
     """Return angles and readings of scans of any lengths as arrays (S, A), padded with NaN."""
     shape = len(readings_m), max((len(row) for row in readings_m), default=0)
     angles, readings = np.full((2, *shape), np.nan)
@@ -385,7 +379,7 @@ def check_limits(min_range_m: float, max_range_m: float) -> None:
         raise BadInput(f"scans: min_range_m must lie in [0, {max_range_m:g}), got {min_range_m!r}")
 
 
-def as_array(values: ArrayLike, name: str) -> NDArray[np.float64]:
+def as_array(values: ArrayLike, name: str) -> Floats:
     """Return an array of numbers of any shape; raise `BadInput` for anything else."""
     try:
         return np.asarray(values, dtype=np.float64)
@@ -396,7 +390,7 @@ def as_array(values: ArrayLike, name: str) -> NDArray[np.float64]:
 MAX_BEAMS = 100_000  # per scan
 
 
-def fan(beams: int, fov_deg: float) -> NDArray[np.float64]:
+def fan(beams: int, fov_deg: float) -> Floats:
     """Return beam angles in the sensor frame, radians, (beams,), from the right end of the field of view to the left.
 
     An odd number of beams has one at each end, as in lasers of 181 or 361 beams. An even number leaves out the last, as

@@ -97,9 +97,7 @@ def repeated_stamps(stamps_s: NDArray[np.float64]) -> NDArray[np.bool_]:
 
 def elapsed_s(stamps_s: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return the shortest and the longest time from each scan to the next that the stamps allow, (S - 1,) each.
-
-    Stamps are (S,), in time order. Repeated stamps were rounded: scans of one stamp may lie anywhere between the stamps
-    before and after it. At the ends of the log the longest time is then infinite.
+    Repeated stamps were rounded: scans of one stamp, (S,), may lie anywhere between the stamps before and after it.
     """
     steps = np.abs(np.diff(stamps_s))
     same = steps < SAME_S

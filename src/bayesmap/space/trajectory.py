@@ -6,27 +6,15 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.space.planar import (
-    between,
-    bracketing_indices,
-    compose,
-    frame_jacobians,
-    interpolate,
-    inverse,
-    mount_jacobians,
-    wrap_angle,
-)
+from bayesmap.space.arrays import Indices, Mask, bracketing_indices
+from bayesmap.space.planar import Floats, between, compose, frame_jacobians, interpolate, mount_jacobians, wrap_yaw
 from bayesmap.space.scans import as_poses, path_words
 
 SLACK_S = 0.002  # largest time outside a trajectory that counts as its end: logs are written with few digits
 LONGEST_GAP_S = 0.3  # longest time between two poses that are interpolated: in seconds a robot turns corners
 FRAMES = ("base", "laser")  # frames on a robot whose poses a trajectory may have
-
-Floats = NDArray[np.float64]
-Indices = NDArray[np.intp]
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,7 +59,7 @@ def step_to(frame: str | None, mount: Floats | None, own: str) -> tuple[str, Flo
             f"trajectory: it has poses of the {own}; those of the {asked} need to know where the laser sits, which "
             "the log does not say; give it by --laser X,Y,DEGREES (read_log: laser), when the log is read"
         )
-    return asked, np.asarray(mount) if own == "base" else inverse(np.asarray(mount))
+    return asked, np.asarray(mount) if own == "base" else between(np.asarray(mount), np.zeros(3))
 
 
 @dataclass(frozen=True, eq=False)
@@ -142,16 +130,13 @@ class Trajectory:
         flat = flat.reshape(-1, *flat.shape[-2:])
         if len(flat) == 0:
             raise BadInput("trajectory: there is no draw")
-        off = flat - flat[0]
-        off[..., 2] = wrap_angle(off[..., 2])
+        off = wrap_yaw(flat - flat[0])
         mean = off.mean(axis=0)
         error = off - mean
         covariances = np.einsum("dsi,dsj->sij", error, error) / max(len(flat) - 1, 1)
-        poses = flat[0] + mean
-        poses[:, 2] = wrap_angle(poses[:, 2])
-        return cls(poses, stamps_s, covariances, flat, known_by=known_by)
+        return cls(wrap_yaw(flat[0] + mean), stamps_s, covariances, flat, known_by=known_by)
 
-    def at(self, at_s: Floats) -> tuple[Floats, NDArray[np.bool_]]:
+    def at(self, at_s: Floats) -> tuple[Floats, Mask]:
         """Return interpolated poses at times ``at_s``, (N, 3), and the mask of times within the trajectory, (N,)."""
         if self.stamps_s is None or len(self) == 0:
             raise BadInput("trajectory: it has no stamps, so that its pose at a time is not known")
@@ -159,7 +144,7 @@ class Trajectory:
         inside = (at >= self.stamps_s[0] - SLACK_S) & (at <= self.stamps_s[-1] + SLACK_S)
         return interpolate(self.stamps_s, self.poses, at), inside
 
-    def placed(self, at_s: Floats) -> tuple[Floats, NDArray[np.bool_], NDArray[np.bool_]]:
+    def placed(self, at_s: Floats) -> tuple[Floats, Mask, Mask]:
         """Return poses at times as `at` does, (N, 3), and two masks, (N,): times within, and times without a gap. A gap
         is a time between two poses more than `LONGEST_GAP_S` apart, and more than `SLACK_S` from both.
         """
@@ -170,9 +155,8 @@ class Trajectory:
         return poses, inside, near | (after - before <= LONGEST_GAP_S + SLACK_S)
 
     def of(self, frame: str | None, mount: Floats | None) -> Trajectory:
-        """Return the trajectory of the robot's base, or of its laser, which sits at ``mount``, (3,), on the base.
-
-        ``frame`` is as for `step_to`. A trajectory that does not name its own frame has the default.
+        """Return the trajectory of the robot's base, or of its laser at ``mount``, (3,), on the base, as `step_to`
+        says. A trajectory that does not name its own frame has the default.
         """
         own = self.frame or ("laser" if mount is None else "base")
         asked, step = step_to(frame, mount, own)

@@ -19,7 +19,8 @@ from scipy.interpolate import make_interp_spline
 from scipy.spatial.transform import RigidTransform, Rotation, Slerp
 
 from bayesmap.io.ros.recording import Malformed
-from bayesmap.space.planar import Floats, bracketing_indices
+from bayesmap.space.arrays import bracketing_indices
+from bayesmap.space.planar import Floats
 
 FURTHEST_M = 1e7
 LATEST_NS = 2**62

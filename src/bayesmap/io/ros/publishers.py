@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from bayesmap.io.ros.frames import Numbers, Samples, close
-from bayesmap.space.planar import bracketing_indices
+from bayesmap.space.arrays import bracketing_indices
 from bayesmap.space.time_order import moment
 
 SAME_WITHIN = 1e-4  # largest difference of equal values, in metres and radians: 1 mm at 10 m

@@ -29,7 +29,7 @@ from bayesmap.space.trajectory import Trajectory
 
 if TYPE_CHECKING:
     from bayesmap.poses.graph import PoseGaussian
-    from bayesmap.poses.trajectory import Trajectory as Approximation
+    from bayesmap.poses.trajectory import InferredTrajectory
 
 
 VERTICES = (b"VERTEX_SE2", b"VERTEX2")
@@ -162,7 +162,7 @@ def chain_edges(trajectory: Trajectory) -> Edges:
     return Edges(np.arange(steps), np.arange(1, steps + 1), relative, np.asarray(np.linalg.inv(covariance), np.float64))
 
 
-def slam_edges(trajectory: Approximation) -> Edges:
+def slam_edges(trajectory: InferredTrajectory) -> Edges:
     """Return the pose graph of `bayesmap.slam`: its constraints between key scans, and each other scan with its key.
 
     Informations are the curvatures of the cost, divided by two factors: the ratio of Student's t covariances to scales,
