@@ -76,15 +76,15 @@ def _center_map(walls: NDArray[np.bool_], shape: tuple[int, int]) -> NDArray[np.
 
 def _building(shape: tuple[int, int], seed: int) -> tuple[NDArray[np.bool_], Grid]:
     """Return the walls of a building and their grid, of the finest cells that fit. Raises `Refused` if none fit."""
-    from bayesmap.sim.building import MARGIN_M, SMALLEST_M, building
+    from bayesmap.sim.building import MARGIN_M, MIN_SIZE_M, building
 
     for resolution in (0.1, 0.25):
         margin = round(MARGIN_M / resolution)
         size_m = ((shape[0] - 2 * margin) * resolution, (shape[1] - 2 * margin) * resolution)
-        if max(size_m) >= SMALLEST_M[0] and min(size_m) >= SMALLEST_M[1]:
+        if max(size_m) >= MIN_SIZE_M[0] and min(size_m) >= MIN_SIZE_M[1]:
             walls = building(seed, size_m, resolution).walls
             return _center_map(walls, shape), Grid(shape, resolution, (0.0, 0.0))
-    least = [round(v / 0.25) + 4 for v in SMALLEST_M]
+    least = [round(v / 0.25) + 4 for v in MIN_SIZE_M]
     raise Refused(f"new: a building does not fit {shape[0]} x {shape[1]} cells", f"{least[0]} x {least[1]} are enough")
 
 
