@@ -220,7 +220,7 @@ def test_results_print_as_a_few_short_lines(run, scans):
         bm.localize(run, scans, prior=bm.InitialPose(POSE, 0.1, 0.1)), bm.localize(run, scans).last,
         run.plan([0.5, 0.5], [1.5, 0.5], 0.05, 0.9), run.information_gain([POSE], ANGLES),
         space.Trajectory(many, np.arange(900.0), own, many[None], known_by="wheels"), space.Trajectory(many),
-        poses.Trajectory(
+        poses.InferredTrajectory(
             many, None, index, None, index, own, many[:, 0], many[:, 0] > 0, index,
             poses.LoopClosures(index, index, none, none, none), None, index,
         ),
