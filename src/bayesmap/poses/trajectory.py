@@ -106,7 +106,7 @@ class InferredTrajectory:
         """Return four lines: size, path, loops, and places in doubt."""
         doubts = {"scans badly explained": self.flagged.sum(), "breaks": len(self.breaks), "leaps": len(self.leaps)}
         return (
-            f"Trajectory: {len(self):,} scans, {len(self.keys):,} of them key scans\n"
+            f"InferredTrajectory: {len(self):,} scans, {len(self.keys):,} of them key scans\n"
             f"  path: {path_words(self.poses, self.stamps_s)}\n  loop closures: {len(self.closures):,}\n"
             f"  in doubt: {', '.join(f'{count:,} {name}' for name, count in doubts.items())}"
         )
