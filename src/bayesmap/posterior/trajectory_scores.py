@@ -16,13 +16,8 @@ import scipy
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-<<<<<<< HEAD
-from bayesmap.space import planar
-from bayesmap.space.planar import Floats, between, interpolate, nearest_index, rotation, wrap_angle
-=======
-from bayesmap.space.arrays import bracketing_indices, nearest_index
-from bayesmap.space.planar import Floats, between, between_jacobians, interpolate, rotation, wrap_angle
->>>>>>> cfa7ec73 (Name the parts of poses, localization, sim and space by their nouns)
+from bayesmap.space import arrays, planar
+from bayesmap.space.planar import Floats, between, interpolate, rotation, wrap_angle
 from bayesmap.space.time_order import moment
 from bayesmap.space.trajectory import LONGEST_GAP_S, RelativeLaw, Trajectory
 
@@ -93,7 +88,7 @@ def relation_errors(stamps_s: Floats, poses: Floats, relations: Relations, *, ex
     within, has_poses = (np.ones(len(relations), dtype=np.bool_) for _ in range(2))
     for end_s in ends:
         within &= (end_s >= stamps_s[0] - SLACK_S) & (end_s <= stamps_s[-1] + SLACK_S)
-        earlier_s, later_s = (stamps_s[index] for index in planar.bracketing_indices(stamps_s, end_s))
+        earlier_s, later_s = (stamps_s[index] for index in arrays.bracketing_indices(stamps_s, end_s))
         at_pose = np.minimum(np.abs(end_s - later_s), np.abs(end_s - earlier_s)) <= SLACK_S
         has_poses &= at_pose if exact else at_pose | (later_s - earlier_s <= LONGEST_GAP_S + SLACK_S)
     covered = within & has_poses
@@ -180,7 +175,7 @@ def _by_law(law: RelativeLaw, stamps_s: Floats, relations: Relations, errors: Fl
     """Compute NEES and least region of each relation, by the law of the relative poses of the scans nearest in time.
     With the law's scale matrix S and degrees of freedom nu, e' S^-1 e / 3 follows F(3, nu).
     """
-    first, second = (nearest_index(stamps_s, end_s) for end_s in (relations.first_s, relations.second_s))
+    first, second = (arrays.nearest_index(stamps_s, end_s) for end_s in (relations.first_s, relations.second_s))
     # For two times about one scan the law of the step to a neighbouring scan is used, which is no surer.
     second = np.where(first == second, np.where(second > 0, second - 1, second + 1), second)
     scale = _in_end_frame(law.scales(first, second), relations) + 1e-15 * np.eye(DIMENSIONS)
@@ -222,5 +217,5 @@ def _independent(poses: Floats, covariances: Floats, stamps_s: Floats, relations
     total = np.zeros((len(relations), DIMENSIONS, DIMENSIONS))
     for pose, end_s, jacobian in zip(ends, ends_s, planar.between_jacobians(between(*ends)), strict=True):
         from_world = jacobian @ np.swapaxes(rotation(pose[:, 2]), 1, 2)
-        total += from_world @ covariances[nearest_index(stamps_s, end_s)] @ np.swapaxes(from_world, 1, 2)
+        total += from_world @ covariances[arrays.nearest_index(stamps_s, end_s)] @ np.swapaxes(from_world, 1, 2)
     return _in_end_frame(total, relations)
