@@ -142,7 +142,7 @@ def test_surfaces_and_trajectory_lie_over_the_map_and_can_be_hidden(open_page, r
     run, address = room
     page = open_page(address)
     until(page, "s.overlay?.strokes > 10")
-    layers, overlay = snapshot(page)["layers"], page.locator("canvas.overlay")
+    layers, overlay = snapshot(page)["layers"], page.locator(".stage > canvas.overlay")
     assert snapshot(page)["overlay"] == {"strokes": (run.surfaces()[2] >= 0.1).sum(), "trajectory": 12}
     with_surfaces = overlay.screenshot()
     page.get_by_role("checkbox", name="Surfaces").uncheck()
@@ -164,10 +164,10 @@ def test_a_draw_lies_over_the_mean(open_page, room):
     assert np.abs(np.array(page.evaluate("probes.opacity()")) - expected).max() <= 2
     playwright.expect(page.locator(".chips")).to_contain_text("over the mean")
     playwright.expect(legend(page)).to_contain_text("this draw")
-    playwright.expect(page.locator("canvas.hypothesis")).to_be_visible()
+    playwright.expect(page.locator(".stage > canvas.hypothesis")).to_be_visible()
     page.get_by_role("checkbox", name="Draws over the mean").uncheck()
     until(page, "!s.over")
-    playwright.expect(page.locator("canvas.hypothesis")).to_be_hidden()
+    playwright.expect(page.locator(".stage > canvas.hypothesis")).to_be_hidden()
 
 
 @pytest.mark.parametrize("width", [1280, pytest.param(1000, marks=pytest.mark.full)])
