@@ -55,8 +55,7 @@ def _loop_of_a_browser(request):
         asyncio._set_running_loop(loop)
 
 
-ENOUGH_BYTES = 1_000_000_000
-"""Below it JAX's programs are kept: files share half of theirs, and to compile them anew takes time."""
+ENOUGH_BYTES = 1_000_000_000  # below it JAX keeps programs: files share half, compiling takes time
 
 
 def resident_bytes():
@@ -90,10 +89,7 @@ def pytest_xdist_auto_num_workers(config):
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(config, items):
-    """Leave out the tier that is not asked for, and give a file's tests to one worker, which makes fixtures once.
-
-    All that compile many JAX programs are one worker's: programs take memory, and files share half of theirs.
-    """
+    """Leave out the other tier; one worker runs a file (fixtures once), and one all JAX files (they share programs)."""
     if not config.getoption("full"):
         left_out = [item for item in items if item.get_closest_marker("full")]
         if left_out:
@@ -102,18 +98,15 @@ def pytest_collection_modifyitems(config, items):
             config.stash[NOT_SELECTED] = len(left_out)
     for item in items:
         if item.get_closest_marker("xdist_group") is None:
-            group = "jax" if item.path.parent.name in OF_JAX else item.location[0]
-            item.add_marker(pytest.mark.xdist_group(group))
+            item.add_marker(pytest.mark.xdist_group("jax" if item.path.parent.name in OF_JAX else item.location[0]))
 
 
 OF_JAX = ("conformance", "gen", "programs")
 
-NOT_SELECTED = pytest.StashKey[int]()
-"""How many tests of the tier `full` were left out."""
+NOT_SELECTED = pytest.StashKey[int]()  # how many tests of the tier `full` were left out
 
 
 def pytest_sessionfinish(session):
-    """Tell the process that leads the workers what was left out."""
     if hasattr(session.config, "workeroutput"):
         session.config.workeroutput["not selected"] = session.config.stash.get(NOT_SELECTED, 0)
 
@@ -147,7 +140,6 @@ def not_run(skip_reasons, not_selected):
 
 
 def pytest_terminal_summary(terminalreporter, config):
-    """Say what was not run and how to run it."""
     skipped = [str(report.longrepr[-1]) for report in terminalreporter.stats.get("skipped", ())]
     lines = not_run([reason.removeprefix("Skipped: ") for reason in skipped], config.stash.get(NOT_SELECTED, 0))
     if lines:

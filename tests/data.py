@@ -6,7 +6,6 @@ from pathlib import Path
 import pytest
 
 FOLDER = Path(os.environ.get("BAYESMAP_DATA", Path(__file__).resolve().parents[2] / "shared" / "data"))
-"""The folder of the recordings."""
 
 
 def intel_log(name: str) -> Path:

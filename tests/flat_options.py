@@ -9,10 +9,7 @@ OF_METHOD = ("order", "start", "start_poses", "rounds", "particles")
 
 
 def grouped(**flat):
-    """Return arguments of `bm.infer`: chains and draws in a schedule, threads in where, and so on.
-
-    Options of a method that the chosen one does not have are left out.
-    """
+    """Return arguments of `bm.infer`: chains in a schedule, ...; options that the method does not have are left out."""
     out = {name: value for name, value in flat.items() if name not in (*OF_SCHEDULE, *OF_WHERE, *OF_CHECKPOINTS)}
     if any(name in flat for name in OF_SCHEDULE):
         out["schedule"] = bm.Schedule(**{name: flat[name] for name in OF_SCHEDULE if name in flat})
@@ -28,5 +25,4 @@ def grouped(**flat):
 
 
 def infer(scans, grid, **flat):
-    """Infer with flat options."""
     return bm.infer(scans, grid, **grouped(**flat))

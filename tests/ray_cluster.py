@@ -17,8 +17,7 @@ import warnings
 import pytest
 
 OBJECT_STORE_BYTES = 80_000_000  # 75 MB is the least that Ray takes
-PATIENCE_S = 300
-"""How long a process of the cluster may take to start: seconds, or minutes where many tests share a core."""
+PATIENCE_S = 300  # for a process to start: seconds, or minutes where many tests share a core
 ENVIRONMENT = {
     "RAY_USAGE_STATS_ENABLED": "0",
     "RAY_ACCEL_ENV_VAR_OVERRIDE_ON_ZERO": "0",  # without it Ray warns of a change to come
@@ -30,8 +29,7 @@ ENVIRONMENT = {
     "RAY_gcs_server_port_wait_time_s": str(PATIENCE_S),
     "RAY_health_check_timeout_ms": str(PATIENCE_S * 1000),  # of a slow node; one that is gone does not answer
 }
-PORTS = range(20_000, 32_000)
-"""Below those that the system gives to whoever asks for any, which could take one before Ray listens there."""
+PORTS = range(20_000, 32_000)  # below those that the system gives to whoever asks for any, perhaps before Ray listens
 AGENT_PORTS = ("metrics_agent_port", "metrics_export_port", "dashboard_agent_listen_port", "runtime_env_agent_port")
 """Told to Ray: see `Patience`."""
 
@@ -49,17 +47,15 @@ def free_ports(n):
 
 
 def node():
-    """Return the arguments of a small node."""
     ports = dict(zip(AGENT_PORTS, free_ports(len(AGENT_PORTS)), strict=True))
     return {"num_cpus": 1, "object_store_memory": OBJECT_STORE_BYTES, **ports}
 
 
 class Patience:
-    """Time for nodes to start, which Ray has two limits for and no settings.
+    """Time for nodes to start, which Ray limits twice, without settings.
 
-    Its raylet gives its agent 15 s to say where it listens, and then ends itself, unless it is told the port (issue
-    65983); it has an option for that, and `ray.init` does not set it. Who starts a node waits for 30 s ("The current
-    node timed out during startup"), whether the node is slow or dead.
+    Its raylet ends itself when its agent takes over 15 s, unless it is told the port (issue 65983), which `ray.init`
+    does not do. Who starts a node waits for 30 s ("The current node timed out during startup"), slow or dead.
     """
 
     def __init__(self, services):
@@ -97,7 +93,6 @@ class TwoNodes:
         self._second = None
 
     def complete(self):
-        """Start the second node where it is not there, whatever has happened to it."""
         if self._second is None:
             self._second = self._cluster.add_node(**node())
 

@@ -1,7 +1,4 @@
-"""Recordings as robots write them, from a simulated robot: by rosbags' writers, and by those of the mcap packages.
-
-Messages are plain dictionaries here, so that each writer serialises them in its own way.
-"""
+"""Recordings of a simulated robot, by rosbags' and mcap's writers; each serialises plain dictionaries in its way."""
 
 from __future__ import annotations
 
@@ -34,7 +31,6 @@ def ros2():
 
 @cache
 def ros1():
-    """Return the message types of ROS 1, with that of `/tf`."""
     store = get_typestore(Stores.ROS1_NOETIC)
     store.register(get_types_from_msg("geometry_msgs/TransformStamped[] transforms\n", TF))
     return store
@@ -109,10 +105,7 @@ def sonar(seconds, reading, frame="sonar"):
 
 
 def written(path: Path, messages, writer="mcap", definitions=None):
-    """Write (topic, type, seconds received, message) and return what to read: a file or a folder.
-
-    Of a ROS 1 bag ``definitions`` may say what stands in it for a type: text and MD5 sum.
-    """
+    """Write (topic, type, seconds received, message), for ROS 1 with ``definitions`` {type: (text, MD5)}; the path."""
     if writer.startswith("rosbag1"):
         return _rosbag1(Path(path), messages, writer, definitions or {})
     return {"mcap-ros1": _mcap_ros1}.get(writer, _ros2)(Path(path), messages, writer)
@@ -218,8 +211,7 @@ def _built(store, kind, message):
 # A robot in the tutorial's map.
 
 ANGLES = np.linspace(-2.0, 2.0, 41)
-MOUNT = (0.2, -0.1, 0.3)
-"""The laser on the robot: x, y, yaw."""
+MOUNT = (0.2, -0.1, 0.3)  # the laser on the robot: x, y, yaw
 
 
 def path_of(seconds):
@@ -248,8 +240,7 @@ def simulated(seconds, sensor=None, path=path_of, mount=MOUNT):
 
 
 SCAN_TIMES = 0.5 + 0.37 * np.arange(10)
-POSE_TIMES = 0.25 * np.arange(21)
-"""Poses come four times a second, at other times than scans."""
+POSE_TIMES = 0.25 * np.arange(21)  # four times a second, at other times than scans
 
 
 def robot(
@@ -270,8 +261,7 @@ def robot(
     for t, (x, y, yaw) in zip(times, path(times), strict=True):
         if tf_poses:
             # The map's own frame is 1 m and a quarter turn from the odometry's.
-            odom_pose = (y - 1.0, -x, yaw - math.pi / 2)
-            messages.append((f"{tf_space}/tf", TF, t, tf(transform(t, *frame[1:3], *odom_pose))))
+            messages.append((f"{tf_space}/tf", TF, t, tf(transform(t, *frame[1:3], y - 1.0, -x, yaw - math.pi / 2))))
             messages.append((f"{tf_space}/tf", TF, t, tf(transform(t, *frame[:2], 0.0, 1.0, math.pi / 2))))
         if odom:
             messages.append((f"{space}/odom", ODOM, t, odometry(t, x, y, yaw, frame[1], frame[2])))
@@ -289,7 +279,6 @@ def without(messages, topic):
 
 
 def with_scans(messages, *scans):
-    """Return messages with other scans: time and LaserScan of each."""
     return [*without(messages, "/scan"), *(("/scan", SCAN, t, scan) for t, scan in scans)]
 
 

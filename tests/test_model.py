@@ -76,16 +76,14 @@ def test_a_run_s_draw_is_a_state(prior):
 
 def test_poses_that_move_are_weighed_where_they_are_and_many_beams_some_at_a_time(monkeypatch):
     there = scans(3)
-    rng = np.random.default_rng(4)
-    poses = there.poses + rng.normal(0, 0.1, there.poses.shape)
+    poses = there.poses + np.random.default_rng(4).normal(0, 0.1, there.poses.shape)
     prior, cells = bm.Surface(0.5, 1.0), map_of(bm.Surface(0.5, 1.0), 4)
     model = Model(there, GRID, prior, SENSOR, bm.UncertainPoses(0.1, 0.1))
     moved = Model(there.at(poses), GRID, prior, SENSOR)
     at = State(cells, SENSOR, poses)
     assert model.log_likelihood(at) == pytest.approx(moved.log_likelihood(moved.state(cells)))
     of_poses = scipy.stats.norm.logpdf(poses - there.poses, 0, 0.1).sum()
-    rest = prior.log_prob(cells, GRID) + model.log_likelihood(at)
-    assert model.log_joint(at) == pytest.approx(of_poses + rest)
+    assert model.log_joint(at) == pytest.approx(of_poses + prior.log_prob(cells, GRID) + model.log_likelihood(at))
     fixed = Model(there, GRID, prior, SENSOR)
     assert fixed.log_joint(at) == -np.inf
     assert np.isfinite(fixed.log_joint(fixed.state(cells)))

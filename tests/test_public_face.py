@@ -39,8 +39,7 @@ def test_every_public_name_is_there_and_listed():
 
 
 MOST_ARGUMENTS = 12
-NOT_FOR_USERS = {"KnownMap", "BadInput"}
-"""Classes that users do not make by their own constructors, which are not counted."""
+NOT_FOR_USERS = {"KnownMap", "BadInput"}  # users do not make them by their own constructors: not counted
 
 
 METHOD_KINDS = (types.FunctionType, classmethod, staticmethod)
@@ -58,7 +57,6 @@ def public_functions():
 
 
 def arguments_of(function):
-    """The names of a function's arguments."""
     return [name for name in inspect.signature(function).parameters if name not in ("self", "cls")]
 
 
@@ -72,9 +70,8 @@ def test_public_functions_take_at_most_a_dozen_arguments():
 def test_the_plain_call_needs_scans_and_a_grid_alone(scans):
     """With the default prior, sensor and method it is the call that says them."""
     short = bm.Schedule(chains=1, warmup=3, draws=2)
-    plain = bm.infer(scans, GRID, seed=1, schedule=short)
     said = bm.infer(scans, GRID, prior=bm.Surface(), sensor="fit", method=bm.Gibbs(), seed=1, schedule=short)
-    np.testing.assert_array_equal(plain.draws, said.draws)
+    np.testing.assert_array_equal(bm.infer(scans, GRID, seed=1, schedule=short).draws, said.draws)
 
 
 @pytest.mark.parametrize(("make", "message"), [

@@ -61,8 +61,7 @@ with open(sys.argv[1], "w") as file:
 """
 """Collects all tests and says what that did. What compiling Python takes, which bytecode files save, is left out."""
 
-LIMIT_S = 6.0
-"""Seconds of processor time: 3 on a quiet core, and twice that where another thread keeps the same core busy."""
+LIMIT_S = 6.0  # of processor time: 3 on a quiet core, twice that on a shared one
 
 
 def run_python(arguments, folder, path):
@@ -77,8 +76,7 @@ def run_python(arguments, folder, path):
 def test_collecting_all_tests_takes_little_and_opens_starts_and_writes_nothing(tmp_path):
     """Every worker makes what a module makes at import, and a failure there ends the whole run."""
     told = tmp_path / "told.json"
-    path = os.pathsep.join([str(ROOT / "src"), os.environ.get("PYTHONPATH", "")])
-    run_python(["-c", COLLECT, str(told)], ROOT, path)
+    run_python(["-c", COLLECT, str(told)], ROOT, os.pathsep.join([str(ROOT / "src"), os.environ.get("PYTHONPATH", "")]))
     collection = json.loads(told.read_text())
     assert collection["code"] == 0
     assert collection["tests"] > 1000

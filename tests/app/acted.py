@@ -21,8 +21,7 @@ from bayesmap.app.shown.chains import RunningChains
 from bayesmap.app.sources import open_run
 from bayesmap.space.grid import Grid
 
-PAGE = 7
-"""The page that asks."""
+PAGE = 7  # that asks
 
 
 TINY = Document(
@@ -44,8 +43,6 @@ def header_of(message):
 
 @dataclass(frozen=True)
 class Said:
-    """A report, and what a test reads of it."""
-
     report: Report
 
     @cached_property
@@ -58,8 +55,6 @@ class Said:
 
 
 class Heard:
-    """An engine and what it said."""
-
     def __init__(self, opened=None):
         self.reports = []
         self.engine = Engine(lambda report: self.reports.append(Said(report)), opened)
@@ -82,11 +77,9 @@ class Heard:
             self.engine.advance()
 
     def chains_run(self):
-        """Tell whether chains made the result on show."""
         return self.engine._result is not None and isinstance(self.engine._result.estimate, RunningChains)
 
     def finish(self):
-        """Do the rest of the job."""
         while self.engine.busy:
             self.engine.advance()
 
@@ -104,7 +97,6 @@ class Heard:
         return said.header, said.buffers
 
     def saved_run(self, folder):
-        """Save the result on show, and load it."""
         (folder / "run.nc").write_bytes(file_of(self.engine._result, "run")[1])
         return bm.load(folder / "run.nc")
 
@@ -113,16 +105,13 @@ class Heard:
         return [(report.header, report.buffers) for report in self.reports if report.header["type"] == kind]
 
     def last(self, kind):
-        """Return header and buffers of the last report of a kind."""
         return self.every(kind)[-1]
 
     def all(self, kind):
-        """Return the headers of all reports of a kind."""
         return [header for header, _ in self.every(kind)]
 
 
 def shown(run, **options):
-    """Return an engine that shows a run."""
     heard = Heard(open_run(run, "run.nc"))
     heard.infer(heard.engine._opened.document, **options)
     return heard
@@ -168,7 +157,6 @@ class Acted:
         return new
 
     def picture(self):
-        """Send the present generation's first picture."""
         return self.hear(PICTURE)
 
     def painted(self, client=1, generation=None):
@@ -178,7 +166,6 @@ class Acted:
 
     @property
     def inferred(self):
-        """Return the jobs that the worker was given, in order."""
         return [task for task in self.tasks if isinstance(task, Infer)]
 
     @property
@@ -189,10 +176,8 @@ class Acted:
 
     @property
     def state(self):
-        """The last state that was sent."""
         return [header for header in self.sent if header["type"] == "state"][-1]
 
     @property
     def text(self):
-        """The last status that was sent."""
         return [header for header in self.sent if header["type"] == "status"][-1]["text"]

@@ -24,7 +24,6 @@ def room_scans(count=12):
 
 @cache
 def room_run(prior, draws=10, thin=1):
-    """Infer the room: two chains, once in a process."""
     schedule = bm.Schedule(chains=2, warmup=10, draws=draws, thin=thin)
     return bm.infer(room_scans(), GRID, prior=prior, sensor=SENSOR, schedule=schedule)
 
@@ -46,7 +45,6 @@ def bent_room_run():
 
 @cache
 def tutorial_run():
-    """Infer the tutorial's map: walls, two chains of twenty draws."""
     walls, pose = bm.worlds.tutorial()
     grid, sensor = bm.worlds.TUTORIAL_GRID, bm.Gaussian(0.2)
     angles = np.linspace(0, 2 * np.pi, 60, endpoint=False)
@@ -56,6 +54,5 @@ def tutorial_run():
 
 
 def write_room_log(path, count=12):
-    """Write the scans as a CARMEN log."""
     write_carmen(path, room_scans(count))
     return path

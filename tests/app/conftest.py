@@ -23,7 +23,6 @@ def warm_workers():
 
 @pytest.fixture(scope="session")
 def browser():
-    """Debian's Chromium without a head."""
     if CHROMIUM is None:
         pytest.skip("no Chromium on this machine")
     playwright = pytest.importorskip("playwright.sync_api")
@@ -36,17 +35,13 @@ def browser():
 
 @pytest.fixture
 def server(browser):
-    """The address of a server."""
     with served() as (address, _):
         yield address
 
 
 @pytest.fixture
 def open_page(browser):
-    """Opens addresses, and documents in servers of their own, in contexts of their own.
-
-    A page must cause no errors and leave the machine for nothing.
-    """
+    """Opens an address, or a document in its own server, in its own context; errors and requests elsewhere fail."""
     troubles = []
     with contextlib.ExitStack() as opened:
 
@@ -77,5 +72,4 @@ def room(tmp_path_factory, browser):
 
 @pytest.fixture
 def page(open_page):
-    """A page with the tutorial's map, its mean, and live."""
     return open_page(document())

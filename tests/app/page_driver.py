@@ -29,17 +29,14 @@ ARGUMENTS = (
     "--no-sandbox", "--disable-gpu", "--disable-background-networking", "--disable-component-update",
     "--disable-sync", "--no-first-run",
 )  # fmt: skip
-WAIT_SECONDS = 180.0
-"""How long anything may take that a page does, on a machine that others use, too."""
+WAIT_SECONDS = 180.0  # for anything that a page does, on a machine that others use, too
 PROBES = Path(__file__).with_name("probes.js")
 DESKTOP = {"viewport": {"width": 1280, "height": 860}, "color_scheme": "light"}
 
-NO_WALLS = base64.b64encode(bytes(56)).decode()
-"""The packed walls of an empty map of 21 x 21 cells."""
+NO_WALLS = base64.b64encode(bytes(56)).decode()  # of a map of 21 x 21 cells
 
 
 def new_context(browser, wait_s=WAIT_SECONDS, **options):
-    """Open a context of a browser whose pages have the probes."""
     context = browser.new_context(**{**DESKTOP, **options})
     context.add_init_script(path=PROBES)
     context.set_default_timeout(1000 * wait_s)
@@ -47,11 +44,7 @@ def new_context(browser, wait_s=WAIT_SECONDS, **options):
 
 
 class Served:
-    """A server on a thread of this process, until `stop`.
-
-    Attributes:
-        address: what it announced.
-    """
+    """A server on a thread of this process, until `stop`; its `address` is what it announced."""
 
     def __init__(self, file=None, port=0, started=None):
         self._servers, self._hubs, self._trouble, ready = [], [], None, threading.Event()
@@ -111,12 +104,10 @@ DONE = "s.painted.sweeps >= s.document.sweeps || s.painted.approximate && !/auto
 
 
 def document(**changes):
-    """Return the tutorial's document as JSON, with changes."""
     return {**tutorial_document().to_json(), **changes}
 
 
 def propagated(json_document):
-    """Return the scene of a document, and belief propagation on it."""
     scene = simulated_scene(parse_document(json_document))
     preview = Preview(scene.near_problem)
     while not preview.converged:
@@ -145,10 +136,7 @@ def snapshot(page):
 
 
 def until(page, condition, argument=None):
-    """Wait until a JavaScript condition on the snapshot `s` holds, and its picture and its words are on the screen.
-
-    The page's own policy forbids Playwright's way.
-    """
+    """Wait until a condition on the snapshot `s` holds and is painted; the page's policy forbids Playwright's way."""
     wrapped = f"(argument) => {{ const s = window.bayesmap?.snapshot(); return Boolean(s && ({condition})); }}"
     deadline = time.monotonic() + WAIT_SECONDS
     while not page.evaluate(wrapped, argument):
@@ -191,8 +179,7 @@ def settled(page):
 
 def serious(page):
     """The serious violations that axe finds on a page: rules, and an element of each."""
-    axe = pytest.importorskip("axe_playwright_python.sync_playwright").Axe()
-    violations = axe.run(page).response["violations"]
+    violations = pytest.importorskip("axe_playwright_python.sync_playwright").Axe().run(page).response["violations"]
     return [(rule["id"], rule["nodes"][0]["html"]) for rule in violations if rule["impact"] in ("serious", "critical")]
 
 
@@ -213,5 +200,4 @@ def colour_at(page, x, y, offset=(0.0, 0.0)):
 
 
 def brightness_at(page, x, y, offset=(0.0, 0.0)):
-    """Return the brightness of a cell's centre, from 0 for black to 255 for white."""
     return float(colour_at(page, x, y, offset).mean())

@@ -11,7 +11,6 @@ def act(page, action):
 
 
 def choose(page, name):
-    """Choose a tool or a layer."""
     more = page.get_by_role("button", name="More tools")
     if more.is_visible():
         more.click()
@@ -19,7 +18,6 @@ def choose(page, name):
 
 
 def press(page, name):
-    """Press a button."""
     page.get_by_role("button", name=name, exact=True).click()
 
 
@@ -28,13 +26,11 @@ def undo(page):
 
 
 def enter(page, name, value):
-    """Give a setting a number by its field, and wait for its picture."""
     field = page.get_by_role("spinbutton", name=name)
     act(page, lambda: field.fill(str(value)) or field.press("Tab"))
 
 
 def slide(page, name, value):
-    """Give a setting a number by its slider, and wait for its picture."""
     act(page, lambda: page.get_by_role("slider", name=name).fill(str(value)))
 
 
@@ -47,7 +43,6 @@ def run(page, draws=None):
 
 
 def show_draw(page, number, chain=None):
-    """Show a draw, and wait for its picture."""
     if chain is not None:
         page.get_by_label("Chain", exact=True).select_option(str(chain))
     page.get_by_role("slider", name="Draw number").fill(str(number))
@@ -57,12 +52,10 @@ def show_draw(page, number, chain=None):
 
 
 def click(page, x, y):
-    """Click a cell."""
     page.mouse.click(*centre(page, x, y))
 
 
 def press_and_drag(page, cells, steps=1):
-    """Press in the first cell, move through the others, release."""
     page.mouse.move(*centre(page, *cells[0]))
     page.mouse.down()
     for cell in cells[1:]:

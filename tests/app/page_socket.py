@@ -32,7 +32,6 @@ def serving(*arguments):
 
 
 def socket_address(address):
-    """Return the address of the page's socket."""
     return address.replace("http", "ws", 1).replace("/?", "/socket?")
 
 
@@ -55,13 +54,10 @@ class Talk:
         raise AssertionError(f"no {kind} came within {PATIENCE_S:.0f} s")
 
     def confirmed(self):
-        """Return the state after the last message."""
         return self.until("state", lambda header: header["seq"] >= self.seq)[0]
 
 
 class Page(Talk):
-    """Talks to a server through the page's socket."""
-
     def __init__(self, address, **options):
         self.connection = connect(socket_address(address), compression=None, max_size=None, **options)
 
@@ -87,9 +83,7 @@ class Page(Talk):
 
 
 def children(pid):
-    """Return the numbers of a process's own processes."""
-    tasks = Path(f"/proc/{pid}/task").glob("*/children")
-    return [int(child) for path in tasks for child in path.read_text().split()]
+    return [int(child) for path in Path(f"/proc/{pid}/task").glob("*/children") for child in path.read_text().split()]
 
 
 def ended(pid):

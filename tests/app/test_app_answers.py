@@ -68,8 +68,7 @@ def test_views_stand_where_it_is_free_and_tell_more_where_less_is_known():
     assert (header["type"], header["spacing"]) == ("views", 1.0)
     pose, nats = buffers["pose"], buffers["nats"]
     assert pose.shape == (len(nats), 3)
-    cells = np.floor(pose[:, :2] + 0.5).astype(int)
-    assert (field["p"].reshape(21, 21)[tuple(cells.T)] < 0.31 * 255).all()
+    assert (field["p"].reshape(21, 21)[tuple(np.floor(pose[:, :2] + 0.5).astype(int).T)] < 0.31 * 255).all()
     assert (nats > 0).all()
     own = np.hypot(*(pose[:, :2] - [6.0, 15.0]).T).argmin()
     assert nats[own] < 0.7 * nats.max()  # looking again from the same place tells less
@@ -191,9 +190,8 @@ def test_evidence_for_a_wall_is_the_mean_over_all_maps_of_the_other_cells():
 
 def test_the_evidence_of_a_beam_has_no_cap():
     """A reading a thousand standard deviations before the only other wall: half a million nats."""
-    grid = bm.Grid((12, 1), 1.0)
     scans = bm.Scans(np.array([[0.5, 0.5, 0.0]]), np.zeros(1), np.array([[5.0]]), max_range_m=20.0)
-    table = trace(scans, grid, bm.Gaussian(0.001))
+    table = trace(scans, bm.Grid((12, 1), 1.0), bm.Gaussian(0.001))
     p = np.zeros(12)
     p[8] = 1.0
     (nats,) = wall_ratios(table, p, 5).nats
@@ -204,8 +202,7 @@ def test_the_evidence_of_a_beam_has_no_cap():
 
 
 def test_the_histogram_reaches_to_the_lightest_particle():
-    log_weights = np.concatenate([np.linspace(-178_000.0, -90_000.0, 19_999), [0.0], [-np.inf]])
-    counts, lowest = histogram(log_weights)
+    counts, lowest = histogram(np.concatenate([np.linspace(-178_000.0, -90_000.0, 19_999), [0.0], [-np.inf]]))
     assert lowest == -178_000.0
     assert counts.sum() == 20_000
     assert (counts[0] > 0, counts[-1]) == (True, 1)
@@ -214,8 +211,7 @@ def test_the_histogram_reaches_to_the_lightest_particle():
 def test_beams_speak_for_a_wall_and_against_floor_and_each_is_told_on_request():
     heard = Heard()
     _, field = heard.infer(tutorial_document())
-    seen = field["reached"] >= 128
-    wall = tuple(np.argwhere(seen & (field["p"].reshape(21, 21) == 255))[0].tolist())
+    wall = tuple(np.argwhere((field["reached"] >= 128) & (field["p"].reshape(21, 21) == 255))[0].tolist())
     (of_wall, _), (of_floor, nothing) = (heard.answer(Inspect(*cell)) for cell in (wall, (10, 12)))
     assert of_wall["nats_for"] > of_wall["nats_against"]
     assert of_floor["nats_against"] > of_floor["nats_for"] + 1
@@ -258,9 +254,8 @@ def density(rays, beam, stop):
 def test_evidence_for_other_cells_is_the_log_ratio_of_densities_averaged_over_draws():
     grid = bm.Grid((5, 3), 1.0)
     draws = np.random.default_rng(3).uniform(0.0, 0.8, (4, grid.n_cells))
-    readings = np.array([[2.4, 2.6, np.inf, np.nan], [2.2, 3.1, 0.9, 1.7]])
     poses, angles = np.array([[0.3, 1.4, 0.0], [0.2, 0.4, 0.3]]), np.array([-0.3, 0.0, 0.1, 0.6])
-    scans = bm.Scans(poses, angles, readings, max_range_m=6.0)
+    scans = bm.Scans(poses, angles, np.array([[2.4, 2.6, np.inf, np.nan], [2.2, 3.1, 0.9, 1.7]]), max_range_m=6.0)
     cell, beams, rays = 2 * 3 + 1, np.arange(scans.n_beams), trace_rays(scans, grid)
     emptied = draws.copy()
     emptied[:, cell] = 0.0
@@ -292,22 +287,19 @@ def test_beams_speak_for_the_wall_of_a_room_and_neither_for_nor_against_its_floo
 
 
 def test_prior_and_beams_given_one_draw_are_the_log_odds_by_which_gibbs_draws_the_cell():
-    document = replace(tutorial_document(), prior=0.3, noise=0.6, angles=30, sweeps=40)
     heard = Heard()
-    heard.infer(document)
+    heard.infer(replace(tutorial_document(), prior=0.3, noise=0.6, angles=30, sweeps=40))
     stream = heard.engine._result.estimate
     for (x, y), chain, draw in (((12, 6), 0, 5), ((8, 10), 1, 39), ((11, 10), 0, 0)):
         facts, buffers = heard.answer(Inspect(x, y, each=True, chain=chain, draw=draw))
         maps = np.repeat(stream.draw(chain, draw)[0][None].astype(bool), 2, axis=0)
         maps[:, x, y] = [False, True]
         likelihood = log_likelihoods(stream.problem.table, np.packbits(maps.reshape(2, -1), axis=1))
-        odds = np.log(0.3 / 0.7) + likelihood[1] - likelihood[0]
-        assert facts["log_odds"] == pytest.approx(odds, abs=1e-3)
+        assert facts["log_odds"] == pytest.approx(np.log(0.3 / 0.7) + likelihood[1] - likelihood[0], abs=1e-3)
         assert facts["prior_nats"] == pytest.approx(np.log(0.3 / 0.7))
         assert facts["log_odds"] == pytest.approx(
             facts["prior_nats"] + facts["nats_for"] - facts["nats_against"], abs=0.005 * facts["beams"]
         )
-        states = [[stream.draw(c, d)[0][x, y] for d in range(40)] for c in range(2)]
-        assert np.array_equal(buffers["trace"], states)
+        assert np.array_equal(buffers["trace"], [[stream.draw(c, d)[0][x, y] for d in range(40)] for c in range(2)])
     facts, _ = heard.answer(Inspect(12, 6, each=True))
     assert (facts["draw"], facts["log_odds"]) == (None, None)  # given the means, it is not

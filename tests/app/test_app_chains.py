@@ -65,9 +65,8 @@ def test_maps_are_averaged_over_the_posterior_of_the_pose():
     """
     document = replace(TINY, noise=2.0, angles=10, sweeps=2500, pose_sigma=0.3, heading_sigma=0.3)
     scene = simulated_scene(document)
-    rng = np.random.default_rng(5)
     evidence, maps = [], []
-    for pose in scene.scans.poses[0] + 0.3 * rng.standard_normal((2000, 3)):
+    for pose in scene.scans.poses[0] + 0.3 * np.random.default_rng(5).standard_normal((2000, 3)):
         table = trace(scene.scans.at(pose[None]), document.grid, scene.sensor)
         posterior = enumerate_maps(WallProblem(table, scene.problem.prior, pose[None]))
         evidence.append(posterior.log_evidence)
@@ -88,8 +87,7 @@ def test_walls_blur_as_positions_become_uncertain_by_whole_cells():
     for sigma_m in (0.0, 0.5, 1.0):
         heard = Heard()
         _, buffers = heard.infer(replace(tutorial_document(), sweeps=20, angles=40, pose_sigma=sigma_m))
-        seen = buffers["reached"] >= 128
-        sure.append((buffers["p"][drawn & seen] / 255).mean())
+        sure.append((buffers["p"][drawn & (buffers["reached"] >= 128)] / 255).mean())
         if sigma_m > 0:  # no picture of known poses in between
             assert {header["method"] for header in heard.all("field")} == {"gibbs"}
     assert sure[0] > sure[1] + 0.1 > sure[2] + 0.2
@@ -106,8 +104,7 @@ def test_chains_are_dealt_out_over_shifts_by_whole_cells_as_the_prior_says():
     cells = np.arange(-3, 4)
     share = np.exp(-(cells**2.0))  # two sensors: exp(-2 s^2 / 2)
     for axis in range(2):
-        counted = [(shift[:, 0, axis] == cell).mean() for cell in cells]
-        assert np.abs(counted - share / share.sum()).max() < 0.01
+        assert np.abs([(shift[:, 0, axis] == cell).mean() for cell in cells] - share / share.sum()).max() < 0.01
 
 
 @pytest.mark.parametrize("method", ["propagate", "importance"])
@@ -125,15 +122,13 @@ def test_chains_at_several_shifts_are_judged_at_each_and_told_what_would_help(mo
     document = replace(tutorial_document(), pose_sigma=1.0, sweeps=40, angles=40)
     heard = Heard()
     header, _ = heard.infer(document)
-    stream = heard.engine._result.estimate
-    places = np.unique(stream.shifts, axis=0)
+    places = np.unique(heard.engine._result.estimate.shifts, axis=0)
     assert len(places) > 1
     verdict = header["verdict"]
     assert header["rhat"] > 1.05
     assert f"chains stand at {len(places)} shifts" in verdict["why"]
     assert "another sensor or surer poses" in verdict["why"]
-    same = heard.infer(replace(document, pose_sigma=0.01))[0]
-    assert "shifts" not in (same["verdict"] or {"why": ""})["why"]
+    assert "shifts" not in (heard.infer(replace(document, pose_sigma=0.01))[0]["verdict"] or {"why": ""})["why"]
 
 
 BUILDING = new_document("building", (80, 60), tutorial_document())
@@ -253,8 +248,7 @@ def test_rare_walls_cell_by_cell_from_the_prior_are_seen_to_be_impossible_and_bl
 
 
 def test_settings_are_told_as_they_were_set():
-    heard = Heard()
-    about = dict(heard.infer(replace(tutorial_document(), prior=0.0, pose_sigma=0.2, sweeps=5))[0]["about"])
+    about = dict(Heard().infer(replace(tutorial_document(), prior=0.0, pose_sigma=0.2, sweeps=5))[0]["about"])
     assert (about["Prior"], about["Poses"]) == ("independent: p wall 0", "uncertain: sigma 0.2 m")
 
 

@@ -140,8 +140,7 @@ def test_readings_spread_by_the_noise_over_the_field_of_view_or_are_exact_at_a_c
         exact_m = simulated_scene(document).exact_m.ravel()
         off_m = simulate_document(document)[0].ranges_m.ravel() - exact_m
         assert off_m[exact_m < 20].std() == pytest.approx(noise, rel=0.35)
-        exact = simulate_document(replace(document, readings="exact"))[0]
-        np.testing.assert_allclose(exact.ranges_m.ravel(), exact_m)
+        np.testing.assert_allclose(simulate_document(replace(document, readings="exact"))[0].ranges_m.ravel(), exact_m)
     fan, _ = simulate_document(replace(document, angles=11, fov=np.pi / 2))
     np.testing.assert_allclose(fan.angles_rad, np.linspace(-np.pi / 4, np.pi / 4, 11))
 

@@ -32,8 +32,7 @@ def probability(field):
 
 @pytest.mark.parametrize("prior", [0.0, 1.0])
 def test_a_prior_that_fixes_every_cell_is_the_answer(prior):
-    field = Heard().infer(replace(tutorial_document(), prior=prior, sweeps=5))
-    assert (field[1]["p"] == 255 * prior).all()
+    assert (Heard().infer(replace(tutorial_document(), prior=prior, sweeps=5))[1]["p"] == 255 * prior).all()
 
 
 def test_a_job_is_a_preview_and_then_chains_to_their_last_sweep():
@@ -65,9 +64,8 @@ def test_interruptions_do_not_change_the_posterior_of_a_document():
 @pytest.mark.parametrize("burn_in", [0.0, 0.3, 0.9])
 @pytest.mark.parametrize("mode", ["live", "run"])
 def test_the_burn_in_is_left_out_of_mean_diagnostics_and_saved_runs(burn_in, mode, tmp_path):
-    document = replace(tutorial_document(), sweeps=100, start="empty", burn_in=burn_in)
     heard = Heard()
-    heard.infer(document, mode)
+    heard.infer(replace(tutorial_document(), sweeps=100, start="empty", burn_in=burn_in), mode)
     fields = [(header, buffers) for header, buffers in heard.every("field") if not header["approximate"]]
     assert all(header["burned"] <= burn_in * header["sweeps"] for header, _ in fields)
     header, buffers = fields[-1]
@@ -207,8 +205,7 @@ def test_the_scan_says_where_beams_truly_end_and_a_cell_counts_its_beams():
 def test_many_sweeps_of_a_large_map_are_thinned_to_fit():
     scene = simulated_scene(new_document("blank", (500, 500), tutorial_document()))
     model, start = scene.model(scene.problem.prior), np.zeros((2, 500, 500), dtype=bool)
-    document = replace(tutorial_document(), sweeps=6000)
-    stream = RunningChains(model, WallGibbs("radial", start), scene.problem, document)
+    stream = RunningChains(model, WallGibbs("radial", start), scene.problem, replace(tutorial_document(), sweeps=6000))
     assert (stream.thin, stream.total) == (3, 6000)
     assert stream._record._draws.arrays["walls"].nbytes <= DRAW_BYTES
 

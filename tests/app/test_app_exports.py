@@ -107,8 +107,7 @@ def test_a_run_names_its_quantity_and_has_intervals_where_it_is_a_number(prior, 
     header, buffers = heard.answer(View("width"))
     assert header["layer"] == ("mean" if kind == "binary" else "width")
     if kind != "binary":
-        width = run.posterior.prior.width(run.posterior.draws, 0.9)
-        np.testing.assert_allclose(buffers["p"], 255 * width, atol=0.51)
+        np.testing.assert_allclose(buffers["p"], 255 * run.posterior.prior.width(run.posterior.draws, 0.9), atol=0.51)
 
 
 def test_surfaces_are_strokes_two_deviations_to_either_side_and_a_simulation_has_none():
@@ -144,9 +143,8 @@ def test_a_run_of_reflectivities_is_exported_too(tmp_path):
 
 
 def test_the_map_of_chains_calls_free_what_four_beams_passed_as_that_of_a_run(tmp_path):
-    document = replace(tutorial_document(), cells="reflectivity", sweeps=12, noise=0.1, angles=40, burn_in=0.0)
     heard = Heard()
-    heard.infer(document, "run")
+    heard.infer(replace(tutorial_document(), cells="reflectivity", sweeps=12, noise=0.1, angles=40, burn_in=0.0), "run")
     heard.saved_run(tmp_path).export(tmp_path / "own.yaml")
     occupancy, _ = saved_map(heard, tmp_path)
     assert np.array_equal(occupancy, read_map(tmp_path / "own.yaml")[0], equal_nan=True)

@@ -43,8 +43,7 @@ def test_a_figure_is_sampled_in_the_page_as_it_is_drawn_in(open_page, tmp_path):
     for name in ("Path", "Ghost", "Evidence"):  # only a server can answer these
         assert not page.get_by_role("radio", name=name, exact=True).is_visible()
     page.get_by_role("button", name="Export", exact=True).click()
-    offered = page.locator(".menu button:visible").all_inner_texts()
-    assert offered == ["Picture (PNG)", "Document (JSON)"]
+    assert page.locator(".menu button:visible").all_inner_texts() == ["Picture (PNG)", "Document (JSON)"]
 
 
 PAGE = (Path(__file__).parents[2] / "docs/stories.md").read_text(encoding="utf-8")

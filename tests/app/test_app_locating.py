@@ -24,7 +24,6 @@ from bayesmap.space.grid import Grid
 
 @cache
 def recorded():
-    """Scans with raw odometry, and the true poses."""
     return recording(turn_bias=0.03, noise=2.0)
 
 
@@ -88,8 +87,7 @@ def test_run_bends_the_trajectory_stage_by_stage_and_then_samples_the_cells(foun
     errors = [np.hypot(*(way - turned).T).max() for way in ways]
     assert errors[0] > 0.5
     assert errors[-1] < 0.05
-    pictured = [r.header for r in found.reports if r.header["type"] in ("stage", "overlay")]
-    pairs = itertools.pairwise(pictured)
+    pairs = itertools.pairwise([r.header for r in found.reports if r.header["type"] in ("stage", "overlay")])
     drawn = [stage["name"] for stage, way in pairs if (stage["type"], way["type"]) == ("stage", "overlay")]
     assert errors[drawn.index("aligned")] < 0.5 * errors[0]
     begun = [next(header for header in found.all("stage") if header["name"] == name) for name in stages[2:]]
@@ -118,8 +116,7 @@ def test_an_inferred_trajectory_is_kept_and_told_to_the_next_worker(found):
     field = heard.infer(few_sweeps(), "run")
     assert heard.all("stage") == []
     assert np.array_equal(field[1]["p"], found.last("field")[1]["p"])
-    live = heard.infer(replace(few_sweeps(), prior=0.3))
-    assert live[0]["method"] == "gibbs"
+    assert heard.infer(replace(few_sweeps(), prior=0.3))[0]["method"] == "gibbs"
     logged = heard.infer(replace(few_sweeps(), poses="logged"))
     assert heard.engine._result.document.grid == raw_log().document.grid
     assert logged[1]["p"].shape == raw_log().document.grid.shape
@@ -151,8 +148,7 @@ def test_a_log_that_was_located_is_mapped_on_cells_of_any_size_from_the_first_of
         assert buffers["p"].shape == grid.shape
         assert result.scene.n_used == 40
         assert np.array_equal(result.scene.scans.poses, placed.poses)
-    beams = 40 * len(placed.angles_rad)
-    assert result.scene.problem.table.n_beams == beams < placed.ranges_m.size
+    assert result.scene.problem.table.n_beams == 40 * len(placed.angles_rad) < placed.ranges_m.size
 
 
 @pytest.mark.parametrize("stage", ["front end", pytest.param("loops", marks=pytest.mark.full), "aligned"])
@@ -173,13 +169,11 @@ def test_cancel_stops_at_any_stage_and_leaves_what_there_is(stage):
 def test_another_job_takes_the_place_of_the_inference():
     heard = Heard(raw_log())
     heard.infer(few_sweeps(), "run", steps=1)
-    field = heard.infer(replace(few_sweeps(), poses="logged"))
-    assert field[0]["method"] == "gibbs"
+    assert heard.infer(replace(few_sweeps(), poses="logged"))[0]["method"] == "gibbs"
 
 
 def test_trouble_of_the_inference_is_reported():
-    blind = replace(raw_scans(), ranges_m=np.full_like(raw_scans().ranges_m, np.inf))
-    log = open_log(blind, "blind.log")
+    log = open_log(replace(raw_scans(), ranges_m=np.full_like(raw_scans().ranges_m, np.inf)), "blind.log")
     heard = Heard(log)
     heard.infer(replace(log.document, poses="odometry"), "run", steps=0)
     heard.finish()
@@ -209,25 +203,21 @@ def test_the_map_only_grows_and_on_the_same_lattice():
     assert (y0, y1) == pytest.approx(grid.extent_m[2:])
     assert (grid.origin[0] - x0) / 0.1 == pytest.approx(round((grid.origin[0] - x0) / 0.1))
     assert hit_count_map(away, larger).observed().sum() > 1000
-    many = raw_scans().select(np.arange(2000) % len(raw_scans()))
-    assert len(thin_scans(many)) == MOST_SCANS
+    assert len(thin_scans(raw_scans().select(np.arange(2000) % len(raw_scans())))) == MOST_SCANS
 
 
 def test_the_session_takes_over_the_grid_and_keeps_the_trajectory_for_the_next_worker():
     acted = Acted(raw_log().document)
     acted.act("hello")
     acted.act("run")
-    grid = Grid((30, 40), 0.1, (-1.0, 2.0))
-    acted.hear(OnGrid(grid, generation=0))
+    acted.hear(OnGrid(Grid((30, 40), 0.1, (-1.0, 2.0)), generation=0))
     assert acted.state["document"]["grid"]["shape"] == [30, 40]
     assert not acted.state["can_undo"]
-    known = Remember(np.zeros((2, 3)), np.zeros(4))
-    acted.hear(Located(known, generation=0))
+    acted.hear(Located(Remember(np.zeros((2, 3)), np.zeros(4)), generation=0))
     acted.session.worker_lost()
     before = len(acted.tasks)
     acted.hear(Ready())
-    kinds = [type(task) for task in acted.tasks[before:]]
-    assert kinds == [Remember, Infer]
+    assert [type(task) for task in acted.tasks[before:]] == [Remember, Infer]
     assert acted.inferred[-1].mode == "run"  # it was under way
     acted.act("set", patch={"poses": "logged"})
     assert acted.inferred[-1].document.poses == "logged"

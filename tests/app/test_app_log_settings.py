@@ -74,8 +74,7 @@ def test_a_page_that_comes_after_the_log_was_left_is_sent_no_trajectory(acted):
 
 
 def test_cells_that_are_too_small_are_refused_with_the_least_size(log):
-    huge = replace(log.document.source, bounds=((0.0, 0.0), (200.0, 10.0)))
-    acted = Acted(replace(log.document, source=huge))
+    acted = Acted(replace(log.document, source=replace(log.document.source, bounds=((0.0, 0.0), (200.0, 10.0)))))
     acted.act("set", patch={"resolution": 0.1})
     assert "more than 1000 a side" in acted.text
     assert "give at least 0.200 m" in acted.text
@@ -132,8 +131,7 @@ def test_a_link_to_the_same_log_takes_both_along(acted, log):
     acted.act("hello", document={**linked, "walls": ""})
     assert acted.session.document.scans_used == 5
     assert acted.session.document.grid == Grid.covering(log.scans, 0.2)
-    strange = {**linked, "grid": {**linked["grid"], "origin": [0.0, 0.0]}}
-    acted.act("hello", document={**strange, "walls": ""})
+    acted.act("hello", document={**linked, "grid": {**linked["grid"], "origin": [0.0, 0.0]}, "walls": ""})
     assert "this server shows" in acted.text
 
 
@@ -145,10 +143,8 @@ def test_the_posterior_of_the_first_scans_is_that_of_a_log_of_them(log):
     heard = Heard(log)
     field = heard.infer(document)
     alone = OpenedLog(log.document, log.scans.select(slice(5)))  # on the cells of the whole log
-    expected = Heard(alone).infer(replace(document, scans_used=None))
-    np.testing.assert_array_equal(field[1]["p"], expected[1]["p"])
-    every = heard.infer(replace(document, scans_used=None))
-    assert (every[1]["p"] != field[1]["p"]).any()
+    np.testing.assert_array_equal(field[1]["p"], Heard(alone).infer(replace(document, scans_used=None))[1]["p"])
+    assert (heard.infer(replace(document, scans_used=None))[1]["p"] != field[1]["p"]).any()
     surfaces = replace(document, cells="surface", sweeps=3)
     found, lone = heard.infer(surfaces), Heard(alone).infer(replace(surfaces, scans_used=None))
     np.testing.assert_array_equal(found[1]["p"], lone[1]["p"])
@@ -172,8 +168,7 @@ def plain_counts(scans, grid):
             if not np.isfinite(reading):
                 continue  # what came back from nothing is not counted
             t = np.append(np.arange(0, reading, 1e-3), reading)
-            xy = pose[:2] + t[:, None] * [np.cos(angle), np.sin(angle)]
-            at = np.floor(grid.to_cells(xy)).astype(int)
+            at = np.floor(grid.to_cells(pose[:2] + t[:, None] * [np.cos(angle), np.sin(angle)])).astype(int)
             inside = ((at >= 0) & (at < grid.shape)).all(axis=1)
             cells = at[inside, 0] * grid.shape[1] + at[inside, 1]
             assert inside[-1]
@@ -190,8 +185,7 @@ def test_counts_are_those_of_a_plain_walk_whatever_the_way_to_them(log):
         found, expected = counts.first(n), plain_counts(log.scans.select(slice(n)), grid)
         np.testing.assert_array_equal(found[0], expected[0])
         # a beam through a corner, or by less than a step through a cell, is all that may differ
-        off = np.abs(found[1] - expected[1])
-        assert off.sum() <= 0.05 * expected[1].sum()
+        assert np.abs(found[1] - expected[1]).sum() <= 0.05 * expected[1].sum()
     np.testing.assert_array_equal(counts.first(None), counts.first(12))
     assert counts.first(1)[0].sum() == hit_mask(scene)[0].sum()
 

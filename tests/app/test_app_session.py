@@ -112,8 +112,7 @@ def test_actions_that_cannot_be_done_change_nothing(message):
     acted = Acted()
     acted.picture()
     before = acted.session.generation
-    answers = acted.act(message.pop("type"), **message)
-    assert [m["type"] for m in answers] == ["status", "state"]
+    assert [m["type"] for m in acted.act(message.pop("type"), **message)] == ["status", "state"]
     assert acted.session.generation == before
 
 
@@ -231,8 +230,7 @@ def test_each_page_has_its_own_view():
     for client, pages in ((None, [1]), (2, [2])):
         report = Report(replace_fields(PICTURE, generation=acted.session.generation), {}, client)
         assert [effect.client for effect in acted.session.receive_report(report)] == pages
-    left = acted.session.leave(2)
-    assert left[0] == Show(2, View("mean"))  # nobody is shown that draw any more
+    assert acted.session.leave(2)[0] == Show(2, View("mean"))  # nobody is shown that draw any more
 
 
 def test_a_page_undoes_its_own_steps_and_those_of_pages_that_have_gone():
@@ -264,8 +262,7 @@ def test_a_worker_that_died_is_given_everything_again():
     acted = Acted()
     acted.act("view", layer="entropy")
     acted.act("set", patch={"prior": 0.1})
-    lost = acted.do(acted.session.worker_lost())
-    assert [m["type"] for m in lost] == ["worker", "status"]
+    assert [m["type"] for m in acted.do(acted.session.worker_lost())] == ["worker", "status"]
     acted.hear(Ready())
     assert (acted.inferred[-1].document.prior, acted.tasks[-2]) == (0.1, Show(1, View("entropy")))
 
@@ -291,10 +288,7 @@ EVENT = st.one_of(
 
 @given(st.lists(EVENT, max_size=50))
 def test_no_page_is_sent_a_picture_older_than_a_state_that_it_has_seen(events):
-    """Whatever the order of actions, of the worker's answers and of what the page says that it painted.
-
-    Late ones of any earlier generation are among them.
-    """
+    """In any order of actions, worker's answers and painted messages, late ones of earlier generations among them."""
     acted, at, drawn = Acted(), None, set()
     for kind, value in events:
         if kind == "move":

@@ -83,8 +83,7 @@ def test_a_report_that_comes_while_an_edit_is_applied_waits_for_it(shown, monkey
     done = Finished(DrawCount(1, 1), generation=view.widget.generation)
     view.widget._receive_report(Report(done))  # as a thread of the supervisor's calls it; it tells of the state
     editing.join()
-    state = view.confirmed()
-    assert state["document"] == view.widget.document
+    assert view.confirmed()["document"] == view.widget.document
 
 
 def test_a_run_is_shown_with_its_draws(shown):

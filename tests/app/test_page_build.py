@@ -53,11 +53,8 @@ def of_log(cells, mode, poses="logged"):
 
 
 def slam_run():
-    """Infer a run with its poses."""
-    scans = room_scans(4)
-    schedule = bm.Schedule(chains=2, warmup=2, draws=6)
     model = {"prior": bm.Independent(0.2), "poses": bm.UncertainPoses(0.05, 0.01)}
-    return bm.infer(scans, bm.Grid((40, 30), 0.2), **model, schedule=schedule)
+    return bm.infer(room_scans(4), bm.Grid((40, 30), 0.2), **model, schedule=bm.Schedule(chains=2, warmup=2, draws=6))
 
 
 CASES = {
@@ -81,11 +78,9 @@ def twin(make, folder, name):
     heard = make()
     document = heard.engine._result.document
     first = [[said for said in heard.reports if said.header["type"] == kind][-1:] for kind in ("scan", "overlay")]
-    html = heard.ask(Export("html"))[0].buffers["data"]
-    (folder / f"{name}.html").write_bytes(html)
+    (folder / f"{name}.html").write_bytes(heard.ask(Export("html"))[0].buffers["data"])
     draws = heard.last("field")[0]["draws"]
-    rng = np.random.default_rng(0)
-    cells = [Inspect(*map(int, cell)) for cell in rng.integers(0, document.grid.shape, (12, 2))]
+    cells = [Inspect(*map(int, cell)) for cell in np.random.default_rng(0).integers(0, document.grid.shape, (12, 2))]
     views = [View("width"), View("entropy"), View("mean")]
     views += [View("draw", c, d) for c in range(draws["chains"]) for d in (0, draws["count"] - 1)]
     scans = [] if document.simulated else [ShowScan(3), ShowScan(1)]
@@ -96,7 +91,6 @@ def twin(make, folder, name):
 
 
 def message_of(action):
-    """Return the message by which a page asks for an action."""
     fields = {name: getattr(action, name) for name in action.__struct_fields__ if name not in ("seq", "each")}
     return {"type": {View: "view", ShowScan: "scan", Inspect: "inspect"}[type(action)], **fields}
 
@@ -112,10 +106,9 @@ def small_document(**settings):
     """A world whose cells are not metres, with two sensors, of which one stands on a grid line and sees half a turn."""
     walls = np.random.default_rng(3).random((14, 9)) < 0.2
     walls[[3, 10], [4, 6]] = False
-    grid = bm.Grid((14, 9), 0.25, (-1.0, 0.4))
     sensors = (Sensor(1, -0.125, 1.5, 0.3), Sensor(2, 1.6, 2.0, 2.0))
     changes = {"walls": pack_walls(walls), "sensors": sensors, "angles": 25, "fov": 3.0, "noise": 0.1, "max_range": 1.8}
-    return replace(tutorial_document(), grid=grid, **{**changes, **settings})
+    return replace(tutorial_document(), grid=bm.Grid((14, 9), 0.25, (-1.0, 0.4)), **{**changes, **settings})
 
 
 def chains_of(document):
@@ -150,11 +143,10 @@ def scene_of(document, scene):
 def particles_of(document):
     scene = simulated_scene(document)
     particles = sample_importance(scene.problem, PARTICLES, document.seed)
-    heaviest = particles.maps(particles.log_weights.argmax(keepdims=True))
     return {
         **scene_of(document, scene), "log_weights": particles.log_weights.tolist(),
         "log_evidence": particles.log_evidence, "effective_sample_size": particles.effective_sample_size,
-        "heaviest": base64.b64encode(pack_walls(heaviest)).decode(),
+        "heaviest": base64.b64encode(pack_walls(particles.maps(particles.log_weights.argmax(keepdims=True)))).decode(),
     }  # fmt: skip
 
 

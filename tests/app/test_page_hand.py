@@ -252,7 +252,6 @@ def phone(open_page):
 
 
 def drag_a_finger(page, *cells):
-    """Put a finger on a cell, move it to others, take it off."""
     session = page.context.new_cdp_session(page)
 
     def touch(kind, *points):

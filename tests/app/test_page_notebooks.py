@@ -26,8 +26,7 @@ from page_socket import children, ended
 
 import bayesmap as bm
 
-CELL_SECONDS = 300.0
-"""How long a kernel may take to start, to import bayesmap, and to show the widget."""
+CELL_SECONDS = 300.0  # for a kernel to start, to import bayesmap, and to show the widget
 
 TOKEN = "of-the-test"
 
@@ -49,9 +48,8 @@ def jupyterlab(page, folder, source):
         "LabApp.check_for_updates_class": "jupyterlab.NeverCheckForUpdate", "LabApp.extension_manager": "readonly",
     }  # fmt: skip
     command = ["jupyterlab", "--no-browser", "--allow-root", *(f"--{key}={value}" for key, value in options.items())]
-    address = f"http://127.0.0.1:{port}/lab/tree/map.ipynb?token={TOKEN}"
     with listening(command, folder, f"http://127.0.0.1:{port}/api") as process:
-        page.goto(address)
+        page.goto(f"http://127.0.0.1:{port}/lab/tree/map.ipynb?token={TOKEN}")
         deadline = time.monotonic() + CELL_SECONDS
         canvas = page.locator(".jp-OutputArea-output canvas[role=application]")
         while not canvas.count():
@@ -126,7 +124,6 @@ def answers(address):
 
 
 def run_by_keys(page, code, keys):
-    """Put the cursor into the cell's code, and run it."""
     editor = page.locator(code).first
     editor.click(timeout=CELL_SECONDS * 1000)
     editor.press(keys)
@@ -185,8 +182,7 @@ def test_the_live_widget_infers_and_walls_are_drawn_on_it(show, home):
     choose(page, "Draw")
     act(page, lambda: press_and_drag(page, [(6, 12), (9, 12)]))
     after = settled(page)
-    drawn = after["walls"] != before["walls"]
-    assert np.argwhere(drawn).tolist() == [[x, 12] for x in range(6, 10)]
+    assert np.argwhere(after["walls"] != before["walls"]).tolist() == [[x, 12] for x in range(6, 10)]
     assert (after["probability"][6:10, 12] > 200).sum() >= 3
     assert brightness_at(page, 8, 12) < 100
     undo(page)

@@ -1,7 +1,4 @@
-"""Workers that begin warm: forked from a process that has imported all that they need and loaded their kernels.
-
-A worker takes a second and a half of processor time to start, and tests of the page start dozens.
-"""
+"""Workers forked from a process with all imports and kernels loaded: tests start dozens, a cold start takes 1.5 s."""
 
 import json
 import multiprocessing
@@ -15,16 +12,14 @@ import pytest
 from bayesmap.app import worker
 
 FORKS = "forkserver" in multiprocessing.get_all_start_methods()
-LOADS = "BAYESMAP_TESTS_LOAD_WORKER"
-"""A variable of the environment of the process from which workers are forked."""
+LOADS = "BAYESMAP_TESTS_LOAD_WORKER"  # set where workers are forked
 
 
 class Forked:
     """Stands for the process that `bayesmap.app.worker.start_worker` starts, and takes its arguments."""
 
     def __init__(self, end, path, reading):
-        make = _warm_context().Process
-        self._process = make(target=_serve, args=(end, path, dict(reading)), daemon=True)
+        self._process = _warm_context().Process(target=_serve, args=(end, path, dict(reading)), daemon=True)
         self._process.start()
 
     @property

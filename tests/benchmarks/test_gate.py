@@ -36,8 +36,7 @@ def test_a_ratio_is_of_the_fastest_of_each_measured_in_turn(monkeypatch):
         calls.append(name)
         return next(times[name])
 
-    both = (partial(seconds, name) for name in times)
-    found = ratio("r", *both, repeats=3, against=lambda seconds: f"{seconds:g} s")
+    found = ratio("r", *(partial(seconds, name) for name in times), repeats=3, against=lambda seconds: f"{seconds:g} s")
     assert found.value == 10.0
     assert found.spread == (30 / 9, 45.0)
     assert (found.against, found.better) == ("20 s", "higher")
@@ -65,8 +64,7 @@ def test_a_derived_figure_measures_its_sources_again():
 
 
 def test_json_says_everything_but_how_to_measure_again():
-    found = Figure("a", 1.0, "s", spread=(1.0, 2.0), again=lambda: None)
-    assert found.to_json() == {
+    assert Figure("a", 1.0, "s", spread=(1.0, 2.0), again=lambda: None).to_json() == {
         "name": "a", "value": 1.0, "unit": "s", "better": "lower", "spread": (1.0, 2.0), "against": "",
         "yardstick_s": None, "gated": True,
     }  # fmt: skip
@@ -107,16 +105,14 @@ class Clock:
 def test_the_shorter_of_two_is_repeated_for_as_long_as_the_longer(monkeypatch):
     clock, ours = Clock(), iter([1.0, 3.0, 2.0, 2.0, 99.0])
     monkeypatch.setattr(figure, "time", clock)
-    found = ratio("r", clock.work(1.0, lambda: 8.0), clock.work(0.25, lambda: next(ours)), repeats=1)
-    assert found.value == 4.0
+    assert ratio("r", clock.work(1.0, lambda: 8.0), clock.work(0.25, lambda: next(ours)), repeats=1).value == 4.0
     assert next(ours) == 99.0
     once = iter([1.0, 99.0])
     assert mean_for(clock.work(5.0, lambda: next(once)), 2.0) == 1.0  # the longer of two is done once
 
 
 def baseline(**changes):
-    before = {"value": 2.0, "unit": "s", "better": "lower", "yardstick_s": 0.5, **changes}
-    return Baseline("cpu", {"a": before})
+    return Baseline("cpu", {"a": {"value": 2.0, "unit": "s", "better": "lower", "yardstick_s": 0.5, **changes}})
 
 
 RATES, RATIOS = {"unit": "maps/s", "better": "higher"}, {"unit": "x", "better": "higher"}
@@ -167,8 +163,7 @@ def test_a_ratio_to_a_peer_fails_nothing():
 def test_a_baseline_is_read_as_it_was_written(tmp_path):
     figure = Figure("a", 2.0, "s", yardstick_s=0.5, spread=(2.0, 3.0))
     write(tmp_path / "b.json", "cpu", "0.1", {"a": figure})
-    found = Baseline.read(tmp_path / "b.json")
-    assert found.factor(replace(figure, value=3.0), "cpu") == 1.5
+    assert Baseline.read(tmp_path / "b.json").factor(replace(figure, value=3.0), "cpu") == 1.5
     assert Baseline.read(tmp_path / "none.json").factor(figure, "cpu") is None
 
 

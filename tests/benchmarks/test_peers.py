@@ -60,8 +60,7 @@ harness.main("toy", "A toy.", {{"a": case}}, ("numpy",), lambda prior: -prior, l
 
 
 def started(code, timeout_s=60.0, *arguments):
-    command = [sys.executable, "-c", code, *arguments]
-    return turns(command, cores=None, environment=os.environ, timeout_s=timeout_s)
+    return turns([sys.executable, "-c", code, *arguments], cores=None, environment=os.environ, timeout_s=timeout_s)
 
 
 def test_a_peer_says_what_it_is_and_repeats_when_told():
@@ -101,8 +100,7 @@ def test_a_rawlog_has_odometry_and_readings_in_turn(tmp_path):
     name = b"\x9fmrpt::obs::CObservationOdometry\x02\x94mrpt::poses::CPose2D\x01"
     assert data.startswith(name + struct.pack("<3d", 1.0, 2.0, 0.5) + b"\x88\x08\x00\x00\x00ODOMETRY")
     assert [data.count(kind) for kind in (b"CObservationOdometry\x02", b"CObservation2DRangeScan\x07")] == [2, 2]
-    readings = struct.pack("<I3f", 3, 1.5, 20.0, 2.5) + b"\x01\x00\x01"
-    assert data.count(readings) == 2
+    assert data.count(struct.pack("<I3f", 3, 1.5, 20.0, 2.5) + b"\x01\x00\x01") == 2
     aperture = struct.pack("<f?f", np.radians(2.0), True, 20.0)
     assert data.count(b"CObservation2DRangeScan\x07" + aperture + b"\x94mrpt::poses::CPose3D\x03") == 2
 

@@ -12,7 +12,6 @@ from shell import SLAM, json_of, succeed
 from bayesmap.io.logs import read_log
 
 SHORT = ("--resolution 0.25 --chains 2 --warmup 5 --draws 8", "--no-progress")
-"""Options of a run that takes a moment."""
 
 
 @pytest.fixture(scope="session")
@@ -33,7 +32,6 @@ def prior(office):
 
 @pytest.fixture(scope="session")
 def office_run(office, tmp_path_factory):
-    """The folder of a run over that log."""
     folder = tmp_path_factory.mktemp("run") / "office"
     succeed("infer", office, "-o", folder, *SHORT)
     return folder

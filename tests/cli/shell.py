@@ -23,8 +23,7 @@ from bayesmap.result import Run, load
 from bayesmap.space.scans import Scans
 
 SOURCE = Path(__file__).resolve().parents[2] / "src"
-SLAM = "--chains 2 --warmup 3 --draws 4 --resolution 0.25 --max-range 7 --threads 2"
-"""Options of slam that take seconds."""
+SLAM = "--chains 2 --warmup 3 --draws 4 --resolution 0.25 --max-range 7 --threads 2"  # takes seconds
 COMMAND = [sys.executable, "-m", "bayesmap.cli.main"]
 
 
@@ -40,22 +39,17 @@ def call(*arguments: object) -> Result:
 
 
 def succeed(*arguments: object) -> Result:
-    """Run in this process with exit code 0."""
     result = call(*arguments)
     assert result.exit_code == 0, result.stderr
     return result
 
 
 def json_of(*arguments: object) -> Any:
-    """Return the JSON document that a command prints."""
     return json.loads(succeed(*arguments).stdout)
 
 
 def refusal_of(*arguments: object, code: int = 3) -> str:
-    """Return the standard error of a command that ends with an exit code.
-
-    A command that is refused prints nothing on standard output; bad input is named by one last line.
-    """
+    """Return a refused command's standard error, after checks: nothing printed, and one last line for bad input."""
     result = call(*arguments)
     assert result.exit_code == code, (result.exit_code, result.stderr, result.exception)
     assert code not in (2, 3) or result.stdout == ""
@@ -66,10 +60,7 @@ def refusal_of(*arguments: object, code: int = 3) -> str:
 
 
 def after(statement: str, command: list[str]) -> list[str]:
-    """Return the command of a process that first does something to itself that outlives exec.
-
-    Not by `preexec_fn`, which forks: in a test process that has loaded JAX that is a warning, hence an error.
-    """
+    """Return a command whose process first does something that outlives exec; with JAX, `preexec_fn` would warn."""
     return [sys.executable, "-c", f"import os, sys\n{statement}\nos.execv(sys.argv[1], sys.argv[1:])", *command]
 
 
@@ -96,17 +87,14 @@ def interrupt_at_checkpoint(monkeypatch: pytest.MonkeyPatch, press: Callable[[Ru
 
 
 def interrupt_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Press Ctrl-C before the first sweep of any chain."""
     monkeypatch.setattr("bayesmap.api.stop_on_interrupt", lambda: contextlib.nullcontext(lambda: True))
 
 
 def contents(folder: Path) -> dict[str, bytes]:
-    """Return the bytes of the files in a folder, by name."""
     return {path.name: path.read_bytes() for path in folder.iterdir() if path.is_file()}
 
 
 def assert_same_draws(folder: Path, other: Path) -> None:
-    """Check that the runs of two folders have equal draws."""
     run, expected = load(folder / "run.nc"), load(other / "run.nc")
     assert run.finished
     for name, values in expected.posterior.draws.arrays.items():
@@ -114,7 +102,6 @@ def assert_same_draws(folder: Path, other: Path) -> None:
 
 
 def write_table(path: Path, scans: Scans) -> Path:
-    """Write scans with poses and stamps as a CSV table."""
     angles, (*poses, stamps) = scans.angles_rad, (*scans.poses.T, scans.stamps_s)
     head = ["stamp", "x", "y", "yaw", *(f"r_{i}" for i in range(len(angles)))]
     rows = [f"# angle_min: {angles[0]}", f"# angle_increment: {angles[1] - angles[0]}", ",".join(head)]
@@ -123,12 +110,10 @@ def write_table(path: Path, scans: Scans) -> Path:
     return path
 
 
-PATIENCE_S = 300.0
-"""How long a process may take for what it does in a moment on a quiet machine."""
+PATIENCE_S = 300.0  # for what a process does in a moment on a quiet machine
 
 
 def wait_for(path: Path, process: subprocess.Popen[str]) -> None:
-    """Wait until a process has made a file."""
     deadline = time.monotonic() + PATIENCE_S
     while not path.exists():
         assert process.poll() is None, process.communicate()

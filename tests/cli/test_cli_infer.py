@@ -38,8 +38,7 @@ OF_KIND = {
 @pytest.mark.parametrize("cells", full_but(list(OF_KIND), "surface", "binary"))
 def test_everything_is_left_in_the_folder_and_told_in_the_document(office, tmp_path, short, cells):
     folder, files = tmp_path / "run", WITH_SURFACES if cells == "surface" else FILES
-    options = ("--holdout 4 --json --seed 5 --cells", cells)
-    document = json_of("infer", office, "-o", folder, *short, *options)
+    document = json_of("infer", office, "-o", folder, *short, "--holdout 4 --json --seed 5 --cells", cells)
     assert {path.name for path in folder.iterdir()} == files
     assert (folder / "posterior.png").read_bytes().startswith(b"\x89PNG")
     run = bm.load(folder / "run.nc")

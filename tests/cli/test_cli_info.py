@@ -142,8 +142,7 @@ def test_a_recording_without_scans_is_said_to_be_none(tmp_path):
 def test_poses_under_which_walls_stand_twice_are_not_always_raw_odometry(tmp_path):
     """Info says what was seen, and what else it may be: here the laser looks back, and nobody says so."""
     log, turned = tmp_path / "true.log", tmp_path / "turned.npz"
-    size = "--size 12x8 --scans 60 --angles 90 --max-range 12"
-    succeed("simulate", "--world building", size, "-o", log)
+    succeed("simulate", "--world building", "--size 12x8 --scans 60 --angles 90 --max-range 12", "-o", log)
     scans = read_log(log)
     np.savez(
         turned, poses=scans.poses + np.array([0.0, 0.0, np.pi]), angles_rad=scans.angles_rad, ranges_m=scans.ranges_m

@@ -22,7 +22,6 @@ from bayesmap.space.planar import compose, inverse
 
 @pytest.fixture(scope="module")
 def lines(office, office_run, prior):
-    """Return the line that is printed for each scan of the log."""
     return succeed("localize", office_run / "run.nc", office, "--follow --for 0", *prior).stdout.splitlines()
 
 
@@ -103,9 +102,8 @@ def test_a_map_of_another_program_is_located_in(office, prior, tmp_path, follow)
     result = succeed("localize", truth_map, office, *prior, *follow, "-o", target, "--no-progress")
     if not follow:
         assert "assumed: too few scans are located to fit it" in result.stderr
-    truth = read_log(office).poses
     found = [json.loads(line)["mean"] for line in target.read_text().splitlines()]
-    off = [np.hypot(*(np.array(mean[:2]) - pose[:2])) for mean, pose in zip(found, truth, strict=True)]
+    off = [np.hypot(*(np.array(mean[:2]) - pose[:2])) for mean, pose in zip(found, read_log(office).poses, strict=True)]
     assert np.median(off) < 0.3
 
 

@@ -46,7 +46,6 @@ for arguments in [["--help"], ["--version"], *([name, "--help"] for name in sys.
 
 
 def python(code, *arguments):
-    """Run some code in a process of its own, with exit code 0."""
     environment, command = {**os.environ, "PYTHONPATH": str(SOURCE)}, [sys.executable, "-c", code, *arguments]
     environment.pop("OPENBLAS_NUM_THREADS", None)
     done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
@@ -152,8 +151,7 @@ def test_choices_are_those_of_the_library():
     assert InferSettings().rounds == ROUNDS
     binary = completed(InferSettings(cells="binary"))
     assert prior_of(binary).describe() == Independent(P_WALL).describe()
-    coupled = prior_of(InferSettings(cells="binary", coupling=0.5, prior=0.1))
-    assert coupled.describe() == Ising(0.1, 0.5).describe()
+    assert prior_of(InferSettings(cells="binary", coupling=0.5, prior=0.1)).describe() == Ising(0.1, 0.5).describe()
     assert binary.hit_depth == Independent.hit_depth
     kinds = {name: type(prior_of(completed(InferSettings(cells=name)))) for name in get_args(keys.Cells)}
     assert kinds == {"surface": Surface, "reflectivity": Beta, "binary": Independent}
@@ -210,10 +208,8 @@ def test_the_printed_configuration_is_the_effective_one(tmp_path):
 
 def test_every_kind_of_value_survives_the_round_trip(tmp_path):
     set_ = ["no_return=inf", "max_range=20", "sensor=student-t:0.1,dof=4", 'world=my "map" 🗺\x7f.txt']
-    arguments = [part for pair in set_ for part in ("--set", pair)]
-    printed = call("config", *arguments).stdout
-    again = call("config", "-c", write(tmp_path, printed)).stdout
-    assert again == printed
+    printed = call("config", *[part for pair in set_ for part in ("--set", pair)]).stdout
+    assert call("config", "-c", write(tmp_path, printed)).stdout == printed
     values = tomllib.loads(printed)["infer"]
     assert (values["no_return"], values["max_range"]) == (float("inf"), 20.0)
     assert tomllib.loads(printed)["simulate"]["world"] == 'my "map" 🗺\x7f.txt'

@@ -44,7 +44,6 @@ def test_a_demo_leaves_runs_films_and_a_document(tmp_path):
 
 
 def render(run, what, folder, *options):
-    """Render one kind of picture, and check that it opens."""
     target = folder / ("film.gif" if what == "animation" else "picture.png")
     assert succeed("render", run, "--what", what, "-o", target, *options).stdout == f"{target}\n"
     with Image.open(target) as image:
@@ -101,8 +100,7 @@ def test_layers_of_walls_and_of_surfaces_in_a_geotiff(held_out, tmp_path):
             known = ~np.isnan(layers[0])
             assert (layers[2] <= layers[3])[known].all()
             # Means are of what the draws expect, ends of what was drawn: with few draws they miss by a little.
-            outside = np.maximum(layers[2] - layers[0], layers[0] - layers[3])[known]
-            assert (outside < 0.05).mean() > 0.9
+            assert (np.maximum(layers[2] - layers[0], layers[0] - layers[3])[known] < 0.05).mean() > 0.9
 
 
 def test_render_animation_and_default_names(office_run, tmp_path):
@@ -194,8 +192,7 @@ def simulated(tmp_path, *arguments):
 
 
 def test_beams_that_meet_nothing_are_no_return_whatever_the_sensor(tmp_path):
-    document = simulated(tmp_path, "--sensor gaussian:0.02 --max-range 2")
-    assert document["readings"]["no_return"] > 100
+    assert simulated(tmp_path, "--sensor gaussian:0.02 --max-range 2")["readings"]["no_return"] > 100
     scans = describe_log(tmp_path / "office.log").scans
     hits = scans.ranges_m[np.isfinite(scans.ranges_m)]
     # 2 % of the hits between 0 and 2 m lie within the last 4 cm, if none stand for nothing.
@@ -220,10 +217,9 @@ def test_raw_odometry_with_the_truth_beside_it(tmp_path):
     reading = describe_log(tmp_path / "office.log")
     truth = read_trajectory(tmp_path / "office-truth.tum")
     mount = np.array([0.1, -0.05, np.radians(5.0)])
-    laser = compose(truth.poses, mount)
     np.testing.assert_allclose(reading.scans.mount, mount, atol=1e-4)
     np.testing.assert_allclose(reading.scans.stamps_s, truth.stamps_s, atol=1e-5)
-    drift = between(laser, reading.scans.poses)
+    drift = between(compose(truth.poses, mount), reading.scans.poses)
     assert np.abs(drift[0]).max() < 1e-5
     assert np.hypot(*drift[:, :2].T).max() > 0.1
 

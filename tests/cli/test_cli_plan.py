@@ -22,14 +22,12 @@ def ends(office):
 
 @pytest.fixture(scope="module")
 def plan(office_run, ends):
-    """The words of a command that plans between them."""
     return "plan", office_run / "run.nc", "--from", ends[0], "--to", ends[1]
 
 
 def test_a_plan_as_text_ends_with_its_probability_and_picture(plan, ends, tmp_path):
     picture = tmp_path / "way.png"
-    result = succeed(*plan, "--radius 0.1 -o", picture)
-    *corners, sentence, written = result.stdout.splitlines()
+    *corners, sentence, written = succeed(*plan, "--radius 0.1 -o", picture).stdout.splitlines()
     assert (corners[0], corners[-1]) == (ends[0], ends[1])
     assert "free with probability" in sentence
     assert "independent cells" in sentence
@@ -44,8 +42,7 @@ def test_a_plan_as_json_is_what_the_run_says(office_run, plan, tmp_path):
     assert document["standard_error"] == pytest.approx(free.standard_error)
     assert document["independent_cells"] == pytest.approx(free.independent)
     assert document["within_risk"] == (1 - free.probability <= 0.9)
-    length = np.hypot(*np.diff(document["path"], axis=0).T).sum()
-    assert document["length_m"] == pytest.approx(length)
+    assert document["length_m"] == pytest.approx(np.hypot(*np.diff(document["path"], axis=0).T).sum())
     assert (tmp_path / "way.svg").exists()
 
 

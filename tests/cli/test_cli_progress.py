@@ -21,7 +21,6 @@ from bayesmap.run.runner import stop_on_interrupt
 
 
 def on_a_terminal(*arguments):
-    """Return what a command writes to a terminal."""
     ours, theirs = pty.openpty()
     environment = {**os.environ, "PYTHONPATH": str(SOURCE), "TERM": "xterm", "COLUMNS": "100", "NO_COLOR": "1"}
     command = [*COMMAND, *words(arguments)]
@@ -45,15 +44,13 @@ def test_stages_after_the_chains_are_named_too(office, tmp_path, cells):
     assert "sweeps ETA" in shown
     assert "log joint" in shown
     assert not re.search(r"\x1b\[[0-9;]*3[0-9]m", shown), "NO_COLOR is not honoured"
-    quiet = succeed(*asked, "-o", tmp_path / "piped")
-    assert "saving" not in quiet.stderr
+    assert "saving" not in succeed(*asked, "-o", tmp_path / "piped").stderr
 
 
 @pytest.mark.full
 def test_scores_and_the_baselines_that_are_fitted_for_them_are_named_too(office, tmp_path, monkeypatch):
     monkeypatch.setattr("bayesmap.posterior.baselines.MOST_STEPS", 4)  # how well they are fitted is not asked here
-    few = "--resolution 0.25 --chains 1 --warmup 2 --draws 3 --holdout 4"
-    succeed("infer", office, few, "-o", tmp_path)
+    succeed("infer", office, "--resolution 0.25 --chains 1 --warmup 2 --draws 3 --holdout 4", "-o", tmp_path)
     asked = ("score", tmp_path / "run.nc", office, "--holdout", "4", "--compare")
     shown = on_a_terminal(*asked)
     names = ("hit ratio", "log-odds, tuned", "log-odds", "log-odds, clamped")
@@ -179,8 +176,7 @@ def test_ctrl_c_while_the_command_line_is_loaded_is_one_line(module):
 
 @pytest.mark.parametrize("module", full_but(THEN, "bayesmap.cli.folder", "numpy"))
 def test_ctrl_c_while_a_command_is_loaded_is_one_line_and_leaves_no_folder(office, tmp_path, module):
-    told = interrupted(module, "infer", office, "-o", tmp_path / "run")
-    assert told == (130, "", "bayesmap: error: interrupted\n")
+    assert interrupted(module, "infer", office, "-o", tmp_path / "run") == (130, "", "bayesmap: error: interrupted\n")
     assert not (tmp_path / "run").exists()
 
 

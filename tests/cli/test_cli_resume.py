@@ -51,7 +51,6 @@ def finished(office_run, tmp_path):
 
 
 def infer_until_checkpoint(monkeypatch, *arguments):
-    """Infer, and press Ctrl-C at the first checkpoint."""
     with monkeypatch.context() as patch:
         interrupt_at_checkpoint(patch)
         refusal_of("infer", *arguments, code=130)

@@ -63,8 +63,7 @@ def test_another_recording_is_scored_whole(office_run, tmp_path):
 
 def test_a_recording_is_read_as_it_was_for_the_run(recording, tmp_path):
     asked = "--scan-topic /scan --pose-topic /odom --thin-scans 0.5"
-    few = "--resolution 0.25 --chains 1 --warmup 2 --draws 3 --holdout 3"
-    succeed("infer", recording, "-o", tmp_path, few, asked)
+    succeed("infer", recording, "-o", tmp_path, "--resolution 0.25 --chains 1 --warmup 2 --draws 3 --holdout 3", asked)
     run = tmp_path / "run.nc"
     assert json_of("score", run, recording, "--holdout 3", asked, "--json")["heldout"]["scans"] == 2
     picture = tmp_path / "missed.png"
@@ -160,8 +159,7 @@ def test_a_map_is_inferred_and_scored_along_a_given_trajectory(raw, tmp_path):
     truth = read_trajectory(raw / "office-truth.tum").of_frame(np.array([0.2, 0.0, 0.0]))
     held = np.arange(40) % 4 == 2
     np.testing.assert_allclose(load(tmp_path / "run.nc").posterior.scans.poses, truth.poses[~held], atol=1e-6)
-    own = json_of("score", tmp_path / "run.nc", log, "--holdout 4 --json", *given[:2])
-    assert own["heldout"]["scans"] == 10
+    assert json_of("score", tmp_path / "run.nc", log, "--holdout 4 --json", *given[:2])["heldout"]["scans"] == 10
     assert "--trajectory DIR/trajectory.tum" in refusal_of("score", tmp_path / "run.nc", log, "--holdout 4")
     # Resumed with its own settings, the run is the one that it was.
     succeed("infer", log, "-o", tmp_path, "--resume")

@@ -34,8 +34,7 @@ def test_the_folder_holds_map_trajectory_covariances_and_pictures(slam_run, raw_
     assert (found["scans"], found["breaks"]) == (len(bm.read_log(raw_log)), [])
     assert found["flagged"] == []
     assert found["sampled"]["sigma_m"] < 0.1
-    run = bm.load(folder / "run.nc")
-    assert run.poses.shape == (2, 4, found["key_scans"], 3)
+    assert bm.load(folder / "run.nc").poses.shape == (2, 4, found["key_scans"], 3)
     assert len(np.loadtxt(folder / "trajectory.tum")) == found["scans"]
     assert found["frame"] == "base"
     assert (folder / "trajectory.tum").read_text().startswith("# poses of the base: timestamp ")
@@ -66,8 +65,7 @@ def test_export_writes_the_frame_that_is_asked_for(slam_run, tmp_path, frame, en
         assert text.startswith(f"# poses of the {frame}: ")
         poses = read_trajectory(path).poses
     laser = bm.load(run).trajectory.poses
-    mount = np.array([0.2, -0.1, 0.0])
-    expected = laser if frame == "laser" else compose(laser, inverse(mount))
+    expected = laser if frame == "laser" else compose(laser, inverse(np.array([0.2, -0.1, 0.0])))
     np.testing.assert_allclose(poses[:, :2], expected[:, :2], atol=1e-6)
     assert "holds a map, and takes no frame" in refusal_of("export", run, "-o", tmp_path / "map.yaml", "--frame", frame)
 
@@ -154,8 +152,7 @@ def test_frozen_odometry_and_a_clock_that_was_set_back_are_named(raw_log, tmp_pa
 def test_scans_alone_need_no_poses(tmp_path):
     """An office's scans without poses give its trajectory with --no-odometry, and are refused without."""
     log = tmp_path / "office.log"
-    size = "--size 12x8 --scans 300 --fov 360 --angles 180 --seed 4"
-    succeed("simulate", "--world building", size, "-o", log)
+    succeed("simulate", "--world building", "--size 12x8 --scans 300 --fov 360 --angles 180 --seed 4", "-o", log)
     scans = bm.read_log(log).select(slice(0, 40))
     path, folder = tmp_path / "scans.npz", tmp_path / "run"
     np.savez(path, angles_rad=scans.angles_rad, ranges_m=scans.ranges_m, stamps_s=0.2 * np.arange(40))
@@ -191,7 +188,6 @@ def slam_until(monkeypatch, stage, *arguments):
 
 
 def printed(stderr):
-    """Return the arguments of the command that was printed."""
     (line,) = (line for line in stderr.splitlines() if line.endswith("--resume"))
     name, *arguments = shlex.split(line)
     assert name == "bayesmap"
@@ -209,8 +205,7 @@ def assert_same(folder, whole):
 
 @pytest.mark.parametrize("stage", full_but(["front end", "loops", "aligned", "warm-up"], "loops"))
 def test_the_printed_command_ends_as_if_nothing_had_stopped_it(raw_log, slam_run, tmp_path, monkeypatch, stage):
-    stopped = slam_until(monkeypatch, stage, raw_log, "-o", tmp_path / "run", SLAM)
-    succeed(*printed(stopped.stderr))
+    succeed(*printed(slam_until(monkeypatch, stage, raw_log, "-o", tmp_path / "run", SLAM).stderr))
     assert_same(tmp_path / "run", slam_run[0])
 
 

@@ -29,19 +29,12 @@ INLINE = re.compile(r"`([^`\n]+)`")
 
 @dataclass(frozen=True)
 class Example:
-    """A Python block of a page.
+    """A Python block of a page."""
 
-    Attributes:
-        line: number of its first line in the page, from 1.
-        text: the code.
-        needs: a file that it reads, or a module, or "".
-        not_run: why it is compiled only, or "".
-    """
-
-    line: int
+    line: int  # of its first line in the page, from 1
     text: str
-    needs: str = ""
-    not_run: str = ""
+    needs: str = ""  # a file that it reads, or a module
+    not_run: str = ""  # why it is compiled only
 
 
 def script(path: Path) -> Any:
@@ -53,11 +46,7 @@ def script(path: Path) -> Any:
 
 
 def python_examples(page: str) -> list[Example]:
-    """The Python blocks of a page in order.
-
-    Raises:
-        ValueError: a mark that cannot be understood, or that stands above no Python block.
-    """
+    """The Python blocks of a page; ValueError for a mark that is not understood or stands above no Python block."""
     if mistaken := MISTAKEN_MARK.search(page):
         raise ValueError(
             f"line {_line(page, mistaken.start())}: not a mark of a Python block (see tests/docs/examples.py)"
@@ -87,9 +76,7 @@ def shell_words(page: str) -> list[tuple[int, list[str]]]:
 def _words(text: str) -> list[str]:
     """Split a line that calls bayesmap or make as a shell does; any other line has no words."""
     text = re.sub(r"^(?:\$ )?(?:[A-Z_]+=(?:\"[^\"]*\"|\S+) )*(?:\.venv/bin/)?", "", text)
-    if not re.match(r"(?:bayesmap|make) [a-z]", text):
-        return []
-    return shlex.split(text, comments=True)
+    return shlex.split(text, comments=True) if re.match(r"(?:bayesmap|make) [a-z]", text) else []
 
 
 def _line(text: str, position: int) -> int:

@@ -20,8 +20,7 @@ from examples import PAGES, ROOT, TUTORIAL, Example, python_examples, shell_word
 import bayesmap as bm
 from bayesmap.cli.group import COMMANDS, cli
 
-LIMIT_S = 1800
-"""A limit for all examples of a page, which take half a minute on a quiet machine."""
+LIMIT_S = 1800  # for all examples of a page, which take half a minute on a quiet machine
 
 RUN = """
 import json, sys
@@ -169,8 +168,7 @@ def test_the_readme_s_examples_run_and_give_what_they_say(tmp_path):
 @pytest.mark.parametrize(("page", "line", "words"), SHELL, ids=[f"{name(p)}:{line}" for p, line, _ in SHELL])
 def test_a_line_for_the_shell_can_be_understood(page, line, words):
     if words[0] == "make":
-        targets = re.findall(r"^([\w-]+):", (ROOT / "Makefile").read_text(), re.MULTILINE)
-        assert words[1] in targets
+        assert words[1] in re.findall(r"^([\w-]+):", (ROOT / "Makefile").read_text(), re.MULTILINE)
     else:
         understood(words[1:])
 
@@ -229,5 +227,4 @@ NAMED = re.compile(r"`((?:src|tests|docs|benchmarks|tools)/[\w./-]+)`")
 
 @pytest.mark.parametrize("page", PAGES, ids=name)
 def test_files_and_folders_that_a_page_names_are_there(page):
-    named = NAMED.findall(page.read_text(encoding="utf-8"))
-    assert [path for path in named if not (ROOT / path).exists()] == []
+    assert [path for path in NAMED.findall(page.read_text(encoding="utf-8")) if not (ROOT / path).exists()] == []

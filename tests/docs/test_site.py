@@ -72,8 +72,7 @@ def test_every_room_is_in_the_page():
 
 
 def test_a_step_fits_its_box_and_nothing_is_loaded(picture):
-    tree = ElementTree.fromstring(picture.svg())
-    assert {element.tag.rpartition("}")[2] for element in tree.iter()} == {
+    assert {element.tag.rpartition("}")[2] for element in ElementTree.fromstring(picture.svg()).iter()} == {
         "svg", "title", "defs", "marker", "path", "rect", "text",
     }  # fmt: skip
     for step in picture.STEPS:
@@ -137,7 +136,6 @@ def test_steps_of_the_story_stand_in_place_of_pictures(site):
 
 
 def test_the_tutorial_shows_the_live_page(site):
-    name = re.search(r'src="([^"]+)"', site.FRAME)[1]
-    page = (ROOT / "docs" / "tutorial" / name).read_text(encoding="utf-8")
+    page = (ROOT / "docs" / "tutorial" / re.search(r'src="([^"]+)"', site.FRAME)[1]).read_text(encoding="utf-8")
     assert "data-recording" in page
     assert site.loaded_from_elsewhere(page) == []

@@ -14,8 +14,7 @@ from bayesmap.app.protocol.wire import unframe
 FIGURES = TUTORIAL / "figures"
 render = script(TUTORIAL / "render.py")
 every_page = pytest.mark.parametrize("name", render.PAGES)
-OFTEN = ("mapping", "odometry")
-"""The notebooks of the landing run; the others take half a minute or more each."""
+OFTEN = ("mapping", "odometry")  # in the landing run; the others take half a minute or more each
 
 
 def source_of(name):
@@ -164,7 +163,6 @@ def recording(html):
 def test_the_interactive_page_is_made_by_its_script():
     """Only the recording is compared: the page carries the viewer that it was made with, and stays usable with it."""
     html = (TUTORIAL / "interactive.html").read_text(encoding="utf-8")
-    made = script(TUTORIAL / "interactive.py").interactive_page().decode()
-    assert recording(html) == recording(made)
+    assert recording(html) == recording(script(TUTORIAL / "interactive.py").interactive_page().decode())
     draws = recording(html)[0]["draws"]
     assert draws["chains"] * draws["count"] == 1000

@@ -1,7 +1,4 @@
-"""A small map to export, and recordings read back without bayesmap, by libraries that did not write them, if any.
-
-The map has no symmetry, so that a flip, a turn or a transpose cannot pass for it.
-"""
+"""A small map without symmetry to export (a flip shows), and recordings read back by libraries other than bayesmap."""
 
 import sqlite3
 from dataclasses import dataclass
@@ -95,7 +92,6 @@ GRID = Grid(shape=(5, 3), resolution=0.25, origin=(-1.5, 2.0))
 
 
 def occupancy():
-    """Return occupancies that differ from cell to cell."""
     return np.arange(15).reshape(5, 3)[::-1] / 20 + 0.01
 
 

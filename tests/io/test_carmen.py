@@ -25,8 +25,7 @@ def flaser(readings, pose=(0.0, 0.0, 0.0), robot=None, t=0.0, kind="FLASER"):
 
 
 def robotlaser(readings, pose=(0.0, 0.0, 0.0), t=0.0, first=-1.0, step=0.5, max_range=80.0, remissions=()):
-    fov = step * (len(readings) - 1)
-    words = ["ROBOTLASER1", 0, first, fov, step, max_range, 0.01, 0, len(readings), *readings]
+    words = ["ROBOTLASER1", 0, first, step * (len(readings) - 1), step, max_range, 0.01, 0, len(readings), *readings]
     words += [len(remissions), *remissions, *pose, *pose, 0, 0, 0.3, 0.2, 0, t, "host", t]
     return " ".join(map(str, words)) + "\n"
 
@@ -48,15 +47,13 @@ def logs(draw):
     n, beams = draw(st.integers(1, 6)), draw(st.integers(2, 8))
     times = draw(st.lists(numbers, min_size=n, max_size=n, unique=True))
     readings = draw(st.lists(st.lists(ranges, min_size=beams, max_size=beams), min_size=n, max_size=n))
-    poses = draw(st.lists(st.tuples(numbers, numbers, numbers), min_size=n, max_size=n))
-    return readings, poses, times
+    return readings, draw(st.lists(st.tuples(numbers, numbers, numbers), min_size=n, max_size=n)), times
 
 
 @given(logs(), st.booleans(), st.data())
 def test_lines_of_a_log_are_read_back_in_order_of_time(read, log, explicit, data):
     readings, poses, times = log
-    write = robotlaser if explicit else flaser
-    lines = [write(r, p, t=t) for r, p, t in zip(readings, poses, times, strict=True)]
+    lines = [(robotlaser if explicit else flaser)(r, p, t=t) for r, p, t in zip(readings, poses, times, strict=True)]
     lines += ["ODOM 0 0 0 0 0 0 1 host 1\n", "# a comment\n", "NEFF 3\n", "PARAM laser_on yes\n", "\n"]
     reading = read("".join(data.draw(st.permutations(lines))), no_return=np.inf)
     scans = reading.scans
@@ -171,9 +168,8 @@ def test_scans_are_read_back_as_they_were_written(tmp_path, beams, first_deg, st
 
 @given(st.lists(st.sampled_from([np.inf, -np.inf, np.nan, 1.25, 9.0, 29.5]), min_size=180, max_size=180))
 def test_no_reading_becomes_another_hit(tmp_path_factory, readings):
-    scans = Scans(np.zeros(3), np.radians(np.arange(180) - 90.0), np.array(readings), 30.0)
     path = tmp_path_factory.mktemp("log") / "one.log"
-    write_carmen(path, scans)
+    write_carmen(path, Scans(np.zeros(3), np.radians(np.arange(180) - 90.0), np.array(readings), 30.0))
     back = describe_log(path, max_range_m=30.0).scans.ranges_m[0]
     given_ranges = np.array(readings)
     np.testing.assert_array_equal(np.isfinite(back), np.isfinite(given_ranges))
@@ -182,9 +178,8 @@ def test_no_reading_becomes_another_hit(tmp_path_factory, readings):
 
 @pytest.mark.parametrize("angles", [[0.0], [0.0, 0.1, 0.3], [0.1, 0.0]])
 def test_angles_that_no_message_can_say_are_refused(tmp_path, angles):
-    scans = Scans(np.zeros(3), np.array(angles), np.ones(len(angles)), 10.0)
     with pytest.raises(BadInput, match="log:"):
-        write_carmen(tmp_path / "x.log", scans)
+        write_carmen(tmp_path / "x.log", Scans(np.zeros(3), np.array(angles), np.ones(len(angles)), 10.0))
     assert list(tmp_path.iterdir()) == []
 
 
@@ -250,8 +245,7 @@ def seen(distances_m, poses, code=None, noise_m=0.0, directions=()):
     """Decode a log of centimetres whose beams see, in directions of the world (degrees), so many metres far."""
     rng = np.random.default_rng(1)
     angles = np.radians(np.arange(-180, 180))
-    world = np.degrees(poses[:, 2:] + angles)
-    at = np.rint(world).astype(int) % 360
+    at = np.rint(np.degrees(poses[:, 2:] + angles)).astype(int) % 360
     readings = np.round(distances_m[at] + rng.normal(0, noise_m, at.shape) * (rng.random(at.shape) < 0.3), 2)
     if code is not None:
         readings[np.isin(at, directions)] = code

@@ -1,7 +1,4 @@
-"""Exports: endings and formats; GeoTIFF by rasterio and without it; recordings for rerun by rerun's own reader.
-
-Occupancy grids and grid maps in recordings, read back without bayesmap.
-"""
+"""Exports: endings, formats, GeoTIFF, recordings for rerun, occupancy grids, grid maps; read without bayesmap."""
 
 import builtins
 import os
@@ -202,8 +199,7 @@ def test_stamps_that_count_from_a_start_are_durations(tmp_path):
 
 def test_a_trajectory_is_drawn_with_its_ellipses(tmp_path):
     poses = np.array([[-1.0, 2.2, 0.0], [-0.5, 2.6, 1.0]])
-    covariances = np.stack([np.diag([0.01, 0.04, 0.01]), np.diag([0.01, 0.01, 0.01])])
-    trajectory = Trajectory(poses, covariances=covariances)
+    trajectory = Trajectory(poses, covariances=np.stack([np.diag([0.01, 0.04, 0.01]), np.diag([0.01, 0.01, 0.01])]))
     columns = columns_of(write_rerun(tmp_path / "walk.rrd", LAYERS, GRID, trajectory=trajectory))
     ((line,),) = find(columns, "/trajectory", "LineStrips2D:strips")
     np.testing.assert_allclose(line, exports.to_pixels(poses[:, :2], GRID), rtol=1e-6)

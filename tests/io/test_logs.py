@@ -116,8 +116,7 @@ def test_kept_scans_are_far_enough_apart_and_none_more_could_be_dropped(position
     travelled = np.concatenate([[0.0], np.cumsum(steps_m(scans.poses))])
     assert kept[0] == 0
     assert (np.diff(travelled[kept]) >= spacing * (1 - 1e-8)).all()
-    ends = [*kept[1:], len(scans)]
-    for start, end in zip(kept, ends, strict=True):
+    for start, end in zip(kept, [*kept[1:], len(scans)], strict=True):
         assert spacing == 0 or (travelled[start + 1 : end] - travelled[start] < spacing).all()
 
 
@@ -222,8 +221,7 @@ def test_texts_and_arrays(tmp_path, fans):
     check(describe_log(tmp_path / "beams.csv"), fans)
     rows = ["stamp,x,y,yaw,angle_min,angle_increment," + ",".join(f"r_{k}" for k in range(wide))]
     for (first, step, beams), row, pose, t in zip(fans, readings, poses, stamps, strict=True):
-        fields = [*map(repr, map(float, [t, *pose, first, step, *row])), *[""] * (wide - beams)]
-        rows.append(",".join(fields))
+        rows.append(",".join([*map(repr, map(float, [t, *pose, first, step, *row])), *[""] * (wide - beams)]))
     (tmp_path / "scans.csv").write_text("\n".join(rows) + "\n")
     check(describe_log(tmp_path / "scans.csv"), fans)
     block = np.full((2, len(fans), wide), np.nan)

@@ -38,8 +38,7 @@ def nav2_reads(path_yaml, newer=False):
     between = -1 if mode == "trinary" else np.floor(scaled + 0.5) if newer else np.rint(scaled)
     is_occupied, is_free = (occ >= occupied, occ <= free) if newer else (occ > occupied, occ < free)
     cells = np.where(is_occupied, 100, np.where(is_free, 0, between)).astype(int)
-    unknown = has_alpha and (newer or mode == "scale")
-    return np.where(unknown & (rgba[..., 3] < 255), -1, cells)[::-1], entries
+    return np.where((has_alpha and (newer or mode == "scale")) & (rgba[..., 3] < 255), -1, cells)[::-1], entries
 
 
 @pytest.mark.parametrize("mode", MODES)
@@ -94,8 +93,7 @@ def test_the_first_row_is_the_top_unknown_cells_are_grey_205_and_scaled_maps_sat
 
 @pytest.mark.parametrize("name", ["plain.yaml", "two words.yaml", "colon: and # hash.yaml", "día.yml", "0.yaml"])
 def test_any_file_name_finds_its_image(tmp_path, name):
-    grid = Grid((2, 2))
-    write_map(tmp_path / name, np.eye(2), grid)
+    write_map(tmp_path / name, np.eye(2), Grid((2, 2)))
     np.testing.assert_array_equal(read_map(tmp_path / name)[0], np.eye(2))
 
 

@@ -228,8 +228,7 @@ def test_scans_as_ros2_topic_echo_writes_them(tmp_path):
     both = read_log(written(tmp_path / "both.csv", "".join([*wide, *narrow])), without_poses=True)
     assert np.isfinite(both.own_angles_rad).sum(axis=1).tolist() == [len(ANGLES)] * len(TIMES) + [3] * len(TIMES)
     row = next(ros2_rows(scans, intensities=False))
-    cut = ",".join([*row.split(",")[:14], "...", "\n"])
-    assert "--full-length" in refused(written(tmp_path / "cut.csv", cut))
+    assert "--full-length" in refused(written(tmp_path / "cut.csv", ",".join([*row.split(",")[:14], "...", "\n"])))
     odd = row.rstrip("\n") + "1.0,2.0\n"
     assert "line 1: " in refused(written(tmp_path / "odd.csv", odd), without_poses=True)
 

@@ -117,10 +117,9 @@ def motion(style, step, by=0):
 
 
 def odometry(style, pose, seconds, label="ODO"):
-    width = "d" if style.wide else "f"
     data = pose2(style, pose) + struct.pack("<I", len(label)) + label.encode() + ticks(seconds)
     if style.odometry == 1:
-        data += struct.pack("<?2i", False, 0, 0) + struct.pack("<?2" + width, True, 0.5, 0.1)
+        data += struct.pack("<?2i", False, 0, 0) + struct.pack("<?2" + ("d" if style.wide else "f"), True, 0.5, 0.1)
     if style.odometry == 2:
         data += struct.pack("<?", False) + struct.pack("<?3d", True, 0.5, 0.0, 0.1)
     return style.object("CObservationOdometry", style.odometry, data)
@@ -217,8 +216,7 @@ def test_a_laser_upside_down_one_that_sweeps_clockwise_and_one_on_its_side(tmp_p
 def test_objects_of_other_classes_lie_between_other_lasers_are_named_and_scans_alone_are_read(tmp_path):
     style, scans = STYLES["MRPT 2"], known(TIMES)
     image = style.object("CObservationImage", 4, pose3(style, MOUNT) + bytes(range(256)) * 3)
-    note = style.object("CObservationComment", 0, b"\x05\x00\x00\x00hello")
-    parts, before = [note], np.zeros(3)
+    parts, before = [style.object("CObservationComment", 0, b"\x05\x00\x00\x00hello")], np.zeros(3)
     for i, (pose, row, at) in enumerate(zip(path_of(TIMES), scans.ranges_m, scans.stamps_s, strict=True)):
         rear = [scan(style, row[::-1], at, label="REAR", mount=(-0.3, 0.0, math.pi))] if i else []
         parts += [collection(style, motion(style, between(before, pose)))]
@@ -243,8 +241,7 @@ def test_invalid_readings_are_no_return_only_at_the_maximum_and_logs_without_sca
     row = np.array([1.0, np.inf, np.nan, 2.0] + [5.0] * 37)
     scans = read_log(written(tmp_path / "log", odometry(style, (0, 0, 0), 1.0) + scan(style, row, 1.0)))
     np.testing.assert_array_equal(scans.ranges_m[0], row)
-    only = odometry(style, (0, 0, 0), 1.0)
-    assert "it holds 1 CObservationOdometry" in refused(written(tmp_path / "odometry", only))
+    assert "it holds 1 CObservationOdometry" in refused(written(tmp_path / "odometry", odometry(style, (0, 0, 0), 1.0)))
     whole = written(tmp_path / "log", in_frames(style, whole_scans)).read_bytes()
     cut = tmp_path / "cut"
     cut.write_bytes(whole[: len(whole) * 2 // 3])

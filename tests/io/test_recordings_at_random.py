@@ -1,4 +1,4 @@
-"""Recordings drawn at random around simulated robots: each is read exactly, or refused or noted by its cause.
+"""Random recordings are read exactly, or refused or noted by their cause.
 
 A scan's first reading is its number, by which its pose is known: nothing of bayesmap's geometry judges itself.
 """
@@ -77,8 +77,7 @@ class Drive:
             if self.by_tf:
                 yield f"{bot.tf_space}/tf", r.TF, t, r.tf(r.transform(t, name("odom"), name("base_link"), *pose))
             if self.by_topic:
-                odometry = r.odometry(t, *pose, name("odom"), name("base_link"))
-                yield f"{bot.space}/odom", r.ODOM, t, odometry
+                yield f"{bot.space}/odom", r.ODOM, t, r.odometry(t, *pose, name("odom"), name("base_link"))
 
     def fixed(self):
         bot, t = self.robot, float(self.pose_times[0])
@@ -86,8 +85,7 @@ class Drive:
         if self.static:
             mount = r.transform(t, bot.prefix + "base_link", bot.prefix + "laser", *bot.mount, z=0.2)
             yield static, r.TF, t, r.tf(mount)
-        frames = [*bot.chain, "odom"]
-        for parent, child in pairwise(frames):
+        for parent, child in pairwise([*bot.chain, "odom"]):
             place = bot.odom if child == "odom" else (0.0, 0.0, 0.0)
             yield static, r.TF, t, r.tf(r.transform(t, bot.prefix + parent, bot.prefix + child, *place))
 
@@ -104,8 +102,7 @@ class Drive:
 
 def exact(scans, bot, frame):
     """Tell whether scans are those that a robot sent, at their poses in a frame of the room, beam by beam."""
-    numbers = np.rint(10 * (scans.ranges_m[:, 0] - 1.0)).astype(int)
-    expected = seen_from(frame, np.array(bot.sent)[numbers])
+    expected = seen_from(frame, np.array(bot.sent)[np.rint(10 * (scans.ranges_m[:, 0] - 1.0)).astype(int)])
     off = [scans.poses[:, :2] - expected[:, :2], np.sin(scans.poses[:, 2] - expected[:, 2])]
     off += [own - bot.angles[: len(own)] for own, _ in map(scans.beams_of, range(len(scans)))]
     return (np.cos(scans.poses[:, 2] - expected[:, 2]) > 0).all() and max(np.abs(a).max() for a in off) < EXACT
@@ -190,9 +187,8 @@ def recordings(draw, fault):
     elif fault in ("two publishers", "other topic"):
         times = np.linspace(0.05, first.pose_times[-1], draw(st.integers(25, 80)))
         other = Drive(bot, first.scan_times, times, away=away)
-        moved = list(other.transforms())
         name = "/tf" if fault == "two publishers" else "/tf_other"
-        messages.append([(bot.tf_space + name, *m[1:]) for m in moved])
+        messages.append([(bot.tf_space + name, *m[1:]) for m in other.transforms()])
     elif fault == "relayed transforms":
         relayed = list(first.transforms())[:: draw(st.integers(1, 4))]
         messages.append([(bot.tf_space + "/tf_relay", *m[1:]) for m in relayed if m[1] == r.TF])
@@ -213,8 +209,7 @@ def recordings(draw, fault):
                 message["ranges"] = message["ranges"][: draw(st.integers(2, len(bot.angles)))]
     elif fault == "late scans":
         laser = [i for i, m in enumerate(received) if m[0] == bot.space + "/scan"]
-        order = draw(st.permutations(laser))
-        scans = [received[i] for i in order]
+        scans = [received[i] for i in draw(st.permutations(laser))]
         for i, scan in zip(laser, scans, strict=True):
             received[i] = (*scan[:2], received[i][2], scan[3])
     elif fault == "no stamps":
@@ -229,11 +224,10 @@ def recordings(draw, fault):
         second = sorted((m for drive in again for m in drive.all()), key=lambda m: m[2])
         received = [(*m[:2], m[2] + 100.0, m[3]) for m in received] + [(*m[:2], m[2] + gap, m[3]) for m in second]
     options = {"scan_topic": bot.space + "/scan"}
-    causes = FAULTS[fault]
     if by_topic and (not by_tf or draw(st.booleans())):
         options["pose_topic"] = bot.space + "/odom"
     note(f"{fault}: {options}, {[robot.prefix or robot.tf_space for robot in robots]}")
-    return Recorded(received, bot, causes, options)
+    return Recorded(received, bot, FAULTS[fault], options)
 
 
 WRITERS = (*r.WRITERS, *r.COMPRESSED)

@@ -58,8 +58,7 @@ def test_transforms_of_all_robots_on_one_topic_with_names_of_their_own(tmp_path)
         assert reading.fixed_frame == f"robot{n}/map"
         same(reading.scans, scans)
         assert reading.notes == ()
-    third = describe_log(file, scan_topic="/robot3/scan", fixed_frame="world")
-    same(third.scans, robots[2][1])
+    same(describe_log(file, scan_topic="/robot3/scan", fixed_frame="world").scans, robots[2][1])
     other = describe_log(file, scan_topic="/robot3/scan", fixed_frame="robot1/map")
     assert any("the frame 'robot1/map' is not over that of the scans" in note for note in other.notes)
 
@@ -179,8 +178,7 @@ def test_two_publishers_of_the_map_leave_the_odometry_and_two_of_poses_are_refus
     assert describe_log(file, fixed_frame="odom").fixed_frame == "odom"
     messages, _ = r.robot(tf_poses=False, odom=True)
     others = [m for m in r.robot(tf_poses=False, odom=True, path=way(1), late=0.1)[0] if m[0] == "/odom"]
-    both = r.written(tmp_path / "other", r.merged(messages, others))
-    r.refused(both, "odom -> base_link on /odom goes to and fro")
+    r.refused(r.written(tmp_path / "other", r.merged(messages, others)), "odom -> base_link on /odom goes to and fro")
 
 
 def a_track(rng, samples, noise, late_s=0.0, away=(0.0, 0.0, 0.0)):
@@ -203,8 +201,7 @@ def a_track(rng, samples, noise, late_s=0.0, away=(0.0, 0.0, 0.0)):
 def test_one_noisy_publisher_is_not_taken_for_two_and_two_are(noise):
     rng = np.random.default_rng(5)
     for _ in range(30):
-        samples = int(rng.integers(10, 300))
-        assert contradiction("odom", "base_link", [a_track(rng, samples, noise)]) is None
+        assert contradiction("odom", "base_link", [a_track(rng, int(rng.integers(10, 300)), noise)]) is None
     found = 0
     for seed in range(20):
         one = a_track(np.random.default_rng(seed), 150, 0.1 * noise)
@@ -263,8 +260,7 @@ def test_a_clock_that_starts_again_while_messages_are_on_their_way(tmp_path):
 
 def test_a_run_without_poses_is_left_out_and_a_clock_that_starts_again_for_the_recorder_too_is_refused(tmp_path):
     first, scans = run_of(1, 100.0)
-    second = [m for m in run_of(2, 107.0)[0] if m[0] == "/scan"]
-    reading = describe_log(r.written(tmp_path, r.merged(first, second)))
+    reading = describe_log(r.written(tmp_path, r.merged(first, [m for m in run_of(2, 107.0)[0] if m[0] == "/scan"])))
     same(reading.scans, scans)
     assert any("one run of the clock was left out: " in note for note in reading.notes)
     parts = [r.robot(path=way(n), late=0.01 * n)[0] for n in (1, 2)]

@@ -108,8 +108,7 @@ def test_beams_point_where_the_message_is_defined_to_say_and_what_contradicts_it
 def test_a_scanner_mounted_upside_down_sees_the_same_world(tmp_path):
     messages, scans = r.robot(static=False)
     messages = r.without(messages, "/scan")
-    mount = r.transform(0.0, "base_link", "laser", *r.MOUNT, roll=math.pi)
-    messages.append(("/tf_static", r.TF, 0.0, r.tf(mount)))
+    messages.append(("/tf_static", r.TF, 0.0, r.tf(r.transform(0.0, "base_link", "laser", *r.MOUNT, roll=math.pi))))
     for t, row in zip(r.SCAN_TIMES, scans.ranges_m, strict=True):
         messages.append(("/scan", r.SCAN, t, r.laser(t, row[::-1], r.ANGLES)))  # the angles are symmetric
     reading = describe_log(r.written(tmp_path, messages))
@@ -151,9 +150,8 @@ def test_de_skewing_undoes_the_sensor_s_motion_during_a_scan(tmp_path):
 def test_stamps_out_of_order_are_sorted_and_scans_without_a_pose_at_their_time_are_left_out(tmp_path):
     messages, scans = r.robot()
     laser = [m for m in messages if m[0] == "/scan"]
-    others = r.without(messages, "/scan")
     shuffled = [(a[0], a[1], b[2], a[3]) for a, b in zip(reversed(laser), laser, strict=True)]
-    reading = describe_log(r.written(tmp_path, sorted([*others, *shuffled], key=lambda m: m[2])))
+    reading = describe_log(r.written(tmp_path, sorted([*r.without(messages, "/scan"), *shuffled], key=lambda m: m[2])))
     r.same(reading.scans, scans)
     assert reading.reordered == 9
     assert "all were sorted" in reading.notes[0]
@@ -273,10 +271,8 @@ def test_scans_alone_are_read_where_no_poses_are_needed(tmp_path, writer):
 def test_poses_are_not_looked_at_where_none_are_needed(tmp_path):
     """Neither those of a part of the time, nor damaged ones; but a laser that is upside down is known to be."""
     messages = [m for m in r.robot()[0] if m[0] == "/scan" or m[2] < 1.0]
-    broken = r.transform(0.5, "odom", "base_link", math.nan, 0.0, 0.0)
-    messages.append(("/tf", r.TF, 0.9, r.tf(broken)))
-    upright = r.written(tmp_path / "upright", sorted(messages, key=lambda m: m[2]))
-    reading = describe_log(upright, without_poses=True)
+    messages.append(("/tf", r.TF, 0.9, r.tf(r.transform(0.5, "odom", "base_link", math.nan, 0.0, 0.0))))
+    reading = describe_log(r.written(tmp_path / "upright", sorted(messages, key=lambda m: m[2])), without_poses=True)
     assert len(reading.scans) == 10
     assert not reading.scans.poses.any()
     messages = [m for m in messages if m[0] == "/scan"]

@@ -1,7 +1,4 @@
-"""Recordings that cannot be used: one sentence that says what is there and what to give; nothing else is raised.
-
-Whatever their bytes are, they are read or refused, and no warning is given.
-"""
+"""Recordings that cannot be used, whatever their bytes: one sentence says what is there and what to give."""
 
 import math
 import sqlite3

@@ -46,8 +46,7 @@ def assert_equal_runs(one, other):
         assert getattr(mine, name) == getattr(theirs, name), name
     np.testing.assert_array_equal(mine.log_weights, theirs.log_weights)
     for field in dataclasses.fields(bm.Scans):
-        pair = (getattr(run.scans, field.name) for run in (mine, theirs))
-        np.testing.assert_array_equal(*pair, err_msg=field.name)
+        np.testing.assert_array_equal(*(getattr(run.scans, field.name) for run in (mine, theirs)), err_msg=field.name)
 
 
 @pytest.fixture(scope="module")
@@ -81,8 +80,7 @@ STOP_CASES = latin(2, list(STOP_PRIORS), [0, 1, 5], ["fit", STOP_SENSOR])
 @pytest.mark.parametrize(("kind", "draws", "sensor"), STOP_CASES)
 def test_a_run_over_reflectivities_or_surfaces_comes_back_equal_and_opens_anywhere(kind, draws, sensor, tmp_path):
     scans = dataclasses.replace(scans_of_all_kinds(5, STOP_GRID, poses=8), stamps_s=np.arange(8) + 1e9)
-    options = grouped(prior=STOP_PRIORS[kind], sensor=sensor, chains=2, warmup=8, draws=draws)
-    run = bm.infer(scans, STOP_GRID, **options)
+    run = bm.infer(scans, STOP_GRID, **grouped(prior=STOP_PRIORS[kind], sensor=sensor, chains=2, warmup=8, draws=draws))
     loaded = saved_and_loaded(run, tmp_path)
     if draws:
         assert loaded.log_score(scans) == run.log_score(scans)

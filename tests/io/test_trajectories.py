@@ -48,8 +48,7 @@ def test_recordings_hold_the_path_and_poses_with_covariances(tmp_path, ending):
         assert (one.time_ns, one.message.header.frame_id) == (round(STAMPS[i] * 1e9), "map")
         for place in (line.poses[i].pose, one.message.pose.pose):
             assert (place.position.x, place.position.y) == tuple(POSES[i, :2])
-            yaw = 2 * np.arctan2(place.orientation.z, place.orientation.w)
-            assert yaw == pytest.approx(POSES[i, 2])
+            assert 2 * np.arctan2(place.orientation.z, place.orientation.w) == pytest.approx(POSES[i, 2])
         six = np.reshape(one.message.pose.covariance, (6, 6))
         np.testing.assert_allclose(six[np.ix_([0, 1, 5], [0, 1, 5])], covariances()[i])
         assert np.count_nonzero(six) == 9
@@ -103,8 +102,7 @@ def test_a_graph_says_its_steps_and_how_sure_they_are(tmp_path):
 def test_a_step_is_as_sure_as_the_draws_say_not_as_two_poses_alone():
     """Draws that move together know their steps exactly; independent ones do not."""
     rng = np.random.default_rng(1)
-    together = POSES + rng.normal(size=(500, 1, 3)) * (0.1, 0.1, 0.0)
-    sure = chain_edges(Trajectory.of_draws(together, STAMPS))
+    sure = chain_edges(Trajectory.of_draws(POSES + rng.normal(size=(500, 1, 3)) * (0.1, 0.1, 0.0), STAMPS))
     alone = chain_edges(Trajectory.of_draws(POSES + rng.normal(size=(500, 3, 3)) * 0.1, STAMPS))
     assert np.linalg.eigvalsh(sure.information).min() > 1e6
     assert np.linalg.eigvalsh(alone.information).max() < 200
@@ -132,15 +130,13 @@ def test_graphs_that_cannot_be(tmp_path):
 
 def test_a_mount_swings_with_its_uncertain_heading_and_the_mean_of_draws_goes_round_the_circle():
     """The covariance of another frame is that of its draws, up to what is not linear."""
-    rng = np.random.default_rng(2)
     covariance = np.diag([0.01, 0.02, 0.01]) ** 2
     pose, mount = np.array([3.0, -1.0, 2.0]), np.array([0.5, 0.2, 0.1])
-    drawn = compose(rng.multivariate_normal(pose, covariance, 200_000), mount)
+    drawn = compose(np.random.default_rng(2).multivariate_normal(pose, covariance, 200_000), mount)
     moved = Trajectory(pose, covariances=covariance[None]).of_frame(mount)
     np.testing.assert_allclose(moved.covariances[0], np.cov(drawn.T), atol=4e-6)
     np.testing.assert_allclose(between(moved.poses[0], compose(pose, mount)), 0, atol=1e-12)
-    draws = np.array([[[0.0, 0.0, np.pi - 0.1]], [[2.0, 0.0, -np.pi + 0.1]]])
-    found = Trajectory.of_draws(draws)
+    found = Trajectory.of_draws(np.array([[[0.0, 0.0, np.pi - 0.1]], [[2.0, 0.0, -np.pi + 0.1]]]))
     assert abs(abs(found.poses[0, 2]) - np.pi) < 1e-9
     assert found.covariances[0, 2, 2] == pytest.approx(2 * 0.1**2)
 
@@ -214,15 +210,13 @@ def test_the_graph_s_solution_and_its_covariances_are_those_of_the_run(force, tm
     if force == 0.0:
         spread = np.sqrt(np.diagonal(theirs, axis1=1, axis2=2))
         assert (np.abs(mine - theirs) / (spread[:, :, None] * spread[:, None, :])).max() < 1e-3
-    ratio = np.linalg.slogdet(mine)[1] - np.linalg.slogdet(theirs)[1]
-    assert abs(ratio.mean() / 3) < (1e-3 if force == 0.0 else 0.1)
+    assert abs((np.linalg.slogdet(mine)[1] - np.linalg.slogdet(theirs)[1]).mean() / 3) < (1e-3 if force == 0.0 else 0.1)
 
 
 def test_an_edge_that_says_nothing_of_a_direction_can_still_be_read():
     found = round_way()
     found.gaussian.curvature[3, 0] = found.gaussian.curvature[3, :, 0] = 0.0
-    edges = slam_edges(found)
-    assert np.linalg.eigvalsh(edges.information).min() == pytest.approx(1e-3)
+    assert np.linalg.eigvalsh(slam_edges(found).information).min() == pytest.approx(1e-3)
 
 
 @pytest.mark.parametrize("name", ["true.relations", "true.relations.gz"])

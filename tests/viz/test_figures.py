@@ -50,9 +50,8 @@ def test_every_cell_is_the_same_whole_number_of_pixels(shape, tmp_path):
     left, bottom = layout.corners[0]
     panel = rgb[len(rgb) - bottom - layout.panel[1] : len(rgb) - bottom, left : left + layout.panel[0]]
     dark = panel[::-1].transpose(1, 0, 2).mean(axis=2) < 0.5  # [x, y] from the lower left
-    expected = walls.repeat(size, axis=0).repeat(size, axis=1)
     inner = (slice(3, -3), slice(3, -3))  # the frame covers the border
-    np.testing.assert_array_equal(dark[inner], expected[inner])
+    np.testing.assert_array_equal(dark[inner], walls.repeat(size, axis=0).repeat(size, axis=1)[inner])
 
 
 ORIGINS = {(21, 21): (-0.5, -0.5), (400, 300): (-1234.5, 98765.25), (300, 60): (0, 0)}
@@ -184,8 +183,7 @@ def test_surfaces_lie_over_the_mean_where_cells_are_large_enough():
     assert len(lines.get_segments()) == len(surfaces()[0])
     assert "surface" in [text.get_text() for text in figure.legends[0].get_texts()]
     fine = bm.Grid(shape=(500, 500), resolution=0.01, origin=GRID.origin)
-    nothing = np.zeros(fine.shape)
-    assert not strokes(posterior_figure(fine, nothing, surfaces=surfaces()))
+    assert not strokes(posterior_figure(fine, np.zeros(fine.shape), surfaces=surfaces()))
 
 
 SMALL = bm.Grid(shape=(8, 6))

@@ -74,8 +74,7 @@ def test_unobserved_is_hatched_and_differs_from_free_and_from_even_odds():
     np.testing.assert_allclose(cell(ax, 1, 1), FREE, atol=0.01)
     assert np.abs(cell(ax, *HIDDEN) - to_rgb(palette.UNOBSERVED_WALL)).max() < 0.1
     grid = bm.Grid(shape=(600, 600))
-    speckled = np.random.default_rng(0).random(grid.shape) < 0.7
-    plot_probability(ax := panel(), grid, np.zeros(grid.shape), speckled)
+    plot_probability(ax := panel(), grid, np.zeros(grid.shape), np.random.default_rng(0).random(grid.shape) < 0.7)
     assert len(ax.patches) + len(ax.collections) + len(ax.images) < 10  # not one artist for each cell
 
 

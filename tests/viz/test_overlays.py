@@ -18,10 +18,8 @@ def test_outline_surrounds_the_true_wall():
     ax = panel()
     viz.plot_probability(ax, GRID, np.zeros(GRID.shape))
     before = pixels(ax.figure)
-    lines = viz.plot_truth_outline(ax, GRID, occupancy() == 1.0)
-    assert lines.get_label() == "true walls"
-    changed = np.abs(pixels(ax.figure) - before).max(axis=2) > 0.1
-    rows, columns = np.nonzero(changed)
+    assert viz.plot_truth_outline(ax, GRID, occupancy() == 1.0).get_label() == "true walls"
+    rows, columns = np.nonzero(np.abs(pixels(ax.figure) - before).max(axis=2) > 0.1)
     assert rows.max() <= 11  # the upper right cell is pixels 0 to 9 from the top
     assert columns.min() >= 48
     np.testing.assert_allclose(cell(ax, *CORNER), viz.palette.probability_colors(2)[0], atol=0.1)
@@ -164,8 +162,7 @@ def test_badly_explained_scans_are_marked():
 
 
 def test_ellipses_hold_95_percent_and_the_legend_says_how_much_they_are_magnified():
-    poses = np.repeat(POSES, 3, axis=0)
-    figure = figures.trajectory_figure(FLOOR, MAP, SEEN, poses, np.repeat(COVARIANCES, 3, axis=0))
+    figure = figures.trajectory_figure(FLOOR, MAP, SEEN, np.repeat(POSES, 3, axis=0), np.repeat(COVARIANCES, 3, axis=0))
     (ellipses,) = [c for c in figure.axes[0].collections if type(c).__name__ == "EllipseCollection"]
     (name,) = [label for label in labels(figure) if label.startswith("95 %")]
     magnified = float(name.rsplit("drawn ")[1].split()[0]) if "drawn" in name else 1.0
@@ -190,8 +187,7 @@ def png_of(figure):
 
 def test_a_disc_sweeps_all_points_within_its_radius_of_the_path():
     swept = plot_route(Figure().subplots(), PATH, 0.4).get_path()
-    rng = np.random.default_rng(1)
-    points = rng.uniform([-1, 1], [4, 6], (3000, 2))
+    points = np.random.default_rng(1).uniform([-1, 1], [4, 6], (3000, 2))
     along = np.concatenate([a + np.linspace(0, 1, 500)[:, None] * (b - a) for a, b in ((PATH[0], PATH[1]), PATH[1:])])
     away = np.hypot(*(points[:, None] - along).transpose(2, 0, 1)).min(axis=1)
     polygons = [type(swept)(corners) for corners in swept.to_polygons()]

@@ -36,8 +36,7 @@ def test_the_worst_beams_are_larger_on_top_and_all_there_even_of_very_many():
     dots = viz.plot_residuals(panel(), np.zeros((4, 2)), [0.3, -0.5, 0.0, 0.1], viz.residual_scale([], 0.5))
     np.testing.assert_allclose(dots.get_array(), [0.0, 0.1, 0.3, -0.5])
     assert (np.diff(dots.get_sizes()) > 0).all()
-    rng = np.random.default_rng(0)
-    values = rng.normal(0.0, 0.01, 3 * MAX_POINTS)
+    values = np.random.default_rng(0).normal(0.0, 0.01, 3 * MAX_POINTS)
     values[:100] = 2.0
     dots = viz.plot_residuals(panel(), np.zeros((len(values), 2)), values, viz.residual_scale(values))
     shown = dots.get_array()
@@ -46,8 +45,7 @@ def test_the_worst_beams_are_larger_on_top_and_all_there_even_of_very_many():
 
 
 def test_colour_scales_hold_nine_residuals_of_ten():
-    rng = np.random.default_rng(1)
-    scale = viz.residual_scale(rng.normal(0.0, 0.2, 10_000))  # 90 % lie within 0.33
+    scale = viz.residual_scale(np.random.default_rng(1).normal(0.0, 0.2, 10_000))  # 90 % lie within 0.33
     assert (scale.low, scale.high) == (-0.5, 0.5)
     assert viz.residual_scale(np.zeros(5)).high == 0.05
     assert viz.residual_scale([]).high == 0.05
@@ -69,8 +67,7 @@ def test_the_figure_lays_the_beams_over_the_faded_map():
     assert ax.images[0].get_alpha() < 0.5
     assert len(ax.collections) == 1
     assert bar.get_ylabel() == "reading minus predicted median [m]"
-    surprise = viz.surprise_scale([0.5, 3.0])
-    figure = viz.residuals_figure(GRID, occupancy(), [[0.0, 3.0]] * 2, [0.5, 3.0], scale=surprise)
+    figure = viz.residuals_figure(GRID, occupancy(), [[0.0, 3.0]] * 2, [0.5, 3.0], scale=viz.surprise_scale([0.5, 3.0]))
     assert figure.axes[1].get_ylabel() == "surprise: minus log score [nats]"
 
 
@@ -90,8 +87,7 @@ def test_panels_hold_histogram_coverage_and_reliability(score):
     heights, edges, _ = pit.patches[0].get_data()
     np.testing.assert_allclose(heights * np.diff(edges), score.pit_histogram)
     level, share = coverage.lines[0].get_data()
-    half = np.argmin(abs(level - 0.5))
-    assert share[half] == pytest.approx(score.coverage[0].share.value, abs=0.02)
+    assert share[np.argmin(abs(level - 0.5))] == pytest.approx(score.coverage[0].share.value, abs=0.02)
     assert (coverage.lines[1].get_ydata() != share).any()
     predicted, happened = events.lines[0].get_data()
     rows = [(p, s) for p, s, n in score.reliability if n >= 20 and s > 0]

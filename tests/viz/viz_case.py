@@ -7,10 +7,8 @@ from matplotlib.figure import Figure
 import bayesmap as bm
 
 GRID = bm.Grid(shape=(6, 4), resolution=0.5, origin=(-1.0, 2.0))
-CORNER = (5, 3)
-"""The cell in the upper right."""
-HIDDEN = (0, 3)
-"""The cell in the upper left, which no beam reached."""
+CORNER = (5, 3)  # the cell in the upper right
+HIDDEN = (0, 3)  # the cell in the upper left, which no beam reached
 
 
 def occupancy():
@@ -49,6 +47,5 @@ def pixels(figure):
 
 def cell(ax, i, j):
     """Mean RGB of the inner pixels of a cell of a `panel`."""
-    rows = pixels(ax.figure)
     top = 10 * (GRID.shape[1] - 1 - j)
-    return rows[top + 2 : top + 8, 10 * i + 2 : 10 * i + 8].reshape(-1, 3).mean(axis=0)
+    return pixels(ax.figure)[top + 2 : top + 8, 10 * i + 2 : 10 * i + 8].reshape(-1, 3).mean(axis=0)
