@@ -1,7 +1,4 @@
-"""Stored draws of a map: the named arrays that a kind of cells declares, by chain and draw.
-
-Storage is compact: binary maps take one bit per cell, other numbers half precision.
-"""
+"""Stored draws of a map: named arrays of a kind by chain and draw, a bit per wall, other numbers in half precision."""
 
 from __future__ import annotations
 
@@ -22,8 +19,7 @@ LEAST_HALF = float(np.finfo(np.float16).smallest_subnormal)
 
 def unpack(packed: NDArray[np.uint8], shape: tuple[int, ...]) -> NDArray[np.bool_]:
     """Return packed arrays (..., ceil(N / 8)) as booleans (..., *shape), such as maps (..., nx, ny)."""
-    bits = np.unpackbits(packed, axis=-1, count=math.prod(shape))
-    return bits.reshape(*packed.shape[:-1], *shape).view(np.bool_)
+    return np.unpackbits(packed, axis=-1, count=math.prod(shape)).reshape(*packed.shape[:-1], *shape).view(np.bool_)
 
 
 def pack(values: NDArray[Any], dims: int = 2) -> NDArray[np.uint8]:

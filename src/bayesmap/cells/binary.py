@@ -4,9 +4,8 @@ Cells of `Independent` are independent. `Ising` favours alike neighbours:
 
     p(walls) proportional to  prod_c p^m_c (1 - p)^(1 - m_c)  exp(coupling * sum over pairs [m_a = m_b])
 
-over all pairs of cells a, b of the grid that share an edge; m_c is 1 in a wall and 0 in a free cell (Ising, 1925;
-Besag, *Spatial interaction and the statistical analysis of lattice systems*, 1974). Given its neighbours a cell is a
-wall with log-odds
+over all pairs of cells a, b that share an edge; m_c is 1 in a wall, else 0 (Ising, 1925; Besag, *Spatial interaction
+and the statistical analysis of lattice systems*, 1974). Given its neighbours a cell is a wall with log-odds
 
     logit(p) + coupling * (walls - free cells among its neighbours)
 
@@ -164,13 +163,10 @@ class BinaryWalls(CellPrior):
 
 @dataclass(frozen=True, eq=False)
 class Independent(BinaryWalls):
-    """Binary walls, each cell independently a wall.
+    """Binary walls, each cell independently a wall. Raises `BadInput` for a probability outside [0, 1].
 
     Attributes:
         p_wall: probability of a wall, one number for all cells or an array of shape (nx, ny); 0 and 1 fix cells.
-
-    Raises:
-        BadInput: a probability outside [0, 1].
     """
 
     def mean_stop(self, grid: Grid) -> Floats:
@@ -185,17 +181,12 @@ START_SWEEPS = 50  # from a map of independent cells to the start of a chain
 
 @dataclass(frozen=True, eq=False)
 class Ising(BinaryWalls):
-    """Binary walls that are likelier beside walls, and free cells beside free cells.
+    """Binary walls that are likelier beside walls, free cells beside free. Raises `BadInput`: numbers out of bounds.
 
     Attributes:
-        p_wall: probability of a wall that has as many walls as free cells around it, one number for all cells or an
-            array of shape (nx, ny); 0 and 1 fix cells.
+        p_wall: probability of a wall with as many walls as free cells around, one or (nx, ny), in [0, 1]; 0 and 1 fix.
         coupling: log density added by each pair of alike neighbours (cells that share an edge), from 0 to 50; at 0 the
-            prior is `Independent`. With "fit", `bayesmap.infer` fits it to the scans (`bayesmap.fit_coupling` fits it
-            to maps).
-
-    Raises:
-        BadInput: a probability outside [0, 1], or a coupling outside [0, 50] that is not "fit".
+            prior is `Independent`. With "fit", `bayesmap.infer` fits it to scans (`bayesmap.fit_coupling`: to maps).
     """
 
     coupling: float | Literal["fit"] = None  # type: ignore[assignment]  # so that the message says what is missing
@@ -267,14 +258,11 @@ LARGEST_FITTED = 4.0  # largest fitted coupling: for a map of alike cells alone,
 
 
 def fit_coupling(walls: ArrayLike, p_wall: ArrayLike) -> float:
-    """Return the coupling that maximises the pseudo-likelihood of known maps, such as a similar building's plan.
+    """Return the coupling in [0, 4] of greatest pseudo-likelihood for known maps, such as a similar building's plan.
 
     Args:
         walls: maps, (nx, ny) or (n, nx, ny).
         p_wall: fixed wall probability as in `bayesmap.Ising`: one number, or one per cell, (nx, ny).
-
-    Returns:
-        The coupling of greatest pseudo-likelihood between 0 and 4.
 
     Raises:
         BadInput: walls that are no maps, or probabilities outside [0, 1] or of another shape than a map.

@@ -9,9 +9,8 @@ The algorithm sends two maps, all walls and all free, through the same sweeps fr
 two maps meet, every starting map would have led to the same result, which is then a draw from the stationary law. Else
 the start moves twice as far back, with the same random numbers for the same sweeps.
 
-The label of a cell is free or solid: an Ising field as in `bayesmap.cells.binary` at p = 1/2. It selects one of two
-Beta laws for the cell's reflectivity (a hidden Markov random field: Geman and Geman, 1984; Besag, *On the statistical
-analysis of dirty pictures*, 1986).
+Labels of cells, free or solid, are an Ising field at p = 1/2 and select one of two Beta laws for a reflectivity (a
+hidden Markov random field: Geman and Geman, 1984; Besag, *On the statistical analysis of dirty pictures*, 1986).
 """
 
 from __future__ import annotations
@@ -61,8 +60,7 @@ def perfect_draws(rng: np.random.Generator, logit: Floats, coupling: float, coun
 
 def rough_draw(rng: np.random.Generator, logit: Floats, coupling: float, sweeps: int) -> NDArray[np.bool_]:
     """Return a map, (nx, ny): independent cells after the given number of sweeps. It is no exact draw."""
-    walls = rng.random(logit.shape) < special.expit(logit)
-    field = _padded(np.where(walls, 1, -1).astype(np.int8)[None])
+    field = _padded(np.where(rng.random(logit.shape) < special.expit(logit), 1, -1).astype(np.int8)[None])
     for _ in range(sweeps):
         _sweep(field, _wall_levels(rng.random((1, *logit.shape)), logit, coupling))
     return np.asarray(field[0, 1:-1, 1:-1] > 0)
@@ -87,8 +85,7 @@ def _sweep(field: NDArray[np.int8], levels: NDArray[np.int8]) -> None:
     x, y = np.ogrid[: inner.shape[1], : inner.shape[2]]
     for parity in (0, 1):
         balance = field[:, 2:, 1:-1] + field[:, :-2, 1:-1] + field[:, 1:-1, 2:] + field[:, 1:-1, :-2]
-        drawn = np.where(balance > levels, np.int8(1), np.int8(-1))
-        np.copyto(inner, drawn, where=(x + y) % 2 == parity)
+        np.copyto(inner, np.where(balance > levels, np.int8(1), np.int8(-1)), where=(x + y) % 2 == parity)
 
 
 SOLID = ArraySpec("solid", ("x", "y"), "bool", "bits", "whether the cell's label is solid; else it is free")
@@ -116,15 +113,13 @@ def labels_of_draw(draws: Draws, chain: int, draw: int) -> NDArray[np.bool_]:
 def solid_share(draws: Draws) -> Floats:
     """Return the share of all draws in which each cell is solid, flat, (N,)."""
     packed = draws.arrays[SOLID.name]
-    counts = count_walls(packed.reshape(-1, packed.shape[-1]), draws.grid.n_cells)
-    return np.asarray(counts / draws.size)
+    return np.asarray(count_walls(packed.reshape(-1, packed.shape[-1]), draws.grid.n_cells) / draws.size)
 
 
 def mixture_quantiles(
     share: Floats, free: tuple[float, float], solid: tuple[float, float], tails: tuple[float, float]
 ) -> Floats:
     """Compute quantiles of reflectivities by bisection, (len(tails), N).
-
     ``share`` is each cell's probability of being solid, (N,). ``free`` and ``solid`` hold a and b of two Beta laws.
     """
     # Cells with the same share have the same quantiles: compute them once per distinct share.

@@ -86,7 +86,6 @@ class CellPrior(ABC):
         self, cells: Cells, site: tuple[int, int], rng: np.random.Generator, grid: Grid
     ) -> tuple[dict[str, Any], float]:
         """Propose a cell's new value of every array. Returns it and the log of prior ratio times proposal ratio.
-
         The default draws from the prior, which is right if the prior makes cells independent.
         """
         fresh = self.sample_cells(rng, Grid((1, 1), grid.resolution))
@@ -134,7 +133,6 @@ class CellPrior(ABC):
 
     def evidence_interval(self, draws: Draws, level: float) -> tuple[Floats, Floats] | None:
         """Return the central interval of each cell's chance to stop a beam under a uniform prior, (nx, ny) each.
-
         A cell that few beams reached has a wide one, whatever its prior says. The default is None: no beam is counted.
         """
         return None
@@ -180,7 +178,6 @@ class CellPrior(ABC):
 
     def drawn_stops(self, draws: Draws, cells: NDArray[np.int32] | None = None) -> Iterator[NDArray[np.float32]]:
         """Yield `predictive_stops` of drawn states alone, without expectations, for decisions on single draws.
-
         The default is `predictive_stops` itself, which is right if it yields drawn states.
         """
         return self.predictive_stops(draws, cells)

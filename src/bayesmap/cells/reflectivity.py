@@ -1,7 +1,6 @@
-"""Reflectivities: a cell stops some of the beams that come to it.
+"""Reflectivities: a cell stops a beam at its hit depth with chance m in [0, 1].
 
-Binary walls are too rigid for glass, chair legs, people and cells that a wall fills in part. Here a cell has a
-reflectivity m in [0, 1], the chance that it stops a beam at the cell's hit depth.
+Binary walls are too rigid for glass, chair legs, people and cells that a wall fills in part.
 """
 
 from __future__ import annotations
@@ -63,16 +62,13 @@ class Beta(CellPrior):
     """A reflectivity in each cell; a stopped beam stops at the cell's hit depth.
 
     At a coupling of 0, reflectivities are independent: Beta(a, b) in each cell. At a coupling above 0 each cell has a
-    label: the reflectivity is Beta(a, b) in free cells, and Beta(a_solid, b_solid) in solid cells.
+    label: the reflectivity is Beta(a, b) in free cells, Beta(a_solid, b_solid) in solid. Raises `BadInput`: a count
+    that is not positive, or a coupling that is no number from 0 to 50.
 
     Attributes:
         a, b: pseudo-counts of stopped and of passing beams; for free cells only, if cells have labels.
-        coupling: log density added by each pair of neighbours (cells that share an edge) with the same label; at 0
-            there are no labels, and cells are independent.
+        coupling: log density added by each pair of neighbours (cells that share an edge) with the same label.
         a_solid, b_solid: pseudo-counts for solid cells, if cells have labels.
-
-    Raises:
-        BadInput: a count that is not positive, or a coupling that is no number from 0 to 50.
     """
 
     a: float = 0.02
@@ -177,7 +173,6 @@ class Beta(CellPrior):
 
     def default_draws(self, beams: int, cells: int, chains: int, thin: int = 1) -> int:
         """Return the default number of draws per chain, between 100 (50 if ``thin`` is 1) and 200 (docs/defaults.md).
-
         They take the time of 100 (50) draws with 100 000 beams. Large grids get fewer, to fit the draws into 1 GiB.
         """
         fewest = MIN_DRAWS_UNTHINNED if thin == 1 else MIN_DRAWS

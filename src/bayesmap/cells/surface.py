@@ -48,6 +48,7 @@ class Surface(Beta):
 
     The prior is mu ~ N(centre, tau^2 I) inside the cell's own square, and Sigma ~ InverseWishart(nu, psi I) x
     exp(-tr Sigma / (2 kappa^2)). Lengths are in edges of a cell, so that one prior serves all resolutions.
+    Raises `BadInput`: a number that is not positive, too few dof, or surfaces much larger than their scale.
 
     Attributes:
         a, b, coupling, a_solid, b_solid: as in `Beta`.
@@ -55,9 +56,6 @@ class Surface(Beta):
         spread: sqrt(psi), typical size of surfaces.
         dof: nu, degrees of freedom of the size; more than 1.
         size_scale: kappa, the size beyond which surfaces are unlikely: about that of a cell.
-
-    Raises:
-        BadInput: a number that is not positive, too few degrees of freedom, or surfaces much larger than their scale.
     """
 
     mean_scale: float = 0.4
@@ -164,10 +162,8 @@ class Surface(Beta):
         )  # fmt: skip
 
     def surfaces(self, draws: Draws) -> tuple[Floats, Floats, Floats]:
-        """Compute the posterior mean surfaces of the cells in which a reading ends.
-
-        Returns means in the world frame in metres, (U, 2); covariances of the points in m^2, (U, 2, 2); and mean
-        reflectivities of the cells, (U,).
+        """Compute posterior mean surfaces of the U cells in which readings end: means, world frame, metres, (U, 2),
+        covariances of the points, m^2, (U, 2, 2), and mean reflectivities of the cells, (U,).
         """
         edge, cells = draws.grid.resolution, draws.index["surface_cell"]
         mean, covariance = np.zeros((len(cells), 2)), np.zeros((len(cells), 2, 2))
@@ -183,8 +179,7 @@ class Surface(Beta):
         n_draws = max(draws.size, 1)
         mean = draws.grid.centers_from_corner_m(cells) + np.array(draws.grid.origin) + mean / n_draws
         position, _ = positions_in(draws.index["cell"], cells)
-        reflectivity = draws.arrays["expected"][..., position].mean(axis=(0, 1), dtype=np.float64)
-        return mean, covariance / n_draws, reflectivity
+        return mean, covariance / n_draws, draws.arrays["expected"][..., position].mean(axis=(0, 1), dtype=np.float64)
 
     def surface_writer(self, draws: Draws, cells: NDArray[np.int32]) -> Callable[[NDArray[np.float32], int, int], None]:
         """Return a function that writes the surfaces of the cells in a draw, by chain and draw, into stops, (n, 6)."""

@@ -1,7 +1,6 @@
 """Start Warp, put arrays on a device, and launch a kernel on all cores.
 
-Warp runs a CPU launch on the calling thread and releases the GIL, so `launch` runs one slice per thread. Kernels write
-only to their own elements: threads do not change the result.
+Launches release the GIL: `launch` runs one per thread. Kernels write only to own elements, so threads change no result.
 """
 
 import contextlib

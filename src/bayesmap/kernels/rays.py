@@ -212,11 +212,10 @@ def trace_rays(
 ) -> Rays:  # fmt: skip
     """Follow every beam of S scans of A beams through a grid: beam ``s * A + a`` of the rays is beam a of scan s.
 
-    Beams with invalid readings, and beams that a scan does not have, get no entry. ``poses_world`` are other poses for
-    the scans, as `bayesmap.space.scans.Scans.at` takes them. Each beam is followed for ``reach_m``, (B,), at most to
-    the sensor's largest range, the default. No stop before ``near_m``, (B,), could explain its reading; 0 if None.
-    ``on_progress`` gets the beams done and all beams; each beam is followed twice. Raises `BadInput` if 32-bit indices
-    cannot count the incidences.
+    Beams with invalid readings, and beams that a scan lacks, get no entry. ``poses_world`` are other poses, as
+    `bayesmap.space.scans.Scans.at` takes them. Each beam is followed for ``reach_m``, (B,), at most to the sensor's
+    largest range, the default. No stop before ``near_m``, (B,), could explain its reading; 0 if None. ``on_progress``
+    gets beams done and all; each is followed twice. Raises `BadInput` if 32-bit indices cannot count the incidences.
     """
     device = devices.resolve(device)
     scans = scans if poses_world is None else scans.at(poses_world)
@@ -243,10 +242,9 @@ def trace_rays(
     offsets = offsets_of(counts)
     cells = wp.empty(int(offsets[-1]), dtype=wp.int32, device=device)
     near = follow_beams(beams, np.zeros(beams) if near_m is None else near_m, offsets, cells)
-    limits = RangeLimits(scans.min_range_m, scans.max_range_m)
     return Rays(
         grid=grid, offsets=offsets, cells=cells.numpy(), near=near, start_m=start_m, direction=direction,
-        range_m=ranges, limits=limits,
+        range_m=ranges, limits=RangeLimits(scans.min_range_m, scans.max_range_m),
     )  # fmt: skip
 
 

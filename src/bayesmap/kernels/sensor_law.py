@@ -2,8 +2,7 @@
 
 A beam stops at a distance known up to a variance, which widens the noise to ``sqrt(scale(d)^2 + variance)``. Functions
 take their precision from their arguments: chains weigh stops in single precision (`SensorLaw32`), tables and
-predictions work in double precision (`SensorLaw64`). A model without a compiled formula is tabulated
-(`bayesmap.kernels.law_table`).
+predictions in double (`SensorLaw64`). A model without a compiled formula is tabulated (`bayesmap.kernels.law_table`).
 """
 
 import math

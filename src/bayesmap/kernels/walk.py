@@ -62,10 +62,7 @@ def cell_before(p: wp.float64, step: int) -> int:
 def walk_begin(
     px: wp.float64, py: wp.float64, ux: wp.float64, uy: wp.float64, nx: int, ny: int, longest: wp.float64
 ) -> Walk:
-    """Return the walk of a beam from (px, py) in direction (ux, uy), at its first touch.
-
-    Coordinates are in cells from the corner of a grid of nx x ny cells; the beam is at most ``longest`` cells long.
-    """
+    """Return the walk from (px, py) along (ux, uy) at its first touch; lengths are in cells from the grid's corner."""
     zero = wp.float64(0.0)
     one = wp.float64(1.0)
     # w: the walk. Per axis: step and gap, and the distances at which the beam enters and leaves the grid.
@@ -183,10 +180,8 @@ def first_hit_ranges(
 def cast_beams(
     walls: NDArray[Any], starts_cells: Floats, angles_rad: Floats, longest_cells: float, device: str = "cpu"
 ) -> tuple[Floats, Ints]:
-    """Compute each beam's distance to its first wall, in cells, and the number of cells visited, (B,) each.
-
-    Walls are non-zero elements, (nx, ny). Starts are in cells from the grid's corner, (B, 2). A beam that meets no wall
-    has the distance ``longest_cells``.
+    """Compute each beam's distance to its first wall, in cells, ``longest_cells`` without one, and the number of cells
+    visited, (B,) each. Walls are non-zero, (nx, ny); starts are in cells from the grid's corner, (B, 2).
     """
     device = devices.resolve(device)
     x, y = np.asarray(starts_cells).T

@@ -243,9 +243,8 @@ def stop_probabilities(occupancy: Floats, values: Mapping[str, float]) -> Floats
 def fit_external_map(name: str, occupancy: Floats, grid: Grid, train: Scans, on_progress: OnShare = ignored) -> Fitted:
     """Fit a sensor to an external map, and the stop probabilities of its occupied, free and unknown cells.
 
-    ``occupancy`` is the probability that each cell is occupied, (nx, ny), NaN where unknown. ``train`` holds scans that
-    are not scored, at poses in the map's frame. Raises `BadInput` if ``occupancy`` has another shape than the grid or
-    values outside [0, 1], or if no pose lies on the map.
+    ``occupancy`` holds probabilities of the cells, (nx, ny), NaN where unknown; ``train`` scans that are not scored, at
+    poses in the map's frame. Raises `BadInput`: another shape, values outside [0, 1], or no pose on the map.
     """
     values = np.asarray(occupancy, dtype=np.float64)
     if values.shape != grid.shape or (np.abs(np.nan_to_num(values, nan=0.5) - 0.5) > 0.5).any():
@@ -257,10 +256,9 @@ def fit_external_map(name: str, occupancy: Floats, grid: Grid, train: Scans, on_
             f"{name}: none of the poses lies on the map, which reaches from ({x0:.6g}, {y0:.6g}) to "
             f"({x1:.6g}, {y1:.6g}) m; are map and poses in one frame?"
         )
-    flat = values.ravel()
 
     def stop(hits: Floats, passes: Floats, numbers: Mapping[str, float]) -> Floats:
-        return stop_probabilities(flat, numbers)
+        return stop_probabilities(values.ravel(), numbers)
 
     baseline = Baseline(name, stop, EXTERNAL, EXTERNAL_STARTS)
     return fit_baseline(baseline, train, grid, one_fold(train, grid), on_progress)

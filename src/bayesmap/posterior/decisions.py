@@ -132,8 +132,7 @@ def _bounds(beam_log_p: Floats) -> tuple[float, float, float, float]:
     lower = own_log_p - (special.logsumexp(scan_log_p, axis=2) - math.log(draws))
     by_scan = own_log_p - left_out(scan_log_p)
     by_beam = (beam_log_p[:, draw_index, draw_index] - left_out(beam_log_p)).sum(axis=2)
-    uppers = (by_scan, by_beam)
-    upper = min(uppers, key=lambda gains: float(gains.mean()))
+    upper = min((by_scan, by_beam), key=lambda gains: float(gains.mean()))
     root = math.sqrt(chains * draws)
     return lower.mean(), lower.std(ddof=1) / root, upper.mean(), upper.std(ddof=1) / root
 
@@ -192,9 +191,7 @@ class Drawn(Protocol):
 
 
 def path_is_free(posterior: Drawn, path: ArrayLike, radius_m: float) -> routes.FreeProbability:
-    """Compute the probability that a disc can move along a path (`bayesmap.posterior.route`). Raises `BadInput` if
-    there are no draws, no path, or a radius that is not positive, or if the path leaves the map.
-    """
+    """Compute the chance that a disc can follow a path. Raises `BadInput`: no draws, path off the map, radius <= 0."""
     _need_draws(posterior, "free_probability")
     corners, grid = routes.checked_path(path), posterior.draws.grid
     _need_radius(radius_m)
@@ -210,9 +207,7 @@ def path_is_free(posterior: Drawn, path: ArrayLike, radius_m: float) -> routes.F
 def shortest_safe_path(
     posterior: Drawn, start: ArrayLike, goal: ArrayLike, radius_m: float, risk: float, on_progress: OnShare = ignored
 ) -> routes.Route:
-    """Find the shortest path of a disc whose risk stays under a bound (`bayesmap.posterior.route`). Raises `BadInput`
-    as `routes.plan_route`, and if there are no draws, or the radius is not positive.
-    """
+    """Find a disc's shortest path of bounded risk. Raises `BadInput` as `plan_route`, and: no draws, radius <= 0."""
     _need_draws(posterior, "plan")
     _need_radius(radius_m)
     ends = [routes.checked_path(point) for point in (start, goal)]
@@ -336,8 +331,7 @@ def _draw_candidates(posterior: Posterior, blocked: Floats, count: int, seed: in
     cells = np.argwhere(open_cells)
     nearest = cells[np.hypot(*(centres[tuple(cells.T)] - [x, y]).T).argmin()]
     reachable = np.argwhere(labels == labels[tuple(nearest)])
-    rng = np.random.default_rng([seed, 6])
-    selected = reachable[rng.permutation(len(reachable))[:count]]
+    selected = reachable[np.random.default_rng([seed, 6]).permutation(len(reachable))[:count]]
     return np.column_stack([centres[tuple(selected.T)], np.zeros(len(selected))])
 
 

@@ -1,7 +1,4 @@
-"""Held-out scans: scans of a log that may score a run, and folds of the training scans for fits.
-
-Baselines and external maps are fitted on folds: training scans that are left out of their counts.
-"""
+"""Held-out scans: those of a log that may score a run, and folds of training scans, left out of counts, for fits."""
 
 from __future__ import annotations
 
@@ -205,8 +202,7 @@ def together(folds: Sequence[Fold]) -> HeldOut:
 
     names = ("cells", "start_m", "direction", "range_m")
     unshifted = {name: np.concatenate([getattr(rays, name) for rays in by_fold]) for name in names}
-    lengths = np.concatenate([rays.lengths for rays in by_fold])
-    offsets = np.append(0, np.cumsum(lengths)).astype(np.int32)
+    offsets = np.append(0, np.cumsum(np.concatenate([rays.lengths for rays in by_fold]))).astype(np.int32)
     near = joined("near", entry_offsets)
     rays = Rays(grid=by_fold[0].grid, offsets=offsets, near=near, limits=by_fold[0].limits, **unshifted)
     return HeldOut(tuple(folds), rays, joined("columns", cell_offsets))

@@ -186,8 +186,7 @@ def dataset_of(posterior: Posterior, with_readings: bool) -> xarray.Dataset:
         "x": ("x", x, {"units": "m"}), "y": ("y", y, {"units": "m"}),
     }  # fmt: skip
     if with_readings:
-        values = by_reading(posterior)
-        variables["reading_log_likelihood"] = (("chain", "draw", "reading"), values, {"units": "nats"})
+        variables["reading_log_likelihood"] = (("chain", "draw", "reading"), by_reading(posterior), {"units": "nats"})
         scan, beam = valid_readings(posterior)
         coordinates |= {"reading_scan": ("reading", scan), "reading_beam": ("reading", beam)}
     for dimension, cells in draws.index.items():

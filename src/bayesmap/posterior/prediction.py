@@ -88,9 +88,7 @@ def fixed_maps(stop: NDArray[np.floating]) -> Batches:
 
 
 def predictor_of(posterior: Posterior, sensor: SensorModel | None = None) -> Predictor:
-    """Return the posterior's draws as a prediction, under the run's sensor model unless another is given. Raises
-    `BadInput` if the posterior has no draws, or does not know its sensor model.
-    """
+    """Return the draws as a prediction, by the run's sensor or another. Raises `BadInput`: no draws or known sensor."""
     sensor = posterior.sensor if sensor is None else sensor
     if sensor is None:
         raise BadInput(
@@ -103,8 +101,7 @@ def predictor_of(posterior: Posterior, sensor: SensorModel | None = None) -> Pre
     def batches(cells: NDArray[np.int32] | None = None) -> Iterator[MapStates]:
         return posterior.prior.predictive_stops(posterior.draws, cells)
 
-    hit_depth = float(posterior.settings["hit_depth"])
-    return Predictor(posterior.grid, batches, sensor, hit_depth, posterior.draws.size)
+    return Predictor(posterior.grid, batches, sensor, float(posterior.settings["hit_depth"]), posterior.draws.size)
 
 
 CENTRAL_80 = (0.1, 0.5, 0.9)  # levels of the median and of the ends of the central 80 % interval
@@ -144,8 +141,7 @@ class ScanPredictor:
         from bayesmap.kernels.rays import trace_rays
 
         probabilities = checked_levels(levels)
-        angles = np.asarray(angles_rad, dtype=np.float64)
-        scan = _unread_scans(np.reshape(pose_world, (1, 3)), angles, self.limits)
+        scan = _unread_scans(np.reshape(pose_world, (1, 3)), np.asarray(angles_rad, dtype=np.float64), self.limits)
         device = self.draws.device
         law = mix_device_stops(trace_rays(scan, self.grid, device=device), self.draws, GONE)
         return range_quantiles(law, probabilities, self.sensor, device)
@@ -180,8 +176,7 @@ def residuals_of(predictor: Predictor, scans: Scans, on_progress: OnShare = igno
     law = mix_stops(rays, watched(predictor.batches(rays.touched), draws, mixing), depth)
     median_m = range_quantiles(law, np.array([0.5]), sensor)[:, 0]
     batches = watched(predictor.batches(rays.touched), draws, forecasting)
-    prediction = forecast(rays, batches, sensor, depth)
-    return compare(scans, median_m, prediction.log_density)
+    return compare(scans, median_m, forecast(rays, batches, sensor, depth).log_density)
 
 
 def placed(scans: Scans) -> NDArray[np.intp]:
@@ -236,8 +231,7 @@ class Prediction:
     Attributes:
         poses: poses in the world frame, (P, 3).
         angles_rad: angles of the beams in the sensor's frame, (A,).
-        draws_m: drawn readings, metres, (draws, P, A): +inf is no return, -inf too close. All scans of one draw are
-            taken in one map.
+        draws_m: readings, metres, (draws, P, A): +inf is no return, -inf too close. Scans of one draw are in one map.
         levels: probabilities of the quantiles, (L,).
         quantiles_m: quantiles of each reading, metres, (P, A, L).
     """
@@ -273,9 +267,7 @@ class Fan:
         cls, asked_by: str, posterior: Posterior, angles_rad: ArrayLike | None, max_range_m: float | None,
         sensor: SensorModel | None,
     ) -> Fan:  # fmt: skip
-        """Return the fan of the run's scans, with other angles, largest range or sensor model if given. Raises
-        `BadInput` if the angles are invalid, the largest range is not positive, or no sensor model is known.
-        """
+        """Return the run's fan, with parts replaced. Raises `BadInput`: invalid angles, range <= 0, no known sensor."""
         scans, law = posterior.scans, posterior.sensor if sensor is None else sensor
         if law is None:
             raise BadInput(f"{asked_by}: the sensor model of this run is not one of bayesmap's; pass sensor=")
@@ -312,8 +304,7 @@ def predict(
     grid, predictor = posterior.grid, predictor_of(posterior, fan.sensor)
     for i, (x, y, _) in enumerate(poses_world):
         if grid.cell_at(x, y) is None:
-            pose = poses_world[i].tolist()
-            raise BadInput(f"predict: pose {i}, {pose}, lies outside the map, {grid.extent_words()}")
+            raise BadInput(f"predict: pose {i}, {poses_world[i].tolist()}, lies outside the map, {grid.extent_words()}")
     quantiles, seed = checked_levels(levels), check_count("predict", "seed", seed, 0)
     thinned = posterior.draws.thinned(check_count("predict", "draws", draws, 1))
     # Draw all scans in one map after the other.

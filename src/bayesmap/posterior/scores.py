@@ -32,16 +32,13 @@ POINTS = 100  # number of intervals of u at whose ends its distribution is compa
 
 
 def randomised_pit(low: Floats, high: Floats, seed: int = 0) -> Floats:
-    """Compute the randomised probability integral transform of each reading, (B,); NaN where ``low`` is NaN. ``low``
-    and ``high`` are P(reading < z) and P(reading <= z) at the observed reading z, (B,).
-    """
+    """Draw the probability integral transform, (B,), between ``low``, P(reading < z), and ``high``, P(reading <= z)."""
     return low + np.random.default_rng([seed, 0x917]).random(low.shape) * (high - low)
 
 
 def pit_histogram(pit: Floats, bins: int) -> Floats:
     """Return the share of the transforms in each of ``bins`` equal bins: 1 / bins each if the predictions are right."""
-    counts = np.histogram(pit, bins=bins, range=(0.0, 1.0))[0]
-    return np.asarray(counts / max(len(pit), 1))
+    return np.asarray(np.histogram(pit, bins=bins, range=(0.0, 1.0))[0] / max(len(pit), 1))
 
 
 def inside(pit: Floats, level: float) -> NDArray[np.bool_]:
@@ -82,8 +79,7 @@ class ScanBlocks:
         _, compact = np.unique(block, return_inverse=True)
         size = int(compact.max()) + 1 if len(compact) else 1
         rng = np.random.default_rng([seed, 0xB00])
-        weights = rng.multinomial(size, np.full(size, 1.0 / size), size=replicates).astype(np.float64)
-        return cls(compact, weights)
+        return cls(compact, rng.multinomial(size, np.full(size, 1.0 / size), size=replicates).astype(np.float64))
 
     def sums(self, values: Floats) -> Floats:
         """Return the sum of the values in each block, (S,)."""
@@ -162,7 +158,6 @@ EVENTS_TIME = 6.0
 @dataclass(frozen=True)
 class Coverage:
     """The share of readings in central intervals of one probability, and the width of these intervals.
-
     An end of an interval at "no return" counts as the largest range, an end at "too close" as the least.
     """
 

@@ -82,8 +82,7 @@ def plain_ess(chains: Floats) -> Floats:
     positive = sums > 0
     stop = np.where(positive.all(axis=0), pairs - 1, np.argmin(positive, axis=0))
     monotone = np.minimum.accumulate(sums, axis=0)
-    before_stop = np.arange(pairs)[:, None] < stop
-    tau = -1.0 + 2.0 * np.where(before_stop, monotone, 0.0).sum(axis=0)
+    tau = -1.0 + 2.0 * np.where(np.arange(pairs)[:, None] < stop, monotone, 0.0).sum(axis=0)
     even_at_stop = np.take_along_axis(even, stop[None], axis=0)[0]
     tau += np.where(positive.all(axis=0), even_at_stop, np.maximum(even_at_stop, 0.0))
     tau = np.maximum(tau, 1.0 / np.log10(m * n))
@@ -109,10 +108,7 @@ def tail_ess(values: Floats) -> float:
 
 @dataclass(frozen=True)
 class CellDiagnostics:
-    """Convergence over the cells of a map. `Summary` explains the fields.
-
-    A cell is judged if its R-hat and effective sample size are known, or if its chains disagree.
-    """
+    """Convergence of a map's cells (`Summary`). Cells are judged if R-hat and ESS are known, or if chains disagree."""
 
     rhat_max: float
     ess_min: float
@@ -193,8 +189,7 @@ class Summary(CellDiagnostics):
 
     def as_json(self) -> dict[str, Any]:
         """Return the diagnostics as JSON values: NaN and infinity become null."""
-        values = asdict(self).items()
-        return {name: None if isinstance(x, float) and not math.isfinite(x) else x for name, x in values}
+        return {name: None if isinstance(x, float) and not math.isfinite(x) else x for name, x in asdict(self).items()}
 
     def __str__(self) -> str:
         """Write what is good, what is doubtful with its remedy, the figures in words, and what they mean."""
@@ -293,10 +288,7 @@ def summarise(posterior: Posterior) -> Summary:
 
 @dataclass(frozen=True, eq=False)
 class PoseSummary:
-    """The posterior of each scan's pose, by its moments.
-
-    Mean and covariance are ``by_approximation`` if chains have not mixed: their draws are far too alike.
-    """
+    """Moments of each scan's pose, ``by_approximation`` if chains have not mixed: their draws are far too alike."""
 
     mean: Floats  # in the world frame, (S, 3), with the circular mean of headings
     covariance: Floats  # of x, y and yaw, (S, 3, 3), metres and radians

@@ -59,9 +59,7 @@ class RelationErrors:
         return np.asarray(np.abs(self.errors[:, 2]))
 
     def summary(self) -> dict[str, float]:
-        """Return mean, standard deviation and median of both sizes, in metres and degrees, and counts of relations.
-        Relations are not covered if they lie ``in_gaps`` between poses, or outside the trajectory's time.
-        """
+        """Return mean, std, median of sizes, metres and degrees, and counts: ``not_covered``, of these ``in_gaps``."""
         result: dict[str, float] = {
             "relations": len(self.errors), "not_covered": int((~self.covered).sum()), "in_gaps": int(self.in_gap.sum()),
         }  # fmt: skip
@@ -104,8 +102,7 @@ def relation_errors(stamps_s: Floats, poses: Floats, relations: Relations, *, ex
             f"{needed}; its poses are {np.median(np.diff(stamps_s)):.3g} s apart at the median: give one with more"
         )
     first, second = (interpolate(stamps_s, poses, end_s[covered]) for end_s in ends)
-    errors = between(relations.relative[covered], between(first, second))
-    return RelationErrors(errors, covered, within & ~covered)
+    return RelationErrors(between(relations.relative[covered], between(first, second)), covered, within & ~covered)
 
 
 LEVELS = (0.5, 0.8, 0.95)
@@ -114,15 +111,11 @@ DIMENSIONS = 3
 
 @dataclass(frozen=True, eq=False)
 class TrajectoryScore:
-    """The accuracy of a trajectory, and the calibration of its regions.
-
-    ``region`` is the least probability of a region around the estimate that holds the truth, (M,): uniform if the
-    covariances are right. ``nees``, (M,), and ``region`` are None if the trajectory has no covariances.
-    """
+    """The accuracy of a trajectory, and the calibration of its regions: uniform if the covariances are right."""
 
     errors: RelationErrors  # of each relation, in the true frame of its second pose
-    nees: Floats | None = None
-    region: Floats | None = None
+    nees: Floats | None = None  # (M,); None, as the regions, if the trajectory has no covariances
+    region: Floats | None = None  # least probability of a region around the estimate that holds the truth, (M,)
     assumed_independent: bool = False  # whether the trajectory has covariances of single poses alone
     known_by: str = ""  # source of the covariances, in words
 
@@ -172,9 +165,7 @@ def score_trajectory(
 
 
 def _by_law(law: RelativeLaw, stamps_s: Floats, relations: Relations, errors: Floats) -> tuple[Floats, Floats]:
-    """Compute NEES and least region of each relation, by the law of the relative poses of the scans nearest in time.
-    With the law's scale matrix S and degrees of freedom nu, e' S^-1 e / 3 follows F(3, nu).
-    """
+    """Compute NEES and least regions by the law of nearest scans: with scale S and dof nu, e' S^-1 e / 3 ~ F(3, nu)."""
     first, second = (arrays.nearest_index(stamps_s, end_s) for end_s in (relations.first_s, relations.second_s))
     # For two times about one scan the law of the step to a neighbouring scan is used, which is no surer.
     second = np.where(first == second, np.where(second > 0, second - 1, second + 1), second)
@@ -190,9 +181,7 @@ def _in_end_frame(covariance: Floats, relations: Relations) -> Floats:
 
 
 def _by_draws(draws: Floats, stamps_s: Floats, relations: Relations) -> tuple[Floats, Floats]:
-    """Compute NEES and least region of each relation, by the relative poses of D draws, taken as independent.
-    NEES D (D - 3) / (3 (D + 1) (D - 1)) follows F(3, D - 3) (Hotelling).
-    """
+    """Compute NEES and least regions by D draws: NEES D (D - 3) / (3 (D + 1) (D - 1)) ~ F(3, D - 3) (Hotelling)."""
     count = len(draws)
     errors = np.empty((count, len(relations), DIMENSIONS))
     for d, poses in enumerate(draws):

@@ -134,9 +134,7 @@ def first_sensor(prior: CellPrior, resolution_m: float) -> BeamMixture:
 
 
 def fit(problem: StopProblem, seed: int, sweeps: int, watch: Watch = SILENT) -> Parameters:
-    """Fit sensor and prior to the scans of a problem, starting from the problem's, by ``sweeps`` sweeps of the pilot.
-    The watch gets progress after each sweep; a stop ends the pilot, and with it the run.
-    """
+    """Fit sensor and prior, from the problem's on, by ``sweeps`` pilot sweeps. A watch's stop ends pilot and run."""
     assert isinstance(problem.sensor, BeamMixture)
     fitted = Parameters(problem.sensor, problem.prior)
     for parameters, _ in pilot_sweeps(problem, seed, sweeps, watch):
@@ -246,15 +244,12 @@ def refit_sensor(sensor: BeamMixture, stops: DrawnStops, limits: RangeLimits, st
 
 def _share(count: float, total: float, present: float) -> float:
     """Estimate a share, drawn a little towards its present value."""
-    share = (count + PSEUDO_BEAMS * present) / (total + PSEUDO_BEAMS)
-    return float(min(max(share, LEAST_SHARE), 0.5))
+    return float(min(max((count + PSEUDO_BEAMS * present) / (total + PSEUDO_BEAMS), LEAST_SHARE), 0.5))
 
 
 def refit_prior(prior: Beta, hits: Counts, met: Counts, step: float, solid: NDArray[np.bool_] | None = None) -> Beta:
-    """Move the Beta's counts towards those that make hits and passes likeliest, reflectivities integrated out, in each
-    label's cells. Cells with negative ``met`` have not counted yet and are left out.
-    """
-    counted = met >= 0
+    """Move each label's Beta towards the likeliest for hits and passes of its cells, reflectivities integrated out."""
+    counted = met >= 0  # the other cells have not counted yet
     free = counted if solid is None else counted & ~solid
     a, b = _likeliest_beta(prior.a, prior.b, hits[free], met[free], step)
     prior = replace(prior, a=a, b=b)
@@ -294,9 +289,7 @@ FIRST_COUPLING = 0.5  # start of the pilot; at 0.88 and p = 0.5, whole regions b
 def fit_coupling_to_scans(
     model: Model, sampler: WallSampler, device: str, *, seed: int, threads: int | None = None, watch: Watch = SILENT
 ) -> Ising:
-    """Return the `Ising` prior of a model with the coupling that suits its scans; its wall probability stays. The watch
-    gets progress after each sweep of the pilot; a stop ends the pilot, and with it the run.
-    """
+    """Return a model's `Ising` prior with the coupling fitted to its scans. A stop by the watch ends pilot and run."""
     prior = replace(cast(Ising, model.cells), coupling=FIRST_COUPLING)
     problem = sampler.prepare(replace(model, cells=prior), device, threads, watch)
     state = sampler.init(problem, [PILOT], seed, watch=watch)

@@ -71,9 +71,7 @@ class Changes:
 
 
 def evidence(chains: StopChains, chain: int, end_cell: NDArray[np.int32], prior: Beta) -> Floats:
-    """Compute the sum above over the beams whose readings end in each cell, (N,), for a chain's last sweep.
-    ``end_cell`` is the result of `bayesmap.samplers.stop_problem.end_cells`, (B,).
-    """
+    """Sum the above over the beams that end in each cell, (N,), in the last sweep; ``end_cell`` is by `end_cells`."""
     n_cells = chains.plan.rays.grid.n_cells
     owner = chains.stopped_by(chain)
     stopped = owner >= 0
@@ -197,9 +195,8 @@ def merge_surfaces(
     """Try for every surface that stops few beams whether a neighbour is better without it; change maps in place.
     Returns the number of removed surfaces of each chain.
 
-    The B beams have end points from the grid's corner, (B, 2), not finite if there is none, and variances of their
-    ``noise``, square metres. ``owners`` holds for each chain the flat index of the cell that stopped each beam, or -1.
-    ``before`` is the evidence of the maps, (C, nx, ny).
+    Beams have end points from the grid's corner, (B, 2), not finite if none, and variances of their ``noise``, m^2.
+    ``owners`` holds by chain the cell that stopped each beam, flat, or -1; ``before`` the evidence, (C, nx, ny).
     """
     chains = zip(maps.cells, maps.solid, owners, strict=True)
     changes = [merge_moves(*chain, end_points_m, noise, grid) for chain in chains]
@@ -226,9 +223,7 @@ def merge_moves(
     cells: NDArray[np.float32], solid: NDArray[np.bool_], owner: NDArray[np.int32], end_points_m: Floats, noise: Floats,
     grid: Grid,
 ) -> Changes:  # fmt: skip
-    """Propose for each surface that stops few beams its removal, and a longer surface of the neighbour whose axis lies
-    closest to its readings. The moves with the closest axes come first.
-    """
+    """Propose to remove surfaces of few beams and to lengthen the neighbour of closest axis, the closest axes first."""
     readings, axes = explained_readings(cells, owner, end_points_m, noise, grid), surface_axes(cells)
     source, target, distance = best_neighbours(cells, readings, axes, grid)
     order = np.argsort(distance, kind="stable")
@@ -245,8 +240,7 @@ def explained_readings(
 ) -> ExplainedReadings:
     """Compute the moments of the readings that each surface explains."""
     stopped = np.flatnonzero((owner >= 0) & np.isfinite(end_points_m).all(axis=1))
-    from_mean = end_points_m[stopped] - cells[owner[stopped], 1:3]
-    stopped = stopped[np.hypot(*from_mean.T) < CLOSE * grid.resolution]
+    stopped = stopped[np.hypot(*(end_points_m[stopped] - cells[owner[stopped], 1:3]).T) < CLOSE * grid.resolution]
     cell, points = owner[stopped], end_points_m[stopped]
     count = np.bincount(cell, minlength=grid.n_cells)
 
@@ -278,7 +272,6 @@ def best_neighbours(
 ) -> tuple[NDArray[np.intp], NDArray[np.intp], Floats]:
     """Find the cells that stop few beams, the neighbour of each whose axis lies closest to its readings, and the root
     mean square distance of the readings from this axis, in sigmas of surface and noise, (n,) each.
-
     Neighbours stop as many beams or more. Cells without a neighbour within `MAX_OFF_SIGMAS` are left out.
     """
     stops = (cells[:, 0] >= SOLID_FROM) & (readings.count > 0)

@@ -27,18 +27,14 @@ PARTICLES = 100_000
 class Gibbs:
     """Draw single cells from their conditionals, sweep after sweep: the default of all kinds of cells.
 
-    Reflectivities and surfaces have neither order nor start nor rounds.
+    Reflectivities and surfaces have no order, start or rounds. Raises `BadInput`: unknown order or start, no rounds.
 
     Attributes:
         order: order of the cells in a sweep: "radial", "raster" or "random".
         start: "prior", "zeros", "ones", "propagate", a map (nx, ny), or one map per chain, (chains, nx, ny). None:
             "propagate" on maps of more than 10 000 cells, and "prior" on others.
-        start_poses: first poses of the chains if poses are unknown, one trajectory per chain, (chains, S, 3). None:
-            draws of their prior.
+        start_poses: first poses if poses are unknown, one trajectory per chain, (chains, S, 3). None: prior draws.
         rounds: most rounds of belief propagation, for a start from it.
-
-    Raises:
-        BadInput: an unknown order or start, or no rounds.
     """
 
     order: Order = "radial"
@@ -65,10 +61,7 @@ class Block(Gibbs):
 
 @dataclass(frozen=True)
 class Propagate:
-    """Propagate beliefs along the beams, for binary walls: approximate marginals at once.
-
-    ``rounds`` is the largest number of rounds. Raises `BadInput` if it is less than 1.
-    """
+    """Approximate marginals of binary walls by beliefs along beams, in up to ``rounds`` rounds. `BadInput` below 1."""
 
     rounds: int = ROUNDS
     name: ClassVar[str] = "propagate"
@@ -79,10 +72,7 @@ class Propagate:
 
 @dataclass(frozen=True)
 class Importance:
-    """Weigh maps that are drawn from the prior, for binary walls: for teaching, since the weights collapse.
-
-    ``particles`` is the number of maps. Raises `BadInput` if it is less than 1.
-    """
+    """Weigh ``particles`` prior maps of binary walls, for teaching: the weights collapse. Raises `BadInput` below 1."""
 
     particles: int = PARTICLES
     name: ClassVar[str] = "importance"

@@ -81,8 +81,7 @@ class Metropolis:
             starts = [problem.model.cells.sample_cells(rng, problem.grid) for rng in rngs]
         else:
             starts = [{name: a[i].copy() for name, a in resume.arrays.items()} for i in range(len(chain_ids))]
-        sweep = 0 if resume is None else resume.sweep
-        return MetropolisState(problem, sweep, tuple(starts), tuple(chain_ids), seed)
+        return MetropolisState(problem, 0 if resume is None else resume.sweep, tuple(starts), tuple(chain_ids), seed)
 
     def step(
         self, state: MetropolisState, sweeps: int, beta: float = 1.0, keep: Keep = Keep()
@@ -108,8 +107,7 @@ class Metropolis:
 
     def snapshot(self, state: MetropolisState) -> Snapshot:
         """Return the maps."""
-        names = state.maps[0]
-        return Snapshot(state.sweep, {name: np.stack([cells[name] for cells in state.maps]) for name in names})
+        return Snapshot(state.sweep, {name: np.stack([cells[name] for cells in state.maps]) for name in state.maps[0]})
 
     def observed_counts(self, state: MetropolisState, draws: Mapping[str, NDArray[Any]]) -> NDArray[np.int32]:
         """Count each cell that a beam touches as observed in one draw. Returns (2, nx, ny)."""

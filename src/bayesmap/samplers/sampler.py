@@ -188,9 +188,7 @@ class Sampler(Protocol[P, S]):
     """A Markov chain sampler."""
 
     def prepare(self, model: Model, device: str, threads: int | None = None, watch: Watch = SILENT) -> P:
-        """Trace the model's beams, and prepare all other data that chains share, with all cores if ``threads`` is None.
-        Raises `BadInput` if this sampler cannot sample the model.
-        """
+        """Trace beams, prepare what chains share, on all cores if ``threads`` is None. `BadInput`: unsuited model."""
 
     def init(
         self, problem: P, chain_ids: Sequence[int], seed: int, resume: Snapshot | None = None, watch: Watch = SILENT

@@ -1,7 +1,6 @@
 """The input of the sampler of stops: beams, the prior of cells that stop some of them, and where chains start.
 
-The initial estimate keeps hits and their scatter per cell, as maps of the normal distributions transform do (Stoyanov,
-Saarinen et al., 2013). It sets starts of chains and sizes of steps.
+The initial estimate, hits and scatter per cell as in NDT maps (Stoyanov, Saarinen et al., 2013), sets starts and steps.
 """
 
 from __future__ import annotations
@@ -149,9 +148,7 @@ def first_counts(estimate: InitialEstimate, n_cells: int) -> tuple[NDArray[np.fl
 
 
 def first_labels(estimate: InitialEstimate, prior: Beta, grid: Grid, rng: np.random.Generator) -> NDArray[np.bool_]:
-    """Draw a chain's first labels of all cells of the grid, (N,), by sweeps of labels under the estimated counts.
-    Regions that no beam observes agree slowly, and sweeps of labels alone are cheap.
-    """
+    """Draw first labels, (N,), by cheap sweeps of labels given estimated counts: regions without beams agree slowly."""
     stopped, passed = (counts.astype(np.float64) for counts in first_counts(estimate, grid.n_cells))
     log_odds = special.betaln(prior.a_solid + stopped, prior.b_solid + passed)
     log_odds -= special.betaln(prior.a_solid, prior.b_solid)
@@ -229,10 +226,8 @@ CELLS_MOVED = 2  # cells by which readings may move with the poses: draws keep s
 
 @dataclass(frozen=True, eq=False)
 class StopProblem(RaysProblem):
-    """Rays through cells that stop some of them, under a prior.
-
-    ``kept`` holds the flat indices of the cells whose reflectivities ("cell") and surfaces ("surface_cell") are in
-    draws and snapshots; if None, the cells that beams touch and the cells in which readings end.
+    """Rays through cells that stop some of them, under a prior. Draws and snapshots hold the flat indices ``kept`` of
+    reflectivities ("cell") and surfaces ("surface_cell"); if None, of cells that beams touch and that readings end in.
     """
 
     rays: Rays
@@ -302,8 +297,7 @@ def _spans(scans: Scans, sensor: SensorModel, resolution_m: float) -> tuple[Floa
     if isinstance(sensor, BeamMixture) and isinstance(sensor.noise, Gaussian | StudentT):
         ranges = np.where(np.isfinite(scans.ranges_m), scans.ranges_m, 0.0).ravel()
         floor = SHARE_AROUND * sensor.p_random / (limits.max_m - limits.min_m)
-        margin_m = CELLS_AROUND * resolution_m + _tail_m(sensor.noise, ranges, floor)
-        return around_readings(scans, margin_m, resolution_m)
+        return around_readings(scans, CELLS_AROUND * resolution_m + _tail_m(sensor.noise, ranges, floor), resolution_m)
     return sensor.reach_m(scans.ranges_m.ravel(), limits) + CELLS_AROUND * resolution_m, None
 
 

@@ -1,7 +1,4 @@
-"""Markov chain samplers of binary walls: single cells and 2 x 2 blocks, and where their chains start.
-
-docs/inference.md describes the methods, `bayesmap.kernels.walls.gibbs` and `bayesmap.kernels.walls.block` the updates.
-"""
+"""Markov chain samplers of binary walls by single cells and 2 x 2 blocks, and where chains start: docs/inference.md."""
 
 from __future__ import annotations
 
@@ -103,8 +100,7 @@ class WallSampler(ABC):
         """
         columns, rows = (max(1, n + 1 - self.site_edge) for n in problem.grid.shape)
         if self.order == "radial":
-            distance = radial_distance(problem)[:columns, :rows]
-            return np.argsort(distance.ravel(), kind="stable").astype(np.int32)
+            return np.argsort(radial_distance(problem)[:columns, :rows].ravel(), kind="stable").astype(np.int32)
         return np.arange(columns * rows, dtype=np.int32)
 
     @abstractmethod

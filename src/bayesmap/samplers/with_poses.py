@@ -60,9 +60,8 @@ class PoseMetropolis:
     ) -> tuple[PoseState, Floats]:  # fmt: skip
         """Propose a new pose for every scan ``n`` times. Returns the chains, and the share of accepted steps, (C,).
 
-        ``cells`` holds one map per chain, see `bayesmap.kernels.predict.density.ScanLikelihood.beams`. The size
-        of a scan's steps grows with accepted steps and shrinks with rejected ones (Robbins and Monro, 1951) at
-        ``adaptation_rate``, which must be 0 once draws are kept.
+        ``cells`` holds one map per chain (`ScanLikelihood.beams`). A scan's step size grows with accepted steps and
+        shrinks with others (Robbins and Monro, 1951) at ``adaptation_rate``, which must be 0 once draws are kept.
         """
         chains, scans = state.poses.shape[:2]
         poses, log_scale = state.poses.copy(), state.log_scale.copy()
@@ -106,9 +105,8 @@ def proposal_factors(
 ) -> Floats:
     """Return Cholesky factors of steps that fit each scan's posterior given one map, (1, N) or (1, N, 6): (S, 3, 3).
 
-    The likelihood's information is the sum over beams of the outer products of the gradients of their log densities, by
-    central differences. These shift positions by ``step_m``, about the sensor's noise, and turn the scan so that a
-    point at the median range moves as far.
+    The information sums the outer products of the gradients of beams' log densities, by central differences. These
+    shift by ``step_m``, about the sensor's noise, and turn so that a point at the median range moves as far.
     """
     scans = len(poses)
     ranges = np.where(np.isfinite(likelihood.scans.ranges_m), likelihood.scans.ranges_m, np.nan)
@@ -238,8 +236,7 @@ class WithPoses:
             retraced = self.cells.retrace(problem.cells, problem.at(poses[i]))
             return self.cells.init(retraced, [chain_ids[i]], seed, cell_snapshot, watch)
 
-        cells = tuple(self._map_chains(problem, init_cells, len(chain_ids)))
-        return JointState(problem, sweep, cells, state, factor)
+        return JointState(problem, sweep, tuple(self._map_chains(problem, init_cells, len(chain_ids))), state, factor)
 
     def step(self, state: JointState, sweeps: int, beta: float = 1.0, keep: Keep = Keep()) -> tuple[JointState, Info]:
         """Make some sweeps of all chains, with a round of pose steps after every few."""
@@ -296,16 +293,14 @@ class WithPoses:
                 proposal_factors(problem.likelihood, cells[i : i + 1], poses, problem.law, DIFFERENCE_M)
                 for i, poses in enumerate(state.poses.poses)
             ])  # fmt: skip
-        rounds = state.sweep // self.every
-        rate = float(rounds**-0.6) if state.sweep <= self.adapt_until else 0.0
+        rate = float((state.sweep // self.every) ** -0.6) if state.sweep <= self.adapt_until else 0.0
         sampler = PoseMetropolis(problem.likelihood, problem.law, factor)
         poses, _ = sampler.step(state.poses, cells, self.pose_steps, beta=beta, adaptation_rate=rate)
 
         def move_cells(i: int) -> Any:
             if (poses.poses[i] == state.poses.poses[i]).all():
                 return state.cells[i]
-            retraced = self.cells.retrace(problem.cells, problem.at(poses.poses[i]))
-            return self.cells.moved(state.cells[i], retraced)
+            return self.cells.moved(state.cells[i], self.cells.retrace(problem.cells, problem.at(poses.poses[i])))
 
         chains = tuple(self._map_chains(problem, move_cells, len(state.cells)))
         return replace(state, cells=chains, poses=poses, factor=factor)

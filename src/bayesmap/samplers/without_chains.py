@@ -46,12 +46,10 @@ def propagate(
     """Pass messages between all beams and cells until beliefs converge, or for a number of rounds.
 
     If no cell lies on two beams and neighbours are not coupled, one undamped round is exact. If beams and coupled
-    neighbours form a tree, the result is exact after as many rounds as the tree is wide. Otherwise the marginals are
-    approximate, and usually too certain (docs/inference.md).
+    neighbours form a tree, as many rounds as it is wide are exact. Other marginals are approximate, mostly too certain.
 
-    Rounds end when no probability changes by more than ``tolerance``. ``damping`` in [0, 1) is the weight of the old
-    message in the new one, geometrically; ``beta`` is the inverse temperature. Raises `BadInput` if rounds or damping
-    are out of range.
+    Rounds end when no probability changes by over ``tolerance``. ``damping`` in [0, 1) is the old message's weight in
+    the new one, geometrically; ``beta`` the inverse temperature. Raises `BadInput`: rounds or damping out of range.
     """
     from bayesmap.kernels.walls.propagate import Beliefs
 
@@ -72,8 +70,7 @@ def propagate(
         watch.report("propagate", number + 1, rounds)
         if changes[-1] < tolerance or watch.should_stop():
             break
-    fixed = (problem.p_wall == 0) | (problem.p_wall == 1)
-    p_wall = np.where(fixed, problem.p_wall, p_wall)
+    p_wall = np.where((problem.p_wall == 0) | (problem.p_wall == 1), problem.p_wall, p_wall)
     return Marginals(
         p_wall=p_wall.reshape(problem.table.grid.shape), changes=np.array(changes), mean_changes=np.array(mean_changes),
         converged=changes[-1] < tolerance, finished=changes[-1] < tolerance or len(changes) == rounds,
@@ -141,9 +138,7 @@ class Particles:
 def sample_importance(
     problem: WallProblem, particles: int, seed: int, *, beta: float = 1.0, watch: Watch = SILENT
 ) -> Particles:
-    """Draw maps from the prior and weigh them by the likelihood, at an inverse temperature. Raises BadInput: no
-    particles, or neighbours coupled so strongly that maps cannot be drawn.
-    """
+    """Weigh prior draws by their likelihood^beta. Raises `BadInput`: no particles, or too coupled a prior to draw."""
     from bayesmap.kernels.random import mix
 
     particles = check_count("importance", "particles", particles, 1)
@@ -156,8 +151,7 @@ def sample_importance(
         count = min(size, particles - done)
         batches.append(_weigh(problem, key, done, count))
         done += count
-        elapsed = time.perf_counter() - began
-        size = int(np.clip(0.25 * done / max(elapsed, 1e-9), 256, 1 << 20))
+        size = int(np.clip(0.25 * done / max(time.perf_counter() - began, 1e-9), 256, 1 << 20))
         watch.report("particles", done, particles)
     log_weights = beta * np.concatenate(batches)
     log_total = float(special.logsumexp(log_weights))
@@ -183,8 +177,7 @@ def _coupled_maps(problem: WallProblem, key: int, particles: NDArray[np.intp]) -
     together = max(1, COUPLED_CELLS // problem.grid.n_cells)
     batch_of = particles // together
     for batch in np.unique(batch_of).tolist():
-        rng = np.random.default_rng([key, batch])
-        maps = problem.prior.sample_maps(rng, problem.grid, together)
+        maps = problem.prior.sample_maps(np.random.default_rng([key, batch]), problem.grid, together)
         mask = batch_of == batch
         out[mask] = maps[particles[mask] % together]
     return out
@@ -231,8 +224,7 @@ def enumerate_maps(problem: WallProblem) -> Enumeration:
     table, p = problem.table, problem.p_wall
     free_to_vary = (p > 0) & (p < 1)
     # Cells that no beam touches matter if neighbours are coupled.
-    matters = table.touched_map().ravel() | (problem.coupling != 0.0)
-    unknown = np.nonzero(matters & free_to_vary)[0]
+    unknown = np.nonzero((table.touched_map().ravel() | (problem.coupling != 0.0)) & free_to_vary)[0]
     if len(unknown) > MAX_UNKNOWN:
         raise BadInput(
             f"exact: {len(unknown)} cells are unknown, and enumeration takes at most {MAX_UNKNOWN}; "

@@ -386,8 +386,7 @@ class BeamMixture(SensorModel):
             middle = 0.5 * (low + high)
             enough = negligible(middle)
             low, high = np.where(enough, low, middle), np.where(enough, middle, high)
-        reach = np.where(negligible(high), high, np.inf)
-        return np.where(finite, reach, np.where(np.isnan(range_m), 0.0, np.inf))
+        return np.where(finite, np.where(negligible(high), high, np.inf), np.where(np.isnan(range_m), 0.0, np.inf))
 
     def sample(self, rng: np.random.Generator, distance_m: Floats, limits: RangeLimits) -> Floats:
         """Draw a reading for every distance, by the process above."""

@@ -76,11 +76,9 @@ def _tabulated(sensor: SensorModel, limits: RangeLimits) -> TabulatedLaw:
     share = np.linspace(0.0, WIDEST / (1.0 + WIDEST), SPREADS)[:, None]
     spread = share / (1.0 - share) * scale  # (S, D)
     width = np.hypot(scale, spread)
-    span = 2.0 * limits.max_m
-    most = float(np.arcsinh(span / scale.min()))
+    most = float(np.arcsinh(2.0 * limits.max_m / scale.min()))
     offset = np.sinh(np.linspace(-most, most, OFFSETS))
-    shape = (SPREADS, DISTANCES, OFFSETS)
-    d, s, w = (np.broadcast_to(a[..., None], shape) for a in (distance[None], spread, width))
+    d, s, w = (np.broadcast_to(a[..., None], (SPREADS, DISTANCES, OFFSETS)) for a in (distance[None], spread, width))
     z = d + w * offset
     inside = np.clip(z, limits.min_m, limits.max_m)
     typed = _is_typed(sensor, limits)
@@ -120,9 +118,7 @@ def _tabulated(sensor: SensorModel, limits: RangeLimits) -> TabulatedLaw:
 
 
 def scales(sensor: SensorModel, distance_m: Floats, limits: RangeLimits) -> Floats:
-    """Return the scale on which readings scatter about stops at each distance, (D,): a line fitted to samples. Nodes
-    depend on it, so it must be smooth, and roughly right where most of the density is.
-    """
+    """Return the scale of readings about stops at distances, (D,): a line fitted to samples: nodes need it smooth."""
     # Next to the limits, an unknown half of the readings is lost.
     span = limits.max_m - limits.min_m
     stop = np.linspace(limits.min_m + 0.1 * span, limits.max_m - 0.1 * span, DISTANCES)

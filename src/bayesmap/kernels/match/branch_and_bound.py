@@ -255,7 +255,6 @@ def search_grids(
     grids: Any, windows: Windows, modes: Modes, strands: int, threads: int | None = None
 ) -> tuple[Floats, NDArray[np.int64]]:
     """Find the best poses of each job: scores (J, modes), -inf where there is none, and (row, dx, dy), (J, modes, 3).
-
     ``grids`` are `bayesmap.poses.matcher.LikelihoodGrids`; ``strands`` threads share a job.
     """
     pyramid, device = grids.pyramid, grids.device
@@ -278,8 +277,7 @@ def search_grids(
         earlier_nodes = np.where(nodes[..., :1] >= 0, nodes, -(1 << 28)).astype(np.int32)
         earlier.node, earlier.count = devices.to_device(earlier_nodes, wp.vec3i, device), mode
         best.incumbent = devices.to_device(least.copy(), wp.float64, device)
-        inputs = [strands, jobs, roots, pyramid, earlier, stack, best]
-        devices.launch(search_blocks, n_strands, inputs, device, threads)
+        devices.launch(search_blocks, n_strands, [strands, jobs, roots, pyramid, earlier, stack, best], device, threads)
         # Take the best of each job's strands, among equal scores the first by angle, x and y.
         node = best.node.numpy().reshape(n_jobs, strands, 3)
         score = np.where(node[..., 0] >= 0, best.score.numpy().reshape(n_jobs, strands), -np.inf)
@@ -302,8 +300,7 @@ def _bound_roots(grids: Any, windows: Windows, threads: int | None) -> tuple[Any
         row_cost=windows.angle_costs, cells=wp.empty((rows, most_points), dtype=wp.vec2i, device=device),
     )  # fmt: skip
     job_of_row = np.repeat(np.arange(count, dtype=np.int32), np.diff(windows.row_offsets))
-    blocks = np.prod(2 * windows.half_cells // width + 1, axis=1)
-    node_begin = np.concatenate([[0], np.cumsum(blocks[job_of_row])])
+    node_begin = np.concatenate([[0], np.cumsum(np.prod(2 * windows.half_cells // width + 1, axis=1)[job_of_row])])
     job_nodes = node_begin[windows.row_offsets].astype(np.int32)
     bound, node = (wp.empty(int(node_begin[-1]), dtype=kind, device=device) for kind in (wp.float64, wp.vec3i))
     roots = devices.pack(Roots, device, bound=bound, node=node)

@@ -144,7 +144,6 @@ def sum_field(first: int, field: Uint8Rows, points: Float32Rows, poses: Float32R
 
 def field_sums(field: NDArray[np.uint8], grid: Grid, points: Floats, poses: Floats) -> Ints:
     """Sum the values of a field (nx, ny) at the points of a scan at each pose, (P,); outside the field they are 0.
-
     Points are in the sensor's frame, metres, (N, 2); poses in the world frame, (P, 3).
     """
     devices.start()
@@ -180,9 +179,7 @@ def render_surfaces(first: int, mean: Float32Rows, covariance: Float32Rows, stre
 
 def render_field(means: Floats, covariances: Floats, strengths: Floats, shape: tuple[int, int]) -> Singles:
     """Return the largest of s exp(-d^2 / 2) over all surfaces, d the Mahalanobis distance from the mean, (nx, ny).
-
-    ``means`` are in cells from the grid's corner, (K, 2); ``covariances`` xx, xy and yy in squared cells, (K, 3);
-    ``strengths`` the peaks s, (K,).
+    ``means`` are in cells from the corner, (K, 2), ``covariances`` xx, xy, yy in squared cells, (K, 3), ``strengths``.
     """
     devices.start()
     return np.asarray(devices.launch(render_surfaces, len(means), [means, covariances, strengths, shape], "cpu", 1)[0])

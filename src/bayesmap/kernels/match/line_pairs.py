@@ -377,10 +377,7 @@ class Agreement:
 def view_counts(
     geometry: Any, source: Ints, target: Ints, relative: Floats, agreement: Agreement, threads: int | None = None
 ) -> Ints:
-    """Count the points of each source that match the target, that contradict it, and all, (P, 3).
-
-    ``relative`` holds the poses of sources in the frames of targets, (P, 3).
-    """
+    """Count each source's points that match, that contradict, and all, (P, 3); ``relative`` poses: in target frames."""
     scene, pairs = scan_arrays(geometry, max(1, geometry.beams // agreement.beams)), len(source)
     inputs = [scene, source, target, relative, agreement.near_m, agreement.clear_m, (pairs, 3)]
     return np.asarray(devices.launch(compare_views, pairs, inputs, geometry.device, threads)[0])

@@ -331,9 +331,8 @@ def forecast(
 ) -> Forecast:
     """Predict the reading of every beam, traced over its whole length, under the mean of the law over draws.
 
-    The columns of the draws are the cells ``rays.touched``. In a cell without a surface, a beam stops at the share
-    ``hit_depth`` of its stretch. Raises `BadInput` if there are no draws, or if the probabilities of a sensor of the
-    user's own do not add up to one.
+    The columns of the draws are the cells ``rays.touched``. Without a surface, a beam stops at the share ``hit_depth``
+    of its stretch. Raises `BadInput` without draws, or if probabilities of a user's sensor do not add up to one.
     """
     log_density, cumulative = _sums(rays, rays.columns, batches, sensor, hit_depth, device, True)
     below, below_max, below_min = cumulative

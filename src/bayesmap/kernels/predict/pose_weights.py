@@ -171,9 +171,8 @@ def scan_log_likelihood(
 ) -> Floats:  # fmt: skip
     """Compute the log-likelihood of scans at poses under draws of the map, nats, (P, D); invalid readings count 0.
 
-    Readings belong to one scan, (A,), or to several, (S, A). ``scan`` is the index of the scan at each pose, (P,); None
-    for the first. The first ``draws`` of the map are used. If ``in_turn``, each pose is weighed under one draw, the
-    draws in turn; the result is (P, 1).
+    Readings belong to one scan, (A,), or several, (S, A). ``scan`` is the index of each pose's scan, (P,); None for the
+    first. The first ``draws`` of the map are used; if ``in_turn``, one for each pose, in turn: the result is (P, 1).
     """
     n_poses, n_draws = len(poses), maps.draws if draws is None else min(draws, maps.draws)
     columns, cycle = (1, n_draws) if in_turn else (n_draws, 0)

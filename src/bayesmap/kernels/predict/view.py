@@ -62,9 +62,7 @@ def draw_stop_distances(
 def draw_scan_stops(
     maps: DeviceMaps, poses: Floats, draw: NDArray[np.intp], angles_rad: Floats, longest_m: float, key: int
 ) -> tuple[Floats, Floats]:
-    """Draw where the beams of a scan at each pose stop, in the map of the pose.
-
-    ``draw`` is the index of each pose's map, (P,); poses are in the world frame, (P, 3), angles in the sensor's, (A,).
+    """Draw where beams at sensor angles, (A,), stop from each pose, world frame, (P, 3), in its map, ``draw``, (P,).
     Returns distances, at most ``longest_m`` or infinite, and their standard deviations, (P, A) each.
     """
     beams = (len(poses) * len(angles_rad),)

@@ -1,7 +1,6 @@
 """The second half of a sweep: draw the cells, given where the beams stopped, and sum the chain's log joint.
 
-Cells in which readings end have their own kernel (`bayesmap.kernels.surfaces.endpoint_cells`). Each of the other cells
-does one of two things:
+Cells in which readings end have a kernel (`bayesmap.kernels.surfaces.endpoint_cells`). Others do one of two things:
 
 - It draws its reflectivity, m ~ Beta(a + hits, b + met), with a and b of its label if cells have labels.
 - It tries a candidate for its surface, drawn from the prior, and accepts it with probability min(1, exp(gain)). The
@@ -10,8 +9,7 @@ does one of two things:
 A label is drawn before the reflectivity, given its four neighbours' labels and its own counts, with the reflectivity
 integrated out (docs/surfaces.md): a Gibbs step of the pair. Cells that learn nothing in a sweep keep both. A cell that
 no beam touches draws its reflectivity only when beams may come to it. The grid is a checkerboard: cells of one colour
-have no neighbour among them, and can be drawn at once. Sums run over slices of fixed size, so they do not depend on
-threads.
+have no neighbour among them, and can be drawn at once. Sums run over slices of fixed size, whatever the threads.
 """
 
 import math

@@ -7,8 +7,7 @@ The beams hardly determine where *along* a wall a surface lies and how far it ex
 and thickness *across* the wall to millimetres. So each cell has a frame whose first axis points along its wall
 (`bayesmap.samplers.stop_problem`). A cell in its frame is a `Cell` with the mean from the cell's centre and the
 Cholesky factor in these axes. A row of step sizes holds the sizes for logit m, mean along, mean across, log l11, l21
-and log l22, and the frame's cosine and sine. They are fixed beforehand: they may not depend on the state that a step
-changes.
+and log l22, and the frame's cosine and sine. They are fixed beforehand: they may not depend on the chain's state.
 """
 
 import warp as wp

@@ -62,10 +62,8 @@ class StopChains:
         self, plan: Plan, states: Callable[[int], Singles], keys: Sequence[int], *, threads: int | None,
         counts: Ints | None = None, observed_counts: Ints | None = None, solid: NDArray[np.bool_] | None = None,
     ) -> None:  # fmt: skip
-        """Put chains on the device, one per key.
-
-        ``states`` returns the cells of a chain, (N, 6); ``solid`` holds their labels, (C, N), if they have any. Chains
-        that continue have ``counts`` (C, 2, N) and ``observed_counts`` (C, N, 2).
+        """Put chains on the device, one per key. ``states`` returns the cells of a chain, (N, 6); ``solid`` holds their
+        labels, (C, N), if any. Chains that continue have ``counts`` (C, 2, N) and ``observed_counts`` (C, N, 2).
         """
         self.plan = plan
         self.device = device = plan.device
@@ -249,10 +247,8 @@ class StopChains:
         self._launch(cell_draws.draw_untouched, size, [sweep, self._packed[1], self._status, self._state])
 
     def counted(self, chain: int) -> tuple[Ints, Ints]:
-        """Return the beams that each cell stopped, and the beams that met its surface and passed, (N,) each.
-
-        They were counted when the cell last drew its reflectivity (before it, the second count is -1). The arrays are
-        valid until the next sweep.
+        """Return the beams that each cell stopped, and that met its surface and passed, (N,) each, when it last drew
+        its reflectivity (before it, the second is -1). The arrays are valid until the next sweep.
         """
         return self._of(self._state.last_hits, chain), self._of(self._state.last_met, chain)
 
@@ -263,7 +259,6 @@ class StopChains:
 
     def in_squares(self, chain: int, sweep: int, kept: bool, solid: NDArray[np.bool_] | None = None) -> InSquares:
         """Count the stops of a chain with surfaces in each square, after its last sweep, which has this number.
-
         If ``kept``, `observed_counts` counts the draw. ``solid`` holds the labels before the sweep, (N,), if any.
         """
         assert self._squares, "cells without surfaces stop beams inside their own squares"
@@ -285,7 +280,6 @@ class StopChains:
 
     def observed_counts(self, chain: int) -> Ints:
         """Return the draws in which some beam observes each cell, and the draws inspected, (N, 2); see `counted`.
-
         With surfaces the kept draws are inspected, without surfaces the sweeps in which the cell has counted.
         """
         return self._of(self._state.observed_counts, chain)

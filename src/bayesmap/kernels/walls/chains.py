@@ -351,9 +351,8 @@ def run_sweeps(
 ) -> tuple[devices.Floats, devices.Floats, NDArray[np.uint8]]:  # fmt: skip
     """Advance the chains in place by ``count`` sweeps of a kernel, numbered from ``first_sweep``, one chain per thread.
 
-    Each sweep visits the sites in the given order, or shuffles it. ``kept`` holds the numbers, from 1, of the sweeps
-    whose maps are kept. ``beta`` is the inverse temperature. Returns log-likelihoods and log priors after each sweep,
-    (chains, sweeps), and the packed maps, (chains, kept, bytes).
+    Sweeps visit sites in order, or shuffled. ``kept`` numbers, from 1, those whose maps are kept; ``beta`` is inverse
+    temperature. Returns log-likelihoods and log priors, (chains, sweeps), and packed maps, (chains, kept, bytes).
     """
     n, cells = chains.shape
     device = chains.device

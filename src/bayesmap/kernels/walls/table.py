@@ -1,7 +1,4 @@
-"""Build the beam table of scans and its index by cells, and evaluate maps of walls on it.
-
-Maps of particles are not stored: each can be drawn again from its counter.
-"""
+"""Build the beam table of scans and its index by cells, and evaluate maps of walls on it."""
 
 from typing import Any
 
@@ -34,9 +31,9 @@ def trace(
 ) -> BeamTable:  # fmt: skip
     """Build the beam table of S scans of A beams: beam ``s * A + a`` of the table is beam a of scan s.
 
-    A beam stops at the fraction ``hit_depth`` of its chord in a cell: 0 is the edge where it enters (the tutorial's
-    closed squares). It is followed ``reach_m`` far, (B,); by default as far as its reading depends on stops. Raises
-    `BadInput` if 32-bit indices cannot count the incidences.
+    A beam stops at the fraction ``hit_depth`` of its chord in a cell: 0 is its entry (the tutorial's closed squares).
+    It is followed for ``reach_m``, (B,), by default as far as its reading depends on stops. Raises `BadInput` if 32-bit
+    indices cannot count the incidences.
     """
     if reach_m is None:
         reach_m = sensor.reach_m(scans.ranges_m.ravel(), RangeLimits(scans.min_range_m, scans.max_range_m))
@@ -64,8 +61,7 @@ def _fill_by_model(sensor: SensorModel, rays: Rays, loglik: Singles) -> tuple[Si
     beam = rays.beam_of_entry()
     for i in range(0, rays.n_incidences, SLICE):
         part = slice(i, i + SLICE)
-        distance_m = loglik[part].astype(np.float64)
-        loglik[part] = sensor.log_likelihood(rays.range_m[beam[part]], distance_m, rays.limits)
+        loglik[part] = sensor.log_likelihood(rays.range_m[beam[part]], loglik[part].astype(np.float64), rays.limits)
     return loglik, no_hit
 
 
@@ -186,7 +182,7 @@ DevicePrior = Any  # `WallPriorArrays` on a device, from `wall_prior_to_device`
 
 @wp.func
 def particle_wall(prior: WallPriorArrays, key: wp.uint64, particle: wp.uint64, n_cells: wp.uint64, c: int) -> bool:
-    """Return whether cell c is a wall in the map of a particle."""
+    """Return whether cell c is a wall in a particle's map, which is not stored but drawn again from its counter."""
     return draw_from_prior(prior, c, random_bits(key, particle * n_cells + wp.uint64(c)))
 
 
