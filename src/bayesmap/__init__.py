@@ -1,7 +1,6 @@
 """bayesmap: given noisy range scans, where are the walls, and how sure are we?
 
-The public names are loaded on first use. Importing this package is therefore fast: JAX, Warp and matplotlib are loaded
-only when they are needed.
+The public names are loaded on first use. So the import is fast: JAX, Warp and matplotlib are loaded when needed.
 """
 
 from __future__ import annotations

@@ -2,8 +2,7 @@
 
 `slam` first approximates all poses (`bayesmap.poses.slam`: matching, loops, a Gaussian about the likeliest poses). Then
 chains sample the map and the poses of the key scans under the forward law of `infer`. Each chain starts from its own
-draw of the approximation. The chains correct details of the approximation; the bend of a long loop stays near its start
-(docs/how/poses.md).
+draw of the approximation. Chains correct details; the bend of a long loop stays near its start (docs/how/poses.md).
 """
 
 from __future__ import annotations
@@ -62,10 +61,8 @@ def infer(
         grid: the map to infer.
         prior: decides what a cell's state is: `Independent` (binary walls) or `Ising` (binary walls that depend on
             their neighbours), `Beta` (reflectivities), `Surface` (reflectivities and surfaces; with a coupling
-            neighbours depend on each other in both), or a kind of your own (`bayesmap.cells.kind.CellPrior`). None:
-            ``Surface()``.
-        sensor: the law of the readings; "fit" fits a `BeamMixture`, and with it the numbers of a `Beta` or `Surface`,
-            to the scans themselves.
+            neighbours depend on each other in both), or your own (`CellPrior`). None: ``Surface()``.
+        sensor: the law of the readings; "fit" fits a `BeamMixture`, and the prior's numbers, to the scans.
         method: a method with its options, or its name for the defaults. Binary walls have `Gibbs` ("gibbs"), `Block`
             ("block"), `Propagate` ("propagate"), `Importance` ("importance") and `Exact` ("exact"); `Beta` and
             `Surface` have `Gibbs` alone. None: the first of the kind of cells.
@@ -81,8 +78,7 @@ def infer(
     Returns:
         The run. Ctrl-C stops at the end of the current sweeps and returns the run so far, with ``finished`` False.
 
-    Raises:
-        BadInput: invalid arguments, or a run to resume that was made with other arguments.
+    Raises `BadInput` for invalid arguments, or a run to resume that was made with other arguments.
     """
     inference = Inference.of(scans, grid, prior, sensor, method, schedule, seed, poses, hit_depth, where)
     need_value("infer", "checkpoints", checkpoints, Checkpoints)
@@ -229,9 +225,8 @@ class Inference:
         return self.model.cells.methods[self.name]
 
     def estimate(self, log: Scans | None = None) -> Estimate | None:
-        """Estimate time and memory; None on a GPU, and for samplers of unknown cost.
-
-        ``log`` holds the scans whose trajectory `slam` infers first; their poses, and so the grid, may be far off.
+        """Estimate time and memory; None on a GPU, and for samplers of unknown cost. ``log`` holds the scans whose
+        trajectory `slam` infers first; their poses, and so the grid, may be far off.
         """
         if self.where.device != "cpu":
             return None
@@ -257,7 +252,6 @@ class Inference:
 
     def _posterior_to_resume(self, run: Run | None, settings: dict[str, Any]) -> Posterior | None:
         """Return the posterior of the run to resume; None without a run, or if it was stopped before its first sweep.
-
         Raises `BadInput` if the run was made with other arguments.
         """
         start = getattr(self.method, "start", None)
@@ -375,8 +369,7 @@ def slam(
     Returns:
         The run over the key scans: ``run.poses`` are draws of their poses, ``run.trajectory`` has all scans.
 
-    Raises:
-        BadInput: as `bayesmap.read_log`, `bayesmap.poses.slam.infer_trajectory` and `bayesmap.infer`.
+    Raises `BadInput` as `bayesmap.read_log`, `bayesmap.poses.slam.infer_trajectory` and `bayesmap.infer`.
     """
     from bayesmap.poses import map_scans
     from bayesmap.poses.slam import infer_trajectory

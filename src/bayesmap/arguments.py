@@ -34,12 +34,10 @@ class Schedule:
     Attributes:
         chains: Markov chains; the methods without chains give ``chains * draws`` independent draws.
         warmup: sweeps of each chain that are not kept.
-        draws: largest number of maps per chain; ``precision`` usually ends the chains sooner. None: 1000 for
-            binary walls; 0 for "propagate", which returns marginals; 100 to 200 for `Beta` and `Surface` (50 to 200 if
-            ``thin`` is 1). Their draws are larger, and mix in tens of sweeps. Fewer beams give more draws
-            (`CellPrior.default_draws`).
-        thin: sweeps from one kept map to the next. None: 3 for `Beta` and `Surface` if ``draws`` is None too, and 1
-            otherwise; `slam` takes 1.
+        draws: largest number of maps per chain; ``precision`` usually ends the chains sooner. None: 1000 for binary
+            walls; 0 for "propagate", which returns marginals; 100 to 200 for `Beta` and `Surface` (50 to 200 if
+            ``thin`` is 1). Those are larger, and mix faster. Fewer beams give more (`CellPrior.default_draws`).
+        thin: sweeps between kept maps. None: 3 for `Beta` and `Surface` if ``draws`` is None, else 1; in `slam` 1.
         precision: Monte Carlo standard error of the mean map at which chains stop: 99 of 100 observed cells have this
             error or less (`bayesmap.run.chains.map_error`). None: 0.03, but no limit if ``draws`` is given. A value
             below 0.03 allows up to ten times the default number of draws.
@@ -47,8 +45,7 @@ class Schedule:
             of the inference. A slow map has a shorter warm-up then. Without ``precision`` or ``draws``, chains use all
             of the time. Draws equal the draws of a longer run, but their number depends on the machine. None: no limit.
 
-    Raises:
-        BadInput: a count that is not a whole number or is too small, or a precision or time that is not positive.
+    Raises `BadInput` for a count that is not whole or is too small, or a precision or time that is not positive.
     """
 
     chains: int = 4
@@ -69,9 +66,8 @@ class Schedule:
             raise BadInput(f"Schedule: seconds must be a positive number, such as 60, got {self.seconds!r}")
 
     def completed(self, sweeps_a_draw: int, default_draws: Callable[[int], int]) -> Schedule:
-        """Return the schedule with ``thin``, ``draws`` and ``precision`` filled in.
-
-        ``sweeps_a_draw`` is ``thin`` if neither it nor ``draws`` is given. ``default_draws`` takes ``thin``.
+        """Return the schedule with ``thin``, ``draws`` and ``precision`` filled in. ``sweeps_a_draw`` is ``thin`` if
+        neither it nor ``draws`` is given. ``default_draws`` takes ``thin``.
         """
         thin = (sweeps_a_draw if self.draws is None else 1) if self.thin is None else self.thin
         if self.draws is not None:
@@ -92,8 +88,7 @@ class Where:
         executor: object that runs the chains, such as `RayExecutor`; None: this process.
         any_size: whether to begin a run that will not fit into memory by its estimate (`bayesmap.run.cost`).
 
-    Raises:
-        BadInput: less than one thread, an invalid device, or an object that is no executor.
+    Raises `BadInput` for less than one thread, an invalid device, or an object that is no executor.
     """
 
     threads: int | None = None
@@ -127,8 +122,7 @@ class Checkpoints:
             the chains take less than `PREVIEW_FROM_S` or resume.
         trajectory: function called by `slam` with the approximate trajectory of all scans, before the map is inferred.
 
-    Raises:
-        BadInput: an object that is no run, a callback that is no function, or a negative number of seconds.
+    Raises `BadInput` for an object that is no run, a callback that is no function, or a negative number of seconds.
     """
 
     resume: Run | None = None

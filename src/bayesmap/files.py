@@ -22,8 +22,7 @@ def write_whole(path: str | os.PathLike[str]) -> Iterator[Path]:
     The temporary file lies in the same folder, since a rename within a file system is atomic, and has the suffix of
     ``path``, since some libraries choose a format by it. It is flushed to disk before the rename: after an error, a
     crash or a kill ``path`` holds either the old or the new content. A symbolic link's target is replaced. Raises
-    `BadInput` if the folder does not exist, or cannot be written to, and `OSError` if writing failed, as on a full
-    disk; it names ``path``.
+    `BadInput` if the folder does not exist, or cannot be written to, and `OSError` naming ``path`` if writing failed.
     """
     target = Path(os.path.realpath(path))
     temporary = target.with_name(f".{target.stem}.{secrets.token_hex(4)}.partial{target.suffix}")
@@ -46,7 +45,6 @@ def write_whole(path: str | os.PathLike[str]) -> Iterator[Path]:
 
 def write_file(path: str | os.PathLike[str], content: bytes | str | Iterable[str]) -> Path:
     """Write bytes, a text or lines of text, whole or not at all, gzipped if the name ends in .gz. Returns the path.
-
     Raises `BadInput` if the folder does not exist, or cannot be written to.
     """
     target = Path(path)
@@ -64,8 +62,7 @@ def write_whole_folder(path: str | os.PathLike[str], may_replace: Callable[[Path
 
     An older folder at ``path`` is removed whole, but only if ``may_replace`` accepts it: a typing error must not delete
     a folder with other content. If the block raises an error, ``path`` is unchanged. Raises `BadInput` if ``path`` may
-    not be replaced, or its parent folder is missing or not writable, and `OSError` if writing failed, as on a full
-    disk; it names ``path``.
+    not be replaced, or its parent folder is missing or not writable, and `OSError` naming ``path`` if writing failed.
     """
     target = Path(os.path.realpath(path))
     if os.path.lexists(target) and not (target.is_dir() and (not any(target.iterdir()) or may_replace(target))):
@@ -130,9 +127,8 @@ def run_in(folder: str | os.PathLike[str]) -> str | None:
 
 
 def need_ending(path: str | os.PathLike[str], endings: tuple[str, ...], kind: str) -> tuple[Path, str]:
-    """Return the path, and its ending in lower case without the dot.
-
-    Raises `BadInput` for an ending that is not among ``endings``, or a missing folder, before any slow work.
+    """Return the path, and its ending in lower case without the dot. Raises `BadInput` for an ending that is not among
+    ``endings``, or a missing folder, before any slow work.
     """
     target = Path(path)
     ending = target.suffix.lower().removeprefix(".")

@@ -9,8 +9,7 @@ spread s_i (`bayesmap.beams.rays`). The law of a reading z is
     p(z | cells, sensor, pose) = sum_i w_i p(z | d_i, s_i) + prod_j (1 - a_j) p(z | infinity)
 
 with the sensor's law p(z | d, s) (`bayesmap.sensors.model`). Binary walls are the case a_i in {0, 1}: then one w is 1.
-This module computes the law in plain NumPy, in double precision, for every kind of cells. Samplers are tested against
-it.
+This module computes the law in plain NumPy, in double precision, for all kinds of cells, to test samplers.
 """
 
 from __future__ import annotations
@@ -66,9 +65,8 @@ class Model:
         return State(self.cells.completed(cells, self.grid), self.sensor, self.scans.poses)
 
     def log_joint(self, state: State) -> float:
-        """Compute the log density of a state and the readings, in nats, up to a constant of the priors.
-
-        Raises `BadInput` for poses of another shape than the scans'.
+        """Compute the log density of a state and the readings, in nats, up to a constant of the priors. Raises
+        `BadInput` for poses of another shape than the scans'.
         """
         poses = self.poses.law(self.scans.poses).log_prob(np.asarray(state.poses))
         return float(poses) + self.cells.log_prob(state.cells, self.grid) + self.log_likelihood(state)
@@ -78,9 +76,8 @@ class Model:
         return float(self.beam_log_likelihoods(state).sum())
 
     def beam_log_likelihoods(self, state: State) -> Floats:
-        """Compute log p(reading | state) of each beam, (B,), in nats; 0 for an invalid reading.
-
-        Raises `BadInput` for poses of another shape than the scans'.
+        """Compute log p(reading | state) of each beam, (B,), in nats; 0 for an invalid reading. Raises `BadInput` for
+        poses of another shape than the scans'.
         """
         if np.shape(state.poses) != self.scans.poses.shape:
             raise BadInput(f"state: poses has shape {np.shape(state.poses)}, expected {self.scans.poses.shape}")
@@ -103,8 +100,7 @@ def log_likelihoods(
 ) -> Floats:
     """Compute log p(reading | map) of every beam, (B,), by the formula of this module; 0 for an invalid reading.
 
-    The map ``states`` has the form of `bayesmap.beams.rays.stops_of`. The inverse temperature ``beta`` is the power of
-    the sensor's law p(z | stop).
+    ``states`` is as in `bayesmap.beams.rays.stops_of`. The inverse temperature ``beta`` is the power of p(z | stop).
     """
     stops = stops_of(rays, states, hit_depth)
     beam, last = rays.beam_of_entry(), np.arange(rays.n_beams)

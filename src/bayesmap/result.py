@@ -76,9 +76,8 @@ class Run:
     def occupancy(self) -> Floats:
         """Return the posterior mean of the probability that a cell stops a beam, (nx, ny).
 
-        For binary walls it is the probability of a wall. With surfaces it is the probability that a beam which enters
-        the cell's square stops inside it (docs/surfaces.md). Except for walls it has less noise than the mean of
-        ``draws``.
+        For binary walls it is the probability of a wall, with surfaces that a beam which enters the cell's square stops
+        inside it (docs/surfaces.md). Except for walls it has less noise than the mean of ``draws``.
         """
         return self.posterior.occupancy
 
@@ -94,9 +93,8 @@ class Run:
 
     @cached_property
     def draws(self) -> NDArray[Any]:
-        """Return all kept maps, (chain, draw, nx, ny): walls, or chances to stop a beam.
-
-        Unobserved cells have the prior's mean. The array is made on first use: 1 or 4 bytes per cell and draw.
+        """Return all kept maps, (chain, draw, nx, ny): walls, or chances to stop a beam. Unobserved cells have the
+        prior's mean. The array is made on first use: 1 or 4 bytes per cell and draw.
         """
         draws = self.posterior.draws
         walls = self.n_draws == 0 or self.map_of(0, 0).dtype == np.bool_
@@ -111,16 +109,12 @@ class Run:
         return self.posterior.draws.count
 
     def map_of(self, chain: int, draw: int) -> NDArray[Any]:
-        """Return one draw, (nx, ny): walls, or chances to stop a beam.
-
-        Chain and draw count from 0; negative numbers count from the end.
-        """
+        """Return one draw, (nx, ny): walls, or chances to stop a beam. Numbers start at 0; negative ones at the end."""
         return self.posterior.prior.map_of(self.posterior.draws, chain, draw)
 
     @property
     def poses(self) -> Floats:
         """Return draws of the scans' poses in the world frame, (chain, draw, scan, 3): x, y in metres, yaw in radians.
-
         Known poses are repeated in every draw.
         """
         draws = self.posterior.draws
@@ -133,7 +127,7 @@ class Run:
         """Compute mean, covariance and R-hat of each scan's pose.
 
         If chains that started from an approximation have not mixed, return the approximation's mean and covariance.
-        Raises `BadInput` for a run that was stopped before its first draw.
+        Raises `BadInput` for a run stopped before its first draw.
         """
         from bayesmap.posterior.summary import summarise_poses
 
@@ -148,8 +142,7 @@ class Run:
     def interval(self, level: float = 0.9) -> tuple[Floats, Floats]:
         """Compute the central credible interval of each cell's chance to stop a beam: lower and upper ends, (nx, ny).
 
-        Raises `BadInput` for a level outside (0, 1), a run that was stopped before its first draw, or a run over binary
-        walls.
+        Raises `BadInput` for a level outside (0, 1), a run stopped before its first draw, or binary walls.
         """
         if not 0 < level < 1:
             raise BadInput(f"interval: level must lie inside (0, 1), got {level!r}")
@@ -157,9 +150,8 @@ class Run:
         return self.posterior.prior.interval(self.posterior.draws, level)
 
     def surfaces(self) -> tuple[Floats, Floats, Floats]:
-        """Return mean surfaces: means (U, 2) and covariances (U, 2, 2) in metres, and reflectivities (U,).
-
-        Raises `BadInput` for a run without surfaces or without draws.
+        """Return mean surfaces: means (U, 2) and covariances (U, 2, 2) in metres, and reflectivities (U,). Raises
+        `BadInput` for a run without surfaces or without draws.
         """
         self._need_marginals()
         return self.posterior.prior.surfaces(self.posterior.draws)
@@ -171,10 +163,7 @@ class Run:
 
     @property
     def log_weights(self) -> Floats:
-        """Return the normalised log weights of all particles of importance sampling, (particles,).
-
-        Raises `BadInput` for another method.
-        """
+        """Return normalised log weights of importance sampling, (particles,). Other methods raise `BadInput`."""
         if self.posterior.log_weights is None:
             raise BadInput(f"run: method {self.posterior.settings['method']!r} has no importance weights")
         return self.posterior.log_weights
@@ -195,8 +184,7 @@ class Run:
 
         The run has not seen these scans. Another ``sensor`` is needed only for a loaded run with your own sensor model.
         ``on_progress`` is called with the number of finished draws and their total. The device is "cpu", or a CUDA
-        device such as "cuda:0". Raises `BadInput` for no draws, no valid reading, a sensor that cannot score this run,
-        or no such device.
+        device such as "cuda:0". Raises `BadInput` for no draws, no valid reading, an unfit sensor, or no such device.
         """
         scores = beam_log_scores(predictor_of(self.posterior, sensor), heldout_scans, on_progress, device)
         return float(scores[~np.isnan(scores)].mean())
@@ -206,8 +194,7 @@ class Run:
 
         The path has the corners of the way of the disc's centre, world frame, metres, (P, 2); one point for a standing
         disc. Returns ``.probability`` with its Monte Carlo ``.standard_error``, and ``.independent``: the product over
-        independent cells. Raises `BadInput` for a run without draws, a path that is invalid or leaves the map, or a
-        radius that is not positive.
+        independent cells. Raises `BadInput` for no draws, a path invalid or outside the map, or no positive radius.
         """
         from bayesmap.posterior.decisions import path_is_free
 
@@ -242,8 +229,7 @@ class Run:
             Bounds from joint draws, ``.at_least`` and ``.at_most`` with Monte Carlo errors, and ``.independent``: the
             formula for independent cells and beams (FSMI; Zhang et al., ICRA 2019).
 
-        Raises:
-            BadInput: fewer than two draws, or invalid poses, angles or range.
+        Raises `BadInput` for fewer than two draws, or invalid poses, angles or range.
         """
         from bayesmap.posterior.decisions import information_of
 
@@ -270,8 +256,7 @@ class Run:
         Returns:
             ``.draws_m`` (draws, P, A) and ``.quantiles_m`` (P, A, levels), metres: +inf is no return, -inf too close.
 
-        Raises:
-            BadInput: a run without draws, poses outside the map, or invalid angles, levels or range.
+        Raises `BadInput` for a run without draws, poses outside the map, or invalid angles, levels or range.
         """
         from bayesmap.posterior.prediction import predict
 
@@ -297,7 +282,6 @@ class Run:
         by_reading: bool = False,
     ) -> None:  # fmt: skip
         """Write the run to one netCDF file, whole or not at all. ``on_progress`` gets the count done and the total.
-
         ``by_reading`` adds the log likelihood of every valid reading in every draw, which arviz's ``loo`` needs.
         """
         from bayesmap.io.saved import save
@@ -433,8 +417,7 @@ def score(
         device: "cpu" or a CUDA device such as "cuda:0".
         on_progress: called with the share that is done, from 0 to 1.
 
-    Raises:
-        BadInput: no valid reading, no draws, no such device, or a sensor whose probabilities do not add up to one.
+    Raises `BadInput` for no valid reading, no draws, no such device, or a sensor whose law is not normalised.
     """
     predictor = predictor_of(run.posterior, sensor)
     return score_prediction(predictor, heldout_scans, seed=seed, device=device, on_progress=on_progress)

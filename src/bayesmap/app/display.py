@@ -138,9 +138,8 @@ def thin_trace(log_joint: NDArray[np.float64]) -> tuple[NDArray[np.float32], NDA
 
 
 def histogram(log_weights: NDArray[np.float64]) -> tuple[NDArray[np.float32], float]:
-    """Count log weights in bins of equal width up to the largest.
-
-    Returns the counts, (WEIGHT_BINS,), and the lower edge of the first bin, in nats relative to the largest log weight.
+    """Count log weights in bins of equal width up to the largest. Returns the counts, (WEIGHT_BINS,), and the lower
+    edge of the first bin, in nats relative to the largest log weight.
     """
     relative = log_weights - log_weights.max()
     lowest = min(-1.0, float(relative[np.isfinite(relative)].min()))

@@ -82,8 +82,7 @@ def _building(shape: tuple[int, int], seed: int) -> tuple[NDArray[np.bool_], Gri
         margin = round(MARGIN_M / resolution)
         size_m = ((shape[0] - 2 * margin) * resolution, (shape[1] - 2 * margin) * resolution)
         if max(size_m) >= MIN_SIZE_M[0] and min(size_m) >= MIN_SIZE_M[1]:
-            walls = building(seed, size_m, resolution).walls
-            return _center_map(walls, shape), Grid(shape, resolution, (0.0, 0.0))
+            return _center_map(building(seed, size_m, resolution).walls, shape), Grid(shape, resolution, (0.0, 0.0))
     least = [round(v / 0.25) + 4 for v in MIN_SIZE_M]
     raise Refused(f"new: a building does not fit {shape[0]} x {shape[1]} cells", f"{least[0]} x {least[1]} are enough")
 
@@ -197,8 +196,7 @@ def gesture_of(action: actions.Action, client: int) -> tuple[Any, ...] | None:
 def merge_actions(before: actions.Action, after: A) -> A | None:
     """Return one action that replaces two actions of one gesture; None if they cannot be merged."""
     if isinstance(before, actions.ChangeSettings) and isinstance(after, actions.ChangeSettings):
-        patch = structs.replace(before.patch, **actions.changes(after.patch))
-        return structs.replace(after, patch=patch)
+        return structs.replace(after, patch=structs.replace(before.patch, **actions.changes(after.patch)))
     if isinstance(before, actions.Walls) and isinstance(after, actions.Walls):
         same = (before.stroke, before.wall) == (after.stroke, after.wall)
         return structs.replace(after, cells=before.cells + after.cells) if same else None
@@ -210,7 +208,6 @@ def merge_actions(before: actions.Action, after: A) -> A | None:
 
 def adopt_document(present: Document, other: Document) -> Document:
     """Return the document to show for a page's other document: its simulation, or its settings for the present file.
-
     Raises `Refused` if the documents show different files, or only one of them shows a file.
     """
     if other.simulated and present.simulated:

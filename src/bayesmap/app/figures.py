@@ -72,8 +72,7 @@ def page_in_one_file(kind: Literal["recording", "figure"], data: bytes) -> str:
 def to_figure(document: Document, story: Story | None = None) -> str:
     """Return a page in one file that samples a drawn world, and the steps of a story, without a server.
 
-    Raises `Refused` if a document shows a file, has uncertain poses, or asks for belief propagation, or if a figure
-    lacks the tool of a step.
+    Raises `Refused` for a file, uncertain poses or belief propagation in a document, or a step without its tool.
     """
     for number, step in enumerate(story.steps if story else (), start=1):
         try:

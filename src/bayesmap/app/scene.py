@@ -30,9 +30,8 @@ CUT_SIGMAS = 13.0  # how far past its reading a preview follows a beam: farther 
 
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """Readings, and the inference problem built from them.
-
-    Beam tables are traced on first use: while the hand moves, the next scene often replaces this one before that.
+    """Readings, and the inference problem built from them. Beam tables are traced on first use: while the hand moves,
+    the next scene often replaces this one before that.
     """
 
     scans: Scans  # the readings of the sensors
@@ -112,8 +111,7 @@ def simulated_scene(document: Document) -> Scene:
 def hit_mask(scene: Scene) -> NDArray[np.bool_]:
     """Mark the beams that hit something, (S, A): exactly in a simulation, else by readings below the longest range.
 
-    A beam without a return may read the longest range, plus additive noise. So readings within `BLUR_SIGMAS` of the
-    longest range count as no return.
+    Without a return, a beam may read the longest range plus noise: readings within `BLUR_SIGMAS` of it are no return.
     """
     limit = scene.scans.max_range_m
     if len(scene.exact_m):

@@ -79,9 +79,8 @@ SCRIPT_HASH = "sha256-" + base64.b64encode(hashlib.sha256(SCRIPT.encode()).diges
 
 
 class Guard:
-    """Middleware that refuses requests without the token, with an unknown Host, or with a foreign Origin.
-
-    The Host is checked against foreign web pages whose own host name resolves to this machine.
+    """Middleware that refuses requests without the token, with an unknown Host, or with a foreign Origin. The Host is
+    checked against foreign web pages whose own host name resolves to this machine.
     """
 
     def __init__(self, app: ASGIApp, token: str, host: str, port: int) -> None:

@@ -12,15 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from bayesmap.app.protocol.document import (
-    MAX_FILE_SIDE,
-    MAX_LOG_SIDE,
-    METHODS,
-    Document,
-    Refused,
-    Source,
-    no_walls,
-)
+from bayesmap.app.protocol.document import MAX_FILE_SIDE, MAX_LOG_SIDE, METHODS, Document, Refused, Source, no_walls
 from bayesmap.app.protocol.wire import parse_simulation
 from bayesmap.app.scene import Scene, scene_of_file
 from bayesmap.app.shown.hit_maps import HitCountMap, HitCounts, stop_probabilities
@@ -226,9 +218,8 @@ def open_run(run: Run, name: str) -> OpenedRun:
 
 
 def open_log(scans: Scans, name: str) -> OpenedLog:
-    """Open scans as a log, on cells of 10 cm, or on larger cells if a side would have more than 1000 cells.
-
-    Poses that look like raw odometry are at first treated as odometry. Raises `BadInput` if the log has no scans.
+    """Open scans as a log, on cells of 10 cm, or on larger cells if a side would have more than 1000 cells. Poses that
+    look like raw odometry are at first treated as odometry. Raises `BadInput` if the log has no scans.
     """
     from bayesmap.cells.kinds import P_WALL
     from bayesmap.poses.log_checks import look_like_odometry
@@ -237,8 +228,7 @@ def open_log(scans: Scans, name: str) -> OpenedLog:
     if max(grid.shape) > MAX_LOG_SIDE:
         grid = Grid.covering(scans, LOG_RESOLUTION_M * math.ceil(max(grid.shape) / MAX_LOG_SIDE))
     document = _document(grid, scans, Source("log", name, len(scans)), P_WALL)
-    source = replace(document.source, bounds=bounds_m(scans))
-    document = replace(document, sweeps=LOG_SWEEPS, source=source)
+    document = replace(document, sweeps=LOG_SWEEPS, source=replace(document.source, bounds=bounds_m(scans)))
     return OpenedLog(replace(document, poses="odometry") if look_like_odometry(scans) else document, scans)
 
 

@@ -1,8 +1,7 @@
 """The trajectory of a log: inference from raw odometry, with pictures of every stage.
 
 `infer_trajectory` runs on its own thread, so that the worker goes on answering. The thread puts finished pictures into
-a queue, and shares nothing else that would need a lock. A cancelled job ends when it next reports progress. The next
-job waits for that end.
+a queue, and shares nothing else that would need a lock. A cancelled job ends at its next report; the next job waits.
 """
 
 from __future__ import annotations
@@ -57,8 +56,7 @@ StageProgress = tuple[str, int, int]  # name of a stage, parts done and parts in
 def _step(
     task: Infer, scans: Scans, grid: Grid, hit_map: HitCountMap, progress: StageProgress | None, text: str = ""
 ) -> Step:
-    scene = untraced_scene(scans, grid, task.document.prior)
-    result = Result(scene, task.document.on_grid(grid), "counts", hit_map)
+    result = Result(untraced_scene(scans, grid, task.document.prior), task.document.on_grid(grid), "counts", hit_map)
     return Step(grid, result, None if progress is None else _stage(task, progress), text)
 
 

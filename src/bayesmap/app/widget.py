@@ -43,8 +43,7 @@ class MapWidget(anywidget.AnyWidget):
         document: the first document of the live page, as JSON values (docs/app.md).
         seed: the seed of all random numbers of the live page.
 
-    Raises:
-        BadInput: the document is invalid.
+    Raises `BadInput` for an invalid document.
     """
 
     _esm = read_static("mapview.js")

@@ -56,7 +56,6 @@ def read_file(path: str | Path) -> Layer:
 
 def read_pairs(pairs: Iterable[str], section: str | None) -> Layer:
     """Read the settings of ``--set key=value`` for the command's section, or all if None, or of ``section.key=value``.
-
     Raises `click.BadParameter` for an unknown key or unreadable value, and `BadInput` for a number that is not allowed.
     """
     layer: dict[str, dict[str, Value]] = {}

@@ -87,9 +87,8 @@ RESULTS = "bayesmap.results"  # key of the click context: standard output while 
 
 
 def reserve_stdout() -> None:
-    """Reserve standard output for `write_out` until the command ends. Prints of libraries go to standard error.
-
-    Ray prints events of its nodes on standard output at any time, even long after the chains.
+    """Reserve standard output for `write_out` until the command ends. Prints of libraries go to standard error. Ray
+    prints events of its nodes on standard output at any time, even long after the chains.
     """
     context = click.get_current_context()
     if RESULTS not in context.meta:
@@ -150,7 +149,6 @@ SETTING_UP = ("compile", "trace", "start", "fit")  # stages in which a run has n
 @contextlib.contextmanager
 def progress(console: Console, begin: str) -> Iterator[OnProgress]:
     """Yield a function that shows the events of a run in a progress bar. The bar disappears when the block ends.
-
     ``begin`` is shown before the first event.
     """
     with _bar(console, begin) as show:
@@ -228,8 +226,7 @@ def _bar(console: Console, begin: str) -> Iterator[Show]:
     )  # fmt: skip
     with bar:
         visible = bar.add_task(begin, total=None, count="", quality="")
-        # One task per counted unit, so that the estimated time does not mix rounds with sweeps. A task continues after
-        # a checkpoint.
+        # One task per counted unit: the estimated time does not mix rounds with sweeps. It goes on after a checkpoint.
         tasks: dict[tuple[str, int], TaskID] = {}
         sampling = [STAGES[stage][0] for stage in SAMPLING]
 

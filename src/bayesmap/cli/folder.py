@@ -96,10 +96,8 @@ DERIVED = (
 
 @dataclass
 class Folder:
-    """The folder into which `infer` writes.
-
-    Until `begin`, only the file ``outdated`` may be written: it marks an older run that is to be replaced.
-    An older run that is to be replaced stays until the first `save` of the new run.
+    """The folder into which `infer` writes. Until `begin`, only the file ``outdated`` may be written: it marks an older
+    run that is to be replaced. An older run that is to be replaced stays until the first `save` of the new run.
     """
 
     path: Path  # the folder
@@ -116,9 +114,8 @@ class Folder:
         self.resuming = self.resuming and not self.outdated_path.exists()
 
     def check(self, *, force: bool) -> None:
-        """Refuse a folder that cannot be written, or whose run or files the user neither replaces nor resumes.
-
-        Raises `BadInput` also for a name that is not UTF-8.
+        """Refuse a folder that cannot be written, or whose run or files the user neither replaces nor resumes. Raises
+        `BadInput` also for a name that is not UTF-8.
         """
         try:
             str(self.path).encode()

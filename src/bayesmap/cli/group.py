@@ -1,7 +1,6 @@
 """The commands, and the error messages and exit codes of their failures.
 
-Exit codes: 0 success, 1 failure, 2 wrong usage, 3 bad input, 4 with ``--strict`` if the diagnostics find a problem,
-130 interrupted.
+Exit codes: 0 success, 1 failure, 2 wrong usage, 3 bad input, 4 problems with ``--strict``, 130 interrupted.
 """
 
 from __future__ import annotations

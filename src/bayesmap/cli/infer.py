@@ -113,8 +113,7 @@ def infer_fleet(call: Call[InferSettings], logs: list[str], output: Path, *, res
     if not finished:
         again = shlex.join(["bayesmap", "infer", *logs, "-o", str(output), "--resume"])
         call.console.say(f"interrupted; what was checkpointed is kept, go on with:\n  {again}")
-    document = {"runs": [entry.as_json() for entry in entries], "finished": finished}
-    call.console.result(document, table(entries))
+    call.console.result({"runs": [entry.as_json() for entry in entries], "finished": finished}, table(entries))
     exit_unless_good(finished=finished, problems=False)
     if any(entry.error for entry in entries):
         click.get_current_context().exit(FAILURE)

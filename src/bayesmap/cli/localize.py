@@ -129,7 +129,6 @@ class _Request:
 
     def options(self, mount: NDArray[np.float64] | None) -> dict[str, Any]:
         """Return the arguments that both ways of localization share. The prior becomes a prior of the laser's pose.
-
         ``mount`` is the pose of the laser on the robot, (3,), if it is known. Without it --frame base is refused.
         """
         from bayesmap.space.planar import compose
@@ -217,9 +216,8 @@ def _locate(request: _Request, on_located: Callable[[int, PoseBelief], bool] | N
 def _locate_live(
     request: _Request, idle_s: float | None, on_located: Callable[[int, PoseBelief], bool]
 ) -> tuple[_Located, bool]:
-    """Locate the scans of a log as they arrive, until the log ends, the reader closes the output, or Ctrl-C.
-
-    Returns all posteriors, and whether Ctrl-C ended the localization.
+    """Locate the scans of a log as they arrive, until the log ends, the reader closes the output, or Ctrl-C. Returns
+    all posteriors, and whether Ctrl-C ended the localization.
     """
     from bayesmap.localization.localize import follow
 
@@ -398,7 +396,6 @@ def can_follow(console: Console, log: str) -> bool:
 
 def live_scans_of(request: _Request, idle_s: float | None) -> Iterator[Scans]:
     """Return the scans of a log that is still being written, one at a time, until none arrives for ``idle_s`` seconds.
-
     Raises `BadInput` for a setting that such a log cannot have.
     """
     from bayesmap.io.live import live_scans

@@ -24,8 +24,7 @@ def main(arguments: list[str] | None = None) -> None:
     """Run the command line and exit.
 
     Ctrl-C before a command begins ends the process with one line, since there is nothing to save. Python's default
-    handler would print a traceback from the module that is being loaded. A process that ignores Ctrl-C, as under
-    nohup, still ignores it.
+    handler would print a traceback. A process that ignores Ctrl-C, as under nohup, still ignores it.
     """
     if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
         signal.signal(signal.SIGINT, _end_at_once)

@@ -87,8 +87,7 @@ def render(
         write_figure(_whole_figure(run, settings, walls), target)
     else:
         write_figure(_panel(run, settings, grid, window, walls), target)
-    document = {"what": what, "run": run_file, "outputs": {target.name: str(target)}}
-    call.console.result(document, [target])
+    call.console.result({"what": what, "run": run_file, "outputs": {target.name: str(target)}}, [target])
 
 
 def default_name(what: str) -> str:
@@ -150,9 +149,8 @@ def _beams_figure(
 
 
 def one_draw(run: Run, chain: int, draw: int) -> NDArray[Any]:
-    """Return a draw, (nx, ny): walls, or reflectivities. Numbers count from 1, and draw -1 is the last.
-
-    Raises `BadInput` if the run has no such draw.
+    """Return a draw, (nx, ny): walls, or reflectivities. Numbers count from 1, and draw -1 is the last. Raises
+    `BadInput` if the run has no such draw.
     """
     chains, draws = run.log_joint.shape
     if not 1 <= chain <= chains:
@@ -268,5 +266,4 @@ def export(call: Call[ExportSettings], run_file: str, output: str | None, force:
         target, format=kind, mode=settings.mode, occupied_thresh=settings.occupied_thresh,
         free_thresh=settings.free_thresh, frame=settings.frame,
     )  # fmt: skip
-    document = {"run": run_file, "outputs": {path.name: str(path) for path in outputs}}
-    call.console.result(document, outputs)
+    call.console.result({"run": run_file, "outputs": {path.name: str(path) for path in outputs}}, outputs)

@@ -56,8 +56,7 @@ def score_run(
     """Score a saved run on the scans of a log that it has not seen. Without a log return only its trajectory.
 
     ``frame`` is the trajectory's frame, see `bayesmap.space.trajectory.Trajectory.of`. ``whole`` scores all scans of
-    the log, ``compare`` classic maps too. With ``poses_too``, the poses are scored afterwards, and a run without
-    held-out scans is accepted.
+    the log, ``compare`` classic maps too. ``poses_too`` scores poses, too, and needs no held-out scans.
     """
     from bayesmap.io.exports import trajectory_of
     from bayesmap.posterior.heldout import NoneHeldOut

@@ -187,10 +187,8 @@ class World:
 
 
 def world_of(settings: SimulateSettings, poses: Sequence[str], minutes: float | None = None) -> World:
-    """Return the world that the settings name, with the robot at the typed poses, or driving for ``minutes``.
-
-    Raises `BadInput` for a file that is no world, or an invalid size or pose, and `click.UsageError` for a file without
-    pose.
+    """Return the world that the settings name, with the robot at the typed poses, or driving for ``minutes``. Raises
+    `BadInput` for a file that is no world, or an invalid size or pose, and `click.UsageError` for a file without pose.
     """
     import numpy as np
 

@@ -255,9 +255,8 @@ LOG = "a log or a recording of range scans"
 
 
 def need_file(file: str, expected: str, *, runs: bool, pipes: bool = False) -> None:
-    """Raise `BadInput` for a path that does not exist, a run's folder or a pipe, before slow modules are imported.
-
-    The message asks for ``expected`` instead. ``runs`` and ``pipes`` tell whether a saved run and a pipe are accepted.
+    """Raise `BadInput` for a path that does not exist, a run's folder or a pipe, before slow modules are imported. The
+    message asks for ``expected`` instead. ``runs`` and ``pipes`` tell whether a saved run and a pipe are accepted.
     """
     if not pipes and (file in ("-", "/dev/stdin") or Path(file).is_fifo()):
         raise BadInput(f"{file}: a pipe, and this needs a file that can be read again; localize --follow reads pipes")
@@ -314,8 +313,7 @@ def _is_recording(folder: Path) -> bool:
 def heldout_scans(run: Run, log: str, settings: LogSettings, every: int) -> Scans:
     """Return the scans of a log that a run has not seen, read with the run's largest range.
 
-    If ``every`` is 0, the log is another one of the same place. Otherwise it is the run's own log, and the run held out
-    every ``every``-th scan.
+    If ``every`` is 0, the log is another of the same place; else the run's own, which held out each ``every``-th.
 
     Raises `BadInput` if the log cannot be read, or the run was made from some of these scans.
     """

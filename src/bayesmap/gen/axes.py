@@ -19,9 +19,8 @@ from bayesmap.gen.typing import InAxes
 
 
 class Mapped(NamedTuple):
-    """Arguments as leaves, each with its mapped axis, or None if all elements share the leaf.
-
-    `rebuild` makes arguments of leaves again, and `n` is the number of elements.
+    """Arguments as leaves, each with its mapped axis, or None if all elements share the leaf. `rebuild` makes arguments
+    of leaves again, and `n` is the number of elements.
     """
 
     leaves: list[Any]

@@ -123,9 +123,8 @@ def _elements(tree: Any, index: Any) -> Any:
 
 
 class ChoiceMap(Outlined, Pytree):
-    """Base of choice maps. `ChoiceMapBuilder`, conventionally called `C`, makes them.
-
-    Five kinds of nodes derive from it: `Choice`, `Static`, `Indexed`, `Or` and `Switch`.
+    """Base of choice maps. `ChoiceMapBuilder`, conventionally called `C`, makes them. Five kinds of nodes derive from
+    it: `Choice`, `Static`, `Indexed`, `Or` and `Switch`.
     """
 
     # Operations with a rule for each kind of node -------------------------------------------------

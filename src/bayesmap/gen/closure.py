@@ -101,9 +101,8 @@ def _in_form(args: tuple[Any, ...], kwargs: dict[str, Any]) -> tuple[Any, ...]:
 
 @dataclass
 class GenerativeFunctionClosure(Outer):
-    """`m(x)`: a site with `@ "address"`, a draw with `(key)`, or `m` with `x` before its arguments.
-
-    Its traces are traces of `m`, or of `m.handle_kwargs()` if some arguments are named. Their arguments include `x`.
+    """`m(x)`: a site with `@ "address"`, a draw with `(key)`, or `m` with `x` before its arguments. Its traces are
+    traces of `m`, or of `m.handle_kwargs()` if some arguments are named. Their arguments include `x`.
     """
 
     gen_fn: GenerativeFunction
@@ -131,8 +130,7 @@ class GenerativeFunctionClosure(Outer):
 
     def __call__(self, key: PRNGKey, *rest: Any, **by_name: Any) -> Any:
         """Simulate, and return the return value alone."""
-        closure = self.replace(kwargs={**self.kwargs, **by_name})
-        return closure.simulate(key, rest).get_retval()
+        return self.replace(kwargs={**self.kwargs, **by_name}).simulate(key, rest).get_retval()
 
     def handle_kwargs(self) -> GenerativeFunction:
         """Return this closure, which takes arguments by name when it is called."""

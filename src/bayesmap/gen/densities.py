@@ -351,10 +351,8 @@ zipf = _tfp("Zipf")
 
 @dataclass
 class DiscreteHMMConfiguration(Pytree):
-    """A hidden Markov model on a ring of `linear_grid_dim` places.
-
-    Logits of places at distance d are sigma ** d within the adjacency distance, -1 / sigma beyond it. The first state
-    follows a move from the middle of the ring.
+    """A hidden Markov model on a ring of `linear_grid_dim` places. Logits of places at distance d are sigma ** d within
+    the adjacency distance, -1 / sigma beyond it. The first state follows a move from the middle of the ring.
     """
 
     linear_grid_dim: int = static()

@@ -131,9 +131,8 @@ def draw_shape(sample_shape: Any) -> tuple[int, ...]:
 
 
 class ExactDensity(Distribution):
-    """Base of distributions with a known density: implement `sample` and `logpdf`.
-
-    With array parameters the draws are independent and the score is their sum, of shape ().
+    """Base of distributions with a known density: implement `sample` and `logpdf`. With array parameters the draws are
+    independent and the score is their sum, of shape ().
     """
 
     def sample(self, key: PRNGKey, *args: Any, **kwargs: Any) -> Any:
@@ -219,10 +218,7 @@ class ExactDensity(Distribution):
 
 @dataclass
 class KeywordDensity(ExactDensity):
-    """Base of exact densities that take arguments by name.
-
-    With `by_name` the arguments have the form `((positional, ...), {"name": value})`.
-    """
+    """Base of exact densities with named arguments: `by_name` makes them `((positional, ...), {"name": value})`."""
 
     by_name: bool = static(default=False, kw_only=True)
 

@@ -42,9 +42,8 @@ class EditRequest(Pytree):
 
 @dataclass
 class DiffAnnotate(EditRequest):
-    """A request whose marks of change pass through functions, which inspect or overrule them.
-
-    A function that marks a changed value as unchanged makes the edit wrong.
+    """A request whose marks of change pass through functions, which inspect or overrule them. A function that marks a
+    changed value as unchanged makes the edit wrong.
     """
 
     request: EditRequest

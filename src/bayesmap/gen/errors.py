@@ -11,9 +11,8 @@ def format_address(address: tuple[Any, ...]) -> str:
 
 
 class AddressError(BadInput):
-    """An error at `address`, to which an enclosing model adds its own part with `under`.
-
-    `args` holds the address alone, as a user writes it. `headline` begins the message.
+    """An error at `address`, to which an enclosing model adds its own part with `under`. `args` holds the address
+    alone, as a user writes it. `headline` begins the message.
     """
 
     headline = "Bad use of address"

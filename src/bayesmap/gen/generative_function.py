@@ -8,9 +8,8 @@ To write your own generative function, subclass `GenerativeFunction` and `Trace`
   (joint density / density with which the other choices were drawn);
 - `edit(key, trace, request, argdiffs)`: (new trace, weight, retdiff, backward request). A request that draws nothing
   has the weight new score - old score. `argdiffs` are the new arguments as `Diff` leaves, which say what changed and
-  where: the tangent `IndexChange((i, j))` marks an array that differs from the old one at [i, j] alone. `edit` can use
-  this to recompute less. It must read the arguments from `argdiffs`, because a trace inside a larger one is stored
-  without its arguments;
+  where, so that `edit` can recompute less: `IndexChange((i, j))` marks an array that differs from the old one at [i, j]
+  alone. Read the arguments from `argdiffs`: a trace inside a larger one is stored without its arguments;
 - `project(key, trace, selection)`: the part of the score that belongs to the selected choices.
 
 `vmap`, `@gen` and all other combinators call these methods alone.

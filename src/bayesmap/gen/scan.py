@@ -84,8 +84,7 @@ class Scan(Vectorised):
         if n == 0:  # arrays without elements are in no choice map, and simulating draws nothing
             empty = self.simulate(jax.random.key(0), args)
             return empty.get_score(), empty.get_retval()
-        start = jax.tree.map(jnp.asarray, args[0])
-        state, (scores, out) = jax.lax.scan(step, start, (args[1], each), length=n)
+        state, (scores, out) = jax.lax.scan(step, jax.tree.map(jnp.asarray, args[0]), (args[1], each), length=n)
         return total(scores), (state, out)
 
     def edit_all(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
@@ -94,8 +93,7 @@ class Scan(Vectorised):
 
         def step(key: PRNGKey, args: Any, mapped: Any) -> Any:
             inner, request = mapped
-            diffs = (Diff.unknown_change(args[0]), mark(args[1]))
-            new, weight, _, backward = request.edit(key, inner, diffs)
+            new, weight, _, backward = request.edit(key, inner, (Diff.unknown_change(args[0]), mark(args[1])))
             return new, weight, backward
 
         new, weight, backward = self._loop(key, args, step, (trace.inner, request))

@@ -29,9 +29,8 @@ class SelectionBuilderType:
 
 
 class Selection(Pytree):
-    """A set of addresses, to combine by `|`, `&` and `~`.
-
-    `sel(a)` is the selection below the address `a`; `sel[a]` and `a in sel` say whether `a` itself is selected.
+    """A set of addresses, to combine by `|`, `&` and `~`. `sel(a)` is the selection below the address `a`; `sel[a]` and
+    `a in sel` say whether `a` itself is selected.
     """
 
     at = SelectionBuilderType()

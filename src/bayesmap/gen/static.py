@@ -103,9 +103,8 @@ class StaticTrace(Trace):
 
 
 class _Run(Handler):
-    """A run that records a trace for each site, and the sum of the sites' weights.
-
-    `trace_site(path, function, arguments, key)` returns a site's (trace, weight). Site i has the key `fold_in(key, i)`.
+    """A run that records a trace for each site, and the sum of the sites' weights. `trace_site(path, function,
+    arguments, key)` returns a site's (trace, weight). Site i has the key `fold_in(key, i)`.
     """
 
     def __init__(self, key: PRNGKey, trace_site: Callable[..., tuple[Trace, Any]]) -> None:
@@ -256,9 +255,8 @@ def _require_reachable(paths: Iterable[Any], visited: list[StaticAddress]) -> No
 
 @dataclass
 class StaticGenerativeFunction(GenerativeFunction):
-    """A Python function, `source`, under `@gen`. The fixed `partial_args` come before its arguments.
-
-    With `by_name` the arguments have the form `((positional, ...), {"name": value})`.
+    """A Python function, `source`, under `@gen`. The fixed `partial_args` come before its arguments. With `by_name` the
+    arguments have the form `((positional, ...), {"name": value})`.
     """
 
     partial_args: tuple[Any, ...]
@@ -291,8 +289,7 @@ class StaticGenerativeFunction(GenerativeFunction):
         # The source's name in its module now stands for this object, so pickle finds the source through this object.
         if "<" in self.source.__qualname__:
             return StaticGenerativeFunction, (self.partial_args, self.source, self.by_name)
-        where = (self.source.__module__, self.source.__qualname__)
-        return _unpickle, (*where, self.partial_args, self.by_name)
+        return _unpickle, (self.source.__module__, self.source.__qualname__, self.partial_args, self.by_name)
 
     def simulate(self, key: PRNGKey, args: Arguments) -> StaticTrace:
         """Run the body, and simulate each site."""
@@ -320,8 +317,7 @@ class StaticGenerativeFunction(GenerativeFunction):
 
     def edit(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
         """Run the body on the new arguments, and edit each site on the way."""
-        request_at = _requests_at_sites(request, self, list(trace.subtraces))
-        handler = _Edit(key, trace, request_at, argdiffs)
+        handler = _Edit(key, trace, _requests_at_sites(request, self, list(trace.subtraces)), argdiffs)
         new, weight = handler.run(self, Diff.tree_primal(argdiffs))
         return new, weight, handler.with_known_changes(new.get_retval()), _backward_request(request, handler.backward)
 
@@ -369,6 +365,5 @@ def gen(source: Callable[..., Any]) -> StaticGenerativeFunction:
     """
     gen_fn = StaticGenerativeFunction((), source)
     for name in (*functools.WRAPPER_ASSIGNMENTS, "__wrapped__"):
-        value = source if name == "__wrapped__" else getattr(source, name, None)
-        object.__setattr__(gen_fn, name, value)
+        object.__setattr__(gen_fn, name, source if name == "__wrapped__" else getattr(source, name, None))
     return gen_fn

@@ -85,9 +85,8 @@ class Product(ExactDensity):
 
 
 class Vectorised(GenerativeFunction):
-    """Base of functions that run one function, `inner`, many times; their traces store the runs' traces, stacked.
-
-    A subclass implements `length` with the two edits below, and the contract except `edit` and `project`.
+    """Base of functions that run one function, `inner`, many times; their traces store the runs' traces, stacked. A
+    subclass implements `length` with the two edits below, and the contract except `edit` and `project`.
     """
 
     inner: GenerativeFunction

@@ -1,8 +1,7 @@
 """Scans of a log that is still being written, one after the other: CARMEN lines, or CSV with one row per scan.
 
-`bayesmap.read_log` looks at the whole log, which is not possible here. So scans come in the order of the lines, and are
-taken from the first kind of laser message. Readings are no return from the given or stated number on, or above the
-largest range.
+`bayesmap.read_log` looks at the whole log, which is not possible here. So scans come in the order of the lines, from
+the first kind of laser message. Readings are no return from the given or stated number on, or above the largest range.
 """
 
 from __future__ import annotations

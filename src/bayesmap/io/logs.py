@@ -58,8 +58,7 @@ def read_log(
     Args:
         path: the log, a file or the folder of a ROS 2 bag; its content decides the format.
         no_return: number in metres that means "no return" in the log; found if None.
-        skip_bad_lines: true to leave out malformed lines or messages, and unreadable parts of a damaged recording,
-            instead of refusing the log.
+        skip_bad_lines: true to leave out malformed lines, messages and damaged parts, instead of refusing the log.
         max_range_m: the sensor's maximum range; longer readings become no return. By default the range that the log
             states, or the largest hit, rounded up to a whole metre.
         scan_topic: topic of the scans in a recording; needed only if there are several.
@@ -119,8 +118,7 @@ def _read(path: str | os.PathLike[str], options: LogOptions) -> ScanLog:
     log = replace(log, notes=(*log.notes, *(note for note in findings if note is not None)))
     if options.thin_m == 0:
         return log
-    scans = thinned(log.scans, options.thin_m)
-    return replace(log, scans=scans, thin_m=options.thin_m, scans_read=len(log.scans))
+    return replace(log, scans=thinned(log.scans, options.thin_m), thin_m=options.thin_m, scans_read=len(log.scans))
 
 
 def format_of(path: str | os.PathLike[str]) -> str:

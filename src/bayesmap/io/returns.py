@@ -5,16 +5,14 @@ than ROS have no infinity: a sensor without a return wrote a number of its own, 
 32.76, 0 or -1. As ranges, these numbers would add walls that do not exist.
 
 **The rule at the top.** A code is the largest number in the log, or nearly the largest, and it is often repeated.
-The candidates are distinct readings within 20 % of the largest, with at most 8 different values above. The code is the
-smallest candidate v that
+Candidates are distinct readings within 20 % of the largest, with at most 8 above. The code is the smallest v that
 
 - was reported at least 10 times, and 10 times as often as an average value in [0.8 v, v); or
 - was reported (or exceeded) at least 3 times, and is at least twice any smaller reading (for short logs);
 
 in both cases by at least 3 different beams, and from 3 places or in 3 separate directions. A number that is repeated
 from one place in one direction counts once, so a robot that stands in front of a distant wall, or turns on the spot,
-makes no code. Readings of v *and above* are no return, because sensors have several codes (a SICK in centimetres: 8183,
-8187, 8191).
+makes no code. Readings of v *and above* are no return, since sensors have several codes (SICK: 8183, 8187, 8191).
 
 **The rule at the bottom.** No range is zero or negative. If the log has no code at the top and at least 3 different
 beams report zero or less, these numbers are its no-return code; otherwise they are invalid.
@@ -69,7 +67,6 @@ class NoReturn:
 @dataclass(frozen=True, eq=False)
 class Views:
     """The place of each scan, (S,), the world direction of each reading, (S, A), and the angle between beams.
-
     Consecutive scans from one place have the same place number.
     """
 

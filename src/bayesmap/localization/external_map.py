@@ -3,8 +3,7 @@
 A map_server map marks each cell as occupied, free or unknown, or gives the probability that it is occupied. The law is
 that of `bayesmap.posterior.baselines`: occupied cells stop beams with one probability, free cells with another, and
 between the two the logit is linear. A reading scatters about the stop by the noise of sensor and map together. People,
-furniture and doors that the map lacks stand before the walls (`BeamMixture.p_short`), and some readings have nothing to
-do with the map.
+furniture and doors that the map lacks stand before the walls (`BeamMixture.p_short`); some readings are unrelated.
 
 Beams of a scan share errors (`Trust`). A scan is worth few independent readings, scans along 1.5 m of path share their
 errors, and the pose is off by as much as the map.
@@ -152,8 +151,7 @@ def fit_law(occupancy: Floats, grid: Grid, scans: Scans, seed: int = 0, on_progr
     law = MapLaw(laws[best], trust, len(sure), nats[best])
     # Search for judging scans one by one: their usual fit, and the worth of a scan for choosing a place.
     searched = slice(None, None, max(1, len(judging) // MAX_SEARCHES))
-    known = external_map(occupancy, grid, scans, law)
-    usual, power = search_single_scans(known, judging.select(searched), seed)
+    usual, power = search_single_scans(external_map(occupancy, grid, scans, law), judging.select(searched), seed)
     return replace(law, trust=replace(trust, place_readings=power * trust.pose_readings), usual_fit=usual)
 
 

@@ -38,8 +38,7 @@ class InitialPose:
         sigma_m: standard deviation of x and of y.
         sigma_rad: standard deviation of the yaw.
 
-    Raises:
-        BadInput: a pose of another shape, numbers that are not finite, or a standard deviation that is not positive.
+    Raises `BadInput` for a pose of another shape, numbers that are not finite, or deviations that are not positive.
     """
 
     pose: ArrayLike
@@ -119,8 +118,7 @@ class Localization:
         stamps = [belief.stamp_s for belief in self.beliefs]
         stamps_s = None if None in stamps else np.array(stamps, dtype=np.float64)
         poses = np.array([belief.mean for belief in self.beliefs])
-        covariances = np.array([belief.covariance for belief in self.beliefs])
-        return Trajectory(poses, stamps_s, covariances, frame=self.frame)
+        return Trajectory(poses, stamps_s, np.array([belief.covariance for belief in self.beliefs]), frame=self.frame)
 
     def of(self, frame: str | None, mount: Floats | None) -> Localization:
         """Return the posteriors of the robot's base, or of its laser at ``mount``, (3,), as `step_to` says."""
@@ -138,8 +136,7 @@ def localize(
 
     Args:
         run: a run with draws, or a `KnownMap` of one, which need not be prepared again.
-        scans: one scan, or several in order of time. Their poses count as odometry: only the motion from one to the
-            next is used.
+        scans: one scan, or several in order of time. Their poses are odometry: only motions count.
         prior: prior of the first scan's pose; None if it may be anywhere in the map.
         odometry: errors of the motions; by default those of a usual robot.
         independent: True to locate each scan by itself, without odometry.
@@ -147,9 +144,8 @@ def localize(
         device: "cpu", or a CUDA device such as "cuda:0", that weights poses; a `KnownMap` has its own.
         on_belief: function that is called with the number of each scan and its posterior.
 
-    Raises:
-        BadInput: no scan, a run without draws, no such device, a sensor model of the user's own, a prior that lies
-            outside the map, or arguments of another kind.
+    Raises `BadInput` for no scan, a run without draws, no such device, a sensor model of the user's own, a prior that
+    lies outside the map, or arguments of another kind.
     """
     if not isinstance(scans, Scans):
         raise BadInput(f"localize: scans must be those that bm.read_log gives, got {scans!r}")

@@ -265,8 +265,7 @@ def fit_odometry(
 
     ``stated`` are odometry's poses of all scans, (S, 3). Without stamps, (S,), the lag is 0; scans with equal stamps do
     not affect it. ``laser_variance`` is the variance of the known motions, (K - 1, 3): large along corridors.
-    ``expected_variance`` is the variance of odometry's errors before the fit, (K - 1, 3); by default an ordinary
-    robot's.
+    ``expected_variance`` is the variance of odometry's errors before the fit, (K - 1, 3); by default a usual robot's.
     """
     # Errors of odometry between known scans, and the changes of velocity that a lag multiplies.
     motion = between(known[:-1], known[1:])
@@ -314,8 +313,7 @@ def angle_step_ratio(
 ) -> float:  # fmt: skip
     """Estimate the angle between beams, divided by the stated one, by the lowest residual of pairs of scans.
 
-    Stretched scans still fit each other if they look the same way. So the pairs that are compared are turned against
-    each other.
+    Stretched scans that look the same way still fit each other, so only pairs turned against each other are compared.
 
     ``source`` and ``target`` are pairs of overlapping scans at poses (S, 3). Hits beyond ``farthest_m`` are left out.
     The ratio is 1 if no scans are turned against each other, if the estimate is not significant, or if the beams of a

@@ -114,9 +114,8 @@ def place_near(
 
 @dataclass(frozen=True, eq=False)
 class WideMatch:
-    """A pose from a wide search, (3,), with the laser's information, (3, 3), and score.
-
-    ``near`` is True if it lies within `WIDE_M` and the first angle of `WIDE_STAGES` of the prediction.
+    """A pose from a wide search, (3,), with the laser's information, (3, 3), and score. ``near`` is True if it lies
+    within `WIDE_M` and the first angle of `WIDE_STAGES` of the prediction.
     """
 
     pose: Floats

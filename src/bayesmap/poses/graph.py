@@ -1,8 +1,7 @@
 """Pose graphs: relative poses with information, solved by sparse Gauss-Newton, and the Gaussian about the solution.
 
 The cost is the sum over factors of e^T W e / 2 with e = between(x_first, x_second) - relative (Lu and Milios 1997;
-Grisetti et al. 2010, "A tutorial on graph-based SLAM"). Each step solves H d = -g with SciPy's sparse LU, d in the
-poses' own frames.
+Grisetti et al. 2010, "A tutorial on graph-based SLAM"). Steps d, in poses' own frames, solve H d = -g by sparse LU.
 
 The covariance matrix of thousands of poses is dense, but only some blocks of it are needed. Blocks of poses that share
 a factor lie in the pattern of the factorised matrix, and are computed together (Takahashi, Fagan and Chin 1973). Other
@@ -257,8 +256,7 @@ def solve_step(count: int, parts: Sequence[Quadratic]) -> tuple[Floats, Precisio
 def optimise(
     poses: Floats, chain: Factors, loops: Factors, *, graduated: bool = True, steps: int = 40, tolerance: float = 1e-4
 ) -> tuple[Floats, Floats]:
-    """Fit poses to a chain of factors and to loops. Some loops may be wrong. Returns poses (N, 3), and the final weight
-    of each loop, from 0 to 1.
+    """Fit poses to a chain of factors and loops, some perhaps wrong. Returns poses (N, 3), and loops' weights, 0 to 1.
 
     Loops have Geman and McClure's cost, with weights w = (mu c^2 / (r^2 + mu c^2))^2. If ``graduated``, the cost begins
     nearly convex, and mu falls to 1 (graduated non-convexity, Yang, Antonante, Tzoumas and Carlone 2020). Otherwise mu

@@ -2,8 +2,7 @@
 
 A scan that was aligned wrongly stays wrong, because the pairs that would move it are out of reach. So every scan is
 matched to the likelihood grid of its partners, without itself. If the partners explain it clearly better at another
-pose, it is moved there. If no near pose explains it well, a wide window is searched. Scans that stay badly explained
-are flagged.
+pose, it is moved there. If no near pose explains it, a wide window is searched. Scans still unexplained are flagged.
 """
 
 from __future__ import annotations

@@ -70,9 +70,8 @@ class ClosedGraph:
 def chain_of(track: Track, poses: Floats) -> Factors:
     """Return links from each key scan to the next, by laser and odometry together.
 
-    Links over a break of the path have hardly any information. Their relative poses are the relative ``poses`` of the
-    keys, (K, 3). They are the front end's instead if the scan after the break fitted as well as usual and the two
-    differ by less than `BENT_M`.
+    Links over a break of the path have hardly any information. Their relative poses follow ``poses`` of the keys, (K,
+    3), or the front end if the scan after the break fitted as usual and the two differ by less than `BENT_M`.
     """
     keys = track.keys
     # Relative poses: the front end's, but over unconfirmed breaks those of ``poses``.
@@ -207,8 +206,7 @@ def _close_in_rounds(
     poses, weights, closures = path.poses, np.empty(0), no_closures()
     for number, search in enumerate(rounds, start=1):
         # The graph's precision gives the search windows; the closures then give new poses.
-        parts = [quadratic(chain, poses), quadratic(closures, poses, weights)]
-        _, precision = solve_step(len(poses), parts)
+        _, precision = solve_step(len(poses), [quadratic(chain, poses), quadratic(closures, poses, weights)])
         closures = find_closures(path.at(poses), precision, half_width_m, search, within_parts=within_parts)
         before = poses
         poses, weights = optimise(poses, chain, closures)

@@ -74,9 +74,7 @@ def _prior_of(trajectory: InferredTrajectory) -> PosePrior:
 
 
 def for_map(keys: Scans, resolution: float) -> Scans:
-    """Select beams and scans that see walls with few hits, so that cost follows the area seen; all if there are few
-    beams.
-    """
+    """Select beams and scans that see walls with few hits: cost follows the area seen. Few beams are all selected."""
     if keys.ranges_m.size <= MANY_BEAMS:
         return keys
     stride = int(STEP_RAD / max(float(np.nanmedian(keys.steps_rad)), 1e-6) + 1e-3)

@@ -82,8 +82,7 @@ class UncertainPoses(PosePrior):
         sigma_m: standard deviation of x and of y, metres.
         sigma_rad: standard deviation of the heading, radians.
 
-    Raises:
-        BadInput: a number that is not positive.
+    Raises `BadInput` for a number that is not positive.
     """
 
     kind = "uncertain"
@@ -117,8 +116,7 @@ class Odometry(PosePrior):
         rad_per_m, rad_per_rad: error of the heading in radians, per metre travelled and per radian turned.
         still_m, still_rad: error of a robot that stands still.
 
-    Raises:
-        BadInput: a number that is negative, or a standing error that is not positive.
+    Raises `BadInput` for a number that is negative, or a standing error that is not positive.
     """
 
     kind = "odometry"
@@ -154,11 +152,9 @@ class Motions(PosePrior):
     """Each motion from scan to scan is normal about a given one, such as corrected odometry.
 
     With probability ``p_slip`` the given motion does not depend on the true one: a wheel slipped, or the log repeats a
-    pose while the robot turns. Then the motion is normal about the given one with the standard deviations of
-    `FREE_SIGMA`.
+    pose while the robot turns. Then it is normal about the given one with `FREE_SIGMA` deviations.
 
-    Raises:
-        BadInput: shapes that do not fit together, deviations that are not positive, or a probability outside [0, 1).
+    Raises `BadInput` for shapes that do not fit, deviations that are not positive, or a probability outside [0, 1).
     """
 
     kind = "motions"
@@ -192,8 +188,7 @@ class _Fixed:
     poses: Floats
 
     def log_prob(self, poses: Floats) -> Floats:
-        same = (poses == self.poses).all(axis=(-2, -1))
-        return np.where(same, 0.0, -np.inf)
+        return np.where((poses == self.poses).all(axis=(-2, -1)), 0.0, -np.inf)
 
     def log_change(self, poses: Floats, proposed: Floats) -> Floats:
         return np.where((proposed == self.poses).all(axis=-1), 0.0, -np.inf)

@@ -207,8 +207,7 @@ def is_consistent(islands: KeyPath, joint: Joint) -> bool:
 
 def _assemble(path: KeyPath, islands: KeyPath) -> tuple[Floats, Mask]:
     """Bring all islands to one frame. Returns poses, (K, 3), and which parts are joined to an earlier part, (P,). An
-    island that is not joined keeps its motion from the part before on ``path``. An island has the number of its first
-    part.
+    island has the number of its first part. If it is not joined, it keeps its motion from the part before on ``path``.
     """
     poses, parts = path.poses, path.parts
     result, joined = islands.poses.copy(), np.ones(int(parts[-1]) + 1, np.bool_)

@@ -155,8 +155,7 @@ def scan_geometry(
     """Compute points and normals of scans, by the scans' own angles and limits. Their poses are not used.
 
     Neighbouring beams that are closer than `MERGED_RAD` are merged, unless scans have beams of their own. Hits beyond
-    ``farthest_m``, by default the sensor's largest range, are left out. ``threads`` is also the number of threads for
-    matching.
+    ``farthest_m``, by default the largest range, are left out. ``threads`` also holds for matching.
     """
     from bayesmap.kernels.match.scan_geometry import points_and_normals
 

@@ -78,8 +78,7 @@ def infer_trajectory(
             of time and the frame of `InferredTrajectory.poses`. Scans that the front end has not reached follow
             odometry. An exception in the function ends the inference.
 
-    Raises:
-        BadInput: as `check_scans`.
+    Raises `BadInput` as `check_scans`.
     """
     # Sort the scans by time, and read the motions that odometry states from one to the next.
     check_scans(scans, no_odometry)

@@ -30,9 +30,7 @@ class LoopClosures:
 
 @dataclass(frozen=True, eq=False)
 class Alternatives:
-    """Other possible trajectories. In each, one stretch of the path has another pose: it depends on a visit that may
-    be of another place.
-    """
+    """Other possible trajectories. In each, one stretch has another pose, for a visit that may be of another place."""
 
     first: Indices  # scan at the beginning of the stretch, (A,)
     last: Indices  # scan at its end, (A,)
@@ -75,10 +73,8 @@ def with_arcs(scale: Floats, dof: float) -> Floats:
 
 @dataclass(frozen=True, eq=False)
 class InferredTrajectory:
-    """Poses of all scans with their uncertainty.
-
-    The poses of key scans follow Student's t with ``gaussian.dof`` degrees of freedom. Scans between them move with
-    the key scan nearest in time, plus an uncertainty of their own.
+    """Poses of all scans with their uncertainty. The poses of key scans follow Student's t with ``gaussian.dof``
+    degrees of freedom. Scans between them move with the key scan nearest in time, plus an uncertainty of their own.
     """
 
     poses: Floats  # poses of the laser in the map's frame, in which the first scan is where odometry stated it, (S, 3)
@@ -135,8 +131,7 @@ class InferredTrajectory:
 
     def covariances(self) -> Floats:
         """Return the covariance of each pose given the first, in the world's axes, (S, 3, 3)."""
-        scans = np.arange(len(self))
-        relative = self.relative_covariances(np.zeros(len(self), np.intp), scans)
+        relative = self.relative_covariances(np.zeros(len(self), np.intp), np.arange(len(self)))
         turn, dof = rotation(self.poses[0, 2]), self.gaussian.dof
         return np.asarray(dof / (dof - 2.0) * turn @ relative @ turn.T)
 

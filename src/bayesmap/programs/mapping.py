@@ -83,8 +83,7 @@ def mapping_model(
 
     Args:
         grid: the grid of the walls.
-        poses: (x, y, yaw) in the world frame, metres and radians, shape (3,) or (S, 3); or a generative function
-            without arguments that returns such an array.
+        poses: world (x, y, yaw), metres and radians, (3,) or (S, 3); or a generative function of no arguments for them.
         angles_rad: beam angles in the sensor frame, shape (A,).
         prior: the prior of the walls.
         sensor: the law of the readings: Gaussian, StudentT or BeamMixture.
@@ -92,8 +91,7 @@ def mapping_model(
         min_range_m: the sensor's smallest range.
         hit_depth: where in a cell a beam stops, as a fraction of its chord: 0 at the near edge, as in the tutorial.
 
-    Raises:
-        BadInput: shapes do not fit, numbers are not finite, the sensor is not known on JAX, or the prior is coupled.
+    Raises `BadInput` for shapes that do not fit, numbers not finite, a sensor not known on JAX, or a coupled prior.
     """
     remedy = "use infer, or write a program that draws its walls and gives them to sensor_model"
     prior = Independent.of(prior, "mapping_model", remedy)
@@ -132,8 +130,7 @@ def pose_sensor_model(
 ) -> PoseSensor:  # fmt: skip
     """Return the sensor alone, for unknown poses: a generative function of walls (nx, ny) and poses (3,) or (S, 3).
 
-    Use it as `sensor_model`, by `sensor(walls, poses) @ "readings"`, or with known walls for localization. Arguments
-    and errors as for `mapping_model`.
+    Use it as `sensor_model`, by `sensor(walls, poses) @ "readings"`, or to localize. The rest as in `mapping_model`.
     """
     angles, law = as_angles(angles_rad), reading_law(sensor, _limits(min_range_m, max_range_m))
     return PoseSensor(grid, tuple(angles.tolist()), law, float(hit_depth))

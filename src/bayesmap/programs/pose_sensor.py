@@ -201,8 +201,7 @@ class PoseSensor(RangeSensor):
         def change(k: Any, ends: Any) -> Any:
             return self._change_cell(beams, ends, walls, cells[k])
 
-        flat = jax.lax.fori_loop(0, len(cells), change, ends.reshape(-1))
-        ends = flat.reshape(ends.shape)
+        ends = jax.lax.fori_loop(0, len(cells), change, ends.reshape(-1)).reshape(ends.shape)
         gain = self.law.logpdf(readings, self.distances_m(poses, ends)) - self.law.logpdf(readings, old_m)
         return ends, gain.sum()
 

@@ -161,8 +161,7 @@ GROWTH = 16  # largest ratio of the sweeps of a segment to the sweeps of the seg
 class RayExecutor:
     """Run the chains of one posterior on a Ray cluster, with the same draws as on threads, bit for bit.
 
-    It needs Ray (``pip install 'bayesmap[ray]'``), and the same version of bayesmap on every node. With GPUs, each task
-    has its own.
+    Every node needs Ray (``pip install 'bayesmap[ray]'``) and the same bayesmap. With GPUs, each task has its own.
 
     Attributes:
         address: address of the cluster, as in `ray.init` ("auto", "host:6379", "ray://host:10001"). If None, it is the

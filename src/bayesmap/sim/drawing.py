@@ -85,7 +85,5 @@ DRAWING = """
 
 
 def tutorial() -> tuple[Mask, Floats]:
-    """Return the walls on `TUTORIAL_GRID`, (21, 21), line i of the drawing at x = i, and the robot's pose (10, 10, 0),
-    (3,).
-    """
+    """Return walls on `TUTORIAL_GRID`, (21, 21), line i of the drawing at x = i, and the pose (10, 10, 0), (3,)."""
     return from_text(DRAWING), np.array([10.0, 10.0, 0.0])

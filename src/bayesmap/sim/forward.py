@@ -92,8 +92,7 @@ def _distances(walls: Mask, grid: Grid, poses: Floats, angles_rad: Floats, max_r
     starts = np.repeat(grid.to_cells(poses[:, :2]), len(angles_rad), axis=0)
     directions = (poses[:, 2:3] + angles_rad[None, :]).ravel()
     distances, _ = cast_beams(walls, starts, directions, max_range_m / grid.resolution, device)
-    metres = np.minimum(distances * grid.resolution, max_range_m)
-    return metres.reshape(len(poses), len(angles_rad))
+    return np.minimum(distances * grid.resolution, max_range_m).reshape(len(poses), len(angles_rad))
 
 
 def _check_walls(walls: Mask, grid: Grid) -> None:

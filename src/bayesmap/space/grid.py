@@ -32,8 +32,7 @@ class Grid:
         resolution: edge of a cell in metres.
         origin: world position in metres of the lower-left corner of cell ``(0, 0)``.
 
-    Raises:
-        BadInput: a size that is not positive, not finite, or larger than `MAX_CELLS` cells.
+    Raises `BadInput` for a size that is not positive, not finite, or larger than `MAX_CELLS` cells.
     """
 
     shape: tuple[int, int]

@@ -51,12 +51,10 @@ class Scans:
             None if all beams of a scan leave from the scan's pose.
         own_angles_rad: beam angles of each scan, shape (S, A), NaN if a scan has no such beam; None if all scans have
             the beams ``angles_rad``. `angles_by_scan` and `beams_of` serve both cases.
-        mount: pose of the sensor on the robot's base (metres, radians), shape (3,), the median if it moves; None if
-            unknown.
+        mount: pose of the sensor on the robot's base (metres, radians), (3,), the median if it moves, or None.
 
-    Raises:
-        BadInput: shapes that do not fit together, poses or angles that are not finite, a fan of over a turn, a reading
-            without an angle, or a range limit that is not positive. The message names the array, the scan and the beam.
+    Raises `BadInput` for shapes that do not fit together, poses or angles that are not finite, a fan of over a turn, a
+    reading without an angle, or a range limit that is not positive. The message names the array, the scan and the beam.
     """
 
     poses: Floats
@@ -138,9 +136,7 @@ class Scans:
         return np.isfinite(self.own_angles_rad)
 
     def angles_by_scan(self) -> Floats:
-        """Return beam angles in the sensor frame, (S, A), all finite. A beam that a scan lacks has the largest scan's
-        angle.
-        """
+        """Return beam angles in the sensor frame, (S, A), all finite: a missing beam has the largest scan's."""
         if self.own_angles_rad is None:
             return np.broadcast_to(self.angles_rad, self.ranges_m.shape)
         return np.where(np.isnan(self.own_angles_rad), self.angles_rad, self.own_angles_rad)
@@ -221,9 +217,7 @@ class Scans:
         return angles[np.arange(len(self)), ends[0]], angles[np.arange(len(self)), ends[1]]
 
     def at(self, poses_world: ArrayLike) -> Scans:
-        """Return the readings at other poses, (S, 3). Poses of beams move with their scan's. Raises `BadInput` as
-        `as_poses`.
-        """
+        """Return the readings at other poses, (S, 3); beams move with their scans. Raises `BadInput` as `as_poses`."""
         poses = as_poses(poses_world)
         if poses.shape != self.poses.shape:
             raise BadInput(f"scans: poses has shape {poses.shape}, expected {self.poses.shape}")

@@ -45,9 +45,8 @@ class RelativeLaw:
 def step_to(frame: str | None, mount: Floats | None, own: str) -> tuple[str, Floats | None]:
     """Return the frame of the poses that are asked for, and its pose in the frame of those at hand, (3,).
 
-    ``frame`` is one of `FRAMES`; the default is the base if ``mount`` is known, the laser's pose on it, and else the
-    laser. ``own`` is the frame of the poses at hand; if it is asked for, its pose is None. Another frame without a
-    mount raises `BadInput`.
+    ``frame`` is one of `FRAMES`; by default the base if ``mount``, the laser's pose on it, is known, else the laser.
+    ``own`` is the frame at hand: if asked for, its pose is None. Other frames without mount raise `BadInput`.
     """
     asked = frame or ("laser" if mount is None else "base")
     if asked not in FRAMES:
@@ -75,8 +74,7 @@ class Trajectory:
         known_by: source of the uncertainty, in words; empty if there is none.
         frame: frame on the robot whose poses these are, "base" or "laser"; None if unknown.
 
-    Raises:
-        BadInput: shapes that do not fit, numbers that are not finite, or stamps that descend.
+    Raises `BadInput` for shapes that do not fit, numbers that are not finite, or stamps that descend.
     """
 
     poses: Floats

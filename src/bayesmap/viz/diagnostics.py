@@ -93,8 +93,7 @@ def _plot_lines(ax: Axes, traces: NDArray[np.float64], first_sweep: int, label: 
     for chain, trace in enumerate(traces):
         sweep, values = _thinned(trace, first_sweep)
         ax.plot(sweep, values, color=palette.chain_color(chain), label=f"chain {chain + 1}", **style)  # type: ignore[arg-type]
-    n = traces.shape[1]
-    ax.set(xlabel="sweep", ylabel=label, xlim=(first_sweep - 0.5, first_sweep + n - 0.5))
+    ax.set(xlabel="sweep", ylabel=label, xlim=(first_sweep - 0.5, first_sweep + traces.shape[1] - 0.5))
     ax.xaxis.set_major_locator(MaxNLocator(nbins=6, integer=True))
     # Write full numbers: an offset ("+1.2e5") in a corner is easily overlooked.
     ax.ticklabel_format(axis="y", useOffset=False, style="plain")

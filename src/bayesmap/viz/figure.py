@@ -203,7 +203,6 @@ def posterior_figure(
 
 def write_figure(figure: Figure, path: str | os.PathLike[str]) -> None:
     """Write a figure as PNG, PDF or SVG, by the path's ending, whole or not at all. Equal figures give equal bytes.
-
     Raises `BadInput` if the ending is another, or the folder does not exist. Raises `OSError` if writing failed.
     """
     target, ending = need_ending(path, ("png", "pdf", "svg"), "figure")
@@ -284,8 +283,7 @@ def panel_figure(
 
     ``what`` is "mean", "entropy" or "deviation" (values: probabilities of a wall; "deviation" shows their standard
     deviations), "width" (values: widths of intervals), or "draw" (values: walls or numbers in [0, 1]). Cells that are
-    not ``observed`` are hatched. ``truth``, (nx, ny), is outlined. ``label`` names the values of "mean", and of a draw
-    in [0, 1].
+    not ``observed`` are hatched. ``truth``, (nx, ny), is outlined. ``label`` names values of "mean" and of draws.
 
     Raises `BadInput` if shapes or values do not fit.
     """

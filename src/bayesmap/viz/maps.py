@@ -212,8 +212,7 @@ def _plot_cells(
     hide: bool = True,
 ) -> AxesImage:  # fmt: skip
     """Plot cells from 0 to ``top``. Unobserved cells are hatched; with ``hide`` their values are left out."""
-    # Enlarged cells stay sharp squares. If there are more cells than pixels, colours are averaged, so that a thin wall
-    # fades instead of vanishing.
+    # Enlarged cells stay sharp squares. With more cells than pixels colours are averaged: a thin wall fades.
     image = ax.imshow(
         np.ma.array(values, mask=~observed & hide).T, cmap=colors, vmin=0.0, vmax=top, extent=grid.extent_m,
         origin="lower", interpolation="auto", interpolation_stage="auto",

@@ -205,10 +205,7 @@ def route_figure(
     grid: Grid, occupancy: ArrayLike, observed: ArrayLike | None, path: ArrayLike, radius_m: float, *, title: str = "",
     label: str = "probability of wall",
 ) -> Figure:  # fmt: skip
-    """Return a figure of a path, (P, 2), and the area that a disc sweeps along it, over the mean map.
-
-    Raises `BadInput` if a shape differs.
-    """
+    """Return a figure of a path, (P, 2), and of a disc's sweep, over the mean map. Other shapes raise `BadInput`."""
     figure, ax = maps.map_figure(grid, aspects=(0.5, 3.0), foot_in=FOOT_IN)
     image = maps.plot_probability(ax, grid, occupancy, observed)
     figure.colorbar(image, ax=ax, label=label, shrink=0.8)

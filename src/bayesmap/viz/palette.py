@@ -6,9 +6,8 @@
   Bright is uncertain.
 - **Unobserved** is a warm paper colour under a hatch. The light and grey colours of both maps above are cool, so
   unobserved cells look neither free nor undecided.
-- **Residuals** run from blue (shorter than predicted) over light grey to vermilion (longer). These two hues of Okabe
-  and Ito differ for every kind of colour vision, and are equally far from the grey. **Surprise** is the warm half,
-  made darker.
+- **Residuals** run from blue (shorter than predicted) over light grey to vermilion (longer). These hues of Okabe and
+  Ito differ for all colour vision, equally far from grey. **Surprise** is the warm half, darker.
 - **Lines and marks** are from Okabe and Ito, "Color Universal Design" (2008): distinct for all common colour vision.
 """
 

@@ -34,8 +34,7 @@ Rows = Sequence[tuple[str, "Score"]]  # maps by name, with their scores
 def plot_pit(ax: Axes, rows: Rows) -> None:
     """Plot histograms of the probability integral transform, which are flat if the predictive laws are calibrated.
 
-    High ends mean that predictions are too narrow, a hump in the middle that they are too wide. A slope means that they
-    are biased: too far or too near.
+    High ends mean that predictions are too narrow, a hump in the middle too wide, a slope biased: too far or too near.
     """
     for i, (name, score) in enumerate(rows):
         bins = len(score.pit_histogram)

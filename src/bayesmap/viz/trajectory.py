@@ -39,9 +39,8 @@ def trajectory_figure(
     grid: Grid, occupancy: ArrayLike, observed: ArrayLike, poses: Floats, covariances: Floats,
     flagged: NDArray[np.bool_] | None = None,
 ) -> Figure:  # fmt: skip
-    """Return a figure of a map, a trajectory, (S, 3), and 95 % ellipses of its covariances, (S, 3, 3).
-
-    Flagged scans, a mask (S,), are marked. Parts of the map that hold only the ends of stray beams are cut off.
+    """Return a figure of a map, a trajectory, (S, 3), and 95 % ellipses of its covariances, (S, 3, 3). Flagged scans, a
+    mask (S,), are marked. Parts of the map that hold only the ends of stray beams are cut off.
     """
     grid, occupancy, observed = crop_to_walls(grid, occupancy, observed, poses)
     figure, ax = _axes(grid.shape)

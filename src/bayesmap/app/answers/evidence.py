@@ -1,8 +1,7 @@
 """Evidence of beams about one cell: how strongly each reading supports or contradicts an obstacle in the cell.
 
 For walls, the likelihood of a reading with a wall in the cell is compared with its likelihood with a free cell. If
-cells stop only some beams (reflectivities, surfaces), the map is compared with the same map with this cell emptied: its
-reflectivity is 0 in every draw.
+cells stop only some beams (reflectivities, surfaces), the map is compared with the cell emptied: reflectivity 0.
 
     log [mean over draws of p(z | draw)] - log [mean over draws of p(z | draw with the cell emptied)].
 

@@ -86,15 +86,13 @@ class VirtualScanPredictor:
 
 def predictor_of_result(result: Result) -> tuple[Predictor, int]:
     """Return the predictor of a result and its number of draws. Without draws it is 0, and cells count as independent.
-
     Raises `BadInput` if there is nothing to predict from, or the run's sensor model is not built in.
     """
     scene, grid, draws, prior = result.scene, result.document.grid, result.estimate.available_draws, result.prior
     if isinstance(result.estimate, PriorMap):
         raise BadInput("there is nothing to predict from yet; run inference first")
     if draws is None:
-        chances = result.estimate.mean().reshape(1, -1)
-        return Predictor(grid, fixed_maps(chances), scene.sensor, scene.hit_depth), 0
+        return Predictor(grid, fixed_maps(result.estimate.mean().reshape(1, -1)), scene.sensor, scene.hit_depth), 0
     sensor, hit_depth = result.sensor_and_depth
     draw_bytes = grid.n_cells * (32 if prior.has_surfaces else 4)
     thinned = draws.thinned(int(np.clip(DRAW_BYTES // draw_bytes, draws.chains, MOST_DRAWS)))

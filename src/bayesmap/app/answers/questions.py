@@ -168,9 +168,8 @@ def views(result: Result, generation: int) -> tuple[Views, Buffers]:
 def _lattice(
     document: Document, mean: NDArray[np.float64], observed: NDArray[np.bool_]
 ) -> tuple[NDArray[np.float64], float]:
-    """Return poses at the centres of free cells, at most `MOST_VIEWS`, (P, 3), and their spacing in metres.
-
-    Raises `BadInput` if no cell is known to be free.
+    """Return poses at the centres of free cells, at most `MOST_VIEWS`, (P, 3), and their spacing in metres. Raises
+    `BadInput` if no cell is known to be free.
     """
     grid = document.grid
     free = observed & (mean < PASSABLE)

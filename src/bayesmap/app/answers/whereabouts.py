@@ -45,9 +45,8 @@ class Locator:
     def answer(
         self, question: WhereAmI, result: Result | None, scan: int, generation: int
     ) -> tuple[Whereabouts, Buffers]:
-        """Find the places where a scan may have been taken, or return the reason why there is no answer.
-
-        In a drawn world, the question names the sensor. For a file, ``scan`` is the index of the scan on show.
+        """Find the places where a scan may have been taken, or return the reason why there is no answer. In a drawn
+        world, the question names the sensor. For a file, ``scan`` is the index of the scan on show.
         """
         try:
             if result is None:

@@ -7,15 +7,7 @@ from typing import TYPE_CHECKING, Literal, TypeAlias, get_type_hints
 from msgspec import Struct, defstruct
 
 from bayesmap.app.protocol.actions import FindPath, Layer
-from bayesmap.app.protocol.document import (
-    BOUNDS,
-    MAX_LOG_SIDE,
-    RESOLUTIONS_M,
-    SENSORS,
-    SIDE,
-    Document,
-    bounds_of,
-)
+from bayesmap.app.protocol.document import BOUNDS, MAX_LOG_SIDE, RESOLUTIONS_M, SENSORS, SIDE, Document, bounds_of
 
 OWN_LAYERS = ("draw", "width")  # layers for which each page gets its own fields; it computes the others from the mean
 

@@ -158,9 +158,8 @@ class RunningChains(Estimate):
         return self._record.draws
 
     def mean(self) -> Floats:
-        """Return the probability that a cell stops a beam, averaged over the sweeps after the burn-in, (nx, ny).
-
-        If poses are known, cells that no beam touches get the exact prior mean, to which their draws converge.
+        """Return the probability that a cell stops a beam, averaged over the sweeps after the burn-in, (nx, ny). If
+        poses are known, cells that no beam touches get the exact prior mean, to which their draws converge.
         """
         mean = self.means().mean(axis=0)
         if self.model.poses.unknown:  # from other poses beams touch other cells
@@ -370,9 +369,8 @@ Fitted = tuple[Model, Any, Any]  # model under fitted sensor and prior, its samp
 
 
 def fit_by_pilot(scene: Scene, document: Document, show: Callable[[Pilot], None]) -> Generator[None, None, Fitted]:
-    """Fit sensor and prior to the readings in short steps; return the fitted model, its sampler and its problem.
-
-    The document gives the kind of cells and the seed. ``show`` gets the pilot after every sweep.
+    """Fit sensor and prior to the readings in short steps; return the fitted model, its sampler and its problem. The
+    document gives the kind of cells and the seed. ``show`` gets the pilot after every sweep.
     """
     prior = BUILT_IN[document.cells]()
     first = first_sensor(prior, document.grid.resolution)

@@ -75,9 +75,8 @@ class HitCounts:
 
 
 def stop_probabilities(counts: NDArray[np.int64], prior: CellPrior, p_wall: float) -> NDArray[np.float64]:
-    """Return each cell's probability that a beam stops, (N,), from hits and passes, (2, N).
-
-    For walls, it is OctoMap's, from the prior ``p_wall``. For other kinds of cells, it is the share of beams that stop.
+    """Return each cell's probability that a beam stops, (N,), from hits and passes, (2, N). For walls, it is OctoMap's,
+    from the prior ``p_wall``. For other kinds of cells, it is the share of beams that stop.
     """
     hits, passes = counts.astype(np.float64)
     if hasattr(prior, "a") and hasattr(prior, "b"):

@@ -184,8 +184,7 @@ class Estimate(ABC):
         mean, prior = np.clip(self.mean(), 0.0, 1.0), result.prior
         occupied, free = prior.thresholds or (None, None)
         known = known_cells(prior, self.available_draws, mean, self.observed())
-        grid = result.document.grid
-        return list(write_map(target, mean, grid, known, occupied_thresh=occupied, free_thresh=free))
+        return list(write_map(target, mean, result.document.grid, known, occupied_thresh=occupied, free_thresh=free))
 
 
 @dataclass(frozen=True)
@@ -239,9 +238,8 @@ class Result:
 
     @cached_property
     def surfaces(self) -> tuple[NDArray[np.int32], Floats, Floats, Floats] | None:
-        """The mean surfaces: cells, means (U, 2) in the world frame, covariances (U, 2, 2), reflectivities (U,).
-
-        None without draws, or if cells have no surfaces.
+        """The mean surfaces: cells, means (U, 2) in the world frame, covariances (U, 2, 2), reflectivities (U,). None
+        without draws, or if cells have no surfaces.
         """
         draws = self.estimate.available_draws
         if draws is None or not self.prior.has_surfaces:

@@ -19,9 +19,8 @@ from bayesmap.gen.typing import PRNGKey
 
 @dataclass
 class Rejuvenate(EditRequest):
-    """Propose new values from a generative function whose choices have the model's addresses.
-
-    `argument_mapping` turns choices into the proposal's arguments: the old choices, or the new ones for the way back.
+    """Propose new values from a generative function whose choices have the model's addresses. `argument_mapping` turns
+    choices into the proposal's arguments: the old choices, or the new ones for the way back.
     """
 
     proposal: GenerativeFunction

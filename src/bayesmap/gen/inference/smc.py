@@ -19,9 +19,8 @@ from bayesmap.gen.typing import Array, IntArray, PRNGKey, Score, Weight
 
 @dataclass
 class Target(Pytree):
-    """The posterior of `p(*args)` given the choices in `constraint`. `target["y"]` is the given value at "y".
-
-    A marginal `p` raises BadArguments unless all of its choices are given.
+    """The posterior of `p(*args)` given the choices in `constraint`. `target["y"]` is the given value at "y". A
+    marginal `p` raises BadArguments unless all of its choices are given.
     """
 
     p: GenerativeFunction
@@ -49,7 +48,6 @@ class SampleDistribution(Distribution):
 
 class Algorithm(SampleDistribution):
     """Base of inference algorithms: distributions over a target's open choices, with estimated densities.
-
     `random_weighted(key, target)` returns (estimate, choices), `estimate_logpdf(key, choices, target)` an estimate.
     """
 
@@ -174,10 +172,8 @@ class SMCAlgorithm(Algorithm):
 
 @dataclass
 class ImportanceK(SMCAlgorithm):
-    """Importance sampling with `k_particles` traces.
-
-    Without a proposal the model draws the open choices. A proposal `q` is a generative function of the target, or a
-    distribution over choice maps, of some of the model's choices.
+    """Importance sampling with `k_particles` traces. Without a proposal the model draws the open choices. A proposal
+    `q` is a generative function of the target, or a distribution over choice maps, of some of the model's choices.
     """
 
     target: Target
@@ -357,6 +353,5 @@ def _trajectories(
         return jnp.swapaxes(x[steps, lineage], 0, 1)
 
     inner, carries, y = jax.tree.map(ordered, (traces, carries, y))
-    model = scan(n=n)(kernel)
-    fn, args = jax.tree.map(lambda x: jnp.broadcast_to(x, (k, *jnp.shape(x))), (model, args))
+    fn, args = jax.tree.map(lambda x: jnp.broadcast_to(x, (k, *jnp.shape(x))), (scan(n=n)(kernel), args))
     return ScanTrace(fn, args, inner, carries, (last, y), jax.vmap(total)(inner.get_score()))

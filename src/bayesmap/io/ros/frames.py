@@ -2,8 +2,7 @@
 
 A transform that is static, or never changes in the recording, holds at all times. Any other transform is known only
 from its first to its last message, and is interpolated between. Transforms are three-dimensional; a map needs their
-part in the plane. A motion is SciPy's `RigidTransform`, the pose of a frame in another, p_parent = R p_child + t, at
-one time or many.
+part in the plane. A motion is SciPy's `RigidTransform`, one frame's pose in another: p_parent = R p_child + t.
 """
 
 from __future__ import annotations

@@ -77,10 +77,7 @@ class _Stream:
 
 
 def clock_runs(scans: list[LaserMessage], poses: PoseMessages) -> list[ClockRun]:
-    """Split a recording where its clock was set back.
-
-    All stamped topics must step back; a single late scan does not split the recording.
-    """
+    """Split a recording where its clock was set back: all stamped topics must step back, not a single late scan."""
     # Find the steps in the topic with most of them, and check that all topics make them.
     samples = [*poses.transforms.values(), *poses.poses.values()]
     scan_times = [s.stamp_ns for s in scans], [s.received_ns for s in scans]
@@ -156,8 +153,7 @@ def read_recording(path: str | os.PathLike[str], options: LogOptions) -> ScanLog
     account = Account(os.fspath(path), recording.format, options, notes=list(recording.notes))
     account.counts.update({t.name: t.count for t in recording.topics.values()})
     messages = _read_usable(recording, account)
-    runs = _place_runs(messages, account)
-    return _join_runs(runs, messages, account)
+    return _join_runs(_place_runs(messages, account), messages, account)
 
 
 @dataclass(frozen=True, eq=False)
@@ -330,9 +326,8 @@ def _sorted_by_time(
 
 
 def _ray_times_ns(stamps: NDArray[np.int64], scans: list[LaserMessage], account: Account) -> NDArray[np.int64]:
-    """Return the time of each ray, (S, A). A missing ray gets the time of the last ray of its scan.
-
-    Without ``deskew``, return the times of the first rays, (S, 1).
+    """Return the time of each ray, (S, A). A missing ray gets the time of the last ray of its scan. Without ``deskew``,
+    return the times of the first rays, (S, 1).
     """
     if not account.options.deskew:
         return stamps[:, None]

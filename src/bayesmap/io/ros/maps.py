@@ -47,8 +47,7 @@ def from_image(image: ImageLike | Image, threshold: float = 0.5) -> NDArray[np.b
     The image is a path, a PIL image, or an array of shape (height, width), (height, width, 3) or (height, width, 4):
     bool (True is bright), whole numbers 0..255, or floats 0..1. Transparent pixels count as white. A pixel whose
     brightness, from 0 (black) to 1 (white), is below the threshold is a wall. Pixel (row r, column c) is ``walls[c,
-    height - 1 - r]``. Raises `BadInput` for a file that is no image, an array of another shape or range, or a threshold
-    outside (0, 1).
+    height - 1 - r]``. Raises `BadInput` for no image, an array that does not fit, or a threshold outside (0, 1).
     """
     if not 0 < threshold < 1:
         raise BadInput(f"image: threshold must lie between 0 (black) and 1 (white), got {threshold!r}")
@@ -128,8 +127,7 @@ def in_percent(
 ) -> NDArray[np.int8]:  # fmt: skip
     """Return the occupancy of every cell in per cent, shape (nx, ny), -1 where unknown; arguments as in `write_map`.
 
-    Raises `BadInput` for shapes that do not fit, probabilities outside [0, 1], an unknown mode, or thresholds out of
-    order.
+    Raises `BadInput` for unequal shapes, probabilities outside [0, 1], an unknown mode, or unordered thresholds.
     """
     occupied, free = _thresholds(mode, occupied_thresh, free_thresh)
     p = as_probabilities(grid, occupancy, "occupancy", unknown=True)

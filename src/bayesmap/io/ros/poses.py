@@ -220,9 +220,8 @@ def standing_still(trees: list[FrameTree], sensor: str) -> PoseSource:
 def by_topic(
     recording: Recording, topic: Topic, messages: PoseMessages, trees: list[FrameTree], sensor: str, laser: Pose | None
 ) -> PoseSource:
-    """Return the poses by a topic, with the user's mount or the mount in /tf.
-
-    Raises `BadInput` if there are no poses, or two publishers contradict each other.
+    """Return the poses by a topic, with the user's mount or the mount in /tf. Raises `BadInput` if there are no poses,
+    or two publishers contradict each other.
     """
     # The frame and body with most poses.
     if not messages.poses:

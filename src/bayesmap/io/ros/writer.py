@@ -196,9 +196,8 @@ def write_occupancy_grid(
     path: str | os.PathLike[str], occupancy: ArrayLike, grid: Grid, observed: ArrayLike | None = None, *,
     stamp_s: float | None = None, **thresholds: Any,
 ) -> Path:  # fmt: skip
-    """Write a map as the one message of a recording, an OccupancyGrid. Returns the path.
-
-    Arguments and errors are as in `bayesmap.io.ros.maps.in_percent` and `Recorder`.
+    """Write a map as the one message of a recording, an OccupancyGrid. Returns the path. Arguments and errors are as in
+    `bayesmap.io.ros.maps.in_percent` and `Recorder`.
     """
     from bayesmap.io.ros.maps import in_percent
 
@@ -217,7 +216,6 @@ def write_grid_map(
     stamp_s: float | None = None,
 ) -> Path:  # fmt: skip
     """Write layers (see `as_layers`), the first as the basic layer, as the one message of a recording, a GridMap.
-
     Raises `BadInput` for layers that do not fit, another ending, or a file that cannot be written.
     """
     checked, ros = as_layers(grid, layers, observed), Recorder(path)
@@ -250,7 +248,6 @@ def _matrix(ros: Recorder, values: NDArray[np.float32]) -> Any:
 
 def write_trajectory_recording(path: str | os.PathLike[str], trajectory: Trajectory, *, frame: str = FRAME) -> Path:
     """Write a trajectory as a recording, whole or not at all; without stamps, poses get 0, 1, 2 and so on, in seconds.
-
     Raises `BadInput` for no pose, another ending, or a file that cannot be written.
     """
     if len(trajectory) == 0:

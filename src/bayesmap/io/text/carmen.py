@@ -12,8 +12,7 @@ lines, which every tool reads, are written if the reader's rules find both the a
 
 ROBOTLASER1 lines state their first angle and the step. By CARMEN's own rule the first beam of FLASER is at -90 degrees.
 Beams are 1 degree apart if there are 180 or 181, half a degree if 360 or 361, a quarter if 400 or 401; any other number
-spreads over 180 degrees. (The rule puts 401 beams from -90 to +10 degrees, but a SICK in its 100-degree mode looked
-from -50 to +50.)
+spreads over 180 degrees. (It puts 401 beams from -90 to +10 degrees; a SICK looked from -50 to +50.)
 """
 
 from __future__ import annotations

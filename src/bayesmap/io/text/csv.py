@@ -1,8 +1,7 @@
 """Read scans from a CSV table, with one row per scan or one row per beam; docs/file-formats.md describes both.
 
 Tables of LaserScan messages are read, too: from ``rostopic echo -p``, or with the message's own names. Rows of ``ros2
-topic echo --csv --full-length`` have no header: the fields of the message in their order, then the readings, and as
-many intensities or none.
+topic echo --csv --full-length`` have no header: the message's fields, readings, and as many intensities or none.
 """
 
 from __future__ import annotations

@@ -74,8 +74,7 @@ def split_lines(name: str, pieces: Iterable[bytes]) -> Iterator[tuple[int, bytes
 def file_chunks(path: str | os.PathLike[str], position: Callable[[], str] = str) -> Iterator[bytes]:
     """Yield the content of a file in pieces, decompressed if it is gzipped; error messages name the ``position``.
 
-    Raises `DamagedFile` for a damaged or truncated gzip stream, after all that could be read, and `BadInput` for an
-    unreadable file.
+    Raises `DamagedFile` for a damaged or truncated gzip stream, after all that could be read; `BadInput` if unreadable.
     """
     name = os.fspath(path)
     try:
@@ -150,8 +149,7 @@ def _is_number(word: bytes) -> bool:
 def read_table(path: str | os.PathLike[str], columns: int, form: str, empty: str) -> NDArray[np.float64]:
     """Return the numbers of a text file, plain or gzipped, (N, columns); commas are white space, # begins a comment.
 
-    Raises `BadInput` for a file that cannot be read, is empty (with the message ``empty``), or has a line of another
-    ``form``.
+    Raises `BadInput` for an unreadable file, an empty one (with the message ``empty``), or a line of another ``form``.
     """
     name, rows = os.fspath(path), []
     for number, line in read_lines(path):

@@ -303,10 +303,8 @@ def starts_as_rawlog(path: Path) -> bool:
 
 
 def read_rawlog(path: str | os.PathLike[str], options: LogOptions) -> ScanLog:
-    """Read the scans of a rawlog.
-
-    Raises `BadInput` for a file that cannot be read, no scans, no poses (unless the options need none), or an object
-    that is damaged or of an unknown version (unless the options skip it).
+    """Read the scans of a rawlog. Raises `BadInput` for a file that cannot be read, no scans, no poses (unless the
+    options need none), or an object that is damaged or of an unknown version (unless the options skip it).
     """
     account = Account(os.fspath(path), "rawlog", options)
     objects = _Objects(account, _content(account))

@@ -123,5 +123,4 @@ def write_relations(path: str | os.PathLike[str], first_s: ArrayLike, second_s: 
     if len(starts) == 0 or starts.shape != ends.shape or poses.shape != (len(starts), 3):
         raise BadInput(f"relations: stamps {starts.shape} and {ends.shape} and poses {poses.shape}, (N,) and (N, 3)")
     rows = zip(starts, ends, poses, strict=True)
-    lines = (f"{i:.6f} {j:.6f} {x:.9f} {y:.9f} 0 0 0 {yaw:.9f}" for i, j, (x, y, yaw) in rows)
-    return write_file(path, lines)
+    return write_file(path, (f"{i:.6f} {j:.6f} {x:.9f} {y:.9f} 0 0 0 {yaw:.9f}" for i, j, (x, y, yaw) in rows))
