@@ -50,8 +50,7 @@ def test_draws_are_exact(p, coupling, shape):
     law = np.exp(log_prior_of_all(shape, prior.p_wall, coupling))
     draws = prior.sample_maps(np.random.default_rng(1), grid, 8_000).reshape(-1, grid.n_cells)
     assert least_p_value(draws, law) > ALPHA / 12
-    apart = np.exp(log_prior_of_all(shape, prior.p_wall))
-    assert least_p_value(draws, apart) < ALPHA / 12  # the twin
+    assert least_p_value(draws, np.exp(log_prior_of_all(shape, prior.p_wall))) < ALPHA / 12  # the twin
     single = np.stack([prior.sample(np.random.default_rng([2, i]), grid) for i in range(500)])
     assert least_p_value(single.reshape(-1, grid.n_cells), law) > ALPHA / 12
     if (p, coupling) == (0.05, 1.5):  # on a small map the 50 sweeps of a start are enough for any test
@@ -145,8 +144,7 @@ TRUTHS = [(0.3, 0.0), (0.3, 0.3), (0.3, 0.6), (0.4, 0.8)]
 @pytest.mark.parametrize(("p", "coupling"), TRUTHS)
 def test_known_maps_have_the_coupling_that_they_were_drawn_with(p, coupling):
     """60 maps each: the mean of their couplings lies within five of its errors of the truth; none is below 0."""
-    rng = np.random.default_rng([int(100 * coupling), 1])
-    maps = bm.Ising(p, coupling).sample_maps(rng, GRID, 60)
+    maps = bm.Ising(p, coupling).sample_maps(np.random.default_rng([int(100 * coupling), 1]), GRID, 60)
     found = np.array([bm.fit_coupling(walls, p) for walls in maps])
     error = found.std() / np.sqrt(len(found))
     if coupling:
@@ -190,8 +188,7 @@ def simulated(p, coupling, poses, seed):
     rng = np.random.default_rng([seed, 3])
     walls = bm.Ising(p, coupling).sample(rng, GRID)
     free = np.argwhere(~walls)
-    at = (free[rng.choice(len(free), poses)] + 0.5) * GRID.resolution
-    stops = np.column_stack([at, rng.uniform(-3, 3, poses)])
+    stops = np.column_stack([(free[rng.choice(len(free), poses)] + 0.5) * GRID.resolution, rng.uniform(-3, 3, poses)])
     return walls, bm.simulate(walls, GRID, stops, np.linspace(-3, 3, 24), sensor=SENSOR, max_range_m=6.0, seed=seed)
 
 
@@ -200,8 +197,7 @@ def test_scans_of_a_whole_map_give_the_coupling_of_that_map(truth, sampler):
     """300 scans leave next to nothing open: what is found is what the map itself says."""
     p, coupling = truth
     walls, scans = simulated(p, coupling, 300, 4)
-    model = Model(scans, GRID, bm.Ising(p, "fit"), SENSOR)
-    found = fit_coupling_to_scans(model, sampler, "cpu", seed=1)
+    found = fit_coupling_to_scans(Model(scans, GRID, bm.Ising(p, "fit"), SENSOR), sampler, "cpu", seed=1)
     assert (found.p_wall, found.coupling) == (p, pytest.approx(bm.fit_coupling(walls, p), abs=0.03))
 
 

@@ -1,7 +1,4 @@
-"""Kinds of cells: what they refuse, describe and draw; labels of cells; draws survive eight cells to a byte.
-
-False alarms: `ALPHA` = 1e-4 over the tests of labels.
-"""
+"""Kinds of cells: refusals, descriptions, draws, labels (false alarms: `ALPHA` = 1e-4); eight cells to a byte."""
 
 from dataclasses import replace
 
@@ -82,8 +79,7 @@ def run(request):
     walls = np.zeros(grid.shape, dtype=bool)
     walls[6] = True
     sensor = bm.BeamMixture(bm.Gaussian(0.05), p_random=0.01, p_no_return=0.01)
-    angles = np.linspace(-0.3, 0.3, 9)
-    scans = bm.simulate(walls, grid, [1.2, 1.4, 0.0], angles, sensor=sensor, max_range_m=6.0, seed=1)
+    scans = bm.simulate(walls, grid, [1.2, 1.4, 0.0], np.linspace(-0.3, 0.3, 9), sensor=sensor, max_range_m=6.0, seed=1)
     schedule = bm.Schedule(chains=2, warmup=5, draws=12)
     return bm.infer(scans, grid, prior=request.param, sensor=sensor, schedule=schedule, seed=2)
 
@@ -137,8 +133,7 @@ def test_a_cell_is_free_and_certain_only_if_enough_beams_passed_it(prior, tmp_pa
     sensor = bm.BeamMixture(bm.Gaussian(0.02), p_random=0.01, p_no_return=0.01)
     schedule = bm.Schedule(chains=2, warmup=20, draws=20)
     for beams, free, certain in ((1, False, False), (3, False, False), (8, True, True)):
-        ranges = np.full((beams, 1), 1.75)
-        scans = bm.Scans(np.tile([0.25, 0.25, 0.0], (beams, 1)), [0.0], ranges, max_range_m=5.0)
+        scans = bm.Scans(np.tile([0.25, 0.25, 0.0], (beams, 1)), [0.0], np.full((beams, 1), 1.75), max_range_m=5.0)
         run = bm.infer(scans, bm.Grid((5, 1), 0.5), prior=prior, sensor=sensor, schedule=schedule)
         run.export(tmp_path / "map.yaml")
         occupancy, _ = read_map(tmp_path / "map.yaml")
@@ -207,8 +202,7 @@ def test_draws_are_exact():
     drawn = [PRIOR.sample_cells(rng, bm.Grid(shape)) for _ in range(800)]
     solid = np.stack([one["solid"].ravel() for one in drawn])
     m = np.stack([one["reflectivity"].ravel() for one in drawn])
-    law = np.exp(log_prior_of_all(shape, 0.5, PRIOR.coupling))
-    assert least_p_value(solid, law) > ALPHA / TESTS
+    assert least_p_value(solid, np.exp(log_prior_of_all(shape, 0.5, PRIOR.coupling))) > ALPHA / TESTS
     assert least_p_value(solid, np.exp(log_prior_of_all(shape, 0.5, 0.0))) < ALPHA / TESTS
     assert scipy.stats.kstest(m[solid], scipy.stats.beta(2.0, 0.7).cdf).pvalue > ALPHA / TESTS
     assert scipy.stats.kstest(m[~solid], scipy.stats.beta(0.3, 2.0).cdf).pvalue > ALPHA / TESTS
@@ -263,8 +257,7 @@ def test_cells_that_no_beam_touches_draw_reflectivities_given_their_labels_where
 
 @KINDS
 def test_maps_and_predictions_of_cells_that_no_beam_touches_follow_their_labels(kind):
-    few = scans(poses=4, beams=12)
-    run = infer(kind, few, sensor=TRUTH, draws=20)
+    run = infer(kind, scans(poses=4, beams=12), sensor=TRUTH, draws=20)
     draws, prior = run.posterior.draws, LABELLED[kind]
     solid = draws.values("solid")
     assert solid.shape == (2, 20, *GRID.shape)
@@ -313,9 +306,7 @@ def test_the_fit_finds_both_betas():
 
 
 def test_proposals_of_the_prior_keep_it():
-    """The log ratio that comes with a proposal is that of two maps' densities less that of proposing the one or the
-    other.
-    """
+    """The log ratio of a proposal is that of both maps' densities less that of proposing the one or the other."""
     shape, rng = (3, 2), np.random.default_rng(6)
     cells, one = PRIOR.sample_cells(rng, bm.Grid(shape)), bm.Grid((1, 1))
     changed = 0

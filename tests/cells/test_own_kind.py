@@ -1,7 +1,4 @@
-"""A fourth kind of cells, defined here, goes through all of the package without a line of it knowing.
-
-Its draws are tested against enumeration of all maps of four cells. False alarms: 1e-4 over this module.
-"""
+"""A fourth kind of cells, defined here, goes through the whole package; its law is enumerated (false alarms: 1e-4)."""
 
 import itertools
 import subprocess
@@ -52,8 +49,7 @@ def test_metropolis_follows_the_exact_posterior_tempered_or_not(beta):
     sampler = Metropolis()
     problem = sampler.prepare(Model(SCANS, GRID, Glass(), SENSOR, hit_depth=0.5), "cpu")
     state, _ = sampler.step(sampler.init(problem, range(CHAINS), 3), 6, beta)
-    numbers = sampler.snapshot(state).arrays["material"].reshape(-1, 4) @ [27, 9, 3, 1]
-    counts = np.bincount(numbers, minlength=81)
+    counts = np.bincount(sampler.snapshot(state).arrays["material"].reshape(-1, 4) @ [27, 9, 3, 1], minlength=81)
     assert goodness_of_fit(counts, law(beta)) > ALPHA / 6
     assert goodness_of_fit(counts, law(beta + 0.5)) < ALPHA / 6  # the twin
 
@@ -71,8 +67,7 @@ def run():
 def test_infer_takes_a_kind_of_cells_of_the_user_s_own(run):
     assert (run.posterior.kind, run.posterior.settings["method"]) == ("glass", "metropolis")
     assert run.draws.shape == (2, 80, 2, 2)
-    expected = law(1.0) @ np.array([0.0, 0.3, 1.0])[MAPS]
-    np.testing.assert_allclose(run.occupancy.ravel(), expected, atol=0.15)
+    np.testing.assert_allclose(run.occupancy.ravel(), law(1.0) @ np.array([0.0, 0.3, 1.0])[MAPS], atol=0.15)
     np.testing.assert_allclose(run.draws.mean(axis=(0, 1)), run.occupancy, atol=1e-6)
     assert run.observed.all()
     assert run.summary().finished

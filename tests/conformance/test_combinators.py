@@ -195,14 +195,12 @@ def test_arguments_and_return_values_can_be_transformed():
 @genjax.gen
 def model(loc):
     x = genjax.normal(loc, 1.0) @ "x"
-    y = genjax.normal(x, 2.0) @ "y"
-    return x + y
+    return x + genjax.normal(x, 2.0) @ "y"
 
 
 @genjax.gen
 def nested(loc, scale=1.0):
-    total = model(loc) @ "inner"
-    return genjax.normal(total, scale) @ "z"
+    return genjax.normal(model(loc) @ "inner", scale) @ "z"
 
 
 def test_a_call_at_an_address_gives_its_return_value_and_a_subtrace_that_knows_its_arguments():

@@ -61,8 +61,7 @@ def runner(move, steps):
     """Compiled once: chains from each mu by a move of some size; last mu, acceptance rate."""
 
     def run(key, mu, size):
-        kernel = genjax.metropolis_hastings(MOVES[move](size))
-        return genjax.run_chain(key, trace_at(mu), kernel, steps)
+        return genjax.run_chain(key, trace_at(mu), genjax.metropolis_hastings(MOVES[move](size)), steps)
 
     def all_of_them(mu, size):
         result = jax.vmap(run, in_axes=(0, 0, None))(jr.split(jr.key(0), mu.shape[0]), mu, size)
@@ -94,14 +93,12 @@ def test_regenerate_weighs_what_the_kept_choices_say_and_rejuvenate_the_way_back
     mu = new.get_choices()["mu"]
     assert mu != 0.3
     np.testing.assert_allclose(weight, st.norm.logpdf(2.0, mu) - st.norm.logpdf(2.0, 0.3), rtol=1e-5)
-    restored = new.edit(jr.key(0), back)[0]
-    np.testing.assert_allclose(restored.get_choices()["mu"], 0.3)
+    np.testing.assert_allclose(new.edit(jr.key(0), back)[0].get_choices()["mu"], 0.3)
     trace = trace_at(0.3)
     new, weight, _, _ = trace.edit(jr.key(0), MOVES["rejuvenate"](0.0))
     mu = new.get_choices()["mu"]
     forward, backward = st.norm.logpdf(mu, 0.15, 0.8), st.norm.logpdf(0.3, 0.5 * mu, 0.8)
-    expected = new.get_score() - trace.get_score() + backward - forward
-    np.testing.assert_allclose(weight, expected, rtol=1e-5)
+    np.testing.assert_allclose(weight, new.get_score() - trace.get_score() + backward - forward, rtol=1e-5)
 
 
 @pytest.mark.parametrize("eps", full_but([0.1, 0.5, 1.0, 1.3], 1.3))
@@ -150,18 +147,14 @@ def wide(loc):
 
 @pytest.mark.parametrize("request_of", [genjax.EmptyRequest, lambda: genjax.Update(C["v"].set(0.25))])
 def test_switching_branches_discounts_fresh_draws(request_of):
-    """The weight is the density of the given choices on the new branch, less the old score; the way back undoes it.
-
-    A switch whose index stays is edited in place.
-    """
+    """The weight is the new branch's density of given choices less the old score. A kept index is edited in place."""
     both = narrow.switch(wide)
     trace = both.simulate(jr.key(0), (jnp.array(0), (0.0,), (0.0,)))
     diffs = (Diff.unknown_change(1), Diff.no_change((0.0,)), Diff.no_change((0.0,)))
     new, weight, _, back = jax.jit(lambda r: trace.edit(jr.key(0), r, diffs))(request_of())
     given = 0.0
     if isinstance(request_of(), genjax.Update):
-        u = new.get_choices()["u"].unmask()
-        given = st.norm.logpdf(0.25, u, 1.0)
+        given = st.norm.logpdf(0.25, new.get_choices()["u"].unmask(), 1.0)
     np.testing.assert_allclose(weight, given - trace.get_score(), rtol=1e-5)
     returning = (Diff.unknown_change(jnp.array(0)), Diff.no_change((0.0,)), Diff.no_change((0.0,)))
     old = new.edit(jr.key(0), back, returning)[0]
@@ -179,8 +172,7 @@ def test_switching_branches_discounts_fresh_draws(request_of):
 @pytest.mark.full
 def test_regenerate_works_on_vmap_scan_and_products():
     data = jnp.array([1.0, 2.0, 3.0])
-    rows = model.repeat(n=3)
-    trace, _ = rows.importance(jr.key(0), C["y"].set(data), ())
+    trace, _ = model.repeat(n=3).importance(jr.key(0), C["y"].set(data), ())
     new, weight, _, back = trace.edit(jr.key(5), Regenerate(MU))
     old_mu, mu = trace.get_choices()["mu"], new.get_choices()["mu"]
     assert jnp.all(mu != old_mu)
@@ -278,8 +270,7 @@ def test_annealed_smc_estimates_the_evidence():
 
     def run(key):
         keys = jr.split(key, 13)
-        start = Target(tempered, (0.25,), C["y"].set(2.0))
-        particles = ImportanceK(start, k_particles=50).run_smc(keys[0])
+        particles = ImportanceK(Target(tempered, (0.25,), C["y"].set(2.0)), k_particles=50).run_smc(keys[0])
         move = genjax.metropolis_hastings(HMC(Selection.at["mu"], 0.5, 3))
         for k, precision in enumerate((0.5, 1.0, 2.0, 4.0)):
             particles = particles.edit(keys[3 * k + 1], genjax.EmptyRequest(), Diff.unknown_change((precision,)))
@@ -311,10 +302,7 @@ def test_the_particle_filter_estimates_the_evidence_of_a_state_space_model():
 
 
 def test_the_filter_can_keep_whole_trajectories_as_traces_of_the_whole_model():
-    """Smoothing: weighted means of every state, against the Kalman smoother's, over 400 runs of 100 particles.
-
-    False alarm rate 1e-5: five standard errors at each of four steps. The filter's means are the wrong twin.
-    """
+    """Against the Kalman smoother: 400 runs of 100 particles, false alarms 1e-5. The twin: the filter's means."""
     evidence, filtered, variances = kalman(DATA)
     smoothed = smoother(filtered, variances)
     run = lambda key: genjax.particle_filter(  # noqa: E731
@@ -385,8 +373,7 @@ def test_the_chain_driver_gives_draws_acceptance_and_the_last_trace():
     chain = genjax.run_chain(jr.key(0), trace, kernel, 50)
     mu = chain.draws["mu"]
     assert (mu.shape, chain.last.get_choices()["mu"]) == ((50,), mu[-1])
-    moved = jnp.concatenate([trace.get_choices()["mu"][None], mu])
-    np.testing.assert_array_equal(jnp.diff(moved) != 0, chain.accepted)
+    np.testing.assert_array_equal(jnp.diff(jnp.concatenate([trace.get_choices()["mu"][None], mu])) != 0, chain.accepted)
     np.testing.assert_array_equal(genjax.run_chain(jr.key(0), trace, kernel, 20).draws["mu"], mu[:20])
 
 

@@ -299,10 +299,8 @@ def test_a_trace_of_zeros_has_a_real_one_s_structure_and_subtraces_are_found_thr
     zero = one.get_zero_trace()
     assert jax.tree.structure(zero) == jax.tree.structure(one.simulate(jr.key(0), ()))
     assert (zero.get_score(), zero.get_sample()["x"]) == (0.0, 0.0)
-    model = genjax.gen(lambda: one.or_else(other)(genjax.flip(0.5) @ "b", (), ()) @ "z")
-    trace = model.simulate(jr.key(0), ())
-    name = "x" if trace.get_choices()["b"] else "y"
-    found = trace.get_subtrace("z", name)
+    trace = genjax.gen(lambda: one.or_else(other)(genjax.flip(0.5) @ "b", (), ()) @ "z").simulate(jr.key(0), ())
+    found = trace.get_subtrace("z", "x" if trace.get_choices()["b"] else "y")
     np.testing.assert_allclose(found.get_score(), trace.get_score() - np.log(0.5), rtol=1e-6)
 
 
@@ -365,8 +363,7 @@ class Doubled(genjax.Distribution):
 def test_a_users_distribution_needs_two_methods():
     model = genjax.gen(lambda: Doubled()() @ "v")
     trace = model.simulate(jr.key(0), ())
-    value = trace.get_choices()["v"]
-    np.testing.assert_allclose(trace.get_score(), st.norm.logpdf(value, 0.0, 2.0), rtol=1e-6)
+    np.testing.assert_allclose(trace.get_score(), st.norm.logpdf(trace.get_choices()["v"], 0.0, 2.0), rtol=1e-6)
     _, weight, _, _ = trace.update(jr.key(0), C["v"].set(1.0))
     np.testing.assert_allclose(weight, st.norm.logpdf(1.0, 0.0, 2.0) - trace.get_score(), rtol=1e-5)
     mixed, _ = jax.jit(lambda flag: model.importance(jr.key(0), C["v"].set(7.0).mask(flag), ()))(True)

@@ -80,8 +80,7 @@ REQUESTS = {
 
 def incremental_update(request, key, trace, i, j):
     walls = trace.get_choices()["walls"]
-    edit = REQUESTS[request](1.0 - walls[i, j], i, j, walls)
-    new_trace, weight, _retdiff, _backward = trace.edit(key, edit, None)
+    new_trace, weight, _retdiff, _backward = trace.edit(key, REQUESTS[request](1.0 - walls[i, j], i, j, walls), None)
     return jax.lax.cond(genjax.bernoulli.sample(key, logits=weight), lambda: new_trace, lambda: trace)
 
 
@@ -170,8 +169,7 @@ def test_the_ith_site_uses_fold_in_of_i_and_importance_counts_constrained_ones_t
     same(choices["a"], "0x1.e88430p-1")
     same(choices["c"], "0x1.c48a52p-2")
     same(choices["d", "e"], "-0x1.75acc8p-2", "0x1.00c42ap+0", "0x1.5adf76p+1")
-    constraint = C["a"].set(0.25) | C["d", "e"].set(jnp.ones(3))
-    trace, weight = several.importance(jr.key(7), constraint, (0.5,))
+    trace, weight = several.importance(jr.key(7), C["a"].set(0.25) | C["d", "e"].set(jnp.ones(3)), (0.5,))
     same(trace.get_choices()["c"], "0x1.f7620cp-3")
     np.testing.assert_allclose(weight, float.fromhex("-0x1.00cb74p+4"), rtol=1e-6)
 

@@ -68,8 +68,7 @@ class Scales(gen.GenerativeFunction):
                 case IndexChange((i,)):
                     return self.move_one(trace, i, cells.primal)
         args = Diff.tree_primal(argdiffs)
-        constraint = request.constraint | trace.get_choices()
-        new = self.build(args, constraint[()])
+        new = self.build(args, (request.constraint | trace.get_choices())[()])
         undo = Update(request.constraint & trace.get_choices())
         return new, new.score - trace.score, Diff.unknown_change(new.retval), undo
 
@@ -89,8 +88,7 @@ scales = Scales()
 
 @gen.gen
 def model(p):
-    cells = gen.flip.repeat(n=CELLS)(p) @ "cells"
-    return scales(cells) @ "readings"
+    return scales(gen.flip.repeat(n=CELLS)(p) @ "cells") @ "readings"
 
 
 def test_a_user_s_generative_function_joins_a_larger_model_and_a_sweep_of_its_edits_keeps_the_score():
@@ -103,10 +101,8 @@ def test_a_user_s_generative_function_joins_a_larger_model_and_a_sweep_of_its_ed
     @jax.jit
     def sweep(trace, key):
         def step(i, trace):
-            cells = trace.get_choices()["cells"]
-            new, weight, _, _ = trace.edit(key, Update(C["cells", i].set(1.0 - cells[i])))
-            accept = jnp.log(jr.uniform(jr.fold_in(key, i))) < weight
-            return jax.lax.cond(accept, lambda: new, lambda: trace)
+            new, weight, _, _ = trace.edit(key, Update(C["cells", i].set(1.0 - trace.get_choices()["cells"][i])))
+            return jax.lax.cond(jnp.log(jr.uniform(jr.fold_in(key, i))) < weight, lambda: new, lambda: trace)
 
         return jax.lax.fori_loop(0, CELLS, step, trace)
 
@@ -121,8 +117,7 @@ def test_a_change_of_one_element_reaches_its_edit_as_such(traced):
     cells = trace.get_choices()["cells"]
 
     def edit(i):
-        request = gen.StaticRequest({"cells": gen.IndexRequest(i, Update(C.v(1.0 - cells[i])))})
-        return trace.edit(jr.key(0), request)
+        return trace.edit(jr.key(0), gen.StaticRequest({"cells": gen.IndexRequest(i, Update(C.v(1.0 - cells[i])))}))
 
     full_recomputations.clear()
     new, weight, retdiff, back = (jax.jit(edit) if traced else edit)(7)

@@ -79,9 +79,7 @@ def test_a_sweep_s_log_likelihood_is_the_reference_s(name, sensor):
 @pytest.mark.parametrize("noise", [bm.Gaussian(0.02, 0.003), bm.StudentT(0.01, 3.0, 0.002)], ids=["normal", "t"])
 @pytest.mark.parametrize("name", ["surfaces", "surfaces by default", "reflectivities by default"])
 def test_stops_far_from_the_reading_that_count_as_random_readings_hardly_matter(name, noise):
-    """Readings of prior surfaces, whose spread has heavy tails, with the shortcut and with every entry's own law: the
-    shortcut costs less than 0.005 nats a beam, and nothing where cells have no surfaces and noise has no heavy tails.
-    """
+    """The shortcut costs less than 0.005 nats a beam, and nothing if cells have no surfaces and noise no heavy tail."""
     prior = DENSITY_PRIORS[name]
     plain = not isinstance(prior, bm.Surface)
     grid = bm.Grid((24, 2), 0.1)
@@ -131,8 +129,7 @@ def test_nothing_is_impossible_but_no_density_is_nan(plain):
         states = np.zeros((len(problem.rays.touched), 6))
         states[:, 0], states[:, 3], states[:, 5] = m, 0.1, 0.1
         states[:, 1:3] = centres_of(problem.rays)[0]
-        worlds = Worlds(problem, LONE.shape, 1)
-        sampler = worlds.sampler(1, states)
+        sampler = Worlds(problem, LONE.shape, 1).sampler(1, states)
         for beta in (1.0, 1.0, 0.5, 0.0):
             log_likelihood, _ = sampler.sweep(beta=beta)
             assert np.isfinite(log_likelihood).all()
@@ -172,8 +169,7 @@ def lowest_any_highest(sensor):
     variance = rng.choice([0.0, 1e-6, 1e-4, 0.01], COUNT)
     arrays = [wp.array(x.astype(np.float32), dtype=wp.float32, device="cpu") for x in (reading, distance, variance)]
     out = wp.zeros((3, COUNT), dtype=wp.float32, device="cpu")
-    law = sensor_law(sensor, LIMITS, "cpu", SensorLaw32)
-    wp.launch(densities, dim=COUNT, inputs=[law, *arrays, out], device="cpu")
+    wp.launch(densities, dim=COUNT, inputs=[sensor_law(sensor, LIMITS, "cpu", SensorLaw32), *arrays, out], device="cpu")
     return reading, *out.numpy()
 
 

@@ -1,8 +1,4 @@
-"""Predictive densities, cumulatives, quantiles and first-hit events against plain sums over cells and draws.
-
-A scan's likelihood at a pose equals the likelihood of beams that are traced from there, by the fast law and the plain
-one.
-"""
+"""Predictive densities, cumulatives, quantiles, first hits, and likelihoods at poses against plain sums and tracing."""
 
 import dataclasses
 from dataclasses import replace
@@ -199,8 +195,7 @@ def test_events_multiply_to_the_chance_of_the_cell(name):
             plain_below(rays, maps, sensor, np.full(len(z), r))[b] for r in (entry[0], entry[-1], end[-1])
         )
         whole = (after - before) / (1 - first)
-        product = np.prod(np.where(y == 1, p, 1 - p).astype(float))
-        assert product == pytest.approx(whole, rel=2e-4, abs=1e-7)
+        assert np.prod(np.where(y == 1, p, 1 - p).astype(float)) == pytest.approx(whole, rel=2e-4, abs=1e-7)
         checked += 1
     assert checked > 10
 
@@ -257,16 +252,14 @@ def test_scans_at_other_poses_have_the_likelihood_of_beams_traced_there(name, ki
         off = np.random.default_rng(seed).normal(0, [0.3, 0.3, 0.5], scans.poses.shape)
         there = replace(scans, poses=scans.poses + off)
         chain, scan = (a.ravel() for a in np.meshgrid(np.arange(3), np.arange(len(scans)), indexing="ij"))
-        likelihood = ScanLikelihood(scans, GRID, SENSORS[name], DEPTH)
-        found = likelihood.beams(maps, np.tile(there.poses, (3, 1)), scan, chain)
+        found = ScanLikelihood(scans, GRID, SENSORS[name], DEPTH).beams(maps, np.tile(there.poses, (3, 1)), scan, chain)
         expected = predicted(there, maps, SENSORS[name])
         np.testing.assert_allclose(found.reshape(expected.shape), expected, atol=1e-5, rtol=1e-5)
 
 
 def test_beams_that_left_while_the_sensor_moved_move_with_their_scan_and_company_does_not_matter():
     scans, maps = world(5)
-    rng = np.random.default_rng(0)
-    drift = rng.normal(0, 0.05, (*scans.ranges_m.shape, 3))
+    drift = np.random.default_rng(0).normal(0, 0.05, (*scans.ranges_m.shape, 3))
     scans = replace(scans, beam_poses=scans.poses[:, None] + drift)
     likelihood = ScanLikelihood(scans, GRID, bm.Gaussian(0.2), DEPTH)
     scan, chain = np.arange(len(scans)), np.zeros(len(scans), dtype=int)
@@ -321,8 +314,7 @@ def test_the_fast_law_is_the_plain_one(kind, laser):
     fast = scan_log_likelihood(device_maps([maps], LARGE_GRID, 0.5), poses, ANGLES, ranges, laser, limits, scan=which)
     plain = ScanLikelihood(bm.Scans(np.zeros((2, 3)), ANGLES, ranges, 6.0, 0.1), LARGE_GRID, laser, 0.5)
     for draw in range(3):
-        expected = plain(maps, poses, which, np.full(40, draw))
-        np.testing.assert_allclose(fast[:, draw], expected, rtol=2e-5, atol=2e-3)
+        np.testing.assert_allclose(fast[:, draw], plain(maps, poses, which, np.full(40, draw)), rtol=2e-5, atol=2e-3)
 
 
 def test_cells_that_hardly_ever_stop_a_beam_cost_all_poses_alike():

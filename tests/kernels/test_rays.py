@@ -179,8 +179,7 @@ def test_margins_may_differ_from_beam_to_beam_and_end_points_are_in_metres_from_
 
 @pytest.mark.parametrize("readings", [[np.nan, np.nan], [1.0, np.inf]])
 def test_no_valid_beam_or_none_through_the_grid_is_no_entry(readings):
-    away = bm.Scans([-0.5, 1.5, np.pi], [0.0, 0.1], [readings], max_range_m=9.0)
-    rays = trace_rays(away, bm.Grid((4, 3)))
+    rays = trace_rays(bm.Scans([-0.5, 1.5, np.pi], [0.0, 0.1], [readings], max_range_m=9.0), bm.Grid((4, 3)))
     assert rays.n_incidences == len(rays.touched) == 0
     assert (rays.n_beams, rays.distance_m(0.5).shape) == (2, (0,))
     whole = near_readings(random_scans(3), np.inf)  # without a warning of readings that are too close
@@ -237,8 +236,7 @@ def assert_equal_to_the_formula(walls, starts, angles):
 def test_from_anywhere_at_any_angle(seed, shape, density):
     rng = np.random.default_rng(seed)
     starts = rng.uniform(-3, np.array(shape) + 3, (40, 2))
-    sure = assert_equal_to_the_formula(random_walls(seed, shape, density), starts, rng.uniform(-7, 7, 40))
-    assert sure >= 39
+    assert assert_equal_to_the_formula(random_walls(seed, shape, density), starts, rng.uniform(-7, 7, 40)) >= 39
 
 
 @given(seeds, shapes, densities, halves, halves, slopes)
@@ -249,16 +247,14 @@ def test_through_corners_and_along_lines_at_rational_slopes(seed, shape, density
 
 @given(seeds, shapes, anywhere, halves, st.sampled_from([0.0, np.pi / 2, np.pi, -np.pi / 2]))
 def test_along_the_axes_from_anywhere(seed, shape, x, y, angle):
-    walls = random_walls(seed, shape, 0.4)
-    assert_equal_to_the_formula(walls, np.array([[x, y], [y, x]]), np.array([angle, angle]))
+    assert_equal_to_the_formula(random_walls(seed, shape, 0.4), np.array([[x, y], [y, x]]), np.array([angle, angle]))
 
 
 @given(st.integers(-6, 6), st.integers(-6, 6), st.floats(1e-12, 1e-6), st.sampled_from([-1, 1]))
 def test_beams_a_hair_off_an_axis(x, y, tilt, sign):
     """Around the angle where a direction starts to count as parallel to an edge."""
     angle = np.array([0, 1, 2, 3]) * np.pi / 2 + sign * tilt
-    starts = np.tile([x + 0.5, y + 0.25], (4, 1))
-    assert_equal_to_the_formula(random_walls(1, (7, 7), 0.3), starts, angle)
+    assert_equal_to_the_formula(random_walls(1, (7, 7), 0.3), np.tile([x + 0.5, y + 0.25], (4, 1)), angle)
 
 
 def test_long_beams_and_those_from_far_outside_keep_their_precision_and_look_no_further_than_their_hit():
@@ -330,8 +326,7 @@ def test_the_index_is_a_permutation_of_the_table_in_which_incidences_that_could_
     table = trace(random_scans(1), GRID, SENSORS[name])
     index = index_by_cell(table)
     np.testing.assert_array_equal(np.sort(index.entry), np.arange(table.n_incidences))
-    cell = np.repeat(np.arange(GRID.n_cells), np.diff(index.offsets))
-    np.testing.assert_array_equal(table.cells[index.entry], cell)
+    np.testing.assert_array_equal(table.cells[index.entry], np.repeat(np.arange(GRID.n_cells), np.diff(index.offsets)))
     np.testing.assert_array_equal(table.loglik[index.entry], index.loglik)
     assert (table.offsets[index.beam] <= index.entry).all()
     assert (index.entry < table.offsets[index.beam + 1]).all()
@@ -344,13 +339,8 @@ def test_the_index_is_a_permutation_of_the_table_in_which_incidences_that_could_
 @pytest.mark.parametrize("sensor", [bm.Gaussian(0.3), bm.BeamMixture(bm.Gaussian(0.1))], ids=["gaussian", "mixture"])
 @pytest.mark.parametrize("seed", range(4))
 def test_the_index_bounds_what_walls_can_add(sensor, seed):
-    """Over all 512 maps of 3 x 3 cells.
-
-    The gains of an incidence and of those after it in its cell never exceed the bound. The advantage is the least that
-    a wall is worth to a beam that hits it, in some map.
-    """
-    case = make_case(seed, shape=(3, 3), n_poses=3, sensor=sensor)
-    table = case.problem().table
+    """All 512 maps of 3 x 3 cells. The advantage: the least that a wall is worth to a beam that hits it in some map."""
+    table = make_case(seed, shape=(3, 3), n_poses=3, sensor=sensor).problem().table
     index = index_by_cell(table)
     for b, e, advantage in zip(index.beam, index.entry, index.advantage, strict=True):
         behind = np.append(table.loglik[e + 1 : table.offsets[b + 1]], table.no_hit[b])

@@ -76,8 +76,7 @@ def swept(kind, count=COPIES, sweep=0, seed=5, one=None, scans=None, sensor=SENS
 
 def chosen(worlds, field):
     """Each beam's stop, counted along the beam; its number of entries for nowhere; (copies, beams)."""
-    rays = worlds.problem.rays
-    return (field.stop.numpy() - rays.offsets[:-1]).reshape(worlds.count, -1)
+    return (field.stop.numpy() - worlds.problem.rays.offsets[:-1]).reshape(worlds.count, -1)
 
 
 @cache
@@ -179,8 +178,7 @@ def reference_gains(worlds, states, candidates, field):
         law = np.where(paths.far, floor, law)
         entry, stays = np.arange(stopped.shape[1]), np.log(stopped * law + 1e-300)
         terms.append(np.where(entry < stop, np.log1p(-stopped), np.where(entry == stop, stays, 0.0)))
-    ratio = np.where(paths.there, terms[1] - terms[0], 0.0)
-    return np.bincount(paths.cell.ravel(), ratio.ravel(), len(rays.touched))
+    return np.bincount(paths.cell.ravel(), np.where(paths.there, terms[1] - terms[0], 0.0).ravel(), len(rays.touched))
 
 
 def test_a_candidate_s_gain_is_the_ratio_of_what_all_beams_say():
@@ -222,10 +220,7 @@ def test_invalid_readings_and_empty_beams_say_nothing_and_draws_do_not_repeat_in
 
 
 def law_of_points(worlds, states, given_reading=True):
-    """The chance that the point of a beam's stop lies in the square of each of its entries, for each beam of one copy.
-
-    Returns (B, K), and the chance that the beam passes each, (B, K).
-    """
+    """Chances that the point of a beam's stop lies in each entry's square, and that the beam passes it; (B, K) each."""
     rays, paths = worlds.problem.rays, paths_of(worlds.problem.rays)
     enter, leave = rays.stretches()
     beams = len(READINGS)
@@ -293,8 +288,7 @@ def test_the_chance_is_a_beta_of_the_counts(in_squares):
     a, b = 1.0 + found.stopped, 2.0 + found.passed
     np.testing.assert_allclose(found.expected, a / (a + b), rtol=1e-5)
     assert scipy.stats.kstest(scipy.stats.beta.cdf(found.drawn, a, b), "uniform").pvalue > ALPHA / TESTS
-    twin = scipy.stats.beta.cdf(found.drawn, a, b + 0.3)
-    assert scipy.stats.kstest(twin, "uniform").pvalue < ALPHA / TESTS
+    assert scipy.stats.kstest(scipy.stats.beta.cdf(found.drawn, a, b + 0.3), "uniform").pvalue < ALPHA / TESTS
 
 
 LIMITS = RangeLimits(0.05, 8.0)
@@ -342,8 +336,7 @@ def plain_law(sensor, reading_m, distance_m, spread_m, given_reading=True):
     log_p = scipy.stats.norm.logpdf(t, distance_m, spread_m)
     if given_reading:
         log_p = log_p + sensor.log_likelihood(np.full_like(t, reading_m), t, LIMITS)
-    p = np.exp(log_p - log_p.max())
-    below = np.cumsum(p)
+    below = np.cumsum(np.exp(log_p - log_p.max()))
     return t, below / below[-1]
 
 
@@ -377,8 +370,7 @@ def test_points_of_a_mixture_lie_between_surface_and_reading_if_it_came_from_the
     sensor = bm.BeamMixture(bm.Gaussian(0.05), p_random=0.2, p_no_return=0.1)
     found = draw_points(sensor, LIMITS, 3.1, 3.0, 0.05, DRAWS)
     density = sensor.stop_log_likelihood(np.array([3.1]), np.array([3.0]), np.array([0.05]), LIMITS)
-    chance = 0.2 / (LIMITS.max_m - LIMITS.min_m)
-    by_chance = chance / np.exp(density[0])
+    by_chance = 0.2 / (LIMITS.max_m - LIMITS.min_m) / np.exp(density[0])
 
     def below(x):
         there = scipy.stats.norm.cdf(x, 3.05, 0.05 / np.sqrt(2))

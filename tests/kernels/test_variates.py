@@ -1,7 +1,4 @@
-"""Random variates and prior surfaces against scipy's laws; a random sweep visits every cell once, in its own order.
-
-False alarms: `ALPHA` = 1e-4 over the variates, by Kolmogorov-Smirnov; those of shuffles are stated with each.
-"""
+"""Variates and prior surfaces against scipy's laws (Kolmogorov-Smirnov, `ALPHA` = 1e-4); orders of random sweeps."""
 
 import numpy as np
 import pytest
@@ -158,8 +155,7 @@ def by_numpy(prior):
 def by_scipy(prior, *, inside=True):
     """Draw prior surfaces, with means inside their own cell or anywhere."""
     rng = np.random.default_rng(4)
-    sigma = draw_covariances(rng, prior, COUNT)
-    factor = np.linalg.cholesky(sigma)
+    factor = np.linalg.cholesky(draw_covariances(rng, prior, COUNT))
     most = 0.5 / prior.mean_scale if inside else np.inf
     mean = scipy.stats.truncnorm.rvs(-most, most, scale=prior.mean_scale, size=(COUNT, 2), random_state=rng)
     return np.column_stack([mean, factor[:, 0, 0], factor[:, 1, 0], factor[:, 1, 1]])
@@ -199,5 +195,4 @@ def test_every_cell_comes_in_every_place_equally_often_and_before_its_neighbour_
             assert abs(counts * size / len(found) - 1).max() < 0.2
             continue
         assert scipy.stats.chisquare(counts).pvalue > 1e-5
-        first = (place[:, cell] < place[:, cell + 1]).sum()
-        assert scipy.stats.binomtest(int(first), len(found)).pvalue > 1e-6
+        assert scipy.stats.binomtest(int((place[:, cell] < place[:, cell + 1]).sum()), len(found)).pvalue > 1e-6

@@ -1,7 +1,4 @@
-"""The search finds what looking everywhere finds; modes, regions and areas of a posterior over poses.
-
-In a map that is known exactly all places are found, and proposals come near the posterior at little cost.
-"""
+"""The search for poses finds what looking everywhere finds; modes, regions and areas of a posterior over poses."""
 
 from dataclasses import replace
 from functools import cache
@@ -50,8 +47,7 @@ def test_modes_are_separated_regions_hold_their_share_and_areas_leave_room_for_b
     assert answer["region_95_m2"] > 0
     for level in (0.5, 0.8, 0.95):
         region = belief().region(level)
-        inside = region.contains(belief().poses[:, :2])
-        assert belief().weights[inside].sum() == pytest.approx(level, abs=0.03)
+        assert belief().weights[region.contains(belief().poses[:, :2])].sum() == pytest.approx(level, abs=0.03)
     assert region.contains([[5.0, 2.0]])[0]  # a region of that share about the first mode would leave out the second
     assert region.area_m2 < np.pi * 0.1 * 0.05 * 10 + np.pi * 0.05**2 * 10
 
@@ -99,10 +95,8 @@ def test_the_coarse_search_scores_every_position_and_heading(room):
         return int(field.coarse[i[inside], j[inside]].sum())
 
     headings = np.arange(search.HEADINGS) * 2 * np.pi / search.HEADINGS
-    cells = np.argwhere(field.open)
-    best = max(plain(cell, heading) for cell in cells for heading in headings)
-    found = search._coarse_poses(field, points)
-    scores = [plain(np.floor(pose[:2] / size).astype(int), pose[2]) for pose in found]
+    best = max(plain(cell, heading) for cell in np.argwhere(field.open) for heading in headings)
+    scores = [plain(np.floor(pose[:2] / size).astype(int), pose[2]) for pose in search._coarse_poses(field, points)]
     assert max(scores) == best
     assert len(search.search(field, ANGLES, np.full(len(ANGLES), np.inf), 5).poses) == 0
     start = np.array([[2.1, 1.6, 1.05]])
@@ -114,10 +108,8 @@ def test_the_true_pose_is_found(room, seed):
     walls, grid, field = room
     rng = np.random.default_rng(seed)
     truth = np.array([rng.uniform(0.5, 4.5), rng.uniform(0.5, 2.5), rng.uniform(-np.pi, np.pi)])
-    scans = scan_from(walls, grid, truth, seed=seed)
-    found = search.search(field, ANGLES, scans.ranges_m[0], 10)
-    off = [offset(pose, truth) for pose in found.poses]
-    assert min(metres + radians for metres, radians in off) < 0.15
+    found = search.search(field, ANGLES, scan_from(walls, grid, truth, seed=seed).ranges_m[0], 10)
+    assert min(sum(offset(pose, truth)) for pose in found.poses) < 0.15
     assert (np.diff(found.scores) <= 0).all()
     for i, pose in enumerate(found.poses):
         near = np.abs(found.poses[:i, :2] - pose[:2]).max(axis=1, initial=0) < search.APART_M

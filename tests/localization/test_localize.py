@@ -1,7 +1,4 @@
-"""The posterior of a pose is that of enumeration: all modes, stretched where nothing holds it, lost where lost.
-
-Maps of other programs: a law is fitted to the scans that are located, doubts are kept, errors survived.
-"""
+"""Localization: posteriors against enumeration, robots that are lost, fitted laws, and maps of other programs."""
 
 from dataclasses import replace
 
@@ -48,8 +45,7 @@ def test_the_posterior_is_that_of_enumerated_poses():
     assert all(len([mode for mode in one.modes if mode.probability > 0.01]) == 1 for one in found)
     lattice = lattice_about(truth, (0.06, 0.06, 0.06), 41)
     mean, sd = enumerated(here, lattice, scans.ranges_m[0], weight=1.0)
-    off = np.mean([one.mean for one in found], axis=0) - mean
-    np.testing.assert_array_less(np.abs(off) / sd, 0.3)
+    np.testing.assert_array_less(np.abs(np.mean([one.mean for one in found], axis=0) - mean) / sd, 0.3)
     np.testing.assert_allclose(np.sqrt(np.mean([np.diag(one.covariance) for one in found], axis=0)), sd, rtol=0.25)
     assert (enumerated(here, lattice, scans.ranges_m[0], weight=0.5)[1] > 1.2 * sd).all()
 
@@ -114,10 +110,7 @@ def test_scans_of_another_building_are_lost_and_those_of_this_are_not(offices):
 
 
 def test_a_robot_that_looks_past_the_edge_of_the_map_is_found(offices):
-    """Half of a building is known, and a laser near the edge sees mostly the other half.
-
-    The twin's search takes what is unknown for empty, so that any place where all meets some wall looks better.
-    """
+    """Half a building is known. The twin takes the unknown for empty: any place where all meets walls looks better."""
     (here, _), (route, _) = offices
     observed = np.zeros(here.grid.shape, dtype=bool)
     observed[: round(10.0 / here.grid.resolution)] = True
@@ -144,8 +137,7 @@ def test_a_robot_is_followed_by_its_odometry_and_found_again_when_it_was_carried
     raw = compose(np.array([30.0, -4.0, 1.0]), bm.simulate_odometry(path[:25], seed=1))
     # Carried: the odometry has not noticed.
     steps = bm.simulate_odometry(path[25:], seed=2)
-    origin = np.broadcast_to(steps[:1], steps.shape)
-    after = compose(raw[-1], between(origin, steps))
+    after = compose(raw[-1], between(np.broadcast_to(steps[:1], steps.shape), steps))
     followed = bm.Scans(np.concatenate([raw, after]), ROUND, scans.ranges_m, 10.0, stamps_s=np.arange(45.0))
     found = localize(known(here.walls, here.grid, scans), followed)
     errors = np.array([offset(b.mean, pose)[0] for b, pose in zip(found.beliefs, path, strict=True)])
@@ -213,10 +205,7 @@ def test_impossible_localizations_are_refused_and_no_probability_exceeds_one():
 
 @pytest.mark.parametrize("seed", full_but(range(4), 1, 2))
 def test_a_dense_prior_of_unknown_cells_does_not_hide_the_room(seed):
-    """Each draw has walls in one cell of five of a wide margin, as the prior says; the search must not find them.
-
-    A fifth of the readings are of things that are not on the map, so that even the right place does not fit in all.
-    """
+    """A fifth of a wide margin's cells are walls in each draw; a fifth of the readings see things not on the map."""
     inside, small = walls_of(5.0, 3.0)
     laser = replace(LASER, p_random=0.1, p_short=0.1)
     margin = 50
@@ -262,8 +251,7 @@ SHARP_LASER = bm.BeamMixture(bm.Gaussian(0.02), p_random=0.01, p_no_return=0.01,
 def drive(count=48):
     """A round in a room of 6 by 4 m."""
     turn = np.linspace(0.0, 4 * np.pi, count)
-    middle = np.array([3.0, 2.0])
-    at = middle + np.stack([1.6 * np.cos(turn), 0.9 * np.sin(turn)], axis=1)
+    at = np.array([3.0, 2.0]) + np.stack([1.6 * np.cos(turn), 0.9 * np.sin(turn)], axis=1)
     return np.column_stack([at, turn + np.pi / 2])
 
 
@@ -328,10 +316,9 @@ def test_few_scans_fit_no_law_and_maps_without_walls_or_free_cells_are_refused(r
 
 
 def test_a_wrong_prior_is_given_up_when_the_scans_contradict_it():
-    """A hall that is the same from both ends but for a block, and a robot that is said to come from the wrong end.
+    """A hall is alike from both ends but for a block: from the wrong end nine beams in ten fit, nothing looks lost.
 
-    From there all but a tenth of the beams fit, so that it does not look lost. The twin neither searches while it is
-    sure nor gives other places a chance, and stays where it was said to be.
+    The twin neither searches while it is sure nor gives other places a chance, and stays where it was said to be.
     """
     walls, grid = walls_of(6.0, 4.0, alcove=False)
     walls[46:52, 8:13] = True

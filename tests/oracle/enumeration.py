@@ -106,8 +106,7 @@ def enumerate_posterior(scans, grid, p_wall, log_likelihood, coupling=0.0):
     maps = all_maps(n)
     log_joint = log_prior_of_all(grid.shape, p_wall, coupling)
     starts, angles = beams(scans.poses, scans.angles_rad, grid)
-    metres = touches(starts, angles, grid.shape) * grid.resolution
-    for z, to_cell in zip(scans.ranges_m.ravel(), metres, strict=True):
+    for z, to_cell in zip(scans.ranges_m.ravel(), touches(starts, angles, grid.shape) * grid.resolution, strict=True):
         if np.isnan(z):
             continue
         first = np.full(len(maps), n)  # the cell that a map's beam meets first, n for none
@@ -137,8 +136,7 @@ def update_sites(p, log_joint, n, cells):
     others = states[(states & mask) == 0]
     group = np.stack([others | pattern for pattern in patterns])  # (patterns, 2^(n - cells))
     # A group without any possible state is never entered: what stands there does not matter.
-    top = np.maximum(log_joint[group].max(axis=0), -1e300)
-    weights = np.exp(log_joint[group] - top)
+    weights = np.exp(log_joint[group] - np.maximum(log_joint[group].max(axis=0), -1e300))
     total = weights.sum(axis=0)
     conditional = weights / np.where(total == 0, 1.0, total)
     after = np.zeros_like(p)
@@ -160,8 +158,7 @@ def radial(shape, poses, grid):
 def single_sites(shape, order, poses, grid):
     cells = [(x, y) for x in range(shape[0]) for y in range(shape[1])]
     if order == "radial":
-        away = radial(shape, poses, grid)
-        cells = sorted(cells, key=away.__getitem__)  # sorted() is stable
+        cells = sorted(cells, key=radial(shape, poses, grid).__getitem__)  # sorted() is stable
     return [[x * shape[1] + y] for x, y in cells]
 
 
@@ -170,8 +167,7 @@ def block_sites(shape, order, poses, grid):
     nx, ny = shape
     corners = [(x, y) for x in range(max(1, nx - 1)) for y in range(max(1, ny - 1))]
     if order == "radial":
-        away = radial(shape, poses, grid)
-        corners = sorted(corners, key=away.__getitem__)
+        corners = sorted(corners, key=radial(shape, poses, grid).__getitem__)
     return [
         [(x + dx) * ny + y + dy for dx in (0, 1) for dy in (0, 1) if x + dx < nx and y + dy < ny] for x, y in corners
     ]

@@ -53,10 +53,7 @@ def covariances(states):
 
 
 def cross_surface(states, start, direction):
-    """Chance of meeting the surface; mean and variance of where, of a point of it given that it lies on the beam.
-
-    On the beam, or off it by what the direction may be wrong by: the surface is widened across the beam.
-    """
+    """Chance of meeting the surface, widened across the beam by the direction's error; mean and variance of where."""
     mean, sigma = states[..., 1:3] - start, covariances(states)
     normal = np.stack([-direction[..., 1], direction[..., 0]], -1)
     offset = (mean * normal).sum(-1)
@@ -126,8 +123,7 @@ def joint(paths, states, sensor, plain, beta=1.0):
     stopped, distance, variance = stops(paths, states, plain)
     z = paths.range_m[:, None]
     law = reading_law(z, distance, variance, sensor, paths.limits)
-    floor = sensor.p_random / (paths.limits.max_m - paths.limits.min_m)
-    law = np.where(paths.far & np.isfinite(z), floor, law)
+    law = np.where(paths.far & np.isfinite(z), sensor.p_random / (paths.limits.max_m - paths.limits.min_m), law)
     nowhere = reading_law(z, np.inf, 0.0, sensor, paths.limits)
     nowhere = np.broadcast_to(nowhere, (*law.shape[:-1], 1))
     return stop_probabilities(stopped) * np.concatenate([law, nowhere], axis=-1) ** beta
@@ -148,8 +144,7 @@ def draw_states(rng, prior, centres, count=(), *, anywhere=False):
     states = np.zeros((*shape, 6))
     states[..., 0] = rng.beta(prior.a, prior.b, shape)
     if hasattr(prior, "dof"):
-        size = int(np.prod(shape))
-        sigma = draw_covariances(rng, prior, size) * edge**2
+        sigma = draw_covariances(rng, prior, int(np.prod(shape))) * edge**2
         factor = np.linalg.cholesky(np.reshape(sigma, (*shape, 2, 2)))
         away = prior.mean_scale * rng.standard_normal((*shape, 2))
         while not anywhere and (outside := abs(away) > 0.5).any():  # a mean lies in its own cell
@@ -253,8 +248,7 @@ def ways_to_stop(paths, cells, sensor, beta=1.0):
         if np.isnan(z):
             continue
         crossed = paths.cell[b][paths.there[b]]
-        distance = np.append(paths.plain_m[b][paths.there[b]], np.inf)
-        law = reading_law(z, distance, 0.0, sensor, paths.limits)
+        law = reading_law(z, np.append(paths.plain_m[b][paths.there[b]], np.inf), 0.0, sensor, paths.limits)
         if np.isfinite(z):
             floor = sensor.p_random / (paths.limits.max_m - paths.limits.min_m)
             law[:-1] = np.where(paths.far[b][paths.there[b]], floor, law[:-1])
@@ -294,5 +288,4 @@ def exact_labels(paths, shape, prior, sensor, beta=1.0):
     log_weight += log_prior_of_all(shape, 0.5, prior.coupling)[:, None]
     weight = np.exp(log_weight - log_weight.max())
     weight /= weight.sum()
-    mixture = BetaMixture(weight.ravel(), a.reshape(-1, cells), b.reshape(-1, cells))
-    return mixture, weight.sum(axis=1)
+    return BetaMixture(weight.ravel(), a.reshape(-1, cells), b.reshape(-1, cells)), weight.sum(axis=1)

@@ -1,7 +1,4 @@
-"""Little worlds whose cells stop some beams, many side by side: one sweep moves them all, and each is a chain.
-
-A world is a small grid; world w stands at block (w % side, w // side) of one large grid.
-"""
+"""Little worlds whose cells stop some beams, world w at block (w % side, w // side) of one grid; each is a chain."""
 
 import math
 from dataclasses import dataclass, replace
@@ -38,10 +35,7 @@ def corners(shape, worlds, gap):
 
 
 def side_by_side(rays, worlds):
-    """Rays of ``worlds`` times as many scans on a small grid, as rays on one large grid with a block for each world.
-
-    Blocks lie so far apart that no reading ends in another's.
-    """
+    """Rays of ``worlds`` times as many scans, on one grid of blocks so far apart that no reading ends in another's."""
     nx, ny = rays.grid.shape
     corner, shape = corners((nx, ny), worlds, math.ceil(rays.limits.max_m / rays.grid.resolution) + 1)
     x, y = corner[:, :1] + np.arange(nx * ny) // ny, corner[:, 1:] + np.arange(nx * ny) % ny
@@ -81,7 +75,6 @@ class Chain:
 
     @property
     def arrays(self):
-        """The chain's state on the device."""
         return self.state.chains._state
 
 
@@ -147,9 +140,7 @@ def centres_of(rays):
 
 
 def draw_worlds(seed, grid, prior, sensor, worlds, *, poses=2, beams=5, limits=(0.1, 3.0), invalid=0.03):
-    """Worlds with cells from the prior, poses about the cells that look at them, and readings from the
-    oracle: (worlds, true states (T, 6)).
-    """
+    """Worlds with cells from the prior, poses about them, and the oracle's readings: (worlds, true states (T, 6))."""
     rng = np.random.default_rng(seed)
     size = np.array(grid.shape) * grid.resolution
     xy = np.array(grid.origin) + rng.uniform(-0.4, 1.4, (worlds * poses, 2)) * size

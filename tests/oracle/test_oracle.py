@@ -1,7 +1,4 @@
-"""The oracle against answers worked out by hand, definitions, quadrature and its own draws.
-
-False alarms: `ALPHA` = 1e-4 over this module.
-"""
+"""The oracle against answers by hand, definitions, quadrature and its own draws; false alarms: `ALPHA` = 1e-4."""
 
 import numpy as np
 import pytest
@@ -44,8 +41,7 @@ def test_one_beam_on_two_cells_is_enumerated_as_by_hand():
 
 
 def test_updates_keep_the_posterior_and_reach_it():
-    rng = np.random.default_rng(2)
-    log_joint = rng.normal(size=64)
+    log_joint = np.random.default_rng(2).normal(size=64)
     p = np.exp(log_joint) / np.exp(log_joint).sum()
     np.testing.assert_allclose(update_sites(p, log_joint, 6, [1, 4]), p, rtol=1e-12)
     start = np.eye(64)[7]
@@ -58,8 +54,7 @@ def test_the_verdict_passes_right_draws_as_often_as_it_says():
     rng = np.random.default_rng(3)
     p = rng.dirichlet(np.full(16, 0.4))
     maps = all_maps(4)
-    small = sum(least_p_value(maps[rng.choice(16, 2000, p=p)], p) < 0.01 for _ in range(400))
-    assert small <= 12
+    assert sum(least_p_value(maps[rng.choice(16, 2000, p=p)], p) < 0.01 for _ in range(400)) <= 12
     fits = [goodness_of_fit(np.bincount(rng.choice(16, 2000, p=p), minlength=16), p) for _ in range(400)]
     assert 0.4 < np.mean(fits) < 0.6
 
@@ -70,8 +65,7 @@ def test_the_verdict_rejects_a_law_that_is_a_little_off():
     p = np.exp(log_joint) / np.exp(log_joint).sum()
     maps = all_maps(4)
     tilted = p * np.exp(0.1 * maps[:, 2])
-    draws = maps[rng.choice(16, 40_000, p=tilted / tilted.sum())]
-    assert least_p_value(draws, p) < ALPHA
+    assert least_p_value(maps[rng.choice(16, 40_000, p=tilted / tilted.sum())], p) < ALPHA
 
 
 SENSOR = bm.BeamMixture(bm.Gaussian(0.06, 0.02), p_random=0.08, p_no_return=0.15, p_short=0.2, rate_short_per_m=0.7)
@@ -172,8 +166,7 @@ def test_the_enumeration_of_stops_equals_quadrature_over_reflectivities(prior):
         beams = np.arange(w * scans, (w + 1) * scans)
         path = paths_of(rays)
         mine = Paths(*(part[beams] for part in path[:-1]), path.limits)
-        cells = worlds.cells()[w]
-        mine = mine._replace(cell=np.where(mine.there, np.searchsorted(cells, mine.cell), 0))
+        mine = mine._replace(cell=np.where(mine.there, np.searchsorted(worlds.cells()[w], mine.cell), 0))
         exact = exact_reflectivities(mine, 4, prior, SENSOR)
         nodes, weights = scipy.special.roots_jacobi(8, prior.b - 1, prior.a - 1)
         m = np.stack(np.meshgrid(*[(nodes + 1) / 2] * 4, indexing="ij"), axis=-1).reshape(-1, 4)

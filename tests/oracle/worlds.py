@@ -28,8 +28,7 @@ class Case:
         return self.grid.n_cells
 
     def problem(self):
-        table = trace(self.scans, self.grid, self.sensor)
-        return WallProblem(table=table, prior=self.prior, poses=self.scans.poses)
+        return WallProblem(table=trace(self.scans, self.grid, self.sensor), prior=self.prior, poses=self.scans.poses)
 
 
 def scorer(sensor, limits):
@@ -48,8 +47,7 @@ def random_prior(rng, kind, shape):
     p = rng.uniform(0.05, 0.95, shape)
     flat = p.ravel()
     if flat.size > 3:
-        fixed = rng.choice(flat.size, 3, replace=False)
-        flat[fixed] = [0.0, 1.0, 0.0]
+        flat[rng.choice(flat.size, 3, replace=False)] = [0.0, 1.0, 0.0]
     return p
 
 

@@ -42,13 +42,11 @@ def path_around(laps=1.2, step_m=0.15, width_m=9.0, depth_m=7.0, corridor_m=2.0)
 
 
 def scans_of(walls, poses, beams=180, noise_m=0.01, seed=0, max_range_m=12.0, full=False):
-    """Scans of a laser at true poses."""
     rng = np.random.default_rng(seed)
     step, first = (2 * np.pi / beams, -np.pi) if full else (np.pi / beams, -np.pi / 2)
     angles = first + step * np.arange(beams)
     starts = np.repeat(poses[:, :2], beams, axis=0) / RESOLUTION
-    directions = (poses[:, 2:3] + angles).ravel()
-    distance, _ = cast_beams(walls, starts, directions, max_range_m / RESOLUTION)
+    distance, _ = cast_beams(walls, starts, (poses[:, 2:3] + angles).ravel(), max_range_m / RESOLUTION)
     ranges = distance.reshape(len(poses), beams) * RESOLUTION
     ranges = np.where(ranges < max_range_m - 0.01, ranges + noise_m * rng.normal(size=ranges.shape), np.inf)
     return angles, ranges

@@ -1,7 +1,4 @@
-"""Scans that contradict those before them: passed over, or the path breaks and its parts are put together again.
-
-Steps that odometry refutes are named unless the scans confirm them, and few points refute nothing.
-"""
+"""Scans that contradict those before are passed over, or break the path until it is joined; refuted steps are named."""
 
 from dataclasses import replace
 from functools import cache
@@ -131,8 +128,7 @@ def test_a_trajectory_from_coarse_stamps_is_as_good_as_without_stamps(kind):
     """Scans 1.5 m apart, at 2.5 m/s: with a time of nothing in between, no robot could have made such a step."""
     recorded, driven = uneven_recording()
     sparse, truth = recorded.select(slice(None, None, 10)), driven[::10]
-    times = 1.7e9 + 0.6 * np.arange(len(sparse))
-    found = infer_trajectory(replace(sparse, stamps_s=COARSE[kind](times)), threads=1)
+    found = infer_trajectory(replace(sparse, stamps_s=COARSE[kind](1.7e9 + 0.6 * np.arange(len(sparse)))), threads=1)
     assert len(found.breaks) == 0
     without = infer_trajectory(replace(sparse, stamps_s=None), threads=1)
     assert worst_m(found.poses, truth) < 1.5 * worst_m(without.poses, truth) + 0.01
@@ -266,8 +262,7 @@ def test_few_points_do_not_refute_odometry(points, found):
     scans, truth = recording(0.35)
     ranges = scans.ranges_m.copy()
     if points is not None:
-        rest = np.setdiff1d(np.arange(ranges.shape[1]), np.arange(60, 60 + points))
-        ranges[12, rest] = np.inf
+        ranges[12, np.setdiff1d(np.arange(ranges.shape[1]), np.arange(60, 60 + points))] = np.inf
     geometry = scan_geometry(replace(scans, ranges_m=ranges), threads=1)
     keys = np.arange(10)[::-1]
     grid = likelihood_grids(geometry, [keys], [truth[keys]], truth[9, :2], grid_half_width(geometry))

@@ -1,8 +1,4 @@
-"""Pose graphs, sparse against dense, with loops that are wrong, and priors of poses, which are densities.
-
-Covariances hold what pairs of scans have wrong in common, and the arcs of a lost heading; scans that nothing explains
-are flagged. What samplers need of a prior follows from its density.
-"""
+"""Pose graphs, sparse against dense; wrong loops, covariances, scans that nothing explains, and priors of poses."""
 
 from dataclasses import replace
 from itertools import product
@@ -133,22 +129,19 @@ def squares(truth, gaussian):
     """Squared errors of relative poses over metres by their scale matrices, as multiples of what is expected."""
     first, second = np.arange(0, POSES - 32, 7), np.arange(32, POSES, 7)
     off = between(gaussian.poses[first], gaussian.poses[second]) - between(truth[first], truth[second])
-    scale = gaussian.relative_covariances(first, second)
-    return np.einsum("mi,mij,mj->m", off, np.linalg.inv(scale), off) / 3.0
+    return np.einsum("mi,mij,mj->m", off, np.linalg.inv(gaussian.relative_covariances(first, second)), off) / 3.0
 
 
 @pytest.mark.full
 @pytest.mark.parametrize(("in_common", "low", "high"), [(True, 0.5, 2.0), (False, 0.5, 1.2)])
 def test_covariances_have_the_size_of_errors(in_common, low, high):
     """Means over 40 alignments; by their spread over seeds a false alarm has a chance under 1 in 10 000."""
-    means = [squares(*aligned(seed, in_common=in_common)).mean() for seed in range(40)]
-    assert low < np.mean(means) < high
+    assert low < np.mean([squares(*aligned(seed, in_common=in_common)).mean() for seed in range(40)]) < high
 
 
 def test_covariances_without_shared_errors_are_far_too_small():
     found = [aligned(seed, in_common=True) for seed in range(10)]
-    alone = [squares(truth, replace(g, force=np.zeros_like(g.force))).mean() for truth, g in found]
-    assert np.mean(alone) > 4.0
+    assert np.mean([squares(truth, replace(g, force=np.zeros_like(g.force))).mean() for truth, g in found]) > 4.0
 
 
 def test_bends_move_relative_poses_as_they_move_poses_and_without_forces_there_are_none():
@@ -204,25 +197,20 @@ def test_covariances_hold_the_arc_on_which_a_lost_heading_puts_the_end_of_a_way(
 
 
 def test_a_scan_is_explained_by_several_key_scans_together_and_scans_of_nothing_are_flagged():
-    """Two key scans see half of a scan's walls each: the mean of their shares was one half, and the scan was flagged.
-
-    The last scan was taken elsewhere: neither explains it.
-    """
+    """Two key scans see half of a scan's walls each: their mean would flag it. The last scan was taken elsewhere."""
     poses = np.tile([1.0, 1.0, 0.4], (4, 1))
     angles, ranges = scans_of(ring(), poses, full=True)
     ranges[0, :90], ranges[2, 90:] = np.inf, np.inf
     ranges[3] = scans_of(ring(), np.array([[8.0, 3.5, 2.0]]), full=True)[1]
     geometry = scan_geometry(bm.Scans(poses, angles, ranges, max_range_m=12.0))
     keys, ends = np.array([0, 2]), np.array([0, 1], np.int32)
-    pairs = Pairs(ends, ends[::-1], np.arange(3, dtype=np.int32))
-    aligned = Alignment(poses[keys], pairs, 0.01, None, np.ones(2))
+    aligned = Alignment(poses[keys], Pairs(ends, ends[::-1], np.arange(3, dtype=np.int32)), 0.01, None, np.ones(2))
     placed = place_scans(geometry, poses, keys, aligned, PointError(0.01, np.ones(3)))
     assert placed.explained[1] > 0.75
     assert placed.explained[3] < 0.4
     explained = np.where(np.arange(60) % 3 == 0, 0.95, 0.0)
     explained[30] = 0.3
-    flagged = flag_unexplained(explained, np.arange(0, 60, 2))
-    np.testing.assert_array_equal(flagged, explained < 0.5)
+    np.testing.assert_array_equal(flag_unexplained(explained, np.arange(0, 60, 2)), explained < 0.5)
 
 
 def trajectory(seed, scans=6):
@@ -286,8 +274,7 @@ def test_the_density_of_a_motion_integrates_to_one():
     axes = [np.linspace(-6 * s, 6 * s, 61) for s in (sigma[0], sigma[0], sigma[2])]
     x, y, yaw = np.meshgrid(*axes, indexing="ij")
     second = log[1] + np.stack([x, y, yaw], axis=-1)
-    poses = np.stack([np.broadcast_to(log[0], second.shape), second], axis=-2)
-    total = np.exp(law.log_prob(poses))
+    total = np.exp(law.log_prob(np.stack([np.broadcast_to(log[0], second.shape), second], axis=-2)))
     for axis in reversed(axes):
         total = scipy.integrate.trapezoid(total, axis)
     assert total == pytest.approx(1.0, abs=1e-4)

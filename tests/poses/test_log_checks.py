@@ -114,8 +114,7 @@ def test_late_poses_are_spread_over_the_scans_that_moved_but_a_robot_that_stood_
     held = late(stated, at)
     _, index = np.unique(held, axis=0, return_index=True)
     first = np.sort(index)[np.searchsorted(np.sort(index), np.arange(len(held)), side="right") - 1]
-    noisy = np.random.default_rng(2).normal(0.0, 0.01, ranges.shape)
-    stood = scans_at(held, angles, ranges[first] + noisy)
+    stood = scans_at(held, angles, ranges[first] + np.random.default_rng(2).normal(0.0, 0.01, ranges.shape))
     np.testing.assert_array_equal(log_checks.correct_late_odometry(stood, scan_geometry(stood)), held)
     # A public log counted a turn twice: by its scans, and by odometry when it came.
     found = infer_trajectory(scans_at(held, angles, ranges), threads=1)
@@ -124,7 +123,6 @@ def test_late_poses_are_spread_over_the_scans_that_moved_but_a_robot_that_stood_
 
 
 def test_raw_odometry_is_told_from_true_poses_but_by_few_scans_or_no_hits():
-    """On a robot's round through a building."""
     made, sensor = bm.worlds.building(3, (20.0, 12.0), 0.1), bm.Gaussian(0.01)
     poses, angles = bm.worlds.patrol(made, 200, 3), np.radians(np.arange(180) - 90.0)
     options = {"sensor": sensor, "max_range_m": 15.0, "typed": True, "seed": 1}
@@ -180,27 +178,21 @@ def test_the_noise_is_found_whether_wheels_slip_or_not(slips):
 
 
 def test_the_noise_is_found_where_the_laser_is_blind_or_tells_not_much_more_than_odometry():
-    """The motion found by a blind laser is the one stated: an error of nought that was never measured.
-
-    Then motions are found by a laser half as noisy as odometry that is ten times as noisy as usual. A motion that both
-    found errs less than the laser alone, and differs from odometry by less than odometry errs.
-    """
+    """A blind laser measures no error; a motion that both found differs from odometry by less than odometry errs."""
     features = features_of_motions(600, 4)
     errors = errors_of(MotionNoise(RATES), features, 5)
     blind = np.arange(600) % 2 == 0
     errors[blind] = 0.0
     variance = np.where(blind[:, None], 1.0, 1e-8) * np.ones(3)
     found, seen = fit_noise(errors, features, variance), ~blind
-    alone = fit_noise(errors[seen], features[seen], variance[seen])
-    np.testing.assert_allclose(found.rates, alone.rates, rtol=1e-6)
+    np.testing.assert_allclose(found.rates, fit_noise(errors[seen], features[seen], variance[seen]).rates, rtol=1e-6)
     np.testing.assert_array_equal(fit_noise(errors, features, np.ones((600, 3))).rates, USUAL)
     features = features_of_motions(1500, 8)
     noise = MotionNoise(100.0 * USUAL)
     errors, variance = errors_of(noise, features, 9), features @ noise.rates.T
     laser = np.sqrt(0.25 * variance) * np.random.default_rng(10).normal(size=variance.shape)
     left, known = (errors - laser) * 0.8, 0.2 * variance  # of stated less found, and of what was found
-    rates = fit_noise(left, features, known, variance).rates
-    ratio = (features @ rates.T).mean(axis=0) / variance.mean(axis=0)
+    ratio = (features @ fit_noise(left, features, known, variance).rates.T).mean(axis=0) / variance.mean(axis=0)
     assert (np.abs(ratio - 1.0) < 0.25).all()
     blind = fit_noise(np.zeros((1500, 3)), features, variance, variance)
     np.testing.assert_allclose((features @ blind.rates.T).sum(axis=0), variance.sum(axis=0))
@@ -268,8 +260,7 @@ def test_angles_that_are_stated_wrong_are_found_and_noise_is_not_taken_for_them(
     Where ranges scatter by a percent and more, the lowest residual lies anywhere. The twin: it is believed.
     """
     (noise, seed), (scans, truth) = case, recording(laser_noise_m=0.01)
-    stated = replace(scans, angles_rad=scans.angles_rad * 1.008)
-    assert ratio(stated, truth) == pytest.approx(1.0 / 1.008, abs=0.0025)
+    assert ratio(replace(scans, angles_rad=scans.angles_rad * 1.008), truth) == pytest.approx(1.0 / 1.008, abs=0.0025)
     error = noise * np.random.default_rng(seed).standard_normal(scans.ranges_m.shape)
     noisy = replace(scans, ranges_m=np.asarray(scans.ranges_m * (1.0 + error)))
     assert ratio(noisy, truth) == 1.0

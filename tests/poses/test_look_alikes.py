@@ -100,8 +100,7 @@ def test_closures_of_one_visit_that_contradict_each_other_are_two():
     loops = closed(chain, poses, [0.0, 0.0, 0.0], rng)[0]
     relative = loops.relative.copy()
     relative[3:] += [1.0, 0.0, 0.0]
-    both = Factors(loops.first, loops.second, relative, loops.information)
-    label = visits_of(both, TRUTH, ALONG)
+    label = visits_of(Factors(loops.first, loops.second, relative, loops.information), TRUTH, ALONG)
     assert label[0] == label[1] == label[2] != label[3] == label[4]
 
 
@@ -148,9 +147,7 @@ def recorded(seed):
 @pytest.mark.full
 @pytest.mark.parametrize("seed", [3, 15, 19])
 def test_rooms_in_a_row_that_look_alike_are_distinguished(seed):
-    """Odometry's heading is off by much: closures between neighbouring rooms lay within a window as wide as the way is
-    uncertain along it, and put the end of the way 2.8 m off.
-    """
+    """Odometry's heading is off by much: closures between neighbouring rooms once put the end of the way 2.8 m off."""
     scans, truth = recorded(seed)
     found = infer_trajectory(scans)
     assert worst_m(found.poses, truth) < 0.1

@@ -50,13 +50,11 @@ POSES = np.array([[0.0, 0.0, 0.0], [0.3, -0.2, 0.5], [-0.5, 0.4, -1.0]])
 
 @cache
 def notched_geometry():
-    """Return the points of three scans of a room with a notch."""
     return scan_geometry(room(POSES, notch=0.8, noise_m=0.01))
 
 
 @cache
 def notched_grids():
-    """Return the likelihood grid of the first two scans."""
     return likelihood_grids(notched_geometry(), [[0, 1]], [POSES[:2]], [[0.0, 0.0]], 3.0, levels=4)
 
 
@@ -172,8 +170,7 @@ def test_points_on_a_wall_agree_with_it_between_beams(beams):
     one = np.zeros(1, np.int32)
     seen = Agreement(near_m=0.05, clear_m=0.4, beams=1000)
     for ahead, column in ((0.0, 0), (-0.6, 1)):
-        moved = np.array([[ahead, 0.14, 0.0]])
-        counts = view_counts(geometry, one, one, moved, seen)[0]
+        counts = view_counts(geometry, one, one, np.array([[ahead, 0.14, 0.0]]), seen)[0]
         assert counts[column] > 0.7 * counts[2], counts  # at the wall's ends beams meet nothing
         assert counts[1 - column] == 0, counts
 
@@ -249,8 +246,7 @@ def test_along_a_corridor_there_is_only_slack():
     rng = np.random.default_rng(2)
     angles = np.linspace(-np.pi, np.pi, 360, endpoint=False)
     exact = 1.0 / np.maximum(np.abs(np.sin(angles)), 1e-3)
-    ranges = np.where(exact < 8.0, exact, np.inf)
-    noisy = ranges + 0.01 * rng.normal(size=(40, 360))
+    noisy = np.where(exact < 8.0, exact, np.inf) + 0.01 * rng.normal(size=(40, 360))
     geometry = scan_geometry(bm.Scans(np.zeros((40, 3)), angles, noisy, max_range_m=10.0))
     one, two = np.arange(20, dtype=np.int32), np.arange(20, 40, dtype=np.int32)
     second, slack, first, _ = pair_sums(geometry, None, one, two, np.zeros((20, 3)), 0.1, 0.05, 0.7)

@@ -1,7 +1,4 @@
-"""The laser's noise is found from scans alone, and beams that are close together are merged before they are matched.
-
-Scans whose beams differ from one to the next are matched, and odometry corrected, as equal scans are.
-"""
+"""Scans alone tell the laser's noise; close beams are merged; scans of unlike beams are matched as equal ones are."""
 
 from dataclasses import replace
 
@@ -28,8 +25,7 @@ ANGLES = np.radians(np.arange(-90.0, 90.0, 0.25))
 
 def wall(distance_m, noise_m=0.0, scans=200):
     """Readings of a wall straight ahead, seen at up to 60 degrees."""
-    true = distance_m / np.cos(ANGLES)
-    noisy = true + noise_m * np.random.default_rng(0).normal(size=(scans, len(ANGLES)))
+    noisy = distance_m / np.cos(ANGLES) + noise_m * np.random.default_rng(0).normal(size=(scans, len(ANGLES)))
     return np.where(np.abs(ANGLES) < np.radians(60.0), noisy, np.inf)
 
 
@@ -41,8 +37,7 @@ def test_merged_points_lie_on_the_wall_with_less_noise_and_over_an_edge_on_one_s
     ranges, angles, _ = merged(wall(3.0, 0.02), ANGLES, 0.05, 30.0)
     ahead = np.abs(middles[0]) < np.radians(10.0)
     assert (ranges * np.cos(angles))[:, ahead].std() == pytest.approx(0.01, rel=0.15)  # of four beams each
-    readings = np.tile([2.0, 5.0, 5.0, 5.0], 180)[None]
-    ranges, angles, _ = merged(readings, ANGLES, 0.05, 30.0)
+    ranges, angles, _ = merged(np.tile([2.0, 5.0, 5.0, 5.0], 180)[None], ANGLES, 0.05, 30.0)
     np.testing.assert_allclose(ranges, 5.0)
     np.testing.assert_allclose(angles[0], ANGLES.reshape(180, 4)[:, 1:].mean(axis=1))
 
@@ -66,8 +61,7 @@ def test_the_angle_between_beams_of_a_full_circle_is_their_number_s(monkeypatch)
     pairs = np.array([[i, j] for i in range(len(poses)) for j in range(i) if i - j < 12]).T
     for full in (True, False):
         angles, ranges = scans_of(ring(), poses, full=full)
-        ratio = angle_step_ratio(Scans(poses, angles, ranges, max_range_m=12.0), poses, *pairs)
-        assert (ratio == 1.0) == full
+        assert (angle_step_ratio(Scans(poses, angles, ranges, max_range_m=12.0), poses, *pairs) == 1.0) == full
 
 
 POSES = path_around(laps=1.0)[::2]
@@ -102,8 +96,7 @@ def test_a_noisy_laser_s_trajectory_is_right_and_knows_how_far(monkeypatch):
     scans, truth = recording(noise=2.0, turn_bias=0.03, laser_noise_m=0.03)
 
     def errors():
-        found = infer_trajectory(scans, threads=2)
-        error = off(found.poses, truth)
+        error = off(infer_trajectory(scans, threads=2).poses, truth)
         return np.hypot(error[:, 0], error[:, 1])
 
     right = errors()
@@ -126,8 +119,7 @@ def measured(poses, fans, seed=0, max_range_m=12.0):
 def turning(scans, seed=7):
     """Fans of a laser that turns freely: counts differ, first angles tremble."""
     rng = np.random.default_rng(seed)
-    counts = rng.integers(176, 185, scans)
-    return [(-np.pi + rng.normal(0, 0.01), 2 * np.pi / n, int(n)) for n in counts]
+    return [(-np.pi + rng.normal(0, 0.01), 2 * np.pi / n, int(n)) for n in rng.integers(176, 185, scans)]
 
 
 def alternating(scans):
@@ -206,8 +198,7 @@ def test_a_wrong_angle_between_beams_is_found_in_unlike_scans():
     """The log states 1 % less than the truth, in fans of two layouts."""
     truth = path_around(1.2)
     angles, readings = measured(truth, alternating(len(truth)))
-    stated = [own[0] + (own - own[0]) / 1.01 for own in angles]
-    scans = Scans(odometry_of(truth), *side_by_side(stated, readings), 12.0)
+    scans = Scans(odometry_of(truth), *side_by_side([own[0] + (own - own[0]) / 1.01 for own in angles], readings), 12.0)
     found = infer_trajectory(scans, threads=1)
     assert found.calibration.angle_step_ratio == pytest.approx(1.01, abs=0.002)
     keys = key_scans(scans, found, 1, 0).scans
@@ -220,7 +211,6 @@ def test_a_standing_robot_with_unlike_scans_has_no_frozen_odometry():
     poses = np.tile(path_around(0.3)[5], (30, 1))
     scans = Scans(poses, *side_by_side(*measured(poses, turning(30))), 12.0)
     assert frozen_stretches(scans) == []
-    moving = path_around(0.6)[:60]
-    scans = Scans(poses[:1].repeat(60, axis=0), *side_by_side(*measured(moving, turning(60))), 12.0)
+    scans = Scans(poses[:1].repeat(60, axis=0), *side_by_side(*measured(path_around(0.6)[:60], turning(60))), 12.0)
     assert len(frozen_stretches(scans)) == 1
     assert len(frozen_stretches(replace(scans, ranges_m=np.where(scans.has_beam, 1.0, np.nan)))) == 0

@@ -1,7 +1,4 @@
-"""From raw odometry to a trajectory, end to end, in a small building; the scans that a long log's map is made from.
-
-Public logs from raw odometry, where they are at hand: thresholds leave room for other machines' rounding.
-"""
+"""From raw odometry to a trajectory and a map's scans; thresholds on public logs allow for other machines' rounding."""
 
 from collections import Counter
 from dataclasses import replace
@@ -85,8 +82,7 @@ def test_odometry_that_never_goes_backwards_while_the_robot_does():
     motions[:, 0] = np.abs(motions[:, 0])
     stated = poses_along(np.zeros(3), motions)
     scans = replace(recorded.select(index), poses=stated, stamps_s=np.arange(len(index)) * 0.2)
-    result = infer_trajectory(scans, threads=1)
-    assert worst_m(result.poses, truth) < 0.1
+    assert worst_m(infer_trajectory(scans, threads=1).poses, truth) < 0.1
 
 
 def test_a_scan_that_its_new_place_explains_worse_is_put_back(monkeypatch):
@@ -179,10 +175,8 @@ def test_the_posterior_stretches_along_a_corridor():
     angles = np.linspace(-np.pi, np.pi, 180, endpoint=False)
     exact = 1.0 / np.maximum(np.abs(np.sin(angles)), 1e-3)
     ranges = np.where(exact < 8.0, exact, np.inf) + 0.01 * rng.normal(size=(40, 180))
-    steps = 0.3 + 0.03 * rng.normal(size=40)
-    poses = np.column_stack([np.cumsum(steps), np.zeros(40), np.zeros(40)])
-    scans = bm.Scans(poses, angles, ranges, max_range_m=8.0, stamps_s=np.arange(40.0))
-    result = infer_trajectory(scans, threads=1)
+    poses = np.column_stack([np.cumsum(0.3 + 0.03 * rng.normal(size=40)), np.zeros(40), np.zeros(40)])
+    result = infer_trajectory(bm.Scans(poses, angles, ranges, max_range_m=8.0, stamps_s=np.arange(40.0)), threads=1)
     sigma = np.sqrt(np.diag(result.relative_covariances([5], [30])[0]))
     assert sigma[0] > 5.0 * sigma[1]
     # The laser must not pull the scans together or apart along the walls.
@@ -243,8 +237,7 @@ def test_a_loop_without_truth_closes():
     assert np.hypot(*trajectory.closures.residuals[:, :2].T).max() < 0.2
     assert len(trajectory.leaps) == 0, "two scans of a corridor slide into each other"
     stated = between(scans.poses[0], scans.poses[-1])
-    found = between(trajectory.poses[0], trajectory.poses[-1])
-    assert np.hypot(*(stated - found)[:2]) > 1.0
+    assert np.hypot(*(stated - between(trajectory.poses[0], trajectory.poses[-1]))[:2]) > 1.0
 
 
 def drone_log(name):

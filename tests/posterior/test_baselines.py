@@ -1,7 +1,4 @@
-"""Only scans that a run has not seen may judge it; folds of training scans are each left out once.
-
-Maps of other mappers: computed by hand, and fitted to training scans alone as well as can be.
-"""
+"""Only scans that a run has not seen judge it; folds of training scans; maps of other mappers, by hand and fitted."""
 
 import dataclasses
 
@@ -28,8 +25,7 @@ def log():
 
 
 def test_a_scan_is_known_by_readings_and_pose_or_stamp_and_moved_or_thinned_ones_cannot_judge(log):
-    seen = heldout.seen_by(log.select(slice(2, 5)), log)
-    np.testing.assert_array_equal(np.flatnonzero(seen), [2, 3, 4])
+    np.testing.assert_array_equal(np.flatnonzero(heldout.seen_by(log.select(slice(2, 5)), log)), [2, 3, 4])
     moved = dataclasses.replace(log, poses=log.poses + 1.0)
     assert not heldout.seen_by(log, moved).any()
     assert not heldout.seen_by(log, dataclasses.replace(log, angles_rad=log.angles_rad + 0.1)).any()
@@ -58,10 +54,8 @@ def test_a_scan_is_known_by_readings_and_pose_or_stamp_and_moved_or_thinned_ones
 
 def test_the_held_out_scans_are_those_of_the_protocol_and_another_recording_is_taken_whole(log):
     train, held = log.holdout(5)
-    found = heldout.unseen_scans(train, log, 5, "a.log")
-    np.testing.assert_array_equal(found.ranges_m, held.ranges_m)
-    thinned = train.select(slice(None, None, 2))
-    assert len(heldout.unseen_scans(thinned, log, 5, "a.log")) == len(held)
+    np.testing.assert_array_equal(heldout.unseen_scans(train, log, 5, "a.log").ranges_m, held.ranges_m)
+    assert len(heldout.unseen_scans(train.select(slice(None, None, 2)), log, 5, "a.log")) == len(held)
     other = dataclasses.replace(log, poses=log.poses + 1.0)
     assert heldout.unseen_scans(log, other, 0, "b.log") is other
 
@@ -87,8 +81,7 @@ def test_folds_leave_each_scan_out_of_its_own_counts_and_too_few_scans_are_refus
     assert sum(len(fold.scans) for fold in folds) == len(train)
     for fold in folds:
         own = {pose.tobytes() for pose in fold.scans.poses}
-        others = train.select(np.array([pose.tobytes() not in own for pose in train.poses]))
-        hits, passes = count_hits(others, grid)
+        hits, passes = count_hits(train.select(np.array([pose.tobytes() not in own for pose in train.poses])), grid)
         np.testing.assert_array_equal(fold.hits, hits)
         np.testing.assert_array_equal(fold.passes, passes)
     with pytest.raises(bm.BadInput, match="takes two scans or more"):
@@ -115,8 +108,7 @@ def test_together_they_are_predicted_as_each_alone(room):
     found = log_densities(joined.rays, [of_all], sensor, 0.5, columns=joined.columns)
     np.testing.assert_array_equal(found, np.concatenate(alone))
     swapped = np.concatenate([maps(fold, of) for fold, of in zip(folds, folds[::-1], strict=True)], axis=1)
-    other = log_densities(joined.rays, [swapped], sensor, 0.5, columns=joined.columns)
-    assert (other != found).any()
+    assert (log_densities(joined.rays, [swapped], sensor, 0.5, columns=joined.columns) != found).any()
 
 
 BY_NAME = {b.name: b for b in baselines.BASELINES}
@@ -183,8 +175,7 @@ def test_the_fit_predicts_held_out_scans_about_as_well_as_the_truth_s_own_sensor
     """It predicts better than a coarse sensor, and its map is made from all training scans."""
     grid, train, held, sensor = room
     found = score_prediction(fitted.predictor, held).nats_per_beam
-    own = dataclasses.replace(fitted.predictor, sensor=sensor)
-    assert found > score_prediction(own, held).nats_per_beam - 0.05
+    assert found > score_prediction(dataclasses.replace(fitted.predictor, sensor=sensor), held).nats_per_beam - 0.05
     coarse = dataclasses.replace(fitted.predictor, sensor=bm.BeamMixture(bm.Gaussian(0.3)))
     assert found > score_prediction(coarse, held).nats_per_beam + 0.1
     hits, passes = count_hits(train, grid)
@@ -203,8 +194,7 @@ def seen():
     rng = np.random.default_rng(5)
     poses = np.column_stack([rng.uniform(2.8, 4.0, 40), rng.uniform(1.8, 4.2, 40), rng.uniform(-4, 4, 40)])
     sensor = bm.BeamMixture(bm.Gaussian(0.03, 0.005), 0.02, 0.01, 0.02, 0.5)
-    angles = np.linspace(0, 6.2, 30)
-    scans = bm.simulate(occupancy == 1.0, grid, poses, angles, sensor=sensor, max_range_m=6.0, seed=2)
+    scans = bm.simulate(occupancy == 1.0, grid, poses, np.linspace(0, 6.2, 30), sensor=sensor, max_range_m=6.0, seed=2)
     return occupancy, grid, *scans.holdout(5)
 
 

@@ -40,8 +40,7 @@ def run(request):
 
 
 def test_the_robot_s_path_is_free_one_through_a_wall_is_not_and_a_wider_robot_is_no_likelier_to_pass(run):
-    way = run.posterior.scans.poses[:, :2]
-    free = run.free_probability(way, 0.2)
+    free = run.free_probability(run.posterior.scans.poses[:, :2], 0.2)
     assert free.probability > 0.8
     assert 0 < free.standard_error < 0.2
     assert free.blocked.shape == (2, 30)
@@ -72,20 +71,17 @@ def test_a_plan_keeps_to_its_risk_and_its_ends(run):
     assert (route.path[0].tolist(), route.path[-1].tolist()) == (start, goal)
     assert route.within_risk == (route.free.probability >= 0.7)
     assert route.length_m >= np.hypot(1.0, 2.4) - 1e-9
-    again = run.free_probability(route.path, 0.2)
-    assert again.probability == route.free.probability
+    assert run.free_probability(route.path, 0.2).probability == route.free.probability
 
 
 def test_the_information_of_a_scan_lies_between_bounds_and_is_more_round_the_corner(run):
-    poses = [[0.5, 0.5, 0.0], [2.5, 3.0, 0.0]]
-    told = run.information_gain(poses, ANGLES[::10], draws=30)
+    told = run.information_gain([[0.5, 0.5, 0.0], [2.5, 3.0, 0.0]], ANGLES[::10], draws=30)
     assert told.draws == 30
     assert (told.at_least <= np.log(30) + 1e-9).all()
     assert (told.at_least - 3 * told.at_least_error <= told.at_most + 3 * told.at_most_error).all()
     assert told.independent.shape == (2,)
     assert (told.independent > 0).all()
-    ahead = np.linspace(-0.6, 0.6, 12)
-    told = run.information_gain([[2.8, 2.6, -0.6], [1.6, 0.5, np.pi]], ahead, draws=40)
+    told = run.information_gain([[2.8, 2.6, -0.6], [1.6, 0.5, np.pi]], np.linspace(-0.6, 0.6, 12), draws=40)
     assert told.at_most[0] > told.at_most[1]
     assert told.independent[0] > told.independent[1]
 
@@ -95,8 +91,7 @@ def test_the_best_views_can_be_reached_and_are_the_best(run):
     assert 3 <= len(views.candidates) <= 60
     assert len(views.best) == 3
     assert (np.diff(views.information.at_most) <= 0).all()
-    cells = np.floor(run.grid.to_cells(views.candidates[:, :2])).astype(int)
-    assert run.observed[tuple(cells.T)].all()
+    assert run.observed[tuple(np.floor(run.grid.to_cells(views.candidates[:, :2])).astype(int).T)].all()
     same = next_views(run.posterior, candidates=60, views=3, radius_m=0.2, draws=20)
     assert (same.candidates == views.candidates).all()
 
@@ -131,8 +126,7 @@ FAN_RAD = np.array([-0.4, 0.0, 0.5])
 
 def test_stops_are_drawn_with_the_chances_that_beams_have():
     """Chi-square over the cells in which one beam stops, false-alarm rate 1e-4 for three beams."""
-    rng = np.random.default_rng(0)
-    stop = rng.beta(0.7, 1.0, GRID.n_cells).astype(np.float32)
+    stop = np.random.default_rng(0).beta(0.7, 1.0, GRID.n_cells).astype(np.float32)
     draws = 20_000
     at = np.broadcast_to(POSE[0], (draws, 3))
     maps = device_maps([stop[None]], GRID, 0.0)
@@ -217,8 +211,7 @@ def test_chains_that_differ_by_a_cell_tell_nothing_and_cells_that_change_within_
 
 def test_few_draws_of_an_unknown_map_give_bounds():
     """Eight draws cannot tell more than log 8; that many beams tell more stands in the upper bound."""
-    rng = np.random.default_rng(4)
-    maps = rng.random((400, GRID.n_cells)) < 0.15
+    maps = np.random.default_rng(4).random((400, GRID.n_cells)) < 0.15
     sensor = bm.Gaussian(0.05)
     angles = np.linspace(-np.pi, np.pi, 24, endpoint=False)
     options = {"hit_depth": 0.0}
@@ -293,8 +286,7 @@ def test_no_cell_that_can_touch_the_disc_is_left_out_and_cells_without_surfaces_
     near = routes.distance_to_path_m(routes.centres_world(every, SMALL), BENT) < 0.3 + 2.5 * 0.5
     assert set(every[near]) <= set(cells)
     assert len(cells) < SMALL.n_cells
-    rng = np.random.default_rng(0)
-    stops = rng.choice([0.0, 0.05, 0.2, 1.0], size=(7, len(cells))).astype(np.float32)
+    stops = np.random.default_rng(0).choice([0.0, 0.05, 0.2, 1.0], size=(7, len(cells))).astype(np.float32)
     found = routes.in_the_way([stops[:3], stops[3:]], cells, SMALL, BENT, 0.3)
     near = routes.square_to_path_m(routes.centres_world(cells, SMALL), 0.5, BENT) < 0.3
     assert (found == ((stops > 0.1) & near)).all()
@@ -308,8 +300,7 @@ def test_surfaces_block_where_they_lie_and_not_where_their_cell_is():
     far, near = wall.copy(), wall.copy()
     near[2] = 0.9  # 2.9 in the world: 0.2 from the path
     for surface, radius_m, expected in ((far, 0.3, False), (near, 0.3, True), (near, 0.15, False)):
-        found = routes.in_the_way([surface[None, None]], cells, SMALL, straight, radius_m)
-        assert found.tolist() == [[expected]]
+        assert routes.in_the_way([surface[None, None]], cells, SMALL, straight, radius_m).tolist() == [[expected]]
     draws = np.zeros((1, TWO_ROOMS.n_cells, 6), dtype=np.float32)
     draws[0, 10 * 30 + 10] = [0.9, 2.9, 2.6, 0.02, 0.0, 0.02]  # the cell's own centre is 2.625, 2.625
     blocked = routes.blocked_probability([draws], TWO_ROOMS, 0.2)
@@ -417,8 +408,7 @@ def test_the_safest_path_is_returned_if_all_are_too_risky_and_impossible_plans_a
 def test_a_route_in_an_empty_hall_is_straight_and_goes_round_walls_without_cutting_corners():
     empty = np.zeros((4, TWO_ROOMS.n_cells), dtype=np.float32)
     for seed in range(20):
-        rng = np.random.default_rng(seed)
-        start, goal = rng.uniform([1, 1], [9, 6.5], (2, 2))
+        start, goal = np.random.default_rng(seed).uniform([1, 1], [9, 6.5], (2, 2))
         found = route(empty, 0.01, tuple(start), tuple(goal))
         assert found.length_m <= np.hypot(*(goal - start)) * 1.001 + 1e-6
     grid = bm.Grid((6, 5), 1.0, (-0.5, -0.5))

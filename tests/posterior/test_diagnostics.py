@@ -49,8 +49,7 @@ def test_scalars_have_arviz_s_r_hat_and_effective_sample_sizes(seed, chains, dra
     if chains > 1:  # arviz gives none for one chain, where the halves of that chain could be compared
         assert rhat(values) == pytest.approx(arviz("rhat", values), rel=1e-9)
     assert bulk_ess(values) == pytest.approx(arviz("ess", values, method="bulk"), rel=1e-9)
-    expected = arviz("ess", values, method="tail", prob=(0.05, 0.95))
-    assert tail_ess(values) == pytest.approx(expected, rel=1e-9)
+    assert tail_ess(values) == pytest.approx(arviz("ess", values, method="tail", prob=(0.05, 0.95)), rel=1e-9)
 
 
 def diagnose(walls, among=None):
@@ -105,8 +104,7 @@ def test_cells_can_be_left_out_and_one_chain_is_compared_with_itself():
     values = walls[:, :, 3, 2].astype(float)
     assert alone.rhat_max == pytest.approx(arviz("rhat", values), rel=1e-9)
     assert alone.ess_min == pytest.approx(arviz("ess", values, method="bulk"), rel=1e-9)
-    halves = series(1, 2, 50, "apart")
-    assert rhat(halves.reshape(1, 100)) > 2
+    assert rhat(series(1, 2, 50, "apart").reshape(1, 100)) > 2
     assert rhat(series(1, 1, 1000, "white")) < 1.05
 
 
@@ -119,8 +117,7 @@ def test_too_few_draws_constant_maps_and_a_cell_that_changes_in_the_middle_draw_
     for count in range(4):
         assert count == 0 or np.isnan(summarise_poses(draws(2, count=count)[0]).rhat).all()
         found, values = diagnose(np.zeros((2, count, 3, 3), bool)), np.random.default_rng(1).normal(size=(2, count))
-        numbers = [found.rhat_max, found.ess_min, rhat(values), bulk_ess(values), tail_ess(values)]
-        assert np.isnan(numbers).all()
+        assert np.isnan([found.rhat_max, found.ess_min, rhat(values), bulk_ess(values), tail_ess(values)]).all()
     found = diagnose(np.ones((3, 50, 4, 4), dtype=bool))
     assert (found.unchanged_cells, found.disagreeing_cells) == (16, 0)
     assert np.isnan(found.rhat_max)
@@ -128,8 +125,7 @@ def test_too_few_draws_constant_maps_and_a_cell_that_changes_in_the_middle_draw_
 
 def run_of(method, **options):
     grid, noisy = bm.Grid((4, 3)), bm.Gaussian(2.0)
-    angles = np.linspace(0, 6, 20)
-    scans = bm.simulate(np.eye(4, 3), grid, [2.5, 1.5, 0.0], angles, sensor=noisy, max_range_m=5.0)
+    scans = bm.simulate(np.eye(4, 3), grid, [2.5, 1.5, 0.0], np.linspace(0, 6, 20), sensor=noisy, max_range_m=5.0)
     return infer(scans, grid, prior=bm.Independent(0.3), sensor=noisy, method=method, **options)
 
 
@@ -165,8 +161,7 @@ def draws(seed, chains=4, count=500, yaw=3.1):
 def test_moments_are_those_that_the_draws_come_from_and_chains_that_disagree_have_a_large_r_hat():
     poses, covariance = draws(0)
     found = summarise_poses(poses)
-    turn = (found.mean[0, 2] - 3.1 + np.pi) % (2 * np.pi) - np.pi
-    assert abs(turn) < 0.02
+    assert abs((found.mean[0, 2] - 3.1 + np.pi) % (2 * np.pi) - np.pi) < 0.02
     np.testing.assert_allclose(found.mean[:, :2], [[1.0, 2.0], [-1.0, 0.0]], atol=0.025)
     np.testing.assert_allclose(found.covariance, [covariance, covariance], atol=0.005)
     np.testing.assert_allclose(found.sigma_m**2, np.linalg.eigvalsh(covariance[:2, :2])[1], rtol=0.1)

@@ -1,7 +1,4 @@
-"""Scores of runs on held-out scans: by hand where worlds are small, calibrated where data come from the model itself.
-
-Seeds are fixed; false alarms of the statistical tests: 1e-4 each.
-"""
+"""Scores on held-out scans: by hand in small worlds, calibrated on data of the model; false alarms: 1e-4 each."""
 
 import dataclasses
 import functools
@@ -105,8 +102,7 @@ def test_observed_cells_are_those_that_beams_reach_in_half_of_the_draws():
 def test_the_summary_is_json_names_problems_and_judges_the_map_not_single_cells_or_sums(run):
     summary = run.summary()
     assert summary is run.summary()
-    text = json.dumps(summary.as_json(), allow_nan=False)
-    assert json.loads(text)["finished"] is True
+    assert json.loads(json.dumps(summary.as_json(), allow_nan=False))["finished"] is True
     assert summary.unchanged_cells == (run.draws == run.draws[:1, :1]).all(axis=(0, 1)).sum()
     bad = dataclasses.replace(
         summary, map_error=0.05, precision=0.03, disagreeing_cells=3, judged_cells=100, finished=False,
@@ -193,8 +189,7 @@ def test_a_run_s_nats_are_its_log_score_and_errors_depend_on_the_seed_alone(case
 
 
 def test_scans_that_never_reach_the_map_have_no_events_and_many_draws_are_taken_some_at_a_time(case, deep, monkeypatch):
-    away = bm.Scans([900.0, 900.0, 0.0], [0.0, 1.0], [[1.0, np.inf]], max_range_m=3.0, min_range_m=0.1)
-    found = bm.score(deep, away)
+    found = bm.score(deep, bm.Scans([900.0, 900.0, 0.0], [0.0, 1.0], [[1.0, np.inf]], max_range_m=3.0, min_range_m=0.1))
     assert found.events == 0
     assert np.isnan(found.brier.value)
     assert json.dumps(found.as_json(), allow_nan=False)
@@ -287,8 +282,7 @@ def test_errors_are_those_of_means_over_scans_and_the_test_of_uniformity_respect
     found = scores.ScanBlocks.make(np.repeat(np.arange(200), 50)).mean(np.repeat(of_scan, 50))
     assert found.value == pytest.approx(of_scan.mean())
     assert found.error == pytest.approx(of_scan.std() / np.sqrt(200), rel=0.1)
-    unequal = scores.ScanBlocks.make(np.array([0] * 9 + [1]))
-    assert unequal.mean(np.array([1.0] * 9 + [0.0])).value == pytest.approx(0.9)
+    assert scores.ScanBlocks.make(np.array([0] * 9 + [1])).mean(np.array([1.0] * 9 + [0.0])).value == pytest.approx(0.9)
     single = scores.ScanBlocks.make(np.zeros(5, int))
     assert np.isnan(single.mean(np.arange(5.0)).error)
     distance, p = single.uniformity(np.linspace(0.01, 0.99, 5))

@@ -25,8 +25,7 @@ TRUTH = Relations(FIRST, SECOND, between(POSES[FIRST.astype(int)], POSES[SECOND.
 
 
 def test_the_true_trajectory_has_no_error_and_one_is_what_the_second_pose_is_off_by_in_its_own_frame():
-    moved = compose(np.array([3.0, -1.0, 2.0]), POSES)
-    result = relation_errors(SECONDS, moved, TRUTH)
+    result = relation_errors(SECONDS, compose(np.array([3.0, -1.0, 2.0]), POSES), TRUTH)
     np.testing.assert_allclose(result.errors, 0.0, atol=1e-12)
     assert result.covered.all()
     wrong = POSES.copy()
@@ -60,8 +59,7 @@ def test_times_between_poses_are_interpolated_but_not_across_a_gap_or_outside():
         with pytest.raises(bm.BadInput, match=f"none of the 3 relations within .* {where}.*its poses are 1 s apart"):
             relation_errors(SECONDS, POSES, off, exact=strictly)
     relations = Relations(np.array([0.05, -0.3]), np.array([0.2, 0.1]), np.zeros((2, 3)))
-    straight = np.column_stack([SECONDS, SECONDS * 0, SECONDS * 0])
-    result = relation_errors(0.1 * SECONDS, straight, relations)
+    result = relation_errors(0.1 * SECONDS, np.column_stack([SECONDS, SECONDS * 0, SECONDS * 0]), relations)
     np.testing.assert_allclose(result.errors, [[1.5, 0.0, 0.0]])
     np.testing.assert_array_equal(result.covered, [True, False])
     assert result.summary()["not_covered"] == 1
@@ -109,8 +107,7 @@ def independent_errors(scale=1.0, seed=1):
     rng = np.random.default_rng(seed)
     root = rng.normal(size=(len(STAMPS), 3, 3)) * 0.01
     covariances = root @ np.swapaxes(root, 1, 2)
-    off = scale * np.einsum("sij,sj->si", root, rng.normal(size=(len(STAMPS), 3)))
-    return path() + off, covariances
+    return path() + scale * np.einsum("sij,sj->si", root, rng.normal(size=(len(STAMPS), 3))), covariances
 
 
 def test_regions_of_right_covariances_hold_their_share_and_of_too_small_ones_less():
@@ -143,8 +140,7 @@ def test_regions_of_right_covariances_hold_their_share_and_of_too_small_ones_les
 @pytest.mark.parametrize("count", [12, 60])
 def test_a_region_of_few_draws_holds_its_share_too(count):
     """Truth and draws come from one law: the truth is one more draw. False alarm: 1 run in 3000."""
-    rng = np.random.default_rng(2)
-    every = path() + rng.normal(size=(count + 1, len(STAMPS), 3)) * (0.02, 0.03, 0.002)
+    every = path() + np.random.default_rng(2).normal(size=(count + 1, len(STAMPS), 3)) * (0.02, 0.03, 0.002)
     every[..., 2] = wrap_angle(every[..., 2])
     score = score_trajectory(Trajectory.of_draws(every[1:], STAMPS), relations_of(every[0]))
     assert not score.assumed_independent
@@ -168,9 +164,7 @@ FRAMES = product(["same frame", "another frame"], [1, 7])
 
 @pytest.mark.parametrize(("frame", "gap"), pairs_but(FRAMES, ("another frame", 7)))
 def test_regions_of_the_approximation_hold_their_share(frame, gap):
-    """300 true ways drawn from the approximation; shares within 0.06: over 3.5 standard errors, relations of a way
-    being as dependent as if there were 3 of them. The twin, of two thirds of the spread, is caught.
-    """
+    """300 true ways: 0.06 is 3.5 standard errors if a way is worth 3 relations. The twin: two thirds of the spread."""
     mount, found = LASER_MOUNT if frame == "another frame" else None, round_way()
     shares = {1.0: [], 1.5: []}
     for truth in found.draw(300, seed=5):
@@ -196,8 +190,7 @@ def chains(found, spread, between_chains, count=400, seed=0):
 
 def test_draws_of_chains_are_believed_if_they_have_mixed():
     found = round_way()
-    stuck = SimpleNamespace(trajectory=found, poses=chains(found, 1e-4, 0.02))
-    there = trajectory_of(stuck, None)
+    there = trajectory_of(SimpleNamespace(trajectory=found, poses=chains(found, 1e-4, 0.02)), None)
     assert there.relative is not None
     assert len(there) == len(found)
     np.testing.assert_array_equal(there.covariances, found.covariances())
@@ -219,8 +212,7 @@ def test_a_summary_of_poses_uses_the_approximation_until_chains_mix_in_all_poses
     for between_chains, by_approximation in ((0.02, True), (0.0, False)):
         poses = chains(found, 1e-3, between_chains)
         draws = SimpleNamespace(arrays={"poses": poses}, values=lambda name, poses=poses: poses)
-        run = bm.Run(SimpleNamespace(draws=draws, occupancy=np.zeros(1)), found)
-        summary = run.pose_summary()
+        summary = bm.Run(SimpleNamespace(draws=draws, occupancy=np.zeros(1)), found).pose_summary()
         assert summary.by_approximation is by_approximation
         assert summary.mixed is not by_approximation
         wanted = found.covariances()[found.keys] if by_approximation else summarise_poses(poses).covariance

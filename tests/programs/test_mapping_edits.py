@@ -1,7 +1,4 @@
-"""Edits of cells and of unknown poses: the weight is the change of the joint density, whatever was edited before.
-
-The geometry of unknown poses is that of the kernels.
-"""
+"""The weight of an edit of cells or unknown poses is the change of the joint density, whatever was edited before."""
 
 from functools import cache
 
@@ -254,8 +251,7 @@ def test_the_joint_is_that_of_known_poses_times_their_prior(name):
     known = bm.mapping_model(GRID, poses, ANGLES, bm.Independent(0.2), SENSORS[name], max_range_m=4.0, min_range_m=0.1)
     prior = -0.5 * (((poses - GUESSES) / SIGMA) ** 2 + np.log(2 * np.pi)).sum() - len(poses) * np.log(SIGMA).sum()
     given = C["walls"].set(choices["walls"]) | C["readings"].set(choices["readings"])
-    expected = jax.jit(lambda chm: known.assess(chm, ())[0])(given) + prior
-    np.testing.assert_allclose(joint(choices), expected, rtol=1e-4)
+    np.testing.assert_allclose(joint(choices), jax.jit(lambda chm: known.assess(chm, ())[0])(given) + prior, rtol=1e-4)
 
 
 @pytest.mark.parametrize("name", full_but(list(SENSORS), "mixture"))
@@ -268,8 +264,7 @@ def test_long_chains_of_edits_of_poses_and_cells(name):
         pose = trace.get_choices()["poses"][s] + 0.3 * jr.normal(keys[1], (3,))
         values = jr.uniform(keys[2], (4,)) < 0.5
         requests = (at(s, pose), single(i, j, values[0]), block(i, j, values))
-        edits = [lambda r=r: trace.edit(key, r)[:2] for r in requests]
-        return jax.lax.switch(jr.randint(keys[3], (), 0, 3), edits)
+        return jax.lax.switch(jr.randint(keys[3], (), 0, 3), [lambda r=r: trace.edit(key, r)[:2] for r in requests])
 
     def is_right(inner, choices):
         return (inner.ends == inner.gen_fn.ends(choices["walls"], choices["poses"])).all()

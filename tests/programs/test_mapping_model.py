@@ -111,22 +111,19 @@ def test_simulated_readings_follow_the_sensor(name):
     theirs = SENSORS[name].sample(np.random.default_rng(0), distance, RangeLimits(0.2, 2.5))
     for beam in range(3):
         a, b = ours[:, beam], theirs[:, beam]
-        cuts = [-np.inf, *np.quantile(b[np.isfinite(b)], [0.1, 0.25, 0.5, 0.75, 0.9]), 1e9]
-        for cut in cuts:
+        for cut in [-np.inf, *np.quantile(b[np.isfinite(b)], [0.1, 0.25, 0.5, 0.75, 0.9]), 1e9]:
             p, q = np.mean(a <= cut), np.mean(b <= cut)
             assert abs(p - q) <= 5 * np.sqrt(2 * max(q * (1 - q), 1e-4) / n), (name, beam, cut)
 
 
 @pytest.mark.full
 def test_it_nests_in_a_bigger_model():
-    case = make_case(5, shape=(3, 3))
-    inner = of_case(case)
+    inner = of_case(make_case(5, shape=(3, 3)))
 
     @gen.gen
     def robot():
         walls, readings = inner() @ "map"
-        broken = gen.flip(0.1) @ "broken"
-        return walls, jnp.where(broken, jnp.nan, readings)
+        return walls, jnp.where(gen.flip(0.1) @ "broken", jnp.nan, readings)
 
     trace = jax.jit(robot.simulate)(jr.key(0), ())
     choices = trace.get_choices()

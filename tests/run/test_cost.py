@@ -1,7 +1,4 @@
-"""The cost of a run is estimated before it begins; it ends when the error of the mean map is small enough.
-
-Runs that cannot fit into memory are refused with a remedy. Where chains stop depends on nothing but their draws.
-"""
+"""A run's cost is estimated, too much is refused with a remedy, and it ends when the mean map is known well enough."""
 
 import signal
 from dataclasses import replace
@@ -170,8 +167,7 @@ def error(values):
 @cache
 def sticky_chains():
     """Draw autoregressive chains of standard normal values: each is 0.8 of the one before it, and noise."""
-    rng = np.random.default_rng(4)
-    values = rng.standard_normal((CHAINS, DRAWS, CELLS))
+    values = np.random.default_rng(4).standard_normal((CHAINS, DRAWS, CELLS))
     for i in range(1, DRAWS):
         values[:, i] = STICKY * values[:, i - 1] + np.sqrt(1 - STICKY**2) * values[:, i]
     return values
@@ -195,8 +191,7 @@ def test_the_error_is_that_of_the_mean_of_chains_that_mix_slowly():
 
 def test_chains_that_disagree_or_have_too_few_draws_do_not_know_the_map():
     """Nothing changes within a chain: each alone would be sure."""
-    apart = np.broadcast_to(np.array([0.0, 1.0, 0.0, 1.0])[:, None, None], (4, 50, 10))
-    assert error(apart) > 0.15
+    assert error(np.broadcast_to(np.array([0.0, 1.0, 0.0, 1.0])[:, None, None], (4, 50, 10))) > 0.15
     assert error(np.zeros((4, 50, 10))) == 0.0
     for chains, draws in ((4, 3), (1, 15), (8, 1)):
         assert error(np.zeros((chains, draws, 3))) == float("inf")
@@ -225,8 +220,7 @@ def test_chains_stop_at_the_first_mark_at_which_the_map_is_known_with_the_draws_
     assert run.finished
     assert run.summary().map_error <= 0.04
     assert run.summary().problems() == []
-    before = infer(scans(), GRID, **ASKED | {"draws": marks[at - 1] - 20})
-    assert before.summary().map_error > 0.04
+    assert infer(scans(), GRID, **ASKED | {"draws": marks[at - 1] - 20}).summary().map_error > 0.04
 
     longer = infer(scans(), GRID, **ASKED)
     assert longer.n_draws == 400

@@ -69,8 +69,7 @@ def test_the_draws_are_those_of_threads(cluster, scans, kind):
 def test_chains_stop_where_those_of_threads_do(cluster, scans):
     """They stop at a precision, at marks that groups of chains reach at different times."""
     events = []
-    run = as_threads(scans, "walls", on_progress=events.append, draws=400, precision=0.05)
-    assert run.n_draws < 400
+    assert as_threads(scans, "walls", on_progress=events.append, draws=400, precision=0.05).n_draws < 400
     assert {event.total < 420 for event in events if event.error is not None} == {True}  # the estimated end
 
 
@@ -101,11 +100,7 @@ def test_a_node_that_dies_costs_nothing_but_time(cluster, scans, kind):
 
 @dataclass(frozen=True, eq=False)
 class Deadly(WallGibbs):
-    """Ends the process that samples with it, once: in the middle of what Ray has given it to do.
-
-    Attributes:
-        mark: file that says that it has.
-    """
+    """Ends the process that samples with it, once, in the middle of Ray's task; the file ``mark`` says that it has."""
 
     mark: str = ""
 
@@ -192,8 +187,7 @@ def test_a_checkpoint_does_not_send_all_draws_back(cluster, scans, kind, monkeyp
     monkeypatch.setattr(ray_executor._RayRun, "remote", spied)
     infer(scans, GRID, executor=quick(), **{**SHORT, **KINDS[kind]})
     assert sent
-    counts = {array.shape[1] for draws in sent for array in draws.values()}
-    assert counts == ({8} if kind == "walls" else {0})
+    assert {array.shape[1] for draws in sent for array in draws.values()} == ({8} if kind == "walls" else {0})
 
 
 def test_tasks_that_the_cluster_cannot_run_are_refused(cluster, scans):

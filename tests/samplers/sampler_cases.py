@@ -70,7 +70,6 @@ NAMES = [world.name for world in WORLDS]
 
 @cache
 def case_of(world):
-    """The problem of a world, and everything that the oracle says about it."""
     sensor = bm.BeamMixture(bm.Gaussian(world.noise)) if world.robust else bm.Gaussian(world.noise)
     seed = [COUPLED.index(world), 1925] if world.coupling else [APART.index(world), 77]
     return make_case(
@@ -99,8 +98,7 @@ def run_sweeps(problem, method, order, starts, sweeps, seed, threads=None, beta=
 
 def chains_of(problem, method, order, chains=5, seed=3, schedule=None, start="prior", **options):
     sampler = SAMPLERS[method][0](order, start)
-    job = Job(model_of(problem), sampler, schedule, seed, tuple(range(chains)), problem=problem)
-    return run_chains(job, **options)
+    return run_chains(Job(model_of(problem), sampler, schedule, seed, tuple(range(chains)), problem=problem), **options)
 
 
 def model_of(problem):

@@ -71,8 +71,7 @@ def drawn_map(prior, seed, poses=250, beams=30):
 def test_with_an_unknown_map_the_fit_comes_near_the_truth(prior):
     """7500 beams, of which some thousand say something about each number: a standard error of 3 to 15 %."""
     data, grid = drawn_map(prior, 4)
-    start = replace(prior, a=0.02, b=0.2)
-    problem = trace_stops(data, grid, start, fits.first_sensor(prior, grid.resolution))
+    problem = trace_stops(data, grid, replace(prior, a=0.02, b=0.2), fits.first_sensor(prior, grid.resolution))
     found = fits.fit(problem, 0, 80)
     mine, truth = found.sensor, TRUTH
     for name, tolerance in (("p_random", 0.5), ("p_no_return", 0.5), ("p_short", 0.4), ("rate_short_per_m", 0.6)):
@@ -115,8 +114,7 @@ def test_a_pilot_is_as_long_as_the_warm_up_or_as_it_helps_and_a_given_sensor_and
 
 def test_binary_walls_can_have_a_fitted_sensor():
     model = Model(scans(), GRID, bm.Independent(0.1), TRUTH, hit_depth=0.5)
-    found = fits.fit_sensor(model, "cpu", seed=0, threads=None)
-    assert 0.3 < found.p_random / TRUTH.p_random < 3
+    assert 0.3 < fits.fit_sensor(model, "cpu", seed=0, threads=None).p_random / TRUTH.p_random < 3
     short = bm.Schedule(chains=1, warmup=5, draws=5)
     run = bm.infer(scans(poses=5), GRID, prior=bm.Independent(0.1), sensor="fit", schedule=short)
     assert isinstance(run.posterior.sensor, bm.BeamMixture)
@@ -182,14 +180,12 @@ def test_few_readings_do_not_make_heavy_tails():
     """Normal ones, 60 at a time: a number more has to be worth its while."""
     shapes = [type(fitted(residuals(bm.Gaussian(0.02), seed, count=60))) for seed in range(40)]
     assert shapes.count(bm.StudentT) < 8  # 2 expected; 8 or more are chance less often than once in 10 000 runs
-    heavy = [type(fitted(residuals(bm.StudentT(0.02, 3.0), seed, count=600))) for seed in range(5)]
-    assert heavy == [bm.StudentT] * 5
+    assert [type(fitted(residuals(bm.StudentT(0.02, 3.0), seed, count=600))) for seed in range(5)] == [bm.StudentT] * 5
 
 
 def test_a_part_of_a_step_goes_a_part_of_the_way_leaves_the_shape_and_too_few_readings_change_nothing():
     found = residuals(bm.StudentT(0.01, 3.0, 0.003), 0)
-    whole = fits.refit_noise(bm.StudentT(0.04, 9.0, 0.001), found, 1.0)
-    assert whole.dof == 5.0  # one shape at a time
+    assert fits.refit_noise(bm.StudentT(0.04, 9.0, 0.001), found, 1.0).dof == 5.0  # one shape at a time
     normal, half = fits.refit_noise(FIRST, found, 0.5), fits.refit_noise(FIRST, found, 0.25)
     assert isinstance(normal, bm.Gaussian)
     assert math.log(normal.sigma_m / FIRST.sigma_m) == pytest.approx(2 * math.log(half.sigma_m / FIRST.sigma_m))
@@ -202,8 +198,7 @@ MIXTURE = bm.BeamMixture(bm.Gaussian(0.05))
 @pytest.fixture(scope="module")
 def problem():
     grid = bm.Grid((7, 6), resolution=0.25, origin=(-1.0, 2.0))
-    scans = scans_of_all_kinds(9, grid, poses=30, limits=(0.1, 2.0))
-    return trace_stops(scans, grid, bm.Surface(), MIXTURE)
+    return trace_stops(scans_of_all_kinds(9, grid, poses=30, limits=(0.1, 2.0)), grid, bm.Surface(), MIXTURE)
 
 
 def naive(rays):

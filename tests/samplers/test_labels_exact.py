@@ -99,8 +99,7 @@ def test_labels_and_reflectivities_follow_the_exact_posterior(name):
     assert least(drawn(name), exact(name)) > ALPHA / TESTS
     if name in SEEN:
         shape, _, prior = CASES[name]
-        rays = trace_stops(scans_of(name), bm.Grid(shape, EDGE), prior, sensor(0.1)).rays
-        assert len(rays.touched) == SEEN[name] < 6
+        assert len(trace_stops(scans_of(name), bm.Grid(shape, EDGE), prior, sensor(0.1)).rays.touched) == SEEN[name] < 6
 
 
 COUPLED = ["a row", "a square", "some that no beam touches", "strongly coupled"]
@@ -152,8 +151,7 @@ SURFACES = {
 def coordinates(states, solid):
     """Surfaces in edges, and labels, (..., 2 * 7): 0 to 0.5 and 1 to 1.5, at random, since ranks shall have no ties."""
     centres, rng = np.array([[0.5, 0.5], [1.5, 0.5]]) * EDGE, np.random.default_rng(len(solid))
-    spread = solid + 0.5 * rng.random(solid.shape)
-    return np.concatenate([surface_coordinates(states, centres, EDGE), spread], axis=-1)
+    return np.concatenate([surface_coordinates(states, centres, EDGE), solid + 0.5 * rng.random(solid.shape)], axis=-1)
 
 
 @cache
@@ -161,8 +159,7 @@ def surfaces_by_importance(name):
     """Draws of the prior of two cells, and the logarithms of their likelihoods."""
     scans, prior = SURFACES[name]
     rng, count, grid = np.random.default_rng(31), 150_000, bm.Grid((2, 1), EDGE)
-    of_labels = np.exp(log_prior_of_all((2, 1), 0.5, prior.coupling))
-    solid = all_maps(2)[rng.choice(4, size=count, p=of_labels)]
+    solid = all_maps(2)[rng.choice(4, size=count, p=np.exp(log_prior_of_all((2, 1), 0.5, prior.coupling)))]
     states = draw_states(rng, prior, (grid.centers_from_corner_m(np.arange(2)), EDGE), (count,))
     states[..., 0] = rng.beta(*prior.beta_given(solid))
     paths = paths_of(build_worlds(scans, grid, prior, BLUNT, 1).problem.rays)

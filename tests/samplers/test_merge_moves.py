@@ -98,13 +98,10 @@ def test_a_lengthened_surface_keeps_its_line_and_its_square_and_reaches_the_read
     few, by = np.array([flat(3, 5)]), np.array([flat(4, 5)])
     x, y, l11, l21, l22 = moves.lengthen(cells, found, axes, few, by, GRID)[0]
     assert abs(np.array([x - 0.45, y - 0.55])).max() <= 0.05
-    off = -np.sin(angle) * (x - 0.45) + np.cos(angle) * (y - 0.55)
-    assert off == pytest.approx(0, abs=1e-7)
-    covariance = np.array([[l11, 0], [l21, l22]]) @ np.array([[l11, l21], [0, l22]])
-    across, along = np.linalg.eigvalsh(covariance)
+    assert -np.sin(angle) * (x - 0.45) + np.cos(angle) * (y - 0.55) == pytest.approx(0, abs=1e-7)
+    across, along = np.linalg.eigvalsh(np.array([[l11, 0], [l21, l22]]) @ np.array([[l11, l21], [0, l22]]))
     assert across == pytest.approx(0.004**2, rel=1e-3)
-    both = points[:13]
-    scatter = (((both - [x, y]) @ [np.cos(angle), np.sin(angle)]) ** 2).mean()
+    scatter = (((points[:13] - [x, y]) @ [np.cos(angle), np.sin(angle)]) ** 2).mean()
     assert along == pytest.approx(max(0.03**2, 1.5**2 * scatter), rel=1e-3)
     assert along > 0.03**2
 

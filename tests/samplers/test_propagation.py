@@ -60,12 +60,9 @@ def problem_of(scans, grid, sensor, prior):
 @pytest.mark.parametrize("damping", [0.0, 0.3, 0.5, 0.9])
 @pytest.mark.parametrize("seed", range(6))
 def test_messages_are_sums_over_all_configurations_of_a_beam(seed, damping):
-    """Round by round on 4 x 4 cells and one to three scans, some of them robust; readings wide enough that no
-    message meets the limit of 10^6 on its ratio (which the next test tries).
-    """
+    """4 x 4 cells, one to three scans, some robust; readings so wide that no message meets its limit of 10^6."""
     sensor = bm.BeamMixture(bm.Gaussian(0.3)) if seed % 2 else bm.Gaussian(0.8)
-    case = make_case([seed, 5], n_poses=1 + seed % 3, prior=(0.05, 0.3, 0.5)[seed % 3], sensor=sensor)
-    problem = case.problem()
+    problem = make_case([seed, 5], n_poses=1 + seed % 3, prior=(0.05, 0.3, 0.5)[seed % 3], sensor=sensor).problem()
     expected, messages = plain_rounds(problem.table, problem.p_wall, 6, damping)
     assert abs(messages).max() < np.log(1e6)
     beliefs = Beliefs(problem.table, problem.logit, "cpu")
@@ -160,8 +157,7 @@ def test_the_report_says_how_far_it_has_settled_and_rounds_and_damping_out_of_ra
     found = propagate(problem, rounds=200, tolerance=1e-4, watch=Watch(told.append))
     assert found.converged
     assert found.changes[-1] < 1e-4 <= found.changes[:-1].min()
-    rounds = len(found.changes)
-    assert [(e.stage, e.done, e.total) for e in told] == [("propagate", i + 1, 200) for i in range(rounds)]
+    assert [(e.stage, e.done, e.total) for e in told] == [("propagate", i + 1, 200) for i in range(len(found.changes))]
     assert (found.mean_changes <= found.changes).all()
     assert not propagate(problem, rounds=1).converged
     assert len(propagate(problem, rounds=200, watch=Watch(should_stop=lambda: True)).changes) == 1
@@ -208,8 +204,7 @@ def test_a_warm_start_of_coupled_walls_is_what_beams_say_and_elsewhere_like_the_
     assert sure[:5, :5].any()
     assert (maps[:, sure] == (found.p_wall > 0.5)[sure]).all()
     far = maps[:, 15:, 15:]
-    draws = prior.sample_maps(np.random.default_rng(2), grid, 60)[:, 15:, 15:]
-    shares = far.mean(axis=(1, 2)), draws.mean(axis=(1, 2))
+    shares = far.mean(axis=(1, 2)), prior.sample_maps(np.random.default_rng(2), grid, 60)[:, 15:, 15:].mean(axis=(1, 2))
     error = np.hypot(*(share.std() / np.sqrt(60) for share in shares))
     assert abs(shares[0].mean() - shares[1].mean()) < 5 * error
     assert len(np.unique(far.reshape(60, -1), axis=0)) == 60

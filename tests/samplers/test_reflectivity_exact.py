@@ -115,8 +115,7 @@ def test_beams_along_lines_and_through_corners():
     )  # fmt: skip
     grid, prior, law = bm.Grid((2, 2), 0.5), bm.Beta(1.0, 1.0), sensor(0.1)
     exact = exact_of(scans, grid, prior, law, hit_depth=0.0)
-    m = drawn(scans, grid, prior, law, 150, hit_depth=0.0)
-    assert p_values(m, exact).min() > ALPHA / TESTS
+    assert p_values(drawn(scans, grid, prior, law, 150, hit_depth=0.0), exact).min() > ALPHA / TESTS
 
 
 @pytest.mark.parametrize("beta", full_but([0.0, 0.3, 0.7], 0.3))
@@ -133,8 +132,7 @@ def test_wrong_twins_are_rejected():
     assert p_values(m, exact_of(scans, grid, prior, law)).min() > ALPHA / TESTS
     for other in (bm.Beta(1.15, 1.0), bm.Beta(1.0, 1.15)):
         assert p_values(m, exact_of(scans, grid, other, law)).min() < ALPHA / TESTS
-    noisier = sensor(0.15)
-    assert p_values(m, exact_of(scans, grid, prior, noisier)).min() < ALPHA / TESTS
+    assert p_values(m, exact_of(scans, grid, prior, sensor(0.15))).min() < ALPHA / TESTS
     # passes of beams that never came: a beam counts all its cells
     paths = paths_of(build_worlds(scans, grid, prior, law, 1).problem.rays)
     late = Paths(*paths[:2], paths.plain_m + 0.1, *paths[3:])

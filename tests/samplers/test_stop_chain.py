@@ -50,8 +50,7 @@ def test_chain_two_is_the_same_wherever_it_runs(kind):
     model = Model(scans(), GRID, prior, first_sensor(prior, GRID.resolution), hit_depth=0.5)
     sampler, parts = StopGibbs(early_sweeps=int(EARLY_SHARE * 6)), []
     for chain in (0, 1, 2):
-        problem = sampler.prepare(model, "cpu")
-        found = fit(problem, 0, 6)
+        found = fit(sampler.prepare(model, "cpu"), 0, 6)
         parts.append(run_chains(Job(model, sampler, SweepPlan(6, 4), 0, (chain,), parameters=found)))
     chains = join(parts)
     np.testing.assert_array_equal(chains.log_joint, whole.log_joint)
@@ -244,8 +243,7 @@ EXTREME = [*(bm.Beta(a, b) for a in (1e-6, 1e-3, 50.0) for b in (1e-6, 500.0)), 
 
 @pytest.mark.parametrize("prior", EXTREME, ids=str)
 def test_priors_of_any_size_and_shape_give_sound_runs(prior):
-    sharp = bm.BeamMixture(bm.Gaussian(1e-3, 1e-4))
-    sensor, warmup = (sharp, 40) if prior.has_surfaces else (TRUTH, 12)
+    sensor, warmup = (bm.BeamMixture(bm.Gaussian(1e-3, 1e-4)), 40) if prior.has_surfaces else (TRUTH, 12)
     run = infer("surfaces", room(), prior=prior, sensor=sensor, warmup=warmup, draws=3)
     assert_sound(run)
     assert np.isfinite(run.log_score(room()))

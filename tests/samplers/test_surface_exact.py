@@ -74,7 +74,6 @@ def prior_states(shape, prior, anywhere=False):
 
 @lru_cache(maxsize=1)
 def by_importance(shape, scans, law, prior, beta=1.0, anywhere=False):
-    """Draws from the prior, weighted by their likelihood."""
     states, centres = prior_states(shape, prior, anywhere)
     paths = paths_of(build_worlds(scans, bm.Grid(shape, EDGE), prior, law, 1).problem.rays)
     parts = [states[i : i + AT_ONCE] for i in range(0, DRAWS, AT_ONCE)]
@@ -110,8 +109,7 @@ def test_a_cell_that_holds_its_reflectivity_for_most_of_a_round_follows_it_too(m
 @pytest.mark.parametrize("name", ["two cells", "one cell without readings"])
 def test_no_surface_leaves_its_cell(name):
     mine = drawn(*CASES[name], sweeps=60)
-    away = abs(mine.reshape(COPIES, -1, 6)[..., 1:3])
-    assert 0.45 < away.max() < 0.5 + 1e-5
+    assert 0.45 < abs(mine.reshape(COPIES, -1, 6)[..., 1:3]).max() < 0.5 + 1e-5
     if name == "one cell without readings":  # the twin: a prior that lets it
         assert p_values(mine, by_importance(*CASES[name], anywhere=True)).min() < ALPHA / TESTS
 
@@ -121,16 +119,12 @@ def test_a_cell_takes_surfaces_from_the_prior_only_in_sweeps_in_which_it_stops_n
     case = CASES["one cell as unlikely to stop a beam as a reading by chance"]
     mine = drawn(*case, sweeps=100)
     assert (mine[:, 0] < -16.6).mean() > 0.99  # logit m: those that passing beams do not tell from nothing
-    blind = by_importance(*case[:2], replace(RARE, p_random=0.9), NEARLY_FREE)
-    assert p_values(mine, blind).min() < ALPHA / TESTS
+    assert p_values(mine, by_importance(*case[:2], replace(RARE, p_random=0.9), NEARLY_FREE)).min() < ALPHA / TESTS
     worlds = copies(NOTHING, bm.Grid((1, 1), EDGE), SMALL, BLUNT, COPIES)
-    centres = centres_of(worlds.problem.rays)
-    states = draw_states(np.random.default_rng(7), SMALL, centres)
+    states = draw_states(np.random.default_rng(7), SMALL, centres_of(worlds.problem.rays))
     states[:, 0] = 1e-20
-    sampler = worlds.sampler(3, states)
-    before, after = (worlds.split(s) for s in (states, worlds.sweep(sampler, 8)))
-    some = (abs(before[..., 3:] - after[..., 3:]) > 1e-5).any(axis=-1)
-    assert 0.2 < some.mean() <= 1.0
+    before, after = (worlds.split(s) for s in (states, worlds.sweep(worlds.sampler(3, states), 8)))
+    assert 0.2 < (abs(before[..., 3:] - after[..., 3:]) > 1e-5).any(axis=-1).mean() <= 1.0
     mine = surface_coordinates(after, np.array([[0.5, 0.5]]), 1.0)[:, 1:]
     prior, of_prior = prior_states((1, 1), SMALL)
     values = surface_coordinates(prior, *of_prior)[:, 1:]
@@ -170,8 +164,7 @@ def test_the_oracle_s_prior_draws_have_the_oracle_s_prior_density():
     states = draw_states(rng, one, centres, (8_000,))
     ratio = (log_prior(other, states, centres) - log_prior(one, states, centres)).sum(axis=-1)
     law = weighted(surface_coordinates(states, *centres), ratio)
-    mine = surface_coordinates(draw_states(rng, other, centres, (1000,)), *centres)
-    assert p_values(mine, law).min() > ALPHA / TESTS
+    assert p_values(surface_coordinates(draw_states(rng, other, centres, (1000,)), *centres), law).min() > ALPHA / TESTS
 
 
 WORLDS, RANK_DRAWS, BINS, WARMUP = 480, 23, 12, 200
@@ -214,8 +207,7 @@ def ranks(prior, sensor, thin, seed, wrong=None):
     worlds, truth = draw_worlds(seed, GRID, prior, sensor, WORLDS, poses=2, beams=5)
     if wrong is not None:
         worlds = replace(worlds, problem=replaced(worlds.problem, **wrong))
-    rays = worlds.problem.rays
-    paths, rng = paths_of(rays), np.random.default_rng(seed)
+    paths, rng = paths_of(worlds.problem.rays), np.random.default_rng(seed)
 
     def values(states):
         log_likelihood = log_likelihoods(paths, states, sensor, plain).reshape(WORLDS, -1).sum(axis=1)
@@ -242,8 +234,7 @@ def rank_p_values(found):
 
 @pytest.mark.parametrize("name", full_but(RANK_CASES, "reflectivities"))
 def test_the_truth_ranks_uniformly_among_posterior_draws(name):
-    found = rank_p_values(ranks(*RANK_CASES[name], seed=len(name)))
-    assert found.min() > ALPHA / RANK_TESTS
+    assert rank_p_values(ranks(*RANK_CASES[name], seed=len(name))).min() > ALPHA / RANK_TESTS
 
 
 @pytest.mark.parametrize("what", ["prior", "sensor"])

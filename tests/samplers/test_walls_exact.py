@@ -115,8 +115,7 @@ def test_the_whole_transition_matrix_of_a_two_by_two_map(method, order):
             law = np.average(laws, axis=0, weights=counts)
         elif method == "gibbs":
             law = law_after(case, sites_of(case, method, order), start, 1)
-        found = run_sweeps(problem, method, order, np.tile(start, (FEWER, 1)), 1, m)
-        assert least_p_value(found, law) > LEVEL
+        assert least_p_value(run_sweeps(problem, method, order, np.tile(start, (FEWER, 1)), 1, m), law) > LEVEL
 
 
 def test_the_wrong_order_is_rejected():
@@ -199,8 +198,7 @@ def test_metropolis_steps_follow_the_posterior_of_coupled_walls_too():
     case, sampler = case_of(first(shape=(2, 2), coupling=0.8)), Metropolis()
     problem = sampler.prepare(Model(case.scans, case.grid, case.prior, case.sensor), "cpu")
     state, _ = sampler.step(sampler.init(problem, range(400), 3), 12)
-    found = sampler.snapshot(state).arrays["walls"].reshape(-1, 4)
-    assert least_p_value(found, case.exact.p) > LEVEL
+    assert least_p_value(sampler.snapshot(state).arrays["walls"].reshape(-1, 4), case.exact.p) > LEVEL
 
 
 FLAT = 1e-4  # nats a beam: how much a robust table may differ from the model
@@ -271,8 +269,7 @@ def test_importance_sampling_finds_marginals_pairs_and_evidence(world):
     spread = np.sqrt(((p * weight).sum() - 1) / count)
     assert abs(found.log_evidence - case.exact.log_evidence) < 5.5 * spread + slack
     known = case.problem().table.touched_map().ravel() | (world.coupling > 0)
-    expected = np.where(known, w @ maps, case.problem().p_wall)
-    np.testing.assert_allclose(found.occupancy().ravel(), expected, atol=1e-9)
+    np.testing.assert_allclose(found.occupancy().ravel(), np.where(known, w @ maps, case.problem().p_wall), atol=1e-9)
     if world.coupling:
         apart = problem_of(case, prior=bm.Independent(case.prior.p_wall))
         wrong = sample_importance(apart, count, seed=1).occupancy().ravel()
@@ -288,8 +285,7 @@ def test_coupled_particles_are_the_same_in_any_batch_and_neighbours_have_no_rand
     np.testing.assert_allclose(found.log_weights[some] - found.log_weights[0], np.subtract(plain, plain[1]), atol=1e-3)
     found = sample_importance(case_of(first(prior=0.5, shape=(4, 4))).problem(), 20_000, seed=6)
     maps = found.maps(np.arange(20_000)).reshape(-1, 16) - 0.5
-    correlations = 4 * maps[:-1].T @ maps[1:] / len(maps)
-    assert abs(correlations).max() < 5.5 / np.sqrt(20_000)
+    assert abs(4 * maps[:-1].T @ maps[1:] / len(maps)).max() < 5.5 / np.sqrt(20_000)
 
 
 def test_particles_are_drawn_from_the_prior_and_resampled_ones_follow_their_weights():
@@ -300,8 +296,7 @@ def test_particles_are_drawn_from_the_prior_and_resampled_ones_follow_their_weig
     case = case_of(first(prior="cells", shape=(4, 4)))
     found = sample_importance(case.problem(), 20_000, seed=3)
     maps, p = all_maps(16), case.problem().p_wall
-    law = np.where(maps, p, 1 - p).prod(axis=1)
-    assert least_p_value(found.maps(np.arange(20_000)).reshape(-1, 16), law) > ALPHA
+    assert least_p_value(found.maps(np.arange(20_000)).reshape(-1, 16), np.where(maps, p, 1 - p).prod(axis=1)) > ALPHA
 
 
 def test_a_particle_s_weight_does_not_depend_on_the_others_and_is_tempered():

@@ -55,7 +55,6 @@ def jumps(d):
 
 
 def density(sensor, z, d):
-    """p(z | d) for an array of readings."""
     return np.exp(sensor.log_likelihood(np.asarray(z, dtype=float), np.float64(d), LIMITS))
 
 
@@ -141,8 +140,7 @@ def test_maps_are_inferred_and_scored_by_it(prior, sonar):
         for draw in range(3):
             cells = {"reflectivity": np.asarray(run.map_of(0, draw), dtype=float)}
             beams = model.beam_log_likelihoods(model.state(cells))
-            reported = float(run.posterior.log_likelihood[0, draw])
-            assert reported == pytest.approx(beams.sum(), abs=0.02 * len(beams))
+            assert float(run.posterior.log_likelihood[0, draw]) == pytest.approx(beams.sum(), abs=0.02 * len(beams))
     score = bm.score(run, HELD)
     assert run.log_score(HELD) == score.nats_per_beam
     assert np.isfinite(score.nats_per_beam)
@@ -195,8 +193,7 @@ def test_an_invalid_reading_says_nothing_and_noise_alone_takes_typed_ones_for_th
 @given(st.floats(0.3, 8.0), st.sampled_from(DISTANCES), st.floats(0.01, 2.0), st.floats(0.0, 0.3))
 def test_the_gaussian_is_scipy_s(z, d, sigma, per_m):
     found = bm.Gaussian(sigma, per_m).log_likelihood(np.float64(z), np.float64(d), LIMITS)
-    expected = gaussian(z, d, sigma=sigma, per_m=per_m, max_m=LIMITS.max_m)
-    assert found == pytest.approx(expected, rel=1e-12, abs=1e-12)
+    assert found == pytest.approx(gaussian(z, d, sigma=sigma, per_m=per_m, max_m=LIMITS.max_m), rel=1e-12, abs=1e-12)
 
 
 probability = st.floats(0.0, 0.9)
@@ -309,8 +306,7 @@ def chi_square(sensor, readings, d):
         low, high = centre + np.array([-40, 40]) * float(sensor.scale_at(np.float64(centre)))
     width = (high - low) * 0.5 ** np.arange(3, 9)
     around = np.concatenate([[d], d - width, d + width]) if np.isfinite(d) else []
-    inside = [x for x in around if low < x < high]
-    edges = np.unique([*np.linspace(low, high, 50), *inside])
+    edges = np.unique([*np.linspace(low, high, 50), *[x for x in around if low < x < high]])
     finite = readings[np.isfinite(readings)]
     counts = np.histogram(finite, edges)[0]
     p = integral(sensor, d, edges)
@@ -349,8 +345,7 @@ TWINS = {
 @pytest.mark.parametrize("name", TWINS)
 def test_readings_of_a_wrong_twin_are_rejected(name):
     twin, sensor = TWINS[name]
-    readings = twin.sample(np.random.default_rng(2), np.full(N, 3.0), LIMITS)
-    assert chi_square(sensor, readings, 3.0) < ALPHA / TESTS
+    assert chi_square(sensor, twin.sample(np.random.default_rng(2), np.full(N, 3.0), LIMITS), 3.0) < ALPHA / TESTS
 
 
 def test_a_description_gives_the_model_back_or_the_name_alone_if_it_is_not_ours():

@@ -39,8 +39,7 @@ def test_a_building_is_closed_has_its_size_and_rooms_apart_that_can_all_be_reach
     corridor = next(room for room in made.rooms if room.kind == "corridor")
     floor = np.zeros(made.walls.shape, dtype=bool)
     floor[cells_of(corridor, made)] = True
-    start = tuple(np.argwhere(floor & ~made.walls)[0])
-    reached = flooded(~made.walls, start)
+    reached = flooded(~made.walls, tuple(np.argwhere(floor & ~made.walls)[0]))
     for room in made.rooms:
         free = ~made.walls[cells_of(room, made)]
         assert free.any(), room
@@ -129,8 +128,7 @@ maps = hnp.arrays(bool, hnp.array_shapes(min_dims=2, max_dims=2, min_side=1, max
 def test_drawings_are_read_back_whatever_their_blanks_and_line_ends(walls, indent, blank, newline):
     np.testing.assert_array_equal(from_text(to_text(walls)), walls)
     lines = [" " * indent + line + "  " for line in to_text(walls).splitlines()]
-    framed = newline.join([""] * blank + lines + [" "] * blank)
-    np.testing.assert_array_equal(from_text(framed), walls)
+    np.testing.assert_array_equal(from_text(newline.join([""] * blank + lines + [" "] * blank)), walls)
 
 
 @pytest.mark.parametrize(("text", "place"), [
@@ -301,8 +299,7 @@ def test_glass_lets_through_as_many_beams_as_its_opacity_says():
     opacity[3] = 0.3
     poses, options = np.tile([0.5, 0.5, 0.0], (2000, 1)), {"max_range_m": 9.0, "opacity": opacity, "seed": 3}
     scans = bm.simulate(walls, bm.Grid((6, 1)), poses, [0.0], sensor=bm.Gaussian(1e-3), **options)
-    stopped = (scans.ranges_m < 3.5).mean()
-    assert abs(stopped - 0.3) < 5 * np.sqrt(0.3 * 0.7 / 2000)
+    assert abs((scans.ranges_m < 3.5).mean() - 0.3) < 5 * np.sqrt(0.3 * 0.7 / 2000)
 
 
 PERFECT = dict.fromkeys(OdometryNoise.__dataclass_fields__, 0.0)
@@ -329,8 +326,7 @@ def test_odometry_is_the_truth_but_for_its_errors_and_bias_adds_up_along_the_way
     for path in (straight(5.0, 10), circle(1.3, 40), circle(1.0, 9)[::-1]):
         np.testing.assert_allclose(between(path, simulate_odometry(path, odometry())), 0.0, atol=1e-9)
     path = straight(3.0, 6)[::-1]
-    reported = simulate_odometry(path, odometry(distance_scale=0.1))
-    np.testing.assert_allclose(reported[-1], [-0.3, 0.0, 0.0], atol=1e-9)
+    np.testing.assert_allclose(simulate_odometry(path, odometry(distance_scale=0.1))[-1], [-0.3, 0.0, 0.0], atol=1e-9)
     assert simulate_odometry(straight(10.0, 50), odometry(drift_rad_per_m=0.02))[-1, 2] == pytest.approx(0.2)
     turned = simulate_odometry(circle(0.5, 50), odometry(turn_scale=0.1))[-1, 2]
     assert wrap_angle(turned - 1.1 * np.pi) == pytest.approx(0, abs=1e-9)
@@ -352,8 +348,7 @@ def test_noise_has_the_stated_size_whatever_the_steps(steps):
 
 def test_slips_come_as_often_as_said_and_only_lengthen_the_way():
     path = straight(1000.0, 1000)
-    reported = simulate_odometry(path, odometry(slips_per_m=0.1, slip_m=0.05))
-    extra = np.diff(reported[:, 0]) - 1.0
+    extra = np.diff(simulate_odometry(path, odometry(slips_per_m=0.1, slip_m=0.05))[:, 0]) - 1.0
     assert (extra > -1e-9).all()
     # Binomial with mean 95 and standard deviation 9.3; the mean of as many exponentials has 10 % of error.
     assert 55 < (extra > 1e-6).sum() < 135

@@ -107,8 +107,7 @@ def test_the_beams_are_those_of_the_windows_and_scans_may_have_none(log):
         np.testing.assert_array_equal(own.select([i]).beams_of(0), own.beams_of(i))
     train, held = own.holdout(4)
     np.testing.assert_array_equal(held.beams_of(1), own.beams_of(6))
-    moved = own.at(own.poses + 1.0).limited(2.0)
-    np.testing.assert_array_equal(moved.own_angles_rad, own.own_angles_rad)
+    np.testing.assert_array_equal(own.at(own.poses + 1.0).limited(2.0).own_angles_rad, own.own_angles_rad)
     assert len(train) + len(held) == SCANS
     again = replace(whole, angles_rad=np.tile(whole.angles_rad, (SCANS, 1)))  # equal angles are those of all scans
     assert again.own_angles_rad is None
@@ -214,8 +213,7 @@ def test_bursts_and_single_scans_that_were_written_late_are_sorted(burst):
 
 @pytest.mark.parametrize("back_s", [1.6, 3.0, 15.0])
 def test_a_clock_that_was_set_back_keeps_the_order_of_the_log(back_s):
-    rng = np.random.default_rng(1)
-    stamps = EVEN + rng.uniform(-0.02, 0.02, 400)
+    stamps = EVEN + np.random.default_rng(1).uniform(-0.02, 0.02, 400)
     stamps[200:] -= back_s
     stamps[300:] -= back_s
     ordered = time_order(stamps)
@@ -304,8 +302,7 @@ def read(scans, scan, beam, range_m):
 def test_the_furthest_comes_first_and_where_none_or_many_are_far_away_nobody_is_wrong(walk):
     assert len(outlying(walk)) == 0
     assert bm.Grid.covering(walk, 0.1).n_cells < 100_000
-    wrong = read(moved(moved(walk, 7, 1e6), 9, -1e9), 3, 1, 1e7)
-    assert outlying(wrong).tolist() == [9, 3, 7]
+    assert outlying(read(moved(moved(walk, 7, 1e6), 9, -1e9), 3, 1, 1e7)).tolist() == [9, 3, 7]
     far = walk.poses.copy()
     far[::3, 0] += 1e6
     scans = replace(walk, poses=far)
