@@ -131,8 +131,8 @@ def test_the_field_of_a_surface_is_its_widened_density_and_the_nearer_of_two_dra
     off = (cells + 0.5) * 0.025 - [2.05, 1.07]
     peak = np.exp(-0.5 * np.einsum("ni,ij,nj->n", off, np.linalg.inv(covariance), off))
     expected = np.log(search.SURFACE_FLOOR + (1 - search.SURFACE_FLOOR) * peak)
-    worth = field.log_worth(np.zeros((1, 2)), np.column_stack([(cells + 0.5) * 0.025, np.zeros(4)]))
-    scores = worth + np.log(search.SURFACE_FLOOR)
+    log_likelihood = field.log_likelihood(np.zeros((1, 2)), np.column_stack([(cells + 0.5) * 0.025, np.zeros(4)]))
+    scores = log_likelihood + np.log(search.SURFACE_FLOOR)
     np.testing.assert_allclose(scores, expected, atol=0.02)
     assert scores[3] == pytest.approx(np.log(search.SURFACE_FLOOR), abs=1e-9)
     states = np.zeros((2, grid.n_cells), dtype=np.float32)
@@ -152,8 +152,8 @@ def test_unknown_cells_are_worth_more_than_open_ones_and_less_than_walls():
     assert open_ < behind < wall == search.TOP
     assert field.coarse.max() == search.TOP
     assert search.likelihood_field(walls.astype(float), grid, ~walls & ~unknown, unknown, 0.0).fine[25, 15] == open_
-    assert search.worth_of_unknown(0.08, 0.12, 0.1) == pytest.approx(0.08 / 0.1 * 0.12 * np.sqrt(2 * np.pi))
-    assert search.worth_of_unknown(0.5, 0.12, 0.1) == 1.0
+    assert search.likelihood_in_unknown(0.08, 0.12, 0.1) == pytest.approx(0.08 / 0.1 * 0.12 * np.sqrt(2 * np.pi))
+    assert search.likelihood_in_unknown(0.5, 0.12, 0.1) == 1.0
 
 
 def test_evenly_spread_draws_have_the_student_distribution_and_places_that_came_together_are_one():

@@ -69,8 +69,8 @@ class Session:
         if isinstance(action, QUESTIONS):
             try:
                 check_question(self.document, action)
-            except Refused as refusal:
-                return [_status(refusal.text, "warning", client)]
+            except Refused as refused:
+                return [_status(refused.text, "warning", client)]
             return [tasks.Ask(client, action)]
         if isinstance(action, actions.Painted):
             self._pace.painted(client, action.generation)
@@ -78,7 +78,7 @@ class Session:
         return self._apply_all(self._pace.take(client, action))
 
     def join(self, client: int) -> Effects:
-        """Return the first messages for a page that has connected. It answers with `hello`."""
+        """Return the first messages for a page that has connected. The page answers with `hello`."""
         self._last_seqs[client] = 0
         self._pace.forget(client)
         worker = notices.Worker("ready" if self.worker_ready else "starting")

@@ -37,17 +37,17 @@ POOL_SEED = 1  # seed of the pool of states drawn from the prior
 
 
 class KernelNumbers(NamedTuple):
-    """Parameters of reflectivities (a, b), labels (coupling, a_solid, b_solid) and surfaces (the others), in metres."""
+    """Parameters of the priors of reflectivities, surfaces and labels."""
 
-    a: float
+    a: float  # of the Beta prior of a reflectivity; with labels, of free cells
     b: float
-    tau_m: float
-    psi_m2: float
-    nu: float
-    kappa_m: float
-    half_m: float
-    coupling: float
-    a_solid: float
+    tau_m: float  # standard deviation of a surface's mean
+    psi_m2: float  # scale of the inverse Wishart prior of its covariance
+    nu: float  # degrees of freedom of the same
+    kappa_m: float  # size beyond which a surface is unlikely
+    half_m: float  # half of a cell's edge
+    coupling: float  # of the labels of neighbours
+    a_solid: float  # of the Beta prior of solid cells
     b_solid: float
 
 

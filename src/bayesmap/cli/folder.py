@@ -82,7 +82,7 @@ def peak_memory_mb() -> float:
     with contextlib.suppress(OSError):  # Linux, where getrusage inherits the peak of the parent process
         for line in Path("/proc/self/status").read_text().splitlines():
             if line.startswith("VmHWM:"):
-                return round(int(line.split()[1]) / 1024, 1)
+                return round(int(line.split()[1]) * 1024 / 1e6, 1)
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     return round(peak / (1e6 if sys.platform == "darwin" else 1e6 / 1024), 1)
 
@@ -152,7 +152,7 @@ class Folder:
             self.path.mkdir(parents=True, exist_ok=True)
             self.mark_outdated(toml)
             if self.resuming or not self.run_path.exists():
-                self.discard_old_products()
+                self.start_afresh()
         except OSError as error:
             raise BadInput(
                 f"{error.filename or self.path}: cannot be written: {error.strerror or error}; "
@@ -160,7 +160,7 @@ class Folder:
             ) from None
         self.begun = True
 
-    def discard_old_products(self) -> None:
+    def start_afresh(self) -> None:
         """Save the settings of the new run, and remove the files made from the older run that it replaces."""
         write_file(self.config_path, self._toml)
         for name in () if self._previewed else DERIVED:
@@ -179,7 +179,7 @@ class Folder:
             reason = f"{error.strerror or error}; {self.run_path.name} still holds {content}"
             raise OSError(error.errno, reason, error.filename) from error
         if self.outdated_path.exists():
-            self.discard_old_products()
+            self.start_afresh()
 
     def preview(self, run: Run) -> None:
         """Render and export a first map. An older run in the folder keeps its picture."""

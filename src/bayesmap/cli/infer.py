@@ -302,7 +302,7 @@ class RayFleet:
         folder, files = entry.ready.folder, dict(message.files)
         folder.begin(files.pop(folder.config_path.name).decode())
         if folder.run_path.name in files and folder.outdated_path.exists():
-            folder.discard_old_products()
+            folder.start_afresh()
         files.pop("summary.json", None)
         for name, content in files.items():
             write_file(folder.path / name, content)

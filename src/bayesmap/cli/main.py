@@ -33,9 +33,8 @@ def main(arguments: list[str] | None = None) -> None:
     from bayesmap.cli.group import cli
 
     try:
-        cli.main(
-            args=arguments, prog_name="bayesmap", obj=_restore_interrupt
-        )  # called by the command group when a command begins
+        # The command group calls obj when a command begins.
+        cli.main(args=arguments, prog_name="bayesmap", obj=_restore_interrupt)
     except KeyboardInterrupt:
         _leave_interrupted()
     except BrokenPipeError:  # from --help or --version

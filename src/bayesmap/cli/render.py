@@ -70,7 +70,7 @@ def render(
     if settings.window is not None and what in WHOLE:
         raise BadInput(f"window: {what} shows the whole map; a single panel, such as --what mean, takes a window")
     # Choose the part of the map, and render it.
-    grid, window = part_of(run, settings.window)
+    grid, window = parse_window(run, settings.window)
     walls = None if truth is None else truth_on(grid, truth)
     if what == "animation":
         from bayesmap.viz.animation import write_animation
@@ -156,7 +156,7 @@ def one_draw(run: Run, chain: int, draw: int) -> NDArray[Any]:
     if not 1 <= chain <= chains:
         raise BadInput(f"chain {chain}: this run has chains 1 to {chains}")
     if not (1 <= draw <= draws or -draws <= draw <= -1):
-        choices = ", 1 to that, or -1 for the last" if draws else ""
+        choices = f"; give 1 to {draws}, or -1 for the last" if draws else ""
         raise BadInput(f"draw {draw}: this run has {draws:,} draws a chain{choices}")
     return run.map_of(chain - 1, draw - (draw > 0))
 
@@ -185,8 +185,11 @@ def truth_on(grid: Grid, path: str) -> Walls:
     return walls
 
 
-def part_of(run: Run, text: str | None) -> tuple[Grid, tuple[slice, slice]]:
-    """Return grid and slices of the map's part in a window (None: all). Raises `BadInput` for another text."""
+def parse_window(run: Run, text: str | None) -> tuple[Grid, tuple[slice, slice]]:
+    """Return the grid and the slices of the window "X0,X1,Y0,Y1" in metres, or "observed", or of the whole map if None.
+
+    Raises `BadInput` for another text.
+    """
     from bayesmap.viz.maps import window, window_around
 
     if text is None:

@@ -48,7 +48,7 @@ def refine_by_end_points(
     point_weight = POINT_WEIGHT * known.beam_weight_for_pose(scan.ranges_m) * hits / len(points)
 
     def target(poses: Floats) -> Floats:
-        return np.asarray(log_prior(poses) + point_weight * known.endpoints.log_worth(points, poses))
+        return np.asarray(log_prior(poses) + point_weight * known.endpoints.log_likelihood(points, poses))
 
     draws_per_place = max(MIN_DRAWS_PER_PLACE, DRAWS_PER_ROUND // len(places.means))
     for _ in range(MAX_REFINEMENTS if len(places.means) == 1 else MAX_REFINEMENTS - 1):

@@ -1,10 +1,11 @@
 """Likelihood fields of a map, and the search in them for poses from which a scan could have been taken.
 
-A cell of `Field.fine` has the largest value of s exp(-d^2 / (2 sigma^2)) over cells at distance d. Here s is a cell's
-stop probability as a share of `SOLID`, at most 1 (Thrun, Burgard and Fox 2005, section 6.4, with a maximum for the
-nearest obstacle). Unknown cells may stop a beam, too, and have a value in between. Otherwise a pose at which every beam
-meets some wall could beat the right pose of a scan that looks past the map's edge. A coarse cell has the largest fine
-value within it, so that a pose near the right one still scores well.
+A value v of `Field.fine`, as a share of 255, stands for a relative likelihood of an end point of FLOOR^(1 - v): 1 on a
+wall, FLOOR in the open. Near walls v is the largest s exp(-d^2 / (2 sigma^2)) over cells at distance d. Here s is a
+cell's stop probability as a share of `SOLID`, at most 1 (Thrun, Burgard and Fox 2005, section 6.4, with a maximum for
+the nearest obstacle). Unknown cells may stop a beam, too, and have a value in between. Otherwise a pose at which every
+beam meets some wall could beat the right pose of a scan that looks past the map's edge. A coarse cell has the largest
+fine value within it, so that a pose near the right one still scores well.
 
 `EndpointField` approximates the law of a scan to a few centimetres. Each surface has its normal density, widened by the
 noise of a reading and scaled to a peak of 1, above a floor. Objects in the way of a beam are left out. The field
@@ -28,7 +29,7 @@ from bayesmap.space.planar import Floats, wrap_angle
 
 SIGMA_M = 0.12  # scale of the field about an obstacle: errors of map and pose that a search must tolerate
 SOLID = 0.3  # stop probability from which a cell counts as a wall
-FLOOR = 0.01  # worth of a point in the open, relative to one on a wall; fields are linear in the logarithm of the worth
+FLOOR = 0.01  # likelihood of an end point in the open, relative to one on a wall
 COARSE_M = 0.3  # width of a coarse cell
 TOP = 255  # value of a fine cell on a wall
 
@@ -68,8 +69,9 @@ def likelihood_field(
             weight = math.exp(-squared / (2.0 * SIGMA_M**2))
             np.maximum(fine, weight * padded[a : a + nx, b : b + ny], out=fine)
     if unknown is not None:
-        worth = worth_of_unknown(chance, SIGMA_M, grid.resolution)
-        np.maximum(fine, np.where(unknown, 1.0 - math.log(max(worth, FLOOR)) / math.log(FLOOR), 0.0), out=fine)
+        likelihood = likelihood_in_unknown(chance, SIGMA_M, grid.resolution)
+        value = 1.0 - math.log(max(likelihood, FLOOR)) / math.log(FLOOR)  # FLOOR^(1 - value) is the likelihood
+        np.maximum(fine, np.where(unknown, value, 0.0), out=fine)
     # Coarse field: maximum over squares of fine cells.
     stride = max(1, round(COARSE_M / grid.resolution))
     shape = (math.ceil(nx / stride), math.ceil(ny / stride))
@@ -79,7 +81,7 @@ def likelihood_field(
     return Field(grid, np.round(TOP * fine).astype(np.uint8), coarse_grid, blocks.astype(np.uint16), is_open)
 
 
-def worth_of_unknown(chance: float, sigma_m: float, resolution: float) -> float:
+def likelihood_in_unknown(chance: float, sigma_m: float, resolution: float) -> float:
     """Compute the density of readings in cells of this stop ``chance``, relative to its peak on a wall, at most 1."""
     return min(1.0, chance / resolution * sigma_m * math.sqrt(2.0 * math.pi))
 
@@ -94,19 +96,19 @@ def _blocks(values: NDArray[np.generic], stride: int, shape: tuple[int, int]) ->
 
 FINE_M = 0.025  # width of the cells of an `EndpointField`
 MAX_CELLS = 16_000_000  # most cells of an `EndpointField`
-SURFACE_FLOOR = 0.02  # worth of a point far from all surfaces, relative to one on a surface
+SURFACE_FLOOR = 0.02  # likelihood of an end point far from all surfaces, relative to one on a surface
 MIN_STOP = 0.1  # cells that stop beams with a lower probability have no surface in an `EndpointField`
 
 
 @dataclass(frozen=True, eq=False)
 class EndpointField:
-    """The logarithm of a point's worth, over a fine grid."""
+    """The logarithm of the relative likelihood of an end point, over a fine grid."""
 
     grid: Grid
     values: NDArray[np.uint8]  # 0 (far from all surfaces) to 255 (on a surface), (nx, ny)
 
-    def log_worth(self, points: Floats, poses: Floats) -> Floats:
-        """Return the sum of the log worth of points (N, 2) at each pose, (P,), relative to points in the open."""
+    def log_likelihood(self, points: Floats, poses: Floats) -> Floats:
+        """Return the log-likelihood of points (N, 2) at each pose, (P,), relative to points in the open."""
         from bayesmap.kernels.match.likelihood_grid import field_sums
 
         return np.asarray(field_sums(self.values, self.grid, points, poses) * (-math.log(SURFACE_FLOOR) / TOP))
@@ -129,8 +131,8 @@ def endpoint_field(
     covariances = (covariances + isotropic * noise_m**2) / fine.resolution**2 + 0.25 * isotropic
     peaks = render_field(means / fine.resolution, covariances, strengths, fine.shape)
     # A surface spreads by about a third of a cell, or is off its middle by as much.
-    worth = worth_of_unknown(chance, math.hypot(noise_m, 0.3 * grid.resolution), grid.resolution)
-    np.maximum(peaks, np.where(unknown, worth, 0.0).repeat(parts, axis=0).repeat(parts, axis=1), out=peaks)
+    likelihood = likelihood_in_unknown(chance, math.hypot(noise_m, 0.3 * grid.resolution), grid.resolution)
+    np.maximum(peaks, np.where(unknown, likelihood, 0.0).repeat(parts, axis=0).repeat(parts, axis=1), out=peaks)
     logs = np.log(SURFACE_FLOOR + (1.0 - SURFACE_FLOOR) * np.minimum(peaks, 1.0)) / -math.log(SURFACE_FLOOR) + 1.0
     return EndpointField(fine, np.round(TOP * logs).astype(np.uint8))
 

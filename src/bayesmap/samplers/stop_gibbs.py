@@ -258,7 +258,7 @@ class StopGibbs:
         draws = StopDraws(problem, chains, kept)
         log_likelihood, log_prior = chains.sweeps(
             state.sweep, sweeps, problem.sensor, problem.prior.kernel_numbers(problem.grid.resolution), beta,
-            steps=STEPS if steps is None else steps, observing_after=keep.after if keep.every else None,
+            steps=STEPS if steps is None else steps, observe_from=keep.after if keep.every else None,
             before=draws.begin if kept else None, after=draws.end if kept else None,
         )  # fmt: skip
         return replace(state, sweep=state.sweep + sweeps), Info(log_likelihood, log_prior, draws.arrays)

@@ -96,21 +96,22 @@ def repeated_stamps(stamps_s: NDArray[np.float64]) -> NDArray[np.bool_]:
 
 
 def elapsed_s(stamps_s: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the shortest and the longest time from each scan to the next that the stamps allow, (S - 1,) each.
-    Repeated stamps were rounded: scans of one stamp, (S,), may lie anywhere between the stamps before and after it.
+    """Bound the time from each scan to the next: the shortest and the longest, (S - 1,) each.
+
+    Stamps, (S,), may be rounded. Scans that share a stamp lie anywhere between the stamps before and after it.
     """
-    steps = np.abs(np.diff(stamps_s))
-    same = steps < SAME_S
+    gaps_s = np.abs(np.diff(stamps_s))
+    same = gaps_s < SAME_S
     # Runs of scans with one stamp: the number of each scan's run, and the gap before each run.
     run = np.concatenate([[0], np.cumsum(~same)])
-    gaps = np.concatenate([[np.inf], steps[~same], [np.inf]])  # before each run, and after the last
+    gaps = np.concatenate([[np.inf], gaps_s[~same], [np.inf]])  # before each run, and after the last
     several = np.bincount(run) > 1
     # Within a run the time reaches up to both gaps; between runs it is uncertain by the nearest gap.
     first, second = run[:-1], run[1:]
     within = gaps[first] + gaps[first + 1]
-    nearest = np.minimum(np.minimum(gaps[first], gaps[second + 1]), steps)
+    nearest = np.minimum(np.minimum(gaps[first], gaps[second + 1]), gaps_s)
     grain = np.where(several[first] | several[second], nearest, 0.0)
-    return np.where(same, 0.0, steps - grain), np.where(same, within, steps + grain)
+    return np.where(same, 0.0, gaps_s - grain), np.where(same, within, gaps_s + grain)
 
 
 def coarse_stamps_note(stamps_s: NDArray[np.float64]) -> str | None:

@@ -275,18 +275,18 @@ def _place_run(run: ClockRun, messages: _Messages, account: Account) -> _PlacedR
         raise BadInput(f"{account.name}: no scan was received in it")
     source = _pose_source(messages, run.poses, account.options)
     account.notes += source.notes
-    stamps, scans, reordered = _sorted_by_time(run.scans, messages, account)
-    ray_times = _ray_times_ns(stamps, scans, account)
-    inside = np.asarray(source.chain.covers(ray_times).all(axis=1))
+    stamps_ns, scans, reordered = _sorted_by_time(run.scans, messages, account)
+    ray_times_ns = _ray_times_ns(stamps_ns, scans, account)
+    inside = np.asarray(source.chain.covers(ray_times_ns).all(axis=1))
     if source.posed:
-        account.notes += _notes_on_coverage(account.name, stamps, inside, source)
+        account.notes += _notes_on_coverage(account.name, stamps_ns, inside, source)
     scans = [scan for scan, is_inside in zip(scans, inside, strict=True) if is_inside]
-    stamps, ray_times = stamps[inside], ray_times[inside]
-    motion = source.chain.at(stamps)
+    stamps_ns, ray_times_ns = stamps_ns[inside], ray_times_ns[inside]
+    motion = source.chain.at(stamps_ns)
     remedy = "; choose another topic with --scan-topic"
     sign = account.which_way_up(upright(motion), f"the frame {messages.sensor!r}", remedy)
-    first_ray_poses = planar(motion) if source.posed else np.zeros((len(stamps), 3))
-    return _PlacedRun(source, scans, stamps, ray_times, first_ray_poses, sign, reordered, tuple(account.notes))
+    first_ray_poses = planar(motion) if source.posed else np.zeros((len(stamps_ns), 3))
+    return _PlacedRun(source, scans, stamps_ns, ray_times_ns, first_ray_poses, sign, reordered, tuple(account.notes))
 
 
 def _sorted_by_time(
@@ -297,22 +297,22 @@ def _sorted_by_time(
     topic, notes = messages.topic.name, account.notes
     if not any(scan.stamp_ns for scan in scans):
         notes.append(f"no message on {topic} says its time; the times of receipt were used")
-        stamps = np.array([scan.received_ns for scan in scans], dtype=np.int64)
+        stamps_ns = np.array([scan.received_ns for scan in scans], dtype=np.int64)
     else:
         for scan in scans:
             if not scan.stamp_ns:
                 messages.bad(topic, scan.number, "does not say its time, as the others do")
         scans = [scan for scan in scans if scan.stamp_ns]
-        stamps = np.array([scan.stamp_ns for scan in scans], dtype=np.int64)
-    reordered = int((stamps < np.maximum.accumulate(stamps)).sum())
+        stamps_ns = np.array([scan.stamp_ns for scan in scans], dtype=np.int64)
+    reordered = int((stamps_ns < np.maximum.accumulate(stamps_ns)).sum())
     if reordered:
         notes.append(f"{reordered:,} scans of {topic} have an earlier time than one before them; all were sorted")
     # Sort, and leave out repetitions.
-    order = np.argsort(stamps, kind="stable")
+    order = np.argsort(stamps_ns, kind="stable")
     kept: list[int] = []
     twice = repeated = 0
     for i in order.tolist():
-        if kept and stamps[i] == stamps[kept[-1]]:
+        if kept and stamps_ns[i] == stamps_ns[kept[-1]]:
             if scans[i].ranges_m.tobytes() == scans[kept[-1]].ranges_m.tobytes():
                 repeated += 1
                 continue
@@ -322,27 +322,28 @@ def _sorted_by_time(
         notes.append(f"{repeated:,} scans of {topic} are in the recording twice, with time and readings; one was kept")
     if twice:
         notes.append(f"{twice:,} scans of {topic} have the time of another, but other readings; all were kept")
-    return stamps[kept], [scans[i] for i in kept], reordered
+    return stamps_ns[kept], [scans[i] for i in kept], reordered
 
 
-def _ray_times_ns(stamps: NDArray[np.int64], scans: list[LaserMessage], account: Account) -> NDArray[np.int64]:
-    """Return the time of each ray, (S, A). A missing ray gets the time of the last ray of its scan. Without ``deskew``,
-    return the times of the first rays, (S, 1).
+def _ray_times_ns(stamps_ns: NDArray[np.int64], scans: list[LaserMessage], account: Account) -> NDArray[np.int64]:
+    """Return the time of each ray, (S, A). A missing ray gets the time of the last ray of its scan.
+
+    Without ``deskew``, return the times of the first rays, (S, 1).
     """
     if not account.options.deskew:
-        return stamps[:, None]
+        return stamps_ns[:, None]
     beams = np.array([scan.layout.beams for scan in scans])
     intervals = np.array([scan.ray_interval_s for scan in scans], dtype=np.float64)
     intervals[~(np.abs(intervals) * beams < LONGEST_SWEEP_S)] = 0.0
     if not intervals.any():
         account.notes.append("time_increment is 0, or no time, in every scan: there is nothing to de-skew")
-        return stamps[:, None]
+        return stamps_ns[:, None]
     rays = np.minimum(np.arange(beams.max()), beams[:, None] - 1)
-    return np.asarray(stamps[:, None] + np.rint(intervals[:, None] * 1e9 * rays).astype(np.int64))
+    return np.asarray(stamps_ns[:, None] + np.rint(intervals[:, None] * 1e9 * rays).astype(np.int64))
 
 
 def _notes_on_coverage(
-    name: str, stamps: NDArray[np.int64], inside: NDArray[np.bool_], source: pose_sources.PoseSource
+    name: str, stamps_ns: NDArray[np.int64], inside: NDArray[np.bool_], source: pose_sources.PoseSource
 ) -> list[str]:
     """Return notes on the scans outside the time of the poses, and in gaps. Raises `BadInput` if none is ``inside``."""
     span = source.chain.span_ns()
@@ -351,18 +352,18 @@ def _notes_on_coverage(
     known = f"poses by {source.label} are known from {moment(span[0] * 1e-9)} to {moment(span[1] * 1e-9)}"
     if not inside.any():
         raise BadInput(
-            f"{name}: no scan has a pose: {known}, the scans are from {moment(stamps[0] * 1e-9)} to "
-            f"{moment(stamps[-1] * 1e-9)}; are both by the same clock? Choose other poses with --pose-topic "
+            f"{name}: no scan has a pose: {known}, the scans are from {moment(stamps_ns[0] * 1e-9)} to "
+            f"{moment(stamps_ns[-1] * 1e-9)}; are both by the same clock? Choose other poses with --pose-topic "
             "or --fixed-frame"
         )
     notes = []
     if not inside.all():
-        before = int((~inside & (stamps < span[0])).sum())
+        before = int((~inside & (stamps_ns < span[0])).sum())
         notes.append(
             f"{int((~inside).sum()):,} scans were left out, {before:,} before the first pose and the others after the "
             f"last: {known}"
         )
-    gaps = int(source.chain.in_gaps(stamps[inside], LONGEST_GAP_S, LONGEST_GAP_M).sum())
+    gaps = int(source.chain.in_gaps(stamps_ns[inside], LONGEST_GAP_S, LONGEST_GAP_M).sum())
     if gaps:
         notes.append(
             f"{gaps:,} scans lie where {source.label} says nothing for over {LONGEST_GAP_S:g} s while the robot moved "

@@ -91,8 +91,10 @@ class Recording:
         topic = self.topics.get(name) or self.topics.get("/" + name)
         if topic is not None and topic.type in types and topic.count:
             return topic
-        fault = "there is no such topic" if topic is None else f"it is a topic of {topic.type}"
-        fault = "it has no message" if topic is not None and topic.type in types else fault
+        if topic is None:
+            fault = "there is no such topic"
+        else:
+            fault = "it has no message" if topic.type in types else f"it is a topic of {topic.type}"
         raise BadInput(f"{self.path}: {option} {name}: {fault}; {choices}")
 
 

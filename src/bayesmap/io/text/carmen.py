@@ -7,8 +7,9 @@
     ODOM x y theta tv rv accel  ipc_timestamp host logger_timestamp
 
 RLASER and ROBOTLASER2 are the rear laser's messages, in the same two formats. RAWLASER1 to RAWLASER5 are ROBOTLASER1
-without poses and velocities, and are read only if no poses are needed. Scans are sorted by their ipc_timestamp. FLASER
-lines, which every tool reads, are written if the reader's rules find both the angles and no return in them.
+without poses and velocities, and are read only if no poses are needed. Scans are sorted by their ipc_timestamp.
+FLASER lines, which every tool reads, are written if this reader would find the same angles and the same hits in them,
+and ROBOTLASER1 lines otherwise.
 
 ROBOTLASER1 lines state their first angle and the step. By CARMEN's own rule the first beam of FLASER is at -90 degrees.
 Beams are 1 degree apart if there are 180 or 181, half a degree if 360 or 361, a quarter if 400 or 401; any other number

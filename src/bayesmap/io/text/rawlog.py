@@ -49,12 +49,12 @@ class UnreadableObject(Exception):
 
 @dataclass(frozen=True)
 class Header:
-    """An object's class without namespace, version, position of data, and whether `END` follows them."""
+    """What stands before the data of an object."""
 
-    name: str
+    name: str  # class, without namespace
     version: int
-    data: int
-    ended: bool
+    data_begin: int  # position of the first byte of the data
+    has_end: bool  # whether `END` follows the data
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,12 +124,12 @@ class Reader:
         if header is None or header.name not in names:
             name = "" if header is None else header.name
             raise UnreadableObject(f"holds {name!r} where {' or '.join(names)} is expected")
-        self.position = header.data
+        self.position = header.data_begin
         return header
 
     def end(self, header: Header) -> None:
         """Check the end mark of an object within this one."""
-        if header.ended and self.number("B") != END:
+        if header.has_end and self.number("B") != END:
             raise UnreadableObject(
                 f"holds a {header.name} of version {header.version} that does not end where it should"
             )
@@ -192,7 +192,7 @@ class Reader:
         for forms in product(*trailing_fields):
             self.position = start
             ended = all(map(self._skip_field, forms)) and self.data[self.position : self.position + 1] == bytes([END])
-            if ended or not header.ended:
+            if ended or not header.has_end:
                 return
         raise UnreadableObject("does not end where it should")
 
@@ -373,11 +373,11 @@ class _Objects:
         for match in CLASS.finditer(data):
             position = match.start() - (1 if match.start() and data[match.start() - 1] & 0x80 else 4)
             header = object_at(data, position, CLASS) if position >= 0 else None
-            if header is None or header.data <= self.read_until or header.name.startswith("CPose"):
+            if header is None or header.data_begin <= self.read_until or header.name.startswith("CPose"):
                 continue
             account.counts[header.name] += 1
             try:
-                self._take(Reader(data, header.data), header)
+                self._take(Reader(data, header.data_begin), header)
             except (UnreadableObject, struct.error) as problem:
                 fault = str(problem) if isinstance(problem, UnreadableObject) else "is cut short"
                 reason = f"version {header.version} {fault}"

@@ -49,6 +49,7 @@ def add_stops(
     for d in range(draws):
         survive = wp.float64(1.0)
         for k in range(rays.offsets[b], rays.offsets[b + 1]):
+            # stop: chance, distance, variance
             stop = density.stop_in(maps, d, columns[k], line, rays.cells[k])
             w = survive * stop[0]
             survive = survive * (wp.float64(1.0) - stop[0])
@@ -134,7 +135,7 @@ def find_events(
     first: int, law: SensorLaw64, stops: StopMixtureArrays, rays: RayArrays, range_m: Float64s, chance: Float32s,
     stopped: wp.array(dtype=wp.int8),
 ):  # fmt: skip
-    """One thread per beam: compute the chance that its reading ends in each stretch that it reaches, and if it does."""
+    """One thread per beam: compute the chance that its reading ends in each stretch, and whether it ends there."""
     # b: beam; z: its reading; k: entry; before, after: cumulative probability at the stretch's two ends; stopped: stays
     # -1 if the reading does not reach the stretch, or if the stretch has no length.
     b = first + wp.tid()

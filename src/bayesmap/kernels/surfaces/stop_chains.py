@@ -112,13 +112,13 @@ class StopChains:
 
     def sweeps(
         self, first: int, count: int, sensor: SensorModel, prior: KernelNumbers, beta: float = 1.0, *,
-        steps: int = endpoint_cells.STEPS, observing_after: int | None = None,
+        steps: int = endpoint_cells.STEPS, observe_from: int | None = None,
         before: Callable[[int, int], None] | None = None, after: Callable[[int, int], None] | None = None,
     ) -> tuple[Floats, Floats]:  # fmt: skip
         """Advance every chain by ``count`` sweeps, numbered from ``first``, at the inverse temperature ``beta``.
 
         A surface makes ``steps`` Metropolis steps in a sweep, at most 24: a cell has random counters for this many.
-        With 0, cells stay. From sweep ``observing_after`` on, the cells which beams observe are counted; with surfaces
+        With 0, cells stay. From sweep ``observe_from`` on, the cells which beams observe are counted; with surfaces
         `in_squares` counts them. The callbacks get the numbers of chain and sweep, ``after`` on the thread of the
         sweep. Returns log-likelihood and log prior of the cells *before* each sweep, (chains, count) each.
         """
@@ -148,7 +148,7 @@ class StopChains:
             launches.append((cell_draws.update_free_cells, touched, inputs))
             inputs = [sweep, steps, law, packed, self._rays, *endpoint_inputs, self._blocks]
             launches.append((endpoint_cells.update_endpoint_cells, endpoints, inputs))
-            if self.without_surfaces and observing_after is not None and sweep >= observing_after:
+            if self.without_surfaces and observe_from is not None and sweep >= observe_from:
                 launches.append((cell_draws.count_observed, touched, [self._active, state]))
             return launches
 
@@ -198,7 +198,7 @@ class StopChains:
         """Launch a kernel over a part of the elements of neighbouring chains."""
         (kernel, size, inputs), (chains, part) = launch, chains_and_part
         begin, end = (size * i // self._state.parts for i in (part, part + 1))
-        if len(chains) > 1:
+        if len(chains) > 1:  # all elements of all chains: several chains are launched together only without parts
             end = size * len(chains)
         if end > begin:
             first = chains.start * size + begin

@@ -91,7 +91,7 @@ def draw_given_neighbours(prior: WallPriorArrays, walls: Uint8s, c: int, bits: w
 
 @wp.func
 def pairs_alike(walls: Uint8s, cell_0: int, begin: int, end: int, nx: int, ny: int) -> int:
-    """Count the cells in [begin, end) that are like the next cell in x and in y; the map begins at ``cell_0``."""
+    """Count the pairs of equal neighbours whose first cell is in [begin, end); the map begins at element ``cell_0``."""
     pairs = int(0)
     for c in range(begin, end):
         x = c // ny
