@@ -289,9 +289,8 @@ for ax in axes:
     on_the_building(ax)
 for mode in alone[least].modes[:5]:
     turned = mode.mean[2]
-    axes[0].plot(
-        *mode.mean[:2], "o", color=ODOMETRY_COLOR, markersize=4 + 14 * mode.probability, markerfacecolor="none"
-    )
+    size = 4 + 14 * mode.probability
+    axes[0].plot(*mode.mean[:2], "o", color=ODOMETRY_COLOR, markersize=size, markerfacecolor="none")
     axes[0].annotate(f"{mode.probability:.2f}", mode.mean[:2], (6, 6), textcoords="offset points", fontsize=8)
     axes[0].plot(*(mode.mean[:2, None] + np.outer([np.cos(turned), np.sin(turned)], [0, 0.7])), color=ODOMETRY_COLOR)
 axes[0].plot(*somewhere[least, :2], "+", color=INFERRED_COLOR, markersize=12, markeredgewidth=2)
