@@ -307,7 +307,7 @@ def test_files_are_short_and_named_for_what_they_do():
 
 
 MOST_FILES, LEAST_MEDIAN = 260, 150
-MOST_LINES_OF = {"src": 51_900, "tests": 34_600}  # they only go down; the goal is 50 000 and 31 000
+MOST_LINES_OF = {"src": 50_000, "tests": 31_000}  # they only go down; the goal is 50 000 and 31 000
 
 
 def test_the_house_stays_small(capsys):
