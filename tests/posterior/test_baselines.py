@@ -198,20 +198,29 @@ def seen():
     return occupancy, grid, *scans.holdout(5)
 
 
-def test_the_true_map_is_understood_and_predicts_and_maps_of_another_shape_are_refused(seen):
-    """It was not, while cells that beams touch were given the values of the first ones of the grid."""
+@pytest.fixture(scope="module")
+def true_fit(seen):
     occupancy, grid, train, held = seen
     fit = baselines.fit_external_map("true.yaml", occupancy, grid, train)
+    return fit, score_prediction(fit.predictor, held).nats_per_beam
+
+
+def test_the_true_map_is_understood_and_predicts(seen, true_fit):
+    """It was not, while cells that beams touch were given the values of the first ones of the grid."""
+    (occupancy, grid, _, _), (fit, nats) = seen, true_fit
     (stop,) = fit.predictor.batches(np.arange(grid.n_cells))
     np.testing.assert_allclose(stop[0], baselines.stop_probabilities(occupancy.ravel(), fit.values), rtol=1e-6)
     assert fit.values["stop_occupied"] > 0.3
     assert fit.values["stop_free"] < 0.01
-    found = score_prediction(fit.predictor, held).nats_per_beam
-    assert found > 1.0
-    assert found == pytest.approx(fit.inner_nats_per_beam, abs=0.2)  # what was fitted is what is scored
+    assert nats > 1.0
+    assert nats == pytest.approx(fit.inner_nats_per_beam, abs=0.2)  # what was fitted is what is scored
+
+
+def test_a_map_of_another_place_predicts_worse_and_one_of_another_shape_is_refused(seen, true_fit):
+    (occupancy, grid, train, held), (_, nats) = seen, true_fit
     shuffled = np.random.default_rng(1).permutation(occupancy.ravel()).reshape(grid.shape)
-    twin = baselines.fit_external_map("shuffled.yaml", shuffled, grid, train)  # of another place
-    assert score_prediction(twin.predictor, held).nats_per_beam < found - 1.5
+    twin = baselines.fit_external_map("shuffled.yaml", shuffled, grid, train)
+    assert score_prediction(twin.predictor, held).nats_per_beam < nats - 1.5
     short = baselines.Baseline("short", lambda hits, passes, values: np.full(hits.size - 1, 0.1))
     with pytest.raises(ValueError, match="short: stop gave shape"):
         baselines.fit_baseline(short, train, grid)
