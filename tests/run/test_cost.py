@@ -261,7 +261,7 @@ def test_marks_are_fixed_and_progress_expects_the_first_and_then_what_the_error_
     assert SweepPlan(50, 60, 3).marks == ()
     rule = EndRule(SweepPlan(50, 60, 3, 0.03), lambda: 0.06)
     rule.check(20)
-    assert (rule.expected_sweeps(20), rule.error, rule.reached) == (80, None, False)
+    assert (rule.expected_sweeps(20), rule.error, rule.reached, rule.end_is_open) == (80, None, False, True)
     rule.check(80)
-    assert (rule.expected_sweeps(80), rule.error, rule.reached) == (50 + 4 * 30, 0.06, False)
+    assert (rule.expected_sweeps(80), rule.error, rule.reached, rule.end_is_open) == (50 + 4 * 30, 0.06, False, False)
     assert EndRule(SweepPlan(50, 60, 3), lambda: 0.0).expected_sweeps(20) == 230

@@ -118,8 +118,8 @@ def complain(text: str) -> None:
 
 
 OnProgress = Callable[["Event"], None]
-Show = Callable[[str, str, int, int, str, int], None]
-"""Takes the stage, the counted unit, the count, the total, the quality of the map, and the units of warm-up."""
+Show = Callable[[str, str, int, int, str, int, bool], None]
+"""Takes stage, counted unit, count, total, quality of the map, units of warm-up, and whether the total is the least."""
 
 STAGES = {
     "compile": ("compiling kernels, once", "kernels"),
@@ -152,7 +152,9 @@ def progress(console: Console, begin: str) -> Iterator[OnProgress]:
     ``begin`` is shown before the first event.
     """
     with _bar(console, begin) as show:
-        yield lambda event: show(*STAGES[event.stage], event.done, event.total, _quality(event), event.warmup)
+        yield lambda event: show(
+            *STAGES[event.stage], event.done, event.total, _quality(event), event.warmup, event.end_is_open
+        )
 
 
 def _quality(event: Event) -> str:
@@ -166,7 +168,7 @@ def _quality(event: Event) -> str:
 def share(console: Console, name: str) -> Iterator[Callable[..., None]]:
     """Yield a function that shows the share of the work that is done, from 0 to 1, and a step other than ``name``."""
     with _bar(console, name) as show:
-        yield lambda done, step=name: show(step, "%", round(1000 * done), 1000, "", 0)
+        yield lambda done, step=name: show(step, "%", round(1000 * done), 1000, "", 0, False)
 
 
 def exit_unless_good(*, finished: bool, problems: bool) -> None:
@@ -194,7 +196,7 @@ def _lines(console: Console) -> Show:
     began = last = time.monotonic()
     starts: dict[str, tuple[float, int]] = {}  # time and count at the first event of each stage
 
-    def show(name: str, unit: str, done: int, total: int, quality: str, warmup: int) -> None:
+    def show(name: str, unit: str, done: int, total: int, quality: str, warmup: int, end_is_open: bool) -> None:
         nonlocal last
         now = time.monotonic()
         start, first = starts.setdefault(name, (now, done))
@@ -202,7 +204,7 @@ def _lines(console: Console) -> Show:
             return
         last = now
         words = [f"{name}: {_count(unit, done, total, warmup, ' of ')}", f"{now - began:.0f} s passed"]
-        if done > first and total > FEW_STEPS:
+        if done > first and total > FEW_STEPS and not end_is_open:
             words.append(f"about {(now - start) * (total - done) / (done - first):.0f} s left")
         console.say(", ".join([*words, *([quality] if quality else [])]))
 
@@ -230,7 +232,7 @@ def _bar(console: Console, begin: str) -> Iterator[Show]:
         tasks: dict[tuple[str, int], TaskID] = {}
         sampling = [STAGES[stage][0] for stage in SAMPLING]
 
-        def show(name: str, unit: str, done: int, total: int, quality: str, warmup: int) -> None:
+        def show(name: str, unit: str, done: int, total: int, quality: str, warmup: int, end_is_open: bool) -> None:
             nonlocal visible
             # If the precision ends the chains, the total of sweeps is an estimate that changes.
             key = (unit, 0 if name in sampling else total)
@@ -239,7 +241,8 @@ def _bar(console: Console, begin: str) -> Iterator[Show]:
             if visible != tasks[key]:
                 bar.update(visible, visible=False)
                 visible = tasks[key]
-            length = total if total > FEW_STEPS else None  # without it the bar foretells nothing
+            # Without a length the bar foretells nothing.
+            length = total if total > FEW_STEPS and not end_is_open else None
             count = _count(unit, done, total, warmup, "/") + " ETA" * (length is not None)
             bar.update(
                 visible, description=name, completed=done, total=length, count=count, quality=quality, visible=True

@@ -86,6 +86,11 @@ class EndRule:
         if plan.seconds is not None and sweep >= plan.warmup + MIN_DRAWS_PER_CHAIN * plan.thin:
             self.reached = self.reached or time.monotonic() - self._began >= plan.seconds
 
+    @property
+    def end_is_open(self) -> bool:
+        """Whether the error decides when chains end, and is not known yet: until then the least number is expected."""
+        return self._plan.precision is not None and self._plan.seconds is None and self.error is None
+
     def expected_sweeps(self, sweep: int) -> int:
         """Return the expected number of sweeps at the end, by the error at the last mark and by the time."""
         expected = self._expected

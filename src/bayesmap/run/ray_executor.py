@@ -377,4 +377,5 @@ class _RayRun:
             log_joint = segment.log_joint if segment.log_joint.size else segment.warmup_log_joint
             mean = float(log_joint[:, -1].mean()) if log_joint.size else None
             total, error = self.rule.expected_sweeps(done), self.rule.error
-            self.watch.report("warm-up" if done <= warmup else "draws", done, total, mean, error, warmup)
+            is_open = self.rule.end_is_open
+            self.watch.report("warm-up" if done <= warmup else "draws", done, total, mean, error, warmup, is_open)

@@ -200,8 +200,9 @@ def run_chains(
         rule.check(state.sweep)
         total = rule.expected_sweeps(state.sweep)
         watch.report(
-            "warm-up" if warming else "draws", state.sweep, total, log_joint, error=rule.error, warmup=schedule.warmup
-        )
+            "warm-up" if warming else "draws", state.sweep, total, log_joint, rule.error, schedule.warmup,
+            rule.end_is_open,
+        )  # fmt: skip
         checkpoints.offer(so_far, at_once=warming and state.sweep == schedule.warmup)
         began, stopped = time.perf_counter(), watch.should_stop()
     # A stop in the last step counts, too: the caller must not begin the work that follows the chains.

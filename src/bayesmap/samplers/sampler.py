@@ -37,6 +37,7 @@ class Event:
     log_joint: float | None = None  # mean over the chains
     error: float | None = None  # Monte Carlo error of the map, see `bayesmap.run.chains.map_error`
     warmup: int = 0  # units of the total that are warm-up
+    end_is_open: bool = False  # whether the total is only the least, because nothing is known of the error yet
 
 
 @dataclass(frozen=True)
@@ -48,11 +49,11 @@ class Watch:
 
     def report(
         self, stage: Stage, done: int, total: int, log_joint: float | None = None, error: float | None = None,
-        warmup: int = 0,
+        warmup: int = 0, end_is_open: bool = False,
     ) -> None:  # fmt: skip
         """Report the progress of a stage."""
         if self.on_progress is not None:
-            self.on_progress(Event(stage, done, total, log_joint, error, warmup))
+            self.on_progress(Event(stage, done, total, log_joint, error, warmup, end_is_open))
 
     def of(self, stage: Stage) -> Callable[[int, int], None]:
         """Return a callback for one stage."""
