@@ -237,7 +237,10 @@ export class Chains extends Job {
 
   protected recorded() {
     const { joint, kept, thin } = this;
-    const draws = Uint8Array.from(kept.flatMap((maps) => maps.flatMap((map) => [...map])));
+    const maps = kept.flat();
+    const size = maps[0]?.length ?? 0;
+    const draws = new Uint8Array(maps.length * size);
+    maps.forEach((map, i) => draws.set(map, i * size));
     return { log_joint: joint.map((row) => row.filter((_, sweep) => (sweep + 1) % thin === 0)), draws };
   }
 

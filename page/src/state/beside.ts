@@ -8,7 +8,6 @@ export class Beside {
   /** The session that plays the kept result, or null. */
   kept: Session | null = null;
   private draws: DrawCount & { kept: number } = { chains: 0, count: 0, kept: 0 };
-  private followed = "";
 
   constructor(private readonly main: Session) {}
 
@@ -29,7 +28,6 @@ export class Beside {
   /** The result to keep has come. */
   receive(recording: [Recording, Buffers]) {
     this.draws = recording[0].draws;
-    this.followed = "";
     const transport = recordedTransport(recording);
     this.kept = new Session(transport, this.main.changed);
     transport.open();
@@ -39,11 +37,11 @@ export class Beside {
   follow() {
     const { kept, main, draws } = this;
     if (!kept) return;
-    const { layer, chain } = main.view;
-    const draw = layer === "draw" ? Math.round((main.draw * (draws.count - 1)) / Math.max(1, draws.kept - 1)) : null;
-    const wanted = { layer, chain: Math.max(0, Math.min(chain, draws.chains - 1)), draw };
-    if (JSON.stringify(wanted) !== this.followed) kept.act({ type: "view", ...wanted });
-    this.followed = JSON.stringify(wanted);
+    const { layer, chain: asked } = main.view;
+    const chain = Math.max(0, Math.min(asked, draws.chains - 1));
+    const draw = layer === "draw" && draws.count ? Math.round((main.draw * (draws.count - 1)) / Math.max(1, draws.kept - 1)) : null;
+    const { view } = kept;
+    if (layer !== view.layer || chain !== view.chain || draw !== view.draw) kept.act({ type: "view", layer, chain, draw });
     kept.take();
   }
 
@@ -53,6 +51,6 @@ export class Beside {
     const then = this.kept?.shown?.about ?? [];
     const apart = (rows: [string, string][], others: [string, string][]) =>
       rows.filter(([name, words]) => !others.some(([other, same]) => other === name && same === words)).map(([name, words]) => `${name.toLowerCase()} ${words}`).join("; ");
-    return [apart(now, then) || "the same model and method", apart(then, now) || "the same model and method"];
+    return [apart(now, then), apart(then, now)].map((words) => words || "the same model and method") as [string, string];
   }
 }
