@@ -183,6 +183,8 @@ def read_messages(recording: Recording, topics: Iterable[Topic], poses: PoseMess
             except Malformed as problem:
                 bad(topic.name, counts[topic.name], str(problem))
             except AttributeError as error:  # a definition that was damaged, or one of somebody's own
+                if not hasattr(error.obj, "__msgtype__"):
+                    raise
                 bad(topic.name, counts[topic.name], f"{topic.type} lacks the field {error.name!r}")
     except Damaged as problem:
         raise BadInput(f"{recording.path}: the recording is damaged or cut short ({problem}); {REMEDY}") from None
