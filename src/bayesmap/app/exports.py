@@ -25,6 +25,7 @@ from bayesmap.app.protocol.wire import frame
 from bayesmap.app.scene import scan_buffers
 from bayesmap.app.shown.result import Result
 from bayesmap.errors import BadInput
+from bayesmap.space.arrays import evenly_spaced_indices
 
 MOST_DRAWS = 1000  # most draws of all chains in a recording; they are evenly spaced
 MOST_DRAW_BYTES = 16 << 20  # most bytes of these draws
@@ -111,7 +112,7 @@ def record(result: Result) -> tuple[Recording, Buffers]:
     if not result.document.simulated:
         buffers |= overlay_of(result)
     # Long logs are thinned evenly, so that the file stays at a few megabytes.
-    scan_indices = evenly_spaced(len(result.scene.scans), MOST_RAYS // len(result.scene.scans.angles_rad))
+    scan_indices = evenly_spaced_indices(len(result.scene.scans), MOST_RAYS // len(result.scene.scans.angles_rad))
     recording = Recording(
         document=result.document, field=structs.replace(field, draws=DrawCount(draws.chains, draws.count)),
         ids=[result.scene.ids[i] for i in scan_indices], draws=draws,
@@ -127,7 +128,7 @@ def _pack_draws(result: Result) -> tuple[NDArray[np.intp], RecordedDraws, NDArra
         return np.zeros(0, dtype=np.intp), RecordedDraws(), np.zeros((0, 0, 0), dtype=np.uint8)
     bits = draws.specs[0].storage == "bits"
     draw_bytes = draws.chains * result.document.grid.n_cells // (8 if bits else 1)
-    indices = evenly_spaced(draws.count, min(MOST_DRAWS // draws.chains, MOST_DRAW_BYTES // max(1, draw_bytes)))
+    indices = evenly_spaced_indices(draws.count, min(MOST_DRAWS // draws.chains, MOST_DRAW_BYTES // max(1, draw_bytes)))
     if bits:
         packed = np.asarray(draws.arrays[draws.specs[0].name])[:, indices]
     else:
@@ -142,8 +143,3 @@ def _say_draws_included(draws: RecordedDraws) -> str:
         return "without draws: none were kept"
     limit = f"; at most {MOST_DRAWS:,} draws and {MOST_DRAW_BYTES >> 20} MB fit" if draws.count < draws.kept else ""
     return f"with {draws.count:,} of the {draws.kept:,} draws of each chain{limit}"
-
-
-def evenly_spaced(count: int, most: int) -> NDArray[np.intp]:
-    """Return at most `most` evenly spaced indices below `count`, but at least one."""
-    return np.unique(np.linspace(0, count - 1, max(1, min(count, most))).round().astype(np.intp))

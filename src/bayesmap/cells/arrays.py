@@ -10,6 +10,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from bayesmap.space.arrays import evenly_spaced_indices
 from bayesmap.space.grid import Grid
 
 BATCH_BITS = 1 << 26  # cells that `count_walls` unpacks at once
@@ -114,8 +115,7 @@ class Draws:
 
     def thinned(self, most: int) -> Draws:
         """Select at most ``most`` draws, evenly spread over every chain, but at least one of each chain."""
-        per_chain = min(self.count, max(1, most // self.chains))
-        return self.select(np.linspace(0, self.count - 1, per_chain).round().astype(np.intp))
+        return self.select(evenly_spaced_indices(self.count, most // self.chains))
 
     def of_chain(self, chain: int) -> Draws:
         """Select the draws of one chain."""

@@ -165,8 +165,10 @@ def frames(run: Run, chain: int, most: int) -> tuple[NDArray[Any], list[int]]:
     """Return at most ``most`` evenly spaced draws of a chain, and their numbers, from 1."""
     import numpy as np
 
+    from bayesmap.space.arrays import evenly_spaced_indices
+
     one_draw(run, chain, -1)  # raises `BadInput` for a chain that is not there
-    numbers = np.unique(np.linspace(0, run.n_draws - 1, min(most, run.n_draws)).round().astype(int)).tolist()
+    numbers = evenly_spaced_indices(run.n_draws, most).tolist()
     return np.stack([run.map_of(chain - 1, i) for i in numbers]), [i + 1 for i in numbers]
 
 

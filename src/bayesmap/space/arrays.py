@@ -19,6 +19,11 @@ def evenly_spaced(values: NDArray[Value], most: int) -> NDArray[Value]:
     return values if len(values) <= most else values[np.arange(most) * len(values) // most]
 
 
+def evenly_spaced_indices(count: int, most: int) -> Indices:
+    """Return at most ``most`` indices below ``count``, from the first to the last, evenly spaced, but at least one."""
+    return np.linspace(0, count - 1, min(count, max(1, most))).round().astype(np.intp)
+
+
 def bracketing_indices(ascending: Numbers, numbers: Numbers) -> tuple[Indices, Indices]:
     """Return the indices of the ascending numbers, (S,), before and after each of ``numbers``, (N,) each."""
     last = len(ascending) - 1

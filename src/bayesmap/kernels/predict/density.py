@@ -30,6 +30,7 @@ from bayesmap.kernels.surfaces.surface import REFLECTIVITY, Cell, Ray, cells_to_
 from bayesmap.kernels.walk import NEVER, Walk, is_inside, walk_next
 from bayesmap.sensors.model import RangeLimits, SensorModel
 from bayesmap.sensors.tabulated import tabulated
+from bayesmap.space.arrays import evenly_spaced_indices
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
@@ -136,7 +137,7 @@ class DeviceMaps:
         """Return at most ``most`` of the draws, evenly spread."""
         if most >= self.draws:
             return self
-        rows = np.linspace(0, self.draws - 1, most).round().astype(np.intp)
+        rows = evenly_spaced_indices(self.draws, most)
         return device_maps([self.states()[rows]], self.grid, self.arrays.depth, device=self.device)
 
 
