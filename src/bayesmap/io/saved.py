@@ -158,9 +158,8 @@ def load_saved(path: str | os.PathLike[str]) -> tuple[Posterior, InferredTraject
     path = Path(path)
     if not path.is_file():
         state = "a folder without a run; give a run.nc" if path.is_dir() else "no such file"
-        if (
-            path.name == "run.nc" and (path.parent / "trajectory.tum").is_file()
-        ):  # slam writes it before its first sweep
+        # slam writes the trajectory before its first sweep.
+        if path.name == "run.nc" and (path.parent / "trajectory.tum").is_file():
             state = "no draws yet; trajectory.tum beside it is complete, and slam --resume draws the map"
         raise BadInput(f"{path}: {run_in(path) or state}")
     try:
