@@ -16,8 +16,8 @@ from dataclasses import dataclass
 from itertools import product
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.stats import norm, qmc
 
 import bayesmap as bm
 from bayesmap.kernels.predict.density import ScanLikelihood
@@ -69,7 +69,11 @@ def world(seed: int, sensor: bm.SensorModel) -> bm.Scans:
 
 def enumerated(scans: bm.Scans, sensor: bm.SensorModel) -> Posterior:
     """By all maps and many poses."""
-    off = norm.ppf(qmc.Sobol(3, seed=1).random(POINTS)) * [PRIOR.sigma_m, PRIOR.sigma_m, PRIOR.sigma_rad]
+    off = scipy.stats.norm.ppf(scipy.stats.qmc.Sobol(3, seed=1).random(POINTS)) * [
+        PRIOR.sigma_m,
+        PRIOR.sigma_m,
+        PRIOR.sigma_rad,
+    ]
     likelihood = ScanLikelihood(scans, GRID, sensor, 0.0)
     of_maps = MAPS.sum(axis=1) * np.log(P_WALL / (1 - P_WALL))
     means, squares = np.empty((SCANS, len(MAPS), 3)), np.empty((SCANS, len(MAPS), 3))

@@ -17,8 +17,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy import stats
 
 from bayesmap.poses.slam import infer_trajectory
 from bayesmap.poses.trajectory import InferredTrajectory
@@ -42,7 +42,7 @@ COVERED_SQ = 16.3
 
 def covered_by_t_sq(dof: float) -> float:
     """Return the squared Mahalanobis length, by the covariance, of the ellipsoid with 99.9 % of a Student's t."""
-    return float(3.0 * (dof - 2.0) / dof * stats.f.ppf(0.999, 3, dof))
+    return float(3.0 * (dof - 2.0) / dof * scipy.stats.f.ppf(0.999, 3, dof))
 
 
 MOST_SCANS = 500

@@ -96,6 +96,7 @@ def pytest_collection_modifyitems(config, items):
             items[:] = [item for item in items if not item.get_closest_marker("full")]
             config.hook.pytest_deselected(items=left_out)
             config.stash[NOT_SELECTED] = len(left_out)
+    items.sort(key=lambda item: item.path.parent.name == "docs")  # their kernels are compiled by then
     for item in items:
         if item.get_closest_marker("xdist_group") is None:
             item.add_marker(pytest.mark.xdist_group("jax" if item.path.parent.name in OF_JAX else item.location[0]))

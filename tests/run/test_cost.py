@@ -6,8 +6,8 @@ from functools import cache
 
 import numpy as np
 import pytest
+import scipy
 from flat_options import infer
-from scipy import stats
 
 import bayesmap as bm
 from bayesmap.api import Inference, estimate_slam
@@ -176,7 +176,7 @@ def sticky_chains():
 def expected_error(sd):
     """The 99 % quantile of an estimate from eight batches whose mean has a standard deviation."""
     degrees = MIN_BATCHES - 1
-    return sd * np.sqrt(stats.chi2(degrees).ppf(KNOWN_SHARE) / degrees)
+    return sd * np.sqrt(scipy.stats.chi2(degrees).ppf(KNOWN_SHARE) / degrees)
 
 
 def test_the_error_is_that_of_the_mean_of_chains_that_mix_slowly():
