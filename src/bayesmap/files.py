@@ -1,6 +1,8 @@
-"""Write files and folders whole or not at all, and check the endings of their names."""
+"""Write files and folders whole or not at all, and check the endings of their names.
 
-from __future__ import annotations
+Content goes to a temporary name beside the target, and a rename, which is atomic, puts it in place: a program that is
+stopped while it writes leaves the old file. See `write_whole`, `write_file` and `write_whole_folder`.
+"""
 
 import contextlib
 import errno
@@ -19,10 +21,10 @@ from bayesmap.errors import BadInput
 def write_whole(path: str | os.PathLike[str]) -> Iterator[Path]:
     """Yield a temporary path. If the block succeeds, the file written there becomes ``path``.
 
-    The temporary file lies in the same folder, since a rename within a file system is atomic, and has the suffix of
-    ``path``, since some libraries choose a format by it. It is flushed to disk before the rename: after an error, a
-    crash or a kill ``path`` holds either the old or the new content. A symbolic link's target is replaced. Raises
-    `BadInput` if the folder does not exist, or cannot be written to, and `OSError` naming ``path`` if writing failed.
+    The temporary file has the suffix of ``path``, since some libraries choose a format by it. It is flushed to disk
+    before the rename: after an error, a crash or a kill ``path`` holds either the old or the new content. A symbolic
+    link's target is replaced. Raises `BadInput` if the folder does not exist, or cannot be written to, and `OSError`
+    naming ``path`` if writing failed.
     """
     target = Path(os.path.realpath(path))
     temporary = target.with_name(f".{target.stem}.{secrets.token_hex(4)}.partial{target.suffix}")
@@ -32,7 +34,7 @@ def write_whole(path: str | os.PathLike[str]) -> Iterator[Path]:
     except OSError as error:
         raise BadInput(f"{path}: cannot be written ({error.strerror}); name a file in a folder that is there") from None
     try:
-        with errors_naming(path, temporary):
+        with name_path_in_errors(path, temporary):
             yield temporary
             if target.exists():
                 temporary.chmod(target.stat().st_mode & 0o777)
@@ -45,14 +47,15 @@ def write_whole(path: str | os.PathLike[str]) -> Iterator[Path]:
 
 def write_file(path: str | os.PathLike[str], content: bytes | str | Iterable[str]) -> Path:
     """Write bytes, a text or lines of text, whole or not at all, gzipped if the name ends in .gz. Returns the path.
-    Raises `BadInput` if the folder does not exist, or cannot be written to.
+
+    Raises `BadInput` if the folder does not exist, or is not writable.
     """
     target = Path(path)
     if not isinstance(content, bytes):
         content = (content if isinstance(content, str) else "".join(f"{line}\n" for line in content)).encode()
-    with write_whole(target) as partial:
+    with write_whole(target) as temporary:
         # No time stamp and no name in the header: the same content gives the same bytes.
-        partial.write_bytes(gzip.compress(content, mtime=0) if target.suffix == ".gz" else content)
+        temporary.write_bytes(gzip.compress(content, mtime=0) if target.suffix == ".gz" else content)
     return target
 
 
@@ -65,10 +68,12 @@ def write_whole_folder(path: str | os.PathLike[str], may_replace: Callable[[Path
     not be replaced, or its parent folder is missing or not writable, and `OSError` naming ``path`` if writing failed.
     """
     target = Path(os.path.realpath(path))
-    if os.path.lexists(target) and not (target.is_dir() and (not any(target.iterdir()) or may_replace(target))):
+    is_replaceable = target.is_dir() and (not any(target.iterdir()) or may_replace(target))
+    if os.path.lexists(target) and not is_replaceable:
         raise BadInput(f"{path}: is there already and holds other things; name a folder that is not there yet")
     mark = secrets.token_hex(4)
-    temporary, old = (target.with_name(f".{target.name}.{mark}.{what}") for what in ("partial", "old"))
+    temporary = target.with_name(f".{target.name}.{mark}.partial")
+    replaced = target.with_name(f".{target.name}.{mark}.old")
     # Make a folder and remove it: no other check tells for sure that one can be made.
     try:
         temporary.mkdir()
@@ -77,25 +82,25 @@ def write_whole_folder(path: str | os.PathLike[str], may_replace: Callable[[Path
         reason = f"cannot be written ({error.strerror}); name a folder inside one that is there, and yours"
         raise BadInput(f"{path}: {reason}") from None
     try:
-        with errors_naming(path, temporary):
+        with name_path_in_errors(path, temporary):
             yield temporary
-        # Move the old folder away, and back again if the new one cannot take its place.
+        # Move the older folder away, and back again if the new one cannot take its place.
         if target.exists():
-            os.replace(target, old)
+            os.replace(target, replaced)
         try:
             os.replace(temporary, target)
         except OSError:
-            if old.exists():
-                os.replace(old, target)
+            if replaced.exists():
+                os.replace(replaced, target)
             raise
     finally:
         shutil.rmtree(temporary, ignore_errors=True)
-        shutil.rmtree(old, ignore_errors=True)
+        shutil.rmtree(replaced, ignore_errors=True)
 
 
 @contextlib.contextmanager
-def errors_naming(path: str | os.PathLike[str], temporary: Path) -> Iterator[None]:
-    """Convert a write error of any library into an `OSError` that names ``path``."""
+def name_path_in_errors(path: str | os.PathLike[str], temporary: Path) -> Iterator[None]:
+    """Convert write errors of any library into an `OSError` that names ``path``; errors of other files stay."""
     try:
         yield
     except OSError as error:
@@ -103,6 +108,7 @@ def errors_naming(path: str | os.PathLike[str], temporary: Path) -> Iterator[Non
             raise
         raise OSError(error.errno or errno.EIO, error.strerror or str(error), os.fspath(path)) from error
     except (RuntimeError, sqlite3.OperationalError) as error:
+        # netCDF4 raises a bare RuntimeError if the disk is full; a RuntimeError of other code is a fault of its own.
         if isinstance(error, RuntimeError) and not str(error).startswith("NetCDF"):
             raise
         raise OSError(errno.EIO, f"writing failed; is the disk full? ({error})", os.fspath(path)) from error
@@ -117,24 +123,25 @@ def _flush(path: Path) -> None:
         os.close(descriptor)
 
 
-def run_in(folder: str | os.PathLike[str]) -> str | None:
-    """Return which saved run to give instead of a folder, in words; None if neither it nor a folder in it has one."""
+def saved_run_hint(folder: str | os.PathLike[str]) -> str | None:
+    """Return a sentence that names the saved runs in a folder and in its folders; None if there is no run."""
     if (Path(folder) / "run.nc").is_file():
         return "a folder; give the run.nc in it"
-    inside = sorted(map(str, Path(folder).glob("*/run.nc")))
-    more = f" ({len(inside) - 10:,} more)" if len(inside) > 10 else ""
-    return f"a folder of runs; give one of them: {', '.join(inside[:10])}{more}" if inside else None
+    runs = sorted(map(str, Path(folder).glob("*/run.nc")))
+    more = f" ({len(runs) - 10:,} more)" if len(runs) > 10 else ""
+    return f"a folder of runs; give one of them: {', '.join(runs[:10])}{more}" if runs else None
 
 
-def need_ending(path: str | os.PathLike[str], endings: tuple[str, ...], kind: str) -> tuple[Path, str]:
-    """Return the path, and its ending in lower case without the dot. Raises `BadInput` for an ending that is not among
-    ``endings``, or a missing folder, before any slow work.
+def check_ending(path: str | os.PathLike[str], endings: tuple[str, ...], kind: str) -> tuple[Path, str]:
+    """Check a file's name before any slow work. Returns the path, and its ending in lower case without the dot.
+
+    Raises `BadInput`, which names the ``kind`` of file, for an ending not among ``endings``, or a missing folder.
     """
     target = Path(path)
     ending = target.suffix.lower().removeprefix(".")
     if ending not in endings:
-        known = ", ".join("." + e for e in endings)
-        raise BadInput(f"{kind}: cannot tell the format of '{target}'; end its name in one of {known}")
+        choices = ", ".join("." + choice for choice in endings)
+        raise BadInput(f"{kind}: cannot tell the format of '{target}'; end its name in one of {choices}")
     if not target.parent.is_dir():
         raise BadInput(f"{kind}: the folder '{target.parent}' does not exist; make it first")
     return target, ending

@@ -11,7 +11,7 @@ from bayesmap.cli.console import write_out
 from bayesmap.cli.keys import AppSettings
 from bayesmap.cli.translation import LOG, log_options_of, need_file
 from bayesmap.errors import BadInput
-from bayesmap.files import need_ending, write_file
+from bayesmap.files import check_ending, write_file
 
 if TYPE_CHECKING:
     from bayesmap.app.protocol.document import Document
@@ -99,7 +99,7 @@ def _export_figure(call: Call[AppSettings], document: Document, story: Story | N
     """Write a page that samples in the reader's browser, and needs no server."""
     from bayesmap.app.figures import to_figure
 
-    target, _ = need_ending(file, ("html",), "--export")
+    target, _ = check_ending(file, ("html",), "--export")
     page = to_figure(document, story).encode()
     write_file(target, page)
     call.console.result({"path": str(target), "bytes": len(page)}, [target])

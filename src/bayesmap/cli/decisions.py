@@ -71,12 +71,12 @@ def plan(call: Call[PlanSettings], run_file: str, start: str, goal: str, output:
 
 def _load_run(call: Call[Any], run_file: str, output: str | None, name: str, force: bool) -> tuple[Run, Path]:
     """Return the run and the picture's path, after checking its ending. Prints whether the chains have converged."""
-    from bayesmap.files import need_ending
+    from bayesmap.files import check_ending
     from bayesmap.result import load
 
     target = Path(output) if output else Path(run_file).with_name(name)
     if output:
-        need_ending(target, ("png", "pdf", "svg"), "figure")
+        check_ending(target, ("png", "pdf", "svg"), "figure")
     need_free([target], force)
     run = load(run_file)
     if run.n_draws:

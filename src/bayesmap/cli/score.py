@@ -15,7 +15,7 @@ from bayesmap.cli.info import is_saved_run
 from bayesmap.cli.keys import Frame, ScoreSettings
 from bayesmap.cli.translation import heldout_scans, is_map, log_options_of, need_file, need_free
 from bayesmap.errors import BadInput
-from bayesmap.files import need_ending
+from bayesmap.files import check_ending
 
 if TYPE_CHECKING:
     import numpy as np
@@ -276,7 +276,7 @@ def score(
     if frame is not None and relations is None:
         raise click.UsageError("--frame says whose --relations are known; give both")
     if picture is not None:
-        need_ending(picture, ("png", "pdf", "svg"), "figure")  # check before minutes of computation
+        check_ending(picture, ("png", "pdf", "svg"), "figure")  # check before minutes of computation
         need_free([Path(picture), _poses_picture(picture)], force, "--picture")
     # Score the map.
     if of_run:

@@ -20,7 +20,7 @@ import msgspec
 
 from bayesmap.cli.keys import InferSettings, LogSettings, SamplingSettings
 from bayesmap.errors import BadInput
-from bayesmap.files import run_in
+from bayesmap.files import saved_run_hint
 
 if TYPE_CHECKING:
     from bayesmap.arguments import Schedule
@@ -262,7 +262,7 @@ def need_file(file: str, expected: str, *, runs: bool, pipes: bool = False) -> N
         raise BadInput(f"{file}: a pipe, and this needs a file that can be read again; localize --follow reads pipes")
     if not Path(file).exists():
         raise BadInput(f"{file}: no such file; give {expected}")
-    if runs and (inside := run_in(file)):
+    if runs and (inside := saved_run_hint(file)):
         raise BadInput(f"{file}: {inside}")
     if (Path(file) / "run.nc").is_file():
         raise BadInput(f"{file}: a run's folder; give {expected}")

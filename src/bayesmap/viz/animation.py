@@ -19,7 +19,7 @@ from PIL import Image, ImageDraw, ImageFont
 from scipy import ndimage
 
 from bayesmap.errors import BadInput
-from bayesmap.files import need_ending, write_file
+from bayesmap.files import check_ending, write_file
 from bayesmap.space.grid import ROUNDING, Grid, as_mask, as_observed
 from bayesmap.space.scans import as_poses
 from bayesmap.viz import palette
@@ -49,7 +49,7 @@ def write_animation(
     Raises `BadInput` if the ending is another, the folder is missing, there is no draw, a shape differs from the
     grid's, a number is outside [0, 1], or the rate is out of bounds. Raises `OSError` if writing failed.
     """
-    target, ending = need_ending(path, ("gif", "webp"), "animation")
+    target, ending = check_ending(path, ("gif", "webp"), "animation")
     if not 0.0 < frames_per_second <= 50.0:
         raise BadInput(f"animation: frames_per_second must lie in (0, 50], got {frames_per_second!r}")
     frames = render_frames(

@@ -26,7 +26,7 @@ from matplotlib.ticker import ScalarFormatter
 from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.files import need_ending, write_file
+from bayesmap.files import check_ending, write_file
 from bayesmap.space.grid import Grid, as_observed
 from bayesmap.space.scans import Scans
 from bayesmap.viz import maps, overlays, palette
@@ -205,7 +205,7 @@ def write_figure(figure: Figure, path: str | os.PathLike[str]) -> None:
     """Write a figure as PNG, PDF or SVG, by the path's ending, whole or not at all. Equal figures give equal bytes.
     Raises `BadInput` if the ending is another, or the folder does not exist. Raises `OSError` if writing failed.
     """
-    target, ending = need_ending(path, ("png", "pdf", "svg"), "figure")
+    target, ending = check_ending(path, ("png", "pdf", "svg"), "figure")
     # No date and no random identifiers, so that equal pictures are equal files.
     undated = {"png": {}, "pdf": {"CreationDate": None}, "svg": {"Date": None}}[ending]
     buffer = io.BytesIO()
