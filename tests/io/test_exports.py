@@ -13,7 +13,7 @@ from recorded import GRID, READERS, binary_run, observed, occupancy, reflectivit
 from bayesmap.cli.keys import Export
 from bayesmap.errors import BadInput
 from bayesmap.io import exports
-from bayesmap.io.exports import existing, export_format, export_run, layers_of, write_geotiff, write_rerun
+from bayesmap.io.exports import export_format, export_run, layers_of, path_to_replace, write_geotiff, write_rerun
 from bayesmap.io.ros import writer
 from bayesmap.io.ros.maps import in_percent
 from bayesmap.io.ros.writer import write_grid_map, write_occupancy_grid
@@ -55,18 +55,18 @@ def name(request):
 
 def test_every_ending_writes_whole_files_and_replaces_old_ones(tmp_path, name):
     target = tmp_path / name
-    assert existing(target) is None
+    assert path_to_replace(target) is None
     outputs = export_run(target, binary_run(), scans())
-    assert (existing(target), export_run(target, binary_run(), scans())) == (target, outputs)
+    assert (path_to_replace(target), export_run(target, binary_run(), scans())) == (target, outputs)
     assert (outputs[0], set(tmp_path.iterdir())) == (target, set(outputs))
 
 
 def test_an_image_that_would_be_replaced_counts_as_existing(tmp_path):
     (tmp_path / "map.pgm").write_text("another map's")
-    assert existing(tmp_path / "map.yaml") == tmp_path / "map.pgm"
-    assert existing(tmp_path / "map.mcap") is None
+    assert path_to_replace(tmp_path / "map.yaml") == tmp_path / "map.pgm"
+    assert path_to_replace(tmp_path / "map.mcap") is None
     (tmp_path / "folder").mkdir()
-    assert existing(tmp_path / "folder") is None
+    assert path_to_replace(tmp_path / "folder") is None
 
 
 def refuse_interval(level):

@@ -20,7 +20,7 @@ from tiers import full_but, latin
 import bayesmap as bm
 from bayesmap.cells.arrays import ArraySpec
 from bayesmap.io import saved as saved_module
-from bayesmap.io.saved import arrays_of, numbers_of
+from bayesmap.io.saved import trajectory_arrays, trajectory_scalars
 from bayesmap.poses.trajectory import Alternatives
 from bayesmap.space.planar import between, compose
 
@@ -229,7 +229,7 @@ def test_a_failed_save_leaves_the_old_file_and_nothing_else(saved, tmp_path, mon
     def fail(*arguments):
         raise OSError("disk full")
 
-    monkeypatch.setattr(saved_module, "_write", fail)
+    monkeypatch.setattr(saved_module, "_write_header", fail)
     with pytest.raises((OSError, bm.BadInput), match="disk full"):
         run.save(path)
     assert (path.read_bytes(), list(tmp_path.iterdir())) == (before, [path])
@@ -283,10 +283,10 @@ def test_the_approximation_comes_back_and_says_the_same(saved, options, tmp_path
     found = round_way(**options)
     dataclasses.replace(saved[0], trajectory=found).save(tmp_path / "run.nc")
     back = bm.load(tmp_path / "run.nc").trajectory
-    assert numbers_of(back) == numbers_of(found)
-    theirs = arrays_of(back)
-    assert list(theirs) == list(arrays_of(found))
-    for name, (dims, values) in arrays_of(found).items():
+    assert trajectory_scalars(back) == trajectory_scalars(found)
+    theirs = trajectory_arrays(back)
+    assert list(theirs) == list(trajectory_arrays(found))
+    for name, (dims, values) in trajectory_arrays(found).items():
         assert theirs[name][0] == dims
         np.testing.assert_array_equal(theirs[name][1], values, err_msg=name)
     first, second = np.array([0, 1, 5]), np.array([9, 4, 6])

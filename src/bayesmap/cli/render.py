@@ -248,13 +248,13 @@ def export(call: Call[ExportSettings], run_file: str, output: str | None, force:
     """
     import numpy as np
 
-    from bayesmap.io.exports import TRAJECTORIES, existing, export_format
+    from bayesmap.io.exports import TRAJECTORIES, export_format, path_to_replace
     from bayesmap.result import load
 
     settings = call.settings()
     kind = None if settings.format == "auto" else settings.format
     target = output or str(Path(run_file).with_name("export.yaml"))
-    older = existing(target, kind)
+    older = path_to_replace(target, kind)
     need_free([] if older is None else [older], force)
     if not Path(target).parent.is_dir():
         raise BadInput(f"{Path(target).parent}: no such folder; make it first, or choose another with -o")

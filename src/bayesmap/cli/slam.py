@@ -215,7 +215,7 @@ class TrajectoryFiles:
         """Write all files. The map in the picture is made of the cells that the key scans hit."""
         import numpy as np
 
-        from bayesmap.io.exports import approximated, export_trajectory
+        from bayesmap.io.exports import approximate_trajectory, export_trajectory
         from bayesmap.poses.map_scans import calibrated_keys
         from bayesmap.space.grid import Grid
         from bayesmap.space.planar import between, compose
@@ -224,7 +224,7 @@ class TrajectoryFiles:
 
         # Write the text files.
         path, closures = self.folder.path, trajectory.closures
-        moved = approximated(trajectory).of(self.frame, self.log.scans.mount)
+        moved = approximate_trajectory(trajectory).of(self.frame, self.log.scans.mount)
         texts = export_trajectory(path / "trajectory.tum", moved)
         # Render the trajectory.
         scans = calibrated_keys(self.log.scans, trajectory)

@@ -1,10 +1,9 @@
 """Write a posterior as a file for other programs. The format's name, or the path's ending, selects the writer.
 
-docs/file-formats.md describes the formats. Rows of a GeoTIFF (rasterio) and of rerun's pictures (rerun-sdk) run from
-the top, the largest y. rerun's coordinates are cells of the picture, with y downwards.
+docs/file-formats.md describes the formats. `export_run` writes the map of a run, or its trajectory by
+`export_trajectory`. `write_geotiff` and `write_rerun` are here, other writers have files of their own. Rows of a
+GeoTIFF and of rerun's pictures run from the top, the largest y. rerun's coordinates are cells, with y downwards.
 """
-
-from __future__ import annotations
 
 import contextlib
 import os
@@ -18,7 +17,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.files import write_whole
-from bayesmap.io.ros.writer import ENDINGS, FOLDER
+from bayesmap.io.ros import writer
+from bayesmap.io.ros.maps import write_map
+from bayesmap.io.text.g2o import Edges, chain_edges, slam_edges, write_g2o
+from bayesmap.io.text.trajectories import covariances_path, write_covariances, write_trajectory
 from bayesmap.space.grid import Grid, as_layers
 from bayesmap.space.planar import inverse
 from bayesmap.space.scans import Scans
@@ -27,20 +29,25 @@ from bayesmap.space.trajectory import RelativeLaw, Trajectory, ellipses
 if TYPE_CHECKING:
     from bayesmap.cells.arrays import Draws
     from bayesmap.cells.kind import CellPrior
-    from bayesmap.io.text.g2o import Edges
     from bayesmap.poses.trajectory import InferredTrajectory
 
-RECORDINGS = tuple(ending for ending in ENDINGS if ending != FOLDER)
+RECORDING_ENDINGS = tuple(ending for ending in writer.ENDINGS if ending != writer.FOLDER)
 FORMATS = {
-    "map-server": (".yaml", ".yml"), "occupancy-grid": RECORDINGS, "gridmap": (), "rerun": (".rrd",), "tum": (".tum",),
-    "trajectory": (), "g2o": (".g2o",), "geotiff": (".tif", ".tiff"),
+    "map-server": (".yaml", ".yml"), "occupancy-grid": RECORDING_ENDINGS, "gridmap": (), "rerun": (".rrd",),
+    "tum": (".tum",), "trajectory": (), "g2o": (".g2o",), "geotiff": (".tif", ".tiff"),
 }  # fmt: skip
 """Formats with the endings that select them; a name without ending is an occupancy grid in a folder."""
-
-TRAJECTORIES = ("tum", "trajectory", "g2o")
-APPROXIMATION = "the Student-t approximation of all scans' poses"
+TRAJECTORIES = ("tum", "trajectory", "g2o")  # formats of trajectories
 THRESHOLDED = ("map-server", "occupancy-grid")  # formats in per cent, which take a mode and thresholds
-INTERVAL = 0.9  # probability of the interval from the layer lower to upper
+APPROXIMATION = "the Student-t approximation of all scans' poses"
+INTERVAL_PROBABILITY = 0.9  # of the interval from the layer lower to the layer upper
+ELLIPSE_PROBABILITY = 0.95
+MIN_DATE_S = 1e8  # larger stamps, in seconds, are dates; smaller ones count from the start of the log
+SENSOR_COLOR = TRAJECTORY_COLOR = (0, 158, 115)
+SCAN_COLOR = (213, 94, 0)
+WALL_COLORS = ((250, 250, 248), (20, 31, 66))
+UNCERTAINTY_COLORS = ((0, 32, 76), (124, 123, 120), (255, 233, 69))  # 0 to 1, linearly, as in `bayesmap.viz.palette`
+UNKNOWN_COLOR = (214, 201, 176)  # not transparent: the viewer shows transparent pixels as black
 
 
 def export_format(path: str | os.PathLike[str], format: str | None = None) -> str:
@@ -50,33 +57,29 @@ def export_format(path: str | os.PathLike[str], format: str | None = None) -> st
             raise BadInput(f"export: format {format!r} is not known; use one of {', '.join(FORMATS)}")
         return format
     ending = Path(path).suffix.lower()
-    if os.fspath(path).endswith(os.sep) or Path(path).is_dir() or ending == FOLDER:
+    if os.fspath(path).endswith(os.sep) or Path(path).is_dir() or ending == writer.FOLDER:
         return "occupancy-grid"
     for name, endings in FORMATS.items():
         if ending in endings:
             return name
     known = ", ".join(ending for endings in FORMATS.values() for ending in endings)
-    raise BadInput(
-        f"{path}: no format is known by the ending {ending!r}; the known endings are {known}, and a name without "
-        "ending is the folder of a ROS 2 bag"
-    )
+    choices = f"the known endings are {known}, and a name without ending is the folder of a ROS 2 bag"
+    raise BadInput(f"{path}: no format is known by the ending {ending!r}; {choices}")
 
 
-def existing(path: str | os.PathLike[str], format: str | None = None) -> Path | None:
+def path_to_replace(path: str | os.PathLike[str], format: str | None = None) -> Path | None:
     """Return a file or folder that an export would replace, or None. Raises `BadInput` for an unknown format."""
     target = Path(path)
-    chosen, paths = export_format(path, format), [target]
+    chosen, outputs = export_format(path, format), [target]
     if chosen == "map-server":
-        paths += [target.with_suffix(ending) for ending in (".pgm", ".png")]
+        outputs += [target.with_suffix(ending) for ending in (".pgm", ".png")]
     elif chosen == "tum":
-        from bayesmap.io.text.trajectories import covariances_path
-
-        paths.append(covariances_path(target))
-    older = [path for path in paths if os.path.lexists(path)]
+        outputs.append(covariances_path(target))
+    replaced = [output for output in outputs if os.path.lexists(output)]
     # Nothing can be lost in an empty folder.
-    if older == [target] and target.is_dir() and not any(target.iterdir()):
+    if replaced == [target] and target.is_dir() and not any(target.iterdir()):
         return None
-    return older[0] if older else None
+    return replaced[0] if replaced else None
 
 
 def layers_of(run: Any) -> dict[str, NDArray[np.float64]]:
@@ -86,7 +89,7 @@ def layers_of(run: Any) -> dict[str, NDArray[np.float64]]:
     interval = getattr(run, "interval", None)
     if interval is not None:
         with contextlib.suppress(BadInput):
-            layers["lower"], layers["upper"] = interval(INTERVAL)
+            layers["lower"], layers["upper"] = interval(INTERVAL_PROBABILITY)
     return layers
 
 
@@ -97,25 +100,25 @@ def trajectory_of(run: object, scans: Scans) -> Trajectory:
     poses of all scans. Other runs give their draws of poses, or else the poses of their scans.
     """
     approximation = getattr(run, "trajectory", None)
-    draws = getattr(run, "poses", None)
+    draws = getattr(run, "poses", None)  # (chains, draws, S, 3)
     if draws is None or draws.ndim != 4 or draws.shape[0] * draws.shape[1] < 2 or (draws == draws[0, 0]).all():
         if approximation is None:
             return Trajectory(scans.poses, scans.stamps_s, frame="laser")
-        return approximated(approximation)
+        return approximate_trajectory(approximation)
     from bayesmap.posterior.summary import summarise_poses
 
     mixing = summarise_poses(draws)
     figures = f"R-hat up to {mixing.rhat_max:.3g}, effective sample size from {mixing.ess_min:.0f}"
     unmixed = f"the chains over poses have not mixed ({figures})"
     if approximation is not None and not mixing.mixed:
-        return approximated(approximation, f"{APPROXIMATION}: {unmixed}")
+        return approximate_trajectory(approximation, f"{APPROXIMATION}: {unmixed}")
     known_by = f"draws of poses, which are too alike: {unmixed}"
     if mixing.mixed:
         known_by = f"draws of the chains over poses, which have mixed ({figures})"
     return replace(Trajectory.of_draws(draws, scans.stamps_s, known_by), frame="laser")
 
 
-def approximated(trajectory: InferredTrajectory, known_by: str = APPROXIMATION) -> Trajectory:
+def approximate_trajectory(trajectory: "InferredTrajectory", known_by: str = APPROXIMATION) -> Trajectory:
     """Return the approximate trajectory of `bayesmap.slam` with its law of relative poses."""
     law = RelativeLaw(trajectory.relative_covariances, trajectory.gaussian.dof)
     covariances = trajectory.covariances()
@@ -135,25 +138,19 @@ def export_trajectory(
     ending = Path(path).suffix.lower()
     chosen = {".tum": "tum", ".g2o": "g2o"}.get(ending, "trajectory") if format is None else format
     if chosen == "g2o":
-        from bayesmap.io.text.g2o import chain_edges, write_g2o
-
         return (write_g2o(path, trajectory.poses, chain_edges(trajectory) if edges is None else edges),)
     if chosen == "tum":
-        from bayesmap.io.text.trajectories import covariances_path, write_covariances, write_trajectory
-
         written = (write_trajectory(path, trajectory.poses, trajectory.stamps_s, trajectory.frame),)
         if trajectory.covariances is None:
             return written
         return (*written, write_covariances(covariances_path(path), trajectory.covariances, trajectory.stamps_s))
     if chosen != "trajectory":
         raise BadInput(f"export: a trajectory is written as {', '.join(TRAJECTORIES)}, not as {chosen!r}")
-    from bayesmap.io.ros.writer import write_trajectory_recording
-
-    return (write_trajectory_recording(path, trajectory),)
+    return (writer.write_trajectory_recording(path, trajectory),)
 
 
 def known_cells(
-    prior: CellPrior, draws: Draws | None, occupancy: NDArray[np.float64], observed: NDArray[np.bool_],
+    prior: "CellPrior", draws: "Draws | None", occupancy: NDArray[np.float64], observed: NDArray[np.bool_],
     free_thresh: float | None = None,
 ) -> NDArray[np.bool_]:  # fmt: skip
     """Select the cells that a map of occupied, free and unknown cells does not call unknown, (nx, ny).
@@ -191,50 +188,32 @@ def export_run(
     thresholds = {"mode": mode, "occupied_thresh": occupied_thresh, "free_thresh": free_thresh}
     options: dict[str, Any] = {name: value for name, value in thresholds.items() if value is not None}
     if options and chosen not in THRESHOLDED:
-        raise BadInput(
-            f"{path}: {chosen} keeps the numbers and takes no {next(iter(options))}; leave it out, or choose "
-            f"{' or '.join(THRESHOLDED)}"
-        )
+        remedy = f"leave it out, or choose {' or '.join(THRESHOLDED)}"
+        raise BadInput(f"{path}: {chosen} keeps the numbers and takes no {next(iter(options))}; {remedy}")
     if frame is not None and chosen not in TRAJECTORIES:
         raise BadInput(f"{path}: {chosen} holds a map, and takes no frame; {', '.join(TRAJECTORIES)} hold a trajectory")
     grid, observed = run.grid, run.observed
     known = observed if known is None else known
     stamp_s = float(scans.stamps_s[-1]) if scans.stamps_s is not None and len(scans) else None
     if chosen == "map-server":
-        from bayesmap.io.ros.maps import write_map
-
         return write_map(path, run.occupancy, grid, known, **options)
     if chosen == "occupancy-grid":
-        from bayesmap.io.ros.writer import write_occupancy_grid
-
-        return (write_occupancy_grid(path, run.occupancy, grid, known, stamp_s=stamp_s, **options),)
+        return (writer.write_occupancy_grid(path, run.occupancy, grid, known, stamp_s=stamp_s, **options),)
     if chosen == "gridmap":
-        from bayesmap.io.ros.writer import write_grid_map
-
-        return (write_grid_map(path, layers_of(run), grid, observed, stamp_s=stamp_s),)
+        return (writer.write_grid_map(path, layers_of(run), grid, observed, stamp_s=stamp_s),)
     if chosen == "geotiff":
         return (write_geotiff(path, layers_of(run), grid, observed),)
+    # Trajectories, of the frame that the user names. The pose graph of `bayesmap.slam` is of the laser's poses.
     trajectory = trajectory_of(run, scans)
     if chosen == "rerun":
         return (write_rerun(path, layers_of(run), grid, observed, scans=scans, trajectory=trajectory),)
-    moved, edges = trajectory.of(frame, scans.mount), None
+    framed, edges = trajectory.of(frame, scans.mount), None
     is_approximation = trajectory.relative is not None and run.trajectory is not None
     if chosen == "g2o" and is_approximation:
-        from bayesmap.io.text.g2o import slam_edges
-
         edges = slam_edges(run.trajectory)
-        if moved.frame == "base":
+        if framed.frame == "base":
             edges = edges.of_frame(inverse(np.asarray(scans.mount)))
-    return export_trajectory(path, moved, format=chosen, edges=edges)
-
-
-EPOCH_FROM_S = 1e8  # stamps above this, in seconds, are dates; smaller ones count from the start of the log
-SENSOR_COLOR = TRAJECTORY_COLOR = (0, 158, 115)
-SCAN_COLOR = (213, 94, 0)
-WALL_COLORS = ((250, 250, 248), (20, 31, 66))
-UNCERTAINTY_COLORS = ((0, 32, 76), (124, 123, 120), (255, 233, 69))  # 0 to 1, linearly, as in `bayesmap.viz.palette`
-LEVEL = 0.95  # probability of the ellipses
-UNKNOWN_COLOR = (214, 201, 176)  # not transparent: the viewer shows transparent pixels as black
+    return export_trajectory(path, framed, format=chosen, edges=edges)
 
 
 def write_geotiff(
@@ -291,7 +270,10 @@ def write_rerun(
         recording = rr.RecordingStream("bayesmap", send_properties=False)
         recording.send_recording_name(target.stem)
         recording.save(partial, default_blueprint=rrb.Blueprint(rrb.Grid(*views)))
-        recording.log("about", rr.TextDocument(_about(grid)), static=True)
+        size, (x0, _, _, y1) = f"{grid.shape[0]} x {grid.shape[1]} cells of {grid.resolution:g} m", grid.extent_m
+        corner = f"their upper left corner, which is x = {x0:g} m, y = {y1:g} m of the map's frame; y points up there"
+        about = f"A map by bayesmap: {size}. Pictures count in cells from {corner}."
+        recording.log("about", rr.TextDocument(about), static=True)
         for name, values in checked.items():
             picture = _picture(values, WALL_COLORS if name == "mean" else UNCERTAINTY_COLORS)
             recording.log(f"map/{name}", rr.Image(picture), static=True)
@@ -314,24 +296,25 @@ def to_pixels(points_world: NDArray[np.float64], grid: Grid) -> NDArray[np.float
 
 
 def _log_scans(rr: Any, recording: Any, scans: Scans, grid: Grid) -> None:
+    """Add the sensor's positions and the ends of its beams at each time; ``rr`` is the module rerun."""
     positions = to_pixels(scans.poses[:, :2], grid)
     times = [rr.TimeColumn("scan", sequence=np.arange(len(scans)))]
     if scans.stamps_s is not None:
-        kind = "timestamp" if scans.stamps_s.min() > EPOCH_FROM_S else "duration"
+        kind = "timestamp" if scans.stamps_s.min() > MIN_DATE_S else "duration"
         times.append(rr.TimeColumn("stamp", **{kind: scans.stamps_s}))
-    hits = np.isfinite(scans.ranges_m).sum(axis=1)
+    n_hits = np.isfinite(scans.ranges_m).sum(axis=1)
     ends = to_pixels(scans.hit_points_world(), grid)
     recording.log("sensor", rr.Points2D.from_fields(colors=[SENSOR_COLOR], radii=[1.5]), static=True)
     recording.log("scan", rr.Points2D.from_fields(colors=[SCAN_COLOR], radii=[0.6]), static=True)
     recording.send_columns("sensor", times, rr.Points2D.columns(positions=positions))
-    recording.send_columns("scan", times, rr.Points2D.columns(positions=ends).partition(lengths=hits))
+    recording.send_columns("scan", times, rr.Points2D.columns(positions=ends).partition(lengths=n_hits))
 
 
 def _log_trajectory(rr: Any, recording: Any, trajectory: Trajectory, grid: Grid) -> None:
     line = rr.LineStrips2D([to_pixels(trajectory.poses[:, :2], grid)], colors=[TRAJECTORY_COLOR], radii=[0.3])
     recording.log("trajectory", line, static=True)
     if trajectory.covariances is not None:
-        outlines = ellipses(trajectory.poses[:, :2], trajectory.covariances[:, :2, :2], LEVEL)
+        outlines = ellipses(trajectory.poses[:, :2], trajectory.covariances[:, :2, :2], ELLIPSE_PROBABILITY)
         strips = rr.LineStrips2D(list(to_pixels(outlines, grid)), colors=[TRAJECTORY_COLOR], radii=[0.1])
         recording.log("ellipses", strips, static=True)
 
@@ -342,11 +325,3 @@ def _picture(values: NDArray[np.float32], colors: tuple[tuple[int, int, int], ..
     pixels = np.stack([np.interp(values, knots, shade) for shade in np.array(colors).T], axis=-1)
     pixels[np.isnan(values)] = UNKNOWN_COLOR
     return np.ascontiguousarray(np.rint(pixels).astype(np.uint8).transpose(1, 0, 2)[::-1])
-
-
-def _about(grid: Grid) -> str:
-    x0, _, _, y1 = grid.extent_m
-    return (
-        f"A map by bayesmap: {grid.shape[0]} x {grid.shape[1]} cells of {grid.resolution:g} m. Pictures count in cells "
-        f"from their upper left corner, which is x = {x0:g} m, y = {y1:g} m of the map's frame; y points up there."
-    )

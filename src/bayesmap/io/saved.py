@@ -1,12 +1,10 @@
-"""The saved posterior: one netCDF-4 file in the arviz layout, which docs/file-formats.md describes.
+"""Save a posterior as one netCDF-4 file in the arviz layout, and load it: `save` and `load_saved`.
 
-Settings, grid, prior, sensor and timings are attributes of the root, as JSON. netCDF has neither bits nor half
-precision: booleans are deflated bytes in the file, and half precision is 32-bit floats, whose last bits are zero and
-compress well. HDF5 checks each array by its Fletcher-32 sum, and the header has a CRC, so a damaged file is refused.
-A trajectory's group holds the inputs of its approximation (`bayesmap.poses.trajectory`).
+Settings, grid, prior, sensor and timings are the header, JSON in an attribute of the root. netCDF has neither bits nor
+half precision: booleans are deflated bytes in the file, and half precision is 32-bit floats, whose last bits are zero
+and compress well. HDF5 checks each array by its Fletcher-32 sum, and the header has a CRC, so a damaged file is
+refused. A trajectory's group holds the inputs of its approximation (`bayesmap.poses.trajectory`).
 """
-
-from __future__ import annotations
 
 import json
 import math
@@ -24,7 +22,7 @@ from numpy.typing import NDArray
 from bayesmap.cells.arrays import ArraySpec, Draws
 from bayesmap.cells.kinds import prior_from
 from bayesmap.errors import BadInput
-from bayesmap.files import run_in, write_whole
+from bayesmap.files import saved_run_hint, write_whole
 from bayesmap.model import POSES
 from bayesmap.posterior.posterior import Posterior
 from bayesmap.samplers.sampler import Snapshot
@@ -38,15 +36,14 @@ if TYPE_CHECKING:
 
 FORMAT = "bayesmap run"
 FORMAT_VERSION = 1
-
-BLOCK_NUMBERS = 1 << 22  # converted at a time, so that no whole copy of the draws is made
-CHUNK_NUMBERS = 1 << 20  # compressed together
-UNTIE_NATS = 1e-4  # noise on log likelihoods by reading: arviz refuses a tail of weights that are all equal
+BLOCK_NUMBERS = 1 << 22  # count of numbers converted at a time, so that no whole copy of the draws is made
+CHUNK_NUMBERS = 1 << 20  # count of numbers compressed together
+NOISE_NATS = 1e-4  # on log likelihoods by reading: arviz refuses a tail of weights that are all equal
 
 
 def save(
     posterior: Posterior, path: str | os.PathLike[str],
-    on_progress: Callable[[int, int], None] = lambda done, total: None, trajectory: InferredTrajectory | None = None,
+    on_progress: Callable[[int, int], None] = lambda done, total: None, trajectory: "InferredTrajectory | None" = None,
     *, by_reading: bool = False,
 ) -> None:  # fmt: skip
     """Write a posterior, whole or not at all, with the approximation of all scans' poses, if there is one.
@@ -55,7 +52,14 @@ def save(
     the group ``log_likelihood``, which is not read back. Raises `BadInput` for a folder that cannot be written to.
     """
     with write_whole(Path(path)) as partial, netCDF4.Dataset(partial, "w", format="NETCDF4") as file:
-        _write(posterior, file, on_progress, trajectory)
+        _write_header(posterior, file, trajectory)
+        _write_posterior(posterior, file, on_progress)
+        densities = {
+            "lp": posterior.log_joint, "log_likelihood": posterior.log_likelihood, "log_prior": posterior.log_prior,
+        }  # fmt: skip
+        write_arrays(file.createGroup("sample_stats"), ("chain", "draw"), densities)
+        write_arrays(file.createGroup("warmup_sample_stats"), ("chain", "draw"), {"lp": posterior.warmup_log_joint})
+        _write_constants(posterior, file)
         if by_reading:
             _write_by_reading(posterior, file)
 
@@ -69,34 +73,35 @@ def _write_by_reading(posterior: Posterior, file: Any) -> None:
         write_arrays(group, (name,), {name: np.arange(count)}, compressed=False)
     write_arrays(group, ("reading",), dict(zip(("scan", "beam"), valid_readings(posterior), strict=True)))
     values = by_reading(posterior)
-    values += np.random.default_rng(0).uniform(0.0, UNTIE_NATS, values.shape).astype(np.float32)
+    values += np.random.default_rng(0).uniform(0.0, NOISE_NATS, values.shape).astype(np.float32)
     write_arrays(group, ("chain", "draw", "reading"), {"range_m": values})
     group["range_m"].coordinates = "scan beam"  # so that xarray takes them for no variables
 
 
-def _write(
-    posterior: Posterior, file: Any, on_progress: Callable[[int, int], None], trajectory: InferredTrajectory | None
-) -> None:
-    # The header: all that is no array, as JSON with a checksum.
-    grid, scans, draws = posterior.grid, posterior.scans, posterior.draws
+def _write_header(posterior: Posterior, file: Any, trajectory: "InferredTrajectory | None") -> None:
+    """Write all that is no array, as JSON with a checksum, and the arrays of the trajectory."""
+    scans = posterior.scans
     header = {
         "cells": posterior.kind, "settings": posterior.settings, "prior": posterior.prior.describe(),
-        "sensor": None if posterior.sensor is None else describe(posterior.sensor), "grid": asdict(grid),
+        "sensor": None if posterior.sensor is None else describe(posterior.sensor), "grid": asdict(posterior.grid),
         "limits": [scans.min_range_m, scans.max_range_m], "seconds": posterior.seconds, "counts": posterior.counts,
         "sweep": posterior.sweep, "finished": posterior.finished, "log_evidence": posterior.log_evidence,
         "notes": posterior.notes, "mount": None if scans.mount is None else scans.mount.tolist(),
     }  # fmt: skip
     if trajectory is not None:
-        header["trajectory"] = numbers_of(trajectory)
-        for name, (dimensions, values) in arrays_of(trajectory).items():
+        header["trajectory"] = trajectory_scalars(trajectory)
+        for name, (dimensions, values) in trajectory_arrays(trajectory).items():
             write_arrays(file.createGroup("trajectory"), dimensions, {name: values})
     text = json.dumps(header)
     file.setncatts({
         "format": FORMAT, "format_version": FORMAT_VERSION, "inference_library": "bayesmap",
         "inference_library_version": __version__, "bayesmap": text, "checksum": zlib.crc32(text.encode()),
     })  # fmt: skip
-    # The draws, with their coordinates.
-    group = file.createGroup("posterior")
+
+
+def _write_posterior(posterior: Posterior, file: Any, on_progress: Callable[[int, int], None]) -> None:
+    """Write the draws, with their coordinates."""
+    grid, draws, group = posterior.grid, posterior.draws, file.createGroup("posterior")
     x, y = grid.centers_m()
     for name, values in (("chain", np.arange(draws.chains)), ("draw", np.arange(draws.count)), ("x", x), ("y", y)):
         write_arrays(group, (name,), {name: values}, compressed=False)
@@ -117,13 +122,11 @@ def _write(
         write_draws(group, spec, draws.arrays[spec.name], draws.shape_of(spec), on_written)
         if spec.dims[0].endswith("cell"):  # so that xarray takes the places of cells for coordinates
             group[spec.name].coordinates = f"{spec.dims[0]}_x {spec.dims[0]}_y"
-    # Log densities, scans, marginals, and the parameters and statistics that are arrays.
-    densities = {
-        "lp": posterior.log_joint, "log_likelihood": posterior.log_likelihood, "log_prior": posterior.log_prior,
-    }  # fmt: skip
-    write_arrays(file.createGroup("sample_stats"), ("chain", "draw"), densities)
-    write_arrays(file.createGroup("warmup_sample_stats"), ("chain", "draw"), {"lp": posterior.warmup_log_joint})
-    constant = _write_scans(file, scans)
+
+
+def _write_constants(posterior: Posterior, file: Any) -> None:
+    """Write scans, marginals, parameters and statistics that are arrays, and the state to continue the chains."""
+    constant = _write_scans(file, posterior.scans)
     observed = posterior.observed.astype(np.int8)
     write_arrays(constant, ("x", "y"), {"occupancy": posterior.occupancy, "observed": observed})
     arrays = {f"prior_{name}": np.asarray(values) for name, values in posterior.prior.parameters().items()}
@@ -153,7 +156,7 @@ def _write_scans(file: Any, scans: Scans) -> Any:
     return constant
 
 
-def load_saved(path: str | os.PathLike[str]) -> tuple[Posterior, InferredTrajectory | None]:
+def load_saved(path: str | os.PathLike[str]) -> tuple[Posterior, "InferredTrajectory | None"]:
     """Read a posterior, and its approximation of poses, if any. Raises `BadInput` for other or damaged files."""
     path = Path(path)
     if not path.is_file():
@@ -161,7 +164,7 @@ def load_saved(path: str | os.PathLike[str]) -> tuple[Posterior, InferredTraject
         # slam writes the trajectory before its first sweep.
         if path.name == "run.nc" and (path.parent / "trajectory.tum").is_file():
             state = "no draws yet; trajectory.tum beside it is complete, and slam --resume draws the map"
-        raise BadInput(f"{path}: {run_in(path) or state}")
+        raise BadInput(f"{path}: {saved_run_hint(path) or state}")
     try:
         with netCDF4.Dataset(path, "r") as file:
             file.set_auto_mask(False)
@@ -180,25 +183,20 @@ def load_saved(path: str | os.PathLike[str]) -> tuple[Posterior, InferredTraject
 
 
 def _not_ours(attributes: dict[str, Any]) -> str | None:
-    """Return the reason why a sound netCDF file cannot be read, or None if it can."""
+    """Return the reason why an undamaged netCDF file cannot be read, or None if it can."""
     if attributes.get("format") != FORMAT:
         return "a netCDF file, but not a saved run of bayesmap's"
     if int(attributes["format_version"]) == FORMAT_VERSION:
         return None
-    return (
-        f"saved by bayesmap {attributes.get('inference_library_version')} in format {attributes['format_version']}, "
-        f"and this version reads format {FORMAT_VERSION}; use that version of bayesmap, or run again"
-    )
+    origin = f"bayesmap {attributes.get('inference_library_version')} in format {attributes['format_version']}"
+    remedy = "use that version of bayesmap, or run again"
+    return f"saved by {origin}, and this version reads format {FORMAT_VERSION}; {remedy}"
 
 
-def _read(file: Any, header: dict[str, Any]) -> tuple[Posterior, InferredTrajectory | None]:
+def _read(file: Any, header: dict[str, Any]) -> tuple[Posterior, "InferredTrajectory | None"]:
+    """Return the posterior and the trajectory in an open file. Raises errors of many kinds for a damaged file."""
     constant = file["constant_data"]
-
-    def with_prefix(prefix: str) -> dict[str, NDArray[Any]]:
-        names = [name for name in constant.variables if name.startswith(prefix)]
-        return {name.removeprefix(prefix): np.asarray(constant[name][:]) for name in names}
-
-    prior = prior_from(header["prior"] | with_prefix("prior_"))
+    prior = prior_from(header["prior"] | _with_prefix(constant, "prior_"))
     snapshot = Snapshot(header["sweep"], {name: v[:] for name, v in file["chain_state"].variables.items()})
     trajectory = None
     if "trajectory" in header:
@@ -218,10 +216,15 @@ def _read(file: Any, header: dict[str, Any]) -> tuple[Posterior, InferredTraject
         observed=constant["observed"][:] != 0, log_likelihood=stats["log_likelihood"][:],
         log_prior=stats["log_prior"][:], warmup_log_joint=file["warmup_sample_stats"]["lp"][:],
         snapshot=snapshot, finished=header["finished"], seconds=header["seconds"], counts=header["counts"],
-        log_weights=_optional(constant, "log_weight"), statistics=with_prefix("statistic_"),
+        log_weights=_optional(constant, "log_weight"), statistics=_with_prefix(constant, "statistic_"),
         log_evidence=header["log_evidence"], notes=tuple(header["notes"]),
     )  # fmt: skip
     return posterior, trajectory
+
+
+def _with_prefix(group: Any, prefix: str) -> dict[str, NDArray[Any]]:
+    names = [name for name in group.variables if name.startswith(prefix)]
+    return {name.removeprefix(prefix): np.asarray(group[name][:]) for name in names}
 
 
 def _index(draws: Any, dimension: str, grid: Grid) -> NDArray[np.int32]:
@@ -252,7 +255,7 @@ def write_arrays(
 ) -> None:
     """Write arrays of the same dimensions; new dimensions get the arrays' sizes."""
     for name, values in arrays.items():
-        _need_dimensions(group, dimensions, values.shape)
+        _create_dimensions(group, dimensions, values.shape)
         filters = {"zlib": compressed, "complevel": 1, "fletcher32": bool(dimensions)}
         group.createVariable(name, values.dtype, dimensions, **filters)[:] = values
 
@@ -261,12 +264,12 @@ def write_draws(
     group: Any, spec: ArraySpec, stored: NDArray[Any], shape: tuple[int, ...], on_written: Callable[[int], None]
 ) -> None:
     """Write a stored array of the draws, (chains, draws, ...); call ``on_written`` with the count of each block."""
-    # A chunk holds whole draws of one chain, about `CHUNK_NUMBERS` numbers.
+    # A chunk holds whole draws of one chain, about `CHUNK_NUMBERS` numbers; only long vectors are split.
     chains, draws = stored.shape[:2]
-    dimensions, sizes = ("chain", "draw", *spec.dims), (chains, draws, *shape)
-    _need_dimensions(group, dimensions, sizes)
+    dimensions = ("chain", "draw", *spec.dims)
+    _create_dimensions(group, dimensions, (chains, draws, *shape))
     size, dtype = int(np.prod(shape)), {"bits": "i1", "half": "f4"}.get(spec.storage, spec.dtype)
-    draw_shape = tuple(max(1, part) for part in shape) if size <= CHUNK_NUMBERS or len(shape) > 1 else (CHUNK_NUMBERS,)
+    draw_shape = (CHUNK_NUMBERS,) if size > CHUNK_NUMBERS and len(shape) == 1 else tuple(max(1, n) for n in shape)
     chunks = (1, _draws_per_chunk(draws, size), *draw_shape)
     variable = group.createVariable(
         spec.name, dtype, dimensions, zlib=True, complevel=1, shuffle=spec.storage != "bits", chunksizes=chunks,
@@ -278,9 +281,9 @@ def write_draws(
     if spec.what:
         variable.long_name = spec.what
     for chain, block in _blocks(chains, draws, size):
-        part = spec.values(stored[chain, block], shape)
-        variable[chain, block] = part.view(np.int8) if spec.storage == "bits" else part.astype(dtype, copy=False)
-        on_written(part.size)
+        values = spec.values(stored[chain, block], shape)
+        variable[chain, block] = values.view(np.int8) if spec.storage == "bits" else values.astype(dtype, copy=False)
+        on_written(values.size)
 
 
 def read_draws(variable: Any, spec: ArraySpec, shape: tuple[int, ...]) -> NDArray[Any]:
@@ -296,7 +299,7 @@ def read_draws(variable: Any, spec: ArraySpec, shape: tuple[int, ...]) -> NDArra
     return stored
 
 
-def _need_dimensions(group: Any, dimensions: tuple[str, ...], sizes: tuple[int, ...]) -> None:
+def _create_dimensions(group: Any, dimensions: tuple[str, ...], sizes: tuple[int, ...]) -> None:
     for dimension, size in zip(dimensions, sizes, strict=True):
         if dimension not in group.dimensions:
             group.createDimension(dimension, size)
@@ -307,12 +310,12 @@ def _draws_per_chunk(draws: int, size: int) -> int:
 
 
 def _blocks(chains: int, draws: int, size: int) -> Iterator[tuple[int, slice]]:
-    """Yield the blocks of draws that are converted at a time, chain by chain."""
+    """Yield chain and draws of the blocks that are converted at a time."""
     per_chunk = _draws_per_chunk(draws, size)
-    at_once = max(1, BLOCK_NUMBERS // max(size * per_chunk, 1)) * per_chunk  # whole chunks
+    n_draws = max(1, BLOCK_NUMBERS // max(size * per_chunk, 1)) * per_chunk  # whole chunks
     for chain in range(chains if size else 0):
-        for i in range(0, draws, at_once):
-            yield chain, slice(i, min(i + at_once, draws))
+        for i in range(0, draws, n_draws):
+            yield chain, slice(i, min(i + n_draws, draws))
 
 
 VECTOR = ("pose_part",)
@@ -346,18 +349,18 @@ PARTS: dict[str, dict[str, tuple[str, ...]]] = {
 """Arrays of the trajectory's parts with their dimensions, saved as part_name."""
 
 
-def arrays_of(trajectory: InferredTrajectory) -> dict[str, tuple[tuple[str, ...], NDArray[Any]]]:
+def trajectory_arrays(trajectory: "InferredTrajectory") -> dict[str, tuple[tuple[str, ...], NDArray[Any]]]:
     """Return all arrays of a trajectory by their saved names, with their dimensions."""
-    arrays = [(name, dims, getattr(trajectory, name)) for name, dims in FIELDS.items()]
+    arrays = {name: (dims, getattr(trajectory, name)) for name, dims in FIELDS.items()}
     for name, fields in PARTS.items():
         part = getattr(trajectory, name)
         if part is not None and (name != "alternatives" or len(part)):
-            arrays += [(f"{name}_{field}", dims, getattr(part, field)) for field, dims in fields.items()]
-    return {name: (dims, _stored(values)) for name, dims, values in arrays if values is not None}
+            arrays |= {f"{name}_{field}": (dims, getattr(part, field)) for field, dims in fields.items()}
+    return {name: (dims, _stored(values)) for name, (dims, values) in arrays.items() if values is not None}
 
 
-def numbers_of(trajectory: InferredTrajectory) -> dict[str, Any]:
-    """Return the parts of a trajectory that are no arrays, as JSON values."""
+def trajectory_scalars(trajectory: "InferredTrajectory") -> dict[str, Any]:
+    """Return the numbers of a trajectory that are no arrays of many scans, as JSON values."""
     calibration, fit = trajectory.calibration, trajectory.calibration.odometry
     odometry = None if fit is None else {
         "slope": fit.slope.tolist(), "slope_sigma": fit.slope_sigma.tolist(),
@@ -371,8 +374,8 @@ def numbers_of(trajectory: InferredTrajectory) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def trajectory_from(arrays: Mapping[str, NDArray[Any]], numbers: Mapping[str, Any]) -> InferredTrajectory:
-    """Return the trajectory, given the results of `arrays_of` and `numbers_of`."""
+def trajectory_from(arrays: Mapping[str, NDArray[Any]], scalars: Mapping[str, Any]) -> "InferredTrajectory":
+    """Return the trajectory, given the arrays of `trajectory_arrays` and the result of `trajectory_scalars`."""
     from bayesmap.poses.calibration import MotionNoise, OdometryFit
     from bayesmap.poses.graph import Factors, PoseGaussian
     from bayesmap.poses.prior import Odometry
@@ -383,17 +386,17 @@ def trajectory_from(arrays: Mapping[str, NDArray[Any]], numbers: Mapping[str, An
 
     fields: dict[str, Any] = {name: arrays.get(name) for name in FIELDS}
     fields["flagged"] = fields["flagged"] != 0
-    odometry, noise = numbers["odometry"], numbers["noise"]
+    odometry, noise = scalars["odometry"], scalars["noise"]
     fit = None
     if odometry is not None:
         slope, covariance, rates = (np.array(odometry[n]) for n in ("slope", "systematic_covariance", "rates"))
         fit = OdometryFit(slope, covariance, odometry["lag_s"], odometry["lag_sigma_s"], MotionNoise(rates))
     calibration = Calibration(
-        angle_step_ratio=numbers["angle_step_ratio"], odometry=fit, noise=None if noise is None else Odometry(**noise),
-        point_sigma_m=numbers["point_sigma_m"], **part("calibration"),
+        angle_step_ratio=scalars["angle_step_ratio"], odometry=fit, noise=None if noise is None else Odometry(**noise),
+        point_sigma_m=scalars["point_sigma_m"], **part("calibration"),
     )  # fmt: skip
     return InferredTrajectory(
-        **fields, gaussian=PoseGaussian(**part("gaussian"), dof=numbers["dof"]),
+        **fields, gaussian=PoseGaussian(**part("gaussian"), dof=scalars["dof"]),
         closures=LoopClosures(**part("closures")),
         alternatives=Alternatives(**part("alternatives")) if "alternatives_first" in arrays else NO_ALTERNATIVES,
         odometry=Factors(**part("odometry")) if "odometry_first" in arrays else None, calibration=calibration,

@@ -1,20 +1,12 @@
-"""Maps as pictures, as ROS occupancy grids in per cent, and as the files of map_server and nav2.
+"""Read and write maps: pictures, ROS occupancy grids in per cent, and the files of map_server and nav2.
 
-Results are indexed ``[x, y]`` with y up. Rows of images, map_server's too, begin at the top, those of
-`nav_msgs/OccupancyGrid` at the *bottom*.
+Arrays are indexed ``[x, y]`` with y up. Rows of images begin at the top, rows of `nav_msgs/OccupancyGrid` at the
+*bottom*. Per cent are 0 to 100, and -1 is unknown. `in_percent` follows the three modes of map_server.
 
-**Per cent.** Occupancy is 0 to 100, and -1 is unknown. map_server has three modes, which publish a probability p as:
-
-    trinary: p > occupied_thresh -> 100; p < free_thresh -> 0; otherwise -1
-    scale:   as trinary at both ends; between, round(100 (p - free_thresh) / (occupied_thresh - free_thresh))
-    raw:     round(100 p), independent of the thresholds
-
-**Files.** A map is a flat YAML file beside an image. nav2 decodes the image by ``occ = 1 - grey / 255`` (``grey / 255``
-if ``negate``), which is p in trinary and scale. In raw, a grey from 0 to 100 is the per cent, and other greys are
+`write_map` and `read_map` handle a YAML file beside an image. nav2 decodes the image by ``p = 1 - grey / 255`` (``grey
+/ 255`` if ``negate``) in the modes trinary and scale. In raw, a grey from 0 to 100 is the per cent, and other greys are
 unknown. In scale, a pixel that is not opaque is unknown. docs/file-formats.md says how files mean the same to all.
 """
-
-from __future__ import annotations
 
 import math
 import os
@@ -35,13 +27,16 @@ if TYPE_CHECKING:
     from PIL.Image import Image
 
 T = TypeVar("T", bound=np.generic)
-
 ImageLike = str | os.PathLike[str] | ArrayLike  # a path, a PIL image, or an array of rows
-
 MAX_PIXELS = 100_000_000
+MODES = ("trinary", "scale", "raw")
+THRESHOLDS = {"trinary": (0.65, 0.25), "scale": (1.0, 0.0), "raw": (0.65, 0.25)}  # occupied, free by default
+OCCUPIED_GREY, FREE_GREY, UNKNOWN_GREY = 0, 254, 205  # of trinary images
+RAW_UNKNOWN_GREY = 255
+TRINARY_FILE_THRESHOLDS = (0.65, 0.196)  # occupied and free, between the three greys for nav2
 
 
-def from_image(image: ImageLike | Image, threshold: float = 0.5) -> NDArray[np.bool_]:
+def from_image(image: "ImageLike | Image", threshold: float = 0.5) -> NDArray[np.bool_]:
     """Return walls, (width, height), for the dark pixels of a picture, row 0 the top: the map looks like it.
 
     The image is a path, a PIL image, or an array of shape (height, width), (height, width, 3) or (height, width, 4):
@@ -51,22 +46,22 @@ def from_image(image: ImageLike | Image, threshold: float = 0.5) -> NDArray[np.b
     """
     if not 0 < threshold < 1:
         raise BadInput(f"image: threshold must lie between 0 (black) and 1 (white), got {threshold!r}")
-    return upright(brightness(image) < threshold)
+    return rows_to_map(brightness(image) < threshold)
 
 
-def upright(rows: NDArray[T]) -> NDArray[T]:
+def rows_to_map(rows: NDArray[T]) -> NDArray[T]:
     """Return image rows, top first, as an array indexed ``[x, y]`` with y up."""
     return np.ascontiguousarray(rows[::-1].T)
 
 
-def brightness(image: ImageLike | Image) -> NDArray[np.float64]:
+def brightness(image: "ImageLike | Image") -> NDArray[np.float64]:
     """Return each pixel's brightness, 0 to 1, (height, width), row 0 the top. Raises `BadInput` for no image."""
     from PIL import Image as pil  # on first use: most programs never read an image
 
     if isinstance(image, str | os.PathLike):
         try:
-            with pil.open(image) as opened:
-                return brightness(opened)
+            with pil.open(image) as picture:
+                return brightness(picture)
         except (OSError, pil.DecompressionBombError) as error:
             raise BadInput(f"image {image}: cannot be read as an image: {error}") from None
     if isinstance(image, pil.Image):
@@ -83,9 +78,9 @@ def brightness(image: ImageLike | Image) -> NDArray[np.float64]:
         raise BadInput(f"image: shape {array.shape}, expected (height, width) or (height, width, 3 or 4)")
     if array.dtype.kind not in "buif":
         raise BadInput(f"image: {array.dtype} pixels; expected bool, whole numbers 0..255, or floats 0..1")
-    top = 255.0 if array.dtype.kind in "ui" else 1.0
-    values = array.astype(np.float64) / top
-    if not (values.min() >= 0 and values.max() <= 1):  # not, if one is NaN
+    white = 255.0 if array.dtype.kind in "ui" else 1.0
+    values = array.astype(np.float64) / white
+    if not (values.min() >= 0 and values.max() <= 1):  # also refuses NaN
         raise BadInput(f"image: pixels from {array.min()} to {array.max()}; use whole numbers 0..255, or floats 0..1")
     if values.ndim == 2:
         return values
@@ -95,23 +90,14 @@ def brightness(image: ImageLike | Image) -> NDArray[np.float64]:
     return np.asarray(grey)
 
 
-MODES = ("trinary", "scale", "raw")
-THRESHOLDS = {"trinary": (0.65, 0.25), "scale": (1.0, 0.0), "raw": (0.65, 0.25)}  # occupied, free by default
-
-OCCUPIED_GREY, FREE_GREY, UNKNOWN_GREY = 0, 254, 205
-RAW_UNKNOWN_GREY = 255
-TRINARY_FILE_THRESHOLDS = (0.65, 0.196)  # occupied and free, between the three greys for nav2
-
-
 def _check_thresholds(occupied_thresh: float, free_thresh: float) -> None:
     if not (0 <= free_thresh < occupied_thresh <= 1):
-        raise BadInput(
-            "map: thresholds must be 0 <= free_thresh < occupied_thresh <= 1, "
-            f"got free_thresh {free_thresh!r} and occupied_thresh {occupied_thresh!r}"
-        )
+        stated = f"free_thresh {free_thresh!r} and occupied_thresh {occupied_thresh!r}"
+        raise BadInput(f"map: thresholds must be 0 <= free_thresh < occupied_thresh <= 1, got {stated}")
 
 
 def _thresholds(mode: str, occupied_thresh: float | None, free_thresh: float | None) -> tuple[float, float]:
+    """Return the occupied and the free threshold, by default those of the mode. Raises `BadInput`."""
     if mode not in MODES:
         raise BadInput(f"map: mode {mode!r} is not known; use one of {', '.join(MODES)}")
     occupied, free = THRESHOLDS[mode]
@@ -137,7 +123,11 @@ def in_percent(
 
 
 def _by_thresholds(p: NDArray[np.float64], mode: str, occupied: float, free: float) -> NDArray[np.float64]:
-    """Return probabilities in per cent as map_server's trinary and scale modes do, NaN where unknown."""
+    """Return probabilities p in per cent by map_server's trinary or scale rule, NaN where unknown.
+
+    trinary: p > occupied -> 100; p < free -> 0; otherwise unknown
+    scale:   as trinary at both ends; between, round(100 (p - free) / (occupied - free))
+    """
     if mode == "scale":
         return np.asarray(np.rint(100 * (np.clip(p, free, occupied) - free) / (occupied - free)))
     return np.select([p > occupied, p < free], [100.0, 0.0], np.nan)
@@ -149,9 +139,8 @@ def write_map(
 ) -> tuple[Path, Path]:  # fmt: skip
     """Write a map for nav2's map_server: the YAML file, and an image of the same name beside it. Returns both paths.
 
-    Each file is written whole or not at all; the image comes first, so that a YAML file always has its image. Occupancy
-    is the probability that each cell is occupied, shape (nx, ny), NaN where unknown, and ``observed`` the cells that
-    some beam reached; all by default. The modes are
+    Each file is written whole or not at all. Occupancy is the probability that each cell is occupied, shape (nx, ny),
+    NaN where unknown, and ``observed`` the cells that some beam reached; all by default. The modes are
 
     - ``"trinary"``: occupied above ``occupied_thresh`` (0.65), free below ``free_thresh`` (0.25), unknown between;
     - ``"scale"``: nav2 reads the probability in per cent; above ``occupied_thresh`` (1) 100, under ``free_thresh`` 0;
@@ -166,23 +155,24 @@ def write_map(
         raise BadInput(f"map {target}: the name must end in .yaml; the image is named after it")
     occupied, free = _thresholds(mode, occupied_thresh, free_thresh)
     percent = in_percent(occupancy, grid, observed, mode=mode, occupied_thresh=occupied, free_thresh=free)
-    known = ~np.isnan(np.asarray(occupancy, dtype=np.float64)) & as_observed(grid, observed)
-
+    # The greys of the cells, and the thresholds by which nav2 decodes them.
+    p = np.asarray(occupancy, dtype=np.float64)
+    known = ~np.isnan(p) & as_observed(grid, observed)
     if mode == "trinary":
-        cells = np.select([percent == 100, percent == 0], [OCCUPIED_GREY, FREE_GREY], UNKNOWN_GREY)
+        greys = np.select([percent == 100, percent == 0], [OCCUPIED_GREY, FREE_GREY], UNKNOWN_GREY)
         occupied, free = TRINARY_FILE_THRESHOLDS
     elif mode == "raw":
-        cells = np.where(known, percent.astype(np.int16), RAW_UNKNOWN_GREY)
+        greys = np.where(known, percent.astype(np.int16), RAW_UNKNOWN_GREY)
     else:
         # From the probabilities: 256 greys are finer than per cents, for programs that read the greys.
-        cells = np.rint(255 * (1 - np.where(known, np.asarray(occupancy, dtype=np.float64), 0.5)))
-    rows = np.ascontiguousarray(cells.T[::-1].astype(np.uint8))
+        greys = np.rint(255 * (1 - np.where(known, p, 0.5)))
+    rows = np.ascontiguousarray(greys.T[::-1].astype(np.uint8))
     if mode != "scale" or known.all():
         image, suffix = Image.fromarray(rows), ".pgm"
     else:
         opacity = np.where(known, 255, 0).astype(np.uint8).T[::-1]
         image, suffix = Image.fromarray(np.dstack([rows, opacity])), ".png"
-
+    # The image comes first, so that a YAML file always has its image.
     path_image = target.with_suffix(suffix)
     with write_whole(path_image) as temporary:
         image.save(temporary)
@@ -220,11 +210,11 @@ def read_map(path_yaml: str | os.PathLike[str]) -> tuple[NDArray[np.float64], Gr
         cells = _by_thresholds(grey if negate else 1 - grey, mode, occupied, free)
         cells[~opaque & (mode == "scale")] = np.nan
     grid = Grid(shape=(cells.shape[1], cells.shape[0]), resolution=resolution, origin=_origin(path, entries))
-    return upright(cells) / 100, grid
+    return rows_to_map(cells) / 100, grid
 
 
 def from_map_image(
-    image: ImageLike | Image, resolution: float, origin: tuple[float, float] = (0.0, 0.0), *, negate: bool = False,
+    image: "ImageLike | Image", resolution: float, origin: tuple[float, float] = (0.0, 0.0), *, negate: bool = False,
     occupied_thresh: float = 0.65, free_thresh: float = 0.25, unknown_is_wall: bool = False,
 ) -> tuple[NDArray[np.bool_], Grid]:  # fmt: skip
     """Return walls, (width, height), and grid of a map_server image, by map_server's trinary rule.
@@ -255,17 +245,13 @@ def from_occupancy(
     """
     array = as_array(cells, "occupancy: cells")
     if array.ndim != 2 or array.size == 0:
-        raise BadInput(
-            f"occupancy: cells have shape {array.shape}, expected (height, width); "
-            "reshape the data of a message by its info.height and info.width"
-        )
+        remedy = "reshape the data of a message by its info.height and info.width"
+        raise BadInput(f"occupancy: cells have shape {array.shape}, expected (height, width); {remedy}")
     is_bad = ~((array == -1) | ((array >= 0) & (array <= 100)))
     if is_bad.any():
         row, column = (int(k) for k in np.argwhere(is_bad)[0])
-        raise BadInput(
-            f"occupancy: row {row}, column {column} is {array[row, column]:g}; "
-            "expected 0 (free) to 100 (occupied), or -1 (unknown)"
-        )
+        expected = "expected 0 (free) to 100 (occupied), or -1 (unknown)"
+        raise BadInput(f"occupancy: row {row}, column {column} is {array[row, column]:g}; {expected}")
     walls = np.where(array == -1, unknown_is_wall, array > threshold)
     grid = Grid(shape=(array.shape[1], array.shape[0]), resolution=resolution, origin=origin)
     return np.ascontiguousarray(walls.T), grid
@@ -288,6 +274,7 @@ def _read_image(path: Path, with_alpha: bool) -> tuple[NDArray[np.float64], NDAr
 
 
 def _read_entries(path: Path) -> dict[str, Any]:
+    """Return the entries of a YAML file. Raises `BadInput`, with the line, for another file."""
     try:
         entries = yaml.safe_load(path.read_bytes())
     except OSError as error:

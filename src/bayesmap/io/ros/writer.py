@@ -1,24 +1,17 @@
 """Write maps and trajectories as recordings that ROS plays: a ROS 1 bag, or ROS 2 in MCAP or sqlite.
 
-docs/file-formats.md describes files and topics. A map's topic has the quality of service of nav2's map_server, so that
-late subscribers get the map, too. Covariances are 6 x 6, of x, y, z and rotations about the fixed axes x, y, z.
-
-**GridMap** (Fankhauser and Hutter 2016, "A Universal Grid Map Library"): the pose is the map's centre; row 0, column 0
-is the corner with the largest x and y; rows run towards -x, columns towards -y; a layer is a matrix in Eigen's order,
-column by column. So cell (i, j) of ours is row nx - 1 - i, column ny - 1 - j, at ``data[column * nx + row]``. Cells
-that no beam reached are NaN, and invalid in grid_map, because ``mean`` is the basic layer.
+docs/file-formats.md describes files and topics. A `Recorder` makes messages and writes `Channel`s of them; functions
+such as `write_occupancy_grid` fill it. A map's topic has the quality of service of nav2's map_server, so that late
+subscribers get the map, too. Covariances are 6 x 6, of x, y, z and rotations about the fixed axes x, y, z.
 """
 
-from __future__ import annotations
-
-import contextlib
 import math
 import os
-import tempfile
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from tempfile import TemporaryDirectory
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -29,15 +22,10 @@ from bayesmap.space.grid import Grid, as_layers
 from bayesmap.space.scans import Scans
 from bayesmap.space.trajectory import Trajectory
 
-if TYPE_CHECKING:
-    from rosbags.interfaces import Qos
-
-FOLDER = ""
+FOLDER = ""  # the ending of a folder's name
 ENDINGS = (".bag", ".mcap", ".db3", FOLDER)
 ROS2_BAG_VERSION: Final = 8  # version of the metadata, the last that every release since Humble reads
-
-NANOSECONDS = 1_000_000_000
-
+NS_PER_S = 1_000_000_000
 FRAME = "map"
 OCCUPANCY_GRID = "nav_msgs/msg/OccupancyGrid"
 GRID_MAP = "grid_map_msgs/msg/GridMap"
@@ -46,7 +34,6 @@ PATH = "nav_msgs/msg/Path"
 POSE = "geometry_msgs/msg/PoseWithCovarianceStamped"
 SCAN = "sensor_msgs/msg/LaserScan"
 TRANSFORMS = "tf2_msgs/msg/TFMessage"
-
 IN_PLANE = np.array([0, 1, 5])  # indices of x, y and yaw among the six components of ROS covariances
 
 # Definitions of the messages of grid_map_msgs. In ROS 1 the header belongs to the info, in ROS 2 to the map.
@@ -60,12 +47,12 @@ _MAP = (
 
 @dataclass(frozen=True)
 class Channel:
-    """The messages on a topic."""
+    """A topic and its messages."""
 
     topic: str
     type_name: str
     messages: Sequence[tuple[float | None, Any]]  # with times of receipt in seconds; None: 1 ns, as ROS refuses zero
-    latched: bool = True  # whether late subscribers get the last message
+    latched: bool = True  # true if late subscribers get the last message
 
 
 def container_of(path: str | os.PathLike[str]) -> str:
@@ -80,7 +67,7 @@ def container_of(path: str | os.PathLike[str]) -> str:
 
 
 class Recorder:
-    """Makes ROS messages, and writes them as a recording. Raises `BadInput` for another ending of the path."""
+    """A recording to be written, and the definitions of its messages. Raises `BadInput` for an unknown ending."""
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
         from rosbags.typesys import Stores, get_types_from_msg, get_typestore
@@ -103,38 +90,36 @@ class Recorder:
 
     def time(self, stamp_s: float | None) -> Any:
         """Return a builtin_interfaces/Time; zero without a stamp."""
-        seconds, nanoseconds = divmod(round((stamp_s or 0.0) * NANOSECONDS), NANOSECONDS)
+        seconds, nanoseconds = divmod(round((stamp_s or 0.0) * NS_PER_S), NS_PER_S)
         return self.make("builtin_interfaces/msg/Time", sec=seconds, nanosec=nanoseconds)
 
     def pose(self, x_m: float, y_m: float, yaw_rad: float = 0.0) -> Any:
         """Return a geometry_msgs/Pose in the plane."""
-        z, w = math.sin(0.5 * yaw_rad), math.cos(0.5 * yaw_rad)
+        qz, qw = math.sin(0.5 * yaw_rad), math.cos(0.5 * yaw_rad)
         position = self.make("geometry_msgs/msg/Point", x=x_m, y=y_m, z=0.0)
-        turn = self.make("geometry_msgs/msg/Quaternion", x=0.0, y=0.0, z=z, w=w)
-        return self.make("geometry_msgs/msg/Pose", position=position, orientation=turn)
+        orientation = self.make("geometry_msgs/msg/Quaternion", x=0.0, y=0.0, z=qz, w=qw)
+        return self.make("geometry_msgs/msg/Pose", position=position, orientation=orientation)
 
-    def transform(self, stamp_s: float, frames: tuple[str, str], pose: Sequence[float]) -> Any:
-        """Return a tf2_msgs/TFMessage with one transform, from a parent frame to its child."""
+    def transform(self, stamp_s: float, parent: str, child: str, pose: Sequence[float]) -> Any:
+        """Return a tf2_msgs/TFMessage with one transform, the pose of a child frame in its parent."""
         x, y = (float(v) for v in pose[:2])
-        shift = self.make("geometry_msgs/msg/Vector3", x=x, y=y, z=0.0)
-        moved = self.make("geometry_msgs/msg/Transform", translation=shift, rotation=self.pose(*pose).orientation)
-        named = {"header": self.header(frames[0], stamp_s), "child_frame_id": frames[1]}
-        stamped = self.make("geometry_msgs/msg/TransformStamped", **named, transform=moved)
+        translation = self.make("geometry_msgs/msg/Vector3", x=x, y=y, z=0.0)
+        rotation = self.pose(*pose).orientation
+        transform = self.make("geometry_msgs/msg/Transform", translation=translation, rotation=rotation)
+        frames = {"header": self.header(parent, stamp_s), "child_frame_id": child}
+        stamped = self.make("geometry_msgs/msg/TransformStamped", **frames, transform=transform)
         return self.make(TRANSFORMS, transforms=[stamped])
 
     def write(self, *channels: Channel) -> Path:
         """Write topics, whole or not at all, and return the path. Raises `BadInput` if that is impossible."""
-        target, ending = self.target, self.ending
-        if ending == FOLDER:
-            # The bag names its file after its folder, so it is made in a folder of the right name, and moved.
-            with write_whole_folder(target, is_ros2_bag) as unfinished, _scratch(unfinished.parent) as scratch:
-                self._write(scratch / target.name, channels)
-                os.replace(scratch / target.name, unfinished)
-            return target
-        with write_whole(target) as unfinished, _scratch(unfinished.parent) as scratch:
-            bag = scratch / target.stem
+        # The bag names its file after its folder, so it is made in a folder of the right name, and moved. Both folders
+        # are in one file system.
+        target, ending, is_folder = self.target, self.ending, self.ending == FOLDER
+        whole = write_whole_folder(target, is_ros2_bag) if is_folder else write_whole(target)
+        with whole as unfinished, TemporaryDirectory(prefix=".bayesmap-", dir=unfinished.parent) as scratch:
+            bag = Path(scratch) / (target.name if is_folder else target.stem)
             self._write(bag, channels)
-            os.replace(bag if self.is_ros1 else bag / (bag.name + ending), unfinished)
+            os.replace(bag if is_folder or self.is_ros1 else bag / (bag.name + ending), unfinished)
         return target
 
     def _write(self, path: Path, channels: Sequence[Channel]) -> None:
@@ -148,38 +133,33 @@ class Recorder:
         )  # fmt: skip
         with bag:
             connections = []
-            for c in channels:
-                ros1_options = {"callerid": "/bayesmap", "latching": int(c.latched)}
-                options = ros1_options if self.is_ros1 else {"offered_qos_profiles": [_quality(c.latched)]}
-                connections.append(bag.add_connection(c.topic, c.type_name, typestore=self.store, **options))
+            for channel in channels:
+                options: dict[str, Any] = {"callerid": "/bayesmap", "latching": int(channel.latched)}
+                if not self.is_ros1:
+                    options = {"offered_qos_profiles": [_quality_of_service(channel.latched)]}
+                connection = bag.add_connection(channel.topic, channel.type_name, typestore=self.store, **options)
+                connections.append(connection)
             for time_ns, number, message in _in_time_order(channels):
                 bag.write(connections[number], time_ns, serialize(message, channels[number].type_name))
 
 
 def is_ros2_bag(folder: Path) -> bool:
     """Return true if a folder holds a ROS 2 bag and nothing else."""
-    others = [file for file in folder.iterdir() if file.suffix not in (".db3", ".mcap")]
-    return [file.name for file in others] == ["metadata.yaml"]
-
-
-@contextlib.contextmanager
-def _scratch(parent: Path) -> Iterator[Path]:
-    """Yield a temporary folder for the writers of bags, in the file system of the result."""
-    with tempfile.TemporaryDirectory(prefix=".bayesmap-", dir=parent) as folder:
-        yield Path(folder)
+    others = [file.name for file in folder.iterdir() if file.suffix not in (".db3", ".mcap")]
+    return others == ["metadata.yaml"]
 
 
 def _in_time_order(channels: Sequence[Channel]) -> list[tuple[int, int, Any]]:
     """Return the time in nanoseconds, the channel and the message of all messages, in time order."""
     messages = [
-        (max(1, round((stamp_s or 0.0) * NANOSECONDS)), number, message)
+        (max(1, round((stamp_s or 0.0) * NS_PER_S)), number, message)
         for number, channel in enumerate(channels)
         for stamp_s, message in channel.messages
     ]
     return sorted(messages, key=lambda timed: timed[:2])
 
 
-def _quality(latched: bool) -> Qos:
+def _quality_of_service(latched: bool) -> Any:
     """Return the quality of service, without deadlines; if latched, as nav2's map_server has it."""
     from rosbags.interfaces import Qos, QosDurability, QosHistory, QosLiveliness, QosReliability, QosTime
 
@@ -196,8 +176,9 @@ def write_occupancy_grid(
     path: str | os.PathLike[str], occupancy: ArrayLike, grid: Grid, observed: ArrayLike | None = None, *,
     stamp_s: float | None = None, **thresholds: Any,
 ) -> Path:  # fmt: skip
-    """Write a map as the one message of a recording, an OccupancyGrid. Returns the path. Arguments and errors are as in
-    `bayesmap.io.ros.maps.in_percent` and `Recorder`.
+    """Write a map as the one message of a recording, an OccupancyGrid. Returns the path.
+
+    Arguments and errors are as in `bayesmap.io.ros.maps.in_percent` and `Recorder`.
     """
     from bayesmap.io.ros.maps import in_percent
 
@@ -216,7 +197,9 @@ def write_grid_map(
     stamp_s: float | None = None,
 ) -> Path:  # fmt: skip
     """Write layers (see `as_layers`), the first as the basic layer, as the one message of a recording, a GridMap.
-    Raises `BadInput` for layers that do not fit, another ending, or a file that cannot be written.
+
+    Cells that no beam reached are NaN, and invalid in grid_map, because ``mean`` is the basic layer. Raises `BadInput`
+    for layers that do not fit, another ending, or a file that cannot be written.
     """
     checked, ros = as_layers(grid, layers, observed), Recorder(path)
     length_m = np.array(grid.shape) * grid.resolution
@@ -235,7 +218,12 @@ def write_grid_map(
 
 
 def _matrix(ros: Recorder, values: NDArray[np.float32]) -> Any:
-    """Return a layer in Eigen's order, with the labels of grid_map."""
+    """Return a layer, (nx, ny), as grid_map stores it (Fankhauser and Hutter 2016, "A Universal Grid Map Library").
+
+    Row 0, column 0 is the corner with the largest x and y; rows run towards -x, columns towards -y. A layer is a matrix
+    in Eigen's order, column by column. So cell (i, j) is at ``data[column * nx + row]`` with row nx - 1 - i and column
+    ny - 1 - j.
+    """
     rows, columns = values.shape
     sizes = (("column_index", columns, rows * columns), ("row_index", rows, rows))
     dimensions = [
@@ -248,6 +236,7 @@ def _matrix(ros: Recorder, values: NDArray[np.float32]) -> Any:
 
 def write_trajectory_recording(path: str | os.PathLike[str], trajectory: Trajectory, *, frame: str = FRAME) -> Path:
     """Write a trajectory as a recording, whole or not at all; without stamps, poses get 0, 1, 2 and so on, in seconds.
+
     Raises `BadInput` for no pose, another ending, or a file that cannot be written.
     """
     if len(trajectory) == 0:
@@ -255,29 +244,29 @@ def write_trajectory_recording(path: str | os.PathLike[str], trajectory: Traject
     ros = Recorder(path)
     stamps = np.arange(len(trajectory)) if trajectory.stamps_s is None else trajectory.stamps_s
     times, poses = [float(stamp) for stamp in stamps], [ros.pose(*pose) for pose in trajectory.poses.tolist()]
-    listed = [
+    stamped = [
         ros.make("geometry_msgs/msg/PoseStamped", header=ros.header(frame, stamp), pose=pose)
         for pose, stamp in zip(poses, times, strict=True)
     ]
-    line = ros.make(PATH, header=ros.header(frame, times[-1]), poses=listed)
+    line = ros.make(PATH, header=ros.header(frame, times[-1]), poses=stamped)
     channels = [Channel("/trajectory", PATH, [(times[-1], line)])]
     if trajectory.covariances is not None:
-        six = np.zeros((len(poses), 6, 6))
-        six[:, IN_PLANE[:, None], IN_PLANE] = trajectory.covariances
+        covariances = np.zeros((len(poses), 6, 6))
+        covariances[:, IN_PLANE[:, None], IN_PLANE] = trajectory.covariances
         messages = []
-        for pose, stamp, covariance in zip(poses, times, six, strict=True):
+        for pose, stamp, covariance in zip(poses, times, covariances, strict=True):
             posed = ros.make("geometry_msgs/msg/PoseWithCovariance", pose=pose, covariance=covariance.ravel())
             messages.append((stamp, ros.make(POSE, header=ros.header(frame, stamp), pose=posed)))
         channels.append(Channel("/pose", POSE, messages, latched=False))
     return ros.write(*channels)
 
 
-def write_scans(path: str | os.PathLike[str], scans: Scans, base: ArrayLike, mount: Sequence[float]) -> Path:
+def write_scans(path: str | os.PathLike[str], scans: Scans, base_poses: ArrayLike, mount: Sequence[float]) -> Path:
     """Write scans as a robot records them: /scan, odometry in /tf, and the laser's place in /tf_static.
 
-    The scans have one fan of beams, and stamps of 1 ns and later. ``base`` are the poses of the robot's base as
-    odometry reports them, shape (S, 3), and ``mount`` is the pose of the laser in the frame of the base. Raises
-    `BadInput` for scans without stamps, another ending, or a file that cannot be written.
+    The scans have one fan of beams, and stamps of 1 ns and later. ``base_poses``, (S, 3), are the poses of the robot's
+    base by its odometry, and ``mount`` is the pose of the laser in the frame of the base. Raises `BadInput` for scans
+    without stamps, another ending, or a file that cannot be written.
     """
     if scans.stamps_s is None or scans.own_angles_rad is not None:
         raise BadInput("recording: scans need stamps and one fan of beams")
@@ -290,10 +279,12 @@ def write_scans(path: str | os.PathLike[str], scans: Scans, base: ArrayLike, mou
         ros.make(SCAN, header=ros.header("laser", stamp), ranges=ranges.astype(np.float32), **constant)
         for ranges, stamp in zip(scans.ranges_m, stamps, strict=True)
     ]
-    poses = np.asarray(base, dtype=np.float64).tolist()
-    moving = [(s, ros.transform(s, ("odom", "base_link"), pose)) for s, pose in zip(stamps, poses, strict=True)]
+    poses = np.asarray(base_poses, dtype=np.float64).tolist()
+    odometry = [
+        (stamp, ros.transform(stamp, "odom", "base_link", pose)) for stamp, pose in zip(stamps, poses, strict=True)
+    ]
     return ros.write(
-        Channel("/tf_static", TRANSFORMS, [(stamps[0], ros.transform(stamps[0], ("base_link", "laser"), mount))]),
-        Channel("/tf", TRANSFORMS, moving, latched=False),
+        Channel("/tf_static", TRANSFORMS, [(stamps[0], ros.transform(stamps[0], "base_link", "laser", mount))]),
+        Channel("/tf", TRANSFORMS, odometry, latched=False),
         Channel("/scan", SCAN, list(zip(stamps, readings, strict=True)), latched=False),
     )
