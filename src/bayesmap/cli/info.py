@@ -54,13 +54,13 @@ def info(call: Call[Settings], file: str) -> None:
 
 def is_saved_run(file: str) -> bool:
     """Return whether a file begins as a saved run. Raises `BadInput` if it cannot be read."""
-    from bayesmap.io.logs import SAVED_RUNS
+    from bayesmap.io.logs import NETCDF_MAGICS
 
     if not Path(file).is_file():
         return False
     try:
         with Path(file).open("rb") as start:
-            return start.read(4).startswith(SAVED_RUNS)
+            return start.read(4).startswith(NETCDF_MAGICS)
     except OSError as error:
         raise BadInput(f"{file}: cannot be read: {error.strerror or error}") from None
 

@@ -193,12 +193,12 @@ def read(console: Console, path: str, settings: SamplingSettings, *, without_pos
 
 def refuse_odometry(path: str, log: ScanLog) -> None:
     """Raise `BadInput` for poses at which walls stand in several places, as raw odometry or in degrees."""
-    from bayesmap.io.logs import IN_DEGREES
+    from bayesmap.io.logs import DEGREES_QUESTION
     from bayesmap.poses.log_checks import DOUBLED, look_like_odometry
 
     if look_like_odometry(log.scans):
         for note in log.notes:
-            if note.endswith(IN_DEGREES):
+            if note.endswith(DEGREES_QUESTION):
                 raise BadInput(f"{path}: {note} Convert it to radians; --poses-as-given takes the poses as they are")
         raise BadInput(
             f"{path}: {DOUBLED}, as with raw odometry; `bayesmap slam {path}` infers the trajectory, too (bayesmap "

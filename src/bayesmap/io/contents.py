@@ -1,6 +1,7 @@
-"""Describe the contents of a recording or a log, without any option from the user."""
+"""Describe the contents of a recording or a log, without any option from the user.
 
-from __future__ import annotations
+`contents_of` reads the scans of every sensor as far as possible, and suggests the command that infers a map.
+"""
 
 import math
 import os
@@ -12,8 +13,8 @@ import numpy as np
 
 from bayesmap.errors import BadInput
 from bayesmap.io.log_reading import ScanLog
-from bayesmap.io.logs import IN_DEGREES, RECORDINGS, describe_log, format_of
-from bayesmap.io.ros.recording import POSE_TYPES, SCAN_TYPES, TF_TYPES, TYPES
+from bayesmap.io.logs import DEGREES_QUESTION, RECORDINGS, describe_log, format_of
+from bayesmap.io.ros.recording import POSE_TYPES, SCAN_TYPES, TF_TYPES, TYPES, Recording, Topic
 from bayesmap.poses.log_checks import DOUBLED, TOO_SELDOM, look_like_odometry, scans_come_often
 from bayesmap.space.scans import Scans
 from bayesmap.space.time_order import steps_m
@@ -34,7 +35,7 @@ class Contents:
     path: str
     format: str  # as in `ScanLog`
     start_s: float | None  # first time in seconds; None without times
-    end_s: float | None
+    end_s: float | None  # last time
     topics: list[dict[str, Any]]  # name, type, count and rate; in a log, name and count of each message
     frames: list[str] = field(default_factory=list)  # in /tf of a recording
     sensors: list[dict[str, Any]] = field(default_factory=list)  # a summary of scans and poses for each source
@@ -47,7 +48,7 @@ class Contents:
 def contents_of(path: str | os.PathLike[str]) -> Contents:
     """Describe a log or a recording, and count malformed parts. Raises `BadInput` if it cannot be read."""
     if format_of(path) in RECORDINGS:
-        return _contents_of_recording(path)
+        return _describe_recording(path)
     name, no_poses = os.fspath(path), None
     try:
         log = describe_log(path, skip_bad_lines=True)
@@ -68,33 +69,34 @@ def contents_of(path: str | os.PathLike[str]) -> Contents:
     )  # fmt: skip
 
 
-def _contents_of_recording(path: str | os.PathLike[str]) -> Contents:
-    from bayesmap.io.ros.containers import open_recording
-    from bayesmap.io.ros.frames import FrameTree
-    from bayesmap.io.ros.messages import read_messages  # loads rosbags
-    from bayesmap.io.ros.poses import PoseMessages
+def _describe_recording(path: str | os.PathLike[str]) -> Contents:
+    """Describe a recording: its topics and frames, and the scans of each topic."""
+    from bayesmap.io.ros import containers, frames, messages, poses  # loads rosbags
 
     # Topics with their rates, and the frames of /tf.
     name = os.fspath(path)
-    recording = open_recording(path, salvage=True, types=TYPES)
+    recording = containers.open_recording(path, salvage=True, types=TYPES)
     duration_s = ((recording.end_ns or 0) - (recording.start_ns or 0)) * 1e-9
     topics: list[dict[str, Any]] = []
-    for t in recording.topics.values():
-        rate_hz = round((t.count - 1) / duration_s, 3) if t.count > 1 and duration_s > 0 else None
-        topics.append({"name": t.name, "type": t.type, "count": t.count, "rate_hz": rate_hz})
-    poses = PoseMessages()
-    read_messages(recording, recording.of_type(TF_TYPES), poses, lambda *_: None)
-    pose_sources = recording.of_type((*TF_TYPES, *POSE_TYPES))
+    for topic in recording.topics.values():
+        rate_hz = round((topic.count - 1) / duration_s, 3) if topic.count > 1 and duration_s > 0 else None
+        topics.append({"name": topic.name, "type": topic.type, "count": topic.count, "rate_hz": rate_hz})
+    pose_messages = poses.PoseMessages()
+    messages.read_messages(recording, recording.of_type(TF_TYPES), pose_messages, lambda *_: None)
+    pose_topics = recording.of_type((*TF_TYPES, *POSE_TYPES))
     # Read the scans of each topic, and suggest a command for the best: with poses, then with most readings.
     scan_topics = recording.of_type(SCAN_TYPES)
     scans_by_topic: dict[str, Scans] = {}
     sensors = [_describe_sensor(recording, topic, scans_by_topic) for topic in scan_topics]
-    usable = [sensor for sensor in sensors if sensor["error"] is None]
-    best = max(usable, key=lambda s: (s["no_poses"] is None, s["scans"] * s["beams"]), default=None)
-    types = {topic.type for topic in recording.topics.values() if topic.count}
-    remedy = next((f": {tool}" for kind, tool in CONVERTERS.items() if kind in types), "")
-    nothing = f"no topic holds range scans ({', '.join(SCAN_TYPES)}), so there is nothing to make a map from{remedy}"
+    readable = [sensor for sensor in sensors if sensor["error"] is None]
+    best = max(readable, key=lambda s: (s["no_poses"] is None, s["scans"] * s["beams"]), default=None)
+    notes = list(recording.notes)
     suggestion = scans = None
+    if not scan_topics:
+        types = {topic.type for topic in recording.topics.values() if topic.count}
+        remedy = next((f": {tool}" for kind, tool in CONVERTERS.items() if kind in types), "")
+        fault = f"no topic holds range scans ({', '.join(SCAN_TYPES)})"
+        notes.append(f"{fault}, so there is nothing to make a map from{remedy}")
     if best is not None:
         scans = scans_by_topic[best["topic"]]
         scan_topic = best["topic"] if len(scan_topics) > 1 else None
@@ -102,36 +104,37 @@ def _contents_of_recording(path: str | os.PathLike[str]) -> Contents:
     return Contents(
         path=name, format=recording.format, start_s=None if recording.start_ns is None else recording.start_ns * 1e-9,
         end_s=None if recording.end_ns is None else recording.end_ns * 1e-9, topics=topics,
-        frames=FrameTree(poses.transforms).frames(), sensors=sensors,
-        pose_sources=[{"name": t.name, "type": t.type, "count": t.count} for t in pose_sources], suggestion=suggestion,
-        notes=(*recording.notes, *(() if scan_topics else (nothing,))), scans=scans,
+        frames=frames.FrameTree(pose_messages.transforms).frames(), sensors=sensors,
+        pose_sources=[{"name": topic.name, "type": topic.type, "count": topic.count} for topic in pose_topics],
+        suggestion=suggestion, notes=tuple(notes), scans=scans,
     )  # fmt: skip
 
 
-def _describe_sensor(recording: Any, topic: Any, scans_by_topic: dict[str, Scans]) -> dict[str, Any]:
+def _describe_sensor(recording: Recording, topic: Topic, scans_by_topic: dict[str, Scans]) -> dict[str, Any]:
     """Describe the scans of a topic by the first source of poses that works, and put them into ``scans_by_topic``."""
-    account: dict[str, Any] = {
+    summary: dict[str, Any] = {
         "topic": topic.name, "type": topic.type, "pose_topic": None, "error": None, "no_poses": None,
     }  # fmt: skip
-    tries: list[dict[str, Any]] = [{}, *({"pose_topic": t.name} for t in recording.of_type(POSE_TYPES))]
+    # The sources are /tf, each topic of poses, and none. A source other than /tf comes with a note.
+    sources: list[dict[str, Any]] = [{}, *({"pose_topic": t.name} for t in recording.of_type(POSE_TYPES))]
     first_problem: BadInput | None = None
-    for options in (*tries, {"without_poses": True}):
+    for options in (*sources, {"without_poses": True}):
         try:
             log = describe_log(recording.path, skip_bad_lines=True, scan_topic=topic.name, **options)
         except BadInput as problem:
             first_problem = first_problem or problem
             continue
         scans_by_topic[topic.name] = log.scans
-        sensor = {**account, "pose_topic": options.get("pose_topic"), **scans_summary(log.scans), **_log_summary(log)}
+        summary |= {"pose_topic": options.get("pose_topic"), **scans_summary(log.scans), **_log_summary(log)}
         notes = [note for note in log.notes if note not in recording.notes]  # these are said once, of the file
         if first_problem is not None:
             reason = _reason(recording.path, first_problem)
             if log.posed:
                 notes.append(f"poses are from {log.pose_source}: without --pose-topic, {reason.partition(';')[0]}")
             else:
-                sensor["no_poses"] = reason
-        return {**sensor, "notes": [*notes, *_pose_remedies(log)]}
-    return {**account, "scans": topic.count, "beams": None, "error": _reason(recording.path, first_problem)}
+                summary["no_poses"] = reason
+        return {**summary, "notes": [*notes, *_pose_remedies(log)]}
+    return {**summary, "scans": topic.count, "beams": None, "error": _reason(recording.path, first_problem)}
 
 
 def _reason(path: str, problem: BadInput | None) -> str:
@@ -139,9 +142,10 @@ def _reason(path: str, problem: BadInput | None) -> str:
 
 
 def _log_summary(log: ScanLog) -> dict[str, Any]:
-    first = next((f"{skip.what} {skip.line}: {skip.reason}" for skip in log.skipped), None)
+    """Describe how a log was read, ready for JSON."""
+    skipped = next((f"{part.kind} {part.number}: {part.reason}" for part in log.skipped), None)
     return {
-        "first_skipped": first, "message": log.message, "frame": log.sensor_frame, "poses": log.pose_source,
+        "first_skipped": skipped, "message": log.message, "frame": log.sensor_frame, "poses": log.pose_source,
         "fixed_frame": log.fixed_frame, "skipped": len(log.skipped), "no_return_m": log.no_return.code_m,
         "max_range_origin": log.max_range_origin, "raw_odometry": log.posed and look_like_odometry(log.scans),
         "followable": scans_come_often(log.scans), "notes": list(log.notes),
@@ -154,7 +158,7 @@ def _pose_remedies(log: ScanLog) -> list[str]:
         return [] if scans_come_often(log.scans) else [f"{TOO_SELDOM}: give them poses"]
     if not look_like_odometry(log.scans):
         return []
-    in_degrees = any(note.endswith(IN_DEGREES) for note in log.notes)
+    in_degrees = any(note.endswith(DEGREES_QUESTION) for note in log.notes)
     return [
         *(["if the yaw is in degrees, convert it to radians first"] if in_degrees else []),
         f"{DOUBLED}. If the poses are raw odometry, bayesmap slam finds better ones; if they should be right, look at "

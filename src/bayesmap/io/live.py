@@ -1,10 +1,9 @@
-"""Scans of a log that is still being written, one after the other: CARMEN lines, or CSV with one row per scan.
+"""Read the scans of a log that is still being written: CARMEN lines, or CSV with one row per scan.
 
-`bayesmap.read_log` looks at the whole log, which is not possible here. So scans come in the order of the lines, from
-the first kind of laser message. Readings are no return from the given or stated number on, or above the largest range.
+`bayesmap.read_log` looks at the whole log, which is not possible here. So `live_scans` yields scans in the order of the
+lines, from the first kind of laser message. Readings are no return from the given or stated number on, or above the
+largest range.
 """
-
-from __future__ import annotations
 
 import math
 import os
@@ -17,18 +16,18 @@ from itertools import chain
 import numpy as np
 
 from bayesmap.errors import BadInput
-from bayesmap.io.log_reading import Account, LogOptions, Pose
+from bayesmap.io.log_reading import LogAccount, LogOptions, Pose
 from bayesmap.io.logs import MAX_FORMAT_LINES, format_of
 from bayesmap.io.returns import decode
-from bayesmap.io.text.carmen import KNOWN, LASERS, Malformed, message_name, parse_laser
-from bayesmap.io.text.csv import Bad, live_rows, starts_table
-from bayesmap.io.text.g2o import KNOWN as KNOWN_G2O
+from bayesmap.io.text.carmen import CARMEN_MESSAGES, LASERS, MalformedLine, message_name, parse_laser
+from bayesmap.io.text.csv import Reject, live_rows, starts_table
+from bayesmap.io.text.g2o import G2O_TAGS
 from bayesmap.io.text.lines import GZIP_MAGIC, as_utf8, split_lines
 from bayesmap.space.planar import between
 from bayesmap.space.scans import Scans
 
 STANDARD_INPUT = ("-", "/dev/stdin")
-LOOK_EVERY_S = 0.05  # seconds between two looks at a file that has not grown
+POLL_INTERVAL_S = 0.05  # between two looks at a file that has not grown
 CHUNK_BYTES = 1 << 16  # read at a time
 
 
@@ -43,8 +42,10 @@ def can_be_followed(name: str) -> bool:
         if stat.S_ISREG(status.st_mode):
             with open(name, "rb") as file:
                 start = file.read(len(GZIP_MAGIC))
-            if not start or start == GZIP_MAGIC:
-                return not start
+            if not start:
+                return True  # its format shows later
+            if start == GZIP_MAGIC:
+                return False
     except OSError as error:
         raise BadInput(f"{name}: cannot be read: {error.strerror or error}") from None
     return format_of(name) in ("carmen", "csv")
@@ -55,51 +56,53 @@ def live_scans(
     idle_s: float | None = None, on_skipped: Callable[[int, str], None] = lambda line, reason: None,
     laser: Pose | None = None, without_poses: bool = False,
 ) -> Iterator[Scans]:  # fmt: skip
-    """Yield the scans of a log as it is written, one at a time. The name is as for `live_lines`.
+    """Yield the scans of a log as it is written: a file, a pipe or standard input ("-").
 
-    Readings over ``max_range_m`` are no return, and readings from ``no_return`` on. ``on_skipped`` is called with the
-    number of each malformed line left out, and the reason. ``laser`` replaces the laser's pose on the robot in the log.
-    Tables without poses are accepted if ``without_poses`` is true. Raises `BadInput` for a log that cannot be read, has
-    another format, or has a malformed line.
+    A pipe and standard input end when their last writer closes them. A file ends after ``idle_s`` seconds without new
+    data, if it is given; a last line without line end is then a line. Readings over ``max_range_m`` are no return, and
+    readings from ``no_return`` on. ``on_skipped`` is called with the number of each malformed line left out, and the
+    reason. ``laser`` replaces the laser's pose on the robot in the log. Tables without poses are accepted if
+    ``without_poses`` is true. Raises `BadInput` for a log that cannot be read, has another format or a malformed line.
     """
     options = LogOptions(no_return, skip_bad_lines, max_range_m, laser=laser, without_poses=without_poses)
-    account = Account(name, "", options)
+    account = LogAccount(name, "", options)
 
-    def bad(line: int, reason: str) -> None:
-        account.bad(line, reason)
+    def reject(line: int, reason: str) -> None:
+        account.reject(line, reason)
         on_skipped(line, reason)
 
-    lines = live_lines(name, idle_s)
-    before: list[tuple[int, bytes]] = []  # lines read until the format is known; its reader begins with them
+    lines = split_lines(name, as_utf8(_pieces(name, idle_s)))
+    carmen_words = {message.encode() for message in CARMEN_MESSAGES}
+    leading: list[tuple[int, bytes]] = []  # lines read until the format is known; its reader begins with them
     for number, line in lines:
-        before.append((number, line))
+        leading.append((number, line))
         words = line.split(None, 1)
-        if words and words[0] in {known.encode() for known in KNOWN}:
-            yield from _carmen_scans(chain(before, lines), bad, options)
+        if words and words[0] in carmen_words:
+            yield from _carmen_scans(chain(leading, lines), reject, options)
             return
         if starts_table(line):
-            yield from live_rows(name, chain(before, lines), bad, options)
+            yield from live_rows(name, chain(leading, lines), reject, options)
             return
-        if number >= MAX_FORMAT_LINES or b"\0" in line or (words and words[0] in KNOWN_G2O):
+        if number >= MAX_FORMAT_LINES or b"\0" in line or (words and words[0] in G2O_TAGS):
             break
-    if before:
+    if leading:
         raise BadInput(f"{name}: only CARMEN logs and CSV tables can be followed, and these lines are of neither")
 
 
-def _carmen_scans(lines: Iterable[tuple[int, bytes]], bad: Bad, options: LogOptions) -> Iterator[Scans]:
+def _carmen_scans(lines: Iterable[tuple[int, bytes]], reject: Reject, options: LogOptions) -> Iterator[Scans]:
     """Yield the scans of the first kind of laser message, each with its own beams, if it has readings."""
     kind, limit_m = "", options.max_range_m
     assert limit_m is not None
     for number, line in lines:
         try:
-            name = message_name(line)
-            if name not in LASERS or name != (kind or name):
+            message = message_name(line)
+            if message not in LASERS or (kind and message != kind):
                 continue
-            scan = parse_laser(name, line.split())
-        except Malformed as problem:
-            bad(number, str(problem))
+            scan = parse_laser(message, line.split())
+        except MalformedLine as problem:
+            reject(number, str(problem))
             continue
-        kind = name
+        kind = message
         if not scan.fan.beams:
             continue
         stated = math.inf if scan.max_range_m is None else scan.max_range_m
@@ -110,25 +113,18 @@ def _carmen_scans(lines: Iterable[tuple[int, bytes]], bad: Bad, options: LogOpti
         yield Scans(pose, scan.fan.angles_rad(), ranges, limit_m, stamps_s=stamps, mount=mount)
 
 
-def live_lines(name: str, idle_s: float | None = None) -> Iterator[tuple[int, bytes]]:
-    """Yield the lines of a file, pipe or standard input ("-") with their numbers, from 1, as soon as each is whole.
-
-    A pipe and standard input end when their last writer closes them. A file ends after ``idle_s`` seconds without new
-    data, if it is given; a last line without line end is then a line. Raises `BadInput` for an input that cannot be
-    read, was cut short, or has a line that is too long.
-    """
-    return split_lines(name, as_utf8(_pieces(name, idle_s)))
-
-
 def _pieces(name: str, idle_s: float | None) -> Iterator[bytes]:
+    """Yield the bytes of an input as they arrive. Raises `BadInput` if it cannot be read."""
     from_stdin = name in STANDARD_INPUT
     try:
         with open(0 if from_stdin else name, "rb", buffering=0, closefd=not from_stdin) as file:
-            grows = not from_stdin and stat.S_ISREG(os.fstat(file.fileno()).st_mode)
-            if grows:
+            # `select` calls a file at its end readable, so a growing file must be polled.
+            if not from_stdin and stat.S_ISREG(os.fstat(file.fileno()).st_mode):
                 yield from _file_pieces(name, file.fileno(), idle_s)
-            while not grows and select.select([file], [], [], idle_s)[0]:
-                if not (piece := file.read(CHUNK_BYTES)):
+                return
+            while select.select([file], [], [], idle_s)[0]:
+                piece = file.read(CHUNK_BYTES)
+                if not piece:
                     return
                 yield piece
     except OSError as error:
@@ -136,16 +132,17 @@ def _pieces(name: str, idle_s: float | None) -> Iterator[bytes]:
 
 
 def _file_pieces(name: str, descriptor: int, idle_s: float | None) -> Iterator[bytes]:
-    read_bytes, last = 0, time.monotonic()
+    """Yield what is appended to a file, until nothing was appended for ``idle_s`` seconds; None waits forever."""
+    n_read, last_s = 0, time.monotonic()
     while True:
         piece = os.read(descriptor, CHUNK_BYTES)
         if piece:
-            read_bytes += len(piece)
+            n_read += len(piece)
             yield piece
-            last = time.monotonic()  # the caller's own time does not count
+            last_s = time.monotonic()  # the caller's own time does not count
             continue
-        if os.fstat(descriptor).st_size < read_bytes:
+        if os.fstat(descriptor).st_size < n_read:
             raise BadInput(f"{name}: was cut short while it was followed")
-        if idle_s is not None and time.monotonic() - last >= idle_s:
+        if idle_s is not None and time.monotonic() - last_s >= idle_s:
             return
-        time.sleep(LOOK_EVERY_S if idle_s is None else min(LOOK_EVERY_S, idle_s))
+        time.sleep(POLL_INTERVAL_S if idle_s is None else min(POLL_INTERVAL_S, idle_s))

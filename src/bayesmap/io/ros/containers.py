@@ -4,10 +4,8 @@ Some sound recordings that rosbags refuses (MCAP of ROS 1 messages, MCAP without
 are read record by record. Damaged recordings are read this way, too, if the user asks for it.
 
 rosbags unpacks only folders whose ``metadata.yaml`` states the compression. Here compressed files (``.db3.zstd``, gzip,
-bzip2) are unpacked to temporary files, which exist as long as the recording is open.
+bzip2) are unpacked to temporary files, which exist as long as the recording is open. Begin with `open_recording`.
 """
-
-from __future__ import annotations
 
 import bz2
 import gzip
@@ -29,23 +27,20 @@ from bayesmap.io.ros import recording as raw
 from bayesmap.io.ros.recording import Damaged, Message, Recording, Topic, messages_of, topics_of, zstd
 
 ZSTD = b"\x28\xb5\x2f\xfd"
-UNPACKERS: dict[str, tuple[bytes, Callable[[Any], Any]]] = {
-    "zstd": (ZSTD, lambda file: zstd().open(file, "rb")),
-    "gzip": (b"\x1f\x8b", lambda file: gzip.GzipFile(fileobj=file)),
-    "bzip2": (b"BZh", bz2.BZ2File),
-}
-"""First bytes of compressed files, and functions that unpack them."""
+COMPRESSION_MAGICS = {"zstd": ZSTD, "gzip": b"\x1f\x8b", "bzip2": b"BZh"}  # first bytes of compressed files
+UNPACKERS: dict[str, Callable[[Any], Any]] = {
+    "zstd": lambda file: zstd().open(file, "rb"), "gzip": lambda file: gzip.GzipFile(fileobj=file),
+    "bzip2": bz2.BZ2File,
+}  # fmt: skip
+"""Functions that open compressed files for reading."""
 CHUNK_BYTES = 1 << 16  # unpacked at a time
-
-RECORD_READERS: dict[str, tuple[bytes, Callable[[str | os.PathLike[str], raw.OnDamage], raw.Records]]] = {
-    "rosbag1": (raw.BAG_MAGIC, raw.bag_records),
-    "rosbag2-sqlite3": (raw.SQLITE_MAGIC, raw.sqlite_records),
-    "mcap": (raw.MCAP_MAGIC, raw.mcap_records),
-}
-"""First bytes of files by format, and functions that read their records one by one."""
-RECORD_BY_RECORD = ("rosbag1", "mcap")  # formats whose readers here read sound files that rosbags refuses
-ANY_BAG = b"#ROSBAG V"
-
+MAGICS = {"rosbag1": raw.BAG_MAGIC, "rosbag2-sqlite3": raw.SQLITE_MAGIC, "mcap": raw.MCAP_MAGIC}  # first bytes of files
+RECORD_READERS: dict[str, Callable[[str | os.PathLike[str], raw.OnDamage], raw.Records]] = {
+    "rosbag1": raw.bag_records, "rosbag2-sqlite3": raw.sqlite_records, "mcap": raw.mcap_records,
+}  # fmt: skip
+"""Functions that read the records of files one by one."""
+RECORD_BY_RECORD = ("rosbag1", "mcap")  # formats with undamaged files that rosbags refuses and these functions read
+ANY_BAG = b"#ROSBAG V"  # first bytes of bags of any version
 ENDINGS = tuple(name + packed for name in (".db3", ".mcap") for packed in ("", ".zstd", ".zst"))
 METADATA = "metadata.yaml"
 REMEDY = "repair it (rosbag reindex, ros2 bag reindex, mcap recover), or read what is there with --skip-bad-lines"
@@ -60,21 +55,21 @@ def reason_of(error: Exception) -> str:
     return " ".join(str(error).split()).rstrip(".") or type(error).__name__
 
 
-def unpack_zstd(packed: bytes, largest: int) -> bytes:
-    """Unpack data. Raises `NotUnpacked` if they are damaged, cut short, or larger than ``largest`` bytes."""
+def unpack_zstd(packed: bytes, max_bytes: int) -> bytes:
+    """Unpack data. Raises `NotUnpacked` if they are damaged, cut short, or larger than ``max_bytes``."""
     try:
         unpacker = zstd().ZstdDecompressor()
-        data = bytes(unpacker.decompress(packed, largest))
+        data = bytes(unpacker.decompress(packed, max_bytes))
     except (ArithmeticError, EOFError, MemoryError, RuntimeError, ValueError, zstd().ZstdError) as error:
         raise NotUnpacked(reason_of(error)) from None
     if not unpacker.eof:
-        raise NotUnpacked("it is cut short" if len(data) < largest else f"it has more than {largest:,} bytes")
+        raise NotUnpacked("it is cut short" if len(data) < max_bytes else f"it has more than {max_bytes:,} bytes")
     return data
 
 
 def compression_of(start: bytes) -> str | None:
     """Return the compression of a file by its first bytes: ``"zstd"``, ``"gzip"``, ``"bzip2"``; None if it has none."""
-    return next((name for name, (magic, _) in UNPACKERS.items() if start.startswith(magic)), None)
+    return next((name for name, magic in COMPRESSION_MAGICS.items() if start.startswith(magic)), None)
 
 
 def first_bytes(path: str | os.PathLike[str], count: int) -> bytes:
@@ -86,14 +81,17 @@ def first_bytes(path: str | os.PathLike[str], count: int) -> bytes:
             return start
         file.seek(0)
         try:
-            with UNPACKERS[kind][1](file) as unpacked:
+            with UNPACKERS[kind](file) as unpacked:
                 return _read(unpacked, count)
         except NotUnpacked:
             return b""
 
 
 def _unpacked_copy(path: Path, stack: ExitStack, on_damage: raw.OnDamage) -> Path:
-    """Return a temporary unpacked copy of a file, partial after damage if ``on_damage`` returns; or the file itself."""
+    """Return a temporary unpacked copy of a file, or the file itself if it is not compressed.
+
+    If the file is damaged and ``on_damage`` returns, the copy ends before the damage.
+    """
     with path.open("rb") as file:
         kind = compression_of(file.read(4))
         if kind is None:
@@ -102,20 +100,20 @@ def _unpacked_copy(path: Path, stack: ExitStack, on_damage: raw.OnDamage) -> Pat
         try:
             folder = Path(tempfile.mkdtemp(prefix="bayesmap-"))
             stack.callback(shutil.rmtree, folder, ignore_errors=True)
-            with UNPACKERS[kind][1](file) as unpacked, (folder / "unpacked").open("wb") as out:
+            with UNPACKERS[kind](file) as unpacked, (folder / "unpacked").open("wb") as copy:
                 while block := _read(unpacked):
-                    out.write(block)
+                    copy.write(block)
         except NotUnpacked as problem:
             on_damage(f"it is compressed by {kind} and cannot be unpacked to its end: {problem}")
         except OSError as error:
-            raise BadInput(
-                f"{path}: it is compressed, and there is no room to unpack it ({error.strerror or error}); make room, "
-                "name another folder in TMPDIR, or unpack it yourself"
-            ) from None
+            fault = f"it is compressed, and there is no room to unpack it ({error.strerror or error})"
+            remedy = "make room, name another folder in TMPDIR, or unpack it yourself"
+            raise BadInput(f"{path}: {fault}; {remedy}") from None
     return folder / "unpacked"
 
 
 def _read(unpacked: Any, count: int = CHUNK_BYTES) -> bytes:
+    """Read bytes from a compressed file. Raises `NotUnpacked` at damage."""
     try:
         return bytes(unpacked.read(count))
     except (EOFError, OSError, ValueError, zlib.error, zstd().ZstdError) as problem:
@@ -134,7 +132,7 @@ def format_by_start(start: bytes) -> str | None:
     """Return the format of a recording by its first 16 bytes, unpacked; None for other files."""
     if start.startswith(ANY_BAG):  # of any version: `open_recording` refuses other versions than 2.0
         return "rosbag1"
-    return next((name for name, (magic, _) in RECORD_READERS.items() if start.startswith(magic)), None)
+    return next((name for name, magic in MAGICS.items() if start.startswith(magic)), None)
 
 
 def open_recording(path: str | os.PathLike[str], *, salvage: bool, types: Collection[str]) -> Recording:
@@ -148,10 +146,8 @@ def open_recording(path: str | os.PathLike[str], *, salvage: bool, types: Collec
     start = b"" if Path(path).is_dir() else first_bytes(path, 16)
     if start.startswith(ANY_BAG) and not start.startswith(raw.BAG_MAGIC):
         version = start[len(ANY_BAG) :].split(b"\n")[0].decode("ascii", "replace").strip()
-        raise BadInput(
-            f"{name}: a ROS 1 bag of format {version}; only 2.0 is read. If ROS wrote it before 2010, convert it with "
-            "ROS 1: rosbag fix OLD.bag NEW.bag"
-        )
+        remedy = "If ROS wrote it before 2010, convert it with ROS 1: rosbag fix OLD.bag NEW.bag"
+        raise BadInput(f"{name}: a ROS 1 bag of format {version}; only 2.0 is read. {remedy}")
     try:
         recording = _open_whole(path)
         if salvage:  # damage within may show only in reading
@@ -172,15 +168,15 @@ def _open_whole(path: str | os.PathLike[str]) -> Recording:
     if (Path(path) / METADATA).exists():
         from rosbags.rosbag2 import Reader
 
-        mcap = any(".mcap" in entry.name for entry in Path(path).iterdir())
-        return _by_rosbags(path, "mcap" if mcap else "rosbag2-sqlite3", partial(Reader, Path(path)))
+        is_mcap = any(".mcap" in entry.name for entry in Path(path).iterdir())
+        return _by_rosbags(path, "mcap" if is_mcap else "rosbag2-sqlite3", partial(Reader, Path(path)))
     files, container = _files_of(path)
     note = f"the folder has no {METADATA}, as when a recording was not ended; its {len(files)} files were read"
     with ExitStack() as stack:
-        parts = [
-            _by_rosbags(file, container, _rosbags_reader(file, container), is_file=True)
-            for file in (_unpacked_copy(file, stack, raw.refuse) for file in files)
-        ]
+        parts = []
+        for file in files:
+            copy = _unpacked_copy(file, stack, raw.refuse)
+            parts.append(_by_rosbags(copy, container, _rosbags_reader(copy, container), is_file=True))
         return _joined(os.fspath(path), container, parts, (note,) if Path(path).is_dir() else (), stack)
 
 
@@ -211,14 +207,14 @@ def _rosbags_reader(path: Path, container: str) -> Callable[[], Any]:
 
 
 def _by_rosbags(
-    path: str | os.PathLike[str], container: str, reader: Callable[[], Any], *, is_file: bool = False
+    path: str | os.PathLike[str], container: str, make_reader: Callable[[], Any], *, is_file: bool = False
 ) -> Recording:
     """Return a recording that rosbags reads. An MCAP file or a bag that it refuses is read record by record."""
-    by_records = container in RECORD_BY_RECORD and is_file
+    has_fallback = container in RECORD_BY_RECORD and is_file
     try:
-        topics, times = _rosbags_topics(reader, container)
+        topics, times = _rosbags_topics(make_reader, container)
     except Damaged as problem:
-        if not by_records:
+        if not has_fallback:
             raise
         try:
             return _by_records(path, container, raw.refuse, raw.refuse)
@@ -227,11 +223,11 @@ def _by_rosbags(
 
     def read(names: frozenset[str]) -> Iterable[Message]:
         try:
-            return _rosbags_messages(reader, topics, names)
+            return _rosbags_messages(make_reader, topics, names)
         except Damaged:
-            if not by_records:
+            if not has_fallback:
                 raise
-            return list(messages_of(RECORD_READERS[container][1](path, raw.refuse), topics, names))
+            return list(messages_of(RECORD_READERS[container](path, raw.refuse), topics, names))
 
     return Recording(os.fspath(path), container, topics, read, *times)
 
@@ -240,7 +236,7 @@ def _by_records(
     path: str | os.PathLike[str], container: str, on_damage: raw.OnDamage, on_damage_again: raw.OnDamage
 ) -> Recording:
     """Return a recording read record by record. Opening it calls ``on_damage``, each reading ``on_damage_again``."""
-    records = RECORD_READERS[container][1]
+    records = RECORD_READERS[container]
     topics, times = topics_of(records(path, on_damage))
 
     def read(names: frozenset[str]) -> Iterable[Message]:
@@ -249,9 +245,10 @@ def _by_records(
     return Recording(os.fspath(path), container, topics, read, *times)
 
 
-def _rosbags_topics(make: Callable[[], Any], container: str) -> tuple[dict[str, Topic], raw.Times]:
+def _rosbags_topics(make_reader: Callable[[], Any], container: str) -> tuple[dict[str, Topic], raw.Times]:
+    """Return the topics with their counts, and the times of receipt of the first and the last message."""
     topics: dict[str, Topic] = {}
-    with _opened(make) as reader:
+    with _opened(make_reader) as reader:
         for connection in sorted(reader.connections, key=lambda c: str(c.topic)):
             earlier = topics.get(connection.topic)
             if earlier is not None and earlier.type != connection.msgtype:
@@ -268,18 +265,19 @@ def _rosbags_topics(make: Callable[[], Any], container: str) -> tuple[dict[str, 
     return topics, times if any(topic.count for topic in topics.values()) else (None, None)
 
 
-def _rosbags_messages(make: Callable[[], Any], topics: dict[str, Topic], names: frozenset[str]) -> list[Message]:
-    with _opened(make) as reader:
+def _rosbags_messages(make_reader: Callable[[], Any], topics: dict[str, Topic], names: frozenset[str]) -> list[Message]:
+    """Return the messages on the topics ``names``, without messages of another type than the topic's."""
+    with _opened(make_reader) as reader:
         connections = [c for c in reader.connections if c.topic in names and c.msgtype == topics[c.topic].type]
         messages = reader.messages(connections) if connections else ()
         return [Message(connection.topic, received_ns, bytes(data)) for connection, received_ns, data in messages]
 
 
 @contextmanager
-def _opened(make: Callable[[], Any]) -> Iterator[Any]:
-    """Open a reader of rosbags', and turn its errors, which may be of any class, into `Damaged`."""
+def _opened(make_reader: Callable[[], Any]) -> Iterator[Any]:
+    """Yield an open reader of rosbags', and turn its errors, which may be of any class, into `Damaged`."""
     try:
-        reader = make()
+        reader = make_reader()
         reader.open()
         with closing(reader):
             yield reader

@@ -1,11 +1,10 @@
-"""The tree of frames in /tf and /tf_static, and chains of transforms through it.
+"""Build the tree of frames in /tf and /tf_static, and chains of transforms through it.
 
 A transform that is static, or never changes in the recording, holds at all times. Any other transform is known only
-from its first to its last message, and is interpolated between. Transforms are three-dimensional; a map needs their
-part in the plane. A motion is SciPy's `RigidTransform`, one frame's pose in another: p_parent = R p_child + t.
+from its first to its last message, and is interpolated between. Messages are collected as `Samples`, a `FrameTree`
+finds the way between two frames, a `Track` interpolates one transform, and a `Chain` composes tracks. Transforms are
+three-dimensional. A motion is SciPy's `RigidTransform`, one frame's pose in another: p_parent = R p_child + t.
 """
-
-from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -17,117 +16,119 @@ from numpy.typing import NDArray
 from scipy.interpolate import make_interp_spline
 from scipy.spatial.transform import RigidTransform, Rotation, Slerp
 
-from bayesmap.io.ros.recording import Malformed
+from bayesmap.io.ros.recording import MalformedMessage
 from bayesmap.space.arrays import bracketing_indices
 from bayesmap.space.planar import Floats
 
-FURTHEST_M = 1e7
-LATEST_NS = 2**62
-ROUNDING = 1e-6  # largest change of a constant transform, in metres and radians
+MAX_COORDINATE_M = 1e7  # larger coordinates are malformed
+MAX_STAMP_NS = 2**62  # in the year 2116
+CONSTANT_TOLERANCE = 1e-6  # largest change of a constant transform, in metres and radians
 FIXED_FRAMES = ("map", "odom", "world")  # names of fixed frames, in order of preference
-Numbers = tuple[float, float, float, float, float, float, float]  # translation x, y, z and rotation x, y, z, w
+PoseNumbers = tuple[float, float, float, float, float, float, float]  # translation x, y, z and rotation x, y, z, w
 
 
-def close(first: Numbers, second: Numbers, tolerance: float) -> bool:
+def poses_agree(first: PoseNumbers, second: PoseNumbers, tolerance: float) -> bool:
     """Return true if two poses agree within a tolerance in metres and radians; q and -q are one rotation."""
     if first == second:
         return True
     sign = 1.0 if sum(a * b for a, b in zip(first[3:], second[3:], strict=True)) >= 0 else -1.0
-    moved = max(abs(a - b) for a, b in zip(first[:3], second[:3], strict=True))
+    shift_m = max(abs(a - b) for a, b in zip(first[:3], second[:3], strict=True))
     # A difference of quaternions is half the angle.
-    turned = 2 * max(abs(a - sign * b) for a, b in zip(first[3:], second[3:], strict=True))
-    return moved <= tolerance and turned <= tolerance
+    turn_rad = 2 * max(abs(a - sign * b) for a, b in zip(first[3:], second[3:], strict=True))
+    return shift_m <= tolerance and turn_rad <= tolerance
 
 
 @dataclass
 class Samples:
     """The poses of a frame in another on one topic, in the order of receipt."""
 
-    is_static: bool = False  # whether the topic is /tf_static
+    is_static: bool = False  # true if the topic is /tf_static
     topic: str = ""
     stamps_ns: list[int] = field(default_factory=list)
     received_ns: list[int] = field(default_factory=list)
-    values: list[Numbers] = field(default_factory=list)
+    poses: list[PoseNumbers] = field(default_factory=list)
 
-    def add(self, stamp_ns: int, received_ns: int, values: Numbers) -> None:
+    def add(self, stamp_ns: int, received_ns: int, pose: PoseNumbers) -> None:
         """Append a pose."""
         self.stamps_ns.append(stamp_ns)
         self.received_ns.append(received_ns)
-        self.values.append(values)
+        self.poses.append(pose)
 
-    def select(self, which: slice) -> Samples:
+    def select(self, span: slice) -> "Samples":
         """Return the poses of a slice."""
-        return Samples(self.is_static, self.topic, self.stamps_ns[which], self.received_ns[which], self.values[which])
+        return Samples(self.is_static, self.topic, self.stamps_ns[span], self.received_ns[span], self.poses[span])
 
     @classmethod
-    def joined(cls, parts: Sequence[Samples]) -> Samples:
+    def joined(cls, samples_by_topic: Sequence["Samples"]) -> "Samples":
         """Return the poses of several topics as one."""
-        if len(parts) == 1:
-            return parts[0]
-        return cls(
-            all(part.is_static for part in parts), ", ".join(part.topic for part in parts),
-            [int(stamp) for part in parts for stamp in part.times_ns()],
-            [time for part in parts for time in part.received_ns], [value for part in parts for value in part.values],
-        )  # fmt: skip
+        if len(samples_by_topic) == 1:
+            return samples_by_topic[0]
+        topics = ", ".join(samples.topic for samples in samples_by_topic)
+        result = cls(all(samples.is_static for samples in samples_by_topic), topics)
+        for samples in samples_by_topic:
+            result.stamps_ns += samples.times_ns().tolist()
+            result.received_ns += samples.received_ns
+            result.poses += samples.poses
+        return result
 
     @property
     def has_stamps(self) -> bool:
-        """Return whether any message has a stamp."""
+        """True if any message has a stamp."""
         return any(self.stamps_ns)
 
     def times_ns(self) -> NDArray[np.int64]:
         """Return stamps, or times of receipt if no message has a stamp, (T,)."""
         return np.array(self.stamps_ns if self.has_stamps else self.received_ns, dtype=np.int64)
 
-    def last(self) -> Numbers:
-        """Return the pose with the latest time."""
+    def last(self) -> PoseNumbers:
+        """Return the pose with the latest time, the last of several."""
         times = self.times_ns()
-        return self.values[len(times) - 1 - int(np.argmax(times[::-1]))]
+        return self.poses[len(times) - 1 - int(np.argmax(times[::-1]))]
 
-    def track(self, holds_always: bool = False, inverted: bool = False) -> Track:
+    def track(self, holds_always: bool = False, inverted: bool = False) -> "Track":
         """Return the poses in time order, the last of several at one time. The options are fields of `Track`."""
         stamps = self.times_ns()
         order = np.argsort(stamps, kind="stable")
         order = order[np.append(np.diff(stamps[order]) > 0, True)]
-        values = np.array(self.values, dtype=np.float64)[order]
-        motions = RigidTransform.from_components(values[:, :3], Rotation.from_quat(values[:, 3:]))
+        numbers = np.array(self.poses, dtype=np.float64)[order]
+        motions = RigidTransform.from_components(numbers[:, :3], Rotation.from_quat(numbers[:, 3:]))
         return Track(stamps[order], motions, holds_always, inverted)
 
     def is_constant(self) -> bool:
-        """Return true if the pose is the same at all times."""
-        return self.is_static or all(close(value, self.values[0], ROUNDING) for value in self.values)
+        """Return true if all poses are equal, or the topic is static."""
+        return self.is_static or all(poses_agree(pose, self.poses[0], CONSTANT_TOLERANCE) for pose in self.poses)
 
 
-def numbers_of(position: object, rotation: object) -> Numbers:
-    """Return position and orientation of a message. Raises `Malformed` for numbers that are no pose, or too large."""
+def pose_numbers(position: object, rotation: object) -> PoseNumbers:
+    """Return position and orientation of a message. Raises `MalformedMessage` for impossible numbers."""
     p, q = position, rotation
-    values = (p.x, p.y, p.z, q.x, q.y, q.z, q.w)  # type: ignore[attr-defined]
-    x, y, z, qx, qy, qz, qw = values
-    if not (abs(x) < FURTHEST_M and abs(y) < FURTHEST_M and abs(z) < FURTHEST_M):
-        raise Malformed(f"has the position ({x:g}, {y:g}, {z:g})")
+    numbers = (p.x, p.y, p.z, q.x, q.y, q.z, q.w)  # type: ignore[attr-defined]
+    x, y, z, qx, qy, qz, qw = numbers
+    if not (abs(x) < MAX_COORDINATE_M and abs(y) < MAX_COORDINATE_M and abs(z) < MAX_COORDINATE_M):
+        raise MalformedMessage(f"has the position ({x:g}, {y:g}, {z:g})")
     if not 0.8 < qx * qx + qy * qy + qz * qz + qw * qw < 1.2:
-        raise Malformed(f"has the orientation ({qx:g}, {qy:g}, {qz:g}, {qw:g}), which is no unit quaternion")
-    return values
+        raise MalformedMessage(f"has the orientation ({qx:g}, {qy:g}, {qz:g}, {qw:g}), which is no unit quaternion")
+    return numbers
 
 
 def stamp_ns_of(header: Any) -> int:
-    """Return a header's time in nanoseconds. Raises `Malformed` for a time before 1970, or after 2116."""
+    """Return a header's time in nanoseconds. Raises `MalformedMessage` for a time before 1970, or after 2116."""
     stamp_ns = int(header.stamp.sec) * 10**9 + int(header.stamp.nanosec)
-    if not 0 <= stamp_ns <= LATEST_NS:
-        raise Malformed(f"has the time {stamp_ns} ns")
+    if not 0 <= stamp_ns <= MAX_STAMP_NS:
+        raise MalformedMessage(f"has the time {stamp_ns} ns")
     return stamp_ns
 
 
-def frame_of(name: str) -> str:
-    """Return a frame's name without the leading slash of some ROS 1 names."""
+def frame_name(name: str) -> str:
+    """Return the name of a frame without the leading slash of some ROS 1 names."""
     return name.lstrip("/")
 
 
 @dataclass(frozen=True, eq=False)
 class Chain:
-    """The transforms from a fixed frame to the sensor's frame."""
+    """The transforms from a fixed frame to the sensor's frame, which compose to the sensor's pose."""
 
-    links: tuple[Track, ...]
+    links: tuple["Track", ...]  # the fixed frame's first
 
     def span_ns(self) -> tuple[int, int] | None:
         """Return the first and the last time at which all links are known; None if all are constant."""
@@ -136,9 +137,10 @@ class Chain:
 
     def covers(self, stamps_ns: NDArray[np.int64]) -> NDArray[np.bool_]:
         """Select the times at which all links are known."""
-        always = np.iinfo(np.int64)
-        start_ns, end_ns = self.span_ns() or (always.min, always.max)
-        return np.asarray((stamps_ns >= start_ns) & (stamps_ns <= end_ns))
+        span_ns = self.span_ns()
+        if span_ns is None:
+            return np.ones(np.shape(stamps_ns), dtype=np.bool_)
+        return np.asarray((stamps_ns >= span_ns[0]) & (stamps_ns <= span_ns[1]))
 
     def at(self, stamps_ns: NDArray[np.int64]) -> RigidTransform:
         """Return the pose of the last frame in the first, at the given times, (T,)."""
@@ -147,25 +149,27 @@ class Chain:
             result = result * link.at(stamps_ns)
         return result
 
-    def in_gaps(self, stamps_ns: NDArray[np.int64], longest_s: float, furthest_m: float) -> NDArray[np.bool_]:
-        """Select the times at which a transform is interpolated over a long time and a long way."""
+    def in_gaps(self, stamps_ns: NDArray[np.int64], max_gap_s: float, max_gap_m: float) -> NDArray[np.bool_]:
+        """Select the times at which a transform is interpolated over more than a time and more than a distance."""
         result = np.zeros(np.shape(stamps_ns), dtype=bool)
-        for track in (link for link in self.links if not link.holds_always and len(link.stamps_ns) > 1):
+        for track in self.links:
+            if track.holds_always or len(track.stamps_ns) < 2:
+                continue
             before, _ = bracketing_indices(track.stamps_ns, stamps_ns)
-            moved = np.diff(track.motions.translation, axis=0)[before]
-            is_long = np.diff(track.stamps_ns)[before] > longest_s * 1e9
-            result |= is_long & (np.linalg.norm(moved, axis=-1) > furthest_m)
+            steps_m = np.linalg.norm(np.diff(track.motions.translation, axis=0)[before], axis=-1)
+            is_long = np.diff(track.stamps_ns)[before] > max_gap_s * 1e9
+            result |= is_long & (steps_m > max_gap_m)
         return result
 
     def sensor_on_body(self) -> tuple[float, float, float] | None:
         """Return the sensor's pose on the body by the last constant transforms; None if the last moves."""
-        fixed_links = list(takewhile(lambda link: link.holds_always, reversed(self.links)))
-        if not fixed_links:
+        constant_links = list(takewhile(lambda link: link.holds_always, reversed(self.links)))
+        if not constant_links:
             return None
         result = RigidTransform.identity()
-        for link in fixed_links:
+        for link in constant_links:
             result = link.last() * result
-        x, y, yaw = (float(v) for v in planar(result))
+        x, y, yaw = (float(v) for v in planar_pose(result))
         return x, y, yaw
 
 
@@ -173,8 +177,8 @@ class FrameTree:
     """Frames and the transforms between them, given the samples of transforms by topic, parent and child.
 
     ``ranks`` holds the rank of each topic to use: if several topics place a frame, the topics of the lowest rank are
-    used. None uses all topics equally. ``topics`` are the topics used. If a frame has several parents, ``notes`` has a
-    sentence for the user, and ``rivals`` the topics that place it.
+    used. None uses all topics equally. ``topics`` are the topics used. If a frame has several parents, the parent with
+    most messages is used, ``notes`` has a sentence for the user, and ``rivals`` the topics that place the frame.
     """
 
     def __init__(
@@ -185,41 +189,40 @@ class FrameTree:
         self.rivals: dict[str, tuple[str, ...]] = {}
         self._edges: dict[str, tuple[str, tuple[Samples, ...]]] = {}
         # The samples of each child by parent, from the topics of the lowest rank.
-        places: dict[str, dict[str, list[Samples]]] = {}
-        best: dict[str, int] = {}
+        parents_of: dict[str, dict[str, list[Samples]]] = {}
+        lowest_rank: dict[str, int] = {}
         for (topic, parent, child), samples in transforms.items():
             rank = 0 if ranks is None else ranks.get(topic)
-            if rank is None or (child in best and rank > best[child]):
+            if rank is None or rank > lowest_rank.get(child, rank):
                 continue
-            if child not in best or rank < best[child]:
-                best[child], places[child] = rank, {}
-            places[child].setdefault(parent, []).append(samples)
+            if child not in lowest_rank or rank < lowest_rank[child]:
+                lowest_rank[child], parents_of[child] = rank, {}
+            parents_of[child].setdefault(parent, []).append(samples)
         # The parent with most messages.
-        for child, parents in places.items():
-            names = sorted(parents, key=lambda parent: -sum(len(part.values) for part in parents[parent]))
+        for child, parents in parents_of.items():
+            names = sorted(parents, key=lambda parent: -sum(len(samples.poses) for samples in parents[parent]))
             self._edges[child] = (names[0], tuple(parents[names[0]]))
             if len(names) > 1:
-                self.rivals[child] = tuple(dict.fromkeys(part.topic for name in names for part in parents[name]))
-                self.notes[child] = (
-                    f"frame {child!r} has {'two' if len(names) == 2 else len(names)} parents, "
-                    f"{' and '.join(map(repr, names))} (on {', '.join(self.rivals[child])}); the one with "
-                    "more messages was used"
-                )
+                self.rivals[child] = tuple(dict.fromkeys(samples.topic for name in names for samples in parents[name]))
+                number = "two" if len(names) == 2 else len(names)
+                stated = f"{' and '.join(map(repr, names))} (on {', '.join(self.rivals[child])})"
+                note = f"frame {child!r} has {number} parents, {stated}; the one with more messages was used"
+                self.notes[child] = note
 
     def frames(self) -> list[str]:
         """Return all frames, by name."""
         return sorted({*self._edges, *(parent for parent, _ in self._edges.values())})
 
-    def upwards(self, frame: str) -> list[str]:
+    def path_to_root(self, frame: str) -> list[str]:
         """Return the frame, its parent, and so on to the root."""
         path = [frame]
         while path[-1] in self._edges and self._edges[path[-1]][0] not in path:
             path.append(self._edges[path[-1]][0])
         return path
 
-    def _ways(self, fixed: str, sensor: str) -> tuple[list[str], list[str]] | None:
-        """Return the frames from one up to the common ancestor, and down to the other, without the ancestor."""
-        up, down = self.upwards(fixed), self.upwards(sensor)
+    def _paths_to_ancestor(self, fixed: str, sensor: str) -> tuple[list[str], list[str]] | None:
+        """Return the frames up to the common ancestor, and down from it, without the ancestor; None without one."""
+        up, down = self.path_to_root(fixed), self.path_to_root(sensor)
         common = next((frame for frame in down if frame in up), None)
         if common is None:
             return None
@@ -229,35 +232,34 @@ class FrameTree:
         """Return the chain from one frame to another; None if nothing connects them."""
         if fixed == sensor:
             return Chain(())
-        ways = self._ways(fixed, sensor)
-        if ways is None:
+        paths = self._paths_to_ancestor(fixed, sensor)
+        if paths is None:
             return None
-        return Chain((*(self._link(f, True) for f in ways[0]), *(self._link(f, False) for f in ways[1])))
+        links = [self._link(frame, inverted=True) for frame in paths[0]]
+        links += [self._link(frame, inverted=False) for frame in paths[1]]
+        return Chain(tuple(links))
 
     def transforms_between(self, fixed: str, sensor: str) -> list[tuple[str, str, tuple[Samples, ...]]]:
         """Return parent, child and the samples of each topic, for the transforms of a chain."""
-        up, down = self._ways(fixed, sensor) or ([], [])
+        up, down = self._paths_to_ancestor(fixed, sensor) or ([], [])
         return [(self._edges[child][0], child, self._edges[child][1]) for child in (*up, *down)]
 
-    def _link(self, child: str, inverted: bool) -> Track:
+    def _link(self, child: str, *, inverted: bool) -> "Track":
         samples = Samples.joined(self._edges[child][1])
         return samples.track(samples.is_constant(), inverted)
 
-    def root(self, sensor: str) -> str:
-        """Return the topmost frame above the sensor's frame."""
-        return self.upwards(sensor)[-1]
-
-    def above(self, sensor: str, names: Iterable[str]) -> str | None:
+    def named_ancestor(self, sensor: str, names: Iterable[str]) -> str | None:
         """Return the nearest frame above the sensor's with the first matching name (or ``robot/name``), or None."""
-        frames = self.upwards(sensor)[1:]
+        frames = self.path_to_root(sensor)[1:]
         return next((frame for name in names for frame in frames if frame.rpartition("/")[2] == name), None)
 
-    def body(self, sensor: str, names: Iterable[str]) -> str | None:
+    def body_frame(self, sensor: str, names: Iterable[str]) -> str | None:
         """Return the frame of the robot's body by its name: above the sensor's, or else fixed to it; or None."""
         names = tuple(names)
-        if (body := self.above(sensor, names)) is not None:
+        if (body := self.named_ancestor(sensor, names)) is not None:
             return body
-        others = [f for f in self.frames() if f != sensor and self.root(f) == self.root(sensor)]
+        root = self.path_to_root(sensor)[-1]
+        others = [frame for frame in self.frames() if frame != sensor and self.path_to_root(frame)[-1] == root]
         for name in names:
             for frame in sorted(others, key=len):
                 chain = self.chain(frame, sensor) if frame.rpartition("/")[2] == name else None
@@ -267,17 +269,17 @@ class FrameTree:
 
     def moves(self, frame: str) -> bool:
         """Return true if a transform between a frame and its root changes."""
-        return any(not Samples.joined(self._edges[f][1]).is_constant() for f in self.upwards(frame)[:-1])
+        return any(not Samples.joined(self._edges[child][1]).is_constant() for child in self.path_to_root(frame)[:-1])
 
 
-def planar(motion: RigidTransform) -> Floats:
+def planar_pose(motion: RigidTransform) -> Floats:
     """Return the pose in the plane, shape (..., 3): x, y, and the yaw of the child's x axis."""
     ahead = motion.rotation.apply([1.0, 0.0, 0.0])
     return np.concatenate([motion.translation[..., :2], np.arctan2(ahead[..., 1], ahead[..., 0])[..., None]], -1)
 
 
-def upright(motion: RigidTransform) -> Floats:
-    """Return the height of the child's z axis over the plane, shape (...): 1 upright, -1 upside down, 0 on its side."""
+def axis_height(motion: RigidTransform) -> Floats:
+    """Return the vertical component of the child's z axis, shape (...): 1 upright, -1 upside down, 0 on its side."""
     return np.asarray(motion.rotation.apply([0.0, 0.0, 1.0])[..., 2])
 
 
@@ -286,9 +288,9 @@ class Track:
     """The pose of a frame in another over time: T motions."""
 
     stamps_ns: NDArray[np.int64]  # strictly ascending, (T,)
-    motions: Any
-    holds_always: bool = False  # whether the last motion holds at all times
-    inverted: bool = False  # whether `at` and `last` return inverse motions
+    motions: Any  # T motions, a `RigidTransform`
+    holds_always: bool = False  # true if the last motion holds at all times
+    inverted: bool = False  # true if `at` and `last` return inverse motions
 
     def covers(self, stamps_ns: NDArray[np.int64]) -> NDArray[np.bool_]:
         """Select the times between the first and the last."""

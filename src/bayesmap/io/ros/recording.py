@@ -1,6 +1,6 @@
-"""A robot's recording in any container: topics, raw messages, and readers of a file's records one by one.
+"""Define a robot's `Recording` in any container, and read the records of its files one by one.
 
-Records are read from the beginning of a file, without its index, as far as possible:
+Records are read from the beginning of a file, without its index, as far as damage allows:
 
     ROS 1 bags        http://wiki.ros.org/Bags/Format/2.0
     MCAP              https://mcap.dev/spec
@@ -9,8 +9,6 @@ Records are read from the beginning of a file, without its index, as far as poss
 rosbags cannot read recordings that are cut short or were never closed (``.bag.active``), MCAP of ROS 1 messages, or
 MCAP that is unindexed and out of order. These readers can.
 """
-
-from __future__ import annotations
 
 import bz2
 import importlib
@@ -42,7 +40,7 @@ class Damaged(Exception):
     """A recording that is cut short or contradicts itself; the text is the reason."""
 
 
-class Malformed(Exception):
+class MalformedMessage(Exception):
     """A message that cannot be used, or does not follow its definition; the text is the reason."""
 
 
@@ -72,7 +70,7 @@ class Topic:
 
 @dataclass(frozen=True, eq=False)
 class Recording:
-    """An open recording."""
+    """An open recording: its topics, and a function that reads their messages."""
 
     path: str
     format: str  # ``"rosbag1"``, ``"rosbag2-sqlite3"`` or ``"mcap"``
@@ -89,32 +87,34 @@ class Recording:
     def named(self, option: str, name: str, types: Collection[str], choices: str) -> Topic:
         """Return the topic that the user names by an option. Raises `BadInput`, with the choices, for others."""
         topic = self.topics.get(name) or self.topics.get("/" + name)
-        if topic is not None and topic.type in types and topic.count:
-            return topic
         if topic is None:
             fault = "there is no such topic"
+        elif topic.type not in types:
+            fault = f"it is a topic of {topic.type}"
+        elif not topic.count:
+            fault = "it has no message"
         else:
-            fault = "it has no message" if topic.type in types else f"it is a topic of {topic.type}"
+            return topic
         raise BadInput(f"{self.path}: {option} {name}: {fault}; {choices}")
 
 
 class Connection(NamedTuple):
-    """A stream of messages: its id, which its messages refer to, and its topic, without a count."""
+    """A stream of messages on a topic, to whose id its messages refer."""
 
     id: int
-    topic: Topic
+    topic: Topic  # without a count
 
 
 class Record(NamedTuple):
-    """A message with the id of an earlier `Connection`, and the time of receipt in nanoseconds."""
+    """A message in a file."""
 
-    connection: int
+    connection: int  # id of an earlier `Connection`
     received_ns: int
     data: bytes
 
 
 Records = Iterator[Connection | Record]
-Times = tuple[int | None, int | None]  # of receipt of the first and the last message
+Times = tuple[int | None, int | None]  # of receipt of the first and the last message, in nanoseconds
 
 
 def topics_of(records: Records) -> tuple[dict[str, Topic], Times]:
@@ -131,8 +131,8 @@ def topics_of(records: Records) -> tuple[dict[str, Topic], Times]:
             time = record.received_ns
             start_ns = time if start_ns is None else min(start_ns, time)
             end_ns = time if end_ns is None else max(end_ns, time)
-    first = {topic.name: topic for topic in reversed(connections.values())}
-    return {name: replace(first[name], count=counts[name]) for name in sorted(first)}, (start_ns, end_ns)
+    by_name = {topic.name: topic for topic in reversed(connections.values())}  # the first connection of each
+    return {name: replace(by_name[name], count=counts[name]) for name in sorted(by_name)}, (start_ns, end_ns)
 
 
 def messages_of(records: Records, topics: Mapping[str, Topic], names: frozenset[str]) -> Iterator[Message]:
@@ -152,11 +152,11 @@ MCAP_MAGIC = b"\x89MCAP0\r\n"
 SQLITE_MAGIC = b"SQLite format 3\0"
 BAG_MESSAGE, BAG_HEADER, BAG_INDEX, BAG_CHUNK, BAG_CONNECTION = (bytes([op]) for op in (2, 3, 4, 5, 7))
 FOOTER, SCHEMA, CHANNEL, MESSAGE, CHUNK, DATA_END = 2, 3, 4, 5, 6, 15
-LANGUAGES = {"ros1msg": "msg", "ros2msg": "msg", "ros2idl": "idl", "omgidl": "idl"}
+LANGUAGES = {"ros1msg": "msg", "ros2msg": "msg", "ros2idl": "idl", "omgidl": "idl"}  # of definitions
 INDEX_ENTRY_BYTES = 12
 MCAP_HEAD = struct.Struct("<BQ")  # kind and length of a record
 MAX_HEADER_BYTES = 1 << 24  # of one record; larger lengths are taken for damage
-MAX_DATA_BYTES = 1 << 30
+MAX_DATA_BYTES = 1 << 30  # of one record or chunk
 OnDamage = Callable[[str], None]  # called with the reason for an unreadable part; raises to stop
 
 
@@ -197,25 +197,26 @@ def bag_records(path: str | os.PathLike[str], on_damage: OnDamage) -> Records:
             if kind == BAG_INDEX and len(header.get("count", b"")) == 4:
                 # As in ROS, the count decides the length: bags of 2010 state wrong lengths.
                 length = INDEX_ENTRY_BYTES * header.get_uint32("count")
-            cut = data_position + length > size
-            if cut:
+            is_cut = data_position + length > size
+            if is_cut:
                 on_damage(f"the record at byte {position:,} is longer than the file")
             if kind == BAG_CHUNK:
                 data = file.read(min(length, size - data_position, MAX_DATA_BYTES))
-                yield from _until_damage(_bag_chunk(header, data, cut), f"the chunk at byte {position:,}", on_damage)
-            elif not cut and length <= MAX_DATA_BYTES:
+                yield from _until_damage(_bag_chunk(header, data, is_cut), f"the chunk at byte {position:,}", on_damage)
+            elif not is_cut and length <= MAX_DATA_BYTES:
                 record = _bag_record(header, file, length)
                 yield from _until_damage(record, f"the record at byte {position:,}", on_damage)
-            if cut:
+            if is_cut:
                 return
             position = data_position + length
 
 
-def _until_damage(records: Records, what: str, on_damage: OnDamage) -> Records:
+def _until_damage(records: Records, place: str, on_damage: OnDamage) -> Records:
+    """Yield records up to damage, and report the damage with its place."""
     try:
         yield from records
     except _Unreadable as problem:
-        on_damage(f"{what} cannot be read: {problem}")
+        on_damage(f"{place} cannot be read: {problem}")
 
 
 def _bag_header(file: BinaryIO, position: int) -> tuple[Any, int, int]:
@@ -223,9 +224,9 @@ def _bag_header(file: BinaryIO, position: int) -> tuple[Any, int, int]:
     from rosbags.rosbag1.reader import Header, ReaderError, read_uint32
 
     file.seek(position)
-    stated = int.from_bytes(file.read(4), "little")
-    if stated > MAX_HEADER_BYTES:
-        raise _Unreadable(f"a record says that its header has {stated:,} bytes")
+    header_bytes = int.from_bytes(file.read(4), "little")
+    if header_bytes > MAX_HEADER_BYTES:
+        raise _Unreadable(f"a record says that its header has {header_bytes:,} bytes")
     file.seek(position)
     try:
         header, length = Header.read(file), read_uint32(file)
@@ -236,17 +237,17 @@ def _bag_header(file: BinaryIO, position: int) -> tuple[Any, int, int]:
     return header, file.tell(), length
 
 
-def _bag_chunk(header: Any, packed: bytes, cut: bool) -> Records:
+def _bag_chunk(header: Any, packed: bytes, is_cut: bool) -> Records:
     """Yield the records within a chunk. A chunk that is cut has its first records."""
-    data, position = _unpacked(header.get("compression", b"").decode("ascii", "replace"), packed, MAX_DATA_BYTES), 0
-    file = BytesIO(data)
+    data = _unpack(header.get("compression", b"").decode("ascii", "replace"), packed, MAX_DATA_BYTES)
+    file, position = BytesIO(data), 0
     while position < len(data):
         try:
             inner, data_position, length = _bag_header(file, position)
             if data_position + length > len(data):
                 raise _Unreadable("its records are longer than it is")
         except _Unreadable:
-            if cut:
+            if is_cut:
                 return
             raise
         yield from _bag_record(inner, file, length)
@@ -293,24 +294,24 @@ def mcap_records(path: str | os.PathLike[str], on_damage: OnDamage) -> Records:
                     on_damage(f"the end at byte {size:,} is not that of MCAP")
                 return
             end = position + MCAP_HEAD.size + length
-            cut = end > size
-            if cut:
+            is_cut = end > size
+            if is_cut:
                 on_damage(f"the record at byte {position:,} is longer than the file")
             length = min(length, size - position - MCAP_HEAD.size)
             if kind == CHUNK and length <= MAX_DATA_BYTES:
-                chunk = _mcap_chunk(file.read(length), schemas, cut)
+                chunk = _mcap_chunk(file.read(length), schemas, is_cut)
                 yield from _until_damage(chunk, f"the chunk at byte {position:,}", on_damage)
-            elif not cut and kind in (SCHEMA, CHANNEL, MESSAGE) and length <= MAX_DATA_BYTES:
+            elif not is_cut and kind in (SCHEMA, CHANNEL, MESSAGE) and length <= MAX_DATA_BYTES:
                 record = _mcap_record(kind, file.read(length), schemas)
                 yield from _until_damage(record, f"the record at byte {position:,}", on_damage)
-            if cut:
+            if is_cut:
                 return
             position = end
 
 
-def _mcap_chunk(chunk: bytes, schemas: Schemas, cut: bool) -> Records:
+def _mcap_chunk(chunk: bytes, schemas: Schemas, is_cut: bool) -> Records:
     """Yield the records within a chunk. A chunk that is cut has its first records."""
-    try:
+    try:  # the head: times, size and checksum of the unpacked records, compression, and packed length
         _, _, size, checksum = struct.unpack_from("<QQQI", chunk)
         (compression,), start = _texts(chunk, 28, 1)
         (length,) = struct.unpack_from("<Q", chunk, start)
@@ -318,23 +319,25 @@ def _mcap_chunk(chunk: bytes, schemas: Schemas, cut: bool) -> Records:
         raise _Unreadable(str(error)) from None
     if size > MAX_DATA_BYTES:
         raise _Unreadable(f"it says that it holds {size:,} bytes")
-    data = _unpacked(compression, chunk[start + 8 : start + 8 + length], size)
-    if not cut and len(data) != size:
+    data = _unpack(compression, chunk[start + 8 : start + 8 + length], size)
+    if not is_cut and len(data) != size:
         raise _Unreadable(f"it holds {len(data):,} bytes where it says {size:,}")
-    if not cut and checksum and crc32(data) != checksum:
+    if not is_cut and checksum and crc32(data) != checksum:
         raise _Unreadable("its checksum does not match")
     position = 0
-    while (start := position + MCAP_HEAD.size) <= len(data):
+    while position + MCAP_HEAD.size <= len(data):
         kind, length = MCAP_HEAD.unpack_from(data, position)
+        start = position + MCAP_HEAD.size
         if start + length > len(data):
             break
         yield from _mcap_record(kind, data[start : start + length], schemas)
         position = start + length
-    if position < len(data) and not cut:
+    if position < len(data) and not is_cut:
         raise _Unreadable("its records are longer than it is")
 
 
 def _mcap_record(kind: int, data: bytes, schemas: Schemas) -> Records:
+    """Yield the message or connection in a record; a schema is put into ``schemas``."""
     try:
         if kind == MESSAGE:
             channel, _, received_ns, _ = struct.unpack_from("<HIQQ", data)
@@ -354,7 +357,7 @@ def _mcap_record(kind: int, data: bytes, schemas: Schemas) -> Records:
 
 
 def _texts(data: bytes, position: int, count: int) -> tuple[list[str], int]:
-    """Return texts, each stored after its length, and the end of the last."""
+    """Return ``count`` texts from a position on, each stored after its length, and the end of the last."""
     texts = []
     for _ in range(count):
         (length,) = struct.unpack_from("<I", data, position)
@@ -365,19 +368,19 @@ def _texts(data: bytes, position: int, count: int) -> tuple[list[str], int]:
     return texts, position
 
 
-def _unpacked(compression: str, packed: bytes, largest: int) -> bytes:
-    """Unpack the records of a chunk, up to a number of bytes."""
+def _unpack(compression: str, packed: bytes, max_bytes: int) -> bytes:
+    """Unpack the records of a chunk, up to a number of bytes. Raises `_Unreadable`."""
     try:
         if compression in ("", "none"):
             return packed
         if compression == "bz2":
-            return bz2.BZ2Decompressor().decompress(packed, largest)
+            return bz2.BZ2Decompressor().decompress(packed, max_bytes)
         if compression == "lz4":
             import lz4.frame  # type: ignore[import-untyped]  # comes with rosbags
 
-            return bytes(lz4.frame.LZ4FrameDecompressor().decompress(packed, largest))
+            return bytes(lz4.frame.LZ4FrameDecompressor().decompress(packed, max_bytes))
         if compression == "zstd":
-            return bytes(zstd().ZstdDecompressor().decompress(packed, largest))
+            return bytes(zstd().ZstdDecompressor().decompress(packed, max_bytes))
     except Exception as error:  # each library has errors of its own
         raise _Unreadable(str(error) or type(error).__name__) from None
     raise _Unreadable(f"it is compressed by {compression!r}, which is not known")

@@ -8,15 +8,12 @@
 
 RLASER and ROBOTLASER2 are the rear laser's messages, in the same two formats. RAWLASER1 to RAWLASER5 are ROBOTLASER1
 without poses and velocities, and are read only if no poses are needed. Scans are sorted by their ipc_timestamp.
-FLASER lines, which every tool reads, are written if this reader would find the same angles and the same hits in them,
-and ROBOTLASER1 lines otherwise.
+`read_carmen` parses each line (`parse_laser`), and makes arrays of the scans (`scan_log_of`). `write_carmen` is last.
 
 ROBOTLASER1 lines state their first angle and the step. By CARMEN's own rule the first beam of FLASER is at -90 degrees.
 Beams are 1 degree apart if there are 180 or 181, half a degree if 360 or 361, a quarter if 400 or 401; any other number
 spreads over 180 degrees. (It puts 401 beams from -90 to +10 degrees; a SICK looked from -50 to +50.)
 """
-
-from __future__ import annotations
 
 import math
 import os
@@ -30,26 +27,24 @@ import numpy as np
 
 from bayesmap.errors import BadInput
 from bayesmap.files import write_file
-from bayesmap.io.log_reading import WITHOUT_POSES, Account, LogOptions, Pose, ScanLog
-from bayesmap.io.returns import Readings, Views, decode, largest_hit_m
+from bayesmap.io.log_reading import NO_POSES_REMEDY, LogAccount, LogOptions, Pose, ScanLog
+from bayesmap.io.returns import Readings, Views, decode, max_range_of
 from bayesmap.io.text.lines import log_lines, numbers_in, printable
 from bayesmap.space.planar import Floats, between, compose
 from bayesmap.space.scans import MAX_BEAMS, Fan, Scans, as_poses, fan_fault, side_by_side
 
-IMPLICIT = ("FLASER", "RLASER")
-LASERS = ("FLASER", "ROBOTLASER1", "RLASER", "ROBOTLASER2")  # with poses; preferred first
+IMPLICIT = ("FLASER", "RLASER")  # messages that do not state their angles
+LASERS = ("FLASER", "ROBOTLASER1", "RLASER", "ROBOTLASER2")  # messages that hold a scan with its pose; preferred first
 RAW = ("RAWLASER1", "RAWLASER2", "RAWLASER3", "RAWLASER4", "RAWLASER5")  # messages that hold a scan without a pose
-KNOWN = (*LASERS, "ODOM", "PARAM", "SYNC", "NEFF", "TRUEPOS", "LASER3", "LASER4", "MARKER", *RAW)
+CARMEN_MESSAGES = (*LASERS, "ODOM", "PARAM", "SYNC", "NEFF", "TRUEPOS", "LASER3", "LASER4", "MARKER", *RAW)
 """Messages by which a CARMEN log is recognised."""
-
 STEP_DEG = {180: 1.0, 181: 1.0, 360: 0.5, 361: 0.5, 400: 0.25, 401: 0.25}  # by number of beams, if not stated
-NO_RETURN_CODE_M = 81.83  # least number written for no return, a SICK laser's; larger if hits come too near
+MIN_CODE_M = 81.83  # smallest number written for no return, a SICK laser's; larger if hits come too near
 ANGLE_TOLERANCE_RAD = 1e-6
-
 _NAME = re.compile(rb"[A-Za-z][A-Za-z0-9_.:-]*")
 
 
-class Malformed(Exception):
+class MalformedLine(Exception):
     """A line that does not follow its format; the text is the reason."""
 
 
@@ -57,10 +52,10 @@ class Malformed(Exception):
 class LaserLine:
     """The scan of one line. Poses and time are finite; missing poses are zero."""
 
-    fan: Fan
+    fan: Fan  # angles of the A beams
     readings_m: Floats  # raw, (A,)
-    laser_pose: Floats  # (3,)
-    robot_pose: Floats  # (3,)
+    laser_pose: Floats  # in the world, (3,)
+    robot_pose: Floats  # in the world, (3,)
     stamp_s: float
     max_range_m: float | None  # largest range of the sensor, if the line states it
 
@@ -69,7 +64,7 @@ class LaserLine:
         return self.laser_pose if mount is None else compose(self.robot_pose, np.array(mount))
 
 
-LaserScan = tuple[LaserLine, Floats]  # a scan of a log, and the pose of the laser in the world, (3,)
+PlacedScan = tuple[LaserLine, Floats]  # a scan of a log, and the pose of the laser in the world, (3,)
 
 
 def read_carmen(path: str | os.PathLike[str], options: LogOptions) -> ScanLog:
@@ -78,9 +73,9 @@ def read_carmen(path: str | os.PathLike[str], options: LogOptions) -> ScanLog:
     If a log holds several kinds of laser message, the kind with most scans is read. A note names the others. Raises
     `BadInput` for a file that cannot be read or holds no scans, and for a malformed line, unless the options skip it.
     """
-    account = Account(os.fspath(path), "carmen", options)
+    account = LogAccount(os.fspath(path), "carmen", options)
     kinds = LASERS + RAW if options.without_poses else LASERS
-    scans_by_kind: dict[str, list[LaserScan]] = {kind: [] for kind in kinds}
+    scans_by_kind: dict[str, list[PlacedScan]] = {kind: [] for kind in kinds}
     number = 0
     for number, line in log_lines(account):
         try:
@@ -91,40 +86,38 @@ def read_carmen(path: str | os.PathLike[str], options: LogOptions) -> ScanLog:
                 scans_by_kind[kind].append((scan, scan.pose(options.laser)))
             elif kind == "ODOM":
                 _check_odometry(line.split())
-        except Malformed as problem:
-            account.bad(number, str(problem))
-    del account.counts[""]
+        except MalformedLine as problem:
+            account.reject(number, str(problem))
+    del account.counts[""]  # comments and blank lines
     if not any(scans_by_kind.values()):
-        raise BadInput(f"{account.name}: {_why_no_scans(number, account)}{account.malformed()}")
+        raise BadInput(f"{account.name}: {_why_no_scans(number, account)}{account.skipped_in_words()}")
     log, fans = scan_log_of(account, scans_by_kind)
-    vertices = [
-        f"the log also holds {account.counts[name]:,} {name} lines, which were not used: poses are those of the laser "
-        "lines"
-        for name in ("VERTEX_SE2", "VERTEX2")
-        if account.counts[name]  # they come so late that the file was taken for a CARMEN log
-    ]
-    unsure = _unsure_angles(fans) if log.message in IMPLICIT else []
-    return replace(log, notes=(*log.notes, *unsure, *vertices))
+    notes = _implied_angles_notes(fans) if log.message in IMPLICIT else []
+    for tag in ("VERTEX_SE2", "VERTEX2"):
+        if account.counts[tag]:  # they come so late that the file was taken for a CARMEN log
+            text = f"{account.counts[tag]:,} {tag} lines, which were not used: poses are those of the laser lines"
+            notes.append(f"the log also holds {text}")
+    return replace(log, notes=(*log.notes, *notes))
 
 
 def message_name(line: bytes) -> str:
-    """Return the line's first word, or "" for comments and blank lines. Raises `Malformed` if it names no message."""
+    """Return the line's first word, or "" for comments and blank lines. Raises `MalformedLine` for other words."""
     if b"\0" in line:
-        raise Malformed("binary data; a log is text")
+        raise MalformedLine("binary data; a log is text")
     words = line.split(None, 1)
     if not words or words[0].startswith((b"#", b"//")):
         return ""
     word = words[0]
     if len(word) > 64 or not _NAME.fullmatch(word):
-        raise Malformed(f"starts with '{printable(word)}', which is not the name of a message")
+        raise MalformedLine(f"starts with '{printable(word)}', which is not the name of a message")
     name = word.decode("ascii")
-    if name not in KNOWN and any(known.startswith(name) for known in KNOWN):
-        raise Malformed(f"starts with '{name}': a message cut short")
+    if name not in CARMEN_MESSAGES and any(known.startswith(name) for known in CARMEN_MESSAGES):
+        raise MalformedLine(f"starts with '{name}': a message cut short")
     return name
 
 
 def parse_laser(kind: str, words: list[bytes]) -> LaserLine:
-    """Return the scan in the words of a line. Raises `Malformed` if they do not follow the format of their kind."""
+    """Return the scan in the words of a line. Raises `MalformedLine` if they do not follow the format of their kind."""
     # Positions of the readings and the poses, from the counts in the line.
     count_at = 1 if kind in IMPLICIT else 8
     beams = _count(kind, words, count_at, "readings")
@@ -135,62 +128,62 @@ def parse_laser(kind: str, words: list[bytes]) -> LaserLine:
         poses_at = readings_end + 1 + _count(kind, words, readings_end, "remissions")
         total = poses_at + (3 if kind in RAW else 14)
     if len(words) != total:
-        raise Malformed(
-            f"{kind} with {beams} readings has {len(words)} fields where {total} are needed "
-            "(is the line cut short, or joined with another?)"
-        )
+        fields = f"{len(words)} fields where {total} are needed (is the line cut short, or joined with another?)"
+        raise MalformedLine(f"{kind} with {beams} readings has {fields}")
     readings = parse_floats(kind, words[count_at + 1 : readings_end], count_at + 1)
     # Two poses, in the explicit format five more numbers, then time, host, and the logger's time.
     numbers = parse_floats(kind, [*words[poses_at : total - 2], words[total - 1]], poses_at)
     numbers = np.append(np.zeros(6) if kind in RAW else numbers[:6], numbers[-2])
     if not np.isfinite(numbers).all():
-        raise Malformed(f"{kind} has a pose or a time that is not finite: {numbers.tolist()}")
-    poses_and_stamp = numbers[:3], numbers[3:6], float(numbers[6])
+        raise MalformedLine(f"{kind} has a pose or a time that is not finite: {numbers.tolist()}")
+    laser_pose, robot_pose, stamp_s = numbers[:3], numbers[3:6], float(numbers[6])
     if kind in IMPLICIT:
-        return LaserLine(_implied_fan(kind, beams), readings, *poses_and_stamp, None)
+        return LaserLine(_implied_fan(kind, beams), readings, laser_pose, robot_pose, stamp_s, None)
+    # The explicit format states its angles and its maximum range.
     first, _, step, max_range = (float(v) for v in parse_floats(kind, words[2:6], 2))
-    what = f"{kind} has start angle {first:g} and angular resolution {step:g}"
+    angles = f"{kind} has start angle {first:g} and angular resolution {step:g}"
     if not (math.isfinite(first) and math.isfinite(step) and step > 0):
-        raise Malformed(what)
+        raise MalformedLine(angles)
     if (fault := fan_fault(first, first + step * max(beams - 1, 0))) is not None:
-        raise Malformed(f"{what}: {fault}")
-    stated = max_range if math.isfinite(max_range) and max_range > 0 else None
-    return LaserLine(Fan(beams, first, step), readings, *poses_and_stamp, stated)
+        raise MalformedLine(f"{angles}: {fault}")
+    stated_m = max_range if math.isfinite(max_range) and max_range > 0 else None
+    return LaserLine(Fan(beams, first, step), readings, laser_pose, robot_pose, stamp_s, stated_m)
 
 
 def _implied_fan(kind: str, beams: int) -> Fan:
+    """Return the fan of a number of beams by CARMEN's rule. Raises `MalformedLine` for a single beam."""
     if beams == 1:
-        raise Malformed(f"{kind} with a single reading: its angle is not known")
+        raise MalformedLine(f"{kind} with a single reading: its angle is not known")
     step = math.radians(STEP_DEG[beams]) if beams in STEP_DEG else math.pi / max(beams - 1, 1)
     return Fan(beams, -math.pi / 2, step if beams else 0.0)
 
 
-def _count(kind: str, words: list[bytes], position: int, what: str) -> int:
-    """Return the count of readings or remissions that stands at a position in the line."""
+def _count(kind: str, words: list[bytes], position: int, items: str) -> int:
+    """Return the count of ``items``, readings or remissions, that stands at a position in the line."""
     if position >= len(words):
-        raise Malformed(f"{kind} ends after {len(words)} fields, before its number of {what}")
+        raise MalformedLine(f"{kind} ends after {len(words)} fields, before its number of {items}")
     word = words[position]
-    if not word.isdigit() or not int(word[:9]) <= MAX_BEAMS:
-        raise Malformed(f"{kind} says '{printable(word)}' for its number of {what}")
+    if not word.isdigit() or not int(word[:9]) <= MAX_BEAMS:  # nine digits: huge numbers take long to convert
+        raise MalformedLine(f"{kind} says '{printable(word)}' for its number of {items}")
     return int(word)
 
 
 def parse_floats(kind: str, words: list[bytes], first: int) -> Floats:
-    """Return words as numbers, (N,); the first word has the index ``first`` in its line. Raises `Malformed`."""
+    """Return words as numbers, (N,); the first word has the index ``first`` in its line. Raises `MalformedLine`."""
     numbers = numbers_in(words)
     if isinstance(numbers, int):
-        raise Malformed(f"{kind} has '{printable(words[numbers])}' for a number, in field {first + numbers + 1}")
+        raise MalformedLine(f"{kind} has '{printable(words[numbers])}' for a number, in field {first + numbers + 1}")
     return numbers
 
 
 def _check_odometry(words: list[bytes]) -> None:
     if len(words) != 10:
-        raise Malformed(f"ODOM has {len(words)} fields where 10 are needed")
+        raise MalformedLine(f"ODOM has {len(words)} fields where 10 are needed")
     if not np.isfinite(parse_floats("ODOM", [*words[1:8], words[9]], 1)).all():
-        raise Malformed("ODOM has a number that is not finite")
+        raise MalformedLine("ODOM has a number that is not finite")
 
 
-def scan_log_of(account: Account, scans_by_kind: Mapping[str, Sequence[LaserScan]]) -> tuple[ScanLog, list[Fan]]:
+def scan_log_of(account: LogAccount, scans_by_kind: Mapping[str, Sequence[PlacedScan]]) -> tuple[ScanLog, list[Fan]]:
     """Return the scans of the kind of message with most scans, and their fans, the commonest first."""
     kind = max(scans_by_kind, key=lambda kind: len(scans_by_kind[kind]))
     scans = [scan for scan, _ in scans_by_kind[kind] if scan.fan.beams]
@@ -200,14 +193,13 @@ def scan_log_of(account: Account, scans_by_kind: Mapping[str, Sequence[LaserScan
     # Fans, poses and time order of the scans.
     fans = [fan for fan, _ in Counter(scan.fan for scan in scans).most_common()]
     poses = np.array([pose for scan, pose in scans_by_kind[kind] if scan.fan.beams])
-    order = account.in_time_order(np.array([scan.stamp_s for scan in scans]), len(scans))
+    order = account.sort_by_time(np.array([scan.stamp_s for scan in scans]), len(scans))
     if n_empty:
         account.notes.append(f"{n_empty:,} {kind} lines have no readings, and were left out")
-    account.notes += [
-        f"the log also holds {len(others)} {other} scans, which were not used: {kind} has more or as many"
-        for other, others in scans_by_kind.items()
-        if other != kind and others
-    ]
+    for other, others in scans_by_kind.items():
+        if other != kind and others:
+            unused = f"{len(others)} {other} scans, which were not used: {kind} has more or as many"
+            account.notes.append(f"the log also holds {unused}")
     # Angles and readings as arrays, with NaN if scans differ in their beams; then the kinds of readings.
     readings = [scan.readings_m for scan in scans]
     if len(fans) == 1:
@@ -218,23 +210,22 @@ def scan_log_of(account: Account, scans_by_kind: Mapping[str, Sequence[LaserScan
     stated_m = max((scan.max_range_m for scan in scans if scan.max_range_m is not None), default=None)
     classified = _classify(account, raw[order], stated_m, Views.of(poses[order], angles))
     # Median pose of the laser in the robot's frame.
-    robot_poses, laser_poses = (np.array([getattr(s, name) for s in scans]) for name in ("robot_pose", "laser_pose"))
+    robot_poses, laser_poses = np.array([s.robot_pose for s in scans]), np.array([s.laser_pose for s in scans])
     x, y, yaw = (float(v) for v in np.median(between(robot_poses, laser_poses), axis=0))
-    mount, posed = None if kind in RAW else (x, y, yaw), kind not in RAW
-    return account.scan_log(kind, poses[order], angles, classified, mount=mount, posed=posed), fans
+    mount = None if kind in RAW else (x, y, yaw)
+    return account.scan_log(kind, poses[order], angles, classified, mount=mount, posed=kind not in RAW), fans
 
 
-def _classify(account: Account, raw: Floats, stated_m: float | None, views: Views) -> Readings:
-    """Classify readings. The default largest range is the largest hit in whole metres, up to the no-return code."""
+def _classify(account: LogAccount, raw: Floats, stated_m: float | None, views: Views) -> Readings:
+    """Classify readings, (S, A). The default largest range is the largest hit, up to the no-return code."""
     ranges, no_return = decode(raw, account.options.no_return, stated_m, views)
-    limit, origin = account.options.max_range_m, "given"
-    if limit is None:
-        code = no_return.code_m if no_return.code_m is not None and no_return.code_m > 0 else math.inf
-        limit, origin = largest_hit_m(account.name, ranges, code), "readings"
-    return Readings(ranges, no_return, 0.0, float(limit), origin, no_return.notes())
+    code_m = no_return.code_m if no_return.code_m is not None and no_return.code_m > 0 else math.inf
+    limit, origin = max_range_of(account.name, ranges, account.options.max_range_m, cap_m=code_m)
+    return Readings(ranges, no_return, 0.0, limit, origin, no_return.notes())
 
 
-def _unsure_angles(fans: list[Fan]) -> list[str]:
+def _implied_angles_notes(fans: list[Fan]) -> list[str]:
+    """Return a note on the fans whose angles are a guess, or none."""
     unsure = [
         f"{fan}, by CARMEN's rule" if fan.beams in STEP_DEG else f"{fan} (180 degrees in all)"
         for fan in fans
@@ -244,26 +235,29 @@ def _unsure_angles(fans: list[Fan]) -> list[str]:
     return [f"the log does not say its beams' angles; taken as {'; '.join(unsure[:3])}{more}"] if unsure else []
 
 
-def _why_no_scans(lines: int, account: Account) -> str:
+def _why_no_scans(lines: int, account: LogAccount) -> str:
+    """Return the reason why a file of some lines has no scans, with a remedy."""
     if lines == 0:
         return "the file is empty"
     raw = any(name.startswith("RAWLASER") for name in account.counts)
-    remedy = f" (RAWLASER lines have no pose: {WITHOUT_POSES})" if raw else ""
-    return f"no laser scans ({', '.join(LASERS)}) in {lines} lines; it holds {account.contents()}{remedy}"
+    remedy = f" (RAWLASER lines have no pose: {NO_POSES_REMEDY})" if raw else ""
+    return f"no laser scans ({', '.join(LASERS)}) in {lines} lines; it holds {account.counts_in_words()}{remedy}"
 
 
 def write_carmen(path: str | os.PathLike[str], scans: Scans, robot_poses: Floats | None = None) -> str:
     """Write scans as a CARMEN log, whole or not at all; gzipped if the name ends in .gz.
 
+    FLASER lines, which every tool reads, are written if `read_carmen` would find the same angles and hits in them, and
+    ROBOTLASER1 lines otherwise. Returns the kind of message that was written.
+
     Ranges keep a tenth of a millimetre. A reading that is too close or invalid becomes 0, which is read back as
     invalid; hits at the sensor's maximum range and beyond become no return. Scans without stamps are written a second
-    apart. ``robot_poses``, (S, 3), are poses of the robot's base, by default the laser's. Returns the kind of message
-    that was written: ``"FLASER"`` or ``"ROBOTLASER1"``. Raises `BadInput` for no scan, a scan of less than two beams,
-    or beams that are not equally far apart, which neither message can state.
+    apart. ``robot_poses``, (S, 3), are poses of the robot's base, by default the laser's. Raises `BadInput` for no
+    scan, a scan of less than two beams, or beams that are not equally far apart, which neither message can state.
     """
     if len(scans) == 0:
         raise BadInput("log: there are no scans to write")
-    # Beams as fans, and the kinds of readings after rounding.
+    # Beams as fans, one for all scans or one for each, and the kinds of readings after rounding.
     angles = [scans.beams_of(scan)[0] for scan in range(1 if scans.own_angles_rad is None else len(scans))]
     fans = [_even_fan(scan_angles) for scan_angles in angles]
     ranges = scans.ranges_m
@@ -317,7 +311,7 @@ def _is_implied(angles_rad: Floats) -> bool:
 def _flaser_numbers(readings: Floats, scans: Scans) -> Floats | None:
     """Return the numbers of FLASER lines, or None if the reader would not decode no return from them."""
     hits = readings[np.isfinite(readings)]
-    code_m = max(NO_RETURN_CODE_M, 2.0 * math.ceil(hits.max() + 1.0) if hits.size else 0.0)
+    code_m = max(MIN_CODE_M, 2.0 * math.ceil(hits.max() + 1.0) if hits.size else 0.0)
     numbers = np.where(np.isnan(readings), 0.0, np.where(np.isposinf(readings), code_m, readings))
     decoded, _ = decode(numbers, views=Views.of(scans.poses, scans.angles_by_scan()))
     return numbers if np.array_equal(decoded, readings, equal_nan=True) else None

@@ -1,4 +1,4 @@
-"""g2o and TORO files of a graph in the plane: scans read from vertices that carry them, and graphs written.
+"""Read the scans of g2o and TORO files, graphs of poses in the plane, and write such graphs.
 
     VERTEX_SE2 id x y yaw                                (TORO: VERTEX2)
     ROBOTLASER1 ...                                      (or FLASER: CARMEN's lines, see `bayesmap.io.text.carmen`)
@@ -6,10 +6,8 @@
 
 A laser line belongs to the last vertex before it: the laser's pose is vertex * robot^-1 * laser. An edge is a
 measurement of pose j in the frame of pose i, with the upper triangle of its information matrix in that frame. No line
-``FIX 0`` is written (docs/file-formats.md).
+``FIX 0`` is written (docs/file-formats.md). `write_g2o` writes the `Edges` of `chain_edges` or `slam_edges`.
 """
-
-from __future__ import annotations
 
 import os
 from dataclasses import dataclass, replace
@@ -21,8 +19,8 @@ from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.files import write_file
-from bayesmap.io.log_reading import Account, LogOptions, ScanLog
-from bayesmap.io.text.carmen import LASERS, LaserLine, LaserScan, Malformed, parse_floats, parse_laser, scan_log_of
+from bayesmap.io.log_reading import LogAccount, LogOptions, ScanLog
+from bayesmap.io.text.carmen import LASERS, LaserLine, MalformedLine, PlacedScan, parse_floats, parse_laser, scan_log_of
 from bayesmap.io.text.lines import log_lines
 from bayesmap.space.planar import Floats, between, between_jacobians, compose, inverse, mount_jacobians, rotation
 from bayesmap.space.trajectory import Trajectory
@@ -33,18 +31,19 @@ if TYPE_CHECKING:
 
 
 VERTICES = (b"VERTEX_SE2", b"VERTEX2")
-KNOWN = (*VERTICES, b"EDGE_SE2", b"VERTEX_SE3:QUAT", b"VERTEX_XY", b"PARAMS_SE2OFFSET", b"VERTEX_SE2_XY")
+G2O_TAGS = (*VERTICES, b"EDGE_SE2", b"VERTEX_SE3:QUAT", b"VERTEX_XY", b"PARAMS_SE2OFFSET", b"VERTEX_SE2_XY")
 """Words by which a g2o file is recognised."""
-FURTHEST_M = 1e7  # larger coordinates are malformed
-MIN_INFORMATION = 1e-3  # least information of an edge, 1 / m^2 and 1 / rad^2: other programs need invertible matrices
+MAX_COORDINATE_M = 1e7  # larger coordinates are malformed
+MIN_INFORMATION = 1e-3  # of an edge in any direction, 1 / m^2 and 1 / rad^2: other programs need invertible matrices
+MIN_VARIANCE = 1e-12  # added to the variances of an edge, m^2 and rad^2, which may be 0
 SAMPLED_PAIRS = 300  # random pairs of key scans that measure the effect of common errors
-SEED = 1
+SEED = 1  # of these pairs
 
 
 def read_g2o(path: str | os.PathLike[str], options: LogOptions) -> ScanLog:
     """Read the scans of a g2o file, plain or gzipped. Errors are as in `bayesmap.io.text.carmen.read_carmen`."""
-    account = Account(os.fspath(path), "g2o", options)
-    scans_by_kind: dict[str, list[LaserScan]] = {kind: [] for kind in LASERS}
+    account = LogAccount(os.fspath(path), "g2o", options)
+    scans_by_kind: dict[str, list[PlacedScan]] = {kind: [] for kind in LASERS}
     vertex: Floats | None = None
     number = 0
     for number, line in log_lines(account):
@@ -60,45 +59,43 @@ def read_g2o(path: str | os.PathLike[str], options: LogOptions) -> ScanLog:
             elif kind in LASERS:
                 scan = parse_laser(kind, words)
                 if vertex is None:
-                    raise Malformed(
-                        f"{kind} does not follow a {' or '.join(word.decode() for word in VERTICES)} that says where "
-                        "it was taken (a file without vertices is read by the poses in its laser lines)"
-                    )
+                    remedy = "(a file without vertices is read by the poses in its laser lines)"
+                    vertices = " or ".join(word.decode() for word in VERTICES)
+                    raise MalformedLine(f"{kind} does not follow a {vertices} that says where it was taken {remedy}")
                 mount = _mount(scan) if options.laser is None else np.array(options.laser)
                 pose = compose(vertex, mount)
                 pose[2] = vertex[2] + mount[2]  # not wrapped: yaw beyond a turn may be in degrees, which a note says
                 scans_by_kind[kind].append((scan, pose))
-        except Malformed as problem:
-            account.bad(number, str(problem))
+        except MalformedLine as problem:
+            account.reject(number, str(problem))
     if not any(scans_by_kind.values()):
-        raise BadInput(
-            f"{account.name}: no vertex of the graph carries a scan ({', '.join(LASERS)}) in {number} lines; it holds "
-            f"{account.contents()}{account.malformed()}"
-        )
+        contents = f"{number} lines; it holds {account.counts_in_words()}{account.skipped_in_words()}"
+        raise BadInput(f"{account.name}: no vertex of the graph carries a scan ({', '.join(LASERS)}) in {contents}")
     log, _ = scan_log_of(account, scans_by_kind)
     return replace(log, pose_source=max((v.decode() for v in VERTICES), key=lambda word: account.counts[word]))
 
 
 def _vertex(kind: str, words: list[bytes]) -> Floats:
+    """Return the pose in the words of a vertex, (3,). Raises `MalformedLine`."""
     if len(words) != 5:
-        raise Malformed(f"{kind} has {len(words)} fields where 5 are needed: an id, x, y and yaw")
+        raise MalformedLine(f"{kind} has {len(words)} fields where 5 are needed: an id, x, y and yaw")
     pose = parse_floats(kind, words[2:5], 2)
-    if not (np.isfinite(pose).all() and np.abs(pose).max() < FURTHEST_M):
-        raise Malformed(f"{kind} has the pose {pose.tolist()}")
+    if not (np.isfinite(pose).all() and np.abs(pose).max() < MAX_COORDINATE_M):
+        raise MalformedLine(f"{kind} has the pose {pose.tolist()}")
     return pose
 
 
 def _mount(scan: LaserLine) -> Floats:
-    """Return the pose of the laser on the robot, robot^-1 * laser, from the poses in a line."""
+    """Return the pose of the laser on the robot, robot^-1 * laser, (3,), from the poses in a line."""
     laser, robot = scan.laser_pose, scan.robot_pose
-    if np.abs([laser, robot]).max() >= FURTHEST_M:
-        raise Malformed(f"the laser is at {laser.tolist()} and the robot at {robot.tolist()}")
+    if np.abs([laser, robot]).max() >= MAX_COORDINATE_M:
+        raise MalformedLine(f"the laser is at {laser.tolist()} and the robot at {robot.tolist()}")
     return between(robot, laser)
 
 
 @dataclass(frozen=True, eq=False)
 class Edges:
-    """Measured relative poses. Raises `BadInput` for shapes that do not fit, or a matrix not positive definite."""
+    """The E edges of a pose graph. Raises `BadInput` for shapes that do not fit, or a matrix not positive definite."""
 
     first: NDArray[np.intp]  # indices of the first poses, (E,)
     second: NDArray[np.intp]  # indices of the second poses, (E,)
@@ -114,19 +111,21 @@ class Edges:
             edge = int(np.argmin(np.linalg.eigvalsh(self.information).min(axis=1)))
             raise BadInput(f"graph: the information matrix of edge {edge} is not positive definite")
 
-    def of_frame(self, mount: Floats) -> Edges:
+    def of_frame(self, mount: Floats) -> "Edges":
         """Return the edges between poses of another frame, which lies at ``mount``, (3,), in this frame."""
-        back = np.linalg.inv(mount_jacobians(self.relative[:, 2], mount))
-        moved = compose(inverse(mount), compose(self.relative, mount))
-        return replace(self, relative=moved, information=np.swapaxes(back, 1, 2) @ self.information @ back)
+        # Information transforms by the derivative of the old relative pose with respect to the new one.
+        jacobian = np.linalg.inv(mount_jacobians(self.relative[:, 2], mount))
+        relative = compose(inverse(mount), compose(self.relative, mount))
+        information = np.swapaxes(jacobian, 1, 2) @ self.information @ jacobian
+        return replace(self, relative=relative, information=information)
 
 
 def write_g2o(path: str | os.PathLike[str], poses_world: Floats, edges: Edges) -> Path:
-    """Write a pose graph, whole or not at all. Raises `BadInput` for an edge to a missing pose."""
+    """Write a graph of poses, (S, 3), whole or not at all. Raises `BadInput` for an edge to a missing pose."""
     count = len(poses_world)
-    ends = np.concatenate([edges.first, edges.second])
-    if len(ends) and (ends.min() < 0 or ends.max() >= count):
-        raise BadInput(f"graph: an edge names pose {ends.max()}, but there are {count}")
+    indices = np.concatenate([edges.first, edges.second])
+    if len(indices) and (indices.min() < 0 or indices.max() >= count):
+        raise BadInput(f"graph: an edge names pose {indices.max()}, but there are {count}")
     lines = [f"VERTEX_SE2 {i} {x:.9f} {y:.9f} {yaw:.9f}" for i, (x, y, yaw) in enumerate(poses_world)]
     upper = np.triu_indices(3)
     for i, j, relative, information in zip(edges.first, edges.second, edges.relative, edges.information, strict=True):
@@ -153,16 +152,16 @@ def chain_edges(trajectory: Trajectory) -> Edges:
         error = between(np.broadcast_to(relative, step_draws.shape), step_draws)
         covariance = np.einsum("dsi,dsj->sij", error, error) / (len(step_draws) - 1)
     elif trajectory.covariances is not None:
-        turn = rotation(-trajectory.poses[:, 2])  # from world axes to the axes of each pose
-        in_own_axes = turn @ trajectory.covariances @ np.swapaxes(turn, 1, 2)
+        to_own_axes = rotation(-trajectory.poses[:, 2])  # from world axes to the axes of each pose
+        in_own_axes = to_own_axes @ trajectory.covariances @ np.swapaxes(to_own_axes, 1, 2)
         covariance = in_own_axes[:-1] + in_own_axes[1:]
     else:
         raise BadInput("graph: nothing is known of how sure these poses are; a graph needs covariances or draws")
-    covariance = covariance + 1e-12 * np.eye(3)
-    return Edges(np.arange(steps), np.arange(1, steps + 1), relative, np.asarray(np.linalg.inv(covariance), np.float64))
+    information = np.asarray(np.linalg.inv(covariance + MIN_VARIANCE * np.eye(3)), np.float64)
+    return Edges(np.arange(steps), np.arange(1, steps + 1), relative, information)
 
 
-def slam_edges(trajectory: InferredTrajectory) -> Edges:
+def slam_edges(trajectory: "InferredTrajectory") -> Edges:
     """Return the pose graph of `bayesmap.slam`: its constraints between key scans, and each other scan with its key.
 
     Informations are the curvatures of the cost, divided by two factors: the ratio of Student's t covariances to scales,
@@ -171,23 +170,23 @@ def slam_edges(trajectory: InferredTrajectory) -> Edges:
     # Edges between key scans.
     gaussian, keys = trajectory.gaussian, trajectory.keys
     student_ratio = gaussian.dof / (gaussian.dof - 2.0)
-    values, vectors = np.linalg.eigh(gaussian.curvature / (student_ratio * _growth(gaussian)))
-    information = (vectors * np.maximum(values, MIN_INFORMATION)[:, None, :]) @ np.swapaxes(vectors, 1, 2)
+    values, vectors = np.linalg.eigh(gaussian.curvature / (student_ratio * _covariance_growth(gaussian)))
+    key_information = (vectors * np.maximum(values, MIN_INFORMATION)[:, None, :]) @ np.swapaxes(vectors, 1, 2)
     # Edges from every other scan to its nearest key scan.
     others = np.setdiff1d(np.arange(len(trajectory)), keys)
     nearest = keys[trajectory.nearest_key[others]]
-    beside = between(trajectory.poses[nearest], trajectory.poses[others])
-    _, by_other = between_jacobians(beside)
+    from_nearest = between(trajectory.poses[nearest], trajectory.poses[others])
+    _, by_other = between_jacobians(from_nearest)
     covariance = student_ratio * by_other @ trajectory.own_covariance[others] @ np.swapaxes(by_other, 1, 2)
     return Edges(
         np.concatenate([keys[gaussian.first], nearest]),
         np.concatenate([keys[gaussian.second], others]),
-        np.concatenate([gaussian.relative, beside]),
-        np.concatenate([information, np.linalg.inv(covariance + 1e-12 * np.eye(3))]),
+        np.concatenate([gaussian.relative, from_nearest]),
+        np.concatenate([key_information, np.linalg.inv(covariance + MIN_VARIANCE * np.eye(3))]),
     )
 
 
-def _growth(gaussian: PoseGaussian) -> float:
+def _covariance_growth(gaussian: "PoseGaussian") -> float:
     """Return the geometric mean ratio of relative covariances with common errors to those without."""
     from bayesmap.poses.graph import relative_covariances
 
@@ -195,7 +194,7 @@ def _growth(gaussian: PoseGaussian) -> float:
     first, second = first[first != second], second[first != second]
     if not len(first):
         return 1.0
-    alone = relative_covariances(gaussian.precision, gaussian.poses, first, second)
-    together = gaussian.relative_covariances(first, second)
-    log_ratio = np.linalg.slogdet(together)[1] - np.linalg.slogdet(alone)[1]
-    return float(np.exp(log_ratio.mean() / 3.0))
+    without_common = relative_covariances(gaussian.precision, gaussian.poses, first, second)
+    with_common = gaussian.relative_covariances(first, second)
+    log_ratio = np.linalg.slogdet(with_common)[1] - np.linalg.slogdet(without_common)[1]
+    return float(np.exp(log_ratio.mean() / 3.0))  # the third root: covariances are 3 x 3

@@ -1,6 +1,7 @@
-"""Read the numbered lines of a text log, plain or gzipped, without holding the file in memory."""
+"""Read the numbered lines of a text log, plain or gzipped, without holding the file in memory.
 
-from __future__ import annotations
+`read_lines` joins three generators: `file_chunks` decompresses, `as_utf8` decodes, and `split_lines` counts lines.
+"""
 
 import codecs
 import contextlib
@@ -14,11 +15,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.io.log_reading import Account, SkippedLine
+from bayesmap.io.log_reading import LogAccount, SkippedPart
 
 GZIP_MAGIC = b"\x1f\x8b"
-GZIP_FORMAT = 16 + zlib.MAX_WBITS
-CHUNK_BYTES = 1 << 18
+GZIP_FORMAT = 16 + zlib.MAX_WBITS  # zlib's number for data with a gzip header
+CHUNK_BYTES = 1 << 18  # read at a time
 MAX_LINE_BYTES = 1 << 20  # 50 000 beams fit; a file with a longer line is no text log
 
 
@@ -35,17 +36,16 @@ def read_lines(path: str | os.PathLike[str]) -> Generator[tuple[int, bytes]]:
     Raises `DamagedFile` for a damaged or truncated gzip stream, after all the whole lines that could be read, and
     `BadInput` for an unreadable file, or a line over `MAX_LINE_BYTES`.
     """
-    name, last = os.fspath(path), 0
-    chunks = file_chunks(path, lambda: f" after line {last}")
+    name, number = os.fspath(path), 0
+    chunks = file_chunks(path, lambda: f" after line {number}")
     try:
         for number, line in split_lines(name, as_utf8(chunks)):
-            last = number
             yield number, line
     except UnicodeDecodeError:
-        raise BadInput(f"{name}: after line {last} the text is not UTF-16, as it begins; save it as UTF-8") from None
+        raise BadInput(f"{name}: after line {number} the text is not UTF-16, as it begins; save it as UTF-8") from None
 
 
-def log_lines(account: Account) -> Iterator[tuple[int, bytes]]:
+def log_lines(account: LogAccount) -> Iterator[tuple[int, bytes]]:
     """Yield the lines of a log. If the options allow it, a damaged log ends before the damage."""
     number = 0
     try:
@@ -54,37 +54,36 @@ def log_lines(account: Account) -> Iterator[tuple[int, bytes]]:
     except DamagedFile:
         if not account.options.skip_bad_lines:
             raise
-        account.skipped.append(SkippedLine(number + 1, "the gzip file is damaged or cut short here"))
+        account.skipped.append(SkippedPart(number + 1, "the gzip file is damaged or cut short here"))
 
 
 def split_lines(name: str, pieces: Iterable[bytes]) -> Iterator[tuple[int, bytes]]:
     """Yield numbered lines of a text that comes in pieces. Raises `BadInput` over `MAX_LINE_BYTES`."""
-    number, rest = 0, b""
+    number, unfinished = 0, b""
     for piece in pieces:
-        *lines, rest = (rest + piece).split(b"\n")
+        *lines, unfinished = (unfinished + piece).split(b"\n")
         for line in lines:
             number += 1
             yield number, line
-        if len(rest) > MAX_LINE_BYTES:
+        if len(unfinished) > MAX_LINE_BYTES:
             raise BadInput(f"{name}: line {number + 1} is over {MAX_LINE_BYTES:,} bytes; this is not a text log")
-    if rest:
-        yield number + 1, rest
+    if unfinished:
+        yield number + 1, unfinished
 
 
-def file_chunks(path: str | os.PathLike[str], position: Callable[[], str] = str) -> Iterator[bytes]:
-    """Yield the content of a file in pieces, decompressed if it is gzipped; error messages name the ``position``.
+def file_chunks(path: str | os.PathLike[str], position: Callable[[], str] = lambda: "") -> Iterator[bytes]:
+    """Yield the content of a file in pieces, decompressed if it is gzipped.
 
-    Raises `DamagedFile` for a damaged or truncated gzip stream, after all that could be read; `BadInput` if unreadable.
+    ``position`` returns a text for error messages, such as " after line 7". Raises `DamagedFile` for a damaged gzip
+    stream, after all that could be read, and `BadInput` if the file is unreadable.
     """
     name = os.fspath(path)
     try:
         with Path(path).open("rb") as file:
             yield from _chunks(file)
     except (EOFError, zlib.error) as error:
-        raise DamagedFile(
-            f"{name}: the gzip file is damaged or cut short{position()} ({error}); copy it again, or read what is "
-            "there with --skip-bad-lines"
-        ) from None
+        fault = f"the gzip file is damaged or cut short{position()} ({error})"
+        raise DamagedFile(f"{name}: {fault}; copy it again, or read what is there with --skip-bad-lines") from None
     except OSError as error:
         raise BadInput(f"{name}: cannot be read: {error.strerror or error}") from None
 
@@ -112,8 +111,10 @@ def _chunks(file: BinaryIO) -> Iterator[bytes]:
 def as_utf8(pieces: Iterable[bytes]) -> Iterator[bytes]:
     """Yield the pieces of a text without its byte order mark; UTF-16 after such a mark becomes UTF-8."""
     pieces, start = iter(pieces), b""
-    while len(start) < len(codecs.BOM_UTF8) and (piece := next(pieces, b"")):
+    for piece in pieces:
         start += piece
+        if not piece or len(start) >= len(codecs.BOM_UTF8):
+            break
     if not start.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
         yield start.removeprefix(codecs.BOM_UTF8)
         yield from pieces
@@ -141,15 +142,16 @@ def printable(word: bytes) -> str:
 
 def _is_number(word: bytes) -> bool:
     try:
-        return b"_" not in word and float(word) is not None
+        float(word)
     except ValueError:
         return False
+    return b"_" not in word
 
 
-def read_table(path: str | os.PathLike[str], columns: int, form: str, empty: str) -> NDArray[np.float64]:
+def read_table(path: str | os.PathLike[str], columns: int, form: str, if_empty: str) -> NDArray[np.float64]:
     """Return the numbers of a text file, plain or gzipped, (N, columns); commas are white space, # begins a comment.
 
-    Raises `BadInput` for an unreadable file, an empty one (with the message ``empty``), or a line of another ``form``.
+    Raises `BadInput` for an unreadable file, an empty one (with the message ``if_empty``), or a line of another form.
     """
     name, rows = os.fspath(path), []
     for number, line in read_lines(path):
@@ -161,5 +163,5 @@ def read_table(path: str | os.PathLike[str], columns: int, form: str, empty: str
             raise BadInput(f"{name}: line {number}: a line is {columns} numbers: {form}")
         rows.append(row)
     if not rows:
-        raise BadInput(f"{name}: {empty}")
+        raise BadInput(f"{name}: {if_empty}")
     return np.array(rows)

@@ -3,8 +3,6 @@
 Readings have the codes of `bayesmap.Scans`; a no-return code is decoded only if the user gives it.
 """
 
-from __future__ import annotations
-
 import os
 import warnings
 from pathlib import Path
@@ -13,25 +11,25 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.io.log_reading import Account, LogOptions, ScanLog
-from bayesmap.io.returns import NoReturn, Readings, decode, largest_hit_m
+from bayesmap.io.log_reading import LogAccount, LogOptions, ScanLog
+from bayesmap.io.returns import NoReturn, Readings, decode, max_range_of
 from bayesmap.space.planar import compose
 
-Arrays = dict[str, NDArray[np.float64]]
-NPZ_MAGIC = b"PK\x03\x04"
+Arrays = dict[str, NDArray[np.float64]]  # by their names in the archive
+NPZ_MAGIC = b"PK\x03\x04"  # first bytes of the file
 NEEDED = ("poses", "angles_rad", "ranges_m")
 OPTIONAL = ("max_range_m", "min_range_m", "stamps_s", "beam_poses")
 
 
 def read_npz(path: str | os.PathLike[str], options: LogOptions) -> ScanLog:
     """Read scans from an .npz archive. Raises `BadInput` for an array that is missing or does not fit."""
-    account = Account(os.fspath(path), "npz", options)
+    account = LogAccount(os.fspath(path), "npz", options)
     name, arrays = account.name, _read_arrays(os.fspath(path))
     posed = "poses" in arrays
     if not posed and options.without_poses and "ranges_m" in arrays:
         arrays["poses"] = np.zeros((len(np.atleast_2d(arrays["ranges_m"])), 3))
     if arrays.keys() >= {"angles_rad", "ranges_m"} and "poses" not in arrays:
-        raise account.no_poses("the archive has no 'poses'")
+        raise account.no_poses_error("the archive has no 'poses'")
     missing = [key for key in NEEDED if key not in arrays]
     if missing:
         raise BadInput(f"{name}: the archive has no {missing[0]!r}; it has {', '.join(sorted(arrays)) or 'nothing'}")
@@ -49,23 +47,23 @@ def read_npz(path: str | os.PathLike[str], options: LogOptions) -> ScanLog:
         raise BadInput(f"{name}: {str(problem).removeprefix(f'{name}: ')}") from None
 
 
-def _readings(account: Account, arrays: Arrays) -> Readings:
+def _readings(account: LogAccount, arrays: Arrays) -> Readings:
+    """Return the readings with the sensor's limits in the archive. Raises `BadInput` if none is valid."""
     name, code = account.name, account.options.no_return
     ranges, no_return = np.atleast_2d(arrays["ranges_m"]), NoReturn(None, "none")
     if code is not None:
         ranges, no_return = decode(ranges, code)
     if not ranges.size or np.isnan(ranges).all():
         raise BadInput(f"{name}: none of {ranges.size:,} readings is valid")
-    limit, origin = account.options.max_range_m, "given"
-    if limit is None and "max_range_m" in arrays:
-        limit, origin = _number(name, arrays, "max_range_m"), "message"
-    if limit is None:
-        limit, origin = largest_hit_m(name, ranges), "readings"
-    smallest = _number(name, arrays, "min_range_m") if "min_range_m" in arrays else 0.0
-    return Readings(ranges, no_return, smallest, limit, origin, ())
+    given_m = account.options.max_range_m
+    stated_m = _number(name, arrays, "max_range_m") if given_m is None and "max_range_m" in arrays else None
+    max_range_m, origin = max_range_of(name, ranges, given_m, stated_m)
+    min_range_m = _number(name, arrays, "min_range_m") if "min_range_m" in arrays else 0.0
+    return Readings(ranges, no_return, min_range_m, max_range_m, origin, ())
 
 
 def _read_arrays(name: str) -> Arrays:
+    """Return all arrays of an archive; those that are used hold doubles. Raises `BadInput` for a damaged one."""
     arrays: Arrays = {}
     try:
         with warnings.catch_warnings():

@@ -1,4 +1,4 @@
-"""Trajectories as TUM text, which evo and the TUM RGB-D benchmark's tools read, and true relations between poses.
+"""Read and write trajectories as TUM text, as evo and the TUM RGB-D benchmark do, and true relations between poses.
 
 docs/file-formats.md describes TUM files, and the second file for covariances. A pose in the plane has tz = qx = qy = 0
 and (qz, qw) = (sin, cos) of half its yaw.
@@ -7,8 +7,6 @@ Relations have one line each, ``t_i t_j x y z roll pitch yaw``, in the format of
 the accuracy of SLAM algorithms": the true pose at time t_j in the frame of the pose at time t_i, in metres and radians.
 In the plane z, roll and pitch are 0.
 """
-
-from __future__ import annotations
 
 import os
 import re
@@ -27,8 +25,8 @@ from bayesmap.space.trajectory import Trajectory
 if TYPE_CHECKING:
     from bayesmap.posterior.trajectory_scores import Relations
 
-UPRIGHT = 0.1  # sine of half the largest tilt of a pose in the plane
-OWNER = re.compile(rb"# poses of the (base|laser)\b")  # beginning of the header, which names the frame
+MAX_TILT_SINE = 0.1  # sine of half the tilt of a pose in the plane
+FRAME_HEADER = re.compile(rb"# poses of the (base|laser)\b")  # beginning of the header, which names the frame
 
 
 def write_trajectory(
@@ -43,14 +41,14 @@ def write_trajectory(
     if len(poses) == 0:
         raise BadInput("trajectory: there is no pose to write")
     stamps, half_yaw = _stamps(stamps_s, len(poses)), poses[:, 2] / 2
-    what = "scan number (the scans have no stamps)" if stamps_s is None else "timestamp"
+    first_column = "scan number (the scans have no stamps)" if stamps_s is None else "timestamp"
     # Nine decimals: nanoseconds of a stamp, and more than any sensor's precision.
     rows = (
         f"{stamp:.9f} {x:.9f} {y:.9f} 0 0 0 {qz:.12f} {qw:.12f}"
         for stamp, (x, y, _), qz, qw in zip(stamps, poses, np.sin(half_yaw), np.cos(half_yaw), strict=True)
     )
-    owner = "" if frame is None else f"poses of the {frame}: "
-    return write_file(path, [f"# {owner}{what} tx ty tz qx qy qz qw", *rows])
+    header = "" if frame is None else f"poses of the {frame}: "
+    return write_file(path, [f"# {header}{first_column} tx ty tz qx qy qz qw", *rows])
 
 
 def covariances_path(path: str | os.PathLike[str]) -> Path:
@@ -70,6 +68,7 @@ def write_covariances(path: str | os.PathLike[str], covariances: ArrayLike, stam
 
 
 def _stamps(stamps_s: ArrayLike | None, count: int) -> NDArray[np.float64]:
+    """Return the stamps, (count,), by default 0, 1, 2 and so on. Raises `BadInput` for another shape."""
     stamps = np.arange(count, dtype=np.float64) if stamps_s is None else np.asarray(stamps_s, dtype=np.float64)
     if stamps.shape != (count,) or not np.isfinite(stamps).all():
         raise BadInput(f"trajectory: give one finite stamp a pose, ({count},), got shape {stamps.shape}")
@@ -84,28 +83,28 @@ def read_trajectory(path: str | os.PathLike[str], frame: str | None = None) -> T
     that is not eight numbers, a pose that is tilted out of the plane, or covariances of another trajectory.
     """
     # Poses: the yaw of each quaternion.
-    name, empty = os.fspath(path), "there is no pose in it"
-    rows = read_table(name, 8, "timestamp tx ty tz qx qy qz qw, is this a TUM trajectory?", empty)
-    owner = OWNER.match(next((line for _, line in read_lines(name)), b""))
-    quaternion = rows[:, 4:8] / np.maximum(np.linalg.norm(rows[:, 4:8], axis=1, keepdims=True), 1e-12)
-    tilted = np.hypot(quaternion[:, 0], quaternion[:, 1]) > UPRIGHT
-    if tilted.any():
-        raise BadInput(f"{name}: pose {int(np.argmax(tilted))} is tilted out of the plane of the map")
-    qx, qy, qz, qw = quaternion.T
+    name, if_empty = os.fspath(path), "there is no pose in it"
+    rows = read_table(name, 8, "timestamp tx ty tz qx qy qz qw, is this a TUM trajectory?", if_empty)
+    quaternions = rows[:, 4:8] / np.maximum(np.linalg.norm(rows[:, 4:8], axis=1, keepdims=True), 1e-12)
+    is_tilted = np.hypot(quaternions[:, 0], quaternions[:, 1]) > MAX_TILT_SINE
+    if is_tilted.any():
+        raise BadInput(f"{name}: pose {int(np.argmax(is_tilted))} is tilted out of the plane of the map")
+    qx, qy, qz, qw = quaternions.T
     yaw = np.arctan2(2 * (qw * qz + qx * qy), 1 - 2 * (qy**2 + qz**2))
     order = np.argsort(rows[:, 0], kind="stable")
     # Covariances: the upper triangle of each matrix.
-    covariances, beside = None, covariances_path(path)
-    if beside.is_file():
-        table = read_table(beside, 7, "timestamp xx xy xyaw yy yyaw yawyaw", empty)
+    covariances, covariances_file = None, covariances_path(path)
+    if covariances_file.is_file():
+        table = read_table(covariances_file, 7, "timestamp xx xy xyaw yy yyaw yawyaw", if_empty)
         if len(table) != len(rows) or np.abs(table[:, 0] - rows[:, 0]).max() > 1e-6:
-            raise BadInput(f"{beside}: its stamps are not those of {name}; delete it, or write both anew")
+            raise BadInput(f"{covariances_file}: its stamps are not those of {name}; delete it, or write both anew")
         covariances = table[order][:, [1, 2, 3, 2, 4, 5, 3, 5, 6]].reshape(-1, 3, 3)
-    frame = frame or (owner[1].decode() if owner else None)
+    header = FRAME_HEADER.match(next((line for _, line in read_lines(name)), b""))
+    frame = frame or (header[1].decode() if header else None)
     return Trajectory(np.column_stack([rows[:, 1:3], yaw])[order], rows[order, 0], covariances, frame=frame)
 
 
-def read_relations(path: str | os.PathLike[str]) -> Relations:
+def read_relations(path: str | os.PathLike[str]) -> "Relations":
     """Read a file of relations, plain or gzipped; # begins a comment. Raises `BadInput` as `read_table`."""
     from bayesmap.posterior.trajectory_scores import Relations
 
@@ -116,10 +115,10 @@ def read_relations(path: str | os.PathLike[str]) -> Relations:
 def write_relations(path: str | os.PathLike[str], first_s: ArrayLike, second_s: ArrayLike, relative: ArrayLike) -> Path:
     """Write relations, whole or not at all; gzipped if the name ends in .gz. Returns the path.
 
-    The times of the first and the second poses are (N,). The second poses in the frames of the first are (N, 3). Raises
-    `BadInput` for shapes that do not fit, nothing to write, or a file that cannot be written.
+    The times of the first and the second poses are (N,). ``relative``, (N, 3), are the second poses in the frames of
+    the first. Raises `BadInput` for shapes that do not fit, nothing to write, or a file that cannot be written.
     """
-    starts, ends, poses = (np.asarray(a, dtype=np.float64) for a in (first_s, second_s, relative))
+    starts, ends, poses = (np.asarray(values, dtype=np.float64) for values in (first_s, second_s, relative))
     if len(starts) == 0 or starts.shape != ends.shape or poses.shape != (len(starts), 3):
         raise BadInput(f"relations: stamps {starts.shape} and {ends.shape} and poses {poses.shape}, (N,) and (N, 3)")
     rows = zip(starts, ends, poses, strict=True)
