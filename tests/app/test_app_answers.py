@@ -11,7 +11,7 @@ from msgspec import structs
 
 import bayesmap as bm
 from bayesmap.app.answers.evidence import (
-    MOST_LISTED,
+    MAX_LISTED_BEAMS,
     BeamRatios,
     log_ratios,
     one_beam_each,
@@ -238,7 +238,7 @@ def test_the_strongest_beams_come_first_with_their_ends():
     np.testing.assert_allclose(beams["start"], [[1, 1], [2, 0], [1, 1]])
     np.testing.assert_allclose(beams["end"], [[1, 7], [2, -0.5], [2, 1]], atol=1e-12)  # no return, too close, a hit
     many = BeamRatios(np.zeros(500, dtype=np.intp), np.linspace(0.01, 5, 500), 500, 1)
-    assert strongest_beams(many, scans)["nats"].tolist() == many.nats[: -MOST_LISTED - 1 : -1].tolist()
+    assert strongest_beams(many, scans)["nats"].tolist() == many.nats[: -MAX_LISTED_BEAMS - 1 : -1].tolist()
 
 
 def density(rays, beam, stop):

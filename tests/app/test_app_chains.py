@@ -14,9 +14,9 @@ from bayesmap.app.edits import new_document, tutorial_document
 from bayesmap.app.protocol.document import Sensor
 from bayesmap.app.scene import simulate_document, simulated_scene
 from bayesmap.app.shown.chains import (
+    MIN_SIGMA_M,
+    MIN_SIGMA_RAD,
     POSE_CHAINS,
-    SMALLEST_SIGMA_M,
-    SMALLEST_SIGMA_RAD,
     chains_of_walls,
     first_maps_of,
     pose_prior,
@@ -42,11 +42,11 @@ def test_a_run_is_that_of_the_library_and_saved_with_its_poses(changes, tmp_path
     heard = Heard()
     heard.infer(document, "run")
     scans, _ = simulate_document(document)
-    sigma_m = max(document.pose_sigma, SMALLEST_SIGMA_M)
+    sigma_m = max(document.pose_sigma, MIN_SIGMA_M)
     run = infer(
         scans, document.grid, prior=bm.Independent(0.5), sensor=bm.Gaussian(0.2), method=document.sampler,
         chains=POSE_CHAINS, warmup=0, draws=6, start=first_maps_of(simulated_scene(document).problem, document, None),
-        poses=bm.UncertainPoses(sigma_m, max(document.heading_sigma, SMALLEST_SIGMA_RAD)),
+        poses=bm.UncertainPoses(sigma_m, max(document.heading_sigma, MIN_SIGMA_RAD)),
         start_poses=pose_starts(document, POSE_CHAINS), seed=0,
     )  # fmt: skip
     stream = heard.engine._result.estimate

@@ -8,7 +8,7 @@ from acted import Heard, shown
 from building_log import ANGLES, GRID, SENSOR, room_run, room_scans
 
 import bayesmap as bm
-from bayesmap.app.answers.predictions import FEW_DRAWS, nearest_scan
+from bayesmap.app.answers.predictions import COARSE_DRAWS, nearest_scan
 from bayesmap.app.edits import tutorial_document
 from bayesmap.app.exports import record
 from bayesmap.app.protocol.actions import CompareBeam, MoveGhost, ShowScan
@@ -37,10 +37,10 @@ def test_a_virtual_scan_is_the_library_s_law_by_a_few_of_the_draws_while_the_han
     np.testing.assert_allclose(np.column_stack([at_rest[name] for name in QUANTILES]), expected, atol=1e-5)
     np.testing.assert_allclose(at_rest["angles"], ANGLES, atol=1e-6)
     header, moving = heard.answer(MoveGhost(*POSE, coarse=True))
-    assert (header["coarse"], header["draws"]) == (True, FEW_DRAWS)
+    assert (header["coarse"], header["draws"]) == (True, COARSE_DRAWS)
     (states,) = whole.batches()
-    few_states = states[np.linspace(0, len(states) - 1, FEW_DRAWS).round().astype(int)]
-    law = ScanPredictor.of(replace(whole, batches=lambda cells=None: iter([few_states]), draws=FEW_DRAWS), limits)
+    few_states = states[np.linspace(0, len(states) - 1, COARSE_DRAWS).round().astype(int)]
+    law = ScanPredictor.of(replace(whole, batches=lambda cells=None: iter([few_states]), draws=COARSE_DRAWS), limits)
     quantiles = np.column_stack([moving[name] for name in QUANTILES])
     np.testing.assert_allclose(quantiles, law.quantiles(POSE, ANGLES), atol=1e-5)
     _, again = heard.answer(MoveGhost(*POSE))

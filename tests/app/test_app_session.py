@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from msgspec.structs import replace as replace_fields
 
-from bayesmap.app.edits import MOST_STEPS, History, new_document, tutorial_document
+from bayesmap.app.edits import MAX_UNDO_STEPS, History, new_document, tutorial_document
 from bayesmap.app.protocol.actions import Cancel, Export, FindPath, Inspect
 from bayesmap.app.protocol.document import Source, no_walls
 from bayesmap.app.protocol.notices import DrawCount, Scan, View
@@ -358,7 +358,7 @@ def test_undo_and_redo_walk_along_the_states_that_were(steps):
 
 def test_old_states_are_forgotten():
     history = History(0)
-    for state in range(1, MOST_STEPS + 50):
+    for state in range(1, MAX_UNDO_STEPS + 50):
         history = history.push(state)
-    assert len(history.past) == MOST_STEPS
-    assert history.undo().redo().present == MOST_STEPS + 49
+    assert len(history.past) == MAX_UNDO_STEPS
+    assert history.undo().redo().present == MAX_UNDO_STEPS + 49

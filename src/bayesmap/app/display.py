@@ -21,7 +21,7 @@ OVERLAY_SECONDS = 2.0  # least time between two overlays of the surfaces of chai
 LEVELS = 255  # the number that stands for a probability of one
 TRACE_POINTS = 300  # evenly chosen points of the trace in a field
 FIRST_SWEEPS = 100  # first sweeps that are all included in the trace
-LEAST_REFLECTIVITY = 0.1  # surfaces with a smaller reflectivity are not shown
+MIN_REFLECTIVITY = 0.1  # surfaces with a smaller reflectivity are not shown
 WEIGHT_BINS = 24  # the number of bins of a histogram of log weights
 
 OnReport = Callable[[Report], None]
@@ -156,4 +156,4 @@ def strokes_of(result: Result) -> NDArray[np.float32]:
     variances, axes = np.linalg.eigh(covariance)
     half = 2.0 * np.sqrt(np.maximum(variances[:, 1], 0.0))[:, None] * axes[:, :, 1]
     strokes = np.column_stack([mean - half, mean + half, reflectivity])
-    return strokes[reflectivity >= LEAST_REFLECTIVITY].astype(np.float32)
+    return strokes[reflectivity >= MIN_REFLECTIVITY].astype(np.float32)

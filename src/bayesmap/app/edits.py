@@ -18,7 +18,7 @@ from bayesmap.app.protocol import actions
 from bayesmap.app.protocol.document import (
     FIXED_BY_FILE,
     MAX_LOG_SIDE,
-    SENSORS,
+    SENSOR_COUNTS,
     SETTINGS,
     Document,
     Refused,
@@ -154,7 +154,7 @@ def _draw_walls(document: Document, action: actions.Walls) -> tuple[Document, st
 
 def _add_sensor(document: Document, action: actions.AddSensor) -> Document:
     sensors = document.sensors
-    if len(sensors) >= SENSORS[1]:
+    if len(sensors) >= SENSOR_COUNTS[1]:
         raise Refused(f"there are {len(sensors)} sensors already", "remove one first")
     added = Sensor(max((sensor.id for sensor in sensors), default=0) + 1, action.x, action.y, action.yaw)
     check_stand(document, added)
@@ -170,7 +170,7 @@ def _move_sensor(document: Document, action: actions.MoveSensor) -> Document:
 
 def _remove_sensor(document: Document, action: actions.RemoveSensor) -> Document:
     old = _sensor_of(document, action.id)
-    if len(document.sensors) <= SENSORS[0]:
+    if len(document.sensors) <= SENSOR_COUNTS[0]:
         raise Refused("the last sensor cannot be removed", "add another first")
     return replace(document, sensors=tuple(sensor for sensor in document.sensors if sensor is not old))
 
@@ -252,8 +252,8 @@ def with_scans_used(document: Document, scans: int | None) -> Document:
 
 ActionOfPage = tuple[int, actions.AnyAction]  # the number of a page, and its action
 T = TypeVar("T")
-MOST_STEPS = 200  # steps that can be undone
-MOST_UNPAINTED = 2  # unpainted pictures at which the edits of a page wait
+MAX_UNDO_STEPS = 200  # steps that can be undone
+MAX_UNPAINTED = 2  # unpainted pictures at which the edits of a page wait
 
 
 @dataclass(frozen=True)
@@ -271,7 +271,7 @@ class History(Generic[T]):
             return self
         if gesture is not None and gesture == self.gesture:
             return replace(self, present=state, future=())
-        return History(state, (*self.past, (self.present, author))[-MOST_STEPS:], (), gesture)
+        return History(state, (*self.past, (self.present, author))[-MAX_UNDO_STEPS:], (), gesture)
 
     def undo(self) -> History[T]:
         """Return the history one step back, or this history if there is no earlier state."""
@@ -285,7 +285,7 @@ class History(Generic[T]):
         if not self.future:
             return self
         *future, (state, author) = self.future
-        return History(state, (*self.past, (self.present, author))[-MOST_STEPS:], tuple(future))
+        return History(state, (*self.past, (self.present, author))[-MAX_UNDO_STEPS:], tuple(future))
 
 
 class Pace:
@@ -328,7 +328,7 @@ class Pace:
         self._unpainted.pop(client, None)
 
     def _must_wait(self, client: int) -> bool:
-        return self.computing or len(self._unpainted.get(client, ())) >= MOST_UNPAINTED
+        return self.computing or len(self._unpainted.get(client, ())) >= MAX_UNPAINTED
 
     def _release(self) -> list[ActionOfPage]:
         waiting, self._waiting = self._waiting, None

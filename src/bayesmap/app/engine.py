@@ -39,7 +39,7 @@ from bayesmap.app.trajectory import LogTrajectory, Step
 from bayesmap.errors import BadInput
 
 PREVIEW_SECONDS = 0.015  # time of belief propagation before the first picture
-FEWEST_ROUNDS = 3  # rounds of belief propagation before the first picture
+MIN_ROUNDS = 3  # rounds of belief propagation before the first picture
 PAUSE_SECONDS = 0.03  # pause before chains are set up: a moving hand sends its next edit in this time
 VIRTUAL_SCAN_SECONDS = 0.06  # chains rest for this time after a virtual scan, since the next one follows soon
 REST_SECONDS = 0.002  # duration of a short sleep while chains rest
@@ -263,7 +263,7 @@ class Engine:
         """Do rounds of belief propagation, and show the picture when its time is up, now and then, and at the end."""
         pictured = False  # whether the first picture has been shown
         while True:
-            in_time = preview.rounds >= FEWEST_ROUNDS and self._display.elapsed_s() > PREVIEW_SECONDS
+            in_time = preview.rounds >= MIN_ROUNDS and self._display.elapsed_s() > PREVIEW_SECONDS
             due = self._display.frame_is_due() if pictured else in_time
             if not quiet and (preview.converged or due):
                 self._result = Result(scene, document, "propagate", preview)

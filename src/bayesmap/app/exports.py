@@ -27,9 +27,9 @@ from bayesmap.app.shown.result import Result
 from bayesmap.errors import BadInput
 from bayesmap.space.arrays import evenly_spaced_indices
 
-MOST_DRAWS = 1000  # most draws of all chains in a recording; they are evenly spaced
-MOST_DRAW_BYTES = 16 << 20  # most bytes of these draws
-MOST_RAYS = 2_000_000  # most beams in a recording; its scans are evenly spaced
+MAX_DRAWS = 1000  # most draws of all chains in a recording; they are evenly spaced
+MAX_DRAW_BYTES = 16 << 20  # most bytes of these draws
+MAX_BEAMS = 2_000_000  # most beams in a recording; its scans are evenly spaced
 
 
 class RecordedDraws(Struct, frozen=True):
@@ -112,7 +112,7 @@ def record(result: Result) -> tuple[Recording, Buffers]:
     if not result.document.simulated:
         buffers |= overlay_of(result)
     # Long logs are thinned evenly, so that the file stays at a few megabytes.
-    scan_indices = evenly_spaced_indices(len(result.scene.scans), MOST_RAYS // len(result.scene.scans.angles_rad))
+    scan_indices = evenly_spaced_indices(len(result.scene.scans), MAX_BEAMS // len(result.scene.scans.angles_rad))
     recording = Recording(
         document=result.document, field=structs.replace(field, draws=DrawCount(draws.chains, draws.count)),
         ids=[result.scene.ids[i] for i in scan_indices], draws=draws,
@@ -128,7 +128,7 @@ def _pack_draws(result: Result) -> tuple[NDArray[np.intp], RecordedDraws, NDArra
         return np.zeros(0, dtype=np.intp), RecordedDraws(), np.zeros((0, 0, 0), dtype=np.uint8)
     bits = draws.specs[0].storage == "bits"
     draw_bytes = draws.chains * result.document.grid.n_cells // (8 if bits else 1)
-    indices = evenly_spaced_indices(draws.count, min(MOST_DRAWS // draws.chains, MOST_DRAW_BYTES // max(1, draw_bytes)))
+    indices = evenly_spaced_indices(draws.count, min(MAX_DRAWS // draws.chains, MAX_DRAW_BYTES // max(1, draw_bytes)))
     if bits:
         packed = np.asarray(draws.arrays[draws.specs[0].name])[:, indices]
     else:
@@ -141,5 +141,5 @@ def _say_draws_included(draws: RecordedDraws) -> str:
     """Return a phrase that says how many of the kept draws the file contains."""
     if not draws.kept:
         return "without draws: none were kept"
-    limit = f"; at most {MOST_DRAWS:,} draws and {MOST_DRAW_BYTES >> 20} MB fit" if draws.count < draws.kept else ""
+    limit = f"; at most {MAX_DRAWS:,} draws and {MAX_DRAW_BYTES >> 20} MB fit" if draws.count < draws.kept else ""
     return f"with {draws.count:,} of the {draws.kept:,} draws of each chain{limit}"

@@ -24,10 +24,10 @@ from bayesmap.errors import BadInput
 
 T = TypeVar("T")
 NICE = 3  # niceness of the worker: page and server come first; at 10 other programs left it a tenth of a core
-QUICK_DEATH_SECONDS = 5.0  # a worker that ends sooner is restarted after a pause
-LONGEST_PAUSE_SECONDS = 8.0  # limit of the pause, which grows each time
-SILENT_SECONDS = 15.0  # a worker that sends no report for this time is replaced
-SLOW_BIRTH_SECONDS = 60.0  # extra time of a new worker, which may load Python from a cold disk
+EARLY_EXIT_SECONDS = 5.0  # a worker that ends sooner is restarted after a pause
+MAX_PAUSE_SECONDS = 8.0  # limit of the pause, which grows each time
+MAX_SILENCE_SECONDS = 15.0  # a worker that sends no report for this time is replaced
+STARTUP_SECONDS = 60.0  # extra time of a new worker, which may load Python from a cold disk
 
 
 class Reporter:
@@ -136,7 +136,7 @@ class Supervisor:
 
     def __init__(
         self, on_report: Callable[[Report], None], on_lost: Callable[[], None], path: str | None = None,
-        silence_s: float = SILENT_SECONDS, log_options: Mapping[str, Any] | None = None,
+        silence_s: float = MAX_SILENCE_SECONDS, log_options: Mapping[str, Any] | None = None,
     ) -> None:  # fmt: skip
         self._on_report, self._on_lost, self._path = on_report, on_lost, path
         self._silence_s, self._log_options = silence_s, dict(log_options or {})
@@ -187,7 +187,7 @@ class Supervisor:
             with theirs:
                 self._process = start_worker(theirs, self._path, self._log_options)
             self._pipe = Connection(ours.detach())
-            self._heard_s = time.monotonic() + SLOW_BIRTH_SECONDS
+            self._heard_s = time.monotonic() + STARTUP_SECONDS
             return self._pipe
 
     def _listen(self) -> None:
@@ -208,8 +208,8 @@ class Supervisor:
                 return
             self._end()
             self._on_lost()
-            quick = time.monotonic() - born_s < QUICK_DEATH_SECONDS
-            pause = min(LONGEST_PAUSE_SECONDS, max(0.25, 2 * pause)) if quick else 0.0
+            quick = time.monotonic() - born_s < EARLY_EXIT_SECONDS
+            pause = min(MAX_PAUSE_SECONDS, max(0.25, 2 * pause)) if quick else 0.0
             self._stopping.wait(pause)
 
     def _watch(self) -> None:

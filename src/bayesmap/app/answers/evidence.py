@@ -25,10 +25,10 @@ from bayesmap.beams.table import BeamTable
 from bayesmap.posterior.prediction import Predictor
 from bayesmap.space.scans import Scans
 
-MOST_BEAMS = 2000  # most beams evaluated per cell for walls; each also counts for beams left out
-MOST_BEAMS_OF_STOPS = 500  # most beams evaluated per cell for other kinds of cells
+MAX_WALL_BEAMS = 2000  # most beams evaluated per cell for walls; each also counts for beams left out
+MAX_STOP_BEAMS = 500  # most beams evaluated per cell for other kinds of cells
 NEUTRAL_NATS = 0.005  # a beam with a smaller log ratio counts neither for nor against
-MOST_LISTED = 100  # most beams per cell that a page gets one by one: the ones with the largest log ratios
+MAX_LISTED_BEAMS = 100  # most beams per cell that a page gets one by one: the ones with the largest log ratios
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,7 +47,7 @@ def wall_ratios(table: BeamTable, p_wall: NDArray[np.float64], cell: int) -> Bea
     Both likelihoods are averaged over the cell at which the beam first meets a wall. Every other cell is a wall
     independently, with its own probability ``p_wall``, (N,).
     """
-    entries, beams, every = _beams_through(table, cell, MOST_BEAMS)
+    entries, beams, every = _beams_through(table, cell, MAX_WALL_BEAMS)
     pairs = zip(beams.tolist(), entries[::every].tolist(), strict=True)
     nats = np.array([_log_ratio(table, p_wall, beam, entry) for beam, entry in pairs], dtype=np.float64)
     return BeamRatios(beams, nats, len(entries), every)
@@ -58,7 +58,7 @@ def stop_ratios(result: Result, table: BeamTable, cell: int) -> BeamRatios | Non
     if result.estimate.available_draws is None:
         return None
     predictor, _ = predictor_of_result(result)
-    entries, beams, every = _beams_through(table, cell, MOST_BEAMS_OF_STOPS)
+    entries, beams, every = _beams_through(table, cell, MAX_STOP_BEAMS)
     scans = one_beam_each(result.scene.scans.at(result.scan_poses), beams)
     return BeamRatios(beams, log_ratios(predictor, scans, cell), len(entries), every)
 
@@ -87,7 +87,7 @@ def strongest_beams(ratios: BeamRatios, scans: Scans) -> dict[str, NDArray[np.fl
     The buffers are both ends of each beam in the world, ``start`` and ``end`` (M, 2), metres; the log ratio, ``nats``
     (M,); and the indices ``scan`` and ``beam``, (M,). A beam without a return ends at the sensor's longest range.
     """
-    order = np.argsort(-np.abs(ratios.nats), kind="stable")[:MOST_LISTED]
+    order = np.argsort(-np.abs(ratios.nats), kind="stable")[:MAX_LISTED_BEAMS]
     order = order[np.abs(ratios.nats[order]) > NEUTRAL_NATS]
     beams = ratios.beams[order]
     start = scans.beam_starts_world().reshape(-1, 2)[beams]

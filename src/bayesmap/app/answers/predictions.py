@@ -25,13 +25,13 @@ from bayesmap.space.scans import Scans, fan
 if TYPE_CHECKING:
     from bayesmap.kernels.predict.stop_mixture import StopMixture
 
-MOST_DRAWS = 32  # most draws over which predictions are averaged
+MAX_DRAWS = 32  # most draws over which predictions are averaged
 DRAW_BYTES = 192 << 20  # most memory of these draws
-FEW_DRAWS = 8  # the number of draws while the hand moves, since each virtual scan is soon replaced by the next
+COARSE_DRAWS = 8  # the number of draws while the hand moves, since each virtual scan is soon replaced by the next
 STALE_SECONDS = 3.0  # while chains run, the predictor is rebuilt from their latest draws after this time
-NEARBY_M = 0.5  # a real scan is shown beside the virtual scan if its pose is this near
-LEAST_SHARED = 0.25  # and if it shares this part of the field of view
-NEAR_CELLS = 2.0  # most cells from a reading to the mean of the surface at which it may have ended
+MAX_NEARBY_M = 0.5  # a real scan is shown beside the virtual scan if its pose is this near
+MIN_SHARED_VIEW = 0.25  # and if it shares this part of the field of view
+MAX_SURFACE_CELLS = 2.0  # most cells from a reading to the mean of the surface at which it may have ended
 
 
 class VirtualScanPredictor:
@@ -42,7 +42,7 @@ class VirtualScanPredictor:
         self._sweep = 0  # the sweep of its latest draws
         self._stale_at_s = 0.0
         self._predictor: ScanPredictor | None = None
-        self._coarse_predictor: ScanPredictor | None = None  # thinned to `FEW_DRAWS`, once it has been asked for
+        self._coarse_predictor: ScanPredictor | None = None  # thinned to `COARSE_DRAWS`, once it has been asked for
         self._n_draws = 0
 
     def answer(self, result: Result, question: MoveGhost, generation: int) -> tuple[GhostScan, Buffers]:
@@ -66,7 +66,7 @@ class VirtualScanPredictor:
         return GhostScan(*pose, question.coarse, n_draws, nearest, milliseconds, generation=generation), buffers
 
     def _predictor_of(self, result: Result, coarse: bool) -> tuple[ScanPredictor, int]:
-        """Return the predictor of a result and its number of draws, at most `FEW_DRAWS` if coarse."""
+        """Return the predictor of a result and its number of draws, at most `COARSE_DRAWS` if coarse."""
         estimate, now_s = result.estimate, time.perf_counter()
         # Cache key: the result of a method without chains, or the chains themselves. A pilot is a new object after
         # every sweep, so its key is the scene. While chains run, the key stays, and only the predictor's age counts.
@@ -77,11 +77,11 @@ class VirtualScanPredictor:
             limits = RangeLimits(result.scene.scans.min_range_m, result.scene.scans.max_range_m)
             self._predictor, self._coarse_predictor, self._key = ScanPredictor.of(predictor, limits), None, key
             self._sweep, self._stale_at_s = estimate.sweep, time.perf_counter() + STALE_SECONDS
-        if not coarse or self._n_draws <= FEW_DRAWS:
+        if not coarse or self._n_draws <= COARSE_DRAWS:
             return self._predictor, self._n_draws
         if self._coarse_predictor is None:
-            self._coarse_predictor = self._predictor.thinned(FEW_DRAWS)
-        return self._coarse_predictor, FEW_DRAWS
+            self._coarse_predictor = self._predictor.thinned(COARSE_DRAWS)
+        return self._coarse_predictor, COARSE_DRAWS
 
 
 def predictor_of_result(result: Result) -> tuple[Predictor, int]:
@@ -95,23 +95,23 @@ def predictor_of_result(result: Result) -> tuple[Predictor, int]:
         return Predictor(grid, fixed_maps(result.estimate.mean().reshape(1, -1)), scene.sensor, scene.hit_depth), 0
     sensor, hit_depth = result.sensor_and_depth
     draw_bytes = grid.n_cells * (32 if prior.has_surfaces else 4)
-    thinned = draws.thinned(int(np.clip(DRAW_BYTES // draw_bytes, draws.chains, MOST_DRAWS)))
+    thinned = draws.thinned(int(np.clip(DRAW_BYTES // draw_bytes, draws.chains, MAX_DRAWS)))
     return Predictor(grid, partial(prior.predictive_stops, thinned), sensor, hit_depth, thinned.size), thinned.size
 
 
 def nearest_scan(
     poses: NDArray[np.float64], pose: tuple[float, float, float], angles_rad: NDArray[np.float64]
 ) -> Near | None:
-    """Find the scan nearest to a pose; None if no scan is within `NEARBY_M` and shares `LEAST_SHARED` of its view."""
+    """Find the scan nearest to a pose; None if no scan is within `MAX_NEARBY_M` and shares `MIN_SHARED_VIEW` of its view."""
     view_rad = float(np.ptp(angles_rad)) if len(angles_rad) > 1 else 0.0
     distance_m = np.hypot(poses[:, 0] - pose[0], poses[:, 1] - pose[1])
     turn_rad = np.remainder(poses[:, 2] - pose[2] + np.pi, 2 * np.pi) - np.pi
     # Fans that cover (nearly) the full circle share everything, whatever their headings.
     shared = np.ones(len(poses)) if view_rad > 1.9 * np.pi else 1.0 - np.abs(turn_rad) / max(view_rad, 1e-9)
-    similar = (distance_m <= NEARBY_M) & (shared >= LEAST_SHARED)
+    similar = (distance_m <= MAX_NEARBY_M) & (shared >= MIN_SHARED_VIEW)
     if not similar.any():
         return None
-    best = int(np.where(similar, distance_m / NEARBY_M + 1.0 - shared, np.inf).argmin())
+    best = int(np.where(similar, distance_m / MAX_NEARBY_M + 1.0 - shared, np.inf).argmin())
     return Near(best, round(float(distance_m[best]), 3), round(float(turn_rad[best]), 4))
 
 
@@ -167,6 +167,6 @@ def _surface_offset_of(
     row = int(np.searchsorted(cells, rays.cells[int(np.argmax(np.where(candidates, log_p, -np.inf)))]))
     start = rays.start_m[0] + predictor.grid.origin
     point = start + range_m * rays.direction[0]
-    if np.hypot(*(point - means[row])) > NEAR_CELLS * predictor.grid.resolution:
+    if np.hypot(*(point - means[row])) > MAX_SURFACE_CELLS * predictor.grid.resolution:
         return None
     return SurfaceOffset(**asdict(surface_offset(means[row], covariances[row], point, start)))

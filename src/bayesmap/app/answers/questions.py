@@ -29,10 +29,10 @@ ANSWERED_BY: Mapping[type, Literal["path", "views", "ghost", "beam"]] = {
 }  # fmt: skip
 """Questions about the posterior, and the types of the messages that answer them."""
 
-MOST_VIEWS = 400  # most places in the map of expected information
+MAX_VIEWS = 400  # most places in the map of expected information
 PASSABLE = 0.3  # a sensor may stand in a cell whose probability of stopping a beam is below this
 HEADINGS = 8  # headings tried per place
-MOST_ANGLES = 180  # most beams per view, evenly chosen; each also counts for the beams left out
+MAX_ANGLES = 180  # most beams per view, evenly chosen; each also counts for the beams left out
 
 
 @dataclass(frozen=True, eq=False)
@@ -147,7 +147,7 @@ def views(result: Result, generation: int) -> tuple[Views, Buffers]:
     document, mean = result.document, result.estimate.mean()
     poses, spacing_m = _lattice(document, mean, result.estimate.observed())
     scans = result.scene.scans
-    every = math.ceil(len(scans.angles_rad) / MOST_ANGLES)
+    every = math.ceil(len(scans.angles_rad) / MAX_ANGLES)
     angles = scans.angles_rad[::every]
     # Headings to try at each place: one if the sensor sees all round. Even then its beams span a little under 2 pi rad.
     full = document.fov >= 2 * math.pi if document.simulated else np.ptp(angles) > 6.1
@@ -168,7 +168,7 @@ def views(result: Result, generation: int) -> tuple[Views, Buffers]:
 def _lattice(
     document: Document, mean: NDArray[np.float64], observed: NDArray[np.bool_]
 ) -> tuple[NDArray[np.float64], float]:
-    """Return poses at the centres of free cells, at most `MOST_VIEWS`, (P, 3), and their spacing in metres. Raises
+    """Return poses at the centres of free cells, at most `MAX_VIEWS`, (P, 3), and their spacing in metres. Raises
     `BadInput` if no cell is known to be free.
     """
     grid = document.grid
@@ -176,7 +176,7 @@ def _lattice(
     if not free.any():
         raise BadInput("nothing is known to be free yet: there is no place to look from")
     stride = 1
-    while free[stride // 2 :: stride, stride // 2 :: stride].sum() > MOST_VIEWS:
+    while free[stride // 2 :: stride, stride // 2 :: stride].sum() > MAX_VIEWS:
         stride += 1
     cells = np.argwhere(free[stride // 2 :: stride, stride // 2 :: stride]) * stride + stride // 2
     places = (cells + 0.5) * grid.resolution + np.array(grid.origin)

@@ -30,9 +30,9 @@ from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans, fan
 
 FINEST_M = 0.125  # cells of a drawn map are divided down to this edge, since the search tries centres of cells
-MOST_CELLS = 1_000_000  # most divided cells: with more, cells are divided into fewer parts
+MAX_CELLS = 1_000_000  # most divided cells: with more, cells are divided into fewer parts
 TYPICAL_SCANS = 100  # number of typical scans of a drawn world
-MOST_POSES = 1000  # most poses sent to the page: those with the largest weights
+MAX_POSES = 1000  # most poses sent to the page: those with the largest weights
 
 
 class Locator:
@@ -55,7 +55,7 @@ class Locator:
             belief = _locate(self._known_map_of(result), scans, result.document)
         except BadInput as error:
             return Whereabouts(generation, trouble=str(error).removeprefix("localize: ")), {}
-        heaviest = np.argsort(belief.weights, kind="stable")[-MOST_POSES:]
+        heaviest = np.argsort(belief.weights, kind="stable")[-MAX_POSES:]
         cloud = {"pose": belief.poses[heaviest], "weight": belief.weights[heaviest]}
         where = Whereabouts(
             generation, sensor=sensor_id, index=scan_index, pose=scans.poses[0].tolist(),
@@ -80,7 +80,7 @@ class Locator:
 def known_map_of_drawing(document: Document) -> KnownMap:
     """Return the walls of a drawn world as a known map. Raises `BadInput` if it has no free cell."""
     grid = document.grid
-    parts = max(1, min(math.ceil(grid.resolution / FINEST_M - 1e-9), math.isqrt(MOST_CELLS // grid.n_cells)))
+    parts = max(1, min(math.ceil(grid.resolution / FINEST_M - 1e-9), math.isqrt(MAX_CELLS // grid.n_cells)))
     fine_walls = document.is_wall.repeat(parts, axis=0).repeat(parts, axis=1).astype(np.float64)
     fine_grid = Grid((grid.shape[0] * parts, grid.shape[1] * parts), grid.resolution / parts, grid.origin)
     return KnownMap.of_draws(

@@ -6,13 +6,13 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias, get_type_h
 
 from msgspec import UNSET, Meta, Struct, UnsetType, defstruct
 
-from bayesmap.app.protocol.document import RESOLUTIONS_M, SIDE, Id, Metres, Radians, Settings
+from bayesmap.app.protocol.document import RESOLUTIONS_M, SIDE_CELLS, Id, Metres, Radians, Settings
 
 MAX_CELLS = 250_000
 
 Count = Annotated[int, Meta(ge=0, le=2**53)]
 Index = Annotated[int, Meta(ge=0, lt=2**31)]
-Side = Annotated[int, Meta(ge=SIDE[0], le=SIDE[1])]
+Side = Annotated[int, Meta(ge=SIDE_CELLS[0], le=SIDE_CELLS[1])]
 Resolution = Annotated[float, Meta(ge=RESOLUTIONS_M[0], le=RESOLUTIONS_M[1], title="cell size (m)")]
 World = Literal["blank", "tutorial", "building"]
 Layer = Literal["mean", "draw", "entropy", "width"]

@@ -26,14 +26,14 @@ CHAIN_METHODS = ("gibbs", "block")  # methods that are Markov chains
 # If walls or free cells are at most this probable a priori, method "auto" means 2 x 2 blocks. Single-site moves then
 # seldom leave a wrong map: a wall has to go before its neighbour can come.
 RARE_WALLS = 0.2
-SMALLEST_NOISE_M = 0.01  # the smallest noise of the sensor model: a density needs a width
-SIDE = (2, 500)  # least and most cells per side of a drawn map
+MIN_NOISE_M = 0.01  # the smallest noise of the sensor model: a density needs a width
+SIDE_CELLS = (2, 500)  # least and most cells per side of a drawn map
 MAX_FILE_SIDE = 4000  # most cells per side of a map from a file
 MAX_LOG_SIDE = 1000  # the largest number of cells per side of a map that is inferred from a log
-SENSORS = (1, 32)  # least and most sensors
+SENSOR_COUNTS = (1, 32)  # least and most sensors
 RESOLUTIONS_M = (0.02, 2.0)  # smallest and largest cells that a page can choose for a log
 ANY_RESOLUTION_M = (1e-3, 1e3)  # smallest and largest cells of any document
-LARGEST_COORDINATE_M = 1e6  # largest absolute coordinate
+MAX_COORDINATE_M = 1e6  # largest absolute coordinate
 
 Kind = Literal["simulation", "run", "log"]
 Method = Literal["auto", "gibbs", "block", "propagate", "importance"]
@@ -41,7 +41,7 @@ METHODS: tuple[str, ...] = get_args(Method)
 
 Id = Annotated[int, Meta(ge=1, lt=2**31)]
 Scans = Annotated[int, Meta(ge=0, le=10**9)]
-Metres = Annotated[float, Meta(ge=-LARGEST_COORDINATE_M, le=LARGEST_COORDINATE_M)]
+Metres = Annotated[float, Meta(ge=-MAX_COORDINATE_M, le=MAX_COORDINATE_M)]
 Radians = Annotated[float, Meta(ge=-1e3, le=1e3)]
 
 
@@ -85,7 +85,7 @@ class Settings:
 
     prior: Annotated[float, Meta(ge=0, le=1)] = 0.5  # prior probability that a cell is a wall
     # standard deviation of a range, metres
-    noise: Annotated[float, Meta(ge=SMALLEST_NOISE_M, le=5, title="noise (m)")] = 0.2
+    noise: Annotated[float, Meta(ge=MIN_NOISE_M, le=5, title="noise (m)")] = 0.2
     angles: Annotated[int, Meta(ge=10, le=1000)] = 100  # number of beams per scan
     max_range: Annotated[float, Meta(ge=0.1, le=10_000, title="longest range (m)")] = 42.0  # longest range, metres
     # field of view of every sensor, radians
@@ -128,7 +128,9 @@ class Document(Settings):
 
     grid: Grid  # grid of cells
     walls: bytes  # packed bits of the (nx, ny) map, C order (x * ny + y), most significant bit first; base64 in JSON
-    sensors: Annotated[tuple[Sensor, ...], Meta(max_length=SENSORS[1])]  # sensors of a simulation; empty for a file
+    sensors: Annotated[
+        tuple[Sensor, ...], Meta(max_length=SENSOR_COUNTS[1])
+    ]  # sensors of a simulation; empty for a file
     source: Source = Source()  # origin of the readings
     version: Literal[1] = VERSION  # version of this format
 
@@ -228,12 +230,12 @@ BOUNDS: Mapping[str, tuple[float, float]] = {
 def check_document(document: Document) -> None:
     """Check that fields fit together: sizes, sensors in free cells, a file's name. Raises `Refused` if they do not."""
     grid = document.grid
-    most = SIDE if document.simulated else (1, MAX_FILE_SIDE)
+    most = SIDE_CELLS if document.simulated else (1, MAX_FILE_SIDE)
     if not most[0] <= min(grid.shape) <= max(grid.shape) <= most[1]:
         raise Refused(f"grid.shape: a map of {grid.shape} cells", f"give {most[0]} to {most[1]} cells a side")
     if not ANY_RESOLUTION_M[0] <= grid.resolution <= ANY_RESOLUTION_M[1]:
         raise Refused(f"grid.resolution: cells of {grid.resolution:g} m", "give 0.001 to 1000 m")
-    if max(map(abs, grid.origin)) > LARGEST_COORDINATE_M:
+    if max(map(abs, grid.origin)) > MAX_COORDINATE_M:
         raise Refused(f"grid.origin: {grid.origin} m is too far away", "give at most a million metres")
     if not document.simulated:
         if not document.source.name:
@@ -242,8 +244,8 @@ def check_document(document: Document) -> None:
     if len(document.walls) != len(no_walls(grid)):
         sizes = f"{len(document.walls)} bytes for {grid.shape[0]} x {grid.shape[1]} cells"
         raise Refused(f"walls: {sizes}", f"send {len(no_walls(grid))}")
-    if len(document.sensors) < SENSORS[0]:
-        raise Refused("sensors: there is none", f"give {SENSORS[0]} to {SENSORS[1]}")
+    if len(document.sensors) < SENSOR_COUNTS[0]:
+        raise Refused("sensors: there is none", f"give {SENSOR_COUNTS[0]} to {SENSOR_COUNTS[1]}")
     if len({sensor.id for sensor in document.sensors}) != len(document.sensors):
         raise Refused("sensors: two have the same id", "number them from 1 on")
     for sensor in document.sensors:

@@ -7,7 +7,15 @@ from typing import TYPE_CHECKING, Literal, TypeAlias, get_type_hints
 from msgspec import Struct, defstruct
 
 from bayesmap.app.protocol.actions import FindPath, Layer
-from bayesmap.app.protocol.document import BOUNDS, MAX_LOG_SIDE, RESOLUTIONS_M, SENSORS, SIDE, Document, bounds_of
+from bayesmap.app.protocol.document import (
+    BOUNDS,
+    MAX_LOG_SIDE,
+    RESOLUTIONS_M,
+    SENSOR_COUNTS,
+    SIDE_CELLS,
+    Document,
+    bounds_of,
+)
 
 OWN_LAYERS = ("draw", "width")  # layers for which each page gets its own fields; it computes the others from the mean
 
@@ -26,7 +34,7 @@ class OfPicture(Notice, frozen=True, kw_only=True):
 
 _PATH = get_type_hints(FindPath, include_extras=True)
 _LIMITS = {
-    **BOUNDS, "radius": bounds_of(_PATH["radius"]), "risk": bounds_of(_PATH["risk"]), "side": SIDE, "sensors": SENSORS,
+    **BOUNDS, "radius": bounds_of(_PATH["radius"]), "risk": bounds_of(_PATH["risk"]), "side": SIDE_CELLS, "sensors": SENSOR_COUNTS,
     "resolution": RESOLUTIONS_M, "side_of_log": (1, MAX_LOG_SIDE),
 }  # fmt: skip
 

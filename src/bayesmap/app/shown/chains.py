@@ -47,9 +47,9 @@ OBSERVED_COUNTS = 32  # the number of times per run that observed cells are coun
 DIAGNOSIS_SHARE = 0.1  # largest share of time spent on diagnostics; the last numbers are shown meanwhile
 RECENT_DRAWS = 200  # draws per chain that answer questions while chains run
 RECENT_BYTES = 16 << 20  # most bytes of a pilot's draws
-SMALLEST_SIGMA_M = 0.001  # standard deviation of a position if only headings are uncertain: a density needs a width
-SMALLEST_SIGMA_RAD = math.radians(0.05)  # standard deviation of a heading if only positions are uncertain
-FARTHEST_SIGMAS = 4.0  # largest shift of a chain's start, in standard deviations
+MIN_SIGMA_M = 0.001  # standard deviation of a position if only headings are uncertain: a density needs a width
+MIN_SIGMA_RAD = math.radians(0.05)  # standard deviation of a heading if only positions are uncertain
+MAX_SHIFT_SIGMAS = 4.0  # largest shift of a chain's start, in standard deviations
 EVEN_STEPS = (0.7548776662466927, 0.5698402909980532)  # spreads shifts evenly (additive recurrence, Roberts, 2018)
 
 
@@ -149,7 +149,7 @@ class RunningChains(Estimate):
 
     @property
     def poses(self) -> Mapping[str, Any]:
-        """The document's prior of the poses. The model's may be a little wider, see `SMALLEST_SIGMA_M`."""
+        """The document's prior of the poses. The model's may be a little wider, see `MIN_SIGMA_M`."""
         return self.requested_poses
 
     @property
@@ -259,7 +259,7 @@ def pose_prior(document: Document) -> PosePrior | None:
     sigma_m, sigma_rad = document.pose_sigma, document.heading_sigma
     if not document.simulated or document.sampler not in CHAIN_METHODS or not (sigma_m > 0 or sigma_rad > 0):
         return None
-    return UncertainPoses(max(sigma_m, SMALLEST_SIGMA_M), max(sigma_rad, SMALLEST_SIGMA_RAD))
+    return UncertainPoses(max(sigma_m, MIN_SIGMA_M), max(sigma_rad, MIN_SIGMA_RAD))
 
 
 def pose_starts(document: Document, chains: int) -> NDArray[np.float64]:
@@ -271,8 +271,8 @@ def pose_starts(document: Document, chains: int) -> NDArray[np.float64]:
     of a cell are avoided: walls would not fit the cells, and chains would take long to leave the start.
     """
     poses = np.array([(sensor.x, sensor.y, sensor.yaw) for sensor in document.sensors])
-    sigma = max(document.pose_sigma, SMALLEST_SIGMA_M) / math.sqrt(len(poses)) / document.grid.resolution
-    most = math.ceil(FARTHEST_SIGMAS * sigma)
+    sigma = max(document.pose_sigma, MIN_SIGMA_M) / math.sqrt(len(poses)) / document.grid.resolution
+    most = math.ceil(MAX_SHIFT_SIGMAS * sigma)
     cells = np.arange(-most, most + 1)
     cumulative = np.cumsum(np.exp(-0.5 * (cells / sigma) ** 2))
     # Evenly spread points of the unit square, one per chain, become shifts by the inverse distribution function.

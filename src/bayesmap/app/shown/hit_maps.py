@@ -19,7 +19,7 @@ from bayesmap.posterior.baselines import P_HIT, P_MISS, hit_ratio, log_odds, log
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
-MOST_SCANS = 800  # most scans in a map along changing poses, evenly chosen: it is computed again and again
+MAX_SCANS = 800  # most scans in a map along changing poses, evenly chosen: it is computed again and again
 
 
 class HitCountMap(FixedMap):
@@ -96,10 +96,10 @@ def hit_count_map(scans: Scans, grid: Grid) -> HitCountMap:
 
 
 def thin_scans(scans: Scans) -> Scans:
-    """Return at most `MOST_SCANS` of the scans, evenly chosen."""
-    if len(scans) <= MOST_SCANS:
+    """Return at most `MAX_SCANS` of the scans, evenly chosen."""
+    if len(scans) <= MAX_SCANS:
         return scans
-    return scans.select(np.linspace(0, len(scans) - 1, MOST_SCANS).astype(np.intp))
+    return scans.select(np.linspace(0, len(scans) - 1, MAX_SCANS).astype(np.intp))
 
 
 def grow_grid(grid: Grid, scans: Scans) -> Grid:
