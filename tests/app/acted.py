@@ -15,7 +15,7 @@ from bayesmap.app.protocol.actions import Cancel, ShowScan
 from bayesmap.app.protocol.document import Document, Sensor, pack_walls
 from bayesmap.app.protocol.notices import DrawCount, Field, Notice, Quantity, View
 from bayesmap.app.protocol.tasks import Ask, Infer, Ready, Report, Show
-from bayesmap.app.protocol.wire import check, frame
+from bayesmap.app.protocol.wire import check_action, encode_frame
 from bayesmap.app.session import Session, ToPage
 from bayesmap.app.shown.chains import RunningChains
 from bayesmap.app.sources import open_run
@@ -36,7 +36,7 @@ TINY = Document(
 def header_of(message):
     """Return a message as JSON values; a signal's fields as they are."""
     if isinstance(message, Notice):
-        return json.loads(frame(message, {}))
+        return json.loads(encode_frame(message, {}))
     fields = {name: getattr(message, name) for name in message.__struct_fields__}
     return {"type": type(message).__name__.lower(), **fields}
 
@@ -136,7 +136,7 @@ class Acted:
     def act(self, kind, client=1, **fields):
         """Send a page's message; returns what that page is sent in answer."""
         self.seq += 1
-        return self.do(self.session.receive(client, check({"type": kind, "seq": self.seq, **fields})), client)
+        return self.do(self.session.receive(client, check_action({"type": kind, "seq": self.seq, **fields})), client)
 
     def hear(self, message, generation=None):
         """Send a worker's report about a generation, by default the present one."""
@@ -162,7 +162,7 @@ class Acted:
     def painted(self, client=1, generation=None):
         """Say that a page has painted the first picture of a generation, by default of the present one."""
         generation = self.session.generation if generation is None else generation
-        return self.do(self.session.receive(client, check({"type": "painted", "generation": generation})))
+        return self.do(self.session.receive(client, check_action({"type": "painted", "generation": generation})))
 
     @property
     def inferred(self):

@@ -10,7 +10,7 @@ from pathlib import Path
 from cli.shell import PATIENCE_S, start
 from websockets.sync.client import connect
 
-from bayesmap.app.protocol.wire import unframe
+from bayesmap.app.protocol.wire import decode_frame
 
 
 @contextlib.contextmanager
@@ -74,7 +74,7 @@ class Page(Talk):
 
     def read(self):
         data = self.socket.recv(timeout=PATIENCE_S)
-        return unframe(data) if isinstance(data, bytes) else (json.loads(data), {})
+        return decode_frame(data) if isinstance(data, bytes) else (json.loads(data), {})
 
     def closed(self):
         """Read until the server closes, which is an exception."""

@@ -23,7 +23,7 @@ from bayesmap.app.answers.whereabouts import Locator
 from bayesmap.app.display import histogram
 from bayesmap.app.edits import tutorial_document
 from bayesmap.app.protocol.actions import FindPath, FindViews, Inspect, ShowScan, WhereAmI
-from bayesmap.app.protocol.document import Sensor, no_walls, pack_walls
+from bayesmap.app.protocol.document import Sensor, empty_walls, pack_walls
 from bayesmap.app.protocol.notices import CellFacts
 from bayesmap.app.sources import open_log, open_run
 from bayesmap.kernels.rays import trace_rays
@@ -116,7 +116,7 @@ def test_a_square_room_leaves_four_places_and_the_truth_is_one():
 
 
 def test_a_world_of_nothing_leaves_it_open():
-    header, _ = asked(replace(tutorial_document(), walls=no_walls(tutorial_document().grid)))
+    header, _ = asked(replace(tutorial_document(), walls=empty_walls(tutorial_document().grid)))
     assert header["modes"][0]["sigma_m"] > 5.0
     assert header["p_lost"] < 0.1
 

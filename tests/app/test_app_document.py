@@ -10,17 +10,17 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from bayesmap.app.edits import new_document, tutorial_document
-from bayesmap.app.protocol.document import BOUNDS, Document, Refused, Sensor, pack_walls
+from bayesmap.app.protocol.document import SETTING_BOUNDS, Document, Refused, Sensor, pack_walls
 from bayesmap.app.protocol.wire import (
     ACTIONS,
     MAX_BYTES,
-    check,
-    frame,
-    parse,
+    check_action,
+    decode_frame,
+    encode_frame,
+    parse_action,
     parse_document,
     parse_simulation,
-    seq_of,
-    unframe,
+    read_seq,
 )
 from bayesmap.app.scene import simulate_document, simulated_scene, standard_noise
 from bayesmap.sim.drawing import TUTORIAL_GRID
@@ -116,7 +116,7 @@ def test_the_method_follows_the_prior_unless_it_is_named():
 
 
 def test_limits_belong_to_what_is_allowed():
-    for name, bounds in BOUNDS.items():
+    for name, bounds in SETTING_BOUNDS.items():
         for bound in bounds:
             assert getattr(parse_document({**GOOD, name: bound}), name) == bound
 
@@ -171,9 +171,9 @@ NAMES = ("patch", "cells", "wall", "stroke", "op", "id", "x", "y", "yaw", "drag"
 
 def understood(data):
     try:
-        return parse(data)
+        return parse_action(data)
     except Refused:
-        seq_of(data)
+        read_seq(data)
         return None
 
 
@@ -213,7 +213,7 @@ MESSAGES = [
 
 def test_good_messages_are_understood():
     for message in MESSAGES:
-        assert check({**message, "seq": 5}).seq == 5
+        assert check_action({**message, "seq": 5}).seq == 5
 
 
 @pytest.mark.parametrize(("message", "named"), [
@@ -235,28 +235,28 @@ def test_good_messages_are_understood():
 ])  # fmt: skip
 def test_bad_messages_are_refused_by_name(message, named):
     with pytest.raises(Refused, match=named):
-        check(message)
+        check_action(message)
 
 
 def test_a_message_that_is_too_long_is_refused_unread():
     with pytest.raises(Refused, match="more than"):
-        parse(" " * (MAX_BYTES + 1))
+        parse_action(" " * (MAX_BYTES + 1))
     with pytest.raises(Refused, match="more than"):
-        parse("é" * (MAX_BYTES // 2 + 1))
+        parse_action("é" * (MAX_BYTES // 2 + 1))
 
 
 @given(st.lists(st.tuples(st.sampled_from(["uint8", "float32", "float64", "int32"]), st.integers(0, 5)), max_size=4))
 def test_frames_hold_what_was_put_in(kinds):
     rng, message = np.random.default_rng(0), {"type": "field", "generation": 3}
     arrays = {f"a{i}": rng.integers(0, 99, (2, n)).astype(kind) for i, (kind, n) in enumerate(kinds)}
-    data = frame(message, arrays)
-    header, back = unframe(data) if arrays else (json.loads(data), {})
+    data = encode_frame(message, arrays)
+    header, back = decode_frame(data) if arrays else (json.loads(data), {})
     assert header == message
     assert all(np.array_equal(back[name], array) and back[name].dtype == array.dtype for name, array in arrays.items())
 
 
 def test_frames_are_laid_out_as_the_page_s_description_says():
-    data = frame({"type": "t"}, {"p": np.array([[7, 8]], np.uint8), "q": np.array([1.5])})
+    data = encode_frame({"type": "t"}, {"p": np.array([[7, 8]], np.uint8), "q": np.array([1.5])})
     length = int.from_bytes(data[:4], "little")
     listed = [{"name": "p", "dtype": "uint8", "shape": [1, 2]}, {"name": "q", "dtype": "float64", "shape": [1]}]
     assert json.loads(data[4 : 4 + length])["buffers"] == listed

@@ -18,7 +18,7 @@ from bayesmap.app.exports import record
 from bayesmap.app.protocol.actions import Export, ShowScan
 from bayesmap.app.protocol.document import Source
 from bayesmap.app.protocol.notices import DrawCount, View
-from bayesmap.app.protocol.wire import unframe
+from bayesmap.app.protocol.wire import decode_frame
 from bayesmap.app.sources import open_file
 from bayesmap.io.ros.maps import read_map
 
@@ -133,7 +133,7 @@ def test_a_run_of_reflectivities_is_exported_too(tmp_path):
     assert header["draws"] == {"chains": 2, "count": 10}
     assert np.array_equal(buffers["p"], np.rint(255 * run.occupancy))
     assert np.abs(heard.answer(View("draw", 1, 2))[1]["p"] / 255.0 - run.map_of(1, 2)).max() < 0.005
-    kept, _ = unframe(exported(heard, "recording")[1])  # what the page keeps beside the next result
+    kept, _ = decode_frame(exported(heard, "recording")[1])  # what the page keeps beside the next result
     assert kept["draws"] == {"chains": 2, "count": 10, "kept": 10, "bits": False}
     occupancy, grid = saved_map(heard, tmp_path)
     run.export(tmp_path / "own.yaml")

@@ -11,7 +11,7 @@ from msgspec.structs import replace as replace_fields
 
 from bayesmap.app.edits import MAX_UNDO_STEPS, History, new_document, tutorial_document
 from bayesmap.app.protocol.actions import Cancel, Export, FindPath, Inspect
-from bayesmap.app.protocol.document import Source, no_walls
+from bayesmap.app.protocol.document import Source, empty_walls
 from bayesmap.app.protocol.notices import DrawCount, Scan, View
 from bayesmap.app.protocol.tasks import Failed, Finished, Ready, Report, Show
 
@@ -50,7 +50,7 @@ def test_a_link_to_the_file_on_show_brings_its_settings_and_another_is_answered_
 
 def of_a_log(name="office.log"):
     drawn = tutorial_document()
-    return replace(drawn, walls=no_walls(drawn.grid), sensors=(), source=Source("log", name, 9))
+    return replace(drawn, walls=empty_walls(drawn.grid), sensors=(), source=Source("log", name, 9))
 
 
 def test_a_stroke_or_a_drag_is_one_step_of_undo():

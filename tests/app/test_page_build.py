@@ -22,8 +22,8 @@ from bayesmap.app.edits import tutorial_document
 from bayesmap.app.protocol.actions import Export, Inspect, ShowScan
 from bayesmap.app.protocol.document import Sensor, pack_walls
 from bayesmap.app.protocol.notices import LIMITS, View
-from bayesmap.app.protocol.tasks import Remember
-from bayesmap.app.protocol.wire import frame
+from bayesmap.app.protocol.tasks import RestoreTrajectory
+from bayesmap.app.protocol.wire import encode_frame
 from bayesmap.app.scene import simulated_scene
 from bayesmap.app.sources import open_log
 from bayesmap.posterior.summary import bulk_ess, rhat
@@ -32,7 +32,7 @@ from bayesmap.samplers.without_chains import sample_importance
 
 
 def text_of(said):
-    framed = frame(said.report.message, said.report.buffers)
+    framed = encode_frame(said.report.message, said.report.buffers)
     return {"text": framed} if isinstance(framed, str) else {"frame": base64.b64encode(framed).decode()}
 
 
@@ -47,7 +47,7 @@ def of_log(cells, mode, poses="logged"):
     opened = open_log(scans, "room.log")
     heard = Heard(opened)
     if poses == "odometry":  # as a worker that is told what an earlier one has inferred
-        heard.engine.take(Remember(scans.poses + np.array([0.2, 0.1, 0.02]), scans.angles_rad))
+        heard.engine.take(RestoreTrajectory(scans.poses + np.array([0.2, 0.1, 0.02]), scans.angles_rad))
     heard.infer(replace(opened.document, cells=cells, sweeps=6, poses=poses), mode)
     return heard
 
@@ -223,7 +223,7 @@ def test_the_logic_of_the_page(npm, tmp_path):
     }  # fmt: skip
     library = {
         "limits": to_builtins(LIMITS),
-        "frame": base64.b64encode(frame({"type": "field", "generation": 3}, buffers)).decode(),
+        "frame": base64.b64encode(encode_frame({"type": "field", "generation": 3}, buffers)).decode(),
         "buffers": {name: values.ravel().tolist() for name, values in buffers.items()},
         "document": document(prior=0.375),
         "fragment": fragment(document(prior=0.375)),

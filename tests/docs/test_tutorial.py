@@ -9,7 +9,7 @@ import zlib
 import pytest
 from examples import TUTORIAL, script
 
-from bayesmap.app.protocol.wire import unframe
+from bayesmap.app.protocol.wire import decode_frame
 
 FIGURES = TUTORIAL / "figures"
 render = script(TUTORIAL / "render.py")
@@ -155,7 +155,7 @@ def test_a_page_has_its_cells_in_order_and_folds_those_that_say_so(tmp_path):
 
 def recording(html):
     packed = base64.b64decode(re.search(r"data-recording>(.*?)</script>", html, re.DOTALL)[1])
-    header, buffers = unframe(zlib.decompress(packed, -15))
+    header, buffers = decode_frame(zlib.decompress(packed, -15))
     header["field"]["seconds"] = None  # differs from time to time
     return header, {name: values.tolist() for name, values in buffers.items()}
 

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.app.protocol.notices import OWN_LAYERS, AnyNotice, DrawCount, Field, Overlay, View
-from bayesmap.app.protocol.tasks import Buffers, Finished, Infer, OnGrid, Report, Show, Signal
+from bayesmap.app.protocol.tasks import Buffers, Finished, GridChanged, Infer, Report, Show, Signal
 from bayesmap.app.scene import Scene, scan_message
 from bayesmap.app.shown.result import Result
 from bayesmap.space.grid import Grid
@@ -79,7 +79,7 @@ class Display:
         """Report the map's grid if it has changed."""
         if grid != self.grid:
             self.grid = grid
-            self.send(OnGrid(grid, generation=self.generation))
+            self.send(GridChanged(grid, generation=self.generation))
 
     def send_finished(self, result: Result | None) -> None:
         """Report that the job is done."""

@@ -18,13 +18,13 @@ from bayesmap.app.protocol import actions
 from bayesmap.app.protocol.document import (
     FIXED_BY_FILE,
     MAX_LOG_SIDE,
-    SENSOR_COUNTS,
+    SENSOR_COUNT_RANGE,
     SETTINGS,
     Document,
     Refused,
     Sensor,
     Source,
-    check_stand,
+    check_sensor_pose,
     pack_walls,
 )
 from bayesmap.sim.drawing import TUTORIAL_GRID, tutorial
@@ -127,7 +127,7 @@ def edit(document: Document, action: actions.Edit) -> tuple[Document, str]:
 
 
 def _change_settings(document: Document, action: actions.ChangeSettings) -> Document:
-    changed = actions.changes(action.patch)
+    changed = actions.changed_settings(action.patch)
     if "resolution" in changed:
         document = with_resolution(document, changed.pop("resolution"))
     if "scans_used" in changed:
@@ -154,23 +154,23 @@ def _draw_walls(document: Document, action: actions.Walls) -> tuple[Document, st
 
 def _add_sensor(document: Document, action: actions.AddSensor) -> Document:
     sensors = document.sensors
-    if len(sensors) >= SENSOR_COUNTS[1]:
+    if len(sensors) >= SENSOR_COUNT_RANGE[1]:
         raise Refused(f"there are {len(sensors)} sensors already", "remove one first")
     added = Sensor(max((sensor.id for sensor in sensors), default=0) + 1, action.x, action.y, action.yaw)
-    check_stand(document, added)
+    check_sensor_pose(document, added)
     return replace(document, sensors=(*sensors, added))
 
 
 def _move_sensor(document: Document, action: actions.MoveSensor) -> Document:
     old = _sensor_of(document, action.id)
     moved = replace(old, **{axis: v for axis in ("x", "y", "yaw") if (v := getattr(action, axis)) is not None})
-    check_stand(document, moved)
+    check_sensor_pose(document, moved)
     return replace(document, sensors=tuple(moved if sensor is old else sensor for sensor in document.sensors))
 
 
 def _remove_sensor(document: Document, action: actions.RemoveSensor) -> Document:
     old = _sensor_of(document, action.id)
-    if len(document.sensors) <= SENSOR_COUNTS[0]:
+    if len(document.sensors) <= SENSOR_COUNT_RANGE[0]:
         raise Refused("the last sensor cannot be removed", "add another first")
     return replace(document, sensors=tuple(sensor for sensor in document.sensors if sensor is not old))
 
@@ -187,7 +187,7 @@ def gesture_of(action: actions.Action, client: int) -> tuple[Any, ...] | None:
     if isinstance(action, actions.Walls) and action.stroke:
         return client, actions.Walls, action.stroke
     if isinstance(action, actions.ChangeSettings) and action.drag:
-        return client, actions.ChangeSettings, action.drag, *sorted(actions.changes(action.patch))
+        return client, actions.ChangeSettings, action.drag, *sorted(actions.changed_settings(action.patch))
     if isinstance(action, actions.MoveSensor) and action.drag:
         return client, actions.MoveSensor, action.drag, action.id
     return None
@@ -196,7 +196,7 @@ def gesture_of(action: actions.Action, client: int) -> tuple[Any, ...] | None:
 def merge_actions(before: actions.Action, after: A) -> A | None:
     """Return one action that replaces two actions of one gesture; None if they cannot be merged."""
     if isinstance(before, actions.ChangeSettings) and isinstance(after, actions.ChangeSettings):
-        return structs.replace(after, patch=structs.replace(before.patch, **actions.changes(after.patch)))
+        return structs.replace(after, patch=structs.replace(before.patch, **actions.changed_settings(after.patch)))
     if isinstance(before, actions.Walls) and isinstance(after, actions.Walls):
         same = (before.stroke, before.wall) == (after.stroke, after.wall)
         return structs.replace(after, cells=before.cells + after.cells) if same else None

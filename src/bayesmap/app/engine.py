@@ -21,7 +21,7 @@ from bayesmap.app.exports import export_report
 from bayesmap.app.protocol.actions import Cancel, Export, MoveGhost, ShowScan, WhereAmI
 from bayesmap.app.protocol.document import CHAIN_METHODS, SETTINGS_OF_CHAINS, Document
 from bayesmap.app.protocol.notices import Status
-from bayesmap.app.protocol.tasks import Ask, Failed, Infer, Remember, Show, Task
+from bayesmap.app.protocol.tasks import Ask, Failed, Infer, RestoreTrajectory, Show, Task
 from bayesmap.app.scene import Scene, simulated_scene
 from bayesmap.app.shown.chains import (
     Fitted,
@@ -91,8 +91,8 @@ class Engine:
                 self._display.send_scan(self._scene, task.index)
         elif isinstance(task, Ask):
             self._ask(task)
-        elif isinstance(task, Remember) and self._log_trajectory is not None:
-            self._log_trajectory.remember(task)
+        elif isinstance(task, RestoreTrajectory) and self._log_trajectory is not None:
+            self._log_trajectory.restore(task)
 
     def _has_live_chains_of(self, document: Document) -> bool:
         """Return whether the present job makes chains of this document, which a run can continue."""

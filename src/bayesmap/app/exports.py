@@ -21,7 +21,7 @@ from bayesmap.app.protocol.actions import Export
 from bayesmap.app.protocol.document import Document
 from bayesmap.app.protocol.notices import Download, DrawCount, Field, Status, View
 from bayesmap.app.protocol.tasks import Buffers, Report
-from bayesmap.app.protocol.wire import frame
+from bayesmap.app.protocol.wire import encode_frame
 from bayesmap.app.scene import scan_buffers
 from bayesmap.app.shown.result import Result
 from bayesmap.errors import BadInput
@@ -95,7 +95,7 @@ def to_html(recording: Recording, buffers: Buffers) -> str:
 
 def encode_recording(recording: Recording, buffers: Buffers) -> bytes:
     """Return a recording and its buffers as the page reads them."""
-    data = frame(recording, buffers)
+    data = encode_frame(recording, buffers)
     assert isinstance(data, bytes)
     return data
 

@@ -11,7 +11,7 @@ from typing import Any
 from bayesmap.app.protocol.document import Document, Refused
 from bayesmap.app.protocol.notices import AnyNotice, Field, Scan, State, Story
 from bayesmap.app.protocol.tasks import Buffers, Failed, Report, Unusable
-from bayesmap.app.protocol.wire import frame, parse, seq_of
+from bayesmap.app.protocol.wire import encode_frame, parse_action, read_seq
 from bayesmap.app.session import Effects, Session, ToPage, refusal
 from bayesmap.app.worker import Supervisor
 from bayesmap.errors import BadInput
@@ -38,7 +38,7 @@ class Outbox:
         while not self._waiting:
             self._filled.clear()
             await self._filled.wait()
-        return frame(*self._waiting.popleft())
+        return encode_frame(*self._waiting.popleft())
 
 
 class Hub:
@@ -83,9 +83,9 @@ class Hub:
     def receive(self, client: int, data: str | bytes) -> None:
         """Read and apply a message of a page."""
         try:
-            action = parse(data)
+            action = parse_action(data)
         except Refused as refused:
-            self.refuse(client, refused, seq_of(data))
+            self.refuse(client, refused, read_seq(data))
             return
         self._carry_out(self.session.receive(client, action))
 

@@ -55,7 +55,7 @@ class Session:
         self._pace = Pace()  # merges edits that arrive faster than pictures
         self._last_seqs: dict[int, int] = {}  # number of the last applied action of every page
         self._last_sent: dict[type, ToPage] = {}  # last message of each kind in `REPLAYED`
-        self._trajectory: tasks.Remember | None = None  # inferred from a log, for the next worker
+        self._trajectory: tasks.RestoreTrajectory | None = None  # inferred from a log, for the next worker
 
     @property
     def document(self) -> Document:
@@ -163,7 +163,7 @@ class Session:
         coarse = False
         if isinstance(action, actions.ChangeSettings):
             coarse = action.coarse and self.document.source.kind == "log"
-            if "scans_used" in actions.changes(action.patch):
+            if "scans_used" in actions.changed_settings(action.patch):
                 self.scan = (self.document.scans_used or self.document.source.scans) - 1
         coarse_ends = self._mode == "coarse" and not coarse
         if self.document is before and not coarse_ends:
@@ -218,10 +218,10 @@ class Session:
             case tasks.Failed():
                 self.running = self.working = False
                 return [_status(message.text, "error"), *self._state_for_all(), *self._picture_computed()]
-            case tasks.OnGrid():
+            case tasks.GridChanged():
                 self.history = replace(self.history, present=self.document.on_grid(message.grid))
                 return self._state_for_all()
-            case tasks.Located():
+            case tasks.TrajectoryInferred():
                 self._trajectory = message.trajectory
                 return []
             case tasks.Alive() | tasks.Unusable():

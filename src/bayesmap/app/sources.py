@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from bayesmap.app.protocol.document import MAX_FILE_SIDE, MAX_LOG_SIDE, METHODS, Document, Refused, Source, no_walls
+from bayesmap.app.protocol.document import MAX_FILE_SIDE, MAX_LOG_SIDE, METHODS, Document, Refused, Source, empty_walls
 from bayesmap.app.protocol.wire import parse_simulation
 from bayesmap.app.scene import Scene, scene_of_file
 from bayesmap.app.shown.hit_maps import HitCountMap, HitCounts, stop_probabilities
@@ -236,6 +236,6 @@ def _document(grid: Grid, scans: Scans, source: Source, prior: float) -> Documen
     if max(grid.shape) > MAX_FILE_SIDE:
         raise BadInput(f"{source.name}: {grid.shape} cells are too many for the page, at most {MAX_FILE_SIDE}")
     return Document(
-        grid=grid, walls=no_walls(grid), sensors=(), prior=float(prior), angles=len(scans.angles_rad),
+        grid=grid, walls=empty_walls(grid), sensors=(), prior=float(prior), angles=len(scans.angles_rad),
         max_range=scans.max_range_m, source=source,
     )  # fmt: skip

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from bayesmap.app.protocol.document import Document
 from bayesmap.app.protocol.notices import Stage, Status
-from bayesmap.app.protocol.tasks import Infer, Located, Remember
+from bayesmap.app.protocol.tasks import Infer, RestoreTrajectory, TrajectoryInferred
 from bayesmap.app.shown.hit_maps import HitCountMap, grow_grid, hit_count_map, untraced_scene
 from bayesmap.app.shown.result import Result
 from bayesmap.app.sources import OpenedLog, open_log
@@ -176,11 +176,11 @@ class LogTrajectory:
         """Return the log for a document: along the inferred trajectory, if the document asks for it and it is known."""
         return self.placed if document.from_odometry and self.placed is not None else self.log
 
-    def remember(self, task: Remember) -> None:
+    def restore(self, task: RestoreTrajectory) -> None:
         """Take over the trajectory that an earlier worker inferred."""
         self._place_scans(replace(self.log.scans.at(task.poses), angles_rad=task.angles_rad, own_angles_rad=None))
 
-    def steps(self, task: Infer) -> Generator[Step | Stage | Located | Status | None, None, None]:
+    def steps(self, task: Infer) -> Generator[Step | Stage | TrajectoryInferred | Status | None, None, None]:
         """Yield steps and reports until the log can be mapped, and None while there is nothing new.
 
         The mode "run" infers the trajectory, unless it is known. "clear" forgets it. While it is unknown, other modes
@@ -188,7 +188,7 @@ class LogTrajectory:
         """
         if task.mode == "clear" and self.placed is not None:
             self.placed = None
-            yield Located(None, generation=task.generation)
+            yield TrajectoryInferred(None, generation=task.generation)
         if self.placed is None and task.mode == "run":
             yield from self._infer(task)
         elif self.placed is None:
@@ -196,7 +196,7 @@ class LogTrajectory:
             hit_map = hit_count_map(self.log.scans.select(slice(task.document.scans_used)), grid)
             yield _step(task, self.log.scans, grid, hit_map, None, ASK_TO_RUN)
 
-    def _infer(self, task: Infer) -> Generator[Step | Stage | Located | Status | None, None, None]:
+    def _infer(self, task: Infer) -> Generator[Step | Stage | TrajectoryInferred | Status | None, None, None]:
         scans, grid = self.log.scans, self.log.on_cells(task.document).grid
         yield _step(task, scans, grid, hit_count_map(scans, grid), ("reading", 0, 1), STAGE_TEXTS["reading"])
         job = TrajectoryJob(task, scans, grid)
@@ -206,8 +206,8 @@ class LogTrajectory:
         placed = move_to_trajectory(scans, job.trajectory)
         self._place_scans(placed)
         own = placed.own_angles_rad
-        trajectory = Remember(placed.poses, placed.angles_rad if own is None else own)
-        yield Located(trajectory, generation=task.generation)
+        trajectory = RestoreTrajectory(placed.poses, placed.angles_rad if own is None else own)
+        yield TrajectoryInferred(trajectory, generation=task.generation)
         yield Status(describe_trajectory(scans, job.trajectory), "info")
 
     def _place_scans(self, scans: Scans) -> None:

@@ -16,7 +16,7 @@ from bayesmap.app.figures import read_static
 from bayesmap.app.protocol.document import Refused
 from bayesmap.app.protocol.notices import AnyNotice
 from bayesmap.app.protocol.tasks import Buffers, Report, Unusable
-from bayesmap.app.protocol.wire import check, parse_simulation, seq_of, with_arrays
+from bayesmap.app.protocol.wire import check_action, parse_simulation, read_seq, separate_arrays
 from bayesmap.app.session import Effects, Session, ToPage, refusal
 from bayesmap.app.sources import open_run
 from bayesmap.app.worker import Supervisor
@@ -122,9 +122,9 @@ class MapWidget(anywidget.AnyWidget):
             if isinstance(content, dict) and content.get("type") == "hello":
                 self._carry_out(self._session.join(CLIENT))
             try:
-                action = check(content)
+                action = check_action(content)
             except Refused as refused:
-                self._post(refusal(refused, seq_of(content if isinstance(content, dict) else {})), {})
+                self._post(refusal(refused, read_seq(content if isinstance(content, dict) else {})), {})
                 return
             self._carry_out(self._session.receive(CLIENT, action))
 
@@ -160,7 +160,7 @@ class MapWidget(anywidget.AnyWidget):
                 self._supervisor.send(effect)
 
     def _post(self, message: AnyNotice, buffers: Buffers) -> None:
-        header, arrays = with_arrays(message, buffers)
+        header, arrays = separate_arrays(message, buffers)
         self.send(header, [array.tobytes() for array in arrays])
 
 

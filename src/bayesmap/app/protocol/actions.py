@@ -1,4 +1,8 @@
-"""Actions: the messages from the page, with the limits of their values."""
+"""Actions: the messages from the page, with the limits of their values. `AnyAction`, at the end, lists them.
+
+An `Edit` changes the document, a `Question` is answered to the page that asked, and the others control inference and
+the view. The page's TypeScript types are generated from these declarations and their comments (docs/app.md).
+"""
 
 from __future__ import annotations
 
@@ -6,14 +10,14 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias, get_type_h
 
 from msgspec import UNSET, Meta, Struct, UnsetType, defstruct
 
-from bayesmap.app.protocol.document import RESOLUTIONS_M, SIDE_CELLS, Id, Metres, Radians, Settings
+from bayesmap.app.protocol.document import RESOLUTION_RANGE_M, SIDE_RANGE, Metres, Radians, SensorId, Settings
 
-MAX_CELLS = 250_000
+MAX_CELLS = 250_000  # cells in one message `walls`
 
-Count = Annotated[int, Meta(ge=0, le=2**53)]
+Count = Annotated[int, Meta(ge=0, le=2**53)]  # 2^53: larger numbers are not exact in JavaScript
 Index = Annotated[int, Meta(ge=0, lt=2**31)]
-Side = Annotated[int, Meta(ge=SIDE_CELLS[0], le=SIDE_CELLS[1])]
-Resolution = Annotated[float, Meta(ge=RESOLUTIONS_M[0], le=RESOLUTIONS_M[1], title="cell size (m)")]
+Side = Annotated[int, Meta(ge=SIDE_RANGE[0], le=SIDE_RANGE[1])]
+Resolution = Annotated[float, Meta(ge=RESOLUTION_RANGE_M[0], le=RESOLUTION_RANGE_M[1], title="cell size (m)")]
 World = Literal["blank", "tutorial", "building"]
 Layer = Literal["mean", "draw", "entropy", "width"]
 
@@ -26,12 +30,13 @@ class Action(Struct, frozen=True, kw_only=True, tag_field="type"):
 
 
 class Hello(Action, frozen=True, tag="hello"):
-    """Report that a page has connected, perhaps with the document of a share link or from before a lost connection."""
+    """Report that a page has connected."""
 
+    # document of a share link, or of the time before a lost connection; null if the page has none
     document: dict[str, Any] | None = None
 
 
-if TYPE_CHECKING:
+if TYPE_CHECKING:  # the fields of a patch are the settings, each optional: type checkers cannot follow that
 
     class Patch(Struct, frozen=True):
         """Changed settings."""
@@ -44,8 +49,8 @@ else:
     Patch.__doc__ = "Changed settings. Only a log has `resolution`, the edge of its cells in metres."
 
 
-def changes(patch: Patch) -> dict[str, Any]:
-    """Return the settings that a patch changes, with their new values."""
+def changed_settings(patch: Patch) -> dict[str, Any]:
+    """Return the settings that a patch changes, by name, with their new values."""
     values = {name: getattr(patch, name) for name in patch.__struct_fields__}
     return {name: value for name, value in values.items() if value is not UNSET}
 
@@ -53,9 +58,9 @@ def changes(patch: Patch) -> dict[str, Any]:
 class ChangeSettings(Action, frozen=True, tag="set"):
     """Change settings."""
 
-    patch: Patch
+    patch: Patch  # the changed settings
     drag: Count = 0  # number of the drag. All changes of one drag are one step of undo.
-    # for a log, while the hand drags: show counts of hits only. The first `set` without it starts inference.
+    # for a log, true while the hand drags: show counts of hits only. The first `set` with false starts inference.
     coarse: bool = False
 
 
@@ -68,40 +73,40 @@ class Walls(Action, frozen=True, tag="walls"):
 
 
 class AddSensor(Action, frozen=True, tag="add_sensor"):
-    """Place another sensor, at a pose in metres and radians, world frame."""
+    """Place another sensor at a pose in the world frame."""
 
-    x: Metres
-    y: Metres
-    yaw: Radians = 0.0
+    x: Metres  # position, metres
+    y: Metres  # position, metres
+    yaw: Radians = 0.0  # heading, radians
 
 
 class MoveSensor(Action, frozen=True, tag="move_sensor"):
-    """Move or turn a sensor. Fields that are left out stay. All moves of one drag are one step of undo."""
+    """Move or turn a sensor. Coordinates that are left out stay as they are."""
 
-    id: Id
-    x: Metres | None = None
-    y: Metres | None = None
-    yaw: Radians | None = None
-    drag: Count = 0
+    id: SensorId  # id of the sensor
+    x: Metres | None = None  # new position in the world frame, metres
+    y: Metres | None = None  # new position in the world frame, metres
+    yaw: Radians | None = None  # new heading, radians
+    drag: Count = 0  # number of the drag. All moves of one drag are one step of undo.
 
 
 class RemoveSensor(Action, frozen=True, tag="remove_sensor"):
-    """Remove a sensor; the last one stays."""
+    """Remove a sensor. The last sensor cannot be removed."""
 
-    id: Id
+    id: SensorId  # id of the sensor
 
 
 class Clear(Action, frozen=True, tag="clear"):
     """Remove all walls, or go back to the prior."""
 
-    what: Literal["walls", "inference"]
+    what: Literal["walls", "inference"]  # "inference" goes back to the prior
 
 
 class New(Action, frozen=True, tag="new"):
-    """Begin another map, of `shape` cells."""
+    """Begin another map."""
 
-    shape: tuple[Side, Side]
-    world: World
+    shape: tuple[Side, Side]  # number of cells along x and y
+    world: World  # walls of the new map
 
 
 class Undo(Action, frozen=True, tag="undo"):
@@ -123,47 +128,47 @@ class Cancel(Action, frozen=True, tag="cancel"):
 class Live(Action, frozen=True, tag="live"):
     """Choose whether every edit restarts the chains after the preview."""
 
-    on: bool
+    on: bool  # true if every edit restarts the chains
 
 
 class ShowView(Action, frozen=True, tag="view"):
     """Choose the field that this page gets from now on. Layer "draw" without a draw number is the last draw."""
 
-    layer: Layer
-    chain: Count | None = None
-    draw: Count | None = None
+    layer: Layer  # layer of the field
+    chain: Count | None = None  # index of the chain, for a draw
+    draw: Count | None = None  # index of the draw
 
 
 class Painted(Action, frozen=True, tag="painted"):
     """Report that the first picture of a generation is on the canvas. No state confirms this message."""
 
-    generation: Count
+    generation: Count  # number of the picture
 
 
 class ShowScan(Action, frozen=True, tag="scan"):
     """Choose the scan whose rays are shown, for a file."""
 
-    index: Count
+    index: Count  # index of the scan
 
 
 class Export(Action, frozen=True, tag="export"):
     """Ask for a file of the result or the document; answered by `download`."""
 
-    what: Literal["run", "map", "html", "figure", "document", "recording"]
+    what: Literal["run", "map", "html", "figure", "document", "recording"]  # kind of file
 
 
 class Inspect(Action, frozen=True, tag="inspect"):
-    """Ask for the beams through a cell, and with `each` for the evidence of each beam; answered by `cell`."""
+    """Ask for the evidence of the beams through a cell; answered by `cell`."""
 
-    x: Index
-    y: Index
-    each: bool = False
-    chain: Count = 0
-    draw: Count | None = None  # of walls: what beams say given the other cells of this draw, instead of their means
+    x: Index  # index of the cell along x
+    y: Index  # index of the cell along y
+    each: bool = False  # true to get also the evidence of each beam
+    chain: Count = 0  # index of the draw's chain
+    draw: Count | None = None  # for walls, index of the draw that gives the other cells; null means the mean map
 
 
 class FindPath(Action, frozen=True, tag="path"):
-    """Ask for a path for a disc; answered by `path` or `undecided`."""
+    """Ask for a path on which a disc can move; answered by `path` or `undecided`."""
 
     start: tuple[Metres, Metres]  # start of the path, x and y in metres
     goal: tuple[Metres, Metres]  # goal of the path, x and y in metres
@@ -176,17 +181,17 @@ class FindViews(Action, frozen=True, tag="views"):
 
 
 class WhereAmI(Action, frozen=True, tag="where"):
-    """Ask where a scan may have been taken: a sensor's scan, or a file's scan on show; answered by `where`."""
+    """Ask where a scan may have been taken; answered by `where`. For a file, it is the scan on show."""
 
-    sensor: Id | None = None
+    sensor: SensorId | None = None  # id of the sensor whose scan is meant, in a drawn world
 
 
 class MoveGhost(Action, frozen=True, tag="ghost"):
-    """Ask for the virtual scan at a pose, metres and radians; answered by `ghost` or `undecided`."""
+    """Ask for the virtual scan at a pose in the world frame; answered by `ghost` or `undecided`."""
 
-    x: Metres
-    y: Metres
-    yaw: Radians
+    x: Metres  # position, metres
+    y: Metres  # position, metres
+    yaw: Radians  # heading, radians
     coarse: bool = False  # true while the hand moves: predict from a few draws only
 
 

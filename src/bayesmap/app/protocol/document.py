@@ -1,7 +1,10 @@
-"""The document: everything that determines the picture. Its fields, units and limits are declared here once.
+"""The document: the map, the sensors and the settings from which the page's picture is computed.
 
-Messages hold the document as JSON, which `bayesmap.app.protocol.wire` reads. The page's types are written from these
-declarations. Every page that connects gets the limits of the numbers.
+`Settings` declares what the page's sliders change. `Document` adds the map and the sensors. `check_document` checks
+that the fields fit together.
+
+Fields, units and limits are declared here once, and the page's TypeScript types are generated from them. Messages hold
+the document as JSON, which `bayesmap.app.protocol.wire` reads. A page gets the limits of the numbers on connecting.
 """
 
 from __future__ import annotations
@@ -20,33 +23,34 @@ from numpy.typing import NDArray
 from bayesmap.errors import BadInput
 from bayesmap.space.grid import Grid
 
-VERSION: Final = 1
+VERSION: Final = 1  # version of the document's JSON format
 CHAIN_METHODS = ("gibbs", "block")  # methods that are Markov chains
 
 # If walls or free cells are at most this probable a priori, method "auto" means 2 x 2 blocks. Single-site moves then
 # seldom leave a wrong map: a wall has to go before its neighbour can come.
 RARE_WALLS = 0.2
 MIN_NOISE_M = 0.01  # the smallest noise of the sensor model: a density needs a width
-SIDE_CELLS = (2, 500)  # least and most cells per side of a drawn map
-MAX_FILE_SIDE = 4000  # most cells per side of a map from a file
-MAX_LOG_SIDE = 1000  # the largest number of cells per side of a map that is inferred from a log
-SENSOR_COUNTS = (1, 32)  # least and most sensors
-RESOLUTIONS_M = (0.02, 2.0)  # smallest and largest cells that a page can choose for a log
-ANY_RESOLUTION_M = (1e-3, 1e3)  # smallest and largest cells of any document
+# Ranges are pairs (minimum, maximum).
+SIDE_RANGE = (2, 500)  # cells per side of a drawn map
+MAX_FILE_SIDE = 4000  # cells per side of a map from a file
+MAX_LOG_SIDE = 1000  # cells per side of a map that is inferred from a log
+SENSOR_COUNT_RANGE = (1, 32)  # number of sensors
+RESOLUTION_RANGE_M = (0.02, 2.0)  # cell sizes that a page can choose for a log
+ALLOWED_RESOLUTION_RANGE_M = (1e-3, 1e3)  # cell sizes of any document
 MAX_COORDINATE_M = 1e6  # largest absolute coordinate
 
-Kind = Literal["simulation", "run", "log"]
+SourceKind = Literal["simulation", "run", "log"]
 Method = Literal["auto", "gibbs", "block", "propagate", "importance"]
 METHODS: tuple[str, ...] = get_args(Method)
 
-Id = Annotated[int, Meta(ge=1, lt=2**31)]
-Scans = Annotated[int, Meta(ge=0, le=10**9)]
+SensorId = Annotated[int, Meta(ge=1, lt=2**31)]
+ScanCount = Annotated[int, Meta(ge=0, le=10**9)]
 Metres = Annotated[float, Meta(ge=-MAX_COORDINATE_M, le=MAX_COORDINATE_M)]
 Radians = Annotated[float, Meta(ge=-1e3, le=1e3)]
 
 
 class Refused(BadInput):
-    """Error for an action that is refused. Nothing has changed."""
+    """Error for an action that is refused. The document stays unchanged."""
 
     def __init__(self, text: str, remedy: str = "") -> None:
         super().__init__(f"{text}; {remedy}" if remedy else text)
@@ -58,7 +62,7 @@ class Refused(BadInput):
 class Sensor:
     """The pose of a sensor: metres and radians, world frame. Its yaw is kept in [-pi, pi]."""
 
-    id: Id
+    id: SensorId
     x: Metres
     y: Metres
     yaw: Radians = 0.0
@@ -72,9 +76,9 @@ class Sensor:
 class Source:
     """The origin of the readings: simulated from the walls, or a file whose scans are shown."""
 
-    kind: Kind = "simulation"  # kind of source: simulation, run or log
+    kind: SourceKind = "simulation"  # kind of source: simulation, run or log
     name: Annotated[str, Meta(max_length=300)] = ""  # name of the file
-    scans: Scans = 0  # number of scans in the file
+    scans: ScanCount = 0  # number of scans in the file
     # for a log, corners of the area that its scans saw, metres. Grids of any resolution cover it.
     bounds: tuple[tuple[float, float], tuple[float, float]] | None = field(default=None, compare=False)
 
@@ -115,7 +119,7 @@ SETTINGS = tuple(setting.name for setting in fields(Settings))
 # Settings that affect only the chains: neither the readings nor the pilot that fits the sensor depends on them.
 SETTINGS_OF_CHAINS = ("prior", "pose_sigma", "heading_sigma", "method", "order", "start", "sweeps", "burn_in")
 # Settings that a page cannot change, because the file fixes them or because only a log has them.
-FIXED_BY_FILE: Mapping[Kind, tuple[str, ...]] = {
+FIXED_BY_FILE: Mapping[SourceKind, tuple[str, ...]] = {
     "simulation": ("poses", "scans_used"),
     "log": ("noise", "angles", "max_range", "fov", "readings", "pose_sigma", "heading_sigma"),
     "run": SETTINGS,
@@ -124,13 +128,12 @@ FIXED_BY_FILE: Mapping[Kind, tuple[str, ...]] = {
 
 @dataclass(frozen=True)
 class Document(Settings):
-    """Everything that determines the picture."""
+    """The map, the sensors and the settings from which the picture is computed."""
 
     grid: Grid  # grid of cells
     walls: bytes  # packed bits of the (nx, ny) map, C order (x * ny + y), most significant bit first; base64 in JSON
-    sensors: Annotated[
-        tuple[Sensor, ...], Meta(max_length=SENSOR_COUNTS[1])
-    ]  # sensors of a simulation; empty for a file
+    # sensors of a simulation; empty for a file
+    sensors: Annotated[tuple[Sensor, ...], Meta(max_length=SENSOR_COUNT_RANGE[1])]
     source: Source = Source()  # origin of the readings
     version: Literal[1] = VERSION  # version of this format
 
@@ -173,12 +176,12 @@ class Document(Settings):
         return {cell: sensor_id for cell, sensor_id in cells if cell is not None}
 
     def on_grid(self, grid: Grid) -> Document:
-        """Return the document on other cells, without walls."""
+        """Return the document on another grid, without walls; this document if the grid is equal."""
         return self if self.grid == grid else replace(self, grid=grid).without_walls()
 
     def without_walls(self) -> Document:
         """Return the document with an empty map of its size."""
-        return replace(self, walls=no_walls(self.grid))
+        return replace(self, walls=empty_walls(self.grid))
 
     def with_walls(self, is_wall: NDArray[np.bool_]) -> Document:
         """Return the document with another map, (nx, ny), or this document if the map is the same."""
@@ -208,32 +211,41 @@ def pack_walls(is_wall: NDArray[np.bool_]) -> bytes:
     return np.packbits(is_wall.ravel()).tobytes()
 
 
-def no_walls(grid: Grid) -> bytes:
+def empty_walls(grid: Grid) -> bytes:
     """Return the packed map without walls."""
     return bytes((grid.n_cells + 7) // 8)
 
 
 def bounds_of(hint: object) -> tuple[float, float] | None:
     """Return the smallest and largest value of a type that is declared with limits; None for other types."""
-    (meta,) = getattr(hint, "__metadata__", None) or (None,)
-    return None if meta is None else (meta.ge, meta.lt - 1 if meta.le is None else meta.le)
+    metadata = getattr(hint, "__metadata__", ())
+    if not metadata:
+        return None
+    (meta,) = metadata
+    return meta.ge, meta.lt - 1 if meta.le is None else meta.le
 
 
-BOUNDS: Mapping[str, tuple[float, float]] = {
+SETTING_BOUNDS: Mapping[str, tuple[float, float]] = {
     name: bounds
     for name, hint in get_type_hints(Settings, include_extras=True).items()
     if (bounds := bounds_of(hint)) is not None
 }
 """The smallest and largest value of every numeric setting."""
 
+MAP_BOUNDS: Mapping[str, tuple[float, float]] = {
+    "side": SIDE_RANGE, "sensors": SENSOR_COUNT_RANGE, "resolution": RESOLUTION_RANGE_M,
+    "side_of_log": (1, MAX_LOG_SIDE),
+}  # fmt: skip
+"""The smallest and largest value of numbers that a page chooses for a map, by their names in `Limits`."""
+
 
 def check_document(document: Document) -> None:
     """Check that fields fit together: sizes, sensors in free cells, a file's name. Raises `Refused` if they do not."""
     grid = document.grid
-    most = SIDE_CELLS if document.simulated else (1, MAX_FILE_SIDE)
-    if not most[0] <= min(grid.shape) <= max(grid.shape) <= most[1]:
-        raise Refused(f"grid.shape: a map of {grid.shape} cells", f"give {most[0]} to {most[1]} cells a side")
-    if not ANY_RESOLUTION_M[0] <= grid.resolution <= ANY_RESOLUTION_M[1]:
+    min_side, max_side = SIDE_RANGE if document.simulated else (1, MAX_FILE_SIDE)
+    if not min_side <= min(grid.shape) <= max(grid.shape) <= max_side:
+        raise Refused(f"grid.shape: a map of {grid.shape} cells", f"give {min_side} to {max_side} cells a side")
+    if not ALLOWED_RESOLUTION_RANGE_M[0] <= grid.resolution <= ALLOWED_RESOLUTION_RANGE_M[1]:
         raise Refused(f"grid.resolution: cells of {grid.resolution:g} m", "give 0.001 to 1000 m")
     if max(map(abs, grid.origin)) > MAX_COORDINATE_M:
         raise Refused(f"grid.origin: {grid.origin} m is too far away", "give at most a million metres")
@@ -241,18 +253,19 @@ def check_document(document: Document) -> None:
         if not document.source.name:
             raise Refused("source.name: a file without a name", "give the file's name")
         return
-    if len(document.walls) != len(no_walls(grid)):
+    n_bytes = len(empty_walls(grid))
+    if len(document.walls) != n_bytes:
         sizes = f"{len(document.walls)} bytes for {grid.shape[0]} x {grid.shape[1]} cells"
-        raise Refused(f"walls: {sizes}", f"send {len(no_walls(grid))}")
-    if len(document.sensors) < SENSOR_COUNTS[0]:
-        raise Refused("sensors: there is none", f"give {SENSOR_COUNTS[0]} to {SENSOR_COUNTS[1]}")
+        raise Refused(f"walls: {sizes}", f"send {n_bytes}")
+    if len(document.sensors) < SENSOR_COUNT_RANGE[0]:
+        raise Refused("sensors: there is none", f"give {SENSOR_COUNT_RANGE[0]} to {SENSOR_COUNT_RANGE[1]}")
     if len({sensor.id for sensor in document.sensors}) != len(document.sensors):
         raise Refused("sensors: two have the same id", "number them from 1 on")
     for sensor in document.sensors:
-        check_stand(document, sensor)
+        check_sensor_pose(document, sensor)
 
 
-def check_stand(document: Document, sensor: Sensor) -> None:
+def check_sensor_pose(document: Document, sensor: Sensor) -> None:
     """Check that a sensor stands inside the grid and in a free cell. Raises `Refused` if it does not."""
     cell = document.grid.cell_at(sensor.x, sensor.y)
     if cell is None:

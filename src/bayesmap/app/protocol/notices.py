@@ -1,4 +1,9 @@
-"""Notices: the messages to the page. Arrays are sent beside a message, as its buffers."""
+"""Notices: the messages to the page. `AnyNotice`, at the end, lists them; docs/app.md says when each is sent.
+
+The arrays of a message are its buffers: they are sent beside it, and its docstring lists them with types and shapes.
+The page's TypeScript types are generated from these declarations and their comments. So a field's name is a name of
+the wire format and cannot change alone.
+"""
 
 from __future__ import annotations
 
@@ -7,15 +12,7 @@ from typing import TYPE_CHECKING, Literal, TypeAlias, get_type_hints
 from msgspec import Struct, defstruct
 
 from bayesmap.app.protocol.actions import FindPath, Layer
-from bayesmap.app.protocol.document import (
-    BOUNDS,
-    MAX_LOG_SIDE,
-    RESOLUTIONS_M,
-    SENSOR_COUNTS,
-    SIDE_CELLS,
-    Document,
-    bounds_of,
-)
+from bayesmap.app.protocol.document import MAP_BOUNDS, SETTING_BOUNDS, Document, bounds_of
 
 OWN_LAYERS = ("draw", "width")  # layers for which each page gets its own fields; it computes the others from the mean
 
@@ -26,16 +23,15 @@ class Notice(Struct, frozen=True, kw_only=True, tag_field="type"):
     """A message to the page."""
 
 
-class OfPicture(Notice, frozen=True, kw_only=True):
+class PictureNotice(Notice, frozen=True, kw_only=True):
     """A message that belongs to one picture, whose number is `generation`."""
 
     generation: int
 
 
-_PATH = get_type_hints(FindPath, include_extras=True)
+_PATH_HINTS = get_type_hints(FindPath, include_extras=True)
 _LIMITS = {
-    **BOUNDS, "radius": bounds_of(_PATH["radius"]), "risk": bounds_of(_PATH["risk"]), "side": SIDE_CELLS, "sensors": SENSOR_COUNTS,
-    "resolution": RESOLUTIONS_M, "side_of_log": (1, MAX_LOG_SIDE),
+    **SETTING_BOUNDS, "radius": bounds_of(_PATH_HINTS["radius"]), "risk": bounds_of(_PATH_HINTS["risk"]), **MAP_BOUNDS,
 }  # fmt: skip
 
 if TYPE_CHECKING:
@@ -55,22 +51,22 @@ Tool = Literal["draw", "erase", "sensor", "pan", "where", "path", "evidence", "l
 
 
 class Step(Struct, frozen=True, kw_only=True):
-    """A step of a story: a state of the page, what is seen in it, and one thing to do."""
+    """A step of a story: a document to show, a text about its picture, and a task for the reader."""
 
-    title: str
-    text: str  # what is seen
-    task: str  # one thing to do
-    document: Document  # the state
-    solution: Document | None  # the state once the task is done; null if only a hand can do it
-    layer: Layer
-    tool: Tool
+    title: str  # title of the step
+    text: str  # text about the picture
+    task: str  # task for the reader
+    document: Document  # document to show
+    solution: Document | None  # document once the task is done; null if only a hand can do the task
+    layer: Layer  # layer to show
+    tool: Tool  # tool that the page selects
 
 
 class Story(Struct, frozen=True):
-    """Steps that are shown beside the map."""
+    """A story: a title and steps that are shown beside the map, one at a time."""
 
-    title: str
-    steps: list[Step]
+    title: str  # title of the story
+    steps: list[Step]  # steps in order
 
 
 class Welcome(Notice, frozen=True, tag="welcome"):
@@ -85,30 +81,30 @@ class Welcome(Notice, frozen=True, tag="welcome"):
 
 
 class Worker(Notice, frozen=True, tag="worker"):
-    """The state of the worker."""
+    """A change in the state of the worker process, which does the inference."""
 
-    state: Literal["starting", "ready", "restarted"]
+    state: Literal["starting", "ready", "restarted"]  # new state
 
 
 class DrawCount(Struct, frozen=True):
     """The number of kept draws: `count` per chain."""
 
-    chains: int = 0
-    count: int = 0
+    chains: int = 0  # number of chains
+    count: int = 0  # number of kept draws of each chain
 
 
 class View(Struct, frozen=True):
     """The field that a page shows. Layer "draw" without a draw number is the last draw."""
 
-    layer: Layer
-    chain: int | None = None
-    draw: int | None = None
+    layer: Layer  # layer of the field
+    chain: int | None = None  # index of the chain, for a draw
+    draw: int | None = None  # index of the draw
 
 
 class State(Notice, frozen=True, tag="state"):
     """The present state, sent after every action that was applied."""
 
-    document: Document
+    document: Document  # present document
     generation: int  # number of the present picture
     seq: int  # number of the page's last action that was applied
     can_undo: bool  # whether this page may undo the last edit
@@ -121,7 +117,7 @@ class State(Notice, frozen=True, tag="state"):
     view: View  # field that this page gets
 
 
-class Scan(OfPicture, frozen=True, tag="scan"):
+class Scan(PictureNotice, frozen=True, tag="scan"):
     """Readings: all scans of a simulation, or one scan of a file.
 
     Buffers: pose float64 (S, 3); angles float32 (A); ranges float32 (S, A); exact float32 (S, A), the noise-free
@@ -133,29 +129,29 @@ class Scan(OfPicture, frozen=True, tag="scan"):
 
 
 class Quantity(Struct, frozen=True):
-    """The quantity on the map: kind of cells, words for its mean and its value in a draw, and if it has intervals."""
+    """The quantity that a map shows, in words."""
 
-    kind: str
-    mean: str
-    value: str
-    interval: bool
+    kind: str  # kind of cells
+    mean: str  # words for the posterior mean, such as "P(wall)"
+    value: str  # words for the value in one draw
+    interval: bool  # whether the quantity has credible intervals
 
 
 class Verdict(Struct, frozen=True):
     """The verdict on a result, and its reason."""
 
-    level: Literal["good", "fair", "bad"]
-    why: str
+    level: Literal["good", "fair", "bad"]  # the verdict
+    why: str  # the reason
     cell: tuple[int, int] | None = None  # the cell that the reason names
 
 
-class Field(OfPicture, frozen=True, tag="field"):
+class Field(PictureNotice, frozen=True, tag="field"):
     """One picture of the posterior.
 
-    Buffers: p uint8 (nx, ny), probability or interval width in 255ths; reached uint8 (nx, ny), how probably a beam
-    reaches each cell, in 255ths; traced
-    float32 (n), sweep numbers: the first 100, then evenly spread; trace float32 (chains, n), the log joint at these
-    sweeps; for importance sampling also weights float32 (24), a histogram of the particles' log weights.
+    Buffers: p uint8 (nx, ny), probability or interval width in 255ths; reached uint8 (nx, ny), probability in 255ths
+    that a beam reaches each cell; traced float32 (n), sweep numbers: the first 100, then evenly spread; trace float32
+    (chains, n), the log joint at these sweeps; for importance sampling also weights float32 (24), a histogram of the
+    particles' log weights.
     """
 
     layer: Layer  # layer of the numbers. The page computes the entropy from the mean.
@@ -180,7 +176,7 @@ class Field(OfPicture, frozen=True, tag="field"):
     about: list[tuple[str, str]] = []  # the method, the prior, the sensor and the poses of what is shown, in words
 
 
-class Overlay(OfPicture, frozen=True, tag="overlay"):
+class Overlay(PictureNotice, frozen=True, tag="overlay"):
     """The overlay of a run or a log.
 
     Buffers: strokes float32 (U, 5), surfaces as segments x, y, x, y in metres, and their reflectivity; trajectory
@@ -195,61 +191,61 @@ class CellFacts(Notice, frozen=True, tag="cell"):
     walls with kept draws also trace uint8 (chains, n), 1 in the draws with a wall.
     """
 
-    x: int
-    y: int
-    each: bool
+    x: int  # index of the cell along x
+    y: int  # index of the cell along y
+    each: bool  # whether the question asked for each beam
     beams: int  # number of beams through the cell
     # number of beams for an obstacle; null, like the next fields, if the evidence cannot be computed
     beams_for: int | None = None
-    nats_for: float | None = None  # sum of the log ratios of these beams
+    nats_for: float | None = None  # sum of the log ratios of the beams for an obstacle
     beams_against: int | None = None  # number of beams against an obstacle
-    nats_against: float | None = None  # absolute sum of the log ratios of these beams
-    draw: int | None = None  # index of the draw whose other cells are given, and its chain
-    chain: int | None = None
+    nats_against: float | None = None  # absolute sum of the log ratios of the beams against an obstacle
+    draw: int | None = None  # index of the draw whose other cells are given
+    chain: int | None = None  # index of the chain of this draw
     prior_nats: float | None = None  # with a draw, log odds of a wall by the prior; null where it is sure
     log_odds: float | None = None  # log odds of a wall given all other cells of the draw: those by which Gibbs draws it
 
 
-class SafePath(OfPicture, frozen=True, tag="path"):
+class SafePath(PictureNotice, frozen=True, tag="path"):
     """The shortest path whose risk is low enough, or the safest."""
 
     path: list[Pair]  # corners of the path, metres
-    length_m: float
+    length_m: float  # length of the path
     radius: float  # radius of the disc, metres
     within_risk: bool  # whether the risk of the path is low enough
     probability: float  # probability that the path is free: the share of draws in which it is
-    standard_error: float  # standard error of this probability
+    standard_error: float  # standard error of `probability`
     independent: float  # probability that the path is free if cells were independent
     draws: int  # number of draws
 
 
-class Views(OfPicture, frozen=True, tag="views"):
+class Views(PictureNotice, frozen=True, tag="views"):
     """The information expected from one more scan, at places that are `spacing` metres apart.
 
     Buffers: pose float32 (n, 3), the best heading at each place; nats float32 (n).
     """
 
-    spacing: float
+    spacing: float  # distance between neighbouring places, metres
 
 
 class Near(Struct, frozen=True):
-    """The real scan nearest to a pose: `away` metres from it, with its heading turned by `turn` radians against it."""
+    """The real scan nearest to a pose."""
 
-    index: int
-    away: float
-    turn: float
+    index: int  # index of the scan
+    away: float  # distance of the scan's position from the pose, metres
+    turn: float  # heading of the scan minus heading of the pose, radians
 
 
-class GhostScan(OfPicture, frozen=True, tag="ghost"):
+class GhostScan(PictureNotice, frozen=True, tag="ghost"):
     """The virtual scan of a robot's laser at a pose, and the nearest real scan.
 
     Buffers: angles float32 (A); low, median, high float32 (A), the median and central 80 % interval of each beam in
     metres, infinite for no return; of the real scan near_pose float64 (3), near_ranges float32 (A), near_hit uint8 (A).
     """
 
-    x: float
-    y: float
-    yaw: float
+    x: float  # x of the pose, metres
+    y: float  # y of the pose, metres
+    yaw: float  # heading of the pose, radians
     coarse: bool  # whether only a few draws were used, since the hand still moved
     draws: int  # number of draws used; 0 without draws, when cells count as independent
     near: Near | None  # nearest real scan, if one is near enough
@@ -257,20 +253,20 @@ class GhostScan(OfPicture, frozen=True, tag="ghost"):
 
 
 class SurfaceOffset(Struct, frozen=True):
-    """A reading in the frame of a surface: its offsets across and along the surface, and the surface's size."""
+    """A reading in the frame of a surface, whose covariance has the axes across and along the surface."""
 
-    across_m: float
-    along_m: float
-    thickness_m: float
-    length_m: float
-    incidence_rad: float
+    across_m: float  # offset of the reading across the surface
+    along_m: float  # offset of the reading along the surface
+    thickness_m: float  # standard deviation of the surface across
+    length_m: float  # standard deviation of the surface along
+    incidence_rad: float  # angle between the beam and the surface's normal
 
 
-class ComparedBeam(OfPicture, frozen=True, tag="beam"):
+class ComparedBeam(PictureNotice, frozen=True, tag="beam"):
     """One reading compared with its prediction. Lengths are in metres; null means infinite or unknown."""
 
-    scan: int
-    beam: int
+    scan: int  # index of the scan
+    beam: int  # index of the beam
     draws: int  # number of draws used
     reading: Literal["hit", "none", "close", "bad"]  # kind of reading: a range, no return, too close, or invalid
     range: float | None  # reading
@@ -283,21 +279,21 @@ class ComparedBeam(OfPicture, frozen=True, tag="beam"):
     wall: SurfaceOffset | None  # reading in the frame of the surface at which the beam most probably stopped
 
 
-class Undecided(OfPicture, frozen=True, tag="undecided"):
+class Undecided(PictureNotice, frozen=True, tag="undecided"):
     """The reason why a question has no answer."""
 
-    text: str
-    question: Literal["path", "views", "ghost", "beam"]
+    text: str  # the reason
+    question: Literal["path", "views", "ghost", "beam"]  # type of the message that would have answered the question
 
 
 class Place(Struct, frozen=True):
     """A mode of the pose's posterior: mean and covariance of x, y (metres) and yaw (radians)."""
 
-    mean: list[float]
-    covariance: list[list[float]]
-    probability: float
-    sigma_m: float
-    sigma_rad: float
+    mean: list[float]  # mean pose, (3,)
+    covariance: list[list[float]]  # covariance of the pose, (3, 3)
+    probability: float  # probability of the mode
+    sigma_m: float  # standard deviation of the position along its longest axis
+    sigma_rad: float  # standard deviation of the heading
 
 
 class Whereabouts(Notice, frozen=True, tag="where"):
@@ -316,20 +312,20 @@ class Whereabouts(Notice, frozen=True, tag="where"):
     trouble: str = ""  # reason why there is no answer; else empty
 
 
-class Stage(OfPicture, frozen=True, tag="stage"):
-    """Progress in a stage of inferring a log's trajectory: `done` parts of `total`. Users read `text`."""
+class Stage(PictureNotice, frozen=True, tag="stage"):
+    """Progress in one stage of the inference of a log's trajectory."""
 
-    name: str
-    text: str
-    done: int
-    total: int
+    name: str  # name of the stage
+    text: str  # name of the stage in words, for users
+    done: int  # number of parts done
+    total: int  # number of parts in all
 
 
 class Status(Notice, frozen=True, tag="status"):
     """A message for the status line."""
 
-    text: str
-    level: Literal["info", "warning", "error"]
+    text: str  # text of the message
+    level: Literal["info", "warning", "error"]  # severity
 
 
 class Refusal(Notice, frozen=True, tag="error"):
@@ -343,8 +339,8 @@ class Refusal(Notice, frozen=True, tag="error"):
 class Download(Notice, frozen=True, tag="download"):
     """A file to save. Buffers: data uint8."""
 
-    name: str
-    mime: str
+    name: str  # name of the file
+    mime: str  # media type of the file
     note: str = ""  # what the file holds, for the status line
 
 

@@ -1,4 +1,8 @@
-"""Tasks of the session for the worker, and the worker's reports: plain data for a pipe."""
+"""Tasks that the session sends to the worker process, and the reports that the worker sends back.
+
+All are plain data, which are pickled for a pipe. `Task` lists the tasks. A `Report` carries a notice for pages or a
+`Signal` for the session.
+"""
 
 from __future__ import annotations
 
@@ -17,11 +21,11 @@ from bayesmap.space.grid import Grid
 ALIVE_SECONDS = 1.0  # the time between two `Alive` signals of the worker
 
 Mode = Literal["coarse", "preview", "live", "run", "clear"]
-Buffers = Mapping[str, NDArray[Any] | bytes]
+Buffers = Mapping[str, NDArray[Any] | bytes]  # the arrays of a message, by name
 
 
 class Infer(Struct, frozen=True):
-    """Begin a new generation: a new job that replaces the present one."""
+    """Begin a new generation: a job that replaces the present job."""
 
     generation: int  # number that every report of the job repeats
     document: Document  # the document to infer from
@@ -32,63 +36,63 @@ class Infer(Struct, frozen=True):
 
 
 class Ask(Struct, frozen=True):
-    """Answer the question of a page, or make a file for it."""
+    """Answer the question of a page, or make a file for the page."""
 
-    client: int
+    client: int  # number of the page
     question: Question | Export
 
 
 class Show(Struct, frozen=True):
-    """Change the view of a page: send it that view's field now and from now on."""
+    """Change the view of a page, and send the page the fields of this view from now on."""
 
-    client: int
+    client: int  # number of the page
     view: View
 
 
-class Remember(Struct, frozen=True, eq=False):
-    """Take over the trajectory that an earlier worker inferred of the log."""
+class RestoreTrajectory(Struct, frozen=True, eq=False):
+    """Take over the trajectory that an earlier worker inferred from the log."""
 
-    poses: NDArray[Any]  # the poses of all scans, in the order of the log, (S, 3)
-    angles_rad: NDArray[Any]  # the inferred angles of the beams, (A,), or (S, A) where they differ from scan to scan
-
-
-Task: TypeAlias = Infer | Cancel | Show | ShowScan | Ask | Remember
+    poses: NDArray[Any]  # poses of all scans in the world frame, in the order of the log, (S, 3)
+    angles_rad: NDArray[Any]  # the inferred angles of the beams, (A,), or (S, A) if they differ from scan to scan
 
 
-class OfJob(Struct, frozen=True, kw_only=True):
-    """A signal of the worker for the session about the job of one generation."""
+Task: TypeAlias = Infer | Cancel | Show | ShowScan | Ask | RestoreTrajectory
 
-    generation: int
+
+class JobSignal(Struct, frozen=True, kw_only=True):
+    """A signal about the job of one generation. It is not passed on to pages."""
+
+    generation: int  # number of the job
 
 
 class Ready(Struct, frozen=True):
-    """The worker is ready, with the document of the file that it has opened."""
+    """The worker is ready for tasks."""
 
-    document: Document | None = None
+    document: Document | None = None  # document of the opened file, if there is a file
 
 
-class OnGrid(OfJob, frozen=True):
-    """The map has other cells from now on."""
+class GridChanged(JobSignal, frozen=True):
+    """The map is on another grid from now on."""
 
     grid: Grid
 
 
-class Located(OfJob, frozen=True, eq=False):
-    """The trajectory of the log is known; None if it was cleared."""
+class TrajectoryInferred(JobSignal, frozen=True, eq=False):
+    """The trajectory of the log has been inferred, or cleared."""
 
-    trajectory: Remember | None
+    trajectory: RestoreTrajectory | None  # task that gives the trajectory to a later worker; None if cleared
 
 
-class Finished(OfJob, frozen=True):
+class Finished(JobSignal, frozen=True):
     """The job is done."""
 
-    draws: DrawCount
+    draws: DrawCount  # kept draws of the result
 
 
-class Failed(OfJob, frozen=True):
+class Failed(JobSignal, frozen=True):
     """The job cannot be done."""
 
-    text: str
+    text: str  # the reason
 
 
 class Alive(Struct, frozen=True):
@@ -96,12 +100,12 @@ class Alive(Struct, frozen=True):
 
 
 class Unusable(Struct, frozen=True):
-    """The file cannot be opened."""
+    """The file cannot be opened. The worker ends."""
 
-    text: str
+    text: str  # the reason
 
 
-Signal: TypeAlias = Ready | OnGrid | Located | Finished | Failed | Alive | Unusable
+Signal: TypeAlias = Ready | GridChanged | TrajectoryInferred | Finished | Failed | Alive | Unusable
 
 
 @dataclass(frozen=True)

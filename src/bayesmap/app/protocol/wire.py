@@ -1,4 +1,9 @@
-"""Messages on the wire: parsing and checking of a page's messages, and framing of messages with their arrays."""
+"""Messages as bytes on the wire, read and written.
+
+`parse_action` reads a message of a page. msgspec checks its values, and `_explain` turns msgspec's errors into words
+that name the setting as the page does. `parse_document` reads the document that a message or a file contains.
+`encode_frame` writes a message of the library, with its arrays, as text or as one binary frame.
+"""
 
 from __future__ import annotations
 
@@ -26,26 +31,26 @@ from bayesmap.app.protocol.document import (
 )
 from bayesmap.app.protocol.tasks import Buffers
 
-MAX_BYTES = 1 << 20
-ALIGNMENT = 8
+MAX_BYTES = 1 << 20  # length of a page's message
+ALIGNMENT = 8  # arrays in a frame begin at multiples of this many bytes, counted from the end of the header
 ACTIONS: Mapping[str, type] = {str(kind.__struct_config__.tag): kind for kind in get_args(AnyAction)}
 T = TypeVar("T")
 
 
-def parse(data: str | bytes) -> AnyAction:
+def parse_action(data: str | bytes) -> AnyAction:
     """Read a message from the page; unknown fields are left out. Raises `Refused` if the message is invalid."""
     if len(data) > MAX_BYTES or (isinstance(data, str) and len(data.encode("utf-8", "replace")) > MAX_BYTES):
         raise Refused(f"a message of more than {MAX_BYTES:,} bytes", "send it in parts")
     try:
         return _ACTION.decode(data)
     except ValidationError:
-        return check(_decoded(data))
+        return check_action(_decoded(data))
     except (msgspec.DecodeError, UnicodeEncodeError, RecursionError):
         raise Refused("a message that is not JSON", "send one as in docs/app.md") from None
 
 
-def check(value: object) -> AnyAction:
-    """Read a message that has been decoded to JSON values. Raises `Refused` as `parse` does."""
+def check_action(value: object) -> AnyAction:
+    """Read a message that has been decoded to JSON values. Raises `Refused` as `parse_action` does."""
     if not isinstance(value, dict):
         raise Refused("a message that is not an object", "send one as in docs/app.md")
     kind = value.get("type")
@@ -55,8 +60,8 @@ def check(value: object) -> AnyAction:
     return action
 
 
-def seq_of(data: str | bytes | Mapping[str, Any]) -> int | None:
-    """Return the number of a message that was refused, if it has one."""
+def read_seq(data: str | bytes | Mapping[str, Any]) -> int | None:
+    """Return the number ``seq`` of an invalid message; None if no valid number can be read."""
     value = data if isinstance(data, Mapping) else _decoded(data[:MAX_BYTES])
     seq = value.get("seq") if isinstance(value, Mapping) else None
     return seq if isinstance(seq, int) and not isinstance(seq, bool) and seq >= 0 else None
@@ -99,35 +104,43 @@ def convert(value: object, kind: type[T], place: str = "") -> T:
 
 
 def _explain(text: str, value: Any, kind: inspect.Type, place: str) -> Refused:
-    """Explain an error in the words of the page: "noise (m): 7 is not a number from 0 to 5"."""
+    """Explain a validation error in the words of the page: "noise (m): 7 is not a number from 0 to 5".
+
+    ``text`` is msgspec's message about ``value``, which is not of the type ``kind``; ``place`` names the value.
+    """
+    # A message of msgspec is a fault, then a path such as "$.sensors[2].yaw" to the invalid value inside `value`.
     fault, _, path = text.partition(" - at `$")
     if not re.match("Expected|Invalid|Object|Number|Integer", fault):
         return Refused(fault)  # raised by a type's own check
     missing = re.fullmatch(r"Object missing required field `(\w+)`", fault)
     unknown = re.fullmatch(r"Object contains unknown field `(\w+)`", fault)
+    keys: list[str | int] = [int(index) if index else name for name, index in _KEY.findall(path)]
+    if missing:
+        keys.append(missing[1])
     # Follow the path from field to field, to the type and value at its end.
-    steps: list[str | int] = [int(index) if index else name for name, index in _STEP.findall(path)]
-    for step in [*steps, *(missing.groups() if missing else ())]:
-        field = next((field for field in _fields(kind) if field.encode_name == step), None)
-        kind, title = (_item(kind, step), "") if field is None else (field.type, _title(field.type))
-        place = f"{place}[{step}]" if isinstance(step, int) else title or ".".join(filter(None, (place, step)))
-        value = None if missing and step == missing[1] else value[step]
+    for key in keys:
+        field = next((field for field in _fields(kind) if field.encode_name == key), None)
+        kind, title = (_item_type(kind, key), "") if field is None else (field.type, _title(field.type))
+        place = f"{place}[{key}]" if isinstance(key, int) else title or ".".join(filter(None, (place, key)))
+        value = None if missing and key == missing[1] else value[key]
     if missing:
         return Refused(f"{place}: missing", f"give {_describe(kind)}")
     if unknown:
         names = ", ".join(field.encode_name for field in _fields(kind))
         return Refused(f"{place}: there is no {unknown[1]}", f"there are: {names}")
-    text = repr(value)
-    return Refused(f"{place}: {text if len(text) <= 40 else text[:37] + '...'} is not {_describe(kind)}")
+    shown = repr(value)
+    return Refused(f"{place}: {shown if len(shown) <= 40 else shown[:37] + '...'} is not {_describe(kind)}")
 
 
 def _fields(kind: inspect.Type) -> tuple[inspect.Field, ...]:
+    """Return the fields of an object's type; none for other types."""
     return getattr(_without_null(kind), "fields", ())
 
 
-def _item(kind: inspect.Type, step: str | int) -> inspect.Type:
+def _item_type(kind: inspect.Type, key: str | int) -> inspect.Type:
+    """Return the type of one item of a tuple or a list; the type itself if it has no items."""
     inner = _without_null(kind)
-    return inner.item_types[int(step)] if isinstance(inner, inspect.TupleType) else getattr(inner, "item_type", inner)
+    return inner.item_types[int(key)] if isinstance(inner, inspect.TupleType) else getattr(inner, "item_type", inner)
 
 
 def _without_null(kind: inspect.Type) -> inspect.Type:
@@ -140,6 +153,7 @@ def _without_null(kind: inspect.Type) -> inspect.Type:
 
 
 def _title(kind: inspect.Type) -> str:
+    """Return the name of a setting on the page, as its type declares it; empty if there is none."""
     if isinstance(kind, inspect.UnionType):
         return "".join(map(_title, kind.types))
     return str((kind.extra_json_schema or {}).get("title", "")) if isinstance(kind, inspect.Metadata) else ""
@@ -149,23 +163,23 @@ def _describe(kind: inspect.Type) -> str:
     """Describe the values of a type in words."""
     kind = _without_null(kind)
     if isinstance(kind, inspect.IntType | inspect.FloatType):
-        most = kind.le if kind.lt is None else kind.lt - 1
+        maximum = kind.le if kind.lt is None else kind.lt - 1
         noun = "a whole number" if isinstance(kind, inspect.IntType) else "a number"
-        if kind.ge is None or most is None:
+        if kind.ge is None or maximum is None:
             return noun
-        return f"{noun} from {kind.ge:,.7g} " + ("on" if most >= 2**31 - 1 else f"to {most:,.7g}")
+        return f"{noun} from {kind.ge:,.7g} " + ("on" if maximum >= 2**31 - 1 else f"to {maximum:,.7g}")
     if isinstance(kind, inspect.LiteralType):
         return ("one of " if len(kind.values) > 1 else "") + ", ".join(map(str, kind.values))
     if isinstance(kind, inspect.TupleType):
         return f"a list of {len(kind.item_types)}, each {_describe(kind.item_types[0])}"
     if isinstance(kind, inspect.CollectionType):
-        least = f"{kind.min_length:,} to" if kind.min_length else "at most"
-        return f"a list of {least} {kind.max_length:,}" if kind.max_length else "a list"
+        from_length = f"{kind.min_length:,} to" if kind.min_length else "at most"
+        return f"a list of {from_length} {kind.max_length:,}" if kind.max_length else "a list"
     names = {inspect.BoolType: "true or false", inspect.StrType: "a text", inspect.BytesType: "bytes in base64"}
     return names.get(type(kind), "an object")
 
 
-_STEP = re.compile(r"\.(\w+)|\[(\d+)\]")
+_KEY = re.compile(r"\.(\w+)|\[(\d+)\]")  # one key of a path: a field's name, or an index
 _ACTION: msgspec.json.Decoder[AnyAction] = msgspec.json.Decoder(AnyAction)
 
 
@@ -177,28 +191,34 @@ def _decoded(data: str | bytes) -> Any:
         return None
 
 
-def frame(message: object, buffers: Buffers) -> str | bytes:
-    """Return a message in the socket's format: text, or binary if it has buffers."""
+def encode_frame(message: object, buffers: Buffers) -> str | bytes:
+    """Return a message in the socket's format: JSON text, or a binary frame if it has buffers.
+
+    A frame is the length of the header (uint32, little-endian), the header as JSON, and the arrays, padded with zeros.
+    """
     if not buffers:
         return encode_json(message).decode()
-    header, arrays = with_arrays(message, buffers)
-    text = msgspec.json.encode(header)
-    parts = [struct.pack("<I", len(text)), text]
+    header, arrays = separate_arrays(message, buffers)
+    header_json = msgspec.json.encode(header)
+    chunks = [struct.pack("<I", len(header_json)), header_json]
     for array in arrays:
-        raw = array.tobytes()
-        parts += [raw, b"\0" * (-len(raw) % ALIGNMENT)]
-    return b"".join(parts)
+        data = array.tobytes()
+        chunks += [data, b"\0" * (-len(data) % ALIGNMENT)]
+    return b"".join(chunks)
 
 
-def with_arrays(message: object, buffers: Buffers) -> tuple[dict[str, Any], list[NDArray[Any]]]:
-    """Return a message as JSON values with a list of its buffers, and the buffers, little-endian and contiguous."""
+def separate_arrays(message: object, buffers: Buffers) -> tuple[dict[str, Any], list[NDArray[Any]]]:
+    """Return a message's header and its arrays, little-endian and contiguous.
+
+    The header is the message as JSON values, with the name, the type and the shape of each array under "buffers".
+    """
     arrays = {name: _as_array(value) for name, value in buffers.items()}
-    listed = [{"name": name, "dtype": str(a.dtype), "shape": list(a.shape)} for name, a in arrays.items()]
-    return {**msgspec.to_builtins(message, enc_hook=to_plain_number), "buffers": listed}, list(arrays.values())
+    entries = [{"name": name, "dtype": str(a.dtype), "shape": list(a.shape)} for name, a in arrays.items()]
+    return {**msgspec.to_builtins(message, enc_hook=to_plain_number), "buffers": entries}, list(arrays.values())
 
 
-def unframe(data: bytes) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
-    """Return the message and the buffers of a binary frame."""
+def decode_frame(data: bytes) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
+    """Return the message and the buffers of a binary frame, as `encode_frame` writes it."""
     (length,) = struct.unpack_from("<I", data)
     header = json.loads(data[4 : 4 + length])
     offset = 4 + length
