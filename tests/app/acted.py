@@ -10,7 +10,7 @@ from msgspec import structs
 import bayesmap as bm
 from bayesmap.app.edits import tutorial_document
 from bayesmap.app.engine import Engine
-from bayesmap.app.exports import file_of
+from bayesmap.app.exports import make_file
 from bayesmap.app.protocol.actions import Cancel, ShowScan
 from bayesmap.app.protocol.document import Document, Sensor, pack_walls
 from bayesmap.app.protocol.notices import DrawCount, Field, Notice, Quantity, View
@@ -97,7 +97,7 @@ class Heard:
         return said.header, said.buffers
 
     def saved_run(self, folder):
-        (folder / "run.nc").write_bytes(file_of(self.engine._result, "run")[1])
+        (folder / "run.nc").write_bytes(make_file(self.engine._result, "run")[1])
         return bm.load(folder / "run.nc")
 
     def every(self, kind):

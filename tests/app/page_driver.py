@@ -64,7 +64,7 @@ class Served:
 
         def run():
             try:
-                with contextlib.closing(app_server.listen("127.0.0.1", port)) as found:
+                with contextlib.closing(app_server.open_listener("127.0.0.1", port)) as found:
                     asyncio.run(app_server._serve(hub, found, "127.0.0.1", announce, Server))
             except Exception as trouble:
                 self._trouble = trouble

@@ -14,7 +14,7 @@ from building_log import room_run, write_room_log
 
 import bayesmap as bm
 from bayesmap.app.edits import tutorial_document
-from bayesmap.app.exports import record
+from bayesmap.app.exports import build_recording
 from bayesmap.app.protocol.actions import Export, ShowScan
 from bayesmap.app.protocol.document import Source
 from bayesmap.app.protocol.notices import DrawCount, View
@@ -83,7 +83,7 @@ def test_the_page_in_one_file_is_small_and_loads_nothing(heard):
     html = data.decode()
     assert len(data) < 200_000
     assert header["note"] == "with 500 of the 1,000 draws of each chain; at most 1,000 draws and 16 MB fit"
-    recording, buffers = record(heard.engine._result)
+    recording, buffers = build_recording(heard.engine._result)
     draws = np.unpackbits(buffers["draws"], axis=-1, count=441).reshape(2, 500, 21, 21)
     assert np.array_equal(draws[1, -1] * 255, heard.answer(View("draw", 1, 999))[1]["p"])
     assert [len(chain) for chain in recording.log_joint] == [500, 500]

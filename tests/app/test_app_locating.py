@@ -9,7 +9,7 @@ import pytest
 from acted import Acted, Heard
 from poses.simulated import recording
 
-from bayesmap.app.edits import adopt_document, with_resolution
+from bayesmap.app.edits import adopt_document
 from bayesmap.app.protocol.actions import Cancel, Export, Inspect, ShowScan
 from bayesmap.app.protocol.document import Refused
 from bayesmap.app.protocol.notices import DrawCount
@@ -101,7 +101,7 @@ def test_run_bends_the_trajectory_stage_by_stage_and_then_samples_the_cells(foun
     assert kinds.count("located") == 1
     assert fields.count("counts") > 5
     assert found.all("finished")[-1]["draws"] == DrawCount(2, 3)
-    placed, sizes = found.engine._log_trajectory.placed.scans, []
+    placed, sizes = found.engine._log_trajectory.inferred_log.scans, []
     for scans in (raw_scans(), placed):  # the map sharpens: at wrong poses more cells seem to be walls
         grid = Grid.covering(scans, 0.1)
         sizes.append((hit_count_map(scans, grid).mean() > 0.5).sum())
@@ -127,7 +127,7 @@ def test_an_inferred_trajectory_is_kept_and_told_to_the_next_worker(found):
 
 def test_a_log_that_was_located_is_mapped_on_cells_of_any_size_from_the_first_of_its_scans(found):
     heard = Heard(raw_log())
-    coarse = replace(with_resolution(raw_log().document, 0.2), scans_used=40, sweeps=3)
+    coarse = replace(raw_log().document.with_resolution(0.2), scans_used=40, sweeps=3)
     header, buffers = heard.infer(coarse, "coarse")
     assert header["method"] == "counts"  # nobody knows yet where the robot was
     raw = Grid.covering(raw_scans(), 0.2)
@@ -137,7 +137,7 @@ def test_a_log_that_was_located_is_mapped_on_cells_of_any_size_from_the_first_of
     )
     known = found.all("located")[0]["trajectory"]
     heard.engine.take(RestoreTrajectory(known.poses, known.angles_rad))
-    placed = heard.engine._log_trajectory.placed.scans
+    placed = heard.engine._log_trajectory.inferred_log.scans
     grid = Grid.covering(placed, 0.2)
     assert grid != raw
     for mode, method in (("coarse", "hits"), ("live", "gibbs")):
@@ -163,7 +163,7 @@ def test_cancel_stops_at_any_stage_and_leaves_what_there_is(stage):
     assert heard.last("field")[0]["method"] == "counts"
     TrajectoryJob._last.join(20)
     assert not TrajectoryJob._last.is_alive()
-    assert heard.engine._log_trajectory.placed is None
+    assert heard.engine._log_trajectory.inferred_log is None
 
 
 def test_another_job_takes_the_place_of_the_inference():
@@ -184,11 +184,11 @@ def test_a_log_gives_equal_poses_again_and_scans_stay_in_its_order(found):
     shuffled = np.random.default_rng(3).permutation(len(raw_scans()))
     scans = raw_scans().select(shuffled)
     job = TrajectoryJob(Infer(1, few_sweeps(), "run"), scans, raw_log().document.grid)
-    steps = [step for step in job.steps() if step is not None]
+    steps = [step for step in job.reports() if step is not None]
     last = move_to_trajectory(scans, job.trajectory)
     assert np.array_equal(in_order_of_time(scans)[0], np.argsort(scans.stamps_s))
     assert np.array_equal(last.stamps_s, scans.stamps_s)
-    assert np.array_equal(last.poses, found.engine._log_trajectory.placed.scans.poses[shuffled])
+    assert np.array_equal(last.poses, found.engine._log_trajectory.inferred_log.scans.poses[shuffled])
     assert np.array_equal(steps[-1].result.scene.scans.poses, last.poses)
 
 

@@ -10,7 +10,7 @@ from building_log import ANGLES, GRID, SENSOR, room_run, room_scans
 import bayesmap as bm
 from bayesmap.app.answers.predictions import COARSE_DRAWS, nearest_scan
 from bayesmap.app.edits import tutorial_document
-from bayesmap.app.exports import record
+from bayesmap.app.exports import build_recording
 from bayesmap.app.protocol.actions import CompareBeam, MoveGhost, ShowScan
 from bayesmap.posterior.prediction import ScanPredictor, predictor_of
 from bayesmap.sensors.model import RangeLimits
@@ -192,11 +192,11 @@ def test_a_scan_with_its_own_beams_is_shown_compared_and_predicted_by_them(unlik
 
 def test_a_recording_holds_each_scan_s_beams_and_tells_readings_of_four_kinds_apart(unlike):
     result = unlike.engine._result
-    _, buffers = record(result)
+    _, buffers = build_recording(result)
     ranges = result.scene.scans.ranges_m.copy()
     assert np.isfinite(buffers["ranges"]).sum(axis=1).tolist() == np.isfinite(ranges).sum(axis=1).tolist()
     np.testing.assert_allclose(buffers["angles"][5, :60], ANGLES[3:63], atol=1e-6)
     assert buffers["hit"].shape == ranges.shape
     ranges[0, :3] = np.inf, -np.inf, np.nan
     scene = replace(result.scene, scans=replace(result.scene.scans, ranges_m=ranges))
-    np.testing.assert_allclose(record(replace(result, scene=scene))[1]["ranges"][0], ranges[0], atol=1e-4)
+    np.testing.assert_allclose(build_recording(replace(result, scene=scene))[1]["ranges"][0], ranges[0], atol=1e-4)

@@ -1,7 +1,7 @@
 """Edits of the document: first maps, actions that change a document, and the undo and pace of a hand's gestures.
 
-An edit of a gesture waits while the picture of the last edit is being computed, and while its page has pictures to
-paint. A page paints one picture while the worker computes the next. If painting takes longer, pictures would queue.
+`edit_document` applies an action. `History` keeps the documents for undo and redo. `Pace` holds back the edits of a
+gesture (a stroke of the pen, or a drag), which arrive faster than pictures can be computed and painted.
 """
 
 from __future__ import annotations
@@ -15,23 +15,18 @@ from msgspec import structs
 from numpy.typing import NDArray
 
 from bayesmap.app.protocol import actions
-from bayesmap.app.protocol.document import (
-    FIXED_BY_FILE,
-    MAX_LOG_SIDE,
-    SENSOR_COUNT_RANGE,
-    SETTINGS,
-    Document,
-    Refused,
-    Sensor,
-    Source,
-    check_sensor_pose,
-    pack_walls,
-)
+from bayesmap.app.protocol.document import SENSOR_COUNT_RANGE, SETTINGS, Document, Refused, Sensor, Source, pack_walls
 from bayesmap.sim.drawing import TUTORIAL_GRID, tutorial
 from bayesmap.space.grid import Grid
 
-BUILDING_NOISE_M = 0.05  # range noise of a new building
-ROOM_CELLS = 6  # free cells around a first sensor, if there is that much room
+MAP_NOISE_M, BUILDING_NOISE_M = 0.2, 0.05  # range noise of a new map, and of a new building
+CLEARANCE_CELLS = 6  # distance from a first sensor to the walls, if there is that much room
+MAX_UNDO_STEPS = 200  # steps that can be undone
+MAX_UNPAINTED = 2  # unpainted pictures at which the edits of a page wait
+
+Action = TypeVar("Action", bound=actions.Action)
+State = TypeVar("State")
+ActionOfPage = tuple[int, actions.AnyAction]  # the number of a page, and its action
 
 
 def tutorial_document(seed: int = 0) -> Document:
@@ -48,25 +43,25 @@ def new_document(world: actions.World, shape: tuple[int, int], before: Document)
     The sensor's longest range is twice the longer side, as in the tutorial: every beam can leave the map. Raises
     `Refused` if the shape does not fit the world.
     """
-    noise, sensor = 0.2, None
+    grid, noise_m, sensor = Grid(shape, 1.0, (-0.5, -0.5)), MAP_NOISE_M, None
     if world == "blank":
-        walls, grid = np.zeros(shape, dtype=np.bool_), Grid(shape, 1.0, (-0.5, -0.5))
+        walls = np.zeros(shape, dtype=np.bool_)
     elif world == "tutorial":
-        (walls, robot), grid = tutorial(), Grid(shape, 1.0, (-0.5, -0.5))
-        x, y = robot[:2] + (np.array(shape) - walls.shape) // 2
-        walls, sensor = _center_map(walls, shape), Sensor(1, float(x), float(y))
+        drawn_walls, robot_pose = tutorial()
+        x, y = robot_pose[:2] + (np.array(shape) - drawn_walls.shape) // 2
+        walls, sensor = _center_map(drawn_walls, shape), Sensor(1, float(x), float(y))
     else:
-        walls, grid = _building(shape, before.seed)
-        noise = BUILDING_NOISE_M
+        walls, grid = _make_building(shape, before.seed)
+        noise_m = BUILDING_NOISE_M
     return replace(
         before, grid=grid, walls=pack_walls(walls), source=Source(), scans_used=None, poses="logged", cells="binary",
         sensors=(_first_sensor(walls, grid) if sensor is None else sensor,),
-        noise=noise, angles=min(1000, max(10, before.angles)), max_range=2.0 * max(shape) * grid.resolution,
+        noise=noise_m, angles=min(1000, max(10, before.angles)), max_range=2.0 * max(shape) * grid.resolution,
     )  # fmt: skip
 
 
 def _center_map(walls: NDArray[np.bool_], shape: tuple[int, int]) -> NDArray[np.bool_]:
-    """Return a map moved to the middle of a grid of another shape. Parts that do not fit are cut off."""
+    """Return a map of another shape with these walls in its middle. Walls that do not fit are cut off."""
     centred = np.zeros(shape, dtype=np.bool_)
     cells = np.argwhere(walls) + (np.array(shape) - walls.shape) // 2
     cells = cells[((cells >= 0) & (cells < shape)).all(axis=1)]
@@ -74,8 +69,11 @@ def _center_map(walls: NDArray[np.bool_], shape: tuple[int, int]) -> NDArray[np.
     return centred
 
 
-def _building(shape: tuple[int, int], seed: int) -> tuple[NDArray[np.bool_], Grid]:
-    """Return the walls of a building and their grid, of the finest cells that fit. Raises `Refused` if none fit."""
+def _make_building(shape: tuple[int, int], seed: int) -> tuple[NDArray[np.bool_], Grid]:
+    """Return the walls of a random building and their grid, with the finer cells if the building then fits the shape.
+
+    Raises `Refused` if it does not fit the shape even with the coarser cells.
+    """
     from bayesmap.sim.building import MARGIN_M, MIN_SIZE_M, building
 
     for resolution in (0.1, 0.25):
@@ -83,30 +81,30 @@ def _building(shape: tuple[int, int], seed: int) -> tuple[NDArray[np.bool_], Gri
         size_m = ((shape[0] - 2 * margin) * resolution, (shape[1] - 2 * margin) * resolution)
         if max(size_m) >= MIN_SIZE_M[0] and min(size_m) >= MIN_SIZE_M[1]:
             return _center_map(building(seed, size_m, resolution).walls, shape), Grid(shape, resolution, (0.0, 0.0))
-    least = [round(v / 0.25) + 4 for v in MIN_SIZE_M]
-    raise Refused(f"new: a building does not fit {shape[0]} x {shape[1]} cells", f"{least[0]} x {least[1]} are enough")
+    nx, ny = (round(size_m / 0.25) + 4 for size_m in MIN_SIZE_M)
+    raise Refused(f"new: a building does not fit {shape[0]} x {shape[1]} cells", f"{nx} x {ny} are enough")
 
 
 def _first_sensor(walls: NDArray[np.bool_], grid: Grid) -> Sensor:
-    """Return a sensor in the free cell nearest to the middle, with free room around it if possible."""
+    """Return a sensor in the free cell nearest to the middle, at some distance from the walls if possible."""
     from scipy import ndimage
 
-    room = ndimage.distance_transform_cdt(~walls) if walls.any() else np.full(walls.shape, ROOM_CELLS)
-    for least in (ROOM_CELLS, 2, 1):
-        free = np.argwhere(room >= least)
-        if len(free):
+    clearance = ndimage.distance_transform_cdt(~walls) if walls.any() else np.full(walls.shape, CLEARANCE_CELLS)
+    for min_clearance in (CLEARANCE_CELLS, 2, 1):
+        candidates = np.argwhere(clearance >= min_clearance)
+        if len(candidates):
             middle = (np.array(grid.shape) - 1) / 2
-            i, j = free[np.argmin(((free - middle) ** 2).sum(axis=1))]
+            i, j = candidates[np.argmin(((candidates - middle) ** 2).sum(axis=1))]
             x, y = grid.centers_m()
             return Sensor(1, float(x[i]), float(y[j]))
     raise Refused("new: no free cell for a sensor")
 
 
-A = TypeVar("A", bound=actions.Action)
+def edit_document(document: Document, action: actions.Edit) -> tuple[Document, str]:
+    """Return the document after an action, and a remark if the action was applied only in part; else "".
 
-
-def edit(document: Document, action: actions.Edit) -> tuple[Document, str]:
-    """Return the document after an action, and a remark if only a part was done. Raises `Refused` if none can be."""
+    Raises `Refused` if the action cannot be applied at all.
+    """
     if not document.simulated and not isinstance(action, actions.ChangeSettings | actions.New):
         raise Refused(f"{document.source.name} is a file, which cannot be edited", "begin a new map")
     match action:
@@ -128,11 +126,12 @@ def edit(document: Document, action: actions.Edit) -> tuple[Document, str]:
 
 def _change_settings(document: Document, action: actions.ChangeSettings) -> Document:
     changed = actions.changed_settings(action.patch)
+    # A log's cell size and number of scans are no plain fields: they change the grid, or depend on the file.
     if "resolution" in changed:
-        document = with_resolution(document, changed.pop("resolution"))
+        document = document.with_resolution(changed.pop("resolution"))
     if "scans_used" in changed:
-        document = with_scans_used(document, changed.pop("scans_used"))
-    fixed = sorted(set(changed) & set(FIXED_BY_FILE[document.source.kind]))
+        document = document.with_scans_used(changed.pop("scans_used"))
+    fixed = sorted(set(changed) & set(document.source.fixed_settings))
     if fixed:
         reason = "there is no log" if document.simulated else f"it is that of {document.source.name}"
         raise Refused(f"{fixed[0]} cannot be changed: {reason}")
@@ -157,33 +156,34 @@ def _add_sensor(document: Document, action: actions.AddSensor) -> Document:
     if len(sensors) >= SENSOR_COUNT_RANGE[1]:
         raise Refused(f"there are {len(sensors)} sensors already", "remove one first")
     added = Sensor(max((sensor.id for sensor in sensors), default=0) + 1, action.x, action.y, action.yaw)
-    check_sensor_pose(document, added)
+    document.check_position(added)
     return replace(document, sensors=(*sensors, added))
 
 
 def _move_sensor(document: Document, action: actions.MoveSensor) -> Document:
-    old = _sensor_of(document, action.id)
-    moved = replace(old, **{axis: v for axis in ("x", "y", "yaw") if (v := getattr(action, axis)) is not None})
-    check_sensor_pose(document, moved)
-    return replace(document, sensors=tuple(moved if sensor is old else sensor for sensor in document.sensors))
+    unmoved = _find_sensor(document, action.id)
+    coordinates = {"x": action.x, "y": action.y, "yaw": action.yaw}
+    moved = replace(unmoved, **{name: value for name, value in coordinates.items() if value is not None})
+    document.check_position(moved)
+    return replace(document, sensors=tuple(moved if sensor is unmoved else sensor for sensor in document.sensors))
 
 
 def _remove_sensor(document: Document, action: actions.RemoveSensor) -> Document:
-    old = _sensor_of(document, action.id)
+    removed = _find_sensor(document, action.id)
     if len(document.sensors) <= SENSOR_COUNT_RANGE[0]:
         raise Refused("the last sensor cannot be removed", "add another first")
-    return replace(document, sensors=tuple(sensor for sensor in document.sensors if sensor is not old))
+    return replace(document, sensors=tuple(sensor for sensor in document.sensors if sensor is not removed))
 
 
-def _sensor_of(document: Document, number: int) -> Sensor:
+def _find_sensor(document: Document, sensor_id: int) -> Sensor:
     for sensor in document.sensors:
-        if sensor.id == number:
+        if sensor.id == sensor_id:
             return sensor
-    raise Refused(f"there is no sensor {number}")
+    raise Refused(f"there is no sensor {sensor_id}")
 
 
 def gesture_of(action: actions.Action, client: int) -> tuple[Any, ...] | None:
-    """Return the stroke or drag of an action, if any: all actions of one gesture are one step of undo."""
+    """Return a key of the stroke or drag to which an action belongs, or None. One gesture is one step of undo."""
     if isinstance(action, actions.Walls) and action.stroke:
         return client, actions.Walls, action.stroke
     if isinstance(action, actions.ChangeSettings) and action.drag:
@@ -193,79 +193,56 @@ def gesture_of(action: actions.Action, client: int) -> tuple[Any, ...] | None:
     return None
 
 
-def merge_actions(before: actions.Action, after: A) -> A | None:
-    """Return one action that replaces two actions of one gesture; None if they cannot be merged."""
+def merge_actions(before: actions.Action, after: Action) -> Action | None:
+    """Return one action that has the effect of two consecutive actions; None if they cannot be merged."""
     if isinstance(before, actions.ChangeSettings) and isinstance(after, actions.ChangeSettings):
         return structs.replace(after, patch=structs.replace(before.patch, **actions.changed_settings(after.patch)))
     if isinstance(before, actions.Walls) and isinstance(after, actions.Walls):
-        same = (before.stroke, before.wall) == (after.stroke, after.wall)
-        return structs.replace(after, cells=before.cells + after.cells) if same else None
+        same_stroke = (before.stroke, before.wall) == (after.stroke, after.wall)
+        return structs.replace(after, cells=before.cells + after.cells) if same_stroke else None
     if isinstance(before, actions.MoveSensor) and isinstance(after, actions.MoveSensor) and before.id == after.id:
-        left_out = {axis: getattr(before, axis) for axis in ("x", "y", "yaw") if getattr(after, axis) is None}
-        return structs.replace(after, **left_out)
+        # A coordinate that the later action leaves out keeps its value from the earlier action.
+        omitted = [name for name in ("x", "y", "yaw") if getattr(after, name) is None]
+        return structs.replace(after, **{name: getattr(before, name) for name in omitted})
     return None
 
 
 def adopt_document(present: Document, other: Document) -> Document:
-    """Return the document to show for a page's other document: its simulation, or its settings for the present file.
-    Raises `Refused` if the documents show different files, or only one of them shows a file.
+    """Return the document to show when a page brings another document, as after a lost connection.
+
+    If both are simulations, it is the other document. If both show the same file, it is the present document with the
+    other's settings. Otherwise raises `Refused`.
     """
     if other.simulated and present.simulated:
         return other
     if other.source == present.source:
-        # The size of a map along an inferred trajectory is not known before.
+        # If a trajectory is inferred, the size of the map is not known before, so only the cell sizes have to agree.
         any_size = "odometry" in (other.poses, present.poses)
         document, resolution_m = present, other.grid.resolution
         if other.grid != present.grid and not (any_size and resolution_m == present.grid.resolution):
-            document = with_resolution(present, resolution_m)
+            document = present.with_resolution(resolution_m)
         if any_size or other.grid == document.grid:
-            fixed = FIXED_BY_FILE[present.source.kind]
+            fixed = present.source.fixed_settings
             settings = {name: getattr(other, name) for name in SETTINGS if name not in fixed}
             n_used = settings.pop("scans_used", None)
-            return replace(document if n_used is None else with_scans_used(document, n_used), **settings)
-    names = ["a map that was drawn" if shown.simulated else shown.source.name for shown in (present, other)]
+            return replace(document if n_used is None else document.with_scans_used(n_used), **settings)
+    present_name, other_name = (
+        "a map that was drawn" if document.simulated else document.source.name for document in (present, other)
+    )
     remedy = f"start bayesmap app {'without a file' if other.simulated else f'with {other.source.name}'}"
-    raise Refused(f"this server shows {names[0]}, not {names[1]}", remedy)
-
-
-def with_resolution(document: Document, resolution_m: float) -> Document:
-    """Return the document of a log with another cell size. Raises `Refused` without a log, or for too many cells."""
-    bounds = document.source.bounds
-    if document.source.kind != "log" or bounds is None:
-        raise Refused("only a log is shown on cells of any size")
-    grid = Grid.over(*bounds, resolution_m)
-    if max(grid.shape) > MAX_LOG_SIDE:
-        least = max(high - low for low, high in zip(*bounds, strict=True)) / (MAX_LOG_SIDE - 1)
-        raise Refused(
-            f"cells of {resolution_m:g} m make a map of {grid.shape[0]} x {grid.shape[1]} cells, more than "
-            f"{MAX_LOG_SIDE} a side", f"give at least {least:.3f} m"
-        )  # fmt: skip
-    return document.on_grid(grid)
-
-
-def with_scans_used(document: Document, scans: int | None) -> Document:
-    """Return the document of a log with the map of its first scans; None: all. Raises `Refused` if it shows no log."""
-    if document.source.kind != "log":
-        raise Refused("only of a log some of the scans can be left out")
-    return replace(document, scans_used=None if scans is None or scans >= document.source.scans else scans)
-
-
-ActionOfPage = tuple[int, actions.AnyAction]  # the number of a page, and its action
-T = TypeVar("T")
-MAX_UNDO_STEPS = 200  # steps that can be undone
-MAX_UNPAINTED = 2  # unpainted pictures at which the edits of a page wait
+    raise Refused(f"this server shows {present_name}, not {other_name}", remedy)
 
 
 @dataclass(frozen=True)
-class History(Generic[T]):
+class History(Generic[State]):
     """The present state, and earlier and undone states, each with the author of the step towards the present."""
 
-    present: T  # the present state
-    past: tuple[tuple[T, Hashable], ...] = ()  # earlier states, the latest last
-    future: tuple[tuple[T, Hashable], ...] = ()  # undone states, the next to redo last
+    present: State  # the present state
+    past: tuple[tuple[State, Hashable], ...] = ()  # earlier states, the latest last
+    future: tuple[tuple[State, Hashable], ...] = ()  # undone states, the next to redo last
     gesture: Hashable = None  # the stroke or drag of the last step, or None for a step by itself
 
-    def push(self, state: T, gesture: Hashable = None, author: Hashable = None) -> History[T]:
+    def push(self, state: State, gesture: Hashable = None, author: Hashable = None) -> History[State]:
         """Return the history with a new state. Within one gesture, it replaces the present state."""
         if state == self.present:
             return self
@@ -273,14 +250,14 @@ class History(Generic[T]):
             return replace(self, present=state, future=())
         return History(state, (*self.past, (self.present, author))[-MAX_UNDO_STEPS:], (), gesture)
 
-    def undo(self) -> History[T]:
+    def undo(self) -> History[State]:
         """Return the history one step back, or this history if there is no earlier state."""
         if not self.past:
             return self
         *past, (state, author) = self.past
         return History(state, tuple(past), (*self.future, (self.present, author)))
 
-    def redo(self) -> History[T]:
+    def redo(self) -> History[State]:
         """Return the history one step forward, or this history if there is no undone state."""
         if not self.future:
             return self
@@ -289,15 +266,19 @@ class History(Generic[T]):
 
 
 class Pace:
-    """Holds edits back until they are due. Waiting edits of one gesture are merged into one."""
+    """Holds back the edits of gestures until they are due. At most one edit waits: later ones are merged into it.
+
+    An edit waits while the picture of the last edit is being computed, and while its page has pictures to paint. A page
+    paints one picture while the worker computes the next. If painting takes longer, pictures would queue.
+    """
 
     def __init__(self) -> None:
         self.computing = False  # whether the first picture of the present generation is still being computed
         self._waiting: ActionOfPage | None = None
-        self._unpainted: dict[int, list[int]] = {}
+        self._unpainted: dict[int, list[int]] = {}  # generations of the pictures that each page has still to paint
 
-    def take(self, client: int, action: actions.AnyAction) -> list[ActionOfPage]:
-        """Accept an action; return the actions to apply now, in order."""
+    def accept(self, client: int, action: actions.AnyAction) -> list[ActionOfPage]:
+        """Accept an action of a page. Returns the actions to apply now, in order."""
         if gesture_of(action, client) is None or not self._must_wait(client):
             return [*self._release(), (client, action)]
         before, self._waiting = self._waiting, (client, action)
@@ -309,17 +290,17 @@ class Pace:
         self._waiting = client, merged
         return []
 
-    def due(self) -> list[ActionOfPage]:
-        """Return the waiting action, if it need not wait any longer."""
+    def release_due(self) -> list[ActionOfPage]:
+        """Return the waiting action if it need not wait any longer. It then waits no more."""
         return [] if self._waiting is None or self._must_wait(self._waiting[0]) else self._release()
 
-    def sent(self, client: int | None, generation: int) -> None:
+    def record_sent(self, client: int | None, generation: int) -> None:
         """Record that a picture is sent to a page, or to all. Pages that never report painting are not waited for."""
         for page, generations in self._unpainted.items():
             if client in (page, None) and generation not in generations:
                 generations.append(generation)
 
-    def painted(self, client: int, generation: int) -> None:
+    def record_painted(self, client: int, generation: int) -> None:
         """Record that a page has painted a picture. It paints no earlier picture after that."""
         self._unpainted[client] = [later for later in self._unpainted.get(client, []) if later > generation]
 

@@ -1,4 +1,7 @@
-"""The engine turns tasks into reports. It does one job at a time, in short steps, so that a new task never waits long.
+"""The engine of the worker process: it turns tasks into reports.
+
+`Engine.take` begins a job, which is a generator, and `Engine.advance` does one short step of it. So a new task never
+waits long. `Engine._run_job` is a whole job: scene, preview by belief propagation, then chains.
 
 A job depends on its document alone: the readings on its seed, the start of live chains on the beliefs from these
 readings, and every sweep's draws on (seed, chain, sweep, cell). So the same document gives the same posterior, however
@@ -23,48 +26,40 @@ from bayesmap.app.protocol.document import CHAIN_METHODS, SETTINGS_OF_CHAINS, Do
 from bayesmap.app.protocol.notices import Status
 from bayesmap.app.protocol.tasks import Ask, Failed, Infer, RestoreTrajectory, Show, Task
 from bayesmap.app.scene import Scene, simulated_scene
-from bayesmap.app.shown.chains import (
-    Fitted,
-    Pilot,
-    RunningChains,
-    chains_of_walls,
-    first_maps_of,
-    fit_by_pilot,
-    pose_prior,
-)
+from bayesmap.app.shown.chains import FittedModel, Pilot, RunningChains, chains_of_walls, first_maps_of, fit_by_pilot
 from bayesmap.app.shown.result import Result, prior_result
 from bayesmap.app.shown.without_chains import Preview, Weighing
 from bayesmap.app.sources import OpenedLog, OpenedRun
-from bayesmap.app.trajectory import LogTrajectory, Step
+from bayesmap.app.trajectory import LogTrajectory, Picture
 from bayesmap.errors import BadInput
 
 PREVIEW_SECONDS = 0.015  # time of belief propagation before the first picture
 MIN_ROUNDS = 3  # rounds of belief propagation before the first picture
 PAUSE_SECONDS = 0.03  # pause before chains are set up: a moving hand sends its next edit in this time
 VIRTUAL_SCAN_SECONDS = 0.06  # chains rest for this time after a virtual scan, since the next one follows soon
-REST_SECONDS = 0.002  # duration of a short sleep while chains rest
+SLEEP_SECONDS = 0.002  # duration of one sleep while chains rest
 
 
 class Engine:
-    """Holds the present job and its result."""
+    """The present job, its result and the state that later jobs reuse. ``on_report`` gets every report."""
 
     def __init__(self, on_report: OnReport, opened: OpenedRun | OpenedLog | None = None) -> None:
         self._on_report = on_report
         self._opened = opened
         self._log_trajectory = LogTrajectory(opened) if isinstance(opened, OpenedLog) else None
         self._display = Display(on_report)
-        self._scan = 0
-        self._job: Iterator[None] | None = None
-        self._task: Infer | None = None
-        self._scene: Scene | None = None
+        self._scan = 0  # index of the scan on show, for a file
+        self._job: Iterator[None] | None = None  # the steps of the present job
+        self._task: Infer | None = None  # the task of the present or the last job
+        self._scene: Scene | None = None  # the readings of the last document
         self._scene_document: Document | None = None  # the document of the scene
-        self._result: Result | None = None
+        self._result: Result | None = None  # the present result of the job
         self._earlier_result: Result | None = None  # the last result of the job before
         self._extra_sweeps = 0  # sweeps that the present job's chains do besides the sweeps of its document
         self._waiting: list[Ask] = []  # questions that came before there was a result
         self._answers = Answers()
-        self._fitted: tuple[Document, Fitted] | None = None  # the last pilot's document, and its fit
-        self._rest_until_s = 0.0
+        self._fitted: tuple[Document, FittedModel] | None = None  # the last pilot's document, and its fit
+        self._rest_until_s = 0.0  # time until which chains rest after a virtual scan
 
     @property
     def busy(self) -> bool:
@@ -80,7 +75,7 @@ class Engine:
             self._earlier_result, self._extra_sweeps = self._result, 0
             self._task, self._result, self._scan = task, None, task.scan
             self._display.begin(task)
-            self._job = self._work(task)
+            self._job = self._run_job(task)
         elif isinstance(task, Cancel):
             self._cancel()
         elif isinstance(task, Show):
@@ -90,7 +85,7 @@ class Engine:
             if self._scene is not None and self._opened is not None:
                 self._display.send_scan(self._scene, task.index)
         elif isinstance(task, Ask):
-            self._ask(task)
+            self._answer_or_wait(task)
         elif isinstance(task, RestoreTrajectory) and self._log_trajectory is not None:
             self._log_trajectory.restore(task)
 
@@ -98,10 +93,10 @@ class Engine:
         """Return whether the present job makes chains of this document, which a run can continue."""
         if self._job is None or self._task is None or document.from_odometry:
             return False
-        chains = document.sampler in CHAIN_METHODS or document.cells != "binary"
-        return chains and self._task.mode == "live" and self._task.document == document
+        samples_chains = document.sampler in CHAIN_METHODS or document.cells != "binary"
+        return samples_chains and self._task.mode == "live" and self._task.document == document
 
-    def _ask(self, task: Ask) -> None:
+    def _answer_or_wait(self, task: Ask) -> None:
         """Answer a question. If it needs a result and there is none yet, it waits."""
         question = task.question
         if isinstance(question, Export | WhereAmI) and self._result is None and self._job is not None:
@@ -119,7 +114,7 @@ class Engine:
         if self._job is None:
             return
         if time.perf_counter() < self._rest_until_s:
-            time.sleep(REST_SECONDS)
+            time.sleep(SLEEP_SECONDS)
             return
         try:
             next(self._job)
@@ -141,63 +136,72 @@ class Engine:
 
     # Jobs
 
-    def _work(self, task: Infer) -> Iterator[None]:
+    def _run_job(self, task: Infer) -> Iterator[None]:
         """Do a job; yield after each step."""
         document = replace(task.document, method=task.document.sampler)
         if document.source.kind == "run":
-            assert isinstance(self._opened, OpenedRun)
-            self._result = self._opened.result
-            self._scene, self._scene_document = self._result.scene, document
-            self._display.send_scan(self._scene, task.scan)
-            self._display.send_frame(self._result)
-            self._display.send_overlay(self._result)
-            self._display.send_finished(self._result)
+            self._show_saved_run(document, task)
             return
-        if document.from_odometry and not (yield from self._localize(structs.replace(task, document=document))):
+        # A log from raw odometry: first its trajectory.
+        if document.from_odometry and not (yield from self._infer_trajectory(structs.replace(task, document=document))):
             return
+        # The readings, and the fastest picture of a log.
         scene, document = self._scene_for(document)
         self._display.send_scan(scene, None if document.simulated else task.scan)
         if task.mode == "coarse":
             self._show_hit_counts(document)
             self._display.send_finished(self._result)
             return
+        # A run continues the chains on show, if they sample this document.
         chains = self._chains_of(document) if task.mode == "run" else None
         self._earlier_result = None
         if chains is not None:
             self._extra_sweeps = document.sweeps
-            yield from self._stream(scene, document, chains)
+            yield from self._advance_to_end(scene, document, chains)
             return
+        # The overlay of the scene before is replaced at once. Then inference by the document's method.
         self._display.send_overlay(prior_result(scene, document))
         if task.mode == "clear":
             self._result = prior_result(scene, document)
             self._display.send_frame(self._result)
             return
         if document.cells != "binary":
-            yield from self._sweep_fitted(scene, document)
+            yield from self._sample_stops(scene, document)
             return
         self._fitted = None
         if task.mode == "run" and document.method == "importance":
-            yield from self._stream(scene, document, Weighing(scene.problem, document.sweeps, document.seed))
+            yield from self._advance_to_end(scene, document, Weighing(scene.problem, document.sweeps, document.seed))
         elif task.mode == "run" and document.method in CHAIN_METHODS and document.simulated:
-            yield from self._sweep(scene, document, None)
+            yield from self._sample_walls(scene, document, None)
         else:
-            yield from self._preview(scene, document, task)
+            yield from self._preview_and_sample(scene, document, task)
 
-    def _preview(self, scene: Scene, document: Document, task: Infer) -> Iterator[None]:
+    def _show_saved_run(self, document: Document, task: Infer) -> None:
+        """Show a saved run, which needs no inference."""
+        assert isinstance(self._opened, OpenedRun)
+        self._result = self._opened.result
+        self._scene, self._scene_document = self._result.scene, document
+        self._display.send_scan(self._scene, task.scan)
+        self._display.send_frame(self._result)
+        self._display.send_overlay(self._result)
+        self._display.send_finished(self._result)
+
+    def _preview_and_sample(self, scene: Scene, document: Document, task: Infer) -> Iterator[None]:
         """Show belief propagation, then chains that start from it, unless the mode is "preview"."""
         preview, chains = Preview(scene.near_problem), task.mode != "preview" and document.method in CHAIN_METHODS
         # Belief propagation treats poses as known. If they are uncertain, chains make the first picture.
-        quiet = task.mode != "preview" and pose_prior(document) is not None
+        quiet = task.mode != "preview" and document.samples_poses
         yield from self._propagate(scene, document, preview, quiet=quiet)
         if not chains:
             self._display.send_finished(self._result)
             return
+        # Unless the preview was quick, give a moving hand time for its next edit before chains are set up.
         if not quiet and self._display.elapsed_s() > PREVIEW_SECONDS / 2:
-            until = time.perf_counter() + PAUSE_SECONDS
-            while time.perf_counter() < until:
-                time.sleep(REST_SECONDS)
+            pause_end_s = time.perf_counter() + PAUSE_SECONDS
+            while time.perf_counter() < pause_end_s:
+                time.sleep(SLEEP_SECONDS)
                 yield
-        yield from self._sweep(scene, document, preview)
+        yield from self._sample_walls(scene, document, preview)
 
     def _chains_of(self, document: Document) -> RunningChains | None:
         """Return the chains of the job before if they sample this document."""
@@ -206,45 +210,45 @@ class Engine:
             return None
         return result.estimate
 
-    def _localize(self, task: Infer) -> Generator[None, None, bool]:
+    def _infer_trajectory(self, task: Infer) -> Generator[None, None, bool]:
         """Infer the trajectory of a log, with pictures of the stages. Returns whether it is known now."""
         log_trajectory = self._log_trajectory
         assert log_trajectory is not None
-        with closing(log_trajectory.steps(task)) as steps:
-            for step in steps:
-                if isinstance(step, Step):
-                    self._show_step(step)
-                elif step is not None:
-                    self._display.send(step)
+        with closing(log_trajectory.reports(task)) as reports:
+            for report in reports:
+                if isinstance(report, Picture):
+                    self._show_picture(report)
+                elif report is not None:
+                    self._display.send(report)
                 yield
-        if log_trajectory.placed is None:
+        if log_trajectory.inferred_log is None:
             self._display.send_finished(self._result)
             return False
         self._result = None
         return True
 
-    def _show_step(self, step: Step) -> None:
+    def _show_picture(self, picture: Picture) -> None:
         """Show the map along the poses so far."""
-        self._display.send_grid(step.grid)
-        self._result = step.result
-        self._scene, self._scene_document = step.result.scene, None
-        if step.stage is not None:
-            self._display.send(step.stage)
-        if step.text:
-            self._display.send(Status(step.text, "info"))
+        self._display.send_grid(picture.grid)
+        self._result = picture.result
+        self._scene, self._scene_document = picture.result.scene, None
+        if picture.stage is not None:
+            self._display.send(picture.stage)
+        if picture.text:
+            self._display.send(Status(picture.text, "info"))
         self._display.send_scan(self._scene, self._scan)
         self._display.send_overlay(self._result)
         self._display.send_frame(self._result)
 
     def _scene_for(self, document: Document) -> tuple[Scene, Document]:
         """Return the scene of a document, and the document on the scene's grid. Unchanged readings are reused."""
-        # A map may be begun where a log was opened.
-        log = None if document.simulated or self._log_trajectory is None else self._log_trajectory.log_of(document)
+        # A new map may be drawn in a worker that has opened a log: the log then does not count.
+        log = None if document.simulated or self._log_trajectory is None else self._log_trajectory.log_for(document)
         if log is not None:
-            document = log.on_cells(document)
+            document = log.fit_grid(document)
         self._display.send_grid(document.grid)
-        earlier, ignored = self._scene_document, ("cells", *SETTINGS_OF_CHAINS)
-        if self._scene is not None and earlier is not None and earlier.equals_except(document, ignored):
+        earlier, without_effect = self._scene_document, ("cells", *SETTINGS_OF_CHAINS)
+        if self._scene is not None and earlier is not None and earlier.equals_except(document, without_effect):
             scene = self._scene if earlier.prior == document.prior else self._scene.with_prior(document.prior)
         else:
             scene = simulated_scene(document) if log is None else log.scene(document)
@@ -254,17 +258,20 @@ class Engine:
     def _show_hit_counts(self, document: Document) -> None:
         """Show the hit-count map of a log."""
         assert self._log_trajectory is not None
-        self._result = self._log_trajectory.log_of(document).coarse(document)
+        self._result = self._log_trajectory.log_for(document).hit_count_result(document)
         if self._result.prior.has_surfaces:  # the surfaces on show may be of other scans
             self._display.send_overlay(self._result)
         self._display.send_frame(self._result)
 
     def _propagate(self, scene: Scene, document: Document, preview: Preview, *, quiet: bool) -> Iterator[None]:
-        """Do rounds of belief propagation, and show the picture when its time is up, now and then, and at the end."""
+        """Do rounds of belief propagation until it converges.
+
+        Unless `quiet`, show the first picture after `PREVIEW_SECONDS`, then pictures at intervals and one at the end.
+        """
         pictured = False  # whether the first picture has been shown
         while True:
-            in_time = preview.rounds >= MIN_ROUNDS and self._display.elapsed_s() > PREVIEW_SECONDS
-            due = self._display.frame_is_due() if pictured else in_time
+            first_is_due = preview.rounds >= MIN_ROUNDS and self._display.elapsed_s() > PREVIEW_SECONDS
+            due = self._display.frame_is_due() if pictured else first_is_due
             if not quiet and (preview.converged or due):
                 self._result = Result(scene, document, "propagate", preview)
                 self._display.send_frame(self._result)
@@ -276,29 +283,29 @@ class Engine:
             if pictured or self._display.elapsed_s() > PREVIEW_SECONDS:
                 yield
 
-    def _sweep(self, scene: Scene, document: Document, preview: Preview | None) -> Iterator[None]:
-        """Run chains of walls, with frames at intervals and one at the end."""
+    def _sample_walls(self, scene: Scene, document: Document, preview: Preview | None) -> Iterator[None]:
+        """Run chains of walls to their end. They start from the preview, if there is one."""
         first_maps = first_maps_of(scene.problem, document, preview)
         yield
-        yield from self._stream(scene, document, chains_of_walls(scene, document, first_maps))
+        yield from self._advance_to_end(scene, document, chains_of_walls(scene, document, first_maps))
 
-    def _sweep_fitted(self, scene: Scene, document: Document) -> Iterator[None]:
-        """Run chains of another kind of cells, after a pilot has fitted the sensor."""
+    def _sample_stops(self, scene: Scene, document: Document) -> Iterator[None]:
+        """Run chains of reflectivities or surfaces to their end, after a pilot has fitted the sensor."""
         if not document.simulated:
             self._show_hit_counts(document)
         yield
 
-        def show(pilot: Pilot) -> None:
+        def show_pilot(pilot: Pilot) -> None:
             self._result = Result(scene, document, "pilot", pilot)
             if self._display.frame_is_due():
                 self._display.send_frame(self._result)
 
         if self._fitted is None or not self._fitted[0].equals_except(document, SETTINGS_OF_CHAINS):
             self._fitted = None  # free the old problem first: two may not fit in memory
-            self._fitted = document, (yield from fit_by_pilot(scene, document, show))
-        yield from self._stream(scene, document, RunningChains(*self._fitted[1], document))
+            self._fitted = document, (yield from fit_by_pilot(scene, document, show_pilot))
+        yield from self._advance_to_end(scene, document, RunningChains(*self._fitted[1], document))
 
-    def _stream(self, scene: Scene, document: Document, estimate: RunningChains | Weighing) -> Iterator[None]:
+    def _advance_to_end(self, scene: Scene, document: Document, estimate: RunningChains | Weighing) -> Iterator[None]:
         """Run chains or importance sampling, with frames at intervals and one at the end."""
         while True:
             yield
@@ -319,7 +326,7 @@ class Engine:
         if self._job is None or self._task is None:
             return
         if self._result is None:
-            self._job = self._work(structs.replace(self._task, mode="preview"))
+            self._job = self._run_job(structs.replace(self._task, mode="preview"))
             return
         self._job = None
         self._result = replace(self._result, ended=True)

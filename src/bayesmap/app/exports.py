@@ -1,11 +1,13 @@
-"""Files of a result: the saved run, the map for map_server, and the page in one file.
+"""Files of a result that a page can save: saved run, map for map_server, recording, and page in one file.
 
-The page in one file contains the page's module and the result as a recording, and needs no server (docs/app.md).
+`make_file` makes any of them. A recording holds what a page shows of a result: its mean, intervals, draws and scans.
+The page in one file contains the page's module and a recording, and needs no server (docs/app.md).
 """
 
 from __future__ import annotations
 
 import io
+import sys
 import tempfile
 import zipfile
 from pathlib import Path
@@ -27,18 +29,18 @@ from bayesmap.app.shown.result import Result
 from bayesmap.errors import BadInput
 from bayesmap.space.arrays import evenly_spaced_indices
 
-MAX_DRAWS = 1000  # most draws of all chains in a recording; they are evenly spaced
-MAX_DRAW_BYTES = 16 << 20  # most bytes of these draws
-MAX_BEAMS = 2_000_000  # most beams in a recording; its scans are evenly spaced
+MAX_DRAWS = 1000  # draws of all chains in a recording; they are evenly spaced
+MAX_DRAW_BYTES = 16 << 20  # bytes of these draws
+MAX_BEAMS = 2_000_000  # beams in a recording; its scans are evenly spaced. A file then has a few megabytes.
 
 
 class RecordedDraws(Struct, frozen=True):
-    """Draws in a recording: `count` of the `kept` draws of each chain, as packed `bits` or in 255ths."""
+    """The numbers and the format of the draws in a recording."""
 
-    chains: int = 0
-    count: int = 0
-    kept: int = 0
-    bits: bool = False
+    chains: int = 0  # number of chains
+    count: int = 0  # number of draws of each chain in the recording
+    kept: int = 0  # number of kept draws of each chain in the result
+    bits: bool = False  # true for walls, packed bits of a map; false for stop probabilities in 255ths
 
 
 class Recording(Struct, frozen=True, kw_only=True):
@@ -49,33 +51,36 @@ class Recording(Struct, frozen=True, kw_only=True):
     scans, with one row of angles for each scan if scans differ in them; for a file the buffers of `Overlay`.
     """
 
-    version: Literal[1] = 1
-    document: Document
+    version: Literal[1] = 1  # version of this format
+    document: Document  # document of the result
     field: Field  # the mean
     ids: list[int]  # id of each recorded scan: of its sensor, or its index in the file plus 1
-    draws: RecordedDraws
+    draws: RecordedDraws  # numbers of draws
     log_joint: list[list[float]]  # log joint of each draw, one row per chain
 
 
 def export_report(question: Export, result: Result | None, client: int) -> Report:
-    """Return a report with a file of the result, or with the reason why there is none."""
+    """Return a report for one page with a file of the result, or with the reason why there is none."""
     try:
         if result is None:
             raise BadInput("there is nothing to export yet")
-        download, data = file_of(result, question.what)
+        download, data = make_file(result, question.what)
     except (BadInput, OSError) as error:
         return Report(Status(str(error), "warning"), {}, client)
     return Report(download, {"data": data}, client)
 
 
-def file_of(result: Result, what: str) -> tuple[Download, bytes]:
-    """Return a "run", "map", "recording" or page ("html") of a result. Raises `BadInput` if a run has no draws."""
+def make_file(result: Result, what: str) -> tuple[Download, bytes]:
+    """Return the "run", "map", "recording" or page ("html") of a result, with its name and type.
+
+    Raises `BadInput` if a run is asked for and there are no draws.
+    """
     if what == "recording":
-        return Download("recording", "application/octet-stream"), encode_recording(*record(result))
+        return Download("recording", "application/octet-stream"), encode_recording(*build_recording(result))
     if what == "html":
-        recording, buffers = record(result)
-        note = _say_draws_included(recording.draws)
-        return Download("bayesmap.html", "text/html", note), to_html(recording, buffers).encode()
+        recording, buffers = build_recording(result)
+        page = page_in_one_file("recording", encode_recording(recording, buffers))
+        return Download("bayesmap.html", "text/html", _describe_draws(recording.draws)), page.encode()
     with tempfile.TemporaryDirectory(prefix="bayesmap-") as folder:
         if what == "run":
             path = Path(folder) / "run.nc"
@@ -88,20 +93,16 @@ def file_of(result: Result, what: str) -> tuple[Download, bytes]:
         return Download("map.zip", "application/zip"), archive.getvalue()
 
 
-def to_html(recording: Recording, buffers: Buffers) -> str:
-    """Return a page in one file that shows a recording. It can be opened from a disk and loads nothing else."""
-    return page_in_one_file("recording", encode_recording(recording, buffers))
-
-
 def encode_recording(recording: Recording, buffers: Buffers) -> bytes:
-    """Return a recording and its buffers as the page reads them."""
+    """Return a recording and its buffers as one binary frame, which the page reads."""
     data = encode_frame(recording, buffers)
     assert isinstance(data, bytes)
     return data
 
 
-def record(result: Result) -> tuple[Recording, Buffers]:
+def build_recording(result: Result) -> tuple[Recording, Buffers]:
     """Return the recording of a result, which the page's `recordedTransport` plays, and its buffers."""
+    # The mean, the draws, the interval widths and the number of beams through each cell.
     draw_indices, draws, packed_draws = _pack_draws(result)
     field, field_buffers = field_of(result, View("mean"), 1, 0.0)
     beam_cells = result.scene.problem.table.cells
@@ -111,7 +112,7 @@ def record(result: Result) -> tuple[Recording, Buffers]:
         buffers["width"] = to_levels(result.width)
     if not result.document.simulated:
         buffers |= overlay_of(result)
-    # Long logs are thinned evenly, so that the file stays at a few megabytes.
+    # The scans; long logs are thinned evenly.
     scan_indices = evenly_spaced_indices(len(result.scene.scans), MAX_BEAMS // len(result.scene.scans.angles_rad))
     recording = Recording(
         document=result.document, field=structs.replace(field, draws=DrawCount(draws.chains, draws.count)),
@@ -122,7 +123,10 @@ def record(result: Result) -> tuple[Recording, Buffers]:
 
 
 def _pack_draws(result: Result) -> tuple[NDArray[np.intp], RecordedDraws, NDArray[Any]]:
-    """Return the indices of the recorded draws of each chain, their counts, and packed walls, or maps in 255ths."""
+    """Return the indices of the recorded draws of each chain, their numbers, and the draws as uint8 (chains, n, bytes).
+
+    Walls are packed eight cells to a byte. Maps of other kinds of cells are in 255ths.
+    """
     draws = result.estimate.kept_draws
     if draws is None:
         return np.zeros(0, dtype=np.intp), RecordedDraws(), np.zeros((0, 0, 0), dtype=np.uint8)
@@ -132,14 +136,30 @@ def _pack_draws(result: Result) -> tuple[NDArray[np.intp], RecordedDraws, NDArra
     if bits:
         packed = np.asarray(draws.arrays[draws.specs[0].name])[:, indices]
     else:
-        chains = range(draws.chains)
-        packed = np.array([[to_levels(result.prior.map_of(draws, c, int(d))).ravel() for d in indices] for c in chains])
+        map_of, chains = result.prior.map_of, range(draws.chains)
+        packed = np.array([[to_levels(map_of(draws, c, int(d))).ravel() for d in indices] for c in chains])
     return indices, RecordedDraws(draws.chains, len(indices), draws.count, bits), packed
 
 
-def _say_draws_included(draws: RecordedDraws) -> str:
+def _describe_draws(draws: RecordedDraws) -> str:
     """Return a phrase that says how many of the kept draws the file contains."""
     if not draws.kept:
         return "without draws: none were kept"
     limit = f"; at most {MAX_DRAWS:,} draws and {MAX_DRAW_BYTES >> 20} MB fit" if draws.count < draws.kept else ""
     return f"with {draws.count:,} of the {draws.kept:,} draws of each chain{limit}"
+
+
+def main(path: str) -> None:
+    """Write the recording of a saved run to the standard output. The server calls this in a process of its own."""
+    from bayesmap.app.sources import OpenedRun, open_file
+
+    opened = open_file(path)
+    assert isinstance(opened, OpenedRun)
+    sys.stdout.buffer.write(encode_recording(*build_recording(opened.result)))
+
+
+if __name__ == "__main__":
+    try:
+        main(sys.argv[1])
+    except (BadInput, OSError, ValueError) as error:
+        sys.exit(str(error))

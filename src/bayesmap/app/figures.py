@@ -27,37 +27,6 @@ class Figure(Struct, frozen=True, kw_only=True):
 
 TOOLS: tuple[Tool, ...] = ("draw", "erase", "sensor", "pan", "where")  # the tools of a figure
 
-# The beginning of every page, up to what a page adds to its head.
-HEAD = """<!doctype html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<meta name="color-scheme" content="light dark">
-<title>bayesmap</title>
-<link rel="icon" href="data:,">
-"""
-
-PAGE = (
-    HEAD
-    + """</head>
-<body>
-<div data-bayesmap></div>
-<noscript>This page needs JavaScript.</noscript>
-<script type="application/octet-stream" data-{kind}>{data}</script>
-<script type="application/octet-stream" data-module>{module}</script>
-<script type="module">
-const packed = atob(document.querySelector("script[data-module]").textContent);
-const bytes = Uint8Array.from(packed, (character) => character.charCodeAt(0));
-const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate-raw"));
-const text = await new Response(stream).text();
-await import(URL.createObjectURL(new Blob([text], {{ type: "text/javascript" }})));
-</script>
-</body>
-</html>
-"""
-)
-
 
 def read_static(name: str) -> str:
     """Return the text of one of the page's static files."""
@@ -66,7 +35,9 @@ def read_static(name: str) -> str:
 
 def page_in_one_file(kind: Literal["recording", "figure"], data: bytes) -> str:
     """Return a page in one file, with the page's module and its data. It loads nothing else."""
-    return PAGE.format(kind=kind, data=_compress(data), module=_compress(read_static("mapview.js").encode()))
+    module = read_static("mapview.js").encode()
+    page = read_static("one_file.html").replace("__KIND__", kind).replace("__DATA__", _compress(data))
+    return page.replace("__MODULE__", _compress(module))
 
 
 def to_figure(document: Document, story: Story | None = None) -> str:

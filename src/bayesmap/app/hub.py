@@ -1,4 +1,8 @@
-"""The hub passes messages between one session, one worker and any number of pages."""
+"""The hub passes messages between one session, one worker and any number of pages.
+
+A page's message goes through `Hub.receive` to the session, and a worker's report through `Hub._receive_report`. The
+session returns effects. `Hub._carry_out` sends them on: tasks to the worker, and messages to the outboxes of pages.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +20,7 @@ from bayesmap.app.session import Effects, Session, ToPage, refusal
 from bayesmap.app.worker import Supervisor
 from bayesmap.errors import BadInput
 
-REPLACED = (Field, Scan, State)  # the types of messages of which a slow page needs only the newest
+NEWEST_ONLY = (Field, Scan, State)  # the types of messages of which a slow page needs only the newest
 
 
 class Outbox:
@@ -27,8 +31,8 @@ class Outbox:
         self._filled = asyncio.Event()
 
     def put(self, message: AnyNotice, buffers: Buffers) -> None:
-        """Add a message. It replaces a waiting message of its type if only the newest matters."""
-        if isinstance(message, REPLACED):
+        """Add a message. It replaces a waiting message of its type if the type is in `NEWEST_ONLY`."""
+        if isinstance(message, NEWEST_ONLY):
             self._waiting = deque(entry for entry in self._waiting if type(entry[0]) is not type(message))
         self._waiting.append((message, buffers))
         self._filled.set()
@@ -42,27 +46,30 @@ class Outbox:
 
 
 class Hub:
-    """Connects pages and worker on one event loop, which also receives the reports of the supervisor's threads."""
+    """Connects pages, session and worker. All methods run on one event loop, so the session needs no locks.
+
+    ``document`` is shown first, unless the worker opens the file ``path``, a log with ``log_options``.
+    """
 
     def __init__(
         self, document: Document, path: str | None = None, log_options: Mapping[str, Any] | None = None,
         story: Story | None = None,
     ) -> None:  # fmt: skip
         self.session = Session(document, story)  # the session that the pages share
-        self.pictured = asyncio.Event()  # event that is set when there is a first field, or an error instead
+        self._first_picture = asyncio.Event()  # event that is set when there is a first field, or an error instead
         self._loop = asyncio.get_running_loop()
-        on_report, on_lost = self._from_thread(self._receive_report), self._from_thread(self._worker_lost)
+        on_report, on_lost = self._on_loop(self._receive_report), self._on_loop(self._worker_lost)
         self._supervisor = Supervisor(on_report, on_lost, path, log_options=log_options)
-        self._pages: dict[int, Outbox] = {}
+        self._outboxes: dict[int, Outbox] = {}  # the outbox of each connected page, by its number
         self._numbers = itertools.count(1)
-        self._unusable: str | None = None
+        self._file_fault: str | None = None  # the reason why the file cannot be opened
 
     async def start(self) -> None:
         """Start the worker and wait for its first picture. Raises `BadInput` if the file cannot be shown."""
         self._supervisor.start()
-        await self.pictured.wait()
-        if self._unusable is not None:
-            raise BadInput(self._unusable)
+        await self._first_picture.wait()
+        if self._file_fault is not None:
+            raise BadInput(self._file_fault)
 
     def stop(self) -> None:
         """End the worker."""
@@ -71,13 +78,13 @@ class Hub:
     def join(self) -> tuple[int, Outbox]:
         """Connect a page; return its number and its outbox."""
         client = next(self._numbers)
-        self._pages[client] = Outbox()
+        self._outboxes[client] = Outbox()
         self._carry_out(self.session.join(client))
-        return client, self._pages[client]
+        return client, self._outboxes[client]
 
     def leave(self, client: int) -> None:
         """Disconnect a page."""
-        self._pages.pop(client, None)
+        self._outboxes.pop(client, None)
         self._carry_out(self.session.leave(client))
 
     def receive(self, client: int, data: str | bytes) -> None:
@@ -91,7 +98,7 @@ class Hub:
 
     def refuse(self, client: int, refused: Refused, seq: int | None = None) -> None:
         """Tell a page that a message was refused."""
-        self._pages[client].put(refusal(refused, seq), {})
+        self._outboxes[client].put(refusal(refused, seq), {})
 
     def _carry_out(self, effects: Effects) -> None:
         """Send messages to pages, and tasks to the worker."""
@@ -99,27 +106,28 @@ class Hub:
             if not isinstance(effect, ToPage):
                 self._supervisor.send(effect)
                 continue
-            for client, outbox in self._pages.items():
+            for client, outbox in self._outboxes.items():
                 if effect.client is None or effect.client == client:
                     outbox.put(effect.message, effect.buffers)
 
     def _receive_report(self, report: Report) -> None:
+        """Pass a report of the worker to the session, and note the first picture."""
         if isinstance(report.message, Unusable):
-            self._unusable = report.message.text
-            self.pictured.set()
+            self._file_fault = report.message.text
+            self._first_picture.set()
             return
         self._carry_out(self.session.receive_report(report))
         if isinstance(report.message, Field | Failed):
-            self.pictured.set()
+            self._first_picture.set()
 
     def _worker_lost(self) -> None:
         self._carry_out(self.session.worker_lost())
 
-    def _from_thread(self, call: Callable[..., None]) -> Callable[..., None]:
-        """Return a function for other threads that calls `call` on the event loop."""
+    def _on_loop(self, call: Callable[..., None]) -> Callable[..., None]:
+        """Return a function that calls `call` on the event loop. The supervisor calls it on its own threads."""
 
-        def later(*arguments: Report) -> None:
+        def call_later(*arguments: Report) -> None:
             if not self._loop.is_closed():
                 self._loop.call_soon_threadsafe(call, *arguments)
 
-        return later
+        return call_later

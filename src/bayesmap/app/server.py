@@ -1,6 +1,8 @@
-"""The server of the page and its guard (docs/app.md). The server listens on loopback unless another host is given.
+"""The server of the page (docs/app.md). It listens on loopback unless another host is given.
 
-The guard admits requests that have the token, address the server by one of its names, and come from its own page.
+`serve`, at the end, opens the socket and runs a `Hub` behind an ASGI application. `build_application` connects the URL
+paths with their handlers: the page, its module, the socket for messages, and saved runs that are dropped onto the page.
+`Guard` admits only requests that have the token, address the server by one of its names, and come from its own page.
 """
 
 from __future__ import annotations
@@ -13,8 +15,11 @@ import ipaddress
 import secrets
 import signal
 import socket
+import sys
+import tempfile
 import time
 from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
 from typing import Any
 from urllib.parse import parse_qs, urlsplit
 
@@ -27,8 +32,7 @@ from starlette.routing import Route, WebSocketRoute
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
-from bayesmap.app.dropped import open_dropped
-from bayesmap.app.figures import HEAD, read_static
+from bayesmap.app.figures import read_static
 from bayesmap.app.hub import Hub, Outbox
 from bayesmap.app.protocol.document import Document, Refused
 from bayesmap.app.protocol.notices import Story
@@ -49,89 +53,70 @@ HEADERS = {
 }
 POLICY_VIOLATION = 1008  # code with which a WebSocket is closed (RFC 6455)
 
-# Script of the page that a wrong token gets: it tries the token that the browser kept from an earlier visit, once.
-SCRIPT = """
-const key = "bayesmap-token";
-const given = new URLSearchParams(location.search).get("token");
-let kept = null;
-try {
-  kept = localStorage.getItem(key);
-  if (kept === given) localStorage.removeItem(key);
-} catch {}
-if (kept && kept !== given) location.replace("/?token=" + encodeURIComponent(kept) + location.hash);
-if (location.hash) document.getElementById("link").hidden = false;
-"""
-
-PAGE = f"""{HEAD}\
-<style>body {{ max-width: 36em; margin: 12vh auto; padding: 0 1.5em; font: 16px/1.5 system-ui, sans-serif; }}</style>
-</head>
-<body>
-<h1>bayesmap</h1>
-<p>The token is missing or wrong: open the address that <code>bayesmap app</code> printed.</p>
-<p id="link" hidden>Then open this link again: its map is shown there.</p>
-<script>{SCRIPT}</script>
-</body>
-</html>
-"""
-
-SCRIPT_HASH = "sha256-" + base64.b64encode(hashlib.sha256(SCRIPT.encode()).digest()).decode()
-"""The hash of the only script that the policy lets run."""
+# The script of this page tries the token that the browser kept from an earlier visit, once. The policy lets only this
+# script run, by its hash.
+WRONG_TOKEN_PAGE = read_static("wrong_token.html")
+TOKEN_SCRIPT = WRONG_TOKEN_PAGE.partition("<script>")[2].partition("</script>")[0]
+SCRIPT_HASH = "sha256-" + base64.b64encode(hashlib.sha256(TOKEN_SCRIPT.encode()).digest()).decode()
 
 
 class Guard:
-    """Middleware that refuses requests without the token, with an unknown Host, or with a foreign Origin. The Host is
-    checked against foreign web pages whose own host name resolves to this machine.
+    """Middleware that refuses requests without the token, with an unknown Host, or with a foreign Origin.
+
+    The check of the Host refuses foreign web pages whose own host name resolves to this machine (DNS rebinding).
     """
 
     def __init__(self, app: ASGIApp, token: str, host: str, port: int) -> None:
         self.app, self.token, self.host, self.port = app, token.encode(), host, port
-        self.any_address = host in ("0.0.0.0", "::", "")
+        self.any_address = host in ("0.0.0.0", "::", "")  # whether the server listens on all addresses
         names = ["127.0.0.1", "localhost", "[::1]", f"[{host}]" if ":" in host else host]
         if self.any_address:
             names.append(socket.gethostname().lower())
-        self.names = frozenset(names)
+        self.names = frozenset(names)  # host names of this server, in lower case
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Check a request, then pass it on or refuse it."""
         if scope["type"] not in ("http", "websocket"):
             await self.app(scope, receive, send)
             return
-        objection = self.objection(scope)
-        if objection is not None and scope["type"] == "websocket":
+        reason = self.refusal_reason(scope)
+        if reason is not None and scope["type"] == "websocket":
             await receive()
-            await send({"type": "websocket.close", "code": POLICY_VIOLATION, "reason": objection})
+            await send({"type": "websocket.close", "code": POLICY_VIOLATION, "reason": reason})
             return
+        sockets, scripts = "", f"'{SCRIPT_HASH}'"
+        if reason is None:
+            sockets, scripts = f" ws://{_read_header(scope, b'host')}", "'self'"
 
-        async def with_headers(message: Message) -> None:
+        async def send_with_headers(message: Message) -> None:
             if message["type"] == "http.response.start":
                 headers = MutableHeaders(scope=message)
-                host = _header(scope, b"host")
                 for name, value in HEADERS.items():
-                    sockets, scripts = (f" ws://{host}", "'self'") if objection is None else ("", f"'{SCRIPT_HASH}'")
                     headers[name] = value.format(sockets=sockets, scripts=scripts)
             await send(message)
 
-        answer: ASGIApp = self.app
-        if objection == WRONG_TOKEN and scope.get("path") == "/":
-            answer = HTMLResponse(PAGE, status_code=403)
-        elif objection is not None:
-            answer = PlainTextResponse(f"{objection}\n", status_code=403)
-        await answer(scope, receive, with_headers if scope["type"] == "http" else send)
+        response: ASGIApp = self.app
+        if reason == WRONG_TOKEN and scope.get("path") == "/":
+            response = HTMLResponse(WRONG_TOKEN_PAGE, status_code=403)
+        elif reason is not None:
+            response = PlainTextResponse(f"{reason}\n", status_code=403)
+        await response(scope, receive, send_with_headers if scope["type"] == "http" else send)
 
-    def objection(self, scope: Scope) -> str | None:
+    def refusal_reason(self, scope: Scope) -> str | None:
         """Return the reason why a request is refused, or None."""
-        if not self.knows(_header(scope, b"host")):
+        if not self.is_own_host(_read_header(scope, b"host")):
             return "this server does not go by that name"
-        origin = _header(scope, b"origin")
+        origin = _read_header(scope, b"origin")
         if origin:
-            parts = urlsplit(origin)
-            if parts.scheme != "http" or not self.knows(parts.netloc):
+            url = urlsplit(origin)
+            if url.scheme != "http" or not self.is_own_host(url.netloc):
                 return "requests from other pages are refused"
         tokens = parse_qs(scope.get("query_string", b"").decode("latin-1")).get("token", [""])
+        # A comparison in constant time does not reveal how many characters are right.
         return None if secrets.compare_digest(tokens[-1].encode(), self.token) else WRONG_TOKEN
 
-    def knows(self, host: str) -> bool:
-        """Return whether a host with its port is this server."""
+    def is_own_host(self, host: str) -> bool:
+        """Return whether a host with its port ("localhost:8000") is this server."""
         name, _, port = host.lower().rpartition(":")
         return port == str(self.port) and (name in self.names or (self.any_address and _is_address(name)))
 
@@ -145,7 +130,7 @@ def _is_address(name: str) -> bool:
     return True
 
 
-def _header(scope: Scope, name: bytes) -> str:
+def _read_header(scope: Scope, name: bytes) -> str:
     """Return a header of a request; values of repeated headers are joined by commas."""
     return b",".join(value for key, value in scope["headers"] if key == name).decode("latin-1")
 
@@ -154,6 +139,7 @@ MESSAGES_PER_SECOND = 200  # largest rate of a page's messages
 BURST_MESSAGES = 400  # number of messages that a page may send at once
 MAX_EXCESS_MESSAGES = 2000  # number of messages over the rate after which a page is disconnected
 MAX_READ_BYTES = 4 * MAX_BYTES  # a longer message closes the connection; one over `MAX_BYTES` gets an error
+MAX_FILE_BYTES = 1 << 30  # size of a saved run that is dropped onto the page
 
 
 class RateLimit:
@@ -161,51 +147,81 @@ class RateLimit:
 
     def __init__(self) -> None:
         self._tokens, self._refilled_s = float(BURST_MESSAGES), time.monotonic()
-        self.n_refused = 0
+        self.n_refused = 0  # number of messages refused so far
 
     def allow(self) -> bool:
-        """Return whether one more message is allowed now."""
+        """Take a token for one more message. Returns False if there is none."""
         now_s = time.monotonic()
         self._tokens = min(BURST_MESSAGES, self._tokens + (now_s - self._refilled_s) * MESSAGES_PER_SECOND)
         self._refilled_s = now_s
-        allowed = self._tokens >= 1
-        self._tokens -= allowed
-        self.n_refused += not allowed
-        return allowed
+        if self._tokens < 1:
+            self.n_refused += 1
+            return False
+        self._tokens -= 1
+        return True
 
 
-def application(hub: Hub, token: str, host: str, port: int) -> Guard:
-    """Return the ASGI application: the page, its module, and the socket."""
+def build_application(hub: Hub, token: str, host: str, port: int) -> Guard:
+    """Return the ASGI application: the page, its module, the socket and dropped runs, behind the guard."""
 
-    def page(request: Request) -> Response:
+    def get_page(request: Request) -> Response:
         return HTMLResponse(read_static("index.html").replace("__TOKEN__", token))
 
-    def module(request: Request) -> Response:
+    def get_module(request: Request) -> Response:
         return Response(read_static("mapview.js"), media_type="text/javascript")
 
     async def connect(socket: WebSocket) -> None:
         await socket.accept()
         client, outbox = hub.join()
-        sending = asyncio.create_task(_send(socket, outbox))
+        sending = asyncio.create_task(_send_messages(socket, outbox))
         try:
-            await _receive(socket, hub, client)
+            await _receive_messages(socket, hub, client)
         finally:
             sending.cancel()
             hub.leave(client)
 
-    routes = [Route("/", page), Route("/mapview.js", module), WebSocketRoute("/socket", connect)]
-    routes.append(Route("/open", open_dropped, methods=["POST"]))
+    routes = [Route("/", get_page), Route("/mapview.js", get_module), WebSocketRoute("/socket", connect)]
+    routes.append(Route("/open", open_dropped_run, methods=["POST"]))
     return Guard(Starlette(routes=routes), token, host, port)
 
 
-async def _send(socket: WebSocket, outbox: Outbox) -> None:
+async def open_dropped_run(request: Request) -> Response:
+    """Return the recording of a saved run that was dropped onto the page, or a text about the fault of the file.
+
+    The body of the request is the file, and the query has its name. A process of its own reads the file and makes the
+    recording (`bayesmap.app.exports.main`). So a damaged file cannot stop the server.
+    """
+    name = Path(request.query_params.get("name", "")).name
+    if not name.endswith(".nc"):
+        return PlainTextResponse("not a saved run (.nc)", status_code=415)
+    with tempfile.TemporaryDirectory(prefix="bayesmap-") as folder:
+        path, n_bytes = Path(folder) / name, 0
+        with path.open("wb") as file:
+            async for chunk in request.stream():
+                n_bytes += len(chunk)
+                if n_bytes > MAX_FILE_BYTES:
+                    return PlainTextResponse("too large for the page; start bayesmap app with it", status_code=413)
+                file.write(chunk)
+        command = (sys.executable, "-m", "bayesmap.app.exports", str(path))
+        pipe = asyncio.subprocess.PIPE
+        process = await asyncio.create_subprocess_exec(*command, stdin=pipe, stdout=pipe, stderr=pipe)
+        recording, errors = await process.communicate()
+    if process.returncode == 0:
+        return Response(recording, media_type="application/octet-stream")
+    lines = errors.decode(errors="replace").replace(f"{folder}/", "").splitlines()
+    return PlainTextResponse(lines[-1] if lines else "it cannot be read", status_code=422)
+
+
+async def _send_messages(socket: WebSocket, outbox: Outbox) -> None:
+    """Send the messages of an outbox until the page disconnects."""
     with contextlib.suppress(WebSocketDisconnect, RuntimeError):
         while True:
             data = await outbox.get()
             await (socket.send_bytes(data) if isinstance(data, bytes) else socket.send_text(data))
 
 
-async def _receive(socket: WebSocket, hub: Hub, client: int) -> None:
+async def _receive_messages(socket: WebSocket, hub: Hub, client: int) -> None:
+    """Pass the messages of a page to the hub until the page disconnects, or sends far too many."""
     limit = RateLimit()
     while True:
         event = await socket.receive()
@@ -222,7 +238,7 @@ async def _receive(socket: WebSocket, hub: Hub, client: int) -> None:
         hub.receive(client, text if text is not None else event.get("bytes") or b"")
 
 
-def listen(host: str, port: int) -> socket.socket:
+def open_listener(host: str, port: int) -> socket.socket:
     """Return a listening socket. Port 0 means any free port. Raises `BadInput` if the address is not available."""
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
     # With TCP given explicitly, asyncio sends small messages at once. Else each waits for the last one's receipt.
@@ -263,14 +279,18 @@ async def _serve(
     make_hub: Callable[[], Hub], listener: socket.socket, host: str, announce: Callable[[str], None],
     make_server: Callable[[uvicorn.Config, Callable[[], None]], uvicorn.Server] = _Server,
 ) -> None:  # fmt: skip
-    """Serve a hub, and announce the page's address when requests are accepted and a picture is there."""
+    """Serve a hub, and announce the page's address when requests are accepted and a picture is there.
+
+    `make_hub` is called on the event loop, to which a hub belongs. Tests replace `make_server`.
+    """
     port, token, hub = listener.getsockname()[1], secrets.token_urlsafe(24), make_hub()
     name = f"[{host}]" if ":" in host else host
+    # A browser cannot open the address that stands for all addresses.
     name = {"0.0.0.0": "127.0.0.1", "[::]": "[::1]"}.get(name, name)
     try:
         await hub.start()
         config = uvicorn.Config(
-            application(hub, token, host, port), ws="websockets-sansio", ws_max_size=MAX_READ_BYTES,
+            build_application(hub, token, host, port), ws="websockets-sansio", ws_max_size=MAX_READ_BYTES,
             ws_per_message_deflate=False,  # it costs more time on loopback than it saves
             lifespan="off", log_level="error", access_log=False, server_header=False, timeout_graceful_shutdown=1,
         )  # fmt: skip
@@ -285,11 +305,11 @@ def serve(
 ) -> None:  # fmt: skip
     """Serve the page until Ctrl-C. ``on_ready`` gets its address when requests are accepted and a picture is there.
 
-    ``path`` is a saved run, or a log that `bayesmap.read_log` reads with ``log_options``; without one, ``document`` is
-    shown first. ``story`` is shown beside the map. Port 0 means any free port. Raises `BadInput` if the port is taken,
-    or the file cannot be shown, and `KeyboardInterrupt` if Ctrl-C comes before the server is ready.
+    ``path`` is a saved run, or a log that `bayesmap.read_log` reads with ``log_options``. Without a path, ``document``
+    is shown first. ``story`` is shown beside the map. Port 0 means any free port. Raises `BadInput` if the port is
+    taken or the file cannot be shown. Raises `KeyboardInterrupt` if Ctrl-C comes before the server is ready.
     """
-    with contextlib.closing(listen(host, port)) as listener:
+    with contextlib.closing(open_listener(host, port)) as listener:
         ready = False
 
         def announce(address: str) -> None:

@@ -1,7 +1,10 @@
-"""The session applies the actions of pages, and decides on the tasks of the worker and the messages to pages.
+"""The session holds the document. It decides on the tasks for the worker and on the messages to pages.
 
-It uses no sockets and no clocks. Edits of a gesture that arrive faster than pictures can be computed and painted are
-merged (`bayesmap.app.edits.Pace`). So pictures never fall behind a fast hand.
+`Session.receive` applies an action of a page, and `Session.receive_report` a report of the worker. Both return effects,
+which the hub or the notebook's widget carries out. The session itself uses no sockets and no clocks.
+
+Every change of the document begins a new *generation*: the worker starts inference again. Edits of a gesture that
+arrive faster than pictures can be computed and painted are merged (`bayesmap.app.edits.Pace`).
 """
 
 from __future__ import annotations
@@ -12,7 +15,7 @@ from typing import Literal, get_args
 
 import msgspec
 
-from bayesmap.app.edits import ActionOfPage, History, Pace, adopt_document, edit, gesture_of
+from bayesmap.app.edits import ActionOfPage, History, Pace, adopt_document, edit_document, gesture_of
 from bayesmap.app.figures import to_figure
 from bayesmap.app.protocol import actions, notices, tasks
 from bayesmap.app.protocol.document import VERSION, Document, Refused, encode_json
@@ -25,11 +28,11 @@ REPLAYED = (notices.Scan, notices.Field, notices.Overlay)  # a page that connect
 
 @dataclass(frozen=True)
 class ToPage:
-    """A message to one page, or to all pages where client is None."""
+    """The effect of sending a message."""
 
     message: notices.AnyNotice
-    buffers: tasks.Buffers = field(default_factory=dict)
-    client: int | None = None
+    buffers: tasks.Buffers = field(default_factory=dict)  # arrays of the message, by name
+    client: int | None = None  # number of the page; None for all pages
 
 
 Effect = ToPage | tasks.Task
@@ -49,9 +52,9 @@ class Session:
         self.working = False  # whether the picture is still being computed
         self.draws = notices.DrawCount()  # kept draws of the present result
         self.scan = 0  # index of the scan on show, for a file
-        self.worker_ready = False
+        self.worker_ready = False  # whether the worker has loaded its kernels
         self._views: dict[int, notices.View] = {}  # the views of pages that asked for one
-        self._mode: tasks.Mode = "live"
+        self._mode: tasks.Mode = "live"  # mode of the present generation
         self._pace = Pace()  # merges edits that arrive faster than pictures
         self._last_seqs: dict[int, int] = {}  # number of the last applied action of every page
         self._last_sent: dict[type, ToPage] = {}  # last message of each kind in `REPLAYED`
@@ -65,7 +68,7 @@ class Session:
     # From pages
 
     def receive(self, client: int, action: actions.AnyAction) -> Effects:
-        """Apply an action; return its effects in order."""
+        """Apply an action of a page. Returns its effects in order. A refused action has a warning as its effect."""
         if isinstance(action, QUESTIONS):
             try:
                 check_question(self.document, action)
@@ -73,9 +76,9 @@ class Session:
                 return [_status(refused.text, "warning", client)]
             return [tasks.Ask(client, action)]
         if isinstance(action, actions.Painted):
-            self._pace.painted(client, action.generation)
-            return self._apply_all(self._pace.due())
-        return self._apply_all(self._pace.take(client, action))
+            self._pace.record_painted(client, action.generation)
+            return self._apply_all(self._pace.release_due())
+        return self._apply_all(self._pace.accept(client, action))
 
     def join(self, client: int) -> Effects:
         """Return the first messages for a page that has connected. The page answers with `hello`."""
@@ -91,7 +94,7 @@ class Session:
     def leave(self, client: int) -> Effects:
         """Forget a page that has disconnected. The worker makes no fields for it, and any page may undo its steps."""
         self._pace.forget(client)
-        effects = self._apply_all(self._pace.due())
+        effects = self._apply_all(self._pace.release_due())
         self._last_seqs.pop(client, None)
         return [*effects, *self._forget_view(client), *self._state_for_all()]
 
@@ -100,10 +103,10 @@ class Session:
         view = self._views.pop(client, None)
         return [] if view is None else [tasks.Show(client, notices.View("mean"))]
 
-    def _apply_all(self, due: list[ActionOfPage]) -> Effects:
+    def _apply_all(self, page_actions: list[ActionOfPage]) -> Effects:
         """Apply actions of pages in order. Returns their effects, or the reasons why they are refused."""
         effects: Effects = []
-        for client, action in due:
+        for client, action in page_actions:
             self._last_seqs[client] = action.seq
             try:
                 effects += self._dispatch(client, action)
@@ -157,9 +160,11 @@ class Session:
     def _apply_edit(self, client: int, action: actions.Edit) -> Effects:
         """Change the document by an edit, and restart inference if the document has changed."""
         before = self.document
-        document, remark = edit(before, action)
+        document, remark = edit_document(before, action)
         self.history = self.history.push(document, gesture_of(action, client), client)
         effects: Effects = [_status(remark, "warning", client)] if remark else []
+        # While the hand drags a setting of a log, show only counts of hits. The end of the drag starts inference, even
+        # if the last edit does not change the document.
         coarse = False
         if isinstance(action, actions.ChangeSettings):
             coarse = action.coarse and self.document.source.kind == "log"
@@ -190,8 +195,11 @@ class Session:
         return effects + [replace(self._last_sent[kind], client=client) for kind in REPLAYED if kind in self._last_sent]
 
     def _may_step(self, client: int, steps: Steps) -> bool:
-        """Return whether the last step was made by this page, or by a page that has disconnected."""
-        return bool(steps) and (steps[-1][1] == client or steps[-1][1] not in self._last_seqs)
+        """Return whether a page may undo or redo the last step: its own step, or a disconnected page's step."""
+        if not steps:
+            return False
+        _, author = steps[-1]
+        return author == client or author not in self._last_seqs
 
     def _undo_or_redo(self, client: int, history: History[Document], steps: Steps, name: str) -> Effects:
         """Move to `history`, if the page may undo or redo (`name`) the last of `steps`."""
@@ -204,7 +212,7 @@ class Session:
     # From the worker
 
     def receive_report(self, report: tasks.Report) -> Effects:
-        """Return the effects of a worker's report. A report of an older generation has none."""
+        """Return the effects of a worker's report. A report about an older generation has no effect."""
         message = report.message
         if isinstance(message, tasks.Ready):
             return self._restart_in_new_worker(message.document)
@@ -235,12 +243,13 @@ class Session:
 
     def _field_to_pages(self, notice: ToPage) -> Effects:
         """Return a field for the page that asked for it, or for all pages without fields of their own."""
+        clients: list[int | None] = [notice.client]
         own_fields = {client for client, view in self._views.items() if view.layer in notices.OWN_LAYERS}
-        unchanged = notice.client is not None or not own_fields
-        pages = [notice.client] if unchanged else [client for client in self._last_seqs if client not in own_fields]
-        for client in pages:
-            self._pace.sent(client, self.generation)
-        return [replace(notice, client=client) for client in pages]
+        if notice.client is None and own_fields:
+            clients = [client for client in self._last_seqs if client not in own_fields]
+        for client in clients:
+            self._pace.record_sent(client, self.generation)
+        return [replace(notice, client=client) for client in clients]
 
     def worker_lost(self) -> Effects:
         """Return messages that tell all pages that the worker stopped and is being restarted."""
@@ -253,15 +262,18 @@ class Session:
         self.worker_ready = True
         if document is not None and self.generation == 0:
             self.history = History(document)
-        trajectory = () if self._trajectory is None else (self._trajectory,)
-        views = (tasks.Show(client, view) for client, view in self._views.items())
-        mode: tasks.Mode = "run" if self.running else self._mode if self._mode == "clear" else self._default_mode()
-        return [ToPage(notices.Worker("ready")), *trajectory, *views, *self._restart(mode)]
+        effects: Effects = [ToPage(notices.Worker("ready"))]
+        if self._trajectory is not None:
+            effects.append(self._trajectory)
+        effects += [tasks.Show(client, view) for client, view in self._views.items()]
+        if self.running:
+            return effects + self._restart("run")
+        return effects + self._restart("clear" if self._mode == "clear" else None)
 
     def _picture_computed(self) -> Effects:
         """Apply the actions that waited for a picture."""
         self._pace.computing = False
-        return self._apply_all(self._pace.due())
+        return self._apply_all(self._pace.release_due())
 
     # Consequences of actions and reports
 
@@ -317,5 +329,5 @@ def refusal(refused: Refused, seq: int | None = None) -> notices.Refusal:
 
 
 def _status(text: str, level: Literal["info", "warning", "error"], client: int | None = None) -> ToPage:
-    """Return a status for one page, or for all pages where client is None."""
+    """Return a message for the status line of one page, or of all pages if the client is None."""
     return ToPage(notices.Status(text, level), {}, client)

@@ -1,7 +1,8 @@
 """The trajectory of a log: inference from raw odometry, with pictures of every stage.
 
-`infer_trajectory` runs on its own thread, so that the worker goes on answering. The thread puts finished pictures into
-a queue, and shares nothing else that would need a lock. A cancelled job ends at its next report; the next job waits.
+`LogTrajectory` keeps the log before and after the inference, and is what the engine uses. A `TrajectoryJob` runs
+`infer_trajectory` on its own thread, so that the worker goes on answering. The thread puts finished pictures into a
+queue, and shares nothing else that would need a lock. A cancelled job ends at its next report; the next job waits.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ import time
 from collections.abc import Generator
 from contextlib import closing
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,9 +30,9 @@ from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
 ASK_TO_RUN = "The poses of this log look like raw odometry: Run infers where the robot was"
-PICTURE_SECONDS = 0.25  # least time between pictures of a stage
-PICTURE_SHARE = 0.1  # largest share of time for pictures
-WAIT_SECONDS = 0.02  # how long to wait for a picture
+MIN_PICTURE_SECONDS = 0.25  # time between pictures of a stage
+MAX_PICTURE_SHARE = 0.1  # share of the job's time for pictures
+WAIT_SECONDS = 0.02  # how long to wait for a report of the job
 # The names of the stages on the page, in their order.
 STAGE_TEXTS = {
     "reading": "Reading the scans", "front end": "Matching scan to scan", "loops": "Closing loops",
@@ -41,8 +43,8 @@ STAGE_TEXTS = {
 
 
 @dataclass(frozen=True, eq=False)
-class Step:
-    """A step of the inference, to be shown on pages."""
+class Picture:
+    """A picture of the map along the present poses, to be shown on pages."""
 
     grid: Grid  # the grid of the map
     result: Result  # the map along the present poses
@@ -50,19 +52,24 @@ class Step:
     text: str = ""  # text for the status line, or empty
 
 
-StageProgress = tuple[str, int, int]  # name of a stage, parts done and parts in all
+class StageProgress(NamedTuple):
+    """Progress in a stage of the inference."""
+
+    stage: str  # name of the stage, a key of `STAGE_TEXTS`
+    done: int  # number of parts done
+    total: int  # number of parts in all
 
 
-def _step(
+def _make_picture(
     task: Infer, scans: Scans, grid: Grid, hit_map: HitCountMap, progress: StageProgress | None, text: str = ""
-) -> Step:
+) -> Picture:
     result = Result(untraced_scene(scans, grid, task.document.prior), task.document.on_grid(grid), "counts", hit_map)
-    return Step(grid, result, None if progress is None else _stage(task, progress), text)
+    return Picture(grid, result, None if progress is None else _stage_notice(task, progress), text)
 
 
-def _stage(task: Infer, progress: StageProgress) -> Stage:
-    name, done, total = progress
-    return Stage(name, STAGE_TEXTS[name], done, total, generation=task.generation)
+def _stage_notice(task: Infer, progress: StageProgress) -> Stage:
+    text = STAGE_TEXTS[progress.stage]
+    return Stage(progress.stage, text, progress.done, progress.total, generation=task.generation)
 
 
 class Cancelled(Exception):
@@ -70,36 +77,37 @@ class Cancelled(Exception):
 
 
 class TrajectoryJob:
-    """One inference of a trajectory."""
+    """One inference of a trajectory, on a thread that starts at once."""
 
-    _last: threading.Thread | None = None  # the thread of the process's last job
+    _latest_thread: threading.Thread | None = None  # the thread of the process's latest job
 
     def __init__(self, task: Infer, scans: Scans, grid: Grid) -> None:
         self.trajectory: InferredTrajectory | None = None  # the trajectory, when the job has ended
         self.error: BaseException | None = None  # the error that ended the job instead
         self._task, self._scans, self._grid = task, scans, grid
         self._time_order, _ = in_order_of_time(scans)
-        self._steps: queue.SimpleQueue[Step | Stage | Status] = queue.SimpleQueue()
+        self._reports: queue.SimpleQueue[Picture | Stage | Status] = queue.SimpleQueue()
         self._stop = threading.Event()
-        self._progress: StageProgress = ("", 0, 1)
+        self._progress = StageProgress("", 0, 1)
         self._pictured_stage = ""  # stage of the last picture
         self._next_progress_s = self._next_picture_s = 0.0  # earliest times of the next reports within a stage
-        self._earlier_thread = TrajectoryJob._last
+        self._earlier_thread = TrajectoryJob._latest_thread
         self._thread = threading.Thread(target=self._run, name="bayesmap_trajectory", daemon=True)
-        TrajectoryJob._last = self._thread
+        TrajectoryJob._latest_thread = self._thread
         self._thread.start()
 
     def cancel(self) -> None:
         """End the job when it next reports progress."""
         self._stop.set()
 
-    def steps(self) -> Generator[Step | Stage | Status | None, None, None]:
-        """Yield pictures and progress, and None while there is none. Raises `BadInput` as `infer_trajectory` does."""
+    def reports(self) -> Generator[Picture | Stage | Status | None, None, None]:
+        """Yield pictures and progress, and None while there is nothing new. Raises errors of `infer_trajectory`."""
         try:
             while True:
+                # Ask before looking into the queue: the thread may put its last report there and end in between.
                 alive = self._thread.is_alive()
                 try:
-                    yield self._steps.get(timeout=WAIT_SECONDS)
+                    yield self._reports.get(timeout=WAIT_SECONDS)
                 except queue.Empty:
                     if not alive:
                         break
@@ -110,44 +118,49 @@ class TrajectoryJob:
             raise self.error
 
     def _run(self) -> None:
+        """Infer the trajectory on the job's thread, after the thread of the job before has ended."""
         if self._earlier_thread is not None:
             self._earlier_thread.join()
             self._earlier_thread = None
         try:
-            self._check()
+            self._raise_if_cancelled()
             self.trajectory = infer_trajectory(self._scans, on_progress=self._on_progress, on_poses=self._on_poses)
         except Cancelled:
             pass
         except BaseException as error:
             self.error = error
 
-    def _check(self) -> None:
+    def _raise_if_cancelled(self) -> None:
         if self._stop.is_set():
             raise Cancelled
 
     def _on_progress(self, stage: str, done: int, total: int) -> None:
         """Queue the progress, at once where a stage begins, and otherwise at intervals."""
-        self._check()
-        new_stage, now_s = stage != self._progress[0], time.monotonic()
-        self._progress = stage, done, total
+        self._raise_if_cancelled()
+        new_stage, now_s = stage != self._progress.stage, time.monotonic()
+        self._progress = StageProgress(stage, done, total)
         if new_stage:
-            self._steps.put(Status(STAGE_TEXTS[stage], "info"))
+            self._reports.put(Status(STAGE_TEXTS[stage], "info"))
         if new_stage or now_s >= self._next_progress_s:
-            self._steps.put(_stage(self._task, self._progress))
-            self._next_progress_s = now_s + PICTURE_SECONDS
+            self._reports.put(_stage_notice(self._task, self._progress))
+            self._next_progress_s = now_s + MIN_PICTURE_SECONDS
 
     def _on_poses(self, stage: str, poses: NDArray[np.float64]) -> None:
-        """Queue a picture at the beginning of a stage, in every round of loops, and otherwise at intervals."""
-        self._check()
+        """Queue a picture at the beginning of a stage, in every round of loops, and otherwise at intervals.
+
+        ``poses``, (S, 3) in the world frame, are in the order of time.
+        """
+        self._raise_if_cancelled()
         began_s = time.monotonic()
         if stage == self._pictured_stage and stage != "loops" and began_s < self._next_picture_s:
             return
         self._pictured_stage = stage
         scans = self._scans.at(poses[np.argsort(self._time_order)])
         self._grid = grow_grid(self._grid, scans)
-        self._steps.put(_step(self._task, scans, self._grid, hit_count_map(scans, self._grid), self._progress))
+        hit_map = hit_count_map(scans, self._grid)
+        self._reports.put(_make_picture(self._task, scans, self._grid, hit_map, self._progress))
         now_s = time.monotonic()
-        self._next_picture_s = now_s + max(PICTURE_SECONDS, (now_s - began_s) / PICTURE_SHARE)
+        self._next_picture_s = now_s + max(MIN_PICTURE_SECONDS, (now_s - began_s) / MAX_PICTURE_SHARE)
 
 
 def move_to_trajectory(scans: Scans, trajectory: InferredTrajectory) -> Scans:
@@ -156,59 +169,61 @@ def move_to_trajectory(scans: Scans, trajectory: InferredTrajectory) -> Scans:
 
 
 def describe_trajectory(scans: Scans, trajectory: InferredTrajectory) -> str:
-    """Describe an inferred trajectory in words."""
-    shift = scans.poses - trajectory.poses[np.argsort(trajectory.order)]
-    moved_m = float(np.hypot(shift[:, 0], shift[:, 1]).max())
-    flagged = int(trajectory.flagged.sum())
-    doubt = f"; {flagged} scans stay badly explained" if flagged else ""
-    loops = len(trajectory.closures)
-    return f"Trajectory inferred: odometry was off by up to {moved_m:.1f} m; loop closures: {loops}{doubt}"
+    """Describe an inferred trajectory in words: the odometry's error, and numbers of closures and doubtful scans."""
+    shifts = scans.poses - trajectory.poses[np.argsort(trajectory.order)]
+    max_shift_m = float(np.hypot(shifts[:, 0], shifts[:, 1]).max())
+    n_flagged = int(trajectory.flagged.sum())
+    doubt = f"; {n_flagged} scans stay badly explained" if n_flagged else ""
+    n_loops = len(trajectory.closures)
+    return f"Trajectory inferred: odometry was off by up to {max_shift_m:.1f} m; loop closures: {n_loops}{doubt}"
 
 
 class LogTrajectory:
-    """The trajectory of one log."""
+    """A log and its trajectory, which may not be known yet."""
 
     def __init__(self, log: OpenedLog) -> None:
         self.log = log  # the log as it was opened
-        self.placed: OpenedLog | None = None  # the log along its inferred trajectory, once the trajectory is known
+        self.inferred_log: OpenedLog | None = None  # the log along its inferred trajectory, once it is known
 
-    def log_of(self, document: Document) -> OpenedLog:
-        """Return the log for a document: along the inferred trajectory, if the document asks for it and it is known."""
-        return self.placed if document.from_odometry and self.placed is not None else self.log
+    def log_for(self, document: Document) -> OpenedLog:
+        """Return the log along the inferred trajectory if the document asks for it and it is known, else as opened."""
+        return self.inferred_log if document.from_odometry and self.inferred_log is not None else self.log
 
     def restore(self, task: RestoreTrajectory) -> None:
         """Take over the trajectory that an earlier worker inferred."""
-        self._place_scans(replace(self.log.scans.at(task.poses), angles_rad=task.angles_rad, own_angles_rad=None))
+        self._open_inferred(replace(self.log.scans.at(task.poses), angles_rad=task.angles_rad, own_angles_rad=None))
 
-    def steps(self, task: Infer) -> Generator[Step | Stage | TrajectoryInferred | Status | None, None, None]:
-        """Yield steps and reports until the log can be mapped, and None while there is nothing new.
+    def reports(self, task: Infer) -> Generator[Picture | Stage | TrajectoryInferred | Status | None, None, None]:
+        """Yield pictures and reports until the trajectory is known, and None while there is nothing new.
 
         The mode "run" infers the trajectory, unless it is known. "clear" forgets it. While it is unknown, other modes
         show the map along the poses of the log. Raises `BadInput` as `bayesmap.poses.slam.infer_trajectory` does.
         """
-        if task.mode == "clear" and self.placed is not None:
-            self.placed = None
+        if task.mode == "clear" and self.inferred_log is not None:
+            self.inferred_log = None
             yield TrajectoryInferred(None, generation=task.generation)
-        if self.placed is None and task.mode == "run":
+        if self.inferred_log is None and task.mode == "run":
             yield from self._infer(task)
-        elif self.placed is None:
-            grid = self.log.on_cells(task.document).grid
+        elif self.inferred_log is None:
+            grid = self.log.fit_grid(task.document).grid
             hit_map = hit_count_map(self.log.scans.select(slice(task.document.scans_used)), grid)
-            yield _step(task, self.log.scans, grid, hit_map, None, ASK_TO_RUN)
+            yield _make_picture(task, self.log.scans, grid, hit_map, None, ASK_TO_RUN)
 
-    def _infer(self, task: Infer) -> Generator[Step | Stage | TrajectoryInferred | Status | None, None, None]:
-        scans, grid = self.log.scans, self.log.on_cells(task.document).grid
-        yield _step(task, scans, grid, hit_count_map(scans, grid), ("reading", 0, 1), STAGE_TEXTS["reading"])
+    def _infer(self, task: Infer) -> Generator[Picture | Stage | TrajectoryInferred | Status | None, None, None]:
+        # The first picture, along the odometry, then the pictures of the job.
+        scans, grid, progress = self.log.scans, self.log.fit_grid(task.document).grid, StageProgress("reading", 0, 1)
+        yield _make_picture(task, scans, grid, hit_count_map(scans, grid), progress, STAGE_TEXTS["reading"])
         job = TrajectoryJob(task, scans, grid)
-        with closing(job.steps()) as steps:
-            yield from steps
+        with closing(job.reports()) as reports:
+            yield from reports
         assert job.trajectory is not None
-        placed = move_to_trajectory(scans, job.trajectory)
-        self._place_scans(placed)
-        own = placed.own_angles_rad
-        trajectory = RestoreTrajectory(placed.poses, placed.angles_rad if own is None else own)
+        # Keep the log along the trajectory, and send the trajectory to the session, which gives it to a later worker.
+        moved_scans = move_to_trajectory(scans, job.trajectory)
+        self._open_inferred(moved_scans)
+        own_angles = moved_scans.own_angles_rad
+        trajectory = RestoreTrajectory(moved_scans.poses, moved_scans.angles_rad if own_angles is None else own_angles)
         yield TrajectoryInferred(trajectory, generation=task.generation)
         yield Status(describe_trajectory(scans, job.trajectory), "info")
 
-    def _place_scans(self, scans: Scans) -> None:
-        self.placed = open_log(scans, self.log.document.source.name)
+    def _open_inferred(self, scans: Scans) -> None:
+        self.inferred_log = open_log(scans, self.log.document.source.name)

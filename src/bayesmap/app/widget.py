@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import Any
 
 from bayesmap.app.edits import tutorial_document
-from bayesmap.app.exports import record, to_html
-from bayesmap.app.figures import read_static
+from bayesmap.app.exports import build_recording, encode_recording
+from bayesmap.app.figures import page_in_one_file, read_static
 from bayesmap.app.protocol.document import Refused
 from bayesmap.app.protocol.notices import AnyNotice
 from bayesmap.app.protocol.tasks import Buffers, Report, Unusable
@@ -78,7 +78,7 @@ class MapWidget(anywidget.AnyWidget):
         """Return a page in one file that shows the run. Raises `BadInput` if the widget is a live page."""
         if self._run is None:
             raise BadInput("MapWidget: a live page is exported from the page itself")
-        return to_html(*record(open_run(self._run, "run").result))
+        return page_in_one_file("recording", encode_recording(*build_recording(open_run(self._run, "run").result)))
 
     def close(self) -> None:
         """End the worker and the widget."""

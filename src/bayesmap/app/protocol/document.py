@@ -82,6 +82,15 @@ class Source:
     # for a log, corners of the area that its scans saw, metres. Grids of any resolution cover it.
     bounds: tuple[tuple[float, float], tuple[float, float]] | None = field(default=None, compare=False)
 
+    @property
+    def fixed_settings(self) -> tuple[str, ...]:
+        """Names of the settings that a page cannot change: the file fixes them, or only a log has them."""
+        if self.kind == "run":
+            return SETTINGS
+        if self.kind == "simulation":
+            return ("poses", "scans_used")
+        return ("noise", "angles", "max_range", "fov", "readings", "pose_sigma", "heading_sigma")
+
 
 @dataclass(frozen=True, kw_only=True)
 class Settings:
@@ -118,12 +127,6 @@ class Settings:
 SETTINGS = tuple(setting.name for setting in fields(Settings))
 # Settings that affect only the chains: neither the readings nor the pilot that fits the sensor depends on them.
 SETTINGS_OF_CHAINS = ("prior", "pose_sigma", "heading_sigma", "method", "order", "start", "sweeps", "burn_in")
-# Settings that a page cannot change, because the file fixes them or because only a log has them.
-FIXED_BY_FILE: Mapping[SourceKind, tuple[str, ...]] = {
-    "simulation": ("poses", "scans_used"),
-    "log": ("noise", "angles", "max_range", "fov", "readings", "pose_sigma", "heading_sigma"),
-    "run": SETTINGS,
-}
 
 
 @dataclass(frozen=True)
@@ -166,6 +169,12 @@ class Document(Settings):
             return self.method
         return "block" if min(self.prior, 1 - self.prior) <= RARE_WALLS else "gibbs"
 
+    @property
+    def samples_poses(self) -> bool:
+        """Whether chains sample the poses of the sensors together with the walls."""
+        uncertain = self.pose_sigma > 0 or self.heading_sigma > 0
+        return self.simulated and self.sampler in CHAIN_METHODS and uncertain
+
     def equals_except(self, other: Document, names: Iterable[str]) -> bool:
         """Return whether two documents differ at most in the named fields."""
         return self == replace(other, **{name: getattr(self, name) for name in names})
@@ -179,6 +188,29 @@ class Document(Settings):
         """Return the document on another grid, without walls; this document if the grid is equal."""
         return self if self.grid == grid else replace(self, grid=grid).without_walls()
 
+    def with_resolution(self, resolution_m: float) -> Document:
+        """Return the document of a log with another cell size. Raises `Refused` for no log, or for too many cells."""
+        bounds = self.source.bounds
+        if self.source.kind != "log" or bounds is None:
+            raise Refused("only a log is shown on cells of any size")
+        grid = Grid.over(*bounds, resolution_m)
+        if max(grid.shape) > MAX_LOG_SIDE:
+            min_resolution_m = max(high - low for low, high in zip(*bounds, strict=True)) / (MAX_LOG_SIDE - 1)
+            raise Refused(
+                f"cells of {resolution_m:g} m make a map of {grid.shape[0]} x {grid.shape[1]} cells, more than "
+                f"{MAX_LOG_SIDE} a side", f"give at least {min_resolution_m:.3f} m"
+            )  # fmt: skip
+        return self.on_grid(grid)
+
+    def with_scans_used(self, n_used: int | None) -> Document:
+        """Return the document of a log with the map of its first `n_used` scans; None means all scans.
+
+        Raises `Refused` if the document shows no log.
+        """
+        if self.source.kind != "log":
+            raise Refused("only of a log some of the scans can be left out")
+        return replace(self, scans_used=None if n_used is None or n_used >= self.source.scans else n_used)
+
     def without_walls(self) -> Document:
         """Return the document with an empty map of its size."""
         return replace(self, walls=empty_walls(self.grid))
@@ -187,6 +219,15 @@ class Document(Settings):
         """Return the document with another map, (nx, ny), or this document if the map is the same."""
         walls = pack_walls(is_wall)
         return self if walls == self.walls else replace(self, walls=walls)
+
+    def check_position(self, sensor: Sensor) -> None:
+        """Check that a sensor stands inside the grid and in a free cell. Raises `Refused` if it does not."""
+        cell = self.grid.cell_at(sensor.x, sensor.y)
+        if cell is None:
+            raise Refused(f"the sensor cannot stand outside the map, at ({sensor.x:.2f}, {sensor.y:.2f}) m")
+        if self.is_wall[cell]:
+            x, y = cell
+            raise Refused(f"the sensor cannot stand in the wall at cell ({x}, {y})", "move it to a free cell")
 
     def to_json(self) -> dict[str, Any]:
         """Return the document as JSON values."""
@@ -262,13 +303,4 @@ def check_document(document: Document) -> None:
     if len({sensor.id for sensor in document.sensors}) != len(document.sensors):
         raise Refused("sensors: two have the same id", "number them from 1 on")
     for sensor in document.sensors:
-        check_sensor_pose(document, sensor)
-
-
-def check_sensor_pose(document: Document, sensor: Sensor) -> None:
-    """Check that a sensor stands inside the grid and in a free cell. Raises `Refused` if it does not."""
-    cell = document.grid.cell_at(sensor.x, sensor.y)
-    if cell is None:
-        raise Refused(f"the sensor cannot stand outside the map, at ({sensor.x:.2f}, {sensor.y:.2f}) m")
-    if document.is_wall[cell]:
-        raise Refused(f"the sensor cannot stand in the wall at cell ({cell[0]}, {cell[1]})", "move it to a free cell")
+        document.check_position(sensor)

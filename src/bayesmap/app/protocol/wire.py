@@ -20,15 +20,7 @@ from msgspec import ValidationError, inspect
 from numpy.typing import NDArray
 
 from bayesmap.app.protocol.actions import AnyAction
-from bayesmap.app.protocol.document import (
-    FIXED_BY_FILE,
-    Document,
-    Refused,
-    Source,
-    check_document,
-    encode_json,
-    to_plain_number,
-)
+from bayesmap.app.protocol.document import Document, Refused, Source, check_document, encode_json, to_plain_number
 from bayesmap.app.protocol.tasks import Buffers
 
 MAX_BYTES = 1 << 20  # length of a page's message
@@ -77,7 +69,7 @@ def parse_document(value: object) -> Document:
     if not isinstance(value, Mapping):
         raise Refused("document: not an object", "send one as in docs/app.md")
     source = convert(value.get("source", {}), Source, "source")
-    fields = {name: field for name, field in value.items() if name not in FIXED_BY_FILE[source.kind]}
+    fields = {name: field for name, field in value.items() if name not in source.fixed_settings}
     if source.kind != "simulation":
         fields |= {"walls": "", "sensors": []}
     document = convert(fields, Document)

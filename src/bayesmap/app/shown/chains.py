@@ -1,8 +1,11 @@
-"""Chains that are shown while they run: the pilot that fits the sensor, the starts, and the runner in short steps.
+"""Chains that are shown while they run: the runner in short steps, the starts, and the pilot that fits the sensor.
 
-The pilot is a short chain that fits the sensor and the prior of reflectivities or surfaces. Like the chains that
-follow, it draws cells given all readings, but its sensor and prior still change. Both are near their final values after
-a few sweeps. The latter half of the pilot's draws is therefore the first estimate of the posterior (docs/app.md).
+`RunningChains` advances the chains. `chains_of_walls` prepares them for a document with walls: `first_maps_of` and
+`pose_starts` choose where each chain starts.
+
+`fit_by_pilot` prepares chains of reflectivities or surfaces. The pilot is a short chain that fits the sensor and the
+prior. Like the chains that follow, it draws cells given all readings, but its sensor and prior still change. Both are
+near their final values after a few sweeps. So the latter half of its draws is the first estimate shown (docs/app.md).
 """
 
 from __future__ import annotations
@@ -17,7 +20,7 @@ from typing import Any, NamedTuple, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.app.protocol.document import CHAIN_METHODS, Document
+from bayesmap.app.protocol.document import Document
 from bayesmap.app.protocol.notices import Verdict
 from bayesmap.app.scene import Scene
 from bayesmap.app.shown import result as results
@@ -41,31 +44,20 @@ from bayesmap.samplers.without_chains import Marginals
 from bayesmap.sensors.model import Gaussian
 
 POSE_CHAINS = 16  # number of chains if poses are uncertain: a map fixes its sensors, so each stays near its start
-STEP_SECONDS = 0.015  # the duration of one step of the chains. The worker reads its pipe between two steps
-DRAW_BYTES = 128 << 20  # memory of a run's kept draws, which are thinned to fit
+STEP_SECONDS = 0.015  # duration of one step of the chains. The worker reads its pipe between two steps.
+MAX_DRAW_BYTES = 128 << 20  # memory of a run's kept draws, which are thinned to fit
 OBSERVED_COUNTS = 32  # the number of times per run that observed cells are counted, besides sweeps 1, 2, 4 and so on
-DIAGNOSIS_SHARE = 0.1  # largest share of time spent on diagnostics; the last numbers are shown meanwhile
+MAX_DIAGNOSIS_SHARE = 0.1  # share of time spent on diagnostics; the last numbers are shown meanwhile
 RECENT_DRAWS = 200  # draws per chain that answer questions while chains run
-RECENT_BYTES = 16 << 20  # most bytes of a pilot's draws
+MAX_RECENT_BYTES = 16 << 20  # memory of a pilot's draws
 MIN_SIGMA_M = 0.001  # standard deviation of a position if only headings are uncertain: a density needs a width
 MIN_SIGMA_RAD = math.radians(0.05)  # standard deviation of a heading if only positions are uncertain
-MAX_SHIFT_SIGMAS = 4.0  # largest shift of a chain's start, in standard deviations
+MAX_SHIFT_SIGMAS = 4.0  # shift of a chain's start, in standard deviations
 EVEN_STEPS = (0.7548776662466927, 0.5698402909980532)  # spreads shifts evenly (additive recurrence, Roberts, 2018)
 
 
-def append_draws(before: Draws | None, after: Draws, most: int) -> Draws:
-    """Return the last draws of two blocks: at most `most` per chain, and at most `RECENT_BYTES`."""
-    draw_bytes = sum(a[:, :1].nbytes for a in after.arrays.values())
-    last = min(most, max(1, RECENT_BYTES // max(draw_bytes, 1)))
-    blocks: tuple[Draws, ...] = (after,)
-    if before is not None and before.index.keys() == after.index.keys():
-        blocks = (before, after)
-    joined = {name: np.concatenate([block.arrays[name] for block in blocks], axis=1) for name in after.arrays}
-    return replace(after, arrays={name: a[:, -last:] for name, a in joined.items()})
-
-
 class Checkpoint(NamedTuple):
-    """Sums of a stream after some sweeps."""
+    """Sums over the first sweeps of the chains. Differences of sums give means over the later sweeps."""
 
     sweep: int  # number of sweeps done
     sums: Floats  # sums of the chains' maps, (chains, nx, ny)
@@ -73,12 +65,16 @@ class Checkpoint(NamedTuple):
 
 
 class RunningChains(Estimate):
-    """Chains of any kind of cells, advanced step by step from their start to their last sweep."""
+    """Chains of any kind of cells, advanced step by step from their start to their last sweep.
+
+    `extend` sets the number of sweeps, and `advance` does some of them. The first sweeps are the burn-in: a share of
+    the sweeps done so far, rounded down to the last checkpoint.
+    """
 
     def __init__(self, model: Model, sampler: Sampler[Any, Any], problem: Problem, document: Document) -> None:
         self._burn_in = document.burn_in  # share of the sweeps
         self.model: Model = model
-        self.requested_poses: Mapping[str, Any] = model.poses.describe()
+        self.requested_poses: Mapping[str, Any] = model.poses.describe()  # the document's prior of the poses
         self.problem, self._sampler = problem, sampler
         self.n_chains = POSE_CHAINS if model.poses.unknown else CHAINS
         self.state = sampler.init(problem, range(self.n_chains), document.seed)
@@ -88,11 +84,11 @@ class RunningChains(Estimate):
         self._record = Record(empty, SweepPlan(0, 0))
         # Results of the steps so far: latest draws, sums for the means, diagnostics, counts and trace.
         self.seconds = 0.0
-        self.shifts = np.zeros((self.n_chains, 2))  # cells by which map and sensors of a chain are shifted, always
+        self.shifts = np.zeros((self.n_chains, 2))  # cells by which a chain's map and sensors are shifted together
         self._latest = empty
         self._sums = np.zeros((self.n_chains, *model.grid.shape))
         self._rhat = self._ess = math.nan
-        self._diagnose_at, self._diagnosed = 0.0, 0
+        self._diagnose_at_s, self._diagnosed_sweep = 0.0, 0  # time of the next diagnosis, and sweep of the last
         self._observed_counts = np.zeros((2, *model.grid.shape), dtype=np.int32)
         self._log_likelihood = self._log_joint = np.zeros((self.n_chains, 0))
         # The sums after the burn-in, and after later sweeps at which a longer burn-in may end.
@@ -103,35 +99,37 @@ class RunningChains(Estimate):
         """Let the chains do `count` more sweeps from their present states. All draws so far are kept, if they fit."""
         # Thin the kept draws until they fit, and round the sweeps up to a whole number of kept draws.
         total = self.total + count
-        self.thin *= math.ceil(total * self._draw_bytes / (DRAW_BYTES * self.thin))
+        self.thin *= math.ceil(total * self._draw_bytes / (MAX_DRAW_BYTES * self.thin))
         self.total = math.ceil(total / self.thin) * self.thin
         self._record = self._record.grown(SweepPlan(0, self.total // self.thin, self.thin))
-        more = ((0, 0), (0, self.total - self._log_joint.shape[1]))
-        self._log_joint, self._log_likelihood = np.pad(self._log_joint, more), np.pad(self._log_likelihood, more)
+        padding = ((0, 0), (0, self.total - self._log_joint.shape[1]))
+        self._log_joint, self._log_likelihood = np.pad(self._log_joint, padding), np.pad(self._log_likelihood, padding)
         # Count observed cells at fixed sweeps. The length of a step depends on the machine, but the page must not.
         doubling = (2**k for k in range(self.total.bit_length()))
         evenly = (self.total * k // OBSERVED_COUNTS for k in range(1, OBSERVED_COUNTS + 1))
         self._burn_in_end = int(self._burn_in * self.total) // self.thin * self.thin
-        self._count_at = {*doubling, *evenly, self._burn_in_end} - {0}
+        self._counted_sweeps = {*doubling, *evenly, self._burn_in_end} - {0}
         self._steps = sweeps(
             self._sampler, self.state, self.total, keep=Keep(every=1), step_seconds=STEP_SECONDS,
-            most_kept=max(1, BUFFER_BYTES // max(self._draw_bytes, 1)), stops=tuple(sorted(self._count_at)),
+            most_kept=max(1, BUFFER_BYTES // max(self._draw_bytes, 1)), stops=tuple(sorted(self._counted_sweeps)),
         )  # fmt: skip
-        self.done, self._diagnose_at = False, 0.0
+        self.done, self._diagnose_at_s = False, 0.0
 
     def advance(self) -> None:
         """Do some sweeps: about `STEP_SECONDS` of work."""
-        before, began = self.sweep, time.perf_counter()
+        before, began_s = self.sweep, time.perf_counter()
         self.state, info = next(self._steps)
         self.sweep = int(self.state.sweep)
         self.done = self.sweep >= self.total
+        # Add the draws to the sums, the record and the trace.
         self._latest = replace(self._latest, arrays=info.draws)
         for chain in range(self.n_chains):
             self._sums[chain] += self.model.cells.mean_map(self._latest.of_chain(chain)) * self._latest.count
         self._record.add(info, before)
         self._log_likelihood[:, before : self.sweep] = info.log_likelihood
         self._log_joint[:, before : self.sweep] = info.log_likelihood + info.log_prior
-        if self.sweep in self._count_at:
+        # Count observed cells, and move the end of the burn-in to the last checkpoint that lies within it.
+        if self.sweep in self._counted_sweeps:
             self._observed_counts += self._sampler.observed_counts(self.state, {})
             if self.sweep <= self._burn_in_end:
                 self._checkpoints.append(Checkpoint(self.sweep, self._sums.copy(), self._observed_counts.copy()))
@@ -139,12 +137,12 @@ class RunningChains(Estimate):
                 del self._checkpoints[0]
         if self.done and self._checkpoints[0].sweep < self._burn_in_end:
             self._burn_in_until(self._burn_in_end)
-        self.seconds += time.perf_counter() - began
+        self.seconds += time.perf_counter() - began_s
 
     def _burn_in_until(self, sweep: int) -> None:
-        """Leave out the sweeps before this one, by their kept draws, since there is no checkpoint of their sums."""
-        first = self.draws.select(slice(sweep // self.thin))
-        maps = [self.model.cells.mean_map(first.of_chain(chain)) * sweep for chain in range(self.n_chains)]
+        """End the burn-in at a sweep of which there is no checkpoint. The kept draws give the sums up to it."""
+        burned_draws = self.draws.select(slice(sweep // self.thin))
+        maps = [self.model.cells.mean_map(burned_draws.of_chain(chain)) * sweep for chain in range(self.n_chains)]
         self._checkpoints = [Checkpoint(sweep, np.array(maps), self._checkpoints[0].observed_counts)]
 
     @property
@@ -158,8 +156,9 @@ class RunningChains(Estimate):
         return self._record.draws
 
     def mean(self) -> Floats:
-        """Return the probability that a cell stops a beam, averaged over the sweeps after the burn-in, (nx, ny). If
-        poses are known, cells that no beam touches get the exact prior mean, to which their draws converge.
+        """Return the probability that a cell stops a beam, averaged over the sweeps after the burn-in, (nx, ny).
+
+        If poses are known, cells that no beam touches get the exact prior mean, to which their draws converge.
         """
         mean = self.means().mean(axis=0)
         if self.model.poses.unknown:  # from other poses beams touch other cells
@@ -193,17 +192,21 @@ class RunningChains(Estimate):
     @property
     def available_draws(self) -> Draws | None:
         """The kept draws after the burn-in, thinned until the chains are done; at first the latest draws."""
-        kept = self.draws.select(slice(self._checkpoints[0].sweep // self.thin, None))
-        draws = kept if kept.count else self._latest
-        return None if not draws.count else draws if self.done else draws.thinned(RECENT_DRAWS * self.n_chains)
+        draws = self.draws.select(slice(self._checkpoints[0].sweep // self.thin, None))
+        if not draws.count:
+            draws = self._latest
+        if not draws.count:
+            return None
+        return draws if self.done else draws.thinned(RECENT_DRAWS * self.n_chains)
 
     def progress(self, ended: bool) -> Progress:
         """Return the sweeps done and the diagnostics, which may be of an earlier sweep while the chains run."""
         burned, joint, now_s = self._checkpoints[0].sweep, self.log_joint(), time.perf_counter()
-        if now_s >= self._diagnose_at or (self.done and self._diagnosed < self.sweep):
+        if now_s >= self._diagnose_at_s or (self.done and self._diagnosed_sweep < self.sweep):
             self._rhat, self._ess = results.rhat_and_ess(joint[:, burned:])
-            self._diagnosed = self.sweep
-            self._diagnose_at = math.inf if self.done else now_s + (time.perf_counter() - now_s) / DIAGNOSIS_SHARE
+            self._diagnosed_sweep = self.sweep
+            pause_s = (time.perf_counter() - now_s) / MAX_DIAGNOSIS_SHARE
+            self._diagnose_at_s = math.inf if self.done else now_s + pause_s
         misfit, sensor = None, self.model.sensor
         if isinstance(sensor, Gaussian) and not self.model.poses.unknown:
             log_likelihood = self._log_likelihood[:, burned : self.sweep]
@@ -218,19 +221,23 @@ class RunningChains(Estimate):
         )  # fmt: skip
 
     def _judge_shifts(self, verdict: Verdict | None) -> Verdict | None:
-        """Judge chains at several shifts: chains at one shift must agree. Other verdicts are returned unchanged."""
+        """Return the verdict on chains at several shifts, a "bad" verdict on all together replaced.
+
+        Chains at different shifts differ, since each shift is a mode of the posterior (`pose_starts`). So only chains
+        at one shift have to agree. Other verdicts are returned unchanged.
+        """
         shifts, shift_of_chain = np.unique(self.shifts, axis=0, return_inverse=True)
         if verdict is None or verdict.level != "bad" or len(shifts) < 2 or self.sweep < LIMITS.fewest_sweeps:
             return verdict
         joint = self.log_joint()[:, self._checkpoints[0].sweep :]
         groups = [joint[shift_of_chain.ravel() == k] for k in range(len(shifts))]
-        largest = np.nanmax([1.0, *(results.rhat_and_ess(group)[0] for group in groups)])
+        max_rhat = np.nanmax([1.0, *(results.rhat_and_ess(group)[0] for group in groups)])
         why = (
             f"chains stand at {len(shifts)} shifts of map and sensors together, in the shares that the poses' prior "
             f"gives them, and none moves from one to another. Blocks and more sweeps do not change that; another "
-            f"sensor or surer poses leave fewer. At each shift R-hat is at most {largest:.2f}"
+            f"sensor or surer poses leave fewer. At each shift R-hat is at most {max_rhat:.2f}"
         )
-        return Verdict("fair" if largest <= LIMITS.rhat_limit else "bad", why)
+        return Verdict("fair" if max_rhat <= LIMITS.rhat_limit else "bad", why)
 
     def as_run(self, result: Result) -> Run:
         if self.kept_draws is None:
@@ -240,6 +247,7 @@ class RunningChains(Estimate):
             n_incidences=self.problem.n_incidences, finished=self.done,
             seconds={"trace": 0.0, "warm_start": 0.0, "sampling": self.seconds},
         )  # fmt: skip
+        # The burn-in becomes the warm-up of the run: its draws are left out.
         burned = self._checkpoints[0]
         first = burned.sweep // self.thin
         chains = replace(
@@ -247,19 +255,18 @@ class RunningChains(Estimate):
             log_prior=chains.log_prior[:, first:], warmup_log_joint=self.log_joint()[:, : burned.sweep],
             observed_counts=self._observed_counts - burned.observed_counts,
         )  # fmt: skip
-        count = self.total // self.thin - first
+        n_draws = self.total // self.thin - first
         settings = result.settings_of_run(
-            self.model, chains=self.n_chains, draws=count, warmup=burned.sweep, thin=self.thin
+            self.model, chains=self.n_chains, draws=n_draws, warmup=burned.sweep, thin=self.thin
         )
         return Run(posterior_of_chains(self.model, chains, settings, {"total": self.seconds}, None))
 
 
 def pose_prior(document: Document) -> PosePrior | None:
     """Return the prior of the sensors' poses; None if they are known, or if the method treats them as known."""
-    sigma_m, sigma_rad = document.pose_sigma, document.heading_sigma
-    if not document.simulated or document.sampler not in CHAIN_METHODS or not (sigma_m > 0 or sigma_rad > 0):
+    if not document.samples_poses:
         return None
-    return UncertainPoses(max(sigma_m, MIN_SIGMA_M), max(sigma_rad, MIN_SIGMA_RAD))
+    return UncertainPoses(max(document.pose_sigma, MIN_SIGMA_M), max(document.heading_sigma, MIN_SIGMA_RAD))
 
 
 def pose_starts(document: Document, chains: int) -> NDArray[np.float64]:
@@ -271,10 +278,10 @@ def pose_starts(document: Document, chains: int) -> NDArray[np.float64]:
     of a cell are avoided: walls would not fit the cells, and chains would take long to leave the start.
     """
     poses = np.array([(sensor.x, sensor.y, sensor.yaw) for sensor in document.sensors])
-    sigma = max(document.pose_sigma, MIN_SIGMA_M) / math.sqrt(len(poses)) / document.grid.resolution
-    most = math.ceil(MAX_SHIFT_SIGMAS * sigma)
-    cells = np.arange(-most, most + 1)
-    cumulative = np.cumsum(np.exp(-0.5 * (cells / sigma) ** 2))
+    sigma_cells = max(document.pose_sigma, MIN_SIGMA_M) / math.sqrt(len(poses)) / document.grid.resolution
+    max_cells = math.ceil(MAX_SHIFT_SIGMAS * sigma_cells)
+    cells = np.arange(-max_cells, max_cells + 1)
+    cumulative = np.cumsum(np.exp(-0.5 * (cells / sigma_cells) ** 2))
     # Evenly spread points of the unit square, one per chain, become shifts by the inverse distribution function.
     points = (0.5 + np.outer(np.arange(chains), EVEN_STEPS)) % 1.0
     shifts = cells[np.searchsorted(cumulative / cumulative[-1], points)] * document.grid.resolution
@@ -284,7 +291,7 @@ def pose_starts(document: Document, chains: int) -> NDArray[np.float64]:
 
 
 def chains_of_walls(scene: Scene, document: Document, first_maps: NDArray[np.bool_]) -> RunningChains:
-    """Prepare chains that start from the given maps, one per chain, (chains, nx, ny).
+    """Return chains of a document with walls that start from `first_maps`, one per chain, (chains, nx, ny).
 
     Uncertain poses are sampled together with the walls, as in `bayesmap.infer(..., poses=UncertainPoses(...))` without
     warm-up. They start from `pose_starts`.
@@ -296,14 +303,14 @@ def chains_of_walls(scene: Scene, document: Document, first_maps: NDArray[np.boo
     if poses is None:
         return RunningChains(model, sampler, walls, document)
     model = replace(model, poses=poses)
-    joint = PoseProblem(model, walls.for_any_poses(), walls.device, walls.threads)
+    joint_problem = PoseProblem(model, walls.for_any_poses(), walls.device, walls.threads)
     first_poses = pose_starts(document, POSE_CHAINS)
     # Without warm-up (0), the sizes of pose steps are not adapted.
-    stream = RunningChains(model, WithPoses(cast(MovableSampler, sampler), 0, first_poses), joint, document)
+    chains = RunningChains(model, WithPoses(cast(MovableSampler, sampler), 0, first_poses), joint_problem, document)
     shifts_m = first_poses[:, 0, :2] - pose_starts(document, 1)[0, 0, :2]
-    stream.shifts = np.rint(shifts_m / document.grid.resolution)
-    stream.requested_poses = {"kind": "uncertain", "sigma_m": document.pose_sigma, "sigma_rad": document.heading_sigma}
-    return stream
+    chains.shifts = np.rint(shifts_m / document.grid.resolution)
+    chains.requested_poses = {"kind": "uncertain", "sigma_m": document.pose_sigma, "sigma_rad": document.heading_sigma}
+    return chains
 
 
 def first_maps_of(problem: WallProblem, document: Document, preview: Preview | None) -> NDArray[np.bool_]:
@@ -313,22 +320,22 @@ def first_maps_of(problem: WallProblem, document: Document, preview: Preview | N
     from the beliefs and from the empty map: chains that start alike agree on a wrong answer long before they leave it.
     For a file, whose maps are large, all chains start from the beliefs. Prior draws fill the cells without beliefs.
     """
-    chains = CHAINS if pose_prior(document) is None else POSE_CHAINS
+    n_chains = POSE_CHAINS if document.samples_poses else CHAINS
 
-    def maps(kind: Start, marginals: Marginals | None = None) -> NDArray[np.bool_]:
-        return start_maps(problem, kind, range(chains), document.seed, marginals)
+    def draw_maps(kind: Start, marginals: Marginals | None = None) -> NDArray[np.bool_]:
+        return start_maps(problem, kind, range(n_chains), document.seed, marginals)
 
     if document.start == "empty":
-        return maps("zeros")
+        return draw_maps("zeros")
     if document.start == "prior" or preview is None:
-        return maps("prior")
-    likely = maps("propagate", preview.marginals())
+        return draw_maps("prior")
+    maps = draw_maps("propagate", preview.marginals())
     if not document.simulated:
-        return likely
-    likely[1::2] = False
-    if chains > CHAINS:  # shifted chains start empty: the beliefs belong to the poses without a shift
-        likely[(pose_starts(document, chains) != pose_starts(document, 1)).any(axis=(1, 2))] = False
-    return likely
+        return maps
+    maps[1::2] = False
+    if document.samples_poses:  # shifted chains start empty: the beliefs belong to the poses without a shift
+        maps[(pose_starts(document, n_chains) != pose_starts(document, 1)).any(axis=(1, 2))] = False
+    return maps
 
 
 class Pilot(Estimate):
@@ -365,16 +372,33 @@ class Pilot(Estimate):
         return self.model.cells.map_of(self.draws, 0, -1), 0, 0
 
 
-Fitted = tuple[Model, Any, Any]  # model under fitted sensor and prior, its sampler and problem
+def append_draws(before: Draws | None, after: Draws, max_draws: int) -> Draws:
+    """Return the last draws of two blocks: at most `max_draws` per chain, and at most `MAX_RECENT_BYTES`."""
+    draw_bytes = sum(array[:, :1].nbytes for array in after.arrays.values())
+    n_last = min(max_draws, max(1, MAX_RECENT_BYTES // max(draw_bytes, 1)))
+    blocks: tuple[Draws, ...] = (after,)
+    if before is not None and before.index.keys() == after.index.keys():
+        blocks = (before, after)
+    joined = {name: np.concatenate([block.arrays[name] for block in blocks], axis=1) for name in after.arrays}
+    return replace(after, arrays={name: array[:, -n_last:] for name, array in joined.items()})
 
 
-def fit_by_pilot(scene: Scene, document: Document, show: Callable[[Pilot], None]) -> Generator[None, None, Fitted]:
-    """Fit sensor and prior to the readings in short steps; return the fitted model, its sampler and its problem. The
-    document gives the kind of cells and the seed. ``show`` gets the pilot after every sweep.
+class FittedModel(NamedTuple):
+    """A model under the fitted sensor and prior, with its sampler and its problem."""
+
+    model: Model
+    sampler: Any
+    problem: Any
+
+
+def fit_by_pilot(scene: Scene, document: Document, show: Callable[[Pilot], None]) -> Generator[None, None, FittedModel]:
+    """Fit sensor and prior to the readings in short steps, and return the fitted model.
+
+    The document gives the kind of cells and the seed. ``show`` gets the pilot after every sweep.
     """
     prior = BUILT_IN[document.cells]()
-    first = first_sensor(prior, document.grid.resolution)
-    model = replace(scene.model(prior), sensor=first, hit_depth=prior.hit_depth)
+    start_sensor = first_sensor(prior, document.grid.resolution)
+    model = replace(scene.model(prior), sensor=start_sensor, hit_depth=prior.hit_depth)
     sampler = sampler_of(prior.methods["gibbs"], model.grid, Gibbs())
     problem = sampler.prepare(model, "cpu")
     yield
@@ -387,4 +411,4 @@ def fit_by_pilot(scene: Scene, document: Document, show: Callable[[Pilot], None]
         draws = append_draws(draws, latest, math.ceil(sweep / 2))
         show(Pilot(model, draws, sweep, PILOT_SWEEPS, touched))
         yield
-    return model, sampler, sampler.prepare(model, "cpu")  # traces beams as far as the fitted noise reaches
+    return FittedModel(model, sampler, sampler.prepare(model, "cpu"))  # traces beams as far as the fitted noise reaches
