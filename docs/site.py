@@ -50,10 +50,9 @@ def story_frame(step: int, up: str) -> str:
 def story() -> str:
     """Return the story that is built in, as a page in one file."""
     from bayesmap.app.edits import tutorial_document
-    from bayesmap.app.figures import to_figure
-    from bayesmap.app.stories import OURS, read_story
+    from bayesmap.app.figures import BUILT_IN_STORY, read_story, to_figure
 
-    told = read_story(OURS, tutorial_document())
+    told = read_story(BUILT_IN_STORY, tutorial_document())
     return to_figure(told.steps[0].document, told)
 
 

@@ -41,7 +41,7 @@ def test_a_path_s_probability_is_that_of_the_draws(mode):
     heard.infer(DOCUMENT, mode)
     header, _ = heard.answer(PATH)
     assert (header["type"], header["generation"]) == ("path", heard.generation)
-    free = path_is_free(heard.engine._result.maps, header["path"], 0.4)
+    free = path_is_free(heard.engine._result, header["path"], 0.4)
     assert header["probability"] == free.probability
     assert header["within_risk"] == (1 - free.probability <= 0.05)
     assert [header["path"][0], header["path"][-1]] == [[6.0, 15.0], [10.0, 14.0]]

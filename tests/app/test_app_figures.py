@@ -11,9 +11,8 @@ from page_driver import snapshot, until
 from page_hands import click
 
 from bayesmap.app.edits import tutorial_document
-from bayesmap.app.figures import to_figure
+from bayesmap.app.figures import BUILT_IN_STORY, read_story, to_figure
 from bayesmap.app.session import Session
-from bayesmap.app.stories import OURS, read_story
 from bayesmap.errors import BadInput
 
 
@@ -93,7 +92,7 @@ def test_files_without_a_story_and_steps_that_no_figure_has_are_refused(tmp_path
 
 
 def test_a_reader_goes_through_our_story_in_one_file(open_page, tmp_path):
-    story = read_story(OURS, tutorial_document())
+    story = read_story(BUILT_IN_STORY, tutorial_document())
     assert next(iter(Session(story.steps[0].document, story).join(1))).message.story == story  # of a server, too
     (tmp_path / "story.html").write_text(to_figure(story.steps[0].document, story), encoding="utf-8")
     page = open_page((tmp_path / "story.html").as_uri() + "#step=3")

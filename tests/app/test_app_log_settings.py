@@ -182,12 +182,12 @@ def test_counts_are_those_of_a_plain_walk_whatever_the_way_to_them(log):
     scene = log.scene(replace(log.document, grid=grid))
     counts = HitCounts(scene.scans, scene.problem.table)
     for n in (3, 12, 1, 7):  # on and back
-        found, expected = counts.first(n), plain_counts(log.scans.select(slice(n)), grid)
+        found, expected = counts.count_first(n), plain_counts(log.scans.select(slice(n)), grid)
         np.testing.assert_array_equal(found[0], expected[0])
         # a beam through a corner, or by less than a step through a cell, is all that may differ
         assert np.abs(found[1] - expected[1]).sum() <= 0.05 * expected[1].sum()
-    np.testing.assert_array_equal(counts.first(None), counts.first(12))
-    assert counts.first(1)[0].sum() == hit_mask(scene)[0].sum()
+    np.testing.assert_array_equal(counts.count_first(None), counts.count_first(12))
+    assert counts.count_first(1)[0].sum() == hit_mask(scene)[0].sum()
 
 
 @pytest.mark.parametrize("cells", ["binary", "reflectivity", "surface"])
@@ -199,7 +199,7 @@ def test_the_coarse_picture_is_made_of_counts_at_once(log, cells):
     assert len(heard.all("field")) == 1
     assert header["quantity"]["kind"] == cells
     scene = log.scene(replace(document, scans_used=None))
-    counts = HitCounts(scene.scans, scene.problem.table).first(6)
+    counts = HitCounts(scene.scans, scene.problem.table).count_first(6)
     prior = {"binary": bm.Independent(0.2), "reflectivity": bm.Beta(), "surface": bm.Surface()}[cells]
     np.testing.assert_array_equal(buffers["p"].ravel(), np.rint(255 * stop_probabilities(counts, prior, 0.2)))
     observed = buffers["reached"].ravel() > 0

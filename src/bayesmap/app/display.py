@@ -1,6 +1,4 @@
-"""Reports of a job to the pages: fields, rays, overlays and progress."""
-
-from __future__ import annotations
+"""Reports of a job to the pages: fields, rays, overlays and progress. `field_of` makes the main one, a picture."""
 
 import time
 from collections.abc import Callable
@@ -16,25 +14,25 @@ from bayesmap.app.scene import Scene, scan_message
 from bayesmap.app.shown.result import Result
 from bayesmap.space.grid import Grid
 
-FRAME_SECONDS = 0.08  # least time between two fields
-OVERLAY_SECONDS = 2.0  # least time between two overlays of the surfaces of chains that go on
-LEVELS = 255  # the number that stands for a probability of one
+MIN_FRAME_SECONDS = 0.08  # time between two fields
+MIN_OVERLAY_SECONDS = 2.0  # time between two overlays of the surfaces of chains that go on
+MAX_LEVEL = 255  # the number that stands for a probability of one
 TRACE_POINTS = 300  # evenly chosen points of the trace in a field
 FIRST_SWEEPS = 100  # first sweeps that are all included in the trace
 MIN_REFLECTIVITY = 0.1  # surfaces with a smaller reflectivity are not shown
-WEIGHT_BINS = 24  # the number of bins of a histogram of log weights
+WEIGHT_BINS = 24  # number of bins of a histogram of log weights
 
 OnReport = Callable[[Report], None]
 
 
 class Display:
-    """Makes the reports of one job after another."""
+    """Makes the reports of one job after another, and decides when the next picture is due."""
 
     def __init__(self, on_report: OnReport) -> None:
         self._on_report = on_report
         self.generation, self.grid = -1, Grid((1, 1))  # number and grid of the present picture
         self._views: dict[int, View] = {}  # the views of pages that get their own fields
-        self._began_s = self._frame_sent_s = self._overlay_sent_s = 0.0
+        self._began_s = self._frame_sent_s = self._overlay_sent_s = 0.0  # times of `time.perf_counter`
 
     def begin(self, task: Infer) -> None:
         """Begin the reports of another job."""
@@ -58,7 +56,7 @@ class Display:
         for client, view in ((None, View("mean")), *self._views.items()):
             self._send_field(view, result, client)
         self._frame_sent_s = time.perf_counter()
-        if result.prior.has_surfaces and self._frame_sent_s - self._overlay_sent_s > OVERLAY_SECONDS:
+        if result.prior.has_surfaces and self._frame_sent_s - self._overlay_sent_s > MIN_OVERLAY_SECONDS:
             self.send_overlay(result)
 
     def _send_field(self, view: View, result: Result, client: int | None) -> None:
@@ -91,37 +89,40 @@ class Display:
         return time.perf_counter() - self._began_s
 
     def frame_is_due(self) -> bool:
-        """Return whether the last frame was sent more than `FRAME_SECONDS` ago."""
-        return time.perf_counter() - self._frame_sent_s > FRAME_SECONDS
+        """Return whether the last frame was sent more than `MIN_FRAME_SECONDS` ago."""
+        return time.perf_counter() - self._frame_sent_s > MIN_FRAME_SECONDS
 
 
 def field_of(result: Result, view: View, generation: int, milliseconds: float) -> tuple[Field, Buffers]:
     """Return the field of a view and its buffers. If the draw or the interval does not exist, return the mean."""
-    estimate, layer, chain, number, lowest = result.estimate, view.layer, None, None, None
+    estimate, layer, lowest = result.estimate, view.layer, None
+    # The trace and the histogram of weights, which every layer has.
     trace, traced = thin_trace(estimate.log_joint())
     buffers: dict[str, NDArray[np.generic]] = {"trace": trace, "traced": traced}
     if estimate.log_weights is not None:
         buffers["weights"], lowest = histogram(estimate.log_weights)
+    # The values of the cells: of a draw, widths of intervals, or the mean.
     drawn = estimate.draw(view.chain, view.draw) if layer == "draw" else None
     progress = estimate.progress(result.ended)
     if drawn is not None:
-        numbers, chain, number = drawn
-        progress = replace(progress, log_joint=estimate.log_joint_of_draw(chain, number))
+        values = drawn.values
+        progress = replace(progress, log_joint=estimate.log_joint_of_draw(drawn.chain, drawn.draw))
     elif layer == "width" and result.width is not None:
-        numbers = result.width
+        values = result.width
     else:
-        layer, numbers = "mean" if layer in OWN_LAYERS else layer, estimate.mean()
+        layer, values = "mean" if layer in OWN_LAYERS else layer, estimate.mean()
     field = Field(
         generation=generation, layer=layer, method=result.method, approximate=estimate.approximate,
         **progress.as_fields(), draws=result.draw_count, quantity=result.quantity, about=result.about,
-        milliseconds=milliseconds, chain=chain, draw=number, averaged=estimate.averaged, lowest=lowest,
+        milliseconds=milliseconds, chain=drawn.chain if drawn else None, draw=drawn.draw if drawn else None,
+        averaged=estimate.averaged, lowest=lowest,
     )  # fmt: skip
-    return field, {"p": to_levels(numbers), "reached": to_levels(estimate.reached()), **buffers}
+    return field, {"p": to_levels(values), "reached": to_levels(estimate.reached()), **buffers}
 
 
-def to_levels(numbers: NDArray[Any]) -> NDArray[np.uint8]:
-    """Return numbers from 0 to 1 in 255ths."""
-    return np.rint(numbers * np.float32(LEVELS)).astype(np.uint8)
+def to_levels(values: NDArray[Any]) -> NDArray[np.uint8]:
+    """Return values from 0 to 1 in 255ths."""
+    return np.rint(values * np.float32(MAX_LEVEL)).astype(np.uint8)
 
 
 def overlay_of(result: Result) -> dict[str, NDArray[np.float32]]:
@@ -131,16 +132,14 @@ def overlay_of(result: Result) -> dict[str, NDArray[np.float32]]:
 
 def thin_trace(log_joint: NDArray[np.float64]) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
     """Return the log joint at all first and evenly chosen later sweeps, (chains, m), and these sweeps, from 1, (m,)."""
-    count = log_joint.shape[1]
-    later = np.linspace(1, count, min(count, TRACE_POINTS)).round().astype(int) if count else np.zeros(0, dtype=int)
-    sweeps = np.union1d(np.arange(1, min(count, FIRST_SWEEPS) + 1), later)
+    n_sweeps = log_joint.shape[1]
+    later = np.linspace(1, n_sweeps, min(n_sweeps, TRACE_POINTS)).round().astype(int)
+    sweeps = np.union1d(np.arange(1, min(n_sweeps, FIRST_SWEEPS) + 1), later)
     return log_joint[:, sweeps - 1].astype(np.float32), sweeps.astype(np.float32)
 
 
 def histogram(log_weights: NDArray[np.float64]) -> tuple[NDArray[np.float32], float]:
-    """Count log weights in bins of equal width up to the largest. Returns the counts, (WEIGHT_BINS,), and the lower
-    edge of the first bin, in nats relative to the largest log weight.
-    """
+    """Count log weights, (n,), in equal bins up to the largest. Returns the counts and the lowest edge, in nats."""
     relative = log_weights - log_weights.max()
     lowest = min(-1.0, float(relative[np.isfinite(relative)].min()))
     counts, _ = np.histogram(relative, WEIGHT_BINS, (lowest, 0.0))
@@ -149,11 +148,11 @@ def histogram(log_weights: NDArray[np.float64]) -> tuple[NDArray[np.float32], fl
 
 def strokes_of(result: Result) -> NDArray[np.float32]:
     """Return surfaces as segments, (U, 5): x, y, x, y in metres, and the reflectivity."""
-    if result.surfaces is None:
+    surfaces = result.surfaces
+    if surfaces is None:
         return np.zeros((0, 5), dtype=np.float32)
-    _, mean, covariance, reflectivity = result.surfaces
     # Each segment reaches two standard deviations to both sides, along the covariance's longest axis.
-    variances, axes = np.linalg.eigh(covariance)
+    variances, axes = np.linalg.eigh(surfaces.covariances_m2)
     half = 2.0 * np.sqrt(np.maximum(variances[:, 1], 0.0))[:, None] * axes[:, :, 1]
-    strokes = np.column_stack([mean - half, mean + half, reflectivity])
-    return strokes[reflectivity >= MIN_REFLECTIVITY].astype(np.float32)
+    strokes = np.column_stack([surfaces.means_m - half, surfaces.means_m + half, surfaces.reflectivities])
+    return strokes[surfaces.reflectivities >= MIN_REFLECTIVITY].astype(np.float32)

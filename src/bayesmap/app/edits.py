@@ -70,10 +70,7 @@ def _center_map(walls: NDArray[np.bool_], shape: tuple[int, int]) -> NDArray[np.
 
 
 def _make_building(shape: tuple[int, int], seed: int) -> tuple[NDArray[np.bool_], Grid]:
-    """Return the walls of a random building and their grid, with the finer cells if the building then fits the shape.
-
-    Raises `Refused` if it does not fit the shape even with the coarser cells.
-    """
+    """Return the walls of a random building and their grid, with the finest cells that fit, or raise `Refused`."""
     from bayesmap.sim.building import MARGIN_M, MIN_SIZE_M, building
 
     for resolution in (0.1, 0.25):
@@ -101,10 +98,7 @@ def _first_sensor(walls: NDArray[np.bool_], grid: Grid) -> Sensor:
 
 
 def edit_document(document: Document, action: actions.Edit) -> tuple[Document, str]:
-    """Return the document after an action, and a remark if the action was applied only in part; else "".
-
-    Raises `Refused` if the action cannot be applied at all.
-    """
+    """Return the document after an action, and a remark if only a part was done. Raises `Refused` if none can be."""
     if not document.simulated and not isinstance(action, actions.ChangeSettings | actions.New):
         raise Refused(f"{document.source.name} is a file, which cannot be edited", "begin a new map")
     match action:
@@ -210,8 +204,8 @@ def merge_actions(before: actions.Action, after: Action) -> Action | None:
 def adopt_document(present: Document, other: Document) -> Document:
     """Return the document to show when a page brings another document, as after a lost connection.
 
-    If both are simulations, it is the other document. If both show the same file, it is the present document with the
-    other's settings. Otherwise raises `Refused`.
+    It is the other document if both are simulations, or the present one with the other's settings if both show one
+    file. Otherwise raises `Refused`.
     """
     if other.simulated and present.simulated:
         return other
@@ -226,11 +220,9 @@ def adopt_document(present: Document, other: Document) -> Document:
             settings = {name: getattr(other, name) for name in SETTINGS if name not in fixed}
             n_used = settings.pop("scans_used", None)
             return replace(document if n_used is None else document.with_scans_used(n_used), **settings)
-    present_name, other_name = (
-        "a map that was drawn" if document.simulated else document.source.name for document in (present, other)
-    )
+    names = ["a map that was drawn" if either.simulated else either.source.name for either in (present, other)]
     remedy = f"start bayesmap app {'without a file' if other.simulated else f'with {other.source.name}'}"
-    raise Refused(f"this server shows {present_name}, not {other_name}", remedy)
+    raise Refused(f"this server shows {names[0]}, not {names[1]}", remedy)
 
 
 @dataclass(frozen=True)

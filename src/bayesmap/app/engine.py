@@ -1,14 +1,12 @@
 """The engine of the worker process: it turns tasks into reports.
 
-`Engine.take` begins a job, which is a generator, and `Engine.advance` does one short step of it. So a new task never
-waits long. `Engine._run_job` is a whole job: scene, preview by belief propagation, then chains.
+`Engine.take` begins a job, and `Engine.advance` does a short step of it, so that a new task never waits long.
+`Engine._run_job` is a whole job: scene, preview by belief propagation, then chains.
 
 A job depends on its document alone: the readings on its seed, the start of live chains on the beliefs from these
 readings, and every sweep's draws on (seed, chain, sweep, cell). So the same document gives the same posterior, however
 often edits interrupted the chains. The last state of earlier chains is therefore not used.
 """
-
-from __future__ import annotations
 
 import time
 import traceback
@@ -264,10 +262,7 @@ class Engine:
         self._display.send_frame(self._result)
 
     def _propagate(self, scene: Scene, document: Document, preview: Preview, *, quiet: bool) -> Iterator[None]:
-        """Do rounds of belief propagation until it converges.
-
-        Unless `quiet`, show the first picture after `PREVIEW_SECONDS`, then pictures at intervals and one at the end.
-        """
+        """Do rounds of belief propagation. Unless `quiet`, show a picture soon, then at intervals, and at the end."""
         pictured = False  # whether the first picture has been shown
         while True:
             first_is_due = preview.rounds >= MIN_ROUNDS and self._display.elapsed_s() > PREVIEW_SECONDS

@@ -4,8 +4,6 @@
 The page in one file contains the page's module and a recording, and needs no server (docs/app.md).
 """
 
-from __future__ import annotations
-
 import io
 import sys
 import tempfile
@@ -71,10 +69,7 @@ def export_report(question: Export, result: Result | None, client: int) -> Repor
 
 
 def make_file(result: Result, what: str) -> tuple[Download, bytes]:
-    """Return the "run", "map", "recording" or page ("html") of a result, with its name and type.
-
-    Raises `BadInput` if a run is asked for and there are no draws.
-    """
+    """Return a file of a result of the kind `Export.what`. Raises `BadInput` if a run has no draws."""
     if what == "recording":
         return Download("recording", "application/octet-stream"), encode_recording(*build_recording(result))
     if what == "html":
@@ -123,10 +118,7 @@ def build_recording(result: Result) -> tuple[Recording, Buffers]:
 
 
 def _pack_draws(result: Result) -> tuple[NDArray[np.intp], RecordedDraws, NDArray[Any]]:
-    """Return the indices of the recorded draws of each chain, their numbers, and the draws as uint8 (chains, n, bytes).
-
-    Walls are packed eight cells to a byte. Maps of other kinds of cells are in 255ths.
-    """
+    """Return the indices of the recorded draws, their numbers, and the draws: packed walls, or maps in 255ths."""
     draws = result.estimate.kept_draws
     if draws is None:
         return np.zeros(0, dtype=np.intp), RecordedDraws(), np.zeros((0, 0, 0), dtype=np.uint8)

@@ -1,31 +1,45 @@
-"""Pages in one file: their frame, and the figure that samples in the page, without a server (docs/app.md)."""
+"""What an author prepares for readers: stories, and figures, which are pages in one file without a server.
 
-from __future__ import annotations
+A story is a series of steps that are shown beside the map. `read_story` reads it from the file that an author writes
+(docs/stories.md). A figure is a drawn world, perhaps with a story, that the page itself samples; `to_figure` checks
+that the page can do so. `page_in_one_file` makes the page of a figure or of a recording (docs/app.md).
+"""
 
 import base64
+import json
 import zlib
+from collections.abc import Mapping
+from dataclasses import fields
 from importlib import resources
-from typing import Literal
+from pathlib import Path
+from typing import Annotated, Any, Literal
 
-from msgspec import Struct
+from msgspec import Meta, Struct
 
-from bayesmap.app.protocol.document import RARE_WALLS, Document, Refused, encode_json
-from bayesmap.app.protocol.notices import LIMITS, Limits, Story, Tool
+from bayesmap.app.protocol.actions import Layer
+from bayesmap.app.protocol.document import RARE_WALLS, Document, Refused, encode_json, pack_walls
+from bayesmap.app.protocol.notices import LIMITS, Limits, Step, Story, Tool
+from bayesmap.app.protocol.wire import convert, parse_simulation
 from bayesmap.app.shown.result import VerdictLimits
+from bayesmap.errors import BadInput
+from bayesmap.sim.drawing import from_text
+
+BUILT_IN_STORY = "tutorial"  # name of the story that is shipped in the package
+# Keys that a state may change: all fields of a document, and the walls as rows of text.
+KEYS = ("map", *(field.name for field in fields(Document)))
+Text = Annotated[str, Meta(min_length=1, max_length=1000)]
+TOOLS: tuple[Tool, ...] = ("draw", "erase", "sensor", "pan", "where")  # the tools of a figure
 
 
 class Figure(Struct, frozen=True, kw_only=True):
-    """The data of a figure that samples in the page: what a session without a server starts from."""
+    """The data of a figure, with which a page begins a session without a server."""
 
-    version: Literal[1] = 1
-    document: Document
-    limits: Limits = LIMITS
+    version: Literal[1] = 1  # version of this format
+    document: Document  # document of a drawn world
+    limits: Limits = LIMITS  # limits of the settings
     rare_walls: float = RARE_WALLS  # prior of walls or free cells up to which method "auto" means blocks
-    judging: VerdictLimits = VerdictLimits()
-    story: Story | None = None
-
-
-TOOLS: tuple[Tool, ...] = ("draw", "erase", "sensor", "pan", "where")  # the tools of a figure
+    judging: VerdictLimits = VerdictLimits()  # limits by which chains are judged
+    story: Story | None = None  # story to tell beside the map
 
 
 def read_static(name: str) -> str:
@@ -58,6 +72,7 @@ def to_figure(document: Document, story: Story | None = None) -> str:
 
 
 def _check_can_sample(document: Document) -> None:
+    """Check that the page can sample a document. Raises `Refused` if it cannot."""
     if not document.simulated:
         raise Refused(f"{document.source.name} is a file, and a figure shows a drawn world", "begin a new map")
     if document.pose_sigma > 0 or document.heading_sigma > 0:
@@ -70,3 +85,69 @@ def _compress(data: bytes) -> str:
     """Compress by raw deflate, which the browser's DecompressionStream reads, and return base64."""
     deflate = zlib.compressobj(9, zlib.DEFLATED, -15)  # the best compression, and no header around the data
     return base64.b64encode(deflate.compress(data) + deflate.flush()).decode()
+
+
+class WrittenStep(Struct, frozen=True, forbid_unknown_fields=True):
+    """A step as an author writes it. See `bayesmap.app.protocol.notices.Step` for the fields without a comment."""
+
+    title: Text
+    text: Text
+    task: Text
+    state: dict[str, Any] = {}  # changes of the story's start
+    solution: dict[str, Any] | None = None  # changes of the step's state
+    layer: Layer = "mean"
+    tool: Tool = "draw"
+
+
+class WrittenStory(Struct, frozen=True, forbid_unknown_fields=True):
+    """A story as an author writes it."""
+
+    title: Text
+    steps: Annotated[list[dict[str, Any]], Meta(min_length=1, max_length=30)]
+    start: dict[str, Any] = {}  # changes of the tutorial's document
+
+
+def read_story(path: str, document: Document) -> Story:
+    """Read a story from a JSON file, or the built-in story "tutorial". Its start changes a document.
+
+    Raises `BadInput`, with the file, the step and the key, if the file is no valid story.
+    """
+    try:
+        is_built_in = path == BUILT_IN_STORY
+        values = json.loads(read_static("story.json") if is_built_in else Path(path).read_text(encoding="utf-8"))
+        written = convert(values, WrittenStory, "story")
+        start = _change_document(document, written.start, "start")
+        return Story(written.title, [_read_step(step, i, start) for i, step in enumerate(written.steps, start=1)])
+    except (OSError, ValueError, RecursionError) as error:
+        reason = error.strerror if isinstance(error, OSError) else error if isinstance(error, BadInput) else "not JSON"
+        raise BadInput(f"{path}: {reason}; docs/stories.md describes the format") from None
+
+
+def _read_step(values: Mapping[str, Any], number: int, start: Document) -> Step:
+    """Return a step from its JSON values. Its number, from 1, is for messages of errors."""
+    place = f"step {number}"
+    step = convert(values, WrittenStep, place)
+    document = _change_document(start, step.state, f"{place}, state")
+    solution = None if step.solution is None else _change_document(document, step.solution, f"{place}, solution")
+    return Step(
+        title=step.title, text=step.text, task=step.task, document=document, solution=solution, layer=step.layer,
+        tool=step.tool,
+    )  # fmt: skip
+
+
+def _change_document(document: Document, changes: Mapping[str, Any], place: str) -> Document:
+    """Return a document with an author's changes. Raises `Refused`, with the place, if a change is invalid."""
+    try:
+        unknown = sorted(changes.keys() - set(KEYS))
+        if unknown:
+            raise Refused(f"there is no {unknown[0]}", f"there are: {', '.join(KEYS)}")
+        values = {**document.to_json(), **changes}
+        if "map" in values:
+            # The first line of a drawn map is its top; the arrays of a map begin at the lower left, [x, y].
+            is_wall = from_text("\n".join(convert(values.pop("map"), list[str], "map")))[::-1].T
+            grid = values["grid"] if isinstance(values["grid"], dict) else {}
+            walls = base64.b64encode(pack_walls(is_wall)).decode()
+            values |= {"grid": {**grid, "shape": is_wall.shape}, "walls": walls}
+        return parse_simulation(values)
+    except BadInput as error:
+        raise Refused(f"{place}: {error}") from None

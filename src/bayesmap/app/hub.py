@@ -1,10 +1,7 @@
 """The hub passes messages between one session, one worker and any number of pages.
 
-A page's message goes through `Hub.receive` to the session, and a worker's report through `Hub._receive_report`. The
-session returns effects. `Hub._carry_out` sends them on: tasks to the worker, and messages to the outboxes of pages.
+The session returns effects of a page's message or a worker's report, which `Hub._carry_out` sends to worker and pages.
 """
-
-from __future__ import annotations
 
 import asyncio
 import itertools
@@ -46,10 +43,7 @@ class Outbox:
 
 
 class Hub:
-    """Connects pages, session and worker. All methods run on one event loop, so the session needs no locks.
-
-    ``document`` is shown first, unless the worker opens the file ``path``, a log with ``log_options``.
-    """
+    """Connects pages, session and worker on one event loop. A file ``path`` is shown instead of the document."""
 
     def __init__(
         self, document: Document, path: str | None = None, log_options: Mapping[str, Any] | None = None,
@@ -58,7 +52,8 @@ class Hub:
         self.session = Session(document, story)  # the session that the pages share
         self._first_picture = asyncio.Event()  # event that is set when there is a first field, or an error instead
         self._loop = asyncio.get_running_loop()
-        on_report, on_lost = self._on_loop(self._receive_report), self._on_loop(self._worker_lost)
+        on_report = self._on_loop(self._receive_report)
+        on_lost = self._on_loop(lambda: self._carry_out(self.session.worker_lost()))
         self._supervisor = Supervisor(on_report, on_lost, path, log_options=log_options)
         self._outboxes: dict[int, Outbox] = {}  # the outbox of each connected page, by its number
         self._numbers = itertools.count(1)
@@ -119,9 +114,6 @@ class Hub:
         self._carry_out(self.session.receive_report(report))
         if isinstance(report.message, Field | Failed):
             self._first_picture.set()
-
-    def _worker_lost(self) -> None:
-        self._carry_out(self.session.worker_lost())
 
     def _on_loop(self, call: Callable[..., None]) -> Callable[..., None]:
         """Return a function that calls `call` on the event loop. The supervisor calls it on its own threads."""

@@ -1,4 +1,7 @@
-"""Scenes: the readings of a document, simulated or from a file, and the inference problem built from them."""
+"""Scenes: the readings of a document, and the inference problem built from them.
+
+`simulated_scene` makes the scene of a drawn world, and `scene_of_file` that of a run or a log.
+"""
 
 from __future__ import annotations
 
@@ -30,9 +33,7 @@ CUT_SIGMAS = 13.0  # how far past its reading a preview follows a beam: farther 
 
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """Readings, and the inference problem built from them. Beam tables are traced on first use: while the hand moves,
-    the next scene often replaces this one before that.
-    """
+    """The readings of a document, and the inference problem built from them."""
 
     scans: Scans  # the readings of the sensors
     exact_m: NDArray[np.float64]  # noise-free ranges, (S, A); empty, (0, A), if they are unknown
@@ -40,8 +41,9 @@ class Scene:
     sensor: SensorModel  # the sensor model
     grid: Grid  # the map's cells
     prior: BinaryWalls  # the prior of walls
-    trace: Callable[[], BeamTable]  # function that traces the beams of the scans used for the map
-    # function that traces these beams only a little past their readings; None means `trace`
+    # Functions, since many a scene is replaced before its beams are needed. One traces the beams of the scans used for
+    # the map; the other only a little past their readings (None means `trace`).
+    trace: Callable[[], BeamTable]
     trace_near: Callable[[], BeamTable] | None = None
     hit_depth: float = 0.0  # depth in a cell at which a beam is expected to stop
     n_used: int | None = None  # number of first scans used for the map; None means all scans
@@ -74,26 +76,26 @@ def scene_of_file(
     scans: Scans, grid: Grid, sensor: SensorModel, p_wall: float, table: BeamTable, hit_depth: float = 0.0,
     n_used: int | None = None,
 ) -> Scene:  # fmt: skip
-    """Return the scene of a file. Its scans are numbered from 1, and its noise-free ranges are unknown."""
+    """Return the scene of a file. Its scans have the ids 1, 2, 3 and so on, and its noise-free ranges are unknown."""
     return Scene(
         scans, np.zeros((0, len(scans.angles_rad))), tuple(range(1, len(scans) + 1)), sensor, grid,
         Independent(p_wall), lambda: table, hit_depth=hit_depth, n_used=n_used,
     )  # fmt: skip
 
 
-def standard_noise(seed: int, sensor: int, angles: int) -> NDArray[np.float64]:
-    """Draw standard normal numbers, (A,). Each depends only on the seed, the sensor and the beam's number."""
-    return np.random.default_rng([seed, sensor, Stream.NOISE]).standard_normal(angles)
+def standard_noise(seed: int, sensor_id: int, n_beams: int) -> NDArray[np.float64]:
+    """Draw standard normal numbers, (A,). Each depends only on the seed, the sensor's id and the beam's index."""
+    return np.random.default_rng([seed, sensor_id, Stream.NOISE]).standard_normal(n_beams)
 
 
 def simulate_document(document: Document) -> tuple[Scans, NDArray[np.float64]]:
-    """Simulate the scans of all sensors; return them and the noise-free ranges, (S, A)."""
-    poses = np.array([(s.x, s.y, s.yaw) for s in document.sensors])
-    angles = fan(document.angles, math.degrees(document.fov))
-    exact_m = ranges(document.is_wall, document.grid, poses, angles, document.max_range)
-    noise = np.stack([standard_noise(document.seed, s.id, document.angles) for s in document.sensors])
+    """Simulate the scans of all sensors. Returns the scans and the noise-free ranges in metres, (S, A)."""
+    poses = np.array([(sensor.x, sensor.y, sensor.yaw) for sensor in document.sensors])
+    angles_rad = fan(document.angles, math.degrees(document.fov))
+    exact_m = ranges(document.is_wall, document.grid, poses, angles_rad, document.max_range)
+    noise = np.stack([standard_noise(document.seed, sensor.id, document.angles) for sensor in document.sensors])
     ranges_m = exact_m + (document.noise if document.readings == "noisy" else 0.0) * noise
-    return Scans(poses, angles, ranges_m, max_range_m=document.max_range), exact_m
+    return Scans(poses, angles_rad, ranges_m, max_range_m=document.max_range), exact_m
 
 
 def simulated_scene(document: Document) -> Scene:
@@ -101,7 +103,7 @@ def simulated_scene(document: Document) -> Scene:
     from bayesmap.kernels.walls.table import trace
 
     scans, exact_m = simulate_document(document)
-    sensor, grid, ids = Gaussian(document.noise), document.grid, tuple(s.id for s in document.sensors)
+    sensor, grid, ids = Gaussian(document.noise), document.grid, tuple(sensor.id for sensor in document.sensors)
     # Cutting beams past their readings does not change belief propagation: the omitted cells send messages equal to 1.
     reach_m = scans.ranges_m.ravel() + CUT_SIGMAS * sensor.sigma_m
     trace_all, trace_near = partial(trace, scans, grid, sensor), partial(trace, scans, grid, sensor, reach_m=reach_m)
@@ -109,17 +111,16 @@ def simulated_scene(document: Document) -> Scene:
 
 
 def hit_mask(scene: Scene) -> NDArray[np.bool_]:
-    """Mark the beams that hit something, (S, A): exactly in a simulation, else by readings below the longest range.
+    """Return a mask of the beams that hit something, (S, A): exact in a simulation, else guessed from the readings.
 
     Without a return, a beam may read the longest range plus noise: readings within `BLUR_SIGMAS` of it are no return.
     """
-    limit = scene.scans.max_range_m
+    max_range_m, sensor = scene.scans.max_range_m, scene.sensor
     if len(scene.exact_m):
-        return np.asarray(scene.exact_m < limit)
-    sensor = scene.sensor
-    blur = getattr(sensor, "sigma_m", getattr(sensor, "scale_m", 0.0)) if isinstance(sensor, AdditiveNoise) else 0.0
+        return np.asarray(scene.exact_m < max_range_m)
+    noise_m = getattr(sensor, "sigma_m", getattr(sensor, "scale_m", 0.0)) if isinstance(sensor, AdditiveNoise) else 0.0
     ranges_m = scene.scans.ranges_m
-    return np.asarray(np.isfinite(ranges_m) & (ranges_m < limit - BLUR_SIGMAS * blur))
+    return np.asarray(np.isfinite(ranges_m) & (ranges_m < max_range_m - BLUR_SIGMAS * noise_m))
 
 
 def scan_message(scene: Scene, scan: int | None, generation: int) -> tuple[Scan, Buffers]:
@@ -129,8 +130,9 @@ def scan_message(scene: Scene, scan: int | None, generation: int) -> tuple[Scan,
 
 
 def scan_buffers(scene: Scene, rows: NDArray[np.intp]) -> Buffers:
-    """Return the buffers of some scans. If scans differ in their beam angles, angles have one row per scan."""
+    """Return the buffers of the scans in these rows, as the message `Scan` lists them."""
     scans, exact_m = scene.scans, scene.exact_m
+    # If scans differ in their beam angles, angles have one row per scan.
     angles = scans.angles_rad if scans.own_angles_rad is None else scans.angles_by_scan()[rows]
     return {
         "pose": scans.poses[rows],

@@ -1,11 +1,8 @@
 """The server of the page (docs/app.md). It listens on loopback unless another host is given.
 
-`serve`, at the end, opens the socket and runs a `Hub` behind an ASGI application. `build_application` connects the URL
-paths with their handlers: the page, its module, the socket for messages, and saved runs that are dropped onto the page.
-`Guard` admits only requests that have the token, address the server by one of its names, and come from its own page.
+`serve`, at the end, opens the socket and runs a `Hub` behind the application that `build_application` makes. `Guard`
+admits only requests that have the token, address the server by one of its names, and come from its own page.
 """
-
-from __future__ import annotations
 
 import asyncio
 import base64
@@ -61,10 +58,7 @@ SCRIPT_HASH = "sha256-" + base64.b64encode(hashlib.sha256(TOKEN_SCRIPT.encode())
 
 
 class Guard:
-    """Middleware that refuses requests without the token, with an unknown Host, or with a foreign Origin.
-
-    The check of the Host refuses foreign web pages whose own host name resolves to this machine (DNS rebinding).
-    """
+    """Middleware that refuses requests without the token, with an unknown Host, or with a foreign Origin."""
 
     def __init__(self, app: ASGIApp, token: str, host: str, port: int) -> None:
         self.app, self.token, self.host, self.port = app, token.encode(), host, port
@@ -104,6 +98,7 @@ class Guard:
 
     def refusal_reason(self, scope: Scope) -> str | None:
         """Return the reason why a request is refused, or None."""
+        # A foreign web page's own host name may resolve to this machine (DNS rebinding), so the Host is checked.
         if not self.is_own_host(_read_header(scope, b"host")):
             return "this server does not go by that name"
         origin = _read_header(scope, b"origin")
@@ -112,7 +107,6 @@ class Guard:
             if url.scheme != "http" or not self.is_own_host(url.netloc):
                 return "requests from other pages are refused"
         tokens = parse_qs(scope.get("query_string", b"").decode("latin-1")).get("token", [""])
-        # A comparison in constant time does not reveal how many characters are right.
         return None if secrets.compare_digest(tokens[-1].encode(), self.token) else WRONG_TOKEN
 
     def is_own_host(self, host: str) -> bool:
@@ -186,11 +180,7 @@ def build_application(hub: Hub, token: str, host: str, port: int) -> Guard:
 
 
 async def open_dropped_run(request: Request) -> Response:
-    """Return the recording of a saved run that was dropped onto the page, or a text about the fault of the file.
-
-    The body of the request is the file, and the query has its name. A process of its own reads the file and makes the
-    recording (`bayesmap.app.exports.main`). So a damaged file cannot stop the server.
-    """
+    """Return the recording of a saved run, the request's body, or a text about its fault. The query has its name."""
     name = Path(request.query_params.get("name", "")).name
     if not name.endswith(".nc"):
         return PlainTextResponse("not a saved run (.nc)", status_code=415)
@@ -202,6 +192,7 @@ async def open_dropped_run(request: Request) -> Response:
                 if n_bytes > MAX_FILE_BYTES:
                     return PlainTextResponse("too large for the page; start bayesmap app with it", status_code=413)
                 file.write(chunk)
+        # A process of its own reads the file and makes the recording, so a damaged file cannot stop the server.
         command = (sys.executable, "-m", "bayesmap.app.exports", str(path))
         pipe = asyncio.subprocess.PIPE
         process = await asyncio.create_subprocess_exec(*command, stdin=pipe, stdout=pipe, stderr=pipe)
@@ -279,14 +270,10 @@ async def _serve(
     make_hub: Callable[[], Hub], listener: socket.socket, host: str, announce: Callable[[str], None],
     make_server: Callable[[uvicorn.Config, Callable[[], None]], uvicorn.Server] = _Server,
 ) -> None:  # fmt: skip
-    """Serve a hub, and announce the page's address when requests are accepted and a picture is there.
-
-    `make_hub` is called on the event loop, to which a hub belongs. Tests replace `make_server`.
-    """
+    """Serve a hub, and announce the page's address when requests are accepted and a picture is there."""
     port, token, hub = listener.getsockname()[1], secrets.token_urlsafe(24), make_hub()
     name = f"[{host}]" if ":" in host else host
-    # A browser cannot open the address that stands for all addresses.
-    name = {"0.0.0.0": "127.0.0.1", "[::]": "[::1]"}.get(name, name)
+    name = {"0.0.0.0": "127.0.0.1", "[::]": "[::1]"}.get(name, name)  # a browser cannot open "all addresses"
     try:
         await hub.start()
         config = uvicorn.Config(

@@ -1,13 +1,10 @@
 """The session holds the document. It decides on the tasks for the worker and on the messages to pages.
 
 `Session.receive` applies an action of a page, and `Session.receive_report` a report of the worker. Both return effects,
-which the hub or the notebook's widget carries out. The session itself uses no sockets and no clocks.
-
-Every change of the document begins a new *generation*: the worker starts inference again. Edits of a gesture that
-arrive faster than pictures can be computed and painted are merged (`bayesmap.app.edits.Pace`).
+which the hub or the notebook's widget carries out. The session itself uses no sockets and no clocks. Every change of
+the document begins a new *generation*: the worker starts inference again. Edits of a gesture that arrive faster than
+pictures can be computed and painted are merged (`bayesmap.app.edits.Pace`).
 """
-
-from __future__ import annotations
 
 from collections.abc import Hashable
 from dataclasses import dataclass, field, replace
@@ -163,8 +160,7 @@ class Session:
         document, remark = edit_document(before, action)
         self.history = self.history.push(document, gesture_of(action, client), client)
         effects: Effects = [_status(remark, "warning", client)] if remark else []
-        # While the hand drags a setting of a log, show only counts of hits. The end of the drag starts inference, even
-        # if the last edit does not change the document.
+        # While the hand drags a setting of a log, show only counts of hits. The end of the drag starts inference.
         coarse = False
         if isinstance(action, actions.ChangeSettings):
             coarse = action.coarse and self.document.source.kind == "log"
@@ -196,10 +192,8 @@ class Session:
 
     def _may_step(self, client: int, steps: Steps) -> bool:
         """Return whether a page may undo or redo the last step: its own step, or a disconnected page's step."""
-        if not steps:
-            return False
-        _, author = steps[-1]
-        return author == client or author not in self._last_seqs
+        author = steps[-1][1] if steps else None
+        return bool(steps) and (author == client or author not in self._last_seqs)
 
     def _undo_or_redo(self, client: int, history: History[Document], steps: Steps, name: str) -> Effects:
         """Move to `history`, if the page may undo or redo (`name`) the last of `steps`."""
@@ -266,9 +260,7 @@ class Session:
         if self._trajectory is not None:
             effects.append(self._trajectory)
         effects += [tasks.Show(client, view) for client, view in self._views.items()]
-        if self.running:
-            return effects + self._restart("run")
-        return effects + self._restart("clear" if self._mode == "clear" else None)
+        return effects + self._restart("run" if self.running else "clear" if self._mode == "clear" else None)
 
     def _picture_computed(self) -> Effects:
         """Apply the actions that waited for a picture."""

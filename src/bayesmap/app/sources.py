@@ -1,6 +1,7 @@
-"""Files that the page shows: a saved run, or a log on cells of any size, from which the worker infers a map."""
+"""Files that the page shows: a saved run, or a log of scans, from which the worker infers a map.
 
-from __future__ import annotations
+`open_file` opens either. An `OpenedRun` has its result already. An `OpenedLog` makes the scene of a document.
+"""
 
 import json
 import math
@@ -16,7 +17,7 @@ from bayesmap.app.protocol.document import MAX_FILE_SIDE, MAX_LOG_SIDE, METHODS,
 from bayesmap.app.protocol.wire import parse_simulation
 from bayesmap.app.scene import Scene, scene_of_file
 from bayesmap.app.shown.hit_maps import HitCountMap, HitCounts, stop_probabilities
-from bayesmap.app.shown.result import Estimate, Floats, MapOfDraw, Progress, Result, judge_chains, rhat_and_ess
+from bayesmap.app.shown.result import DrawnMap, Estimate, Floats, Progress, Result, judge_chains, rhat_and_ess
 from bayesmap.beams.table import BeamTable
 from bayesmap.cells.arrays import Draws
 from bayesmap.cells.binary import Independent
@@ -36,8 +37,8 @@ LOG_SWEEPS = 200  # sweeps with which a log is opened
 class OpenedRun:
     """A saved run, or a run that is still in memory."""
 
-    document: Document
-    run: Run
+    document: Document  # the document that shows the run
+    run: Run  # the run
 
     @cached_property
     def result(self) -> Result:
@@ -59,13 +60,13 @@ class SavedRun(Estimate):
         self.run = run
 
     def progress(self, ended: bool) -> Progress:
-        sweeps, joint = self.run.posterior.sweep, self.run.log_joint
+        sweeps, log_joint = self.run.posterior.sweep, self.run.log_joint
         seconds = self.run.posterior.seconds["total"]
-        if not joint.size:
+        if not log_joint.size:
             return Progress(sweeps, sweeps, seconds=seconds)
-        rhat, ess = rhat_and_ess(joint)
+        rhat, ess = rhat_and_ess(log_joint)
         verdict = judge_chains(rhat, ess, sweeps, None, ended=True)
-        return Progress(sweeps, sweeps, ess, rhat, float(joint[:, -1].mean()), verdict, seconds=seconds)
+        return Progress(sweeps, sweeps, ess, rhat, float(log_joint[:, -1].mean()), verdict, seconds=seconds)
 
     @property
     def prior(self) -> CellPrior:
@@ -90,6 +91,7 @@ class SavedRun(Estimate):
         if not self.run.n_draws or "poses" not in self.run.posterior.draws.arrays:
             return None
         x, y, yaw = np.moveaxis(self.run.poses, -1, 0).reshape(3, -1, len(self.run.posterior.scans))
+        # The circular mean of the headings, which an average of angles near -pi and pi would miss.
         heading = np.arctan2(np.sin(yaw).mean(axis=0), np.cos(yaw).mean(axis=0))
         return np.column_stack([x.mean(axis=0), y.mean(axis=0), heading])
 
@@ -104,89 +106,87 @@ class SavedRun(Estimate):
     def log_joint(self) -> Floats:
         return self.run.log_joint
 
-    def draw(self, chain: int | None, number: int | None) -> MapOfDraw | None:
+    def draw(self, chain: int | None, number: int | None) -> DrawnMap | None:
         if not self.run.n_draws:
             return None
         last = self.run.n_draws - 1
         chain, number = min(chain or 0, len(self.run.log_joint) - 1), last if number is None else min(number, last)
-        return self.run.map_of(chain, number), chain, number
+        return DrawnMap(self.run.map_of(chain, number), chain, number)
 
     def as_run(self, result: Result) -> Run:
         return self.run
 
 
 @dataclass(eq=False)
-class Traced:
+class TracedBeams:
     """All beams of a log on the cells of one grid."""
 
     grid: Grid  # the cells
     sensor: SensorModel  # the default sensor for logs
     table: BeamTable  # beam table
-    counts: HitCounts | None = None  # hits and passes of the beams, once they have been asked for
+    counts: HitCounts | None = None  # hits and passes of the beams; None before their first use
 
 
 class OpenedLog:
-    """Scans of a log, with the defaults for logs."""
+    """Scans of a log, with the document that shows them on the grid with which the log is opened."""
 
     def __init__(self, document: Document, scans: Scans) -> None:
         self.document, self.scans = document, scans
-        self._traced: Traced | None = None
+        self._traced: TracedBeams | None = None  # the beams on the last grid
 
-    def on_cells(self, document: Document) -> Document:
-        """Return a document of this log on cells of its size, or on the log's own grid if they are too many."""
-        own, bounds = self.document.grid, self.document.source.bounds
-        if bounds is None or document.grid.resolution == own.resolution:
-            return document.on_grid(own)
+    def fit_grid(self, document: Document) -> Document:
+        """Return a document of this log on a grid of its cell size, or on the log's own grid if cells are too many."""
+        own_grid, bounds = self.document.grid, self.document.source.bounds
+        if bounds is None or document.grid.resolution == own_grid.resolution:
+            return document.on_grid(own_grid)
         grid = Grid.over(*bounds, document.grid.resolution)
-        return document.on_grid(own if max(grid.shape) > MAX_LOG_SIDE else grid)
+        return document.on_grid(own_grid if max(grid.shape) > MAX_LOG_SIDE else grid)
 
     def scene(self, document: Document) -> Scene:
-        """Return the scene of the log's first scans under the document's prior."""
+        """Return the scene of the document's first scans, `scans_used`, under the document's prior."""
         traced, n_used = self._trace(document.grid), document.scans_used
         table = traced.table if n_used is None else first_beams(traced.table, n_used * len(self.scans.angles_rad))
         depth = Independent.hit_depth
         return scene_of_file(self.scans, document.grid, traced.sensor, document.prior, table, depth, n_used)
 
-    def coarse(self, document: Document) -> Result:
-        """Return the hit-count map of the first scans."""
+    def hit_count_result(self, document: Document) -> Result:
+        """Return the hit-count map of the document's first scans, `scans_used`."""
         traced = self._trace(document.grid)
         if traced.counts is None:
             traced.counts = HitCounts(self.scans, traced.table)
-        counts = traced.counts.first(document.scans_used)
+        counts = traced.counts.count_first(document.scans_used)
         prior = None if document.cells == "binary" else BUILT_IN[document.cells]()
         p_stop = stop_probabilities(counts, Independent(document.prior) if prior is None else prior, document.prior)
         shape = document.grid.shape
         hit_map = HitCountMap(p_stop.reshape(shape), counts.any(axis=0).reshape(shape), prior)
         return Result(self.scene(document), document, "hits", hit_map)
 
-    def _trace(self, grid: Grid) -> Traced:
-        """Return the beams traced on a grid. The last grid's are cached."""
+    def _trace(self, grid: Grid) -> TracedBeams:
+        """Return the beams traced on a grid, which are kept for later calls with this grid."""
         from bayesmap.cells.kinds import default_sensor
         from bayesmap.kernels.walls.table import trace
 
         if self._traced is None or self._traced.grid != grid:
             self._traced = None  # free the old table first: two may not fit in memory
             sensor = default_sensor(grid.resolution)
-            self._traced = Traced(grid, sensor, trace(self.scans, grid, sensor, hit_depth=Independent.hit_depth))
+            self._traced = TracedBeams(grid, sensor, trace(self.scans, grid, sensor, hit_depth=Independent.hit_depth))
         return self._traced
 
 
-def first_beams(table: BeamTable, beams: int) -> BeamTable:
+def first_beams(table: BeamTable, n_beams: int) -> BeamTable:
     """Return the first beams of a table, as views of its arrays."""
-    offsets = table.offsets[: beams + 1]
-    entries = slice(int(offsets[-1]))
-    return replace(
-        table, offsets=offsets, cells=table.cells[entries], loglik=table.loglik[entries], no_hit=table.no_hit[:beams]
-    )
+    offsets = table.offsets[: n_beams + 1]
+    entries, no_hit = slice(int(offsets[-1])), table.no_hit[:n_beams]
+    return replace(table, offsets=offsets, cells=table.cells[entries], loglik=table.loglik[entries], no_hit=no_hit)
 
 
 def read_document(path: str) -> Document:
-    """Read a document that the page has exported (``.json``). Raises `BadInput`, with its name, if it is none."""
+    """Read a document that the page has exported (``.json``). Raises `BadInput`, with the path, if it is invalid."""
     try:
         return parse_simulation(json.loads(Path(path).read_text(encoding="utf-8")))
     except (OSError, ValueError, RecursionError) as error:
-        why = error.strerror if isinstance(error, OSError) else error if isinstance(error, Refused) else "not JSON"
-        raise BadInput(f"{path}: {why}; give a document that the page has exported") from None
+        reason = error.strerror if isinstance(error, OSError) else error if isinstance(error, Refused) else "not JSON"
+        raise BadInput(f"{path}: {reason}; give a document that the page has exported") from None
 
 
 def open_file(path: str, **log_options: Any) -> OpenedRun | OpenedLog:
@@ -207,7 +207,7 @@ def open_run(run: Run, name: str) -> OpenedRun:
     method = settings.get("method")
     prior = p_wall if isinstance(p_wall, int | float) else 0.5
     document = replace(
-        _document(run.grid, scans, Source("run", name, len(scans)), prior),
+        _file_document(run.grid, scans, Source("run", name, len(scans)), prior),
         method=method if method in METHODS else "gibbs",
         order=settings.get("order") or "radial",  # other kinds of cells than walls have no order
         cells=run.posterior.prior.words.kind,  # type: ignore[arg-type]
@@ -218,8 +218,9 @@ def open_run(run: Run, name: str) -> OpenedRun:
 
 
 def open_log(scans: Scans, name: str) -> OpenedLog:
-    """Open scans as a log, on cells of 10 cm, or on larger cells if a side would have more than 1000 cells. Poses that
-    look like raw odometry are at first treated as odometry. Raises `BadInput` if the log has no scans.
+    """Open scans as a log, on cells of 10 cm, or on larger cells if a side would have more than 1000 cells.
+
+    Poses that look like raw odometry are at first treated as odometry. Raises `BadInput` if the log has no scans.
     """
     from bayesmap.cells.kinds import P_WALL
     from bayesmap.poses.log_checks import look_like_odometry
@@ -227,12 +228,13 @@ def open_log(scans: Scans, name: str) -> OpenedLog:
     grid = Grid.covering(scans, LOG_RESOLUTION_M)
     if max(grid.shape) > MAX_LOG_SIDE:
         grid = Grid.covering(scans, LOG_RESOLUTION_M * math.ceil(max(grid.shape) / MAX_LOG_SIDE))
-    document = _document(grid, scans, Source("log", name, len(scans)), P_WALL)
+    document = _file_document(grid, scans, Source("log", name, len(scans)), P_WALL)
     document = replace(document, sweeps=LOG_SWEEPS, source=replace(document.source, bounds=bounds_m(scans)))
     return OpenedLog(replace(document, poses="odometry") if look_like_odometry(scans) else document, scans)
 
 
-def _document(grid: Grid, scans: Scans, source: Source, prior: float) -> Document:
+def _file_document(grid: Grid, scans: Scans, source: Source, prior: float) -> Document:
+    """Return the document of a file. Raises `BadInput` if the grid has too many cells for the page."""
     if max(grid.shape) > MAX_FILE_SIDE:
         raise BadInput(f"{source.name}: {grid.shape} cells are too many for the page, at most {MAX_FILE_SIDE}")
     return Document(

@@ -1,11 +1,9 @@
 """The trajectory of a log: inference from raw odometry, with pictures of every stage.
 
-`LogTrajectory` keeps the log before and after the inference, and is what the engine uses. A `TrajectoryJob` runs
+`LogTrajectory`, which the engine uses, has the log before and after the inference. A `TrajectoryJob` runs
 `infer_trajectory` on its own thread, so that the worker goes on answering. The thread puts finished pictures into a
 queue, and shares nothing else that would need a lock. A cancelled job ends at its next report; the next job waits.
 """
-
-from __future__ import annotations
 
 import queue
 import threading
@@ -68,8 +66,8 @@ def _make_picture(
 
 
 def _stage_notice(task: Infer, progress: StageProgress) -> Stage:
-    text = STAGE_TEXTS[progress.stage]
-    return Stage(progress.stage, text, progress.done, progress.total, generation=task.generation)
+    stage, done, total = progress
+    return Stage(stage, STAGE_TEXTS[stage], done, total, generation=task.generation)
 
 
 class Cancelled(Exception):
@@ -146,16 +144,13 @@ class TrajectoryJob:
             self._next_progress_s = now_s + MIN_PICTURE_SECONDS
 
     def _on_poses(self, stage: str, poses: NDArray[np.float64]) -> None:
-        """Queue a picture at the beginning of a stage, in every round of loops, and otherwise at intervals.
-
-        ``poses``, (S, 3) in the world frame, are in the order of time.
-        """
+        """Queue a picture at the beginning of a stage, in every round of loops, and otherwise at intervals."""
         self._raise_if_cancelled()
         began_s = time.monotonic()
         if stage == self._pictured_stage and stage != "loops" and began_s < self._next_picture_s:
             return
         self._pictured_stage = stage
-        scans = self._scans.at(poses[np.argsort(self._time_order)])
+        scans = self._scans.at(poses[np.argsort(self._time_order)])  # poses are in the order of time
         self._grid = grow_grid(self._grid, scans)
         hit_map = hit_count_map(scans, self._grid)
         self._reports.put(_make_picture(self._task, scans, self._grid, hit_map, self._progress))
@@ -210,14 +205,13 @@ class LogTrajectory:
             yield _make_picture(task, self.log.scans, grid, hit_map, None, ASK_TO_RUN)
 
     def _infer(self, task: Infer) -> Generator[Picture | Stage | TrajectoryInferred | Status | None, None, None]:
-        # The first picture, along the odometry, then the pictures of the job.
         scans, grid, progress = self.log.scans, self.log.fit_grid(task.document).grid, StageProgress("reading", 0, 1)
         yield _make_picture(task, scans, grid, hit_count_map(scans, grid), progress, STAGE_TEXTS["reading"])
         job = TrajectoryJob(task, scans, grid)
         with closing(job.reports()) as reports:
             yield from reports
         assert job.trajectory is not None
-        # Keep the log along the trajectory, and send the trajectory to the session, which gives it to a later worker.
+        # The session keeps the trajectory for a later worker.
         moved_scans = move_to_trajectory(scans, job.trajectory)
         self._open_inferred(moved_scans)
         own_angles = moved_scans.own_angles_rad

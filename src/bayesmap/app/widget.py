@@ -1,6 +1,7 @@
-"""The page as a widget in a notebook: it runs the page's module and session over the notebook's own channel."""
+"""The page as a widget in a notebook: it runs the page's module over the notebook's own channel, without a server.
 
-from __future__ import annotations
+`MapWidget` connects one page with a session and a worker, as `bayesmap.app.hub.Hub` does for many pages.
+"""
 
 import asyncio
 import contextvars
@@ -28,7 +29,7 @@ try:
 except ImportError as error:
     raise ImportError("bayesmap.MapWidget needs anywidget: pip install 'bayesmap[notebook]'") from error
 
-CLIENT = 1
+CLIENT = 1  # number of the only page of a widget's session
 
 
 class MapWidget(anywidget.AnyWidget):
@@ -55,12 +56,11 @@ class MapWidget(anywidget.AnyWidget):
     ) -> None:
         super().__init__(**options)
         self._run = run
-        first = tutorial_document(seed) if document is None else parse_simulation(dict(document))
-        self._session = Session(first if run is None else open_run(run, "run").document)
-        self._session_lock = (
-            threading.RLock()
-        )  # without an event loop, the supervisor's threads call the session directly
-        self._later = _on_this_loop()
+        first_document = tutorial_document(seed) if document is None else parse_simulation(dict(document))
+        self._session = Session(first_document if run is None else open_run(run, "run").document)
+        # Without an event loop, the supervisor's threads call the session directly.
+        self._session_lock = threading.RLock()
+        self._call_later = _caller_on_this_loop()
         self.on_msg(self._receive_message)
         self._end_with_notebook()
 
@@ -86,6 +86,7 @@ class MapWidget(anywidget.AnyWidget):
         super().close()
 
     def _end(self) -> None:
+        """End the worker. A later message from the view starts another."""
         if self._supervisor is not None:
             self._supervisor.stop()
             self._supervisor = None
@@ -95,8 +96,9 @@ class MapWidget(anywidget.AnyWidget):
 
     def _end_with_notebook(self) -> None:
         """End the worker also if the notebook drops the widget without closing it, as marimo does."""
-        # when a cell is run again, marimo closes the channels of its widgets, but not the widgets
-        if (channel := self.comm) is not None:
+        # When a cell is run again, marimo closes the channels of its widgets, but not the widgets.
+        channel = self.comm
+        if channel is not None:
             close = channel.close
 
             def close_and_end(*arguments: Any, **options: Any) -> None:
@@ -105,7 +107,7 @@ class MapWidget(anywidget.AnyWidget):
 
             channel.close = close_and_end
 
-        # each visitor of an app has a thread; when the visitor leaves, nothing is closed, but the thread ends
+        # Each visitor of an app has a thread. When the visitor leaves, nothing is closed, but the thread ends.
         thread = threading.current_thread()
         if thread is not threading.main_thread() and _running_loop() is not None:
 
@@ -117,7 +119,7 @@ class MapWidget(anywidget.AnyWidget):
 
     def _receive_message(self, _widget: object, content: Any, _buffers: object) -> None:
         """Read and apply a message from the view."""
-        self._start()
+        self._start_worker()
         with self._session_lock:
             if isinstance(content, dict) and content.get("type") == "hello":
                 self._carry_out(self._session.join(CLIENT))
@@ -128,7 +130,8 @@ class MapWidget(anywidget.AnyWidget):
                 return
             self._carry_out(self._session.receive(CLIENT, action))
 
-    def _start(self) -> None:
+    def _start_worker(self) -> None:
+        """Start the worker, if it does not run yet. A run reaches the worker as a file."""
         if self._supervisor is not None:
             return
         path = None
@@ -137,10 +140,9 @@ class MapWidget(anywidget.AnyWidget):
             path = str(Path(self._folder.name) / "run.nc")
             self._run.save(path)
         self._supervisor = Supervisor(
-            lambda report: self._later(lambda: self._receive_report(report)),
-            lambda: self._later(self._worker_lost),
-            path,
-        )
+            lambda report: self._call_later(lambda: self._receive_report(report)),
+            lambda: self._call_later(self._worker_lost), path,
+        )  # fmt: skip
         self._supervisor.start()
 
     def _receive_report(self, report: Report) -> None:
@@ -153,6 +155,7 @@ class MapWidget(anywidget.AnyWidget):
             self._carry_out(self._session.worker_lost())
 
     def _carry_out(self, effects: Effects) -> None:
+        """Send messages to the view, and tasks to the worker."""
         for effect in effects:
             if isinstance(effect, ToPage):
                 self._post(effect.message, effect.buffers)
@@ -164,18 +167,18 @@ class MapWidget(anywidget.AnyWidget):
         self.send(header, [array.tobytes() for array in arrays])
 
 
-def _on_this_loop() -> Callable[[Callable[[], None]], None]:
+def _caller_on_this_loop() -> Callable[[Callable[[], None]], None]:
     """Return a function that runs a call on the notebook's event loop, or directly if there is no loop."""
     loop = _running_loop()
     if loop is None:
         return lambda call: call()
     context = contextvars.copy_context()
 
-    def later(call: Callable[[], None]) -> None:
+    def call_later(call: Callable[[], None]) -> None:
         if not loop.is_closed():
             loop.call_soon_threadsafe(call, context=context)
 
-    return later
+    return call_later
 
 
 def _running_loop() -> asyncio.AbstractEventLoop | None:

@@ -1,9 +1,8 @@
 """The worker process, which runs an engine behind a pipe, and the supervisor that starts, watches and replaces it.
 
-The worker ends when its pipe is closed. The supervisor works on its own threads, so that no pipe blocks its caller.
+`run_tasks` is the worker's loop; the worker ends when its pipe is closed. A `Supervisor`, in the server's process,
+works on its own threads, so that no pipe blocks its caller.
 """
-
-from __future__ import annotations
 
 import contextlib
 import json
@@ -16,6 +15,7 @@ import sys
 import threading
 import time
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from multiprocessing.connection import Connection
 from typing import Any, TypeVar
 
@@ -23,9 +23,9 @@ from bayesmap.app.protocol.tasks import ALIVE_SECONDS, Alive, Infer, Ready, Repo
 from bayesmap.errors import BadInput
 
 T = TypeVar("T")
-NICE = 3  # niceness of the worker: page and server come first; at 10 other programs left it a tenth of a core
+NICENESS = 3  # page and server come before the worker; at 10 other programs left it a tenth of a core
 EARLY_EXIT_SECONDS = 5.0  # a worker that ends sooner is restarted after a pause
-MAX_PAUSE_SECONDS = 8.0  # limit of the pause, which grows each time
+FIRST_PAUSE_SECONDS, MAX_PAUSE_SECONDS = 0.25, 8.0  # the pause doubles each time
 MAX_SILENCE_SECONDS = 15.0  # a worker that sends no report for this time is replaced
 STARTUP_SECONDS = 60.0  # extra time of a new worker, which may load Python from a cold disk
 
@@ -68,6 +68,7 @@ def run_tasks(pipe: Connection, path: str | None, log_options: dict[str, Any]) -
     engine = Engine(report, opened)
     report(Report(Ready(None if opened is None else opened.document)))
     while True:
+        # Take all tasks from the pipe. Wait for one only if there is nothing else to do.
         tasks: list[Task] = []
         while pipe.poll(0 if engine.busy or tasks else None):
             tasks.append(pipe.recv())
@@ -77,24 +78,23 @@ def run_tasks(pipe: Connection, path: str | None, log_options: dict[str, Any]) -
 
 
 def drop_outdated(tasks: Sequence[T]) -> list[T]:
-    """Return the tasks without outdated jobs: the last `Infer` stays, and earlier ones whose chains it continues."""
-    valid: list[T] = []
-    later: Infer | None = None
+    """Return the tasks without outdated jobs. The last `Infer` stays, and earlier ones whose chains it continues."""
+    reversed_valid: list[T] = []
+    later: Infer | None = None  # the job after the present one
     outdated = False
     for task in reversed(tasks):
         if isinstance(task, Infer):
+            # A later job makes this job and all earlier jobs outdated, unless it continues this job's chains.
             outdated = outdated or (later is not None and (later.mode != "run" or later.document != task.document))
             if outdated:
                 continue
             later = task
-        valid.append(task)
-    return valid[::-1]
+        reversed_valid.append(task)
+    return reversed_valid[::-1]
 
 
 def _load_kernels() -> None:
     """Load every kernel that a page may need, by inferring a small map."""
-    from dataclasses import replace
-
     from bayesmap.app.edits import tutorial_document
     from bayesmap.app.engine import Engine
 
@@ -110,7 +110,7 @@ def main(arguments: list[str]) -> None:
     """Run the worker. Arguments: the inherited pipe's descriptor, and for a file its path and its options as JSON."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the server, which closes the pipe
     with contextlib.suppress(AttributeError, OSError):
-        os.nice(NICE)
+        os.nice(NICENESS)
     pipe: Any = Connection(int(arguments[0]))
     path, log_options = (arguments[1], json.loads(arguments[2])) if len(arguments) > 1 else (None, {})
     try:
@@ -119,11 +119,12 @@ def main(arguments: list[str]) -> None:
         os._exit(0)  # the server has gone
 
 
-def start_worker(end: socket.socket, path: str | None, log_options: Mapping[str, Any]) -> subprocess.Popen[bytes]:
-    """Start a worker with one end of a socket pair. It inherits nothing else of the caller."""
-    command = [sys.executable, "-m", "bayesmap.app.worker", str(end.fileno())]
+def start_worker(pipe_end: socket.socket, path: str | None, log_options: Mapping[str, Any]) -> subprocess.Popen[bytes]:
+    """Start a worker with one end of a socket pair. The worker inherits nothing else of the caller."""
+    pipe = pipe_end.fileno()
+    command = [sys.executable, "-m", "bayesmap.app.worker", str(pipe)]
     command += [path, json.dumps(log_options)] if path is not None else []
-    return subprocess.Popen(command, pass_fds=[end.fileno()], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
+    return subprocess.Popen(command, pass_fds=[pipe], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
 
 
 class Supervisor:
@@ -145,7 +146,7 @@ class Supervisor:
         self._lock = threading.Lock()
         self._process: subprocess.Popen[bytes] | None = None
         self._pipe: Connection | None = None
-        self._heard_s = 0.0  # time of the last report
+        self._last_report_s = 0.0  # time of the last report
 
     @property
     def pid(self) -> int | None:
@@ -165,9 +166,9 @@ class Supervisor:
         """End the worker and the threads."""
         self._stopping.set()
         self._tasks.put(None)
-        self._end()
+        self._end_worker()
 
-    def _end(self) -> None:
+    def _end_worker(self) -> None:
         """Kill the worker and close its pipe."""
         with self._lock:
             if self._process is not None:
@@ -183,22 +184,22 @@ class Supervisor:
         with self._lock:
             if self._stopping.is_set():
                 return None
-            ours, theirs = socket.socketpair()
-            with theirs:
-                self._process = start_worker(theirs, self._path, self._log_options)
-            self._pipe = Connection(ours.detach())
-            self._heard_s = time.monotonic() + STARTUP_SECONDS
+            own_end, worker_end = socket.socketpair()
+            with worker_end:
+                self._process = start_worker(worker_end, self._path, self._log_options)
+            self._pipe = Connection(own_end.detach())
+            self._last_report_s = time.monotonic() + STARTUP_SECONDS
             return self._pipe
 
     def _listen(self) -> None:
         """Start a worker and pass on its reports. When its pipe ends, start another."""
-        pause = 0.0
+        pause_s = 0.0
         while (pipe := self._spawn()) is not None:
-            born_s = time.monotonic()
+            started_s = time.monotonic()
             with contextlib.suppress(EOFError, OSError):
                 while True:
                     report = pipe.recv()
-                    self._heard_s = time.monotonic()
+                    self._last_report_s = time.monotonic()
                     if isinstance(report.message, Alive):
                         continue
                     self._on_report(report)
@@ -206,18 +207,18 @@ class Supervisor:
                         return
             if self._stopping.is_set():
                 return
-            self._end()
+            self._end_worker()
             self._on_lost()
-            quick = time.monotonic() - born_s < EARLY_EXIT_SECONDS
-            pause = min(MAX_PAUSE_SECONDS, max(0.25, 2 * pause)) if quick else 0.0
-            self._stopping.wait(pause)
+            ended_early = time.monotonic() - started_s < EARLY_EXIT_SECONDS
+            pause_s = min(MAX_PAUSE_SECONDS, max(FIRST_PAUSE_SECONDS, 2 * pause_s)) if ended_early else 0.0
+            self._stopping.wait(pause_s)
 
     def _watch(self) -> None:
         """Kill a worker that hangs. Its pipe then ends, and `_listen` starts another."""
         while not self._stopping.wait(ALIVE_SECONDS):
             with self._lock:
                 process = self._process
-                if process is not None and time.monotonic() - self._heard_s > self._silence_s:
+                if process is not None and time.monotonic() - self._last_report_s > self._silence_s:
                     process.kill()
 
     def _forward_tasks(self) -> None:

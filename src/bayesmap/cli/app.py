@@ -56,9 +56,9 @@ def app(
         need_file(file, f"a saved run (.nc), a document of the page (.json), or {LOG}", runs=True)
 
     from bayesmap.app.edits import tutorial_document
+    from bayesmap.app.figures import read_story
     from bayesmap.app.server import serve
     from bayesmap.app.sources import read_document
-    from bayesmap.app.stories import read_story
 
     document = tutorial_document(seed)
     if file is not None and file.endswith(".json"):

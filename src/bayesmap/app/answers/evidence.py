@@ -5,11 +5,11 @@ cells stop only some beams (reflectivities, surfaces), the map is compared with 
 
     log [mean over draws of p(z | draw)] - log [mean over draws of p(z | draw with the cell emptied)].
 
-The posterior draws depend on all readings, including this reading. Each beam is averaged over the draws separately. So
-the sum over beams is not the log ratio of all readings together.
-"""
+The posterior draws depend on all readings, including this reading z. Each beam is averaged over the draws separately.
+So the sum over beams is not the log ratio of all readings together.
 
-from __future__ import annotations
+`wall_ratios` and `stop_ratios` compute the log ratios; `sum_evidence` and `strongest_beams` prepare them for a page.
+"""
 
 import math
 from dataclasses import dataclass
@@ -25,20 +25,20 @@ from bayesmap.beams.table import BeamTable
 from bayesmap.posterior.prediction import Predictor
 from bayesmap.space.scans import Scans
 
-MAX_WALL_BEAMS = 2000  # most beams evaluated per cell for walls; each also counts for beams left out
-MAX_STOP_BEAMS = 500  # most beams evaluated per cell for other kinds of cells
-NEUTRAL_NATS = 0.005  # a beam with a smaller log ratio counts neither for nor against
-MAX_LISTED_BEAMS = 100  # most beams per cell that a page gets one by one: the ones with the largest log ratios
+MAX_WALL_BEAMS = 2000  # beams evaluated per cell for walls; each also counts for beams left out
+MAX_STOP_BEAMS = 500  # beams evaluated per cell for other kinds of cells
+MAX_NEUTRAL_NATS = 0.005  # a beam with a smaller log ratio counts neither for nor against
+MAX_LISTED_BEAMS = 100  # beams per cell that a page gets one by one: the ones with the largest log ratios
 
 
 @dataclass(frozen=True, eq=False)
 class BeamRatios:
-    """Log-likelihood ratios of the beams through a cell."""
+    """Log-likelihood ratios of the beams through a cell. If there are many, only every n-th is evaluated."""
 
     beams: NDArray[np.intp]  # flat indices of the evaluated beams, (B,)
     nats: NDArray[np.float64]  # log ratio of each beam's likelihoods with and without an obstacle in the cell, (B,)
-    through: int  # number of beams that touch the cell
-    every: int  # number of beams that each evaluated beam counts for
+    n_beams: int  # number of beams that touch the cell
+    stride: int  # number of beams that each evaluated beam counts for
 
 
 def wall_ratios(table: BeamTable, p_wall: NDArray[np.float64], cell: int) -> BeamRatios:
@@ -47,53 +47,54 @@ def wall_ratios(table: BeamTable, p_wall: NDArray[np.float64], cell: int) -> Bea
     Both likelihoods are averaged over the cell at which the beam first meets a wall. Every other cell is a wall
     independently, with its own probability ``p_wall``, (N,).
     """
-    entries, beams, every = _beams_through(table, cell, MAX_WALL_BEAMS)
-    pairs = zip(beams.tolist(), entries[::every].tolist(), strict=True)
+    entries = np.flatnonzero(table.cells == cell)
+    beams, stride = _choose_beams(table, entries, MAX_WALL_BEAMS)
+    pairs = zip(beams.tolist(), entries[::stride].tolist(), strict=True)
     nats = np.array([_log_ratio(table, p_wall, beam, entry) for beam, entry in pairs], dtype=np.float64)
-    return BeamRatios(beams, nats, len(entries), every)
+    return BeamRatios(beams, nats, len(entries), stride)
 
 
 def stop_ratios(result: Result, table: BeamTable, cell: int) -> BeamRatios | None:
-    """Compare, for each beam through a cell, the map and the map with the cell emptied. None without draws."""
+    """Compute the log ratio of the map against the map with a cell emptied, for each beam. None without draws."""
     if result.estimate.available_draws is None:
         return None
     predictor, _ = predictor_of_result(result)
-    entries, beams, every = _beams_through(table, cell, MAX_STOP_BEAMS)
-    scans = one_beam_each(result.scene.scans.at(result.scan_poses), beams)
-    return BeamRatios(beams, log_ratios(predictor, scans, cell), len(entries), every)
-
-
-def _beams_through(table: BeamTable, cell: int, most: int) -> tuple[NDArray[np.intp], NDArray[np.intp], int]:
-    """Return a cell's entries in a table, the beams of every n-th entry, and n, chosen for at most `most` beams."""
     entries = np.flatnonzero(table.cells == cell)
-    every = max(1, math.ceil(len(entries) / most))
-    return entries, np.searchsorted(table.offsets, entries[::every], side="right") - 1, every
+    beams, stride = _choose_beams(table, entries, MAX_STOP_BEAMS)
+    scans = one_beam_each(result.scene.scans.at(result.scan_poses), beams)
+    return BeamRatios(beams, log_ratios(predictor, scans, cell), len(entries), stride)
+
+
+def _choose_beams(table: BeamTable, entries: NDArray[np.intp], max_beams: int) -> tuple[NDArray[np.intp], int]:
+    """Return the flat beam indices of every n-th table entry, at most `max_beams`, and n."""
+    stride = max(1, math.ceil(len(entries) / max_beams))
+    return np.searchsorted(table.offsets, entries[::stride], side="right") - 1, stride
 
 
 def sum_evidence(ratios: BeamRatios) -> dict[str, Any]:
     """Count the beams for and against an obstacle in the cell, and sum their log ratios, as fields of `CellFacts`."""
-    nats, every = ratios.nats, ratios.every
-    in_favour, against = nats > NEUTRAL_NATS, nats < -NEUTRAL_NATS
+    nats, stride = ratios.nats, ratios.stride
+    in_favour, against = nats > MAX_NEUTRAL_NATS, nats < -MAX_NEUTRAL_NATS
     return {
-        "beams": ratios.through,
-        "beams_for": every * int(in_favour.sum()), "nats_for": every * float(nats[in_favour].sum()),
-        "beams_against": every * int(against.sum()), "nats_against": every * abs(float(nats[against].sum())),
+        "beams": ratios.n_beams,
+        "beams_for": stride * int(in_favour.sum()), "nats_for": stride * float(nats[in_favour].sum()),
+        "beams_against": stride * int(against.sum()), "nats_against": stride * abs(float(nats[against].sum())),
     }  # fmt: skip
 
 
 def strongest_beams(ratios: BeamRatios, scans: Scans) -> dict[str, NDArray[np.float64]]:
-    """Return the beams with the largest log ratios, the strongest first. Scans are at the poses that saw the cell.
+    """Return the beams with the largest log ratios, the strongest first, as buffers of `CellFacts`.
 
     The buffers are both ends of each beam in the world, ``start`` and ``end`` (M, 2), metres; the log ratio, ``nats``
     (M,); and the indices ``scan`` and ``beam``, (M,). A beam without a return ends at the sensor's longest range.
     """
     order = np.argsort(-np.abs(ratios.nats), kind="stable")[:MAX_LISTED_BEAMS]
-    order = order[np.abs(ratios.nats[order]) > NEUTRAL_NATS]
+    order = order[np.abs(ratios.nats[order]) > MAX_NEUTRAL_NATS]
     beams = ratios.beams[order]
     start = scans.beam_starts_world().reshape(-1, 2)[beams]
-    angle = scans.beam_angles_world().ravel()[beams]
-    length = np.clip(scans.ranges_m.ravel()[beams], scans.min_range_m, scans.max_range_m)
-    end = start + length[:, None] * np.column_stack([np.cos(angle), np.sin(angle)])
+    angle_rad = scans.beam_angles_world().ravel()[beams]
+    length_m = np.clip(scans.ranges_m.ravel()[beams], scans.min_range_m, scans.max_range_m)
+    end = start + length_m[:, None] * np.column_stack([np.cos(angle_rad), np.sin(angle_rad)])
     scan, beam = np.divmod(beams, scans.ranges_m.shape[1])
     return {
         "start": start, "end": end, "nats": ratios.nats[order], "scan": scan.astype(float), "beam": beam.astype(float),
@@ -106,8 +107,8 @@ def _log_ratio(table: BeamTable, p_wall: NDArray[np.float64], beam: int, entry: 
     log_p = np.append(table.loglik[begin:end], table.no_hit[beam]).astype(np.float64)
     p_stop = np.append(p_wall[table.cells[begin:end]], 1.0)  # past the last cell the beam meets nothing
     log_means = []
-    for state in (1.0, 0.0):
-        p_stop[entry - begin] = state
+    for p_cell in (1.0, 0.0):  # with a wall in the cell, and without
+        p_stop[entry - begin] = p_cell
         with np.errstate(divide="ignore"):  # log 0 of a sure or an impossible wall
             log_stop, log_pass = np.log(p_stop), np.log1p(-p_stop[:-1])
         log_means.append(special.logsumexp(np.append(0.0, np.cumsum(log_pass)) + log_stop + log_p))
@@ -115,17 +116,17 @@ def _log_ratio(table: BeamTable, p_wall: NDArray[np.float64], beam: int, entry: 
 
 
 def one_beam_each(scans: Scans, beams: NDArray[np.intp]) -> Scans:
-    """Return the beams with these flat indices, each as a scan of its own."""
+    """Return the beams with these flat indices, each as a scan of its own with one beam straight ahead."""
     start = scans.beam_starts_world().reshape(-1, 2)[beams]
-    angle = scans.beam_angles_world().ravel()[beams]
+    angle_rad = scans.beam_angles_world().ravel()[beams]
     return Scans(
-        np.column_stack([start, angle]), np.zeros(1), scans.ranges_m.ravel()[beams, None],
+        np.column_stack([start, angle_rad]), np.zeros(1), scans.ranges_m.ravel()[beams, None],
         max_range_m=scans.max_range_m, min_range_m=scans.min_range_m,
     )  # fmt: skip
 
 
 def log_ratios(predictor: Predictor, scans: Scans, cell: int) -> NDArray[np.float64]:
-    """Return each beam's log ratio of the map against the cell emptied, nats, (B,); 0 if the cell is out of reach."""
+    """Compute each beam's log ratio of the map against the cell emptied, nats, (B,); 0 if the cell is out of reach."""
     from bayesmap.kernels.predict.density import log_densities
     from bayesmap.kernels.rays import trace_rays
 

@@ -1,4 +1,8 @@
-"""Predictions from the result on show: the virtual scan at a pose, and one reading compared with its prediction."""
+"""Predictions from the result on show: the virtual scan at a pose, and one reading compared with its prediction.
+
+A virtual scan is what a robot's laser would read at a pose. `VirtualScanPredictor` predicts many, one after another,
+while a hand moves the pose. `compare_beam` compares one real reading with its prediction.
+"""
 
 from __future__ import annotations
 
@@ -25,13 +29,13 @@ from bayesmap.space.scans import Scans, fan
 if TYPE_CHECKING:
     from bayesmap.kernels.predict.stop_mixture import StopMixture
 
-MAX_DRAWS = 32  # most draws over which predictions are averaged
-DRAW_BYTES = 192 << 20  # most memory of these draws
-COARSE_DRAWS = 8  # the number of draws while the hand moves, since each virtual scan is soon replaced by the next
+MAX_DRAWS = 32  # draws over which predictions are averaged
+MAX_DRAW_BYTES = 192 << 20  # memory of these draws
+COARSE_DRAWS = 8  # number of draws while the hand moves, since each virtual scan is soon replaced by the next
 STALE_SECONDS = 3.0  # while chains run, the predictor is rebuilt from their latest draws after this time
 MAX_NEARBY_M = 0.5  # a real scan is shown beside the virtual scan if its pose is this near
 MIN_SHARED_VIEW = 0.25  # and if it shares this part of the field of view
-MAX_SURFACE_CELLS = 2.0  # most cells from a reading to the mean of the surface at which it may have ended
+MAX_SURFACE_CELLS = 2.0  # distance in cells from a reading to the mean of the surface at which it may have ended
 
 
 class VirtualScanPredictor:
@@ -40,9 +44,9 @@ class VirtualScanPredictor:
     def __init__(self) -> None:
         self._key: object = None  # the result, scene or chains that the predictor was made from
         self._sweep = 0  # the sweep of its latest draws
-        self._stale_at_s = 0.0
+        self._stale_at_s = 0.0  # time after which the predictor of running chains is rebuilt
         self._predictor: ScanPredictor | None = None
-        self._coarse_predictor: ScanPredictor | None = None  # thinned to `COARSE_DRAWS`, once it has been asked for
+        self._coarse_predictor: ScanPredictor | None = None  # thinned to `COARSE_DRAWS`; None before its first use
         self._n_draws = 0
 
     def answer(self, result: Result, question: MoveGhost, generation: int) -> tuple[GhostScan, Buffers]:
@@ -52,16 +56,16 @@ class VirtualScanPredictor:
         document, scans = result.document, result.scene.scans
         pose = (question.x, question.y, question.yaw)
         # The beams have the angles of the nearest real scan, if there is one.
-        angles = fan(document.angles, math.degrees(document.fov)) if document.simulated else scans.angles_rad
-        nearest = None if document.simulated else nearest_scan(result.scan_poses, pose, angles)
+        angles_rad = fan(document.angles, math.degrees(document.fov)) if document.simulated else scans.angles_rad
+        nearest = None if document.simulated else nearest_scan(result.scan_poses, pose, angles_rad)
         buffers: dict[str, NDArray[Any]] = {}
         if nearest is not None:
-            angles = scans.angles_by_scan()[nearest.index]
+            angles_rad = scans.angles_by_scan()[nearest.index]
             buffers["near_pose"] = result.scan_poses[nearest.index]
             buffers["near_ranges"] = scans.ranges_m[nearest.index].astype(np.float32)
             buffers["near_hit"] = hit_mask(result.scene)[nearest.index].astype(np.uint8)
-        low, median, high = predictor.quantiles(pose, angles).T.astype(np.float32)
-        buffers |= {"angles": angles.astype(np.float32), "low": low, "median": median, "high": high}
+        low, median, high = predictor.quantiles(pose, angles_rad).T.astype(np.float32)
+        buffers |= {"angles": angles_rad.astype(np.float32), "low": low, "median": median, "high": high}
         milliseconds = round(1e3 * (time.perf_counter() - began_s), 1)
         return GhostScan(*pose, question.coarse, n_draws, nearest, milliseconds, generation=generation), buffers
 
@@ -70,7 +74,9 @@ class VirtualScanPredictor:
         estimate, now_s = result.estimate, time.perf_counter()
         # Cache key: the result of a method without chains, or the chains themselves. A pilot is a new object after
         # every sweep, so its key is the scene. While chains run, the key stays, and only the predictor's age counts.
-        key: object = result if not estimate.sweep else result.scene if isinstance(estimate, Pilot) else estimate
+        key: object = result
+        if estimate.sweep:
+            key = result.scene if isinstance(estimate, Pilot) else estimate
         stale = estimate.sweep != self._sweep and (estimate.done or now_s > self._stale_at_s)
         if self._predictor is None or key is not self._key or stale:
             predictor, self._n_draws = predictor_of_result(result)
@@ -85,7 +91,8 @@ class VirtualScanPredictor:
 
 
 def predictor_of_result(result: Result) -> tuple[Predictor, int]:
-    """Return the predictor of a result and its number of draws. Without draws it is 0, and cells count as independent.
+    """Return the predictor of a result and its number of draws: 0 if it has none and cells count as independent.
+
     Raises `BadInput` if there is nothing to predict from, or the run's sensor model is not built in.
     """
     scene, grid, draws, prior = result.scene, result.document.grid, result.estimate.available_draws, result.prior
@@ -95,24 +102,24 @@ def predictor_of_result(result: Result) -> tuple[Predictor, int]:
         return Predictor(grid, fixed_maps(result.estimate.mean().reshape(1, -1)), scene.sensor, scene.hit_depth), 0
     sensor, hit_depth = result.sensor_and_depth
     draw_bytes = grid.n_cells * (32 if prior.has_surfaces else 4)
-    thinned = draws.thinned(int(np.clip(DRAW_BYTES // draw_bytes, draws.chains, MAX_DRAWS)))
+    thinned = draws.thinned(int(np.clip(MAX_DRAW_BYTES // draw_bytes, draws.chains, MAX_DRAWS)))
     return Predictor(grid, partial(prior.predictive_stops, thinned), sensor, hit_depth, thinned.size), thinned.size
 
 
 def nearest_scan(
     poses: NDArray[np.float64], pose: tuple[float, float, float], angles_rad: NDArray[np.float64]
 ) -> Near | None:
-    """Find the scan nearest to a pose; None if no scan is within `MAX_NEARBY_M` and shares `MIN_SHARED_VIEW` of its view."""
+    """Find the scan nearest to a pose; None if none is within `MAX_NEARBY_M` and shares `MIN_SHARED_VIEW`."""
     view_rad = float(np.ptp(angles_rad)) if len(angles_rad) > 1 else 0.0
     distance_m = np.hypot(poses[:, 0] - pose[0], poses[:, 1] - pose[1])
     turn_rad = np.remainder(poses[:, 2] - pose[2] + np.pi, 2 * np.pi) - np.pi
     # Fans that cover (nearly) the full circle share everything, whatever their headings.
     shared = np.ones(len(poses)) if view_rad > 1.9 * np.pi else 1.0 - np.abs(turn_rad) / max(view_rad, 1e-9)
-    similar = (distance_m <= MAX_NEARBY_M) & (shared >= MIN_SHARED_VIEW)
-    if not similar.any():
+    is_near = (distance_m <= MAX_NEARBY_M) & (shared >= MIN_SHARED_VIEW)
+    if not is_near.any():
         return None
-    best = int(np.where(similar, distance_m / MAX_NEARBY_M + 1.0 - shared, np.inf).argmin())
-    return Near(best, round(float(distance_m[best]), 3), round(float(turn_rad[best]), 4))
+    nearest = int(np.where(is_near, distance_m / MAX_NEARBY_M + 1.0 - shared, np.inf).argmin())
+    return Near(nearest, round(float(distance_m[nearest]), 3), round(float(turn_rad[nearest]), 4))
 
 
 def compare_beam(result: Result, question: CompareBeam, generation: int) -> ComparedBeam:
@@ -128,14 +135,14 @@ def compare_beam(result: Result, question: CompareBeam, generation: int) -> Comp
         result.scan_poses[row], scans.angles_by_scan()[question.scan, [question.beam]],
         scans.ranges_m[row, [question.beam]], max_range_m=scans.max_range_m, min_range_m=scans.min_range_m,
     )  # fmt: skip
-    # The distribution of the distance at which it stops, the quantiles of its reading, and the density of its reading.
+    # The distribution of the distance at which the beam stops, and the quantiles and the density of its reading.
     rays = trace_rays(beam_scan, predictor.grid)
     stops = mix_stops(rays, predictor.batches(rays.touched), predictor.hit_depth)
     low, median, high = range_quantiles(stops, np.array(CENTRAL_80), predictor.sensor)[0]
     predicted = forecast(rays, predictor.batches(rays.touched), predictor.sensor, predictor.hit_depth)
     range_m = float(beam_scan.ranges_m[0, 0])
     is_hit = math.isfinite(range_m)
-    kind = "hit" if is_hit else "none" if range_m > 0 else "close" if range_m < 0 else "bad"
+    kind = "hit" if is_hit else "none" if range_m > 0 else "close" if range_m < 0 else "bad"  # bad: not a number
     return ComparedBeam(
         generation=generation, scan=question.scan, beam=question.beam, draws=n_draws,
         reading=kind,  # type: ignore[arg-type]
@@ -154,19 +161,21 @@ def _surface_offset_of(
     result: Result, predictor: Predictor, stops: StopMixture, range_m: float
 ) -> SurfaceOffset | None:
     """Return a reading in the frame of the surface at which its beam most probably stopped; None if none is near."""
-    if result.surfaces is None:
+    surfaces = result.surfaces
+    if surfaces is None:
         return None
-    cells, means, covariances, _ = result.surfaces
+    # The beam's cell with the largest posterior weight: the chance to stop there times the likelihood of the reading.
     rays, weights = stops.rays, stops.weight.astype(np.float64)
-    candidates = np.isin(rays.cells, cells) & (weights > 0)
-    if not candidates.any():
+    has_surface = np.isin(rays.cells, surfaces.cells) & (weights > 0)
+    if not has_surface.any():
         return None
     distances_m, ranges_m = stops.distance_m.astype(np.float64), np.full(rays.n_incidences, range_m)
     with np.errstate(divide="ignore"):
         log_p = np.log(weights) + predictor.sensor.log_likelihood(ranges_m, distances_m, rays.limits)
-    row = int(np.searchsorted(cells, rays.cells[int(np.argmax(np.where(candidates, log_p, -np.inf)))]))
+    row = int(np.searchsorted(surfaces.cells, rays.cells[int(np.argmax(np.where(has_surface, log_p, -np.inf)))]))
     start = rays.start_m[0] + predictor.grid.origin
     point = start + range_m * rays.direction[0]
-    if np.hypot(*(point - means[row])) > MAX_SURFACE_CELLS * predictor.grid.resolution:
+    mean, covariance = surfaces.means_m[row], surfaces.covariances_m2[row]
+    if np.hypot(*(point - mean)) > MAX_SURFACE_CELLS * predictor.grid.resolution:
         return None
-    return SurfaceOffset(**asdict(surface_offset(means[row], covariances[row], point, start)))
+    return SurfaceOffset(**asdict(surface_offset(mean, covariance, point, start)))

@@ -1,6 +1,7 @@
-"""Answers to a page's questions about the result on show. Each answer is a report for that page alone."""
+"""Answers to a page's questions about the result on show. Each answer is a report for that page alone.
 
-from __future__ import annotations
+`Answers.answer` chooses the function. Predictions and whereabouts have modules of their own.
+"""
 
 import math
 from collections.abc import Mapping
@@ -8,6 +9,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
+from msgspec import structs
 from numpy.typing import NDArray
 
 from bayesmap.app.answers.evidence import BeamRatios, stop_ratios, strongest_beams, sum_evidence, wall_ratios
@@ -29,10 +31,11 @@ ANSWERED_BY: Mapping[type, Literal["path", "views", "ghost", "beam"]] = {
 }  # fmt: skip
 """Questions about the posterior, and the types of the messages that answer them."""
 
-MAX_VIEWS = 400  # most places in the map of expected information
-PASSABLE = 0.3  # a sensor may stand in a cell whose probability of stopping a beam is below this
+MAX_VIEWS = 400  # places in the map of expected information
+MAX_P_STOP = 0.3  # a sensor may stand in a cell whose probability of stopping a beam is below this
 HEADINGS = 8  # headings tried per place
-MAX_ANGLES = 180  # most beams per view, evenly chosen; each also counts for the beams left out
+MAX_ANGLES = 180  # beams per view, evenly chosen; each also counts for the beams left out
+FULL_CIRCLE_RAD = 6.1  # one heading is enough for beams that span this: those of a full circle span a little under 2 pi
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,9 +67,9 @@ class Answers:
                 raise BadInput("there is nothing to decide by yet")
             match question:
                 case FindPath():
-                    return Report(safe_path(result, question, generation), {}, client)
+                    return Report(find_safe_path(result, question, generation), {}, client)
                 case FindViews():
-                    return Report(*views(result, generation), client)
+                    return Report(*rank_views(result, generation), client)
                 case MoveGhost():
                     return Report(*self._virtual_scans.answer(result, question, generation), client)
                 case CompareBeam():
@@ -76,39 +79,39 @@ class Answers:
 
 
 def cell_facts(question: Inspect, snapshot: Snapshot) -> tuple[AnyNotice, Buffers]:
-    """Count the beams that touch a cell, and sum their evidence for and against an obstacle in it."""
+    """Count the beams that touch a cell and, if possible, sum their evidence for and against an obstacle in it."""
     x, y, result = question.x, question.y, snapshot.result
     table = None if snapshot.scene is None else snapshot.scene.problem.table
     if table is None or x >= table.grid.shape[0] or y >= table.grid.shape[1]:
         return CellFacts(x, y, question.each, 0), {}
     cell = x * table.grid.shape[1] + y
     if question.each and result is not None and result.prior.words.kind == "binary":
-        return _facts_of_wall(question, result, table)
-    ratios = None if result is None else _ratios(result, table, cell)
+        return _wall_facts(question, result, table)
+    ratios = None if result is None else _compute_ratios(result, table, cell)
     if result is None or ratios is None:
         return CellFacts(x, y, question.each, int(np.count_nonzero(table.cells == cell))), {}
     facts = CellFacts(x, y, question.each, **sum_evidence(ratios))
     return facts, strongest_beams(ratios, result.scene.scans.at(result.scan_poses)) if question.each else {}
 
 
-def _facts_of_wall(question: Inspect, result: Result, table: BeamTable) -> tuple[AnyNotice, Buffers]:
+def _wall_facts(question: Inspect, result: Result, table: BeamTable) -> tuple[AnyNotice, Buffers]:
     """Return the evidence about a wall, given the mean or one draw of the other cells, and the trace of the cell."""
     prior, estimate = BinaryWalls.of(result.prior, "the evidence about a wall"), result.estimate
     site = question.x, question.y
     cell = int(np.ravel_multi_index(site, table.grid.shape))
+    # If poses are sampled, each draw belongs to poses of its own, but the table to the document's poses: take the mean.
     known_poses = estimate.scan_poses is None and (estimate.model is None or not estimate.model.poses.unknown)
     drawn = estimate.draw(question.chain, question.draw) if question.draw is not None and known_poses else None
-    p_wall, chain, draw = (estimate.mean(), None, None) if drawn is None else drawn
+    p_wall = estimate.mean() if drawn is None else drawn.values
     ratios = wall_ratios(table, p_wall.ravel().astype(float), cell)
-    # The log odds by which Gibbs sampling draws the cell: the log odds of the prior plus the log ratios of all beams.
-    prior_nats = log_odds = None
+    facts = CellFacts(*site, True, **sum_evidence(ratios))
     if drawn is not None:
-        prior_log_odds = prior.log_odds(p_wall.astype(np.bool_), site, table.grid)
-        if math.isfinite(prior_log_odds):
-            prior_nats = prior_log_odds
-            log_odds = prior_nats + ratios.every * float(ratios.nats.sum())
-    evidence = sum_evidence(ratios)
-    facts = CellFacts(*site, True, **evidence, draw=draw, chain=chain, prior_nats=prior_nats, log_odds=log_odds)
+        facts = structs.replace(facts, draw=drawn.draw, chain=drawn.chain)
+        # The log odds by which Gibbs sampling draws the cell: those of the prior plus the log ratios of all beams.
+        prior_nats = prior.log_odds(p_wall.astype(np.bool_), site, table.grid)
+        if math.isfinite(prior_nats):
+            log_odds = prior_nats + ratios.stride * float(ratios.nats.sum())
+            facts = structs.replace(facts, prior_nats=prior_nats, log_odds=log_odds)
     buffers = strongest_beams(ratios, result.scene.scans.at(result.scan_poses))
     if estimate.kept_draws is not None:
         trace = prior.traces(estimate.kept_draws, np.array([cell]))[:, :, 0]
@@ -116,7 +119,7 @@ def _facts_of_wall(question: Inspect, result: Result, table: BeamTable) -> tuple
     return facts, buffers
 
 
-def _ratios(result: Result, table: BeamTable, cell: int) -> BeamRatios | None:
+def _compute_ratios(result: Result, table: BeamTable, cell: int) -> BeamRatios | None:
     """Return the log ratios of the beams through a cell; None if they cannot be computed."""
     if result.prior.words.kind == "binary":
         return wall_ratios(table, result.estimate.mean().ravel(), cell)
@@ -126,9 +129,9 @@ def _ratios(result: Result, table: BeamTable, cell: int) -> BeamRatios | None:
         return None
 
 
-def safe_path(result: Result, question: FindPath, generation: int) -> SafePath:
+def find_safe_path(result: Result, question: FindPath, generation: int) -> SafePath:
     """Find the shortest path that is safe enough. Raises `BadInput` if there are no draws, or no path."""
-    route = shortest_safe_path(result.maps, question.start, question.goal, question.radius, question.risk)
+    route = shortest_safe_path(result, question.start, question.goal, question.radius, question.risk)
     free = route.free
     return SafePath(
         generation=generation, path=route.path.tolist(), length_m=route.length_m, radius=question.radius,
@@ -137,7 +140,7 @@ def safe_path(result: Result, question: FindPath, generation: int) -> SafePath:
     )  # fmt: skip
 
 
-def views(result: Result, generation: int) -> tuple[Views, Buffers]:
+def rank_views(result: Result, generation: int) -> tuple[Views, Buffers]:
     """Compute the information expected from one more scan, in nats, at a lattice of free places.
 
     The formula treats cells and beams as independent (`bayesmap.posterior.decisions.beam_information`). Raises
@@ -145,18 +148,18 @@ def views(result: Result, generation: int) -> tuple[Views, Buffers]:
     """
     # Candidate places, and a thinned fan of beams.
     document, mean = result.document, result.estimate.mean()
-    poses, spacing_m = _lattice(document, mean, result.estimate.observed())
+    poses, spacing_m = _free_lattice(document, mean, result.estimate.observed())
     scans = result.scene.scans
-    every = math.ceil(len(scans.angles_rad) / MAX_ANGLES)
-    angles = scans.angles_rad[::every]
-    # Headings to try at each place: one if the sensor sees all round. Even then its beams span a little under 2 pi rad.
-    full = document.fov >= 2 * math.pi if document.simulated else np.ptp(angles) > 6.1
-    headings_rad = np.zeros(1) if full else np.arange(HEADINGS) * 2 * math.pi / HEADINGS
+    stride = math.ceil(len(scans.angles_rad) / MAX_ANGLES)
+    angles_rad = scans.angles_rad[::stride]
+    # Headings to try at each place: one if the sensor sees all round.
+    sees_all_round = document.fov >= 2 * math.pi if document.simulated else np.ptp(angles_rad) > FULL_CIRCLE_RAD
+    headings_rad = np.zeros(1) if sees_all_round else np.arange(HEADINGS) * 2 * math.pi / HEADINGS
     # Every place with every heading, and the information there, (places, headings).
     candidates = np.repeat(poses, len(headings_rad), axis=0)
     candidates[:, 2] += np.tile(headings_rad, len(poses))
-    nats = every * beam_information(
-        mean, document.grid, candidates, angles,
+    nats = stride * beam_information(
+        mean, document.grid, candidates, angles_rad,
         max_range_m=scans.max_range_m, sigma_m=typical_sigma_m(result.scene.sensor, scans.max_range_m),
     ).reshape(len(poses), -1)  # fmt: skip
     # Keep the best heading of each place.
@@ -165,17 +168,18 @@ def views(result: Result, generation: int) -> tuple[Views, Buffers]:
     return Views(spacing_m, generation=generation), buffers
 
 
-def _lattice(
+def _free_lattice(
     document: Document, mean: NDArray[np.float64], observed: NDArray[np.bool_]
 ) -> tuple[NDArray[np.float64], float]:
-    """Return poses at the centres of free cells, at most `MAX_VIEWS`, (P, 3), and their spacing in metres. Raises
-    `BadInput` if no cell is known to be free.
+    """Return poses at the centres of free cells, at most `MAX_VIEWS`, (P, 3), and their spacing in metres.
+
+    Raises `BadInput` if no cell is known to be free.
     """
     grid = document.grid
-    free = observed & (mean < PASSABLE)
+    free = observed & (mean < MAX_P_STOP)
     if not free.any():
         raise BadInput("nothing is known to be free yet: there is no place to look from")
-    stride = 1
+    stride = 1  # take every stride-th cell along both axes
     while free[stride // 2 :: stride, stride // 2 :: stride].sum() > MAX_VIEWS:
         stride += 1
     cells = np.argwhere(free[stride // 2 :: stride, stride // 2 :: stride]) * stride + stride // 2

@@ -4,8 +4,6 @@ In a drawn world the map is known, and readings follow their law independently, 
 or a log with kept draws, the map is given by these draws. Beams then count as in `bayesmap.localization.known_map`.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Hashable
 from dataclasses import replace
@@ -19,7 +17,7 @@ from bayesmap.app.protocol.tasks import Buffers
 from bayesmap.app.scene import hit_mask
 from bayesmap.app.shown.result import Result
 from bayesmap.errors import BadInput
-from bayesmap.localization.belief import PoseBelief
+from bayesmap.localization.belief import Mode, PoseBelief
 from bayesmap.localization.filter import Scan, locate
 from bayesmap.localization.known_map import KnownMap
 from bayesmap.localization.localize import localize
@@ -30,9 +28,9 @@ from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans, fan
 
 FINEST_M = 0.125  # cells of a drawn map are divided down to this edge, since the search tries centres of cells
-MAX_CELLS = 1_000_000  # most divided cells: with more, cells are divided into fewer parts
+MAX_CELLS = 1_000_000  # cells after the division: with more, cells are divided into fewer parts
 TYPICAL_SCANS = 100  # number of typical scans of a drawn world
-MAX_POSES = 1000  # most poses sent to the page: those with the largest weights
+MAX_POSES = 1000  # poses sent to the page: those with the largest weights
 
 
 class Locator:
@@ -40,28 +38,30 @@ class Locator:
 
     def __init__(self) -> None:
         self._known_map: KnownMap | None = None
-        self._key: Hashable = None
+        self._key: Hashable = None  # the values that the known map depends on
 
     def answer(
         self, question: WhereAmI, result: Result | None, scan: int, generation: int
     ) -> tuple[Whereabouts, Buffers]:
-        """Find the places where a scan may have been taken, or return the reason why there is no answer. In a drawn
-        world, the question names the sensor. For a file, ``scan`` is the index of the scan on show.
+        """Find the places where a scan may have been taken, or return the reason why there is no answer.
+
+        In a drawn world, the question names the sensor. For a file, ``scan`` is the index of the scan on show.
         """
         try:
             if result is None:
                 raise BadInput("there is no map to be located in yet")
-            scans, sensor_id, scan_index = _scan_of(question, result, scan)
-            belief = _locate(self._known_map_of(result), scans, result.document)
+            one_scan, sensor_id, scan_index = _select_scan(question, result, scan)
+            belief = _locate(self._known_map_of(result), one_scan, result.document)
         except BadInput as error:
             return Whereabouts(generation, trouble=str(error).removeprefix("localize: ")), {}
         heaviest = np.argsort(belief.weights, kind="stable")[-MAX_POSES:]
-        cloud = {"pose": belief.poses[heaviest], "weight": belief.weights[heaviest]}
-        where = Whereabouts(
-            generation, sensor=sensor_id, index=scan_index, pose=scans.poses[0].tolist(),
-            modes=modes_as_places(belief), p_lost=float(belief.p_lost), nats_per_beam=float(belief.nats_per_beam),
+        whereabouts = Whereabouts(
+            generation, sensor=sensor_id, index=scan_index, pose=one_scan.poses[0].tolist(),
+            modes=[_place_of(mode) for mode in belief.modes], p_lost=float(belief.p_lost),
+            nats_per_beam=float(belief.nats_per_beam),
         )  # fmt: skip
-        return where, {name: values.astype(np.float32) for name, values in cloud.items()}
+        poses, weights = belief.poses[heaviest].astype(np.float32), belief.weights[heaviest].astype(np.float32)
+        return whereabouts, {"pose": poses, "weight": weights}
 
     def _known_map_of(self, result: Result) -> KnownMap:
         """Return the known map of a result. It is prepared again only if a value that it depends on has changed."""
@@ -80,9 +80,9 @@ class Locator:
 def known_map_of_drawing(document: Document) -> KnownMap:
     """Return the walls of a drawn world as a known map. Raises `BadInput` if it has no free cell."""
     grid = document.grid
-    parts = max(1, min(math.ceil(grid.resolution / FINEST_M - 1e-9), math.isqrt(MAX_CELLS // grid.n_cells)))
-    fine_walls = document.is_wall.repeat(parts, axis=0).repeat(parts, axis=1).astype(np.float64)
-    fine_grid = Grid((grid.shape[0] * parts, grid.shape[1] * parts), grid.resolution / parts, grid.origin)
+    n_parts = max(1, min(math.ceil(grid.resolution / FINEST_M - 1e-9), math.isqrt(MAX_CELLS // grid.n_cells)))
+    fine_walls = document.is_wall.repeat(n_parts, axis=0).repeat(n_parts, axis=1).astype(np.float64)
+    fine_grid = Grid((grid.shape[0] * n_parts, grid.shape[1] * n_parts), grid.resolution / n_parts, grid.origin)
     return KnownMap.of_draws(
         fine_walls.reshape(1, -1).astype(np.float32), fine_grid, Gaussian(document.noise), _typical_scans(document),
         occupancy=fine_walls, observed=np.ones(fine_grid.shape, dtype=np.bool_), hit_depth=0.0, beam_weight=1.0,
@@ -90,7 +90,7 @@ def known_map_of_drawing(document: Document) -> KnownMap:
 
 
 def _typical_scans(document: Document) -> Scans:
-    """Simulate scans at random poses in a drawn world. Their readings are typical of this world."""
+    """Simulate scans at random poses in a drawn world. Raises `BadInput` if the world has no free cell."""
     grid = document.grid
     rng = np.random.default_rng([document.seed, Stream.TYPICAL])
     free = np.argwhere(~document.is_wall)
@@ -99,33 +99,30 @@ def _typical_scans(document: Document) -> Scans:
     cells = free[rng.integers(len(free), size=TYPICAL_SCANS)] + rng.random((TYPICAL_SCANS, 2))
     yaw = rng.uniform(-np.pi, np.pi, TYPICAL_SCANS)
     poses = np.column_stack([np.array(grid.origin) + cells * grid.resolution, yaw])
-    angles = fan(document.angles, math.degrees(document.fov))
-    exact_m = ranges(document.is_wall, grid, poses, angles, document.max_range)
+    angles_rad = fan(document.angles, math.degrees(document.fov))
+    exact_m = ranges(document.is_wall, grid, poses, angles_rad, document.max_range)
     noisy_m = exact_m + document.noise * rng.standard_normal(exact_m.shape)
     ranges_m = np.where(exact_m < document.max_range, noisy_m, np.inf)
-    return Scans(poses, angles, ranges_m, max_range_m=document.max_range)
+    return Scans(poses, angles_rad, ranges_m, max_range_m=document.max_range)
 
 
-def _locate(known: KnownMap, scans: Scans, document: Document) -> PoseBelief:
-    """Return the belief of the pose of the one scan in `scans`."""
+def _locate(known_map: KnownMap, one_scan: Scans, document: Document) -> PoseBelief:
+    """Return the belief of the pose of one scan."""
     if not document.simulated:
-        return localize(known, scans, seed=document.seed).last
-    scan = Scan(scans.angles_rad, scans.ranges_m[0], RangeLimits(scans.min_range_m, scans.max_range_m))
-    return locate(known, scan, np.random.default_rng(document.seed))
+        return localize(known_map, one_scan, seed=document.seed).last
+    limits = RangeLimits(one_scan.min_range_m, one_scan.max_range_m)
+    scan = Scan(one_scan.angles_rad, one_scan.ranges_m[0], limits)
+    return locate(known_map, scan, np.random.default_rng(document.seed))
 
 
-def modes_as_places(belief: PoseBelief) -> list[Place]:
-    """Return the modes of a belief as places where the robot may be, the most probable first."""
-    places = []
-    for mode in belief.modes:
-        sigma_m = float(np.sqrt(np.linalg.eigvalsh(mode.covariance[:2, :2])[-1]))
-        sigma_rad = float(np.sqrt(mode.covariance[2, 2]))
-        places.append(Place(**mode.as_json(), sigma_m=sigma_m, sigma_rad=sigma_rad))
-    return places
+def _place_of(mode: Mode) -> Place:
+    """Return a mode of a belief as a place where the robot may be."""
+    sigma_m = float(np.sqrt(np.linalg.eigvalsh(mode.covariance[:2, :2])[-1]))
+    return Place(**mode.as_json(), sigma_m=sigma_m, sigma_rad=float(np.sqrt(mode.covariance[2, 2])))
 
 
-def _scan_of(question: WhereAmI, result: Result, scan: int) -> tuple[Scans, int | None, int | None]:
-    """Return one scan, the sensor's id in a drawn world, and the scan's index in a file; the other number is None."""
+def _select_scan(question: WhereAmI, result: Result, scan: int) -> tuple[Scans, int | None, int | None]:
+    """Return the scan to locate, the sensor's id in a drawn world (else None), and the index in a file (else None)."""
     scene = result.scene
     if not result.document.simulated:
         return scene.scans.select(slice(scan, scan + 1)), None, scan

@@ -4,8 +4,6 @@ An `Edit` changes the document, a `Question` is answered to the page that asked,
 the view. The page's TypeScript types are generated from these declarations and their comments (docs/app.md).
 """
 
-from __future__ import annotations
-
 from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias, get_type_hints
 
 from msgspec import UNSET, Meta, Struct, UnsetType, defstruct

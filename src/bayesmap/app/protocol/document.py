@@ -1,10 +1,8 @@
 """The document: the map, the sensors and the settings from which the page's picture is computed.
 
-`Settings` declares what the page's sliders change. `Document` adds the map and the sensors. `check_document` checks
-that the fields fit together.
-
-Fields, units and limits are declared here once, and the page's TypeScript types are generated from them. Messages hold
-the document as JSON, which `bayesmap.app.protocol.wire` reads. A page gets the limits of the numbers on connecting.
+`Settings` declares what the page's sliders change. `Document` adds the map and the sensors. Fields, units and limits
+are declared here once, and the page's TypeScript types are generated from them. Messages hold the document as JSON,
+which `bayesmap.app.protocol.wire` reads. A page gets the limits of the numbers when it connects.
 """
 
 from __future__ import annotations
@@ -85,11 +83,9 @@ class Source:
     @property
     def fixed_settings(self) -> tuple[str, ...]:
         """Names of the settings that a page cannot change: the file fixes them, or only a log has them."""
-        if self.kind == "run":
-            return SETTINGS
-        if self.kind == "simulation":
-            return ("poses", "scans_used")
-        return ("noise", "angles", "max_range", "fov", "readings", "pose_sigma", "heading_sigma")
+        if self.kind == "log":
+            return ("noise", "angles", "max_range", "fov", "readings", "pose_sigma", "heading_sigma")
+        return SETTINGS if self.kind == "run" else ("poses", "scans_used")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -203,10 +199,7 @@ class Document(Settings):
         return self.on_grid(grid)
 
     def with_scans_used(self, n_used: int | None) -> Document:
-        """Return the document of a log with the map of its first `n_used` scans; None means all scans.
-
-        Raises `Refused` if the document shows no log.
-        """
+        """Return the document of a log with the map of its first scans (None: all). Raises `Refused` for no log."""
         if self.source.kind != "log":
             raise Refused("only of a log some of the scans can be left out")
         return replace(self, scans_used=None if n_used is None or n_used >= self.source.scans else n_used)
@@ -259,10 +252,9 @@ def empty_walls(grid: Grid) -> bytes:
 
 def bounds_of(hint: object) -> tuple[float, float] | None:
     """Return the smallest and largest value of a type that is declared with limits; None for other types."""
-    metadata = getattr(hint, "__metadata__", ())
-    if not metadata:
+    if not hasattr(hint, "__metadata__"):
         return None
-    (meta,) = metadata
+    (meta,) = hint.__metadata__
     return meta.ge, meta.lt - 1 if meta.le is None else meta.le
 
 
@@ -273,11 +265,11 @@ SETTING_BOUNDS: Mapping[str, tuple[float, float]] = {
 }
 """The smallest and largest value of every numeric setting."""
 
+# The limits of a map's numbers, by their names in `bayesmap.app.protocol.notices.Limits`.
 MAP_BOUNDS: Mapping[str, tuple[float, float]] = {
     "side": SIDE_RANGE, "sensors": SENSOR_COUNT_RANGE, "resolution": RESOLUTION_RANGE_M,
     "side_of_log": (1, MAX_LOG_SIDE),
 }  # fmt: skip
-"""The smallest and largest value of numbers that a page chooses for a map, by their names in `Limits`."""
 
 
 def check_document(document: Document) -> None:

@@ -5,8 +5,6 @@ The page's TypeScript types are generated from these declarations and their comm
 the wire format and cannot change alone.
 """
 
-from __future__ import annotations
-
 from typing import TYPE_CHECKING, Literal, TypeAlias, get_type_hints
 
 from msgspec import Struct, defstruct

@@ -4,8 +4,6 @@ All are plain data, which are pickled for a pipe. `Task` lists the tasks. A `Rep
 `Signal` for the session.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal, TypeAlias

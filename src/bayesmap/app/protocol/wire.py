@@ -1,8 +1,7 @@
 """Messages as bytes on the wire, read and written.
 
-`parse_action` reads a message of a page. msgspec checks its values, and `_explain` turns msgspec's errors into words
-that name the setting as the page does. `parse_document` reads the document that a message or a file contains.
-`encode_frame` writes a message of the library, with its arrays, as text or as one binary frame.
+`parse_action` reads a message of a page. msgspec checks its values, and `_explain` puts msgspec's errors into the
+words of the page. `encode_frame` writes a message of the library, with its arrays, as text or as one binary frame.
 """
 
 from __future__ import annotations
@@ -96,11 +95,8 @@ def convert(value: object, kind: type[T], place: str = "") -> T:
 
 
 def _explain(text: str, value: Any, kind: inspect.Type, place: str) -> Refused:
-    """Explain a validation error in the words of the page: "noise (m): 7 is not a number from 0 to 5".
-
-    ``text`` is msgspec's message about ``value``, which is not of the type ``kind``; ``place`` names the value.
-    """
-    # A message of msgspec is a fault, then a path such as "$.sensors[2].yaw" to the invalid value inside `value`.
+    """Explain msgspec's error about a value in the words of the page: "noise (m): 7 is not a number from 0 to 5"."""
+    # A message of msgspec is a fault, then a path such as "$.sensors[2].yaw" to the invalid part of the value.
     fault, _, path = text.partition(" - at `$")
     if not re.match("Expected|Invalid|Object|Number|Integer", fault):
         return Refused(fault)  # raised by a type's own check
@@ -184,12 +180,10 @@ def _decoded(data: str | bytes) -> Any:
 
 
 def encode_frame(message: object, buffers: Buffers) -> str | bytes:
-    """Return a message in the socket's format: JSON text, or a binary frame if it has buffers.
-
-    A frame is the length of the header (uint32, little-endian), the header as JSON, and the arrays, padded with zeros.
-    """
+    """Return a message in the socket's format: JSON text, or a binary frame if it has buffers."""
     if not buffers:
         return encode_json(message).decode()
+    # A frame is the header's length (uint32, little-endian), the header as JSON, and the arrays, padded with zeros.
     header, arrays = separate_arrays(message, buffers)
     header_json = msgspec.json.encode(header)
     chunks = [struct.pack("<I", len(header_json)), header_json]
@@ -200,10 +194,7 @@ def encode_frame(message: object, buffers: Buffers) -> str | bytes:
 
 
 def separate_arrays(message: object, buffers: Buffers) -> tuple[dict[str, Any], list[NDArray[Any]]]:
-    """Return a message's header and its arrays, little-endian and contiguous.
-
-    The header is the message as JSON values, with the name, the type and the shape of each array under "buffers".
-    """
+    """Return a message as JSON values, with the types and shapes of its buffers, and the buffers as plain arrays."""
     arrays = {name: _as_array(value) for name, value in buffers.items()}
     entries = [{"name": name, "dtype": str(a.dtype), "shape": list(a.shape)} for name, a in arrays.items()]
     return {**msgspec.to_builtins(message, enc_hook=to_plain_number), "buffers": entries}, list(arrays.values())

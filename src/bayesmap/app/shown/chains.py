@@ -1,14 +1,10 @@
 """Chains that are shown while they run: the runner in short steps, the starts, and the pilot that fits the sensor.
 
-`RunningChains` advances the chains. `chains_of_walls` prepares them for a document with walls: `first_maps_of` and
-`pose_starts` choose where each chain starts.
-
-`fit_by_pilot` prepares chains of reflectivities or surfaces. The pilot is a short chain that fits the sensor and the
-prior. Like the chains that follow, it draws cells given all readings, but its sensor and prior still change. Both are
-near their final values after a few sweeps. So the latter half of its draws is the first estimate shown (docs/app.md).
+`RunningChains` advances the chains. `chains_of_walls` prepares chains of walls, which start from `first_maps_of` and
+`pose_starts`. `fit_by_pilot` prepares chains of reflectivities or surfaces. The pilot is a short chain that fits the
+sensor and the prior. Both are near their final values after a few sweeps. So the latter half of the pilot's draws is
+shown as a first estimate (docs/app.md).
 """
-
-from __future__ import annotations
 
 import math
 import time
@@ -24,7 +20,7 @@ from bayesmap.app.protocol.document import Document
 from bayesmap.app.protocol.notices import Verdict
 from bayesmap.app.scene import Scene
 from bayesmap.app.shown import result as results
-from bayesmap.app.shown.result import CHAINS, LIMITS, Estimate, Floats, MapOfDraw, Progress, Result
+from bayesmap.app.shown.result import CHAINS, LIMITS, DrawnMap, Estimate, Floats, Progress, Result
 from bayesmap.app.shown.without_chains import Preview
 from bayesmap.cells.arrays import Draws
 from bayesmap.cells.kinds import BUILT_IN
@@ -65,11 +61,7 @@ class Checkpoint(NamedTuple):
 
 
 class RunningChains(Estimate):
-    """Chains of any kind of cells, advanced step by step from their start to their last sweep.
-
-    `extend` sets the number of sweeps, and `advance` does some of them. The first sweeps are the burn-in: a share of
-    the sweeps done so far, rounded down to the last checkpoint.
-    """
+    """Chains of any kind of cells, advanced step by step. The burn-in, a share of the sweeps, ends at a checkpoint."""
 
     def __init__(self, model: Model, sampler: Sampler[Any, Any], problem: Problem, document: Document) -> None:
         self._burn_in = document.burn_in  # share of the sweeps
@@ -121,7 +113,6 @@ class RunningChains(Estimate):
         self.state, info = next(self._steps)
         self.sweep = int(self.state.sweep)
         self.done = self.sweep >= self.total
-        # Add the draws to the sums, the record and the trace.
         self._latest = replace(self._latest, arrays=info.draws)
         for chain in range(self.n_chains):
             self._sums[chain] += self.model.cells.mean_map(self._latest.of_chain(chain)) * self._latest.count
@@ -174,13 +165,13 @@ class RunningChains(Estimate):
         observed, inspected = self._observed_counts - self._checkpoints[0].observed_counts
         return np.asarray(observed / np.maximum(1, inspected))
 
-    def draw(self, chain: int | None, number: int | None) -> MapOfDraw:
-        """Return one kept draw; the last one if that number does not exist, or the latest draw before the first."""
+    def draw(self, chain: int | None, number: int | None) -> DrawnMap:
+        """Return one kept draw; the last if there is none of that number; before the first, the chain's latest draw."""
         draws, chain = self.draws, min(chain or 0, self.n_chains - 1)
         if draws.count == 0:
-            return self.model.cells.map_of(self._latest, chain, -1), chain, 0
+            return DrawnMap(self.model.cells.map_of(self._latest, chain, -1), chain, 0)
         number = draws.count - 1 if number is None else min(number, draws.count - 1)
-        return self.model.cells.map_of(draws, chain, number), chain, number
+        return DrawnMap(self.model.cells.map_of(draws, chain, number), chain, number)
 
     def log_joint(self) -> Floats:
         return self._log_joint[:, : self.sweep]
@@ -221,11 +212,7 @@ class RunningChains(Estimate):
         )  # fmt: skip
 
     def _judge_shifts(self, verdict: Verdict | None) -> Verdict | None:
-        """Return the verdict on chains at several shifts, a "bad" verdict on all together replaced.
-
-        Chains at different shifts differ, since each shift is a mode of the posterior (`pose_starts`). So only chains
-        at one shift have to agree. Other verdicts are returned unchanged.
-        """
+        """Judge chains at several shifts: chains at one shift must agree. Other verdicts are returned unchanged."""
         shifts, shift_of_chain = np.unique(self.shifts, axis=0, return_inverse=True)
         if verdict is None or verdict.level != "bad" or len(shifts) < 2 or self.sweep < LIMITS.fewest_sweeps:
             return verdict
@@ -367,9 +354,9 @@ class Pilot(Estimate):
         """Return 1 in the cells that a beam touches, and 0 in the others, (nx, ny)."""
         return self._touched.astype(np.float64)
 
-    def draw(self, chain: int | None, number: int | None) -> MapOfDraw:
+    def draw(self, chain: int | None, number: int | None) -> DrawnMap:
         """Return the pilot's last draw."""
-        return self.model.cells.map_of(self.draws, 0, -1), 0, 0
+        return DrawnMap(self.model.cells.map_of(self.draws, 0, -1), 0, 0)
 
 
 def append_draws(before: Draws | None, after: Draws, max_draws: int) -> Draws:

@@ -1,4 +1,8 @@
-"""Results: the posterior of a document as estimated so far by any method, and the verdict on its chains."""
+"""Results: the posterior of a document as estimated so far by any method, and the verdict on its chains.
+
+An `Estimate` is what a method knows so far; each method has a class of its own. A `Result` adds the readings and the
+document, and is what pages show. `judge_chains` and `judge_particles` give the verdicts.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +12,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from msgspec import Struct
@@ -28,22 +32,38 @@ from bayesmap.run.chains import RANDOM_STREAMS
 from bayesmap.sensors.model import SensorModel, describe
 
 Floats = NDArray[np.float64]
-MapOfDraw = tuple[NDArray[Any], int, int]  # a map (nx, ny), its chain and its draw
-CHAINS = 2  # chains in the saved run of a method without chains
-SAVED_DRAWS = 500  # independent draws per chain in this run
-INTERVAL_DRAWS = 60  # the number of draws used for credible intervals
+CHAINS = 2  # number of chains with known poses, also in the saved run of a method without chains
+SAVED_DRAWS = 500  # independent draws per chain in the saved run of a method without chains
+INTERVAL_DRAWS = 60  # number of draws used for credible intervals
+
+
+class DrawnMap(NamedTuple):
+    """One draw of the map."""
+
+    values: NDArray[Any]  # values of the cells, (nx, ny)
+    chain: int  # index of the chain
+    draw: int  # index of the draw
+
+
+class MeanSurfaces(NamedTuple):
+    """The surfaces of U cells, averaged over the draws, in the world frame."""
+
+    cells: NDArray[np.int32]  # flat indices of the cells, (U,), increasing
+    means_m: Floats  # mean positions, (U, 2)
+    covariances_m2: Floats  # covariances of the positions, (U, 2, 2)
+    reflectivities: Floats  # reflectivities, (U,)
 
 
 class VerdictLimits(Struct, frozen=True):
     """The limits by which chains and particles are judged. R-hat and effective sample size: Vehtari et al. (2021)."""
 
-    rhat_limit: float = RHAT_LIMIT
-    good_rhat: float = 1.01
+    rhat_limit: float = RHAT_LIMIT  # R-hat over this is bad
+    good_rhat: float = 1.01  # R-hat up to this is good
     good_ess: float = 400.0  # this many effective draws make R-hat reliable
-    bad_ess: float = 50.0
+    bad_ess: float = 50.0  # fewer effective draws are bad
     fewest_sweeps: int = 200  # with fewer, running chains get no verdict, and their means are not compared
     fewest_diagnosed: int = 4  # R-hat needs two draws in each half of a chain
-    bad_difference: float = 0.25  # of a cell's means in two chains: 5 standard errors of 200 draws at p = 1/2
+    bad_difference: float = 0.25  # a cell's means in two chains differ: 5 standard errors of 200 draws at p = 1/2
     misfit_sigmas: float = 4.0  # one of 30 000 true maps has a larger misfit
     chance_share: float = CHANCE_SHARE  # share of the cells in which means of chains may differ by more
 
@@ -56,21 +76,21 @@ METHODS = {
     "pilot": "Gibbs sampling, while the sensor is fitted", "none": "none yet: this is the prior",
     "hits": "counts of hits and passes", "counts": "counts of hits and passes",
 }  # fmt: skip
-COUNTS = ("hits", "counts")  # methods without prior and sensor
+COUNT_METHODS = ("hits", "counts")  # methods without prior and sensor
 
 
 def describe_in_words(description: Mapping[str, Any]) -> str:
     """Describe a prior or a sensor in words: "gaussian: sigma 0.2 m"."""
-    parts = []
+    phrases = []
     for name, value in description.items():
         unit = next((u for u in ("m", "rad") if name.endswith(f"_{u}") and not name.endswith(f"_per_{u}")), "")
         if isinstance(value, Mapping):
-            parts.append(f"{name} {describe_in_words(value)}")
+            phrases.append(f"{name} {describe_in_words(value)}")
         elif name == "p_wall" or (name != "kind" and value not in (None, 0)):
             number = f"{value:.4g}" if isinstance(value, float) else str(value)
             words = name.removesuffix(f"_{unit}").replace("_", " ")
-            parts.append(f"{words} {number} {unit}".strip())
-    return f"{description['kind']}: {', '.join(parts)}" if parts else str(description["kind"])
+            phrases.append(f"{words} {number} {unit}".strip())
+    return f"{description['kind']}: {', '.join(phrases)}" if phrases else str(description["kind"])
 
 
 @dataclass(frozen=True)
@@ -94,7 +114,7 @@ class Progress:
 
 
 class Estimate(ABC):
-    """The estimate of one method. The defaults fit a method without draws."""
+    """The posterior as one method has estimated it so far. The defaults fit a method without draws."""
 
     approximate = False  # whether the mean is a quick approximation of the posterior mean
     model: Model | None = None  # the model that is sampled, if it differs from the scene's
@@ -109,7 +129,7 @@ class Estimate(ABC):
 
     @abstractmethod
     def reached(self) -> Floats:
-        """Return the probability that a beam reaches each cell, (nx, ny): the share of draws in which one does."""
+        """Return the probability that any beam reaches each cell, (nx, ny): the share of draws in which one does."""
 
     def observed(self) -> NDArray[np.bool_]:
         """Return the cells that a beam reaches with a probability of at least a half, (nx, ny)."""
@@ -144,8 +164,8 @@ class Estimate(ABC):
         """The kept draws, or the latest draws of chains that keep none."""
         return self.kept_draws
 
-    def draw(self, chain: int | None, number: int | None) -> MapOfDraw | None:
-        """Return one draw; the last draw if that number does not exist."""
+    def draw(self, chain: int | None, number: int | None) -> DrawnMap | None:
+        """Return one draw; the last draw if there is none of that number; None if there are no draws."""
         return None
 
     def log_joint(self) -> Floats:
@@ -187,21 +207,13 @@ class Estimate(ABC):
         return list(write_map(target, mean, result.document.grid, known, occupied_thresh=occupied, free_thresh=free))
 
 
-@dataclass(frozen=True)
-class Maps:
-    """Draws and the prior that interprets them, for `bayesmap.posterior.decisions`."""
-
-    prior: CellPrior
-    draws: Draws
-
-
 @dataclass(frozen=True, eq=False)
 class Result:
-    """The present result for a document."""
+    """The present result for a document: all that pages show, and that questions are answered from."""
 
     scene: Scene  # the readings
     document: Document  # the document
-    method: str  # name of the inference method
+    method: str  # name of the inference method, a key of `METHODS`
     estimate: Estimate  # estimate of the method
     ended: bool = False  # whether chains were cancelled, and will not go on
 
@@ -216,11 +228,11 @@ class Result:
         return self.estimate.sensor_and_depth or (self.scene.sensor, self.scene.hit_depth)
 
     @property
-    def maps(self) -> Maps:
+    def draws(self) -> Draws:
         """The kept draws, or the latest draws of chains that keep none. Raises `BadInput` if there are no draws."""
-        if self.estimate.available_draws is not None:
-            return Maps(self.prior, self.estimate.available_draws)
-        raise BadInput("a path is judged by draws of the map, and there are none yet; run Gibbs")
+        if self.estimate.available_draws is None:
+            raise BadInput("a path is judged by draws of the map, and there are none yet; run Gibbs")
+        return self.estimate.available_draws
 
     @cached_property
     def scan_poses(self) -> Floats:
@@ -237,14 +249,12 @@ class Result:
         return self.prior.width(draws.thinned(INTERVAL_DRAWS), 0.9)
 
     @cached_property
-    def surfaces(self) -> tuple[NDArray[np.int32], Floats, Floats, Floats] | None:
-        """The mean surfaces: cells, means (U, 2) in the world frame, covariances (U, 2, 2), reflectivities (U,). None
-        without draws, or if cells have no surfaces.
-        """
+    def surfaces(self) -> MeanSurfaces | None:
+        """The mean surfaces; None without draws, or if cells have no surfaces."""
         draws = self.estimate.available_draws
         if draws is None or not self.prior.has_surfaces:
             return None
-        return draws.index["surface_cell"], *self.prior.surfaces(draws)
+        return MeanSurfaces(draws.index["surface_cell"], *self.prior.surfaces(draws))
 
     @property
     def quantity(self) -> Quantity:
@@ -259,7 +269,7 @@ class Result:
         if self.method == "gibbs" and self.document.cells == "binary":
             method += f", {self.document.order} order"
         rows = [("Method", method)]
-        if self.method in COUNTS:
+        if self.method in COUNT_METHODS:
             return rows
         try:
             model, hit_depth = self.sensor_and_depth
@@ -317,9 +327,8 @@ class PriorMap(FixedMap):
 
 def prior_result(scene: Scene, document: Document) -> Result:
     """Return the result before inference begins: the prior."""
-    # For other kinds of cells, the scene's prior of walls does not apply.
-    other = document.cells != scene.prior.words.kind
-    prior: CellPrior = BUILT_IN[document.cells]() if other else scene.prior
+    # The scene's prior is that of walls. It does not apply to other kinds of cells.
+    prior: CellPrior = scene.prior if document.cells == scene.prior.words.kind else BUILT_IN[document.cells]()
     estimate = PriorMap(prior.mean_stop(scene.grid), np.zeros(scene.grid.shape, dtype=np.bool_), prior)
     return Result(scene, document, "none", estimate)
 
@@ -332,7 +341,7 @@ def rhat_and_ess(log_joint: Floats) -> tuple[float, float]:
 
 @dataclass(frozen=True)
 class Difference:
-    """Differences between the means of chains."""
+    """Differences between the mean maps of chains."""
 
     largest: float  # largest difference
     cell: tuple[int, int]  # cell with the largest difference
@@ -396,17 +405,17 @@ def misfit_of(log_likelihood: Floats, sigma_m: float, n_beams: int) -> float | N
     """
     if not n_beams or not log_likelihood.size:
         return None
-    peak = -n_beams * math.log(sigma_m * math.sqrt(2 * math.pi))
-    chi_squared = 2 * (peak - float(log_likelihood.mean(axis=1).min()))
-    variance = 2 / (9 * n_beams)  # of the cube root of a chi-squared variable over its mean
+    max_log_likelihood = -n_beams * math.log(sigma_m * math.sqrt(2 * math.pi))  # that of readings without differences
+    chi_squared = 2 * (max_log_likelihood - float(log_likelihood.mean(axis=1).min()))
+    variance = 2 / (9 * n_beams)  # variance of the cube root of a chi-squared variable over its mean
     limit = n_beams * (1 - variance + LIMITS.misfit_sigmas * math.sqrt(variance)) ** 3
     return math.sqrt(chi_squared / n_beams) if chi_squared > limit else None
 
 
 def judge_particles(ess: float) -> Verdict:
-    """Return the verdict on weighted particles."""
+    """Return the verdict on weighted particles by their effective sample size."""
     if ess < LIMITS.bad_ess:
         number = f"{ess:.1f}"
-        carry = "one particle carries" if number == "1.0" else f"{number} particles carry"
-        return Verdict("bad", f"{carry} all the weight")
+        subject = "one particle carries" if number == "1.0" else f"{number} particles carry"
+        return Verdict("bad", f"{subject} all the weight")
     return Verdict("good" if ess >= LIMITS.good_ess else "fair", f"{ess:.0f} effective particles")
