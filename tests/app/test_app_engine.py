@@ -109,7 +109,7 @@ def test_run_goes_on_from_the_draws_of_live_and_of_a_run(most, steps, burn_in, m
     whole = Heard()
     whole.infer(replace(document, sweeps=60), "live")
     reference = whole.engine._result.estimate
-    monkeypatch.setattr("bayesmap.app.shown.chains.DRAW_BYTES", most * reference._draw_bytes)
+    monkeypatch.setattr("bayesmap.app.shown.chains.MAX_DRAW_BYTES", most * reference._draw_bytes)
     heard = Heard()
     heard.infer(document, "live", steps=steps)
     for _ in range(2):

@@ -250,7 +250,7 @@ def test_surfaces_of_a_log_are_counted_first_then_shown_by_the_draws_of_the_chai
 
 
 def test_draws_intervals_and_surfaces_are_shown_while_the_sensor_is_fitted(log, monkeypatch):
-    monkeypatch.setattr("bayesmap.app.display.OVERLAY_SECONDS", 0.0)
+    monkeypatch.setattr("bayesmap.app.display.MIN_OVERLAY_SECONDS", 0.0)
     heard = Heard(log)
     heard.engine._display.frame_is_due = lambda: True
     heard.infer(surfaces_of(log), "run", steps=9)

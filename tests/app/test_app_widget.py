@@ -69,14 +69,14 @@ def test_the_live_page_infers(shown):
 def test_a_report_that_comes_while_an_edit_is_applied_waits_for_it(shown, monkeypatch):
     view = shown(seed=3)
     view.until("field", lambda h: not h["approximate"])
-    begun, edit = threading.Event(), session.edit
+    begun, edit = threading.Event(), session.edit_document
 
     def slow(document, message):
         begun.set()
         time.sleep(0.2)
         return edit(document, message)
 
-    monkeypatch.setattr(session, "edit", slow)
+    monkeypatch.setattr(session, "edit_document", slow)
     editing = threading.Thread(target=view.send, args=("walls",), kwargs={"cells": [[10, 12]], "wall": True})
     editing.start()
     begun.wait(PATIENCE_S)

@@ -67,9 +67,11 @@ class Engine:
     def take(self, task: Task) -> None:
         """Answer a question, or begin another job."""
         if isinstance(task, Infer) and task.mode == "run" and self._has_live_chains_of(task.document):
+            # The present job goes on: its chains get more sweeps.
             self._task, self._extra_sweeps = task, self._extra_sweeps + task.document.sweeps
             self._display.begin(task)
         elif isinstance(task, Infer):
+            # Another job replaces the present one. Its result may give the next job its chains.
             self._earlier_result, self._extra_sweeps = self._result, 0
             self._task, self._result, self._scan = task, None, task.scan
             self._display.begin(task)
@@ -131,8 +133,6 @@ class Engine:
     def _fail(self, text: str) -> None:
         self._job = None
         self._display.send(Failed(text, generation=self._display.generation))
-
-    # Jobs
 
     def _run_job(self, task: Infer) -> Iterator[None]:
         """Do a job; yield after each step."""

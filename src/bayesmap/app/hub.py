@@ -1,6 +1,6 @@
 """The hub passes messages between one session, one worker and any number of pages.
 
-The session returns effects of a page's message or a worker's report, which `Hub._carry_out` sends to worker and pages.
+The session turns a page's message or a worker's report into effects. `Hub._carry_out` sends them to worker and pages.
 """
 
 import asyncio
