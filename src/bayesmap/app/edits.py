@@ -156,7 +156,7 @@ def _add_sensor(document: Document, action: actions.AddSensor) -> Document:
 
 def _move_sensor(document: Document, action: actions.MoveSensor) -> Document:
     unmoved = _find_sensor(document, action.id)
-    coordinates = {"x": action.x, "y": action.y, "yaw": action.yaw}
+    coordinates: dict[str, Any] = {"x": action.x, "y": action.y, "yaw": action.yaw}
     moved = replace(unmoved, **{name: value for name, value in coordinates.items() if value is not None})
     document.check_position(moved)
     return replace(document, sensors=tuple(moved if sensor is unmoved else sensor for sensor in document.sensors))
@@ -188,7 +188,7 @@ def gesture_of(action: actions.Action, client: int) -> tuple[Any, ...] | None:
 
 
 def merge_actions(before: actions.Action, after: Action) -> Action | None:
-    """Return one action that has the effect of two consecutive actions; None if they cannot be merged."""
+    """Return one action that replaces two actions of one gesture; None if they cannot be merged."""
     if isinstance(before, actions.ChangeSettings) and isinstance(after, actions.ChangeSettings):
         return structs.replace(after, patch=structs.replace(before.patch, **actions.changed_settings(after.patch)))
     if isinstance(before, actions.Walls) and isinstance(after, actions.Walls):
