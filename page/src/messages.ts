@@ -30,7 +30,7 @@ export type Source = {
   bounds: [[number, number], [number, number]] | null;
 };
 
-/** Everything that determines the picture. */
+/** The map, the sensors and the settings from which the picture is computed. */
 export type MapDocument = {
   /** Grid of cells. */
   grid: Grid;
@@ -78,9 +78,10 @@ export type MapDocument = {
   version: 1;
 };
 
-/** Report that a page has connected, perhaps with the document of a share link or from before a lost connection. */
+/** Report that a page has connected. */
 export type Hello = {
   type: "hello";
+  /** Document of a share link, or of the time before a lost connection; null if the page has none. */
   document?: object | null;
   seq?: number;
 };
@@ -110,10 +111,11 @@ export type Patch = {
 /** Change settings. */
 export type ChangeSettings = {
   type: "set";
+  /** The changed settings. */
   patch: Patch;
   /** Number of the drag. All changes of one drag are one step of undo. */
   drag?: number;
-  /** For a log, while the hand drags: show counts of hits only. The first `set` without it starts inference. */
+  /** For a log, true while the hand drags: show counts of hits only. The first `set` with false starts inference. */
   coarse?: boolean;
   seq?: number;
 };
@@ -130,29 +132,38 @@ export type Walls = {
   seq?: number;
 };
 
-/** Place another sensor, at a pose in metres and radians, world frame. */
+/** Place another sensor at a pose in the world frame. */
 export type AddSensor = {
   type: "add_sensor";
+  /** Position, metres. */
   x: number;
+  /** Position, metres. */
   y: number;
+  /** Heading, radians. */
   yaw?: number;
   seq?: number;
 };
 
-/** Move or turn a sensor. Fields that are left out stay. All moves of one drag are one step of undo. */
+/** Move or turn a sensor. Coordinates that are left out stay as they are. */
 export type MoveSensor = {
   type: "move_sensor";
+  /** Id of the sensor. */
   id: number;
+  /** New position in the world frame, metres. */
   x?: number | null;
+  /** New position in the world frame, metres. */
   y?: number | null;
+  /** New heading, radians. */
   yaw?: number | null;
+  /** Number of the drag. All moves of one drag are one step of undo. */
   drag?: number;
   seq?: number;
 };
 
-/** Remove a sensor; the last one stays. */
+/** Remove a sensor. The last sensor cannot be removed. */
 export type RemoveSensor = {
   type: "remove_sensor";
+  /** Id of the sensor. */
   id: number;
   seq?: number;
 };
@@ -160,14 +171,17 @@ export type RemoveSensor = {
 /** Remove all walls, or go back to the prior. */
 export type Clear = {
   type: "clear";
+  /** "inference" goes back to the prior. */
   what: "inference" | "walls";
   seq?: number;
 };
 
-/** Begin another map, of `shape` cells. */
+/** Begin another map. */
 export type New = {
   type: "new";
+  /** Number of cells along x and y. */
   shape: [number, number];
+  /** Walls of the new map. */
   world: "blank" | "building" | "tutorial";
   seq?: number;
 };
@@ -199,6 +213,7 @@ export type Cancel = {
 /** Choose whether every edit restarts the chains after the preview. */
 export type Live = {
   type: "live";
+  /** True if every edit restarts the chains. */
   on: boolean;
   seq?: number;
 };
@@ -206,8 +221,11 @@ export type Live = {
 /** Choose the field that this page gets from now on. Layer "draw" without a draw number is the last draw. */
 export type ShowView = {
   type: "view";
+  /** Layer of the field. */
   layer: "draw" | "entropy" | "mean" | "width";
+  /** Index of the chain, for a draw. */
   chain?: number | null;
+  /** Index of the draw. */
   draw?: number | null;
   seq?: number;
 };
@@ -215,6 +233,7 @@ export type ShowView = {
 /** Report that the first picture of a generation is on the canvas. No state confirms this message. */
 export type Painted = {
   type: "painted";
+  /** Number of the picture. */
   generation: number;
   seq?: number;
 };
@@ -222,6 +241,7 @@ export type Painted = {
 /** Choose the scan whose rays are shown, for a file. */
 export type ShowScan = {
   type: "scan";
+  /** Index of the scan. */
   index: number;
   seq?: number;
 };
@@ -229,23 +249,28 @@ export type ShowScan = {
 /** Ask for a file of the result or the document; answered by `download`. */
 export type Export = {
   type: "export";
+  /** Kind of file. */
   what: "document" | "figure" | "html" | "map" | "recording" | "run";
   seq?: number;
 };
 
-/** Ask for the beams through a cell, and with `each` for the evidence of each beam; answered by `cell`. */
+/** Ask for the evidence of the beams through a cell; answered by `cell`. */
 export type Inspect = {
   type: "inspect";
+  /** Index of the cell along x. */
   x: number;
+  /** Index of the cell along y. */
   y: number;
+  /** True to get also the evidence of each beam. */
   each?: boolean;
+  /** Index of the draw's chain. */
   chain?: number;
-  /** Of walls: what beams say given the other cells of this draw, instead of their means. */
+  /** For walls, index of the draw that gives the other cells; null means the mean map. */
   draw?: number | null;
   seq?: number;
 };
 
-/** Ask for a path for a disc; answered by `path` or `undecided`. */
+/** Ask for a path on which a disc can move; answered by `path` or `undecided`. */
 export type FindPath = {
   type: "path";
   /** Start of the path, x and y in metres. */
@@ -265,18 +290,22 @@ export type FindViews = {
   seq?: number;
 };
 
-/** Ask where a scan may have been taken: a sensor's scan, or a file's scan on show; answered by `where`. */
+/** Ask where a scan may have been taken; answered by `where`. For a file, it is the scan on show. */
 export type WhereAmI = {
   type: "where";
+  /** Id of the sensor whose scan is meant, in a drawn world. */
   sensor?: number | null;
   seq?: number;
 };
 
-/** Ask for the virtual scan at a pose, metres and radians; answered by `ghost` or `undecided`. */
+/** Ask for the virtual scan at a pose in the world frame; answered by `ghost` or `undecided`. */
 export type MoveGhost = {
   type: "ghost";
+  /** Position, metres. */
   x: number;
+  /** Position, metres. */
   y: number;
+  /** Heading, radians. */
   yaw: number;
   /** True while the hand moves: predict from a few draws only. */
   coarse?: boolean;
@@ -313,24 +342,29 @@ export type Limits = {
   side_of_log: [number, number];
 };
 
-/** A step of a story: a state of the page, what is seen in it, and one thing to do. */
+/** A step of a story: a document to show, a text about its picture, and a task for the reader. */
 export type Step = {
+  /** Title of the step. */
   title: string;
-  /** What is seen. */
+  /** Text about the picture. */
   text: string;
-  /** One thing to do. */
+  /** Task for the reader. */
   task: string;
-  /** The state. */
+  /** Document to show. */
   document: MapDocument;
-  /** The state once the task is done; null if only a hand can do it. */
+  /** Document once the task is done; null if only a hand can do the task. */
   solution: MapDocument | null;
+  /** Layer to show. */
   layer: "draw" | "entropy" | "mean" | "width";
+  /** Tool that the page selects. */
   tool: "draw" | "erase" | "evidence" | "ghost" | "look" | "pan" | "path" | "sensor" | "where";
 };
 
-/** Steps that are shown beside the map. */
+/** A story: a title and steps that are shown beside the map, one at a time. */
 export type Story = {
+  /** Title of the story. */
   title: string;
+  /** Steps in order. */
   steps: Step[];
 };
 
@@ -351,28 +385,35 @@ export type Welcome = {
   story: Story | null;
 };
 
-/** The state of the worker. */
+/** A change in the state of the worker process, which does the inference. */
 export type Worker = {
   type: "worker";
+  /** New state. */
   state: "ready" | "restarted" | "starting";
 };
 
 /** The number of kept draws: `count` per chain. */
 export type DrawCount = {
+  /** Number of chains. */
   chains: number;
+  /** Number of kept draws of each chain. */
   count: number;
 };
 
 /** The field that a page shows. Layer "draw" without a draw number is the last draw. */
 export type View = {
+  /** Layer of the field. */
   layer: "draw" | "entropy" | "mean" | "width";
+  /** Index of the chain, for a draw. */
   chain: number | null;
+  /** Index of the draw. */
   draw: number | null;
 };
 
 /** The present state, sent after every action that was applied. */
 export type State = {
   type: "state";
+  /** Present document. */
   document: MapDocument;
   /** Number of the present picture. */
   generation: number;
@@ -408,21 +449,27 @@ export type Scan = {
 
 /** The verdict on a result, and its reason. */
 export type Verdict = {
+  /** The verdict. */
   level: "bad" | "fair" | "good";
+  /** The reason. */
   why: string;
   /** The cell that the reason names. */
   cell: [number, number] | null;
 };
 
-/** The quantity on the map: kind of cells, words for its mean and its value in a draw, and if it has intervals. */
+/** The quantity that a map shows, in words. */
 export type Quantity = {
+  /** Kind of cells. */
   kind: string;
+  /** Words for the posterior mean, such as "P(wall)". */
   mean: string;
+  /** Words for the value in one draw. */
   value: string;
+  /** Whether the quantity has credible intervals. */
   interval: boolean;
 };
 
-/** One picture of the posterior. Buffers: p uint8 (nx, ny), probability or interval width in 255ths; reached uint8 (nx, ny), how probably a beam reaches each cell, in 255ths; traced float32 (n), sweep numbers: the first 100, then evenly spread; trace float32 (chains, n), the log joint at these sweeps; for importance sampling also weights float32 (24), a histogram of the particles' log weights. */
+/** One picture of the posterior. Buffers: p uint8 (nx, ny), probability or interval width in 255ths; reached uint8 (nx, ny), probability in 255ths that a beam reaches each cell; traced float32 (n), sweep numbers: the first 100, then evenly spread; trace float32 (chains, n), the log joint at these sweeps; for importance sampling also weights float32 (24), a histogram of the particles' log weights. */
 export type Field = {
   type: "field";
   /** Layer of the numbers. The page computes the entropy from the mean. */
@@ -475,21 +522,25 @@ export type Overlay = {
 /** The evidence of the beams through a cell, for and against an obstacle in it. Buffers of the strongest beams, with `each`: start and end float64 (M, 2), metres; nats, scan, beam float64 (M); of walls with kept draws also trace uint8 (chains, n), 1 in the draws with a wall. */
 export type CellFacts = {
   type: "cell";
+  /** Index of the cell along x. */
   x: number;
+  /** Index of the cell along y. */
   y: number;
+  /** Whether the question asked for each beam. */
   each: boolean;
   /** Number of beams through the cell. */
   beams: number;
   /** Number of beams for an obstacle; null, like the next fields, if the evidence cannot be computed. */
   beams_for: number | null;
-  /** Sum of the log ratios of these beams. */
+  /** Sum of the log ratios of the beams for an obstacle. */
   nats_for: number | null;
   /** Number of beams against an obstacle. */
   beams_against: number | null;
-  /** Absolute sum of the log ratios of these beams. */
+  /** Absolute sum of the log ratios of the beams against an obstacle. */
   nats_against: number | null;
-  /** Index of the draw whose other cells are given, and its chain. */
+  /** Index of the draw whose other cells are given. */
   draw: number | null;
+  /** Index of the chain of this draw. */
   chain: number | null;
   /** With a draw, log odds of a wall by the prior; null where it is sure. */
   prior_nats: number | null;
@@ -502,6 +553,7 @@ export type SafePath = {
   type: "path";
   /** Corners of the path, metres. */
   path: [number, number][];
+  /** Length of the path. */
   length_m: number;
   /** Radius of the disc, metres. */
   radius: number;
@@ -509,7 +561,7 @@ export type SafePath = {
   within_risk: boolean;
   /** Probability that the path is free: the share of draws in which it is. */
   probability: number;
-  /** Standard error of this probability. */
+  /** Standard error of `probability`. */
   standard_error: number;
   /** Probability that the path is free if cells were independent. */
   independent: number;
@@ -521,22 +573,29 @@ export type SafePath = {
 /** The information expected from one more scan, at places that are `spacing` metres apart. Buffers: pose float32 (n, 3), the best heading at each place; nats float32 (n). */
 export type Views = {
   type: "views";
+  /** Distance between neighbouring places, metres. */
   spacing: number;
   generation: number;
 };
 
-/** The real scan nearest to a pose: `away` metres from it, with its heading turned by `turn` radians against it. */
+/** The real scan nearest to a pose. */
 export type Near = {
+  /** Index of the scan. */
   index: number;
+  /** Distance of the scan's position from the pose, metres. */
   away: number;
+  /** Heading of the scan minus heading of the pose, radians. */
   turn: number;
 };
 
 /** The virtual scan of a robot's laser at a pose, and the nearest real scan. Buffers: angles float32 (A); low, median, high float32 (A), the median and central 80 % interval of each beam in metres, infinite for no return; of the real scan near_pose float64 (3), near_ranges float32 (A), near_hit uint8 (A). */
 export type GhostScan = {
   type: "ghost";
+  /** X of the pose, metres. */
   x: number;
+  /** Y of the pose, metres. */
   y: number;
+  /** Heading of the pose, radians. */
   yaw: number;
   /** Whether only a few draws were used, since the hand still moved. */
   coarse: boolean;
@@ -549,19 +608,26 @@ export type GhostScan = {
   generation: number;
 };
 
-/** A reading in the frame of a surface: its offsets across and along the surface, and the surface's size. */
+/** A reading in the frame of a surface, whose covariance has the axes across and along the surface. */
 export type SurfaceOffset = {
+  /** Offset of the reading across the surface. */
   across_m: number;
+  /** Offset of the reading along the surface. */
   along_m: number;
+  /** Standard deviation of the surface across. */
   thickness_m: number;
+  /** Standard deviation of the surface along. */
   length_m: number;
+  /** Angle between the beam and the surface's normal. */
   incidence_rad: number;
 };
 
 /** One reading compared with its prediction. Lengths are in metres; null means infinite or unknown. */
 export type ComparedBeam = {
   type: "beam";
+  /** Index of the scan. */
   scan: number;
+  /** Index of the beam. */
   beam: number;
   /** Number of draws used. */
   draws: number;
@@ -589,17 +655,24 @@ export type ComparedBeam = {
 /** The reason why a question has no answer. */
 export type Undecided = {
   type: "undecided";
+  /** The reason. */
   text: string;
+  /** Type of the message that would have answered the question. */
   question: "beam" | "ghost" | "path" | "views";
   generation: number;
 };
 
 /** A mode of the pose's posterior: mean and covariance of x, y (metres) and yaw (radians). */
 export type Place = {
+  /** Mean pose, (3,). */
   mean: number[];
+  /** Covariance of the pose, (3, 3). */
   covariance: number[][];
+  /** Probability of the mode. */
   probability: number;
+  /** Standard deviation of the position along its longest axis. */
   sigma_m: number;
+  /** Standard deviation of the heading. */
   sigma_rad: number;
 };
 
@@ -624,12 +697,16 @@ export type Whereabouts = {
   trouble: string;
 };
 
-/** Progress in a stage of inferring a log's trajectory: `done` parts of `total`. Users read `text`. */
+/** Progress in one stage of the inference of a log's trajectory. */
 export type Stage = {
   type: "stage";
+  /** Name of the stage. */
   name: string;
+  /** Name of the stage in words, for users. */
   text: string;
+  /** Number of parts done. */
   done: number;
+  /** Number of parts in all. */
   total: number;
   generation: number;
 };
@@ -637,7 +714,9 @@ export type Stage = {
 /** A message for the status line. */
 export type Status = {
   type: "status";
+  /** Text of the message. */
   text: string;
+  /** Severity. */
   level: "error" | "info" | "warning";
 };
 
@@ -655,28 +734,37 @@ export type Refusal = {
 /** A file to save. Buffers: data uint8. */
 export type Download = {
   type: "download";
+  /** Name of the file. */
   name: string;
+  /** Media type of the file. */
   mime: string;
   /** What the file holds, for the status line. */
   note: string;
 };
 
-/** Draws in a recording: `count` of the `kept` draws of each chain, as packed `bits` or in 255ths. */
+/** The numbers and the format of the draws in a recording. */
 export type RecordedDraws = {
+  /** Number of chains. */
   chains: number;
+  /** Number of draws of each chain in the recording. */
   count: number;
+  /** Number of kept draws of each chain in the result. */
   kept: number;
+  /** True for walls, packed bits of a map; false for stop probabilities in 255ths. */
   bits: boolean;
 };
 
 /** The result in a page in one file: the messages of a session, for a page without one. Buffers: the buffers of `Field` for the mean; width uint8 (nx, ny) if there are intervals; beams uint32 (nx, ny), the beams through each cell; draws uint8 (chains, count, bytes of a map); the buffers of `Scan` for all recorded scans, with one row of angles for each scan if scans differ in them; for a file the buffers of `Overlay`. */
 export type Recording = {
+  /** Version of this format. */
   version: 1;
+  /** Document of the result. */
   document: MapDocument;
   /** The mean. */
   field: Field;
   /** Id of each recorded scan: of its sensor, or its index in the file plus 1. */
   ids: number[];
+  /** Numbers of draws. */
   draws: RecordedDraws;
   /** Log joint of each draw, one row per chain. */
   log_joint: number[][];
@@ -684,16 +772,19 @@ export type Recording = {
 
 /** The limits by which chains and particles are judged. R-hat and effective sample size: Vehtari et al. (2021). */
 export type VerdictLimits = {
+  /** R-hat over this is bad. */
   rhat_limit: number;
+  /** R-hat up to this is good. */
   good_rhat: number;
   /** This many effective draws make R-hat reliable. */
   good_ess: number;
+  /** Fewer effective draws are bad. */
   bad_ess: number;
   /** With fewer, running chains get no verdict, and their means are not compared. */
   fewest_sweeps: number;
   /** R-hat needs two draws in each half of a chain. */
   fewest_diagnosed: number;
-  /** Of a cell's means in two chains: 5 standard errors of 200 draws at p = 1/2. */
+  /** A cell's means in two chains differ: 5 standard errors of 200 draws at p = 1/2. */
   bad_difference: number;
   /** One of 30 000 true maps has a larger misfit. */
   misfit_sigmas: number;
@@ -701,14 +792,19 @@ export type VerdictLimits = {
   chance_share: number;
 };
 
-/** The data of a figure that samples in the page: what a session without a server starts from. */
+/** The data of a figure, with which a page begins a session without a server. */
 export type Figure = {
+  /** Version of this format. */
   version: 1;
+  /** Document of a drawn world. */
   document: MapDocument;
+  /** Limits of the settings. */
   limits: Limits;
   /** Prior of walls or free cells up to which method "auto" means blocks. */
   rare_walls: number;
+  /** Limits by which chains are judged. */
   judging: VerdictLimits;
+  /** Story to tell beside the map. */
   story: Story | null;
 };
 
