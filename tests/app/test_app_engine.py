@@ -14,7 +14,7 @@ from bayesmap.app.edits import new_document, tutorial_document
 from bayesmap.app.protocol.actions import Cancel, Inspect
 from bayesmap.app.protocol.notices import DrawCount, View
 from bayesmap.app.scene import simulate_document, simulated_scene
-from bayesmap.app.shown.chains import DRAW_BYTES, RunningChains
+from bayesmap.app.shown.chains import MAX_DRAW_BYTES, RunningChains
 from bayesmap.app.shown.result import LIMITS
 from bayesmap.model import Model
 from bayesmap.posterior.summary import bulk_ess
@@ -207,7 +207,7 @@ def test_many_sweeps_of_a_large_map_are_thinned_to_fit():
     model, start = scene.model(scene.problem.prior), np.zeros((2, 500, 500), dtype=bool)
     stream = RunningChains(model, WallGibbs("radial", start), scene.problem, replace(tutorial_document(), sweeps=6000))
     assert (stream.thin, stream.total) == (3, 6000)
-    assert stream._record._draws.arrays["walls"].nbytes <= DRAW_BYTES
+    assert stream._record._draws.arrays["walls"].nbytes <= MAX_DRAW_BYTES
 
 
 @pytest.mark.parametrize("cells", ["reflectivity", "surface"])
