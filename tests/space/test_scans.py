@@ -198,7 +198,7 @@ def is_sorted(stamps_s, expected_s=EVEN):
     ordered = time_order(stamps_s)
     np.testing.assert_array_equal(ordered.stamps_s, expected_s)
     np.testing.assert_array_equal(stamps_s[ordered.order], expected_s)
-    assert ordered.steps == ()
+    assert ordered.resets == ()
     return ordered
 
 
@@ -217,7 +217,7 @@ def test_a_clock_that_was_set_back_keeps_the_order_of_the_log(back_s):
     stamps[200:] -= back_s
     stamps[300:] -= back_s
     ordered = time_order(stamps)
-    assert ordered.steps == (200, 300)
+    assert ordered.resets == (200, 300)
     np.testing.assert_array_equal(ordered.order, np.arange(400))
     assert (np.diff(ordered.stamps_s) > 0).all()
     np.testing.assert_allclose(ordered.stamps_s, EVEN, atol=0.15)

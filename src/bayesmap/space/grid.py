@@ -1,4 +1,8 @@
-"""The grid of a map, square cells in the world frame; checks of scans that lie too far out, and of arrays over it."""
+"""The grid of a map: square cells in the world frame.
+
+`Grid` converts between metres and cells. `Grid.covering` makes the grid of a recording; if a few misread scans make it
+too large, `outlying` names them. The functions `as_...` check arrays that have one value per cell.
+"""
 
 from __future__ import annotations
 
@@ -15,9 +19,9 @@ from bayesmap.space.planar import Floats
 from bayesmap.space.scans import Scans, as_array
 from bayesmap.space.time_order import since_start
 
-MAX_CELLS = 100_000_000  # most cells of a grid; more are taken for a mistake in the units
-MAX_REACH_RATIO = 20.0  # ratio to the median reach above which the reach of a scan counts as wrong
-MAX_OUTLIER_SHARE = 0.1  # largest share of scans that can be wrong; if more lie far away, none is taken for wrong
+MAX_CELLS = 100_000_000  # of a grid; a larger grid is probably a mistake in the units
+MAX_REACH_RATIO = 20.0  # a scan whose reach exceeds this many median reaches is an outlier
+MAX_OUTLIER_SHARE = 0.1  # if a larger share of the scans lies far away, no scan is an outlier
 
 
 @dataclass(frozen=True)
@@ -99,20 +103,21 @@ class Grid:
         """Return the smallest grid that holds every pose and every hit, with a free border of ``margin_m``, metres.
 
         The origin is a multiple of the resolution, so that maps of two recordings of a building line up. Raises
-        BadInput: no scan at all, or more than `MAX_CELLS` cells. If a few scans lie so far out that they make the grid
-        too large, the message names the worst.
+        `BadInput` for no scans, or for more than `MAX_CELLS` cells. If outlying scans make the grid too large, the
+        message names the furthest.
         """
         low, high = bounds_m(scans, margin_m)
         (nx, ny), _ = _whole_cells(low, high, resolution)
-        if nx * ny > MAX_CELLS and len(wrong := outlying(scans)):
-            others = f" ({len(wrong)} scans are so far out, this one most)" if len(wrong) > 1 else ""
-            what = why_outlying(scans, int(wrong[0]))
-            raise BadInput(f"grid: covering the scans would take {_large(nx, ny)}: {what}{others}")
+        outliers = outlying(scans) if nx * ny > MAX_CELLS else np.empty(0, dtype=np.intp)
+        if len(outliers):
+            others = f" ({len(outliers)} scans are so far out, this one most)" if len(outliers) > 1 else ""
+            reason = why_outlying(scans, int(outliers[0]))
+            raise BadInput(f"grid: covering the scans would take {_large(nx, ny)}: {reason}{others}")
         return cls.over(low, high, resolution)
 
     @classmethod
     def over(cls, low: tuple[float, float], high: tuple[float, float], resolution: float) -> Grid:
-        """Return the smallest grid that holds a rectangle from its lower left to its upper right corner, world metres.
+        """Return the smallest grid that holds the rectangle from ``low`` to ``high``, its corners in world metres.
         The origin is a multiple of the resolution. Raises `BadInput` for more than `MAX_CELLS` cells.
         """
         shape, (x, y) = _whole_cells(low, high, resolution)
@@ -120,7 +125,7 @@ class Grid:
 
 
 def bounds_m(scans: Scans, margin_m: float = 0.5) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Return the lower left and the upper right corner of all poses and hits, with a margin, world metres."""
+    """Return the lower left and upper right corner of all poses and hits with a margin, in world metres."""
     points = np.concatenate([scans.poses[:, :2], scans.hit_points_world()])
     if len(points) == 0:
         raise BadInput("grid: there are no scans to cover")
@@ -131,7 +136,7 @@ def bounds_m(scans: Scans, margin_m: float = 0.5) -> tuple[tuple[float, float], 
 def _whole_cells(
     low: tuple[float, float], high: tuple[float, float], resolution: float
 ) -> tuple[tuple[int, int], tuple[int, int]]:
-    """Return the number of cells that cover a rectangle, and the index of the first from 0 m, along x and y."""
+    """Return the number of cells that cover a rectangle, and the index of the first counted from 0 m, for x and y."""
     if not (math.isfinite(resolution) and resolution > 0):
         raise BadInput(f"grid: resolution must be a positive number of metres, got {resolution!r}")
     first = tuple(math.floor(v / resolution) for v in low)
@@ -140,15 +145,15 @@ def _whole_cells(
 
 
 def _large(nx: int, ny: int) -> str:
-    """Return a grid's size in words; rounded, because a size may have hundreds of digits."""
+    """Return a grid's size in words. It is rounded, because outliers can give a size with hundreds of digits."""
     return f"{nx:.6g} x {ny:.6g} cells"
 
 
 def outlying(scans: Scans) -> Indices:
     """Select scans whose reach exceeds `MAX_REACH_RATIO` times the median reach. Returns indices, the furthest first.
 
-    The reach is the distance of the pose from the median pose plus the longest hit. If more than one scan, and more
-    than the share `MAX_OUTLIER_SHARE`, would be selected, none is: there is no clear majority.
+    The reach is the distance of the pose from the median pose plus the longest hit. Returns no index if more than one
+    scan, and more than the share `MAX_OUTLIER_SHARE`, exceed the limit: then no clear majority agrees.
     """
     reach = np.add(*_offsets_m(scans))
     far = np.nonzero(reach > MAX_REACH_RATIO * np.median(reach))[0]
@@ -158,19 +163,19 @@ def outlying(scans: Scans) -> Indices:
 
 
 def _offsets_m(scans: Scans) -> tuple[Floats, Floats]:
-    """Return each pose's larger distance along x or y from the median pose, and its longest hit, metres, (S,) each."""
-    away = np.abs(scans.poses[:, :2] - np.median(scans.poses[:, :2], axis=0)).max(axis=1)
-    return np.asarray(away), np.asarray(np.where(np.isfinite(scans.ranges_m), scans.ranges_m, 0.0).max(axis=1))
+    """Return the distance of each pose from the median pose, the larger of x and y, and its longest hit, (S,) each."""
+    away_m = np.abs(scans.poses[:, :2] - np.median(scans.poses[:, :2], axis=0)).max(axis=1)
+    return np.asarray(away_m), np.asarray(np.where(np.isfinite(scans.ranges_m), scans.ranges_m, 0.0).max(axis=1))
 
 
 def why_outlying(scans: Scans, scan: int) -> str:
-    """Return a description of an outlying scan's fault and the remedy, for an error message."""
+    """Return the fault of an outlying scan and its remedy in words, for an error message."""
     when = since_start(scans.stamps_s, scan)
-    away, longest = (offsets[scan] for offsets in _offsets_m(scans))
-    if away < longest:
+    away_m, longest_m = (offsets[scan] for offsets in _offsets_m(scans))
+    if away_m < longest_m:
         beam = int(np.argmax(np.where(np.isfinite(scans.ranges_m[scan]), scans.ranges_m[scan], -np.inf)))
         return (
-            f"beam {beam} of scan {scan}{when} reads {longest:.6g} m, far more than others; "
+            f"beam {beam} of scan {scan}{when} reads {longest_m:.6g} m, far more than others; "
             "say by max_range (--max-range) how far the sensor sees"
         )
     x, y = scans.poses[scan, :2]
@@ -180,23 +185,23 @@ def why_outlying(scans: Scans, scan: int) -> str:
     )
 
 
-ROUNDING = 1e-5  # largest excess over the bounds that is accepted: rounding in single precision
+ROUNDING = 1e-5  # accepted excess of a number over its bounds: arrays in single precision are rounded
 
 
 def as_numbers(grid: Grid, values: ArrayLike, name: str, *, unknown: bool = False) -> Floats:
-    """Return one finite number per cell, shape (nx, ny), or raise BadInput; with ``unknown``, NaN is accepted too."""
+    """Return one finite number per cell, shape (nx, ny), or raise `BadInput`. With ``unknown`` NaN is accepted too."""
     array = as_array(values, name)
     _need_shape(grid, array.shape, name)
-    fine = np.isfinite(array) | (unknown & np.isnan(array))
-    if not fine.all():
-        i, j = (int(v) for v in np.argwhere(~fine)[0])
+    valid = np.isfinite(array) | (unknown & np.isnan(array))
+    if not valid.all():
+        i, j = (int(v) for v in np.argwhere(~valid)[0])
         remedy = "write NaN where it is unknown" if unknown else "say which cells are unknown with observed="
         raise BadInput(f"map: {name}[{i}, {j}] is {array[i, j]}; give a finite number in every cell, and {remedy}")
     return array
 
 
 def as_probabilities(grid: Grid, values: ArrayLike, name: str, *, unknown: bool = False) -> Floats:
-    """Return one probability per cell, shape (nx, ny), as `as_numbers`; `ROUNDING` outside [0, 1] is accepted."""
+    """Return one probability per cell, shape (nx, ny), checked by `as_numbers`. An excess of `ROUNDING` is cut off."""
     array = as_numbers(grid, values, name, unknown=unknown)
     outside = (array < -ROUNDING) | (array > 1.0 + ROUNDING)
     if outside.any():
@@ -209,7 +214,7 @@ def as_probabilities(grid: Grid, values: ArrayLike, name: str, *, unknown: bool 
 
 
 def as_mask(grid: Grid, values: ArrayLike, name: str) -> Mask:
-    """Return true or false per cell, shape (nx, ny), or raise BadInput; numbers are accepted if all are 0 or 1."""
+    """Return true or false per cell, shape (nx, ny), or raise `BadInput`. Numbers are accepted if all are 0 or 1."""
     array = np.asarray(values)
     _need_shape(grid, array.shape, name)
     if array.dtype == np.bool_:
@@ -221,28 +226,29 @@ def as_mask(grid: Grid, values: ArrayLike, name: str) -> Mask:
 
 
 def as_observed(grid: Grid, observed: ArrayLike | None) -> Mask:
-    """Return the cells that a beam reached, shape (nx, ny); None stands for all."""
+    """Return the mask of the cells that a beam reached, shape (nx, ny). None stands for all cells."""
     return np.ones(grid.shape, dtype=np.bool_) if observed is None else as_mask(grid, observed, "observed")
 
 
 def as_layers(
     grid: Grid, layers: Mapping[str, ArrayLike], observed: ArrayLike | None = None
 ) -> dict[str, NDArray[np.float32]]:
-    """Return named layers in single precision, each of shape (nx, ny), NaN where no beam reached, or raise BadInput."""
+    """Return layers by name in single precision, (nx, ny) each, NaN where no beam reached; or raise `BadInput`."""
     if not layers:
         raise BadInput("map: there is no layer to write; give one array of the grid's shape, such as mean")
     if not all(layers):
         raise BadInput("map: a layer needs a name, such as mean")
-    unseen = ~as_observed(grid, observed)
+    unobserved = ~as_observed(grid, observed)
     checked = {}
     for name, values in layers.items():
         checked[name] = as_numbers(grid, values, f"layer {name!r}", unknown=True).astype(np.float32)
-        checked[name][unseen] = np.nan
+        checked[name][unobserved] = np.nan
     return checked
 
 
 def _need_shape(grid: Grid, shape: tuple[int, ...], name: str) -> None:
+    """Raise `BadInput` unless the shape is the grid's."""
     if shape != grid.shape:
-        turned = shape == grid.shape[::-1]
-        remedy = "arrays are indexed [x, y], so transpose it" if turned else "give one value per cell, as [x, y]"
+        transposed = shape == grid.shape[::-1]
+        remedy = "arrays are indexed [x, y], so transpose it" if transposed else "give one value per cell, as [x, y]"
         raise BadInput(f"map: {name} has shape {shape}, but the grid has {grid.shape}; {remedy}")
