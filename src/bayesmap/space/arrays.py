@@ -1,7 +1,5 @@
 """Types of arrays, and small functions of arrays: even selections, look-ups in sorted arrays, matrix roots, offsets."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence, Sized
 from typing import TypeVar
 

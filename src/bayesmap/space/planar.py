@@ -8,8 +8,6 @@ Jacobians are with respect to these steps. The conventions are those of Sola, De
 theory", but the retraction is plain composition, not the exponential map.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -1,4 +1,8 @@
-"""Range scans: poses, beam angles, and readings of four kinds."""
+"""Range scans: poses, beam angles, and readings of four kinds.
+
+`Scans` is the value that log readers make and samplers read. The functions after it check the arrays that users give
+and name the faulty scan and beam: `as_poses`, `as_angles`, `check_limits`. `Fan` and `fan` make beam angles.
+"""
 
 from __future__ import annotations
 
@@ -15,20 +19,21 @@ from bayesmap.errors import BadInput
 from bayesmap.space.arrays import Indices, Mask
 from bayesmap.space.planar import Floats, between, compose
 
-MOST_TURNS = 1.1  # largest width of a fan of beams in turns: beams may overlap a little at the end of a turn
+MAX_FAN_TURNS = 1.1  # largest angle from the first to the last beam: beams may overlap a little after a whole turn
+MAX_BEAMS = 100_000  # per scan
 
 
 class ReadingKind(IntEnum):
     """What a beam reported (REP-117)."""
 
     HIT = 0
-    """A finite range: something was hit there."""
+    """A finite range: the beam hit something there."""
     NO_RETURN = 1
     """+inf: nothing came back within the sensor's range. An observation, with its own likelihood."""
     TOO_CLOSE = 2
     """-inf: something nearer than the sensor can measure."""
     INVALID = 3
-    """NaN: an erroneous reading; it is no information about the map."""
+    """NaN: an erroneous reading, which has no information about the map."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,6 +73,7 @@ class Scans:
     mount: Floats | None = None
 
     def __post_init__(self) -> None:
+        # Poses, readings, and the angles of all scans or of each scan.
         poses = as_poses(self.poses)
         ranges = np.atleast_2d(as_array(self.ranges_m, "scans: ranges_m"))
         own = self.own_angles_rad
@@ -87,17 +93,20 @@ class Scans:
             "poses": poses, "angles_rad": angles, "own_angles_rad": own, "ranges_m": ranges,
             "max_range_m": float(self.max_range_m), "min_range_m": float(self.min_range_m),
         }  # fmt: skip
+        # Optional arrays.
         for name, shape in (("stamps_s", (len(poses),)), ("beam_poses", (*ranges.shape, 3))):
             if getattr(self, name) is not None:
                 checked[name] = array = as_array(getattr(self, name), f"scans: {name}")
                 if array.shape != shape:
                     raise BadInput(f"scans: {name} has shape {array.shape}, expected {shape}")
         stamps, beam_poses = checked.get("stamps_s", np.zeros(0)), checked.get("beam_poses", np.zeros((0, 0, 3)))
-        for scan in np.flatnonzero(~np.isfinite(stamps)):
+        if not np.isfinite(stamps).all():
+            scan = np.flatnonzero(~np.isfinite(stamps))[0]
             raise BadInput(
                 f"scans: stamp of scan {scan} is not finite: {stamps[scan]}; leave stamps_s out if there are none"
             )
-        for scan, beam, _ in np.argwhere(~np.isfinite(beam_poses)):
+        if not np.isfinite(beam_poses).all():
+            scan, beam, _ = np.argwhere(~np.isfinite(beam_poses))[0]
             pose = beam_poses[scan, beam].tolist()
             raise BadInput(f"scans: pose of beam {beam} of scan {scan} is not finite: {pose}")
         if self.mount is not None:
@@ -136,13 +145,13 @@ class Scans:
         return np.isfinite(self.own_angles_rad)
 
     def angles_by_scan(self) -> Floats:
-        """Return beam angles in the sensor frame, (S, A), all finite: a missing beam has the largest scan's."""
+        """Return beam angles in the sensor frame, (S, A), all finite: missing beams have the largest scan's angles."""
         if self.own_angles_rad is None:
             return np.broadcast_to(self.angles_rad, self.ranges_m.shape)
         return np.where(np.isnan(self.own_angles_rad), self.angles_rad, self.own_angles_rad)
 
     def beams_of(self, scan: int) -> tuple[Floats, Floats]:
-        """Return angles and readings of the beams of one scan, shape (N,) each."""
+        """Return the angles in radians and the readings in metres of the N beams of one scan, shape (N,) each."""
         if self.own_angles_rad is None:
             return self.angles_rad, self.ranges_m[scan]
         beams = np.isfinite(self.own_angles_rad[scan])
@@ -158,10 +167,10 @@ class Scans:
         return kinds
 
     def counts(self) -> dict[str, int]:
-        """Count the readings of each kind."""
+        """Count the readings of each `ReadingKind`, by its name in lower case."""
         kinds = self.readings if self.own_angles_rad is None else self.readings[self.has_beam]
-        tally = np.bincount(kinds.ravel(), minlength=len(ReadingKind))
-        return {kind.name.lower(): int(tally[kind]) for kind in ReadingKind}
+        counts = np.bincount(kinds.ravel(), minlength=len(ReadingKind))
+        return {kind.name.lower(): int(counts[kind]) for kind in ReadingKind}
 
     def beam_angles_world(self) -> Floats:
         """Return the direction of every beam in the world frame, radians, shape (S, A)."""
@@ -185,11 +194,11 @@ class Scans:
     def select(self, scans: Indices | Mask | slice) -> Scans:
         """Return the scans at the given indices, mask or slice."""
         names = ("poses", "ranges_m", "stamps_s", "beam_poses", "own_angles_rad")
-        held = {name: array for name in names if (array := getattr(self, name)) is not None}
-        return replace(self, **{name: array[scans] for name, array in held.items()})
+        arrays = {name: getattr(self, name) for name in names}
+        return replace(self, **{name: array[scans] for name, array in arrays.items() if array is not None})
 
     def stretched(self, ratio: float) -> Scans:
-        """Return the scans with angles between beams times ``ratio``, about the first beam of each scan."""
+        """Return the scans with all angles between beams multiplied by ``ratio``. First beams keep their angles."""
         angles, own = self.angles_rad[0] + ratio * (self.angles_rad - self.angles_rad[0]), self.own_angles_rad
         if own is not None:
             first = self._first_and_last()[0][:, None]
@@ -211,34 +220,34 @@ class Scans:
 
     def _first_and_last(self) -> tuple[Floats, Floats]:
         """Return the angles of the first and last beam of each scan, (S,) each; 0 for a scan without beams."""
-        has = self.has_beam
-        ends = has.argmax(axis=1), has.shape[1] - 1 - has[:, ::-1].argmax(axis=1)
+        has_beam, scans = self.has_beam, np.arange(len(self))
+        first, last = has_beam.argmax(axis=1), has_beam.shape[1] - 1 - has_beam[:, ::-1].argmax(axis=1)
         angles = np.nan_to_num(np.asarray(self.own_angles_rad))
-        return angles[np.arange(len(self)), ends[0]], angles[np.arange(len(self)), ends[1]]
+        return angles[scans, first], angles[scans, last]
 
     def at(self, poses_world: ArrayLike) -> Scans:
-        """Return the readings at other poses, (S, 3); beams move with their scans. Raises `BadInput` as `as_poses`."""
+        """Return the readings as taken from other poses, (S, 3). Beams move with scans. Raises `BadInput` as `as_poses`."""
         poses = as_poses(poses_world)
         if poses.shape != self.poses.shape:
             raise BadInput(f"scans: poses has shape {poses.shape}, expected {self.poses.shape}")
         if self.beam_poses is None:
             return replace(self, poses=poses)
-        seen_from_scan = between(self.poses[:, None], self.beam_poses)
-        return replace(self, poses=poses, beam_poses=compose(poses[:, None], seen_from_scan))
+        relative = between(self.poses[:, None], self.beam_poses)
+        return replace(self, poses=poses, beam_poses=compose(poses[:, None], relative))
 
     def holdout(self, every: int) -> tuple[Scans, Scans]:
-        """Split into (training, held out): every ``every``-th scan, from ``every // 2`` on, is held out. Raises
-        `BadInput` for a number below 2, or so large that no scan is held out.
+        """Split into (training, held out) scans: every ``every``-th scan, from ``every // 2`` on, is held out.
+        Raises `BadInput` for a number below 2, or so large that no scan is held out.
         """
         if every < 2:
             raise BadInput(f"holdout: hold out every n-th scan with n >= 2, got {every}")
-        held = np.arange(len(self)) % every == every // 2
-        if not held.any():
+        is_held_out = np.arange(len(self)) % every == every // 2
+        if not is_held_out.any():
             raise BadInput(f"holdout: {len(self)} scans are too few to hold out every {every}-th")
-        return self.select(~held), self.select(held)
+        return self.select(~is_held_out), self.select(is_held_out)
 
     def limited(self, max_range_m: float) -> Scans:
-        """Return the scans of a sensor with this largest range: longer hits become no return."""
+        """Return the scans as a sensor with a shorter range reads them: hits beyond ``max_range_m`` are no return."""
         if not (math.isfinite(max_range_m) and max_range_m > self.min_range_m):
             raise BadInput(f"scans: max_range_m must exceed min_range_m, got {max_range_m!r}")
         ranges = np.where(self.ranges_m > max_range_m, np.inf, self.ranges_m)
@@ -246,7 +255,7 @@ class Scans:
 
 
 def as_poses(poses: ArrayLike) -> Floats:
-    """Return poses as an (S, 3) array; raise `BadInput` for another shape, or a number that is not finite."""
+    """Return poses as an (S, 3) array. Raises `BadInput` for another shape, or a number that is not finite."""
     array = np.atleast_2d(as_array(poses, "scans: poses"))
     if array.ndim != 2 or array.shape[1] != 3:
         raise BadInput(f"scans: poses has shape {array.shape}, expected (S, 3): x, y, yaw")
@@ -256,24 +265,24 @@ def as_poses(poses: ArrayLike) -> Floats:
     return array
 
 
-def asked_poses(asked_by: str, poses: ArrayLike) -> Floats:
-    """Return poses that a user stated, (P, 3); raise `BadInput` as `as_poses`, or for headings that are degrees.
-    Headings may add up along a path, so those are refused that begin, or change at once, by over two turns.
+def asked_poses(caller: str, poses: ArrayLike) -> Floats:
+    """Return poses that a user gave to the function ``caller``, (P, 3). Raises `BadInput` for headings in degrees.
+    Headings in radians may add up along a path, so that only a change by over two turns at once is refused.
     """
     array = as_poses(poses)
-    far = np.flatnonzero(np.abs(np.diff(array[:, 2], prepend=0.0)) > 4 * math.pi)
-    if len(far):
+    wrong = np.flatnonzero(np.abs(np.diff(array[:, 2], prepend=0.0)) > 4 * math.pi)
+    if len(wrong):
         raise BadInput(
-            f"{asked_by}: heading of pose {far[0]} is {array[far[0], 2]:g} radians, two turns or more away; headings "
+            f"{caller}: heading of pose {wrong[0]} is {array[wrong[0], 2]:g} radians, two turns or more away; headings "
             "must be in radians: are these degrees?"
         )
     return array
 
 
-def check_sigma_rad(asked_by: str, sigma_rad: float) -> None:
+def check_sigma_rad(caller: str, sigma_rad: float) -> None:
     """Raise `BadInput` for a standard deviation of a heading over half a turn."""
     if sigma_rad > math.pi:
-        raise BadInput(f"{asked_by}: sigma_rad is over half a turn: {sigma_rad:g} radians; are these degrees?")
+        raise BadInput(f"{caller}: sigma_rad is over half a turn: {sigma_rad:g} radians; are these degrees?")
 
 
 def path_words(poses: Floats, stamps_s: Floats | None) -> str:
@@ -283,7 +292,7 @@ def path_words(poses: Floats, stamps_s: Floats | None) -> str:
 
 
 def as_angles(angles_rad: ArrayLike) -> Floats:
-    """Return beam angles as an (A,) array; raise `BadInput` for another shape, no angle, or one that is not finite."""
+    """Return beam angles as an (A,) array. Raises `BadInput` for another shape, no angle, or one that is not finite."""
     array = np.atleast_1d(as_array(angles_rad, "scans: angles_rad"))
     if array.ndim != 1 or len(array) == 0:
         raise BadInput(f"scans: angles_rad has shape {array.shape}, expected (A,) with at least one beam")
@@ -296,7 +305,9 @@ def as_angles(angles_rad: ArrayLike) -> Floats:
 
 
 def _as_own_angles(largest: ArrayLike, own: ArrayLike, ranges_m: Floats) -> tuple[Floats, Floats | None]:
-    """Return the angles of the largest scan, (A,), and of each scan, (S, A), or None if all scans have the same."""
+    """Return the angles of the largest scan, (A,), and of each scan, (S, A), or None if all scans have equal angles.
+    ``largest`` is a guess of the first result: it is used if its shape is (A,).
+    """
     # Check shapes and angles: a missing beam has the angle NaN and the reading NaN.
     each = as_array(own, "scans: angles_rad")
     if each.shape != ranges_m.shape or not each.shape[1]:
@@ -313,23 +324,23 @@ def _as_own_angles(largest: ArrayLike, own: ArrayLike, ranges_m: Floats) -> tupl
         fault = fan_fault(float(lowest[scan]), float(highest[scan])) if lowest[scan] <= highest[scan] else None
         if fault is not None:
             raise BadInput(f"scans: angles_rad of scan {scan}: {fault}")
-    # All scans have the same beams; else the angles of the largest scan are given, or selected here and padded.
     if len(each) and not missing.any() and (each == each[:1]).all():
         return each[0].copy(), None
     if np.shape(largest) == each.shape[1:]:
         return as_array(largest, "scans: angles_rad"), each
-    most = each[int((~missing).sum(axis=1).argmax())] if len(each) else np.zeros(each.shape[1])
-    most = most[np.isfinite(most)] if np.isfinite(most).any() else np.zeros(1)
-    return np.append(most, np.full(each.shape[1] - len(most), most[-1])), each
+    # Select the scan with most beams, and repeat its last angle for beams that it does not have.
+    angles = each[int((~missing).sum(axis=1).argmax())] if len(each) else np.zeros(each.shape[1])
+    angles = angles[np.isfinite(angles)] if np.isfinite(angles).any() else np.zeros(1)
+    return np.append(angles, np.full(each.shape[1] - len(angles), angles[-1])), each
 
 
 @dataclass(frozen=True)
 class Fan:
-    """Beams that are equally far apart: how many, the first angle in the sensor's frame, and the step."""
+    """The beams of a scan at equal angles from one to the next."""
 
-    beams: int
-    first_rad: float
-    step_rad: float
+    beams: int  # number of beams
+    first_rad: float  # angle of the first beam in the sensor's frame
+    step_rad: float  # angle from each beam to the next
 
     def angles_rad(self) -> Floats:
         """Return the angle of each beam, (A,)."""
@@ -341,7 +352,7 @@ class Fan:
 
 
 def side_by_side(angles_rad: Sequence[Floats], readings_m: Sequence[NDArray[np.floating]]) -> tuple[Floats, Floats]:
-    """Return angles and readings of scans of any lengths as arrays (S, A), padded with NaN."""
+    """Return the angles and the readings of S scans as arrays, (S, A) each. Shorter scans are padded with NaN."""
     shape = len(readings_m), max((len(row) for row in readings_m), default=0)
     angles, readings = np.full((2, *shape), np.nan)
     with np.errstate(invalid="ignore"):  # readings may hold signalling NaN
@@ -351,16 +362,16 @@ def side_by_side(angles_rad: Sequence[Floats], readings_m: Sequence[NDArray[np.f
 
 
 def fan_fault(lowest_rad: float, highest_rad: float) -> str | None:
-    """Return the reason if beams cannot span these angles, or None if they can. No sensor sees more than a turn with a
-    few beams twice, or counts angles from more than a turn away.
+    """Return the reason in words why no sensor has beams at these angles; None for possible angles.
+    Angles are possible if they span at most `MAX_FAN_TURNS`, and lie at most as far from straight ahead.
     """
     turns = (highest_rad - lowest_rad) / (2 * math.pi)
-    away = 0.0 if lowest_rad <= 0 <= highest_rad else min(abs(lowest_rad), abs(highest_rad))
-    if turns <= MOST_TURNS and away <= 2 * math.pi * MOST_TURNS:
+    away_rad = 0.0 if lowest_rad <= 0 <= highest_rad else min(abs(lowest_rad), abs(highest_rad))
+    if turns <= MAX_FAN_TURNS and away_rad <= 2 * math.pi * MAX_FAN_TURNS:
         return None
     return (
         f"its beams point from {lowest_rad:g} to {highest_rad:g} radians, "
-        + (f"{turns:.3g} turns" if turns > MOST_TURNS else "over a turn away from straight ahead")
+        + (f"{turns:.3g} turns" if turns > MAX_FAN_TURNS else "over a turn away from straight ahead")
         + "; angles must be in radians: are these degrees?"
     )
 
@@ -374,22 +385,19 @@ def check_limits(min_range_m: float, max_range_m: float) -> None:
 
 
 def as_array(values: ArrayLike, name: str) -> Floats:
-    """Return an array of numbers of any shape; raise `BadInput` for anything else."""
+    """Return an array of numbers of any shape. Raises `BadInput` for anything else."""
     try:
         return np.asarray(values, dtype=np.float64)
     except (TypeError, ValueError) as error:
         raise BadInput(f"{name} must be an array of numbers: {error}") from None
 
 
-MAX_BEAMS = 100_000  # per scan
-
-
 def fan(beams: int, fov_deg: float) -> Floats:
     """Return beam angles in the sensor frame, radians, (beams,), from the right end of the field of view to the left.
 
     An odd number of beams has one at each end, as in lasers of 181 or 361 beams. An even number leaves out the last, as
-    in lasers of 180 or 360 beams. A full circle starts straight ahead. Fewer than two beams, or a field of view outside
-    (0, 360] degrees, raise `BadInput`.
+    in lasers of 180 or 360 beams. A full circle starts straight ahead. Raises `BadInput` for fewer than two beams, more
+    than `MAX_BEAMS`, or a field of view outside (0, 360] degrees.
     """
     if not 2 <= beams <= MAX_BEAMS:
         raise BadInput(f"angles: give 2 to {MAX_BEAMS:,} beams a scan, got {beams}")

@@ -1,4 +1,8 @@
-"""A trajectory: poses over time with their uncertainty, as plain data."""
+"""A trajectory: poses over time with their uncertainty, as plain data.
+
+`Trajectory` is the result of SLAM and localization, and the reference that scores compare. `RelativeLaw` is the law of
+the pose of one scan in the frame of another. `step_to` chooses whose poses are returned: the robot's or the laser's.
+"""
 
 from __future__ import annotations
 
@@ -12,53 +16,54 @@ from bayesmap.space.arrays import Indices, Mask, bracketing_indices
 from bayesmap.space.planar import Floats, between, compose, frame_jacobians, interpolate, mount_jacobians, wrap_yaw
 from bayesmap.space.scans import as_poses, path_words
 
-SLACK_S = 0.002  # largest time outside a trajectory that counts as its end: logs are written with few digits
+SLACK_S = 0.002  # a time outside a trajectory by less is at its end: logs are written with few digits
 LONGEST_GAP_S = 0.3  # longest time between two poses that are interpolated: in seconds a robot turns corners
 FRAMES = ("base", "laser")  # frames on a robot whose poses a trajectory may have
 
 
 @dataclass(frozen=True, eq=False)
 class RelativeLaw:
-    """Student's t distribution of the relative poses of a trajectory.
+    """Student's t distribution of the relative poses of a trajectory, with ``dof`` degrees of freedom.
 
     ``scales`` takes the indices of the first and the second pose of N pairs. It returns the scale matrices of x, y and
-    yaw of the second pose in the frame of the first, (N, 3, 3). Covariances are dof / (dof - 2) times these.
+    yaw of the second pose in the frame of the first, (N, 3, 3). A covariance is dof / (dof - 2) times a scale matrix.
     """
 
     scales: Callable[[Indices, Indices], Floats]
     dof: float
 
     def covariances(self, first: Indices, second: Indices) -> Floats:
-        """Return covariances of the second poses in the frames of the first, (N, 3, 3)."""
+        """Return the covariances of the second poses in the frames of the first, (N, 3, 3)."""
         return self.dof / (self.dof - 2.0) * self.scales(first, second)
 
     def of_frame(self, poses: Floats, mount: Floats) -> RelativeLaw:
-        """Return the law of another frame, at ``mount``, (3,), in this frame, whose poses are ``poses``, (S, 3)."""
+        """Return the law of a frame at ``mount``, (3,), in this frame. ``poses``, (S, 3), are those of this frame."""
 
         def scales(first: Indices, second: Indices) -> Floats:
-            turn = mount_jacobians(between(poses[first], poses[second])[:, 2], mount)
-            return np.asarray(turn @ self.scales(first, second) @ np.swapaxes(turn, 1, 2))
+            jacobians = mount_jacobians(between(poses[first], poses[second])[:, 2], mount)
+            return np.asarray(jacobians @ self.scales(first, second) @ np.swapaxes(jacobians, 1, 2))
 
         return RelativeLaw(scales, self.dof)
 
 
 def step_to(frame: str | None, mount: Floats | None, own: str) -> tuple[str, Floats | None]:
-    """Return the frame of the poses that are asked for, and its pose in the frame of those at hand, (3,).
+    """Return the frame that a user requested, and the pose of this frame in the frame ``own``, (3,).
 
-    ``frame`` is one of `FRAMES`; by default the base if ``mount``, the laser's pose on it, is known, else the laser.
-    ``own`` is the frame at hand: if asked for, its pose is None. Other frames without mount raise `BadInput`.
+    ``frame`` is one of `FRAMES`. By default it is the base if ``mount``, the laser's pose on the base, is known, else
+    the laser. ``own`` is the frame of the poses that are known; for this frame the pose is None. Raises `BadInput` for
+    an unknown name, or if the mount is needed and not known.
     """
-    asked = frame or ("laser" if mount is None else "base")
-    if asked not in FRAMES:
+    requested = frame or ("laser" if mount is None else "base")
+    if requested not in FRAMES:
         raise BadInput(f"trajectory: frame must be one of {', '.join(FRAMES)}, got {frame!r}")
-    if asked == own:
-        return asked, None
+    if requested == own:
+        return requested, None
     if mount is None:
         raise BadInput(
-            f"trajectory: it has poses of the {own}; those of the {asked} need to know where the laser sits, which "
+            f"trajectory: it has poses of the {own}; those of the {requested} need to know where the laser sits, which "
             "the log does not say; give it by --laser X,Y,DEGREES (read_log: laser), when the log is read"
         )
-    return asked, np.asarray(mount) if own == "base" else between(np.asarray(mount), np.zeros(3))
+    return requested, np.asarray(mount) if own == "base" else between(np.asarray(mount), np.zeros(3))
 
 
 @dataclass(frozen=True, eq=False)
@@ -121,21 +126,24 @@ class Trajectory:
 
     @classmethod
     def of_draws(cls, draws: Floats, stamps_s: Floats | None = None, known_by: str = "") -> Trajectory:
-        """Return the trajectory of a posterior: mean and covariance of each pose over draws. Draws are (D, S, 3) or
-        (chains, D, S, 3). Yaws may lie anywhere on the circle. No draw raises `BadInput`.
+        """Return the trajectory of a posterior: the mean and covariance of each pose over the draws.
+        Draws are (D, S, 3) or (chains, D, S, 3). Raises `BadInput` if there is no draw.
         """
         flat = np.asarray(draws, dtype=np.float64)
         flat = flat.reshape(-1, *flat.shape[-2:])
         if len(flat) == 0:
             raise BadInput("trajectory: there is no draw")
-        off = wrap_yaw(flat - flat[0])
-        mean = off.mean(axis=0)
-        error = off - mean
-        covariances = np.einsum("dsi,dsj->sij", error, error) / max(len(flat) - 1, 1)
+        # Average differences from the first draw: a mean of yaws themselves fails where they wrap around.
+        differences = wrap_yaw(flat - flat[0])
+        mean = differences.mean(axis=0)
+        errors = differences - mean
+        covariances = np.einsum("dsi,dsj->sij", errors, errors) / max(len(flat) - 1, 1)
         return cls(wrap_yaw(flat[0] + mean), stamps_s, covariances, flat, known_by=known_by)
 
     def at(self, at_s: Floats) -> tuple[Floats, Mask]:
-        """Return interpolated poses at times ``at_s``, (N, 3), and the mask of times within the trajectory, (N,)."""
+        """Return interpolated poses at times ``at_s``, (N, 3), and the mask of times within the trajectory, (N,).
+        Raises `BadInput` for a trajectory without poses or stamps.
+        """
         if self.stamps_s is None or len(self) == 0:
             raise BadInput("trajectory: it has no stamps, so that its pose at a time is not known")
         at = np.asarray(at_s, dtype=np.float64)
@@ -143,8 +151,8 @@ class Trajectory:
         return interpolate(self.stamps_s, self.poses, at), inside
 
     def placed(self, at_s: Floats) -> tuple[Floats, Mask, Mask]:
-        """Return poses at times as `at` does, (N, 3), and two masks, (N,): times within, and times without a gap. A gap
-        is a time between two poses more than `LONGEST_GAP_S` apart, and more than `SLACK_S` from both.
+        """Return poses at times as `at` does, (N, 3), and two masks, (N,) each: times within, and times in no gap.
+        A gap lies between two poses more than `LONGEST_GAP_S` apart, and begins and ends `SLACK_S` from the poses.
         """
         poses, inside = self.at(at_s)
         assert self.stamps_s is not None
@@ -153,27 +161,27 @@ class Trajectory:
         return poses, inside, near | (after - before <= LONGEST_GAP_S + SLACK_S)
 
     def of(self, frame: str | None, mount: Floats | None) -> Trajectory:
-        """Return the trajectory of the robot's base, or of its laser at ``mount``, (3,), on the base, as `step_to`
-        says. A trajectory that does not name its own frame has the default.
+        """Return the trajectory of the frame "base" or "laser"; ``mount`` is the laser's pose on the base, (3,).
+        None is the default of `step_to`, both for ``frame`` and for a trajectory that does not name its frame.
         """
         own = self.frame or ("laser" if mount is None else "base")
-        asked, step = step_to(frame, mount, own)
-        return replace(self if step is None else self.of_frame(step), frame=asked)
+        new_frame, step = step_to(frame, mount, own)
+        return replace(self if step is None else self.of_frame(step), frame=new_frame)
 
     def of_frame(self, mount: Floats) -> Trajectory:
         """Return the trajectory of another frame, which lies at ``mount``, (3,), in this frame."""
         poses = compose(self.poses, mount)
         covariances = self.covariances
         if covariances is not None:
-            shift = frame_jacobians(self.poses[:, 2], np.asarray(mount))
-            covariances = shift @ covariances @ np.swapaxes(shift, 1, 2)
+            jacobians = frame_jacobians(self.poses[:, 2], np.asarray(mount))
+            covariances = jacobians @ covariances @ np.swapaxes(jacobians, 1, 2)
         draws = None if self.draws is None else compose(self.draws, mount)
         relative = None if self.relative is None else self.relative.of_frame(self.poses, np.asarray(mount))
         return Trajectory(poses, self.stamps_s, covariances, draws, relative, self.known_by)
 
 
 def ellipses(centres: Floats, covariances: Floats, level: float = 0.95, points: int = 32) -> Floats:
-    """Return the closed outlines of credible ellipses of normal positions, (S, points, 2).
+    """Return the closed outlines of credible ellipses of normal positions, (S, points, 2), in the units of the means.
 
     The means are (S, 2), the covariances (S, 2, 2). In the plane the squared Mahalanobis distance is below
     -2 log(1 - level) with probability ``level``.
