@@ -1,7 +1,5 @@
 """Walls as text, one character per cell, and the tutorial's map: 21 x 21 cells of 1 m, with a robot in the middle."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -27,6 +25,7 @@ def from_text(text: str) -> Mask:
     Raises `BadInput` for no lines, lines of different lengths, or an unknown character; the message names the line
     (counted from 1 in the whole text) and the column.
     """
+    # Number the lines, cut blank lines off at both ends, and find the common indentation.
     numbered = [(number, line.rstrip()) for number, line in enumerate(text.splitlines(), start=1)]
     filled = [k for k, (_, line) in enumerate(numbered) if line]
     if not filled:

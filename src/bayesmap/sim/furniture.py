@@ -1,14 +1,14 @@
 """Furniture in rooms, as a laser at shin height sees it: legs, cabinets, boxes, partitions.
 
 Every piece is tried in a typical position (against a wall, in the middle, in front of a desk). It is kept only if it
-leaves the door free and a robot can still reach the rest of the room. Sizes and positions are in metres.
+leaves the door free and a robot can still reach the rest of the room. `furnish` is the main function, and `FURNISHERS`
+has a function for each kind of room. Sizes and positions are in metres, chosen to look like offices.
 """
-
-from __future__ import annotations
 
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,8 +20,15 @@ SOLID = 1.0  # opacity: the chance that a cell stops a beam
 LEG = 0.5  # opacity of a leg, which is thinner than a cell: about half of the beams that enter its cell pass
 MAX_CUT_OFF_M2 = 0.4  # largest floor that a piece may make unreachable, besides the floor under it
 
-Rectangle = tuple[float, float, float, float, float]
-"""A rectangle in the room's frame: x, y, width and depth in metres, and the opacity."""
+
+class Rectangle(NamedTuple):
+    """A part of a piece of furniture in the room's frame, metres."""
+
+    x: float  # smallest x
+    y: float  # smallest y
+    width: float  # along x
+    depth: float  # along y
+    opacity: float = SOLID
 
 
 def wall_distance_m(walls: NDArray[np.bool_], resolution: float) -> NDArray[np.float64]:
@@ -39,15 +46,15 @@ def lattice_stride(resolution: float) -> int:
 
 
 def passage_m(resolution: float) -> float:
-    """Return the distance from a node to the centre of a wall cell that keeps paths clear by `ROBOT_CLEARANCE_M`: half
-    a cell's diagonal and half the lattice's diagonal are added.
+    """Return the smallest distance of a node from the centre of a wall cell, for paths clear by `ROBOT_CLEARANCE_M`.
+    Half a cell's diagonal and half the lattice's diagonal are added to the clearance.
     """
     return ROBOT_CLEARANCE_M + (1 + lattice_stride(resolution)) * resolution / math.sqrt(2)
 
 
 @dataclass
 class RoomFloor:
-    """A room to furnish. Its frame, in metres: x along the corridor wall, y away from the corridor."""
+    """A room to furnish. In its frame, in metres, x runs along the corridor's wall and y away from the corridor."""
 
     opacity: NDArray[np.float64]  # of the room's cells and the walls around them, (nx + 2, ny + 2), changed in place
     keep_free: NDArray[np.bool_]  # mask of door openings and the cells in front of them, where nothing may stand
@@ -65,20 +72,21 @@ class RoomFloor:
         # Fill the parts, at least one cell wide each, unless a part meets a wall, a door area or another piece.
         trial = self.opacity.copy()
         nx, ny = trial.shape
-        for x, y, width, depth, opacity in rectangles:
-            x0, x1, y0, y1 = (1 + round(v / self.resolution) for v in (x, x + width, y, y + depth))
+        for part in rectangles:
+            ends = (part.x, part.x + part.width, part.y, part.y + part.depth)
+            x0, x1, y0, y1 = (1 + round(v / self.resolution) for v in ends)
             cells = np.s_[x0 : max(x1, x0 + 1), y0 : max(y1, y0 + 1)]
             outside = min(x0, y0) < 1 or cells[0].stop > nx - 1 or cells[1].stop > ny - 1
             if outside or self.keep_free[cells].any() or trial[cells].any():
                 return False
-            trial[cells] = opacity
+            trial[cells] = part.opacity
         if not self._leaves_floor_reachable(trial):
             return False
         self.opacity[...] = trial
         return True
 
     def _leaves_floor_reachable(self, opacity: NDArray[np.float64]) -> bool:
-        """Return whether a robot can pass between all doors, and reach all floor but `MAX_CUT_OFF_M2`."""
+        """Return true if a robot can pass between all doors, and reach all floor but `MAX_CUT_OFF_M2`."""
         from scipy import ndimage
 
         passable = wall_distance_m(opacity > 0, self.resolution) >= passage_m(self.resolution)
@@ -91,7 +99,7 @@ class RoomFloor:
 
 
 def furnish(room: RoomFloor, kind: str, clutter: float) -> None:
-    """Furnish a room, in place, for its kind (`bayesmap.sim.building.Room`); clutter 1 is usual furniture."""
+    """Furnish a room in place, as fits its kind, a key of `FURNISHERS`. Clutter 0 is no furniture, 1 is usual."""
     if clutter <= 0:
         return
     FURNISHERS[kind](room, clutter)
@@ -100,6 +108,7 @@ def furnish(room: RoomFloor, kind: str, clutter: float) -> None:
 
 
 def _office(room: RoomFloor, clutter: float) -> None:
+    """Place desks at one or both side walls, far from the door, and cabinets."""
     _, depth = room.size_m
     for side in room.rng.permutation(2)[: 1 + (room.rng.random() < 0.6 * clutter)]:
         y = depth - room.rng.uniform(1.9, 2.4)
@@ -112,18 +121,20 @@ def _desk_at_wall(room: RoomFloor, left: bool, y: float) -> None:
     width, _ = room.size_m
     x_wall = 0.0 if left else width - 0.6
     x_edge = 0.6 if left else width - 0.7
-    if room.place((x_wall, y, 0.6, 0.4, SOLID), (x_edge, y + 1.5, 0.08, 0.08, LEG)):
+    if room.place(Rectangle(x_wall, y, 0.6, 0.4), Rectangle(x_edge, y + 1.5, 0.08, 0.08, LEG)):
         _chair(room, 0.95 if left else width - 1.1, y + 0.85)
 
 
 def _chair(room: RoomFloor, x: float, y: float) -> None:
     """Place a swivel chair: the column and five short feet fill about a square of 0.2 m."""
-    room.place((x + room.rng.uniform(-0.2, 0.2), y + room.rng.uniform(-0.2, 0.2), 0.2, 0.2, LEG))
+    room.place(Rectangle(x + room.rng.uniform(-0.2, 0.2), y + room.rng.uniform(-0.2, 0.2), 0.2, 0.2, LEG))
 
 
 def _four_legs(x: float, y: float, width: float, depth: float) -> list[Rectangle]:
+    """Return the legs at the corners of a table top."""
     size = 0.08
-    return [(x + dx * (width - size), y + dy * (depth - size), size, size, LEG) for dx in (0, 1) for dy in (0, 1)]
+    corners = [(x + dx * (width - size), y + dy * (depth - size)) for dx in (0, 1) for dy in (0, 1)]
+    return [Rectangle(*corner, size, size, LEG) for corner in corners]
 
 
 def _table(room: RoomFloor, clutter: float) -> None:
@@ -133,11 +144,11 @@ def _table(room: RoomFloor, clutter: float) -> None:
     length, across = min(max(width, depth) - 2.6, 3.6), 1.2
     if length < 1.0 or min(width, depth) < 3.2:
         return
-    w, d = (length, across) if along_x else (across, length)
-    x, y = (width - w) / 2, (depth - d) / 2
-    if not room.place(*_four_legs(x, y, w, d)):
+    table_width, table_depth = (length, across) if along_x else (across, length)
+    x, y = (width - table_width) / 2, (depth - table_depth) / 2
+    if not room.place(*_four_legs(x, y, table_width, table_depth)):
         return
-    # A chair per 0.8 m of each long side, if the clutter has it.
+    # A chair per 0.8 m of each long side; some are missing, more with less clutter.
     for k in range(int(length / 0.8)):
         for side in (-1, 1):
             if room.rng.random() < 0.85 * min(clutter, 1):
@@ -148,6 +159,7 @@ def _table(room: RoomFloor, clutter: float) -> None:
 
 
 def _meeting(room: RoomFloor, clutter: float) -> None:
+    """Place a table with chairs, and perhaps a cabinet."""
     _table(room, clutter)
     _cabinets(room, int(room.rng.random() < 0.5 * clutter))
 
@@ -159,34 +171,37 @@ def _open_plan(room: RoomFloor, clutter: float) -> None:
     for k in range(islands):
         x = (k + 0.5) * width / islands
         y = depth / 2 - 1.6 + 0.3
-        room.place((x - 0.05, y, 0.08, 3.2, SOLID))
+        room.place(Rectangle(x - 0.05, y, 0.08, 3.2))
         for side in (-1, 1):
             for end in (0.0, 1.7):
                 if room.rng.random() < 0.9 * min(clutter, 1):
-                    room.place((x + (0.15 if side > 0 else -0.75), y + end * 1.65, 0.5, 0.4, SOLID))
+                    room.place(Rectangle(x + (0.15 if side > 0 else -0.75), y + end * 1.65, 0.5, 0.4))
                     _chair(room, x + side * 1.0 - 0.1, y + end + 0.6)
     _cabinets(room, room.rng.poisson(2 * clutter))
 
 
 def _store(room: RoomFloor, clutter: float) -> None:
+    """Place shelves along both side walls, and boxes."""
     width, depth = room.size_m
     for x in (0.0, width - 0.4):
-        room.place((x, 1.3, 0.4, depth - 1.3, SOLID))
+        room.place(Rectangle(x, 1.3, 0.4, depth - 1.3))
     for _ in range(room.rng.poisson(4 * clutter)):
         _box(room)
 
 
 def _server(room: RoomFloor, clutter: float) -> None:
+    """Place rows of racks, two metres apart."""
     width, depth = room.size_m
     racks = int((depth - 2.6) / 0.6)
     for x in np.arange(0.9, width - 1.8, 2.0):
-        room.place((float(x), 1.6, 1.0, 0.6 * racks, SOLID))
+        room.place(Rectangle(float(x), 1.6, 1.0, 0.6 * racks))
 
 
 def _kitchen(room: RoomFloor, clutter: float) -> None:
+    """Place a worktop along the back wall, a fridge at a side wall, and a table."""
     width, depth = room.size_m
-    room.place((0.0, depth - 0.6, width, 0.6, SOLID))
-    room.place((0.0, 1.4, 0.6, 0.7, SOLID))
+    room.place(Rectangle(0.0, depth - 0.6, width, 0.6))
+    room.place(Rectangle(0.0, 1.4, 0.6, 0.7))
     _table(room, clutter)
 
 
@@ -197,44 +212,48 @@ def _washroom(room: RoomFloor, clutter: float) -> None:
     for k in range(stalls):
         x = k * width / stalls
         if k:
-            room.place((x, depth - 1.4, 0.05, 1.4, SOLID))
-        room.place((x + width / stalls / 2 - 0.2, depth - 0.6, 0.4, 0.6, SOLID))
-    room.place((0.0, 1.4, 0.5, max(0.6, depth - 3.4), SOLID))
+            room.place(Rectangle(x, depth - 1.4, 0.05, 1.4))
+        room.place(Rectangle(x + width / stalls / 2 - 0.2, depth - 0.6, 0.4, 0.6))
+    room.place(Rectangle(0.0, 1.4, 0.5, max(0.6, depth - 3.4)))
 
 
 def _lobby(room: RoomFloor, clutter: float) -> None:
+    """Place a reception desk, three armchairs and a plant."""
     width, depth = room.size_m
-    room.place((width * 0.15, depth * 0.45, min(2.2, width * 0.5), 0.6, SOLID))
+    room.place(Rectangle(width * 0.15, depth * 0.45, min(2.2, width * 0.5), 0.6))
     for _ in range(3):
         _against_wall(room, 0.8, 0.8)
     _against_wall(room, 0.4, 0.4)
 
 
 def _corridor(room: RoomFloor, clutter: float) -> None:
+    """Place cupboards, bins and benches along the walls, on average one in eight metres."""
     for _ in range(room.rng.poisson(0.12 * clutter * max(room.size_m))):
         _against_wall(room, float(room.rng.choice([0.3, 0.6, 0.8, 1.2])), 0.4)
 
 
 def _cabinets(room: RoomFloor, count: int) -> None:
+    """Place cabinets of three widths along the walls."""
     for _ in range(count):
         _against_wall(room, float(room.rng.choice([0.8, 1.0, 1.6])), 0.45)
 
 
 def _against_wall(room: RoomFloor, length: float, thickness: float, tries: int = 6) -> None:
-    """Place a solid piece with its back to a wall, at a random position that fits, if there is one."""
-    width, depth = room.size_m
+    """Place a solid piece with its back to a random wall, at the first of some random positions that fits."""
+    room_width, room_depth = room.size_m
     for _ in range(tries):
-        side = room.rng.integers(4)
-        w, d = (length, thickness) if side < 2 else (thickness, length)
-        if w > width or d > depth:
+        wall = room.rng.integers(4)  # 0 and 1 are the walls along x, 2 and 3 those along y
+        width, depth = (length, thickness) if wall < 2 else (thickness, length)
+        if width > room_width or depth > room_depth:
             continue
-        x = room.rng.uniform(0, width - w) if side < 2 else (0.0, width - w)[side - 2]
-        y = room.rng.uniform(0, depth - d) if side >= 2 else (0.0, depth - d)[side]
-        if room.place((float(x), float(y), w, d, SOLID)):
+        x = room.rng.uniform(0, room_width - width) if wall < 2 else (0.0, room_width - width)[wall - 2]
+        y = room.rng.uniform(0, room_depth - depth) if wall >= 2 else (0.0, room_depth - depth)[wall]
+        if room.place(Rectangle(float(x), float(y), width, depth)):
             return
 
 
 def _box(room: RoomFloor) -> None:
+    """Place a box of random size against a wall."""
     size = room.rng.uniform(0.25, 0.6, 2)
     _against_wall(room, float(size[0]), float(size[1]), tries=2)
 

@@ -1,5 +1,8 @@
 """A simulated robot: its patrol through a building, and its wheel odometry with noise, bias, slip and lag.
 
+`patrol` and `drive` make the true poses, on paths through a lattice of free cells, and `simulate_odometry` the reported
+poses. `related_pairs` chooses the pairs of poses on which a trajectory is scored.
+
 Odometry divides each step into turn, straight, turn (Thrun, Burgard and Fox, *Probabilistic Robotics*, 2005, section
 5.4). In the book the noise variance grows with the square of each part, so a path in smaller steps has less noise. Here
 variances grow with the distance, as in a random walk, so that logs at 1 Hz and at 10 Hz drift alike. For a straight of
@@ -30,7 +33,7 @@ if TYPE_CHECKING:
     from bayesmap.sim.building import Building
 
 WALL_COST = 4.0  # extra cost of a path close to walls, relative to open floor: robots keep to the middle
-SMOOTHING_M = 0.5  # twice the standard deviation of the filter that rounds corners
+SMOOTHING_M = 0.5  # two standard deviations of the filter that rounds corners
 HEADING_M = 0.2  # distance over which the direction of travel is measured
 MIN_STRAIGHT_M = 1e-9  # shortest straight with a direction; a shorter step is one turn
 RELATED_M = 4.0  # largest distance of related poses: poses further apart see different walls
@@ -39,7 +42,7 @@ PATROL_POSES = 4000  # poses of one round of a driven building
 
 
 def patrol(building: Building, n_scans: int, seed: int = 0) -> Floats:
-    """Simulate the poses of a robot that goes round a building and enters its rooms, (n_scans, 3), in the world frame.
+    """Simulate the poses of a robot that visits all rooms of a building, (n_scans, 3), in the world frame.
 
     The robot starts in the first corridor, and repeatedly goes to the nearest unvisited room, to a goal that ``seed``
     decides. It takes shortest paths that prefer open floor, and looks along its way. No pose is within
@@ -49,20 +52,21 @@ def patrol(building: Building, n_scans: int, seed: int = 0) -> Floats:
     """
     if n_scans < 1:
         raise BadInput(f"patrol: n_scans must be at least 1, got {n_scans!r}")
+    # Choose a stop in each room, and join the stops by a smooth path.
     lattice = _Lattice(building)
     stops = lattice.choose_stops(np.random.default_rng(check_count("patrol", "seed", seed, 0)))
-    path = _smooth(lattice.tour(stops), lattice)
-    length_m = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(path, axis=0).T))])
-    scan_m = np.linspace(0.0, length_m[-1], n_scans)
+    path_m = _smooth(lattice.tour(stops), lattice)
+    travelled_m = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(path_m, axis=0).T))])
+    scans_at_m = np.linspace(0.0, travelled_m[-1], n_scans)
 
     def points(at_m: Floats) -> Floats:
-        return np.stack([np.interp(at_m, length_m, path[:, k]) for k in (0, 1)], axis=1)
+        return np.stack([np.interp(at_m, travelled_m, path_m[:, k]) for k in (0, 1)], axis=1)
 
-    # The direction of travel over `HEADING_M`, not of one step of the lattice; at the end, over the last `HEADING_M`.
-    xy = points(scan_m)
-    heading = points(scan_m + HEADING_M) - xy
+    # The direction of travel over `HEADING_M`, not of one link of the lattice; at the end, over the last `HEADING_M`.
+    xy = points(scans_at_m)
+    heading = points(scans_at_m + HEADING_M) - xy
     at_end = np.hypot(*heading.T) < 1e-9
-    heading[at_end] = (xy - points(scan_m - HEADING_M))[at_end]
+    heading[at_end] = (xy - points(scans_at_m - HEADING_M))[at_end]
     return np.column_stack([xy, np.arctan2(heading[:, 1], heading[:, 0])])
 
 
@@ -70,21 +74,28 @@ def drive(
     building: Building, seconds: float, rate_hz: float = 10.0, *, speed_m_per_s: float = 0.5,
     turn_rad_per_s: float = 1.0, seed: int = 0,
 ) -> tuple[Floats, Floats]:  # fmt: skip
-    """Simulate a robot that goes round a building and back, again and again: times from 0, (S,), and poses, (S, 3)."""
-    round_poses = patrol(building, PATROL_POSES, seed)
-    rounds = [round_poses]
+    """Simulate a robot that patrols a building for some seconds. Returns its times from 0, (S,), and poses, (S, 3).
+    It drives a round of `patrol` forth and back, again and again, and scans at ``rate_hz``.
+    """
+    patrol_poses = patrol(building, PATROL_POSES, seed)
+    rounds = [patrol_poses]
     while travel_times_s(np.concatenate(rounds), speed_m_per_s, turn_rad_per_s)[-1] < seconds:
-        rounds.append(round_poses if len(rounds) % 2 == 0 else round_poses[::-1] + np.array([0.0, 0.0, math.pi]))
-    way = np.concatenate(rounds)
-    times_s = travel_times_s(way, speed_m_per_s, turn_rad_per_s)
-    yaw = way[0, 2] + np.concatenate([[0.0], np.cumsum(wrap_angle(np.diff(way[:, 2])))])
+        rounds.append(patrol_poses if len(rounds) % 2 == 0 else patrol_poses[::-1] + np.array([0.0, 0.0, math.pi]))
+    poses = np.concatenate(rounds)
+    times_s = travel_times_s(poses, speed_m_per_s, turn_rad_per_s)
+    # Interpolate yaws that do not wrap around.
+    yaw = poses[0, 2] + np.concatenate([[0.0], np.cumsum(wrap_angle(np.diff(poses[:, 2])))])
     scan_times_s = np.arange(0.0, seconds, 1.0 / rate_hz)
-    columns = (way[:, 0], way[:, 1], yaw)
+    columns = (poses[:, 0], poses[:, 1], yaw)
     return scan_times_s, wrap_yaw(np.column_stack([np.interp(scan_times_s, times_s, column) for column in columns]))
 
 
 class _Lattice:
-    """The largest connected part of every k-th cell in which a robot fits, linked to eight neighbours."""
+    """The planning lattice of a building: a graph of the cells in which a robot fits, linked to eight neighbours.
+
+    The nodes are every k-th cell along x and y. Only the largest connected part is kept. ``nodes`` are their indices,
+    (N, 2), ``points_m`` their world positions, (N, 2), and ``graph`` the costs of their links.
+    """
 
     def __init__(self, building: Building) -> None:
         from scipy import ndimage
@@ -97,8 +108,8 @@ class _Lattice:
         clearance = self.clearance_m[nodes, nodes].copy()
         x, y = (centers[nodes] for centers in building.grid.centers_m())
         # Keep the largest connected part inside the building.
-        grounds, _ = ndimage.label(~building.walls)
-        inside = grounds[nodes, nodes] != grounds[0, 0]
+        free_areas, _ = ndimage.label(~building.walls)
+        inside = free_areas[nodes, nodes] != free_areas[0, 0]  # cell (0, 0) is outside
         fits = inside & (clearance >= passage_m(self.resolution))
         labels, count = ndimage.label(fits, structure=np.ones((3, 3)))
         if count == 0:
@@ -110,19 +121,19 @@ class _Lattice:
         self.graph = self._links(fits.shape, stride * self.resolution)
 
     def _links(self, shape: tuple[int, ...], spacing_m: float) -> sparse.csr_array:
-        """Return the costs of the links between neighbouring nodes."""
+        """Return the costs of the links between neighbouring nodes: lengths, weighted by the closeness to walls."""
         from scipy import sparse
 
-        number = np.full(shape, -1)
-        number[tuple(self.nodes.T)] = np.arange(len(self.nodes))
-        padded = np.pad(number, 1, constant_values=-1)
+        node_at = np.full(shape, -1)
+        node_at[tuple(self.nodes.T)] = np.arange(len(self.nodes))
+        padded = np.pad(node_at, 1, constant_values=-1)
         node_cost = 1 + WALL_COST * np.exp(-(self.node_clearance_m - passage_m(self.resolution)) / 0.2)
         rows, columns, costs = [], [], []
         for di, dj in ((1, 0), (0, 1), (1, 1), (1, -1)):
-            other = padded[1 + di : 1 + di + shape[0], 1 + dj : 1 + dj + shape[1]]
-            linked = (number >= 0) & (other >= 0)
-            rows.append(number[linked])
-            columns.append(other[linked])
+            neighbour = padded[1 + di : 1 + di + shape[0], 1 + dj : 1 + dj + shape[1]]
+            linked = (node_at >= 0) & (neighbour >= 0)
+            rows.append(node_at[linked])
+            columns.append(neighbour[linked])
             costs.append(spacing_m * np.hypot(di, dj) * (node_cost[rows[-1]] + node_cost[columns[-1]]) / 2)
         entries = (np.concatenate(costs), (np.concatenate(rows), np.concatenate(columns)))
         return sparse.csr_array(entries, shape=(len(self.nodes), len(self.nodes)))
@@ -137,8 +148,8 @@ class _Lattice:
             if len(nodes) == 0:
                 continue
             goal = np.array([x0, y0]) + rng.uniform(0.3, 0.7, 2) * (x1 - x0, y1 - y0)
-            distance = np.hypot(*(self.points_m[nodes] - goal).T)
-            stops.append(int(nodes[np.argmin(distance - np.minimum(self.node_clearance_m[nodes], 0.8))]))
+            distance_m = np.hypot(*(self.points_m[nodes] - goal).T)
+            stops.append(int(nodes[np.argmin(distance_m - np.minimum(self.node_clearance_m[nodes], 0.8))]))
         return stops
 
     def tour(self, stops: list[int]) -> Floats:
@@ -148,17 +159,17 @@ class _Lattice:
         if not stops:
             return self.points_m[:1]
         cost, before = csgraph.dijkstra(self.graph, directed=False, indices=stops, return_predecessors=True)
-        remaining, present = set(range(1, len(stops))), 0
+        remaining, current = set(range(1, len(stops))), 0
         nodes = [stops[0]]
         while remaining:
-            nearest = min(remaining, key=lambda stop: cost[present, stops[stop]])
-            # Follow the predecessors back from the next stop to the present one.
+            nearest = min(remaining, key=lambda stop: cost[current, stops[stop]])
+            # Follow the predecessors back from the next stop to the current one.
             leg = [stops[nearest]]
-            while leg[-1] != stops[present]:
-                leg.append(int(before[present, leg[-1]]))
+            while leg[-1] != stops[current]:
+                leg.append(int(before[current, leg[-1]]))
             nodes.extend(leg[-2::-1])
             remaining.discard(nearest)
-            present = nearest
+            current = nearest
         return np.asarray(self.points_m[nodes])
 
 
@@ -172,14 +183,14 @@ def _smooth(path_m: Floats, lattice: _Lattice) -> Floats:
     smooth = ndimage.gaussian_filter1d(path_m, SMOOTHING_M / spacing / 2, axis=0, mode="nearest")
     cells = np.floor(lattice.building.grid.to_cells(smooth)).astype(int)
     clear = lattice.clearance_m[cells[:, 0], cells[:, 1]] >= passage_m(lattice.resolution)
-    # The neighbours of a fixed point stay fixed, too, so that no step cuts a corner.
+    # The neighbours of a point that is not smoothed are not smoothed either, so that no link cuts a corner.
     clear = ndimage.binary_erosion(clear, iterations=2, border_value=1)
     return np.where(clear[:, None], smooth, path_m)
 
 
 @dataclass(frozen=True)
 class OdometryNoise:
-    """The errors of a robot's odometry. The defaults are about those of a Pioneer in an office (Intel's raw log).
+    """The size of the errors of a robot's odometry. The defaults resemble a Pioneer in an office (Intel's raw log).
 
     Attributes:
         distance_per_m: standard deviation of the reported distance after one metre, m / sqrt(m).
@@ -269,7 +280,7 @@ def _reported_steps(steps: Floats, noise: OdometryNoise, rng: np.random.Generato
     first = np.where(backwards, wrap_angle(first + math.pi), first)
     last = wrap_angle(steps[:, 2] - first)
     signed = np.where(backwards, -distance, distance)
-    # Add noise to the straight and the turns.
+    # Add noise to the straight and the turns, by the formulas of the module's docstring.
     turned = np.abs(first) + np.abs(last)
     sigma = np.sqrt(noise.distance_per_m**2 * distance + noise.distance_per_rad**2 * turned)
     reported = (1.0 + noise.distance_scale) * signed + sigma * normals[:, 0]
@@ -289,7 +300,7 @@ def _reported_steps(steps: Floats, noise: OdometryNoise, rng: np.random.Generato
 def related_pairs(poses_world: Floats, seed: int = 0) -> tuple[Indices, Indices]:
     """Choose pairs of poses up to `RELATED_M` apart: successive poses, and on average two others per pose.
 
-    Kuemmerle et al. (2009) relate poses whose scans a person can align: neighbours in time, and places seen again.
+    Kuemmerle et al. (2009) relate poses whose scans a person can align: neighbours in time, and places visited again.
     Returns the indices of the earlier and the later pose of each pair, ascending, each pair once.
     """
     count = len(poses_world)
@@ -300,8 +311,8 @@ def related_pairs(poses_world: Floats, seed: int = 0) -> tuple[Indices, Indices]
     start = rng.integers(0, count - 1, PAIRS_PER_POSE * 4 * count)
     # Candidates at log-uniform gaps in time, so that pairs seconds apart are as frequent as pairs minutes apart.
     gap = np.exp(rng.uniform(0.0, np.log(count), len(start))).astype(np.intp)
-    far = np.stack([start, start + gap], axis=1)[start + gap < count]
-    pairs = np.concatenate([pairs, far])
+    distant = np.stack([start, start + gap], axis=1)[start + gap < count]
+    pairs = np.concatenate([pairs, distant])
     # Select distinct pairs that are close enough, `PAIRS_PER_POSE` on average.
     pairs = pairs[np.sort(np.unique(pairs, axis=0, return_index=True)[1])]
     distance_m = np.hypot(*(poses_world[pairs[:, 0], :2] - poses_world[pairs[:, 1], :2]).T)

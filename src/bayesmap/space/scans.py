@@ -226,7 +226,7 @@ class Scans:
         return angles[scans, first], angles[scans, last]
 
     def at(self, poses_world: ArrayLike) -> Scans:
-        """Return the readings as taken from other poses, (S, 3). Beams move with scans. Raises `BadInput` as `as_poses`."""
+        """Return the readings at other poses, (S, 3). Beams move with their scans. Raises `BadInput` as `as_poses`."""
         poses = as_poses(poses_world)
         if poses.shape != self.poses.shape:
             raise BadInput(f"scans: poses has shape {poses.shape}, expected {self.poses.shape}")
