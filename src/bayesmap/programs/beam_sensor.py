@@ -4,8 +4,6 @@ A trace at known poses keeps the readings and the position of each beam's first 
 only if it becomes a wall before the hit, or was the hit and is removed. So an edit reads the beams through its cell.
 """
 
-from __future__ import annotations
-
 import dataclasses
 import hashlib
 import math

@@ -7,8 +7,6 @@ The model has the joint law of walls and readings of `bayesmap.infer`, for your 
 generative function that draws them in place of an array.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import jax
@@ -161,7 +159,7 @@ class _Walls(Pytree):
     p_wall: bytes = static(repr=False)
 
     @staticmethod
-    def of(p_wall: NDArray[np.float64]) -> _Walls:
+    def of(p_wall: NDArray[np.float64]) -> "_Walls":
         """Return the prior of an array of probabilities, (nx, ny)."""
         return _Walls(p_wall.shape, np.asarray(p_wall, np.float64).tobytes())
 

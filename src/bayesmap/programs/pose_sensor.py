@@ -8,8 +8,6 @@ poses. Each beam walks from cell to cell: Amanatides and Woo, "A fast voxel trav
 Lengths are in units of cells from the grid's lower left corner.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from functools import partial
 from typing import Any, NamedTuple

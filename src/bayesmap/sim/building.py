@@ -13,8 +13,6 @@ is the main function. Its stages are `lay_out` for the plan, and `_Construction`
 and chances are chosen to look like offices; they are not fitted to measured buildings.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace

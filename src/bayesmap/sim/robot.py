@@ -12,8 +12,6 @@ d metres and turns of a_1 and a_2 radians, with A = |a_1| + |a_2|, the reported 
     a_i' = (1 + turn_scale) a_i + drift_rad_per_m d / 2 + N(0, turn_per_m^2 d / 2 + turn_per_rad^2 |a_i|)
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING
@@ -41,7 +39,7 @@ PAIRS_PER_POSE = 3  # mean number of related pairs per pose
 PATROL_POSES = 4000  # poses of one round of a driven building
 
 
-def patrol(building: Building, n_scans: int, seed: int = 0) -> Floats:
+def patrol(building: "Building", n_scans: int, seed: int = 0) -> Floats:
     """Simulate the poses of a robot that visits all rooms of a building, (n_scans, 3), in the world frame.
 
     The robot starts in the first corridor, and repeatedly goes to the nearest unvisited room, to a goal that ``seed``
@@ -71,7 +69,7 @@ def patrol(building: Building, n_scans: int, seed: int = 0) -> Floats:
 
 
 def drive(
-    building: Building, seconds: float, rate_hz: float = 10.0, *, speed_m_per_s: float = 0.5,
+    building: "Building", seconds: float, rate_hz: float = 10.0, *, speed_m_per_s: float = 0.5,
     turn_rad_per_s: float = 1.0, seed: int = 0,
 ) -> tuple[Floats, Floats]:  # fmt: skip
     """Simulate a robot that patrols a building for some seconds. Returns its times from 0, (S,), and poses, (S, 3).
@@ -97,7 +95,7 @@ class _Lattice:
     (N, 2), ``points_m`` their world positions, (N, 2), and ``graph`` the costs of their links.
     """
 
-    def __init__(self, building: Building) -> None:
+    def __init__(self, building: "Building") -> None:
         from scipy import ndimage
 
         self.building, self.resolution = building, building.grid.resolution
@@ -120,7 +118,7 @@ class _Lattice:
         self.node_clearance_m = clearance[tuple(self.nodes.T)]
         self.graph = self._links(fits.shape, stride * self.resolution)
 
-    def _links(self, shape: tuple[int, ...], spacing_m: float) -> sparse.csr_array:
+    def _links(self, shape: tuple[int, ...], spacing_m: float) -> "sparse.csr_array":
         """Return the costs of the links between neighbouring nodes: lengths, weighted by the closeness to walls."""
         from scipy import sparse
 

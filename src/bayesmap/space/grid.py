@@ -4,8 +4,6 @@
 too large, `outlying` names them. The functions `as_...` check arrays that have one value per cell.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -99,7 +97,7 @@ class Grid:
         return (i, j) if 0 <= i < self.shape[0] and 0 <= j < self.shape[1] else None
 
     @classmethod
-    def covering(cls, scans: Scans, resolution: float, margin_m: float = 0.5) -> Grid:
+    def covering(cls, scans: Scans, resolution: float, margin_m: float = 0.5) -> "Grid":
         """Return the smallest grid that holds every pose and every hit, with a free border of ``margin_m``, metres.
 
         The origin is a multiple of the resolution, so that maps of two recordings of a building line up. Raises
@@ -116,7 +114,7 @@ class Grid:
         return cls.over(low, high, resolution)
 
     @classmethod
-    def over(cls, low: tuple[float, float], high: tuple[float, float], resolution: float) -> Grid:
+    def over(cls, low: tuple[float, float], high: tuple[float, float], resolution: float) -> "Grid":
         """Return the smallest grid that holds the rectangle from ``low`` to ``high``, its corners in world metres.
         The origin is a multiple of the resolution. Raises `BadInput` for more than `MAX_CELLS` cells.
         """

@@ -4,8 +4,6 @@
 back. `thinned` and `jumps` then read the poses in this order. In this file a step leads from one pose to the next.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from datetime import UTC, datetime
@@ -165,7 +163,7 @@ def _alternate(first: NDArray[np.float64], second: NDArray[np.float64]) -> bool:
     return bool((np.diff(in_second)).sum() >= MIN_ALTERNATIONS * min(len(first), len(second)))
 
 
-def thinned(scans: Scans, spacing_m: float) -> Scans:
+def thinned(scans: "Scans", spacing_m: float) -> "Scans":
     """Select the first scan, and then each scan at least ``spacing_m`` of travel after the last selected one.
 
     The distance is measured along the path through all poses; turns on the spot do not count. Raises `BadInput` for a
@@ -191,7 +189,7 @@ def steps_m(poses: NDArray[np.float64]) -> NDArray[np.float64]:
         return np.asarray(np.hypot(*np.diff(poses[:, :2], axis=0).T))
 
 
-def jumps(scans: Scans) -> NDArray[np.intp]:
+def jumps(scans: "Scans") -> NDArray[np.intp]:
     """Find scans that the robot cannot have reached from the scan before. Returns their indices, ascending.
     Such a step is longer than `MAX_STEP_M` and ten median steps, or faster than a robot drives.
     """

@@ -4,8 +4,6 @@ Frames are images of palette indices, enlarged by a whole number. A hundred fram
 of a second; matplotlib's writer takes several seconds.
 """
 
-from __future__ import annotations
-
 import io
 import math
 import os

@@ -1,7 +1,5 @@
 """Diagnostic plots of a sampler: the log joint of each chain, and the weights of importance sampling."""
 
-from __future__ import annotations
-
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure

@@ -4,8 +4,6 @@ The layout is computed in whole pixels, without a layout engine. Every cell of a
 wide and high, so walls one cell thick stay sharp and equally thick.
 """
 
-from __future__ import annotations
-
 import io
 import math
 import os

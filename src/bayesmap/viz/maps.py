@@ -7,8 +7,6 @@ Cells are joined into strips, since a picture of a building with one patch per c
 grows with the length of the boundary, not with the area.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -5,8 +5,6 @@ transform (Biber and Strasser 2003) use the same description. Along a wall the c
 is its major axis, two standard deviations to each side. Small clutter becomes a dot.
 """
 
-from __future__ import annotations
-
 import itertools
 
 import numpy as np

@@ -11,8 +11,6 @@
 - **Lines and marks** are from Okabe and Ito, "Color Universal Design" (2008): distinct for all common colour vision.
 """
 
-from __future__ import annotations
-
 from typing import Final
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Pictures of scores: calibration of predictions, badly predicted beams, and errors of a trajectory."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -101,7 +99,7 @@ def plot_distribution(ax: Axes, errors: NDArray[np.float64], label: str) -> None
     ax.legend(loc="lower right", frameon=False)
 
 
-def plot_region_coverage(ax: Axes, score: TrajectoryScore) -> None:
+def plot_region_coverage(ax: Axes, score: "TrajectoryScore") -> None:
     """Plot the share of true relations in regions by their probability. A calibrated model follows the diagonal."""
     levels = np.linspace(0.0, 1.0, 101)
     ax.plot(levels, [score.coverage(level) for level in levels], color=palette.CHAINS[0], linewidth=1.2)
@@ -110,7 +108,7 @@ def plot_region_coverage(ax: Axes, score: TrajectoryScore) -> None:
     ax.set_aspect("equal")
 
 
-def errors_figure(score: TrajectoryScore) -> Figure:
+def errors_figure(score: "TrajectoryScore") -> Figure:
     """Return a figure of the distributions of both errors, and of coverage if the trajectory has covariances."""
     panels = 2 if score.region is None else 3
     figure = palette.blank_figure(3.4 * panels, 3.4)

@@ -1,7 +1,5 @@
 """Pictures of a trajectory: on its map with its uncertainty, beside raw odometry, and with its loop closures."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np
