@@ -1,4 +1,8 @@
-"""Axes of vectorised models: mapped arguments, constraints as arrays, sums of scores, large batches in chunks."""
+"""Axes of vectorised models: mapped arguments, constraints as arrays, sums of scores, large batches in chunks.
+
+`vmap`, `scan` and distributions over arrays are made of these four parts, in this order: `map_over` gives each argument
+its axis, `dense` and `vectorise` give a constraint leading axes, `total` adds scores, and `in_chunks` bounds memory.
+"""
 
 import math
 from collections.abc import Callable
@@ -15,26 +19,22 @@ from bayesmap.gen.errors import ShapeMismatch, UnknownAddress
 from bayesmap.gen.masks import Mask, is_concrete, overlay
 from bayesmap.gen.typing import InAxes
 
-# Arguments --------------------------------------------------------------------------------------------
-
 
 class Mapped(NamedTuple):
-    """Arguments as leaves, each with its mapped axis, or None if all elements share the leaf. `rebuild` makes arguments
-    of leaves again, and `n` is the number of elements.
-    """
+    """The arguments of a mapped function, as the leaves of their tree."""
 
     leaves: list[Any]
-    axes: list[int | None]
-    rebuild: Callable[[list[Any]], Any]
-    n: int
+    axes: list[int | None]  # mapped axis of each leaf; None if all elements share the leaf
+    rebuild: Callable[[list[Any]], Any]  # returns the arguments of given leaves
+    n: int  # number of elements
 
     def element(self, i: Any) -> Any:
-        """Return the arguments of the element `i`."""
+        """Return the arguments of element `i`."""
         pairs = zip(self.leaves, self.axes, strict=True)
         return self.rebuild([x if axis is None else jnp.take(x, i, axis=axis) for x, axis in pairs])
 
     def element_shapes(self) -> list[jax.ShapeDtypeStruct]:
-        """Return the shapes and dtypes of an element's leaves, also if n = 0."""
+        """Return the shapes and dtypes of one element's leaves. They are known even if n = 0."""
         shapes = []
         for x, axis in zip(self.leaves, self.axes, strict=True):
             shape = list(jnp.shape(x))
@@ -46,28 +46,28 @@ class Mapped(NamedTuple):
     def vmap(self, fn: Callable[..., Any], *mapped: Any) -> Any:
         """Return `fn(*(x[i] for x in mapped), element(i))` for every i, stacked."""
 
-        def call(leaves: list[Any], *rest: Any) -> Any:
-            return fn(*rest, self.rebuild(leaves))
+        def call(leaves: list[Any], *elements: Any) -> Any:
+            return fn(*elements, self.rebuild(leaves))
 
         in_axes = (self.axes, *(0 for _ in mapped))
         return jax.vmap(call, in_axes=in_axes, axis_size=self.n)(self.leaves, *mapped)
 
 
 def map_over(in_axes: InAxes, args: tuple[Any, ...], n: int | None = None) -> Mapped:
-    """Return the leaves of `args` with their mapped axes, as for `jax.vmap`; None and `n` repeat the arguments."""
-    # Let `jax.vmap` check the axes; then give each leaf its axis.
+    """Return the leaves of `args` with their mapped axes. `in_axes` is as for `jax.vmap`; None repeats `args` n-fold."""
+    # Let `jax.vmap` check the axes; then give each leaf its axis. A None would vanish from the tree: write "shared".
     axes = tuple(in_axes) if isinstance(in_axes, list) else in_axes
     jax.vmap(lambda *_: 0, in_axes=axes, out_axes=None, axis_size=n)(*args)
     marked = jax.tree.map(lambda a: "shared" if a is None else a, axes, is_leaf=lambda a: a is None)
-    spread = [None if a == "shared" else a for a in jax.tree.leaves(jax.tree.broadcast(marked, args))]
+    leaf_axes = [None if a == "shared" else a for a in jax.tree.leaves(jax.tree.broadcast(marked, args))]
     leaves, treedef = jax.tree.flatten(args)
     if n is None:
-        n = next(jnp.shape(x)[a] for x, a in zip(leaves, spread, strict=True) if a is not None)
-    return Mapped(leaves, spread, lambda new: jax.tree.unflatten(treedef, new), n)
+        n = next(jnp.shape(x)[a] for x, a in zip(leaves, leaf_axes, strict=True) if a is not None)
+    return Mapped(leaves, leaf_axes, lambda new: jax.tree.unflatten(treedef, new), n)
 
 
 def check_index(index: Any, n: int) -> Any:
-    """Return the index, made non-negative if it is known; raise UnknownAddress if it is known to be out of range."""
+    """Return an index into `n` elements. A known one is made non-negative, or raises UnknownAddress if out of range."""
     if is_concrete(index) and jnp.ndim(index) == 0:
         if not -n <= int(index) < n:
             raise UnknownAddress(int(index), f"there are {n} elements")
@@ -75,14 +75,12 @@ def check_index(index: Any, n: int) -> Any:
     return index
 
 
-# Constraints ------------------------------------------------------------------------------------------
-
-
 def dense(chm: ChoiceMap, shape: tuple[int, ...]) -> tuple[Any, Any] | None:
-    """Return a choice map of values, perhaps at indices into `shape`, as one array, with a flag for each element.
+    """Return the values of a choice map, perhaps at indices into `shape`, as one array, and which elements have one.
 
-    Returns (array of shape `shape + ...`, flag of shape `shape`, or None if all elements are given); None for an empty
-    map. Raises ShapeMismatch for an array of the wrong length, UnknownAddress for a name or an index out of range.
+    Returns (array of shape `shape + ...`, flags of shape `shape`); the flags are None if all elements have a value.
+    Returns None for an empty map. Raises ShapeMismatch for an array of the wrong length, and UnknownAddress for a name
+    or an index out of range.
     """
     if chm.static_is_empty():
         return None
@@ -96,20 +94,20 @@ def dense(chm: ChoiceMap, shape: tuple[int, ...]) -> tuple[Any, Any] | None:
             return value, None
         case Indexed(inner, index) if shape:
             index = check_index(index, shape[0])
-            value, below = dense(inner, jnp.shape(index) + shape[1:]) or (None, None)
-            present = jnp.zeros(shape, bool).at[index].set(True if below is None else below)
-            return _put(value, index, shape[0]), present
+            value, inner_flags = dense(inner, jnp.shape(index) + shape[1:]) or (None, None)
+            flags = jnp.zeros(shape, bool).at[index].set(True if inner_flags is None else inner_flags)
+            return _put(value, index, shape[0]), flags
         case Or() | Switch():
-            parts = (chm.c1, chm.c2) if isinstance(chm, Or) else chm.chms
-            masks = [Mask(v, True if f is None else f) for v, f in filter(None, (dense(p, shape) for p in parts))]
+            maps = (chm.c1, chm.c2) if isinstance(chm, Or) else chm.chms
+            masks = [Mask(v, True if f is None else f) for v, f in filter(None, (dense(m, shape) for m in maps))]
             joined = reduce(overlay, masks)
             return joined.value, jnp.broadcast_to(joined.flag, shape)
     raise UnknownAddress(next(chm.paths()), "the model has a bare value or an array there")
 
 
 def vectorise(chm: ChoiceMap, n: int) -> ChoiceMap:
-    """Return the choice map with a leading axis of length `n` on every leaf, ready to be mapped over. Raises
-    ShapeMismatch for an array of another length, UnknownAddress for an index out of range.
+    """Return the choice map with a leading axis of length `n` on every leaf, ready to be mapped over.
+    Raises ShapeMismatch for an array of another length, UnknownAddress for an index out of range.
     """
     match chm:
         case Choice(Mask(value, flag)):
@@ -119,15 +117,15 @@ def vectorise(chm: ChoiceMap, n: int) -> ChoiceMap:
             _check_leading(value, (n,))
             return chm
         case Static(mapping):
-            parts = {}
-            for name, sub in mapping.items():
+            submaps = {}
+            for name, submap in mapping.items():
                 try:
-                    parts[name] = vectorise(sub, n)
+                    submaps[name] = vectorise(submap, n)
                 except (ShapeMismatch, UnknownAddress) as error:
                     raise error.under((name,)) from None
-            return Static(parts)
+            return Static(submaps)
         case Indexed(inner, index):
-            return _spread(inner, check_index(index, n), n)
+            return _at_index(inner, check_index(index, n), n)
         case Or(left, right):
             return vectorise(left, n) | vectorise(right, n)
         case Switch(index, maps):
@@ -135,7 +133,7 @@ def vectorise(chm: ChoiceMap, n: int) -> ChoiceMap:
     raise TypeError(f"{type(chm).__name__} is no choice map")
 
 
-def _spread(chm: ChoiceMap, index: Any, n: int) -> ChoiceMap:
+def _at_index(chm: ChoiceMap, index: Any, n: int) -> ChoiceMap:
     """Return `chm` at `index` of a leading axis of length `n`, masked out elsewhere."""
     match chm:
         case Choice(Mask(value, flag)):
@@ -144,13 +142,13 @@ def _spread(chm: ChoiceMap, index: Any, n: int) -> ChoiceMap:
         case Choice(value):
             return Choice(Mask(_put(value, index, n), jnp.zeros(n, bool).at[index].set(True)))
         case Static(mapping):
-            return Static({name: _spread(sub, index, n) for name, sub in mapping.items()})
-        case Indexed(inner, below):
-            return Indexed(_spread(inner, index, n), _put(below, index, n))
+            return Static({name: _at_index(submap, index, n) for name, submap in mapping.items()})
+        case Indexed(inner, inner_index):
+            return Indexed(_at_index(inner, index, n), _put(inner_index, index, n))
         case Or(left, right):
-            return _spread(left, index, n) | _spread(right, index, n)
+            return _at_index(left, index, n) | _at_index(right, index, n)
         case Switch(branch, maps):
-            return Switch(_put(branch, index, n), tuple(_spread(m, index, n) for m in maps))
+            return Switch(_put(branch, index, n), tuple(_at_index(m, index, n) for m in maps))
     raise TypeError(f"{type(chm).__name__} is no choice map")
 
 
@@ -166,33 +164,29 @@ def _check_leading(value: Any, shape: tuple[int, ...]) -> None:
         raise ShapeMismatch((), f"found {jnp.shape(value)}, expected {shape} for the leading axes")
 
 
-# Sums of scores ---------------------------------------------------------------------------------------
-
-
 def total(scores: Any) -> Any:
     """Return the sum of an array of scores, shape ()."""
     # Without the barrier XLA merges this sum with the sums inside the scores into one loop, which loses a digit.
     return jnp.sum(jax.lax.optimization_barrier(scores))  # type: ignore[no-untyped-call]
 
 
-def replace_term(sum_: Any, old: Any, new: Any, afresh: Callable[[], Any]) -> Any:
-    """Return a sum after one of its terms changed, in time that does not grow with the number of terms. After k
-    changes, rounding errors are sqrt(k) units in the last place. `afresh` recomputes a sum that is not finite.
+def replace_term(old_sum: Any, old: Any, new: Any, recompute: Callable[[], Any]) -> Any:
+    """Return a sum after its term `old` became `new`, in time that does not grow with the number of terms.
+    After k changes, rounding errors are sqrt(k) units in the last place. `recompute` adds up a sum that is not finite.
     """
-    new_sum = sum_ + (new - old)
+    new_sum = old_sum + (new - old)
     if is_concrete(new_sum):  # outside jit, a cond of fresh closures would be compiled at every edit
-        return new_sum if bool(jnp.isfinite(new_sum)) else afresh()
-    return jax.lax.cond(jnp.isfinite(new_sum), lambda: new_sum, afresh)
+        return new_sum if bool(jnp.isfinite(new_sum)) else recompute()
+    return jax.lax.cond(jnp.isfinite(new_sum), lambda: new_sum, recompute)
 
-
-# Chunks -----------------------------------------------------------------------------------------------
 
 CACHE_BYTES = 1 << 20  # largest intermediate array of a chunk on a CPU
 DEVICE_BYTES = 1 << 28  # largest intermediate array of a chunk on an accelerator
 
 
 def in_chunks(fn: Callable[..., Any], *args: Any) -> Any:
-    """Return `fn(*args)`. Under `jax.vmap` run elements in chunks, so that every intermediate array is small."""
+    """Return `fn(*args)`. Under `jax.vmap` elements run in chunks, so that intermediate arrays fit the cache."""
+    # Only traced leaves can be mapped over. Without any, there is no batch.
     leaves, treedef = jax.tree.flatten(args)
     traced = [k for k, x in enumerate(leaves) if isinstance(x, jax.core.Tracer)]
     if not traced:
@@ -206,21 +200,21 @@ def in_chunks(fn: Callable[..., Any], *args: Any) -> Any:
     chunked = custom_vmap(of_traced)
 
     @chunked.def_vmap
-    def _(axis_size: int, in_batched: list[bool], *values: Any) -> Any:
-        moving = [v for v, b in zip(values, in_batched, strict=True) if b]
+    def run_batch(axis_size: int, is_batched: list[bool], *values: Any) -> Any:
+        batched = [v for v, b in zip(values, is_batched, strict=True) if b]
 
-        def of_element(moving: list[Any]) -> Any:
-            rest = iter(moving)
-            return of_traced(*(next(rest) if b else v for v, b in zip(values, in_batched, strict=True)))
+        def of_element(element: list[Any]) -> Any:
+            leaf = iter(element)
+            return of_traced(*(next(leaf) if b else v for v, b in zip(values, is_batched, strict=True)))
 
         # Choose the chunk so that its largest array fits.
-        largest = _largest_array(jax.make_jaxpr(of_element)([v[0] for v in moving]).jaxpr)
-        chunk = (CACHE_BYTES if jax.default_backend() == "cpu" else DEVICE_BYTES) // largest
+        largest_bytes = _largest_array_bytes(jax.make_jaxpr(of_element)([v[0] for v in batched]).jaxpr)
+        chunk = (CACHE_BYTES if jax.default_backend() == "cpu" else DEVICE_BYTES) // largest_bytes
         if chunk >= axis_size:
-            out = jax.vmap(of_element)(moving)
+            out = jax.vmap(of_element)(batched)
         else:
-            chunk = _even_share(axis_size, chunk)
-            out = jax.lax.map(of_element, moving, batch_size=chunk if chunk > 1 else None)
+            chunk = _even_chunk(axis_size, chunk)
+            out = jax.lax.map(of_element, batched, batch_size=chunk if chunk > 1 else None)
         return out, jax.tree.map(lambda _: True, out)
 
     # Derivatives are those of the function itself: custom_vmap has no reverse mode.
@@ -229,15 +223,15 @@ def in_chunks(fn: Callable[..., Any], *args: Any) -> Any:
     return differentiable(*(leaves[k] for k in traced))
 
 
-def _even_share(size: int, most: int) -> int:
-    """Return a chunk size near `most` that divides the batch, else `most`: a remainder would copy all results again."""
-    return next((chunk for chunk in range(most, max(1, most // 4), -1) if size % chunk == 0), most)
+def _even_chunk(size: int, limit: int) -> int:
+    """Return a chunk near `limit` that divides the batch, else `limit`. A remainder would copy all results again."""
+    return next((chunk for chunk in range(limit, max(1, limit // 4), -1) if size % chunk == 0), limit)
 
 
-def _largest_array(jaxpr: Any) -> int:
+def _largest_array_bytes(jaxpr: Any) -> int:
     """Return the bytes of the largest array that a jaxpr computes."""
     sizes = [1]
     for eqn in jaxpr.eqns:
         sizes += [math.prod(v.aval.shape) * v.aval.dtype.itemsize for v in eqn.outvars if hasattr(v.aval, "shape")]
-        sizes += [_largest_array(inner) for inner in jaxprs_in_params(eqn.params)]
+        sizes += [_largest_array_bytes(inner) for inner in jaxprs_in_params(eqn.params)]
     return max(sizes)

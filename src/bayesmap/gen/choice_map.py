@@ -4,6 +4,9 @@ An address is a name, an index, or a tuple of names and indices. A vectorised mo
 `chm["v"]` is `chm[:, "v"]`, and `chm[0, "v"]` its first element. An index selects from the leading axis of all arrays.
 
 A flag may be an array, such as a comparison of index arrays. Then the map stores the value as a Mask.
+
+`Builder` makes maps, `ChoiceMap` reads and combines them, and five kinds of nodes store them. Each operation of
+`ChoiceMap` is a match over the kinds of nodes. `join` is the rule of `|`.
 """
 
 import operator
@@ -19,8 +22,6 @@ from bayesmap.gen.errors import ChoiceMapNoValueAtAddress, ShapeMismatch, format
 from bayesmap.gen.masks import Mask, overlay, same_index, where
 from bayesmap.gen.pytree import Pytree, dataclass
 from bayesmap.gen.selection import Selection
-
-# Text -------------------------------------------------------------------------------------------------
 
 
 class Outlined:
@@ -58,9 +59,6 @@ def render(value: Outlined) -> str:  # GenJAX's name
     return repr(value)
 
 
-# Maps -------------------------------------------------------------------------------------------------
-
-
 def components(address: Any) -> tuple[Any, ...]:
     """Return an address as a tuple."""
     return address if isinstance(address, tuple) else (address,)
@@ -88,7 +86,7 @@ class Builder:
         return new | self._base
 
     def update(self, f: Callable[[Any], Any]) -> "ChoiceMap":
-        """Return the base map with the value or the submap at the address replaced by its image under `f`."""
+        """Return the base map with `f` applied to the value or the submap at the address."""
         submap = (ChoiceMap.empty() if self._base is None else self._base).get_submap(self._address)
         return self.set(f(submap.get_value() if submap.has_value() else submap))
 
@@ -123,11 +121,9 @@ def _elements(tree: Any, index: Any) -> Any:
 
 
 class ChoiceMap(Outlined, Pytree):
-    """Base of choice maps. `ChoiceMapBuilder`, conventionally called `C`, makes them. Five kinds of nodes derive from
-    it: `Choice`, `Static`, `Indexed`, `Or` and `Switch`.
+    """Base of choice maps. `ChoiceMapBuilder`, conventionally called `C`, makes maps.
+    Five kinds of nodes derive from this class: `Choice`, `Static`, `Indexed`, `Or` and `Switch`.
     """
-
-    # Operations with a rule for each kind of node -------------------------------------------------
 
     def get_value(self) -> Any:
         """Return the value at the empty address, or None. It is a Mask if its presence is decided at run time."""
@@ -155,9 +151,9 @@ class ChoiceMap(Outlined, Pytree):
             case Or(left, right):
                 return left.get_inner_map(component) | right.get_inner_map(component)
             case Switch(idx, maps):
-                below = tuple(chm.get_inner_map(component) for chm in maps)
+                inner_maps = tuple(chm.get_inner_map(component) for chm in maps)
                 idx = idx if by_name or jnp.ndim(idx) == 0 else idx[component]
-                return Static({}) if all(chm.static_is_empty() for chm in below) else Switch(idx, below)
+                return Static({}) if all(chm.static_is_empty() for chm in inner_maps) else Switch(idx, inner_maps)
         return Static({})
 
     def filter(self, selection: Any) -> "ChoiceMap":
@@ -169,8 +165,8 @@ class ChoiceMap(Outlined, Pytree):
             case Choice(value):
                 return ChoiceMap.choice(Mask.build(value, selection))
             case Static(mapping):
-                below = {name: selection(name) if by_address else selection for name in mapping}
-                return Static.build({name: chm.filter(below[name]) for name, chm in mapping.items()})
+                selections = {name: selection(name) if by_address else selection for name in mapping}
+                return Static.build({name: chm.filter(selections[name]) for name, chm in mapping.items()})
             case Indexed(chm, index):
                 return chm.filter(selection).extend(index)
             case Or(left, right):
@@ -221,8 +217,6 @@ class ChoiceMap(Outlined, Pytree):
                 return [f"{label or 'switch'}: branch {leaf_text(idx)} of", *lines]
         raise TypeError(f"{type(self).__name__} is no choice map")
 
-    # Reading --------------------------------------------------------------------------------------
-
     def get_submap(self, *addresses: Any) -> "ChoiceMap":
         """Return the submap at an address; the empty map if there is none."""
         path = [c for address in addresses for c in components(address)]
@@ -238,6 +232,7 @@ class ChoiceMap(Outlined, Pytree):
         return value
 
     def __contains__(self, address: Any) -> bool:
+        """Return whether there is a value at an address."""
         return self.get_submap(address).has_value()
 
     def has_value(self) -> bool:
@@ -246,19 +241,20 @@ class ChoiceMap(Outlined, Pytree):
 
     def get_selection(self) -> Selection:
         """Return the selection of exactly the addresses that hold a value."""
-        names = ((c for c in path if isinstance(c, str)) for path in self.paths())
-        return reduce(operator.or_, (Selection.leaf().extend(*path) for path in names), Selection.none())
+        selection = Selection.none()
+        for path in self.paths():
+            names = [component for component in path if isinstance(component, str)]
+            selection = selection | Selection.leaf().extend(*names)
+        return selection
 
     def invalid_subset(self, gen_fn: Any, args: tuple[Any, ...]) -> "ChoiceMap | None":
         """Return the choices of this map that `gen_fn` never makes on `args`; None if there are none."""
-        rest = self.filter(~gen_fn.choice_shapes(args).get_selection())
-        return None if rest.static_is_empty() else rest
+        invalid = self.filter(~gen_fn.choice_shapes(args).get_selection())
+        return None if invalid.static_is_empty() else invalid
 
     def simplify(self) -> "ChoiceMap":
         """Return this map: filters are applied immediately, so there is nothing to simplify."""
         return self
-
-    # Combining ------------------------------------------------------------------------------------
 
     def __or__(self, other: "ChoiceMap") -> "ChoiceMap":
         """Return everything in either map. If both have a value at an address, this map's value is returned."""
@@ -292,8 +288,6 @@ class ChoiceMap(Outlined, Pytree):
         """Builder from this map: `chm.at["x"].set(v)` is this map with the value at "x" replaced."""
         return Builder(self, ())
 
-    # Making ---------------------------------------------------------------------------------------
-
     @staticmethod
     def empty() -> "ChoiceMap":
         """Return the map without choices."""
@@ -301,8 +295,8 @@ class ChoiceMap(Outlined, Pytree):
 
     @staticmethod
     def choice(value: Any) -> "ChoiceMap":
-        """Return the map of a bare value at the empty address. The map is empty for an array without elements, and for
-        a Mask whose flag is Python's False.
+        """Return the map of a bare value at the empty address.
+        The map is empty for an array without elements, and for a Mask whose flag is Python's False.
         """
         if isinstance(value, Mask):
             value = value.flatten()
@@ -347,19 +341,16 @@ def _is_array(value: Any) -> bool:
     return hasattr(value, "shape") and hasattr(value, "dtype")
 
 
-# Kinds of nodes ---------------------------------------------------------------------------------------
-
-
 @dataclass
 class Choice(ChoiceMap):
-    """A bare value: an array, or a Mask of one."""
+    """A node with a bare value: an array, or a Mask of an array."""
 
     v: Any
 
 
 @dataclass
 class Static(ChoiceMap):
-    """Submaps by name."""
+    """A node with submaps by name."""
 
     mapping: dict[str, ChoiceMap]
 
@@ -371,7 +362,7 @@ class Static(ChoiceMap):
 
 @dataclass
 class Indexed(ChoiceMap):
-    """A map at the index `addr`: an int or a scalar, or for k elements an array (k,), with values (k, ...)."""
+    """A node with the map `c` at the index `addr`: an int, a scalar, or an array (k,) with values (k, ...)."""
 
     c: ChoiceMap
     addr: Any
@@ -386,7 +377,7 @@ class Indexed(ChoiceMap):
 
 @dataclass
 class Or(ChoiceMap):
-    """Two maps that `|` cannot join immediately. The left map, `c1`, takes precedence."""
+    """A node with two maps that `|` cannot join immediately. The left map, `c1`, takes precedence."""
 
     c1: ChoiceMap
     c2: ChoiceMap
@@ -394,14 +385,14 @@ class Or(ChoiceMap):
 
 @dataclass
 class Switch(ChoiceMap):
-    """Several maps. Map number k is masked by `idx == k`, with an integer array `idx`."""
+    """A node with several maps. Map number k is masked by `idx == k`, with an integer array `idx`."""
 
     idx: Any
     chms: tuple[ChoiceMap, ...]
 
 
 def _element_at(chm: ChoiceMap, index: Any, component: Any) -> ChoiceMap:
-    """Return the element `component` of a map at `index`, masked by whether the index holds this element."""
+    """Return the element `component` of a map at `index`, with a mask that is False if `index` lacks this element."""
     if isinstance(component, slice):
         raise ValueError(f"Slices are not allowed against array-shaped dynamic addresses: only {index} is there")
     hits = same_index(index, component)

@@ -1,4 +1,8 @@
-"""Calls of generative functions: running `@gen` bodies, fixed arguments, transformed arguments and return values."""
+"""Calls of generative functions: running `@gen` bodies, fixed arguments, transformed arguments and return values.
+
+`g(x)` is a `GenerativeFunctionClosure`. In the body of a `@gen` function, `g(x) @ "address"` is a site: the `Handler`
+of the present run traces it. `Outer` is the base of functions that wrap one other function, such as `Dimap`.
+"""
 
 import dataclasses
 import threading
@@ -21,7 +25,7 @@ _local = threading.local()
 
 
 def as_path(address: Any) -> StaticAddress:
-    """Return an address of names as a tuple; raise NotAnAddress if some component is not a string."""
+    """Return an address of names as a tuple. Raises NotAnAddress if a component is not a string."""
     path = address if isinstance(address, tuple) else (address,)
     if not all(isinstance(component, str) for component in path):
         raise NotAnAddress(path, "the address of a site is a string or a tuple of strings")
@@ -29,12 +33,12 @@ def as_path(address: Any) -> StaticAddress:
 
 
 def _trace_state() -> Any:
-    """Return a value that differs inside each JAX transformation, to find sites in a transformation."""
+    """Return a value that differs inside each JAX transformation. It reveals sites in a transformation."""
     return get_opaque_trace_state(convention="flax")  # type: ignore[no-untyped-call]
 
 
 class Handler:
-    """One run of a body, which calls `visit` for each site, in order."""
+    """One run of the body of a `@gen` function. The body calls `enter` and `visit` for each site, in order."""
 
     def __init__(self) -> None:
         self.visited: list[StaticAddress] = []
@@ -45,7 +49,7 @@ class Handler:
         raise NotImplementedError
 
     def enter(self, path: StaticAddress) -> None:
-        """Record a site. Raise an AddressError if its address is in use, or if it lies in a JAX transformation."""
+        """Record a site. Raises AddressError if its address is in use, or if it lies in a JAX transformation."""
         for other in self.visited:
             shared = min(len(other), len(path))
             if other[:shared] == path[:shared]:
@@ -58,7 +62,7 @@ class Handler:
 
 @contextmanager
 def running(handler: Handler) -> Iterator[None]:
-    """Let `handler` receive the sites of the code inside."""
+    """Let `handler` receive the sites of the code inside. Runs may be nested: the innermost handler receives them."""
     stack = _local.__dict__.setdefault("stack", [])
     stack.append(handler)
     try:
@@ -81,28 +85,32 @@ class Outer(GenerativeFunction):
         raise NotImplementedError
 
     def simulate(self, key: PRNGKey, args: Arguments) -> OuterTrace:
+        """Simulate the inner function."""
         return self.wrap(args, self.inner.simulate(key, self.inner_args(args)))
 
     def generate(self, key: PRNGKey, constraint: ChoiceMap, args: Arguments) -> tuple[OuterTrace, Weight]:
+        """Generate a trace of the inner function."""
         inner, weight = self.inner.generate(key, constraint, self.inner_args(args))
         return self.wrap(args, inner), weight
 
     def assess(self, choices: ChoiceMap, args: Arguments) -> tuple[Score, Any]:
+        """Assess the choices by the inner function. Returns the inner function's return value."""
         return self.inner.assess(choices, self.inner_args(args))
 
     def project(self, key: PRNGKey, trace: Any, selection: Selection) -> Weight:
+        """Return the projection of the inner trace."""
         return self.inner.project(key, trace.inner, selection)
 
 
-def _in_form(args: tuple[Any, ...], kwargs: dict[str, Any]) -> tuple[Any, ...]:
-    """Return arguments in the form of `handle_kwargs` if some are given by name."""
+def _with_kwargs(args: tuple[Any, ...], kwargs: dict[str, Any]) -> tuple[Any, ...]:
+    """Return arguments as one tuple, in the form of `handle_kwargs` if some are given by name."""
     return (args, kwargs) if kwargs else args
 
 
 @dataclass
 class GenerativeFunctionClosure(Outer):
-    """`m(x)`: a site with `@ "address"`, a draw with `(key)`, or `m` with `x` before its arguments. Its traces are
-    traces of `m`, or of `m.handle_kwargs()` if some arguments are named. Their arguments include `x`.
+    """`m(x)`: a site with `@ "address"`, a draw with `(key)`, or `m` with `x` before its other arguments.
+    Its traces are traces of `m`, or of `m.handle_kwargs()` if some arguments are named. Their arguments include `x`.
     """
 
     gen_fn: GenerativeFunction
@@ -115,9 +123,11 @@ class GenerativeFunctionClosure(Outer):
         return self.gen_fn.handle_kwargs() if self.kwargs else self.gen_fn
 
     def inner_args(self, args: Arguments) -> Arguments:
-        return _in_form((*self.args, *args), self.kwargs)
+        """Return the closure's arguments, followed by `args`."""
+        return _with_kwargs((*self.args, *args), self.kwargs)
 
     def wrap(self, args: Arguments, inner: Any) -> Any:
+        """Return the inner trace itself."""
         return inner
 
     def __matmul__(self, address: Any) -> Any:
@@ -129,7 +139,7 @@ class GenerativeFunctionClosure(Outer):
         return stack[-1].visit(path, self.inner, self.inner_args(()))
 
     def __call__(self, key: PRNGKey, *rest: Any, **by_name: Any) -> Any:
-        """Simulate, and return the return value alone."""
+        """Simulate, and return only the return value."""
         return self.replace(kwargs={**self.kwargs, **by_name}).simulate(key, rest).get_retval()
 
     def handle_kwargs(self) -> GenerativeFunction:
@@ -137,13 +147,16 @@ class GenerativeFunctionClosure(Outer):
         return self
 
     def as_part(self) -> GenerativeFunction:
+        """Return an `Applied`, because a combinator needs traces that lead back to this closure."""
         return Applied(self.inner, self.args, self.kwargs)
 
     def edit(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
-        held = Diff.unknown_change(self.args)
-        return request.edit(key, trace, _in_form((*held, *argdiffs), Diff.unknown_change(self.kwargs)))
+        """Edit a trace of the inner function. It may be of a call with other fixed arguments: they count as changed."""
+        fixed_args, fixed_kwargs = Diff.unknown_change((self.args, self.kwargs))
+        return request.edit(key, trace, _with_kwargs((*fixed_args, *argdiffs), fixed_kwargs))
 
     def project(self, key: PRNGKey, trace: Any, selection: Selection) -> Weight:
+        """Return the projection of the trace, which is an inner trace."""
         return trace.project(key, selection)  # type: ignore[no-any-return]
 
 
@@ -157,27 +170,31 @@ class TransformedTrace(OuterTrace):
         return self.inner.get_score()
 
     def get_inner_trace(self, address: Any) -> Trace:
+        """Return the inner function's trace at one address. The inner arguments are computed again."""
         inner_args = None if self.args is None else self.gen_fn.inner_args(self.args)
         return self.inner.with_args(inner_args).get_inner_trace(address)
 
 
 @dataclass
 class Applied(Outer):
-    """A closure as a part of a combinator. Its traces know the closure, not only the function in the closure."""
+    """A closure as a part of a combinator. Its traces store the closure, not only the function in the closure."""
 
     inner: GenerativeFunction
-    held_args: tuple[Any, ...]
-    held_kwargs: dict[str, Any]
+    fixed_args: tuple[Any, ...]
+    fixed_kwargs: dict[str, Any]
 
     def inner_args(self, args: Arguments) -> Arguments:
-        return _in_form((*self.held_args, *args), self.held_kwargs)
+        """Return the fixed arguments, followed by `args`."""
+        return _with_kwargs((*self.fixed_args, *args), self.fixed_kwargs)
 
     def wrap(self, args: Arguments, inner: Trace) -> TransformedTrace:
+        """Return the trace of a call with the inner return value."""
         return TransformedTrace(self, args, inner.with_args(None), inner.get_retval())
 
     def edit(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
-        held_args, held_kwargs = Diff.no_change((self.held_args, self.held_kwargs))
-        inner_diffs = _in_form((*held_args, *argdiffs), held_kwargs)
+        """Edit the inner trace. The fixed arguments are unchanged."""
+        fixed_args, fixed_kwargs = Diff.no_change((self.fixed_args, self.fixed_kwargs))
+        inner_diffs = _with_kwargs((*fixed_args, *argdiffs), fixed_kwargs)
         inner, weight, retdiff, backward = request.edit(key, trace.inner, inner_diffs)
         return self.wrap(Diff.tree_primal(argdiffs), inner), weight, retdiff, backward
 
@@ -188,42 +205,46 @@ def apply(gen_fn: GenerativeFunction, args: tuple[Any, ...], kwargs: dict[str, A
     return GenerativeFunctionClosure(gen_fn, args, kwargs)
 
 
-def _changes(fn: Callable[..., Any], *inputs: Any) -> Any:
+def _apply_to_diffs(fn: Callable[..., Any], *inputs: Any) -> Any:
     """Return `fn` of the primal inputs, marked with the change that follows from the marks of the inputs."""
     primal = Diff.tree_primal(inputs)
-    flow, value = dataflow(fn, *primal), fn(*primal)
-    if flow is None:
+    origins, value = dataflow(fn, *primal), fn(*primal)
+    if origins is None:
         return Diff.unknown_change(value)
     tangents = Diff.tangents(inputs)
-    return Diff.zip(value, [origin.change(tangents) for origin in flow])
+    return Diff.zip(value, [origin.change(tangents) for origin in origins])
 
 
 @dataclass
 class Dimap(Outer):
-    """See `dimap`."""
+    """A generative function with transformed arguments and return value. See `dimap`."""
 
     inner: GenerativeFunction
     pre: Callable[..., Any] = static()
     post: Callable[..., Any] = static()
 
     def inner_args(self, args: Arguments) -> Arguments:
+        """Return the arguments after `pre`. Raises TypeError unless they are a tuple."""
         inner_args = self.pre(*args)
         if not isinstance(inner_args, tuple):
             raise TypeError(f"the function of the arguments must return a tuple, not {type(inner_args).__name__}")
         return inner_args
 
     def wrap(self, args: Arguments, inner: Trace) -> TransformedTrace:
+        """Return the trace of a run with the return value after `post`."""
         retval = self.post(args, inner.get_args(), inner.get_retval())
         return TransformedTrace(self, args, inner.with_args(None), retval)
 
     def assess(self, choices: ChoiceMap, args: Arguments) -> tuple[Score, Any]:
+        """Assess the choices by the inner function. Returns the return value after `post`."""
         score, retval = super().assess(choices, args)
         return score, self.post(args, self.inner_args(args), retval)
 
     def edit(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
-        inner_diffs = _changes(self.inner_args, argdiffs)
+        """Edit the inner trace. `pre` and `post` pass on which values changed."""
+        inner_diffs = _apply_to_diffs(self.inner_args, argdiffs)
         inner, weight, inner_retdiff, backward = request.edit(key, trace.inner, inner_diffs)
-        retdiff = _changes(self.post, argdiffs, inner_diffs, inner_retdiff)
+        retdiff = _apply_to_diffs(self.post, argdiffs, inner_diffs, inner_retdiff)
         args, retval = Diff.tree_primal((argdiffs, retdiff))
         return TransformedTrace(self, args, inner.with_args(None), retval), weight, retdiff, backward
 
@@ -240,7 +261,7 @@ def _same_retval(args: Any, inner_args: Any, retval: Any) -> Any:
 
 @dataclasses.dataclass(frozen=True)
 class _OfRetval:
-    """`f` of the return value alone; equal for equal `f`, so that traces can be compared."""
+    """A `post` that applies `f` to the return value alone. Equal `f` make it equal, so that traces can be compared."""
 
     f: Callable[..., Any]
 
@@ -252,8 +273,8 @@ class _OfRetval:
 def dimap(
     *, pre: Callable[..., Any] = _same_args, post: Callable[..., Any] = _same_retval
 ) -> Callable[[GenerativeFunction], Dimap]:
-    """Return a decorator that transforms arguments by `pre` and the return value by `post`. `pre` returns the inner
-    arguments as a tuple. `post` takes (arguments, inner arguments, inner return value).
+    """Return a decorator that transforms arguments by `pre` and the return value by `post`.
+    `pre` returns the inner arguments as a tuple. `post` takes (arguments, inner arguments, inner return value).
     """
     return lambda gen_fn: Dimap(gen_fn.as_part(), pre, post)
 

@@ -1,7 +1,8 @@
 """The named distributions, with TensorFlow Probability's parameters and, where they are simple, its draws.
 
-The common distributions need JAX alone. The less common ones are read from TensorFlow Probability when they are used.
-This library is no dependency, since its releases lag behind JAX; its nightly builds (`tfp-nightly`) follow JAX.
+A distribution of JAX is a `Family` of three functions: parameters, sampler, log density. The helpers before the table
+of families make such functions. The less common distributions come from TensorFlow Probability when they are used. This
+library is no dependency, since its releases lag behind JAX; its nightly builds (`tfp-nightly`) follow JAX.
 """
 
 import dataclasses
@@ -28,13 +29,13 @@ Params = tuple[Any, ...]
 
 
 class Family(NamedTuple):
-    """Functions that read the parameters, draw, and score."""
+    """A family of distributions: the functions that read its parameters, draw from it, and score values."""
 
-    parameters: Callable[..., Params]  # from a user's arguments
-    draw: Callable[..., Any]  # from a key, the shape of independent draws, and the parameters
-    logpdf: Callable[..., Any]  # from a value and the parameters, elementwise
-    support: Callable[[Any], Any] = lambda value: True  # whether some parameters can give the value
-    # The shape of independent draws that the parameters imply.
+    parameters: Callable[..., Params]  # (a user's arguments) -> parameters
+    draw: Callable[..., Any]  # (key, shape of independent draws, *parameters) -> draws
+    logpdf: Callable[..., Any]  # (value, *parameters) -> log density, elementwise
+    support: Callable[[Any], Any] = lambda value: True  # (value) -> whether any parameters can give the value
+    # (*parameters) -> the shape of independent draws that the parameters imply
     batch: Callable[..., tuple[int, ...]] = lambda *params: jnp.broadcast_shapes(*map(jnp.shape, params))
 
 
@@ -43,7 +44,7 @@ _FAMILIES: dict[str, Family] = {}
 
 @dataclass
 class Named(KeywordDensity):
-    """The distribution of a family of `_FAMILIES`."""
+    """The distribution of the family that `_FAMILIES` stores under `name`."""
 
     name: str = static()
 
@@ -59,13 +60,16 @@ class Named(KeywordDensity):
         return shape, tuple(jnp.asarray(p, jnp.result_type(float)) for p in read(*args, **kwargs))
 
     def sample(self, key: PRNGKey, *args: Any, **kwargs: Any) -> Any:
+        """Return draws of shape `sample_shape + batch shape of the parameters + shape of one draw`."""
         family, (shape, params) = _FAMILIES[self.name], self._parameters(args, kwargs)
         return family.draw(key, (*shape, *family.batch(*params)), *params)
 
     def logpdf(self, value: Any, *args: Any, **kwargs: Any) -> Any:
+        """Return the log density at `value`, elementwise over independent draws."""
         return _FAMILIES[self.name].logpdf(value, *self._parameters(args, kwargs)[1])
 
     def in_support(self, value: Any) -> Any:
+        """Return elementwise whether any parameters can give this value."""
         return _FAMILIES[self.name].support(value)
 
 
@@ -77,7 +81,7 @@ def _named(name: str, parameters: str | Callable[..., Params], draw: Any, logpdf
 
 
 def _parameters_named(names: str) -> Callable[..., Params]:
-    """Return a function of parameters with these names, which returns them."""
+    """Return a function whose parameters have these names, separated by blanks. It returns its arguments."""
     kind = inspect.Parameter.POSITIONAL_OR_KEYWORD
     signature = inspect.Signature([inspect.Parameter(name, kind) for name in names.split()])
 
@@ -108,16 +112,18 @@ def _chance(p: Any) -> Params:
 
 
 def _bernoulli(implicit: Any = None, *, logits: Any = None, probs: Any = None) -> Params:
+    """Return the parameters of `bernoulli`, as `_event` does."""
     return _event(_explicit("bernoulli", implicit, logits, probs), probs)
 
 
 def _class_logits(implicit: Any = None, *, logits: Any = None, probs: Any = None) -> Params:
+    """Return the parameter of `categorical`: logits, up to a constant, (..., number of classes)."""
     logits = _explicit("categorical", implicit, logits, probs)
     return (jnp.log(jnp.asarray(probs)) if logits is None else logits,)
 
 
 def _explicit(name: str, implicit: Any, logits: Any, probs: Any) -> Any:
-    """Return the logits; a positional argument counts as logits, with a warning, because it is easily mistaken."""
+    """Return the logits, or None if `probs` is given. A positional argument counts as logits, with a warning."""
     if sum(x is not None for x in (implicit, logits, probs)) != 1:
         raise BadArguments(f"{name} takes exactly one of logits= and probs=")
     if implicit is not None:
@@ -127,6 +133,7 @@ def _explicit(name: str, implicit: Any, logits: Any, probs: Any) -> Any:
 
 
 def _event_batch(parameter: Any, *others: Any) -> tuple[int, ...]:
+    """Return the batch shape of a parameter whose last axis belongs to one draw."""
     return jnp.shape(parameter)[:-1]
 
 
@@ -164,7 +171,7 @@ def _masked_to_nonnegative(value: Any, logpdf: Any) -> Any:
 
 
 def _categorical_logpdf(value: Any, logits: Any) -> Any:
-    """Return the log probability of each class number; -inf if there is no such class."""
+    """Return the log probability of each class number; -inf for a number that is no class."""
     log_p = log_softmax(logits)
     n_classes = log_p.shape[-1]
     shape = jnp.broadcast_shapes(jnp.shape(value), log_p.shape[:-1])
@@ -179,7 +186,7 @@ def _logpdf_on_positive(logpdf: Callable[..., Any]) -> Callable[..., Any]:
     return lambda v, *params: jnp.where(v > 0, logpdf(jnp.where(v > 0, v, 1.0), *params), -jnp.inf)
 
 
-# Families of JAX --------------------------------------------------------------------------------------
+# Families of JAX. In the lambdas v is a value, m a location and s a scale; `yes` and `no` are log p and log(1 - p).
 
 flip = _named(
     "flip", _chance, lambda key, shape, p, *_: jr.uniform(key, shape) < p, lambda v, p, yes, no: jnp.where(v, yes, no)
@@ -275,35 +282,37 @@ mv_normal_diag = _named(
 
 @dataclass
 class TfpDistribution(KeywordDensity):
-    """The distribution that `make(*args)` returns; `tfp_distribution` makes it."""
+    """The distribution that `make(*args)` returns, an object of TensorFlow Probability. See `tfp_distribution`."""
 
     make: Callable[..., Any] = static()
     name: str = static()
 
     def _make(self, args: tuple[Any, ...], kwargs: dict[str, Any]) -> tuple[Any, tuple[int, ...]]:
-        """Return (the library's distribution, shape of independent draws)."""
+        """Return (TensorFlow Probability's distribution, shape of independent draws)."""
         args, kwargs = self.split(args, kwargs)
         shape = draw_shape(kwargs.pop("sample_shape", ()))
         return self.make(*args, **kwargs), shape
 
     def sample(self, key: PRNGKey, *args: Any, **kwargs: Any) -> Any:
+        """Return draws, with the leading axes `sample_shape`."""
         with warnings.catch_warnings(action="ignore"):  # the library warns of its own use of JAX
             distribution, shape = self._make(args, kwargs)
             return distribution.sample(seed=key, sample_shape=shape)
 
     def logpdf(self, value: Any, *args: Any, **kwargs: Any) -> Any:
+        """Return the log density at `value`, elementwise over independent draws."""
         with warnings.catch_warnings(action="ignore"):
             return self._make(args, kwargs)[0].log_prob(value)
 
 
 def tfp_distribution(dist: Callable[..., Any], name: str | None = None) -> TfpDistribution:
-    """Return the distribution of a class of `tensorflow_probability.substrates.jax.distributions`, or of a maker."""
+    """Return the distribution of a class of `tensorflow_probability.substrates.jax.distributions`, or of a function."""
     return TfpDistribution(dist, name or dist.__name__)
 
 
 @dataclasses.dataclass(frozen=True)
 class _ByName:
-    """A class of the library, imported when it is first called."""
+    """A class of TensorFlow Probability, which is imported when the class is first called."""
 
     class_name: str
 
@@ -351,8 +360,8 @@ zipf = _tfp("Zipf")
 
 @dataclass
 class DiscreteHMMConfiguration(Pytree):
-    """A hidden Markov model on a ring of `linear_grid_dim` places. Logits of places at distance d are sigma ** d within
-    the adjacency distance, -1 / sigma beyond it. The first state follows a move from the middle of the ring.
+    """A hidden Markov model on a ring of `linear_grid_dim` places. The first state follows a move from the middle.
+    Logits of places at distance d are sigma ** d within the adjacency distance, and -1 / sigma beyond it.
     """
 
     linear_grid_dim: int = static()
@@ -389,14 +398,16 @@ class DiscreteHMMPosterior(Distribution):
     """`DiscreteHMM(config, observations)`: the hidden states given the observations, both (T,) integers."""
 
     def random_weighted(self, key: PRNGKey, *args: Any) -> tuple[Score, Array]:
+        """Draw the states. Returns (log density, states)."""
         states = sample_states(key, *args)
         return self.estimate_logpdf(key, states, *args), states
 
     def estimate_logpdf(self, key: PRNGKey, value: Array, *args: Any) -> Score:
+        """Return the exact log density of the states `value`."""
         config, observations = args
         start, move, emit = _log_probabilities(config)
-        steps = start[value[0]] + move[value[:-1], value[1:]].sum()
-        return steps + emit[value, observations].sum() - self.data_logpdf(config, observations)
+        prior = start[value[0]] + move[value[:-1], value[1:]].sum()
+        return prior + emit[value, observations].sum() - self.data_logpdf(config, observations)
 
     def data_logpdf(self, config: DiscreteHMMConfiguration, observations: IntArray) -> Score:
         """Return the log probability of the observations."""
