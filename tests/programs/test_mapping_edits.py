@@ -61,7 +61,7 @@ edit = jax.jit(lambda trace, request: trace.edit(jr.key(0), request))
 
 
 def room(shape, n_poses, sensor, seed=0, beams=40):
-    """A model, readings, and walls to start from: poses anywhere in a room that is longer than LOOK cells."""
+    """A model, readings, and walls to start from: poses anywhere in a room that is longer than CELLS_AT_ONCE cells."""
     rng = np.random.default_rng(seed)
     grid = bm.Grid(shape, 0.5, (-2.0, 1.0))
     size = np.array(shape) * 0.5

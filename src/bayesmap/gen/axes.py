@@ -54,7 +54,7 @@ class Mapped(NamedTuple):
 
 
 def map_over(in_axes: InAxes, args: tuple[Any, ...], n: int | None = None) -> Mapped:
-    """Return the leaves of `args` with their mapped axes. `in_axes` is as for `jax.vmap`; None repeats `args` n-fold."""
+    """Return the leaves of `args` with their mapped axes. `in_axes` is as for `jax.vmap`; None repeats `args`."""
     # Let `jax.vmap` check the axes; then give each leaf its axis. A None would vanish from the tree: write "shared".
     axes = tuple(in_axes) if isinstance(in_axes, list) else in_axes
     jax.vmap(lambda *_: 0, in_axes=axes, out_axes=None, axis_size=n)(*args)

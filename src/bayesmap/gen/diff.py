@@ -1,6 +1,7 @@
-"""Values with what is known of their change since a trace was made, and how functions pass changes on.
+"""Values with a mark of their change since a trace was made, and how functions pass these marks on.
 
-`edit` takes its arguments as a tree of `Diff` leaves, and returns its return value as one.
+`edit` takes its arguments as a tree of `Diff` leaves, and returns its return value as such a tree. The marks allow
+`edit` to recompute only what may have changed. `dataflow` reads off a function how it passes marks on.
 """
 
 import dataclasses
@@ -14,22 +15,22 @@ from bayesmap.gen.pytree import Pytree, dataclass
 
 
 class Change(Pytree):
-    """Base of the marks that say what is known of a change."""
+    """Base of the marks of a change."""
 
 
 @dataclass
 class _NoChange(Change):
-    """The value is the old one."""
+    """The mark of a value that is the old one."""
 
 
 @dataclass
 class _UnknownChange(Change):
-    """Nothing is known of the change."""
+    """The mark of a value that may differ everywhere."""
 
 
 @dataclass
 class IndexChange(Change):
-    """Only the elements `value[index]` may differ; `index` holds ints or integer arrays."""
+    """The mark of an array that differs in the elements `value[index]` at most, for ints or integer arrays."""
 
     index: tuple[Any, ...]
 
@@ -121,7 +122,7 @@ class Diff(Pytree):
         return all(isinstance(t, _NoChange) for t in Diff.tangents(value))
 
 
-# Element i of the result depends on element i of the operands alone.
+# JAX primitives for which element i of the result depends on element i of the operands alone.
 _ELEMENTWISE = frozenset(
     "abs add and ceil convert_element_type copy copy_p div eq exp floor ge gt integer_pow le log logistic lt "  # noqa: SIM905
     "max min mul ne neg not or round select_n sign sqrt sub tanh xor".split()
@@ -136,20 +137,23 @@ class Origin:
     images: frozenset[int] = frozenset()
 
     def change(self, tangents: Sequence[Change]) -> Change:
-        """Return how the value changes if the inputs change as `tangents` say."""
+        """Return the mark of the value, given the marks of all inputs."""
         changed = [k for k in self.inputs if tangents[k] != NoChange]
         if not changed:
             return NoChange
-        only = tangents[changed[0]]
-        one_element = len(changed) == 1 and changed[0] in self.images and isinstance(only, IndexChange)
-        return only if one_element else UnknownChange
+        # A change of some elements passes on if only one input changed, and the value is its elementwise image.
+        first = tangents[changed[0]]
+        is_indexed = len(changed) == 1 and changed[0] in self.images and isinstance(first, IndexChange)
+        return first if is_indexed else UnknownChange
 
 
 def dataflow(fn: Callable[..., Any], *inputs: Any) -> list[Origin] | None:
-    """Return the origin of each output leaf of `fn`, read off its jaxpr; None if `fn` needs the inputs' values."""
+    """Return the origin of each output leaf of `fn`, read off its jaxpr. Returns None if `fn` needs the inputs' values.
+    The inputs of an `Origin` are numbers of leaves of `inputs`.
+    """
     try:
         jaxpr = jax.make_jaxpr(fn)(*inputs).jaxpr
-    except TypeError:  # what JAX raises when Python needs the value of a tracer
+    except TypeError:  # raised by JAX when Python needs the value of a tracer
         return None
     origins = {v: Origin(frozenset([k]), frozenset([k])) for k, v in enumerate(jaxpr.invars)}
 
@@ -157,13 +161,14 @@ def dataflow(fn: Callable[..., Any], *inputs: Any) -> list[Origin] | None:
         return Origin() if isinstance(atom, Literal) else origins.get(atom, Origin())
 
     for eqn in jaxpr.eqns:
+        # An operand of another shape is broadcast: the result is no elementwise image of it.
         shape = getattr(eqn.outvars[0].aval, "shape", None) if eqn.outvars else None
         operands = [(origin(v), getattr(v.aval, "shape", None) == shape) for v in eqn.invars]
         sources = frozenset[int]().union(*(o.inputs for o, _ in operands))
         images = frozenset[int]()
         if eqn.primitive.name in _ELEMENTWISE:
-            others = (o.inputs - o.images if same else o.inputs for o, same in operands)
-            images = sources.difference(*others)
+            not_images = (o.inputs - o.images if same_shape else o.inputs for o, same_shape in operands)
+            images = sources.difference(*not_images)
         for out in eqn.outvars:
             origins[out] = Origin(sources, images)
     return [origin(v) for v in jaxpr.outvars]

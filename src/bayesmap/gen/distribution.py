@@ -1,8 +1,12 @@
-"""Distributions: generative functions with one choice, at the empty address."""
+"""Distributions: generative functions with one choice, at the empty address.
+
+`Distribution` implements the contract of generative functions for densities that may be estimates. Almost all
+distributions derive from `ExactDensity`, which needs only a sampler and a log density. `exact_density` makes one.
+"""
 
 import operator
 from collections.abc import Callable
-from typing import Any
+from typing import Any, NamedTuple
 
 import jax
 import jax.numpy as jnp
@@ -34,11 +38,19 @@ class DistributionTrace(Trace):
         return ChoiceMap.choice(self.value)
 
 
+class GivenValue(NamedTuple):
+    """The value that a choice map gives to a distribution."""
+
+    value: Any  # None if the map gives no value
+    flags: Any  # which elements are given; None for all elements
+    penalty: Any  # -inf if the distribution cannot draw the value, else 0
+
+
 class Distribution(GenerativeFunction):
     """Base of distributions whose density may be an estimate: implement `random_weighted` and `estimate_logpdf`.
 
-    They are a pair as in Lew et al., Probabilistic programming with stochastic probabilities (2023). Unbiased estimates
-    are exp(-score) of `random_weighted`, of 1 / density at the draw, and exp of `estimate_logpdf`, of the density.
+    They are a pair as in Lew et al., Probabilistic programming with stochastic probabilities (2023). exp(-score) of
+    `random_weighted` is an unbiased estimate of 1 / density at the draw, and exp(`estimate_logpdf`) of the density.
     """
 
     def random_weighted(self, key: PRNGKey, *args: Any) -> tuple[Score, Any]:
@@ -49,55 +61,60 @@ class Distribution(GenerativeFunction):
         """Return the log density at `value`, shape ()."""
         raise NotImplementedError
 
-    def read(self, choices: ChoiceMap, args: Arguments) -> tuple[Any, Any, Any]:
-        """Return (value or None, flag of the given elements or None for all, 0 or -inf if impossible)."""
+    def read(self, choices: ChoiceMap, args: Arguments) -> GivenValue:
+        """Return the value that the choices give."""
         value = choices.get_value()
-        return (value.value, value.flag, 0.0) if isinstance(value, Mask) else (value, None, 0.0)
+        return GivenValue(value.value, value.flag, 0.0) if isinstance(value, Mask) else GivenValue(value, None, 0.0)
 
     def like(self, value: Any, old: Any) -> Any:
         """Return a new value in the dtypes of the old one, so that both can be branches of `lax.cond`."""
         return jax.tree.map(lambda v, o: jnp.asarray(v, jnp.result_type(o)), value, old)
 
     def simulate(self, key: PRNGKey, args: Arguments) -> Trace:
+        """Draw a value. Returns its trace."""
         if not isinstance(args, tuple):
             raise TypeError(f"args must be a tuple of arguments, not {type(args).__name__}")
         score, value = self.random_weighted(key, *args)
         return DistributionTrace(self, args, value, score)
 
     def assess(self, choices: ChoiceMap, args: Arguments) -> tuple[Score, Any]:
-        value, given, penalty = self.read(choices, args)
+        """Return (log density of the chosen value, value). Raises MissingAddress if the choices give no value."""
+        value, flags, penalty = self.read(choices, args)
         if value is None:
             raise MissingAddress(())
         score = self.estimate_logpdf(jax.random.key(0), value, *args) + penalty
-        if given is not None:
-            if is_concrete(given) and not in_optional_part() and not bool(jnp.all(given)):
-                raise MissingAddress((), "its mask's flag is False" if jnp.ndim(given) == 0 else f"given: {given}")
-            check(jnp.logical_or(given, in_optional_part()), "assess: a choice is masked, and its flag is False")
-            score = jnp.where(jnp.all(given), score, jnp.nan)
+        if flags is not None:
+            # A missing value is an error if this is known now; compiled code returns NaN.
+            if is_concrete(flags) and not in_optional_part() and not bool(jnp.all(flags)):
+                raise MissingAddress((), "its mask's flag is False" if jnp.ndim(flags) == 0 else f"given: {flags}")
+            check(jnp.logical_or(flags, in_optional_part()), "assess: a choice is masked, and its flag is False")
+            score = jnp.where(jnp.all(flags), score, jnp.nan)
         return score, value
 
     def generate(self, key: PRNGKey, constraint: ChoiceMap, args: Arguments) -> tuple[Trace, Weight]:
-        value, given, penalty = self.read(constraint, args)
+        """Return the trace of the given value, weighted by its density, or of a draw, with weight 0."""
+        value, flags, penalty = self.read(constraint, args)
         if value is None:
             return self.simulate(key, args), jnp.zeros(())
         score = self.estimate_logpdf(key, value, *args) + penalty
-        if given is None:
+        if flags is None:
             return DistributionTrace(self, args, value, score), score
         drawn_score, drawn = self.random_weighted(key, *args)
-        new = DistributionTrace(self, args, where(given, value, drawn), jnp.where(given, score, drawn_score))
-        return new, jnp.where(given, score, 0.0)
+        new = DistributionTrace(self, args, where(flags, value, drawn), jnp.where(flags, score, drawn_score))
+        return new, jnp.where(flags, score, 0.0)
 
     def edit(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
+        """Replace the value by the given one, or by a draw, or score the old value under new arguments."""
         args, old = Diff.tree_primal(argdiffs), trace.value
         match request:
             case Update(constraint):
-                value, given, penalty = self.read(constraint, args)
+                value, flags, penalty = self.read(constraint, args)
                 if value is None:
                     return self._rescore(key, trace, argdiffs)
                 value = self.like(value, old)
-                value = value if given is None else where(given, value, old)
+                value = value if flags is None else where(flags, value, old)
                 new = DistributionTrace(self, args, value, self.estimate_logpdf(key, value, *args) + penalty)
-                discard = ChoiceMap.choice(old if given is None else Mask(old, given))
+                discard = ChoiceMap.choice(old if flags is None else Mask(old, flags))
                 return new, new.score - trace.score, Diff.unknown_change(value), Update(discard)
             case Regenerate(selection) if selection.check():
                 score, value = self.random_weighted(key, *args)
@@ -108,6 +125,7 @@ class Distribution(GenerativeFunction):
         raise NotSupportedEditRequest(self, request)
 
     def project(self, key: PRNGKey, trace: Any, selection: Selection) -> Weight:
+        """Return the score if the choice is selected, else 0."""
         return trace.score if selection.check() else jnp.zeros_like(trace.score)
 
     def _rescore(self, key: PRNGKey, trace: Any, argdiffs: Any) -> Edited:
@@ -121,7 +139,7 @@ class Distribution(GenerativeFunction):
 
 
 def draw_shape(sample_shape: Any) -> tuple[int, ...]:
-    """Return `sample_shape`, a number of draws, a sequence of lengths, or a `Const` of either, as a tuple."""
+    """Return as a tuple the shape `sample_shape`: a number of draws, a sequence of lengths, or a `Const` of either."""
     shape = Const.unwrap(sample_shape)
     try:
         return tuple(map(operator.index, shape)) if np.ndim(shape) else (operator.index(shape),)
@@ -131,8 +149,8 @@ def draw_shape(sample_shape: Any) -> tuple[int, ...]:
 
 
 class ExactDensity(Distribution):
-    """Base of distributions with a known density: implement `sample` and `logpdf`. With array parameters the draws are
-    independent and the score is their sum, of shape ().
+    """Base of distributions with a known density: implement `sample` and `logpdf`.
+    With array parameters the draws are independent, and the score is the sum of their log densities, of shape ().
     """
 
     def sample(self, key: PRNGKey, *args: Any, **kwargs: Any) -> Any:
@@ -147,37 +165,40 @@ class ExactDensity(Distribution):
         """Return a draw for a trace."""
         return self.sample(key, *args)
 
-    def score(self, value: Any, args: Arguments, given: Any = None) -> Score:
-        """Return the total log density, shape (); 0 if the flag `given` is False."""
+    def score(self, value: Any, args: Arguments, flags: Any = None) -> Score:
+        """Return the total log density, shape (). Values whose flag is False add 0."""
         total = jnp.sum(jnp.asarray(self.logpdf(value, *args))).astype(jnp.result_type(float))
-        return total if given is None else jnp.where(given, total, 0.0)
+        return total if flags is None else jnp.where(flags, total, 0.0)
 
     def index_shape(self, args: Arguments) -> tuple[int, ...]:
         """Return the leading axes that an index in a constraint selects from: none, unless vectorised."""
         return ()
 
     def in_support(self, value: Any) -> Any:
-        """Return elementwise whether some parameter can give this value, for discrete distributions."""
+        """Return elementwise whether any parameters of a discrete distribution can give this value."""
         return True
 
     def random_weighted(self, key: PRNGKey, *args: Any) -> tuple[Score, Any]:
+        """Draw a value. Returns (exact log density, draw)."""
         value = self.draw(key, args)
         return self.score(value, args), value
 
     def estimate_logpdf(self, key: PRNGKey, value: Any, *args: Any) -> Score:
+        """Return the exact log density at `value`, shape ()."""
         return self.score(value, args)
 
     def generate(self, key: PRNGKey, constraint: ChoiceMap, args: Arguments) -> tuple[Trace, Weight]:
-        value, given, penalty = self.read(constraint, args)
-        if value is None or given is None:
+        """Return the trace of the given elements and of draws elsewhere, weighted by the given elements' density."""
+        value, flags, penalty = self.read(constraint, args)
+        if value is None or flags is None:
             return super().generate(key, constraint, args)
         drawn = self.draw(key, args)
-        value = where(given, self.like(value, drawn), drawn)
+        value = where(flags, self.like(value, drawn), drawn)
         new = DistributionTrace(self, args, value, self.score(value, args) + penalty)
-        return new, self.score(value, args, given) + penalty
+        return new, self.score(value, args, flags) + penalty
 
-    def read(self, choices: ChoiceMap, args: Arguments) -> tuple[Any, Any, Any]:
-        """Return (value or None, flag of the given elements or None for all, 0 or -inf if impossible).
+    def read(self, choices: ChoiceMap, args: Arguments) -> GivenValue:
+        """Return the value that the choices give, perhaps at indices, as one array.
 
         The value keeps its dtype, but integers become real where draws are real: later edits keep the trace's dtypes
         and could not move integers. Raises ShapeMismatch, and OutsideSupport if a known value is never drawn.
@@ -186,28 +207,29 @@ class ExactDensity(Distribution):
         # The arguments are closed over, not traced: one of them may be a shape.
         expected = jax.eval_shape(lambda key: self.draw(key, args), jax.random.key(0))
         if constraint is None:
-            # What has no elements is in no choice map, and needs no value.
-            return (jnp.zeros(expected.shape, expected.dtype) if 0 in expected.shape else None), None, 0.0
-        value, given = constraint
+            # No choice map holds an array without elements, so that it needs no value.
+            return GivenValue(jnp.zeros(expected.shape, expected.dtype) if 0 in expected.shape else None, None, 0.0)
+        value, flags = constraint
         if jnp.shape(value) != expected.shape:
             raise ShapeMismatch((), f"found {jnp.shape(value)}, expected {expected.shape}")
         value = jnp.asarray(value)
-        draws_real, is_real = (jnp.issubdtype(dtype, jnp.floating) for dtype in (expected.dtype, value.dtype))
+        draws_real = jnp.issubdtype(expected.dtype, jnp.floating)
+        is_real = jnp.issubdtype(value.dtype, jnp.floating)
         # A copy, so that no two sites share one array: traces tell values apart by identity.
         copy = jnp.array(value, expected.dtype if draws_real and not is_real else value.dtype, copy=True)
         if value.dtype == jnp.bool_:
-            return copy, given, 0.0
+            return GivenValue(copy, flags, 0.0)
         possible = self.in_support(copy)
         if not draws_real:
             possible = jnp.logical_and(value.astype(expected.dtype) == value, possible)
-        return copy, given, self._penalty(value, given, possible, expected.dtype)
+        return GivenValue(copy, flags, self._penalty(value, flags, possible, expected.dtype))
 
-    def _penalty(self, value: Any, given: Any, possible: Any, dtype: Any) -> Any:
-        """Return 0 if the value is possible, else -inf; raise if a known value is impossible."""
+    def _penalty(self, value: Any, flags: Any, possible: Any, dtype: Any) -> Any:
+        """Return 0 if all given elements are possible, else -inf. Raises OutsideSupport if a value is known."""
         if possible is True:
             return 0.0
-        if given is not None:
-            possible = where(given, possible, jnp.ones_like(possible))
+        if flags is not None:
+            possible = where(flags, possible, jnp.ones_like(possible))
         if not is_concrete(possible):
             return jnp.where(jnp.all(possible), 0.0, -jnp.inf)
         if not bool(jnp.all(possible)):
@@ -218,11 +240,12 @@ class ExactDensity(Distribution):
 
 @dataclass
 class KeywordDensity(ExactDensity):
-    """Base of exact densities with named arguments: `by_name` makes them `((positional, ...), {"name": value})`."""
+    """Base of exact densities with named arguments. With `by_name` they are `((positional, ...), {"name": value})`."""
 
     by_name: bool = static(default=False, kw_only=True)
 
     def handle_kwargs(self) -> GenerativeFunction:
+        """Return this distribution with arguments in the form `by_name`."""
         return self.replace(by_name=True)
 
     def split(self, args: tuple[Any, ...], kwargs: dict[str, Any]) -> tuple[tuple[Any, ...], dict[str, Any]]:
@@ -232,21 +255,23 @@ class KeywordDensity(ExactDensity):
 
 @dataclass
 class CustomDensity(KeywordDensity):
-    """The distribution of a pair of functions; `exact_density` makes it."""
+    """The distribution of a sampler and a log density, two functions of a user. See `exact_density`."""
 
     sampler: Callable[..., Any] = static()
     log_density: Callable[..., Any] = static()
     name: str = static()
 
     def sample(self, key: PRNGKey, *args: Any, **kwargs: Any) -> Any:
+        """Return a draw of the sampler."""
         args, kwargs = self.split(args, kwargs)
         return self.sampler(key, *args, **kwargs)
 
     def logpdf(self, value: Any, *args: Any, **kwargs: Any) -> Any:
+        """Return the log density at `value`."""
         args, kwargs = self.split(args, kwargs)
         return self.log_density(value, *args, **kwargs)
 
 
 def exact_density(sample: Callable[..., Any], logpdf: Callable[..., Any], name: str = "unnamed") -> CustomDensity:
-    """Return the distribution of `sample(key, *args)` and `logpdf(value, *args)`."""
+    """Return the distribution with the sampler `sample(key, *args)` and the log density `logpdf(value, *args)`."""
     return CustomDensity(sample, logpdf, name)

@@ -1,4 +1,8 @@
-"""Requests to edit a trace: the primitive ones, which every generative function answers itself, and `DiffAnnotate`."""
+"""Requests to edit a trace: the primitive ones, which every generative function answers itself, and `DiffAnnotate`.
+
+`Update`, `Regenerate` and `EmptyRequest` are for all traces, `StaticRequest` for `@gen`, `IndexRequest` and
+`VectorRequest` for vectorised models.
+"""
 
 from collections.abc import Callable
 from typing import Any
@@ -15,14 +19,15 @@ Edited = tuple[Any, Weight, Any, "EditRequest"]  # new trace, weight, `Diff` of 
 
 
 def _unaltered(diffs: Any) -> Any:
+    """Return the marks of change as they are."""
     return diffs
 
 
 class EditRequest(Pytree):
-    """A change to make to a trace."""
+    """Base of requests: a request describes a change of a trace, and `edit` makes it."""
 
     def edit(self, key: PRNGKey, trace: Any, argdiffs: Any) -> Edited:
-        """Carry the request out. Unless a subclass overrides this, the trace's generative function does it."""
+        """Return the edited trace with its weight. By default the trace's generative function makes the edit."""
         return trace.get_gen_fn().edit(key, trace, self, argdiffs)  # type: ignore[no-any-return]
 
     def dimap(
@@ -42,8 +47,8 @@ class EditRequest(Pytree):
 
 @dataclass
 class DiffAnnotate(EditRequest):
-    """A request whose marks of change pass through functions, which inspect or overrule them. A function that marks a
-    changed value as unchanged makes the edit wrong.
+    """A request whose marks of change pass through functions, which inspect or overrule them.
+    A function that marks a changed value as unchanged makes the edit wrong.
     """
 
     request: EditRequest
@@ -51,21 +56,21 @@ class DiffAnnotate(EditRequest):
     retdiff_fn: Callable[[Any], Any] = static(default=_unaltered)
 
     def edit(self, key: PRNGKey, trace: Any, argdiffs: Any) -> Edited:
-        """Carry the request out."""
+        """Edit the trace with the new marks of the arguments, and return the new marks of the return value."""
         new, weight, retdiff, backward = self.request.edit(key, trace, self.argdiff_fn(argdiffs))
         return new, weight, self.retdiff_fn(retdiff), backward
 
 
 @dataclass
 class Update(EditRequest):
-    """Give the choices in `constraint` new values and keep the others. Weight: new score - old score."""
+    """A request to give the choices in `constraint` new values and keep the others. Weight: new score - old score."""
 
     constraint: ChoiceMap
 
 
 @dataclass
 class EmptyRequest(EditRequest):
-    """Keep all choices. Weight: 0 if no argument changed, else new score - old score."""
+    """A request to keep all choices. Weight: 0 if no argument changed, else new score - old score."""
 
     def edit(self, key: PRNGKey, trace: Any, argdiffs: Any) -> Edited:
         """Return the trace itself if no argument changed, else the trace with its new score."""
@@ -76,7 +81,7 @@ class EmptyRequest(EditRequest):
 
 @dataclass
 class Regenerate(EditRequest):
-    """Draw the selected choices anew from the model, and keep the others.
+    """A request to draw the selected choices anew from the model, and to keep the others.
 
     The weight is the log Metropolis-Hastings ratio of this proposal: the change of the kept choices' log density. The
     selected choices' own densities cancel against the densities of their proposal.

@@ -1,4 +1,4 @@
-"""Errors of wrong use. The messages of address errors name the address, the value found and the value expected."""
+"""Errors of wrong use. Messages of address errors name the address, what the user gave, and what is expected there."""
 
 from typing import Any, Self
 
@@ -11,8 +11,8 @@ def format_address(address: tuple[Any, ...]) -> str:
 
 
 class AddressError(BadInput):
-    """An error at `address`, to which an enclosing model adds its own part with `under`. `args` holds the address
-    alone, as a user writes it. `headline` begins the message.
+    """An error at `address`. An enclosing model adds its own part of the address with `under`.
+    `headline` begins the message. `args` holds the address alone, as a user writes it.
     """
 
     headline = "Bad use of address"
@@ -20,7 +20,7 @@ class AddressError(BadInput):
     def __init__(self, address: Any, detail: str = "") -> None:
         self.address: tuple[Any, ...] = address if isinstance(address, tuple) else (address,)
         self.detail = detail
-        # The text is made by `__str__`: `under` changes the address.
+        # `__str__` makes the text, because `under` changes the address.
         super().__init__(self.address[0] if len(self.address) == 1 else self.address)
 
     def __reduce__(self) -> Any:

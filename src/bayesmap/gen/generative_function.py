@@ -1,4 +1,4 @@
-"""The contract: what traces, generative functions and edit requests answer.
+"""The contract of traces, generative functions and edit requests.
 
 To write your own generative function, subclass `GenerativeFunction` and `Trace` as pytree dataclasses and implement
 
@@ -12,7 +12,7 @@ To write your own generative function, subclass `GenerativeFunction` and `Trace`
   alone. Read the arguments from `argdiffs`: a trace inside a larger one is stored without its arguments;
 - `project(key, trace, selection)`: the part of the score that belongs to the selected choices.
 
-`vmap`, `@gen` and all other combinators call these methods alone.
+`vmap`, `@gen` and all other combinators call only these methods.
 """
 
 from collections.abc import Callable
@@ -29,8 +29,6 @@ from bayesmap.gen.errors import AddressError
 from bayesmap.gen.pytree import Pytree, dataclass
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
-
-# Traces -----------------------------------------------------------------------------------------------
 
 
 @dataclass
@@ -93,7 +91,7 @@ class Trace(Outlined, Pytree):
         return self.replace(args=args)
 
     def edit(self, key: PRNGKey, request: EditRequest, argdiffs: Any = None) -> Edited:
-        """Return (new trace, weight, retdiff, backward request). Without `argdiffs` the arguments stay the same."""
+        """Return (new trace, weight, retdiff, backward request). Without `argdiffs` the arguments are unchanged."""
         if not isinstance(request, EditRequest):
             raise TypeError(f"edit takes an EditRequest, such as Update(choices), not {type(request).__name__}")
         return request.edit(key, self, Diff.no_change(self.get_args()) if argdiffs is None else argdiffs)
@@ -114,7 +112,7 @@ class Trace(Outlined, Pytree):
 
 @dataclass
 class OuterTrace(Trace):
-    """Base of traces whose choices are those of one other trace, the field `inner`."""
+    """Base of traces that have the choices of one other trace, the field `inner`."""
 
     inner: Trace
 
@@ -134,22 +132,20 @@ def in_dtypes_of(old: Any, new: Any) -> Any:
     return jax.tree.unflatten(treedef, [jnp.asarray(x, dtype) for x, dtype in zip(leaves, dtypes, strict=True)])
 
 
-# Generative functions ---------------------------------------------------------------------------------
-
-# `GenerativeFunction` cannot import combinators, which are made of it. Each registers itself here for its method.
+# `GenerativeFunction` cannot import combinators, because they import it. Each combinator registers itself here.
 _COMBINATORS: dict[str, Callable[..., Any]] = {}
 
 F = TypeVar("F", bound=Callable[..., Any])
 
 
 def method(combinator: F) -> F:
-    """Offer `combinator(m, *others)` as `m.combinator(*others)`."""
+    """Register a combinator, so that `combinator(m, *others)` is `m.combinator(*others)` too."""
     _COMBINATORS[combinator.__name__] = combinator
     return combinator
 
 
 def decorator_method(combinator: F) -> F:
-    """Offer `combinator(**options)(m)` as `m.combinator(**options)`."""
+    """Register a combinator, so that `combinator(**options)(m)` is `m.combinator(**options)` too."""
     _COMBINATORS[combinator.__name__] = lambda m, *args, **options: combinator(*args, **options)(m)
     return combinator
 
@@ -165,7 +161,7 @@ def _lookup(name: str) -> Callable[..., Any]:
 
 
 class GenerativeFunction(Pytree):
-    """A probabilistic program; the text of this module says what each method means."""
+    """A probabilistic program. The module's docstring has the meaning of each method of the contract."""
 
     vmap, repeat, scan = _lookup("vmap"), _lookup("repeat"), _lookup("scan")
     iterate, iterate_final = _lookup("iterate"), _lookup("iterate_final")
@@ -184,15 +180,15 @@ class GenerativeFunction(Pytree):
         raise NotImplementedError
 
     def assess(self, choices: ChoiceMap, args: Arguments) -> tuple[Score, Any]:
-        """Return (log density of `choices`, return value). Raise MissingAddress or UnknownAddress if choices differ."""
+        """Return (log density of `choices`, return value). Raises MissingAddress or UnknownAddress for a mismatch."""
         raise NotImplementedError
 
     def generate(self, key: PRNGKey, constraint: ChoiceMap, args: Arguments) -> tuple[Trace, Weight]:
-        """Run with some choices given. Returns (trace, log importance weight)."""
+        """Run with the choices in `constraint`, and draw the others. Returns (trace, log importance weight)."""
         raise NotImplementedError
 
     def edit(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
-        """Carry out a primitive request on `trace`, whose new arguments are `argdiffs`."""
+        """Edit `trace` by a primitive request; `argdiffs` are its new arguments, with marks of their change."""
         raise NotImplementedError
 
     def project(self, key: PRNGKey, trace: Any, selection: Selection) -> Weight:
@@ -204,11 +200,11 @@ class GenerativeFunction(Pytree):
         raise TypeError(f"a {type(self).__name__} takes no arguments by name")
 
     def as_part(self) -> "GenerativeFunction":
-        """Return the function that a combinator over this one uses: a function that edits its traces itself."""
+        """Return the function that stands for this one in a combinator: it edits all of its own traces."""
         return self
 
     def check_conditioning(self, constraint: ChoiceMap, args: Arguments) -> None:
-        """Raise BadArguments if inference cannot condition on just these choices. Most functions accept any."""
+        """Raise BadArguments if inference cannot condition on exactly these choices. Most functions accept any."""
 
     def choice_shapes(self, args: Arguments) -> ChoiceMap:
         """Return the choices of a run on `args`, with shapes and dtypes in place of values; nothing is run."""
@@ -224,7 +220,7 @@ class GenerativeFunction(Pytree):
         return in_chunks(self.generate, key, constraint, args)  # type: ignore[no-any-return]
 
     def propose(self, key: PRNGKey, args: Arguments) -> tuple[ChoiceMap, Score, Any]:
-        """Simulate. Returns (choices, score, return value)."""
+        """Draw all choices. Returns (choices, score, return value)."""
         trace = self.simulate(key, args)
         return trace.get_choices(), trace.get_score(), trace.get_retval()
 

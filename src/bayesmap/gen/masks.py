@@ -1,4 +1,4 @@
-"""Flags and masks: a flag is a Python bool or a Boolean array, and a `Mask` is a value with a flag.
+"""Flags and masks. A flag is a Python bool or a Boolean array. A `Mask` is a value with a flag: False means absent.
 
 A Python bool is known while a program is traced, and decides which addresses a choice map has. An array never decides
 this, even when its value is known: otherwise maps would have one structure inside `jax.jit` and another one outside.
@@ -30,9 +30,11 @@ def is_known(flag: Any) -> bool:
     return isinstance(flag, bool | np.bool_)
 
 
-def both(f: Flag, g: Flag) -> Flag:
+def both(first: Flag, second: Flag) -> Flag:
     """Return whether both flags are True: a Python bool if both flags are known."""
-    return bool(f) and bool(g) if is_known(f) and is_known(g) else jnp.logical_and(f, g)
+    if is_known(first) and is_known(second):
+        return bool(first) and bool(second)
+    return jnp.logical_and(first, second)
 
 
 def same_index(a: Any, b: Any) -> Flag:
@@ -41,21 +43,21 @@ def same_index(a: Any, b: Any) -> Flag:
 
 
 def where(flag: Any, yes: Any, no: Any) -> Any:
-    """Return `jnp.where` of each pair of leaves; the flag's shape is a prefix of every leaf's shape."""
+    """Return `jnp.where` of each pair of leaves. The flag's shape is a prefix of every leaf's shape."""
 
-    def pick(a: Any, b: Any) -> Any:
-        missing = max(jnp.ndim(a), jnp.ndim(b)) - jnp.ndim(flag)
-        return jnp.where(jnp.reshape(flag, jnp.shape(flag) + (1,) * missing), a, b)
+    def choose(a: Any, b: Any) -> Any:
+        missing_axes = max(jnp.ndim(a), jnp.ndim(b)) - jnp.ndim(flag)
+        return jnp.where(jnp.reshape(flag, jnp.shape(flag) + (1,) * missing_axes), a, b)
 
-    return jax.tree.map(pick, yes, no)
+    return jax.tree.map(choose, yes, no)
 
 
-_checking: ContextVar[bool] = ContextVar("checking", default=False)
-_optional: ContextVar[bool] = ContextVar("optional", default=False)
+_checking: ContextVar[bool] = ContextVar("checking", default=False)  # inside `do_checkify`
+_optional: ContextVar[bool] = ContextVar("optional", default=False)  # inside `optional_part`
 
 
 @contextmanager
-def _on(variable: ContextVar[bool]) -> Iterator[None]:
+def _set_true(variable: ContextVar[bool]) -> Iterator[None]:
     """Set a variable to True for the code inside."""
     token = variable.set(True)
     try:
@@ -65,19 +67,19 @@ def _on(variable: ContextVar[bool]) -> Iterator[None]:
 
 
 def do_checkify() -> AbstractContextManager[None]:
-    """Let the code inside check that it uses no value whose flag is False. Compiled code reports through
-    `jax.experimental.checkify.checkify`; other code raises at once.
+    """Let the code inside check that it uses no value whose flag is False.
+    Compiled code reports through `jax.experimental.checkify.checkify`; other code raises at once.
     """
-    return _on(_checking)
+    return _set_true(_checking)
 
 
 def optional_part() -> AbstractContextManager[None]:
-    """Let choices be absent in the code inside, which scores a part of a model that a flag may switch off."""
-    return _on(_optional)
+    """Let choices be absent in the code inside. It scores a part of a model that a flag may switch off."""
+    return _set_true(_optional)
 
 
 def check(condition: Any, message: str) -> None:
-    """Inside `do_checkify`, report an error if some element of `condition` is False."""
+    """Report an error if an element of `condition` is False and the code runs inside `do_checkify`."""
     if _checking.get():
         checkify.check(jnp.all(condition), message)
 
@@ -89,7 +91,7 @@ def in_optional_part() -> bool:
 
 @dataclass
 class Mask(Pytree):
-    """Hold `value` where `flag` is True, and nothing elsewhere. The flag's shape is a prefix of every leaf's shape."""
+    """A value that is present where `flag` is True. The flag's shape is a prefix of every leaf's shape."""
 
     value: Any
     flag: Flag = True
@@ -104,7 +106,7 @@ class Mask(Pytree):
 
     @staticmethod
     def build(value: Any, flag: Flag = True) -> "Mask":
-        """Return a value with a flag. A Mask gets both flags, and the new flag's shape must be a prefix of its own."""
+        """Return a value with a flag. A Mask gets both flags; the new flag's shape must be a prefix of its flag's."""
         if not isinstance(value, Mask):
             return Mask(value, flag)
         old, new = jnp.shape(value.flag), jnp.shape(flag)
@@ -131,8 +133,8 @@ class Mask(Pytree):
         return self.flag.primal if isinstance(self.flag, Diff) else self.flag
 
     def unmask(self, default: Any = None) -> Any:
-        """Return the value. Where the flag is False return `default`, or without one whatever is stored there. Inside
-        `do_checkify` a flag that is False is an error if there is no default.
+        """Return the value where the flag is True, and `default` elsewhere.
+        Without a default the stored value is returned everywhere; inside `do_checkify` a False flag is then an error.
         """
         if default is not None:
             return where(self.primal_flag(), self.value, default)
@@ -140,6 +142,7 @@ class Mask(Pytree):
         return self.value
 
     def __getitem__(self, index: Any) -> "Mask":
+        """Return the elements `index` with their flags."""
         path, flag = index if isinstance(index, tuple) else (index,), self.primal_flag()
         if jnp.ndim(flag) > 0:
             flag = jnp.asarray(flag)[path[: jnp.ndim(flag)]]
@@ -153,7 +156,7 @@ class Mask(Pytree):
         return Mask(where(flag, self.value, other.value), jnp.logical_or(flag, other_flag))
 
     def __xor__(self, other: "Mask") -> "Mask":
-        """Return the value that is present, and nothing where both are."""
+        """Return the value that is present; no value is present where both are."""
         flag, other_flag = _flags_of_alike(self, other)
         if is_known(flag) and is_known(other_flag):
             return Mask.build(self if flag else other, flag != other_flag)
@@ -176,7 +179,7 @@ class Mask(Pytree):
 
 
 def _flags_of_alike(a: Mask, b: Mask) -> tuple[Flag, Flag]:
-    """Return the flags of two masks; raise ValueError unless both have one tree structure and the same shapes."""
+    """Return the flags of two masks. Raises ValueError unless their tree structures and shapes are equal."""
     if bool(jax.tree.structure(a.value) != jax.tree.structure(b.value)):  # type: ignore[operator]
         raise ValueError("Cannot combine masks with different tree structures")
     for x, y in zip(jax.tree.leaves((a.value, a.flag)), jax.tree.leaves((b.value, b.flag)), strict=True):
@@ -186,7 +189,7 @@ def _flags_of_alike(a: Mask, b: Mask) -> tuple[Flag, Flag]:
 
 
 def overlay(first: Mask, second: Mask) -> Mask:
-    """Return `first | second` for flags of different rank: the shorter flag holds along all axes that it lacks."""
+    """Return `first | second` for flags of different rank. The shorter flag is repeated along the missing axes."""
     ndim = max(jnp.ndim(first.flag), jnp.ndim(second.flag))
     flags = [jnp.reshape(m.flag, jnp.shape(m.flag) + (1,) * (ndim - jnp.ndim(m.flag))) for m in (first, second)]
     shape = jnp.broadcast_shapes(*map(jnp.shape, flags))

@@ -1,4 +1,4 @@
-"""Frozen dataclasses that JAX can flatten: the base of every value in this package.
+"""Frozen dataclasses that JAX can flatten into leaves: `Pytree`, the base of every value in `bayesmap.gen`.
 
 A field declared with `Pytree.static()` belongs to the tree's definition and must be hashable; every other field is a
 subtree. A class decorated by `penzai.pz.pytree_dataclass` may inherit from the base.
@@ -28,14 +28,14 @@ def dataclass(cls: type[T]) -> type[T]:
 
 
 class Pytree:
-    """Base of pytree dataclasses; decorate a subclass with `@Pytree.dataclass`."""
+    """Base of pytree dataclasses. A subclass needs the decorator `@Pytree.dataclass`."""
 
     dataclass = staticmethod(dataclass)
     static = staticmethod(static)
 
     @staticmethod
     def field(**options: Any) -> Any:
-        """Declare a field that is a subtree, as a field without a specifier is."""
+        """Declare a field that is a subtree, which is the default."""
         return dataclasses.field(**options)
 
     def __class_getitem__(cls, parameters: Any) -> Any:
@@ -94,16 +94,16 @@ class Pytree:
     def tree_unflatten(cls, static: tuple[Any, ...], children: Iterable[Any]) -> Self:
         """Return a tree of these children without a call of `__init__`: JAX passes children of any type."""
         new = object.__new__(cls)
-        nodes, fixed = iter(children), iter(static)
+        next_child, next_static = iter(children), iter(static)
         for f in dataclasses.fields(cls):  # type: ignore[arg-type]
-            source = nodes if f.metadata.get("pytree_node", True) else fixed
-            object.__setattr__(new, f.name, next(source))
+            values = next_child if f.metadata.get("pytree_node", True) else next_static
+            object.__setattr__(new, f.name, next(values))
         return new
 
 
 @dataclass
 class Const(Pytree):
-    """A value that belongs to the tree's definition; a function can be called."""
+    """A value that belongs to the tree's definition. If it is a function, the constant can be called."""
 
     val: Any = static()
 
@@ -122,7 +122,7 @@ def _is_const(value: Any) -> bool:
 
 @dataclass
 class Closure(Pytree):
-    """A function with its first arguments as leaves; `Pytree.partial` makes it."""
+    """A function with its first arguments as leaves. See `Pytree.partial`."""
 
     dyn_args: tuple[Any, ...]
     fn: Callable[..., Any] = static()
@@ -138,7 +138,7 @@ def nth(tree: Any, index: Any) -> Any:
 
 
 class PythonicPytree(Pytree):
-    """A tree whose leaves have leading axes of one length, as a sequence to index, slice, iterate and concatenate."""
+    """A tree whose leaves have leading axes of equal length: a sequence to index, slice, iterate and concatenate."""
 
     def __getitem__(self, index: Any) -> Self:
         return nth(self, index)  # type: ignore[no-any-return]

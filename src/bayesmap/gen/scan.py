@@ -1,4 +1,8 @@
-"""Generative functions iterated: the state of each step is an argument of the next step."""
+"""Generative functions iterated: the state of each step is an argument of the next step.
+
+`Scan` has the contract's methods, which all run `Scan._loop`. `iterate`, `accumulate` and the others at the end are
+scans with transformed arguments and return values.
+"""
 
 from collections.abc import Callable
 from typing import Any
@@ -35,7 +39,7 @@ class Scan(Vectorised):
     n: int | None = static(default=None)
 
     def length(self, args: Arguments) -> int:
-        """Return the number of steps, from `n` or the leading axis of the inputs."""
+        """Return the number of steps: `n`, or the length of the leading axis of the inputs."""
         if len(args) != 2:
             raise TypeError(f"scan takes two arguments, (state, inputs), not {len(args)}")
         sizes = dict.fromkeys(jnp.shape(leaf)[0] for leaf in jax.tree.leaves(args[1]))
@@ -46,54 +50,59 @@ class Scan(Vectorised):
         return self.n if self.n is not None else next(iter(sizes))
 
     def _loop(self, key: PRNGKey, args: Arguments, step: Callable[..., Any], mapped: Any) -> Any:
-        """Iterate `step(key, (state, x_t), mapped_t) -> (trace, weight, more)`, and return these for the whole scan."""
+        """Iterate `step(key, (state, x_t), mapped_t) -> (trace, weight, extra)`. Returns them for the whole scan."""
         n = self.length(args)
 
         def body(carry: Any, scanned: Any) -> Any:
             key, state = carry
             t, x, mapped = scanned
             key = jax.random.fold_in(key, t)
-            trace, weight, more = step(key, (state, x), mapped)
+            trace, weight, extra = step(key, (state, x), mapped)
             next_state, out = trace.get_retval()
-            return (key, next_state), (trace.with_args(None), state, out, weight, more)
+            return (key, next_state), (trace.with_args(None), state, out, weight, extra)
 
         start = (key, jax.tree.map(jnp.asarray, args[0]))
-        (_, state), (inner, carries, out, weights, more) = jax.lax.scan(
-            body, start, (jnp.arange(n), args[1], mapped), length=n
-        )
+        (_, state), stacked = jax.lax.scan(body, start, (jnp.arange(n), args[1], mapped), length=n)
+        inner, carries, out, weights, extra = stacked
         trace = ScanTrace(self, args, inner, carries, (state, out), total(inner.get_score()))
-        return trace, total(weights), more
+        return trace, total(weights), extra
 
     def simulate(self, key: PRNGKey, args: Arguments) -> ScanTrace:
+        """Simulate every step."""
         trace, _, _ = self._loop(key, args, lambda k, a, _: (self.inner.simulate(k, a), 0.0, None), None)
         return trace  # type: ignore[no-any-return]
 
     def generate(self, key: PRNGKey, constraint: ChoiceMap, args: Arguments) -> tuple[ScanTrace, Weight]:
-        each = vectorise(constraint, self.length(args))
-        trace, weight, _ = self._loop(key, args, lambda k, a, c: (*self.inner.generate(k, c, a), None), each)
+        """Generate every step with its part of the constraint. The weight is the sum of the steps' weights."""
+        constraints = vectorise(constraint, self.length(args))
+        trace, weight, _ = self._loop(key, args, lambda k, a, c: (*self.inner.generate(k, c, a), None), constraints)
         return trace, weight
 
     def assess(self, choices: ChoiceMap, args: Arguments) -> tuple[Score, Any]:
+        """Return (sum of the steps' log densities, (last state, stacked outputs))."""
+
         def step(state: Any, scanned: Any) -> Any:
             x, choices = scanned
             score, (state, out) = self.inner.assess(choices, (state, x))
             return state, (score, out)
 
         n = self.length(args)
-        each = vectorise(choices, n)
+        step_choices = vectorise(choices, n)
         if n == 0:  # arrays without elements are in no choice map, and simulating draws nothing
             empty = self.simulate(jax.random.key(0), args)
             return empty.get_score(), empty.get_retval()
-        state, (scores, out) = jax.lax.scan(step, jax.tree.map(jnp.asarray, args[0]), (args[1], each), length=n)
+        start = jax.tree.map(jnp.asarray, args[0])
+        state, (scores, out) = jax.lax.scan(step, start, (args[1], step_choices), length=n)
         return total(scores), (state, out)
 
     def edit_all(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
+        """Edit every step. The state before a step counts as changed."""
         args = Diff.tree_primal(argdiffs)
-        mark = Diff.no_change if Diff.static_check_no_change(argdiffs[1]) else Diff.unknown_change
+        mark_input = Diff.no_change if Diff.static_check_no_change(argdiffs[1]) else Diff.unknown_change
 
         def step(key: PRNGKey, args: Any, mapped: Any) -> Any:
             inner, request = mapped
-            new, weight, _, backward = request.edit(key, inner, (Diff.unknown_change(args[0]), mark(args[1])))
+            new, weight, _, backward = request.edit(key, inner, (Diff.unknown_change(args[0]), mark_input(args[1])))
             return new, weight, backward
 
         new, weight, backward = self._loop(key, args, step, (trace.inner, request))
@@ -122,15 +131,15 @@ class Scan(Vectorised):
 
         # Otherwise run all steps: those before i stay, step i is the edited one, and later ones get their new state.
         def step(key: PRNGKey, step_args: Any, mapped: Any) -> Any:
-            inner, s = mapped
+            inner, t = mapped
 
-            def follow() -> tuple[Trace, Weight]:
+            def rescore() -> tuple[Trace, Weight]:
                 diffs = (Diff.unknown_change(step_args[0]), Diff.no_change(step_args[1]))
                 new, weight, _, _ = EmptyRequest().edit(key, inner, diffs)
                 return new.with_args(None), weight
 
-            options = [lambda: (inner, jnp.zeros(())), lambda: (new, weight), follow]
-            return (*jax.lax.switch(jnp.sign(s - i) + 1, options), None)
+            branches = [lambda: (inner, jnp.zeros(())), lambda: (new, weight), rescore]
+            return (*jax.lax.switch(jnp.sign(t - i) + 1, branches), None)
 
         result, change, _ = self._loop(key, args, step, (trace.inner, jnp.arange(self.length(args))))
         return result, args_weight + change, Diff.unknown_change(result.retval), IndexRequest(i, backward)
@@ -138,69 +147,76 @@ class Scan(Vectorised):
 
 @decorator_method
 def scan(*, n: int | None = None) -> Callable[[GenerativeFunction], Scan]:
-    """Return a decorator that turns `(state, x) -> (state, y)` into `(state, xs) -> (last state, ys)`. Step t uses the
-    key `fold_in(key of step t - 1, t)`. Addresses of its choices begin with t. Without `xs` give `n`.
+    """Return a decorator that turns `(state, x) -> (state, y)` into `(state, xs) -> (last state, ys)`.
+    Step t uses the key `fold_in(key of step t - 1, t)`. Addresses of its choices begin with t. Without `xs` give `n`.
     """
     return lambda gen_fn: Scan(gen_fn.as_part(), n)
 
 
-# Functions of the module, and no closures: equal functions make equal traces, so that traces can be compared.
-def _pair(state: Any) -> tuple[Any, Any]:
+# The functions that `map` and `dimap` use below belong to the module, and are no closures: equal functions make equal
+# traces, so that traces can be compared.
+def _as_output(state: Any) -> tuple[Any, Any]:
+    """Return a step's state as its output too."""
     return state, state
 
 
-def _last(args: Any, inner_args: Any, retval: Any) -> Any:
+def _last_state(args: Any, inner_args: Any, retval: Any) -> Any:
+    """Return the last state of a scan."""
     return retval[0]
 
 
-def _all(args: Any, inner_args: Any, retval: Any) -> Any:
-    return jax.tree.map(lambda first, rest: jnp.concatenate([jnp.asarray(first)[None], rest]), inner_args[0], retval[1])
+def _all_states(args: Any, inner_args: Any, retval: Any) -> Any:
+    """Return the first state and the stacked outputs, which are the later states, with a leading axis of n + 1."""
+    first, later = inner_args[0], retval[1]
+    return jax.tree.map(lambda x, xs: jnp.concatenate([jnp.asarray(x)[None], xs]), first, later)
 
 
-def _first_only(state: Any) -> tuple[Any, None]:
+def _without_inputs(state: Any) -> tuple[Any, None]:
+    """Return the arguments of a scan without inputs."""
     return state, None
 
 
 def _drop_input(state: Any, x: Any) -> tuple[Any]:
+    """Return the arguments of a step that takes no input."""
     return (state,)
 
 
 def _steps(gen_fn: GenerativeFunction, n: int | None = None) -> Scan:
     """Return the scan of a function `(state, x) -> state`, or with `n` of a function `state -> state`."""
-    paired = map(_pair)(gen_fn)
-    return scan(n=n)(paired if n is None else dimap(pre=_drop_input)(paired))
+    step = map(_as_output)(gen_fn)
+    return scan(n=n)(step if n is None else dimap(pre=_drop_input)(step))
 
 
 @decorator_method
 def accumulate() -> Callable[[GenerativeFunction], Any]:
     """Return a decorator that turns `(state, x) -> state` into `(state, xs) -> states`, with all n + 1 states."""
-    return lambda gen_fn: dimap(post=_all)(_steps(gen_fn))
+    return lambda gen_fn: dimap(post=_all_states)(_steps(gen_fn))
 
 
 @decorator_method
 def reduce() -> Callable[[GenerativeFunction], Any]:
     """Return a decorator that turns `(state, x) -> state` into `(state, xs) -> last state`."""
-    return lambda gen_fn: dimap(post=_last)(_steps(gen_fn))
+    return lambda gen_fn: dimap(post=_last_state)(_steps(gen_fn))
 
 
 @decorator_method
 def iterate(*, n: int) -> Callable[[GenerativeFunction], Any]:
     """Return a decorator that turns `state -> state` into `state -> states`, with all n + 1 states."""
-    return lambda gen_fn: dimap(pre=_first_only, post=_all)(_steps(gen_fn, n))
+    return lambda gen_fn: dimap(pre=_without_inputs, post=_all_states)(_steps(gen_fn, n))
 
 
 @decorator_method
 def masked_iterate() -> Callable[[GenerativeFunction], Any]:
-    """Return a decorator that turns `state -> state` into `(state, flags) -> states`, with all n + 1 states. If a
-    step's flag is False, its choices do not count, but the step still changes the state.
+    """Return a decorator that turns `state -> state` into `(state, flags) -> states`, with all n + 1 states.
+    If a step's flag is False, its choices do not count, but the step still changes the state.
     """
-    return lambda gen_fn: dimap(post=_all)(_steps(_flagged(gen_fn)))
+    return lambda gen_fn: dimap(post=_all_states)(_steps(_flagged(gen_fn)))
 
 
 @decorator_method
 def masked_iterate_final() -> Callable[[GenerativeFunction], Any]:
     """Return a decorator that turns `state -> state` into `(state, flags) -> last state`. See `masked_iterate`."""
-    return lambda gen_fn: dimap(post=_last)(_steps(_flagged(gen_fn)))
+    return lambda gen_fn: dimap(post=_last_state)(_steps(_flagged(gen_fn)))
 
 
 def _flagged(gen_fn: GenerativeFunction) -> Any:
@@ -209,14 +225,16 @@ def _flagged(gen_fn: GenerativeFunction) -> Any:
 
 
 def _flag_first(state: Any, flag: Any) -> tuple[Any, Any]:
+    """Return the arguments in the order of `mask`."""
     return flag, state
 
 
 def _unmasked(args: Any, inner_args: Any, retval: Any) -> Any:
+    """Return the value of a Mask, whatever its flag is."""
     return retval.value
 
 
 @decorator_method
 def iterate_final(*, n: int) -> Callable[[GenerativeFunction], Any]:
     """Return a decorator that turns `state -> state` into `state -> last state`, after n steps."""
-    return lambda gen_fn: dimap(pre=_first_only, post=_last)(_steps(gen_fn, n))
+    return lambda gen_fn: dimap(pre=_without_inputs, post=_last_state)(_steps(gen_fn, n))

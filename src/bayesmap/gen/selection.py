@@ -1,4 +1,8 @@
-"""Sets of addresses: `Selection.at["x"] | Selection.at["y", "z"]`."""
+"""Sets of addresses, as in `Selection.at["x"] | Selection.at["y", "z"]`.
+
+Five kinds of nodes store a selection. `check` and `get_subselection` are matches over these kinds; all other methods
+follow from them.
+"""
 
 from typing import Any
 
@@ -6,7 +10,7 @@ from bayesmap.gen.pytree import Pytree, dataclass, static
 
 
 class SelectionBuilderType:
-    """`at["x", "y"]` selects everything at or below that address; `...` matches any one component."""
+    """Builder of selections: `at["x", "y"]` selects all addresses at or below ("x", "y"). `...` is any component."""
 
     def __getitem__(self, address: Any) -> "Selection":
         address = address if isinstance(address, tuple) else (address,)
@@ -29,8 +33,8 @@ class SelectionBuilderType:
 
 
 class Selection(Pytree):
-    """A set of addresses, to combine by `|`, `&` and `~`. `sel(a)` is the selection below the address `a`; `sel[a]` and
-    `a in sel` say whether `a` itself is selected.
+    """A set of addresses. Sets are combined by `|`, `&` and `~`.
+    `sel(a)` is the selection below the address `a`. `sel[a]` and `a in sel` are True if `a` itself is selected.
     """
 
     at = SelectionBuilderType()
@@ -99,6 +103,7 @@ class Selection(Pytree):
         return selection
 
     def __getitem__(self, address: Any) -> bool:
+        """Return whether `address` is selected."""
         return self(address).check()
 
     def __contains__(self, address: Any) -> bool:
@@ -120,19 +125,19 @@ class Selection(Pytree):
 
 @dataclass
 class _Every(Selection):
-    """All addresses, or none."""
+    """The node of all addresses, or of none."""
 
     selected: bool = static()
 
 
 @dataclass
 class _Leaf(Selection):
-    """The empty address alone."""
+    """The node of the empty address alone."""
 
 
 @dataclass
 class _At(Selection):
-    """The addresses that `inner` selects below `component`; `...` stands for any one component."""
+    """The node of the addresses that `inner` selects below `component`; `...` stands for any one component."""
 
     inner: Selection
     component: Any = static()
@@ -140,14 +145,14 @@ class _At(Selection):
 
 @dataclass
 class _Not(Selection):
-    """The addresses that `inner` does not select."""
+    """The node of the addresses that `inner` does not select."""
 
     inner: Selection
 
 
 @dataclass
 class _Or(Selection):
-    """The addresses that at least one of two selections has."""
+    """The node of the addresses that at least one of two selections has."""
 
     left: Selection
     right: Selection

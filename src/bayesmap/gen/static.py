@@ -1,4 +1,9 @@
-"""`@gen`: a Python function whose calls of other generative functions are traced by address."""
+"""`@gen`: a Python function whose calls of other generative functions are traced by address.
+
+Such a call in the function's body is a site. `StaticGenerativeFunction` at the end has the contract's methods. Each
+method runs the body under a handler that visits the sites: `_Run` to draw, `_Assess` to score, `_Edit` to edit. An edit
+derives from the body's dataflow which arguments of a site have changed.
+"""
 
 import functools
 import importlib
@@ -23,7 +28,7 @@ RequestAt = Callable[[StaticAddress], EditRequest]  # the request for the site a
 
 
 class Replay(Handler):
-    """A run whose sites return the values `retvals`. It collects each site's function and arguments in `calls`."""
+    """A run whose sites return the values `retvals`. It stores each site's function and arguments in `calls`."""
 
     def __init__(self, retvals: dict[StaticAddress, Any]) -> None:
         super().__init__()
@@ -103,8 +108,8 @@ class StaticTrace(Trace):
 
 
 class _Run(Handler):
-    """A run that records a trace for each site, and the sum of the sites' weights. `trace_site(path, function,
-    arguments, key)` returns a site's (trace, weight). Site i has the key `fold_in(key, i)`.
+    """A run that records a trace for each site, and the sum of the sites' weights.
+    `trace_site(path, function, arguments, key)` returns a site's (trace, weight). Site i has the key `fold_in(key, i)`.
     """
 
     def __init__(self, key: PRNGKey, trace_site: Callable[..., tuple[Trace, Any]]) -> None:
@@ -194,8 +199,8 @@ class _Edit(_Run):
 
 
 def _body_dataflow(old: StaticTrace, args: Arguments) -> list[Origin] | None:
-    """Return the origins of the leaves of each site's function and arguments, in order, and of the return value. Return
-    None if the body needs the values of its arguments. Then every change is unknown.
+    """Return the origins of the leaves of each site's function and arguments, in order, and of the return value.
+    Returns None if the body needs the values of its arguments. Then every change is unknown.
     """
 
     def body(gen_fn: Any, args: Arguments, *retvals: Any) -> Any:
@@ -207,8 +212,8 @@ def _body_dataflow(old: StaticTrace, args: Arguments) -> list[Origin] | None:
 
 
 def _edit_by_rescoring(key: PRNGKey, old: Trace, gen_fn: Any, request: EditRequest, args: Arguments) -> Edited:
-    """Edit the trace of a function that the body defined again and that may differ, by scoring the whole trace. A
-    request that depends on addresses alone becomes a call of `generate`. Another request edits the rescored trace.
+    """Edit the trace of a function that the body defined again and that may differ, by scoring the whole trace.
+    A request that depends on addresses alone becomes a call of `generate`. Another request edits the rescored trace.
     """
     choices = old.get_choices()
     match request:
@@ -237,14 +242,14 @@ def _errors_below(path: StaticAddress) -> Iterator[None]:
 
 
 def _require_sites(paths: Iterable[Any], sites: list[StaticAddress]) -> None:
-    """Raise UnknownAddress for a path that is not the address of a site."""
+    """Raise UnknownAddress if a path is not the address of a site."""
     for path in paths:
         if path not in sites:
             raise UnknownAddress(path, f"its sites are {', '.join(map(format_address, sites))}")
 
 
 def _require_reachable(paths: Iterable[Any], visited: list[StaticAddress]) -> None:
-    """Raise UnknownAddress for a path that is neither at nor below a site."""
+    """Raise UnknownAddress if a path is neither at nor below a site."""
     sites = ", ".join(map(format_address, visited)) or "none"
     for path in paths:
         if path == () and () not in visited:
@@ -255,8 +260,8 @@ def _require_reachable(paths: Iterable[Any], visited: list[StaticAddress]) -> No
 
 @dataclass
 class StaticGenerativeFunction(GenerativeFunction):
-    """A Python function, `source`, under `@gen`. The fixed `partial_args` come before its arguments. With `by_name` the
-    arguments have the form `((positional, ...), {"name": value})`.
+    """A Python function, `source`, under `@gen`. The fixed `partial_args` come before its arguments.
+    With `by_name` the arguments have the form `((positional, ...), {"name": value})`.
     """
 
     partial_args: tuple[Any, ...]
@@ -329,8 +334,8 @@ def _requests_at_sites(request: EditRequest, gen_fn: StaticGenerativeFunction, s
             _require_reachable(constraint.paths(), sites)
 
             def update_at(path: StaticAddress) -> EditRequest:
-                below = constraint(path)
-                return EmptyRequest() if below.static_is_empty() else Update(below)
+                site_constraint = constraint(path)
+                return EmptyRequest() if site_constraint.static_is_empty() else Update(site_constraint)
 
             return update_at
         case StaticRequest(addressed):
@@ -359,9 +364,9 @@ def _unpickle(module: str, name: str, partial_args: Any, by_name: bool) -> Stati
 def gen(source: Callable[..., Any]) -> StaticGenerativeFunction:
     """Return a Python function as a generative function.
 
-    In its body `g(*args) @ "address"` calls a generative function and records its choices under the address, which no
-    other call may have (AddressReuse). `@ ()` records a call's choices as the function's own choices. The i-th call
-    uses `fold_in(key, i)`, with i from 1. Raises MissingAddress or UnknownAddress if choices do not match addresses.
+    In its body `g(*args) @ "address"` calls a generative function and records its choices under the address. No other
+    call may have this address (AddressReuse). `@ ()` records a call's choices as the function's own choices. The i-th
+    call uses `fold_in(key, i)`, with i from 1. Choices at other addresses raise MissingAddress or UnknownAddress.
     """
     gen_fn = StaticGenerativeFunction((), source)
     for name in (*functools.WRAPPER_ASSIGNMENTS, "__wrapped__"):

@@ -1,9 +1,13 @@
-"""Generative functions chosen at run time: one of several branches, or a mask that makes one count or not."""
+"""Generative functions chosen at run time: `mask` lets one count or not, `switch` runs one of several branches.
+
+`or_else` and `mix` are special cases of `switch`. JAX compiles all branches, so that a trace of `switch` has room for
+the trace of each branch.
+"""
 
 import operator
 from collections.abc import Callable, Sequence
 from contextlib import suppress
-from functools import reduce
+from functools import partial, reduce
 from typing import Any
 
 import jax
@@ -25,25 +29,29 @@ from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
 
 @dataclass
 class MaskTrace(OuterTrace):
-    """The trace `inner`, whose choices and score count if `flag` is True. It has arguments if this trace has them."""
+    """The trace `inner`, whose choices and score count if `flag` is True."""
 
     flag: Any
 
     def get_retval(self) -> Mask:
+        """Return the inner return value with the flag."""
         return Mask.build(self.inner.get_retval(), self.flag)
 
     def get_score(self) -> Score:
+        """Return the inner score if the flag is True, else 0."""
         return jnp.where(self.flag, self.inner.get_score(), 0.0)
 
     def get_choices(self) -> ChoiceMap:
+        """Return the inner choices with the flag."""
         return self.inner.get_choices().mask(self.flag)
 
     def with_args(self, args: Arguments | None) -> "MaskTrace":
+        """Return this trace with other arguments, here and in the inner trace."""
         return self.replace(args=args, inner=self.inner.with_args(None if args is None else args[1:]))
 
 
 def _flag(args: Arguments) -> Any:
-    """Return the first argument: Python's True, or an array () with which the choices stay in the map, masked."""
+    """Return the first argument: Python's True, or a Boolean array (), which leaves the choices in the map, masked."""
     if jnp.ndim(args[0]) > 0:
         raise BadArguments(f"mask: the flag is an array of shape {jnp.shape(args[0])}; map over it with .mask().vmap()")
     return True if args[0] is True else jnp.asarray(args[0], bool)
@@ -51,22 +59,26 @@ def _flag(args: Arguments) -> Any:
 
 @dataclass
 class MaskCombinator(Outer):
-    """A generative function whose first argument decides whether it counts. See `mask`."""
+    """A generative function whose first argument, a flag, decides whether it counts. See `mask`."""
 
     inner: GenerativeFunction
 
     def inner_args(self, args: Arguments) -> Arguments:
+        """Return the arguments without the flag. Raises BadArguments for a flag that is no scalar."""
         _flag(args)
         return args[1:]
 
     def wrap(self, args: Arguments, inner: Trace) -> MaskTrace:
+        """Return the inner trace with the flag."""
         return MaskTrace(self, args, inner, _flag(args))
 
     def generate(self, key: PRNGKey, constraint: ChoiceMap, args: Arguments) -> tuple[OuterTrace, Weight]:
+        """Generate the inner trace. The weight is 0 if the flag is False."""
         trace, weight = super().generate(key, constraint, args)
         return trace, jnp.where(args[0], weight, 0.0)
 
     def assess(self, choices: ChoiceMap, args: Arguments) -> tuple[Score, Mask]:
+        """Return (the choices' log density, or 0 if the flag is False; return value as a Mask)."""
         with optional_part():
             score, retval = super().assess(choices, args)
         return jnp.where(args[0], score, 0.0), Mask.build(retval, _flag(args))
@@ -87,13 +99,14 @@ class MaskCombinator(Outer):
         return new, weight, (Diff.no_change if unchanged else Diff.unknown_change)(retval), backward
 
     def project(self, key: PRNGKey, trace: Any, selection: Selection) -> Weight:
+        """Return the projection of the inner trace if the flag is True, else 0."""
         return jnp.where(trace.flag, super().project(key, trace, selection), 0.0)
 
 
 @method
 def mask(gen_fn: GenerativeFunction) -> MaskCombinator:
-    """Return a generative function with an additional first argument, a flag. If the flag is False, the score is 0, and
-    choices and return value are Masks whose flag is False.
+    """Return a generative function with an additional first argument, a flag.
+    If the flag is False, the score is 0, and the choices and the return value are Masks whose flag is False.
     """
     return MaskCombinator(gen_fn.as_part())
 
@@ -112,6 +125,7 @@ class SwitchTrace(Trace):
         return self.index
 
     def get_choices(self) -> ChoiceMap:
+        """Return the choices of the branch that ran."""
         return ChoiceMap.switch(self.index, [t.get_choices() for t in self.branches])
 
     def get_inner_trace(self, address: Any) -> Trace:
@@ -120,6 +134,7 @@ class SwitchTrace(Trace):
         branches = [t.with_args(a) for t, a in zip(self.branches, all_args, strict=True)]
         if is_concrete(self.index) and jnp.ndim(self.index) == 0:
             return branches[int(self.index)].get_inner_trace(address)
+        # The index is known only at run time: select among subtraces of one structure.
         subtraces = {}
         for k, trace in enumerate(branches):
             with suppress(AddressError):
@@ -128,29 +143,26 @@ class SwitchTrace(Trace):
             raise UnknownAddress(address, "no branch has it")
         if len({jax.tree.structure(t) for t in subtraces.values()}) > 1:
             raise AddressError(address, "the branches' traces differ there, and which one ran is not known")
-        chosen = next(iter(subtraces.values()))
+        selected = next(iter(subtraces.values()))
         for k, trace in subtraces.items():
-            chosen = where(self.index == k, trace, chosen)
-        return chosen
+            selected = where(self.index == k, trace, selected)
+        return selected
 
 
 def run_branch(index: Any, thunks: Sequence[Callable[[], tuple[Any, Any]]]) -> tuple[tuple[Any, ...], Any]:
-    """Run thunk number `index`. Each thunk returns (own result, shared result). Returns (own results of all thunks,
-    zeros for thunks that did not run; shared result in common dtypes and shapes).
+    """Run thunk number `index`, a function that returns (own result, shared result).
+    Returns (own results of all thunks, zeros for those that did not run; shared result in common dtypes and shapes).
     """
-    blank, shapes = zip(*(jax.eval_shape(t) for t in thunks), strict=True)
-    common = jax.tree.map(lambda *s: (jnp.broadcast_shapes(*(x.shape for x in s)), jnp.result_type(*s)), *shapes)
+    own_shapes, shared_shapes = zip(*(jax.eval_shape(t) for t in thunks), strict=True)
+    common = jax.tree.map(lambda *s: (jnp.broadcast_shapes(*(x.shape for x in s)), jnp.result_type(*s)), *shared_shapes)
 
-    def branch(k: int) -> Callable[[], Any]:
-        def run() -> Any:
-            own, shared = thunks[k]()
-            zeros = [jax.tree.map(lambda s: jnp.zeros(s.shape, s.dtype), b) for b in blank]
-            shared = jax.tree.map(lambda x, c: jnp.broadcast_to(jnp.asarray(x, c[1]), c[0]), shared, common)
-            return (*zeros[:k], own, *zeros[k + 1 :]), shared
+    def run(k: int) -> Any:
+        own, shared = thunks[k]()
+        zeros = [jax.tree.map(lambda s: jnp.zeros(s.shape, s.dtype), shapes) for shapes in own_shapes]
+        shared = jax.tree.map(lambda x, c: jnp.broadcast_to(jnp.asarray(x, c[1]), c[0]), shared, common)
+        return (*zeros[:k], own, *zeros[k + 1 :]), shared
 
-        return run
-
-    return jax.lax.switch(index, [branch(k) for k in range(len(thunks))])  # type: ignore[no-any-return]
+    return jax.lax.switch(index, [partial(run, k) for k in range(len(thunks))])  # type: ignore[no-any-return]
 
 
 @dataclass
@@ -159,89 +171,86 @@ class Switch(GenerativeFunction):
 
     branches: tuple[GenerativeFunction, ...]
 
-    def _read(self, args: Any) -> tuple[Any, list[Any]]:
-        """Return (index, arguments of each branch). Raise BadArguments for a known index out of range."""
-        index, *rest = args
+    def _split(self, args: Any) -> tuple[Any, list[Any]]:
+        """Return (index, arguments of each branch). Raises BadArguments for a known index out of range."""
+        index, *branch_args = args
         index, n = Diff.tree_primal(index), len(self.branches)
-        if len(rest) != n:
-            raise BadArguments(f"switch takes an index and {n} tuples of arguments, not {len(rest)}")
+        if len(branch_args) != n:
+            raise BadArguments(f"switch takes an index and {n} tuples of arguments, not {len(branch_args)}")
         if is_concrete(index) and not 0 <= int(index) < n:
             raise BadArguments(f"switch: there is no branch {int(index)}; the branches are 0 to {n - 1}")
-        return (index if isinstance(index, int) else jnp.clip(index, 0, n - 1)), rest
+        return (index if isinstance(index, int) else jnp.clip(index, 0, n - 1)), branch_args
 
     def _build(self, args: Arguments, thunks: Sequence[Callable[[], Any]]) -> tuple[SwitchTrace, Weight]:
         """Return the trace and the weight of the branch that runs. Each thunk returns a branch's (trace, weight)."""
-        index, _ = self._read(args)
+        index, _ = self._split(args)
 
-        def outcome(thunk: Callable[[], Any]) -> Callable[[], Any]:
-            def run() -> Any:
-                trace, weight = thunk()
-                shared = (trace.get_retval(), trace.get_score(), jnp.asarray(weight))
-                return trace.with_args(None), shared
+        def run(thunk: Callable[[], Any]) -> Any:
+            trace, weight = thunk()
+            return trace.with_args(None), (trace.get_retval(), trace.get_score(), jnp.asarray(weight))
 
-            return run
-
-        traces, (retval, score, weight) = run_branch(index, [outcome(t) for t in thunks])
+        traces, (retval, score, weight) = run_branch(index, [partial(run, thunk) for thunk in thunks])
         return SwitchTrace(self, args, index, traces, retval, score), weight
 
-    def _parts(self, choices: ChoiceMap, args: Sequence[Any]) -> list[ChoiceMap]:
-        """Return for each branch the choices that it can make; raise UnknownAddress if no branch has a choice."""
+    def _choices_of_branches(self, choices: ChoiceMap, args: Sequence[Any]) -> list[ChoiceMap]:
+        """Return for each branch the choices that it can make. Raises UnknownAddress for a choice of no branch."""
         selections = [fn.choice_shapes(a).get_selection() for fn, a in zip(self.branches, args, strict=True)]
         for path in choices.filter(~reduce(operator.or_, selections)).paths():
             raise UnknownAddress(path, "no branch has it")
         return [choices.filter(selection) for selection in selections]
 
     def simulate(self, key: PRNGKey, args: Arguments) -> SwitchTrace:
-        _, rest = self._read(args)
-        thunks = [lambda fn=fn, a=a: (fn.simulate(key, a), 0.0) for fn, a in zip(self.branches, rest, strict=True)]
+        """Simulate the branch with the given index."""
+        _, all_args = self._split(args)
+        thunks = [lambda fn=fn, a=a: (fn.simulate(key, a), 0.0) for fn, a in zip(self.branches, all_args, strict=True)]
         return self._build(args, thunks)[0]
 
     def generate(self, key: PRNGKey, constraint: ChoiceMap, args: Arguments) -> tuple[SwitchTrace, Weight]:
-        _, rest = self._read(args)
-        parts = zip(self.branches, self._parts(constraint, rest), rest, strict=True)
-        thunks = [lambda fn=fn, c=c, a=a: fn.generate(key, c, a) for fn, c, a in parts]
+        """Generate a trace of the branch with the given index, from the part of the constraint that it can make."""
+        _, all_args = self._split(args)
+        triples = zip(self.branches, self._choices_of_branches(constraint, all_args), all_args, strict=True)
+        thunks = [lambda fn=fn, c=c, a=a: fn.generate(key, c, a) for fn, c, a in triples]
         return self._build(args, thunks)
 
     def assess(self, choices: ChoiceMap, args: Arguments) -> tuple[Score, Any]:
-        index, rest = self._read(args)
-        parts = zip(self.branches, self._parts(choices, rest), rest, strict=True)
-        thunks = [lambda fn=fn, c=c, a=a: ((), fn.assess(c, a)) for fn, c, a in parts]
+        """Assess the choices by the branch with the given index."""
+        index, all_args = self._split(args)
+        triples = zip(self.branches, self._choices_of_branches(choices, all_args), all_args, strict=True)
+        thunks = [lambda fn=fn, c=c, a=a: ((), fn.assess(c, a)) for fn, c, a in triples]
         with optional_part():
             return run_branch(index, thunks)[1]  # type: ignore[no-any-return]
 
     def edit(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
-        """Edit the branch that stays active, or draw a newly active branch anew. These draws add no weight. The
-        backward request restores the old branch's choices. The caller must restore the old index.
+        """Edit the branch that stays active, or generate a newly active branch, whose draws add no weight.
+        The backward request restores the old branch's choices. The caller must restore the old index.
         """
         if not isinstance(request, Update | EmptyRequest | Regenerate):
             raise NotSupportedEditRequest(self, request)
-        _, diffs = self._read(argdiffs)
+        _, diffs = self._split(argdiffs)
         constraint = request.constraint if isinstance(request, Update) else ChoiceMap.empty()
-        parts = self._parts(constraint, [Diff.tree_primal(d) for d in diffs])
+        constraints = self._choices_of_branches(constraint, [Diff.tree_primal(d) for d in diffs])
         same_index = argdiffs[0].tangent == NoChange
 
-        # Thunk k edits branch k if it was active, and otherwise generates it.
-        def thunk(k: int) -> Callable[[], Any]:
-            fn, old, diff = self.branches[k], trace.branches[k], diffs[k]
-            branch_request = Update(parts[k]) if isinstance(request, Update) else request
+        def edit(k: int) -> Any:
+            branch_request = Update(constraints[k]) if isinstance(request, Update) else request
+            new, weight, _, _ = branch_request.edit(key, trace.branches[k], diffs[k])
+            return new.with_args(None), weight
 
-            def edit() -> Any:
-                new, weight, _, _ = branch_request.edit(key, old, diff)
-                return new.with_args(None), weight
+        def generate(k: int) -> Any:
+            new, weight = self.branches[k].generate(key, constraints[k], Diff.tree_primal(diffs[k]))
+            return in_dtypes_of(trace.branches[k], new.with_args(None)), weight - trace.score
 
-            def fresh() -> Any:
-                new, weight = fn.generate(key, parts[k], Diff.tree_primal(diff))
-                return in_dtypes_of(old, new.with_args(None)), weight - trace.score
-
-            return edit if same_index else lambda: jax.lax.cond(trace.index == k, edit, fresh)
+        def edit_or_generate(k: int) -> Any:
+            return edit(k) if same_index else jax.lax.cond(trace.index == k, partial(edit, k), partial(generate, k))
 
         args = Diff.tree_primal(argdiffs)
-        new, weight = self._build(args, [thunk(k) for k in range(len(self.branches))])
+        new, weight = self._build(args, [partial(edit_or_generate, k) for k in range(len(self.branches))])
         unchanged = isinstance(request, EmptyRequest) and Diff.static_check_no_change(argdiffs)
         retdiff = (Diff.no_change if unchanged else Diff.unknown_change)(new.retval)
         return new, weight, retdiff, Update(trace.get_choices())
 
     def project(self, key: PRNGKey, trace: Any, selection: Selection) -> Weight:
+        """Return the projection of the branch that ran."""
         pairs = zip(self.branches, trace.branches, strict=True)
         thunks = [lambda fn=fn, t=t: ((), fn.project(key, t, selection)) for fn, t in pairs]
         return run_branch(trace.index, thunks)[1]  # type: ignore[no-any-return]
@@ -258,25 +267,25 @@ def switch(*gen_fns: GenerativeFunction) -> Switch:
 
 
 def _branch_of(flag: Any, if_args: Any, else_args: Any) -> tuple[Any, ...]:
-    """Return the arguments of a switch: branch 0 if the flag is True, else branch 1."""
+    """Return the arguments of a switch, which runs branch 0 if the flag is True, else branch 1."""
     return jnp.where(flag, 0, 1), if_args, else_args
 
 
 @method
 def or_else(if_fn: GenerativeFunction, else_fn: GenerativeFunction) -> Any:
-    """Return a function that runs `if_fn` or `else_fn`: its arguments are a flag, and the two tuples of arguments."""
+    """Return a function that runs `if_fn` or `else_fn`. Its arguments are a flag and both functions' tuples."""
     return contramap(_branch_of)(switch(if_fn, else_fn))
 
 
 @method
 def mix(*gen_fns: GenerativeFunction) -> Any:
-    """Return a mixture. Its arguments are the logits, then one tuple of arguments per component. Its choices are
-    "mixture_component", and the component's choices under "component_sample".
+    """Return a mixture. Its arguments are the logits, then one tuple of arguments per component.
+    Its choices are "mixture_component", and the component's choices under "component_sample".
     """
-    chosen = switch(*gen_fns)
+    component = switch(*gen_fns)
 
     def mixture(logits: Any, *args: Any) -> Any:
         index = categorical(logits=logits) @ "mixture_component"
-        return chosen(index, *args) @ "component_sample"
+        return component(index, *args) @ "component_sample"
 
     return gen(mixture)

@@ -1,4 +1,4 @@
-"""Names of types for annotations. Nothing checks them at run time; a type checker sees arrays."""
+"""Names of types for annotations, as in `genjax.typing`. No code checks them at run time; type checkers see arrays."""
 
 from collections.abc import Callable, Generator, Iterable, Sequence
 from types import EllipsisType

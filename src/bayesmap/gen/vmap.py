@@ -1,6 +1,8 @@
 """Generative functions mapped over axes of their arguments.
 
-A mapped distribution is one over arrays: `flip.repeat(n=21).repeat(n=21)` stores one (21, 21) array and one score.
+`vmap` and `repeat` make a `Product` of an exact density, and a `Vmap` of any other function. A `Product` is a
+distribution over arrays: `flip.repeat(n=21).repeat(n=21)` stores one (21, 21) array and one score. `Vectorised` is the
+base of `Vmap` and of `scan`. An edit of one element costs no time in proportion to the number of elements.
 """
 
 from collections.abc import Callable
@@ -23,7 +25,7 @@ from bayesmap.gen.typing import Arguments, InAxes, PRNGKey, Score, Weight
 
 @dataclass
 class Product(ExactDensity):
-    """A distribution over arrays: `inner` once per element of the mapped arguments, with the key `split(key, n)[i]`."""
+    """A distribution over arrays: one draw of `inner` per element of the mapped arguments, with `split(key, n)[i]`."""
 
     inner: ExactDensity
     in_axes: InAxes = static()
@@ -33,31 +35,40 @@ class Product(ExactDensity):
         return map_over(self.in_axes, args, self.n)
 
     def sample(self, key: PRNGKey, *args: Any, **kwargs: Any) -> Any:
+        """Return a draw of every element, stacked."""
         mapped = self._map(args)
         return mapped.vmap(self.inner.draw, jax.random.split(key, mapped.n))
 
     def logpdf(self, value: Any, *args: Any, **kwargs: Any) -> Any:
+        """Return the total log density of every element, (n,)."""
         return self._map(args).vmap(self.inner.score, value)
 
-    def score(self, value: Any, args: Arguments, given: Any = None) -> Score:
-        rest = (value,) if given is None else (value, given)
-        scores = self._map(args).vmap(lambda v, *g_args: self.inner.score(v, g_args[-1], *g_args[:-1]), *rest)
+    def score(self, value: Any, args: Arguments, flags: Any = None) -> Score:
+        """Return the sum of the elements' log densities, shape (). Values whose flag is False add 0."""
+        mapped = self._map(args)
+        if flags is None:
+            scores = mapped.vmap(self.inner.score, value)
+        else:
+            scores = mapped.vmap(lambda v, flag, args: self.inner.score(v, args, flag), value, flags)
         return total(scores)  # type: ignore[no-any-return]
 
     def index_shape(self, args: Arguments) -> tuple[int, ...]:
+        """Return (n, the shape that an index selects from in one element)."""
         # Trace `inner.index_shape` on abstract arguments of one element: it returns shapes, not arrays.
-        mapped, below = self._map(args), []
+        mapped, inner_shapes = self._map(args), []
 
         def of_element(leaves: list[Any]) -> None:
-            below.append(self.inner.index_shape(mapped.rebuild(leaves)))
+            inner_shapes.append(self.inner.index_shape(mapped.rebuild(leaves)))
 
         jax.eval_shape(of_element, mapped.element_shapes())
-        return (mapped.n, *below[0])
+        return (mapped.n, *inner_shapes[0])
 
     def in_support(self, value: Any) -> Any:
+        """Return elementwise whether any parameters can give this value."""
         return self.inner.in_support(value)
 
     def edit(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
+        """Edit one element alone if the request names it, else the whole array."""
         match request:
             case IndexRequest(i, inner):
                 return self._edit_element(key, trace, i, inner, argdiffs)
@@ -78,15 +89,15 @@ class Product(ExactDensity):
         element = DistributionTrace(self.inner, element_args, value, self.inner.score(value, element_args))
         edited, weight, retdiff, backward = request.edit(key, element, Diff.no_change(element_args))
         new_value = trace.value.at[i].set(edited.get_retval())
-        below = retdiff.tangent.index if isinstance(retdiff.tangent, IndexChange) else ()
         score = replace_term(trace.score, element.score, edited.get_score(), lambda: self.score(new_value, args))
         new = DistributionTrace(self, args, new_value, score)
-        return new, args_weight + weight, Diff(new_value, IndexChange((i, *below))), IndexRequest(i, backward)
+        inner_index = retdiff.tangent.index if isinstance(retdiff.tangent, IndexChange) else ()
+        return new, args_weight + weight, Diff(new_value, IndexChange((i, *inner_index))), IndexRequest(i, backward)
 
 
 class Vectorised(GenerativeFunction):
-    """Base of functions that run one function, `inner`, many times; their traces store the runs' traces, stacked. A
-    subclass implements `length` with the two edits below, and the contract except `edit` and `project`.
+    """Base of functions that run one function, `inner`, many times. Their traces store the runs' traces, stacked.
+    A subclass implements `length`, `edit_all` and `edit_one`, and the contract except `edit` and `project`.
     """
 
     inner: GenerativeFunction
@@ -104,6 +115,7 @@ class Vectorised(GenerativeFunction):
         raise NotImplementedError
 
     def edit(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
+        """Edit one run if the request names it, else every run."""
         n = self.length(Diff.tree_primal(argdiffs))
         match request:
             case IndexRequest(i, inner):
@@ -114,18 +126,19 @@ class Vectorised(GenerativeFunction):
                 return self.edit_all(key, trace, EmptyRequest(), argdiffs)
             case Update(constraint):
                 return self.edit_all(key, trace, Update(vectorise(constraint, n)), argdiffs)
-            case VectorRequest(each):
-                return self.edit_all(key, trace, each, argdiffs)
+            case VectorRequest(requests):
+                return self.edit_all(key, trace, requests, argdiffs)
             case Regenerate():
                 return self.edit_all(key, trace, request, argdiffs)
         raise NotSupportedEditRequest(self, request)
 
     def project(self, key: PRNGKey, trace: Any, selection: Selection) -> Weight:
+        """Return the sum of the runs' projections."""
         return jnp.sum(jax.vmap(lambda t: self.inner.project(key, t, selection))(trace.inner))
 
 
 def as_update(edited: Edited) -> Edited:
-    """Return the outcome of an update of one element, with the way back as an Update instead of an IndexRequest."""
+    """Return the outcome of an update of one element with an Update as its backward request, not an IndexRequest."""
     new, weight, retdiff, backward = edited
     return new, weight, retdiff, Update(backward.request.constraint.extend(backward.idx))  # type: ignore[attr-defined]
 
@@ -142,6 +155,7 @@ class VmapTrace(OuterTrace):
     score: Score
 
     def get_retval(self) -> Any:
+        """Return the elements' return values, stacked."""
         return self.inner.get_retval()
 
 
@@ -157,17 +171,20 @@ class Vmap(Vectorised):
         return map_over(self.in_axes, args, self.n)
 
     def length(self, args: Arguments) -> int:
+        """Return the number of elements."""
         return self._map(args).n
 
     def _trace(self, args: Arguments, inner: Trace) -> VmapTrace:
         return VmapTrace(self, args, inner, total(inner.get_score()))
 
     def simulate(self, key: PRNGKey, args: Arguments) -> VmapTrace:
+        """Simulate every element."""
         mapped = self._map(args)
         keys = jax.random.split(key, mapped.n)
         return self._trace(args, mapped.vmap(lambda k, a: self.inner.simulate(k, a).with_args(None), keys))
 
     def generate(self, key: PRNGKey, constraint: ChoiceMap, args: Arguments) -> tuple[VmapTrace, Weight]:
+        """Generate every element with its part of the constraint. The weight is the sum of the elements' weights."""
         mapped = self._map(args)
 
         def element(key: PRNGKey, constraint: ChoiceMap, args: Arguments) -> Any:
@@ -179,6 +196,7 @@ class Vmap(Vectorised):
         return self._trace(args, inner), total(weights)
 
     def assess(self, choices: ChoiceMap, args: Arguments) -> tuple[Score, Any]:
+        """Return (sum of the elements' log densities, stacked return values)."""
         mapped = self._map(args)
         choices = vectorise(choices, mapped.n)
         if mapped.n == 0:  # arrays without elements are in no choice map, and simulating draws nothing
@@ -188,20 +206,16 @@ class Vmap(Vectorised):
         return total(scores), retvals
 
     def edit_all(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
+        """Edit every element. Leaves of `request` have a leading axis."""
         args = Diff.tree_primal(argdiffs)
         mapped = self._map(args)
-
-        def of_elements(tangent: Change) -> Change:
-            """Return the change of one element, unknown for an index change: that index refers to the whole array."""
-            return UnknownChange if isinstance(tangent, IndexChange) else tangent
-
         pairs = zip(Diff.tangents(argdiffs), mapped.axes, strict=True)
-        tangents = [t if axis is None else of_elements(t) for t, axis in pairs]
+        tangents = [t if axis is None else _without_index(t) for t, axis in pairs]
 
         def element(key: PRNGKey, inner: Trace, request: EditRequest, args: Arguments) -> Any:
             new, weight, retdiff, backward = request.edit(key, inner, Diff.zip(args, tangents))
-            blurred = [of_elements(t) for t in Diff.tangents(retdiff)]
-            return new.with_args(None), weight, Diff.zip(Diff.tree_primal(retdiff), blurred), backward
+            ret_tangents = [_without_index(t) for t in Diff.tangents(retdiff)]
+            return new.with_args(None), weight, Diff.zip(Diff.tree_primal(retdiff), ret_tangents), backward
 
         keys = jax.random.split(key, mapped.n)
         inner, weights, retdiff, backward = mapped.vmap(element, keys, trace.inner, request)
@@ -216,17 +230,20 @@ class Vmap(Vectorised):
         new, weight, retdiff, backward = request.edit(key, element, Diff.no_change(self._map(args).element(i)))
 
         def store(stack: Any, old: Any, new: Any) -> Any:
-            return stack if new is old else stack.at[i].set(new)
+            return stack if new is old else stack.at[i].set(new)  # an unchanged leaf is the old object: copy nothing
 
         inner = jax.tree.map(store, trace.inner, element, new.with_args(None))
-        retval = inner.get_retval()
-        changes = [_at(i, t) for t in Diff.tangents(retdiff)]
         score = replace_term(trace.score, element.get_score(), new.get_score(), lambda: total(inner.get_score()))
-        retdiff = Diff.zip(retval, changes)
+        retdiff = Diff.zip(inner.get_retval(), [_change_at(i, t) for t in Diff.tangents(retdiff)])
         return VmapTrace(self, args, inner, score), args_weight + weight, retdiff, IndexRequest(i, backward)
 
 
-def _at(i: Any, tangent: Change) -> Change:
+def _without_index(tangent: Change) -> Change:
+    """Return the mark of one element and of the whole array: unknown for an index, which fits only one of them."""
+    return UnknownChange if isinstance(tangent, IndexChange) else tangent
+
+
+def _change_at(i: Any, tangent: Change) -> Change:
     """Return the change of the whole array, given the change of its element `i`."""
     if tangent == NoChange:
         return NoChange

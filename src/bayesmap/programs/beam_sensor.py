@@ -1,7 +1,9 @@
 """Sensors as generative functions of the walls: the law of readings, the base of all sensors, the one at known poses.
 
-A trace at known poses keeps the readings and the position of each beam's first hit. A changed cell matters to a beam
-only if it becomes a wall before the hit, or was the hit and is removed. So an edit reads the beams through its cell.
+`ReadingLaw` is the law of readings at given distances. `RangeSensor` is the contract of sensors. `BeamSensor` is the
+sensor at known poses, whose beams cross the cells of a `BeamGeometry`. Its trace stores the readings and the position
+of each beam's first hit. A changed cell matters to a beam only if it becomes a wall before the hit, or was the hit and
+is removed. So an edit reads the beams through its cell.
 """
 
 import dataclasses
@@ -44,46 +46,48 @@ class ReadingLaw(ExactDensity):
     limits: RangeLimits = static()
 
     def sample(self, key: PRNGKey, distance_m: Any, /) -> Any:
-        d = jnp.asarray(distance_m, jnp.result_type(float))
-        s, limits = self.parameters, self.limits
+        """Return a reading for each distance."""
+        distance = jnp.asarray(distance_m, jnp.result_type(float))
+        law, limits, shape = self.parameters, self.limits, distance.shape
         keys = jr.split(key, 6)
-        wall = jnp.minimum(d, limits.max_m)
-        noise = jr.t(keys[0], s.dof, d.shape) if s.dof > 0 else jr.normal(keys[0], d.shape)
+        wall = jnp.minimum(distance, limits.max_m)
+        noise = jr.t(keys[0], law.dof, shape) if law.dof > 0 else jr.normal(keys[0], shape)
         reading = wall + self._scale(wall) * noise
-        if not s.robust:
+        if not law.robust:
             return reading
         # The events of `BeamMixture` in reverse order: an earlier event there overrules a later one.
-        lost = (jr.uniform(keys[1], d.shape) < s.p_no_return) | (d > limits.max_m)
+        lost = (jr.uniform(keys[1], shape) < law.p_no_return) | (distance > limits.max_m)
         reading = jnp.where(lost, jnp.inf, reading)
-        object_m = jr.exponential(keys[2], d.shape) / s.rate_short_per_m
-        passing = jr.uniform(keys[3], d.shape) < s.p_short
+        object_m = jr.exponential(keys[2], shape) / law.rate_short_per_m
+        passing = jr.uniform(keys[3], shape) < law.p_short
         reading = jnp.where(passing & (object_m < wall), object_m, reading)
         reading = jnp.where(reading > limits.max_m, jnp.inf, reading)
         reading = jnp.where(reading < limits.min_m, -jnp.inf, reading)
-        uniform = jr.uniform(keys[4], d.shape, minval=limits.min_m, maxval=limits.max_m)
-        return jnp.where(jr.uniform(keys[5], d.shape) < s.p_random, uniform, reading)
+        uniform = jr.uniform(keys[4], shape, minval=limits.min_m, maxval=limits.max_m)
+        return jnp.where(jr.uniform(keys[5], shape) < law.p_random, uniform, reading)
 
     def index_shape(self, args: Arguments) -> tuple[int, ...]:
+        """Return the shape of the distances: constraints may give some readings by their indices."""
         return jnp.shape(args[0])
 
     def logpdf(self, value: Any, distance_m: Any, /) -> Any:
         """Return the log density in nats, elementwise over readings and distances in metres."""
-        z, d = jnp.asarray(value), jnp.asarray(distance_m)
-        wall = jnp.minimum(d, self.limits.max_m)
+        reading, distance = jnp.asarray(value), jnp.asarray(distance_m)
+        wall = jnp.minimum(distance, self.limits.max_m)
         if self.parameters.robust:
-            by_kind = self._mixture(z, wall, d <= self.limits.max_m)
+            log_density = self._mixture(reading, wall, distance <= self.limits.max_m)
         else:
             # Plain noise has no typed readings: they count as the range limits.
-            reading = jnp.nan_to_num(z, posinf=self.limits.max_m, neginf=self.limits.min_m)
-            by_kind = self._log_noise(reading, wall)
-        return jnp.where(jnp.isnan(z), 0.0, by_kind)
+            finite = jnp.nan_to_num(reading, posinf=self.limits.max_m, neginf=self.limits.min_m)
+            log_density = self._log_noise(finite, wall)
+        return jnp.where(jnp.isnan(reading), 0.0, log_density)
 
     def _scale(self, wall: Any) -> Any:
-        """Return the scale of the noise at a distance, metres."""
+        """Return the scale of the noise in metres, given the distance of the wall in metres."""
         return self.parameters.sigma_m + self.parameters.sigma_per_m * wall
 
     def _log_noise(self, reading: Any, wall: Any) -> Any:
-        """Return the log density of wall + noise."""
+        """Return the log density of wall + noise at the reading: Student's t, or normal if dof is 0."""
         scale, dof = self._scale(wall), self.parameters.dof
         x = (reading - wall) / scale
         if dof > 0:
@@ -101,27 +105,28 @@ class ReadingLaw(ExactDensity):
         return ndtr(-x)
 
     def _mixture(self, z: Any, wall: Any, in_range: Any) -> Any:
-        """Return the log density by the formula of `bayesmap.sensors.model` for the kind of each reading."""
-        s, limits = self.parameters, self.limits
+        """Return the log density of readings `z` by the formula of `bayesmap.sensors.model` for the kind of each."""
+        law, limits = self.parameters, self.limits
 
         def unblocked(distance: Any) -> Any:
-            return 1.0 + s.p_short * jnp.expm1(-s.rate_short_per_m * distance)
+            return 1.0 + law.p_short * jnp.expm1(-law.rate_short_per_m * distance)
 
+        # Hits: uniform, short of the wall, or from the wall with noise.
         finite = jnp.isfinite(z)
         reading = jnp.where(finite, z, limits.max_m)
-        returned = jnp.where(in_range, unblocked(wall) * (1.0 - s.p_no_return), 0.0)
-        lost = unblocked(wall) * jnp.where(in_range, s.p_no_return, 1.0)
-        passing = s.p_short * s.rate_short_per_m * jnp.exp(-s.rate_short_per_m * jnp.maximum(reading, 0.0))
+        returned = jnp.where(in_range, unblocked(wall) * (1.0 - law.p_no_return), 0.0)
+        lost = unblocked(wall) * jnp.where(in_range, law.p_no_return, 1.0)
+        passing = law.p_short * law.rate_short_per_m * jnp.exp(-law.rate_short_per_m * jnp.maximum(reading, 0.0))
         short = jnp.where(reading < wall, passing, 0.0)
         noise = jnp.exp(self._log_noise(reading, wall))
-        hit = s.p_random / (limits.max_m - limits.min_m) + (1 - s.p_random) * (short + returned * noise)
-
+        hit = law.p_random / (limits.max_m - limits.min_m) + (1 - law.p_random) * (short + returned * noise)
+        # No return and too close: the probabilities of noise beyond the limits.
         scale = self._scale(wall)
         above = self._tail((limits.max_m - wall) / scale)
         below = self._tail((wall - limits.min_m) / scale)  # the noise is symmetric
-        no_return = (1 - s.p_random) * (lost + returned * above)
-        blocked = -s.p_short * jnp.expm1(-s.rate_short_per_m * jnp.minimum(wall, limits.min_m))
-        too_close = (1 - s.p_random) * (blocked + returned * below)
+        no_return = (1 - law.p_random) * (lost + returned * above)
+        blocked = -law.p_short * jnp.expm1(-law.rate_short_per_m * jnp.minimum(wall, limits.min_m))
+        too_close = (1 - law.p_random) * (blocked + returned * below)
         by_kind = jnp.where(finite, hit, jnp.where(z > 0, no_return, too_close))
         return jnp.maximum(jnp.log(by_kind), LOG_IMPOSSIBLE)
 
@@ -137,8 +142,8 @@ def reading_law(sensor: SensorModel, limits: RangeLimits) -> ReadingLaw:
     return ReadingLaw(parameters, limits)
 
 
-LOOK = 16  # the number of a beam's cells that are read at once
-GROUP = 8  # the number of a cell's beams that are read at once
+CELLS_AT_ONCE = 16  # number of a beam's cells that are read at once
+BEAMS_AT_ONCE = 8  # number of a cell's beams that are read at once
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -150,12 +155,12 @@ class BeamGeometry:
     """
 
     shape: tuple[int, int]  # of the grid
-    # Flat indices x * ny + y in the order of touch, then sentinels N, which count as walls: (B, L + LOOK).
+    # Flat indices x * ny + y in the order of touch, then sentinels N, which count as walls: (B, L + CELLS_AT_ONCE).
     cells: NDArray[np.int32]
     distance_m: NDArray[np.float32]  # at which the beam hits each cell; inf at sentinels
     offsets: NDArray[np.int32]  # (N + 1,); cell c has the entries offsets[c] : offsets[c + 1] of the two arrays below
-    beam: NDArray[np.int32]  # (K + GROUP,), the beams through the cells; the last GROUP entries are padding
-    position: NDArray[np.int32]  # (K + GROUP,), the position of the cell in that beam
+    beam: NDArray[np.int32]  # (K + BEAMS_AT_ONCE,), the beams through the cells, then padding
+    position: NDArray[np.int32]  # (K + BEAMS_AT_ONCE,), the position of the cell in that beam, then padding
 
     @property
     def n_beams(self) -> int:
@@ -170,7 +175,7 @@ class BeamGeometry:
     @property
     def longest(self) -> int:
         """Return L + 1, the number of outcomes of the longest beam; its last position is a sentinel."""
-        return int(self.cells.shape[1]) - LOOK + 1
+        return int(self.cells.shape[1]) - CELLS_AT_ONCE + 1
 
     @property
     def position_dtype(self) -> np.dtype[np.unsignedinteger]:
@@ -202,85 +207,94 @@ def beam_geometry(
     """Trace the beams of S poses, shape (S, 3), and A angles: beam s * A + a is beam a of pose s."""
     from bayesmap.kernels.rays import trace_rays  # loads Warp
 
-    unread = np.zeros((len(np.atleast_2d(poses)), len(angles_rad)))
-    scans = Scans(poses, angles_rad, unread, limits.max_m, limits.min_m)  # type: ignore[arg-type]
+    # Trace the beams; ranges play no part in this.
+    no_ranges = np.zeros((len(np.atleast_2d(poses)), len(angles_rad)))
+    scans = Scans(poses, angles_rad, no_ranges, limits.max_m, limits.min_m)  # type: ignore[arg-type]
     rays = trace_rays(scans, grid)
-
+    # Pad the cells and distances of each beam with sentinels.
     beam = rays.beam_of_entry()
     position = (np.arange(rays.n_incidences) - rays.offsets[beam]).astype(np.int32)
-    width = int(rays.lengths.max(initial=0)) + LOOK
+    width = int(rays.lengths.max(initial=0)) + CELLS_AT_ONCE
     cells = np.full((rays.n_beams, width), grid.n_cells, dtype=np.int32)
     distance_m = np.full((rays.n_beams, width), np.inf, dtype=np.float32)
     cells[beam, position] = rays.cells
     distance_m[beam, position] = rays.distance_m(hit_depth)
-
+    # Sort the beams by the cells that they cross.
     by_cell = np.argsort(rays.cells, kind="stable")
     offsets = np.zeros(grid.n_cells + 1, dtype=np.int32)
     np.cumsum(np.bincount(rays.cells, minlength=grid.n_cells), out=offsets[1:])
-    padding = np.zeros(GROUP, dtype=np.int32)
+    padding = np.zeros(BEAMS_AT_ONCE, dtype=np.int32)
     beam, position = (np.concatenate([entries[by_cell], padding]) for entries in (beam, position))
     return BeamGeometry(grid.shape, cells, distance_m, offsets, beam, position)
 
 
 class ReadingsTrace(Trace):
-    """Base of sensors' traces, whose only choice is the field `readings`. The score is computed from the first hits
-    when it is read: it does not drift, and edits do not pay for it.
+    """Base of sensors' traces, whose only choice is the field `readings`.
+    The score is computed from the first hits when it is read: it does not drift, and edits do not compute it.
     """
 
     readings: Any
 
     def get_retval(self) -> Any:
+        """Return the readings."""
         return self.readings
 
     def get_choices(self) -> ChoiceMap:
+        """Return the readings, at the address ()."""
         return ChoiceMap.choice(self.readings)
 
     @property
     def hits(self) -> Any:
-        """The part of the trace that says where beams hit, in the form that the sensor's `find_hits` returns."""
+        """The first hits of all beams, in the form that the sensor's `find_hits` returns."""
         raise NotImplementedError
 
 
 class RangeSensor(GenerativeFunction):
-    """Base of sensors: readings in metres, at the address (), that follow `law` given the distances of the first walls.
+    """Base of sensors, whose readings in metres, at the address (), follow `law` given the first walls' distances.
     A sensor implements the four methods below, and inherits the contract.
     """
 
     law: ReadingLaw
 
     def find_hits(self, args: Arguments) -> Any:
-        """Return where all beams hit, in the form that traces keep as `hits`."""
+        """Return the first hits of all beams, in the form that traces store as `hits`."""
         raise NotImplementedError
 
     def law_args(self, args: Arguments, hits: Any) -> Arguments:
-        """Return the law's arguments."""
+        """Return the law's arguments: the distances of the hits, in the shape of the readings."""
         raise NotImplementedError
 
     def trace(self, args: Arguments, hits: Any, readings: Any) -> Trace:
-        """Return the trace of a run."""
+        """Return the trace of a run with these hits and readings."""
         raise NotImplementedError
 
     def change_hits(self, trace: Any, args: Arguments, tangents: Sequence[Change]) -> tuple[Any, Weight] | None:
-        """Return where beams hit after a small change of arguments, and the log-likelihood's change; else None."""
+        """Return (first hits after a change of arguments, change of the log-likelihood); None for a large change."""
         raise NotImplementedError
 
     def simulate(self, key: PRNGKey, args: Arguments) -> Trace:
+        """Find the hits, and draw the readings."""
         hits = self.find_hits(args)
         return self.trace(args, hits, self.law.draw(key, self.law_args(args, hits)))
 
     def assess(self, choices: ChoiceMap, args: Arguments) -> tuple[Score, Any]:
+        """Return (log-likelihood of the readings in `choices`, readings)."""
         return self.law.assess(choices, self.law_args(args, self.find_hits(args)))
 
     def generate(self, key: PRNGKey, constraint: ChoiceMap, args: Arguments) -> tuple[Trace, Weight]:
+        """Return the trace of the given readings and of draws elsewhere, weighted by the given ones' likelihood."""
         hits = self.find_hits(args)
         inner, weight = self.law.generate(key, constraint, self.law_args(args, hits))
         return self.trace(args, hits, inner.get_retval()), weight
 
     def project(self, key: PRNGKey, trace: Any, selection: Selection) -> Weight:
+        """Return the log-likelihood if the readings are selected, else 0."""
         score = trace.get_score()
         return score if selection.check() else jnp.zeros_like(score)
 
     def edit(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
+        """Edit the readings by the law's edit. If they are unchanged, change only the hits, by `change_hits`."""
+        # Check whether the request leaves the readings as they are.
         keeps_readings = False
         match request:
             case IndexRequest(i, Update(constraint)):
@@ -292,10 +306,12 @@ class RangeSensor(GenerativeFunction):
         args, unchanged = Diff.tree_primal(argdiffs), Diff.static_check_no_change(argdiffs)
         if keeps_readings and unchanged:
             return EmptyRequest().edit(key, trace, argdiffs)
-        if keeps_readings and (change := self.change_hits(trace, args, Diff.tangents(argdiffs))) is not None:
+        change = self.change_hits(trace, args, Diff.tangents(argdiffs)) if keeps_readings else None
+        if change is not None:
             hits, weight = change
             new = self.trace(args, hits, trace.readings)
             return new, weight, Diff.no_change(trace.readings), Update(ChoiceMap.empty())
+        # Otherwise find all hits again, and let the law edit the readings.
         hits = trace.hits if unchanged else self.find_hits(args)
         old = DistributionTrace(self.law, self.law_args(args, trace.hits), trace.readings, trace.get_score())
         law_diffs = Diff.unknown_change(self.law_args(args, hits))
@@ -304,7 +320,7 @@ class RangeSensor(GenerativeFunction):
 
 
 def checked_walls(walls: Any, shape: tuple[int, int]) -> Any:
-    """Return the walls as an array; raise BadInput unless they have the grid's shape."""
+    """Return the walls as an array. Raises `BadInput` unless they have the grid's shape."""
     if jnp.shape(walls) != shape:
         raise BadInput(f"sensor model: the argument walls has shape {jnp.shape(walls)}, expected {shape}")
     return jnp.asarray(walls)
@@ -312,16 +328,18 @@ def checked_walls(walls: Any, shape: tuple[int, int]) -> Any:
 
 @dataclass
 class BeamTrace(ReadingsTrace):
-    """Readings with the first hits of their beams."""
+    """The trace of a `BeamSensor`: readings with the first hits of their beams."""
 
     first_hit: Any  # (B,) unsigned, the position of each beam's first wall
     readings: Any  # metres, in the sensor's `readings_shape`
 
     @property
     def hits(self) -> Any:
+        """The positions of the first hits, (B,)."""
         return self.first_hit
 
     def get_score(self) -> Score:
+        """Return the log-likelihood of all readings."""
         sensor: BeamSensor = self.gen_fn
         readings = self.readings.reshape(self.first_hit.shape)
         return sensor.law.logpdf(readings, sensor.distances_at(self.first_hit)).sum(axis=-1)  # type: ignore[no-any-return]
@@ -336,7 +354,7 @@ class BeamSensor(RangeSensor):
     readings_shape: tuple[int, ...] = static()
 
     def first_hits(self, walls: Any) -> Any:
-        """Return the position of each beam's first wall, (B,), from all beams."""
+        """Return the position of each beam's first wall, (B,), by a search through the cells of all beams."""
         geometry = self.geometry
         cells = geometry.cells[:, : geometry.longest]
         is_wall = jnp.append(checked_walls(walls, geometry.shape).reshape(-1) != 0, True)  # the sentinel is a wall
@@ -348,21 +366,23 @@ class BeamSensor(RangeSensor):
         return jnp.asarray(self.geometry.distance_m)[jnp.arange(self.geometry.n_beams), first_hit]
 
     def find_hits(self, args: Arguments) -> Any:
+        """Return `first_hits` of the walls."""
         return self.first_hits(*args)
 
     def law_args(self, args: Arguments, hits: Any) -> Arguments:
+        """Return the distances of the hits, in the shape of the readings."""
         return (self.distances_at(hits).reshape(self.readings_shape),)
 
     def trace(self, args: Arguments, hits: Any, readings: Any) -> BeamTrace:
+        """Return the trace of a run with these hits and readings."""
         return BeamTrace(self, args, hits, readings)
 
     def change_hits(self, trace: Any, args: Arguments, tangents: Sequence[Change]) -> tuple[Any, Weight] | None:
+        """Return (first hits, change of the log-likelihood) if only some cells changed; else None."""
         match tangents:
             case [IndexChange((i, j))]:
                 return self._change_cells(trace.first_hit, trace.readings, args[0], i, j)  # type: ignore[no-any-return]
         return None
-
-    # Some cells -----------------------------------------------------------------------------------
 
     @partial(jax.jit, inline=True)  # else every edit outside of `jit` would compile its loops again
     def _change_cells(self, first_hit: Any, readings: Any, walls: Any, i: Any, j: Any) -> tuple[Any, Weight]:
@@ -387,17 +407,18 @@ class BeamSensor(RangeSensor):
         return jax.lax.fori_loop(0, len(cells), change, (first_hit, jnp.zeros((), readings.dtype)))  # type: ignore[no-any-return]
 
     def _change_cell(self, walls: Any, cell: Any, first_hit: Any, readings: Any) -> tuple[Any, Weight]:
-        """Return the first hits, and the change of the log-likelihood, after one cell changed, by groups of beams."""
+        """Return (first hits, change of the log-likelihood) after one cell changed, by groups of the cell's beams."""
         geometry, is_wall = self.geometry, self._wall_at(walls, cell)
         offsets, beams, positions = map(jnp.asarray, (geometry.offsets, geometry.beam, geometry.position))
         distance_m = jnp.asarray(geometry.distance_m)
         end = offsets[cell + 1]
 
-        def group(state: tuple[Any, Any, Any]) -> tuple[Any, Any, Any]:
+        def change_group(state: tuple[Any, Any, Any]) -> tuple[Any, Any, Any]:
             k, first_hit, weight = state
-            valid = k + jnp.arange(GROUP, dtype=jnp.int32) < end  # the rest of the last group is padding
-            beam = jax.lax.dynamic_slice(beams, (k,), (GROUP,))
-            position = jax.lax.dynamic_slice(positions, (k,), (GROUP,))
+            valid = k + jnp.arange(BEAMS_AT_ONCE, dtype=jnp.int32) < end  # the others in the last group are padding
+            beam = jax.lax.dynamic_slice(beams, (k,), (BEAMS_AT_ONCE,))
+            position = jax.lax.dynamic_slice(positions, (k,), (BEAMS_AT_ONCE,))
+            # A beam whose wall is removed goes on to its next wall; a new wall before the hit replaces the hit.
             old = first_hit[beam].astype(jnp.int32)
             uncovered = valid & ~is_wall & (position == old)
             new = jnp.where(valid & is_wall, jnp.minimum(position, old), old)
@@ -407,10 +428,10 @@ class BeamSensor(RangeSensor):
             weight += jnp.where(new != old, gain, 0.0).sum()
             target = jnp.where(valid, beam, geometry.n_beams)  # padding has a target that is dropped
             first_hit = first_hit.at[target].set(new.astype(first_hit.dtype), mode="drop")
-            return k + GROUP, first_hit, weight
+            return k + BEAMS_AT_ONCE, first_hit, weight
 
         start = (offsets[cell], first_hit, jnp.zeros((), readings.dtype))
-        _, first_hit, weight = jax.lax.while_loop(lambda state: state[0] < end, group, start)
+        _, first_hit, weight = jax.lax.while_loop(lambda state: state[0] < end, change_group, start)
         return first_hit, weight
 
     def _wall_at(self, walls: Any, cell: Any) -> Any:
@@ -419,18 +440,18 @@ class BeamSensor(RangeSensor):
         return walls[cell // ny, cell % ny] != 0
 
     def _next_walls(self, walls: Any, beam: Any, position: Any, uncovered: Any) -> Any:
-        """Return the next walls behind `position` for uncovered beams, and `position` for the others; all (GROUP,)."""
+        """Return the next walls behind `position` for uncovered beams, and `position` for others, (BEAMS_AT_ONCE,)."""
         cells, n_cells = jnp.asarray(self.geometry.cells), self.geometry.n_cells
-        ahead = jnp.arange(LOOK, dtype=jnp.int32)
+        ahead = jnp.arange(CELLS_AT_ONCE, dtype=jnp.int32)
 
-        def look(state: tuple[Any, Any]) -> tuple[Any, Any]:
+        def search(state: tuple[Any, Any]) -> tuple[Any, Any]:
             position, searching = state
             next_cells = cells[beam[:, None], position[:, None] + 1 + ahead]
             wall = (next_cells == n_cells) | self._wall_at(walls, jnp.minimum(next_cells, n_cells - 1))
-            step = jnp.where(wall, ahead, LOOK).min(axis=1)
-            hit = step < LOOK
-            position = jnp.where(searching, position + jnp.where(hit, step + 1, LOOK), position)
+            step = jnp.where(wall, ahead, CELLS_AT_ONCE).min(axis=1)
+            hit = step < CELLS_AT_ONCE
+            position = jnp.where(searching, position + jnp.where(hit, step + 1, CELLS_AT_ONCE), position)
             return position, searching & ~hit
 
-        position, _ = jax.lax.while_loop(lambda state: state[1].any(), look, (position, uncovered))
+        position, _ = jax.lax.while_loop(lambda state: state[1].any(), search, (position, uncovered))
         return position

@@ -34,7 +34,7 @@ from bayesmap.space.scans import as_angles, as_poses, check_limits
 
 @dataclass
 class SetCells(EditRequest):
-    """A request for the address "walls" that gives the cells (i[k], j[k]) of a map the values `values[k]`.
+    """A request for the address "walls" to give the cells (i[k], j[k]) of a map the values `values[k]`.
 
     A 2 x 2 block is `SetCells(i + jnp.array([0, 0, 1, 1]), j + jnp.array([0, 1, 0, 1]), values)`. The work is that of
     one edit for each cell. All fields have shape (k,), with k known when the program is compiled.
@@ -45,7 +45,7 @@ class SetCells(EditRequest):
     values: Any
 
     def edit(self, key: PRNGKey, trace: Trace, argdiffs: Any) -> Edited:
-        """Edit one cell after the other. The backward request has the old values."""
+        """Return the edited trace, after one edit for each cell. The backward request has the old values."""
         i, j, values = jnp.broadcast_arrays(*map(jnp.atleast_1d, (self.i, self.j, self.values)))
         old = trace.get_retval()[i, j]
         weight = jnp.zeros(())
@@ -71,7 +71,7 @@ def mapping_model(
 
     An edit of one wall costs time in proportion to the beams through that cell. Make a model once: it traces all beams.
 
-    If `poses` is a generative function, the poses are unknown and it is their prior:
+    If `poses` is a generative function, the poses are unknown, and this function is their prior:
 
         guesses, sigma = jnp.array([[1.0, 2.0, 0.0], [1.5, 2.0, 0.1]]), jnp.array([0.3, 0.3, 0.05])
         poses = gen.mv_normal_diag.vmap(in_axes=(0, None))(guesses, sigma)
@@ -135,13 +135,13 @@ def pose_sensor_model(
 
 
 def _limits(min_range_m: float, max_range_m: float) -> RangeLimits:
-    """Return the sensor's limits; raise `BadInput` if they are out of order."""
+    """Return the sensor's limits. Raises `BadInput` if they are out of order."""
     check_limits(min_range_m, max_range_m)
     return RangeLimits(float(min_range_m), float(max_range_m))
 
 
 def _check_pose_prior(prior: GenerativeFunction) -> None:
-    """Raise BadInput unless the prior returns poses."""
+    """Raise `BadInput` unless the prior returns poses, (3,) or (S, 3)."""
     try:
         poses = jax.eval_shape(lambda key: prior.simulate(key, ()).get_retval(), jax.random.key(0))
     except TypeError as error:
@@ -153,7 +153,7 @@ def _check_pose_prior(prior: GenerativeFunction) -> None:
 
 @dataclass
 class _Walls(Pytree):
-    """The prior of the walls: its probabilities as bytes, so that it is a static part of JAX's trees."""
+    """The prior of the walls. Its probabilities are bytes, so that they can be a static part of JAX's trees."""
 
     shape: tuple[int, ...] = static()
     p_wall: bytes = static(repr=False)

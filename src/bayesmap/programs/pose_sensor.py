@@ -22,7 +22,8 @@ from bayesmap.gen.typing import Arguments, Score, Weight
 from bayesmap.programs.beam_sensor import RangeSensor, ReadingLaw, ReadingsTrace, checked_walls
 from bayesmap.space.grid import Grid
 
-LEAST_COSINE = 1e-10  # absolute direction cosines are raised to this: such beams stay in their row or column
+MIN_COSINE = 1e-10  # absolute direction cosines are raised to this: such beams stay in their row or column
+BEAMS_AT_ONCE = 8  # number of beams without their wall that walk on at once
 
 
 class Beams(NamedTuple):
@@ -35,13 +36,13 @@ class Beams(NamedTuple):
 def beams_of(start: Any, angle_rad: Any) -> Beams:
     """Return the beams from `start` (..., 2) at `angle_rad` (...) in the world frame."""
     direction = jnp.stack([jnp.cos(angle_rad), jnp.sin(angle_rad)], axis=-1)
-    small = jnp.abs(direction) < LEAST_COSINE
-    return Beams(jnp.broadcast_to(start, direction.shape), jnp.where(small, LEAST_COSINE, direction))
+    is_small = jnp.abs(direction) < MIN_COSINE
+    return Beams(jnp.broadcast_to(start, direction.shape), jnp.where(is_small, MIN_COSINE, direction))
 
 
 def span(beams: Beams, low: Any, high: Any) -> tuple[Any, Any]:
-    """Return the distances at which beams enter and leave the rectangle from `low` to `high`, each (...). A beam that
-    leaves before it enters misses the rectangle (slab method). Distances behind the start are negative.
+    """Return the distances at which beams enter and leave the rectangle from `low` to `high`, each (...).
+    A beam that leaves before it enters misses the rectangle (slab method). Distances behind the start are negative.
     """
     to_low, to_high = (low - beams.start) / beams.direction, (high - beams.start) / beams.direction
     return jnp.minimum(to_low, to_high).max(axis=-1), jnp.maximum(to_low, to_high).min(axis=-1)
@@ -54,7 +55,7 @@ def cell_span(beams: Beams, cell: Any) -> tuple[Any, Any]:
 
 
 def first_cells(beams: Beams, shape: tuple[int, int]) -> tuple[Any, Any]:
-    """Return each beam's first cell on the grid, (..., 2), and whether the beam touches the grid, (...)."""
+    """Return each beam's first cell on the grid, (..., 2), and the mask of beams that touch the grid, (...)."""
     size = jnp.array(shape)
     enter, leave = span(beams, jnp.zeros_like(beams.start), size.astype(beams.start.dtype))
     entry = beams.start + jnp.maximum(enter, 0)[..., None] * beams.direction
@@ -62,8 +63,8 @@ def first_cells(beams: Beams, shape: tuple[int, int]) -> tuple[Any, Any]:
 
 
 def first_walls(walls: Any, beams: Beams, cell: Any, active: Any) -> Any:
-    """Return the first wall at or behind a cell, (K, 2), of each active beam, on a map (nx, ny), as flat indices, (K,).
-    The index is nx * ny for a beam that meets no wall or is not active.
+    """Return the first wall of each active beam at or behind its `cell`, (K, 2), as a flat index x * ny + y, (K,).
+    Walls are (nx, ny). The index is nx * ny for a beam that meets no wall or is not active.
     """
     shape = jnp.array(jnp.shape(walls))
     nx, ny = jnp.shape(walls)
@@ -86,12 +87,9 @@ def first_walls(walls: Any, beams: Beams, cell: Any, active: Any) -> Any:
     return jax.lax.while_loop(lambda state: state[3].any(), walk, (cell, border, no_hit, active))[2]
 
 
-GROUP = 8  # the number of beams without their wall that walk on at once
-
-
 @dataclass
 class PoseTrace(ReadingsTrace):
-    """Readings with the poses of the scans and the cells at which the beams end."""
+    """The trace of a `PoseSensor`: readings with the poses of the scans and the cells at which the beams end."""
 
     poses: Any  # (S, 3)
     ends: Any  # (S, A) int32, the flat index of each beam's first wall, or the number of cells if there is none
@@ -99,9 +97,11 @@ class PoseTrace(ReadingsTrace):
 
     @property
     def hits(self) -> tuple[Any, Any]:
+        """The poses, (S, 3), and the cells at which their beams end, (S, A)."""
         return self.poses, self.ends
 
     def get_score(self) -> Score:
+        """Return the log-likelihood of all readings."""
         sensor: PoseSensor = self.gen_fn
         distance_m = sensor.distances_m(self.poses, self.ends)
         return sensor.law.logpdf(self.readings.reshape(distance_m.shape), distance_m).sum(axis=(-2, -1))  # type: ignore[no-any-return]
@@ -137,8 +137,8 @@ class PoseSensor(RangeSensor):
         distance = jnp.where(enter >= 0, enter + self.hit_depth * jnp.maximum(leave - enter, 0), leave)
         return jnp.where(ends < self.grid.n_cells, distance * self.grid.resolution, jnp.inf)
 
-    def _read(self, args: Arguments) -> tuple[Any, Any]:
-        """Return the walls, and the poses as (S, 3)."""
+    def _checked(self, args: Arguments) -> tuple[Any, Any]:
+        """Return the walls, (nx, ny), and the poses, (S, 3). Raises `BadInput` for other shapes."""
         walls, poses = args
         walls = checked_walls(walls, self.grid.shape)
         if jnp.ndim(poses) not in (1, 2) or jnp.shape(poses)[-1] != 3:
@@ -146,17 +146,21 @@ class PoseSensor(RangeSensor):
         return walls, jnp.asarray(poses, jnp.result_type(float)).reshape(-1, 3)
 
     def find_hits(self, args: Arguments) -> tuple[Any, Any]:
-        walls, poses = self._read(args)
+        """Return the poses, and the ends of their beams, by a walk of all beams."""
+        walls, poses = self._checked(args)
         return poses, self.ends(walls, poses)
 
     def law_args(self, args: Arguments, hits: tuple[Any, Any]) -> Arguments:
+        """Return the distances of the hits, (A,) for a pose of shape (3,), else (S, A)."""
         return (self.distances_m(*hits).reshape((*jnp.shape(args[1])[:-1], -1)),)
 
     def trace(self, args: Arguments, hits: tuple[Any, Any], readings: Any) -> PoseTrace:
+        """Return the trace of a run with these hits and readings."""
         return PoseTrace(self, args, *hits, readings)
 
     def change_hits(self, trace: Any, args: Arguments, tangents: Sequence[Change]) -> tuple[Any, Weight] | None:
-        walls, poses = self._read(args)
+        """Return (hits, change of the log-likelihood) if at most some cells and poses changed; else None."""
+        walls, poses = self._checked(args)
         wall_change, pose_change = tangents
         if wall_change != NoChange and not isinstance(wall_change, IndexChange):
             return None
@@ -169,19 +173,17 @@ class PoseSensor(RangeSensor):
             weight += gain
         return (poses, ends), weight
 
-    # Some scans, some cells -------------------------------------------------------------------------
-
     @partial(jax.jit, inline=True)  # else every edit outside of `jit` would compile its loops again
     def _move_scans(self, old_poses: Any, ends: Any, readings: Any, walls: Any, poses: Any) -> tuple[Any, Weight]:
-        """Return the ends, and the change of the log-likelihood, after all scans that differ have moved to `poses`."""
+        """Return (ends, change of the log-likelihood) after the scans whose poses differ have moved to `poses`."""
 
         def move_scan(state: tuple[Any, Any, Any]) -> tuple[Any, Any, Any]:
             to_move, ends, weight = state
-            s = to_move.argmax()
-            old_m = self.distances_m(old_poses[s], ends[s])
-            new = self.ends(walls, poses[s][None])[0]
-            gain = self.law.logpdf(readings[s], self.distances_m(poses[s], new)) - self.law.logpdf(readings[s], old_m)
-            return to_move.at[s].set(False), ends.at[s].set(new), weight + gain.sum()
+            scan = to_move.argmax()
+            new = self.ends(walls, poses[scan][None])[0]
+            old_m, new_m = self.distances_m(old_poses[scan], ends[scan]), self.distances_m(poses[scan], new)
+            gain = self.law.logpdf(readings[scan], new_m) - self.law.logpdf(readings[scan], old_m)
+            return to_move.at[scan].set(False), ends.at[scan].set(new), weight + gain.sum()
 
         start = ((old_poses != poses).any(axis=-1), ends, jnp.zeros((), readings.dtype))
         _, ends, weight = jax.lax.while_loop(lambda state: state[0].any(), move_scan, start)
@@ -189,7 +191,7 @@ class PoseSensor(RangeSensor):
 
     @partial(jax.jit, inline=True)
     def _change_cells(self, poses: Any, ends: Any, readings: Any, walls: Any, i: Any, j: Any) -> tuple[Any, Weight]:
-        """Return the ends, and the change of the log-likelihood, after the cells (i, j) changed to `walls`."""
+        """Return (ends, change of the log-likelihood) after the cells (i, j) changed to those of `walls`."""
         nx, ny = self.grid.shape
         beams = Beams(*(part.reshape(-1, 2) for part in self.beams(poses)))
         i, j = (jnp.ravel(jnp.asarray(k, jnp.int32)) for k in jnp.broadcast_arrays(i, j))
@@ -204,7 +206,8 @@ class PoseSensor(RangeSensor):
         return ends, gain.sum()
 
     def _change_cell(self, beams: Beams, ends: Any, walls: Any, cell: Any) -> Any:
-        """Return the ends (B,) of all beams on the new map; `ends` are right except for the change of this cell."""
+        """Return the ends of all beams on the new map, (B,), given their `ends` before this cell changed."""
+        # A new wall that is nearer than a beam's end becomes its end.
         ny, no_end = self.grid.shape[1], self.grid.n_cells
         flat = cell[0] * ny + cell[1]
         is_wall = walls[cell[0], cell[1]] != 0
@@ -213,11 +216,13 @@ class PoseSensor(RangeSensor):
         nearer = (ends == no_end) | (enter < end_enter)
         ends = jnp.where(is_wall & (enter <= leave) & (leave >= 0) & nearer, flat, ends)
 
+        # A beam whose wall was removed walks on from this cell.
         def walk_on(state: tuple[Any, Any]) -> tuple[Any, Any]:
             ends, lost = state
-            group = jnp.nonzero(lost, size=GROUP, fill_value=len(ends))[0]
-            group_beams = Beams(*(part.at[group].get(mode="clip") for part in beams))
-            next_ends = first_walls(walls, group_beams, jnp.broadcast_to(cell, (GROUP, 2)), group < len(ends))
+            group = jnp.nonzero(lost, size=BEAMS_AT_ONCE, fill_value=len(ends))[0]
+            group_beams = Beams(*(array.at[group].get(mode="clip") for array in beams))
+            cells = jnp.broadcast_to(cell, (BEAMS_AT_ONCE, 2))
+            next_ends = first_walls(walls, group_beams, cells, group < len(ends))
             return ends.at[group].set(next_ends, mode="drop"), lost.at[group].set(False, mode="drop")
 
         return jax.lax.while_loop(lambda state: state[1].any(), walk_on, (ends, ~is_wall & (ends == flat)))[0]

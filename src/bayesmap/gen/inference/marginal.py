@@ -1,4 +1,9 @@
-"""Marginals: generative functions that show only some of their choices."""
+"""Marginals: generative functions of which only the selected choices are shown; the others are hidden.
+
+The density of the shown choices is a sum over the hidden ones. `Marginal` estimates it by importance sampling, or by
+another algorithm. Estimates are unbiased for exp(weight) in `generate` and for exp(-score) in `simulate`, so that
+samplers which use them stay exact.
+"""
 
 from collections.abc import Callable
 from typing import Any
@@ -27,6 +32,7 @@ class MarginalTrace(Trace):
     score: Score
 
     def get_choices(self) -> ChoiceMap:
+        """Return the shown choices."""
         return self.choices
 
 
@@ -40,16 +46,17 @@ class Marginal(SampleDistribution):
     particles: int = static(default=1)
 
     def random_weighted(self, key: PRNGKey, *args: Any) -> tuple[Score, ChoiceMap]:
-        """Draw the selected choices. Return the estimate of their log density, and the choices."""
+        """Draw the shown choices. Returns (estimate of their log density, choices)."""
         trace = self.simulate(key, args)
         return trace.score, trace.choices
 
     def estimate_logpdf(self, key: PRNGKey, value: ChoiceMap, *args: Any) -> Score:
+        """Return an estimate of the log density of the shown choices `value`."""
         return self.generate(key, value, args)[1]
 
     def check_conditioning(self, constraint: ChoiceMap, args: Arguments) -> None:
-        """Raise BadArguments if `constraint` leaves a selected choice open. Importance sampling would draw the open
-        choice, and it needs exact densities of the choices that it draws.
+        """Raise BadArguments if `constraint` leaves a selected choice open.
+        Importance sampling would draw the open choice, and it needs exact densities of the choices that it draws.
         """
         _require_all(self.gen_fn.choice_shapes(args).filter(self.selection), constraint)
 
@@ -58,6 +65,7 @@ class Marginal(SampleDistribution):
         return jax.vmap(lambda k: self.gen_fn.generate(k, shown, args))(jax.random.split(key, n))
 
     def simulate(self, key: PRNGKey, args: Arguments) -> MarginalTrace:
+        """Draw all choices, and keep the shown ones. exp(-score) is an unbiased estimate of 1 / density."""
         simulate_key, estimate_key = jax.random.split(key)
         trace = self.gen_fn.simulate(simulate_key, args)
         choices = trace.get_choices()
@@ -78,6 +86,9 @@ class Marginal(SampleDistribution):
         return MarginalTrace(self, args, shown, trace.get_retval(), score)
 
     def generate(self, key: PRNGKey, constraint: ChoiceMap, args: Arguments) -> tuple[MarginalTrace, Weight]:
+        """Return (trace of the given choices, estimate of their log density). exp(weight) is unbiased.
+        An empty constraint draws all choices. Raises BadArguments if only some of the shown choices are given.
+        """
         if constraint.static_is_empty():
             return self.simulate(key, args), jnp.zeros(())
         if self.algorithm is None:
@@ -91,6 +102,7 @@ class Marginal(SampleDistribution):
         return MarginalTrace(self, args, shown, trace.get_retval(), score), score
 
     def assess(self, choices: ChoiceMap, args: Arguments) -> tuple[Score, Any]:
+        """Return (exact log density of the choices, return value). Raises NotImplementedError for hidden choices."""
         # If nothing is hidden, the density needs no key. Otherwise the fixed key's estimate is refused below.
         trace, score = self.generate(jax.random.key(0), choices, args)
         if not self.gen_fn.choice_shapes(args).filter(~self.selection).static_is_empty():
@@ -98,6 +110,7 @@ class Marginal(SampleDistribution):
         return score, trace.get_retval()
 
     def edit(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
+        """Replace shown choices by an Update, or all of them by a Regenerate. Hidden choices are always drawn anew."""
         args = Diff.tree_primal(argdiffs)
         match request:
             case Update(constraint) if constraint.static_is_empty() and Diff.static_check_no_change(argdiffs):
@@ -114,6 +127,7 @@ class Marginal(SampleDistribution):
         raise NotSupportedEditRequest(self, request)
 
     def project(self, key: PRNGKey, trace: Any, selection: Selection) -> Weight:
+        """Return the score. Raises NotImplementedError unless all shown choices are selected."""
         if not trace.choices.filter(~selection).static_is_empty():
             raise NotImplementedError("a marginal's score cannot be split among its choices")
         return trace.score  # type: ignore[no-any-return]

@@ -1,4 +1,8 @@
-"""Markov chains of traces, and diagnostics of how well they mix."""
+"""Markov chains of traces, and diagnostics of their mixing.
+
+`metropolis_hastings` turns an edit request into a kernel, `run_chain` iterates a kernel, and `split_rhat` and
+`effective_sample_size` judge the draws.
+"""
 
 from collections.abc import Callable
 from typing import Any, NamedTuple
@@ -10,27 +14,28 @@ from bayesmap.gen.edits import EditRequest
 from bayesmap.gen.generative_function import Trace
 from bayesmap.gen.typing import Array, BoolArray, PRNGKey
 
-Kernel = Callable[[PRNGKey, Any], tuple[Any, BoolArray]]
+Kernel = Callable[[PRNGKey, Any], tuple[Any, BoolArray]]  # (key, trace) -> (trace, whether the step was accepted)
 
 
 class Chain(NamedTuple):
-    """The last trace, the values of each step (leading axis: step), and whether each step was accepted."""
+    """The outcome of n steps of a Markov chain."""
 
-    last: Any
-    draws: Any
-    accepted: BoolArray
+    last: Any  # the last trace
+    draws: Any  # the collected values of each step, with a leading axis of n
+    accepted: BoolArray  # whether each step was accepted, (n,)
 
 
 def metropolis_hastings(request: EditRequest | Callable[[Trace], EditRequest]) -> Kernel:
-    """Return a kernel (key, trace) -> (trace, accepted) that makes an edit with probability min(1, exp(weight)). The
-    request is an edit, or a function of the trace that returns the edit.
+    """Return a kernel (key, trace) -> (trace, accepted) that accepts an edit with probability min(1, exp(weight)).
+    The edit is a request, or a function of the trace that returns a request.
     """
 
     def kernel(key: PRNGKey, trace: Trace) -> tuple[Trace, BoolArray]:
         edit_key, accept_key = jax.random.split(key)
-        change = request if isinstance(request, EditRequest) else request(trace)
-        new, weight, _, _ = trace.edit(edit_key, change)
+        edit = request if isinstance(request, EditRequest) else request(trace)
+        new, weight, _, _ = trace.edit(edit_key, edit)
         accepted = jnp.log(jax.random.uniform(accept_key)) < weight
+        # An unchanged leaf is the old object and needs no choice: `where` would copy a large array.
         return jax.tree.map(lambda a, b: a if a is b else jnp.where(accepted, a, b), new, trace), accepted
 
     return kernel
@@ -40,8 +45,8 @@ def run_chain(
     key: PRNGKey, trace: Trace, kernel: Kernel, n: int,
     collect: Callable[[Trace], Any] = lambda trace: trace.get_choices(),
 ) -> Chain:  # fmt: skip
-    """Apply a kernel `n` times, with the key `fold_in(key, t)` in step t, and return values of each trace. A longer run
-    begins with the steps of a shorter one. For several chains use `jax.vmap` over keys and traces.
+    """Apply a kernel `n` times, with the key `fold_in(key, t)` in step t, and collect values of each trace.
+    A longer run begins with the steps of a shorter one. For several chains use `jax.vmap` over keys and traces.
     """
 
     def step(trace: Any, t: Any) -> Any:
@@ -65,18 +70,18 @@ def split_rhat(draws: Array) -> Array:
 
 
 def effective_sample_size(draws: Array) -> Array:
-    """Return the bulk effective sample size by Geyer's initial positive sequence (BDA3, section 11.5). Draws are
-    (chains, draws, ...), and the result is (...), one for each variable; NaN for draws that do not vary.
+    """Return the effective sample size by Geyer's initial positive sequence (BDA3, section 11.5).
+    Draws are (chains, draws, ...), and the result is (...), one for each variable; NaN for draws that do not vary.
     """
-    # Autocovariances by the Fourier transform, averaged over chains.
+    # Autocovariances by the Fourier transform, averaged over chains. Zeros up to length 2 n avoid circular sums.
     m, n = draws.shape[:2]
     draws = draws.astype(jnp.result_type(float))
     centred = draws - jnp.mean(draws, axis=1, keepdims=True)
     spectrum = jnp.abs(jnp.fft.rfft(centred, 2 * n, axis=1)) ** 2
     autocov = jnp.mean(jnp.fft.irfft(spectrum, 2 * n, axis=1)[:, :n], axis=0) / n
     within = autocov[0] * n / (n - 1)
-    spread = jnp.var(jnp.mean(draws, axis=1), axis=0, ddof=1) if m > 1 else 0.0
-    total = within * (n - 1) / n + spread
+    between = jnp.var(jnp.mean(draws, axis=1), axis=0, ddof=1) if m > 1 else 0.0
+    total = within * (n - 1) / n + between
     # Autocorrelations, summed in pairs until the first pair that is not positive.
     rho = 1 - (within - autocov * n / (n - 1)) / total
     pairs = rho[: n // 2 * 2].reshape(n // 2, 2, *rho.shape[1:]).sum(axis=1)

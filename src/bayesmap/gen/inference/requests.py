@@ -19,14 +19,15 @@ from bayesmap.gen.typing import PRNGKey
 
 @dataclass
 class Rejuvenate(EditRequest):
-    """Propose new values from a generative function whose choices have the model's addresses. `argument_mapping` turns
-    choices into the proposal's arguments: the old choices, or the new ones for the way back.
+    """A request to propose new values from a generative function whose choices have the model's addresses.
+    `argument_mapping` turns choices into the proposal's arguments: the old choices, or the new ones for the way back.
     """
 
     proposal: GenerativeFunction
     argument_mapping: Callable[[ChoiceMap], Any] = static()
 
     def edit(self, key: PRNGKey, trace: Trace, argdiffs: Any) -> Edited:
+        """Return the trace with the proposed values. The weight includes the proposal's backward and forward density."""
         propose_key, edit_key = jax.random.split(key)
         old = trace.get_choices()
         proposed, forward, _ = self.proposal.propose(propose_key, self.argument_mapping(old))
@@ -37,10 +38,10 @@ class Rejuvenate(EditRequest):
 
 @dataclass
 class HMC(EditRequest):
-    """Hamiltonian Monte Carlo on the selected choices, which must be real: `L` leapfrog steps of size `eps`.
+    """A request for Hamiltonian Monte Carlo on the selected choices, which must be real.
 
-    The steps are equations 5.18 to 5.20 of Neal, MCMC using Hamiltonian dynamics (2011). Acceptance with probability
-    min(1, exp(weight)) leaves the posterior invariant for any step size.
+    A proposal makes `L` leapfrog steps of size `eps`: equations 5.18 to 5.20 of Neal, MCMC using Hamiltonian dynamics
+    (2011). Acceptance with probability min(1, exp(weight)) leaves the posterior invariant for any step size.
     """
 
     selection: Selection
@@ -48,6 +49,7 @@ class HMC(EditRequest):
     L: int = static(default=10)
 
     def edit(self, key: PRNGKey, trace: Trace, argdiffs: Any) -> Edited:
+        """Return the trace at the end of the leapfrog steps. Raises TypeError if a selected choice is not real."""
         momentum_key, edit_key = jax.random.split(key)
         # Move the trace to the new arguments, and check that the selected choices are real.
         current, args_weight, _, _ = EmptyRequest().edit(edit_key, trace, argdiffs)

@@ -1,4 +1,8 @@
-"""Weighted traces: targets of inference, importance sampling, sequential Monte Carlo, the particle filter."""
+"""Weighted traces: targets of inference, importance sampling, sequential Monte Carlo, the particle filter.
+
+A `Target` is a posterior. An `SMCAlgorithm`, such as `ImportanceK`, draws a `ParticleCollection` of weighted traces for
+it. `ChangeTarget` weights them for another target. `particle_filter` runs through the steps of a scan.
+"""
 
 from typing import Any
 
@@ -19,8 +23,8 @@ from bayesmap.gen.typing import Array, IntArray, PRNGKey, Score, Weight
 
 @dataclass
 class Target(Pytree):
-    """The posterior of `p(*args)` given the choices in `constraint`. `target["y"]` is the given value at "y". A
-    marginal `p` raises BadArguments unless all of its choices are given.
+    """The posterior of `p(*args)` given the choices in `constraint`. `target["y"]` is the given value at "y".
+    A marginal `p` raises BadArguments unless all of its choices are given.
     """
 
     p: GenerativeFunction
@@ -47,8 +51,8 @@ class SampleDistribution(Distribution):
 
 
 class Algorithm(SampleDistribution):
-    """Base of inference algorithms: distributions over a target's open choices, with estimated densities.
-    `random_weighted(key, target)` returns (estimate, choices), `estimate_logpdf(key, choices, target)` an estimate.
+    """Base of inference algorithms: distributions over a target's open choices, with estimates of their densities.
+    `random_weighted(key, target)` returns (estimate, choices), and `estimate_logpdf(key, choices, target)` an estimate.
     """
 
     def estimate_normalizing_constant(self, key: PRNGKey, target: Target) -> Weight:
@@ -66,10 +70,10 @@ class Algorithm(SampleDistribution):
 
 @dataclass
 class ParticleCollection(Pytree):
-    """k traces (leading axis) with log weights, properly weighted for a target."""
+    """k weighted traces of a target: weighted means of exp(log_weights) estimate the target's sums without bias."""
 
-    particles: Trace
-    log_weights: Array
+    particles: Trace  # the traces, stacked along a leading axis of length k
+    log_weights: Array  # (k,)
 
     def get_particles(self) -> Trace:
         """Return the traces."""
@@ -101,13 +105,13 @@ class ParticleCollection(Pytree):
 
     def resample(self, key: PRNGKey) -> "ParticleCollection":
         """Return k traces drawn by weight (systematic resampling), each with the mean weight."""
-        chosen = systematic(key, self.log_weights)
+        parents = systematic(key, self.log_weights)
         mean = jnp.full_like(self.log_weights, self.get_log_marginal_likelihood_estimate())
-        return ParticleCollection(nth(self.particles, chosen), mean)
+        return ParticleCollection(nth(self.particles, parents), mean)
 
     def edit(self, key: PRNGKey, request: EditRequest, argdiffs: Any = None) -> "ParticleCollection":
-        """Edit every trace, and multiply its weight by the edit's weight: a step of sequential Monte Carlo. The new
-        arguments of all traces are `argdiffs`, as `Diff` leaves; None keeps the arguments.
+        """Edit every trace, and multiply its weight by the edit's weight: a step of sequential Monte Carlo.
+        The new arguments of all traces are `argdiffs`, as `Diff` leaves; None keeps the arguments.
         """
         keys = jax.random.split(key, self.log_weights.shape[0])
         particles, weights = jax.vmap(lambda key, trace: trace.edit(key, request, argdiffs)[:2])(keys, self.particles)
@@ -123,7 +127,7 @@ def systematic(key: PRNGKey, log_weights: Array) -> IntArray:
 
 
 class SMCAlgorithm(Algorithm):
-    """Base of algorithms that return weighted particles for `target`. A subclass implements the first three methods."""
+    """Base of algorithms that draw weighted particles for `target`. A subclass implements the first three methods."""
 
     target: Target
 
@@ -149,6 +153,7 @@ class SMCAlgorithm(Algorithm):
         return algorithm.run_smc(key).get_log_marginal_likelihood_estimate()
 
     def random_weighted(self, key: PRNGKey, *args: Any) -> tuple[Score, ChoiceMap]:
+        """Draw a particle by weight. Returns (estimate of its log density, its open choices)."""
         run_key, sample_key = jax.random.split(key)
         (target,) = args
         particles = ChangeTarget(self, target).run_smc(run_key)
@@ -157,23 +162,26 @@ class SMCAlgorithm(Algorithm):
         return score, target.filter_to_unconstrained(particle.get_choices())
 
     def estimate_logpdf(self, key: PRNGKey, value: ChoiceMap, *args: Any) -> Score:
+        """Return an estimate of the log density of the open choices `value`, by conditional SMC."""
         (target,) = args
         particles = ChangeTarget(self, target).run_csmc(key, value)
         return particles.get_particle(-1).get_score() - particles.get_log_marginal_likelihood_estimate()
 
     def estimate_normalizing_constant(self, key: PRNGKey, target: Target) -> Weight:
+        """Return the log of the mean weight of the particles."""
         return self.log_marginal_likelihood_estimate(key, target)
 
     def estimate_reciprocal_normalizing_constant(
         self, key: PRNGKey, target: Target, latent_choices: ChoiceMap, w: Score
     ) -> Weight:
+        """Return the log of the mean weight in conditional SMC, which retains the draw `latent_choices`."""
         return ChangeTarget(self, target).run_csmc(key, latent_choices).get_log_marginal_likelihood_estimate()
 
 
 @dataclass
 class ImportanceK(SMCAlgorithm):
-    """Importance sampling with `k_particles` traces. Without a proposal the model draws the open choices. A proposal
-    `q` is a generative function of the target, or a distribution over choice maps, of some of the model's choices.
+    """Importance sampling with `k_particles` traces. Without a proposal the model draws the open choices.
+    A proposal `q` is a generative function of the target, or a distribution over choice maps, for some of the choices.
     """
 
     target: Target
@@ -181,12 +189,15 @@ class ImportanceK(SMCAlgorithm):
     k_particles: int = static(default=2)
 
     def get_num_particles(self) -> int:
+        """Return `k_particles`."""
         return self.k_particles
 
     def run_smc(self, key: PRNGKey) -> ParticleCollection:
+        """Draw the particles from the proposal and the model."""
         return ParticleCollection(*jax.vmap(self._draw_particle)(jax.random.split(key, self.k_particles)))
 
     def run_csmc(self, key: PRNGKey, retained: ChoiceMap) -> ParticleCollection:
+        """Draw all particles except the last one, whose open choices are `retained`."""
         *keys, last_key = jax.random.split(key, self.k_particles)
         last = jax.tree.map(lambda x: jnp.asarray(x)[None], self._retained(last_key, retained))
         if not keys:
@@ -239,15 +250,18 @@ class ChangeTarget(SMCAlgorithm):
     target: Target
 
     def get_num_particles(self) -> int:
+        """Return the other algorithm's number of particles."""
         return self.prev.get_num_particles()
 
     def run_smc(self, key: PRNGKey) -> ParticleCollection:
-        run_key, key = jax.random.split(key)
-        return self._reweight(key, self.prev.run_smc(run_key))
+        """Run the other algorithm, and weight its particles for the new target."""
+        run_key, reweight_key = jax.random.split(key)
+        return self._reweight(reweight_key, self.prev.run_smc(run_key))
 
     def run_csmc(self, key: PRNGKey, retained: ChoiceMap) -> ParticleCollection:
-        run_key, key = jax.random.split(key)
-        return self._reweight(key, self.prev.run_csmc(run_key, retained))
+        """Run the other algorithm with a retained particle, and weight its particles for the new target."""
+        run_key, reweight_key = jax.random.split(key)
+        return self._reweight(reweight_key, self.prev.run_csmc(run_key, retained))
 
     def _reweight(self, key: PRNGKey, old: ParticleCollection) -> ParticleCollection:
         """Return traces of the new target with the open choices of the old particles."""
@@ -281,7 +295,7 @@ def particle_filter(
     Returns:
         (particles, log of an unbiased estimate of the evidence). Particles are traces of the last step, or of the scan.
     """
-    state, xs = args
+    first_state, xs = args
     leaves = jax.tree.leaves(xs)
     if n is None and not leaves:
         raise BadArguments("particle_filter: with no inputs xs, say how many steps there are by n=")
@@ -312,7 +326,8 @@ def particle_filter(
         recorded = (traces, states, y, parents) if history else None
         return (new_states, log_weights + weights, None if history else traces), recorded
 
-    start = jax.tree.map(lambda s: jnp.broadcast_to(s, (k, *jnp.shape(s))), state)
+    # Run all steps from k copies of the first state.
+    start = jax.tree.map(lambda s: jnp.broadcast_to(s, (k, *jnp.shape(s))), first_state)
     inputs = (jnp.arange(n), xs, vectorise(constraint, n))
     carry: Any = (start, jnp.zeros(k), None)
     if not history:  # the carry holds the last step's traces: begin with zeros of their shapes
@@ -343,15 +358,15 @@ def _trajectories(
 
     # Particle j of step t + 1 comes from particle `parents[t + 1, j]` of step t. Follow the parents back from the last
     # step: the lineage is each particle's ancestor at each step, (n, k).
-    def back(index: IntArray, parents: IntArray) -> tuple[IntArray, IntArray]:
+    def to_parent(index: IntArray, parents: IntArray) -> tuple[IntArray, IntArray]:
         return parents[index], index
 
-    _, lineage = jax.lax.scan(back, jnp.arange(k), parents, reverse=True)
+    _, lineage = jax.lax.scan(to_parent, jnp.arange(k), parents, reverse=True)
     steps = jnp.arange(n)[:, None]
 
-    def ordered(x: Any) -> Any:
+    def by_particle(x: Any) -> Any:
         return jnp.swapaxes(x[steps, lineage], 0, 1)
 
-    inner, carries, y = jax.tree.map(ordered, (traces, carries, y))
+    inner, carries, y = jax.tree.map(by_particle, (traces, carries, y))
     fn, args = jax.tree.map(lambda x: jnp.broadcast_to(x, (k, *jnp.shape(x))), (scan(n=n)(kernel), args))
     return ScanTrace(fn, args, inner, carries, (last, y), jax.vmap(total)(inner.get_score()))
