@@ -1,7 +1,8 @@
 """Write a chain as an animation: one frame per draw, GIF or WebP, by Pillow.
 
-Frames are images of palette indices, enlarged by a whole number. A hundred frames of the tutorial's map take a fraction
-of a second; matplotlib's writer takes several seconds.
+`write_animation` writes the frames that `render_frames` yields, and `_Canvas` renders one frame. Frames are images of
+palette indices, enlarged by a whole number. A hundred frames of the tutorial's map take a fraction of a second;
+matplotlib's writer takes several seconds.
 """
 
 import io
@@ -25,11 +26,11 @@ from bayesmap.viz import palette
 LEVELS = 128  # levels of probability in a frame; finer levels look alike, and fewer colours give smaller files
 # Palette indices of other colours, after the levels of probability.
 BACKGROUND, UNOBSERVED, HATCH, TRUTH, SENSOR, FRAME = range(LEVELS, LEVELS + 6)
-TARGET_PX = 560  # least length of the longer side; cells are enlarged by the smallest whole number that reaches it
+MIN_SIDE_PX = 560  # smallest length of the longer side; cells are enlarged by a whole number to reach it
 MARGIN_PX = 10  # margin around the map
 CAPTION_PX = 30  # height of the caption
 HATCH_PITCH_PX = 7  # distance of the hatch's lines
-LAST_FRAME_MS = 1500  # least time of the last frame: the result stays visible before the animation starts again
+MIN_LAST_FRAME_MS = 1500  # time of the last frame: the result stays visible before the animation starts again
 
 
 def write_animation(
@@ -55,7 +56,7 @@ def write_animation(
     )
     # GIF stores hundredths of a second. Viewers round other durations in different ways.
     step_ms = 10 * max(2, round(100.0 / frames_per_second))
-    durations = [step_ms] * (len(np.asarray(draws)) - 1) + [max(step_ms, LAST_FRAME_MS)]
+    durations = [step_ms] * (len(np.asarray(draws)) - 1) + [max(step_ms, MIN_LAST_FRAME_MS)]
     save_options: dict[str, Any] = {"format": ending, "save_all": True, "duration": durations, "loop": 0}
     if ending == "gif":
         save_options |= {"optimize": False, "disposal": 1}
@@ -72,7 +73,7 @@ def render_frames(
     grid: Grid, draws: ArrayLike, *, running_mean: bool = False, observed: ArrayLike | None = None,
     truth: ArrayLike | None = None, poses: ArrayLike | None = None, sweeps: Sequence[int] | None = None,
 ) -> Iterator[Image.Image]:  # fmt: skip
-    """Check the arguments of `write_animation`, and return an iterator of frames of mode "P"."""
+    """Return an iterator of the frames of `write_animation`, of mode "P". The arguments are checked at once."""
     chain = _as_chain(grid, draws)
     labels = list(range(1, len(chain) + 1)) if sweeps is None else [int(sweep) for sweep in sweeps]
     if len(labels) != len(chain):
@@ -98,7 +99,7 @@ class _Canvas:
     def __init__(
         self, grid: Grid, observed: NDArray[np.bool_], truth: ArrayLike | None, poses: ArrayLike | None
     ) -> None:
-        self.scale = math.ceil(TARGET_PX / max(grid.shape))
+        self.scale = math.ceil(MIN_SIDE_PX / max(grid.shape))
         width, height = (n * self.scale for n in grid.shape)
         self.font = ImageFont.load_default(size=15)
         self.size = (width + 2 * MARGIN_PX, height + 2 * MARGIN_PX + CAPTION_PX)
@@ -120,7 +121,7 @@ class _Canvas:
         self.visible = self.marks == 0
 
     def frame(self, probability: NDArray[Any], text: str) -> Image.Image:
-        """Return a frame: the map below the marks, and the caption."""
+        """Return a frame: the map of probabilities, (nx, ny), the marks over it, and the caption below."""
         levels = self._enlarge(np.rint(np.clip(probability, 0.0, 1.0) * (LEVELS - 1)).astype(np.uint8))
         pixels = np.full((self.size[1], self.size[0]), BACKGROUND, dtype=np.uint8)
         area = pixels[: self.marks.shape[0]]
@@ -163,6 +164,7 @@ class _Canvas:
 
 
 def _palette_bytes() -> bytes:
+    """Return the colours of all palette indices, three bytes each."""
     unobserved = [palette.UNOBSERVED, palette.UNOBSERVED_HATCH]
     marks = ["#FFFFFF", *unobserved, palette.TRUTH, palette.SENSOR, palette.FRAME]
     colors = np.concatenate([palette.probability_colors(LEVELS), [to_rgb(mark) for mark in marks]])

@@ -11,7 +11,7 @@ from bayesmap.errors import BadInput
 from bayesmap.space.scans import as_array
 from bayesmap.viz import palette
 
-MAX_POINTS = 4000  # most points of a trace; a longer trace shows minimum and maximum of each stretch, so spikes stay
+MAX_POINTS = 4000  # of a trace; a longer trace shows minimum and maximum of each stretch, so that spikes stay
 MAX_CHAINS_IN_LEGEND = 8
 TRACE_BINS = 40  # bins of the histogram of the log joint
 WEIGHT_BINS = 100  # bins of the histogram of weights
@@ -21,9 +21,7 @@ WHOLE_SHARE = 0.9995  # a larger share of the sum of weights rounds to 100 %, in
 
 def plot_log_joint(ax: Axes, log_joint: ArrayLike, *, first_sweep: int = 1) -> None:
     """Plot the trace of the log joint density, nats, (chain, draw) or (draw,), a line per chain.
-
-    ``first_sweep`` is the number of the sweep that gave the first draw. Raises `BadInput` if the shape is another, if
-    there is no draw, or if a number is not finite.
+    ``first_sweep`` is the number of the first draw's sweep. Raises `BadInput` for another shape, or infinite numbers.
     """
     _plot_lines(ax, _as_traces(log_joint), first_sweep, "log joint [nats]", linewidth=0.8, alpha=0.9)
 
@@ -65,6 +63,7 @@ def trace_figure(log_joint: ArrayLike, *, first_sweep: int = 1) -> Figure:
 
 
 def _as_traces(log_joint: ArrayLike) -> NDArray[np.float64]:
+    """Return the log joint as (chain, draw). Raises `BadInput` for another shape, no draw, or infinite numbers."""
     traces = np.atleast_2d(as_array(log_joint, "log_joint"))
     if traces.ndim != 2 or traces.size == 0:
         raise BadInput(f"trace: log_joint has shape {traces.shape}; give (chain, draw), with at least one draw")
@@ -79,15 +78,16 @@ def _as_traces(log_joint: ArrayLike) -> NDArray[np.float64]:
 
 def _thinned(trace: NDArray[np.float64], first_sweep: int) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
     """Return the sweep numbers and values of the points to plot, at most about `MAX_POINTS`."""
-    n = len(trace)
-    index = np.arange(n)
-    if n > MAX_POINTS:
-        stretches = np.array_split(index, MAX_POINTS // 2)
-        index = np.unique([0, n - 1, *(s[end(trace[s])] for s in stretches for end in (np.argmin, np.argmax))])
-    return index + first_sweep, trace[index]
+    indices = np.arange(len(trace))
+    if len(trace) > MAX_POINTS:
+        stretches = np.array_split(indices, MAX_POINTS // 2)
+        extremes = [s[argextreme(trace[s])] for s in stretches for argextreme in (np.argmin, np.argmax)]
+        indices = np.unique([0, len(trace) - 1, *extremes])
+    return indices + first_sweep, trace[indices]
 
 
 def _plot_lines(ax: Axes, traces: NDArray[np.float64], first_sweep: int, label: str, **style: float) -> None:
+    """Plot a line per chain over the sweeps."""
     for chain, trace in enumerate(traces):
         sweep, values = _thinned(trace, first_sweep)
         ax.plot(sweep, values, color=palette.chain_color(chain), label=f"chain {chain + 1}", **style)  # type: ignore[arg-type]
@@ -104,9 +104,9 @@ def plot_weights(
     """Plot a histogram of the normalised log weights, mark the largest, and write the effective sample size above.
 
     If one sample has nearly all the weight, the effective sample size is 1: importance sampling has collapsed, as in
-    the tutorial. Counts are on a logarithmic scale. Weights need not be normalised; -inf is a weight of zero. The
-    number of weights below ``range_nats`` is written in the panel. Returns the counts, (100,). Raises `BadInput` if
-    there is no weight, if all are zero, if one is NaN or +inf, or if the range is empty.
+    the tutorial. Counts are on a logarithmic scale. Weights need not be normalised; -inf is a weight of zero. Weights
+    below ``range_nats`` are counted in the panel. Returns the counts, (100,). Raises `BadInput` if there is no weight,
+    if all are zero, if one is NaN or +inf, or if the range is empty.
     """
     logs = normalize_log_weights(log_weights)
     low, high = range_nats

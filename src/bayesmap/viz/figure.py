@@ -1,7 +1,8 @@
 """Figures of maps: an overview of a posterior, a single map, and maps side by side.
 
-The layout is computed in whole pixels, without a layout engine. Every cell of a map is the same whole number of pixels
-wide and high, so walls one cell thick stay sharp and equally thick.
+`posterior_figure`, `panel_figure` and `comparison_figure` are the main functions. `lay_out` computes the layout in
+whole pixels, without a layout engine. Every cell of a map is the same whole number of pixels wide and high, so that
+walls one cell thick stay sharp and equally thick.
 """
 
 import io
@@ -32,19 +33,16 @@ from bayesmap.viz.overlays import plot_surfaces, plot_truth_outline
 
 FONT_PT = 9.0
 COARSE_CELLS = 100  # largest side of a map, in cells, in which an outline of the true walls does not hide cells
-LEAST_STROKE_PT = 2.5  # least size of a cell on the page for strokes of surfaces
+MIN_STROKE_PT = 2.5  # smallest size of a cell on the page for strokes of surfaces
 PANEL_IN = 3.4  # longest side of a panel in inches
 TALL_IN = 5.0  # height of a panel if the map is at least twice as high as wide
 WIDE_IN = 7.0  # width of stacked panels, for a map much wider than high
-LEAST_SLOT_IN = 1.9  # least width for a panel with its title and colour bar
+MIN_SLOT_IN = 1.9  # smallest width for a panel with its title and colour bar
 LETTER_IN = 0.075  # width of a digit of the tick labels
 LINE_IN = 0.2  # line height of the tick labels
-LEAST_DPI, MOST_DPI = 160.0, 320.0
+MIN_DPI, MAX_DPI = 160.0, 320.0
 LEFT_IN, RIGHT_IN, TOP_IN, GAP_IN = 0.46, 0.2, 0.32, 0.25  # room at the sides of a panel, and between panels
-TITLE_IN = 0.32  # height of the figure's title
-LABEL_IN = 0.42  # height of the labels below the x axis
-BAR_IN = 0.48  # height of the colour bar below these labels
-LEGEND_IN = 0.36  # height of the legend
+TITLE_IN, LABEL_IN, BAR_IN, LEGEND_IN = 0.32, 0.42, 0.48, 0.36  # heights of title, x labels, colour bar and legend
 LEGEND_KEY_IN = 0.95  # typical width of a key in the legend
 NO_BAR_IN = 0.9  # width that a figure saves without a colour bar
 BAR_TICKS = [0.0, 0.25, 0.5, 0.75, 1.0]
@@ -55,7 +53,7 @@ _rc_lock = threading.Lock()
 
 @dataclass(frozen=True)
 class Layout:
-    """A figure of panels of equal size."""
+    """The positions of a figure's panels, which have equal size."""
 
     dpi: float  # pixels per inch
     figure: tuple[int, int]  # width and height of the figure, pixels
@@ -63,7 +61,7 @@ class Layout:
     corners: list[tuple[int, int]]  # lower-left corner of each panel, pixels from the figure's, in reading order
     exact: bool  # whether a cell is a whole number of pixels; False for maps that are too large
     columns: int  # number of panels in a row
-    most_ticks: tuple[int, int]  # largest number of tick intervals on x and on y whose labels fit
+    max_ticks: tuple[int, int]  # largest number of tick intervals on x and on y whose labels fit
 
     def blank_figure(self) -> Figure:
         """Return the figure, without its panels."""
@@ -77,8 +75,8 @@ class Layout:
 
     def fractions(self, left: float, bottom: float, width: float, height: float) -> tuple[float, float, float, float]:
         """Convert a box in pixels to fractions of the figure, for `Figure.add_axes`."""
-        wide, high = self.figure
-        return left / wide, bottom / high, width / wide, height / high
+        figure_width, figure_height = self.figure
+        return left / figure_width, bottom / figure_height, width / figure_width, height / figure_height
 
 
 def lay_out(grid: Grid, panels: int, *, bars: int, titled: bool) -> Layout:
@@ -91,18 +89,18 @@ def lay_out(grid: Grid, panels: int, *, bars: int, titled: bool) -> Layout:
         columns = 1
     rows = panels // columns
     longest_in = WIDE_IN if columns == 1 else TALL_IN if tall else PANEL_IN
-    # Whole pixels per cell, with at least `LEAST_DPI`, unless that would exceed `MOST_DPI`.
+    # Whole pixels per cell, with at least `MIN_DPI`, unless that would exceed `MAX_DPI`.
     longest = max(nx, ny)
-    cell = float(math.ceil(LEAST_DPI * longest_in / longest))
-    dpi = cell * longest / longest_in
-    exact = dpi <= MOST_DPI
+    cell_px = float(math.ceil(MIN_DPI * longest_in / longest))
+    dpi = cell_px * longest / longest_in
+    exact = dpi <= MAX_DPI
     if not exact:
-        dpi, cell = MOST_DPI, MOST_DPI * longest_in / longest
-    panel = (max(1, round(nx * cell)), max(1, round(ny * cell)))
+        dpi, cell_px = MAX_DPI, MAX_DPI * longest_in / longest
+    panel = (max(1, round(nx * cell_px)), max(1, round(ny * cell_px)))
     # Ticks whose labels fit.
     x0, x1, y0, y1 = grid.extent_m
     x_letters, y_letters = _tick_letters(x0, x1), _tick_letters(y0, y1)
-    most_ticks = (
+    max_ticks = (
         max(1, min(6, int(panel[0] / dpi / ((x_letters + 2) * LETTER_IN)))),
         max(1, min(6, int(panel[1] / dpi / LINE_IN))),
     )
@@ -110,7 +108,7 @@ def lay_out(grid: Grid, panels: int, *, bars: int, titled: bool) -> Layout:
     left_in = LEFT_IN + y_letters * LETTER_IN
     gap_in = max(GAP_IN, (x_letters + 2) * LETTER_IN)  # labels at the ends of two axes must not meet
     right_in = max(RIGHT_IN, (x_letters / 2 + 1) * LETTER_IN)
-    left, right, gap, slot = (round(dpi * inches) for inches in (left_in, right_in, gap_in, LEAST_SLOT_IN))
+    left, right, gap, slot = (round(dpi * inches) for inches in (left_in, right_in, gap_in, MIN_SLOT_IN))
     top, title, label, bar, legend = (round(dpi * inches) for inches in (TOP_IN, TITLE_IN, LABEL_IN, BAR_IN, LEGEND_IN))
     pitch = max(panel[0], slot) + gap
     inset = (pitch - gap - panel[0]) // 2
@@ -122,7 +120,7 @@ def lay_out(grid: Grid, panels: int, *, bars: int, titled: bool) -> Layout:
         for column in range(columns)
     ]
     figure = (left + columns * pitch - gap + right, legend + sum(row_heights) + (title if titled else 0))
-    return Layout(dpi, figure, panel, corners, exact, columns, most_ticks)
+    return Layout(dpi, figure, panel, corners, exact, columns, max_ticks)
 
 
 def _tick_letters(low: float, high: float) -> int:
@@ -140,13 +138,12 @@ def posterior_figure(
 ) -> Figure:  # fmt: skip
     """Return an overview of the posterior: the mean, its uncertainty, the readings, and one draw.
 
-    ``occupancy`` is the posterior probability of wall, (nx, ny), and ``label`` its name. Cells that are not
-    ``observed``, (nx, ny), are hatched; None: all are observed. ``draw`` is one draw of the map, walls or numbers in
-    [0, 1], (nx, ny); None: no panel of a draw. ``scans`` have the rays, readings and poses; None: no panel of readings.
-    ``truth`` holds true walls, (nx, ny), which are outlined over the readings. If cells are large enough, or without
-    readings, they are outlined over mean and draw too. ``width`` is the width of each reflectivity's 90 % interval,
-    (nx, ny), as `CellPrior.width` returns it. It replaces the entropy of a wall. Surfaces are strokes over the mean if
-    cells are large enough on the page.
+    Arrays are (nx, ny). ``occupancy`` is the posterior probability of wall, and ``label`` its name. Cells that are not
+    ``observed`` are hatched; None: all are observed. ``draw`` is one draw of the map, walls or numbers in [0, 1], and
+    ``scans`` have the rays, readings and poses; None: no such panel. ``truth`` has true walls. They are outlined over
+    the readings, and over mean and draw too if cells are large, or without readings. ``width`` is the width of each
+    reflectivity's 90 % interval, as `CellPrior.width` returns it; it replaces the entropy of a wall. Surfaces are
+    strokes over the mean if cells are large enough on the page.
 
     Raises `BadInput` if a shape differs from the grid's, a probability is outside [0, 1], or the truth is not 0 or 1.
     """
@@ -178,13 +175,13 @@ def posterior_figure(
         image.set_interpolation("nearest" if layout.exact else "auto")
     keys = _plot_overlays(panels, grid, truth, scans)
     cell_pt = 72.0 * layout.panel[0] / layout.dpi / grid.shape[0]
-    if surfaces is not None and cell_pt >= LEAST_STROKE_PT:
+    if surfaces is not None and cell_pt >= MIN_STROKE_PT:
         width_pt, longest_m = float(np.clip(cell_pt / 5.0, 0.6, 1.6)), 1.5 * grid.resolution
         color = palette.SURFACE
         keys.append(plot_surfaces(panels["mean"], *surfaces, width_pt=width_pt, longest_m=longest_m, color=color))
     # Write titles, colour bars and legend.
     for position, (name, panel) in enumerate(panels.items()):
-        label_panel(panel, titles[name], layout.most_ticks, leftmost=position % layout.columns == 0)
+        label_panel(panel, titles[name], layout.max_ticks, leftmost=position % layout.columns == 0)
     color_bar(figure, layout, layout.corners[0], mean, label)
     color_bar(figure, layout, layout.corners[1], uncertainty, unit)
     patches: list[Artist] = []
@@ -201,7 +198,7 @@ def posterior_figure(
 
 def write_figure(figure: Figure, path: str | os.PathLike[str]) -> None:
     """Write a figure as PNG, PDF or SVG, by the path's ending, whole or not at all. Equal figures give equal bytes.
-    Raises `BadInput` if the ending is another, or the folder does not exist. Raises `OSError` if writing failed.
+    Raises `BadInput` for another ending or a missing folder, and `OSError` if writing failed.
     """
     target, ending = check_ending(path, ("png", "pdf", "svg"), "figure")
     # No date and no random identifiers, so that equal pictures are equal files.
@@ -217,26 +214,26 @@ def _plot_overlays(panels: dict[str, Axes], grid: Grid, truth: ArrayLike | None,
     """Plot the true walls, the rays and the sensor over suitable panels, and return one legend key of each."""
     keys: list[Artist] = []
     if truth is not None:
-        over = [name for name in panels if name not in ("entropy", "width")]
+        names = [name for name in panels if name not in ("entropy", "width")]
         if "data" in panels and max(grid.shape) > COARSE_CELLS:
-            over = ["data"]
-        outlines = [overlays.plot_truth_outline(panels[name], grid, truth) for name in over]
+            names = ["data"]
+        outlines = [overlays.plot_truth_outline(panels[name], grid, truth) for name in names]
         keys.append(outlines[0])
     if scans is not None:
         keys += overlays.plot_rays(panels["data"], scans)
-        over = [name for name in panels if name == "data" or len(scans) <= overlays.MAX_ARROWS]
-        marks = [overlays.plot_sensor(panels[name], scans.poses) for name in over]
+        names = [name for name in panels if name == "data" or len(scans) <= overlays.MAX_ARROWS]
+        marks = [overlays.plot_sensor(panels[name], scans.poses) for name in names]
         keys.append(marks[0][0])
     return keys
 
 
-def label_panel(panel: Axes, title: str, most_ticks: tuple[int, int], *, leftmost: bool) -> None:
+def label_panel(panel: Axes, title: str, max_ticks: tuple[int, int], *, leftmost: bool) -> None:
     """Set the panel's title and fonts. Only the leftmost panel labels the y axis."""
     panel.set_title(title, fontsize=FONT_PT + 1.0, pad=5.0, color=palette.TEXT)
     panel.xaxis.label.set(fontsize=FONT_PT, color=palette.TEXT)
     panel.yaxis.label.set(fontsize=FONT_PT, color=palette.TEXT)
-    panel.xaxis.set_major_locator(maps.tick_locator(most_ticks[0]))
-    panel.yaxis.set_major_locator(maps.tick_locator(most_ticks[1]))
+    panel.xaxis.set_major_locator(maps.tick_locator(max_ticks[0]))
+    panel.yaxis.set_major_locator(maps.tick_locator(max_ticks[1]))
     panel.tick_params(labelsize=FONT_PT - 0.5, labelleft=leftmost)
     if not leftmost:
         panel.set_ylabel("")
@@ -274,25 +271,25 @@ def place_legend(figure: Figure, handles: list[Artist]) -> None:
 
 
 def panel_figure(
-    grid: Grid, what: str, values: NDArray[Any], observed: ArrayLike | None = None, *, truth: ArrayLike | None = None,
-    label: str = "probability of wall",
+    grid: Grid, quantity: str, values: NDArray[Any], observed: ArrayLike | None = None, *,
+    truth: ArrayLike | None = None, label: str = "probability of wall",
 ) -> Figure:  # fmt: skip
     """Return a figure of a single map of values, (nx, ny), with its colour bar.
 
-    ``what`` is "mean", "entropy" or "deviation" (values: probabilities of a wall; "deviation" shows their standard
+    ``quantity`` is "mean", "entropy" or "deviation" (values: probabilities of a wall; "deviation" shows their standard
     deviations), "width" (values: widths of intervals), or "draw" (values: walls or numbers in [0, 1]). Cells that are
     not ``observed`` are hatched. ``truth``, (nx, ny), is outlined. ``label`` names values of "mean" and of draws.
 
     Raises `BadInput` if shapes or values do not fit.
     """
     figure, axes = maps.map_figure(grid, dpi=max(160.0, 1.1 * max(grid.shape) / maps.HEIGHT_IN))
-    walls = what == "draw" and np.isin(values, (0, 1)).all()
+    is_walls = quantity == "draw" and np.isin(values, (0, 1)).all()
     plot, bar_label = {
         "mean": (maps.plot_probability, label), "entropy": (maps.plot_entropy, "entropy [bits]"),
         "deviation": (maps.plot_deviation, "standard deviation"), "width": (maps.plot_width, WIDTH_LABEL),
-        "draw": (maps.plot_draw, "" if walls else label.removeprefix("mean ")),
-    }[what]  # fmt: skip
-    image = plot(axes, grid, np.sqrt(values * (1.0 - values)) if what == "deviation" else values, observed)
+        "draw": (maps.plot_draw, "" if is_walls else label.removeprefix("mean ")),
+    }[quantity]  # fmt: skip
+    image = plot(axes, grid, np.sqrt(values * (1.0 - values)) if quantity == "deviation" else values, observed)
     if bar_label:
         figure.colorbar(image, ax=axes, label=bar_label, shrink=0.8)
     else:
@@ -304,7 +301,7 @@ def panel_figure(
 
 @dataclass(frozen=True, eq=False)
 class Candidate:
-    """A map to compare."""
+    """A map of a comparison, with its title."""
 
     title: str  # title of its panel
     occupancy: ArrayLike  # probability of a wall, or that a beam stops, per cell, shape (nx, ny)
@@ -326,7 +323,7 @@ def comparison_figure(
         image = maps.plot_probability(panel, grid, candidate.occupancy, mask)
         image.set_interpolation("nearest" if layout.exact else "auto")
         text = candidate.title + (f": {candidate.note}" if candidate.note else "")
-        label_panel(panel, text, layout.most_ticks, leftmost=position % layout.columns == 0)
+        label_panel(panel, text, layout.max_ticks, leftmost=position % layout.columns == 0)
     # One colour bar, below the middle of the last row.
     last_row = layout.corners[-layout.columns :]
     color_bar(figure, layout, (sum(left for left, _ in last_row) // len(last_row), last_row[0][1]), image, label)

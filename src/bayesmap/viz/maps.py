@@ -24,7 +24,7 @@ from bayesmap.space.grid import ROUNDING, Grid, as_mask, as_numbers, as_observed
 from bayesmap.viz import palette
 
 Window = tuple[slice, slice]  # the slices that cut a part of a map from an array (nx, ny)
-ALONE = 3  # a wall with fewer walls in the 5 x 5 cells around it, itself included, may be the end of a stray beam
+MIN_WALLS_NEARBY = 3  # a wall with fewer walls in the 5 x 5 cells around it, itself included, may be a stray reading
 HEIGHT_IN = 5.6  # height of a map's panel with the labels below it
 BAR_IN = 1.3  # room for the labels at the left of a map, and for the colour bar at its right
 LABELS_IN = 0.55  # height of the labels below a map
@@ -41,13 +41,13 @@ def boundary_segments(grid: Grid, mask: NDArray[np.bool_]) -> NDArray[np.float64
 
 
 def boxes(grid: Grid, mask: NDArray[np.bool_]) -> NDArray[np.float64]:
-    """Cover the true cells by strips along y. Returns their counter-clockwise outlines, metres, (M, 5, 2)."""
+    """Return strips along y that cover the true cells, as counter-clockwise outlines in metres, (M, 5, 2)."""
     x, y0, y1 = _strips(mask)
     return _to_world(grid, np.array([[x, y0], [x + 1, y0], [x + 1, y1], [x, y1], [x, y0]]))
 
 
 def _strips(mask: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.intp], NDArray[np.intp]]:
-    """Return the row, the first column and the column after the last of every strip of true along axis 1."""
+    """Return the rows, the first columns and the ends of all runs of true cells along axis 1, (M,) each."""
     steps = np.diff(np.pad(mask, ((0, 0), (1, 1))).astype(np.int8), axis=1)
     row, start = np.nonzero(steps == 1)
     stop = np.nonzero(steps == -1)[1]
@@ -71,8 +71,8 @@ def window(grid: Grid, x_m: tuple[float, float], y_m: tuple[float, float]) -> tu
             raise BadInput(f"picture: the window's edges must be finite, and the lower first, got {low:g} to {high:g}")
         cells = grid.shape[axis]
         # Clip to the map first: infinity has no whole number.
-        least, most = grid.extent_m[2 * axis] - grid.resolution, grid.extent_m[2 * axis + 1] + grid.resolution
-        first, last = (np.clip([low, high], least, most) - grid.origin[axis]) / grid.resolution
+        outer_low, outer_high = grid.extent_m[2 * axis] - grid.resolution, grid.extent_m[2 * axis + 1] + grid.resolution
+        first, last = (np.clip([low, high], outer_low, outer_high) - grid.origin[axis]) / grid.resolution
         start, stop = max(math.floor(first + 1e-9), 0), min(math.ceil(last - 1e-9), cells)
         if start >= stop:
             edges = grid.extent_m[2 * axis : 2 * axis + 2]
@@ -87,7 +87,7 @@ def window(grid: Grid, x_m: tuple[float, float], y_m: tuple[float, float]) -> tu
 
 
 def window_around(grid: Grid, mask: ArrayLike, margin_m: float = 1.0) -> tuple[Grid, Window]:
-    """Return the `window` around the true cells of a mask, (nx, ny), and a margin; the whole grid if none."""
+    """Return the `window` around the true cells of a mask, (nx, ny), with a margin. The default is the whole grid."""
     cells = np.argwhere(as_mask(grid, mask, "mask"))
     first, end = (cells.min(axis=0), cells.max(axis=0) + 1) if len(cells) else (np.zeros(2), np.array(grid.shape))
     low = np.array(grid.origin) + first * grid.resolution - margin_m
@@ -96,11 +96,11 @@ def window_around(grid: Grid, mask: ArrayLike, margin_m: float = 1.0) -> tuple[G
 
 
 def window_of_walls(grid: Grid, walls: ArrayLike, points_m: ArrayLike, margin_m: float = 1.0) -> tuple[Grid, Window]:
-    """Return the window around points, (n, 2), and walls, a mask (nx, ny), without walls that stand alone."""
+    """Return the `window` around points, (n, 2), and walls, a mask (nx, ny). Walls that stand alone do not count."""
     from scipy.ndimage import convolve
 
     mask = as_mask(grid, walls, "walls")
-    mask = mask & (convolve(mask.astype(np.uint8), np.ones((5, 5), np.uint8), mode="constant") >= ALONE)
+    mask = mask & (convolve(mask.astype(np.uint8), np.ones((5, 5), np.uint8), mode="constant") >= MIN_WALLS_NEARBY)
     cells = np.floor(grid.to_cells(np.asarray(points_m, dtype=np.float64))).astype(np.intp)
     mask[tuple(np.clip(cells, 0, np.array(grid.shape) - 1).T)] = True
     return window_around(grid, mask, margin_m)
@@ -147,10 +147,10 @@ def _plot_uncertainty(
 
 
 def plot_sample(ax: Axes, grid: Grid, walls: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
-    """Plot a draw of walls, true or 1, as `plot_probability` does. Unobserved cells are faded: they are the prior's."""
-    seen = as_observed(grid, observed)
-    kind = np.where(seen, 0, 2) + as_mask(grid, walls, "walls")
-    return _plot_cells(ax, grid, kind.astype(np.float64), seen, palette.draw_colormap(), 3.0, hide=False)
+    """Plot a draw of walls, true or 1, as `plot_probability` does. Unobserved cells are faded: the prior drew them."""
+    observed_mask = as_observed(grid, observed)
+    kind = np.where(observed_mask, 0, 2) + as_mask(grid, walls, "walls")
+    return _plot_cells(ax, grid, kind.astype(np.float64), observed_mask, palette.draw_colormap(), 3.0, hide=False)
 
 
 def plot_draw(ax: Axes, grid: Grid, draw: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
@@ -165,7 +165,7 @@ def map_figure(
     grid: Grid, *, aspects: tuple[float, float] = (0.3, 3.0), bar_in: float = BAR_IN, foot_in: float = 0.0,
     dpi: float = 160.0,
 ) -> tuple[Figure, Axes]:  # fmt: skip
-    """Return a figure of a panel whose width to height stays in ``aspects``, with room for bar and legend."""
+    """Return a figure with one panel. ``aspects`` limit its width over its height; bar and foot add room, inches."""
     width_in = (HEIGHT_IN - LABELS_IN) * float(np.clip(grid.shape[0] / grid.shape[1], *aspects)) + bar_in
     figure = palette.blank_figure(width_in, HEIGHT_IN + foot_in, dpi)
     return figure, figure.subplots()
@@ -177,9 +177,9 @@ def round_number(value: float, *, up: bool) -> float:
     return float(steps[value <= steps * (1 + 1e-9)][0] if up else steps[steps <= value * (1 + 1e-9)][-1])
 
 
-def tick_locator(most: int) -> MaxNLocator:
-    """Return a locator of ticks in steps of 1, 2 or 5 times a power of ten, with at most ``most`` intervals."""
-    return MaxNLocator(nbins=most, steps=[1, 2, 5, 10])
+def tick_locator(max_intervals: int) -> MaxNLocator:
+    """Return a locator of ticks in steps of 1, 2 or 5 times a power of ten."""
+    return MaxNLocator(nbins=max_intervals, steps=[1, 2, 5, 10])
 
 
 def frame_axes(ax: Axes, grid: Grid) -> None:

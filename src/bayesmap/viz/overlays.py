@@ -26,10 +26,10 @@ from bayesmap.space.scans import ReadingKind, Scans, as_array, as_poses
 from bayesmap.viz import maps, palette
 from bayesmap.viz.maps import boundary_segments
 
-MAX_ARROWS = 12  # most poses with an arrow each; more poses become a trajectory with one arrow at its end
+MAX_ARROWS = 12  # poses with an arrow each; more poses become a trajectory with one arrow at its end
 DEVIATIONS = 2.0  # standard deviations from the mean to each end of a stroke
-FAINTEST = 0.02  # least weight of a plotted surface: fainter ones would be invisible, and most cells are free
-LEAST_WIDTH_PT, MOST_WIDTH_PT = 0.8, 2.5  # limits of a stroke's width
+MIN_WEIGHT = 0.02  # of a plotted surface: fainter surfaces would be invisible, and most cells are free
+MIN_WIDTH_PT, MAX_WIDTH_PT = 0.8, 2.5  # limits of a stroke's width
 FOOT_IN = 0.6  # height of the legend below the map, inches
 CIRCLE_CORNERS = 24  # corners in the outline of a disc
 
@@ -59,9 +59,9 @@ def plot_rays(
     if max_beams < 1 or max_readings < 1:
         raise BadInput(f"picture: show at least 1 beam and 1 reading, got {max_beams} and {max_readings}")
     kinds = scans.readings.ravel()
-    beams = _spread(np.flatnonzero((kinds == ReadingKind.HIT) | (kinds == ReadingKind.NO_RETURN)), max_beams)
+    beams = _select_spread(np.flatnonzero((kinds == ReadingKind.HIT) | (kinds == ReadingKind.NO_RETURN)), max_beams)
     hit, lost = beams[kinds[beams] == ReadingKind.HIT], beams[kinds[beams] == ReadingKind.NO_RETURN]
-    points = _spread(np.flatnonzero(kinds == ReadingKind.HIT), max_readings)
+    points = _select_spread(np.flatnonzero(kinds == ReadingKind.HIT), max_readings)
     # The more rays, the fainter each: they must not hide the map.
     alpha = float(np.clip(60.0 / max(len(beams), 1), 0.12, 0.55))
     artists: list[LineCollection | PathCollection] = []
@@ -106,15 +106,15 @@ def plot_sensor(ax: Axes, poses: ArrayLike) -> list[Line2D]:
     return marks
 
 
-def _spread(beams: NDArray[np.intp], most: int) -> NDArray[np.intp]:
-    """Select at most ``most`` of the beams, evenly spaced, with the first and the last."""
-    if len(beams) <= most:
+def _select_spread(beams: NDArray[np.intp], max_count: int) -> NDArray[np.intp]:
+    """Select at most ``max_count`` of the beams, evenly spaced, with the first and the last."""
+    if len(beams) <= max_count:
         return beams
-    return beams[np.linspace(0, len(beams) - 1, most).astype(np.intp)]
+    return beams[np.linspace(0, len(beams) - 1, max_count).astype(np.intp)]
 
 
 def _rays(scans: Scans, beams: NDArray[np.intp]) -> NDArray[np.float64]:
-    """Return start and end of beams, by flat index, metres, (n, 2, 2). Without a return, the range is the largest."""
+    """Return start and end of beams, given by flat index, metres, (n, 2, 2). No return ends at the largest range."""
     angles = scans.beam_angles_world().ravel()[beams]
     ranges = scans.ranges_m.ravel()[beams]
     ranges = np.where(np.isposinf(ranges), scans.max_range_m, ranges)
@@ -124,6 +124,7 @@ def _rays(scans: Scans, beams: NDArray[np.intp]) -> NDArray[np.float64]:
 
 
 def _arrow(yaw_rad: float) -> MarkerStyle:
+    """Return the marker of a sensor that looks along this yaw."""
     outline = np.array([(1.0, 0.0), (-0.75, 0.7), (-0.4, 0.0), (-0.75, -0.7), (1.0, 0.0)])
     return MarkerStyle(Path(outline, closed=True), transform=Affine2D().rotate(yaw_rad))
 
@@ -131,7 +132,7 @@ def _arrow(yaw_rad: float) -> MarkerStyle:
 def surface_strokes(
     means_world: ArrayLike, covariances_m2: ArrayLike, longest_m: float = np.inf
 ) -> NDArray[np.float64]:
-    """Return both ends of the strokes of n surfaces, by means (n, 2) and covariances (n, 2, 2), metres, (n, 2, 2).
+    """Return both ends of the strokes of n surfaces, metres, (n, 2, 2), given means (n, 2) and covariances (n, 2, 2).
 
     Strokes longer than ``longest_m`` are cut. Raises `BadInput` if shapes do not fit, a number is not finite, or a
     matrix is no covariance.
@@ -140,15 +141,15 @@ def surface_strokes(
     n = len(means)
     if means.shape != (n, 2) or covariances.shape != (n, 2, 2):
         raise BadInput(f"picture: {n} surfaces need means (n, 2) and covariances (n, 2, 2), got {covariances.shape}")
-    bad = ~(np.isfinite(means).all(axis=1) & np.isfinite(covariances).all(axis=(1, 2)))
-    if bad.any():
-        raise BadInput(f"picture: surface {int(np.argmax(bad))} is not finite; leave out cells without a surface")
+    infinite = ~(np.isfinite(means).all(axis=1) & np.isfinite(covariances).all(axis=(1, 2)))
+    if infinite.any():
+        raise BadInput(f"picture: surface {int(np.argmax(infinite))} is not finite; leave out cells without a surface")
     variances, axes = np.linalg.eigh(covariances)  # ascending
     scale = np.abs(covariances).max(axis=(1, 2))
     skew = np.abs(covariances[:, 0, 1] - covariances[:, 1, 0]) > 1e-6 * scale
-    negative = skew | (variances[:, 0] < -1e-6 * scale)
-    if negative.any():
-        raise BadInput(f"picture: matrix {int(np.argmax(negative))} is no covariance: it must be symmetric, and >= 0")
+    wrong = skew | (variances[:, 0] < -1e-6 * scale)
+    if wrong.any():
+        raise BadInput(f"picture: matrix {int(np.argmax(wrong))} is no covariance: it must be symmetric, and >= 0")
     half_m = np.minimum(DEVIATIONS * np.sqrt(np.maximum(variances[:, 1], 0.0)), longest_m / 2.0)
     half = half_m[:, None] * axes[:, :, 1]
     return np.stack([means - half, means + half], axis=1)
@@ -160,13 +161,13 @@ def plot_surfaces(
 ) -> LineCollection:  # fmt: skip
     """Plot one stroke per surface, from `surface_strokes`. Its opacity is the surface's weight in [0, 1], (n,).
 
-    Strokes fainter than `FAINTEST` are left out. By default they have the colour of walls. The label is "surface".
+    Surfaces below `MIN_WEIGHT` are left out. By default strokes have the colour of walls. The label is "surface".
     Raises `BadInput` if shapes do not fit, a weight is outside [0, 1], or `surface_strokes` raises it.
     """
     strokes, alpha = surface_strokes(means_world, covariances_m2, longest_m), as_array(weights, "weights")
     if alpha.shape != (len(strokes),) or not ((alpha >= 0.0) & (alpha <= 1.0)).all():
         raise BadInput(f"picture: weights must be {len(strokes)} numbers in [0, 1], one a surface")
-    visible = alpha >= FAINTEST
+    visible = alpha >= MIN_WEIGHT
     ink = to_rgba(tuple(palette.probability_colors(2)[1]) if color is None else color)
     # An empty collection needs one colour too, for its legend key.
     colors = np.tile(ink, (max(int(visible.sum()), 1), 1))
@@ -186,7 +187,7 @@ def surfaces_figure(
     maps.plot_sample(axes, grid, np.zeros(grid.shape, dtype=np.bool_), observed)
     # A stroke is a third of a cell thick, within limits.
     cell_pt = 72.0 * maps.HEIGHT_IN / max(grid.shape)
-    width_pt = float(np.clip(cell_pt / 3.0, LEAST_WIDTH_PT, MOST_WIDTH_PT))
+    width_pt = float(np.clip(cell_pt / 3.0, MIN_WIDTH_PT, MAX_WIDTH_PT))
     # Hits of a cell lie in the cell: a longer stroke only shows that the surface is uncertain.
     longest_m = 1.5 * grid.resolution
     plot_surfaces(axes, means_world, covariances_m2, weights, width_pt=width_pt, longest_m=longest_m)
@@ -203,7 +204,7 @@ def route_figure(
     grid: Grid, occupancy: ArrayLike, observed: ArrayLike | None, path: ArrayLike, radius_m: float, *, title: str = "",
     label: str = "probability of wall",
 ) -> Figure:  # fmt: skip
-    """Return a figure of a path, (P, 2), and of a disc's sweep, over the mean map. Other shapes raise `BadInput`."""
+    """Return a figure of a path, (P, 2), and the area that a disc sweeps along it, over the mean map."""
     figure, ax = maps.map_figure(grid, aspects=(0.5, 3.0), foot_in=FOOT_IN)
     image = maps.plot_probability(ax, grid, occupancy, observed)
     figure.colorbar(image, ax=ax, label=label, shrink=0.8)
@@ -213,7 +214,7 @@ def route_figure(
 
 
 def plot_route(ax: Axes, path: ArrayLike, radius_m: float) -> PathPatch:
-    """Return a figure of a path, (P, 2), and what a disc sweeps along it. Raises `BadInput` if a shape differs."""
+    """Plot a path, (P, 2), in metres, and the area that a disc sweeps along it. Raises `BadInput` for another shape."""
     corners = np.asarray(path, dtype=np.float64)
     if corners.ndim != 2 or corners.shape[1] != 2 or len(corners) == 0:
         raise BadInput(f"picture: the path has shape {corners.shape}; give (P, 2)")
@@ -254,7 +255,7 @@ def views_figure(
 
 
 def plot_candidates(ax: Axes, candidates: ArrayLike, nats: ArrayLike) -> PathCollection:
-    """Plot a dot at each candidate, the most informative ones on top."""
+    """Plot a dot at each candidate view, (P, 3), coloured by its information, (P,), the most informative on top."""
     poses, values = np.asarray(candidates, dtype=np.float64), np.asarray(nats, dtype=np.float64)
     if poses.ndim != 2 or poses.shape[1] != 3 or values.shape != poses.shape[:1]:
         raise BadInput(f"picture: candidates have shape {poses.shape} and nats {values.shape}; give (P, 3) and (P,)")
@@ -266,6 +267,7 @@ def plot_candidates(ax: Axes, candidates: ArrayLike, nats: ArrayLike) -> PathCol
 
 
 def _with_legend(figure: Figure) -> Figure:
+    """Add a legend below the panel, and return the figure."""
     figure.legend(loc="outside lower center", ncols=4, frameon=False, fontsize=8)
     return figure
 

@@ -1,4 +1,7 @@
-"""Pictures of scores: calibration of predictions, badly predicted beams, and errors of a trajectory."""
+"""Figures of scores: calibration of predictions, badly predicted beams, and errors of a trajectory.
+
+`calibration_figure`, `residuals_figure` and `errors_figure` are the main functions.
+"""
 
 import math
 from collections.abc import Sequence
@@ -22,17 +25,17 @@ if TYPE_CHECKING:
     from bayesmap.posterior.scores import Score
     from bayesmap.posterior.trajectory_scores import TrajectoryScore
 
-LEVELS = np.linspace(0.02, 0.98, 49)
-LEAST_EVENTS = 20  # least number of events for a share to be plotted
+LEVELS = np.linspace(0.02, 0.98, 49)  # probabilities of central intervals
+MIN_EVENTS = 20  # number of events for a share to be plotted
 FAINT = 0.3  # opacity of the map below the dots
-MAX_POINTS = 60_000  # most end points; more are thinned evenly, but the worst `MAX_POINTS` / 2 all stay
+MAX_POINTS = 60_000  # end points; more are thinned evenly, but the worst `MAX_POINTS` / 2 all stay
 Rows = Sequence[tuple[str, "Score"]]  # maps by name, with their scores
 
 
 def plot_pit(ax: Axes, rows: Rows) -> None:
     """Plot histograms of the probability integral transform, which are flat if the predictive laws are calibrated.
 
-    High ends mean that predictions are too narrow, a hump in the middle too wide, a slope biased: too far or too near.
+    High ends mean that predictions are too narrow, a hump in the middle that they are too wide. A slope is a bias.
     """
     for i, (name, score) in enumerate(rows):
         bins = len(score.pit_histogram)
@@ -57,7 +60,7 @@ def plot_coverage(ax: Axes, rows: Rows) -> None:
 def plot_reliability(ax: Axes, rows: Rows) -> None:
     """Plot the share of first hits by their predicted chance. A calibrated model follows the diagonal."""
     for i, (name, score) in enumerate(rows):
-        points = [(p, share) for p, share, count in score.reliability if count >= LEAST_EVENTS and share > 0]
+        points = [(p, share) for p, share, count in score.reliability if count >= MIN_EVENTS and share > 0]
         if points:
             color = palette.chain_color(i)
             ax.plot(*zip(*points, strict=True), color=color, marker="o", markersize=3, linewidth=1.0, label=name)
@@ -85,7 +88,7 @@ def calibration_figure(rows: Rows) -> Figure:
 
 
 def plot_distribution(ax: Axes, errors: NDArray[np.float64], label: str) -> None:
-    """Plot the cumulative distribution of errors, with its mean and median."""
+    """Plot the cumulative distribution of errors, (R,), with its mean and median."""
     ordered = np.sort(errors)
     share = np.arange(1, len(ordered) + 1) / len(ordered)
     ax.step(ordered, share, where="post", color=palette.CHAINS[0], linewidth=1.2)
@@ -130,7 +133,7 @@ class Scale:
     low: float
     high: float
     label: str
-    symmetric: bool = False  # whether zero in the middle is best; else the low end is best
+    symmetric: bool = False  # True if zero in the middle is best, False if the low end is best
 
 
 def residual_scale(residuals_m: ArrayLike, limit_m: float | None = None) -> Scale:
@@ -151,7 +154,7 @@ def surprise_scale(surprises: ArrayLike) -> Scale:
 
 
 def plot_residuals(ax: Axes, ends_world: ArrayLike, values: ArrayLike, scale: Scale) -> PathCollection:
-    """Plot end points, (n, 2), by value, (n,), the worst on top. Raises `BadInput` if a shape differs or one is NaN."""
+    """Plot end points, (n, 2), coloured by value, (n,), the worst on top. Raises `BadInput` for other shapes or NaN."""
     ends, numbers = as_array(ends_world, "ends_world"), as_array(values, "values")
     if ends.shape != (len(numbers), 2) or numbers.ndim != 1:
         raise BadInput(f"picture: end points have shape {ends.shape} and values {numbers.shape}; give (n, 2) and (n,)")
@@ -163,8 +166,8 @@ def plot_residuals(ax: Axes, ends_world: ArrayLike, values: ArrayLike, scale: Sc
     order = np.argsort(severity, kind="stable")
     if len(order) > MAX_POINTS:
         worst = order[-MAX_POINTS // 2 :]
-        rest = order[: len(order) - len(worst)]
-        order = np.concatenate([rest[:: math.ceil(len(rest) / (MAX_POINTS - len(worst)))], worst])
+        others = order[: len(order) - len(worst)]
+        order = np.concatenate([others[:: math.ceil(len(others) / (MAX_POINTS - len(worst)))], worst])
     # The area of a dot shrinks with the number of dots, and grows with severity.
     unit_pt2 = float(np.clip(12_000.0 / max(len(order), 1), 0.6, 14.0))
     return ax.scatter(

@@ -1,4 +1,4 @@
-"""Pictures of a trajectory: on its map with its uncertainty, beside raw odometry, and with its loop closures."""
+"""Figures of a trajectory: on its map with its uncertainty, beside raw odometry, and with its loop closures."""
 
 from collections.abc import Sequence
 
@@ -15,15 +15,15 @@ from bayesmap.viz import maps, palette
 Mask = NDArray[np.bool_]
 
 CHI2_95 = 5.991  # squared Mahalanobis radius of the ellipse with 95 % of a normal distribution in the plane
-LEAST_SIGMA_SHARE = 0.006  # least size of a typical standard deviation, as a share of the map's longer side
+MIN_SIGMA_SHARE = 0.006  # smallest visible standard deviation, as a share of the map's longer side
 SIZE_IN = 8.0
 ODOMETRY_COLOR, INFERRED_COLOR, FLAGGED_COLOR = "#c1440e", "#0b7a5b", "#d6278a"
 
 
-def plot_ellipses(ax: Axes, means: Floats, covariances: Floats, magnified: float = 1.0) -> EllipseCollection:
-    """Plot 95 % ellipses of positions, (n, 2), in metres, with covariances (n, 2, 2), magnified by a factor."""
+def plot_ellipses(ax: Axes, means: Floats, covariances: Floats, magnification: float = 1.0) -> EllipseCollection:
+    """Plot magnified 95 % ellipses of positions, (n, 2), in metres, with covariances (n, 2, 2)."""
     values, vectors = np.linalg.eigh(covariances)
-    axes_m = 2.0 * np.sqrt(CHI2_95 * np.maximum(values, 0.0)) * magnified
+    axes_m = 2.0 * np.sqrt(CHI2_95 * np.maximum(values, 0.0)) * magnification
     angle = np.degrees(np.arctan2(vectors[:, 1, 1], vectors[:, 0, 1]))
     ellipses = EllipseCollection(
         axes_m[:, 1], axes_m[:, 0], angle, units="xy", offsets=means, offset_transform=ax.transData, facecolors="none",
@@ -37,8 +37,8 @@ def trajectory_figure(
     grid: Grid, occupancy: ArrayLike, observed: ArrayLike, poses: Floats, covariances: Floats,
     flagged: NDArray[np.bool_] | None = None,
 ) -> Figure:  # fmt: skip
-    """Return a figure of a map, a trajectory, (S, 3), and 95 % ellipses of its covariances, (S, 3, 3). Flagged scans, a
-    mask (S,), are marked. Parts of the map that hold only the ends of stray beams are cut off.
+    """Return a figure of a map, a trajectory, (S, 3), and 95 % ellipses of its covariances, (S, 3, 3).
+    Flagged scans, a mask (S,), are marked. Parts of the map with only stray readings are cut off.
     """
     grid, occupancy, observed = crop_to_walls(grid, occupancy, observed, poses)
     figure, ax = _axes(grid.shape)
@@ -49,7 +49,7 @@ def trajectory_figure(
 
 
 def crop_to_walls(grid: Grid, occupancy: ArrayLike, observed: ArrayLike, poses: Floats) -> tuple[Grid, Floats, Mask]:
-    """Return grid, occupancy and mask of observed cells in the window around walls and poses."""
+    """Return the grid, the occupancy and the mask of observed cells in the window around walls and poses."""
     values, mask = np.asarray(occupancy, dtype=np.float64), np.asarray(observed, dtype=np.bool_)
     inner, window = maps.window_of_walls(grid, mask & (values > 0.5), poses[:, :2])
     return inner, values[window], mask[window]
@@ -62,11 +62,12 @@ def plot_trajectory(
     maps.plot_probability(ax, grid, occupancy, observed)
     ax.plot(poses[:, 0], poses[:, 1], color=INFERRED_COLOR, linewidth=0.8, label="trajectory", zorder=3)
     sigma_m = np.sqrt(np.maximum(np.linalg.eigvalsh(covariances[:, :2, :2])[:, 1], 0.0))
-    visible_m = LEAST_SIGMA_SHARE * max(grid.shape) * grid.resolution
-    magnified = maps.round_number(max(1.0, visible_m / max(float(np.median(sigma_m)), 1e-6)), up=False)
-    indices = _select_disjoint(poses[:, :2], np.sqrt(CHI2_95) * sigma_m * magnified)
-    plot_ellipses(ax, poses[indices, :2], covariances[indices, :2, :2], magnified)
-    name = "95 % region" + (f", drawn {magnified:g} times as large" if magnified > 1 else "")
+    # Magnify ellipses that would be too small, and leave out those that would overlap.
+    visible_m = MIN_SIGMA_SHARE * max(grid.shape) * grid.resolution
+    magnification = maps.round_number(max(1.0, visible_m / max(float(np.median(sigma_m)), 1e-6)), up=False)
+    indices = _select_disjoint(poses[:, :2], np.sqrt(CHI2_95) * sigma_m * magnification)
+    plot_ellipses(ax, poses[indices, :2], covariances[indices, :2, :2], magnification)
+    name = "95 % region" + (f", drawn {magnification:g} times as large" if magnification > 1 else "")
     ax.plot([], [], "o", markerfacecolor="none", markeredgecolor=INFERRED_COLOR, label=name)
 
 
@@ -80,7 +81,7 @@ def _select_disjoint(centres: Floats, radii: Floats) -> list[int]:
 
 
 def odometry_figure(raw: Floats, inferred: Floats) -> Figure:
-    """Return a figure of the trajectory of odometry and the inferred one, (S, 3) each, from the same first pose."""
+    """Return a figure of the odometry's and the inferred trajectory, (S, 3) each, from one first pose."""
     figure, ax = _axes(np.ptp(np.concatenate([raw, inferred]), axis=0))
     ax.plot(raw[:, 0], raw[:, 1], color=ODOMETRY_COLOR, linewidth=0.9, label="raw odometry")
     ax.plot(inferred[:, 0], inferred[:, 1], color=INFERRED_COLOR, linewidth=0.9, label="inferred")
@@ -98,12 +99,14 @@ def loops_figure(
     ``residuals`` are x, y and yaw, (M, 3), and ``weights`` run from 0 (rejected) to 1, (M,). ``alternatives`` are poses
     of other possible trajectories, (S, 3), and their probabilities.
     """
+    # The trajectory and its alternatives.
     first, second = np.asarray(first), np.asarray(second)
     figure, ax = _axes(np.ptp(poses, axis=0), bar_in=1.0, title_in=0.4)
     ax.plot(poses[:, 0], poses[:, 1], color="#9a9a9a", linewidth=0.8, label="trajectory")
-    for other, probability in alternatives:
+    for alternative, probability in alternatives:
         label = f"alternative, probability {probability:.2f}"
-        ax.plot(other[:, 0], other[:, 1], color=FLAGGED_COLOR, linewidth=0.8, linestyle="--", label=label)
+        ax.plot(*alternative[:, :2].T, color=FLAGGED_COLOR, linewidth=0.8, linestyle="--", label=label)
+    # The loop closures, as lines between both poses.
     ends = np.stack([poses[first, :2], poses[second, :2]], axis=1)
     accepted = weights > 0.5
     if not accepted.all():
@@ -138,6 +141,7 @@ def _axes(size: Sequence[float] | Floats, bar_in: float = 0.0, title_in: float =
 
 
 def _finish(figure: Figure, ax: Axes) -> Figure:
+    """Label the axes, add a legend, and return the figure."""
     ax.set(xlabel="x [m]", ylabel="y [m]")
     figure.legend(loc="outside lower center", ncols=4, frameon=False, fontsize=8)
     return figure

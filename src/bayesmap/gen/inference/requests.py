@@ -27,7 +27,7 @@ class Rejuvenate(EditRequest):
     argument_mapping: Callable[[ChoiceMap], Any] = static()
 
     def edit(self, key: PRNGKey, trace: Trace, argdiffs: Any) -> Edited:
-        """Return the trace with the proposed values. The weight includes the proposal's backward and forward density."""
+        """Return the trace with the proposed values. The weight includes both densities of the proposal."""
         propose_key, edit_key = jax.random.split(key)
         old = trace.get_choices()
         proposed, forward, _ = self.proposal.propose(propose_key, self.argument_mapping(old))
