@@ -77,10 +77,8 @@ def check_index(index: Any, n: int) -> Any:
 
 def dense(chm: ChoiceMap, shape: tuple[int, ...]) -> tuple[Any, Any] | None:
     """Return the values of a choice map, perhaps at indices into `shape`, as one array, and which elements have one.
-
-    Returns (array of shape `shape + ...`, flags of shape `shape`); the flags are None if all elements have a value.
-    Returns None for an empty map. Raises ShapeMismatch for an array of the wrong length, and UnknownAddress for a name
-    or an index out of range.
+    Returns (array of shape `shape + ...`, flags of shape `shape`, or None if all elements have a value); None for an
+    empty map. Raises ShapeMismatch for a wrong length, and UnknownAddress for a name or an index out of range.
     """
     if chm.static_is_empty():
         return None

@@ -121,9 +121,7 @@ def _elements(tree: Any, index: Any) -> Any:
 
 
 class ChoiceMap(Outlined, Pytree):
-    """Base of choice maps. `ChoiceMapBuilder`, conventionally called `C`, makes maps.
-    Five kinds of nodes derive from this class: `Choice`, `Static`, `Indexed`, `Or` and `Switch`.
-    """
+    """Base of choice maps, made by `ChoiceMapBuilder`, conventionally called `C`. Its subclasses are kinds of nodes."""
 
     def get_value(self) -> Any:
         """Return the value at the empty address, or None. It is a Mask if its presence is decided at run time."""

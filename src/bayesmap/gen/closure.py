@@ -72,7 +72,7 @@ def running(handler: Handler) -> Iterator[None]:
 
 
 class Outer(GenerativeFunction):
-    """Base of functions whose choices are those of one other function, `inner`. Their traces are `OuterTrace`."""
+    """Base of functions that have the choices of one other function, `inner`. The contract's methods pass on to it."""
 
     inner: GenerativeFunction
 
@@ -85,20 +85,16 @@ class Outer(GenerativeFunction):
         raise NotImplementedError
 
     def simulate(self, key: PRNGKey, args: Arguments) -> OuterTrace:
-        """Simulate the inner function."""
         return self.wrap(args, self.inner.simulate(key, self.inner_args(args)))
 
     def generate(self, key: PRNGKey, constraint: ChoiceMap, args: Arguments) -> tuple[OuterTrace, Weight]:
-        """Generate a trace of the inner function."""
         inner, weight = self.inner.generate(key, constraint, self.inner_args(args))
         return self.wrap(args, inner), weight
 
     def assess(self, choices: ChoiceMap, args: Arguments) -> tuple[Score, Any]:
-        """Assess the choices by the inner function. Returns the inner function's return value."""
         return self.inner.assess(choices, self.inner_args(args))
 
     def project(self, key: PRNGKey, trace: Any, selection: Selection) -> Weight:
-        """Return the projection of the inner trace."""
         return self.inner.project(key, trace.inner, selection)
 
 
@@ -123,11 +119,9 @@ class GenerativeFunctionClosure(Outer):
         return self.gen_fn.handle_kwargs() if self.kwargs else self.gen_fn
 
     def inner_args(self, args: Arguments) -> Arguments:
-        """Return the closure's arguments, followed by `args`."""
         return _with_kwargs((*self.args, *args), self.kwargs)
 
     def wrap(self, args: Arguments, inner: Any) -> Any:
-        """Return the inner trace itself."""
         return inner
 
     def __matmul__(self, address: Any) -> Any:
@@ -156,7 +150,6 @@ class GenerativeFunctionClosure(Outer):
         return request.edit(key, trace, _with_kwargs((*fixed_args, *argdiffs), fixed_kwargs))
 
     def project(self, key: PRNGKey, trace: Any, selection: Selection) -> Weight:
-        """Return the projection of the trace, which is an inner trace."""
         return trace.project(key, selection)  # type: ignore[no-any-return]
 
 
@@ -184,11 +177,9 @@ class Applied(Outer):
     fixed_kwargs: dict[str, Any]
 
     def inner_args(self, args: Arguments) -> Arguments:
-        """Return the fixed arguments, followed by `args`."""
         return _with_kwargs((*self.fixed_args, *args), self.fixed_kwargs)
 
     def wrap(self, args: Arguments, inner: Trace) -> TransformedTrace:
-        """Return the trace of a call with the inner return value."""
         return TransformedTrace(self, args, inner.with_args(None), inner.get_retval())
 
     def edit(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
@@ -231,12 +222,10 @@ class Dimap(Outer):
         return inner_args
 
     def wrap(self, args: Arguments, inner: Trace) -> TransformedTrace:
-        """Return the trace of a run with the return value after `post`."""
         retval = self.post(args, inner.get_args(), inner.get_retval())
         return TransformedTrace(self, args, inner.with_args(None), retval)
 
     def assess(self, choices: ChoiceMap, args: Arguments) -> tuple[Score, Any]:
-        """Assess the choices by the inner function. Returns the return value after `post`."""
         score, retval = super().assess(choices, args)
         return score, self.post(args, self.inner_args(args), retval)
 

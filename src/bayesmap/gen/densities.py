@@ -65,11 +65,9 @@ class Named(KeywordDensity):
         return family.draw(key, (*shape, *family.batch(*params)), *params)
 
     def logpdf(self, value: Any, *args: Any, **kwargs: Any) -> Any:
-        """Return the log density at `value`, elementwise over independent draws."""
         return _FAMILIES[self.name].logpdf(value, *self._parameters(args, kwargs)[1])
 
     def in_support(self, value: Any) -> Any:
-        """Return elementwise whether any parameters can give this value."""
         return _FAMILIES[self.name].support(value)
 
 
@@ -90,9 +88,6 @@ def _parameters_named(names: str) -> Callable[..., Params]:
 
     read.__signature__ = signature  # type: ignore[attr-defined]
     return read
-
-
-# Parameters -------------------------------------------------------------------------------------------
 
 
 def _event(logits: Any = None, probs: Any = None) -> Params:
@@ -135,9 +130,6 @@ def _explicit(name: str, implicit: Any, logits: Any, probs: Any) -> Any:
 def _event_batch(parameter: Any, *others: Any) -> tuple[int, ...]:
     """Return the batch shape of a parameter whose last axis belongs to one draw."""
     return jnp.shape(parameter)[:-1]
-
-
-# Draws and densities ----------------------------------------------------------------------------------
 
 
 def _scaled(standard: Callable[..., Any]) -> Callable[..., Any]:
@@ -277,8 +269,6 @@ mv_normal_diag = _named(
     batch=lambda m, s: jnp.broadcast_shapes(jnp.shape(m), jnp.shape(s))[:-1],
 )  # fmt: skip
 
-# Families of TensorFlow Probability -------------------------------------------------------------------
-
 
 @dataclass
 class TfpDistribution(KeywordDensity):
@@ -294,13 +284,11 @@ class TfpDistribution(KeywordDensity):
         return self.make(*args, **kwargs), shape
 
     def sample(self, key: PRNGKey, *args: Any, **kwargs: Any) -> Any:
-        """Return draws, with the leading axes `sample_shape`."""
         with warnings.catch_warnings(action="ignore"):  # the library warns of its own use of JAX
             distribution, shape = self._make(args, kwargs)
             return distribution.sample(seed=key, sample_shape=shape)
 
     def logpdf(self, value: Any, *args: Any, **kwargs: Any) -> Any:
-        """Return the log density at `value`, elementwise over independent draws."""
         with warnings.catch_warnings(action="ignore"):
             return self._make(args, kwargs)[0].log_prob(value)
 
@@ -331,31 +319,14 @@ def _tfp(class_name: str) -> TfpDistribution:
     return TfpDistribution(_ByName(class_name), class_name)
 
 
-beta_binomial = _tfp("BetaBinomial")
-beta_quotient = _tfp("BetaQuotient")
-chi = _tfp("Chi")
-dirichlet_multinomial = _tfp("DirichletMultinomial")
-double_sided_maxwell = _tfp("DoublesidedMaxwell")
-exp_gamma = _tfp("ExpGamma")
-exp_inverse_gamma = _tfp("ExpInverseGamma")
-half_student_t = _tfp("HalfStudentT")
-inverse_gaussian = _tfp("InverseGaussian")
-kumaraswamy = _tfp("Kumaraswamy")
-lambert_w_normal = _tfp("LambertWNormal")
-logit_normal = _tfp("LogitNormal")
-moyal = _tfp("Moyal")
-multinomial = _tfp("Multinomial")
-negative_binomial = _tfp("NegativeBinomial")
-non_central_chi2 = _tfp("NoncentralChi2")
-power_spherical = _tfp("PowerSpherical")
-skellam = _tfp("Skellam")
-truncated_cauchy = _tfp("TruncatedCauchy")
-von_mises = _tfp("VonMises")
-von_mises_fisher = _tfp("VonMisesFisher")
-zipf = _tfp("Zipf")
-
-
-# The posterior of a discrete hidden Markov model --------------------------------------------------------
+beta_binomial, beta_quotient, chi = _tfp("BetaBinomial"), _tfp("BetaQuotient"), _tfp("Chi")
+dirichlet_multinomial, double_sided_maxwell = _tfp("DirichletMultinomial"), _tfp("DoublesidedMaxwell")
+exp_gamma, exp_inverse_gamma, half_student_t = _tfp("ExpGamma"), _tfp("ExpInverseGamma"), _tfp("HalfStudentT")
+inverse_gaussian, kumaraswamy, moyal = _tfp("InverseGaussian"), _tfp("Kumaraswamy"), _tfp("Moyal")
+lambert_w_normal, logit_normal, multinomial = _tfp("LambertWNormal"), _tfp("LogitNormal"), _tfp("Multinomial")
+negative_binomial, non_central_chi2 = _tfp("NegativeBinomial"), _tfp("NoncentralChi2")
+power_spherical, skellam, truncated_cauchy = _tfp("PowerSpherical"), _tfp("Skellam"), _tfp("TruncatedCauchy")
+von_mises, von_mises_fisher, zipf = _tfp("VonMises"), _tfp("VonMisesFisher"), _tfp("Zipf")
 
 
 @dataclass
@@ -398,7 +369,6 @@ class DiscreteHMMPosterior(Distribution):
     """`DiscreteHMM(config, observations)`: the hidden states given the observations, both (T,) integers."""
 
     def random_weighted(self, key: PRNGKey, *args: Any) -> tuple[Score, Array]:
-        """Draw the states. Returns (log density, states)."""
         states = sample_states(key, *args)
         return self.estimate_logpdf(key, states, *args), states
 

@@ -131,7 +131,7 @@ _ELEMENTWISE = frozenset(
 
 @dataclasses.dataclass(frozen=True)
 class Origin:
-    """The inputs that a value is computed from, and the inputs that it is an elementwise image of."""
+    """The inputs of a function that a value depends on, and those of which it is an elementwise image, by number."""
 
     inputs: frozenset[int] = frozenset()
     images: frozenset[int] = frozenset()
@@ -148,9 +148,7 @@ class Origin:
 
 
 def dataflow(fn: Callable[..., Any], *inputs: Any) -> list[Origin] | None:
-    """Return the origin of each output leaf of `fn`, read off its jaxpr. Returns None if `fn` needs the inputs' values.
-    The inputs of an `Origin` are numbers of leaves of `inputs`.
-    """
+    """Return the origin of each output leaf of `fn`, read off its jaxpr; None if `fn` needs the inputs' values."""
     try:
         jaxpr = jax.make_jaxpr(fn)(*inputs).jaxpr
     except TypeError:  # raised by JAX when Python needs the value of a tracer

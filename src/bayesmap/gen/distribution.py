@@ -48,7 +48,6 @@ class GivenValue(NamedTuple):
 
 class Distribution(GenerativeFunction):
     """Base of distributions whose density may be an estimate: implement `random_weighted` and `estimate_logpdf`.
-
     They are a pair as in Lew et al., Probabilistic programming with stochastic probabilities (2023). exp(-score) of
     `random_weighted` is an unbiased estimate of 1 / density at the draw, and exp(`estimate_logpdf`) of the density.
     """
@@ -125,7 +124,6 @@ class Distribution(GenerativeFunction):
         raise NotSupportedEditRequest(self, request)
 
     def project(self, key: PRNGKey, trace: Any, selection: Selection) -> Weight:
-        """Return the score if the choice is selected, else 0."""
         return trace.score if selection.check() else jnp.zeros_like(trace.score)
 
     def _rescore(self, key: PRNGKey, trace: Any, argdiffs: Any) -> Edited:
@@ -199,7 +197,6 @@ class ExactDensity(Distribution):
 
     def read(self, choices: ChoiceMap, args: Arguments) -> GivenValue:
         """Return the value that the choices give, perhaps at indices, as one array.
-
         The value keeps its dtype, but integers become real where draws are real: later edits keep the trace's dtypes
         and could not move integers. Raises ShapeMismatch, and OutsideSupport if a known value is never drawn.
         """
@@ -245,7 +242,6 @@ class KeywordDensity(ExactDensity):
     by_name: bool = static(default=False, kw_only=True)
 
     def handle_kwargs(self) -> GenerativeFunction:
-        """Return this distribution with arguments in the form `by_name`."""
         return self.replace(by_name=True)
 
     def split(self, args: tuple[Any, ...], kwargs: dict[str, Any]) -> tuple[tuple[Any, ...], dict[str, Any]]:
@@ -262,12 +258,10 @@ class CustomDensity(KeywordDensity):
     name: str = static()
 
     def sample(self, key: PRNGKey, *args: Any, **kwargs: Any) -> Any:
-        """Return a draw of the sampler."""
         args, kwargs = self.split(args, kwargs)
         return self.sampler(key, *args, **kwargs)
 
     def logpdf(self, value: Any, *args: Any, **kwargs: Any) -> Any:
-        """Return the log density at `value`."""
         args, kwargs = self.split(args, kwargs)
         return self.log_density(value, *args, **kwargs)
 

@@ -1,7 +1,6 @@
 """Requests to edit a trace: the primitive ones, which every generative function answers itself, and `DiffAnnotate`.
 
-`Update`, `Regenerate` and `EmptyRequest` are for all traces, `StaticRequest` for `@gen`, `IndexRequest` and
-`VectorRequest` for vectorised models.
+`StaticRequest` is for `@gen`, `IndexRequest` and `VectorRequest` for vectorised models, the others for all traces.
 """
 
 from collections.abc import Callable
@@ -82,7 +81,6 @@ class EmptyRequest(EditRequest):
 @dataclass
 class Regenerate(EditRequest):
     """A request to draw the selected choices anew from the model, and to keep the others.
-
     The weight is the log Metropolis-Hastings ratio of this proposal: the change of the kept choices' log density. The
     selected choices' own densities cancel against the densities of their proposal.
     """

@@ -12,10 +12,14 @@ def format_address(address: tuple[Any, ...]) -> str:
 
 class AddressError(BadInput):
     """An error at `address`. An enclosing model adds its own part of the address with `under`.
-    `headline` begins the message. `args` holds the address alone, as a user writes it.
+    A subclass may give the `headline` that begins the message. `args` holds the address alone, as a user writes it.
     """
 
     headline = "Bad use of address"
+
+    def __init_subclass__(cls, *, headline: str | None = None) -> None:
+        if headline is not None:
+            cls.headline = headline
 
     def __init__(self, address: Any, detail: str = "") -> None:
         self.address: tuple[Any, ...] = address if isinstance(address, tuple) else (address,)
@@ -38,40 +42,28 @@ class NotAnAddress(AddressError, TypeError):
     """A site's address is not made of strings."""
 
 
-class AddressReuse(AddressError):
-    """Two sites of one model have the same address, or one lies under the other."""
-
-    headline = "A second site at address"
+class AddressReuse(AddressError, headline="A second site at address"):
+    """Two sites of one model have one address, or one lies under the other."""
 
 
-class MissingAddress(AddressError):
+class MissingAddress(AddressError, headline="No value for the choice at address"):
     """A density needs a value at a site, and none was given."""
 
-    headline = "No value for the choice at address"
 
-
-class UnknownAddress(AddressError):
+class UnknownAddress(AddressError, headline="The model has no choice at address"):
     """A constraint or request names an address that the model does not have."""
 
-    headline = "The model has no choice at address"
 
-
-class ShapeMismatch(AddressError):
+class ShapeMismatch(AddressError, headline="Wrong shape at address"):
     """A value's shape differs from the shape of the site's draws."""
 
-    headline = "Wrong shape at address"
 
-
-class OutsideSupport(AddressError):
+class OutsideSupport(AddressError, headline="Value outside the support at address"):
     """A discrete site never draws this value, whatever its parameters."""
 
-    headline = "Value outside the support at address"
 
-
-class ChoiceMapNoValueAtAddress(AddressError, KeyError):
+class ChoiceMapNoValueAtAddress(AddressError, KeyError, headline="The choice map holds no value at address"):
     """A choice map holds no value at an address that was read."""
-
-    headline = "The choice map holds no value at address"
 
 
 class MissingExtra(BadInput, ImportError):

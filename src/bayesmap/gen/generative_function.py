@@ -34,7 +34,6 @@ from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
 @dataclass
 class Trace(Outlined, Pytree):
     """A record of one run: arguments, choices, return value, score.
-
     A batch of traces, from `jax.vmap`, is a trace whose leaves have a leading axis. A subclass has either the fields
     `retval` and `score` or the methods `get_retval` and `get_score`.
     """
@@ -84,7 +83,6 @@ class Trace(Outlined, Pytree):
 
     def with_args(self, args: Arguments | None) -> "Trace":
         """Return this trace with other arguments.
-
         A combinator stores the traces of its parts `with_args(None)`, so that a batch of traces holds an argument that
         all parts share only once. Override this method in a trace whose own edits need the old arguments.
         """

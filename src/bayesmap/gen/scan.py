@@ -1,7 +1,6 @@
 """Generative functions iterated: the state of each step is an argument of the next step.
 
-`Scan` has the contract's methods, which all run `Scan._loop`. `iterate`, `accumulate` and the others at the end are
-scans with transformed arguments and return values.
+The contract's methods of `Scan` run `Scan._loop`. The functions at the end transform its arguments and return values.
 """
 
 from collections.abc import Callable
@@ -68,7 +67,6 @@ class Scan(Vectorised):
         return trace, total(weights), extra
 
     def simulate(self, key: PRNGKey, args: Arguments) -> ScanTrace:
-        """Simulate every step."""
         trace, _, _ = self._loop(key, args, lambda k, a, _: (self.inner.simulate(k, a), 0.0, None), None)
         return trace  # type: ignore[no-any-return]
 
@@ -156,12 +154,10 @@ def scan(*, n: int | None = None) -> Callable[[GenerativeFunction], Scan]:
 # The functions that `map` and `dimap` use below belong to the module, and are no closures: equal functions make equal
 # traces, so that traces can be compared.
 def _as_output(state: Any) -> tuple[Any, Any]:
-    """Return a step's state as its output too."""
     return state, state
 
 
 def _last_state(args: Any, inner_args: Any, retval: Any) -> Any:
-    """Return the last state of a scan."""
     return retval[0]
 
 
@@ -172,12 +168,10 @@ def _all_states(args: Any, inner_args: Any, retval: Any) -> Any:
 
 
 def _without_inputs(state: Any) -> tuple[Any, None]:
-    """Return the arguments of a scan without inputs."""
     return state, None
 
 
 def _drop_input(state: Any, x: Any) -> tuple[Any]:
-    """Return the arguments of a step that takes no input."""
     return (state,)
 
 
@@ -225,12 +219,10 @@ def _flagged(gen_fn: GenerativeFunction) -> Any:
 
 
 def _flag_first(state: Any, flag: Any) -> tuple[Any, Any]:
-    """Return the arguments in the order of `mask`."""
     return flag, state
 
 
 def _unmasked(args: Any, inner_args: Any, retval: Any) -> Any:
-    """Return the value of a Mask, whatever its flag is."""
     return retval.value
 
 

@@ -1,7 +1,6 @@
 """Sets of addresses, as in `Selection.at["x"] | Selection.at["y", "z"]`.
 
-Five kinds of nodes store a selection. `check` and `get_subselection` are matches over these kinds; all other methods
-follow from them.
+Five kinds of nodes store a selection. `check` and `get_subselection` match over them; all else follows from these two.
 """
 
 from typing import Any

@@ -51,7 +51,6 @@ class Replay(Handler):
 @dataclass
 class StaticTrace(Trace):
     """The calls of one run by address.
-
     If a call returned a leaf of the return value, only the call's trace stores the leaf, and its entry in `sources` is
     (address, number of the call's leaf). Otherwise the entry is None, and `computed` stores the leaf.
     """
@@ -153,7 +152,6 @@ class _Assess(Handler):
 
 class _Edit(_Run):
     """A run that edits each site's trace, given which of the site's arguments changed.
-
     `request_at(path)` returns the request for a site. `flow` stores the origins of the body's outputs, as returned by
     `_body_dataflow`. `input_changes` are the changes of the leaves of the body's function and arguments.
     `return_changes` are the changes of the leaves of each site's return value. `n_outputs` counts the leaves so far.
@@ -363,7 +361,6 @@ def _unpickle(module: str, name: str, partial_args: Any, by_name: bool) -> Stati
 
 def gen(source: Callable[..., Any]) -> StaticGenerativeFunction:
     """Return a Python function as a generative function.
-
     In its body `g(*args) @ "address"` calls a generative function and records its choices under the address. No other
     call may have this address (AddressReuse). `@ ()` records a call's choices as the function's own choices. The i-th
     call uses `fold_in(key, i)`, with i from 1. Choices at other addresses raise MissingAddress or UnknownAddress.

@@ -1,7 +1,6 @@
 """Generative functions chosen at run time: `mask` lets one count or not, `switch` runs one of several branches.
 
-`or_else` and `mix` are special cases of `switch`. JAX compiles all branches, so that a trace of `switch` has room for
-the trace of each branch.
+`or_else` and `mix` are cases of `switch`. JAX compiles all branches, so that a trace has room for each branch's trace.
 """
 
 import operator
@@ -29,24 +28,20 @@ from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
 
 @dataclass
 class MaskTrace(OuterTrace):
-    """The trace `inner`, whose choices and score count if `flag` is True."""
+    """The trace `inner`, whose choices and score count if `flag` is True. It has arguments if this trace has them."""
 
     flag: Any
 
     def get_retval(self) -> Mask:
-        """Return the inner return value with the flag."""
         return Mask.build(self.inner.get_retval(), self.flag)
 
     def get_score(self) -> Score:
-        """Return the inner score if the flag is True, else 0."""
         return jnp.where(self.flag, self.inner.get_score(), 0.0)
 
     def get_choices(self) -> ChoiceMap:
-        """Return the inner choices with the flag."""
         return self.inner.get_choices().mask(self.flag)
 
     def with_args(self, args: Arguments | None) -> "MaskTrace":
-        """Return this trace with other arguments, here and in the inner trace."""
         return self.replace(args=args, inner=self.inner.with_args(None if args is None else args[1:]))
 
 
@@ -69,7 +64,6 @@ class MaskCombinator(Outer):
         return args[1:]
 
     def wrap(self, args: Arguments, inner: Trace) -> MaskTrace:
-        """Return the inner trace with the flag."""
         return MaskTrace(self, args, inner, _flag(args))
 
     def generate(self, key: PRNGKey, constraint: ChoiceMap, args: Arguments) -> tuple[OuterTrace, Weight]:
@@ -99,7 +93,6 @@ class MaskCombinator(Outer):
         return new, weight, (Diff.no_change if unchanged else Diff.unknown_change)(retval), backward
 
     def project(self, key: PRNGKey, trace: Any, selection: Selection) -> Weight:
-        """Return the projection of the inner trace if the flag is True, else 0."""
         return jnp.where(trace.flag, super().project(key, trace, selection), 0.0)
 
 
@@ -125,7 +118,6 @@ class SwitchTrace(Trace):
         return self.index
 
     def get_choices(self) -> ChoiceMap:
-        """Return the choices of the branch that ran."""
         return ChoiceMap.switch(self.index, [t.get_choices() for t in self.branches])
 
     def get_inner_trace(self, address: Any) -> Trace:
@@ -200,7 +192,6 @@ class Switch(GenerativeFunction):
         return [choices.filter(selection) for selection in selections]
 
     def simulate(self, key: PRNGKey, args: Arguments) -> SwitchTrace:
-        """Simulate the branch with the given index."""
         _, all_args = self._split(args)
         thunks = [lambda fn=fn, a=a: (fn.simulate(key, a), 0.0) for fn, a in zip(self.branches, all_args, strict=True)]
         return self._build(args, thunks)[0]
@@ -250,7 +241,6 @@ class Switch(GenerativeFunction):
         return new, weight, retdiff, Update(trace.get_choices())
 
     def project(self, key: PRNGKey, trace: Any, selection: Selection) -> Weight:
-        """Return the projection of the branch that ran."""
         pairs = zip(self.branches, trace.branches, strict=True)
         thunks = [lambda fn=fn, t=t: ((), fn.project(key, t, selection)) for fn, t in pairs]
         return run_branch(trace.index, thunks)[1]  # type: ignore[no-any-return]
@@ -259,7 +249,6 @@ class Switch(GenerativeFunction):
 @method
 def switch(*gen_fns: GenerativeFunction) -> Switch:
     """Return a generative function that runs one of `gen_fns`. Its first argument is the number of the function.
-
     The other arguments are one tuple per function. Return values are converted to common shapes and dtypes. Unless the
     number is a Python int, the choices are Masks. A known number out of range raises an error; a traced one is clipped.
     """

@@ -35,12 +35,10 @@ class Product(ExactDensity):
         return map_over(self.in_axes, args, self.n)
 
     def sample(self, key: PRNGKey, *args: Any, **kwargs: Any) -> Any:
-        """Return a draw of every element, stacked."""
         mapped = self._map(args)
         return mapped.vmap(self.inner.draw, jax.random.split(key, mapped.n))
 
     def logpdf(self, value: Any, *args: Any, **kwargs: Any) -> Any:
-        """Return the total log density of every element, (n,)."""
         return self._map(args).vmap(self.inner.score, value)
 
     def score(self, value: Any, args: Arguments, flags: Any = None) -> Score:
@@ -64,7 +62,6 @@ class Product(ExactDensity):
         return (mapped.n, *inner_shapes[0])
 
     def in_support(self, value: Any) -> Any:
-        """Return elementwise whether any parameters can give this value."""
         return self.inner.in_support(value)
 
     def edit(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
@@ -133,7 +130,6 @@ class Vectorised(GenerativeFunction):
         raise NotSupportedEditRequest(self, request)
 
     def project(self, key: PRNGKey, trace: Any, selection: Selection) -> Weight:
-        """Return the sum of the runs' projections."""
         return jnp.sum(jax.vmap(lambda t: self.inner.project(key, t, selection))(trace.inner))
 
 
@@ -155,7 +151,6 @@ class VmapTrace(OuterTrace):
     score: Score
 
     def get_retval(self) -> Any:
-        """Return the elements' return values, stacked."""
         return self.inner.get_retval()
 
 
@@ -171,14 +166,12 @@ class Vmap(Vectorised):
         return map_over(self.in_axes, args, self.n)
 
     def length(self, args: Arguments) -> int:
-        """Return the number of elements."""
         return self._map(args).n
 
     def _trace(self, args: Arguments, inner: Trace) -> VmapTrace:
         return VmapTrace(self, args, inner, total(inner.get_score()))
 
     def simulate(self, key: PRNGKey, args: Arguments) -> VmapTrace:
-        """Simulate every element."""
         mapped = self._map(args)
         keys = jax.random.split(key, mapped.n)
         return self._trace(args, mapped.vmap(lambda k, a: self.inner.simulate(k, a).with_args(None), keys))
@@ -259,7 +252,6 @@ def _mapped(gen_fn: GenerativeFunction, in_axes: InAxes, n: int | None) -> Any:
 @decorator_method
 def vmap(*, in_axes: InAxes = 0) -> Callable[[GenerativeFunction], Any]:
     """Return a decorator that maps a generative function over axes of its arguments.
-
     The i-th element uses the key `split(key, n)[i]`. Choices and return values have a leading axis, and the address of
     a choice of element i begins with i. `in_axes` is as for `jax.vmap`, with one entry per argument: None shares it.
     """

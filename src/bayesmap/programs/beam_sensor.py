@@ -1,9 +1,8 @@
 """Sensors as generative functions of the walls: the law of readings, the base of all sensors, the one at known poses.
 
 `ReadingLaw` is the law of readings at given distances. `RangeSensor` is the contract of sensors. `BeamSensor` is the
-sensor at known poses, whose beams cross the cells of a `BeamGeometry`. Its trace stores the readings and the position
-of each beam's first hit. A changed cell matters to a beam only if it becomes a wall before the hit, or was the hit and
-is removed. So an edit reads the beams through its cell.
+sensor at known poses, whose beams cross the cells of a `BeamGeometry`. Its trace stores the position of each beam's
+first hit. A changed cell matters only to beams through it, so that an edit reads these beams alone.
 """
 
 import dataclasses
@@ -37,7 +36,6 @@ from bayesmap.space.scans import Scans
 @dataclass
 class ReadingLaw(ExactDensity):
     """`law(distance_m)`: independent readings in metres, in the distances' shape; formulas of `bayesmap.sensors`.
-
     The distance `inf` means that the beam meets nothing. Readings are coded as in `Scans`: `inf` is no return, `-inf`
     is too close, and NaN is invalid. An invalid reading scores 0 and is never drawn.
     """
@@ -149,7 +147,6 @@ BEAMS_AT_ONCE = 8  # number of a cell's beams that are read at once
 @dataclasses.dataclass(frozen=True, eq=False)
 class BeamGeometry:
     """The cells that each of B beams crosses on a grid of N cells, and their distances.
-
     Position l of a beam is the l-th cell that it touches. A geometry is compared and hashed by content, so that it may
     be a static part of JAX's trees: models of equal geometry share one compilation, and traces hold no copies of it.
     """
@@ -236,11 +233,9 @@ class ReadingsTrace(Trace):
     readings: Any
 
     def get_retval(self) -> Any:
-        """Return the readings."""
         return self.readings
 
     def get_choices(self) -> ChoiceMap:
-        """Return the readings, at the address ()."""
         return ChoiceMap.choice(self.readings)
 
     @property
@@ -250,9 +245,7 @@ class ReadingsTrace(Trace):
 
 
 class RangeSensor(GenerativeFunction):
-    """Base of sensors, whose readings in metres, at the address (), follow `law` given the first walls' distances.
-    A sensor implements the four methods below, and inherits the contract.
-    """
+    """Base of sensors: readings in metres, at the address (), follow `law`. Sensors implement four methods, below."""
 
     law: ReadingLaw
 
@@ -294,7 +287,6 @@ class RangeSensor(GenerativeFunction):
 
     def edit(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
         """Edit the readings by the law's edit. If they are unchanged, change only the hits, by `change_hits`."""
-        # Check whether the request leaves the readings as they are.
         keeps_readings = False
         match request:
             case IndexRequest(i, Update(constraint)):
@@ -335,11 +327,9 @@ class BeamTrace(ReadingsTrace):
 
     @property
     def hits(self) -> Any:
-        """The positions of the first hits, (B,)."""
         return self.first_hit
 
     def get_score(self) -> Score:
-        """Return the log-likelihood of all readings."""
         sensor: BeamSensor = self.gen_fn
         readings = self.readings.reshape(self.first_hit.shape)
         return sensor.law.logpdf(readings, sensor.distances_at(self.first_hit)).sum(axis=-1)  # type: ignore[no-any-return]
@@ -366,11 +356,9 @@ class BeamSensor(RangeSensor):
         return jnp.asarray(self.geometry.distance_m)[jnp.arange(self.geometry.n_beams), first_hit]
 
     def find_hits(self, args: Arguments) -> Any:
-        """Return `first_hits` of the walls."""
         return self.first_hits(*args)
 
     def law_args(self, args: Arguments, hits: Any) -> Arguments:
-        """Return the distances of the hits, in the shape of the readings."""
         return (self.distances_at(hits).reshape(self.readings_shape),)
 
     def trace(self, args: Arguments, hits: Any, readings: Any) -> BeamTrace:
@@ -387,7 +375,6 @@ class BeamSensor(RangeSensor):
     @partial(jax.jit, inline=True)  # else every edit outside of `jit` would compile its loops again
     def _change_cells(self, first_hit: Any, readings: Any, walls: Any, i: Any, j: Any) -> tuple[Any, Weight]:
         """Return the first hits, and the change of the log-likelihood, after the cells (i, j) changed to `walls`.
-
         Each cell is compared with the new map in turn. A beam that loses its hit goes to the next wall of the new map,
         and a wall that appears before a hit replaces it, so that the order of the cells does not matter.
         """

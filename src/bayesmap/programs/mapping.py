@@ -3,8 +3,7 @@
     model = bm.mapping_model(grid, pose, angles_rad, bm.Independent(0.5), bm.Gaussian(0.2), max_range_m=42.0)
     trace, weight = model.importance(key, C["readings"].set(ranges_m), ())
 
-The model has the joint law of walls and readings of `bayesmap.infer`, for your own programs. For unknown poses pass a
-generative function that draws them in place of an array.
+The model has the joint law of `bayesmap.infer`. For unknown poses pass a generative function instead of an array.
 """
 
 from typing import Any
@@ -35,7 +34,6 @@ from bayesmap.space.scans import as_angles, as_poses, check_limits
 @dataclass
 class SetCells(EditRequest):
     """A request for the address "walls" to give the cells (i[k], j[k]) of a map the values `values[k]`.
-
     A 2 x 2 block is `SetCells(i + jnp.array([0, 0, 1, 1]), j + jnp.array([0, 1, 0, 1]), values)`. The work is that of
     one edit for each cell. All fields have shape (k,), with k known when the program is compiled.
     """
@@ -127,7 +125,6 @@ def pose_sensor_model(
     max_range_m: float, min_range_m: float = 0.0, hit_depth: float = 0.0,
 ) -> PoseSensor:  # fmt: skip
     """Return the sensor alone, for unknown poses: a generative function of walls (nx, ny) and poses (3,) or (S, 3).
-
     Use it as `sensor_model`, by `sensor(walls, poses) @ "readings"`, or to localize. The rest as in `mapping_model`.
     """
     angles, law = as_angles(angles_rad), reading_law(sensor, _limits(min_range_m, max_range_m))

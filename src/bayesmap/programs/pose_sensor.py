@@ -97,11 +97,9 @@ class PoseTrace(ReadingsTrace):
 
     @property
     def hits(self) -> tuple[Any, Any]:
-        """The poses, (S, 3), and the cells at which their beams end, (S, A)."""
         return self.poses, self.ends
 
     def get_score(self) -> Score:
-        """Return the log-likelihood of all readings."""
         sensor: PoseSensor = self.gen_fn
         distance_m = sensor.distances_m(self.poses, self.ends)
         return sensor.law.logpdf(self.readings.reshape(distance_m.shape), distance_m).sum(axis=(-2, -1))  # type: ignore[no-any-return]
@@ -146,16 +144,13 @@ class PoseSensor(RangeSensor):
         return walls, jnp.asarray(poses, jnp.result_type(float)).reshape(-1, 3)
 
     def find_hits(self, args: Arguments) -> tuple[Any, Any]:
-        """Return the poses, and the ends of their beams, by a walk of all beams."""
         walls, poses = self._checked(args)
         return poses, self.ends(walls, poses)
 
     def law_args(self, args: Arguments, hits: tuple[Any, Any]) -> Arguments:
-        """Return the distances of the hits, (A,) for a pose of shape (3,), else (S, A)."""
         return (self.distances_m(*hits).reshape((*jnp.shape(args[1])[:-1], -1)),)
 
     def trace(self, args: Arguments, hits: tuple[Any, Any], readings: Any) -> PoseTrace:
-        """Return the trace of a run with these hits and readings."""
         return PoseTrace(self, args, *hits, readings)
 
     def change_hits(self, trace: Any, args: Arguments, tangents: Sequence[Change]) -> tuple[Any, Weight] | None:

@@ -9,8 +9,7 @@ The plan runs along x, in whole cells. Rows of rooms alternate with corridors, s
     row             facade, windows
 
 Cross corridors join the corridors and cut the core. Each piece of a row is then split at random into rooms. `building`
-is the main function. Its stages are `lay_out` for the plan, and `_Construction` for doors, windows and furniture. Sizes
-and chances are chosen to look like offices; they are not fitted to measured buildings.
+is the main function: `lay_out` plans, and `_Construction` adds doors, windows and furniture. Sizes are like in offices.
 """
 
 import math
@@ -51,24 +50,16 @@ class Room:
 
 @dataclass(frozen=True, eq=False)
 class Building:
-    """A building's map, indexed ``[x, y]``.
+    """The map of a building, as arrays indexed ``[x, y]``, and its rooms."""
 
-    Attributes:
-        grid: the grid of the arrays.
-        walls: mask of cells that are not empty, furniture included, (nx, ny).
-        glass: mask of the wall cells that are glass, (nx, ny).
-        opacity: chance that a beam which enters a cell stops there, (nx, ny): 1 for walls, ``1 - glass_pass`` for
-            glass, less than 1 for legs thinner than a cell, 0 for free cells.
-        rooms: rooms and corridors with their extents in metres.
-        glass_pass: chance that a beam passes a cell of glass.
-    """
-
-    grid: Grid
-    walls: Mask
-    glass: Mask
+    grid: Grid  # of the arrays
+    walls: Mask  # cells that are not empty, furniture included, (nx, ny)
+    glass: Mask  # wall cells that are glass, (nx, ny)
+    # Chance that a beam which enters a cell stops there, (nx, ny): 1 for walls, ``1 - glass_pass`` for glass, less than
+    # 1 for legs thinner than a cell, 0 for free cells.
     opacity: Floats
-    rooms: tuple[Room, ...]
-    glass_pass: float
+    rooms: tuple[Room, ...]  # rooms and corridors
+    glass_pass: float  # chance that a beam passes a cell of glass
 
 
 def building(
@@ -76,12 +67,10 @@ def building(
     clutter: float = 1.0,
 ) -> Building:  # fmt: skip
     """Simulate an office floor: rooms along corridors, all reachable, with a closed outer wall.
-
     The same arguments give the same building. ``size_m`` is the outer width (x) and depth (y) in metres, at least 12 by
     8 (or 8 by 12), and ``resolution`` the edge of a cell, 0.02 to 0.25. ``glass_pass`` is the chance that a beam passes
     a cell of glass. ``clutter`` is the amount of furniture: 0 for none, 1 for usual, 2 for crowded. The grid has half a
     metre of open ground around the outer wall, and its origin is the lower-left corner of that ground.
-
     Raises `BadInput` for an argument outside its range.
     """
     if not 0.02 <= resolution <= 0.25:

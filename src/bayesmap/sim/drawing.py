@@ -20,10 +20,8 @@ def from_text(text: str) -> Mask:
     map turned a quarter anticlockwise. Use `from_image` for a picture that should appear as it is drawn.
 
     Blank lines around the drawing, blanks at the ends of lines, and an indentation common to all lines are ignored.
-    Returns walls, shape (lines, columns).
-
-    Raises `BadInput` for no lines, lines of different lengths, or an unknown character; the message names the line
-    (counted from 1 in the whole text) and the column.
+    Returns walls, (lines, columns). Raises `BadInput` for no lines, lines of different lengths, or other characters;
+    the message names the line (counted from 1 in the whole text) and the column.
     """
     # Number the lines, cut blank lines off at both ends, and find the common indentation.
     numbered = [(number, line.rstrip()) for number, line in enumerate(text.splitlines(), start=1)]

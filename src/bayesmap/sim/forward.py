@@ -15,11 +15,9 @@ def ranges(
     walls: Mask, grid: Grid, poses: ArrayLike, angles_rad: ArrayLike, max_range_m: float, *, device: str = "cpu"
 ) -> Floats:
     """Compute noise-free ranges: the distance from each pose to the first wall along each beam, capped.
-
     Walls are true (or non-zero), (nx, ny). Poses are (x, y, yaw) in the world frame, (3,) or (S, 3), and angles are in
-    the sensor frame, (A,). Cells are closed squares: a beam that touches a corner hits all cells that meet there. From
-    inside a wall the range is the distance to the exit edge.
-
+    the sensor frame, (A,). Cells are closed squares: a beam that touches a corner hits all cells there. From inside a
+    wall the range is the distance to the exit edge.
     Returns metres, at most ``max_range_m``, (A,) for a pose of shape (3,), else (S, A). Raises `BadInput` for shapes
     that do not fit, numbers that are not finite, or a cap that is not positive.
     """
@@ -41,10 +39,8 @@ def simulate(
     wall cell stops the beams of a scan, shape (nx, ny): less than 1 for glass; None is 1 everywhere. With ``typed`` a
     beam that meets nothing within ``max_range_m``, or reads more, has no return, as lasers report. Otherwise the sensor
     model decides: additive noise reads the largest range plus noise, as in the tutorial.
-
     Raises `BadInput` as `ranges`, and for a pose inside a wall.
     """
-    # Check the arguments.
     poses_world = asked_poses("simulate", poses)
     angles = as_angles(angles_rad)
     check_limits(min_range_m, max_range_m)

@@ -2,7 +2,7 @@
 
 Every piece is tried in a typical position (against a wall, in the middle, in front of a desk). It is kept only if it
 leaves the door free and a robot can still reach the rest of the room. `furnish` is the main function, and `FURNISHERS`
-has a function for each kind of room. Sizes and positions are in metres, chosen to look like offices.
+has a function for each kind of room. Sizes and positions are in metres, and like those in offices.
 """
 
 import math
@@ -46,9 +46,8 @@ def lattice_stride(resolution: float) -> int:
 
 
 def passage_m(resolution: float) -> float:
-    """Return the smallest distance of a node from the centre of a wall cell, for paths clear by `ROBOT_CLEARANCE_M`.
-    Half a cell's diagonal and half the lattice's diagonal are added to the clearance.
-    """
+    """Return the smallest distance of a node from the centre of a wall cell, for paths clear by `ROBOT_CLEARANCE_M`."""
+    # Half a cell's diagonal and half the lattice's diagonal are added to the clearance.
     return ROBOT_CLEARANCE_M + (1 + lattice_stride(resolution)) * resolution / math.sqrt(2)
 
 

@@ -14,21 +14,17 @@ d metres and turns of a_1 and a_2 radians, with A = |a_1| + |a_2|, the reported 
 
 import math
 from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from bayesmap.errors import BadInput, check_count
+from bayesmap.sim.building import Building
 from bayesmap.sim.furniture import lattice_stride, passage_m, wall_distance_m
 from bayesmap.space.arrays import Indices
 from bayesmap.space.planar import Floats, between, compose, interpolate, ways_and_turns, wrap_angle, wrap_yaw
 from bayesmap.space.scans import as_poses
-
-if TYPE_CHECKING:
-    from scipy import sparse
-
-    from bayesmap.sim.building import Building
 
 WALL_COST = 4.0  # extra cost of a path close to walls, relative to open floor: robots keep to the middle
 SMOOTHING_M = 0.5  # two standard deviations of the filter that rounds corners
@@ -39,13 +35,11 @@ PAIRS_PER_POSE = 3  # mean number of related pairs per pose
 PATROL_POSES = 4000  # poses of one round of a driven building
 
 
-def patrol(building: "Building", n_scans: int, seed: int = 0) -> Floats:
+def patrol(building: Building, n_scans: int, seed: int = 0) -> Floats:
     """Simulate the poses of a robot that visits all rooms of a building, (n_scans, 3), in the world frame.
-
     The robot starts in the first corridor, and repeatedly goes to the nearest unvisited room, to a goal that ``seed``
     decides. It takes shortest paths that prefer open floor, and looks along its way. No pose is within
     `ROBOT_CLEARANCE_M` of a wall. Scans are taken at equal distances; about one per metre shows every room from inside.
-
     Raises `BadInput` if ``n_scans`` is below 1, or the building has no floor that a robot can pass.
     """
     if n_scans < 1:
@@ -69,12 +63,10 @@ def patrol(building: "Building", n_scans: int, seed: int = 0) -> Floats:
 
 
 def drive(
-    building: "Building", seconds: float, rate_hz: float = 10.0, *, speed_m_per_s: float = 0.5,
+    building: Building, seconds: float, rate_hz: float = 10.0, *, speed_m_per_s: float = 0.5,
     turn_rad_per_s: float = 1.0, seed: int = 0,
 ) -> tuple[Floats, Floats]:  # fmt: skip
-    """Simulate a robot that patrols a building for some seconds. Returns its times from 0, (S,), and poses, (S, 3).
-    It drives a round of `patrol` forth and back, again and again, and scans at ``rate_hz``.
-    """
+    """Simulate a robot that drives a `patrol` to and fro for some seconds. Returns times, (S,), and poses, (S, 3)."""
     patrol_poses = patrol(building, PATROL_POSES, seed)
     rounds = [patrol_poses]
     while travel_times_s(np.concatenate(rounds), speed_m_per_s, turn_rad_per_s)[-1] < seconds:
@@ -89,13 +81,11 @@ def drive(
 
 
 class _Lattice:
-    """The planning lattice of a building: a graph of the cells in which a robot fits, linked to eight neighbours.
-
-    The nodes are every k-th cell along x and y. Only the largest connected part is kept. ``nodes`` are their indices,
-    (N, 2), ``points_m`` their world positions, (N, 2), and ``graph`` the costs of their links.
+    """The planning lattice of a building: the largest connected graph of every k-th cell in which a robot fits.
+    ``nodes`` are its cells, (N, 2), ``points_m`` their positions, (N, 2), and ``graph`` the costs of links.
     """
 
-    def __init__(self, building: "Building") -> None:
+    def __init__(self, building: Building) -> None:
         from scipy import ndimage
 
         self.building, self.resolution = building, building.grid.resolution
@@ -118,7 +108,7 @@ class _Lattice:
         self.node_clearance_m = clearance[tuple(self.nodes.T)]
         self.graph = self._links(fits.shape, stride * self.resolution)
 
-    def _links(self, shape: tuple[int, ...], spacing_m: float) -> "sparse.csr_array":
+    def _links(self, shape: tuple[int, ...], spacing_m: float) -> Any:
         """Return the costs of the links between neighbouring nodes: lengths, weighted by the closeness to walls."""
         from scipy import sparse
 
@@ -231,11 +221,9 @@ def simulate_odometry(
     poses_world: ArrayLike, noise: OdometryNoise | None = None, *, stamps_s: ArrayLike | None = None, seed: int = 0
 ) -> Floats:
     """Simulate the poses that a robot's odometry reports along a path, (S, 3), from the true first pose.
-
     ``poses_world`` are the true poses of the robot's base: x, y in metres and yaw in radians. The errors are those of
     ``noise``; the noise of a step does not depend on later steps. The result is in a frame that drifts away from the
     world's. A lag needs ``stamps_s``, the strictly ascending time of each pose, (S,).
-
     Raises `BadInput` for shapes that do not fit, stamps that do not ascend, or a lag without stamps.
     """
     noise = OdometryNoise() if noise is None else noise
@@ -297,7 +285,6 @@ def _reported_steps(steps: Floats, noise: OdometryNoise, rng: np.random.Generato
 
 def related_pairs(poses_world: Floats, seed: int = 0) -> tuple[Indices, Indices]:
     """Choose pairs of poses up to `RELATED_M` apart: successive poses, and on average two others per pose.
-
     Kuemmerle et al. (2009) relate poses whose scans a person can align: neighbours in time, and places visited again.
     Returns the indices of the earlier and the later pose of each pair, ascending, each pair once.
     """

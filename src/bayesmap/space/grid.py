@@ -99,10 +99,8 @@ class Grid:
     @classmethod
     def covering(cls, scans: Scans, resolution: float, margin_m: float = 0.5) -> "Grid":
         """Return the smallest grid that holds every pose and every hit, with a free border of ``margin_m``, metres.
-
         The origin is a multiple of the resolution, so that maps of two recordings of a building line up. Raises
-        `BadInput` for no scans, or for more than `MAX_CELLS` cells. If outlying scans make the grid too large, the
-        message names the furthest.
+        `BadInput` for no scans, or for more than `MAX_CELLS` cells; the message names the furthest outlying scan.
         """
         low, high = bounds_m(scans, margin_m)
         (nx, ny), _ = _whole_cells(low, high, resolution)
@@ -149,7 +147,6 @@ def _large(nx: int, ny: int) -> str:
 
 def outlying(scans: Scans) -> Indices:
     """Select scans whose reach exceeds `MAX_REACH_RATIO` times the median reach. Returns indices, the furthest first.
-
     The reach is the distance of the pose from the median pose plus the longest hit. Returns no index if more than one
     scan, and more than the share `MAX_OUTLIER_SHARE`, exceed the limit: then no clear majority agrees.
     """

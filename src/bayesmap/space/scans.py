@@ -4,8 +4,6 @@
 and name the faulty scan and beam: `as_poses`, `as_angles`, `check_limits`. `Fan` and `fan` make beam angles.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -46,9 +44,8 @@ class Scans:
         angles_rad: beam angles in the sensor frame, shape (A,). If beams differ from scan to scan, pass shape (S, A),
             with NaN if a scan has fewer beams. The attribute then holds the angles of the largest scan, and
             `own_angles_rad` the angles of each scan.
-        ranges_m: readings, shape (S, A) (or (A,) for one scan), coded as in REP-117: +inf is no return,
-            -inf too close, NaN invalid; every finite number is a hit. Additive noise may carry a short
-            reading below zero, so negative numbers are not refused here: the log readers do that.
+        ranges_m: readings, shape (S, A) (or (A,) for one scan), coded as in REP-117: +inf is no return, -inf too close,
+            NaN invalid. Every finite number is a hit: noise may make it negative, which only log readers refuse.
         max_range_m: the sensor's largest range.
         min_range_m: the sensor's smallest range.
         stamps_s: time of each scan in seconds, shape (S,), or None.
@@ -191,13 +188,13 @@ class Scans:
         ends = np.stack([np.cos(angles[hit]), np.sin(angles[hit])], axis=-1) * ranges[:, None]
         return np.asarray(self.beam_starts_world()[hit] + ends)
 
-    def select(self, scans: Indices | Mask | slice) -> Scans:
+    def select(self, scans: Indices | Mask | slice) -> "Scans":
         """Return the scans at the given indices, mask or slice."""
         names = ("poses", "ranges_m", "stamps_s", "beam_poses", "own_angles_rad")
         arrays = {name: getattr(self, name) for name in names}
         return replace(self, **{name: array[scans] for name, array in arrays.items() if array is not None})
 
-    def stretched(self, ratio: float) -> Scans:
+    def stretched(self, ratio: float) -> "Scans":
         """Return the scans with all angles between beams multiplied by ``ratio``. First beams keep their angles."""
         angles, own = self.angles_rad[0] + ratio * (self.angles_rad - self.angles_rad[0]), self.own_angles_rad
         if own is not None:
@@ -225,7 +222,7 @@ class Scans:
         angles = np.nan_to_num(np.asarray(self.own_angles_rad))
         return angles[scans, first], angles[scans, last]
 
-    def at(self, poses_world: ArrayLike) -> Scans:
+    def at(self, poses_world: ArrayLike) -> "Scans":
         """Return the readings at other poses, (S, 3). Beams move with their scans. Raises `BadInput` as `as_poses`."""
         poses = as_poses(poses_world)
         if poses.shape != self.poses.shape:
@@ -235,7 +232,7 @@ class Scans:
         relative = between(self.poses[:, None], self.beam_poses)
         return replace(self, poses=poses, beam_poses=compose(poses[:, None], relative))
 
-    def holdout(self, every: int) -> tuple[Scans, Scans]:
+    def holdout(self, every: int) -> tuple["Scans", "Scans"]:
         """Split into (training, held out) scans: every ``every``-th scan, from ``every // 2`` on, is held out.
         Raises `BadInput` for a number below 2, or so large that no scan is held out.
         """
@@ -246,7 +243,7 @@ class Scans:
             raise BadInput(f"holdout: {len(self)} scans are too few to hold out every {every}-th")
         return self.select(~is_held_out), self.select(is_held_out)
 
-    def limited(self, max_range_m: float) -> Scans:
+    def limited(self, max_range_m: float) -> "Scans":
         """Return the scans as a sensor with a shorter range reads them: hits beyond ``max_range_m`` are no return."""
         if not (math.isfinite(max_range_m) and max_range_m > self.min_range_m):
             raise BadInput(f"scans: max_range_m must exceed min_range_m, got {max_range_m!r}")
@@ -394,7 +391,6 @@ def as_array(values: ArrayLike, name: str) -> Floats:
 
 def fan(beams: int, fov_deg: float) -> Floats:
     """Return beam angles in the sensor frame, radians, (beams,), from the right end of the field of view to the left.
-
     An odd number of beams has one at each end, as in lasers of 181 or 361 beams. An even number leaves out the last, as
     in lasers of 180 or 360 beams. A full circle starts straight ahead. Raises `BadInput` for fewer than two beams, more
     than `MAX_BEAMS`, or a field of view outside (0, 360] degrees.

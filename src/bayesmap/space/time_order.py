@@ -7,15 +7,12 @@ back. `thinned` and `jumps` then read the poses in this order. In this file a st
 import math
 from dataclasses import dataclass
 from datetime import UTC, datetime
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-
-if TYPE_CHECKING:
-    from bayesmap.space.scans import Scans
+from bayesmap.space.scans import Scans
 
 MIN_RESET_S = 1.0  # stamps that fall by less are of scans logged late, not of a clock that was reset
 MIN_SCANS_AFTER_RESET = 10  # fewest scans after a reset; half as many on each side must overlap in time
@@ -70,7 +67,6 @@ class TimeOrder:
 
 def time_order(stamps_s: NDArray[np.float64]) -> TimeOrder:
     """Sort scans by their stamps, (S,) in the order of the log, but do not sort across a reset of the clock.
-
     Scans that were logged late, one by one or in bursts, fill a gap between earlier scans: they are sorted. If stamps
     fall by more than `MIN_RESET_S`, and many of them lie among the stamps of many earlier scans, the clock was reset.
     Sorting would then mix two passes of the robot, so the order of the log is kept there.
@@ -93,15 +89,12 @@ def time_order(stamps_s: NDArray[np.float64]) -> TimeOrder:
 
 def repeated_stamps(stamps_s: NDArray[np.float64]) -> NDArray[np.bool_]:
     """Return the mask of scans that share their stamp with the scan before or after them, (S,)."""
-    if not len(stamps_s):
-        return np.zeros(0, dtype=np.bool_)
-    same = np.abs(np.diff(stamps_s)) < SAME_S
-    return np.concatenate([[False], same]) | np.concatenate([same, [False]])
+    same = np.concatenate([[False], np.abs(np.diff(stamps_s)) < SAME_S, [False]])
+    return np.asarray(same[:-1] | same[1:])[: len(stamps_s)]
 
 
 def elapsed_s(stamps_s: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Bound the time from each scan to the next: the shortest and the longest, (S - 1,) each.
-
     Stamps, (S,), may be rounded. Scans that share a stamp lie anywhere between the stamps before and after it.
     """
     gaps_s = np.abs(np.diff(stamps_s))
@@ -163,11 +156,9 @@ def _alternate(first: NDArray[np.float64], second: NDArray[np.float64]) -> bool:
     return bool((np.diff(in_second)).sum() >= MIN_ALTERNATIONS * min(len(first), len(second)))
 
 
-def thinned(scans: "Scans", spacing_m: float) -> "Scans":
+def thinned(scans: Scans, spacing_m: float) -> Scans:
     """Select the first scan, and then each scan at least ``spacing_m`` of travel after the last selected one.
-
-    The distance is measured along the path through all poses; turns on the spot do not count. Raises `BadInput` for a
-    spacing that is negative or not finite.
+    The path leads through all poses. Turns on the spot do not count. Raises `BadInput` unless the spacing is >= 0.
     """
     if not (math.isfinite(spacing_m) and spacing_m >= 0):
         raise BadInput(f"thin: give the metres that the robot travels from scan to scan, got {spacing_m!r}")
@@ -189,10 +180,8 @@ def steps_m(poses: NDArray[np.float64]) -> NDArray[np.float64]:
         return np.asarray(np.hypot(*np.diff(poses[:, :2], axis=0).T))
 
 
-def jumps(scans: "Scans") -> NDArray[np.intp]:
-    """Find scans that the robot cannot have reached from the scan before. Returns their indices, ascending.
-    Such a step is longer than `MAX_STEP_M` and ten median steps, or faster than a robot drives.
-    """
+def jumps(scans: Scans) -> NDArray[np.intp]:
+    """Find scans that the robot cannot have reached from the scan before. Returns their indices, ascending."""
     if len(scans) < 2:
         return np.empty(0, dtype=np.intp)
     lengths_m = steps_m(scans.poses)

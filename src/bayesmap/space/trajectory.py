@@ -1,10 +1,8 @@
 """A trajectory: poses over time with their uncertainty, as plain data.
 
-`Trajectory` is the result of SLAM and localization, and the reference that scores compare. `RelativeLaw` is the law of
-the pose of one scan in the frame of another. `step_to` chooses whose poses are returned: the robot's or the laser's.
+`Trajectory` is the result of SLAM and localization, and the reference of scores. `RelativeLaw` is the law of a scan's
+pose in the frame of another scan. `step_to` chooses whose poses are returned: the robot's or the laser's.
 """
-
-from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -24,7 +22,6 @@ FRAMES = ("base", "laser")  # frames on a robot whose poses a trajectory may hav
 @dataclass(frozen=True, eq=False)
 class RelativeLaw:
     """Student's t distribution of the relative poses of a trajectory, with ``dof`` degrees of freedom.
-
     ``scales`` takes the indices of the first and the second pose of N pairs. It returns the scale matrices of x, y and
     yaw of the second pose in the frame of the first, (N, 3, 3). A covariance is dof / (dof - 2) times a scale matrix.
     """
@@ -36,7 +33,7 @@ class RelativeLaw:
         """Return the covariances of the second poses in the frames of the first, (N, 3, 3)."""
         return self.dof / (self.dof - 2.0) * self.scales(first, second)
 
-    def of_frame(self, poses: Floats, mount: Floats) -> RelativeLaw:
+    def of_frame(self, poses: Floats, mount: Floats) -> "RelativeLaw":
         """Return the law of a frame at ``mount``, (3,), in this frame. ``poses``, (S, 3), are those of this frame."""
 
         def scales(first: Indices, second: Indices) -> Floats:
@@ -48,10 +45,9 @@ class RelativeLaw:
 
 def step_to(frame: str | None, mount: Floats | None, own: str) -> tuple[str, Floats | None]:
     """Return the frame that a user requested, and the pose of this frame in the frame ``own``, (3,).
-
     ``frame`` is one of `FRAMES`. By default it is the base if ``mount``, the laser's pose on the base, is known, else
-    the laser. ``own`` is the frame of the poses that are known; for this frame the pose is None. Raises `BadInput` for
-    an unknown name, or if the mount is needed and not known.
+    the laser. ``own`` is the frame of the known poses: for this frame, the pose is None. Raises `BadInput` for another
+    name, or if the mount is needed and not known.
     """
     requested = frame or ("laser" if mount is None else "base")
     if requested not in FRAMES:
@@ -68,27 +64,17 @@ def step_to(frame: str | None, mount: Floats | None, own: str) -> tuple[str, Flo
 
 @dataclass(frozen=True, eq=False)
 class Trajectory:
-    """The poses over time of one frame on a robot, such as its laser's.
-
-    Attributes:
-        poses: x, y in metres and yaw in radians in the world frame, shape (S, 3).
-        stamps_s: time of each pose in seconds, shape (S,), ascending; None if unknown.
-        covariances: covariances of x, y and yaw in world axes (m^2, m rad, rad^2), shape (S, 3, 3); None if unknown.
-        draws: poses of whole trajectories drawn from a posterior, shape (D, S, 3); None if there are none.
-        relative: law of relative poses; None if it follows from the draws, or is unknown.
-        known_by: source of the uncertainty, in words; empty if there is none.
-        frame: frame on the robot whose poses these are, "base" or "laser"; None if unknown.
-
+    """The poses over time of one frame on a robot, such as its laser's, with their uncertainty. None is unknown.
     Raises `BadInput` for shapes that do not fit, numbers that are not finite, or stamps that descend.
     """
 
-    poses: Floats
-    stamps_s: Floats | None = None
-    covariances: Floats | None = None
-    draws: Floats | None = None
-    relative: RelativeLaw | None = None
-    known_by: str = ""
-    frame: str | None = None
+    poses: Floats  # x, y in metres and yaw in radians in the world frame, (S, 3)
+    stamps_s: Floats | None = None  # time of each pose in seconds, (S,), ascending
+    covariances: Floats | None = None  # of x, y and yaw in world axes (m^2, m rad, rad^2), (S, 3, 3)
+    draws: Floats | None = None  # poses of whole trajectories drawn from a posterior, (D, S, 3)
+    relative: RelativeLaw | None = None  # law of relative poses; None if it follows from the draws, too
+    known_by: str = ""  # source of the uncertainty, in words
+    frame: str | None = None  # frame on the robot whose poses these are, "base" or "laser"
 
     def __post_init__(self) -> None:
         poses = as_poses(self.poses)
@@ -125,10 +111,8 @@ class Trajectory:
         )
 
     @classmethod
-    def of_draws(cls, draws: Floats, stamps_s: Floats | None = None, known_by: str = "") -> Trajectory:
-        """Return the trajectory of a posterior: the mean and covariance of each pose over the draws.
-        Draws are (D, S, 3) or (chains, D, S, 3). Raises `BadInput` if there is no draw.
-        """
+    def of_draws(cls, draws: Floats, stamps_s: Floats | None = None, known_by: str = "") -> "Trajectory":
+        """Return the mean and covariance of each pose over draws, (D, S, 3) or (chains, D, S, 3), and the draws."""
         flat = np.asarray(draws, dtype=np.float64)
         flat = flat.reshape(-1, *flat.shape[-2:])
         if len(flat) == 0:
@@ -141,9 +125,7 @@ class Trajectory:
         return cls(wrap_yaw(flat[0] + mean), stamps_s, covariances, flat, known_by=known_by)
 
     def at(self, at_s: Floats) -> tuple[Floats, Mask]:
-        """Return interpolated poses at times ``at_s``, (N, 3), and the mask of times within the trajectory, (N,).
-        Raises `BadInput` for a trajectory without poses or stamps.
-        """
+        """Return interpolated poses at times ``at_s``, (N, 3), and the mask of times within the trajectory, (N,)."""
         if self.stamps_s is None or len(self) == 0:
             raise BadInput("trajectory: it has no stamps, so that its pose at a time is not known")
         at = np.asarray(at_s, dtype=np.float64)
@@ -160,7 +142,7 @@ class Trajectory:
         near = np.minimum(np.abs(at_s - before), np.abs(at_s - after)) <= SLACK_S
         return poses, inside, near | (after - before <= LONGEST_GAP_S + SLACK_S)
 
-    def of(self, frame: str | None, mount: Floats | None) -> Trajectory:
+    def of(self, frame: str | None, mount: Floats | None) -> "Trajectory":
         """Return the trajectory of the frame "base" or "laser"; ``mount`` is the laser's pose on the base, (3,).
         None is the default of `step_to`, both for ``frame`` and for a trajectory that does not name its frame.
         """
@@ -168,7 +150,7 @@ class Trajectory:
         new_frame, step = step_to(frame, mount, own)
         return replace(self if step is None else self.of_frame(step), frame=new_frame)
 
-    def of_frame(self, mount: Floats) -> Trajectory:
+    def of_frame(self, mount: Floats) -> "Trajectory":
         """Return the trajectory of another frame, which lies at ``mount``, (3,), in this frame."""
         poses = compose(self.poses, mount)
         covariances = self.covariances
@@ -182,9 +164,7 @@ class Trajectory:
 
 def ellipses(centres: Floats, covariances: Floats, level: float = 0.95, points: int = 32) -> Floats:
     """Return the closed outlines of credible ellipses of normal positions, (S, points, 2), in the units of the means.
-
-    The means are (S, 2), the covariances (S, 2, 2). In the plane the squared Mahalanobis distance is below
-    -2 log(1 - level) with probability ``level``.
+    Means are (S, 2), covariances (S, 2, 2). A squared Mahalanobis distance is below -2 log(1 - level) with this level.
     """
     angle = np.linspace(0.0, 2.0 * np.pi, points)
     circle = np.stack([np.cos(angle), np.sin(angle)], axis=-1) * np.sqrt(-2.0 * np.log1p(-level))

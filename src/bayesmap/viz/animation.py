@@ -1,8 +1,7 @@
 """Write a chain as an animation: one frame per draw, GIF or WebP, by Pillow.
 
-`write_animation` writes the frames that `render_frames` yields, and `_Canvas` renders one frame. Frames are images of
-palette indices, enlarged by a whole number. A hundred frames of the tutorial's map take a fraction of a second;
-matplotlib's writer takes several seconds.
+`write_animation` writes the frames of `render_frames`, and `_Canvas` renders one. Frames are images of palette indices,
+enlarged by a whole number. A hundred frames take a fraction of a second; matplotlib's writer takes several seconds.
 """
 
 import io
@@ -44,7 +43,6 @@ def write_animation(
     Cells that are not ``observed``, (nx, ny), are hatched; None: all are observed. ``truth``, (nx, ny), holds true
     walls, which are outlined. ``poses`` of the sensor, (S, 3) or (3,), become dots. ``sweeps`` are the numbers under
     the frames; None: 1 to n. The rate is at most 50 frames a second, since viewers slow down faster animations.
-
     Raises `BadInput` if the ending is another, the folder is missing, there is no draw, a shape differs from the
     grid's, a number is outside [0, 1], or the rate is out of bounds. Raises `OSError` if writing failed.
     """

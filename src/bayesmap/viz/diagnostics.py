@@ -28,9 +28,7 @@ def plot_log_joint(ax: Axes, log_joint: ArrayLike, *, first_sweep: int = 1) -> N
 
 def plot_running_mean(ax: Axes, log_joint: ArrayLike, *, first_sweep: int = 1) -> None:
     """Plot the mean of the log joint over all draws so far, a line per chain, with the arguments of `plot_log_joint`.
-
-    The band is the mean over all chains, plus and minus one standard deviation of the draws. Chains have not mixed if
-    their lines end far apart on this scale.
+    The band is the mean of all draws, plus and minus one standard deviation. Lines that end far apart have not mixed.
     """
     traces = _as_traces(log_joint)
     means = np.cumsum(traces, axis=1) / np.arange(1, traces.shape[1] + 1)
@@ -102,7 +100,6 @@ def plot_weights(
     ax: Axes, log_weights: ArrayLike, *, range_nats: tuple[float, float] = TUTORIAL_RANGE_NATS
 ) -> NDArray[np.intp]:
     """Plot a histogram of the normalised log weights, mark the largest, and write the effective sample size above.
-
     If one sample has nearly all the weight, the effective sample size is 1: importance sampling has collapsed, as in
     the tutorial. Counts are on a logarithmic scale. Weights need not be normalised; -inf is a weight of zero. Weights
     below ``range_nats`` are counted in the panel. Returns the counts, (100,). Raises `BadInput` if there is no weight,

@@ -1,8 +1,7 @@
 """Figures of maps: an overview of a posterior, a single map, and maps side by side.
 
-`posterior_figure`, `panel_figure` and `comparison_figure` are the main functions. `lay_out` computes the layout in
-whole pixels, without a layout engine. Every cell of a map is the same whole number of pixels wide and high, so that
-walls one cell thick stay sharp and equally thick.
+`posterior_figure`, `panel_figure` and `comparison_figure` are the main functions. `lay_out` computes positions in whole
+pixels, without a layout engine. All cells are equally many pixels wide and high, so that thin walls stay sharp.
 """
 
 import io
@@ -144,7 +143,6 @@ def posterior_figure(
     the readings, and over mean and draw too if cells are large, or without readings. ``width`` is the width of each
     reflectivity's 90 % interval, as `CellPrior.width` returns it; it replaces the entropy of a wall. Surfaces are
     strokes over the mean if cells are large enough on the page.
-
     Raises `BadInput` if a shape differs from the grid's, a probability is outside [0, 1], or the truth is not 0 or 1.
     """
     # Choose the panels, and lay them out.
@@ -275,11 +273,9 @@ def panel_figure(
     truth: ArrayLike | None = None, label: str = "probability of wall",
 ) -> Figure:  # fmt: skip
     """Return a figure of a single map of values, (nx, ny), with its colour bar.
-
     ``quantity`` is "mean", "entropy" or "deviation" (values: probabilities of a wall; "deviation" shows their standard
     deviations), "width" (values: widths of intervals), or "draw" (values: walls or numbers in [0, 1]). Cells that are
     not ``observed`` are hatched. ``truth``, (nx, ny), is outlined. ``label`` names values of "mean" and of draws.
-
     Raises `BadInput` if shapes or values do not fit.
     """
     figure, axes = maps.map_figure(grid, dpi=max(160.0, 1.1 * max(grid.shape) / maps.HEIGHT_IN))

@@ -3,8 +3,7 @@
 All arrays are indexed ``[x, y]`` with shape ``(nx, ny)``. A panel shows metres of the world frame, x to the right and y
 up, at equal scale. `bayesmap.viz.overlays` plots outlines, rays, sensors and surfaces over a map.
 
-Cells are joined into strips, since a picture of a building with one patch per cell takes minutes. The number of strips
-grows with the length of the boundary, not with the area.
+Cells are joined into strips, whose number grows with the boundary, not the area: one patch per cell takes minutes.
 """
 
 import math
@@ -61,7 +60,6 @@ def _to_world(grid: Grid, cells: NDArray[np.intp]) -> NDArray[np.float64]:
 
 def window(grid: Grid, x_m: tuple[float, float], y_m: tuple[float, float]) -> tuple[Grid, Window]:
     """Return the grid of the cells that a rectangle of the world touches, and the slices that cut it from (nx, ny).
-
     ``x_m`` are the rectangle's left and right edge, ``y_m`` its lower and upper edge. Raises `BadInput` if edges are
     out of order or not finite, or if the rectangle lies outside the grid.
     """
@@ -108,7 +106,6 @@ def window_of_walls(grid: Grid, walls: ArrayLike, points_m: ArrayLike, margin_m:
 
 def plot_probability(ax: Axes, grid: Grid, occupancy: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
     """Plot the probability of wall per cell, (nx, ny): free is light, wall is dark, unobserved is hatched.
-
     ``observed`` is a mask of the cells that a beam reached, (nx, ny); None: all cells. Returns the image, from 0 to 1,
     for a colour bar. Raises `BadInput` if a shape differs from the grid's, or a probability is outside [0, 1].
     """

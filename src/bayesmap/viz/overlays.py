@@ -49,11 +49,9 @@ def plot_rays(
     ax: Axes, scans: Scans, max_beams: int = 400, max_readings: int = 20_000
 ) -> list[LineCollection | PathCollection]:
     """Plot beams with their end points, and beams without return as dashed lines to the largest range.
-
     Readings that are too close or invalid have no end point and are left out. If there are more beams or end points
     than the limits, an evenly spaced part is shown, always the same one. Points hide less than lines, so their limit is
     higher. Returns the artists labelled "beam", "reading" and "no return", in this order, without empty ones.
-
     Raises `BadInput` if ``max_beams`` or ``max_readings`` is below 1.
     """
     if max_beams < 1 or max_readings < 1:
@@ -85,7 +83,6 @@ def plot_rays(
 
 def plot_sensor(ax: Axes, poses: ArrayLike) -> list[Line2D]:
     """Plot the sensor as an arrow along its yaw. Many poses become a trajectory that ends in an arrow.
-
     ``poses`` are (S, 3) or (3,): x, y in metres and yaw in radians. Returns the marks; the first is labelled "sensor"
     or "trajectory". Raises `BadInput` if the shape is another, there is no pose, or a number is not finite.
     """
@@ -133,9 +130,7 @@ def surface_strokes(
     means_world: ArrayLike, covariances_m2: ArrayLike, longest_m: float = np.inf
 ) -> NDArray[np.float64]:
     """Return both ends of the strokes of n surfaces, metres, (n, 2, 2), given means (n, 2) and covariances (n, 2, 2).
-
-    Strokes longer than ``longest_m`` are cut. Raises `BadInput` if shapes do not fit, a number is not finite, or a
-    matrix is no covariance.
+    Longer strokes than ``longest_m`` are cut. Raises `BadInput` for other shapes, infinite numbers, or no covariance.
     """
     means, covariances = as_array(means_world, "means_world"), as_array(covariances_m2, "covariances_m2")
     n = len(means)
@@ -160,7 +155,6 @@ def plot_surfaces(
     longest_m: float = np.inf, color: str | None = None,
 ) -> LineCollection:  # fmt: skip
     """Plot one stroke per surface, from `surface_strokes`. Its opacity is the surface's weight in [0, 1], (n,).
-
     Surfaces below `MIN_WEIGHT` are left out. By default strokes have the colour of walls. The label is "surface".
     Raises `BadInput` if shapes do not fit, a weight is outside [0, 1], or `surface_strokes` raises it.
     """
@@ -232,7 +226,6 @@ def views_figure(
     best: ArrayLike, best_nats: ArrayLike,
 ) -> Figure:  # fmt: skip
     """Return a figure of candidate views, (P, 3), over the mean map, coloured by a fast formula for their information.
-
     ``nats`` holds this information, (P,). ``best`` holds indices of candidates, the best first, (V,). They become
     numbered arrows with the upper bounds of their information, ``best_nats``, (V,). The colours have no numbers, since
     another formula gives them. Raises `BadInput` if shapes do not fit.

@@ -1,7 +1,4 @@
-"""Figures of scores: calibration of predictions, badly predicted beams, and errors of a trajectory.
-
-`calibration_figure`, `residuals_figure` and `errors_figure` are the main functions.
-"""
+"""Figures of scores: `calibration_figure` of predictions, `residuals_figure` of beams, `errors_figure` of trajectories."""
 
 import math
 from collections.abc import Sequence
@@ -34,7 +31,6 @@ Rows = Sequence[tuple[str, "Score"]]  # maps by name, with their scores
 
 def plot_pit(ax: Axes, rows: Rows) -> None:
     """Plot histograms of the probability integral transform, which are flat if the predictive laws are calibrated.
-
     High ends mean that predictions are too narrow, a hump in the middle that they are too wide. A slope is a bias.
     """
     for i, (name, score) in enumerate(rows):
@@ -181,7 +177,6 @@ def residuals_figure(
     scale: Scale | None = None,
 ) -> Figure:  # fmt: skip
     """Return a figure of the end points of held-out beams, (n, 2), over the faded posterior mean.
-
     The values, (n,), are residuals in metres, or surprises in nats with `surprise_scale`. The default scale is
     `residual_scale`. Raises `BadInput` if shapes or values do not fit.
     """

@@ -95,11 +95,9 @@ def loops_figure(
     alternatives: Sequence[tuple[Floats, float]] = (),
 ) -> Figure:  # fmt: skip
     """Return a figure of M loop closures: pairs of scans taken at one place, by index in S poses, (M,) each.
-
     ``residuals`` are x, y and yaw, (M, 3), and ``weights`` run from 0 (rejected) to 1, (M,). ``alternatives`` are poses
     of other possible trajectories, (S, 3), and their probabilities.
     """
-    # The trajectory and its alternatives.
     first, second = np.asarray(first), np.asarray(second)
     figure, ax = _axes(np.ptp(poses, axis=0), bar_in=1.0, title_in=0.4)
     ax.plot(poses[:, 0], poses[:, 1], color="#9a9a9a", linewidth=0.8, label="trajectory")

@@ -1,8 +1,7 @@
 """Marginals: generative functions of which only the selected choices are shown; the others are hidden.
 
-The density of the shown choices is a sum over the hidden ones. `Marginal` estimates it by importance sampling, or by
-another algorithm. Estimates are unbiased for exp(weight) in `generate` and for exp(-score) in `simulate`, so that
-samplers which use them stay exact.
+The density of the shown choices is a sum over the hidden ones. Importance sampling or another algorithm estimates it.
+The estimates exp(weight) in `generate` and exp(-score) in `simulate` are unbiased: samplers that use them stay exact.
 """
 
 from collections.abc import Callable
@@ -32,7 +31,6 @@ class MarginalTrace(Trace):
     score: Score
 
     def get_choices(self) -> ChoiceMap:
-        """Return the shown choices."""
         return self.choices
 
 
@@ -55,9 +53,8 @@ class Marginal(SampleDistribution):
         return self.generate(key, value, args)[1]
 
     def check_conditioning(self, constraint: ChoiceMap, args: Arguments) -> None:
-        """Raise BadArguments if `constraint` leaves a selected choice open.
-        Importance sampling would draw the open choice, and it needs exact densities of the choices that it draws.
-        """
+        """Raise BadArguments if `constraint` leaves a selected choice open."""
+        # Importance sampling would draw the open choice, and it needs exact densities of the choices that it draws.
         _require_all(self.gen_fn.choice_shapes(args).filter(self.selection), constraint)
 
     def _importance_sample(self, key: PRNGKey, shown: ChoiceMap, args: Arguments, n: int) -> tuple[Trace, Any]:
@@ -146,7 +143,6 @@ def marginal(
     *, selection: Selection | None = None, algorithm: Algorithm | None = None, particles: int = 1
 ) -> Callable[[GenerativeFunction], Marginal]:
     """Return a decorator that keeps the selected choices and marginalises the others.
-
     The score is exact if no choice is hidden. Otherwise `algorithm` estimates it; without an algorithm, importance
     sampling with `particles` runs does. The weights of `generate` are unbiased.
     """

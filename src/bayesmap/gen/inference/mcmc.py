@@ -1,7 +1,6 @@
 """Markov chains of traces, and diagnostics of their mixing.
 
-`metropolis_hastings` turns an edit request into a kernel, `run_chain` iterates a kernel, and `split_rhat` and
-`effective_sample_size` judge the draws.
+`metropolis_hastings` makes a kernel, `run_chain` iterates it, `split_rhat` and `effective_sample_size` judge the draws.
 """
 
 from collections.abc import Callable
@@ -26,9 +25,7 @@ class Chain(NamedTuple):
 
 
 def metropolis_hastings(request: EditRequest | Callable[[Trace], EditRequest]) -> Kernel:
-    """Return a kernel (key, trace) -> (trace, accepted) that accepts an edit with probability min(1, exp(weight)).
-    The edit is a request, or a function of the trace that returns a request.
-    """
+    """Return a kernel that accepts an edit with probability min(1, exp(weight)). Requests may depend on the trace."""
 
     def kernel(key: PRNGKey, trace: Trace) -> tuple[Trace, BoolArray]:
         edit_key, accept_key = jax.random.split(key)

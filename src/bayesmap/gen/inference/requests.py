@@ -39,7 +39,6 @@ class Rejuvenate(EditRequest):
 @dataclass
 class HMC(EditRequest):
     """A request for Hamiltonian Monte Carlo on the selected choices, which must be real.
-
     A proposal makes `L` leapfrog steps of size `eps`: equations 5.18 to 5.20 of Neal, MCMC using Hamiltonian dynamics
     (2011). Acceptance with probability min(1, exp(weight)) leaves the posterior invariant for any step size.
     """

@@ -189,7 +189,6 @@ class ImportanceK(SMCAlgorithm):
     k_particles: int = static(default=2)
 
     def get_num_particles(self) -> int:
-        """Return `k_particles`."""
         return self.k_particles
 
     def run_smc(self, key: PRNGKey) -> ParticleCollection:
@@ -250,7 +249,6 @@ class ChangeTarget(SMCAlgorithm):
     target: Target
 
     def get_num_particles(self) -> int:
-        """Return the other algorithm's number of particles."""
         return self.prev.get_num_particles()
 
     def run_smc(self, key: PRNGKey) -> ParticleCollection:
@@ -282,18 +280,11 @@ def particle_filter(
 ) -> tuple[ParticleCollection, Array]:  # fmt: skip
     """Run the bootstrap filter of Gordon, Salmond and Smith (1993) for the model `kernel.scan()`.
 
-    Args:
-        key: random key.
-        kernel: generative function `(state, x) -> (state, y)`.
-        args: (first state, xs). The inputs xs are stacked along their leading axis, or None.
-        constraint: given choices, at the addresses of `kernel.scan()`.
-        k: number of particles.
-        threshold: fraction of k; particles are resampled if the effective sample size is lower.
-        n: number of steps. It is needed if xs is None.
-        history: True to keep whole trajectories, the ancestors of each last particle (smoothing).
-
-    Returns:
-        (particles, log of an unbiased estimate of the evidence). Particles are traces of the last step, or of the scan.
+    The kernel is a generative function `(state, x) -> (state, y)`, and `args` are (first state, xs). The inputs xs are
+    stacked along their leading axis, or None; then the number of steps `n` is needed. `constraint` has given choices at
+    the addresses of `kernel.scan()`. The k particles are resampled if the effective sample size is below `threshold`
+    times k. With `history` whole trajectories are kept, the ancestors of each last particle (smoothing). Returns
+    (particles, log of an unbiased estimate of the evidence). Particles are traces of the last step, or a scan.
     """
     first_state, xs = args
     leaves = jax.tree.leaves(xs)
