@@ -132,9 +132,9 @@ class GenerativeFunctionClosure(Outer):
         stack[-1].enter(path)
         return stack[-1].visit(path, self.inner, self.inner_args(()))
 
-    def __call__(self, key: PRNGKey, *rest: Any, **by_name: Any) -> Any:
+    def __call__(self, key: PRNGKey, *args: Any, **kwargs: Any) -> Any:
         """Simulate, and return only the return value."""
-        return self.replace(kwargs={**self.kwargs, **by_name}).simulate(key, rest).get_retval()
+        return self.replace(kwargs={**self.kwargs, **kwargs}).simulate(key, args).get_retval()
 
     def handle_kwargs(self) -> GenerativeFunction:
         """Return this closure, which takes arguments by name when it is called."""

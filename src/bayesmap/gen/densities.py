@@ -360,8 +360,8 @@ class DiscreteHMMConfiguration(Pytree):
         n = self.linear_grid_dim
         difference = np.abs(np.arange(n)[:, None] - np.arange(n))
         distance = np.minimum(difference, n - difference)
-        far = -1.0 / sigma if sigma > 0 else -np.inf
-        return jnp.asarray(np.where(distance <= reach, float(sigma) ** distance, far), jnp.result_type(float))
+        beyond = -1.0 / sigma if sigma > 0 else -np.inf
+        return jnp.asarray(np.where(distance <= reach, float(sigma) ** distance, beyond), jnp.result_type(float))
 
 
 @dataclass
@@ -399,8 +399,8 @@ def filter_states(config: DiscreteHMMConfiguration, observations: IntArray) -> A
         return alpha, alpha
 
     first = start + emit[:, observations[0]]
-    _, rest = jax.lax.scan(step, first, observations[1:])
-    return jnp.concatenate([first[None], rest])
+    _, later = jax.lax.scan(step, first, observations[1:])
+    return jnp.concatenate([first[None], later])
 
 
 def sample_states(key: PRNGKey, config: DiscreteHMMConfiguration, observations: IntArray) -> Array:

@@ -222,7 +222,7 @@ class ExactDensity(Distribution):
         return GivenValue(copy, flags, self._penalty(value, flags, possible, expected.dtype))
 
     def _penalty(self, value: Any, flags: Any, possible: Any, dtype: Any) -> Any:
-        """Return 0 if all given elements are possible, else -inf. Raises OutsideSupport if a value is known."""
+        """Return 0 if all given elements are possible, else -inf. Raises OutsideSupport if this is known at once."""
         if possible is True:
             return 0.0
         if flags is not None:

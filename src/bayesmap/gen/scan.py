@@ -151,8 +151,7 @@ def scan(*, n: int | None = None) -> Callable[[GenerativeFunction], Scan]:
     return lambda gen_fn: Scan(gen_fn.as_part(), n)
 
 
-# The functions that `map` and `dimap` use below belong to the module, and are no closures: equal functions make equal
-# traces, so that traces can be compared.
+# The functions that `map` and `dimap` use are no closures: equal functions make equal traces, which can be compared.
 def _as_output(state: Any) -> tuple[Any, Any]:
     return state, state
 

@@ -315,8 +315,8 @@ class StaticGenerativeFunction(GenerativeFunction):
 
     def project(self, key: PRNGKey, trace: Any, selection: Selection) -> Weight:
         """Return the sum of the sites' projections."""
-        parts = [t.project(key, selection(path)) for path, t in trace.subtraces.items()]
-        return sum(parts, start=jnp.zeros(()))
+        projections = (t.project(key, selection(path)) for path, t in trace.subtraces.items())
+        return sum(projections, start=jnp.zeros(()))
 
     def edit(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
         """Run the body on the new arguments, and edit each site on the way."""
@@ -347,8 +347,7 @@ def _requests_at_sites(request: EditRequest, gen_fn: StaticGenerativeFunction, s
 def _backward_request(request: EditRequest, backward: dict[StaticAddress, EditRequest]) -> EditRequest:
     """Join the sites' backward requests. Returns an Update if `request` and all backward requests are updates."""
     if isinstance(request, Update) and all(isinstance(b, Update | EmptyRequest) for b in backward.values()):
-        parts = ((path, b.constraint) for path, b in backward.items() if isinstance(b, Update))
-        return Update(ChoiceMap.from_mapping(parts))
+        return Update(ChoiceMap.from_mapping((p, b.constraint) for p, b in backward.items() if isinstance(b, Update)))
     return StaticRequest(dict(backward))
 
 

@@ -262,7 +262,7 @@ def _branch_of(flag: Any, if_args: Any, else_args: Any) -> tuple[Any, ...]:
 
 @method
 def or_else(if_fn: GenerativeFunction, else_fn: GenerativeFunction) -> Any:
-    """Return a function that runs `if_fn` or `else_fn`. Its arguments are a flag and both functions' tuples."""
+    """Return a function that runs `if_fn` or `else_fn`. Its arguments are a flag, and a tuple of arguments for each."""
     return contramap(_branch_of)(switch(if_fn, else_fn))
 
 

@@ -320,7 +320,6 @@ class _Construction:
         """Put windows down to the floor in some facade rooms; the sill of other windows is above the laser."""
         x0, x1, y0, y1 = self.inside
         chance = {"lobby": 1.0, "open plan": 0.75, "meeting": 0.6}.get(room.kind, 0.4)
-        # In the walls along x, then in those along y.
         if room.facade and self.rng.random() < chance:
             half, middle = int(room.width * self.rng.uniform(0.5, 0.85) / 2), (room.x0 + room.x1) // 2
             for touches, row in ((room.y0 == y0, y0 - self.outer), (room.y1 == y1, y1)):

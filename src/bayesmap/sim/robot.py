@@ -44,7 +44,6 @@ def patrol(building: Building, n_scans: int, seed: int = 0) -> Floats:
     """
     if n_scans < 1:
         raise BadInput(f"patrol: n_scans must be at least 1, got {n_scans!r}")
-    # Choose a stop in each room, and join the stops by a smooth path.
     lattice = _Lattice(building)
     stops = lattice.choose_stops(np.random.default_rng(check_count("patrol", "seed", seed, 0)))
     path_m = _smooth(lattice.tour(stops), lattice)

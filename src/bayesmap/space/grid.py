@@ -151,10 +151,10 @@ def outlying(scans: Scans) -> Indices:
     scan, and more than the share `MAX_OUTLIER_SHARE`, exceed the limit: then no clear majority agrees.
     """
     reach = np.add(*_offsets_m(scans))
-    far = np.nonzero(reach > MAX_REACH_RATIO * np.median(reach))[0]
-    if len(far) > max(1.0, MAX_OUTLIER_SHARE * len(scans)):
+    distant = np.nonzero(reach > MAX_REACH_RATIO * np.median(reach))[0]
+    if len(distant) > max(1.0, MAX_OUTLIER_SHARE * len(scans)):
         return np.empty(0, dtype=np.intp)
-    return far[np.argsort(-reach[far], kind="stable")]
+    return distant[np.argsort(-reach[distant], kind="stable")]
 
 
 def _offsets_m(scans: Scans) -> tuple[Floats, Floats]:

@@ -306,29 +306,30 @@ def _as_own_angles(largest: ArrayLike, own: ArrayLike, ranges_m: Floats) -> tupl
     ``largest`` is a guess of the first result: it is used if its shape is (A,).
     """
     # Check shapes and angles: a missing beam has the angle NaN and the reading NaN.
-    each = as_array(own, "scans: angles_rad")
-    if each.shape != ranges_m.shape or not each.shape[1]:
-        raise BadInput(f"scans: angles_rad has shape {each.shape}, expected (A,) or that of ranges_m, {ranges_m.shape}")
-    missing = np.isnan(each)
-    if np.isinf(each).any() or (missing & ~np.isnan(ranges_m)).any():
-        scan, beam = np.argwhere(np.isinf(each) | (missing & ~np.isnan(ranges_m)))[0]
+    angles = as_array(own, "scans: angles_rad")
+    if angles.shape != ranges_m.shape or not angles.shape[1]:
+        expected = f"(A,) or that of ranges_m, {ranges_m.shape}"
+        raise BadInput(f"scans: angles_rad has shape {angles.shape}, expected {expected}")
+    missing = np.isnan(angles)
+    if np.isinf(angles).any() or (missing & ~np.isnan(ranges_m)).any():
+        scan, beam = np.argwhere(np.isinf(angles) | (missing & ~np.isnan(ranges_m)))[0]
         raise BadInput(
-            f"scans: angle of beam {beam} of scan {scan} is {each[scan, beam]}, but its reading is "
+            f"scans: angle of beam {beam} of scan {scan} is {angles[scan, beam]}, but its reading is "
             f"{ranges_m[scan, beam]}; a beam that a scan does not have has the angle NaN and the reading NaN"
         )
-    lowest, highest = np.where(missing, np.inf, each).min(axis=1), np.where(missing, -np.inf, each).max(axis=1)
+    lowest, highest = np.where(missing, np.inf, angles).min(axis=1), np.where(missing, -np.inf, angles).max(axis=1)
     for scan in np.flatnonzero((highest - lowest > math.tau) | (lowest > math.tau) | (highest < -math.tau)):
         fault = fan_fault(float(lowest[scan]), float(highest[scan])) if lowest[scan] <= highest[scan] else None
         if fault is not None:
             raise BadInput(f"scans: angles_rad of scan {scan}: {fault}")
-    if len(each) and not missing.any() and (each == each[:1]).all():
-        return each[0].copy(), None
-    if np.shape(largest) == each.shape[1:]:
-        return as_array(largest, "scans: angles_rad"), each
+    if len(angles) and not missing.any() and (angles == angles[:1]).all():
+        return angles[0].copy(), None
+    if np.shape(largest) == angles.shape[1:]:
+        return as_array(largest, "scans: angles_rad"), angles
     # Select the scan with most beams, and repeat its last angle for beams that it does not have.
-    angles = each[int((~missing).sum(axis=1).argmax())] if len(each) else np.zeros(each.shape[1])
-    angles = angles[np.isfinite(angles)] if np.isfinite(angles).any() else np.zeros(1)
-    return np.append(angles, np.full(each.shape[1] - len(angles), angles[-1])), each
+    selected = angles[int((~missing).sum(axis=1).argmax())] if len(angles) else np.zeros(angles.shape[1])
+    selected = selected[np.isfinite(selected)] if np.isfinite(selected).any() else np.zeros(1)
+    return np.append(selected, np.full(angles.shape[1] - len(selected), selected[-1])), angles
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""Figures of scores: `calibration_figure` of predictions, `residuals_figure` of beams, `errors_figure` of trajectories."""
+"""Figures of scores: `calibration_figure` of predictions, `residuals_figure` of beams, `errors_figure` of a path."""
 
 import math
 from collections.abc import Sequence

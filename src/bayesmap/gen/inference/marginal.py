@@ -132,8 +132,8 @@ class Marginal(SampleDistribution):
 
 def _require_all(shown: ChoiceMap, constraint: ChoiceMap) -> None:
     """Raise BadArguments if a choice in `shown` has no value in `constraint`."""
-    given = constraint.get_selection()
-    missing = [path for path in shown.paths() if not given[path]]
+    constrained = constraint.get_selection()
+    missing = [path for path in shown.paths() if not constrained[path]]
     if missing:
         raise BadArguments(f"a marginal needs values for all of its choices; missing: {missing}")
 

@@ -293,19 +293,10 @@ def particle_filter(
     n = leaves[0].shape[0] if n is None else n
 
     def step(carry: Any, scanned: Any) -> Any:
-        # Resample if few particles have most of the weight.
         states, log_weights, _ = carry
         t, x, choices = scanned
         resample_key, move_key = jax.random.split(jax.random.fold_in(key, t))
-        particles = ParticleCollection(states, log_weights)
-
-        def resample() -> tuple[Any, Array, IntArray]:
-            parents = systematic(resample_key, log_weights)
-            mean = jnp.full_like(log_weights, particles.get_log_marginal_likelihood_estimate())
-            return nth(states, parents), mean, parents
-
-        low = particles.effective_sample_size() < threshold * k
-        states, log_weights, parents = jax.lax.cond(low, resample, lambda: (states, log_weights, jnp.arange(k)))
+        states, log_weights, parents = _resample_if_low(resample_key, states, log_weights, threshold)
 
         # Move each particle, and weight it by the step's given choices.
         def move(key: PRNGKey, state: Any) -> Any:
@@ -328,6 +319,19 @@ def particle_filter(
     particles: Any = _trajectories(kernel, args, n, states, *recorded) if history else last
     result = ParticleCollection(particles, log_weights)
     return result, result.get_log_marginal_likelihood_estimate()
+
+
+def _resample_if_low(key: PRNGKey, states: Any, log_weights: Array, threshold: float) -> tuple[Any, Array, IntArray]:
+    """Return (states, log weights, parents), resampled if the effective sample size is below `threshold` times k."""
+    particles, k = ParticleCollection(states, log_weights), log_weights.shape[0]
+
+    def resample() -> tuple[Any, Array, IntArray]:
+        parents = systematic(key, log_weights)
+        mean = jnp.full_like(log_weights, particles.get_log_marginal_likelihood_estimate())
+        return nth(states, parents), mean, parents
+
+    is_low = particles.effective_sample_size() < threshold * k
+    return jax.lax.cond(is_low, resample, lambda: (states, log_weights, jnp.arange(k)))  # type: ignore[no-any-return]
 
 
 def _streams(key: PRNGKey, k: int) -> PRNGKey:
