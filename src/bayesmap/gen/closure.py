@@ -109,9 +109,9 @@ class GenerativeFunctionClosure(Outer):
     Its traces are traces of `m`, or of `m.handle_kwargs()` if some arguments are named. Their arguments include `x`.
     """
 
-    gen_fn: GenerativeFunction
-    args: tuple[Any, ...]
-    kwargs: dict[str, Any]
+    gen_fn: GenerativeFunction  # m
+    args: tuple[Any, ...]  # the positional arguments so far
+    kwargs: dict[str, Any]  # the arguments by name so far
 
     @property
     def inner(self) -> GenerativeFunction:  # type: ignore[override]
@@ -173,8 +173,8 @@ class Applied(Outer):
     """A closure as a part of a combinator. Its traces store the closure, not only the function in the closure."""
 
     inner: GenerativeFunction
-    fixed_args: tuple[Any, ...]
-    fixed_kwargs: dict[str, Any]
+    fixed_args: tuple[Any, ...]  # the closure's arguments
+    fixed_kwargs: dict[str, Any]  # the closure's arguments by name
 
     def inner_args(self, args: Arguments) -> Arguments:
         return _with_kwargs((*self.fixed_args, *args), self.fixed_kwargs)
@@ -211,8 +211,8 @@ class Dimap(Outer):
     """A generative function with transformed arguments and return value. See `dimap`."""
 
     inner: GenerativeFunction
-    pre: Callable[..., Any] = static()
-    post: Callable[..., Any] = static()
+    pre: Callable[..., Any] = static()  # (*arguments) -> inner arguments, a tuple
+    post: Callable[..., Any] = static()  # (arguments, inner arguments, inner return value) -> return value
 
     def inner_args(self, args: Arguments) -> Arguments:
         """Return the arguments after `pre`. Raises TypeError unless they are a tuple."""

@@ -274,7 +274,7 @@ mv_normal_diag = _named(
 class TfpDistribution(KeywordDensity):
     """The distribution that `make(*args)` returns, an object of TensorFlow Probability. See `tfp_distribution`."""
 
-    make: Callable[..., Any] = static()
+    make: Callable[..., Any] = static()  # (*args) -> TensorFlow Probability's distribution
     name: str = static()
 
     def _make(self, args: tuple[Any, ...], kwargs: dict[str, Any]) -> tuple[Any, tuple[int, ...]]:
@@ -335,11 +335,11 @@ class DiscreteHMMConfiguration(Pytree):
     Logits of places at distance d are sigma ** d within the adjacency distance, and -1 / sigma beyond it.
     """
 
-    linear_grid_dim: int = static()
-    adjacency_distance_trans: int = static()
-    adjacency_distance_obs: int = static()
-    sigma_trans: float = static()
-    sigma_obs: float = static()
+    linear_grid_dim: int = static()  # number of places, which are the states
+    adjacency_distance_trans: int = static()  # adjacency distance of moves
+    adjacency_distance_obs: int = static()  # adjacency distance of observations
+    sigma_trans: float = static()  # sigma of moves
+    sigma_obs: float = static()  # sigma of observations
 
     def __post_init__(self) -> None:
         # GenJAX's programs pass arrays, which a static field cannot hold.

@@ -26,10 +26,10 @@ from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
 
 @dataclass
 class DistributionTrace(Trace):
-    """A draw and its log density."""
+    """The trace of a distribution: a draw and its log density."""
 
-    value: Any
-    score: Score
+    value: Any  # the draw
+    score: Score  # its log density, or an estimate
 
     def get_retval(self) -> Any:
         return self.value
@@ -253,8 +253,8 @@ class KeywordDensity(ExactDensity):
 class CustomDensity(KeywordDensity):
     """The distribution of a sampler and a log density, two functions of a user. See `exact_density`."""
 
-    sampler: Callable[..., Any] = static()
-    log_density: Callable[..., Any] = static()
+    sampler: Callable[..., Any] = static()  # (key, *args) -> draw
+    log_density: Callable[..., Any] = static()  # (value, *args) -> log density
     name: str = static()
 
     def sample(self, key: PRNGKey, *args: Any, **kwargs: Any) -> Any:

@@ -23,19 +23,19 @@ from bayesmap.gen.vmap import Vectorised, undo_all
 
 @dataclass
 class ScanTrace(OuterTrace):
-    """The steps' traces, stacked and without their arguments. `carries` stores the state before each step."""
+    """The trace of a scan: `inner` has the steps' traces, stacked and without their arguments."""
 
-    carries: Any
-    retval: Any
-    score: Score
+    carries: Any  # the state before each step, stacked
+    retval: Any  # (last state, stacked outputs)
+    score: Score  # sum of the steps' scores
 
 
 @dataclass
 class Scan(Vectorised):
     """A generative function iterated over a state and inputs. See `scan`."""
 
-    inner: GenerativeFunction
-    n: int | None = static(default=None)
+    inner: GenerativeFunction  # (state, x) -> (state, y)
+    n: int | None = static(default=None)  # number of steps; None: the length of the inputs
 
     def length(self, args: Arguments) -> int:
         """Return the number of steps: `n`, or the length of the leading axis of the inputs."""

@@ -108,10 +108,10 @@ def mask(gen_fn: GenerativeFunction) -> MaskCombinator:
 class SwitchTrace(Trace):
     """One trace per branch. Only the trace of branch number `index`, which ran, has values; the others are zeros."""
 
-    index: Any
-    branches: tuple[Trace, ...]
-    retval: Any
-    score: Score
+    index: Any  # number of the branch that ran
+    branches: tuple[Trace, ...]  # a trace per branch, without arguments
+    retval: Any  # of the branch that ran, in common shapes and dtypes
+    score: Score  # of the branch that ran
 
     def get_idx(self) -> Any:
         """Return the number of the branch that ran."""

@@ -27,9 +27,9 @@ from bayesmap.gen.typing import Arguments, InAxes, PRNGKey, Score, Weight
 class Product(ExactDensity):
     """A distribution over arrays: one draw of `inner` per element of the mapped arguments, with `split(key, n)[i]`."""
 
-    inner: ExactDensity
-    in_axes: InAxes = static()
-    n: int | None = static()
+    inner: ExactDensity  # distribution of one element
+    in_axes: InAxes = static()  # mapped axes of the arguments, as for `jax.vmap`
+    n: int | None = static()  # number of elements; None: the length of the mapped axes
 
     def _map(self, args: Arguments) -> Mapped:
         return map_over(self.in_axes, args, self.n)
@@ -146,9 +146,9 @@ def undo_all(backward: EditRequest) -> EditRequest:
 
 @dataclass
 class VmapTrace(OuterTrace):
-    """The elements' traces, stacked and without their arguments. `args` stores a shared argument only once."""
+    """The trace of a `Vmap`: `inner` has the elements' traces, stacked and without their arguments."""
 
-    score: Score
+    score: Score  # sum of the elements' scores
 
     def get_retval(self) -> Any:
         return self.inner.get_retval()
@@ -158,9 +158,9 @@ class VmapTrace(OuterTrace):
 class Vmap(Vectorised):
     """A generative function mapped over axes of its arguments. See `vmap` and `repeat`."""
 
-    inner: GenerativeFunction
-    in_axes: InAxes = static()
-    n: int | None = static()
+    inner: GenerativeFunction  # function of one element
+    in_axes: InAxes = static()  # mapped axes of the arguments, as for `jax.vmap`
+    n: int | None = static()  # number of elements; None: the length of the mapped axes
 
     def _map(self, args: Arguments) -> Mapped:
         return map_over(self.in_axes, args, self.n)

@@ -26,8 +26,8 @@ from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
 class MarginalTrace(Trace):
     """The shown choices, and `score`, an estimate of their log marginal density."""
 
-    choices: ChoiceMap
-    retval: Any
+    choices: ChoiceMap  # the shown choices
+    retval: Any  # the return value of the run with all choices
     score: Score
 
     def get_choices(self) -> ChoiceMap:
@@ -38,10 +38,10 @@ class MarginalTrace(Trace):
 class Marginal(SampleDistribution):
     """The marginal distribution of the selected choices of a generative function. See `marginal`."""
 
-    gen_fn: GenerativeFunction
-    selection: Selection
-    algorithm: Algorithm | None = None
-    particles: int = static(default=1)
+    gen_fn: GenerativeFunction  # the function with all choices
+    selection: Selection  # of the shown choices
+    algorithm: Algorithm | None = None  # the estimator of densities; None: importance sampling
+    particles: int = static(default=1)  # number of runs in importance sampling
 
     def random_weighted(self, key: PRNGKey, *args: Any) -> tuple[Score, ChoiceMap]:
         """Draw the shown choices. Returns (estimate of their log density, choices)."""
@@ -107,7 +107,7 @@ class Marginal(SampleDistribution):
         return score, trace.get_retval()
 
     def edit(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
-        """Replace shown choices by an Update, or all of them by a Regenerate. Hidden choices are always drawn anew."""
+        """Replace shown choices by an Update, or all of them by a Regenerate. The hidden choices are drawn anew."""
         args = Diff.tree_primal(argdiffs)
         match request:
             case Update(constraint) if constraint.static_is_empty() and Diff.static_check_no_change(argdiffs):

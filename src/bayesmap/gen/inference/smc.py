@@ -27,9 +27,9 @@ class Target(Pytree):
     A marginal `p` raises BadArguments unless all of its choices are given.
     """
 
-    p: GenerativeFunction
-    args: tuple[Any, ...]
-    constraint: ChoiceMap
+    p: GenerativeFunction  # the model
+    args: tuple[Any, ...]  # of the model
+    constraint: ChoiceMap  # the given choices; the others are open
 
     def __post_init__(self) -> None:
         self.p.check_conditioning(self.constraint, self.args)
@@ -185,8 +185,8 @@ class ImportanceK(SMCAlgorithm):
     """
 
     target: Target
-    q: GenerativeFunction | None = None
-    k_particles: int = static(default=2)
+    q: GenerativeFunction | None = None  # the proposal
+    k_particles: int = static(default=2)  # number of traces
 
     def get_num_particles(self) -> int:
         return self.k_particles
@@ -245,8 +245,8 @@ def Importance(target: Target, q: GenerativeFunction | None = None) -> Importanc
 class ChangeTarget(SMCAlgorithm):
     """The particles of another algorithm, with their open choices weighted for another target."""
 
-    prev: SMCAlgorithm
-    target: Target
+    prev: SMCAlgorithm  # the other algorithm
+    target: Target  # the new target
 
     def get_num_particles(self) -> int:
         return self.prev.get_num_particles()
