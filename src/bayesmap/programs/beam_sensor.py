@@ -156,17 +156,17 @@ class BeamGeometry:
     cells: NDArray[np.int32]
     distance_m: NDArray[np.float32]  # at which the beam hits each cell; inf at sentinels
     offsets: NDArray[np.int32]  # (N + 1,); cell c has the entries offsets[c] : offsets[c + 1] of the two arrays below
-    beam: NDArray[np.int32]  # (K + BEAMS_AT_ONCE,), the beams through the cells, then padding
-    position: NDArray[np.int32]  # (K + BEAMS_AT_ONCE,), the position of the cell in that beam, then padding
+    beam: NDArray[np.int32]  # the beam of each of K crossings of a beam and a cell, then padding, (K + BEAMS_AT_ONCE,)
+    position: NDArray[np.int32]  # the cell's position in this beam, then padding, (K + BEAMS_AT_ONCE,)
 
     @property
     def n_beams(self) -> int:
-        """Return B."""
+        """Return B, the number of beams."""
         return len(self.cells)
 
     @property
     def n_cells(self) -> int:
-        """Return N."""
+        """Return N, the number of cells of the grid."""
         return self.shape[0] * self.shape[1]
 
     @property
@@ -204,7 +204,7 @@ def beam_geometry(
     """Trace the beams of S poses, shape (S, 3), and A angles: beam s * A + a is beam a of pose s."""
     from bayesmap.kernels.rays import trace_rays  # loads Warp
 
-    # Trace the beams; ranges play no part in this.
+    # Trace the beams, for which the ranges do not matter.
     no_ranges = np.zeros((len(np.atleast_2d(poses)), len(angles_rad)))
     scans = Scans(poses, angles_rad, no_ranges, limits.max_m, limits.min_m)  # type: ignore[arg-type]
     rays = trace_rays(scans, grid)

@@ -9,7 +9,7 @@ The plan runs along x, in whole cells. Rows of rooms alternate with corridors, s
     row             facade, windows
 
 Cross corridors join the corridors and cut the core. Each piece of a row is then split at random into rooms. `building`
-is the main function: `lay_out` plans, and `_Construction` adds doors, windows and furniture. Sizes are like in offices.
+is the main function: `lay_out` plans, and `_Construction` adds doors, windows and furniture. Sizes are typical ones.
 """
 
 import math
@@ -108,7 +108,7 @@ class Space:
     y0: int
     y1: int
     corridors: tuple[int, ...] = ()  # sides with a corridor along them: -1 (towards smaller y), +1, or both
-    facade: bool = False  # whether it touches the outer wall along its length
+    facade: bool = False  # True if it touches the outer wall along its length
 
     @property
     def width(self) -> int:

@@ -2,7 +2,7 @@
 
 Every piece is tried in a typical position (against a wall, in the middle, in front of a desk). It is kept only if it
 leaves the door free and a robot can still reach the rest of the room. `furnish` is the main function, and `FURNISHERS`
-has a function for each kind of room. Sizes and positions are in metres, and like those in offices.
+has a function for each kind of room. Sizes and positions are in metres, and typical of offices.
 """
 
 import math
