@@ -1,15 +1,16 @@
 """Chains of reflectivities and surfaces on a device, and their sweeps.
 
-On a GPU each kernel is launched once for all chains, with one thread per chain's cell or beam. On the CPU each chain is
-one task from its first sweep to its last. If there are more threads than chains, a chain's beams are divided into
-parts, one per thread. Counts are integers, and floating-point sums run over slices of fixed size. So the result does
-not depend on threads or on other chains.
+A sweep draws where the beams stop, given the cells, then the cells, given these stops. On a GPU each kernel is launched
+once for all chains, with one thread per chain's cell or beam. On the CPU each chain is one task from its first sweep to
+its last. If there are more threads than chains, a chain's beams are divided into parts, one per thread. Counts are
+integers, and floating-point sums run over slices of fixed size. So the result does not depend on threads or on other
+chains. `StopChains.sweeps` is the main function, and `StopChains._sweep_launches` has the order of the kernels.
 """
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import warp as wp
@@ -26,8 +27,6 @@ from bayesmap.kernels.surfaces.square_counts import InSquares, count_in_squares,
 from bayesmap.kernels.surfaces.surface import cells_to_device, pack_prior
 from bayesmap.sensors.model import SensorModel
 
-Launch = tuple[Any, int, list[Any]]  # a kernel, the number of a chain's elements, and the kernel's inputs
-
 STATE_SIZE = 6  # numbers of a `Cell` that belong to its state; the other two do not
 KERNELS = (
     cell_draws.begin_sweep, stops.pass_lazy_cells, stops.draw_stops, endpoint_cells.count_endpoint_cells,
@@ -38,14 +37,14 @@ KERNELS = (
 
 def load_stop_kernels(device: str) -> Iterator[int]:
     """Compile the kernels of a sweep, or fetch them from Warp's cache, and yield the number of loaded kernels."""
-    for done, kernel in enumerate(KERNELS, 1):
+    for loaded, kernel in enumerate(KERNELS, 1):
         devices.load_kernels(kernel, device)
-        yield done
+        yield loaded
 
 
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """The parts that the sweeps of all chains share."""
+    """The problem that the sweeps of all chains share."""
 
     rays: Rays  # the beams, with flat indices of the grid's cells
     periods: NDArray[np.uint8]  # update period of each touched cell, in sweeps, (T,), see `cell_draws.ActiveCells`
@@ -55,8 +54,52 @@ class Plan:
     device: str  # the device of the chains
 
 
+class Launch(NamedTuple):
+    """A kernel, to be launched for all elements of a chain, such as its beams or its cells."""
+
+    kernel: Any
+    size: int  # number of a chain's elements
+    inputs: list[Any]
+
+
+class ChainPart(NamedTuple):
+    """A part of the elements of neighbouring chains, the unit of work of one thread."""
+
+    chains: range
+    part: int  # 0 to `ChainArrays.parts` - 1
+
+
+class SweepRequest(NamedTuple):
+    """The arguments of one call of `StopChains.sweeps`, and its results on the device."""
+
+    first: int
+    steps: int
+    observe_from: int | None
+    law: Any  # `SensorLaw32`
+    prior: Any  # `PriorNumbers`
+    laws_changed: bool  # sensor, prior or beta differ from those of the last call
+    is_start: bool  # the chains have not made a sweep yet
+    log_likelihood: Any  # (chains, sweeps)
+    log_prior: Any  # (chains, sweeps)
+
+
+class ChainStops(NamedTuple):
+    """The stops of a chain's beams, (B,) each."""
+
+    stopped: NDArray[np.bool_]  # false for a beam that stopped nowhere
+    distance_m: Singles
+    variance: Singles  # of the distance, square metres
+
+
+def _report(callback: Callable[[int, int], None] | None, chains: range, sweep: int) -> None:
+    """Call a callback, if any, with each chain and the sweep."""
+    if callback is not None:
+        for chain in chains:
+            callback(chain, sweep)
+
+
 class StopChains:
-    """Several chains on a device, advanced in place."""
+    """Several chains on a device, advanced in place. Chain i has the key of random numbers ``keys[i]``."""
 
     def __init__(
         self, plan: Plan, states: Callable[[int], Singles], keys: Sequence[int], *, threads: int | None,
@@ -81,8 +124,8 @@ class StopChains:
         )  # fmt: skip
         counted = plan.endpoints[:0] if self.without_surfaces else plan.endpoints
         self._status = cell_draws.status_to_device(cells, plan.rays.touched, counted, device)
-        self._law: tuple[Any, ...] = ()
-        self._packed: tuple[Any, Any] | None = None
+        self._laws: tuple[Any, ...] = ()  # sensor, prior and beta of the last sweep; empty if cells were replaced since
+        self._last_request: SweepRequest | None = None
         self._squares = square_arrays(plan.rays, 0 if self.without_surfaces else chains, device)
 
         # The state of all chains, with labels and counts from the host if given.
@@ -122,81 +165,83 @@ class StopChains:
         `in_squares` counts them. The callbacks get the numbers of chain and sweep, ``after`` on the thread of the
         sweep. Returns log-likelihood and log prior of the cells *before* each sweep, (chains, count) each.
         """
-        packed = pack_prior(prior)
         law = sensor_law(sensor, self.plan.rays.limits, self.device, SensorLaw32)
-        moved, starts = self._law != (sensor, prior, beta), not self.swept
-        self._law, self._packed, self._state.beta = (sensor, prior, beta), (law, packed), beta
-        if moved:
+        changed, is_start = self._laws != (sensor, prior, beta), not self.swept
+        self._laws, self._state.beta = (sensor, prior, beta), beta
+        if changed:
             self._launch(stops.compute_decays, self.plan.rays.n_beams, [law, self._rays])
-        zeros = partial(wp.zeros, (self.n_chains, count), dtype=wp.float64, device=self.device)
-        likelihood, log_prior = zeros(), zeros()
-        beams, touched = self.plan.rays.n_beams, len(self.plan.rays.touched)
-        endpoints = 0 if self.without_surfaces else len(self.plan.endpoints)
-        state, all_chains = self._state, range(self.n_chains)
-        shape, cells = self.plan.rays.grid.shape, state.n_cells
-        endpoint_inputs = [self._endpoints, self._active, state, self._lists]
-        beam_sums, cell_sums, label_sums = self._slices
+        sums = [wp.zeros((self.n_chains, count), dtype=wp.float64, device=self.device) for _ in range(2)]
+        request = SweepRequest(first, steps, observe_from, law, pack_prior(prior), changed, is_start, *sums)
+        self._last_request = request
 
-        def cell_launches(sweep: int) -> list[Launch]:
-            """Return the kernels that draw the cells given the stops."""
-            launches = [(endpoint_cells.count_endpoint_cells, endpoints, [sweep, *endpoint_inputs])]
-            if prior.coupling > 0:
-                launches.append((cell_draws.sum_label_prior, label_sums.shape[1], [*shape, packed, state, label_sums]))
-                inputs = [sweep, *shape, packed, self._status, state]
-                launches += [(cell_draws.draw_labels, cells, [colour, *inputs]) for colour in (0, 1)]
-            inputs = [sweep, self.without_surfaces, packed, self._active, state]
-            launches.append((cell_draws.update_free_cells, touched, inputs))
-            inputs = [sweep, steps, law, packed, self._rays, *endpoint_inputs, self._blocks]
-            launches.append((endpoint_cells.update_endpoint_cells, endpoints, inputs))
-            if self.without_surfaces and observe_from is not None and sweep >= observe_from:
-                launches.append((cell_draws.count_observed, touched, [self._active, state]))
-            return launches
-
-        def sweep_launches(i: int) -> list[Launch]:
-            """Return the kernels of the i-th sweep in their order."""
-            sweep, changed = first + i, int(moved and i == 0)
-            lazy, lazy_before = (int(self._schedule.updates_lazy(number)) for number in (sweep, sweep - 1))
-            inputs = [sweep, self.without_surfaces, packed, changed, self._active, state, self._log_priors]
-            launches = [(cell_draws.begin_sweep, touched, inputs)]
-            if not lazy and (lazy_before or (starts and i == 0)):
-                launches.append((stops.pass_lazy_cells, beams, [self._lazy, self._rays, state]))
-            launches.append((stops.draw_stops, beams, [sweep, lazy, law, self._rays, state]))
-            if steps > 0:
-                launches += cell_launches(sweep)
-            launches.append((cell_draws.sum_slices, beam_sums.shape[1], [beams, state.log_likelihood, beam_sums]))
-            launches.append((cell_draws.sum_slices, cell_sums.shape[1], [touched, self._log_priors, cell_sums]))
-            launches.append((cell_draws.sum_log_joint, 1, [i, beam_sums, cell_sums, label_sums, likelihood, log_prior]))
-            return launches
-
-        def report(callback: Callable[[int, int], None] | None, chains: range, i: int) -> None:
-            for chain in chains:
-                if callback is not None:
-                    callback(chain, first + i)
-
-        def make_sweeps(chains: range, run: Callable[[Launch], None]) -> None:
-            """Make all sweeps of some chains; ``run`` runs a kernel for all of them."""
-            for i in range(count):
-                report(before, chains, i)
-                for launch in sweep_launches(i):
-                    run(launch)
-                report(after, chains, i)
+        def make_sweeps(chains: range, launch_all: Callable[[Launch], None]) -> None:
+            """Make all sweeps of neighbouring chains; ``launch_all`` runs a kernel for all of them."""
+            for sweep in range(first, first + count):
+                _report(before, chains, sweep)
+                for launch in self._sweep_launches(request, sweep):
+                    launch_all(launch)
+                _report(after, chains, sweep)
 
         def sweep_alone(chains: range) -> None:
             """Make all sweeps of neighbouring chains on this thread."""
-            make_sweeps(chains, lambda launch: self._launch_part(launch, (chains, 0)))
+            make_sweeps(chains, lambda launch: self._launch_part(launch, ChainPart(chains, 0)))
 
+        single_chains = [range(chain, chain + 1) for chain in range(self.n_chains)]
         if self.device != "cpu":
-            sweep_alone(all_chains)
-        elif state.parts == 1:
-            self._map(sweep_alone, [range(chain, chain + 1) for chain in all_chains])
-        else:
-            parts = [(range(chain, chain + 1), part) for chain in all_chains for part in range(state.parts)]
-            make_sweeps(all_chains, lambda launch: self._map(partial(self._launch_part, launch), parts))
-        return likelihood.numpy(), log_prior.numpy()
+            sweep_alone(range(self.n_chains))
+        elif self._state.parts == 1:
+            self._map(sweep_alone, single_chains)
+        else:  # every kernel ends in all parts of all chains before the next one starts
+            parts = [ChainPart(chain, part) for chain in single_chains for part in range(self._state.parts)]
+            make_sweeps(range(self.n_chains), lambda launch: self._map(partial(self._launch_part, launch), parts))
+        return request.log_likelihood.numpy(), request.log_prior.numpy()
 
-    def _launch_part(self, launch: Launch, chains_and_part: tuple[range, int]) -> None:
+    def _sweep_launches(self, request: SweepRequest, sweep: int) -> list[Launch]:
+        """Return the launches of a sweep in their order."""
+        beams, touched, state = self.plan.rays.n_beams, len(self.plan.rays.touched), self._state
+        is_first = sweep == request.first
+        # Reset counts, and draw candidates. Lazy cells keep their part in a beam's chance until they are updated.
+        outdated = int(request.laws_changed and is_first)
+        inputs = [sweep, self.without_surfaces, request.prior, outdated, self._active, state, self._log_priors]
+        launches = [Launch(cell_draws.begin_sweep, touched, inputs)]
+        lazy, lazy_before = (int(self._schedule.updates_lazy(number)) for number in (sweep, sweep - 1))
+        if not lazy and (lazy_before or (request.is_start and is_first)):
+            launches.append(Launch(stops.pass_lazy_cells, beams, [self._lazy, self._rays, state]))
+        # Draw the stops given the cells, then the cells given the stops.
+        launches.append(Launch(stops.draw_stops, beams, [sweep, lazy, request.law, self._rays, state]))
+        if request.steps > 0:
+            launches += self._cell_launches(request, sweep)
+        # Sum the log joint of the cells before the sweep.
+        beam_sums, cell_sums = self._slices[:2]
+        inputs = [sweep - request.first, *self._slices, request.log_likelihood, request.log_prior]
+        return [
+            *launches,
+            Launch(cell_draws.sum_slices, beam_sums.shape[1], [beams, state.log_likelihood, beam_sums]),
+            Launch(cell_draws.sum_slices, cell_sums.shape[1], [touched, self._log_priors, cell_sums]),
+            Launch(cell_draws.sum_log_joint, 1, inputs),
+        ]
+
+    def _cell_launches(self, request: SweepRequest, sweep: int) -> list[Launch]:
+        """Return the launches that draw the cells given the stops."""
+        state, prior, shape = self._state, request.prior, self.plan.rays.grid.shape
+        touched, endpoints = len(self.plan.rays.touched), 0 if self.without_surfaces else len(self.plan.endpoints)
+        endpoint_inputs, label_sums = [self._endpoints, self._active, state, self._lists], self._slices[2]
+        launches = [Launch(endpoint_cells.count_endpoint_cells, endpoints, [sweep, *endpoint_inputs])]
+        if prior.coupling > 0:  # cells of one colour of the checkerboard after those of the other
+            launches.append(Launch(cell_draws.sum_label_prior, label_sums.shape[1], [*shape, prior, state, label_sums]))
+            inputs = [sweep, *shape, prior, self._status, state]
+            launches += [Launch(cell_draws.draw_labels, state.n_cells, [colour, *inputs]) for colour in (0, 1)]
+        inputs = [sweep, self.without_surfaces, prior, self._active, state]
+        launches.append(Launch(cell_draws.update_free_cells, touched, inputs))
+        inputs = [sweep, request.steps, request.law, prior, self._rays, *endpoint_inputs, self._blocks]
+        launches.append(Launch(endpoint_cells.update_endpoint_cells, endpoints, inputs))
+        if self.without_surfaces and request.observe_from is not None and sweep >= request.observe_from:
+            launches.append(Launch(cell_draws.count_observed, touched, [self._active, state]))
+        return launches
+
+    def _launch_part(self, launch: Launch, chain_part: ChainPart) -> None:
         """Launch a kernel over a part of the elements of neighbouring chains."""
-        (kernel, size, inputs), (chains, part) = launch, chains_and_part
+        (kernel, size, inputs), (chains, part) = launch, chain_part
         begin, end = (size * i // self._state.parts for i in (part, part + 1))
         if len(chains) > 1:  # all elements of all chains: several chains are launched together only without parts
             end = size * len(chains)
@@ -219,14 +264,14 @@ class StopChains:
         list(load_stop_kernels(self.device))
         list(devices.thread_pool(self.threads).map(work, tasks))
 
-    def _of(self, array: Any, chain: int) -> NDArray[Any]:
-        """Return the part of an array that belongs to a chain: no copy on the CPU, valid until the next sweep."""
+    def _view(self, array: Any, chain: int) -> NDArray[Any]:
+        """Return the elements of an array that belong to a chain: no copy on the CPU, valid until the next sweep."""
         size = array.shape[0] // self.n_chains
         return np.asarray(array[chain * size : (chain + 1) * size].numpy())
 
     def cells(self, chain: int) -> Singles:
         """Return all cells of a chain, (N, 6): no copy on the CPU, valid until the next sweep."""
-        return self._of(self._state.cells, chain)[:, :STATE_SIZE]
+        return self._view(self._state.cells, chain)[:, :STATE_SIZE]
 
     def put_cells(self, chain: int, states: Singles, solid: NDArray[np.bool_] | None = None) -> None:
         """Replace the cells of a chain, (N, 6), and their labels, (N,), if cells have labels."""
@@ -234,44 +279,45 @@ class StopChains:
         wp.copy(self._state.cells[of_chain], cells_to_device(states, self.device))
         if solid is not None:
             wp.copy(self._state.solid[of_chain], wp.array(solid.astype(np.uint8), dtype=wp.uint8, device=self.device))
-        self._law, self._packed = (), None  # numbers computed from the cells before are out of date
+        self._laws, self._last_request = (), None  # numbers computed from the cells before are out of date
 
     def solid(self, chain: int) -> NDArray[np.bool_]:
         """Return the labels of all cells of a chain, (N,), valid until the next sweep; all free if cells have none."""
-        return self._of(self._state.solid, chain).view(np.bool_)
+        return self._view(self._state.solid, chain).view(np.bool_)
 
     def draw_untouched(self, sweep: int) -> None:
         """Draw the reflectivities of cells that no beam touches, which sweeps leave out, before the sweep ``sweep``."""
-        assert self._packed is not None, "no sweep has been made"
+        assert self._last_request is not None, "no sweep has been made"
         size = self.n_chains * self._state.n_cells
-        self._launch(cell_draws.draw_untouched, size, [sweep, self._packed[1], self._status, self._state])
+        self._launch(cell_draws.draw_untouched, size, [sweep, self._last_request.prior, self._status, self._state])
 
     def counted(self, chain: int) -> tuple[Ints, Ints]:
         """Return the beams that each cell stopped, and that met its surface and passed, (N,) each, when it last drew
         its reflectivity (before it, the second is -1). The arrays are valid until the next sweep.
         """
-        return self._of(self._state.last_hits, chain), self._of(self._state.last_met, chain)
+        return self._view(self._state.last_hits, chain), self._view(self._state.last_met, chain)
 
     @property
     def swept(self) -> bool:
         """Whether these chains have made a sweep on this device, so that beams have stopped somewhere."""
-        return self._packed is not None
+        return self._last_request is not None
 
     def in_squares(self, chain: int, sweep: int, kept: bool, solid: NDArray[np.bool_] | None = None) -> InSquares:
         """Count the stops of a chain with surfaces in each square, after its last sweep, which has this number.
         If ``kept``, `observed_counts` counts the draw. ``solid`` holds the labels before the sweep, (N,), if any.
         """
         assert self._squares, "cells without surfaces stop beams inside their own squares"
-        assert self._packed is not None, "no sweep has been made"
-        (law, prior), squares, touched, state = self._packed, self._squares[chain], self.plan.rays.touched, self._state
+        assert self._last_request is not None, "no sweep has been made"
+        request, squares, touched, state = self._last_request, self._squares[chain], self.plan.rays.touched, self._state
+        # Count the stops of beams in squares, then draw each square's chance of a stop given its counts.
         squares.stopped_inside.zero_()
         squares.stopped_before.zero_()
-        inputs = [chain, sweep, law, self._rays, state, squares]
+        inputs = [chain, sweep, request.law, self._rays, state, squares]
         wp.launch(count_in_squares, dim=state.n_beams, inputs=inputs, device=self.device)
         labels = state.solid[chain * state.n_cells : (chain + 1) * state.n_cells]
         if solid is not None:
             labels = devices.to_device(solid, wp.uint8, self.device)
-        inputs = [chain, sweep, prior, state, squares, labels, int(kept)]
+        inputs = [chain, sweep, request.prior, state, squares, labels, int(kept)]
         wp.launch(draw_stop_chances, dim=len(touched), inputs=inputs, device=self.device)
         arrays = squares.crossings, squares.stopped_inside, squares.stopped_before
         crossings, stopped, stopped_before = (a.numpy()[touched] for a in arrays)
@@ -282,21 +328,21 @@ class StopChains:
         """Return the draws in which some beam observes each cell, and the draws inspected, (N, 2); see `counted`.
         With surfaces the kept draws are inspected, without surfaces the sweeps in which the cell has counted.
         """
-        return self._of(self._state.observed_counts, chain)
+        return self._view(self._state.observed_counts, chain)
 
     def log_likelihood(self, chain: int) -> Singles:
         """Return each beam's log-likelihood before a chain's last sweep, over all stops, (B,), valid until the next."""
-        return self._of(self._state.log_likelihood, chain)
+        return self._view(self._state.log_likelihood, chain)
 
     def stopped_by(self, chain: int) -> Ints:
         """Return the cell that stopped each beam of a chain in its last sweep, flat; -1 for none, (B,)."""
-        stop, rays = self._of(self._state.stop, chain), self.plan.rays
+        stop, rays = self._view(self._state.stop, chain), self.plan.rays
         stopped = stop < rays.offsets[1:]
         cells = np.full(len(stop), -1, dtype=np.int32)  # the rays may have no cells at all
         cells[stopped] = rays.cells[stop[stopped]]
         return cells
 
-    def stops(self, chain: int) -> tuple[NDArray[np.bool_], Singles, Singles]:
-        """Return whether each beam of a chain stopped, at what distance in metres and with what variance, (B,) each."""
-        distance_m, variance = self._of(self._state.stop_moments, chain).T.copy()
-        return self._of(self._state.stop, chain) < self.plan.rays.offsets[1:], distance_m, variance
+    def stops(self, chain: int) -> ChainStops:
+        """Return the stops of a chain's beams in its last sweep."""
+        distance_m, variance = self._view(self._state.stop_moments, chain).T.copy()
+        return ChainStops(self._view(self._state.stop, chain) < self.plan.rays.offsets[1:], distance_m, variance)
