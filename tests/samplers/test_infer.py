@@ -344,7 +344,7 @@ def test_a_chain_s_kept_sums_and_bounds_follow_from_its_walls(method, order):
         state, _ = sampler.step(state, sweeps)
         fresh = WallChains(problem.device_table, state.walls(), [0] * 20, "cpu")
         launch(derive_state, 20, [problem.device_table, fresh.states], "cpu")
-        for name in ("walls", "first_wall", "current", "reached"):
+        for name in ("walls", "first_wall", "beam_loglik", "reaching"):
             kept, derived = (getattr(chains.states, name).numpy() for chains in (state.chains, fresh))
             np.testing.assert_array_equal(kept, derived, err_msg=name)
 
@@ -353,7 +353,7 @@ def test_a_chain_s_kept_sums_and_bounds_follow_from_its_walls(method, order):
     for _ in range(10):
         state, _ = sampler.step(state, 3)
         states = state.chains.states
-        known, gain = states.known.numpy(), states.log_likelihood_gain.numpy()
+        known, gain = states.gain_status.numpy(), states.log_likelihood_gain.numpy()
         for chain, walls in enumerate(state.walls() != 0):
             for c in np.flatnonzero(known[chain]):
                 put, removed = walls.copy(), walls.copy()

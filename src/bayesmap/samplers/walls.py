@@ -137,15 +137,14 @@ class WallSampler(ABC):
 
     def step(self, state: WallState, sweeps: int, beta: float = 1.0, keep: Keep = Keep()) -> tuple[WallState, Info]:
         """Make some sweeps of all chains; a kept draw is the map after its sweep."""
-        from bayesmap.kernels.walls.chains import run_sweeps
+        from bayesmap.kernels.walls.chains import SweepPlan, run_sweeps
 
         problem = state.problem
-        log_likelihood, log_prior, draws = run_sweeps(
-            *state.kernel, problem.device_prior, state.sites, self.order == "random", state.chains,
-            first_sweep=state.sweep, count=sweeps, kept=keep.sweeps(state.sweep, state.sweep + sweeps), beta=beta,
-            threads=problem.threads,
-        )  # fmt: skip
-        return replace(state, sweep=state.sweep + sweeps), Info(log_likelihood, log_prior, {"walls": draws})
+        kept = keep.sweeps(state.sweep, state.sweep + sweeps)
+        plan = SweepPlan(state.sites, self.order == "random", state.sweep, sweeps, kept, beta)
+        results = run_sweeps(*state.kernel, problem.device_prior, plan, state.chains, problem.threads)
+        info = Info(results.log_likelihoods, results.log_priors, {"walls": results.walls})
+        return replace(state, sweep=state.sweep + sweeps), info
 
     def retrace(self, problem: WallProblem, model: Model) -> WallProblem:
         """Return this problem with the scans moved to other poses."""

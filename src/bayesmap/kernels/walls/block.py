@@ -1,7 +1,8 @@
 """2 x 2 block Gibbs sweeps on binary walls.
 
-A sweep draws the four cells of a block together, from their 16 joint states given all other cells. There is a block at
-every position of the grid, so every pair of neighbours is drawn together. Such a step can move a wall sideways.
+`block_sweeps` draws the four cells of a block together, from their 16 joint states given all other cells. A sweep visits
+a block at every position of the grid, so it draws every pair of neighbours together. Such a draw can move a wall
+sideways.
 
 Take a beam that reaches the block. Let l_1, l_2, ... be the log-likelihoods of its hits on the block's cells, in the
 order of the beam, and l_out the one of its first wall outside the block, or of "no hit". The beam adds to a state's log
@@ -32,9 +33,10 @@ class BlockArrays:
 
     offsets: Int32s  # block i has the incidences offsets[i] to offsets[i + 1]
     beam: Int32s
-    first: Int32s  # the first of the beam's entries in the block
-    last: Int32s  # the last of them
-    takes: wp.array(dtype=Weights)  # [free * 4 + j][state]: 1 if j is a wall there and the cells of `free` are not
+    first: Int32s  # first entry of the beam in the block
+    last: Int32s  # last entry of the beam in the block
+    # [4 * mask + j][state]: 1 if cell j is a wall in the state and the cells of the mask, which come before it, are not
+    is_first: wp.array(dtype=Weights)
     rows: int  # positions of a block in y
     nx: int
     ny: int
@@ -51,43 +53,42 @@ def cell_of_block(blocks: BlockArrays, x: int, y: int, j: int) -> int:
 
 
 @wp.func
-def index_in_block(c: int, x: int, y: int, ny: int) -> int:
-    """Return the index of cell c in the block at (x, y), 0 to 3, or -1 if it lies outside."""
-    dx = c // ny - x
-    dy = c % ny - y
+def index_in_block(cell: int, x: int, y: int, ny: int) -> int:
+    """Return the index of a cell in the block at (x, y), 0 to 3, or -1 if it lies outside."""
+    dx = cell // ny - x
+    dy = cell % ny - y
     if dx < 0 or dx > 1 or dy < 0 or dy > 1:
         return -1
     return 2 * dx + dy
 
 
 @wp.kernel
-def list_block_beams(first: int, filling: int, bounds: Int32s, t: Table, blocks: BlockArrays, counts: Int32s):
+def list_block_beams(first: int, filling: int, bounds: Int32s, table: Table, blocks: BlockArrays, counts: Int32s):
     """One thread per range of block columns: count the beams of each block; if ``filling``, write their entries."""
-    # b: beam; k, j: its entries; (x, y): one of the four blocks that hold the entry's cell; i: incidence of the block.
     thread = first + wp.tid()
-    for b in range(t.offsets.shape[0] - 1):
-        for k in range(t.offsets[b], t.offsets[b + 1]):
-            cx = t.cells[k] // blocks.ny
-            cy = t.cells[k] % blocks.ny
+    for beam in range(table.offsets.shape[0] - 1):
+        for entry in range(table.offsets[beam], table.offsets[beam + 1]):
+            cell_x = table.cells[entry] // blocks.ny
+            cell_y = table.cells[entry] % blocks.ny
             for corner in range(4):
-                x = cx - corner // 2
-                y = cy - corner % 2
+                x = cell_x - corner // 2  # one of the four blocks that hold the cell
+                y = cell_y - corner % 2
                 if x >= bounds[thread] and x < bounds[thread + 1] and y >= 0 and y < blocks.rows:
-                    # Has the beam met this block before?
-                    seen = int(0)
-                    for j in range(wp.max(t.offsets[b], k - LOOK_BACK), k):
-                        if index_in_block(t.cells[j], x, y, blocks.ny) >= 0:
-                            seen = 1
+                    # An earlier entry of the beam may have listed it for this block.
+                    is_listed = int(0)
+                    for earlier in range(wp.max(table.offsets[beam], entry - LOOK_BACK), entry):
+                        if index_in_block(table.cells[earlier], x, y, blocks.ny) >= 0:
+                            is_listed = 1
                     block = x * blocks.rows + y
-                    if seen == 0:
+                    if is_listed == 0:
                         i = counts[block]
                         counts[block] = i + 1
                         if filling != 0:
-                            blocks.beam[i] = b
-                            blocks.first[i] = k
-                            blocks.last[i] = k
+                            blocks.beam[i] = beam
+                            blocks.first[i] = entry
+                            blocks.last[i] = entry
                     elif filling != 0:
-                        blocks.last[counts[block] - 1] = k
+                        blocks.last[counts[block] - 1] = entry
 
 
 def list_blocks(table: BeamTable, device: str) -> BlockArrays:
@@ -114,10 +115,11 @@ def list_blocks(table: BeamTable, device: str) -> BlockArrays:
     blocks.beam, blocks.first, blocks.last = entries
     devices.launch(list_block_beams, threads, [1, bounds, on_host, blocks, offsets[:-1].copy()], "cpu")
 
-    state = np.arange(16)
-    takes = [((state >> j) & 1) * ((state & free) == 0) for free in range(16) for j in range(4)]
+    # Look-up table of the first wall in each of the 16 states.
+    states = np.arange(16)
+    is_first = [((states >> j) & 1) * ((states & mask) == 0) for mask in range(16) for j in range(4)]
     blocks.offsets = devices.to_device(offsets, wp.int32, device)
-    blocks.takes = devices.to_device(np.array(takes), Weights, device)
+    blocks.is_first = devices.to_device(np.array(is_first), Weights, device)
     blocks.beam, blocks.first, blocks.last = (a.to(device) for a in entries)
     return blocks
 
@@ -128,67 +130,66 @@ ZERO = wp.constant(wp.float64(0.0))
 
 
 @wp.func
-def block_weights(t: Table, blocks: BlockArrays, chain: Chain, block: int, x: int, y: int) -> Weights:
+def block_weights(table: Table, blocks: BlockArrays, chain: Chain, block: int, x: int, y: int) -> Weights:
     """Return the log-likelihood of the 16 states, up to a constant; each beam is walked once."""
-    # i: incidence of the block; b: beam; f: entry of its first wall; k, last: its entries in the block; e: one of them.
     weights = Weights()
     for i in range(blocks.offsets[block], blocks.offsets[block + 1]):
-        b = blocks.beam[i]
-        f = chain.first_wall[b]
-        k = blocks.first[i]
-        if f >= k:  # else a wall stands before the block
+        beam = blocks.beam[i]
+        wall = chain.first_wall[beam]  # an entry, as are first, last and outside
+        first = blocks.first[i]
+        if wall >= first:  # else a wall stands before the block
             last = blocks.last[i]
-            end = t.offsets[b + 1]
+            end = table.offsets[beam + 1]
             # The first wall outside the block: the beam's first wall, or the next one if it lies in the block.
-            outside = f
-            outside_loglik = chain.current[b]
-            if f <= last and index_in_block(t.cells[wp.min(f, end - 1)], x, y, blocks.ny) >= 0:
-                outside = f + 1
+            outside = wall
+            outside_loglik = chain.beam_loglik[beam]
+            if wall <= last and index_in_block(table.cells[wp.min(wall, end - 1)], x, y, blocks.ny) >= 0:
+                outside = wall + 1
                 while outside < end:
-                    c = t.cells[outside]
-                    if chain.walls[c] != wp.uint8(0) and index_in_block(c, x, y, blocks.ny) < 0:
+                    cell = table.cells[outside]
+                    if chain.walls[cell] != wp.uint8(0) and index_in_block(cell, x, y, blocks.ny) < 0:
                         break
                     outside += 1
-                outside_loglik = chains.entry_loglik(t, b, outside, end)
+                outside_loglik = chains.entry_loglik(table, beam, outside, end)
             # Add l_j to the states in which j is the first wall of the beam.
-            free = int(0)
-            for e in range(k, wp.min(last + 1, outside)):
-                j = index_in_block(t.cells[e], x, y, blocks.ny)
+            mask = int(0)
+            for entry in range(first, wp.min(last + 1, outside)):
+                j = index_in_block(table.cells[entry], x, y, blocks.ny)
                 if j >= 0:
-                    weights = weights + wp.float64(t.loglik[e] - outside_loglik) * blocks.takes[4 * free + j]
-                    free = free | (1 << j)
+                    weights = weights + wp.float64(table.loglik[entry] - outside_loglik) * blocks.is_first[4 * mask + j]
+                    mask = mask | (1 << j)
     return weights
 
 
 @wp.func
 def draw_state(weights: Weights, u: wp.float64) -> int:
     """Draw from a categorical law given by unnormalised log weights, by inversion."""
-    # m: state. States more than 40 nats below the largest weight are left out.
-    most = weights[0]
-    for m in range(1, 16):
-        most = wp.max(most, weights[m])
+    # States more than 40 nats below the largest weight are left out.
+    largest = weights[0]
+    for state in range(1, 16):
+        largest = wp.max(largest, weights[state])
     total = wp.float64(0.0)
     share = Weights()
-    for m in range(16):
-        if weights[m] > most - wp.float64(40.0):
-            share[m] = wp.exp(weights[m] - most)
-            total += share[m]
+    for state in range(16):
+        if weights[state] > largest - wp.float64(40.0):
+            share[state] = wp.exp(weights[state] - largest)
+            total += share[state]
     level = u * total
-    for m in range(16):
-        level -= share[m]
-        if level <= wp.float64(0.0) and share[m] > wp.float64(0.0):
-            return m
+    for state in range(16):
+        level -= share[state]
+        if level <= wp.float64(0.0) and share[state] > wp.float64(0.0):
+            return state
     return 15
 
 
 @wp.func
-def beams_reaching(blocks: BlockArrays, reached: Int32s, x: int, y: int) -> int:
-    """Sum over the block's cells the number of beams that reach each."""
+def beams_reaching(blocks: BlockArrays, reaching: Int32s, x: int, y: int) -> int:
+    """Return the sum, over the cells of a block, of the number of beams that reach the cell."""
     total = int(0)
     for j in range(4):
-        c = cell_of_block(blocks, x, y, j)
-        if c >= 0:
-            total += reached[c]
+        cell = cell_of_block(blocks, x, y, j)
+        if cell >= 0:
+            total += reaching[cell]
     return total
 
 
@@ -198,9 +199,9 @@ def draw_block_from_prior(
 ):
     """Draw the cells of a block independently from the prior: no beam reaches them, and nothing couples them."""
     for j in range(4):
-        c = cell_of_block(blocks, x, y, j)
-        if c >= 0:
-            walls[c] = wp.uint8(chains.draw_from_prior(prior, c, random_bits(key, counter + wp.uint64(j))))
+        cell = cell_of_block(blocks, x, y, j)
+        if cell >= 0:
+            walls[cell] = wp.uint8(chains.draw_from_prior(prior, cell, random_bits(key, counter + wp.uint64(j))))
 
 
 @wp.func
@@ -208,21 +209,21 @@ def prior_weights(blocks: BlockArrays, prior: WallPriorArrays, x: int, y: int) -
     """Return the log prior of the 16 states without pairs, up to a constant; fixed cells make states impossible."""
     weights = Weights()
     for j in range(4):
-        c = cell_of_block(blocks, x, y, j)
-        if c < 0 or prior.level[c] == wp.uint64(0):
-            weights = weights + IMPOSSIBLE * blocks.takes[j]
-        elif prior.level[c] == CERTAIN_LEVEL:
-            weights = weights + IMPOSSIBLE * (Weights(wp.float64(1.0)) - blocks.takes[j])
+        cell = cell_of_block(blocks, x, y, j)
+        if cell < 0 or prior.level[cell] == wp.uint64(0):
+            weights = weights + IMPOSSIBLE * blocks.is_first[j]
+        elif prior.level[cell] == CERTAIN_LEVEL:
+            weights = weights + IMPOSSIBLE * (Weights(wp.float64(1.0)) - blocks.is_first[j])
         else:
-            weights = weights + prior.logit[c] * blocks.takes[j]
+            weights = weights + prior.logit[cell] * blocks.is_first[j]
     return weights
 
 
 @wp.func
 def equal_in_block(blocks: BlockArrays, i: int, j: int) -> Weights:
     """Return 1 in the states in which two cells of a block are alike, else 0."""
-    wall_i = blocks.takes[i]
-    wall_j = blocks.takes[j]
+    wall_i = blocks.is_first[i]
+    wall_j = blocks.is_first[j]
     both = wp.cw_mul(wall_i, wall_j)
     return Weights(wp.float64(1.0)) - wall_i - wall_j + both + both
 
@@ -232,22 +233,22 @@ def coupling_weights(blocks: BlockArrays, prior: WallPriorArrays, walls: Uint8s,
     """Return the log prior of the equal pairs of the 16 states, up to a constant."""
     weights = Weights()
     for j in range(4):
-        c = cell_of_block(blocks, x, y, j)
-        if c >= 0:
+        cell = cell_of_block(blocks, x, y, j)
+        if cell >= 0:
             around = int(0)  # walls less free cells among the neighbours outside the block
-            cx = c // blocks.ny
-            cy = c % blocks.ny
+            cx = cell // blocks.ny
+            cy = cell % blocks.ny
             if j < 2:
                 if cx > 0:
-                    around += wp.where(walls[c - blocks.ny] != wp.uint8(0), 1, -1)
+                    around += wp.where(walls[cell - blocks.ny] != wp.uint8(0), 1, -1)
             elif cx < blocks.nx - 1:
-                around += wp.where(walls[c + blocks.ny] != wp.uint8(0), 1, -1)
+                around += wp.where(walls[cell + blocks.ny] != wp.uint8(0), 1, -1)
             if j % 2 == 0:
                 if cy > 0:
-                    around += wp.where(walls[c - 1] != wp.uint8(0), 1, -1)
+                    around += wp.where(walls[cell - 1] != wp.uint8(0), 1, -1)
             elif cy < blocks.ny - 1:
-                around += wp.where(walls[c + 1] != wp.uint8(0), 1, -1)
-            weights = weights + wp.float64(around) * blocks.takes[j]
+                around += wp.where(walls[cell + 1] != wp.uint8(0), 1, -1)
+            weights = weights + wp.float64(around) * blocks.is_first[j]
     # A cell that is outside of a narrow grid is free in all possible states, and has no pairs.
     if blocks.ny > 1:
         weights = weights + equal_in_block(blocks, 0, 1)
@@ -260,17 +261,16 @@ def coupling_weights(blocks: BlockArrays, prior: WallPriorArrays, walls: Uint8s,
 
 @wp.kernel
 def block_sweeps(
-    chain_0: int, t: Table, blocks: BlockArrays, prior: WallPriorArrays, sweeps: Sweeps, states: WallChainArrays,
+    chain_0: int, table: Table, blocks: BlockArrays, prior: WallPriorArrays, sweeps: Sweeps, states: WallChainArrays,
     kept: Kept,
 ):  # fmt: skip
     """One thread per chain: make several sweeps, each over all positions of a block."""
-    # n: chain; s: sweep of this launch; i: position in the sweep's order; (x, y): position of the block; j: its cell.
-    n = chain_0 + wp.tid()
-    chain = chains.chain_of(states, n)
-    key = states.keys[n]
+    chain_index = chain_0 + wp.tid()
+    chain = chains.chain_of(states, chain_index)
+    key = states.keys[chain_index]
     size = sweeps.order.shape[0]
-    for s in range(sweeps.count):
-        sweep = wp.uint64(sweeps.first_sweep + s)
+    for sweep_index in range(sweeps.count):
+        sweep = wp.uint64(sweeps.first_sweep + sweep_index)
         base = sweep * wp.uint64(size) * wp.uint64(4)
         shuffle_key = random_bits(key, ~sweep)
         for i in range(size):
@@ -278,24 +278,24 @@ def block_sweeps(
             x = block // blocks.rows
             y = block % blocks.rows
             counter = base + wp.uint64(4 * block)
-            reaching = beams_reaching(blocks, chain.reached, x, y)
-            if reaching == 0 and prior.coupling == ZERO:
+            n_reaching = beams_reaching(blocks, chain.reaching, x, y)
+            if n_reaching == 0 and prior.coupling == ZERO:
                 draw_block_from_prior(blocks, prior, chain.walls, x, y, key, counter)
             else:
                 # Draw the block's state from its log weights.
                 weights = Weights()
-                if reaching > 0:
-                    weights = sweeps.beta * block_weights(t, blocks, chain, block, x, y)
+                if n_reaching > 0:
+                    weights = sweeps.beta * block_weights(table, blocks, chain, block, x, y)
                 weights = weights + prior_weights(blocks, prior, x, y)
                 if prior.coupling != ZERO:
                     weights = weights + coupling_weights(blocks, prior, chain.walls, x, y)
                 state = draw_state(weights, to_uniform(random_bits(key, counter)))
                 # Put or remove the walls that differ.
                 for j in range(4):
-                    c = cell_of_block(blocks, x, y, j)
-                    if c >= 0:
-                        if ((state >> j) & 1) != 0 and chain.walls[c] == wp.uint8(0):
-                            chains.put_wall(t, chain, c)
-                        if ((state >> j) & 1) == 0 and chain.walls[c] != wp.uint8(0):
-                            chains.remove_wall(t, chain, c)
-        chains.store_sweep(kept, sweeps, n, s, chain, chains.log_prior(prior, chain.walls))
+                    cell = cell_of_block(blocks, x, y, j)
+                    if cell >= 0:
+                        if ((state >> j) & 1) != 0 and chain.walls[cell] == wp.uint8(0):
+                            chains.put_wall(table, chain, cell)
+                        if ((state >> j) & 1) == 0 and chain.walls[cell] != wp.uint8(0):
+                            chains.remove_wall(table, chain, cell)
+        chains.store_sweep(kept, sweeps, chain_index, sweep_index, chain, chains.log_prior(prior, chain.walls))

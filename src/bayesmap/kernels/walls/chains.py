@@ -4,11 +4,12 @@
 (walls - free cells among its neighbours). At a coupling of 0 no neighbour is read.
 
 The walls alone determine the state of a chain, so only the walls are saved. `Chain` documents the rest of the state.
-Kernels of walls use these short names: t for the table, c for a cell, b for a beam, k and e for entries of the table.
+An *entry* is a cell of a beam in the beam table, an *incidence* the same in the index by cells. `run_sweeps` runs the
+sweep of `bayesmap.kernels.walls.gibbs` or `bayesmap.kernels.walls.block`.
 """
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import warp as wp
@@ -40,9 +41,9 @@ class WallPriorArrays:
 
 
 @wp.func
-def draw_from_prior(prior: WallPriorArrays, c: int, bits: wp.uint64) -> bool:
+def draw_from_prior(prior: WallPriorArrays, cell: int, bits: wp.uint64) -> bool:
     """Draw an uncoupled cell: return whether the uniform number of these bits is below its probability."""
-    return (bits >> wp.uint64(11)) < prior.level[c]
+    return (bits >> wp.uint64(11)) < prior.level[cell]
 
 
 @wp.func
@@ -56,11 +57,11 @@ def draw_wall(log_odds: wp.float64, u: wp.float64) -> bool:
 
 
 @wp.func
-def walls_less_free(walls: Uint8s, cell_0: int, c: int, nx: int, ny: int) -> int:
-    """Count walls minus free cells among the neighbours of cell c; the map begins at element ``cell_0``."""
-    x = c // ny
-    y = c - x * ny
-    element = cell_0 + c
+def walls_less_free(walls: Uint8s, cell_0: int, cell: int, nx: int, ny: int) -> int:
+    """Count walls minus free cells among the neighbours of a cell; the map begins at element ``cell_0``."""
+    x = cell // ny
+    y = cell - x * ny
+    element = cell_0 + cell
     balance = int(0)
     if x > 0:
         balance += wp.where(walls[element - ny] != wp.uint8(0), 1, -1)
@@ -74,31 +75,31 @@ def walls_less_free(walls: Uint8s, cell_0: int, c: int, nx: int, ny: int) -> int
 
 
 @wp.func
-def prior_log_odds(prior: WallPriorArrays, walls: Uint8s, c: int) -> wp.float64:
+def prior_log_odds(prior: WallPriorArrays, walls: Uint8s, cell: int) -> wp.float64:
     """Return the prior log-odds of a wall in a cell, given its neighbours."""
     if prior.coupling == NO_COUPLING:
-        return prior.logit[c]
-    return prior.logit[c] + prior.coupling * wp.float64(walls_less_free(walls, 0, c, prior.nx, prior.ny))
+        return prior.logit[cell]
+    return prior.logit[cell] + prior.coupling * wp.float64(walls_less_free(walls, 0, cell, prior.nx, prior.ny))
 
 
 @wp.func
-def draw_given_neighbours(prior: WallPriorArrays, walls: Uint8s, c: int, bits: wp.uint64) -> bool:
+def draw_given_neighbours(prior: WallPriorArrays, walls: Uint8s, cell: int, bits: wp.uint64) -> bool:
     """Draw whether a cell that no beam observes is a wall."""
     if prior.coupling == NO_COUPLING:
-        return draw_from_prior(prior, c, bits)
-    return draw_wall(prior_log_odds(prior, walls, c), to_uniform(bits))
+        return draw_from_prior(prior, cell, bits)
+    return draw_wall(prior_log_odds(prior, walls, cell), to_uniform(bits))
 
 
 @wp.func
 def pairs_alike(walls: Uint8s, cell_0: int, begin: int, end: int, nx: int, ny: int) -> int:
     """Count the pairs of equal neighbours whose first cell is in [begin, end); the map begins at element ``cell_0``."""
     pairs = int(0)
-    for c in range(begin, end):
-        x = c // ny
-        element = cell_0 + c
+    for cell in range(begin, end):
+        x = cell // ny
+        element = cell_0 + cell
         if x < nx - 1 and walls[element] == walls[element + ny]:
             pairs += 1
-        if c - x * ny < ny - 1 and walls[element] == walls[element + 1]:
+        if cell - x * ny < ny - 1 and walls[element] == walls[element + 1]:
             pairs += 1
     return pairs
 
@@ -110,13 +111,13 @@ def log_prior(prior: WallPriorArrays, walls: Uint8s) -> wp.float64:
     if prior.coupling != NO_COUPLING:
         total += prior.coupling * wp.float64(pairs_alike(walls, 0, 0, walls.shape[0], prior.nx, prior.ny))
     if prior.uniform != 0:
-        n = int(0)
-        for c in range(walls.shape[0]):
-            n += int(walls[c])
-        return total + wp.float64(n) * prior.log_prior_gain[0]
-    for c in range(walls.shape[0]):
-        if walls[c] != wp.uint8(0):
-            total += prior.log_prior_gain[c]
+        n_walls = int(0)
+        for cell in range(walls.shape[0]):
+            n_walls += int(walls[cell])
+        return total + wp.float64(n_walls) * prior.log_prior_gain[0]
+    for cell in range(walls.shape[0]):
+        if walls[cell] != wp.uint8(0):
+            total += prior.log_prior_gain[cell]
     return total
 
 
@@ -159,10 +160,10 @@ class Chain:
 
     walls: Uint8s  # 1 for a wall
     first_wall: Int32s  # table entry of each beam's first wall, or the end of its entries
-    current: Float32s  # log-likelihood of each beam's reading
-    reached: Int32s  # number of beams that have no wall before each cell
+    beam_loglik: Float32s  # log-likelihood of each beam's reading
+    reaching: Int32s  # number of beams that reach each cell: no wall stands before it
     log_likelihood_gain: Float32s  # log-likelihood with a wall in each cell less the one without
-    known: Uint8s  # whether this gain is UNKNOWN, a BOUND or EXACT
+    gain_status: Uint8s  # UNKNOWN, BOUND or EXACT
 
 
 @wp.struct
@@ -172,10 +173,10 @@ class WallChainArrays:
     keys: wp.array(dtype=wp.uint64)
     walls: Uint8Rows
     first_wall: Int32Rows
-    current: Float32Rows
-    reached: Int32Rows
+    beam_loglik: Float32Rows
+    reaching: Int32Rows
     log_likelihood_gain: Float32Rows
-    known: Uint8Rows
+    gain_status: Uint8Rows
 
 
 @wp.struct
@@ -213,123 +214,123 @@ def site_of(sweeps: Sweeps, i: int, shuffle_key: wp.uint64) -> int:
 def chain_of(chains: WallChainArrays, i: int) -> Chain:
     """Return the i-th chain; its arrays are views."""
     return Chain(
-        chains.walls[i], chains.first_wall[i], chains.current[i], chains.reached[i], chains.log_likelihood_gain[i],
-        chains.known[i],
+        chains.walls[i], chains.first_wall[i], chains.beam_loglik[i], chains.reaching[i],
+        chains.log_likelihood_gain[i], chains.gain_status[i],
     )  # fmt: skip
 
 
 @wp.func
-def next_wall(t: Table, walls: Uint8s, start: int, end: int) -> int:
+def next_wall(table: Table, walls: Uint8s, start: int, end: int) -> int:
     """Return the first entry in [start, end) whose cell is a wall, or end."""
-    k = start
-    while k < end:
-        if walls[t.cells[k]] != wp.uint8(0):
-            return k
-        k += 1
-    return k
+    entry = start
+    while entry < end:
+        if walls[table.cells[entry]] != wp.uint8(0):
+            return entry
+        entry += 1
+    return entry
 
 
 @wp.func
-def entry_loglik(t: Table, b: int, k: int, end: int) -> wp.float32:
-    """Return the log-likelihood of beam b's reading when entry k is its first wall."""
-    if k < end:
-        return t.loglik[k]
-    return t.no_hit[b]
+def entry_loglik(table: Table, beam: int, entry: int, end: int) -> wp.float32:
+    """Return the log-likelihood of a beam's reading if its first wall is at an entry; ``end`` stands for no wall."""
+    if entry < end:
+        return table.loglik[entry]
+    return table.no_hit[beam]
 
 
 @wp.func
-def move_first_wall(t: Table, chain: Chain, b: int, k: int):
-    """Let beam b end at entry k. Update the beam, and the cells that it reached or now reaches."""
-    # f: entry of the first wall so far; j: entry whose cell is updated.
-    start = t.offsets[b]
-    end = t.offsets[b + 1]
-    f = chain.first_wall[b]
-    chain.first_wall[b] = k
-    chain.current[b] = entry_loglik(t, b, k, end)
+def move_first_wall(table: Table, chain: Chain, beam: int, entry: int):
+    """Let a beam end at an entry. Update the beam, and the cells that it reached or now reaches."""
+    start = table.offsets[beam]
+    end = table.offsets[beam + 1]
+    last = chain.first_wall[beam]  # where the beam has ended so far
+    chain.first_wall[beam] = entry
+    chain.beam_loglik[beam] = entry_loglik(table, beam, entry, end)
     # Cells that the beam reaches before and after: their gains change.
-    nearer = wp.min(f, k)
-    for j in range(start, wp.min(nearer + 1, end)):
-        chain.known[t.cells[j]] = UNKNOWN
+    nearer = wp.min(last, entry)
+    for i in range(start, wp.min(nearer + 1, end)):
+        chain.gain_status[table.cells[i]] = UNKNOWN
     # Cells between the two walls: the beam reaches them now, or no longer.
-    change = wp.where(k > f, 1, -1)
-    for j in range(nearer + 1, wp.min(wp.max(f, k) + 1, end)):
-        c = t.cells[j]
-        chain.known[c] = UNKNOWN
-        chain.reached[c] = chain.reached[c] + change
+    change = wp.where(entry > last, 1, -1)
+    for i in range(nearer + 1, wp.min(wp.max(last, entry) + 1, end)):
+        cell = table.cells[i]
+        chain.gain_status[cell] = UNKNOWN
+        chain.reaching[cell] = chain.reaching[cell] + change
 
 
 @wp.kernel
-def derive_state(chain_0: int, t: Table, chains: WallChainArrays):
+def derive_state(chain_0: int, table: Table, chains: WallChainArrays):
     """One thread per chain: compute the rest of its state from its walls."""
     chain = chain_of(chains, chain_0 + wp.tid())
-    for c in range(chain.reached.shape[0]):
-        chain.reached[c] = 0
-        chain.known[c] = UNKNOWN
-    for b in range(t.no_hit.shape[0]):
-        start = t.offsets[b]
-        end = t.offsets[b + 1]
-        k = next_wall(t, chain.walls, start, end)
-        chain.first_wall[b] = k
-        chain.current[b] = entry_loglik(t, b, k, end)
-        for j in range(start, wp.min(k + 1, end)):
-            c = t.cells[j]
-            chain.reached[c] = chain.reached[c] + 1
+    for cell in range(chain.reaching.shape[0]):
+        chain.reaching[cell] = 0
+        chain.gain_status[cell] = UNKNOWN
+    for beam in range(table.no_hit.shape[0]):
+        start = table.offsets[beam]
+        end = table.offsets[beam + 1]
+        entry = next_wall(table, chain.walls, start, end)
+        chain.first_wall[beam] = entry
+        chain.beam_loglik[beam] = entry_loglik(table, beam, entry, end)
+        for i in range(start, wp.min(entry + 1, end)):
+            cell = table.cells[i]
+            chain.reaching[cell] = chain.reaching[cell] + 1
 
 
 @wp.func
-def put_wall(t: Table, chain: Chain, c: int):
+def put_wall(table: Table, chain: Chain, cell: int):
     """Make a free cell a wall: the beams that passed through it now end there."""
-    chain.walls[c] = wp.uint8(1)
-    for i in range(t.cell_offsets[c], t.cell_offsets[c + 1]):
-        if chain.first_wall[t.cell_beam[i]] > t.cell_entry[i]:
-            move_first_wall(t, chain, t.cell_beam[i], t.cell_entry[i])
+    chain.walls[cell] = wp.uint8(1)
+    for i in range(table.cell_offsets[cell], table.cell_offsets[cell + 1]):
+        if chain.first_wall[table.cell_beam[i]] > table.cell_entry[i]:
+            move_first_wall(table, chain, table.cell_beam[i], table.cell_entry[i])
 
 
 @wp.func
-def remove_wall(t: Table, chain: Chain, c: int):
+def remove_wall(table: Table, chain: Chain, cell: int):
     """Make a wall a free cell: the beams that ended there go on to their next wall."""
-    chain.walls[c] = wp.uint8(0)
-    for i in range(t.cell_offsets[c], t.cell_offsets[c + 1]):
-        b = t.cell_beam[i]
-        e = t.cell_entry[i]
-        if chain.first_wall[b] == e:
-            move_first_wall(t, chain, b, next_wall(t, chain.walls, e + 1, t.offsets[b + 1]))
+    chain.walls[cell] = wp.uint8(0)
+    for i in range(table.cell_offsets[cell], table.cell_offsets[cell + 1]):
+        beam = table.cell_beam[i]
+        entry = table.cell_entry[i]
+        if chain.first_wall[beam] == entry:
+            move_first_wall(table, chain, beam, next_wall(table, chain.walls, entry + 1, table.offsets[beam + 1]))
 
 
 @wp.func
 def pack_walls(walls: Uint8s, packed: Uint8s):
     """Pack a map as `numpy.packbits` does."""
-    for j in range(packed.shape[0]):
+    for byte in range(packed.shape[0]):
         bits = int(0)
-        for c in range(8 * j, wp.min(8 * j + 8, walls.shape[0])):
-            bits = bits | (wp.where(walls[c] != wp.uint8(0), 128, 0) >> (c - 8 * j))
-        packed[j] = wp.uint8(bits)
+        for cell in range(8 * byte, wp.min(8 * byte + 8, walls.shape[0])):
+            bits = bits | (wp.where(walls[cell] != wp.uint8(0), 128, 0) >> (cell - 8 * byte))
+        packed[byte] = wp.uint8(bits)
 
 
 @wp.func
-def log_likelihood(current: Float32s) -> wp.float64:
+def log_likelihood(beam_loglik: Float32s) -> wp.float64:
     """Return log p(readings | walls), summed in a fixed order, so that a resumed chain repeats it exactly."""
     total = wp.float64(0.0)
-    for b in range(current.shape[0]):
-        total += wp.float64(current[b])
+    for beam in range(beam_loglik.shape[0]):
+        total += wp.float64(beam_loglik[beam])
     return total
 
 
 @wp.func
-def store_sweep(kept: Kept, sweeps: Sweeps, n: int, s: int, chain: Chain, log_prior: wp.float64):
-    """Store the log densities of chain n after sweep ``sweeps.first_sweep + s``, and its map if it is kept."""
-    kept.log_likelihoods[n, s] = sweeps.beta * log_likelihood(chain.current)
-    kept.log_priors[n, s] = log_prior
-    sweeps_since = sweeps.first_sweep + s + 1 - kept.first_kept
+def store_sweep(kept: Kept, sweeps: Sweeps, chain_index: int, sweep_index: int, chain: Chain, log_prior: wp.float64):
+    """Store the log densities of a chain after the sweep ``sweeps.first_sweep + sweep_index``, and its map if kept."""
+    kept.log_likelihoods[chain_index, sweep_index] = sweeps.beta * log_likelihood(chain.beam_loglik)
+    kept.log_priors[chain_index, sweep_index] = log_prior
+    sweeps_since = sweeps.first_sweep + sweep_index + 1 - kept.first_kept
     if kept.draws.shape[1] > 0 and sweeps_since >= 0 and sweeps_since % kept.every == 0:
-        pack_walls(chain.walls, kept.draws[n, sweeps_since // kept.every])
+        pack_walls(chain.walls, kept.draws[chain_index, sweeps_since // kept.every])
 
 
 def table_to_device(table: BeamTable, index: CellIndex | None, device: str) -> Any:
     """Put a table, and its index if given, on a device; on the CPU they share the arrays' memory."""
-    parts = {name: array for name, array in vars(table).items() if name != "grid"}
-    parts |= {f"cell_{name}": array for name, array in vars(index).items()} if index else {}
-    return devices.pack(Table, device, **parts)
+    fields = {name: array for name, array in vars(table).items() if name != "grid"}
+    if index:
+        fields |= {f"cell_{name}": array for name, array in vars(index).items()}
+    return devices.pack(Table, device, **fields)
 
 
 class WallChains:
@@ -340,27 +341,44 @@ class WallChains:
         by_beam, by_cell = (len(walls), table.no_hit.shape[0]), walls.shape
         self.states: Any = devices.pack(
             WallChainArrays, device, walls=np.array(walls, dtype=np.uint8), keys=np.array(keys, dtype=np.uint64),
-            first_wall=by_beam, current=by_beam, reached=by_cell, log_likelihood_gain=by_cell, known=by_cell,
+            first_wall=by_beam, beam_loglik=by_beam, reaching=by_cell, log_likelihood_gain=by_cell, gain_status=by_cell,
         )  # fmt: skip
         devices.launch(derive_state, len(walls), [table, self.states], device)
 
 
-def run_sweeps(
-    kernel: Any, tables: Sequence[Any], prior: Any, order: devices.Ints, shuffle: bool, chains: WallChains, *,
-    first_sweep: int, count: int, kept: range, beta: float = 1.0, threads: int | None = None,
-) -> tuple[devices.Floats, devices.Floats, NDArray[np.uint8]]:  # fmt: skip
-    """Advance the chains in place by ``count`` sweeps of a kernel, numbered from ``first_sweep``, one chain per thread.
+class SweepPlan(NamedTuple):
+    """The sweeps of one call of `run_sweeps`, numbered from ``first_sweep``."""
 
-    Sweeps visit sites in order, or shuffled. ``kept`` numbers, from 1, those whose maps are kept; ``beta`` is inverse
-    temperature. Returns log-likelihoods and log priors, (chains, sweeps), and packed maps, (chains, kept, bytes).
-    """
-    n, cells = chains.shape
+    sites: devices.Ints  # the sites that a sweep visits, cells or blocks, in their order
+    shuffle: bool  # whether every sweep shuffles the order anew
+    first_sweep: int
+    count: int
+    kept: range  # numbers, from 1, of the sweeps whose maps are kept
+    beta: float = 1.0  # inverse temperature
+
+
+class SweepResults(NamedTuple):
+    """Results of C chains: log densities after each of S sweeps, and K kept maps."""
+
+    log_likelihoods: devices.Floats  # (C, S)
+    log_priors: devices.Floats  # (C, S)
+    walls: NDArray[np.uint8]  # packed maps, (C, K, bytes)
+
+
+def run_sweeps(
+    kernel: Any, tables: Sequence[Any], prior: Any, plan: SweepPlan, chains: WallChains, threads: int | None = None
+) -> SweepResults:
+    """Advance the chains in place by the sweeps of a kernel, one chain per thread. ``tables`` are its first inputs."""
+    n_chains, cells = chains.shape
     device = chains.device
-    sweeps = devices.pack(Sweeps, device, first_sweep=first_sweep, count=count, beta=beta, order=order)
-    sweeps.shuffle_bits = cipher_bits(len(order)) if shuffle else 0
-    out = devices.pack(
-        Kept, device, first_kept=kept.start, every=kept.step, draws=(n, len(kept), (cells + 7) // 8),
-        log_likelihoods=(n, count), log_priors=(n, count),
+    sweeps = devices.pack(
+        Sweeps, device, first_sweep=plan.first_sweep, count=plan.count, beta=plan.beta, order=plan.sites,
+        shuffle_bits=cipher_bits(len(plan.sites)) if plan.shuffle else 0,
     )  # fmt: skip
-    devices.launch(kernel, n, [*tables, prior, sweeps, chains.states, out], device, threads=threads)
-    return out.log_likelihoods.numpy(), out.log_priors.numpy(), out.draws.numpy()
+    by_sweep = (n_chains, plan.count)
+    kept = devices.pack(
+        Kept, device, first_kept=plan.kept.start, every=plan.kept.step,
+        draws=(n_chains, len(plan.kept), (cells + 7) // 8), log_likelihoods=by_sweep, log_priors=by_sweep,
+    )  # fmt: skip
+    devices.launch(kernel, n_chains, [*tables, prior, sweeps, chains.states, kept], device, threads=threads)
+    return SweepResults(kept.log_likelihoods.numpy(), kept.log_priors.numpy(), kept.draws.numpy())

@@ -3,7 +3,7 @@
 The log-odds of a cell are the prior's, given its neighbours if they are coupled, plus the cell's gain: a sum over the
 beams that reach the cell. Shortcuts that change no draw keep a sweep from visiting every incidence (docs/inference.md):
 a cell that no beam reaches is drawn from the prior, the gain of a free cell is stored until one of its beams moves, and
-if a bound leaves a chance below e^-20 of the other state, the exact sum waits until the uniform number demands it.
+if a bound leaves the other state a chance below e^-20, the exact sum waits until the uniform number demands it.
 """
 
 import warp as wp
@@ -19,94 +19,98 @@ NO_BOUND = wp.constant(wp.float64(-1.0e300))  # below every sum: the sum is comp
 
 
 @wp.func
-def wall_gain(t: Table, chain: Chain, c: int) -> wp.float64:
-    """Return the log-likelihood with the wall in cell c less the log-likelihood without it."""
-    # i: incidence of the cell; b: its beam; e: its entry in the beam table; k: entry of the next wall behind.
+def exact_gain(table: Table, chain: Chain, cell: int) -> wp.float64:
+    """Return the log-likelihood with the wall in a cell less the log-likelihood without it."""
     gain = wp.float64(0.0)
-    for i in range(t.cell_offsets[c], t.cell_offsets[c + 1]):
-        b = t.cell_beam[i]
-        e = t.cell_entry[i]
-        if chain.first_wall[b] == e:
-            end = t.offsets[b + 1]
-            k = chains.next_wall(t, chain.walls, e + 1, end)
-            gain += wp.float64(t.cell_loglik[i] - chains.entry_loglik(t, b, k, end))
+    for i in range(table.cell_offsets[cell], table.cell_offsets[cell + 1]):
+        beam = table.cell_beam[i]
+        entry = table.cell_entry[i]
+        if chain.first_wall[beam] == entry:
+            end = table.offsets[beam + 1]
+            next_entry = chains.next_wall(table, chain.walls, entry + 1, end)
+            behind = chains.entry_loglik(table, beam, next_entry, end)
+            gain += wp.float64(table.cell_loglik[i] - behind)
     return gain
 
 
 @wp.func
-def sum_gain(t: Table, chain: Chain, c: int, least: wp.float64):
-    """Store the gain of a wall in free cell c: the exact sum, or a bound once the sum must stay below ``least``."""
+def store_gain(table: Table, chain: Chain, cell: int, min_gain: wp.float64):
+    """Store the gain of a wall in a free cell: the exact sum, or a bound once the sum must stay below ``min_gain``."""
     gain = wp.float64(0.0)
-    known = EXACT
-    for i in range(t.cell_offsets[c], t.cell_offsets[c + 1]):
-        bound = gain + wp.float64(t.cell_gain_bound[i])  # gain_bound covers all terms from i on
-        if bound < least:
+    status = EXACT
+    for i in range(table.cell_offsets[cell], table.cell_offsets[cell + 1]):
+        bound = gain + wp.float64(table.cell_gain_bound[i])  # gain_bound covers all terms from i on
+        if bound < min_gain:
             gain = bound
-            known = BOUND
+            status = BOUND
             break
-        b = t.cell_beam[i]
-        if chain.first_wall[b] > t.cell_entry[i]:  # the beam reaches the cell
-            gain += wp.float64(t.cell_loglik[i] - chain.current[b])
-    chain.log_likelihood_gain[c] = wp.float32(gain)
-    chain.known[c] = known
+        beam = table.cell_beam[i]
+        if chain.first_wall[beam] > table.cell_entry[i]:  # the beam reaches the cell
+            gain += wp.float64(table.cell_loglik[i] - chain.beam_loglik[beam])
+    chain.log_likelihood_gain[cell] = wp.float32(gain)
+    chain.gain_status[cell] = status
 
 
 @wp.func
-def draw_free_cell(t: Table, prior: WallPriorArrays, chain: Chain, beta: wp.float64, c: int, u: wp.float64) -> bool:
+def draw_free_cell(
+    table: Table, prior: WallPriorArrays, chain: Chain, beta: wp.float64, cell: int, u: wp.float64
+) -> bool:
     """Draw whether a free cell that beams reach becomes a wall, at an inverse temperature."""
-    logit = chains.prior_log_odds(prior, chain.walls, c)
-    if chain.known[c] == UNKNOWN:
-        sum_gain(t, chain, c, (-MIN_BOUND_LOG_ODDS - logit) / beta)
-    if not chains.draw_wall(logit + beta * wp.float64(chain.log_likelihood_gain[c]), u):
+    logit = chains.prior_log_odds(prior, chain.walls, cell)
+    if chain.gain_status[cell] == UNKNOWN:
+        store_gain(table, chain, cell, (-MIN_BOUND_LOG_ODDS - logit) / beta)
+    if not chains.draw_wall(logit + beta * wp.float64(chain.log_likelihood_gain[cell]), u):
         return False
-    if chain.known[c] == EXACT:
+    if chain.gain_status[cell] == EXACT:
         return True
     # The bound allows a wall: draw again with the exact sum and the same uniform number.
-    sum_gain(t, chain, c, NO_BOUND)
-    return chains.draw_wall(logit + beta * wp.float64(chain.log_likelihood_gain[c]), u)
+    store_gain(table, chain, cell, NO_BOUND)
+    return chains.draw_wall(logit + beta * wp.float64(chain.log_likelihood_gain[cell]), u)
 
 
 @wp.func
-def draw_wall_cell(t: Table, prior: WallPriorArrays, chain: Chain, beta: wp.float64, c: int, u: wp.float64) -> bool:
+def draw_wall_cell(
+    table: Table, prior: WallPriorArrays, chain: Chain, beta: wp.float64, cell: int, u: wp.float64
+) -> bool:
     """Draw whether a wall that beams reach stays a wall, at an inverse temperature."""
-    logit = chains.prior_log_odds(prior, chain.walls, c)
-    if chain.known[c] == UNKNOWN:
+    logit = chains.prior_log_odds(prior, chain.walls, cell)
+    if chain.gain_status[cell] == UNKNOWN:
         # Lower bound: each beam that ends here has its advantage over all entries behind.
-        least = wp.float64(0.0)
-        for i in range(t.cell_offsets[c], t.cell_offsets[c + 1]):
-            if chain.first_wall[t.cell_beam[i]] == t.cell_entry[i]:
-                least += wp.float64(t.cell_advantage[i])
-        chain.log_likelihood_gain[c] = wp.float32(least)
-        chain.known[c] = BOUND
-    if chain.known[c] == BOUND:
-        least = logit + beta * wp.float64(chain.log_likelihood_gain[c])
-        if least > MIN_BOUND_LOG_ODDS and chains.draw_wall(least, u):
+        lower_bound = wp.float64(0.0)
+        for i in range(table.cell_offsets[cell], table.cell_offsets[cell + 1]):
+            if chain.first_wall[table.cell_beam[i]] == table.cell_entry[i]:
+                lower_bound += wp.float64(table.cell_advantage[i])
+        chain.log_likelihood_gain[cell] = wp.float32(lower_bound)
+        chain.gain_status[cell] = BOUND
+    if chain.gain_status[cell] == BOUND:
+        lowest_log_odds = logit + beta * wp.float64(chain.log_likelihood_gain[cell])
+        if lowest_log_odds > MIN_BOUND_LOG_ODDS and chains.draw_wall(lowest_log_odds, u):
             return True
-    return chains.draw_wall(logit + beta * wall_gain(t, chain, c), u)
+    return chains.draw_wall(logit + beta * exact_gain(table, chain, cell), u)
 
 
 @wp.kernel
 def gibbs_sweeps(
-    chain_0: int, t: Table, prior: WallPriorArrays, sweeps: chains.Sweeps, states: WallChainArrays, kept: chains.Kept
-):
+    chain_0: int, table: Table, prior: WallPriorArrays, sweeps: chains.Sweeps, states: WallChainArrays,
+    kept: chains.Kept,
+):  # fmt: skip
     """One thread per chain: make several sweeps, each over all cells."""
-    # n: chain; s: sweep of this launch; i: position in the sweep's order; c: cell.
-    n = chain_0 + wp.tid()
-    chain = chains.chain_of(states, n)
-    key = states.keys[n]
+    chain_index = chain_0 + wp.tid()
+    chain = chains.chain_of(states, chain_index)
+    key = states.keys[chain_index]
     size = sweeps.order.shape[0]
-    for s in range(sweeps.count):
-        sweep = wp.uint64(sweeps.first_sweep + s)
+    for sweep_index in range(sweeps.count):
+        sweep = wp.uint64(sweeps.first_sweep + sweep_index)
         base = sweep * wp.uint64(size)
         shuffle_key = random_bits(key, ~sweep)
         for i in range(size):
-            c = chains.site_of(sweeps, i, shuffle_key)
-            bits = random_bits(key, base + wp.uint64(c))
-            if chain.reached[c] == 0:
-                chain.walls[c] = wp.uint8(chains.draw_given_neighbours(prior, chain.walls, c, bits))
-            elif chain.walls[c] != wp.uint8(0):
-                if not draw_wall_cell(t, prior, chain, sweeps.beta, c, to_uniform(bits)):
-                    chains.remove_wall(t, chain, c)
-            elif draw_free_cell(t, prior, chain, sweeps.beta, c, to_uniform(bits)):
-                chains.put_wall(t, chain, c)
-        chains.store_sweep(kept, sweeps, n, s, chain, chains.log_prior(prior, chain.walls))
+            cell = chains.site_of(sweeps, i, shuffle_key)
+            bits = random_bits(key, base + wp.uint64(cell))
+            if chain.reaching[cell] == 0:
+                chain.walls[cell] = wp.uint8(chains.draw_given_neighbours(prior, chain.walls, cell, bits))
+            elif chain.walls[cell] != wp.uint8(0):
+                if not draw_wall_cell(table, prior, chain, sweeps.beta, cell, to_uniform(bits)):
+                    chains.remove_wall(table, chain, cell)
+            elif draw_free_cell(table, prior, chain, sweeps.beta, cell, to_uniform(bits)):
+                chains.put_wall(table, chain, cell)
+        chains.store_sweep(kept, sweeps, chain_index, sweep_index, chain, chains.log_prior(prior, chain.walls))

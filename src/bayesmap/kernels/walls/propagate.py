@@ -13,7 +13,8 @@ l_out the likelihood of no hit, all relative to the beam's largest. Then
 
 Let J be the coupling, and h the sender's log-odds without the receiver's message. A neighbour's message is log(exp(J +
 h) + 1) - log(exp(h) + exp(J)) (Pearl's messages of a pairwise field: Yedidia, Freeman and Weiss, 2003). Messages of
-beams are stored as ratios: no logarithm is needed along a beam, and damping by a half is a square root.
+beams are stored as ratios: no logarithm is needed along a beam, and damping by a half is a square root. `Beliefs` runs
+the rounds.
 """
 
 import numpy as np
@@ -25,16 +26,16 @@ from bayesmap.kernels.device import Float32Rows, Float32s, Float64s, Floats, Int
 
 wp.set_module_options({"enable_backward": False})
 
-TINY = wp.constant(wp.float32(1.0e-30))
-LARGEST_RATIO = wp.constant(wp.float32(1.0e6))
-LARGEST_PRODUCT = wp.constant(wp.float32(1.0e30))  # beyond it, a product is replaced by its logarithm
-FIXED = wp.constant(wp.float32(1.0e12))  # prior log-odds past any beam's
-LARGEST_LOG_ODDS = wp.constant(wp.float32(60.0))  # log-odds are clipped before their exponential
+TINY = wp.constant(wp.float32(1.0e-30))  # keeps likelihoods and divisors above zero
+MAX_RATIO = wp.constant(wp.float32(1.0e6))
+MAX_PRODUCT = wp.constant(wp.float32(1.0e30))  # beyond it, a product is replaced by its logarithm
+FIXED_LOG_ODDS = wp.constant(wp.float32(1.0e12))  # prior log-odds that no beam can outweigh: the prior fixes the cell
+MAX_LOG_ODDS = wp.constant(wp.float32(60.0))  # log-odds are clipped before their exponential
 
 
 @wp.struct
 class BeliefArrays:
-    """Messages and beliefs on a device. Each part of the beams has its own sums, so their order is always the same."""
+    """Messages and beliefs on a device. Each part of the beams has its own sums, added in a fixed order."""
 
     bounds: Int32s  # part i holds the beams bounds[i] to bounds[i + 1]
     offsets: Int32s  # offsets of the beam table
@@ -53,25 +54,24 @@ class BeliefArrays:
 @wp.kernel
 def fill_relative(first: int, beta: wp.float32, loglik: Float32s, no_hit: Float32s, beliefs: BeliefArrays):
     """One thread per beam: compute likelihoods relative to the beam's largest, at an inverse temperature."""
-    b = first + wp.tid()
-    most = no_hit[b]
-    for k in range(beliefs.offsets[b], beliefs.offsets[b + 1]):
-        most = wp.max(most, loglik[k])
+    beam = first + wp.tid()
+    largest = no_hit[beam]
+    for entry in range(beliefs.offsets[beam], beliefs.offsets[beam + 1]):
+        largest = wp.max(largest, loglik[entry])
     last = wp.float32(1.0)
     likelihood = wp.float32(1.0)
-    for k in range(beliefs.offsets[b], beliefs.offsets[b + 1]):
-        log_ratio = beta * (loglik[k] - most)
+    for entry in range(beliefs.offsets[beam], beliefs.offsets[beam + 1]):
+        log_ratio = beta * (loglik[entry] - largest)
         if log_ratio != last:  # long stretches of a beam share one value
             likelihood = wp.max(wp.exp(log_ratio), TINY)
             last = log_ratio
-        beliefs.relative[k] = likelihood
-    beliefs.relative_no_hit[b] = wp.max(wp.exp(beta * (no_hit[b] - most)), TINY)
+        beliefs.relative[entry] = likelihood
+    beliefs.relative_no_hit[beam] = wp.max(wp.exp(beta * (no_hit[beam] - largest)), TINY)
 
 
 @wp.kernel
 def beam_messages(part_0: int, damping: wp.float32, beliefs: BeliefArrays):
     """One thread per part of the beams: compute new messages to their cells, and sum their logarithms per cell."""
-    # b: beam; k: its entry; c: cell of the entry; o: odds of the cell's belief; p: cavity probability.
     part = part_0 + wp.tid()
     received = beliefs.received[part]
     product = beliefs.product[part]
@@ -81,45 +81,45 @@ def beam_messages(part_0: int, damping: wp.float32, beliefs: BeliefArrays):
     ratio = beliefs.ratio
     behind = beliefs.behind
     one = wp.float32(1.0)
-    for c in range(received.shape[0]):
-        received[c] = wp.float32(0.0)
-        product[c] = one
-    for b in range(beliefs.bounds[part], beliefs.bounds[part + 1]):
-        start = beliefs.offsets[b]
-        end = beliefs.offsets[b + 1]
-        # Backward pass: s is S.
-        s = beliefs.relative_no_hit[b]
+    for cell in range(received.shape[0]):
+        received[cell] = wp.float32(0.0)
+        product[cell] = one
+    for beam in range(beliefs.bounds[part], beliefs.bounds[part + 1]):
+        start = beliefs.offsets[beam]
+        end = beliefs.offsets[beam + 1]
+        # Backward pass: likelihood_behind is S.
+        likelihood_behind = beliefs.relative_no_hit[beam]
         for i in range(end - start):
-            k = end - 1 - i
-            behind[k] = s
-            o = odds[cells[k]]
-            p = o / (o + ratio[k])  # the cavity: the belief without this beam's own message
-            s += p * (relative[k] - s)
+            entry = end - 1 - i
+            behind[entry] = likelihood_behind
+            cell_odds = odds[cells[entry]]
+            p_wall = cell_odds / (cell_odds + ratio[entry])  # the cavity: the belief without this beam's own message
+            likelihood_behind += p_wall * (relative[entry] - likelihood_behind)
         # Forward pass: free is T, and before is A.
         free = wp.float32(1.0)
         before = wp.float32(0.0)
-        for k in range(start, end):
-            c = cells[k]
-            o = odds[c]
-            old = ratio[k]
-            p = o / (o + old)
-            new = (before + free * relative[k] + TINY) / (before + free * behind[k] + TINY)
-            new = wp.clamp(new, one / LARGEST_RATIO, LARGEST_RATIO)
-            before += free * p * relative[k]
-            free *= one - p
+        for entry in range(start, end):
+            cell = cells[entry]
+            cell_odds = odds[cell]
+            last_ratio = ratio[entry]
+            p_wall = cell_odds / (cell_odds + last_ratio)
+            next_ratio = (before + free * relative[entry] + TINY) / (before + free * behind[entry] + TINY)
+            next_ratio = wp.clamp(next_ratio, one / MAX_RATIO, MAX_RATIO)
+            before += free * p_wall * relative[entry]
+            free *= one - p_wall
             if damping == wp.float32(0.5):
-                new = wp.sqrt(old * new)
+                next_ratio = wp.sqrt(last_ratio * next_ratio)
             else:
-                new = wp.pow(old, damping) * wp.pow(new, one - damping)
-            ratio[k] = new
+                next_ratio = wp.pow(last_ratio, damping) * wp.pow(next_ratio, one - damping)
+            ratio[entry] = next_ratio
             # Multiply the messages to the cell; take the logarithm before the product overflows.
-            m = product[c] * new
-            if m > LARGEST_PRODUCT or m < one / LARGEST_PRODUCT:
-                received[c] = received[c] + wp.log(m)
-                m = one
-            product[c] = m
-    for c in range(received.shape[0]):
-        received[c] = received[c] + wp.log(product[c])
+            message_product = product[cell] * next_ratio
+            if message_product > MAX_PRODUCT or message_product < one / MAX_PRODUCT:
+                received[cell] = received[cell] + wp.log(message_product)
+                message_product = one
+            product[cell] = message_product
+    for cell in range(received.shape[0]):
+        received[cell] = received[cell] + wp.log(product[cell])
 
 
 @wp.func
@@ -141,38 +141,38 @@ def neighbour_messages(
     messages: Float32Rows,
 ):  # fmt: skip
     """One thread per cell: compute the log-odds that it receives from its neighbours, 0 where there is none."""
-    # c: receiving cell; d: sending neighbour. Rows of the messages are (x - 1, x + 1, y - 1, y + 1).
-    c = first + wp.tid()
-    x = c // ny
-    y = c - x * ny
+    # Rows of the messages are (x - 1, x + 1, y - 1, y + 1).
+    cell = first + wp.tid()
+    x = cell // ny
+    y = cell - x * ny
     for side in range(4):
-        d = int(-1)
+        sender = int(-1)
         if side == 0 and x > 0:
-            d = c - ny
+            sender = cell - ny
         if side == 1 and x < nx - 1:
-            d = c + ny
+            sender = cell + ny
         if side == 2 and y > 0:
-            d = c - 1
+            sender = cell - 1
         if side == 3 and y < ny - 1:
-            d = c + 1
-        if d >= 0:
+            sender = cell + 1
+        if sender >= 0:
             # The neighbour stores the message of this cell in the row of the opposite side.
-            message = wp.float32(from_neighbour(belief[d], last[side ^ 1, d], coupling))
-            messages[side, c] = damping * last[side, c] + (wp.float32(1.0) - damping) * message
+            message = wp.float32(from_neighbour(belief[sender], last[side ^ 1, sender], coupling))
+            messages[side, cell] = damping * last[side, cell] + (wp.float32(1.0) - damping) * message
 
 
 @wp.kernel
 def cell_beliefs(first: int, from_neighbours: Float32Rows, beliefs: BeliefArrays):
     """One thread per cell: sum prior log-odds and all messages; uncoupled neighbours send none."""
-    c = first + wp.tid()
-    total = wp.float32(beliefs.logit[c])
-    if wp.abs(total) < FIXED:  # else the prior fixes the cell, whatever the others say
+    cell = first + wp.tid()
+    total = wp.float32(beliefs.logit[cell])
+    if wp.abs(total) < FIXED_LOG_ODDS:  # else the prior fixes the cell, whatever the others say
         for part in range(beliefs.received.shape[0]):
-            total += beliefs.received[part, c]
+            total += beliefs.received[part, cell]
         for side in range(from_neighbours.shape[0]):
-            total += from_neighbours[side, c]
-    beliefs.belief[c] = total
-    beliefs.odds[c] = wp.exp(wp.clamp(total, -LARGEST_LOG_ODDS, LARGEST_LOG_ODDS))
+            total += from_neighbours[side, cell]
+    beliefs.belief[cell] = total
+    beliefs.odds[cell] = wp.exp(wp.clamp(total, -MAX_LOG_ODDS, MAX_LOG_ODDS))
 
 
 CPU_PARTS = 4  # fixed, so that sums do not depend on the number of cores
@@ -180,7 +180,10 @@ GPU_PARTS = 256
 
 
 class Beliefs:
-    """Messages and beliefs of one problem: 12 bytes per incidence of the table; if coupled, also 32 bytes per cell."""
+    """Messages and beliefs of one beam table: `round` advances them, `log_odds` reads the beliefs.
+
+    They take 12 bytes per incidence of the table and, if neighbours are coupled, 32 bytes per cell.
+    """
 
     def __init__(self, table: BeamTable, logit: Floats, device: str, beta: float = 1.0, coupling: float = 0.0) -> None:
         cells, incidences, beams = table.grid.n_cells, table.n_incidences, table.n_beams

@@ -1,4 +1,9 @@
-"""Build the beam table of scans and its index by cells, and evaluate maps of walls on it."""
+"""Build the beam table of scans and its index by cells, and evaluate maps of walls on it.
+
+The table (`bayesmap.beams.table`) holds each beam's log-likelihood for a stop in each of its cells. `trace` builds
+it, and `index_by_cell` lists its entries by cells, for Gibbs sweeps. The rest of the file evaluates maps on the table:
+particles drawn from the prior, packed draws, and the cells that beams reach.
+"""
 
 from typing import Any
 
@@ -20,8 +25,8 @@ from bayesmap.space.scans import Scans
 
 wp.set_module_options({"enable_backward": False})
 
-NOISE_SCALES = wp.constant(wp.float64(9.0))  # scales past which normal noise adds nothing to a mixture
-LEAST_GAIN = wp.constant(wp.float32(1.0e-3))  # nats: incidences that can gain less than this come last in their cell
+MAX_NOISE_SCALES = wp.constant(wp.float64(9.0))  # further from a stop, normal noise adds nothing to a mixture
+MIN_GAIN_NATS = wp.constant(wp.float32(1.0e-3))  # incidences that can gain less than this come last in their cell
 SLICE = 1 << 20  # entries per call of NumPy, if a model has no compiled likelihood
 
 
@@ -60,8 +65,9 @@ def _fill_by_model(sensor: SensorModel, rays: Rays, loglik: Singles) -> tuple[Si
     no_hit = sensor.log_likelihood(rays.range_m, np.full(rays.n_beams, np.inf), rays.limits).astype(np.float32)
     beam = rays.beam_of_entry()
     for i in range(0, rays.n_incidences, SLICE):
-        part = slice(i, i + SLICE)
-        loglik[part] = sensor.log_likelihood(rays.range_m[beam[part]], loglik[part].astype(np.float64), rays.limits)
+        entries = slice(i, i + SLICE)
+        distance_m = loglik[entries].astype(np.float64)
+        loglik[entries] = sensor.log_likelihood(rays.range_m[beam[entries]], distance_m, rays.limits)
     return loglik, no_hit
 
 
@@ -71,88 +77,86 @@ def fill_likelihood(
     no_hit: Float32s,
 ):  # fmt: skip
     """One thread per beam: compute the log-likelihood of each entry, and of no hit."""
-    # b: beam; z: its reading; k: its entry.
-    b = first + wp.tid()
-    z = range_m[b]
-    no_hit[b] = wp.float32(0.0)
+    beam = first + wp.tid()
+    z = range_m[beam]  # the reading
+    no_hit[beam] = wp.float32(0.0)
     if wp.isnan(z):
         return
     one = wp.float64(1.0)
     zero = wp.float64(0.0)
-    begin = rays.offsets[b]
-    end = rays.offsets[b + 1]
-    line = traced.line_of(rays.lines, b)
+    begin = rays.offsets[beam]
+    end = rays.offsets[beam + 1]
+    line = traced.line_of(rays.lines, beam)
     decay = object_decay(law, z)
-    no_hit[b] = wp.float32(stop_log_density(law, z, decay, wp.float64(wp.inf), zero))
+    no_hit[beam] = wp.float32(stop_log_density(law, z, decay, wp.float64(wp.inf), zero))
     # Entries [near, behind) depend on the noise. All stops before a mixture's normal noise share one likelihood, and so
     # do all stops behind it. Bisection finds their entries.
     near = begin
     behind = end
     if law.kind == MIXTURE and law.dof == zero and wp.isfinite(z):
-        least = (z - NOISE_SCALES * law.sigma_m) / (one + NOISE_SCALES * law.sigma_per_m)
-        near = traced.first_past(line, rays.cells, begin, end, least, depth)
-        if NOISE_SCALES * law.sigma_per_m < one:
-            most = (z + NOISE_SCALES * law.sigma_m) / (one - NOISE_SCALES * law.sigma_per_m)
-            behind = traced.first_past(line, rays.cells, near, end, most, depth)
+        nearest = (z - MAX_NOISE_SCALES * law.sigma_m) / (one + MAX_NOISE_SCALES * law.sigma_per_m)
+        near = traced.first_past(line, rays.cells, begin, end, nearest, depth)
+        if MAX_NOISE_SCALES * law.sigma_per_m < one:
+            farthest = (z + MAX_NOISE_SCALES * law.sigma_m) / (one - MAX_NOISE_SCALES * law.sigma_per_m)
+            behind = traced.first_past(line, rays.cells, near, end, farthest, depth)
         if near > begin:
             before = wp.float32(wp.log(law.uniform))
-            for k in range(begin, near):
-                loglik[k] = before
-    for k in range(near, behind):
-        distance = traced.distance_at(line, rays.cells[k], depth)
-        loglik[k] = wp.float32(stop_log_density(law, z, decay, distance, zero))
+            for entry in range(begin, near):
+                loglik[entry] = before
+    for entry in range(near, behind):
+        distance = traced.distance_at(line, rays.cells[entry], depth)
+        loglik[entry] = wp.float32(stop_log_density(law, z, decay, distance, zero))
     if behind < end:
-        after = no_hit[b]
+        after = no_hit[beam]
         if z < law.max_m:
             after = wp.float32(wp.log(law.uniform + law.passing * decay))
-        for k in range(behind, end):
-            loglik[k] = after
+        for entry in range(behind, end):
+            loglik[entry] = after
 
 
 @wp.kernel
-def beam_extremes(first: int, t: Table, lowest: Float32s, advantage: Float32s):
-    """One thread per beam: find its least log-likelihood, and each entry's advantage over those behind it."""
-    # k goes from the last entry to the first; behind: largest log-likelihood of the entries after k, and of no hit.
-    b = first + wp.tid()
-    least = t.no_hit[b]
-    behind = t.no_hit[b]
-    for i in range(t.offsets[b + 1] - t.offsets[b]):
-        k = t.offsets[b + 1] - 1 - i
-        advantage[k] = t.loglik[k] - behind
-        behind = wp.max(behind, t.loglik[k])
-        least = wp.min(least, t.loglik[k])
-    lowest[b] = least
+def find_beam_extremes(first: int, table: Table, lowest: Float32s, advantage: Float32s):
+    """One thread per beam: find its lowest log-likelihood, and each entry's advantage over all entries behind it."""
+    # From the last entry to the first; behind: largest log-likelihood of the entries behind, and of no hit.
+    beam = first + wp.tid()
+    least = table.no_hit[beam]
+    behind = table.no_hit[beam]
+    for i in range(table.offsets[beam + 1] - table.offsets[beam]):
+        entry = table.offsets[beam + 1] - 1 - i
+        advantage[entry] = table.loglik[entry] - behind
+        behind = wp.max(behind, table.loglik[entry])
+        least = wp.min(least, table.loglik[entry])
+    lowest[beam] = least
 
 
 @wp.kernel
 def scatter_entries(
     first: int, cell_bounds: Int32s, table: Table, lowest: Float32s, advantage: Float32s, next_free: Int32s
 ):
-    """One thread per range of cells: write their index, with incidences that can gain over `LEAST_GAIN` first."""
-    # thread: range of cells; c: cell; b: beam; k: entry of the table; i: incidence of the cell, from next_free[c] on.
+    """One thread per range of cells: write their index, with incidences that can gain over `MIN_GAIN_NATS` first."""
     thread = first + wp.tid()
     low = cell_bounds[thread]
     high = cell_bounds[thread + 1]
     for gaining in range(2):
-        for b in range(table.no_hit.shape[0]):
-            least = lowest[b]
-            for k in range(table.offsets[b], table.offsets[b + 1]):
-                c = table.cells[k]
-                if c >= low and c < high:
-                    gain = table.loglik[k] - least
-                    if (gain > LEAST_GAIN) == (gaining == 0):
-                        i = next_free[c]
-                        next_free[c] = i + 1
-                        table.cell_entry[i] = k
-                        table.cell_beam[i] = b
-                        table.cell_loglik[i] = table.loglik[k]
+        for beam in range(table.no_hit.shape[0]):
+            least = lowest[beam]
+            for entry in range(table.offsets[beam], table.offsets[beam + 1]):
+                cell = table.cells[entry]
+                if cell >= low and cell < high:
+                    gain = table.loglik[entry] - least
+                    if (gain > MIN_GAIN_NATS) == (gaining == 0):
+                        i = next_free[cell]  # incidence of the cell
+                        next_free[cell] = i + 1
+                        table.cell_entry[i] = entry
+                        table.cell_beam[i] = beam
+                        table.cell_loglik[i] = table.loglik[entry]
                         table.cell_gain_bound[i] = gain
-                        table.cell_advantage[i] = advantage[k]
+                        table.cell_advantage[i] = advantage[entry]
     # A bound covers an incidence and all after it: sum from the last to the first.
-    for c in range(low, high):
+    for cell in range(low, high):
         bound = wp.float32(0.0)
-        for j in range(table.cell_offsets[c + 1] - table.cell_offsets[c]):
-            i = table.cell_offsets[c + 1] - 1 - j
+        for j in range(table.cell_offsets[cell + 1] - table.cell_offsets[cell]):
+            i = table.cell_offsets[cell + 1] - 1 - j
             bound += table.cell_gain_bound[i]
             table.cell_gain_bound[i] = bound
 
@@ -171,7 +175,7 @@ def index_by_cell(table: BeamTable) -> CellIndex:
     reals = {name: np.empty(entries, dtype=np.float32) for name in ("loglik", "gain_bound", "advantage")}
     index = CellIndex(offsets=offsets, **integers, **reals)
     on_host = table_to_device(table, index, "cpu")
-    extremes = devices.launch(beam_extremes, table.n_beams, [on_host, (table.n_beams,), (entries,)], "cpu")
+    extremes = devices.launch(find_beam_extremes, table.n_beams, [on_host, (table.n_beams,), (entries,)], "cpu")
     devices.launch(scatter_entries, threads, [bounds, on_host, *extremes, offsets[:-1].copy()], "cpu")
     return index
 
@@ -181,25 +185,27 @@ DevicePrior = Any  # `WallPriorArrays` on a device, from `wall_prior_to_device`
 
 
 @wp.func
-def particle_wall(prior: WallPriorArrays, key: wp.uint64, particle: wp.uint64, n_cells: wp.uint64, c: int) -> bool:
-    """Return whether cell c is a wall in a particle's map, which is not stored but drawn again from its counter."""
-    return draw_from_prior(prior, c, random_bits(key, particle * n_cells + wp.uint64(c)))
+def is_particle_wall(
+    prior: WallPriorArrays, key: wp.uint64, particle: wp.uint64, n_cells: wp.uint64, cell: int
+) -> bool:
+    """Return whether a cell is a wall in a particle's map, which is not stored but drawn again from its counter."""
+    return draw_from_prior(prior, cell, random_bits(key, particle * n_cells + wp.uint64(cell)))
 
 
 @wp.kernel
 def weigh_particles(
-    first: int, t: Table, prior: WallPriorArrays, key: wp.uint64, particle_0: wp.uint64, log_weights: Float64s
+    first: int, table: Table, prior: WallPriorArrays, key: wp.uint64, first_particle: wp.uint64, log_weights: Float64s
 ):
     """One thread per particle: compute log p(readings | its map). Only cells that beams reach are drawn."""
     i = first + wp.tid()
-    particle = particle_0 + wp.uint64(i)
+    particle = first_particle + wp.uint64(i)
     n_cells = wp.uint64(prior.level.shape[0])
     total = wp.float64(0.0)
-    for b in range(t.no_hit.shape[0]):
-        term = t.no_hit[b]
-        for k in range(t.offsets[b], t.offsets[b + 1]):
-            if particle_wall(prior, key, particle, n_cells, t.cells[k]):
-                term = t.loglik[k]
+    for beam in range(table.no_hit.shape[0]):
+        term = table.no_hit[beam]
+        for entry in range(table.offsets[beam], table.offsets[beam + 1]):
+            if is_particle_wall(prior, key, particle, n_cells, table.cells[entry]):
+                term = table.loglik[entry]
                 break
         total += wp.float64(term)
     log_weights[i] = total
@@ -212,9 +218,9 @@ def draw_particles(
     """One thread per particle: write its whole map."""
     i = first + wp.tid()
     n_cells = walls.shape[1]
-    for c in range(n_cells):
-        wall = particle_wall(prior, key, particles[i], wp.uint64(n_cells), c)
-        walls[i, c] = wp.uint8(wp.where(wall, 1, 0))
+    for cell in range(n_cells):
+        wall = is_particle_wall(prior, key, particles[i], wp.uint64(n_cells), cell)
+        walls[i, cell] = wp.uint8(wp.where(wall, 1, 0))
 
 
 def particle_log_weights(
@@ -231,37 +237,37 @@ def particle_maps(prior: DevicePrior, key: int, particles: NDArray[np.intp], dev
 
 
 @wp.kernel
-def sum_log_likelihoods(first: int, t: Table, packed: Uint8Rows, total: Float64s):
+def sum_log_likelihoods(first: int, table: Table, packed: Uint8Rows, log_likelihood: Float64s):
     """One thread per packed map: compute log p(readings | map); each beam ends at its first wall."""
-    d = first + wp.tid()
-    value = wp.float64(0.0)
-    for b in range(t.no_hit.shape[0]):
-        term = t.no_hit[b]
-        for k in range(t.offsets[b], t.offsets[b + 1]):
-            c = t.cells[k]
-            if ((int(packed[d, c // 8]) >> (7 - c % 8)) & 1) != 0:
-                term = t.loglik[k]
+    draw = first + wp.tid()
+    total = wp.float64(0.0)
+    for beam in range(table.no_hit.shape[0]):
+        term = table.no_hit[beam]
+        for entry in range(table.offsets[beam], table.offsets[beam + 1]):
+            cell = table.cells[entry]
+            if ((int(packed[draw, cell // 8]) >> (7 - cell % 8)) & 1) != 0:
+                term = table.loglik[entry]
                 break
-        value += wp.float64(term)
-    total[d] = value
+        total += wp.float64(term)
+    log_likelihood[draw] = total
 
 
 def log_likelihoods(table: BeamTable, packed: NDArray[np.uint8], device: str = "cpu") -> Floats:
-    """Compute log p(all readings | map) of each packed map (draws, bytes), (draws,)."""
+    """Compute log p(all readings | map) of each packed map, (draws, bytes). Returns (draws,)."""
     device = devices.resolve(device)
     inputs = [table_to_device(table, None, device), packed, (len(packed),)]
     return np.asarray(devices.launch(sum_log_likelihoods, len(packed), inputs, device)[0])
 
 
 @wp.kernel
-def mark_reached(first: int, t: Table, walls: Uint8Rows, reached: Uint8Rows):
+def mark_reached(first: int, table: Table, walls: Uint8Rows, reached: Uint8Rows):
     """One thread per map: mark every cell up to each beam's first wall."""
-    m = first + wp.tid()
-    for b in range(t.no_hit.shape[0]):
-        for k in range(t.offsets[b], t.offsets[b + 1]):
-            c = t.cells[k]
-            reached[m, c] = wp.uint8(1)
-            if walls[m, c] != wp.uint8(0):
+    row = first + wp.tid()
+    for beam in range(table.no_hit.shape[0]):
+        for entry in range(table.offsets[beam], table.offsets[beam + 1]):
+            cell = table.cells[entry]
+            reached[row, cell] = wp.uint8(1)
+            if walls[row, cell] != wp.uint8(0):
                 break
 
 
