@@ -12,7 +12,7 @@ from oracle.worlds import OwnSensor
 from tiers import latin
 
 import bayesmap as bm
-from bayesmap.kernels.device import Float32Rows, Float32s
+from bayesmap.kernels.device import Float32Rows, Float32s, pack
 from bayesmap.kernels.predict.density import log_densities
 from bayesmap.kernels.sensor_law import (
     SensorLaw32,
@@ -23,18 +23,17 @@ from bayesmap.kernels.sensor_law import (
     stop_density,
 )
 from bayesmap.kernels.surfaces import stops
-from bayesmap.kernels.surfaces.cell_draws import ActiveCells
 from bayesmap.kernels.surfaces.endpoint_beams import (
     UNKNOWN,
-    EndpointCells,
     LaneBlocks,
+    StopLikelihood,
     fill_blocks,
     fits_lanes,
     log_stops,
     log_stops_in_lanes,
 )
-from bayesmap.kernels.surfaces.endpoint_cells import NO_LEAST, BeamLists, listed_of, log_beams
-from bayesmap.kernels.surfaces.stops import ChainArrays, TracedRays
+from bayesmap.kernels.surfaces.endpoint_cells import UNBOUNDED, BeamLists, beams_of_cell, log_beams
+from bayesmap.kernels.surfaces.stops import ChainArrays
 from bayesmap.kernels.surfaces.surface import centre_of
 from bayesmap.model import Model
 from bayesmap.samplers import stop_problem
@@ -199,24 +198,21 @@ SENSORS = {"hard": HARD, "crowd": CROWD, "sharp": SHARP, "heavy tails": TAILS}
 
 @wp.kernel
 def both_ways(
-    law: SensorLaw32, rays: TracedRays, endpoints: EndpointCells, active: ActiveCells, state: ChainArrays,
-    lists: BeamLists, blocks: LaneBlocks, leasts: wp.array(dtype=wp.float64), out: wp.array2d(dtype=wp.float64),
+    likelihood: StopLikelihood, state: ChainArrays, lists: BeamLists, blocks: LaneBlocks,
+    leasts: wp.array(dtype=wp.float64), out: wp.array2d(dtype=wp.float64),
 ):  # fmt: skip
     """Weigh one by one; in lanes; both, cut short below the least. Count the beams without a lane, and the stopped."""
     u = wp.tid()
-    c = endpoints.cell[u]
+    c = likelihood.endpoints.cell[u]
     cell = state.cells[c]
-    centre = centre_of(c, active.ny, active.edge_m)
-    begin, end = endpoints.offsets[u], endpoints.offsets[u + 1]
-    listed = listed_of(lists, 0, u, begin, end, state.last_hits[c])
-    one = state.beta
-    out[0, u] = log_stops(law, one, rays, endpoints, listed, centre, cell, NO_LEAST)
-    others = fill_blocks(blocks, 0, u, rays, endpoints, listed)
-    beams = wp.vec2i(listed.passing_end - listed.passing_begin, listed.stopped_end - listed.stopped_begin - others)
-    out[1, u] = log_stops_in_lanes(law, blocks, 0, u, beams, centre, cell, NO_LEAST)
-    out[2, u] = log_beams(law, one, rays, endpoints, blocks, 0, u, listed, others, centre, cell, leasts[u])
-    out[3, u] = wp.float64(others)
-    out[4, u] = wp.float64(listed.stopped_end - listed.stopped_begin)
+    centre = centre_of(c, state.ny, state.edge_m)
+    beams = beams_of_cell(lists, likelihood.endpoints, 0, u, state.last_hits[c])
+    out[0, u] = log_stops(likelihood, beams, centre, cell, UNBOUNDED)
+    own = fill_blocks(likelihood, blocks, 0, beams)
+    out[1, u] = log_stops_in_lanes(likelihood.law, blocks, own, centre, cell, UNBOUNDED)
+    out[2, u] = log_beams(likelihood, blocks, own, beams, centre, cell, leasts[u])
+    out[3, u] = wp.float64(beams.stopped_end - beams.stopped_begin - own.n_stopped)
+    out[4, u] = wp.float64(beams.stopped_end - beams.stopped_begin)
 
 
 @wp.kernel
@@ -257,7 +253,8 @@ def weighed(sensor, seed, worse=0.0):
     law = sensor_law(problem.sensor, problem.rays.limits, "cpu", SensorLaw32)
     cells = len(chains.plan.endpoints)
     out = wp.zeros((5, cells), dtype=wp.float64)
-    inputs = [law, chains._rays, chains._endpoints, chains._active, chains._state, chains._lists, chains._blocks]
+    beams = {"rays": chains._rays, "endpoints": chains._endpoints}
+    inputs = [pack(StopLikelihood, "cpu", law=law, beta=1.0, **beams), chains._state, chains._lists, chains._blocks]
     wp.launch(both_ways, dim=cells, inputs=[*inputs, wp.full(cells, -1e300, dtype=wp.float64), out])
     plain, lanes, whole, others, stopped = out.numpy().copy()
     least = plain + rng.normal(size=cells)

@@ -1,6 +1,7 @@
 """The second half of a sweep: draw the cells, given where the beams stopped, and sum the chain's log joint.
 
-Cells in which readings end have a kernel (`bayesmap.kernels.surfaces.endpoint_cells`). Others do one of two things:
+Cells in which readings end have kernels of their own (`bayesmap.kernels.surfaces.endpoint_cells`). Any other cell does
+one of two things when it is updated (`begin_sweep` chooses, `update_free_cells` does it):
 
 - It draws its reflectivity, m ~ Beta(a + hits, b + met), with a and b of its label if cells have labels.
 - It tries a candidate for its surface, drawn from the prior, and accepts it with probability min(1, exp(gain)). The
@@ -50,21 +51,40 @@ class ActiveCells:
 
     cell: Int32s  # cells that beams touch, ascending
     period: Uint8s  # update period in sweeps; 0 for cells in which readings end: every sweep updates them
-    ny: int
-    edge_m: wp.float64  # edge of a cell
+    without_surfaces: int  # 1 if cells have no surfaces
+
+
+@wp.struct
+class Place:
+    """A listed cell of one chain."""
+
+    chain: int
+    number: int  # position in the list of cells
+    cell: int  # flat index in the grid
+    element: int  # index in the arrays of all chains
 
 
 @wp.func
-def tries_candidate(sweep: int, period: int, c: int) -> bool:
+def place_of(thread: int, cells: Int32s, n_cells: int) -> Place:
+    """Return the place of a thread, if there is a thread for each listed cell of each chain of ``n_cells`` cells."""
+    chain = thread // cells.shape[0]
+    number = thread - chain * cells.shape[0]
+    return Place(chain, number, cells[number], chain * n_cells + cells[number])
+
+
+@wp.func
+def tries_candidate(sweep: int, period: int, cell: int) -> bool:
     """Return whether a cell in which no reading ends tries a candidate when it is updated, if it has surfaces."""
-    return (sweep // period + c) % TRIES_EVERY == 0
+    return (sweep // period + cell) % TRIES_EVERY == 0
 
 
 @wp.func
-def is_silent(sweep: int, period: int, c: int, m: wp.float32, stopped_in: int) -> bool:
-    """Return whether a cell in which no reading ends takes another surface from the prior at the end of a sweep."""
-    # It does so in some sweeps, if it stopped no beam and its reflectivity is too small for passing beams to tell.
-    return period != 0 and (sweep + c) % SILENT_EVERY == 0 and m <= NEGLIGIBLE_REFLECTIVITY and stopped_in != sweep
+def is_silent(active: ActiveCells, state: ChainArrays, at: Place, sweep: int, m: wp.float32) -> bool:
+    """Return whether a cell of reflectivity m in which no reading ends renews its surface at the end of a sweep."""
+    # It takes one from the prior in some sweeps, if it stopped no beam and m is too small for passing beams to tell.
+    has_turn = active.without_surfaces == 0 and active.period[at.number] != wp.uint8(0)
+    has_turn = has_turn and (sweep + at.cell) % SILENT_EVERY == 0
+    return has_turn and m <= NEGLIGIBLE_REFLECTIVITY and state.stopped_in[at.element] != sweep
 
 
 @wp.func
@@ -82,146 +102,130 @@ def accept_surface(
 
 @wp.kernel
 def begin_sweep(
-    first: int, sweep: int, without_surfaces: int, prior: PriorNumbers, prior_moved: int, active: ActiveCells,
-    state: ChainArrays, log_prior: Float32s,
+    first: int, sweep: int, prior: PriorNumbers, prior_changed: int, active: ActiveCells, state: ChainArrays,
+    log_prior: Float32s,
 ):  # fmt: skip
     """One thread per chain's cell, before a sweep: reset the counts of its beams, and draw its candidate if any."""
-    # i: thread; u: position among the active cells; c: cell of the grid; element: cell in the arrays of all chains.
-    i = first + wp.tid()
-    chain = i // active.cell.shape[0]
-    u = i - chain * active.cell.shape[0]
-    c = active.cell[u]
-    element = chain * state.n_cells + c
-    period = int(active.period[u])
-    last_m = state.fixed_m[element]  # in the sweep before
+    at = place_of(first + wp.tid(), active.cell, state.n_cells)
+    period = int(active.period[at.number])
+    last_m = state.fixed_m[at.element]  # in the sweep before
     learns = True
     if period != 0:
         learns = sweep % period == 0
-    renewed = without_surfaces == 0 and is_silent(sweep - 1, period, c, last_m, state.stopped_in[element])
-    outdated = prior_moved != 0 or period == 0 or renewed or last_m == LEARNS
+    renewed = is_silent(active, state, at, sweep - 1, last_m)
+    outdated = prior_changed != 0 or period == 0 or renewed or last_m == LEARNS
     if not outdated and not learns:
         return
-    cell = state.cells[element]
-    centre = surface.centre_of(c, active.ny, active.edge_m)
+    cell = state.cells[at.element]
+    centre = surface.centre_of(at.cell, state.ny, state.edge_m)
     # Compute the log prior again if the last sweep can have changed it.
     if outdated:
-        density = surface.log_reflectivity_prior(prior, state.solid[element], cell[REFLECTIVITY])
-        if without_surfaces == 0:
+        density = surface.log_reflectivity_prior(prior, state.solid[at.element], cell[REFLECTIVITY])
+        if active.without_surfaces == 0:
             density += wp.float32(surface.log_surface_prior(prior, centre, cell))
-        log_prior[i] = density
+        log_prior[first + wp.tid()] = density
     # Does the cell count beams in this sweep, and does it try a candidate?
     trying = HIDDEN
-    if without_surfaces == 0:
+    if active.without_surfaces == 0:
         if period == 0:
             learns = False  # `endpoint_cells` counts its beams
-        elif learns and tries_candidate(sweep, period, c):
+        elif learns and tries_candidate(sweep, period, at.cell):
             # If passing beams are not informative, the cell takes surfaces from the prior instead.
             learns = cell[REFLECTIVITY] > NEGLIGIBLE_REFLECTIVITY
             if learns:
                 trying = FRESH
-                key = sweep_key(state.keys[chain], sweep, CELLS)
-                counter = wp.uint64(c) * PER_CELL + AT_FRESH
-                state.candidates[element] = surface.fresh_surface(prior, centre, cell, key, counter)
+                key = sweep_key(state.keys[at.chain], sweep, CELLS)
+                counter = wp.uint64(at.cell) * PER_CELL + AT_FRESH
+                state.candidates[at.element] = surface.fresh_surface(prior, centre, cell, key, counter)
     if learns:
         for part in range(state.parts):
-            row = chain * state.parts + part
-            state.met[row, c] = 0
-            state.hits[row, c] = 0
-            state.gain[row, c] = wp.int64(0)
-    state.fixed_m[element] = wp.where(learns, LEARNS, cell[REFLECTIVITY])
+            row = at.chain * state.parts + part
+            state.met[row, at.cell] = 0
+            state.hits[row, at.cell] = 0
+            state.gain[row, at.cell] = wp.int64(0)
+    state.fixed_m[at.element] = wp.where(learns, LEARNS, cell[REFLECTIVITY])
     if cell[TRYING] != trying:
         cell[TRYING] = trying
-        state.cells[element] = cell
+        state.cells[at.element] = cell
 
 
 @wp.func
-def count_beams(state: ChainArrays, chain: int, c: int) -> wp.vec2i:
+def count_beams(state: ChainArrays, chain: int, cell: int) -> wp.vec2i:
     """Sum a cell's hits, and the beams that met it and passed, over the parts of the beams."""
     counts = wp.vec2i(0, 0)
     for part in range(state.parts):
         row = chain * state.parts + part
-        counts += wp.vec2i(state.hits[row, c], state.met[row, c])
+        counts += wp.vec2i(state.hits[row, cell], state.met[row, cell])
     return counts
 
 
 @wp.kernel
-def update_free_cells(
-    first: int, sweep: int, without_surfaces: int, prior: PriorNumbers, active: ActiveCells, state: ChainArrays
-):
+def update_free_cells(first: int, sweep: int, prior: PriorNumbers, active: ActiveCells, state: ChainArrays):
     """One thread per chain's cell: decide on its candidate, draw its reflectivity, or renew its surface."""
-    # i: thread; u: position among the active cells; c: cell of the grid; element: cell in the arrays of all chains.
-    i = first + wp.tid()
-    chain = i // active.cell.shape[0]
-    u = i - chain * active.cell.shape[0]
-    c = active.cell[u]
-    element = chain * state.n_cells + c
-    period = int(active.period[u])
-    last_m = state.fixed_m[element]
+    at = place_of(first + wp.tid(), active.cell, state.n_cells)
+    last_m = state.fixed_m[at.element]
     learns = last_m == LEARNS
-    if not learns and (without_surfaces != 0 or not is_silent(sweep, period, c, last_m, state.stopped_in[element])):
+    if not learns and not is_silent(active, state, at, sweep, last_m):
         return
-    cell = state.cells[element]
-    key = sweep_key(state.keys[chain], sweep, CELLS)
-    counter = wp.uint64(c) * PER_CELL
-    centre = surface.centre_of(c, active.ny, active.edge_m)
-    # Update reflectivity or surface.
+    cell = state.cells[at.element]
+    key = sweep_key(state.keys[at.chain], sweep, CELLS)
+    counter = wp.uint64(at.cell) * PER_CELL
+    centre = surface.centre_of(at.cell, state.ny, state.edge_m)
     if learns:
         if cell[TRYING] == HIDDEN:
-            beams = count_beams(state, chain, c)
-            counts = surface.pseudo_counts(prior, state.solid[element])
+            beams = count_beams(state, at.chain, at.cell)
+            counts = surface.pseudo_counts(prior, state.solid[at.element])
             a = counts[0] + wp.float64(beams[0])
             b = counts[1] + wp.float64(beams[1])
             cell[REFLECTIVITY] = wp.float32(beta_or_zero(a, b, key, counter + AT_BETA))
-            state.last_hits[element] = beams[0]
-            state.last_met[element] = beams[1]
+            state.last_hits[at.element] = beams[0]
+            state.last_met[at.element] = beams[1]
         else:
             units = wp.int64(0)
             for part in range(state.parts):
-                units += state.gain[chain * state.parts + part, c]
+                units += state.gain[at.chain * state.parts + part, at.cell]
             gain = wp.float64(units) * FROM_UNITS
-            cell = accept_surface(prior, centre, cell, state.candidates[element], gain, key, counter + AT_ACCEPT)
-    if without_surfaces == 0 and is_silent(sweep, period, c, cell[REFLECTIVITY], state.stopped_in[element]):
+            cell = accept_surface(prior, centre, cell, state.candidates[at.element], gain, key, counter + AT_ACCEPT)
+    if is_silent(active, state, at, sweep, cell[REFLECTIVITY]):
         candidate = surface.fresh_surface(prior, centre, cell, key, counter + AT_SILENT)
         cell = accept_surface(prior, centre, cell, candidate, wp.float64(0.0), key, counter + AT_SILENT - wp.uint64(1))
     cell[TRYING] = HIDDEN
-    state.cells[element] = cell
+    state.cells[at.element] = cell
 
 
 @wp.kernel
 def count_observed(first: int, active: ActiveCells, state: ChainArrays):
     """One thread per chain's cell, after a sweep: count it as inspected, and as observed, if it has counted beams."""
-    i = first + wp.tid()
-    chain = i // active.cell.shape[0]
-    element = chain * state.n_cells + active.cell[i - chain * active.cell.shape[0]]
+    at = place_of(first + wp.tid(), active.cell, state.n_cells)
+    element = at.element
     if state.last_met[element] >= 0:
         observed = wp.where(state.last_hits[element] + state.last_met[element] > 0, 1, 0)
         state.observed_counts[element] = state.observed_counts[element] + wp.vec2i(observed, 1)
 
 
-SLICE = 4096  # numbers summed by one thread
-WIDTH = wp.constant(SLICE)
+SLICE = wp.constant(4096)  # numbers summed by one thread
 
 
 @wp.kernel
 def sum_slices(first: int, size: int, values: Float32s, slices: Float64Rows):
     """One thread per slice of a chain's ``size`` values: sum the slice."""
-    i = first + wp.tid()
-    chain = i // slices.shape[1]
-    part = i - chain * slices.shape[1]
+    thread = first + wp.tid()
+    chain = thread // slices.shape[1]
+    part = thread - chain * slices.shape[1]
     total = wp.float64(0.0)
-    for k in range(part * WIDTH, wp.min((part + 1) * WIDTH, size)):
-        total += wp.float64(values[chain * size + k])
+    for i in range(part * SLICE, wp.min((part + 1) * SLICE, size)):
+        total += wp.float64(values[chain * size + i])
     slices[chain, part] = total
 
 
 @wp.kernel
-def sum_label_prior(first: int, nx: int, ny: int, prior: PriorNumbers, state: ChainArrays, slices: Float64Rows):
+def sum_label_prior(first: int, prior: PriorNumbers, state: ChainArrays, slices: Float64Rows):
     """One thread per slice of a chain's cells: sum the log prior of their pairs with the next cell in x and in y."""
-    i = first + wp.tid()
-    chain = i // slices.shape[1]
-    part = i - chain * slices.shape[1]
-    end = wp.min((part + 1) * WIDTH, state.n_cells)
-    alike = pairs_alike(state.solid, chain * state.n_cells, part * WIDTH, end, nx, ny)
+    thread = first + wp.tid()
+    chain = thread // slices.shape[1]
+    part = thread - chain * slices.shape[1]
+    end = wp.min((part + 1) * SLICE, state.n_cells)
+    alike = pairs_alike(state.solid, chain * state.n_cells, part * SLICE, end, state.nx, state.ny)
     slices[chain, part] = prior.coupling * wp.float64(alike)
 
 
@@ -250,7 +254,7 @@ TOUCHED = 1  # some beams touch it
 COUNTED = 2  # `endpoint_cells` counts these beams
 
 HALF_LOG_TWO_PI = wp.constant(wp.float64(0.5 * math.log(2.0 * math.pi)))
-LARGE = wp.constant(wp.float64(10.0))  # argument from which Stirling's series is used
+MIN_STIRLING = wp.constant(wp.float64(10.0))  # argument from which Stirling's series is used
 STIRLING_1, STIRLING_3, STIRLING_5 = (wp.constant(wp.float64(c)) for c in (1 / 12, -1 / 360, 1 / 1260))
 STIRLING_7, STIRLING_9, STIRLING_11 = (wp.constant(wp.float64(c)) for c in (-1 / 1680, 1 / 1188, -691 / 360360))
 
@@ -268,7 +272,7 @@ def log_gamma(x: wp.float64) -> wp.float64:
     """Return the logarithm of the gamma function of a positive number, to 1e-13: Stirling's series from 10 on."""
     one = wp.float64(1.0)
     below = one
-    while x < LARGE:
+    while x < MIN_STIRLING:
         below = below * x
         x = x + one
     y = one / x
@@ -285,32 +289,29 @@ def log_beta(a: wp.float64, b: wp.float64) -> wp.float64:
 
 
 @wp.kernel
-def draw_labels(
-    first: int, colour: int, sweep: int, nx: int, ny: int, prior: PriorNumbers, status: Uint8s, state: ChainArrays
-):
+def draw_labels(first: int, colour: int, sweep: int, prior: PriorNumbers, status: Uint8s, state: ChainArrays):
     """One thread per chain's cell: draw its label, if it has the colour and is updated in this sweep or untouched."""
-    # c: cell of the grid; element: cell in the arrays of all chains; h: hits; n: beams that met the surface and passed.
     element = first + wp.tid()
     chain = element // state.n_cells
     cell_0 = chain * state.n_cells
-    c = element - cell_0
-    x = c // ny
-    y = c - x * ny
+    cell = element - cell_0
+    x = cell // state.ny
+    y = cell - x * state.ny
     if (x + y) % 2 != colour:
         return
-    log_odds = prior.coupling * wp.float64(walls_less_free(state.solid, cell_0, c, nx, ny))
-    if int(status[c]) != UNTOUCHED:
+    log_odds = prior.coupling * wp.float64(walls_less_free(state.solid, cell_0, cell, state.nx, state.ny))
+    if int(status[cell]) != UNTOUCHED:
         beams = wp.vec2i(state.last_hits[element], state.last_met[element])
-        if int(status[c]) != COUNTED:
+        if int(status[cell]) != COUNTED:
             if state.fixed_m[element] != LEARNS or state.cells[element][TRYING] != wp.float32(0.0):
                 return
-            beams = count_beams(state, chain, c)
-        h = wp.float64(beams[0])
-        n = wp.float64(beams[1])
-        log_odds += log_beta(prior.a_solid + h, prior.b_solid + n) - prior.log_beta_solid
-        log_odds -= log_beta(prior.a + h, prior.b + n) - prior.log_beta
+            beams = count_beams(state, chain, cell)
+        hits = wp.float64(beams[0])
+        met = wp.float64(beams[1])
+        log_odds += log_beta(prior.a_solid + hits, prior.b_solid + met) - prior.log_beta_solid
+        log_odds -= log_beta(prior.a + hits, prior.b + met) - prior.log_beta
     key = sweep_key(state.keys[chain], sweep, CELLS)
-    is_solid = draw_wall(log_odds, to_uniform(random_bits(key, wp.uint64(c) * PER_CELL + AT_LABEL)))
+    is_solid = draw_wall(log_odds, to_uniform(random_bits(key, wp.uint64(cell) * PER_CELL + AT_LABEL)))
     state.solid[element] = wp.uint8(wp.where(is_solid, 1, 0))
 
 
@@ -319,10 +320,10 @@ def draw_untouched(first: int, sweep: int, prior: PriorNumbers, status: Uint8s, 
     """One thread per chain's cell: draw the reflectivity of a cell that no beam touches, given its label."""
     element = first + wp.tid()
     chain = element // state.n_cells
-    c = element - chain * state.n_cells
-    if int(status[c]) != UNTOUCHED:
+    index = element - chain * state.n_cells
+    if int(status[index]) != UNTOUCHED:
         return
-    counter = wp.uint64(c) * PER_CELL + AT_UNTOUCHED
+    counter = wp.uint64(index) * PER_CELL + AT_UNTOUCHED
     counts = surface.pseudo_counts(prior, state.solid[element])
     key = sweep_key(state.keys[chain], sweep, CELLS)
     cell = state.cells[element]

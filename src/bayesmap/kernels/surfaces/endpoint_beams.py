@@ -68,10 +68,21 @@ def crossing_probability_of(line: wp.vec3, dx: wp.float32, dy: wp.float32, cell:
 
 
 @wp.struct
-class Listed:
+class StopLikelihood:
+    """Law and beams of the likelihood of stops, shared by all cells."""
+
+    law: SensorLaw32
+    beta: wp.float32  # inverse temperature
+    rays: TracedRays
+    endpoints: EndpointCells
+
+
+@wp.struct
+class CellBeams:
     """Incidences of one cell, as indices into `EndpointCells`: beams that pass it, and beams that it stops."""
 
-    entries: Int32s
+    number: int  # of the cell in `EndpointCells`
+    entries: Int32s  # passing beams are entries[passing_begin:passing_end], stopped beams follow further on
     passing_begin: int
     passing_end: int
     stopped_begin: int
@@ -80,27 +91,29 @@ class Listed:
 
 @wp.func
 def log_stops(
-    law: SensorLaw32, beta: wp.float32, rays: TracedRays, endpoints: EndpointCells, listed: Listed, centre: wp.vec2,
-    cell: Cell, least: wp.float64,
-) -> wp.float64:  # fmt: skip
-    """Compute log p(stops, readings | m, surface) of the listed beams. A sum below ``least`` is returned unfinished."""
-    # i: position in the list; e: incidence; b: beam; product: factors since the last logarithm. Stopped beams come
-    # first, because every passing beam makes the sum smaller.
+    likelihood: StopLikelihood, beams: CellBeams, centre: wp.vec2, cell: Cell, least: wp.float64
+) -> wp.float64:
+    """Compute log p(stops, readings | m, surface) of a cell's beams. A sum below ``least`` is returned unfinished."""
+    # Stopped beams come first, because every passing beam makes the sum smaller. product: factors since the last
+    # logarithm; (dx, dy): mean relative to the cell's centre.
+    endpoints = likelihood.endpoints
     one = wp.float32(1.0)
     total = wp.float64(0.0)
     product = one
     m = cell[REFLECTIVITY]
     dx = cell[MEAN_X] - centre[0]
     dy = cell[MEAN_Y] - centre[1]
-    for i in range(listed.stopped_begin, listed.stopped_end):
-        e = listed.entries[i]
-        b = endpoints.beam[e]
-        line = endpoints.line[e]
+    for i in range(beams.stopped_begin, beams.stopped_end):
+        incidence = beams.entries[i]
+        beam = endpoints.beam[incidence]
+        line = endpoints.line[incidence]
         offset = line[0] + line[1] * dy - line[2] * dx
-        ahead = endpoints.centre_and_range[e][0] + line[1] * dx + line[2] * dy
+        ahead = endpoints.centre_and_range[incidence][0] + line[1] * dx + line[2] * dy
         crossing = surface.cross_at(offset, ahead, cell, line[1], line[2])
-        reading = endpoints.centre_and_range[e][1]
-        p = hit_density(law, beta, endpoints.entry[e], rays.near[b], reading, rays.decay[b], crossing)
+        p = hit_density(
+            likelihood.law, likelihood.beta, endpoints.entry[incidence], likelihood.rays.near[beam],
+            endpoints.centre_and_range[incidence][1], likelihood.rays.decay[beam], crossing,
+        )  # fmt: skip
         product = product * wp.max(m * crossing.chance * p, MIN_FACTOR)
         if product < MIN_PRODUCT or product > one / MIN_PRODUCT:
             total += wp.log(wp.float64(product))
@@ -111,8 +124,8 @@ def log_stops(
 
     product = one
     floor = wp.max(MIN_PRODUCT, wp.float32(wp.exp(least - total)))
-    for i in range(listed.passing_begin, listed.passing_end):
-        g = crossing_probability_of(endpoints.line[listed.entries[i]], dx, dy, cell)
+    for i in range(beams.passing_begin, beams.passing_end):
+        g = crossing_probability_of(endpoints.line[beams.entries[i]], dx, dy, cell)
         product = product * wp.max(one - m * g, MIN_FACTOR)
         if product < floor:
             total += wp.log(wp.float64(product))
@@ -123,8 +136,8 @@ def log_stops(
     return total + wp.log(wp.float64(product))
 
 
-WIDTH = 8  # beams of a block
-Lanes = wp.types.vector(length=WIDTH, dtype=wp.float32)  # one number of each of eight beams
+BLOCK_WIDTH = 8  # beams of a block
+Lanes = wp.types.vector(length=BLOCK_WIDTH, dtype=wp.float32)  # one number of each of eight beams
 # The lanes of a block: a passing beam has a line only.
 OFFSET = wp.constant(0)  # offset of the cell's centre from the beam
 LINE_X = wp.constant(1)  # direction of the beam
@@ -136,32 +149,42 @@ DECAY = wp.constant(5)
 COUNTS = wp.constant(6)  # 1 if the beam counts, 0 if it only fills a lane
 STOPPED_LANES = wp.constant(7)  # number of all lanes
 PRODUCT_LANES = wp.constant(2)  # lanes before the blocks: product and least product, see `log_stops_in_lanes`
-CHUNK = wp.constant(4)  # blocks whose factors are multiplied before the product is turned into a logarithm
-SMALLEST = wp.constant(wp.float32(1.0e-35))  # a smaller product may have underflowed
-STEEP = wp.constant(wp.float32(1.0e30))  # slope of the step function `positive`
-MOST_EXPONENT = wp.constant(wp.float32(41.0))
+CHUNK_BLOCKS = wp.constant(4)  # blocks whose factors are multiplied before the product is turned into a logarithm
+MIN_LANE_PRODUCT = wp.constant(wp.float32(1.0e-35))  # a smaller product may have underflowed
+STEEP_SLOPE = wp.constant(wp.float32(1.0e30))  # slope of the step function `positive`
+MAX_EXPONENT = wp.constant(wp.float32(41.0))
 FAR_OFFSET_M = wp.constant(wp.float32(1.0e3))  # no surface of a cell is met at this offset
 UNKNOWN = wp.constant(wp.float64(1.0e300))  # stands for a sum that could not be computed
 
 
 @wp.struct
 class LaneBlocks:
-    """Working memory for the blocks of one cell per thread."""
+    """Working memory for the blocks of all cells, or of one cell per thread."""
 
     numbers: Float32Rows
     lanes: wp.array2d(dtype=Lanes)  # the memory of ``numbers``
     begin: Int32s  # first lane of each cell's blocks in its row; 0 if each row belongs to one thread
 
 
+@wp.struct
+class CellBlocks:
+    """The blocks of one cell: their place in `LaneBlocks`, and the number of beams in them."""
+
+    row: int  # -1 if the cell has no blocks
+    begin: int  # first lane in the row
+    n_passing: int
+    n_stopped: int
+
+
 def room_for_blocks(endpoints: EndpointCells, rows: int, device: str) -> LaneBlocks:
     """Allocate blocks for each row: on a GPU for all cells, on the CPU for the cell with the most blocks."""
     # Upper bound: each kind fills at most one block in part, and a stopped beam takes more lanes than a passing one.
-    blocks = devices.ceil_div(np.diff(endpoints.offsets.numpy()), WIDTH)
+    blocks = devices.ceil_div(np.diff(endpoints.offsets.numpy()), BLOCK_WIDTH)
     lanes = int(PRODUCT_LANES) + int(PASSING_LANES) + int(STOPPED_LANES) * (1 + blocks)
     begin = np.zeros(len(lanes), dtype=np.int64) if device == "cpu" else np.cumsum(lanes) - lanes
     size = int((begin + lanes).max(initial=0))
     on_device = LaneBlocks()
-    on_device.numbers = wp.zeros((rows, size * WIDTH), dtype=wp.float32, device=device)
+    on_device.numbers = wp.zeros((rows, size * BLOCK_WIDTH), dtype=wp.float32, device=device)
     on_device.lanes = wp.array(ptr=on_device.numbers.ptr, shape=(rows, size), dtype=Lanes, device=device)
     on_device.begin = devices.to_device(begin, wp.int32, device)
     return on_device
@@ -176,7 +199,7 @@ def fits_lanes(law: SensorLaw32, beta: wp.float32) -> bool:
 @wp.func
 def block_count(beams: int) -> int:
     """Return the number of blocks for a number of beams."""
-    return (beams + WIDTH - 1) // WIDTH
+    return (beams + BLOCK_WIDTH - 1) // BLOCK_WIDTH
 
 
 @wp.func
@@ -184,7 +207,7 @@ def exponential(x: Lanes) -> Lanes:
     """Compute exp(x) of eight numbers to a relative error of 5e-6, x clipped at -41 and 41."""
     # Taylor's series at x / 64, squared six times. The exponential of the C library takes one number only.
     one = Lanes(wp.float32(1.0))
-    most = Lanes(MOST_EXPONENT)
+    most = Lanes(MAX_EXPONENT)
     z = wp.float32(1.0 / 64.0) * wp.max(wp.min(x, most), -most)
     y = one + wp.float32(1.0 / 8.0) * z
     y = one + wp.float32(1.0 / 7.0) * wp.cw_mul(z, y)
@@ -206,7 +229,7 @@ def exponential(x: Lanes) -> Lanes:
 def square_root(x: Lanes) -> Lanes:
     """Return the square root of each number."""
     out = Lanes()
-    for j in range(WIDTH):
+    for j in range(BLOCK_WIDTH):
         out[j] = wp.sqrt(x[j])
     return out
 
@@ -214,7 +237,7 @@ def square_root(x: Lanes) -> Lanes:
 @wp.func
 def positive(x: Lanes) -> Lanes:
     """Return 1 where a number is positive, 0 where it is not."""
-    return wp.max(wp.min(STEEP * x, Lanes(wp.float32(1.0))), Lanes(wp.float32(0.0)))
+    return wp.max(wp.min(STEEP_SLOPE * x, Lanes(wp.float32(1.0))), Lanes(wp.float32(0.0)))
 
 
 @wp.func
@@ -267,84 +290,84 @@ def stopped_blocks_begin(passing: int) -> int:
 @wp.func
 def write_line(blocks: LaneBlocks, row: int, begin: int, lanes: int, i: int, line: wp.vec3) -> int:
     """Write the line of beam i to the blocks of ``lanes`` lanes from ``begin`` on. Returns the index of its offset."""
-    first = (begin + lanes * (i // WIDTH)) * WIDTH + i % WIDTH
-    blocks.numbers[row, first + OFFSET * WIDTH] = line[0]
-    blocks.numbers[row, first + LINE_X * WIDTH] = line[1]
-    blocks.numbers[row, first + LINE_Y * WIDTH] = line[2]
+    first = (begin + lanes * (i // BLOCK_WIDTH)) * BLOCK_WIDTH + i % BLOCK_WIDTH
+    blocks.numbers[row, first + OFFSET * BLOCK_WIDTH] = line[0]
+    blocks.numbers[row, first + LINE_X * BLOCK_WIDTH] = line[1]
+    blocks.numbers[row, first + LINE_Y * BLOCK_WIDTH] = line[2]
     return first
 
 
 @wp.func
-def write_stopped(
-    blocks: LaneBlocks, row: int, begin: int, i: int, line: wp.vec3, centre_and_range: wp.vec2, decay: wp.float32,
-    counts: wp.float32,
-):  # fmt: skip
-    """Write the i-th stopped beam to the blocks from ``begin`` on."""
+def write_stopped(blocks: LaneBlocks, row: int, begin: int, i: int, line: wp.vec3, numbers: wp.vec4):
+    """Write the i-th stopped beam to the blocks from ``begin`` on; numbers: centre, reading, decay, and 1 to count."""
     first = write_line(blocks, row, begin, STOPPED_LANES, i, line)
-    blocks.numbers[row, first + CENTRE * WIDTH] = centre_and_range[0]
-    blocks.numbers[row, first + READING * WIDTH] = centre_and_range[1]
-    blocks.numbers[row, first + DECAY * WIDTH] = decay
-    blocks.numbers[row, first + COUNTS * WIDTH] = counts
+    blocks.numbers[row, first + CENTRE * BLOCK_WIDTH] = numbers[0]
+    blocks.numbers[row, first + READING * BLOCK_WIDTH] = numbers[1]
+    blocks.numbers[row, first + DECAY * BLOCK_WIDTH] = numbers[2]
+    blocks.numbers[row, first + COUNTS * BLOCK_WIDTH] = numbers[3]
 
 
 @wp.func
-def fill_blocks(
-    blocks: LaneBlocks, row: int, u: int, rays: TracedRays, endpoints: EndpointCells, listed: Listed
-) -> int:
-    """Copy a cell's beams to its blocks. Returns the number of stopped beams that lanes cannot compute."""
-    # These beams move to the head of their list.
+def fill_blocks(likelihood: StopLikelihood, blocks: LaneBlocks, row: int, beams: CellBeams) -> CellBlocks:
+    """Copy a cell's beams to its blocks. Stopped beams that lanes cannot compute move to the head of their list."""
+    if not fits_lanes(likelihood.law, likelihood.beta):
+        return CellBlocks(-1, 0, 0, 0)
+    rays = likelihood.rays
+    endpoints = likelihood.endpoints
     # Passing beams, and beams far away that fill the last block.
-    n_passing = listed.passing_end - listed.passing_begin
-    begin = blocks.begin[u] + PRODUCT_LANES
+    n_passing = beams.passing_end - beams.passing_begin
+    begin = blocks.begin[beams.number]
+    passing_lane = begin + PRODUCT_LANES
     for i in range(n_passing):
-        write_line(blocks, row, begin, PASSING_LANES, i, endpoints.line[listed.entries[listed.passing_begin + i]])
+        line = endpoints.line[beams.entries[beams.passing_begin + i]]
+        write_line(blocks, row, passing_lane, PASSING_LANES, i, line)
     far_line = wp.vec3(FAR_OFFSET_M, wp.float32(0.0), wp.float32(1.0))
-    for i in range(n_passing, WIDTH * block_count(n_passing)):
-        write_line(blocks, row, begin, PASSING_LANES, i, far_line)
+    for i in range(n_passing, BLOCK_WIDTH * block_count(n_passing)):
+        write_line(blocks, row, passing_lane, PASSING_LANES, i, far_line)
     # Stopped beams, and beams that do not count.
-    stopped_begin = blocks.begin[u] + stopped_blocks_begin(n_passing)
+    stopped_lane = begin + stopped_blocks_begin(n_passing)
     n_others = int(0)
     n_stopped = int(0)
-    for i in range(listed.stopped_begin, listed.stopped_end):
-        e = listed.entries[i]
-        b = endpoints.beam[e]
-        numbers = endpoints.centre_and_range[e]
-        if endpoints.entry[e] >= rays.near[b] and wp.isfinite(numbers[1]):
-            one = wp.float32(1.0)
-            write_stopped(blocks, row, stopped_begin, n_stopped, endpoints.line[e], numbers, rays.decay[b], one)
+    for i in range(beams.stopped_begin, beams.stopped_end):
+        incidence = beams.entries[i]
+        beam = endpoints.beam[incidence]
+        centre_and_range = endpoints.centre_and_range[incidence]
+        if endpoints.entry[incidence] >= rays.near[beam] and wp.isfinite(centre_and_range[1]):
+            numbers = wp.vec4(centre_and_range[0], centre_and_range[1], rays.decay[beam], wp.float32(1.0))
+            write_stopped(blocks, row, stopped_lane, n_stopped, endpoints.line[incidence], numbers)
             n_stopped = n_stopped + 1
         else:
-            head = listed.stopped_begin + n_others
-            listed.entries[i] = listed.entries[head]
-            listed.entries[head] = e
+            head = beams.stopped_begin + n_others
+            beams.entries[i] = beams.entries[head]
+            beams.entries[head] = incidence
             n_others = n_others + 1
     no_line = wp.vec3(wp.float32(0.0), wp.float32(0.0), wp.float32(1.0))
-    for i in range(n_stopped, WIDTH * block_count(n_stopped)):
-        write_stopped(blocks, row, stopped_begin, i, no_line, wp.vec2(), wp.float32(0.0), wp.float32(0.0))
-    return n_others
+    for i in range(n_stopped, BLOCK_WIDTH * block_count(n_stopped)):
+        write_stopped(blocks, row, stopped_lane, i, no_line, wp.vec4())
+    return CellBlocks(row, begin, n_passing, n_stopped)
 
 
 @wp.func
 def log_product(blocks: LaneBlocks, row: int, begin: int) -> wp.float64:
     """Return the log of the product of all lanes at ``begin``; UNKNOWN if one of them was too small."""
-    if wp.min(blocks.lanes[row, begin + 1]) < SMALLEST:
+    if wp.min(blocks.lanes[row, begin + 1]) < MIN_LANE_PRODUCT:
         return UNKNOWN
     product = wp.float64(1.0)
     lanes = blocks.lanes[row, begin]
-    for j in range(WIDTH):
+    for j in range(BLOCK_WIDTH):
         product = product * wp.float64(lanes[j])
     return wp.log(product)
 
 
 @wp.func
 def log_stops_in_lanes(
-    law: SensorLaw32, blocks: LaneBlocks, row: int, u: int, beams: wp.vec2i, centre: wp.vec2, cell: Cell,
-    least: wp.float64,
-) -> wp.float64:  # fmt: skip
-    """Compute `log_stops` of the beams in blocks; UNKNOWN if a product was too small."""
-    # beams: numbers of passing and of stopped beams. The product and the smallest product so far are stored in every
-    # round, because compilers vectorise eight lanes that are stored together.
-    begin = blocks.begin[u]
+    law: SensorLaw32, blocks: LaneBlocks, own: CellBlocks, centre: wp.vec2, cell: Cell, least: wp.float64
+) -> wp.float64:
+    """Compute `log_stops` of the beams in a cell's own blocks; UNKNOWN if a product was too small."""
+    # The product and the smallest product so far are stored in every round, because compilers vectorise eight lanes
+    # that are stored together.
+    row = own.row
+    begin = own.begin
     one = Lanes(wp.float32(1.0))
     m = cell[REFLECTIVITY]
     l11 = cell[L11]
@@ -352,22 +375,22 @@ def log_stops_in_lanes(
     l22 = cell[L22]
     dx = cell[MEAN_X] - centre[0]
     dy = cell[MEAN_Y] - centre[1]
-    passing_blocks = block_count(beams[0])
-    stopped_blocks = block_count(beams[1])
-    stopped_begin = begin + stopped_blocks_begin(beams[0])
-    total = wp.float64(beams[1]) * wp.log(wp.float64(wp.max(m, MIN_FACTOR)) * wp.float64(law.peak))
+    passing_blocks = block_count(own.n_passing)
+    stopped_blocks = block_count(own.n_stopped)
+    stopped_begin = begin + stopped_blocks_begin(own.n_passing)
+    total = wp.float64(own.n_stopped) * wp.log(wp.float64(wp.max(m, MIN_FACTOR)) * wp.float64(law.peak))
     area = l11 * l22
     per_peak = wp.float32(1.0) / law.peak
-    # Stopped beams: the arithmetic of `cross_at` and `stop_density`; i: block; at: its first lane.
-    for chunk in range(0, stopped_blocks, CHUNK):
+    # Stopped beams: the arithmetic of `cross_at` and `stop_density`; lane: the block's first lane.
+    for chunk in range(0, stopped_blocks, CHUNK_BLOCKS):
         product = one
         smallest = one
-        for i in range(chunk, wp.min(chunk + CHUNK, stopped_blocks)):
-            at = stopped_begin + STOPPED_LANES * i
-            ux = blocks.lanes[row, at + LINE_X]
-            uy = blocks.lanes[row, at + LINE_Y]
-            offset = blocks.lanes[row, at + OFFSET] + dy * ux - dx * uy
-            ahead = blocks.lanes[row, at + CENTRE] + dx * ux + dy * uy
+        for i in range(chunk, wp.min(chunk + CHUNK_BLOCKS, stopped_blocks)):
+            lane = stopped_begin + STOPPED_LANES * i
+            ux = blocks.lanes[row, lane + LINE_X]
+            uy = blocks.lanes[row, lane + LINE_Y]
+            offset = blocks.lanes[row, lane + OFFSET] + dy * ux - dx * uy
+            ahead = blocks.lanes[row, lane + CENTRE] + dx * ux + dy * uy
             across_1 = l21 * ux - l11 * uy
             across_2 = l22 * ux
             along_1 = l11 * ux + l21 * uy
@@ -380,10 +403,10 @@ def log_stops_in_lanes(
             distance = wp.max(ahead - wp.cw_mul(slope, offset), Lanes(wp.float32(0.0)))
             along = wp.cw_mul(along_1, along_1) + wp.cw_mul(along_2, along_2)
             variance = wp.cw_mul(Lanes(area * area) + wp.cw_mul(unsure, along), per_across)
-            reading = blocks.lanes[row, at + READING]
-            p = stop_density_lanes(law, reading, blocks.lanes[row, at + DECAY], distance, variance)
+            reading = blocks.lanes[row, lane + READING]
+            p = stop_density_lanes(law, reading, blocks.lanes[row, lane + DECAY], distance, variance)
             factor = wp.max(per_peak * wp.cw_mul(crossing_probability_lanes(offset, body), p), Lanes(MIN_FACTOR))
-            counts = blocks.lanes[row, at + COUNTS]
+            counts = blocks.lanes[row, lane + COUNTS]
             product = wp.cw_mul(product, wp.cw_mul(counts, factor) + (one - counts))
             smallest = wp.min(smallest, product)
             blocks.lanes[row, begin] = product
@@ -395,18 +418,18 @@ def log_stops_in_lanes(
     if total < least:
         return total
 
-    # Passing beams: the arithmetic of `crossing_probability`; i: block; passing_at: its first lane.
-    for chunk in range(0, passing_blocks, CHUNK):
+    # Passing beams: the arithmetic of `crossing_probability`; passing_lane: the block's first lane.
+    for chunk in range(0, passing_blocks, CHUNK_BLOCKS):
         passed = one
         lowest = one
-        for i in range(chunk, wp.min(chunk + CHUNK, passing_blocks)):
-            passing_at = begin + PRODUCT_LANES + PASSING_LANES * i
-            vx = blocks.lanes[row, passing_at + LINE_X]
-            vy = blocks.lanes[row, passing_at + LINE_Y]
+        for i in range(chunk, wp.min(chunk + CHUNK_BLOCKS, passing_blocks)):
+            passing_lane = begin + PRODUCT_LANES + PASSING_LANES * i
+            vx = blocks.lanes[row, passing_lane + LINE_X]
+            vy = blocks.lanes[row, passing_lane + LINE_Y]
             side_1 = l21 * vx - l11 * vy
             side_2 = l22 * vx
             side = wp.cw_mul(side_1, side_1) + wp.cw_mul(side_2, side_2)
-            chance = crossing_probability_lanes(blocks.lanes[row, passing_at + OFFSET] + dy * vx - dx * vy, side)
+            chance = crossing_probability_lanes(blocks.lanes[row, passing_lane + OFFSET] + dy * vx - dx * vy, side)
             passed = wp.cw_mul(passed, wp.max(one - m * chance, Lanes(MIN_FACTOR)))
             lowest = wp.min(lowest, passed)
             blocks.lanes[row, begin] = passed

@@ -22,7 +22,7 @@ from bayesmap.kernels import device as devices
 from bayesmap.kernels.device import Floats, Ints, Singles
 from bayesmap.kernels.sensor_law import SensorLaw32, sensor_law
 from bayesmap.kernels.surfaces import cell_draws, endpoint_cells, stops
-from bayesmap.kernels.surfaces.endpoint_beams import endpoint_cells_to_device, room_for_blocks
+from bayesmap.kernels.surfaces.endpoint_beams import StopLikelihood, endpoint_cells_to_device, room_for_blocks
 from bayesmap.kernels.surfaces.square_counts import InSquares, count_in_squares, draw_stop_chances, square_arrays
 from bayesmap.kernels.surfaces.surface import cells_to_device, pack_prior
 from bayesmap.sensors.model import SensorModel
@@ -76,6 +76,7 @@ class SweepRequest(NamedTuple):
     steps: int
     observe_from: int | None
     law: Any  # `SensorLaw32`
+    likelihood: Any  # `StopLikelihood`
     prior: Any  # `PriorNumbers`
     laws_changed: bool  # sensor, prior or beta differ from those of the last call
     is_start: bool  # the chains have not made a sweep yet
@@ -119,8 +120,8 @@ class StopChains:
         self._lazy = self._schedule.mark_watched(self._rays, device)
         self._endpoints = endpoint_cells_to_device(plan.rays, plan.endpoints, plan.steps, device)
         self._active = devices.pack(
-            cell_draws.ActiveCells, device, cell=plan.rays.touched, period=plan.periods, ny=plan.rays.grid.shape[1],
-            edge_m=plan.rays.grid.resolution,
+            cell_draws.ActiveCells, device, cell=plan.rays.touched, period=plan.periods,
+            without_surfaces=self.without_surfaces,
         )  # fmt: skip
         counted = plan.endpoints[:0] if self.without_surfaces else plan.endpoints
         self._status = cell_draws.status_to_device(cells, plan.rays.touched, counted, device)
@@ -133,9 +134,9 @@ class StopChains:
         by_cell, by_beam, by_part = (chains * cells,), (chains * beams,), (chains * parts, cells)
         unknown = np.full(by_cell, -1, dtype=np.int32)
         self._state: Any = devices.pack(
-            stops.ChainArrays, device, n_cells=cells, n_beams=beams, parts=parts, beta=1.0,
-            keys=np.array(keys, dtype=np.uint64), cells=by_cell,
-            solid=by_cell if solid is None else solid.ravel().astype(np.uint8),
+            stops.ChainArrays, device, n_cells=cells, n_beams=beams, parts=parts, beta=1.0, nx=plan.rays.grid.shape[0],
+            ny=plan.rays.grid.shape[1], edge_m=plan.rays.grid.resolution, keys=np.array(keys, dtype=np.uint64),
+            cells=by_cell, solid=by_cell if solid is None else solid.ravel().astype(np.uint8),
             fixed_m=np.full(by_cell, stops.LEARNS, dtype=np.float32),
             candidates=(1,) if self.without_surfaces else by_cell, met=by_part, hits=by_part, gain=by_part,
             stop=np.full(by_beam, -1, dtype=np.int32), stop_moments=by_beam, stopped_in=unknown, log_likelihood=by_beam,
@@ -171,7 +172,11 @@ class StopChains:
         if changed:
             self._launch(stops.compute_decays, self.plan.rays.n_beams, [law, self._rays])
         sums = [wp.zeros((self.n_chains, count), dtype=wp.float64, device=self.device) for _ in range(2)]
-        request = SweepRequest(first, steps, observe_from, law, pack_prior(prior), changed, is_start, *sums)
+        likelihood = devices.pack(
+            StopLikelihood, self.device, law=law, beta=beta, rays=self._rays, endpoints=self._endpoints
+        )
+        packed = law, likelihood, pack_prior(prior)
+        request = SweepRequest(first, steps, observe_from, *packed, changed, is_start, *sums)
         self._last_request = request
 
         def make_sweeps(chains: range, launch_all: Callable[[Launch], None]) -> None:
@@ -202,7 +207,7 @@ class StopChains:
         is_first = sweep == request.first
         # Reset counts, and draw candidates. Lazy cells keep their part in a beam's chance until they are updated.
         outdated = int(request.laws_changed and is_first)
-        inputs = [sweep, self.without_surfaces, request.prior, outdated, self._active, state, self._log_priors]
+        inputs = [sweep, request.prior, outdated, self._active, state, self._log_priors]
         launches = [Launch(cell_draws.begin_sweep, touched, inputs)]
         lazy, lazy_before = (int(self._schedule.updates_lazy(number)) for number in (sweep, sweep - 1))
         if not lazy and (lazy_before or (request.is_start and is_first)):
@@ -223,17 +228,16 @@ class StopChains:
 
     def _cell_launches(self, request: SweepRequest, sweep: int) -> list[Launch]:
         """Return the launches that draw the cells given the stops."""
-        state, prior, shape = self._state, request.prior, self.plan.rays.grid.shape
+        state, prior = self._state, request.prior
         touched, endpoints = len(self.plan.rays.touched), 0 if self.without_surfaces else len(self.plan.endpoints)
-        endpoint_inputs, label_sums = [self._endpoints, self._active, state, self._lists], self._slices[2]
-        launches = [Launch(endpoint_cells.count_endpoint_cells, endpoints, [sweep, *endpoint_inputs])]
+        label_sums, inputs = self._slices[2], [sweep, self._endpoints, state, self._lists]
+        launches = [Launch(endpoint_cells.count_endpoint_cells, endpoints, inputs)]
         if prior.coupling > 0:  # cells of one colour of the checkerboard after those of the other
-            launches.append(Launch(cell_draws.sum_label_prior, label_sums.shape[1], [*shape, prior, state, label_sums]))
-            inputs = [sweep, *shape, prior, self._status, state]
+            launches.append(Launch(cell_draws.sum_label_prior, label_sums.shape[1], [prior, state, label_sums]))
+            inputs = [sweep, prior, self._status, state]
             launches += [Launch(cell_draws.draw_labels, state.n_cells, [colour, *inputs]) for colour in (0, 1)]
-        inputs = [sweep, self.without_surfaces, prior, self._active, state]
-        launches.append(Launch(cell_draws.update_free_cells, touched, inputs))
-        inputs = [sweep, request.steps, request.law, prior, self._rays, *endpoint_inputs, self._blocks]
+        launches.append(Launch(cell_draws.update_free_cells, touched, [sweep, prior, self._active, state]))
+        inputs = [sweep, request.steps, request.likelihood, prior, state, self._lists, self._blocks]
         launches.append(Launch(endpoint_cells.update_endpoint_cells, endpoints, inputs))
         if self.without_surfaces and request.observe_from is not None and sweep >= request.observe_from:
             launches.append(Launch(cell_draws.count_observed, touched, [self._active, state]))

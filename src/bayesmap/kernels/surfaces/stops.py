@@ -13,7 +13,7 @@ far before its reading is computed once after each update (`pass_lazy_cells`). T
 end or few beams pass, are *watched*: every sweep walks them.
 
 At an inverse temperature beta the law of the reading is p(z | stop)^beta; the law of stops given the cells is not
-tempered. For walls, 0 or 1, this is the likelihood to the power of beta.
+tempered. For walls, 0 or 1, this is the likelihood to the power of beta. The main kernel is `draw_stops`.
 """
 
 from typing import Any
@@ -57,7 +57,7 @@ class TracedRays:
     offsets: Int32s
     cells: Int32s
     distance_m: Float32s
-    near: Int32s
+    near: Int32s  # first entry of each beam at which a stop may explain the reading
     start_m: wp.array(dtype=wp.vec2)
     direction: wp.array(dtype=wp.vec2)
     range_m: Float32s
@@ -80,6 +80,9 @@ class ChainArrays:
     """All chains on a device. Cell c of chain n is element ``n * n_cells + c``, beam b is ``n * n_beams + b``."""
 
     n_cells: int
+    nx: int
+    ny: int
+    edge_m: wp.float64  # edge of a cell
     n_beams: int
     parts: int  # parts of the beams, each with its own counts
     beta: wp.float32  # inverse temperature
@@ -118,29 +121,9 @@ def cross_cell(rays: TracedRays, k: int, cell: Cell, ray: Ray) -> Crossing:
 
 
 @wp.func
-def in_units(log_ratio: wp.float32) -> wp.int64:
+def to_gain_units(log_ratio: wp.float32) -> wp.int64:
     """Return a logarithm in units of 1 / `GAIN_UNITS` nats, rounded."""
     return wp.int64(wp.round(wp.clamp(log_ratio, wp.float32(-1.0e6), wp.float32(1.0e6)) * TO_UNITS))
-
-
-@wp.func
-def count_pass(
-    state: ChainArrays, chain: int, part: int, c: int, cell: Cell, g: wp.float32, ray: Ray, key: wp.uint64, k: int,
-    sign: int,
-):  # fmt: skip
-    """Count that a beam passed a cell; with sign -1, undo the count."""
-    # m: reflectivity; g, candidate_g: chances of meeting the cell's surface and its candidate; u: uniform number.
-    one = wp.float32(1.0)
-    m = cell[REFLECTIVITY]
-    row = chain * state.parts + part
-    if cell[TRYING] != wp.float32(0.0):
-        candidate_g = surface.crossing_probability(state.candidates[chain * state.n_cells + c], ray)
-        log_ratio = wp.log(wp.max(one - m * candidate_g, MIN_FACTOR) / wp.max(one - m * g, MIN_FACTOR))
-        wp.atomic_add(state.gain, row, c, wp.int64(sign) * in_units(log_ratio))
-        return
-    u = wp.float32(random_bits(key, wp.uint64(k)) >> wp.uint64(40)) * TO_UNIT_24
-    if u * (one - m * g) < g * (one - m):
-        wp.atomic_add(state.met, row, c, sign)
 
 
 @wp.func
@@ -151,11 +134,37 @@ def meeting_chance(rays: TracedRays, cell: Cell, ray: Ray) -> wp.float32:
     return surface.crossing_probability(cell, ray)
 
 
+@wp.func
+def hit_density(
+    law: SensorLaw32, beta: wp.float32, entry: int, near: int, reading: wp.float32, decay: wp.float32,
+    crossing: Crossing,
+) -> wp.float32:  # fmt: skip
+    """Return p(z | stop)^beta at an entry; before the near entries, the density of a random reading."""
+    if entry < near:
+        return tempered(law.uniform, beta)
+    return tempered(laws.stop_density(law, reading, decay, crossing.distance_m, crossing.variance), beta)
+
+
 @wp.kernel
 def compute_decays(first: int, law: SensorLaw32, rays: TracedRays):
     """One thread per beam: compute `object_decay` of its reading, which all chains and sweeps share."""
-    b = first + wp.tid()
-    rays.decay[b] = laws.object_decay(law, rays.range_m[b])
+    beam = first + wp.tid()
+    rays.decay[beam] = laws.object_decay(law, rays.range_m[beam])
+
+
+@wp.struct
+class Beam:
+    """A beam of one chain in a sweep."""
+
+    row: int  # row of its counts in `ChainArrays`
+    cell_0: int  # the chain's first element in arrays of cells
+    begin: int  # its entries in the rays are [begin, end)
+    near: int  # far entries are [begin, near)
+    end: int
+    ray: Ray
+    reading: wp.float32
+    decay: wp.float32  # see `compute_decays`
+    key: wp.uint64  # of the chain's beams in the sweep
 
 
 @wp.kernel
@@ -163,155 +172,171 @@ def draw_stops(
     first: int, part: int, sweep: int, lazy_updates: int, law: SensorLaw32, rays: TracedRays, state: ChainArrays
 ):
     """One thread per chain's beam: draw and count its stop. ``lazy_updates`` is 1 if the sweep updates lazy cells."""
-    # i: beam in the arrays of all chains; b: beam; k: entry; c: cell of the grid; m, g, a: see the module; survive: T.
-    i = first + wp.tid()
-    chain = i // state.n_beams
-    b = i - chain * state.n_beams
-    cell_0 = chain * state.n_cells
-    key = sweep_key(state.keys[chain], sweep, BEAMS)
+    # As in the module's text, m: reflectivity; g: chance of meeting the surface; a: m g; survive: T.
+    element = first + wp.tid()  # the beam in the arrays of all chains
+    chain = element // state.n_beams
+    b = element - chain * state.n_beams
+    beam = Beam(
+        chain * state.parts + part, chain * state.n_cells, rays.offsets[b], rays.near[b], rays.offsets[b + 1],
+        Ray(rays.start_m[b], rays.direction[b]), rays.range_m[b], rays.decay[b],
+        sweep_key(state.keys[chain], sweep, BEAMS),
+    )  # fmt: skip
     one = wp.float32(1.0)
-    reading = rays.range_m[b]
-    begin = rays.offsets[b]
-    end = rays.offsets[b + 1]
-    near = rays.near[b]
-    decay = rays.decay[b]
-    if begin == end or wp.isnan(reading):
-        state.stop[i] = end
-        state.log_likelihood[i] = wp.float32(0.0)
-        if not wp.isnan(reading):
-            state.log_likelihood[i] = wp.log(tempered(laws.no_stop_density(law, reading, decay), state.beta))
+    if beam.begin == beam.end or wp.isnan(beam.reading):
+        state.stop[element] = beam.end
+        state.log_likelihood[element] = wp.float32(0.0)
+        if not wp.isnan(beam.reading):
+            density = laws.no_stop_density(law, beam.reading, beam.decay)
+            state.log_likelihood[element] = wp.log(tempered(density, state.beta))
         return
-    ray = Ray(rays.start_m[b], rays.direction[b])
 
     # Far entries: multiply up T, and count passes in cells that learn.
     survive = one
-    far_begin = begin
-    far_end = near
+    far_begin = beam.begin
+    far_end = beam.near
     if lazy_updates == 0:
-        survive = state.lazy_survival[i]
+        survive = state.lazy_survival[element]
         far_begin = rays.watched_offsets[b]
         far_end = rays.watched_offsets[b + 1]
     # Each loop has its own names: Warp would carry shared ones, and whole cells, from round to round.
     for far in range(far_begin, far_end):
-        k_far = far
+        far_entry = far
         if lazy_updates == 0:
-            k_far = rays.watched[far]
-        c_far = rays.cells[k_far]
-        m_far = state.fixed_m[cell_0 + c_far]
+            far_entry = rays.watched[far]
+        c_far = rays.cells[far_entry]
+        m_far = state.fixed_m[beam.cell_0 + c_far]
         if m_far < wp.float32(0.0) or m_far > NEGLIGIBLE_REFLECTIVITY:
-            cell_far = state.cells[cell_0 + c_far]
-            g_far = meeting_chance(rays, cell_far, ray)
+            cell_far = state.cells[beam.cell_0 + c_far]
+            g_far = meeting_chance(rays, cell_far, beam.ray)
             survive = survive * (one - cell_far[REFLECTIVITY] * g_far)
             if m_far < wp.float32(0.0):
-                count_pass(state, chain, part, c_far, cell_far, g_far, ray, key, k_far, 1)
+                count_pass(state, beam, c_far, cell_far, g_far, far_entry, 1)
     stopped_far = one - survive
     total = wp.float64(tempered(law.uniform, state.beta)) * wp.float64(stopped_far)
     choice = FAR
 
     # Near entries: choose a stop by weight. A stop is skipped if its weight is below single precision beside the total,
     # which is at least the weight of the least likely stop.
-    peak = tempered(laws.highest_density(law, reading), state.beta)
+    peak = tempered(laws.highest_density(law, beam.reading), state.beta)
     negligible = MIN_RELATIVE_WEIGHT / peak
-    bound = negligible * tempered(laws.lowest_density(law, reading), state.beta)
+    bound = negligible * tempered(laws.lowest_density(law, beam.reading), state.beta)
     some_learn = int(0)
-    for k_near in range(near, end):
-        c_near = rays.cells[k_near]
-        m_near = state.fixed_m[cell_0 + c_near]
+    for near_entry in range(beam.near, beam.end):
+        c_near = rays.cells[near_entry]
+        m_near = state.fixed_m[beam.cell_0 + c_near]
         if m_near < wp.float32(0.0):
             some_learn = 1
         if m_near < wp.float32(0.0) or m_near * survive > bound or m_near > NEGLIGIBLE_REFLECTIVITY:
-            cell_near = state.cells[cell_0 + c_near]
+            cell_near = state.cells[beam.cell_0 + c_near]
             if cell_near[REFLECTIVITY] * survive > bound:
-                crossing = cross_cell(rays, k_near, cell_near, ray)
+                crossing = cross_cell(rays, near_entry, cell_near, beam.ray)
                 a = cell_near[REFLECTIVITY] * crossing.chance
-                p = tempered(laws.stop_density(law, reading, decay, crossing.distance_m, crossing.variance), state.beta)
-                weight = wp.float64(survive * a * p)
+                likelihood = laws.stop_density(law, beam.reading, beam.decay, crossing.distance_m, crossing.variance)
+                weight = wp.float64(survive * a * tempered(likelihood, state.beta))
                 total += weight
                 bound = wp.max(bound, negligible * wp.float32(total))
-                u = to_uniform(random_bits(key, STREAM_CHOICE + wp.uint64(k_near)))
+                u = to_uniform(random_bits(beam.key, STREAM_CHOICE + wp.uint64(near_entry)))
                 if u * total < weight:
-                    choice = k_near
+                    choice = near_entry
                 survive = survive * (one - a)
             elif cell_near[REFLECTIVITY] > NEGLIGIBLE_REFLECTIVITY:
-                survive = survive * (one - cell_near[REFLECTIVITY] * meeting_chance(rays, cell_near, ray))
+                survive = survive * (one - cell_near[REFLECTIVITY] * meeting_chance(rays, cell_near, beam.ray))
             if survive <= bound:
                 break  # further stops, often many behind a wall, have no weight
-    nowhere = wp.float64(survive * tempered(laws.no_stop_density(law, reading, decay), state.beta))
+    # No stop at all.
+    nowhere = wp.float64(survive * tempered(laws.no_stop_density(law, beam.reading, beam.decay), state.beta))
     total += nowhere
-    if to_uniform(random_bits(key, STREAM_END + wp.uint64(b))) * total < nowhere:
-        choice = end
+    if to_uniform(random_bits(beam.key, STREAM_END + wp.uint64(b))) * total < nowhere:
+        choice = beam.end
         some_learn = 1  # perhaps a cell behind the end of the walk learns
-    state.log_likelihood[i] = wp.float32(wp.log(wp.max(total, wp.float64(1.0e-300))))
+    state.log_likelihood[element] = wp.float32(wp.log(wp.max(total, wp.float64(1.0e-300))))
 
+    # Count passes of near cells before the stop; then store the stop, and count it in its cell.
     if choice == FAR:
-        # Rare: find the far cell, and undo the counts from this cell on.
-        target = wp.float32(to_uniform(random_bits(key, STREAM_FAR + wp.uint64(b)))) * stopped_far
-        survive_far = wp.float32(1.0)
-        for k in range(begin, near):
-            c = rays.cells[k]
-            cell = state.cells[cell_0 + c]
-            g = meeting_chance(rays, cell, ray)
-            survive_far = survive_far * (one - cell[REFLECTIVITY] * g)
-            if choice == FAR and (one - survive_far >= target or k == near - 1):
-                choice = k
-            if choice != FAR and state.fixed_m[cell_0 + c] < wp.float32(0.0):
-                count_pass(state, chain, part, c, cell, g, ray, key, k, -1)
-    # Count passes of near cells before the stop.
-    for k_passed in range(near, wp.where(some_learn != 0, wp.min(choice, end), near)):
-        c_passed = rays.cells[k_passed]
-        if state.fixed_m[cell_0 + c_passed] < wp.float32(0.0):
-            cell_passed = state.cells[cell_0 + c_passed]
-            g_passed = meeting_chance(rays, cell_passed, ray)
-            count_pass(state, chain, part, c_passed, cell_passed, g_passed, ray, key, k_passed, 1)
-
-    # Store the stop, and count it in its cell.
-    state.stop[i] = choice
-    if choice < end:
+        u_far = wp.float32(to_uniform(random_bits(beam.key, STREAM_FAR + wp.uint64(b))))
+        choice = find_far_stop(rays, state, beam, u_far * stopped_far)
+    for passed_entry in range(beam.near, wp.where(some_learn != 0, wp.min(choice, beam.end), beam.near)):
+        c_passed = rays.cells[passed_entry]
+        if state.fixed_m[beam.cell_0 + c_passed] < wp.float32(0.0):
+            cell_passed = state.cells[beam.cell_0 + c_passed]
+            g_passed = meeting_chance(rays, cell_passed, beam.ray)
+            count_pass(state, beam, c_passed, cell_passed, g_passed, passed_entry, 1)
+    state.stop[element] = choice
+    if choice < beam.end:
         c_stop = rays.cells[choice]
-        cell_stop = state.cells[cell_0 + c_stop]
-        stopped = cross_cell(rays, choice, cell_stop, ray)
-        state.stop_moments[i] = wp.vec2(stopped.distance_m, stopped.variance)
-        state.stopped_in[cell_0 + c_stop] = sweep
-        if state.fixed_m[cell_0 + c_stop] >= wp.float32(0.0):
-            return  # the cell does not count in this sweep, or `endpoint_cells` counts for it
-        row = chain * state.parts + part
-        wp.atomic_add(state.hits, row, c_stop, 1)
-        if cell_stop[TRYING] != wp.float32(0.0):
-            new = surface.cross_surface(state.candidates[chain * state.n_cells + c_stop], ray)
-            new_density = hit_density(law, state.beta, choice, near, reading, decay, new)
-            old_density = hit_density(law, state.beta, choice, near, reading, decay, stopped)
-            ratio = wp.max(new.chance * new_density, MIN_FACTOR) / wp.max(stopped.chance * old_density, MIN_FACTOR)
-            wp.atomic_add(state.gain, row, c_stop, in_units(wp.log(ratio)))
+        cell_stop = state.cells[beam.cell_0 + c_stop]
+        stopped = cross_cell(rays, choice, cell_stop, beam.ray)
+        state.stop_moments[element] = wp.vec2(stopped.distance_m, stopped.variance)
+        state.stopped_in[beam.cell_0 + c_stop] = sweep
+        if state.fixed_m[beam.cell_0 + c_stop] < wp.float32(0.0):  # else it learns nothing, or `endpoint_cells` counts
+            count_stop(law, state, beam, choice, c_stop, cell_stop, stopped)
 
 
 @wp.func
-def hit_density(
-    law: SensorLaw32, beta: wp.float32, k: int, near: int, reading: wp.float32, decay: wp.float32, crossing: Crossing
-) -> wp.float32:
-    """Return p(z | stop)^beta at entry k; before the near entries, the density of a random reading."""
-    if k < near:
-        return tempered(law.uniform, beta)
-    return tempered(laws.stop_density(law, reading, decay, crossing.distance_m, crossing.variance), beta)
+def count_pass(state: ChainArrays, beam: Beam, c: int, cell: Cell, g: wp.float32, entry: int, sign: int):
+    """Count that a beam passed cell c, which it met with chance g; with sign -1, undo the count."""
+    one = wp.float32(1.0)
+    m = cell[REFLECTIVITY]
+    if cell[TRYING] != wp.float32(0.0):
+        candidate_g = surface.crossing_probability(state.candidates[beam.cell_0 + c], beam.ray)
+        log_ratio = wp.log(wp.max(one - m * candidate_g, MIN_FACTOR) / wp.max(one - m * g, MIN_FACTOR))
+        wp.atomic_add(state.gain, beam.row, c, wp.int64(sign) * to_gain_units(log_ratio))
+        return
+    u = wp.float32(random_bits(beam.key, wp.uint64(entry)) >> wp.uint64(40)) * TO_UNIT_24
+    if u * (one - m * g) < g * (one - m):
+        wp.atomic_add(state.met, beam.row, c, sign)
 
 
-LONGEST_WATCHED_PERIOD = 2  # longest update period of watched cells, in sweeps
+@wp.func
+def find_far_stop(rays: TracedRays, state: ChainArrays, beam: Beam, target: wp.float32) -> int:
+    """Return the far entry at which the chance of a stop so far exceeds ``target``, and undo the counts from it on."""
+    one = wp.float32(1.0)
+    choice = FAR
+    survive = wp.float32(1.0)
+    for entry in range(beam.begin, beam.near):
+        c = rays.cells[entry]
+        cell = state.cells[beam.cell_0 + c]
+        g = meeting_chance(rays, cell, beam.ray)
+        survive = survive * (one - cell[REFLECTIVITY] * g)
+        if choice == FAR and (one - survive >= target or entry == beam.near - 1):
+            choice = entry
+        if choice != FAR and state.fixed_m[beam.cell_0 + c] < wp.float32(0.0):
+            count_pass(state, beam, c, cell, g, entry, -1)
+    return choice
+
+
+@wp.func
+def count_stop(
+    law: SensorLaw32, state: ChainArrays, beam: Beam, entry: int, c: int, cell: Cell, crossing: Crossing
+):  # fmt: skip
+    """Count that a beam stopped at an entry, in cell c; while a candidate is tried, add the stop's log ratio for it."""
+    wp.atomic_add(state.hits, beam.row, c, 1)
+    if cell[TRYING] != wp.float32(0.0):
+        new = surface.cross_surface(state.candidates[beam.cell_0 + c], beam.ray)
+        new_density = hit_density(law, state.beta, entry, beam.near, beam.reading, beam.decay, new)
+        old_density = hit_density(law, state.beta, entry, beam.near, beam.reading, beam.decay, crossing)
+        ratio = wp.max(new.chance * new_density, MIN_FACTOR) / wp.max(crossing.chance * old_density, MIN_FACTOR)
+        wp.atomic_add(state.gain, beam.row, c, to_gain_units(wp.log(ratio)))
+
+
+MAX_WATCHED_PERIOD = 2  # longest update period of watched cells, in sweeps
 
 
 @wp.kernel
 def pass_lazy_cells(first: int, lazy: Uint8s, rays: TracedRays, state: ChainArrays):
     """One thread per chain's beam: compute its chance to pass the far cells that ``lazy`` marks."""
-    i = first + wp.tid()
-    chain = i // state.n_beams
-    b = i - chain * state.n_beams
+    element = first + wp.tid()
+    chain = element // state.n_beams
+    b = element - chain * state.n_beams
     cell_0 = chain * state.n_cells
     ray = Ray(rays.start_m[b], rays.direction[b])
     survive = wp.float32(1.0)
-    for k in range(rays.offsets[b], rays.near[b]):
-        c = rays.cells[k]
+    for entry in range(rays.offsets[b], rays.near[b]):
+        c = rays.cells[entry]
         if lazy[c] != wp.uint8(0) and state.fixed_m[cell_0 + c] > NEGLIGIBLE_REFLECTIVITY:
             cell = state.cells[cell_0 + c]
             survive = survive * (wp.float32(1.0) - cell[REFLECTIVITY] * meeting_chance(rays, cell, ray))
-    state.lazy_survival[i] = survive
+    state.lazy_survival[element] = survive
 
 
 class UpdateSchedule:
@@ -319,7 +344,7 @@ class UpdateSchedule:
 
     def __init__(self, rays: Rays, periods: NDArray[np.uint8]) -> None:
         """Select the lazy cells by ``periods``, see `bayesmap.kernels.surfaces.stop_chains.Plan`, (T,)."""
-        is_lazy = periods > LONGEST_WATCHED_PERIOD
+        is_lazy = periods > MAX_WATCHED_PERIOD
         self._periods = [int(period) for period in np.unique(periods[is_lazy])]
         self._lazy = np.zeros(rays.grid.n_cells, dtype=np.bool_)
         self._lazy[rays.touched[is_lazy]] = True
@@ -329,13 +354,13 @@ class UpdateSchedule:
         """Return whether a sweep updates some of the lazy cells."""
         return any(sweep % period == 0 for period in self._periods)
 
-    def mark_watched(self, on_device: TracedRays, device: str) -> Any:
+    def mark_watched(self, traced: TracedRays, device: str) -> Any:
         """List the watched far entries in the rays on a device. Returns the mask of lazy cells, on the device."""
         rays = self._rays
         watched = np.flatnonzero(~self._lazy[rays.cells])
         beam = np.searchsorted(rays.offsets, watched, side="right") - 1
         far = watched < rays.near[beam]
         counts = np.bincount(beam[far], minlength=rays.n_beams)
-        on_device.watched = devices.to_device(watched[far], wp.int32, device)
-        on_device.watched_offsets = devices.to_device(np.concatenate([[0], np.cumsum(counts)]), wp.int32, device)
+        traced.watched = devices.to_device(watched[far], wp.int32, device)
+        traced.watched_offsets = devices.to_device(np.concatenate([[0], np.cumsum(counts)]), wp.int32, device)
         return devices.to_device(self._lazy, wp.uint8, device)
