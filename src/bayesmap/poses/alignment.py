@@ -26,7 +26,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.kernels.match.line_pairs import match_counts, pair_sums
+from bayesmap.kernels.match.line_pairs import PairRules, match_counts, pair_sums
 from bayesmap.kernels.match.scan_refinement import Convergence, Refinement, refine_scans
 from bayesmap.poses.graph import Factors, PoseGaussian, Quadratic, quadratic, solve_step
 from bayesmap.poses.scan_geometry import ScanGeometry
@@ -93,9 +93,8 @@ def overlapping_pairs(geometry: ScanGeometry, poses: Floats, reach_m: float) -> 
     # Compute the share of each scan's points that the other explains.
     stride = max(1, geometry.beams // TRIAL_BEAMS)
     relative = between(poses[target], poses[source])
-    _, _, _, totals = pair_sums(
-        geometry, None, source, target, relative, TRIAL_REACH_M, TRIAL_SCALE_M, MIN_COSINE, stride, geometry.threads
-    )
+    rules = PairRules(TRIAL_REACH_M, TRIAL_SCALE_M, MIN_COSINE, stride)
+    totals = pair_sums(geometry, None, source, target, relative, rules, geometry.threads).totals
     sampled = np.maximum((geometry.host_kind[:, ::stride] > 0).sum(axis=1), 1)
     share = totals[:, 2] / sampled[source]
     good = share > MIN_MATCHED_SHARE
@@ -166,7 +165,7 @@ def _beam_weights(
 ) -> NDArray[np.float32]:
     """Return the weight of each beam in its pairs, (S, B), by the number of scans with which it is matched."""
     counts = match_counts(
-        geometry, pairs.offsets, pairs.target, relative, reach, scale, MIN_COSINE, stride, geometry.threads
+        geometry, pairs.offsets, pairs.target, relative, PairRules(reach, scale, MIN_COSINE, stride), geometry.threads
     )
     return np.asarray(0.5 / (1.0 + counts), dtype=np.float32)
 
@@ -185,8 +184,9 @@ def _laser_cost(
 ) -> tuple[Quadratic, Floats]:  # fmt: skip
     """Return the laser's cost over the relative poses of pairs, and the totals of its sums."""
     relative = between(poses[pairs.target], poses[pairs.source])
+    rules = PairRules(reach, scale, MIN_COSINE, stride)
     hessian, slack, gradient, totals = pair_sums(
-        geometry, weights, pairs.source, pairs.target, relative, reach, scale, MIN_COSINE, stride, geometry.threads
+        geometry, weights, pairs.source, pairs.target, relative, rules, geometry.threads
     )
     curvature, gradient = without_slack(hessian, slack, gradient, sigma_m)
     factor, target, source = stride / sigma_m**2, pairs.target.astype(np.intp), pairs.source.astype(np.intp)
@@ -233,7 +233,7 @@ def point_error(geometry: ScanGeometry, aligned: Alignment) -> PointError:
 
     def sums(shift: Floats) -> tuple[Floats, Floats, Floats]:
         hessian, _, gradient, totals = pair_sums(
-            geometry, weights, source, target, relative + shift, reach, scale, MIN_COSINE, threads=geometry.threads
+            geometry, weights, source, target, relative + shift, PairRules(reach, scale, MIN_COSINE), geometry.threads
         )
         return hessian, gradient, totals
 
@@ -348,11 +348,10 @@ def _information(
     variance is sigma^2 (1 + 1 / c), so that it counts 1 / (c + 1) in each pair.
     """
     offsets = np.searchsorted(source, np.arange(len(geometry) + 1)).astype(np.int32)
-    counts = match_counts(geometry, offsets, target, relative, reach_m, scale_m, MIN_COSINE, threads=geometry.threads)
+    rules = PairRules(reach_m, scale_m, MIN_COSINE)
+    counts = match_counts(geometry, offsets, target, relative, rules, geometry.threads)
     weights = (1.0 / (1.0 + counts)).astype(np.float32)
-    hessian, slack, gradient, _ = pair_sums(
-        geometry, weights, source, target, relative, reach_m, scale_m, MIN_COSINE, threads=geometry.threads
-    )
+    hessian, slack, gradient, _ = pair_sums(geometry, weights, source, target, relative, rules, geometry.threads)
     in_target = without_slack(hessian, slack, gradient, error.scatter_m)[0] / error.scatter_m**2
     turn = rotation(relative[:, 2])
     in_source = np.swapaxes(turn, 1, 2) @ in_target @ turn

@@ -1,18 +1,18 @@
 """Pair the points of one scan with the walls of another, sum the pairs to a quadratic, and count points that disagree.
 
-A point of scan i, moved into the frame of scan j, is paired with the nearest point of j among the beams that point in
-its direction (Blais and Levine 1995; Censi 2008). The residual e is the distance from the wall there, along the mean of
-the two normals, with the weight of Geman and McClure, (1 + e^2 / c^2)^-2. If neither point has a normal, it is the
-offset in x and y, with less weight: two scans do not return the same points.
+A point of a *source* scan, moved into the frame of a *target* scan, is paired with the nearest of the target's points
+among the beams that point in its direction (Blais and Levine 1995; Censi 2008). The residual e is the distance from the
+wall there, along the mean of the two normals, with the weight w = (1 + e^2 / c^2)^-2 of Geman and McClure. If neither
+point has a normal, e is the offset in x and y, with less weight: two scans do not return the same points.
 
-Let z = (x, y, yaw) be the pose of i in j's frame. H = sum w J J^T and g = sum w J e are the second and first
-derivatives of half the cost by z (Gauss-Newton). ``slack`` is the part of H that comes from errors of the normals and
-is no information: sum w spread T T^T, T the derivative of the offset *along* the wall, spread the variance of the
-normal's angle for points of unit variance. Along a corridor H is slack alone.
+Let z = (x, y, yaw) be the pose of the source in the target's frame, and J the derivative of e by z. H = sum w J J^T
+and g = sum w J e are the second and first derivatives of half the cost (Gauss-Newton). ``slack`` is the part of H that
+comes from errors of the normals and is no information: sum w spread T T^T. T is the derivative of the offset *along*
+the wall, spread the variance of the normal's angle for points of unit variance. Along a corridor H is slack alone.
 """
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import warp as wp
@@ -24,17 +24,18 @@ from bayesmap.space.planar import inverse
 
 wp.set_module_options({"enable_backward": False})
 
-MOST_BEAMS = wp.constant(25)  # most beams searched to either side
-WIDEST_SPACING_M = wp.constant(0.15)  # points of less dense surfaces, such as walls that beams graze, fix no pose
+OUT_OF_VIEW = wp.constant(-2)  # result of `nearest_point` if no beam points towards the point
+MAX_SIDE_BEAMS = wp.constant(25)  # most beams searched to either side
+MAX_SPACING_M = wp.constant(0.15)  # points of less dense surfaces, such as walls that beams graze, fix no pose
 
 
 @wp.struct
 class PairRule:
-    """Rules of pairs of points, and of their weights."""
+    """`PairRules` on a device."""
 
-    reach: float  # furthest that they may lie apart
-    scale: float  # Geman and McClure's c
-    alike: float  # least cosine between their normals
+    reach: float
+    scale: float
+    min_cosine: float
 
 
 @wp.struct
@@ -52,45 +53,45 @@ class Sums:
 
 
 @wp.func
-def turns_of(p: wp.vec2f) -> float:
+def angle_in_turns(vector: wp.vec2f) -> float:
     """Return the angle of a vector in turns, -1/2 to 1/2, to 0.05 degrees: a polynomial, faster than atan2."""
-    ax = wp.abs(p[0])
-    ay = wp.abs(p[1])
+    ax = wp.abs(vector[0])
+    ay = wp.abs(vector[1])
     t = wp.min(ax, ay) / wp.max(wp.max(ax, ay), 1.0e-9)
     t2 = t * t
     angle = (((-0.0464964749 * t2 + 0.15931422) * t2 - 0.327622764) * t2 + 1.0) * t * 0.15915494309
     if ay > ax:
         angle = 0.25 - angle
-    if p[0] < 0.0:
+    if vector[0] < 0.0:
         angle = 0.5 - angle
-    return wp.where(p[1] < 0.0, -angle, angle)
+    return wp.where(vector[1] < 0.0, -angle, angle)
 
 
 @wp.func
-def beam_towards(scene: ScanArrays, j: int, point: wp.vec2f) -> int:
-    """Return the beam of scan j that points towards a point; -1 if there is none."""
+def beam_towards(scene: ScanArrays, scan: int, point: wp.vec2f) -> int:
+    """Return the beam of a scan that points towards a point; -1 if there is none."""
     bins = scene.beam_of_angle.shape[1]
-    bin = int((turns_of(point) + 0.5) * float(bins))
-    return scene.beam_of_angle[scene.layout[j], wp.clamp(bin, 0, bins - 1)]
+    bin = int((angle_in_turns(point) + 0.5) * float(bins))
+    return scene.beam_of_angle[scene.layout[scan], wp.clamp(bin, 0, bins - 1)]
 
 
 @wp.func
-def nearest_point(scene: ScanArrays, j: int, point: wp.vec2f, reach: float) -> int:
-    """Return the beam of the nearest point of scan j within reach; -1 if there is none, -2 if out of view."""
-    middle = beam_towards(scene, j, point)
+def nearest_point(scene: ScanArrays, scan: int, point: wp.vec2f, reach: float) -> int:
+    """Return the beam of the nearest point of a scan within reach; -1 if there is none, or `OUT_OF_VIEW`."""
+    middle = beam_towards(scene, scan, point)
     if middle < 0:
-        return -2
+        return OUT_OF_VIEW
     away = wp.length(point)
-    step = scene.step[j]
+    step = scene.step[scan]
     u = wp.min(1.0, reach / wp.max(away, 1.0e-6))
     # No point within reach is further off by angle than asin(u) <= u + (pi / 2 - 1) u^3.
-    wide = wp.min(MOST_BEAMS, int((u + 0.5708 * u * u * u) / step) + 1)
-    beams = scene.beams[j]
-    circle = scene.full_circle[j] != 0
+    side_beams = wp.min(MAX_SIDE_BEAMS, int((u + 0.5708 * u * u * u) / step) + 1)
+    beams = scene.beams[scan]
+    circle = scene.full_circle[scan] != 0
     closest = reach * reach
     nearest = int(-1)
     # Search outwards. Points of equal distance count in the order of beams, so that the lower side takes ties.
-    for k in range(wide + 1):
+    for k in range(side_beams + 1):
         # A beam that is off by the angle a has no point nearer than away sin(a) >= away (a - a^3 / 6).
         a = wp.min(float(k - 1) * step, 1.4)
         bound = away * a * (1.0 - 0.16666667 * a * a)
@@ -100,7 +101,7 @@ def nearest_point(scene: ScanArrays, j: int, point: wp.vec2f, reach: float) -> i
         if low < 0 and circle:
             low += beams
         if low >= 0:
-            d = wp.length_sq(scene.points[j, low] - point)
+            d = wp.length_sq(scene.points[scan, low] - point)
             if d <= closest:
                 closest = d
                 nearest = low
@@ -108,7 +109,7 @@ def nearest_point(scene: ScanArrays, j: int, point: wp.vec2f, reach: float) -> i
         if high >= beams and circle:
             high -= beams
         if k > 0 and high < beams:
-            d = wp.length_sq(scene.points[j, high] - point)
+            d = wp.length_sq(scene.points[scan, high] - point)
             if d < closest:
                 closest = d
                 nearest = high
@@ -116,16 +117,16 @@ def nearest_point(scene: ScanArrays, j: int, point: wp.vec2f, reach: float) -> i
 
 
 @wp.func
-def neighbour_distance(scene: ScanArrays, j: int, beam: int) -> float:
+def neighbour_distance(scene: ScanArrays, scan: int, beam: int) -> float:
     """Return the spacing of returns on a surface: the distance of the nearer neighbouring point, 0.1 to 2 m."""
-    beams = scene.beams[j]
+    beams = scene.beams[scan]
     nearest = float(2.0)
-    point = scene.points[j, beam]
+    point = scene.points[scan, beam]
     for side in range(2):
-        c = neighbour(beam, 2 * side - 1, beams, scene.full_circle[j])
-        if c >= 0:
-            if scene.kind[j, c] != wp.uint8(0):
-                nearest = wp.min(nearest, wp.length(scene.points[j, c] - point))
+        beside = neighbour(beam, 2 * side - 1, beams, scene.full_circle[scan])
+        if beside >= 0:
+            if scene.kind[scan, beside] != wp.uint8(0):
+                nearest = wp.min(nearest, wp.length(scene.points[scan, beside] - point))
     return wp.max(nearest, 0.1)
 
 
@@ -137,28 +138,26 @@ def symmetric(m: wp.mat33f) -> wp.mat33d:
 
 
 @wp.func
-def turn_by(z: wp.vec3d) -> wp.mat22f:
+def turn_by(pose: wp.vec3d) -> wp.mat22f:
     """Return the rotation of a pose."""
-    c = float(wp.cos(z[2]))
-    s = float(wp.sin(z[2]))
+    c = float(wp.cos(pose[2]))
+    s = float(wp.sin(pose[2]))
     return wp.mat22f(c, -s, s, c)
 
 
 @wp.func
-def shift_by(z: wp.vec3d) -> wp.vec2f:
+def shift_by(pose: wp.vec3d) -> wp.vec2f:
     """Return the position of a pose."""
-    return wp.vec2f(float(z[0]), float(z[1]))
+    return wp.vec2f(float(pose[0]), float(pose[1]))
 
 
 @wp.func
 def pair_scans(
-    scene: ScanArrays, weights: Float32Rows, i: int, j: int, z: wp.vec3d, rule: PairRule, stride: int
+    scene: ScanArrays, weights: Float32Rows, source: int, target: int, pose: wp.vec3d, rule: PairRule, stride: int
 ) -> Sums:
-    """Sum over every ``stride``-th point of scan i on scan j, with i at pose z in j's frame."""
-    # b: beam of i; r: its point turned by z; point: the point in j's frame; other: its partner; d: offset from the
-    # partner; e: residual; w: weight; n, m: normals of the two points.
-    turn = turn_by(z)
-    shift = shift_by(z)
+    """Sum over every ``stride``-th point of the source scan, at its pose in the target's frame, on the target scan."""
+    turn = turn_by(pose)
+    shift = shift_by(pose)
     second = wp.mat33f()
     slack = wp.mat33f()
     first = wp.vec3f()
@@ -167,94 +166,116 @@ def pair_scans(
     force_sq = float(0.0)
     matched = int(0)
     seen = int(0)
-    for b in range(0, scene.kind.shape[1], stride):
-        if scene.kind[i, b] == wp.uint8(0):
+    for beam in range(0, scene.kind.shape[1], stride):
+        if scene.kind[source, beam] == wp.uint8(0):
             continue
-        r = turn * scene.points[i, b]
-        point = r + shift
-        other = nearest_point(scene, j, point, rule.reach)
-        if other == -2:
+        arm = turn * scene.points[source, beam]  # from the source's laser to its point, in the target's axes
+        point = arm + shift
+        partner = nearest_point(scene, target, point, rule.reach)
+        if partner == OUT_OF_VIEW:
             continue
         seen += 1
-        if other < 0:
+        if partner < 0:
             continue
-        d = point - scene.points[j, other]
-        has_normal = scene.kind[i, b] == WITH_NORMAL
-        other_has_normal = scene.kind[j, other] == WITH_NORMAL
-        if has_normal and other_has_normal:
-            # Both points have normals: e is the offset along their mean u, with the derivative across.
-            n = turn * scene.normals[i, b]
-            m = scene.normals[j, other]
-            if wp.dot(n, m) < rule.alike:
+        offset = point - scene.points[target, partner]
+        has_normal = scene.kind[source, beam] == WITH_NORMAL
+        partner_has_normal = scene.kind[target, partner] == WITH_NORMAL
+        if has_normal and partner_has_normal:
+            # Both points have normals: e is the offset along their mean, with the derivative ``across``.
+            normal = turn * scene.normals[source, beam]
+            partner_normal = scene.normals[target, partner]
+            if wp.dot(normal, partner_normal) < rule.min_cosine:
                 continue
-            u = (n + m) / wp.length(n + m)
-            e = wp.dot(u, d)
-            w = 1.0 / (1.0 + e * e / (rule.scale * rule.scale))
-            w = w * w
-            force_sq += weights[i, b] * w * w * e * e
-            w = w * weights[i, b]
-            across = wp.vec3f(u[0], u[1], u[1] * r[0] - u[0] * r[1])
-            second += wp.outer(w * across, across)
-            first += (w * across) * e
-            v = w * 0.25 * (scene.spread[i, b] + scene.spread[j, other])
-            along = wp.vec3f(-u[1], u[0], wp.dot(u, r))
-            slack += wp.outer(v * along, along)
-            cost += w * e * e
-            total += w
+            mean_normal = (normal + partner_normal) / wp.length(normal + partner_normal)
+            e = wp.dot(mean_normal, offset)
+            weight = 1.0 / (1.0 + e * e / (rule.scale * rule.scale))
+            weight = weight * weight
+            force_sq += weights[source, beam] * weight * weight * e * e
+            weight = weight * weights[source, beam]
+            across = wp.vec3f(mean_normal[0], mean_normal[1], mean_normal[1] * arm[0] - mean_normal[0] * arm[1])
+            second += wp.outer(weight * across, across)
+            first += (weight * across) * e
+            slack_weight = weight * 0.25 * (scene.spread[source, beam] + scene.spread[target, partner])
+            along = wp.vec3f(-mean_normal[1], mean_normal[0], wp.dot(mean_normal, arm))
+            slack += wp.outer(slack_weight * along, along)
+            cost += weight * e * e
+            total += weight
             matched += 1
-        elif not has_normal and not other_has_normal:
+        elif not has_normal and not partner_has_normal:
             # Neither point has a normal: both components of the offset count.
-            spacing = 0.5 * neighbour_distance(scene, j, other)
-            if spacing > WIDEST_SPACING_M:
+            spacing = 0.5 * neighbour_distance(scene, target, partner)
+            if spacing > MAX_SPACING_M:
                 continue
-            w = 1.0 / (1.0 + wp.length_sq(d) / (rule.scale * rule.scale + spacing * spacing))
-            w = w * w * weights[i, b] * (0.01 * 0.01) / (spacing * spacing)
-            second += wp.mat33f(w, 0.0, -w * r[1], 0.0, w, w * r[0], 0.0, 0.0, w * wp.length_sq(r))
-            first += w * wp.vec3f(d[0], d[1], r[0] * d[1] - r[1] * d[0])
+            w = 1.0 / (1.0 + wp.length_sq(offset) / (rule.scale * rule.scale + spacing * spacing))
+            w = w * w * weights[source, beam] * (0.01 * 0.01) / (spacing * spacing)
+            second += wp.mat33f(w, 0.0, -w * arm[1], 0.0, w, w * arm[0], 0.0, 0.0, w * wp.length_sq(arm))
+            first += w * wp.vec3f(offset[0], offset[1], arm[0] * offset[1] - arm[1] * offset[0])
             matched += 1
     return Sums(second, slack, first, cost, total, force_sq, matched, seen)
 
 
 @wp.struct
-class PairSums:
-    """The `Sums` of all pairs of scans."""
+class PairSumArrays:
+    """`PairSums` on a device."""
 
     second: wp.array(dtype=wp.mat33d)
     slack: wp.array(dtype=wp.mat33d)
     gradient: Vec3ds
-    totals: Float64Rows  # cost, weight, matched, seen, force_sq
+    totals: Float64Rows
 
 
 @wp.kernel
 def sum_pairs(
     first: int, scene: ScanArrays, weights: Float32Rows, source: Int32s, target: Int32s, relative: Vec3ds,
-    rule: PairRule, out: PairSums,
+    rule: PairRule, out: PairSumArrays,
 ):  # fmt: skip
     """One thread per pair of scans: sum over the pairs of their points."""
-    p = first + wp.tid()
-    sums = pair_scans(scene, weights, source[p], target[p], relative[p], rule, scene.stride)
-    out.second[p] = symmetric(sums.second)
-    out.slack[p] = symmetric(sums.slack)
-    out.gradient[p] = wp.vec3d(sums.first)
-    out.totals[p, 0] = wp.float64(sums.cost)
-    out.totals[p, 1] = wp.float64(sums.weight)
-    out.totals[p, 2] = wp.float64(sums.matched)
-    out.totals[p, 3] = wp.float64(sums.seen)
-    out.totals[p, 4] = wp.float64(sums.force_sq)
+    pair = first + wp.tid()
+    sums = pair_scans(scene, weights, source[pair], target[pair], relative[pair], rule, scene.stride)
+    out.second[pair] = symmetric(sums.second)
+    out.slack[pair] = symmetric(sums.slack)
+    out.gradient[pair] = wp.vec3d(sums.first)
+    out.totals[pair, 0] = wp.float64(sums.cost)
+    out.totals[pair, 1] = wp.float64(sums.weight)
+    out.totals[pair, 2] = wp.float64(sums.matched)
+    out.totals[pair, 3] = wp.float64(sums.seen)
+    out.totals[pair, 4] = wp.float64(sums.force_sq)
+
+
+class PairRules(NamedTuple):
+    """Rules of pairs of points, and of their weights."""
+
+    reach_m: float  # largest distance of paired points
+    scale_m: float  # c of Geman and McClure's weight
+    min_cosine: float  # least cosine between the normals of a pair
+    stride: int = 1  # every so many-th point is paired
+
+
+class PairSums(NamedTuple):
+    """The `Sums` of P pairs of scans."""
+
+    second: Floats  # H, (P, 3, 3)
+    slack: Floats  # (P, 3, 3)
+    gradient: Floats  # g, (P, 3)
+    totals: Floats  # cost, weight, matched, seen, force_sq of `Sums`, (P, 5)
 
 
 def pair_sums(
-    geometry: Any, weights: Singles | None, source: Ints, target: Ints, relative: Floats, reach_m: float,
-    scale_m: float, alike: float, stride: int = 1, threads: int | None = None,
-) -> tuple[Floats, Floats, Floats, Floats]:  # fmt: skip
-    """Compute H (P, 3, 3), slack (P, 3, 3), g (P, 3) and totals (P, 5) of pairs of scans; see `Sums` for the totals."""
+    geometry: Any, weights: Singles | None, source: Ints, target: Ints, relative: Floats, rules: PairRules,
+    threads: int | None = None,
+) -> PairSums:  # fmt: skip
+    """Sum the pairs of scans ``source`` and ``target``, (P,); ``relative`` are poses in the targets' frames, (P, 3)."""
     device, count = geometry.device, len(source)
     weights = equal_weights(geometry) if weights is None else weights
-    rule = devices.pack(PairRule, device, reach=reach_m, scale=scale_m, alike=alike)
-    out = devices.pack(PairSums, device, second=(count,), slack=(count,), gradient=(count,), totals=(count, 5))
-    inputs = [scan_arrays(geometry, stride), weights, source, target, relative, rule, out]
+    out = devices.pack(PairSumArrays, device, second=(count,), slack=(count,), gradient=(count,), totals=(count, 5))
+    inputs = [scan_arrays(geometry, rules.stride), weights, source, target, relative, _pair_rule(rules), out]
     devices.launch(sum_pairs, count, inputs, device, threads)
-    return out.second.numpy(), out.slack.numpy(), out.gradient.numpy(), out.totals.numpy()
+    return PairSums(out.second.numpy(), out.slack.numpy(), out.gradient.numpy(), out.totals.numpy())
+
+
+def _pair_rule(rules: PairRules) -> Any:
+    """Return rules as kernels read them; the stride is a part of `ScanArrays`."""
+    return devices.pack(PairRule, "cpu", reach=rules.reach_m, scale=rules.scale_m, min_cosine=rules.min_cosine)
 
 
 @wp.kernel
@@ -263,62 +284,61 @@ def count_matches(
     counts: Float32Rows,
 ):  # fmt: skip
     """One thread per scan: count the scans with which each beam is paired, weighted by how well it fits."""
-    i = first + wp.tid()
-    for p in range(offsets[i], offsets[i + 1]):
-        j = target[p]
-        turn = turn_by(relative[p])
-        shift = shift_by(relative[p])
-        for b in range(0, scene.kind.shape[1], scene.stride):
-            if scene.kind[i, b] == wp.uint8(0):
+    source = first + wp.tid()
+    for pair in range(offsets[source], offsets[source + 1]):
+        other = target[pair]
+        turn = turn_by(relative[pair])
+        shift = shift_by(relative[pair])
+        for beam in range(0, scene.kind.shape[1], scene.stride):
+            if scene.kind[source, beam] == wp.uint8(0):
                 continue
-            point = turn * scene.points[i, b] + shift
-            other = nearest_point(scene, j, point, rule.reach)
-            if other < 0 or scene.kind[i, b] != scene.kind[j, wp.max(other, 0)]:
+            point = turn * scene.points[source, beam] + shift
+            partner = nearest_point(scene, other, point, rule.reach)
+            if partner < 0 or scene.kind[source, beam] != scene.kind[other, wp.max(partner, 0)]:
                 continue
-            d = point - scene.points[j, other]
-            error_sq = wp.length_sq(d)
-            if scene.kind[i, b] == WITH_NORMAL:
-                m = scene.normals[j, other]
-                if wp.dot(turn * scene.normals[i, b], m) < rule.alike:
+            offset = point - scene.points[other, partner]
+            error_sq = wp.length_sq(offset)
+            if scene.kind[source, beam] == WITH_NORMAL:
+                normal = scene.normals[other, partner]
+                if wp.dot(turn * scene.normals[source, beam], normal) < rule.min_cosine:
                     continue
-                e = wp.dot(m, d)
+                e = wp.dot(normal, offset)
                 error_sq = e * e
             w = 1.0 / (1.0 + error_sq / (rule.scale * rule.scale))
-            counts[i, b] = counts[i, b] + w * w
+            counts[source, beam] = counts[source, beam] + w * w
 
 
 def match_counts(
-    geometry: Any, offsets: Ints, target: Ints, relative: Floats, reach_m: float, scale_m: float, alike: float,
-    stride: int = 1, threads: int | None = None,
-) -> Singles:  # fmt: skip
+    geometry: Any, offsets: Ints, target: Ints, relative: Floats, rules: PairRules, threads: int | None = None
+) -> Singles:
     """Count the partners of every ``stride``-th beam, (S, B); scan s has the pairs offsets[s] to offsets[s + 1]."""
-    scans, rule = len(geometry), devices.pack(PairRule, geometry.device, reach=reach_m, scale=scale_m, alike=alike)
-    inputs = [scan_arrays(geometry, stride), offsets, target, relative, rule, (scans, geometry.beams)]
+    scans, scene = len(geometry), scan_arrays(geometry, rules.stride)
+    inputs = [scene, offsets, target, relative, _pair_rule(rules), (scans, geometry.beams)]
     return np.asarray(devices.launch(count_matches, scans, inputs, geometry.device, threads)[0])
 
 
 @wp.func
-def is_near_wall(scene: ScanArrays, j: int, beam: int, point: wp.vec2f, near: float) -> int:
-    """Return 1 if a point is near the wall between the points of a beam of scan j and the next beam, else 0."""
-    beams = scene.beams[j]
-    a = beam
-    if a < 0:
-        if scene.full_circle[j] == 0:
+def is_near_wall(scene: ScanArrays, scan: int, beam: int, point: wp.vec2f, near: float) -> int:
+    """Return 1 if a point is near the wall between the points of a beam and the next beam, else 0."""
+    beams = scene.beams[scan]
+    start = beam
+    if start < 0:
+        if scene.full_circle[scan] == 0:
             return 0
-        a += beams
-    b = neighbour(a, 1, beams, scene.full_circle[j])
-    if b < 0:
+        start += beams
+    end = neighbour(start, 1, beams, scene.full_circle[scan])
+    if end < 0:
         return 0
-    if scene.kind[j, a] == wp.uint8(0) or scene.kind[j, b] == wp.uint8(0):
+    if scene.kind[scan, start] == wp.uint8(0) or scene.kind[scan, end] == wp.uint8(0):
         return 0
-    p = scene.points[j, a]
-    d = scene.points[j, b] - p
-    size = wp.length(d)
-    if size > max_gap(scene.step[j], wp.length(p)):
+    start_point = scene.points[scan, start]
+    wall = scene.points[scan, end] - start_point
+    length = wp.length(wall)
+    if length > max_gap(scene.step[scan], wp.length(start_point)):
         return 0
-    to_point = point - p
-    share = wp.clamp(wp.dot(to_point, d) / wp.max(size * size, 1.0e-9), 0.0, 1.0)
-    return wp.where(wp.length(to_point - share * d) < near, 1, 0)
+    to_point = point - start_point
+    share = wp.clamp(wp.dot(to_point, wall) / wp.max(length * length, 1.0e-9), 0.0, 1.0)
+    return wp.where(wp.length(to_point - share * wall) < near, 1, 0)
 
 
 @wp.kernel
@@ -327,42 +347,41 @@ def compare_views(
     counts: Int32Rows,
 ):  # fmt: skip
     """One thread per pair: count the points of the source that match the target, that contradict it, and all points."""
-    # p: pair; i, j: source and target; k: beam of the source. A point contradicts the target if three neighbouring
-    # beams of the target all hit something ``clear`` metres beyond it.
-    p = first + wp.tid()
-    i = source[p]
-    j = target[p]
-    turn = turn_by(relative[p])
-    shift = shift_by(relative[p])
+    # A point contradicts the target if three neighbouring beams of the target all hit something ``clear`` metres
+    # beyond it.
+    pair = first + wp.tid()
+    other = target[pair]
+    turn = turn_by(relative[pair])
+    shift = shift_by(relative[pair])
     matched = int(0)
     against = int(0)
     total = int(0)
-    for k in range(0, scene.kind.shape[1], scene.stride):
-        if scene.kind[i, k] == wp.uint8(0):
+    for beam in range(0, scene.kind.shape[1], scene.stride):
+        if scene.kind[source[pair], beam] == wp.uint8(0):
             continue
         total += 1
-        point = turn * scene.points[i, k] + shift
-        if nearest_point(scene, j, point, near) >= 0:
+        point = turn * scene.points[source[pair], beam] + shift
+        if nearest_point(scene, other, point, near) >= 0:
             matched += 1
             continue
-        middle = beam_towards(scene, j, point)
+        middle = beam_towards(scene, other, point)
         if middle < 0:
             continue
-        if is_near_wall(scene, j, middle - 1, point, near) + is_near_wall(scene, j, middle, point, near) > 0:
+        if is_near_wall(scene, other, middle - 1, point, near) + is_near_wall(scene, other, middle, point, near) > 0:
             matched += 1
             continue
         away = wp.length(point)
         through = int(0)
-        for d in range(-1, 2):
-            c = neighbour(middle, d, scene.beams[j], scene.full_circle[j])
-            if c >= 0:
-                if scene.kind[j, c] != wp.uint8(0) and wp.length(scene.points[j, c]) > away + clear:
+        for step in range(-1, 2):
+            beside = neighbour(middle, step, scene.beams[other], scene.full_circle[other])
+            if beside >= 0:
+                if scene.kind[other, beside] != wp.uint8(0) and wp.length(scene.points[other, beside]) > away + clear:
                     through += 1
         if through == 3:
             against += 1
-    counts[p, 0] = matched
-    counts[p, 1] = against
-    counts[p, 2] = total
+    counts[pair, 0] = matched
+    counts[pair, 1] = against
+    counts[pair, 2] = total
 
 
 @dataclass(frozen=True)

@@ -1,7 +1,11 @@
-"""Refine the poses of scans against fixed scans by Gauss-Newton, one thread per scan."""
+"""Refine the poses of scans against fixed scans by Gauss-Newton, one thread per scan (`refine_scans`).
+
+The cost of a pose is that of a Gaussian prior and of the pairs of `bayesmap.kernels.match.line_pairs`. Reach and scale
+of the pairs shrink from step to step, so that a scan first finds the walls, then their exact place.
+"""
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import warp as wp
 
@@ -12,8 +16,8 @@ from bayesmap.kernels.match.scan_geometry import ScanArrays, equal_weights, scan
 
 wp.set_module_options({"enable_backward": False})
 
-LONGEST_STEP = wp.constant(wp.float64(0.5))  # metres plus radians
-STILL = wp.constant(wp.float64(1.0e-5))  # metres plus radians: steps below this end the iteration
+MAX_STEP = wp.constant(wp.float64(0.5))  # metres plus radians
+MIN_STEP = wp.constant(wp.float64(1.0e-5))  # metres plus radians: steps below this end the iteration
 
 
 @wp.func
@@ -62,30 +66,30 @@ class ConvergenceNumbers:
     steps: int
     reach_m: wp.vec2f
     scale_m: wp.vec2f
-    alike: float
+    min_cosine: float
 
 
 @wp.struct
-class Refined:
-    """Results of all jobs, on a device."""
+class RefinedArrays:
+    """`RefinedScans` on a device."""
 
     pose: Vec3ds
     information: wp.array(dtype=wp.mat33d)
-    totals: Float64Rows  # cost, weight, matched, seen of `line_pairs.Sums`
+    totals: Float64Rows
 
 
 @wp.kernel
 def refine(
     first: int, scene: ScanArrays, weights: Float32Rows, jobs: RefinementArrays, schedule: ConvergenceNumbers,
-    out: Refined,
+    out: RefinedArrays,
 ):  # fmt: skip
     """One thread per job: minimise the cost of prior and pairs, with a reach and a scale that shrink step by step."""
-    # k: job; i: its scan; x: its pose along the world's axes; q: entry of a fixed scan. While reach and scale shrink,
-    # only every other point is used. The information comes from the pairs alone, less slack.
-    k = first + wp.tid()
-    i = jobs.scans[k]
-    x = jobs.starts[k]
-    count = wp.float64(jobs.offsets[k + 1] - jobs.offsets[k])
+    # While reach and scale shrink, only every other point is used. The information comes from the pairs alone, less
+    # slack.
+    job = first + wp.tid()
+    scan = jobs.scans[job]
+    pose = jobs.starts[job]
+    count = wp.float64(jobs.offsets[job + 1] - jobs.offsets[job])
     converged = int(0)
     information = wp.mat33d()
     for step in range(schedule.steps):
@@ -94,7 +98,7 @@ def refine(
         share = wp.min(1.0, 1.5 * float(step) / float(wp.max(schedule.steps - 1, 1)))
         reach = schedule.reach_m[0] * wp.pow(schedule.reach_m[1] / schedule.reach_m[0], share)
         scale = schedule.scale_m[0] * wp.pow(schedule.scale_m[1] / schedule.scale_m[0], share)
-        rule = PairRule(reach, scale, schedule.alike)
+        rule = PairRule(reach, scale, schedule.min_cosine)
         sparse = wp.where(share < 1.0, 2, 1)
         gain = wp.float64(sparse) / (schedule.sigma_m * schedule.sigma_m * (count + wp.float64(1.0)))
         second = wp.mat33d()
@@ -104,10 +108,10 @@ def refine(
         weight = wp.float64(0.0)
         matched = int(0)
         seen = int(0)
-        for q in range(jobs.offsets[k], jobs.offsets[k + 1]):
-            frame = jobs.other_poses[q]
-            relative = pose_between(frame, x)
-            sums = pair_scans(scene, weights, i, jobs.others[q], relative, rule, sparse * scene.stride)
+        for entry in range(jobs.offsets[job], jobs.offsets[job + 1]):
+            frame = jobs.other_poses[entry]
+            relative = pose_between(frame, pose)
+            sums = pair_scans(scene, weights, scan, jobs.others[entry], relative, rule, sparse * scene.stride)
             turn = turn_of(frame[2])
             second += turn * symmetric(sums.second) * wp.transpose(turn)
             slack += turn * symmetric(sums.slack) * wp.transpose(turn)
@@ -116,31 +120,31 @@ def refine(
             weight += wp.float64(sums.weight)
             matched += sums.matched
             seen += sums.seen
-        offset = x - jobs.priors[k]
+        offset = pose - jobs.priors[job]
         offset = wp.vec3d(offset[0], offset[1], wrap_angle(offset[2]))
         # H (H + s^2 S)^-1 H: about H if the slack S is small, and never negative.
         ridge = wp.identity(n=3, dtype=wp.float64) * wp.float64(1.0e-6)
         trusted = second * wp.inverse(second + slack * (schedule.sigma_m * schedule.sigma_m) + ridge)
         laser_information = trusted * second * gain
         pull = trusted * gradient * gain
-        whole = laser_information + jobs.prior_information[k]
-        move = wp.inverse(whole) * (pull + jobs.prior_information[k] * offset)
-        length = wp.abs(move[0]) + wp.abs(move[1]) + wp.abs(move[2])
+        total_information = laser_information + jobs.prior_information[job]
+        change = wp.inverse(total_information) * (pull + jobs.prior_information[job] * offset)
+        length = wp.abs(change[0]) + wp.abs(change[1]) + wp.abs(change[2])
         if not wp.isfinite(length):
-            move = wp.vec3d()
+            change = wp.vec3d()
             length = wp.float64(0.0)
-        if length > LONGEST_STEP:
-            move = move * (LONGEST_STEP / length)
-        x = x - move
+        if length > MAX_STEP:
+            change = change * (MAX_STEP / length)
+        pose = pose - change
         information = laser_information
-        out.totals[k, 0] = cost
-        out.totals[k, 1] = weight
-        out.totals[k, 2] = wp.float64(matched)
-        out.totals[k, 3] = wp.float64(seen)
-        if share >= 1.0 and length < STILL:
+        out.totals[job, 0] = cost
+        out.totals[job, 1] = weight
+        out.totals[job, 2] = wp.float64(matched)
+        out.totals[job, 3] = wp.float64(seen)
+        if share >= 1.0 and length < MIN_STEP:
             converged = 1
-    out.pose[k] = wp.vec3d(x[0], x[1], wrap_angle(x[2]))
-    out.information[k] = information
+    out.pose[job] = wp.vec3d(pose[0], pose[1], wrap_angle(pose[2]))
+    out.information[job] = information
 
 
 @dataclass(frozen=True, eq=False)
@@ -164,17 +168,25 @@ class Convergence:
     steps: int  # most Gauss-Newton steps
     reach_m: tuple[float, float]  # largest distance between paired points
     scale_m: tuple[float, float]  # c of Geman and McClure's weight
-    alike: float  # least cosine between the normals of a pair
+    min_cosine: float  # least cosine between the normals of a pair
+
+
+class RefinedScans(NamedTuple):
+    """The results of J jobs."""
+
+    poses: Floats  # in the world frame, (J, 3)
+    information: Floats  # of the pairs alone, in the world's axes, (J, 3, 3)
+    totals: Floats  # cost, weight, matched, seen of `line_pairs.Sums` in the last step, (J, 4)
 
 
 def refine_scans(
     geometry: Any, refinement: Refinement, convergence: Convergence, threads: int | None = None
-) -> tuple[Floats, Floats, Floats]:
-    """Refine poses. Returns poses (J, 3), information by pairs in the world's axes (J, 3, 3), and totals (J, 4)."""
+) -> RefinedScans:
+    """Refine the poses of J scans."""
     device, count = geometry.device, len(refinement.scans)
     jobs = devices.pack(RefinementArrays, device, **vars(refinement))
     schedule = devices.pack(ConvergenceNumbers, device, **vars(convergence))
-    out = devices.pack(Refined, device, pose=(count,), information=(count,), totals=(count, 4))
+    out = devices.pack(RefinedArrays, device, pose=(count,), information=(count,), totals=(count, 4))
     inputs = [scan_arrays(geometry), equal_weights(geometry), jobs, schedule, out]
     devices.launch(refine, count, inputs, device, threads)
-    return out.pose.numpy(), out.information.numpy(), out.totals.numpy()
+    return RefinedScans(out.pose.numpy(), out.information.numpy(), out.totals.numpy())
