@@ -79,6 +79,14 @@ def to_device(array: np.ndarray[Any, Any], dtype: Any, device: str) -> Any:
     return wp.array(flat, dtype=dtype, device=device, copy=device != "cpu")
 
 
+def struct_like(values: type, *kinds: Any) -> Any:
+    """Return a struct for kernels with the fields of a dataclass or NamedTuple, which have these Warp types in order."""
+    fields = dict(zip(values.__annotations__, kinds, strict=True))
+    name = f"{values.__name__}Arrays"
+    body = {"__annotations__": fields, "__module__": values.__module__, "__qualname__": name}
+    return wp.struct(type(name, (), body))
+
+
 def pack(kind: Any, device: str, /, **values: Any) -> Any:
     """Return a struct for kernels. NumPy arrays are put on the device; for an array, a shape stands for zeros."""
     packed = kind()

@@ -61,17 +61,17 @@ def likelihood_grids(
     ``half_width_m`` is the distance from the middle to each side. The search bounds blocks of up to 2^(levels - 1)
     cells at once. ``reuse`` are grids of the same number, size and levels, whose memory is overwritten.
     """
-    from bayesmap.kernels.match.likelihood_grid import render_grids
+    from bayesmap.kernels.match.likelihood_grid import GridScans, render_grids
 
     cells = int(np.ceil(2.0 * half_width_m / resolution))
     scan = np.concatenate([np.asarray(s, np.int32) for s in scans]) if len(scans) else np.zeros(0, np.int32)
     poses = np.concatenate([np.reshape(p, (-1, 3)) for p in scan_poses]) if len(scans) else np.zeros((0, 3))
     origins = np.asarray(centres, np.float64).reshape(-1, 2) - half_width_m
-    pyramid = render_grids(
-        geometry, offsets_of(scans), scan, poses, origins, resolution, stamp_of(resolution, sigma_m), spacing_m=sigma_m,
-        shape=(cells, cells), levels=levels, threads=geometry.threads,
-        pyramid=None if reuse is None else reuse.pyramid,
-    )  # fmt: skip
+    grids = GridScans(
+        origins, resolution, offsets_of(scans), scan, poses, stamp_of(resolution, sigma_m), spacing_m=sigma_m
+    )
+    overwritten = None if reuse is None else reuse.pyramid
+    pyramid = render_grids(geometry, grids, (cells, cells), levels, geometry.threads, overwritten)
     return LikelihoodGrids(pyramid, origins, resolution, geometry.device, geometry.threads)
 
 
@@ -142,7 +142,7 @@ def match(
         points=np.concatenate([np.reshape(p, (-1, 2)) for p in points]), point_offsets=offsets_of(points),
         grid=np.asarray(grid_of, np.int32), centres=np.ascontiguousarray(centres[:, :2]),
         half_cells=np.round(half / grids.resolution).astype(np.int32), angles_rad=angles, angle_costs=costs,
-        row_offsets=rows, least=np.array(np.broadcast_to(np.asarray(min_score, np.float64), (jobs,))),
+        row_offsets=rows, min_scores=np.array(np.broadcast_to(np.asarray(min_score, np.float64), (jobs,))),
         off_centre_costs=np.full(jobs, across),
     )  # fmt: skip
     scores, nodes = search_grids(grids, windows, Modes(modes, min_score_ratio, apart), threads_per_job, grids.threads)

@@ -30,6 +30,8 @@ class SearchJobs:
     point_begin: Int32s
     point_end: Int32s
     grid: Int32s
+    origin: Vec2ds  # corner of each grid, metres
+    resolution: wp.float64  # of all grids
     centre: Vec2ds  # middle of the window, metres
     half_x: Int32s  # the window's half width, cells
     half_y: Int32s
@@ -39,14 +41,6 @@ class SearchJobs:
     row_cost: Float64s  # cost of the row's angle
     job_of_row: Int32s
     cells: wp.array2d(dtype=wp.vec2i)  # cells of each row's points, with the sensor at the window's centre
-
-
-@wp.struct
-class GridFrames:
-    """Where likelihood grids of one resolution lie."""
-
-    origin: Vec2ds  # corner of each grid, metres
-    resolution: wp.float64
 
 
 @wp.struct
@@ -135,20 +129,20 @@ def block_bound(jobs: SearchJobs, pyramid: Pyramid, block: Block) -> wp.float64:
 
 
 @wp.kernel
-def bound_blocks(first: int, jobs: SearchJobs, grids: GridFrames, pyramid: Pyramid, roots: Roots):
+def bound_blocks(first: int, jobs: SearchJobs, pyramid: Pyramid, roots: Roots):
     """One thread per angle of a job: compute the cells of its points, and bound the scores of the largest blocks."""
     # Cells are computed with the sensor at the window's centre.
     row = first + wp.tid()
     job = jobs.job_of_row[row]
-    corner = grids.origin[jobs.grid[job]]
+    corner = jobs.origin[jobs.grid[job]]
     cosine = wp.cos(jobs.angle_rad[row])
     sine = wp.sin(jobs.angle_rad[row])
     x0 = jobs.centre[job][0] - corner[0]
     y0 = jobs.centre[job][1] - corner[1]
     for i in range(jobs.point_end[job] - jobs.point_begin[job]):
         point = jobs.points[jobs.point_begin[job] + i]
-        x = int(wp.floor((x0 + cosine * point[0] - sine * point[1]) / grids.resolution))
-        y = int(wp.floor((y0 + sine * point[0] + cosine * point[1]) / grids.resolution))
+        x = int(wp.floor((x0 + cosine * point[0] - sine * point[1]) / jobs.resolution))
+        y = int(wp.floor((y0 + sine * point[0] + cosine * point[1]) / jobs.resolution))
         jobs.cells[row, i] = wp.vec2i(x, y)
     level = pyramid.shape[1] - 1
     width = 1 << level
@@ -322,7 +316,8 @@ def _bound_roots(grids: Any, windows: Windows, threads: int | None) -> tuple[Any
     max_points = int(np.diff(windows.point_offsets).max(initial=1))
     jobs = devices.pack(
         SearchJobs, device, points=windows.points, point_begin=windows.point_offsets[:-1],
-        point_end=windows.point_offsets[1:], grid=windows.grid, centre=windows.centres, half_x=half_x, half_y=half_y,
+        point_end=windows.point_offsets[1:], grid=windows.grid, origin=grids.origins,
+        resolution=grids.resolution, centre=windows.centres, half_x=half_x, half_y=half_y,
         off_centre_cost=windows.off_centre_costs, angle_rad=windows.angles_rad, row_cost=windows.angle_costs,
         job_of_row=job_of_row, cells=wp.empty((rows, max_points), dtype=wp.vec2i, device=device),
     )  # fmt: skip
@@ -330,8 +325,7 @@ def _bound_roots(grids: Any, windows: Windows, threads: int | None) -> tuple[Any
     job_nodes = node_begin[windows.row_offsets].astype(np.int32)
     bound, node = (wp.empty(int(node_begin[-1]), dtype=kind, device=device) for kind in (wp.float64, wp.vec3i))
     roots = devices.pack(Roots, device, bound=bound, node=node, row_begin=node_begin[:-1])
-    frames = devices.pack(GridFrames, device, origin=grids.origins, resolution=grids.resolution)
-    devices.launch(bound_blocks, rows, [jobs, frames, pyramid, roots], device, threads)
+    devices.launch(bound_blocks, rows, [jobs, pyramid, roots], device, threads)
     bounds = roots.bound.numpy()
     if count == 1:
         order = np.argsort(-bounds, kind="stable")

@@ -1,6 +1,11 @@
-"""Render likelihood grids of scans with pyramids of their maxima, and likelihood fields of a map's surfaces."""
+"""Render likelihood grids of scans with pyramids of their maxima, and likelihood fields of a map's surfaces.
 
-from typing import Any
+`render_grids` puts a stamp around each point of each grid's scans: a cell has the largest value of the stamps that
+cover it. Branch and bound searches these grids (`bayesmap.poses.matcher`). `render_field` and `field_sums` are for
+localization: they render a map's surfaces, and look up the points of a scan at many poses.
+"""
+
+from typing import Any, NamedTuple
 
 import numpy as np
 import warp as wp
@@ -14,104 +19,115 @@ from bayesmap.space.grid import Grid
 
 wp.set_module_options({"enable_backward": False})
 
+GPU_BANDS = 64  # bands of a grid, each of which one thread of a GPU renders
+
+
+class GridScans(NamedTuple):
+    """Likelihood grids and their scans: grid g contains the entries offsets[g] to offsets[g + 1]."""
+
+    origins: Floats  # corner of each grid, metres, (grids, 2)
+    resolution: float  # edge of a cell, metres
+    offsets: Ints
+    scan: Ints  # the scan of each entry
+    poses: Floats  # the scan's pose in the grids' frame, (entries, 3)
+    stamp: NDArray[np.uint8]  # values around a point, an odd square
+    spacing_m: float  # largest distance between the stamps of one wall
+
+
+GridScansArrays = devices.struct_like(GridScans, Vec2ds, wp.float64, Int32s, Int32s, Vec3ds, Uint8Rows, wp.float32)
+
 
 @wp.kernel
-def stamp_points(
-    first: int, bands: int, offsets: Int32s, scan: Int32s, pose: Vec3ds, scene: ScanArrays, spacing: wp.float32,
-    origin: Vec2ds, resolution: wp.float64, stamp: Uint8Rows, pyramid: Pyramid,
-):  # fmt: skip
+def stamp_points(first: int, bands: int, grids: GridScansArrays, scene: ScanArrays, pyramid: Pyramid):
     """One thread per band of a grid: set each cell to the largest of all stamps that cover it."""
-    # t: thread; g: grid; e: entry; s: its scan; p: its pose; b, c: neighbouring beams; k: stamp from b towards c, of
-    # which there are several if points on one surface lie further apart than ``spacing``.
-    t = first + wp.tid()
-    g = t / bands
-    band = t - g * bands
+    # b, c: neighbouring beams. If their points lie further apart on one surface than ``spacing_m``, there are several
+    # stamps from b towards c.
+    thread = first + wp.tid()
+    grid = thread / bands
+    band = thread - grid * bands
     nx = pyramid.shape[2]
     ny = pyramid.shape[3]
     low = nx * band / bands
     high = nx * (band + 1) / bands
-    radius = stamp.shape[0] / 2
-    peak = stamp[radius, radius]
-    unique = stamp[radius, radius + 1] < peak
-    for e in range(offsets[g], offsets[g + 1]):
-        s = scan[e]
-        p = pose[e]
-        cosine = wp.cos(p[2])
-        sine = wp.sin(p[2])
+    radius = grids.stamp.shape[0] / 2
+    peak = grids.stamp[radius, radius]
+    unique = grids.stamp[radius, radius + 1] < peak
+    for entry in range(grids.offsets[grid], grids.offsets[grid + 1]):
+        scan = grids.scan[entry]
+        pose = grids.poses[entry]
+        cosine = wp.cos(pose[2])
+        sine = wp.sin(pose[2])
         for b in range(scene.points.shape[1]):
-            if scene.kind[s, b] == wp.uint8(0):
+            if scene.kind[scan, b] == wp.uint8(0):
                 continue
-            point = scene.points[s, b]
+            point = scene.points[scan, b]
             to_next = wp.vec2f()
             stamps = int(1)
-            c = neighbour(b, 1, scene.beams[s], scene.full_circle[s])
+            c = neighbour(b, 1, scene.beams[scan], scene.full_circle[scan])
             if c >= 0:
-                if scene.kind[s, c] != wp.uint8(0):
-                    apart = wp.length(scene.points[s, c] - point)
-                    if apart > spacing and apart < max_gap(scene.step[s], wp.length(point)):
-                        stamps = 1 + int(apart / spacing)
-                        to_next = (scene.points[s, c] - point) / wp.float32(stamps)
+                if scene.kind[scan, c] != wp.uint8(0):
+                    apart = wp.length(scene.points[scan, c] - point)
+                    if apart > grids.spacing_m and apart < max_gap(scene.step[scan], wp.length(point)):
+                        stamps = 1 + int(apart / grids.spacing_m)
+                        to_next = (scene.points[scan, c] - point) / wp.float32(stamps)
             for k in range(stamps):
                 px = wp.float64(point[0] + wp.float32(k) * to_next[0])
                 py = wp.float64(point[1] + wp.float32(k) * to_next[1])
-                cx = int(wp.floor((p[0] + cosine * px - sine * py - origin[g][0]) / resolution))
-                cy = int(wp.floor((p[1] + sine * px + cosine * py - origin[g][1]) / resolution))
+                cx = int(wp.floor((pose[0] + cosine * px - sine * py - grids.origins[grid][0]) / grids.resolution))
+                cy = int(wp.floor((pose[1] + sine * px + cosine * py - grids.origins[grid][1]) / grids.resolution))
                 if cy < -radius or cy >= ny + radius:
                     continue
                 # A cell with the peak's value is the middle of an earlier stamp.
                 if unique and cx >= low and cx < high and cy >= 0 and cy < ny:
-                    if pyramid[g, 0, cx, cy] == peak:
+                    if pyramid[grid, 0, cx, cy] == peak:
                         continue
                 for x in range(wp.max(cx - radius, low), wp.min(cx + radius + 1, high)):
                     for y in range(wp.max(cy - radius, 0), wp.min(cy + radius + 1, ny)):
-                        value = stamp[x - cx + radius, y - cy + radius]
-                        if value > pyramid[g, 0, x, y]:
-                            pyramid[g, 0, x, y] = value
+                        value = grids.stamp[x - cx + radius, y - cy + radius]
+                        if value > pyramid[grid, 0, x, y]:
+                            pyramid[grid, 0, x, y] = value
 
 
 @wp.kernel
 def next_level(first: int, level: int, pyramid: Pyramid):
     """One thread per row: compute maxima over blocks of 2^level cells, from maxima over blocks half as long."""
-    t = first + wp.tid()
+    thread = first + wp.tid()
     nx = pyramid.shape[2]
     ny = pyramid.shape[3]
-    g = t / nx
-    x = t - g * nx
+    grid = thread / nx
+    x = thread - grid * nx
     half = 1 << (level - 1)
     x2 = wp.min(x + half, nx - 1)
     for y in range(ny):
         y2 = wp.min(y + half, ny - 1)
-        low = wp.max(pyramid[g, level - 1, x, y], pyramid[g, level - 1, x2, y])
-        high = wp.max(pyramid[g, level - 1, x, y2], pyramid[g, level - 1, x2, y2])
-        pyramid[g, level, x, y] = wp.max(low, high)
+        low = wp.max(pyramid[grid, level - 1, x, y], pyramid[grid, level - 1, x2, y])
+        high = wp.max(pyramid[grid, level - 1, x, y2], pyramid[grid, level - 1, x2, y2])
+        pyramid[grid, level, x, y] = wp.max(low, high)
 
 
 def render_grids(
-    geometry: Any, offsets: Ints, scan: Ints, poses_world: Floats, origins: Floats, resolution: float,
-    stamp: NDArray[np.uint8], spacing_m: float, shape: tuple[int, int], levels: int, threads: int | None = None,
+    geometry: Any, grids: GridScans, shape: tuple[int, int], levels: int, threads: int | None = None,
     pyramid: Any = None,
 ) -> Any:  # fmt: skip
-    """Render grids of scans at poses, with their pyramids: (grids, levels, nx, ny) on the device.
+    """Render grids of scans of a `ScanGeometry`, with their pyramids: (grids, levels, nx, ny), bytes on the device.
 
-    Grid g, with its corner at ``origins[g]``, contains the entries offsets[g] .. offsets[g + 1]: a scan of ``geometry``
-    and its pose each. ``stamp``, an odd square, is put around each point; stamps of a wall lie at most ``spacing_m``
-    apart. ``pyramid`` is an array to write into, if any.
+    ``pyramid`` is an array to write into, if any.
     """
-    grids, device = len(offsets) - 1, geometry.device
+    count, device = len(grids.origins), geometry.device
     if pyramid is None:
-        pyramid = wp.empty((grids, levels, *shape), dtype=wp.uint8, device=device)
+        pyramid = wp.empty((count, levels, *shape), dtype=wp.uint8, device=device)
     if device == "cpu":
         pyramid.numpy()[:, 0] = 0
     else:
         pyramid.zero_()
-    bands = 1 if device == "cpu" else 64
-    inputs = [bands, offsets, scan, poses_world, scan_arrays(geometry), spacing_m, origins, resolution, stamp, pyramid]
-    devices.launch(stamp_points, grids * bands, inputs, device, threads)
+    bands = 1 if device == "cpu" else GPU_BANDS
+    inputs = [bands, devices.pack(GridScansArrays, device, **grids._asdict()), scan_arrays(geometry), pyramid]
+    devices.launch(stamp_points, count * bands, inputs, device, threads)
     for level in range(1, levels):
         if device == "cpu":
             widen(pyramid.numpy()[:, level - 1], pyramid.numpy()[:, level], 1 << (level - 1))
         else:
-            devices.launch(next_level, grids * shape[0], [level, pyramid], device, threads)
+            devices.launch(next_level, count * shape[0], [level, pyramid], device, threads)
     return pyramid
 
 
@@ -128,22 +144,23 @@ def widen(narrow: NDArray[np.uint8], wide: NDArray[np.uint8], half: int) -> None
 @wp.kernel
 def sum_field(first: int, field: Uint8Rows, points: Float32Rows, poses: Float32Rows, out: Int32s):
     """One thread per pose, in cells from the grid's corner: sum the field's values at the points."""
-    p = first + wp.tid()
-    c = wp.cos(poses[p, 2])
-    s = wp.sin(poses[p, 2])
-    x = poses[p, 0]
-    y = poses[p, 1]
+    pose = first + wp.tid()
+    cosine = wp.cos(poses[pose, 2])
+    sine = wp.sin(poses[pose, 2])
+    x = poses[pose, 0]
+    y = poses[pose, 1]
     total = int(0)
     for k in range(points.shape[0]):
-        i = int(wp.floor(c * points[k, 0] - s * points[k, 1] + x))
-        j = int(wp.floor(s * points[k, 0] + c * points[k, 1] + y))
+        i = int(wp.floor(cosine * points[k, 0] - sine * points[k, 1] + x))
+        j = int(wp.floor(sine * points[k, 0] + cosine * points[k, 1] + y))
         if i >= 0 and j >= 0 and i < field.shape[0] and j < field.shape[1]:
             total += int(field[i, j])
-    out[p] = total
+    out[pose] = total
 
 
 def field_sums(field: NDArray[np.uint8], grid: Grid, points: Floats, poses: Floats) -> Ints:
     """Sum the values of a field (nx, ny) at the points of a scan at each pose, (P,); outside the field they are 0.
+
     Points are in the sensor's frame, metres, (N, 2); poses in the world frame, (P, 3).
     """
     devices.start()
@@ -152,7 +169,7 @@ def field_sums(field: NDArray[np.uint8], grid: Grid, points: Floats, poses: Floa
     return np.asarray(devices.launch(sum_field, len(poses), inputs, "cpu", 1)[0])
 
 
-REACH_SIGMAS = wp.constant(wp.float32(3.0))  # standard deviations from a surface past which its density is left out
+MAX_SIGMAS = wp.constant(wp.float32(3.0))  # standard deviations from a surface past which its density is left out
 
 
 @wp.kernel
@@ -163,8 +180,8 @@ def render_surfaces(first: int, mean: Float32Rows, covariance: Float32Rows, stre
     xy = covariance[k, 1]
     yy = covariance[k, 2]
     determinant = xx * yy - xy * xy
-    reach_x = REACH_SIGMAS * wp.sqrt(xx)
-    reach_y = REACH_SIGMAS * wp.sqrt(yy)
+    reach_x = MAX_SIGMAS * wp.sqrt(xx)
+    reach_y = MAX_SIGMAS * wp.sqrt(yy)
     i_from = wp.max(0, int(wp.floor(mean[k, 0] - reach_x)))
     i_to = wp.min(out.shape[0] - 1, int(wp.floor(mean[k, 0] + reach_x)))
     j_from = wp.max(0, int(wp.floor(mean[k, 1] - reach_y)))
@@ -179,7 +196,8 @@ def render_surfaces(first: int, mean: Float32Rows, covariance: Float32Rows, stre
 
 def render_field(means: Floats, covariances: Floats, strengths: Floats, shape: tuple[int, int]) -> Singles:
     """Return the largest of s exp(-d^2 / 2) over all surfaces, d the Mahalanobis distance from the mean, (nx, ny).
-    ``means`` are in cells from the corner, (K, 2), ``covariances`` xx, xy, yy in squared cells, (K, 3), ``strengths``.
+
+    ``means`` (K, 2) are in cells from the corner, ``covariances`` (K, 3) are xx, xy, yy, ``strengths`` are s, (K,).
     """
     devices.start()
     return np.asarray(devices.launch(render_surfaces, len(means), [means, covariances, strengths, shape], "cpu", 1)[0])

@@ -29,13 +29,16 @@ MAX_SIDE_BEAMS = wp.constant(25)  # most beams searched to either side
 MAX_SPACING_M = wp.constant(0.15)  # points of less dense surfaces, such as walls that beams graze, fix no pose
 
 
-@wp.struct
-class PairRule:
-    """`PairRules` on a device."""
+class PairRules(NamedTuple):
+    """Rules of pairs of points, and of their weights."""
 
-    reach: float
-    scale: float
-    min_cosine: float
+    reach_m: float  # largest distance of paired points
+    scale_m: float  # c of Geman and McClure's weight
+    min_cosine: float  # least cosine between the normals of a pair
+    stride: int = 1  # every so many-th point is paired
+
+
+PairRulesArrays = devices.struct_like(PairRules, float, float, float, int)
 
 
 @wp.struct
@@ -153,9 +156,9 @@ def shift_by(pose: wp.vec3d) -> wp.vec2f:
 
 @wp.func
 def pair_scans(
-    scene: ScanArrays, weights: Float32Rows, source: int, target: int, pose: wp.vec3d, rule: PairRule, stride: int
+    scene: ScanArrays, weights: Float32Rows, source: int, target: int, pose: wp.vec3d, rules: PairRulesArrays
 ) -> Sums:
-    """Sum over every ``stride``-th point of the source scan, at its pose in the target's frame, on the target scan."""
+    """Sum over the pairs of a source scan's points, at its pose in the target's frame, with a target scan."""
     turn = turn_by(pose)
     shift = shift_by(pose)
     second = wp.mat33f()
@@ -166,12 +169,12 @@ def pair_scans(
     force_sq = float(0.0)
     matched = int(0)
     seen = int(0)
-    for beam in range(0, scene.kind.shape[1], stride):
+    for beam in range(0, scene.kind.shape[1], rules.stride):
         if scene.kind[source, beam] == wp.uint8(0):
             continue
         arm = turn * scene.points[source, beam]  # from the source's laser to its point, in the target's axes
         point = arm + shift
-        partner = nearest_point(scene, target, point, rule.reach)
+        partner = nearest_point(scene, target, point, rules.reach_m)
         if partner == OUT_OF_VIEW:
             continue
         seen += 1
@@ -184,11 +187,11 @@ def pair_scans(
             # Both points have normals: e is the offset along their mean, with the derivative ``across``.
             normal = turn * scene.normals[source, beam]
             partner_normal = scene.normals[target, partner]
-            if wp.dot(normal, partner_normal) < rule.min_cosine:
+            if wp.dot(normal, partner_normal) < rules.min_cosine:
                 continue
             mean_normal = (normal + partner_normal) / wp.length(normal + partner_normal)
             e = wp.dot(mean_normal, offset)
-            weight = 1.0 / (1.0 + e * e / (rule.scale * rule.scale))
+            weight = 1.0 / (1.0 + e * e / (rules.scale_m * rules.scale_m))
             weight = weight * weight
             force_sq += weights[source, beam] * weight * weight * e * e
             weight = weight * weights[source, beam]
@@ -206,7 +209,7 @@ def pair_scans(
             spacing = 0.5 * neighbour_distance(scene, target, partner)
             if spacing > MAX_SPACING_M:
                 continue
-            w = 1.0 / (1.0 + wp.length_sq(offset) / (rule.scale * rule.scale + spacing * spacing))
+            w = 1.0 / (1.0 + wp.length_sq(offset) / (rules.scale_m * rules.scale_m + spacing * spacing))
             w = w * w * weights[source, beam] * (0.01 * 0.01) / (spacing * spacing)
             second += wp.mat33f(w, 0.0, -w * arm[1], 0.0, w, w * arm[0], 0.0, 0.0, w * wp.length_sq(arm))
             first += w * wp.vec3f(offset[0], offset[1], arm[0] * offset[1] - arm[1] * offset[0])
@@ -214,24 +217,27 @@ def pair_scans(
     return Sums(second, slack, first, cost, total, force_sq, matched, seen)
 
 
-@wp.struct
-class PairSumArrays:
-    """`PairSums` on a device."""
+class PairSums(NamedTuple):
+    """The `Sums` of P pairs of scans."""
 
-    second: wp.array(dtype=wp.mat33d)
-    slack: wp.array(dtype=wp.mat33d)
-    gradient: Vec3ds
-    totals: Float64Rows
+    second: Floats  # H, (P, 3, 3)
+    slack: Floats  # (P, 3, 3)
+    gradient: Floats  # g, (P, 3)
+    totals: Floats  # cost, weight, matched, seen, force_sq of `Sums`, (P, 5)
+
+
+Mat33ds = wp.array(dtype=wp.mat33d)
+PairSumsArrays = devices.struct_like(PairSums, Mat33ds, Mat33ds, Vec3ds, Float64Rows)
 
 
 @wp.kernel
 def sum_pairs(
     first: int, scene: ScanArrays, weights: Float32Rows, source: Int32s, target: Int32s, relative: Vec3ds,
-    rule: PairRule, out: PairSumArrays,
+    rules: PairRulesArrays, out: PairSumsArrays,
 ):  # fmt: skip
     """One thread per pair of scans: sum over the pairs of their points."""
     pair = first + wp.tid()
-    sums = pair_scans(scene, weights, source[pair], target[pair], relative[pair], rule, scene.stride)
+    sums = pair_scans(scene, weights, source[pair], target[pair], relative[pair], rules)
     out.second[pair] = symmetric(sums.second)
     out.slack[pair] = symmetric(sums.slack)
     out.gradient[pair] = wp.vec3d(sums.first)
@@ -240,15 +246,6 @@ def sum_pairs(
     out.totals[pair, 2] = wp.float64(sums.matched)
     out.totals[pair, 3] = wp.float64(sums.seen)
     out.totals[pair, 4] = wp.float64(sums.force_sq)
-
-
-class PairRules(NamedTuple):
-    """Rules of pairs of points, and of their weights."""
-
-    reach_m: float  # largest distance of paired points
-    scale_m: float  # c of Geman and McClure's weight
-    min_cosine: float  # least cosine between the normals of a pair
-    stride: int = 1  # every so many-th point is paired
 
 
 class PairSums(NamedTuple):
@@ -267,20 +264,23 @@ def pair_sums(
     """Sum the pairs of scans ``source`` and ``target``, (P,); ``relative`` are poses in the targets' frames, (P, 3)."""
     device, count = geometry.device, len(source)
     weights = equal_weights(geometry) if weights is None else weights
-    out = devices.pack(PairSumArrays, device, second=(count,), slack=(count,), gradient=(count,), totals=(count, 5))
-    inputs = [scan_arrays(geometry, rules.stride), weights, source, target, relative, _pair_rule(rules), out]
+    out = devices.pack(PairSumsArrays, device, second=(count,), slack=(count,), gradient=(count,), totals=(count, 5))
+    inputs = [
+        scan_arrays(geometry, rules.stride),
+        weights,
+        source,
+        target,
+        relative,
+        devices.pack(PairRulesArrays, "cpu", **rules._asdict()),
+        out,
+    ]
     devices.launch(sum_pairs, count, inputs, device, threads)
     return PairSums(out.second.numpy(), out.slack.numpy(), out.gradient.numpy(), out.totals.numpy())
 
 
-def _pair_rule(rules: PairRules) -> Any:
-    """Return rules as kernels read them; the stride is a part of `ScanArrays`."""
-    return devices.pack(PairRule, "cpu", reach=rules.reach_m, scale=rules.scale_m, min_cosine=rules.min_cosine)
-
-
 @wp.kernel
 def count_matches(
-    first: int, scene: ScanArrays, offsets: Int32s, target: Int32s, relative: Vec3ds, rule: PairRule,
+    first: int, scene: ScanArrays, offsets: Int32s, target: Int32s, relative: Vec3ds, rules: PairRulesArrays,
     counts: Float32Rows,
 ):  # fmt: skip
     """One thread per scan: count the scans with which each beam is paired, weighted by how well it fits."""
@@ -289,22 +289,22 @@ def count_matches(
         other = target[pair]
         turn = turn_by(relative[pair])
         shift = shift_by(relative[pair])
-        for beam in range(0, scene.kind.shape[1], scene.stride):
+        for beam in range(0, scene.kind.shape[1], rules.stride):
             if scene.kind[source, beam] == wp.uint8(0):
                 continue
             point = turn * scene.points[source, beam] + shift
-            partner = nearest_point(scene, other, point, rule.reach)
+            partner = nearest_point(scene, other, point, rules.reach_m)
             if partner < 0 or scene.kind[source, beam] != scene.kind[other, wp.max(partner, 0)]:
                 continue
             offset = point - scene.points[other, partner]
             error_sq = wp.length_sq(offset)
             if scene.kind[source, beam] == WITH_NORMAL:
                 normal = scene.normals[other, partner]
-                if wp.dot(turn * scene.normals[source, beam], normal) < rule.min_cosine:
+                if wp.dot(turn * scene.normals[source, beam], normal) < rules.min_cosine:
                     continue
                 e = wp.dot(normal, offset)
                 error_sq = e * e
-            w = 1.0 / (1.0 + error_sq / (rule.scale * rule.scale))
+            w = 1.0 / (1.0 + error_sq / (rules.scale_m * rules.scale_m))
             counts[source, beam] = counts[source, beam] + w * w
 
 
@@ -313,7 +313,14 @@ def match_counts(
 ) -> Singles:
     """Count the partners of every ``stride``-th beam, (S, B); scan s has the pairs offsets[s] to offsets[s + 1]."""
     scans, scene = len(geometry), scan_arrays(geometry, rules.stride)
-    inputs = [scene, offsets, target, relative, _pair_rule(rules), (scans, geometry.beams)]
+    inputs = [
+        scene,
+        offsets,
+        target,
+        relative,
+        devices.pack(PairRulesArrays, "cpu", **rules._asdict()),
+        (scans, geometry.beams),
+    ]
     return np.asarray(devices.launch(count_matches, scans, inputs, geometry.device, threads)[0])
 
 

@@ -11,7 +11,7 @@ import warp as wp
 
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.device import Float32Rows, Float64Rows, Floats, Int32s, Ints, Vec3ds
-from bayesmap.kernels.match.line_pairs import PairRule, pair_scans, symmetric
+from bayesmap.kernels.match.line_pairs import Mat33ds, PairRulesArrays, pair_scans, symmetric
 from bayesmap.kernels.match.scan_geometry import ScanArrays, equal_weights, scan_arrays
 
 wp.set_module_options({"enable_backward": False})
@@ -43,108 +43,6 @@ def pose_between(a: wp.vec3d, b: wp.vec3d) -> wp.vec3d:
 def wrap_angle(angle: wp.float64) -> wp.float64:
     """Wrap an angle to [-pi, pi]."""
     return wp.atan2(wp.sin(angle), wp.cos(angle))
-
-
-@wp.struct
-class RefinementArrays:
-    """A `Refinement` on a device."""
-
-    scans: Int32s
-    offsets: Int32s
-    others: Int32s
-    other_poses: Vec3ds
-    starts: Vec3ds
-    priors: Vec3ds
-    prior_information: wp.array(dtype=wp.mat33d)
-
-
-@wp.struct
-class ConvergenceNumbers:
-    """A `Convergence` on a device."""
-
-    sigma_m: wp.float64
-    steps: int
-    reach_m: wp.vec2f
-    scale_m: wp.vec2f
-    min_cosine: float
-
-
-@wp.struct
-class RefinedArrays:
-    """`RefinedScans` on a device."""
-
-    pose: Vec3ds
-    information: wp.array(dtype=wp.mat33d)
-    totals: Float64Rows
-
-
-@wp.kernel
-def refine(
-    first: int, scene: ScanArrays, weights: Float32Rows, jobs: RefinementArrays, schedule: ConvergenceNumbers,
-    out: RefinedArrays,
-):  # fmt: skip
-    """One thread per job: minimise the cost of prior and pairs, with a reach and a scale that shrink step by step."""
-    # While reach and scale shrink, only every other point is used. The information comes from the pairs alone, less
-    # slack.
-    job = first + wp.tid()
-    scan = jobs.scans[job]
-    pose = jobs.starts[job]
-    count = wp.float64(jobs.offsets[job + 1] - jobs.offsets[job])
-    converged = int(0)
-    information = wp.mat33d()
-    for step in range(schedule.steps):
-        if converged >= 1:
-            continue
-        share = wp.min(1.0, 1.5 * float(step) / float(wp.max(schedule.steps - 1, 1)))
-        reach = schedule.reach_m[0] * wp.pow(schedule.reach_m[1] / schedule.reach_m[0], share)
-        scale = schedule.scale_m[0] * wp.pow(schedule.scale_m[1] / schedule.scale_m[0], share)
-        rule = PairRule(reach, scale, schedule.min_cosine)
-        sparse = wp.where(share < 1.0, 2, 1)
-        gain = wp.float64(sparse) / (schedule.sigma_m * schedule.sigma_m * (count + wp.float64(1.0)))
-        second = wp.mat33d()
-        slack = wp.mat33d()
-        gradient = wp.vec3d()
-        cost = wp.float64(0.0)
-        weight = wp.float64(0.0)
-        matched = int(0)
-        seen = int(0)
-        for entry in range(jobs.offsets[job], jobs.offsets[job + 1]):
-            frame = jobs.other_poses[entry]
-            relative = pose_between(frame, pose)
-            sums = pair_scans(scene, weights, scan, jobs.others[entry], relative, rule, sparse * scene.stride)
-            turn = turn_of(frame[2])
-            second += turn * symmetric(sums.second) * wp.transpose(turn)
-            slack += turn * symmetric(sums.slack) * wp.transpose(turn)
-            gradient += turn * wp.vec3d(sums.first)
-            cost += wp.float64(sums.cost)
-            weight += wp.float64(sums.weight)
-            matched += sums.matched
-            seen += sums.seen
-        offset = pose - jobs.priors[job]
-        offset = wp.vec3d(offset[0], offset[1], wrap_angle(offset[2]))
-        # H (H + s^2 S)^-1 H: about H if the slack S is small, and never negative.
-        ridge = wp.identity(n=3, dtype=wp.float64) * wp.float64(1.0e-6)
-        trusted = second * wp.inverse(second + slack * (schedule.sigma_m * schedule.sigma_m) + ridge)
-        laser_information = trusted * second * gain
-        pull = trusted * gradient * gain
-        total_information = laser_information + jobs.prior_information[job]
-        change = wp.inverse(total_information) * (pull + jobs.prior_information[job] * offset)
-        length = wp.abs(change[0]) + wp.abs(change[1]) + wp.abs(change[2])
-        if not wp.isfinite(length):
-            change = wp.vec3d()
-            length = wp.float64(0.0)
-        if length > MAX_STEP:
-            change = change * (MAX_STEP / length)
-        pose = pose - change
-        information = laser_information
-        out.totals[job, 0] = cost
-        out.totals[job, 1] = weight
-        out.totals[job, 2] = wp.float64(matched)
-        out.totals[job, 3] = wp.float64(seen)
-        if share >= 1.0 and length < MIN_STEP:
-            converged = 1
-    out.pose[job] = wp.vec3d(pose[0], pose[1], wrap_angle(pose[2]))
-    out.information[job] = information
 
 
 @dataclass(frozen=True, eq=False)
@@ -179,14 +77,90 @@ class RefinedScans(NamedTuple):
     totals: Floats  # cost, weight, matched, seen of `line_pairs.Sums` in the last step, (J, 4)
 
 
+RefinementArrays = devices.struct_like(Refinement, Int32s, Int32s, Int32s, Vec3ds, Vec3ds, Vec3ds, Mat33ds)
+ConvergenceArrays = devices.struct_like(Convergence, wp.float64, int, wp.vec2f, wp.vec2f, float)
+RefinedScansArrays = devices.struct_like(RefinedScans, Vec3ds, Mat33ds, Float64Rows)
+
+
+@wp.kernel
+def refine(
+    first: int, scene: ScanArrays, weights: Float32Rows, jobs: RefinementArrays, schedule: ConvergenceArrays,
+    out: RefinedScansArrays,
+):  # fmt: skip
+    """One thread per job: minimise the cost of prior and pairs, with a reach and a scale that shrink step by step."""
+    # While reach and scale shrink, only every other point is used. The information comes from the pairs alone, less
+    # slack.
+    job = first + wp.tid()
+    scan = jobs.scans[job]
+    pose = jobs.starts[job]
+    count = wp.float64(jobs.offsets[job + 1] - jobs.offsets[job])
+    converged = int(0)
+    information = wp.mat33d()
+    for step in range(schedule.steps):
+        if converged >= 1:
+            continue
+        share = wp.min(1.0, 1.5 * float(step) / float(wp.max(schedule.steps - 1, 1)))
+        reach = schedule.reach_m[0] * wp.pow(schedule.reach_m[1] / schedule.reach_m[0], share)
+        scale = schedule.scale_m[0] * wp.pow(schedule.scale_m[1] / schedule.scale_m[0], share)
+        sparse = wp.where(share < 1.0, 2, 1)
+        rules = PairRulesArrays(reach, scale, schedule.min_cosine, sparse * scene.stride)
+        gain = wp.float64(sparse) / (schedule.sigma_m * schedule.sigma_m * (count + wp.float64(1.0)))
+        # Sum the pairs with all fixed scans, in the world's axes.
+        second = wp.mat33d()
+        slack = wp.mat33d()
+        gradient = wp.vec3d()
+        cost = wp.float64(0.0)
+        weight = wp.float64(0.0)
+        matched = int(0)
+        seen = int(0)
+        for entry in range(jobs.offsets[job], jobs.offsets[job + 1]):
+            frame = jobs.other_poses[entry]
+            relative = pose_between(frame, pose)
+            sums = pair_scans(scene, weights, scan, jobs.others[entry], relative, rules)
+            turn = turn_of(frame[2])
+            second += turn * symmetric(sums.second) * wp.transpose(turn)
+            slack += turn * symmetric(sums.slack) * wp.transpose(turn)
+            gradient += turn * wp.vec3d(sums.first)
+            cost += wp.float64(sums.cost)
+            weight += wp.float64(sums.weight)
+            matched += sums.matched
+            seen += sums.seen
+        offset = pose - jobs.priors[job]
+        offset = wp.vec3d(offset[0], offset[1], wrap_angle(offset[2]))
+        # H (H + s^2 S)^-1 H: about H if the slack S is small, and never negative.
+        ridge = wp.identity(n=3, dtype=wp.float64) * wp.float64(1.0e-6)
+        trusted = second * wp.inverse(second + slack * (schedule.sigma_m * schedule.sigma_m) + ridge)
+        laser_information = trusted * second * gain
+        pull = trusted * gradient * gain
+        total_information = laser_information + jobs.prior_information[job]
+        change = wp.inverse(total_information) * (pull + jobs.prior_information[job] * offset)
+        # Take a step of limited length.
+        length = wp.abs(change[0]) + wp.abs(change[1]) + wp.abs(change[2])
+        if not wp.isfinite(length):
+            change = wp.vec3d()
+            length = wp.float64(0.0)
+        if length > MAX_STEP:
+            change = change * (MAX_STEP / length)
+        pose = pose - change
+        information = laser_information
+        out.totals[job, 0] = cost
+        out.totals[job, 1] = weight
+        out.totals[job, 2] = wp.float64(matched)
+        out.totals[job, 3] = wp.float64(seen)
+        if share >= 1.0 and length < MIN_STEP:
+            converged = 1
+    out.poses[job] = wp.vec3d(pose[0], pose[1], wrap_angle(pose[2]))
+    out.information[job] = information
+
+
 def refine_scans(
     geometry: Any, refinement: Refinement, convergence: Convergence, threads: int | None = None
 ) -> RefinedScans:
     """Refine the poses of J scans."""
     device, count = geometry.device, len(refinement.scans)
     jobs = devices.pack(RefinementArrays, device, **vars(refinement))
-    schedule = devices.pack(ConvergenceNumbers, device, **vars(convergence))
-    out = devices.pack(RefinedArrays, device, pose=(count,), information=(count,), totals=(count, 4))
+    schedule = devices.pack(ConvergenceArrays, device, **vars(convergence))
+    out = devices.pack(RefinedScansArrays, device, poses=(count,), information=(count,), totals=(count, 4))
     inputs = [scan_arrays(geometry), equal_weights(geometry), jobs, schedule, out]
     devices.launch(refine, count, inputs, device, threads)
-    return RefinedScans(out.pose.numpy(), out.information.numpy(), out.totals.numpy())
+    return RefinedScans(out.poses.numpy(), out.information.numpy(), out.totals.numpy())
