@@ -80,7 +80,7 @@ def to_device(array: np.ndarray[Any, Any], dtype: Any, device: str) -> Any:
 
 
 def struct_like(values: type, *kinds: Any) -> Any:
-    """Return a struct for kernels with the fields of a dataclass or NamedTuple, which have these Warp types in order."""
+    """Return the struct of a dataclass or NamedTuple for kernels, whose fields have these Warp types in order."""
     fields = dict(zip(values.__annotations__, kinds, strict=True))
     name = f"{values.__name__}Arrays"
     body = {"__annotations__": fields, "__module__": values.__module__, "__qualname__": name}

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from bayesmap.sensors.model import RangeLimits
 from bayesmap.space.arrays import Indices, evenly_spaced
 from bayesmap.space.planar import Floats
 from bayesmap.space.scans import Scans
@@ -157,7 +158,7 @@ def scan_geometry(
     Neighbouring beams that are closer than `MERGED_RAD` are merged, unless scans have beams of their own. Hits beyond
     ``farthest_m``, by default the largest range, are left out. ``threads`` also holds for matching.
     """
-    from bayesmap.kernels.match.scan_geometry import points_and_normals
+    from bayesmap.kernels.match.scan_geometry import LineFit, points_and_normals
 
     own = scans.angles_rad[None] if scans.own_angles_rad is None else scans.own_angles_rad
     order = np.argsort(own, axis=1, kind="stable")  # NaN, where a scan has no such beam, comes last
@@ -172,8 +173,8 @@ def scan_geometry(
     fans = Fans.of(middles, len(scans))
     step = float(np.median(fans.step_rad))
     noise = range_noise_m(np.where((ranges > nearest) & (ranges < limit), ranges, np.nan), step)
-    reach = max(NORMAL_REACH_M, NORMAL_REACH_SIGMAS * noise)
-    arrays = points_and_normals(ranges, angles, nearest, limit, fans, reach, noise, device, threads)
+    fit = LineFit(max(NORMAL_REACH_M, NORMAL_REACH_SIGMAS * noise), noise)
+    arrays = points_and_normals(ranges, angles, RangeLimits(nearest, limit), fans, fit, device, threads)
     return ScanGeometry(*arrays, fans, limit, noise, device, threads)
 
 

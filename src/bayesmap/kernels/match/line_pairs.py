@@ -265,15 +265,8 @@ def pair_sums(
     device, count = geometry.device, len(source)
     weights = equal_weights(geometry) if weights is None else weights
     out = devices.pack(PairSumsArrays, device, second=(count,), slack=(count,), gradient=(count,), totals=(count, 5))
-    inputs = [
-        scan_arrays(geometry, rules.stride),
-        weights,
-        source,
-        target,
-        relative,
-        devices.pack(PairRulesArrays, "cpu", **rules._asdict()),
-        out,
-    ]
+    packed_rules = devices.pack(PairRulesArrays, "cpu", **rules._asdict())
+    inputs = [scan_arrays(geometry, rules.stride), weights, source, target, relative, packed_rules, out]
     devices.launch(sum_pairs, count, inputs, device, threads)
     return PairSums(out.second.numpy(), out.slack.numpy(), out.gradient.numpy(), out.totals.numpy())
 
@@ -313,14 +306,8 @@ def match_counts(
 ) -> Singles:
     """Count the partners of every ``stride``-th beam, (S, B); scan s has the pairs offsets[s] to offsets[s + 1]."""
     scans, scene = len(geometry), scan_arrays(geometry, rules.stride)
-    inputs = [
-        scene,
-        offsets,
-        target,
-        relative,
-        devices.pack(PairRulesArrays, "cpu", **rules._asdict()),
-        (scans, geometry.beams),
-    ]
+    packed_rules = devices.pack(PairRulesArrays, "cpu", **rules._asdict())
+    inputs = [scene, offsets, target, relative, packed_rules, (scans, geometry.beams)]
     return np.asarray(devices.launch(count_matches, scans, inputs, geometry.device, threads)[0])
 
 

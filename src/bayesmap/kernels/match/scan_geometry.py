@@ -1,6 +1,6 @@
-"""Points and wall normals of scans, on a device."""
+"""Compute points and wall normals of scans on a device (`points_and_normals`), and pack them for kernels."""
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import warp as wp
@@ -8,14 +8,15 @@ from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.device import Float32Rows, Float32s, Float64Rows, Floats, Int32Rows, Int32s, Uint8Rows
+from bayesmap.sensors.model import RangeLimits
 
 wp.set_module_options({"enable_backward": False})
 
 POINT = wp.constant(wp.uint8(1))
 WITH_NORMAL = wp.constant(wp.uint8(2))
 NOWHERE_M = wp.constant(wp.float32(1.0e6))  # where beams without a point end: too far to be nearest to any point
-MOST_FITS = wp.constant(3)  # fits tried per beam, each twice as wide as the one before
-MOST_NEIGHBOURS = wp.constant(40)  # beams to either side, this one included
+MAX_FITS = wp.constant(3)  # fits tried per beam, each twice as wide as the one before
+MAX_NEIGHBOURS = wp.constant(40)  # beams to either side, this one included
 
 
 @wp.struct
@@ -32,6 +33,13 @@ class ScanArrays:
     step: Float32s
     full_circle: Int32s
     stride: int  # every so many-th point is paired
+
+
+class LineFit(NamedTuple):
+    """Rules of the lines that are fitted to walls."""
+
+    reach_m: float  # distance of neighbours at first
+    noise_m: float  # standard deviation of a point
 
 
 @wp.func
@@ -53,82 +61,80 @@ def max_gap(step_rad: wp.float32, away: wp.float32) -> wp.float32:
 
 @wp.kernel
 def scan_points(
-    first: int, ranges: Float64Rows, angles: Float64Rows, nearest: wp.float64, farthest: wp.float64,
-    points: wp.array2d(dtype=wp.vec2f), kind: Uint8Rows,
-):  # fmt: skip
+    first: int, ranges: Float64Rows, angles: Float64Rows, nearest: wp.float64, farthest: wp.float64, scene: ScanArrays
+):
     """One thread per scan: compute where its beams ended, in its frame; ``angles`` has one row for all, or one each."""
-    s = first + wp.tid()
-    row = wp.min(s, angles.shape[0] - 1)
-    for b in range(ranges.shape[1]):
-        r = ranges[s, b]
-        kind[s, b] = wp.uint8(0)
-        points[s, b] = wp.vec2f(NOWHERE_M, NOWHERE_M)
+    scan = first + wp.tid()
+    row = wp.min(scan, angles.shape[0] - 1)
+    for beam in range(ranges.shape[1]):
+        r = ranges[scan, beam]
+        scene.kind[scan, beam] = wp.uint8(0)
+        scene.points[scan, beam] = wp.vec2f(NOWHERE_M, NOWHERE_M)
         if r > nearest and r < farthest:  # false for NaN and for either infinity
-            points[s, b] = wp.vec2f(wp.float32(r * wp.cos(angles[row, b])), wp.float32(r * wp.sin(angles[row, b])))
-            kind[s, b] = POINT
+            x = wp.float32(r * wp.cos(angles[row, beam]))
+            scene.points[scan, beam] = wp.vec2f(x, wp.float32(r * wp.sin(angles[row, beam])))
+            scene.kind[scan, beam] = POINT
 
 
 @wp.kernel
-def scan_normals(
-    first: int, points: wp.array2d(dtype=wp.vec2f), beams_of: Int32s, step_of: Float32s, circle_of: Int32s,
-    reach_m: wp.float32, noise_m: wp.float32, kind: Uint8Rows, normals: wp.array2d(dtype=wp.vec2f), spread: Float32Rows,
-):  # fmt: skip
+def scan_normals(first: int, scene: ScanArrays, reach_m: wp.float32, noise_m: wp.float32):
     """One thread per scan: fit the line through each point's neighbours along the wall, by least squares.
 
     Neighbours are consecutive beams without a gap, at first within ``reach_m``. The reach is doubled as long as the
     wall stays straight within ``noise_m``. A piece whose direction the noise hides has no normal. ``spread`` is the
     variance of the normal's angle per variance of a point: one over the sum of squared distances along the line.
     """
-    # s: scan; b: beam; c: neighbouring beam; n, sums, squares: number of points, and sums of their offsets; a, h, c2:
-    # their scatter matrix; along, across: its eigenvalues.
-    s = first + wp.tid()
-    beams = beams_of[s]
-    step_rad = step_of[s]
-    full_circle = circle_of[s]
-    for b in range(points.shape[1]):
-        normals[s, b] = wp.vec2f(wp.float32(0.0), wp.float32(0.0))
-        spread[s, b] = wp.float32(0.0)
-        if kind[s, b] == wp.uint8(0):
+    scan = first + wp.tid()
+    beams = scene.beams[scan]
+    step_rad = scene.step[scan]
+    full_circle = scene.full_circle[scan]
+    for beam in range(scene.points.shape[1]):
+        scene.normals[scan, beam] = wp.vec2f(wp.float32(0.0), wp.float32(0.0))
+        scene.spread[scan, beam] = wp.float32(0.0)
+        if scene.kind[scan, beam] == wp.uint8(0):
             continue
-        point = points[s, b]
+        point = scene.points[scan, beam]
         away = wp.length(point)
         apart = step_rad * away  # between neighbouring beams on a wall seen head-on
         gap = wp.max(max_gap(step_rad, away), wp.float32(5.0) * noise_m)
         farthest = wp.max(wp.max(wp.float32(0.5), wp.float32(20.0) * noise_m), wp.float32(2.2) * apart)
         reach = reach_m
-        for fit in range(MOST_FITS):
+        for fit in range(MAX_FITS):
+            # Sum the neighbours' offsets to both sides.
             n = float(1.0)
             sums = wp.vec2f()
             squares = wp.mat22f()
             for side in range(2):
                 last = point
-                for k in range(1, MOST_NEIGHBOURS):
-                    c = neighbour(b, wp.where(side == 0, -k, k), beams, full_circle)
-                    if c < 0:
+                for k in range(1, MAX_NEIGHBOURS):
+                    other_beam = neighbour(beam, wp.where(side == 0, -k, k), beams, full_circle)
+                    if other_beam < 0:
                         break
-                    if kind[s, c] == wp.uint8(0):
+                    if scene.kind[scan, other_beam] == wp.uint8(0):
                         break
-                    other = points[s, c]
+                    other = scene.points[scan, other_beam]
                     if wp.length(other - last) > gap:
                         break
-                    d = other - point
-                    distance = wp.length(d)
+                    offset = other - point
+                    distance = wp.length(offset)
                     if distance > farthest:
                         break
                     if k > 2 and distance > reach:
                         break
                     n += 1.0
-                    sums += d
-                    squares += wp.outer(d, d)
+                    sums += offset
+                    squares += wp.outer(offset, offset)
                     last = other
             if n < 3.0:
                 break
-            a = squares[0, 0] - sums[0] * sums[0] / n
-            h = squares[0, 1] - sums[0] * sums[1] / n
-            c2 = squares[1, 1] - sums[1] * sums[1] / n
-            root = wp.sqrt(wp.max(wp.float32(0.0), (a - c2) * (a - c2) * wp.float32(0.25) + h * h))
-            along = (a + c2) * wp.float32(0.5) + root
-            across = wp.max((a + c2) * wp.float32(0.5) - root, wp.float32(0.0))
+            # Eigenvalues of the scatter matrix (xx, xy; xy, yy), along the wall and across.
+            xx = squares[0, 0] - sums[0] * sums[0] / n
+            xy = squares[0, 1] - sums[0] * sums[1] / n
+            yy = squares[1, 1] - sums[1] * sums[1] / n
+            root = wp.sqrt(wp.max(wp.float32(0.0), (xx - yy) * (xx - yy) * wp.float32(0.25) + xy * xy))
+            along = (xx + yy) * wp.float32(0.5) + root
+            across = wp.max((xx + yy) * wp.float32(0.5) - root, wp.float32(0.0))
+            # Is the piece long enough beside its thickness, and as straight as the noise lets it be?
             long = across < wp.float32(0.04) * along
             straight = across < n * wp.float32(4.0) * noise_m * noise_m
             if fit > 0:
@@ -138,49 +144,60 @@ def scan_normals(
             reach = reach * wp.float32(2.0)
             if not long:
                 continue  # noise hides the direction of so short a piece: a longer one may show it
-            turn = wp.float32(0.5) * wp.atan2(wp.float32(2.0) * h, a - c2)
+            turn = wp.float32(0.5) * wp.atan2(wp.float32(2.0) * xy, xx - yy)
             normal = wp.vec2f(-wp.sin(turn), wp.cos(turn))
             if normal[0] * point[0] + normal[1] * point[1] > wp.float32(0.0):
                 normal = -normal  # towards the laser
-            normals[s, b] = normal
-            spread[s, b] = wp.float32(1.0) / wp.max(along, wp.float32(1.0e-6))
-    for b in range(beams):
-        if spread[s, b] > wp.float32(0.0):
-            kind[s, b] = WITH_NORMAL
+            scene.normals[scan, beam] = normal
+            scene.spread[scan, beam] = wp.float32(1.0) / wp.max(along, wp.float32(1.0e-6))
+    for beam in range(beams):
+        if scene.spread[scan, beam] > wp.float32(0.0):
+            scene.kind[scan, beam] = WITH_NORMAL
+
+
+class PointArrays(NamedTuple):
+    """The arrays of a `bayesmap.poses.scan_geometry.ScanGeometry` of S scans of up to B beams, (S, B) on the device."""
+
+    points: Any
+    normals: Any
+    kind: Any
+    spread: Any
 
 
 def points_and_normals(
-    ranges_m: Floats, angles_rad: Floats, nearest_m: float, farthest_m: float, fans: Any, reach_m: float,
-    noise_m: float, device: str = "cpu", threads: int | None = None,
-) -> tuple[Any, Any, Any, Any]:  # fmt: skip
-    """Compute points, normals, kinds and spreads of scans, (S, B) each, as arrays on the device.
+    ranges_m: Floats, angles_rad: Floats, limits: RangeLimits, fans: Any, fit: LineFit, device: str = "cpu",
+    threads: int | None = None,
+) -> PointArrays:  # fmt: skip
+    """Compute points, normals, kinds and spreads of scans.
 
     Readings are (S, B), NaN past a scan's last beam; ascending angles (1, B) for all scans, or (S, B). Readings between
-    ``nearest_m`` and ``farthest_m`` are points, with the standard deviation ``noise_m``. ``fans`` is a
-    `bayesmap.poses.scan_geometry.Fans`. For ``reach_m`` see `scan_normals`.
+    the limits are points. ``fans`` is a `bayesmap.poses.scan_geometry.Fans`.
     """
     device = devices.resolve(device)
     scans, beams = ranges_m.shape
     points, normals = (wp.empty((scans, beams), dtype=wp.vec2f, device=device) for _ in range(2))
     kind = wp.empty((scans, beams), dtype=wp.uint8, device=device)
-    spread = wp.empty((scans, beams), dtype=wp.float32, device=device)
-    inputs = [ranges_m, angles_rad, nearest_m, farthest_m, points, kind]
-    devices.launch(scan_points, scans, inputs, device, threads)
-    inputs = [points, fans.beams, fans.step_rad, fans.full_circle, reach_m, noise_m, kind, normals, spread]
-    devices.launch(scan_normals, scans, inputs, device, threads)
-    return points, normals, kind, spread
+    arrays = PointArrays(points, normals, kind, wp.empty((scans, beams), dtype=wp.float32, device=device))
+    scene = _pack_scans(arrays, fans, 1, device)
+    devices.launch(scan_points, scans, [ranges_m, angles_rad, limits.min_m, limits.max_m, scene], device, threads)
+    devices.launch(scan_normals, scans, [scene, fit.reach_m, fit.noise_m], device, threads)
+    return arrays
+
+
+def _pack_scans(arrays: Any, fans: Any, stride: int, device: str) -> Any:
+    """Return the struct of a `ScanGeometry` or of `PointArrays`."""
+    return devices.pack(
+        ScanArrays, device, points=arrays.points, normals=arrays.normals, kind=arrays.kind, spread=arrays.spread,
+        beam_of_angle=fans.beam_of_angle, layout=fans.layout, beams=fans.beams, step=fans.step_rad,
+        full_circle=fans.full_circle, stride=stride,
+    )  # fmt: skip
 
 
 def scan_arrays(geometry: Any, stride: int = 1) -> Any:
     """Return a `bayesmap.poses.scan_geometry.ScanGeometry` as kernels read it; it is packed once for each stride."""
-    fans, packed = geometry.fans, geometry.packed
-    if stride not in packed:
-        packed[stride] = devices.pack(
-            ScanArrays, geometry.device, points=geometry.points, normals=geometry.normals, kind=geometry.kind,
-            spread=geometry.spread, beam_of_angle=fans.beam_of_angle, layout=fans.layout, beams=fans.beams,
-            step=fans.step_rad, full_circle=fans.full_circle, stride=stride,
-        )  # fmt: skip
-    return packed[stride]
+    if stride not in geometry.packed:
+        geometry.packed[stride] = _pack_scans(geometry, geometry.fans, stride, geometry.device)
+    return geometry.packed[stride]
 
 
 def equal_weights(geometry: Any) -> Any:
