@@ -17,9 +17,9 @@ def run(device: str, with_peers: bool) -> Iterator[Figure]:
     devices.start()
     rng = np.random.default_rng(0)
     walls = (rng.random((SIZE, SIZE)) < 0.002).astype(np.uint8)
-    columns = [rng.uniform(0, SIZE, BEAMS), rng.uniform(0, SIZE, BEAMS), rng.uniform(0, 2 * np.pi, BEAMS)]
-    inputs = [devices.to_device(walls, wp.uint8, device)]
-    inputs += [devices.to_device(c, wp.float64, device) for c in columns]
+    x, y, angle = (rng.uniform(0, end, BEAMS) for end in (SIZE, SIZE, 2 * np.pi))
+    starts = devices.to_device(np.column_stack([x, y]), wp.vec2d, device)
+    inputs = [devices.to_device(walls, wp.uint8, device), starts, devices.to_device(angle, wp.float64, device)]
     distance = wp.empty(BEAMS, dtype=wp.float64, device=device)
     visits = wp.empty(BEAMS, dtype=wp.int32, device=device)
 

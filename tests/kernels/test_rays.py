@@ -136,7 +136,7 @@ def test_scans_may_be_traced_alone_from_other_poses_or_from_poses_of_their_beams
 def test_beams_are_traced_some_at_a_time_to_the_same_rays_and_too_many_incidences_are_refused(monkeypatch):
     scans, told = random_scans(3), []
     whole = near_readings(scans, MARGIN_M)
-    monkeypatch.setattr("bayesmap.kernels.rays.BEAMS_AT_ONCE", 7)
+    monkeypatch.setattr("bayesmap.kernels.rays.BEAMS_PER_REPORT", 7)
     reach_m, near_m = around_readings(scans, MARGIN_M, GRID.resolution)
     pieces = trace_rays(scans, GRID, reach_m=reach_m, near_m=near_m, on_progress=lambda *now: told.append(now))
     assert_equal(pieces, whole)

@@ -1,4 +1,8 @@
-"""Trace rays: list the cells of each beam, compute where it crosses them, and count hits and passes of cells."""
+"""Trace rays: list the cells of each beam, compute where it crosses them, and count hits and passes of cells.
+
+`trace_rays` walks every beam twice: the first walk counts its cells, the second lists them. Kernels of other files read
+the lists, and compute with `stretch` where a beam enters and leaves a cell.
+"""
 
 from collections.abc import Callable
 from typing import Any
@@ -18,7 +22,7 @@ from bayesmap.space.scans import Scans
 
 wp.set_module_options({"enable_backward": False})
 
-BEAMS_AT_ONCE = 1 << 16  # beams traced between two reports of progress
+BEAMS_PER_REPORT = 1 << 16  # beams traced between two reports of progress
 
 
 @wp.struct
@@ -55,14 +59,14 @@ class Slab:
 @wp.func
 def slab_of(start: wp.float64, cosine: wp.float64) -> Slab:
     """Return one axis of a line from its start, in units of cells, and its direction cosine."""
-    s = Slab()
-    s.start = start
+    slab = Slab()
+    slab.start = start
     if wp.abs(cosine) >= PARALLEL:
-        s.per_cell = wp.float64(1.0) / cosine
-        s.onward = wp.where(cosine > wp.float64(0.0), 1, -1)
-        s.side = wp.where(cosine > wp.float64(0.0), 0, 1)
-        s.first = cell_before(start, s.onward)
-    return s
+        slab.per_cell = wp.float64(1.0) / cosine
+        slab.onward = wp.where(cosine > wp.float64(0.0), 1, -1)
+        slab.side = wp.where(cosine > wp.float64(0.0), 0, 1)
+        slab.first = cell_before(start, slab.onward)
+    return slab
 
 
 @wp.struct
@@ -87,16 +91,16 @@ def line_from(start_m: wp.vec2d, direction: wp.vec2d, ny: int, edge_m: wp.float6
 
 
 @wp.func
-def line_of(lines: Lines, b: int) -> Line:
+def line_of(lines: Lines, beam: int) -> Line:
     """Return the line of a beam."""
-    return line_from(lines.start_m[b], lines.direction[b], lines.ny, lines.edge_m)
+    return line_from(lines.start_m[beam], lines.direction[beam], lines.ny, lines.edge_m)
 
 
 @wp.func
-def walk_along(line: Line, nx: int, longest_m: wp.float64) -> Walk:
+def walk_along(line: Line, nx: int, max_m: wp.float64) -> Walk:
     """Start the walk along a line in its grid, ``nx`` cells wide."""
-    u = line.direction
-    return walk_begin(line.x.start, line.y.start, u[0], u[1], nx, line.ny, longest_m / line.edge_m)
+    start = wp.vec2d(line.x.start, line.y.start)
+    return walk_begin(start, line.direction, nx, line.ny, max_m / line.edge_m)
 
 
 @wp.func
@@ -129,8 +133,8 @@ def stretch(line: Line, cell: int) -> wp.vec2d:
 @wp.func
 def distance_at(line: Line, cell: int, depth: wp.float64) -> wp.float64:
     """Return the distance at which a beam stops in a cell, metres; ``depth`` is a share of its stretch inside."""
-    s = stretch(line, cell)
-    return s[0] + depth * (s[1] - s[0])
+    inside = stretch(line, cell)
+    return inside[0] + depth * (inside[1] - inside[0])
 
 
 @wp.func
@@ -152,30 +156,30 @@ def list_cells(
     first: int, lines: Lines, reach_m: Float64s, near_m: Float64s, offsets: Int32s, cells: Int32s, near: Int32s
 ):
     """One thread per beam: write its cells, and the entry of the first cell that it enters at ``near_m`` or later."""
-    # b: beam; w: its walk; k: next entry. Without room for cells, and at an infinite ``near_m``, cells are counted.
-    b = first + wp.tid()
-    k = offsets[b]
-    near_distance = near_m[b] / lines.edge_m
-    w = walk_along(line_of(lines, b), lines.nx, reach_m[b])
-    near_entry = int(k)
+    # Without room for cells, and at an infinite ``near_m``, cells are counted. w: walk; entry: the next one.
+    beam = first + wp.tid()
+    entry = offsets[beam]
+    near_distance = near_m[beam] / lines.edge_m
+    w = walk_along(line_of(lines, beam), lines.nx, reach_m[beam])
+    near_entry = int(entry)
     while w.distance <= w.end:
         if is_inside(w, lines.nx, lines.ny):
             if cells.shape[0] > 0:
-                cells[k] = w.cell_x * lines.ny + w.cell_y
-            k += 1
+                cells[entry] = w.cell_x * lines.ny + w.cell_y
+            entry += 1
             if w.distance < near_distance:
-                near_entry = k
+                near_entry = entry
         w = walk_next(w)
-    near[b] = near_entry
+    near[beam] = near_entry
 
 
 @wp.kernel
 def fill_distances(first: int, rays: RayArrays, depth: wp.float64, distance_m: Float32s):
     """One thread per beam: compute the distance at which it would stop in each of its cells."""
-    b = first + wp.tid()
-    line = line_of(rays.lines, b)
-    for k in range(rays.offsets[b], rays.offsets[b + 1]):
-        distance_m[k] = wp.float32(distance_at(line, rays.cells[k], depth))
+    beam = first + wp.tid()
+    line = line_of(rays.lines, beam)
+    for entry in range(rays.offsets[beam], rays.offsets[beam + 1]):
+        distance_m[entry] = wp.float32(distance_at(line, rays.cells[entry], depth))
 
 
 def stop_distances(rays: Rays, hit_depth: float, device: str = "cpu") -> Singles:
@@ -230,8 +234,8 @@ def trace_rays(
         """Follow all beams, a piece at a time. Returns the ``near`` of `list_cells`."""
         near = wp.empty(beams, dtype=wp.int32, device=device)
         arrays = [devices.to_device(near_m, wp.float64, device), devices.to_device(offsets, wp.int32, device)]
-        for begin in range(0, beams, BEAMS_AT_ONCE):
-            size = min(BEAMS_AT_ONCE, beams - begin)
+        for begin in range(0, beams, BEAMS_PER_REPORT):
+            size = min(BEAMS_PER_REPORT, beams - begin)
             inputs = [lines, reach, *arrays, cells, near]
             devices.launch(list_cells, size, inputs, device, devices.threads_for(size), begin)
             on_progress((beams_before + begin + size) // 2, beams)
@@ -239,7 +243,7 @@ def trace_rays(
 
     # The first walk counts the cells of each beam, the second lists them.
     counts = follow_beams(0, np.full(beams, np.inf), np.zeros(beams), wp.empty(0, dtype=wp.int32, device=device))
-    offsets = offsets_of(counts)
+    offsets = offsets_from(counts)
     cells = wp.empty(int(offsets[-1]), dtype=wp.int32, device=device)
     near = follow_beams(beams, np.zeros(beams) if near_m is None else near_m, offsets, cells)
     return Rays(
@@ -248,7 +252,7 @@ def trace_rays(
     )  # fmt: skip
 
 
-def offsets_of(counts: Ints) -> Ints:
+def offsets_from(counts: Ints) -> Ints:
     """Return the first entry of each beam and the number of entries, (B + 1,). Raises `BadInput` if over 2^31 - 1."""
     ends = np.cumsum(counts, dtype=np.int64)
     total = int(ends[-1]) if len(ends) else 0
@@ -265,23 +269,22 @@ def count_hits_and_passes(
     first: int, lines: Lines, reach_m: Float64s, hit: Uint8s, bounds: Int32s, hits: Int32Rows, passes: Int32Rows
 ):
     """One thread per share of the beams: count hits and passes in rows of its own, (threads, cells)."""
-    # t: thread; b: beam; w: its walk; last: last cell of the grid touched.
-    t = first + wp.tid()
-    for b in range(bounds[t], bounds[t + 1]):
-        w = walk_along(line_of(lines, b), lines.nx, reach_m[b])
-        ends_inside = w.end >= reach_m[b] / lines.edge_m
-        last = int(-1)
+    thread = first + wp.tid()
+    for beam in range(bounds[thread], bounds[thread + 1]):
+        w = walk_along(line_of(lines, beam), lines.nx, reach_m[beam])
+        ends_inside = w.end >= reach_m[beam] / lines.edge_m
+        last = int(-1)  # last cell of the grid touched so far
         while w.distance <= w.end:
             if is_inside(w, lines.nx, lines.ny):
                 if last >= 0:
-                    passes[t, last] = passes[t, last] + 1
+                    passes[thread, last] = passes[thread, last] + 1
                 last = w.cell_x * lines.ny + w.cell_y
             w = walk_next(w)
         if last >= 0:
-            if hit[b] != wp.uint8(0) and ends_inside:
-                hits[t, last] = hits[t, last] + 1
+            if hit[beam] != wp.uint8(0) and ends_inside:
+                hits[thread, last] = hits[thread, last] + 1
             else:
-                passes[t, last] = passes[t, last] + 1
+                passes[thread, last] = passes[thread, last] + 1
 
 
 def count_hits(scans: Scans, grid: Grid, device: str = "cpu") -> tuple[Ints, Ints]:
@@ -303,23 +306,21 @@ def count_hits(scans: Scans, grid: Grid, device: str = "cpu") -> tuple[Ints, Int
 
 
 @wp.kernel
-def add_passes(
-    first: int, offsets: Int32s, cells: Int32s, distance_m: Float32s, range_m: Float32s, end_cell: Int32s,
-    passes: Int32s,
-):  # fmt: skip
+def add_passes(first: int, rays: RayArrays, distance_m: Float32s, range_m: Float32s, end_cell: Int32s, passes: Int32s):
     """One thread per beam: add one to every cell before the one in which its reading ends."""
-    b = first + wp.tid()
-    reading = range_m[b]
+    beam = first + wp.tid()
+    reading = range_m[beam]
     if wp.isnan(reading) or reading < wp.float32(0.0):
         return
-    for k in range(offsets[b], offsets[b + 1]):
-        c = cells[k]
-        if c == end_cell[b] or distance_m[k] > reading:
+    for entry in range(rays.offsets[beam], rays.offsets[beam + 1]):
+        cell = rays.cells[entry]
+        if cell == end_cell[beam] or distance_m[entry] > reading:
             return
-        wp.atomic_add(passes, c, 1)
+        wp.atomic_add(passes, cell, 1)
 
 
 def count_passes(rays: Rays, end_cell: Ints, device: str) -> Ints:
     """Count the beams that pass each cell of the grid before the cells in which they end, flat, (B,). Returns (N,)."""
-    inputs = [rays.offsets, rays.cells, stop_distances(rays, 0.0, device), rays.range_m, end_cell, (rays.grid.n_cells,)]
+    distance_m = stop_distances(rays, 0.0, device)
+    inputs = [rays_to_device(rays, device), distance_m, rays.range_m, end_cell, (rays.grid.n_cells,)]
     return np.asarray(devices.launch(add_passes, rays.n_beams, inputs, device, 1)[0])

@@ -9,13 +9,12 @@ on, so that both sides are touched at distance zero, and at the grid's border wh
 
 from typing import Any
 
-import numpy as np
 import warp as wp
 from numpy.typing import NDArray
 
 from bayesmap.beams import rays
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.device import Float64s, Floats, Int32s, Ints, Uint8Rows
+from bayesmap.kernels.device import Float64s, Floats, Int32s, Ints, Uint8Rows, Vec2ds
 
 wp.set_module_options({"enable_backward": False})
 
@@ -59,20 +58,22 @@ def cell_before(p: wp.float64, step: int) -> int:
 
 
 @wp.func
-def walk_begin(
-    px: wp.float64, py: wp.float64, ux: wp.float64, uy: wp.float64, nx: int, ny: int, longest: wp.float64
-) -> Walk:
-    """Return the walk from (px, py) along (ux, uy) at its first touch; lengths are in cells from the grid's corner."""
+def walk_begin(start: wp.vec2d, direction: wp.vec2d, nx: int, ny: int, max_distance: wp.float64) -> Walk:
+    """Return the walk from a start along a unit vector, at its first touch, in cells from the grid's corner."""
+    px = start[0]
+    py = start[1]
+    ux = direction[0]
+    uy = direction[1]
     zero = wp.float64(0.0)
     one = wp.float64(1.0)
-    # w: the walk. Per axis: step and gap, and the distances at which the beam enters and leaves the grid.
+    # Per axis: step and gap, and the distances at which the beam enters and leaves the grid.
     w = Walk()
     w.next_x = NEVER
     w.next_y = NEVER
     w.gap_x = NEVER
     w.gap_y = NEVER
     enter = wp.float64(0.0)
-    leave = wp.float64(longest)
+    leave = wp.float64(max_distance)
     if wp.abs(ux) >= PARALLEL:
         w.step_x = wp.where(ux > zero, 1, -1)
         w.gap_x = one / wp.abs(ux)
@@ -155,26 +156,26 @@ def is_inside(w: Walk, nx: int, ny: int) -> bool:
 
 @wp.kernel
 def first_hit_ranges(
-    first: int, walls: Uint8Rows, start_x: Float64s, start_y: Float64s, angle_rad: Float64s, longest: wp.float64,
-    distance: Float64s, visits: Int32s,
+    first: int, walls: Uint8Rows, start: Vec2ds, angle_rad: Float64s, max_distance: wp.float64, distance: Float64s,
+    visits: Int32s,
 ):  # fmt: skip
     """One thread per beam: walk to the first wall. Outputs are ``distance`` and the number of ``visits``."""
-    # b: beam; w: its walk; n: cells of the grid visited.
-    b = first + wp.tid()
+    beam = first + wp.tid()
     nx = walls.shape[0]
     ny = walls.shape[1]
-    w = walk_begin(start_x[b], start_y[b], wp.cos(angle_rad[b]), wp.sin(angle_rad[b]), nx, ny, longest)
-    nearest = wp.float64(longest)
-    n = int(0)
+    direction = wp.vec2d(wp.cos(angle_rad[beam]), wp.sin(angle_rad[beam]))
+    w = walk_begin(start[beam], direction, nx, ny, max_distance)
+    nearest = wp.float64(max_distance)
+    n_visited = int(0)
     while w.distance <= w.end:
         if is_inside(w, nx, ny):
-            n += 1
+            n_visited += 1
             if walls[w.cell_x, w.cell_y] != wp.uint8(0):
-                nearest = wp.min(w.distance, longest)
+                nearest = wp.min(w.distance, max_distance)
                 break
         w = walk_next(w)
-    distance[b] = nearest
-    visits[b] = n
+    distance[beam] = nearest
+    visits[beam] = n_visited
 
 
 def cast_beams(
@@ -184,7 +185,7 @@ def cast_beams(
     visited, (B,) each. Walls are non-zero, (nx, ny); starts are in cells from the grid's corner, (B, 2).
     """
     device = devices.resolve(device)
-    x, y = np.asarray(starts_cells).T
-    inputs = [walls != 0, x, y, angles_rad, longest_cells, x.shape, x.shape]
-    distance, visits = devices.launch(first_hit_ranges, len(x), inputs, device, 1)
+    beams = (len(starts_cells),)
+    inputs = [walls != 0, starts_cells, angles_rad, longest_cells, beams, beams]
+    distance, visits = devices.launch(first_hit_ranges, len(starts_cells), inputs, device, 1)
     return distance, visits
