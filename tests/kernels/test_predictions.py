@@ -12,7 +12,7 @@ from tiers import latin
 
 import bayesmap as bm
 from bayesmap.kernels.match.likelihood_grid import field_sums
-from bayesmap.kernels.predict.density import LEAST_CHANCE, ScanLikelihood, device_maps, forecast, log_densities
+from bayesmap.kernels.predict.density import MIN_STOP_CHANCE, ScanLikelihood, device_maps, forecast, log_densities
 from bayesmap.kernels.predict.pose_weights import scan_log_likelihood
 from bayesmap.kernels.predict.stop_mixture import first_hit_events, mix_stops, range_quantiles
 from bayesmap.kernels.rays import trace_rays
@@ -321,7 +321,7 @@ def test_cells_that_hardly_ever_stop_a_beam_cost_all_poses_alike():
     """A beam that reads 4 m has passed some forty of them: what they take off differs little from pose to pose."""
     rng = np.random.default_rng(3)
     maps = states("plain", rng)
-    maps[maps < 0.1] = 0.9 * LEAST_CHANCE
+    maps[maps < 0.1] = 0.9 * MIN_STOP_CHANCE
     poses = random_poses(rng, 40, (1, 4), (3, 5))
     ranges = rng.uniform(0.0, 6.0, (1, 60))
     packed, limits = device_maps([maps], LARGE_GRID, 0.5), RangeLimits(0.1, 6.0)

@@ -1,6 +1,7 @@
-"""Start Warp, put arrays on a device, and launch a kernel on all cores.
+"""Start Warp, put arrays and structs on a device (`pack`), and launch a kernel on all cores (`launch`).
 
-Launches release the GIL: `launch` runs one per thread. Kernels write only to own elements, so threads change no result.
+Launches release the GIL: `launch` runs one per thread. A kernel writes only to its own elements, so the number of
+threads changes no result.
 """
 
 import contextlib
@@ -28,12 +29,12 @@ Vec2ds, Vec3ds = wp.array(dtype=wp.vec2d), wp.array(dtype=wp.vec3d)
 Int32Rows, Float32Rows = wp.array2d(dtype=wp.int32), wp.array2d(dtype=wp.float32)
 Float64Rows, Uint8Rows = wp.array2d(dtype=wp.float64), wp.array2d(dtype=wp.uint8)
 
-_STARTING = threading.Lock()
+_START_LOCK = threading.Lock()
 
 
 def start() -> None:
     """Start Warp once and silence its greeting and its warning about a missing GPU driver."""
-    with _STARTING:
+    with _START_LOCK:
         _start()
 
 
@@ -54,8 +55,8 @@ def _no_stderr() -> Iterator[None]:
         yield
         return
     try:
-        with open(os.devnull, "wb") as nowhere:
-            os.dup2(nowhere.fileno(), 2)
+        with open(os.devnull, "wb") as null:
+            os.dup2(null.fileno(), 2)
         yield
     finally:
         os.dup2(saved, 2)
@@ -79,28 +80,28 @@ def to_device(array: np.ndarray[Any, Any], dtype: Any, device: str) -> Any:
     return wp.array(flat, dtype=dtype, device=device, copy=device != "cpu")
 
 
-def struct_like(values: type, *kinds: Any) -> Any:
+def struct_like(values: type, *warp_types: Any) -> Any:
     """Return the struct of a dataclass or NamedTuple for kernels, whose fields have these Warp types in order."""
-    fields = dict(zip(values.__annotations__, kinds, strict=True))
+    fields = dict(zip(values.__annotations__, warp_types, strict=True))
     name = f"{values.__name__}Arrays"
     body = {"__annotations__": fields, "__module__": values.__module__, "__qualname__": name}
     return wp.struct(type(name, (), body))
 
 
-def pack(kind: Any, device: str, /, **values: Any) -> Any:
+def pack(struct: Any, device: str, /, **values: Any) -> Any:
     """Return a struct for kernels. NumPy arrays are put on the device; for an array, a shape stands for zeros."""
-    packed = kind()
+    packed = struct()
     for name, value in values.items():
-        setattr(packed, name, _as_argument(value, kind.vars[name].type, device))
+        setattr(packed, name, _as_argument(value, struct.vars[name].type, device))
     return packed
 
 
-def _as_argument(value: Any, kind: Any, device: str) -> Any:
+def _as_argument(value: Any, warp_type: Any, device: str) -> Any:
     """Return a value for a field or an argument of this type, see `pack`."""
     if isinstance(value, np.ndarray):
-        return to_device(value, kind.dtype, device)
-    if isinstance(value, tuple) and hasattr(kind, "dtype"):
-        return wp.zeros(value, dtype=kind.dtype, device=device)
+        return to_device(value, warp_type.dtype, device)
+    if isinstance(value, tuple) and hasattr(warp_type, "dtype"):
+        return wp.zeros(value, dtype=warp_type.dtype, device=device)
     return value
 
 
@@ -110,11 +111,11 @@ def load_kernels(kernel: Any, device: str) -> None:
     kernel.module.load(wp.get_device(device), 1 if device == "cpu" else None)
 
 
-FEW_BEAMS = 1_000  # fewer beams than this are traced before a second thread has started, which takes 0.2 ms
+MIN_THREADED_BEAMS = 1_000  # fewer beams than this are traced before a second thread has started, which takes 0.2 ms
 
 
 def ceil_div(a: Any, b: int) -> Any:
-    """Return a / b rounded up, for integers and arrays of integers."""
+    """Return a / b rounded up, for an integer or an array of integers a."""
     return -(-a // b)
 
 
@@ -128,7 +129,7 @@ def available_cores() -> int:
 
 def threads_for(beams: int) -> int | None:
     """Return the threads for a kernel that follows beams through the grid: 1 for few beams, else None (all cores)."""
-    return 1 if beams < FEW_BEAMS else None
+    return 1 if beams < MIN_THREADED_BEAMS else None
 
 
 @cache
@@ -149,7 +150,8 @@ def launch(
     ``first`` is the index of a slice's first element. NumPy arrays among the inputs are put on the device with the
     types of the kernel's arguments. A shape, a tuple, stands for an output, zero at first. Returns the outputs.
     """
-    arguments = [_as_argument(value, a.type, device) for value, a in zip(inputs, kernel.adj.args[1:], strict=True)]
+    declared = kernel.adj.args[1:]
+    arguments = [_as_argument(value, a.type, device) for value, a in zip(inputs, declared, strict=True)]
     threads = min(threads or available_cores(), size) if device == "cpu" else 1
     if size > 0 and threads == 1:
         wp.launch(kernel, dim=size, inputs=[begin, *arguments], device=device)
@@ -157,11 +159,11 @@ def launch(
         load_kernels(kernel, device)  # once, before the threads would all try
         edges = [begin + size * i // threads for i in range(threads + 1)]
 
-        def run(i: int) -> None:
+        def run_slice(i: int) -> None:
             wp.launch(kernel, dim=edges[i + 1] - edges[i], inputs=[edges[i], *arguments], device=device)
 
-        others = [thread_pool(threads - 1).submit(run, i) for i in range(1, threads)]
-        run(0)
-        for other in others:
-            other.result()
+        futures = [thread_pool(threads - 1).submit(run_slice, i) for i in range(1, threads)]
+        run_slice(0)  # on this thread
+        for future in futures:
+            future.result()
     return [a.numpy() for a, value in zip(arguments, inputs, strict=True) if isinstance(value, tuple)]

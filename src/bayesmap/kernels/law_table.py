@@ -1,4 +1,4 @@
-"""Interpolate a tabulated sensor law (`bayesmap.sensors.tabulated`)."""
+"""Interpolate a tabulated sensor law (`bayesmap.sensors.tabulated`, which states the coordinates of its nodes)."""
 
 import math
 from typing import Any
@@ -9,19 +9,20 @@ from bayesmap.kernels import device as devices
 from bayesmap.kernels.device import Float32Rows, Float32s
 from bayesmap.sensors.tabulated import WIDEST, TabulatedLaw
 
-WIDEST_SPREAD = wp.constant(wp.float32(WIDEST))
+MAX_SPREAD = wp.constant(wp.float32(WIDEST))
 
 
 @wp.struct
 class LawTable:
     """A `TabulatedLaw` on a device."""
 
-    least: wp.float32  # log densities and log probabilities are raised to at least this
-    typed: int
-    most: wp.float32
+    min_log: wp.float32  # log densities and log probabilities are raised to at least this
+    typed: int  # 1 if no return and too close are outcomes of their own
+    most: wp.float32  # asinh of the largest standard offset of a node
     low_m: wp.float32  # first node of the range of a beam that stops nowhere
     high_m: wp.float32  # last node
     min_m: wp.float32  # least range of the sensor
+    # Values at the nodes, as in `TabulatedLaw`.
     scale_m: Float32s
     log_density: wp.array3d(dtype=wp.float32)
     below: wp.array3d(dtype=wp.float32)
@@ -31,13 +32,13 @@ class LawTable:
     log_typed_nowhere: wp.vec2
 
 
-def law_table_to_device(law: TabulatedLaw, device: str, least: float = -math.inf) -> Any:
-    """Put a tabulated law on a device; log densities and log probabilities are raised to at least ``least``."""
-    return devices.pack(LawTable, device, least=least, **vars(law))
+def law_table_to_device(law: TabulatedLaw, device: str, min_log: float = -math.inf) -> Any:
+    """Put a tabulated law on a device; log densities and log probabilities are raised to at least ``min_log``."""
+    return devices.pack(LawTable, device, min_log=min_log, **vars(law))
 
 
 @wp.func
-def node(x: wp.float32, nodes: int) -> wp.vec2:
+def node_below(x: wp.float32, nodes: int) -> wp.vec2:
     """Return the index of the node below x in [0, 1], and the share of the way from there to the next node."""
     position = wp.clamp(x, wp.float32(0.0), wp.float32(1.0)) * wp.float32(nodes - 1)
     low = wp.min(wp.floor(position), wp.float32(nodes - 2))
@@ -47,27 +48,27 @@ def node(x: wp.float32, nodes: int) -> wp.vec2:
 @wp.func
 def interpolate(values: Float32s, x: wp.float32) -> wp.float32:
     """Interpolate linearly between evenly spaced nodes."""
-    n = node(x, values.shape[0])
-    i = int(n[0])
-    return values[i] + n[1] * (values[i + 1] - values[i])
+    node = node_below(x, values.shape[0])
+    i = int(node[0])
+    return values[i] + node[1] * (values[i + 1] - values[i])
 
 
 @wp.func
 def interpolate_2d(values: Float32Rows, x: wp.float32, y: wp.float32) -> wp.float32:
     """Interpolate bilinearly in two dimensions."""
-    n = node(x, values.shape[0])
-    i = int(n[0])
+    node = node_below(x, values.shape[0])
+    i = int(node[0])
     low = interpolate(values[i], y)
-    return low + n[1] * (interpolate(values[i + 1], y) - low)
+    return low + node[1] * (interpolate(values[i + 1], y) - low)
 
 
 @wp.func
 def interpolate_3d(values: wp.array3d(dtype=wp.float32), x: wp.float32, y: wp.float32, z: wp.float32) -> wp.float32:
     """Interpolate trilinearly in three dimensions."""
-    n = node(x, values.shape[0])
-    i = int(n[0])
+    node = node_below(x, values.shape[0])
+    i = int(node[0])
     low = interpolate_2d(values[i], y, z)
-    return low + n[1] * (interpolate_2d(values[i + 1], y, z) - low)
+    return low + node[1] * (interpolate_2d(values[i + 1], y, z) - low)
 
 
 @wp.func
@@ -79,8 +80,8 @@ def readings_scale_m(table: LawTable, distance_m: wp.float32, max_m: wp.float32)
 @wp.func
 def spread_coordinate(scale: wp.float32, variance: wp.float32) -> wp.float32:
     """Return the coordinate of a spread among its nodes, 0 to 1."""
-    spread = wp.min(wp.sqrt(variance) / scale, WIDEST_SPREAD)
-    return spread / (wp.float32(1.0) + spread) * (wp.float32(1.0) + WIDEST_SPREAD) / WIDEST_SPREAD
+    spread = wp.min(wp.sqrt(variance) / scale, MAX_SPREAD)
+    return spread / (wp.float32(1.0) + spread) * (wp.float32(1.0) + MAX_SPREAD) / MAX_SPREAD
 
 
 @wp.func
@@ -93,8 +94,8 @@ def offset_coordinate(table: LawTable, offset: wp.float32) -> wp.float32:
 
 @wp.func
 def table_log_density(table: LawTable, reading_m: Any, distance_m: Any, variance: Any, max_m: Any):
-    """Return log p(reading | the beam stops at about the distance), at least ``table.least``."""
-    return wp.max(unbounded_log_density(table, reading_m, distance_m, variance, max_m), type(reading_m)(table.least))
+    """Return log p(reading | the beam stops at about the distance), at least ``table.min_log``."""
+    return wp.max(unbounded_log_density(table, reading_m, distance_m, variance, max_m), type(reading_m)(table.min_log))
 
 
 @wp.func

@@ -9,9 +9,9 @@ import warp as wp
 GOLDEN = wp.constant(wp.uint64(0x9E3779B97F4A7C15))
 MIX_1 = wp.constant(wp.uint64(0xBF58476D1CE4E5B9))
 MIX_2 = wp.constant(wp.uint64(0x94D049BB133111EB))
-TO_UNIT = wp.constant(wp.float64(1.0 / 9007199254740992.0))  # 2^-53
+PER_BITS_53 = wp.constant(wp.float64(1.0 / 9007199254740992.0))  # 2^-53
 
-MASK = (1 << 64) - 1  # the lower 64 bits of a Python integer
+LOW_64_BITS = (1 << 64) - 1  # mask for a Python integer
 
 
 @wp.func
@@ -26,10 +26,10 @@ def random_bits(key: wp.uint64, counter: wp.uint64) -> wp.uint64:
 @wp.func
 def to_uniform(bits: wp.uint64) -> wp.float64:
     """Return a number in the open interval (0, 1), in steps of 2^-53."""
-    return (wp.float64(bits >> wp.uint64(11)) + wp.float64(0.5)) * TO_UNIT
+    return (wp.float64(bits >> wp.uint64(11)) + wp.float64(0.5)) * PER_BITS_53
 
 
-# Parts of a sweep.
+# Parts of a sweep, each with random numbers of its own.
 BEAMS = wp.constant(0)  # stops of beams
 CELLS = wp.constant(1)  # reflectivities, labels, and surfaces of cells in which no reading ends
 MEETINGS = wp.constant(2)  # which passing beams met the surfaces of cells in which readings end
@@ -46,9 +46,9 @@ def mix(*words: int) -> int:
     """Mix integers, such as (seed, chain, stream), into a 64-bit key: on the host, once per chain."""
     state = 0
     for word in words:
-        x = ((state ^ (word & MASK)) + 0x9E3779B97F4A7C15) & MASK
-        x = ((x ^ (x >> 30)) * 0xBF58476D1CE4E5B9) & MASK
-        x = ((x ^ (x >> 27)) * 0x94D049BB133111EB) & MASK
+        x = ((state ^ (word & LOW_64_BITS)) + 0x9E3779B97F4A7C15) & LOW_64_BITS
+        x = ((x ^ (x >> 30)) * 0xBF58476D1CE4E5B9) & LOW_64_BITS
+        x = ((x ^ (x >> 27)) * 0x94D049BB133111EB) & LOW_64_BITS
         state = x ^ (x >> 31)
     return state
 
@@ -67,7 +67,7 @@ def scramble(x: wp.uint32, key: wp.uint32) -> wp.uint32:
 
 @wp.func
 def shuffled(i: wp.uint32, size: wp.uint32, bits: wp.uint32, key: wp.uint64) -> wp.uint32:
-    """Return element i of a pseudo-random permutation of range(size), for a size of at most 2^bits."""
+    """Return element i of a pseudo-random permutation of range(size) that the key chooses; size is at most 2^bits."""
     # A Feistel cipher with four rounds. A result outside the range is enciphered again until it falls inside (cycle
     # walking; Black and Rogaway, *Ciphers with arbitrary finite domains*, 2002).
     low_bits = bits / wp.uint32(2)
@@ -96,10 +96,12 @@ def cipher_bits(size: int) -> int:
 
 TWO_PI = wp.constant(wp.float64(6.283185307179586))
 SQUEEZE = wp.constant(wp.float64(0.0331))  # constant of Marsaglia and Tsang's quick acceptance
-MIDDLE = wp.constant(wp.float32(2.0 * 0xFFFF))  # mean of the sum of four numbers from 0 to 0xFFFF
-PER_DEVIATION = wp.constant(wp.float32((3.0 / (0x10000**2 - 1.0)) ** 0.5))  # their variance is (2^32 - 1) / 12 each
+SUM_MEAN = wp.constant(wp.float32(2.0 * 0xFFFF))  # mean of the sum of four numbers from 0 to 0xFFFF
+PER_SUM_SIGMA = wp.constant(wp.float32((3.0 / (0x10000**2 - 1.0)) ** 0.5))  # their variance is (2^32 - 1) / 12 each
 LOG_NEGLIGIBLE = wp.constant(wp.float64(-100.0))  # log of a negligible factor, see `beta_or_zero`
-PER_GAMMA = 64  # counters reserved per gamma variate: its rejection fails 1 in 20 times, never 30 times in a row
+COUNTERS_PER_GAMMA = (
+    64  # counters reserved per gamma variate: its rejection fails 1 in 20 times, never 30 times in a row
+)
 
 
 @wp.func
@@ -112,16 +114,16 @@ def normal(key: wp.uint64, counter: wp.uint64) -> wp.float64:
 
 @wp.func
 def nearly_normal(bits: wp.uint64) -> wp.float32:
-    """Return the sum of four uniform numbers of 16 bits each, scaled to mean 0 and variance 1: nearly normal."""
+    """Return a nearly normal number: the sum of four uniform numbers of 16 bits, scaled to mean 0 and variance 1."""
     low = wp.uint64(0xFFFF)
     total = (bits & low) + ((bits >> wp.uint64(16)) & low)
     total += ((bits >> wp.uint64(32)) & low) + (bits >> wp.uint64(48))
-    return (wp.float32(wp.int32(total)) - MIDDLE) * PER_DEVIATION
+    return (wp.float32(wp.int32(total)) - SUM_MEAN) * PER_SUM_SIGMA
 
 
 @wp.func
 def log_gamma_variate(shape: wp.float64, key: wp.uint64, counter: wp.uint64) -> wp.float64:
-    """Return the logarithm of a gamma variate of scale 1 (Marsaglia and Tsang, 2000); takes `PER_GAMMA` counters."""
+    """Return the log of a gamma variate of scale 1 (Marsaglia and Tsang, 2000); takes `COUNTERS_PER_GAMMA` counters."""
     # A shape below one is raised by one, and the variate is multiplied by U^(1/shape), which can underflow: hence the
     # logarithm. d, c: constants of the method; n: next counter; x: normal variate; u: uniform number; v: proposal / d.
     one = wp.float64(1.0)
@@ -129,10 +131,10 @@ def log_gamma_variate(shape: wp.float64, key: wp.uint64, counter: wp.uint64) -> 
     d = raised - one / wp.float64(3.0)
     c = one / wp.sqrt(wp.float64(9.0) * d)
     value = d
-    done = int(0)
+    is_done = int(0)
     n = counter + wp.uint64(1)
     for _ in range(20):
-        if done == 0:
+        if is_done == 0:
             x = normal(key, n)
             u = to_uniform(random_bits(key, n + wp.uint64(2)))
             n = n + wp.uint64(3)
@@ -144,7 +146,7 @@ def log_gamma_variate(shape: wp.float64, key: wp.uint64, counter: wp.uint64) -> 
                     accepted = wp.log(u) < wp.float64(0.5) * x * x + d - d * v + d * wp.log(v)
                 if accepted:
                     value = d * v
-                    done = 1
+                    is_done = 1
     log_value = wp.log(value)
     if shape < one:
         log_value += wp.log(to_uniform(random_bits(key, counter))) / shape
@@ -153,9 +155,9 @@ def log_gamma_variate(shape: wp.float64, key: wp.uint64, counter: wp.uint64) -> 
 
 @wp.func
 def beta_variate(a: wp.float64, b: wp.float64, key: wp.uint64, counter: wp.uint64) -> wp.float64:
-    """Return a beta variate; takes two times `PER_GAMMA` counters."""
+    """Return a beta variate; takes two times `COUNTERS_PER_GAMMA` counters."""
     x = log_gamma_variate(a, key, counter)
-    y = log_gamma_variate(b, key, counter + wp.uint64(PER_GAMMA))
+    y = log_gamma_variate(b, key, counter + wp.uint64(COUNTERS_PER_GAMMA))
     return wp.float64(1.0) / (wp.float64(1.0) + wp.exp(y - x))
 
 

@@ -1,8 +1,9 @@
 """The law of a reading, compiled: the formulas of `bayesmap.sensors`, in single and in double precision.
 
 A beam stops at a distance known up to a variance, which widens the noise to ``sqrt(scale(d)^2 + variance)``. Functions
-take their precision from their arguments: chains weigh stops in single precision (`SensorLaw32`), tables and
-predictions in double (`SensorLaw64`). A model without a compiled formula is tabulated (`bayesmap.kernels.law_table`).
+take their precision from their arguments, of the type ``Any``: chains weigh stops in single precision (`SensorLaw32`),
+tables and predictions in double (`SensorLaw64`). A model without a compiled formula is tabulated
+(`bayesmap.kernels.law_table`). The main function is `stop_density`.
 """
 
 import math
@@ -18,11 +19,11 @@ from bayesmap.sensors.tabulated import tabulated
 SIGMAS_TO_CERTAINTY = wp.constant(wp.float64(9.0))  # standard deviations past which the normal's cumulative is 0 or 1
 INV_SQRT_2 = wp.constant(wp.float64(0.7071067811865476))
 INV_PI = wp.constant(wp.float64(0.3183098861837907))
-MOST_TERMS = wp.constant(wp.float64(16.0))  # most terms of the finite sums in `student_below`
-MAX_STEPS = wp.constant(400)  # most steps of the continued fraction; it takes some tens
+MAX_TERMS = wp.constant(wp.float64(16.0))  # terms of the finite sums in `student_below`
+MAX_FRACTION_STEPS = wp.constant(400)  # steps of the continued fraction; it takes some tens
 TINY = wp.constant(wp.float64(1.0e-300))  # replaces zero in Lentz's method
-CLOSE = wp.constant(wp.float64(1.0e-14))  # relative change at which the continued fraction ends
-MOST_POWER = 16  # largest whole power computed by multiplication; a Student-t of more degrees is nearly normal
+FRACTION_TOLERANCE = wp.constant(wp.float64(1.0e-14))  # relative change at which the continued fraction ends
+MAX_POWER = 16  # whole power computed by multiplication; a Student-t of more degrees is nearly normal
 
 
 @wp.func
@@ -68,7 +69,7 @@ def beta_fraction(a: wp.float64, b: wp.float64, x: wp.float64) -> wp.float64:
     c = one
     d = one / not_zero(one - (a + b) * x / (a + one))
     h = d
-    for i in range(2, MAX_STEPS):
+    for i in range(2, MAX_FRACTION_STEPS):
         m = wp.float64(i // 2)
         term = m * (b - m) * x / ((a + m + m - one) * (a + m + m))
         if i % 2 == 1:
@@ -76,7 +77,7 @@ def beta_fraction(a: wp.float64, b: wp.float64, x: wp.float64) -> wp.float64:
         c = not_zero(one + term / c)
         d = one / not_zero(one + term * d)
         h = h * d * c
-        if i % 2 == 1 and wp.abs(d * c - one) < CLOSE:
+        if i % 2 == 1 and wp.abs(d * c - one) < FRACTION_TOLERANCE:
             break
     return h
 
@@ -100,7 +101,7 @@ def student_below(dof: wp.float64, log_height: wp.float64, t: wp.float64) -> wp.
     y = t * t / (dof + t * t)
     x = dof / (dof + t * t)
     # Even dof.
-    if a == wp.floor(a) and a <= MOST_TERMS:
+    if a == wp.floor(a) and a <= MAX_TERMS:
         term = one
         series = one
         for j in range(1, int(a)):
@@ -108,7 +109,7 @@ def student_below(dof: wp.float64, log_height: wp.float64, t: wp.float64) -> wp.
             series += term
         return half + half * series * wp.sign(t) * wp.sqrt(y)
     # Odd dof.
-    if dof == wp.floor(dof) and a <= MOST_TERMS:
+    if dof == wp.floor(dof) and a <= MAX_TERMS:
         angle = wp.atan(wp.abs(t) / wp.sqrt(dof))
         term_odd = wp.where(dof > one, wp.sqrt(x), wp.float64(0.0))
         series_odd = term_odd
@@ -132,11 +133,11 @@ MIXTURE = wp.constant(1)  # the robust mixture
 TABLE = wp.constant(2)  # any other model
 FAR_SQ = wp.constant(wp.float64(81.0))  # squared standard distance past which normal noise adds nothing
 MIN_PROBABILITY = wp.constant(wp.float64(math.exp(LOG_IMPOSSIBLE)))  # least probability of a typed reading
-TAIL = 1e-10  # probability of noise that cumulative probabilities leave out
+CERTAIN_TAIL = 1e-10  # probability of noise that cumulative probabilities leave out
 THIRD = wp.constant(wp.float64(1.0 / 3.0))
 
 
-def _law(name: str, real: Any) -> Any:
+def _law_struct(name: str, real: Any) -> Any:
     """Return the struct of a sensor's numbers in single or double precision."""
     reals = (
         "sigma_m", "sigma_per_m", "dof", "p_random", "p_known", "p_return", "p_no_return", "p_short",
@@ -145,7 +146,7 @@ def _law(name: str, real: Any) -> Any:
         "uniform",  # density of a random reading
         "passing",  # density of a passing object at distance 0
         "peak",  # upper bound of the mixture's density of a finite reading
-        "certain_sq",  # squared standard distance past which the noise's tail is below `TAIL`
+        "certain_sq",  # squared standard distance past which the noise's tail is below `CERTAIN_TAIL`
         "series",  # for smaller x the fifth term of exp(-x) is below the precision
     )  # fmt: skip
     others = {"kind": int, "power": int, "table": LawTable}  # power: see `noise_density`
@@ -153,39 +154,40 @@ def _law(name: str, real: Any) -> Any:
     return wp.struct(type(name, (), {"__annotations__": annotations, "__module__": __name__, "__qualname__": name}))
 
 
-SensorLaw64 = _law("SensorLaw64", wp.float64)
-SensorLaw32 = _law("SensorLaw32", wp.float32)
+SensorLaw64 = _law_struct("SensorLaw64", wp.float64)
+SensorLaw32 = _law_struct("SensorLaw32", wp.float32)
 
 
 def sensor_law(sensor: SensorModel, limits: RangeLimits, device: str, law: Any = SensorLaw64) -> Any:
     """Pack a sensor's numbers for kernels, as a `SensorLaw64` or a `SensorLaw32`."""
     packed = law()
     packed.min_m, packed.max_m = limits.min_m, limits.max_m
-    model = sensor.kernel_parameters()
-    if model is None:
+    parameters = sensor.kernel_parameters()
+    if parameters is None:
         # For the sampler of stops, in single precision, no beam may make a map impossible. Predictions have no bound.
-        least = LOG_IMPOSSIBLE if law is SensorLaw32 else -math.inf
+        min_log = LOG_IMPOSSIBLE if law is SensorLaw32 else -math.inf
         packed.kind, packed.peak = TABLE, math.inf
-        packed.table = law_table_to_device(tabulated(sensor, limits), device, least)
+        packed.table = law_table_to_device(tabulated(sensor, limits), device, min_log)
         return packed
-    packed.kind = MIXTURE if model.robust else NOISE
+    packed.kind = MIXTURE if parameters.robust else NOISE
     packed.series = 0.1 if law is SensorLaw32 else 0.002
-    for name, value in vars(model).items():
+    for name, value in vars(parameters).items():
         if name != "robust":
             setattr(packed, name, value)
-    if model.dof > 0:
-        half = 0.5 * (model.dof + 1)
-        packed.power = int(half) if half == int(half) and half <= MOST_POWER else 0  # 0: no whole power
-        packed.log_height = math.lgamma(half) - math.lgamma(0.5 * model.dof) - 0.5 * math.log(model.dof * math.pi)
+    dof = parameters.dof
+    if dof > 0:
+        half = 0.5 * (dof + 1)
+        packed.power = int(half) if half == int(half) and half <= MAX_POWER else 0  # 0: no whole power
+        packed.log_height = math.lgamma(half) - math.lgamma(0.5 * dof) - 0.5 * math.log(dof * math.pi)
     else:
         packed.log_height = -0.5 * math.log(2 * math.pi)
     packed.height = math.exp(packed.log_height)
-    packed.certain_sq = special.stdtrit(model.dof, TAIL) ** 2 if model.dof > 0 else float(FAR_SQ)
-    packed.p_known, packed.p_return = 1.0 - model.p_random, 1.0 - model.p_no_return
-    packed.uniform = model.p_random / (limits.max_m - limits.min_m)
-    packed.passing = packed.p_known * model.p_short * model.rate_short_per_m
-    densest = packed.height / model.sigma_m if model.sigma_m > 0 else math.inf
-    packed.peak = packed.uniform + packed.passing + densest if model.robust else math.inf
+    packed.certain_sq = special.stdtrit(dof, CERTAIN_TAIL) ** 2 if dof > 0 else float(FAR_SQ)
+    packed.p_known, packed.p_return = 1.0 - parameters.p_random, 1.0 - parameters.p_no_return
+    packed.uniform = parameters.p_random / (limits.max_m - limits.min_m)
+    packed.passing = packed.p_known * parameters.p_short * parameters.rate_short_per_m
+    densest = packed.height / parameters.sigma_m if parameters.sigma_m > 0 else math.inf
+    packed.peak = packed.uniform + packed.passing + densest if parameters.robust else math.inf
     return packed
 
 
@@ -300,10 +302,10 @@ def lowest_density(law: Any, reading_m: Any):
         return type(reading_m)(0.0)
     if wp.isfinite(reading_m):
         return law.uniform
-    least = type(reading_m)(MIN_PROBABILITY)
+    lowest = type(reading_m)(MIN_PROBABILITY)
     if reading_m > type(reading_m)(0.0):
-        return wp.max(law.p_known * (type(reading_m)(1.0) - law.p_short) * law.p_no_return, least)
-    return least
+        return wp.max(law.p_known * (type(reading_m)(1.0) - law.p_short) * law.p_no_return, lowest)
+    return lowest
 
 
 @wp.func

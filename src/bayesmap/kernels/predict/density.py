@@ -41,7 +41,7 @@ StopStates = Singles
 mean x and y in metres from the grid's lower left corner, and Cholesky factor l11, l21, l22."""
 
 
-LEAST_CHANCE = 2e-3  # cells below it count as empty in fast weighing, unless near the reading: poses lose it alike
+MIN_STOP_CHANCE = 2e-3  # cells below it count as empty in fast weighing, unless near the reading: poses lose it alike
 
 
 @wp.struct
@@ -52,7 +52,7 @@ class MapArrays:
     surface: wp.array2d(dtype=Cell)  # otherwise, the surfaces
     surfaces: int  # 1 if cells have surfaces
     depth: wp.float64  # where beams stop in cells without a surface, as a share of their stretch
-    empty: Uint8Rows  # 1 in cells that stop less than `LEAST_CHANCE`; only in maps of whole grids
+    empty: Uint8Rows  # 1 in cells that stop less than `MIN_STOP_CHANCE`; only in maps of whole grids
 
 
 @wp.struct
@@ -148,7 +148,9 @@ def device_maps(batches: Iterable[StopStates], grid: Grid, hit_depth: float, *, 
     require_draws(sum(map(len, draws)))
     states = np.concatenate(draws)
     arrays = maps_to_device(states, hit_depth, device)
-    arrays.empty = devices.to_device((states[..., 0] if states.ndim == 3 else states) < LEAST_CHANCE, wp.uint8, device)
+    arrays.empty = devices.to_device(
+        (states[..., 0] if states.ndim == 3 else states) < MIN_STOP_CHANCE, wp.uint8, device
+    )
     return DeviceMaps(arrays, len(states), grid, device)
 
 
@@ -160,10 +162,10 @@ def require_draws(draws: int) -> None:
 
 # A beam is followed until its chance to get so far is below this. The limit is lower for noise alone, under which an
 # unlikely stop may be the only one that explains a reading; the mixture has a floor.
-GONE = wp.constant(wp.float64(1.0e-30))
-GONE_ROBUST = wp.constant(wp.float64(1.0e-14))
+MIN_SURVIVAL = wp.constant(wp.float64(1.0e-30))
+MIN_SURVIVAL_MIXTURE = wp.constant(wp.float64(1.0e-14))
 CELLS_PAST_REACH = 4.0  # cells past a reading's reach whose surfaces, which extend along the beam, may explain it
-FEW_BEAMS = 5_000  # fewer beams than this are done before a second thread has started
+MIN_THREADED_BEAMS = 5_000  # fewer beams than this are done before a second thread has started
 
 
 @wp.func
@@ -193,7 +195,7 @@ def add_stop(
 @wp.func
 def negligible_weight(law: SensorLaw64) -> wp.float64:
     """Return the weight below which a beam is not followed further."""
-    return wp.where(law.kind == MIXTURE, GONE_ROBUST, GONE)
+    return wp.where(law.kind == MIXTURE, MIN_SURVIVAL_MIXTURE, MIN_SURVIVAL)
 
 
 @wp.struct
@@ -310,7 +312,7 @@ def _sums(
     for batch in batches:
         draws += len(batch)
         inputs = [law, *rays_and_columns, maps_to_device(batch, hit_depth, device), len(batch), int(with_cumulative)]
-        devices.launch(add_forecasts, beams, [*inputs, sums], device, 1 if beams < FEW_BEAMS else None)
+        devices.launch(add_forecasts, beams, [*inputs, sums], device, 1 if beams < MIN_THREADED_BEAMS else None)
     require_draws(draws)
     with np.errstate(divide="ignore"):
         log_density = sums.most.numpy() + np.log(sums.total.numpy() / draws)

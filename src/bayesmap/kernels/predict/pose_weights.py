@@ -28,9 +28,9 @@ wp.set_module_options({"enable_backward": False})
 # Distance from a reading within which the position of the stop matters: noise scales plus cells.
 MARGIN_SCALES = wp.constant(wp.float32(6.0))
 MARGIN_CELLS = wp.constant(wp.float32(4.0))  # a surface is smaller than its cell
-UNLIKELY = wp.constant(wp.float32(1.0e-6))  # a smaller chance of a stop is skipped
-HUGE = wp.constant(wp.float32(1.0e30))  # distance of a grid line that the beam does not cross
-GONE_FAST = wp.constant(wp.float32(1.0e-12))  # a beam is followed until its chance to get so far is below this
+MIN_CHANCE = wp.constant(wp.float32(1.0e-6))  # a smaller chance of a stop is skipped
+NEVER = wp.constant(wp.float32(1.0e30))  # distance of a grid line that the beam does not cross
+MIN_SURVIVAL = wp.constant(wp.float32(1.0e-12))  # a beam is followed until its chance to get so far is below this
 ONE = wp.constant(wp.float32(1.0))
 ZERO = wp.constant(wp.float32(0.0))
 
@@ -39,7 +39,7 @@ ZERO = wp.constant(wp.float32(0.0))
 def next_line(p: wp.float32, u: wp.float32) -> wp.float32:
     """Return the distance to the next grid line of one axis, in cells, from a coordinate and a direction cosine."""
     if wp.abs(u) < wp.float32(1.0e-9):
-        return HUGE
+        return NEVER
     cell = wp.floor(p)
     if u > ZERO:
         return (cell + ONE - p) / u
@@ -75,8 +75,8 @@ def reading_log_density(
     step_y = wp.where(uy > ZERO, 1, -1)
     next_x = next_line(px, ux)
     next_y = next_line(py, uy)
-    gap_x = wp.where(next_x < HUGE, wp.abs(ONE / ux), HUGE)
-    gap_y = wp.where(next_y < HUGE, wp.abs(ONE / uy), HUGE)
+    gap_x = wp.where(next_x < NEVER, wp.abs(ONE / ux), NEVER)
+    gap_y = wp.where(next_y < NEVER, wp.abs(ONE / uy), NEVER)
     # Distances, in cells, between which the position of the stop matters.
     ray = Ray(wp.vec2(x, y), wp.vec2(ux, uy))
     decay = laws.object_decay(law, z)
@@ -91,13 +91,13 @@ def reading_log_density(
     entry = wp.min(next_x, next_y)
     total = ZERO
     survive = ONE
-    while entry <= last_relevant and survive > GONE_FAST:
+    while entry <= last_relevant and survive > MIN_SURVIVAL:
         exit = wp.min(next_x, next_y)
         if cx >= 0 and cx < frame.nx and cy >= 0 and cy < frame.ny:
             cell = cx * frame.ny + cy
             if entry >= first_relevant:
                 chance = stop_chance(maps, draw, cell, ray)
-                if chance > UNLIKELY:
+                if chance > MIN_CHANCE:
                     distance = (entry + depth * (exit - entry)) * resolution
                     variance = ZERO
                     if maps.surfaces != 0:
@@ -123,9 +123,9 @@ def reading_log_density(
             cy += step_y
             next_y += gap_y
         if (cx < 0 and step_x < 0) or (cy < 0 and step_y < 0):
-            entry = HUGE
+            entry = NEVER
         if (cx >= frame.nx and step_x > 0) or (cy >= frame.ny and step_y > 0):
-            entry = HUGE
+            entry = NEVER
     return wp.log(wp.max(total + survive * laws.no_stop_density(law, z, decay), wp.float32(1.0e-30)))
 
 

@@ -23,9 +23,9 @@ from bayesmap.kernels.sensor_law import MIXTURE, SensorLaw64
 from bayesmap.sensors.model import SensorModel
 
 wp.set_module_options({"enable_backward": False, "max_unroll": 1})  # halvings unrolled take minutes to compile
-LEAST_EVENT_CHANCE = wp.constant(wp.float64(1.0e-12))  # least chance of an event, and of getting to it
-LEAST_WEIGHT = wp.constant(wp.float64(1.0e-10))  # stops of less weight are skipped: a thousand of them add nothing
-MOST_CHANCE = wp.constant(wp.float64(1.0 - 1.0e-7))  # largest chance that single precision distinguishes from one
+MIN_EVENT_CHANCE = wp.constant(wp.float64(1.0e-12))  # least chance of an event, and of getting to it
+MIN_WEIGHT = wp.constant(wp.float64(1.0e-10))  # stops of less weight are skipped: a thousand of them add nothing
+MAX_EVENT_CHANCE = wp.constant(wp.float64(1.0 - 1.0e-7))  # largest chance that single precision distinguishes from one
 
 
 @wp.struct
@@ -79,7 +79,7 @@ def mix_stops(rays: Rays, batches: Iterable[StopStates], hit_depth: float, *, de
     """Average the stops of each beam over draws, see `density.forecast`. Raises `BadInput` if there are no draws."""
     device = devices.resolve(device)
     on_device = ((density.maps_to_device(batch, hit_depth, device), len(batch)) for batch in batches)
-    return _mix(rays, rays.columns, on_device, hit_depth, device, float(LEAST_EVENT_CHANCE))
+    return _mix(rays, rays.columns, on_device, hit_depth, device, float(MIN_EVENT_CHANCE))
 
 
 def mix_device_stops(rays: Rays, maps: DeviceMaps, least_survival: float) -> StopMixture:
@@ -125,7 +125,7 @@ def mixture_below(law: SensorLaw64, stops: StopMixtureArrays, b: int, range_m: w
     p = stops.no_stop[b] * laws.cumulative(law, range_m, wp.float64(wp.inf), wp.float64(0.0))
     for k in range(stops.offsets[b], stops.offsets[b + 1]):
         weight = wp.float64(stops.weight[k])
-        if weight > LEAST_WEIGHT:
+        if weight > MIN_WEIGHT:
             p += weight * laws.cumulative(law, range_m, wp.float64(stops.distance_m[k]), wp.float64(stops.variance[k]))
     return p
 
@@ -158,8 +158,8 @@ def find_events(
             if before < wp.float64(0.0):
                 before = mixture_below(law, stops, b, enter)
             after = mixture_below(law, stops, b, leave)
-            p = (after - before) / wp.max(one - before, LEAST_EVENT_CHANCE)
-            chance[k] = wp.float32(wp.clamp(p, LEAST_EVENT_CHANCE, MOST_CHANCE))
+            p = (after - before) / wp.max(one - before, MIN_EVENT_CHANCE)
+            chance[k] = wp.float32(wp.clamp(p, MIN_EVENT_CHANCE, MAX_EVENT_CHANCE))
             stopped[k] = wp.where(z < leave, wp.int8(1), wp.int8(0))
             before = after
 
@@ -213,7 +213,7 @@ def halve_span(law: SensorLaw64, stops: StopMixtureArrays, s: LevelSearch, level
     p = s.below + s.behind * law.p_short * (wp.float64(1.0) - decay)
     for k in range(s.begin, s.end):
         weight = wp.float64(stops.weight[k])
-        if weight > LEAST_WEIGHT:
+        if weight > MIN_WEIGHT:
             distance = wp.float64(stops.distance_m[k])
             p += weight * laws.not_random_below(law, z, decay, distance, wp.float64(stops.variance[k]))
     if s.total * laws.random_below(law, z) + law.p_known * p < level:
@@ -225,9 +225,9 @@ def halve_span(law: SensorLaw64, stops: StopMixtureArrays, s: LevelSearch, level
             distance = wp.float64(stops.distance_m[k])
             variance = wp.float64(stops.variance[k])
             weight = wp.float64(stops.weight[k])
-            is_decided = laws.is_before(law, z, distance, variance) or weight <= LEAST_WEIGHT
+            is_decided = laws.is_before(law, z, distance, variance) or weight <= MIN_WEIGHT
             if is_decided:
-                if weight > LEAST_WEIGHT:
+                if weight > MIN_WEIGHT:
                     s.below += weight * laws.not_random_below(law, z, decay, distance, variance)
                 s.begin += 1
     else:
@@ -238,9 +238,9 @@ def halve_span(law: SensorLaw64, stops: StopMixtureArrays, s: LevelSearch, level
             k = s.end - 1
             weight = wp.float64(stops.weight[k])
             behind = laws.is_behind(law, z, wp.float64(stops.distance_m[k]), wp.float64(stops.variance[k]))
-            is_decided = behind or weight <= LEAST_WEIGHT
+            is_decided = behind or weight <= MIN_WEIGHT
             if is_decided:
-                if weight > LEAST_WEIGHT:
+                if weight > MIN_WEIGHT:
                     s.behind += weight
                 s.end -= 1
     return s

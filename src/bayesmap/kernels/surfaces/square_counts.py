@@ -31,10 +31,10 @@ from bayesmap.kernels.surfaces.surface import PriorNumbers, pseudo_counts
 wp.set_module_options({"enable_backward": False})
 
 CANDIDATES = wp.constant(32)
-HALF = wp.constant(16)  # candidates of each of the two laws
-PER_HALF = wp.constant(wp.float64(1.0 / 16.0))
-LOGISTIC = wp.constant(wp.float64(0.6))  # scale of a logistic in place of a normal: longer tails, known quantiles
-LEAST_VARIANCE = wp.constant(wp.float64(1.0e-12))  # square metres: a thinner surface counts as one point
+CANDIDATES_PER_LAW = wp.constant(16)
+PER_CANDIDATE = wp.constant(wp.float64(1.0 / 16.0))  # 1 / CANDIDATES_PER_LAW
+LOGISTIC_SCALE = wp.constant(wp.float64(0.6))  # of a logistic in place of a normal: longer tails, known quantiles
+MIN_VARIANCE = wp.constant(wp.float64(1.0e-12))  # square metres: a thinner surface counts as one point
 IMPOSSIBLE = wp.constant(wp.float64(-1.0e300))  # log weight of an impossible candidate
 
 
@@ -47,7 +47,7 @@ def stop_point_m(
     mean = wp.float64(distance)
     variance_sq_m = wp.float64(variance)
     if law.kind == TABLE:
-        if variance_sq_m > LEAST_VARIANCE:
+        if variance_sq_m > MIN_VARIANCE:
             return wp.max(point_by_table_m(law, reading, mean, variance_sq_m, key, counter), wp.float64(0.0))
         return wp.max(mean, wp.float64(0.0))
     if wp.isfinite(reading):
@@ -75,42 +75,42 @@ def point_by_table_m(
     """Draw the distance under a tabulated law, metres; it may be negative."""
     # Middle and scale of the two laws of candidates: the surface's, and the one that the reading suggests.
     one = wp.float64(1.0)
-    scale = LOGISTIC * wp.sqrt(variance)
+    scale = LOGISTIC_SCALE * wp.sqrt(variance)
     suggested = mean
     suggested_scale = scale
     if wp.isfinite(reading):
         sigma = wp.float64(readings_scale_m(law.table, wp.float32(mean), law.max_m))
         total = variance + sigma * sigma
         suggested = mean + variance / total * (wp.float64(reading) - mean)
-        suggested_scale = LOGISTIC * wp.sqrt(variance * sigma * sigma / total)
+        suggested_scale = LOGISTIC_SCALE * wp.sqrt(variance * sigma * sigma / total)
     shift = to_uniform(random_bits(key, counter))
     target = to_uniform(random_bits(key, counter + wp.uint64(1)))
     # Weights are summed relative to the largest so far. Each candidate replaces the chosen one with its share of the
     # weights so far. One uniform number serves all choices: it is rescaled to be uniform again after each.
     chosen = mean
-    most = IMPOSSIBLE
+    largest = IMPOSSIBLE
     total_weight = wp.float64(0.0)
-    number = int(0)
-    while number < CANDIDATES:
+    candidate = int(0)
+    while candidate < CANDIDATES:
         middle = mean
         width = scale
-        rank = number
-        if number >= HALF:
+        rank = candidate
+        if candidate >= CANDIDATES_PER_LAW:
             middle = suggested
             width = suggested_scale
-            rank = number - HALF
-        number = number + 1
-        u = (wp.float64(rank) + shift) * PER_HALF
+            rank = candidate - CANDIDATES_PER_LAW
+        candidate = candidate + 1
+        u = (wp.float64(rank) + shift) * PER_CANDIDATE
         t = middle + width * wp.log(u / (one - u))
         log_weight = wp.float64(table_log_density(law.table, reading, wp.float32(t), wp.float32(0.0), law.max_m))
         log_weight -= wp.float64(0.5) * (t - mean) * (t - mean) / variance
         log_weight -= wp.log(logistic_density(t, mean, scale) + logistic_density(t, suggested, suggested_scale))
         if t < wp.float64(0.0):
             log_weight = IMPOSSIBLE
-        if log_weight > most:
-            total_weight = total_weight * wp.exp(most - log_weight)
-            most = log_weight
-        weight = wp.exp(log_weight - most)
+        if log_weight > largest:
+            total_weight = total_weight * wp.exp(largest - log_weight)
+            largest = log_weight
+        weight = wp.exp(log_weight - largest)
         total_weight += weight
         p = weight / total_weight
         if target <= p:  # rounding may have made it one
@@ -143,28 +143,28 @@ def count_in_squares(
     chain: int, sweep: int, law: SensorLaw32, rays: TracedRays, state: ChainArrays, squares: SquareArrays
 ):
     """One thread per beam of a chain: count it as stopped in one square, and as stopped before each square behind."""
-    # b: beam; i: beam in the arrays of all chains; k: entry, from the last one back to the stop.
-    b = wp.tid()
-    i = chain * state.n_beams + b
-    begin = rays.offsets[b]
-    end = rays.offsets[b + 1]
-    stop = state.stop[i]
+    beam = wp.tid()
+    element = chain * state.n_beams + beam  # in the arrays of all chains
+    begin = rays.offsets[beam]
+    end = rays.offsets[beam + 1]
+    stop = state.stop[element]
     if stop < begin or stop >= end:
         return
-    counter = STREAM_POINT + wp.uint64(b) * wp.uint64(4)
-    moments = state.stop_moments[i]
+    counter = STREAM_POINT + wp.uint64(beam) * wp.uint64(4)
+    moments = state.stop_moments[element]
     key = sweep_key(state.keys[chain], sweep, BEAMS)
-    point = stop_point_m(law, rays.range_m[b], rays.decay[b], moments[0], moments[1], key, counter)
-    line = line_of(squares.lines, b)
-    k = end - 1
-    interval = stretch(line, rays.cells[k])
+    point = stop_point_m(law, rays.range_m[beam], rays.decay[beam], moments[0], moments[1], key, counter)
+    line = line_of(squares.lines, beam)
+    # From the last entry back to the square that holds the point.
+    entry = end - 1
+    interval = stretch(line, rays.cells[entry])
     if point > interval[1]:  # further than the beam is followed
         return
-    while k > begin and interval[0] > point:
-        wp.atomic_add(squares.stopped_before, rays.cells[k], 1)
-        k -= 1
-        interval = stretch(line, rays.cells[k])
-    wp.atomic_add(squares.stopped_inside, rays.cells[k], 1)
+    while entry > begin and interval[0] > point:
+        wp.atomic_add(squares.stopped_before, rays.cells[entry], 1)
+        entry -= 1
+        interval = stretch(line, rays.cells[entry])
+    wp.atomic_add(squares.stopped_inside, rays.cells[entry], 1)
 
 
 @wp.kernel
@@ -173,14 +173,14 @@ def draw_stop_chances(
 ):
     """One thread per touched cell: draw q from its Beta posterior, compute its mean, and count a kept draw."""
     i = wp.tid()
-    c = squares.touched[i]
-    element = chain * state.n_cells + c
-    arrived = squares.crossings[c] - squares.stopped_before[c]
-    counts = pseudo_counts(prior, solid[c])
-    a = counts[0] + wp.float64(squares.stopped_inside[c])
-    b = counts[1] + wp.float64(arrived - squares.stopped_inside[c])
+    cell = squares.touched[i]
+    element = chain * state.n_cells + cell
+    arrived = squares.crossings[cell] - squares.stopped_before[cell]
+    counts = pseudo_counts(prior, solid[cell])
+    a = counts[0] + wp.float64(squares.stopped_inside[cell])
+    b = counts[1] + wp.float64(arrived - squares.stopped_inside[cell])
     key = sweep_key(state.keys[chain], sweep, CELLS)
-    squares.drawn[i] = wp.float32(beta_or_zero(a, b, key, wp.uint64(c) * PER_CELL + AT_SQUARE))
+    squares.drawn[i] = wp.float32(beta_or_zero(a, b, key, wp.uint64(cell) * PER_CELL + AT_SQUARE))
     squares.expected[i] = wp.float32(a / (a + b))
     if kept != 0:
         observed = wp.where(arrived > 0, 1, 0)

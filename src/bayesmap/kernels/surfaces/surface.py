@@ -19,7 +19,7 @@ from bayesmap.beams.rays import CROSSING_WIDTH, DIRECTION_RAD
 from bayesmap.cells.reflectivity import KernelNumbers
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.device import Singles
-from bayesmap.kernels.random import PER_GAMMA, log_gamma_variate, normal
+from bayesmap.kernels.random import COUNTERS_PER_GAMMA, log_gamma_variate, normal
 
 CROSSING_WIDTH_SQ = wp.constant(wp.float32(CROSSING_WIDTH**2))
 DIRECTION_SQ = wp.constant(wp.float32(DIRECTION_RAD**2))
@@ -176,11 +176,11 @@ def fresh_surface(prior: PriorNumbers, centre: wp.vec2, cell: Cell, key: wp.uint
     # Sigma^-1 = A A' / psi with Bartlett's lower triangular A. The inverse has the upper factor A^-T sqrt(psi), which
     # becomes a lower factor when x and y are exchanged; the law is symmetric in them. n: next counter.
     half = wp.float64(0.5)
-    n = counter + wp.uint64(PER_GAMMA)
+    n = counter + wp.uint64(COUNTERS_PER_GAMMA)
     a11 = wp.exp(half * (log_gamma_variate(half * prior.nu, key, counter) + wp.log(wp.float64(2.0))))
     shape = half * (prior.nu - wp.float64(1.0))
     a22 = wp.exp(half * (log_gamma_variate(shape, key, n) + wp.log(wp.float64(2.0))))
-    n = n + wp.uint64(PER_GAMMA)
+    n = n + wp.uint64(COUNTERS_PER_GAMMA)
     a21 = normal(key, n)
     scale = wp.sqrt(prior.psi_m2)
     cell[MEAN_X] = centre[0] + draw_mean_coordinate(prior, key, n + wp.uint64(2))
