@@ -6,6 +6,8 @@ stream), a counter for (sweep, cell): results do not depend on threads, and a re
 
 import warp as wp
 
+from bayesmap.kernels.device import ONE
+
 GOLDEN = wp.constant(wp.uint64(0x9E3779B97F4A7C15))
 MIX_1 = wp.constant(wp.uint64(0xBF58476D1CE4E5B9))
 MIX_2 = wp.constant(wp.uint64(0x94D049BB133111EB))
@@ -73,8 +75,7 @@ def shuffled(i: wp.uint32, size: wp.uint32, bits: wp.uint32, key: wp.uint64) -> 
     low_bits = bits / wp.uint32(2)
     low_mask = (wp.uint32(1) << low_bits) - wp.uint32(1)
     high_mask = (wp.uint32(1) << (bits - low_bits)) - wp.uint32(1)
-    key_1 = wp.uint32(key)
-    key_2 = wp.uint32(key >> wp.uint64(32))
+    key_1, key_2 = wp.uint32(key), wp.uint32(key >> wp.uint64(32))
     x = i
     while True:
         high = x >> low_bits
@@ -126,10 +127,9 @@ def log_gamma_variate(shape: wp.float64, key: wp.uint64, counter: wp.uint64) -> 
     """Return the log of a gamma variate of scale 1 (Marsaglia and Tsang, 2000); takes `COUNTERS_PER_GAMMA` counters."""
     # A shape below one is raised by one, and the variate is multiplied by U^(1/shape), which can underflow: hence the
     # logarithm. d, c: constants of the method; n: next counter; x: normal variate; u: uniform number; v: proposal / d.
-    one = wp.float64(1.0)
-    raised = wp.where(shape < one, shape + one, shape)
-    d = raised - one / wp.float64(3.0)
-    c = one / wp.sqrt(wp.float64(9.0) * d)
+    raised = wp.where(shape < ONE, shape + ONE, shape)
+    d = raised - ONE / wp.float64(3.0)
+    c = ONE / wp.sqrt(wp.float64(9.0) * d)
     value = d
     is_done = int(0)
     n = counter + wp.uint64(1)
@@ -138,17 +138,17 @@ def log_gamma_variate(shape: wp.float64, key: wp.uint64, counter: wp.uint64) -> 
             x = normal(key, n)
             u = to_uniform(random_bits(key, n + wp.uint64(2)))
             n = n + wp.uint64(3)
-            v = one + c * x
+            v = ONE + c * x
             if v > wp.float64(0.0):
                 v = v * v * v
-                accepted = u < one - SQUEEZE * x * x * x * x  # the usual case; the exact test would agree
+                accepted = u < ONE - SQUEEZE * x * x * x * x  # the usual case; the exact test would agree
                 if not accepted:
                     accepted = wp.log(u) < wp.float64(0.5) * x * x + d - d * v + d * wp.log(v)
                 if accepted:
                     value = d * v
                     is_done = 1
     log_value = wp.log(value)
-    if shape < one:
+    if shape < ONE:
         log_value += wp.log(to_uniform(random_bits(key, counter))) / shape
     return log_value
 
@@ -166,7 +166,6 @@ def beta_or_zero(a: wp.float64, b: wp.float64, key: wp.uint64, counter: wp.uint6
     """Return a beta variate, or 0 if it would be below e^-70, which usually costs a single logarithm."""
     # A gamma variate of shape a < 1 is a variate of shape a + 1 times U^(1/a). If this factor is at most e^-100, the
     # variate is negligible beside a variate whose shape is over one.
-    one = wp.float64(1.0)
-    if a < one and b > one and wp.log(to_uniform(random_bits(key, counter))) < LOG_NEGLIGIBLE * a:
+    if a < ONE and b > ONE and wp.log(to_uniform(random_bits(key, counter))) < LOG_NEGLIGIBLE * a:
         return wp.float64(0.0)
     return beta_variate(a, b, key, counter)

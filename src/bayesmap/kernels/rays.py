@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from bayesmap.beams.rays import MAX_INCIDENCES, Rays
 from bayesmap.errors import BadInput
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.device import Float32s, Float64s, Floats, Int32Rows, Int32s, Ints, Singles, Uint8s, Vec2ds
+from bayesmap.kernels.device import ZERO, Float32s, Float64s, Floats, Int32Rows, Int32s, Ints, Singles, Uint8s, Vec2ds
 from bayesmap.kernels.walk import PARALLEL, Walk, cell_before, is_inside, walk_begin, walk_next
 from bayesmap.sensors.model import RangeLimits
 from bayesmap.space.grid import Grid
@@ -107,10 +107,9 @@ def walk_along(line: Line, nx: int, max_m: wp.float64) -> Walk:
 def stretch(line: Line, cell: int) -> wp.vec2d:
     """Return the distances at which a beam enters and leaves a cell that it touches, metres (`Rays.stretches`)."""
     # Intersect the stretches of the line between the cell's sides in x and in y.
-    zero = wp.float64(0.0)
     x = int((wp.float64(cell) + wp.float64(0.5)) * line.per_column)  # a division of whole numbers takes longer
     y = cell - x * line.ny
-    enter = zero
+    enter = ZERO
     leave = wp.float64(1.0e300)
     holds_start = bool(True)
     if line.x.onward != 0:
@@ -123,7 +122,7 @@ def stretch(line: Line, cell: int) -> wp.vec2d:
         enter = wp.max(enter, to_side_y * line.y.per_cell)
         leave = wp.min(leave, (to_side_y + wp.float64(line.y.onward)) * line.y.per_cell)
         holds_start = holds_start and y == line.y.first
-    leave = wp.max(leave, zero)
+    leave = wp.max(leave, ZERO)
     # The cell of the start is met where the beam leaves it.
     if holds_start:
         enter = leave

@@ -12,6 +12,7 @@ from typing import Any
 import warp as wp
 from scipy import special
 
+from bayesmap.kernels.device import HALF, ONE
 from bayesmap.kernels.law_table import LawTable, law_table_to_device, table_cumulative, table_log_density
 from bayesmap.sensors.model import LOG_IMPOSSIBLE, RangeLimits, SensorModel
 from bayesmap.sensors.tabulated import tabulated
@@ -65,19 +66,18 @@ def noise_below(law: Any, x: Any):
 def beta_fraction(a: wp.float64, b: wp.float64, x: wp.float64) -> wp.float64:
     """Return the continued fraction of the incomplete beta function (DLMF 8.17.22), by Lentz's method."""
     # c: ratio of successive numerators; d: inverse ratio of successive denominators; h: value so far; 2 m: step.
-    one = wp.float64(1.0)
-    c = one
-    d = one / not_zero(one - (a + b) * x / (a + one))
+    c = ONE
+    d = ONE / not_zero(ONE - (a + b) * x / (a + ONE))
     h = d
     for i in range(2, MAX_FRACTION_STEPS):
         m = wp.float64(i // 2)
-        term = m * (b - m) * x / ((a + m + m - one) * (a + m + m))
+        term = m * (b - m) * x / ((a + m + m - ONE) * (a + m + m))
         if i % 2 == 1:
-            term = -(a + m) * (a + b + m) * x / ((a + m + m) * (a + m + m + one))
-        c = not_zero(one + term / c)
-        d = one / not_zero(one + term * d)
+            term = -(a + m) * (a + b + m) * x / ((a + m + m) * (a + m + m + ONE))
+        c = not_zero(ONE + term / c)
+        d = ONE / not_zero(ONE + term * d)
         h = h * d * c
-        if i % 2 == 1 and wp.abs(d * c - one) < FRACTION_TOLERANCE:
+        if i % 2 == 1 and wp.abs(d * c - ONE) < FRACTION_TOLERANCE:
             break
     return h
 
@@ -93,38 +93,36 @@ def student_below(dof: wp.float64, log_height: wp.float64, t: wp.float64) -> wp.
     """Return P(T <= t) for Student's t: half an incomplete beta function of (dof / 2, 1 / 2) at dof / (dof + t^2)."""
     # a: dof / 2; x: argument of the incomplete beta function; y: 1 - x. For whole dof the function is a finite sum
     # (Abramowitz and Stegun 26.7.3 and 26.7.4), which is ten times as fast.
-    half = wp.float64(0.5)
-    one = wp.float64(1.0)
     if t == wp.float64(0.0):
-        return half
-    a = half * dof
+        return HALF
+    a = HALF * dof
     y = t * t / (dof + t * t)
     x = dof / (dof + t * t)
     # Even dof.
     if a == wp.floor(a) and a <= MAX_TERMS:
-        term = one
-        series = one
+        term = ONE
+        series = ONE
         for j in range(1, int(a)):
-            term = term * x * (one - half / wp.float64(j))
+            term = term * x * (ONE - HALF / wp.float64(j))
             series += term
-        return half + half * series * wp.sign(t) * wp.sqrt(y)
+        return HALF + HALF * series * wp.sign(t) * wp.sqrt(y)
     # Odd dof.
     if dof == wp.floor(dof) and a <= MAX_TERMS:
         angle = wp.atan(wp.abs(t) / wp.sqrt(dof))
-        term_odd = wp.where(dof > one, wp.sqrt(x), wp.float64(0.0))
+        term_odd = wp.where(dof > ONE, wp.sqrt(x), wp.float64(0.0))
         series_odd = term_odd
         for j_odd in range(1, int(a)):
-            term_odd = term_odd * x * (one - one / wp.float64(2 * j_odd + 1))
+            term_odd = term_odd * x * (ONE - ONE / wp.float64(2 * j_odd + 1))
             series_odd += term_odd
-        return half + wp.sign(t) * INV_PI * (angle + wp.sqrt(y) * series_odd)
+        return HALF + wp.sign(t) * INV_PI * (angle + wp.sqrt(y) * series_odd)
     # Any other dof: log 1 / B(dof / 2, 1 / 2) = log_height + log(dof) / 2
-    front = wp.exp(log_height + half * wp.log(dof) + a * wp.log(x) + half * wp.log(y))
+    front = wp.exp(log_height + HALF * wp.log(dof) + a * wp.log(x) + HALF * wp.log(y))
     tail = wp.float64(0.0)
-    if x < (a + one) / (a + wp.float64(2.5)):
-        tail = half * front * beta_fraction(a, half, x) / a
+    if x < (a + ONE) / (a + wp.float64(2.5)):
+        tail = HALF * front * beta_fraction(a, HALF, x) / a
     else:
-        tail = half * (one - front * beta_fraction(half, a, y) / half)
-    return wp.where(t > wp.float64(0.0), one - tail, tail)
+        tail = HALF * (ONE - front * beta_fraction(HALF, a, y) / HALF)
+    return wp.where(t > wp.float64(0.0), ONE - tail, tail)
 
 
 # Kinds of laws.

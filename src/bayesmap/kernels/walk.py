@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from bayesmap.beams import rays
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.device import Float64s, Floats, Int32s, Ints, Uint8Rows, Vec2ds
+from bayesmap.kernels.device import ONE, ZERO, Float64s, Floats, Int32s, Ints, Uint8Rows, Vec2ds
 
 wp.set_module_options({"enable_backward": False})
 
@@ -60,12 +60,8 @@ def cell_before(p: wp.float64, step: int) -> int:
 @wp.func
 def walk_begin(start: wp.vec2d, direction: wp.vec2d, nx: int, ny: int, max_distance: wp.float64) -> Walk:
     """Return the walk from a start along a unit vector, at its first touch, in cells from the grid's corner."""
-    px = start[0]
-    py = start[1]
-    ux = direction[0]
-    uy = direction[1]
-    zero = wp.float64(0.0)
-    one = wp.float64(1.0)
+    px, py = start[0], start[1]
+    ux, uy = direction[0], direction[1]
     # Per axis: step and gap, and the distances at which the beam enters and leaves the grid.
     w = Walk()
     w.next_x = NEVER
@@ -75,24 +71,24 @@ def walk_begin(start: wp.vec2d, direction: wp.vec2d, nx: int, ny: int, max_dista
     enter = wp.float64(0.0)
     leave = wp.float64(max_distance)
     if wp.abs(ux) >= PARALLEL:
-        w.step_x = wp.where(ux > zero, 1, -1)
-        w.gap_x = one / wp.abs(ux)
+        w.step_x = wp.where(ux > ZERO, 1, -1)
+        w.gap_x = ONE / wp.abs(ux)
         enter = wp.max(enter, wp.min(-px / ux, (wp.float64(nx) - px) / ux))
         leave = wp.min(leave, wp.max(-px / ux, (wp.float64(nx) - px) / ux))
     elif px < -TIE or px > wp.float64(nx) + TIE:
-        leave = -one
+        leave = -ONE
     if wp.abs(uy) >= PARALLEL:
-        w.step_y = wp.where(uy > zero, 1, -1)
-        w.gap_y = one / wp.abs(uy)
+        w.step_y = wp.where(uy > ZERO, 1, -1)
+        w.gap_y = ONE / wp.abs(uy)
         enter = wp.max(enter, wp.min(-py / uy, (wp.float64(ny) - py) / uy))
         leave = wp.min(leave, wp.max(-py / uy, (wp.float64(ny) - py) / uy))
     elif py < -TIE or py > wp.float64(ny) + TIE:
-        leave = -one
+        leave = -ONE
     w.end = leave + TIE
 
     # First cell and next grid lines. A direction that counts as parallel keeps its coordinate.
-    w.x = cell_before(px + wp.where(w.step_x == 0, zero, enter * ux), w.step_x)
-    w.y = cell_before(py + wp.where(w.step_y == 0, zero, enter * uy), w.step_y)
+    w.x = cell_before(px + wp.where(w.step_x == 0, ZERO, enter * ux), w.step_x)
+    w.y = cell_before(py + wp.where(w.step_y == 0, ZERO, enter * uy), w.step_y)
     if w.step_x != 0:
         w.next_x = (wp.float64(w.x + wp.max(w.step_x, 0)) - px) / ux
     if w.step_y != 0:
@@ -107,7 +103,7 @@ def walk_begin(start: wp.vec2d, direction: wp.vec2d, nx: int, ny: int, max_dista
     w.cell_x = w.x
     w.cell_y = w.y
     w.sides = w.along_line
-    w.distance = wp.max(zero, wp.min(w.next_x, w.next_y))
+    w.distance = wp.max(ZERO, wp.min(w.next_x, w.next_y))
     return w
 
 
@@ -161,8 +157,7 @@ def first_hit_ranges(
 ):  # fmt: skip
     """One thread per beam: walk to the first wall. Outputs are ``distance`` and the number of ``visits``."""
     beam = first + wp.tid()
-    nx = walls.shape[0]
-    ny = walls.shape[1]
+    nx, ny = walls.shape[0], walls.shape[1]
     direction = wp.vec2d(wp.cos(angle_rad[beam]), wp.sin(angle_rad[beam]))
     w = walk_begin(start[beam], direction, nx, ny, max_distance)
     nearest = wp.float64(max_distance)

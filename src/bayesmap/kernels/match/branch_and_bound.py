@@ -95,8 +95,7 @@ class Best:
 def block_score(jobs: SearchJobs, pyramid: Pyramid, block: Block) -> int:
     """Return the sum, over the points of a job, of the largest value that a translation in the block gives."""
     grid = jobs.grid[block.job]
-    nx = pyramid.shape[2]
-    ny = pyramid.shape[3]
+    nx, ny = pyramid.shape[2], pyramid.shape[3]
     width = 1 << block.level
     total = int(0)
     for point in range(jobs.point_end[block.job] - jobs.point_begin[block.job]):
@@ -135,8 +134,7 @@ def bound_blocks(first: int, jobs: SearchJobs, pyramid: Pyramid, roots: Roots):
     row = first + wp.tid()
     job = jobs.job_of_row[row]
     corner = jobs.origin[jobs.grid[job]]
-    cosine = wp.cos(jobs.angle_rad[row])
-    sine = wp.sin(jobs.angle_rad[row])
+    cosine, sine = wp.cos(jobs.angle_rad[row]), wp.sin(jobs.angle_rad[row])
     x0 = jobs.centre[job][0] - corner[0]
     y0 = jobs.centre[job][1] - corner[1]
     for i in range(jobs.point_end[job] - jobs.point_begin[job]):

@@ -45,8 +45,7 @@ def stamp_points(first: int, bands: int, grids: GridScansArrays, scene: ScanArra
     thread = first + wp.tid()
     grid = thread / bands
     band = thread - grid * bands
-    nx = pyramid.shape[2]
-    ny = pyramid.shape[3]
+    nx, ny = pyramid.shape[2], pyramid.shape[3]
     low = nx * band / bands
     high = nx * (band + 1) / bands
     radius = grids.stamp.shape[0] / 2
@@ -92,8 +91,7 @@ def stamp_points(first: int, bands: int, grids: GridScansArrays, scene: ScanArra
 def next_level(first: int, level: int, pyramid: Pyramid):
     """One thread per row: compute maxima over blocks of 2^level cells, from maxima over blocks half as long."""
     thread = first + wp.tid()
-    nx = pyramid.shape[2]
-    ny = pyramid.shape[3]
+    nx, ny = pyramid.shape[2], pyramid.shape[3]
     grid = thread / nx
     x = thread - grid * nx
     half = 1 << (level - 1)
@@ -145,8 +143,7 @@ def widen(narrow: NDArray[np.uint8], wide: NDArray[np.uint8], half: int) -> None
 def sum_field(first: int, field: Uint8Rows, points: Float32Rows, poses: Float32Rows, out: Int32s):
     """One thread per pose, in cells from the grid's corner: sum the field's values at the points."""
     pose = first + wp.tid()
-    cosine = wp.cos(poses[pose, 2])
-    sine = wp.sin(poses[pose, 2])
+    cosine, sine = wp.cos(poses[pose, 2]), wp.sin(poses[pose, 2])
     x = poses[pose, 0]
     y = poses[pose, 1]
     total = int(0)

@@ -58,8 +58,7 @@ class Sums:
 @wp.func
 def angle_in_turns(vector: wp.vec2f) -> float:
     """Return the angle of a vector in turns, -1/2 to 1/2, to 0.05 degrees: a polynomial, faster than atan2."""
-    ax = wp.abs(vector[0])
-    ay = wp.abs(vector[1])
+    ax, ay = wp.abs(vector[0]), wp.abs(vector[1])
     t = wp.min(ax, ay) / wp.max(wp.max(ax, ay), 1.0e-9)
     t2 = t * t
     angle = (((-0.0464964749 * t2 + 0.15931422) * t2 - 0.327622764) * t2 + 1.0) * t * 0.15915494309

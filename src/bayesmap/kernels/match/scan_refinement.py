@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import warp as wp
 
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.device import Float32Rows, Float64Rows, Floats, Int32s, Ints, Vec3ds
+from bayesmap.kernels.device import ZERO, Float32Rows, Float64Rows, Floats, Int32s, Ints, Vec3ds
 from bayesmap.kernels.match.line_pairs import Mat33ds, PairRulesArrays, pair_scans, symmetric
 from bayesmap.kernels.match.scan_geometry import ScanArrays, equal_weights, scan_arrays
 
@@ -23,19 +23,15 @@ MIN_STEP = wp.constant(wp.float64(1.0e-5))  # metres plus radians: steps below t
 @wp.func
 def turn_of(yaw: wp.float64) -> wp.mat33d:
     """Return the matrix that turns steps (x, y, yaw) in a frame at this yaw into the axes of the outer frame."""
-    c = wp.cos(yaw)
-    s = wp.sin(yaw)
-    zero = wp.float64(0.0)
-    return wp.mat33d(c, -s, zero, s, c, zero, zero, zero, wp.float64(1.0))
+    c, s = wp.cos(yaw), wp.sin(yaw)
+    return wp.mat33d(c, -s, ZERO, s, c, ZERO, ZERO, ZERO, wp.float64(1.0))
 
 
 @wp.func
 def pose_between(a: wp.vec3d, b: wp.vec3d) -> wp.vec3d:
     """Return the pose b in the frame of a."""
-    c = wp.cos(a[2])
-    s = wp.sin(a[2])
-    dx = b[0] - a[0]
-    dy = b[1] - a[1]
+    c, s = wp.cos(a[2]), wp.sin(a[2])
+    dx, dy = b[0] - a[0], b[1] - a[1]
     return wp.vec3d(c * dx + s * dy, -s * dx + c * dy, b[2] - a[2])
 
 

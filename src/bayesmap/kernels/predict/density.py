@@ -23,7 +23,7 @@ from bayesmap.errors import BadInput
 from bayesmap.kernels import device as devices
 from bayesmap.kernels import rays as traced
 from bayesmap.kernels import sensor_law as laws
-from bayesmap.kernels.device import Float32Rows, Float64Rows, Float64s, Floats, Int32s, Ints, Singles, Uint8Rows
+from bayesmap.kernels.device import ONE, Float32Rows, Float64Rows, Float64s, Floats, Int32s, Ints, Singles, Uint8Rows
 from bayesmap.kernels.rays import Line, RayArrays, line_from, line_of, rays_to_device, walk_along
 from bayesmap.kernels.sensor_law import MIXTURE, NOISE, SensorLaw64
 from bayesmap.kernels.surfaces.surface import REFLECTIVITY, Cell, Ray, cells_to_device, cross_surface
@@ -223,9 +223,8 @@ def add_forecasts(
     z = out.range_m[b]
     if wp.isnan(z):
         return
-    one = wp.float64(1.0)
     line = line_of(rays.lines, b)
-    nowhere = wp.vec3d(one, wp.float64(wp.inf), wp.float64(0.0))
+    nowhere = wp.vec3d(ONE, wp.float64(wp.inf), wp.float64(0.0))
     sums = wp.vec2d(out.most[b], out.total[b])
     z_limit = z
     if wp.isinf(z):
@@ -246,7 +245,7 @@ def add_forecasts(
             if k < rays.offsets[b + 1]:
                 stop = stop_in(maps, d, columns[k], line, rays.cells[k])
                 weight = survive * stop[0]
-                survive = survive * (one - stop[0])
+                survive = survive * (ONE - stop[0])
             if weight > wp.float64(0.0):
                 if k < beyond:
                     sums = add_stop(law, sums, weight, z, decay, stop)
@@ -365,7 +364,6 @@ def beam_log_likelihoods(
     m = i % beams
     if mounts.shape[0] > beams:
         m = b
-    one = wp.float64(1.0)
     yaw = poses[row, 2]
     x = poses[row, 0] + wp.cos(yaw) * mounts[m, 0] - wp.sin(yaw) * mounts[m, 1]
     y = poses[row, 1] + wp.sin(yaw) * mounts[m, 0] + wp.cos(yaw) * mounts[m, 1]
@@ -379,7 +377,7 @@ def beam_log_likelihoods(
         if is_inside(w, frame.nx, frame.ny):
             stop = stop_on_walk(maps, chain[row], line, w)
             weight = survive * stop[0]
-            survive = survive * (one - stop[0])
+            survive = survive * (ONE - stop[0])
             if weight > wp.float64(0.0):
                 with_variance = wp.vec3d(weight, stop[1], stop[2] * stop[2])
                 sums = add_stop(law, sums, weight, z, decay, with_variance)

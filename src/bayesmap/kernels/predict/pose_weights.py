@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
 from bayesmap.kernels import sensor_law as laws
-from bayesmap.kernels.device import Float64Rows, Float64s, Floats, Int32s
+from bayesmap.kernels.device import ONE_32, ZERO_32, Float64Rows, Float64s, Floats, Int32s
 from bayesmap.kernels.predict.density import DeviceMaps, Frame, MapArrays, grid_frame
 from bayesmap.kernels.sensor_law import SensorLaw32
 from bayesmap.kernels.surfaces.surface import REFLECTIVITY, Ray, cross_surface, crossing_probability
@@ -31,8 +31,6 @@ MARGIN_CELLS = wp.constant(wp.float32(4.0))  # a surface is smaller than its cel
 MIN_CHANCE = wp.constant(wp.float32(1.0e-6))  # a smaller chance of a stop is skipped
 NEVER = wp.constant(wp.float32(1.0e30))  # distance of a grid line that the beam does not cross
 MIN_SURVIVAL = wp.constant(wp.float32(1.0e-12))  # a beam is followed until its chance to get so far is below this
-ONE = wp.constant(wp.float32(1.0))
-ZERO = wp.constant(wp.float32(0.0))
 
 
 @wp.func
@@ -41,8 +39,8 @@ def next_line(p: wp.float32, u: wp.float32) -> wp.float32:
     if wp.abs(u) < wp.float32(1.0e-9):
         return NEVER
     cell = wp.floor(p)
-    if u > ZERO:
-        return (cell + ONE - p) / u
+    if u > ZERO_32:
+        return (cell + ONE_32 - p) / u
     return (cell - p) / u
 
 
@@ -65,32 +63,29 @@ def reading_log_density(
     # where the beam leaves it. Start, in cells: position p, cell c, distance of the next grid lines, gap between lines.
     resolution = wp.float32(frame.resolution)
     depth = wp.float32(maps.depth)
-    ux = wp.cos(angle)
-    uy = wp.sin(angle)
-    px = x / resolution
-    py = y / resolution
+    ux, uy = wp.cos(angle), wp.sin(angle)
+    px, py = x / resolution, y / resolution
     cx = int(wp.floor(px))
     cy = int(wp.floor(py))
-    step_x = wp.where(ux > ZERO, 1, -1)
-    step_y = wp.where(uy > ZERO, 1, -1)
+    step_x, step_y = wp.where(ux > ZERO_32, 1, -1), wp.where(uy > ZERO_32, 1, -1)
     next_x = next_line(px, ux)
     next_y = next_line(py, uy)
-    gap_x = wp.where(next_x < NEVER, wp.abs(ONE / ux), NEVER)
-    gap_y = wp.where(next_y < NEVER, wp.abs(ONE / uy), NEVER)
+    gap_x = wp.where(next_x < NEVER, wp.abs(ONE_32 / ux), NEVER)
+    gap_y = wp.where(next_y < NEVER, wp.abs(ONE_32 / uy), NEVER)
     # Distances, in cells, between which the position of the stop matters.
     ray = Ray(wp.vec2(x, y), wp.vec2(ux, uy))
     decay = laws.object_decay(law, z)
     last_relevant = law.max_m
-    end = wp.clamp(z, ZERO, law.max_m)
-    margin = MARGIN_SCALES * wp.sqrt(laws.variance_at(law, end, ZERO)) + MARGIN_CELLS * resolution
+    end = wp.clamp(z, ZERO_32, law.max_m)
+    margin = MARGIN_SCALES * wp.sqrt(laws.variance_at(law, end, ZERO_32)) + MARGIN_CELLS * resolution
     first_relevant = (end - margin) / resolution
     if wp.isfinite(z):
         last_relevant = wp.min(last_relevant, z + margin)
     last_relevant = last_relevant / resolution
     # Walk, and sum the density over stops: chance of getting to the cell, times chance and density of its stop.
     entry = wp.min(next_x, next_y)
-    total = ZERO
-    survive = ONE
+    total = ZERO_32
+    survive = ONE_32
     while entry <= last_relevant and survive > MIN_SURVIVAL:
         exit = wp.min(next_x, next_y)
         if cx >= 0 and cx < frame.nx and cy >= 0 and cy < frame.ny:
@@ -99,21 +94,21 @@ def reading_log_density(
                 chance = stop_chance(maps, draw, cell, ray)
                 if chance > MIN_CHANCE:
                     distance = (entry + depth * (exit - entry)) * resolution
-                    variance = ZERO
+                    variance = ZERO_32
                     if maps.surfaces != 0:
                         crossing = cross_surface(maps.surface[draw, cell], ray)
                         distance = crossing.distance_m
                         variance = crossing.variance
                     total += survive * chance * laws.stop_density(law, z, decay, distance, variance)
-                    survive = survive * (ONE - chance)
+                    survive = survive * (ONE_32 - chance)
             elif maps.empty[draw, cell] == wp.uint8(0):
                 chance = stop_chance(maps, draw, cell, ray)
                 density = law.uniform
                 if not wp.isfinite(z):
                     distance = (entry + depth * (exit - entry)) * resolution
-                    density = laws.stop_density(law, z, decay, distance, ZERO)
+                    density = laws.stop_density(law, z, decay, distance, ZERO_32)
                 total += survive * chance * density
-                survive = survive * (ONE - chance)
+                survive = survive * (ONE_32 - chance)
         # Step to the next cell; end outside the grid.
         entry = exit
         if next_x < next_y:

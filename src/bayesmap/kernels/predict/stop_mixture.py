@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from bayesmap.beams.rays import Rays
 from bayesmap.kernels import device as devices
 from bayesmap.kernels import sensor_law as laws
-from bayesmap.kernels.device import Float32s, Float64Rows, Float64s, Floats, Int32s, Ints, Singles
+from bayesmap.kernels.device import ONE, Float32s, Float64Rows, Float64s, Floats, Int32s, Ints, Singles
 from bayesmap.kernels.predict import density
 from bayesmap.kernels.predict.density import DeviceMaps, MapArrays, StopStates
 from bayesmap.kernels.rays import RayArrays, distance_at, line_of, rays_to_device, stop_distances, stretch
@@ -140,7 +140,6 @@ def find_events(
     # -1 if the reading does not reach the stretch, or if the stretch has no length.
     b = first + wp.tid()
     z = range_m[b]
-    one = wp.float64(1.0)
     if wp.isnan(z):
         return
     line = line_of(rays.lines, b)
@@ -158,7 +157,7 @@ def find_events(
             if before < wp.float64(0.0):
                 before = mixture_below(law, stops, b, enter)
             after = mixture_below(law, stops, b, leave)
-            p = (after - before) / wp.max(one - before, MIN_EVENT_CHANCE)
+            p = (after - before) / wp.max(ONE - before, MIN_EVENT_CHANCE)
             chance[k] = wp.float32(wp.clamp(p, MIN_EVENT_CHANCE, MAX_EVENT_CHANCE))
             stopped[k] = wp.where(z < leave, wp.int8(1), wp.int8(0))
             before = after

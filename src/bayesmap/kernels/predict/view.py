@@ -5,7 +5,7 @@ import warp as wp
 from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.device import Float64Rows, Float64s, Floats, Int32s
+from bayesmap.kernels.device import HALF, ONE, Float64Rows, Float64s, Floats, Int32s
 from bayesmap.kernels.predict.density import DeviceMaps, Frame, MapArrays, grid_frame, line_in, stop_on_walk
 from bayesmap.kernels.random import random_bits, to_uniform
 from bayesmap.kernels.rays import Line, walk_along
@@ -103,8 +103,6 @@ def add_beam_information(
     """
     b = first + wp.tid()
     sigma = sigma_m / frame.resolution
-    one = wp.float64(1.0)
-    half = wp.float64(0.5)
     total = wp.float64(0.0)
     survive = wp.float64(1.0)
     # The outer walk w visits the cells j in which the beam may stop. A second walk, behind, trails it: it sums the
@@ -120,8 +118,8 @@ def add_beam_information(
             if is_inside(w, frame.nx, frame.ny):
                 p = occupied[w.cell_x * frame.ny + w.cell_y]
                 weight = survive * p
-                survive = survive * (one - p)
-                middle = half * (enter + leave)
+                survive = survive * (ONE - p)
+                middle = HALF * (enter + leave)
                 low = middle - INTEGRATION_SIGMAS * sigma
                 high = middle + INTEGRATION_SIGMAS * sigma
                 # The walk behind adds the information of passing the cells before all readings about this stop.

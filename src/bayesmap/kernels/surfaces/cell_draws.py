@@ -20,7 +20,7 @@ import numpy as np
 import warp as wp
 
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.device import Float32s, Float64Rows, Int32s, Ints, Uint8s
+from bayesmap.kernels.device import ONE, Float32s, Float64Rows, Int32s, Ints, Uint8s
 from bayesmap.kernels.random import CELLS, beta_or_zero, beta_variate, random_bits, sweep_key, to_uniform
 from bayesmap.kernels.surfaces import surface
 from bayesmap.kernels.surfaces.stops import GAIN_UNITS, LEARNS, NEGLIGIBLE_REFLECTIVITY, ChainArrays
@@ -270,12 +270,11 @@ def status_to_device(cells: int, touched: Ints, counted: Ints, device: str) -> A
 @wp.func
 def log_gamma(x: wp.float64) -> wp.float64:
     """Return the logarithm of the gamma function of a positive number, to 1e-13: Stirling's series from 10 on."""
-    one = wp.float64(1.0)
-    below = one
+    below = ONE
     while x < MIN_STIRLING:
         below = below * x
-        x = x + one
-    y = one / x
+        x = x + ONE
+    y = ONE / x
     z = y * y
     series = STIRLING_7 + z * (STIRLING_9 + z * STIRLING_11)
     series = y * (STIRLING_1 + z * (STIRLING_3 + z * (STIRLING_5 + z * series)))

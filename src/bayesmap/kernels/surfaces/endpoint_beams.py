@@ -16,7 +16,7 @@ import warp as wp
 
 from bayesmap.beams.rays import Rays
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.device import Float32Rows, Int32s, Ints, Singles
+from bayesmap.kernels.device import ONE_32, Float32Rows, Int32s, Ints, Singles
 from bayesmap.kernels.sensor_law import FAR_SQ, MIXTURE, SensorLaw32
 from bayesmap.kernels.surfaces import surface
 from bayesmap.kernels.surfaces.stops import MIN_FACTOR, TracedRays, hit_density
@@ -62,8 +62,7 @@ def endpoint_cells_to_device(rays: Rays, cells: Ints, steps: Singles, device: st
 def crossing_probability_of(line: wp.vec3, dx: wp.float32, dy: wp.float32, cell: Cell) -> wp.float32:
     """Return the chance of meeting a surface whose mean lies (dx, dy) from the cell's centre."""
     offset = line[0] + line[1] * dy - line[2] * dx
-    across_1 = cell[L21] * line[1] - cell[L11] * line[2]
-    across_2 = cell[L22] * line[1]
+    across_1, across_2 = cell[L21] * line[1] - cell[L11] * line[2], cell[L22] * line[1]
     return surface.crossing_probability_at(offset, across_1 * across_1 + across_2 * across_2)
 
 
@@ -97,12 +96,10 @@ def log_stops(
     # Stopped beams come first, because every passing beam makes the sum smaller. product: factors since the last
     # logarithm; (dx, dy): mean relative to the cell's centre.
     endpoints = likelihood.endpoints
-    one = wp.float32(1.0)
     total = wp.float64(0.0)
-    product = one
+    product = ONE_32
     m = cell[REFLECTIVITY]
-    dx = cell[MEAN_X] - centre[0]
-    dy = cell[MEAN_Y] - centre[1]
+    dx, dy = cell[MEAN_X] - centre[0], cell[MEAN_Y] - centre[1]
     for i in range(beams.stopped_begin, beams.stopped_end):
         incidence = beams.entries[i]
         beam = endpoints.beam[incidence]
@@ -115,23 +112,23 @@ def log_stops(
             endpoints.centre_and_range[incidence][1], likelihood.rays.decay[beam], crossing,
         )  # fmt: skip
         product = product * wp.max(m * crossing.chance * p, MIN_FACTOR)
-        if product < MIN_PRODUCT or product > one / MIN_PRODUCT:
+        if product < MIN_PRODUCT or product > ONE_32 / MIN_PRODUCT:
             total += wp.log(wp.float64(product))
-            product = one
+            product = ONE_32
     total += wp.log(wp.float64(product))
     if total < least:
         return total
 
-    product = one
+    product = ONE_32
     floor = wp.max(MIN_PRODUCT, wp.float32(wp.exp(least - total)))
     for i in range(beams.passing_begin, beams.passing_end):
         g = crossing_probability_of(endpoints.line[beams.entries[i]], dx, dy, cell)
-        product = product * wp.max(one - m * g, MIN_FACTOR)
+        product = product * wp.max(ONE_32 - m * g, MIN_FACTOR)
         if product < floor:
             total += wp.log(wp.float64(product))
             if total < least:
                 return total
-            product = one
+            product = ONE_32
             floor = wp.max(MIN_PRODUCT, wp.float32(wp.exp(least - total)))
     return total + wp.log(wp.float64(product))
 
@@ -370,11 +367,8 @@ def log_stops_in_lanes(
     begin = own.begin
     one = Lanes(wp.float32(1.0))
     m = cell[REFLECTIVITY]
-    l11 = cell[L11]
-    l21 = cell[L21]
-    l22 = cell[L22]
-    dx = cell[MEAN_X] - centre[0]
-    dy = cell[MEAN_Y] - centre[1]
+    l11, l21, l22 = cell[L11], cell[L21], cell[L22]
+    dx, dy = cell[MEAN_X] - centre[0], cell[MEAN_Y] - centre[1]
     passing_blocks = block_count(own.n_passing)
     stopped_blocks = block_count(own.n_stopped)
     stopped_begin = begin + stopped_blocks_begin(own.n_passing)

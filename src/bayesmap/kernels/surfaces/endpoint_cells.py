@@ -14,7 +14,7 @@ and log l22, and the frame's cosine and sine. They are fixed beforehand: they ma
 import warp as wp
 
 from bayesmap.kernels import random
-from bayesmap.kernels.device import Int32Rows
+from bayesmap.kernels.device import ONE, ONE_32, Int32Rows
 from bayesmap.kernels.random import nearly_normal, random_bits, sweep_key, to_uniform
 from bayesmap.kernels.surfaces import endpoint_beams, surface
 from bayesmap.kernels.surfaces.cell_draws import AT_ACCEPT, AT_BETA, PER_CELL, place_of
@@ -76,14 +76,13 @@ def propose_step(cell: Cell, step: Cell, key: wp.uint64, counter: wp.uint64, i: 
     # Even steps change logit m, mean along and size, which beams hardly determine: a wide surface that stops few beams
     # looks like a small one that stops many. Odd steps change mean across, slope and thickness.
     size = wp.where(random_bits(key, counter) & wp.uint64(1) == wp.uint64(0), SHORT_STEP, wp.float32(1.0))
-    one = wp.float64(1.0)
     e_1 = size * nearly_normal(random_bits(key, counter + wp.uint64(1)))
     e_2 = size * nearly_normal(random_bits(key, counter + wp.uint64(2)))
     e_3 = size * nearly_normal(random_bits(key, counter + wp.uint64(3)))
     if i % 2 == 0:
         m = wp.float64(cell[REFLECTIVITY])
-        odds = m / wp.max(one - m, MIN_REFLECTIVITY) * wp.float64(wp.exp(e_3 * step[REFLECTIVITY]))
-        moved_m = odds / (one + odds)
+        odds = m / wp.max(ONE - m, MIN_REFLECTIVITY) * wp.float64(wp.exp(e_3 * step[REFLECTIVITY]))
+        moved_m = odds / (ONE + odds)
         if wp.min(m, moved_m) > MIN_REFLECTIVITY and wp.max(m, moved_m) < MAX_REFLECTIVITY:
             cell[REFLECTIVITY] = wp.float32(moved_m)
         cell[MEAN_X] = cell[MEAN_X] + e_1 * step[MEAN_X]
@@ -118,8 +117,7 @@ class BeamLists:
 @wp.func
 def beams_of_cell(lists: BeamLists, endpoints: EndpointCells, chain: int, number: int, hits: int) -> CellBeams:
     """Return the beams of an endpoint cell that stops ``hits`` beams, from the lists of a chain."""
-    begin = endpoints.offsets[number]
-    end = endpoints.offsets[number + 1]
+    begin, end = endpoints.offsets[number], endpoints.offsets[number + 1]
     return CellBeams(number, lists.entries[chain], begin, begin + lists.passes[chain, number], end - hits, end)
 
 
@@ -156,15 +154,12 @@ def count_endpoint_cells(first: int, sweep: int, endpoints: EndpointCells, state
     at = place_of(first + wp.tid(), endpoints.cell, state.n_cells)
     beam_0 = at.chain * state.n_beams
     entries = lists.entries[at.chain]
-    one = wp.float32(1.0)
     key = sweep_key(state.keys[at.chain], sweep, random.MEETINGS)
     cell = state.cells[at.element]
     centre = surface.centre_of(at.cell, state.ny, state.edge_m)
     m = cell[REFLECTIVITY]
-    dx = cell[MEAN_X] - centre[0]
-    dy = cell[MEAN_Y] - centre[1]
-    begin = endpoints.offsets[at.number]
-    end = endpoints.offsets[at.number + 1]
+    dx, dy = cell[MEAN_X] - centre[0], cell[MEAN_Y] - centre[1]
+    begin, end = endpoints.offsets[at.number], endpoints.offsets[at.number + 1]
     # List passing beams from the front, stopped beams from the back.
     passing_end = begin
     stopped_begin = end
@@ -183,7 +178,7 @@ def count_endpoint_cells(first: int, sweep: int, endpoints: EndpointCells, state
         passing = entries[i]
         g = endpoint_beams.crossing_probability_of(endpoints.line[passing], dx, dy, cell)
         u = wp.float32(to_uniform(random_bits(key, wp.uint64(passing))))
-        n_met += wp.where(u * (one - m * g) < g * (one - m), 1, 0)
+        n_met += wp.where(u * (ONE_32 - m * g) < g * (ONE_32 - m), 1, 0)
     lists.passes[at.chain, at.number] = passing_end - begin
     state.last_hits[at.element] = end - stopped_begin
     state.last_met[at.element] = n_met

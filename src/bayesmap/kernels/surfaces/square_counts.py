@@ -19,7 +19,7 @@ import warp as wp
 
 from bayesmap.beams.rays import Rays
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.device import Float32s, Int32s, Ints, Singles, Uint8s
+from bayesmap.kernels.device import ONE, Float32s, Int32s, Ints, Singles, Uint8s
 from bayesmap.kernels.law_table import readings_scale_m, table_log_density
 from bayesmap.kernels.random import BEAMS, CELLS, beta_or_zero, normal, random_bits, sweep_key, to_uniform
 from bayesmap.kernels.rays import Lines, line_of, lines_to_device, stretch
@@ -74,7 +74,6 @@ def point_by_table_m(
 ) -> wp.float64:
     """Draw the distance under a tabulated law, metres; it may be negative."""
     # Middle and scale of the two laws of candidates: the surface's, and the one that the reading suggests.
-    one = wp.float64(1.0)
     scale = LOGISTIC_SCALE * wp.sqrt(variance)
     suggested = mean
     suggested_scale = scale
@@ -101,7 +100,7 @@ def point_by_table_m(
             rank = candidate - CANDIDATES_PER_LAW
         candidate = candidate + 1
         u = (wp.float64(rank) + shift) * PER_CANDIDATE
-        t = middle + width * wp.log(u / (one - u))
+        t = middle + width * wp.log(u / (ONE - u))
         log_weight = wp.float64(table_log_density(law.table, reading, wp.float32(t), wp.float32(0.0), law.max_m))
         log_weight -= wp.float64(0.5) * (t - mean) * (t - mean) / variance
         log_weight -= wp.log(logistic_density(t, mean, scale) + logistic_density(t, suggested, suggested_scale))
@@ -117,7 +116,7 @@ def point_by_table_m(
             chosen = t
             target = target / p
         else:
-            target = (target - p) / (one - p)
+            target = (target - p) / (ONE - p)
     return chosen
 
 
@@ -145,8 +144,7 @@ def count_in_squares(
     """One thread per beam of a chain: count it as stopped in one square, and as stopped before each square behind."""
     beam = wp.tid()
     element = chain * state.n_beams + beam  # in the arrays of all chains
-    begin = rays.offsets[beam]
-    end = rays.offsets[beam + 1]
+    begin, end = rays.offsets[beam], rays.offsets[beam + 1]
     stop = state.stop[element]
     if stop < begin or stop >= end:
         return

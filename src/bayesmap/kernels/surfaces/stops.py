@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 from bayesmap.beams.rays import Rays
 from bayesmap.kernels import device as devices
 from bayesmap.kernels import sensor_law as laws
-from bayesmap.kernels.device import Float32s, Int32Rows, Int32s, Singles, Uint8s
+from bayesmap.kernels.device import ONE_32, Float32s, Int32Rows, Int32s, Singles, Uint8s
 from bayesmap.kernels.random import BEAMS, random_bits, sweep_key, to_uniform
 from bayesmap.kernels.sensor_law import SensorLaw32
 from bayesmap.kernels.surfaces import surface
@@ -181,7 +181,6 @@ def draw_stops(
         Ray(rays.start_m[b], rays.direction[b]), rays.range_m[b], rays.decay[b],
         sweep_key(state.keys[chain], sweep, BEAMS),
     )  # fmt: skip
-    one = wp.float32(1.0)
     if beam.begin == beam.end or wp.isnan(beam.reading):
         state.stop[element] = beam.end
         state.log_likelihood[element] = wp.float32(0.0)
@@ -191,7 +190,7 @@ def draw_stops(
         return
 
     # Far entries: multiply up T, and count passes in cells that learn.
-    survive = one
+    survive = ONE_32
     far_begin = beam.begin
     far_end = beam.near
     if lazy_updates == 0:
@@ -208,10 +207,10 @@ def draw_stops(
         if m_far < wp.float32(0.0) or m_far > NEGLIGIBLE_REFLECTIVITY:
             cell_far = state.cells[beam.cell_0 + c_far]
             g_far = meeting_chance(rays, cell_far, beam.ray)
-            survive = survive * (one - cell_far[REFLECTIVITY] * g_far)
+            survive = survive * (ONE_32 - cell_far[REFLECTIVITY] * g_far)
             if m_far < wp.float32(0.0):
                 count_pass(state, beam, c_far, cell_far, g_far, far_entry, 1)
-    stopped_far = one - survive
+    stopped_far = ONE_32 - survive
     total = wp.float64(tempered(law.uniform, state.beta)) * wp.float64(stopped_far)
     choice = FAR
 
@@ -238,9 +237,9 @@ def draw_stops(
                 u = to_uniform(random_bits(beam.key, STREAM_CHOICE + wp.uint64(near_entry)))
                 if u * total < weight:
                     choice = near_entry
-                survive = survive * (one - a)
+                survive = survive * (ONE_32 - a)
             elif cell_near[REFLECTIVITY] > NEGLIGIBLE_REFLECTIVITY:
-                survive = survive * (one - cell_near[REFLECTIVITY] * meeting_chance(rays, cell_near, beam.ray))
+                survive = survive * (ONE_32 - cell_near[REFLECTIVITY] * meeting_chance(rays, cell_near, beam.ray))
             if survive <= bound:
                 break  # further stops, often many behind a wall, have no weight
     # No stop at all.
@@ -275,30 +274,28 @@ def draw_stops(
 @wp.func
 def count_pass(state: ChainArrays, beam: Beam, c: int, cell: Cell, g: wp.float32, entry: int, sign: int):
     """Count that a beam passed cell c, which it met with chance g; with sign -1, undo the count."""
-    one = wp.float32(1.0)
     m = cell[REFLECTIVITY]
     if cell[TRYING] != wp.float32(0.0):
         candidate_g = surface.crossing_probability(state.candidates[beam.cell_0 + c], beam.ray)
-        log_ratio = wp.log(wp.max(one - m * candidate_g, MIN_FACTOR) / wp.max(one - m * g, MIN_FACTOR))
+        log_ratio = wp.log(wp.max(ONE_32 - m * candidate_g, MIN_FACTOR) / wp.max(ONE_32 - m * g, MIN_FACTOR))
         wp.atomic_add(state.gain, beam.row, c, wp.int64(sign) * to_gain_units(log_ratio))
         return
     u = wp.float32(random_bits(beam.key, wp.uint64(entry)) >> wp.uint64(40)) * TO_UNIT_24
-    if u * (one - m * g) < g * (one - m):
+    if u * (ONE_32 - m * g) < g * (ONE_32 - m):
         wp.atomic_add(state.met, beam.row, c, sign)
 
 
 @wp.func
 def find_far_stop(rays: TracedRays, state: ChainArrays, beam: Beam, target: wp.float32) -> int:
     """Return the far entry at which the chance of a stop so far exceeds ``target``, and undo the counts from it on."""
-    one = wp.float32(1.0)
     choice = FAR
     survive = wp.float32(1.0)
     for entry in range(beam.begin, beam.near):
         c = rays.cells[entry]
         cell = state.cells[beam.cell_0 + c]
         g = meeting_chance(rays, cell, beam.ray)
-        survive = survive * (one - cell[REFLECTIVITY] * g)
-        if choice == FAR and (one - survive >= target or entry == beam.near - 1):
+        survive = survive * (ONE_32 - cell[REFLECTIVITY] * g)
+        if choice == FAR and (ONE_32 - survive >= target or entry == beam.near - 1):
             choice = entry
         if choice != FAR and state.fixed_m[beam.cell_0 + c] < wp.float32(0.0):
             count_pass(state, beam, c, cell, g, entry, -1)

@@ -18,7 +18,7 @@ from scipy import special
 from bayesmap.beams.rays import CROSSING_WIDTH, DIRECTION_RAD
 from bayesmap.cells.reflectivity import KernelNumbers
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.device import Singles
+from bayesmap.kernels.device import HALF, ONE, Singles
 from bayesmap.kernels.random import COUNTERS_PER_GAMMA, log_gamma_variate, normal
 
 CROSSING_WIDTH_SQ = wp.constant(wp.float32(CROSSING_WIDTH**2))
@@ -70,22 +70,17 @@ def crossing_probability(cell: Cell, ray: Ray) -> wp.float32:
     """Return the chance that the beam meets the cell's surface."""
     u = ray.direction
     offset = u[0] * (cell[MEAN_Y] - ray.start_m[1]) - u[1] * (cell[MEAN_X] - ray.start_m[0])
-    across_1 = cell[L21] * u[0] - cell[L11] * u[1]
-    across_2 = cell[L22] * u[0]
+    across_1, across_2 = cell[L21] * u[0] - cell[L11] * u[1], cell[L22] * u[0]
     return crossing_probability_at(offset, across_1 * across_1 + across_2 * across_2)
 
 
 @wp.func
 def cross_at(offset: wp.float32, ahead: wp.float32, cell: Cell, ux: wp.float32, uy: wp.float32) -> Crossing:
     """Return the crossing of a surface whose mean lies ``offset`` beside the beam and ``ahead`` of its start."""
-    l11 = cell[L11]
-    l21 = cell[L21]
-    l22 = cell[L22]
+    l11, l21, l22 = cell[L11], cell[L21], cell[L22]
     # across, along: L' n and L' u; body: n' Sigma n; unsure: variance from the beam's direction.
-    across_1 = l21 * ux - l11 * uy
-    across_2 = l22 * ux
-    along_1 = l11 * ux + l21 * uy
-    along_2 = l22 * uy
+    across_1, across_2 = l21 * ux - l11 * uy, l22 * ux
+    along_1, along_2 = l11 * ux + l21 * uy, l22 * uy
     depth = wp.max(ahead, wp.float32(0.0))
     body = across_1 * across_1 + across_2 * across_2
     unsure = DIRECTION_SQ * depth * depth
@@ -101,8 +96,7 @@ def cross_at(offset: wp.float32, ahead: wp.float32, cell: Cell, ux: wp.float32, 
 def cross_surface(cell: Cell, ray: Ray) -> Crossing:
     """Return the chance that the beam meets the cell's surface, and mean and variance of the distance."""
     u = ray.direction
-    rx = cell[MEAN_X] - ray.start_m[0]
-    ry = cell[MEAN_Y] - ray.start_m[1]
+    rx, ry = cell[MEAN_X] - ray.start_m[0], cell[MEAN_Y] - ray.start_m[1]
     return cross_at(u[0] * ry - u[1] * rx, u[0] * rx + u[1] * ry, cell, u[0], u[1])
 
 
@@ -147,9 +141,8 @@ def pseudo_counts(prior: PriorNumbers, solid: wp.uint8) -> wp.vec2d:
 @wp.func
 def centre_of(c: int, ny: int, edge_m: wp.float64) -> wp.vec2:
     """Return the centre of a cell, metres from the grid's lower left corner."""
-    half = wp.float64(0.5)
-    x = wp.float32((wp.float64(c // ny) + half) * edge_m)
-    return wp.vec2(x, wp.float32((wp.float64(c % ny) + half) * edge_m))
+    x = wp.float32((wp.float64(c // ny) + HALF) * edge_m)
+    return wp.vec2(x, wp.float32((wp.float64(c % ny) + HALF) * edge_m))
 
 
 @wp.func
@@ -175,11 +168,10 @@ def fresh_surface(prior: PriorNumbers, centre: wp.vec2, cell: Cell, key: wp.uint
     """Return the cell with a surface drawn from the prior without `log_size_penalty`, which the acceptance includes."""
     # Sigma^-1 = A A' / psi with Bartlett's lower triangular A. The inverse has the upper factor A^-T sqrt(psi), which
     # becomes a lower factor when x and y are exchanged; the law is symmetric in them. n: next counter.
-    half = wp.float64(0.5)
     n = counter + wp.uint64(COUNTERS_PER_GAMMA)
-    a11 = wp.exp(half * (log_gamma_variate(half * prior.nu, key, counter) + wp.log(wp.float64(2.0))))
-    shape = half * (prior.nu - wp.float64(1.0))
-    a22 = wp.exp(half * (log_gamma_variate(shape, key, n) + wp.log(wp.float64(2.0))))
+    a11 = wp.exp(HALF * (log_gamma_variate(HALF * prior.nu, key, counter) + wp.log(wp.float64(2.0))))
+    shape = HALF * (prior.nu - wp.float64(1.0))
+    a22 = wp.exp(HALF * (log_gamma_variate(shape, key, n) + wp.log(wp.float64(2.0))))
     n = n + wp.uint64(COUNTERS_PER_GAMMA)
     a21 = normal(key, n)
     scale = wp.sqrt(prior.psi_m2)
@@ -200,20 +192,16 @@ def log_surface_prior(prior: PriorNumbers, centre: wp.vec2, cell: Cell) -> wp.fl
     l11 = wp.float64(cell[L11])
     l22 = wp.float64(cell[L22])
     q = wp.float64(cell[L21]) / (l11 * l22)
-    one = wp.float64(1.0)
-    trace = one / (l11 * l11) + one / (l22 * l22) + q * q
-    half = wp.float64(0.5)
-    shape = -prior.nu * wp.log(l11) - (prior.nu + one) * wp.log(l22) - half * prior.psi_m2 * trace
+    trace = ONE / (l11 * l11) + ONE / (l22 * l22) + q * q
+    shape = -prior.nu * wp.log(l11) - (prior.nu + ONE) * wp.log(l22) - HALF * prior.psi_m2 * trace
     shape += log_size_penalty(prior, cell)
-    return shape - half * (x * x + y * y) / (prior.tau_m * prior.tau_m)
+    return shape - HALF * (x * x + y * y) / (prior.tau_m * prior.tau_m)
 
 
 @wp.func
 def log_size_penalty(prior: PriorNumbers, cell: Cell) -> wp.float64:
     """Return the logarithm of the factor that keeps a surface from growing beyond its cell: -tr Sigma / (2 kappa^2)."""
-    l11 = wp.float64(cell[L11])
-    l21 = wp.float64(cell[L21])
-    l22 = wp.float64(cell[L22])
+    l11, l21, l22 = wp.float64(cell[L11]), wp.float64(cell[L21]), wp.float64(cell[L22])
     return wp.float64(-0.5) * (l11 * l11 + l21 * l21 + l22 * l22) / (prior.kappa_m * prior.kappa_m)
 
 

@@ -16,7 +16,7 @@ from bayesmap.beams.rays import MAX_INCIDENCES
 from bayesmap.beams.table import BeamTable
 from bayesmap.errors import BadInput
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.device import Int32s, Uint8s
+from bayesmap.kernels.device import ZERO, Int32s, Uint8s
 from bayesmap.kernels.random import random_bits, to_uniform
 from bayesmap.kernels.walls import chains
 from bayesmap.kernels.walls.chains import Chain, Kept, Sweeps, Table, WallChainArrays, WallPriorArrays
@@ -126,7 +126,6 @@ def list_blocks(table: BeamTable, device: str) -> BlockArrays:
 
 CERTAIN_LEVEL = wp.constant(wp.uint64(chains.CERTAIN_LEVEL))
 IMPOSSIBLE = wp.constant(wp.float64(-1.0e300))  # log weight
-ZERO = wp.constant(wp.float64(0.0))
 
 
 @wp.func

@@ -241,8 +241,7 @@ def entry_loglik(table: Table, beam: int, entry: int, end: int) -> wp.float32:
 @wp.func
 def move_first_wall(table: Table, chain: Chain, beam: int, entry: int):
     """Let a beam end at an entry. Update the beam, and the cells that it reached or now reaches."""
-    start = table.offsets[beam]
-    end = table.offsets[beam + 1]
+    start, end = table.offsets[beam], table.offsets[beam + 1]
     last = chain.first_wall[beam]  # where the beam has ended so far
     chain.first_wall[beam] = entry
     chain.beam_loglik[beam] = entry_loglik(table, beam, entry, end)

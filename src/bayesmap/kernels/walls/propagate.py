@@ -22,7 +22,7 @@ import warp as wp
 
 from bayesmap.beams.table import BeamTable
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.device import Float32Rows, Float32s, Float64s, Floats, Int32s, Singles
+from bayesmap.kernels.device import ONE_32, Float32Rows, Float32s, Float64s, Floats, Int32s, Singles
 
 wp.set_module_options({"enable_backward": False})
 
@@ -80,10 +80,9 @@ def beam_messages(part_0: int, damping: wp.float32, beliefs: BeliefArrays):
     odds = beliefs.odds
     ratio = beliefs.ratio
     behind = beliefs.behind
-    one = wp.float32(1.0)
     for cell in range(received.shape[0]):
         received[cell] = wp.float32(0.0)
-        product[cell] = one
+        product[cell] = ONE_32
     for beam in range(beliefs.bounds[part], beliefs.bounds[part + 1]):
         start = beliefs.offsets[beam]
         end = beliefs.offsets[beam + 1]
@@ -104,19 +103,19 @@ def beam_messages(part_0: int, damping: wp.float32, beliefs: BeliefArrays):
             last_ratio = ratio[entry]
             p_wall = cell_odds / (cell_odds + last_ratio)
             next_ratio = (before + free * relative[entry] + TINY) / (before + free * behind[entry] + TINY)
-            next_ratio = wp.clamp(next_ratio, one / MAX_RATIO, MAX_RATIO)
+            next_ratio = wp.clamp(next_ratio, ONE_32 / MAX_RATIO, MAX_RATIO)
             before += free * p_wall * relative[entry]
-            free *= one - p_wall
+            free *= ONE_32 - p_wall
             if damping == wp.float32(0.5):
                 next_ratio = wp.sqrt(last_ratio * next_ratio)
             else:
-                next_ratio = wp.pow(last_ratio, damping) * wp.pow(next_ratio, one - damping)
+                next_ratio = wp.pow(last_ratio, damping) * wp.pow(next_ratio, ONE_32 - damping)
             ratio[entry] = next_ratio
             # Multiply the messages to the cell; take the logarithm before the product overflows.
             message_product = product[cell] * next_ratio
-            if message_product > MAX_PRODUCT or message_product < one / MAX_PRODUCT:
+            if message_product > MAX_PRODUCT or message_product < ONE_32 / MAX_PRODUCT:
                 received[cell] = received[cell] + wp.log(message_product)
-                message_product = one
+                message_product = ONE_32
             product[cell] = message_product
     for cell in range(received.shape[0]):
         received[cell] = received[cell] + wp.log(product[cell])

@@ -15,7 +15,7 @@ from bayesmap.beams.rays import Rays
 from bayesmap.beams.table import BeamTable, CellIndex
 from bayesmap.kernels import device as devices
 from bayesmap.kernels import rays as traced
-from bayesmap.kernels.device import Float32s, Float64s, Floats, Int32s, Singles, Uint8Rows
+from bayesmap.kernels.device import ONE, ZERO, Float32s, Float64s, Floats, Int32s, Singles, Uint8Rows
 from bayesmap.kernels.random import random_bits
 from bayesmap.kernels.sensor_law import MIXTURE, SensorLaw64, object_decay, sensor_law, stop_log_density
 from bayesmap.kernels.walls.chains import Table, WallPriorArrays, draw_from_prior, table_to_device
@@ -82,22 +82,19 @@ def fill_likelihood(
     no_hit[beam] = wp.float32(0.0)
     if wp.isnan(z):
         return
-    one = wp.float64(1.0)
-    zero = wp.float64(0.0)
-    begin = rays.offsets[beam]
-    end = rays.offsets[beam + 1]
+    begin, end = rays.offsets[beam], rays.offsets[beam + 1]
     line = traced.line_of(rays.lines, beam)
     decay = object_decay(law, z)
-    no_hit[beam] = wp.float32(stop_log_density(law, z, decay, wp.float64(wp.inf), zero))
+    no_hit[beam] = wp.float32(stop_log_density(law, z, decay, wp.float64(wp.inf), ZERO))
     # Entries [near, behind) depend on the noise. All stops before a mixture's normal noise share one likelihood, and so
     # do all stops behind it. Bisection finds their entries.
     near = begin
     behind = end
-    if law.kind == MIXTURE and law.dof == zero and wp.isfinite(z):
-        nearest = (z - MAX_NOISE_SCALES * law.sigma_m) / (one + MAX_NOISE_SCALES * law.sigma_per_m)
+    if law.kind == MIXTURE and law.dof == ZERO and wp.isfinite(z):
+        nearest = (z - MAX_NOISE_SCALES * law.sigma_m) / (ONE + MAX_NOISE_SCALES * law.sigma_per_m)
         near = traced.first_past(line, rays.cells, begin, end, nearest, depth)
-        if MAX_NOISE_SCALES * law.sigma_per_m < one:
-            farthest = (z + MAX_NOISE_SCALES * law.sigma_m) / (one - MAX_NOISE_SCALES * law.sigma_per_m)
+        if MAX_NOISE_SCALES * law.sigma_per_m < ONE:
+            farthest = (z + MAX_NOISE_SCALES * law.sigma_m) / (ONE - MAX_NOISE_SCALES * law.sigma_per_m)
             behind = traced.first_past(line, rays.cells, near, end, farthest, depth)
         if near > begin:
             before = wp.float32(wp.log(law.uniform))
@@ -105,7 +102,7 @@ def fill_likelihood(
                 loglik[entry] = before
     for entry in range(near, behind):
         distance = traced.distance_at(line, rays.cells[entry], depth)
-        loglik[entry] = wp.float32(stop_log_density(law, z, decay, distance, zero))
+        loglik[entry] = wp.float32(stop_log_density(law, z, decay, distance, ZERO))
     if behind < end:
         after = no_hit[beam]
         if z < law.max_m:
