@@ -1,6 +1,5 @@
 """Interpolate a tabulated sensor law (`bayesmap.sensors.tabulated`, which states the coordinates of its nodes)."""
 
-import math
 from typing import Any
 
 import warp as wp
@@ -11,30 +10,11 @@ from bayesmap.sensors.tabulated import WIDEST, TabulatedLaw
 
 MAX_SPREAD = wp.constant(wp.float32(WIDEST))
 
-
-@wp.struct
-class LawTable:
-    """A `TabulatedLaw` on a device."""
-
-    min_log: wp.float32  # log densities and log probabilities are raised to at least this
-    typed: int  # 1 if no return and too close are outcomes of their own
-    most: wp.float32  # asinh of the largest standard offset of a node
-    low_m: wp.float32  # first node of the range of a beam that stops nowhere
-    high_m: wp.float32  # last node
-    min_m: wp.float32  # least range of the sensor
-    # Values at the nodes, as in `TabulatedLaw`.
-    scale_m: Float32s
-    log_density: wp.array3d(dtype=wp.float32)
-    below: wp.array3d(dtype=wp.float32)
-    log_typed: wp.array3d(dtype=wp.float32)
-    log_nowhere: Float32s
-    below_nowhere: Float32s
-    log_typed_nowhere: wp.vec2
-
-
-def law_table_to_device(law: TabulatedLaw, device: str, min_log: float = -math.inf) -> Any:
-    """Put a tabulated law on a device; log densities and log probabilities are raised to at least ``min_log``."""
-    return devices.pack(LawTable, device, min_log=min_log, **vars(law))
+Float32Boxes = wp.array3d(dtype=wp.float32)
+LawTable = devices.struct_like(
+    TabulatedLaw, wp.float32, wp.float32, wp.float32, int, Float32s, wp.float32, Float32Boxes, Float32Boxes,
+    Float32Boxes, Float32s, Float32s, wp.vec2,
+)  # fmt: skip
 
 
 @wp.func
@@ -63,7 +43,7 @@ def interpolate_2d(values: Float32Rows, x: wp.float32, y: wp.float32) -> wp.floa
 
 
 @wp.func
-def interpolate_3d(values: wp.array3d(dtype=wp.float32), x: wp.float32, y: wp.float32, z: wp.float32) -> wp.float32:
+def interpolate_3d(values: Float32Boxes, x: wp.float32, y: wp.float32, z: wp.float32) -> wp.float32:
     """Interpolate trilinearly in three dimensions."""
     node = node_below(x, values.shape[0])
     i = int(node[0])
@@ -93,9 +73,9 @@ def offset_coordinate(table: LawTable, offset: wp.float32) -> wp.float32:
 
 
 @wp.func
-def table_log_density(table: LawTable, reading_m: Any, distance_m: Any, variance: Any, max_m: Any):
-    """Return log p(reading | the beam stops at about the distance), at least ``table.min_log``."""
-    return wp.max(unbounded_log_density(table, reading_m, distance_m, variance, max_m), type(reading_m)(table.min_log))
+def table_log_density(law: Any, reading_m: Any, distance_m: Any, variance: Any):
+    """Return log p(reading | the beam stops at about the distance), at least ``law.min_log``."""
+    return wp.max(unbounded_log_density(law.table, reading_m, distance_m, variance, law.max_m), law.min_log)
 
 
 @wp.func

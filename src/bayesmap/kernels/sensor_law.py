@@ -12,8 +12,9 @@ from typing import Any
 import warp as wp
 from scipy import special
 
+from bayesmap.kernels import device as devices
 from bayesmap.kernels.device import HALF, ONE
-from bayesmap.kernels.law_table import LawTable, law_table_to_device, table_cumulative, table_log_density
+from bayesmap.kernels.law_table import LawTable, table_cumulative, table_log_density
 from bayesmap.sensors.model import LOG_IMPOSSIBLE, RangeLimits, SensorModel
 from bayesmap.sensors.tabulated import tabulated
 
@@ -140,6 +141,7 @@ def _law_struct(name: str, real: Any) -> Any:
     reals = (
         "sigma_m", "sigma_per_m", "dof", "p_random", "p_known", "p_return", "p_no_return", "p_short",
         "rate_short_per_m", "min_m", "max_m",
+        "min_log",  # log densities and log probabilities of a table are raised to at least this
         "log_height", "height",  # density of the standard noise at 0
         "uniform",  # density of a random reading
         "passing",  # density of a passing object at distance 0
@@ -163,9 +165,9 @@ def sensor_law(sensor: SensorModel, limits: RangeLimits, device: str, law: Any =
     parameters = sensor.kernel_parameters()
     if parameters is None:
         # For the sampler of stops, in single precision, no beam may make a map impossible. Predictions have no bound.
-        min_log = LOG_IMPOSSIBLE if law is SensorLaw32 else -math.inf
+        packed.min_log = LOG_IMPOSSIBLE if law is SensorLaw32 else -math.inf
         packed.kind, packed.peak = TABLE, math.inf
-        packed.table = law_table_to_device(tabulated(sensor, limits), device, min_log)
+        packed.table = devices.pack(LawTable, device, **vars(tabulated(sensor, limits)))
         return packed
     packed.kind = MIXTURE if parameters.robust else NOISE
     packed.series = 0.1 if law is SensorLaw32 else 0.002
@@ -310,7 +312,7 @@ def lowest_density(law: Any, reading_m: Any):
 def stop_log_density_without_objects(law: Any, reading_m: Any, distance_m: Any, variance: Any):
     """Return log p(reading | stop) for noise alone and for a table; a typed reading of noise stands for a limit."""
     if law.kind == TABLE:
-        return table_log_density(law.table, reading_m, distance_m, variance, law.max_m)
+        return table_log_density(law, reading_m, distance_m, variance)
     z = reading_m
     if wp.isinf(reading_m):
         z = wp.where(reading_m > type(reading_m)(0.0), law.max_m, law.min_m)

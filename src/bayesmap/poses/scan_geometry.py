@@ -174,8 +174,8 @@ def scan_geometry(
     step = float(np.median(fans.step_rad))
     noise = range_noise_m(np.where((ranges > nearest) & (ranges < limit), ranges, np.nan), step)
     fit = LineFit(max(NORMAL_REACH_M, NORMAL_REACH_SIGMAS * noise), noise)
-    arrays = points_and_normals(ranges, angles, RangeLimits(nearest, limit), fans, fit, device, threads)
-    return ScanGeometry(*arrays, fans, limit, noise, device, threads)
+    scene = points_and_normals(ranges, angles, RangeLimits(nearest, limit), fans, fit, device, threads)
+    return ScanGeometry(scene.points, scene.normals, scene.kind, scene.spread, fans, limit, noise, device, threads)
 
 
 def merged(

@@ -19,28 +19,37 @@ wp.set_module_options({"enable_backward": False})
 
 MIN_THREADED_LOOK_UPS = 100_000  # fewer look-ups of points are done before a second thread has started
 
+Vec2is = wp.array(dtype=wp.vec2i)
 Pyramid = wp.array4d(dtype=wp.uint8)  # likelihood grids with their maxima over blocks: (grids, levels, nx, ny)
 
 
-@wp.struct
-class SearchJobs:
-    """J jobs on a device: job j has ``points[point_begin[j]:point_end[j]]``, and rows of angles of its own."""
+@dataclass(frozen=True, eq=False)
+class Windows:
+    """The searches of J jobs: their points, and the translations and angles to try."""
 
-    points: Vec2ds  # in the sensor's frame
-    point_begin: Int32s
-    point_end: Int32s
-    grid: Int32s
-    origin: Vec2ds  # corner of each grid, metres
-    resolution: wp.float64  # of all grids
-    centre: Vec2ds  # middle of the window, metres
-    half_x: Int32s  # the window's half width, cells
-    half_y: Int32s
-    min_score: Float64s  # scores must exceed this
-    off_centre_cost: Float64s  # cost of a squared cell off the centre, in units of the score
-    angle_rad: Float64s  # angle of each row
-    row_cost: Float64s  # cost of the row's angle
-    job_of_row: Int32s
-    cells: wp.array2d(dtype=wp.vec2i)  # cells of each row's points, with the sensor at the window's centre
+    points: Floats  # all jobs' points one after the other, in the sensor's frame, (N, 2)
+    point_offsets: Ints  # job j has the points from point_offsets[j] to point_offsets[j + 1]
+    grid: Ints  # index of the grid that each job searches, (J,)
+    centres: Floats  # x and y of the middle of each window, (J, 2)
+    half_cells: Ints  # half widths of the windows, in cells, (J, 2)
+    angles_rad: Floats  # angles of all rows
+    angle_costs: Floats  # cost of each angle, in units of the score
+    row_offsets: Ints  # job j has the rows from row_offsets[j] to row_offsets[j + 1]
+    min_scores: Floats  # bound that scores must exceed, (J,)
+    off_centre_costs: Floats  # cost of a squared cell off the centre, in units of the score, (J,)
+
+
+WindowsArrays = devices.struct_like(
+    Windows, Vec2ds, Int32s, Int32s, Vec2ds, Vec2is, Float64s, Float64s, Int32s, Float64s, Float64s
+)
+
+
+@wp.struct
+class Rows:
+    """The rows of all jobs: the points of a job at one angle, with the sensor at the window's centre."""
+
+    job: Int32s
+    cells: wp.array2d(dtype=wp.vec2i)  # cells of each row's points
 
 
 @wp.struct
@@ -75,31 +84,25 @@ class EarlierModes:
 
 
 @wp.struct
-class Stack:
-    """Blocks that each strand, a thread that searches a part of a job, has still to search; the best are on top."""
+class Strands:
+    """The state of the search. A strand is a thread that searches a part of a job's blocks."""
 
-    bound: Float64Rows
-    node: wp.array2d(dtype=wp.vec3i)  # level, dx, dy
-
-
-@wp.struct
-class Best:
-    """The best poses so far."""
-
-    incumbent: Float64s  # best score of each job
+    incumbent: Float64s  # best score so far of each job
     score: Float64s  # best score of each strand
-    node: wp.array(dtype=wp.vec3i)  # row, dx, dy of the strand's best pose; row -1 if there is none
+    pose: wp.array(dtype=wp.vec3i)  # row, dx, dy of this score; row -1 if there is none
+    bound: Float64Rows  # stack of the blocks that a strand has still to search, the best on top
+    node: wp.array2d(dtype=wp.vec3i)  # level, dx, dy of these blocks
 
 
 @wp.func
-def block_score(jobs: SearchJobs, pyramid: Pyramid, block: Block) -> int:
+def block_score(jobs: WindowsArrays, rows: Rows, pyramid: Pyramid, block: Block) -> int:
     """Return the sum, over the points of a job, of the largest value that a translation in the block gives."""
     grid = jobs.grid[block.job]
     nx, ny = pyramid.shape[2], pyramid.shape[3]
     width = 1 << block.level
     total = int(0)
-    for point in range(jobs.point_end[block.job] - jobs.point_begin[block.job]):
-        cell = jobs.cells[block.row, point]
+    for point in range(jobs.point_offsets[block.job + 1] - jobs.point_offsets[block.job]):
+        cell = rows.cells[block.row, point]
         x = cell[0] + block.dx
         y = cell[1] + block.dy
         if x < nx and y < ny and x > -width and y > -width:
@@ -118,38 +121,40 @@ def min_offset_sq(offset: int, width: int) -> wp.float64:
 
 
 @wp.func
-def block_bound(jobs: SearchJobs, pyramid: Pyramid, block: Block) -> wp.float64:
+def block_bound(jobs: WindowsArrays, rows: Rows, pyramid: Pyramid, block: Block) -> wp.float64:
     """Return the bound of the scores in a block, less the cost of its angle and of its distance from the centre."""
-    points = jobs.point_end[block.job] - jobs.point_begin[block.job]
+    points = jobs.point_offsets[block.job + 1] - jobs.point_offsets[block.job]
     scale = wp.float64(1.0) / (wp.float64(255.0) * wp.float64(wp.max(points, 1)))
     width = 1 << block.level
-    offset_cost = jobs.off_centre_cost[block.job] * (min_offset_sq(block.dx, width) + min_offset_sq(block.dy, width))
-    return wp.float64(block_score(jobs, pyramid, block)) * scale - (jobs.row_cost[block.row] + offset_cost)
+    offset_cost = jobs.off_centre_costs[block.job] * (min_offset_sq(block.dx, width) + min_offset_sq(block.dy, width))
+    return wp.float64(block_score(jobs, rows, pyramid, block)) * scale - (jobs.angle_costs[block.row] + offset_cost)
 
 
 @wp.kernel
-def bound_blocks(first: int, jobs: SearchJobs, pyramid: Pyramid, roots: Roots):
+def bound_blocks(
+    first: int, jobs: WindowsArrays, rows: Rows, origins: Vec2ds, resolution: wp.float64, pyramid: Pyramid, roots: Roots
+):
     """One thread per angle of a job: compute the cells of its points, and bound the scores of the largest blocks."""
     # Cells are computed with the sensor at the window's centre.
     row = first + wp.tid()
-    job = jobs.job_of_row[row]
-    corner = jobs.origin[jobs.grid[job]]
-    cosine, sine = wp.cos(jobs.angle_rad[row]), wp.sin(jobs.angle_rad[row])
-    x0 = jobs.centre[job][0] - corner[0]
-    y0 = jobs.centre[job][1] - corner[1]
-    for i in range(jobs.point_end[job] - jobs.point_begin[job]):
-        point = jobs.points[jobs.point_begin[job] + i]
-        x = int(wp.floor((x0 + cosine * point[0] - sine * point[1]) / jobs.resolution))
-        y = int(wp.floor((y0 + sine * point[0] + cosine * point[1]) / jobs.resolution))
-        jobs.cells[row, i] = wp.vec2i(x, y)
+    job = rows.job[row]
+    corner = origins[jobs.grid[job]]  # of the grid, metres
+    cosine, sine = wp.cos(jobs.angles_rad[row]), wp.sin(jobs.angles_rad[row])
+    x0 = jobs.centres[job][0] - corner[0]
+    y0 = jobs.centres[job][1] - corner[1]
+    for i in range(jobs.point_offsets[job + 1] - jobs.point_offsets[job]):
+        point = jobs.points[jobs.point_offsets[job] + i]
+        x = int(wp.floor((x0 + cosine * point[0] - sine * point[1]) / resolution))
+        y = int(wp.floor((y0 + sine * point[0] + cosine * point[1]) / resolution))
+        rows.cells[row, i] = wp.vec2i(x, y)
     level = pyramid.shape[1] - 1
     width = 1 << level
     node = roots.row_begin[row]
-    dx = -jobs.half_x[job]
-    while dx <= jobs.half_x[job]:
-        dy = -jobs.half_y[job]
-        while dy <= jobs.half_y[job]:
-            roots.bound[node] = block_bound(jobs, pyramid, Block(job, row, level, dx, dy))
+    dx = -jobs.half_cells[job][0]
+    while dx <= jobs.half_cells[job][0]:
+        dy = -jobs.half_cells[job][1]
+        while dy <= jobs.half_cells[job][1]:
+            roots.bound[node] = block_bound(jobs, rows, pyramid, Block(job, row, level, dx, dy))
             roots.node[node] = wp.vec3i(row, dx, dy)
             node += 1
             dy += width
@@ -172,34 +177,34 @@ def is_near_earlier(earlier: EarlierModes, block: Block) -> bool:
 
 @wp.kernel
 def search_blocks(
-    first: int, strands: int, jobs: SearchJobs, roots: Roots, pyramid: Pyramid, earlier: EarlierModes, stack: Stack,
-    best: Best,
+    first: int, per_job: int, jobs: WindowsArrays, rows: Rows, roots: Roots, pyramid: Pyramid, earlier: EarlierModes,
+    strands: Strands,
 ):  # fmt: skip
-    """One thread per strand of a job: search every ``strands``-th of the job's largest blocks, best bound first."""
+    """One thread per strand of a job: search every ``per_job``-th of the job's largest blocks, best bound first."""
     # Strands share the best score of the job. An outdated value costs time, but does not change the result.
     strand = first + wp.tid()
-    job = strand / strands
-    best_score = wp.float64(jobs.min_score[job])  # of the strand
+    job = strand / per_job
+    best_score = wp.float64(jobs.min_scores[job])  # of the strand
     best_node = wp.vec3i(-1, 0, 0)
-    rank = roots.begin[job] + strand - job * strands
+    rank = roots.begin[job] + strand - job * per_job
     while rank < roots.begin[job + 1]:
         root = roots.order[rank]
-        rank += strands
-        if roots.bound[root] < wp.max(best_score, best.incumbent[job]) or roots.bound[root] <= jobs.min_score[job]:
+        rank += per_job
+        if roots.bound[root] < wp.max(best_score, strands.incumbent[job]) or roots.bound[root] <= jobs.min_scores[job]:
             break
         row = roots.node[root][0]
-        stack.bound[strand, 0] = roots.bound[root]
-        stack.node[strand, 0] = wp.vec3i(pyramid.shape[1] - 1, roots.node[root][1], roots.node[root][2])
+        strands.bound[strand, 0] = roots.bound[root]
+        strands.node[strand, 0] = wp.vec3i(pyramid.shape[1] - 1, roots.node[root][1], roots.node[root][2])
         size = int(1)
         while size > 0:
             size -= 1
-            limit = wp.max(best_score, best.incumbent[job])
-            value = stack.bound[strand, size]
-            if value < limit or value <= jobs.min_score[job]:
+            limit = wp.max(best_score, strands.incumbent[job])
+            value = strands.bound[strand, size]
+            if value < limit or value <= jobs.min_scores[job]:
                 continue
-            level = stack.node[strand, size][0]
-            left = stack.node[strand, size][1]
-            bottom = stack.node[strand, size][2]
+            level = strands.node[strand, size][0]
+            left = strands.node[strand, size][1]
+            bottom = strands.node[strand, size][2]
             # A single translation: keep it if it is better, or equal and earlier in the order.
             if level == 0:
                 better = value > best_score
@@ -211,8 +216,8 @@ def search_blocks(
                 if better:
                     best_score = value
                     best_node = wp.vec3i(row, left, bottom)
-                    if value > best.incumbent[job]:
-                        best.incumbent[job] = value
+                    if value > strands.incumbent[job]:
+                        strands.incumbent[job] = value
                 continue
             # Push those of the block's quarters that can still win.
             half = 1 << (level - 1)
@@ -220,40 +225,24 @@ def search_blocks(
             for child in range(4):
                 dx = left + half * (child / 2)
                 dy = bottom + half * (child % 2)
-                if dx > jobs.half_x[job] or dy > jobs.half_y[job]:
+                if dx > jobs.half_cells[job][0] or dy > jobs.half_cells[job][1]:
                     continue
                 block = Block(job, row, level - 1, dx, dy)
                 if is_near_earlier(earlier, block):
                     continue
-                score = block_bound(jobs, pyramid, block)
-                if score < limit or score <= jobs.min_score[job]:
+                score = block_bound(jobs, rows, pyramid, block)
+                if score < limit or score <= jobs.min_scores[job]:
                     continue
                 place = size  # children in ascending order, so that the best is on top
-                while place > base and stack.bound[strand, wp.max(place - 1, 0)] > score:
-                    stack.bound[strand, place] = stack.bound[strand, place - 1]
-                    stack.node[strand, place] = stack.node[strand, place - 1]
+                while place > base and strands.bound[strand, wp.max(place - 1, 0)] > score:
+                    strands.bound[strand, place] = strands.bound[strand, place - 1]
+                    strands.node[strand, place] = strands.node[strand, place - 1]
                     place -= 1
-                stack.bound[strand, place] = score
-                stack.node[strand, place] = wp.vec3i(level - 1, dx, dy)
+                strands.bound[strand, place] = score
+                strands.node[strand, place] = wp.vec3i(level - 1, dx, dy)
                 size += 1
-    best.score[strand] = best_score
-    best.node[strand] = best_node
-
-
-@dataclass(frozen=True, eq=False)
-class Windows:
-    """The searches of J jobs: their points, and the translations and angles to try."""
-
-    points: Floats  # all jobs' points one after the other, in the sensor's frame, (N, 2)
-    point_offsets: Ints  # job j has the points from point_offsets[j] to point_offsets[j + 1]
-    grid: Ints  # index of the grid that each job searches, (J,)
-    centres: Floats  # x and y of the middle of each window, (J, 2)
-    half_cells: Ints  # half widths of the windows, in cells, (J, 2)
-    angles_rad: Floats  # angles of all rows
-    angle_costs: Floats  # cost of each angle, in units of the score
-    row_offsets: Ints  # job j has the rows from row_offsets[j] to row_offsets[j + 1]
-    min_scores: Floats  # bound that scores must exceed, (J,)
-    off_centre_costs: Floats  # cost of a squared cell off the centre, in units of the score, (J,)
+    strands.score[strand] = best_score
+    strands.pose[strand] = best_node
 
 
 @dataclass(frozen=True)
@@ -276,11 +265,10 @@ def search_grids(
     n_jobs, n_strands = len(windows.grid), len(windows.grid) * strands
     n_look_ups = len(windows.angles_rad) * len(windows.points) / max(n_jobs, 1)
     threads = 1 if n_look_ups < MIN_THREADED_LOOK_UPS else threads
-    jobs, roots = _bound_roots(grids, windows, threads)
-    deepest = 4 * pyramid.shape[1] + 4  # four children a level
+    jobs, rows, roots = _bound_roots(grids, windows, threads)
     earlier = devices.pack(EarlierModes, device, apart=wp.vec3i(*modes.apart))
-    stack = devices.pack(Stack, device, bound=(n_strands, deepest), node=(n_strands, deepest))
-    best = devices.pack(Best, device, score=(n_strands,), node=(n_strands,))
+    stack = (n_strands, 4 * pyramid.shape[1] + 4)  # at most four children a level
+    state = devices.pack(Strands, device, score=(n_strands,), pose=(n_strands,), bound=stack, node=stack)
     min_scores = windows.min_scores
     scores = np.full((n_jobs, modes.count), -np.inf)
     nodes = np.zeros((n_jobs, modes.count, 3), dtype=np.int64)
@@ -290,44 +278,41 @@ def search_grids(
             min_scores = np.where(
                 np.isfinite(scores[:, 0]), np.maximum(min_scores, modes.min_score_ratio * scores[:, 0]), np.inf
             )
-        jobs.min_score = devices.to_device(min_scores, wp.float64, device)
+        jobs.min_scores = devices.to_device(min_scores, wp.float64, device)
         earlier_nodes = np.where(nodes[..., :1] >= 0, nodes, -(1 << 28)).astype(np.int32)
         earlier.node, earlier.count = devices.to_device(earlier_nodes, wp.vec3i, device), mode
-        best.incumbent = devices.to_device(min_scores.copy(), wp.float64, device)
-        devices.launch(search_blocks, n_strands, [strands, jobs, roots, pyramid, earlier, stack, best], device, threads)
+        state.incumbent = devices.to_device(min_scores.copy(), wp.float64, device)
+        inputs = [strands, jobs, rows, roots, pyramid, earlier, state]
+        devices.launch(search_blocks, n_strands, inputs, device, threads)
         # Take the best of each job's strands, among equal scores the first by angle, x and y.
-        node = best.node.numpy().reshape(n_jobs, strands, 3)
-        score = np.where(node[..., 0] >= 0, best.score.numpy().reshape(n_jobs, strands), -np.inf)
+        node = state.pose.numpy().reshape(n_jobs, strands, 3)
+        score = np.where(node[..., 0] >= 0, state.score.numpy().reshape(n_jobs, strands), -np.inf)
         winners = np.lexsort((node[..., 2], node[..., 1], node[..., 0], -score))[:, 0]
         scores[:, mode], nodes[:, mode] = (a[np.arange(n_jobs), winners] for a in (score, node))
     return scores, nodes
 
 
-def _bound_roots(grids: Any, windows: Windows, threads: int | None) -> tuple[Any, Any]:
-    """Put the jobs on the device, and their largest blocks with their bounds."""
+def _bound_roots(grids: Any, windows: Windows, threads: int | None) -> tuple[Any, Any, Any]:
+    """Put jobs, rows and roots on the device: the largest blocks of all jobs, with their bounds."""
     pyramid, device = grids.pyramid, grids.device
-    count, rows = len(windows.grid), len(windows.angles_rad)
+    count, n_rows = len(windows.grid), len(windows.angles_rad)
     width = 1 << (pyramid.shape[1] - 1)
-    half_x, half_y = np.ascontiguousarray(windows.half_cells.T)
     job_of_row = np.repeat(np.arange(count, dtype=np.int32), np.diff(windows.row_offsets))
     # Arrays that kernels fill whole are not zeroed first.
     max_points = int(np.diff(windows.point_offsets).max(initial=1))
-    jobs = devices.pack(
-        SearchJobs, device, points=windows.points, point_begin=windows.point_offsets[:-1],
-        point_end=windows.point_offsets[1:], grid=windows.grid, origin=grids.origins,
-        resolution=grids.resolution, centre=windows.centres, half_x=half_x, half_y=half_y,
-        off_centre_cost=windows.off_centre_costs, angle_rad=windows.angles_rad, row_cost=windows.angle_costs,
-        job_of_row=job_of_row, cells=wp.empty((rows, max_points), dtype=wp.vec2i, device=device),
-    )  # fmt: skip
+    jobs = devices.pack(WindowsArrays, device, **vars(windows))
+    cells = wp.empty((n_rows, max_points), dtype=wp.vec2i, device=device)
+    rows = devices.pack(Rows, device, job=job_of_row, cells=cells)
     node_begin = np.concatenate([[0], np.cumsum(np.prod(2 * windows.half_cells // width + 1, axis=1)[job_of_row])])
     job_nodes = node_begin[windows.row_offsets].astype(np.int32)
     bound, node = (wp.empty(int(node_begin[-1]), dtype=kind, device=device) for kind in (wp.float64, wp.vec3i))
     roots = devices.pack(Roots, device, bound=bound, node=node, row_begin=node_begin[:-1])
-    devices.launch(bound_blocks, rows, [jobs, pyramid, roots], device, threads)
+    inputs = [jobs, rows, grids.origins, grids.resolution, pyramid, roots]
+    devices.launch(bound_blocks, n_rows, inputs, device, threads)
     bounds = roots.bound.numpy()
     if count == 1:
         order = np.argsort(-bounds, kind="stable")
     else:
         order = np.lexsort((-bounds, np.repeat(np.arange(count), np.diff(job_nodes))))
     roots.order, roots.begin = (devices.to_device(a, wp.int32, device) for a in (order, job_nodes))
-    return jobs, roots
+    return jobs, rows, roots

@@ -155,20 +155,11 @@ def scan_normals(first: int, scene: ScanArrays, reach_m: wp.float32, noise_m: wp
             scene.kind[scan, beam] = WITH_NORMAL
 
 
-class PointArrays(NamedTuple):
-    """The arrays of a `bayesmap.poses.scan_geometry.ScanGeometry` of S scans of up to B beams, (S, B) on the device."""
-
-    points: Any
-    normals: Any
-    kind: Any
-    spread: Any
-
-
 def points_and_normals(
     ranges_m: Floats, angles_rad: Floats, limits: RangeLimits, fans: Any, fit: LineFit, device: str = "cpu",
     threads: int | None = None,
-) -> PointArrays:  # fmt: skip
-    """Compute points, normals, kinds and spreads of scans.
+) -> Any:  # fmt: skip
+    """Compute the `ScanArrays` of scans, with points, normals, kinds and spreads.
 
     Readings are (S, B), NaN past a scan's last beam; ascending angles (1, B) for all scans, or (S, B). Readings between
     the limits are points. ``fans`` is a `bayesmap.poses.scan_geometry.Fans`.
@@ -177,26 +168,26 @@ def points_and_normals(
     scans, beams = ranges_m.shape
     points, normals = (wp.empty((scans, beams), dtype=wp.vec2f, device=device) for _ in range(2))
     kind = wp.empty((scans, beams), dtype=wp.uint8, device=device)
-    arrays = PointArrays(points, normals, kind, wp.empty((scans, beams), dtype=wp.float32, device=device))
-    scene = _pack_scans(arrays, fans, 1, device)
+    spread = wp.empty((scans, beams), dtype=wp.float32, device=device)
+    scene = _pack_fans(fans, device, points=points, normals=normals, kind=kind, spread=spread)
     devices.launch(scan_points, scans, [ranges_m, angles_rad, limits.min_m, limits.max_m, scene], device, threads)
     devices.launch(scan_normals, scans, [scene, fit.reach_m, fit.noise_m], device, threads)
-    return arrays
+    return scene
 
 
-def _pack_scans(arrays: Any, fans: Any, stride: int, device: str) -> Any:
-    """Return the struct of a `ScanGeometry` or of `PointArrays`."""
+def _pack_fans(fans: Any, device: str, **fields: Any) -> Any:
+    """Return the `ScanArrays` with these fields, for scans with these directions of beams."""
     return devices.pack(
-        ScanArrays, device, points=arrays.points, normals=arrays.normals, kind=arrays.kind, spread=arrays.spread,
-        beam_of_angle=fans.beam_of_angle, layout=fans.layout, beams=fans.beams, step=fans.step_rad,
-        full_circle=fans.full_circle, stride=stride,
+        ScanArrays, device, beam_of_angle=fans.beam_of_angle, layout=fans.layout, beams=fans.beams,
+        step=fans.step_rad, full_circle=fans.full_circle, **fields,
     )  # fmt: skip
 
 
 def scan_arrays(geometry: Any, stride: int = 1) -> Any:
     """Return a `bayesmap.poses.scan_geometry.ScanGeometry` as kernels read it; it is packed once for each stride."""
     if stride not in geometry.packed:
-        geometry.packed[stride] = _pack_scans(geometry, geometry.fans, stride, geometry.device)
+        fields = {name: getattr(geometry, name) for name in ("points", "normals", "kind", "spread")}
+        geometry.packed[stride] = _pack_fans(geometry.fans, geometry.device, stride=stride, **fields)
     return geometry.packed[stride]
 
 

@@ -101,7 +101,7 @@ def point_by_table_m(
         candidate = candidate + 1
         u = (wp.float64(rank) + shift) * PER_CANDIDATE
         t = middle + width * wp.log(u / (ONE - u))
-        log_weight = wp.float64(table_log_density(law.table, reading, wp.float32(t), wp.float32(0.0), law.max_m))
+        log_weight = wp.float64(table_log_density(law, reading, wp.float32(t), wp.float32(0.0)))
         log_weight -= wp.float64(0.5) * (t - mean) * (t - mean) / variance
         log_weight -= wp.log(logistic_density(t, mean, scale) + logistic_density(t, suggested, suggested_scale))
         if t < wp.float64(0.0):

@@ -10,6 +10,7 @@ chains. `StopChains.sweeps` is the main function, and `StopChains._sweep_launche
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
+from itertools import product
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -62,22 +63,16 @@ class Launch(NamedTuple):
     inputs: list[Any]
 
 
-class ChainPart(NamedTuple):
-    """A part of the elements of neighbouring chains, the unit of work of one thread."""
-
-    chains: range
-    part: int  # 0 to `ChainArrays.parts` - 1
-
-
 class SweepRequest(NamedTuple):
     """The arguments of one call of `StopChains.sweeps`, and its results on the device."""
 
     first: int
+    count: int
     steps: int
     observe_from: int | None
-    law: Any  # `SensorLaw32`
+    before: Callable[[int, int], None] | None
+    after: Callable[[int, int], None] | None
     likelihood: Any  # `StopLikelihood`
-    prior: Any  # `PriorNumbers`
     laws_changed: bool  # sensor, prior or beta differ from those of the last call
     is_start: bool  # the chains have not made a sweep yet
     log_likelihood: Any  # (chains, sweeps)
@@ -90,13 +85,6 @@ class ChainStops(NamedTuple):
     stopped: NDArray[np.bool_]  # false for a beam that stopped nowhere
     distance_m: Singles
     variance: Singles  # of the distance, square metres
-
-
-def _report(callback: Callable[[int, int], None] | None, chains: range, sweep: int) -> None:
-    """Call a callback, if any, with each chain and the sweep."""
-    if callback is not None:
-        for chain in chains:
-            callback(chain, sweep)
 
 
 class StopChains:
@@ -126,7 +114,8 @@ class StopChains:
         counted = plan.endpoints[:0] if self.without_surfaces else plan.endpoints
         self._status = cell_draws.status_to_device(cells, plan.rays.touched, counted, device)
         self._laws: tuple[Any, ...] = ()  # sensor, prior and beta of the last sweep; empty if cells were replaced since
-        self._last_request: SweepRequest | None = None
+        self._law: Any = None  # `SensorLaw32` of the last sweep; None before the first one
+        self._prior: Any = None  # `PriorNumbers` of the last sweep
         self._squares = square_arrays(plan.rays, 0 if self.without_surfaces else chains, device)
 
         # The state of all chains, with labels and counts from the host if given.
@@ -166,40 +155,44 @@ class StopChains:
         `in_squares` counts them. The callbacks get the numbers of chain and sweep, ``after`` on the thread of the
         sweep. Returns log-likelihood and log prior of the cells *before* each sweep, (chains, count) each.
         """
-        law = sensor_law(sensor, self.plan.rays.limits, self.device, SensorLaw32)
         changed, is_start = self._laws != (sensor, prior, beta), not self.swept
         self._laws, self._state.beta = (sensor, prior, beta), beta
+        law = sensor_law(sensor, self.plan.rays.limits, self.device, SensorLaw32)
+        self._law, self._prior = law, pack_prior(prior)
         if changed:
-            self._launch(stops.compute_decays, self.plan.rays.n_beams, [law, self._rays])
+            wp.launch(stops.compute_decays, dim=self.plan.rays.n_beams, inputs=[0, law, self._rays], device=self.device)
         sums = [wp.zeros((self.n_chains, count), dtype=wp.float64, device=self.device) for _ in range(2)]
         likelihood = devices.pack(
             StopLikelihood, self.device, law=law, beta=beta, rays=self._rays, endpoints=self._endpoints
         )
-        packed = law, likelihood, pack_prior(prior)
-        request = SweepRequest(first, steps, observe_from, *packed, changed, is_start, *sums)
-        self._last_request = request
-
-        def make_sweeps(chains: range, launch_all: Callable[[Launch], None]) -> None:
-            """Make all sweeps of neighbouring chains; ``launch_all`` runs a kernel for all of them."""
-            for sweep in range(first, first + count):
-                _report(before, chains, sweep)
-                for launch in self._sweep_launches(request, sweep):
-                    launch_all(launch)
-                _report(after, chains, sweep)
-
-        def sweep_alone(chains: range) -> None:
-            """Make all sweeps of neighbouring chains on this thread."""
-            make_sweeps(chains, lambda launch: self._launch_part(launch, ChainPart(chains, 0)))
-
+        arguments = first, count, steps, observe_from, before, after
+        request = SweepRequest(*arguments, likelihood, changed, is_start, *sums)
         single_chains = [range(chain, chain + 1) for chain in range(self.n_chains)]
         if self.device != "cpu":
-            sweep_alone(range(self.n_chains))
+            self._sweep_alone(request, range(self.n_chains))
         elif self._state.parts == 1:
-            self._map(sweep_alone, single_chains)
+            self._map(partial(self._sweep_alone, request), single_chains)
         else:  # every kernel ends in all parts of all chains before the next one starts
-            parts = [ChainPart(chain, part) for chain in single_chains for part in range(self._state.parts)]
-            make_sweeps(range(self.n_chains), lambda launch: self._map(partial(self._launch_part, launch), parts))
+            parts = list(product(single_chains, range(self._state.parts)))
+            all_chains = range(self.n_chains)
+            self._make_sweeps(request, all_chains, lambda launch: self._map(partial(self._launch_part, launch), parts))
         return request.log_likelihood.numpy(), request.log_prior.numpy()
+
+    def _sweep_alone(self, request: SweepRequest, chains: range) -> None:
+        """Make all sweeps of neighbouring chains on this thread."""
+        self._make_sweeps(request, chains, lambda launch: self._launch_part(launch, (chains, 0)))
+
+    def _make_sweeps(self, request: SweepRequest, chains: range, run: Callable[[Launch], None]) -> None:
+        """Make all sweeps of neighbouring chains; ``run`` runs a kernel for all of them."""
+        for sweep in range(request.first, request.first + request.count):
+            if request.before is not None:
+                for chain in chains:
+                    request.before(chain, sweep)
+            for launch in self._sweep_launches(request, sweep):
+                run(launch)
+            if request.after is not None:
+                for chain in chains:
+                    request.after(chain, sweep)
 
     def _sweep_launches(self, request: SweepRequest, sweep: int) -> list[Launch]:
         """Return the launches of a sweep in their order."""
@@ -207,13 +200,13 @@ class StopChains:
         is_first = sweep == request.first
         # Reset counts, and draw candidates. Lazy cells keep their part in a beam's chance until they are updated.
         outdated = int(request.laws_changed and is_first)
-        inputs = [sweep, request.prior, outdated, self._active, state, self._log_priors]
+        inputs = [sweep, self._prior, outdated, self._active, state, self._log_priors]
         launches = [Launch(cell_draws.begin_sweep, touched, inputs)]
         lazy, lazy_before = (int(self._schedule.updates_lazy(number)) for number in (sweep, sweep - 1))
         if not lazy and (lazy_before or (request.is_start and is_first)):
             launches.append(Launch(stops.pass_lazy_cells, beams, [self._lazy, self._rays, state]))
         # Draw the stops given the cells, then the cells given the stops.
-        launches.append(Launch(stops.draw_stops, beams, [sweep, lazy, request.law, self._rays, state]))
+        launches.append(Launch(stops.draw_stops, beams, [sweep, lazy, self._law, self._rays, state]))
         if request.steps > 0:
             launches += self._cell_launches(request, sweep)
         # Sum the log joint of the cells before the sweep.
@@ -228,7 +221,7 @@ class StopChains:
 
     def _cell_launches(self, request: SweepRequest, sweep: int) -> list[Launch]:
         """Return the launches that draw the cells given the stops."""
-        state, prior = self._state, request.prior
+        state, prior = self._state, self._prior
         touched, endpoints = len(self.plan.rays.touched), 0 if self.without_surfaces else len(self.plan.endpoints)
         label_sums, inputs = self._slices[2], [sweep, self._endpoints, state, self._lists]
         launches = [Launch(endpoint_cells.count_endpoint_cells, endpoints, inputs)]
@@ -243,9 +236,9 @@ class StopChains:
             launches.append(Launch(cell_draws.count_observed, touched, [self._active, state]))
         return launches
 
-    def _launch_part(self, launch: Launch, chain_part: ChainPart) -> None:
+    def _launch_part(self, launch: Launch, chains_and_part: tuple[range, int]) -> None:
         """Launch a kernel over a part of the elements of neighbouring chains."""
-        (kernel, size, inputs), (chains, part) = launch, chain_part
+        (kernel, size, inputs), (chains, part) = launch, chains_and_part
         begin, end = (size * i // self._state.parts for i in (part, part + 1))
         if len(chains) > 1:  # all elements of all chains: several chains are launched together only without parts
             end = size * len(chains)
@@ -254,10 +247,6 @@ class StopChains:
             by_parts = kernel in (stops.draw_stops, endpoint_cells.update_endpoint_cells)
             inputs = [first, part, *inputs] if by_parts else [first, *inputs]
             wp.launch(kernel, dim=end - begin, inputs=inputs, device=self.device)
-
-    def _launch(self, kernel: Any, size: int, inputs: list[Any]) -> None:
-        """Launch a kernel over ``size`` elements."""
-        wp.launch(kernel, dim=size, inputs=[0, *inputs], device=self.device)
 
     def _map(self, work: Callable[[Any], None], tasks: Sequence[Any]) -> None:
         """Do all tasks, on the pool of threads if there are several of both."""
@@ -283,7 +272,7 @@ class StopChains:
         wp.copy(self._state.cells[of_chain], cells_to_device(states, self.device))
         if solid is not None:
             wp.copy(self._state.solid[of_chain], wp.array(solid.astype(np.uint8), dtype=wp.uint8, device=self.device))
-        self._laws, self._last_request = (), None  # numbers computed from the cells before are out of date
+        self._laws, self._law = (), None  # numbers computed from the cells before are out of date
 
     def solid(self, chain: int) -> NDArray[np.bool_]:
         """Return the labels of all cells of a chain, (N,), valid until the next sweep; all free if cells have none."""
@@ -291,9 +280,10 @@ class StopChains:
 
     def draw_untouched(self, sweep: int) -> None:
         """Draw the reflectivities of cells that no beam touches, which sweeps leave out, before the sweep ``sweep``."""
-        assert self._last_request is not None, "no sweep has been made"
+        assert self.swept, "no sweep has been made"
         size = self.n_chains * self._state.n_cells
-        self._launch(cell_draws.draw_untouched, size, [sweep, self._last_request.prior, self._status, self._state])
+        inputs = [0, sweep, self._last_self._prior, self._status, self._state]
+        wp.launch(cell_draws.draw_untouched, dim=size, inputs=inputs, device=self.device)
 
     def counted(self, chain: int) -> tuple[Ints, Ints]:
         """Return the beams that each cell stopped, and that met its surface and passed, (N,) each, when it last drew
@@ -304,24 +294,24 @@ class StopChains:
     @property
     def swept(self) -> bool:
         """Whether these chains have made a sweep on this device, so that beams have stopped somewhere."""
-        return self._last_request is not None
+        return self._law is not None
 
     def in_squares(self, chain: int, sweep: int, kept: bool, solid: NDArray[np.bool_] | None = None) -> InSquares:
         """Count the stops of a chain with surfaces in each square, after its last sweep, which has this number.
         If ``kept``, `observed_counts` counts the draw. ``solid`` holds the labels before the sweep, (N,), if any.
         """
         assert self._squares, "cells without surfaces stop beams inside their own squares"
-        assert self._last_request is not None, "no sweep has been made"
-        request, squares, touched, state = self._last_request, self._squares[chain], self.plan.rays.touched, self._state
+        assert self.swept, "no sweep has been made"
+        squares, touched, state = self._squares[chain], self.plan.rays.touched, self._state
         # Count the stops of beams in squares, then draw each square's chance of a stop given its counts.
         squares.stopped_inside.zero_()
         squares.stopped_before.zero_()
-        inputs = [chain, sweep, request.law, self._rays, state, squares]
+        inputs = [chain, sweep, self._law, self._rays, state, squares]
         wp.launch(count_in_squares, dim=state.n_beams, inputs=inputs, device=self.device)
         labels = state.solid[chain * state.n_cells : (chain + 1) * state.n_cells]
         if solid is not None:
             labels = devices.to_device(solid, wp.uint8, self.device)
-        inputs = [chain, sweep, request.prior, state, squares, labels, int(kept)]
+        inputs = [chain, sweep, self._prior, state, squares, labels, int(kept)]
         wp.launch(draw_stop_chances, dim=len(touched), inputs=inputs, device=self.device)
         arrays = squares.crossings, squares.stopped_inside, squares.stopped_before
         crossings, stopped, stopped_before = (a.numpy()[touched] for a in arrays)

@@ -42,13 +42,8 @@ def trace(
     """
     if reach_m is None:
         reach_m = sensor.reach_m(scans.ranges_m.ravel(), RangeLimits(scans.min_range_m, scans.max_range_m))
-    rays = traced.trace_rays(scans, grid, reach_m=reach_m, device=device)
-    return table_of(rays, sensor, hit_depth=hit_depth, device=device)
-
-
-def table_of(rays: Rays, sensor: SensorModel, *, hit_depth: float = 0.0, device: str = "cpu") -> BeamTable:
-    """Build the beam table of rays; `trace` documents the arguments."""
     device = devices.resolve(device)
+    rays = traced.trace_rays(scans, grid, reach_m=reach_m, device=device)
     if sensor.kernel_parameters() is None:
         loglik, no_hit = _fill_by_model(sensor, rays, traced.stop_distances(rays, hit_depth, device))
     else:
@@ -177,10 +172,6 @@ def index_by_cell(table: BeamTable) -> CellIndex:
     return index
 
 
-DeviceTable = Any  # a `Table` on a device, from `table_to_device`
-DevicePrior = Any  # `WallPriorArrays` on a device, from `wall_prior_to_device`
-
-
 @wp.func
 def is_particle_wall(
     prior: WallPriorArrays, key: wp.uint64, particle: wp.uint64, n_cells: wp.uint64, cell: int
@@ -220,14 +211,12 @@ def draw_particles(
         walls[i, cell] = wp.uint8(wp.where(wall, 1, 0))
 
 
-def particle_log_weights(
-    table: DeviceTable, prior: DevicePrior, key: int, first_particle: int, count: int, device: str
-) -> Floats:
-    """Compute the log weights of ``count`` particles from ``first_particle`` on, (count,)."""
+def particle_log_weights(table: Any, prior: Any, key: int, first_particle: int, count: int, device: str) -> Floats:
+    """Compute the log weights of ``count`` particles from ``first_particle`` on, (count,); a `Table` and its prior."""
     return np.asarray(devices.launch(weigh_particles, count, [table, prior, key, first_particle, (count,)], device)[0])
 
 
-def particle_maps(prior: DevicePrior, key: int, particles: NDArray[np.intp], device: str) -> NDArray[np.uint8]:
+def particle_maps(prior: Any, key: int, particles: NDArray[np.intp], device: str) -> NDArray[np.uint8]:
     """Return the maps of the given particles, (n, N)."""
     walls = (len(particles), prior.level.shape[0])
     return np.asarray(devices.launch(draw_particles, len(particles), [prior, key, particles, walls], device)[0])
