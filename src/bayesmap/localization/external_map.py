@@ -207,6 +207,12 @@ def _log_densities(packed: DeviceMaps, scans: Scans, thin: int, values: Mapping[
     poses = np.repeat(scans.poses, ranges.shape[1], axis=0)
     poses[:, 2] += angles.ravel()
     logs = scan_log_likelihood(
-        packed, poses, np.zeros(1), ranges.reshape(-1, 1), sensor_of(values, None), limits, np.arange(ranges.size)
+        packed,
+        poses,
+        np.zeros(1),
+        ranges.reshape(-1, 1),
+        sensor_of(values, None),
+        limits,
+        scan=np.arange(ranges.size),
     )
     return np.where(np.isnan(ranges), np.nan, logs[:, 0].reshape(ranges.shape))

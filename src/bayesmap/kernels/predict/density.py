@@ -48,6 +48,7 @@ MIN_STOP_CHANCE = 2e-3  # cells below it count as empty in fast weighing, unless
 class MapArrays:
     """Maps on a device, one per row."""
 
+    draws: int  # number of maps
     stop: Float32Rows  # stop probabilities, if cells have no surfaces
     surface: wp.array2d(dtype=Cell)  # otherwise, the surfaces
     surfaces: int  # 1 if cells have surfaces
@@ -117,7 +118,7 @@ def stop_in(maps: MapArrays, row: int, column: int, line: Line, cell: int) -> wp
 def maps_to_device(states: StopStates, hit_depth: float, device: str) -> Any:
     """Put maps on a device: stop probabilities (two dimensions) or surfaces (three), see `StopStates`."""
     cells = {"surface": cells_to_device(states, device)} if states.ndim == 3 else {"stop": states}
-    return devices.pack(MapArrays, device, surfaces=int(states.ndim == 3), depth=hit_depth, **cells)
+    return devices.pack(MapArrays, device, draws=len(states), surfaces=int(states.ndim == 3), depth=hit_depth, **cells)
 
 
 @dataclass(frozen=True, eq=False)
@@ -133,24 +134,23 @@ class DeviceMaps:
         """Return the draws; surfaces have two more numbers, see `Cell`."""
         return np.asarray((self.arrays.surface if self.arrays.surfaces else self.arrays.stop).numpy())
 
-    def thinned(self, most: int) -> "DeviceMaps":
-        """Return at most ``most`` of the draws, evenly spread."""
-        if most >= self.draws:
+    def thinned(self, max_draws: int) -> "DeviceMaps":
+        """Return at most ``max_draws`` of the draws, evenly spread."""
+        if max_draws >= self.draws:
             return self
-        rows = evenly_spaced_indices(self.draws, most)
+        rows = evenly_spaced_indices(self.draws, max_draws)
         return device_maps([self.states()[rows]], self.grid, self.arrays.depth, device=self.device)
 
 
 def device_maps(batches: Iterable[StopStates], grid: Grid, hit_depth: float, *, device: str = "cpu") -> DeviceMaps:
     """Put draws of all cells of a grid on a device. Raises `BadInput` if there is none."""
     device = devices.resolve(device)
-    draws = list(batches)
-    require_draws(sum(map(len, draws)))
-    states = np.concatenate(draws)
+    parts = list(batches)
+    require_draws(sum(map(len, parts)))
+    states = np.concatenate(parts)
     arrays = maps_to_device(states, hit_depth, device)
-    arrays.empty = devices.to_device(
-        (states[..., 0] if states.ndim == 3 else states) < MIN_STOP_CHANCE, wp.uint8, device
-    )
+    stop_chance = states[..., 0] if states.ndim == 3 else states
+    arrays.empty = devices.to_device(stop_chance < MIN_STOP_CHANCE, wp.uint8, device)
     return DeviceMaps(arrays, len(states), grid, device)
 
 
@@ -213,51 +213,57 @@ class ForecastSums:
 
 @wp.kernel
 def add_forecasts(
-    first: int, law: SensorLaw64, rays: RayArrays, columns: Int32s, maps: MapArrays, draws: int, with_cumulative: int,
+    first: int, law: SensorLaw64, rays: RayArrays, columns: Int32s, maps: MapArrays, with_cumulative: int,
     out: ForecastSums,
 ):  # fmt: skip
     """One thread per beam: add the law of its reading under each draw of a batch to running sums."""
-    # b: beam; z: its reading; z_limit: the reading, or the limit that a typed reading stands for; d: draw; k: entry;
-    # beyond: first entry past the reach, whose stops give the reading the same density as no stop.
-    b = first + wp.tid()
-    z = out.range_m[b]
+    # z_limit: the reading z, or the limit that a typed reading stands for; beyond: first entry past the reach, whose
+    # stops give the reading the same density as no stop.
+    beam = first + wp.tid()
+    z = out.range_m[beam]
     if wp.isnan(z):
         return
-    line = line_of(rays.lines, b)
+    line = line_of(rays.lines, beam)
     nowhere = wp.vec3d(ONE, wp.float64(wp.inf), wp.float64(0.0))
-    sums = wp.vec2d(out.most[b], out.total[b])
+    sums = wp.vec2d(out.most[beam], out.total[beam])
     z_limit = z
     if wp.isinf(z):
         z_limit = wp.where(z > wp.float64(0.0), law.max_m, law.min_m)
-    least_survival = negligible_weight(law)
+    min_survival = negligible_weight(law)
     decay = laws.object_decay(law, z)
-    beyond = traced.first_past(line, rays.cells, rays.offsets[b], rays.offsets[b + 1], out.reach_m[b], wp.float64(0.0))
-    for d in range(draws):
+    beyond = traced.first_past(
+        line, rays.cells, rays.offsets[beam], rays.offsets[beam + 1], out.reach_m[beam], wp.float64(0.0)
+    )
+    for draw in range(maps.draws):
         survive = wp.float64(1.0)
-        for i in range(rays.offsets[b + 1] - rays.offsets[b] + 1):
-            k = rays.offsets[b] + i
-            if k == beyond:
+        for i in range(rays.offsets[beam + 1] - rays.offsets[beam] + 1):
+            entry = rays.offsets[beam] + i
+            if entry == beyond:
                 sums = add_stop(law, sums, survive, z, decay, nowhere)
                 if with_cumulative == 0:
                     break
             weight = survive
             stop = nowhere
-            if k < rays.offsets[b + 1]:
-                stop = stop_in(maps, d, columns[k], line, rays.cells[k])
+            if entry < rays.offsets[beam + 1]:
+                stop = stop_in(maps, draw, columns[entry], line, rays.cells[entry])
                 weight = survive * stop[0]
                 survive = survive * (ONE - stop[0])
             if weight > wp.float64(0.0):
-                if k < beyond:
+                if entry < beyond:
                     sums = add_stop(law, sums, weight, z, decay, stop)
                 if with_cumulative != 0:
-                    out.below[b] = out.below[b] + weight * laws.cumulative(law, z_limit, stop[1], stop[2])
+                    out.below[beam] = out.below[beam] + weight * laws.cumulative(law, z_limit, stop[1], stop[2])
                     if law.kind != NOISE:
-                        out.below_max[b] = out.below_max[b] + weight * laws.cumulative(law, law.max_m, stop[1], stop[2])
-                        out.below_min[b] = out.below_min[b] + weight * laws.cumulative(law, law.min_m, stop[1], stop[2])
-                if survive < least_survival:
+                        out.below_max[beam] = out.below_max[beam] + weight * laws.cumulative(
+                            law, law.max_m, stop[1], stop[2]
+                        )
+                        out.below_min[beam] = out.below_min[beam] + weight * laws.cumulative(
+                            law, law.min_m, stop[1], stop[2]
+                        )
+                if survive < min_survival:
                     break
-    out.most[b] = sums[0]
-    out.total[b] = sums[1]
+    out.most[beam] = sums[0]
+    out.total[beam] = sums[1]
 
 
 @dataclass(frozen=True, eq=False)
@@ -293,8 +299,8 @@ def explained_within_m(range_m: Floats, sensor: SensorModel, limits: RangeLimits
     return np.asarray(sensor.reach_m(range_m, limits) + CELLS_PAST_REACH * resolution_m)
 
 
-def _sums(
-    rays: Rays, columns: Ints, batches: Iterable[StopStates], sensor: SensorModel, hit_depth: float, device: str,
+def _summed_forecasts(
+    rays: Rays, columns: Ints, batches: Iterable[StopStates], sensor: SensorModel, hit_depth: float, device: str, *,
     with_cumulative: bool,
 ) -> tuple[Floats, list[Floats]]:  # fmt: skip
     """Compute log densities, and mean cumulative probabilities at the reading and at both limits."""
@@ -310,7 +316,7 @@ def _sums(
     draws = 0
     for batch in batches:
         draws += len(batch)
-        inputs = [law, *rays_and_columns, maps_to_device(batch, hit_depth, device), len(batch), int(with_cumulative)]
+        inputs = [law, *rays_and_columns, maps_to_device(batch, hit_depth, device), int(with_cumulative)]
         devices.launch(add_forecasts, beams, [*inputs, sums], device, 1 if beams < MIN_THREADED_BEAMS else None)
     require_draws(draws)
     with np.errstate(divide="ignore"):
@@ -325,7 +331,9 @@ def log_densities(
 ) -> Floats:  # fmt: skip
     """Compute the log predictive density of every reading, (B,), of beams traced at least as far as it reaches."""
     # columns: the columns of the entries' cells in the draws, (K,)
-    return _sums(rays, rays.columns if columns is None else columns, batches, sensor, hit_depth, device, False)[0]
+    return _summed_forecasts(
+        rays, rays.columns if columns is None else columns, batches, sensor, hit_depth, device, with_cumulative=False
+    )[0]
 
 
 def forecast(
@@ -336,7 +344,9 @@ def forecast(
     The columns of the draws are the cells ``rays.touched``. Without a surface, a beam stops at the share ``hit_depth``
     of its stretch. Raises `BadInput` without draws, or if probabilities of a user's sensor do not add up to one.
     """
-    log_density, cumulative = _sums(rays, rays.columns, batches, sensor, hit_depth, device, True)
+    log_density, cumulative = _summed_forecasts(
+        rays, rays.columns, batches, sensor, hit_depth, device, with_cumulative=True
+    )
     below, below_max, below_min = cumulative
     z = rays.range_m
     typed = are_typed(sensor, rays.limits)
@@ -347,35 +357,42 @@ def forecast(
     return Forecast(log_density, *(np.clip(a, 0.0, 1.0) + nan for a in (low, high, none, close)))
 
 
+@wp.struct
+class PosedScans:
+    """Poses of scans of A beams each, and the maps under which they are weighed."""
+
+    pose: Float64Rows  # in the world frame
+    scan: Int32s  # index of the scan at each pose
+    chain: Int32s  # index of the map of each pose
+    mount: Float64Rows  # start and angle in the scan's frame, of each beam of a scan or of all scans
+    range_m: Float64s  # readings of all scans
+    beams: int  # A
+
+
 @wp.kernel
-def beam_log_likelihoods(
-    first: int, law: SensorLaw64, frame: Frame, maps: MapArrays, poses: Float64Rows, scan: Int32s, chain: Int32s,
-    beams: int, mounts: Float64Rows, range_m: Float64s, out: Float64s,
-):  # fmt: skip
+def beam_log_likelihoods(first: int, law: SensorLaw64, frame: Frame, maps: MapArrays, scans: PosedScans, out: Float64s):
     """One thread per beam of a pose: compute log p(reading | cells, pose)."""
-    # i: thread; row: pose; b: beam of all scans; z: its reading; w: its walk; m: its mount (start and angle in its
-    # scan's frame), of which there is one per angle or one per beam.
-    i = first + wp.tid()
-    row = i / beams
-    b = scan[row] * beams + i % beams
-    z = range_m[b]
+    thread = first + wp.tid()
+    row = thread / scans.beams
+    beam = scans.scan[row] * scans.beams + thread % scans.beams  # among those of all scans
+    z = scans.range_m[beam]
     if wp.isnan(z):
         return
-    m = i % beams
-    if mounts.shape[0] > beams:
-        m = b
-    yaw = poses[row, 2]
-    x = poses[row, 0] + wp.cos(yaw) * mounts[m, 0] - wp.sin(yaw) * mounts[m, 1]
-    y = poses[row, 1] + wp.sin(yaw) * mounts[m, 0] + wp.cos(yaw) * mounts[m, 1]
-    line = line_in(frame, x, y, yaw + mounts[m, 2])
-    least_survival = negligible_weight(law)
+    m = thread % scans.beams
+    if scans.mount.shape[0] > scans.beams:
+        m = beam
+    yaw = scans.pose[row, 2]
+    x = scans.pose[row, 0] + wp.cos(yaw) * scans.mount[m, 0] - wp.sin(yaw) * scans.mount[m, 1]
+    y = scans.pose[row, 1] + wp.sin(yaw) * scans.mount[m, 0] + wp.cos(yaw) * scans.mount[m, 1]
+    line = line_in(frame, x, y, yaw + scans.mount[m, 2])
+    min_survival = negligible_weight(law)
     decay = laws.object_decay(law, z)
     sums = no_sum(law)
     survive = wp.float64(1.0)
     w = walk_along(line, frame.nx, law.max_m)
-    while w.distance <= w.end and survive >= least_survival:
+    while w.distance <= w.end and survive >= min_survival:
         if is_inside(w, frame.nx, frame.ny):
-            stop = stop_on_walk(maps, chain[row], line, w)
+            stop = stop_on_walk(maps, scans.chain[row], line, w)
             weight = survive * stop[0]
             survive = survive * (ONE - stop[0])
             if weight > wp.float64(0.0):
@@ -384,7 +401,7 @@ def beam_log_likelihoods(
         w = walk_next(w)
     if survive > wp.float64(0.0):
         sums = add_stop(law, sums, survive, z, decay, wp.vec3d(survive, wp.float64(wp.inf), wp.float64(0.0)))
-    out[i] = sums[0] + wp.log(sums[1])
+    out[thread] = sums[0] + wp.log(sums[1])
 
 
 @dataclass(frozen=True, eq=False)
@@ -409,7 +426,11 @@ class ScanLikelihood:
         limits = RangeLimits(self.scans.min_range_m, self.scans.max_range_m)
         law, size = laws.sensor_law(self.sensor, limits, device), len(poses) * beams
         maps = cells.arrays if isinstance(cells, DeviceMaps) else maps_to_device(cells, self.hit_depth, device)
-        inputs = [law, grid_frame(self.grid), maps, poses, scan, chain, beams, *self._on_device, (size,)]
+        mounts, readings = self._on_device
+        scans = devices.pack(
+            PosedScans, device, pose=poses, scan=scan, chain=chain, mount=mounts, range_m=readings, beams=beams
+        )
+        inputs = [law, grid_frame(self.grid), maps, scans, (size,)]
         (out,) = devices.launch(beam_log_likelihoods, size, inputs, device, devices.threads_for(size))
         return np.asarray(out.reshape(len(poses), beams))
 

@@ -55,16 +55,15 @@ def stop_chance(maps: MapArrays, draw: int, cell: int, ray: Ray) -> wp.float32:
 
 @wp.func
 def reading_log_density(
-    law: SensorLaw32, frame: Frame, maps: MapArrays, draw: int, x: wp.float32, y: wp.float32, angle: wp.float32,
-    z: wp.float32,
-) -> wp.float32:  # fmt: skip
-    """Return log p(reading | map, beam) for a beam from (x, y), in metres from the grid's corner."""
+    law: SensorLaw32, frame: Frame, maps: MapArrays, draw: int, start_m: wp.vec2, angle: wp.float32, z: wp.float32
+) -> wp.float32:
+    """Return log p(reading z | map, beam) for a beam from a start in metres from the grid's corner."""
     # The walk is the one of Amanatides and Woo (1987), without a rule for corners. The cell of the sensor is touched
     # where the beam leaves it. Start, in cells: position p, cell c, distance of the next grid lines, gap between lines.
     resolution = wp.float32(frame.resolution)
     depth = wp.float32(maps.depth)
     ux, uy = wp.cos(angle), wp.sin(angle)
-    px, py = x / resolution, y / resolution
+    px, py = start_m[0] / resolution, start_m[1] / resolution
     cx = int(wp.floor(px))
     cy = int(wp.floor(py))
     step_x, step_y = wp.where(ux > ZERO_32, 1, -1), wp.where(uy > ZERO_32, 1, -1)
@@ -73,7 +72,7 @@ def reading_log_density(
     gap_x = wp.where(next_x < NEVER, wp.abs(ONE_32 / ux), NEVER)
     gap_y = wp.where(next_y < NEVER, wp.abs(ONE_32 / uy), NEVER)
     # Distances, in cells, between which the position of the stop matters.
-    ray = Ray(wp.vec2(x, y), wp.vec2(ux, uy))
+    ray = Ray(start_m, wp.vec2(ux, uy))
     decay = laws.object_decay(law, z)
     last_relevant = law.max_m
     end = wp.clamp(z, ZERO_32, law.max_m)
@@ -124,44 +123,55 @@ def reading_log_density(
     return wp.log(wp.max(total + survive * laws.no_stop_density(law, z, decay), wp.float32(1.0e-30)))
 
 
+@wp.struct
+class WeighedScans:
+    """Poses of scans, in the world frame, and the readings of all scans."""
+
+    pose: Float64Rows
+    scan: Int32s  # index of the scan at each pose
+    angle_rad: Float64s
+    range_m: Float64Rows
+    columns: int  # columns of the result
+    cycle: int  # if positive, pose p is weighed under draw p mod cycle only
+
+
 @wp.kernel
 def scan_log_likelihoods(
-    first: int, law: SensorLaw32, frame: Frame, maps: MapArrays, columns: int, cycle: int, poses: Float64Rows,
-    scan: Int32s, angle_rad: Float64s, range_m: Float64Rows, out: Float64Rows,
-):  # fmt: skip
+    first: int, law: SensorLaw32, frame: Frame, maps: MapArrays, scans: WeighedScans, out: Float64Rows
+):
     """One thread per pose and column of the result: sum log p(reading | map, pose) over beams."""
-    # t: thread; p: pose; d: draw; b: beam.
-    t = first + wp.tid()
-    p = t / columns
-    column = t - p * columns
-    d = column
-    # In turn: pose p is weighed under draw p mod cycle. Threads are grouped by draw, whose poses read the same cells.
-    if cycle > 0:
-        poses_a_draw = (poses.shape[0] + cycle - 1) / cycle
-        d = t / poses_a_draw
-        p = (t - d * poses_a_draw) * cycle + d
+    thread = first + wp.tid()
+    pose = thread / scans.columns
+    column = thread - pose * scans.columns
+    draw = column
+    # In a cycle, threads are grouped by draw, because the poses of a draw read the same cells.
+    if scans.cycle > 0:
+        poses_per_draw = (scans.pose.shape[0] + scans.cycle - 1) / scans.cycle
+        draw = thread / poses_per_draw
+        pose = (thread - draw * poses_per_draw) * scans.cycle + draw
         column = 0
-        if p >= poses.shape[0]:
+        if pose >= scans.pose.shape[0]:
             return
-    x = wp.float32(poses[p, 0] - frame.origin_x)
-    y = wp.float32(poses[p, 1] - frame.origin_y)
+    x = wp.float32(scans.pose[pose, 0] - frame.origin_x)
+    y = wp.float32(scans.pose[pose, 1] - frame.origin_y)
     total = wp.float64(0.0)
-    for b in range(angle_rad.shape[0]):
-        z = range_m[scan[p], b]
+    for beam in range(scans.angle_rad.shape[0]):
+        z = scans.range_m[scans.scan[pose], beam]
         if not wp.isnan(z):
-            angle = wp.float32(poses[p, 2] + angle_rad[b])
-            total += wp.float64(reading_log_density(law, frame, maps, d, x, y, angle, wp.float32(z)))
-    out[p, column] = total
+            angle = wp.float32(scans.pose[pose, 2] + scans.angle_rad[beam])
+            density = reading_log_density(law, frame, maps, draw, wp.vec2(x, y), angle, wp.float32(z))
+            total += wp.float64(density)
+    out[pose, column] = total
 
 
 @lru_cache(maxsize=64)
-def _law(sensor: SensorModel, limits: RangeLimits, device: str) -> Any:
+def _packed_law(sensor: SensorModel, limits: RangeLimits, device: str) -> Any:
     """Return the law of a sensor in single precision; it is packed once."""
     return laws.sensor_law(sensor, limits, device, SensorLaw32)
 
 
 def scan_log_likelihood(
-    maps: DeviceMaps, poses: Floats, angles_rad: Floats, ranges_m: Floats, sensor: SensorModel, limits: RangeLimits,
+    maps: DeviceMaps, poses: Floats, angles_rad: Floats, ranges_m: Floats, sensor: SensorModel, limits: RangeLimits, *,
     scan: NDArray[np.intp] | None = None, draws: int | None = None, in_turn: bool = False, threads: int | None = None,
 ) -> Floats:  # fmt: skip
     """Compute the log-likelihood of scans at poses under draws of the map, nats, (P, D); invalid readings count 0.
@@ -172,7 +182,11 @@ def scan_log_likelihood(
     n_poses, n_draws = len(poses), maps.draws if draws is None else min(draws, maps.draws)
     columns, cycle = (1, n_draws) if in_turn else (n_draws, 0)
     scan = np.zeros(n_poses, np.intp) if scan is None else scan
-    inputs = [_law(sensor, limits, maps.device), grid_frame(maps.grid), maps.arrays, columns, cycle]
-    inputs += [poses, scan, angles_rad, np.atleast_2d(ranges_m), (n_poses, columns)]
+    scans = devices.pack(
+        WeighedScans, maps.device, pose=poses, scan=scan, angle_rad=angles_rad, range_m=np.atleast_2d(ranges_m),
+        columns=columns, cycle=cycle,
+    )  # fmt: skip
+    law = _packed_law(sensor, limits, maps.device)
+    inputs = [law, grid_frame(maps.grid), maps.arrays, scans, (n_poses, columns)]
     n_threads = devices.ceil_div(n_poses, cycle) * cycle if in_turn else n_poses * n_draws
     return np.asarray(devices.launch(scan_log_likelihoods, n_threads, inputs, maps.device, threads)[0])

@@ -39,29 +39,26 @@ class StopSums:
 
 
 @wp.kernel
-def add_stops(
-    first: int, rays: RayArrays, columns: Int32s, maps: MapArrays, draws: int, least_survival: wp.float64, out: StopSums
-):
-    """One thread per beam: add each stop's weight and moments, until the beam's chance is below ``least_survival``."""
-    # b: beam; d: draw; k: entry; w: weight of its stop.
-    b = first + wp.tid()
-    line = line_of(rays.lines, b)
-    for d in range(draws):
+def add_stops(first: int, rays: RayArrays, columns: Int32s, maps: MapArrays, min_survival: wp.float64, out: StopSums):
+    """One thread per beam: add each stop's weight and moments, until the beam's chance is below ``min_survival``."""
+    beam = first + wp.tid()
+    line = line_of(rays.lines, beam)
+    for draw in range(maps.draws):
         survive = wp.float64(1.0)
-        for k in range(rays.offsets[b], rays.offsets[b + 1]):
+        for entry in range(rays.offsets[beam], rays.offsets[beam + 1]):
             # stop: chance, distance, variance
-            stop = density.stop_in(maps, d, columns[k], line, rays.cells[k])
-            w = survive * stop[0]
+            stop = density.stop_in(maps, draw, columns[entry], line, rays.cells[entry])
+            weight = survive * stop[0]
             survive = survive * (wp.float64(1.0) - stop[0])
-            if w > wp.float64(0.0):
-                out.weight[k] = out.weight[k] + wp.float32(w)
+            if weight > wp.float64(0.0):
+                out.weight[entry] = out.weight[entry] + wp.float32(weight)
                 if maps.surfaces != 0:
-                    shift = stop[1] - distance_at(line, rays.cells[k], maps.depth)
-                    out.shift[k] = out.shift[k] + wp.float32(w * shift)
-                    out.square[k] = out.square[k] + wp.float32(w * (shift * shift + stop[2]))
-                if survive < least_survival:
+                    shift = stop[1] - distance_at(line, rays.cells[entry], maps.depth)
+                    out.shift[entry] = out.shift[entry] + wp.float32(weight * shift)
+                    out.square[entry] = out.square[entry] + wp.float32(weight * (shift * shift + stop[2]))
+                if survive < min_survival:
                     break
-        out.no_stop[b] = out.no_stop[b] + survive
+        out.no_stop[beam] = out.no_stop[beam] + survive
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,26 +75,26 @@ class StopMixture:
 def mix_stops(rays: Rays, batches: Iterable[StopStates], hit_depth: float, *, device: str = "cpu") -> StopMixture:
     """Average the stops of each beam over draws, see `density.forecast`. Raises `BadInput` if there are no draws."""
     device = devices.resolve(device)
-    on_device = ((density.maps_to_device(batch, hit_depth, device), len(batch)) for batch in batches)
+    on_device = (density.maps_to_device(batch, hit_depth, device) for batch in batches)
     return _mix(rays, rays.columns, on_device, hit_depth, device, float(MIN_EVENT_CHANCE))
 
 
-def mix_device_stops(rays: Rays, maps: DeviceMaps, least_survival: float) -> StopMixture:
-    """Average the stops over draws of all cells. Below ``least_survival`` a beam counts as one that stops nowhere."""
-    return _mix(rays, rays.cells, [(maps.arrays, maps.draws)], maps.arrays.depth, maps.device, least_survival)
+def mix_device_stops(rays: Rays, maps: DeviceMaps, min_survival: float) -> StopMixture:
+    """Average the stops over draws of all cells. Below ``min_survival`` a beam counts as one that stops nowhere."""
+    return _mix(rays, rays.cells, [maps.arrays], maps.arrays.depth, maps.device, min_survival)
 
 
 def _mix(
-    rays: Rays, columns: Ints, batches: Iterable[tuple[Any, int]], hit_depth: float, device: str, least_survival: float
+    rays: Rays, columns: Ints, batches: Iterable[Any], hit_depth: float, device: str, min_survival: float
 ) -> StopMixture:
-    """Average over batches of maps; ``columns`` are the columns of the entries' cells in the maps."""
+    """Average over batches of `MapArrays`; ``columns`` are the columns of the entries' cells in the maps."""
     entries = (rays.n_incidences,)
     sums = devices.pack(StopSums, device, weight=entries, shift=entries, square=entries, no_stop=(rays.n_beams,))
     rays_and_columns = [rays_to_device(rays, device), devices.to_device(columns, wp.int32, device)]
     draws = 0
-    for maps, count in batches:
-        draws += count
-        inputs = [*rays_and_columns, maps, count, least_survival, sums]
+    for maps in batches:
+        draws += maps.draws
+        inputs = [*rays_and_columns, maps, min_survival, sums]
         devices.launch(add_stops, rays.n_beams, inputs, device, devices.threads_for(rays.n_beams))
     density.require_draws(draws)
     weight, shift, square = (a.numpy() for a in (sums.weight, sums.shift, sums.square))
@@ -120,13 +117,14 @@ class StopMixtureArrays:
 
 
 @wp.func
-def mixture_below(law: SensorLaw64, stops: StopMixtureArrays, b: int, range_m: wp.float64) -> wp.float64:
+def mixture_below(law: SensorLaw64, stops: StopMixtureArrays, beam: int, range_m: wp.float64) -> wp.float64:
     """Return P(reading <= range) of a beam."""
-    p = stops.no_stop[b] * laws.cumulative(law, range_m, wp.float64(wp.inf), wp.float64(0.0))
-    for k in range(stops.offsets[b], stops.offsets[b + 1]):
-        weight = wp.float64(stops.weight[k])
+    p = stops.no_stop[beam] * laws.cumulative(law, range_m, wp.float64(wp.inf), wp.float64(0.0))
+    for entry in range(stops.offsets[beam], stops.offsets[beam + 1]):
+        weight = wp.float64(stops.weight[entry])
         if weight > MIN_WEIGHT:
-            p += weight * laws.cumulative(law, range_m, wp.float64(stops.distance_m[k]), wp.float64(stops.variance[k]))
+            distance = wp.float64(stops.distance_m[entry])
+            p += weight * laws.cumulative(law, range_m, distance, wp.float64(stops.variance[entry]))
     return p
 
 
@@ -136,30 +134,30 @@ def find_events(
     stopped: wp.array(dtype=wp.int8),
 ):  # fmt: skip
     """One thread per beam: compute the chance that its reading ends in each stretch, and whether it ends there."""
-    # b: beam; z: its reading; k: entry; before, after: cumulative probability at the stretch's two ends; stopped: stays
-    # -1 if the reading does not reach the stretch, or if the stretch has no length.
-    b = first + wp.tid()
-    z = range_m[b]
+    # before, after: cumulative probability at the stretch's two ends; stopped: stays -1 if the reading does not reach
+    # the stretch, or if the stretch has no length.
+    beam = first + wp.tid()
+    z = range_m[beam]  # the reading
     if wp.isnan(z):
         return
-    line = line_of(rays.lines, b)
+    line = line_of(rays.lines, beam)
     before = wp.float64(-1.0)
-    for k in range(rays.offsets[b], rays.offsets[b + 1]):
-        own = stretch(line, rays.cells[k])
-        enter = own[0]
-        leave = own[1]
-        if k + 1 < rays.offsets[b + 1]:
-            leave = stretch(line, rays.cells[k + 1])[0]
+    for entry in range(rays.offsets[beam], rays.offsets[beam + 1]):
+        inside = stretch(line, rays.cells[entry])
+        enter = inside[0]
+        leave = inside[1]
+        if entry + 1 < rays.offsets[beam + 1]:
+            leave = stretch(line, rays.cells[entry + 1])[0]
         leave = wp.min(leave, law.max_m)
         if enter > z:
             break
         if leave > enter:
             if before < wp.float64(0.0):
-                before = mixture_below(law, stops, b, enter)
-            after = mixture_below(law, stops, b, leave)
+                before = mixture_below(law, stops, beam, enter)
+            after = mixture_below(law, stops, beam, leave)
             p = (after - before) / wp.max(ONE - before, MIN_EVENT_CHANCE)
-            chance[k] = wp.float32(wp.clamp(p, MIN_EVENT_CHANCE, MAX_EVENT_CHANCE))
-            stopped[k] = wp.where(z < leave, wp.int8(1), wp.int8(0))
+            chance[entry] = wp.float32(wp.clamp(p, MIN_EVENT_CHANCE, MAX_EVENT_CHANCE))
+            stopped[entry] = wp.where(z < leave, wp.int8(1), wp.int8(0))
             before = after
 
 
@@ -204,45 +202,45 @@ class LevelSearch:
 
 
 @wp.func
-def halve_span(law: SensorLaw64, stops: StopMixtureArrays, s: LevelSearch, level: wp.float64) -> LevelSearch:
+def halve_span(law: SensorLaw64, stops: StopMixtureArrays, search: LevelSearch, level: wp.float64) -> LevelSearch:
     """Return the half of the span that holds the level, for the robust mixture; decided stops are evaluated once."""
-    # z: middle of the span; p: probability of a reading below z that is not random; k: entry.
-    z = wp.float64(0.5) * (s.low + s.high)
+    # z: middle of the span; p: probability of a reading below z that is not random.
+    z = wp.float64(0.5) * (search.low + search.high)
     decay = wp.exp(-law.rate_short_per_m * z)
-    p = s.below + s.behind * law.p_short * (wp.float64(1.0) - decay)
-    for k in range(s.begin, s.end):
-        weight = wp.float64(stops.weight[k])
+    p = search.below + search.behind * law.p_short * (wp.float64(1.0) - decay)
+    for entry in range(search.begin, search.end):
+        weight = wp.float64(stops.weight[entry])
         if weight > MIN_WEIGHT:
-            distance = wp.float64(stops.distance_m[k])
-            p += weight * laws.not_random_below(law, z, decay, distance, wp.float64(stops.variance[k]))
-    if s.total * laws.random_below(law, z) + law.p_known * p < level:
+            distance = wp.float64(stops.distance_m[entry])
+            p += weight * laws.not_random_below(law, z, decay, distance, wp.float64(stops.variance[entry]))
+    if search.total * laws.random_below(law, z) + law.p_known * p < level:
         # Upper half: decide the stops whose returns all lie below z.
-        s.low = z
+        search.low = z
         is_decided = bool(True)
-        while is_decided and s.begin < s.end:
-            k = s.begin
-            distance = wp.float64(stops.distance_m[k])
-            variance = wp.float64(stops.variance[k])
-            weight = wp.float64(stops.weight[k])
+        while is_decided and search.begin < search.end:
+            entry = search.begin
+            distance = wp.float64(stops.distance_m[entry])
+            variance = wp.float64(stops.variance[entry])
+            weight = wp.float64(stops.weight[entry])
             is_decided = laws.is_before(law, z, distance, variance) or weight <= MIN_WEIGHT
             if is_decided:
                 if weight > MIN_WEIGHT:
-                    s.below += weight * laws.not_random_below(law, z, decay, distance, variance)
-                s.begin += 1
+                    search.below += weight * laws.not_random_below(law, z, decay, distance, variance)
+                search.begin += 1
     else:
         # Lower half: decide the stops whose returns all lie behind z.
-        s.high = z
+        search.high = z
         is_decided = bool(True)
-        while is_decided and s.begin < s.end:
-            k = s.end - 1
-            weight = wp.float64(stops.weight[k])
-            behind = laws.is_behind(law, z, wp.float64(stops.distance_m[k]), wp.float64(stops.variance[k]))
+        while is_decided and search.begin < search.end:
+            entry = search.end - 1
+            weight = wp.float64(stops.weight[entry])
+            behind = laws.is_behind(law, z, wp.float64(stops.distance_m[entry]), wp.float64(stops.variance[entry]))
             is_decided = behind or weight <= MIN_WEIGHT
             if is_decided:
                 if weight > MIN_WEIGHT:
-                    s.behind += weight
-                s.end -= 1
-    return s
+                    search.behind += weight
+                search.end -= 1
+    return search
 
 
 @wp.kernel
@@ -251,39 +249,39 @@ def find_quantiles(
     quantiles: Float64Rows,
 ):  # fmt: skip
     """One thread per beam: find each quantile by bisection of the span of ranges; levels are ascending."""
-    b = first + wp.tid()
-    at_low = mixture_below(law, stops, b, low_m)
-    at_high = mixture_below(law, stops, b, high_m)
+    beam = first + wp.tid()
+    at_low = mixture_below(law, stops, beam, low_m)
+    at_high = mixture_below(law, stops, beam, high_m)
     start = low_m
-    sought = LevelSearch()
-    sought.low = low_m
-    sought.begin = stops.offsets[b]
-    sought.total = stops.no_stop[b]
-    for k in range(stops.offsets[b], stops.offsets[b + 1]):
-        sought.total += wp.float64(stops.weight[k])
+    search = LevelSearch()
+    search.low = low_m
+    search.begin = stops.offsets[beam]
+    search.total = stops.no_stop[beam]
+    for entry in range(stops.offsets[beam], stops.offsets[beam + 1]):
+        search.total += wp.float64(stops.weight[entry])
     for i in range(levels.shape[0]):
         level = levels[i]
         if level <= at_low:
-            quantiles[b, i] = wp.float64(-wp.inf)
+            quantiles[beam, i] = wp.float64(-wp.inf)
         elif level > at_high:
-            quantiles[b, i] = wp.float64(wp.inf)
+            quantiles[beam, i] = wp.float64(wp.inf)
         elif law.kind == MIXTURE:
-            sought.high = high_m  # stops before the last level's range stay decided
-            sought.end = stops.offsets[b + 1]
-            sought.behind = stops.no_stop[b]
+            search.high = high_m  # stops before the last level's range stay decided
+            search.end = stops.offsets[beam + 1]
+            search.behind = stops.no_stop[beam]
             for _j in range(HALVINGS):
-                sought = halve_span(law, stops, sought, level)
-            quantiles[b, i] = sought.high
+                search = halve_span(law, stops, search, level)
+            quantiles[beam, i] = search.high
         else:
             low = start
             high = high_m
             for _j in range(HALVINGS):
                 middle = wp.float64(0.5) * (low + high)
-                if mixture_below(law, stops, b, middle) < level:
+                if mixture_below(law, stops, beam, middle) < level:
                     low = middle
                 else:
                     high = middle
-            quantiles[b, i] = high
+            quantiles[beam, i] = high
             start = low
 
 

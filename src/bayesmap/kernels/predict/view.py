@@ -5,7 +5,7 @@ import warp as wp
 from numpy.typing import NDArray
 
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.device import HALF, ONE, Float64Rows, Float64s, Floats, Int32s
+from bayesmap.kernels.device import HALF, ONE, Float64Rows, Float64s, Floats, Int32s, Vec3ds
 from bayesmap.kernels.predict.density import DeviceMaps, Frame, MapArrays, grid_frame, line_in, stop_on_walk
 from bayesmap.kernels.random import random_bits, to_uniform
 from bayesmap.kernels.rays import Line, walk_along
@@ -24,14 +24,14 @@ class Views:
 
     poses: Float64Rows  # in the world frame
     angles: Float64s  # of the beams, in the sensor's frame
-    longest_m: wp.float64  # distance to which beams are followed
+    max_m: wp.float64  # distance to which beams are followed
 
 
 @wp.func
-def line_of_view(frame: Frame, views: Views, b: int) -> Line:
-    """Return the line of beam b of all poses' beams."""
-    row = b / views.angles.shape[0]
-    angle = views.poses[row, 2] + views.angles[b % views.angles.shape[0]]
+def line_of_view(frame: Frame, views: Views, beam: int) -> Line:
+    """Return the line of a beam, which is numbered among the beams of all poses."""
+    row = beam / views.angles.shape[0]
+    angle = views.poses[row, 2] + views.angles[beam % views.angles.shape[0]]
     return line_in(frame, views.poses[row, 0], views.poses[row, 1], angle)
 
 
@@ -41,32 +41,31 @@ def draw_stop_distances(
     spread_m: Float64s,
 ):  # fmt: skip
     """One thread per beam of a pose: draw the distance at which it stops, infinite if nowhere, and its spread."""
-    # b: beam; w: its walk.
-    b = first + wp.tid()
-    line = line_of_view(frame, views, b)
-    u = to_uniform(random_bits(key, wp.uint64(b)))  # the beam stops once ``survive`` is below this
+    beam = first + wp.tid()
+    line = line_of_view(frame, views, beam)
+    u = to_uniform(random_bits(key, wp.uint64(beam)))  # the beam stops once ``survive`` is below this
     survive = wp.float64(1.0)
-    distance_m[b] = wp.float64(wp.inf)
-    w = walk_along(line, frame.nx, views.longest_m)
+    distance_m[beam] = wp.float64(wp.inf)
+    w = walk_along(line, frame.nx, views.max_m)
     while w.distance <= w.end:
         if is_inside(w, frame.nx, frame.ny):
-            stop = stop_on_walk(maps, draw[b / views.angles.shape[0]], line, w)
+            stop = stop_on_walk(maps, draw[beam / views.angles.shape[0]], line, w)
             survive = survive * (wp.float64(1.0) - stop[0])
             if survive < u:
-                distance_m[b] = stop[1]
-                spread_m[b] = stop[2]
+                distance_m[beam] = stop[1]
+                spread_m[beam] = stop[2]
                 return
         w = walk_next(w)
 
 
 def draw_scan_stops(
-    maps: DeviceMaps, poses: Floats, draw: NDArray[np.intp], angles_rad: Floats, longest_m: float, key: int
+    maps: DeviceMaps, poses: Floats, draw: NDArray[np.intp], angles_rad: Floats, max_m: float, key: int
 ) -> tuple[Floats, Floats]:
     """Draw where beams at sensor angles, (A,), stop from each pose, world frame, (P, 3), in its map, ``draw``, (P,).
-    Returns distances, at most ``longest_m`` or infinite, and their standard deviations, (P, A) each.
+    Returns distances, at most ``max_m`` or infinite, and their standard deviations, (P, A) each.
     """
     beams = (len(poses) * len(angles_rad),)
-    views = devices.pack(Views, maps.device, poses=poses, angles=angles_rad, longest_m=longest_m)
+    views = devices.pack(Views, maps.device, poses=poses, angles=angles_rad, max_m=max_m)
     inputs = [grid_frame(maps.grid), maps.arrays, views, draw, key, beams, beams]
     distance_m, spread_m = devices.launch(draw_stop_distances, beams[0], inputs, maps.device)
     return distance_m.reshape(len(poses), -1), spread_m.reshape(len(poses), -1)
@@ -90,24 +89,26 @@ def exit_distance(w: Walk) -> wp.float64:
     return wp.min(w.next_x, w.next_y)
 
 
+OCCUPIED = wp.constant(0)  # elements of a cell: its probability, and the information in a hit and in a pass
+HIT_NATS = wp.constant(1)
+PASS_NATS = wp.constant(2)
+
+
 @wp.kernel
-def add_beam_information(
-    first: int, frame: Frame, views: Views, occupied: Float64s, hit_nats: Float64s, pass_nats: Float64s,
-    sigma_m: wp.float64, out: Float64s,
-):  # fmt: skip
+def add_beam_information(first: int, frame: Frame, views: Views, cells: Vec3ds, sigma_m: wp.float64, out: Float64s):
     """One thread per beam: sum FSMI's information over cells that stop the beam and cells of the reading.
 
     A reading in cell k has the information C_k = f(hit, r_k) + sum_{i < k} f(pass, r_i), with f of the cells' odds r.
     The reading is in cell k with probability sum_j P(stop in j) G_kj, G_kj the probability of the noise about cell j's
     distance inside cell k. The sum takes cells within `INTEGRATION_SIGMAS` standard deviations. Distances are in cells.
     """
-    b = first + wp.tid()
+    beam = first + wp.tid()
     sigma = sigma_m / frame.resolution
     total = wp.float64(0.0)
     survive = wp.float64(1.0)
     # The outer walk w visits the cells j in which the beam may stop. A second walk, behind, trails it: it sums the
     # information of passes before the first cell k that a reading of such a stop can fall into.
-    behind = walk_along(line_of_view(frame, views, b), frame.nx, views.longest_m)
+    behind = walk_along(line_of_view(frame, views, beam), frame.nx, views.max_m)
     behind_enter = wp.float64(0.0)  # the walk touches the cell in which it starts at its exit
     passed_nats = wp.float64(0.0)
     w = behind
@@ -116,7 +117,7 @@ def add_beam_information(
         if is_crossed(w):
             leave = exit_distance(w)
             if is_inside(w, frame.nx, frame.ny):
-                p = occupied[w.cell_x * frame.ny + w.cell_y]
+                p = cells[w.cell_x * frame.ny + w.cell_y][OCCUPIED]
                 weight = survive * p
                 survive = survive * (ONE - p)
                 middle = HALF * (enter + leave)
@@ -127,7 +128,7 @@ def add_beam_information(
                     if is_crossed(behind):
                         behind_enter = exit_distance(behind)
                         if is_inside(behind, frame.nx, frame.ny):
-                            passed_nats += pass_nats[behind.cell_x * frame.ny + behind.cell_y]
+                            passed_nats += cells[behind.cell_x * frame.ny + behind.cell_y][PASS_NATS]
                     behind = walk_next(behind)
                 # A third walk, ahead, visits the cells k of readings about this stop.
                 ahead = behind
@@ -142,8 +143,8 @@ def add_beam_information(
                         below_exit = normal_below((exit - middle) / sigma)
                         if is_inside(ahead, frame.nx, frame.ny):
                             cell = ahead.cell_x * frame.ny + ahead.cell_y
-                            total += weight * (below_exit - below) * (ahead_nats + hit_nats[cell])
-                            ahead_nats += pass_nats[cell]
+                            total += weight * (below_exit - below) * (ahead_nats + cells[cell][HIT_NATS])
+                            ahead_nats += cells[cell][PASS_NATS]
                         entry = exit
                         below = below_exit
                     ahead = walk_next(ahead)
@@ -153,10 +154,10 @@ def add_beam_information(
     if survive > MIN_SURVIVAL:
         while behind.distance <= behind.end:
             if is_inside(behind, frame.nx, frame.ny) and is_crossed(behind):
-                passed_nats += pass_nats[behind.cell_x * frame.ny + behind.cell_y]
+                passed_nats += cells[behind.cell_x * frame.ny + behind.cell_y][PASS_NATS]
             behind = walk_next(behind)
         total += survive * passed_nats
-    out[b] = total
+    out[beam] = total
 
 
 def surprise(update: float, odds: Floats) -> Floats:
@@ -165,7 +166,7 @@ def surprise(update: float, odds: Floats) -> Floats:
 
 
 def independent_information(
-    occupied: Floats, grid: Grid, poses: Floats, angles_rad: Floats, longest_m: float, *, sigma_m: float,
+    occupied: Floats, grid: Grid, poses: Floats, angles_rad: Floats, max_m: float, *, sigma_m: float,
     hit_factor: float, pass_factor: float, device: str = "cpu",
 ) -> Floats:  # fmt: skip
     """Compute the fast Shannon mutual information of every beam with a map of independent cells, in nats, (P, A).
@@ -176,7 +177,7 @@ def independent_information(
     """
     device, beams = devices.resolve(device), len(poses) * len(angles_rad)
     odds = occupied / (1.0 - occupied)
-    information = [surprise(factor, odds) for factor in (hit_factor, pass_factor)]
-    views = devices.pack(Views, device, poses=poses, angles=angles_rad, longest_m=longest_m)
-    inputs = [grid_frame(grid), views, occupied, *information, sigma_m, (beams,)]
+    cells = np.stack([occupied, surprise(hit_factor, odds), surprise(pass_factor, odds)], axis=-1)
+    views = devices.pack(Views, device, poses=poses, angles=angles_rad, max_m=max_m)
+    inputs = [grid_frame(grid), views, cells, sigma_m, (beams,)]
     return np.asarray(devices.launch(add_beam_information, beams, inputs, device)[0].reshape(len(poses), -1))

@@ -282,7 +282,7 @@ class StopChains:
         """Draw the reflectivities of cells that no beam touches, which sweeps leave out, before the sweep ``sweep``."""
         assert self.swept, "no sweep has been made"
         size = self.n_chains * self._state.n_cells
-        inputs = [0, sweep, self._last_self._prior, self._status, self._state]
+        inputs = [0, sweep, self._prior, self._status, self._state]
         wp.launch(cell_draws.draw_untouched, dim=size, inputs=inputs, device=self.device)
 
     def counted(self, chain: int) -> tuple[Ints, Ints]:
