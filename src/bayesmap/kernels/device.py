@@ -1,7 +1,6 @@
 """Start Warp, put arrays and structs on a device (`pack`), and launch a kernel on all cores (`launch`).
 
-Launches release the GIL: `launch` runs one per thread. A kernel writes only to its own elements, so the number of
-threads changes no result.
+Launches release the GIL: `launch` runs one per thread. Kernels write only to own elements, so threads change no result.
 """
 
 import contextlib

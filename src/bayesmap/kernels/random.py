@@ -12,7 +12,6 @@ GOLDEN = wp.constant(wp.uint64(0x9E3779B97F4A7C15))
 MIX_1 = wp.constant(wp.uint64(0xBF58476D1CE4E5B9))
 MIX_2 = wp.constant(wp.uint64(0x94D049BB133111EB))
 PER_BITS_53 = wp.constant(wp.float64(1.0 / 9007199254740992.0))  # 2^-53
-
 LOW_64_BITS = (1 << 64) - 1  # mask for a Python integer
 
 
@@ -108,8 +107,7 @@ COUNTERS_PER_GAMMA = (
 @wp.func
 def normal(key: wp.uint64, counter: wp.uint64) -> wp.float64:
     """Return a standard normal variate (Box and Muller, 1958); takes two counters."""
-    u = to_uniform(random_bits(key, counter))
-    v = to_uniform(random_bits(key, counter + wp.uint64(1)))
+    u, v = to_uniform(random_bits(key, counter)), to_uniform(random_bits(key, counter + wp.uint64(1)))
     return wp.sqrt(wp.float64(-2.0) * wp.log(u)) * wp.cos(TWO_PI * v)
 
 

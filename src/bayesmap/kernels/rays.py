@@ -21,7 +21,6 @@ from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
 wp.set_module_options({"enable_backward": False})
-
 BEAMS_PER_REPORT = 1 << 16  # beams traced between two reports of progress
 
 

@@ -17,7 +17,6 @@ from bayesmap.kernels import device as devices
 from bayesmap.kernels.device import ONE, ZERO, Float64s, Floats, Int32s, Ints, Uint8Rows, Vec2ds
 
 wp.set_module_options({"enable_backward": False})
-
 TIE = wp.constant(wp.float64(rays.TIE))
 PARALLEL = wp.constant(wp.float64(rays.PARALLEL))
 NEVER = wp.constant(wp.float64(1.0e300))  # distance of a grid line that the beam does not cross
@@ -176,9 +175,7 @@ def first_hit_ranges(
 def cast_beams(
     walls: NDArray[Any], starts_cells: Floats, angles_rad: Floats, longest_cells: float, device: str = "cpu"
 ) -> tuple[Floats, Ints]:
-    """Compute each beam's distance to its first wall, in cells, ``longest_cells`` without one, and the number of cells
-    visited, (B,) each. Walls are non-zero, (nx, ny); starts are in cells from the grid's corner, (B, 2).
-    """
+    """Return beams' distances to walls, (nx, ny), and numbers of cells visited, (B,); starts are in cells, (B, 2)."""
     device = devices.resolve(device)
     beams = (len(starts_cells),)
     inputs = [walls != 0, starts_cells, angles_rad, longest_cells, beams, beams]

@@ -206,13 +206,6 @@ def _log_densities(packed: DeviceMaps, scans: Scans, thin: int, values: Mapping[
     # Make scans of one beam each: the kernel sums over beams, but densities of single beams are needed.
     poses = np.repeat(scans.poses, ranges.shape[1], axis=0)
     poses[:, 2] += angles.ravel()
-    logs = scan_log_likelihood(
-        packed,
-        poses,
-        np.zeros(1),
-        ranges.reshape(-1, 1),
-        sensor_of(values, None),
-        limits,
-        scan=np.arange(ranges.size),
-    )
+    sensor, which = sensor_of(values, None), np.arange(ranges.size)
+    logs = scan_log_likelihood(packed, poses, np.zeros(1), ranges.reshape(-1, 1), sensor, limits, scan=which)
     return np.where(np.isnan(ranges), np.nan, logs[:, 0].reshape(ranges.shape))

@@ -16,7 +16,6 @@ from bayesmap.kernels import device as devices
 from bayesmap.kernels.device import Float64Rows, Float64s, Floats, Int32s, Ints, Vec2ds
 
 wp.set_module_options({"enable_backward": False})
-
 MIN_THREADED_LOOK_UPS = 100_000  # fewer look-ups of points are done before a second thread has started
 
 Vec2is = wp.array(dtype=wp.vec2i)
@@ -207,13 +206,10 @@ def search_blocks(
             bottom = strands.node[strand, size][2]
             # A single translation: keep it if it is better, or equal and earlier in the order.
             if level == 0:
-                better = value > best_score
-                if value == best_score and best_node[0] >= 0:
-                    if row < best_node[0]:
-                        better = True
-                    if row == best_node[0]:
-                        better = left < best_node[1] or (left == best_node[1] and bottom < best_node[2])
-                if better:
+                is_tie = value == best_score and best_node[0] >= 0
+                is_first = left < best_node[1] or (left == best_node[1] and bottom < best_node[2])
+                is_first = row < best_node[0] or (row == best_node[0] and is_first)
+                if value > best_score or (is_tie and is_first):
                     best_score = value
                     best_node = wp.vec3i(row, left, bottom)
                     if value > strands.incumbent[job]:

@@ -19,8 +19,6 @@ from bayesmap.space.grid import Grid
 
 wp.set_module_options({"enable_backward": False})
 
-GPU_BANDS = 64  # bands of a grid, each of which one thread of a GPU renders
-
 
 class GridScans(NamedTuple):
     """Likelihood grids and their scans: grid g contains the entries offsets[g] to offsets[g + 1]."""
@@ -107,10 +105,7 @@ def render_grids(
     geometry: Any, grids: GridScans, shape: tuple[int, int], levels: int, threads: int | None = None,
     pyramid: Any = None,
 ) -> Any:  # fmt: skip
-    """Render grids of scans of a `ScanGeometry`, with their pyramids: (grids, levels, nx, ny), bytes on the device.
-
-    ``pyramid`` is an array to write into, if any.
-    """
+    """Render grids of scans with their pyramids, (grids, levels, nx, ny), on the device, into ``pyramid`` if given."""
     count, device = len(grids.origins), geometry.device
     if pyramid is None:
         pyramid = wp.empty((count, levels, *shape), dtype=wp.uint8, device=device)
@@ -118,7 +113,7 @@ def render_grids(
         pyramid.numpy()[:, 0] = 0
     else:
         pyramid.zero_()
-    bands = 1 if device == "cpu" else GPU_BANDS
+    bands = 1 if device == "cpu" else 64  # one for each thread
     inputs = [bands, devices.pack(GridScansArrays, device, **grids._asdict()), scan_arrays(geometry), pyramid]
     devices.launch(stamp_points, count * bands, inputs, device, threads)
     for level in range(1, levels):
@@ -156,10 +151,7 @@ def sum_field(first: int, field: Uint8Rows, points: Float32Rows, poses: Float32R
 
 
 def field_sums(field: NDArray[np.uint8], grid: Grid, points: Floats, poses: Floats) -> Ints:
-    """Sum the values of a field (nx, ny) at the points of a scan at each pose, (P,); outside the field they are 0.
-
-    Points are in the sensor's frame, metres, (N, 2); poses in the world frame, (P, 3).
-    """
+    """Sum the values of a field, (nx, ny), 0 outside, at points, (N, 2), metres, of a scan at world poses, (P, 3)."""
     devices.start()
     poses_cells = np.column_stack([grid.to_cells(poses[:, :2]), poses[:, 2]])
     inputs = [field, points / grid.resolution, poses_cells, (len(poses),)]

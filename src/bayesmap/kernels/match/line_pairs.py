@@ -23,7 +23,6 @@ from bayesmap.kernels.match.scan_geometry import WITH_NORMAL, ScanArrays, equal_
 from bayesmap.space.planar import inverse
 
 wp.set_module_options({"enable_backward": False})
-
 OUT_OF_VIEW = wp.constant(-2)  # result of `nearest_point` if no beam points towards the point
 MAX_SIDE_BEAMS = wp.constant(25)  # most beams searched to either side
 MAX_SPACING_M = wp.constant(0.15)  # points of less dense surfaces, such as walls that beams graze, fix no pose

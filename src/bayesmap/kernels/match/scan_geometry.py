@@ -11,7 +11,6 @@ from bayesmap.kernels.device import Float32Rows, Float32s, Float64Rows, Floats, 
 from bayesmap.sensors.model import RangeLimits
 
 wp.set_module_options({"enable_backward": False})
-
 POINT = wp.constant(wp.uint8(1))
 WITH_NORMAL = wp.constant(wp.uint8(2))
 NOWHERE_M = wp.constant(wp.float32(1.0e6))  # where beams without a point end: too far to be nearest to any point

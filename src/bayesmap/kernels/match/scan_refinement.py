@@ -15,7 +15,6 @@ from bayesmap.kernels.match.line_pairs import Mat33ds, PairRulesArrays, pair_sca
 from bayesmap.kernels.match.scan_geometry import ScanArrays, equal_weights, scan_arrays
 
 wp.set_module_options({"enable_backward": False})
-
 MAX_STEP = wp.constant(wp.float64(0.5))  # metres plus radians
 MIN_STEP = wp.constant(wp.float64(1.0e-5))  # metres plus radians: steps below this end the iteration
 

@@ -35,7 +35,6 @@ from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
 wp.set_module_options({"enable_backward": False})
-
 StopStates = Singles
 """Maps: stop probabilities of cells without a surface (maps, cells), or surfaces (maps, cells, 6): reflectivity,
 mean x and y in metres from the grid's lower left corner, and Cholesky factor l11, l21, l22."""
@@ -192,19 +191,13 @@ def add_stop(
     return add_log(sums, wp.log(weight) + laws.stop_log_density(law, z, decay, stop[1], stop[2]))
 
 
-@wp.func
-def negligible_weight(law: SensorLaw64) -> wp.float64:
-    """Return the weight below which a beam is not followed further."""
-    return wp.where(law.kind == MIXTURE, MIN_SURVIVAL_MIXTURE, MIN_SURVIVAL)
-
-
 @wp.struct
 class ForecastSums:
     """Readings, and running sums over draws."""
 
     range_m: Float64s  # readings
     reach_m: Float64s  # distance up to which stops may explain them
-    most: Float64s  # density, see `no_sum`
+    largest: Float64s  # with ``total``: density, see `no_sum`
     total: Float64s
     below: Float64s  # cumulative probability at the beam's reading
     below_max: Float64s  # at the largest range
@@ -225,26 +218,24 @@ def add_forecasts(
         return
     line = line_of(rays.lines, beam)
     nowhere = wp.vec3d(ONE, wp.float64(wp.inf), wp.float64(0.0))
-    sums = wp.vec2d(out.most[beam], out.total[beam])
+    sums = wp.vec2d(out.largest[beam], out.total[beam])
     z_limit = z
     if wp.isinf(z):
         z_limit = wp.where(z > wp.float64(0.0), law.max_m, law.min_m)
-    min_survival = negligible_weight(law)
+    min_survival = wp.where(law.kind == MIXTURE, MIN_SURVIVAL_MIXTURE, MIN_SURVIVAL)
     decay = laws.object_decay(law, z)
-    beyond = traced.first_past(
-        line, rays.cells, rays.offsets[beam], rays.offsets[beam + 1], out.reach_m[beam], wp.float64(0.0)
-    )
+    begin, end = rays.offsets[beam], rays.offsets[beam + 1]
+    beyond = traced.first_past(line, rays.cells, begin, end, out.reach_m[beam], wp.float64(0.0))
     for draw in range(maps.draws):
         survive = wp.float64(1.0)
-        for i in range(rays.offsets[beam + 1] - rays.offsets[beam] + 1):
-            entry = rays.offsets[beam] + i
+        for entry in range(begin, end + 1):
             if entry == beyond:
                 sums = add_stop(law, sums, survive, z, decay, nowhere)
                 if with_cumulative == 0:
                     break
             weight = survive
             stop = nowhere
-            if entry < rays.offsets[beam + 1]:
+            if entry < end:
                 stop = stop_in(maps, draw, columns[entry], line, rays.cells[entry])
                 weight = survive * stop[0]
                 survive = survive * (ONE - stop[0])
@@ -254,15 +245,13 @@ def add_forecasts(
                 if with_cumulative != 0:
                     out.below[beam] = out.below[beam] + weight * laws.cumulative(law, z_limit, stop[1], stop[2])
                     if law.kind != NOISE:
-                        out.below_max[beam] = out.below_max[beam] + weight * laws.cumulative(
-                            law, law.max_m, stop[1], stop[2]
-                        )
-                        out.below_min[beam] = out.below_min[beam] + weight * laws.cumulative(
-                            law, law.min_m, stop[1], stop[2]
-                        )
+                        below_max = laws.cumulative(law, law.max_m, stop[1], stop[2])
+                        below_min = laws.cumulative(law, law.min_m, stop[1], stop[2])
+                        out.below_max[beam] = out.below_max[beam] + weight * below_max
+                        out.below_min[beam] = out.below_min[beam] + weight * below_min
                 if survive < min_survival:
                     break
-    out.most[beam] = sums[0]
+    out.largest[beam] = sums[0]
     out.total[beam] = sums[1]
 
 
@@ -310,7 +299,7 @@ def _summed_forecasts(
     reach_m = explained_within_m(rays.range_m, sensor, rays.limits, rays.grid.resolution)
     sums = devices.pack(
         ForecastSums, device, range_m=rays.range_m, reach_m=reach_m, total=(beams,), below=cumulatives,
-        below_max=cumulatives, below_min=cumulatives, most=np.full(beams, 0.0 if law.kind == MIXTURE else -1.0e300),
+        below_max=cumulatives, below_min=cumulatives, largest=np.full(beams, 0.0 if law.kind == MIXTURE else -1.0e300),
     )  # fmt: skip
     rays_and_columns = [rays_to_device(rays, device), devices.to_device(columns, wp.int32, device)]
     draws = 0
@@ -320,7 +309,7 @@ def _summed_forecasts(
         devices.launch(add_forecasts, beams, [*inputs, sums], device, 1 if beams < MIN_THREADED_BEAMS else None)
     require_draws(draws)
     with np.errstate(divide="ignore"):
-        log_density = sums.most.numpy() + np.log(sums.total.numpy() / draws)
+        log_density = sums.largest.numpy() + np.log(sums.total.numpy() / draws)
     log_density[np.isnan(rays.range_m)] = np.nan
     return log_density, [a.numpy() / draws for a in (sums.below, sums.below_max, sums.below_min)]
 
@@ -330,10 +319,8 @@ def log_densities(
     device: str = "cpu",
 ) -> Floats:  # fmt: skip
     """Compute the log predictive density of every reading, (B,), of beams traced at least as far as it reaches."""
-    # columns: the columns of the entries' cells in the draws, (K,)
-    return _summed_forecasts(
-        rays, rays.columns if columns is None else columns, batches, sensor, hit_depth, device, with_cumulative=False
-    )[0]
+    columns = rays.columns if columns is None else columns  # of the entries' cells in the draws, (K,)
+    return _summed_forecasts(rays, columns, batches, sensor, hit_depth, device, with_cumulative=False)[0]
 
 
 def forecast(
@@ -385,7 +372,7 @@ def beam_log_likelihoods(first: int, law: SensorLaw64, frame: Frame, maps: MapAr
     x = scans.pose[row, 0] + wp.cos(yaw) * scans.mount[m, 0] - wp.sin(yaw) * scans.mount[m, 1]
     y = scans.pose[row, 1] + wp.sin(yaw) * scans.mount[m, 0] + wp.cos(yaw) * scans.mount[m, 1]
     line = line_in(frame, x, y, yaw + scans.mount[m, 2])
-    min_survival = negligible_weight(law)
+    min_survival = wp.where(law.kind == MIXTURE, MIN_SURVIVAL_MIXTURE, MIN_SURVIVAL)
     decay = laws.object_decay(law, z)
     sums = no_sum(law)
     survive = wp.float64(1.0)
@@ -396,8 +383,8 @@ def beam_log_likelihoods(first: int, law: SensorLaw64, frame: Frame, maps: MapAr
             weight = survive * stop[0]
             survive = survive * (ONE - stop[0])
             if weight > wp.float64(0.0):
-                with_variance = wp.vec3d(weight, stop[1], stop[2] * stop[2])
-                sums = add_stop(law, sums, weight, z, decay, with_variance)
+                moments = wp.vec3d(weight, stop[1], stop[2] * stop[2])  # variance in place of the spread
+                sums = add_stop(law, sums, weight, z, decay, moments)
         w = walk_next(w)
     if survive > wp.float64(0.0):
         sums = add_stop(law, sums, survive, z, decay, wp.vec3d(survive, wp.float64(wp.inf), wp.float64(0.0)))
@@ -427,9 +414,8 @@ class ScanLikelihood:
         law, size = laws.sensor_law(self.sensor, limits, device), len(poses) * beams
         maps = cells.arrays if isinstance(cells, DeviceMaps) else maps_to_device(cells, self.hit_depth, device)
         mounts, readings = self._on_device
-        scans = devices.pack(
-            PosedScans, device, pose=poses, scan=scan, chain=chain, mount=mounts, range_m=readings, beams=beams
-        )
+        fields = {"pose": poses, "scan": scan, "chain": chain, "mount": mounts, "range_m": readings}
+        scans = devices.pack(PosedScans, device, beams=beams, **fields)
         inputs = [law, grid_frame(self.grid), maps, scans, (size,)]
         (out,) = devices.launch(beam_log_likelihoods, size, inputs, device, devices.threads_for(size))
         return np.asarray(out.reshape(len(poses), beams))

@@ -250,8 +250,7 @@ def find_quantiles(
 ):  # fmt: skip
     """One thread per beam: find each quantile by bisection of the span of ranges; levels are ascending."""
     beam = first + wp.tid()
-    at_low = mixture_below(law, stops, beam, low_m)
-    at_high = mixture_below(law, stops, beam, high_m)
+    at_low, at_high = mixture_below(law, stops, beam, low_m), mixture_below(law, stops, beam, high_m)
     start = low_m
     search = LevelSearch()
     search.low = low_m

@@ -13,7 +13,6 @@ from bayesmap.kernels.walk import Walk, is_inside, walk_next
 from bayesmap.space.grid import Grid
 
 wp.set_module_options({"enable_backward": False})
-
 MIN_SURVIVAL = wp.constant(wp.float64(1.0e-6))  # least chance of getting to a cell at which a beam is followed
 INTEGRATION_SIGMAS = wp.constant(wp.float64(4.0))  # standard deviations about a stop in which readings are integrated
 
@@ -62,6 +61,7 @@ def draw_scan_stops(
     maps: DeviceMaps, poses: Floats, draw: NDArray[np.intp], angles_rad: Floats, max_m: float, key: int
 ) -> tuple[Floats, Floats]:
     """Draw where beams at sensor angles, (A,), stop from each pose, world frame, (P, 3), in its map, ``draw``, (P,).
+
     Returns distances, at most ``max_m`` or infinite, and their standard deviations, (P, A) each.
     """
     beams = (len(poses) * len(angles_rad),)
@@ -89,9 +89,8 @@ def exit_distance(w: Walk) -> wp.float64:
     return wp.min(w.next_x, w.next_y)
 
 
-OCCUPIED = wp.constant(0)  # elements of a cell: its probability, and the information in a hit and in a pass
-HIT_NATS = wp.constant(1)
-PASS_NATS = wp.constant(2)
+# Elements of a cell: its probability, and the information in a hit and in a pass.
+OCCUPIED, HIT_NATS, PASS_NATS = 0, 1, 2
 
 
 @wp.kernel

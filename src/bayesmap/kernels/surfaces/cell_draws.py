@@ -28,7 +28,6 @@ from bayesmap.kernels.surfaces.surface import REFLECTIVITY, TRYING, Cell, PriorN
 from bayesmap.kernels.walls.chains import draw_wall, pairs_alike, walls_less_free
 
 wp.set_module_options({"enable_backward": False})
-
 FROM_UNITS = wp.constant(wp.float64(1.0 / GAIN_UNITS))  # from units of `ChainArrays.gain` to nats
 HIDDEN = wp.constant(wp.float32(0.0))  # a cell that tries no candidate
 FRESH = wp.constant(wp.float32(1.0))  # a cell that tries a candidate from the prior
@@ -37,12 +36,8 @@ SILENT_EVERY = wp.constant(3)  # sweeps between two surfaces from the prior in a
 
 # Random counters of one cell in one sweep, part CELLS; `square_counts` defines a further one.
 PER_CELL = wp.constant(wp.uint64(1024))
-AT_ACCEPT = wp.constant(wp.uint64(0))
-AT_BETA = wp.constant(wp.uint64(32))
-AT_FRESH = wp.constant(wp.uint64(256))
-AT_SILENT = wp.constant(wp.uint64(448))
-AT_LABEL = wp.constant(wp.uint64(800))
-AT_UNTOUCHED = wp.constant(wp.uint64(832))
+AT_ACCEPT, AT_BETA, AT_FRESH = (wp.constant(wp.uint64(i)) for i in (0, 32, 256))
+AT_SILENT, AT_LABEL, AT_UNTOUCHED = (wp.constant(wp.uint64(i)) for i in (448, 800, 832))
 
 
 @wp.struct
@@ -175,8 +170,7 @@ def update_free_cells(first: int, sweep: int, prior: PriorNumbers, active: Activ
         if cell[TRYING] == HIDDEN:
             beams = count_beams(state, at.chain, at.cell)
             counts = surface.pseudo_counts(prior, state.solid[at.element])
-            a = counts[0] + wp.float64(beams[0])
-            b = counts[1] + wp.float64(beams[1])
+            a, b = counts[0] + wp.float64(beams[0]), counts[1] + wp.float64(beams[1])
             cell[REFLECTIVITY] = wp.float32(beta_or_zero(a, b, key, counter + AT_BETA))
             state.last_hits[at.element] = beams[0]
             state.last_met[at.element] = beams[1]
@@ -305,8 +299,7 @@ def draw_labels(first: int, colour: int, sweep: int, prior: PriorNumbers, status
             if state.fixed_m[element] != LEARNS or state.cells[element][TRYING] != wp.float32(0.0):
                 return
             beams = count_beams(state, chain, cell)
-        hits = wp.float64(beams[0])
-        met = wp.float64(beams[1])
+        hits, met = wp.float64(beams[0]), wp.float64(beams[1])
         log_odds += log_beta(prior.a_solid + hits, prior.b_solid + met) - prior.log_beta_solid
         log_odds -= log_beta(prior.a + hits, prior.b + met) - prior.log_beta
     key = sweep_key(state.keys[chain], sweep, CELLS)

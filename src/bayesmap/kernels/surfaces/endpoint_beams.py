@@ -135,16 +135,10 @@ def log_stops(
 
 BLOCK_WIDTH = 8  # beams of a block
 Lanes = wp.types.vector(length=BLOCK_WIDTH, dtype=wp.float32)  # one number of each of eight beams
-# The lanes of a block: a passing beam has a line only.
-OFFSET = wp.constant(0)  # offset of the cell's centre from the beam
-LINE_X = wp.constant(1)  # direction of the beam
-LINE_Y = wp.constant(2)
-PASSING_LANES = wp.constant(3)  # number of lanes so far
-CENTRE = wp.constant(3)  # distance of the centre along the beam
-READING = wp.constant(4)
-DECAY = wp.constant(5)
-COUNTS = wp.constant(6)  # 1 if the beam counts, 0 if it only fills a lane
-STOPPED_LANES = wp.constant(7)  # number of all lanes
+# Lanes of a block. Passing beams: offset of the cell's centre from the beam, and direction of the beam. Stopped beams:
+# also distance of the centre along the beam, reading, decay, and 1 if the beam counts, 0 if it only fills a lane.
+OFFSET, LINE_X, LINE_Y, PASSING_LANES = 0, 1, 2, 3
+CENTRE, READING, DECAY, COUNTS, STOPPED_LANES = 3, 4, 5, 6, 7
 PRODUCT_LANES = wp.constant(2)  # lanes before the blocks: product and least product, see `log_stops_in_lanes`
 CHUNK_BLOCKS = wp.constant(4)  # blocks whose factors are multiplied before the product is turned into a logarithm
 MIN_LANE_PRODUCT = wp.constant(wp.float32(1.0e-35))  # a smaller product may have underflowed
@@ -363,14 +357,12 @@ def log_stops_in_lanes(
     """Compute `log_stops` of the beams in a cell's own blocks; UNKNOWN if a product was too small."""
     # The product and the smallest product so far are stored in every round, because compilers vectorise eight lanes
     # that are stored together.
-    row = own.row
-    begin = own.begin
+    row, begin = own.row, own.begin
     one = Lanes(wp.float32(1.0))
     m = cell[REFLECTIVITY]
     l11, l21, l22 = cell[L11], cell[L21], cell[L22]
     dx, dy = cell[MEAN_X] - centre[0], cell[MEAN_Y] - centre[1]
-    passing_blocks = block_count(own.n_passing)
-    stopped_blocks = block_count(own.n_stopped)
+    passing_blocks, stopped_blocks = block_count(own.n_passing), block_count(own.n_stopped)
     stopped_begin = begin + stopped_blocks_begin(own.n_passing)
     total = wp.float64(own.n_stopped) * wp.log(wp.float64(wp.max(m, MIN_FACTOR)) * wp.float64(law.peak))
     area = l11 * l22

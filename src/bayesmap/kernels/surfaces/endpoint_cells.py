@@ -23,9 +23,7 @@ from bayesmap.kernels.surfaces.stops import ChainArrays
 from bayesmap.kernels.surfaces.surface import L11, L21, L22, MEAN_X, MEAN_Y, REFLECTIVITY, Cell, PriorNumbers
 
 wp.set_module_options({"enable_backward": False})
-
-COSINE = 6  # elements of a row of step sizes
-SINE = 7
+COSINE, SINE = 6, 7  # elements of a row of step sizes
 SHORT_STEP = wp.constant(wp.float32(0.3))  # size of short steps, relative to the others
 # Limits of m within which single precision can reverse a step of logit m.
 MIN_REFLECTIVITY = wp.constant(wp.float64(1.0e-30))
@@ -141,10 +139,10 @@ def log_beams(
             passing_end = beams.passing_begin
             stopped_end = beams.stopped_begin + n_others
     if beams.passing_begin < passing_end or beams.stopped_begin < stopped_end:
-        others = CellBeams(
+        tail = CellBeams(
             beams.number, beams.entries, beams.passing_begin, passing_end, beams.stopped_begin, stopped_end
         )
-        total += endpoint_beams.log_stops(likelihood, others, centre, cell, least - total)
+        total += endpoint_beams.log_stops(likelihood, tail, centre, cell, least - total)
     return total
 
 
@@ -198,8 +196,8 @@ def update_endpoint_cells(
     centre = surface.centre_of(at.cell, state.ny, state.edge_m)
     # Draw the reflectivity from its Beta.
     counts = surface.pseudo_counts(prior, solid)
-    a = counts[0] + wp.float64(state.last_hits[at.element])
-    b = counts[1] + wp.float64(state.last_met[at.element])
+    hits, met = wp.float64(state.last_hits[at.element]), wp.float64(state.last_met[at.element])
+    a, b = counts[0] + hits, counts[1] + met
     beta_key = sweep_key(state.keys[at.chain], sweep, random.CELLS)
     cell[REFLECTIVITY] = wp.float32(random.beta_variate(a, b, beta_key, counter + AT_BETA))
     # Copy the beams to blocks, if the law allows it.

@@ -29,7 +29,6 @@ from bayesmap.kernels.surfaces.stops import ChainArrays, TracedRays
 from bayesmap.kernels.surfaces.surface import PriorNumbers, pseudo_counts
 
 wp.set_module_options({"enable_backward": False})
-
 CANDIDATES = wp.constant(32)
 CANDIDATES_PER_LAW = wp.constant(16)
 PER_CANDIDATE = wp.constant(wp.float64(1.0 / 16.0))  # 1 / CANDIDATES_PER_LAW

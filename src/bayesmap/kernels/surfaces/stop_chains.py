@@ -94,37 +94,42 @@ class StopChains:
         self, plan: Plan, states: Callable[[int], Singles], keys: Sequence[int], *, threads: int | None,
         counts: Ints | None = None, observed_counts: Ints | None = None, solid: NDArray[np.bool_] | None = None,
     ) -> None:  # fmt: skip
-        """Put chains on the device, one per key. ``states`` returns the cells of a chain, (N, 6); ``solid`` holds their
-        labels, (C, N), if any. Chains that continue have ``counts`` (C, 2, N) and ``observed_counts`` (C, N, 2).
+        """Put chains on the device, one per key, with the cells that ``states`` returns for each, (N, 6).
+
+        ``solid`` holds labels, (C, N), if any. Chains that continue have ``counts`` (C, 2, N) and ``observed_counts``
+        (C, N, 2).
         """
         self.plan = plan
         self.device = device = plan.device
         self.n_chains = chains = len(keys)
         self.without_surfaces = int(plan.distance_m is not None)
-        cells, beams, touched = plan.rays.grid.n_cells, plan.rays.n_beams, len(plan.rays.touched)
+        rays = plan.rays
+        cells, beams, touched = rays.grid.n_cells, rays.n_beams, len(rays.touched)
         self.threads = (threads or devices.available_cores()) if device == "cpu" else 1
-        self._rays = stops.traced_rays_to_device(plan.rays, plan.distance_m, device)
-        self._schedule = stops.UpdateSchedule(plan.rays, plan.periods)
-        self._lazy = self._schedule.mark_watched(self._rays, device)
-        self._endpoints = endpoint_cells_to_device(plan.rays, plan.endpoints, plan.steps, device)
-        self._active = devices.pack(
-            cell_draws.ActiveCells, device, cell=plan.rays.touched, period=plan.periods,
-            without_surfaces=self.without_surfaces,
+        self._rays = devices.pack(
+            stops.TracedRays, device, without_surfaces=self.without_surfaces, offsets=rays.offsets, cells=rays.cells,
+            near=rays.near, start_m=rays.start_m, direction=rays.direction, range_m=rays.range_m, decay=(beams,),
+            distance_m=np.zeros(1) if plan.distance_m is None else plan.distance_m,
         )  # fmt: skip
+        self._schedule = stops.UpdateSchedule(rays, plan.periods)
+        self._lazy = self._schedule.mark_watched(self._rays, device)
+        self._endpoints = endpoint_cells_to_device(rays, plan.endpoints, plan.steps, device)
+        fields = {"cell": rays.touched, "period": plan.periods, "without_surfaces": self.without_surfaces}
+        self._active = devices.pack(cell_draws.ActiveCells, device, **fields)
         counted = plan.endpoints[:0] if self.without_surfaces else plan.endpoints
-        self._status = cell_draws.status_to_device(cells, plan.rays.touched, counted, device)
+        self._status = cell_draws.status_to_device(cells, rays.touched, counted, device)
         self._laws: tuple[Any, ...] = ()  # sensor, prior and beta of the last sweep; empty if cells were replaced since
         self._law: Any = None  # `SensorLaw32` of the last sweep; None before the first one
         self._prior: Any = None  # `PriorNumbers` of the last sweep
-        self._squares = square_arrays(plan.rays, 0 if self.without_surfaces else chains, device)
+        self._squares = square_arrays(rays, 0 if self.without_surfaces else chains, device)
 
         # The state of all chains, with labels and counts from the host if given.
         parts = devices.ceil_div(self.threads, chains)
         by_cell, by_beam, by_part = (chains * cells,), (chains * beams,), (chains * parts, cells)
         unknown = np.full(by_cell, -1, dtype=np.int32)
         self._state: Any = devices.pack(
-            stops.ChainArrays, device, n_cells=cells, n_beams=beams, parts=parts, beta=1.0, nx=plan.rays.grid.shape[0],
-            ny=plan.rays.grid.shape[1], edge_m=plan.rays.grid.resolution, keys=np.array(keys, dtype=np.uint64),
+            stops.ChainArrays, device, n_cells=cells, n_beams=beams, parts=parts, beta=1.0, nx=rays.grid.shape[0],
+            ny=rays.grid.shape[1], edge_m=rays.grid.resolution, keys=np.array(keys, dtype=np.uint64),
             cells=by_cell, solid=by_cell if solid is None else solid.ravel().astype(np.uint8),
             fixed_m=np.full(by_cell, stops.LEARNS, dtype=np.float32),
             candidates=(1,) if self.without_surfaces else by_cell, met=by_part, hits=by_part, gain=by_part,
@@ -162,9 +167,8 @@ class StopChains:
         if changed:
             wp.launch(stops.compute_decays, dim=self.plan.rays.n_beams, inputs=[0, law, self._rays], device=self.device)
         sums = [wp.zeros((self.n_chains, count), dtype=wp.float64, device=self.device) for _ in range(2)]
-        likelihood = devices.pack(
-            StopLikelihood, self.device, law=law, beta=beta, rays=self._rays, endpoints=self._endpoints
-        )
+        beams = {"rays": self._rays, "endpoints": self._endpoints}
+        likelihood = devices.pack(StopLikelihood, self.device, law=law, beta=beta, **beams)
         arguments = first, count, steps, observe_from, before, after
         request = SweepRequest(*arguments, likelihood, changed, is_start, *sums)
         single_chains = [range(chain, chain + 1) for chain in range(self.n_chains)]
@@ -286,9 +290,7 @@ class StopChains:
         wp.launch(cell_draws.draw_untouched, dim=size, inputs=inputs, device=self.device)
 
     def counted(self, chain: int) -> tuple[Ints, Ints]:
-        """Return the beams that each cell stopped, and that met its surface and passed, (N,) each, when it last drew
-        its reflectivity (before it, the second is -1). The arrays are valid until the next sweep.
-        """
+        """Return the beams stopped, and met and passed, (N,) each, when each cell last drew m; before that 0 and -1."""
         return self._view(self._state.last_hits, chain), self._view(self._state.last_met, chain)
 
     @property
@@ -298,6 +300,7 @@ class StopChains:
 
     def in_squares(self, chain: int, sweep: int, kept: bool, solid: NDArray[np.bool_] | None = None) -> InSquares:
         """Count the stops of a chain with surfaces in each square, after its last sweep, which has this number.
+
         If ``kept``, `observed_counts` counts the draw. ``solid`` holds the labels before the sweep, (N,), if any.
         """
         assert self._squares, "cells without surfaces stop beams inside their own squares"
@@ -319,9 +322,7 @@ class StopChains:
         return InSquares(stopped, crossings - stopped - stopped_before, *chances)
 
     def observed_counts(self, chain: int) -> Ints:
-        """Return the draws in which some beam observes each cell, and the draws inspected, (N, 2); see `counted`.
-        With surfaces the kept draws are inspected, without surfaces the sweeps in which the cell has counted.
-        """
+        """Return the draws in which some beam observes each cell, and the draws inspected, (N, 2); see `counted`."""
         return self._view(self._state.observed_counts, chain)
 
     def log_likelihood(self, chain: int) -> Singles:

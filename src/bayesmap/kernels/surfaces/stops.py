@@ -25,14 +25,13 @@ from numpy.typing import NDArray
 from bayesmap.beams.rays import Rays
 from bayesmap.kernels import device as devices
 from bayesmap.kernels import sensor_law as laws
-from bayesmap.kernels.device import ONE_32, Float32s, Int32Rows, Int32s, Singles, Uint8s
+from bayesmap.kernels.device import ONE_32, Float32s, Int32Rows, Int32s, Uint8s
 from bayesmap.kernels.random import BEAMS, random_bits, sweep_key, to_uniform
 from bayesmap.kernels.sensor_law import SensorLaw32
 from bayesmap.kernels.surfaces import surface
 from bayesmap.kernels.surfaces.surface import REFLECTIVITY, TRYING, Cell, Crossing, Ray
 
 wp.set_module_options({"enable_backward": False})
-
 GAIN_UNITS = 1 << 24  # units of `ChainArrays.gain` per nat
 TO_UNITS = wp.constant(wp.float32(GAIN_UNITS))
 MIN_FACTOR = wp.constant(wp.float32(1.0e-30))  # smaller factors are raised to this before a logarithm
@@ -44,9 +43,7 @@ NEGLIGIBLE_REFLECTIVITY = wp.constant(wp.float32(2.0**-26))  # for smaller m, 1 
 MIN_RELATIVE_WEIGHT = wp.constant(wp.float32(2.0**-26))  # relative weight below single precision
 
 # First random counters of a sweep, one per purpose; the entry or beam is added.
-STREAM_CHOICE = wp.constant(wp.uint64(1 << 32))
-STREAM_END = wp.constant(wp.uint64(2 << 32))
-STREAM_FAR = wp.constant(wp.uint64(3 << 32))
+STREAM_CHOICE, STREAM_END, STREAM_FAR = (wp.constant(wp.uint64(i << 32)) for i in (1, 2, 3))
 
 
 @wp.struct
@@ -64,15 +61,6 @@ class TracedRays:
     decay: Float32s  # see `compute_decays`
     watched_offsets: Int32s  # first element of each beam in ``watched``
     watched: Int32s  # far entries whose cells are not lazy
-
-
-def traced_rays_to_device(rays: Rays, distance_m: Singles | None, device: str) -> Any:
-    """Put rays on a device, with the distance of a stop at each entry if cells have no surfaces, (K,)."""
-    return devices.pack(
-        TracedRays, device, without_surfaces=int(distance_m is not None), offsets=rays.offsets, cells=rays.cells,
-        near=rays.near, start_m=rays.start_m, direction=rays.direction, range_m=rays.range_m, decay=(rays.n_beams,),
-        distance_m=np.zeros(1) if distance_m is None else distance_m,
-    )  # fmt: skip
 
 
 @wp.struct
@@ -136,13 +124,12 @@ def meeting_chance(rays: TracedRays, cell: Cell, ray: Ray) -> wp.float32:
 
 @wp.func
 def hit_density(
-    law: SensorLaw32, beta: wp.float32, entry: int, near: int, reading: wp.float32, decay: wp.float32,
-    crossing: Crossing,
-) -> wp.float32:  # fmt: skip
-    """Return p(z | stop)^beta at an entry; before the near entries, the density of a random reading."""
+    law: SensorLaw32, beta: wp.float32, entry: int, near: int, z: wp.float32, decay: wp.float32, crossing: Crossing
+) -> wp.float32:
+    """Return p(z | stop)^beta of a reading z at an entry; before the near entries, the density of a random reading."""
     if entry < near:
         return tempered(law.uniform, beta)
-    return tempered(laws.stop_density(law, reading, decay, crossing.distance_m, crossing.variance), beta)
+    return tempered(laws.stop_density(law, z, decay, crossing.distance_m, crossing.variance), beta)
 
 
 @wp.kernel
@@ -303,9 +290,7 @@ def find_far_stop(rays: TracedRays, state: ChainArrays, beam: Beam, target: wp.f
 
 
 @wp.func
-def count_stop(
-    law: SensorLaw32, state: ChainArrays, beam: Beam, entry: int, c: int, cell: Cell, crossing: Crossing
-):  # fmt: skip
+def count_stop(law: SensorLaw32, state: ChainArrays, beam: Beam, entry: int, c: int, cell: Cell, crossing: Crossing):
     """Count that a beam stopped at an entry, in cell c; while a candidate is tried, add the stop's log ratio for it."""
     wp.atomic_add(state.hits, beam.row, c, 1)
     if cell[TRYING] != wp.float32(0.0):

@@ -26,11 +26,8 @@ DIRECTION_SQ = wp.constant(wp.float32(DIRECTION_RAD**2))
 
 Cell = wp.types.vector(length=8, dtype=wp.float32)  # a cell's state; its last number is not used
 REFLECTIVITY = 0
-MEAN_X = 1  # metres from the grid's corner
-MEAN_Y = 2
-L11 = 3  # Cholesky factor of Sigma
-L21 = 4
-L22 = 5
+MEAN_X, MEAN_Y = 1, 2  # metres from the grid's corner
+L11, L21, L22 = 3, 4, 5  # Cholesky factor of Sigma
 TRYING = 6  # 1 while a candidate for the surface is tried, else 0
 
 
@@ -187,10 +184,8 @@ def fresh_surface(prior: PriorNumbers, centre: wp.vec2, cell: Cell, key: wp.uint
 def log_surface_prior(prior: PriorNumbers, centre: wp.vec2, cell: Cell) -> wp.float64:
     """Return the log density of a surface in the coordinates of its steps, up to a constant."""
     # (x, y): mean relative to the centre; q: the lower left entry of L^-1, up to its sign.
-    x = wp.float64(cell[MEAN_X] - centre[0])
-    y = wp.float64(cell[MEAN_Y] - centre[1])
-    l11 = wp.float64(cell[L11])
-    l22 = wp.float64(cell[L22])
+    x, y = wp.float64(cell[MEAN_X] - centre[0]), wp.float64(cell[MEAN_Y] - centre[1])
+    l11, l22 = wp.float64(cell[L11]), wp.float64(cell[L22])
     q = wp.float64(cell[L21]) / (l11 * l22)
     trace = ONE / (l11 * l11) + ONE / (l22 * l22) + q * q
     shape = -prior.nu * wp.log(l11) - (prior.nu + ONE) * wp.log(l22) - HALF * prior.psi_m2 * trace

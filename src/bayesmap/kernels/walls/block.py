@@ -22,7 +22,6 @@ from bayesmap.kernels.walls import chains
 from bayesmap.kernels.walls.chains import Chain, Kept, Sweeps, Table, WallChainArrays, WallPriorArrays
 
 wp.set_module_options({"enable_backward": False, "max_unroll": 1})  # unrolled, it takes half a minute to compile
-
 LOOK_BACK = wp.constant(8)  # entries: a beam's cells in one block lie close together, even if it runs along a line
 Weights = wp.types.vector(length=16, dtype=wp.float64)  # one number per state of a block; bit j: cell j is a wall
 
@@ -234,19 +233,12 @@ def coupling_weights(blocks: BlockArrays, prior: WallPriorArrays, walls: Uint8s,
     for j in range(4):
         cell = cell_of_block(blocks, x, y, j)
         if cell >= 0:
-            around = int(0)  # walls less free cells among the neighbours outside the block
-            cx = cell // blocks.ny
-            cy = cell % blocks.ny
-            if j < 2:
-                if cx > 0:
-                    around += wp.where(walls[cell - blocks.ny] != wp.uint8(0), 1, -1)
-            elif cx < blocks.nx - 1:
-                around += wp.where(walls[cell + blocks.ny] != wp.uint8(0), 1, -1)
-            if j % 2 == 0:
-                if cy > 0:
-                    around += wp.where(walls[cell - 1] != wp.uint8(0), 1, -1)
-            elif cy < blocks.ny - 1:
-                around += wp.where(walls[cell + 1] != wp.uint8(0), 1, -1)
+            # Walls less free cells among the neighbours outside the block: cells j ^ 1 and j ^ 2 are inside.
+            around = int(chains.walls_less_free(walls, 0, cell, blocks.nx, blocks.ny))
+            for flip in range(1, 3):
+                beside = cell_of_block(blocks, x, y, j ^ flip)
+                if beside >= 0:
+                    around -= wp.where(walls[beside] != wp.uint8(0), 1, -1)
             weights = weights + wp.float64(around) * blocks.is_first[j]
     # A cell that is outside of a narrow grid is free in all possible states, and has no pairs.
     if blocks.ny > 1:

@@ -21,7 +21,6 @@ from bayesmap.kernels.device import Float32Rows, Float32s, Float64Rows, Float64s
 from bayesmap.kernels.random import cipher_bits, shuffled, to_uniform
 
 wp.set_module_options({"enable_backward": False})
-
 CERTAIN_LEVEL = 1 << 53  # the level of probability one
 NO_COUPLING = wp.constant(wp.float64(0.0))  # coupling of independent cells
 

@@ -25,7 +25,6 @@ from bayesmap.kernels import device as devices
 from bayesmap.kernels.device import ONE_32, Float32Rows, Float32s, Float64s, Floats, Int32s, Singles
 
 wp.set_module_options({"enable_backward": False})
-
 TINY = wp.constant(wp.float32(1.0e-30))  # keeps likelihoods and divisors above zero
 MAX_RATIO = wp.constant(wp.float32(1.0e6))
 MAX_PRODUCT = wp.constant(wp.float32(1.0e30))  # beyond it, a product is replaced by its logarithm
@@ -75,11 +74,6 @@ def beam_messages(part_0: int, damping: wp.float32, beliefs: BeliefArrays):
     part = part_0 + wp.tid()
     received = beliefs.received[part]
     product = beliefs.product[part]
-    cells = beliefs.cells
-    relative = beliefs.relative
-    odds = beliefs.odds
-    ratio = beliefs.ratio
-    behind = beliefs.behind
     for cell in range(received.shape[0]):
         received[cell] = wp.float32(0.0)
         product[cell] = ONE_32
@@ -90,33 +84,33 @@ def beam_messages(part_0: int, damping: wp.float32, beliefs: BeliefArrays):
         likelihood_behind = beliefs.relative_no_hit[beam]
         for i in range(end - start):
             entry = end - 1 - i
-            behind[entry] = likelihood_behind
-            cell_odds = odds[cells[entry]]
-            p_wall = cell_odds / (cell_odds + ratio[entry])  # the cavity: the belief without this beam's own message
-            likelihood_behind += p_wall * (relative[entry] - likelihood_behind)
+            beliefs.behind[entry] = likelihood_behind
+            cell_odds = beliefs.odds[beliefs.cells[entry]]
+            p_wall = cell_odds / (cell_odds + beliefs.ratio[entry])  # the belief without this beam's message
+            likelihood_behind += p_wall * (beliefs.relative[entry] - likelihood_behind)
         # Forward pass: free is T, and before is A.
         free = wp.float32(1.0)
         before = wp.float32(0.0)
         for entry in range(start, end):
-            cell = cells[entry]
-            cell_odds = odds[cell]
-            last_ratio = ratio[entry]
-            p_wall = cell_odds / (cell_odds + last_ratio)
-            next_ratio = (before + free * relative[entry] + TINY) / (before + free * behind[entry] + TINY)
-            next_ratio = wp.clamp(next_ratio, ONE_32 / MAX_RATIO, MAX_RATIO)
-            before += free * p_wall * relative[entry]
+            cell = beliefs.cells[entry]
+            cell_odds = beliefs.odds[cell]
+            last_message = beliefs.ratio[entry]
+            p_wall = cell_odds / (cell_odds + last_message)
+            message = (before + free * beliefs.relative[entry] + TINY) / (before + free * beliefs.behind[entry] + TINY)
+            message = wp.clamp(message, ONE_32 / MAX_RATIO, MAX_RATIO)
+            before += free * p_wall * beliefs.relative[entry]
             free *= ONE_32 - p_wall
             if damping == wp.float32(0.5):
-                next_ratio = wp.sqrt(last_ratio * next_ratio)
+                message = wp.sqrt(last_message * message)
             else:
-                next_ratio = wp.pow(last_ratio, damping) * wp.pow(next_ratio, ONE_32 - damping)
-            ratio[entry] = next_ratio
+                message = wp.pow(last_message, damping) * wp.pow(message, ONE_32 - damping)
+            beliefs.ratio[entry] = message
             # Multiply the messages to the cell; take the logarithm before the product overflows.
-            message_product = product[cell] * next_ratio
-            if message_product > MAX_PRODUCT or message_product < ONE_32 / MAX_PRODUCT:
-                received[cell] = received[cell] + wp.log(message_product)
-                message_product = ONE_32
-            product[cell] = message_product
+            scaled = product[cell] * message
+            if scaled > MAX_PRODUCT or scaled < ONE_32 / MAX_PRODUCT:
+                received[cell] = received[cell] + wp.log(scaled)
+                scaled = ONE_32
+            product[cell] = scaled
     for cell in range(received.shape[0]):
         received[cell] = received[cell] + wp.log(product[cell])
 
@@ -179,10 +173,7 @@ GPU_PARTS = 256
 
 
 class Beliefs:
-    """Messages and beliefs of one beam table: `round` advances them, `log_odds` reads the beliefs.
-
-    They take 12 bytes per incidence of the table and, if neighbours are coupled, 32 bytes per cell.
-    """
+    """Messages and beliefs of a beam table, advanced by `round`: 12 bytes per incidence; if coupled, 32 per cell."""
 
     def __init__(self, table: BeamTable, logit: Floats, device: str, beta: float = 1.0, coupling: float = 0.0) -> None:
         cells, incidences, beams = table.grid.n_cells, table.n_incidences, table.n_beams

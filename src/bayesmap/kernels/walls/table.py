@@ -24,7 +24,6 @@ from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
 wp.set_module_options({"enable_backward": False})
-
 MAX_NOISE_SCALES = wp.constant(wp.float64(9.0))  # further from a stop, normal noise adds nothing to a mixture
 MIN_GAIN_NATS = wp.constant(wp.float32(1.0e-3))  # incidences that can gain less than this come last in their cell
 SLICE = 1 << 20  # entries per call of NumPy, if a model has no compiled likelihood
@@ -61,8 +60,8 @@ def _fill_by_model(sensor: SensorModel, rays: Rays, loglik: Singles) -> tuple[Si
     beam = rays.beam_of_entry()
     for i in range(0, rays.n_incidences, SLICE):
         entries = slice(i, i + SLICE)
-        distance_m = loglik[entries].astype(np.float64)
-        loglik[entries] = sensor.log_likelihood(rays.range_m[beam[entries]], distance_m, rays.limits)
+        readings, distance_m = rays.range_m[beam[entries]], loglik[entries].astype(np.float64)
+        loglik[entries] = sensor.log_likelihood(readings, distance_m, rays.limits)
     return loglik, no_hit
 
 
@@ -127,8 +126,7 @@ def scatter_entries(
 ):
     """One thread per range of cells: write their index, with incidences that can gain over `MIN_GAIN_NATS` first."""
     thread = first + wp.tid()
-    low = cell_bounds[thread]
-    high = cell_bounds[thread + 1]
+    low, high = cell_bounds[thread], cell_bounds[thread + 1]
     for gaining in range(2):
         for beam in range(table.no_hit.shape[0]):
             least = lowest[beam]
