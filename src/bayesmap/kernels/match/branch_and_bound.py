@@ -17,7 +17,6 @@ from bayesmap.kernels.device import Float64Rows, Float64s, Floats, Int32s, Ints,
 
 wp.set_module_options({"enable_backward": False})
 MIN_THREADED_LOOK_UPS = 100_000  # fewer look-ups of points are done before a second thread has started
-
 Vec2is = wp.array(dtype=wp.vec2i)
 Pyramid = wp.array4d(dtype=wp.uint8)  # likelihood grids with their maxima over blocks: (grids, levels, nx, ny)
 

@@ -94,10 +94,9 @@ class StopChains:
         self, plan: Plan, states: Callable[[int], Singles], keys: Sequence[int], *, threads: int | None,
         counts: Ints | None = None, observed_counts: Ints | None = None, solid: NDArray[np.bool_] | None = None,
     ) -> None:  # fmt: skip
-        """Put chains on the device, one per key, with the cells that ``states`` returns for each, (N, 6).
+        """Put chains on the device, one per key; ``states`` returns the cells of each, (N, 6).
 
-        ``solid`` holds labels, (C, N), if any. Chains that continue have ``counts`` (C, 2, N) and ``observed_counts``
-        (C, N, 2).
+        ``solid`` holds labels (C, N). Chains that continue have ``counts`` (C, 2, N) and ``observed_counts`` (C, N, 2).
         """
         self.plan = plan
         self.device = device = plan.device

@@ -36,7 +36,6 @@ GAIN_UNITS = 1 << 24  # units of `ChainArrays.gain` per nat
 TO_UNITS = wp.constant(wp.float32(GAIN_UNITS))
 MIN_FACTOR = wp.constant(wp.float32(1.0e-30))  # smaller factors are raised to this before a logarithm
 TO_UNIT_24 = wp.constant(wp.float32(1.0 / (1 << 24)))  # from 24 random bits to a number in [0, 1)
-
 FAR = wp.constant(-1)  # a stop before the near entries
 LEARNS = wp.constant(wp.float32(-1.0))  # in `ChainArrays.fixed_m`: the cell counts beams in this sweep
 NEGLIGIBLE_REFLECTIVITY = wp.constant(wp.float32(2.0**-26))  # for smaller m, 1 - m is 1 in single precision

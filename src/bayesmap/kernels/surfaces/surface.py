@@ -23,7 +23,6 @@ from bayesmap.kernels.random import COUNTERS_PER_GAMMA, log_gamma_variate, norma
 
 CROSSING_WIDTH_SQ = wp.constant(wp.float32(CROSSING_WIDTH**2))
 DIRECTION_SQ = wp.constant(wp.float32(DIRECTION_RAD**2))
-
 Cell = wp.types.vector(length=8, dtype=wp.float32)  # a cell's state; its last number is not used
 REFLECTIVITY = 0
 MEAN_X, MEAN_Y = 1, 2  # metres from the grid's corner
