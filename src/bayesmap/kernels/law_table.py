@@ -11,6 +11,7 @@ from bayesmap.sensors.tabulated import WIDEST, TabulatedLaw
 MAX_SPREAD = wp.constant(wp.float32(WIDEST))
 
 Float32Boxes = wp.array3d(dtype=wp.float32)
+# A `TabulatedLaw` on a device: the Warp types of its fields, in their order.
 LawTable = devices.struct_like(
     TabulatedLaw, wp.float32, wp.float32, wp.float32, int, Float32s, wp.float32, Float32Boxes, Float32Boxes,
     Float32Boxes, Float32s, Float32s, wp.vec2,

@@ -351,7 +351,7 @@ class PosedScans:
     pose: Float64Rows  # in the world frame
     scan: Int32s  # index of the scan at each pose
     chain: Int32s  # index of the map of each pose
-    mount: Float64Rows  # start and angle in the scan's frame, of each beam of a scan or of all scans
+    mounts: Float64Rows  # start and angle in the scan's frame, of each beam of a scan or of all scans
     range_m: Float64s  # readings of all scans
     beams: int  # A
 
@@ -365,13 +365,13 @@ def beam_log_likelihoods(first: int, law: SensorLaw64, frame: Frame, maps: MapAr
     z = scans.range_m[beam]
     if wp.isnan(z):
         return
-    m = thread % scans.beams
-    if scans.mount.shape[0] > scans.beams:
-        m = beam
+    mount = thread % scans.beams
+    if scans.mounts.shape[0] > scans.beams:
+        mount = beam
     yaw = scans.pose[row, 2]
-    x = scans.pose[row, 0] + wp.cos(yaw) * scans.mount[m, 0] - wp.sin(yaw) * scans.mount[m, 1]
-    y = scans.pose[row, 1] + wp.sin(yaw) * scans.mount[m, 0] + wp.cos(yaw) * scans.mount[m, 1]
-    line = line_in(frame, x, y, yaw + scans.mount[m, 2])
+    x = scans.pose[row, 0] + wp.cos(yaw) * scans.mounts[mount, 0] - wp.sin(yaw) * scans.mounts[mount, 1]
+    y = scans.pose[row, 1] + wp.sin(yaw) * scans.mounts[mount, 0] + wp.cos(yaw) * scans.mounts[mount, 1]
+    line = line_in(frame, x, y, yaw + scans.mounts[mount, 2])
     min_survival = wp.where(law.kind == MIXTURE, MIN_SURVIVAL_MIXTURE, MIN_SURVIVAL)
     decay = laws.object_decay(law, z)
     sums = no_sum(law)
@@ -414,7 +414,7 @@ class ScanLikelihood:
         law, size = laws.sensor_law(self.sensor, limits, device), len(poses) * beams
         maps = cells.arrays if isinstance(cells, DeviceMaps) else maps_to_device(cells, self.hit_depth, device)
         mounts, readings = self._on_device
-        fields = {"pose": poses, "scan": scan, "chain": chain, "mount": mounts, "range_m": readings}
+        fields = {"pose": poses, "scan": scan, "chain": chain, "mounts": mounts, "range_m": readings}
         scans = devices.pack(PosedScans, device, beams=beams, **fields)
         inputs = [law, grid_frame(self.grid), maps, scans, (size,)]
         (out,) = devices.launch(beam_log_likelihoods, size, inputs, device, devices.threads_for(size))
