@@ -11,7 +11,7 @@ from oracle.verdict import ALPHA
 import bayesmap as bm
 from bayesmap.kernels.device import Float64s
 from bayesmap.kernels.random import (
-    PER_GAMMA,
+    COUNTERS_PER_GAMMA,
     beta_or_zero,
     beta_variate,
     log_gamma_variate,
@@ -124,7 +124,7 @@ def test_nearly_normal_numbers_have_a_normal_s_first_moments_and_counters_of_var
         assert abs((sample**power).mean() - expected) < 4.5 * error
     assert abs((sample**4).mean() - 3.0) > 4.5 * np.std(sample**4) / np.sqrt(COUNT)  # the twin: a normal's
     assert scipy.stats.ks_2samp(sample, -sample).pvalue > ALPHA / CASES
-    logs, following = (drawn(draw_log_gamma, 0.7, offset) for offset in (0, PER_GAMMA))
+    logs, following = (drawn(draw_log_gamma, 0.7, offset) for offset in (0, COUNTERS_PER_GAMMA))
     assert abs(np.corrcoef(scipy.stats.rankdata(logs), scipy.stats.rankdata(following))[0, 1]) < 4.5 / np.sqrt(COUNT)
 
 
