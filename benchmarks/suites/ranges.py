@@ -6,7 +6,7 @@ import numpy as np
 import warp as wp
 
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.walk import first_hit_ranges
+from bayesmap.kernels.walk import find_first_hits
 from benchmarks.figure import Figure, rate
 
 BEAMS, SIZE = 200_000, 1000
@@ -24,7 +24,7 @@ def run(device: str, with_peers: bool) -> Iterator[Figure]:
     visits = wp.empty(BEAMS, dtype=wp.int32, device=device)
 
     def work() -> float:
-        wp.launch(first_hit_ranges, BEAMS, [0, *inputs, wp.float64(2.0 * SIZE), distance, visits], device=device)
+        wp.launch(find_first_hits, BEAMS, [0, *inputs, wp.float64(2.0 * SIZE), distance, visits], device=device)
         return float(visits.numpy().sum()) * 1e-6
 
     yield rate("ranges/cell_visits", work, unit="M/s")

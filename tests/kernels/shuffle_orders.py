@@ -4,7 +4,7 @@ import numpy as np
 import warp as wp
 
 from bayesmap.kernels import device
-from bayesmap.kernels.random import cipher_bits, mix, random_bits, shuffled
+from bayesmap.kernels.random import cipher_bits, mix, permuted_index, random_bits
 from bayesmap.samplers.sampler import Stream
 
 wp.set_module_options({"enable_backward": False})
@@ -13,7 +13,7 @@ wp.set_module_options({"enable_backward": False})
 @wp.kernel
 def all_shuffled(size: int, bits: wp.uint32, keys: wp.array(dtype=wp.uint64), out: wp.array2d(dtype=wp.uint32)):
     row, i = wp.tid()
-    out[row, i] = shuffled(wp.uint32(i), wp.uint32(size), bits, keys[row])
+    out[row, i] = permuted_index(wp.uint32(i), wp.uint32(size), bits, keys[row])
 
 
 @wp.kernel

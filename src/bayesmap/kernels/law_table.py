@@ -9,7 +9,6 @@ from bayesmap.kernels.device import Float32Rows, Float32s
 from bayesmap.sensors.tabulated import WIDEST, TabulatedLaw
 
 MAX_SPREAD = wp.constant(wp.float32(WIDEST))
-
 Float32Boxes = wp.array3d(dtype=wp.float32)
 # A `TabulatedLaw` on a device: the Warp types of its fields, in their order.
 LawTable = devices.struct_like(

@@ -67,7 +67,7 @@ def scramble(x: wp.uint32, key: wp.uint32) -> wp.uint32:
 
 
 @wp.func
-def shuffled(i: wp.uint32, size: wp.uint32, bits: wp.uint32, key: wp.uint64) -> wp.uint32:
+def permuted_index(i: wp.uint32, size: wp.uint32, bits: wp.uint32, key: wp.uint64) -> wp.uint32:
     """Return element i of a pseudo-random permutation of range(size) that the key chooses; size is at most 2^bits."""
     # A Feistel cipher with four rounds. A result outside the range is enciphered again until it falls inside (cycle
     # walking; Black and Rogaway, *Ciphers with arbitrary finite domains*, 2002).

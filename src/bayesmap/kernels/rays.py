@@ -15,7 +15,7 @@ from bayesmap.beams.rays import MAX_INCIDENCES, Rays
 from bayesmap.errors import BadInput
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.device import ZERO, Float32s, Float64s, Floats, Int32Rows, Int32s, Ints, Singles, Uint8s, Vec2ds
-from bayesmap.kernels.walk import PARALLEL, Walk, cell_before, is_inside, walk_begin, walk_next
+from bayesmap.kernels.walk import PARALLEL, Walk, advance_walk, begin_walk, cell_before, is_inside
 from bayesmap.sensors.model import RangeLimits
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
@@ -99,7 +99,7 @@ def line_of(lines: Lines, beam: int) -> Line:
 def walk_along(line: Line, nx: int, max_m: wp.float64) -> Walk:
     """Start the walk along a line in its grid, ``nx`` cells wide."""
     start = wp.vec2d(line.x.start, line.y.start)
-    return walk_begin(start, line.direction, nx, line.ny, max_m / line.edge_m)
+    return begin_walk(start, line.direction, nx, line.ny, max_m / line.edge_m)
 
 
 @wp.func
@@ -167,7 +167,7 @@ def list_cells(
             entry += 1
             if w.distance < near_distance:
                 near_entry = entry
-        w = walk_next(w)
+        w = advance_walk(w)
     near[beam] = near_entry
 
 
@@ -277,7 +277,7 @@ def count_hits_and_passes(
                 if last >= 0:
                     passes[thread, last] = passes[thread, last] + 1
                 last = w.cell_x * lines.ny + w.cell_y
-            w = walk_next(w)
+            w = advance_walk(w)
         if last >= 0:
             if hit[beam] != wp.uint8(0) and ends_inside:
                 hits[thread, last] = hits[thread, last] + 1

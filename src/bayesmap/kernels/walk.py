@@ -57,7 +57,7 @@ def cell_before(p: wp.float64, step: int) -> int:
 
 
 @wp.func
-def walk_begin(start: wp.vec2d, direction: wp.vec2d, nx: int, ny: int, max_distance: wp.float64) -> Walk:
+def begin_walk(start: wp.vec2d, direction: wp.vec2d, nx: int, ny: int, max_distance: wp.float64) -> Walk:
     """Return the walk from a start along a unit vector, at its first touch, in cells from the grid's corner."""
     px, py = start[0], start[1]
     ux, uy = direction[0], direction[1]
@@ -107,7 +107,7 @@ def walk_begin(start: wp.vec2d, direction: wp.vec2d, nx: int, ny: int, max_dista
 
 
 @wp.func
-def walk_next(w: Walk) -> Walk:
+def advance_walk(w: Walk) -> Walk:
     """Advance to the next touch: a side cell that is still due, else the cell across the next grid line."""
     if w.sides != 0:
         if (w.sides & SIDE_X) != 0:
@@ -150,7 +150,7 @@ def is_inside(w: Walk, nx: int, ny: int) -> bool:
 
 
 @wp.kernel
-def first_hit_ranges(
+def find_first_hits(
     first: int, walls: Uint8Rows, start: Vec2ds, angle_rad: Float64s, max_distance: wp.float64, distance: Float64s,
     visits: Int32s,
 ):  # fmt: skip
@@ -158,7 +158,7 @@ def first_hit_ranges(
     beam = first + wp.tid()
     nx, ny = walls.shape[0], walls.shape[1]
     direction = wp.vec2d(wp.cos(angle_rad[beam]), wp.sin(angle_rad[beam]))
-    w = walk_begin(start[beam], direction, nx, ny, max_distance)
+    w = begin_walk(start[beam], direction, nx, ny, max_distance)
     nearest = wp.float64(max_distance)
     n_visited = int(0)
     while w.distance <= w.end:
@@ -167,7 +167,7 @@ def first_hit_ranges(
             if walls[w.cell_x, w.cell_y] != wp.uint8(0):
                 nearest = wp.min(w.distance, max_distance)
                 break
-        w = walk_next(w)
+        w = advance_walk(w)
     distance[beam] = nearest
     visits[beam] = n_visited
 
@@ -179,5 +179,5 @@ def cast_beams(
     device = devices.resolve(device)
     beams = (len(starts_cells),)
     inputs = [walls != 0, starts_cells, angles_rad, longest_cells, beams, beams]
-    distance, visits = devices.launch(first_hit_ranges, len(starts_cells), inputs, device, 1)
+    distance, visits = devices.launch(find_first_hits, len(starts_cells), inputs, device, 1)
     return distance, visits

@@ -139,7 +139,7 @@ def symmetric(m: wp.mat33f) -> wp.mat33d:
 
 
 @wp.func
-def turn_by(pose: wp.vec3d) -> wp.mat22f:
+def rotation_of(pose: wp.vec3d) -> wp.mat22f:
     """Return the rotation of a pose."""
     c = float(wp.cos(pose[2]))
     s = float(wp.sin(pose[2]))
@@ -147,7 +147,7 @@ def turn_by(pose: wp.vec3d) -> wp.mat22f:
 
 
 @wp.func
-def shift_by(pose: wp.vec3d) -> wp.vec2f:
+def position_of(pose: wp.vec3d) -> wp.vec2f:
     """Return the position of a pose."""
     return wp.vec2f(float(pose[0]), float(pose[1]))
 
@@ -157,8 +157,8 @@ def pair_scans(
     scene: ScanArrays, weights: Float32Rows, source: int, target: int, pose: wp.vec3d, rules: PairRulesArrays
 ) -> Sums:
     """Sum over the pairs of a source scan's points, at its pose in the target's frame, with a target scan."""
-    turn = turn_by(pose)
-    shift = shift_by(pose)
+    turn = rotation_of(pose)
+    shift = position_of(pose)
     second = wp.mat33f()
     slack = wp.mat33f()
     first = wp.vec3f()
@@ -278,8 +278,8 @@ def count_matches(
     source = first + wp.tid()
     for pair in range(offsets[source], offsets[source + 1]):
         other = target[pair]
-        turn = turn_by(relative[pair])
-        shift = shift_by(relative[pair])
+        turn = rotation_of(relative[pair])
+        shift = position_of(relative[pair])
         for beam in range(0, scene.kind.shape[1], rules.stride):
             if scene.kind[source, beam] == wp.uint8(0):
                 continue
@@ -343,8 +343,8 @@ def compare_views(
     # beyond it.
     pair = first + wp.tid()
     other = target[pair]
-    turn = turn_by(relative[pair])
-    shift = shift_by(relative[pair])
+    turn = rotation_of(relative[pair])
+    shift = position_of(relative[pair])
     matched = int(0)
     against = int(0)
     total = int(0)

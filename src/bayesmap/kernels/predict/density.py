@@ -27,7 +27,7 @@ from bayesmap.kernels.device import ONE, Float32Rows, Float64Rows, Float64s, Flo
 from bayesmap.kernels.rays import Line, RayArrays, line_from, line_of, rays_to_device, walk_along
 from bayesmap.kernels.sensor_law import MIXTURE, NOISE, SensorLaw64
 from bayesmap.kernels.surfaces.surface import REFLECTIVITY, Cell, Ray, cells_to_device, cross_surface
-from bayesmap.kernels.walk import NEVER, Walk, is_inside, walk_next
+from bayesmap.kernels.walk import NEVER, Walk, advance_walk, is_inside
 from bayesmap.sensors.model import RangeLimits, SensorModel
 from bayesmap.sensors.tabulated import tabulated
 from bayesmap.space.arrays import evenly_spaced_indices
@@ -385,7 +385,7 @@ def beam_log_likelihoods(first: int, law: SensorLaw64, frame: Frame, maps: MapAr
             if weight > wp.float64(0.0):
                 moments = wp.vec3d(weight, stop[1], stop[2] * stop[2])  # variance in place of the spread
                 sums = add_stop(law, sums, weight, z, decay, moments)
-        w = walk_next(w)
+        w = advance_walk(w)
     if survive > wp.float64(0.0):
         sums = add_stop(law, sums, survive, z, decay, wp.vec3d(survive, wp.float64(wp.inf), wp.float64(0.0)))
     out[thread] = sums[0] + wp.log(sums[1])

@@ -1,4 +1,4 @@
-"""Compute the view of a sensor from a pose: where its beams stop in given maps, and their information."""
+"""Draw where beams stop in maps (`draw_scan_stops`), and compute beams' information (`independent_information`)."""
 
 import numpy as np
 import warp as wp
@@ -9,7 +9,7 @@ from bayesmap.kernels.device import HALF, ONE, Float64Rows, Float64s, Floats, In
 from bayesmap.kernels.predict.density import DeviceMaps, Frame, MapArrays, grid_frame, line_in, stop_on_walk
 from bayesmap.kernels.random import random_bits, to_uniform
 from bayesmap.kernels.rays import Line, walk_along
-from bayesmap.kernels.walk import Walk, is_inside, walk_next
+from bayesmap.kernels.walk import Walk, advance_walk, is_inside
 from bayesmap.space.grid import Grid
 
 wp.set_module_options({"enable_backward": False})
@@ -54,7 +54,7 @@ def draw_stop_distances(
                 distance_m[beam] = stop[1]
                 spread_m[beam] = stop[2]
                 return
-        w = walk_next(w)
+        w = advance_walk(w)
 
 
 def draw_scan_stops(
@@ -128,7 +128,7 @@ def add_beam_information(first: int, frame: Frame, views: Views, cells: Vec3ds, 
                         behind_enter = exit_distance(behind)
                         if is_inside(behind, frame.nx, frame.ny):
                             passed_nats += cells[behind.cell_x * frame.ny + behind.cell_y][PASS_NATS]
-                    behind = walk_next(behind)
+                    behind = advance_walk(behind)
                 # A third walk, ahead, visits the cells k of readings about this stop.
                 ahead = behind
                 entry = behind_enter
@@ -146,15 +146,15 @@ def add_beam_information(first: int, frame: Frame, views: Views, cells: Vec3ds, 
                             ahead_nats += cells[cell][PASS_NATS]
                         entry = exit
                         below = below_exit
-                    ahead = walk_next(ahead)
+                    ahead = advance_walk(ahead)
             enter = leave
-        w = walk_next(w)
+        w = advance_walk(w)
     # A beam that meets nothing passes every cell.
     if survive > MIN_SURVIVAL:
         while behind.distance <= behind.end:
             if is_inside(behind, frame.nx, frame.ny) and is_crossed(behind):
                 passed_nats += cells[behind.cell_x * frame.ny + behind.cell_y][PASS_NATS]
-            behind = walk_next(behind)
+            behind = advance_walk(behind)
         total += survive * passed_nats
     out[beam] = total
 

@@ -29,14 +29,14 @@ from bayesmap.kernels.walls.chains import draw_wall, pairs_alike, walls_less_fre
 
 wp.set_module_options({"enable_backward": False})
 FROM_UNITS = wp.constant(wp.float64(1.0 / GAIN_UNITS))  # from units of `ChainArrays.gain` to nats
-HIDDEN = wp.constant(wp.float32(0.0))  # a cell that tries no candidate
-FRESH = wp.constant(wp.float32(1.0))  # a cell that tries a candidate from the prior
+NO_CANDIDATE = wp.constant(wp.float32(0.0))  # a cell that tries no candidate
+HAS_CANDIDATE = wp.constant(wp.float32(1.0))  # a cell that tries a candidate from the prior
 TRIES_EVERY = wp.constant(4)  # updates per candidate of a cell in which no reading ends; the others draw reflectivity
 SILENT_EVERY = wp.constant(3)  # sweeps between two surfaces from the prior in a cell whose surface no beam observes
 
 # Random counters of one cell in one sweep, part CELLS; `square_counts` defines a further one.
 PER_CELL = wp.constant(wp.uint64(1024))
-AT_ACCEPT, AT_BETA, AT_FRESH = (wp.constant(wp.uint64(i)) for i in (0, 32, 256))
+AT_ACCEPT, AT_BETA, AT_CANDIDATE = (wp.constant(wp.uint64(i)) for i in (0, 32, 256))
 AT_SILENT, AT_LABEL, AT_UNTOUCHED = (wp.constant(wp.uint64(i)) for i in (448, 800, 832))
 
 
@@ -120,7 +120,7 @@ def begin_sweep(
             density += wp.float32(surface.log_surface_prior(prior, centre, cell))
         log_prior[first + wp.tid()] = density
     # Does the cell count beams in this sweep, and does it try a candidate?
-    trying = HIDDEN
+    trying = NO_CANDIDATE
     if active.without_surfaces == 0:
         if period == 0:
             learns = False  # `endpoint_cells` counts its beams
@@ -128,9 +128,9 @@ def begin_sweep(
             # If passing beams are not informative, the cell takes surfaces from the prior instead.
             learns = cell[REFLECTIVITY] > NEGLIGIBLE_REFLECTIVITY
             if learns:
-                trying = FRESH
+                trying = HAS_CANDIDATE
                 key = sweep_key(state.keys[at.chain], sweep, CELLS)
-                counter = wp.uint64(at.cell) * PER_CELL + AT_FRESH
+                counter = wp.uint64(at.cell) * PER_CELL + AT_CANDIDATE
                 state.candidates[at.element] = surface.fresh_surface(prior, centre, cell, key, counter)
     if learns:
         for part in range(state.parts):
@@ -167,7 +167,7 @@ def update_free_cells(first: int, sweep: int, prior: PriorNumbers, active: Activ
     counter = wp.uint64(at.cell) * PER_CELL
     centre = surface.centre_of(at.cell, state.ny, state.edge_m)
     if learns:
-        if cell[TRYING] == HIDDEN:
+        if cell[TRYING] == NO_CANDIDATE:
             beams = count_beams(state, at.chain, at.cell)
             counts = surface.pseudo_counts(prior, state.solid[at.element])
             a, b = counts[0] + wp.float64(beams[0]), counts[1] + wp.float64(beams[1])
@@ -183,7 +183,7 @@ def update_free_cells(first: int, sweep: int, prior: PriorNumbers, active: Activ
     if is_silent(active, state, at, sweep, cell[REFLECTIVITY]):
         candidate = surface.fresh_surface(prior, centre, cell, key, counter + AT_SILENT)
         cell = accept_surface(prior, centre, cell, candidate, wp.float64(0.0), key, counter + AT_SILENT - wp.uint64(1))
-    cell[TRYING] = HIDDEN
+    cell[TRYING] = NO_CANDIDATE
     state.cells[at.element] = cell
 
 

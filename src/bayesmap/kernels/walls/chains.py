@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from bayesmap.beams.table import BeamTable, CellIndex
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.device import Float32Rows, Float32s, Float64Rows, Float64s, Int32Rows, Int32s, Uint8Rows, Uint8s
-from bayesmap.kernels.random import cipher_bits, shuffled, to_uniform
+from bayesmap.kernels.random import cipher_bits, permuted_index, to_uniform
 
 wp.set_module_options({"enable_backward": False})
 CERTAIN_LEVEL = 1 << 53  # the level of probability one
@@ -205,7 +205,7 @@ def site_of(sweeps: Sweeps, i: int, shuffle_key: wp.uint64) -> int:
     """Return the i-th site of a sweep."""
     rank = i
     if sweeps.shuffle_bits > wp.uint32(0):
-        rank = int(shuffled(wp.uint32(i), wp.uint32(sweeps.order.shape[0]), sweeps.shuffle_bits, shuffle_key))
+        rank = int(permuted_index(wp.uint32(i), wp.uint32(sweeps.order.shape[0]), sweeps.shuffle_bits, shuffle_key))
     return sweeps.order[rank]
 
 

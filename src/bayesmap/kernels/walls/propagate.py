@@ -69,7 +69,7 @@ def fill_relative(first: int, beta: wp.float32, loglik: Float32s, no_hit: Float3
 
 
 @wp.kernel
-def beam_messages(part_0: int, damping: wp.float32, beliefs: BeliefArrays):
+def update_beam_messages(part_0: int, damping: wp.float32, beliefs: BeliefArrays):
     """One thread per part of the beams: compute new messages to their cells, and sum their logarithms per cell."""
     part = part_0 + wp.tid()
     received = beliefs.received[part]
@@ -122,14 +122,14 @@ def softplus(x: wp.float64) -> wp.float64:
 
 
 @wp.func
-def from_neighbour(belief: wp.float32, received: wp.float32, coupling: wp.float64) -> wp.float64:
+def neighbour_message(belief: wp.float32, received: wp.float32, coupling: wp.float64) -> wp.float64:
     """Return the message of a cell to a neighbour, log-odds, from its belief less the neighbour's own message."""
     h = wp.clamp(wp.float64(belief - received), wp.float64(-1000.0), wp.float64(1000.0))
     return softplus(coupling + h) - (coupling + softplus(h - coupling))
 
 
 @wp.kernel
-def neighbour_messages(
+def update_neighbour_messages(
     first: int, nx: int, ny: int, coupling: wp.float64, damping: wp.float32, belief: Float32s, last: Float32Rows,
     messages: Float32Rows,
 ):  # fmt: skip
@@ -150,12 +150,12 @@ def neighbour_messages(
             sender = cell + 1
         if sender >= 0:
             # The neighbour stores the message of this cell in the row of the opposite side.
-            message = wp.float32(from_neighbour(belief[sender], last[side ^ 1, sender], coupling))
+            message = wp.float32(neighbour_message(belief[sender], last[side ^ 1, sender], coupling))
             messages[side, cell] = damping * last[side, cell] + (wp.float32(1.0) - damping) * message
 
 
 @wp.kernel
-def cell_beliefs(first: int, from_neighbours: Float32Rows, beliefs: BeliefArrays):
+def gather_beliefs(first: int, from_neighbours: Float32Rows, beliefs: BeliefArrays):
     """One thread per cell: sum prior log-odds and all messages; uncoupled neighbours send none."""
     cell = first + wp.tid()
     total = wp.float32(beliefs.logit[cell])
@@ -196,10 +196,10 @@ class Beliefs:
 
     def round(self, damping: float, threads: int | None = None) -> None:
         """Let beams and neighbours send messages from the last round's beliefs; then let all cells gather them."""
-        devices.launch(beam_messages, self._parts, [damping, self._arrays], self._device, threads)
+        devices.launch(update_beam_messages, self._parts, [damping, self._arrays], self._device, threads)
         if self._coupling:
             inputs = [*self._shape, self._coupling, damping, self._arrays.belief, self._sides, self._next_sides]
-            devices.launch(neighbour_messages, self._cells, inputs, self._device, threads)
+            devices.launch(update_neighbour_messages, self._cells, inputs, self._device, threads)
             self._sides, self._next_sides = self._next_sides, self._sides
         self._gather()
 
@@ -209,4 +209,4 @@ class Beliefs:
 
     def _gather(self) -> None:
         """Sum the messages to every cell."""
-        devices.launch(cell_beliefs, self._cells, [self._sides, self._arrays], self._device)
+        devices.launch(gather_beliefs, self._cells, [self._sides, self._arrays], self._device)
