@@ -50,7 +50,7 @@ class MapArrays:
     draws: int  # number of maps
     stop: Float32Rows  # stop probabilities, if cells have no surfaces
     surface: wp.array2d(dtype=Cell)  # otherwise, the surfaces
-    surfaces: int  # 1 if cells have surfaces
+    has_surfaces: int  # 1 if cells have surfaces
     depth: wp.float64  # where beams stop in cells without a surface, as a share of their stretch
     empty: Uint8Rows  # 1 in cells that stop less than `MIN_STOP_CHANCE`; only in maps of whole grids
 
@@ -81,7 +81,7 @@ def grid_frame(grid: Grid) -> Frame:
 
 @wp.func
 def surface_stop(maps: MapArrays, row: int, column: int, line: Line) -> wp.vec3d:
-    """Return the result of `stop_in` for a surface."""
+    """Return chance, distance and variance of the stop of a beam on a surface."""
     state = maps.surface[row, column]
     crossing = cross_surface(state, Ray(wp.vec2(line.start_m), wp.vec2(line.direction)))
     chance = wp.float64(state[REFLECTIVITY]) * wp.float64(crossing.chance)
@@ -92,7 +92,7 @@ def surface_stop(maps: MapArrays, row: int, column: int, line: Line) -> wp.vec3d
 def stop_on_walk(maps: MapArrays, row: int, line: Line, w: Walk) -> wp.vec3d:
     """Return chance, distance and *spread* of the stop in the cell that a walk touches, in a map of the whole grid."""
     cell = w.cell_x * line.ny + w.cell_y
-    if maps.surfaces != 0:
+    if maps.has_surfaces != 0:
         stop = surface_stop(maps, row, cell, line)
         return wp.vec3d(stop[0], stop[1], wp.sqrt(stop[2]))
     # Length of the beam inside the cell: 0 if it only touches a corner.
@@ -106,7 +106,7 @@ def stop_on_walk(maps: MapArrays, row: int, line: Line, w: Walk) -> wp.vec3d:
 @wp.func
 def stop_in(maps: MapArrays, row: int, column: int, line: Line, cell: int) -> wp.vec3d:
     """Return chance, distance and variance of the stop of a beam in ``cell``, which has ``column`` of map ``row``."""
-    if maps.surfaces != 0:
+    if maps.has_surfaces != 0:
         return surface_stop(maps, row, column, line)
     chance = wp.float64(maps.stop[row, column])
     if chance == wp.float64(0.0):
@@ -116,8 +116,9 @@ def stop_in(maps: MapArrays, row: int, column: int, line: Line, cell: int) -> wp
 
 def maps_to_device(states: StopStates, hit_depth: float, device: str) -> Any:
     """Put maps on a device: stop probabilities (two dimensions) or surfaces (three), see `StopStates`."""
-    cells = {"surface": cells_to_device(states, device)} if states.ndim == 3 else {"stop": states}
-    return devices.pack(MapArrays, device, draws=len(states), surfaces=int(states.ndim == 3), depth=hit_depth, **cells)
+    surfaces = states.ndim == 3
+    cells = {"surface": cells_to_device(states, device)} if surfaces else {"stop": states}
+    return devices.pack(MapArrays, device, draws=len(states), has_surfaces=int(surfaces), depth=hit_depth, **cells)
 
 
 @dataclass(frozen=True, eq=False)
@@ -131,7 +132,7 @@ class DeviceMaps:
 
     def states(self) -> Singles:
         """Return the draws; surfaces have two more numbers, see `Cell`."""
-        return np.asarray((self.arrays.surface if self.arrays.surfaces else self.arrays.stop).numpy())
+        return np.asarray((self.arrays.surface if self.arrays.has_surfaces else self.arrays.stop).numpy())
 
     def thinned(self, max_draws: int) -> "DeviceMaps":
         """Return at most ``max_draws`` of the draws, evenly spread."""

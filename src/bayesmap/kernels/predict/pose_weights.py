@@ -47,7 +47,7 @@ def next_line(p: wp.float32, u: wp.float32) -> wp.float32:
 @wp.func
 def stop_chance(maps: MapArrays, draw: int, cell: int, ray: Ray) -> wp.float32:
     """Return the chance that a beam which comes to a cell stops in it."""
-    if maps.surfaces != 0:
+    if maps.has_surfaces != 0:
         state = maps.surface[draw, cell]
         return state[REFLECTIVITY] * crossing_probability(state, ray)
     return maps.stop[draw, cell]
@@ -94,7 +94,7 @@ def reading_log_density(
                 if chance > MIN_CHANCE:
                     distance = (entry + depth * (exit - entry)) * resolution
                     variance = ZERO_32
-                    if maps.surfaces != 0:
+                    if maps.has_surfaces != 0:
                         crossing = cross_surface(maps.surface[draw, cell], ray)
                         distance = crossing.distance_m
                         variance = crossing.variance
@@ -152,8 +152,7 @@ def scan_log_likelihoods(
         column = 0
         if pose >= scans.pose.shape[0]:
             return
-    x = wp.float32(scans.pose[pose, 0] - frame.origin_x)
-    y = wp.float32(scans.pose[pose, 1] - frame.origin_y)
+    x, y = wp.float32(scans.pose[pose, 0] - frame.origin_x), wp.float32(scans.pose[pose, 1] - frame.origin_y)
     total = wp.float64(0.0)
     for beam in range(scans.angle_rad.shape[0]):
         z = scans.range_m[scans.scan[pose], beam]

@@ -52,7 +52,7 @@ def add_stops(first: int, rays: RayArrays, columns: Int32s, maps: MapArrays, min
             survive = survive * (wp.float64(1.0) - stop[0])
             if weight > wp.float64(0.0):
                 out.weight[entry] = out.weight[entry] + wp.float32(weight)
-                if maps.surfaces != 0:
+                if maps.has_surfaces != 0:
                     shift = stop[1] - distance_at(line, rays.cells[entry], maps.depth)
                     out.shift[entry] = out.shift[entry] + wp.float32(weight * shift)
                     out.square[entry] = out.square[entry] + wp.float32(weight * (shift * shift + stop[2]))
