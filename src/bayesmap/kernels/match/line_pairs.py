@@ -246,15 +246,6 @@ def sum_pairs(
     out.totals[pair, 4] = wp.float64(sums.force_sq)
 
 
-class PairSums(NamedTuple):
-    """The `Sums` of P pairs of scans."""
-
-    second: Floats  # H, (P, 3, 3)
-    slack: Floats  # (P, 3, 3)
-    gradient: Floats  # g, (P, 3)
-    totals: Floats  # cost, weight, matched, seen, force_sq of `Sums`, (P, 5)
-
-
 def pair_sums(
     geometry: Any, weights: Singles | None, source: Ints, target: Ints, relative: Floats, rules: PairRules,
     threads: int | None = None,
