@@ -171,7 +171,7 @@ class WallSampler(ABC):
 
         packed, shape = draws.get("walls"), state.problem.grid.shape
         if packed is None or packed.shape[1] == 0:
-            reached = (state.chains.states.reached.numpy() > 0).sum(axis=0).reshape(shape)
+            reached = (state.chains.states.reaching.numpy() > 0).sum(axis=0).reshape(shape)
             return np.stack([reached, np.full(shape, state.chains.shape[0])]).astype(np.int32)
         maps = unpack(packed.reshape(-1, packed.shape[-1]), shape)
         share = reach_frequency(state.problem.table, maps, state.problem.device)
