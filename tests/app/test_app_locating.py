@@ -98,7 +98,7 @@ def test_run_bends_the_trajectory_stage_by_stage_and_then_samples_the_cells(foun
     assert np.allclose(scans[-1].buffers["pose"][0, :2], turned[20], atol=0.05)
     fields = [header["method"] for header in found.all("field")]
     assert [method for method, _ in itertools.groupby(fields)] == ["counts", "propagate", "gibbs"]
-    assert kinds.count("located") == 1
+    assert kinds.count("trajectoryinferred") == 1
     assert fields.count("counts") > 5
     assert found.all("finished")[-1]["draws"] == DrawCount(2, 3)
     placed, sizes = found.engine._log_trajectory.inferred_log.scans, []
@@ -106,11 +106,11 @@ def test_run_bends_the_trajectory_stage_by_stage_and_then_samples_the_cells(foun
         grid = Grid.covering(scans, 0.1)
         sizes.append((hit_count_map(scans, grid).mean() > 0.5).sum())
     assert sizes[1] < 0.8 * sizes[0]
-    assert found.all("ongrid")[-1]["grid"] == grid == found.engine._result.document.grid
+    assert found.all("gridchanged")[-1]["grid"] == grid == found.engine._result.document.grid
 
 
 def test_an_inferred_trajectory_is_kept_and_told_to_the_next_worker(found):
-    known = found.all("located")[0]["trajectory"]
+    known = found.all("trajectoryinferred")[0]["trajectory"]
     heard = Heard(raw_log())
     heard.engine.take(RestoreTrajectory(known.poses, known.angles_rad))
     field = heard.infer(few_sweeps(), "run")
@@ -121,7 +121,7 @@ def test_an_inferred_trajectory_is_kept_and_told_to_the_next_worker(found):
     assert heard.engine._result.document.grid == raw_log().document.grid
     assert logged[1]["p"].shape == raw_log().document.grid.shape
     heard.infer(few_sweeps(), "clear")
-    assert heard.all("located")[-1]["trajectory"] is None
+    assert heard.all("trajectoryinferred")[-1]["trajectory"] is None
     assert heard.last("field")[0]["method"] == "counts"
 
 
@@ -135,7 +135,7 @@ def test_a_log_that_was_located_is_mapped_on_cells_of_any_size_from_the_first_of
     assert (
         np.abs(buffers["p"] / 255 - hit_count_map(raw_scans().select(slice(40)), raw).mean()).max() <= 0.5 / 255 + 1e-9
     )
-    known = found.all("located")[0]["trajectory"]
+    known = found.all("trajectoryinferred")[0]["trajectory"]
     heard.engine.take(RestoreTrajectory(known.poses, known.angles_rad))
     placed = heard.engine._log_trajectory.inferred_log.scans
     grid = Grid.covering(placed, 0.2)
@@ -144,7 +144,7 @@ def test_a_log_that_was_located_is_mapped_on_cells_of_any_size_from_the_first_of
         header, buffers = heard.infer(coarse, mode)
         result = heard.engine._result
         assert header["method"] == result.method == method
-        assert heard.last("ongrid")[0]["grid"] == grid == result.document.grid
+        assert heard.last("gridchanged")[0]["grid"] == grid == result.document.grid
         assert buffers["p"].shape == grid.shape
         assert result.scene.n_used == 40
         assert np.array_equal(result.scene.scans.poses, placed.poses)
@@ -161,8 +161,8 @@ def test_cancel_stops_at_any_stage_and_leaves_what_there_is(stage):
     assert not heard.engine.busy
     assert heard.reports[-1].header["type"] == "finished"
     assert heard.last("field")[0]["method"] == "counts"
-    TrajectoryJob._last.join(20)
-    assert not TrajectoryJob._last.is_alive()
+    TrajectoryJob._latest_thread.join(20)
+    assert not TrajectoryJob._latest_thread.is_alive()
     assert heard.engine._log_trajectory.inferred_log is None
 
 
