@@ -1,6 +1,6 @@
 """Open recordings: ROS 1 bags, and ROS 2's folders, databases and MCAP files, through rosbags if possible.
 
-Some sound recordings that rosbags refuses (MCAP of ROS 1 messages, MCAP without an index and out of order, old bags)
+Undamaged recordings that rosbags refuses (MCAP of ROS 1 messages, MCAP without an index and out of order, old bags)
 are read record by record. Damaged recordings are read this way, too, if the user asks for it.
 
 rosbags unpacks only folders whose ``metadata.yaml`` states the compression. Here compressed files (``.db3.zstd``, gzip,
@@ -55,86 +55,6 @@ def reason_of(error: Exception) -> str:
     return " ".join(str(error).split()).rstrip(".") or type(error).__name__
 
 
-def unpack_zstd(packed: bytes, max_bytes: int) -> bytes:
-    """Unpack data. Raises `NotUnpacked` if they are damaged, cut short, or larger than ``max_bytes``."""
-    try:
-        unpacker = zstd().ZstdDecompressor()
-        data = bytes(unpacker.decompress(packed, max_bytes))
-    except (ArithmeticError, EOFError, MemoryError, RuntimeError, ValueError, zstd().ZstdError) as error:
-        raise NotUnpacked(reason_of(error)) from None
-    if not unpacker.eof:
-        raise NotUnpacked("it is cut short" if len(data) < max_bytes else f"it has more than {max_bytes:,} bytes")
-    return data
-
-
-def compression_of(start: bytes) -> str | None:
-    """Return the compression of a file by its first bytes: ``"zstd"``, ``"gzip"``, ``"bzip2"``; None if it has none."""
-    return next((name for name, magic in COMPRESSION_MAGICS.items() if start.startswith(magic)), None)
-
-
-def first_bytes(path: str | os.PathLike[str], count: int) -> bytes:
-    """Return the first bytes of a file, unpacked if it is compressed; empty if it cannot be unpacked."""
-    with Path(path).open("rb") as file:
-        start = file.read(count)
-        kind = compression_of(start)
-        if kind is None:
-            return start
-        file.seek(0)
-        try:
-            with UNPACKERS[kind](file) as unpacked:
-                return _read(unpacked, count)
-        except NotUnpacked:
-            return b""
-
-
-def _unpacked_copy(path: Path, stack: ExitStack, on_damage: raw.OnDamage) -> Path:
-    """Return a temporary unpacked copy of a file, or the file itself if it is not compressed.
-
-    If the file is damaged and ``on_damage`` returns, the copy ends before the damage.
-    """
-    with path.open("rb") as file:
-        kind = compression_of(file.read(4))
-        if kind is None:
-            return path
-        file.seek(0)
-        try:
-            folder = Path(tempfile.mkdtemp(prefix="bayesmap-"))
-            stack.callback(shutil.rmtree, folder, ignore_errors=True)
-            with UNPACKERS[kind](file) as unpacked, (folder / "unpacked").open("wb") as copy:
-                while block := _read(unpacked):
-                    copy.write(block)
-        except NotUnpacked as problem:
-            on_damage(f"it is compressed by {kind} and cannot be unpacked to its end: {problem}")
-        except OSError as error:
-            fault = f"it is compressed, and there is no room to unpack it ({error.strerror or error})"
-            remedy = "make room, name another folder in TMPDIR, or unpack it yourself"
-            raise BadInput(f"{path}: {fault}; {remedy}") from None
-    return folder / "unpacked"
-
-
-def _read(unpacked: Any, count: int = CHUNK_BYTES) -> bytes:
-    """Read bytes from a compressed file. Raises `NotUnpacked` at damage."""
-    try:
-        return bytes(unpacked.read(count))
-    except (EOFError, OSError, ValueError, zlib.error, zstd().ZstdError) as problem:
-        raise NotUnpacked(reason_of(problem)) from None
-
-
-def container_of(path: str | os.PathLike[str]) -> str | None:
-    """Return the format of a recording by its first bytes, ``"folder"`` for one of rosbag2's, None for other files."""
-    if not Path(path).is_dir():
-        return format_by_start(first_bytes(path, 16))
-    names = [entry.name for entry in Path(path).iterdir()]
-    return "folder" if any(name == METADATA or name.endswith(ENDINGS) for name in names) else None
-
-
-def format_by_start(start: bytes) -> str | None:
-    """Return the format of a recording by its first 16 bytes, unpacked; None for other files."""
-    if start.startswith(ANY_BAG):  # of any version: `open_recording` refuses other versions than 2.0
-        return "rosbag1"
-    return next((name for name, magic in MAGICS.items() if start.startswith(magic)), None)
-
-
 def open_recording(path: str | os.PathLike[str], *, salvage: bool, types: Collection[str]) -> Recording:
     """Open a recording: a file of a format in `RECORD_READERS`, or a folder of rosbag2's.
 
@@ -173,11 +93,11 @@ def _open_whole(path: str | os.PathLike[str]) -> Recording:
     files, container = _files_of(path)
     note = f"the folder has no {METADATA}, as when a recording was not ended; its {len(files)} files were read"
     with ExitStack() as stack:
-        parts = []
+        pieces = []
         for file in files:
             copy = _unpacked_copy(file, stack, raw.refuse)
-            parts.append(_by_rosbags(copy, container, _rosbags_reader(copy, container), is_file=True))
-        return _joined(os.fspath(path), container, parts, (note,) if Path(path).is_dir() else (), stack)
+            pieces.append(_by_rosbags(copy, container, _rosbags_reader(copy, container), is_file=True))
+        return _joined(os.fspath(path), container, pieces, (note,) if Path(path).is_dir() else (), stack)
 
 
 def _files_of(path: str | os.PathLike[str]) -> tuple[list[Path], str]:
@@ -285,19 +205,19 @@ def _opened(make_reader: Callable[[], Any]) -> Iterator[Any]:
         raise Damaged(reason_of(error)) from None
 
 
-def _joined(path: str, container: str, parts: list[Recording], notes: tuple[str, ...], stack: ExitStack) -> Recording:
+def _joined(path: str, container: str, pieces: list[Recording], notes: tuple[str, ...], stack: ExitStack) -> Recording:
     """Return several files as one recording, whose temporary files are removed when it is no longer used."""
     topics: dict[str, Topic] = {}
-    for part in parts:
-        for name, topic in part.topics.items():
+    for piece in pieces:
+        for name, topic in piece.topics.items():
             topics[name] = replace(topic, count=topic.count + (topics[name].count if name in topics else 0))
-    start_ns = min((part.start_ns for part in parts if part.start_ns is not None), default=None)
-    end_ns = max((part.end_ns for part in parts if part.end_ns is not None), default=None)
+    start_ns = min((piece.start_ns for piece in pieces if piece.start_ns is not None), default=None)
+    end_ns = max((piece.end_ns for piece in pieces if piece.end_ns is not None), default=None)
 
     def read(names: frozenset[str]) -> Iterable[Message]:
-        if len(parts) == 1:
-            return parts[0].read(names)
-        return list(merge(*(part.read(names & part.topics.keys()) for part in parts), key=lambda m: m.received_ns))
+        if len(pieces) == 1:
+            return pieces[0].read(names)
+        return list(merge(*(piece.read(names & piece.topics.keys()) for piece in pieces), key=lambda m: m.received_ns))
 
     recording = Recording(path, container, dict(sorted(topics.items())), read, start_ns, end_ns, notes)
     weakref.finalize(recording, stack.pop_all().close)
@@ -313,12 +233,92 @@ def _open_damaged(path: str | os.PathLike[str], problem: str) -> Recording:
         raise BadInput(f"{name}: the recording cannot be read ({problem}); {damage}") from None
     reasons: list[str] = []
     with ExitStack() as stack:
-        parts = [
+        pieces = [
             _by_records(_unpacked_copy(file, stack, reasons.append), container, reasons.append, lambda reason: None)
             for file in files
         ]
         reasons = list(dict.fromkeys(reasons)) or [problem]
         more = f", and {len(reasons) - 1} more" if len(reasons) > 1 else ""
-        count = sum(topic.count for part in parts for topic in part.topics.values())
+        count = sum(topic.count for piece in pieces for topic in piece.topics.values())
         note = f"the recording is damaged or cut short ({reasons[0]}{more}); {count:,} messages of it could be read"
-        return _joined(name, container, parts, (note,), stack)
+        return _joined(name, container, pieces, (note,), stack)
+
+
+def unpack_zstd(packed: bytes, max_bytes: int) -> bytes:
+    """Unpack data. Raises `NotUnpacked` if they are damaged, cut short, or larger than ``max_bytes``."""
+    try:
+        unpacker = zstd().ZstdDecompressor()
+        data = bytes(unpacker.decompress(packed, max_bytes))
+    except (ArithmeticError, EOFError, MemoryError, RuntimeError, ValueError, zstd().ZstdError) as error:
+        raise NotUnpacked(reason_of(error)) from None
+    if not unpacker.eof:
+        raise NotUnpacked("it is cut short" if len(data) < max_bytes else f"it has more than {max_bytes:,} bytes")
+    return data
+
+
+def compression_of(start: bytes) -> str | None:
+    """Return the compression of a file by its first bytes: ``"zstd"``, ``"gzip"``, ``"bzip2"``; None if it has none."""
+    return next((name for name, magic in COMPRESSION_MAGICS.items() if start.startswith(magic)), None)
+
+
+def first_bytes(path: str | os.PathLike[str], count: int) -> bytes:
+    """Return the first bytes of a file, unpacked if it is compressed; empty if it cannot be unpacked."""
+    with Path(path).open("rb") as file:
+        start = file.read(count)
+        kind = compression_of(start)
+        if kind is None:
+            return start
+        file.seek(0)
+        try:
+            with UNPACKERS[kind](file) as unpacked:
+                return _read(unpacked, count)
+        except NotUnpacked:
+            return b""
+
+
+def _unpacked_copy(path: Path, stack: ExitStack, on_damage: raw.OnDamage) -> Path:
+    """Return a temporary unpacked copy of a file, or the file itself if it is not compressed.
+
+    If the file is damaged and ``on_damage`` returns, the copy ends before the damage.
+    """
+    with path.open("rb") as file:
+        kind = compression_of(file.read(4))
+        if kind is None:
+            return path
+        file.seek(0)
+        try:
+            folder = Path(tempfile.mkdtemp(prefix="bayesmap-"))
+            stack.callback(shutil.rmtree, folder, ignore_errors=True)
+            with UNPACKERS[kind](file) as unpacked, (folder / "unpacked").open("wb") as copy:
+                while block := _read(unpacked):
+                    copy.write(block)
+        except NotUnpacked as problem:
+            on_damage(f"it is compressed by {kind} and cannot be unpacked to its end: {problem}")
+        except OSError as error:
+            fault = f"it is compressed, and there is no room to unpack it ({error.strerror or error})"
+            remedy = "make room, name another folder in TMPDIR, or unpack it yourself"
+            raise BadInput(f"{path}: {fault}; {remedy}") from None
+    return folder / "unpacked"
+
+
+def _read(unpacked: Any, count: int = CHUNK_BYTES) -> bytes:
+    """Read bytes from a compressed file. Raises `NotUnpacked` at damage."""
+    try:
+        return bytes(unpacked.read(count))
+    except (EOFError, OSError, ValueError, zlib.error, zstd().ZstdError) as problem:
+        raise NotUnpacked(reason_of(problem)) from None
+
+
+def container_of(path: str | os.PathLike[str]) -> str | None:
+    """Return the format of a recording by its first bytes, ``"folder"`` for one of rosbag2's, None for other files."""
+    if not Path(path).is_dir():
+        return format_by_start(first_bytes(path, 16))
+    names = [entry.name for entry in Path(path).iterdir()]
+    return "folder" if any(name == METADATA or name.endswith(ENDINGS) for name in names) else None
+
+
+def format_by_start(start: bytes) -> str | None:
+    """Return the format of a recording by its first 16 bytes, unpacked; None for other files."""
+    if start.startswith(ANY_BAG):  # of any version: `open_recording` refuses other versions than 2.0
+        return "rosbag1"
+    return next((name for name, magic in MAGICS.items() if start.startswith(magic)), None)

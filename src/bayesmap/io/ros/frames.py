@@ -9,7 +9,7 @@ three-dimensional. A motion is SciPy's `RigidTransform`, one frame's pose in ano
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import takewhile
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -124,6 +124,14 @@ def frame_name(name: str) -> str:
     return name.lstrip("/")
 
 
+class Transform(NamedTuple):
+    """A transform of a frame tree, with its samples on each topic."""
+
+    parent: str
+    child: str
+    by_topic: tuple[Samples, ...]
+
+
 @dataclass(frozen=True, eq=False)
 class Chain:
     """The transforms from a fixed frame to the sensor's frame, which compose to the sensor's pose."""
@@ -187,7 +195,7 @@ class FrameTree:
         self.topics = {topic for topic, _, _ in transforms if ranks is None or topic in ranks}
         self.notes: dict[str, str] = {}
         self.rivals: dict[str, tuple[str, ...]] = {}
-        self._edges: dict[str, tuple[str, tuple[Samples, ...]]] = {}
+        self._edges: dict[str, Transform] = {}  # by child
         # The samples of each child by parent, from the topics of the lowest rank.
         parents_of: dict[str, dict[str, list[Samples]]] = {}
         lowest_rank: dict[str, int] = {}
@@ -201,7 +209,7 @@ class FrameTree:
         # The parent with most messages.
         for child, parents in parents_of.items():
             names = sorted(parents, key=lambda parent: -sum(len(samples.poses) for samples in parents[parent]))
-            self._edges[child] = (names[0], tuple(parents[names[0]]))
+            self._edges[child] = Transform(names[0], child, tuple(parents[names[0]]))
             if len(names) > 1:
                 self.rivals[child] = tuple(dict.fromkeys(samples.topic for name in names for samples in parents[name]))
                 number = "two" if len(names) == 2 else len(names)
@@ -211,13 +219,13 @@ class FrameTree:
 
     def frames(self) -> list[str]:
         """Return all frames, by name."""
-        return sorted({*self._edges, *(parent for parent, _ in self._edges.values())})
+        return sorted({*self._edges, *(edge.parent for edge in self._edges.values())})
 
     def path_to_root(self, frame: str) -> list[str]:
         """Return the frame, its parent, and so on to the root."""
         path = [frame]
-        while path[-1] in self._edges and self._edges[path[-1]][0] not in path:
-            path.append(self._edges[path[-1]][0])
+        while path[-1] in self._edges and self._edges[path[-1]].parent not in path:
+            path.append(self._edges[path[-1]].parent)
         return path
 
     def _paths_to_ancestor(self, fixed: str, sensor: str) -> tuple[list[str], list[str]] | None:
@@ -239,13 +247,13 @@ class FrameTree:
         links += [self._link(frame, inverted=False) for frame in paths[1]]
         return Chain(tuple(links))
 
-    def transforms_between(self, fixed: str, sensor: str) -> list[tuple[str, str, tuple[Samples, ...]]]:
-        """Return parent, child and the samples of each topic, for the transforms of a chain."""
+    def transforms_between(self, fixed: str, sensor: str) -> list[Transform]:
+        """Return the transforms of the chain from one frame to another."""
         up, down = self._paths_to_ancestor(fixed, sensor) or ([], [])
-        return [(self._edges[child][0], child, self._edges[child][1]) for child in (*up, *down)]
+        return [self._edges[child] for child in (*up, *down)]
 
     def _link(self, child: str, *, inverted: bool) -> "Track":
-        samples = Samples.joined(self._edges[child][1])
+        samples = Samples.joined(self._edges[child].by_topic)
         return samples.track(samples.is_constant(), inverted)
 
     def named_ancestor(self, sensor: str, names: Iterable[str]) -> str | None:
@@ -269,7 +277,8 @@ class FrameTree:
 
     def moves(self, frame: str) -> bool:
         """Return true if a transform between a frame and its root changes."""
-        return any(not Samples.joined(self._edges[child][1]).is_constant() for child in self.path_to_root(frame)[:-1])
+        edges = [self._edges[child] for child in self.path_to_root(frame)[:-1]]
+        return any(not Samples.joined(edge.by_topic).is_constant() for edge in edges)
 
 
 def planar_pose(motion: RigidTransform) -> Floats:

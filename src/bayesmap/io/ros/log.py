@@ -400,13 +400,11 @@ def clock_runs(scans: list[LaserMessage], poses: PoseMessages) -> list[ClockRun]
     transforms, pose_samples = _cut(poses.transforms, times_ns), _cut(poses.poses, times_ns)
     before_ns = [0, *(int(leader.stamps_ns[i - 1]) for i in resets)]
     after_ns = [0, *(int(leader.stamps_ns[i]) for i in resets)]
-    return [
-        ClockRun(
-            scans[span], PoseMessages(transforms[k], pose_samples[k]), back_ns=before_ns[k] - after_ns[k],
-            before_ns=before_ns[k], is_last=k == len(resets),
-        )
-        for k, span in enumerate(scan_stream.cut(times_ns))
-    ]  # fmt: skip
+    runs = []
+    for k, span in enumerate(scan_stream.cut(times_ns)):
+        messages, back_ns = PoseMessages(transforms[k], pose_samples[k]), before_ns[k] - after_ns[k]
+        runs.append(ClockRun(scans[span], messages, back_ns, before_ns[k], is_last=k == len(resets)))
+    return runs
 
 
 def _cut(samples_by_key: Mapping[Any, Samples], resets_ns: list[int]) -> list[dict[Any, Samples]]:

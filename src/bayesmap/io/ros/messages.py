@@ -8,7 +8,7 @@ Begin with `scan_topic_of` and `read_messages`.
 import math
 import re
 from collections import Counter
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
@@ -159,9 +159,7 @@ def scan_topic_of(recording: Recording, name: str | None) -> Topic:
     return topic
 
 
-def read_messages(
-    recording: Recording, topics: Iterable[Topic], poses: PoseMessages, reject: Reject
-) -> list[LaserMessage]:
+def read_messages(recording: Recording, topics: list[Topic], poses: PoseMessages, reject: Reject) -> list[LaserMessage]:
     """Return the scans on topics, and add other messages to poses. Raises `BadInput` for a damaged recording."""
     by_name = {topic.name: topic for topic in topics}
     scans, counts = list[LaserMessage](), Counter[str]()

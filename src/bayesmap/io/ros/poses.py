@@ -129,20 +129,18 @@ def source_by_transforms(
         if fixed not in tree.path_to_root(sensor):
             notes.append(f"the frame {fixed!r} is not over that of the scans, {sensor!r}; if it moves, the map moves")
         transforms = tree.transforms_between(fixed, sensor)
-        notes += [
-            f"there is a single message of the transform {parent} -> {child}; it was taken to hold at all times"
-            for parent, child, by_topic in transforms
-            if sum(len(samples.poses) for samples in by_topic) == 1 and not by_topic[0].is_static
-        ]
+        for parent, child, by_topic in transforms:
+            if sum(len(samples.poses) for samples in by_topic) == 1 and not by_topic[0].is_static:
+                single = f"a single message of the transform {parent} -> {child}"
+                notes.append(f"there is {single}; it was taken to hold at all times")
         notes += value_notes(recording, tree, fixed, sensor)
         notes += _namespace_notes(trees, tree, fixed, sensor)
         if len(trees) > 1 and tree is not trees[-1] and not chosen:
             others = [topic.name for topic in recording.of_type(TF_TYPES) if topic.name not in tree.topics]
             notes.append(f"transforms of other namespaces were not used: {', '.join(others)} (--pose-topic)")
         # The topics that move the sensor, or all if none does.
-        all_samples = [by_topic for _, _, by_topic in transforms]
-        moving = [by_topic for by_topic in all_samples if not Samples.joined(by_topic).is_constant()]
-        topics = dict.fromkeys(samples.topic for by_topic in moving or all_samples for samples in by_topic)
+        moving = [transform for transform in transforms if not Samples.joined(transform.by_topic).is_constant()]
+        topics = dict.fromkeys(samples.topic for transform in moving or transforms for samples in transform.by_topic)
         return PoseSource(", ".join(topics) or "/tf", fixed, chain, tuple(notes))
     if named is not None:
         tree = trees[-1]
@@ -156,8 +154,8 @@ def _namespace_notes(trees: list[FrameTree], tree: FrameTree, fixed: str, sensor
     """Return a note if the transforms of a chain are from the last of several trees, beside the scans' namespace."""
     if len(trees) == 1 or tree is not trees[-1]:
         return []
-    all_samples = [samples for _, _, by_topic in tree.transforms_between(fixed, sensor) for samples in by_topic]
-    topics = dict.fromkeys(samples.topic for samples in all_samples)
+    transforms = tree.transforms_between(fixed, sensor)
+    topics = dict.fromkeys(samples.topic for transform in transforms for samples in transform.by_topic)
     return [f"transforms were taken from {', '.join(topics)}, beside the namespace of the scans"]
 
 

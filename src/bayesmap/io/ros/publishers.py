@@ -21,10 +21,9 @@ NOISE = 0.01  # largest distance between two sources of motion, in metres and ra
 MAX_ROUGHNESS_RATIO = 0.15  # of each of two publishers' motions to the joint motion
 MIN_SAMPLES = 5  # samples beside their neighbours' motion on one topic
 MIN_SAMPLES_OF_SEVERAL = 3  # the number for several topics
+# Pairs: share of samples beside the motion, and largest median relative change of their offsets. In logs of one noisy
+# odometry (Intel, ACES, MIT CSAIL) a hundredth of the samples is beside, and the offsets change by half and more.
 MAX_CHANGE_BY_SHARE = ((0.08, 0.35), (0.02, 0.2), (0.0, 0.1))
-"""Pairs: share of samples beside the motion, and largest median relative change of their offsets. In logs of one noisy
-odometry (Intel, ACES, MIT CSAIL) a hundredth of the samples is beside, and the offsets change by half and more."""
-
 MAX_LATE_STEPS = 2.0  # offset along the motion, in steps, that counts as a late stamp
 MAX_REPEATED_SHARE = 0.1  # of stamps; with a larger share samples are also checked in the order of receipt
 

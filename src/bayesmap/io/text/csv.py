@@ -30,9 +30,9 @@ NANOSECONDS, RECEIVED = "nanoseconds", "received"  # columns: the part of a stam
 MAX_STAMP_S = 1e12  # larger stamps are in nanoseconds
 MAX_COORDINATE_M = 1e7  # larger coordinates are malformed
 SETTINGS = ("angle_min", "angle_increment", "angles", "range_min", "range_max")  # names in comment lines
-_SETTING = re.compile(rb"#+\s*([a-z_]+)\s*[:=,]\s*(.*)")
-_BEAM = re.compile(r"r_(\d+)")
-_ECHOED_BEAM = re.compile(r"(?:.*[./])?ranges[._\[]?(\d+)\]?")
+_SETTING = re.compile(rb"#+\s*([a-z_]+)\s*[:=,]\s*(.*)")  # a comment line such as "# range_max: 30"
+_BEAM = re.compile(r"r_(\d+)")  # column of a reading
+_ECHOED_BEAM = re.compile(r"(?:.*[./])?ranges[._\[]?(\d+)\]?")  # column of a reading in tables of messages
 _DECIMAL_COMMA = re.compile(rb"[-+]?\d+,\d+(?:[eE][-+]?\d+)?")
 
 ECHOED = {
@@ -367,8 +367,7 @@ def _scans_of_beam_rows(table: _Table) -> TableScans:
     # Missing beams of a scan get the pose of its last beam.
     first_rows = np.array([scan.start for scan in scans], dtype=np.intp)
     last_rows = np.array([scan.stop - 1 for scan in scans], dtype=np.intp)
-    beam_rows = np.minimum(first_rows[:, None] + np.arange(readings.shape[1]), last_rows[:, None])
-    beam_poses = poses[beam_rows]
+    beam_poses = poses[np.minimum(first_rows[:, None] + np.arange(readings.shape[1]), last_rows[:, None])]
     stands_still = (beam_poses == beam_poses[:, :1]).all()
     scan_poses = beam_poses[:, 0] if stands_still and len(scans) else beam_poses
     stamps = table.column("stamp", rows)[first_rows] if "stamp" in table.columns else None
