@@ -251,7 +251,7 @@ def _scans_from(file: Any, header: dict[str, Any]) -> Scans:
 
 
 def write_arrays(
-    group: Any, dimensions: tuple[str, ...], arrays: Mapping[str, NDArray[Any]], compressed: bool = True
+    group: Any, dimensions: tuple[str, ...], arrays: Mapping[str, NDArray[Any]], *, compressed: bool = True
 ) -> None:
     """Write arrays of the same dimensions; new dimensions get the arrays' sizes."""
     for name, values in arrays.items():

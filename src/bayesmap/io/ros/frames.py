@@ -64,7 +64,7 @@ class Samples:
         if len(samples_by_topic) == 1:
             return samples_by_topic[0]
         topics = ", ".join(samples.topic for samples in samples_by_topic)
-        result = cls(all(samples.is_static for samples in samples_by_topic), topics)
+        result = cls(is_static=all(samples.is_static for samples in samples_by_topic), topic=topics)
         for samples in samples_by_topic:
             result.stamps_ns += samples.times_ns().tolist()
             result.received_ns += samples.received_ns
@@ -85,7 +85,7 @@ class Samples:
         times = self.times_ns()
         return self.poses[len(times) - 1 - int(np.argmax(times[::-1]))]
 
-    def track(self, holds_always: bool = False, inverted: bool = False) -> "Track":
+    def track(self, *, holds_always: bool = False, inverted: bool = False) -> "Track":
         """Return the poses in time order, the last of several at one time. The options are fields of `Track`."""
         stamps = self.times_ns()
         order = np.argsort(stamps, kind="stable")
@@ -254,7 +254,7 @@ class FrameTree:
 
     def _link(self, child: str, *, inverted: bool) -> "Track":
         samples = Samples.joined(self._edges[child].by_topic)
-        return samples.track(samples.is_constant(), inverted)
+        return samples.track(holds_always=samples.is_constant(), inverted=inverted)
 
     def named_ancestor(self, sensor: str, names: Iterable[str]) -> str | None:
         """Return the nearest frame above the sensor's with the first matching name (or ``robot/name``), or None."""

@@ -46,7 +46,9 @@ class PoseMessages:
                 if parent == child:
                     raise MalformedMessage(f"puts the frame {parent!r} into itself")
                 stamp_ns = stamp_ns_of(entry.header)
-                samples = self.transforms.setdefault((topic.name, parent, child), Samples(is_static, topic.name))
+                samples = self.transforms.setdefault(
+                    (topic.name, parent, child), Samples(is_static=is_static, topic=topic.name)
+                )
                 samples.add(stamp_ns, received_ns, numbers)
             return
         pose = message.pose if topic.type == POSE else message.pose.pose
@@ -212,7 +214,7 @@ def mount_link(laser: Pose) -> Track:
     """Return the link of a chain from the robot's body to a laser that is mounted level at a pose."""
     x, y, yaw = laser
     numbers = (x, y, 0.0, 0.0, 0.0, math.sin(0.5 * yaw), math.cos(0.5 * yaw))
-    return Samples(True, "", [0], [0], [numbers]).track(holds_always=True)
+    return Samples(is_static=True, stamps_ns=[0], received_ns=[0], poses=[numbers]).track(holds_always=True)
 
 
 def unposed_source(trees: list[FrameTree], sensor: str) -> PoseSource:
