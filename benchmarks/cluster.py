@@ -64,12 +64,12 @@ class Spy:
             spy.sizes["model"] = size_of(ray, ray.get(run.shared[0]))
             spy.sizes["problem"] = size_of(ray, ray.get(run.shared[1][0]))
 
-        def spied_note(run: Any, group: Any, segment: Any, snapshot: Any) -> None:
+        def spied_note(run: Any, group: Any, segment: Any) -> None:
             chains = len(group.chain_ids)
-            spy.sizes["where a chain stands"] = size_of(ray, snapshot) / chains
+            spy.sizes["where a chain stands"] = size_of(ray, segment.snapshot) / chains
             if segment.draws.count > 1:
                 spy.sizes["draw"] = sum(a.nbytes for a in segment.draws.arrays.values()) / segment.draws.size / 1e6
-            note(run, group, segment, snapshot)
+            note(run, group, segment)
 
         def spied_remote(run: Any, function: Any, **options: Any) -> Any:
             submit = remote(run, function, **options)

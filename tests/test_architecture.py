@@ -89,7 +89,7 @@ def forbidden(here, module):
     public = there not in LEVEL and there in bayesmap.__all__
     if not (public or there in LEVEL):
         return f"{module} is in no room that this test knows"
-    target = room_of(bayesmap._HOME[there]) if public else there
+    target = room_of(bayesmap._MODULES[there]) if public else there
     return None if LEVEL[target] < LEVEL[here] else f"{here} may not import {module}"
 
 

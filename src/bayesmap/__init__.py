@@ -1,6 +1,7 @@
 """bayesmap: given noisy range scans, where are the walls, and how sure are we?
 
-The public names are loaded on first use. So the import is fast: JAX, Warp and matplotlib are loaded when needed.
+Read `bayesmap.api` first, and then `bayesmap.result.Run`, which `infer` and `slam` return. The public names are loaded
+on first use (`__getattr__`). So the import is fast. Type checkers read the first block of imports instead.
 """
 
 from __future__ import annotations
@@ -45,30 +46,29 @@ if TYPE_CHECKING:
     # isort: on
 
 # fmt: off
-_NAMES = {
-    "api": ("infer", "slam"), "app.widget": ("MapWidget",), "arguments": ("Checkpoints", "Schedule", "Where"),
-    "cells.binary": ("Independent", "Ising", "fit_coupling"), "cells.reflectivity": ("Beta",),
-    "cells.surface": ("Surface",), "errors": ("BadInput",), "io.logs": ("read_log",),
-    "io.text.trajectories": ("read_trajectory",), "localization.known_map": ("KnownMap",),
-    "localization.localize": ("InitialPose", "localize"), "poses.prior": ("KnownPoses", "Odometry", "UncertainPoses"),
-    "posterior.decisions": ("InformationGain",), "posterior.route": ("FreeProbability", "Route"),
-    "posterior.scores": ("compare_scores",), "programs.mapping": ("mapping_model",),
-    "result": ("Run", "load", "score"), "run.ray_executor": ("RayExecutor",),
-    "samplers.methods": ("Block", "Exact", "Gibbs", "Importance", "Propagate"),
-    "sensors.model": ("BeamMixture", "Gaussian", "SensorModel", "StudentT"),
-    "sim.forward": ("ranges", "simulate"), "sim.robot": ("OdometryNoise", "simulate_odometry"), "space.grid": ("Grid",),
-    "space.scans": ("ReadingKind", "Scans"), "worlds": ("worlds",),
+_NAMES = {  # public names, by the module that defines them
+    "api": "infer slam", "app.widget": "MapWidget", "arguments": "Checkpoints Schedule Where",
+    "cells.binary": "Independent Ising fit_coupling", "cells.reflectivity": "Beta", "cells.surface": "Surface",
+    "errors": "BadInput", "io.logs": "read_log", "io.text.trajectories": "read_trajectory",
+    "localization.known_map": "KnownMap", "localization.localize": "InitialPose localize",
+    "poses.prior": "KnownPoses Odometry UncertainPoses", "posterior.decisions": "InformationGain",
+    "posterior.route": "FreeProbability Route", "posterior.scores": "compare_scores",
+    "programs.mapping": "mapping_model", "result": "Run load score", "run.ray_executor": "RayExecutor",
+    "samplers.methods": "Block Exact Gibbs Importance Propagate",
+    "sensors.model": "BeamMixture Gaussian SensorModel StudentT", "sim.forward": "ranges simulate",
+    "sim.robot": "OdometryNoise simulate_odometry", "space.grid": "Grid", "space.scans": "ReadingKind Scans",
+    "worlds": "worlds",
 }
 # fmt: on
-_HOME = {name: f"bayesmap.{module}" for module, names in _NAMES.items() for name in names}
+_MODULES = {name: f"bayesmap.{module}" for module, names in _NAMES.items() for name in names.split()}
 
-__all__ = ["__version__", *_HOME]  # noqa: PLE0604 -- the strings are in _HOME
+__all__ = ["__version__", *_MODULES]  # noqa: PLE0604 -- the strings are in _MODULES
 
 
 def __getattr__(name: str) -> Any:
-    if name not in _HOME:
+    if name not in _MODULES:
         raise AttributeError(f"module 'bayesmap' has no attribute {name!r}")
-    module = importlib.import_module(_HOME[name])
+    module = importlib.import_module(_MODULES[name])
     return module if name == "worlds" else getattr(module, name)
 
 

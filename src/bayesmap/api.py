@@ -3,6 +3,8 @@
 `slam` first approximates all poses (`bayesmap.poses.slam`: matching, loops, a Gaussian about the likeliest poses). Then
 chains sample the map and the poses of the key scans under the forward law of `infer`. Each chain starts from its own
 draw of the approximation. Chains correct details; the bend of a long loop stays near its start (docs/how/poses.md).
+
+Read `infer` and then `Inference.run`, which fits the sensor, runs the chains and returns the run.
 """
 
 from __future__ import annotations
@@ -23,9 +25,9 @@ from bayesmap.model import Model
 from bayesmap.poses.prior import KnownPoses, PosePrior, UncertainPoses
 from bayesmap.posterior.posterior import Posterior, chains_of, posterior_of_chains, posterior_of_draws
 from bayesmap.result import Run
-from bayesmap.run.chains import FIRST_MARK, RANDOM_STREAMS, Chains, SweepPlan, check_same, fingerprint
-from bayesmap.run.cost import TOUCHED_SHARE, Estimate, Sampling, estimate, size_of
-from bayesmap.run.runner import Job, ThreadExecutor, first_map, stop_on_interrupt
+from bayesmap.run.chains import FIRST_MARK_DRAWS, RANDOM_STREAMS, Chains, SweepPlan, compute_fingerprint, refuse_changes
+from bayesmap.run.cost import MIN_TOUCHED_SHARE, Estimate, Sampling, estimate, size_of
+from bayesmap.run.runner import Job, ThreadExecutor, draw_first_map, stop_on_interrupt
 from bayesmap.samplers import methods
 from bayesmap.samplers.fit import PILOT_SWEEPS, Parameters, first_sensor, fit, fit_coupling_to_scans, fit_sensor
 from bayesmap.samplers.methods import Gibbs, Method, Propagate
@@ -39,8 +41,10 @@ from bayesmap.sensors.model import SensorModel, describe
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
-FIT = "fit"
-TAKE_POSES = ("wall-gibbs", "wall-blocks", "stop-gibbs")  # samplers that can sample unknown poses
+FIT = "fit"  # value of ``sensor`` that asks for a fit
+EXAMPLE_PRIORS = "bm.Independent(0.2) or bm.Surface()"  # for the messages of errors
+EXAMPLE_POSES = "bm.UncertainPoses(0.1, 0.05) or bm.Odometry()"
+POSE_SAMPLERS = ("wall-gibbs", "wall-blocks", "stop-gibbs")  # samplers that can sample unknown poses
 
 
 @near_names
@@ -75,269 +79,14 @@ def infer(
         checkpoints: the run to resume, and the function that saves the run so far; by default neither.
         on_progress: called with the progress of the run, about four times per second.
 
-    Returns:
-        The run. Ctrl-C stops at the end of the current sweeps and returns the run so far, with ``finished`` False.
-
+    Returns the run. Ctrl-C stops at the end of the current sweeps and returns the run so far, with ``finished`` False.
     Raises `BadInput` for invalid arguments, or a run to resume that was made with other arguments.
     """
-    inference = Inference.of(scans, grid, prior, sensor, method, schedule, seed, poses, hit_depth, where)
+    laws = ChosenLaws(prior, sensor, poses, hit_depth)
+    inference = Inference.of(scans, grid, laws, method, schedule, seed, where)
     need_value("infer", "checkpoints", checkpoints, Checkpoints)
     with stop_on_interrupt() as should_stop:
         return inference.run(checkpoints, Watch(on_progress, should_stop))
-
-
-@dataclass(frozen=True, eq=False)
-class Inference:
-    """The arguments of `infer`, checked."""
-
-    model: Model  # if the sensor is fitted, with the sensor that the fit starts from
-    name: str  # of the method
-    method: Method
-    plan: SweepPlan  # of each chain
-    request: DrawRequest  # for methods without chains; chains take their number and seed from it too
-    is_fitted: bool  # whether the sensor is to be fitted
-    where: Where
-
-    @classmethod
-    def of(
-        cls, scans: Scans, grid: Grid, prior: CellPrior | None, sensor: SensorModel | str, method: Method | str | None,
-        schedule: Schedule, seed: int, poses: PosePrior | None, hit_depth: float, where: Where,
-    ) -> Inference:  # fmt: skip
-        """Check the arguments of `infer`, and fill in the defaults of the kind of cells."""
-        need_value("infer", "schedule", schedule, Schedule)
-        need_value("infer", "where", where, Where)
-        # Check prior, sensor, poses and hit depth.
-        prior = Surface() if prior is None else prior
-        poses = KnownPoses() if poses is None else poses
-        if not isinstance(prior, CellPrior):
-            raise BadInput(
-                f"infer: prior must say what cells are, such as bm.Independent(0.2) or bm.Surface(), got {prior!r}"
-            )
-        if not isinstance(sensor, SensorModel) and not (isinstance(sensor, str) and sensor == FIT):
-            raise BadInput(f"infer: sensor must be a sensor model or {FIT!r}, got {sensor!r}")
-        if not isinstance(poses, PosePrior):
-            raise BadInput(
-                "infer: poses must say what is believed of them, such as bm.UncertainPoses(0.1, 0.05) or "
-                f"bm.Odometry(), got {poses!r}"
-            )
-        if not 0.0 <= hit_depth <= 1.0:
-            raise BadInput(f"infer: hit_depth must lie in [0, 1], got {hit_depth!r}")
-        # Choose the method, and make the model.
-        name, method = methods.method_of(method, prior.methods, type(prior).__name__)
-        starts = getattr(method, "start_poses", None)
-        if starts is not None and np.shape(starts)[1:] != scans.poses.shape:
-            raise BadInput(f"infer: start_poses has shape {np.shape(starts)}, expected (chains, {len(scans)}, 3)")
-        _check_scans(scans, grid)
-        first = first_sensor(prior, grid.resolution) if isinstance(sensor, str) else sensor
-        model = Model(scans, grid, prior, first, poses, float(hit_depth))
-        if poses.unknown and prior.methods[name] not in TAKE_POSES:
-            raise BadInput(
-                f"infer: method {name!r} of {type(prior).__name__} takes poses as known; "
-                "leave poses out, or take another method"
-            )
-
-        # Complete the schedule.
-        def default_draws(thin: int) -> int:
-            if name == Propagate.name:  # its answer is the marginals
-                return 0
-            return prior.default_draws(scans.n_beams, grid.n_cells, schedule.chains, thin)
-
-        complete = schedule.completed(prior.sweeps_a_draw, default_draws)
-        draws, thin = cast(int, complete.draws), cast(int, complete.thin)
-        particles = getattr(method, "particles", methods.PARTICLES)
-        request = DrawRequest(
-            schedule.chains, draws, check_count("infer", "seed", seed, 0), particles, getattr(method, "rounds", ROUNDS)
-        )
-        plan = SweepPlan(schedule.warmup, draws, thin, complete.precision, complete.seconds)
-        return cls(model, name, method, plan, request, isinstance(sensor, str), where)
-
-    def run(self, checkpoints: Checkpoints, watch: Watch) -> Run:
-        """Fit sensor and prior, sample the posterior, and return the run."""
-        began = time.perf_counter()
-        executor = ThreadExecutor() if self.where.executor is None else self.where.executor
-        if not self.where.any_size and (cost := self.estimate()) is not None:
-            cost.refuse(self.model.scans)
-        # The settings hold everything that determines the draws. A stopped run must have the same arguments.
-        settings = self._settings()
-        stopped = self._posterior_to_resume(checkpoints.resume, settings)
-        opening = _Opening(self, checkpoints, settings, stopped, began)
-        # Fit the sensor and the prior.
-        model, parameters = self._fit_model(opening, settings, stopped, watch)
-        seconds = {"fit": time.perf_counter() - began if "fitted" in settings else 0.0}
-        settings["threads_used"] = self._threads_used()
-        # Sample: independent maps, or chains.
-        device, threads = self.where.device, self.where.threads
-        if self.kernel in methods.WITHOUT_CHAINS:
-            problem = trace_walls(model, device, threads)
-            seconds["trace"] = time.perf_counter() - began - seconds["fit"]
-            draws = methods.WITHOUT_CHAINS[self.kernel](problem, self.request, watch)
-            seconds["total"] = opening.elapsed_s()
-            return Run(posterior_of_draws(model, draws, problem.n_incidences, settings, seconds))
-
-        def as_run(chains: Chains) -> Run:
-            seconds["total"] = opening.elapsed_s()
-            return Run(posterior_of_chains(model, chains, settings, seconds, parameters))
-
-        # A pilot has begun the run already. If the chains run elsewhere, no beams are traced here.
-        prepared, is_local = None, isinstance(executor, ThreadExecutor) and not model.poses.unknown
-        if opening.is_needed and parameters is None and stopped is None and is_local:
-            sampler = self._sampler(opening.plan.warmup)
-            prepared = sampler.prepare(model, device, threads, watch)
-            opening.begin(model, sampler, prepared)
-        plan = opening.remaining()
-        settings["warmup"] = plan.warmup
-        job = Job(
-            model, self._sampler(plan.warmup), plan, self.request.seed, chain_ids=tuple(range(self.request.chains)),
-            device=device, threads=threads, parameters=parameters, problem=prepared,
-        )  # fmt: skip
-        save, earlier = checkpoints.save, None if stopped is None else chains_of(stopped)
-        on_checkpoint = None if save is None else lambda chains: save(as_run(chains))
-        return as_run(executor.run(job, earlier, watch, on_checkpoint, checkpoints.every_s))
-
-    def _fit_model(
-        self, opening: _Opening, settings: dict[str, Any], stopped: Posterior | None, watch: Watch
-    ) -> tuple[Model, Parameters | None]:
-        """Fit sensor and prior where asked for. Returns the model of the chains, and the parameters of a pilot."""
-        model, parameters = self.model, None
-        device, threads, seed = self.where.device, self.where.threads, self.request.seed
-        if self.is_fitted and self.kernel == "stop-gibbs":  # the sensor, and with it the prior of reflectivities
-            if stopped is not None:
-                parameters = Parameters.from_description(stopped.settings["fitted"])
-            else:
-                problem = self._sampler(opening.plan.warmup).prepare(model, device, threads, watch)
-                cells = problem.cells if model.poses.unknown else problem
-                opening.begin(model, StopGibbs(), cells)
-                parameters = fit(cells, seed, min(PILOT_SWEEPS, opening.plan.warmup), watch)
-            settings["fitted"] = parameters.describe()
-        elif self.is_fitted:
-            model = replace(model, sensor=fit_sensor(model, device, seed=seed, threads=threads, watch=watch))
-            settings["fitted"] = {"sensor": describe(model.sensor)}
-        if model.cells.is_incomplete:  # the coupling of walls
-            walls = methods.sampler_on_walls(self.kernel)
-            prior = fit_coupling_to_scans(model, walls, device, seed=seed, threads=threads, watch=watch)
-            model = replace(model, cells=prior)
-            settings["fitted"] = {**settings.get("fitted", {}), "prior": prior.describe()}
-        return model, parameters
-
-    @property
-    def kernel(self) -> str:
-        """Return the name of the sampler that implements the method for this kind of cells."""
-        return self.model.cells.methods[self.name]
-
-    def estimate(self, log: Scans | None = None) -> Estimate | None:
-        """Estimate time and memory; None on a GPU, and for samplers of unknown cost. ``log`` holds the scans whose
-        trajectory `slam` infers first; their poses, and so the grid, may be far off.
-        """
-        if self.where.device != "cpu":
-            return None
-        is_local = self.where.executor is None or isinstance(self.where.executor, ThreadExecutor)
-        sampling = Sampling(
-            self.kernel, self.model.arrays, self.model.cells.has_surfaces, plan=self.plan, fitted=self.is_fitted,
-            chains=self.request.chains if is_local else 1, poses=self.model.poses.unknown, cores=self._threads_used(),
-        )  # fmt: skip
-        size = size_of(self.model.scans, self.model.grid, log)
-        if log is not None:
-            size = replace(size, cells=min(size.cells, size.touched / TOUCHED_SHARE))
-        cost = estimate(self.model.scans if log is None else log, self.model.grid, size, sampling)
-        # If only the pilot runs here, and the chains elsewhere, their time is not known.
-        return cost if is_local or cost is None else replace(cost, processor_s=None)
-
-    def _sampler(self, warmup: int) -> Sampler[Any, Any]:
-        """Return the sampler of the chains."""
-        method = cast(Gibbs, self.method)
-        if not self.model.poses.unknown:
-            return methods.sampler_of(self.kernel, self.model.grid, method, warmup)
-        sampler = methods.sampler_of(self.kernel, self.model.grid, method)
-        return WithPoses(cast(MovableSampler, sampler), warmup, method.start_poses)
-
-    def _posterior_to_resume(self, run: Run | None, settings: dict[str, Any]) -> Posterior | None:
-        """Return the posterior of the run to resume; None without a run, or if it was stopped before its first sweep.
-        Raises `BadInput` if the run was made with other arguments.
-        """
-        start = getattr(self.method, "start", None)
-        starts = None if isinstance(start, str) else start, getattr(self.method, "start_poses", None)
-        settings["fingerprint"] = fingerprint(settings, self.model, *starts)
-        if run is None:
-            return None
-        posterior, words = run.posterior, self.model.cells.words
-        if posterior.kind != words.kind:
-            raise BadInput(f"resume: the saved run is one over {posterior.prior.words.states}, not over {words.states}")
-        check_same(posterior.settings, settings)
-        return posterior if posterior.sweep > 0 else None
-
-    def _settings(self) -> dict[str, Any]:
-        """Return everything that determines the draws, as JSON values."""
-        request, plan = self.request, self.plan
-        return {
-            "method": self.name, **methods.options_of(self.kernel, self.model.grid, self.method),
-            "chains": request.chains, "warmup": plan.warmup, "draws": plan.draws, "thin": plan.thin,
-            "precision": plan.precision, "seed": request.seed, "particles": request.particles, "rounds": request.rounds,
-            "hit_depth": self.model.hit_depth, "prior": self.model.cells.describe(),
-            "sensor": FIT if self.is_fitted else describe(self.model.sensor), "streams": RANDOM_STREAMS,
-            "poses": self.model.poses.describe(),
-        }  # fmt: skip
-
-    def _threads_used(self) -> int:
-        from bayesmap.kernels.device import available_cores
-
-        # The GPU may be on another machine, so this process does not look for it.
-        return (self.where.threads or available_cores()) if self.where.device == "cpu" else 1
-
-
-def _check_scans(scans: Scans, grid: Grid) -> None:
-    """Refuse scans that can say nothing of the map: all readings are invalid, or all scans are outside of the grid."""
-    if not len(scans):
-        return
-    if np.isnan(scans.ranges_m).all():
-        raise BadInput(f"infer: all {scans.n_beams:,} readings are NaN, which is invalid; no return is inf")
-    points = np.concatenate([scans.poses[:, :2], scans.hit_points_world()])
-    cells = np.floor(grid.to_cells(points))
-    if not ((cells >= 0) & (cells < grid.shape)).all(axis=1).any():
-        (x0, y0), (x1, y1) = points.min(axis=0), points.max(axis=0)
-        raise BadInput(
-            f"infer: no scan and no hit lies on the grid, {grid.extent_words()}; they lie at x {x0:g} to {x1:g}, "
-            f"y {y0:g} to {y1:g} m, which bm.Grid.covering(scans, resolution) holds"
-        )
-
-
-class _Opening:
-    """The start of a run: its clock, a first map if the chains take long, and their plan in a limited time."""
-
-    def __init__(
-        self, inference: Inference, checkpoints: Checkpoints, settings: dict[str, Any], stopped: Posterior | None,
-        began: float,
-    ) -> None:  # fmt: skip
-        self._request, self._preview, self._settings = inference.request, checkpoints.preview, settings
-        self._began = began - (0.0 if stopped is None else stopped.seconds["total"])
-        self.plan = inference.plan if stopped is None else replace(inference.plan, warmup=stopped.settings["warmup"])
-
-    @property
-    def is_needed(self) -> bool:
-        """Return whether a first map is to be shown, or the time is limited."""
-        return self._preview is not None or self.plan.seconds is not None
-
-    def elapsed_s(self) -> float:
-        """Return the seconds since the start of the run, earlier parts included."""
-        return time.perf_counter() - self._began
-
-    def begin(self, model: Model, sampler: Sampler[Any, Any], problem: Any) -> None:
-        """Show a first map if the chains take long, and shorten the warm-up if their time is limited."""
-        if not self.is_needed:
-            return
-        plan, chains = self.plan, self._request.chains
-        model = replace(model, poses=KnownPoses())  # a first map samples no poses
-        first, sweep_s = first_map(sampler, problem, model, self._request.seed)
-        is_long = sweep_s * chains * (plan.warmup + FIRST_MARK * plan.thin) >= PREVIEW_FROM_S
-        if self._preview is not None and is_long:
-            seconds = {"total": self.elapsed_s(), "fit": 0.0}
-            self._preview(Run(posterior_of_chains(model, first, self._settings, seconds, None)))
-        if plan.seconds is not None:  # the pilot makes as many sweeps as the warm-up
-            self.plan = plan.shortened(sweep_s * (1 + chains), plan.seconds - self.elapsed_s())
-
-    def remaining(self) -> SweepPlan:
-        """Return the plan of the chains in the time that is left."""
-        seconds = self.plan.seconds
-        return self.plan if seconds is None else replace(self.plan, seconds=max(0.0, seconds - self.elapsed_s()))
 
 
 @near_names
@@ -366,9 +115,7 @@ def slam(
             the approximation; by default none of them.
         on_progress: called with the progress of the run.
 
-    Returns:
-        The run over the key scans: ``run.poses`` are draws of their poses, ``run.trajectory`` has all scans.
-
+    Returns the run over the key scans: ``run.poses`` are draws of their poses, ``run.trajectory`` has all scans.
     Raises `BadInput` as `bayesmap.read_log`, `bayesmap.poses.slam.infer_trajectory` and `bayesmap.infer`.
     """
     from bayesmap.poses import map_scans
@@ -391,7 +138,7 @@ def slam(
 
     # Refuse what cannot fit into memory.
     if not where.any_size:
-        cost = estimate_slam(log, resolution, prior, sensor, fast, no_odometry, schedule, where)
+        cost = estimate_slam(log, resolution, ChosenLaws(prior, sensor), fast, no_odometry, schedule, where)
         if cost is not None:
             cost.refuse(log)
 
@@ -424,8 +171,8 @@ def slam(
 
 
 def estimate_slam(
-    log: Scans, resolution: float, prior: CellPrior | None, sensor: SensorModel | Literal["fit"], fast: bool | None,
-    no_odometry: bool, schedule: Schedule, where: Where,
+    log: Scans, resolution: float, laws: ChosenLaws, fast: bool | None, no_odometry: bool, schedule: Schedule,
+    where: Where,
 ) -> Estimate | None:  # fmt: skip
     """Estimate time and memory of `slam` from the poses of the log; None if they allow no map."""
     from bayesmap.poses import map_scans
@@ -438,9 +185,265 @@ def estimate_slam(
         grid = Grid.covering(keys, resolution)
     except BadInput:  # odometry leaps, which the trajectory will mend
         return None
+    poses = KnownPoses() if fast else UncertainPoses(0.1, 0.1)  # their spread does not change the cost
     inference = Inference.of(
-        map_scans.for_map(keys, resolution) if fast else keys, grid, prior, sensor, None,
-        replace(schedule, thin=1 if schedule.thin is None else schedule.thin), 0,
-        KnownPoses() if fast else UncertainPoses(0.1, 0.1), 0.0, where,
+        map_scans.for_map(keys, resolution) if fast else keys, grid, replace(laws, poses=poses), None,
+        replace(schedule, thin=1 if schedule.thin is None else schedule.thin), 0, where,
     )  # fmt: skip
     return inference.estimate(log)
+
+
+@dataclass(frozen=True, eq=False)
+class ChosenLaws:
+    """The laws of cells, readings and poses, as a caller of `infer` chooses them. None stands for the default."""
+
+    prior: CellPrior | None = None
+    sensor: SensorModel | str = FIT
+    poses: PosePrior | None = None
+    hit_depth: float = 0.0  # point in a cell where a beam stops, as a fraction of its chord
+
+    def completed(self) -> tuple[CellPrior, PosePrior]:
+        """Return the priors of cells and poses with their defaults. Raises `BadInput` for an invalid law."""
+        prior = Surface() if self.prior is None else self.prior
+        poses = KnownPoses() if self.poses is None else self.poses
+        if not isinstance(prior, CellPrior):
+            raise BadInput(f"infer: prior must say what cells are, such as {EXAMPLE_PRIORS}, got {prior!r}")
+        if not isinstance(self.sensor, SensorModel) and not (isinstance(self.sensor, str) and self.sensor == FIT):
+            raise BadInput(f"infer: sensor must be a sensor model or {FIT!r}, got {self.sensor!r}")
+        if not isinstance(poses, PosePrior):
+            raise BadInput(f"infer: poses must say what is believed of them, such as {EXAMPLE_POSES}, got {poses!r}")
+        if not 0.0 <= self.hit_depth <= 1.0:
+            raise BadInput(f"infer: hit_depth must lie in [0, 1], got {self.hit_depth!r}")
+        return prior, poses
+
+
+@dataclass(frozen=True, eq=False)
+class Inference:
+    """The arguments of `infer`, checked."""
+
+    model: Model  # if the sensor is fitted, with the sensor that the fit starts from
+    method_name: str
+    method: Method
+    plan: SweepPlan  # of each chain
+    request: DrawRequest  # for methods without chains; chains take their number and seed from it too
+    is_fitted: bool  # whether the sensor is to be fitted
+    where: Where
+
+    @classmethod
+    def of(
+        cls, scans: Scans, grid: Grid, laws: ChosenLaws, method: Method | str | None, schedule: Schedule, seed: int,
+        where: Where,
+    ) -> Inference:  # fmt: skip
+        """Check the arguments of `infer`, and fill in the defaults of the kind of cells."""
+        need_value("infer", "schedule", schedule, Schedule)
+        need_value("infer", "where", where, Where)
+        prior, poses = laws.completed()
+        # Choose the method, and make the model.
+        method_name, method = methods.method_of(method, prior.methods, type(prior).__name__)
+        start_poses = getattr(method, "start_poses", None)
+        if start_poses is not None and np.shape(start_poses)[1:] != scans.poses.shape:
+            raise BadInput(f"infer: start_poses has shape {np.shape(start_poses)}, expected (chains, {len(scans)}, 3)")
+        _check_scans(scans, grid)
+        is_fitted = isinstance(laws.sensor, str)
+        sensor = first_sensor(prior, grid.resolution) if isinstance(laws.sensor, str) else laws.sensor
+        model = Model(scans, grid, prior, sensor, poses, float(laws.hit_depth))
+        if poses.unknown and prior.methods[method_name] not in POSE_SAMPLERS:
+            reason = f"method {method_name!r} of {type(prior).__name__} takes poses as known"
+            raise BadInput(f"infer: {reason}; leave poses out, or take another method")
+
+        # Complete the schedule.
+        def default_draws(thin: int) -> int:
+            if method_name == Propagate.name:  # its answer is the marginals
+                return 0
+            return prior.default_draws(scans.n_beams, grid.n_cells, schedule.chains, thin)
+
+        complete = schedule.completed(prior.sweeps_a_draw, default_draws)
+        draws, thin = cast(int, complete.draws), cast(int, complete.thin)
+        particles, rounds = getattr(method, "particles", methods.PARTICLES), getattr(method, "rounds", ROUNDS)
+        request = DrawRequest(schedule.chains, draws, check_count("infer", "seed", seed, 0), particles, rounds)
+        plan = SweepPlan(schedule.warmup, draws, thin, complete.precision, complete.seconds)
+        return cls(model, method_name, method, plan, request, is_fitted, where)
+
+    @property
+    def sampler_name(self) -> str:
+        """Return the name of the sampler that implements the method for this kind of cells."""
+        return self.model.cells.methods[self.method_name]
+
+    def run(self, checkpoints: Checkpoints, watch: Watch) -> Run:
+        """Fit sensor and prior, sample the posterior, and return the run."""
+        began = time.perf_counter()
+        executor = ThreadExecutor() if self.where.executor is None else self.where.executor
+        if not self.where.any_size and (cost := self.estimate()) is not None:
+            cost.refuse(self.model.scans)
+        # The settings hold everything that determines the draws. A stopped run must have the same arguments.
+        settings = self._settings()
+        stopped = self._posterior_to_resume(checkpoints.resume, settings)
+        clock = _RunClock(self, checkpoints, settings, stopped, began)
+        # Fit the sensor and the prior.
+        model, parameters = self._fit_model(clock, settings, stopped, watch)
+        seconds = {"fit": time.perf_counter() - began if "fitted" in settings else 0.0}
+        settings["threads_used"] = self._threads_used()
+        # Methods without chains: draw independent maps.
+        device, threads = self.where.device, self.where.threads
+        if self.sampler_name in methods.WITHOUT_CHAINS:
+            problem = trace_walls(model, device, threads)
+            seconds["trace"] = time.perf_counter() - began - seconds["fit"]
+            draws = methods.WITHOUT_CHAINS[self.sampler_name](problem, self.request, watch)
+            seconds["total"] = clock.elapsed_s()
+            return Run(posterior_of_draws(model, draws, problem.n_incidences, settings, seconds))
+
+        def as_run(chains: Chains) -> Run:
+            seconds["total"] = clock.elapsed_s()
+            return Run(posterior_of_chains(model, chains, settings, seconds, parameters))
+
+        # Show a first map, unless a pilot has done so. If the chains run elsewhere, no beams are traced here.
+        problem_here, is_local = None, isinstance(executor, ThreadExecutor) and not model.poses.unknown
+        if clock.needs_first_map and parameters is None and stopped is None and is_local:
+            sampler = self._sampler(clock.plan.warmup)
+            problem_here = sampler.prepare(model, device, threads, watch)
+            clock.make_first_map(model, sampler, problem_here)
+        plan = clock.remaining_plan()
+        settings["warmup"] = plan.warmup
+        job = Job(
+            model, self._sampler(plan.warmup), plan, self.request.seed, chain_ids=tuple(range(self.request.chains)),
+            device=device, threads=threads, parameters=parameters, problem=problem_here,
+        )  # fmt: skip
+        save, earlier = checkpoints.save, None if stopped is None else chains_of(stopped)
+        on_checkpoint = None if save is None else lambda chains: save(as_run(chains))
+        return as_run(executor.run(job, earlier, watch, on_checkpoint, checkpoints.every_s))
+
+    def _fit_model(
+        self, clock: _RunClock, settings: dict[str, Any], stopped: Posterior | None, watch: Watch
+    ) -> tuple[Model, Parameters | None]:
+        """Fit sensor and prior where asked for. Returns the model of the chains, and the parameters of a pilot."""
+        model, parameters = self.model, None
+        device, threads, seed = self.where.device, self.where.threads, self.request.seed
+        if self.is_fitted and self.sampler_name == "stop-gibbs":  # a pilot fits the sensor and the prior of stops
+            if stopped is not None:
+                parameters = Parameters.from_description(stopped.settings["fitted"])
+            else:
+                problem = self._sampler(clock.plan.warmup).prepare(model, device, threads, watch)
+                cells = problem.cells if model.poses.unknown else problem
+                clock.make_first_map(model, StopGibbs(), cells)
+                parameters = fit(cells, seed, min(PILOT_SWEEPS, clock.plan.warmup), watch)
+            settings["fitted"] = parameters.describe()
+        elif self.is_fitted:  # walls, without a pilot
+            model = replace(model, sensor=fit_sensor(model, device, seed=seed, threads=threads, watch=watch))
+            settings["fitted"] = {"sensor": describe(model.sensor)}
+        if model.cells.is_incomplete:  # the coupling of walls
+            walls = methods.sampler_on_walls(self.sampler_name)
+            prior = fit_coupling_to_scans(model, walls, device, seed=seed, threads=threads, watch=watch)
+            model = replace(model, cells=prior)
+            settings["fitted"] = {**settings.get("fitted", {}), "prior": prior.describe()}
+        return model, parameters
+
+    def estimate(self, log: Scans | None = None) -> Estimate | None:
+        """Estimate time and memory; None on a GPU, and for samplers of unknown cost. `slam` gives its ``log``, too."""
+        if self.where.device != "cpu":
+            return None
+        is_local = self.where.executor is None or isinstance(self.where.executor, ThreadExecutor)
+        sampling = Sampling(
+            self.sampler_name, self.model.arrays, self.model.cells.has_surfaces, plan=self.plan,
+            chains=self.request.chains if is_local else 1, is_fitted=self.is_fitted,
+            samples_poses=self.model.poses.unknown, cores=self._threads_used(),
+        )  # fmt: skip
+        size = size_of(self.model.scans, self.model.grid, log)
+        if log is not None:  # drift of odometry makes the grid too large, but beams touch no more cells
+            size = replace(size, cells=min(size.cells, size.touched / MIN_TOUCHED_SHARE))
+        cost = estimate(self.model.scans if log is None else log, self.model.grid, size, sampling)
+        # If only the pilot runs here, and the chains elsewhere, their time is not known.
+        return cost if is_local or cost is None else replace(cost, processor_s=None)
+
+    def _sampler(self, warmup: int) -> Sampler[Any, Any]:
+        """Return the sampler of the chains."""
+        method = cast(Gibbs, self.method)
+        if not self.model.poses.unknown:
+            return methods.sampler_of(self.sampler_name, self.model.grid, method, warmup)
+        sampler = methods.sampler_of(self.sampler_name, self.model.grid, method)
+        return WithPoses(cast(MovableSampler, sampler), warmup, method.start_poses)
+
+    def _posterior_to_resume(self, run: Run | None, settings: dict[str, Any]) -> Posterior | None:
+        """Add the fingerprint to the settings, and return the posterior to resume; None without a run or a sweep."""
+        start_cells = getattr(self.method, "start", None)
+        starts = None if isinstance(start_cells, str) else start_cells, getattr(self.method, "start_poses", None)
+        settings["fingerprint"] = compute_fingerprint(settings, self.model, *starts)
+        if run is None:
+            return None
+        posterior, words = run.posterior, self.model.cells.words
+        if posterior.kind != words.kind:
+            raise BadInput(f"resume: the saved run is one over {posterior.prior.words.states}, not over {words.states}")
+        refuse_changes(posterior.settings, settings)
+        return posterior if posterior.sweep > 0 else None
+
+    def _settings(self) -> dict[str, Any]:
+        """Return everything that determines the draws, as JSON values."""
+        request, plan = self.request, self.plan
+        return {
+            "method": self.method_name, **methods.options_of(self.sampler_name, self.model.grid, self.method),
+            "chains": request.chains, "warmup": plan.warmup, "draws": plan.draws, "thin": plan.thin,
+            "precision": plan.precision, "seed": request.seed, "particles": request.particles, "rounds": request.rounds,
+            "hit_depth": self.model.hit_depth, "prior": self.model.cells.describe(),
+            "sensor": FIT if self.is_fitted else describe(self.model.sensor), "streams": RANDOM_STREAMS,
+            "poses": self.model.poses.describe(),
+        }  # fmt: skip
+
+    def _threads_used(self) -> int:
+        from bayesmap.kernels.device import available_cores
+
+        # The GPU may be on another machine, so this process does not look for it.
+        return (self.where.threads or available_cores()) if self.where.device == "cpu" else 1
+
+
+class _RunClock:
+    """The clock of a run: elapsed seconds, a first map if the chains take long, and their plan in a limited time."""
+
+    def __init__(
+        self, inference: Inference, checkpoints: Checkpoints, settings: dict[str, Any], stopped: Posterior | None,
+        began: float,
+    ) -> None:  # fmt: skip
+        self._request, self._preview, self._settings = inference.request, checkpoints.preview, settings
+        self._began = began - (0.0 if stopped is None else stopped.seconds["total"])
+        self.plan = inference.plan if stopped is None else replace(inference.plan, warmup=stopped.settings["warmup"])
+
+    @property
+    def needs_first_map(self) -> bool:
+        """Whether a first map is to be shown, or the time is limited, so that the speed must be measured."""
+        return self._preview is not None or self.plan.seconds is not None
+
+    def elapsed_s(self) -> float:
+        """Return the seconds since the start of the run, earlier parts included."""
+        return time.perf_counter() - self._began
+
+    def make_first_map(self, model: Model, sampler: Sampler[Any, Any], problem: Any) -> None:
+        """Show a first map if the chains take long, and shorten the warm-up if their time is limited."""
+        if not self.needs_first_map:
+            return
+        plan, chains = self.plan, self._request.chains
+        model = replace(model, poses=KnownPoses())  # a first map samples no poses
+        first_map, sweep_s = draw_first_map(sampler, problem, model, self._request.seed)
+        is_long = sweep_s * chains * (plan.warmup + FIRST_MARK_DRAWS * plan.thin) >= PREVIEW_FROM_S
+        if self._preview is not None and is_long:
+            seconds = {"total": self.elapsed_s(), "fit": 0.0}
+            self._preview(Run(posterior_of_chains(model, first_map, self._settings, seconds, None)))
+        if plan.seconds is not None:  # the pilot makes as many sweeps as the warm-up
+            self.plan = plan.shortened(sweep_s * (1 + chains), plan.seconds - self.elapsed_s())
+
+    def remaining_plan(self) -> SweepPlan:
+        """Return the plan of the chains for the remaining time."""
+        seconds = self.plan.seconds
+        return self.plan if seconds is None else replace(self.plan, seconds=max(0.0, seconds - self.elapsed_s()))
+
+
+def _check_scans(scans: Scans, grid: Grid) -> None:
+    """Refuse scans without information about the map: all readings are invalid, or none lies on the grid."""
+    if not len(scans):
+        return
+    if np.isnan(scans.ranges_m).all():
+        raise BadInput(f"infer: all {scans.n_beams:,} readings are NaN, which is invalid; no return is inf")
+    points = np.concatenate([scans.poses[:, :2], scans.hit_points_world()])
+    cells = np.floor(grid.to_cells(points))
+    if not ((cells >= 0) & (cells < grid.shape)).all(axis=1).any():
+        (x0, y0), (x1, y1) = points.min(axis=0), points.max(axis=0)
+        reason = f"no scan and no hit lies on the grid, {grid.extent_words()}"
+        remedy = "which bm.Grid.covering(scans, resolution) holds"
+        raise BadInput(f"infer: {reason}; they lie at x {x0:g} to {x1:g}, y {y0:g} to {y1:g} m, {remedy}")

@@ -1,4 +1,7 @@
-"""Groups of arguments of `bayesmap.infer` and `bayesmap.slam`: the schedule, the devices, and the checkpoints."""
+"""Groups of arguments of `bayesmap.infer` and `bayesmap.slam`.
+
+`Schedule` says how long chains run, `Where` on which threads and devices, and `Checkpoints` what is resumed and saved.
+"""
 
 from __future__ import annotations
 
@@ -17,11 +20,11 @@ if TYPE_CHECKING:
 
 CHECKPOINT_S = 30.0  # default number of seconds between two checkpoints
 PREVIEW_FROM_S = 2.0  # a first map is drawn if the chains are expected to take at least this many seconds
-MORE_DRAWS = 10  # factor on the default number of draws if the user asks for a better precision than the default
+MORE_DRAWS = 10  # factor on the default number of draws if the precision is below the default, or has no limit
 
 
 def need_value(function: str, name: str, value: object, kind: type) -> None:
-    """Raise BadInput, with an example, for an argument that is not of the class ``kind``."""
+    """Raise `BadInput`, with an example, for an argument that is not of the class ``kind``."""
     if not isinstance(value, kind):
         example = f"bm.{kind.__name__}()"
         raise BadInput(f"{function}: {name} must be one such as {example}, got {value!r}")
@@ -56,25 +59,24 @@ class Schedule:
     seconds: float | None = None
 
     def __post_init__(self) -> None:
-        for name, least in {"chains": 1, "warmup": 0, "draws": 0, "thin": 1}.items():
+        for name, minimum in {"chains": 1, "warmup": 0, "draws": 0, "thin": 1}.items():
             value = getattr(self, name)
-            if value is not None or name in ("chains", "warmup"):
-                object.__setattr__(self, name, check_count("Schedule", name, value, least))
+            if value is not None or name in ("chains", "warmup"):  # None is a value of the others
+                object.__setattr__(self, name, check_count("Schedule", name, value, minimum))
         if self.precision is not None and not self.precision > 0:
             raise BadInput(f"Schedule: precision must be a positive probability, such as 0.03, got {self.precision!r}")
         if self.seconds is not None and not self.seconds > 0:
             raise BadInput(f"Schedule: seconds must be a positive number, such as 60, got {self.seconds!r}")
 
     def completed(self, sweeps_a_draw: int, default_draws: Callable[[int], int]) -> Schedule:
-        """Return the schedule with ``thin``, ``draws`` and ``precision`` filled in. ``sweeps_a_draw`` is ``thin`` if
-        neither it nor ``draws`` is given. ``default_draws`` takes ``thin``.
-        """
-        thin = (sweeps_a_draw if self.draws is None else 1) if self.thin is None else self.thin
+        """Return the schedule with ``thin``, ``draws`` and ``precision``, by the defaults of the kind of cells."""
+        default_thin = sweeps_a_draw if self.draws is None else 1
+        thin = default_thin if self.thin is None else self.thin
         if self.draws is not None:
             return replace(self, thin=thin)
         precision = PRECISION if self.precision is None and self.seconds is None else self.precision
-        draws = default_draws(thin) * (MORE_DRAWS if precision is None or precision < PRECISION else 1)
-        return replace(self, draws=draws, thin=thin, precision=precision)
+        factor = MORE_DRAWS if precision is None or precision < PRECISION else 1
+        return replace(self, draws=default_draws(thin) * factor, thin=thin, precision=precision)
 
 
 @dataclass(frozen=True)
@@ -103,9 +105,8 @@ class Where:
             raise BadInput(f"Where: device must be a name such as 'cpu' or 'cuda:0', got {self.device!r}")
         executor = self.executor
         if executor is not None and (isinstance(executor, type) or not callable(getattr(executor, "run", None))):
-            raise BadInput(
-                f"Where: executor must be one such as bm.RayExecutor(), or None for this process, got {executor!r}"
-            )
+            expected = "one such as bm.RayExecutor(), or None for this process"
+            raise BadInput(f"Where: executor must be {expected}, got {executor!r}")
 
 
 @dataclass(frozen=True, eq=False)
@@ -135,9 +136,9 @@ class Checkpoints:
     def __post_init__(self) -> None:
         if self.resume is not None and not hasattr(self.resume, "posterior"):
             raise BadInput(f"Checkpoints: resume must be a run, such as bm.load('run.nc'), got {self.resume!r}")
-        for name, what in (("save", "run"), ("preview", "run"), ("trajectory", "trajectory")):
+        for name, argument in (("save", "run"), ("preview", "run"), ("trajectory", "trajectory")):
             callback = getattr(self, name)
             if callback is not None and not callable(callback):
-                raise BadInput(f"Checkpoints: {name} must be a function that takes a {what}, got {callback!r}")
+                raise BadInput(f"Checkpoints: {name} must be a function that takes a {argument}, got {callback!r}")
         if not self.every_s >= 0:
             raise BadInput(f"Checkpoints: every_s must be 0 or a positive number of seconds, got {self.every_s!r}")

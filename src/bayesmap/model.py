@@ -9,7 +9,9 @@ spread s_i (`bayesmap.beams.rays`). The law of a reading z is
     p(z | cells, sensor, pose) = sum_i w_i p(z | d_i, s_i) + prod_j (1 - a_j) p(z | infinity)
 
 with the sensor's law p(z | d, s) (`bayesmap.sensors.model`). Binary walls are the case a_i in {0, 1}: then one w is 1.
-This module computes the law in plain NumPy, in double precision, for all kinds of cells, to test samplers.
+
+`Model` is what samplers take: data, unknowns and priors. `log_likelihoods` computes the law above in plain NumPy, in
+double precision, for all kinds of cells. It is slow, and serves to test samplers.
 """
 
 from __future__ import annotations
@@ -65,9 +67,7 @@ class Model:
         return State(self.cells.completed(cells, self.grid), self.sensor, self.scans.poses)
 
     def log_joint(self, state: State) -> float:
-        """Compute the log density of a state and the readings, in nats, up to a constant of the priors. Raises
-        `BadInput` for poses of another shape than the scans'.
-        """
+        """Compute the log density of a state and the readings, in nats, up to a constant of the priors."""
         poses = self.poses.law(self.scans.poses).log_prob(np.asarray(state.poses))
         return float(poses) + self.cells.log_prob(state.cells, self.grid) + self.log_likelihood(state)
 
@@ -76,30 +76,27 @@ class Model:
         return float(self.beam_log_likelihoods(state).sum())
 
     def beam_log_likelihoods(self, state: State) -> Floats:
-        """Compute log p(reading | state) of each beam, (B,), in nats; 0 for an invalid reading. Raises `BadInput` for
-        poses of another shape than the scans'.
-        """
+        """Compute log p(reading | state) of each beam in nats, (B,); 0 if invalid. `BadInput`: poses of wrong shape."""
         if np.shape(state.poses) != self.scans.poses.shape:
             raise BadInput(f"state: poses has shape {np.shape(state.poses)}, expected {self.scans.poses.shape}")
         stops = self.cells.stops(state.cells, self.grid)
-        parts = [log_likelihoods(rays, stops, state.sensor, self.hit_depth) for rays in self._rays(state.poses)]
-        return np.concatenate(parts) if parts else np.zeros(0)
+        batches = [log_likelihoods(rays, stops, state.sensor, self.hit_depth) for rays in self._trace(state.poses)]
+        return np.concatenate(batches) if batches else np.zeros(0)
 
-    def _rays(self, poses: Floats) -> Iterator[Rays]:
-        """Trace the scans from these poses, `BEAMS_AT_ONCE` beams at a time."""
+    def _trace(self, poses_world: Floats) -> Iterator[Rays]:
+        """Trace the scans from poses, (S, 3), `BEAMS_AT_ONCE` beams at a time."""
         from bayesmap.kernels.rays import trace_rays
 
-        at_once = max(1, BEAMS_AT_ONCE // self.scans.ranges_m.shape[1])
-        for i in range(0, len(self.scans), at_once):
-            part = slice(i, i + at_once)
-            yield trace_rays(self.scans.select(part), self.grid, poses_world=poses[part])
+        scans_at_once = max(1, BEAMS_AT_ONCE // self.scans.ranges_m.shape[1])
+        for i in range(0, len(self.scans), scans_at_once):
+            batch = slice(i, i + scans_at_once)
+            yield trace_rays(self.scans.select(batch), self.grid, poses_world=poses_world[batch])
 
 
 def log_likelihoods(
     rays: Rays, states: NDArray[np.floating], sensor: SensorModel, hit_depth: float, beta: float = 1.0
 ) -> Floats:
     """Compute log p(reading | map) of every beam, (B,), by the formula of this module; 0 for an invalid reading.
-
     ``states`` is as in `bayesmap.beams.rays.stops_of`. The inverse temperature ``beta`` is the power of p(z | stop).
     """
     stops = stops_of(rays, states, hit_depth)

@@ -1,4 +1,8 @@
-"""The result of an inference: a posterior, with its summaries, scores, plans, pictures and exports."""
+"""The result of an inference: a posterior, with its summaries, scores, plans, pictures and exports.
+
+`Run` is what users hold. Its data are those of a `Posterior`. Each method imports and calls the module that does the
+work. `load` reads a saved run, and `score` judges one on scans that it has not seen.
+"""
 
 from __future__ import annotations
 
@@ -93,12 +97,12 @@ class Run:
 
     @cached_property
     def draws(self) -> NDArray[Any]:
-        """Return all kept maps, (chain, draw, nx, ny): walls, or chances to stop a beam. Unobserved cells have the
-        prior's mean. The array is made on first use: 1 or 4 bytes per cell and draw.
+        """Return all kept maps, (chain, draw, nx, ny): walls, or chances to stop a beam.
+        Unobserved cells have the prior's mean. The array is made on first use: 1 or 4 bytes per cell and draw.
         """
         draws = self.posterior.draws
-        walls = self.n_draws == 0 or self.map_of(0, 0).dtype == np.bool_
-        maps: NDArray[Any] = np.empty((draws.chains, draws.count, *self.grid.shape), np.bool_ if walls else np.float32)
+        dtype = np.bool_ if self.n_draws == 0 or self.map_of(0, 0).dtype == np.bool_ else np.float32
+        maps: NDArray[Any] = np.empty((draws.chains, draws.count, *self.grid.shape), dtype)
         for chain, draw in draws.numbers():
             maps[chain, draw] = self.map_of(chain, draw)
         return maps
@@ -114,9 +118,7 @@ class Run:
 
     @property
     def poses(self) -> Floats:
-        """Return draws of the scans' poses in the world frame, (chain, draw, scan, 3): x, y in metres, yaw in radians.
-        Known poses are repeated in every draw.
-        """
+        """Return draws of the poses, (chain, draw, scan, 3): x, y in metres, yaw in radians. Known poses repeat."""
         draws = self.posterior.draws
         if "poses" in draws.arrays:
             return draws.values("poses")
@@ -141,7 +143,6 @@ class Run:
 
     def interval(self, level: float = 0.9) -> tuple[Floats, Floats]:
         """Compute the central credible interval of each cell's chance to stop a beam: lower and upper ends, (nx, ny).
-
         Raises `BadInput` for a level outside (0, 1), a run stopped before its first draw, or binary walls.
         """
         if not 0 < level < 1:
@@ -150,8 +151,8 @@ class Run:
         return self.posterior.prior.interval(self.posterior.draws, level)
 
     def surfaces(self) -> tuple[Floats, Floats, Floats]:
-        """Return mean surfaces: means (U, 2) and covariances (U, 2, 2) in metres, and reflectivities (U,). Raises
-        `BadInput` for a run without surfaces or without draws.
+        """Return mean surfaces: means (U, 2) in metres, covariances (U, 2, 2) in square metres, reflectivities (U,).
+        Raises `BadInput` for a run without surfaces or without draws.
         """
         self._need_marginals()
         return self.posterior.prior.surfaces(self.posterior.draws)
@@ -225,11 +226,9 @@ class Run:
             draws: number of compared draws; more draws tighten the bounds, and the work grows with their square.
             seed: seed of the simulated scans.
 
-        Returns:
-            Bounds from joint draws, ``.at_least`` and ``.at_most`` with Monte Carlo errors, and ``.independent``: the
-            formula for independent cells and beams (FSMI; Zhang et al., ICRA 2019).
-
-        Raises `BadInput` for fewer than two draws, or invalid poses, angles or range.
+        Returns bounds from joint draws, ``.at_least`` and ``.at_most`` with Monte Carlo errors, and ``.independent``:
+        the formula for independent cells and beams (FSMI; Zhang et al., ICRA 2019). Raises `BadInput` for fewer than
+        two draws, or invalid poses, angles or range.
         """
         from bayesmap.posterior.decisions import information_of
 
@@ -253,9 +252,7 @@ class Run:
             sensor: law of the readings; None: the run's.
             seed: seed of the drawn readings.
 
-        Returns:
-            ``.draws_m`` (draws, P, A) and ``.quantiles_m`` (P, A, levels), metres: +inf is no return, -inf too close.
-
+        Returns ``.draws_m`` (draws, P, A) and ``.quantiles_m`` (P, A, levels), metres (+inf: no return, -inf: close).
         Raises `BadInput` for a run without draws, poses outside the map, or invalid angles, levels or range.
         """
         from bayesmap.posterior.prediction import predict
@@ -320,15 +317,15 @@ class Run:
         from bayesmap.io.exports import TRAJECTORIES, export_format, export_run, known_cells
 
         # The trajectory of `slam` is known before the first draw.
-        chosen, thresholds = export_format(path, options.get("format")), self.prior.thresholds
-        if self.trajectory is None or chosen not in TRAJECTORIES:
+        chosen_format = export_format(path, options.get("format"))
+        if self.trajectory is None or chosen_format not in TRAJECTORIES:
             self._need_marginals()
-        mode = options.get("mode") or ("trinary" if chosen == "map-server" else None)
-        if thresholds is not None and mode == "trinary":
-            for name, value in zip(("occupied_thresh", "free_thresh"), thresholds, strict=True):
-                options[name] = value if options.get(name) is None else options[name]
-        free_thresh = options.get("free_thresh")
-        known = known_cells(self.prior, self.posterior.draws, self.occupancy, self.observed, free_thresh)
+        mode = options.get("mode") or ("trinary" if chosen_format == "map-server" else None)
+        if self.prior.thresholds is not None and mode == "trinary":
+            for name, threshold in zip(("occupied_thresh", "free_thresh"), self.prior.thresholds, strict=True):
+                options[name] = threshold if options.get(name) is None else options[name]
+        draws, free_thresh = self.posterior.draws, options.get("free_thresh")
+        known = known_cells(self.prior, draws, self.occupancy, self.observed, free_thresh)
         return export_run(path, self, self.posterior.scans, known=known, **options)
 
     def __repr__(self) -> str:
@@ -359,21 +356,21 @@ class Run:
 
 def _overview(posterior: Posterior) -> tuple[str, list[tuple[str, str]]]:
     """Return a title, and four rows of name and value: scans, method, log joint and time."""
-    (nx, ny), counts, joint = posterior.grid.shape, posterior.counts, posterior.log_joint
+    (nx, ny), counts, log_joint = posterior.grid.shape, posterior.counts, posterior.log_joint
     title = f"Run: {posterior.prior.words.states}, {nx} x {ny} cells of {posterior.grid.resolution:g} m"
-    chains, draws = joint.shape
-    work = f"{chains} chains of {posterior.sweep:,} sweeps, {draws:,} draws each"
+    n_chains, n_draws = log_joint.shape
+    work = f"{n_chains} chains of {posterior.sweep:,} sweeps, {n_draws:,} draws each"
     if not posterior.has_chains:
-        work = f"{chains * draws:,} independent draws"
+        work = f"{n_chains * n_draws:,} independent draws"
     state = "finished" if posterior.finished else "not finished"
-    fit = f"{joint.mean():,.1f} on average" if joint.size else "no draws yet"
-    if joint.size and posterior.has_chains and draws >= 4:
-        fit += f", R-hat {rhat(joint):.3f}"
-    seen = f"{np.count_nonzero(posterior.observed):,} of {posterior.observed.size:,} cells observed"
+    level = f"{log_joint.mean():,.1f} on average" if log_joint.size else "no draws yet"
+    if log_joint.size and posterior.has_chains and n_draws >= 4:  # R-hat needs two draws in each half
+        level += f", R-hat {rhat(log_joint):.3f}"
+    observed = f"{np.count_nonzero(posterior.observed):,} of {posterior.observed.size:,} cells observed"
     return title, [
-        ("scans", f"{counts['scans']:,}, {counts['beams']:,} beams; {seen}"),
+        ("scans", f"{counts['scans']:,}, {counts['beams']:,} beams; {observed}"),
         ("method", f"{posterior.settings['method']}, {work}, {state}"),
-        ("log joint", fit),
+        ("log joint", level),
         ("seconds", f"{posterior.seconds['total']:.1f}, {posterior.seconds['sampling']:.1f} of them in sweeps"),
     ]
 

@@ -207,7 +207,7 @@ def test_many_sweeps_of_a_large_map_are_thinned_to_fit():
     model, start = scene.model(scene.problem.prior), np.zeros((2, 500, 500), dtype=bool)
     stream = RunningChains(model, WallGibbs("radial", start), scene.problem, replace(tutorial_document(), sweeps=6000))
     assert (stream.thin, stream.total) == (3, 6000)
-    assert stream._record._draws.arrays["walls"].nbytes <= MAX_DRAW_BYTES
+    assert stream._record._arrays["walls"].nbytes <= MAX_DRAW_BYTES
 
 
 @pytest.mark.parametrize("cells", ["reflectivity", "surface"])

@@ -5,7 +5,7 @@ import re
 import pytest
 from shell import refusal_of
 
-from bayesmap.cli.keys import SECTIONS, checked, keys_of
+from bayesmap.cli.keys import SECTIONS, convert_value, keys_of
 
 NAN_POSE = "FLASER 2 1.0 1.0 nan 0 0 0 0 0 1.0 host 1.0\n"
 GOOD = "FLASER 3 1.0 2.0 1.5 0.1 0 0 0.1 0 0 {t} host {t}\n"
@@ -78,7 +78,7 @@ def test_numbers_are_refused_before_any_file_is_looked_at(tmp_path, command, rul
 def test_every_default_keeps_its_rule():
     for section in SECTIONS:
         for key in keys_of(section):
-            assert checked(key, key.default) == key.default
+            assert convert_value(key, key.default) == key.default
 
 
 def test_a_scan_that_is_nowhere_near_the_others_is_named(office, tmp_path):

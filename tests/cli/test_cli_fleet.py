@@ -73,7 +73,7 @@ def test_a_folder_of_logs_is_inferred_on_a_cluster(logs, tmp_path, alone, cluste
 
 def at_first_checkpoint(monkeypatch, act, on_ray):
     """Do something at the first checkpoint; returns a list that has an entry as soon as it is done."""
-    keeper, name = (infer.RayFleet, "keep") if on_ray else (Folder, "checkpoint")
+    keeper, name = (infer.RayFleet, "store") if on_ray else (Folder, "checkpoint")
     keep, done = getattr(keeper, name), []
 
     def keep_and_act(self, *given):
@@ -89,7 +89,7 @@ def at_first_checkpoint(monkeypatch, act, on_ray):
 def interrupt_the_first(monkeypatch, on_ray):
     """Press Ctrl-C at the first checkpoint, when the other log has not begun."""
     at_first_checkpoint(monkeypatch, lambda: os.kill(os.getpid(), signal.SIGINT), on_ray)
-    monkeypatch.setattr(infer.RayFleet, "most_at_once", lambda self, entry: 1)
+    monkeypatch.setattr(infer.RayFleet, "max_at_once", lambda self, entry: 1)
 
 
 @pytest.mark.full
@@ -119,7 +119,7 @@ def test_progress_of_all_logs_is_shown_and_ctrl_c_keeps_what_workers_have(logs, 
             at.append((match[1], int(match[2].replace(",", ""))))
             os.kill(os.getpid(), signal.SIGINT)
 
-    monkeypatch.setattr(infer, "share", lambda console, begin: contextlib.nullcontext(show))
+    monkeypatch.setattr(infer, "share_bar", lambda console, begin: contextlib.nullcontext(show))
     monkeypatch.setattr(infer, "STOP_S", 120.0)
     pair, options = (logs / "east.log", logs / "west.log"), (*short, "--executor", "ray", "--checkpoint-every", 3600)
     told = refusal_of("infer", *pair, "-o", tmp_path / "runs", *options, "--draws 4000", code=130)
@@ -158,7 +158,7 @@ def test_words_of_ray_after_the_run_are_not_in_the_document(logs, tmp_path, shor
 
         return wrapped
 
-    of, name = (infer.Entry, "as_json") if several else (pipeline, "report")
+    of, name = (infer.FleetLog, "as_json") if several else (pipeline, "report")
     monkeypatch.setattr(of, name, and_print(getattr(of, name)))
     given = (logs / "east.log", logs / "west.log")[: 2 if several else 1]
     result = succeed("infer", *given, "-o", tmp_path / "runs", "--json", *short, "--executor ray")

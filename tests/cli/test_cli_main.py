@@ -21,7 +21,7 @@ from bayesmap import BeamMixture, Beta, Gaussian, Independent, Ising, StudentT, 
 from bayesmap.cells.kinds import BUILT_IN, P_WALL
 from bayesmap.cells.reflectivity import MAX_DRAWS, MIN_DRAWS
 from bayesmap.cli import keys, pipeline
-from bayesmap.cli.command import as_toml, layered, read_file, read_pairs
+from bayesmap.cli.command import as_toml, merge_layers, read_file, read_pairs
 from bayesmap.cli.group import COMMANDS
 from bayesmap.cli.keys import SECTIONS, ExportSettings, InferSettings, keys_of
 from bayesmap.cli.translation import BINARY_DRAWS, completed, prior_of, sensor_of
@@ -203,7 +203,7 @@ def test_the_printed_configuration_is_the_effective_one(tmp_path):
     assert call("config", "-c", path).stdout == first
     assert read_file(path).keys() == SECTIONS.keys()
     for section, settings in SECTIONS.items():
-        assert layered(section, read_file(path)) == settings()
+        assert merge_layers(section, read_file(path)) == settings()
 
 
 def test_every_kind_of_value_survives_the_round_trip(tmp_path):
@@ -230,7 +230,7 @@ def test_flags_win_over_set_over_file_over_defaults(office, tmp_path, short):
 
 def test_a_bare_key_holds_for_all_commands_that_have_it(tmp_path):
     layer = read_file(write(tmp_path, "seed = 7\n[demo]\nseed = 8\n"))
-    assert [layered(section, layer).seed for section in ("infer", "simulate", "demo")] == [7, 7, 8]
+    assert [merge_layers(section, layer).seed for section in ("infer", "simulate", "demo")] == [7, 7, 8]
     assert read_pairs(["seed=3"], "infer") == {"infer": {"seed": 3}}
     assert read_pairs(["demo.seed=3"], "infer") == {"demo": {"seed": 3}}
 

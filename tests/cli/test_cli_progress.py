@@ -16,7 +16,7 @@ from tiers import full_but
 
 import bayesmap as bm
 from bayesmap.api import Event
-from bayesmap.cli.console import SETTING_UP, STAGES, Console, progress
+from bayesmap.cli.console import SETTING_UP, STAGES, Console, progress_bar
 from bayesmap.run.runner import stop_on_interrupt
 
 
@@ -83,7 +83,7 @@ def test_a_stage_that_comes_between_does_not_stop_the_clock(monkeypatch):
     monkeypatch.setattr(Progress, "add_task", adding)
     monkeypatch.setattr(Progress, "update", updating)
     monkeypatch.setattr(Console, "draws_bar", True)
-    with progress(Console(), "beginning") as report:
+    with progress_bar(Console(), "beginning") as report:
         for event in (Event("draws", 3, 9), Event("save", 1, 8), Event("save", 8, 8), Event("draws", 4, 9, -1.5)):
             report(event)
     draws, save = tasks[1:]
@@ -107,7 +107,7 @@ def test_every_stage_has_a_name():
 def test_a_line_a_minute_says_how_far_a_run_is_if_there_is_no_terminal(monkeypatch, capsys):
     now = [0.0]
     monkeypatch.setattr("bayesmap.cli.console.time.monotonic", lambda: now[0])
-    with progress(Console(), "matching scans") as show:
+    with progress_bar(Console(), "matching scans") as show:
         for minute in range(4):
             now[0] = 60.0 * minute
             show(Event("draws", 10 + 20 * minute, 110))
@@ -118,7 +118,7 @@ def test_a_line_a_minute_says_how_far_a_run_is_if_there_is_no_terminal(monkeypat
         "drawing: 50 of 110 sweeps, 120 s passed, about 180 s left",
         "drawing: 70 of 110 sweeps, 180 s passed, about 120 s left",
     ]
-    with progress(Console(), "matching scans") as show:
+    with progress_bar(Console(), "matching scans") as show:
         for minute in (5.0, 6.0):
             now[0] = 60.0 * minute
             show(Event("loops", int(minute) - 5, 3))
@@ -131,14 +131,14 @@ def test_a_line_a_minute_says_how_far_a_run_is_if_there_is_no_terminal(monkeypat
     assert "closing loops: 1 of 3 rounds, 121 s passed\n" in lines
     assert "drawing: 5 of 10 sweeps, 241 s passed\n" in lines
     now[0] = 1000.0
-    with progress(Console(), "matching scans") as show:
+    with progress_bar(Console(), "matching scans") as show:
         for sweep, stage in ((10, "warm-up"), (30, "warm-up"), (40, "draws")):
             now[0] += 60.0
             show(Event(stage, sweep, 75, warmup=30))
     counts = [line.split(",")[0] for line in capsys.readouterr().err.splitlines()]
     assert counts == ["warm-up: 10 of 30 sweeps", "warm-up: 30 of 30 sweeps", "drawing: 10 of 45 sweeps"]
     for silent in (Console(quiet=True), Console(bar=False)):
-        with progress(silent, "matching scans") as show:
+        with progress_bar(silent, "matching scans") as show:
             for _ in range(3):
                 now[0] += 100.0
                 show(Event("draws", 10, 110))

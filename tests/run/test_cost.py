@@ -10,10 +10,10 @@ import scipy
 from flat_options import infer
 
 import bayesmap as bm
-from bayesmap.api import Inference, estimate_slam
+from bayesmap.api import ChosenLaws, Inference, estimate_slam
 from bayesmap.run import cost
-from bayesmap.run.chains import KNOWN_SHARE, MIN_BATCHES, EndRule, SweepPlan, map_error
-from bayesmap.run.cost import Sampling, Size, size_of
+from bayesmap.run.chains import ERROR_QUANTILE, MIN_BATCHES, StoppingRule, SweepPlan, map_error
+from bayesmap.run.cost import ProblemSize, Sampling, size_of
 
 SCANS = bm.Scans([[1.0, 1.0, 0.0], [2.0, 1.0, 0.0], [3.0, 1.0, 0.0]], [0.0], [[0.5], [0.5], [0.5]], max_range_m=5.0)
 FAR = bm.Scans([*SCANS.poses[:2], [900.0, 1.0, 0.0]], [0.0], SCANS.ranges_m, max_range_m=5.0)
@@ -33,7 +33,7 @@ def room(spacing_m=0.5, beams=90, width_m=10.0):
 
 def inference(scans, grid=None, schedule=SHORT, prior=None, **where):
     grid = bm.Grid.covering(scans, 0.1) if grid is None else grid
-    return Inference.of(scans, grid, prior, SENSOR, None, schedule, 0, None, 0.5, bm.Where(**where))
+    return Inference.of(scans, grid, ChosenLaws(prior, SENSOR, None, 0.5), None, schedule, 0, bm.Where(**where))
 
 
 @pytest.mark.parametrize("prior", [bm.Surface(), bm.Beta(), bm.Independent(0.2)], ids=["surfaces", "betas", "walls"])
@@ -46,12 +46,12 @@ def test_incidences_and_the_size_of_a_draw_are_foreseen(prior):
     asked = Sampling("stop-gibbs", draws.specs, False, 1, SweepPlan(1, 1), False, False, 1)
     assert asked.draw_bytes(size) == pytest.approx(sum(array.nbytes for array in draws.arrays.values()), rel=0.3)
     silent = replace(SCANS, ranges_m=np.full((3, 1), np.inf), max_range_m=1e4)  # beams end at the edge of the grid
-    expected = pytest.approx(cost.CELLS_A_CELL_LENGTH * (30 + 20 + 10))
+    expected = pytest.approx(cost.CELLS_PER_CELL_LENGTH * (30 + 20 + 10))
     assert size_of(silent, bm.Grid((40, 20), 0.1)).incidences == expected
 
 
-INTEL = Size(147_420, 6_423_475, 147_287, 100_704, 10_844, 147_420)
-FIVE = Size(151_200, 5_881_192, 144_270, 90_000, 29_000, 2_160_000, 3000)
+INTEL = ProblemSize(147_420, 6_423_475, 147_287, 100_704, 10_844, 147_420)
+FIVE = ProblemSize(151_200, 5_881_192, 144_270, 90_000, 29_000, 2_160_000, 3000)
 
 
 @pytest.mark.parametrize(("size", "plan", "seconds", "memory_mb"), [
@@ -64,12 +64,12 @@ def test_measured_runs_are_within_a_third_of_their_estimates(size, plan, seconds
     if seconds is not None:
         assert sampling.processor_s(size, plan.draws) == pytest.approx(seconds, rel=1 / 3)
     if memory_mb is not None:
-        assert sampling.memory(size, plan.draws) / 1e6 == pytest.approx(memory_mb, rel=0.15)
+        assert sampling.peak_bytes(size, plan.draws) / 1e6 == pytest.approx(memory_mb, rel=0.15)
 
 
 def test_chains_that_may_end_early_have_two_estimates_and_a_limit_of_time_bounds_both():
     found = inference(room(), schedule=bm.Schedule()).estimate()
-    assert found.memory[0] < found.memory[1]
+    assert found.peak_bytes[0] < found.peak_bytes[1]
     assert found.seconds[0] < found.seconds[1]
     assert found.processor_s[1] == pytest.approx(found.seconds[1] * found.cores)
     many = room(0.02, 360)
@@ -77,7 +77,7 @@ def test_chains_that_may_end_early_have_two_estimates_and_a_limit_of_time_bounds
     assert limited < 0.5 * free
     assert inference(room(), device="cuda:0").estimate() is None
     grid = bm.Grid.covering(SCANS, 0.1)  # samplers whose time is unknown
-    exact = Inference.of(SCANS, grid, bm.Independent(0.2), SENSOR, "propagate", SHORT, 0, None, 0.5, bm.Where())
+    exact = Inference.of(SCANS, grid, ChosenLaws(bm.Independent(0.2), SENSOR), "propagate", SHORT, 0, bm.Where())
     assert exact.estimate().seconds is None
     assert "GB of memory" in exact.estimate().words()
 
@@ -88,9 +88,9 @@ def test_the_remedy_fits_the_cause_and_makes_it_fit_and_a_long_run_is_shorter_wi
         (room(0.05, 360), None, "--thin-scans 0.1"), (room(2.0, 4), bm.Grid((2000, 2000), 0.01), "--resolution 0.02"),
     ):  # fmt: skip
         monkeypatch.setattr(cost, "memory_bytes", lambda: None)
-        most = inference(scans, grid).estimate().memory[1]
+        most = inference(scans, grid).estimate().peak_bytes[1]
         assert inference(scans, grid).estimate().remedy == ""
-        monkeypatch.setattr(cost, "memory_bytes", lambda most=most: int(most / cost.MUCH_MEMORY) - 1)
+        monkeypatch.setattr(cost, "memory_bytes", lambda most=most: int(most / cost.LARGE_MEMORY_SHARE) - 1)
         assert inference(scans, grid).estimate().remedy == option
     ranges = room().ranges_m.copy()
     ranges[0, :3] = 300.0
@@ -105,11 +105,11 @@ def test_the_remedy_fits_the_cause_and_makes_it_fit_and_a_long_run_is_shorter_wi
 
 def test_slam_is_estimated_from_as_many_scans_as_will_be_keys():
     few, many = (
-        estimate_slam(room(step, width_m=60.0), 0.1, None, SENSOR, None, False, SHORT, bm.Where())
+        estimate_slam(room(step, width_m=60.0), 0.1, ChosenLaws(None, SENSOR), None, False, SHORT, bm.Where())
         for step in (0.45, 0.05)
     )
     log, more = 130, 1160
-    assert many.processor_s[0] - few.processor_s[0] == pytest.approx(cost.MATCH_S_A_SCAN * (more - log), rel=0.3)
+    assert many.processor_s[0] - few.processor_s[0] == pytest.approx(cost.MATCHING_S_PER_SCAN * (more - log), rel=0.3)
 
 
 @pytest.mark.parametrize("prior", [bm.Surface(), bm.Beta(), bm.Independent(0.2)], ids=["surfaces", "betas", "walls"])
@@ -119,7 +119,7 @@ def test_runs_that_cannot_fit_are_refused_unless_they_are_asked_for(monkeypatch,
     def infer(**where):
         return bm.infer(SCANS, grid, prior=prior, sensor=SENSOR, schedule=SHORT, where=bm.Where(**where))
 
-    least = inference(SCANS, grid, prior=prior).estimate().memory[0]
+    least = inference(SCANS, grid, prior=prior).estimate().peak_bytes[0]
     monkeypatch.setattr(cost, "memory_bytes", lambda: int(least) + 1)
     infer()
     monkeypatch.setattr(cost, "memory_bytes", lambda: int(least) - 1)
@@ -141,9 +141,9 @@ def test_containers_may_take_less_than_the_machine_has(monkeypatch, tmp_path):
     limit.write_text("12345\n")
     none.write_text("max\n")
     assert cost.memory_bytes() is None or cost.memory_bytes() > 1 << 28
-    monkeypatch.setattr(cost, "GROUP_LIMITS", (str(none), str(tmp_path / "missing")))
+    monkeypatch.setattr(cost, "CONTAINER_LIMIT_FILES", (str(none), str(tmp_path / "missing")))
     assert cost.memory_bytes() != 12345
-    monkeypatch.setattr(cost, "GROUP_LIMITS", (str(none), str(limit)))
+    monkeypatch.setattr(cost, "CONTAINER_LIMIT_FILES", (str(none), str(limit)))
     assert cost.memory_bytes() == 12345
 
 
@@ -176,7 +176,7 @@ def sticky_chains():
 def expected_error(sd):
     """The 99 % quantile of an estimate from eight batches whose mean has a standard deviation."""
     degrees = MIN_BATCHES - 1
-    return sd * np.sqrt(scipy.stats.chi2(degrees).ppf(KNOWN_SHARE) / degrees)
+    return sd * np.sqrt(scipy.stats.chi2(degrees).ppf(ERROR_QUANTILE) / degrees)
 
 
 def test_the_error_is_that_of_the_mean_of_chains_that_mix_slowly():
@@ -259,9 +259,9 @@ def test_a_default_run_stops_early_a_number_of_draws_is_kept_to_and_a_limit_that
 def test_marks_are_fixed_and_progress_expects_the_first_and_then_what_the_error_asks_for():
     assert SweepPlan(50, 60, 3, 0.03).marks == (80, 95, 110, 125, 143, 164, 191, 224)
     assert SweepPlan(50, 60, 3).marks == ()
-    rule = EndRule(SweepPlan(50, 60, 3, 0.03), lambda: 0.06)
+    rule = StoppingRule(SweepPlan(50, 60, 3, 0.03), lambda: 0.06)
     rule.check(20)
-    assert (rule.expected_sweeps(20), rule.error, rule.reached, rule.end_is_open) == (80, None, False, True)
+    assert (rule.expected_sweeps(20), rule.error, rule.is_met, rule.end_is_open) == (80, None, False, True)
     rule.check(80)
-    assert (rule.expected_sweeps(80), rule.error, rule.reached, rule.end_is_open) == (50 + 4 * 30, 0.06, False, False)
-    assert EndRule(SweepPlan(50, 60, 3), lambda: 0.0).expected_sweeps(20) == 230
+    assert (rule.expected_sweeps(80), rule.error, rule.is_met, rule.end_is_open) == (50 + 4 * 30, 0.06, False, False)
+    assert StoppingRule(SweepPlan(50, 60, 3), lambda: 0.0).expected_sweeps(20) == 230

@@ -21,7 +21,7 @@ from bayesmap.kernels.walls.chains import EXACT as EXACTLY
 from bayesmap.kernels.walls.chains import WallChains, derive_state
 from bayesmap.kernels.walls.table import trace
 from bayesmap.run import runner
-from bayesmap.run.chains import MIN_DRAWS_PER_CHAIN, SweepPlan, join
+from bayesmap.run.chains import MIN_DRAWS_PER_CHAIN, SweepPlan, join_chains
 from bayesmap.samplers.sampler import Watch
 from bayesmap.samplers.wall_problem import WallProblem
 
@@ -186,7 +186,7 @@ def test_a_limited_time_ends_the_chains_with_what_they_have(case, monkeypatch):
     short = bm.infer(case.scans, case.grid, **options, schedule=bm.Schedule(2, warmup=5, seconds=1e-3))
     assert short.finished
     draws = short.n_draws
-    assert MIN_DRAWS_PER_CHAIN <= draws <= runner.FIRST_STEP  # those of one step
+    assert MIN_DRAWS_PER_CHAIN <= draws <= runner.MAX_FIRST_STEP_SWEEPS  # those of one step
     warmup = short.posterior.settings["warmup"]
     assert warmup < 5  # five sweeps take longer
     whole = bm.infer(case.scans, case.grid, **options, schedule=bm.Schedule(2, warmup=warmup, draws=draws))
@@ -313,9 +313,9 @@ def test_checkpoints_are_good_to_resume_from_take_a_twentieth_of_the_time_and_pr
     assert {p.total for p in seen} == {SCHEDULE.sweeps}
     assert [p.stage for p in seen] == ["warm-up"] * 13 + ["draws"] * 51
     np.testing.assert_array_equal([p.log_joint for p in seen[15::3]], chains.log_joint.mean(axis=0))
-    assert runner.pause_after(0.5, 30.0) == 30.0
-    assert runner.pause_after(20.0, 30.0) == pytest.approx(19 * 40.0)  # what the next one may take, with more draws
-    assert runner.pause_after(20.0, 0.0) == 0.0
+    assert runner.checkpoint_pause_s(0.5, 30.0) == 30.0
+    assert runner.checkpoint_pause_s(20.0, 30.0) == pytest.approx(19 * 40.0)  # with more draws
+    assert runner.checkpoint_pause_s(20.0, 0.0) == 0.0
 
 
 @pytest.mark.parametrize(("method", "order"), BOTH)
@@ -328,7 +328,7 @@ def test_a_chain_draws_the_same_wherever_it_runs_and_whichever_others_do(method,
         runner.run_chains(runner.Job(model_of(problem), sampler, SCHEDULE, 3, (chain,), problem=problem))
         for chain in (3, 1)
     ]
-    both = join(parts)
+    both = join_chains(parts)
     for name in ("log_likelihood", "log_prior", "warmup_log_joint"):
         np.testing.assert_array_equal(getattr(both, name), getattr(whole, name)[[3, 1]], err_msg=name)
     np.testing.assert_array_equal(packed(both), packed(whole)[[3, 1]])

@@ -13,7 +13,7 @@ import bayesmap as bm
 from bayesmap.cells.ising_field import SOLID
 from bayesmap.model import Model
 from bayesmap.run import runner
-from bayesmap.run.chains import SweepPlan, join
+from bayesmap.run.chains import SweepPlan, join_chains
 from bayesmap.run.runner import Job, run_chains
 from bayesmap.samplers.fit import first_sensor, fit
 from bayesmap.samplers.merge_moves import EARLY_SHARE
@@ -52,7 +52,7 @@ def test_chain_two_is_the_same_wherever_it_runs(kind):
     for chain in (0, 1, 2):
         found = fit(sampler.prepare(model, "cpu"), 0, 6)
         parts.append(run_chains(Job(model, sampler, SweepPlan(6, 4), 0, (chain,), parameters=found)))
-    chains = join(parts)
+    chains = join_chains(parts)
     np.testing.assert_array_equal(chains.log_joint, whole.log_joint)
     for name, values in chains.draws.arrays.items():
         np.testing.assert_array_equal(values, whole.posterior.draws.arrays[name], err_msg=name)

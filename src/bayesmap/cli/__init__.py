@@ -1,1 +1,1 @@
-"""The command line: parses, calls, prints. Nothing here is loaded by `import bayesmap`."""
+"""The command line. Read `main`, `group` (all commands), `command` and `keys` (settings), then `infer`, `pipeline`."""

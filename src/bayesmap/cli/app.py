@@ -1,4 +1,7 @@
-"""``bayesmap app``: the interactive page."""
+"""``bayesmap app``: serve the interactive page, or write it as one file that needs no server.
+
+The page shows a drawn world (`Document`), a story in steps, a saved run, or a log.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +11,7 @@ import click
 
 from bayesmap.cli.command import Call, command
 from bayesmap.cli.console import write_out
-from bayesmap.cli.keys import AppSettings
+from bayesmap.cli.keys import LogSettings
 from bayesmap.cli.translation import LOG, log_options_of, need_file
 from bayesmap.errors import BadInput
 from bayesmap.files import check_ending, write_file
@@ -27,7 +30,7 @@ if TYPE_CHECKING:
 @click.option("--story", metavar="FILE.json", help="Tell a story beside the map; 'tutorial' is ours.")
 @click.option("--seed", type=click.IntRange(0, 2**31 - 1), default=0, show_default=True, help="Seed of random numbers.")
 def app(
-    call: Call[AppSettings], file: str | None, host: str, port: int, no_browser: bool, export: str | None,
+    call: Call[LogSettings], file: str | None, host: str, port: int, no_browser: bool, export: str | None,
     story: str | None, seed: int,
 ) -> None:  # fmt: skip
     r"""Draw walls, drag the robot, and watch the posterior live in the browser.
@@ -60,25 +63,25 @@ def app(
     from bayesmap.app.server import serve
     from bayesmap.app.sources import read_document
 
+    # Read what the page shows. A run or a log stays in ``file``, which the server opens.
     document = tutorial_document(seed)
     if file is not None and file.endswith(".json"):
         document, file = read_document(file), None
-    story_read = None
+    told_story = None
     if story is not None:
         if file is not None:
             raise BadInput(f"--story: a story has its own maps, and {file} is a file; leave one of the two out")
-        story_read = read_story(story, document)
-        document = story_read.steps[0].document
+        told_story = read_story(story, document)
+        document = told_story.steps[0].document
 
     if export is not None:
         if file is not None:
-            raise BadInput(
-                f"--export: {file} is no drawn world; open it with bayesmap app, and choose Export there, "
-                "which writes a page with its draws"
-            )
-        _export_figure(call, document, story_read, export)
+            remedy = "open it with bayesmap app, and choose Export there, which writes a page with its draws"
+            raise BadInput(f"--export: {file} is no drawn world; {remedy}")
+        _export_page(call, document, told_story, export)
         return
 
+    # Serve the page until Ctrl-C.
     call.console.say("starting the worker ..." if file is None else f"opening {file} ...")
 
     def show_address(address: str) -> None:
@@ -92,10 +95,10 @@ def app(
 
             webbrowser.open(address)
 
-    serve(document, path=file, log_options=log_options, story=story_read, host=host, port=port, on_ready=show_address)
+    serve(document, path=file, log_options=log_options, story=told_story, host=host, port=port, on_ready=show_address)
 
 
-def _export_figure(call: Call[AppSettings], document: Document, story: Story | None, file: str) -> None:
+def _export_page(call: Call[LogSettings], document: Document, story: Story | None, file: str) -> None:
     """Write a page that samples in the reader's browser, and needs no server."""
     from bayesmap.app.figures import to_figure
 

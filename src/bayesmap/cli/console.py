@@ -1,4 +1,8 @@
-"""The output of a command: results on standard output, messages on standard error, a progress bar on a terminal."""
+"""The output of a command: results on standard output, messages on standard error, a progress bar on a terminal.
+
+Read `Console`, which each command gets, and `progress_bar`, which shows the events of a run. `share_bar` and
+`stage_bar` show other work in the same bar. Without a terminal, a line per minute replaces the bar.
+"""
 
 from __future__ import annotations
 
@@ -17,7 +21,7 @@ import click
 from bayesmap.version import __version__
 
 if TYPE_CHECKING:
-    from rich.progress import TaskID
+    from rich.progress import Progress, TaskID
 
     from bayesmap.api import Event
 
@@ -27,7 +31,7 @@ BAD_INPUT = 3
 PROBLEMS = 4  # --strict, and the diagnostics found problems
 INTERRUPTED = 130
 
-VERBOSE = "bayesmap.verbose"  # key of the click context: whether the command is verbose, also about its failure
+VERBOSE = "bayesmap.verbose"  # key of the click context: whether the command prints details, also about its failure
 SCHEMA_VERSION = 1  # of JSON documents: it grows when a key changes its meaning or disappears, not for new keys
 
 
@@ -69,7 +73,7 @@ def counted(number: int, thing: str) -> str:
     return f"{number:,} {thing}" + "s" * (number != 1)
 
 
-def aligned(rows: Sequence[Sequence[str]]) -> Iterator[str]:
+def align_rows(rows: Sequence[Sequence[str]]) -> Iterator[str]:
     """Yield the rows of a table as lines: the first column to the left, the others to the right."""
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     for first, *rest in rows:
@@ -83,30 +87,34 @@ def as_json(document: dict[str, Any]) -> str:
     return json.dumps({**versions, **document}, indent=2, allow_nan=False) + "\n"
 
 
-RESULTS = "bayesmap.results"  # key of the click context: standard output while libraries print on standard error
+STDOUT = "bayesmap.results"  # key of the click context: standard output while libraries print on standard error
 
 
 def reserve_stdout() -> None:
-    """Reserve standard output for `write_out` until the command ends. Prints of libraries go to standard error. Ray
-    prints events of its nodes on standard output at any time, even long after the chains.
-    """
+    """Reserve standard output for `write_out` until the command ends. Prints of libraries go to standard error."""
+    # Ray prints events of its nodes on standard output at any time, even long after the chains.
     context = click.get_current_context()
-    if RESULTS not in context.meta:
-        context.meta[RESULTS] = sys.stdout
+    if STDOUT not in context.meta:
+        context.meta[STDOUT] = sys.stdout
         context.with_resource(contextlib.redirect_stdout(sys.stderr))
+
+
+def write_lines(lines: Iterable[object]) -> bool:
+    """Write lines to standard output, as `write_out`."""
+    return write_out("".join(f"{line}\n" for line in lines))
 
 
 def write_out(text: str) -> bool:
     """Write to standard output, and return whether there was still a reader, such as ``head``, which may close it."""
     context = click.get_current_context(silent=True)
     reserved = {} if context is None else context.meta
-    results: TextIO = reserved.get(RESULTS) or sys.stdout
+    stdout: TextIO = reserved.get(STDOUT) or sys.stdout
     try:
-        click.echo(text, file=results, nl=False)
-        results.flush()
+        click.echo(text, file=stdout, nl=False)
+        stdout.flush()
     except BrokenPipeError:
         # Redirect the stream, so that Python's flush at exit raises no second error.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), results.fileno())
+        os.dup2(os.open(os.devnull, os.O_WRONLY), stdout.fileno())
         return False
     return True
 
@@ -117,29 +125,16 @@ def complain(text: str) -> None:
         click.echo(text, err=True)
 
 
-OnProgress = Callable[["Event"], None]
-Show = Callable[[str, str, int, int, str, int, bool], None]
-"""Takes stage, counted unit, count, total, quality of the map, units of warm-up, and whether the total is the least."""
-
 STAGES = {
-    "compile": ("compiling kernels, once", "kernels"),
-    "trace": ("tracing beams", "beams"),
-    "start": ("setting up chains", "parts"),
-    "fit": ("fitting the sensor", "sweeps"),
-    "propagate": ("belief propagation", "rounds"),
-    "front end": ("matching scans", "scans"),
-    "loops": ("closing loops", "rounds"),
-    "aligned": ("aligning all scans", "rounds"),
-    "aligned-again": ("aligning all scans", "rounds"),
-    "aligned-rematched": ("aligning all scans", "rounds"),
-    "rematch": ("matching each scan with itself left out", "rounds"),
-    "placing": ("placing the scans between", "scans"),
-    "warm-up": ("warm-up", "sweeps"),
-    "draws": ("drawing", "sweeps"),
-    "particles": ("importance sampling", "particles"),
-    "save": ("saving", "%"),
-    "score": ("scoring held-out beams", "draws"),
-}
+    "compile": ("compiling kernels, once", "kernels"), "trace": ("tracing beams", "beams"),
+    "start": ("setting up chains", "parts"), "fit": ("fitting the sensor", "sweeps"),
+    "propagate": ("belief propagation", "rounds"), "front end": ("matching scans", "scans"),
+    "loops": ("closing loops", "rounds"), "aligned": ("aligning all scans", "rounds"),
+    "aligned-again": ("aligning all scans", "rounds"), "aligned-rematched": ("aligning all scans", "rounds"),
+    "rematch": ("matching each scan with itself left out", "rounds"), "placing": ("placing the scans between", "scans"),
+    "warm-up": ("warm-up", "sweeps"), "draws": ("drawing", "sweeps"), "particles": ("importance sampling", "particles"),
+    "save": ("saving", "%"), "score": ("scoring held-out beams", "draws"),
+}  # fmt: skip
 """Names of the stages of a run for the user, and the unit that is counted in each."""
 
 SAMPLING = ("warm-up", "draws")  # stages that count sweeps of the chains
@@ -147,75 +142,74 @@ SETTING_UP = ("compile", "trace", "start", "fit")  # stages in which a run has n
 
 
 @contextlib.contextmanager
-def progress(console: Console, begin: str) -> Iterator[OnProgress]:
-    """Yield a function that shows the events of a run in a progress bar. The bar disappears when the block ends.
-    ``begin`` is shown before the first event.
-    """
+def progress_bar(console: Console, begin: str) -> Iterator[Callable[[Event], None]]:
+    """Yield a function that shows the events of a run in a progress bar; before the first event it shows ``begin``."""
     with _bar(console, begin) as show:
-        yield lambda event: show(
-            *STAGES[event.stage], event.done, event.total, _quality(event), event.warmup, event.end_is_open
-        )
-
-
-def _quality(event: Event) -> str:
-    """Return the error of the map in words, or else the log joint; an empty text if there is neither."""
-    if event.error is not None and event.error < 1.0:
-        return f"map within {event.error:.3f}"
-    return "" if event.log_joint is None else f"log joint {event.log_joint:,.1f}"
+        yield lambda event: show(_Step.of(event))
 
 
 @contextlib.contextmanager
-def share(console: Console, name: str) -> Iterator[Callable[..., None]]:
+def share_bar(console: Console, name: str) -> Iterator[Callable[..., None]]:
     """Yield a function that shows the share of the work that is done, from 0 to 1, and a step other than ``name``."""
     with _bar(console, name) as show:
-        yield lambda done, step=name: show(step, "%", round(1000 * done), 1000, "", 0, False)
+        yield lambda share, step=name: show(_Step(step, "%", round(1000 * share), 1000))
 
 
-def exit_unless_good(*, finished: bool, problems: bool) -> None:
-    """Exit with 130 if the work was interrupted, or with 4 if it has problems that the user does not accept."""
-    if not finished or problems:
-        click.get_current_context().exit(PROBLEMS if finished else INTERRUPTED)
+@contextlib.contextmanager
+def stage_bar(console: Console, stage: Literal["save", "score"]) -> Iterator[Callable[[int, int], None]]:
+    """Yield a function that shows the count and the total of a single stage."""
+    name, unit = STAGES[stage]
+    with _bar(console, name) as show:
+        yield lambda done, total: show(_Step(name, unit, done, total))
+
+
+def exit_unless_good(*, finished: bool, problems: bool, failed: bool = False) -> None:
+    """Exit with 130 if the work was interrupted, 1 if a part failed, or 4 for problems that the user rules out."""
+    for applies, code in ((not finished, INTERRUPTED), (failed, FAILURE), (problems, PROBLEMS)):
+        if applies:
+            click.get_current_context().exit(code)
 
 
 SPEED_S = 600.0  # seconds over which the progress bar averages the speed: sweeps of long logs take up to half a minute
-FEW_STEPS = 5  # so few steps differ too much in length to foretell the time that is left
+MAX_FEW_STEPS = 5  # so few steps differ too much in length to predict the time that is left
 LINE_S = 60.0  # seconds from one line of progress to the next if there is no terminal
 
 
-def _count(unit: str, done: int, total: int, warmup: int, separator: str) -> str:
-    """Return a count in words. Warm-up and the draws after it are counted apart."""
-    if unit == "%":
-        return f"{100 * done // max(total, 1)} %"
-    if warmup:
-        done, total = (done, warmup) if done <= warmup else (done - warmup, total - warmup)
-    return f"{done:,}{separator}{total:,} {unit}"
+@dataclass(frozen=True)
+class _Step:
+    """The progress that a bar or a line shows."""
 
+    name: str  # of the stage, in words
+    unit: str  # counted unit; "%" for a share
+    done: int
+    total: int  # a lower bound if ``end_is_open``
+    quality: str = ""  # of the map so far, in words
+    warmup: int = 0  # units of the total that are warm-up
+    end_is_open: bool = False  # whether the time left cannot be predicted
 
-def _lines(console: Console) -> Show:
-    """Return a function that prints a line of progress every `LINE_S` seconds, with the time left in the stage."""
-    began = last = time.monotonic()
-    starts: dict[str, tuple[float, int]] = {}  # time and count at the first event of each stage
+    @classmethod
+    def of(cls, event: Event) -> _Step:
+        """Return what is shown of an event. The quality is the error of the map, or else the log joint."""
+        quality = "" if event.log_joint is None else f"log joint {event.log_joint:,.1f}"
+        if event.error is not None and event.error < 1.0:
+            quality = f"map within {event.error:.3f}"
+        return cls(*STAGES[event.stage], event.done, event.total, quality, event.warmup, event.end_is_open)
 
-    def show(name: str, unit: str, done: int, total: int, quality: str, warmup: int, end_is_open: bool) -> None:
-        nonlocal last
-        now = time.monotonic()
-        start, first = starts.setdefault(name, (now, done))
-        if now - last < LINE_S or not console.bar:
-            return
-        last = now
-        words = [f"{name}: {_count(unit, done, total, warmup, ' of ')}", f"{now - began:.0f} s passed"]
-        if done > first and total > FEW_STEPS and not end_is_open:
-            words.append(f"about {(now - start) * (total - done) / (done - first):.0f} s left")
-        console.say(", ".join([*words, *([quality] if quality else [])]))
-
-    return show
+    def count(self, separator: str) -> str:
+        """Return the count in words. Warm-up and the draws after it are counted apart."""
+        done, total = self.done, self.total
+        if self.unit == "%":
+            return f"{100 * done // max(total, 1)} %"
+        if self.warmup:
+            done, total = (done, self.warmup) if done <= self.warmup else (done - self.warmup, total - self.warmup)
+        return f"{done:,}{separator}{total:,} {self.unit}"
 
 
 @contextlib.contextmanager
-def _bar(console: Console, begin: str) -> Iterator[Show]:
+def _bar(console: Console, begin: str) -> Iterator[Callable[[_Step], None]]:
     """Yield a function that draws the progress bar; without a terminal, one that prints a line per minute."""
     if not console.draws_bar:
-        yield _lines(console)
+        yield _Lines(console).show
         return
     # Import only here: it takes a tenth of a second, which batch jobs without a bar can save.
     from rich.console import Console
@@ -227,34 +221,49 @@ def _bar(console: Console, begin: str) -> Iterator[Show]:
         transient=True, speed_estimate_period=SPEED_S,
     )  # fmt: skip
     with bar:
-        visible = bar.add_task(begin, total=None, count="", quality="")
-        # One task per counted unit: the estimated time does not mix rounds with sweeps. It goes on after a checkpoint.
-        tasks: dict[tuple[str, int], TaskID] = {}
-        sampling = [STAGES[stage][0] for stage in SAMPLING]
-
-        def show(name: str, unit: str, done: int, total: int, quality: str, warmup: int, end_is_open: bool) -> None:
-            nonlocal visible
-            # If the precision ends the chains, the total of sweeps is an estimate that changes.
-            key = (unit, 0 if name in sampling else total)
-            if key not in tasks:
-                tasks[key] = bar.add_task(name, total=total, completed=done, count="", quality="")
-            if visible != tasks[key]:
-                bar.update(visible, visible=False)
-                visible = tasks[key]
-            # Without a length the bar foretells nothing.
-            length = total if total > FEW_STEPS and not end_is_open else None
-            count = _count(unit, done, total, warmup, "/") + " ETA" * (length is not None)
-            bar.update(
-                visible, description=name, completed=done, total=length, count=count, quality=quality, visible=True
-            )
-
-        yield show
+        yield _BarTasks(bar, begin).show
 
 
-@contextlib.contextmanager
-def stage(console: Console, name: Literal["save", "score"]) -> Iterator[Callable[[int, int], None]]:
-    """Yield a function that shows the count and the total of a single stage."""
-    from bayesmap.api import Event
+class _BarTasks:
+    """The tasks of a progress bar: one per counted unit, so that the estimated time does not mix rounds with sweeps."""
 
-    with progress(console, STAGES[name][0]) as report:
-        yield lambda done, total: report(Event(name, done, total))
+    def __init__(self, bar: Progress, begin: str) -> None:
+        self._bar, self._visible = bar, bar.add_task(begin, total=None, count="", quality="")
+        self._tasks: dict[tuple[str, int], TaskID] = {}  # by unit and total
+
+    def show(self, step: _Step) -> None:
+        """Update the task of a step, and make it the visible one."""
+        # If the precision ends the chains, the total of sweeps is an estimate that changes.
+        is_sampling = step.name in [STAGES[stage][0] for stage in SAMPLING]
+        key, bar = (step.unit, 0 if is_sampling else step.total), self._bar
+        if key not in self._tasks:
+            self._tasks[key] = bar.add_task(step.name, total=step.total, completed=step.done, count="", quality="")
+        if self._visible != self._tasks[key]:
+            bar.update(self._visible, visible=False)
+            self._visible = self._tasks[key]
+        # Without a total the bar shows no remaining time.
+        total, suffix = (step.total, " ETA") if step.total > MAX_FEW_STEPS and not step.end_is_open else (None, "")
+        bar.update(
+            self._visible, description=step.name, completed=step.done, total=total, count=step.count("/") + suffix,
+            quality=step.quality, visible=True,
+        )  # fmt: skip
+
+
+class _Lines:
+    """Prints a line of progress every `LINE_S` seconds, with the time left in the stage."""
+
+    def __init__(self, console: Console) -> None:
+        self._console = console
+        self._began = self._printed = time.monotonic()
+        self._starts: dict[str, tuple[float, int]] = {}  # time and count at the first step of each stage
+
+    def show(self, step: _Step) -> None:
+        now = time.monotonic()
+        start, first = self._starts.setdefault(step.name, (now, step.done))
+        if now - self._printed < LINE_S or not self._console.bar:
+            return
+        self._printed = now
+        words = [f"{step.name}: {step.count(' of ')}", f"{now - self._began:.0f} s passed"]
+        if step.done > first and step.total > MAX_FEW_STEPS and not step.end_is_open:
+            words.append(f"about {(now - start) * (step.total - step.done) / (step.done - first):.0f} s left")
+        self._console.say(", ".join([*words, *([step.quality] if step.quality else [])]))

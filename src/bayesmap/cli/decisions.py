@@ -1,4 +1,8 @@
-"""``bayesmap plan`` and ``bayesmap explore``: a short safe path, and the poses to scan from next."""
+"""``bayesmap plan`` and ``bayesmap explore``: a short safe path, and the poses to scan from next.
+
+Each command loads the run, warns if its chains have not converged, computes with joint draws of the map
+(`bayesmap.posterior.decisions`), writes a picture, and prints lines or a JSON document.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from bayesmap.cli.command import FORCE, Call, command
-from bayesmap.cli.console import progress, share, write_out
+from bayesmap.cli.console import progress_bar, share_bar, write_lines
 from bayesmap.cli.keys import ExploreSettings, PlanSettings
 from bayesmap.cli.translation import need_free, numbers_of
 
@@ -38,12 +42,12 @@ def plan(call: Call[PlanSettings], run_file: str, start: str, goal: str, output:
     It warns first if the chains of the run have not converged.
     """
     settings = call.settings()
-    ends = [numbers_of(text, flag, "X,Y", (2,)) for text, flag in ((start, "--from"), (goal, "--to"))]
-    run, target = _load_run(call, run_file, output, "plan.png", force)
+    start_m, goal_m = numbers_of(start, "--from", "X,Y", (2,)), numbers_of(goal, "--to", "X,Y", (2,))
+    run, target = _load_run(call, run_file, output, "plan.png", force=force)
     from bayesmap.posterior.decisions import shortest_safe_path
 
-    with share(call.console, "looking at draws of the map") as report:
-        route = shortest_safe_path(run.posterior, ends[0], ends[1], settings.radius, settings.risk, report)
+    with share_bar(call.console, "looking at draws of the map") as report:
+        route = shortest_safe_path(run.posterior, start_m, goal_m, settings.radius, settings.risk, report)
     from bayesmap.viz.figure import write_figure
     from bayesmap.viz.overlays import route_figure
 
@@ -53,11 +57,9 @@ def plan(call: Call[PlanSettings], run_file: str, start: str, goal: str, output:
     )  # fmt: skip
     write_figure(picture, target)
     if not route.within_risk:
-        call.console.warn(
-            f"no path was found whose risk is {settings.risk:g} or less; the safest has a risk of "
-            f"{more_than(1 - route.free.probability, settings.risk)}: accept it with --risk, give a smaller --radius, "
-            "or map more of the way"
-        )
+        least_risk = digits_beside(1 - route.free.probability, settings.risk)
+        finding = f"no path was found whose risk is {settings.risk:g} or less; the safest has a risk of {least_risk}"
+        call.console.warn(f"{finding}: accept it with --risk, give a smaller --radius, or map more of the way")
     if call.console.as_json:
         document = {
             **_route_document(route, settings), "run": run_file, "problems": run.summary().problems(),
@@ -65,22 +67,21 @@ def plan(call: Call[PlanSettings], run_file: str, start: str, goal: str, output:
         }  # fmt: skip
         call.console.result(document, [])
         return
-    corners = "".join(f"{x:.3f},{y:.3f}\n" for x, y in route.path)
-    write_out(f"{corners}{_route_sentence(route)}\n{target}\n")
+    write_lines([*(f"{x:.3f},{y:.3f}" for x, y in route.path), _route_sentence(route), target])
 
 
-def _load_run(call: Call[Any], run_file: str, output: str | None, name: str, force: bool) -> tuple[Run, Path]:
-    """Return the run and the picture's path, after checking its ending. Prints whether the chains have converged."""
+def _load_run(call: Call[Any], run_file: str, output: str | None, default: str, *, force: bool) -> tuple[Run, Path]:
+    """Return the run and the picture's path, by default beside the run. Prints whether the chains have converged."""
     from bayesmap.files import check_ending
     from bayesmap.result import load
 
-    target = Path(output) if output else Path(run_file).with_name(name)
+    target = Path(output) if output else Path(run_file).with_name(default)
     if output:
         check_ending(target, ("png", "pdf", "svg"), "figure")
-    need_free([target], force)
+    need_free([target], force=force)
     run = load(run_file)
     if run.n_draws:
-        with progress(call.console, "comparing the chains"):
+        with progress_bar(call.console, "comparing the chains"):
             summary = run.summary()
         for strength in summary.strengths():
             call.console.say(f"good: {strength}")
@@ -92,14 +93,12 @@ def _load_run(call: Call[Any], run_file: str, output: str | None, name: str, for
 def _route_sentence(route: Route) -> str:
     """Return the length of a path and its probability of being free, in words."""
     free = route.free
-    return (
-        f"{route.length_m:.2f} m, free with probability {free.probability:.3f} +- {free.standard_error:.3f} "
-        f"(independent cells: {free.independent:.3f})"
-    )
+    probability = f"{free.probability:.3f} +- {free.standard_error:.3f} (independent cells: {free.independent:.3f})"
+    return f"{route.length_m:.2f} m, free with probability {probability}"
 
 
-def more_than(value: float, bound: float) -> str:
-    """Return a number with 3 digits, or with as many as tell it from a bound."""
+def digits_beside(value: float, bound: float) -> str:
+    """Return a number with 3 digits, or with as many as distinguish it from the printed bound."""
     texts = (f"{value:.{digits}g}" for digits in range(3, 18))
     return next((text for text in texts if float(text) != float(f"{bound:g}")), f"{value:.17g}")
 
@@ -130,10 +129,10 @@ def explore(call: Call[ExploreSettings], run_file: str, output: str | None, forc
     lower bound, too. The command warns first if the chains of the run have not converged.
     """
     settings = call.settings()
-    run, target = _load_run(call, run_file, output, "explore.png", force)
+    run, target = _load_run(call, run_file, output, "explore.png", force=force)
     from bayesmap.posterior.decisions import next_views
 
-    with share(call.console, "comparing views") as report:
+    with share_bar(call.console, "comparing views") as report:
         views = next_views(
             run.posterior, settings.candidates, settings.views, settings.radius, draws=settings.draws,
             seed=settings.seed, on_progress=report,
@@ -154,8 +153,7 @@ def explore(call: Call[ExploreSettings], run_file: str, output: str | None, forc
         }  # fmt: skip
         call.console.result(document, [])
         return
-    lines = [_view_line(rank, view) for rank, view in enumerate(best_views, 1)]
-    write_out("".join(f"{line}\n" for line in [*lines, target]))
+    write_lines([*(_view_line(rank, view) for rank, view in enumerate(best_views, 1)), target])
 
 
 def _best_views_json(views: Views) -> list[dict[str, Any]]:
@@ -164,18 +162,16 @@ def _best_views_json(views: Views) -> list[dict[str, Any]]:
     assert information.independent is not None
     return [
         {
-            "pose": [float(v) for v in views.candidates[i]], "at_least_nats": float(information.at_least[k]),
-            "at_least_error": float(information.at_least_error[k]), "at_most_nats": float(information.at_most[k]),
-            "at_most_error": float(information.at_most_error[k]),
-            "independent_nats": float(information.independent[k]),
+            "pose": views.candidates[candidate].tolist(), "at_least_nats": float(information.at_least[rank]),
+            "at_least_error": float(information.at_least_error[rank]), "at_most_nats": float(information.at_most[rank]),
+            "at_most_error": float(information.at_most_error[rank]),
+            "independent_nats": float(information.independent[rank]),
         }
-        for k, i in enumerate(views.best)
+        for rank, candidate in enumerate(views.best)
     ]  # fmt: skip
 
 
 def _view_line(rank: int, view: dict[str, Any]) -> str:
     x, y, yaw = view["pose"]
-    return (
-        f"{rank}: x {x:.2f} m  y {y:.2f} m  yaw {math.degrees(yaw):.0f} degrees  "
-        f"at most {view['at_most_nats']:.0f} +- {view['at_most_error']:.0f} nats"
-    )
+    information = f"at most {view['at_most_nats']:.0f} +- {view['at_most_error']:.0f} nats"
+    return f"{rank}: x {x:.2f} m  y {y:.2f} m  yaw {math.degrees(yaw):.0f} degrees  {information}"

@@ -1,4 +1,7 @@
-"""``bayesmap demo``: infer the tutorial's map from one noisy scan, by the tutorial's methods."""
+"""``bayesmap demo``: infer the tutorial's map from one noisy scan, by three of the tutorial's methods.
+
+A fourth run without warm-up gives the frames of a film.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from bayesmap.cli.command import Call, command
-from bayesmap.cli.console import Console, as_json, exit_unless_good, progress
+from bayesmap.cli.console import Console, as_json, exit_unless_good, progress_bar
 from bayesmap.cli.folder import run_document
 from bayesmap.cli.keys import DemoSettings
 from bayesmap.errors import BadInput
@@ -17,11 +20,11 @@ from bayesmap.files import write_file
 if TYPE_CHECKING:
     from bayesmap.result import Run
 
-BEAMS = 100  # of the scan
+N_BEAMS = 100  # of the scan
 SIGMA_M = 0.2  # noise of the sensor
-MAX_RANGE_M = 42.0  # longer than the map's diagonal
+MAX_RANGE_M = 42.0  # longer than the map's diagonal, so that every beam meets a wall
 FILM_SWEEPS = 80  # sweeps in the film of a chain, one frame each
-COLLAPSED = 10.0  # effective sample size below which importance sampling is reported as collapsed
+MIN_EFFECTIVE_SAMPLE_SIZE = 10.0  # below, importance sampling is reported as collapsed
 
 
 @command("demo")
@@ -42,9 +45,8 @@ def demo(call: Call[DemoSettings], output: str, force: bool) -> None:
         folder.mkdir(parents=True, exist_ok=True)
     except (FileExistsError, NotADirectoryError):
         raise BadInput(f"{folder}: not a folder; choose another with -o") from None
-
     runs = _infer_by_all_methods(call.console, call.settings())
-    with progress(call.console, "rendering pictures and a film"):
+    with progress_bar(call.console, "rendering pictures and a film"):
         outputs = [*_write_products(runs, folder), folder / "demo.json"]
     document = {
         **run_document(runs["gibbs"]), "heldout": None,
@@ -74,21 +76,22 @@ def _infer_by_all_methods(console: Console, settings: DemoSettings) -> dict[str,
     # Simulate the scan.
     walls, pose = tutorial()
     sensor, seed = Gaussian(SIGMA_M), settings.seed
-    angles = np.arange(BEAMS) * 2 * np.pi / BEAMS
-    console.detail(f"simulating {BEAMS} beams with noise of {SIGMA_M} m")
-    scans = simulate(walls, TUTORIAL_GRID, pose, angles, sensor=sensor, max_range_m=MAX_RANGE_M, seed=seed)
+    angles_rad = np.arange(N_BEAMS) * 2 * np.pi / N_BEAMS
+    console.detail(f"simulating {N_BEAMS} beams with noise of {SIGMA_M} m")
+    scans = simulate(walls, TUTORIAL_GRID, pose, angles_rad, sensor=sensor, max_range_m=MAX_RANGE_M, seed=seed)
     # Choose prior, method and schedule of each run.
     half, rare, where = Independent(0.5), Independent(0.05), Where(threads=settings.threads)
-    long = Schedule(settings.chains, settings.warmup, settings.draws)
+    long_schedule = Schedule(settings.chains, settings.warmup, settings.draws)
     arguments: dict[str, tuple[CellPrior, Method, Schedule]] = {
-        "gibbs": (half, Gibbs(), long),
-        "block": (rare, Block(), long),
+        "gibbs": (half, Gibbs(), long_schedule),
+        "block": (rare, Block(), long_schedule),
         "importance": (half, Importance(settings.particles), Schedule(chains=1, draws=1000)),
         "film": (half, Gibbs(), Schedule(chains=1, warmup=0, draws=FILM_SWEEPS)),
     }
+    # Run the methods one after the other; Ctrl-C ends the command, since it compares all runs.
     runs: dict[str, Run] = {}
     for name, (prior, method, schedule) in arguments.items():
-        with progress(console, "compiling" if not runs else "tracing beams") as report:
+        with progress_bar(console, "compiling" if not runs else "tracing beams") as report:
             runs[name] = infer(
                 scans, TUTORIAL_GRID, prior=prior, sensor=sensor, method=method, schedule=schedule, seed=seed,
                 where=where, on_progress=report,
@@ -99,6 +102,7 @@ def _infer_by_all_methods(console: Console, settings: DemoSettings) -> dict[str,
 
 
 def _write_products(runs: dict[str, Run], folder: Path) -> list[Path]:
+    """Write pictures, a film, the saved run and the map for nav2, and return their paths."""
     import numpy as np
 
     from bayesmap.sim.drawing import tutorial
@@ -108,20 +112,18 @@ def _write_products(runs: dict[str, Run], folder: Path) -> list[Path]:
 
     walls, pose = tutorial()
     paths = []
-
-    def write_picture(name: str, figure: Any) -> None:
+    for name, method, title in (
+        ("posterior.png", "gibbs", "single-site Gibbs, prior 0.5"),
+        ("posterior-block.png", "block", "2 x 2 block Gibbs, prior 0.05"),
+        ("posterior-importance.png", "importance", "importance sampling, prior 0.5"),
+    ):
         paths.append(folder / name)
-        write_figure(figure, paths[-1])
-
-    write_picture("posterior.png", runs["gibbs"].plot(truth=walls, title="single-site Gibbs, prior 0.5"))
-    write_picture("posterior-block.png", runs["block"].plot(truth=walls, title="2 x 2 block Gibbs, prior 0.05"))
-    write_picture(
-        "posterior-importance.png", runs["importance"].plot(truth=walls, title="importance sampling, prior 0.5")
-    )
-    weights = runs["importance"].log_weights
+        write_figure(runs[method].plot(truth=walls, title=title), paths[-1])
     # The tutorial's axis ends at -10 000 nats, but nearly all weights of this scan are lower: extend the axis.
+    weights = runs["importance"].log_weights
     low = min(-10_000.0, 10_000.0 * float(np.floor(np.quantile(weights, 0.01) / 10_000.0)))
-    write_picture("weights-importance.png", weights_figure(weights, range_nats=(low, 0.0)))
+    paths.append(folder / "weights-importance.png")
+    write_figure(weights_figure(weights, range_nats=(low, 0.0)), paths[-1])
     film = runs["film"]
     for ending in ("gif", "webp"):
         paths.append(folder / f"chain.{ending}")
@@ -139,15 +141,13 @@ def _short_document(run: Run) -> dict[str, Any]:
 
 
 def _print_report(console: Console, runs: dict[str, Run], folder: Path) -> None:
-    for name, line in (("gibbs", "single-site Gibbs, prior 0.5:  "), ("block", "2 x 2 block Gibbs, prior 0.05: ")):
+    """Print the speed and the convergence of each method, and where the files are."""
+    for name, title in (("gibbs", "single-site Gibbs, prior 0.5:  "), ("block", "2 x 2 block Gibbs, prior 0.05: ")):
         summary, posterior = runs[name].summary(), runs[name].posterior
-        console.say(
-            f"{line} {posterior.draws.chains} chains of {posterior.sweep:,} sweeps, "
-            f"{summary.microseconds_per_sweep:.0f} us a sweep, R-hat of the log joint {summary.rhat_log_joint:.3f}"
-        )
+        work = f"{posterior.draws.chains} chains of {posterior.sweep:,} sweeps"
+        speed = f"{summary.microseconds_per_sweep:.0f} us a sweep"
+        console.say(f"{title} {work}, {speed}, R-hat of the log joint {summary.rhat_log_joint:.3f}")
     weights, size = runs["importance"].log_weights, runs["importance"].summary().effective_sample_size
-    console.say(
-        f"importance sampling:            {len(weights):,} particles, effective sample size "
-        f"{size:.1f}" + (": importance sampling has collapsed" if size < COLLAPSED else "")
-    )
+    state = ": importance sampling has collapsed" if size < MIN_EFFECTIVE_SAMPLE_SIZE else ""
+    console.say(f"importance sampling:            {len(weights):,} particles, effective sample size {size:.1f}{state}")
     console.say(f"pictures, the saved run and demo.json are in {folder}")

@@ -1,4 +1,9 @@
-"""The folder of a run: the saved run, and the files made from it, such as its JSON document."""
+"""The folder of a run: the saved run, and the files made from it, such as its JSON document.
+
+An interrupted run must leave a folder from which it can go on, and a new run must not destroy an older one too early.
+`Folder` keeps both promises: `check` before the work, `begin` when the run has started, `checkpoint` during the work,
+and `write_products` at the end. `run_document` makes the JSON document.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +17,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from bayesmap.cli.console import Console, as_json, counted, progress, stage
+from bayesmap.cli.console import Console, as_json, counted, progress_bar, stage_bar
 from bayesmap.errors import BadInput
 from bayesmap.files import write_file
 from bayesmap.version import __version__
@@ -25,68 +30,6 @@ if TYPE_CHECKING:
 SETTINGS = ("method", "order", "prior", "sensor", "hit_depth", "start", "seed", "chains", "warmup", "thin")
 """Settings of a run that its document repeats."""
 
-
-def run_document(run: Run) -> dict[str, Any]:
-    """Return the JSON document of a run: its settings, result, timings, diagnostics and problems."""
-    posterior, summary, joint = run.posterior, run.summary(), run.log_joint
-    diagnostics = summary.as_json()
-    last, mean = (finite(joint[:, -1].mean()), finite(joint.mean())) if joint.size else (None, None)
-    return {
-        "version": __version__,
-        "grid": grid_document(run.grid),
-        "scans": posterior.counts["scans"],
-        "beams": posterior.counts["beams"],
-        "incidences": posterior.counts["incidences"],
-        "cells": posterior.kind,
-        "states": posterior.prior.words.states,
-        "fitted": posterior.settings.get("fitted"),
-        **{name: posterior.settings[name] for name in SETTINGS},
-        "draws": int(joint.shape[1]),
-        "sweeps": posterior.sweep,
-        "finished": run.finished,
-        "seconds": {name: round(value, 6) for name, value in posterior.seconds.items()},
-        "log_joint": {"last": last, "mean": mean},
-        "log_evidence": finite(posterior.log_evidence),
-        "unchanged_cells": diagnostics["unchanged_cells"] or 0,
-        "microseconds_per_sweep": diagnostics["microseconds_per_sweep"],
-        "rhat_max": diagnostics["rhat_max"],
-        "ess_min": diagnostics["ess_min"],
-        "diagnostics": diagnostics,
-        "good": summary.strengths(),
-        "problems": summary.problems(),
-        "peak_memory_mb": peak_memory_mb(),
-    }
-
-
-def grid_document(grid: Grid) -> dict[str, Any]:
-    """Return the numbers of a grid as JSON values."""
-    return {"shape": list(grid.shape), "resolution": grid.resolution, "origin": list(grid.origin)}
-
-
-def work_done(document: dict[str, Any]) -> str:
-    """Return the work of a run in words: "4 chains of 100 sweeps", or "4,000 independent maps" without chains."""
-    from bayesmap.posterior.posterior import WITHOUT_CHAINS
-
-    if document["method"] not in WITHOUT_CHAINS:
-        return f"{counted(document['chains'], 'chain')} of {counted(document['sweeps'], 'sweep')}"
-    return counted(document["chains"] * document["draws"], "independent map")
-
-
-def finite(value: Any) -> float | None:
-    """Return a JSON number, or None for NaN and infinity."""
-    return None if value is None or not math.isfinite(value) else float(value)
-
-
-def peak_memory_mb() -> float:
-    """Return the peak memory of this process, in megabytes."""
-    with contextlib.suppress(OSError):  # Linux, where getrusage inherits the peak of the parent process
-        for line in Path("/proc/self/status").read_text().splitlines():
-            if line.startswith("VmHWM:"):
-                return round(int(line.split()[1]) * 1024 / 1e6, 1)
-    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    return round(peak / (1e6 if sys.platform == "darwin" else 1e6 / 1024), 1)
-
-
 DERIVED = (
     "posterior.png", "map.yaml", "map.pgm", "summary.json", "trajectory.tum", "trajectory-covariances.txt",
     "trajectory.png", "odometry.png", "loops.png", "surfaces.png",
@@ -96,8 +39,10 @@ DERIVED = (
 
 @dataclass
 class Folder:
-    """The folder into which `infer` writes. Until `begin`, only the file ``outdated`` may be written: it marks an older
-    run that is to be replaced. An older run that is to be replaced stays until the first `save` of the new run.
+    """The folder into which `infer` and `slam` write.
+
+    Until `begin`, only the file ``outdated`` may be written: it marks an older run that is to be replaced. The older
+    run stays until the first `save` of the new run.
     """
 
     path: Path  # the folder
@@ -114,29 +59,25 @@ class Folder:
         self.resuming = self.resuming and not self.outdated_path.exists()
 
     def check(self, *, force: bool) -> None:
-        """Refuse a folder that cannot be written, or whose run or files the user neither replaces nor resumes. Raises
-        `BadInput` also for a name that is not UTF-8.
-        """
+        """Raise `BadInput` for a folder that cannot be written, or whose run is neither replaced nor resumed."""
         try:
             str(self.path).encode()
         except UnicodeEncodeError:
             raise BadInput(f"{str(self.path)!a}: the name is not UTF-8; choose another folder with -o") from None
         may_replace = force or self.resuming or self.outdated_path.exists()
         if self.run_path.exists() and not may_replace:
-            raise BadInput(
-                f"{self.run_path}: there is a run already; --resume goes on with it, --force replaces it, "
-                "-o takes another folder"
-            )
-        older = next((path for name in DERIVED if (path := self.path / name).exists()), None)
-        if older is not None and not (self.run_path.exists() or may_replace):
+            remedy = "--resume goes on with it, --force replaces it, -o takes another folder"
+            raise BadInput(f"{self.run_path}: there is a run already; {remedy}")
+        older_files = [self.path / name for name in DERIVED if (self.path / name).exists()]
+        if older_files and not (self.run_path.exists() or may_replace):
             resume = "--resume goes on with the run that wrote it, " if self.config_path.exists() else ""
-            raise BadInput(f"{older}: exists already; {resume}--force replaces it, -o takes another folder")
+            raise BadInput(f"{older_files[0]}: exists already; {resume}--force replaces it, -o takes another folder")
         # Refuse an unwritable folder before a long run, not after it.
-        folder = next(path for path in (self.path, *self.path.parents) if path.exists())
-        if not folder.is_dir():
-            raise BadInput(f"{folder}: not a folder; choose another with -o")
-        if not os.access(folder, os.W_OK):
-            raise BadInput(f"{folder}: no permission to write there; choose another folder with -o")
+        nearest = next(path for path in (self.path, *self.path.parents) if path.exists())
+        if not nearest.is_dir():
+            raise BadInput(f"{nearest}: not a folder; choose another with -o")
+        if not os.access(nearest, os.W_OK):
+            raise BadInput(f"{nearest}: no permission to write there; choose another folder with -o")
 
     def mark_outdated(self, toml: str) -> None:
         """Mark an older run in the folder as to be replaced, perhaps by another process."""
@@ -154,17 +95,16 @@ class Folder:
             if self.resuming or not self.run_path.exists():
                 self.start_afresh()
         except OSError as error:
-            raise BadInput(
-                f"{error.filename or self.path}: cannot be written: {error.strerror or error}; "
-                "choose another folder with -o"
-            ) from None
+            reason = f"cannot be written: {error.strerror or error}; choose another folder with -o"
+            raise BadInput(f"{error.filename or self.path}: {reason}") from None
         self.begun = True
 
     def start_afresh(self) -> None:
         """Save the settings of the new run, and remove the files made from the older run that it replaces."""
         write_file(self.config_path, self._toml)
-        for name in () if self._previewed else DERIVED:
-            (self.path / name).unlink(missing_ok=True)
+        if not self._previewed:  # the files of the preview belong to the new run
+            for name in DERIVED:
+                (self.path / name).unlink(missing_ok=True)
         self.outdated_path.unlink(missing_ok=True)
 
     def save(self, run: Run, on_progress: Callable[[int, int], None] = lambda done, total: None) -> None:
@@ -174,8 +114,8 @@ class Folder:
         except OSError as error:
             if not self.run_path.exists():
                 raise
-            replacing = self.outdated_path.exists()
-            content = "the run to be replaced" if replacing else "what was saved before, and --resume goes on"
+            is_older = self.outdated_path.exists()
+            content = "the run to be replaced" if is_older else "what was saved before, and --resume goes on"
             reason = f"{error.strerror or error}; {self.run_path.name} still holds {content}"
             raise OSError(error.errno, reason, error.filename) from error
         if self.outdated_path.exists():
@@ -210,12 +150,12 @@ class Folder:
 
     def write_products(self, run: Run) -> list[Path]:
         """Save the run; if it has draws, also render it and export it for nav2. Returns the paths of the files."""
-        with stage(self.console, "save") as report:
+        with stage_bar(self.console, "save") as report:
             self.save(run, report)
         paths = [self.run_path]
         if run.n_draws == 0 and not run.finished:
             return paths
-        with progress(self.console, "rendering the map"):
+        with progress_bar(self.console, "rendering the map"):
             paths += self.render(run)
             if run.posterior.prior.has_surfaces and run.n_draws > 0:
                 from bayesmap.viz.figure import write_figure
@@ -228,3 +168,52 @@ class Folder:
     def write_document(self, document: dict[str, Any]) -> None:
         """Write the JSON document of the run."""
         write_file(self.path / "summary.json", as_json(document))
+
+
+def run_document(run: Run) -> dict[str, Any]:
+    """Return the JSON document of a run: its settings, result, timings, diagnostics and problems."""
+    posterior, summary, joint = run.posterior, run.summary(), run.log_joint
+    counts, diagnostics = posterior.counts, summary.as_json()
+    last, mean = (finite(joint[:, -1].mean()), finite(joint.mean())) if joint.size else (None, None)
+    return {
+        "version": __version__, "grid": grid_document(run.grid),
+        "scans": counts["scans"], "beams": counts["beams"], "incidences": counts["incidences"],
+        "cells": posterior.kind, "states": posterior.prior.words.states, "fitted": posterior.settings.get("fitted"),
+        **{name: posterior.settings[name] for name in SETTINGS},
+        "draws": int(joint.shape[1]), "sweeps": posterior.sweep, "finished": run.finished,
+        "seconds": {name: round(value, 6) for name, value in posterior.seconds.items()},
+        "log_joint": {"last": last, "mean": mean}, "log_evidence": finite(posterior.log_evidence),
+        "unchanged_cells": diagnostics["unchanged_cells"] or 0,
+        **{name: diagnostics[name] for name in ("microseconds_per_sweep", "rhat_max", "ess_min")},
+        "diagnostics": diagnostics, "good": summary.strengths(), "problems": summary.problems(),
+        "peak_memory_mb": peak_memory_mb(),
+    }  # fmt: skip
+
+
+def grid_document(grid: Grid) -> dict[str, Any]:
+    """Return the numbers of a grid as JSON values."""
+    return {"shape": list(grid.shape), "resolution": grid.resolution, "origin": list(grid.origin)}
+
+
+def work_done(document: dict[str, Any]) -> str:
+    """Return the work of a run in words: "4 chains of 100 sweeps", or "4,000 independent maps" without chains."""
+    from bayesmap.posterior.posterior import WITHOUT_CHAINS
+
+    if document["method"] not in WITHOUT_CHAINS:
+        return f"{counted(document['chains'], 'chain')} of {counted(document['sweeps'], 'sweep')}"
+    return counted(document["chains"] * document["draws"], "independent map")
+
+
+def finite(value: Any) -> float | None:
+    """Return a JSON number, or None for NaN and infinity."""
+    return None if value is None or not math.isfinite(value) else float(value)
+
+
+def peak_memory_mb() -> float:
+    """Return the peak memory of this process, in megabytes."""
+    with contextlib.suppress(OSError):  # Linux, where getrusage inherits the peak of the parent process
+        for line in Path("/proc/self/status").read_text().splitlines():
+            if line.startswith("VmHWM:"):
+                return round(int(line.split()[1]) * 1024 / 1e6, 1)
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss  # bytes on macOS, kibibytes elsewhere
+    return round(peak / (1e6 if sys.platform == "darwin" else 1e6 / 1024), 1)

@@ -1,6 +1,8 @@
-"""The commands, and the error messages and exit codes of their failures.
+"""The group of all commands, and the error messages and exit codes of their failures.
 
-Exit codes: 0 success, 1 failure, 2 wrong usage, 3 bad input, 4 problems with ``--strict``, 130 interrupted.
+Each command is loaded from its module on first use, since most modules take long to load. `Commands.invoke` is the one
+place where exceptions become a line on standard error and an exit code: 0 success, 1 failure, 2 wrong usage, 3 bad
+input, 4 problems with ``--strict``, 130 interrupted.
 """
 
 from __future__ import annotations
@@ -31,18 +33,17 @@ COMMANDS = {
     "app": "Draw walls, drag the robot, watch the posterior live.",
     "config": "Print the effective settings as TOML.",
 }
-"""The commands in the order of use. Each is a function of the same name, in the module of that name or in `HOMES`."""
+"""The commands in the order of use. Each is a function of this name, in the module of this name or in `MODULES`."""
 
-HOMES = {"plan": "decisions", "explore": "decisions", "export": "render", "config": "info"}
-"""Modules of the commands that share a module."""
+MODULES = {"plan": "decisions", "explore": "decisions", "export": "render", "config": "info"}  # others have their own
 
 EPILOG = """Results go to standard output, progress and messages to standard error. Exit codes: 0 fine, 1 failure,
 2 usage, 3 bad input, 4 with --strict: the diagnostics found a problem, 130 interrupted."""
 
-NO_PLACE = (errno.ENOENT, errno.ENOTDIR, errno.EEXIST, errno.EISDIR, errno.EACCES, errno.EPERM, errno.EROFS)
+PATH_ERRORS = (errno.ENOENT, errno.ENOTDIR, errno.EEXIST, errno.EISDIR, errno.EACCES, errno.EPERM, errno.EROFS)
 """Operating system errors after which another path may help: bad input, not a failure."""
 
-NO_ROOM = "Failed to allocate"  # first words of Warp's error when there is no memory for an array
+WARP_OUT_OF_MEMORY = "Failed to allocate"  # first words of Warp's error when there is no memory for an array
 
 
 class Commands(click.Group):
@@ -58,7 +59,7 @@ class Commands(click.Group):
             close = difflib.get_close_matches(cmd_name, COMMANDS, n=1)
             hint = f"; did you mean {close[0]!r}?" if close else f"; there are: {', '.join(COMMANDS)}"
             raise click.UsageError(f"no such command {cmd_name!r}{hint}", ctx)
-        command = getattr(importlib.import_module(f"bayesmap.cli.{HOMES.get(cmd_name, cmd_name)}"), cmd_name)
+        command = getattr(importlib.import_module(f"bayesmap.cli.{MODULES.get(cmd_name, cmd_name)}"), cmd_name)
         assert isinstance(command, click.Command)
         command.name = cmd_name
         return command
@@ -79,28 +80,28 @@ class Commands(click.Group):
         except BrokenPipeError:
             return ctx.exit(0)
         except (Exception, KeyboardInterrupt) as error:
-            code, line = explain(error)
+            code, message = exit_code_and_message(error)
             if code == FAILURE and ctx.meta.get(VERBOSE):
                 import traceback
 
                 complain(traceback.format_exc().rstrip())
             elif code == FAILURE and not isinstance(error, OSError | MemoryError):
-                line += "; -v shows where it happened (please report it)"
-            complain("bayesmap: error: " + " ".join(line.split()))
+                message += "; -v shows where it happened (please report it)"
+            complain("bayesmap: error: " + " ".join(message.split()))  # on one line
             return ctx.exit(code)
 
 
-def explain(error: BaseException) -> tuple[int, str]:
-    """Return the exit code of an exception, and its message."""
+def exit_code_and_message(error: BaseException) -> tuple[int, str]:
+    """Return the exit code of an exception, and its message for the user."""
     if isinstance(error, BadInput):
         return BAD_INPUT, str(error)
     if isinstance(error, KeyboardInterrupt | click.Abort):
         return INTERRUPTED, "interrupted"
-    if isinstance(error, OSError) and error.filename and error.errno in NO_PLACE:
+    if isinstance(error, OSError) and error.filename and error.errno in PATH_ERRORS:
         return BAD_INPUT, f"{_system_message(error)}; name another file or folder, or see who may write there"
     if isinstance(error, OSError):
         return FAILURE, _system_message(error)
-    if isinstance(error, MemoryError) or str(error).startswith(NO_ROOM):
+    if isinstance(error, MemoryError) or str(error).startswith(WARP_OUT_OF_MEMORY):
         return FAILURE, "out of memory; use a coarser --resolution, fewer chains, or fewer draws"
     return FAILURE, f"unexpected {type(error).__name__}: {error}"
 

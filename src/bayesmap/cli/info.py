@@ -1,4 +1,7 @@
-"""``bayesmap info`` and ``bayesmap config``: print the contents of a file, and the effective settings."""
+"""``bayesmap info`` and ``bayesmap config``: print the contents of a file, and the effective settings.
+
+`info` first makes the JSON document of a saved run or a log. `_lines` turns it into text.
+"""
 
 from __future__ import annotations
 
@@ -11,14 +14,14 @@ import click
 import msgspec
 
 from bayesmap.cli.command import Call, as_toml, command
-from bayesmap.cli.console import BAD_INPUT, counted, write_out
+from bayesmap.cli.console import BAD_INPUT, counted, write_lines, write_out
 from bayesmap.cli.folder import run_document, work_done
 from bayesmap.cli.keys import Settings, Value
 from bayesmap.cli.pipeline import cost_of_suggestion
 from bayesmap.cli.translation import LOG, need_file
 from bayesmap.errors import BadInput
 
-CUT = "cut short"  # words of the notes on damaged recordings
+CUT_SHORT = "cut short"  # words of the notes on damaged recordings
 
 
 @command(None)
@@ -39,16 +42,14 @@ def info(call: Call[Settings], file: str) -> None:
     if call.console.as_json:
         call.console.result(document, [])
     else:
-        write_out("\n".join(_lines(document)) + "\n")
-    skipped = sum(sensor.get("skipped") or 0 for sensor in document["sensors"])
-    missing = [f"malformed messages or lines ({skipped:,})"] if skipped else []
-    missing += ["what stood behind the damage"] if any(CUT in note for note in document["notes"]) else []
+        write_lines(_lines(document))
+    n_skipped = sum(sensor.get("skipped") or 0 for sensor in document["sensors"])
+    missing = [f"malformed messages or lines ({n_skipped:,})"] if n_skipped else []
+    missing += ["what stood behind the damage"] if any(CUT_SHORT in note for note in document["notes"]) else []
     if missing:
-        read = sum(sensor["scans"] for sensor in document["sensors"] if not sensor.get("error"))
-        call.console.warn(
-            f"{file}: read in part: {counted(read, 'scan')}, without {' and '.join(missing)}; infer and slam take the "
-            "same scans with --skip-bad-lines"
-        )
+        n_scans = sum(sensor["scans"] for sensor in document["sensors"] if not sensor.get("error"))
+        part, remedy = counted(n_scans, "scan"), "infer and slam take the same scans with --skip-bad-lines"
+        call.console.warn(f"{file}: read in part: {part}, without {' and '.join(missing)}; {remedy}")
         click.get_current_context().exit(BAD_INPUT)
 
 
@@ -107,7 +108,7 @@ def _lines(document: dict[str, Any]) -> list[str]:
     if document.get("frames"):
         lines.append(f"frames: {', '.join(document['frames'])}")
     if document.get("pose_sources"):
-        lines.append("poses: " + ", ".join(f"{s['name']} ({s['type']})" for s in document["pose_sources"]))
+        lines.append("poses: " + ", ".join(f"{each['name']} ({each['type']})" for each in document["pose_sources"]))
     for sensor in document["sensors"]:
         lines += _sensor_lines(sensor)
     lines += [f"note: {note}" for note in document["notes"]]
@@ -140,37 +141,34 @@ def _sensor_words(sensor: dict[str, Any]) -> str:
     noise = None if model is None else model.kernel_parameters()
     assert noise is not None
     tails = f" (Student's t, {noise.dof:g} degrees of freedom)" if noise.dof else ""
-    return (
-        f"noise {100 * noise.sigma_m:.2g} cm + {100 * noise.sigma_per_m:.2g} cm per metre{tails}; "
-        f"chance {sensor['p_random']:.2g}, no return {sensor['p_no_return']:.2g}, objects {sensor['p_short']:.2g}"
-    )
+    shares = f"chance {sensor['p_random']:.2g}, no return {sensor['p_no_return']:.2g}, objects {sensor['p_short']:.2g}"
+    return f"noise {100 * noise.sigma_m:.2g} cm + {100 * noise.sigma_per_m:.2g} cm per metre{tails}; {shares}"
 
 
 def _sensor_lines(sensor: dict[str, Any]) -> list[str]:
+    """Return the scans of one sensor as lines of text: beams, ranges, poses, and what was left out."""
     name = sensor.get("topic") or sensor.get("message") or "readings"
     if sensor.get("error"):
         return [f"scans on {name}: {sensor['scans']:,}, which cannot be used: {sensor['error']}"]
-    head = f"scans on {name}" if sensor.get("topic") else f"scans ({name})"
+    title = f"scans on {name}" if sensor.get("topic") else f"scans ({name})"
     beams = f"{sensor['beams']} beams from {sensor['angle_first_deg']:g} to {sensor['angle_last_deg']:g} degrees"
     if sensor["angle_step_deg"] is not None:
         beams += f", {sensor['angle_step_deg']:g} apart"
     kinds = ", ".join(f"{count:,} {kind.replace('_', ' ')}" for kind, count in sensor["readings"].items() if count)
     lines = [
-        f"{head}: {sensor['scans']:,} of {beams}",
+        f"{title}: {sensor['scans']:,} of {beams}",
         f"  ranges from {sensor['min_range_m']:g} to {sensor['max_range_m']:g} m; readings: {kinds}",
     ]
     if sensor.get("no_poses"):
         lines.append(f"  no poses: {sensor['no_poses']}")
     else:
-        low, high = sensor["poses_from_m"], sensor["poses_to_m"]
-        by = f" by {sensor['poses']}" if sensor.get("poses") else ""
+        (x0, y0), (x1, y1) = sensor["poses_from_m"], sensor["poses_to_m"]
+        source = f" by {sensor['poses']}" if sensor.get("poses") else ""
         frames = f", {sensor['frame']} in {sensor['fixed_frame']}" if sensor.get("frame") else ""
-        lines.append(
-            f"  poses{by}{frames}: x {low[0]:g} to {high[0]:g} m, y {low[1]:g} to {high[1]:g} m, "
-            f"{sensor['travelled_m']:,.1f} m travelled"
-        )
-    if skipped := sensor.get("skipped"):
-        lines.append(f"  malformed messages or lines left out: {skipped:,}, first {sensor['first_skipped']}")
+        extent = f"x {x0:g} to {x1:g} m, y {y0:g} to {y1:g} m"
+        lines.append(f"  poses{source}{frames}: {extent}, {sensor['travelled_m']:,.1f} m travelled")
+    if sensor.get("skipped"):
+        lines.append(f"  malformed messages or lines left out: {sensor['skipped']:,}, first {sensor['first_skipped']}")
     return lines + [f"  note: {note}" for note in sensor.get("notes", [])]
 
 

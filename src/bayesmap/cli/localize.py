@@ -1,4 +1,8 @@
-"""``bayesmap localize``: the posterior of the pose of each scan of a log, in the map of a saved run."""
+"""``bayesmap localize``: the posterior of the pose of each scan of a log, in the map of a saved run.
+
+`localize` parses the arguments into a `_Request`, and locates the scans of a log that is complete (`_locate_scans`) or
+still being written (`_locate_live`). Both fill `_Posteriors`, from which the output is made.
+"""
 
 from __future__ import annotations
 
@@ -14,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from bayesmap.cli.command import FORCE, Call, command
-from bayesmap.cli.console import Console, exit_unless_good, share, write_out
+from bayesmap.cli.console import Console, exit_unless_good, share_bar, write_lines, write_out
 from bayesmap.cli.keys import LocalizeSettings
 from bayesmap.cli.translation import is_map, log_options_of, need_file, need_free, numbers_of
 from bayesmap.errors import BadInput
@@ -29,10 +33,11 @@ if TYPE_CHECKING:
     from bayesmap.space.grid import Grid
     from bayesmap.space.scans import Scans
 
-IMAGES = (".pgm", ".png", ".bmp")
-ENDINGS = (".tum", ".mcap", ".bag", ".db3", ".jsonl")
-NOT_LIVE = ("scan_topic", "pose_topic", "fixed_frame", "trajectory")  # settings that no log which grows can have
-NAMED_STRETCHES = 5  # largest number of stretches of lost scans that are named
+IMAGE_ENDINGS = (".pgm", ".png", ".bmp")  # of the images that the YAML file of a map names
+ENDINGS = (".tum", ".mcap", ".bag", ".db3", ".jsonl")  # of the files that -o may name
+NOT_LIVE = ("scan_topic", "pose_topic", "fixed_frame", "trajectory")  # settings that a growing log cannot have
+MAX_NAMED_STRETCHES = 5  # number of stretches of lost scans that are named
+MAX_MODES = 5  # number of modes of the last pose that are printed
 
 
 @command("localize")
@@ -78,12 +83,12 @@ def localize(
     # Check the arguments.
     if idle_s is not None and not follow:
         raise click.UsageError("--for says how long --follow waits: give both")
-    target = None if output is None else _target(output, force)
-    first_pose, corners = _initial_pose(prior), _area(area)
+    target = None if output is None else _checked_path(output, force)
+    first_pose, corners = _initial_pose_of(prior), _corners_of(area)
     live = follow and can_follow(call.console, log)
     if not live:
         need_file(log, "the log whose scans are to be located", runs=False)
-    request = _Request(call, log, _map_of(run_file, call.settings()), span, first_pose, independent)
+    request = _Request(call, log, _read_map(run_file, call.settings()), span, first_pose, independent)
 
     def print_belief(number: int, belief: PoseBelief) -> bool:
         return write_out(json.dumps({"scan": number, **_belief_json(belief, corners)}, allow_nan=False) + "\n")
@@ -91,17 +96,15 @@ def localize(
     # Locate the scans.
     interrupted = False
     if live:
-        located, interrupted = _locate_live(request, idle_s, print_belief)
+        posteriors, interrupted = _locate_live(request, idle_s, print_belief)
     else:
-        located = _locate(request, print_belief if follow else None)
+        posteriors = _locate_scans(request, print_belief if follow else None)
     # Write and print the result.
-    localization, lost = located.localization, located.lost()
-    outputs = [] if target is None else _write(target, located)
+    localization, lost = posteriors.localization, posteriors.lost_scans()
+    outputs = [] if target is None else _write(target, posteriors)
     if lost:
-        call.console.warn(
-            f"{len(lost):,} of {len(localization):,} scans fit nowhere on the map: lost, or the map is outdated: "
-            f"{located.stretches(lost)}"
-        )
+        share, which = f"{len(lost):,} of {len(localization):,} scans", posteriors.describe_stretches(lost)
+        call.console.warn(f"{share} fit nowhere on the map: lost, or the map is outdated: {which}")
     exit_unless_good(finished=not interrupted, problems=False)
     if follow:
         return
@@ -113,7 +116,7 @@ def localize(
         }  # fmt: skip
         call.console.result(document, outputs)
     else:
-        write_out("".join(f"{line}\n" for line in [*_lines(located, corners), *(str(path) for path in outputs)]))
+        write_lines([*_lines(posteriors, corners), *outputs])
 
 
 @dataclass(frozen=True, eq=False)
@@ -121,27 +124,26 @@ class _Request:
     """The scans of a log that are to be located in a map."""
 
     call: Call[LocalizeSettings]
-    log: str
-    map: _Map
+    log: str  # path of the log, as typed
+    map: _MapSource
     span: str | None  # scans to locate, as FIRST:LAST; None for all
     first_pose: InitialPose | None  # prior of the first pose; None if it may be anywhere
     independent: bool  # locate each scan by itself
 
     def options(self, mount: NDArray[np.float64] | None) -> dict[str, Any]:
-        """Return the arguments that both ways of localization share. The prior becomes a prior of the laser's pose.
-        ``mount`` is the pose of the laser on the robot, (3,), if it is known. Without it --frame base is refused.
-        """
+        """Return the arguments of localization, given the pose of the laser on the robot, (3,), if it is known."""
         from bayesmap.space.planar import compose
         from bayesmap.space.trajectory import step_to
 
         prior, settings = self.first_pose, self.call.settings()
+        # Localization takes a prior of the laser, not of the base.
         if step_to(settings.frame, mount, "laser")[0] == "base" and prior is not None:
             prior = replace(prior, pose=compose(prior.pose, mount))  # type: ignore[arg-type]
         return {"prior": prior, "independent": self.independent, "seed": settings.seed}
 
 
 @dataclass(eq=False)
-class _Located:
+class _Posteriors:
     """The posteriors of scans of a log."""
 
     frame: str | None  # frame of the answers, as typed
@@ -151,7 +153,7 @@ class _Located:
     beliefs: list[PoseBelief] = field(default_factory=list)  # posterior of the laser's pose at each scan
 
     def latest(self) -> tuple[int, PoseBelief]:
-        """Return the number of the latest scan and the posterior of its frame."""
+        """Return the number of the latest scan, and the posterior of the pose of `frame`."""
         from bayesmap.localization.localize import Localization
 
         latest = Localization(tuple(self.beliefs[-1:])).of(self.frame, self.mount)
@@ -159,35 +161,36 @@ class _Located:
 
     @cached_property
     def localization(self) -> Localization:
-        """All posteriors of the frame; ask when all scans are located."""
+        """The posteriors of all poses of `frame`. Read it when all scans are located, since it is computed once."""
         from bayesmap.localization.localize import Localization
 
         return Localization(tuple(self.beliefs)).of(self.frame, self.mount)
 
-    def lost(self) -> list[int]:
+    def lost_scans(self) -> list[int]:
         """Return the numbers of the scans that are probably lost."""
         return [self.first + i for i, belief in enumerate(self.beliefs) if belief.p_lost > 0.5]
 
-    def name(self, first: int, last: int) -> str:
+    def describe(self, first: int, last: int) -> str:
         """Return a scan, or the scans from the first to the last, in words, with their times."""
-        count = f"scan {first}" if first == last else f"scans {first} to {last}"
-        stamps = [self.beliefs[number - self.first].stamp_s for number in (first, last)]
-        if self.start_s is None or None in stamps:
-            return count
-        times = dict.fromkeys(f"{stamp - self.start_s:.1f}" for stamp in stamps)  # type: ignore[operator]
-        return f"{count} (at {' to '.join(times)} s)"
+        numbers = f"scan {first}" if first == last else f"scans {first} to {last}"
+        stamps_s = [self.beliefs[number - self.first].stamp_s for number in (first, last)]
+        if self.start_s is None or None in stamps_s:
+            return numbers
+        times = dict.fromkeys(f"{stamp_s - self.start_s:.1f}" for stamp_s in stamps_s)  # type: ignore[operator]
+        return f"{numbers} (at {' to '.join(times)} s)"
 
-    def stretches(self, scans: list[int]) -> str:
-        """Return numbers of scans, ascending, in words; of consecutive scans the first and the last."""
+    def describe_stretches(self, scans: list[int]) -> str:
+        """Return ascending numbers of scans in words: the first and the last of each stretch of consecutive scans."""
         starts = [scan for i, scan in enumerate(scans) if i == 0 or scans[i - 1] != scan - 1]
         ends = [scan for i, scan in enumerate(scans) if i == len(scans) - 1 or scans[i + 1] != scan + 1]
-        names = [self.name(*ends) for ends in itertools.islice(zip(starts, ends, strict=True), NAMED_STRETCHES)]
-        more = len(starts) - len(names)
-        return ", ".join(names) + (f", and {more:,} more stretches" if more > 0 else "")
+        stretches = list(zip(starts, ends, strict=True))
+        words = [self.describe(start, end) for start, end in stretches[:MAX_NAMED_STRETCHES]]
+        n_more = len(stretches) - len(words)
+        return ", ".join(words) + (f", and {n_more:,} more stretches" if n_more > 0 else "")
 
 
-def _locate(request: _Request, on_located: Callable[[int, PoseBelief], bool] | None) -> _Located:
-    """Locate the scans that a log holds now; ``on_located`` is called with number and posterior of each."""
+def _locate_scans(request: _Request, print_belief: Callable[[int, PoseBelief], bool] | None) -> _Posteriors:
+    """Locate the scans that a log holds now; ``print_belief`` is called with number and posterior of each."""
     from bayesmap.io.logs import describe_log
     from bayesmap.localization.localize import localize
 
@@ -196,81 +199,79 @@ def _locate(request: _Request, on_located: Callable[[int, PoseBelief], bool] | N
     log = describe_log(path, max_range_m=max_range_m, without_poses=request.independent, **options)
     for note in log.notes:
         call.console.say(f"{path}: {note}")
-    span, stamps_s, mount = _span(request.span, len(log.scans)), log.scans.stamps_s, log.scans.mount
-    scans, number = log.scans.select(span), range(len(log.scans))[span][0]
-    located = _Located(call.settings().frame, mount, number, None if stamps_s is None else stamps_s[0])
+    span, stamps_s, mount = _slice_of(request.span, len(log.scans)), log.scans.stamps_s, log.scans.mount
+    scans, first = log.scans.select(span), range(len(log.scans))[span][0]
+    posteriors = _Posteriors(call.settings().frame, mount, first, None if stamps_s is None else stamps_s[0])
     arguments = request.options(mount)
-    known_map = request.map.known(call.console, scans, False)
-    with share(call.console, "locating scans") as report:
+    known_map = request.map.prepare(call.console, scans, False)
+    with share_bar(call.console, "locating scans") as report:
 
         def on_belief(number: int, belief: PoseBelief) -> None:
             report((number + 1) / len(scans))
-            located.beliefs.append(belief)
-            if on_located is not None:
-                on_located(*located.latest())
+            posteriors.beliefs.append(belief)
+            if print_belief is not None:
+                print_belief(*posteriors.latest())
 
         localize(known_map, scans, on_belief=on_belief, **arguments)
-    return located
+    return posteriors
 
 
 def _locate_live(
-    request: _Request, idle_s: float | None, on_located: Callable[[int, PoseBelief], bool]
-) -> tuple[_Located, bool]:
-    """Locate the scans of a log as they arrive, until the log ends, the reader closes the output, or Ctrl-C. Returns
-    all posteriors, and whether Ctrl-C ended the localization.
-    """
+    request: _Request, idle_s: float | None, print_belief: Callable[[int, PoseBelief], bool]
+) -> tuple[_Posteriors, bool]:
+    """Locate scans as they arrive, until the log or the output ends, or Ctrl-C. Returns whether it was Ctrl-C, too."""
     from bayesmap.localization.localize import follow
 
     scans = live_scans_of(request, idle_s)
     request.call.console.detail(f"{request.log}: waiting for scans")
-    located = _Located(request.call.settings().frame, None, _span(request.span).start or 0, None)
+    posteriors = _Posteriors(request.call.settings().frame, None, _slice_of(request.span).start or 0, None)
     interrupted = False
     try:
         # Prepare the map with the first scan: an external map takes the law of readings from it.
         for first in scans:
-            located.mount, located.start_s = first.mount, None if first.stamps_s is None else first.stamps_s[0]
+            posteriors.mount, posteriors.start_s = first.mount, None if first.stamps_s is None else first.stamps_s[0]
             options = request.options(first.mount)
-            known_map = request.map.known(request.call.console, first, True)
+            known_map = request.map.prepare(request.call.console, first, True)
             for belief in follow(known_map, itertools.chain([first], scans), **options):
-                located.beliefs.append(belief)
-                if not on_located(*located.latest()):
-                    return located, False
+                posteriors.beliefs.append(belief)
+                if not print_belief(*posteriors.latest()):
+                    return posteriors, False
     except KeyboardInterrupt:
-        if not located.beliefs:
+        if not posteriors.beliefs:
             raise
         interrupted = True
-    if not located.beliefs:
+    if not posteriors.beliefs:
         raise BadInput(f"{request.log}: it ended without a scan")
-    return located, interrupted
+    return posteriors, interrupted
 
 
 @dataclass(frozen=True, eq=False)
-class _Map:
-    """The map in which scans are located."""
+class _MapSource:
+    """The map in which scans are located: that of a saved run, or of another program."""
 
     max_range_m: float | None  # largest range of the sensor; None: as in the log
     live_max_range_m: float  # largest range for a log that is still being written
-    known: Callable[[Console, Scans, bool], KnownMap]  # prepares the map, given scans, and whether their log is live
+    prepare: Callable[[Console, Scans, bool], KnownMap]  # prepares the map, given scans, and whether their log is live
 
 
-def _map_of(file: str, settings: LocalizeSettings) -> _Map:
-    """Read a map; the ending of its name tells a saved run from a map of another program."""
+def _read_map(file: str, settings: LocalizeSettings) -> _MapSource:
+    """Read a map. The ending of the name distinguishes a saved run from a map of another program."""
     if is_map(file):
         from bayesmap.io.ros.maps import read_map
 
         need_file(file, "a saved run (.nc), or a map of map_server (.yaml)", runs=True)
         occupancy, grid = read_map(file)
         diagonal_m = grid.resolution * math.hypot(*grid.shape)
-        return _Map(None, diagonal_m, partial(_external_map, occupancy, grid, settings))
+        return _MapSource(None, diagonal_m, partial(_external_map, occupancy, grid, settings))
     from bayesmap.localization.known_map import KnownMap
     from bayesmap.result import load
 
-    if Path(file).suffix.lower() in IMAGES and Path(file).exists():
+    if Path(file).suffix.lower() in IMAGE_ENDINGS and Path(file).exists():
         raise BadInput(f"{file}: the image of a map; give the YAML file that names it and says where it lies")
     run = load(file)
     max_range_m = run.posterior.scans.max_range_m
     beam_weight, device = settings.beam_weight, settings.device
-    return _Map(max_range_m, max_range_m, lambda *_: KnownMap.of_run(run, beam_weight=beam_weight, device=device))
+    return _MapSource(max_range_m, max_range_m, lambda *_: KnownMap.of_run(run, beam_weight=beam_weight, device=device))
 
 
 def _external_map(
@@ -281,7 +282,7 @@ def _external_map(
 
     law = None
     if not live:
-        with share(console, "fitting what the map means") as report:
+        with share_bar(console, "fitting what the map means") as report:  # of occupied, free and unknown cells
             law = fit_law(occupancy, grid, scans, settings.seed, report)
         console.say(law.words())
     return external_map(occupancy, grid, scans, law, beam_weight=settings.beam_weight, device=settings.device)
@@ -295,16 +296,15 @@ def _belief_json(belief: PoseBelief, corners: list[float] | None) -> dict[str, A
     return document
 
 
-def _lines(located: _Located, corners: list[float] | None) -> list[str]:
-    """Return the posterior of the last pose as lines of text: at most five modes, lost, and the area."""
-    localization, last = located.localization, located.first + len(located.beliefs) - 1
-    lines = [f"the {localization.frame} at {located.name(last, last)}:"]
-    for mode in localization.modes[:5]:
-        (x, y, yaw), sd = mode.mean, [math.sqrt(v) for v in mode.covariance.diagonal()]
-        lines.append(
-            f"{100 * mode.probability:5.1f} %  x {x:.3f} +- {sd[0]:.3f} m  y {y:.3f} +- {sd[1]:.3f} m  "
-            f"yaw {math.degrees(yaw):.2f} +- {math.degrees(sd[2]):.2f} degrees"
-        )
+def _lines(posteriors: _Posteriors, corners: list[float] | None) -> list[str]:
+    """Return the posterior of the last pose as lines of text: its likeliest modes, lost, and the area."""
+    localization, last = posteriors.localization, posteriors.first + len(posteriors.beliefs) - 1
+    lines = [f"the {localization.frame} at {posteriors.describe(last, last)}:"]
+    for mode in localization.modes[:MAX_MODES]:
+        (x, y, yaw), sd = mode.mean, [math.sqrt(variance) for variance in mode.covariance.diagonal()]
+        position = f"x {x:.3f} +- {sd[0]:.3f} m  y {y:.3f} +- {sd[1]:.3f} m"
+        heading = f"yaw {math.degrees(yaw):.2f} +- {math.degrees(sd[2]):.2f} degrees"
+        lines.append(f"{100 * mode.probability:5.1f} %  {position}  {heading}")
     lines.append(f"lost, or the map outdated: {_per_cent(localization.p_lost)} %")
     if corners is not None:
         lines.append(f"in the area: {100 * localization.probability_in(corners):.1f} %")
@@ -318,32 +318,32 @@ def _per_cent(probability: float) -> str:
     return f"{100 * probability:.2g}" if probability < 0.1 else f"{100 * probability:.1f}"
 
 
-def _write(target: Path, located: _Located) -> list[Path]:
+def _write(target: Path, posteriors: _Posteriors) -> list[Path]:
     """Write the trajectory, or all posteriors for .jsonl, and return the paths."""
     from bayesmap.files import write_file
     from bayesmap.io.exports import export_trajectory
 
-    localization = located.localization
+    localization = posteriors.localization
     if target.suffix != ".jsonl":
         return list(export_trajectory(target, localization.trajectory()))
-    numbered = enumerate(localization.beliefs, located.first)
+    numbered = enumerate(localization.beliefs, posteriors.first)
     return [write_file(target, (json.dumps({"scan": i, **b.as_json()}, allow_nan=False) for i, b in numbered))]
 
 
-def _target(output: str, force: bool) -> Path:
+def _checked_path(output: str, force: bool) -> Path:
     """Return the output path, after checking its ending and that it may be written."""
     from bayesmap.io.text.trajectories import covariances_path
 
     target = Path(output)
     if target.suffix.lower() not in ENDINGS:
         raise click.UsageError(f"-o {output}: end its name in one of {', '.join(ENDINGS)}")
-    need_free([target, covariances_path(target)] if target.suffix == ".tum" else [target], force)
+    need_free([target, covariances_path(target)] if target.suffix == ".tum" else [target], force=force)
     if not target.parent.is_dir():
         raise BadInput(f"{target.parent}: no such folder; make it first, or choose another with -o")
     return target
 
 
-def _initial_pose(text: str | None) -> InitialPose | None:
+def _initial_pose_of(text: str | None) -> InitialPose | None:
     """Return the prior of the first pose that --prior describes."""
     from bayesmap.localization.localize import InitialPose
 
@@ -354,7 +354,7 @@ def _initial_pose(text: str | None) -> InitialPose | None:
     return InitialPose(pose, spread[0], math.radians(spread[1])) if spread else InitialPose(pose)
 
 
-def _area(text: str | None) -> list[float] | None:
+def _corners_of(text: str | None) -> list[float] | None:
     """Return the corners of the rectangle that --area describes, in metres."""
     if text is None:
         return None
@@ -364,16 +364,18 @@ def _area(text: str | None) -> list[float] | None:
     return corners
 
 
-def _span(text: str | None, count: int | None = None) -> slice:
-    """Return FIRST:LAST as a slice of ``count`` scans; None for a live log, whose number of scans is not known."""
+def _slice_of(text: str | None, count: int | None = None) -> slice:
+    """Return FIRST:LAST as a slice of ``count`` scans. ``count`` is None for a live log, whose end is not known."""
     first, colon, last = (text or ":").partition(":")
     try:
         span = slice(int(first) if first else None, int(last) if last else None)
     except ValueError:
         colon, span = "", slice(None)
-    start, live = span.start or 0, " of scans to come" if count is None else ""
-    if not colon or (live and (start < 0 or (span.stop is not None and span.stop <= start))):
-        raise click.BadParameter(f"{text!r} is not FIRST:LAST{live}", param_hint="'--scans'")
+    start = span.start or 0
+    is_empty_or_negative = start < 0 or (span.stop is not None and span.stop <= start)
+    if not colon or (count is None and is_empty_or_negative):  # scans to come cannot be counted from the end
+        which = " of scans to come" if count is None else ""
+        raise click.BadParameter(f"{text!r} is not FIRST:LAST{which}", param_hint="'--scans'")
     if text is not None and count is not None and not range(count)[span]:
         raise BadInput(f"--scans {text}: none of the log's {count:,} scans is among them")
     return span
@@ -387,39 +389,37 @@ def can_follow(console: Console, log: str) -> bool:
         need_file(log, "the log whose scans are to be located", runs=False, pipes=True)
     if can_be_followed(log):
         return True
-    console.warn(
-        f"{log}: only CARMEN logs and CSV tables can be followed while they are written, as text; of this file the "
-        "scans that it holds now are located"
-    )
+    reason = "only CARMEN logs and CSV tables can be followed while they are written, as text"
+    console.warn(f"{log}: {reason}; of this file the scans that it holds now are located")
     return False
 
 
 def live_scans_of(request: _Request, idle_s: float | None) -> Iterator[Scans]:
-    """Return the scans of a log that is still being written, one at a time, until none arrives for ``idle_s`` seconds.
-    Raises `BadInput` for a setting that such a log cannot have.
-    """
+    """Return the scans of a live log, one at a time, until none arrives for ``idle_s``. Refuses settings of others."""
     from bayesmap.io.live import live_scans
 
     console, log, settings = request.call.console, request.log, request.call.settings()
     for name in NOT_LIVE:
-        if (value := getattr(settings, name)) is not None:
+        value = getattr(settings, name)
+        if value is not None:
             raise BadInput(f"{log}: --{name.replace('_', '-')} {value}: a log that is followed has its own poses alone")
-    span = _span(request.span)
+    span = _slice_of(request.span)
     scans = live_scans(
         log, max_range_m=request.map.live_max_range_m, no_return=settings.no_return, idle_s=idle_s,
         skip_bad_lines=settings.skip_bad_lines, laser=log_options_of(settings)["laser"],
         on_skipped=lambda line, reason: console.say(f"{log}: line {line} left out: {reason}"),
         without_poses=request.independent,
     )  # fmt: skip
-    return itertools.islice(_thinned(scans, settings.thin_scans), span.start or 0, span.stop)
+    return itertools.islice(_thin(scans, settings.thin_scans), span.start or 0, span.stop)
 
 
-def _thinned(scans: Iterable[Scans], spacing_m: float) -> Iterator[Scans]:
+def _thin(scans: Iterable[Scans], spacing_m: float) -> Iterator[Scans]:
     """Yield the first scan, and then a scan each time the robot has travelled ``spacing_m``."""
-    travelled_m, last = math.inf, None
+    travelled_m, previous_position = math.inf, None
     for scan in scans:
-        travelled_m += 0.0 if last is None else math.dist(scan.poses[0, :2], last)
-        last = scan.poses[0, :2]
-        if travelled_m >= spacing_m * (1 - 1e-9):
+        position = scan.poses[0, :2]
+        travelled_m += 0.0 if previous_position is None else math.dist(position, previous_position)
+        previous_position = position
+        if travelled_m >= spacing_m * (1 - 1e-9):  # sums of steps round
             travelled_m = 0.0
             yield scan

@@ -1,4 +1,8 @@
-"""The entry point of the command line: install the Ctrl-C handler, then load and run the commands."""
+"""The entry point of the command line: install the Ctrl-C handler, then load and run the commands.
+
+Loading the commands takes a part of a second. A Ctrl-C in that time ends the process with one line, not a traceback.
+Once a command begins, Ctrl-C is an exception again, so that the command can save its work.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +12,7 @@ import os
 import signal
 import sys
 
-# Imports above run before the Ctrl-C handler is installed, so keep them few.
+# The imports above run before the Ctrl-C handler is installed, so keep them few.
 # NumPy and SciPy read this when they are loaded. Their threads wait for each other at matrices of a few numbers, which
 # takes more time than all our products of large ones.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
@@ -21,11 +25,8 @@ if TYPE_CHECKING:
 
 
 def main(arguments: list[str] | None = None) -> None:
-    """Run the command line and exit.
-
-    Ctrl-C before a command begins ends the process with one line, since there is nothing to save. Python's default
-    handler would print a traceback. A process that ignores Ctrl-C, as under nohup, still ignores it.
-    """
+    """Run the command line and exit. ``arguments`` are those of the process if None."""
+    # A process that ignores Ctrl-C, as under nohup, has another handler, and still ignores it.
     if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
         signal.signal(signal.SIGINT, _end_at_once)
     gc.set_threshold(MAX_ALLOCATIONS)

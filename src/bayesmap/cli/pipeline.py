@@ -1,4 +1,8 @@
-"""Infer one log into the folder of its run: read, split, load an earlier run, sample, finish, report; and its cost."""
+"""The steps of ``bayesmap infer`` for one log, several of which ``bayesmap slam`` shares.
+
+`prepare` checks the arguments and makes a `Task`. `infer_log` is the pipeline. Its steps follow in their order: read
+a log, load the run to resume, sample with checkpoints, report, finish. The estimates of time and memory come last.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +14,7 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from bayesmap.cli import translation
 from bayesmap.cli.command import Call, Layer, as_toml, read_file
-from bayesmap.cli.console import SETTING_UP, Console, counted, exit_unless_good, progress, stage
+from bayesmap.cli.console import SETTING_UP, Console, counted, exit_unless_good, progress_bar, stage_bar
 from bayesmap.cli.folder import Folder, run_document, work_done
 from bayesmap.cli.keys import InferSettings, SamplingSettings, SlamSettings
 from bayesmap.cli.translation import LOG, need_file
@@ -28,61 +32,6 @@ if TYPE_CHECKING:
     from bayesmap.space.scans import Scans
 
 
-def cost_of_infer(
-    settings: InferSettings, scans: Scans, grid: Grid | None = None, executor: Executor | None = None
-) -> Estimate | None:
-    """Estimate the cost of `infer`; None if it is not known."""
-    from bayesmap.api import Inference
-    from bayesmap.arguments import Where
-    from bayesmap.space.grid import Grid
-
-    grid = Grid.covering(scans, settings.resolution) if grid is None else grid
-    inference = Inference.of(
-        scans, grid, translation.prior_of(settings), translation.sensor_for(settings, grid.resolution),
-        translation.method_of(settings), translation.schedule_of(settings), settings.seed, None,
-        settings.hit_depth or 0.0, Where(settings.threads, settings.device, executor),
-    )  # fmt: skip
-    return inference.estimate()
-
-
-def cost_of_slam(settings: SlamSettings, scans: Scans) -> Estimate | None:
-    """Estimate the cost of `slam` from the poses of the log; None if it is not known."""
-    from bayesmap.api import estimate_slam
-    from bayesmap.arguments import Where
-
-    return estimate_slam(
-        scans, settings.resolution, translation.prior_of(settings),
-        translation.sensor_for(settings, settings.resolution),
-        True if settings.fast else False if settings.sample_poses else None, settings.no_odometry,
-        translation.schedule_of(settings), Where(settings.threads, settings.device),
-    )  # fmt: skip
-
-
-def announce(console: Console, estimate: Estimate | None) -> None:
-    """Print the estimate if the run is long or large."""
-    if estimate is not None and (estimate.is_long or estimate.is_large):
-        console.say(f"this takes {estimate.words()}")
-
-
-def cost_of_suggestion(suggestion: str | None, scans: Scans | None) -> dict[str, Any] | None:
-    """Return the cost of a suggested command as JSON values; None if it is not known."""
-    if suggestion is None or scans is None:
-        return None
-    slam = SlamSettings(no_odometry="--no-odometry" in suggestion.split())
-    try:
-        is_slam = suggestion.startswith("bayesmap slam")
-        cost = cost_of_slam(slam, scans) if is_slam else cost_of_infer(InferSettings(), scans)
-    except BadInput:  # the command itself says why
-        return None
-    if cost is None:
-        return None
-    return {
-        "seconds": cost.seconds, "cores": cost.cores, "memory_bytes": cost.memory,
-        "available_bytes": cost.available, "fits": not cost.is_too_large, "remedy": cost.remedy or None,
-        "words": cost.words(),
-    }  # fmt: skip
-
-
 S = TypeVar("S", bound=SamplingSettings)
 
 
@@ -96,13 +45,13 @@ class Task(Generic[S]):
 
 
 def prepare(call: Call[S], log: str, path: Path, *, resume: bool, force: bool, earlier: Layer | None = None) -> Task[S]:
-    """Return the task of one log, after checking the arguments. ``earlier`` are settings to resume, by default."""
+    """Return the task of one log, after checking the arguments. A fleet resumes its ``earlier`` settings."""
     need_file(log, f"{LOG} (bayesmap info FILE says what is in one)", runs=False)
     folder = Folder(path, call.console, resuming=resume)
     # Resume the settings of the run in the folder, or of the run that replaces it.
     config = folder.outdated_path if folder.outdated_path.exists() else folder.config_path
-    under = (settings_in(config, call.section) or earlier) if resume else None
-    settings = translation.completed(call.settings(under))
+    resumed = (settings_in(config, call.section) or earlier) if resume else None
+    settings = translation.completed(call.settings(resumed))
     folder.check(force=force)
     return Task(log, folder, settings)
 
@@ -114,13 +63,13 @@ def infer_log(
 ) -> dict[str, Any]:  # fmt: skip
     """Infer one log into its folder, print a report, and return the JSON document.
 
-    After Ctrl-C it prints ``resume_command``, and "finished" in the document is false. ``log`` is given if it has been
-    read already, ``executor`` runs the chains (None: this process), ``on_saved`` is called after each checkpoint.
+    ``log`` is given if it was read already. ``executor`` runs the chains; None: this process. After Ctrl-C the command
+    ``resume_command`` is printed. ``on_saved`` is called after each checkpoint, ``on_event`` with the progress.
     """
-    folder, every = task.folder, task.settings.holdout
+    folder, every = task.folder, task.settings.holdout  # every n-th scan is held out; 0: none
     # Read the log.
     if log is None:
-        log = read(folder.console, task.log, task.settings)
+        log = read_scan_log(folder.console, task.log, task.settings)
     if not (task.settings.poses_as_given or folder.resuming):
         refuse_odometry(task.log, log)
     # Split off the scans that are held out.
@@ -134,10 +83,10 @@ def infer_log(
         return keep_interrupted(folder, run, log, resume_command)
     # Finish: save the run, render it, export it, score it.
     document = finish(folder, run, log, heldout, every)
-    # Report.
+    # Report, and name commands to give next.
     file = str(folder.run_path)
-    score_or_explore = ["score", file, task.log, "--holdout", str(every)] if every else ["explore", file]
-    commands = [["app", file], score_or_explore, ["render", file]]
+    second = ["score", file, task.log, "--holdout", str(every)] if every else ["explore", file]
+    commands = [["app", file], second, ["render", file]]
     report(folder.console, document, commands=commands if resume_command else ())
     return document
 
@@ -152,7 +101,8 @@ def stem(log: str) -> str:
 
 def settings_in(config: Path, section: str) -> Layer:
     """Return a command's settings from a file; empty if there is no file."""
-    return {k: v for k, v in read_file(config).items() if k == section} if config.exists() else {}
+    layer = read_file(config) if config.exists() else {}
+    return {section: layer[section]} if section in layer else {}
 
 
 def load_interrupted(folder: Folder) -> Run | None:
@@ -167,19 +117,17 @@ def load_interrupted(folder: Folder) -> Run | None:
     return run
 
 
-def read(console: Console, path: str, settings: SamplingSettings, *, without_poses: bool = False) -> ScanLog:
+def read_scan_log(console: Console, path: str, settings: SamplingSettings, *, without_poses: bool = False) -> ScanLog:
     """Read a log, and print a summary of it."""
     from bayesmap.io.logs import describe_log
 
     options = translation.log_options_of(settings)
     log = describe_log(path, max_range_m=settings.max_range, without_poses=without_poses, **options)
-    scans, counts, code = log.scans, log.scans.counts(), log.no_return.code_m
-    code_words = "no code for no return" if code is None else f"{code:g} m is no return ({log.no_return.origin})"
-    console.say(
-        f"{path}: {len(scans):,} scans, {scans.n_beams:,} beams, "
-        f"{counts['hit']:,} hits up to {scans.max_range_m:g} m; {code_words}"
-    )
-    if counts["hit"] == 0:
+    scans, n_hits, code_m = log.scans, log.scans.counts()["hit"], log.no_return.code_m
+    code_words = "no code for no return" if code_m is None else f"{code_m:g} m is no return ({log.no_return.origin})"
+    size = f"{len(scans):,} scans, {scans.n_beams:,} beams, {n_hits:,} hits up to {scans.max_range_m:g} m"
+    console.say(f"{path}: {size}; {code_words}")
+    if n_hits == 0:
         console.warn(f"{path}: no reading is a hit, so there is no wall to find; check --max-range and --no-return")
     listed = log.skipped if console.verbose else log.skipped[:10]
     for skip in listed:
@@ -192,25 +140,25 @@ def read(console: Console, path: str, settings: SamplingSettings, *, without_pos
 
 
 def refuse_odometry(path: str, log: ScanLog) -> None:
-    """Raise `BadInput` for poses at which walls stand in several places, as raw odometry or in degrees."""
+    """Raise `BadInput` if walls appear in several places, as with poses of raw odometry, or with yaw in degrees."""
     from bayesmap.io.logs import DEGREES_QUESTION
     from bayesmap.poses.log_checks import DOUBLED, look_like_odometry
 
-    if look_like_odometry(log.scans):
-        for note in log.notes:
-            if note.endswith(DEGREES_QUESTION):
-                raise BadInput(f"{path}: {note} Convert it to radians; --poses-as-given takes the poses as they are")
-        raise BadInput(
-            f"{path}: {DOUBLED}, as with raw odometry; `bayesmap slam {path}` infers the trajectory, too (bayesmap "
-            "info says more). To take the poses as they are, add --poses-as-given"
-        )
+    if not look_like_odometry(log.scans):
+        return
+    for note in log.notes:
+        if note.endswith(DEGREES_QUESTION):
+            raise BadInput(f"{path}: {note} Convert it to radians; --poses-as-given takes the poses as they are")
+    remedy = f"`bayesmap slam {path}` infers the trajectory, too (bayesmap info says more)"
+    override = "To take the poses as they are, add --poses-as-given"
+    raise BadInput(f"{path}: {DOUBLED}, as with raw odometry; {remedy}. {override}")
 
 
 def sample(
     task: Task[InferSettings], scans: Scans, train: Scans, saved: Run | None, executor: Executor | None,
     on_saved: Callable[[], None], on_event: Callable[[Event], None],
 ) -> Run:  # fmt: skip
-    """Infer from the training scans, with checkpoints in the folder. The grid covers ``scans``, the whole log."""
+    """Infer from the training scans, or go on with ``saved``, with checkpoints. The grid covers all ``scans``."""
     from bayesmap.api import Event, infer
     from bayesmap.arguments import Checkpoints, Where
     from bayesmap.io.ros.maps import read_map
@@ -231,7 +179,7 @@ def sample(
     toml = as_toml({"infer": settings})
     if saved is None:
         announce(folder.console, cost_of_infer(settings, train, grid, executor))
-    with progress(folder.console, "tracing beams") as show:
+    with progress_bar(folder.console, "tracing beams") as show:
 
         def on_progress(event: Event) -> None:
             if event.stage not in SETTING_UP:
@@ -258,7 +206,7 @@ def sample(
 
 
 def document_of(run: Run, log: ScanLog, score: dict[str, Any] | None, outputs: list[Path]) -> dict[str, Any]:
-    """Return the JSON document of a run."""
+    """Return the JSON document of a run, with its log, its score on held-out scans, and the paths of its files."""
     names = {path.name: str(path) for path in outputs}
     return {**run_document(run), "heldout": score, "log": log.summary(), "outputs": names}
 
@@ -267,13 +215,11 @@ def report(
     console: Console, document: dict[str, Any], *, good: Sequence[str] = (), doubtful: Sequence[str] = (),
     commands: Sequence[Sequence[str]] = (),
 ) -> None:  # fmt: skip
-    """Print the work of a run, what is good, what is doubtful with its remedy, and commands to give next."""
+    """Print the work of a run, sentences about what is good or doubtful, and commands to give next."""
     seconds, joint, score = document["seconds"], document["log_joint"], document["heldout"]
     mean = "" if joint["mean"] is None else f"; log joint {joint['mean']:,.1f} on average"
-    console.say(
-        f"{document['method']}: {work_done(document)} over {document['incidences']:,} incidences "
-        f"in {seconds['total']:.1f} s{mean}"
-    )
+    work = f"{work_done(document)} over {document['incidences']:,} incidences in {seconds['total']:.1f} s"
+    console.say(f"{document['method']}: {work}{mean}")
     heldout = [f"held out: {score['nats_per_beam']:.4f} nats per beam over {score['beams']:,} beams"] if score else []
     for text in [*good, *document["good"], *heldout]:
         console.say(f"good: {text}")
@@ -313,13 +259,67 @@ def print_result(call: Call[Any], document: dict[str, Any], *, strict: bool) -> 
 
 
 def finish(folder: Folder, run: Run, log: ScanLog, heldout: Scans | None, every: int) -> dict[str, Any]:
-    """Save, render and score a finished run, write its JSON document, and return the document."""
+    """Save, render and score a finished run on each ``every``-th scan, and write and return its JSON document."""
     outputs, score = folder.write_products(run), None
     if heldout is not None:
-        with stage(folder.console, "score") as on_progress:
+        with stage_bar(folder.console, "score") as on_progress:
             nats = run.log_score(heldout, on_progress=on_progress)
         score = {"every": every, "beams": heldout.n_beams - heldout.counts()["invalid"], "nats_per_beam": nats}
-    with progress(folder.console, "comparing the chains"):
+    with progress_bar(folder.console, "comparing the chains"):
         document = document_of(run, log, score, [*outputs, folder.path / "summary.json", folder.config_path])
     folder.write_document(document)
     return document
+
+
+def cost_of_infer(
+    settings: InferSettings, scans: Scans, grid: Grid | None = None, executor: Executor | None = None
+) -> Estimate | None:
+    """Estimate the cost of `infer`; None if it is not known."""
+    from bayesmap.api import ChosenLaws, Inference
+    from bayesmap.arguments import Where
+    from bayesmap.space.grid import Grid
+
+    grid = Grid.covering(scans, settings.resolution) if grid is None else grid
+    prior, sensor = translation.prior_of(settings), translation.sensor_for(settings, grid.resolution)
+    inference = Inference.of(
+        scans, grid, ChosenLaws(prior, sensor, None, settings.hit_depth or 0.0), translation.method_of(settings),
+        translation.schedule_of(settings), settings.seed, Where(settings.threads, settings.device, executor),
+    )  # fmt: skip
+    return inference.estimate()
+
+
+def cost_of_slam(settings: SlamSettings, scans: Scans) -> Estimate | None:
+    """Estimate the cost of `slam` from the poses of the log; None if it is not known."""
+    from bayesmap.api import ChosenLaws, estimate_slam
+    from bayesmap.arguments import Where
+
+    laws = ChosenLaws(translation.prior_of(settings), translation.sensor_for(settings, settings.resolution))
+    return estimate_slam(
+        scans, settings.resolution, laws, translation.fast_of(settings), settings.no_odometry,
+        translation.schedule_of(settings), Where(settings.threads, settings.device),
+    )  # fmt: skip
+
+
+def announce(console: Console, estimate: Estimate | None) -> None:
+    """Print the estimate if the run is long or large."""
+    if estimate is not None and (estimate.is_long or estimate.is_large):
+        console.say(f"this takes {estimate.words()}")
+
+
+def cost_of_suggestion(suggestion: str | None, scans: Scans | None) -> dict[str, Any] | None:
+    """Return the cost of a suggested command as JSON values; None if it is not known."""
+    if suggestion is None or scans is None:
+        return None
+    slam = SlamSettings(no_odometry="--no-odometry" in suggestion.split())
+    try:
+        is_slam = suggestion.startswith("bayesmap slam")
+        cost = cost_of_slam(slam, scans) if is_slam else cost_of_infer(InferSettings(), scans)
+    except BadInput:  # the command itself says why
+        return None
+    if cost is None:
+        return None
+    return {
+        "seconds": cost.seconds, "cores": cost.cores, "memory_bytes": cost.peak_bytes,
+        "available_bytes": cost.available_bytes, "fits": not cost.is_too_large, "remedy": cost.remedy or None,
+        "words": cost.words(),
+    }  # fmt: skip

@@ -1,4 +1,8 @@
-"""``bayesmap render`` and ``bayesmap export``: write a saved run as pictures, films, and files for other programs."""
+"""``bayesmap render`` and ``bayesmap export``: write a saved run as pictures, films, and files for other programs.
+
+`render` draws pictures of the whole map (`_whole_figure`), a panel (`_panel`), held-out beams (`_beams_figure`), or a
+film. The next functions select what it shows. `export` leaves the formats to `bayesmap.io.exports`.
+"""
 
 from __future__ import annotations
 
@@ -10,9 +14,9 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from bayesmap.cli.command import FORCE, Call, command
-from bayesmap.cli.console import share
+from bayesmap.cli.console import share_bar
 from bayesmap.cli.keys import ExportSettings, RenderSettings
-from bayesmap.cli.translation import heldout_scans, need_free
+from bayesmap.cli.translation import NO_MOUNT, heldout_scans, need_free
 from bayesmap.errors import BadInput
 
 if TYPE_CHECKING:
@@ -25,8 +29,9 @@ if TYPE_CHECKING:
     from bayesmap.space.scans import Scans
 
     Walls = NDArray[np.bool_]
+    Window = tuple[slice, slice]  # the cells of a part of the map
 
-WHOLE = ("figure", "animation", "trace", "weights")  # pictures that always show the whole map
+WITHOUT_WINDOW = ("figure", "animation", "trace", "weights")  # pictures that always show the whole map
 
 
 @command("render")
@@ -60,120 +65,120 @@ def render(
     from bayesmap.viz.figure import write_figure
 
     settings = call.settings()
-    what = settings.what
-    target = Path(output or Path(run_file).with_name(default_name(what)))
-    need_free([target], force)
+    kind = settings.what
+    target = Path(output or Path(run_file).with_name(default_name(kind)))
+    need_free([target], force=force)
     run = load(run_file)
     # Methods that compute marginals have a map without draws; chains in warm-up have none.
-    if run.n_draws == 0 and (what in ("draw", "animation") or run.posterior.has_chains):
+    if run.n_draws == 0 and (kind in ("draw", "animation") or run.posterior.has_chains):
         raise _without_draws(run_file, run)
-    if settings.window is not None and what in WHOLE:
-        raise BadInput(f"window: {what} shows the whole map; a single panel, such as --what mean, takes a window")
+    if settings.window is not None and kind in WITHOUT_WINDOW:
+        raise BadInput(f"window: {kind} shows the whole map; a single panel, such as --what mean, takes a window")
     # Choose the part of the map, and render it.
     grid, window = parse_window(run, settings.window)
     walls = None if truth is None else truth_on(grid, truth)
-    if what == "animation":
+    if kind == "animation":
         from bayesmap.viz.animation import write_animation
 
-        draws, numbers = frames(run, settings.chain, settings.frames)
+        draws, numbers = select_frames(run, settings.chain, settings.frames)
         write_animation(target, run.grid, draws, observed=run.observed, truth=walls, sweeps=numbers)
-    elif what in ("residuals", "surprise"):
+    elif kind in ("residuals", "surprise"):
         if heldout is None:
-            raise BadInput(f"{what} needs the log of scans that the run did not use: give --heldout LOG")
+            raise BadInput(f"{kind} needs the log of scans that the run did not use: give --heldout LOG")
         scans = heldout_scans(run, heldout, settings, settings.holdout)
-        with share(call.console, "predicting held-out beams") as report:
-            write_figure(_beams_figure(run, scans, what, grid, window, report), target)
-    elif what in WHOLE:
+        with share_bar(call.console, "predicting held-out beams") as report:
+            write_figure(_beams_figure(run, scans, kind, grid, window, report), target)
+    elif kind in WITHOUT_WINDOW:
         write_figure(_whole_figure(run, settings, walls), target)
     else:
         write_figure(_panel(run, settings, grid, window, walls), target)
-    call.console.result({"what": what, "run": run_file, "outputs": {target.name: str(target)}}, [target])
+    call.console.result({"what": kind, "run": run_file, "outputs": {target.name: str(target)}}, [target])
 
 
-def default_name(what: str) -> str:
+def default_name(kind: str) -> str:
     """Return the name of a picture that the user has not named. `infer` and `slam` write surfaces.png themselves."""
-    return f"{what}.gif" if what == "animation" else f"{'strokes' if what == 'surfaces' else what}.png"
+    return f"{kind}.gif" if kind == "animation" else f"{'strokes' if kind == 'surfaces' else kind}.png"
 
 
 def _whole_figure(run: Run, settings: RenderSettings, walls: Walls | None) -> Figure:
+    """Render the trace, the importance weights, or the four panels of the whole map with true walls, (nx, ny)."""
     from bayesmap.viz.diagnostics import trace_figure, weights_figure
 
     if settings.what == "trace":
         return trace_figure(run.log_joint, first_sweep=run.posterior.settings["warmup"] + 1)
     if settings.what == "weights":
         return weights_figure(run.log_weights)
-    options = {"draw": one_draw(run, settings.chain, settings.draw)} if run.n_draws else {}
+    options = {"draw": select_draw(run, settings.chain, settings.draw)} if run.n_draws else {}
     return run.plot(truth=walls, **options)
 
 
-def _panel(run: Run, settings: RenderSettings, grid: Grid, window: tuple[slice, slice], walls: Walls | None) -> Figure:
+def _panel(run: Run, settings: RenderSettings, grid: Grid, window: Window, walls: Walls | None) -> Figure:
+    """Render one panel of a window of the map, whose cells are ``grid``."""
     from bayesmap.viz.figure import panel_figure
     from bayesmap.viz.overlays import surfaces_figure
 
-    what, label = settings.what, run.posterior.prior.words.mean
+    kind, label = settings.what, run.posterior.prior.words.mean
     values, observed = run.occupancy[window], run.observed[window]
-    if what == "surfaces":
+    if kind == "surfaces":
         return surfaces_figure(grid, *run.surfaces(), observed)
-    if what == "log-odds":
+    if kind == "log-odds":
         from bayesmap.viz.figure import Candidate, comparison_figure
 
-        log_odds, seen = log_odds_map(run)
+        log_odds, counted_cells = log_odds_map(run)
         posterior = Candidate(f"posterior: {label}", values, observed)
-        maps = [Candidate("log-odds", log_odds[window], seen[window]), posterior]
+        maps = [Candidate("log-odds", log_odds[window], counted_cells[window]), posterior]
         return comparison_figure(grid, maps, label="chance that a cell stops a beam")
-    if what == "deviation" and run.posterior.prior.has_interval:
+    if kind == "deviation" and run.posterior.prior.has_interval:
         raise BadInput("deviation is for binary walls; --what width shows how sure a reflectivity is")
-    if what == "width":
+    if kind == "width":
         if not run.posterior.prior.has_interval:
             raise BadInput("width: a wall has no interval; --what entropy or deviation shows how sure it is")
         run.interval(0.9)  # raises `BadInput` for a run without draws
         values = run.posterior.prior.width(run.posterior.draws, 0.9)[window]
     elif run.n_draws:
-        draw = one_draw(run, settings.chain, settings.draw)
-        values = draw[window] if what == "draw" else values
-    return panel_figure(grid, what, values, observed, truth=walls, label=label)
+        draw = select_draw(run, settings.chain, settings.draw)  # refuses a missing draw also for other panels
+        values = draw[window] if kind == "draw" else values
+    return panel_figure(grid, kind, values, observed, truth=walls, label=label)
 
 
 def _beams_figure(
-    run: Run, scans: Scans, what: str, grid: Grid, window: tuple[slice, slice], on_progress: Callable[[float], None]
+    run: Run, scans: Scans, kind: str, grid: Grid, window: Window, on_progress: Callable[[float], None]
 ) -> Figure:
     """Render the end points of held-out beams over the map, coloured by residual in metres or by surprise in nats."""
     from bayesmap.posterior.prediction import predictor_of, residuals_of
     from bayesmap.viz.scores import residuals_figure, surprise_scale
 
     residuals = residuals_of(predictor_of(run.posterior), scans, on_progress=on_progress)
-    values = residuals.residual_m if what == "residuals" else residuals.surprise_nats
-    scale = surprise_scale(values) if what == "surprise" else None
+    values = residuals.residual_m if kind == "residuals" else residuals.surprise_nats
+    scale = surprise_scale(values) if kind == "surprise" else None
     mean, observed = run.occupancy[window], run.observed[window]
     return residuals_figure(grid, mean, residuals.ends_world, values, observed, scale=scale)
 
 
-def one_draw(run: Run, chain: int, draw: int) -> NDArray[Any]:
-    """Return a draw, (nx, ny): walls, or reflectivities. Numbers count from 1, and draw -1 is the last. Raises
-    `BadInput` if the run has no such draw.
-    """
-    chains, draws = run.log_joint.shape
-    if not 1 <= chain <= chains:
-        raise BadInput(f"chain {chain}: this run has chains 1 to {chains}")
-    if not (1 <= draw <= draws or -draws <= draw <= -1):
-        choices = f"; give 1 to {draws}, or -1 for the last" if draws else ""
-        raise BadInput(f"draw {draw}: this run has {draws:,} draws a chain{choices}")
-    return run.map_of(chain - 1, draw - (draw > 0))
+def select_draw(run: Run, chain: int, draw: int) -> NDArray[Any]:
+    """Return a draw, (nx, ny). Numbers count from 1; draw -1 is the last. Raises `BadInput` without such a draw."""
+    n_chains, n_draws = run.log_joint.shape
+    if not 1 <= chain <= n_chains:
+        raise BadInput(f"chain {chain}: this run has chains 1 to {n_chains}")
+    if not (1 <= draw <= n_draws or -n_draws <= draw <= -1):
+        choices = f"; give 1 to {n_draws}, or -1 for the last" if n_draws else ""
+        raise BadInput(f"draw {draw}: this run has {n_draws:,} draws a chain{choices}")
+    return run.map_of(chain - 1, draw - 1 if draw > 0 else draw)
 
 
-def frames(run: Run, chain: int, most: int) -> tuple[NDArray[Any], list[int]]:
-    """Return at most ``most`` evenly spaced draws of a chain, and their numbers, from 1."""
+def select_frames(run: Run, chain: int, max_frames: int) -> tuple[NDArray[Any], list[int]]:
+    """Return at most ``max_frames`` evenly spaced draws of a chain, (frames, nx, ny), and their numbers, from 1."""
     import numpy as np
 
     from bayesmap.space.arrays import evenly_spaced_indices
 
-    one_draw(run, chain, -1)  # raises `BadInput` for a chain that is not there
-    numbers = evenly_spaced_indices(run.n_draws, most).tolist()
-    return np.stack([run.map_of(chain - 1, i) for i in numbers]), [i + 1 for i in numbers]
+    select_draw(run, chain, -1)  # raises `BadInput` for a chain that is not there
+    indices = evenly_spaced_indices(run.n_draws, max_frames).tolist()
+    return np.stack([run.map_of(chain - 1, index) for index in indices]), [index + 1 for index in indices]
 
 
 def truth_on(grid: Grid, path: str) -> Walls:
-    """Return the walls of a map_server map at the cell centres of a grid, (nx, ny); none outside that map."""
+    """Return the walls of a map_server map at the cell centres of a grid, (nx, ny); no walls outside of that map."""
     import numpy as np
 
     from bayesmap.io.ros.maps import read_map
@@ -187,11 +192,8 @@ def truth_on(grid: Grid, path: str) -> Walls:
     return walls
 
 
-def parse_window(run: Run, text: str | None) -> tuple[Grid, tuple[slice, slice]]:
-    """Return the grid and the slices of the window "X0,X1,Y0,Y1" in metres, or "observed", or of the whole map if None.
-
-    Raises `BadInput` for another text.
-    """
+def parse_window(run: Run, text: str | None) -> tuple[Grid, Window]:
+    """Return grid and slices of the window "X0,X1,Y0,Y1" in metres, or "observed", or of the whole map if None."""
     from bayesmap.viz.maps import window, window_around
 
     if text is None:
@@ -199,7 +201,7 @@ def parse_window(run: Run, text: str | None) -> tuple[Grid, tuple[slice, slice]]
     if text == "observed":
         return window_around(run.grid, run.observed)
     try:
-        x0, x1, y0, y1 = (float(part) for part in text.split(","))
+        x0, x1, y0, y1 = (float(number) for number in text.split(","))
     except ValueError:
         raise BadInput(f"window {text!r}: give X0,X1,Y0,Y1 in metres, such as 0,10,-5,5, or: observed") from None
     return window(run.grid, (x0, x1), (y0, y1))
@@ -208,13 +210,13 @@ def parse_window(run: Run, text: str | None) -> tuple[Grid, tuple[slice, slice]]
 def _without_draws(run_file: str, run: Run) -> BadInput:
     """Return the error for a run that was stopped before its first draw, with the command that resumes it."""
     command = "infer" if run.trajectory is None else "slam"
-    go_on = f"bayesmap {command} LOG -o {shlex.quote(str(Path(run_file).parent))} --resume"
-    also = "" if run.trajectory is None else "; its trajectory can be exported already, as with -o trajectory.tum"
-    return BadInput(f"{run_file}: the run has no draws yet; go on with it by {go_on}{also}")
+    resume_command = f"bayesmap {command} LOG -o {shlex.quote(str(Path(run_file).parent))} --resume"
+    hint = "" if run.trajectory is None else "; its trajectory can be exported already, as with -o trajectory.tum"
+    return BadInput(f"{run_file}: the run has no draws yet; go on with it by {resume_command}{hint}")
 
 
 def log_odds_map(run: Run) -> tuple[NDArray[np.float64], Walls]:
-    """Compute the log-odds map of the run's scans, with OctoMap's numbers, unclamped, and a mask of the seen cells."""
+    """Compute the log-odds map, (nx, ny), with OctoMap's numbers, unclamped, and a mask of the crossed cells."""
     from bayesmap.kernels.rays import count_hits
     from bayesmap.posterior.baselines import log_odds_as_usual
 
@@ -252,23 +254,20 @@ def export(call: Call[ExportSettings], run_file: str, output: str | None, force:
     from bayesmap.result import load
 
     settings = call.settings()
-    kind = None if settings.format == "auto" else settings.format
+    chosen_format = None if settings.format == "auto" else settings.format
     target = output or str(Path(run_file).with_name("export.yaml"))
-    older = path_to_replace(target, kind)
-    need_free([] if older is None else [older], force)
+    existing_file = path_to_replace(target, chosen_format)
+    need_free([] if existing_file is None else [existing_file], force=force)
     if not Path(target).parent.is_dir():
         raise BadInput(f"{Path(target).parent}: no such folder; make it first, or choose another with -o")
     run = load(run_file)
-    is_trajectory = export_format(target, kind) in TRAJECTORIES
+    is_trajectory = export_format(target, chosen_format) in TRAJECTORIES
     if np.isnan(run.occupancy).any() and not (is_trajectory and run.trajectory is not None):
         raise _without_draws(run_file, run)
     if run.posterior.scans.mount is None and settings.frame is None and is_trajectory:
-        call.console.say(
-            f"{run_file}: nothing in it says where the laser sits on the robot, as in runs of older versions: these "
-            "are poses of the laser"
-        )
+        call.console.say(f"{run_file}: {NO_MOUNT}: these are poses of the laser")
     outputs = run.export(
-        target, format=kind, mode=settings.mode, occupied_thresh=settings.occupied_thresh,
+        target, format=chosen_format, mode=settings.mode, occupied_thresh=settings.occupied_thresh,
         free_thresh=settings.free_thresh, frame=settings.frame,
     )  # fmt: skip
     call.console.result({"run": run_file, "outputs": {path.name: str(path) for path in outputs}}, outputs)

@@ -1,4 +1,8 @@
-"""``bayesmap simulate``: write the log of a robot in a known world, and the true map and trajectory."""
+"""``bayesmap simulate``: write the log of a robot in a known world, and the true map and trajectory.
+
+`simulate` completes the settings, makes the world (`world_of`), draws the scans and the poses of odometry, and writes
+the log: a CARMEN log of scans, or an MCAP recording of a driving robot, each with defaults of its own.
+"""
 
 from __future__ import annotations
 
@@ -14,7 +18,7 @@ from bayesmap.cli import translation
 from bayesmap.cli.command import FORCE, Call, command
 from bayesmap.cli.folder import grid_document
 from bayesmap.cli.keys import SimulateSettings
-from bayesmap.cli.translation import MAPS, is_map, need_free, odometry_of, pose_of, sensor_of
+from bayesmap.cli.translation import MAP_ENDINGS, is_map, need_free, odometry_of, pose_of, sensor_of
 from bayesmap.errors import BadInput
 
 if TYPE_CHECKING:
@@ -23,6 +27,9 @@ if TYPE_CHECKING:
 
     from bayesmap.sensors.model import SensorModel
     from bayesmap.space.grid import Grid
+    from bayesmap.space.scans import Scans
+
+    Floats = NDArray[np.float64]
 
 TURN_RAD_PER_S = 1.0  # turning rate of a simulated robot, used for the time stamps
 
@@ -34,7 +41,7 @@ LOG_DEFAULTS: dict[str, Any] = {"world": "tutorial", "odometry": "true", "laser"
 RECORDING_DEFAULTS: dict[str, Any] = {"world": "building", "odometry": "typical", "laser": "-0.1,0.03,180"}
 RECORDING_DEFAULTS |= {"angles": 720, "fov": 360.0, "max_range": 12.0}
 
-IMAGES = (".png", ".pgm", ".ppm", ".pbm", ".jpg", ".jpeg", ".bmp", ".gif", ".tif", ".tiff", ".webp")
+IMAGE_ENDINGS = (".png", ".pgm", ".ppm", ".pbm", ".jpg", ".jpeg", ".bmp", ".gif", ".tif", ".tiff", ".webp")
 
 
 @command("simulate")
@@ -63,33 +70,24 @@ def simulate(call: Call[SimulateSettings], output: str | None, poses: tuple[str,
     {sensors}
     """
     settings = call.settings()
-    # Check the arguments.
-    recorded = settings.format == "mcap" if output is None else Path(output).suffix == ".mcap"
-    if output is not None and settings.format not in (None, "mcap" if recorded else "carmen"):
+    # Check the arguments, and name the files.
+    is_recording = settings.format == "mcap" if output is None else Path(output).suffix == ".mcap"
+    if output is not None and settings.format not in (None, "mcap" if is_recording else "carmen"):
         raise click.UsageError(f"-o {output}: the name of a log of --format {settings.format} ends differently")
-    defaults = RECORDING_DEFAULTS if recorded else LOG_DEFAULTS
-    settings = msgspec.structs.replace(settings, **{k: v for k, v in defaults.items() if getattr(settings, k) is None})
-    assert isinstance(settings.world, str)
-    assert isinstance(settings.odometry, str)
-    assert isinstance(settings.laser, str)
-    minutes = settings.minutes
-    if recorded and minutes is None and settings.world == "building" and not poses:
-        minutes = 2.0
-    if minutes is not None and (settings.world != "building" or poses):
-        raise BadInput("--minutes: the robot drives in --world building, without --pose, only")
-    noise, mount = odometry_of(settings.odometry), pose_of(settings.laser, "--laser")
-    log = Path(output or f"{Path(settings.world).stem}{'.mcap' if recorded else '.log'}")
-    if not {".log", ".gz", ".mcap"} & {log.suffix}:
+    settings = _completed(settings, is_recording=is_recording, has_poses=bool(poses))
+    noise, mount = odometry_of(str(settings.odometry)), pose_of(str(settings.laser), "--laser")
+    log = Path(output or f"{Path(str(settings.world)).stem}{'.mcap' if is_recording else '.log'}")
+    if log.suffix not in (".log", ".gz", ".mcap"):
         raise click.UsageError(f"-o {log}: the name of a log ends in .log, .log.gz or .mcap")
     stem = log.name.removesuffix(".gz").removesuffix(".log").removesuffix(".mcap")
-    truth, relations = log.with_name(f"{stem}-truth.yaml"), log.with_name(f"{stem}.relations")
-    trajectory = truth.with_suffix(".tum")
-    need_free([log, truth, truth.with_suffix(".pgm"), *([] if noise is None else [trajectory, relations])], force)
+    true_map, relations = log.with_name(f"{stem}-truth.yaml"), log.with_name(f"{stem}.relations")
+    trajectory, image = true_map.with_suffix(".tum"), true_map.with_suffix(".pgm")
+    need_free([log, true_map, image, *([] if noise is None else [trajectory, relations])], force=force)
     sensor = sensor_of(settings.sensor)
-    # Make the world and the sensor.
-    world = world_of(settings, poses, minutes)
+    # Make the world and the sensor, and draw the scans.
+    world = world_of(settings, poses)
     sensor = world.sensor() if sensor is None else sensor
-    max_range_m = world.max_range_m if settings.max_range is None else settings.max_range
+    scans = _draw_scans(settings, world, mount, sensor)
 
     import numpy as np
 
@@ -97,59 +95,82 @@ def simulate(call: Call[SimulateSettings], output: str | None, poses: tuple[str,
     from bayesmap.io.ros.writer import write_scans
     from bayesmap.io.text.carmen import write_carmen
     from bayesmap.sensors.model import describe
-    from bayesmap.sim import forward
     from bayesmap.sim.robot import simulate_odometry, travel_times_s
     from bayesmap.space.planar import compose
-    from bayesmap.space.scans import fan
 
-    n_beams = world.beams if settings.angles is None else settings.angles
-    angles = fan(n_beams, world.fov_deg if settings.fov is None else settings.fov)
-    # Draw the scans.
-    base = world.poses
-    laser = compose(base, np.array(mount)) if any(mount) else base
-    scans = forward.simulate(
-        world.walls, world.grid, laser, angles, sensor=sensor, max_range_m=max_range_m, seed=settings.seed,
-        opacity=world.opacity, typed=True,
-    )  # fmt: skip
     # Draw the poses of odometry, and put them into the log.
-    stamps_s = world.stamps_s
-    if stamps_s is None and (recorded or noise is not None):
+    base, stamps_s = world.poses, world.stamps_s
+    if stamps_s is None and (is_recording or noise is not None):
         stamps_s = travel_times_s(base, settings.speed, TURN_RAD_PER_S)
     if stamps_s is not None:
-        stamps_s = stamps_s + (START_S if recorded else 0.0)
+        stamps_s = stamps_s + (START_S if is_recording else 0.0)
         if noise is not None:
             base = simulate_odometry(base, noise, stamps_s=stamps_s, seed=settings.seed)
         scans = replace(scans, poses=compose(base, np.array(mount)), stamps_s=stamps_s)
     # Write the log and the truth.
     log.parent.mkdir(parents=True, exist_ok=True)
-    if recorded:
+    if is_recording:
         message = "/scan, /tf and /tf_static"
         write_scans(log, scans, base, mount)
     else:
         message = write_carmen(log, scans, base)
-    outputs = [log, *write_map(truth, world.walls.astype(float), world.grid)]
+    outputs = [log, *write_map(true_map, world.walls.astype(float), world.grid)]
     if noise is not None:
         assert stamps_s is not None
-        outputs += _write_truth(trajectory, relations, world.poses, stamps_s, settings.seed)
+        outputs += _write_true_poses(trajectory, relations, world.poses, stamps_s, settings.seed)
     # Print the result.
     grid = world.grid
     document = {
         "world": settings.world, "grid": grid_document(grid), "scans": len(scans), "beams": scans.n_beams,
-        "readings": scans.counts(), "message": message,
-        "max_range_m": max_range_m, "sensor": describe(sensor), "odometry": None if noise is None else asdict(noise),
-        "laser": list(mount), "seed": settings.seed, "outputs": {path.name: str(path) for path in outputs},
+        "readings": scans.counts(), "message": message, "max_range_m": scans.max_range_m, "sensor": describe(sensor),
+        "odometry": None if noise is None else asdict(noise), "laser": list(mount), "seed": settings.seed,
+        "outputs": {path.name: str(path) for path in outputs},
     }  # fmt: skip
     poses_kind = "true poses" if noise is None else "raw odometry"
-    call.console.say(
-        f"{log}: {len(scans):,} scans of {len(angles)} beams ({message}, {poses_kind}) in {settings.world}, "
-        f"{grid.shape[0]} x {grid.shape[1]} cells of {grid.resolution:g} m"
-    )
+    size = f"{len(scans):,} scans of {scans.ranges_m.shape[1]} beams"
+    cells = f"{grid.shape[0]} x {grid.shape[1]} cells of {grid.resolution:g} m"
+    call.console.say(f"{log}: {size} ({message}, {poses_kind}) in {settings.world}, {cells}")
     call.console.result(document, outputs)
 
 
-def _write_truth(
-    trajectory: Path, relations: Path, base: NDArray[np.float64], stamps_s: NDArray[np.float64], seed: int,
-) -> list[Path]:  # fmt: skip
+simulate.help = (simulate.help or "").format(sensors=translation.SENSOR_HELP, odometry=translation.ODOMETRY_HELP)
+
+
+def _completed(settings: SimulateSettings, *, is_recording: bool, has_poses: bool) -> SimulateSettings:
+    """Return the settings with the defaults of a recording or a log. Raises `BadInput` for unused minutes."""
+    defaults = RECORDING_DEFAULTS if is_recording else LOG_DEFAULTS
+    unset = {name: value for name, value in defaults.items() if getattr(settings, name) is None}
+    settings = msgspec.structs.replace(settings, **unset)
+    drives = settings.world == "building" and not has_poses
+    if settings.minutes is not None and not drives:
+        raise BadInput("--minutes: the robot drives in --world building, without --pose, only")
+    if settings.minutes is None and is_recording and drives:
+        settings = msgspec.structs.replace(settings, minutes=2.0)
+    return settings
+
+
+def _draw_scans(
+    settings: SimulateSettings, world: World, mount: tuple[float, float, float], sensor: SensorModel
+) -> Scans:
+    """Draw a scan from each pose of the world. ``mount`` is the pose of the laser on the robot."""
+    import numpy as np
+
+    from bayesmap.sim import forward
+    from bayesmap.space.planar import compose
+    from bayesmap.space.scans import fan
+
+    n_beams = world.n_beams if settings.angles is None else settings.angles
+    angles_rad = fan(n_beams, world.fov_deg if settings.fov is None else settings.fov)
+    laser_poses = compose(world.poses, np.array(mount)) if any(mount) else world.poses  # composing may round
+    max_range_m = world.max_range_m if settings.max_range is None else settings.max_range
+    return forward.simulate(
+        world.walls, world.grid, laser_poses, angles_rad, sensor=sensor, max_range_m=max_range_m, seed=settings.seed,
+        opacity=world.opacity, typed=True,
+    )  # fmt: skip
+
+
+def _write_true_poses(trajectory: Path, relations: Path, base: Floats, stamps_s: Floats, seed: int) -> list[Path]:
+    """Write true poses of the base, (S, 3), at their times, (S,), and relations between them. Returns the paths."""
     from bayesmap.io.text.trajectories import write_relations, write_trajectory
     from bayesmap.sim.robot import related_pairs
     from bayesmap.space.planar import between
@@ -168,11 +189,11 @@ class World:
 
     walls: NDArray[np.bool_]  # true walls, (nx, ny)
     grid: Grid
-    poses: NDArray[np.float64]  # poses of the robot, (S, 3)
-    stamps_s: NDArray[np.float64] | None = None  # time of each pose, (S,), where the robot drives
-    opacity: NDArray[np.float64] | None = None  # probability that a wall stops a beam, (nx, ny); None if all do
+    poses: Floats  # poses of the robot's base in the world frame, (S, 3)
+    stamps_s: Floats | None = None  # time of each pose, (S,), where the robot drives
+    opacity: Floats | None = None  # probability that a wall stops a beam, (nx, ny); None if all do
     is_tutorial: bool = False  # whether the sensor is the tutorial's
-    beams: int = 180
+    n_beams: int = 180
     fov_deg: float = 180.0
     max_range_m: float = 30.0
 
@@ -186,10 +207,8 @@ class World:
         return BeamMixture(Gaussian(LASER_SIGMA_M, LASER_SIGMA_PER_M), p_random=P_RANDOM)
 
 
-def world_of(settings: SimulateSettings, poses: Sequence[str], minutes: float | None = None) -> World:
-    """Return the world that the settings name, with the robot at the typed poses, or driving for ``minutes``. Raises
-    `BadInput` for a file that is no world, or an invalid size or pose, and `click.UsageError` for a file without pose.
-    """
+def world_of(settings: SimulateSettings, poses: Sequence[str]) -> World:
+    """Return the world that the settings name, with the robot at the typed poses, or driving. Refuses a wrong world."""
     import numpy as np
 
     name, resolution = settings.world or "tutorial", settings.resolution
@@ -197,16 +216,17 @@ def world_of(settings: SimulateSettings, poses: Sequence[str], minutes: float | 
     if name == "tutorial":
         return _tutorial(resolution, typed_poses)
     if name == "building":
-        return _building(settings, typed_poses, minutes)
+        return _building(settings, typed_poses)
     path = Path(name)
     if not path.is_file():
         raise BadInput(f"world {name!r}: no such file; give tutorial, building, a drawing, picture or map_server YAML")
     if typed_poses is None:
         raise click.UsageError(f"where is the robot in {name}? give --pose X,Y,DEGREES, once for each scan")
-    return World(*_from_file(path, resolution), typed_poses)
+    return World(*_read_walls(path, resolution), typed_poses)
 
 
-def _tutorial(resolution: float | None, typed_poses: NDArray[np.float64] | None) -> World:
+def _tutorial(resolution: float | None, typed_poses: Floats | None) -> World:
+    """Return the tutorial's world, with cells of another size if there is a resolution."""
     from bayesmap.sim.drawing import TUTORIAL_GRID, tutorial
     from bayesmap.space.grid import Grid
 
@@ -216,23 +236,25 @@ def _tutorial(resolution: float | None, typed_poses: NDArray[np.float64] | None)
         grid = Grid(grid.shape, resolution, (-resolution / 2, -resolution / 2))
         poses = poses * (resolution, resolution, 1.0)
     poses = poses if typed_poses is None else typed_poses
-    return World(walls, grid, poses, is_tutorial=True, beams=100, fov_deg=360.0, max_range_m=42.0)
+    return World(walls, grid, poses, is_tutorial=True, n_beams=100, fov_deg=360.0, max_range_m=42.0)
 
 
-def _building(settings: SimulateSettings, typed_poses: NDArray[np.float64] | None, minutes: float | None) -> World:
+def _building(settings: SimulateSettings, typed_poses: Floats | None) -> World:
+    """Return a building, in which the robot drives for some minutes, patrols, or stands at the typed poses."""
     from bayesmap.sim.building import building
     from bayesmap.sim.robot import drive, patrol
 
     plan, stamps_s = building(settings.seed, _size(settings.size), settings.resolution or 0.1), None
-    if minutes is not None:
+    if settings.minutes is not None:
         speeds = {"speed_m_per_s": settings.speed, "turn_rad_per_s": TURN_RAD_PER_S}
-        stamps_s, poses = drive(plan, 60.0 * minutes, RATE_HZ, **speeds, seed=settings.seed)
+        stamps_s, poses = drive(plan, 60.0 * settings.minutes, RATE_HZ, **speeds, seed=settings.seed)
     else:
         poses = patrol(plan, settings.scans, settings.seed) if typed_poses is None else typed_poses
     return World(plan.walls, plan.grid, poses, stamps_s, plan.opacity)
 
 
-def _from_file(path: Path, resolution: float | None) -> tuple[NDArray[np.bool_], Grid]:
+def _read_walls(path: Path, resolution: float | None) -> tuple[NDArray[np.bool_], Grid]:
+    """Read walls, (nx, ny), and their grid from a map_server map, a picture or a text drawing."""
     from bayesmap.io.ros.maps import from_image
     from bayesmap.sim.drawing import from_text
     from bayesmap.space.grid import Grid
@@ -242,13 +264,14 @@ def _from_file(path: Path, resolution: float | None) -> tuple[NDArray[np.bool_],
 
         occupancy, grid = read_map(path)
         return occupancy > 0.5, grid if resolution is None else Grid(grid.shape, resolution, grid.origin)
-    if path.suffix.lower() in IMAGES:
+    if path.suffix.lower() in IMAGE_ENDINGS:
         walls = from_image(path)
         return walls, Grid(walls.shape, resolution or 0.1)
     try:
         text = path.read_text(encoding="utf-8")
     except UnicodeDecodeError:
-        raise BadInput(f"{path}: neither a text drawing nor called {', '.join(IMAGES)} or {', '.join(MAPS)}") from None
+        endings = f"{', '.join(IMAGE_ENDINGS)} or {', '.join(MAP_ENDINGS)}"
+        raise BadInput(f"{path}: neither a text drawing nor called {endings}") from None
     try:
         walls = from_text(text)
     except BadInput as problem:
@@ -257,11 +280,9 @@ def _from_file(path: Path, resolution: float | None) -> tuple[NDArray[np.bool_],
 
 
 def _size(text: str) -> tuple[float, float]:
+    """Return width and depth in metres. Raises `BadInput` for another text than two numbers with an x between them."""
     try:
-        width, depth = (float(part) for part in text.lower().split("x"))
+        width, depth = (float(number) for number in text.lower().split("x"))
     except ValueError:
         raise BadInput(f"size {text!r}: give width and depth in metres, such as 30x20") from None
     return width, depth
-
-
-simulate.help = (simulate.help or "").format(sensors=translation.SENSOR_HELP, odometry=translation.ODOMETRY_HELP)

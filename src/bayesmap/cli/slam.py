@@ -1,4 +1,8 @@
-"""``bayesmap slam``: infer the posterior over map and trajectory from a log with raw odometry."""
+"""``bayesmap slam``: infer the posterior over map and trajectory from a log with raw odometry.
+
+`slam` takes the steps of `bayesmap.cli.pipeline`. The trajectory of all scans is known before the chains of the map
+begin: `TrajectoryFiles` writes it. `summarise` turns it into JSON values, `_good` and `_doubtful` into sentences.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +16,7 @@ import click
 
 from bayesmap.cli import pipeline, translation
 from bayesmap.cli.command import Call, as_toml, command
-from bayesmap.cli.console import Console, progress
+from bayesmap.cli.console import Console, progress_bar
 from bayesmap.cli.folder import Folder
 from bayesmap.cli.keys import SlamSettings
 from bayesmap.cli.pipeline import Task
@@ -28,10 +32,11 @@ if TYPE_CHECKING:
     from bayesmap.space.grid import Grid
     from bayesmap.space.scans import Scans
 
-MANY_SCANS = 500  # scans from which the next command to score a trajectory takes one each 0.3 m
+MAX_UNTHINNED_SCANS = 500  # of more scans, the command that scores the trajectory takes one each 0.3 m
 STAGES = "stages"  # folder of the finished stages of the trajectory, in the folder of the run
-LISTED_STRETCHES = 3  # number of doubtful stretches of odometry that are listed
-ALTERNATIVES_SHOWN = 5  # number of alternatives to the trajectory that are described
+MAX_LISTED_STRETCHES = 3  # number of doubtful stretches of odometry that are listed
+MAX_ALTERNATIVES = 5  # number of alternatives to the trajectory that are described
+MAX_LISTED_SCANS = 10  # number of doubtful scans that are listed
 
 
 @command("slam")
@@ -67,9 +72,9 @@ def slam(call: Call[SlamSettings], log: str, output: str | None, resume: bool, f
     task = pipeline.prepare(call, log, folder, resume=resume, force=force)
     resume_command = shlex.join(["bayesmap", "slam", log, "-o", str(folder), "--resume"])
     # Read the log.
-    scan_log = pipeline.read(call.console, log, task.settings, without_poses=task.settings.no_odometry)
-    _check(call.console, scan_log, task.settings)
-    # Load the run to resume.
+    scan_log = pipeline.read_scan_log(call.console, log, task.settings, without_poses=task.settings.no_odometry)
+    _check_scans(call.console, scan_log, task.settings)
+    # Load the run to resume, or announce the cost of a new one.
     saved = pipeline.load_interrupted(task.folder) if task.folder.resuming else None
     if not task.folder.resuming:
         estimate = pipeline.cost_of_slam(task.settings, scan_log.scans)
@@ -85,7 +90,7 @@ def slam(call: Call[SlamSettings], log: str, output: str | None, resume: bool, f
     files = TrajectoryFiles(task.folder, scan_log, task.settings.resolution, frame)
     try:
         # Infer trajectory and map, with checkpoints. The trajectory is written before the chains of the map begin.
-        run = _slam(task, scan_log.scans, saved, files)
+        run = _sample(task, scan_log.scans, saved, files)
         # After Ctrl-C: leave the folder so that the run can go on.
         if not run.finished:
             document = pipeline.keep_interrupted(task.folder, run, scan_log, resume_command, files.written)
@@ -101,37 +106,41 @@ def slam(call: Call[SlamSettings], log: str, output: str | None, resume: bool, f
             call.console.say(f"the stages that are done are kept; go on with:\n  {resume_command}")
         raise
     outputs += [folder / "summary.json", task.folder.config_path]
-    trajectory = summary(run, files.frame)
+    trajectory = summarise(run, files.frame)
     document = {**pipeline.document_of(run, scan_log, None, outputs), "trajectory": trajectory}
     task.folder.write_document(document)
     # Report.
     file = str(task.folder.run_path)
-    thin = ["--thin-scans", "0.3"] if len(scan_log.scans) > MANY_SCANS else []  # score makes a map of its own
+    thin = ["--thin-scans", "0.3"] if len(scan_log.scans) > MAX_UNTHINNED_SCANS else []  # score makes its own map
     score = ["score", log, "--trajectory", str(folder / "trajectory.tum"), *thin]
     commands = [["app", file], score, ["explore", file]]
     pipeline.report(call.console, document, good=_good(trajectory), doubtful=_doubtful(trajectory), commands=commands)
     pipeline.print_result(call, document, strict=task.settings.strict)
 
 
-def _check(console: Console, log: ScanLog, settings: SlamSettings) -> None:
+slam.help = (slam.help or "").format(sensors=translation.SENSOR_HELP)
+
+
+def _check_scans(console: Console, log: ScanLog, settings: SlamSettings) -> None:
     """Refuse scans that cannot be inferred, before an older run is changed, and warn of doubtful odometry."""
     from bayesmap.poses.log_checks import check_scans, doubts
 
     check_scans(log.scans, settings.no_odometry)
     warnings = doubts(log.scans, settings.no_odometry)
-    for warning in warnings[:LISTED_STRETCHES]:
+    for warning in warnings[:MAX_LISTED_STRETCHES]:
         console.warn(warning)
-    if len(warnings) > LISTED_STRETCHES:
-        console.warn(f"odometry stands still like that in {len(warnings) - LISTED_STRETCHES:,} more stretches")
+    if len(warnings) > MAX_LISTED_STRETCHES:
+        console.warn(f"odometry stands still like that in {len(warnings) - MAX_LISTED_STRETCHES:,} more stretches")
 
 
-def _slam(task: Task[SlamSettings], scans: Scans, saved: Run | None, files: TrajectoryFiles) -> Run:
+def _sample(task: Task[SlamSettings], scans: Scans, saved: Run | None, files: TrajectoryFiles) -> Run:
+    """Infer trajectory and map, with checkpoints in the folder; ``saved`` is the run to resume."""
     from bayesmap.api import Event, slam
     from bayesmap.arguments import Checkpoints, Where
 
     folder, settings = task.folder, task.settings
     toml = as_toml({"slam": settings})
-    with progress(folder.console, "matching scans") as show:
+    with progress_bar(folder.console, "matching scans") as show:
 
         def on_progress(event: Event) -> None:
             if event.stage in ("warm-up", "draws"):
@@ -155,7 +164,7 @@ def _slam(task: Task[SlamSettings], scans: Scans, saved: Run | None, files: Traj
         run = slam(
             scans, resolution=settings.resolution, prior=translation.prior_of(settings),
             sensor=translation.sensor_for(settings, settings.resolution),
-            fast=True if settings.fast else False if settings.sample_poses else None, no_odometry=settings.no_odometry,
+            fast=translation.fast_of(settings), no_odometry=settings.no_odometry,
             schedule=translation.schedule_of(settings), seed=settings.seed, hit_depth=settings.hit_depth,
             where=Where(settings.threads, settings.device, any_size=settings.any_size),
             checkpoints=Checkpoints(saved, on_checkpoint, every_s, stages, on_preview, files.write),
@@ -172,13 +181,13 @@ class TrajectoryFiles:
 
     folder: Folder
     log: ScanLog
-    resolution: float
+    resolution: float  # edge of a cell of the pictures, metres
     frame: str  # frame on the robot whose poses are written
-    written: list[Path] = field(default_factory=list)
+    written: list[Path] = field(default_factory=list)  # the files, once they are written
     _trajectory: InferredTrajectory | None = field(default=None, init=False)
 
     def write(self, trajectory: InferredTrajectory | None = None) -> None:
-        """Write all files, unless that is done or must wait."""
+        """Write all files unless they are written; while an older run is in the folder, store the trajectory."""
         self._trajectory = self._trajectory if trajectory is None else trajectory
         if self.written or self._trajectory is None or not self.folder.begun or self.folder.outdated_path.exists():
             return
@@ -212,7 +221,7 @@ class TrajectoryFiles:
         write_figure(figure, self.folder.path / "trajectory.png")
 
     def _write(self, trajectory: InferredTrajectory) -> list[Path]:
-        """Write all files. The map in the picture is made of the cells that the key scans hit."""
+        """Write all files, and return their paths. The map in the picture has the cells that the key scans hit."""
         import numpy as np
 
         from bayesmap.io.exports import approximate_trajectory, export_trajectory
@@ -234,9 +243,9 @@ class TrajectoryFiles:
         self._render(trajectory, grid, hit.astype(float), hit)
         # Render odometry and loop closures.
         poses, probabilities = trajectory.poses, trajectory.alternatives.probabilities
-        others = [(trajectory.alternative_poses(n), float(p)) for n, p in enumerate(probabilities)]
+        alternatives = [(trajectory.alternative_poses(n), float(p)) for n, p in enumerate(probabilities)]
         ends = closures.first, closures.second
-        pictures = {"loops.png": loops_figure(poses, *ends, closures.residuals, closures.weights, others)}
+        pictures = {"loops.png": loops_figure(poses, *ends, closures.residuals, closures.weights, alternatives)}
         if self.log.posed:
             raw = self.log.scans.poses[trajectory.order]
             pictures["odometry.png"] = odometry_figure(compose(poses[0], between(raw[0], raw)), poses)
@@ -245,13 +254,13 @@ class TrajectoryFiles:
         return [*texts, *(path / name for name in ("trajectory.png", *pictures))]
 
 
-def summary(run: Run, frame: str) -> dict[str, Any]:
-    """Return the inferred trajectory in short, as JSON values; ``frame`` is the frame of its file."""
+def summarise(run: Run, frame: str) -> dict[str, Any]:
+    """Return a summary of the inferred trajectory as JSON values; ``frame`` is the frame of its file."""
     import numpy as np
 
     trajectory = run.trajectory
     assert trajectory is not None
-    sigma_m = np.sqrt(np.linalg.eigvalsh(trajectory.covariances()[:, :2, :2])[:, 1])
+    sigma_m = np.sqrt(np.linalg.eigvalsh(trajectory.covariances()[:, :2, :2])[:, 1])  # along the worst direction
     fit = trajectory.calibration.odometry
     document: dict[str, Any] = {
         "frame": frame, "scans": len(trajectory), "key_scans": len(trajectory.keys),
@@ -277,6 +286,7 @@ def summary(run: Run, frame: str) -> dict[str, Any]:
 
 
 def _alternative(trajectory: InferredTrajectory, number: int) -> dict[str, Any]:
+    """Return an alternative as JSON values: its scans, its probability, and how far off its last scan lies."""
     import numpy as np
 
     from bayesmap.space.planar import between
@@ -291,60 +301,51 @@ def _alternative(trajectory: InferredTrajectory, number: int) -> dict[str, Any]:
 
 
 def _good(trajectory: dict[str, Any]) -> list[str]:
-    """Return what is good about the trajectory and how good, in words."""
-    sampled, used, sigma = trajectory.get("sampled"), trajectory["map"], trajectory["sigma_m"]
+    """Return sentences about the quality of the trajectory, whose `summarise` is given."""
+    sampled, used, sigma_m = trajectory.get("sampled"), trajectory["map"], trajectory["sigma_m"]
     good = [
         f"the trajectory of the {trajectory['frame']} at {trajectory['scans']:,} scans, with "
-        f"{trajectory['loop_closures']:,} loop closures: standard deviation {100 * sigma['median']:.1f} cm, "
-        f"at most {100 * sigma['max']:.0f} cm"
+        f"{trajectory['loop_closures']:,} loop closures: standard deviation {100 * sigma_m['median']:.1f} cm, "
+        f"at most {100 * sigma_m['max']:.0f} cm"
     ]
     if sampled is None:
-        good.append(
-            f"the map of {used['beams']:,} beams of {used['scans']:,} key scans, at the poses of the trajectory; the "
-            "others have seen the same (--sample-poses uses all beams of all key scans)"
-        )
+        beams = f"the map of {used['beams']:,} beams of {used['scans']:,} key scans, at the poses of the trajectory"
+        good.append(f"{beams}; the others have seen the same (--sample-poses uses all beams of all key scans)")
     elif sampled["by_approximation"]:
-        good.append(
-            "poses and covariances are those of the approximation, also in scores and exports, since the chains over "
-            f"poses were too short to replace it (R-hat up to {sampled['rhat_max']:.2f}, effective sample size from "
-            f"{sampled['ess_min']:.0f})"
-        )
+        which = "poses and covariances are those of the approximation, also in scores and exports"
+        mixing = f"R-hat up to {sampled['rhat_max']:.2f}, effective sample size from {sampled['ess_min']:.0f}"
+        good.append(f"{which}, since the chains over poses were too short to replace it ({mixing})")
     return good
 
 
 def _doubtful(trajectory: dict[str, Any]) -> list[str]:
-    """Return the scans, breaks and alternatives that are in doubt, with what to do, in words."""
+    """Return sentences about doubtful scans, breaks and alternatives, with a remedy."""
     doubtful = []
     if trajectory["flagged"]:
-        doubtful.append(
-            f"{len(trajectory['flagged'])} scans see what few others see: people, glass, a new place, or a wrong pose "
-            "(one in two, in simulated logs); compare them with the map in trajectory.png, where they have crosses: "
-            f"{_first_of(trajectory['flagged'])}"
-        )
+        doubt = "see what few others see: people, glass, a new place, or a wrong pose (one in two, in simulated logs)"
+        remedy = "compare them with the map in trajectory.png, where they have crosses"
+        n_flagged = len(trajectory["flagged"])
+        doubtful.append(f"{n_flagged} scans {doubt}; {remedy}: {_list_scans(trajectory['flagged'])}")
     if trajectory["breaks"]:
-        doubtful.append(
-            "before these scans the robot seems to have been carried, or data are missing; if it was not, look for "
-            f"gaps with bayesmap info: {_first_of(trajectory['breaks'])}"
-        )
+        doubt = "before these scans the robot seems to have been carried, or data are missing"
+        remedy = "if it was not, look for gaps with bayesmap info"
+        doubtful.append(f"{doubt}; {remedy}: {_list_scans(trajectory['breaks'])}")
     if trajectory["leaps"]:
-        doubtful.append(
-            "before these scans the trajectory moves as odometry did not, and the scans just before do not confirm it; "
-            "what lies before and after may be shifted against each other, as loops.png shows: "
-            f"{_first_of(trajectory['leaps'])}"
+        doubt = (
+            "before these scans the trajectory moves as odometry did not, and the scans just before do not confirm it"
         )
+        effect = "what lies before and after may be shifted against each other, as loops.png shows"
+        doubtful.append(f"{doubt}; {effect}: {_list_scans(trajectory['leaps'])}")
     doubtful += [
         f"from scan {other['first']} to {other['last']} the trajectory hangs on one visit of places that look alike: "
         f"with probability {other['probability']:.2f} scan {other['last']} lies {other['off_m']:.1f} m and "
         f"{other['off_degrees']:.0f} degrees elsewhere, as in loops.png; covariances cover both"
-        for other in trajectory["alternatives"][:ALTERNATIVES_SHOWN]
+        for other in trajectory["alternatives"][:MAX_ALTERNATIVES]
     ]
-    if len(trajectory["alternatives"]) > ALTERNATIVES_SHOWN:
-        doubtful.append(f"{len(trajectory['alternatives']) - ALTERNATIVES_SHOWN} more alternatives are in summary.json")
+    if len(trajectory["alternatives"]) > MAX_ALTERNATIVES:
+        doubtful.append(f"{len(trajectory['alternatives']) - MAX_ALTERNATIVES} more alternatives are in summary.json")
     return doubtful
 
 
-def _first_of(scans: list[int]) -> str:
-    return ", ".join(map(str, scans[:10])) + (", ..." if len(scans) > 10 else "")
-
-
-slam.help = (slam.help or "").format(sensors=translation.SENSOR_HELP)
+def _list_scans(scans: list[int]) -> str:
+    return ", ".join(map(str, scans[:MAX_LISTED_SCANS])) + (", ..." if len(scans) > MAX_LISTED_SCANS else "")

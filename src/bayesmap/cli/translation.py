@@ -1,8 +1,8 @@
 """Translate the texts and settings of a user into values of the library.
 
-Three groups: texts (points, poses, sensor models such as ``mixture:0.02``, odometry such as ``typical,lag_s=0.1``);
-settings (prior, sensor, method, schedule, executor, options for reading a log); and logs (files that must exist,
-folders and patterns of logs, held-out scans).
+Three groups, in this order: texts (points, poses, sensor models such as ``mixture:0.02``, odometry such as
+``typical,lag_s=0.1``); settings (prior, sensor, method, schedule, executor, options for reading a log); and logs (files
+that must exist, folders and patterns of logs, held-out scans). A function ``x_of`` returns the value x.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeVar
 import click
 import msgspec
 
-from bayesmap.cli.keys import InferSettings, LogSettings, SamplingSettings
+from bayesmap.cli.keys import InferSettings, LogSettings, SamplingSettings, SlamSettings
 from bayesmap.errors import BadInput
 from bayesmap.files import saved_run_hint
 
@@ -34,9 +34,9 @@ if TYPE_CHECKING:
 
 
 def numbers_of(text: str, flag: str, form: str, counts: tuple[int, ...]) -> list[float]:
-    """Return an option's numbers, named by ``form``, such as "X,Y". Raises `click.BadParameter` for others."""
+    """Return the numbers of an option, as many as ``counts`` allows, or refuse it and name the form, such as "X,Y"."""
     try:
-        numbers = [float(part) for part in text.split(",")]
+        numbers = [float(number) for number in text.split(",")]
     except ValueError:
         numbers = []
     if len(numbers) not in counts or not all(map(math.isfinite, numbers)):
@@ -55,7 +55,8 @@ gaussian:0.02,sigma_per_m=0.005, student-t:0.05,dof=4 or
 mixture:0.05,p_random=0.05,p_no_return=0.02,p_short=0.1,rate_short_per_m=0.5 (the beam model, Gaussian noise inside;
 with noise=student-t heavier tails)."""
 
-_FIRST = {"gaussian": "sigma_m", "student-t": "scale_m"}
+_NAMELESS = {"gaussian": "sigma_m", "student-t": "scale_m"}  # parameter of each kind of noise that goes without a name
+_MIXTURE_PARAMETERS = ("p_random", "p_no_return", "p_short", "rate_short_per_m")  # all others describe the noise
 
 
 def sensor_of(text: str) -> SensorModel | None:
@@ -65,40 +66,38 @@ def sensor_of(text: str) -> SensorModel | None:
     from bayesmap.sensors.model import KINDS, from_description
 
     # Split the text into the kind of the model and its parameters.
-    kind, _, rest = text.partition(":")
+    kind, _, parameter_text = text.partition(":")
     if kind not in KINDS:
         raise BadInput(f"sensor {text!r}: unknown kind {kind!r}; known: default, fit (of infer), {', '.join(KINDS)}")
-    values = _parameters(text, rest)
+    parameters = _parameters_of(parameter_text, f"sensor {text!r}")
     # The kind of noise decides the name of the number that has none.
-    noise_kind = str(values.pop("noise", "gaussian")) if kind == "mixture" else kind
-    if noise_kind not in _FIRST:
-        raise BadInput(f"sensor {text!r}: noise must be {' or '.join(_FIRST)}, got {noise_kind!r}")
-    if "" in values:
-        values.setdefault(_FIRST[noise_kind], values.pop(""))
+    noise_kind = str(parameters.pop("noise", "gaussian")) if kind == "mixture" else kind
+    if noise_kind not in _NAMELESS:
+        raise BadInput(f"sensor {text!r}: noise must be {' or '.join(_NAMELESS)}, got {noise_kind!r}")
+    if "" in parameters:
+        parameters.setdefault(_NAMELESS[noise_kind], parameters.pop(""))
     if kind == "mixture":
-        # The mixture keeps its own parameters; all others describe its noise.
-        own = {"p_random", "p_no_return", "p_short", "rate_short_per_m"}
-        noise = {name: values.pop(name) for name in list(values) if name not in own}
+        noise = {name: parameters.pop(name) for name in list(parameters) if name not in _MIXTURE_PARAMETERS}
         if noise or noise_kind != "gaussian":
-            values["noise"] = {"kind": noise_kind, **noise}
+            parameters["noise"] = {"kind": noise_kind, **noise}
     try:
-        return from_description({"kind": kind, **values})
+        return from_description({"kind": kind, **parameters})
     except TypeError:
-        first = _FIRST[noise_kind]
-        raise BadInput(f"sensor {text!r}: {noise_kind} needs its {first}, as in {kind}:0.05") from None
+        missing = _NAMELESS[noise_kind]
+        raise BadInput(f"sensor {text!r}: {noise_kind} needs its {missing}, as in {kind}:0.05") from None
 
 
-def _parameters(text: str, rest: str) -> dict[str, Any]:
-    """Return the parameters by name; the first may have no name, and is stored under ""."""
-    values: dict[str, Any] = {}
-    for position, part in enumerate(rest.split(",") if rest else []):
-        name, equals, value = (piece.strip() for piece in part.partition("="))
+def _parameters_of(parameter_text: str, context: str) -> dict[str, Any]:
+    """Return the parameters of a sensor by name; the first may have no name, and is stored under ""."""
+    parameters: dict[str, Any] = {}
+    for position, assignment in enumerate(parameter_text.split(",") if parameter_text else []):
+        name, equals, value = (word.strip() for word in assignment.partition("="))
         if not equals:
             name, value = "", name
             if position:
-                raise BadInput(f"sensor {text!r}: write {value!r} as name=value; only the first goes without a name")
-        values[name] = value if name == "noise" else _number(value, f"sensor {text!r}")
-    return values
+                raise BadInput(f"{context}: write {value!r} as name=value; only the first goes without a name")
+        parameters[name] = value if name == "noise" else _number_of(value, context)
+    return parameters
 
 
 ODOMETRY_HELP = """ODOMETRY is true (poses as they were), typical (a Pioneer's in an office), perfect (no error), or one
@@ -116,23 +115,24 @@ def odometry_of(text: str) -> OdometryNoise | None:
     from bayesmap.sim.robot import OdometryNoise
 
     known = [field.name for field in fields(OdometryNoise)]
-    first, *rest = (part.strip() for part in text.split(","))
-    if first not in ("typical", "perfect"):
-        raise BadInput(f"odometry {text!r}: begin with {TRUE_ODOMETRY}, typical or perfect, got {first!r}")
-    values = dict.fromkeys(known, 0.0) if first == "perfect" else {}
-    for part in rest:
-        name, equals, value = (piece.strip() for piece in part.partition("="))
+    base, *assignments = (word.strip() for word in text.split(","))
+    if base not in ("typical", "perfect"):
+        raise BadInput(f"odometry {text!r}: begin with {TRUE_ODOMETRY}, typical or perfect, got {base!r}")
+    values = dict.fromkeys(known, 0.0) if base == "perfect" else {}
+    for assignment in assignments:
+        name, equals, value = (word.strip() for word in assignment.partition("="))
         if not equals or name not in known:
-            raise BadInput(f"odometry {text!r}: {part!r} is not name=value with one of {', '.join(known)}")
-        values[name] = _number(value, f"odometry {text!r}")
+            raise BadInput(f"odometry {text!r}: {assignment!r} is not name=value with one of {', '.join(known)}")
+        values[name] = _number_of(value, f"odometry {text!r}")
     return OdometryNoise(**values)
 
 
-def _number(text: str, where: str) -> float:
+def _number_of(text: str, context: str) -> float:
+    """Return the number that a text stands for. The message of `BadInput` begins with ``context``."""
     try:
         return float(text)
     except ValueError:
-        raise BadInput(f"{where}: {text!r} is not a number") from None
+        raise BadInput(f"{context}: {text!r} is not a number") from None
 
 
 S = TypeVar("S", bound=SamplingSettings)
@@ -141,7 +141,7 @@ BINARY_DRAWS = 100  # default number of draws per chain over binary walls
 
 
 def completed(settings: S) -> S:
-    """Fill in the hit depth. Raises `BadInput` for settings that the cells do not have, or a bad sensor."""
+    """Return the settings with a hit depth. Raises `BadInput` for settings of other cells, or an invalid sensor."""
     from bayesmap.cells.kinds import BUILT_IN
 
     kind = BUILT_IN[settings.cells]
@@ -157,14 +157,14 @@ def completed(settings: S) -> S:
     return settings if settings.hit_depth is not None else msgspec.structs.replace(settings, hit_depth=kind.hit_depth)
 
 
-def with_schedule(settings: InferSettings, beams: int, cells: int) -> InferSettings:
-    """Fill in ``thin``, ``draws`` and ``precision`` for the kind of cells and the numbers of beams and cells."""
+def with_schedule(settings: InferSettings, n_beams: int, n_cells: int) -> InferSettings:
+    """Return the settings with ``thin``, ``draws`` and ``precision`` for the cells and the size of the problem."""
     from bayesmap.cells.kinds import BUILT_IN
 
     kind = BUILT_IN[settings.cells]
 
     def default_draws(thin: int) -> int:
-        return BINARY_DRAWS if kind.has_walls else kind().default_draws(beams, cells, settings.chains, thin)
+        return BINARY_DRAWS if kind.has_walls else kind().default_draws(n_beams, n_cells, settings.chains, thin)
 
     complete = schedule_of(settings).completed(kind.sweeps_a_draw, default_draws)
     return msgspec.structs.replace(settings, thin=complete.thin, draws=complete.draws, precision=complete.precision)
@@ -177,6 +177,13 @@ def schedule_of(settings: SamplingSettings) -> Schedule:
     return Schedule(
         settings.chains, settings.warmup, settings.draws, settings.thin, settings.precision, settings.seconds
     )
+
+
+def fast_of(settings: SlamSettings) -> bool | None:
+    """Return the argument ``fast`` of `bayesmap.slam`; None lets the number of key scans decide."""
+    if settings.fast:
+        return True
+    return False if settings.sample_poses else None
 
 
 def method_of(settings: InferSettings) -> Method:
@@ -249,15 +256,14 @@ def log_options_of(settings: LogSettings) -> dict[str, Any]:
     return {**options, "trajectory": trajectory, "thin_m": settings.thin_scans, "laser": laser}
 
 
-RECORDED = (".db3", ".mcap", ".zstd")  # file endings of a ROS 2 bag
-MAPS = (".yaml", ".yml")  # file endings of map_server maps
+BAG_ENDINGS = (".db3", ".mcap", ".zstd")  # of the files of a ROS 2 bag
+MAP_ENDINGS = (".yaml", ".yml")  # of map_server maps
 LOG = "a log or a recording of range scans"
+NO_MOUNT = "nothing in it says where the laser sits on the robot, as in runs of older versions"
 
 
 def need_file(file: str, expected: str, *, runs: bool, pipes: bool = False) -> None:
-    """Raise `BadInput` for a path that does not exist, a run's folder or a pipe, before slow modules are imported. The
-    message asks for ``expected`` instead. ``runs`` and ``pipes`` tell whether a saved run and a pipe are accepted.
-    """
+    """Raise `BadInput` for a path that does not exist, or for a run's folder, a run or a pipe that is not accepted."""
     if not pipes and (file in ("-", "/dev/stdin") or Path(file).is_fifo()):
         raise BadInput(f"{file}: a pipe, and this needs a file that can be read again; localize --follow reads pipes")
     if not Path(file).exists():
@@ -268,15 +274,15 @@ def need_file(file: str, expected: str, *, runs: bool, pipes: bool = False) -> N
         raise BadInput(f"{file}: a run's folder; give {expected}")
 
 
-def logs_of(typed: Sequence[str]) -> tuple[list[str], bool]:
+def logs_of(names: Sequence[str]) -> tuple[list[str], bool]:
     """Return the logs that a user names, and whether they are several: many names, a folder, or a pattern.
 
     A folder stands for the logs in it, chosen by their endings, and for the folders of ROS 2 bags in it. Raises
     `BadInput` for a pattern or a folder without logs.
     """
     logs: list[str] = []
-    several = len(typed) > 1
-    for name in typed:
+    several = len(names) > 1
+    for name in names:
         path = Path(name)
         # A pattern, a folder of logs, or one log (a file, or the folder of a bag).
         if not path.exists() and any(sign in name for sign in "*?["):
@@ -287,10 +293,10 @@ def logs_of(typed: Sequence[str]) -> tuple[list[str], bool]:
             logs += matches
         elif path.is_dir() and not _is_recording(path) and not (path / "run.nc").is_file():
             several = True
-            inside = [entry for entry in sorted(path.iterdir()) if _is_log(entry)]
-            if not inside:
+            logs_inside = [entry for entry in sorted(path.iterdir()) if _is_log(entry)]
+            if not logs_inside:
                 raise BadInput(f"{name}: a folder without logs, by the endings of the names; give {LOG}")
-            logs += map(str, inside)
+            logs += map(str, logs_inside)
         else:
             logs.append(name)
     return logs, several
@@ -301,20 +307,17 @@ def _is_log(path: Path) -> bool:
 
     if path.is_dir():
         return _is_recording(path)
-    return path.name.endswith((*ENDINGS, *RECORDED)) and not path.name.startswith(".")
+    return path.name.endswith((*ENDINGS, *BAG_ENDINGS)) and not path.name.startswith(".")
 
 
 def _is_recording(folder: Path) -> bool:
     """Return whether a folder is one ROS 2 bag, and not a folder of logs."""
-    recorded = sum(entry.name.endswith(RECORDED) for entry in folder.iterdir())
-    return (folder / "metadata.yaml").exists() or recorded == 1
+    n_bag_files = sum(entry.name.endswith(BAG_ENDINGS) for entry in folder.iterdir())
+    return (folder / "metadata.yaml").exists() or n_bag_files == 1
 
 
 def heldout_scans(run: Run, log: str, settings: LogSettings, every: int) -> Scans:
-    """Return the scans of a log that a run has not seen, read with the run's largest range.
-
-    If ``every`` is 0, the log is another of the same place; else the run's own, which held out each ``every``-th.
-
+    """Return the scans of a log that a run has not seen: each ``every``-th, or all of another log if ``every`` is 0.
     Raises `BadInput` if the log cannot be read, or the run was made from some of these scans.
     """
     need_file(log, "the log that the run was made from", runs=False)
@@ -322,21 +325,22 @@ def heldout_scans(run: Run, log: str, settings: LogSettings, every: int) -> Scan
     from bayesmap.posterior.heldout import moved_by, unseen_scans
 
     train, options = run.posterior.scans, log_options_of(settings)
+    # A log's own poses are read without --laser first, since the run may have been made without it.
     laser = options.pop("laser")
     first_laser = laser if settings.trajectory is not None else None
     scans = read_log(log, max_range_m=train.max_range_m, laser=first_laser, **options)
     if laser is not None and moved_by(train, scans):
-        scans = read_log(log, max_range_m=train.max_range_m, laser=laser, **options)  # as infer --laser read them
+        scans = read_log(log, max_range_m=train.max_range_m, laser=laser, **options)
     return unseen_scans(train, scans, every, log)
 
 
-def need_free(paths: Iterable[Path], force: bool, option: str = "-o") -> None:
-    """Raise `BadInput` for an older file without ``force``: the rule of all commands, before slow work."""
-    older = next((path for path in paths if os.path.lexists(path)), None)
-    if older is not None and not force:
-        raise BadInput(f"{older}: exists already; --force replaces it, {option} takes another name")
+def need_free(paths: Iterable[Path], *, force: bool, option: str = "-o") -> None:
+    """Raise `BadInput` for a path that exists, unless ``force``. ``option`` is the flag that takes another name."""
+    for path in paths:
+        if os.path.lexists(path) and not force:
+            raise BadInput(f"{path}: exists already; --force replaces it, {option} takes another name")
 
 
 def is_map(path: str) -> bool:
     """Return whether a path has the ending of a map_server map."""
-    return Path(path).suffix.lower() in MAPS
+    return Path(path).suffix.lower() in MAP_ENDINGS

@@ -1,1 +1,1 @@
-"""The runner of all chains: schedule, progress, interruption, resuming."""
+"""The run of Markov chains. Read `chains` (plan and results), `runner` and `ray_executor` (the loops), and `cost`."""

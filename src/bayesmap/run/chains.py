@@ -1,4 +1,9 @@
-"""Chains: the plan of their sweeps, the error of their map, and their results, which can be joined and resumed."""
+"""The plan, the end and the results of Markov chains.
+
+Each chain makes warm-up sweeps, and then keeps every ``thin``-th sweep as a draw (`SweepPlan`). All chains may end
+early at fixed numbers of sweeps, the *marks*, once the mean map is precise enough (`StoppingRule`, `map_error`). Their
+results (`Chains`) can be joined and resumed; `DrawRecord` stores the draws while the chains run.
+"""
 
 from __future__ import annotations
 
@@ -21,13 +26,13 @@ from bayesmap.samplers.sampler import Info, Keep, Snapshot
 from bayesmap.sensors.model import RangeLimits
 
 PRECISION = 0.03  # default error of the mean map at which chains stop: an error of 0.1 is visible on a grey map
-FIRST_MARK = 10  # draws per chain at the first estimate of the map's error
+FIRST_MARK_DRAWS = 10  # draws per chain at the first estimate of the map's error
 MIN_DRAWS_PER_CHAIN = 2  # fewest draws per chain if the time ends a run
 MAX_WARMUP_SHARE = 0.4  # largest share of a limited time that warm-up may take
 MIN_BATCHES = 8  # fewest batches of an estimate: with one batch per chain, and few chains, estimates scatter widely
-KNOWN_SHARE = 0.99  # share of the observed cells whose error is at most the reported error
-CELLS_AT_ONCE = 8192  # per batch of `map_error`
-DENSITIES = ("log_likelihood", "log_prior", "warmup_log_joint")
+ERROR_QUANTILE = 0.99  # share of the observed cells whose error is at most the reported error
+CELLS_AT_ONCE = 8192  # cells whose errors are computed together, which limits the memory
+DENSITY_FIELDS = ("log_likelihood", "log_prior", "warmup_log_joint")  # fields of `Chains` with one number a sweep
 
 
 @dataclass(frozen=True)
@@ -35,14 +40,14 @@ class SweepPlan:
     """The plan of a chain's sweeps."""
 
     warmup: int  # number of sweeps before the first draw
-    draws: int  # most draws per chain
+    draws: int  # largest number of draws per chain
     thin: int = 1  # sweeps from one draw to the next
     precision: float | None = None  # chains stop at this `map_error`; None: no limit
     seconds: float | None = None  # chains stop after this time, once each has `MIN_DRAWS_PER_CHAIN`; None: no limit
 
     @property
     def sweeps(self) -> int:
-        """Number of sweeps of one chain."""
+        """Largest number of sweeps of one chain."""
         return self.warmup + self.draws * self.thin
 
     @property
@@ -52,68 +57,68 @@ class SweepPlan:
 
     @property
     def marks(self) -> tuple[int, ...]:
-        """Sweeps at which chains may stop: fixed, whatever the number of threads or interruptions."""
-        marks, draws = [], FIRST_MARK
+        """Numbers of sweeps at which chains may end, ascending; independent of threads and interruptions."""
+        marks, draws = [], FIRST_MARK_DRAWS
         while self.precision is not None and draws < self.draws:
             marks.append(self.warmup + draws * self.thin)
-            draws += max(5, draws // 4)
+            draws += max(5, draws // 4)  # an estimate reads all draws: growing gaps keep its share of the time small
         return tuple(marks)
 
-    def shortened(self, sweep_s: float, left_s: float) -> SweepPlan:
-        """Return the plan with a warm-up of at most `MAX_WARMUP_SHARE` of the time left, given the time of a sweep."""
-        return replace(self, warmup=min(self.warmup, max(1, int(MAX_WARMUP_SHARE * left_s / sweep_s))))
+    def shortened(self, sweep_s: float, remaining_s: float) -> SweepPlan:
+        """Return this plan with a warm-up of at most `MAX_WARMUP_SHARE` of the time left, at ``sweep_s`` a sweep."""
+        return replace(self, warmup=min(self.warmup, max(1, int(MAX_WARMUP_SHARE * remaining_s / sweep_s))))
 
 
-class EndRule:
-    """Decides when chains may end before all their draws: when the map is known, or when the time is over."""
+class StoppingRule:
+    """The rule that ends chains before all their draws: the mean map is precise enough, or the time is over."""
 
-    def __init__(self, plan: SweepPlan, error_of_map: Callable[[], float]) -> None:
-        """Start the clock. ``error_of_map`` estimates the error of the map from all draws so far."""
-        self._plan, self._error_of_map, self._began = plan, error_of_map, time.monotonic()
-        self.reached = False  # whether the chains may end
+    def __init__(self, plan: SweepPlan, estimate_error: Callable[[], float]) -> None:
+        """Start the clock. ``estimate_error`` returns the `map_error` of all draws so far."""
+        self._plan, self._estimate_error, self._began = plan, estimate_error, time.monotonic()
+        self.is_met = False  # whether the chains may end
         self._expected = next(iter(plan.marks), plan.sweeps)  # number of sweeps at the expected end
         self.error: float | None = None  # the latest `map_error`; None before the first mark
 
     def check(self, sweep: int) -> None:
-        """Update the decision after a number of sweeps."""
+        """Update the decision when all chains have made ``sweep`` sweeps."""
         plan = self._plan
         if plan.precision is not None and sweep in plan.marks:
-            error = self.error = self._error_of_map()
+            error = self.error = self._estimate_error()
             # The error falls with the square root of the number of draws.
-            more = max(1.0, (error / plan.precision) ** 2) if np.isfinite(error) else np.inf
-            self._expected = int(min(plan.warmup + more * (sweep - plan.warmup), plan.sweeps))
-            self.reached = error <= plan.precision
+            draws_ratio = max(1.0, (error / plan.precision) ** 2) if np.isfinite(error) else np.inf
+            self._expected = int(min(plan.warmup + draws_ratio * (sweep - plan.warmup), plan.sweeps))
+            self.is_met = error <= plan.precision
         if plan.seconds is not None and sweep >= plan.warmup + MIN_DRAWS_PER_CHAIN * plan.thin:
-            self.reached = self.reached or time.monotonic() - self._began >= plan.seconds
+            self.is_met = self.is_met or time.monotonic() - self._began >= plan.seconds
 
     @property
     def end_is_open(self) -> bool:
-        """Whether the error decides when chains end, and is not known yet: until then the least number is expected."""
+        """Whether the end depends on an error that is not estimated yet. Until then the first mark is expected."""
         return self._plan.precision is not None and self._plan.seconds is None and self.error is None
 
     def expected_sweeps(self, sweep: int) -> int:
-        """Return the expected number of sweeps at the end, by the error at the last mark and by the time."""
+        """Return the expected number of sweeps at the end, at least ``sweep``, by the latest error and the time."""
         expected = self._expected
         if self._plan.seconds is not None and sweep > 0:
-            spent = max(time.monotonic() - self._began, 1e-3)
-            expected = min(expected, int(sweep * max(1.0, self._plan.seconds / spent)))
+            spent_s = max(time.monotonic() - self._began, 1e-3)
+            expected = min(expected, int(sweep * max(1.0, self._plan.seconds / spent_s)))
         return max(expected, sweep)
 
 
 @dataclass(frozen=True, eq=False)
 class Chains:
-    """The draws and the states of chains so far."""
+    """The draws and the states of chains so far. Log densities are in nats."""
 
-    draws: Draws
+    draws: Draws  # kept draws of all unknowns
     log_likelihood: Floats  # of each kept draw, (chains, kept)
-    log_prior: Floats  # (chains, kept)
+    log_prior: Floats  # of each kept draw, (chains, kept)
     warmup_log_joint: Floats  # of each warm-up sweep so far, (chains, warm-up sweeps)
-    snapshot: Snapshot
+    snapshot: Snapshot  # states from which the chains continue
     observed_counts: NDArray[np.int32]  # draws in which some beam observes each cell, and draws inspected, (2, nx, ny)
     statistics: Mapping[str, Floats]  # results of the start, by name
     n_incidences: int  # number of cells that beams cross, summed over beams
     seconds: Mapping[str, float]  # time in tracing ("trace"), at the start ("warm_start") and in sweeps ("sampling")
-    finished: bool
+    finished: bool  # whether the chains have made all sweeps, or met the stopping rule
 
     @property
     def log_joint(self) -> Floats:
@@ -126,14 +131,21 @@ class Chains:
         return self.snapshot.sweep
 
     def observed(self) -> NDArray[np.bool_]:
-        """Return the cells that at least one beam observes in at least half of the draws, (nx, ny)."""
+        """Return a mask of the cells that at least one beam observes in at least half of the draws, (nx, ny)."""
         return observed_cells(self.observed_counts)
 
+    def select(self, selection: slice) -> Chains:
+        """Return the results of some of the chains. The observed counts remain those of all chains."""
+        draws = replace(self.draws, arrays={name: array[selection] for name, array in self.draws.arrays.items()})
+        snapshot = Snapshot(self.sweep, {name: array[selection] for name, array in self.snapshot.arrays.items()})
+        densities: dict[str, Any] = {name: getattr(self, name)[selection] for name in DENSITY_FIELDS}
+        return replace(self, draws=draws, snapshot=snapshot, **densities)
 
-def observed_cells(counts: NDArray[np.int32]) -> NDArray[np.bool_]:
-    """Return the cells that are observed in at least half of the inspected draws; both counts are (2, nx, ny)."""
-    observed_in, inspected = counts
-    return np.asarray(2 * observed_in >= np.maximum(inspected, 1))
+
+def observed_cells(observed_counts: NDArray[np.int32]) -> NDArray[np.bool_]:
+    """Return a mask of the cells observed in at least half of the inspected draws, (nx, ny), by counts of `Chains`."""
+    n_observed, n_inspected = observed_counts
+    return np.asarray(2 * n_observed >= np.maximum(n_inspected, 1))
 
 
 def map_error(cells: CellPrior, draws: Draws, observed: NDArray[np.bool_]) -> float:
@@ -141,10 +153,10 @@ def map_error(cells: CellPrior, draws: Draws, observed: NDArray[np.bool_]) -> fl
 
     The method is replicated batch means (Argon and Andradottir 2006). Each chain is cut into batches of successive
     draws, eight or more over all chains. The error of a mean over n batches is the standard deviation of the batch
-    means over sqrt(n). Chains that disagree make it large, so it also judges convergence. It is inf for fewer than two
-    draws per batch, and 0 without observed cells.
+    means over sqrt(n). Chains that disagree make the error large, so it also judges convergence. The error is inf for
+    fewer than two draws per batch, and 0 without observed cells (``observed`` is a mask, (nx, ny)).
     """
-    # The first draws are left out if batches of equal length do not cover all.
+    # Batches of a chain have equal length; draws that do not fill one are left out at the start of the chain.
     batches = math.ceil(MIN_BATCHES / draws.chains)
     length = draws.count // batches
     if length < 2:
@@ -155,114 +167,105 @@ def map_error(cells: CellPrior, draws: Draws, observed: NDArray[np.bool_]) -> fl
         values = cells.expected_traces(draws, indices[i : i + CELLS_AT_ONCE])[:, draws.count - batches * length :]
         means = values.reshape(draws.chains * batches, length, -1).mean(axis=1, dtype=np.float64)
         errors[i : i + CELLS_AT_ONCE] = means.std(axis=0, ddof=1) / np.sqrt(len(means))
-    return float(np.quantile(errors, KNOWN_SHARE)) if len(indices) else 0.0
+    return float(np.quantile(errors, ERROR_QUANTILE)) if len(indices) else 0.0
 
 
-def _concatenated(parts: Sequence[Chains], axis: int) -> Chains:
-    """Return the last part with the draws and densities of all parts along an axis, and the sum of their seconds."""
-    last = parts[-1]
-    arrays = {name: np.concatenate([part.draws.arrays[name] for part in parts], axis) for name in last.draws.arrays}
-    fields: dict[str, Any] = {name: np.concatenate([getattr(part, name) for part in parts], axis) for name in DENSITIES}
-    fields["seconds"] = {name: sum(part.seconds.get(name, 0.0) for part in parts) for name in last.seconds}
-    return replace(last, draws=replace(last.draws, arrays=arrays), statistics=parts[0].statistics, **fields)
-
-
-def join(parts: Sequence[Chains]) -> Chains:
-    """Join chains of equal numbers of sweeps that ran separately, in order, as if they had run together."""
-    if len(parts) == 1:
-        return parts[0]
-    assert len({part.sweep for part in parts}) == 1, "chains of different length cannot be joined"
-    snapshots = [part.snapshot.arrays for part in parts]
+def join_chains(groups: Sequence[Chains]) -> Chains:
+    """Join groups of chains that ran apart for equal numbers of sweeps, in order, as if they had run together."""
+    if len(groups) == 1:
+        return groups[0]
+    assert len({group.sweep for group in groups}) == 1, "chains of different length cannot be joined"
+    snapshots = [group.snapshot.arrays for group in groups]
     arrays = {name: np.concatenate([snapshot[name] for snapshot in snapshots]) for name in snapshots[0]}
     return replace(
-        _concatenated(parts, 0), snapshot=Snapshot(parts[0].sweep, arrays),
-        observed_counts=np.sum([part.observed_counts for part in parts], axis=0),
-        finished=all(part.finished for part in parts),
+        _concatenate(groups, 0), snapshot=Snapshot(groups[0].sweep, arrays),
+        observed_counts=np.sum([group.observed_counts for group in groups], axis=0),
+        finished=all(group.finished for group in groups),
     )  # fmt: skip
 
 
-def select_chains(chains: Chains, which: slice) -> Chains:
-    """Return a slice of the chains."""
-    draws = replace(chains.draws, arrays={name: array[which] for name, array in chains.draws.arrays.items()})
-    snapshot = Snapshot(chains.sweep, {name: array[which] for name, array in chains.snapshot.arrays.items()})
-    densities: dict[str, Any] = {name: getattr(chains, name)[which] for name in DENSITIES}
-    return replace(chains, draws=draws, snapshot=snapshot, **densities)
+def join_segments(segments: Sequence[Chains]) -> Chains:
+    """Join consecutive sweeps of the same chains. Snapshot and observed counts come from the last segment."""
+    return _concatenate(segments, 1)
 
 
-def in_sequence(parts: Sequence[Chains]) -> Chains:
-    """Join consecutive sweeps of the same chains. Snapshot and observed counts come from the last part."""
-    return _concatenated(parts, 1)
+def _concatenate(results: Sequence[Chains], axis: int) -> Chains:
+    """Return the last result with draws and densities of all: of more chains (axis 0) or sweeps (axis 1)."""
+    last = results[-1]
+    arrays: dict[str, NDArray[Any]] = {}
+    for name in last.draws.arrays:
+        arrays[name] = np.concatenate([result.draws.arrays[name] for result in results], axis)
+    fields: dict[str, Any] = {}
+    for name in DENSITY_FIELDS:
+        fields[name] = np.concatenate([getattr(result, name) for result in results], axis)
+    fields["seconds"] = {name: sum(result.seconds.get(name, 0.0) for result in results) for name in last.seconds}
+    return replace(last, draws=replace(last.draws, arrays=arrays), statistics=results[0].statistics, **fields)
 
 
-class Record:
-    """The draws and traces of chains, which grow as the chains advance."""
+class DrawRecord:
+    """The draws and log densities of running chains, in arrays that are allocated for all draws of a plan."""
 
     def __init__(self, empty: Draws, plan: SweepPlan, resume: Chains | None = None) -> None:
-        """Allocate arrays for the plan's draws, and copy the draws of ``resume``; ``empty`` has the specs."""
+        """Allocate arrays for the plan's draws, with the specs of ``empty``, and copy the draws of ``resume``."""
         chains = next(iter(empty.arrays.values())).shape[0]
-        arrays = {spec.name: spec.empty(chains, plan.draws, empty.shape_of(spec)) for spec in empty.specs}
-        self._draws = replace(empty, arrays=arrays)
-        self._keep = plan.keep
-        self._log_likelihood, self._log_prior = np.zeros((2, chains, plan.draws))
+        self._empty, self._keep = empty, plan.keep
         self._warmup = np.zeros((chains, plan.warmup))
-        self.kept = self.warmed = 0
+        self._arrays = {spec.name: spec.empty(chains, plan.draws, empty.shape_of(spec)) for spec in empty.specs}
+        self._arrays |= {"log_likelihood": np.zeros((chains, plan.draws)), "log_prior": np.zeros((chains, plan.draws))}
+        self.kept = self.warmed = 0  # numbers of draws and of warm-up sweeps so far
         if resume is not None:
             self.kept, self.warmed = resume.log_joint.shape[1], resume.warmup_log_joint.shape[1]
-            for name, array in self._draws.arrays.items():
-                array[:, : self.kept] = resume.draws.arrays[name]
-            self._log_likelihood[:, : self.kept] = resume.log_likelihood
-            self._log_prior[:, : self.kept] = resume.log_prior
             self._warmup[:, : self.warmed] = resume.warmup_log_joint
+            densities = {"log_likelihood": resume.log_likelihood, "log_prior": resume.log_prior}
+            for name, values in {**resume.draws.arrays, **densities}.items():
+                self._arrays[name][:, : self.kept] = values
 
     def add(self, info: Info, begin: int) -> None:
         """Record the sweeps of a step that began after ``begin`` sweeps."""
         # Warm-up sweeps: the log joint alone.
-        sweeps = info.log_likelihood.shape[1]
-        warm = max(0, min(self._warmup.shape[1] - begin, sweeps))
-        self._warmup[:, self.warmed : self.warmed + warm] = (info.log_likelihood + info.log_prior)[:, :warm]
-        self.warmed += warm
-        # Kept sweeps: the parts of the log joint, and the draws.
-        kept = self._keep.sweeps(begin, begin + sweeps)
-        new, steps = slice(self.kept, self.kept + len(kept)), [sweep - begin - 1 for sweep in kept]
-        self._log_likelihood[:, new] = info.log_likelihood[:, steps]
-        self._log_prior[:, new] = info.log_prior[:, steps]
-        for name, values in info.draws.items():
-            self._draws.arrays[name][:, new] = values if values.shape[1] == len(kept) else values[:, steps]
-        self.kept = new.stop
+        n_sweeps = info.log_likelihood.shape[1]
+        n_warmup = max(0, min(self._warmup.shape[1] - begin, n_sweeps))
+        self._warmup[:, self.warmed : self.warmed + n_warmup] = (info.log_likelihood + info.log_prior)[:, :n_warmup]
+        self.warmed += n_warmup
+        # Kept sweeps: log likelihood, log prior and draws. Samplers may return the kept draws alone, or all of a step.
+        kept_sweeps = self._keep.sweeps(begin, begin + n_sweeps)
+        columns = slice(self.kept, self.kept + len(kept_sweeps))
+        indices = [sweep - begin - 1 for sweep in kept_sweeps]  # of the kept sweeps in this step
+        densities = {"log_likelihood": info.log_likelihood, "log_prior": info.log_prior}
+        for name, values in {**info.draws, **densities}.items():
+            self._arrays[name][:, columns] = values if values.shape[1] == len(kept_sweeps) else values[:, indices]
+        self.kept = columns.stop
 
-    def grown(self, plan: SweepPlan) -> Record:
-        """Return this record with room for the draws of a longer plan, which may thin by a multiple of this one's."""
-        record = Record(self.draws, plan)
-        every = plan.thin // max(1, self._keep.every)
-        thinned = slice(every - 1, self.kept, every)
-        record.kept = len(range(self.kept)[thinned])
-        for name, array in record._draws.arrays.items():
-            array[:, : record.kept] = self._draws.arrays[name][:, thinned]
-        record._log_likelihood[:, : record.kept] = self._log_likelihood[:, thinned]
-        record._log_prior[:, : record.kept] = self._log_prior[:, thinned]
+    def grown(self, plan: SweepPlan) -> DrawRecord:
+        """Return this record with room for the draws of a longer plan. Its ``thin`` is a multiple of this plan's."""
+        record = DrawRecord(self.draws, plan)
+        stride = plan.thin // max(1, self._keep.every)
+        columns = slice(stride - 1, self.kept, stride)
+        record.kept = len(range(self.kept)[columns])
+        for name, array in record._arrays.items():
+            array[:, : record.kept] = self._arrays[name][:, columns]
         return record
 
     @property
     def draws(self) -> Draws:
         """The draws so far."""
-        return replace(self._draws, arrays={name: a[:, : self.kept] for name, a in self._draws.arrays.items()})
+        kept_arrays = {spec.name: self._arrays[spec.name][:, : self.kept] for spec in self._empty.specs}
+        return replace(self._empty, arrays=kept_arrays)
 
-    def chains(self, **results: Any) -> Chains:
-        """Return the chains so far; ``results`` are the fields of `Chains` beside draws and densities."""
-        kept = slice(self.kept)
-        return Chains(
-            draws=self.draws, log_likelihood=self._log_likelihood[:, kept], log_prior=self._log_prior[:, kept],
-            warmup_log_joint=self._warmup[:, : self.warmed], **results,
-        )  # fmt: skip
+    def chains(self, **fields: Any) -> Chains:
+        """Return the chains so far. ``fields`` are the fields of `Chains` other than draws and log densities."""
+        names = ("log_likelihood", "log_prior")
+        densities: dict[str, Any] = {name: self._arrays[name][:, : self.kept] for name in names}
+        return Chains(draws=self.draws, warmup_log_joint=self._warmup[:, : self.warmed], **densities, **fields)
 
 
 RANDOM_STREAMS = 8  # version of the assignment of random numbers: chains of another version cannot be continued
-NOT_ASKED_FOR = ("fingerprint", "threads_used", "fitted")  # entries of a run's settings that are not arguments
+DERIVED_SETTINGS = ("fingerprint", "threads_used", "fitted")  # entries of a run's settings that are not arguments
 PROBES = 64  # number of readings and of distances at which a sensor model is evaluated for the fingerprint
 
 
-def fingerprint(settings: dict[str, Any], model: Model, *starts: NDArray[Any] | None) -> str:
-    """Compute the fingerprint of a run from its settings, data, prior, sensor, and starts of cells and poses."""
+def compute_fingerprint(settings: dict[str, Any], model: Model, *starts: NDArray[Any] | None) -> str:
+    """Compute a hash, 16 hex digits, of settings, data, prior, sensor, and ``starts`` of cells and poses."""
     scans, grid = model.scans, model.grid
     digest = hashlib.blake2b(json.dumps(settings, sort_keys=True).encode())
     digest.update(repr((grid.shape, grid.resolution, grid.origin, scans.min_range_m, scans.max_range_m)).encode())
@@ -278,16 +281,15 @@ def fingerprint(settings: dict[str, Any], model: Model, *starts: NDArray[Any] | 
     return digest.hexdigest()[:16]
 
 
-def check_same(saved: dict[str, Any], asked: dict[str, Any]) -> None:
-    """Raise `BadInput` with the differences if a run was made with other arguments, scans or grid."""
-    if saved["fingerprint"] == asked["fingerprint"]:
+def refuse_changes(saved: dict[str, Any], current: dict[str, Any]) -> None:
+    """Raise `BadInput` if the settings of a saved run, its scans or its grid differ from those of the current run."""
+    if saved["fingerprint"] == current["fingerprint"]:
         return
-    if saved.get("streams") != asked["streams"]:
-        raise BadInput(
-            "resume: the saved run was made by a version of bayesmap with other random numbers; it can be looked at "
-            "and scored, but not gone on with: start again"
-        )
-    names = [name for name in asked if name not in (*NOT_ASKED_FOR, "streams") and saved.get(name) != asked[name]]
-    settings = "; ".join(f"{name} ({saved.get(name)!r}, now {asked[name]!r})" for name in names)
+    if saved.get("streams") != current["streams"]:
+        remedy = "it can be looked at and scored, but not gone on with: start again"
+        raise BadInput(f"resume: the saved run was made by a version of bayesmap with other random numbers; {remedy}")
+    arguments = [name for name in current if name not in (*DERIVED_SETTINGS, "streams")]
+    changed = [name for name in arguments if saved.get(name) != current[name]]
+    settings = "; ".join(f"{name} ({saved.get(name)!r}, now {current[name]!r})" for name in changed)
     different = settings or "scans or on another grid, or with another sensor"
     raise BadInput(f"resume: the saved run was made with other {different}")

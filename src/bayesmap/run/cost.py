@@ -1,10 +1,14 @@
 """The cost of a run, estimated before it begins: processor time, memory, and the options that make it fit.
 
-    seconds = K (warmup (chains + pilot) W + sweeps chains S) + bytes of draws F + scans T + fixed
-    bytes   = base + K R + chains (cells C + beams B + K E) + chains draws D + readings L
+A run costs time and memory in proportion to its *incidences*: the cells that a beam crosses, summed over all beams.
 
-K is the number of cells on all beams' ways, and D the size of a draw by its arrays. Each constant below names the
-measurement that it comes from. docs/scale.md compares estimates with whole runs.
+    processor_s = incidences * (warmup * (chains + pilot) * warmup_ns + sweeps * chains * sweep_ns) * 1e-9
+                  + MATCHING_S_PER_SCAN * matched scans + FILE_S_PER_BYTE * bytes of all draws + FIXED_S
+    peak_bytes  = BASE_BYTES + CELL_BYTES * cells + READING_BYTES * readings + incidence_bytes * incidences
+                  + chains * (cost of a chain by its incidences, cells and beams) + bytes of all draws
+
+Read `estimate` and `Estimate` (the answer), `size_of` (measures scans on a grid), `Sampling` (the formula above), and
+`_remedies`. Each constant names the measurement that it comes from. docs/scale.md compares estimates with whole runs.
 """
 
 from __future__ import annotations
@@ -20,15 +24,96 @@ import numpy as np
 from bayesmap.cells.arrays import ArraySpec
 from bayesmap.cells.binary import Independent
 from bayesmap.errors import BadInput
-from bayesmap.run.chains import FIRST_MARK, SweepPlan
+from bayesmap.run.chains import FIRST_MARK_DRAWS, SweepPlan
 from bayesmap.space.grid import Grid, outlying, why_outlying
 from bayesmap.space.scans import Scans
 from bayesmap.space.time_order import steps_m
 
 LONG_S = 60.0  # a run that takes longer is announced
-MUCH_MEMORY = 0.5  # a run that takes more than this share of the memory is announced
+LARGE_MEMORY_SHARE = 0.5  # a run that takes more than this share of the memory is announced
 # Files with the memory limit of a container on Linux.
-GROUP_LIMITS = ("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes")
+CONTAINER_LIMIT_FILES = ("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes")
+MIN_TOUCHED_SHARE = 0.5  # share of the grid's cells that beams touch in a building, at least: 0.6 in most
+PROPOSED_SPACINGS_M = (0.1, 0.2, 0.5, 1.0)  # distances between scans that are proposed
+
+
+def estimate(scans: Scans, grid: Grid, size: ProblemSize, sampling: Sampling) -> Estimate | None:
+    """Estimate the cost of a run here, with a remedy if it is long or large; None for an unknown sampler."""
+    if sampling.constants is None:
+        return None
+    cost = _estimate_without_remedy(size, sampling)
+    if cost.is_large:
+        return replace(cost, remedy=_options_for_memory(scans, grid, size, sampling))
+    return replace(cost, remedy=_option_for_time(scans, size, sampling)) if cost.is_long else cost
+
+
+def _estimate_without_remedy(size: ProblemSize, sampling: Sampling) -> Estimate:
+    fewest, most = sampling.draws_range
+    times = sampling.processor_s(size, fewest), sampling.processor_s(size, most)
+    processor_s = None if times[0] is None or times[1] is None else (times[0], times[1])
+    peak_bytes = sampling.peak_bytes(size, fewest), sampling.peak_bytes(size, most)
+    return Estimate(peak_bytes, processor_s, sampling.cores, memory_bytes())
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """The cost of a run: pairs of the least and the most, since chains end when the map is known."""
+
+    peak_bytes: tuple[float, float]  # of memory
+    processor_s: tuple[float, float] | None  # None if it is not known
+    cores: int
+    available_bytes: int | None  # memory of the machine; None if not known
+    remedy: str = ""  # options of the command line that make it fit, or shorter; empty if it fits or nothing helps
+
+    @property
+    def seconds(self) -> tuple[float, float] | None:
+        """Least and most seconds on the clock: processor time divided by the cores; None if not known."""
+        times = self.processor_s
+        return None if times is None else (times[0] / self.cores, times[1] / self.cores)
+
+    @property
+    def is_long(self) -> bool:
+        """Whether the run may take more than `LONG_S`."""
+        return self.seconds is not None and self.seconds[1] > LONG_S
+
+    @property
+    def is_large(self) -> bool:
+        """Whether the run may take more than `LARGE_MEMORY_SHARE` of the memory."""
+        return self.available_bytes is not None and self.peak_bytes[1] > LARGE_MEMORY_SHARE * self.available_bytes
+
+    @property
+    def is_too_large(self) -> bool:
+        """Whether even the least peak of the run is more than the memory."""
+        return self.available_bytes is not None and self.peak_bytes[0] > self.available_bytes
+
+    def words(self) -> str:
+        """Return the estimate in words, with the remedy if the run is long or large."""
+        available = "" if self.available_bytes is None else f" of {self.available_bytes / 1e9:.0f}"
+        text = f"{_range_in_unit(self.peak_bytes, 1e9)}{available} GB of memory"
+        if self.seconds is not None:
+            unit_s, unit = (3600.0, "hours") if self.seconds[1] > 5400 else (60.0, "minutes")
+            unit_s, unit = (1.0, "s") if self.seconds[1] < 100 else (unit_s, unit)
+            cores = f"{self.cores} core{'s' * (self.cores > 1)}"
+            text = f"{_range_in_unit(self.seconds, unit_s)} {unit} on {cores}, and {text}"
+        remedy = f"; less with {self.remedy}" if self.remedy and (self.is_long or self.is_large) else ""
+        return f"about {text}{remedy}"
+
+    def refuse(self, scans: Scans) -> None:
+        """Raise `BadInput` for a run that cannot fit into memory; it names the scan that lies furthest out."""
+        if not self.is_too_large:
+            return
+        assert self.available_bytes is not None
+        outliers = outlying(scans)
+        remedy = why_outlying(scans, int(outliers[0])) if len(outliers) else f"make it smaller with {self.remedy}"
+        need = f"at least {self.peak_bytes[0] / 1e9:.1f} GB, and there are {self.available_bytes / 1e9:.1f}"
+        override = "--any-size (in Python bm.Where(any_size=True)) begins all the same"
+        raise BadInput(f"memory: this takes {need}: {remedy}; {override}")
+
+
+def _range_in_unit(bounds: tuple[float, float], unit: float) -> str:
+    """Return two numbers in a unit, with about two digits; one number if both have the same digits."""
+    words = [f"{value / unit:.{0 if value >= 9.5 * unit else 1}f}" for value in bounds]
+    return " to ".join(dict.fromkeys(words))
 
 
 def memory_bytes() -> int | None:
@@ -37,12 +122,74 @@ def memory_bytes() -> int | None:
         sizes = [os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")]
     except (AttributeError, OSError, ValueError):
         sizes = []
-    for path in GROUP_LIMITS:
+    for path in CONTAINER_LIMIT_FILES:
         try:
             sizes.append(int(Path(path).read_text()))
-        except (OSError, ValueError):
+        except (OSError, ValueError):  # no such file, or "max" for no limit
             continue
     return min(sizes, default=None)
+
+
+CELLS_PER_CELL_LENGTH = 4.0 / math.pi  # mean number of cells that a line of the length of a cell's edge enters
+MARGIN_CELLS = 4.0  # traced behind a reading: 1.5 cells and six standard deviations of 4 cm at 10 cm
+MAX_MEASURED_BEAMS = 500_000  # of more beams, evenly spaced scans are measured
+MAX_TRACED_BEAMS = 20_000  # number of beams whose touched cells are counted
+POINTS_PER_BEAM = 64  # points at which touched cells are looked up
+SQUARE_CELLS = 4  # edge, in cells, of the squares in which touched cells are counted
+
+
+@dataclass(frozen=True)
+class ProblemSize:
+    """The counts that decide the cost of a run."""
+
+    beams: float
+    incidences: float  # cells that a beam crosses, summed over all beams
+    cells: float  # of the grid
+    touched: float  # cells that some beam touches
+    endpoints: float  # cells in which readings end
+    readings: float  # of the log that is in memory
+    matched: int = 0  # scans whose poses `slam` infers first
+
+    def thinned(self, share: float) -> ProblemSize:
+        """Return the size with a share of the scans. The map of `slam` is made from few scans in any case."""
+        thin = replace(self, matched=round(self.matched * share), readings=self.readings * share)
+        return thin if self.matched else replace(thin, beams=self.beams * share, incidences=self.incidences * share)
+
+    def coarser(self, factor: float) -> ProblemSize:
+        """Return the size with cells whose edges are longer by a factor."""
+        return replace(
+            self, incidences=self.incidences / factor, cells=self.cells / factor**2,
+            touched=self.touched / factor**2, endpoints=self.endpoints / factor,
+        )  # fmt: skip
+
+
+def size_of(scans: Scans, grid: Grid, log: Scans | None = None) -> ProblemSize:
+    """Measure scans on a grid. ``log`` has the scans whose trajectory `slam` infers first; None for `infer`."""
+    stride = max(1, math.ceil(scans.ranges_m.size / MAX_MEASURED_BEAMS))
+    readings, scans = (scans if log is None else log).ranges_m.size, scans.select(slice(None, None, stride))
+    # Lengths of the beams on the grid, in cells; a beam without return ends at the grid's edge.
+    ranges = scans.ranges_m.ravel()
+    valid = ~np.isnan(ranges)
+    start = grid.to_cells(scans.beam_starts_world()).reshape(-1, 2)[valid]
+    angle = scans.beam_angles_world().ravel()[valid]
+    direction = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    reading = np.where(np.isneginf(ranges[valid]), scans.min_range_m, np.minimum(ranges[valid], scans.max_range_m))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        side_distances = np.where(direction > 0, np.array(grid.shape) - start, -start) / direction
+    edge_distance = np.where(direction == 0, np.inf, side_distances).min(axis=-1)
+    length = np.clip(np.minimum(reading / grid.resolution + MARGIN_CELLS, edge_distance), 0.0, None)
+    # Count the squares that some beams touch, and the cells in which readings end.
+    sampled = slice(None, None, max(1, len(length) // MAX_TRACED_BEAMS))
+    distances = length[sampled, None, None] * np.linspace(0.0, 1.0, POINTS_PER_BEAM)[:, None]
+    points = start[sampled, None] + direction[sampled, None] * distances
+    squares = np.floor(points / SQUARE_CELLS).astype(np.int64)
+    touched = len(np.unique(squares[..., 0] * (max(grid.shape) + 1) + squares[..., 1])) * SQUARE_CELLS**2
+    ends = np.floor(grid.to_cells(scans.hit_points_world())).astype(np.int64)
+    endpoints = len(np.unique(ends[:, 0] * (grid.shape[1] + 1) + ends[:, 1]))
+    return ProblemSize(
+        stride * len(length), stride * CELLS_PER_CELL_LENGTH * float(length.sum()), grid.n_cells,
+        min(touched, grid.n_cells), min(endpoints, grid.n_cells), readings, 0 if log is None else len(log),
+    )  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -51,10 +198,10 @@ class SamplerCost:
 
     warmup_ns: float | None
     sweep_ns: float | None
-    incidence: float  # bytes, once for all chains
-    chain_incidence: float  # bytes, per chain
-    chain_cell: float
-    chain_beam: float
+    incidence_bytes: float  # once for all chains
+    chain_incidence_bytes: float  # per chain and incidence
+    chain_cell_bytes: float  # per chain and cell
+    chain_beam_bytes: float  # per chain and beam
 
 
 SURFACES = SamplerCost(43.0, 29.0, 16.0, 1.3, 110.0, 20.0)
@@ -71,262 +218,126 @@ TABLE = SamplerCost(None, None, 40.0, 0.0, 32.0, 8.0)
 """Methods without chains: the beam table and the messages of belief propagation; times were not measured."""
 
 POSES_FACTOR = 3.0  # ratio of a sweep that samples poses, too: 2 to 4 (MIT CSAIL; 305 000 beams of the five minutes)
-MATCH_S_A_SCAN = 7.4e-3  # time for the trajectory: 22 s for 3000 scans, 90 s for 12 000, of 720 beams
+MATCHING_S_PER_SCAN = 7.4e-3  # time for the trajectory: 22 s for 3000 scans, 90 s for 12 000, of 720 beams
 FIXED_S = 8.0  # time for files and pictures: with 40 draws of 1.1 MB 10 s
-FILE_S_A_BYTE = 40e-9  # more time for them: with 200 draws 17 to 20 s
+FILE_S_PER_BYTE = 40e-9  # more time for them: with 200 draws 17 to 20 s
 BASE_BYTES = 390e6  # peak of runs of 3000 beams
 READING_BYTES = 40.0  # by what 2.2 M readings added to the peak of `slam`
 CELL_BYTES = 100.0  # beside the chains: a map of 2 million cells, three beams and one draw took 101, and 107 a chain
 
-CELLS_A_CELL_LENGTH = 4.0 / math.pi  # mean number of cells that a line of the length of a cell's edge enters
-MARGIN_CELLS = 4.0  # traced behind a reading: 1.5 cells and six standard deviations of 4 cm at 10 cm
-MEASURED_BEAMS = 500_000  # most beams that are measured
-TRACED_BEAMS = 20_000  # most beams whose touched cells are counted
-POINTS = 64  # on each of these beams
-SQUARE_CELLS = 4  # along the edge of the squares in which touched cells are counted
-TOUCHED_SHARE = 0.5  # share of the grid's cells that beams touch in a building, at least: 0.6 in most
-THINNED_M = (0.1, 0.2, 0.5, 1.0)  # distances between scans that are proposed
-
-
-@dataclass(frozen=True)
-class Size:
-    """The numbers that decide the cost of a run."""
-
-    beams: float
-    incidences: float  # cells on the ways of all beams
-    cells: float  # of the grid
-    touched: float  # cells that some beam touches
-    endpoints: float  # cells in which readings end
-    readings: float  # of the log that is in memory
-    matched: int = 0  # scans whose poses `slam` infers first
-
-    def thinned(self, share: float) -> Size:
-        """Return the size with a share of the scans. The map of `slam` is made from few scans in any case."""
-        thin = replace(self, matched=round(self.matched * share), readings=self.readings * share)
-        return thin if self.matched else replace(thin, beams=self.beams * share, incidences=self.incidences * share)
-
-    def coarser(self, factor: float) -> Size:
-        """Return the size with cells whose edges are longer by a factor."""
-        return replace(
-            self, incidences=self.incidences / factor, cells=self.cells / factor**2,
-            touched=self.touched / factor**2, endpoints=self.endpoints / factor,
-        )  # fmt: skip
-
-
-def size_of(scans: Scans, grid: Grid, log: Scans | None = None) -> Size:
-    """Measure scans on a grid. ``log`` holds the scans whose trajectory is inferred first, if it is."""
-    every = max(1, math.ceil(scans.ranges_m.size / MEASURED_BEAMS))
-    readings, scans = (scans if log is None else log).ranges_m.size, scans.select(slice(None, None, every))
-    # Lengths of the beams on the grid, in cells; a beam without return ends at the grid's edge.
-    ranges = scans.ranges_m.ravel()
-    used = ~np.isnan(ranges)
-    start = grid.to_cells(scans.beam_starts_world()).reshape(-1, 2)[used]
-    angle = scans.beam_angles_world().ravel()[used]
-    direction = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
-    reading = np.where(np.isneginf(ranges[used]), scans.min_range_m, np.minimum(ranges[used], scans.max_range_m))
-    with np.errstate(divide="ignore", invalid="ignore"):
-        side_distances = np.where(direction > 0, np.array(grid.shape) - start, -start) / direction
-    edge_distance = np.where(direction == 0, np.inf, side_distances).min(axis=-1)
-    length = np.clip(np.minimum(reading / grid.resolution + MARGIN_CELLS, edge_distance), 0.0, None)
-    # Squares that some beams touch, and cells in which readings end.
-    sampled = slice(None, None, max(1, len(length) // TRACED_BEAMS))
-    distances = length[sampled, None, None] * np.linspace(0.0, 1.0, POINTS)[:, None]
-    points = start[sampled, None] + direction[sampled, None] * distances
-    squares = np.floor(points / SQUARE_CELLS).astype(np.int64)
-    touched = len(np.unique(squares[..., 0] * (max(grid.shape) + 1) + squares[..., 1])) * SQUARE_CELLS**2
-    ends = np.floor(grid.to_cells(scans.hit_points_world())).astype(np.int64)
-    endpoints = len(np.unique(ends[:, 0] * (grid.shape[1] + 1) + ends[:, 1]))
-    return Size(
-        every * len(length), every * CELLS_A_CELL_LENGTH * float(length.sum()), grid.n_cells,
-        min(touched, grid.n_cells), min(endpoints, grid.n_cells), readings, 0 if log is None else len(log),
-    )  # fmt: skip
-
 
 @dataclass(frozen=True)
 class Sampling:
-    """The settings that decide the cost of a run beside its size."""
+    """The settings of a sampler that decide, with the `ProblemSize`, the cost of a run."""
 
     sampler: str  # as `CellPrior.methods` names it
     arrays: tuple[ArraySpec, ...]  # of a draw
-    surfaces: bool  # whether cells have surfaces
+    has_surfaces: bool  # whether cells have surfaces
     chains: int
     plan: SweepPlan
-    fitted: bool  # whether a pilot fits the sensor
-    poses: bool  # whether poses are sampled
+    is_fitted: bool  # whether a pilot chain fits the sensor
+    samples_poses: bool  # whether poses are sampled
     cores: int
 
     @property
     def constants(self) -> SamplerCost | None:
         """The constants of the sampler; None for one whose cost is not known."""
-        stops = SURFACES if self.surfaces else REFLECTIVITIES
+        stops = SURFACES if self.has_surfaces else REFLECTIVITIES
         costs = {"stop-gibbs": stops, "wall-gibbs": WALLS, "wall-blocks": BLOCKS}
         return costs.get(self.sampler, None if self.sampler == "metropolis" else TABLE)
 
     @property
-    def draws(self) -> tuple[int, int]:
+    def draws_range(self) -> tuple[int, int]:
         """The fewest and the most draws per chain."""
-        fewest = self.plan.draws if self.plan.precision is None else min(FIRST_MARK, self.plan.draws)
+        fewest = self.plan.draws if self.plan.precision is None else min(FIRST_MARK_DRAWS, self.plan.draws)
         return (min(fewest, 2) if self.plan.seconds else fewest), self.plan.draws
 
-    def draw_bytes(self, size: Size) -> float:
-        """Return the size of a draw of one chain."""
-        cells = {"cell": size.cells if self.poses else size.touched, "surface_cell": size.endpoints, "scan": 0.0}
-        item_bytes = {"bits": 1 / 8, "half": 2.0}
-        sizes = ((spec, cells.get(spec.dims[0], size.cells)) for spec in self.arrays)
-        return sum(item_bytes.get(spec.storage, np.dtype(spec.dtype).itemsize) * count for spec, count in sizes)
+    def draw_bytes(self, size: ProblemSize) -> float:
+        """Return the bytes of a draw of one chain."""
+        counts = {"cell": size.cells if self.samples_poses else size.touched, "surface_cell": size.endpoints, "scan": 0}
+        packed_bytes, total = {"bits": 1 / 8, "half": 2.0}, 0.0
+        for spec in self.arrays:
+            item_bytes = packed_bytes.get(spec.storage, np.dtype(spec.dtype).itemsize)
+            total += item_bytes * counts.get(spec.dims[0], size.cells)
+        return total
 
-    def memory(self, size: Size, draws: int) -> float:
-        """Return the peak of the memory in bytes."""
+    def peak_bytes(self, size: ProblemSize, draws: int) -> float:
+        """Return the peak of the memory for a number of draws per chain, by the formula of this module."""
         cost = self.constants
         assert cost is not None
-        chain = cost.chain_cell * size.cells + cost.chain_beam * size.beams + cost.chain_incidence * size.incidences
-        return (
-            BASE_BYTES + CELL_BYTES * size.cells + cost.incidence * size.incidences + self.chains * chain
-            + self.chains * draws * self.draw_bytes(size) + READING_BYTES * size.readings
-        )  # fmt: skip
+        chain = cost.chain_cell_bytes * size.cells + cost.chain_beam_bytes * size.beams
+        chain += cost.chain_incidence_bytes * size.incidences
+        shared = BASE_BYTES + CELL_BYTES * size.cells + cost.incidence_bytes * size.incidences
+        draw_bytes = self.chains * draws * self.draw_bytes(size)
+        return shared + self.chains * chain + draw_bytes + READING_BYTES * size.readings
 
-    def processor_s(self, size: Size, draws: int) -> float | None:
-        """Return the processor time in seconds; None if it is not known."""
+    def processor_s(self, size: ProblemSize, draws: int) -> float | None:
+        """Return the processor time for a number of draws per chain, in seconds; None if it is not known."""
         cost, plan = self.constants, self.plan
         if cost is None or cost.warmup_ns is None or cost.sweep_ns is None:
             return None
-        warmup = plan.warmup * (self.chains + self.fitted) * cost.warmup_ns
+        # The pilot makes as many sweeps as the warm-up of one chain.
+        warmup = plan.warmup * (self.chains + self.is_fitted) * cost.warmup_ns
         chains = 1e-9 * size.incidences * (warmup + draws * plan.thin * self.chains * cost.sweep_ns)
-        chains *= POSES_FACTOR if self.poses else 1.0
+        chains *= POSES_FACTOR if self.samples_poses else 1.0
         if plan.seconds is not None:
             chains = min(chains, plan.seconds * self.cores)
-        files = FIXED_S + FILE_S_A_BYTE * self.chains * draws * self.draw_bytes(size)
-        return chains + files + MATCH_S_A_SCAN * size.matched
+        files = FIXED_S + FILE_S_PER_BYTE * self.chains * draws * self.draw_bytes(size)
+        return chains + files + MATCHING_S_PER_SCAN * size.matched
 
 
-@dataclass(frozen=True)
-class Estimate:
-    """The cost of a run: least and most, since chains end when the map is known."""
-
-    memory: tuple[float, float]  # bytes
-    processor_s: tuple[float, float] | None  # None if it is not known
-    cores: int
-    available: int | None  # bytes of memory of the machine; None if not known
-    remedy: str = ""  # options of the command line that make it fit, or shorter; empty if it fits or nothing helps
-
-    @property
-    def seconds(self) -> tuple[float, float] | None:
-        """Seconds on the clock: processor time divided by the cores; None if not known."""
-        times = self.processor_s
-        return None if times is None else (times[0] / self.cores, times[1] / self.cores)
-
-    @property
-    def is_long(self) -> bool:
-        """Whether the run may take more than `LONG_S`."""
-        return self.seconds is not None and self.seconds[1] > LONG_S
-
-    @property
-    def is_large(self) -> bool:
-        """Whether the run may take more than `MUCH_MEMORY` of the memory."""
-        return self.available is not None and self.memory[1] > MUCH_MEMORY * self.available
-
-    @property
-    def is_too_large(self) -> bool:
-        """Whether even the least that the run takes is more than the memory."""
-        return self.available is not None and self.memory[0] > self.available
-
-    def words(self) -> str:
-        """Return the estimate in words, with the remedy if the run is long or large."""
-        available = "" if self.available is None else f" of {self.available / 1e9:.0f}"
-        text = f"{_between(*self.memory, 1e9)}{available} GB of memory"
-        if self.seconds is not None:
-            unit_s, unit = (3600.0, "hours") if self.seconds[1] > 5400 else (60.0, "minutes")
-            unit_s, unit = (1.0, "s") if self.seconds[1] < 100 else (unit_s, unit)
-            text = f"{_between(*self.seconds, unit_s)} {unit} on {self.cores} core{'s' * (self.cores > 1)}, and {text}"
-        remedy = f"; less with {self.remedy}" if self.remedy and (self.is_long or self.is_large) else ""
-        return f"about {text}{remedy}"
-
-    def refuse(self, scans: Scans) -> None:
-        """Raise `BadInput` for a run that cannot fit into memory; it names the scan that lies furthest out."""
-        if not self.is_too_large:
-            return
-        assert self.available is not None
-        wrong = outlying(scans)
-        remedy = why_outlying(scans, int(wrong[0])) if len(wrong) else f"make it smaller with {self.remedy}"
-        raise BadInput(
-            f"memory: this takes at least {self.memory[0] / 1e9:.1f} GB, and there are {self.available / 1e9:.1f}: "
-            f"{remedy}; --any-size (in Python bm.Where(any_size=True)) begins all the same"
-        )
-
-
-def _between(low: float, high: float, unit: float) -> str:
-    """Return two numbers in a unit, with about two digits; one number if they are equal then."""
-    words = [f"{value / unit:.{0 if value >= 9.5 * unit else 1}f}" for value in (low, high)]
-    return " to ".join(dict.fromkeys(words))
-
-
-def estimate(scans: Scans, grid: Grid, size: Size, sampling: Sampling) -> Estimate | None:
-    """Estimate the cost of a run here, with a remedy if it is long or large; None for an unknown sampler."""
-    if sampling.constants is None:
-        return None
-    cost = _estimate(size, sampling)
-    if cost.is_large:
-        return replace(cost, remedy=_options_for_memory(scans, grid, size, sampling))
-    return replace(cost, remedy=_option_for_time(scans, size, sampling)) if cost.is_long else cost
-
-
-def _estimate(size: Size, sampling: Sampling) -> Estimate:
-    low, high = ((sampling.memory(size, draws), sampling.processor_s(size, draws)) for draws in sampling.draws)
-    time = None if low[1] is None or high[1] is None else (low[1], high[1])
-    return Estimate((low[0], high[0]), time, sampling.cores, memory_bytes())
-
-
-def _option_for_time(scans: Scans, size: Size, sampling: Sampling) -> str:
+def _option_for_time(scans: Scans, size: ProblemSize, sampling: Sampling) -> str:
     """Return the option that makes a run shorter: fewer scans if they are close together, else a limit."""
-    for spacing, share in _spacings(scans):
-        if share <= 0.5 and (not size.matched or MATCH_S_A_SCAN * size.matched > LONG_S * sampling.cores):
-            return f"--thin-scans {spacing:g}"
+    # Thinning shortens `slam` only if the matching of scans takes long.
+    for spacing_m, share in _spacings(scans):
+        if share <= 0.5 and (not size.matched or MATCHING_S_PER_SCAN * size.matched > LONG_S * sampling.cores):
+            return f"--thin-scans {spacing_m:g}"
     return "" if sampling.plan.seconds is not None else f"--seconds {LONG_S:g}"
 
 
-def _options_for_memory(scans: Scans, grid: Grid, size: Size, sampling: Sampling) -> str:
-    """Return the options after which a run fits into `MUCH_MEMORY`, the one that fits the cause first."""
-    words: list[str] = []
-    for option, change in _changes(scans, grid, size, sampling):
+def _options_for_memory(scans: Scans, grid: Grid, size: ProblemSize, sampling: Sampling) -> str:
+    """Return the options after which a run fits into `LARGE_MEMORY_SHARE`, the one that fits the cause first."""
+    options: list[str] = []
+    for option, estimate_with_it in _remedies(scans, grid, size, sampling):
         # A second value of an option replaces the first.
-        words = [*(word for word in words if word.split()[0] != option.split()[0]), option]
-        if not _estimate(*change).is_large:
+        options = [*(earlier for earlier in options if earlier.split()[0] != option.split()[0]), option]
+        if not estimate_with_it.is_large:
             break
-    return " ".join(words)
+    return " ".join(options)
 
 
-def _changes(scans: Scans, grid: Grid, size: Size, sampling: Sampling) -> Iterator[tuple[str, tuple[Size, Sampling]]]:
-    """Yield options, each with the run after it and all options before it."""
+def _remedies(scans: Scans, grid: Grid, size: ProblemSize, sampling: Sampling) -> Iterator[tuple[str, Estimate]]:
+    """Yield options, each with the estimate of the run with it and all options before it."""
     # Which need more memory: beams, or cells and their draws?
     without_beams = replace(size, beams=0.0, incidences=0.0, readings=0.0)
-    cell_bytes = sampling.memory(without_beams, sampling.plan.draws) - BASE_BYTES
-    beam_bytes = sampling.memory(size, sampling.plan.draws) - cell_bytes - BASE_BYTES
-    # Few hits far away make the grid large.
-    hits = scans.ranges_m[np.isfinite(scans.ranges_m)]
-    nearly_all_m = math.ceil(np.percentile(hits, 99.0)) if hits.size else math.inf
-    if cell_bytes > beam_bytes and scans.min_range_m < nearly_all_m < 0.7 * hits.max():
+    cell_bytes = sampling.peak_bytes(without_beams, sampling.plan.draws) - BASE_BYTES
+    beam_bytes = sampling.peak_bytes(size, sampling.plan.draws) - cell_bytes - BASE_BYTES
+    # Few hits far away make the grid large: cut them off.
+    hits_m = scans.ranges_m[np.isfinite(scans.ranges_m)]
+    nearly_all_m = math.ceil(np.percentile(hits_m, 99.0)) if hits_m.size else math.inf
+    if cell_bytes > beam_bytes and scans.min_range_m < nearly_all_m < 0.7 * hits_m.max():
         smaller_grid = Grid.covering(scans.limited(nearly_all_m), grid.resolution)
         if smaller_grid.n_cells < 0.7 * size.cells:
             share = smaller_grid.n_cells / size.cells
             size = replace(size, cells=size.cells * share, touched=size.touched * share)
-            yield f"--max-range {nearly_all_m:g}", (size, sampling)
+            yield f"--max-range {nearly_all_m:g}", _estimate_without_remedy(size, sampling)
     if beam_bytes > cell_bytes:
         thin = size
-        for spacing, share in _spacings(scans):
+        for spacing_m, share in _spacings(scans):
             thin = size.thinned(share)
-            yield f"--thin-scans {spacing:g}", (thin, sampling)
+            yield f"--thin-scans {spacing_m:g}", _estimate_without_remedy(thin, sampling)
         size = thin
     for factor in (2, 4):
-        yield f"--resolution {factor * grid.resolution:g}", (size.coarser(factor), sampling)
-    if sampling.surfaces or sampling.sampler == "stop-gibbs":
-        walls = replace(sampling, sampler="wall-gibbs", arrays=Independent.arrays, surfaces=False)
-        yield "--cells binary", (size.coarser(4), walls)
+        yield f"--resolution {factor * grid.resolution:g}", _estimate_without_remedy(size.coarser(factor), sampling)
+    if sampling.has_surfaces or sampling.sampler == "stop-gibbs":
+        walls = replace(sampling, sampler="wall-gibbs", arrays=Independent.arrays, has_surfaces=False)
+        yield "--cells binary", _estimate_without_remedy(size.coarser(4), walls)
 
 
 def _spacings(scans: Scans) -> Iterator[tuple[float, float]]:
-    """Yield distances between scans, and the share of the scans that each leaves if it leaves some out."""
-    travelled = np.concatenate([[0.0], np.cumsum(steps_m(scans.poses))])
-    for spacing in THINNED_M:
-        share = len(np.unique(np.floor(travelled / spacing))) / max(len(scans), 1)
+    """Yield distances between scans in metres, and the share of the scans that each leaves, if it is below 0.8."""
+    travelled_m = np.concatenate([[0.0], np.cumsum(steps_m(scans.poses))])
+    for spacing_m in PROPOSED_SPACINGS_M:
+        share = len(np.unique(np.floor(travelled_m / spacing_m))) / max(len(scans), 1)
         if share < 0.8:
-            yield spacing, share
+            yield spacing_m, share

@@ -1,9 +1,10 @@
-"""The one runner of all chains: an iterator of (state, info), and a loop that stores draws and writes checkpoints.
+"""The runner of all chains: start them, advance them step by step, store their draws, and write checkpoints.
 
-All chains of a process advance together, in steps of about a quarter of a second of work. Between two steps they have
-made the same number of sweeps. So a checkpoint holds the state of each chain, this number, and the draws so far.
-`bayesmap.infer`, the page and the workers of a cluster either iterate over `sweeps`, or let `run_chains` store the
-draws. An `Executor` decides where the chains of a job run.
+All chains of a process advance together, in steps of about a quarter of a second of work. After each step all of them
+have made the same number of sweeps. So a checkpoint holds the state of each chain, this number, and the draws so far.
+
+Read `Job` (what to run), `run_chains` (the loop), and `advance_chains` (the steps, which the page iterates itself). An
+`Executor` decides where the chains of a job run.
 """
 
 from __future__ import annotations
@@ -22,43 +23,19 @@ from numpy.typing import NDArray
 
 from bayesmap.cells.arrays import Draws
 from bayesmap.model import Model
-from bayesmap.run.chains import Chains, EndRule, Record, SweepPlan, map_error, observed_cells
+from bayesmap.run.chains import Chains, DrawRecord, StoppingRule, SweepPlan, map_error, observed_cells
 from bayesmap.samplers.fit import Parameters
 from bayesmap.samplers.sampler import PILOT, SILENT, ChainState, Info, Keep, Sampler, Snapshot, Watch, draws_to_inspect
 
-
-@contextlib.contextmanager
-def stop_on_interrupt() -> Iterator[Callable[[], bool]]:
-    """Make the yielded function return True after the first Ctrl-C; a second one interrupts at once.
-
-    It always returns False outside the main thread, in which alone Python handles signals, and in a process that was
-    started to ignore Ctrl-C, as shells start background jobs of a script.
-    """
-    stopped = False
-
-    def handle(number: int, frame: FrameType | None) -> None:
-        nonlocal stopped
-        if stopped:
-            raise KeyboardInterrupt
-        stopped = True
-
-    in_main_thread = threading.current_thread() is threading.main_thread()
-    if not in_main_thread or signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
-        yield lambda: False
-        return
-    before = signal.signal(signal.SIGINT, handle)
-    try:
-        yield lambda: stopped
-    finally:
-        signal.signal(signal.SIGINT, signal.SIG_DFL if before is None else before)
-
-
 STEP_SECONDS = 0.25  # of work per step
 SECONDS_PER_INCIDENCE = 2e-8  # a first guess, for the first step; later steps use the measured time
-FIRST_STEP = 16  # most sweeps of the first step
-STEP_GROWTH = 16  # largest ratio of the sweeps of a step to the sweeps of the step before
-BUFFER_BYTES = 64 << 20  # most bytes of the draws of one step
-CHECKPOINT_SHARE = 0.05  # largest share of the time that checkpoints may take
+MAX_FIRST_STEP_SWEEPS = 16  # a limit, because the first guess of the speed may be far off
+MAX_STEP_GROWTH = 16  # largest ratio of the sweeps of a step to the sweeps of the step before
+MAX_BUFFER_BYTES = 64 << 20  # size of the draws of one step
+MAX_CHECKPOINT_SHARE = 0.05  # largest share of the time that checkpoints may take
+FIRST_MAP_SWEEPS = 5  # sweeps of the chain that draws a first map: its walls are where they stay, but still thick
+
+OnCheckpoint = Callable[[Chains], None] | None  # saves the chains so far
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,162 +58,149 @@ class Job:
         return self.model if self.parameters is None else replace(self.model, sensor=self.parameters.sensor)
 
 
-def sweeps(
-    sampler: Sampler[Any, Any], state: Any, until: int, *, keep: Keep = Keep(), beta: float = 1.0,
-    step_seconds: float | None = None, most_kept: int | None = None, stops: tuple[int, ...] = (),
+def run_chains(
+    job: Job, *, resume: Chains | None = None, watch: Watch = SILENT, on_checkpoint: OnCheckpoint = None,
+    checkpoint_every_s: float = 30.0,
+) -> Chains:  # fmt: skip
+    """Run all chains of a job in this process, or continue the chains of ``resume``, bit for bit.
+
+    The watch gets progress after every step, and may stop the chains between two steps. Stopped chains are not
+    ``finished``, even if they were stopped in the last step. ``on_checkpoint`` gets the chains so far at the end of
+    warm-up, and every ``checkpoint_every_s`` seconds; less often if it would take more than 5 % of the time.
+    """
+    # Start the chains, and make room for their draws.
+    schedule = job.schedule
+    running = _RunningChains(job, resume, watch)
+    steps = advance_chains(
+        job.sampler, running.state, schedule.sweeps, keep=schedule.keep,
+        max_kept=max(1, MAX_BUFFER_BYTES // max(running.draw_bytes, 1)), stops=(schedule.warmup, *schedule.marks),
+    )  # fmt: skip
+    rule = StoppingRule(schedule, running.map_error)
+    rule.check(running.sweep)  # a resumed run may stand at a mark
+    checkpoints = CheckpointTimer(on_checkpoint, checkpoint_every_s)
+    # Advance step by step until the last sweep, the stopping rule, or a stop by the user.
+    began = time.perf_counter()
+    stopped = watch.should_stop()
+    while not (stopped or rule.is_met):
+        step = next(steps, None)
+        if step is None:
+            break
+        is_warmup = running.sweep < schedule.warmup
+        running.record_step(*step)
+        running.seconds["sampling"] += time.perf_counter() - began
+        sweep, log_joint = running.sweep, step[1].log_likelihood[:, -1] + step[1].log_prior[:, -1]
+        rule.check(sweep)
+        watch.report(
+            "warm-up" if is_warmup else "draws", sweep, rule.expected_sweeps(sweep), float(np.mean(log_joint)),
+            rule.error, schedule.warmup, rule.end_is_open,
+        )  # fmt: skip
+        checkpoints.offer(running.results, at_once=is_warmup and sweep == schedule.warmup)
+        began, stopped = time.perf_counter(), watch.should_stop()
+    # A stop in the last step counts, too: the caller must not begin the work that follows the chains.
+    return replace(running.results(), finished=not stopped and (rule.is_met or running.sweep >= schedule.sweeps))
+
+
+class _RunningChains:
+    """The chains of a job in this process: their present state, their draws so far, and the seconds spent."""
+
+    def __init__(self, job: Job, resume: Chains | None, watch: Watch) -> None:
+        self._job, problem, began = job, job.problem, time.perf_counter()
+        if problem is None:
+            problem = job.sampler.prepare(job.model_to_trace, job.device, job.threads, watch)
+        if job.parameters is not None:
+            problem = problem.under(job.parameters.sensor, job.parameters.prior)
+        traced = time.perf_counter()
+        snapshot = None if resume is None else resume.snapshot
+        self.state: ChainState = job.sampler.init(problem, job.chain_ids, job.seed, snapshot, watch)
+        self.seconds = {"trace": traced - began, "warm_start": time.perf_counter() - traced, "sampling": 0.0}
+        self.sweep = self.state.sweep  # number of sweeps of each chain; a state must not be read after a step from it
+        self._statistics = self.state.statistics
+        if resume is not None:
+            self.seconds = {name: spent + resume.seconds.get(name, 0.0) for name, spent in self.seconds.items()}
+            self._statistics = resume.statistics
+        empty = empty_draws(job.model, self.state, len(job.chain_ids))
+        self._record = DrawRecord(empty, job.schedule, resume)
+        self.draw_bytes = sum(spec.empty(len(job.chain_ids), 1, empty.shape_of(spec)).nbytes for spec in empty.specs)
+
+    def record_step(self, state: ChainState, info: Info) -> None:
+        """Store the draws of a step and the state after it."""
+        self._record.add(info, self.sweep)
+        self.state, self.sweep = state, state.sweep
+
+    def map_error(self) -> float:
+        """Estimate the error of the mean map from the draws so far."""
+        return map_error(self._job.model.cells, self._record.draws, observed_cells(self._observed_counts()))
+
+    def results(self) -> Chains:
+        """Return draws and states so far, as not finished."""
+        return self._record.chains(
+            snapshot=self._job.sampler.snapshot(self.state), finished=False, statistics=self._statistics,
+            observed_counts=self._observed_counts(), n_incidences=self.state.problem.n_incidences,
+            seconds=dict(self.seconds),
+        )  # fmt: skip
+
+    def _observed_counts(self) -> NDArray[np.int32]:
+        return self._job.sampler.observed_counts(self.state, draws_to_inspect(self._record.draws))
+
+
+def advance_chains(
+    sampler: Sampler[Any, Any], state: Any, until: int, *, keep: Keep = Keep(), step_seconds: float | None = None,
+    max_kept: int | None = None, stops: tuple[int, ...] = (),
 ) -> Iterator[tuple[Any, Info]]:  # fmt: skip
     """Advance chains step by step until they have made ``until`` sweeps: yield (state, info) after each step.
 
     The number of sweeps in a step depends on their speed; the draws do not. A step takes about ``step_seconds``
-    (`STEP_SECONDS` if None), keeps at most ``most_kept`` draws, and ends at each number of sweeps in ``stops``.
+    (`STEP_SECONDS` if None), keeps at most ``max_kept`` draws, and ends at each number of sweeps in ``stops``.
     """
     seconds = STEP_SECONDS if step_seconds is None else step_seconds
-    per_sweep_s, most = SECONDS_PER_INCIDENCE * state.problem.n_incidences, FIRST_STEP
+    per_sweep_s, max_sweeps = SECONDS_PER_INCIDENCE * state.problem.n_incidences, MAX_FIRST_STEP_SWEEPS
     while state.sweep < until:
-        # Sweeps of this step: by the measured speed, up to the next stop, and with few enough draws.
-        count = int(max(1, min(seconds / per_sweep_s if per_sweep_s > 0 else most, most, until - state.sweep)))
+        # Limit the sweeps of this step by the measured speed, by the next stop, and by the memory for draws.
+        affordable = seconds / per_sweep_s if per_sweep_s > 0 else max_sweeps
+        count = int(max(1, min(affordable, max_sweeps, until - state.sweep)))
         count = min([count, *(stop - state.sweep for stop in stops if stop > state.sweep)])
-        if most_kept is not None and keep.every:
-            kept = keep.sweeps(state.sweep, state.sweep + count)
-            count = kept[most_kept - 1] - state.sweep if len(kept) > most_kept else count
+        if max_kept is not None and keep.every:
+            kept_sweeps = keep.sweeps(state.sweep, state.sweep + count)
+            count = kept_sweeps[max_kept - 1] - state.sweep if len(kept_sweeps) > max_kept else count
         began = time.perf_counter()
-        state, info = sampler.step(state, count, beta, keep)
-        per_sweep_s, most = (time.perf_counter() - began) / count, STEP_GROWTH * count
+        state, info = sampler.step(state, count, keep=keep)
+        per_sweep_s, max_sweeps = (time.perf_counter() - began) / count, MAX_STEP_GROWTH * count
         yield state, info
 
 
-def start_chains(job: Job, resume: Chains | None = None, watch: Watch = SILENT) -> tuple[ChainState, dict[str, float]]:
-    """Start or continue the chains of a job. Returns their state, and the seconds spent, by phase."""
-    began = time.perf_counter()
-    problem = job.problem
-    if problem is None:
-        problem = job.sampler.prepare(job.model_to_trace, job.device, job.threads, watch)
-    if job.parameters is not None:
-        problem = problem.under(job.parameters.sensor, job.parameters.prior)
-    traced = time.perf_counter()
-    snapshot = None if resume is None else resume.snapshot
-    state = job.sampler.init(problem, job.chain_ids, job.seed, snapshot, watch)
-    return state, {"trace": traced - began, "warm_start": time.perf_counter() - traced, "sampling": 0.0}
-
-
-def no_draws(model: Model, state: ChainState, chains: int) -> Draws:
-    """Return the empty draws of a model, for a number of chains."""
+def empty_draws(model: Model, state: ChainState, chains: int) -> Draws:
+    """Return a record of no draws of a model, with arrays of the right shapes for a number of chains."""
     empty = Draws(model.grid, model.arrays, {}, state.problem.coordinates)
     return replace(empty, arrays={spec.name: spec.empty(chains, 0, empty.shape_of(spec)) for spec in empty.specs})
-
-
-FIRST_MAP_SWEEPS = 5  # sweeps of the chain that draws a first map: its walls are where they stay, but still thick
-
-
-def first_map(sampler: Sampler[Any, Any], problem: Any, model: Model, seed: int) -> tuple[Chains, float]:
-    """Draw a first, rough map with a short chain of its own. Returns it, and the seconds of a sweep on all threads."""
-    state = sampler.init(problem, [PILOT], seed)
-    state, _ = sampler.step(state, 1)  # a first sweep is slower
-    began = time.perf_counter()
-    state, _ = sampler.step(state, FIRST_MAP_SWEEPS - 2)
-    seconds = (time.perf_counter() - began) / (FIRST_MAP_SWEEPS - 2)
-    state, info = sampler.step(state, 1, keep=Keep(state.sweep, 1))
-    draws = replace(no_draws(model, state, 1), arrays=info.draws)
-    chains = Chains(
-        draws, info.log_likelihood, info.log_prior, np.zeros((1, 0)), Snapshot(0),
-        sampler.observed_counts(state, draws_to_inspect(draws)), {}, problem.n_incidences, {}, finished=False,
-    )  # fmt: skip
-    return chains, seconds
-
-
-def run_chains(
-    job: Job, *, resume: Chains | None = None, watch: Watch = SILENT,
-    on_checkpoint: Callable[[Chains], None] | None = None, checkpoint_every_s: float = 30.0,
-) -> Chains:  # fmt: skip
-    """Run warm-up and draws of all chains of a job in this process, or continue the chains of ``resume``, bit for bit.
-
-    The watch gets progress after every step, and may stop the chains between two steps: then they are not ``finished``,
-    even in the last step. ``on_checkpoint`` gets the chains so far at the end of warm-up, and every
-    ``checkpoint_every_s`` seconds; less often if it would take more than 5 % of the time.
-    """
-    # Start the chains, and make room for their draws.
-    schedule, chains = job.schedule, len(job.chain_ids)
-    state, seconds = start_chains(job, resume, watch)
-    statistics = state.statistics
-    if resume is not None:
-        seconds = {name: spent + resume.seconds.get(name, 0.0) for name, spent in seconds.items()}
-        statistics = resume.statistics
-    empty = no_draws(job.model, state, chains)
-    record = Record(empty, schedule, resume)
-    draw_bytes = sum(spec.empty(chains, 1, empty.shape_of(spec)).nbytes for spec in empty.specs)
-
-    def observed_counts() -> NDArray[np.int32]:
-        return job.sampler.observed_counts(state, draws_to_inspect(record.draws))
-
-    def so_far() -> Chains:
-        return record.chains(
-            snapshot=job.sampler.snapshot(state), finished=False, statistics=statistics,
-            observed_counts=observed_counts(), n_incidences=state.problem.n_incidences, seconds=dict(seconds),
-        )  # fmt: skip
-
-    steps = sweeps(
-        job.sampler, state, schedule.sweeps, keep=schedule.keep, most_kept=max(1, BUFFER_BYTES // max(draw_bytes, 1)),
-        stops=(schedule.warmup, *schedule.marks),
-    )  # fmt: skip
-
-    def error() -> float:
-        return map_error(job.model.cells, record.draws, observed_cells(observed_counts()))
-
-    rule = EndRule(schedule, error)
-    rule.check(state.sweep)  # a resumed run may stand at a mark
-    # Advance step by step: record draws, look at the error, report, write checkpoints.
-    checkpoints = CheckpointTimer(on_checkpoint, checkpoint_every_s)
-    began, before = time.perf_counter(), state.sweep
-    stopped = watch.should_stop()
-    while not (stopped or rule.reached):
-        state, info = next(steps, (state, None))
-        if info is None:
-            break
-        record.add(info, before)
-        seconds["sampling"] += time.perf_counter() - began
-        warming = before < schedule.warmup
-        before = state.sweep
-        log_joint = float(np.mean(info.log_likelihood[:, -1] + info.log_prior[:, -1]))
-        rule.check(state.sweep)
-        total = rule.expected_sweeps(state.sweep)
-        watch.report(
-            "warm-up" if warming else "draws", state.sweep, total, log_joint, rule.error, schedule.warmup,
-            rule.end_is_open,
-        )  # fmt: skip
-        checkpoints.offer(so_far, at_once=warming and state.sweep == schedule.warmup)
-        began, stopped = time.perf_counter(), watch.should_stop()
-    # A stop in the last step counts, too: the caller must not begin the work that follows the chains.
-    return replace(so_far(), finished=not stopped and (rule.reached or state.sweep >= schedule.sweeps))
 
 
 class CheckpointTimer:
     """Writes a checkpoint of chains every ``every_s`` seconds, or less often if that takes too much of the time."""
 
-    def __init__(self, write: Callable[[Chains], None] | None, every_s: float) -> None:
+    def __init__(self, write: OnCheckpoint, every_s: float) -> None:
         self._write, self._every_s = write, every_s
         self._written_at, self._pause_s = time.monotonic(), every_s
 
     def offer(self, chains: Callable[[], Chains], at_once: bool) -> None:
-        """Write a checkpoint if one is due, or in any case if ``at_once``."""
+        """Write a checkpoint if one is due, or in any case if ``at_once``. ``chains`` returns what to save."""
         began = time.monotonic()
         if self._write is not None and (at_once or began - self._written_at >= self._pause_s):
             self._write(replace(chains(), finished=False))
             self._written_at = time.monotonic()
-            self._pause_s = pause_after(self._written_at - began, self._every_s)
+            self._pause_s = checkpoint_pause_s(self._written_at - began, self._every_s)
 
 
-def pause_after(checkpoint_s: float, every_s: float) -> float:
+def checkpoint_pause_s(checkpoint_s: float, every_s: float) -> float:
     """Return the seconds to the next checkpoint, assumed to take twice as long; 0 stays 0, every step."""
-    return max(every_s, 2 * checkpoint_s * (1 / CHECKPOINT_SHARE - 1)) if every_s > 0 else every_s
+    return max(every_s, 2 * checkpoint_s * (1 / MAX_CHECKPOINT_SHARE - 1)) if every_s > 0 else every_s
 
 
 class Executor(Protocol):
     """Runs the chains of a job on some machine."""
 
     def run(
-        self, job: Job, resume: Chains | None, watch: Watch, on_checkpoint: Callable[[Chains], None] | None,
-        checkpoint_every_s: float,
-    ) -> Chains:  # fmt: skip
+        self, job: Job, resume: Chains | None, watch: Watch, on_checkpoint: OnCheckpoint, checkpoint_every_s: float
+    ) -> Chains:
         """Run all chains of the job, see `run_chains`. Returns them in the order of their numbers."""
 
 
@@ -247,11 +211,52 @@ class ThreadExecutor:
     should_stop: Callable[[], bool] = lambda: False
 
     def run(
-        self, job: Job, resume: Chains | None, watch: Watch, on_checkpoint: Callable[[Chains], None] | None,
-        checkpoint_every_s: float,
-    ) -> Chains:  # fmt: skip
+        self, job: Job, resume: Chains | None, watch: Watch, on_checkpoint: OnCheckpoint, checkpoint_every_s: float
+    ) -> Chains:
         """Run all chains in this process."""
         both = replace(watch, should_stop=lambda: watch.should_stop() or self.should_stop())
         return run_chains(
             job, resume=resume, watch=both, on_checkpoint=on_checkpoint, checkpoint_every_s=checkpoint_every_s
         )
+
+
+def draw_first_map(sampler: Sampler[Any, Any], problem: Any, model: Model, seed: int) -> tuple[Chains, float]:
+    """Draw a first, rough map with a short chain of its own. Returns it, and the seconds of a sweep on all threads."""
+    state = sampler.init(problem, [PILOT], seed)
+    state, _ = sampler.step(state, 1)  # a first sweep is slower, so it is not timed
+    began = time.perf_counter()
+    state, _ = sampler.step(state, FIRST_MAP_SWEEPS - 2)
+    sweep_s = (time.perf_counter() - began) / (FIRST_MAP_SWEEPS - 2)
+    state, info = sampler.step(state, 1, keep=Keep(state.sweep, 1))
+    draws = replace(empty_draws(model, state, 1), arrays=info.draws)
+    chains = Chains(
+        draws, info.log_likelihood, info.log_prior, np.zeros((1, 0)), Snapshot(0),
+        sampler.observed_counts(state, draws_to_inspect(draws)), {}, problem.n_incidences, {}, finished=False,
+    )  # fmt: skip
+    return chains, sweep_s
+
+
+@contextlib.contextmanager
+def stop_on_interrupt() -> Iterator[Callable[[], bool]]:
+    """Yield a function that returns True after the first Ctrl-C; a second Ctrl-C interrupts at once.
+
+    The function always returns False outside the main thread, because Python handles signals only there, and in a
+    process that was started to ignore Ctrl-C, as shells start background jobs of a script.
+    """
+    stopped = False
+
+    def handle(number: int, frame: FrameType | None) -> None:
+        nonlocal stopped
+        if stopped:
+            raise KeyboardInterrupt
+        stopped = True
+
+    in_main_thread = threading.current_thread() is threading.main_thread()
+    if not in_main_thread or signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+        yield lambda: False
+        return
+    handler_before = signal.signal(signal.SIGINT, handle)
+    try:
+        yield lambda: stopped
+    finally:
+        signal.signal(signal.SIGINT, signal.SIG_DFL if handler_before is None else handler_before)

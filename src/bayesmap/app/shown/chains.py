@@ -28,8 +28,8 @@ from bayesmap.model import Model
 from bayesmap.poses.prior import PosePrior, UncertainPoses
 from bayesmap.posterior.posterior import posterior_of_chains
 from bayesmap.result import Run
-from bayesmap.run.chains import Record, SweepPlan
-from bayesmap.run.runner import BUFFER_BYTES, no_draws, sweeps
+from bayesmap.run.chains import DrawRecord, SweepPlan
+from bayesmap.run.runner import MAX_BUFFER_BYTES, advance_chains, empty_draws
 from bayesmap.samplers.fit import PILOT_SWEEPS, first_sensor, pilot_sweeps
 from bayesmap.samplers.methods import Gibbs, sampler_of
 from bayesmap.samplers.sampler import Keep, Problem, Sampler
@@ -70,10 +70,10 @@ class RunningChains(Estimate):
         self.problem, self._sampler = problem, sampler
         self.n_chains = POSE_CHAINS if model.poses.unknown else CHAINS
         self.state = sampler.init(problem, range(self.n_chains), document.seed)
-        empty = no_draws(model, self.state, self.n_chains)
+        empty = empty_draws(model, self.state, self.n_chains)
         self._draw_bytes = sum(spec.empty(self.n_chains, 1, empty.shape_of(spec)).nbytes for spec in empty.specs)
         self.total, self.thin = 0, 1  # sweeps to do; sweeps per kept draw
-        self._record = Record(empty, SweepPlan(0, 0))
+        self._record = DrawRecord(empty, SweepPlan(0, 0))
         # Results of the steps so far: latest draws, sums for the means, diagnostics, counts and trace.
         self.seconds = 0.0
         self.shifts = np.zeros((self.n_chains, 2))  # cells by which a chain's map and sensors are shifted together
@@ -101,9 +101,9 @@ class RunningChains(Estimate):
         evenly = (self.total * k // OBSERVED_COUNTS for k in range(1, OBSERVED_COUNTS + 1))
         self._burn_in_end = int(self._burn_in * self.total) // self.thin * self.thin
         self._counted_sweeps = {*doubling, *evenly, self._burn_in_end} - {0}
-        self._steps = sweeps(
+        self._steps = advance_chains(
             self._sampler, self.state, self.total, keep=Keep(every=1), step_seconds=STEP_SECONDS,
-            most_kept=max(1, BUFFER_BYTES // max(self._draw_bytes, 1)), stops=tuple(sorted(self._counted_sweeps)),
+            max_kept=max(1, MAX_BUFFER_BYTES // max(self._draw_bytes, 1)), stops=tuple(sorted(self._counted_sweeps)),
         )  # fmt: skip
         self.done, self._diagnose_at_s = False, 0.0
 
