@@ -8,7 +8,6 @@ try:
 except ModuleNotFoundError:
     raise ImportError("bayesmap.gen needs JAX: pip install 'bayesmap[gen]'") from None
 
-# Long lists of names are filled, not one name a line.
 # isort: off
 # fmt: off
 from bayesmap.gen import inference

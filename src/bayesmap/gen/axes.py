@@ -97,8 +97,8 @@ def dense(chm: ChoiceMap, shape: tuple[int, ...]) -> tuple[Any, Any] | None:
             return _put(value, index, shape[0]), flags
         case Or() | Switch():
             maps = (chm.c1, chm.c2) if isinstance(chm, Or) else chm.chms
-            masks = [Mask(v, True if f is None else f) for v, f in filter(None, (dense(m, shape) for m in maps))]
-            joined = reduce(overlay, masks)
+            arrays = [array for array in (dense(m, shape) for m in maps) if array is not None]
+            joined = reduce(overlay, [Mask(value, True if flags is None else flags) for value, flags in arrays])
             return joined.value, jnp.broadcast_to(joined.flag, shape)
     raise UnknownAddress(next(chm.paths()), "the model has a bare value or an array there")
 

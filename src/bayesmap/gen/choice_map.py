@@ -407,8 +407,10 @@ def join(left: ChoiceMap, right: ChoiceMap) -> ChoiceMap:
     match left, right:
         # Submaps by name: join submaps of the same name.
         case Static(a), Static(b):
-            both = {k: join(a[k], b[k]) if k in a and k in b else a.get(k, b.get(k)) for k in [*a, *b]}
-            return Static.build(both)  # type: ignore[arg-type]
+            joined = dict(a)
+            for name, submap in b.items():
+                joined[name] = join(a[name], submap) if name in a else submap
+            return Static.build(joined)
         # A mask over a value: the mask's value where its flag is True, else the right value.
         case Choice(Mask() as a), Choice(b):
             combined = overlay(a, Mask.build(b))

@@ -143,7 +143,8 @@ class Mask(Pytree):
 
     def __getitem__(self, index: Any) -> "Mask":
         """Return the elements `index` with their flags."""
-        path, flag = index if isinstance(index, tuple) else (index,), self.primal_flag()
+        path = index if isinstance(index, tuple) else (index,)
+        flag = self.primal_flag()
         if jnp.ndim(flag) > 0:
             flag = jnp.asarray(flag)[path[: jnp.ndim(flag)]]
         return Mask(jax.tree.map(lambda leaf: leaf[path], self.value), flag)

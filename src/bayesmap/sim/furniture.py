@@ -14,7 +14,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 ROBOT_CLEARANCE_M = 0.25  # smallest distance between a pose of a simulated robot and a wall
-
 LATTICE_M = 0.1  # approximate distance between nodes of the planning lattice, on every k-th cell
 SOLID = 1.0  # opacity: the chance that a cell stops a beam
 LEG = 0.5  # opacity of a leg, which is thinner than a cell: about half of the beams that enter its cell pass

@@ -111,8 +111,9 @@ def frame_jacobians(frame_yaw: Floats, pose_in_frame: Floats) -> Floats:
     """Return the derivatives of poses, fixed in moving frames, by steps of these frames in world axes, (N, 3, 3).
     ``frame_yaw`` are the yaws of the frames, (N,), and ``pose_in_frame`` are the fixed poses, (3,) or (N, 3).
     """
-    x, y, jacobians = pose_in_frame[..., 0], pose_in_frame[..., 1], np.tile(np.eye(3), (len(frame_yaw), 1, 1))
+    jacobians = np.tile(np.eye(3), (len(frame_yaw), 1, 1))
     # If a frame turns, the pose in it moves sideways.
+    x, y = pose_in_frame[..., 0], pose_in_frame[..., 1]
     jacobians[:, 0, 2] = -np.sin(frame_yaw) * x - np.cos(frame_yaw) * y
     jacobians[:, 1, 2] = np.cos(frame_yaw) * x - np.sin(frame_yaw) * y
     return jacobians

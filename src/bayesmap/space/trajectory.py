@@ -104,7 +104,8 @@ class Trajectory:
         known = "unknown"
         if self.covariances is not None and len(self):
             sigma = np.sqrt(np.median(np.linalg.eigvalsh(self.covariances[:, :2, :2])[:, 1]))
-            known = f"median {sigma:.2g} m{draws}{', ' * bool(self.known_by)}{self.known_by}"
+            source = f", {self.known_by}" if self.known_by else ""
+            known = f"median {sigma:.2g} m{draws}{source}"
         return (
             f"Trajectory: {len(self):,} poses\n  path: {path_words(self.poses, self.stamps_s)}\n"
             f"  standard deviation of position: {known}"

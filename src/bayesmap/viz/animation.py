@@ -73,20 +73,19 @@ def render_frames(
 ) -> Iterator[Image.Image]:  # fmt: skip
     """Return an iterator of the frames of `write_animation`, of mode "P". The arguments are checked at once."""
     chain = _as_chain(grid, draws)
-    labels = list(range(1, len(chain) + 1)) if sweeps is None else [int(sweep) for sweep in sweeps]
-    if len(labels) != len(chain):
-        raise BadInput(f"animation: {len(labels)} sweep numbers for {len(chain)} draws; give one for each")
+    numbers = list(range(1, len(chain) + 1)) if sweeps is None else [int(sweep) for sweep in sweeps]
+    if len(numbers) != len(chain):
+        raise BadInput(f"animation: {len(numbers)} sweep numbers for {len(chain)} draws; give one for each")
     canvas = _Canvas(grid, as_observed(grid, observed), truth, poses)
 
     def frames() -> Iterator[Image.Image]:
         total = np.zeros(chain.shape[1:])
-        for count, (draw, label) in enumerate(zip(chain, labels, strict=True), start=1):
+        for count, (draw, sweep) in enumerate(zip(chain, numbers, strict=True), start=1):
             if running_mean:
                 total += draw
-            probability = total / count if running_mean else draw
-            yield canvas.frame(
-                probability, f"mean of {count} draws, to sweep {label}" if running_mean else f"sweep {label}"
-            )
+                yield canvas.frame(total / count, f"mean of {count} draws, to sweep {sweep}")
+            else:
+                yield canvas.frame(draw, f"sweep {sweep}")
 
     return frames()
 

@@ -123,11 +123,9 @@ def plot_weights(
     largest = float(logs.max())
     if largest >= low:
         share = float(np.exp(largest))
-        note = (
-            "one sample has all the weight"
-            if share > WHOLE_SHARE
-            else f"largest weight: {100 * share:.3g} % of the sum"
-        )
+        note = f"largest weight: {100 * share:.3g} % of the sum"
+        if share > WHOLE_SHARE:
+            note = "one sample has all the weight"
         in_right_half = largest > 0.5 * (low + high)
         ax.axvline(largest, color=palette.TRUTH, linewidth=1.2, label="largest")
         ax.annotate(
