@@ -70,8 +70,7 @@ def building(
     The same arguments give the same building. ``size_m`` is the outer width (x) and depth (y) in metres, at least 12 by
     8 (or 8 by 12), and ``resolution`` the edge of a cell, 0.02 to 0.25. ``glass_pass`` is the chance that a beam passes
     a cell of glass. ``clutter`` is the amount of furniture: 0 for none, 1 for usual, 2 for crowded. The grid has half a
-    metre of open ground around the outer wall, and its origin is the lower-left corner of that ground.
-    Raises `BadInput` for an argument outside its range.
+    metre of open ground around the outer wall, from its origin on. Raises `BadInput` for an argument outside its range.
     """
     if not 0.02 <= resolution <= 0.25:
         raise BadInput(f"building: resolution must be 0.02 to 0.25 m, got {resolution!r}")
@@ -231,12 +230,12 @@ def _assign_kinds(rng: np.random.Generator, spaces: list[Space], resolution: flo
     def kind_of(space: Space) -> str:
         if space.kind == "corridor":
             return space.kind
-        return "lobby" if space is lobby else _draw_kind(rng, space.width * resolution, space.facade)
+        return "lobby" if space is lobby else _draw_kind(rng, space.width * resolution, facade=space.facade)
 
     return tuple(replace(space, kind=kind_of(space)) for space in spaces)
 
 
-def _draw_kind(rng: np.random.Generator, width_m: float, facade: bool) -> str:
+def _draw_kind(rng: np.random.Generator, width_m: float, *, facade: bool) -> str:
     """Draw the kind of a room. Wide rooms are for many people, and rooms without windows for stores and services."""
     if width_m > WIDE_ROOM_M:
         return "open plan"
@@ -291,9 +290,9 @@ class _Construction:
             frame = self.cells(0.2)
             self.add_pane(room.x0 + frame, room.x1 - frame, y0, y1, along_x=True)
         for left in corners:
-            self.add_door(room, side, left)
+            self.add_door(room, side, left=left)
 
-    def add_door(self, room: Space, side: int, left: bool) -> None:
+    def add_door(self, room: Space, side: int, *, left: bool) -> None:
         """Cut a door near the left or right corner, keep the floor before it free, and add an open leaf to most."""
         wide = room.kind in ("lobby", "open plan") and room.width * self.resolution > 4
         opening = self.cells(WIDE_DOOR_M if wide else DOOR_M)

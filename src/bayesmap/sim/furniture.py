@@ -110,11 +110,11 @@ def _office(room: RoomFloor, clutter: float) -> None:
     _, depth = room.size_m
     for side in room.rng.permutation(2)[: 1 + (room.rng.random() < 0.6 * clutter)]:
         y = depth - room.rng.uniform(1.9, 2.4)
-        _desk_at_wall(room, left=bool(side), y=y)
+        _desk_at_wall(room, y, left=bool(side))
     _cabinets(room, room.rng.poisson(1.3 * clutter))
 
 
-def _desk_at_wall(room: RoomFloor, left: bool, y: float) -> None:
+def _desk_at_wall(room: RoomFloor, y: float, *, left: bool) -> None:
     """Place a desk along a side wall: drawers under one end, legs at the other, a chair in front."""
     width, _ = room.size_m
     x_wall = 0.0 if left else width - 0.6

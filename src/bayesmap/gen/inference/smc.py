@@ -316,7 +316,7 @@ def particle_filter(
         shapes = jax.eval_shape(lambda: step(carry, nth(inputs, 0))[0][2])
         carry = (*carry[:2], jax.tree.map(lambda s: jnp.zeros(s.shape, s.dtype), shapes))
     (states, log_weights, last), recorded = jax.lax.scan(step, carry, inputs, length=n)
-    particles: Any = _trajectories(kernel, args, n, states, *recorded) if history else last
+    particles: Any = _trajectories(kernel, args, states, recorded) if history else last
     result = ParticleCollection(particles, log_weights)
     return result, result.get_log_marginal_likelihood_estimate()
 
@@ -345,11 +345,12 @@ def _streams(key: PRNGKey, k: int) -> PRNGKey:
     return keys
 
 
-def _trajectories(
-    kernel: GenerativeFunction, args: Any, n: int, last: Any, traces: Any, carries: Any, y: Any, parents: Any
-) -> ScanTrace:
-    """Return the traces of `kernel.scan(n=n)`, one per particle, from the steps' traces (n, k, ...)."""
-    k = parents.shape[1]
+def _trajectories(kernel: GenerativeFunction, args: Any, last: Any, recorded: tuple[Any, ...]) -> ScanTrace:
+    """Return the traces of `kernel.scan(n=n)`, one per particle, from the records of its steps, (n, k, ...).
+    They are (traces, states before, outputs, parents) of the particles. `last` are the last states, (k, ...).
+    """
+    traces, carries, y, parents = recorded
+    n, k = parents.shape
 
     # Particle j of step t + 1 comes from particle `parents[t + 1, j]` of step t. Follow the parents back from the last
     # step: the lineage is each particle's ancestor at each step, (n, k).
