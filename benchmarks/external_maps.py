@@ -214,7 +214,7 @@ def asked(seed: int, laws: tuple[str, ...], scans: int, target: Path) -> None:
         known = external_map(occupancy, grid, moved, law)
         found[name] = answers(known, moved, route, seed) | {"words": law.words(), "fitting_s": fitting_s}
         found[name]["law"] = {k: float(v) for k, v in law.values.items()} | asdict(law.trust)
-        found[name]["fit"] = None if law.usual_fit is None else asdict(law.usual_fit)
+        found[name]["fit"] = None if law.reference_fit is None else asdict(law.reference_fit)
         found[name]["seconds"] = time.process_time() - begin
     target.write_text(json.dumps(found))
 

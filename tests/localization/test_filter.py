@@ -112,8 +112,8 @@ def test_the_true_pose_is_found(room, seed):
     assert min(sum(offset(pose, truth)) for pose in found.poses) < 0.15
     assert (np.diff(found.scores) <= 0).all()
     for i, pose in enumerate(found.poses):
-        near = np.abs(found.poses[:i, :2] - pose[:2]).max(axis=1, initial=0) < search.APART_M
-        assert not (near & (np.abs(wrap_angle(found.poses[:i, 2] - pose[2])) < search.APART_RAD)).any()
+        near = np.abs(found.poses[:i, :2] - pose[:2]).max(axis=1, initial=0) < search.MIN_APART_M
+        assert not (near & (np.abs(wrap_angle(found.poses[:i, 2] - pose[2])) < search.MIN_APART_RAD)).any()
 
 
 NOWHERE = (np.zeros((40, 30), dtype=bool), 0.0)
@@ -149,8 +149,8 @@ def test_unknown_cells_are_worth_more_than_open_ones_and_less_than_walls():
     unknown[20:30, 12:20] = True
     field = search.likelihood_field(walls.astype(float), grid, ~walls & ~unknown, unknown, 0.08)
     open_, behind, wall = field.fine[10, 15], field.fine[25, 15], field.fine[0, 15]
-    assert open_ < behind < wall == search.TOP
-    assert field.coarse.max() == search.TOP
+    assert open_ < behind < wall == search.MAX_VALUE
+    assert field.coarse.max() == search.MAX_VALUE
     assert search.likelihood_field(walls.astype(float), grid, ~walls & ~unknown, unknown, 0.0).fine[25, 15] == open_
     assert search.likelihood_in_unknown(0.08, 0.12, 0.1) == pytest.approx(0.08 / 0.1 * 0.12 * np.sqrt(2 * np.pi))
     assert search.likelihood_in_unknown(0.5, 0.12, 0.1) == 1.0

@@ -119,7 +119,7 @@ def test_a_robot_that_looks_past_the_edge_of_the_map_is_found(offices):
     states = np.where(observed, here.walls, 0.08).astype(np.float32)
     shown = {"occupancy": states.astype(float), "observed": observed}
     half = bm.KnownMap.of_draws(states.ravel()[None], here.grid, LASER, scans, hit_depth=0.0, **shown)
-    blind = replace(half, unknown_chance=0.0, field=likelihood_field(here.walls & observed, here.grid, half.free))
+    blind = replace(half, p_stop_unknown=0.0, field=likelihood_field(here.walls & observed, here.grid, half.free))
 
     def found(known_map):
         beliefs = localize(known_map, scans, independent=True).beliefs
@@ -296,7 +296,7 @@ def test_the_fitted_law_is_that_of_the_scans_which_are_located_from_anywhere(roo
     assert 0.08 < law.values["p_short"] + law.values["p_random"] < 0.5
     assert 0.02 < law.values["scale_m"] < 0.15
     assert 1.0 <= law.trust.place_readings <= law.trust.pose_readings <= 5.4
-    assert 0.0 < law.usual_fit.missed < 0.5
+    assert 0.0 < law.reference_fit.missed < 0.5
     assert "independent readings (fitted on" in law.words()
     found = localize(external_map(occupancy, grid, moved, law), moved)
     off = np.array([offset(b.mean, pose)[0] for b, pose in zip(found.beliefs, truth, strict=True)])
@@ -332,7 +332,7 @@ def test_a_wrong_prior_is_given_up_when_the_scans_contradict_it():
         return np.median([offset(b.mean, pose)[1] for b, pose in zip(beliefs, truth[-8:], strict=True)])
 
     assert off(known) < 0.2
-    stubborn = replace(known.trust, p_carried=1e-12, search_way_m=np.inf, forgotten_nats=1.0)
+    stubborn = replace(known.trust, p_carried=1e-12, search_path_m=np.inf, forgotten_nats=1.0)
     assert off(replace(known, trust=stubborn)) > 3.0
 
 

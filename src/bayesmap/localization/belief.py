@@ -1,9 +1,9 @@
-"""The posterior of a pose: weighted poses, their modes, and the importance sampling that gives them.
+"""The posterior of a pose as weighted poses, and the importance sampling that computes it.
 
-Each round draws from a mixture of Student distributions about the present places, weights the draws by
-target / proposal, and moves the places to the weighted means (population Monte Carlo; Cappe, Guillin, Marin and
-Robert 2004). The last round's weights are unbiased for the posterior, and their mean for its normaliser. Draws are
-spread evenly: they are points of a lattice with a random shift, so that each point has the law of a single draw.
+`PoseBelief` is the result: weighted poses, their modes (`Mode`) and regions (`Region`). `PoseMixture` is the proposal
+of population Monte Carlo (Cappe, Guillin, Marin and Robert 2004). Each round draws from Student distributions about the
+present places (`PoseMixture.draw`), weights the draws by target / proposal (`Population`), and moves the places to the
+weighted means (`PoseMixture.adapt`). The last weights are unbiased, and their mean estimates the evidence.
 """
 
 from __future__ import annotations
@@ -21,161 +21,10 @@ from bayesmap.space.arrays import Indices, Mask
 from bayesmap.space.planar import Floats, compose, wrap_angle
 from bayesmap.space.trajectory import ellipses
 
-DOF = 5.0  # degrees of freedom of proposals
-STUDENT_CONSTANT = gammaln((DOF + 3) / 2) - gammaln(DOF / 2) - 1.5 * np.log(DOF * np.pi)
-LATTICE = 1.1673039782614187 ** -np.arange(1.0, 5.0)  # steps of the lattice of draws
-MIN_SIGMA = np.array([0.004, 0.004, np.radians(0.1)])  # least standard deviations of a proposal
-SAME_MODE_SIGMAS = 2.0  # places nearer than this are one mode, in standard deviations
-SAME_MODE_XY_YAW = np.array([0.2, 0.2, np.radians(7.0)])  # places nearer than this are one mode: metres, radians
-EFFECTIVE_SHARE = 0.3  # weights are tempered until this share of a place's draws is effective
-EFFECTIVE_DRAWS = 16.0  # or until this number of draws is effective
-MIN_TEMPERING = 1e-3  # least power to which weights are tempered
-NEGLIGIBLE_NATS = 15.0  # difference in log mass from the greatest beyond which places are dropped
-
-
-def log_sum(logs: Floats) -> Floats:
-    """Compute log sum exp over the last axis. SciPy's function is far slower for small arrays."""
-    greatest = logs.max(axis=-1, keepdims=True)
-    greatest = np.where(np.isfinite(greatest), greatest, 0.0)
-    with np.errstate(divide="ignore"):
-        return np.asarray(np.log(np.exp(logs - greatest).sum(axis=-1)) + greatest[..., 0])
-
-
-@dataclass(frozen=True, eq=False)
-class PoseMixture:
-    """K places, each with a mean pose, a covariance and a mass."""
-
-    means: Floats  # (K, 3)
-    covariances: Floats  # (K, 3, 3)
-    log_mass: Floats  # log of each place's share of the target, up to a constant, (K,)
-
-    def best(self, most: int, within_nats: float = NEGLIGIBLE_NATS) -> PoseMixture:
-        """Return the ``most`` places of greatest mass, none more than ``within_nats`` below the first."""
-        order = np.argsort(-self.log_mass, kind="stable")[:most]
-        order = order[self.log_mass[order] > self.log_mass[order[0]] - within_nats]
-        return self.select(order)
-
-    def select(self, places: Sequence[int] | Indices) -> PoseMixture:
-        """Return the places with these numbers."""
-        return PoseMixture(self.means[places], self.covariances[places], self.log_mass[places])
-
-    def draw(self, target: Callable[[Floats], Floats], count: int | Indices, rng: np.random.Generator) -> Population:
-        """Draw ``count`` poses from each place, one number or (K,), and weight them. Masses of places are not used.
-        ``target`` is the log density of poses (P, 3), not normalised, (P,).
-        """
-        counts = np.broadcast_to(count, len(self.means))
-        place = np.repeat(np.arange(len(counts)), counts)
-        roots = np.linalg.cholesky(self.covariances)
-        poses = self.means[place] + np.matmul(roots[place], student_draws(len(place), rng)[..., None])[..., 0]
-        poses[:, 2] = wrap_angle(poses[:, 2])
-        log_target = target(poses)
-        log_weights = log_target - log_sum(self._student_logs(poses) + np.log(counts / counts.sum()))
-        # Truncated importance sampling (Ionides 2008): no weight exceeds the mean by more than the root of their count.
-        limit = log_sum(log_weights) - 0.5 * np.log(len(poses))
-        return Population(poses, np.minimum(log_weights, limit), place, log_target)
-
-    def draw_counts(self, most: int, min_share: float = 1 / 3) -> Indices:
-        """Return the number of draws of each place, (K,): by the root of its mass, at least ``min_share * most``."""
-        shares = np.exp(0.5 * (self.log_mass - self.log_mass.max()))
-        return np.asarray(np.maximum(np.round(most * shares), int(most * min_share)), dtype=np.intp)
-
-    def groups_of(self, poses: Floats) -> Indices:
-        """Label poses by place, (P,). Places of one mode share a label."""
-        from scipy.sparse.csgraph import connected_components
-
-        if len(self.means) == 1:
-            return np.zeros(len(poses), dtype=np.intp)
-        off = self.means[:, None] - self.means
-        off[..., 2] = wrap_angle(off[..., 2])
-        both = np.linalg.inv(self.covariances[:, None] + self.covariances)
-        near = np.einsum("kli,klij,klj->kl", off, both, off) < SAME_MODE_SIGMAS**2
-        near |= (np.abs(off) < SAME_MODE_XY_YAW).all(axis=2)
-        _, group = connected_components(near, directed=False)
-        return np.asarray(group[self._student_logs(poses).argmax(axis=1)], dtype=np.intp)
-
-    def squared_distances(self, poses: Floats) -> tuple[Floats, Floats]:
-        """Return squared Mahalanobis distances of poses from the places, (P, K), and half of log determinants, (K,)."""
-        off = poses - self.means[:, None]
-        off[..., 2] = wrap_angle(off[..., 2])
-        inverse = np.linalg.inv(self.covariances)
-        squared = (np.matmul(off, inverse) * off).sum(axis=-1)
-        return np.ascontiguousarray(squared.T), -0.5 * np.linalg.slogdet(inverse)[1]
-
-    def _student_logs(self, poses: Floats) -> Floats:
-        """Return the log density of each place's Student distribution, (P, K)."""
-        squared, half_log_det = self.squared_distances(poses)
-        return np.asarray(STUDENT_CONSTANT - half_log_det - 0.5 * (DOF + 3) * np.log1p(squared / DOF))
-
-    def weigh(self, population: Population) -> PoseMixture:
-        """Return the places with new masses: the sums of the weights of the draws from each place."""
-        masses = [log_sum(population.log_weights[population.place == k]) for k in range(len(self.means))]
-        return PoseMixture(self.means, self.covariances, np.array(masses))
-
-    def adapt(self, population: Population, widen: float = 1.5) -> tuple[PoseMixture, float]:
-        """Return the places at the weighted moments of their draws, and the least tempering: the power of the weights.
-        With a power of 1 the proposals are near the target. With a lower power, another round will improve them.
-        """
-        count, min_tempering = len(self.means), 1.0
-        means, covariances, log_mass = self.means.copy(), self.covariances.copy(), np.full(count, -np.inf)
-        for k in range(count):
-            own = population.place == k
-            logs = population.log_weights[own]
-            greatest = logs.max()
-            if not np.isfinite(greatest):
-                continue
-            logs = logs - greatest
-            weights = np.exp(logs)
-            log_mass[k] = greatest + np.log(weights.sum())
-            # Temper the weights until several draws are effective: a single dominant draw has no spread.
-            tempering, effective = 1.0, min(EFFECTIVE_SHARE * len(logs), EFFECTIVE_DRAWS)
-            while weights.sum() ** 2 < effective * (weights @ weights) and tempering > MIN_TEMPERING:
-                tempering *= 0.8
-                weights = np.exp(tempering * logs)
-            weights /= weights.sum()
-            off = population.poses[own] - means[k]
-            off[:, 2] = wrap_angle(off[:, 2])
-            shift = weights @ off
-            error = off - shift
-            covariances[k] = widen * np.einsum("n,ni,nj->ij", weights, error, error) + np.diag(MIN_SIGMA**2)
-            means[k] += shift
-            min_tempering = min(min_tempering, tempering)
-        return PoseMixture(means, covariances, log_mass), min_tempering
-
-
-@dataclass(frozen=True, eq=False)
-class Population:
-    """N weighted poses. Their mean weight, of target / proposal, estimates the target's normaliser."""
-
-    poses: Floats  # (N, 3)
-    log_weights: Floats  # log of target / proposal, not normalised, (N,)
-    place: Indices  # number of the place from which each pose was drawn, (N,)
-    log_target: Floats  # (N,)
-
-    @property
-    def log_evidence(self) -> float:
-        """Log of the integral of the target."""
-        return float(log_sum(self.log_weights) - np.log(len(self.poses)))
-
-    @property
-    def weights(self) -> Floats:
-        """Normalised weights, (N,)."""
-        return np.asarray(np.exp(self.log_weights - log_sum(self.log_weights)))
-
-
-def student_draws(count: int, rng: np.random.Generator) -> Floats:
-    """Draw from the standard Student distribution in three dimensions, evenly spread, (N, 3). The lattice is Roberts'
-    (2018), powers of the root of x^5 = x + 1, shifted at random (Cranley and Patterson 1976).
-    """
-    even = (rng.random(4) + np.arange(count)[:, None] * LATTICE) % 1.0
-    even = np.clip(even, 1e-12, 1.0 - 1e-12)
-    stretch = np.sqrt(0.5 * DOF / gammaincinv(0.5 * DOF, even[:, 3:]))
-    return np.asarray(stretch * ndtri(even[:, :3]))
-
-
 NEAR_M, NEAR_RAD = 0.2, np.radians(7.0)  # chains of poses with steps shorter than this belong to one mode
-MIN_MODE_SIGMA = np.array([0.002, 0.002, np.radians(0.05)])  # least standard deviations of a mode
+MIN_MODE_SIGMA = np.array([0.002, 0.002, np.radians(0.05)])  # standard deviations of a mode
 LINKING_WEIGHT = 0.995  # share of the weight whose poses link others into modes
-MIN_PROBABILITY = 1e-4  # least probability of a mode that is listed
+MIN_PROBABILITY = 1e-4  # probability of a mode that is listed
 REGION_DRAWS = 4000  # number of draws by which a region is computed
 
 
@@ -195,15 +44,15 @@ class Mode:
 
 @dataclass(frozen=True, eq=False)
 class Region:
-    """The smallest region of positions that holds a probability, of normal modes."""
+    """The smallest region of positions that holds a probability, if modes are normal."""
 
     modes: tuple[Floats, Floats, Floats]  # means (K, 2), covariances (K, 2, 2), probabilities (K,)
-    density: float  # least density of positions in the region, 1 / m^2
+    density: float  # minimum density of positions in the region, 1 / m^2
     level: float  # the probability
     area_m2: float
 
     def contains(self, positions: Floats) -> Mask:
-        """Return which positions lie inside, (N, 2) to (N,)."""
+        """Return a mask of the positions, (N, 2), that lie inside, (N,)."""
         return np.asarray(_density(np.atleast_2d(np.asarray(positions, dtype=np.float64)), *self.modes) >= self.density)
 
 
@@ -211,12 +60,12 @@ class Region:
 class PoseBelief:
     """The posterior of a pose, as weighted poses."""
 
-    poses: Floats  # in the world frame, (N, 3)
-    weights: Floats  # of the poses, (N,), summing to 1: given that the robot is on the map, and the map is right
+    poses: Floats  # x, y and yaw in the world frame, (N, 3)
+    weights: Floats  # weights of the poses, given that the robot is on the map and the map is right; sum 1, (N,)
     p_lost: float  # probability that the robot is elsewhere, or the map outdated
     nats_per_beam: float  # log density of the scan's readings under the best pose, per beam
     stamp_s: float | None = None  # stamp of the scan
-    mode_of: Indices | None = None  # the mode of each pose, (N,); None: poses near each other make one
+    mode_of: Indices | None = None  # number of each pose's mode, (N,); None: poses near each other make one
     shared_error: Floats | None = None  # standard deviations of the map's error, (3,): modes are wider by it
 
     def __repr__(self) -> str:
@@ -240,21 +89,21 @@ class PoseBelief:
         wider = np.diag(self.shared_error**2)
         return tuple(replace(mode, covariance=mode.covariance + wider) for mode in modes)
 
-    def places(self, least: float) -> tuple[Mode, ...]:
-        """Return the places of at least this probability, the likeliest first, without the map's shared error."""
-        mode_of = _clusters(self.poses, self.weights) if self.mode_of is None else self.mode_of
+    def places(self, min_probability: float) -> tuple[Mode, ...]:
+        """Return the modes of at least this probability, the likeliest first, without the map's shared error."""
+        mode_of = _label_clusters(self.poses, self.weights) if self.mode_of is None else self.mode_of
         modes = []
         for number in np.unique(mode_of):
-            own = mode_of == number
-            probability = float(self.weights[own].sum())
-            if probability >= least:
-                mean, covariance = _moments(self.poses[own], self.weights[own] / probability)
+            in_mode = mode_of == number
+            probability = float(self.weights[in_mode].sum())
+            if probability >= min_probability:
+                mean, covariance = _moments(self.poses[in_mode], self.weights[in_mode] / probability)
                 modes.append(Mode(mean, covariance + np.diag(MIN_MODE_SIGMA**2), min(probability, 1.0)))
         return tuple(sorted(modes, key=lambda mode: -mode.probability))
 
     def of_frame(self, step: Floats) -> PoseBelief:
         """Return the posterior of another frame on the robot, whose pose in this frame is ``step``, (3,)."""
-        mode_of = _clusters(self.poses, self.weights) if self.mode_of is None else self.mode_of
+        mode_of = _label_clusters(self.poses, self.weights) if self.mode_of is None else self.mode_of
         return replace(self, poses=compose(self.poses, step), mode_of=mode_of)
 
     @property
@@ -280,14 +129,16 @@ class PoseBelief:
         covariances = np.array([mode.covariance[:2, :2] for mode in self.modes]) + 1e-10 * np.eye(2)
         shares = np.array([mode.probability for mode in self.modes])
         modes = (means, covariances, shares / shares.sum())
+        # Draw positions, and take the quantile of their densities.
         rng = np.random.default_rng(0)
         mode = rng.choice(len(shares), REGION_DRAWS, p=modes[2])
         roots = np.linalg.cholesky(covariances)
         draws = means[mode] + np.einsum("nij,nj->ni", roots[mode], rng.standard_normal((REGION_DRAWS, 2)))
         density = _density(draws, *modes)
-        least = float(np.quantile(density, 1.0 - level))
+        min_density = float(np.quantile(density, 1.0 - level))
         # The area is the mean over draws of 1 / density inside.
-        return Region(modes, least, level, float((1.0 / density[density >= least]).sum() / len(density)))
+        area_m2 = float((1.0 / density[density >= min_density]).sum() / len(density))
+        return Region(modes, min_density, level, area_m2)
 
     def outlines(self, level: float = 0.95) -> Floats:
         """Return ellipses that hold each mode's position with a probability, (modes, points, 2)."""
@@ -295,8 +146,9 @@ class PoseBelief:
         return ellipses(np.array([mode.mean[:2] for mode in self.modes]), covariances, level)
 
     def probability_in(self, area: Floats) -> float:
-        """Compute the probability that the robot is on the map and in a polygon of corners in order, (K, 2), metres, or
-        in (x_min, x_max, y_min, y_max). Raises `BadInput` for anything else.
+        """Compute the probability that the robot is on the map and in an area.
+        The area is a polygon of corners in order, (K, 2), metres, or (x_min, x_max, y_min, y_max). Raises `BadInput`
+        for anything else.
         """
         corners = np.asarray(area, dtype=np.float64)
         if corners.shape == (4,):
@@ -306,7 +158,7 @@ class PoseBelief:
             corners = np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1]])
         if corners.ndim != 2 or corners.shape[1] != 2 or len(corners) < 3:
             raise BadInput(f"area: give corners (K, 2) or (x_min, x_max, y_min, y_max), got shape {corners.shape}")
-        return float((1.0 - self.p_lost) * min(1.0, self.weights[_inside(self.poses[:, :2], corners)].sum()))
+        return float((1.0 - self.p_lost) * min(1.0, self.weights[_are_inside(self.poses[:, :2], corners)].sum()))
 
     def as_json(self) -> dict[str, Any]:
         """Return the posterior's moments, modes and probabilities as JSON values."""
@@ -329,8 +181,8 @@ def _moments(poses: Floats, weights: Floats) -> tuple[Floats, Floats]:
     return mean, covariance
 
 
-def _clusters(poses: Floats, weights: Floats) -> Indices:
-    """Label poses linked by steps of less than `NEAR_M` and `NEAR_RAD`, (N,); light ones get the nearest label."""
+def _label_clusters(poses: Floats, weights: Floats) -> Indices:
+    """Label poses linked by steps of less than `NEAR_M` and `NEAR_RAD`, (N,); light poses get the nearest label."""
     from scipy.sparse.csgraph import connected_components
     from scipy.spatial import cKDTree
 
@@ -353,11 +205,163 @@ def _density(positions: Floats, means: Floats, covariances: Floats, shares: Floa
     return np.asarray((shares * np.sqrt(np.linalg.det(inverse)) / (2 * np.pi) * np.exp(-0.5 * squared)).sum(axis=1))
 
 
-def _inside(positions: Floats, corners: Floats) -> Mask:
-    """Return which positions lie in a polygon: an odd number of its sides lies to their right."""
+def _are_inside(positions: Floats, corners: Floats) -> Mask:
+    """Return a mask of positions in a polygon, (N,): an odd number of its sides lies to their right."""
     x, y = positions[:, :1], positions[:, 1:]
     (ax, ay), (bx, by) = corners.T, np.roll(corners, -1, axis=0).T
     crosses = (ay > y) != (by > y)
     with np.errstate(divide="ignore", invalid="ignore"):
         crossing_x = ax + (y - ay) * (bx - ax) / (by - ay)
     return np.asarray((crosses & (x < crossing_x)).sum(axis=1) % 2 == 1)
+
+
+LogDensity = Callable[[Floats], Floats]  # of poses (P, 3), not normalised, (P,)
+DOF = 5.0  # degrees of freedom of proposals
+STUDENT_CONSTANT = gammaln((DOF + 3) / 2) - gammaln(DOF / 2) - 1.5 * np.log(DOF * np.pi)
+LATTICE = 1.1673039782614187 ** -np.arange(1.0, 5.0)  # steps of the lattice of draws: powers of the root of x^5 = x + 1
+MIN_SIGMA = np.array([0.004, 0.004, np.radians(0.1)])  # standard deviations of a proposal
+SAME_MODE_SIGMAS = 2.0  # places nearer than this are one mode, in standard deviations
+SAME_MODE_XY_YAW = np.array([0.2, 0.2, np.radians(7.0)])  # places nearer than this are one mode: metres, radians
+EFFECTIVE_SHARE = 0.3  # weights are tempered until this share of a place's draws is effective
+EFFECTIVE_DRAWS = 16.0  # or until this number of draws is effective
+MIN_TEMPERING = 1e-3  # power to which weights are tempered
+NEGLIGIBLE_NATS = 15.0  # difference in log mass from the greatest beyond which places are dropped
+
+
+def log_sum(logs: Floats) -> Floats:
+    """Compute log sum exp over the last axis. SciPy's function is far slower for small arrays."""
+    max_log = logs.max(axis=-1, keepdims=True)
+    max_log = np.where(np.isfinite(max_log), max_log, 0.0)
+    with np.errstate(divide="ignore"):
+        return np.asarray(np.log(np.exp(logs - max_log).sum(axis=-1)) + max_log[..., 0])
+
+
+@dataclass(frozen=True, eq=False)
+class PoseMixture:
+    """K places, each with a mean pose, a covariance and a mass."""
+
+    means: Floats  # mean poses, x, y and yaw in the world frame, (K, 3)
+    covariances: Floats  # covariances in world axes, (K, 3, 3)
+    log_mass: Floats  # log of each place's share of the target, up to a constant, (K,)
+
+    def best(self, max_places: int, within_nats: float = NEGLIGIBLE_NATS) -> PoseMixture:
+        """Return the ``max_places`` places of greatest mass, none more than ``within_nats`` below the first."""
+        order = np.argsort(-self.log_mass, kind="stable")[:max_places]
+        order = order[self.log_mass[order] > self.log_mass[order[0]] - within_nats]
+        return self.select(order)
+
+    def select(self, places: Sequence[int] | Indices) -> PoseMixture:
+        """Return the places with these numbers."""
+        return PoseMixture(self.means[places], self.covariances[places], self.log_mass[places])
+
+    def draw(self, target: LogDensity, count: int | Indices, rng: np.random.Generator) -> Population:
+        """Draw ``count`` poses from each place, one number or (K,), and weight them. Masses of places are not used."""
+        counts = np.broadcast_to(count, len(self.means))
+        place = np.repeat(np.arange(len(counts)), counts)
+        roots = np.linalg.cholesky(self.covariances)
+        poses = self.means[place] + np.matmul(roots[place], student_draws(len(place), rng)[..., None])[..., 0]
+        poses[:, 2] = wrap_angle(poses[:, 2])
+        log_target = target(poses)
+        log_weights = log_target - log_sum(self._student_logs(poses) + np.log(counts / counts.sum()))
+        # Truncated importance sampling (Ionides 2008): no weight exceeds the mean by more than the root of their count.
+        limit = log_sum(log_weights) - 0.5 * np.log(len(poses))
+        return Population(poses, np.minimum(log_weights, limit), place, log_target)
+
+    def draw_counts(self, max_draws: int, min_share: float = 1 / 3) -> Indices:
+        """Return the number of draws of each place, (K,): by the root of its mass, and not below a share."""
+        shares = np.exp(0.5 * (self.log_mass - self.log_mass.max()))
+        return np.asarray(np.maximum(np.round(max_draws * shares), int(max_draws * min_share)), dtype=np.intp)
+
+    def label_places(self, poses: Floats) -> Indices:
+        """Label poses by place, (P,). Places of one mode share a label."""
+        from scipy.sparse.csgraph import connected_components
+
+        if len(self.means) == 1:
+            return np.zeros(len(poses), dtype=np.intp)
+        off = self.means[:, None] - self.means
+        off[..., 2] = wrap_angle(off[..., 2])
+        precision = np.linalg.inv(self.covariances[:, None] + self.covariances)
+        near = np.einsum("kli,klij,klj->kl", off, precision, off) < SAME_MODE_SIGMAS**2
+        near |= (np.abs(off) < SAME_MODE_XY_YAW).all(axis=2)
+        _, label = connected_components(near, directed=False)
+        return np.asarray(label[self._student_logs(poses).argmax(axis=1)], dtype=np.intp)
+
+    def squared_distances(self, poses: Floats) -> tuple[Floats, Floats]:
+        """Return squared Mahalanobis distances of poses from the places, (P, K), and half of log determinants, (K,)."""
+        off = poses - self.means[:, None]
+        off[..., 2] = wrap_angle(off[..., 2])
+        inverse = np.linalg.inv(self.covariances)
+        squared = (np.matmul(off, inverse) * off).sum(axis=-1)
+        return np.ascontiguousarray(squared.T), -0.5 * np.linalg.slogdet(inverse)[1]
+
+    def _student_logs(self, poses: Floats) -> Floats:
+        """Return the log density of each place's Student distribution, (P, K)."""
+        squared, half_log_det = self.squared_distances(poses)
+        return np.asarray(STUDENT_CONSTANT - half_log_det - 0.5 * (DOF + 3) * np.log1p(squared / DOF))
+
+    def weigh(self, population: Population) -> PoseMixture:
+        """Return the places with new masses: the sums of the weights of the draws from each place."""
+        masses = [log_sum(population.log_weights[population.place == k]) for k in range(len(self.means))]
+        return PoseMixture(self.means, self.covariances, np.array(masses))
+
+    def adapt(self, population: Population, widen: float = 1.5) -> tuple[PoseMixture, float]:
+        """Return the places at the weighted moments of their draws, and the lowest tempering: the power of the weights.
+        With a power of 1 the proposals are near the target. With a lower power, another round will improve them.
+        """
+        count, min_tempering = len(self.means), 1.0
+        means, covariances, log_mass = self.means.copy(), self.covariances.copy(), np.full(count, -np.inf)
+        for k in range(count):
+            of_place = population.place == k
+            logs = population.log_weights[of_place]
+            max_log = logs.max()
+            if not np.isfinite(max_log):
+                continue
+            logs = logs - max_log
+            weights = np.exp(logs)
+            log_mass[k] = max_log + np.log(weights.sum())
+            # Temper the weights until several draws are effective: a single dominant draw has no spread.
+            tempering, min_effective = 1.0, min(EFFECTIVE_SHARE * len(logs), EFFECTIVE_DRAWS)
+            while weights.sum() ** 2 < min_effective * (weights @ weights) and tempering > MIN_TEMPERING:
+                tempering *= 0.8
+                weights = np.exp(tempering * logs)
+            weights /= weights.sum()
+            # Move the place to the weighted mean, and widen the weighted covariance.
+            off = population.poses[of_place] - means[k]
+            off[:, 2] = wrap_angle(off[:, 2])
+            shift = weights @ off
+            error = off - shift
+            covariances[k] = widen * np.einsum("n,ni,nj->ij", weights, error, error) + np.diag(MIN_SIGMA**2)
+            means[k] += shift
+            min_tempering = min(min_tempering, tempering)
+        return PoseMixture(means, covariances, log_mass), min_tempering
+
+
+@dataclass(frozen=True, eq=False)
+class Population:
+    """N weighted poses. Their mean weight, of target / proposal, estimates the target's normaliser."""
+
+    poses: Floats  # x, y and yaw in the world frame, (N, 3)
+    log_weights: Floats  # log of target / proposal, not normalised, (N,)
+    place: Indices  # number of the place from which each pose was drawn, (N,)
+    log_target: Floats  # log density of the target, not normalised, (N,)
+
+    @property
+    def log_evidence(self) -> float:
+        """Log of the integral of the target."""
+        return float(log_sum(self.log_weights) - np.log(len(self.poses)))
+
+    @property
+    def weights(self) -> Floats:
+        """Normalised weights, (N,)."""
+        return np.asarray(np.exp(self.log_weights - log_sum(self.log_weights)))
+
+
+def student_draws(count: int, rng: np.random.Generator) -> Floats:
+    """Draw from the standard Student distribution in three dimensions, evenly spread, (N, 3).
+    The draws are points of a lattice (Roberts 2018) with a random shift (Cranley and Patterson 1976). So each point has
+    the law of a single draw.
+    """
+    even = (rng.random(4) + np.arange(count)[:, None] * LATTICE) % 1.0
+    even = np.clip(even, 1e-12, 1.0 - 1e-12)
+    stretch = np.sqrt(0.5 * DOF / gammaincinv(0.5 * DOF, even[:, 3:]))
+    return np.asarray(stretch * ndtri(even[:, :3]))

@@ -1,12 +1,9 @@
-"""Maps of other programs for localization: the law of readings in such a map, fitted to the log that is located.
+"""Prepare maps of other programs for localization, with a law of readings that is fitted to the log.
 
-A map_server map marks each cell as occupied, free or unknown, or gives the probability that it is occupied. The law is
-that of `bayesmap.posterior.baselines`: occupied cells stop beams with one probability, free cells with another, and
-between the two the logit is linear. A reading scatters about the stop by the noise of sensor and map together. People,
-furniture and doors that the map lacks stand before the walls (`BeamMixture.p_short`); some readings are unrelated.
-
-Beams of a scan share errors (`Trust`). A scan is worth few independent readings, scans along 1.5 m of path share their
-errors, and the pose is off by as much as the map.
+`external_map` prepares a map, and `fit_law` fits the law (`MapLaw`). Occupied cells stop beams with one probability,
+free cells with another, and between the two the logit is linear (`bayesmap.posterior.baselines`). A reading scatters
+about the stop by the noise of sensor and map together. People, furniture and doors that the map lacks stand before the
+walls (`BeamMixture.p_short`). Beams of a scan share errors (`Trust`). More: docs/how/localization.md.
 """
 
 from __future__ import annotations
@@ -22,7 +19,7 @@ from bayesmap.errors import BadInput
 from bayesmap.kernels.predict.density import DeviceMaps, device_maps
 from bayesmap.kernels.predict.pose_weights import scan_log_likelihood
 from bayesmap.localization.belief import log_sum
-from bayesmap.localization.known_map import KnownMap, Trust, UsualFit, n_valid
+from bayesmap.localization.known_map import KnownMap, ReferenceFit, Trust, n_valid
 from bayesmap.posterior.baselines import Parameter, Values, maximise, sensor_of, stop_probabilities
 from bayesmap.posterior.prediction import OnShare, ignored
 from bayesmap.sensors.model import RangeLimits
@@ -42,47 +39,44 @@ ASSUMED: Mapping[str, float] = {
     "scale_m": 0.08, "scale_per_m": 0.005, "p_random": 0.1, "p_no_return": 0.03, "p_short": 0.3,
     "rate_short_per_m": 0.3, "stop_occupied": 0.8, "stop_free": 1e-3, "stop_unknown": 0.05,
 }  # fmt: skip
-"""The law before it is fitted, and if too few scans are located to fit one. Free cells stop so few beams that kernels
-skip them (`bayesmap.kernels.predict.pose_weights`)."""
-
+"""The law before it is fitted, or without a fit. Kernels skip free cells, which stop few beams."""
 WARY = Trust(
-    place_readings=3.8, shared_way_m=1.5, shared_error_m=0.08, p_carried=3e-3, search_way_m=1.0, max_places=12,
+    place_readings=3.8, shared_path_m=1.5, shared_error_m=0.08, p_carried=3e-3, search_path_m=1.0, max_places=12,
     min_draw_share=1.0, forgotten_nats=30.0,
 )  # fmt: skip
 """Trust in a map of unknown quality."""
-
-MAX_SCANS = 150  # most scans that are located to fit the law
-SPACING_M = 0.3  # least distance of these scans along the path
-MIN_PROBABILITY = 0.95  # least probability of a place with which its scan fits the law
-MIN_SCANS = 20  # fewest scans that fit the law
-USUAL_WAY_M = 3.0  # length of beam for which the share of beams that meet something else is reported
-BLOCK_SCANS = 5  # number of successive scans for the fit, then as many that judge it
+MAX_SCANS = 150  # scans that are located to fit the law
+SPACING_M = 0.3  # minimum distance of these scans along the path
+MIN_PROBABILITY = 0.95  # probability of a place with which its scan fits the law
+MIN_SCANS = 20  # scans that fit the law
+SHORT_WITHIN_M = 3.0  # length of beam for which the share of beams that meet something else is reported
+BLOCK_SCANS = 5  # number of successive scans for the fit, then as many for validation
 FIT_BEAMS = 60  # approximate number of beams per scan in the fit
-MAX_SEARCHES = 40  # most single searches
-NEAR_M = 0.6  # greatest distance of a right place, metres plus radians
+MAX_SEARCHES = 40  # single searches
+NEAR_M = 0.6  # maximum distance of a right place, metres plus radians
 EVIDENCE_POWERS = np.array([0.2, 0.3, 0.5, 0.7, 1.0])  # powers that the evidence for a place may have
 DEFAULT_POWER = 0.5  # power with too few searches
-MIN_SEARCHES = 8  # fewest searches that choose a power
+MIN_SEARCHES = 8  # searches that select a power
 
 
 @dataclass(frozen=True)
 class MapLaw:
-    """The law of a map of another program: its meaning for beams, and the worth of a scan in it."""
+    """The law of readings in a map of another program."""
 
     values: Mapping[str, float]  # stop probabilities of cells, and the parameters of the beam model
-    trust: Trust = WARY
-    scans: int = 0  # number of scans that the law was fitted to and judged by; 0 if it is assumed
-    nats_per_beam: float = float("nan")  # mean log density of readings of the judging scans; NaN if there are none
-    usual_fit: UsualFit | None = None  # fit of these scans at their own places; None if unknown
+    trust: Trust = WARY  # worth of a scan in the map
+    scans: int = 0  # number of scans that the law was fitted to and validated by; 0 if it is assumed
+    nats_per_beam: float = float("nan")  # mean log density of readings of the validation scans; NaN without scans
+    reference_fit: ReferenceFit | None = None  # fit of these scans at their own places; None if unknown
 
     def words(self) -> str:
         """Return a description of the law, one line."""
-        short_percent = 100 * self.values["p_short"] * -math.expm1(-self.values["rate_short_per_m"] * USUAL_WAY_M)
+        short_percent = 100 * self.values["p_short"] * -math.expm1(-self.values["rate_short_per_m"] * SHORT_WITHIN_M)
         source = f"fitted on {self.scans} scans" if self.scans else "assumed: too few scans are located to fit it"
         return (
             f"readings scatter by {100 * self.values['scale_m']:.0f} cm about the map's walls, {short_percent:.0f} % "
-            f"of beams meet something else within {USUAL_WAY_M:g} m, a scan is worth {self.trust.place_readings:.1f} "
-            f"independent readings ({source})"
+            f"of beams meet something else within {SHORT_WITHIN_M:g} m, a scan is worth "
+            f"{self.trust.place_readings:.1f} independent readings ({source})"
         )
 
 
@@ -91,7 +85,6 @@ def external_map(
     device: str = "cpu",
 ) -> KnownMap:  # fmt: skip
     """Return a map of another program, ready to locate scans in.
-
     ``occupancy`` is the probability that each cell is occupied, NaN where unknown, (nx, ny), as `read_map` returns it.
     The law is by default the assumed one. ``scans`` and ``beam_weight`` are as in `KnownMap.of_draws`. Raises
     `BadInput` if no cell is free, or none is occupied.
@@ -104,19 +97,19 @@ def external_map(
         stop.ravel()[None].astype(np.float32), grid, sensor_of(law.values, None), scans, occupancy=stop,
         observed=~np.isnan(occupancy), beam_weight=beam_weight, device=device,
     )  # fmt: skip
-    return replace(known, trust=law.trust, usual_fit=law.usual_fit)
+    return replace(known, trust=law.trust, reference_fit=law.reference_fit)
 
 
 def fit_law(occupancy: Floats, grid: Grid, scans: Scans, seed: int = 0, on_progress: OnShare = ignored) -> MapLaw:
     """Fit the law of a map to scans with odometry, whose places in the map are unknown.
 
-    The scans are located under the assumed law. Among the surely located scans, five in each ten fit the law. The other
-    five choose among the fitted law, the assumed law, and the law halfway between. They are also searched for one by
-    one. These searches give the usual fit of scans at their places, and the worth of a scan.
+    The scans are located under the assumed law. Among the surely located scans, five in each ten are training scans, to
+    which the law is fitted. The other five, for validation, select the fitted law, the assumed law, or the law halfway
+    between. They are also searched for one by one, for the reference fit of scans and the worth of a scan.
 
     ``occupancy`` is as in `external_map`. ``scans`` are in order of time, at poses of odometry.
     """
-    # Locate the scans, and divide the surely located ones into scans for the fit and for judging.
+    # Locate the scans, and divide the surely located ones into training and validation scans.
     assumed = MapLaw(ASSUMED)
     spread = spread_out(scans)
     if len(spread) < MIN_SCANS:
@@ -125,8 +118,9 @@ def fit_law(occupancy: Floats, grid: Grid, scans: Scans, seed: int = 0, on_progr
     sure = np.flatnonzero(is_sure)
     if len(sure) < MIN_SCANS:
         return assumed
-    is_judge = (np.arange(len(sure)) // BLOCK_SCANS) % 2 == 1
-    train, judging = (spread.select(own).at(poses[own]) for own in (sure[~is_judge], sure[is_judge]))
+    for_validation = (np.arange(len(sure)) // BLOCK_SCANS) % 2 == 1
+    rows = sure[~for_validation], sure[for_validation]
+    training, validation = (spread.select(selected).at(poses[selected]) for selected in rows)
     thin = max(1, spread.n_beams // FIT_BEAMS)
 
     @lru_cache(maxsize=4)
@@ -141,24 +135,22 @@ def fit_law(occupancy: Floats, grid: Grid, scans: Scans, seed: int = 0, on_progr
 
     # Fit from the assumed law, and from a law with fewer short readings and less noise.
     starts = [ASSUMED, {**ASSUMED, "p_short": 0.05, "scale_m": 0.04}]
-    score = partial(nats_per_beam, train)
+    score = partial(nats_per_beam, training)
     values, _ = maximise(score, score, FITTED, starts, lambda share: on_progress(0.5 + 0.5 * share))
     halfway = {p.name: p.outer(0.5 * (p.inner(ASSUMED[p.name]) + p.inner(values[p.name]))) for p in FITTED}
     laws = [dict(ASSUMED), {**ASSUMED, **halfway}, {**ASSUMED, **values}]
-    nats = [nats_per_beam(judging, law_values) for law_values in laws]
+    nats = [nats_per_beam(validation, law_values) for law_values in laws]
     best = int(np.argmax(nats))
     trust = replace(WARY, place_readings=WARY.pose_readings, shared_error_m=laws[best]["scale_m"])
     law = MapLaw(laws[best], trust, len(sure), nats[best])
-    # Search for judging scans one by one: their usual fit, and the worth of a scan for choosing a place.
-    searched = slice(None, None, max(1, len(judging) // MAX_SEARCHES))
-    usual, power = search_single_scans(external_map(occupancy, grid, scans, law), judging.select(searched), seed)
-    return replace(law, trust=replace(trust, place_readings=power * trust.pose_readings), usual_fit=usual)
+    # Search for validation scans one by one: their fit, and the worth of a scan for selecting a place.
+    searched = slice(None, None, max(1, len(validation) // MAX_SEARCHES))
+    fit, power = search_single_scans(external_map(occupancy, grid, scans, law), validation.select(searched), seed)
+    return replace(law, trust=replace(trust, place_readings=power * trust.pose_readings), reference_fit=fit)
 
 
-def search_single_scans(known: KnownMap, scans: Scans, seed: int) -> tuple[UsualFit, float]:
-    """Search for single scans whose poses in the map are right. Returns their usual fit, and the best of
-    `EVIDENCE_POWERS`. Under the best power, the right place has the highest mean log probability.
-    """
+def search_single_scans(known: KnownMap, scans: Scans, seed: int) -> tuple[ReferenceFit, float]:
+    """Search for single scans whose poses in the map are right. Returns their fit, and the best evidence power."""
     from bayesmap.localization.filter import Prior, Scan, update
 
     limits = RangeLimits(scans.min_range_m, scans.max_range_m)
@@ -167,25 +159,25 @@ def search_single_scans(known: KnownMap, scans: Scans, seed: int) -> tuple[Usual
     scores: list[Floats] = []
     for pose, angles, ranges in zip(scans.poses, scans.angles_by_scan(), scans.ranges_m, strict=True):
         places = update(known, Prior(), Scan(angles, ranges, limits), rng, look_everywhere=True).places(1e-9)
-        ways_m, turns_rad = ways_and_turns(between(pose, np.array([place.mean for place in places])))
+        lengths_m, turns_rad = ways_and_turns(between(pose, np.array([place.mean for place in places])))
+        is_right = lengths_m + turns_rad < NEAR_M
+        missed += int(not is_right.any())
         log_likelihood = known.log_likelihood(pose[None], angles, ranges, limits, weight=1.0)[0]
         nats_per_beam.append(log_likelihood / n_valid(ranges))
-        is_right = ways_m + turns_rad < NEAR_M
-        missed += int(not is_right.any())
         if is_right.any():
             logs = EVIDENCE_POWERS[:, None] * np.log([place.probability for place in places])
             scores.append(log_sum(logs[:, is_right]) - log_sum(logs))
-    usual = UsualFit(float(np.mean(nats_per_beam)), (missed + 1.0) / (len(scans) + 2.0))
+    fit = ReferenceFit(float(np.mean(nats_per_beam)), (missed + 1.0) / (len(scans) + 2.0))
     if len(scores) < MIN_SEARCHES:
-        return usual, DEFAULT_POWER
-    return usual, float(EVIDENCE_POWERS[np.mean(scores, axis=0).argmax()])
+        return fit, DEFAULT_POWER
+    return fit, float(EVIDENCE_POWERS[np.mean(scores, axis=0).argmax()])
 
 
 def spread_out(scans: Scans) -> Scans:
     """Select scans `SPACING_M` apart along the path, or further apart if there would be more than `MAX_SCANS`."""
-    way_m = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(scans.poses[:, :2], axis=0).T))])
-    step_m = max(SPACING_M, float(way_m[-1]) / MAX_SCANS)
-    return scans.select(np.unique(np.floor(way_m / step_m), return_index=True)[1])
+    along_m = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(scans.poses[:, :2], axis=0).T))])
+    step_m = max(SPACING_M, float(along_m[-1]) / MAX_SCANS)
+    return scans.select(np.unique(np.floor(along_m / step_m), return_index=True)[1])
 
 
 def _locate_scans(known: KnownMap, scans: Scans, seed: int, on_progress: OnShare) -> tuple[Floats, Mask]:

@@ -1,14 +1,11 @@
-"""The filter's step for one scan: from the prior of a pose to its posterior.
+"""Compute the posterior of a scan's pose from its prior: the filter's step for one scan.
 
-The prior is a mixture of normal distributions (moved by odometry), or uniform over the map's free cells, or a mixture
-of both, since a robot may have been carried away. If the prior is too wide, a search over the whole map proposes
-places. The scan's end points refine the places. The exact forward law, averaged over draws of the map, weights the
-poses. The robot may also be elsewhere, or the map outdated: then readings have the law of readings anywhere.
+`update` works in a map posterior. The prior is a mixture of normal distributions (moved by odometry), uniform over the
+map's free cells, or both. If it is too wide, a search over the whole map proposes places. The scan's end points refine
+them, and the exact law, averaged over draws of the map, weights poses. The robot may also be elsewhere, or the map
+outdated: then readings have the law of readings anywhere (`compute_belief`).
 
-`locate` works in a map that is known exactly, with independent beams. The posterior is narrow there and may have many
-places. The likelihood is about a centimetre wide, so a proposal five centimetres off would get no weight. So the weight
-of each beam rises in rounds from its value in an inferred map to its value in a known map, and proposals follow. If
-places coincide, only the place of greater mass remains.
+`locate` works in a map that is known exactly, where the posterior is narrow and may have many places.
 """
 
 from __future__ import annotations
@@ -27,20 +24,146 @@ from bayesmap.sensors.model import RangeLimits
 from bayesmap.space.arrays import Indices
 from bayesmap.space.planar import Floats, wrap_angle
 
+MAX_CANDIDATES = 24  # places of a search: with more places, its score puts more wrong places first
+MAX_ROUNDS = 5  # rounds in which places are adapted, until weights are hardly tempered
+END_TEMPERING = 0.6  # rounds end when the weights are tempered by a power above this, see `PoseMixture.adapt`
+SELECTION_DRAWS = 8  # draws per place to select places
+ROUND_DRAWS = 24  # draws of the likeliest place in a round
+LAST_ROUND_DRAWS = 32  # draws of the likeliest place in the last round
+ROUND_BEAMS = 40  # approximate number of beams of a scan that are used before the last round
+SEARCH_SIGMA = np.array([0.06, 0.06, np.radians(1.2)])  # of a pose of a search from the best pose near it: m, m, rad
+UNIFORM_DRAWS = 3000  # poses that are drawn over the whole map if a search finds no place
+P_LOST_AT_FIRST = 0.02  # probability that the robot is not on the map, or the map outdated, before the first scan
+P_GETS_LOST = 1e-3  # probability per scan that a robot on the map gets lost
+P_FOUND = 0.05  # probability per scan that a lost robot is back on the map
 POINTS = 60  # end points per scan; they affect the number of rounds, not the results
 POINT_WEIGHT = 2.0  # weight of an end point relative to a beam's
-MAX_REFINEMENTS = 3  # most rounds in which places are moved; one less for several places, which come from a search
-END_TEMPERING = 0.6  # rounds end when the weights are tempered by a power above this, see `PoseMixture.adapt`
+MAX_REFINEMENTS = 3  # rounds in which places are moved; one less for several places, which come from a search
 DRAWS_PER_ROUND = 240  # draws per round for all places together
-MIN_DRAWS_PER_PLACE = 24  # least draws per place
+MIN_DRAWS_PER_PLACE = 24  # draws per place
+
+
+@dataclass(frozen=True, eq=False)
+class Scan:
+    """One scan of A beams."""
+
+    angles_rad: Floats  # (A,)
+    ranges_m: Floats  # (A,)
+    limits: RangeLimits
+    stamp_s: float | None = None
+    new_share: float = 1.0  # share of the scan's evidence that earlier scans do not contain, in (0, 1]
+
+
+@dataclass(frozen=True, eq=False)
+class Prior:
+    """The distribution of the pose before a scan."""
+
+    components: PoseMixture | None = None  # normal distributions; None if the robot may be anywhere on the map
+    uniform_share: float = 1.0  # share of the mass that is uniform over the map's free cells; 1 without components
+    p_lost: float = P_LOST_AT_FIRST  # probability that the robot is elsewhere, or the map outdated
+
+    def log_density(self, poses: Floats, known: KnownMap) -> Floats:
+        """Compute the log density of poses on the map, (P,); -inf in walls."""
+        log_uniform = np.where(known.is_free(poses), -np.log(known.free_area_m2 * 2 * np.pi), -np.inf)
+        if self.components is None:
+            return np.asarray(log_uniform)
+        squared, half_log_det = self.components.squared_distances(poses)
+        log_mass = self.components.log_mass - log_sum(self.components.log_mass)
+        log_normals = log_mass - half_log_det - 1.5 * np.log(2 * np.pi) - 0.5 * squared
+        log_mixture = log_sum(log_normals) + np.log1p(-self.uniform_share)
+        if self.uniform_share == 0.0:
+            return np.asarray(log_mixture)
+        return np.asarray(np.logaddexp(log_mixture, log_uniform + np.log(self.uniform_share)))
+
+
+@dataclass(frozen=True, eq=False)
+class Target:
+    """The log density of a scan's pose, not normalised: log prior plus weighted log-likelihood in a draw of the map."""
+
+    known: KnownMap
+    prior: Prior
+    scan: Scan
+    beam_weight: float  # power of the likelihood of each beam
+    thin: int = 1  # every ``thin``-th beam is used
+    draws: int | None = None  # number of draws of the map that poses take in turn, one each; all if None
+
+    def __call__(self, poses: Floats) -> Floats:
+        """Compute the log density at poses (P, 3), (P,)."""
+        scan, result = self.scan, np.array(self.prior.log_density(poses, self.known))
+        possible = np.isfinite(result)
+        if possible.any():
+            result[possible] += self.known.log_likelihood(
+                poses[possible], scan.angles_rad, scan.ranges_m, scan.limits, self.thin, self.draws, self.beam_weight,
+                in_turn=True,
+            )  # fmt: skip
+        return result
+
+
+def update(known: KnownMap, prior: Prior, scan: Scan, rng: np.random.Generator, *, look_everywhere: bool) -> PoseBelief:
+    """Compute the posterior of a scan's pose. If ``look_everywhere``, or without components, search the whole map."""
+    all_beams = Target(known, prior, scan, known.beam_weight_for_pose(scan.ranges_m))
+    few_beams = replace(all_beams, thin=max(1, len(scan.angles_rad) // ROUND_BEAMS))
+    # Take the places of the prior and of a search, and refine them by the end points.
+    places = _starting_places(known, prior, scan, look_everywhere=look_everywhere)
+    if places is None:
+        return compute_belief(known, prior, scan, draw_uniform_population(known, few_beams, rng), None)
+    places = refine_by_end_points(places, partial(prior.log_density, known=known), known, scan, rng)
+    min_share, max_places = known.trust.min_draw_share, known.trust.max_places
+    max_nats = max(NEGLIGIBLE_NATS, known.trust.forgotten_nats)
+    if len(places.means) > 1:
+        # Drop negligible places by few draws of poses, under one draw of the map.
+        selection = places.draw(replace(few_beams, draws=1), SELECTION_DRAWS, rng)
+        places = places.weigh(selection).best(max_places, max_nats)
+    # Move the places to the weighted means of their draws.
+    for _ in range(MAX_ROUNDS):
+        counts = places.draw_counts(ROUND_DRAWS, min_share)
+        places, tempering = places.adapt(places.draw(few_beams, counts, rng))
+        places = places.best(max_places, max_nats)
+        if tempering > END_TEMPERING:
+            break
+    # Draw and weight the final poses, with all beams.
+    population = places.draw(all_beams, places.draw_counts(LAST_ROUND_DRAWS, min_share), rng)
+    place_of, prior_shares = places.label_places(population.poses), None
+    if known.trust.shared_path_m > 0.0:
+        prior_shares = _prior_shares(prior, places, int(place_of.max()) + 1)
+    return compute_belief(known, prior, scan, population, place_of, prior_shares)
+
+
+def _starting_places(known: KnownMap, prior: Prior, scan: Scan, *, look_everywhere: bool) -> PoseMixture | None:
+    """Return the places of the prior and of a search, or None if the prior is uniform and the search finds no place."""
+    candidates, components = None, prior.components
+    if look_everywhere or components is None:
+        poses = search(known.field, scan.angles_rad, scan.ranges_m, MAX_CANDIDATES).poses
+        candidates = _mixture_at(poses) if len(poses) else None
+    if components is None or candidates is None:
+        return candidates if components is None else components
+    return PoseMixture(
+        np.concatenate([components.means, candidates.means]),
+        np.concatenate([components.covariances, candidates.covariances]),
+        np.concatenate([components.log_mass, candidates.log_mass]),
+    )
+
+
+def _mixture_at(poses: Floats) -> PoseMixture:
+    """Return places of equal mass at the poses of a search, (K, 3)."""
+    return PoseMixture(poses, np.broadcast_to(np.diag(SEARCH_SIGMA**2), (len(poses), 3, 3)), np.zeros(len(poses)))
+
+
+def draw_uniform_population(known: KnownMap, target: Target, rng: np.random.Generator) -> Population:
+    """Draw poses uniformly over the free cells, and weight them."""
+    free_cells = np.argwhere(known.free)
+    xy_cells = free_cells[rng.integers(len(free_cells), size=UNIFORM_DRAWS)] + rng.random((UNIFORM_DRAWS, 2))
+    yaw = rng.uniform(-np.pi, np.pi, UNIFORM_DRAWS)
+    poses = np.column_stack([np.array(known.grid.origin) + xy_cells * known.grid.resolution, yaw])
+    log_target = target(poses)
+    log_weights = log_target + np.log(known.free_area_m2 * 2 * np.pi)
+    return Population(poses, log_weights, np.zeros(UNIFORM_DRAWS, dtype=np.intp), log_target)
 
 
 def refine_by_end_points(
     places: PoseMixture, log_prior: Callable[[Floats], Floats], known: KnownMap, scan: Scan, rng: np.random.Generator
 ) -> PoseMixture:
-    """Return places moved to where prior and end points agree, and narrowed. With too few hits, return them unchanged.
-    ``log_prior`` computes the log density of poses (P, 3) before the scan, (P,).
-    """
+    """Return places moved to where prior and end points agree, and narrowed; unchanged with too few hits."""
     points = end_points(scan.angles_rad, scan.ranges_m, POINTS)
     if len(points) < MIN_POINTS:
         return places
@@ -59,207 +182,70 @@ def refine_by_end_points(
     return places
 
 
-CANDIDATES = 24  # most places of a search: with more places, its score puts more wrong places first
-ROUNDS = 5  # most rounds in which places are adapted, until weights are hardly tempered
-SELECTION_DRAWS = 8  # draws per place to select places
-ROUND_DRAWS = 24  # draws of the likeliest place in a round
-LAST_ROUND_DRAWS = 32  # draws of the likeliest place in the last round
-ROUND_BEAMS = 40  # approximate number of beams of a scan that are used before the last round
-SEARCH_SD = np.array([0.06, 0.06, np.radians(1.2)])  # of a pose of a search from the best pose near it: m, m, rad
-UNIFORM_DRAWS = 3000  # poses that are drawn over the whole map if a search finds nothing
-LOST_AT_FIRST = 0.02  # probability that the robot is not on the map, or the map outdated, before the first scan
-P_GETS_LOST = 1e-3  # probability per scan that a robot on the map gets lost
-P_FOUND = 0.05  # probability per scan that a lost robot is back on the map
-
-
-@dataclass(frozen=True, eq=False)
-class Scan:
-    """One scan of A beams."""
-
-    angles_rad: Floats  # (A,)
-    ranges_m: Floats  # (A,)
-    limits: RangeLimits
-    stamp_s: float | None = None
-    new: float = 1.0  # share of the scan's evidence that earlier scans do not contain, in (0, 1]
-
-
-@dataclass(frozen=True, eq=False)
-class Prior:
-    """The distribution of the pose before a scan."""
-
-    components: PoseMixture | None = None  # normal distributions; None if the robot may be anywhere on the map
-    uniform: float = 1.0  # share of the mass that lies uniformly over the map's free cells; 1 without components
-    lost: float = LOST_AT_FIRST  # probability that the robot is elsewhere, or the map outdated
-
-    def log_density(self, poses: Floats, known: KnownMap) -> Floats:
-        """Compute the log density of poses on the map, (P,); -inf in walls."""
-        log_uniform = np.where(known.is_free(poses), -np.log(known.free_area_m2 * 2 * np.pi), -np.inf)
-        if self.components is None:
-            return np.asarray(log_uniform)
-        squared, half_log_det = self.components.squared_distances(poses)
-        log_mass = self.components.log_mass - log_sum(self.components.log_mass)
-        log_normals = log_mass - half_log_det - 1.5 * np.log(2 * np.pi) - 0.5 * squared
-        log_mixture = log_sum(log_normals) + np.log1p(-self.uniform)
-        if self.uniform == 0.0:
-            return np.asarray(log_mixture)
-        return np.asarray(np.logaddexp(log_mixture, log_uniform + np.log(self.uniform)))
-
-
-def update(known: KnownMap, prior: Prior, scan: Scan, rng: np.random.Generator, *, look_everywhere: bool) -> PoseBelief:
-    """Compute the posterior of a scan's pose. If ``look_everywhere``, or without components, search the whole map."""
-
-    def target(thin: int, draws: int | None = None) -> Target:
-        return target_of(known, prior, scan, thin, known.beam_weight_for_pose(scan.ranges_m), draws)
-
-    def without_negligible(places: PoseMixture) -> PoseMixture:
-        return places.best(known.trust.max_places, max(NEGLIGIBLE_NATS, known.trust.forgotten_nats))
-
-    thin = max(1, len(scan.angles_rad) // ROUND_BEAMS)
-    places = _starting_places(known, prior, scan, look_everywhere=look_everywhere)
-    group = mass_before = None
-    if places is None:
-        population = draw_uniform_population(known, target(thin), rng)
-    else:
-        places = refine_by_end_points(places, partial(prior.log_density, known=known), known, scan, rng)
-        min_share = known.trust.min_draw_share
-        if len(places.means) > 1:
-            # Drop negligible places by few draws of poses, under one draw of the map.
-            places = without_negligible(places.weigh(places.draw(target(thin, 1), SELECTION_DRAWS, rng)))
-        for _ in range(ROUNDS):
-            counts = places.draw_counts(ROUND_DRAWS, min_share)
-            places, tempering = places.adapt(places.draw(target(thin), counts, rng))
-            places = without_negligible(places)
-            if tempering > END_TEMPERING:
-                break
-        # Draw and weight the final poses, with all beams.
-        population = places.draw(target(1), places.draw_counts(LAST_ROUND_DRAWS, min_share), rng)
-        group = places.groups_of(population.poses)
-        if known.trust.shared_way_m > 0.0:
-            mass_before = _prior_mass_of_places(prior, places, int(group.max()) + 1)
-    return belief_of(known, prior, scan, population, group, mass_before)
-
-
-def _starting_places(known: KnownMap, prior: Prior, scan: Scan, *, look_everywhere: bool) -> PoseMixture | None:
-    """Return the places of the prior and of a search, or None if the prior is uniform and the search finds no place."""
-    candidates = None
-    if look_everywhere or prior.components is None:
-        poses = search(known.field, scan.angles_rad, scan.ranges_m, CANDIDATES).poses
-        candidates = _mixture_at(poses) if len(poses) else None
-    if prior.components is None or candidates is None:
-        return candidates if prior.components is None else prior.components
-    return PoseMixture(
-        np.concatenate([prior.components.means, candidates.means]),
-        np.concatenate([prior.components.covariances, candidates.covariances]),
-        np.concatenate([prior.components.log_mass, candidates.log_mass]),
-    )
-
-
-def _mixture_at(poses: Floats) -> PoseMixture:
-    """Return places of equal mass at the poses of a search, (K, 3)."""
-    return PoseMixture(poses, np.broadcast_to(np.diag(SEARCH_SD**2), (len(poses), 3, 3)), np.zeros(len(poses)))
-
-
-Target = Callable[[Floats], Floats]  # the log density of poses (P, 3), not normalised, (P,)
-
-
-def target_of(
-    known: KnownMap, prior: Prior, scan: Scan, thin: int, beam_weight: float, draws: int | None = None
-) -> Target:
-    """Return the function that computes log prior plus log-likelihood of poses, with every ``thin``-th beam.
-
-    Each pose is weighted under one draw of the map, taken in turn from the first ``draws`` draws, or from all.
-    ``beam_weight`` is the power of the likelihood of each beam.
-    """
-
-    def log_density(poses: Floats) -> Floats:
-        result = np.array(prior.log_density(poses, known))
-        possible = np.isfinite(result)
-        if possible.any():
-            result[possible] += known.log_likelihood(
-                poses[possible], scan.angles_rad, scan.ranges_m, scan.limits, thin, draws, beam_weight, in_turn=True
-            )
-        return result
-
-    return log_density
-
-
-def draw_uniform_population(known: KnownMap, target: Target, rng: np.random.Generator) -> Population:
-    """Draw poses uniformly over the free cells, and weight them."""
-    free_cells = np.argwhere(known.free)
-    xy_cells = free_cells[rng.integers(len(free_cells), size=UNIFORM_DRAWS)] + rng.random((UNIFORM_DRAWS, 2))
-    yaw = rng.uniform(-np.pi, np.pi, UNIFORM_DRAWS)
-    poses = np.column_stack([np.array(known.grid.origin) + xy_cells * known.grid.resolution, yaw])
-    log_target = target(poses)
-    log_weights = log_target + np.log(known.free_area_m2 * 2 * np.pi)
-    return Population(poses, log_weights, np.zeros(UNIFORM_DRAWS, dtype=np.intp), log_target)
-
-
-def belief_of(
-    known: KnownMap, prior: Prior, scan: Scan, population: Population, group: Indices | None,
-    mass_before: Floats | None = None,
+def compute_belief(
+    known: KnownMap, prior: Prior, scan: Scan, population: Population, place_of: Indices | None,
+    prior_shares: Floats | None = None,
 ) -> PoseBelief:  # fmt: skip
     """Return the posterior of a population, with the probability of being lost.
-
-    ``group`` is the place of each pose, (N,), or None if poses are spread over the whole map. If only part of the
-    scan's evidence is new, ``mass_before`` is each place's share of the prior, (K,).
+    ``place_of`` is the place of each pose, (N,), or None if poses are spread over the whole map. If only part of the
+    scan's evidence is new, ``prior_shares`` is each place's share of the prior, (K,).
     """
     weights = population.weights
     if not np.isfinite(population.log_evidence):
         weights = np.full(len(population.poses), 1.0 / len(population.poses))
-    if group is None:
-        group = np.zeros(len(weights), dtype=np.intp)  # one mode, spread over the whole map
+    if place_of is None:
+        place_of = np.zeros(len(weights), dtype=np.intp)  # one mode, spread over the whole map
     # Share the mass among places. Between places a scan is worth fewer readings than for the pose within a place.
     log_likelihood = _log_likelihood(known, prior, population)
-    evidence_power = known.beam_weight_for_place(scan.ranges_m) / known.beam_weight_for_pose(scan.ranges_m)
-    if mass_before is None:
-        weights = rescale_by_place_weights(weights, group, _reweight_beams(population, log_likelihood, evidence_power))
+    power = known.beam_weight_for_place(scan.ranges_m) / known.beam_weight_for_pose(scan.ranges_m)
+    if prior_shares is None:
+        weights = rescale_by_place_weights(weights, place_of, _reweight_beams(population, log_likelihood, power))
     else:
-        weights = rescale_by_place_evidence(weights, group, mass_before, evidence_power * scan.new)
-    belief = PoseBelief(population.poses, weights, 0.0, 0.0, scan.stamp_s, group, known.shared_error)
+        weights = rescale_by_place_evidence(weights, place_of, prior_shares, power * scan.new_share)
+    belief = PoseBelief(population.poses, weights, 0.0, 0.0, scan.stamp_s, place_of, known.shared_error)
     if not np.isfinite(scan.ranges_m).any():
-        return replace(belief, p_lost=prior.lost)  # a scan without hits does not tell whether the robot is lost
+        return replace(belief, p_lost=prior.p_lost)  # a scan without hits does not tell whether the robot is lost
     # Compare with the evidence of readings anywhere.
     log_evidence, fit = _evidence_and_fit(known, scan, population, log_likelihood, belief)
-    log_elsewhere = known.beam_weight_for_fit(scan.ranges_m) * log_anywhere(
-        known.elsewhere, scan.ranges_m, known.max_range_m
-    )
+    log_elsewhere = log_anywhere(known.elsewhere, scan.ranges_m, known.max_range_m)
+    log_elsewhere = known.beam_weight_for_fit(scan.ranges_m) * log_elsewhere
     with np.errstate(divide="ignore"):
-        log_odds = np.log(prior.lost) - np.log1p(-prior.lost) + log_elsewhere - log_evidence
+        log_odds = np.log(prior.p_lost) - np.log1p(-prior.p_lost) + log_elsewhere - log_evidence
     return replace(belief, p_lost=float(expit(log_odds)), nats_per_beam=fit)
 
 
-def rescale_by_place_weights(weights: Floats, group: Indices, log_weights: Floats) -> Floats:
-    """Rescale weights, (N,), so that places, ``group``, (N,), have the shares by ``log_weights``, (N,)."""
-    if not group.any() or not np.isfinite(log_weights).any():
+def rescale_by_place_weights(weights: Floats, place_of: Indices, log_weights: Floats) -> Floats:
+    """Rescale weights, (N,), so that places, ``place_of``, (N,), have the shares by ``log_weights``, (N,)."""
+    if not place_of.any() or not np.isfinite(log_weights).any():
         return weights
-    shares = np.bincount(group, np.exp(log_weights - log_sum(log_weights)), group.max() + 1)
-    return _rescale_to_shares(weights, group, np.asarray(shares, np.float64))
+    shares = np.bincount(place_of, np.exp(log_weights - log_sum(log_weights)), place_of.max() + 1)
+    return _rescale_to_shares(weights, place_of, np.asarray(shares, np.float64))
 
 
-def rescale_by_place_evidence(weights: Floats, group: Indices, mass_before: Floats, evidence_power: float) -> Floats:
-    """Rescale weights, (N,), so that places have shares by a power of the evidence. The ratios within each place stay.
-    With a power of 0 the shares are ``mass_before``, (K,), as before the scan; with 1 the sums of the weights.
+def rescale_by_place_evidence(weights: Floats, place_of: Indices, prior_shares: Floats, power: float) -> Floats:
+    """Rescale weights, (N,), so that places have shares by a power of the evidence. Ratios within each place stay.
+    With a power of 0 the shares are ``prior_shares``, (K,), as before the scan; with 1 the sums of the weights.
     """
-    sums = np.bincount(group, weights, len(mass_before))
+    sums = np.bincount(place_of, weights, len(prior_shares))
     with np.errstate(divide="ignore"):
-        logs = (1.0 - evidence_power) * np.log(mass_before) + evidence_power * np.log(sums)
+        logs = (1.0 - power) * np.log(prior_shares) + power * np.log(sums)
     if not np.isfinite(logs).any():
         return weights
-    return _rescale_to_shares(weights, group, np.exp(logs - log_sum(logs)))
+    return _rescale_to_shares(weights, place_of, np.exp(logs - log_sum(logs)))
 
 
-def _rescale_to_shares(weights: Floats, group: Indices, shares: Floats) -> Floats:
-    """Rescale weights so that each place has its share."""
-    sums = np.bincount(group, weights, len(shares))
-    return np.asarray(weights * np.divide(shares, sums, out=np.zeros_like(sums), where=sums > 0)[group])
+def _rescale_to_shares(weights: Floats, place_of: Indices, shares: Floats) -> Floats:
+    """Rescale weights, (N,), so that each place has its share, (K,)."""
+    sums = np.bincount(place_of, weights, len(shares))
+    return np.asarray(weights * np.divide(shares, sums, out=np.zeros_like(sums), where=sums > 0)[place_of])
 
 
-def _prior_mass_of_places(prior: Prior, places: PoseMixture, count: int) -> Floats:
+def _prior_shares(prior: Prior, places: PoseMixture, count: int) -> Floats:
     """Return each place's share of the prior, (count,): its components' mass, plus the prior's uniform share."""
-    mass = np.full(count, 1.0 if prior.components is None else prior.uniform)
+    mass = np.full(count, 1.0 if prior.components is None else prior.uniform_share)
     if prior.components is not None:
-        log_mass = prior.components.log_mass - log_sum(prior.components.log_mass) + np.log1p(-prior.uniform)
-        np.add.at(mass, places.groups_of(prior.components.means), np.exp(log_mass))
+        log_mass = prior.components.log_mass - log_sum(prior.components.log_mass) + np.log1p(-prior.uniform_share)
+        np.add.at(mass, places.label_places(prior.components.means), np.exp(log_mass))
     return mass
 
 
@@ -273,16 +259,15 @@ def _log_likelihood(known: KnownMap, prior: Prior, population: Population) -> Fl
 def _reweight_beams(population: Population, log_likelihood: Floats, factor: float) -> Floats:
     """Return the poses' log weights if each beam had ``factor`` times its weight, (N,)."""
     possible = np.isfinite(population.log_weights)
-    return np.where(
-        possible, population.log_weights + (factor - 1.0) * np.where(possible, log_likelihood, 0.0), -np.inf
-    )
+    changes = (factor - 1.0) * np.where(possible, log_likelihood, 0.0)
+    return np.where(possible, population.log_weights + changes, -np.inf)
 
 
 def _evidence_and_fit(
     known: KnownMap, scan: Scan, population: Population, log_likelihood: Floats, belief: PoseBelief
 ) -> tuple[float, float]:
-    """Return the log evidence of the likeliest mode, and the log-likelihood per beam at the best pose, nats. Beams have
-    more weight here, because a scan tells more about whether it fits at all than about its exact pose.
+    """Return the log evidence of the likeliest mode, and the log-likelihood per beam at the best pose, nats.
+    Beams have more weight here, because a scan tells more about whether it fits at all than about its exact pose.
     """
     beam_weight = known.beam_weight_for_pose(scan.ranges_m)
     logs = _reweight_beams(population, log_likelihood, known.beam_weight_for_fit(scan.ranges_m) / beam_weight)
@@ -294,10 +279,10 @@ def _evidence_and_fit(
 
 
 # Settings of `locate`
-LOCATE_CANDIDATES = 32  # most places of the search
-LOCATE_PLACES = 16  # most places kept after a round
+LOCATE_CANDIDATES = 32  # places of the search, at most
+LOCATE_PLACES = 16  # places that remain after a round, at most
 RISING_ROUNDS = 6  # rounds in which the beams' weight rises
-MAX_FINAL_ROUNDS = 4  # most rounds with the final beam weight
+MAX_FINAL_ROUNDS = 4  # rounds with the final beam weight
 LOCATE_BEAMS = 60  # a scan is thinned to at least this many beams while their weight rises
 LOCATE_ROUND_DRAWS = 24  # draws per place in a round
 LOCATE_LAST_DRAWS = 192  # draws per place in the last round
@@ -306,40 +291,40 @@ SAME_PLACE_XY_YAW = np.array([0.02, 0.02, np.radians(1.0)])  # places nearer tha
 
 
 def locate(known: KnownMap, scan: Scan, rng: np.random.Generator) -> PoseBelief:
-    """Compute the posterior of a scan's pose on a map known exactly; its ``beam_weight`` is the likelihood's power."""
-    prior = Prior()
-    last_weight = known.beam_weight_for_pose(scan.ranges_m)
-    first_weight = min(last_weight, INDEPENDENT_BEAMS / n_valid(scan.ranges_m))
-
-    def target(beam_weight: float, thin: int = 1) -> Target:
-        return target_of(known, prior, scan, thin, beam_weight)
-
-    thin = max(1, len(scan.angles_rad) // LOCATE_BEAMS)
+    """Compute the posterior of a scan's pose on a map known exactly; its ``beam_weight`` is the likelihood's power.
+    The likelihood is about a centimetre wide, so a proposal five centimetres off would get no weight. So the weight of
+    each beam rises in rounds from its value in an inferred map to its value in a known map, and proposals follow.
+    """
+    prior, final_weight = Prior(), known.beam_weight_for_pose(scan.ranges_m)
+    first_weight = min(final_weight, INDEPENDENT_BEAMS / n_valid(scan.ranges_m))
+    final = Target(known, prior, scan, final_weight)
     candidates = search(known.field, scan.angles_rad, scan.ranges_m, LOCATE_CANDIDATES)
     if len(candidates.poses) == 0:
-        return belief_of(known, prior, scan, draw_uniform_population(known, target(last_weight), rng), None)
+        return compute_belief(known, prior, scan, draw_uniform_population(known, final, rng), None)
     places = _mixture_at(candidates.poses)
     # Adapt the places while the beams' weight rises, then at the final weight.
-    for beam_weight in np.geomspace(first_weight, last_weight, RISING_ROUNDS):
-        places, _ = places.adapt(places.draw(target(float(beam_weight), thin), LOCATE_ROUND_DRAWS, rng))
+    thin = max(1, len(scan.angles_rad) // LOCATE_BEAMS)
+    for beam_weight in np.geomspace(first_weight, final_weight, RISING_ROUNDS):
+        target = replace(final, beam_weight=float(beam_weight), thin=thin)
+        places, _ = places.adapt(places.draw(target, LOCATE_ROUND_DRAWS, rng))
         places = without_duplicates(places).best(LOCATE_PLACES)
     for _ in range(MAX_FINAL_ROUNDS):
-        places, tempering = places.adapt(places.draw(target(last_weight), LOCATE_ROUND_DRAWS, rng))
+        places, tempering = places.adapt(places.draw(final, LOCATE_ROUND_DRAWS, rng))
         places = without_duplicates(places).best(LOCATE_PLACES)
         if tempering > END_TEMPERING:
             break
-    population = places.draw(target(last_weight), LOCATE_LAST_DRAWS, rng)
-    return belief_of(known, prior, scan, population, places.groups_of(population.poses))
+    population = places.draw(final, LOCATE_LAST_DRAWS, rng)
+    return compute_belief(known, prior, scan, population, places.label_places(population.poses))
 
 
 def without_duplicates(places: PoseMixture) -> PoseMixture:
     """Return the places without any that coincides with a place of greater mass."""
-    kept: list[int] = []
+    selected: list[int] = []
     for i in np.argsort(-places.log_mass, kind="stable").tolist():
-        off = places.means[kept] - places.means[i]
+        off = places.means[selected] - places.means[i]
         off[:, 2] = wrap_angle(off[:, 2])
-        squared = np.einsum("ki,kij,kj->k", off, np.linalg.inv(places.covariances[kept]), off)
+        squared = np.einsum("ki,kij,kj->k", off, np.linalg.inv(places.covariances[selected]), off)
         coincides = (squared < SAME_PLACE_SIGMAS**2) | (np.abs(off) < SAME_PLACE_XY_YAW).all(axis=1)
         if not coincides.any():
-            kept.append(i)
-    return places.select(kept)
+            selected.append(i)
+    return places.select(selected)

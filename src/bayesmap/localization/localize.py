@@ -1,4 +1,8 @@
-"""`bayesmap.localize`: the posterior of a robot's pose in a map posterior, from one scan or along many."""
+"""Locate a robot in a map posterior, from one scan or along many: `bayesmap.localize`.
+
+`localize` collects the posteriors that `follow` yields. For each scan, `follow` moves the belief by odometry
+(`predict`) and weights it by the scan (`bayesmap.localization.filter.update`).
+"""
 
 from __future__ import annotations
 
@@ -12,7 +16,7 @@ from scipy.special import ndtr
 
 from bayesmap.errors import BadInput, check_count, near_names
 from bayesmap.localization.belief import MIN_SIGMA, Mode, PoseBelief, PoseMixture, Region
-from bayesmap.localization.filter import LOST_AT_FIRST, P_FOUND, P_GETS_LOST, Prior, Scan, update
+from bayesmap.localization.filter import P_FOUND, P_GETS_LOST, P_LOST_AT_FIRST, Prior, Scan, update
 from bayesmap.localization.known_map import KnownMap, Trust
 from bayesmap.poses.prior import Odometry
 from bayesmap.sensors.model import RangeLimits
@@ -24,14 +28,14 @@ if TYPE_CHECKING:
     from bayesmap.space.grid import Grid
 
 MIN_SURE_PROBABILITY = 0.99  # probability of the likeliest mode below which every scan is searched for in the whole map
-MIN_MAP_PROBABILITY = 1e-3  # least probability of the map's area under a prior
+MIN_MAP_PROBABILITY = 1e-3  # probability of the map's area under a prior
 TURN_M = 0.5  # length of path with as much new evidence as a turn by one radian, metres
-MIN_NEW_SHARE = 0.02  # least share of a scan's evidence that counts
+MIN_NEW_SHARE = 0.02  # share of a scan's evidence that counts as new even if the robot stands still
 
 
 @dataclass(frozen=True, eq=False)
 class InitialPose:
-    """A prior: the first pose is normal about a guess.
+    """The prior under which the first pose is normal about a guess.
 
     Attributes:
         pose: x, y in metres and yaw in radians, (3,).
@@ -121,7 +125,7 @@ class Localization:
         return Trajectory(poses, stamps_s, np.array([belief.covariance for belief in self.beliefs]), frame=self.frame)
 
     def of(self, frame: str | None, mount: Floats | None) -> Localization:
-        """Return the posteriors of the robot's base, or of its laser at ``mount``, (3,), as `step_to` says."""
+        """Return the posteriors of the robot's "base", or of its "laser" at ``mount``, (3,). See `step_to`."""
         new_frame, step = step_to(frame, mount, self.frame)
         return Localization(self.beliefs if step is None else tuple(b.of_frame(step) for b in self.beliefs), new_frame)
 
@@ -152,7 +156,8 @@ def localize(
     if len(scans) == 0:
         raise BadInput("localize: there is no scan")
     beliefs = []
-    for number, belief in enumerate(follow(_known(run, device), scans, prior, odometry, independent, seed)):
+    located = follow(_known_map(run, device), scans, prior, odometry, independent=independent, seed=seed)
+    for number, belief in enumerate(located):
         beliefs.append(belief)
         if on_belief is not None:
             on_belief(number, belief)
@@ -161,44 +166,50 @@ def localize(
 
 def follow(
     known: KnownMap, scans: Scans | Iterable[Scans], prior: InitialPose | None = None, odometry: Odometry | None = None,
-    independent: bool = False, seed: int = 0,
+    *, independent: bool = False, seed: int = 0,
 ) -> Iterator[PoseBelief]:  # fmt: skip
-    """Yield the posterior of each scan, with the arguments of `localize`, before the next scan is asked for."""
-    odometry = Odometry() if odometry is None else odometry
-    _check(known, prior, odometry)
+    """Yield the posterior of each scan before the next scan is read. The arguments are those of `localize`."""
+    odometry, trust = Odometry() if odometry is None else odometry, known.trust
+    _check_arguments(known, prior, odometry)
     rng = np.random.default_rng(check_count("localize", "seed", seed, 0))
-    anywhere = Prior() if known.usual_fit is None else Prior(lost=max(LOST_AT_FIRST, known.usual_fit.missed))
-    pose_prior = anywhere if prior is None else Prior(prior.components(), known.trust.p_carried, LOST_AT_FIRST)
-    belief, pose, since_search_m, trust = None, np.zeros(3), 0.0, known.trust
+    missed = 0.0 if known.reference_fit is None else known.reference_fit.missed
+    anywhere = Prior(p_lost=max(P_LOST_AT_FIRST, missed))
+    pose_prior = anywhere if prior is None else Prior(prior.components(), trust.p_carried, P_LOST_AT_FIRST)
+    belief, pose, since_search_m = None, np.zeros(3), 0.0
     singles = (scans.select(slice(i, i + 1)) for i in range(len(scans))) if isinstance(scans, Scans) else scans
     for single in singles:
-        stamp_s = None if single.stamps_s is None else float(single.stamps_s[0])
-        limits = RangeLimits(single.min_range_m, single.max_range_m)
-        angles, ranges = single.beams_of(0)
-        if not len(angles):  # a beam without a reading has no evidence, like no beam
-            angles, ranges = single.angles_rad, single.ranges_m[0]
         pose_before, pose, new_share = pose, single.poses[0], 1.0
-        # Predict by odometry; a short way makes only part of the scan's evidence new.
+        # Predict by odometry; after a short path only part of the scan's evidence is new.
         if independent:
             pose_prior = anywhere
         elif belief is not None:
             motion = between(pose_before, pose)
-            way_m = float(np.hypot(motion[0], motion[1]) + TURN_M * abs(motion[2]))
-            since_search_m += way_m
-            if way_m < trust.shared_way_m:
-                new_share = max(MIN_NEW_SHARE, way_m / trust.shared_way_m)
+            path_m = float(np.hypot(motion[0], motion[1]) + TURN_M * abs(motion[2]))
+            since_search_m += path_m
+            if path_m < trust.shared_path_m:
+                new_share = max(MIN_NEW_SHARE, path_m / trust.shared_path_m)
             pose_prior = predict(belief, motion, odometry.sigmas(motion), trust, new_share)
-        # Search the whole map if the pose is uncertain, or after a long way.
+        # Search the whole map if the pose is uncertain, or after a long path.
         unsure = belief is None or belief.p_lost > 0.5 or belief.modes[0].probability < MIN_SURE_PROBABILITY
-        search_all = independent or unsure or since_search_m >= trust.search_way_m
+        search_all = independent or unsure or since_search_m >= trust.search_path_m
         if search_all:
             since_search_m = 0.0
-        scan = Scan(angles, ranges, limits, stamp_s, new_share)
-        belief = update(known, pose_prior, scan, rng, look_everywhere=search_all)
+        belief = update(known, pose_prior, _scan_of(single, new_share), rng, look_everywhere=search_all)
         yield belief
 
 
-def _known(run: Any, device: str) -> KnownMap:
+def _scan_of(single: Scans, new_share: float) -> Scan:
+    """Return a single scan as the filter takes it."""
+    stamp_s = None if single.stamps_s is None else float(single.stamps_s[0])
+    limits = RangeLimits(single.min_range_m, single.max_range_m)
+    angles, ranges = single.beams_of(0)
+    if not len(angles):  # a beam without a reading has no evidence, like no beam
+        angles, ranges = single.angles_rad, single.ranges_m[0]
+    return Scan(angles, ranges, limits, stamp_s, new_share)
+
+
+def _known_map(run: Any, device: str) -> KnownMap:
+    """Return the prepared map of a run. Raises `BadInput` for anything that is neither a run nor a `KnownMap`."""
     if isinstance(run, KnownMap):
         return run
     if not hasattr(run, "posterior"):
@@ -206,7 +217,7 @@ def _known(run: Any, device: str) -> KnownMap:
     return KnownMap.of_run(run, device=device)
 
 
-def _check(known: KnownMap, prior: InitialPose | None, odometry: Odometry) -> None:
+def _check_arguments(known: KnownMap, prior: InitialPose | None, odometry: Odometry) -> None:
     """Raise `BadInput` for a prior or odometry of another type, and for a prior outside the map."""
     if not isinstance(odometry, Odometry):
         raise BadInput(f"localize: odometry must be such as bm.Odometry(), got {odometry!r}")
@@ -223,18 +234,17 @@ def _check(known: KnownMap, prior: InitialPose | None, odometry: Odometry) -> No
 
 
 def predict(belief: PoseBelief, motion: Floats, sigmas: Floats, trust: Trust, new_share: float = 1.0) -> Prior:
-    """Return the prior of the pose after a motion that odometry reports in the frame of the old pose, (3,). The motion
-    has errors of these ``sigmas``, (3,). ``new_share`` is the share of the next scan's evidence that is new.
-    """
+    """Return the prior of the pose after a motion in the frame of the pose before, (3,), with deviations (3,)."""
     modes = belief.places(float(np.exp(-trust.forgotten_nats)))
     means = np.array([mode.mean for mode in modes])
     covariances = np.array([mode.covariance for mode in modes])
     ends = compose(means, motion)
-    shift, turn = frame_jacobians(np.zeros(len(means)), ends - means), rotation(means[:, 2])
-    noise = turn @ np.diag(sigmas**2 + MIN_SIGMA**2) @ np.swapaxes(turn, 1, 2)
+    shift, to_world = frame_jacobians(np.zeros(len(means)), ends - means), rotation(means[:, 2])
+    noise = to_world @ np.diag(sigmas**2 + MIN_SIGMA**2) @ np.swapaxes(to_world, 1, 2)
     log_mass = np.log([mode.probability for mode in modes])
     components = PoseMixture(ends, shift @ covariances @ np.swapaxes(shift, 1, 2) + noise, log_mass)
     # A lost robot may return to any position.
     p_found, p_carried = new_share * P_FOUND, new_share * trust.p_carried
-    uniform = p_carried + (1.0 - p_carried) * min(belief.p_lost * new_share * P_FOUND, 0.5)
-    return Prior(components, uniform, belief.p_lost * (1.0 - p_found) + (1.0 - belief.p_lost) * new_share * P_GETS_LOST)
+    uniform_share = p_carried + (1.0 - p_carried) * min(belief.p_lost * new_share * P_FOUND, 0.5)
+    p_lost = belief.p_lost * (1.0 - p_found) + (1.0 - belief.p_lost) * new_share * P_GETS_LOST
+    return Prior(components, uniform_share, p_lost)
