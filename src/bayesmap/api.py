@@ -150,7 +150,7 @@ def slam(
     if checkpoints.trajectory is not None:
         checkpoints.trajectory(trajectory)
     # Select the key scans, and lay the grid over them.
-    keys = map_scans.key_scans(log, trajectory, schedule.chains, seed)
+    keys = map_scans.select_key_scans(log, trajectory, schedule.chains, seed)
     grid = Grid.covering(keys.scans, resolution)
     cells = Surface() if prior is None else prior
     fast = len(keys.scans) > map_scans.MAX_SAMPLED_KEYS if fast is None else fast
@@ -161,7 +161,7 @@ def slam(
 
     save, preview = with_trajectory(checkpoints.save), with_trajectory(checkpoints.preview)
     run = infer(
-        map_scans.for_map(keys.scans, resolution) if fast else keys.scans, grid, prior=cells, sensor=sensor,
+        map_scans.thin_for_map(keys.scans, resolution) if fast else keys.scans, grid, prior=cells, sensor=sensor,
         method=None if fast else Gibbs(start_poses=keys.starts),
         schedule=replace(schedule, thin=1 if schedule.thin is None else schedule.thin), seed=seed,
         poses=None if fast else keys.prior, hit_depth=cells.hit_depth if hit_depth is None else hit_depth, where=where,
@@ -177,7 +177,7 @@ def estimate_slam(
     """Estimate time and memory of `slam` from the poses of the log; None if they allow no map."""
     from bayesmap.poses import map_scans
 
-    keys = map_scans.keys_by_odometry(log, no_odometry)
+    keys = map_scans.select_keys_by_odometry(log, no_odometry=no_odometry)
     if len(log) < 2 or not np.isfinite(keys.ranges_m).any():
         return None  # refused with its reason later
     fast = len(keys) > map_scans.MAX_SAMPLED_KEYS if fast is None else fast
@@ -187,7 +187,7 @@ def estimate_slam(
         return None
     poses = KnownPoses() if fast else UncertainPoses(0.1, 0.1)  # their spread does not change the cost
     inference = Inference.of(
-        map_scans.for_map(keys, resolution) if fast else keys, grid, replace(laws, poses=poses), None,
+        map_scans.thin_for_map(keys, resolution) if fast else keys, grid, replace(laws, poses=poses), None,
         replace(schedule, thin=1 if schedule.thin is None else schedule.thin), 0, where,
     )  # fmt: skip
     return inference.estimate(log)

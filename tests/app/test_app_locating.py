@@ -18,7 +18,7 @@ from bayesmap.app.protocol.wire import parse_document
 from bayesmap.app.shown.hit_maps import MAX_SCANS, grow_grid, hit_count_map, thin_scans
 from bayesmap.app.sources import open_log
 from bayesmap.app.trajectory import ASK_TO_RUN, STAGE_TEXTS, TrajectoryJob, move_to_trajectory
-from bayesmap.poses.slam import in_order_of_time
+from bayesmap.poses.slam import sort_by_time
 from bayesmap.space.grid import Grid
 
 
@@ -186,7 +186,7 @@ def test_a_log_gives_equal_poses_again_and_scans_stay_in_its_order(found):
     job = TrajectoryJob(Infer(1, few_sweeps(), "run"), scans, raw_log().document.grid)
     steps = [step for step in job.reports() if step is not None]
     last = move_to_trajectory(scans, job.trajectory)
-    assert np.array_equal(in_order_of_time(scans)[0], np.argsort(scans.stamps_s))
+    assert np.array_equal(sort_by_time(scans)[0], np.argsort(scans.stamps_s))
     assert np.array_equal(last.stamps_s, scans.stamps_s)
     assert np.array_equal(last.poses, found.engine._log_trajectory.inferred_log.scans.poses[shuffled])
     assert np.array_equal(steps[-1].result.scene.scans.poses, last.poses)

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from bayesmap.poses.calibration import USUAL, MotionNoise, OdometryFit
+from bayesmap.poses.calibration import ORDINARY_RATES, MotionNoise, OdometryFit
 from bayesmap.poses.graph import Factors, PoseGaussian
 from bayesmap.poses.trajectory import Calibration, InferredTrajectory, LoopClosures
 from bayesmap.space.planar import between, chain_motions, compose
@@ -31,7 +31,7 @@ def round_way(keys=16, sigma=(0.01, 0.02, 0.005), closure=True, odometry=True, f
     ends = np.array([0], np.intp), np.array([keys], np.intp)
     seen = between(every[:1], every[-1:])
     none = np.empty(0, np.intp)
-    fit = OdometryFit(np.full((3, 3), 0.01), 1e-6 * np.eye(9), 0.09, 0.01, MotionNoise(USUAL))
+    fit = OdometryFit(np.full((3, 3), 0.01), 1e-6 * np.eye(9), 0.09, 0.01, MotionNoise(ORDINARY_RATES))
     return InferredTrajectory(
         poses=every, stamps_s=10.0 + np.arange(scans), keys=at, gaussian=gaussian,
         nearest_key=np.insert(np.arange(keys), 1, 0), own_covariance=own, explained=np.ones(scans),

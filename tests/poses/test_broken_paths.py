@@ -20,11 +20,11 @@ from bayesmap.poses.front_end import (
     search_widely,
     track_scans,
 )
-from bayesmap.poses.key_graph import chain_of, unconfirmed_links
+from bayesmap.poses.key_graph import chain_links, unconfirmed_links
 from bayesmap.poses.loops import key_path
 from bayesmap.poses.matcher import likelihood_grids
 from bayesmap.poses.odometry_factors import StatedOdometry, compose_factors
-from bayesmap.poses.rejoin import MIN_PLACES, rejoin
+from bayesmap.poses.reconnect import MIN_PLACES, reconnect_segments
 from bayesmap.poses.scan_geometry import scan_geometry
 from bayesmap.poses.slam import infer_trajectory
 from bayesmap.space.planar import between, compose
@@ -142,7 +142,7 @@ def test_parts_are_joined_from_afar_and_where_too_few_places_join_them_stay_wher
     broken_at, poses = len(keys) // 2, right.copy()
     poses[broken_at:] = compose(np.array([9.0, -14.0, 2.5]), poses[broken_at:])
     path = key_path(geometry, keys, poses, np.arange(len(keys)) == broken_at)
-    found, joined = rejoin(path, 8.0)
+    found, joined = reconnect_segments(path, 8.0)
     assert joined.all()
     assert worst_m(found, right) < 0.1
     # Fewer places than must agree are shared: the front end's guess stands.
@@ -150,7 +150,7 @@ def test_parts_are_joined_from_afar_and_where_too_few_places_join_them_stay_wher
     broken_at = len(keys) - MIN_PLACES + 1
     poses[broken_at:] = compose(np.array([9.0, -14.0, 1.0]), poses[broken_at:])
     path = key_path(geometry, keys, poses, np.arange(len(keys)) == broken_at)
-    found, joined = rejoin(path, 8.0)
+    found, joined = reconnect_segments(path, 8.0)
     np.testing.assert_array_equal(joined, [True, False])
     np.testing.assert_allclose(found, poses, atol=1e-12)
 
@@ -230,7 +230,7 @@ def test_a_broken_path_keeps_where_the_next_scan_fitted_as_usual(steps, score, o
     broken, scores = track.broken.copy(), track.scores.copy()
     broken[track.keys[6]], scores[track.keys[6]] = True, score
     torn = turned_from(poses, 6, np.array([off_m, 0.0, 0.0]))
-    link = chain_of(replace(track, broken=broken, scores=scores), torn).relative[5]
+    link = chain_links(replace(track, broken=broken, scores=scores), torn).relative[5]
     expected = poses if kept else torn
     np.testing.assert_allclose(link, between(expected[5], expected[6]), atol=1e-9)
 

@@ -14,7 +14,7 @@ from bayesmap.poses import graph
 from bayesmap.poses.alignment import Alignment, Pairs, PointError, place_scans
 from bayesmap.poses.graph import Factors, PoseGaussian, bend_covariances, normal_equations, quadratic
 from bayesmap.poses.key_alignment import flag_unexplained
-from bayesmap.poses.map_scans import key_scans
+from bayesmap.poses.map_scans import select_key_scans
 from bayesmap.poses.prior import FREE_SIGMA, KnownPoses, Motions, Odometry, UncertainPoses
 from bayesmap.poses.scan_geometry import scan_geometry
 from bayesmap.poses.trajectory import with_arcs
@@ -167,7 +167,7 @@ def corridor(*, seen_m):
     curvature[0] = np.diag([seen_m**-2.0, 1.0, 1.0])
     relative = between(poses[first], poses[second])
     gaussian = PoseGaussian(poses, first, second, relative, curvature, np.zeros((STEPS + 1, 3)))
-    return replace(gaussian, by_odometry=gaussian.steps_by(SCALE_SIGMA * relative[None, 1:])), gaussian
+    return replace(gaussian, by_odometry=gaussian.steps_from_changes(SCALE_SIGMA * relative[None, 1:])), gaussian
 
 
 def test_a_length_that_odometry_alone_knows_is_as_uncertain_as_its_scale_and_one_that_the_laser_knows_is_not():
@@ -204,7 +204,7 @@ def test_a_scan_is_explained_by_several_key_scans_together_and_scans_of_nothing_
     ranges[3] = scans_of(ring(), np.array([[8.0, 3.5, 2.0]]), full=True)[1]
     geometry = scan_geometry(bm.Scans(poses, angles, ranges, max_range_m=12.0))
     keys, ends = np.array([0, 2]), np.array([0, 1], np.int32)
-    aligned = Alignment(poses[keys], Pairs(ends, ends[::-1], np.arange(3, dtype=np.int32)), 0.01, None, np.ones(2))
+    aligned = Alignment(poses[keys], Pairs(ends, ends[::-1], np.arange(3, dtype=np.int32)), 0.01, None)
     placed = place_scans(geometry, poses, keys, aligned, PointError(0.01, np.ones(3)))
     assert placed.explained[1] > 0.75
     assert placed.explained[3] < 0.4
@@ -348,7 +348,7 @@ def test_odometry_that_missed_a_turn_does_not_turn_scans():
         keys=np.arange(3), order=np.arange(3), poses=TURNED, odometry=stood, calibration=calibration,
         draw=lambda count, seed: np.tile(TURNED, (count, 1, 1)),
     )  # fmt: skip
-    law = key_scans(scans, found, chains=2, seed=0).prior.law(TURNED)
+    law = select_key_scans(scans, found, chains=2, seed=0).prior.law(TURNED)
     turn = np.array([[0.0, 0.0, 0.0], [0.0, 0.0, 0.01], [0.0, 0.0, 0.01]])
     assert abs(law.log_prob(TURNED - turn) - law.log_prob(TURNED)) < 0.1
     still = np.zeros((3, 3))

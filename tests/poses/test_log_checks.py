@@ -11,11 +11,13 @@ from tiers import full_but
 import bayesmap as bm
 from bayesmap.io.logs import read_log
 from bayesmap.poses import calibration, log_checks
-from bayesmap.poses.calibration import USUAL, MotionNoise, OdometryFit, RunningOdometry, fit_noise, fit_odometry
-from bayesmap.poses.log_checks import agreement, check_scans, doubts, frozen_stretches, look_like_odometry
+from bayesmap.poses.calibration import MotionNoise, OdometryFit, RunningOdometry, fit_noise, fit_odometry
+from bayesmap.poses.log_checks import agreement, check_scans, frozen_stretches, look_like_odometry, odometry_warnings
 from bayesmap.poses.scan_geometry import scan_geometry
 from bayesmap.poses.slam import infer_trajectory
 from bayesmap.space.planar import between, wrap_angle
+
+USUAL = calibration.ORDINARY_RATES
 
 
 def scans_at(stated, angles, ranges):
@@ -36,12 +38,12 @@ def test_constant_odometry_is_refused_with_the_remedy_and_a_frozen_stretch_is_na
     with pytest.raises(bm.BadInput, match=r"odometry is constant, one pose for all scans.*--no-odometry"):
         infer_trajectory(constant)
     check_scans(constant, no_odometry=True)
-    assert doubts(constant, no_odometry=True) == []
+    assert odometry_warnings(constant, no_odometry=True) == []
     stated = path.copy()
     stated[30:61] = stated[30]
     frozen = scans(path, stated)
     assert frozen_stretches(frozen) == [(30, 60)]
-    (doubt,) = doubts(frozen, no_odometry=False)
+    (doubt,) = odometry_warnings(frozen, no_odometry=False)
     assert "stands still from scan 30 to 60 (6.0 to 12.0 s after the first scan)" in doubt
     assert "--no-odometry" in doubt
     check_scans(frozen, no_odometry=False)
@@ -56,7 +58,7 @@ def test_beams_without_return_standing_robots_and_odometry_slower_than_scans_are
     assert frozen_stretches(blind) == []
     rests = np.concatenate([path[:30], np.repeat(path[30:31], 40, axis=0), path[31:]])
     slow = path[np.arange(len(path)) // 5 * 5]
-    assert doubts(scans(rests, rests), no_odometry=False) == doubts(scans(path, slow), no_odometry=False) == []
+    assert not any(odometry_warnings(log, no_odometry=False) for log in (scans(rests, rests), scans(path, slow)))
     parked = np.repeat(path[:1], 40, axis=0)
     check_scans(scans(parked, parked), no_odometry=False)
 
@@ -237,13 +239,13 @@ def test_stamps_that_repeat_tell_no_lag_and_move_no_pose():
     """Odometry that is late by 0.2 s: found by exact stamps, not by whole seconds, which would tell another."""
     times = 100.0 + 0.2 * np.arange(300)
     found = np.column_stack([np.cumsum(0.1 + 0.08 * np.sin(0.7 * times)), np.zeros(300), np.zeros(300)])
-    stated = calibration.stated_at(found, times, -0.2)
+    stated = calibration.compensate_lag(found, times, -0.2)
     scans, variance = np.arange(0, 300, 2), np.full((149, 3), 1e-6)
     assert fit_odometry(stated, times, found[scans], scans, variance).lag_s == pytest.approx(0.2, abs=0.03)
     assert fit_odometry(stated, np.floor(times), found[scans], scans, variance).lag_s == 0.0
     coarse = np.where(np.arange(300) < 200, times, times[200])
-    np.testing.assert_array_equal(calibration.stated_at(found, coarse, 0.1)[200:], found[200:])
-    assert (calibration.stated_at(found, coarse, 0.1)[:199, 0] > found[:199, 0]).all()
+    np.testing.assert_array_equal(calibration.compensate_lag(found, coarse, 0.1)[200:], found[200:])
+    assert (calibration.compensate_lag(found, coarse, 0.1)[:199, 0] > found[:199, 0]).all()
 
 
 def ratio(scans, truth):
@@ -265,7 +267,7 @@ def test_angles_that_are_stated_wrong_are_found_and_noise_is_not_taken_for_them(
     noisy = replace(scans, ranges_m=np.asarray(scans.ranges_m * (1.0 + error)))
     assert ratio(noisy, truth) == 1.0
     monkeypatch.setattr(calibration, "MIN_STANDARD_ERRORS", 0.0)
-    monkeypatch.setattr(calibration, "_regular", lambda factor, stated: factor)
+    monkeypatch.setattr(calibration, "_nearest_regular", lambda factor, stated: factor)
     assert ratio(noisy, truth) != 1.0
 
 
@@ -285,7 +287,7 @@ def test_rates_are_the_most_probable_ones_also_at_their_bounds(seed):
         logs = np.log(rates / USUAL[0])
         assert np.abs(logs).max() <= calibration.MAX_LOG + 1e-9
         prior = 0.5 * ((logs / calibration.FACTOR_SIGMA) ** 2).sum()
-        return 0.5 * np.log(variance).sum() + 0.5 * calibration.CONSISTENT * (nu + 1.0) * tails + prior
+        return 0.5 * np.log(variance).sum() + 0.5 * calibration.CONSISTENCY_FACTOR * (nu + 1.0) * tails + prior
 
     for axis in range(3):
         for factor in (0.99, 1.01):

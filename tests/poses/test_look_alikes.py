@@ -6,7 +6,7 @@ from simulated import poses_along, worst_m
 
 from bayesmap.poses import key_graph, loops
 from bayesmap.poses.graph import Factors, PoseGaussian, optimise
-from bayesmap.poses.key_graph import _doubtful_visits, twist_squares, visits_of, weigh_visits
+from bayesmap.poses.key_graph import _doubtful_visits, label_visits, twist_squares, weigh_visits
 from bayesmap.poses.slam import infer_trajectory
 from bayesmap.space.planar import between, compose
 from benchmarks.pose_cases import office, record
@@ -100,7 +100,7 @@ def test_closures_of_one_visit_that_contradict_each_other_are_two():
     loops = closed(chain, poses, [0.0, 0.0, 0.0], rng)[0]
     relative = loops.relative.copy()
     relative[3:] += [1.0, 0.0, 0.0]
-    label = visits_of(Factors(loops.first, loops.second, relative, loops.information), TRUTH, ALONG)
+    label = label_visits(Factors(loops.first, loops.second, relative, loops.information), TRUTH, ALONG)
     assert label[0] == label[1] == label[2] != label[3] == label[4]
 
 
@@ -158,7 +158,7 @@ def test_rooms_in_a_row_that_look_alike_are_distinguished(seed):
 def test_steps_between_confused_rooms_are_named_as_leaps(monkeypatch):
     """Closures that the way rules out are taken all the same, and visits that look alike are believed."""
     monkeypatch.setattr(key_graph, "VISIT_ODDS", 1e9)
-    monkeypatch.setattr(loops, "_possible", lambda closures, path, precision, max_sigmas: np.ones(len(closures), bool))
+    monkeypatch.setattr(loops, "_agree_with_graph", lambda closures, *_: np.ones(len(closures), bool))
     scans, truth = recorded(15)
     found = infer_trajectory(scans)
     assert worst_m(found.poses, truth) > 1.0

@@ -13,9 +13,9 @@ import bayesmap as bm
 from bayesmap.kernels.match.likelihood_grid import next_level, widen
 from bayesmap.kernels.match.line_pairs import Agreement, PairRules, pair_sums, view_counts
 from bayesmap.poses import alignment
-from bayesmap.poses.alignment import Pairs, PointError, align, overlapping_pairs, place_scans, point_error
+from bayesmap.poses.alignment import Annealing, Pairs, PointError, align, overlapping_pairs, place_scans, point_error
 from bayesmap.poses.graph import DEGREES_OF_FREEDOM, Factors
-from bayesmap.poses.matcher import Pull, likelihood_grids, match, score_at
+from bayesmap.poses.matcher import ModeRule, Pull, SearchWindows, likelihood_grids, match, score_at
 from bayesmap.poses.scan_geometry import scan_geometry
 from bayesmap.space.planar import between, transform
 
@@ -78,7 +78,7 @@ def everywhere(grid, points, centre, half_m, half_rad, pull):
 def test_the_search_finds_what_looking_everywhere_finds(centre, pull):
     points = notched_geometry().points_of(2)
     score, poses = everywhere(0, points, np.array(centre), 0.5, 0.5, pull)
-    found = match(notched_grids(), [points], [centre], 0.5, 0.5, step_rad=STEP, min_score=-9.0, pull=pull)
+    found = match(notched_grids(), [points], SearchWindows([centre], 0.5, 0.5, STEP), min_score=-9.0, pull=pull)
     assert found.scores[0, 0] == pytest.approx(score.max(), abs=1e-12)
     first = np.unravel_index(np.argmax(score > score.max() - 1e-12), score.shape)
     np.testing.assert_allclose(found.poses[0, 0], poses[first], atol=1e-9)
@@ -88,44 +88,45 @@ def test_further_modes_are_the_best_that_lie_apart_and_not_looked_for_where_they
     points = notched_geometry().points_of(2)
     centre = np.array([0.0, 0.0, 0.0])
     score, poses = everywhere(0, points, centre, 0.8, 0.7, None)
-    found = match(notched_grids(), [points], [centre], 0.8, 0.7, step_rad=STEP, modes=9, apart_m=0.3, apart_rad=0.32)
+    several = ModeRule(9, apart_m=0.3, apart_rad=0.32)
+    found = match(notched_grids(), [points], SearchWindows([centre], 0.8, 0.7, STEP), modes=several)
     left = score.copy()
     for m in range(9):
         assert found.scores[0, m] == pytest.approx(left.max(), abs=1e-12)
         off = np.abs(poses - found.poses[0, m])
         left[(off[..., :2] <= 0.3 + 1e-9).all(axis=-1) & (off[..., 2] <= 6 * STEP + 1e-9)] = -1
-    several = {"step_rad": STEP, "modes": 3, "apart_m": 0.3, "apart_rad": 0.32, "min_score": 0.1}
-    whole = match(notched_grids(), [points], [np.zeros(3)], 1.0, 1.2, **several)
+    windows, three = SearchWindows([np.zeros(3)], 1.0, 1.2, STEP), replace(several, max_modes=3)
+    whole = match(notched_grids(), [points], windows, modes=three, min_score=0.1)
     ratio = whole.scores[0] / whole.scores[0, 0]
     assert ratio[1] > ratio[2] > 0.1
     for share in (ratio[1] - 1e-9, ratio[1] + 1e-9, ratio[2] - 1e-9):
-        some = match(notched_grids(), [points], [np.zeros(3)], 1.0, 1.2, min_score_ratio=share, **several)
+        some = match(notched_grids(), [points], windows, modes=replace(three, min_score_ratio=share), min_score=0.1)
         np.testing.assert_array_equal(some.scores[0], np.where(ratio > share, whole.scores[0], -np.inf))
 
 
 def test_the_result_does_not_depend_on_threads():
     points = [notched_geometry().points_of(k) for k in range(3)]
     centres = POSES + np.array([0.15, -0.1, 0.1])
-    kwargs = {"step_rad": STEP, "modes": 2, "apart_m": 0.2}
-    one = match(replace(notched_grids(), threads=1), points, centres, 0.6, np.pi, threads_per_job=1, **kwargs)
+    windows, two = SearchWindows(centres, 0.6, np.pi, STEP), ModeRule(2, apart_m=0.2)
+    one = match(replace(notched_grids(), threads=1), points, windows, modes=two, threads_per_job=1)
     for threads, strands in ((2, 1), (2, 3), (4, 8)):
         grids = replace(notched_grids(), threads=threads)
-        other = match(grids, points, centres, 0.6, np.pi, threads_per_job=strands, **kwargs)
+        other = match(grids, points, windows, modes=two, threads_per_job=strands)
         np.testing.assert_array_equal(one.scores, other.scores)
         np.testing.assert_array_equal(one.poses, other.poses)
 
 
 def test_scans_are_found_where_they_were_taken_and_nothing_is_where_nothing_scores():
     points = [notched_geometry().points_of(2)]
-    nothing = match(notched_grids(), points, [[50.0, 0.0, 0.0]], 0.5, 0.5, step_rad=STEP, min_score=0.1)
+    nothing = match(notched_grids(), points, SearchWindows([[50.0, 0.0, 0.0]], 0.5, 0.5, STEP), min_score=0.1)
     assert not nothing.has_pose.any()
     assert np.isnan(nothing.poses).all()
-    found = match(notched_grids(), points, [[0.0, 0.0, 0.0]], 1.2, np.pi, step_rad=np.radians(1.0))
+    found = match(notched_grids(), points, SearchWindows([[0.0, 0.0, 0.0]], 1.2, np.pi, np.radians(1.0)))
     off = between(POSES[2], found.poses[0, 0])
     assert np.hypot(off[0], off[1]) < 0.06
     assert abs(off[2]) < np.radians(1.5)
     with pytest.raises(bm.BadInput, match="finite"):
-        match(notched_grids(), [notched_geometry().points_of(2)], np.full((1, 3), np.nan), 0.5, 0.5)
+        match(notched_grids(), [notched_geometry().points_of(2)], SearchWindows(np.full((1, 3), np.nan), 0.5, 0.5))
 
 
 def test_maxima_by_numpy_are_those_of_the_kernel():
@@ -258,7 +259,7 @@ def test_along_a_corridor_there_is_only_slack():
     assert np.isfinite(gradient).all()
 
 
-APART = 5
+APART, NARROW = 5, Annealing(8, reach_m=(0.15, 0.08), scale_m=(0.06, 0.03))
 NONE = Factors(np.empty(0, np.intp), np.empty(0, np.intp), np.empty((0, 3)), np.empty((0, 3, 3)))
 
 
@@ -269,7 +270,7 @@ def aligned(noise_m):
     angles, ranges = scans_of(ring(), truth, noise_m=noise_m, max_range_m=12.0)
     geometry = scan_geometry(bm.Scans(truth, angles, ranges, max_range_m=12.0))
     pairs = overlapping_pairs(geometry, truth, 3.0)
-    return truth, geometry, align(geometry, truth, NONE, pairs, rounds=8, reach_m=(0.15, 0.08), scale_m=(0.06, 0.03))
+    return truth, geometry, align(geometry, truth, NONE, lambda _: pairs, NARROW)
 
 
 def squares(truth, gaussian):
@@ -289,7 +290,7 @@ def test_the_point_error_grows_with_the_noise_unlike_residuals_and_a_fifth_of_th
     assert left[1] < 0.85 * left[0]
     _, geometry, noisy = found[0.04]
     every = point_error(geometry, noisy)
-    monkeypatch.setattr(alignment, "ERROR_PAIRS", len(noisy.pairs) // 5)
+    monkeypatch.setattr(alignment, "MIN_ERROR_PAIRS", len(noisy.pairs) // 5)
     some = point_error(geometry, noisy)
     assert some.sigma_m != every.sigma_m
     assert some.sigma_m == pytest.approx(every.sigma_m, rel=0.05)
@@ -317,7 +318,7 @@ def test_only_the_laser_s_part_is_scaled_and_scans_that_share_nothing_keep_the_r
     )  # fmt: skip
     error = PointError(found.sigma_m, np.array([0.5, 0.5, 0.25]))
     scaled = alignment.with_point_error(replace(found, gaussian=by_wheels), error)
-    share = tied.dof / (tied.dof - 2.0) / (1.0 - alignment.COUNTED_AGAIN)
+    share = tied.dof / (tied.dof - 2.0) / (1.0 - alignment.SHARED_ERROR_SHARE)
     ratio = np.array([[4.0, 4.0, 2.0], [4.0, 4.0, 2.0], [2.0, 2.0, 1.0]]) / 16.0
     assert np.allclose(scaled.curvature[:laser], share * ratio * tied.curvature)
     assert np.allclose(scaled.force[:laser], share * np.diag(ratio) * tied.force)
@@ -339,7 +340,7 @@ def placed(noise_m):
     keys = np.arange(0, len(truth), EVERY)
     key_geometry = geometry.select(keys)
     pairs = overlapping_pairs(key_geometry, truth[keys], 3.0)
-    aligned = align(key_geometry, truth[keys], NONE, pairs, rounds=8, reach_m=(0.15, 0.08), scale_m=(0.06, 0.03))
+    aligned = align(key_geometry, truth[keys], NONE, lambda _: pairs, NARROW)
     error = point_error(key_geometry, aligned)
     return truth, keys, place_scans(geometry, truth, keys, replace(aligned, poses=truth[keys]), error)
 

@@ -13,9 +13,9 @@ from bayesmap.poses import calibration
 from bayesmap.poses import scan_geometry as geometry_module
 from bayesmap.poses.calibration import angle_step_ratio
 from bayesmap.poses.log_checks import frozen_stretches
-from bayesmap.poses.map_scans import key_scans
+from bayesmap.poses.map_scans import select_key_scans
 from bayesmap.poses.matcher import likelihood_grids
-from bayesmap.poses.scan_geometry import MAX_NOISE_M, MIN_NOISE_M, merged, range_noise_m, scan_geometry
+from bayesmap.poses.scan_geometry import MAX_NOISE_M, MIN_NOISE_M, merge_beams, range_noise_m, scan_geometry
 from bayesmap.poses.slam import infer_trajectory
 from bayesmap.space.planar import between, compose
 from bayesmap.space.scans import Scans, side_by_side
@@ -30,33 +30,33 @@ def wall(distance_m, noise_m=0.0, scans=200):
 
 
 def test_merged_points_lie_on_the_wall_with_less_noise_and_over_an_edge_on_one_surface():
-    ranges, angles, middles = merged(wall(3.0), ANGLES, 0.05, 30.0)
+    ranges, angles, middles = merge_beams(wall(3.0), ANGLES, 0.05, 30.0)
     hit = np.isfinite(ranges)
     assert middles.shape == (1, 180)
     np.testing.assert_allclose((ranges * np.cos(angles))[hit], 3.0, atol=1e-4)
-    ranges, angles, _ = merged(wall(3.0, 0.02), ANGLES, 0.05, 30.0)
+    ranges, angles, _ = merge_beams(wall(3.0, 0.02), ANGLES, 0.05, 30.0)
     ahead = np.abs(middles[0]) < np.radians(10.0)
     assert (ranges * np.cos(angles))[:, ahead].std() == pytest.approx(0.01, rel=0.15)  # of four beams each
-    ranges, angles, _ = merged(np.tile([2.0, 5.0, 5.0, 5.0], 180)[None], ANGLES, 0.05, 30.0)
+    ranges, angles, _ = merge_beams(np.tile([2.0, 5.0, 5.0, 5.0], 180)[None], ANGLES, 0.05, 30.0)
     np.testing.assert_allclose(ranges, 5.0)
     np.testing.assert_allclose(angles[0], ANGLES.reshape(180, 4)[:, 1:].mean(axis=1))
 
 
 def test_too_few_hits_tell_nothing_and_no_laser_is_taken_to_be_better_or_worse_than_walls_allow():
-    assert not np.isfinite(merged(np.full((2, 720), np.inf), ANGLES, 0.05, 30.0)[0]).any()
-    assert np.isnan(merged(np.full((2, 720), np.nan), ANGLES, 0.05, 30.0)[0]).all()
+    assert not np.isfinite(merge_beams(np.full((2, 720), np.inf), ANGLES, 0.05, 30.0)[0]).any()
+    assert np.isnan(merge_beams(np.full((2, 720), np.nan), ANGLES, 0.05, 30.0)[0]).all()
     assert range_noise_m(np.full((3, 180), np.inf), 0.0175) == MIN_NOISE_M
     assert (range_noise_m(np.full((3, 2), 1.0), 0.0175), found_m(0.001)) == (MIN_NOISE_M, MIN_NOISE_M)
     assert found_m(0.2) == MAX_NOISE_M
     angles, ranges = scans_of(ring(), path_around(1.0)[:3])  # beams a degree apart are left as they are
-    assert merged(ranges, np.sort(angles), 0.05, 30.0)[0] is ranges
+    assert merge_beams(ranges, np.sort(angles), 0.05, 30.0)[0] is ranges
     assert scan_geometry(Scans(np.zeros((3, 3)), ANGLES, wall(3.0, scans=3), max_range_m=30.0)).beams == 180
 
 
 def test_the_angle_between_beams_of_a_full_circle_is_their_number_s(monkeypatch):
     """The twin: half a circle, where any estimate is believed."""
     monkeypatch.setattr(calibration, "MIN_STANDARD_ERRORS", 0.0)
-    monkeypatch.setattr(calibration, "_regular", lambda factor, stated: factor)
+    monkeypatch.setattr(calibration, "_nearest_regular", lambda factor, stated: factor)
     poses = path_around(1.0)
     pairs = np.array([[i, j] for i in range(len(poses)) for j in range(i) if i - j < 12]).T
     for full in (True, False):
@@ -188,7 +188,7 @@ def test_odometry_is_corrected_with_unlike_scans(fans):
     found = infer_trajectory(scans, threads=1)
     assert worst_m(scans.poses, truth) > 0.3
     assert worst_m(found.poses, truth) < 0.05
-    keys = key_scans(scans, found, 1, 0).scans
+    keys = select_key_scans(scans, found, 1, 0).scans
     for i, key in enumerate(found.keys):
         np.testing.assert_array_equal(keys.beams_of(i), scans.beams_of(int(found.order[key])))
 
@@ -201,7 +201,7 @@ def test_a_wrong_angle_between_beams_is_found_in_unlike_scans():
     scans = Scans(odometry_of(truth), *side_by_side([own[0] + (own - own[0]) / 1.01 for own in angles], readings), 12.0)
     found = infer_trajectory(scans, threads=1)
     assert found.calibration.angle_step_ratio == pytest.approx(1.01, abs=0.002)
-    keys = key_scans(scans, found, 1, 0).scans
+    keys = select_key_scans(scans, found, 1, 0).scans
     ratio = found.calibration.angle_step_ratio
     own, before = keys.beams_of(1)[0], scans.beams_of(int(found.order[found.keys[1]]))[0]
     np.testing.assert_allclose(own - own[0], ratio * (before - before[0]), rtol=1e-9)

@@ -16,7 +16,7 @@ from bayesmap.io.text.trajectories import read_relations
 from bayesmap.poses import key_alignment, map_scans
 from bayesmap.poses.alignment import Pairs
 from bayesmap.poses.key_alignment import KeyAlignment, LeaveOneOut
-from bayesmap.poses.map_scans import for_map
+from bayesmap.poses.map_scans import thin_for_map
 from bayesmap.poses.slam import infer_trajectory
 from bayesmap.posterior.trajectory_scores import relation_errors
 from bayesmap.space.planar import between, compose, wrap_angle
@@ -192,16 +192,16 @@ def driven(laps, beams=720):
 def test_few_beams_are_used_whole_and_then_the_cost_of_the_map_follows_the_area_seen(monkeypatch):
     """Three rounds more take hardly more beams, and every wall has been seen. The twin: no number of hits is enough."""
     few = driven(1.0)
-    assert for_map(few, 0.1) is few
+    assert thin_for_map(few, 0.1) is few
     monkeypatch.setattr(map_scans, "MANY_BEAMS", 10_000)
     monkeypatch.setattr(map_scans, "ENOUGH_HITS", 5)
-    once, often = (for_map(driven(laps), 0.1) for laps in (1.0, 4.0))
+    once, often = (thin_for_map(driven(laps), 0.1) for laps in (1.0, 4.0))
     assert len(often.angles_rad) == 180  # a degree apart
     assert once.ranges_m.size <= often.ranges_m.size < 1.2 * once.ranges_m.size
     shown, hit = (Counter(map(tuple, np.floor(s.hit_points_world() / 0.1).tolist())) for s in (often, driven(4.0)))
     assert np.mean([cell in shown for cell, hits in hit.items() if hits >= 30]) > 0.99
     monkeypatch.setattr(map_scans, "ENOUGH_HITS", 10**9)
-    assert len(for_map(driven(4.0), 0.1)) == len(driven(4.0))
+    assert len(thin_for_map(driven(4.0), 0.1)) == len(driven(4.0))
 
 
 def test_poses_of_many_key_scans_are_sampled_on_request_alone(monkeypatch):

@@ -22,7 +22,7 @@ from bayesmap.app.protocol.tasks import Infer, RestoreTrajectory, TrajectoryInfe
 from bayesmap.app.shown.hit_maps import HitCountMap, grow_grid, hit_count_map, untraced_scene
 from bayesmap.app.shown.result import Result
 from bayesmap.app.sources import OpenedLog, open_log
-from bayesmap.poses.slam import in_order_of_time, infer_trajectory
+from bayesmap.poses.slam import infer_trajectory, sort_by_time
 from bayesmap.poses.trajectory import InferredTrajectory, calibrated
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
@@ -83,7 +83,7 @@ class TrajectoryJob:
         self.trajectory: InferredTrajectory | None = None  # the trajectory, when the job has ended
         self.error: BaseException | None = None  # the error that ended the job instead
         self._task, self._scans, self._grid = task, scans, grid
-        self._time_order, _ = in_order_of_time(scans)
+        self._time_order, _ = sort_by_time(scans)
         self._reports: queue.SimpleQueue[Picture | Stage | Status] = queue.SimpleQueue()
         self._stop = threading.Event()
         self._progress = StageProgress("", 0, 1)

@@ -123,10 +123,10 @@ slam.help = (slam.help or "").format(sensors=translation.SENSOR_HELP)
 
 def _check_scans(console: Console, log: ScanLog, settings: SlamSettings) -> None:
     """Refuse scans that cannot be inferred, before an older run is changed, and warn of doubtful odometry."""
-    from bayesmap.poses.log_checks import check_scans, doubts
+    from bayesmap.poses.log_checks import check_scans, odometry_warnings
 
-    check_scans(log.scans, settings.no_odometry)
-    warnings = doubts(log.scans, settings.no_odometry)
+    check_scans(log.scans, no_odometry=settings.no_odometry)
+    warnings = odometry_warnings(log.scans, no_odometry=settings.no_odometry)
     for warning in warnings[:MAX_LISTED_STRETCHES]:
         console.warn(warning)
     if len(warnings) > MAX_LISTED_STRETCHES:

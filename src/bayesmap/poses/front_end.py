@@ -1,4 +1,6 @@
-"""The front end: every scan is matched to the latest key scans, in the order of time.
+"""The front end: match every scan to the latest key scans, in the order of time.
+
+`track_scans` is the main function, and `_Path.advance` its step. The functions after `_Path` match single scans.
 
 A scan is searched for in the window that odometry allows. Branch and bound finds the best pose on the likelihood grid
 of the latest key scans. Point-to-line pairs refine it, with odometry's Gaussian as prior. Scans that lie close together
@@ -8,7 +10,7 @@ explain, becomes a key scan. Later scans are matched anew.
 A scan contradicts the key scans if points of one lie in free space of the other, at every pose that odometry allows. If
 one of the next scans fits again, somebody walked by, and the scan gets odometry's pose. If none fits, odometry was
 wrong, or the robot was carried. The path then breaks, and later scans are matched only to scans after the break.
-`bayesmap.poses.rejoin` joins the parts by places that were seen from both.
+`bayesmap.poses.reconnect` joins the two segments by places that were seen from both.
 """
 
 from __future__ import annotations
@@ -22,36 +24,305 @@ from bayesmap.kernels.match.line_pairs import Agreement, mutual_view_counts
 from bayesmap.kernels.match.scan_refinement import Convergence, Refinement, refine_scans
 from bayesmap.poses.calibration import RunningOdometry
 from bayesmap.poses.graph import DOUBTFUL_SQ
-from bayesmap.poses.matcher import ANY_SCORE, LikelihoodGrids, Pull, likelihood_grids, match
+from bayesmap.poses.matcher import ANY_SCORE, LikelihoodGrids, Pull, SearchWindows, likelihood_grids, match
 from bayesmap.poses.scan_geometry import ScanGeometry
 from bayesmap.space.arrays import Indices, Mask
 from bayesmap.space.planar import Floats, between, chain_motions, compose, rotation, ways_and_turns, wrap_yaw
 from bayesmap.space.time_order import SAME_S
 
+KEY_DISTANCE_M, KEY_TURN_RAD = 0.4, np.radians(20.0)  # a scan this far from the last key scan becomes a key scan
+KEY_SCORE = 0.5  # a scan with a lower score becomes a key scan, too
+MIN_KEY_MOTION = 0.05  # motion along x, y or yaw after which a low score makes a key scan, metres or radians
+WINDOW_KEYS = 12  # number of latest key scans that a scan is matched to
+MAX_BATCH = 12  # scans that are matched to them at once
+POOR_SCORE, POOR_LOSS = 0.45, 0.25  # a score is poor below the greater of this, and the usual score less that
+LOST_SIGMA = np.array([0.5, 0.5, np.radians(30.0)])  # sigmas of a pose beyond which a poor scan is a contradiction
+SLIP_LOSS = 0.15  # a wide search may move a scan to a score that is lower than usual by at most this
+REMATCH_LOSS = 0.1  # scans this far below the usual score are matched again, from the pose of the scan before
+MAX_LEARN_LOSS = 0.25  # odometry is not calibrated by a scan whose score is lower than usual by more than this
+MAX_BACKWARDS_M = 1.0  # longest motion that odometry may have stated with the wrong sign, metres
+MAX_AHEAD_SCANS, MAX_AHEAD_M, MAX_AHEAD_RAD = 10, 1.5, np.radians(90.0)  # scans, path and turn in which a fit is sought
+UNKNOWN_SIGMA = np.array([1.0, 1.0, np.radians(60.0)])  # standard deviations of an unknown motion
+INITIAL_SCORE = 0.6  # usual score before the first scan is matched
+SCORE_RATE = 0.05  # rate at which the usual score follows the scores of scans
+
+
+@dataclass(frozen=True, eq=False)
+class Track:
+    """The result of the front end."""
+
+    poses: Floats  # poses of the laser, (S, 3). The first is the origin.
+    information: Floats  # of each pose by the laser, given earlier key scans, in its own frame, (S, 3, 3)
+    odometry_variance: Floats  # variance of odometry's motion from the key scan before, x, y and yaw, (S, 3)
+    scores: Floats  # fit of each scan to the key scans, from 0 to 1, (S,); 1 for the first
+    keys: Indices  # indices of the key scans, ascending
+    broken: Mask  # scans that begin a new segment of the path: nothing confirms the motion before them, (S,)
+    is_reversed: Mask  # scans before which the robot moved opposite to odometry, (S,)
+    slope: Floats  # correction of odometry's systematic error, (3, 3)
+    noise_ratios: Floats  # odometry's noise as a multiple of an ordinary robot's, position and heading, (2,)
+
+
+def track_scans(
+    geometry: ScanGeometry, motions: Floats | None, stamps_s: Floats | None,
+    impossible: Mask | None = None, on_progress: Callable[[int, Floats], None] | None = None,
+) -> Track:  # fmt: skip
+    """Match every scan to earlier key scans.
+    ``motions`` are odometry's from scan to scan in the earlier one's frame, (S - 1, 3); if None, each is predicted from
+    the one before by the stamps, (S,). Motions of the mask ``impossible``, (S - 1,), are taken to be unknown.
+    ``on_progress`` is called with the number of matched scans and the poses, (S, 3), zero for the other scans. The
+    array changes afterwards, so a caller that keeps it must copy it.
+    """
+    path = _Path(geometry, motions, stamps_s, impossible)
+    while path.last < len(geometry) - 1:
+        path.advance()
+        if on_progress is not None:
+            on_progress(path.last + 1, path.poses)
+    return Track(
+        path.poses, path.information, path.odometry_variance, path.scores, np.array(path.keys), path.broken,
+        path.is_reversed, path.odometry.slope, path.odometry.ratios,
+    )  # fmt: skip
+
+
+class _Path:
+    """The path up to scan ``last``, the last one with a pose. ``keys[segment_begin]`` begins the present segment."""
+
+    def __init__(
+        self, geometry: ScanGeometry, motions: Floats | None, stamps_s: Floats | None, impossible: Mask | None
+    ) -> None:
+        count = len(geometry)
+        self.geometry, self.stamps_s = geometry, stamps_s
+        self.half_width_m = grid_half_width(geometry)
+        self.unknown = np.zeros(max(count - 1, 0), np.bool_)
+        if motions is not None and impossible is not None:
+            motions, self.unknown = np.where(impossible[:, None], 0.0, motions), impossible
+        self.motions = motions
+        # The results, and the key scans so far. The first scan is a key scan at the origin.
+        self.poses, self.information = np.zeros((count, 3)), np.zeros((count, 3, 3))
+        self.odometry_variance, self.scores = np.zeros((count, 3)), np.ones(count)
+        self.broken, self.is_reversed = np.zeros(count, np.bool_), np.zeros(count, np.bool_)
+        self.last, self.keys, self.segment_begin = 0, [0], 0
+        # Running estimates, and the state since the last key scan.
+        self.odometry = RunningOdometry()
+        self.usual_score = INITIAL_SCORE  # running mean of scores
+        self.variance_since_key = np.zeros(3)  # odometry's variance
+        self.pose_variance = np.zeros(3)  # variance of the last scan's pose
+        self.usual_since_key = True  # True if all motions since the last key scan were usual
+        self.window = self._latest_window(None)
+
+    def advance(self) -> None:
+        """Set the poses of one or more next scans."""
+        if self.window.keys[0] != self.keys[-1]:
+            self.window = self._latest_window(self.window)
+        batch = self._batch()
+        # Break the path over an unknown motion.
+        if self.unknown[self.last]:
+            scan, placed = self.last + 1, self._place_near(batch[:1])[0]
+            self._break(scan, placed, self._search(scan, placed.predicted[0], placed.scores[0]))
+            return
+        # Match the scans up to the next unknown motion; look further ahead if the first contradicts the key scans.
+        breaks = np.nonzero(self.unknown[self.last : int(batch[-1])])[0]
+        batch = batch[: int(breaks[0]) if len(breaks) else len(batch)]
+        placed, misfits = self._place_near(batch)
+        if misfits[0] and self.motions is not None:
+            batch = self._scans_ahead()
+            placed, misfits = self._place_near(batch)
+        # If no scan fits, or the first fits worse than usual, wheels may have slipped: search widely.
+        scan, wide = int(batch[0]), None
+        may_slip = self.motions is not None and placed.scores[0] <= self.usual_score - SLIP_LOSS
+        if misfits.all() or (may_slip and not misfits[0]):
+            wide = self._search(scan, placed.predicted[0], placed.scores[0])
+        if wide is not None and self._accept_slip(scan, placed, wide):
+            return
+        # Accept the scans before the first misfit, skip misfits before one that fits, or break the path.
+        if not misfits[0]:
+            self._accept(batch, placed, int(np.argmax(misfits)) if misfits.any() else len(batch))
+        elif not misfits.all():
+            self._skip(batch, placed, int(np.argmin(misfits)))
+        else:
+            self._break(scan, placed, wide)
+
+    def _accept(self, batch: Indices, placed: PlacedScans, count: int) -> None:
+        """Accept the first ``count`` scans of a batch, up to one that becomes a key scan."""
+        for k in range(count):
+            if k and placed.scores[k] < self.usual_score - REMATCH_LOSS:
+                break  # match this scan again, from the pose of the scan before
+            scan = int(batch[k])
+            self._store(scan, placed, k)
+            motion = between(self.poses[self.keys[-1]], self.poses[scan])
+            is_far = np.hypot(motion[0], motion[1]) > KEY_DISTANCE_M or abs(motion[2]) > KEY_TURN_RAD
+            if is_far or (placed.scores[k] < KEY_SCORE and np.abs(motion).max() > MIN_KEY_MOTION):
+                self._add_key(scan)
+                break
+
+    def _skip(self, batch: Indices, placed: PlacedScans, next_fit: int) -> None:
+        """Give odometry's poses to the scans before number ``next_fit`` of the batch, which becomes a key scan."""
+        for k in range(next_fit + 1):
+            self._store(int(batch[k]), placed, k)
+        skipped = batch[:next_fit]
+        self.information[skipped] = 0.0
+        self.poses[skipped] = placed.predicted[:next_fit]
+        self._add_key(int(batch[next_fit]))
+
+    def _accept_slip(self, scan: int, placed: PlacedScans, wide: WideMatch) -> bool:
+        """Accept a pose that is near or allowed by odometry, if the scan fits as usual. Returns True if accepted."""
+        off = wrap_yaw(between(placed.predicted[0], wide.pose))
+        allowed = float((off**2 / placed.variance[0]).sum()) < DOUBTFUL_SQ
+        if not (wide.near or allowed) or wide.score < self.usual_score - SLIP_LOSS:
+            return False
+        if contradicts(self.geometry, self.window, scan, wide.pose):
+            return False
+        self.poses[scan], self.information[scan], self.scores[scan] = wide.pose, wide.information, wide.score
+        self.odometry_variance[scan] = self.variance_since_key + placed.variance[0] + UNKNOWN_SIGMA**2
+        self.last, self.usual_since_key = scan, False
+        self._add_key(scan)
+        return True
+
+    def _break(self, scan: int, placed: PlacedScans, wide: WideMatch | None) -> None:
+        """Break the path before an unconfirmed scan, and go on from the pose of a wide search, or of odometry."""
+        # Move the break back over scans just before it that are badly explained, too.
+        pose, score, begin = placed.predicted[0], float(placed.scores[0]), scan
+        while begin - 1 > self.keys[self.segment_begin] and self.scores[begin - 1] < self._poor_score():
+            begin -= 1
+        if begin < scan:
+            if self.keys[-1] >= begin:
+                self.keys = [key for key in self.keys if key < begin]
+                self.window = self._latest_window(self.window)
+            pose, score = self.poses[begin], float(self.scores[begin])
+            wide = self._search(begin, pose, score)
+        # Begin a new segment with a key scan that the laser says nothing about.
+        self.poses[begin], self.scores[begin] = (pose, score) if wide is None else (wide.pose, wide.score)
+        self.information[begin], self.last = 0.0, begin
+        self.odometry_variance[begin] = self.variance_since_key + placed.variance[0] + UNKNOWN_SIGMA**2
+        self.broken[begin] = True
+        self._add_key(begin)
+        self.segment_begin = len(self.keys) - 1
+
+    def _search(self, scan: int, pose: Floats, score: float) -> WideMatch | None:
+        """Search wide windows about a pose for a pose with a clearly better score."""
+        return search_widely(self.geometry, self.window, scan, pose, float(score))
+
+    def _poor_score(self) -> float:
+        """Return the score below which a scan is badly explained."""
+        return max(POOR_SCORE, self.usual_score - POOR_LOSS)
+
+    def _store(self, scan: int, placed: PlacedScans, k: int) -> None:
+        """Store the pose of scan number ``k`` of a batch, and learn odometry's noise from its motion."""
+        self.poses[scan], self.information[scan] = placed.poses[k], placed.information[k]
+        self.scores[scan], self.is_reversed[scan] = placed.scores[k], placed.is_reversed[k]
+        score = float(placed.scores[k])
+        variance_before = placed.variance[k - 1] if k else 0.0
+        self.variance_since_key = self.variance_since_key + placed.variance[k] - variance_before
+        self.odometry_variance[scan] = self.variance_since_key
+        # Learn only from scans that fit as usual: others say little about odometry.
+        if self.motions is not None:
+            self.pose_variance = _posterior_variance(placed, k)
+            if score > max(KEY_SCORE, self.usual_score - MAX_LEARN_LOSS) and not placed.is_reversed[k]:
+                matched = between(self.poses[scan - 1], self.poses[scan])
+                self.odometry.learn_noise(self.motions[scan - 1], matched, self.pose_variance + 1e-5)
+            else:
+                self.usual_since_key = False
+        self.usual_score += SCORE_RATE * (score - self.usual_score)
+        self.last = scan
+
+    def _add_key(self, scan: int) -> None:
+        """Make a scan a key scan, and learn odometry's systematic error from the motion since the last key scan."""
+        if self.motions is not None and self.usual_since_key and not self.broken[scan]:
+            before = self.keys[-1]
+            stated = chain_motions(np.zeros(3), self.motions[before:scan])[-1]
+            matched = between(self.poses[before], self.poses[scan])
+            self.odometry.learn_slope(stated, matched, self.pose_variance + 1e-5)
+        self.usual_since_key = True
+        self.keys.append(scan)
+        self.variance_since_key = np.zeros(3)
+
+    def _place_near(self, scans: Indices) -> tuple[PlacedScans, Mask]:
+        """Place the next scans near odometry's poses. Returns them, and the mask of scans that contradict the keys."""
+        predicted, variance = predict(self.poses, self.last, len(scans), self.motions, self.stamps_s, self.odometry)
+        backwards, span = None, slice(self.last, int(scans[-1]))
+        if self.motions is not None and np.hypot(*self.motions[span, :2].sum(axis=0)) < MAX_BACKWARDS_M:
+            reversed_motions = self.odometry.corrected(self.motions[span]) * [-1.0, -1.0, 1.0]
+            backwards = chain_motions(self.poses[self.last], reversed_motions)
+        placed = place_near(self.geometry, self.window, scans, predicted, variance, backwards, self.usual_score)
+        misfits = placed.scores < self._poor_score()
+        for k in np.nonzero(misfits)[0]:
+            misfits[k] = self._is_doubtful(int(scans[k]), placed, int(k))
+        return placed, misfits
+
+    def _is_doubtful(self, scan: int, placed: PlacedScans, k: int) -> bool:
+        """Check whether a poor scan contradicts the keys or fits far away. Move it if it fits better near by."""
+        if contradicts(self.geometry, self.window, scan, placed.poses[k]):
+            return True
+        if (np.sqrt(_posterior_variance(placed, k)) > LOST_SIGMA).any():
+            return True
+        wide = self._search(scan, placed.predicted[k], placed.scores[k])
+        if wide is not None and wide.near:
+            placed.poses[k], placed.information[k], placed.scores[k] = wide.pose, wide.information, wide.score
+        return wide is not None and not wide.near
+
+    def _batch(self) -> Indices:
+        """Return the scans to match next: those that odometry predicts near the last key scan, and one more."""
+        if self.motions is None:
+            return np.array([self.last + 1])
+        end = min(self.last + MAX_BATCH, len(self.poses) - 1)
+        lengths_m, turns_rad = np.cumsum(ways_and_turns(self.motions[self.last : end]), axis=1)
+        off = between(self.poses[self.keys[-1]], self.poses[self.last])
+        near = (lengths_m < KEY_DISTANCE_M - np.hypot(off[0], off[1])) & (turns_rad < KEY_TURN_RAD - abs(off[2]))
+        count = int(np.argmin(near) if not near.all() else len(near) - 1)
+        return np.arange(self.last + 1, self.last + 2 + count)
+
+    def _scans_ahead(self) -> Indices:
+        """Return the scans in which a fit is sought after a contradiction, none of them over a break."""
+        assert self.motions is not None
+        motions = self.motions[self.last : self.last + MAX_AHEAD_SCANS]
+        lengths_m, turns_rad = np.cumsum(ways_and_turns(motions), axis=1)
+        unknown = np.maximum.accumulate(self.unknown[self.last :][: len(motions)])
+        count = max(1, int(((lengths_m < MAX_AHEAD_M) & (turns_rad < MAX_AHEAD_RAD) & ~unknown).sum()))
+        return np.arange(self.last + 1, self.last + 1 + count)
+
+    def _latest_window(self, before: Window | None) -> Window:
+        """Return the window of the latest key scans. Its grid reuses the memory of the window before."""
+        latest = np.array(self.keys[self.segment_begin :][-WINDOW_KEYS:][::-1])
+        poses, reuse = self.poses[latest], None if before is None else before.grid
+        grid = likelihood_grids(self.geometry, [latest], [poses], poses[0, :2], self.half_width_m, reuse=reuse)
+        return Window(latest, poses, grid)
+
+
+def _posterior_variance(placed: PlacedScans, k: int) -> Floats:
+    """Return the variance of pose number ``k`` by laser and odometry together, x, y and yaw, (3,)."""
+    return np.asarray(np.diag(np.linalg.inv(placed.information[k] + np.diag(1.0 / placed.variance[k]))))
+
+
+def grid_half_width(geometry: ScanGeometry) -> float:
+    """Return the half width of grids that hold nearly all points of a scan taken at their middle, metres."""
+    sampled = slice(None, None, max(1, len(geometry) // 500))
+    distance = np.linalg.norm(geometry.host_points[sampled][geometry.host_kind[sampled] > 0], axis=-1)
+    return float(np.clip(np.percentile(distance, 97.0) + 1.0, 4.0, 30.0)) if len(distance) else 4.0
+
+
 UNUSUAL_LOSS = 0.04  # scans this far below the usual score may have gone backwards, unreported by odometry
-BACKWARDS_GAIN = 0.05  # least gain in score for going backwards: along a wall both directions fit
+BACKWARDS_GAIN = 0.05  # minimum gain in score for going backwards: along a wall both directions fit
 WIDE_M = 1.0  # half width of the wide search, metres
-WIDE_STAGES = ((np.radians(45.0), 0.1), (np.pi, 0.15))  # half ranges of angle, and the least gain in score of each
-MIN_GAIN_POINTS = 6.0  # least gain in score as a number of points, for scans with few points
+WIDE_STAGES = ((np.radians(45.0), 0.1), (np.pi, 0.15))  # half ranges of angle, and minimum gains in score
+MIN_GAIN_POINTS = 6.0  # gain in score as a number of points, for scans with few points
 POINT_SIGMA_M = 0.02  # sigma of a point-to-line residual: the laser's noise, rough walls, a scan's own distortion
-MAX_POINTS = 200  # most points of a scan that are matched
-REACH_M = (0.3, 0.12)  # greatest distance of paired points: in the first step and in the last
+MAX_POINTS = 200  # points of a scan that are matched
+REACH_M = (0.3, 0.12)  # maximum distance of paired points: in the first step and in the last
 SCALE_M = (0.15, 0.05)  # distance from which points count as outliers: in the first step and in the last
-MIN_COSINE = 0.7  # least cosine of paired normals
-REFINEMENT_STEPS = 8  # most steps of a refinement
+MIN_COSINE = 0.7  # cosine of paired normals
+MAX_REFINEMENT_STEPS = 8  # steps of a refinement
 BATCH_KEYS = 6  # number of newest key scans against which scans are refined, if several scans are placed at once
 VIEW_AGREEMENT = Agreement(near_m=0.2, clear_m=0.5, beams=90)  # limits for a scan and a key scan
-MAX_AGAINST_SHARE = 0.2  # largest share of contradicting points: people walk
-MIN_JUDGED_POINTS = 60  # fewest points that decide
+MAX_AGAINST_SHARE = 0.2  # share of contradicting points: people walk
+MIN_JUDGED_POINTS = 60  # points that decide
 
 
 @dataclass(frozen=True, eq=False)
 class Window:
-    """The latest key scans: indices, newest first, (W,), poses, (W, 3), and likelihood grid."""
+    """The latest key scans."""
 
-    keys: Indices
-    poses: Floats
-    grid: LikelihoodGrids
+    keys: Indices  # indices of the scans, newest first, (W,)
+    poses: Floats  # (W, 3)
+    grid: LikelihoodGrids  # one grid of all these scans
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,6 +342,7 @@ def predict(
 ) -> tuple[Floats, Floats]:
     """Predict poses of ``count`` scans after scan ``last``, and variances in their own frames, (N, 3) each."""
     if motions is None:
+        # Assume constant velocity. Its standard deviations grow by 0.5 m and 0.6 rad per second.
         gap_s = gap_before_s = 0.2
         if stamps_s is not None and last > 0 and (np.diff(stamps_s[last - 1 : last + 2]) >= SAME_S).all():
             gap_before_s, gap_s = np.diff(stamps_s[last - 1 : last + 2])
@@ -93,17 +365,17 @@ def place_near(
     half_rad = np.clip(3.5 * sigma[:, 2], np.radians(1.5), np.radians(60.0))
     sigma_m, sigma_rad = float(sigma[:, :2].max()), float(sigma[:, 2].max())
     pull = Pull(max(sigma_m, 0.03), max(sigma_rad, np.radians(1.0)))
-    best = match(window.grid, points, predicted, half_m, half_rad, min_score=ANY_SCORE, pull=pull)
+    windows = SearchWindows(predicted, half_m, half_rad)
+    best = match(window.grid, points, windows, min_score=ANY_SCORE, pull=pull)
     start, scores = best.poses[:, 0], best.scores[:, 0]
     # Try the motion backwards for scans that fit worse than usual.
     centre, is_reversed = predicted.copy(), np.zeros(len(scans), np.bool_)
     doubtful = np.nonzero(scores < usual_score - UNUSUAL_LOSS)[0]
     if backwards is not None and len(doubtful):
         doubtful_points = [points[k] for k in doubtful]
-        back = match(
-            window.grid, doubtful_points, backwards[doubtful], half_m[doubtful], half_rad[doubtful],
-            min_score=scores[doubtful] + _min_gains(BACKWARDS_GAIN, doubtful_points), pull=pull,
-        )  # fmt: skip
+        windows = SearchWindows(backwards[doubtful], half_m[doubtful], half_rad[doubtful])
+        min_score = scores[doubtful] + _min_gains(BACKWARDS_GAIN, doubtful_points)
+        back = match(window.grid, doubtful_points, windows, min_score=min_score, pull=pull)
         better = back.has_pose[:, 0]
         moved = doubtful[better]
         start[moved], scores[moved] = back.poses[better, 0], back.scores[better, 0]
@@ -114,14 +386,12 @@ def place_near(
 
 @dataclass(frozen=True, eq=False)
 class WideMatch:
-    """A pose from a wide search, (3,), with the laser's information, (3, 3), and score. ``near`` is True if it lies
-    within `WIDE_M` and the first angle of `WIDE_STAGES` of the prediction.
-    """
+    """A pose that a wide search found for a scan."""
 
-    pose: Floats
-    information: Floats
-    score: float
-    near: bool
+    pose: Floats  # (3,)
+    information: Floats  # inverse covariance by the laser alone, in the pose's own frame, (3, 3)
+    score: float  # fit to the window, from 0 to 1
+    near: bool  # True if it is within `WIDE_M` and the first angle of `WIDE_STAGES` of the prediction
 
 
 def search_widely(
@@ -130,10 +400,9 @@ def search_widely(
     """Return the best pose in wide windows about a prediction, (3,), or None if no score is clearly above ``score``."""
     points = [geometry.points_of(scan, MAX_POINTS)]
     for stage, (wide_rad, gain) in enumerate(WIDE_STAGES):
-        wide = match(
-            window.grid, points, predicted[None], WIDE_M, wide_rad, min_score=score + _min_gains(gain, points),
-            pull=Pull(WIDE_M, wide_rad), step_rad=np.radians(1.0),
-        )  # fmt: skip
+        windows = SearchWindows(predicted[None], WIDE_M, wide_rad, np.radians(1.0))
+        min_score = score + _min_gains(gain, points)
+        wide = match(window.grid, points, windows, min_score=min_score, pull=Pull(WIDE_M, wide_rad))
         if wide.has_pose[0, 0]:
             variance = np.array([[0.05, 0.05, 0.02]])  # odometry was wrong: centre the prior at the new pose instead
             start = wide.poses[:, 0]
@@ -143,12 +412,12 @@ def search_widely(
 
 
 def _min_gains(gain: float, points: list[Floats]) -> Floats:
-    """Return the least gain in score of each of N scans, (N,): ``gain``, and at least `MIN_GAIN_POINTS` points."""
+    """Return the minimum gain in score of each of N scans, (N,): ``gain``, or `MIN_GAIN_POINTS` points if more."""
     return np.maximum(gain, MIN_GAIN_POINTS / np.maximum([len(p) for p in points], 1))
 
 
 def contradicts(geometry: ScanGeometry, window: Window, scan: int, pose: Floats) -> bool:
-    """Return whether a scan at a pose contradicts the window's key scans: beams pass through surfaces of the other."""
+    """Check whether a scan at a pose contradicts the window's key scans: beams pass through surfaces of the other."""
     keys, scans = window.keys.astype(np.int32), np.full(len(window.keys), scan, np.int32)
     relative = between(window.poses, pose)
     counts = mutual_view_counts(geometry, keys, scans, relative, VIEW_AGREEMENT, geometry.threads)
@@ -165,284 +434,16 @@ def _refine(
     newest = slice(None, None if jobs == 1 else BATCH_KEYS)
     keys, poses = window.keys[newest], window.poses[newest]
     # Add an error of about a centimetre for the pose before.
-    own_information = np.array([np.diag(1.0 / (v + np.array([1e-4, 1e-4, 2.5e-5]))) for v in variance])
-    turn = rotation(predicted[:, 2])
-    prior_information = turn @ own_information @ np.swapaxes(turn, 1, 2)
+    own_information = np.array([np.diag(1.0 / (row + np.array([1e-4, 1e-4, 2.5e-5]))) for row in variance])
+    to_world = rotation(predicted[:, 2])
+    prior_information = to_world @ own_information @ np.swapaxes(to_world, 1, 2)
     refinement = Refinement(
         scans.astype(np.int32), np.arange(jobs + 1, dtype=np.int32) * len(keys), np.tile(keys, jobs).astype(np.int32),
         np.tile(poses, (jobs, 1)), start, predicted, prior_information,
     )  # fmt: skip
     sigma_m = max(POINT_SIGMA_M, geometry.noise_m)
     reach, scale = geometry.reach_m(*REACH_M), geometry.scale_m(*SCALE_M)
-    convergence = Convergence(sigma_m, REFINEMENT_STEPS, reach, scale, MIN_COSINE)
+    convergence = Convergence(sigma_m, MAX_REFINEMENT_STEPS, reach, scale, MIN_COSINE)
     refined, laser_information, _ = refine_scans(geometry, refinement, convergence, geometry.threads)
-    turn = rotation(refined[:, 2])
-    return refined, np.swapaxes(turn, 1, 2) @ laser_information @ turn
-
-
-KEY_DISTANCE_M, KEY_TURN_RAD = 0.4, np.radians(20.0)  # a scan this far from the last key scan becomes a key scan
-KEY_SCORE = 0.5  # a scan with a lower score becomes a key scan, too
-MIN_KEY_MOTION = 0.05  # least motion along x, y or yaw after which a low score makes a key scan, metres or radians
-WINDOW_KEYS = 12  # number of latest key scans that a scan is matched to
-MAX_BATCH = 12  # most scans that are matched to them at once
-POOR_SCORE, POOR_LOSS = 0.45, 0.25  # a score is poor below the greater of this, and the usual score less that
-LOST_SIGMA = np.array([0.5, 0.5, np.radians(30.0)])  # sigmas of a pose beyond which a poor scan is a contradiction
-SLIP_LOSS = 0.15  # a wide search may move a scan to a score that is lower than usual by at most this
-REMATCH_LOSS = 0.1  # scans this far below the usual score are matched again, from the pose of the scan before
-LEARN_LOSS = 0.25  # odometry is not calibrated by a scan whose score is lower than usual by more than this
-BACKWARDS_M = 1.0  # longest motion that odometry may have stated with the wrong sign, metres
-AHEAD_SCANS, AHEAD_M, AHEAD_RAD = 10, 1.5, np.radians(90.0)  # scans, way and turn in which a fit is sought
-UNKNOWN_SIGMA = np.array([1.0, 1.0, np.radians(60.0)])  # standard deviations of an unknown motion
-FIRST_SCORE = 0.6  # usual score before the first scan is matched
-SCORE_RATE = 0.05  # rate at which the usual score follows the scores of scans
-
-
-@dataclass(frozen=True, eq=False)
-class Track:
-    """The result of the front end."""
-
-    poses: Floats  # poses of the laser, (S, 3). The first is the origin.
-    information: Floats  # of each pose by the laser, given earlier key scans, in its own frame, (S, 3, 3)
-    odometry_variance: Floats  # variance of odometry's motion from the key scan before, x, y and yaw, (S, 3)
-    scores: Floats  # fit of each scan to the key scans, from 0 to 1, (S,); 1 for the first
-    keys: Indices  # indices of the key scans, ascending
-    broken: Mask  # scans that begin a new part of the path: nothing confirms the motion before them, (S,)
-    is_reversed: Mask  # scans before which the robot moved opposite to odometry, (S,)
-    slope: Floats  # correction of odometry's systematic error, (3, 3)
-    noise_ratios: Floats  # odometry's noise as a multiple of an ordinary robot's, position and heading, (2,)
-
-
-def track_scans(
-    geometry: ScanGeometry, motions: Floats | None, stamps_s: Floats | None,
-    impossible: Mask | None = None, on_progress: Callable[[int, Floats], None] | None = None,
-) -> Track:  # fmt: skip
-    """Match every scan to earlier key scans.
-
-    ``motions`` are odometry's from scan to scan in the earlier one's frame, (S - 1, 3); if None, each is predicted from
-    the one before by the stamps, (S,). Motions of the mask ``impossible``, (S - 1,), are taken to be unknown.
-    ``on_progress`` is called with the number of matched scans and the poses, (S, 3), zero for the other scans. The
-    array changes afterwards, so a caller that keeps it must copy it.
-    """
-    path = _Path(geometry, motions, stamps_s, impossible)
-    while path.last < len(geometry) - 1:
-        path.advance()
-        if on_progress is not None:
-            on_progress(path.last + 1, path.poses)
-    return Track(
-        path.poses, path.information, path.odometry_variance, path.scores, np.array(path.keys), path.broken,
-        path.is_reversed, path.odometry.slope, path.odometry.ratios,
-    )  # fmt: skip
-
-
-class _Path:
-    """The path up to scan ``last``, the last one with a pose. ``keys[part_begin]`` begins the present part."""
-
-    def __init__(
-        self, geometry: ScanGeometry, motions: Floats | None, stamps_s: Floats | None, impossible: Mask | None
-    ) -> None:
-        count = len(geometry)
-        self.geometry, self.stamps_s = geometry, stamps_s
-        self.half_width_m = grid_half_width(geometry)
-        self.unknown = np.zeros(max(count - 1, 0), np.bool_)
-        if motions is not None and impossible is not None:
-            motions, self.unknown = np.where(impossible[:, None], 0.0, motions), impossible
-        self.motions = motions
-        self.odometry = RunningOdometry()
-        self.poses, self.information = np.zeros((count, 3)), np.zeros((count, 3, 3))
-        self.odometry_variance, self.scores = np.zeros((count, 3)), np.ones(count)
-        self.broken, self.is_reversed = np.zeros(count, np.bool_), np.zeros(count, np.bool_)
-        self.last, self.keys, self.part_begin = 0, [0], 0
-        self.usual_score = FIRST_SCORE
-        self.variance_since_key = np.zeros(3)  # odometry's
-        self.pose_variance = np.zeros(3)  # of the last scan
-        self.usual_since_key = True  # whether all motions since the last key scan were usual
-        self.window = self._latest_window(None)
-
-    def advance(self) -> None:
-        """Set the poses of the next scans, of at least one."""
-        if self.window.keys[0] != self.keys[-1]:
-            self.window = self._latest_window(self.window)
-        batch = self._batch()
-        # Break the path over an unknown motion.
-        if self.unknown[self.last]:
-            scan, placed = self.last + 1, self._place_near(batch[:1])[0]
-            self._break(scan, placed, self._search(scan, placed.predicted[0], placed.scores[0]))
-            return
-        # Match the scans up to the next unknown motion; look further ahead if the first contradicts the key scans.
-        breaks = np.nonzero(self.unknown[self.last : int(batch[-1])])[0]
-        batch = batch[: int(breaks[0]) if len(breaks) else len(batch)]
-        placed, wrong = self._place_near(batch)
-        if wrong[0] and self.motions is not None:
-            batch = self._scans_ahead()
-            placed, wrong = self._place_near(batch)
-        # Move a scan that slipped, accept scans, leave out an exception, or break the path.
-        scan, match = int(batch[0]), None
-        may_slip = self.motions is not None and placed.scores[0] <= self.usual_score - SLIP_LOSS
-        if wrong.all() or (may_slip and not wrong[0]):
-            match = self._search(scan, placed.predicted[0], placed.scores[0])
-        if match is not None and self._accept_slip(scan, placed, match):
-            return
-        if not wrong[0]:
-            self._accept(batch, placed, int(np.argmax(wrong)) if wrong.any() else len(batch))
-        elif not wrong.all():
-            self._leave_out(batch, placed, int(np.argmin(wrong)))
-        else:
-            self._break(scan, placed, match)
-
-    def _accept(self, batch: Indices, placed: PlacedScans, count: int) -> None:
-        """Accept the first ``count`` scans of a batch, up to one that becomes a key scan."""
-        for k in range(count):
-            if k and placed.scores[k] < self.usual_score - REMATCH_LOSS:
-                break
-            scan = int(batch[k])
-            self._store(scan, placed, k)
-            motion = between(self.poses[self.keys[-1]], self.poses[scan])
-            is_far = np.hypot(motion[0], motion[1]) > KEY_DISTANCE_M or abs(motion[2]) > KEY_TURN_RAD
-            if is_far or (placed.scores[k] < KEY_SCORE and np.abs(motion).max() > MIN_KEY_MOTION):
-                self._add_key(scan)
-                break
-
-    def _leave_out(self, batch: Indices, placed: PlacedScans, next_fit: int) -> None:
-        """Give odometry's poses to the scans before number ``next_fit`` of the batch, which becomes a key scan."""
-        for k in range(next_fit + 1):
-            self._store(int(batch[k]), placed, k)
-        skipped = batch[:next_fit]
-        self.information[skipped] = 0.0
-        self.poses[skipped] = placed.predicted[:next_fit]
-        self._add_key(int(batch[next_fit]))
-
-    def _accept_slip(self, scan: int, placed: PlacedScans, match: WideMatch) -> bool:
-        """Accept a near pose if the scan fits there as usual: wheels slipped. Returns whether it is accepted. A pose
-        counts as near if the wide search says so, or if the noise of odometry allows it.
-        """
-        off = wrap_yaw(between(placed.predicted[0], match.pose))
-        allowed = float((off**2 / placed.variance[0]).sum()) < DOUBTFUL_SQ
-        if not (match.near or allowed) or match.score < self.usual_score - SLIP_LOSS:
-            return False
-        if contradicts(self.geometry, self.window, scan, match.pose):
-            return False
-        self.poses[scan], self.information[scan], self.scores[scan] = match.pose, match.information, match.score
-        self.odometry_variance[scan] = self.variance_since_key + placed.variance[0] + UNKNOWN_SIGMA**2
-        self.last, self.usual_since_key = scan, False
-        self._add_key(scan)
-        return True
-
-    def _break(self, scan: int, placed: PlacedScans, match: WideMatch | None) -> None:
-        """Break the path before an unconfirmed scan, and go on from the pose of a wide search, or of odometry. The
-        break moves back over scans just before it that are badly explained, too.
-        """
-        pose, score, begin = placed.predicted[0], float(placed.scores[0]), scan
-        while begin - 1 > self.keys[self.part_begin] and self.scores[begin - 1] < self._poor_score():
-            begin -= 1
-        if begin < scan:
-            if self.keys[-1] >= begin:
-                self.keys = [key for key in self.keys if key < begin]
-                self.window = self._latest_window(self.window)
-            pose, score = self.poses[begin], float(self.scores[begin])
-            match = self._search(begin, pose, score)
-        self.poses[begin], self.scores[begin] = (pose, score) if match is None else (match.pose, match.score)
-        self.information[begin], self.last = 0.0, begin
-        self.odometry_variance[begin] = self.variance_since_key + placed.variance[0] + UNKNOWN_SIGMA**2
-        self.broken[begin] = True
-        self._add_key(begin)
-        self.part_begin = len(self.keys) - 1
-
-    def _search(self, scan: int, pose: Floats, score: float) -> WideMatch | None:
-        """Search wide windows about a pose for a pose with a clearly better score."""
-        return search_widely(self.geometry, self.window, scan, pose, float(score))
-
-    def _poor_score(self) -> float:
-        """Return the score below which a scan is badly explained."""
-        return max(POOR_SCORE, self.usual_score - POOR_LOSS)
-
-    def _store(self, scan: int, placed: PlacedScans, k: int) -> None:
-        """Store the pose of scan number ``k`` of a batch, and learn odometry's noise from its motion."""
-        self.poses[scan], self.information[scan] = placed.poses[k], placed.information[k]
-        self.scores[scan], self.is_reversed[scan] = placed.scores[k], placed.is_reversed[k]
-        score = float(placed.scores[k])
-        variance_before = placed.variance[k - 1] if k else 0.0
-        self.variance_since_key = self.variance_since_key + placed.variance[k] - variance_before
-        self.odometry_variance[scan] = self.variance_since_key
-        if self.motions is not None:
-            self.pose_variance = _posterior_variance(placed, k)
-            if score > max(KEY_SCORE, self.usual_score - LEARN_LOSS) and not placed.is_reversed[k]:
-                matched = between(self.poses[scan - 1], self.poses[scan])
-                self.odometry.learn_noise(self.motions[scan - 1], matched, self.pose_variance + 1e-5)
-            else:
-                self.usual_since_key = False
-        self.usual_score += SCORE_RATE * (score - self.usual_score)
-        self.last = scan
-
-    def _add_key(self, scan: int) -> None:
-        """Make a scan a key scan, and learn odometry's systematic error from the way to it."""
-        if self.motions is not None and self.usual_since_key and not self.broken[scan]:
-            before = self.keys[-1]
-            stated = chain_motions(np.zeros(3), self.motions[before:scan])[-1]
-            matched = between(self.poses[before], self.poses[scan])
-            self.odometry.learn_slope(stated, matched, self.pose_variance + 1e-5)
-        self.usual_since_key = True
-        self.keys.append(scan)
-        self.variance_since_key = np.zeros(3)
-
-    def _place_near(self, scans: Indices) -> tuple[PlacedScans, Mask]:
-        """Place the next scans near odometry's poses. Returns them, and the mask of those that contradict the keys."""
-        here, span = self.poses[self.last], slice(self.last, int(scans[-1]))
-        predicted, variance = predict(self.poses, self.last, len(scans), self.motions, self.stamps_s, self.odometry)
-        backwards = None
-        if self.motions is not None and np.hypot(*self.motions[span, :2].sum(axis=0)) < BACKWARDS_M:
-            backwards = chain_motions(here, self.odometry.corrected(self.motions[span]) * [-1.0, -1.0, 1.0])
-        placed = place_near(self.geometry, self.window, scans, predicted, variance, backwards, self.usual_score)
-        wrong = placed.scores < self._poor_score()
-        for k in np.nonzero(wrong)[0]:
-            wrong[k] = self._is_doubtful(int(scans[k]), placed, int(k))
-        return placed, wrong
-
-    def _is_doubtful(self, scan: int, placed: PlacedScans, k: int) -> bool:
-        """Return whether a poor scan contradicts the keys or fits far away. Move it if it fits better near by."""
-        if contradicts(self.geometry, self.window, scan, placed.poses[k]):
-            return True
-        if (np.sqrt(_posterior_variance(placed, k)) > LOST_SIGMA).any():
-            return True
-        match = self._search(scan, placed.predicted[k], placed.scores[k])
-        if match is not None and match.near:
-            placed.poses[k], placed.information[k], placed.scores[k] = match.pose, match.information, match.score
-        return match is not None and not match.near
-
-    def _batch(self) -> Indices:
-        """Return the scans to match next: those that odometry predicts near the last key scan, and one more."""
-        if self.motions is None:
-            return np.array([self.last + 1])
-        end = min(self.last + MAX_BATCH, len(self.poses) - 1)
-        ways, turns = np.cumsum(ways_and_turns(self.motions[self.last : end]), axis=1)
-        off = between(self.poses[self.keys[-1]], self.poses[self.last])
-        near = (ways < KEY_DISTANCE_M - np.hypot(off[0], off[1])) & (turns < KEY_TURN_RAD - abs(off[2]))
-        count = int(np.argmin(near) if not near.all() else len(near) - 1)
-        return np.arange(self.last + 1, self.last + 2 + count)
-
-    def _scans_ahead(self) -> Indices:
-        """Return the scans in which a fit is sought after a contradiction: at most `AHEAD_SCANS`, none over a break."""
-        assert self.motions is not None
-        motions = self.motions[self.last : self.last + AHEAD_SCANS]
-        ways, turns = np.cumsum(ways_and_turns(motions), axis=1)
-        unknown = np.maximum.accumulate(self.unknown[self.last :][: len(motions)])
-        count = max(1, int(((ways < AHEAD_M) & (turns < AHEAD_RAD) & ~unknown).sum()))
-        return np.arange(self.last + 1, self.last + 1 + count)
-
-    def _latest_window(self, before: Window | None) -> Window:
-        """Return the window of the latest key scans. Its grid reuses the memory of the window before."""
-        latest = np.array(self.keys[self.part_begin :][-WINDOW_KEYS:][::-1])
-        poses, reuse = self.poses[latest], None if before is None else before.grid
-        grid = likelihood_grids(self.geometry, [latest], [poses], poses[0, :2], self.half_width_m, reuse=reuse)
-        return Window(latest, poses, grid)
-
-
-def _posterior_variance(placed: PlacedScans, k: int) -> Floats:
-    """Return the variance of pose number ``k`` by laser and odometry together, x, y and yaw, (3,)."""
-    return np.asarray(np.diag(np.linalg.inv(placed.information[k] + np.diag(1.0 / placed.variance[k]))))
-
-
-def grid_half_width(geometry: ScanGeometry) -> float:
-    """Return the half width of grids that hold nearly all points of a scan taken at their middle, metres."""
-    sampled = slice(None, None, max(1, len(geometry) // 500))
-    distance = np.linalg.norm(geometry.host_points[sampled][geometry.host_kind[sampled] > 0], axis=-1)
-    return float(np.clip(np.percentile(distance, 97.0) + 1.0, 4.0, 30.0)) if len(distance) else 4.0
+    to_world = rotation(refined[:, 2])
+    return refined, np.swapaxes(to_world, 1, 2) @ laser_information @ to_world

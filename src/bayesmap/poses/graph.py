@@ -1,18 +1,15 @@
-"""Pose graphs: relative poses with information, solved by sparse Gauss-Newton, and the Gaussian about the solution.
+"""Solve pose graphs by sparse Gauss-Newton, and compute covariances and draws of the poses.
 
-The cost is the sum over factors of e^T W e / 2 with e = between(x_first, x_second) - relative (Lu and Milios 1997;
-Grisetti et al. 2010, "A tutorial on graph-based SLAM"). Steps d, in poses' own frames, solve H d = -g by sparse LU.
-
-The covariance matrix of thousands of poses is dense, but only some blocks of it are needed. Blocks of poses that share
-a factor lie in the pattern of the factorised matrix, and are computed together (Takahashi, Fagan and Chin 1973). Other
-blocks are computed by solving for the columns of one of the two poses.
-
-`PoseGaussian` gives covariances of relative poses and draws of trajectories. Pairs of scans have errors in common:
-walls that are not straight, scans bent by motion, people. At the best trajectory the forces with which all pairs pull
-at the poses cancel. If points erred independently, the forces of the pairs between one stretch of the path and another
-would nearly cancel, too. On real logs they do not: pairs that see one wall pull the same way. A cluster bootstrap
-measures how far that bends the path (Cameron, Gelbach and Miller 2008; the sandwich of Huber 1967 and of Liang and
-Zeger 1986 for clusters): the forces of each pair of stretches get a random sign, and the poses go where they then pull.
+1. `Factors` are measured relative poses. The cost is the sum over factors of e^T W e / 2 with e =
+   between(x_first, x_second) - relative (Lu and Milios 1997; Grisetti et al. 2010, "A tutorial on graph-based SLAM").
+   `optimise` minimises it: steps d, in poses' own frames, solve H d = -g by sparse LU.
+2. `Precision` computes blocks of the inverse of H. This covariance matrix of thousands of poses is dense, but few
+   blocks are needed. Blocks of poses that share a factor lie in the pattern of the factorised matrix, and are computed
+   together (Takahashi, Fagan and Chin 1973). Other blocks are computed by solving for columns.
+3. `PoseGaussian` gives covariances of relative poses and draws of trajectories. Pairs of scans have errors in common:
+   walls that are not straight, scans bent by motion, people. A cluster bootstrap measures how far they bend the path
+   (Cameron, Gelbach and Miller 2008): the forces of each pair of stretches of path get a random sign, and the poses
+   follow these forces (docs/how/poses.md, "Uncertainty").
 """
 
 from __future__ import annotations
@@ -30,7 +27,148 @@ from scipy.sparse.linalg import splu
 from bayesmap.space.arrays import Indices, Mask, matrix_roots
 from bayesmap.space.planar import Floats, between, between_jacobians, compose, ways_and_turns, wrap_yaw
 
-COLUMNS = 16  # columns solved at once: with hundreds BLAS starts threads for tiny blocks, and takes 80 times as long
+ANCHOR = 1e8  # information that fixes the first pose, 1 / m^2 and 1 / rad^2
+RIDGE = 1e-4  # information added to every pose, so that the matrix is regular even if a pose has no factor
+MAX_COLUMNS = 16  # columns solved at once: with hundreds, BLAS starts threads for tiny blocks and is 80 times slower
+DEGREES_OF_FREEDOM = 10.0
+"""Degrees of freedom of Student's t. Errors of the model (curved walls, people, bent scans) have heavy tails on real
+logs, and none on simulated ones. With this value both are right within some per cent (docs/lab/poses.md)."""
+DOUBTFUL_SQ = 11.3  # squared Mahalanobis distance of a doubtful loop: 99 % quantile of chi-squared, 3 degrees
+
+
+@dataclass(frozen=True, eq=False)
+class Factors:
+    """Measured relative poses between M pairs of poses."""
+
+    first: Indices  # index of the first pose of each pair, (M,)
+    second: Indices  # index of the second pose, (M,)
+    relative: Floats  # the second pose in the frame of the first, as measured, (M, 3)
+    information: Floats  # inverse covariance of the measured relative pose, in the first's frame, (M, 3, 3)
+
+    def __len__(self) -> int:
+        return len(self.first)
+
+    def errors(self, poses: Floats) -> Floats:
+        """Return the relative poses minus the measured ones, (M, 3)."""
+        return wrap_yaw(between(poses[self.first], poses[self.second]) - self.relative)
+
+    def squares(self, poses: Floats) -> Floats:
+        """Return the squared Mahalanobis lengths of the errors, (M,)."""
+        error = self.errors(poses)
+        return np.asarray(np.einsum("mi,mij,mj->m", error, self.information, error))
+
+    def robust_weights(self, poses: Floats, relaxation: float = 1.0) -> Floats:
+        """Return Geman and McClure's weights, (M,), from 0 to 1. ``relaxation`` is a factor on the squared scale."""
+        scale_sq = relaxation * DOUBTFUL_SQ
+        return np.asarray((scale_sq / (self.squares(poses) + scale_sq)) ** 2)
+
+    def disagreements(self, poses: Floats, a: Indices, b: Indices) -> Floats:
+        """Return the difference of each factor ``a`` from the relative pose that factor ``b`` implies, (P, 3)."""
+        first, second = self.first, self.second
+        to_second = compose(self.relative[b], between(poses[second[b]], poses[second[a]]))
+        return between(self.relative[a], compose(between(poses[first[a]], poses[first[b]]), to_second))
+
+    def select(self, selected: Mask | Indices) -> Self:
+        """Return the factors of a mask, (M,), or of indices."""
+        return replace(self, **{field.name: getattr(self, field.name)[selected] for field in fields(self)})
+
+
+@dataclass(frozen=True, eq=False)
+class Quadratic:
+    """A quadratic cost over the relative poses of M pairs of poses."""
+
+    first: Indices  # index of the first pose of each pair, (M,)
+    second: Indices  # index of the second pose, (M,)
+    relative: Floats  # relative poses at which the derivatives hold, (M, 3)
+    curvature: Floats  # second derivatives by the relative poses, (M, 3, 3)
+    gradient: Floats  # first derivatives, (M, 3)
+
+    def end_gradients(self) -> tuple[Floats, Floats]:
+        """Return the gradient of each pair's cost by steps of its first and its second pose, (M, 3) each."""
+        by_first, by_second = between_jacobians(self.relative)
+        return np.einsum("mji,mj->mi", by_first, self.gradient), np.einsum("mji,mj->mi", by_second, self.gradient)
+
+    def sum_over_poses(self, count: int, on_first: Floats, on_second: Floats) -> Floats:
+        """Sum gradients of pairs, as `end_gradients` returns them, over each of N poses, (3 N,)."""
+        result = np.zeros((count, 3))
+        _add_to_rows(result, self.first, on_first)
+        _add_to_rows(result, self.second, on_second)
+        return result.ravel()
+
+
+def quadratic(factors: Factors, poses: Floats, weights: Floats | None = None) -> Quadratic:
+    """Return the cost of factors about poses, to second order. ``weights``, (M,), multiply the factors' costs."""
+    curvature = factors.information if weights is None else factors.information * weights[:, None, None]
+    error = factors.errors(poses)
+    relative = error + factors.relative
+    return Quadratic(factors.first, factors.second, relative, curvature, np.einsum("mij,mj->mi", curvature, error))
+
+
+def normal_equations(count: int, costs: Sequence[Quadratic]) -> tuple[Any, Floats]:
+    """Return the sparse matrix H, (3 N, 3 N) in compressed columns, and g, (3 N,), for steps in poses' own frames."""
+    # Sum blocks on the diagonal and gradients, and collect the blocks off the diagonal.
+    diagonal = np.tile(np.eye(3) * RIDGE, (count, 1, 1))
+    diagonal[0] += np.eye(3) * ANCHOR
+    gradient = np.zeros((count, 3))
+    rows, columns, blocks = [], [], []
+    for cost in costs:
+        by_first, by_second = between_jacobians(cost.relative)
+        back_first, back_second = np.swapaxes(by_first, 1, 2), np.swapaxes(by_second, 1, 2)
+        half_first, half_second = cost.curvature @ by_first, cost.curvature @ by_second
+        _add_to_rows(diagonal, cost.first, back_first @ half_first)
+        _add_to_rows(diagonal, cost.second, back_second @ half_second)
+        _add_to_rows(gradient, cost.first, np.einsum("mij,mj->mi", back_first, cost.gradient))
+        _add_to_rows(gradient, cost.second, np.einsum("mij,mj->mi", back_second, cost.gradient))
+        cross = back_first @ half_second
+        rows += [cost.first, cost.second]
+        columns += [cost.second, cost.first]
+        blocks += [cross, np.swapaxes(cross, 1, 2)]
+    # Expand the blocks to single entries.
+    diagonal_index = np.arange(count)
+    row, column = np.concatenate([*rows, diagonal_index]), np.concatenate([*columns, diagonal_index])
+    block = np.concatenate([*blocks, diagonal])
+    axes = np.arange(3)
+    at_row = np.broadcast_to(3 * row[:, None, None] + axes[None, :, None], block.shape)
+    at_column = np.broadcast_to(3 * column[:, None, None] + axes[None, None, :], block.shape)
+    matrix = sparse.csc_matrix((block.ravel(), (at_row.ravel(), at_column.ravel())), shape=(3 * count, 3 * count))
+    return matrix, gradient.ravel()
+
+
+def solve_step(count: int, costs: Sequence[Quadratic]) -> tuple[Floats, Precision]:
+    """Return the Gauss-Newton step of each pose in its own frame, (N, 3), and the factorised matrix."""
+    matrix, gradient = normal_equations(count, costs)
+    precision = Precision(matrix)
+    return -precision.solve(gradient).reshape(count, 3), precision
+
+
+def optimise(
+    poses: Floats, chain: Factors, loops: Factors, *, graduated: bool = True, steps: int = 40, tolerance: float = 1e-4
+) -> tuple[Floats, Floats]:
+    """Fit poses to a chain of factors and loops, some perhaps wrong. Returns poses (N, 3), and loops' weights, 0 to 1.
+    Loops have Geman and McClure's cost, with weights w = (mu c^2 / (r^2 + mu c^2))^2. If ``graduated``, the cost begins
+    nearly convex, and mu falls to 1 (graduated non-convexity, Yang, Antonante, Tzoumas and Carlone 2020). Otherwise mu
+    is 1, and the fit ends at the nearest minimum.
+    """
+    relaxation = 1.0
+    if graduated and len(loops):
+        relaxation = max(1.0, 2.0 * float(loops.squares(poses).max()) / DOUBTFUL_SQ)
+    weights = np.ones(len(loops))
+    for _ in range(steps):
+        weights = loops.robust_weights(poses, relaxation)
+        step, _ = solve_step(len(poses), [quadratic(chain, poses), quadratic(loops, poses, weights)])
+        poses = compose(poses, step)
+        if np.abs(step).max() < tolerance and relaxation <= 1.0:
+            break
+        relaxation = max(1.0, relaxation / 1.6)
+    return poses, weights
+
+
+def _add_to_rows(target: Floats, rows: Indices, values: Floats) -> None:
+    """Add values to rows of the target, in order, so that the result has the same bits every time."""
+    size = int(np.prod(values.shape[1:]))
+    flat_values, flat_target = values.reshape(len(values), size), target.reshape(len(target), size)
+    for k in range(size):
+        flat_target[:, k] += np.bincount(rows, weights=flat_values[:, k], minlength=len(target))
 
 
 class Precision:
@@ -42,17 +180,15 @@ class Precision:
 
     def solve(self, right: Floats) -> Floats:
         """Return the inverse times a vector, or times the columns of a matrix."""
-        if right.ndim == 1 or right.shape[1] <= COLUMNS:
+        if right.ndim == 1 or right.shape[1] <= MAX_COLUMNS:
             return np.asarray(self._factor.solve(right))
-        parts = np.split(right, range(COLUMNS, right.shape[1], COLUMNS), axis=1)
-        return np.concatenate([self._factor.solve(part) for part in parts], axis=1)
+        batches = np.split(right, range(MAX_COLUMNS, right.shape[1], MAX_COLUMNS), axis=1)
+        return np.concatenate([self._factor.solve(batch) for batch in batches], axis=1)
 
     def blocks(self, first: Indices, second: Indices, at_once: int = 400) -> Floats:
-        """Return the inverse's blocks of M pairs of poses, (M, 3, 3): rows of the first, columns of the second. Memory
-        grows with ``at_once`` times the number of poses.
-        """
-        three = np.arange(3)
-        result, known = self._on_pattern(3 * first[:, None, None] + three[:, None], 3 * second[:, None, None] + three)
+        """Return the inverse's blocks of M pairs of poses, (M, 3, 3): rows of the first, columns of the second."""
+        axes = np.arange(3)
+        result, known = self._on_pattern(3 * first[:, None, None] + axes[:, None], 3 * second[:, None, None] + axes)
         # Solve for the other blocks, by the columns of the side with fewer distinct poses.
         missing = np.nonzero(~known.all(axis=(1, 2)))[0]
         if not len(missing):
@@ -62,14 +198,14 @@ class Precision:
             rows, columns, transposed = columns, rows, True
         distinct, column_number = np.unique(columns, return_inverse=True)
         size = self._matrix.shape[0]
-        for begin in range(0, len(distinct), at_once):
+        for begin in range(0, len(distinct), at_once):  # memory grows with ``at_once`` times the number of poses
             batch = distinct[begin : begin + at_once]
             right = np.zeros((size, 3 * len(batch)))
-            right[(3 * batch[:, None] + three).ravel(), np.arange(3 * len(batch))] = 1.0
+            right[(3 * batch[:, None] + axes).ravel(), np.arange(3 * len(batch))] = 1.0
             solved = self.solve(right).reshape(size // 3, 3, len(batch), 3)
-            own = np.nonzero((column_number >= begin) & (column_number < begin + len(batch)))[0]
-            blocks = solved[rows[own], :, column_number[own] - begin, :]
-            result[missing[own]] = np.swapaxes(blocks, 1, 2) if transposed else blocks
+            in_batch = np.nonzero((column_number >= begin) & (column_number < begin + len(batch)))[0]
+            blocks = solved[rows[in_batch], :, column_number[in_batch] - begin, :]
+            result[missing[in_batch]] = np.swapaxes(blocks, 1, 2) if transposed else blocks
         return result
 
     def _on_pattern(self, row: Indices, column: Indices) -> tuple[Floats, Mask]:
@@ -102,7 +238,6 @@ class Precision:
 
 def filled_pattern(matrix: Any, order: NDArray[np.integer]) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
     """Return the pattern of the factor L of a permuted symmetric matrix: column offsets, and ascending rows.
-
     Column j has the matrix's rows below the diagonal. It also has the rows of each earlier column whose first row below
     the diagonal is j (George and Liu 1981, section 5.2). The factor's own entries are not enough, since some happen to
     be zero. The matrix, (n, n), is in compressed columns. ``order`` is the new index of each row and column, (n,).
@@ -114,6 +249,7 @@ def filled_pattern(matrix: Any, order: NDArray[np.integer]) -> tuple[NDArray[np.
     by_column = np.lexsort((row[below], column[below]))
     row, column = row[below][by_column], column[below][by_column]
     begin = np.searchsorted(column, np.arange(size + 1))
+    # Walk the columns in order, and pass the rows of each to the column that it fills (its parent).
     children: list[list[NDArray[np.integer]]] = [[] for _ in range(size)]
     columns = []
     for j in range(size):
@@ -133,176 +269,33 @@ def relative_covariances(precision: Precision, poses: Floats, first: Indices, se
     """Compute the covariance of between(first, second) for M pairs of poses, in the first's frame, (M, 3, 3)."""
     by_first, by_second = between_jacobians(between(poses[first], poses[second]))
     indices = np.arange(len(poses))
-    own = precision.blocks(indices, indices)
+    marginals = precision.blocks(indices, indices)
     cross = precision.blocks(second, first)
-    result = by_first @ own[first] @ np.swapaxes(by_first, 1, 2)
-    result = result + by_second @ own[second] @ np.swapaxes(by_second, 1, 2)
+    result = by_first @ marginals[first] @ np.swapaxes(by_first, 1, 2)
+    result = result + by_second @ marginals[second] @ np.swapaxes(by_second, 1, 2)
     mixed = by_second @ cross @ np.swapaxes(by_first, 1, 2)
     return np.asarray(result + mixed + np.swapaxes(mixed, 1, 2))
-
-
-ANCHOR = 1e8  # information that fixes the first pose, 1 / m^2 and 1 / rad^2
-RIDGE = 1e-4  # information added to every pose, so that the matrix is regular even if a pose has no factor
-DOUBTFUL_SQ = 11.3  # squared Mahalanobis distance of a doubtful loop: 99 % quantile of chi-squared, 3 degrees
-
-
-@dataclass(frozen=True, eq=False)
-class Factors:
-    """Measured relative poses between M pairs of poses."""
-
-    first: Indices  # indices of the poses, (M,)
-    second: Indices
-    relative: Floats  # the second pose in the frame of the first, as measured, (M, 3)
-    information: Floats  # inverse covariance of the measured relative pose, in the first's frame, (M, 3, 3)
-
-    def __len__(self) -> int:
-        return len(self.first)
-
-    def errors(self, poses: Floats) -> Floats:
-        """Return the relative poses minus the measured ones, (M, 3)."""
-        return wrap_yaw(between(poses[self.first], poses[self.second]) - self.relative)
-
-    def squares(self, poses: Floats) -> Floats:
-        """Return the squared Mahalanobis lengths of the errors, (M,)."""
-        error = self.errors(poses)
-        return np.asarray(np.einsum("mi,mij,mj->m", error, self.information, error))
-
-    def robust_weights(self, poses: Floats, relaxation: float = 1.0) -> Floats:
-        """Return Geman and McClure's weights, (M,), from 0 to 1. ``relaxation`` is a factor on the squared scale."""
-        scale_sq = relaxation * DOUBTFUL_SQ
-        return np.asarray((scale_sq / (self.squares(poses) + scale_sq)) ** 2)
-
-    def disagreements(self, poses: Floats, a: Indices, b: Indices) -> Floats:
-        """Return the difference of each factor ``a`` from the relative pose that factor ``b`` implies, (P, 3)."""
-        first, second = self.first, self.second
-        to_second = compose(self.relative[b], between(poses[second[b]], poses[second[a]]))
-        return between(self.relative[a], compose(between(poses[first[a]], poses[first[b]]), to_second))
-
-    def select(self, chosen: Mask | Indices) -> Self:
-        """Return the chosen factors."""
-        return replace(self, **{field.name: getattr(self, field.name)[chosen] for field in fields(self)})
-
-
-@dataclass(frozen=True, eq=False)
-class Quadratic:
-    """A quadratic cost over relative poses z of M pairs: second derivatives (M, 3, 3) and first ones (M, 3) by z."""
-
-    first: Indices
-    second: Indices
-    relative: Floats
-    curvature: Floats
-    gradient: Floats
-
-    def pulls(self) -> tuple[Floats, Floats]:
-        """Return the gradient of each pair's cost by steps of its first and its second pose, (M, 3) each."""
-        by_first, by_second = between_jacobians(self.relative)
-        return np.einsum("mji,mj->mi", by_first, self.gradient), np.einsum("mji,mj->mi", by_second, self.gradient)
-
-    def summed(self, count: int, on_first: Floats, on_second: Floats) -> Floats:
-        """Sum gradients of pairs, as `pulls` returns them, over each of N poses, (3 N,)."""
-        result = np.zeros((count, 3))
-        _add_to_rows(result, self.first, on_first)
-        _add_to_rows(result, self.second, on_second)
-        return result.ravel()
-
-
-def quadratic(factors: Factors, poses: Floats, weights: Floats | None = None) -> Quadratic:
-    """Return the cost of factors about poses, to second order. ``weights``, (M,), multiply the factors' costs."""
-    curvature = factors.information if weights is None else factors.information * weights[:, None, None]
-    error = factors.errors(poses)
-    relative = error + factors.relative
-    return Quadratic(factors.first, factors.second, relative, curvature, np.einsum("mij,mj->mi", curvature, error))
-
-
-def normal_equations(count: int, parts: Sequence[Quadratic]) -> tuple[Any, Floats]:
-    """Return the sparse matrix H, (3 N, 3 N) in compressed columns, and g, (3 N,), for steps in the poses' own frames.
-    `ANCHOR` holds the first pose, and `RIDGE` is added to every pose.
-    """
-    # Sum blocks on the diagonal and gradients, and collect the blocks off the diagonal.
-    diagonal = np.tile(np.eye(3) * RIDGE, (count, 1, 1))
-    diagonal[0] += np.eye(3) * ANCHOR
-    gradient = np.zeros((count, 3))
-    rows, columns, blocks = [], [], []
-    for part in parts:
-        by_first, by_second = between_jacobians(part.relative)
-        back_first, back_second = np.swapaxes(by_first, 1, 2), np.swapaxes(by_second, 1, 2)
-        half_first, half_second = part.curvature @ by_first, part.curvature @ by_second
-        _add_to_rows(diagonal, part.first, back_first @ half_first)
-        _add_to_rows(diagonal, part.second, back_second @ half_second)
-        _add_to_rows(gradient, part.first, np.einsum("mij,mj->mi", back_first, part.gradient))
-        _add_to_rows(gradient, part.second, np.einsum("mij,mj->mi", back_second, part.gradient))
-        cross = back_first @ half_second
-        rows += [part.first, part.second]
-        columns += [part.second, part.first]
-        blocks += [cross, np.swapaxes(cross, 1, 2)]
-    # Expand the blocks to single entries.
-    every = np.arange(count)
-    row, column = np.concatenate([*rows, every]), np.concatenate([*columns, every])
-    block = np.concatenate([*blocks, diagonal])
-    three = np.arange(3)
-    at_row = np.broadcast_to(3 * row[:, None, None] + three[None, :, None], block.shape)
-    at_column = np.broadcast_to(3 * column[:, None, None] + three[None, None, :], block.shape)
-    matrix = sparse.csc_matrix((block.ravel(), (at_row.ravel(), at_column.ravel())), shape=(3 * count, 3 * count))
-    return matrix, gradient.ravel()
-
-
-def solve_step(count: int, parts: Sequence[Quadratic]) -> tuple[Floats, Precision]:
-    """Return the Gauss-Newton step of each pose in its own frame, (N, 3), and the factorised matrix."""
-    matrix, gradient = normal_equations(count, parts)
-    precision = Precision(matrix)
-    return -precision.solve(gradient).reshape(count, 3), precision
-
-
-def optimise(
-    poses: Floats, chain: Factors, loops: Factors, *, graduated: bool = True, steps: int = 40, tolerance: float = 1e-4
-) -> tuple[Floats, Floats]:
-    """Fit poses to a chain of factors and loops, some perhaps wrong. Returns poses (N, 3), and loops' weights, 0 to 1.
-
-    Loops have Geman and McClure's cost, with weights w = (mu c^2 / (r^2 + mu c^2))^2. If ``graduated``, the cost begins
-    nearly convex, and mu falls to 1 (graduated non-convexity, Yang, Antonante, Tzoumas and Carlone 2020). Otherwise mu
-    is 1, and the fit ends at the nearest minimum.
-    """
-    relaxation = 1.0
-    if graduated and len(loops):
-        relaxation = max(1.0, 2.0 * float(loops.squares(poses).max()) / DOUBTFUL_SQ)
-    weights = np.ones(len(loops))
-    for _ in range(steps):
-        weights = loops.robust_weights(poses, relaxation)
-        step, _ = solve_step(len(poses), [quadratic(chain, poses), quadratic(loops, poses, weights)])
-        poses = compose(poses, step)
-        if np.abs(step).max() < tolerance and relaxation <= 1.0:
-            break
-        relaxation = max(1.0, relaxation / 1.6)
-    return poses, weights
-
-
-def _add_to_rows(target: Floats, rows: Indices, values: Floats) -> None:
-    """Add values to rows of the target, in order, so that the result has the same bits every time."""
-    size = int(np.prod(values.shape[1:]))
-    flat_values, flat_target = values.reshape(len(values), size), target.reshape(len(target), size)
-    for k in range(size):
-        flat_target[:, k] += np.bincount(rows, weights=flat_values[:, k], minlength=len(target))
 
 
 STRETCH_M, TURN_M = 4.0, 0.5
 """Length of a stretch of path whose scans see the same walls, and the length that a radian of turning counts as.
 With 8 m, regions of 50, 80 and 95 % hold 61, 86 and 95 % of the relative poses of Intel's halves, not 56, 82 and 93."""
-
-DRAWS, SEED = 64, 1  # of signs: the spread of the bends is known to an eighth of itself
+BOOTSTRAP_DRAWS, BOOTSTRAP_SEED = 64, 1  # draws of signs: the spread of the bends is known to an eighth of itself
 
 
 def sample_bends(poses: Floats, laser: Quadratic, precision: Precision) -> Floats:
-    """Compute the steps of poses (K, 3), in their own frames, under forces with random signs, (DRAWS, K, 3)."""
-    ways, turns = ways_and_turns(wrap_yaw(np.diff(poses, axis=0)))
-    stretch = (np.concatenate([[0.0], np.cumsum(ways + TURN_M * turns)]) / STRETCH_M).astype(np.intp)
+    """Draw steps of poses (K, 3), in their own frames, under forces with random signs, (BOOTSTRAP_DRAWS, K, 3)."""
+    # Label each pair by the two stretches of path that it ties together: a cluster.
+    lengths_m, turns_rad = ways_and_turns(wrap_yaw(np.diff(poses, axis=0)))
+    stretch = (np.concatenate([[0.0], np.cumsum(lengths_m + TURN_M * turns_rad)]) / STRETCH_M).astype(np.intp)
     pairs = np.sort(np.stack([stretch[laser.first], stretch[laser.second]], axis=1), axis=1)
     clusters, cluster = np.unique(pairs, axis=0, return_inverse=True)
-    signs = np.random.default_rng(SEED).choice([-1.0, 1.0], (DRAWS, len(clusters)))
-    on_first, on_second = laser.pulls()
-    bends = np.empty((DRAWS, len(poses), 3))
-    for n in range(DRAWS):
+    signs = np.random.default_rng(BOOTSTRAP_SEED).choice([-1.0, 1.0], (BOOTSTRAP_DRAWS, len(clusters)))
+    on_first, on_second = laser.end_gradients()
+    bends = np.empty((BOOTSTRAP_DRAWS, len(poses), 3))
+    for n in range(BOOTSTRAP_DRAWS):
         sign = signs[n][cluster.ravel()][:, None]
-        force = laser.summed(len(poses), sign * on_first, sign * on_second)
+        force = laser.sum_over_poses(len(poses), sign * on_first, sign * on_second)
         bends[n] = precision.solve(force).reshape(-1, 3)
     return bends
 
@@ -317,52 +310,45 @@ def bend_covariances(bends: Floats, poses: Floats, first: Indices, second: Indic
     return result / max(1, len(bends))
 
 
-DEGREES_OF_FREEDOM = 10.0
-"""Degrees of Student's t. Errors of the model (curved walls, people, bent scans) have heavy tails on real logs, and
-none on simulated ones. With this value both are right within some per cent (docs/lab/poses.md)."""
-
-
 @dataclass(frozen=True, eq=False)
 class PoseGaussian:
     """Poses with the curvature of their cost: the log posterior density to second order.
-
-    The scale matrix of Student's t is the inverse of the curvature, and (dof - 2) / dof times the covariance of the
-    parts' shared errors. ``elsewhere`` are steps of the poses to alternatives, times the square root of their
-    probabilities. ``by_odometry`` are steps by the standard errors of odometry's systematic error. Both count as bends.
+    The cost has M terms, each over a relative pose. The scale matrix of Student's t is the inverse of the curvature
+    plus (dof - 2) / dof times the covariance of shared errors, which is the mean square of ``bends``.
     """
 
-    poses: Floats  # the most probable ones, (K, 3)
-    first: Indices  # indices of the poses that a part of the cost ties together, (M,)
-    second: Indices
+    poses: Floats  # the most probable poses, (K, 3)
+    first: Indices  # index of the first pose that each term ties together, (M,)
+    second: Indices  # index of the second pose, (M,)
     relative: Floats  # the second pose in the frame of the first, (M, 3)
-    curvature: Floats  # second derivatives of the cost by it, (M, 3, 3)
-    force: Floats  # first derivatives, (M, 3), which cancel in total. Zero where parts err independently.
-    dof: float = DEGREES_OF_FREEDOM  # of Student's t
-    elsewhere: Floats | None = None  # (A, K, 3)
-    by_odometry: Floats | None = None  # (C, K, 3)
+    curvature: Floats  # second derivatives of each term by its relative pose, (M, 3, 3)
+    force: Floats  # first derivatives, (M, 3), which cancel in total. Zero where terms err independently.
+    dof: float = DEGREES_OF_FREEDOM  # degrees of freedom of Student's t
+    elsewhere: Floats | None = None  # steps to alternative poses, times the root of their probabilities, (A, K, 3)
+    by_odometry: Floats | None = None  # steps by the standard errors of odometry's systematic error, (C, K, 3)
 
     @cached_property
     def precision(self) -> Precision:
         """The factorised precision matrix of steps in the poses' own frames, (3 K, 3 K)."""
-        return Precision(normal_equations(len(self.poses), [self._part])[0])
+        return Precision(normal_equations(len(self.poses), [self._cost])[0])
 
     @cached_property
     def bends(self) -> Floats:
-        """Steps of the poses by shared errors of parts of the cost and of odometry, and to alternatives, (N, K, 3)."""
-        shared = sample_bends(self.poses, self._part, self.precision)
+        """Steps of the poses by shared errors of terms of the cost and of odometry, and to alternatives, (N, K, 3)."""
+        shared = sample_bends(self.poses, self._cost, self.precision)
         others = [steps for steps in (self.elsewhere, self.by_odometry) if steps is not None]
         # A covariance is the mean over all bends, so each kind is scaled up to the number of all.
         count = len(shared) + sum(map(len, others))
         return np.concatenate([shared * np.sqrt(count / len(shared)), *(steps * np.sqrt(count) for steps in others)])
 
-    def steps_by(self, changes: Floats) -> Floats:
+    def steps_from_changes(self, changes: Floats) -> Floats:
         """Return steps of the poses, (N, K, 3), if the last M relative poses change by ``changes``, (N, M, 3)."""
         last = slice(len(self.first) - changes.shape[1], None)
         ends, relative, curvature = (self.first[last], self.second[last]), self.relative[last], self.curvature[last]
         steps = np.empty((len(changes), len(self.poses), 3))
         for n, change in enumerate(changes):
-            part = Quadratic(*ends, relative, curvature, np.einsum("mij,mj->mi", curvature, change))
-            steps[n] = self.precision.solve(part.summed(len(self.poses), *part.pulls())).reshape(-1, 3)
+            cost = Quadratic(*ends, relative, curvature, np.einsum("mij,mj->mi", curvature, change))
+            steps[n] = self.precision.solve(cost.sum_over_poses(len(self.poses), *cost.end_gradients())).reshape(-1, 3)
         return steps
 
     @property
@@ -371,7 +357,7 @@ class PoseGaussian:
         return (self.dof - 2.0) / self.dof
 
     @property
-    def _part(self) -> Quadratic:
+    def _cost(self) -> Quadratic:
         return Quadratic(self.first, self.second, self.relative, self.curvature, self.force)
 
     def relative_covariances(self, first: Indices, second: Indices) -> Floats:
@@ -382,10 +368,9 @@ class PoseGaussian:
 
     def draw(self, count: int, seed: int, first_draw: int = 0) -> Floats:
         """Draw whole trajectories, (count, K, 3), from the multivariate t.
-
         Draw number n depends on (seed, n) alone. It solves H x = sum_k J_k^T C_k e_k, where C_k C_k^T is the curvature
-        of part k and e_k is standard normal, so that x has covariance H^-1. A normal sum of the bends, with (dof - 2) /
-        dof of their covariance, is added, and the whole is stretched.
+        of term k and e_k is standard normal, so that x has covariance H^-1. A normal sum of the bends, with (dof - 2) /
+        dof of their covariance, is added, and the sum is stretched by the root of dof over a chi-squared number.
         """
         root = matrix_roots(self.curvature)
         by_first, by_second = between_jacobians(self.relative)
@@ -394,6 +379,7 @@ class PoseGaussian:
         bend_scale = np.sqrt(self.scale_of_covariance / len(self.bends))
         for n in range(count):
             rng = np.random.Generator(np.random.Philox(key=[seed & (2**64 - 1), first_draw + n]))
+            # The right side: noise of each term, of the ridge and of the anchor. The order of the draws fixes the bits.
             noise = rng.standard_normal((len(self.first), 3))
             right = rng.standard_normal(self.poses.shape) * np.sqrt(RIDGE)
             right[0] = rng.standard_normal(3) * np.sqrt(ANCHOR + RIDGE)

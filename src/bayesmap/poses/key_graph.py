@@ -1,51 +1,33 @@
-"""The graph of key scans: the front end's chain of links and the loop closures, which are sought in rounds.
+"""Build the graph of key scans: the front end's links, and loop closures that pass a test of whole visits.
 
-Closures may be wrong, because places look alike. All closures of one visit of a place are right together, or wrong
-together: if two places only look alike, every pair of their scans agrees. So a whole visit is tested against the graph
-without it. D is half of the visit's squared Mahalanobis distance from that graph. For a right visit, 2 D is chi-squared
-with three degrees of freedom, so D is 1.5 on average, however uncertain the path was.
+`close_loops` is the main function. In rounds it finds closures, solves the graph, and removes visits that are probably
+wrong (`weigh_visits`). `contradicted_links` and `unconfirmed_links` then name the doubtful steps of the final poses.
 
-The log odds that a visit is right are ``VISIT_ODDS + PLACE_ODDS (places - 1) - D``. A place that only looks alike may
-lie anywhere in the search window, and each further matching place along the path makes such a chance less likely.
-(Latif, Cadena and Neira 2013, "Robust loop closing over time", test groups of closures in a similar way.) On public
-logs D of right visits was 0.1 to 2.3, and D of wrong visits 11 to 20 (docs/lab/poses.md).
+Closures may be wrong, because places look alike: every pair of scans of two such places agrees. So a whole visit is
+tested against the graph without it (similar to Latif, Cadena and Neira 2013, "Robust loop closing over time"). D is
+half of the visit's squared Mahalanobis distance from that graph: 1.5 on average for a right visit. The log odds that a
+visit is right are ``VISIT_ODDS + PLACE_ODDS (places - 1) - D``. On public logs D of right visits was 0.1 to 2.3, and D
+of wrong visits 11 to 20 (docs/lab/poses.md).
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
-from bayesmap.poses.front_end import (
-    MAX_POINTS,
-    MIN_GAIN_POINTS,
-    SLIP_LOSS,
-    UNKNOWN_SIGMA,
-    WINDOW_KEYS,
-    Track,
-    grid_half_width,
-)
+from bayesmap.poses import front_end
+from bayesmap.poses.front_end import UNKNOWN_SIGMA, WINDOW_KEYS, Track, grid_half_width
 from bayesmap.poses.graph import Factors, optimise, quadratic, relative_covariances, solve_step
 from bayesmap.poses.loops import Closures, KeyPath, Search, find_closures, key_path, no_closures
-from bayesmap.poses.matcher import LikelihoodGrids, likelihood_grids, match, score_at
-from bayesmap.poses.rejoin import MIN_PLACES, SAME_M, SAME_RAD, Joint, is_consistent, rejoin
+from bayesmap.poses.matcher import LikelihoodGrids, SearchWindows, likelihood_grids, match, score_at
+from bayesmap.poses.reconnect import MIN_PLACES, SAME_M, SAME_RAD, Merge, is_consistent, reconnect_segments
 from bayesmap.poses.scan_geometry import ScanGeometry
+from bayesmap.poses.trajectory import NO_ALTERNATIVES, Alternatives
 from bayesmap.space.arrays import Indices, Mask
 from bayesmap.space.planar import Floats, are_within, between, compose, rotation, wrap_angle, wrap_yaw
-
-DEFLATION = 4.0  # divisor of the information of the front end's links, whose windows overlap
-LINK_FLOOR = np.array([0.004, 0.004, np.radians(0.12)])  # least standard deviations of a link, m and rad
-BENT_M = 5.0  # greatest bend of a path before loops are closed, metres
-SETTLED_M = 0.3  # the search for loops ends after a round that moves no key scan further than this, metres
-LEAP_M, LEAP_RAD = 0.3, np.radians(10.0)  # a leap differs by more from the front end's step
-LEAP_SIGMAS = 8.0  # and by more than this many of its standard deviations
-BOTH_LEAP_SIGMAS = 4.0  # `LEAP_SIGMAS` for steps that odometry contradicts, too
-REFUSED_SIGMAS = 5.0  # odometry contradicts a step that is more than this many of its standard deviations off
-CONFIRMED_LOSS = 0.2  # key scans confirm a step if the next key scan's score is lower than usual by at most this
-MAX_HALF_M = 1.5  # greatest distance from odometry's prediction at which a scan is searched for elsewhere, metres
-GUESS_SIGMAS = 3.0  # a step over a break is in doubt this many `UNKNOWN_SIGMA` off the front end's guess, if it fitted
 
 ROUNDS: tuple[Search, ...] = (
     Search(5.0, np.radians(45.0), max_sigmas_off=3.0, visits=2, spacing_m=2.0),
@@ -56,6 +38,10 @@ ROUNDS: tuple[Search, ...] = (
 chain alone, and its covariance is wide: a match far outside is another place that looks alike. Later rounds trust
 earlier closures to centimetres, and some of these are wrong. On logs and simulated robots, right closures lay up to 2.1
 standard deviations off in the first round, and up to 3.2 later. Wrong ones that bent the path lay 3.3 and 3.8 off."""
+CONVERGED_M = 0.3  # the search for loops ends after a round that moves no key scan further than this, metres
+LINK_DEFLATION = 4.0  # divisor of the information of the front end's links, whose windows overlap
+MIN_LINK_SIGMA = np.array([0.004, 0.004, np.radians(0.12)])  # standard deviations of a link, m and rad
+MAX_BEND_M = 5.0  # bend of a path before loops are closed, metres
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,109 +49,8 @@ class ClosedGraph:
     """Key scans with loops closed."""
 
     closures: Closures  # loop closures of the last round
-    joined: Mask  # mask of the parts of the path that are joined to an earlier part, (P,)
+    joined: Mask  # mask of the segments of the path that are joined to an earlier segment, (P,)
     weighed: WeighedGraph  # poses of the keys, Geman and McClure's weights of the closures, and alternative poses
-
-
-def chain_of(track: Track, poses: Floats) -> Factors:
-    """Return links from each key scan to the next, by laser and odometry together.
-
-    Links over a break of the path have hardly any information. Their relative poses follow ``poses`` of the keys, (K,
-    3), or the front end if the scan after the break fitted as usual and the two differ by less than `BENT_M`.
-    """
-    keys = track.keys
-    # Relative poses: the front end's, but over unconfirmed breaks those of ``poses``.
-    relative = between(track.poses[keys[:-1]], track.poses[keys[1:]])
-    steps = between(poses[:-1], poses[1:])
-    off_m = np.hypot(*(steps - relative)[:, :2].T)
-    unknown = track.broken[keys[1:]] & ~(_fitted_after_break(track) & (off_m < BENT_M))
-    relative[unknown] = steps[unknown]
-    # Information of laser and odometry adds up; the covariance is then turned to the frame of the earlier key.
-    odometry = np.eye(3) / np.maximum(track.odometry_variance[keys[1:]], 1e-8)[:, :, None]
-    covariance = np.linalg.inv(track.information[keys[1:]] / DEFLATION + odometry)  # in the frame of the later key
-    turn = rotation(relative[:, 2])
-    covariance = turn @ covariance @ np.swapaxes(turn, 1, 2) + np.diag(LINK_FLOOR**2)
-    order = np.arange(len(keys) - 1)
-    return Factors(order, order + 1, relative, np.asarray(np.linalg.inv(covariance), np.float64))
-
-
-def _fitted_after_break(track: Track) -> Mask:
-    """Select steps over a break of the path after which the next key scan fitted as well as usual, (K - 1,)."""
-    after = track.keys[1:]
-    return np.asarray(track.broken[after] & (track.scores[after] > np.median(track.scores) - SLIP_LOSS))
-
-
-def contradicted_links(track: Track, poses: Floats, sigmas: float = LEAP_SIGMAS) -> Mask:
-    """Find the leaps in poses of the keys, (K, 3), and return a mask, (K - 1,). A leap lies more than ``sigmas``
-    standard deviations, and `LEAP_M` or `LEAP_RAD`, off the front end's step. Loops contradict each other there.
-    """
-    chain = chain_of(track, track.poses[track.keys])
-    leaps = ~are_within(chain.errors(poses), LEAP_M, LEAP_RAD) & (chain.squares(poses) > sigmas**2)
-    return np.asarray(leaps & ~track.broken[track.keys[1:]])
-
-
-def unconfirmed_links(geometry: ScanGeometry, track: Track, odometry: Factors, poses: Floats) -> Mask:
-    """Find doubtful steps of the keys' poses, (K, 3), and return a mask, (K - 1,). There are three cases.
-
-    * Odometry contradicts the step, and the key scans before do not confirm it: they explain the next key scan badly,
-      or the front end had it elsewhere.
-    * The key scans before explain the next one badly there, but as well as usual at another pose that odometry allows.
-    * The step leads over a break of the path, and is far from the front end's step, although that one fitted as usual.
-    """
-    keys, usual_score, unbroken = track.keys, float(np.median(track.scores)), ~track.broken[track.keys[1:]]
-    refused = unbroken & (odometry.squares(poses) > REFUSED_SIGMAS**2)
-    poor = unbroken & (track.scores[keys[1:]] < usual_score - CONFIRMED_LOSS)
-    doubtful = refused & contradicted_links(track, poses, BOTH_LEAP_SIGMAS)
-    half_width_m, grid = grid_half_width(geometry), None
-    for k in np.nonzero((refused | poor) & ~doubtful)[0]:
-        before = np.arange(max(0, int(k) + 1 - WINDOW_KEYS), int(k) + 1)
-        relative = between(poses[k], poses[before])
-        grid = likelihood_grids(geometry, [keys[before]], [relative], np.zeros(2), half_width_m, reuse=grid)
-        points, step = geometry.points_of(int(keys[k + 1]), MAX_POINTS), between(poses[k], poses[k + 1])
-        score = float(score_at(grid, 0, points, step)[0])
-        doubtful[k] = score < usual_score - CONFIRMED_LOSS and (
-            refused[k] or _fits_elsewhere(grid, points, step, score, usual_score, odometry.select(np.array([k])))
-        )
-    off = wrap_yaw(between(poses[:-1], poses[1:]) - between(track.poses[keys[:-1]], track.poses[keys[1:]]))
-    moved = ((off / UNKNOWN_SIGMA) ** 2).sum(axis=1) > GUESS_SIGMAS**2
-    return np.asarray(doubtful | (_fitted_after_break(track) & moved))
-
-
-def _fits_elsewhere(
-    grid: LikelihoodGrids, points: Floats, step: Floats, score: float, usual_score: float, odometry: Factors
-) -> bool:
-    """Check whether another pose that odometry allows fits as well as usual, and clearly better than a step."""
-    stated, information = odometry.relative, odometry.information[0]
-    sigma = np.sqrt(np.diag(np.linalg.inv(information)))
-    min_score = max(usual_score - SLIP_LOSS, score + max(CONFIRMED_LOSS, MIN_GAIN_POINTS / max(len(points), 1)))
-    best = match(
-        grid, [points], stated, min(REFUSED_SIGMAS * sigma[:2].max(), MAX_HALF_M),
-        min(REFUSED_SIGMAS * sigma[2], np.pi), min_score=min_score, step_rad=np.radians(1.0),
-    )  # fmt: skip
-    if not best.has_pose[0, 0]:
-        return False
-    pose = best.poses[0, 0]
-    error = wrap_yaw(pose - stated[0])
-    allowed = error @ information @ error < REFUSED_SIGMAS**2
-    return bool(allowed and not are_within(between(step, pose), LEAP_M, LEAP_RAD))
-
-
-def poses_between_keys(track_poses: Floats, keys: Indices, key_poses: Floats, broken: Mask | None = None) -> Floats:
-    """Return all scans' poses, (S, 3), from new poses of the keys, (K, 3). The discrepancy at the next key is spread
-    evenly over the scans before it, unless the path is broken there: ``broken`` marks scans after a break, (S,).
-    """
-    count = len(track_poses)
-    before = np.clip(np.searchsorted(keys, np.arange(count), side="right") - 1, 0, len(keys) - 1)
-    after = np.minimum(before + 1, len(keys) - 1)
-    result = compose(key_poses[before], between(track_poses[keys[before]], track_poses))
-    # The next key would have the expected pose if no pose between the two had changed.
-    expected = compose(key_poses[before], between(track_poses[keys[before]], track_poses[keys[after]]))
-    change = wrap_yaw(key_poses[after] - expected)
-    if broken is not None:
-        change[broken[keys[after]]] = 0.0
-    step = np.maximum(keys[after] - keys[before], 1)
-    share = (np.arange(count) - keys[before]) / step
-    return wrap_yaw(result + change * np.where(after > before, share, 0.0)[:, None])
 
 
 def close_loops(
@@ -177,54 +62,88 @@ def close_loops(
     keys, poses = track.keys, track.poses[track.keys]
     half_width_m = grid_half_width(geometry)
     path, rounds, joined = key_path(geometry, keys, poses, track.broken[keys]), ROUNDS, np.ones(1, np.bool_)
-    if path.parts.any():
-        # Loops within a part first: parts that are bent by metres fit each other at several relative poses.
-        weighed, _ = _close_in_rounds(path, chain_of(track, poses), ROUNDS[:2], half_width_m, within_parts=True)
-        poses, joined = rejoin(path.at(weighed.poses), half_width_m)
+    if path.segments.any():
+        # Loops within a segment first: segments bent by metres fit each other at several relative poses.
+        chain = chain_links(track, poses)
+        weighed, _ = _close_in_rounds(path, chain, ROUNDS[:2], half_width_m, within_segments=True)
+        poses, joined = reconnect_segments(path.at(weighed.poses), half_width_m)
         path, rounds = path.at(poses), ROUNDS[1:]
-    weighed, closures = _close_in_rounds(path, chain_of(track, poses), rounds, half_width_m, on_progress)
-    guess, poses = path.poses, weighed.poses
-    # Parts that `rejoin` left at the front end's guess count as joined, too, if enough closures confirm the guess.
-    for part in np.nonzero(~joined)[0]:
-        across = (path.parts[closures.first] < part) & (path.parts[closures.second] == part)
-        begin = int(np.searchsorted(path.parts, part))
-        off = between(between(guess[begin - 1], guess[begin]), between(poses[begin - 1], poses[begin]))
-        n_confirming = (across & (weighed.weights > 0.5)).sum()
-        if are_within(off, SAME_M, SAME_RAD) and n_confirming >= MIN_PLACES:
-            so_far = path.parts <= part
-            two_parts = (path.parts[so_far] == part).astype(np.intp)
-            both = KeyPath(geometry, keys[so_far], poses[so_far], path.path_m[so_far], two_parts)
-            joined[part] = is_consistent(both, Joint(0, 1, np.zeros(3), 0.0))
+    weighed, closures = _close_in_rounds(path, chain_links(track, poses), rounds, half_width_m, on_progress)
+    # Segments left at the front end's guess count as joined, too, if enough closures confirm the guess.
+    for segment in np.nonzero(~joined)[0]:
+        joined[segment] = _is_guess_confirmed(path, int(segment), closures, weighed)
     return ClosedGraph(closures, joined, weighed)
 
 
 def _close_in_rounds(
     path: KeyPath, chain: Factors, rounds: tuple[Search, ...], half_width_m: float,
-    on_progress: Callable[[int, Floats], None] | None = None, *, within_parts: bool = False,
+    on_progress: Callable[[int, Floats], None] | None = None, *, within_segments: bool = False,
 ) -> tuple[WeighedGraph, Closures]:  # fmt: skip
-    """Close loops in rounds, of the path or only within its parts. Returns the graph and the last round's closures."""
+    """Close loops in rounds, of the path or only within its segments. Returns the graph and the last closures."""
     poses, weights, closures = path.poses, np.empty(0), no_closures()
     for number, search in enumerate(rounds, start=1):
         # The graph's precision gives the search windows; the closures then give new poses.
         _, precision = solve_step(len(poses), [quadratic(chain, poses), quadratic(closures, poses, weights)])
-        closures = find_closures(path.at(poses), precision, half_width_m, search, within_parts=within_parts)
-        before = poses
+        closures = find_closures(path.at(poses), precision, half_width_m, search, within_segments=within_segments)
+        poses_before = poses
         poses, weights = optimise(poses, chain, closures)
         weighed = weigh_visits(poses, weights, chain, closures, path.path_m)
         poses, weights = weighed.poses, weighed.weights
         if on_progress is not None:
             on_progress(number, poses)
-        if number > 1 and np.hypot(*(poses - before)[:, :2].T).max() < SETTLED_M:
+        if number > 1 and np.hypot(*(poses - poses_before)[:, :2].T).max() < CONVERGED_M:
             break
     return weighed, closures
 
 
-PLACE_M = 5.0  # greatest distance along the path between ends of closures of one visit, and length of one place, metres
-AGREE_M, AGREE_RAD = 0.4, np.radians(6.0)  # greatest difference between closures that agree
+def _is_guess_confirmed(path: KeyPath, segment: int, closures: Closures, weighed: WeighedGraph) -> bool:
+    """Check that closures confirm the relative pose of a segment and those before, as ``path`` has it."""
+    guess, poses = path.poses, weighed.poses
+    is_across = (path.segments[closures.first] < segment) & (path.segments[closures.second] == segment)
+    begin = int(np.searchsorted(path.segments, segment))
+    off = between(between(guess[begin - 1], guess[begin]), between(poses[begin - 1], poses[begin]))
+    n_confirming = (is_across & (weighed.weights > 0.5)).sum()
+    if not (are_within(off, SAME_M, SAME_RAD) and n_confirming >= MIN_PLACES):
+        return False
+    so_far = path.segments <= segment
+    two_segments = (path.segments[so_far] == segment).astype(np.intp)
+    both = KeyPath(path.geometry, path.keys[so_far], poses[so_far], path.path_m[so_far], two_segments)
+    return is_consistent(both, Merge(0, 1, np.zeros(3), 0.0))
+
+
+def chain_links(track: Track, poses: Floats) -> Factors:
+    """Return links from each key scan to the next, by laser and odometry together.
+    Links over a break of the path have hardly any information. They follow ``poses`` of the keys, (K, 3), or the front
+    end if the scan after the break fitted as usual and the two differ by less than `MAX_BEND_M`.
+    """
+    keys = track.keys
+    # Relative poses: the front end's, but over unconfirmed breaks those of ``poses``.
+    relative = between(track.poses[keys[:-1]], track.poses[keys[1:]])
+    steps = between(poses[:-1], poses[1:])
+    off_m = np.hypot(*(steps - relative)[:, :2].T)
+    unknown = track.broken[keys[1:]] & ~(_fitted_after_break(track) & (off_m < MAX_BEND_M))
+    relative[unknown] = steps[unknown]
+    # Information of laser and odometry adds up; the covariance is then turned to the frame of the earlier key.
+    odometry = np.eye(3) / np.maximum(track.odometry_variance[keys[1:]], 1e-8)[:, :, None]
+    covariance = np.linalg.inv(track.information[keys[1:]] / LINK_DEFLATION + odometry)  # in the later key's frame
+    to_earlier = rotation(relative[:, 2])
+    covariance = to_earlier @ covariance @ np.swapaxes(to_earlier, 1, 2) + np.diag(MIN_LINK_SIGMA**2)
+    order = np.arange(len(keys) - 1)
+    return Factors(order, order + 1, relative, np.asarray(np.linalg.inv(covariance), np.float64))
+
+
+def _fitted_after_break(track: Track) -> Mask:
+    """Select steps over a break of the path after which the next key scan fitted as well as usual, (K - 1,)."""
+    after = track.keys[1:]
+    return np.asarray(track.broken[after] & (track.scores[after] > np.median(track.scores) - front_end.SLIP_LOSS))
+
+
+PLACE_M = 5.0  # maximum distance along the path between ends of closures of one visit, and length of one place, metres
+AGREE_M, AGREE_RAD = 0.4, np.radians(6.0)  # maximum difference between closures that agree
 VISIT_ODDS = 5.0  # prior log odds that a visit of one place is right
 PLACE_ODDS = 1.0  # addition to the log odds per further place
-MAX_STEPS = 12  # most steps of Gauss-Newton without a visit
-MIN_LOG_ODDS = -np.log(19.0)  # least log odds of an alternative that is reported: a probability of 0.05
+MAX_STEPS = 12  # steps of Gauss-Newton without a visit
+MIN_LOG_ODDS = -np.log(19.0)  # log odds of an alternative that is reported: a probability of 0.05
 SURE_LOG_ODDS = np.log(20.0)  # log odds above which a visit is surely right
 DIFFERS_M, DIFFERS_RAD = 0.3, np.radians(5.0)  # an alternative must move at least one pose by more than one of these
 
@@ -241,8 +160,63 @@ class WeighedGraph:
     last: Indices  # last key of this stretch, (A,)
 
 
-def visits_of(loops: Factors, poses: Floats, path_m: Floats) -> Indices:
-    """Return the number of each closure's visit, (M,). Closures of a visit agree, and are near each other at both ends.
+def find_alternatives(weighed: WeighedGraph, keys: Indices, poses: Floats) -> tuple[Alternatives, Floats | None]:
+    """Return the alternatives to the keys' poses, (K, 3), and the steps to them that `PoseGaussian.elsewhere` holds."""
+    if not len(weighed.probabilities):
+        return NO_ALTERNATIVES, None
+    steps = wrap_yaw(between(weighed.poses[None], weighed.alternatives))
+    first, last, probabilities = keys[weighed.first], keys[weighed.last], weighed.probabilities
+    elsewhere = steps * np.sqrt(probabilities)[:, None, None]
+    return Alternatives(first, last, probabilities, compose(poses[None], steps)), elsewhere
+
+
+class VisitTest(NamedTuple):
+    """The test of a visit, or an alternative that decides about the visit."""
+
+    log_odds: float  # that the visit, or the alternative, is right
+    visit: int  # number of the visit
+    poses: Floats  # poses of the keys without the visit, or in the alternative, (K, 3)
+
+
+def weigh_visits(poses: Floats, weights: Floats, chain: Factors, loops: Factors, path_m: Floats) -> WeighedGraph:
+    """Remove the visits that are probably wrong, one after the other, and find the alternatives to the result.
+    ``poses`` and ``weights`` solve the graph of chain and loops. ``path_m`` are distances along the path, (K,).
+    """
+    # Compute the prior log odds of each visit by the number of its places.
+    visit, removed = label_visits(loops, poses, path_m), np.zeros(len(loops), np.bool_)
+    prior_log_odds = np.zeros(int(visit.max(initial=-1)) + 1)
+    for number in range(len(prior_log_odds)):
+        span_m = min(np.ptp(path_m[ends[visit == number]]) for ends in (loops.first, loops.second))
+        prior_log_odds[number] = VISIT_ODDS + PLACE_ODDS * span_m / PLACE_M
+    # Remove the least certain visit until each is more likely right than wrong. The poses with it are an alternative.
+    alternatives: list[VisitTest] = []
+    while True:
+        doubtful = list(_doubtful_visits(poses, chain, loops, visit, removed, prior_log_odds))
+        doubtful.sort(key=lambda test: (test.log_odds, test.visit))
+        if not doubtful or doubtful[0].log_odds > 0.0:
+            break
+        worst = doubtful[0]
+        alternatives.append(worst._replace(poses=poses))
+        poses, removed = worst.poses, removed | (visit == worst.visit)
+    # The poses without each visit that stays are alternatives, too. Keep those that are likely and differ.
+    alternatives += [test._replace(log_odds=-test.log_odds) for test in doubtful]
+    alternatives = [
+        other
+        for other in alternatives
+        if other.log_odds > MIN_LOG_ODDS and not are_within(between(other.poses, poses), DIFFERS_M, DIFFERS_RAD).all()
+    ]
+    weights = np.where(removed, 0.0, loops.robust_weights(poses) if removed.any() else weights)
+    masks = [visit == other.visit for other in alternatives]
+    return WeighedGraph(
+        poses, weights, alternatives=np.array([other.poses for other in alternatives]).reshape(-1, *poses.shape),
+        probabilities=1.0 / (1.0 + np.exp(-np.array([other.log_odds for other in alternatives]))),
+        first=np.array([loops.first[mask].min() for mask in masks], np.intp),
+        last=np.array([loops.second[mask].max() for mask in masks], np.intp),
+    )  # fmt: skip
+
+
+def label_visits(loops: Factors, poses: Floats, path_m: Floats) -> Indices:
+    """Return the number of each closure's visit, (M,). Closures of a visit agree, and are near at both ends.
     The poses of the keys, (K, 3), must be right over a few metres. ``path_m`` is their distance along the path, (K,).
     """
     from scipy.sparse import coo_matrix
@@ -256,76 +230,40 @@ def visits_of(loops: Factors, poses: Floats, path_m: Floats) -> Indices:
     return np.asarray(connected_components(links, directed=False)[1], np.intp)
 
 
-def weigh_visits(poses: Floats, weights: Floats, chain: Factors, loops: Factors, path_m: Floats) -> WeighedGraph:
-    """Remove the visits that are probably wrong, one after the other, and find the alternatives to the result. The
-    arguments are the solution of the graph of chain and loops, and the keys' distances along the path, metres, (K,).
-    """
-    visit, removed = visits_of(loops, poses, path_m), np.zeros(len(loops), np.bool_)
-    odds = np.zeros(int(visit.max(initial=-1)) + 1)
-    for number in range(len(odds)):
-        span_m = min(np.ptp(path_m[ends[visit == number]]) for ends in (loops.first, loops.second))
-        odds[number] = VISIT_ODDS + PLACE_ODDS * span_m / PLACE_M
-    # Remove the least certain visit until each is more likely right than wrong. Report the poses with it.
-    reported: list[tuple[float, int, Floats]] = []
-    while True:
-        doubtful = sorted(_doubtful_visits(poses, chain, loops, visit, removed, odds), key=lambda entry: entry[:2])
-        if not doubtful or doubtful[0][0] > 0.0:
-            break
-        log_odds, worst, without = doubtful[0]
-        reported.append((log_odds, worst, poses))
-        poses, removed = without, removed | (visit == worst)
-    # Report the poses without each visit that stays, and keep the alternatives that are likely and differ.
-    reported += [(-log_odds, number, without) for log_odds, number, without in doubtful]
-    reported = [
-        (log_odds, number, other)
-        for log_odds, number, other in reported
-        if log_odds > MIN_LOG_ODDS and not are_within(between(other, poses), DIFFERS_M, DIFFERS_RAD).all()
-    ]
-    weights = np.where(removed, 0.0, loops.robust_weights(poses) if removed.any() else weights)
-    own = [visit == number for _, number, _ in reported]
-    return WeighedGraph(
-        poses, weights, alternatives=np.array([other for _, _, other in reported]).reshape(-1, *poses.shape),
-        probabilities=1.0 / (1.0 + np.exp(-np.array([log_odds for log_odds, _, _ in reported]))),
-        first=np.array([loops.first[mask].min() for mask in own], np.intp),
-        last=np.array([loops.second[mask].max() for mask in own], np.intp),
-    )  # fmt: skip
-
-
 def _doubtful_visits(
-    poses: Floats, chain: Factors, loops: Factors, visit: Indices, removed: Mask, odds: Floats
-) -> Iterator[tuple[float, int, Floats]]:
+    poses: Floats, chain: Factors, loops: Factors, visit: Indices, removed: Mask, prior_log_odds: Floats
+) -> Iterator[VisitTest]:
     """Yield visits that may be wrong: the log odds that each is right, its number, and the poses without it."""
     weights = loops.robust_weights(poses)
     strain = chain.squares(poses)
-    for number in range(len(odds)):
+    for number in range(len(prior_log_odds)):
         mask = (visit == number) & ~removed
         if not (weights[mask] > 0.5).any():
             continue
         # The cost of the path between the two ends, plus the loops' cost, bounds D. Skip visits that are surely right.
         begin, end = loops.first[mask].min(), loops.second[mask].max()
         bound = 0.5 * strain[begin:end].sum() + 0.5 * (loops.squares(poses) * weights)[~removed].sum()
-        if odds[number] - bound > SURE_LOG_ODDS:
+        if prior_log_odds[number] - bound > SURE_LOG_ODDS:
             continue
-        others, own = loops.select(~removed & ~mask), loops.select(mask)
+        others, tested = loops.select(~removed & ~mask), loops.select(mask)
         without, _ = optimise(poses, chain, others, graduated=False, steps=MAX_STEPS, tolerance=1e-3)
-        errors = own.errors(without)
+        errors = tested.errors(without)
         # Skip a visit that the rest of the graph confirms to within the bending of a path.
         if are_within(np.median(np.abs(errors), axis=0), AGREE_M, AGREE_RAD):
             continue
         others_cost = quadratic(others, without, others.robust_weights(without))
         _, precision = solve_step(len(without), [quadratic(chain, without), others_cost])
-        covariance = relative_covariances(precision, without, own.first, own.second) + np.linalg.inv(own.information)
-        distance = 0.5 * np.median(twist_squares(own.relative + errors, own.relative, covariance))
-        yield float(odds[number] - distance), number, without
+        covariance = relative_covariances(precision, without, tested.first, tested.second)
+        covariance = covariance + np.linalg.inv(tested.information)
+        distance = 0.5 * np.median(twist_squares(tested.relative + errors, tested.relative, covariance))
+        yield VisitTest(float(prior_log_odds[number] - distance), number, without)
 
 
 def twist_squares(expected: Floats, measured: Floats, covariance: Floats) -> Floats:
     """Compute squared Mahalanobis distances between measured and expected relative poses, (M, 3), as twists, (M,).
-
     If a heading error arose half-way, later poses lie on an arc, of which a straight ellipsoid covers little. As a
-    twist, a turn about any point is a straight line (Barfoot and Furgale 2014, "Associating uncertainty with
-    three-dimensional poses for use in estimation problems"). ``covariance`` is the covariance of the expected relative
-    poses, x, y and yaw in the first's frame, (M, 3, 3).
+    twist, a turn about any point is a straight line (Barfoot and Furgale 2014, IEEE Transactions on Robotics 30(3)).
+    ``covariance`` is that of the expected relative poses, x, y and yaw in the first's frame, (M, 3, 3).
     """
     to_twist = np.tile(np.eye(3), (len(expected), 1, 1))  # from steps of x, y and yaw
     to_twist[:, 0, 2], to_twist[:, 1, 2] = expected[:, 1], -expected[:, 0]
@@ -339,3 +277,88 @@ def twist_squares(expected: Floats, measured: Floats, covariance: Floats) -> Flo
     twist = np.stack([cotangent * x + half * y, -half * x + cotangent * y, yaw], axis=1)
     twist_covariance = to_twist @ covariance @ np.swapaxes(to_twist, 1, 2)
     return np.asarray(np.einsum("mi,mij,mj->m", twist, np.linalg.inv(twist_covariance), twist))
+
+
+LEAP_M, LEAP_RAD = 0.3, np.radians(10.0)  # a leap differs by more from the front end's step
+LEAP_SIGMAS = 8.0  # and by more than this many of its standard deviations
+REFUSED_LEAP_SIGMAS = 4.0  # `LEAP_SIGMAS` for steps that odometry contradicts, too
+REFUSED_SIGMAS = 5.0  # odometry contradicts a step that is more than this many of its standard deviations off
+MAX_CONFIRMED_LOSS = 0.2  # key scans confirm a step if the next one's score is lower than usual by at most this
+MAX_HALF_M = 1.5  # distance from odometry's prediction at which a scan is searched for elsewhere, metres
+GUESS_SIGMAS = 3.0  # a step over a break is in doubt this many `UNKNOWN_SIGMA` off the front end's guess, if it fitted
+
+
+def contradicted_links(track: Track, poses: Floats, sigmas: float = LEAP_SIGMAS) -> Mask:
+    """Find the leaps in poses of the keys, (K, 3), where loops contradict each other. Returns a mask, (K - 1,).
+    A leap lies more than ``sigmas`` standard deviations, and `LEAP_M` or `LEAP_RAD`, off the front end's step.
+    """
+    chain = chain_links(track, track.poses[track.keys])
+    leaps = ~are_within(chain.errors(poses), LEAP_M, LEAP_RAD) & (chain.squares(poses) > sigmas**2)
+    return np.asarray(leaps & ~track.broken[track.keys[1:]])
+
+
+def unconfirmed_links(geometry: ScanGeometry, track: Track, odometry: Factors, poses: Floats) -> Mask:
+    """Find doubtful steps of the keys' poses, (K, 3), and return a mask, (K - 1,). There are three cases.
+
+    * Odometry contradicts the step, and the key scans before do not confirm it: they explain the next key scan badly,
+      or the front end had it elsewhere.
+    * The key scans before explain the next one badly there, but as well as usual at another pose that odometry allows.
+    * The step leads over a break of the path, and is far from the front end's step, although that one fitted as usual.
+    """
+    # Select the steps of the first two cases.
+    keys, usual_score, unbroken = track.keys, float(np.median(track.scores)), ~track.broken[track.keys[1:]]
+    refused = unbroken & (odometry.squares(poses) > REFUSED_SIGMAS**2)
+    poor = unbroken & (track.scores[keys[1:]] < usual_score - MAX_CONFIRMED_LOSS)
+    doubtful = refused & contradicted_links(track, poses, REFUSED_LEAP_SIGMAS)
+    half_width_m, grid = grid_half_width(geometry), None
+    for k in np.nonzero((refused | poor) & ~doubtful)[0]:
+        # Score the next key scan on the grid of the key scans before, in the frame of the last of them.
+        before = np.arange(max(0, int(k) + 1 - WINDOW_KEYS), int(k) + 1)
+        relative = between(poses[k], poses[before])
+        grid = likelihood_grids(geometry, [keys[before]], [relative], np.zeros(2), half_width_m, reuse=grid)
+        points, step = geometry.points_of(int(keys[k + 1]), front_end.MAX_POINTS), between(poses[k], poses[k + 1])
+        score = float(score_at(grid, 0, points, step)[0])
+        doubtful[k] = score < usual_score - MAX_CONFIRMED_LOSS and (
+            refused[k] or _fits_elsewhere(grid, points, step, score, usual_score, odometry.select(np.array([k])))
+        )
+    # Add the third case: steps over a break.
+    off = wrap_yaw(between(poses[:-1], poses[1:]) - between(track.poses[keys[:-1]], track.poses[keys[1:]]))
+    moved = ((off / UNKNOWN_SIGMA) ** 2).sum(axis=1) > GUESS_SIGMAS**2
+    return np.asarray(doubtful | (_fitted_after_break(track) & moved))
+
+
+def _fits_elsewhere(
+    grid: LikelihoodGrids, points: Floats, step: Floats, score: float, usual_score: float, odometry: Factors
+) -> bool:
+    """Check whether another pose that odometry allows fits as well as usual, and clearly better than a step."""
+    stated, information = odometry.relative, odometry.information[0]
+    sigma = np.sqrt(np.diag(np.linalg.inv(information)))
+    min_gain = max(MAX_CONFIRMED_LOSS, front_end.MIN_GAIN_POINTS / max(len(points), 1))
+    min_score = max(usual_score - front_end.SLIP_LOSS, score + min_gain)
+    half_m, half_rad = min(REFUSED_SIGMAS * sigma[:2].max(), MAX_HALF_M), min(REFUSED_SIGMAS * sigma[2], np.pi)
+    best = match(grid, [points], SearchWindows(stated, half_m, half_rad, np.radians(1.0)), min_score=min_score)
+    if not best.has_pose[0, 0]:
+        return False
+    pose = best.poses[0, 0]
+    error = wrap_yaw(pose - stated[0])
+    allowed = error @ information @ error < REFUSED_SIGMAS**2
+    return bool(allowed and not are_within(between(step, pose), LEAP_M, LEAP_RAD))
+
+
+def poses_between_keys(track_poses: Floats, keys: Indices, key_poses: Floats, broken: Mask | None = None) -> Floats:
+    """Return all scans' poses, (S, 3), from new poses of the keys, (K, 3).
+    The discrepancy at the next key is spread evenly over the scans before it, unless the path is broken there:
+    ``broken`` marks scans after a break, (S,).
+    """
+    count = len(track_poses)
+    before = np.clip(np.searchsorted(keys, np.arange(count), side="right") - 1, 0, len(keys) - 1)
+    after = np.minimum(before + 1, len(keys) - 1)
+    result = compose(key_poses[before], between(track_poses[keys[before]], track_poses))
+    # The next key would have the expected pose if no pose between the two had changed.
+    expected = compose(key_poses[before], between(track_poses[keys[before]], track_poses[keys[after]]))
+    change = wrap_yaw(key_poses[after] - expected)
+    if broken is not None:
+        change[broken[keys[after]]] = 0.0
+    step = np.maximum(keys[after] - keys[before], 1)
+    share = (np.arange(count) - keys[before]) / step
+    return wrap_yaw(result + change * np.where(after > before, share, 0.0)[:, None])

@@ -1,12 +1,9 @@
-"""Checks of a log before its trajectory is inferred: enough scans, frozen odometry, and poses that are raw odometry.
+"""Check a log before its trajectory is inferred.
 
-Odometry may stand still although the robot moves in the scans: for a long time, or until odometry catches up.
-
-If poses are raw odometry, one wall appears at several positions, and beams pass through it. In a cell with h hits and p
-passes a beam stops with probability h / (h + p). The mean of this probability over all hits is the agreement of scans
-at their poses. Odometry is right over a few scans and wrong over many. So the agreement of all scans is divided by the
-agreement within windows of `WINDOW_SCANS` scans, each in its own map. Measured: 0.87 with the corrected poses of the
-Intel log and with true poses in a simulated office; 0.41 to 0.71 with raw odometry (Intel, ACES, Duke, simulated).
+* `check_scans` refuses logs from which no trajectory can be inferred.
+* `odometry_warnings` names stretches in which odometry stands still although the scans see the robot move.
+* `correct_late_odometry` corrects odometry that stands still for some scans and then catches up.
+* `look_like_odometry` tells raw odometry from corrected poses, by the agreement of the scans (`agreement`).
 """
 
 from __future__ import annotations
@@ -15,7 +12,7 @@ import numpy as np
 
 from bayesmap.errors import BadInput
 from bayesmap.poses.calibration import motion_variances
-from bayesmap.poses.matcher import ANY_SCORE, likelihood_grids, match
+from bayesmap.poses.matcher import ANY_SCORE, SearchWindows, likelihood_grids, match
 from bayesmap.poses.scan_geometry import ScanGeometry
 from bayesmap.space.arrays import Mask
 from bayesmap.space.grid import Grid
@@ -25,19 +22,18 @@ from bayesmap.space.time_order import since_start
 
 MAX_GAP_S = 0.5  # median time between scans above which they cannot be matched without odometry, seconds
 TOO_SELDOM = "scans come too seldom to be followed without odometry, which takes 5 Hz or so"
-
-MIN_FROZEN_SCANS = 10  # fewest scans at one pose in a frozen stretch: odometry that is merely slow repeats less often
-CHANGE_M = 0.2  # least change of a reading that counts, metres
-CHANGED_SHARE = 0.3  # least share of changed readings if the robot moved: few change along a corridor
-MIN_COMMON_HITS = 8  # fewest beams with hits in both scans
+MIN_FROZEN_SCANS = 10  # scans at one pose in a frozen stretch: odometry that is merely slow repeats less often
+MIN_CHANGE_M = 0.2  # change of a reading that counts, metres
+MIN_CHANGED_SHARE = 0.3  # share of changed readings if the robot moved: few change along a corridor
+MIN_COMMON_HITS = 8  # beams with hits in both scans
 EQUAL_POSE_TOLERANCE = 1e-6  # metres and radians; stated poses that differ by less are equal, in spite of rounding
-MIN_SCORE_GAIN = 0.05  # least gain in score, from 0 to 1, of a scan at late odometry over stated odometry
+MIN_SCORE_GAIN = 0.05  # gain in score, from 0 to 1, of a scan at late odometry over stated odometry
 WINDOW_SIGMAS = 3.0  # half the window about either pose, in standard deviations of an ordinary robot's odometry
-MAX_POINTS = 200  # most points per scan that are matched
-MAX_HALF_WIDTH_M = 20.0  # greatest half width of the grid
+MAX_POINTS = 200  # points per scan that are matched
+MAX_HALF_WIDTH_M = 20.0  # half width of the grid
 
 
-def gap_s(scans: Scans) -> float:
+def median_gap_s(scans: Scans) -> float:
     """Return the median time between scans, seconds; 0 without stamps."""
     if scans.stamps_s is None or len(scans) < 2:
         return 0.0
@@ -46,12 +42,13 @@ def gap_s(scans: Scans) -> float:
 
 def scans_come_often(scans: Scans) -> bool:
     """Return whether scans come often enough to be matched without odometry. Without stamps this is assumed."""
-    return gap_s(scans) <= MAX_GAP_S
+    return median_gap_s(scans) <= MAX_GAP_S
 
 
-def check_scans(scans: Scans, no_odometry: bool) -> None:
-    """Raise `BadInput` unless a trajectory can be inferred. There must be two scans and a hit; odometry must not stand
-    still all the time although the robot moves; without odometry scans must come often.
+def check_scans(scans: Scans, *, no_odometry: bool) -> None:
+    """Raise `BadInput` unless a trajectory can be inferred.
+    There must be two scans and a hit. Odometry must not stand still all the time although the robot moves. Without
+    odometry scans must come often.
     """
     if len(scans) < 2:
         raise BadInput(f"slam: a trajectory needs two scans or more, got {len(scans)}")
@@ -64,12 +61,12 @@ def check_scans(scans: Scans, no_odometry: bool) -> None:
         )
     if no_odometry and not scans_come_often(scans):
         raise BadInput(
-            f"slam: without odometry scans must come at 5 Hz or so, these come every {gap_s(scans):.2f} s; "
+            f"slam: without odometry scans must come at 5 Hz or so, these come every {median_gap_s(scans):.2f} s; "
             "give the log's odometry, or all of its scans"
         )
 
 
-def doubts(scans: Scans, no_odometry: bool) -> list[str]:
+def odometry_warnings(scans: Scans, *, no_odometry: bool) -> list[str]:
     """Return warnings about the odometry of scans in the order of time, one sentence each."""
     return [] if no_odometry else [
         f"odometry stands still from scan {first} to {last}{since_start(scans.stamps_s, first, last)}, but the scans "
@@ -80,13 +77,12 @@ def doubts(scans: Scans, no_odometry: bool) -> list[str]:
 
 def frozen_stretches(scans: Scans) -> list[tuple[int, int]]:
     """Return first and last scan of each stretch of scans with one stated pose in which the robot moved, in order."""
-    runs = _runs((np.diff(scans.poses, axis=0) == 0.0).all(axis=1))
-    return [
-        (first, last) for first, last in runs if last - first + 1 >= MIN_FROZEN_SCANS and _moved(scans, first, last)
-    ]
+    runs = _equal_runs((np.diff(scans.poses, axis=0) == 0.0).all(axis=1))
+    long_runs = [(first, last) for first, last in runs if last - first + 1 >= MIN_FROZEN_SCANS]
+    return [(first, last) for first, last in long_runs if _robot_moved(scans, first, last)]
 
 
-def _runs(as_before: Mask) -> list[tuple[int, int]]:
+def _equal_runs(as_before: Mask) -> list[tuple[int, int]]:
     """Return first and last scan of each run of equal poses, given which scans have the pose before them, (S - 1,)."""
     edges = np.flatnonzero(np.diff(np.concatenate([[False], as_before, [False]]).astype(int)))
     return [(int(first), int(last)) for first, last in edges.reshape(-1, 2)]
@@ -94,14 +90,13 @@ def _runs(as_before: Mask) -> list[tuple[int, int]]:
 
 def correct_late_odometry(scans: Scans, geometry: ScanGeometry) -> Floats:
     """Return the stated poses of S scans in the order of time, (S, 3), with late odometry corrected.
-
-    A busy computer of a robot writes the last known pose several times, and then the whole motion at once. This motion
-    is spread evenly in time over the scans from the first of the repeated poses to the next new pose. A robot that
-    really stands still before it drives off writes the same poses. So the scans decide: the motion is spread only if
-    the scan after it fits clearly better to the first scan of the repeated pose than to the last.
+    A busy robot writes the last known pose several times, and then the whole motion at once. This motion is spread
+    evenly in time over the repeated poses. A robot that stands still before it drives off writes equal poses, too. So
+    the motion is spread only if the next scan fits clearly better after the first of the repeated poses than the last.
     """
     stated, result = scans.poses, scans.poses.copy()
-    for first, last in _runs(np.asarray((np.abs(np.diff(stated, axis=0)) < EQUAL_POSE_TOLERANCE).all(axis=1))):
+    as_before = (np.abs(np.diff(stated, axis=0)) < EQUAL_POSE_TOLERANCE).all(axis=1)
+    for first, last in _equal_runs(np.asarray(as_before)):
         if last + 1 >= len(scans):
             continue
         span = np.arange(first, last + 2)
@@ -110,35 +105,40 @@ def correct_late_odometry(scans: Scans, geometry: ScanGeometry) -> Floats:
             times = span.astype(np.float64)
         motion = between(stated[first], stated[last + 1])
         if _motion_began_early(geometry, first, last, motion):
-            parts = interpolate(times[[0, -1]], np.stack([np.zeros(3), motion]), times)[1:-1]
-            result[span[1:-1]] = compose(stated[first], parts)
+            offsets = interpolate(times[[0, -1]], np.stack([np.zeros(3), motion]), times)[1:-1]
+            result[span[1:-1]] = compose(stated[first], offsets)
     return result
 
 
 def _motion_began_early(geometry: ScanGeometry, first: int, last: int, motion: Floats) -> bool:
     """Check that the motion to scan ``last + 1`` began at scan ``first``, not at ``last``, by the fit of that scan."""
-    width_m = float(np.clip(np.abs(geometry.points_of(first)).max(initial=0.0) + 1.0, 2.0, MAX_HALF_WIDTH_M))
+    half_width_m = float(np.clip(np.abs(geometry.points_of(first)).max(initial=0.0) + 1.0, 2.0, MAX_HALF_WIDTH_M))
     grids = likelihood_grids(
-        geometry, [np.array([first]), np.array([last])], [np.zeros((1, 3))] * 2, np.zeros((2, 2)), width_m,
+        geometry, [np.array([first]), np.array([last])], [np.zeros((1, 3))] * 2, np.zeros((2, 2)), half_width_m,
         resolution=0.1, sigma_m=0.1,
     )  # fmt: skip
+    # Match the next scan to both, about the motion, in the window of an ordinary robot's odometry.
     sigma = np.sqrt(motion_variances(motion, np.ones(2)))
     half_m = max(0.1, WINDOW_SIGMAS * float(sigma[0]))
     half_rad = max(np.radians(3.0), WINDOW_SIGMAS * float(sigma[2]))
     points = [geometry.points_of(last + 1, MAX_POINTS)] * 2
-    scores = match(grids, points, np.stack([motion] * 2), half_m, half_rad, min_score=ANY_SCORE).scores[:, 0]
+    windows = SearchWindows(np.stack([motion] * 2), half_m, half_rad)
+    scores = match(grids, points, windows, min_score=ANY_SCORE).scores[:, 0]
     return bool(scores[0] > scores[1] + MIN_SCORE_GAIN)
 
 
-def _moved(scans: Scans, first: int, last: int) -> bool:
-    """Return whether most scans of a stretch's second half differ from its first scan."""
+def _robot_moved(scans: Scans, first: int, last: int) -> bool:
+    """Check whether most scans of a stretch's second half differ from its first scan."""
     later = range(first + (last - first + 1) // 2, last + 1)
-    changes_m = [_changes_m(scans, first, scan) for scan in later]
-    moved = [np.quantile(own, 1.0 - CHANGED_SHARE) > CHANGE_M for own in changes_m if len(own) >= MIN_COMMON_HITS]
-    return bool(2 * sum(moved) > len(later))
+    n_moved = 0
+    for scan in later:
+        changes_m = _range_changes_m(scans, first, scan)
+        if len(changes_m) >= MIN_COMMON_HITS and np.quantile(changes_m, 1.0 - MIN_CHANGED_SHARE) > MIN_CHANGE_M:
+            n_moved += 1
+    return 2 * n_moved > len(later)
 
 
-def _changes_m(scans: Scans, first: int, second: int) -> Floats:
+def _range_changes_m(scans: Scans, first: int, second: int) -> Floats:
     """Return the absolute differences of two scans' hits, metres, of equal beams or of beams at the nearest angle."""
     (first_angles, first_ranges), (angles, ranges) = scans.beams_of(first), scans.beams_of(second)
     if scans.own_angles_rad is not None:
@@ -152,16 +152,19 @@ def _changes_m(scans: Scans, first: int, second: int) -> Floats:
 
 
 WINDOW_SCANS = 15  # number of scans over which odometry is as good as the truth
-RAW_BELOW = 0.8  # relative agreement below which poses are raw odometry
+MIN_AGREEMENT = 0.8  # relative agreement below which poses are raw odometry
 CELL_M = 0.2  # width of a cell in which hits and passes are counted, metres
-MAX_AGREEMENT_SCANS = 900  # most scans that are compared
-MAX_HIT_M = 15.0  # greatest range of hits that are used, metres: heading errors move far hits most, in any log
+MAX_AGREEMENT_SCANS = 900  # scans that are compared
+MAX_HIT_M = 15.0  # range of hits that are used, metres: heading errors move far hits most, in any log
 DOUBLED = "at these poses the same walls stand in several places"  # in words
 
 
 def agreement(scans: Scans) -> float | None:
-    """Compute the agreement of all scans at their poses, relative to that of neighbours: about 0.9 for right poses. The
-    result is None if there are too few scans or hits. Without returns to a place, any odometry agrees.
+    """Compute the agreement of all scans at their poses, relative to that of neighbours: about 0.9 for right poses.
+    With raw odometry, one wall appears at several positions, and beams pass through it. In a cell with h hits and p
+    passes a beam stops with probability h / (h + p). The mean over all hits is divided by that within windows of
+    `WINDOW_SCANS` scans. Measured: 0.87 with corrected poses, 0.41 to 0.71 with raw odometry (Intel, ACES, Duke,
+    simulated). None if there are too few scans or hits. If the robot returns nowhere, any odometry agrees.
     """
     if len(scans) > MAX_AGREEMENT_SCANS:
         scans = scans.select(np.linspace(0, len(scans) - 1, MAX_AGREEMENT_SCANS).astype(np.intp))
@@ -179,7 +182,7 @@ def agreement(scans: Scans) -> float | None:
 def look_like_odometry(scans: Scans) -> bool:
     """Return whether the scans at their poses disagree as they do with raw odometry."""
     value = agreement(scans)
-    return value is not None and value < RAW_BELOW
+    return value is not None and value < MIN_AGREEMENT
 
 
 def _expected_stops(scans: Scans) -> tuple[float, float]:

@@ -1,4 +1,8 @@
-"""The scans that a map is made from, once the trajectory of a log is known."""
+"""Select the scans that a map is made from, once the trajectory of a log is known.
+
+`select_key_scans` returns the key scans with the prior of their poses and the poses from which chains start.
+`thin_for_map` drops beams and scans that see walls with many hits.
+"""
 
 from __future__ import annotations
 
@@ -12,9 +16,9 @@ from bayesmap.poses.trajectory import InferredTrajectory, calibrated
 from bayesmap.space.planar import Floats, between, compose, wrap_angle
 from bayesmap.space.scans import Scans
 
-MAX_SAMPLED_KEYS = 100  # most key scans whose poses are sampled with the map: chains over more do not mix
-MANY_BEAMS = 100_000  # with more beams, only some beams and scans are used
-STEP_RAD = np.radians(1.0)  # least angle between beams that are used then
+MAX_SAMPLED_KEYS = 100  # key scans whose poses are sampled with the map: chains over more do not mix
+MANY_BEAMS = 100_000  # number of beams above which beams and scans are dropped
+MIN_STEP_RAD = np.radians(1.0)  # angle between beams that are used then
 ENOUGH_HITS = 20  # a cell with fewer hits counts as new
 MIN_NEW_SHARE = 0.2  # a scan is left out if a smaller share of its hits is in new cells
 SCANS_PER_KEY = 7  # scans for each key scan at 10 Hz and half a metre a second: 3000 scans had 426 key scans
@@ -27,15 +31,15 @@ scans there until they contradict the walls."""
 
 @dataclass(frozen=True, eq=False)
 class KeyScans:
-    """The scans that the map is made from, and the prior of their poses."""
+    """The K scans that the map is made from, and the prior of their poses."""
 
     scans: Scans  # the key scans at their most probable poses, beam angles calibrated
     prior: PosePrior  # prior of their poses: odometry, corrected for its systematic error
     starts: Floats  # poses from which chains start, one trajectory each, (chains, K, 3)
 
 
-def key_scans(log: Scans, trajectory: InferredTrajectory, chains: int, seed: int) -> KeyScans:
-    """Select the key scans of a log with raw odometry, with prior and starts from the approximate trajectory."""
+def select_key_scans(log: Scans, trajectory: InferredTrajectory, chains: int, seed: int) -> KeyScans:
+    """Select the key scans of a log with raw odometry. The trajectory gives their prior, and starts of the chains."""
     scans = calibrated_keys(log, trajectory)
     # All trajectories share the first pose: it is the frame of the map.
     draws = trajectory.draw(chains, seed)[:, trajectory.keys]
@@ -43,7 +47,7 @@ def key_scans(log: Scans, trajectory: InferredTrajectory, chains: int, seed: int
     return KeyScans(scans, _prior_of(trajectory), starts)
 
 
-def keys_by_odometry(log: Scans, no_odometry: bool) -> Scans:
+def select_keys_by_odometry(log: Scans, *, no_odometry: bool) -> Scans:
     """Select about as many scans as the trajectory will have key scans, by the motions that odometry states."""
     if no_odometry or len(log) < 2:
         return log.select(slice(None, None, SCANS_PER_KEY))
@@ -62,7 +66,7 @@ def calibrated_keys(log: Scans, trajectory: InferredTrajectory) -> Scans:
 
 
 def _prior_of(trajectory: InferredTrajectory) -> PosePrior:
-    """Return the prior of motions between key scans: odometry, or a wide prior where there is none."""
+    """Return the prior of motions between key scans: odometry, or a wide prior without odometry."""
     relative = np.zeros((len(trajectory.keys) - 1, 3))
     sigmas = relative + FREE_SIGMA
     factors = trajectory.odometry
@@ -73,20 +77,22 @@ def _prior_of(trajectory: InferredTrajectory) -> PosePrior:
     return Motions(relative, sigmas, P_SLIP)
 
 
-def for_map(keys: Scans, resolution: float) -> Scans:
+def thin_for_map(keys: Scans, resolution: float) -> Scans:
     """Select beams and scans that see walls with few hits: cost follows the area seen. Few beams are all selected."""
     if keys.ranges_m.size <= MANY_BEAMS:
         return keys
-    stride = int(STEP_RAD / max(float(np.nanmedian(keys.steps_rad)), 1e-6) + 1e-3)
+    stride = int(MIN_STEP_RAD / max(float(np.nanmedian(keys.steps_rad)), 1e-6) + 1e-3)
     if stride > 1 and keys.own_angles_rad is None:
         beam_poses = None if keys.beam_poses is None else keys.beam_poses[:, ::stride]
         angles, ranges = keys.angles_rad[::stride], keys.ranges_m[:, ::stride]
         keys = replace(keys, angles_rad=angles, ranges_m=ranges, beam_poses=beam_poses)
     cells = np.floor(keys.hit_points_world() / resolution).astype(np.int64)
     cell = np.unique(cells, axis=0, return_inverse=True)[1].ravel()
-    hits, chosen = np.zeros(cell.max(initial=0) + 1, np.int64), []
-    for scan, own in enumerate(np.split(cell, np.cumsum(np.isfinite(keys.ranges_m).sum(axis=1))[:-1])):
-        if not len(own) or (hits[own] < ENOUGH_HITS).mean() >= MIN_NEW_SHARE:
-            chosen.append(scan)
-            hits += np.bincount(own, minlength=len(hits))
-    return keys.select(np.array(chosen, np.intp))
+    hit_cells = np.split(cell, np.cumsum(np.isfinite(keys.ranges_m).sum(axis=1))[:-1])
+    # Select a scan if enough of its hits are in cells with few hits of the scans selected so far.
+    hits, selected = np.zeros(cell.max(initial=0) + 1, np.int64), []
+    for scan, scan_cells in enumerate(hit_cells):
+        if not len(scan_cells) or (hits[scan_cells] < ENOUGH_HITS).mean() >= MIN_NEW_SHARE:
+            selected.append(scan)
+            hits += np.bincount(scan_cells, minlength=len(hits))
+    return keys.select(np.array(selected, np.intp))

@@ -1,14 +1,12 @@
 """Match points to likelihood grids: the matcher of front end and loop closure.
 
-A cell of a likelihood grid has the value 255 exp(-d^2 / (2 sigma^2)), where d is its distance from the nearest point of
-the grid's scans (Olson 2009, "Real-time correlative scan matching"; the likelihood field of Thrun, Burgard and Fox
-2005, section 6.4, without the logarithm). If neighbouring beams end on one wall further apart than sigma, points are
-filled in between, so that grids do not depend on the number of beams. Level h of the pyramid holds at (x, y) the
-largest value of the cells (x .. x + 2^h - 1, y .. y + 2^h - 1) (Hess et al. 2016).
+`likelihood_grids` makes grids from scans. A cell has the value 255 exp(-d^2 / (2 sigma^2)), where d is its distance
+from the nearest point (Olson 2009, "Real-time correlative scan matching"; the likelihood field of Thrun, Burgard and
+Fox 2005, section 6.4, without the logarithm). Level h of the pyramid holds at (x, y) the largest value of the cells
+(x .. x + 2^h - 1, y .. y + 2^h - 1) (Hess et al. 2016).
 
-The score of a pose is the mean value of the cells in which the points fall, from 0 to 1, less a penalty for the
-distance from the centre of the window. Branch and bound finds its exact maximum over a window of whole cells and steps
-of angle (`bayesmap.kernels.match.branch_and_bound`).
+`match` finds the best poses by branch and bound. The score of a pose is the mean value of the cells in which the points
+fall, from 0 to 1, less a penalty for the distance from the centre of the window.
 """
 
 from __future__ import annotations
@@ -26,7 +24,7 @@ from bayesmap.space.arrays import Indices, Mask, offsets_of
 from bayesmap.space.planar import Floats, transform, wrap_angle
 
 ROUNDING = 1e-9  # added before a quotient is rounded down, so that whole quotients stay whole
-ANY_SCORE = -9.0  # least score that accepts any pose: a score less the penalty is above it
+ANY_SCORE = -9.0  # minimum score that accepts any pose: a score less the penalty is above it
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,15 +55,15 @@ def likelihood_grids(
     reuse: LikelihoodGrids | None = None,
 ) -> LikelihoodGrids:  # fmt: skip
     """Compute square likelihood grids about their middles, (grids, 2), each from scans at poses in the grids' frame.
-
     ``half_width_m`` is the distance from the middle to each side. The search bounds blocks of up to 2^(levels - 1)
-    cells at once. ``reuse`` are grids of the same number, size and levels, whose memory is overwritten.
+    cells at once. ``reuse`` are grids of the same number, size and levels, whose memory is overwritten. Between
+    neighbouring beams on one wall points are filled in, so that grids do not depend on the number of beams.
     """
     from bayesmap.kernels.match.likelihood_grid import GridScans, render_grids
 
     cells = int(np.ceil(2.0 * half_width_m / resolution))
-    scan = np.concatenate([np.asarray(s, np.int32) for s in scans]) if len(scans) else np.zeros(0, np.int32)
-    poses = np.concatenate([np.reshape(p, (-1, 3)) for p in scan_poses]) if len(scans) else np.zeros((0, 3))
+    scan = np.concatenate([np.zeros(0, np.int32), *(np.asarray(indices, np.int32) for indices in scans)])
+    poses = np.concatenate([np.zeros((0, 3)), *(np.reshape(rows, (-1, 3)) for rows in scan_poses)])
     origins = np.asarray(centres, np.float64).reshape(-1, 2) - half_width_m
     grids = GridScans(
         origins, resolution, offsets_of(scans), scan, poses, stamp_of(resolution, sigma_m), spacing_m=sigma_m
@@ -77,18 +75,38 @@ def likelihood_grids(
 
 @dataclass(frozen=True)
 class Pull:
-    """The penalty in score for leaving the window's centre. At one standard deviation it is half of ``weight``."""
+    """The penalty in score for leaving the window's centre: weight (d^2 / sigma_m^2 + turn^2 / sigma_rad^2) / 2."""
 
     sigma_m: float
     sigma_rad: float
-    weight: float = 0.01
+    weight: float = 0.01  # twice the penalty at one standard deviation
+
+
+@dataclass(frozen=True, eq=False)
+class SearchWindows:
+    """The windows of poses, in the grids' frame, in which J jobs search."""
+
+    centres: Floats  # poses of the middles, (J, 3)
+    half_m: Floats | float  # half widths, metres: one number, (J,), or (J, 2) for x and y
+    half_rad: Floats | float  # half ranges of headings: one number or (J,); pi or more is the full circle
+    step_rad: float = np.radians(0.5)  # step between headings
+
+
+@dataclass(frozen=True)
+class ModeRule:
+    """The rule for several poses of one window: each is the best that is apart from all before it."""
+
+    max_modes: int = 1
+    min_score_ratio: float = 0.0  # score of a further pose, divided by the first pose's score
+    apart_m: float = 0.5  # poses are apart if they differ by more than this in x or in y,
+    apart_rad: float = np.radians(10.0)  # or by more than this in heading
 
 
 @dataclass(frozen=True, eq=False)
 class Matches:
     """The best poses of J jobs, up to M each, best first."""
 
-    scores: Floats  # scores of the poses, (J, M); -inf where no further pose has the least score
+    scores: Floats  # scores of the poses, (J, M); -inf where no further pose reaches the minimum score
     poses: Floats  # poses in the grids' frame, (J, M, 3); NaN where there is none
 
     @property
@@ -98,55 +116,49 @@ class Matches:
 
 
 def match(
-    grids: LikelihoodGrids, points: Sequence[Floats], centres: Floats, half_m: Floats | float,
-    half_rad: Floats | float, *, grid_of: Indices | None = None, step_rad: float = np.radians(0.5),
-    min_score: Floats | float = 0.0, pull: Pull | None = None, modes: int = 1, min_score_ratio: float = 0.0,
-    apart_m: float = 0.5, apart_rad: float = np.radians(10.0), threads_per_job: int = 1,
+    grids: LikelihoodGrids, points: Sequence[Floats], windows: SearchWindows, *, grid_of: Indices | None = None,
+    min_score: Floats | float = 0.0, pull: Pull | None = None, modes: ModeRule | None = None, threads_per_job: int = 1,
 ) -> Matches:  # fmt: skip
-    """Match points to grids, J jobs at once.
-
+    """Match points to grids, J jobs at once, and return the best poses of each job.
     ``points`` are the points of each job in the sensor's frame, (N, 2). ``grid_of`` is the grid of each job, (J,), by
-    default grid j for job j, or the only grid. The window of a job has its middle at a pose in the grids' frame,
-    ``centres`` (J, 3). It reaches ``half_m`` metres: one number, (J,), or (J, 2) for x and y. Headings differ by up to
-    ``half_rad``, one number or (J,), in steps of ``step_rad``; pi or more is the full circle. Scores must exceed
-    ``min_score``, a number or (J,): high values end searches early. ``pull`` is the penalty for leaving the centre.
-
-    Returns up to ``modes`` poses per job. Each further pose is the best that is apart from all before it, by more than
-    ``apart_m`` in x or in y, or ``apart_rad``, and that has at least ``min_score_ratio`` of the first pose's score. The
-    result does not depend on ``threads_per_job``, which share a job. Raises `BadInput` if a centre is not finite.
+    default grid j for job j, or the only grid. Scores must exceed ``min_score``, a number or (J,): high values end
+    searches early. ``pull`` is the penalty for leaving the centre. The result does not depend on ``threads_per_job``,
+    which share a job. Raises `BadInput` if a centre is not finite.
     """
     from bayesmap.kernels.match.branch_and_bound import Modes, Windows, search_grids
 
-    jobs = len(points)
-    centres = np.asarray(centres, np.float64).reshape(-1, 3)
+    jobs, step_rad, modes = len(points), windows.step_rad, ModeRule() if modes is None else modes
+    centres = np.asarray(windows.centres, np.float64).reshape(-1, 3)
     if not np.isfinite(centres).all():
         raise BadInput("match: a window's centre is not finite")
     if grid_of is None:
         grid_of = np.zeros(jobs, np.intp) if len(grids) == 1 else np.arange(jobs)
-    half = np.asarray(half_m, np.float64)
-    half = np.broadcast_to(half[:, None] if half.ndim == 1 else half, (jobs, 2))
+    half_m = np.asarray(windows.half_m, np.float64)
+    half_m = np.broadcast_to(half_m[:, None] if half_m.ndim == 1 else half_m, (jobs, 2))
     if jobs == 0:
-        return Matches(np.empty((0, modes)), np.empty((0, modes, 3)))
+        return Matches(np.empty((0, modes.max_modes)), np.empty((0, modes.max_modes, 3)))
     # List all angles of all jobs as rows, with the penalty of each angle and per cell of distance.
-    deviations = [_deviations(float(turn), step_rad) for turn in np.broadcast_to(np.asarray(half_rad), (jobs,))]
-    rows, off = offsets_of(deviations), np.concatenate(deviations)
-    angles = np.repeat(centres[:, 2], np.diff(rows)) + off
-    across, costs = 0.0, np.zeros(len(off))
+    half_rad = np.broadcast_to(np.asarray(windows.half_rad), (jobs,))
+    deviations = [_deviations(float(half_range), step_rad) for half_range in half_rad]
+    rows, off_rad = offsets_of(deviations), np.concatenate(deviations)
+    angles = np.repeat(centres[:, 2], np.diff(rows)) + off_rad
+    cell_cost, angle_costs = 0.0, np.zeros(len(off_rad))
     if pull is not None:
-        across = pull.weight * grids.resolution**2 / (2.0 * pull.sigma_m**2)
-        costs = pull.weight * off**2 / (2.0 * pull.sigma_rad**2)
-    # Search, and convert the best rows and shifts to poses.
-    cells = int(apart_m / grids.resolution + ROUNDING)
-    apart = (int(apart_rad / step_rad + ROUNDING), cells, cells)
-    windows = Windows(
-        points=np.concatenate([np.reshape(p, (-1, 2)) for p in points]), point_offsets=offsets_of(points),
+        cell_cost = pull.weight * grids.resolution**2 / (2.0 * pull.sigma_m**2)
+        angle_costs = pull.weight * off_rad**2 / (2.0 * pull.sigma_rad**2)
+    apart_cells = int(modes.apart_m / grids.resolution + ROUNDING)
+    apart = (int(modes.apart_rad / step_rad + ROUNDING), apart_cells, apart_cells)
+    rule = Modes(modes.max_modes, modes.min_score_ratio, apart)
+    on_device = Windows(
+        points=np.concatenate([np.reshape(xy, (-1, 2)) for xy in points]), point_offsets=offsets_of(points),
         grid=np.asarray(grid_of, np.int32), centres=np.ascontiguousarray(centres[:, :2]),
-        half_cells=np.round(half / grids.resolution).astype(np.int32), angles_rad=angles, angle_costs=costs,
+        half_cells=np.round(half_m / grids.resolution).astype(np.int32), angles_rad=angles, angle_costs=angle_costs,
         row_offsets=rows, min_scores=np.array(np.broadcast_to(np.asarray(min_score, np.float64), (jobs,))),
-        off_centre_costs=np.full(jobs, across),
+        off_centre_costs=np.full(jobs, cell_cost),
     )  # fmt: skip
-    scores, nodes = search_grids(grids, windows, Modes(modes, min_score_ratio, apart), threads_per_job, grids.threads)
-    poses = np.full((jobs, modes, 3), np.nan)
+    scores, nodes = search_grids(grids, on_device, rule, threads_per_job, grids.threads)
+    # Convert the best rows and shifts to poses.
+    poses = np.full((jobs, modes.max_modes, 3), np.nan)
     job, mode = np.nonzero(nodes[..., 0] >= 0)
     row, shift = nodes[job, mode, 0], nodes[job, mode, 1:]
     poses[job, mode, :2] = centres[job, :2] + shift * grids.resolution

@@ -1,4 +1,7 @@
-"""The odometry that a log states, and its factors between key scans; without odometry, the front end's factors."""
+"""Compute factors between key scans from the odometry that a log states; without odometry, from the front end.
+
+`StatedOdometry.first_factors` takes the noise that the front end learnt; `fit_errors` fits it to aligned key scans.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from bayesmap.poses.alignment import Alignment
-from bayesmap.poses.calibration import OdometryFit, fit_odometry, motion_variances, stated_at, stated_motions
+from bayesmap.poses.calibration import OdometryFit, compensate_lag, fit_odometry, motion_variances, stated_motions
 from bayesmap.poses.front_end import UNKNOWN_SIGMA, Track
 from bayesmap.poses.graph import Factors, PoseGaussian, relative_covariances
 from bayesmap.poses.log_checks import correct_late_odometry
@@ -18,7 +21,7 @@ from bayesmap.space.planar import Floats, between, chain_motions, compose, frame
 from bayesmap.space.scans import Scans
 
 FRONT_END_INFORMATION = np.diag(1.0 / np.array([0.1, 0.1, np.radians(3.0)]) ** 2)  # of links without odometry
-UNKNOWN_MOTION_INFORMATION = np.diag(1.0 / UNKNOWN_SIGMA**2)  # keeps the parts of a broken path from drifting away
+UNKNOWN_MOTION_INFORMATION = np.diag(1.0 / UNKNOWN_SIGMA**2)  # keeps the segments of a broken path from drifting away
 MEDIAN_MOTIONS = 7  # number of successive motions over which the median variance is computed
 
 
@@ -63,29 +66,32 @@ class StatedOdometry:
         self, gaussian: PoseGaussian, track: Track, fit: OdometryFit | None, factors: Factors
     ) -> PoseGaussian:
         """Return a Gaussian whose covariances hold the uncertainty of odometry's systematic error.
-
         This error is common to the whole path: where odometry alone knows the length of a corridor, all of the length
-        may be wrong by some per cent. The ``factors`` of odometry must be the last parts of ``gaussian``.
+        may be wrong by some per cent. The ``factors`` of odometry must be the last terms of ``gaussian``.
         """
         if fit is None:
             return gaussian
         changes = np.where(self._is_unknown(track)[:, None], 0.0, fit.shifts(factors.relative))
-        return replace(gaussian, by_odometry=gaussian.steps_by(changes))
+        return replace(gaussian, by_odometry=gaussian.steps_from_changes(changes))
 
     def _factors(
         self, track: Track, poses: Floats, slope: Floats, variances: Callable[[Floats], Floats], lag_s: float = 0.0
     ) -> Factors:
         """Return factors between key scans at poses (K, 3), corrected for systematic error and lag.
-
         Over an impossible motion or a break of the path, a weak link at the keys' present poses is used instead.
         ``variances`` computes the variances of x, y and yaw of motions from scan to scan, (S - 1, 3).
         """
+        from scipy.ndimage import median_filter
+
         motions = self.motions
         if lag_s != 0.0:
-            late = stated_at(self.poses, self.stamps_s, lag_s)
+            late = compensate_lag(self.poses, self.stamps_s, lag_s)
             motions = between(late[:-1], late[1:])
         corrected = wrap_yaw(motions + motions @ slope.T)
-        links = compose_factors(corrected, _raise_to_local_median(variances(motions)), track.keys)
+        # Raise variances to the local median: noise that shortens a motion must not lower its variance.
+        variance = variances(motions)
+        variance = np.maximum(variance, median_filter(variance, size=(MEDIAN_MOTIONS, 1), mode="nearest"))
+        links = compose_factors(corrected, np.asarray(variance), track.keys)
         return with_weak_links(links, poses, self._is_unknown(track))
 
     def _is_unknown(self, track: Track) -> Mask:
@@ -117,13 +123,6 @@ def with_weak_links(links: Factors, poses: Floats, is_unknown: Mask) -> Factors:
     return replace(links, relative=relative, information=information)
 
 
-def _raise_to_local_median(variances: Floats) -> Floats:
-    """Raise variances of motions, (N, 3), to the local median: noise that shortens a motion must not lower it."""
-    from scipy.ndimage import median_filter
-
-    return np.asarray(np.maximum(variances, median_filter(variances, size=(MEDIAN_MOTIONS, 1), mode="nearest")))
-
-
 def compose_factors(motions: Floats, variances: Floats, keys: Indices) -> Factors:
     """Return factors between successive keys, from motions between scans and their variances, (S - 1, 3) each."""
     relative, covariance = np.zeros((len(keys) - 1, 3)), np.zeros((len(keys) - 1, 3, 3))
@@ -133,10 +132,10 @@ def compose_factors(motions: Floats, variances: Floats, keys: Indices) -> Factor
         number = keys[:-1] + k
         active = np.nonzero(number < keys[1:])[0]
         motion, variance = motions[number[active]], variances[number[active]]
-        turn = rotation(relative[active, 2])
+        to_key = rotation(relative[active, 2])
         shift = frame_jacobians(relative[active, 2], motion)  # an earlier heading error shifts this motion's end
         covariance[active] = shift @ covariance[active] @ np.swapaxes(shift, 1, 2)
-        covariance[active] += (turn * variance[:, None, :]) @ np.swapaxes(turn, 1, 2)
+        covariance[active] += (to_key * variance[:, None, :]) @ np.swapaxes(to_key, 1, 2)
         relative[active] = compose(relative[active], motion)
     order = np.arange(len(keys) - 1)
     information = np.asarray(np.linalg.inv(covariance + np.eye(3) * 1e-9), np.float64)

@@ -1,6 +1,7 @@
-"""Priors of the poses: known, uncertain about the log's own, or odometry through a motion model.
+"""Priors of the poses of a log: known, uncertain, or odometry through a motion model.
 
-A prior is a value that users pass. With the poses of a log it becomes a law (`PosePrior.law`), which samplers use.
+A prior (`KnownPoses`, `UncertainPoses`, `Odometry`, `Motions`) is a value that users pass. With the poses that the log
+states it becomes a density over the poses of all scans, a `PoseLaw`, which samplers use. The laws follow the priors.
 """
 
 from __future__ import annotations
@@ -19,7 +20,6 @@ from bayesmap.space.planar import Floats, between, chain_motions, rotation, ways
 from bayesmap.space.scans import check_sigma_rad
 
 LOG_ROOT_TWO_PI = 0.5 * math.log(2 * math.pi)
-
 FREE_SIGMA = np.ones(3)  # standard deviations of a motion that odometry does not know, metres and radians
 
 
@@ -36,22 +36,17 @@ class PoseLaw(Protocol):
         """Return the precision of each pose given the others, in world axes, (S, 3, 3)."""
 
     def colours(self, n_scans: int) -> tuple[Indices, ...]:
-        """Return groups of the scans that may move. Scans of one group are independent given all others."""
+        """Return groups (colours) of the scans that may move. Scans of one group are independent given all others."""
 
     def sample(self, rng: np.random.Generator) -> Floats:
-        """Draw poses, (S, 3)."""
+        """Draw the poses of all scans, (S, 3)."""
 
 
 class PosePrior(ABC):
-    """The prior of the poses.
+    """A prior of the poses of a log."""
 
-    Attributes:
-        kind: name of the prior in descriptions.
-        unknown: True if the poses are to be inferred.
-    """
-
-    kind: ClassVar[str]
-    unknown: ClassVar[bool] = True
+    kind: ClassVar[str]  # name of the prior in descriptions
+    unknown: ClassVar[bool] = True  # True if the poses are to be inferred
 
     @abstractmethod
     def law(self, log_poses: Floats) -> PoseLaw:
@@ -64,19 +59,19 @@ class PosePrior(ABC):
 
 @dataclass(frozen=True)
 class KnownPoses(PosePrior):
-    """The poses are those of the log."""
+    """The prior that fixes the poses at those of the log."""
 
     kind = "known"
     unknown: ClassVar[bool] = False
 
     def law(self, log_poses: Floats) -> PoseLaw:
-        """Return a law under which nothing moves."""
-        return _Fixed(log_poses)
+        """Return a law under which no pose moves."""
+        return _FixedLaw(log_poses)
 
 
 @dataclass(frozen=True)
 class UncertainPoses(PosePrior):
-    """Each pose is normal about the log's, independently.
+    """The prior under which each pose is normal about the log's, independently.
 
     Attributes:
         sigma_m: standard deviation of x and of y, metres.
@@ -95,12 +90,12 @@ class UncertainPoses(PosePrior):
 
     def law(self, log_poses: Floats) -> PoseLaw:
         """Return independent normal distributions about the log's poses."""
-        return _Independent(log_poses, np.array([self.sigma_m, self.sigma_m, self.sigma_rad]))
+        return _IndependentLaw(log_poses, np.array([self.sigma_m, self.sigma_m, self.sigma_rad]))
 
 
 @dataclass(frozen=True)
 class Odometry(PosePrior):
-    """The log's poses are wheel odometry: each motion is normal about the stated one.
+    """The prior of a log whose poses are wheel odometry: each motion is normal about the stated one.
 
     In the frame of the earlier pose the motion from scan to scan has an error of zero mean, independent from motion to
     motion. Its standard deviations grow with the distance travelled and the angle turned, with the parameters of Thrun,
@@ -137,22 +132,22 @@ class Odometry(PosePrior):
     def law(self, log_poses: Floats) -> PoseLaw:
         """Return a Markov chain of poses whose motions are normal about the log's."""
         motions = between(log_poses[:-1], log_poses[1:])
-        return _Markov(log_poses[0], motions, self.sigmas(motions))
+        return _MarkovLaw(log_poses[0], motions, self.sigmas(motions))
 
     def sigmas(self, motions: Floats) -> Floats:
         """Return standard deviations of x, y and yaw of the error of each motion, (..., 3)."""
-        ways_m, turns_rad = ways_and_turns(motions)
-        xy = np.sqrt((self.m_per_m * ways_m) ** 2 + (self.m_per_rad * turns_rad) ** 2 + self.still_m**2)
-        yaw = np.sqrt((self.rad_per_m * ways_m) ** 2 + (self.rad_per_rad * turns_rad) ** 2 + self.still_rad**2)
+        lengths_m, turns_rad = ways_and_turns(motions)
+        xy = np.sqrt((self.m_per_m * lengths_m) ** 2 + (self.m_per_rad * turns_rad) ** 2 + self.still_m**2)
+        yaw = np.sqrt((self.rad_per_m * lengths_m) ** 2 + (self.rad_per_rad * turns_rad) ** 2 + self.still_rad**2)
         return np.stack([xy, xy, yaw], axis=-1)
 
 
 @dataclass(frozen=True, eq=False)
 class Motions(PosePrior):
-    """Each motion from scan to scan is normal about a given one, such as corrected odometry.
+    """The prior under which each motion from scan to scan is normal about a stated one, such as corrected odometry.
 
-    With probability ``p_slip`` the given motion does not depend on the true one: a wheel slipped, or the log repeats a
-    pose while the robot turns. Then it is normal about the given one with `FREE_SIGMA` deviations.
+    With probability ``p_slip`` the stated motion does not depend on the true one: a wheel slipped, or the log repeats a
+    pose while the robot turns. The true motion is then normal about the stated one with `FREE_SIGMA` deviations.
 
     Raises `BadInput` for shapes that do not fit, deviations that are not positive, or a probability outside [0, 1).
     """
@@ -160,7 +155,7 @@ class Motions(PosePrior):
     kind = "motions"
     relative: Floats  # each scan's pose in the frame of the one before, (S - 1, 3)
     sigmas: Floats  # standard deviations of their x, y and yaw, (S - 1, 3)
-    p_slip: float = 0.0  # probability that a motion has errors of the size of `FREE_SIGMA`
+    p_slip: float = 0.0  # probability of a slip
 
     def __post_init__(self) -> None:
         if not 0 <= self.p_slip < 1:
@@ -174,18 +169,20 @@ class Motions(PosePrior):
         """Return a Markov chain of poses from the log's first. Raises `BadInput` for another number of scans."""
         if len(log_poses) != len(self.relative) + 1:
             raise BadInput(f"Motions: {len(self.relative)} motions, but {len(log_poses)} scans")
-        return _Markov(log_poses[0], self.relative, self.sigmas, self.p_slip)
+        return _MarkovLaw(log_poses[0], self.relative, self.sigmas, self.p_slip)
 
     def describe(self) -> dict[str, object]:
         """Return the prior as plain JSON values; the motions by their checksum."""
         digest = hashlib.blake2b(self.relative.tobytes() + self.sigmas.tobytes(), digest_size=8)
-        about = {"kind": self.kind, "count": len(self.relative), "checksum": digest.hexdigest()}
-        return about | ({"p_slip": self.p_slip} if self.p_slip else {})
+        description = {"kind": self.kind, "count": len(self.relative), "checksum": digest.hexdigest()}
+        return description | ({"p_slip": self.p_slip} if self.p_slip else {})
 
 
 @dataclass(frozen=True, eq=False)
-class _Fixed:
-    poses: Floats
+class _FixedLaw:
+    """The law that holds all mass at one trajectory."""
+
+    poses: Floats  # (S, 3)
 
     def log_prob(self, poses: Floats) -> Floats:
         return np.where((poses == self.poses).all(axis=(-2, -1)), 0.0, -np.inf)
@@ -204,9 +201,11 @@ class _Fixed:
 
 
 @dataclass(frozen=True, eq=False)
-class _Independent:
-    mean: Floats
-    sigma: Floats
+class _IndependentLaw:
+    """The law of independent, normal poses."""
+
+    mean: Floats  # (S, 3)
+    sigma: Floats  # standard deviations of x, y and yaw, (3,)
 
     def _log_densities(self, poses: Floats) -> Floats:
         return _log_normal(wrap_yaw(poses - self.mean), self.sigma)
@@ -228,13 +227,15 @@ class _Independent:
 
 
 @dataclass(frozen=True, eq=False)
-class _Markov:
-    first: Floats
-    motions: Floats  # (S - 1, 3), from scan to scan in the earlier one's frame
+class _MarkovLaw:
+    """The law of a Markov chain of poses: normal motions, from a fixed first pose."""
+
+    first: Floats  # (3,)
+    motions: Floats  # mean motions from scan to scan, in the earlier one's frame, (S - 1, 3)
     sigmas: Floats  # standard deviations of their errors, (S - 1, 3)
     p_slip: float = 0.0  # probability that a motion has errors of the size of `FREE_SIGMA` instead
 
-    def _factors(self, before: Floats, after: Floats) -> Floats:
+    def _log_densities(self, before: Floats, after: Floats) -> Floats:
         """Return the log density of each motion, (..., S - 1)."""
         error = wrap_yaw(between(before, after) - self.motions)
         return np.logaddexp(*self._joint(error)) if self.p_slip else _log_normal(error, self.sigmas)
@@ -245,14 +246,14 @@ class _Markov:
         return no_slip + math.log1p(-self.p_slip), slip + math.log(self.p_slip)
 
     def log_prob(self, poses: Floats) -> Floats:
-        chain = self._factors(poses[..., :-1, :], poses[..., 1:, :]).sum(axis=-1)
+        chain = self._log_densities(poses[..., :-1, :], poses[..., 1:, :]).sum(axis=-1)
         return np.where((poses[..., 0, :] == self.first).all(axis=-1), chain, -np.inf)
 
     def log_change(self, poses: Floats, proposed: Floats) -> Floats:
-        present = self._factors(poses[..., :-1, :], poses[..., 1:, :])
+        present = self._log_densities(poses[..., :-1, :], poses[..., 1:, :])
         change = np.zeros(poses.shape[:-1])
-        change[..., 1:] += self._factors(poses[..., :-1, :], proposed[..., 1:, :]) - present
-        change[..., :-1] += self._factors(proposed[..., :-1, :], poses[..., 1:, :]) - present
+        change[..., 1:] += self._log_densities(poses[..., :-1, :], proposed[..., 1:, :]) - present
+        change[..., :-1] += self._log_densities(proposed[..., :-1, :], poses[..., 1:, :]) - present
         change[..., 0] = -np.inf
         return change
 
@@ -262,7 +263,7 @@ class _Markov:
             no_slip, slip = self._joint(wrap_yaw(motions - self.motions))
             p_slipped = np.exp(slip - np.logaddexp(no_slip, slip))[:, None]
             weights = (1.0 - p_slipped) * weights + p_slipped * np.maximum(self.sigmas, FREE_SIGMA) ** -2.0
-        # The error of a motion, in the earlier pose's frame, is e = R(-yaw) (p' - p) - motion.
+        # Add J^T W J of both poses. The error of a motion, in the earlier pose's frame, is R(-yaw) (p' - p) - motion.
         by_later = rotation(-poses[:-1, 2])
         by_earlier = -by_later
         by_earlier[:, 0, 2], by_earlier[:, 1, 2] = motions[:, 1], -motions[:, 0]
@@ -290,6 +291,6 @@ def _log_normal(error: Floats, sigma: Floats) -> Floats:
 
 
 def _check_positive(name: str, **values: float) -> None:
-    for which, value in values.items():
+    for field, value in values.items():
         if not (math.isfinite(value) and value > 0):
-            raise BadInput(f"{name}: {which} must be a positive number, got {value!r}")
+            raise BadInput(f"{name}: {field} must be a positive number, got {value!r}")

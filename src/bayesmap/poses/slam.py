@@ -1,4 +1,10 @@
-"""Inference of a trajectory with covariances from scans and raw odometry, in stages that are kept on disk."""
+"""Infer a trajectory with covariances from scans and raw odometry.
+
+`infer_trajectory` is the whole algorithm on one page: pose-graph SLAM in five stages. Match scans to earlier scans
+(`front_end`), close loops (`key_graph`), align the key scans with all others that see the same walls (`key_alignment`),
+calibrate odometry and laser (`calibration`), and place the scans between key scans (`alignment`). The first two stages
+are kept on disk (`StageCache`). `StageReport` calls the user's functions. More: docs/how/poses.md.
+"""
 
 from __future__ import annotations
 
@@ -16,43 +22,29 @@ from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.files import write_whole
+from bayesmap.poses import key_graph
 from bayesmap.poses.alignment import place_scans, point_error, with_point_error
 from bayesmap.poses.calibration import angle_step_ratio
 from bayesmap.poses.front_end import Track, grid_half_width, track_scans
-from bayesmap.poses.key_alignment import KeyAlignment, flag_unexplained
-from bayesmap.poses.key_graph import (
-    ClosedGraph,
-    WeighedGraph,
-    close_loops,
-    contradicted_links,
-    poses_between_keys,
-    unconfirmed_links,
-)
+from bayesmap.poses.key_alignment import KeyAlignment, OnRound, flag_unexplained
+from bayesmap.poses.key_graph import ClosedGraph, close_loops, find_alternatives, poses_between_keys
 from bayesmap.poses.log_checks import check_scans
 from bayesmap.poses.odometry_factors import StatedOdometry, stated_odometry
 from bayesmap.poses.scan_geometry import scan_geometry
-from bayesmap.poses.trajectory import (
-    NO_ALTERNATIVES,
-    Alternatives,
-    Calibration,
-    InferredTrajectory,
-    LoopClosures,
-    calibrated,
-)
+from bayesmap.poses.trajectory import Calibration, InferredTrajectory, LoopClosures, calibrated
 from bayesmap.space.arrays import Indices, nearest_index
-from bayesmap.space.planar import Floats, between, compose, wrap_yaw
+from bayesmap.space.planar import Floats, between, compose
 from bayesmap.space.scans import Scans
 from bayesmap.space.time_order import time_order
 
 Progress = Callable[[str, int, int], None]  # called as (stage, done, total)
 OnPoses = Callable[[str, Floats], None]  # called as (stage, poses of all scans)
-OnRound = Callable[[int, Floats], None]  # called as (rounds done, poses of a stage)
 Arrays = dict[str, NDArray[Any]]
-Value = TypeVar("Value")
+Stage = TypeVar("Stage")  # the result of a stage: a dataclass of arrays
 
-MAX_POSE_REPORTS = 60  # most reports of poses during the front end
+MAX_POSE_REPORTS = 60  # reports of poses during the front end
 CHECKPOINT_FORMAT = 4  # part of the name of a checkpoint; another number makes older checkpoints unused
-FARTHEST_M = 30.0  # hits beyond are not matched: there beams are half a metre apart and more
+MAX_HIT_M = 30.0  # hits beyond are not matched: there beams are half a metre apart and more
 ANGLE_TOLERANCE = 0.003  # relative error of the angle between beams that is not corrected: half a degree in 180
 
 
@@ -81,63 +73,65 @@ def infer_trajectory(
     Raises `BadInput` as `check_scans`.
     """
     # Sort the scans by time, and read the motions that odometry states from one to the next.
-    check_scans(scans, no_odometry)
-    order, scans = in_order_of_time(scans)
-    stages = Stages(checkpoint, _digest(scans, f"{CHECKPOINT_FORMAT} {no_odometry} {calibrate_angles} {seed}"))
+    check_scans(scans, no_odometry=no_odometry)
+    order, scans = sort_by_time(scans)
+    cache = StageCache(checkpoint, _digest(scans, f"{CHECKPOINT_FORMAT} {no_odometry} {calibrate_angles} {seed}"))
     report = StageReport(np.zeros(3) if no_odometry else scans.poses[0], on_progress, on_poses)
-    geometry = scan_geometry(scans, farthest_m=FARTHEST_M, device=device, threads=threads)
+    geometry = scan_geometry(scans, farthest_m=MAX_HIT_M, device=device, threads=threads)
     odometry = stated_odometry(scans, None if no_odometry else geometry)
 
     # Match every scan to earlier scans, and find motions that are stated the wrong way round.
-    stated = odometry.motions if odometry.used else None, odometry.stamps_s, odometry.impossible
-    track = stages.get("front-end", Track, lambda: track_scans(geometry, *stated, report.begin_front_end(odometry)))
+    motions = odometry.motions if odometry.used else None
+    callback = report.begin_front_end(odometry)
+    match_scans = partial(track_scans, geometry, motions, odometry.stamps_s, odometry.impossible, callback)
+    track = cache.get("front-end", Track, match_scans)
     odometry = odometry.reversed_at(track.is_reversed)
     keys = track.keys
 
     # Close loops between key scans.
-    closed = stages.get("loops", ClosedGraph, lambda: close_loops(geometry, track, report.begin(track, "loops", 3)))
+    closed = cache.get("loops", ClosedGraph, lambda: close_loops(geometry, track, report.begin(track, "loops", 3)))
 
     # Align key scans with all others that see the same walls.
-    alignment = KeyAlignment(geometry.select(keys), track, grid_half_width(geometry), report.begin)
+    aligner = KeyAlignment(geometry.select(keys), track, grid_half_width(geometry), report.begin)
     poses = closed.weighed.poses
-    first = alignment.align("aligned", poses, odometry.first_factors(track, poses), wide=True)
+    first = aligner.align("aligned", poses, odometry.first_factors(track, poses), coarse=True)
 
     # Calibrate laser and odometry, and align key scans once more.
-    poses, ratio = first.poses, 1.0
+    poses, pairs, ratio = first.poses, first.pairs, 1.0
+    key_scans = scans.select(keys)
     if calibrate_angles:
-        pairs = first.pairs.source, first.pairs.target
-        ratio = angle_step_ratio(scans.select(keys), poses, *pairs, farthest_m=FARTHEST_M, threads=threads)
+        ratio = angle_step_ratio(key_scans, poses, pairs.source, pairs.target, farthest_m=MAX_HIT_M, threads=threads)
     if abs(ratio - 1.0) <= ANGLE_TOLERANCE:
         ratio = 1.0
     else:
         # Stretching keeps the first beam's angle. Turn the pose back, so that the middle beam keeps its direction.
         poses = poses.copy()
-        poses[:, 2] -= 0.5 * (ratio - 1.0) * scans.select(keys).sweep_rad
-        geometry = scan_geometry(scans.stretched(ratio), farthest_m=FARTHEST_M, device=device, threads=threads)
-        alignment = replace(alignment, geometry=geometry.select(keys))
+        poses[:, 2] -= 0.5 * (ratio - 1.0) * key_scans.sweep_rad
+        geometry = scan_geometry(scans.stretched(ratio), farthest_m=MAX_HIT_M, device=device, threads=threads)
+        aligner = replace(aligner, geometry=geometry.select(keys))
     fit, factors = odometry.fit_errors(track, first)
-    second = alignment.align("aligned-again", poses, factors, wide=ratio != 1.0)
+    second = aligner.align("aligned-again", poses, factors, coarse=ratio != 1.0)
 
     # Match every key scan without itself, and move it where the others explain it better.
-    scored = alignment.improve(second, factors)
+    scored = aligner.improve(second, factors)
     if odometry.used:
-        scored = alignment.without_leaps(scored, factors)
+        scored = aligner.realign_over_leaps(scored, factors)
     final = scored.alignment
 
     # Place the other scans between the key scans.
-    start = poses_between_keys(track.poses, keys, final.poses, track.broken)
-    error = point_error(alignment.geometry, final)
+    start_poses = poses_between_keys(track.poses, keys, final.poses, track.broken)
+    error = point_error(aligner.geometry, final)
     report.progress("placing", 0, len(scans))
-    placed = place_scans(geometry, start, keys, final, error)
+    placed = place_scans(geometry, start_poses, keys, final, error)
     report.finish_round("placing", len(scans), len(scans), placed.poses)
 
     # Return poses, their uncertainty, and the doubtful steps.
-    leaps = contradicted_links(track, final.poses)
+    leaps = key_graph.contradicted_links(track, final.poses)
     if odometry.used:
-        leaps |= unconfirmed_links(geometry, track, factors, final.poses)
+        leaps |= key_graph.unconfirmed_links(geometry, track, factors, final.poses)
     gaussian = odometry.with_systematic_error(with_point_error(final, error), track, fit, factors)
     gaussian = replace(gaussian, poses=compose(report.origin, final.poses))
-    alternatives, elsewhere = alternatives_of(closed.weighed, keys, gaussian.poses)
+    alternatives, elsewhere = find_alternatives(closed.weighed, keys, gaussian.poses)
     explained = placed.explained.copy()
     explained[keys] = scored.scores
     noise = None if fit is None else fit.noise.as_odometry(odometry.motions)
@@ -153,53 +147,25 @@ def infer_trajectory(
     )  # fmt: skip
 
 
-def in_order_of_time(scans: Scans) -> tuple[Indices, Scans]:
-    """Sort scans by time. Returns the index in the log of each, (S,), and the sorted scans."""
+def sort_by_time(scans: Scans) -> tuple[Indices, Scans]:
+    """Sort scans by time. Returns the index in the log of each scan, (S,), and the sorted scans."""
     if scans.stamps_s is None:
         return np.arange(len(scans)), scans
     timed = time_order(scans.stamps_s)
     return timed.order, replace(scans.select(timed.order), stamps_s=timed.stamps_s)
 
 
-def alternatives_of(weighed: WeighedGraph, keys: Indices, poses: Floats) -> tuple[Alternatives, Floats | None]:
-    """Return the alternatives to the keys' poses, (K, 3), and the steps to them that `PoseGaussian.elsewhere` holds."""
-    if not len(weighed.probabilities):
-        return NO_ALTERNATIVES, None
-    steps = wrap_yaw(between(weighed.poses[None], weighed.alternatives))
-    first, last, probabilities = keys[weighed.first], keys[weighed.last], weighed.probabilities
-    elsewhere = steps * np.sqrt(probabilities)[:, None, None]
-    return Alternatives(first, last, probabilities, compose(poses[None], steps)), elsewhere
-
-
 def _digest(scans: Scans, settings: str) -> str:
     """Return the digest that names the checkpoints of these scans and settings."""
     digest = hashlib.sha256(f"{settings} {scans.max_range_m} {scans.min_range_m}".encode())
-    own = () if scans.own_angles_rad is None else (scans.own_angles_rad,)
-    for array in (scans.poses, scans.ranges_m, scans.angles_rad, scans.stamps_s, *own):
+    own_angles = () if scans.own_angles_rad is None else (scans.own_angles_rad,)
+    for array in (scans.poses, scans.ranges_m, scans.angles_rad, scans.stamps_s, *own_angles):
         digest.update(b"-" if array is None else np.ascontiguousarray(array).tobytes())
     return digest.hexdigest()[:16]
 
 
-def to_arrays(value: Any, name: str = "") -> Arrays:
-    """Return the arrays of a dataclass by name. Arrays of a dataclass inside it are named `outer.inner`."""
-    arrays: Arrays = {}
-    for field in fields(value):
-        inner, path = getattr(value, field.name), f"{name}{field.name}"
-        arrays |= to_arrays(inner, f"{path}.") if is_dataclass(inner) else {path: np.asarray(inner)}
-    return arrays
-
-
-def from_arrays(kind: type[Value], arrays: Arrays, name: str = "") -> Value:
-    """Return the dataclass that `to_arrays` took apart. Raises KeyError if an array is missing."""
-    values, types = {}, get_type_hints(kind)
-    for field in fields(kind):  # type: ignore[arg-type]
-        path, is_nested = f"{name}{field.name}", is_dataclass(types[field.name])
-        values[field.name] = from_arrays(types[field.name], arrays, f"{path}.") if is_nested else arrays[path]
-    return kind(**values)
-
-
-class Stages:
-    """Results of a computation's stages, each a dataclass of arrays, kept in a folder or nowhere."""
+class StageCache:
+    """A folder with the results of finished stages, each a dataclass of arrays. If it is None, nothing is kept."""
 
     def __init__(self, folder: str | os.PathLike[str] | None, digest: str) -> None:
         self._folder = None if folder is None else Path(folder)
@@ -210,7 +176,7 @@ class Stages:
             except OSError as error:
                 raise BadInput(f"{folder}: cannot hold checkpoints: {error.strerror or error}") from None
 
-    def get(self, name: str, kind: type[Value], compute: Callable[[], Value]) -> Value:
+    def get(self, name: str, kind: type[Stage], compute: Callable[[], Stage]) -> Stage:
         """Return a stage's result from the folder. If it is not there, compute it and write it there."""
         if self._folder is None:
             return compute()
@@ -227,9 +193,27 @@ class Stages:
         return result
 
 
+def to_arrays(value: Any, prefix: str = "") -> Arrays:
+    """Return the arrays of a dataclass by name. Arrays of a dataclass inside it are named `outer.inner`."""
+    arrays: Arrays = {}
+    for field in fields(value):
+        inner, path = getattr(value, field.name), f"{prefix}{field.name}"
+        arrays |= to_arrays(inner, f"{path}.") if is_dataclass(inner) else {path: np.asarray(inner)}
+    return arrays
+
+
+def from_arrays(kind: type[Stage], arrays: Arrays, prefix: str = "") -> Stage:
+    """Return the dataclass that `to_arrays` took apart. Raises KeyError if an array is missing."""
+    values, types = {}, get_type_hints(kind)
+    for field in fields(kind):  # type: ignore[arg-type]
+        path, is_nested = f"{prefix}{field.name}", is_dataclass(types[field.name])
+        values[field.name] = from_arrays(types[field.name], arrays, f"{path}.") if is_nested else arrays[path]
+    return kind(**values)
+
+
 @dataclass(frozen=True, eq=False)
 class StageReport:
-    """Reports progress, and poses of all scans in the map's frame, given poses in the frame of the first scan."""
+    """The caller of the user's functions. Poses are taken in the first scan's frame and reported in the map's frame."""
 
     origin: Floats  # the first scan's pose in the map, (3,)
     on_progress: Progress | None
@@ -265,9 +249,10 @@ class StageReport:
             self.progress("front end", done, count)
             if self.on_poses is not None and done >= next_report:
                 next_report = done + math.ceil(count / MAX_POSE_REPORTS)
+                # Scans that are not matched yet follow odometry from the last matched scan.
                 stated = odometry.poses[done - 1 :]
-                rest = between(stated[:1], stated[1:]) * (1.0 if odometry.used else 0.0)
-                known = np.concatenate([poses[:done], compose(poses[done - 1], rest)])
-                self.on_poses("front end", compose(self.origin, known))
+                motions = between(stated[:1], stated[1:]) * (1.0 if odometry.used else 0.0)
+                every_pose = np.concatenate([poses[:done], compose(poses[done - 1], motions)])
+                self.on_poses("front end", compose(self.origin, every_pose))
 
         return callback

@@ -1,4 +1,7 @@
-"""The inferred trajectory: poses of all scans, their covariances and draws, and what is doubtful."""
+"""`InferredTrajectory`, the result of `bayesmap.poses.slam`: poses, covariances and draws, and doubtful places.
+
+Key scans have a joint distribution. Each other scan moves with the nearest key, plus an uncertainty of its own.
+"""
 
 from __future__ import annotations
 
@@ -16,10 +19,10 @@ from bayesmap.space.scans import Scans, path_words
 
 @dataclass(frozen=True, eq=False)
 class LoopClosures:
-    """Places that the robot came back to."""
+    """M pairs of scans that saw one place, to which the robot came back."""
 
-    first: Indices  # indices of the scans, (M,)
-    second: Indices
+    first: Indices  # index of the first scan of each pair, (M,)
+    second: Indices  # index of the second scan, (M,)
     relative: Floats  # the second's pose in the first's frame, as matched, (M, 3)
     residuals: Floats  # difference of the final poses from ``relative``, x, y, yaw, (M, 3)
     weights: Floats  # robust weight of each, from 0 to 1, (M,)
@@ -30,12 +33,12 @@ class LoopClosures:
 
 @dataclass(frozen=True, eq=False)
 class Alternatives:
-    """Other possible trajectories. In each, one stretch has another pose, for a visit that may be of another place."""
+    """A other possible trajectories. In each, one stretch has other poses, since a visit may be of another place."""
 
     first: Indices  # scan at the beginning of the stretch, (A,)
     last: Indices  # scan at its end, (A,)
-    probabilities: Floats  # that the alternative is right and not the trajectory, (A,)
-    poses: Floats  # of the key scans in each alternative, (A, K, 3)
+    probabilities: Floats  # probability that the alternative is right and not the trajectory, (A,)
+    poses: Floats  # poses of the key scans in each alternative, (A, K, 3)
 
     def __len__(self) -> int:
         return len(self.first)
@@ -62,8 +65,7 @@ def calibrated(scans: Scans, angle_step_ratio: float) -> Scans:
 
 def with_arcs(scale: Floats, dof: float) -> Floats:
     """Return scale matrices of relative poses, (N, 3, 3), with the second-order effect of heading errors added.
-
-    An error phi of the heading turns the way after it: its end moves by phi times the lever across, and by -phi^2 / 2
+    An error phi of the heading turns the path after it: its end moves by phi times the lever across, and by -phi^2 / 2
     times the lever along. The lever is the covariance of position and heading over the variance of the heading, turned
     by a right angle. The mean of phi^4 follows from Student's t with ``dof`` degrees of freedom, over 4.
     """
@@ -73,9 +75,7 @@ def with_arcs(scale: Floats, dof: float) -> Floats:
 
 @dataclass(frozen=True, eq=False)
 class InferredTrajectory:
-    """Poses of all scans with their uncertainty. The poses of key scans follow Student's t with ``gaussian.dof``
-    degrees of freedom. Scans between them move with the key scan nearest in time, plus an uncertainty of their own.
-    """
+    """Poses of all scans with their uncertainty. Poses of key scans follow Student's t."""
 
     poses: Floats  # poses of the laser in the map's frame, in which the first scan is where odometry stated it, (S, 3)
     stamps_s: Floats | None  # times of the scans, (S,), ascending
@@ -84,7 +84,7 @@ class InferredTrajectory:
     nearest_key: Indices  # position among the keys of each scan's nearest key, (S,)
     own_covariance: Floats  # scale matrix of Student's t of each scan about its key, own frame, (S, 3, 3); keys have 0
     explained: Floats  # share of each scan's points that other scans explain, from 0 to 1, (S,)
-    flagged: Mask  # mask of scans that stay badly explained, (S,): one in two was off in simulated logs
+    flagged: Mask  # mask of scans that stay badly explained, (S,); half of them were misplaced in simulated logs
     breaks: Indices  # indices of scans before which neither odometry nor the laser confirms the motion
     closures: LoopClosures
     calibration: Calibration
@@ -114,16 +114,17 @@ class InferredTrajectory:
 
     def relative_covariances(self, first: Indices, second: Indices) -> Floats:
         """Return scale matrices of Student's t of relative poses, in the first's frame, (N, 3, 3)."""
+        # Take the covariance of the nearest keys a and b, and the poses of the scans in the frames of their keys.
         first, second = np.asarray(first, np.intp), np.asarray(second, np.intp)
         a, b = self.nearest_key[first], self.nearest_key[second]
         key_covariances = self.gaussian.relative_covariances(a, b)
         in_a = between(self.gaussian.poses[a], self.poses[first])
         in_b = between(self.gaussian.poses[b], self.poses[second])
-        # between(first, second) = in_a^-1 * between(a, b) * in_b
-        turn = np.swapaxes(rotation(in_a[:, 2]), 1, 2)
+        # Chain rule: between(first, second) = in_a^-1 * between(a, b) * in_b.
+        to_first = np.swapaxes(rotation(in_a[:, 2]), 1, 2)
         yaw = between(self.gaussian.poses[a], self.gaussian.poses[b])[:, 2]
-        chain = turn @ frame_jacobians(yaw, in_b)
-        result = chain @ key_covariances @ np.swapaxes(chain, 1, 2)
+        by_keys = to_first @ frame_jacobians(yaw, in_b)
+        result = by_keys @ key_covariances @ np.swapaxes(by_keys, 1, 2)
         by_first, by_second = between_jacobians(between(self.poses[first], self.poses[second]))
         for jacobian, scans in ((by_first, first), (by_second, second)):
             result += jacobian @ self.own_covariance[scans] @ np.swapaxes(jacobian, 1, 2)
@@ -132,8 +133,8 @@ class InferredTrajectory:
     def covariances(self) -> Floats:
         """Return the covariance of each pose given the first, in the world's axes, (S, 3, 3)."""
         relative = self.relative_covariances(np.zeros(len(self), np.intp), np.arange(len(self)))
-        turn, dof = rotation(self.poses[0, 2]), self.gaussian.dof
-        return np.asarray(dof / (dof - 2.0) * turn @ relative @ turn.T)
+        to_world, dof = rotation(self.poses[0, 2]), self.gaussian.dof
+        return np.asarray(dof / (dof - 2.0) * to_world @ relative @ to_world.T)
 
     def draw(self, count: int, seed: int, first_draw: int = 0) -> Floats:
         """Draw trajectories of all scans, (count, S, 3). Draw n depends on (seed, n) alone."""
@@ -144,6 +145,6 @@ class InferredTrajectory:
         for n in range(count):
             rng = np.random.Generator(np.random.Philox(key=[seed & (2**64 - 1), first_draw + n + (1 << 32)]))
             stretch = np.sqrt(self.gaussian.dof / rng.chisquare(self.gaussian.dof, (len(self), 1)))
-            own = stretch * np.einsum("sij,sj->si", root, rng.standard_normal((len(self), 3)))
-            draws[n] = compose(compose(keys[n][self.nearest_key], relative), own)
+            own_steps = stretch * np.einsum("sij,sj->si", root, rng.standard_normal((len(self), 3)))
+            draws[n] = compose(compose(keys[n][self.nearest_key], relative), own_steps)
         return draws
