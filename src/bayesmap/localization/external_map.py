@@ -85,6 +85,7 @@ def external_map(
     device: str = "cpu",
 ) -> KnownMap:  # fmt: skip
     """Return a map of another program, ready to locate scans in.
+
     ``occupancy`` is the probability that each cell is occupied, NaN where unknown, (nx, ny), as `read_map` returns it.
     The law is by default the assumed one. ``scans`` and ``beam_weight`` are as in `KnownMap.of_draws`. Raises
     `BadInput` if no cell is free, or none is occupied.

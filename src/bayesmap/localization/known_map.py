@@ -89,6 +89,7 @@ class KnownMap:
     @classmethod
     def of_run(cls, run: Any, *, draws: int = DRAWS, beam_weight: float | None = None, device: str = "cpu") -> KnownMap:
         """Return the prepared map of a run that `bayesmap.infer` or `bayesmap.load` returned.
+
         It uses ``draws`` draws, spread over chains, or all if there are fewer. ``beam_weight`` is the weight of a beam,
         as a share of an independent reading; None for the weight by `INDEPENDENT_BEAMS`. Raises `BadInput` if the run
         has no draws, or a sensor model of the user's own.
@@ -110,6 +111,7 @@ class KnownMap:
         observed: Mask, hit_depth: float = 0.5, beam_weight: float | None = None, device: str = "cpu",
     ) -> KnownMap:  # fmt: skip
         """Return the prepared map of draws: stop probabilities (D, N), or surfaces (D, N, 6), of all N cells.
+
         ``scans`` are typical scans, for the law of readings anywhere. ``occupancy`` is the mean probability that each
         cell stops a beam, and ``observed`` the mask of known cells, (nx, ny). Other arguments are as in `of_run`.
         Raises `BadInput` if no cell is free, or for a sensor model of the user's own.
@@ -182,6 +184,7 @@ class KnownMap:
         draws: int | None = None, weight: float | None = None, *, in_turn: bool = False,
     ) -> Floats:  # fmt: skip
         """Compute a scan's log-likelihood at each pose, averaged over draws of the map, with weighted beams, (P,).
+
         It is log mean_d exp(w sum_b log p(z_b | map d, pose)), from every ``thin``-th beam and the first ``draws``
         draws, or all. The weight w is scaled up if beams are left out; None is the map's own. With ``in_turn`` each
         pose uses a single draw, in turn: importance weights are then right on average over the draws of the map.

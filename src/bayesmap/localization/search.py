@@ -160,6 +160,7 @@ def likelihood_field(
     occupancy: Floats, grid: Grid, free: Mask, unknown: Mask | None = None, p_unknown: float = 0.0
 ) -> Field:
     """Compute the likelihood field of a map from the probability that each cell stops a beam, 0 where unknown.
+
     Near walls a value is the largest s exp(-d^2 / (2 sigma^2)) over cells at distance d, where s is a cell's stop
     probability as a share of `WALL_STOP`, at most 1 (Thrun, Burgard and Fox 2005, section 6.4). Masks of cells are
     (nx, ny). Unknown cells stop a beam with probability ``p_unknown``: otherwise a pose at which every beam meets

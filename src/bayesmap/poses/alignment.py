@@ -213,6 +213,7 @@ class PointError:
 
 def point_error(geometry: ScanGeometry, aligned: Alignment) -> PointError:
     """Measure the error of points, and the response of the forces, on the pairs of aligned scans.
+
     A shift changes the forces psi = w e of residuals e by only a share k < 1 of the Gauss-Newton value, because the
     cost is robust and points are paired anew. The variance of an M-estimator is E[psi^2] / (k E[w])^2 per point (Huber
     1967). Each of the two points of a pair has half of it.
@@ -314,6 +315,7 @@ def _information(
     error: PointError,
 ) -> tuple[Floats, Floats]:  # fmt: skip
     """Return the information of M pairs' points about the source scan's pose, in its frame, (M, 3, 3).
+
     Pairs are sorted by source, and ``relative`` are poses of sources in the frames of targets, (M, 3). A beam that is
     matched with c scans has its own error once and the mean error of c others. Its variance is sigma^2 (1 + 1 / c), so
     that it counts 1 / (c + 1) in each pair. The second result is the share of each scan's points that any of its pairs

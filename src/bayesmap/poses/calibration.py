@@ -145,6 +145,7 @@ def fit_noise(
     errors: Floats, features: Floats, known_variance: Floats, expected_variance: Floats | None = None
 ) -> MotionNoise:
     """Fit variance rates to errors of M motions by maximum likelihood under a wide prior.
+
     The cost of an error e of variance v is log v / 2 + 1.27 (nu + 1) / 2 log(1 + e^2 / (nu v)): Student's t with
     nu = 4, made consistent for the normal distribution and robust against slips.
     The features of a motion are its path length, its total turn (of absolute values) and its number of scans, (M, 3).
@@ -245,6 +246,7 @@ def fit_odometry(
     expected_variance: Floats | None = None,
 ) -> OdometryFit:  # fmt: skip
     """Fit B, the lag and the noise to poses of key scans, (K, 3). The keys, (K,), ascend.
+
     ``stated`` are odometry's poses of all scans, (S, 3). Without stamps, (S,), the lag is 0; scans with equal stamps do
     not affect it. ``laser_variance`` is the variance of the keys' motions, (K - 1, 3): large along corridors.
     ``expected_variance`` is the variance of odometry's errors before the fit, (K - 1, 3); by default a usual robot's.
@@ -296,6 +298,7 @@ def angle_step_ratio(
     farthest_m: float | None = None, threads: int | None = None,
 ) -> float:  # fmt: skip
     """Estimate the angle between beams, divided by the stated one, by the lowest residual of pairs of scans.
+
     ``source`` and ``target`` are pairs of overlapping scans at poses (S, 3). Only pairs turned against each other are
     compared, since stretched scans that look one way fit each other. Hits beyond ``farthest_m`` are left out. The ratio
     is 1 without such pairs or a significant estimate, or if beams go full circle: their number then says the angle.

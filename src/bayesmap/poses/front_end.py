@@ -67,6 +67,7 @@ def track_scans(
     impossible: Mask | None = None, on_progress: Callable[[int, Floats], None] | None = None,
 ) -> Track:  # fmt: skip
     """Match every scan to earlier key scans.
+
     ``motions`` are odometry's from scan to scan in the earlier one's frame, (S - 1, 3); if None, each is predicted from
     the one before by the stamps, (S,). Motions of the mask ``impossible``, (S - 1,), are taken to be unknown.
     ``on_progress`` is called with the number of matched scans and the poses, (S, 3), zero for the other scans. The

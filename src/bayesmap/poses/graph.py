@@ -145,6 +145,7 @@ def optimise(
     poses: Floats, chain: Factors, loops: Factors, *, graduated: bool = True, steps: int = 40, tolerance: float = 1e-4
 ) -> tuple[Floats, Floats]:
     """Fit poses to a chain of factors and loops, some perhaps wrong. Returns poses (N, 3), and loops' weights, 0 to 1.
+
     Loops have Geman and McClure's cost, with weights w = (mu c^2 / (r^2 + mu c^2))^2. If ``graduated``, the cost begins
     nearly convex, and mu falls to 1 (graduated non-convexity, Yang, Antonante, Tzoumas and Carlone 2020). Otherwise mu
     is 1, and the fit ends at the nearest minimum.
@@ -238,6 +239,7 @@ class Precision:
 
 def filled_pattern(matrix: Any, order: NDArray[np.integer]) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
     """Return the pattern of the factor L of a permuted symmetric matrix: column offsets, and ascending rows.
+
     Column j has the matrix's rows below the diagonal. It also has the rows of each earlier column whose first row below
     the diagonal is j (George and Liu 1981, section 5.2). The factor's own entries are not enough, since some happen to
     be zero. The matrix, (n, n), is in compressed columns. ``order`` is the new index of each row and column, (n,).
@@ -368,6 +370,7 @@ class PoseGaussian:
 
     def draw(self, count: int, seed: int, first_draw: int = 0) -> Floats:
         """Draw whole trajectories, (count, K, 3), from the multivariate t.
+
         Draw number n depends on (seed, n) alone. It solves H x = sum_k J_k^T C_k e_k, where C_k C_k^T is the curvature
         of term k and e_k is standard normal, so that x has covariance H^-1. A normal sum of the bends, with (dof - 2) /
         dof of their covariance, is added, and the sum is stretched by the root of dof over a chi-squared number.

@@ -261,6 +261,7 @@ def _doubtful_visits(
 
 def twist_squares(expected: Floats, measured: Floats, covariance: Floats) -> Floats:
     """Compute squared Mahalanobis distances between measured and expected relative poses, (M, 3), as twists, (M,).
+
     If a heading error arose half-way, later poses lie on an arc, of which a straight ellipsoid covers little. As a
     twist, a turn about any point is a straight line (Barfoot and Furgale 2014, IEEE Transactions on Robotics 30(3)).
     ``covariance`` is that of the expected relative poses, x, y and yaw in the first's frame, (M, 3, 3).

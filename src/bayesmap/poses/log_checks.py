@@ -90,6 +90,7 @@ def _equal_runs(as_before: Mask) -> list[tuple[int, int]]:
 
 def correct_late_odometry(scans: Scans, geometry: ScanGeometry) -> Floats:
     """Return the stated poses of S scans in the order of time, (S, 3), with late odometry corrected.
+
     A busy robot writes the last known pose several times, and then the whole motion at once. This motion is spread
     evenly in time over the repeated poses. A robot that stands still before it drives off writes equal poses, too. So
     the motion is spread only if the next scan fits clearly better after the first of the repeated poses than the last.
@@ -161,6 +162,7 @@ DOUBLED = "at these poses the same walls stand in several places"  # in words
 
 def agreement(scans: Scans) -> float | None:
     """Compute the agreement of all scans at their poses, relative to that of neighbours: about 0.9 for right poses.
+
     With raw odometry, one wall appears at several positions, and beams pass through it. In a cell with h hits and p
     passes a beam stops with probability h / (h + p). The mean over all hits is divided by that within windows of
     `WINDOW_SCANS` scans. Measured: 0.87 with corrected poses, 0.41 to 0.71 with raw odometry (Intel, ACES, Duke,

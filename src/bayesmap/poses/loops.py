@@ -247,6 +247,7 @@ def match_submaps(
     half_rad: Floats, half_width_m: float, min_score: float, fineness: Fineness = FINE,
 ) -> Closures:  # fmt: skip
     """Match the submaps of M pairs of key scans, and return the closures that both ends confirm.
+
     The first keys ascend. Submaps do not reach over breaks of the path. ``centres`` are the middles of the windows for
     the second's pose in the first's frame, (M, 3), and ``half_m`` and ``half_rad`` half their widths and ranges of
     angles, (M,). ``half_width_m`` is the half width of submaps' grids.

@@ -55,6 +55,7 @@ def likelihood_grids(
     reuse: LikelihoodGrids | None = None,
 ) -> LikelihoodGrids:  # fmt: skip
     """Compute square likelihood grids about their middles, (grids, 2), each from scans at poses in the grids' frame.
+
     ``half_width_m`` is the distance from the middle to each side. The search bounds blocks of up to 2^(levels - 1)
     cells at once. ``reuse`` are grids of the same number, size and levels, whose memory is overwritten. Between
     neighbouring beams on one wall points are filled in, so that grids do not depend on the number of beams.
@@ -120,6 +121,7 @@ def match(
     min_score: Floats | float = 0.0, pull: Pull | None = None, modes: ModeRule | None = None, threads_per_job: int = 1,
 ) -> Matches:  # fmt: skip
     """Match points to grids, J jobs at once, and return the best poses of each job.
+
     ``points`` are the points of each job in the sensor's frame, (N, 2). ``grid_of`` is the grid of each job, (J,), by
     default grid j for job j, or the only grid. Scores must exceed ``min_score``, a number or (J,): high values end
     searches early. ``pull`` is the penalty for leaving the centre. The result does not depend on ``threads_per_job``,

@@ -167,6 +167,7 @@ def merge_beams(
     ranges_m: Floats, angles_rad: Floats, nearest_m: float, farthest_m: float, spacing_rad: float = MERGED_RAD
 ) -> tuple[Floats, Floats, Floats]:
     """Merge groups of neighbouring beams whose spacing is at most half of ``spacing_rad``.
+
     A group's point lies at the mean angle of the readings on one surface, at their harmonic mean: inverse ranges of a
     straight wall are linear in small angles. Readings on other surfaces than the median reading's are left out, and
     beams after the last whole group. Readings, (S, B), are valid from ``nearest_m`` to ``farthest_m``. Angles of the
@@ -197,6 +198,7 @@ def merge_beams(
 
 def range_noise_m(ranges_m: Floats, step_rad: float) -> float:
     """Estimate the standard deviation of ranges (S, B) in the order of angles, between `MIN_NOISE_M` and `MAX_NOISE_M`.
+
     Along a straight wall the inverse ranges of three neighbouring beams obey 1/r_1 + 1/r_3 = 2 cos(step) / r_2. The
     residual of this equation, times r_2^2, has six times the variance of a range. Its median absolute value is robust
     against corners and edges, which are few.

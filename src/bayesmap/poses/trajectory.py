@@ -65,6 +65,7 @@ def calibrated(scans: Scans, angle_step_ratio: float) -> Scans:
 
 def with_arcs(scale: Floats, dof: float) -> Floats:
     """Return scale matrices of relative poses, (N, 3, 3), with the second-order effect of heading errors added.
+
     An error phi of the heading turns the path after it: its end moves by phi times the lever across, and by -phi^2 / 2
     times the lever along. The lever is the covariance of position and heading over the variance of the heading, turned
     by a right angle. The mean of phi^4 follows from Student's t with ``dof`` degrees of freedom, over 4.
