@@ -147,6 +147,7 @@ class PoseBelief:
 
     def probability_in(self, area: Floats) -> float:
         """Compute the probability that the robot is on the map and in an area.
+
         The area is a polygon of corners in order, (K, 2), metres, or (x_min, x_max, y_min, y_max). Raises `BadInput`
         for anything else.
         """
@@ -358,6 +359,7 @@ class Population:
 
 def student_draws(count: int, rng: np.random.Generator) -> Floats:
     """Draw from the standard Student distribution in three dimensions, evenly spread, (N, 3).
+
     The draws are points of a lattice (Roberts 2018) with a random shift (Cranley and Patterson 1976). So each point has
     the law of a single draw.
     """

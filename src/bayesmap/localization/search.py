@@ -31,6 +31,7 @@ MAX_VALUE = 255  # value of a fine cell on a wall
 @dataclass(frozen=True, eq=False)
 class Field:
     """A likelihood field over a grid.
+
     A value v of ``fine``, as a share of 255, stands for a likelihood of an end point, relative to one on a wall, of
     `MIN_LIKELIHOOD`^(1 - v).
     """
@@ -222,6 +223,7 @@ def endpoint_field(
     states: NDArray[np.float32], grid: Grid, noise_m: float, unknown: Mask, p_unknown: float
 ) -> EndpointField:
     """Compute the field of the draws of a map, as `KnownMap.of_draws` takes them.
+
     Each surface has its normal density, widened by the noise of a reading, ``noise_m``, and scaled to a peak of 1.
     Cells of the mask ``unknown`` stop a beam with probability ``p_unknown``. Objects in the way of a beam are left out.
     """

@@ -136,6 +136,7 @@ def match_without_itself(
     search: bool = True, before: LeaveOneOut | None = None, changed: Mask | None = None,
 ) -> LeaveOneOut:  # fmt: skip
     """Match each of S scans at poses (S, 3) to its partners' likelihood grid.
+
     Scans with a score below ``poor_score`` are searched for in the wide window, too. Without ``search`` the poses are
     only scored. Scans outside the mask ``changed``, (S,), keep the scores of an earlier result ``before``.
     """

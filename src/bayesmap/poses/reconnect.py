@@ -55,6 +55,7 @@ class Merge:
 
 def reconnect_segments(path: KeyPath, half_width_m: float) -> tuple[Floats, Mask]:
     """Merge the segments of a path of K key scans whose poses are right within each segment.
+
     Returns the poses with every merged segment moved, (K, 3), and a mask of the segments that are joined to an earlier
     segment, (P,). Segment 0 counts as joined. ``half_width_m`` is the half width of submaps' grids.
     """
