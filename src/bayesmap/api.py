@@ -239,7 +239,7 @@ class Inference:
         need_value("infer", "where", where, Where)
         prior, poses = laws.completed()
         # Choose the method, and make the model.
-        method_name, method = methods.method_of(method, prior.methods, type(prior).__name__)
+        method_name, method = methods.resolve_method(method, prior.methods, type(prior).__name__)
         start_poses = getattr(method, "start_poses", None)
         if start_poses is not None and np.shape(start_poses)[1:] != scans.poses.shape:
             raise BadInput(f"infer: start_poses has shape {np.shape(start_poses)}, expected (chains, {len(scans)}, 3)")
@@ -285,10 +285,10 @@ class Inference:
         settings["threads_used"] = self._threads_used()
         # Methods without chains: draw independent maps.
         device, threads = self.where.device, self.where.threads
-        if self.sampler_name in methods.WITHOUT_CHAINS:
+        if self.sampler_name in methods.INDEPENDENT_SAMPLERS:
             problem = trace_walls(model, device, threads)
             seconds["trace"] = time.perf_counter() - began - seconds["fit"]
-            draws = methods.WITHOUT_CHAINS[self.sampler_name](problem, self.request, watch)
+            draws = methods.INDEPENDENT_SAMPLERS[self.sampler_name](problem, self.request, watch)
             seconds["total"] = clock.elapsed_s()
             return Run(posterior_of_draws(model, draws, problem.n_incidences, settings, seconds))
 
@@ -331,7 +331,7 @@ class Inference:
             model = replace(model, sensor=fit_sensor(model, device, seed=seed, threads=threads, watch=watch))
             settings["fitted"] = {"sensor": describe(model.sensor)}
         if model.cells.is_incomplete:  # the coupling of walls
-            walls = methods.sampler_on_walls(self.sampler_name)
+            walls = methods.make_wall_sampler(self.sampler_name)
             prior = fit_coupling_to_scans(model, walls, device, seed=seed, threads=threads, watch=watch)
             model = replace(model, cells=prior)
             settings["fitted"] = {**settings.get("fitted", {}), "prior": prior.describe()}
@@ -358,8 +358,8 @@ class Inference:
         """Return the sampler of the chains."""
         method = cast(Gibbs, self.method)
         if not self.model.poses.unknown:
-            return methods.sampler_of(self.sampler_name, self.model.grid, method, warmup)
-        sampler = methods.sampler_of(self.sampler_name, self.model.grid, method)
+            return methods.make_sampler(self.sampler_name, self.model.grid, method, warmup)
+        sampler = methods.make_sampler(self.sampler_name, self.model.grid, method)
         return WithPoses(cast(MovableSampler, sampler), warmup, method.start_poses)
 
     def _posterior_to_resume(self, run: Run | None, settings: dict[str, Any]) -> Posterior | None:
@@ -379,7 +379,7 @@ class Inference:
         """Return everything that determines the draws, as JSON values."""
         request, plan = self.request, self.plan
         return {
-            "method": self.method_name, **methods.options_of(self.sampler_name, self.model.grid, self.method),
+            "method": self.method_name, **methods.sampler_options(self.sampler_name, self.model.grid, self.method),
             "chains": request.chains, "warmup": plan.warmup, "draws": plan.draws, "thin": plan.thin,
             "precision": plan.precision, "seed": request.seed, "particles": request.particles, "rounds": request.rounds,
             "hit_depth": self.model.hit_depth, "prior": self.model.cells.describe(),

@@ -33,7 +33,7 @@ from bayesmap.space.scans import Scans
 
 BEAMS_AT_ONCE = 8192  # number of beams that are traced together, which limits the memory
 
-POSES = ArraySpec("poses", ("scan", "pose"), "float64", what="x, y in metres and yaw in radians, in the world frame")
+POSES = ArraySpec("poses", ("scan", "pose"), "float64", meaning="x, y in metres and yaw in radians, in the world frame")
 """The array of poses in a draw, if poses are unknown."""
 
 

@@ -75,7 +75,7 @@ def test_the_burn_in_is_left_out_of_mean_diagnostics_and_saved_runs(burn_in, mod
     assert header["ess"] == pytest.approx(bulk_ess(found.log_joint()[:, first:]))
     if mode == "run":
         saved = heard.saved_run(tmp_path)
-        touched = found.problem.touched()  # other cells show the prior mean, to which the mean of draws converges
+        touched = found.problem.touched_map()  # other cells show the prior mean, to which the mean of draws converges
         np.testing.assert_allclose(buffers["p"][touched], 255 * saved.occupancy[touched], atol=0.5001)
         assert (saved.posterior.settings["warmup"], saved.posterior.warmup_log_joint.shape[1]) == (first, first)
         assert np.array_equal(saved.log_joint, found.log_joint()[:, first:])
@@ -92,7 +92,7 @@ def test_a_run_is_that_of_the_library(method):
     )  # fmt: skip
     assert header["draws"] == {"chains": 2, "count": 40}
     assert header["burned"] == 4  # a tenth is left out of the mean
-    touched = heard.engine._result.estimate.problem.touched()
+    touched = heard.engine._result.estimate.problem.touched_map()
     np.testing.assert_allclose(buffers["p"][touched], 255 * run.draws[:, 4:].mean(axis=(0, 1))[touched], atol=0.5001)
     assert (buffers["p"][~touched] == 64).all()  # cells that no beam touches follow the prior
     for chain, draw in ((0, 0), (1, 39), (0, 17)):

@@ -235,7 +235,7 @@ def test_surfaces_of_a_log_are_counted_first_then_shown_by_the_draws_of_the_chai
     maps = []
     for found, info in pilot_sweeps(problem, document.seed, 7, keep=Keep(every=1)):
         maps.append(found.prior.mean_map(Draws(model.grid, prior.arrays, info.draws, problem.coordinates)))
-    touched = problem.touched()
+    touched = problem.touched_map()
     for k in (1, 2, 7):
         mean = np.mean(maps[k // 2 : k], axis=0)[touched]
         np.testing.assert_allclose(pilots[k - 1][1]["p"][touched], 255 * mean, atol=0.6)

@@ -19,7 +19,7 @@ class Glass(CellPrior):
     glass: float = 0.25
 
     words: ClassVar[Words] = Words("glass", "free, glass or wall", "chance that a beam is stopped", "opacity")
-    arrays: ClassVar[tuple[ArraySpec, ...]] = (ArraySpec("material", ("x", "y"), "int8", what="free, glass or wall"),)
+    arrays = (ArraySpec("material", ("x", "y"), "int8", "plain", "free, glass or wall"),)
 
     @property
     def p(self):

@@ -16,7 +16,7 @@ from tiers import full_but, latin, pairs_but
 
 import bayesmap as bm
 from bayesmap.app.sources import open_run
-from bayesmap.cells.binary import LARGEST_FITTED, walls_less_free
+from bayesmap.cells.binary import MAX_FITTED_COUPLING, balance_map
 from bayesmap.cells.ising_field import rough_draw
 from bayesmap.model import Model
 from bayesmap.samplers.fit import fit_coupling_to_scans
@@ -165,14 +165,14 @@ def test_it_is_the_greatest_pseudo_likelihood():
     for x, y in np.argwhere((p > 0) & (p < 1)):
         around = [(x - 1, y), (x + 1, y), (x, y - 1), (x, y + 1)]
         balance = sum(1 if walls[i, j] else -1 for i, j in around if 0 <= i < 9 and 0 <= j < 7)
-        assert balance == walls_less_free(walls)[x, y]
+        assert balance == balance_map(walls)[x, y]
         eta = np.log(p[x, y] / (1 - p[x, y])) + couplings * balance
         total += walls[x, y] * eta - np.log1p(np.exp(eta))
     assert bm.fit_coupling(walls, p) == pytest.approx(couplings[np.argmax(total)], abs=1e-3)
 
 
 def test_maps_without_a_boundary_have_the_largest_scattered_ones_none_and_what_is_no_map_is_refused():
-    assert bm.fit_coupling(np.zeros((20, 20)), 0.2) == LARGEST_FITTED
+    assert bm.fit_coupling(np.zeros((20, 20)), 0.2) == MAX_FITTED_COUPLING
     assert bm.fit_coupling(np.indices((20, 20)).sum(axis=0) % 2, 0.5) == 0.0
     for arguments, message in (
         ((np.zeros(3), 0.5), r"walls must be a map \(nx, ny\), or several .* got shape \(3,\)"),

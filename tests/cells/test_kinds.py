@@ -247,7 +247,7 @@ def test_cells_that_no_beam_touches_draw_reflectivities_given_their_labels_where
     before = [state.chains.solid(chain).copy() for chain in range(2)]
     m, solid = sampler.present_cells(state), np.stack(before)
     np.testing.assert_array_equal(solid, [state.chains.solid(chain) for chain in range(2)])
-    away = ~problem.touched().ravel()
+    away = ~problem.touched_map().ravel()
     assert scipy.stats.kstest(m[:, away][solid[:, away]], scipy.stats.beta(3.0, 0.8).cdf).pvalue > ALPHA / TESTS
     assert scipy.stats.kstest(m[:, away][~solid[:, away]], scipy.stats.beta(0.5, 1.5).cdf).pvalue > ALPHA / TESTS
     np.testing.assert_array_equal(sampler.present_cells(state), m)  # the same sweep, the same numbers

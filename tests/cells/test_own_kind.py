@@ -139,6 +139,6 @@ def test_a_proposal_is_accepted_with_the_probability_of_its_ratio(log_ratio, acc
     """The uniform number is e^-0.05: what enumeration of few chains cannot see of the ratio is seen here."""
     cells = {"material": np.zeros((1, 1), dtype=np.int8)}
     kind = SimpleNamespace(propose=lambda cells, site, rng, grid: ({"material": np.int8(2)}, log_ratio))
-    problem = SimpleNamespace(grid=bm.Grid((1, 1), 0.5), beams_of=[()], model=SimpleNamespace(cells=kind))
+    problem = SimpleNamespace(grid=bm.Grid((1, 1), 0.5), beams_by_cell=[()], model=SimpleNamespace(cells=kind))
     _sweep(problem, cells, np.zeros(0), 1.0, SimpleNamespace(random=lambda: np.exp(-0.05)))
     assert (cells["material"][0, 0] == 2) == accepted

@@ -49,7 +49,7 @@ def test_stages_after_the_chains_are_named_too(office, tmp_path, cells):
 
 @pytest.mark.full
 def test_scores_and_the_baselines_that_are_fitted_for_them_are_named_too(office, tmp_path, monkeypatch):
-    monkeypatch.setattr("bayesmap.posterior.baselines.MOST_STEPS", 4)  # how well they are fitted is not asked here
+    monkeypatch.setattr("bayesmap.posterior.baselines.MAX_STEPS", 4)  # how well they are fitted is not asked here
     succeed("infer", office, "--resolution 0.25 --chains 1 --warmup 2 --draws 3 --holdout 4", "-o", tmp_path)
     asked = ("score", tmp_path / "run.nc", office, "--holdout", "4", "--compare")
     shown = on_a_terminal(*asked)

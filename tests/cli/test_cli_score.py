@@ -98,7 +98,7 @@ def raw_run(raw):
 @pytest.fixture
 def roughly(monkeypatch):
     """Sensors of others' maps are fitted in a few steps: what is asked for here hardly depends on them."""
-    monkeypatch.setattr(baselines, "MOST_STEPS", 4)
+    monkeypatch.setattr(baselines, "MAX_STEPS", 4)
 
 
 def test_a_run_is_scored_by_relations_alone(raw, raw_run, tmp_path):

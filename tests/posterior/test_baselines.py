@@ -10,7 +10,7 @@ from bayesmap.kernels.predict.density import log_densities
 from bayesmap.kernels.rays import count_hits, trace_rays
 from bayesmap.posterior import baselines, heldout
 from bayesmap.posterior.baselines import hit_ratio
-from bayesmap.posterior.heldout import make_folds, together
+from bayesmap.posterior.heldout import join_folds, make_folds
 from bayesmap.posterior.scores import score_prediction
 
 
@@ -25,20 +25,20 @@ def log():
 
 
 def test_a_scan_is_known_by_readings_and_pose_or_stamp_and_moved_or_thinned_ones_cannot_judge(log):
-    np.testing.assert_array_equal(np.flatnonzero(heldout.seen_by(log.select(slice(2, 5)), log)), [2, 3, 4])
+    np.testing.assert_array_equal(np.flatnonzero(heldout.used_scans(log.select(slice(2, 5)), log)), [2, 3, 4])
     moved = dataclasses.replace(log, poses=log.poses + 1.0)
-    assert not heldout.seen_by(log, moved).any()
-    assert not heldout.seen_by(log, dataclasses.replace(log, angles_rad=log.angles_rad + 0.1)).any()
+    assert not heldout.used_scans(log, moved).any()
+    assert not heldout.used_scans(log, dataclasses.replace(log, angles_rad=log.angles_rad + 0.1)).any()
     stamped = dataclasses.replace(log, stamps_s=np.arange(20.0))
     run = dataclasses.replace(stamped, poses=stamped.poses + 1.0).select(slice(2, 8))
-    np.testing.assert_array_equal(np.flatnonzero(heldout.seen_by(run, stamped)), np.arange(2, 8))
-    assert heldout.moved_by(run, stamped)
-    assert not heldout.moved_by(stamped.select(slice(2, 8)), stamped)
-    assert not heldout.seen_by(run, dataclasses.replace(stamped, ranges_m=stamped.ranges_m + 0.01)).any()
-    assert not heldout.seen_by(run, dataclasses.replace(stamped, stamps_s=stamped.stamps_s + 0.5)).any()
+    np.testing.assert_array_equal(np.flatnonzero(heldout.used_scans(run, stamped)), np.arange(2, 8))
+    assert heldout.has_moved_scans(run, stamped)
+    assert not heldout.has_moved_scans(stamped.select(slice(2, 8)), stamped)
+    assert not heldout.used_scans(run, dataclasses.replace(stamped, ranges_m=stamped.ranges_m + 0.01)).any()
+    assert not heldout.used_scans(run, dataclasses.replace(stamped, stamps_s=stamped.stamps_s + 0.5)).any()
     blind = dataclasses.replace(stamped, ranges_m=np.full(stamped.ranges_m.shape, np.inf))
-    assert heldout.seen_by(blind, blind).all()
-    assert not heldout.seen_by(dataclasses.replace(blind, poses=blind.poses + 1.0), blind).any()
+    assert heldout.used_scans(blind, blind).all()
+    assert not heldout.used_scans(dataclasses.replace(blind, poses=blind.poses + 1.0), blind).any()
     moved = dataclasses.replace(stamped, poses=stamped.poses + 1.0)
     with pytest.raises(heldout.NoneHeldOut, match=r"a.log: the run has its scans elsewhere than this log"):
         heldout.unseen_scans(moved.holdout(5)[0], stamped, 5, "a.log")
@@ -103,7 +103,7 @@ def test_together_they_are_predicted_as_each_alone(room):
         return hit_ratio(of.hits, of.passes, {"a": 0.5, "b": 0.5})[fold.rays.touched][None].astype(np.float32)
 
     alone = [log_densities(fold.rays, [maps(fold, fold)], sensor, 0.5) for fold in folds]
-    joined = heldout.together(folds)
+    joined = heldout.join_folds(folds)
     of_all = np.concatenate([maps(fold, fold) for fold in folds], axis=1)
     found = log_densities(joined.rays, [of_all], sensor, 0.5, columns=joined.columns)
     np.testing.assert_array_equal(found, np.concatenate(alone))
@@ -122,10 +122,10 @@ def test_hit_ratios_and_log_odds_by_hand():
     stop, clamped = (BY_NAME[name].stop(HITS, PASSES, {}) for name in ("log-odds", "log-odds, clamped"))
     np.testing.assert_allclose(stop, odds / (1 + odds))
     np.testing.assert_allclose(clamped, np.clip(stop, 0.1192, 0.971))
-    tuned = baselines.log_odds(HITS, PASSES, {"p_hit": 0.6, "p_miss": 0.45, "p_start": 0.2})
+    tuned = baselines.odds_map(HITS, PASSES, {"p_hit": 0.6, "p_miss": 0.45, "p_start": 0.2})
     assert tuned[0] == pytest.approx(0.2)
     assert tuned[1] == pytest.approx(1 / (1 + 4 * (2 / 3) ** 3 * (11 / 9)))
-    assert baselines.log_odds(np.array([1e6]), np.array([0.0]), {"p_hit": 0.9, "p_miss": 0.4, "p_start": 0.5})[0] == 1.0
+    assert baselines.odds_map(np.array([1e6]), np.array([0.0]), {"p_hit": 0.9, "p_miss": 0.4, "p_start": 0.5})[0] == 1.0
 
 
 @pytest.fixture(scope="module")
@@ -161,14 +161,14 @@ def test_the_inner_score_is_the_mean_over_folds_of_whole_beams_and_no_change_of_
         sensor, depth = fitted.predictor.sensor, fitted.values["hit_depth"]
         logs.append(log_densities(rays, [stop[:, rays.touched]], sensor, depth))
     dof = getattr(fitted.predictor.sensor.noise, "dof", None)
-    found = baselines.inner_score(together(folds), baseline, dof, fitted.values)
+    found = baselines.inner_score(join_folds(folds), baseline, dof, fitted.values)
     assert found == pytest.approx(np.concatenate(logs).mean(), abs=1e-4)
     assert found == pytest.approx(fitted.inner_nats_per_beam, abs=1e-9)
-    for parameter in (*baselines.SENSOR, *baseline.own):
-        at = parameter.inner(fitted.values[parameter.name])
+    for parameter in (*baselines.SENSOR, *baseline.parameters):
+        at = parameter.encode(fitted.values[parameter.name])
         for step in (-0.3, -0.1, 0.1, 0.3):
-            moved = fitted.values | {parameter.name: parameter.outer(at + step)}
-            assert baselines.inner_score(together(folds), baseline, dof, moved) < fitted.inner_nats_per_beam + 2e-4
+            moved = fitted.values | {parameter.name: parameter.decode(at + step)}
+            assert baselines.inner_score(join_folds(folds), baseline, dof, moved) < fitted.inner_nats_per_beam + 2e-4
 
 
 def test_the_fit_predicts_held_out_scans_about_as_well_as_the_truth_s_own_sensor(room, fitted):

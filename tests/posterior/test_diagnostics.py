@@ -76,7 +76,7 @@ def walls_of(seed, chains, draws, shape=(5, 4)):
 @pytest.mark.parametrize(("chains", "draws"), [(4, 100), (2, 51), (1, 40), (8, 4), (3, 9)])
 @pytest.mark.parametrize("seed", range(3))
 def test_the_worst_cell_is_the_one_that_arviz_finds(seed, chains, draws, monkeypatch):
-    monkeypatch.setattr(summary, "CELLS_AT_ONCE", 7)  # several batches
+    monkeypatch.setattr(summary, "BATCH_CELLS", 7)  # several batches
     walls = walls_of(seed, chains, draws)
     found = diagnose(walls)
     flat = walls.reshape(chains, draws, -1).astype(float)

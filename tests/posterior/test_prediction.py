@@ -13,7 +13,7 @@ from oracle.worlds import make_case
 import bayesmap as bm
 from bayesmap.cells.arrays import Draws, pack
 from bayesmap.posterior.posterior import Posterior
-from bayesmap.posterior.prediction import compare, predictor_of, residuals_of, surface_offset
+from bayesmap.posterior.prediction import compare_readings, predictor_of, residuals_of, surface_offset
 from bayesmap.posterior.scores import beam_log_scores
 from bayesmap.samplers.sampler import Snapshot, Stream
 from bayesmap.sensors.model import RangeLimits
@@ -185,14 +185,14 @@ def test_a_wall_is_where_readings_are_measured_from_by_the_median_over_draws():
 
 def test_no_return_lies_at_the_median_moved_beams_end_where_each_began_and_scans_without_any_are_refused():
     scans = ahead(np.inf, np.inf, 4.0, np.nan, -np.inf)
-    found = compare(scans, np.array([6.0, np.inf, np.inf, 6.0, 6.0]), np.arange(5.0))
+    found = compare_readings(scans, np.array([6.0, np.inf, np.inf, 6.0, 6.0]), np.arange(5.0))
     np.testing.assert_array_equal(found.beams, [0, 1, 2])
     np.testing.assert_allclose(found.residual_m, [3.0, 0.0, -5.0])
     np.testing.assert_allclose(found.ends_world[:, 0], [6.5, 9.5, 4.5])
     np.testing.assert_array_equal(found.surprise_nats, [0, -1, -2])
     beam_poses = np.array([[[0.0, 0.0, 0.0], [1.0, 0.0, np.pi / 2]]])
     scans = bm.Scans([[0.0, 0.0, 0.0]], [0.0, np.pi / 2], [[2.0, 3.0]], 9.0, beam_poses=beam_poses)
-    found = compare(scans, np.full(2, 1.0), np.zeros(2))
+    found = compare_readings(scans, np.full(2, 1.0), np.zeros(2))
     np.testing.assert_allclose(found.ends_world, [[2.0, 0.0], [-2.0, 0.0]], atol=1e-12)
     with pytest.raises(bm.BadInput, match="none of the scans has a hit or a no-return"):
         residuals_of(predictor_of(posterior_of([6])), ahead(np.nan, -np.inf))

@@ -137,9 +137,9 @@ def test_the_prior_s_counts_are_found_from_hits_and_passes():
 
 
 def test_steps_are_whole_while_the_map_is_coming_about_and_then_shrink():
-    steps = [fits.step_share(sweep) for sweep in range(fits.FIRST_SWEEP, fits.PILOT_SWEEPS)]
+    steps = [fits.step_size_after(sweep) for sweep in range(fits.FIRST_FIT_SWEEP, fits.PILOT_SWEEPS)]
     assert steps == sorted(steps, reverse=True)
-    last_whole = fits.WHOLE_UNTIL - fits.FIRST_SWEEP
+    last_whole = fits.FULL_STEPS_UNTIL - fits.FIRST_FIT_SWEEP
     assert steps[0] == steps[last_whole] == 1.0 > steps[last_whole + 1]
     assert sum(step**2 for step in steps if step < 1) < 2  # noise is averaged out
 
@@ -257,7 +257,7 @@ def test_moments_are_those_of_the_end_points_drawn_towards_the_prior_and_widened
 
 
 def test_endpoint_cells_step_in_a_frame_along_their_longer_axis_and_by_their_thickness_across(problem):
-    moved = estimates.steps(problem.estimate, problem.grid.resolution)
+    moved = estimates.step_sizes(problem.estimate, problem.grid.resolution)
     assert moved.shape == (problem.estimate.endpoint.sum(), 8)
     assert (moved[:, :6] > 0).all()
     hits = problem.estimate.hits[problem.estimate.endpoint]

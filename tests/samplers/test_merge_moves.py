@@ -12,7 +12,7 @@ from bayesmap.kernels.surfaces.stop_chains import StopChains
 from bayesmap.model import Model
 from bayesmap.samplers import merge_moves as moves
 from bayesmap.samplers import stop_gibbs
-from bayesmap.samplers.methods import sampler_of
+from bayesmap.samplers.methods import make_sampler
 from bayesmap.samplers.stop_gibbs import StopGibbs
 from bayesmap.samplers.stop_problem import end_cells
 
@@ -118,19 +118,19 @@ def merged_by(maps, owner, points, worth):
 def test_merges_that_do_not_pay_are_taken_back_and_a_surface_takes_in_one_neighbour_at_a_time():
     """Two short surfaces, far apart on one wall, could each be taken in by the long one between them."""
     cells, owner, points = wall()
-    for worth in (moves.MERGED_NATS / 2, -moves.MERGED_NATS, 2 * moves.MERGED_NATS):
+    for worth in (moves.MIN_GAIN_NATS / 2, -moves.MIN_GAIN_NATS, 2 * moves.MIN_GAIN_NATS):
         maps = moves.ChainMaps(cells[None].copy(), np.zeros((1, GRID.n_cells), dtype=bool))
         gone = merged_by(maps, owner, points, worth)
         left = np.flatnonzero(maps.cells[0, :, 0] > 0.1)
         assert gone == [3 - len(left)]
-        assert (len(left) < 3) == (worth > moves.MERGED_NATS) != np.array_equal(maps.cells[0], cells)
+        assert (len(left) < 3) == (worth > moves.MIN_GAIN_NATS) != np.array_equal(maps.cells[0], cells)
         assert flat(4, 5) in left
     cells, owner, points = wall(((3, 3), (5, 40), (7, 3)))
     maps = moves.ChainMaps(cells[None].copy(), np.zeros((1, GRID.n_cells), dtype=bool))
     assert merged_by(maps, owner, points, 10.0) == [1]
     (left,) = (x for x in (3, 7) if maps.cells[0, flat(x, 5), 0] > 0.1)
     cells[flat(left, 5), 0] = moves.FREE
-    new = moves.merge_moves(cells, np.zeros(GRID.n_cells, dtype=bool), owner, points, noise_of(owner), GRID)
+    new = moves.propose_merges(cells, np.zeros(GRID.n_cells, dtype=bool), owner, points, noise_of(owner), GRID)
     (at,) = np.flatnonzero(new.index[:, 0] == flat(10 - left, 5))
     assert new.index[at, 1] == flat(5, 5)
     np.testing.assert_array_equal(maps.cells[0, flat(5, 5)], new.cells[at, 1])
@@ -148,7 +148,7 @@ def prepared(prior, early_sweeps=0):
 def test_readings_are_explained_better_than_before_and_no_surface_leaves_its_cell(kind):
     sampler, problem = prepared(SURFACES[kind])
     state, _ = sampler.step(sampler.init(problem, [0, 1], 0), 20)
-    look, before = moves.look_with(problem, state.chains, 1.0), moves.ChainMaps.of(state.chains)
+    look, before = moves.make_evidence_of(problem, state.chains, 1.0), moves.ChainMaps.of(state.chains)
     seen = look(before)
     moves.merge(problem, state.chains, 1.0)
     after = moves.ChainMaps.of(state.chains)
@@ -164,14 +164,14 @@ def test_surfaces_are_joined_in_the_warm_up_alone_after_the_same_sweeps_however_
     assert [len(sweeps) for sweeps in after] == 2 * [0] + 11 * [1] + 47 * [3]
     assert [warmup for warmup, sweeps in enumerate(after) if len(set(sweeps)) < len(sweeps)] == []
     assert [warmup for warmup, sweeps in enumerate(after) if max(sweeps, default=0) > warmup] == []
-    sampler = sampler_of("stop-gibbs", ROOM, bm.Gibbs("radial"), 50)
+    sampler = make_sampler("stop-gibbs", ROOM, bm.Gibbs("radial"), 50)
     assert sampler == StopGibbs(early_sweeps=int(50 * moves.EARLY_SHARE))
-    assert sampler_of("stop-gibbs", ROOM, bm.Gibbs("radial")) == StopGibbs()
+    assert make_sampler("stop-gibbs", ROOM, bm.Gibbs("radial")) == StopGibbs()
     sampler, problem = prepared(PRIORS["surfaces"], 10)
     made, joined, sweeps = {}, [], StopChains.sweeps
 
     def watched(chains, first, count, *args, **options):
-        if first < moves.UPDATES_ALL:  # others are trials
+        if first < moves.FULL_SWEEP:  # others are trials
             made[id(chains)] = first + count
         return sweeps(chains, first, count, *args, **options)
 
@@ -222,22 +222,22 @@ def test_evidence_is_the_sum_over_beams_whose_readings_end_in_a_cell_and_a_look_
     state, info = sampler.step(sampler.init(problem, [0, 1], 0), 3)
     for chain in (0, 1):
         assert state.chains.log_likelihood(chain).sum() == pytest.approx(info.log_likelihood[chain, -1], rel=1e-6)
-        found = moves.evidence(state.chains, chain, end_cells(problem.rays), problem.prior)
+        found = moves.evidence_by_cell(state.chains, chain, end_cells(problem.rays), problem.prior)
         np.testing.assert_allclose(found, naive_evidence(state.chains, chain, problem), rtol=1e-5, atol=1e-3)
         assert (found != 0).sum() > 50
     by, (stopped, _, _) = state.chains.stopped_by(0), state.chains.stops(0)
     np.testing.assert_array_equal(by >= 0, stopped)
     offsets = problem.rays.offsets
     assert all(cell in problem.rays.cells[offsets[b] : offsets[b + 1]] for b, cell in enumerate(by) if cell >= 0)
-    maps, look = moves.ChainMaps.of(state.chains), moves.look_with(problem, state.chains, 1.0)
+    maps, look = moves.ChainMaps.of(state.chains), moves.make_evidence_of(problem, state.chains, 1.0)
     seen = look(maps)
     assert np.array_equal(moves.ChainMaps.of(state.chains).cells, maps.cells)
     stops = state.chains.stopped_by(0)
     numbers = problem.prior.kernel_numbers(ROOM.resolution)
-    state.chains.sweeps(moves.UPDATES_FEW, 1, problem.sensor, numbers)  # the same random numbers, and cells that go on
+    state.chains.sweeps(moves.TRIAL_SWEEP, 1, problem.sensor, numbers)  # the same random numbers, and cells that go on
     assert np.array_equal(state.chains.stopped_by(0), stops)
     assert not np.array_equal(moves.ChainMaps.of(state.chains).cells, maps.cells)
-    found = moves.evidence(state.chains, 0, end_cells(problem.rays), problem.prior)
+    found = moves.evidence_by_cell(state.chains, 0, end_cells(problem.rays), problem.prior)
     np.testing.assert_array_equal(found, seen[0].ravel())
 
 

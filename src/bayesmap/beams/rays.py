@@ -1,6 +1,6 @@
 r"""Rays: the cells of a grid that each beam crosses, where it crosses them, and where it may stop.
 
-Only the cells are kept, 4 bytes for each. Where a beam enters and leaves a cell follows from its line and the cell's
+Rays store the cells only, 4 bytes for each. Where a beam enters and leaves a cell follows from its line and the cell's
 square (`Rays.stretches`; `bayesmap.kernels.rays.stretch` compiled):
 
     t_in  = max over axes of (side that the beam enters by - start) / direction
@@ -38,44 +38,47 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.sensors.model import Floats, RangeLimits
+from bayesmap.space.arrays import Ints, Mask, Singles
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
 MAX_INCIDENCES = 2**31 - 1  # indices of entries have 32 bits
 TIE = 1.0e-9  # cells: a start closer than this to a grid line lies on it
 PARALLEL = 1.0e-10  # direction cosines below this count as zero, as in the tutorial
+CROSSING_WIDTH = 2.2  # w above
+DIRECTION_RAD = 0.005  # omega above: 4 to 8 mrad predict held-out scans best (docs/lab/surfaces.md)
 
 
 @dataclass(frozen=True, eq=False)
 class Rays:
-    """B beams and the K cells that each touches in order, metres from the grid's lower left corner."""
+    """B beams with the cells that each touches, in order: K entries. Metres from the grid's lower left corner."""
 
-    grid: Grid  # the grid whose cells are meant
-    offsets: NDArray[np.int32]  # the entries of beam b are offsets[b]:offsets[b + 1]; shape (B + 1,), int32
-    cells: NDArray[np.int32]  # flat index x * ny + y of the touched cell, shape (K,), int32
-    near: NDArray[np.int32]  # first entry of each beam at which a stop may explain the reading, shape (B,), int32
-    start_m: Floats  # start of each beam, shape (B, 2)
-    direction: Floats  # unit vector of each beam, shape (B, 2)
-    range_m: Floats  # reading of each beam, coded as in `bayesmap.space.scans.Scans`, shape (B,)
+    grid: Grid  # the grid that has the cells
+    offsets: Ints  # the entries of beam b are offsets[b]:offsets[b + 1], (B + 1,)
+    cells: Ints  # flat index x * ny + y of the touched cell, (K,)
+    near: Ints  # first entry of each beam at which a stop may explain the reading, (B,)
+    start_m: Floats  # start of each beam, (B, 2)
+    direction: Floats  # unit vector of each beam, (B, 2)
+    range_m: Floats  # reading of each beam, coded as in `bayesmap.space.scans.Scans`, (B,)
     limits: RangeLimits  # the sensor's least and largest range
 
     @property
     def n_beams(self) -> int:
-        """Return the number of beams."""
+        """The number of beams."""
         return len(self.range_m)
 
     @property
     def n_incidences(self) -> int:
-        """Return the number of beam-cell incidences: the work of one sweep."""
+        """The number of pairs of a beam and a cell that it touches: the work of one sweep."""
         return len(self.cells)
 
     @property
-    def lengths(self) -> NDArray[np.int32]:
-        """Return the number of cells that each beam touches, (B,)."""
+    def lengths(self) -> Ints:
+        """The number of cells that each beam touches, (B,)."""
         return np.diff(self.offsets)
 
     def select(self, beams: NDArray[np.integer]) -> Rays:
-        """Select beams, in the given order."""
+        """Return the rays of the beams of these indices, in their order."""
         lengths = self.lengths[beams]
         offsets = np.concatenate([[0], np.cumsum(lengths)]).astype(np.int32)
         entries = np.repeat(self.offsets[beams] - offsets[:-1], lengths) + np.arange(offsets[-1])
@@ -85,19 +88,19 @@ class Rays:
             direction=self.direction[beams], range_m=self.range_m[beams],
         )  # fmt: skip
 
-    def beam_of_entry(self) -> NDArray[np.int32]:
+    def beam_of_entry(self) -> Ints:
         """Return the beam of each entry, (K,)."""
         return np.repeat(np.arange(self.n_beams, dtype=np.int32), self.lengths)
 
     @cached_property
-    def touched(self) -> NDArray[np.int32]:
-        """Return the flat indices of the cells that any beam touches, ascending."""
+    def touched(self) -> Ints:
+        """The flat indices of the cells that any beam touches, ascending, (T,)."""
         is_touched = np.zeros(self.grid.n_cells, dtype=np.bool_)
         is_touched[self.cells] = True
         return np.flatnonzero(is_touched).astype(np.int32)
 
-    def touched_map(self) -> NDArray[np.bool_]:
-        """Mark the cells that some beam touches, (nx, ny)."""
+    def touched_map(self) -> Mask:
+        """Return the mask of the cells that some beam touches, (nx, ny)."""
         is_touched = np.zeros(self.grid.n_cells, dtype=np.bool_)
         is_touched[self.touched] = True
         return is_touched.reshape(self.grid.shape)
@@ -110,31 +113,31 @@ class Rays:
         for axis, cell in enumerate((self.cells // ny, self.cells % ny)):
             start, cosine = self.start_m[:, axis] / self.grid.resolution, self.direction[:, axis]
             moves = np.abs(cosine) >= PARALLEL
-            per_cell = 1.0 / np.where(moves, cosine, 1.0)
-            first = np.where(cosine > 0, np.ceil(start - TIE) - 1, np.floor(start + TIE))
-            side = cell + (cosine < 0)[beam]
-            t_in = (side - start[beam]) * per_cell[beam]
-            t_out = (side + np.sign(cosine)[beam] - start[beam]) * per_cell[beam]
+            length_per_cell = 1.0 / np.where(moves, cosine, 1.0)
+            first_cell = np.where(cosine > 0, np.ceil(start - TIE) - 1, np.floor(start + TIE))
+            side_in = cell + (cosine < 0)[beam]
+            t_in = (side_in - start[beam]) * length_per_cell[beam]
+            t_out = (side_in + np.sign(cosine)[beam] - start[beam]) * length_per_cell[beam]
             enter = np.where(moves[beam], np.maximum(enter, t_in), enter)
             leave = np.where(moves[beam], np.minimum(leave, t_out), leave)
-            holds_start &= ~moves[beam] | (cell == first[beam])
+            holds_start &= ~moves[beam] | (cell == first_cell[beam])
         leave = np.maximum(leave, 0.0)
         enter = np.where(holds_start, leave, enter)
         return enter * self.grid.resolution, np.maximum(leave, enter) * self.grid.resolution
 
-    def distance_m(self, hit_depth: float) -> NDArray[np.float32]:
+    def distance_m(self, hit_depth: float) -> Singles:
         """Return the distance of a stop in each cell, ``hit_depth`` of the stretch inside, metres, (K,)."""
         enter, leave = self.stretches()
         return (enter + hit_depth * (leave - enter)).astype(np.float32)
 
     def end_points_m(self) -> Floats:
-        """Return the end point of each reading, (B, 2); NaN if it is no hit."""
+        """Return the end point of each reading, (B, 2); NaN if the reading is not a range."""
         range_m = np.where(np.isfinite(self.range_m), self.range_m, np.nan)
         return np.asarray(self.start_m + range_m[:, None] * self.direction)
 
     @cached_property
-    def columns(self) -> NDArray[np.int32]:
-        """Return the position of each entry's cell among the touched cells, (K,), for maps of touched cells only."""
+    def columns(self) -> Ints:
+        """The position of each entry's cell among the touched cells, (K,), for maps of touched cells only."""
         column_of_cell = np.empty(self.grid.n_cells, dtype=np.int32)
         column_of_cell[self.touched] = np.arange(len(self.touched), dtype=np.int32)
         return column_of_cell[self.cells]
@@ -142,19 +145,14 @@ class Rays:
 
 def around_readings(scans: Scans, margin_m: float | Floats, resolution_m: float) -> tuple[Floats, Floats]:
     """Return ``reach_m`` and ``near_m`` of `bayesmap.kernels.rays.trace_rays` around readings, (B,) each.
-
-    If a reading is no hit, they are the sensor's largest range and 0. ``margin_m`` is the largest distance of a stop
-    from its reading, one number or (B,). Stops are weighed from one cell before the margin on.
+    If a reading is not a range, they are the sensor's largest range and 0. ``margin_m`` is the largest distance of a
+    stop from its reading, one number or (B,). Stops are weighed from one cell before the margin on.
     """
-    ranges = scans.ranges_m.ravel()
-    finite = np.isfinite(ranges)
-    hits_m = np.where(finite, ranges, 0.0)
-    reach_m = np.where(finite, hits_m + margin_m, scans.max_range_m)
-    return reach_m, np.where(finite, np.maximum(hits_m - margin_m - resolution_m, 0.0), 0.0)
-
-
-CROSSING_WIDTH = 2.2  # w above
-DIRECTION_RAD = 0.005  # omega above: 4 to 8 mrad predict held-out scans best (docs/lab/surfaces.md)
+    range_m = scans.ranges_m.ravel()
+    is_hit = np.isfinite(range_m)
+    hit_m = np.where(is_hit, range_m, 0.0)
+    reach_m = np.where(is_hit, hit_m + margin_m, scans.max_range_m)
+    return reach_m, np.where(is_hit, np.maximum(hit_m - margin_m - resolution_m, 0.0), 0.0)
 
 
 class Stops(NamedTuple):
@@ -167,7 +165,6 @@ class Stops(NamedTuple):
 
 def stops_of(rays: Rays, states: NDArray[np.floating], hit_depth: float) -> Stops:
     """Compute the stops that a map offers to rays.
-
     ``states`` are stop probabilities of the grid's cells, (N,), at ``hit_depth`` of their stretches, or surfaces, (N,
     6): reflectivity, mean x and y in metres from the grid's lower left corner, and l11, l21, l22 of Sigma = L L'.
     """
@@ -175,15 +172,18 @@ def stops_of(rays: Rays, states: NDArray[np.floating], hit_depth: float) -> Stop
     if state.ndim == 1:
         enter, leave = rays.stretches()
         return Stops(state, enter + hit_depth * (leave - enter), np.zeros(len(state)))
+    # The mean of each surface, along the beam (depth) and across it (offset).
     beam = rays.beam_of_entry()
     direction = rays.direction[beam]
     normal = np.stack([-direction[:, 1], direction[:, 0]], axis=-1)
     to_mean = state[:, 1:3] - rays.start_m[beam]
     depth, offset = (to_mean * direction).sum(axis=-1), (to_mean * normal).sum(axis=-1)
+    # Its covariance in these directions: v^2 = n' Sigma n, and u' Sigma n.
     l11, l21, l22 = state[:, 3:].T
     u_1, u_2 = l11 * direction[:, 0] + l21 * direction[:, 1], l22 * direction[:, 1]  # L' u
     n_1, n_2 = l11 * normal[:, 0] + l21 * normal[:, 1], l22 * normal[:, 1]  # L' n
     across, mixed = n_1**2 + n_2**2, u_1 * n_1 + u_2 * n_2
+    # The law of the stop, by the formulas above; widened is c^2.
     crosses = 1.0 / (1.0 + (offset**2 / (CROSSING_WIDTH**2 * across)) ** 3)
     off_line = (DIRECTION_RAD * np.maximum(depth, 0.0)) ** 2
     widened = across + off_line

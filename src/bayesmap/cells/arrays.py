@@ -1,4 +1,7 @@
-"""Stored draws of a map: named arrays of a kind by chain and draw, a bit per wall, other numbers in half precision."""
+"""Stored draws of a map: named arrays of a kind by chain and draw, a bit per wall, other numbers in half precision.
+
+`Draws` holds the draws of a run, and an `ArraySpec` describes each of its arrays: dimensions, type and stored form.
+"""
 
 from __future__ import annotations
 
@@ -10,16 +13,17 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.space.arrays import evenly_spaced_indices
+from bayesmap.space.arrays import Indices, Ints, Mask, evenly_spaced_indices
 from bayesmap.space.grid import Grid
 
 BATCH_BITS = 1 << 26  # cells that `count_walls` unpacks at once
-LEAST_NORMAL = float(np.finfo(np.float16).smallest_normal)
-LEAST_HALF = float(np.finfo(np.float16).smallest_subnormal)
+MIN_NORMAL = float(np.finfo(np.float16).smallest_normal)  # in half precision
+MIN_SUBNORMAL = float(np.finfo(np.float16).smallest_subnormal)
+CELL_DIMENSIONS = ("cell", "surface_cell")  # dimensions that index a subset of the grid's cells
 
 
-def unpack(packed: NDArray[np.uint8], shape: tuple[int, ...]) -> NDArray[np.bool_]:
-    """Return packed arrays (..., ceil(N / 8)) as booleans (..., *shape), such as maps (..., nx, ny)."""
+def unpack(packed: NDArray[np.uint8], shape: tuple[int, ...]) -> Mask:
+    """Unpack bits (..., ceil(N / 8)) to booleans (..., *shape), such as maps (..., nx, ny)."""
     return np.unpackbits(packed, axis=-1, count=math.prod(shape)).reshape(*packed.shape[:-1], *shape).view(np.bool_)
 
 
@@ -43,19 +47,16 @@ def as_halves(values: NDArray[np.floating]) -> NDArray[np.float16]:
     # NumPy takes 80 ns for each number that becomes a subnormal half, and most reflectivities do. The bits of a
     # subnormal half, without its sign, are its multiple of the smallest subnormal half.
     size = np.abs(values)
-    small = size < LEAST_NORMAL
+    small = size < MIN_NORMAL
     halves: NDArray[np.float16] = np.where(small, values.dtype.type(0), values).astype(np.float16)
-    counts = np.rint(size[small] / LEAST_HALF).astype(np.uint16)
-    halves.view(np.uint16)[small] = counts | (np.signbit(values[small]).astype(np.uint16) << 15)
+    multiples = np.rint(size[small] / MIN_SUBNORMAL).astype(np.uint16)
+    halves.view(np.uint16)[small] = multiples | (np.signbit(values[small]).astype(np.uint16) << 15)
     return halves
-
-
-OF_CELLS = ("cell", "surface_cell")  # dimensions that index a subset of the grid's cells
 
 
 @dataclass(frozen=True)
 class ArraySpec:
-    """An array of a draw."""
+    """The description of one array of a draw."""
 
     name: str  # in `Cells`, in saved runs and in `Run.dataset`
     # dimensions beside chain and draw: ("x", "y") for the whole grid, ("cell",) for the cells that a beam touches,
@@ -63,7 +64,7 @@ class ArraySpec:
     dims: tuple[str, ...]
     dtype: str  # type of the values
     storage: Literal["bits", "half", "plain"] = "plain"  # form in memory: packed booleans, half precision, unchanged
-    what: str = ""  # description, with the unit
+    meaning: str = ""  # in words, with the unit
 
     def stored(self, values: NDArray[Any]) -> NDArray[Any]:
         """Return values (..., *dims) in their stored form."""
@@ -86,13 +87,13 @@ class ArraySpec:
 
 @dataclass(frozen=True, eq=False)
 class Draws:
-    """Draws of all chains."""
+    """The draws of a map by all chains, equally many of each chain."""
 
     grid: Grid
     specs: tuple[ArraySpec, ...]
     arrays: Mapping[str, NDArray[Any]]  # stored, by name, (chains, draws, ...), see `ArraySpec.stored`
     # coordinates by dimension: ascending flat indices for "cell" and "surface_cell", numbers for others ("scan")
-    index: Mapping[str, NDArray[np.int32]] = field(default_factory=dict)
+    index: Mapping[str, Ints] = field(default_factory=dict)
 
     @property
     def chains(self) -> int:
@@ -110,18 +111,18 @@ class Draws:
         return self.chains * self.count
 
     def numbers(self) -> Iterator[tuple[int, int]]:
-        """Return the numbers (chain, draw) of every draw."""
+        """Iterate over the numbers (chain, draw) of all draws, chain by chain."""
         return ((chain, draw) for chain in range(self.chains) for draw in range(self.count))
 
-    def thinned(self, most: int) -> Draws:
-        """Select at most ``most`` draws, evenly spread over every chain, but at least one of each chain."""
-        return self.select(evenly_spaced_indices(self.count, most // self.chains))
+    def thinned(self, max_draws: int) -> Draws:
+        """Select at most ``max_draws`` draws, evenly spread over every chain, but at least one of each chain."""
+        return self.select(evenly_spaced_indices(self.count, max_draws // self.chains))
 
     def of_chain(self, chain: int) -> Draws:
         """Select the draws of one chain."""
         return replace(self, arrays={name: values[chain : chain + 1] for name, values in self.arrays.items()})
 
-    def select(self, draws: slice | NDArray[np.intp]) -> Draws:
+    def select(self, draws: slice | Indices) -> Draws:
         """Select draws of every chain."""
         return replace(self, arrays={name: values[:, draws] for name, values in self.arrays.items()})
 
@@ -135,7 +136,8 @@ class Draws:
         arrays = {}
         for spec in self.specs:
             values = spec.values(self.arrays[spec.name][chain, draw], self.shape_of(spec))
-            arrays[spec.name] = self.to_grid(values, spec.dims[0], np.nan) if spec.dims[0] in OF_CELLS else values
+            dimension = spec.dims[0]
+            arrays[spec.name] = self.to_grid(values, dimension, np.nan) if dimension in CELL_DIMENSIONS else values
         return arrays
 
     def values(self, name: str) -> NDArray[Any]:

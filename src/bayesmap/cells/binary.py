@@ -5,7 +5,7 @@ Cells of `Independent` are independent. `Ising` favours alike neighbours:
     p(walls) proportional to  prod_c p^m_c (1 - p)^(1 - m_c)  exp(coupling * sum over pairs [m_a = m_b])
 
 over all pairs of cells a, b that share an edge; m_c is 1 in a wall, else 0 (Ising, 1925; Besag, *Spatial interaction
-and the statistical analysis of lattice systems*, 1974). Given its neighbours a cell is a wall with log-odds
+and the statistical analysis of lattice systems*, 1974). Given its neighbours, a cell is a wall with log-odds
 
     logit(p) + coupling * (walls - free cells among its neighbours)
 
@@ -25,7 +25,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar, Literal
+from typing import Any, ClassVar, Literal, NamedTuple
 
 import numpy as np
 import scipy
@@ -33,15 +33,21 @@ from numpy.typing import ArrayLike, NDArray
 from scipy import special
 
 from bayesmap.cells.arrays import ArraySpec, Draws, count_walls, unpack
-from bayesmap.cells.ising_field import balance_at, pairs_alike, perfect_draws, rough_draw
+from bayesmap.cells.ising_field import balance_at, count_alike_pairs, perfect_draws, rough_draw
 from bayesmap.cells.kind import BATCH_BYTES, CellPrior, Cells, Floats, Words
 from bayesmap.errors import BadInput
+from bayesmap.space.arrays import Indices, Ints, Mask, Rng, Singles
 from bayesmap.space.grid import Grid
+
+FIT = "fit"
+MAX_COUPLING = 50.0  # an unlike pair then costs a factor of e^50; a larger coupling has the same effect
+START_SWEEPS = 50  # from a map of independent cells to the start of a chain
+MAX_FITTED_COUPLING = 4.0  # for a map of alike cells alone, the likeliest coupling would be infinite
 
 
 @dataclass(frozen=True, eq=False)
 class BinaryWalls(CellPrior):
-    """The base class of priors of walls; its own cells are independent. `Independent` documents ``p_wall``."""
+    """The base class of priors of binary walls, with independent cells. `Independent` documents ``p_wall``."""
 
     p_wall: float | Floats
 
@@ -64,7 +70,7 @@ class BinaryWalls(CellPrior):
 
     @property
     def pair_coupling(self) -> float:
-        """Log prior added by each pair of alike neighbours: 0 if cells are independent."""
+        """The log prior added by each pair of alike neighbours: 0 if cells are independent."""
         return 0.0
 
     def probabilities(self, grid: Grid) -> Floats:
@@ -80,30 +86,30 @@ class BinaryWalls(CellPrior):
         with np.errstate(divide="ignore"):
             return np.asarray(np.log(p) - np.log1p(-p))
 
-    def log_odds(self, walls: NDArray[np.bool_], site: tuple[int, int], grid: Grid) -> float:
+    def log_odds(self, walls: Mask, site: tuple[int, int], grid: Grid) -> float:
         """Compute the prior log odds of a wall in one cell, given the other cells of a map, (nx, ny)."""
         return float(self._logit(grid)[site]) + self.pair_coupling * balance_at(walls, site)
 
-    def log_prob(self, cells: Cells | NDArray[np.bool_], grid: Grid) -> float:
+    def log_prob(self, cells: Cells | Mask, grid: Grid) -> float:
         """Compute log p(walls), in nats; ``cells`` may be a map of walls."""
         walls = cells["walls"] if isinstance(cells, Mapping) else cells
         p = self.probabilities(grid)
         with np.errstate(divide="ignore"):
             return float(np.where(walls, np.log(p), np.log1p(-p)).sum())
 
-    def sample(self, rng: np.random.Generator, grid: Grid) -> NDArray[np.bool_]:
+    def sample(self, rng: Rng, grid: Grid) -> Mask:
         """Draw a map of walls, shape (nx, ny)."""
         return np.asarray(rng.random(grid.shape) < self.probabilities(grid))
 
-    def sample_maps(self, rng: np.random.Generator, grid: Grid, count: int) -> NDArray[np.bool_]:
+    def sample_maps(self, rng: Rng, grid: Grid, count: int) -> Mask:
         """Draw maps independently, (count, nx, ny)."""
         return np.stack([self.sample(rng, grid) for _ in range(count)])
 
-    def start(self, rng: np.random.Generator, grid: Grid) -> NDArray[np.bool_]:
+    def start(self, rng: Rng, grid: Grid) -> Mask:
         """Return the start of a chain, (nx, ny): a draw, or an approximate draw if exact draws take long."""
         return self.sample(rng, grid)
 
-    def sample_cells(self, rng: np.random.Generator, grid: Grid) -> dict[str, NDArray[Any]]:
+    def sample_cells(self, rng: Rng, grid: Grid) -> dict[str, NDArray[Any]]:
         """Draw a map."""
         return {"walls": self.sample(rng, grid)}
 
@@ -111,7 +117,7 @@ class BinaryWalls(CellPrior):
         """Return stop probabilities 0 and 1, (N,)."""
         return np.ravel(cells["walls"]).astype(np.float32)
 
-    def map_of(self, draws: Draws, chain: int, draw: int) -> NDArray[np.bool_]:
+    def map_of(self, draws: Draws, chain: int, draw: int) -> Mask:
         """Return the walls of one draw, (nx, ny)."""
         return unpack(draws.arrays["walls"][chain, draw], draws.grid.shape)
 
@@ -124,24 +130,24 @@ class BinaryWalls(CellPrior):
         return np.asarray((counts / draws.size).reshape(draws.grid.shape))
 
     def interval(self, draws: Draws, level: float) -> tuple[Floats, Floats]:
-        """Raise `BadInput`, because quantiles of zeros and ones are 0 or 1, and tell less than their mean."""
+        """Raise `BadInput`: quantiles of zeros and ones are 0 or 1, and tell less than their mean."""
         raise BadInput(
             "interval: a wall is there or not, and has no interval; the entropy of its probability shows how sure it is"
         )
 
-    def traces(self, draws: Draws, cells: NDArray[np.intp]) -> NDArray[np.bool_]:
+    def traces(self, draws: Draws, cells: Indices) -> Mask:
         """Return the walls of the given cells in all draws, (chains, draws, n)."""
         byte_indices, position = np.unique(cells // 8, return_inverse=True)
         bits = np.unpackbits(draws.arrays["walls"][:, :, byte_indices], axis=-1)
         return bits[:, :, position * 8 + cells % 8].view(np.bool_)
 
-    def constant_cells(self, draws: Draws) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-        """Find the cells with one value in all draws of each chain, and in all draws of all chains, (N,) each."""
-        walls = np.stack([count_walls(chain, draws.grid.n_cells) for chain in draws.arrays["walls"]])
-        constant = ((walls == 0) | (walls == draws.count)).all(axis=0)
-        return constant, constant & (walls == walls[0]).all(axis=0)
+    def constant_cells(self, draws: Draws) -> tuple[Mask, Mask]:
+        """Return the masks of the cells with one value in all draws of each chain, and of all chains, (N,) each."""
+        n_walls = np.stack([count_walls(chain, draws.grid.n_cells) for chain in draws.arrays["walls"]])
+        constant = ((n_walls == 0) | (n_walls == draws.count)).all(axis=0)
+        return constant, constant & (n_walls == n_walls[0]).all(axis=0)
 
-    def predictive_stops(self, draws: Draws, cells: NDArray[np.int32] | None = None) -> Iterator[NDArray[np.float32]]:
+    def predictive_stops(self, draws: Draws, cells: Ints | None = None) -> Iterator[Singles]:
         """Yield stop probabilities 0 and 1 of each draw, (draws, n), in batches of draws."""
         packed = draws.arrays["walls"].reshape(-1, draws.arrays["walls"].shape[-1])
         at_once = max(1, BATCH_BYTES // (4 * draws.grid.n_cells))
@@ -174,14 +180,9 @@ class Independent(BinaryWalls):
         return self.probabilities(grid)
 
 
-FIT = "fit"
-MAX_COUPLING = 50.0  # an unlike pair then costs a factor of e^50; a larger coupling has the same effect
-START_SWEEPS = 50  # from a map of independent cells to the start of a chain
-
-
 @dataclass(frozen=True, eq=False)
 class Ising(BinaryWalls):
-    """Binary walls that are likelier beside walls, free cells beside free. Raises `BadInput`: numbers out of bounds.
+    """Binary walls that favour alike neighbours. Raises `BadInput` for numbers out of bounds.
 
     Attributes:
         p_wall: probability of a wall with as many walls as free cells around, one or (nx, ny), in [0, 1]; 0 and 1 fix.
@@ -203,42 +204,40 @@ class Ising(BinaryWalls):
 
     @property
     def is_incomplete(self) -> bool:
-        """True if the coupling is still to be fitted."""
+        """Whether the coupling is still to be fitted."""
         return isinstance(self.coupling, str)
 
     @property
     def pair_coupling(self) -> float:
-        """Log prior added by each pair of alike neighbours. Raises `BadInput` if the coupling is still to be fitted."""
+        """The log prior added by each pair of alike neighbours. Raises `BadInput` if the coupling is not fitted yet."""
         if isinstance(self.coupling, str):
             raise BadInput("Ising: the coupling is not fitted yet; infer does it, or fit_coupling, or give a number")
         return float(self.coupling)
 
-    def log_prob(self, cells: Cells | NDArray[np.bool_], grid: Grid) -> float:
+    def log_prob(self, cells: Cells | Mask, grid: Grid) -> float:
         """Compute log p(walls) in nats, up to its normalising constant."""
         walls = np.asarray(cells["walls"] if isinstance(cells, Mapping) else cells) != 0
-        return super().log_prob(walls, grid) + self.pair_coupling * pairs_alike(walls)
+        return super().log_prob(walls, grid) + self.pair_coupling * count_alike_pairs(walls)
 
-    def sample(self, rng: np.random.Generator, grid: Grid) -> NDArray[np.bool_]:
+    def sample(self, rng: Rng, grid: Grid) -> Mask:
         """Draw a map of walls exactly, shape (nx, ny). Raises `BadInput` as `sample_maps` does."""
         if self.pair_coupling == 0.0:
             return super().sample(rng, grid)
         return np.asarray(perfect_draws(rng, self._logit(grid), self.pair_coupling, 1)[0])
 
-    def sample_maps(self, rng: np.random.Generator, grid: Grid, count: int) -> NDArray[np.bool_]:
+    def sample_maps(self, rng: Rng, grid: Grid, count: int) -> Mask:
         """Draw exact maps independently, (count, nx, ny). Raises `BadInput` if the coupling makes this too slow."""
         if self.pair_coupling == 0.0:
             return super().sample_maps(rng, grid, count)
         return perfect_draws(rng, self._logit(grid), self.pair_coupling, count)
 
-    def start(self, rng: np.random.Generator, grid: Grid) -> NDArray[np.bool_]:
+    def start(self, rng: Rng, grid: Grid) -> Mask:
         """Return the start of a chain, (nx, ny): independent walls after 50 Gibbs sweeps of the prior."""
         if self.pair_coupling == 0.0:
             return self.sample(rng, grid)
         return rough_draw(rng, self._logit(grid), self.pair_coupling, START_SWEEPS)
 
-    def propose(
-        self, cells: Cells, site: tuple[int, int], rng: np.random.Generator, grid: Grid
-    ) -> tuple[dict[str, Any], float]:
+    def propose(self, cells: Cells, site: tuple[int, int], rng: Rng, grid: Grid) -> tuple[dict[str, Any], float]:
         """Return the other state of one cell, and the log of its prior ratio given the cell's neighbours."""
         walls = np.asarray(cells["walls"]) != 0
         log_odds = self.log_odds(walls, site, grid)
@@ -252,9 +251,6 @@ class Ising(BinaryWalls):
         """Return the prior as plain JSON values."""
         coupling = self.coupling if isinstance(self.coupling, str) else float(self.coupling)
         return {**super().describe(), "coupling": coupling}
-
-
-LARGEST_FITTED = 4.0  # largest fitted coupling: for a map of alike cells alone, the likeliest coupling is infinite
 
 
 def fit_coupling(walls: ArrayLike, p_wall: ArrayLike) -> float:
@@ -275,38 +271,46 @@ def fit_coupling(walls: ArrayLike, p_wall: ArrayLike) -> float:
         raise BadInput(f"fit_coupling: p_wall has shape {p.shape}, but the maps are {maps.shape[-2:]}")
     if not ((p >= 0) & (p <= 1)).all():
         raise BadInput("fit_coupling: p_wall must lie in [0, 1]")
-    return maximise_pseudo_likelihood(*count_by_balance(maps, p))
+    return maximise_pseudo_likelihood(count_by_balance(maps, p))
 
 
-def count_by_balance(maps: NDArray[np.bool_], p_wall: Floats) -> tuple[Floats, Floats, Floats, Floats]:
-    """Count cells and walls by log-odds and balance. Returns log-odds, balances, and numbers of cells and of walls. If
-    all cells have one probability, there are nine entries, for the balances -4 to 4. Else each cell has its own.
-    """
-    balance, p = walls_less_free(maps), np.broadcast_to(p_wall, maps.shape)
-    vary = (p > 0) & (p < 1)  # cells that the prior does not fix
+class BalanceCounts(NamedTuple):
+    """Cells that the prior does not fix, in n groups: nine by balance, or if probabilities differ, each cell alone."""
+
+    logit: Floats  # prior log-odds at a balance of 0, (n,)
+    balance: Floats  # walls less free cells among the neighbours, (n,)
+    cells: Floats  # number of cells in the group, (n,)
+    walls: Floats  # number of walls among these cells, (n,)
+
+
+def count_by_balance(maps: Mask, p_wall: Floats) -> BalanceCounts:
+    """Group the cells of maps, (nx, ny) or (n, nx, ny), by log-odds and balance, for the pseudo-likelihood."""
+    balance, p = balance_map(maps), np.broadcast_to(p_wall, maps.shape)
+    varies = (p > 0) & (p < 1)  # the cells that the prior does not fix
     if p_wall.ndim == 0:
-        cells = np.bincount(balance[vary] + 4, minlength=9).astype(np.float64)
-        walls = np.bincount(balance[vary] + 4, weights=maps[vary], minlength=9).astype(np.float64)
-        return np.full(9, float(special.logit(p_wall))), np.arange(-4.0, 5.0), cells, walls
-    cells = np.ones(int(vary.sum()))
-    return np.asarray(special.logit(p[vary])), balance[vary].astype(np.float64), cells, maps[vary].astype(np.float64)
+        cells = np.bincount(balance[varies] + 4, minlength=9).astype(np.float64)
+        walls = np.bincount(balance[varies] + 4, weights=maps[varies], minlength=9).astype(np.float64)
+        return BalanceCounts(np.full(9, float(special.logit(p_wall))), np.arange(-4.0, 5.0), cells, walls)
+    logit, cells = np.asarray(special.logit(p[varies])), np.ones(int(varies.sum()))
+    return BalanceCounts(logit, balance[varies].astype(np.float64), cells, maps[varies].astype(np.float64))
 
 
-def walls_less_free(maps: NDArray[np.bool_]) -> NDArray[np.int64]:
+def balance_map(maps: Mask) -> NDArray[np.int64]:
     """Count the walls less the free cells among the neighbours of every cell, (..., nx, ny)."""
     signs = np.pad(np.where(maps, 1, -1), [(0, 0)] * (maps.ndim - 2) + [(1, 1), (1, 1)])
     in_x = signs[..., :-2, 1:-1] + signs[..., 2:, 1:-1]
     return np.asarray(in_x + signs[..., 1:-1, :-2] + signs[..., 1:-1, 2:], dtype=np.int64)
 
 
-def maximise_pseudo_likelihood(logit: Floats, balance: Floats, cells: Floats, walls: Floats) -> float:
-    """Find the coupling at which the slope of the log pseudo-likelihood is zero, from 0 to `LARGEST_FITTED`."""
+def maximise_pseudo_likelihood(counts: BalanceCounts) -> float:
+    """Find the coupling at which the slope of the log pseudo-likelihood is zero, in [0, `MAX_FITTED_COUPLING`]."""
 
     def slope(coupling: float) -> float:
-        return float((balance * (walls - cells * special.expit(logit + coupling * balance))).sum())
+        p_wall = special.expit(counts.logit + coupling * counts.balance)
+        return float((counts.balance * (counts.walls - counts.cells * p_wall)).sum())
 
     if slope(0.0) <= 0.0:
         return 0.0
-    if slope(LARGEST_FITTED) >= 0.0:
-        return LARGEST_FITTED
-    return float(scipy.optimize.brentq(slope, 0.0, LARGEST_FITTED, xtol=1e-6))
+    if slope(MAX_FITTED_COUPLING) >= 0.0:
+        return MAX_FITTED_COUPLING
+    return float(scipy.optimize.brentq(slope, 0.0, MAX_FITTED_COUPLING, xtol=1e-6))

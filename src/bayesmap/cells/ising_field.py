@@ -22,21 +22,24 @@ from scipy import special
 from bayesmap.cells.arrays import ArraySpec, Draws, count_walls, unpack
 from bayesmap.cells.kind import Floats
 from bayesmap.errors import BadInput
+from bayesmap.space.arrays import Mask, Rng
 
-MOST_SWEEPS = 4096  # most sweeps from the past: if the maps have not met by then, exact draws take too long
+MAX_SWEEPS = 4096  # most sweeps from the past: if the maps have not met by then, exact draws take too long
+HALVINGS = 60  # halvings of [0, 1] in `mixture_quantiles`: the rest is below double precision
+SOLID = ArraySpec("solid", ("x", "y"), "bool", "bits", "whether the cell's label is solid; else it is free")
 
 
-def perfect_draws(rng: np.random.Generator, logit: Floats, coupling: float, count: int) -> NDArray[np.bool_]:
+def perfect_draws(rng: Rng, logit: Floats, coupling: float, count: int) -> Mask:
     """Draw maps of an Ising field of positive coupling independently and exactly, (count, nx, ny).
-
-    ``logit`` holds the log-odds of a wall at a balance of 0, (nx, ny); infinite in fixed cells. Raises `BadInput` if
-    the coupling is so strong, and the log-odds so near to zero, that the maps do not meet.
+    ``logit`` holds the log-odds of a wall at a balance of 0, (nx, ny); infinite in fixed cells. The balance of a cell
+    is the number of walls less the number of free cells among its neighbours. Raises `BadInput` if the coupling is so
+    strong, and the log-odds so near to zero, that the maps do not meet.
     """
     seeds: list[int] = []  # seed k makes the numbers of the sweeps from time -2^k to -2^(k - 1); seed 0 from -1 to 0
     draws = np.empty((count, *logit.shape), dtype=np.bool_)
-    apart = np.arange(count)  # the draws whose two maps have not met yet
+    apart = np.arange(count)  # indices of the draws whose two maps have not met yet
     while len(apart):
-        if 1 << len(seeds) > MOST_SWEEPS:
+        if 1 << len(seeds) > MAX_SWEEPS:
             raise BadInput(
                 f"Ising: at a coupling of {coupling:g} maps of {logit.shape[0]} x {logit.shape[1]} cells cannot be "
                 "drawn exactly in reasonable time; take a weaker coupling, or a wall probability further from 0.5"
@@ -58,8 +61,8 @@ def perfect_draws(rng: np.random.Generator, logit: Floats, coupling: float, coun
     return draws
 
 
-def rough_draw(rng: np.random.Generator, logit: Floats, coupling: float, sweeps: int) -> NDArray[np.bool_]:
-    """Return a map, (nx, ny): independent cells after the given number of sweeps. It is no exact draw."""
+def rough_draw(rng: Rng, logit: Floats, coupling: float, sweeps: int) -> Mask:
+    """Return an approximate draw, (nx, ny): a map of independent cells after the given number of sweeps."""
     field = _padded(np.where(rng.random(logit.shape) < special.expit(logit), 1, -1).astype(np.int8)[None])
     for _ in range(sweeps):
         _sweep(field, _wall_levels(rng.random((1, *logit.shape)), logit, coupling))
@@ -88,24 +91,19 @@ def _sweep(field: NDArray[np.int8], levels: NDArray[np.int8]) -> None:
         np.copyto(inner, np.where(balance > levels, np.int8(1), np.int8(-1)), where=(x + y) % 2 == parity)
 
 
-SOLID = ArraySpec("solid", ("x", "y"), "bool", "bits", "whether the cell's label is solid; else it is free")
-
-HALVINGS = 60  # halvings of [0, 1] in `mixture_quantiles`: the rest is below double precision
-
-
-def pairs_alike(cells: NDArray[np.bool_]) -> int:
+def count_alike_pairs(cells: Mask) -> int:
     """Count the pairs of alike cells that share an edge, in a map (nx, ny)."""
     return int((cells[1:] == cells[:-1]).sum()) + int((cells[:, 1:] == cells[:, :-1]).sum())
 
 
-def balance_at(cells: NDArray[np.bool_], site: tuple[int, int]) -> int:
+def balance_at(cells: Mask, site: tuple[int, int]) -> int:
     """Return the balance of a cell: its neighbours that are set (walls, solid) less those that are not."""
     (x, y), (nx, ny) = site, cells.shape
     around = [(x - 1, y), (x + 1, y), (x, y - 1), (x, y + 1)]
     return sum(1 if cells[i, j] else -1 for i, j in around if 0 <= i < nx and 0 <= j < ny)
 
 
-def labels_of_draw(draws: Draws, chain: int, draw: int) -> NDArray[np.bool_]:
+def labels_of_draw(draws: Draws, chain: int, draw: int) -> Mask:
     """Return the labels of one draw, flat, (N,)."""
     return unpack(draws.arrays[SOLID.name][chain, draw], draws.grid.shape).ravel()
 

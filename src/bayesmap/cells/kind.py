@@ -1,8 +1,9 @@
-"""The base class of all kinds of cells: the prior that users pass, and its interface to the rest of the package.
+"""The base class of all kinds of cells, `CellPrior`: the prior that users pass, and its interface to the package.
 
 A kind defines the state of a cell (its arrays), its prior probability, how it stops beams, and its names on maps and
 axes. Samplers, files, scores, pictures, the command line and the page use this interface only. A class of your own that
-extends `CellPrior` works everywhere, too.
+extends `CellPrior` works everywhere, too. The methods stand in the order prior, stop law, draws, files; abstract ones
+must be defined, and the defaults of the others suit independent cells whose draws cover the grid.
 """
 
 from __future__ import annotations
@@ -10,13 +11,14 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar, Self
+from typing import Any, ClassVar, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.cells.arrays import ArraySpec, Draws
 from bayesmap.errors import BadInput
+from bayesmap.space.arrays import Indices, Ints, Mask, Rng, Singles
 from bayesmap.space.grid import Grid
 
 Floats = NDArray[np.float64]
@@ -34,6 +36,14 @@ class Words:
     value: str  # label of the map of one draw
 
 
+class MeanSurfaces(NamedTuple):
+    """Posterior mean surfaces of the U cells in which readings end."""
+
+    mean_world: Floats  # means in the world frame, metres, (U, 2)
+    covariance: Floats  # covariances of the points where beams stop, square metres, (U, 2, 2)
+    reflectivity: Floats  # mean reflectivities of the cells, (U,)
+
+
 KINDS: dict[str, type[CellPrior]] = {}  # kinds by name: subclasses of `CellPrior` with their own ``words``
 
 
@@ -47,7 +57,7 @@ class CellPrior(ABC):
     hit_depth: ClassVar[float] = 0.5  # default stop of a beam in a cell, as a fraction of the beam's chord
     sensor_is_fitted: ClassVar[bool] = False  # whether the command line fits the sensor unless one is given
     has_interval: ClassVar[bool] = True  # whether a cell's state is a number with an interval
-    has_surfaces: ClassVar[bool] = False
+    has_surfaces: ClassVar[bool] = False  # whether a cell's state includes a surface
     sweeps_a_draw: ClassVar[int] = 1  # default number of sweeps from one draw to the next
     has_walls: ClassVar[bool] = False  # if so, a wall probability, a start, an order and a coupling can be chosen
     # mean stop probabilities for a robot's map: a cell above the first is occupied, below the second free if
@@ -56,15 +66,15 @@ class CellPrior(ABC):
 
     @property
     def is_incomplete(self) -> bool:
-        """True if a parameter of the prior must be fitted to the scans before a map can be drawn."""
+        """Whether a parameter of the prior must be fitted to the scans before a map can be drawn."""
         return False
 
     @classmethod
-    def of(cls, prior: CellPrior, asked_by: str, remedy: str = "") -> Self:
-        """Return the prior. Raises `BadInput`, which names ``asked_by`` and the remedy, if it is of another kind."""
+    def of(cls, prior: CellPrior, caller: str, remedy: str = "") -> Self:
+        """Return the prior. If it is of another kind, raises `BadInput` with the caller and the remedy."""
         if not isinstance(prior, cls):
             advice = f"; {remedy}" if remedy else ""
-            raise BadInput(f"{asked_by}: the prior must be {cls.__name__}, got {type(prior).__name__}{advice}")
+            raise BadInput(f"{caller}: the prior must be {cls.__name__}, got {type(prior).__name__}{advice}")
         return prior
 
     def __init_subclass__(cls, **options: Any) -> None:
@@ -73,26 +83,20 @@ class CellPrior(ABC):
             KINDS[cls.words.kind] = cls
 
     # The prior
-
     @abstractmethod
     def log_prob(self, cells: Cells, grid: Grid) -> float:
         """Compute the log prior density of a map, in nats, up to a constant that depends on neither map nor data."""
 
     @abstractmethod
-    def sample_cells(self, rng: np.random.Generator, grid: Grid) -> dict[str, NDArray[Any]]:
+    def sample_cells(self, rng: Rng, grid: Grid) -> dict[str, NDArray[Any]]:
         """Draw a map."""
 
-    def propose(
-        self, cells: Cells, site: tuple[int, int], rng: np.random.Generator, grid: Grid
-    ) -> tuple[dict[str, Any], float]:
-        """Propose a cell's new value of every array. Returns it and the log of prior ratio times proposal ratio.
-        The default draws from the prior, which is right if the prior makes cells independent.
-        """
-        fresh = self.sample_cells(rng, Grid((1, 1), grid.resolution))
-        return {name: values[0, 0] for name, values in fresh.items()}, 0.0
+    def propose(self, cells: Cells, site: tuple[int, int], rng: Rng, grid: Grid) -> tuple[dict[str, Any], float]:
+        """Propose one cell's state in every array, with log (prior ratio x proposal ratio); here a prior draw."""
+        proposal = self.sample_cells(rng, Grid((1, 1), grid.resolution))
+        return {name: values[0, 0] for name, values in proposal.items()}, 0.0
 
     # The stop law
-
     @abstractmethod
     def stops(self, cells: Cells, grid: Grid) -> NDArray[np.floating]:
         """Return the stops of all cells as `bayesmap.beams.rays.stops_of` takes them. Cell (x, y) is x * ny + y."""
@@ -100,23 +104,22 @@ class CellPrior(ABC):
     def mean_stop(self, grid: Grid) -> Floats:
         """Return the prior mean of the probability that a cell stops a beam, (nx, ny); by default from 200 draws."""
         rng = np.random.default_rng(0)
-        maps = [self._chance(self.sample_cells(rng, grid), grid) for _ in range(200)]
+        maps = [self._stop_chances(self.sample_cells(rng, grid), grid) for _ in range(200)]
         return np.asarray(np.mean(maps, axis=0, dtype=np.float64))
 
-    def _chance(self, cells: Cells, grid: Grid) -> NDArray[np.floating]:
+    def _stop_chances(self, cells: Cells, grid: Grid) -> NDArray[np.floating]:
         """Return the probability that each cell stops a beam that meets its surface, (nx, ny)."""
         stops = self.stops(cells, grid)
         return (stops if stops.ndim == 1 else stops[:, 0]).reshape(grid.shape)
 
     def completed(self, cells: Cells, grid: Grid) -> Cells:
-        """Return a map with states of the prior in its NaN cells, which draws do not store. The default has none."""
+        """Return a map whose NaN cells, which draws do not store, have states of the prior. The default has no NaN."""
         return cells
 
     # Draws
-
     def map_of(self, draws: Draws, chain: int, draw: int) -> NDArray[Any]:
         """Return the values that a picture of one draw shows, (nx, ny)."""
-        return self._chance(draws.cells(chain, draw), draws.grid)
+        return self._stop_chances(draws.cells(chain, draw), draws.grid)
 
     def mean_map(self, draws: Draws) -> Floats:
         """Return the mean over draws of the probability that a cell stops a beam, (nx, ny); NaN without draws."""
@@ -132,9 +135,7 @@ class CellPrior(ABC):
         return lower, upper
 
     def evidence_interval(self, draws: Draws, level: float) -> tuple[Floats, Floats] | None:
-        """Return the central interval of each cell's chance to stop a beam under a uniform prior, (nx, ny) each.
-        A cell that few beams reached has a wide one, whatever its prior says. The default is None: no beam is counted.
-        """
+        """Return the interval of each cell's stop chance under a uniform prior, (nx, ny) each. The default is None."""
         return None
 
     def width(self, draws: Draws, level: float) -> Floats:
@@ -144,29 +145,29 @@ class CellPrior(ABC):
         evidence = self.evidence_interval(draws, level)
         return upper - lower if evidence is None else np.maximum(upper - lower, evidence[1] - evidence[0])
 
-    def traces(self, draws: Draws, cells: NDArray[np.intp]) -> NDArray[Any]:
+    def traces(self, draws: Draws, cells: Indices) -> NDArray[Any]:
         """Return `map_of` at the given cells in all draws, (chains, draws, n), for diagnostics of convergence."""
         values = [self.map_of(draws, chain, draw).ravel()[cells] for chain, draw in draws.numbers()]
         return np.reshape(values, (draws.chains, draws.count, len(cells)))
 
-    def expected_traces(self, draws: Draws, cells: NDArray[np.intp]) -> NDArray[Any]:
-        """Return the draws' expected values of the given cells, (chains, draws, n); their mean is `mean_map`."""
+    def expected_traces(self, draws: Draws, cells: Indices) -> NDArray[Any]:
+        """Return the draws' expected values at the given cells, (chains, draws, n); their mean is `mean_map`."""
         return self.traces(draws, cells)
 
-    def constant_cells(self, draws: Draws) -> tuple[NDArray[np.bool_] | None, NDArray[np.bool_] | None]:
-        """Find the cells with one value in all draws of each chain, and of all chains, (N,); None for real numbers."""
+    def constant_cells(self, draws: Draws) -> tuple[Mask | None, Mask | None]:
+        """Return masks of the cells with one value in each chain, and in all, (N,) each; None for real numbers."""
         return None, None
 
-    def surfaces(self, draws: Draws) -> tuple[Floats, Floats, Floats]:
-        """Return mean surfaces: means (U, 2), covariances (U, 2, 2), reflectivities (U,). Raises `BadInput` if none."""
+    def surfaces(self, draws: Draws) -> MeanSurfaces:
+        """Compute the mean surfaces of the cells. Raises `BadInput` if the kind has no surfaces."""
         raise BadInput(
             f"surfaces: the cells of this run are {self.words.states}, without surfaces; infer with prior=Surface(), "
             "or --cells surface"
         )
 
-    def predictive_stops(self, draws: Draws, cells: NDArray[np.int32] | None = None) -> Iterator[NDArray[np.float32]]:
-        """Yield the `stops` of ``cells``, flat (all if None), in batches of draws: (draws, n), or (draws, n, 6)."""
-        batch: list[NDArray[np.float32]] = []
+    def predictive_stops(self, draws: Draws, cells: Ints | None = None) -> Iterator[Singles]:
+        """Yield the `stops` of ``cells``, flat (None: all), in batches of draws: (draws, n) or (draws, n, 6)."""
+        batch: list[Singles] = []
         for chain, draw in draws.numbers():
             stops = self.stops(draws.cells(chain, draw), draws.grid)
             batch.append(np.asarray(stops if cells is None else stops[cells], dtype=np.float32))
@@ -176,10 +177,8 @@ class CellPrior(ABC):
         if batch:
             yield np.stack(batch)
 
-    def drawn_stops(self, draws: Draws, cells: NDArray[np.int32] | None = None) -> Iterator[NDArray[np.float32]]:
-        """Yield `predictive_stops` of drawn states alone, without expectations, for decisions on single draws.
-        The default is `predictive_stops` itself, which is right if it yields drawn states.
-        """
+    def drawn_stops(self, draws: Draws, cells: Ints | None = None) -> Iterator[Singles]:
+        """Yield the `stops` of drawn states, for decisions on single draws. The default is `predictive_stops`."""
         return self.predictive_stops(draws, cells)
 
     def default_draws(self, beams: int, cells: int, chains: int, thin: int = 1) -> int:
@@ -187,7 +186,6 @@ class CellPrior(ABC):
         return 1000
 
     # Files
-
     @abstractmethod
     def describe(self) -> dict[str, Any]:
         """Return the prior as plain JSON values; "kind" is its name."""

@@ -17,6 +17,11 @@ from bayesmap.cells.surface import Surface
 from bayesmap.errors import BadInput
 from bayesmap.sensors.model import BeamMixture, Gaussian
 
+P_WALL = 0.2  # buildings are mostly free space, and unobserved cells should look unlike walls and free
+HIT_DEPTH = Independent.hit_depth  # the expected stop of a beam in a cell, as a fraction of its chord
+LASER_SIGMA_M, LASER_SIGMA_PER_M = 0.02, 0.005  # standard deviation of a reading at range 0, and its growth per metre
+CELL_SHARE = 0.35  # standard deviation that the cell adds, as a share of its edge
+
 BUILT_IN: dict[str, type[CellPrior]] = {cls.words.kind: cls for cls in (Independent, Beta, Surface)}
 
 _NAMED: dict[str, type[CellPrior]] = {
@@ -32,13 +37,6 @@ def prior_from(description: Mapping[str, Any]) -> CellPrior:
     if prior_class is None:
         raise BadInput(f"cells of kind {kind!r} are not known here; import the module that defines them first")
     return prior_class.from_description(description)
-
-
-P_WALL = 0.2  # buildings are mostly free space, and unobserved cells should look unlike walls and free
-HIT_DEPTH = Independent.hit_depth  # the expected stop of a beam in a cell, as a fraction of its chord
-LASER_SIGMA_M = 0.02  # standard deviation of a reading at range 0
-LASER_SIGMA_PER_M = 0.005  # its growth per metre of range
-CELL_SHARE = 0.35  # standard deviation that the cell adds, as a share of its edge
 
 
 def default_sensor(resolution_m: float) -> BeamMixture:

@@ -1,6 +1,8 @@
-"""Reflectivities: a cell stops a beam at its hit depth with chance m in [0, 1].
+"""Reflectivities: a cell stops a beam at its hit depth with chance m in [0, 1], its reflectivity.
 
-Binary walls are too rigid for glass, chair legs, people and cells that a wall fills in part.
+Binary walls are too rigid for glass, chair legs, people and cells that a wall fills in part. The class `Beta` is the
+prior. Draws hold the cells that beams touch only: "reflectivity" is a drawn m, and "expected" is its mean given the
+draw's stops. Other cells follow the prior wherever a whole map is needed.
 """
 
 from __future__ import annotations
@@ -19,21 +21,24 @@ from bayesmap.cells.arrays import ArraySpec, Draws
 from bayesmap.cells.binary import MAX_COUPLING
 from bayesmap.cells.kind import BATCH_BYTES, CellPrior, Cells, Floats, Words
 from bayesmap.errors import BadInput
+from bayesmap.space.arrays import Indices, Ints, Mask, Rng, Singles
 from bayesmap.space.grid import Grid
 
-MIN_REFLECTIVITY = 1e-30  # least reflectivity whose log odds single precision can hold
-MAX_REFLECTIVITY = 1.0 - 1e-7  # largest reflectivity whose log odds single precision can hold
-CELLS_AT_ONCE = 8192  # cells per batch of `interval`
+MIN_REFLECTIVITY, MAX_REFLECTIVITY = 1e-30, 1.0 - 1e-7  # between these, single precision can hold log odds
+BATCH_CELLS = 8192  # cells per batch of `interval`
 HALF_ROUNDING = 2.0**-11  # relative error of half precision
 MAX_STOPS = 32  # stopped beams that `recover_counts` tries; a cell with more is well known
 POOL_CELLS = 1 << 16  # size of the pool of prior states for cells that no beam touched
-MIN_DRAWS = 100  # least default number of draws per chain
-MAX_DRAWS = 200  # largest default number of draws per chain
+MIN_DRAWS, MAX_DRAWS = 100, 200  # bounds of the default number of draws per chain
 MIN_DRAWS_UNTHINNED = 50  # least default number if every sweep is kept: a further draw then adds less
 BEAMS_AT_MIN_DRAWS = 100_000  # with this many beams or more, the default is the least number
 MAX_DRAW_BYTES = 1 << 30  # most bytes of all chains' draws, if beams were to touch every cell of the grid
 BYTES_A_CELL = 4  # bytes of a cell in a draw: two arrays in half precision
 POOL_SEED = 1  # seed of the pool of states drawn from the prior
+REFLECTIVITY = ArraySpec("reflectivity", ("cell",), "float32", "half", "chance that the cell stops a beam")
+EXPECTED = ArraySpec(
+    "expected", ("cell",), "float32", "half", "mean of the reflectivity given the draw's surfaces and stops"
+)
 
 
 class KernelNumbers(NamedTuple):
@@ -43,7 +48,7 @@ class KernelNumbers(NamedTuple):
     b: float
     tau_m: float  # standard deviation of a surface's mean
     psi_m2: float  # scale of the inverse Wishart prior of its covariance
-    nu: float  # degrees of freedom of the same
+    nu: float  # degrees of freedom of the inverse Wishart prior
     kappa_m: float  # size beyond which a surface is unlikely
     half_m: float  # half of a cell's edge
     coupling: float  # of the labels of neighbours
@@ -51,24 +56,19 @@ class KernelNumbers(NamedTuple):
     b_solid: float
 
 
-REFLECTIVITY = ArraySpec("reflectivity", ("cell",), "float32", "half", "chance that the cell stops a beam")
-EXPECTED = ArraySpec(
-    "expected", ("cell",), "float32", "half", "mean of the reflectivity given the draw's surfaces and stops"
-)
-
-
 @dataclass(frozen=True)
 class Beta(CellPrior):
     """A reflectivity in each cell; a stopped beam stops at the cell's hit depth.
 
     At a coupling of 0, reflectivities are independent: Beta(a, b) in each cell. At a coupling above 0 each cell has a
-    label: the reflectivity is Beta(a, b) in free cells, Beta(a_solid, b_solid) in solid. Raises `BadInput`: a count
-    that is not positive, or a coupling that is no number from 0 to 50.
+    label: the reflectivity is Beta(a, b) in free cells, and Beta(a_solid, b_solid) in solid cells.
 
     Attributes:
         a, b: pseudo-counts of stopped and of passing beams; for free cells only, if cells have labels.
         coupling: log density added by each pair of neighbours (cells that share an edge) with the same label.
         a_solid, b_solid: pseudo-counts for solid cells, if cells have labels.
+
+    Raises `BadInput` for a pseudo-count that is not positive, or a coupling that is not a number from 0 to 50.
     """
 
     a: float = 0.02
@@ -88,10 +88,10 @@ class Beta(CellPrior):
 
     def __post_init__(self) -> None:
         name = type(self).__name__
-        for which in ("a", "b", "a_solid", "b_solid"):
-            value = getattr(self, which)
+        for parameter in ("a", "b", "a_solid", "b_solid"):
+            value = getattr(self, parameter)
             if not (math.isfinite(value) and value > 0):
-                raise BadInput(f"{name}: {which} must be a positive number, got {value!r}")
+                raise BadInput(f"{name}: {parameter} must be a positive number, got {value!r}")
         coupling: Any = self.coupling  # may be "fit", which only binary walls allow
         if isinstance(coupling, str) or not (0 <= coupling <= MAX_COUPLING):
             raise BadInput(f"{name}: coupling must be a number in [0, {MAX_COUPLING:g}], got {self.coupling!r}")
@@ -105,16 +105,16 @@ class Beta(CellPrior):
 
     @property
     def mean(self) -> float:
-        """Prior mean of the reflectivity; both labels are equally likely."""
+        """The prior mean of the reflectivity; both labels are equally likely."""
         free = self.a / (self.a + self.b)
         return 0.5 * (free + self.a_solid / (self.a_solid + self.b_solid)) if self.has_labels else free
 
-    def mean_given(self, solid: NDArray[np.bool_] | Floats) -> Floats:
+    def mean_given(self, solid: Mask | Floats) -> Floats:
         """Return the prior mean of the reflectivity given labels, or given the probability that each is solid."""
         free = self.a / (self.a + self.b)
         return np.asarray(free + (self.a_solid / (self.a_solid + self.b_solid) - free) * solid)
 
-    def beta_given(self, solid: NDArray[np.bool_]) -> tuple[Floats, Floats]:
+    def beta_given(self, solid: Mask) -> tuple[Floats, Floats]:
         """Return the pseudo-counts of stopped and of passing beams in cells with these labels."""
         return np.where(solid, self.a_solid, self.a), np.where(solid, self.b_solid, self.b)
 
@@ -131,9 +131,9 @@ class Beta(CellPrior):
         solid = np.asarray(cells["solid"]) != 0
         a, b = self.beta_given(solid)
         log_density = float((a * np.log(m) + b * np.log1p(-m) - special.betaln(a, b)).sum())
-        return log_density + self.coupling * ising_field.pairs_alike(solid)
+        return log_density + self.coupling * ising_field.count_alike_pairs(solid)
 
-    def sample_cells(self, rng: np.random.Generator, grid: Grid) -> dict[str, NDArray[Any]]:
+    def sample_cells(self, rng: Rng, grid: Grid) -> dict[str, NDArray[Any]]:
         """Draw a map. Raises `BadInput` if coupling and grid are so large that exact draws of labels take too long."""
         if not self.has_labels:
             m = rng.beta(self.a, self.b, grid.shape).astype(np.float32)
@@ -142,16 +142,14 @@ class Beta(CellPrior):
         m = rng.beta(*self.beta_given(solid)).astype(np.float32)
         return {"reflectivity": m, "expected": m, "solid": solid}
 
-    def propose(
-        self, cells: Cells, site: tuple[int, int], rng: np.random.Generator, grid: Grid
-    ) -> tuple[dict[str, Any], float]:
+    def propose(self, cells: Cells, site: tuple[int, int], rng: Rng, grid: Grid) -> tuple[dict[str, Any], float]:
         """Propose a state from the prior without neighbours. Returns it, and the log prior ratio due to neighbours."""
-        fresh, log_ratio = super().propose(cells, site, rng, grid)
+        proposal, log_ratio = super().propose(cells, site, rng, grid)
         if self.has_labels:
             solid = np.asarray(cells["solid"]) != 0
-            change = int(fresh["solid"]) - int(solid[site])
+            change = int(proposal["solid"]) - int(solid[site])
             log_ratio += self.coupling * change * ising_field.balance_at(solid, site)
-        return fresh, log_ratio
+        return proposal, log_ratio
 
     def completed(self, cells: Cells, grid: Grid) -> Cells:
         """Return the map with the prior's mean reflectivity in untouched cells, given the label if there is one."""
@@ -159,7 +157,7 @@ class Beta(CellPrior):
         mean = self.mean_given(np.asarray(cells["solid"]) != 0) if self.has_labels else np.asarray(self.mean)
         return {**cells, "reflectivity": np.where(np.isnan(m), mean, m)}
 
-    def sample_surfaces(self, rng: np.random.Generator, count: int) -> Floats:
+    def sample_surfaces(self, rng: Rng, count: int) -> Floats:
         """Return zeros as placeholders, (count, 5): these cells have no surfaces."""
         return np.zeros((count, 5))
 
@@ -175,10 +173,10 @@ class Beta(CellPrior):
         """Return the default number of draws per chain, between 100 (50 if ``thin`` is 1) and 200 (docs/defaults.md).
         They take the time of 100 (50) draws with 100 000 beams. Large grids get fewer, to fit the draws into 1 GiB.
         """
-        fewest = MIN_DRAWS_UNTHINNED if thin == 1 else MIN_DRAWS
-        affordable = BEAMS_AT_MIN_DRAWS * fewest // max(beams, 1)
-        fitting = MAX_DRAW_BYTES // (BYTES_A_CELL * cells * chains)
-        return max(fewest, min(affordable, fitting, MAX_DRAWS))
+        min_draws = MIN_DRAWS_UNTHINNED if thin == 1 else MIN_DRAWS
+        draws_by_time = BEAMS_AT_MIN_DRAWS * min_draws // max(beams, 1)
+        draws_by_memory = MAX_DRAW_BYTES // (BYTES_A_CELL * cells * chains)
+        return max(min_draws, min(draws_by_time, draws_by_memory, MAX_DRAWS))
 
     def kernel_numbers(self, edge_m: float) -> KernelNumbers:
         """Return the prior's parameters for kernels, which ignore the parameters of surfaces here."""
@@ -208,9 +206,9 @@ class Beta(CellPrior):
         # Touched cells: quantiles of the draws, some cells at a time.
         drawn = draws.arrays[self.shown[0]]
         ends = np.empty((2, drawn.shape[-1]))
-        for i in range(0, drawn.shape[-1], CELLS_AT_ONCE):
-            part = drawn[:, :, i : i + CELLS_AT_ONCE]
-            ends[:, i : i + CELLS_AT_ONCE] = quantiles_of_halves(part.reshape(-1, part.shape[-1]), tails)
+        for i in range(0, drawn.shape[-1], BATCH_CELLS):
+            batch = drawn[:, :, i : i + BATCH_CELLS]
+            ends[:, i : i + BATCH_CELLS] = quantiles_of_halves(batch.reshape(-1, batch.shape[-1]), tails)
         # Untouched cells: quantiles of the prior.
         if self.has_labels:
             betas = (self.a, self.b), (self.a_solid, self.b_solid)
@@ -222,6 +220,7 @@ class Beta(CellPrior):
 
     def evidence_interval(self, draws: Draws, level: float) -> tuple[Floats, Floats]:
         """Return the central interval under a uniform prior, by the beams counted in each chain's last draw."""
+        # Mean counts of stopped and of passing beams over the chains.
         cells = draws.index["cell"]
         counts, solid = np.zeros((2, len(cells))), np.zeros(len(cells), np.bool_)
         for chain in range(draws.chains):
@@ -229,33 +228,32 @@ class Beta(CellPrior):
                 solid = ising_field.labels_of_draw(draws, chain, -1)[cells]
             expected = draws.arrays[self.shown[1]][chain, -1].astype(np.float64)
             counts += np.stack(recover_counts(expected, *self.beta_given(solid))) / draws.chains
+        # Quantiles of Beta(1 + stopped, 1 + passed), once per distinct pair of counts.
         tails = (0.5 * (1 - level), 0.5 * (1 + level))
         (stopped, passed), group = np.unique(counts, axis=1, return_inverse=True)
         ends = [special.betaincinv(1.0 + stopped, 1.0 + passed, tail)[group.ravel()] for tail in tails]
         lower, upper = (draws.to_grid(end, "cell", tail) for end, tail in zip(ends, tails, strict=True))
         return lower, upper
 
-    def traces(self, draws: Draws, cells: NDArray[np.intp]) -> NDArray[np.float16]:
+    def traces(self, draws: Draws, cells: Indices) -> NDArray[np.float16]:
         """Return the drawn chances of the given touched cells in all draws, (chains, draws, n)."""
         return np.asarray(draws.arrays[self.shown[0]][:, :, np.searchsorted(draws.index["cell"], cells)])
 
-    def expected_traces(self, draws: Draws, cells: NDArray[np.intp]) -> NDArray[np.float16]:
+    def expected_traces(self, draws: Draws, cells: Indices) -> NDArray[np.float16]:
         """Return the expected chances of the given touched cells in all draws, (chains, draws, n)."""
         return np.asarray(draws.arrays[self.shown[1]][:, :, np.searchsorted(draws.index["cell"], cells)])
 
-    def predictive_stops(self, draws: Draws, cells: NDArray[np.int32] | None = None) -> Iterator[NDArray[np.float32]]:
+    def predictive_stops(self, draws: Draws, cells: Ints | None = None) -> Iterator[Singles]:
         """Yield the stops of each draw with expected reflectivities; untouched cells have the prior's mean."""
-        # The density of a reading is linear in each cell's reflectivity. So expected reflectivities give the same mean
-        # density over draws as drawn reflectivities, with less noise.
+        # The density of a reading is linear in each cell's reflectivity. So expected reflectivities have the mean
+        # density over draws that drawn reflectivities have, with less noise.
         return self._stops_of_draws(draws, cells, drawn=False)
 
-    def drawn_stops(self, draws: Draws, cells: NDArray[np.int32] | None = None) -> Iterator[NDArray[np.float32]]:
+    def drawn_stops(self, draws: Draws, cells: Ints | None = None) -> Iterator[Singles]:
         """Yield the stops with drawn reflectivities; untouched cells draw their reflectivities from the prior."""
         return self._stops_of_draws(draws, cells, drawn=True)
 
-    def _stops_of_draws(
-        self, draws: Draws, cells: NDArray[np.int32] | None, *, drawn: bool
-    ) -> Iterator[NDArray[np.float32]]:
+    def _stops_of_draws(self, draws: Draws, cells: Ints | None, *, drawn: bool) -> Iterator[Singles]:
         """Yield the stops of each draw, (n,) or (n, 6), in batches, with drawn or with expected reflectivities."""
         cells = np.arange(draws.grid.n_cells, dtype=np.int32) if cells is None else cells
         # Draws hold the touched cells; the others follow the prior.
@@ -264,13 +262,14 @@ class Beta(CellPrior):
         prior_reflectivities = self._prior_reflectivities(cells, drawn=drawn)
         reflectivities = draws.arrays["reflectivity" if drawn else "expected"]
         write_surfaces = self.surface_writer(draws, cells)
+        # Batches of draws whose memory is limited.
         numbers = list(draws.numbers())
-        # Batches whose memory is limited.
         shape = (len(cells), 6) if self.has_surfaces else (len(cells),)
-        at_once = max(1, BATCH_BYTES // ((32 if self.has_surfaces else 4) * max(len(cells), 1)))
-        for i in range(0, len(numbers), at_once):
-            batch = np.empty((len(numbers[i : i + at_once]), *shape), dtype=np.float32)
-            for stops, (chain, draw) in zip(batch, numbers[i : i + at_once], strict=True):
+        batch_size = max(1, BATCH_BYTES // ((32 if self.has_surfaces else 4) * max(len(cells), 1)))
+        for i in range(0, len(numbers), batch_size):
+            batch_numbers = numbers[i : i + batch_size]
+            batch = np.empty((len(batch_numbers), *shape), dtype=np.float32)
+            for stops, (chain, draw) in zip(batch, batch_numbers, strict=True):
                 write_surfaces(stops, chain, draw)
                 m = stops[:, 0] if self.has_surfaces else stops
                 solid = ising_field.labels_of_draw(draws, chain, draw)[cells] if self.has_labels else None
@@ -279,17 +278,18 @@ class Beta(CellPrior):
             yield batch
 
     def _prior_reflectivities(
-        self, cells: NDArray[np.int32], *, drawn: bool
-    ) -> Callable[[NDArray[np.bool_] | None], NDArray[np.floating] | float]:
+        self, cells: Ints, *, drawn: bool
+    ) -> Callable[[Mask | None], NDArray[np.floating] | float]:
         """Return a function from the cells' labels (None if they have none) to prior means or draws, (n,)."""
         if not drawn:
             return lambda solid: self.mean if solid is None else self.mean_given(solid)
         # Pools of draws are made once; each call reads them from another random offset.
         rng = np.random.default_rng(POOL_SEED)
-        betas = [(self.a, self.b), (self.a_solid, self.b_solid)][: 1 + self.has_labels]
-        pools = [rng.beta(a, b, POOL_CELLS).astype(np.float32) for a, b in betas]
+        pools = [rng.beta(self.a, self.b, POOL_CELLS).astype(np.float32)]
+        if self.has_labels:
+            pools.append(rng.beta(self.a_solid, self.b_solid, POOL_CELLS).astype(np.float32))
 
-        def draw(solid: NDArray[np.bool_] | None) -> NDArray[np.floating]:
+        def draw(solid: Mask | None) -> NDArray[np.floating]:
             pool_index = (cells + int(rng.integers(POOL_CELLS))) % POOL_CELLS
             m = pools[0][pool_index]
             if solid is not None:
@@ -298,8 +298,8 @@ class Beta(CellPrior):
 
         return draw
 
-    def surface_writer(self, draws: Draws, cells: NDArray[np.int32]) -> Callable[[NDArray[np.float32], int, int], None]:
-        """Return a function that writes the surfaces of the cells in a draw, by chain and draw, into stops, (n, 6)."""
+    def surface_writer(self, draws: Draws, cells: Ints) -> Callable[[Singles, int, int], None]:
+        """Return a function (stops, chain, draw) that writes a draw's surfaces into stops, (n, 6): here none."""
         return lambda stops, chain, draw: None
 
     def describe(self) -> dict[str, Any]:
@@ -310,8 +310,8 @@ class Beta(CellPrior):
         return described
 
 
-def positions_in(stored: NDArray[np.int32], cells: NDArray[np.int32]) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
-    """Return the position of each cell in the ascending ``stored``, and whether it is there, (n,) each."""
+def positions_in(stored: Ints, cells: Ints) -> tuple[Indices, Mask]:
+    """Return the position of each cell in the ascending ``stored``, and the mask of the cells that are in it, (n,)."""
     position = np.minimum(np.searchsorted(stored, cells), max(len(stored) - 1, 0))
     is_stored = stored[position] == cells if len(stored) else np.zeros(len(cells), dtype=np.bool_)
     return position, is_stored
@@ -319,9 +319,8 @@ def positions_in(stored: NDArray[np.int32], cells: NDArray[np.int32]) -> tuple[N
 
 def recover_counts(expected: Floats, a: Floats, b: Floats) -> tuple[Floats, Floats]:
     """Find the least counts of stopped and of passing beams that give the expected chances (a + stopped) / (a + b + n).
-
-    The number n of beams must be whole, up to the rounding of half precision: this tells the counts apart. A cell that
-    stopped more than `MAX_STOPS` beams gets at least this count.
+    All arrays are (T,). The number n of beams must be whole, up to the rounding of half precision: this tells the
+    counts apart. A cell that stopped more than `MAX_STOPS` beams gets at least this count.
     """
     chance = np.clip(expected, HALF_ROUNDING**2, 1.0 - 0.5 * HALF_ROUNDING)
     stopped, beams = np.zeros_like(chance), np.zeros_like(chance)
@@ -338,7 +337,7 @@ def recover_counts(expected: Floats, a: Floats, b: Floats) -> tuple[Floats, Floa
 
 def quantiles_of_halves(draws: NDArray[np.float16], tails: tuple[float, ...]) -> Floats:
     """Compute `numpy.quantile` of nonnegative halves (draws, cells), ten times as fast: (len(tails), cells)."""
-    # The bits of these numbers, read as integers, have the same order.
+    # The bits of nonnegative halves, read as integers, are in the order of the numbers, and sort faster.
     ordered = np.sort(np.ascontiguousarray(draws.T).view(np.uint16), axis=1).view(np.float16)
     rank = np.array(tails) * (len(draws) - 1)
     below = np.floor(rank).astype(np.intp)

@@ -1,6 +1,7 @@
 """Surfaces: each cell has a reflectivity, and a normal distribution of the points at which it stops beams.
 
-Normal-distributions-transform maps (Biber and Strasser, 2003) store the same distribution; here it is inferred.
+Normal-distributions-transform maps (Biber and Strasser, 2003) store this distribution as well; here it is inferred.
+The class `Surface` is the prior, with its draws in edges of a cell and its stops in metres.
 `bayesmap.kernels.surfaces.surface` computes how a surface stops a beam.
 """
 
@@ -16,12 +17,13 @@ from numpy.typing import NDArray
 from scipy import special
 
 from bayesmap.cells.arrays import ArraySpec, Draws
-from bayesmap.cells.kind import Cells, Floats, Words
+from bayesmap.cells.kind import Cells, Floats, MeanSurfaces, Words
 from bayesmap.cells.reflectivity import EXPECTED, POOL_CELLS, REFLECTIVITY, Beta, KernelNumbers, positions_in
 from bayesmap.errors import BadInput
+from bayesmap.space.arrays import Ints, Rng, Singles
 from bayesmap.space.grid import Grid
 
-MOST_SPREAD = 3.0  # largest spread in units of size_scale: beyond it, almost all prior draws are rejected
+MAX_SPREAD = 3.0  # largest spread in units of size_scale: beyond it, almost all prior draws are rejected
 ROUNDING = 1e-3  # edges by which rounding to half precision may move a mean out of its cell
 PARTS = ("mean_x", "mean_y", "l11", "l21", "l22")  # mean from the cell's centre, Cholesky factor, in edges
 
@@ -78,19 +80,19 @@ class Surface(Beta):
                 raise BadInput(f"Surface: {name} must be a positive number of cells, got {value!r}")
         if not (math.isfinite(self.dof) and self.dof > 1):
             raise BadInput(f"Surface: dof must exceed 1, got {self.dof!r}")
-        if self.spread > MOST_SPREAD * self.size_scale:  # almost no draw would be small enough
+        if self.spread > MAX_SPREAD * self.size_scale:  # almost no draw would be small enough
             raise BadInput(
-                f"Surface: spread must not exceed {MOST_SPREAD:g} times size_scale, got {self.spread!r} and "
+                f"Surface: spread must not exceed {MAX_SPREAD:g} times size_scale, got {self.spread!r} and "
                 f"{self.size_scale!r}"
             )
 
     @property
     def first_spread(self) -> float:
-        """Size of surfaces, for the initial estimate."""
+        """Size of surfaces for the initial estimate, in edges of a cell."""
         return self.spread
 
     def log_prob(self, cells: Cells, grid: Grid) -> float:
-        """Compute the log density of (logit m, mean, log l11, l21, log l22) of all cells, up to a constant, metres."""
+        """Compute the log density of (logit m, mean, log l11, l21, log l22) of all cells, metres, up to a constant."""
         edge = grid.resolution
         x, y, l11, l21, l22 = (np.asarray(cells[f"surface_{part}"], dtype=np.float64) * edge for part in PARTS)
         # Inverse Wishart: |Sigma|^-(nu + 3)/2 = (l11 l22)^-(nu + 3) times the Jacobian 4 l11^3 l22^2, then -psi / 2
@@ -105,12 +107,12 @@ class Surface(Beta):
             return -math.inf
         return super().log_prob(cells, grid) + float((shape - 0.5 * (size + mean)).sum())
 
-    def sample_cells(self, rng: np.random.Generator, grid: Grid) -> dict[str, NDArray[Any]]:
+    def sample_cells(self, rng: Rng, grid: Grid) -> dict[str, NDArray[Any]]:
         """Draw a map with a surface in every cell."""
         surfaces = self.sample_surfaces(rng, grid.n_cells).reshape(*grid.shape, len(PARTS))
         return super().sample_cells(rng, grid) | {f"surface_{part}": surfaces[..., i] for i, part in enumerate(PARTS)}
 
-    def sample_surfaces(self, rng: np.random.Generator, count: int) -> Floats:
+    def sample_surfaces(self, rng: Rng, count: int) -> Floats:
         """Draw surfaces in edges, (count, 5): mean x, y from the centre, then l11, l21, l22 of Sigma = L L'."""
         # Rejection sampling: the factor exp(-tr Sigma / (2 kappa^2)) is the probability of acceptance.
         surfaces = np.zeros((count, 5))
@@ -124,14 +126,14 @@ class Surface(Beta):
             pending = pending[~accepted]
         return surfaces
 
-    def _sample_unbounded(self, rng: np.random.Generator, count: int) -> Floats:
+    def _sample_unbounded(self, rng: Rng, count: int) -> Floats:
         """Draw surfaces without the factor that bounds their size, (count, 5)."""
         # Means are truncated normals by inversion; Cholesky factors invert Bartlett's factor of the Wishart law.
         a11 = np.sqrt(rng.chisquare(self.dof, count))
         a22 = np.sqrt(rng.chisquare(self.dof - 1.0, count))
         a21 = rng.standard_normal(count)
-        least, most = special.ndtr(np.array([-0.5, 0.5]) / self.mean_scale)
-        mean = self.mean_scale * special.ndtri(rng.uniform(least, most, (2, count)))
+        low, high = special.ndtr(np.array([-0.5, 0.5]) / self.mean_scale)
+        mean = self.mean_scale * special.ndtri(rng.uniform(low, high, (2, count)))
         with np.errstate(divide="ignore", over="ignore"):
             shape = (self.spread / a22, -self.spread * a21 / (a11 * a22), self.spread / a11)
         return np.stack([*mean, *shape], axis=-1)
@@ -146,11 +148,11 @@ class Surface(Beta):
 
     def completed(self, cells: Cells, grid: Grid) -> Cells:
         """Return the map with prior draws of surfaces in cells in which no reading ends; the seed is fixed."""
-        fresh = self.sample_surfaces(np.random.default_rng(0), grid.n_cells).reshape(*grid.shape, len(PARTS))
+        prior_draw = self.sample_surfaces(np.random.default_rng(0), grid.n_cells).reshape(*grid.shape, len(PARTS))
         complete = dict(super().completed(cells, grid))
         for i, name in enumerate(f"surface_{part}" for part in PARTS):
             stored = np.asarray(cells[name], dtype=np.float64)
-            complete[name] = np.where(np.isnan(stored), fresh[..., i], stored)
+            complete[name] = np.where(np.isnan(stored), prior_draw[..., i], stored)
         return complete
 
     def kernel_numbers(self, edge_m: float) -> KernelNumbers:
@@ -161,10 +163,8 @@ class Surface(Beta):
             b_solid=self.b_solid,
         )  # fmt: skip
 
-    def surfaces(self, draws: Draws) -> tuple[Floats, Floats, Floats]:
-        """Compute posterior mean surfaces of the U cells in which readings end: means, world frame, metres, (U, 2),
-        covariances of the points, m^2, (U, 2, 2), and mean reflectivities of the cells, (U,).
-        """
+    def surfaces(self, draws: Draws) -> MeanSurfaces:
+        """Compute the posterior mean surfaces of the cells in which readings end."""
         edge, cells = draws.grid.resolution, draws.index["surface_cell"]
         mean, covariance = np.zeros((len(cells), 2)), np.zeros((len(cells), 2, 2))
         # Sum means and covariances over draws.
@@ -179,17 +179,18 @@ class Surface(Beta):
         n_draws = max(draws.size, 1)
         mean = draws.grid.centers_from_corner_m(cells) + np.array(draws.grid.origin) + mean / n_draws
         position, _ = positions_in(draws.index["cell"], cells)
-        return mean, covariance / n_draws, draws.arrays["expected"][..., position].mean(axis=(0, 1), dtype=np.float64)
+        reflectivity = draws.arrays["expected"][..., position].mean(axis=(0, 1), dtype=np.float64)
+        return MeanSurfaces(mean, covariance / n_draws, reflectivity)
 
-    def surface_writer(self, draws: Draws, cells: NDArray[np.int32]) -> Callable[[NDArray[np.float32], int, int], None]:
-        """Return a function that writes the surfaces of the cells in a draw, by chain and draw, into stops, (n, 6)."""
+    def surface_writer(self, draws: Draws, cells: Ints) -> Callable[[Singles, int, int], None]:
+        """Return a function (stops, chain, draw) that writes the surfaces of a draw's cells into stops, (n, 6)."""
         position, stored = positions_in(draws.index["surface_cell"], cells)
         position, centre, rng = position[stored], draws.grid.centers_from_corner_m(cells), np.random.default_rng(0)
         # Surfaces that draws do not store almost follow the prior, and are drawn from it. The pool of prior surfaces is
         # drawn once; each draw of the map reads it from another random offset, as surfaces are independent.
         pool = self.sample_surfaces(rng, POOL_CELLS).astype(np.float32)
 
-        def write(stops: NDArray[np.float32], chain: int, draw: int) -> None:
+        def write(stops: Singles, chain: int, draw: int) -> None:
             surfaces = stops[:, 1:]
             surfaces[:] = pool[(cells + int(rng.integers(POOL_CELLS))) % POOL_CELLS]
             for part, name in enumerate(PARTS):

@@ -218,10 +218,10 @@ def _without_draws(run_file: str, run: Run) -> BadInput:
 def log_odds_map(run: Run) -> tuple[NDArray[np.float64], Walls]:
     """Compute the log-odds map, (nx, ny), with OctoMap's numbers, unclamped, and a mask of the crossed cells."""
     from bayesmap.kernels.rays import count_hits
-    from bayesmap.posterior.baselines import log_odds_as_usual
+    from bayesmap.posterior.baselines import octomap_map
 
     hits, passes = (counts.reshape(run.grid.shape) for counts in count_hits(run.posterior.scans, run.grid))
-    return log_odds_as_usual(hits.astype(float), passes.astype(float), {}), hits + passes > 0
+    return octomap_map(hits.astype(float), passes.astype(float), {}), hits + passes > 0
 
 
 @command("export")

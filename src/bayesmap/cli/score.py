@@ -22,7 +22,7 @@ from bayesmap.errors import BadInput
 from bayesmap.files import check_ending
 
 if TYPE_CHECKING:
-    from bayesmap.posterior.baselines import Fitted
+    from bayesmap.posterior.baselines import FittedBaseline
     from bayesmap.posterior.prediction import Predictor
     from bayesmap.posterior.scores import Score
     from bayesmap.posterior.trajectory_scores import TrajectoryScore
@@ -123,7 +123,7 @@ class Scores:
     """The scores of a map, and of classic maps of the same scans, with the trajectory to score."""
 
     rows: list[tuple[str, Score]]  # name and score of each row of the table; the first row is the scored map
-    fits: list[Fitted]  # fits of the classic maps in the other rows
+    fits: list[FittedBaseline]  # fits of the classic maps in the other rows
     every: int  # every n-th scan was held out; 0 if none was
     trajectory: Trajectory  # in the frame of the relations
     verdict: str | None = None  # verdict on the map of another program, in words
@@ -204,7 +204,7 @@ def _score(call: Call[ScoreSettings], name: str, predictor: Predictor, heldout: 
 
 def _score_classic_maps(
     call: Call[ScoreSettings], train: Scans, grid: Grid, heldout: Scans, rows: list[tuple[str, Score]]
-) -> list[Fitted]:
+) -> list[FittedBaseline]:
     """Fit hit ratios and log-odds to the training scans, add a row for each, and return the fits."""
     from bayesmap.posterior.baselines import BASELINES, fit_baseline
     from bayesmap.posterior.heldout import make_folds
@@ -245,7 +245,7 @@ def split_log(log: str, settings: ScoreSettings, frame: str | None) -> SplitLog:
     return SplitLog(train, heldout, trajectory.of(frame, scans.mount))
 
 
-def fit_map(call: Call[ScoreSettings], path: str, split: SplitLog) -> Fitted:
+def fit_map(call: Call[ScoreSettings], path: str, split: SplitLog) -> FittedBaseline:
     """Fit a sensor to a map of another program on the training scans."""
     from bayesmap.io.ros.maps import read_map
     from bayesmap.posterior.baselines import fit_external_map
@@ -256,7 +256,7 @@ def fit_map(call: Call[ScoreSettings], path: str, split: SplitLog) -> Fitted:
         return fit_external_map(name, occupancy, grid, split.train, report)
 
 
-def verdict(fit: Fitted, score: Score, split: SplitLog) -> str:
+def verdict(fit: FittedBaseline, score: Score, split: SplitLog) -> str:
     """Return in words whether a map agrees with the held-out scans, by its gain over no map in nats per beam."""
     import numpy as np
 

@@ -322,14 +322,14 @@ def heldout_scans(run: Run, log: str, settings: LogSettings, every: int) -> Scan
     """
     need_file(log, "the log that the run was made from", runs=False)
     from bayesmap.io.logs import read_log
-    from bayesmap.posterior.heldout import moved_by, unseen_scans
+    from bayesmap.posterior.heldout import has_moved_scans, unseen_scans
 
     train, options = run.posterior.scans, log_options_of(settings)
     # A log's own poses are read without --laser first, since the run may have been made without it.
     laser = options.pop("laser")
     first_laser = laser if settings.trajectory is not None else None
     scans = read_log(log, max_range_m=train.max_range_m, laser=first_laser, **options)
-    if laser is not None and moved_by(train, scans):
+    if laser is not None and has_moved_scans(train, scans):
         scans = read_log(log, max_range_m=train.max_range_m, laser=laser, **options)
     return unseen_scans(train, scans, every, log)
 

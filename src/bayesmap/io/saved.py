@@ -278,8 +278,8 @@ def write_draws(
     # Chunks are written whole, so a small cache suffices: the default keeps 64 MB per array until the file is closed.
     variable.set_var_chunk_cache(size=math.prod(chunks) * np.dtype(dtype).itemsize)
     variable.setncatts({"dtype": "bool"} if spec.storage == "bits" else {})
-    if spec.what:
-        variable.long_name = spec.what
+    if spec.meaning:
+        variable.long_name = spec.meaning
     for chain, block in _blocks(chains, draws, size):
         values = spec.values(stored[chain, block], shape)
         variable[chain, block] = values.view(np.int8) if spec.storage == "bits" else values.astype(dtype, copy=False)

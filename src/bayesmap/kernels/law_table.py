@@ -6,9 +6,9 @@ import warp as wp
 
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.device import Float32Rows, Float32s
-from bayesmap.sensors.tabulated import WIDEST, TabulatedLaw
+from bayesmap.sensors.tabulated import MAX_SPREAD_SCALES, TabulatedLaw
 
-MAX_SPREAD = wp.constant(wp.float32(WIDEST))
+MAX_SPREAD = wp.constant(wp.float32(MAX_SPREAD_SCALES))
 Float32Boxes = wp.array3d(dtype=wp.float32)
 # A `TabulatedLaw` on a device: the Warp types of its fields, in their order.
 LawTable = devices.struct_like(
@@ -69,7 +69,7 @@ def offset_coordinate(table: LawTable, offset: wp.float32) -> wp.float32:
     """Return the coordinate of a standard offset among its nodes, 0 to 1."""
     size = wp.abs(offset)
     arsinh = wp.log(size + wp.sqrt(size * size + wp.float32(1.0)))
-    return wp.float32(0.5) + wp.float32(0.5) * wp.sign(offset) * arsinh / table.most
+    return wp.float32(0.5) + wp.float32(0.5) * wp.sign(offset) * arsinh / table.max_offset
 
 
 @wp.func

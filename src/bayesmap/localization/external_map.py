@@ -21,7 +21,7 @@ from bayesmap.kernels.predict.pose_weights import scan_log_likelihood
 from bayesmap.localization.belief import log_sum
 from bayesmap.localization.known_map import KnownMap, ReferenceFit, Trust, n_valid
 from bayesmap.posterior.baselines import Parameter, Values, maximise, sensor_of, stop_probabilities
-from bayesmap.posterior.prediction import OnShare, ignored
+from bayesmap.posterior.prediction import OnShare, ignore_share
 from bayesmap.sensors.model import RangeLimits
 from bayesmap.space.arrays import Mask
 from bayesmap.space.grid import Grid
@@ -101,7 +101,7 @@ def external_map(
     return replace(known, trust=law.trust, reference_fit=law.reference_fit)
 
 
-def fit_law(occupancy: Floats, grid: Grid, scans: Scans, seed: int = 0, on_progress: OnShare = ignored) -> MapLaw:
+def fit_law(occupancy: Floats, grid: Grid, scans: Scans, seed: int = 0, on_progress: OnShare = ignore_share) -> MapLaw:
     """Fit the law of a map to scans with odometry, whose places in the map are unknown.
 
     The scans are located under the assumed law. Among the surely located scans, five in each ten are training scans, to
@@ -138,7 +138,7 @@ def fit_law(occupancy: Floats, grid: Grid, scans: Scans, seed: int = 0, on_progr
     starts = [ASSUMED, {**ASSUMED, "p_short": 0.05, "scale_m": 0.04}]
     score = partial(nats_per_beam, training)
     values, _ = maximise(score, score, FITTED, starts, lambda share: on_progress(0.5 + 0.5 * share))
-    halfway = {p.name: p.outer(0.5 * (p.inner(ASSUMED[p.name]) + p.inner(values[p.name]))) for p in FITTED}
+    halfway = {p.name: p.decode(0.5 * (p.encode(ASSUMED[p.name]) + p.encode(values[p.name]))) for p in FITTED}
     laws = [dict(ASSUMED), {**ASSUMED, **halfway}, {**ASSUMED, **values}]
     nats = [nats_per_beam(validation, law_values) for law_values in laws]
     best = int(np.argmax(nats))

@@ -1,27 +1,27 @@
 """Decisions from a posterior: whether a path is free, which route to take, where to look next.
 
-`bayesmap.posterior.route` has the algorithms for paths. `expected_information` bounds the mutual information of a whole
-scan with the map from both sides, by joint draws. `beam_information` is the formula of FSMI for independent cells and
-beams: fast enough for thousands of poses, but it counts shared information of beams twice (docs/decisions.md).
+`bayesmap.posterior.route` has the algorithms for paths. `next_views` ranks poses by `beam_information`, the formula of
+FSMI for independent cells and beams: fast, but it counts shared information of beams twice (docs/decisions.md). It
+compares the best by `expected_information`, bounds of the information of a whole scan from joint draws.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
 from functools import partial
 from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy import special
 
 from bayesmap.errors import BadInput
 from bayesmap.posterior import route as routes
 from bayesmap.posterior.posterior import Posterior
-from bayesmap.posterior.prediction import Fan, OnShare, draw_readings, ignored, parts, watched
+from bayesmap.posterior.prediction import Fan, OnShare, draw_readings, ignore_share, report_batches, split_progress
 from bayesmap.samplers.sampler import Stream
+from bayesmap.space.arrays import Indices, Singles
 from bayesmap.space.grid import Grid
 from bayesmap.space.planar import Floats
 from bayesmap.space.scans import Scans, as_angles, as_poses, asked_poses
@@ -31,15 +31,20 @@ if TYPE_CHECKING:
     from bayesmap.cells.kind import CellPrior
     from bayesmap.sensors.model import SensorModel
 
-
 MIN_STOP_PROBABILITY = 1e-4  # least distance of stop probabilities from 0 and 1: draws are no more precise
+SEARCH_DRAWS = 60  # draws that propose paths; all draws then judge each path
+INFORMATION_PAIRS = 2500  # default number of compared pairs: 25 draws of each of four chains, or 50 independent draws
+MIN_FREE = 0.5  # least probability that the disc touches nothing at the position of a view
+HEADINGS = 8  # headings that are tried at each position
+FULL_CIRCLE_RAD = np.radians(350.0)  # field of view from which one heading is enough
+MIN_SEPARATION = 0.05  # least distance of two views, as a share of the map's diagonal
 
 
 @dataclass(frozen=True, eq=False)
 class InformationGain:
     """Bounds on the expected information of one more scan from each of P poses.
 
-    The information lies between two estimates, on average over draws. More draws bring them closer.
+    On average over draws, the information lies between the bounds. More draws bring them closer.
 
     Attributes:
         at_least: lower bound for each pose, nats, (P,); no more than the logarithm of the number of draws of a chain.
@@ -68,9 +73,19 @@ class InformationGain:
         return f"{title}\n  greatest for pose {best}: at least {low} nats\n  at most {high} nats"
 
 
+@dataclass(frozen=True, eq=False)
+class MapDraws:
+    """D draws of the map, equally many of each chain, chain by chain."""
+
+    cells: Singles  # stop probabilities (D, N), or surfaces (D, N, 6), as `CellPrior.stops`
+    grid: Grid
+    hit_depth: float = 0.5  # where in a cell without a surface a beam stops, as a fraction of its chord
+    chains: int = 1
+
+
 def expected_information(
-    cells: NDArray[np.float32], grid: Grid, fan: Fan, poses: ArrayLike, *, hit_depth: float = 0.5, chains: int = 1,
-    seed: int = 0, device: str = "cpu", on_progress: Callable[[float], None] = ignored,
+    draws: MapDraws, fan: Fan, poses: ArrayLike, *, seed: int = 0, device: str = "cpu",
+    on_progress: OnShare = ignore_share,
 ) -> InformationGain:  # fmt: skip
     """Bound the mutual information of the map and one more scan from each pose, from joint draws of the map.
 
@@ -84,33 +99,28 @@ def expected_information(
     too large if every draw explains only its own scan. But beams are independent given the map, so the sum over beams
     of the second line is an upper bound, too. The smaller of the two upper bounds is returned.
 
-    Draws are compared within each chain: chains that have not mixed differ where the posterior does not.
-
-    ``cells`` holds the draws of the map, equally many of each chain, chain by chain: (D, N) stop probabilities or
-    (D, N, 6) surfaces, as `bayesmap.cells.kind.CellPrior.stops`. Poses are in the world frame, (P, 3).
-
-    Raises `BadInput` for poses that are not valid, or fewer than two draws of a chain.
+    Draws are compared within each chain: chains that have not mixed differ where the posterior does not. Poses are in
+    the world frame, (P, 3). Raises `BadInput` for poses that are not valid, or fewer than two draws of a chain.
     """
     from bayesmap.kernels.predict.density import ScanLikelihood, device_maps
 
-    poses_world = as_poses(poses)
-    n_draws = len(cells)
+    poses_world, grid, chains = as_poses(poses), draws.grid, draws.chains
+    n_draws = len(draws.cells)
     draws_per_chain = n_draws // chains
     if draws_per_chain < 2:
         raise BadInput(f"information: {draws_per_chain} draws of the map from each chain; two are the fewest")
-    maps = device_maps([cells], grid, hit_depth, device=device)
+    maps = device_maps([draws.cells], grid, draws.hit_depth, device=device)
     draw_index = np.arange(n_draws)
-    # Pairs of draws of one chain.
+    # All pairs of draws of one chain: the scan of the first is weighed in the second.
     scan = np.repeat(draw_index, draws_per_chain)
     other_draw = np.tile(draw_index.reshape(chains, 1, draws_per_chain), (1, draws_per_chain, 1)).ravel()
-    bounds = np.empty((4, len(poses_world)))  # lower bound and its error, upper bound and its error
-    limits = fan.limits
-    # For each pose, simulate a scan in every draw, and weight each scan in every draw of its chain.
+    bounds, limits = np.empty((4, len(poses_world))), fan.limits
+    # For each pose, simulate a scan in every draw, and weigh each scan in every draw of its chain.
     for i, pose in enumerate(poses_world):
         poses_of_draws = np.broadcast_to(pose, (n_draws, 3))
         readings = draw_readings(maps, fan, poses_of_draws, draw_index, (seed, i, Stream.VIEWS))
         scans = Scans(poses_of_draws, fan.angles_rad, readings, limits.max_m, limits.min_m)
-        likelihood = ScanLikelihood(scans, grid, fan.sensor, hit_depth, device)
+        likelihood = ScanLikelihood(scans, grid, fan.sensor, draws.hit_depth, device)
         log_p = likelihood.beams(maps, np.broadcast_to(pose, (len(scan), 3)), scan, other_draw)
         bounds[:, i] = _bounds(log_p.reshape(chains, draws_per_chain, draws_per_chain, -1))
         on_progress((i + 1) / len(poses_world))
@@ -118,22 +128,24 @@ def expected_information(
 
 
 def _bounds(beam_log_p: Floats) -> tuple[float, float, float, float]:
-    """Return both bounds with their errors, given log p(beam b of draw d's scan | draw e of chain c), (c, d, e, b)."""
-    chains, draws = beam_log_p.shape[:2]
-    draw_index = np.arange(draws)
-    without_own = np.where(np.eye(draws, dtype=bool), -np.inf, 0.0)
+    """Return the lower bound, its error, the upper bound and its error, given log p(beam b of draw d's scan | draw e of
+    chain c), (C, D, D, B) by c, d, e, b.
+    """
+    n_chains, n_draws = beam_log_p.shape[:2]
+    draw_index = np.arange(n_draws)
+    without_own = np.where(np.eye(n_draws, dtype=bool), -np.inf, 0.0)
     scan_log_p = beam_log_p.sum(axis=3)
     own_log_p = scan_log_p[:, draw_index, draw_index]
 
-    def left_out(log_p: Floats) -> Floats:
-        others = log_p + without_own.reshape(draws, draws, *(1,) * (log_p.ndim - 3))
-        return np.asarray(special.logsumexp(others, axis=2) - math.log(draws - 1))
+    def log_mean_of_others(log_p: Floats) -> Floats:
+        others = log_p + without_own.reshape(n_draws, n_draws, *(1,) * (log_p.ndim - 3))
+        return np.asarray(special.logsumexp(others, axis=2) - math.log(n_draws - 1))
 
-    lower = own_log_p - (special.logsumexp(scan_log_p, axis=2) - math.log(draws))
-    by_scan = own_log_p - left_out(scan_log_p)
-    by_beam = (beam_log_p[:, draw_index, draw_index] - left_out(beam_log_p)).sum(axis=2)
+    lower = own_log_p - (special.logsumexp(scan_log_p, axis=2) - math.log(n_draws))
+    by_scan = own_log_p - log_mean_of_others(scan_log_p)
+    by_beam = (beam_log_p[:, draw_index, draw_index] - log_mean_of_others(beam_log_p)).sum(axis=2)
     upper = min((by_scan, by_beam), key=lambda gains: float(gains.mean()))
-    root = math.sqrt(chains * draws)
+    root = math.sqrt(n_chains * n_draws)
     return lower.mean(), lower.std(ddof=1) / root, upper.mean(), upper.std(ddof=1) / root
 
 
@@ -142,7 +154,6 @@ def beam_information(
     p_right: float = 0.9, device: str = "cpu",
 ) -> Floats:  # fmt: skip
     """Return the sum of FSMI over a scan's beams: their information about a map of independent cells, nats, (P,).
-
     ``occupied`` is the probability that each cell stops a beam, (nx, ny), and ``sigma_m`` the standard deviation of
     readings. A reading is right with probability p = ``p_right``. It multiplies the odds of the cell in which it falls
     by p / (1 - p), and the odds of each cell before it by (1 - p) / p.
@@ -159,26 +170,18 @@ def beam_information(
     return np.asarray(per_beam.sum(axis=1))
 
 
-def best_views(nats: Floats, poses: Floats, count: int, apart_m: float) -> NDArray[np.intp]:
+def best_views(nats: Floats, poses: Floats, count: int, min_distance_m: float) -> Indices:
     """Select the most informative poses that are not close to each other, best first: indices, at most ``count``."""
     best: list[int] = []
     for i in np.argsort(-nats, kind="stable"):
-        if all(math.hypot(*(poses[i, :2] - poses[j, :2])) >= apart_m for j in best):
+        if all(math.hypot(*(poses[i, :2] - poses[j, :2])) >= min_distance_m for j in best):
             best.append(int(i))
         if len(best) == count:
             break
     return np.array(best, dtype=np.intp)
 
 
-SEARCH_DRAWS = 60  # draws that propose paths; all draws then judge each path
-INFORMATION_PAIRS = 2500  # default number of compared pairs: 25 draws of each of four chains, or 50 independent draws
-REACHABLE = 0.5  # least probability that the disc touches nothing at the position of a view
-HEADINGS = 8  # headings that are tried at each position
-FULL_CIRCLE_RAD = np.radians(350.0)  # field of view from which one heading is enough
-MIN_SEPARATION = 0.05  # least distance of two views, as a share of the map's diagonal
-
-
-class Drawn(Protocol):
+class HasDraws(Protocol):
     """Draws of the map with their prior: a posterior, or chains that are still running."""
 
     @property
@@ -190,27 +193,29 @@ class Drawn(Protocol):
         """The draws of the map."""
 
 
-def path_is_free(posterior: Drawn, path: ArrayLike, radius_m: float) -> routes.FreeProbability:
+def path_is_free(posterior: HasDraws, path: ArrayLike, radius_m: float) -> routes.FreeProbability:
     """Compute the chance that a disc can follow a path. Raises `BadInput`: no draws, path off the map, radius <= 0."""
-    _need_draws(posterior, "free_probability")
-    corners, grid = routes.checked_path(path), posterior.draws.grid
-    _need_radius(radius_m)
+    _check_draws(posterior, "free_probability")
+    corners, grid = routes.check_path(path), posterior.draws.grid
+    _check_radius(radius_m)
     inside = ((corners >= np.array(grid.extent_m[::2])) & (corners <= np.array(grid.extent_m[1::2]))).all(axis=1)
     if not inside.all():
         i = int(np.argmin(inside))
         raise BadInput(f"path: point {i}, {corners[i].tolist()}, lies outside the map, {grid.extent_words()}")
     cells = routes.cells_about(corners, radius_m, grid)
     batches = posterior.prior.drawn_stops(posterior.draws, cells)
-    return routes.free_probability(routes.in_the_way(batches, cells, grid, corners, radius_m), posterior.draws.chains)
+    blocking = routes.blocking_cells(batches, cells, grid, corners, radius_m)
+    return routes.free_probability(blocking, posterior.draws.chains)
 
 
 def shortest_safe_path(
-    posterior: Drawn, start: ArrayLike, goal: ArrayLike, radius_m: float, risk: float, on_progress: OnShare = ignored
-) -> routes.Route:
+    posterior: HasDraws, start: ArrayLike, goal: ArrayLike, radius_m: float, risk: float,
+    on_progress: OnShare = ignore_share,
+) -> routes.Route:  # fmt: skip
     """Find a disc's shortest path of bounded risk. Raises `BadInput` as `plan_route`, and: no draws, radius <= 0."""
-    _need_draws(posterior, "plan")
-    _need_radius(radius_m)
-    ends = [routes.checked_path(point) for point in (start, goal)]
+    _check_draws(posterior, "plan")
+    _check_radius(radius_m)
+    ends = [routes.check_path(point) for point in (start, goal)]
     if any(len(end) != 1 for end in ends):
         raise BadInput("plan: start and goal are one point each: x, y in metres")
     blocked = blocked_anywhere(posterior, radius_m, on_progress)
@@ -218,20 +223,20 @@ def shortest_safe_path(
     return routes.plan_route(blocked, posterior.draws.grid, ends[0][0], ends[1][0], risk, judge)
 
 
-def blocked_anywhere(posterior: Drawn, radius_m: float, on_progress: OnShare = ignored) -> Floats:
+def blocked_anywhere(posterior: HasDraws, radius_m: float, on_progress: OnShare = ignore_share) -> Floats:
     """Compute the probability that a disc about each cell's centre touches something, (nx, ny), by `SEARCH_DRAWS`."""
     draws = posterior.draws.thinned(SEARCH_DRAWS)
-    batches = watched(posterior.prior.drawn_stops(draws), draws.size, on_progress)
+    batches = report_batches(posterior.prior.drawn_stops(draws), draws.size, on_progress)
     return routes.blocked_probability(batches, draws.grid, radius_m)
 
 
 def information_of(
     posterior: Posterior, poses: ArrayLike, angles_rad: ArrayLike | None = None, *, max_range_m: float | None = None,
     sensor: SensorModel | None = None, draws: int | None = None, seed: int = 0, device: str = "cpu",
-    on_progress: OnShare = ignored,
+    on_progress: OnShare = ignore_share,
 ) -> InformationGain:  # fmt: skip
     """Compute the expected information of one more scan from each pose. See `bayesmap.Run.information_gain`."""
-    _need_draws(posterior, "information_gain")
+    _check_draws(posterior, "information_gain")
     if draws is not None and draws < 2:
         raise BadInput(f"information_gain: draws must be 2 or more, got {draws!r}")
     fan = Fan.of("information_gain", posterior, angles_rad, max_range_m, sensor)
@@ -239,17 +244,15 @@ def information_of(
     chains = posterior.draws.chains if posterior.has_chains and posterior.draws.count > 1 else 1
     draws_per_chain = int((INFORMATION_PAIRS / chains) ** 0.5) if draws is None else max(2, draws // chains)
     thinned = posterior.draws.thinned(draws_per_chain * chains)
-    joint = expected_information(
-        np.concatenate(list(posterior.prior.drawn_stops(thinned))), posterior.grid, fan, poses_world,
-        hit_depth=float(posterior.settings["hit_depth"]), chains=chains, seed=seed, device=device,
-        on_progress=on_progress,
-    )  # fmt: skip
+    cells = np.concatenate(list(posterior.prior.drawn_stops(thinned)))
+    map_draws = MapDraws(cells, posterior.grid, float(posterior.settings["hit_depth"]), chains)
+    joint = expected_information(map_draws, fan, poses_world, seed=seed, device=device, on_progress=on_progress)
     return replace(joint, independent=independent_information(posterior, poses_world, fan, device))
 
 
 def independent_information(posterior: Posterior, poses: Floats, fan: Fan, device: str = "cpu") -> Floats:
-    """Compute the formula for independent cells and beams, nats, (P,): its mean over the mean maps of the chains. A
-    cell that is a wall in one chain and free in another counts as known, because no scan tells why chains differ.
+    """Compute the formula for independent cells and beams, nats, (P,): its mean over the mean maps of the chains.
+    A cell that is a wall in one chain and free in another counts as known, because no scan tells why chains differ.
     """
     draws, max_range_m = posterior.draws, fan.limits.max_m
     maps = [posterior.occupancy]
@@ -263,7 +266,7 @@ def independent_information(posterior: Posterior, poses: Floats, fan: Fan, devic
 
 
 def typical_sigma_m(sensor: SensorModel, max_range_m: float) -> float:
-    """Return a robust standard deviation of hits at a quarter of the largest range: half the middle 68 % of 4000, m."""
+    """Estimate the standard deviation of hits at a quarter of the range, m: half the middle 68 % of 4000 samples."""
     from bayesmap.sensors.model import RangeLimits
 
     distance_m = np.full(4000, 0.25 * max_range_m)
@@ -274,44 +277,42 @@ def typical_sigma_m(sensor: SensorModel, max_range_m: float) -> float:
 
 @dataclass(frozen=True, eq=False)
 class Views:
-    """The poses from which to look next."""
+    """The poses from which to look next, V of P candidates."""
 
     candidates: Floats  # poses that were considered, (P, 3)
     independent: Floats  # expected information of each by the formula for independent cells and beams, nats, (P,)
-    best: NDArray[np.intp]  # numbers of the best candidates by the upper bound from joint draws, the best first, (V,)
+    best: Indices  # indices of the best candidates by the upper bound from joint draws, the best first, (V,)
     information: InformationGain  # expected information of the best candidates, (V,)
 
 
 def next_views(
     posterior: Posterior, candidates: int, views: int, radius_m: float, *, draws: int | None = None, seed: int = 0,
-    on_progress: OnShare = ignored,
+    on_progress: OnShare = ignore_share,
 ) -> Views:  # fmt: skip
     """Find the most informative poses among candidates that a robot can reach.
-
-    Candidates lie where a disc is free with probability `REACHABLE`, and free cells connect them with the robot's last
+    Candidates lie where a disc is free with probability `MIN_FREE`, and free cells connect them with the robot's last
     position. The fast formula ranks all candidates. Joint draws then compare the best, twice as many as ``views``.
-
     Raises `BadInput` if there are no draws or no candidates, or if a count is below 1.
     """
-    _need_draws(posterior, "explore")
-    _need_radius(radius_m)
+    _check_draws(posterior, "explore")
+    _check_radius(radius_m)
     for name, count in (("candidates", candidates), ("views", views)):
         if count < 1:
             raise BadInput(f"explore: {name} must be 1 or more, got {count!r}")
-    search, weigh = parts(on_progress, 1.0, 2.0)
+    on_search, on_comparison = split_progress(on_progress, 1.0, 2.0)
     fan = Fan.of("explore", posterior, None, None, None)
     # Rank candidates with all headings by the fast formula, and keep each one's best heading.
-    poses = _draw_candidates(posterior, blocked_anywhere(posterior, radius_m, search), candidates, seed)
+    poses = _draw_candidates(posterior, blocked_anywhere(posterior, radius_m, on_search), candidates, seed)
     headings = _headings(fan.angles_rad)
     turned = np.repeat(poses, len(headings), axis=0)
     turned[:, 2] += np.tile(headings, len(poses))
-    nats = independent_information(posterior, turned, fan).reshape(len(poses), -1)
-    poses[:, 2] += headings[nats.argmax(axis=1)]
-    nats = nats.max(axis=1)
+    nats_by_heading = independent_information(posterior, turned, fan).reshape(len(poses), -1)
+    poses[:, 2] += headings[nats_by_heading.argmax(axis=1)]
+    nats = nats_by_heading.max(axis=1)
     # Compare the best by joint draws.
-    apart_m = MIN_SEPARATION * float(np.hypot(*np.array(posterior.grid.shape))) * posterior.grid.resolution
-    compared = best_views(nats, poses, 2 * views, apart_m)
-    expected = information_of(posterior, poses[compared], draws=draws, seed=seed, on_progress=weigh)
+    min_distance_m = MIN_SEPARATION * float(np.hypot(*np.array(posterior.grid.shape))) * posterior.grid.resolution
+    compared = best_views(nats, poses, 2 * views, min_distance_m)
+    expected = information_of(posterior, poses[compared], draws=draws, seed=seed, on_progress=on_comparison)
     order = np.argsort(-expected.at_most, kind="stable")[:views]
     arrays = {f.name: getattr(expected, f.name)[order] for f in fields(expected) if f.name != "draws"}
     return Views(poses, nats, compared[order], replace(expected, **arrays))
@@ -322,9 +323,9 @@ def _draw_candidates(posterior: Posterior, blocked: Floats, count: int, seed: in
     from scipy import ndimage
 
     grid = posterior.grid
-    open_cells = (blocked <= 1.0 - REACHABLE) & posterior.observed
-    labels, areas = ndimage.label(open_cells, structure=np.ones((3, 3)))
-    if not areas:
+    open_cells = (blocked <= 1.0 - MIN_FREE) & posterior.observed
+    labels, n_areas = ndimage.label(open_cells, structure=np.ones((3, 3)))
+    if not n_areas:
         raise BadInput("explore: nowhere on the map is the disc free with probability one half; try a smaller radius")
     x, y, _ = posterior.scans.poses[-1]
     centres = np.stack(np.meshgrid(*grid.centers_m(), indexing="ij"), axis=-1) + 0.0
@@ -341,13 +342,13 @@ def _headings(angles_rad: Floats) -> Floats:
     return np.arange(count) / count * 2 * np.pi
 
 
-def _need_draws(posterior: Drawn, asked_by: str) -> None:
+def _check_draws(posterior: HasDraws, caller: str) -> None:
     """Raise `BadInput` if there are no draws."""
     if posterior.draws.size == 0:
-        raise BadInput(f"{asked_by}: the run has no draws; resume it, or take a method that draws maps")
+        raise BadInput(f"{caller}: the run has no draws; resume it, or take a method that draws maps")
 
 
-def _need_radius(radius_m: float) -> None:
+def _check_radius(radius_m: float) -> None:
     """Raise `BadInput` unless the radius is positive."""
     if not 0 < radius_m < np.inf:
         raise BadInput(f"radius: must be a positive number of metres, got {radius_m!r}")

@@ -1,4 +1,7 @@
-"""The posterior as plain data: everything that a saved run holds, made from a method's results, and as a dataset."""
+"""The posterior as plain data, `Posterior`: all that a saved run holds, made from a method's results.
+
+`chains_of` gives chains back to continue them; `by_reading` and `dataset_of` convert it for other tools, such as ArviZ.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +11,6 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bayesmap.cells.arrays import Draws
 from bayesmap.cells.kind import CellPrior
@@ -19,6 +21,7 @@ from bayesmap.samplers.fit import Parameters
 from bayesmap.samplers.sampler import Snapshot
 from bayesmap.samplers.without_chains import IndependentDraws
 from bayesmap.sensors.model import SensorModel
+from bayesmap.space.arrays import Indices, Mask, Singles
 from bayesmap.space.grid import Grid
 from bayesmap.space.planar import Floats
 from bayesmap.space.scans import ReadingKind, Scans
@@ -26,14 +29,12 @@ from bayesmap.space.scans import ReadingKind, Scans
 if TYPE_CHECKING:
     import xarray
 
-
 WITHOUT_CHAINS = ("exact", "importance", "propagate")  # methods whose draws are independent: they have no sweeps
 
 
 @dataclass(frozen=True, eq=False)
 class Posterior:
     """The posterior of the cells given scans, as draws and marginals.
-
     ``occupancy`` is the posterior mean of the probability that a cell stops a beam, for binary walls the probability of
     a wall: the mean of the draws, or the marginals of a method that computes them ("exact", "importance", "propagate").
     In cells that are not ``observed``, the posterior is the prior, or little more.
@@ -45,10 +46,10 @@ class Posterior:
     settings: dict[str, Any]  # method, prior, sensor, seed and schedule as JSON values
     draws: Draws
     occupancy: Floats  # (nx, ny)
-    observed: NDArray[np.bool_]  # cells that at least one beam observes in at least half of the draws, (nx, ny)
-    log_likelihood: Floats  # of every draw, (chains, draws)
-    log_prior: Floats  # (chains, draws)
-    warmup_log_joint: Floats  # (chains, warm-up sweeps)
+    observed: Mask  # cells that at least one beam observes in at least half of the draws, (nx, ny)
+    log_likelihood: Floats  # of every draw, nats, (chains, draws)
+    log_prior: Floats  # of every draw, nats, (chains, draws)
+    warmup_log_joint: Floats  # of every warm-up sweep, nats, (chains, warm-up sweeps)
     snapshot: Snapshot  # state of the chains
     finished: bool  # false if the run was stopped early
     seconds: dict[str, float]  # "trace", "warm_start", "sampling", "total", "fit"
@@ -94,7 +95,7 @@ def entropy_bits(occupancy: Floats) -> Floats:
 def posterior_of_chains(
     model: Model, chains: Chains, settings: dict[str, Any], seconds: dict[str, float], parameters: Parameters | None
 ) -> Posterior:
-    """Return the posterior of chains, with their fitted ``parameters`` and the seconds beside them."""
+    """Return the posterior of chains. ``parameters`` were fitted to the scans; ``seconds`` are further times."""
     prior = model.cells if parameters is None else parameters.prior
     return Posterior(
         scans=model.scans, sensor=model.sensor if parameters is None else parameters.sensor, prior=prior,
@@ -136,17 +137,15 @@ def _counts(model: Model, n_incidences: int) -> dict[str, int]:
     return {"scans": len(model.scans), "beams": model.scans.n_beams, "incidences": n_incidences}
 
 
-def valid_readings(posterior: Posterior) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Return scan and beam of each valid reading that the run was made from, (n,) each."""
+def valid_readings(posterior: Posterior) -> tuple[Indices, Indices]:
+    """Return the indices of scan and beam of each valid reading that the run was made from, (n,) each."""
     scan, beam = np.nonzero(posterior.scans.readings != ReadingKind.INVALID)
     return scan, beam
 
 
-def by_reading(posterior: Posterior, device: str = "cpu") -> NDArray[np.float32]:
+def by_reading(posterior: Posterior, device: str = "cpu") -> Singles:
     """Compute log p(reading | cells, poses) of every valid reading in every draw, nats, (chains, draws, n).
-
-    Densities are per metre for ranges. Cells and poses are those of the draw; a reading's stop is summed out. Raises
-    `BadInput` for a run without draws, or whose sensor model is not one of bayesmap's.
+    Densities are per metre for ranges; a reading's stop is summed out. Raises `BadInput` without draws or known sensor.
     """
     from bayesmap.kernels.predict.density import ScanLikelihood, device_maps
 
@@ -157,17 +156,17 @@ def by_reading(posterior: Posterior, device: str = "cpu") -> NDArray[np.float32]
     likelihood = ScanLikelihood(scans, posterior.grid, posterior.sensor, depth, device)
     drawn_poses = draws.values("poses") if "poses" in draws.arrays else None
     valid, scan = valid_readings(posterior), np.arange(len(scans))
-    out = np.empty((draws.chains, draws.count, len(valid[0])), np.float32)
+    log_p = np.empty((draws.chains, draws.count, len(valid[0])), np.float32)
     stops = itertools.chain.from_iterable(posterior.prior.drawn_stops(draws))
     for (chain, draw), cells in zip(draws.numbers(), stops, strict=True):
         poses = scans.poses if drawn_poses is None else drawn_poses[chain, draw]
-        one_map = device_maps([cells[None]], posterior.grid, depth, device=device)
-        out[chain, draw] = likelihood.beams(one_map, poses, scan, np.zeros_like(scan))[valid]
-    return out
+        maps = device_maps([cells[None]], posterior.grid, depth, device=device)
+        log_p[chain, draw] = likelihood.beams(maps, poses, scan, np.zeros_like(scan))[valid]
+    return log_p
 
 
 def dataset_of(posterior: Posterior, with_readings: bool) -> xarray.Dataset:
-    """Return draws, densities and marginals as xarray; raise `BadInput` as `by_reading`, or without xarray."""
+    """Return draws, densities and marginals as xarray. Raises `BadInput` as `by_reading`, or without xarray."""
     try:
         import xarray
     except ImportError:
@@ -175,7 +174,10 @@ def dataset_of(posterior: Posterior, with_readings: bool) -> xarray.Dataset:
     # Arrays of the draws, then densities, then marginals.
     draws, ny = posterior.draws, posterior.grid.shape[1]
     x, y = posterior.grid.centers_m()
-    variables = {s.name: (("chain", "draw", *s.dims), draws.values(s.name), {"long_name": s.what}) for s in draws.specs}
+    variables = {
+        spec.name: (("chain", "draw", *spec.dims), draws.values(spec.name), {"long_name": spec.meaning})
+        for spec in draws.specs
+    }
     for name, density in (("lp", "log_joint"), ("log_likelihood", "log_likelihood"), ("log_prior", "log_prior")):
         variables[name] = (("chain", "draw"), getattr(posterior, density), {"units": "nats"})
     words = posterior.prior.words

@@ -1,7 +1,9 @@
 """Predictions of readings by draws of a map: draws and quantiles of scans from any pose, and held-out residuals.
 
 docs/scoring.md states the law of a reading. Its quantile of level q is the least range z with P(reading <= z) >= q.
-Beams of one drawn scan share a draw of the map, so draws tell how readings vary together.
+Beams of one drawn scan share a draw of the map, so draws tell how readings vary together. `predict` draws scans and
+computes quantiles, `ScanPredictor` computes quantiles of one scan, `residuals_of` compares readings with their laws.
+The first functions of the file report the progress of tasks with several stages.
 """
 
 from __future__ import annotations
@@ -19,6 +21,7 @@ from bayesmap.errors import BadInput, check_count
 from bayesmap.posterior.posterior import Posterior
 from bayesmap.samplers.sampler import Stream
 from bayesmap.sensors.model import RangeLimits, SensorModel
+from bayesmap.space.arrays import Indices, Ints, Singles
 from bayesmap.space.grid import Grid
 from bayesmap.space.planar import Floats
 from bayesmap.space.scans import ReadingKind, Scans, as_angles, asked_poses
@@ -28,67 +31,68 @@ if TYPE_CHECKING:
 
 
 OnShare = Callable[[float], None]  # called with the share of the work that is done, from 0 to 1
+CENTRAL_80 = (0.1, 0.5, 0.9)  # levels of the median and of the ends of the central 80 % interval
+PREDICTED_DRAWS = 200  # largest number of maps that readings are drawn from
+MIN_SURVIVAL = 1e-3  # probability of getting further at which a beam is no longer followed: largest error of a level
+MapStates = Singles
+Batches = Callable[..., Iterator[MapStates]]
+"""A function of flat indices of cells (none: all), which yields batches of draws of their states: stop probabilities
+(draws, cells), or surfaces (draws, cells, 6) as in `bayesmap.kernels.predict.density`."""
 
 
-def ignored(share: float) -> None:
+def ignore_share(share: float) -> None:
     """Do nothing: the callback of a caller that does not follow the progress."""
 
 
-def parts(on_progress: OnShare, *sizes: float) -> list[OnShare]:
-    """Return a callback for each part of a task, to report the part's own share, given the parts' relative sizes."""
-    ends = np.cumsum([0.0, *sizes]) / sum(sizes)
+def split_progress(on_progress: OnShare, *times: float) -> list[OnShare]:
+    """Return a callback for each stage of a task, which takes the stage's own share, given their relative times."""
+    ends = np.cumsum([0.0, *times]) / sum(times)
 
-    def report_part(begin: float, end: float) -> OnShare:
+    def stage_callback(begin: float, end: float) -> OnShare:
         return lambda share: on_progress(begin + (end - begin) * share)
 
-    return [report_part(begin, end) for begin, end in pairwise(ends.tolist())]
+    return [stage_callback(begin, end) for begin, end in pairwise(ends.tolist())]
 
 
-def watched(batches: Iterable[NDArray[Any]], total: int, on_progress: OnShare) -> Iterator[NDArray[Any]]:
-    """Yield the batches of draws, ``total`` in all, and report progress whenever one has been used."""
-    used = 0
+def report_batches(batches: Iterable[NDArray[Any]], n_draws: int, on_progress: OnShare) -> Iterator[NDArray[Any]]:
+    """Yield batches of draws, ``n_draws`` in all, and report progress after the use of each."""
+    n_used = 0
     for batch in batches:
         yield batch
-        used += len(batch)
-        on_progress(min(used / total, 1.0))
+        n_used += len(batch)
+        on_progress(min(n_used / n_draws, 1.0))
 
 
-def checked_levels(levels: Sequence[float]) -> Floats:
-    """Return levels of quantiles as an array. Raises `BadInput` if they do not rise or lie outside (0, 1)."""
+def check_levels(levels: Sequence[float]) -> Floats:
+    """Return levels of quantiles as an array, (L,). Raises `BadInput` if they do not rise or lie outside (0, 1)."""
     probabilities = np.asarray(levels, dtype=np.float64)
     if probabilities.size == 0 or (np.diff([0.0, *probabilities, 1.0]) <= 0).any() or np.isnan(probabilities).any():
         raise BadInput(f"quantiles: levels must rise and lie inside (0, 1), got {list(levels)}")
     return probabilities
 
 
-MapStates = NDArray[np.float32]
-Batches = Callable[..., Iterator[MapStates]]
-"""Takes flat indices of cells (none: all), and yields batches of draws of their states: stop probabilities
-(draws, cells), or surfaces (draws, cells, 6) as in `bayesmap.kernels.predict.density`."""
-
-
 @dataclass(frozen=True, eq=False)
 class Predictor:
-    """A map, certain or not, and its prediction of readings."""
+    """A map, known or as draws, with the sensor: all that predicts readings."""
 
     grid: Grid
     batches: Batches  # yields the draws
     sensor: SensorModel  # the law of a reading given where its beam stops
     hit_depth: float  # where in a plain cell a beam stops, as a fraction of its chord
-    draws: int = 1
+    draws: int = 1  # number of draws; a known map is one draw
 
 
 def fixed_maps(stop: NDArray[np.floating]) -> Batches:
-    """Return the batches of maps that are all in memory, (draws, cells); a plug-in map is one draw."""
+    """Return the batches of maps that are all in memory, stop probabilities, (draws, cells)."""
 
-    def batches(cells: NDArray[np.int32] | None = None) -> Iterator[MapStates]:
+    def batches(cells: Ints | None = None) -> Iterator[MapStates]:
         yield np.ascontiguousarray(stop if cells is None else stop[:, cells], dtype=np.float32)
 
     return batches
 
 
 def predictor_of(posterior: Posterior, sensor: SensorModel | None = None) -> Predictor:
-    """Return the draws as a prediction, by the run's sensor or another. Raises `BadInput`: no draws or known sensor."""
+    """Return a posterior's predictor, by its sensor or another. Raises `BadInput`: no draws, or no known sensor."""
     sensor = posterior.sensor if sensor is None else sensor
     if sensor is None:
         raise BadInput(
@@ -98,20 +102,15 @@ def predictor_of(posterior: Posterior, sensor: SensorModel | None = None) -> Pre
     if posterior.draws.size == 0:
         raise BadInput("score: the run has no draws yet; let it finish its warm-up")
 
-    def batches(cells: NDArray[np.int32] | None = None) -> Iterator[MapStates]:
+    def batches(cells: Ints | None = None) -> Iterator[MapStates]:
         return posterior.prior.predictive_stops(posterior.draws, cells)
 
     return Predictor(posterior.grid, batches, sensor, float(posterior.settings["hit_depth"]), posterior.draws.size)
 
 
-CENTRAL_80 = (0.1, 0.5, 0.9)  # levels of the median and of the ends of the central 80 % interval
-PREDICTED_DRAWS = 200  # largest number of maps that readings are drawn from
-GONE = 1e-3  # probability of getting further below which a beam is no longer followed: the greatest error of a level
-
-
 @dataclass(frozen=True, eq=False)
 class ScanPredictor:
-    """Draws of a map that are ready to predict scans."""
+    """Draws of a map on a device, ready to predict scans."""
 
     grid: Grid
     draws: DeviceMaps
@@ -126,29 +125,28 @@ class ScanPredictor:
         draws = device_maps(predictor.batches(), predictor.grid, predictor.hit_depth, device=device)
         return cls(predictor.grid, draws, predictor.sensor, limits)
 
-    def thinned(self, most: int) -> ScanPredictor:
-        """Return this predictor with at most ``most`` of the draws, evenly spread."""
-        return replace(self, draws=self.draws.thinned(most))
+    def thinned(self, max_draws: int) -> ScanPredictor:
+        """Return this predictor with at most ``max_draws`` of the draws, evenly spread."""
+        return replace(self, draws=self.draws.thinned(max_draws))
 
     def quantiles(self, pose_world: ArrayLike, angles_rad: ArrayLike, levels: Sequence[float] = CENTRAL_80) -> Floats:
         """Compute quantiles of the readings of one scan with beams at angles (A,), metres, (A, levels).
-
-        Levels rise inside (0, 1), and are met to within `GONE`. No return counts as +inf, too close as -inf, each if it
-        is an outcome of the sensor. The stops of a cell's surface in all draws are merged (docs/scoring.md, The common
-        view). Raises `BadInput` as `checked_levels`, or if the sensor's probabilities do not sum to one.
+        Levels rise inside (0, 1), and are met to within `MIN_SURVIVAL`. No return counts as +inf, too close as -inf,
+        each if it is an outcome of the sensor. The stops of a cell's surface in all draws are merged (docs/scoring.md,
+        The common view). Raises `BadInput` as `check_levels`, or if the sensor's probabilities do not sum to one.
         """
         from bayesmap.kernels.predict.stop_mixture import mix_device_stops, range_quantiles
         from bayesmap.kernels.rays import trace_rays
 
-        probabilities = checked_levels(levels)
-        scan = _unread_scans(np.reshape(pose_world, (1, 3)), np.asarray(angles_rad, dtype=np.float64), self.limits)
+        probabilities = check_levels(levels)
+        scan = _empty_scans(np.reshape(pose_world, (1, 3)), np.asarray(angles_rad, dtype=np.float64), self.limits)
         device = self.draws.device
-        law = mix_device_stops(trace_rays(scan, self.grid, device=device), self.draws, GONE)
+        law = mix_device_stops(trace_rays(scan, self.grid, device=device), self.draws, MIN_SURVIVAL)
         return range_quantiles(law, probabilities, self.sensor, device)
 
 
-def _unread_scans(poses: Floats, angles_rad: Floats, limits: RangeLimits) -> Scans:
-    """Return scans to trace beams whose readings are predicted; their own readings have no part in it."""
+def _empty_scans(poses: Floats, angles_rad: Floats, limits: RangeLimits) -> Scans:
+    """Return scans without a hit, to trace beams from the poses, (P, 3), whose readings are predicted."""
     return Scans(poses, angles_rad, np.full((len(poses), len(angles_rad)), np.inf), limits.max_m, limits.min_m)
 
 
@@ -156,46 +154,46 @@ def _unread_scans(poses: Floats, angles_rad: Floats, limits: RangeLimits) -> Sca
 class Residuals:
     """Readings of the n beams that hit something or had no return, against their predictive laws."""
 
-    ends_world: Floats  # where a hit beam ended; for one without return, where its median was predicted, metres, (n, 2)
+    ends_world: Floats  # end of the beam, metres, (n, 2); without return, the point at its predicted median
     residual_m: Floats  # reading minus predicted median, metres; no return counts as the sensor's largest range, (n,)
     surprise_nats: Floats  # minus the log predictive density of the reading, (n,)
-    beams: NDArray[np.intp]  # which of the scans' beams these are, flat, (n,)
+    beams: Indices  # flat indices of these beams among all beams of the scans, (n,)
 
 
-def residuals_of(predictor: Predictor, scans: Scans, on_progress: OnShare = ignored) -> Residuals:
-    """Predict and compare all hits and no-returns of held-out scans; raise `BadInput` without any, or draws."""
+def residuals_of(predictor: Predictor, scans: Scans, on_progress: OnShare = ignore_share) -> Residuals:
+    """Compare hits and no-returns of held-out scans with predictions. Raises `BadInput` without any, or draws."""
     from bayesmap.kernels.predict.density import forecast
     from bayesmap.kernels.predict.stop_mixture import mix_stops, range_quantiles
     from bayesmap.kernels.rays import trace_rays
 
-    if not placed(scans).size:
+    if not comparable_beams(scans).size:
         raise BadInput("residuals: none of the scans has a hit or a no-return to compare with its prediction")
     rays = trace_rays(scans, predictor.grid)
-    sensor, depth, draws = predictor.sensor, predictor.hit_depth, predictor.draws
-    mixing, forecasting = parts(on_progress, 0.5, 1.0)
-    law = mix_stops(rays, watched(predictor.batches(rays.touched), draws, mixing), depth)
+    sensor, depth, n_draws = predictor.sensor, predictor.hit_depth, predictor.draws
+    mixing, forecasting = split_progress(on_progress, 0.5, 1.0)
+    law = mix_stops(rays, report_batches(predictor.batches(rays.touched), n_draws, mixing), depth)
     median_m = range_quantiles(law, np.array([0.5]), sensor)[:, 0]
-    batches = watched(predictor.batches(rays.touched), draws, forecasting)
-    return compare(scans, median_m, forecast(rays, batches, sensor, depth).log_density)
+    batches = report_batches(predictor.batches(rays.touched), n_draws, forecasting)
+    return compare_readings(scans, median_m, forecast(rays, batches, sensor, depth).log_density)
 
 
-def placed(scans: Scans) -> NDArray[np.intp]:
-    """Return the flat indices of the beams that hit something or had no return."""
+def comparable_beams(scans: Scans) -> Indices:
+    """Return the flat indices of the beams that hit something or had no return, (n,)."""
     kinds = scans.readings.ravel()
     return np.flatnonzero((kinds == ReadingKind.HIT) | (kinds == ReadingKind.NO_RETURN))
 
 
-def compare(scans: Scans, median_m: Floats, log_density: Floats) -> Residuals:
-    """Compare readings with medians of their laws, (B,), infinite where typed, and log densities, (B,)."""
-    beams = placed(scans)
+def compare_readings(scans: Scans, median_m: Floats, log_density: Floats) -> Residuals:
+    """Compare readings with the medians of their laws, (B,), infinite where typed, and log densities, (B,)."""
+    beams = comparable_beams(scans)
     median = np.clip(median_m[beams], scans.min_range_m, scans.max_range_m)
-    readings = scans.ranges_m.ravel()[beams]
-    capped = np.minimum(readings, scans.max_range_m)
-    length = np.where(np.isposinf(readings), median, capped)
+    range_m = scans.ranges_m.ravel()[beams]
+    capped_m = np.minimum(range_m, scans.max_range_m)
+    length_m = np.where(np.isposinf(range_m), median, capped_m)
     angle = scans.beam_angles_world().ravel()[beams]
     start = scans.beam_starts_world().reshape(-1, 2)[beams]
-    ends = start + length[:, None] * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
-    return Residuals(ends, capped - median, -log_density[beams], beams)
+    ends = start + length_m[:, None] * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    return Residuals(ends, capped_m - median, -log_density[beams], beams)
 
 
 @dataclass(frozen=True)
@@ -204,13 +202,13 @@ class SurfaceOffset:
 
     across_m: float  # along the normal from the surface's mean: positive in front of it, negative behind
     along_m: float  # along the wall from the mean: positive to the left as the sensor sees it
-    thickness_m: float  # standard deviation of the surface across
-    length_m: float  # and along
+    thickness_m: float  # standard deviation of the surface across the wall
+    length_m: float  # standard deviation of the surface along the wall
     incidence_rad: float  # angle at the surface's mean between the normal and the sensor, in [0, pi / 2]
 
 
 def surface_offset(mean: Floats, covariance: Floats, point: Floats, sensor: Floats) -> SurfaceOffset:
-    """Return a point, (2,), in the frame of a surface of mean, (2,), and covariance, as a sensor, (2,), sees it."""
+    """Return a point, (2,), in the frame of a surface, mean (2,), covariance (2, 2), seen by a sensor at (2,)."""
     variances, axes = np.linalg.eigh(covariance)
     normal, to_sensor, to_point = axes[:, 0], sensor - mean, point - mean
     if normal @ to_sensor < 0:
@@ -256,30 +254,30 @@ class Prediction:
 
 @dataclass(frozen=True, eq=False)
 class Fan:
-    """The beams of a scan that is to be predicted, and the law of its readings."""
+    """The beams of a scan to be predicted, and the law of its readings."""
 
-    angles_rad: Floats
+    angles_rad: Floats  # angles in the sensor's frame, (A,)
     limits: RangeLimits
     sensor: SensorModel
 
     @classmethod
     def of(
-        cls, asked_by: str, posterior: Posterior, angles_rad: ArrayLike | None, max_range_m: float | None,
+        cls, caller: str, posterior: Posterior, angles_rad: ArrayLike | None, max_range_m: float | None,
         sensor: SensorModel | None,
     ) -> Fan:  # fmt: skip
-        """Return the run's fan, with parts replaced. Raises `BadInput`: invalid angles, range <= 0, no known sensor."""
+        """Return a run's fan, with arguments in place of its own. Raises `BadInput`: angles, range, or no sensor."""
         scans, law = posterior.scans, posterior.sensor if sensor is None else sensor
         if law is None:
-            raise BadInput(f"{asked_by}: the sensor model of this run is not one of bayesmap's; pass sensor=")
+            raise BadInput(f"{caller}: the sensor model of this run is not one of bayesmap's; pass sensor=")
         longest_m = scans.max_range_m if max_range_m is None else max_range_m
         if not 0 < longest_m < np.inf:
-            raise BadInput(f"{asked_by}: max_range_m must be a positive number of metres, got {longest_m!r}")
+            raise BadInput(f"{caller}: max_range_m must be a positive number of metres, got {longest_m!r}")
         angles = as_angles(scans.angles_rad if angles_rad is None else angles_rad)
         return cls(angles, RangeLimits(min(scans.min_range_m, longest_m), float(longest_m)), law)
 
 
-def draw_readings(maps: DeviceMaps, fan: Fan, poses: Floats, draw: NDArray[np.intp], key: tuple[int, ...]) -> Floats:
-    """Draw the readings of a scan at each of n poses in the map ``draw`` of each, (n, A). ``key`` seeds them."""
+def draw_readings(maps: DeviceMaps, fan: Fan, poses: Floats, draw: Indices, key: tuple[int, ...]) -> Floats:
+    """Draw the readings of a scan at each of n poses, (n, A), each in the map of index ``draw``. ``key`` seeds them."""
     from bayesmap.kernels.predict.view import draw_scan_stops
     from bayesmap.kernels.random import mix
 
@@ -305,7 +303,7 @@ def predict(
     for i, (x, y, _) in enumerate(poses_world):
         if grid.cell_at(x, y) is None:
             raise BadInput(f"predict: pose {i}, {poses_world[i].tolist()}, lies outside the map, {grid.extent_words()}")
-    quantiles, seed = checked_levels(levels), check_count("predict", "seed", seed, 0)
+    quantile_levels, seed = check_levels(levels), check_count("predict", "seed", seed, 0)
     thinned = posterior.draws.thinned(check_count("predict", "draws", draws, 1))
     # Draw all scans in one map after the other.
     draws_m: list[Floats] = []
@@ -315,7 +313,7 @@ def predict(
             draw, key = np.full(len(poses_world), i), (seed, len(draws_m), Stream.READINGS)
             draws_m.append(draw_readings(maps, fan, poses_world, draw, key))
     # Mix the stops of all draws.
-    rays = trace_rays(_unread_scans(poses_world, fan.angles_rad, fan.limits), grid, device=device)
+    rays = trace_rays(_empty_scans(poses_world, fan.angles_rad, fan.limits), grid, device=device)
     law = mix_stops(rays, predictor.batches(rays.touched), predictor.hit_depth, device=device)
-    quantiles_m = range_quantiles(law, quantiles, fan.sensor, device).reshape(*draws_m[0].shape, -1)
-    return Prediction(poses_world, fan.angles_rad, np.stack(draws_m), quantiles, quantiles_m)
+    quantiles_m = range_quantiles(law, quantile_levels, fan.sensor, device).reshape(*draws_m[0].shape, -1)
+    return Prediction(poses_world, fan.angles_rad, np.stack(draws_m), quantile_levels, quantiles_m)

@@ -5,7 +5,7 @@ obstacle stops at least `SOLID` of the beams that come to it. For a cell without
 For a surface it is the ellipse of two standard deviations of the points where it stops beams.
 
 A search on a graph proposes paths that minimise length plus a price per metre near possible obstacles. Prices rise
-until the joint draws of the map judge a path as safe enough.
+until the joint draws of the map judge a path as safe enough (`plan_route`). The probability comes first in the file.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
+from bayesmap.space.arrays import Indices, Ints, Mask, Singles
 from bayesmap.space.grid import Grid
 from bayesmap.space.planar import Floats
 
@@ -27,6 +28,19 @@ SOLID = 0.1  # stop probability below which a cell counts as free, as in maps fo
 REACH_CELLS = 2.5  # greatest distance of any part of a surface from its cell's centre, in edges of a cell
 
 PROBE_SIGMAS = np.array([-2.0, -1.0, 0.0, 1.0, 2.0])  # points on the long axis from which distances are computed
+PRICES = (0.0, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 1000.0)
+"""Metres of detour that avoid one metre at which the disc is blocked with probability 1 - 1 / e."""
+
+EDGES = {
+    (1, 0): (), (0, 1): (), (1, 1): ((1, 0), (0, 1)), (1, -1): ((1, 0), (0, -1)),
+    (2, 1): ((1, 0), (1, 1), (0, 1), (2, 0)), (1, 2): ((0, 1), (1, 1), (1, 0), (0, 2)),
+    (2, -1): ((1, 0), (1, -1), (0, -1), (2, 0)), (1, -2): ((0, -1), (1, -1), (1, 0), (0, -2)),
+}  # fmt: skip
+"""Edges of the graph: offset of the cell at the end, and offsets of the cells that the edge crosses or nearly touches.
+Together with the opposite edges there are sixteen directions."""
+
+MAX_BLOCKED_PROBABILITY = 1.0 - 1e-6  # probability of being blocked above which a cell is not in the graph
+MAX_DANGER = -math.log1p(-MAX_BLOCKED_PROBABILITY)  # `MAX_BLOCKED_PROBABILITY` as a danger, -log(1 - probability)
 
 
 @dataclass(frozen=True)
@@ -43,10 +57,10 @@ class FreeProbability:
     probability: float
     standard_error: float
     independent: float
-    blocked: NDArray[np.bool_]
+    blocked: Mask
 
 
-def checked_path(path: ArrayLike) -> Floats:
+def check_path(path: ArrayLike) -> Floats:
     """Return a path as points in the world frame, (P, 2). Raises `BadInput` if it has another shape or no points."""
     try:
         points = np.atleast_2d(np.asarray(path, dtype=np.float64))
@@ -76,6 +90,7 @@ def distance_to_path_m(points: Floats, path: Floats) -> Floats:
 def square_to_path_m(centres: Floats, edge_m: float, path: Floats) -> Floats:
     """Compute distances of axis-parallel squares about ``centres``, (n, 2), from a polyline, 0 where they meet."""
     half = 0.5 * edge_m
+    # A square's corner or a point of the polyline is nearest, unless they cross.
     corners = np.array([[-half, -half], [-half, half], [half, -half], [half, half]])
     nearest = distance_to_path_m(centres[:, None] + corners, path).min(axis=1)
     outside = np.maximum(np.abs(path[None] - centres[:, None]) - half, 0.0)
@@ -85,8 +100,8 @@ def square_to_path_m(centres: Floats, edge_m: float, path: Floats) -> Floats:
     return np.asarray(nearest)
 
 
-def _crosses(centres: Floats, half: float, start: Floats, end: Floats) -> NDArray[np.bool_]:
-    """Return whether a segment meets each square, by the intervals of the segment between opposite sides (slabs)."""
+def _crosses(centres: Floats, half: float, start: Floats, end: Floats) -> Mask:
+    """Return the mask of the squares that a segment meets, by its intervals between opposite sides (slabs), (n,)."""
     enter, leave = np.zeros(len(centres)), np.ones(len(centres))  # as shares of the segment
     for axis, length in enumerate(end - start):
         low, high = centres[:, axis] - half - start[axis], centres[:, axis] + half - start[axis]
@@ -98,49 +113,44 @@ def _crosses(centres: Floats, half: float, start: Floats, end: Floats) -> NDArra
     return np.asarray(enter <= leave)
 
 
-def cells_about(path: Floats, radius_m: float, grid: Grid) -> NDArray[np.int32]:
-    """Return the flat indices of the cells whose content can touch the disc, ascending."""
+def cells_about(path: Floats, radius_m: float, grid: Grid) -> Ints:
+    """Return the flat indices of the cells whose walls or surfaces can touch a disc on the path, ascending, (n,)."""
     nx, ny = grid.shape
-    reach = radius_m + REACH_CELLS * grid.resolution
-    low = np.floor(grid.to_cells(path.min(axis=0) - reach)).astype(int)
-    high = np.ceil(grid.to_cells(path.max(axis=0) + reach)).astype(int)
+    reach_m = radius_m + REACH_CELLS * grid.resolution
+    low = np.floor(grid.to_cells(path.min(axis=0) - reach_m)).astype(int)
+    high = np.ceil(grid.to_cells(path.max(axis=0) + reach_m)).astype(int)
     x, y = np.arange(max(low[0], 0), min(high[0], nx)), np.arange(max(low[1], 0), min(high[1], ny))
     flat = np.add.outer(x * ny, y).ravel()
-    is_near = distance_to_path_m(centres_world(flat, grid), path) <= reach + 0.5 * math.sqrt(2) * grid.resolution
+    is_near = distance_to_path_m(centres_world(flat, grid), path) <= reach_m + 0.5 * math.sqrt(2) * grid.resolution
     return np.asarray(flat[is_near], dtype=np.int32)
 
 
 def centres_world(flat: NDArray[np.integer], grid: Grid) -> Floats:
     """Return the centres of cells by flat index, metres in the world frame, (n, 2)."""
-    ny = grid.shape[1]
-    cells = np.stack([flat // ny, flat % ny], axis=-1) + 0.5
-    return np.asarray(cells * grid.resolution + np.array(grid.origin))
+    return np.asarray(grid.centers_from_corner_m(flat) + np.array(grid.origin))
 
 
-def in_the_way(
-    batches: Iterable[NDArray[np.float32]], cells: NDArray[np.int32], grid: Grid, path: Floats, radius_m: float
-) -> NDArray[np.bool_]:
-    """Return which cells are in the way of a disc, whose centre moves along a path, (P, 2), in each draw, (draws, n).
-
+def blocking_cells(batches: Iterable[Singles], cells: Ints, grid: Grid, path: Floats, radius_m: float) -> Mask:
+    """Return the mask of the cells in the way of a disc that moves along a path, (P, 2), in each draw, (draws, n).
     ``batches`` yields the stops of the cells, (n,) flat indices, in batches of draws: (draws, n), or (draws, n, 6) for
     surfaces, as `bayesmap.cells.kind.CellPrior.stops` returns them.
     """
     square_m = square_to_path_m(centres_world(cells, grid), grid.resolution, path)
-    blocks = []
+    masks = []
     for batch in batches:
         if batch.ndim == 2:
-            blocks.append((batch >= SOLID) & (square_m < radius_m))
+            masks.append((batch >= SOLID) & (square_m < radius_m))
             continue
-        blocked = np.zeros(batch.shape[:2], dtype=np.bool_)
+        blocks = np.zeros(batch.shape[:2], dtype=np.bool_)
         draw, cell = np.nonzero(batch[..., 0] >= SOLID)
         surface = batch[draw, cell].astype(np.float64)
-        blocked[draw, cell] = _surface_touches(surface, np.array(grid.origin), path, radius_m)
-        blocks.append(blocked)
-    return np.concatenate(blocks)
+        blocks[draw, cell] = _surface_touches(surface, np.array(grid.origin), path, radius_m)
+        masks.append(blocks)
+    return np.concatenate(masks)
 
 
-def _surface_touches(surface: Floats, origin: Floats, path: Floats, radius_m: float) -> NDArray[np.bool_]:
-    """Return whether the two-sigma ellipse of each surface, (n, 6), comes within a radius of a path."""
+def _surface_touches(surface: Floats, origin: Floats, path: Floats, radius_m: float) -> Mask:
+    """Return the mask of the surfaces, (n, 6), whose two-sigma ellipse comes within a radius of a path, (n,)."""
     probes, short = _probes(surface, origin)
     # Half width of the ellipse of two deviations at the probes along its long axis.
     width = short[:, None] * np.sqrt(np.maximum(4.0 - PROBE_SIGMAS[None] ** 2, 0.0))
@@ -148,7 +158,7 @@ def _surface_touches(surface: Floats, origin: Floats, path: Floats, radius_m: fl
 
 
 def _probes(surface: Floats, origin: Floats | float = 0.0) -> tuple[Floats, Floats]:
-    """Return points on each ellipse's long axis, (n, 5, 2), and its short standard deviation, (n,)."""
+    """Return points on the long axis of each surface, (n, 6): (n, 5, 2), and its short standard deviation, (n,)."""
     l11, l21, l22 = surface[:, 3:].T
     var_x, cov_xy, var_y = l11**2, l11 * l21, l21**2 + l22**2
     mean_variance, half_difference = 0.5 * (var_x + var_y), np.hypot(0.5 * (var_x - var_y), cov_xy)
@@ -158,9 +168,8 @@ def _probes(surface: Floats, origin: Floats | float = 0.0) -> tuple[Floats, Floa
     return probes, np.sqrt(np.maximum(mean_variance - half_difference, 0.0))
 
 
-def free_probability(blocking: NDArray[np.bool_], chains: int) -> FreeProbability:
+def free_probability(blocking: Mask, chains: int) -> FreeProbability:
     """Compute the probability that nothing is in the way, with its Monte Carlo error.
-
     ``blocking`` is the mask of the cells in the way in each draw, chain after chain, (chains * draws, n). The error is
     the standard error of a share of independent draws, as many as the effective sample size. Half a free and half a
     blocked draw are added, so that the error is positive if all draws agree.
@@ -168,28 +177,13 @@ def free_probability(blocking: NDArray[np.bool_], chains: int) -> FreeProbabilit
     from bayesmap.posterior.summary import MIN_DRAWS_PER_CHAIN, plain_ess, split_chains
 
     blocked = blocking.any(axis=1).reshape(chains, -1)
-    free = 1.0 - float(blocked.mean())
+    p_free = 1.0 - float(blocked.mean())
     ess = float(blocked.size)
-    if blocked.shape[1] >= MIN_DRAWS_PER_CHAIN and 0 < free < 1:
+    if blocked.shape[1] >= MIN_DRAWS_PER_CHAIN and 0 < p_free < 1:
         ess = min(ess, float(plain_ess(split_chains(blocked.astype(np.float64)))))
-    smoothed = (free * ess + 0.5) / (ess + 1.0)
+    smoothed = (p_free * ess + 0.5) / (ess + 1.0)
     error = math.sqrt(smoothed * (1 - smoothed) / max(ess, 1.0))
-    return FreeProbability(free, error, float(np.prod(1.0 - blocking.mean(axis=0))), blocked)
-
-
-PRICES = (0.0, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 1000.0)
-"""Metres of detour that avoid one metre at which the disc is blocked with probability 1 - 1 / e."""
-
-STEPS = {
-    (1, 0): (), (0, 1): (), (1, 1): ((1, 0), (0, 1)), (1, -1): ((1, 0), (0, -1)),
-    (2, 1): ((1, 0), (1, 1), (0, 1), (2, 0)), (1, 2): ((0, 1), (1, 1), (1, 0), (0, 2)),
-    (2, -1): ((1, 0), (1, -1), (0, -1), (2, 0)), (1, -2): ((0, -1), (1, -1), (1, 0), (0, -2)),
-}  # fmt: skip
-"""Edges of the graph: offset of the cell at the end, and offsets of the cells that the edge crosses or nearly touches.
-Together with the opposite edges there are sixteen directions."""
-
-MAX_BLOCKED_PROBABILITY = 1.0 - 1e-6  # probability of being blocked above which a cell is not in the graph
-MAX_DANGER = -math.log1p(-MAX_BLOCKED_PROBABILITY)  # `MAX_BLOCKED_PROBABILITY` as a danger, -log(1 - probability)
+    return FreeProbability(p_free, error, float(np.prod(1.0 - blocking.mean(axis=0))), blocked)
 
 
 @dataclass(frozen=True, eq=False)
@@ -198,6 +192,7 @@ class Route:
 
     Attributes:
         path: corners in the world frame, (P, 2), start and goal included.
+        length_m: length of the path, metres.
         free: probability that the disc touches nothing, over joint draws.
         within_risk: True if the risk is within the bound. Otherwise this is the safest of the proposed paths.
     """
@@ -218,11 +213,11 @@ class Route:
 
 
 def is_within_risk(free_probability: float, risk: float) -> bool:
-    """Return whether the risk keeps a bound, up to rounding: 1 - 0.99 is a little more than 0.01."""
+    """Return whether 1 - ``free_probability`` is at most ``risk``, up to rounding: 1 - 0.99 exceeds 0.01 a little."""
     return 1.0 - free_probability <= risk + 1e-12
 
 
-def blocked_probability(batches: Iterable[NDArray[np.float32]], grid: Grid, radius_m: float) -> Floats:
+def blocked_probability(batches: Iterable[Singles], grid: Grid, radius_m: float) -> Floats:
     """Compute the probability that a disc at each cell's centre is blocked, (nx, ny), by batches of draws."""
     from scipy import ndimage
 
@@ -237,33 +232,32 @@ def blocked_probability(batches: Iterable[NDArray[np.float32]], grid: Grid, radi
     return n_blocked / max(n_draws, 1)
 
 
-def _solid_squares(stops: NDArray[np.float32], grid: Grid) -> NDArray[np.bool_]:
-    """Return the grid's squares in which something solid lies in one draw, (nx, ny)."""
+def _solid_squares(stops: Singles, grid: Grid) -> Mask:
+    """Return the mask of the grid's squares in which something solid lies in one draw, (nx, ny)."""
     if stops.ndim == 1:
         return np.asarray(stops.reshape(grid.shape) >= SOLID)
-    out = np.zeros(grid.shape, dtype=np.bool_)
+    solid = np.zeros(grid.shape, dtype=np.bool_)
     probes, _ = _probes(stops[stops[:, 0] >= SOLID].astype(np.float64))
     cell = np.floor(probes.reshape(-1, 2) / grid.resolution).astype(int)
     inside = ((cell >= 0) & (cell < grid.shape)).all(axis=1)
-    out[cell[inside, 0], cell[inside, 1]] = True
-    return out
+    solid[cell[inside, 0], cell[inside, 1]] = True
+    return solid
 
 
 def plan_route(
     blocked: Floats, grid: Grid, start: Floats, goal: Floats, risk: float, judge: Callable[[Floats], FreeProbability]
 ) -> Route:
     """Find the shortest path from start to goal, world frame, whose risk of touching something stays under a bound.
-
     ``blocked`` is the probability that the disc is blocked at each cell's centre, (nx, ny). ``judge`` returns the
-    probability that a path is free. Raises `BadInput` if start or goal is outside the grid or blocked, or without path.
+    probability that a path is free. Raises `BadInput` if an end is outside the grid or blocked, or if no path exists.
     """
     if not 0 < risk < 1:
         raise BadInput(f"plan: risk must lie inside (0, 1), got {risk!r}")
-    ends = [_cell_of(point, grid, blocked, name) for point, name in ((start, "start"), (goal, "goal"))]
+    start_cell, goal_cell = _free_cell(start, grid, blocked, "start"), _free_cell(goal, grid, blocked, "goal")
     danger = -np.log1p(-np.minimum(blocked, MAX_BLOCKED_PROBABILITY))
     routes: list[Route] = []
     for price in PRICES:
-        cells = _cheapest(danger, price, grid.shape, ends[0], ends[1])
+        cells = _cheapest_path(danger, price, grid.shape, start_cell, goal_cell)
         if cells is None:
             raise BadInput(
                 "plan: no path leads from start to goal: the disc is blocked on all ways in nearly every draw; try a "
@@ -280,7 +274,7 @@ def plan_route(
     return max(routes, key=lambda route: route.free.probability)
 
 
-def _cell_of(point: Floats, grid: Grid, blocked: Floats, name: str) -> int:
+def _free_cell(point: Floats, grid: Grid, blocked: Floats, name: str) -> int:
     """Return the flat index of the cell of start or goal; raise `BadInput` if it is outside the map or blocked."""
     cell = np.floor(grid.to_cells(point)).astype(int)
     words = f"{name} ({point[0]:.2f}, {point[1]:.2f} m)"
@@ -291,25 +285,25 @@ def _cell_of(point: Floats, grid: Grid, blocked: Floats, name: str) -> int:
     return int(cell[0] * grid.shape[1] + cell[1])
 
 
-def _cheapest(danger: Floats, price: float, shape: tuple[int, int], start: int, goal: int) -> NDArray[np.intp] | None:
-    """Return the flat indices of the cells of the cheapest path; None if there is none."""
+def _cheapest_path(danger: Floats, price: float, shape: tuple[int, int], start: int, goal: int) -> Indices | None:
+    """Return the flat indices of the cells of the cheapest path; None if there is no path."""
     from scipy import sparse
     from scipy.sparse import csgraph
 
     nx, ny = shape
-    x, y = (a.ravel() for a in np.meshgrid(np.arange(nx), np.arange(ny), indexing="ij"))
-    flat = danger.ravel()
-    passable = flat < MAX_DANGER
+    x, y = (index.ravel() for index in np.meshgrid(np.arange(nx), np.arange(ny), indexing="ij"))
+    flat_danger = danger.ravel()
+    passable = flat_danger < MAX_DANGER
     # Edges cost their length, plus the price times the mean danger of the cells that they cross.
-    rows, columns, costs = [], [], []
-    for (dx, dy), crossed in STEPS.items():
+    sources, targets, costs = [], [], []
+    for (dx, dy), crossed in EDGES.items():
         source = np.nonzero((x + dx < nx) & (y + dy >= 0) & (y + dy < ny))[0]
         edges = np.stack([source + i * ny + j for i, j in ((0, 0), *crossed, (dx, dy))])
         edges = edges[:, passable[edges].all(axis=0)]
-        rows.append(edges[0])
-        columns.append(edges[-1])
-        costs.append(math.hypot(dx, dy) * (1.0 + price * flat[edges].mean(axis=0)))
-    ends = np.concatenate(rows), np.concatenate(columns)
+        sources.append(edges[0])
+        targets.append(edges[-1])
+        costs.append(math.hypot(dx, dy) * (1.0 + price * flat_danger[edges].mean(axis=0)))
+    ends = np.concatenate(sources), np.concatenate(targets)
     graph = sparse.coo_array((np.concatenate(costs), ends), shape=(nx * ny, nx * ny)).tocsr()
     _, predecessors = csgraph.dijkstra(graph, directed=False, indices=start, return_predecessors=True)
     cells = [goal]
@@ -325,21 +319,21 @@ def _straightened(path: Floats, danger: Floats, grid: Grid, price: float) -> Flo
     cost = partial(_cost, danger=danger, grid=grid, price=price)
     corners = [0]
     while corners[-1] < len(path) - 1:
-        i, j = corners[-1], len(path) - 1
-        while j > i + 1 and cost(path[[i, j]]) > cost(path[i : j + 1]) + 1e-9:
-            j = i + (j - i + 1) // 2 if j - i > 8 else j - 1
-        corners.append(j)
+        begin, end = corners[-1], len(path) - 1
+        while end > begin + 1 and cost(path[[begin, end]]) > cost(path[begin : end + 1]) + 1e-9:
+            end = begin + (end - begin + 1) // 2 if end - begin > 8 else end - 1
+        corners.append(end)
     return path[corners]
 
 
 def _cost(path: Floats, danger: Floats, grid: Grid, price: float) -> float:
-    """Return length plus price of a polyline, sampled every quarter cell; infinite through cells outside the graph."""
+    """Compute length plus price of a polyline, sampled every quarter cell; infinite through cells outside the graph."""
     total = 0.0
     for start, end in itertools.pairwise(path):
-        length = float(np.hypot(*(end - start)))
-        n = max(2, int(np.ceil(4 * length / grid.resolution)) + 1)
-        points = start + np.linspace(0, 1, n)[:, None] * (end - start)
+        length_m = float(np.hypot(*(end - start)))
+        n_points = max(2, int(np.ceil(4 * length_m / grid.resolution)) + 1)
+        points = start + np.linspace(0, 1, n_points)[:, None] * (end - start)
         cell = np.clip(np.floor(grid.to_cells(points)).astype(int), 0, np.array(grid.shape) - 1)
         dangers = danger[cell[:, 0], cell[:, 1]]
-        total += length * (1.0 + price * float(dangers.mean())) if dangers.max() < MAX_DANGER else math.inf
+        total += length_m * (1.0 + price * float(dangers.mean())) if dangers.max() < MAX_DANGER else math.inf
     return total

@@ -8,7 +8,8 @@ follow the predictive law, then the probability integral transform
 is uniform. The randomisation v spreads the atoms at "no return" and "too close" over their probability (Czado, Gneiting
 and Held, Biometrics 2009). A central interval of probability p contains the reading if ``|u - 1/2| <= p / 2``.
 
-Beams of one scan share the error of its pose, so standard errors come from a bootstrap whose blocks are whole scans.
+Beams of one scan share the error of its pose, so standard errors come from a bootstrap whose blocks are whole scans
+(`ScanBlocks`). `score_prediction` computes a `Score`, and `compare_scores` compares two.
 """
 
 from __future__ import annotations
@@ -22,17 +23,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.posterior.prediction import OnShare, Predictor, ignored, parts, watched
+from bayesmap.posterior.prediction import OnShare, Predictor, ignore_share, report_batches, split_progress
 from bayesmap.sensors.model import RangeLimits, describe
+from bayesmap.space.arrays import Indices, Mask
 from bayesmap.space.planar import Floats
 from bayesmap.space.scans import ReadingKind, Scans
 
-REPLICATES = 1000  # Replicates of the bootstrap. Standard errors are then accurate to about 2 %.
-POINTS = 100  # number of intervals of u at whose ends its distribution is compared to the uniform one
+REPLICATES = 1000  # replicates of the bootstrap: standard errors are then accurate to about 2 %
+INTERVALS = 100  # intervals of u at whose ends its distribution is compared with the uniform one
+LEVELS = (0.5, 0.8, 0.95)  # probabilities of central intervals
+BINS = 20  # of the histogram of u
+MIX_TIME, QUANTILES_TIME, EVENTS_TIME = 0.5, 12.0, 6.0  # computing times relative to the forecast of one draw
 
 
 def randomised_pit(low: Floats, high: Floats, seed: int = 0) -> Floats:
-    """Draw the probability integral transform, (B,), between ``low``, P(reading < z), and ``high``, P(reading <= z)."""
+    """Draw the probability integral transform, (B,), between P(reading < z), ``low``, and P(reading <= z), ``high``."""
     return low + np.random.default_rng([seed, 0x917]).random(low.shape) * (high - low)
 
 
@@ -41,13 +46,13 @@ def pit_histogram(pit: Floats, bins: int) -> Floats:
     return np.asarray(np.histogram(pit, bins=bins, range=(0.0, 1.0))[0] / max(len(pit), 1))
 
 
-def inside(pit: Floats, level: float) -> NDArray[np.bool_]:
-    """Return whether each reading lies in its central interval of probability ``level``."""
+def inside(pit: Floats, level: float) -> Mask:
+    """Return the mask of the readings that lie in their central intervals of probability ``level``, (B,)."""
     return np.abs(pit - 0.5) <= 0.5 * level
 
 
-def binary_scores(chance: Floats, happened: NDArray[np.bool_]) -> tuple[Floats, Floats]:
-    """Compute each event's Brier score ``(p - y)^2`` and log loss ``-log p`` or ``-log(1 - p)``. Lower is better."""
+def binary_scores(chance: Floats, happened: Mask) -> tuple[Floats, Floats]:
+    """Compute each event's Brier score ``(p - y)^2`` and log loss ``-log p`` or ``-log(1 - p)``, (n,) each."""
     brier = (chance - happened) ** 2
     with np.errstate(divide="ignore"):
         loss = -np.where(happened, np.log(chance), np.log1p(-chance))
@@ -68,18 +73,19 @@ class Estimate:
 
 @dataclass(frozen=True, eq=False)
 class ScanBlocks:
-    """Items in blocks, and bootstrap replicates of the blocks."""
+    """A bootstrap of n items in S blocks, the scans: the block of each item, and R replicates of the blocks."""
 
-    block: NDArray[np.intp]  # block of each item, in [0, S), (n,)
+    block: Indices  # block of each item, in [0, S), (n,)
     weights: Floats  # number of times that each replicate draws each block, (R, S)
 
     @classmethod
-    def make(cls, block: NDArray[np.intp], seed: int = 0, replicates: int = REPLICATES) -> ScanBlocks:
-        """Draw the replicates: each draws S of the S blocks, with replacement."""
+    def make(cls, block: Indices, seed: int = 0, replicates: int = REPLICATES) -> ScanBlocks:
+        """Draw the replicates: each draws S of the S blocks, with replacement. ``block`` may skip numbers."""
         _, compact = np.unique(block, return_inverse=True)
-        size = int(compact.max()) + 1 if len(compact) else 1
+        n_blocks = int(compact.max()) + 1 if len(compact) else 1
         rng = np.random.default_rng([seed, 0xB00])
-        return cls(compact, rng.multinomial(size, np.full(size, 1.0 / size), size=replicates).astype(np.float64))
+        weights = rng.multinomial(n_blocks, np.full(n_blocks, 1.0 / n_blocks), size=replicates)
+        return cls(compact, weights.astype(np.float64))
 
     def sums(self, values: Floats) -> Floats:
         """Return the sum of the values in each block, (S,)."""
@@ -94,20 +100,18 @@ class ScanBlocks:
 
     def uniformity(self, pit: Floats) -> tuple[float, float]:
         """Return the Kolmogorov-Smirnov distance of the distribution of u from the uniform one, and its p-value.
-
-        The distance is computed at the ends of `POINTS` intervals. The p-value is the share of replicates whose
+        The distance is computed at the ends of `INTERVALS` intervals. The p-value is the share of replicates whose
         distance from the distribution of all items is at least as large, NaN with a single block.
         """
         # Count the items per block and interval.
-        points = np.arange(1, POINTS) / POINTS
-        blocks = self.weights.shape[1]
-        interval = np.clip(np.ceil(pit * POINTS).astype(np.intp) - 1, 0, POINTS - 1)
-        counts = np.bincount(self.block * POINTS + interval, minlength=blocks * POINTS).reshape(blocks, POINTS)
-        cumulative = np.cumsum(counts, axis=1)
+        n_blocks = self.weights.shape[1]
+        interval = np.clip(np.ceil(pit * INTERVALS).astype(np.intp) - 1, 0, INTERVALS - 1)
+        counts = np.bincount(self.block * INTERVALS + interval, minlength=n_blocks * INTERVALS)
+        cumulative = np.cumsum(counts.reshape(n_blocks, INTERVALS), axis=1)
         total = cumulative.sum(axis=0)
         distribution = total[:-1] / total[-1]
-        distance = float(np.abs(distribution - points).max())
-        if blocks < 2:
+        distance = float(np.abs(distribution - np.arange(1, INTERVALS) / INTERVALS).max())
+        if n_blocks < 2:
             return distance, float("nan")
         # Compare each replicate's distribution with that of all items.
         replicates = self.weights @ cumulative
@@ -115,14 +119,13 @@ class ScanBlocks:
         return distance, float((distances >= distance).mean())
 
 
-def reliability(chance: Floats, happened: NDArray[np.bool_]) -> list[tuple[float, float, int]]:
-    """Group events by predicted chance. Returns (mean chance, share that happened, count) for each non-empty bin.
-    Chances of first hits are mostly small. So bins have equal widths in ``log10 chance`` from -3, or less, to 0.
-    """
+def reliability(chance: Floats, happened: Mask) -> list[tuple[float, float, int]]:
+    """Group events by predicted chance. Returns (mean chance, share that happened, count) for each non-empty bin."""
+    # Chances of first hits are mostly small: bins have equal widths in log10 chance from -3, or less, to 0.
     edges = np.concatenate([[0.0], np.logspace(-3, 0, 10)])
     bin_of_event = np.clip(np.searchsorted(edges, chance, side="left") - 1, 0, 9)
-    count, chances, events = (np.bincount(bin_of_event, values, minlength=10) for values in (None, chance, happened))
-    return [(float(p / n), float(k / n), int(n)) for p, k, n in zip(chances, events, count, strict=True) if n]
+    counts, sums, n_happened = (np.bincount(bin_of_event, values, minlength=10) for values in (None, chance, happened))
+    return [(float(p / n), float(k / n), int(n)) for p, k, n in zip(sums, n_happened, counts, strict=True) if n]
 
 
 def beam_log_scores(
@@ -130,7 +133,6 @@ def beam_log_scores(
     device: str = "cpu",
 ) -> Floats:  # fmt: skip
     """Compute the log predictive density of every reading, log mean over draws of p(reading | draw), (B,).
-
     Densities are per metre for hits, probabilities for typed readings, in nats; NaN where a reading is invalid. They
     equal `Score.by_beam` bit for bit. Raises `BadInput` without a valid reading or a draw.
     """
@@ -141,18 +143,10 @@ def beam_log_scores(
         raise BadInput("score: none of the scans has a valid reading")
     sensor, limits = predictor.sensor, RangeLimits(scans.min_range_m, scans.max_range_m)
     reach_m = explained_within_m(scans.ranges_m.ravel(), sensor, limits, predictor.grid.resolution)
-    rays, draws = trace_rays(scans, predictor.grid, reach_m=reach_m, device=device), predictor.draws
-    batches = watched(predictor.batches(rays.touched), draws, lambda share: on_progress(round(share * draws), draws))
-    return log_densities(rays, batches, sensor, predictor.hit_depth, device=device)
-
-
-LEVELS = (0.5, 0.8, 0.95)  # probabilities of central intervals
-BINS = 20  # of the histogram of u
-
-# Computing times relative to the forecast of one draw, for progress.
-MIX_TIME = 0.5  # of mixing one draw
-QUANTILES_TIME = 12.0
-EVENTS_TIME = 6.0
+    rays, n_draws = trace_rays(scans, predictor.grid, reach_m=reach_m, device=device), predictor.draws
+    batches = predictor.batches(rays.touched)
+    reported = report_batches(batches, n_draws, lambda share: on_progress(round(share * n_draws), n_draws))
+    return log_densities(rays, reported, sensor, predictor.hit_depth, device=device)
 
 
 @dataclass(frozen=True)
@@ -196,7 +190,7 @@ class Score:
     coverage: tuple[Coverage, ...]
     pit: NDArray[np.float64] = field(repr=False)
     by_beam: NDArray[np.float64] = field(repr=False)
-    scan_of_beam: NDArray[np.intp] = field(repr=False)
+    scan_of_beam: Indices = field(repr=False)
     reading_m: NDArray[np.float64] = field(repr=False)
     pit_histogram: tuple[float, ...]
     pit_distance: float
@@ -248,11 +242,9 @@ def _numbers(**values: float) -> dict[str, float | None]:
 
 
 def score_prediction(
-    predictor: Predictor, scans: Scans, *, seed: int = 0, device: str = "cpu", on_progress: OnShare = ignored
+    predictor: Predictor, scans: Scans, *, seed: int = 0, device: str = "cpu", on_progress: OnShare = ignore_share
 ) -> Score:
-    """Score a prediction on scans that had no part in it. ``seed`` seeds the randomised transform and the bootstrap.
-    Raises `BadInput` without a valid reading or a draw.
-    """
+    """Score a prediction on scans that had no part in it. Raises `BadInput` without a valid reading or a draw."""
     from bayesmap.kernels.predict.density import forecast
     from bayesmap.kernels.predict.stop_mixture import first_hit_events, mix_stops, range_quantiles
     from bayesmap.kernels.rays import trace_rays
@@ -261,35 +253,32 @@ def score_prediction(
     if not valid.any():
         raise BadInput("score: none of the scans has a valid reading")
     limits = RangeLimits(scans.min_range_m, scans.max_range_m)
-    sensor, ranges = predictor.sensor, scans.ranges_m.ravel()
+    sensor, range_m = predictor.sensor, scans.ranges_m.ravel()
     rays = trace_rays(scans, predictor.grid, device=device)
     # Predict: density and transform of each reading, quantiles of its law, and chances of first hits.
-    depth, draws = predictor.hit_depth, predictor.draws
-    times = (draws, MIX_TIME * draws, QUANTILES_TIME, EVENTS_TIME)
-    forecasting, mixing, quantiles_done, events_done = parts(on_progress, *times)
-    batches, batches_again = (watched(predictor.batches(rays.touched), draws, part) for part in (forecasting, mixing))
+    depth, n_draws = predictor.hit_depth, predictor.draws
+    times = (n_draws, MIX_TIME * n_draws, QUANTILES_TIME, EVENTS_TIME)
+    on_forecast, on_mix, on_quantiles, on_events = split_progress(on_progress, *times)
+    batches = report_batches(predictor.batches(rays.touched), n_draws, on_forecast)
     prediction = forecast(rays, batches, sensor, depth, device=device)
-    law = mix_stops(rays, batches_again, depth, device=device)
-    ends = sorted({0.5 - side * 0.5 * level for level in LEVELS for side in (1, -1)})
-    quantiles = range_quantiles(law, np.array(ends), sensor, device)[valid]
-    quantiles_done(1.0)
+    law = mix_stops(rays, report_batches(predictor.batches(rays.touched), n_draws, on_mix), depth, device=device)
+    # Quantiles at the ends of the intervals of all levels.
+    ends = np.array(sorted({0.5 - side * 0.5 * level for level in LEVELS for side in (1, -1)}))
+    quantiles = np.clip(range_quantiles(law, ends, sensor, device)[valid], limits.min_m, limits.max_m)
+    on_quantiles(1.0)
     chance, stopped = first_hit_events(law, sensor, device)
-    events_done(1.0)
-
+    on_events(1.0)
     # Score the valid readings, with a bootstrap over scans.
     scan = np.repeat(np.arange(len(scans)), len(scans.angles_rad))
     blocks = ScanBlocks.make(scan[valid], seed)
     nats = blocks.mean(prediction.log_density[valid])
     pit = randomised_pit(prediction.pit_low[valid], prediction.pit_high[valid], seed)
     distance, p_value = blocks.uniformity(pit)
-    clipped = np.clip(quantiles, limits.min_m, limits.max_m)
-
-    def covers(level: float) -> Coverage:
-        low, high = (clipped[:, np.argmin(np.abs(np.array(ends) - end))] for end in (0.5 - level / 2, 0.5 + level / 2))
-        width = high - low
-        share = blocks.mean(inside(pit, level).astype(np.float64))
-        return Coverage(level, share, float(width.mean()), float(np.median(width)))
-
+    coverage = []
+    for level in LEVELS:
+        low, high = (np.argmin(np.abs(ends - end)) for end in (0.5 - level / 2, 0.5 + level / 2))
+        width, share = quantiles[:, high] - quantiles[:, low], blocks.mean(inside(pit, level).astype(np.float64))
+        coverage.append(Coverage(level, share, float(width.mean()), float(np.median(width))))
     # Score the events that a reading decides.
     event = stopped >= 0
     happened, p = stopped[event] == 1, chance[event].astype(np.float64)
@@ -298,12 +287,12 @@ def score_prediction(
     no_events = Estimate(float("nan"), float("nan"))
     return Score(
         scans=len(np.unique(scan[valid])), beams=int(valid.sum()), nats_per_beam=nats.value,
-        nats_per_beam_error=nats.error, coverage=tuple(covers(level) for level in LEVELS), pit=pit,
-        by_beam=prediction.log_density[valid], scan_of_beam=scan[valid], reading_m=ranges[valid],
-        pit_histogram=tuple(pit_histogram(pit, BINS).tolist()), pit_distance=distance, pit_p_value=p_value,
-        events=len(p), brier=event_blocks.mean(brier) if len(p) else no_events,
+        nats_per_beam_error=nats.error, coverage=tuple(coverage), pit=pit, by_beam=prediction.log_density[valid],
+        scan_of_beam=scan[valid], reading_m=range_m[valid], pit_histogram=tuple(pit_histogram(pit, BINS).tolist()),
+        pit_distance=distance, pit_p_value=p_value, events=len(p),
+        brier=event_blocks.mean(brier) if len(p) else no_events,
         log_loss=event_blocks.mean(loss) if len(p) else no_events, reliability=tuple(reliability(p, happened)),
-        p_no_return=(float(prediction.p_no_return[valid].mean()), float(np.isposinf(ranges[valid]).mean())),
+        p_no_return=(float(prediction.p_no_return[valid].mean()), float(np.isposinf(range_m[valid]).mean())),
         sensor=describe(sensor), hit_depth=predictor.hit_depth,
     )  # fmt: skip
 
@@ -336,7 +325,6 @@ class ScoreDifference:
 
 def compare_scores(first: Score, second: Score, *, seed: int = 0) -> ScoreDifference:
     """Compare two scores on the same held-out beams, by the mean difference with its paired standard error.
-
     Both models find the same beams hard, so the error of the difference is mostly far below that of either score.
     ``seed`` is that of the bootstrap over scans. Raises `BadInput` for scores of different beams.
     """

@@ -2,9 +2,9 @@
 
 Split R-hat and effective sample size are those of Vehtari, Gelman, Simpson, Carpenter and Buerkner,
 *Rank-normalization, folding, and localization: an improved R-hat* (Bayesian Analysis, 2021), for many cells at once.
-The numbers are those of arviz-stats, against which the tests check them; arviz computes one quantity at a time, at some
-milliseconds each, and a map has a hundred thousand. A binary quantity needs no ranks: its rank-normalised values are an
-affine image of it, and these diagnostics are unchanged by affine maps.
+The tests check them against arviz-stats, which takes some milliseconds for each of the hundred thousand cells of a map.
+A binary quantity needs no ranks: its rank-normalised values are an affine image of it, and affine maps do not change
+these diagnostics. `summarise` and `summarise_poses` compute the summaries, by the functions before them.
 """
 
 from __future__ import annotations
@@ -14,19 +14,24 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import special
 
 from bayesmap.cells.arrays import Draws
 from bayesmap.cells.kind import CellPrior
 from bayesmap.posterior.posterior import Posterior
 from bayesmap.run.chains import PRECISION, map_error
+from bayesmap.space.arrays import Mask
 from bayesmap.space.planar import Floats, wrap_angle
 
-RHAT_LIMIT = 1.05  # R-hat above which chains have not mixed
-ESS_LIMIT = 100.0  # effective sample size under which means are too noisy
-CELLS_AT_ONCE = 4096  # cells whose traces are in memory at once
+RHAT_LIMIT, ESS_LIMIT = 1.05, 100.0  # over this R-hat chains have not mixed; under this size means are too noisy
+BATCH_CELLS = 4096  # cells whose traces are in memory together
 MIN_DRAWS_PER_CHAIN = 4  # fewest draws of a chain with which its halves have a variance
+# Share of the cells that may be over a limit without a warning. With 50 independent draws of each of four chains, one
+# cell in a thousand has an R-hat over 1.05, and four in a thousand an effective sample size under 100, by chance.
+CHANCE_SHARE = 0.01
+MAX_ERROR_RATIO = 1.5  # of the map's error to the requested precision without a warning: slow cells fall short
+LEGEND = """R-hat compares chains with one another: 1 is equal, and over 1.05 they have not mixed. A cell that
+changed only once in one chain has a large R-hat. The map is judged by the error of its mean, not by single cells."""
 
 
 def split_chains(values: Floats) -> Floats:
@@ -36,23 +41,23 @@ def split_chains(values: Floats) -> Floats:
 
 
 def rank_normalise(values: Floats) -> Floats:
-    """Return the normal scores of the ranks over all chains, (C, D)."""
+    """Return the normal scores of the ranks of values, (C, D), over all chains."""
     _, group, count = np.unique(values, return_inverse=True, return_counts=True)
     ranks = (np.cumsum(count) - (count - 1) / 2)[group].reshape(values.shape)  # ties share their mean rank
     return np.asarray(special.ndtri((ranks - 0.375) / (values.size + 0.25)))
 
 
 def plain_rhat(chains: Floats) -> Floats:
-    """Compute R-hat of (chains, draws, ...), chains not split: NaN where all is constant, inf where chains are."""
-    n = chains.shape[1]
+    """Compute R-hat of (chains, draws, ...), not split: NaN if all values are equal, inf if only within chains."""
+    n_draws = chains.shape[1]
     within = chains.var(axis=1, ddof=1).mean(axis=0)
     between = chains.mean(axis=1).var(axis=0, ddof=1)
     with np.errstate(divide="ignore", invalid="ignore"):
-        return np.asarray(np.sqrt((n - 1) / n + between / within))
+        return np.asarray(np.sqrt((n_draws - 1) / n_draws + between / within))
 
 
 def rhat(values: Floats) -> float:
-    """Compute the rank-normalised split R-hat, the larger of bulk and folded; NaN below four draws a chain."""
+    """Compute the rank-normalised split R-hat of (C, D), the larger of bulk and folded; NaN below 4 draws a chain."""
     if values.shape[1] < MIN_DRAWS_PER_CHAIN:
         return float("nan")
     halves = split_chains(values)
@@ -64,10 +69,12 @@ def plain_ess(chains: Floats) -> Floats:
     """Compute the effective sample size of (chains, draws, ...), not split, by Geyer's initial monotone sequence."""
     m, n = chains.shape[:2]
     flat = chains.reshape(m, n, -1)
+    # Autocovariances of every chain, by fast Fourier transforms, padded so that they do not wrap around.
     centred = flat - flat.mean(axis=1, keepdims=True)
     length = 1 << (2 * n - 1).bit_length()
     spectrum = np.fft.rfft(centred, length, axis=1)
     autocovariance = np.fft.irfft(np.abs(spectrum) ** 2, length, axis=1)[:, :n] / n  # (m, n, cells)
+    # Autocorrelations of all chains together.
     within = autocovariance[:, 0].mean(axis=0) * n / (n - 1)
     variance = within * (n - 1) / n
     if m > 1:
@@ -97,18 +104,18 @@ def bulk_ess(values: Floats) -> float:
 
 
 def tail_ess(values: Floats) -> float:
-    """Compute the tail effective sample size: the lesser of the indicators' at the 5 % and 95 % quantiles."""
+    """Compute the tail effective sample size of (C, D): the lesser of the indicators' at the 5 % and 95 % quantiles."""
     if values.shape[1] < MIN_DRAWS_PER_CHAIN:
         return float("nan")
-    low, high = np.quantile(values, [0.05, 0.95])
-    halves = [split_chains((values <= q).astype(np.float64)) for q in (low, high)]
+    quantiles = np.quantile(values, [0.05, 0.95])
+    indicators = [split_chains((values <= quantile).astype(np.float64)) for quantile in quantiles]
     # An indicator without variation, as short chains have, counts as fully effective: the other one decides.
-    return float(min(half.size if half.min() == half.max() else plain_ess(half) for half in halves))
+    return float(min(halves.size if halves.min() == halves.max() else plain_ess(halves) for halves in indicators))
 
 
 @dataclass(frozen=True)
 class CellDiagnostics:
-    """Convergence of a map's cells (`Summary`). Cells are judged if R-hat and ESS are known, or if chains disagree."""
+    """The convergence of a map's cells; `Summary` documents the fields. Judged are cells that changed or disagree."""
 
     rhat_max: float
     ess_min: float
@@ -119,39 +126,31 @@ class CellDiagnostics:
     judged_cells: int
 
 
-def diagnose_cells(prior: CellPrior, draws: Draws, among: NDArray[np.bool_]) -> CellDiagnostics:
+def diagnose_cells(prior: CellPrior, draws: Draws, observed: Mask) -> CellDiagnostics:
     """Compute R-hat and effective sample size of the cells of a run, as their maps show them, not rank-normalised.
-
-    Cells ``among`` some, (nx, ny), are judged: pass the observed cells. The others follow the prior, and the worst of
-    a hundred thousand prior draws is bad by chance. All cells of the grid count as unchanged or not.
+    Only ``observed`` cells, (nx, ny), are judged: the worst of a hundred thousand prior draws is bad by chance.
     """
     constant, agreed = prior.constant_cells(draws)
-    changed, disagreeing, unchanged = np.flatnonzero(among.ravel()), 0, None
+    changed, n_disagreeing, n_unchanged = np.flatnonzero(observed.ravel()), 0, None
     if constant is not None and agreed is not None:
-        disagreeing = int((constant & ~agreed & among.ravel()).sum())
-        changed, unchanged = np.flatnonzero(among.ravel() & ~constant), int(agreed.sum())
+        n_disagreeing = int((constant & ~agreed & observed.ravel()).sum())
+        changed, n_unchanged = np.flatnonzero(observed.ravel() & ~constant), int(agreed.sum())
     rhats, sizes = [np.zeros(0)], [np.zeros(0)]
     if draws.count >= MIN_DRAWS_PER_CHAIN:
-        for i in range(0, len(changed), CELLS_AT_ONCE):
-            halves = split_chains(prior.traces(draws, changed[i : i + CELLS_AT_ONCE]).astype(np.float64))
-            varied = np.ptp(halves.reshape(-1, halves.shape[-1]), axis=0) > 0
-            if varied.any():
-                rhats.append(plain_rhat(halves[..., varied]))
-                sizes.append(plain_ess(halves[..., varied]))
-    rhat_of_cell, size_of_cell = np.concatenate(rhats), np.concatenate(sizes)
+        for i in range(0, len(changed), BATCH_CELLS):
+            halves = split_chains(prior.traces(draws, changed[i : i + BATCH_CELLS]).astype(np.float64))
+            varies = np.ptp(halves.reshape(-1, halves.shape[-1]), axis=0) > 0
+            if varies.any():
+                rhats.append(plain_rhat(halves[..., varies]))
+                sizes.append(plain_ess(halves[..., varies]))
+    rhat_of_cell, ess_of_cell = np.concatenate(rhats), np.concatenate(sizes)
     return CellDiagnostics(
         rhat_max=float(np.fmax.reduce(rhat_of_cell, initial=np.nan)),
-        ess_min=float(np.fmin.reduce(size_of_cell, initial=np.nan)), unchanged_cells=unchanged,
-        disagreeing_cells=None if unchanged is None else disagreeing,
-        rhat_high_cells=disagreeing + int((rhat_of_cell > RHAT_LIMIT).sum()),
-        ess_low_cells=int((size_of_cell < ESS_LIMIT).sum()), judged_cells=disagreeing + len(rhat_of_cell),
+        ess_min=float(np.fmin.reduce(ess_of_cell, initial=np.nan)), unchanged_cells=n_unchanged,
+        disagreeing_cells=None if n_unchanged is None else n_disagreeing,
+        rhat_high_cells=n_disagreeing + int((rhat_of_cell > RHAT_LIMIT).sum()),
+        ess_low_cells=int((ess_of_cell < ESS_LIMIT).sum()), judged_cells=n_disagreeing + len(rhat_of_cell),
     )  # fmt: skip
-
-
-# Share of the cells that may be over a limit without a warning. With 50 independent draws of each of four chains, one
-# cell in a thousand has an R-hat over 1.05, and four in a thousand an effective sample size under 100, by chance.
-CHANCE_SHARE = 0.01
-TOLERANCE = 1.5  # ratio of the map's error to the requested precision from which a run warns: slow cells fall short
 
 
 @dataclass(frozen=True)
@@ -192,7 +191,7 @@ class Summary(CellDiagnostics):
         return {name: None if isinstance(x, float) and not math.isfinite(x) else x for name, x in asdict(self).items()}
 
     def __str__(self) -> str:
-        """Write what is good, what is doubtful with its remedy, the figures in words, and what they mean."""
+        """Return strengths, problems, the figures in words, and their meaning, a line each."""
         lines = [f"good: {strength}" for strength in self.strengths()]
         lines += [f"doubtful: {problem}" for problem in self.problems()]
         if not math.isnan(self.rhat_log_joint):
@@ -219,11 +218,11 @@ class Summary(CellDiagnostics):
         return "\n".join(lines)
 
     def strengths(self) -> list[str]:
-        """Return what is good about the run and how good, in words; empty where nothing is known to be."""
+        """Return the good results of the diagnostics, in words with figures; empty if there are none."""
         strengths = []
-        if self.map_error <= TOLERANCE * self.precision:
-            short = "" if self.map_error <= self.precision else f"; {self.precision:g} takes more draws"
-            strengths.append(f"the mean map is known to {self.map_error:.3f} in 99 of 100 observed cells{short}")
+        if self.map_error <= MAX_ERROR_RATIO * self.precision:
+            remark = "" if self.map_error <= self.precision else f"; {self.precision:g} takes more draws"
+            strengths.append(f"the mean map is known to {self.map_error:.3f} in 99 of 100 observed cells{remark}")
         if self.rhat_log_likelihood <= RHAT_LIMIT:
             strengths.append(f"the chains agree: R-hat of the log likelihood is {self.rhat_log_likelihood:.3f}")
         if self.effective_sample_size >= ESS_LIMIT:
@@ -231,7 +230,7 @@ class Summary(CellDiagnostics):
         return strengths
 
     def problems(self) -> list[str]:
-        """Return what is doubtful about the run and what to do, in words; empty where nothing is."""
+        """Return the doubtful results of the diagnostics, each with a remedy, in words; empty if there are none."""
         problems = []
         if not self.finished:
             problems.append("the run was stopped before it had finished: resume it")
@@ -240,13 +239,13 @@ class Summary(CellDiagnostics):
                 f"{self.disagreeing_cells} cells are stuck at different values in different chains: warm up longer "
                 "(warmup), or use method 'block'"
             )
-        if TOLERANCE * self.precision < self.map_error < math.inf:
+        if MAX_ERROR_RATIO * self.precision < self.map_error < math.inf:
             problems.append(
                 f"the mean map is known to {self.map_error:.3f} in 99 of 100 observed cells, not to "
                 f"{self.precision:g}: draw more maps (draws)"
             )
-        swept = not math.isnan(self.microseconds_per_sweep)
-        if self.finished and swept and math.isnan(self.rhat_log_joint):
+        has_sweeps = not math.isnan(self.microseconds_per_sweep)
+        if self.finished and has_sweeps and math.isnan(self.rhat_log_joint):
             problems.append(
                 f"nothing can be judged: under {MIN_DRAWS_PER_CHAIN} draws of each chain, or none that differ; draw "
                 "more maps (draws)"
@@ -257,43 +256,39 @@ class Summary(CellDiagnostics):
         return problems
 
 
-LEGEND = """R-hat compares chains with one another: 1 is equal, and over 1.05 they have not mixed. A cell that
-changed only once in one chain has a large R-hat. The map is judged by the error of its mean, not by single cells."""
-
-
 def summarise(posterior: Posterior) -> Summary:
     """Compute the diagnostics of a run."""
     nan = float("nan")
-    markov, weights = posterior.has_chains, posterior.log_weights
+    has_chains, log_weights = posterior.has_chains, posterior.log_weights
     # Independent draws have no diagnostics of chains.
-    draws_of_chains = slice(None if markov else 0)
-    log_joint, log_likelihood = posterior.log_joint[:, draws_of_chains], posterior.log_likelihood[:, draws_of_chains]
-    chains, draws = log_joint.shape
-    sweeps = posterior.sweep * max(1, chains)
+    selected = slice(None if has_chains else 0)
+    log_joint, log_likelihood = posterior.log_joint[:, selected], posterior.log_likelihood[:, selected]
+    n_chains, n_draws = log_joint.shape
+    n_sweeps = posterior.sweep * max(1, n_chains)
     threads = int(posterior.settings.get("threads_used", 1))
     cells = CellDiagnostics(nan, nan, 0, 0, 0, 0, 0)
-    if markov:
+    if has_chains:
         cells = diagnose_cells(posterior.prior, posterior.draws, posterior.observed)
-    enough = draws >= MIN_DRAWS_PER_CHAIN
+    enough = n_draws >= MIN_DRAWS_PER_CHAIN
+    sweep_us = 1e6 * posterior.seconds["sampling"] * threads / n_sweeps if has_chains and n_sweeps else nan
     return Summary(
         **vars(cells), rhat_log_joint=rhat(log_joint), rhat_log_likelihood=rhat(log_likelihood),
         ess_log_joint_bulk=bulk_ess(log_joint), ess_log_joint_tail=tail_ess(log_joint),
         map_error=map_error(posterior.prior, posterior.draws, posterior.observed) if enough else nan,
-        precision=(posterior.settings.get("precision") or PRECISION) if markov else nan,
-        effective_sample_size=float(1.0 / np.exp(2 * weights).sum()) if weights is not None else nan,
-        microseconds_per_sweep=1e6 * posterior.seconds["sampling"] * threads / sweeps if markov and sweeps else nan,
-        finished=posterior.finished,
+        precision=(posterior.settings.get("precision") or PRECISION) if has_chains else nan,
+        effective_sample_size=float(1.0 / np.exp(2 * log_weights).sum()) if log_weights is not None else nan,
+        microseconds_per_sweep=sweep_us, finished=posterior.finished,
     )  # fmt: skip
 
 
 @dataclass(frozen=True, eq=False)
 class PoseSummary:
-    """Moments of each scan's pose, ``by_approximation`` if chains have not mixed: their draws are far too alike."""
+    """The mean and covariance of each scan's pose, ``by_approximation`` if chains have not mixed, and the mixing."""
 
     mean: Floats  # in the world frame, (S, 3), with the circular mean of headings
     covariance: Floats  # of x, y and yaw, (S, 3, 3), metres and radians
-    rhat: Floats  # split R-hat of the three, (S, 3); NaN below four draws a chain, or of a pose that never moved
-    ess: Floats  # effective sample size of each part, (S, 3)
+    rhat: Floats  # split R-hat of x, y and yaw, (S, 3); NaN below four draws a chain, or if a pose never moved
+    ess: Floats  # effective sample size of x, y and yaw, (S, 3)
     by_approximation: bool = False  # whether mean and covariance come from the approximation that chains started from
 
     def __repr__(self) -> str:
@@ -312,22 +307,22 @@ class PoseSummary:
 
     @property
     def rhat_max(self) -> float:
-        """The largest R-hat; infinite where chains of a pose are too short for one, or disagree."""
+        """The largest R-hat; infinite if chains are too short for one, or if the chains of a pose disagree."""
         return float(np.where(np.isfinite(self.rhat), self.rhat, np.inf)[self._free].max(initial=1.0))
 
     @property
     def ess_min(self) -> float:
-        """The least effective sample size; zero where a pose has none."""
+        """The least effective sample size; zero if a pose has none."""
         return float(np.where(np.isfinite(self.ess), self.ess, 0.0)[self._free].min(initial=np.inf))
 
     @property
     def mixed(self) -> bool:
-        """Whether the draws tell the uncertainty of the poses: R-hats up to 1.05, effective sample sizes over 100."""
+        """Whether the draws show the uncertainty of the poses: R-hats up to 1.05, effective sample sizes over 100."""
         return self.rhat_max <= RHAT_LIMIT and self.ess_min >= ESS_LIMIT
 
     @property
-    def _free(self) -> NDArray[np.bool_]:
-        """Return the scans that can have moved: the first may be the frame of the map."""
+    def _free(self) -> Mask:
+        """Mask of the scans whose poses can move, (S,): the first pose may be the frame of the map."""
         free = np.ones(len(self.mean), dtype=np.bool_)
         free[:1] = not np.isnan(self.rhat[:1]).all() or len(free) == 1
         return free
@@ -344,7 +339,7 @@ class PoseSummary:
 
 
 def summarise_poses(poses: Floats) -> PoseSummary:
-    """Summarise draws of poses, (chains, draws, S, 3)."""
+    """Compute means, covariances and mixing of draws of poses, (chains, draws, S, 3)."""
     flat = poses.reshape(-1, *poses.shape[2:])  # of all chains
     heading = np.arctan2(np.sin(flat[..., 2]).mean(axis=0), np.cos(flat[..., 2]).mean(axis=0))
     mean = np.concatenate([flat[..., :2].mean(axis=0), heading[:, None]], axis=-1)

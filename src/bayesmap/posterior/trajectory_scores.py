@@ -1,4 +1,4 @@
-"""Score a trajectory against true relative poses: its errors, and whether its regions hold the truth.
+"""Score a trajectory against true relative poses (`score_trajectory`): its errors, and whether its regions are right.
 
 docs/scoring.md (Poses) explains the measures. Errors are those of Kuemmerle, Steder, Dornhege, Ruhnke, Grisetti,
 Stachniss and Kleiner (2009), "On measuring the accuracy of SLAM algorithms", Autonomous Robots 27, equations 2 to 4. A
@@ -13,68 +13,68 @@ from typing import Any
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.space import arrays, planar
+from bayesmap.space.arrays import Indices, Mask
 from bayesmap.space.planar import Floats, between, interpolate, rotation, wrap_angle
 from bayesmap.space.time_order import moment
 from bayesmap.space.trajectory import LONGEST_GAP_S, RelativeLaw, Trajectory
 
 SLACK_S = 0.001  # a stamp this far outside the trajectory, or off a pose, still counts
+LEVELS = (0.5, 0.8, 0.95)  # probabilities of regions
+DIMENSIONS = 3  # of a pose
 
 
 @dataclass(frozen=True, eq=False)
 class Relations:
     """True relative poses between N pairs of times."""
 
-    first_s: Floats  # stamps, (N,)
-    second_s: Floats
+    first_s: Floats  # stamps of the first poses, (N,)
+    second_s: Floats  # stamps of the second poses, (N,)
     relative: Floats  # pose at the second time in the frame at the first, (N, 3)
 
     def __len__(self) -> int:
         return len(self.first_s)
 
-    def select(self, mask: NDArray[np.bool_] | NDArray[np.intp]) -> Relations:
+    def select(self, mask: Mask | Indices) -> Relations:
         """Return the relations of a mask, (N,), or of some indices."""
         return Relations(self.first_s[mask], self.second_s[mask], self.relative[mask])
 
 
 @dataclass(frozen=True, eq=False)
 class RelationErrors:
-    """Errors of a trajectory."""
+    """The errors of a trajectory in the M of N relations that it covers."""
 
-    errors: Floats  # (x, y, yaw) of each relation that the trajectory covers, (M, 3)
-    covered: NDArray[np.bool_]  # mask of the relations that the trajectory covers, (N,)
-    in_gap: NDArray[np.bool_]  # relations within the trajectory's time that lack poses near them, (N,)
+    errors: Floats  # (x, y, yaw) of each relation that the trajectory covers, metres and radians, (M, 3)
+    covered: Mask  # mask of the relations that the trajectory covers, (N,)
+    in_gap: Mask  # relations within the trajectory's time that lack poses near them, (N,)
 
     @property
     def translation_m(self) -> Floats:
-        """Length of each error's translation, (M,)."""
+        """The length of each error's translation, (M,)."""
         return np.asarray(np.hypot(self.errors[:, 0], self.errors[:, 1]))
 
     @property
     def rotation_rad(self) -> Floats:
-        """Size of each error's rotation, (M,)."""
+        """The size of each error's rotation, (M,)."""
         return np.asarray(np.abs(self.errors[:, 2]))
 
     def summary(self) -> dict[str, float]:
-        """Return mean, std, median of sizes, metres and degrees, and counts: ``not_covered``, of these ``in_gaps``."""
-        result: dict[str, float] = {
+        """Return mean, std, median of the errors' sizes, and counts: ``not_covered``, and ``in_gaps`` among these."""
+        figures: dict[str, float] = {
             "relations": len(self.errors), "not_covered": int((~self.covered).sum()), "in_gaps": int(self.in_gap.sum()),
         }  # fmt: skip
         for name, values in (("translation_m", self.translation_m), ("rotation_deg", np.degrees(self.rotation_rad))):
             for statistic in (np.mean, np.std, np.median):
-                result[f"{name}_{statistic.__name__}"] = float(statistic(values))
-        return result
+                figures[f"{name}_{statistic.__name__}"] = float(statistic(values))
+        return figures
 
 
 def relation_errors(stamps_s: Floats, poses: Floats, relations: Relations, *, exact: bool = False) -> RelationErrors:
     """Compute the errors of a trajectory by true relations, given its ascending stamps, (S,), and poses, (S, 3).
-
     Poses and relations are of one frame. ``exact`` uses only relations whose two stamps are stamps of poses. Otherwise
     poses are interpolated if their neighbours are at most `LONGEST_GAP_S` apart.
-
     Raises `BadInput` for arrays that do not fit, stamps that descend, or no relation that the trajectory covers.
     """
     stamps_s, poses = np.asarray(stamps_s, np.float64), np.asarray(poses, np.float64)
@@ -82,9 +82,9 @@ def relation_errors(stamps_s: Floats, poses: Floats, relations: Relations, *, ex
         raise BadInput(f"relations: stamps {stamps_s.shape} and poses {poses.shape} must have shapes (S,) and (S, 3)")
     if (np.diff(stamps_s) < 0).any():
         raise BadInput("relations: the trajectory's stamps must ascend; sort it by time")
-    ends = relations.first_s, relations.second_s
+    ends_s = relations.first_s, relations.second_s
     within, has_poses = (np.ones(len(relations), dtype=np.bool_) for _ in range(2))
-    for end_s in ends:
+    for end_s in ends_s:
         within &= (end_s >= stamps_s[0] - SLACK_S) & (end_s <= stamps_s[-1] + SLACK_S)
         earlier_s, later_s = (stamps_s[index] for index in arrays.bracketing_indices(stamps_s, end_s))
         at_pose = np.minimum(np.abs(end_s - later_s), np.abs(end_s - earlier_s)) <= SLACK_S
@@ -101,21 +101,17 @@ def relation_errors(stamps_s: Floats, poses: Floats, relations: Relations, *, ex
             f"relations: none of the {within.sum():,} relations within the trajectory's time has both of its times "
             f"{needed}; its poses are {np.median(np.diff(stamps_s)):.3g} s apart at the median: give one with more"
         )
-    first, second = (interpolate(stamps_s, poses, end_s[covered]) for end_s in ends)
+    first, second = (interpolate(stamps_s, poses, end_s[covered]) for end_s in ends_s)
     return RelationErrors(between(relations.relative[covered], between(first, second)), covered, within & ~covered)
-
-
-LEVELS = (0.5, 0.8, 0.95)
-DIMENSIONS = 3
 
 
 @dataclass(frozen=True, eq=False)
 class TrajectoryScore:
-    """The accuracy of a trajectory, and the calibration of its regions: uniform if the covariances are right."""
+    """The accuracy of a trajectory, and the calibration of its regions."""
 
     errors: RelationErrors  # of each relation, in the true frame of its second pose
-    nees: Floats | None = None  # (M,); None, as the regions, if the trajectory has no covariances
-    region: Floats | None = None  # least probability of a region around the estimate that holds the truth, (M,)
+    nees: Floats | None = None  # squared Mahalanobis lengths of the errors, (M,); None without covariances
+    region: Floats | None = None  # least probability of a region that holds the truth, (M,): uniform if it is right
     assumed_independent: bool = False  # whether the trajectory has covariances of single poses alone
     known_by: str = ""  # source of the covariances, in words
 
@@ -140,34 +136,32 @@ def score_trajectory(
     trajectory: Trajectory, relations: Relations, mount: Floats | None = None, *, exact: bool = False
 ) -> TrajectoryScore:
     """Score a trajectory against true relative poses, whose stamps are of the same clock.
-
     ``mount`` is the pose of the relations' frame in the trajectory's frame, (3,); None if they are one frame.
     Covariances come from the law of relative poses, else from draws, else from single poses as if these were
-    independent. This suits localization, and is far too wide for neighbours in a SLAM trajectory.
-
+    independent. The last suits localization, and is far too wide for neighbours in a SLAM trajectory.
     ``exact`` and the errors raised are those of `relation_errors`.
     """
-    moved = trajectory if mount is None else trajectory.of_frame(np.asarray(mount, dtype=np.float64))
-    stamps_s = np.arange(len(moved), dtype=np.float64) if moved.stamps_s is None else moved.stamps_s
-    errors = relation_errors(stamps_s, moved.poses, relations, exact=exact)
+    path = trajectory if mount is None else trajectory.of_frame(np.asarray(mount, dtype=np.float64))
+    stamps_s = np.arange(len(path), dtype=np.float64) if path.stamps_s is None else path.stamps_s
+    errors = relation_errors(stamps_s, path.poses, relations, exact=exact)
     covered = relations.select(errors.covered)
-    if moved.relative is not None and len(moved) > 1:
-        nees, region = _by_law(moved.relative, stamps_s, covered, errors.errors)
-        return TrajectoryScore(errors, nees, region, known_by=moved.known_by)
-    if moved.draws is not None and len(moved.draws) > 2 * DIMENSIONS:
-        nees, region = _by_draws(moved.draws, stamps_s, covered)
-        return TrajectoryScore(errors, nees, region, known_by=moved.known_by)
-    if moved.covariances is not None:
-        covariance = _independent(moved.poses, moved.covariances, stamps_s, covered)
+    if path.relative is not None and len(path) > 1:
+        nees, region = _score_by_law(path.relative, stamps_s, covered, errors.errors)
+        return TrajectoryScore(errors, nees, region, known_by=path.known_by)
+    if path.draws is not None and len(path.draws) > 2 * DIMENSIONS:
+        nees, region = _score_by_draws(path.draws, stamps_s, covered)
+        return TrajectoryScore(errors, nees, region, known_by=path.known_by)
+    if path.covariances is not None:
+        covariance = _independent_covariances(path.poses, path.covariances, stamps_s, covered)
         nees = np.einsum("ni,nij,nj->n", errors.errors, np.linalg.inv(covariance), errors.errors)
         return TrajectoryScore(errors, nees, scipy.stats.chi2.cdf(nees, DIMENSIONS), assumed_independent=True)
     return TrajectoryScore(errors)
 
 
-def _by_law(law: RelativeLaw, stamps_s: Floats, relations: Relations, errors: Floats) -> tuple[Floats, Floats]:
+def _score_by_law(law: RelativeLaw, stamps_s: Floats, relations: Relations, errors: Floats) -> tuple[Floats, Floats]:
     """Compute NEES and least regions by the law of nearest scans: with scale S and dof nu, e' S^-1 e / 3 ~ F(3, nu)."""
     first, second = (arrays.nearest_index(stamps_s, end_s) for end_s in (relations.first_s, relations.second_s))
-    # For two times about one scan the law of the step to a neighbouring scan is used, which is no surer.
+    # If both times are nearest to one scan, use the law of the step to a neighbouring scan, which is as wide or wider.
     second = np.where(first == second, np.where(second > 0, second - 1, second + 1), second)
     scale = _in_end_frame(law.scales(first, second), relations) + 1e-15 * np.eye(DIMENSIONS)
     square = np.einsum("ni,nij,nj->n", errors, np.linalg.inv(scale), errors)
@@ -180,10 +174,10 @@ def _in_end_frame(covariance: Floats, relations: Relations) -> Floats:
     return np.asarray(turn @ covariance @ np.swapaxes(turn, 1, 2))
 
 
-def _by_draws(draws: Floats, stamps_s: Floats, relations: Relations) -> tuple[Floats, Floats]:
+def _score_by_draws(draws: Floats, stamps_s: Floats, relations: Relations) -> tuple[Floats, Floats]:
     """Compute NEES and least regions by D draws: NEES D (D - 3) / (3 (D + 1) (D - 1)) ~ F(3, D - 3) (Hotelling)."""
-    count = len(draws)
-    errors = np.empty((count, len(relations), DIMENSIONS))
+    n_draws = len(draws)
+    errors = np.empty((n_draws, len(relations), DIMENSIONS))
     for d, poses in enumerate(draws):
         first, second = (interpolate(stamps_s, poses, end_s) for end_s in (relations.first_s, relations.second_s))
         errors[d] = between(relations.relative, between(first, second))
@@ -193,13 +187,13 @@ def _by_draws(draws: Floats, stamps_s: Floats, relations: Relations) -> tuple[Fl
     mean = errors.mean(axis=0)
     from_mean = errors - mean
     error = np.column_stack([mean[:, :2], wrap_angle(mean[:, 2])])
-    covariance = np.einsum("dni,dnj->nij", from_mean, from_mean) / (count - 1) + 1e-15 * np.eye(DIMENSIONS)
+    covariance = np.einsum("dni,dnj->nij", from_mean, from_mean) / (n_draws - 1) + 1e-15 * np.eye(DIMENSIONS)
     nees = np.einsum("ni,nij,nj->n", error, np.linalg.inv(covariance), error)
-    scaled = nees * count * (count - DIMENSIONS) / (DIMENSIONS * (count + 1) * (count - 1))
-    return nees, np.asarray(scipy.stats.f.cdf(scaled, DIMENSIONS, count - DIMENSIONS))
+    scaled = nees * n_draws * (n_draws - DIMENSIONS) / (DIMENSIONS * (n_draws + 1) * (n_draws - 1))
+    return nees, np.asarray(scipy.stats.f.cdf(scaled, DIMENSIONS, n_draws - DIMENSIONS))
 
 
-def _independent(poses: Floats, covariances: Floats, stamps_s: Floats, relations: Relations) -> Floats:
+def _independent_covariances(poses: Floats, covariances: Floats, stamps_s: Floats, relations: Relations) -> Floats:
     """Return the covariance of each relation's error if the two poses, nearest in time, are independent, (M, 3, 3)."""
     ends_s = relations.first_s, relations.second_s
     ends = [interpolate(stamps_s, poses, end_s) for end_s in ends_s]

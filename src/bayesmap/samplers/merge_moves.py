@@ -4,123 +4,155 @@ In a merge move a cell that stops few beams becomes free, and the neighbour whos
 becomes longer along this axis, to reach them. docs/surfaces.md (Where chains start) gives the reasons. A move is kept
 if it raises the evidence, the log likelihood of nearby readings less the cost of the surfaces that stop their beams:
 
-    sum over beams ( log p(z) - (log odds + 5/2 log (1 + n)) / n ),    n beams being stopped by the same cell.
+    sum over beams ( log p(z) - (log odds + 5/2 log (1 + n)) / n ),
 
-These moves are a search and no step of a Markov chain. They end before a draw is kept. Chains share no information.
+where n is the number of beams that the beam's surface stops. These moves are a search, not steps of a Markov chain, so
+they end before a draw is kept. `merge` is the entry: `propose_merges` proposes moves, and `try_changes` makes many at
+once and undoes those that do not raise the evidence around them.
 """
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import ndimage
 
 from bayesmap.cells.kind import Floats
 from bayesmap.cells.reflectivity import Beta
 from bayesmap.samplers.stop_problem import ALONG_WALL_SIGMAS, INSIDE_SHARE, StopProblem, end_cells, longer_axis
+from bayesmap.space.arrays import Indices, Ints, Mask, Singles
 from bayesmap.space.grid import Grid
 
 if TYPE_CHECKING:
     from bayesmap.kernels.surfaces.stop_chains import StopChains
 
-Look = Callable[["ChainMaps"], Floats]
+EvidenceOf = Callable[["ChainMaps"], Floats]  # computes the evidence of the readings that end in each cell, (C, nx, ny)
 
-NUMBERS = 5  # parameters of a surface: mean and covariance
-UPDATES_ALL = 1 << 24  # number of a sweep, past the sweeps of all chains, that updates all cells
-UPDATES_FEW = UPDATES_ALL + 1  # number of a sweep that updates few cells
+SURFACE_PARAMETERS = 5  # parameters of a surface: mean and covariance
+FULL_SWEEP = 1 << 24  # number of a sweep that updates all cells, past the numbers of all sweeps of a chain
+TRIAL_SWEEP = FULL_SWEEP + 1  # number of a sweep that updates few cells
 EARLY_SHARE = 0.8  # share of the warm-up before the first merge moves
-MERGED_AGAIN = 2  # further merges, each after a tenth of the sweeps before the first, still in the warm-up
+LATER_MERGES = 2  # further merges, each after a tenth of the sweeps before the first, still in the warm-up
+MAX_READINGS = 12  # most readings of a surface that may be merged: with more, removal is seldom better
+MAX_NEIGHBOUR_CELLS = 2  # most cells, in x and in y, from a surface to the neighbour that takes over its readings
+MAX_READING_CELLS = 3.0  # most cells between a reading and the mean of the surface that explains it
+MAX_OFF_SIGMAS = 2.5  # most RMS distance of readings from the neighbour's axis, in sigmas of surface and noise
+MIN_SOLID = 0.1  # reflectivity from which a cell counts as one that stops beams
+FREE = 1e-20  # reflectivity of a cell that became free
+COMPARED_CELLS = 3  # readings within so many cells of a cell that becomes free are compared
+MIN_GAIN_NATS = 1.0  # least gain of a merge: at 0 too many are merged, and separated again by sweeps; at 2 too few
+MIN_COMPONENT = 1e-9  # least component of an axis, for divisions
+MERGE_ROUNDS = 3  # most rounds of merges; five more gain nothing that held-out beams show
+
+
+def merge_sweeps(early_sweeps: int) -> list[int]:
+    """Return the numbers of the sweeps after which surfaces are merged, given the number before the first merge."""
+    return sorted({early_sweeps + i * (early_sweeps // 10) for i in range(1 + LATER_MERGES)} - {0})
+
+
+def merge(problem: StopProblem, chains: StopChains, beta: float) -> None:
+    """Merge surfaces that stop few beams with surfaces of neighbours, if that is better. Changes chains in place."""
+    grid, rays, maps = problem.grid, problem.rays, ChainMaps.of(chains)
+    evidence_of = make_evidence_of(problem, chains, beta)
+    evidence = evidence_of(maps)
+    owners = [chains.stopped_by(chain) for chain in range(chains.n_chains)]
+    range_m, noise = np.where(np.isfinite(rays.range_m), rays.range_m, 0.0), problem.sensor.kernel_parameters()
+    # Without parameters of the sensor, the thickness of surfaces is used alone.
+    sigma_m = 0.0 * range_m if noise is None else noise.sigma_m + noise.sigma_per_m * range_m
+    merge_surfaces(maps, rays.end_points_m(), sigma_m**2, owners, grid, evidence_of, evidence)
+    maps.write_to(chains)
+    chains.sweeps(FULL_SWEEP, 1, problem.sensor, problem.prior.kernel_numbers(grid.resolution), beta)
+    maps.write_to(chains)  # the sweep updated the counts of beams, except in cells that tried a surface
 
 
 @dataclass(frozen=True, eq=False)
 class ChainMaps:
-    """The present maps of chains, changed in place: states (C, N, 6) and labels (C, N)."""
+    """The present maps of chains, changed in place."""
 
-    cells: NDArray[np.float32]
-    solid: NDArray[np.bool_]
+    cells: Singles  # states, (C, N, 6)
+    solid: Mask  # labels, (C, N)
 
     @classmethod
     def of(cls, chains: StopChains) -> ChainMaps:
         """Copy the present maps of chains."""
-        each = range(chains.n_chains)
-        return cls(np.stack([chains.cells(i) for i in each]), np.stack([chains.solid(i) for i in each]))
+        numbers = range(chains.n_chains)
+        return cls(np.stack([chains.cells(i) for i in numbers]), np.stack([chains.solid(i) for i in numbers]))
 
-    def put(self, chains: StopChains) -> None:
+    def write_to(self, chains: StopChains) -> None:
         """Let chains continue from these maps."""
         for chain, (cells, solid) in enumerate(zip(self.cells, self.solid, strict=True)):
             chains.put_cells(chain, cells, solid)
+
+
+def make_evidence_of(problem: StopProblem, chains: StopChains, beta: float) -> EvidenceOf:
+    """Return a function that puts maps into chains, draws stops of beams, and computes the evidence, (C, nx, ny)."""
+    end_cell = end_cells(problem.rays)
+    numbers = problem.prior.kernel_numbers(problem.grid.resolution)
+
+    def evidence_of(maps: ChainMaps) -> Floats:
+        maps.write_to(chains)
+        chains.sweeps(TRIAL_SWEEP, 1, problem.sensor, numbers, beta, steps=0)
+        nats = [evidence_by_cell(chains, chain, end_cell, problem.prior) for chain in range(chains.n_chains)]
+        return np.stack(nats).reshape(-1, *problem.grid.shape)
+
+    return evidence_of
+
+
+def evidence_by_cell(chains: StopChains, chain: int, end_cell: Ints, prior: Beta) -> Floats:
+    """Sum the terms above over the beams that end in each cell, (N,), in the last sweep, given `end_cells`."""
+    n_cells = chains.plan.rays.grid.n_cells
+    owner = chains.stopped_by(chain)
+    stopped = owner >= 0
+    n_beams = np.bincount(owner[stopped], minlength=n_cells)
+    log_odds = max(0.0, math.log((1.0 - prior.mean) / prior.mean))
+    cost_of_beam = (log_odds + 0.5 * SURFACE_PARAMETERS * np.log1p(n_beams)) / np.maximum(n_beams, 1)
+    beam_nats = chains.log_likelihood(chain) - np.where(stopped, cost_of_beam[owner], 0.0)
+    ended = end_cell >= 0
+    return np.bincount(end_cell[ended], beam_nats[ended], n_cells).astype(np.float64)
 
 
 @dataclass(frozen=True, eq=False)
 class Changes:
     """Changes to the map of one chain, at n sites."""
 
-    middle: NDArray[np.intp]  # x and y of the cells around which the readings are compared, (n, 2)
-    index: NDArray[np.intp]  # flat indices of the cells that change, (n, k)
-    cells: NDArray[np.float32]  # new states of these cells, (n, k, 6)
-    solid: NDArray[np.bool_]  # new labels, (n, k)
+    middle: Indices  # x and y of the cells around which the readings are compared, (n, 2)
+    index: Indices  # flat indices of the cells that change, (n, k)
+    cells: Singles  # new states of these cells, (n, k, 6)
+    solid: Mask  # new labels, (n, k)
 
-    def select(self, mask: NDArray[np.bool_]) -> Changes:
+    def select(self, mask: Mask) -> Changes:
         """Return the changes at the sites of the mask, (n,)."""
         return Changes(self.middle[mask], self.index[mask], self.cells[mask], self.solid[mask])
 
 
-def evidence(chains: StopChains, chain: int, end_cell: NDArray[np.int32], prior: Beta) -> Floats:
-    """Sum the above over the beams that end in each cell, (N,), in the last sweep; ``end_cell`` is by `end_cells`."""
-    n_cells = chains.plan.rays.grid.n_cells
-    owner = chains.stopped_by(chain)
-    stopped = owner >= 0
-    n_beams = np.bincount(owner[stopped], minlength=n_cells)
-    log_odds = max(0.0, math.log((1.0 - prior.mean) / prior.mean))
-    cost_of_beam = (log_odds + 0.5 * NUMBERS * np.log1p(n_beams)) / np.maximum(n_beams, 1)
-    beam_nats = chains.log_likelihood(chain) - np.where(stopped, cost_of_beam[owner], 0.0)
-    ended = end_cell >= 0
-    return np.bincount(end_cell[ended], beam_nats[ended], n_cells).astype(np.float64)
-
-
-def look_with(problem: StopProblem, chains: StopChains, beta: float) -> Look:
-    """Return a function that puts maps into chains, draws stops of beams, and returns the `evidence`, (C, nx, ny)."""
-    end_cell = end_cells(problem.rays)
-    numbers = problem.prior.kernel_numbers(problem.grid.resolution)
-
-    def look(maps: ChainMaps) -> Floats:
-        maps.put(chains)
-        chains.sweeps(UPDATES_FEW, 1, problem.sensor, numbers, beta, steps=0)
-        nats = [evidence(chains, chain, end_cell, problem.prior) for chain in range(chains.n_chains)]
-        return np.stack(nats).reshape(-1, *problem.grid.shape)
-
-    return look
-
-
 def try_changes(
-    maps: ChainMaps, changes: Sequence[Changes], look: Look, before: Floats, half: int, least: float
-) -> list[NDArray[np.bool_]]:
-    """Change maps, and undo the changes that raise the evidence by less than ``least`` nats around their site.
-
-    The readings of ``half`` cells to each side of a site are compared; the squares of a chain do not touch. ``before``
-    is the evidence before the changes, (C, nx, ny); it is updated around the changes that stay. Returns their masks.
+    maps: ChainMaps, changes: Sequence[Changes], evidence_of: EvidenceOf, evidence: Floats, half: int, min_gain: float
+) -> list[Mask]:
+    """Change maps, and undo the changes that raise the evidence by less than ``min_gain`` nats around their site.
+    The readings of ``half`` cells to each side of a site are compared; these squares do not overlap. ``evidence``, (C,
+    nx, ny), is updated around the changes that stay. Returns the masks of these changes, (n,), by chain.
     """
-    olds = []
+    replaced = []
     for cells, solid, new in zip(maps.cells, maps.solid, changes, strict=True):
-        olds.append(Changes(new.middle, new.index, cells[new.index], solid[new.index]))
+        replaced.append(Changes(new.middle, new.index, cells[new.index], solid[new.index]))
         cells[new.index], solid[new.index] = new.cells, new.solid
-    after, stays = look(maps), []
-    for chain, old in enumerate(olds):
+    after, masks, width = evidence_of(maps), [], 2 * half + 1
+    for chain, previous in enumerate(replaced):
         # Sums over the square of cells around each cell.
-        gain = ndimage.uniform_filter(after[chain] - before[chain], 2 * half + 1, mode="constant") * (2 * half + 1) ** 2
-        stay = gain[tuple(old.middle.T)] >= least
-        undone = old.select(~stay)
+        gain = ndimage.uniform_filter(after[chain] - evidence[chain], width, mode="constant") * width**2
+        stays = gain[tuple(previous.middle.T)] >= min_gain
+        undone = previous.select(~stays)
         maps.cells[chain][undone.index], maps.solid[chain][undone.index] = undone.cells, undone.solid
-        for x, y in old.middle[stay]:
+        for x, y in previous.middle[stays]:
             square = _square(x, y, half)
-            before[chain][square] = after[chain][square]
-        stays.append(stay)
-    return stays
+            evidence[chain][square] = after[chain][square]
+        masks.append(stays)
+    return masks
 
 
 def _square(x: int, y: int, half: int) -> tuple[slice, slice]:
@@ -128,7 +160,7 @@ def _square(x: int, y: int, half: int) -> tuple[slice, slice]:
     return slice(max(0, x - half), x + half + 1), slice(max(0, y - half), y + half + 1)
 
 
-def select_apart(sites: NDArray[np.intp], gap: int, shape: tuple[int, int]) -> NDArray[np.bool_]:
+def select_apart(sites: Indices, gap: int, shape: tuple[int, int]) -> Mask:
     """Select sites greedily, each more than ``gap`` cells from the selected ones. Returns a mask, (n,)."""
     excluded, selected = np.zeros(shape, dtype=np.bool_), np.zeros(len(sites), dtype=np.bool_)
     for i, (x, y) in enumerate(sites):
@@ -137,45 +169,13 @@ def select_apart(sites: NDArray[np.intp], gap: int, shape: tuple[int, int]) -> N
     return selected
 
 
-def merge_sweeps(early_sweeps: int) -> list[int]:
-    """Return the numbers of the sweeps after which surfaces are merged, given the number before the first merge."""
-    return sorted({early_sweeps + i * (early_sweeps // 10) for i in range(1 + MERGED_AGAIN)} - {0})
-
-
-def merge(problem: StopProblem, chains: StopChains, beta: float) -> None:
-    """Merge surfaces that stop few beams with surfaces of neighbours, if that is better."""
-    grid, rays, maps = problem.grid, problem.rays, ChainMaps.of(chains)
-    look = look_with(problem, chains, beta)
-    before = look(maps)
-    owners = [chains.stopped_by(chain) for chain in range(chains.n_chains)]
-    range_m, noise = np.where(np.isfinite(rays.range_m), rays.range_m, 0.0), problem.sensor.kernel_parameters()
-    # Without parameters of the sensor, the thickness of surfaces is used alone.
-    sigma_m = 0.0 * range_m if noise is None else noise.sigma_m + noise.sigma_per_m * range_m
-    merge_surfaces(maps, rays.end_points_m(), sigma_m**2, owners, grid, look, before)
-    maps.put(chains)
-    chains.sweeps(UPDATES_ALL, 1, problem.sensor, problem.prior.kernel_numbers(grid.resolution), beta)
-    maps.put(chains)  # the sweep updated the counts of beams, except in cells that tried a surface
-
-
-MAX_READINGS = 12  # most readings of a surface that may be merged: with more, removal is seldom better
-REACH = 2  # most cells, in x and in y, from a surface to the neighbour that takes over its readings
-CLOSE = 3.0  # most cells between a reading and the mean of the surface that explains it
-MAX_OFF_SIGMAS = 2.5  # most RMS distance of readings from the neighbour's axis, in sigmas of surface and noise
-SOLID_FROM = 0.1  # reflectivity from which a cell counts as one that stops beams
-FREE = 1e-20  # reflectivity of a cell that became free
-AROUND = 3  # readings within so many cells of a cell that becomes free are compared
-MERGED_NATS = 1.0  # least gain of a merge: at 0 too many are merged, and separated again by sweeps; at 2 too few
-LEVEL = 1e-9  # least component of an axis, for divisions
-MERGE_ROUNDS = 3  # most rounds of merges; five more gain nothing that held-out beams show
-
-
 @dataclass(frozen=True, eq=False)
 class ExplainedReadings:
-    """The readings that each cell's surface stopped."""
+    """Moments of the readings that the surface of each cell stopped."""
 
-    count: NDArray[np.intp]  # (N,)
-    mean_m: Floats  # (N, 2)
-    moments: Floats  # second central moments xx, xy and yy, (N, 3)
+    count: Indices  # number of readings, (N,)
+    mean_m: Floats  # mean of their end points from the grid's corner, (N, 2)
+    moments: Floats  # second central moments xx, xy and yy, square metres, (N, 3)
     noise: Floats  # mean variance of the noise, square metres, (N,)
 
 
@@ -184,50 +184,55 @@ class SurfaceAxes:
     """The longer axes of surfaces."""
 
     direction: Floats  # unit vectors, (N, 2)
-    along: Floats  # variance along the axis, (N,)
-    across: Floats  # variance across the axis, (N,)
+    along: Floats  # variance along the axis, square metres, (N,)
+    across: Floats  # variance across the axis, square metres, (N,)
+
+
+class Merges(NamedTuple):
+    """Surfaces of few readings and the neighbours that may take over these readings, (n,) each."""
+
+    source: Indices  # flat index of the cell that becomes free
+    target: Indices  # flat index of the neighbour whose surface becomes longer
+    off_sigmas: Floats  # RMS distance of the readings from the neighbour's axis, in sigmas of surface and noise
 
 
 def merge_surfaces(
-    maps: ChainMaps, end_points_m: Floats, noise: Floats, owners: list[NDArray[np.int32]], grid: Grid, look: Look,
-    before: Floats,
+    maps: ChainMaps, end_points_m: Floats, noise: Floats, owners: list[Ints], grid: Grid,
+    evidence_of: EvidenceOf, evidence: Floats,
 ) -> list[int]:  # fmt: skip
-    """Try for every surface that stops few beams whether a neighbour is better without it; change maps in place.
-    Returns the number of removed surfaces of each chain.
-
-    Beams have end points from the grid's corner, (B, 2), not finite if none, and variances of their ``noise``, m^2.
-    ``owners`` holds by chain the cell that stopped each beam, flat, or -1; ``before`` the evidence, (C, nx, ny).
+    """Merge surfaces of few beams with neighbours where this raises the evidence; return the numbers by chain.
+    Maps change in place. Beams have end points from the grid's corner, (B, 2), not finite if none, and variances of
+    their ``noise``, m^2, (B,). ``owners`` holds by chain the cell that stopped each beam, flat, or -1, (B,).
     """
     chains = zip(maps.cells, maps.solid, owners, strict=True)
-    changes = [merge_moves(*chain, end_points_m, noise, grid) for chain in chains]
+    pending = [propose_merges(*chain, end_points_m, noise, grid) for chain in chains]
     changed = np.zeros(maps.solid.shape, dtype=np.bool_)
-    removed, before = [0] * len(changes), before.copy()
+    n_removed, evidence = [0] * len(pending), evidence.copy()
     for _ in range(MERGE_ROUNDS):
         tried = []
-        for chain, waiting in enumerate(changes):
+        for chain, changes in enumerate(pending):
             # A change is valid only while the surfaces from which it was made are unchanged.
-            valid = waiting.select(~changed[chain][waiting.index].any(axis=1))
-            mask = select_apart(valid.middle, 2 * AROUND, grid.shape)
+            valid = changes.select(~changed[chain][changes.index].any(axis=1))
+            mask = select_apart(valid.middle, 2 * COMPARED_CELLS, grid.shape)
             tried.append(valid.select(mask))
-            changes[chain] = valid.select(~mask)
-        if not any(len(new.middle) for new in tried):
+            pending[chain] = valid.select(~mask)
+        if not any(len(changes.middle) for changes in tried):
             break
-        stays = try_changes(maps, tried, look, before, AROUND, MERGED_NATS)
-        for chain, (new, stay) in enumerate(zip(tried, stays, strict=True)):
-            changed[chain][new.index[stay]] = True
-            removed[chain] += int(stay.sum())
-    return removed
+        masks = try_changes(maps, tried, evidence_of, evidence, COMPARED_CELLS, MIN_GAIN_NATS)
+        for chain, (changes, stays) in enumerate(zip(tried, masks, strict=True)):
+            changed[chain][changes.index[stays]] = True
+            n_removed[chain] += int(stays.sum())
+    return n_removed
 
 
-def merge_moves(
-    cells: NDArray[np.float32], solid: NDArray[np.bool_], owner: NDArray[np.int32], end_points_m: Floats, noise: Floats,
-    grid: Grid,
-) -> Changes:  # fmt: skip
+def propose_merges(
+    cells: Singles, solid: Mask, owner: Ints, end_points_m: Floats, noise: Floats, grid: Grid
+) -> Changes:
     """Propose to remove surfaces of few beams and to lengthen the neighbour of closest axis, the closest axes first."""
     readings, axes = explained_readings(cells, owner, end_points_m, noise, grid), surface_axes(cells)
-    source, target, distance = best_neighbours(cells, readings, axes, grid)
-    order = np.argsort(distance, kind="stable")
-    source, target = source[order], target[order]
+    merges = best_neighbours(cells, readings, axes, grid)
+    order = np.argsort(merges.off_sigmas, kind="stable")
+    source, target = merges.source[order], merges.target[order]
     index = np.stack([source, target], axis=-1)
     new = cells[index]
     new[:, 0, 0] = FREE
@@ -236,11 +241,12 @@ def merge_moves(
 
 
 def explained_readings(
-    cells: NDArray[np.float32], owner: NDArray[np.int32], end_points_m: Floats, noise: Floats, grid: Grid
+    cells: Singles, owner: Ints, end_points_m: Floats, noise: Floats, grid: Grid
 ) -> ExplainedReadings:
     """Compute the moments of the readings that each surface explains."""
     stopped = np.flatnonzero((owner >= 0) & np.isfinite(end_points_m).all(axis=1))
-    stopped = stopped[np.hypot(*(end_points_m[stopped] - cells[owner[stopped], 1:3]).T) < CLOSE * grid.resolution]
+    distance_m = np.hypot(*(end_points_m[stopped] - cells[owner[stopped], 1:3]).T)
+    stopped = stopped[distance_m < MAX_READING_CELLS * grid.resolution]
     cell, points = owner[stopped], end_points_m[stopped]
     count = np.bincount(cell, minlength=grid.n_cells)
 
@@ -253,7 +259,7 @@ def explained_readings(
     return ExplainedReadings(count, middle, moments, mean(noise[stopped]))
 
 
-def surface_axes(cells: NDArray[np.float32]) -> SurfaceAxes:
+def surface_axes(cells: Singles) -> SurfaceAxes:
     """Return the axes of the surfaces of cells, (N, 6)."""
     l11, l21, l22 = cells[:, 3:6].T.astype(np.float64)
     angle, along = longer_axis(l11**2, l11 * l21, l21**2 + l22**2)
@@ -267,54 +273,51 @@ def variance_along(moments: Floats, direction: Floats) -> Floats:
     return np.asarray(x * x * moments[:, 0] + 2 * x * y * moments[:, 1] + y * y * moments[:, 2])
 
 
-def best_neighbours(
-    cells: NDArray[np.float32], readings: ExplainedReadings, axes: SurfaceAxes, grid: Grid
-) -> tuple[NDArray[np.intp], NDArray[np.intp], Floats]:
-    """Find the cells that stop few beams, the neighbour of each whose axis lies closest to its readings, and the root
-    mean square distance of the readings from this axis, in sigmas of surface and noise, (n,) each.
+def best_neighbours(cells: Singles, readings: ExplainedReadings, axes: SurfaceAxes, grid: Grid) -> Merges:
+    """Find the cells that stop few beams, and the neighbour of each whose axis lies closest to its readings.
     Neighbours stop as many beams or more. Cells without a neighbour within `MAX_OFF_SIGMAS` are left out.
     """
-    stops = (cells[:, 0] >= SOLID_FROM) & (readings.count > 0)
+    (nx, ny), offsets = grid.shape, range(-MAX_NEIGHBOUR_CELLS, MAX_NEIGHBOUR_CELLS + 1)
+    stops = (cells[:, 0] >= MIN_SOLID) & (readings.count > 0)
     source = np.flatnonzero(stops & (readings.count <= MAX_READINGS))
-    x, y = np.divmod(source, grid.shape[1])
-    least, target = np.full(len(source), np.inf), source.copy()
-    for step_x in range(-REACH, REACH + 1):
-        for step_y in range(-REACH, REACH + 1):
-            other_x, other_y = x + step_x, y + step_y
-            inside = (other_x >= 0) & (other_x < grid.shape[0]) & (other_y >= 0) & (other_y < grid.shape[1])
-            other = np.where(inside, other_x * grid.shape[1] + other_y, source)
-            # If two surfaces stop equally many beams, only one may take in the other: the order of cells decides.
-            other_count, own_count = readings.count[other], readings.count[source]
-            may_take = (other_count > own_count) | ((other_count == own_count) & (other > source))
-            normal = np.stack([-axes.direction[other, 1], axes.direction[other, 0]], axis=-1)
-            offset = ((readings.mean_m[source] - cells[other, 1:3]) * normal).sum(axis=1)
-            square = offset**2 + variance_along(readings.moments[source], normal)
-            square /= axes.across[other] + readings.noise[source]
-            better = inside & stops[other] & may_take & (square < least)
-            least[better], target[better] = square[better], other[better]
-    close = least <= MAX_OFF_SIGMAS**2
-    return source[close], target[close], np.sqrt(least[close])
+    best_square, target = np.full(len(source), np.inf), source.copy()
+    for dx, dy in itertools.product(offsets, offsets):
+        x, y = source // ny + dx, source % ny + dy
+        inside = (x >= 0) & (x < nx) & (y >= 0) & (y < ny)
+        neighbour = np.where(inside, x * ny + y, source)
+        # If two surfaces stop equally many beams, only one may take in the other: the order of cells decides.
+        count, source_count = readings.count[neighbour], readings.count[source]
+        may_take = (count > source_count) | ((count == source_count) & (neighbour > source))
+        # The mean square distance of the readings from the neighbour's axis, in variances of surface and noise.
+        normal = np.stack([-axes.direction[neighbour, 1], axes.direction[neighbour, 0]], axis=-1)
+        offset_m = ((readings.mean_m[source] - cells[neighbour, 1:3]) * normal).sum(axis=1)
+        square = offset_m**2 + variance_along(readings.moments[source], normal)
+        square /= axes.across[neighbour] + readings.noise[source]
+        better = inside & stops[neighbour] & may_take & (square < best_square)
+        best_square[better], target[better] = square[better], neighbour[better]
+    close = best_square <= MAX_OFF_SIGMAS**2
+    return Merges(source[close], target[close], np.sqrt(best_square[close]))
 
 
 def lengthen(
-    cells: NDArray[np.float32], readings: ExplainedReadings, axes: SurfaceAxes, source: NDArray[np.intp],
-    target: NDArray[np.intp], grid: Grid,
-) -> Floats:  # fmt: skip
-    """Lengthen the surfaces of ``target`` to reach the readings of ``source``. Returns mean, l11, l21, l22, (n, 5). A
-    surface moves along its axis, within its square, to the mean of both cells' readings, and gets their scatter.
+    cells: Singles, readings: ExplainedReadings, axes: SurfaceAxes, source: Indices, target: Indices, grid: Grid
+) -> Floats:
+    """Lengthen the surfaces of ``target`` to reach the readings of ``source``. Returns mean, l11, l21, l22, (n, 5).
+    A surface moves along its axis, within its square, to the mean of both cells' readings, and gets their scatter.
     """
     mean, axis = cells[target, 1:3].astype(np.float64), axes.direction[target]
-    pair = source, target
-    means = [((readings.mean_m[cell] - mean) * axis).sum(axis=1) for cell in pair]
-    counts = [readings.count[cell] for cell in pair]
-    middle = (counts[0] * means[0] + counts[1] * means[1]) / (counts[0] + counts[1])
+    # The means of the readings along the axis, from the surface's mean.
+    n_source, n_target = readings.count[source], readings.count[target]
+    source_m, target_m = (((readings.mean_m[cell] - mean) * axis).sum(axis=1) for cell in (source, target))
+    joint_m = (n_source * source_m + n_target * target_m) / (n_source + n_target)
     # The axis leaves the square at the first crossing of one of its four sides.
     from_mean = grid.centers_from_corner_m(target) - mean
     sides = from_mean[..., None] + INSIDE_SHARE * 0.5 * grid.resolution * np.array([-1.0, 1.0])
-    exits = np.sort(sides / np.where(np.abs(axis) < LEVEL, LEVEL, axis)[..., None], axis=-1)
-    shift = np.clip(middle, np.minimum(exits[..., 0].max(axis=-1), 0.0), np.maximum(exits[..., 1].min(axis=-1), 0.0))
-    spread = [variance_along(readings.moments[cell], axis) + (means[i] - shift) ** 2 for i, cell in enumerate(pair)]
-    scatter = (counts[0] * spread[0] + counts[1] * spread[1]) / (counts[0] + counts[1])
+    exits = np.sort(sides / np.where(np.abs(axis) < MIN_COMPONENT, MIN_COMPONENT, axis)[..., None], axis=-1)
+    shift = np.clip(joint_m, np.minimum(exits[..., 0].max(axis=-1), 0.0), np.maximum(exits[..., 1].min(axis=-1), 0.0))
+    source_square = variance_along(readings.moments[source], axis) + (source_m - shift) ** 2
+    target_square = variance_along(readings.moments[target], axis) + (target_m - shift) ** 2
+    scatter = (n_source * source_square + n_target * target_square) / (n_source + n_target)
     along, across, (x, y) = np.maximum(axes.along[target], ALONG_WALL_SIGMAS**2 * scatter), axes.across[target], axis.T
     l11 = np.sqrt(along * x**2 + across * y**2)
     l21 = (along - across) * x * y / l11

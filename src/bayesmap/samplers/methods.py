@@ -1,4 +1,8 @@
-"""Methods as users choose them, and the samplers by name."""
+"""Methods of inference: the values by which users choose one, and the sampler that each names.
+
+`CellPrior.methods` maps a method's name to the name of a sampler, a key of `WALL_SAMPLERS`, `OTHER_SAMPLERS` or
+`INDEPENDENT_SAMPLERS`. `resolve_method` finds this name, and `make_sampler` builds a Markov chain sampler by it.
+"""
 
 from __future__ import annotations
 
@@ -6,18 +10,17 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar, get_args
 
-import numpy as np
-from numpy.typing import NDArray
-
 from bayesmap.cells.kind import Floats
 from bayesmap.errors import BadInput, check_count
+from bayesmap.samplers import without_chains
 from bayesmap.samplers.merge_moves import EARLY_SHARE
 from bayesmap.samplers.metropolis import Metropolis
 from bayesmap.samplers.sampler import Sampler, Watch
 from bayesmap.samplers.stop_gibbs import StopGibbs
 from bayesmap.samplers.wall_problem import WallProblem
 from bayesmap.samplers.walls import Order, Start, WallBlocks, WallGibbs, WallSampler, default_start
-from bayesmap.samplers.without_chains import ROUNDS, DrawRequest, IndependentDraws, exact, importance, propagation
+from bayesmap.samplers.without_chains import ROUNDS, DrawRequest, IndependentDraws
+from bayesmap.space.arrays import Mask
 from bayesmap.space.grid import Grid
 
 PARTICLES = 100_000
@@ -38,7 +41,7 @@ class Gibbs:
     """
 
     order: Order = "radial"
-    start: Start | NDArray[np.bool_] | None = None
+    start: Start | Mask | None = None
     start_poses: Floats | None = None
     rounds: int = ROUNDS
     name: ClassVar[str] = "gibbs"
@@ -91,16 +94,16 @@ class Exact:
 Method = Gibbs | Block | Propagate | Importance | Exact
 METHODS: Mapping[str, type[Method]] = {kind.name: kind for kind in (Gibbs, Block, Propagate, Importance, Exact)}
 
-ON_WALLS: Mapping[str, type[WallSampler]] = {"wall-gibbs": WallGibbs, "wall-blocks": WallBlocks}
-ON_ANY: Mapping[str, Callable[[], Sampler[Any, Any]]] = {"stop-gibbs": StopGibbs, "metropolis": Metropolis}
-WITHOUT_CHAINS: Mapping[str, Callable[[WallProblem, DrawRequest, Watch], IndependentDraws]] = {
-    "exact": exact, "importance": importance, "propagate": propagation,
+WALL_SAMPLERS: Mapping[str, type[WallSampler]] = {"wall-gibbs": WallGibbs, "wall-blocks": WallBlocks}
+OTHER_SAMPLERS: Mapping[str, Callable[[], Sampler[Any, Any]]] = {"stop-gibbs": StopGibbs, "metropolis": Metropolis}
+INDEPENDENT_SAMPLERS: Mapping[str, Callable[[WallProblem, DrawRequest, Watch], IndependentDraws]] = {
+    "exact": without_chains.draw_by_enumeration, "importance": without_chains.draw_by_importance,
+    "propagate": without_chains.draw_by_propagation,
 }  # fmt: skip
-"""Samplers by name: `CellPrior.methods` of a kind of cells maps the names of methods to these entries."""
 
 
-def method_of(method: Method | str | None, samplers: Mapping[str, str], kind: str) -> tuple[str, Method]:
-    """Return the name of a method, and the method with its options; None gives the first method of the kind of cells.
+def resolve_method(method: Method | str | None, samplers: Mapping[str, str], kind: str) -> tuple[str, Method]:
+    """Return the name of a method, and the method with its options; None gives the first of the kind of cells.
     ``samplers`` maps the names of the kind's methods to their samplers. Raises `BadInput` for another method.
     """
     if method is None:
@@ -112,22 +115,26 @@ def method_of(method: Method | str | None, samplers: Mapping[str, str], kind: st
     return name, METHODS.get(name, Gibbs)() if isinstance(method, str) else method
 
 
-def sampler_on_walls(name: str) -> WallSampler:
-    """Return a method's sampler of walls, with defaults; single cells for a method without chains."""
-    return ON_WALLS.get(name, WallGibbs)()
+def make_wall_sampler(name: str) -> WallSampler:
+    """Return the sampler of binary walls by its name, with defaults; for any other name, that of single cells."""
+    return WALL_SAMPLERS.get(name, WallGibbs)()
 
 
-def sampler_of(name: str, grid: Grid, method: Gibbs, warmup: int = 0) -> Sampler[Any, Any]:
-    """Return a Markov chain sampler. Surfaces merge during ``warmup`` sweeps; with 0 they are not merged."""
-    if name in ON_ANY:
-        return StopGibbs(int(EARLY_SHARE * warmup)) if name == "stop-gibbs" else ON_ANY[name]()
-    return ON_WALLS[name](method.order, default_start(grid) if method.start is None else method.start, method.rounds)
+def make_sampler(name: str, grid: Grid, method: Gibbs, warmup: int = 0) -> Sampler[Any, Any]:
+    """Return the Markov chain sampler of a name. Surfaces merge during ``warmup`` sweeps; with 0 they do not merge."""
+    if name == "stop-gibbs":
+        return StopGibbs(int(EARLY_SHARE * warmup))
+    if name in OTHER_SAMPLERS:
+        return OTHER_SAMPLERS[name]()
+    start = default_start(grid) if method.start is None else method.start
+    return WALL_SAMPLERS[name](method.order, start, method.rounds)
 
 
-def options_of(name: str, grid: Grid, method: Method) -> dict[str, Any]:
+def sampler_options(name: str, grid: Grid, method: Method) -> dict[str, Any]:
     """Return the order and the start of a sampler, as the settings of a run have them."""
-    if name in ON_ANY:
+    if name in OTHER_SAMPLERS:
         return {"order": None, "start": "readings" if name == "stop-gibbs" else "prior"}
     start = getattr(method, "start", None)
-    words = start if isinstance(start, str) else default_start(grid) if start is None else "given map"
-    return {"order": getattr(method, "order", Gibbs.order), "start": words}
+    if start is None:
+        start = default_start(grid)
+    return {"order": getattr(method, "order", Gibbs.order), "start": start if isinstance(start, str) else "given map"}

@@ -1,7 +1,9 @@
-"""The contract of all Markov chain samplers, as BlackJAX has it: `init` makes a state, `step` gives (state, info).
+"""The interface of all Markov chain samplers, after BlackJAX: `init` makes a state, `step` returns (state, info).
 
-A sampler is a value: it holds options and no state. `prepare` makes the data that all chains of a process share, such
-as traced beams. Every draw depends on (seed, number of the chain, sweep, site) alone (docs/inference.md).
+A `Sampler` is a value: it holds options and no state. `prepare` makes a `Problem`, the data that all chains of a
+process share, such as traced beams. `init` makes a `ChainState`, and `step` advances it and returns an `Info` with the
+draws that `Keep` selects. A `Snapshot` continues chains elsewhere. A `Watch` receives the progress, and may stop a run.
+Every draw depends on (seed, number of the chain, sweep, site) alone (docs/inference.md).
 """
 
 from __future__ import annotations
@@ -19,6 +21,7 @@ from bayesmap.beams.table import BeamTable
 from bayesmap.cells.arrays import Draws
 from bayesmap.cells.kind import Floats
 from bayesmap.model import Model
+from bayesmap.space.arrays import Ints, Mask
 from bayesmap.space.grid import Grid
 
 Stage = Literal[
@@ -29,23 +32,23 @@ Stage = Literal[
 
 @dataclass(frozen=True)
 class Event:
-    """Progress of a run: ``done`` of ``total`` units of a stage, and results so far."""
+    """A report of the progress of a run: ``done`` of ``total`` units of a stage, and results so far."""
 
     stage: Stage
     done: int
     total: int  # an estimate, if the error decides how long chains run
-    log_joint: float | None = None  # mean over the chains
+    log_joint: float | None = None  # mean over the chains, nats
     error: float | None = None  # Monte Carlo error of the map, see `bayesmap.run.chains.map_error`
     warmup: int = 0  # units of the total that are warm-up
-    end_is_open: bool = False  # whether the total is only the least, because nothing is known of the error yet
+    end_is_open: bool = False  # true while the error is unknown: the total is then a lower bound
 
 
 @dataclass(frozen=True)
 class Watch:
-    """The receiver of progress, and the callback between two pieces of work that returns true to stop a run."""
+    """The callbacks of a run: one receives the progress, one is called between pieces of work and may stop the run."""
 
     on_progress: Callable[[Event], None] | None = None
-    should_stop: Callable[[], bool] = lambda: False
+    should_stop: Callable[[], bool] = lambda: False  # returns true to stop the run
 
     def report(
         self, stage: Stage, done: int, total: int, log_joint: float | None = None, error: float | None = None,
@@ -55,8 +58,8 @@ class Watch:
         if self.on_progress is not None:
             self.on_progress(Event(stage, done, total, log_joint, error, warmup, end_is_open))
 
-    def of(self, stage: Stage) -> Callable[[int, int], None]:
-        """Return a callback for one stage."""
+    def for_stage(self, stage: Stage) -> Callable[[int, int], None]:
+        """Return a callback (done, total) that reports the progress of one stage."""
         return lambda done, total: self.report(stage, done, total)
 
 
@@ -64,7 +67,7 @@ SILENT = Watch()
 
 
 class Stream(IntEnum):
-    """Numbers of all streams of random numbers. Two streams of one number would draw the same numbers from one seed."""
+    """The numbers of all streams of random numbers: streams with different numbers are independent for one seed."""
 
     SWEEPS = 1  # sweeps of cells
     START = 2  # start of cells
@@ -79,33 +82,31 @@ class Stream(IntEnum):
 
 
 PILOT = 1 << 32  # number of the pilot chain, which fits the sensor; no other chain has this number
+MAPS_TO_INSPECT = 8  # most draws per chain that decide which cells count as observed
 
 
 @dataclass(frozen=True)
 class Keep:
-    """The sweeps whose draws are kept: ``after + every``, ``after + 2 every``, ..., counted from 1."""
+    """The schedule of kept draws: those of the sweeps ``after + every``, ``after + 2 every``, ..., counted from 1."""
 
     after: int = 0  # number of first sweeps of which none is kept
     every: int = 0  # sweeps from one kept draw to the next; 0 keeps none
 
     def sweeps(self, begin: int, end: int) -> range:
-        """Return the sweeps that are kept among those after ``begin`` and up to ``end``."""
+        """Return the numbers of the kept sweeps from ``begin + 1`` to ``end``."""
         if self.every == 0:
             return range(0)
-        n_done = max(0, begin - self.after) // self.every
-        return range(self.after + (n_done + 1) * self.every, end + 1, self.every)
-
-
-MAPS_TO_INSPECT = 8  # most draws per chain that decide which cells count as observed
+        n_kept = max(0, begin - self.after) // self.every
+        return range(self.after + (n_kept + 1) * self.every, end + 1, self.every)
 
 
 @dataclass(frozen=True, eq=False)
 class Info:
     """The report of some sweeps. At an inverse temperature the likelihood is tempered."""
 
-    log_likelihood: Floats  # of each sweep's draw, (chains, sweeps)
-    log_prior: Floats  # (chains, sweeps)
-    draws: Mapping[str, NDArray[Any]]  # kept draws by the names of the cells' arrays, stored, (chains, kept, ...)
+    log_likelihood: Floats  # of each sweep's draw, nats, (chains, sweeps)
+    log_prior: Floats  # of each sweep's draw, nats, (chains, sweeps)
+    draws: Mapping[str, NDArray[Any]]  # kept draws by array name, in stored form, (chains, kept, ...)
 
     @classmethod
     def joined(cls, infos: Sequence[Info], axis: int) -> Info:
@@ -126,7 +127,7 @@ class Snapshot:
 
 
 class Problem:
-    """The result of `Sampler.prepare`: a model in the form that the sampler's kernels use."""
+    """A model in the form that a sampler's kernels use: the result of `Sampler.prepare`."""
 
     @property
     def traced(self) -> Rays | BeamTable:
@@ -140,16 +141,16 @@ class Problem:
 
     @property
     def n_incidences(self) -> int:
-        """The number of cells that all beams cross together: the work of a sweep."""
+        """The number of pairs of a beam and a cell that it crosses: the work of a sweep."""
         return self.traced.n_incidences
 
     @property
-    def coordinates(self) -> Mapping[str, NDArray[np.int32]]:
-        """The cells of each dimension of draws that covers only some cells (see `bayesmap.cells.arrays.Draws`)."""
+    def coordinates(self) -> Mapping[str, Ints]:
+        """The coordinates of dimensions of draws that do not cover the grid, see `bayesmap.cells.arrays.Draws`."""
         return {}
 
-    def touched(self) -> NDArray[np.bool_]:
-        """Mark the cells that at least one beam touches, (nx, ny); the others follow the prior."""
+    def touched_map(self) -> Mask:
+        """Return the mask of the cells that at least one beam touches, (nx, ny); the others follow the prior."""
         return self.traced.touched_map()
 
 
@@ -164,8 +165,8 @@ class RaysProblem(Problem):
         return self.rays
 
 
-def with_cached(changed: C, original: C, *names: str) -> C:
-    """Return a changed copy of a problem, with the cached properties of the original that the change left valid."""
+def keep_cached(changed: T, original: T, *names: str) -> T:
+    """Copy the named cached properties of a problem to its changed copy, for which they are valid. Returns the copy."""
     vars(changed).update({name: value for name, value in vars(original).items() if name in names})
     return changed
 
@@ -180,40 +181,39 @@ class ChainState:
     statistics: Mapping[str, Floats] = field(default_factory=dict, kw_only=True)
 
 
-C = TypeVar("C")
 P = TypeVar("P", bound=Problem)
 S = TypeVar("S", bound=ChainState)
+T = TypeVar("T")
 
 
 class Sampler(Protocol[P, S]):
     """A Markov chain sampler."""
 
     def prepare(self, model: Model, device: str, threads: int | None = None, watch: Watch = SILENT) -> P:
-        """Trace beams, prepare what chains share, on all cores if ``threads`` is None. `BadInput`: unsuited model."""
+        """Trace beams and make what chains share, on all cores if ``threads`` is None. `BadInput`: unsuited model."""
 
     def init(
         self, problem: P, chain_ids: Sequence[int], seed: int, resume: Snapshot | None = None, watch: Watch = SILENT
     ) -> S:
-        """Start chains with these numbers, or continue from a snapshot of them."""
+        """Start the chains of these numbers, or continue them from a snapshot."""
 
     def step(self, state: S, sweeps: int, beta: float = 1.0, keep: Keep = Keep()) -> tuple[S, Info]:
-        """Make some sweeps of all chains. Do not use the given state afterwards. ``beta`` is the inverse temperature,
-        the power of p(reading | stop) (of the likelihood for binary walls): 0 samples the prior and 1 the posterior.
+        """Make some sweeps of all chains. Do not use the argument ``state`` afterwards.
+        ``beta`` is the power of p(reading | stop) (walls: of the likelihood): 0 samples the prior, 1 the posterior.
         """
 
     def snapshot(self, state: S) -> Snapshot:
         """Copy the data that is needed to continue."""
 
-    def observed_counts(self, state: S, draws: Mapping[str, NDArray[Any]]) -> NDArray[np.int32]:
-        """Count the draws in which at least one beam observes each cell, and the draws inspected, of all chains.
+    def observed_counts(self, state: S, draws: Mapping[str, NDArray[Any]]) -> Ints:
+        """Count the draws of all chains in which at least one beam observes each cell, and the draws inspected.
         Returns (2, nx, ny). `draws_to_inspect` selects ``draws``; without draws, the present maps are inspected.
         """
 
 
 def draws_to_inspect(draws: Draws) -> dict[str, NDArray[Any]]:
-    """Select the draws for `Sampler.observed_counts`: `MAPS_TO_INSPECT` maps, evenly spread, without partial arrays.
-    The observed cells hardly differ from draw to draw, and all draws may be gigabytes, or on another machine.
-    """
+    """Select `MAPS_TO_INSPECT` whole maps of each chain for `Sampler.observed_counts`, evenly spread."""
+    # Observed cells hardly differ from draw to draw, and all draws may be gigabytes, or on another machine.
     selected = np.unique(np.linspace(0, draws.count - 1, MAPS_TO_INSPECT).astype(np.intp)) if draws.count else slice(0)
     on_grid = {spec.name for spec in draws.specs if spec.dims == ("x", "y")}
     return {name: array[:, selected if name in on_grid else slice(0)] for name, array in draws.arrays.items()}

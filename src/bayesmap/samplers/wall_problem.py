@@ -1,4 +1,8 @@
-"""The input of every method on binary walls: the beam table of some scans, and the prior."""
+"""The input of every method on binary walls: the beam table of the scans, and the prior of the walls.
+
+`trace_walls` makes it from a model. Methods read the table, the prior's log-odds and coupling, and their copies on the
+device, which are made on first use.
+"""
 
 from __future__ import annotations
 
@@ -7,24 +11,24 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bayesmap.beams.table import BeamTable, CellIndex
 from bayesmap.cells.binary import BinaryWalls
 from bayesmap.cells.kind import Floats
 from bayesmap.model import Model
-from bayesmap.samplers.sampler import Problem, with_cached
+from bayesmap.samplers.sampler import Problem, keep_cached
+from bayesmap.space.arrays import Mask
 
-LOG_ODDS_OF_FIXED = 1e15  # replaces infinite log-odds in cells that the prior fixes: more than any scan can outweigh
+MAX_LOG_ODDS = 1e15  # replaces infinite log-odds in cells that the prior fixes: more than any scan can outweigh
 
 
 @dataclass(frozen=True, eq=False)
 class WallProblem(Problem):
-    """Binary walls under a prior, seen through a beam table."""
+    """Binary walls under a prior, with the beam table that holds the scans and the sensor."""
 
     table: BeamTable
     prior: BinaryWalls
-    poses: Floats  # poses of the sensor in the world frame, (S, 3), for orders that go outwards from it
+    poses: Floats  # poses of the sensor in the world frame, (S, 3), for the order of sweeps outwards from it
     device: str = "cpu"
     threads: int | None = None  # all cores if None
 
@@ -34,12 +38,12 @@ class WallProblem(Problem):
         return self.table
 
     def for_any_poses(self) -> WallProblem:
-        """Return this problem: draws of walls cover the grid already."""
+        """Return this problem, whose draws cover the grid and so keep all cells when poses move."""
         return self
 
     def under(self, prior: BinaryWalls) -> WallProblem:
-        """Return the table, and its index if there is one, under another prior."""
-        return with_cached(replace(self, prior=prior), self, "index", "device_table")
+        """Return this problem under another prior."""
+        return keep_cached(replace(self, prior=prior), self, "index", "device_table")
 
     @cached_property
     def index(self) -> CellIndex:
@@ -57,17 +61,17 @@ class WallProblem(Problem):
 
     @cached_property
     def p_wall(self) -> Floats:
-        """Prior wall probability of every cell, flat, (N,), without the coupling to its neighbours."""
+        """Prior wall probability of every cell without the coupling to its neighbours, (N,)."""
         return np.ascontiguousarray(self.prior.probabilities(self.table.grid)).ravel()
 
     @property
     def coupling(self) -> float:
-        """The log prior that a pair of alike neighbours adds; 0 where cells are independent."""
+        """The log prior that each pair of alike neighbours adds, nats; 0 if cells are independent."""
         return self.prior.pair_coupling
 
     @cached_property
     def logit(self) -> Floats:
-        """Prior log-odds of every cell, flat, shape (N,); large but finite where the prior fixes a cell."""
+        """Prior log-odds of a wall in every cell, (N,); large but finite where the prior fixes a cell."""
         return log_odds(self.p_wall)
 
     @cached_property
@@ -77,12 +81,12 @@ class WallProblem(Problem):
 
         return wall_prior_to_device(self.p_wall, self.logit, self.coupling, self.grid.shape, self.device)
 
-    def log_joint(self, walls: NDArray[np.bool_]) -> float:
-        """Compute log p(walls, readings), the plain reference for the reports of samplers."""
+    def log_joint(self, walls: Mask) -> float:
+        """Compute log p(walls, readings) of a map, (nx, ny), nats: the reference for the reports of samplers."""
         return self.table.log_likelihood(walls) + self.prior.log_prob(walls, self.table.grid)
 
-    def admit(self, walls: NDArray[np.bool_]) -> NDArray[np.bool_]:
-        """Return maps, (..., nx, ny), with the cells that the prior fixes. Raises `BadInput` for another shape."""
+    def with_fixed_cells(self, walls: Mask) -> Mask:
+        """Return maps, (..., nx, ny), with the cells that the prior fixes set. Raises `BadInput` for another shape."""
         shape = self.table.grid.shape
         if np.shape(walls)[-2:] != shape:
             self.table.check_walls(walls)
@@ -93,7 +97,7 @@ class WallProblem(Problem):
 def log_odds(p_wall: Floats) -> Floats:
     """Return the log-odds of probabilities, (N,); large but finite where they are 0 or 1."""
     with np.errstate(divide="ignore"):
-        return np.asarray(np.clip(np.log(p_wall) - np.log1p(-p_wall), -LOG_ODDS_OF_FIXED, LOG_ODDS_OF_FIXED))
+        return np.asarray(np.clip(np.log(p_wall) - np.log1p(-p_wall), -MAX_LOG_ODDS, MAX_LOG_ODDS))
 
 
 def trace_walls(model: Model, device: str = "cpu", threads: int | None = None) -> WallProblem:

@@ -1,4 +1,8 @@
-"""Markov chain samplers of binary walls by single cells and 2 x 2 blocks, and where chains start: docs/inference.md."""
+"""Markov chain samplers of binary walls, by single cells (`WallGibbs`) and by 2 x 2 blocks (`WallBlocks`).
+
+`WallSampler` has what both share. A subclass gives the kernel that draws a site, a cell or a block, from its
+conditional. Chains start at `start_maps`. docs/inference.md explains the conditionals, the orders and the starts.
+"""
 
 from __future__ import annotations
 
@@ -17,6 +21,7 @@ from bayesmap.model import Model
 from bayesmap.samplers.sampler import SILENT, ChainState, Info, Keep, Snapshot, Stream, Watch
 from bayesmap.samplers.wall_problem import WallProblem, trace_walls
 from bayesmap.samplers.without_chains import ROUNDS, Marginals, propagate_to_start
+from bayesmap.space.arrays import Ints, Mask, Singles
 from bayesmap.space.grid import Grid
 
 if TYPE_CHECKING:
@@ -24,6 +29,7 @@ if TYPE_CHECKING:
 
 Start = Literal["prior", "zeros", "ones", "propagate"]
 Order = Literal["raster", "radial", "random"]
+SweepKernel = tuple[Any, list[Any]]  # a kernel that makes sweeps, and the tables that are its first arguments
 
 WARM_START_CELLS = 10_000  # maps with more cells than this start from belief propagation unless told otherwise
 
@@ -34,40 +40,35 @@ def default_start(grid: Grid) -> Start:
 
 
 def start_maps(
-    problem: WallProblem, start: Start | NDArray[np.bool_], chains: Sequence[int], seed: int,
-    marginals: Marginals | None = None,
-) -> NDArray[np.bool_]:  # fmt: skip
+    problem: WallProblem, start: Start | Mask, chain_ids: Sequence[int], seed: int, marginals: Marginals | None = None
+) -> Mask:
     """Return the maps at which chains start, (C, nx, ny), from a start by name, a map (nx, ny), or maps (N, nx, ny).
-
     The start "propagate" thresholds the marginals of belief propagation. Cells whose marginal equals the prior take a
     prior draw, independent for each chain. Chains with similar starts can agree before they have forgotten their start:
-    start from "prior" to check this. If neighbours are coupled, "prior" is approximate (`Ising.start`). Raises
-    BadInput: maps of another shape than the grid's, or fewer than chains.
+    start from "prior" to check this. If neighbours are coupled, "prior" is approximate (`Ising.start`).
+    Raises `BadInput` for maps of another shape than the grid's, or fewer maps than chains.
     """
-    grid, shape = problem.grid, (len(chains), *problem.grid.shape)
+    grid, shape = problem.grid, (len(chain_ids), *problem.grid.shape)
     if not isinstance(start, str):
-        maps = np.asarray(start)
+        maps, n_needed = np.asarray(start), max(chain_ids) + 1
         one_each = maps.ndim == 3
-        if maps.shape[-2:] != grid.shape or maps.ndim not in (2, 3) or (one_each and max(chains) >= len(maps)):
+        if maps.shape[-2:] != grid.shape or maps.ndim not in (2, 3) or (one_each and len(maps) < n_needed):
             raise BadInput(
                 f"infer: the start has shape {maps.shape}, expected one map, {grid.shape}, or at least "
-                f"{max(chains) + 1} maps, {(max(chains) + 1, *grid.shape)}, one for each chain"
+                f"{n_needed} maps, {(n_needed, *grid.shape)}, one for each chain"
             )
-        return np.asarray(maps[list(chains)] != 0 if one_each else np.broadcast_to(maps != 0, shape))
+        return np.asarray(maps[list(chain_ids)] != 0 if one_each else np.broadcast_to(maps != 0, shape))
     if start in ("zeros", "ones"):
         return np.full(shape, start == "ones")
-    rngs = (np.random.default_rng([seed, chain, Stream.START]) for chain in chains)
-    prior = np.stack([problem.prior.start(rng, grid) for rng in rngs])
+    rngs = (np.random.default_rng([seed, chain, Stream.START]) for chain in chain_ids)
+    prior_draws = np.stack([problem.prior.start(rng, grid) for rng in rngs])
     if start == "prior":
-        return prior
+        return prior_draws
+    # Belief propagation: where beams changed nothing, start at the prior draw.
     assert marginals is not None, "a warm start needs marginals"
     without_beams = problem.p_wall.reshape(grid.shape) if marginals.prior is None else marginals.prior
-    # Where beams changed nothing, start at the prior draw.
     uninformed = np.abs(marginals.p_wall - without_beams) < 1e-3
-    return np.where(uninformed, prior, marginals.p_wall > 0.5)
-
-
-SweepKernel = tuple[Any, list[Any]]  # a kernel that makes sweeps, and the tables that are its first arguments
+    return np.where(uninformed, prior_draws, marginals.p_wall > 0.5)
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,11 +78,11 @@ class WallState(ChainState):
     problem: WallProblem
     chains: WallChains
     kernel: SweepKernel
-    sites: NDArray[np.int32]
-    keys: Sequence[int]
+    sites: Ints  # sites of a sweep in their order, by `WallSampler.sites`
+    keys: Sequence[int]  # keys of the chains' random numbers
 
     def walls(self) -> NDArray[np.uint8]:
-        """Return the chains' maps, (chains, N), from which this state can be made again."""
+        """Return the chains' maps, (C, N), from which this state can be made again."""
         return np.array(self.chains.states.walls.numpy())
 
 
@@ -90,13 +91,14 @@ class WallSampler(ABC):
     """A sampler of binary walls; `bayesmap.Gibbs` documents the options."""
 
     order: Order = "radial"
-    start: Start | NDArray[np.bool_] | None = None
+    start: Start | Mask | None = None
     rounds: int = ROUNDS
     site_edge: ClassVar[int]  # cells along a side of a site
 
-    def sites(self, problem: WallProblem) -> NDArray[np.int32]:
-        """Return the sites of a sweep in their order (the order "random" shuffles them in every sweep). Site ``x * rows
-        + y`` has its lower-left cell at (x, y), for all positions on the grid.
+    def sites(self, problem: WallProblem) -> Ints:
+        """Return the sites of a sweep in their order; the order "random" shuffles them in every sweep.
+
+        Site ``x * rows + y`` has its lower-left cell at (x, y), for all positions on the grid.
         """
         columns, rows = (max(1, n + 1 - self.site_edge) for n in problem.grid.shape)
         if self.order == "radial":
@@ -105,7 +107,7 @@ class WallSampler(ABC):
 
     @abstractmethod
     def kernel(self, problem: WallProblem) -> SweepKernel:
-        """Return the sweep kernel, and its first arguments, the tables."""
+        """Load the sweep kernel. Returns it with its first arguments, the tables."""
 
     def prepare(self, model: Model, device: str, threads: int | None = None, watch: Watch = SILENT) -> WallProblem:
         """Trace the beam table."""
@@ -122,14 +124,14 @@ class WallSampler(ABC):
         kernel = self.kernel(problem)  # builds tables now, not in the first sweep
         statistics: dict[str, Floats] = {}
         if resume is None:
-            start, marginals = self.start if self.start is not None else default_start(problem.grid), None
+            start, marginals = default_start(problem.grid) if self.start is None else self.start, None
             if isinstance(start, str) and start == "propagate":
                 marginals = propagate_to_start(problem, self.rounds, watch)
                 statistics["belief_changes"] = marginals.changes
             maps = start_maps(problem, start, chain_ids, seed, marginals)
         else:
             maps = resume.arrays["walls"].reshape(len(chain_ids), *problem.grid.shape) != 0
-        maps = problem.admit(maps).reshape(len(maps), -1)
+        maps = problem.with_fixed_cells(maps).reshape(len(maps), -1)
         keys = [mix(seed, chain, Stream.SWEEPS) for chain in chain_ids]
         chains = WallChains(problem.device_table, maps.astype(np.uint8), keys, problem.device)
         sweep = 0 if resume is None else resume.sweep
@@ -157,7 +159,7 @@ class WallSampler(ABC):
         chains = WallChains(problem.device_table, state.walls(), state.keys, problem.device)
         return replace(state, problem=problem, chains=chains, kernel=self.kernel(problem), sites=self.sites(problem))
 
-    def present_cells(self, state: WallState) -> NDArray[np.float32]:
+    def present_cells(self, state: WallState) -> Singles:
         """Return the present stop probabilities of the chains, 0 and 1, (C, N)."""
         return state.walls().astype(np.float32)
 
@@ -165,8 +167,8 @@ class WallSampler(ABC):
         """Return the maps: everything else follows from them."""
         return Snapshot(state.sweep, {"walls": state.walls()})
 
-    def observed_counts(self, state: WallState, draws: Mapping[str, NDArray[Any]]) -> NDArray[np.int32]:
-        """Count the draws (or present maps) in which a beam reaches each cell, and those inspected, (2, nx, ny)."""
+    def observed_counts(self, state: WallState, draws: Mapping[str, NDArray[Any]]) -> Ints:
+        """Count the draws (or present maps) in which a beam reaches each cell, and the draws inspected, (2, nx, ny)."""
         from bayesmap.kernels.walls.table import reach_frequency
 
         packed, shape = draws.get("walls"), state.problem.grid.shape
@@ -179,7 +181,7 @@ class WallSampler(ABC):
 
 
 def radial_distance(problem: WallProblem) -> NDArray[np.int64]:
-    """Return the L1 distance in cells of every cell from the nearest sensor, (nx, ny): the tutorial's diamonds."""
+    """Compute the L1 distance of every cell from the nearest sensor, in cells, (nx, ny): the tutorial's diamonds."""
     from scipy import ndimage
 
     nx, ny = problem.grid.shape
@@ -191,10 +193,9 @@ def radial_distance(problem: WallProblem) -> NDArray[np.int64]:
 
 @dataclass(frozen=True, eq=False)
 class WallGibbs(WallSampler):
-    """Every sweep draws each cell once from its conditional.
-
-    Orders: "raster" by rows of the array; "radial" outwards from the nearest sensor, so that the shadow of a wall is
-    drawn after the wall in the same sweep; "random", another permutation in each sweep.
+    """A sampler whose sweeps draw each cell once from its conditional.
+    The order "raster" goes by rows of the array. "radial" goes outwards from the nearest sensor, so that the shadow of
+    a wall is drawn after the wall in the same sweep. "random" is another permutation in each sweep.
     """
 
     site_edge = 1
@@ -210,9 +211,7 @@ class WallGibbs(WallSampler):
 
 @dataclass(frozen=True, eq=False)
 class WallBlocks(WallSampler):
-    """Every sweep draws each of the overlapping 2 x 2 blocks once, its four cells together. A wall too near the sensor
-    moves in one step; single cells would have to remove it before its beams meet another wall.
-    """
+    """A sampler whose sweeps draw each of the overlapping 2 x 2 blocks once. It moves a too near wall in one step."""
 
     site_edge = 2
 

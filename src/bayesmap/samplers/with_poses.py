@@ -6,6 +6,7 @@ poses. After its poses have moved, its rays are traced again, and its cells stay
 Given the map, only the prior couples the poses: `bayesmap.poses.prior.PoseLaw.colours` tells which scans can move at
 once. A proposal is a normal step with the covariance of the scan's own likelihood and prior. The likelihood sums over
 the cells in which a beam may stop, and the next sweep draws these stops again (a collapsed Gibbs sampler: Liu, 1994).
+`WithPoses`, at the end, is the sampler of both; `PoseMetropolis` makes the steps of the poses.
 """
 
 from __future__ import annotations
@@ -26,13 +27,18 @@ from bayesmap.model import POSES, Model
 from bayesmap.poses.prior import PoseLaw
 from bayesmap.samplers.sampler import SILENT, ChainState, Info, Keep, Problem, Sampler, Snapshot, Stream, Watch
 from bayesmap.sensors.model import SensorModel
+from bayesmap.space.arrays import Indices, Ints, Singles
 
 if TYPE_CHECKING:
     from bayesmap.kernels.predict.density import ScanLikelihood
 
-OPTIMAL = 2.38 / np.sqrt(3.0)  # length of steps, in standard deviations (Roberts, Gelman and Gilks, 1997)
+OPTIMAL_SCALE = 2.38 / np.sqrt(3.0)  # length of steps, in standard deviations (Roberts, Gelman and Gilks, 1997)
 TARGET_ACCEPTANCE = 0.35  # share of accepted steps to which the sizes of steps adapt
-MOST_NATS = 2.0  # cap of a beam's change in a difference: past an edge its density jumps, and slopes say nothing
+MAX_STEP_NATS = 2.0  # cap of a beam's change in a difference: past an edge its density jumps, without a slope
+SWEEPS_A_ROUND = 5  # sweeps of the cells from one round of pose steps to the next
+STEPS_A_ROUND = 3  # steps of every pose in a round
+DIFFERENCE_M = 0.02  # step of the central differences of the likelihood: about the noise of a laser
+STEP_ARRAYS = ("pose_log_scale", "pose_factor")  # arrays of a snapshot beside the poses and those of the cells
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,9 +47,9 @@ class PoseState:
 
     poses: Floats  # in the world frame, (C, S, 3)
     log_scale: Floats  # logarithm of the size of the steps of each scan, (C, S); warm-up adapts it
-    chain_ids: NDArray[np.intp]  # numbers among all chains of the run, (C,)
+    chain_ids: Indices  # numbers among all chains of the run, (C,)
     seed: int
-    step: int = 0  # number of steps made
+    n_steps: int = 0  # number of steps made
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,23 +61,22 @@ class PoseMetropolis:
     factor: Floats  # Cholesky factor of each scan's proposal covariance in world axes, (S, 3, 3) or (C, S, 3, 3)
 
     def step(
-        self, state: PoseState, cells: NDArray[np.float32], n: int = 1, *, beta: float = 1.0,
-        adaptation_rate: float = 0.0,
-    ) -> tuple[PoseState, Floats]:  # fmt: skip
-        """Propose a new pose for every scan ``n`` times. Returns the chains, and the share of accepted steps, (C,).
-
+        self, state: PoseState, cells: Singles, count: int = 1, *, beta: float = 1.0, adaptation_rate: float = 0.0
+    ) -> tuple[PoseState, Floats]:
+        """Propose a new pose for every scan ``count`` times. Returns the chains, and the share of accepted steps, (C,).
         ``cells`` holds one map per chain (`ScanLikelihood.beams`). A scan's step size grows with accepted steps and
         shrinks with others (Robbins and Monro, 1951) at ``adaptation_rate``, which must be 0 once draws are kept.
         """
-        chains, scans = state.poses.shape[:2]
+        n_chains, n_scans = state.poses.shape[:2]
         poses, log_scale = state.poses.copy(), state.log_scale.copy()
-        log_lik = self._log_likelihoods(cells, poses, np.arange(scans))
-        share_accepted = np.zeros(chains)
-        for step in range(state.step, state.step + n):
+        log_lik = self._log_likelihoods(cells, poses, np.arange(n_scans))
+        share_accepted = np.zeros(n_chains)
+        for step in range(state.n_steps, state.n_steps + count):
             noise, log_uniform = self._random(state, step)
             shifts = np.exp(log_scale)[..., None] * (self.factor @ noise[..., None])[..., 0]
-            accepted = np.zeros((chains, scans), dtype=np.bool_)
-            for colour in self.prior.colours(scans):
+            accepted = np.zeros((n_chains, n_scans), dtype=np.bool_)
+            # Scans of one colour are independent given the others, so they are accepted or not one by one.
+            for colour in self.prior.colours(n_scans):
                 proposed = poses.copy()
                 proposed[:, colour] += shifts[:, colour]
                 proposed_log_lik = self._log_likelihoods(cells, proposed, colour)
@@ -81,13 +86,13 @@ class PoseMetropolis:
                 accepted[:, colour] = accept
                 poses[:, colour] = np.where(accept[..., None], proposed[:, colour], poses[:, colour])
                 log_lik[:, colour] = np.where(accept, proposed_log_lik, log_lik[:, colour])
-            share_accepted += accepted.mean(axis=1) / n
+            share_accepted += accepted.mean(axis=1) / count
             log_scale += adaptation_rate * (accepted - TARGET_ACCEPTANCE)
-        return replace(state, poses=poses, log_scale=log_scale, step=state.step + n), share_accepted
+        return replace(state, poses=poses, log_scale=log_scale, n_steps=state.n_steps + count), share_accepted
 
-    def _log_likelihoods(self, cells: NDArray[np.float32], poses: Floats, scans: NDArray[np.intp]) -> Floats:
-        """Compute the log likelihood of some scans of every chain at their poses, (C, scans)."""
-        chain, scan = (a.ravel() for a in np.meshgrid(np.arange(len(poses)), scans, indexing="ij"))
+    def _log_likelihoods(self, cells: Singles, poses: Floats, scans: Indices) -> Floats:
+        """Compute the log likelihood of some scans, by index, (n,), of every chain at their poses, (C, n)."""
+        chain, scan = (index.ravel() for index in np.meshgrid(np.arange(len(poses)), scans, indexing="ij"))
         return self.likelihood(cells, poses[:, scans].reshape(-1, 3), scan, chain).reshape(len(poses), -1)
 
     def _random(self, state: PoseState, step: int) -> tuple[Floats, Floats]:
@@ -101,39 +106,32 @@ class PoseMetropolis:
 
 
 def proposal_factors(
-    likelihood: ScanLikelihood, cells: NDArray[np.float32], poses: Floats, prior: PoseLaw, step_m: float
+    likelihood: ScanLikelihood, cells: Singles, poses: Floats, prior: PoseLaw, step_m: float
 ) -> Floats:
-    """Return Cholesky factors of steps that fit each scan's posterior given one map, (1, N) or (1, N, 6): (S, 3, 3).
-
-    The information sums the outer products of the gradients of beams' log densities, by central differences. These
-    shift by ``step_m``, about the sensor's noise, and turn so that a point at the median range moves as far.
+    """Return Cholesky factors of proposals that fit the posterior of each scan's pose given one map, (S, 3, 3).
+    The map is (1, N) or (1, N, 6). The information sums the outer products of the gradients of beams' log densities, by
+    central differences: shifts by ``step_m``, about the noise, and turns that move the median range's point as far.
     """
-    scans = len(poses)
-    ranges = np.where(np.isfinite(likelihood.scans.ranges_m), likelihood.scans.ranges_m, np.nan)
-    usable = np.isfinite(ranges).any(axis=1)
-    lever = np.full(scans, 1.0)
-    lever[usable] = np.maximum(np.nanmedian(ranges[usable], axis=1), 0.1)
-    step = np.stack([np.full(scans, step_m), np.full(scans, step_m), step_m / lever], axis=-1)
-    scan, chain = np.arange(scans), np.zeros(scans, dtype=np.intp)
+    n_scans = len(poses)
+    range_m = np.where(np.isfinite(likelihood.scans.ranges_m), likelihood.scans.ranges_m, np.nan)
+    has_hits = np.isfinite(range_m).any(axis=1)
+    lever_m = np.full(n_scans, 1.0)
+    lever_m[has_hits] = np.maximum(np.nanmedian(range_m[has_hits], axis=1), 0.1)
+    step = np.stack([np.full(n_scans, step_m), np.full(n_scans, step_m), step_m / lever_m], axis=-1)
+    scan, chain = np.arange(n_scans), np.zeros(n_scans, dtype=np.intp)
     slopes = []
     for axis in range(3):
-        shift = np.zeros((scans, 3))
+        shift = np.zeros((n_scans, 3))
         shift[:, axis] = step[:, axis]
         forward, backward = (likelihood.beams(cells, poses + sign * shift, scan, chain) for sign in (1.0, -1.0))
-        slopes.append(np.clip(forward - backward, -MOST_NATS, MOST_NATS) / (2 * step[:, axis : axis + 1]))
+        slopes.append(np.clip(forward - backward, -MAX_STEP_NATS, MAX_STEP_NATS) / (2 * step[:, axis : axis + 1]))
     gradient = np.stack(slopes, axis=-1)  # (S, A, 3)
     information = np.einsum("sai,saj->sij", gradient, gradient) + prior.precision(poses)
-    return np.asarray(OPTIMAL * np.linalg.cholesky(np.linalg.inv(information)))
-
-
-EVERY = 5  # sweeps of the cells from one round of pose steps to the next
-STEPS = 3  # steps of every pose in a round
-DIFFERENCE_M = 0.02  # step of the central differences of the likelihood: about the noise of a laser
-STEP_ARRAYS = ("pose_log_scale", "pose_factor")  # of a snapshot
+    return np.asarray(OPTIMAL_SCALE * np.linalg.cholesky(np.linalg.inv(information)))
 
 
 class MovableSampler(Sampler[Any, Any], Protocol):
-    """A sampler of cells whose rays can be traced anew under its chains."""
+    """A sampler of cells whose rays can be traced again from other poses, while its chains keep their cells."""
 
     def retrace(self, problem: Any, model: Model) -> Any:
         """Return this problem with the scans moved to other poses. Draws keep their cells."""
@@ -141,7 +139,7 @@ class MovableSampler(Sampler[Any, Any], Protocol):
     def moved(self, state: Any, problem: Any) -> Any:
         """Return the chains with their present cells, under another problem of `retrace`."""
 
-    def present_cells(self, state: Any) -> NDArray[np.float32]:
+    def present_cells(self, state: Any) -> Singles:
         """Return the present cells of the chains, (C, N) or (C, N, 6), see `bayesmap.cells.kind.CellPrior.stops`."""
 
 
@@ -152,7 +150,7 @@ class PoseProblem(Problem):
     model: Model
     cells: Any  # the problem of the cells' sampler at the poses of the log
     device: str
-    threads: int | None
+    threads: int | None  # all cores if None
 
     @property
     def traced(self) -> Rays | BeamTable:
@@ -160,8 +158,8 @@ class PoseProblem(Problem):
         return self.cells.traced  # type: ignore[no-any-return]
 
     @property
-    def coordinates(self) -> Mapping[str, NDArray[np.int32]]:
-        """The coordinates of the cells, and the numbers of scans and of the parts of a pose."""
+    def coordinates(self) -> Mapping[str, Ints]:
+        """The coordinates of the cells, and the numbers of scans and of the components of a pose."""
         scans = np.arange(len(self.model.scans), dtype=np.int32)
         return {**self.cells.coordinates, "scan": scans, "pose": np.arange(3, dtype=np.int32)}
 
@@ -194,19 +192,19 @@ class JointState(ChainState):
 
     problem: PoseProblem
     cells: tuple[Any, ...]  # one state of the cells' sampler per chain, each with its own rays
-    poses: PoseState
+    pose_state: PoseState
     factor: Floats  # Cholesky factors of the chains' proposals, (C, S, 3, 3); zero before the first round
 
 
 @dataclass(frozen=True, eq=False)
 class WithPoses:
-    """A sampler of cells turned into one of cells and poses."""
+    """A sampler of cells and poses, made from a sampler of cells."""
 
     cells: MovableSampler
     adapt_until: int  # the sweep after which the sizes of pose steps stay fixed, the end of warm-up
     start: Floats | None = None  # first poses by chain number, (chains of the run, S, 3); draws of the prior if None
-    every: int = EVERY  # sweeps of the cells between rounds of pose steps
-    pose_steps: int = STEPS  # steps of every pose in a round
+    every: int = SWEEPS_A_ROUND  # sweeps of the cells between rounds of pose steps
+    pose_steps: int = STEPS_A_ROUND  # steps of every pose in a round
 
     def prepare(self, model: Model, device: str, threads: int | None = None, watch: Watch = SILENT) -> PoseProblem:
         """Trace the beams at the poses of the log."""
@@ -218,57 +216,58 @@ class WithPoses:
         watch: Watch = SILENT,
     ) -> JointState:  # fmt: skip
         """Start chains, or continue from a snapshot."""
-        scans = len(problem.model.scans)
+        n_chains, n_scans = len(chain_ids), len(problem.model.scans)
         if resume is None:
-            poses = np.stack([self._start(problem, chain, seed) for chain in chain_ids])
-            log_scale, factor = np.zeros((len(chain_ids), scans)), np.zeros((len(chain_ids), scans, 3, 3))
-            sweep = 0
+            sweep, poses = 0, np.stack([self._first_poses(problem, chain, seed) for chain in chain_ids])
+            log_scale, factor = np.zeros((n_chains, n_scans)), np.zeros((n_chains, n_scans, 3, 3))
         else:
-            poses, log_scale, factor = (resume.arrays[name] for name in ("poses", *STEP_ARRAYS))
             sweep = resume.sweep
-        state = PoseState(poses, log_scale, np.asarray(chain_ids), seed, sweep // self.every * self.pose_steps)
+            poses, log_scale, factor = (resume.arrays[name] for name in ("poses", *STEP_ARRAYS))
+        pose_state = PoseState(poses, log_scale, np.asarray(chain_ids), seed, sweep // self.every * self.pose_steps)
 
         def init_cells(i: int) -> Any:
-            cell_snapshot = None
+            snapshot = None
             if resume is not None:
                 arrays = {n: a[i : i + 1] for n, a in resume.arrays.items() if n not in ("poses", *STEP_ARRAYS)}
-                cell_snapshot = Snapshot(resume.sweep, arrays)
+                snapshot = Snapshot(resume.sweep, arrays)
             retraced = self.cells.retrace(problem.cells, problem.at(poses[i]))
-            return self.cells.init(retraced, [chain_ids[i]], seed, cell_snapshot, watch)
+            return self.cells.init(retraced, [chain_ids[i]], seed, snapshot, watch)
 
-        return JointState(problem, sweep, tuple(self._map_chains(problem, init_cells, len(chain_ids))), state, factor)
+        cells = tuple(self._map_chains(problem, init_cells, n_chains))
+        return JointState(problem, sweep, cells, pose_state, factor)
 
     def step(self, state: JointState, sweeps: int, beta: float = 1.0, keep: Keep = Keep()) -> tuple[JointState, Info]:
         """Make some sweeps of all chains, with a round of pose steps after every few."""
-        end, infos, poses = state.sweep + sweeps, [], []
+        end, infos, drawn_poses = state.sweep + sweeps, [], []
         while state.sweep < end:
+            # Sweep the cells up to the next round, or to the end; the poses are the same in all these draws.
             count = min(end, (state.sweep // self.every + 1) * self.every) - state.sweep
             n_kept = len(keep.sweeps(state.sweep, state.sweep + count))
-            poses.append(np.repeat(state.poses.poses[:, None], n_kept, axis=1))
-            log_prior = state.problem.law.log_prob(state.poses.poses)
+            drawn_poses.append(np.repeat(state.pose_state.poses[:, None], n_kept, axis=1))
+            log_prior = state.problem.law.log_prob(state.pose_state.poses)
             state, info = self._sweep_cells(state, count, beta, keep)
             infos.append(replace(info, log_prior=info.log_prior + log_prior[:, None]))
             if state.sweep % self.every == 0:
-                state = self._move(state, beta)
+                state = self._move_poses(state, beta)
         info = Info.joined(infos, axis=1)
-        return state, replace(info, draws={**info.draws, POSES.name: np.concatenate(poses, axis=1)})
+        return state, replace(info, draws={**info.draws, POSES.name: np.concatenate(drawn_poses, axis=1)})
 
     def snapshot(self, state: JointState) -> Snapshot:
         """Return cells and poses, and the sizes of the steps."""
-        of_chains = [self.cells.snapshot(chain).arrays for chain in state.cells]
-        arrays = {name: np.concatenate([arrays[name] for arrays in of_chains]) for name in of_chains[0]}
-        steps = dict(zip(STEP_ARRAYS, (state.poses.log_scale, state.factor), strict=True))
-        return Snapshot(state.sweep, {**arrays, "poses": state.poses.poses, **steps})
+        by_chain = [self.cells.snapshot(chain).arrays for chain in state.cells]
+        arrays = {name: np.concatenate([arrays[name] for arrays in by_chain]) for name in by_chain[0]}
+        steps = dict(zip(STEP_ARRAYS, (state.pose_state.log_scale, state.factor), strict=True))
+        return Snapshot(state.sweep, {**arrays, "poses": state.pose_state.poses, **steps})
 
-    def observed_counts(self, state: JointState, draws: Mapping[str, NDArray[Any]]) -> NDArray[np.int32]:
+    def observed_counts(self, state: JointState, draws: Mapping[str, NDArray[Any]]) -> Ints:
         """Count the draws in which some beam observes each cell, and the draws inspected. Returns (2, nx, ny)."""
-        of_chains = [
+        by_chain = [
             self.cells.observed_counts(chain, {name: a[i : i + 1] for name, a in draws.items() if name != POSES.name})
             for i, chain in enumerate(state.cells)
         ]
-        return np.asarray(np.sum(of_chains, axis=0))
+        return np.asarray(np.sum(by_chain, axis=0))
 
-    def _start(self, problem: PoseProblem, chain: int, seed: int) -> Floats:
+    def _first_poses(self, problem: PoseProblem, chain: int, seed: int) -> Floats:
         """Return the first poses of a chain, (S, 3)."""
         if self.start is not None:
             return np.asarray(self.start[chain % len(self.start)], dtype=np.float64)
@@ -283,7 +282,7 @@ class WithPoses:
         cells, infos = zip(*self._map_chains(state.problem, sweep, len(state.cells)), strict=True)
         return replace(state, cells=cells, sweep=state.sweep + count), Info.joined(infos, axis=0)
 
-    def _move(self, state: JointState, beta: float) -> JointState:
+    def _move_poses(self, state: JointState, beta: float) -> JointState:
         """Make a round of pose steps, and trace the chains' rays at the new poses."""
         problem = state.problem
         cells = np.concatenate([self.cells.present_cells(chain) for chain in state.cells])
@@ -291,19 +290,21 @@ class WithPoses:
         if not factor.any():
             factor = np.stack([
                 proposal_factors(problem.likelihood, cells[i : i + 1], poses, problem.law, DIFFERENCE_M)
-                for i, poses in enumerate(state.poses.poses)
+                for i, poses in enumerate(state.pose_state.poses)
             ])  # fmt: skip
+        # Steps adapt ever less during the warm-up, and not after it.
         rate = float((state.sweep // self.every) ** -0.6) if state.sweep <= self.adapt_until else 0.0
         sampler = PoseMetropolis(problem.likelihood, problem.law, factor)
-        poses, _ = sampler.step(state.poses, cells, self.pose_steps, beta=beta, adaptation_rate=rate)
+        pose_state, _ = sampler.step(state.pose_state, cells, self.pose_steps, beta=beta, adaptation_rate=rate)
 
         def move_cells(i: int) -> Any:
-            if (poses.poses[i] == state.poses.poses[i]).all():
+            if (pose_state.poses[i] == state.pose_state.poses[i]).all():
                 return state.cells[i]
-            return self.cells.moved(state.cells[i], self.cells.retrace(problem.cells, problem.at(poses.poses[i])))
+            retraced = self.cells.retrace(problem.cells, problem.at(pose_state.poses[i]))
+            return self.cells.moved(state.cells[i], retraced)
 
         chains = tuple(self._map_chains(problem, move_cells, len(state.cells)))
-        return replace(state, cells=chains, poses=poses, factor=factor)
+        return replace(state, cells=chains, pose_state=pose_state, factor=factor)
 
     def _map_chains(self, problem: PoseProblem, work: Callable[[int], Any], count: int) -> list[Any]:
         """Run the work for every chain: on the CPU in parallel threads, elsewhere one after the other."""

@@ -1,8 +1,9 @@
 """Methods on binary walls that need no Markov chain: their draws are independent.
 
-Exact enumeration is the reference against which every sampler is tested. Self-normalised importance sampling from the
-prior shows why better methods are needed: its weights collapse. Belief propagation with ray potentials gives
-approximate marginals in a few rounds; `bayesmap.kernels.walls.propagate` states the messages.
+Belief propagation with ray potentials (`propagate`) gives approximate marginals in a few rounds;
+`bayesmap.kernels.walls.propagate` states the messages. Self-normalised importance sampling from the prior
+(`sample_importance`) shows why better methods are needed: its weights collapse. Exact enumeration (`enumerate_maps`) is
+the reference against which every sampler is tested. The functions at the end turn the results into draws.
 """
 
 from __future__ import annotations
@@ -21,14 +22,15 @@ from bayesmap.cells.kind import Floats
 from bayesmap.errors import BadInput, check_count
 from bayesmap.samplers.sampler import SILENT, Stream, Watch
 from bayesmap.samplers.wall_problem import WallProblem
+from bayesmap.space.arrays import Indices, Mask, Rng
 
-DAMPING = 0.5
-ROUNDS = 20
+DAMPING, ROUNDS = 0.5, 20  # defaults of `propagate`
+MAX_UNKNOWN = 16  # most unknown cells of `enumerate_maps`: 65 536 states
 
 
 @dataclass(frozen=True, eq=False)
 class Marginals:
-    """The marginals of belief propagation, and how it converged."""
+    """The marginals of belief propagation, and the course of its rounds."""
 
     p_wall: Floats  # approximate posterior wall probability, (nx, ny)
     changes: Floats  # largest change of any cell's probability in each round, (rounds,)
@@ -44,12 +46,10 @@ def propagate(
     watch: Watch = SILENT,
 ) -> Marginals:  # fmt: skip
     """Pass messages between all beams and cells until beliefs converge, or for a number of rounds.
-
     If no cell lies on two beams and neighbours are not coupled, one undamped round is exact. If beams and coupled
     neighbours form a tree, as many rounds as it is wide are exact. Other marginals are approximate, mostly too certain.
-
     Rounds end when no probability changes by over ``tolerance``. ``damping`` in [0, 1) is the old message's weight in
-    the new one, geometrically; ``beta`` the inverse temperature. Raises `BadInput`: rounds or damping out of range.
+    the new one, geometrically. ``beta`` is the inverse temperature. Raises `BadInput`: rounds or damping out of range.
     """
     from bayesmap.kernels.walls.propagate import Beliefs
 
@@ -58,18 +58,20 @@ def propagate(
         raise BadInput(f"propagate: damping must lie in [0, 1), got {damping!r}")
     began = time.perf_counter()
     beliefs = Beliefs(problem.table, problem.logit, problem.device, beta, problem.coupling)
-    observed = problem.table.touched_map().ravel()
+    touched = problem.table.touched_map().ravel()
     p_wall = special.expit(beliefs.log_odds().astype(np.float64))
     changes, mean_changes = [], []
     for number in range(rounds):
+        previous = p_wall
         beliefs.round(damping, problem.threads)
-        old_p_wall, p_wall = p_wall, special.expit(beliefs.log_odds().astype(np.float64))
-        change = np.abs(p_wall - old_p_wall)
+        p_wall = special.expit(beliefs.log_odds().astype(np.float64))
+        change = np.abs(p_wall - previous)
         changes.append(float(change.max()))
-        mean_changes.append(float(change[observed].mean()) if observed.any() else 0.0)
+        mean_changes.append(float(change[touched].mean()) if touched.any() else 0.0)
         watch.report("propagate", number + 1, rounds)
         if changes[-1] < tolerance or watch.should_stop():
             break
+    # The log-odds of fixed cells are large but finite: set their probabilities exactly.
     p_wall = np.where((problem.p_wall == 0) | (problem.p_wall == 1), problem.p_wall, p_wall)
     return Marginals(
         p_wall=p_wall.reshape(problem.table.grid.shape), changes=np.array(changes), mean_changes=np.array(mean_changes),
@@ -87,7 +89,7 @@ def propagate_to_start(problem: WallProblem, rounds: int = ROUNDS, watch: Watch 
 
 
 BATCH_CELLS = 1 << 23  # cells per batch of maps
-COUPLED_CELLS = 1 << 13  # cells per batch of maps with coupled neighbours
+COUPLED_BATCH_CELLS = 1 << 13  # cells per batch of maps with coupled neighbours
 NEGLIGIBLE_NATS = 40.0  # a particle this far below the best adds nothing to any mean
 
 
@@ -98,7 +100,7 @@ class Particles:
     log_weights: Floats  # normalised, (particles,)
     log_evidence: float  # log of the mean weight: an estimate of log p(readings)
     problem: WallProblem
-    key: int
+    key: int  # key of the random numbers; with a particle's number it gives the map
     seconds: float
     finished: bool  # whether all particles were weighed; false if stopped early
 
@@ -107,7 +109,7 @@ class Particles:
         """1 / sum of squared weights; 1 if a single particle has all weight."""
         return float(np.exp(-special.logsumexp(2 * self.log_weights)))
 
-    def maps(self, particles: NDArray[np.intp]) -> NDArray[np.bool_]:
+    def maps(self, particles: Indices) -> Mask:
         """Return the maps of the given particles, (n, nx, ny)."""
         from bayesmap.kernels.walls.table import particle_maps
 
@@ -129,7 +131,7 @@ class Particles:
             return mean
         return np.where(self.problem.table.touched_map(), mean, self.problem.p_wall.reshape(mean.shape))
 
-    def resample(self, rng: np.random.Generator, count: int) -> NDArray[np.intp]:
+    def resample(self, rng: Rng, count: int) -> Indices:
         """Draw the numbers of ``count`` particles with replacement, each with its weight's probability."""
         cumulative = np.cumsum(np.exp(self.log_weights))
         return np.searchsorted(cumulative / cumulative[-1], rng.random(count), side="right")
@@ -143,21 +145,22 @@ def sample_importance(
 
     particles = check_count("importance", "particles", particles, 1)
     key = mix(seed, 0, Stream.PARTICLES)
-    batches: list[Floats] = []
+    log_likelihoods: list[Floats] = []
     began = time.perf_counter()
-    size, done = 256, 0
+    batch_size, n_weighed = 256, 0
     watch.report("particles", 0, particles)  # the first particles of a large map take long
-    while done < particles and not (batches and watch.should_stop()):
-        count = min(size, particles - done)
-        batches.append(_weigh(problem, key, done, count))
-        done += count
-        size = int(np.clip(0.25 * done / max(time.perf_counter() - began, 1e-9), 256, 1 << 20))
-        watch.report("particles", done, particles)
-    log_weights = beta * np.concatenate(batches)
+    while n_weighed < particles and not (log_likelihoods and watch.should_stop()):
+        count = min(batch_size, particles - n_weighed)
+        log_likelihoods.append(_weigh(problem, key, n_weighed, count))
+        n_weighed += count
+        # Later batches take about a quarter of a second, so that a stop is noticed soon.
+        batch_size = int(np.clip(0.25 * n_weighed / max(time.perf_counter() - began, 1e-9), 256, 1 << 20))
+        watch.report("particles", n_weighed, particles)
+    log_weights = beta * np.concatenate(log_likelihoods)
     log_total = float(special.logsumexp(log_weights))
     return Particles(
-        log_weights=log_weights - log_total, log_evidence=log_total - float(np.log(done)), problem=problem, key=key,
-        seconds=time.perf_counter() - began, finished=done == particles,
+        log_weights=log_weights - log_total, log_evidence=log_total - float(np.log(n_weighed)), problem=problem,
+        key=key, seconds=time.perf_counter() - began, finished=n_weighed == particles,
     )  # fmt: skip
 
 
@@ -171,31 +174,28 @@ def _weigh(problem: WallProblem, key: int, first: int, count: int) -> Floats:
     return log_likelihoods(problem.table, pack(maps), problem.device)
 
 
-def _coupled_maps(problem: WallProblem, key: int, particles: NDArray[np.intp]) -> NDArray[np.bool_]:
-    """Return the maps of some particles, (n, nx, ny): each is one of the maps drawn with the number of its batch."""
+def _coupled_maps(problem: WallProblem, key: int, particles: Indices) -> Mask:
+    """Return the maps of particles by number, (n, nx, ny). The number of a batch seeds all its maps together."""
     out = np.empty((len(particles), *problem.grid.shape), dtype=np.bool_)
-    together = max(1, COUPLED_CELLS // problem.grid.n_cells)
-    batch_of = particles // together
-    for batch in np.unique(batch_of).tolist():
-        maps = problem.prior.sample_maps(np.random.default_rng([key, batch]), problem.grid, together)
-        mask = batch_of == batch
-        out[mask] = maps[particles[mask] % together]
+    batch_size = max(1, COUPLED_BATCH_CELLS // problem.grid.n_cells)
+    batch_of_particle = particles // batch_size
+    for batch in np.unique(batch_of_particle).tolist():
+        maps = problem.prior.sample_maps(np.random.default_rng([key, batch]), problem.grid, batch_size)
+        mask = batch_of_particle == batch
+        out[mask] = maps[particles[mask] % batch_size]
     return out
-
-
-MAX_UNKNOWN = 16
 
 
 @dataclass(frozen=True, eq=False)
 class Enumeration:
-    """The whole posterior, enumerated over n cells: those not fixed that a beam touches, or that are coupled."""
+    """The whole posterior over n unknown cells: those that a beam touches or that are coupled, and not fixed."""
 
-    unknown: NDArray[np.intp]  # flat indices of the cells, (n,)
-    log_posterior: Floats  # normalised, of each of the 2^n states; bit i of a state is the wall in ``unknown[i]``
+    unknown: Indices  # flat indices of the unknown cells, (n,)
+    log_posterior: Floats  # normalised, of each state, (2^n,); bit i of a state is the wall in ``unknown[i]``
     log_evidence: float  # log p(readings)
     problem: WallProblem
 
-    def states(self) -> NDArray[np.bool_]:
+    def states(self) -> Mask:
         """Return the enumerated cells in each state, (2^n, n)."""
         return _bits(np.arange(len(self.log_posterior))[:, None], np.arange(len(self.unknown)))
 
@@ -210,7 +210,7 @@ class Enumeration:
         states = self.states().astype(np.float64)
         return np.asarray((states * np.exp(self.log_posterior)[:, None]).T @ states)
 
-    def sample(self, rng: np.random.Generator, count: int) -> NDArray[np.bool_]:
+    def sample(self, rng: Rng, count: int) -> Mask:
         """Draw maps independently, (count, nx, ny)."""
         shape = self.problem.table.grid.shape
         walls = rng.random((count, shape[0] * shape[1])) < self.problem.p_wall
@@ -222,65 +222,69 @@ class Enumeration:
 def enumerate_maps(problem: WallProblem) -> Enumeration:
     """Compute p(map | readings) of every map, in plain NumPy. Raises BadInput: over `MAX_UNKNOWN` unknown cells."""
     table, p = problem.table, problem.p_wall
-    free_to_vary = (p > 0) & (p < 1)
     # Cells that no beam touches matter if neighbours are coupled.
-    unknown = np.nonzero((table.touched_map().ravel() | (problem.coupling != 0.0)) & free_to_vary)[0]
+    matters = table.touched_map().ravel() | (problem.coupling != 0.0)
+    unknown = np.nonzero(matters & (p > 0) & (p < 1))[0]
     if len(unknown) > MAX_UNKNOWN:
         raise BadInput(
             f"exact: {len(unknown)} cells are unknown, and enumeration takes at most {MAX_UNKNOWN}; "
             "use method 'gibbs' or 'block', or fix cells with a prior of 0 or 1"
         )
     # Log prior of each state.
-    bit_of = np.full(table.grid.n_cells, -1)
-    bit_of[unknown] = np.arange(len(unknown))
+    bit_of_cell = np.full(table.grid.n_cells, -1)
+    bit_of_cell[unknown] = np.arange(len(unknown))
     state = np.arange(1 << len(unknown))
     log_p = np.zeros(len(state))
     for i, cell in enumerate(unknown):
         log_p += np.where(state >> i & 1, np.log(p[cell]), np.log1p(-p[cell]))
     if problem.coupling != 0.0:
-        log_p += problem.coupling * _pairs_alike(problem, state, bit_of)
+        log_p += problem.coupling * _count_alike_pairs(problem, state, bit_of_cell)
         log_p -= special.logsumexp(log_p)
     # Log-likelihood of each beam: its first wall in each state.
     for b in range(table.n_beams):
         still_free = np.ones(len(state), dtype=np.bool_)
         term = np.full(len(state), np.float64(table.no_hit[b]))
         for k in range(table.offsets[b], table.offsets[b + 1]):
-            cell = table.cells[k]
-            wall = _bits(state, bit_of[cell]) if bit_of[cell] >= 0 else np.full(len(state), p[cell] == 1.0)
-            term[still_free & wall] = table.loglik[k]
-            still_free &= ~wall
+            is_wall = _walls_in(table.cells[k], problem, state, bit_of_cell)
+            term[still_free & is_wall] = table.loglik[k]
+            still_free &= ~is_wall
         log_p += term
     log_evidence = float(special.logsumexp(log_p))
     return Enumeration(unknown, log_p - log_evidence, log_evidence, problem)
 
 
-def _bits(state: NDArray[np.int64], bit: NDArray[np.int64]) -> NDArray[np.bool_]:
+def _bits(state: NDArray[np.int64], bit: NDArray[np.int64]) -> Mask:
     """Return whether bits of states are set."""
     return np.asarray(state >> bit & 1 == 1)
 
 
-def _pairs_alike(problem: WallProblem, state: NDArray[np.int64], bit_of: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Count the pairs of neighbours that are both walls or both free, in each state."""
+def _walls_in(cell: int, problem: WallProblem, state: NDArray[np.int64], bit_of_cell: NDArray[np.int64]) -> Mask:
+    """Return whether one cell, by flat index, is a wall in each state, (2^n,)."""
+    if bit_of_cell[cell] >= 0:
+        return _bits(state, bit_of_cell[cell])
+    return np.full(len(state), problem.p_wall[cell] == 1.0)
+
+
+def _count_alike_pairs(
+    problem: WallProblem, state: NDArray[np.int64], bit_of_cell: NDArray[np.int64]
+) -> NDArray[np.int64]:
+    """Count the pairs of neighbours that are both walls or both free, in each state, (2^n,)."""
     cells, pairs = np.arange(problem.grid.n_cells).reshape(problem.grid.shape), np.zeros(len(state), dtype=np.int64)
-
-    def walls(cell: int) -> NDArray[np.bool_]:
-        return _bits(state, bit_of[cell]) if bit_of[cell] >= 0 else np.full(len(state), problem.p_wall[cell] == 1.0)
-
     for cell, neighbour in ((cells[1:], cells[:-1]), (cells[:, 1:], cells[:, :-1])):
         for a, b in zip(cell.ravel().tolist(), neighbour.ravel().tolist(), strict=True):
-            pairs += walls(a) == walls(b)
+            pairs += _walls_in(a, problem, state, bit_of_cell) == _walls_in(b, problem, state, bit_of_cell)
     return pairs
 
 
 @dataclass(frozen=True)
 class DrawRequest:
-    """A request of ``chains * draws`` draws with a seed, from a number of particles or rounds."""
+    """A request of ``chains * draws`` draws."""
 
     chains: int
-    draws: int
+    draws: int  # per chain
     seed: int
-    particles: int
-    rounds: int
+    particles: int  # for importance sampling
+    rounds: int  # for belief propagation
 
 
 @dataclass(frozen=True, eq=False)
@@ -291,7 +295,7 @@ class IndependentDraws:
     log_likelihood: Floats  # of each map, (chains, draws)
     log_prior: Floats
     occupancy: Floats  # marginals, (nx, ny)
-    observed: NDArray[np.bool_]  # cells that a beam reaches in at least half of the maps, (nx, ny)
+    observed: Mask  # cells that a beam reaches in at least half of the maps, (nx, ny)
     seconds: float = 0.0  # time of the method before it draws
     finished: bool = True  # false if the method was stopped early
     log_weights: Floats | None = None
@@ -299,19 +303,19 @@ class IndependentDraws:
     log_evidence: float | None = None
 
 
-def exact(problem: WallProblem, request: DrawRequest, watch: Watch) -> IndependentDraws:
+def draw_by_enumeration(problem: WallProblem, request: DrawRequest, watch: Watch) -> IndependentDraws:
     """Enumerate the whole posterior, and draw from it."""
     posterior = enumerate_maps(problem)
     return _draw(problem, request, posterior.sample, posterior.marginals(), log_evidence=posterior.log_evidence)
 
 
-def importance(problem: WallProblem, request: DrawRequest, watch: Watch) -> IndependentDraws:
+def draw_by_importance(problem: WallProblem, request: DrawRequest, watch: Watch) -> IndependentDraws:
     """Weigh maps, and resample draws from them."""
     particles = sample_importance(problem, request.particles, request.seed, watch=watch)
-    return draws_by_importance(problem, request, particles)
+    return resample_particles(problem, request, particles)
 
 
-def draws_by_importance(problem: WallProblem, request: DrawRequest, particles: Particles) -> IndependentDraws:
+def resample_particles(problem: WallProblem, request: DrawRequest, particles: Particles) -> IndependentDraws:
     """Resample draws from particles that have been weighed."""
     return _draw(
         problem, request, lambda rng, count: particles.maps(particles.resample(rng, count)), particles.occupancy(),
@@ -320,13 +324,13 @@ def draws_by_importance(problem: WallProblem, request: DrawRequest, particles: P
     )  # fmt: skip
 
 
-def propagation(problem: WallProblem, request: DrawRequest, watch: Watch) -> IndependentDraws:
+def draw_by_propagation(problem: WallProblem, request: DrawRequest, watch: Watch) -> IndependentDraws:
     """Propagate beliefs, and draw each cell independently: belief propagation gives marginals alone."""
-    return draws_by_beliefs(problem, request, propagate(problem, rounds=request.rounds, watch=watch))
+    return draw_from_marginals(problem, request, propagate(problem, rounds=request.rounds, watch=watch))
 
 
-def draws_by_beliefs(problem: WallProblem, request: DrawRequest, marginals: Marginals) -> IndependentDraws:
-    """Draw each cell independently from beliefs that have been propagated."""
+def draw_from_marginals(problem: WallProblem, request: DrawRequest, marginals: Marginals) -> IndependentDraws:
+    """Draw each cell independently from its marginal."""
     return _draw(
         problem, request, lambda rng, count: rng.random((count, *marginals.p_wall.shape)) < marginals.p_wall,
         marginals.p_wall, statistics={"belief_changes": marginals.changes}, seconds=marginals.seconds,
@@ -335,23 +339,19 @@ def draws_by_beliefs(problem: WallProblem, request: DrawRequest, marginals: Marg
 
 
 def _draw(
-    problem: WallProblem, request: DrawRequest, draw: Callable[[np.random.Generator, int], NDArray[np.bool_]],
-    occupancy: Floats, **results: Any,
+    problem: WallProblem, request: DrawRequest, sample: Callable[[Rng, int], Mask], occupancy: Floats, **results: Any,
 ) -> IndependentDraws:  # fmt: skip
-    """Draw maps for every chain; ``results`` are further fields of `IndependentDraws`."""
+    """Draw maps for every chain by ``sample``; ``results`` are further fields of `IndependentDraws`."""
     from bayesmap.kernels.walls.table import log_likelihoods, reach_frequency
 
     rngs = [np.random.default_rng([request.seed, chain, Stream.START]) for chain in range(request.chains)]
-    walls = np.stack([draw(rng, request.draws) for rng in rngs])
+    walls = np.stack([sample(rng, request.draws) for rng in rngs])
     packed = pack(walls)
-    flat = walls.reshape(-1, *problem.grid.shape)
-    inspected = np.unique(np.linspace(0, len(flat) - 1, 32).astype(int)) if len(flat) else None
-    maps = occupancy[None] > 0.5 if inspected is None else flat[inspected]
+    maps = walls.reshape(-1, *problem.grid.shape)
+    inspected = maps[np.unique(np.linspace(0, len(maps) - 1, 32).astype(int))] if len(maps) else occupancy[None] > 0.5
     return IndependentDraws(
         walls=packed,
         log_likelihood=np.stack([log_likelihoods(problem.table, chain, problem.device) for chain in packed]),
         log_prior=np.array([[problem.prior.log_prob(w, problem.grid) for w in chain] for chain in walls]),
-        occupancy=occupancy,
-        observed=reach_frequency(problem.table, maps, problem.device) >= 0.5,
-        **results,
-    )
+        occupancy=occupancy, observed=reach_frequency(problem.table, inspected, problem.device) >= 0.5, **results,
+    )  # fmt: skip

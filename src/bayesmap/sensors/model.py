@@ -10,22 +10,19 @@ first hit at distance d (infinite if nothing is hit):
     with probability p_random         the reading is uniform over [min_range, max_range];
     else, with probability p_short    a passing object stands at e ~ Exponential(rate_short): if e < d, it is read;
     else, if d > max_range, or with probability p_no_return   (glass, dark or slanted walls) nothing returns;
-    else                              the reading is d + noise(d); above max_range it is no return, below
-                                      min_range too close.
+    else                              the reading is d + noise(d): no return above max_range, too close below min_range.
 
 With q(d) = 1 - p_short (1 - exp(-rate_short d)), the chance that no passing object blocks the beam:
 
-    p(z | d)         = p_random / (max - min)
-                     + (1 - p_random) [p_short rate_short exp(-rate_short z) 1(z < d)
-                                       + q(d) (1 - p_no_return) noise(z - d)]
+    p(z | d)         = p_random / (max - min) + (1 - p_random) [p_short rate_short exp(-rate_short z) 1(z < d)
+                                                                + q(d) (1 - p_no_return) noise(z - d)]
     P(no return | d) = (1 - p_random) q(d) [p_no_return + (1 - p_no_return) P(d + noise > max)]
     P(too close | d) = (1 - p_random) [1 - q(min(d, min)) + q(d) (1 - p_no_return) P(d + noise < min)]
 
 and the three add up to one. For min <= z <= max, with wall = min(d, max) and the noise's cumulative N,
 
-    P(reading <= z | d) = p_random (z - min) / (max - min)
-                          + (1 - p_random) [p_short (1 - exp(-rate_short min(z, wall)))
-                                            + q(d) (1 - p_no_return) 1(d <= max) N(z - d)]
+    P(reading <= z | d) = p_random (z - min) / (max - min) + (1 - p_random) [p_short (1 - exp(-rate_short min(z, wall)))
+                          + q(d) (1 - p_no_return) 1(d <= max) N(z - d)]
 """
 
 from __future__ import annotations
@@ -40,8 +37,10 @@ from numpy.typing import NDArray
 from scipy import special
 
 from bayesmap.errors import BadInput
+from bayesmap.space.arrays import Mask, Rng
 
 Floats = NDArray[np.float64]
+STOP_NODES = np.linspace(-6.0, 6.0, 97)  # nodes of the distance of a stop, in standard deviations
 
 
 @dataclass(frozen=True)
@@ -54,7 +53,6 @@ class RangeLimits:
 
 class SensorModel(ABC):
     """p(reading | distance of the first hit), for one beam on its own.
-
     Distances are in metres; a distance of ``inf`` means that the beam meets nothing. Readings are coded as in
     `bayesmap.space.scans.Scans`: a finite range is a hit, ``inf`` no return, ``-inf`` too close, NaN invalid. A new
     model needs the three abstract methods; the other methods replace numerical defaults by formulas.
@@ -62,23 +60,22 @@ class SensorModel(ABC):
 
     @abstractmethod
     def log_likelihood(self, range_m: Floats, distance_m: Floats, limits: RangeLimits) -> Floats:
-        """Return log p(range | distance) in nats, broadcast over both. It is a log density for a hit, a log probability
-        for no return and too close, and 0 for an invalid reading.
+        """Return log p(range | distance) in nats, broadcast over both.
+        It is a log density for a hit, a log probability for no return and too close, and 0 for an invalid reading.
         """
 
     @abstractmethod
     def reach_m(self, range_m: Floats, limits: RangeLimits) -> Floats:
-        """Return for each reading the distance past which `log_likelihood` no longer changes; ``inf`` if none. The
-        table has one entry for the rest of the beam, with ``log_likelihood(range, inf)``.
+        """Return for each reading the distance past which `log_likelihood` no longer changes; ``inf`` if none.
+        The table has one entry for the rest of the beam, with ``log_likelihood(range, inf)``.
         """
 
     @abstractmethod
-    def sample(self, rng: np.random.Generator, distance_m: Floats, limits: RangeLimits) -> Floats:
+    def sample(self, rng: Rng, distance_m: Floats, limits: RangeLimits) -> Floats:
         """Draw a reading for every distance, from the law of `log_likelihood`."""
 
     def stop_log_likelihood(self, range_m: Floats, distance_m: Floats, spread_m: Floats, limits: RangeLimits) -> Floats:
-        """Return log p(range | the beam stops at about a distance), broadcast over all: maps are inferred by it.
-
+        """Return log p(range | the beam stops at about a distance), nats, broadcast over all: maps are inferred by it.
         ``spread_m`` is the standard deviation of the stop's distance. By default, the likelihood is averaged over a
         normal distribution of stops, by quadrature of `log_likelihood`.
         """
@@ -91,7 +88,6 @@ class SensorModel(ABC):
 
     def cumulative(self, range_m: Floats, distance_m: Floats, limits: RangeLimits, spread_m: float = 0.0) -> Floats:
         """Return P(reading <= range | distance), broadcast over both; too close is -inf, no return +inf.
-
         ``spread_m`` is a further standard deviation of the stop's distance. Only the calibration in `bayesmap.score`
         needs it. Raises `BadInput` if the model has no such method.
         """
@@ -102,14 +98,12 @@ class SensorModel(ABC):
         return None
 
 
-STANDARD = np.linspace(-6.0, 6.0, 97)  # nodes of a stop, in standard deviations
-
-
 def _mean_over_stops(model: SensorModel, z: Floats, d: Floats, s: Floats, limits: RangeLimits) -> Floats:
-    """Return the log mean of p(z | t) over t ~ N(d, s^2), t >= 0, by a midpoint rule dense at z too, (n,)."""
+    """Return the log mean of p(z | t) over t ~ N(d, s^2), t >= 0, by a midpoint rule, (n,)."""
+    # Nodes of t, evenly spaced about d, and dense about the reading, where p(z | t) may change much faster.
     dense_at_0 = np.sinh(np.linspace(-9.0, 9.0, 122)) / math.sinh(9.0)
     reading = np.where(np.isfinite(z), z, np.where(z > 0, limits.max_m, limits.min_m))
-    t = np.concatenate([d + s * STANDARD[:, None], reading + 12.0 * s * dense_at_0[:, None]])
+    t = np.concatenate([d + s * STOP_NODES[:, None], reading + 12.0 * s * dense_at_0[:, None]])
     t = np.sort(np.clip(t, np.maximum(d - 6.0 * s, 0.0), d + 6.0 * s), axis=0)
     middle, width = 0.5 * (t[1:] + t[:-1]), np.diff(t, axis=0)
     with np.errstate(divide="ignore"):
@@ -134,7 +128,7 @@ class KernelParameters:
 
 
 class AdditiveNoise(SensorModel):
-    """reading = min(distance, max_range) + scale(distance) * standard noise."""
+    """Additive noise: reading = min(distance, max_range) + scale(distance) * standard noise."""
 
     @abstractmethod
     def scale_at(self, distance_m: Floats) -> Floats:
@@ -149,7 +143,7 @@ class AdditiveNoise(SensorModel):
         """Return P(standard noise > x)."""
 
     @abstractmethod
-    def draw(self, rng: np.random.Generator, shape: tuple[int, ...]) -> Floats:
+    def draw(self, rng: Rng, shape: tuple[int, ...]) -> Floats:
         """Draw standard noise."""
 
     def log_likelihood(self, range_m: Floats, distance_m: Floats, limits: RangeLimits) -> Floats:
@@ -158,10 +152,10 @@ class AdditiveNoise(SensorModel):
 
     def stop_log_likelihood(self, range_m: Floats, distance_m: Floats, spread_m: Floats, limits: RangeLimits) -> Floats:
         """Return the log density with the noise widened by the spread of the stop."""
-        standard, scale = self._standard(range_m, distance_m, spread_m, limits)
+        standard, scale = self._standardised(range_m, distance_m, spread_m, limits)
         return np.where(np.isnan(range_m), 0.0, self.log_density(standard) - np.log(scale))
 
-    def _standard(
+    def _standardised(
         self, range_m: Floats, distance_m: Floats, spread_m: Floats | float, limits: RangeLimits
     ) -> tuple[Floats, Floats]:
         """Return the noise of each reading in units of its scale, and the scale. Typed readings count as the limits."""
@@ -174,14 +168,14 @@ class AdditiveNoise(SensorModel):
         """Return infinity: noise is nowhere flat. An invalid reading ends the beam at once."""
         return np.where(np.isnan(range_m), 0.0, np.inf)
 
-    def sample(self, rng: np.random.Generator, distance_m: Floats, limits: RangeLimits) -> Floats:
+    def sample(self, rng: Rng, distance_m: Floats, limits: RangeLimits) -> Floats:
         """Draw the distance, capped at the largest range, plus noise. Readings may leave the sensor's limits."""
         expected = np.minimum(distance_m, limits.max_m)
         return np.asarray(expected + self.scale_at(expected) * self.draw(rng, np.shape(expected)))
 
     def cumulative(self, range_m: Floats, distance_m: Floats, limits: RangeLimits, spread_m: float = 0.0) -> Floats:
         """Return P(noise <= (range - min(distance, max)) / scale); typed readings stand for the limits."""
-        return self.tail(-self._standard(range_m, distance_m, spread_m, limits)[0])  # the noise is symmetric
+        return self.tail(-self._standardised(range_m, distance_m, spread_m, limits)[0])  # the noise is symmetric
 
 
 @dataclass(frozen=True)
@@ -211,7 +205,7 @@ class Gaussian(AdditiveNoise):
         """Return 1 - Phi(x)."""
         return np.asarray(special.ndtr(-standard))
 
-    def draw(self, rng: np.random.Generator, shape: tuple[int, ...]) -> Floats:
+    def draw(self, rng: Rng, shape: tuple[int, ...]) -> Floats:
         """Draw standard normal numbers."""
         return rng.standard_normal(shape)
 
@@ -253,7 +247,7 @@ class StudentT(AdditiveNoise):
         """Return P(T > x)."""
         return np.asarray(special.stdtr(self.dof, -np.asarray(standard)))
 
-    def draw(self, rng: np.random.Generator, shape: tuple[int, ...]) -> Floats:
+    def draw(self, rng: Rng, shape: tuple[int, ...]) -> Floats:
         """Draw standard t numbers."""
         return rng.standard_t(self.dof, shape)
 
@@ -276,6 +270,8 @@ def _check_scale(model: str, name: str, scale_m: float, per_m: float) -> None:
 
 
 FLAT_NATS = 1e-4  # most nats that the noise may add to the log-likelihood past the end of a beam in the table
+BISECTIONS = 16  # in `BeamMixture.reach_m`: accurate to 1/65536 of the sensor's range, and rounded up
+LOG_IMPOSSIBLE = -30.0  # least log-likelihood of a reading, so that no single beam makes a map impossible
 
 
 @dataclass(frozen=True)
@@ -285,7 +281,7 @@ class BeamMixture(SensorModel):
     Attributes:
         noise: law of the scatter of a reading around the wall that it hits.
         p_random: probability of a reading that has nothing to do with the map.
-        p_no_return: probability that a beam which meets a wall does not come back.
+        p_no_return: probability that a beam that meets a wall does not come back.
         p_short: probability that there is a passing object on the line of the beam.
         rate_short_per_m: rate of the exponential distance of passing objects.
 
@@ -322,39 +318,39 @@ class BeamMixture(SensorModel):
     def stop_log_likelihood(self, range_m: Floats, distance_m: Floats, spread_m: Floats, limits: RangeLimits) -> Floats:
         """Return the log-likelihood with the noise widened to ``sqrt(scale(d)^2 + spread^2)``."""
         z, d, s = np.broadcast_arrays(range_m, distance_m, spread_m)
-        p = np.ones(z.shape)  # an invalid reading says nothing
+        p = np.ones(z.shape)  # the likelihood of an invalid reading is 1
         hit, no_return, too_close = np.isfinite(z), np.isposinf(z), np.isneginf(z)
-        p[hit] = self._hit(z[hit], d[hit], s[hit], limits)
-        p[no_return] = self._no_return(d[no_return], s[no_return], limits)
-        p[too_close] = self._too_close(d[too_close], s[too_close], limits)
+        p[hit] = self._p_hit(z[hit], d[hit], s[hit], limits)
+        p[no_return] = self._p_no_return(d[no_return], s[no_return], limits)
+        p[too_close] = self._p_too_close(d[too_close], s[too_close], limits)
         with np.errstate(divide="ignore"):
             return np.asarray(np.maximum(np.log(p), LOG_IMPOSSIBLE))
 
-    def _returned(self, d: Floats, limits: RangeLimits) -> Floats:
+    def _p_returned(self, d: Floats, limits: RangeLimits) -> Floats:
         """Return the chance that the reading comes from the wall at d: q(d) (1 - p_no_return), and 0 out of range."""
         return np.where(d <= limits.max_m, self.unblocked(d) * (1.0 - self.p_no_return), 0.0)
 
-    def _hit(self, z: Floats, d: Floats, spread_m: Floats, limits: RangeLimits) -> Floats:
-        """Return p(z | d) of ranges."""
+    def _p_hit(self, z: Floats, d: Floats, spread_m: Floats, limits: RangeLimits) -> Floats:
+        """Return the density p(z | d) of ranges, per metre."""
         wall_m = np.minimum(d, limits.max_m)
         scale = np.hypot(self.noise.scale_at(wall_m), spread_m)
         noise = np.exp(self.noise.log_density((z - wall_m) / scale)) / scale
         rate = self.rate_short_per_m
         short = np.where(z < wall_m, self.p_short * rate * np.exp(-rate * np.maximum(z, 0.0)), 0.0)
         uniform = self.p_random / (limits.max_m - limits.min_m)
-        return np.asarray(uniform + (1 - self.p_random) * (short + self._returned(d, limits) * noise))
+        return np.asarray(uniform + (1 - self.p_random) * (short + self._p_returned(d, limits) * noise))
 
-    def _no_return(self, d: Floats, spread_m: Floats, limits: RangeLimits) -> Floats:
+    def _p_no_return(self, d: Floats, spread_m: Floats, limits: RangeLimits) -> Floats:
         """Return P(no return | d)."""
         # Sums of small terms, here and below: differences of numbers near one would lose the small ones.
-        wall_m, returned = np.minimum(d, limits.max_m), self._returned(d, limits)
+        wall_m, returned = np.minimum(d, limits.max_m), self._p_returned(d, limits)
         lost = self.unblocked(wall_m) * np.where(d <= limits.max_m, self.p_no_return, 1.0)
         above = self.noise.tail((limits.max_m - wall_m) / np.hypot(self.noise.scale_at(wall_m), spread_m))
         return np.asarray((1 - self.p_random) * (lost + returned * above))
 
-    def _too_close(self, d: Floats, spread_m: Floats, limits: RangeLimits) -> Floats:
+    def _p_too_close(self, d: Floats, spread_m: Floats, limits: RangeLimits) -> Floats:
         """Return P(too close | d)."""
-        wall_m, returned = np.minimum(d, limits.max_m), self._returned(d, limits)
+        wall_m, returned = np.minimum(d, limits.max_m), self._p_returned(d, limits)
         blocked = self.blocked(np.minimum(wall_m, limits.min_m))
         below = self.noise.tail((wall_m - limits.min_m) / np.hypot(self.noise.scale_at(wall_m), spread_m))  # symmetric
         return np.asarray((1 - self.p_random) * (blocked + returned * below))
@@ -366,7 +362,7 @@ class BeamMixture(SensorModel):
         uniform = (reading - limits.min_m) / (limits.max_m - limits.min_m)
         short = self.blocked(np.minimum(reading, wall_m))
         standard = (reading - wall_m) / np.hypot(self.noise.scale_at(wall_m), spread_m)
-        below = self._returned(d, limits) * self.noise.tail(-standard)  # the noise is symmetric
+        below = self._p_returned(d, limits) * self.noise.tail(-standard)  # the noise is symmetric
         p = self.p_random * uniform + (1 - self.p_random) * (short + below)
         return np.asarray(np.where(np.isposinf(z), 1.0, p))
 
@@ -375,20 +371,21 @@ class BeamMixture(SensorModel):
         z = np.asarray(range_m, dtype=np.float64)
         floor = self.p_random / (limits.max_m - limits.min_m) * FLAT_NATS
 
-        def negligible(distance_m: Floats) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:
+        def negligible(distance_m: Floats) -> Mask:
             scale = self.noise.scale_at(distance_m)
             return np.asarray(np.exp(self.noise.log_density((z - distance_m) / scale)) / scale <= floor)
 
+        # Bisect between the reading and the largest range. The noise is not negligible at low, but may be at high.
         finite = np.isfinite(z)
         z = np.where(finite, np.maximum(z, 0.0), 0.0)
         low, high = z, np.full(z.shape, limits.max_m)
         for _ in range(BISECTIONS):
             middle = 0.5 * (low + high)
-            enough = negligible(middle)
-            low, high = np.where(enough, low, middle), np.where(enough, middle, high)
+            is_past = negligible(middle)
+            low, high = np.where(is_past, low, middle), np.where(is_past, middle, high)
         return np.where(finite, np.where(negligible(high), high, np.inf), np.where(np.isnan(range_m), 0.0, np.inf))
 
-    def sample(self, rng: np.random.Generator, distance_m: Floats, limits: RangeLimits) -> Floats:
+    def sample(self, rng: Rng, distance_m: Floats, limits: RangeLimits) -> Floats:
         """Draw a reading for every distance, by the process above."""
         d = np.asarray(distance_m, dtype=np.float64)
         wall_m = np.minimum(d, limits.max_m)
@@ -411,9 +408,6 @@ class BeamMixture(SensorModel):
         names = ("p_random", "p_no_return", "p_short", "rate_short_per_m")
         return replace(noise, robust=True, **{name: getattr(self, name) for name in names})
 
-
-BISECTIONS = 16  # in `BeamMixture.reach_m`: accurate to 1/65536 of the sensor's range, and rounded up
-LOG_IMPOSSIBLE = -30.0  # least log-likelihood of a reading, so that no single beam makes a map impossible
 
 KINDS: dict[str, type[Any]] = {"gaussian": Gaussian, "student-t": StudentT, "mixture": BeamMixture}
 

@@ -1,8 +1,9 @@
 r"""Sensor models without a compiled formula, as tables that kernels can read.
 
-Kernels cannot call a `SensorModel`. So its law is computed once at nodes, and kernels interpolate its logarithm. Nodes
-are dense within the scale of readings, which is estimated with the model's own `sample`. Let a stop lie at distance d
-known up to a spread s, and let w = sqrt(scale(d)^2 + s^2). The density is stored as
+Kernels cannot call a `SensorModel`. So `tabulated` computes its law once at nodes, and kernels interpolate its
+logarithm (`bayesmap.kernels.law_table`). Nodes are dense within the scale of readings, which is estimated with the
+model's own `sample`. Let a stop lie at distance d known up to a spread s, and let w = sqrt(scale(d)^2 + s^2). The
+density is stored as
 
     log (w p(z | d, s))  at nodes of  d,  s / (s + scale(d))  and  asinh((z - d) / w)
 
@@ -15,27 +16,27 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bayesmap.sensors.model import LOG_IMPOSSIBLE, Floats, RangeLimits, SensorModel
+from bayesmap.space.arrays import Singles
 
-Table = NDArray[np.float32]
+Table = Singles
 
 # Numbers of nodes:
-DISTANCES, SPREADS, OFFSETS = 33, 8, 193  # of a range
-TYPED = 513  # of the distance for typed readings
-NOWHERE = 4097  # of the range of a beam that stops nowhere
+DISTANCES, SPREADS, OFFSETS = 33, 8, 193  # of the density of a range
+TYPED_DISTANCES = 513  # of the distance for typed readings
+NOWHERE_RANGES = 4097  # of the range of a beam that stops nowhere
 
-WIDEST = 63.0  # the widest spread, in scales: wider spreads are clipped to it
-LOG_LEAST = -1e6  # least log density at a node, in nats: minus infinity cannot be interpolated
+MAX_SPREAD_SCALES = 63.0  # the largest spread, in scales: larger spreads are clipped to it
+MIN_LOG_DENSITY = -1e6  # least log density at a node, in nats: minus infinity cannot be interpolated
 SAMPLES = 512  # samples per distance for the scale
-LEAST_SCALE_M = 1e-4
-SLACK = 0.05  # largest distance of a sum of probabilities from one, integration errors included
+MIN_SCALE_M = 1e-4
+MAX_SUM_ERROR = 0.05  # largest distance of a sum of probabilities from one, integration errors included
 
 
 @dataclass(frozen=True, eq=False)
 class TabulatedLaw:
-    """A sensor's law at nodes; metres and nats."""
+    """A sensor's law at nodes, metres and nats: D distances, S spreads, V offsets; T distances of typed readings."""
 
     min_m: float  # least range of the sensor
     low_m: float  # first node of the range of a beam that stops nowhere
@@ -44,7 +45,7 @@ class TabulatedLaw:
     # for the limits, as in `bayesmap.sensors.model.AdditiveNoise`
     typed: bool
     scale_m: Table  # scale of readings about a stop at each distance, (D,)
-    most: float  # the largest node of asinh((z - d) / w)
+    max_offset: float  # the largest node of asinh((z - d) / w)
     log_density: Table  # log (w p(z | d, s)), (S, D, V)
     below: Table  # P(reading <= z | d, s), (S, D, V); NaN throughout where the density does not integrate to one
     log_typed: Table  # log probabilities of too close and of no return, (2, S, T)
@@ -54,7 +55,7 @@ class TabulatedLaw:
 
     @property
     def has_cumulative(self) -> bool:
-        """Return whether probabilities add up to one, so that there is a cumulative distribution."""
+        """Whether probabilities add up to one, so that there is a cumulative distribution."""
         return not np.isnan(self.below_nowhere).any()
 
 
@@ -73,11 +74,11 @@ def _tabulated(sensor: SensorModel, limits: RangeLimits) -> TabulatedLaw:
     # Nodes of distance d, spread s and offset: d, s, w and z are (S, D, V).
     distance = np.linspace(0.0, limits.max_m, DISTANCES)
     scale = scales(sensor, distance, limits)
-    share = np.linspace(0.0, WIDEST / (1.0 + WIDEST), SPREADS)[:, None]
+    share = np.linspace(0.0, MAX_SPREAD_SCALES / (1.0 + MAX_SPREAD_SCALES), SPREADS)[:, None]
     spread = share / (1.0 - share) * scale  # (S, D)
     width = np.hypot(scale, spread)
-    most = float(np.arcsinh(2.0 * limits.max_m / scale.min()))
-    offset = np.sinh(np.linspace(-most, most, OFFSETS))
+    max_offset = float(np.arcsinh(2.0 * limits.max_m / scale.min()))
+    offset = np.sinh(np.linspace(-max_offset, max_offset, OFFSETS))
     d, s, w = (np.broadcast_to(a[..., None], (SPREADS, DISTANCES, OFFSETS)) for a in (distance[None], spread, width))
     z = d + w * offset
     inside = np.clip(z, limits.min_m, limits.max_m)
@@ -87,69 +88,71 @@ def _tabulated(sensor: SensorModel, limits: RangeLimits) -> TabulatedLaw:
         # Interpolation needs nodes on both sides of a limit: if the formula ends there, the limit's value continues it.
         ended = (log_density <= LOG_IMPOSSIBLE) & (inside != z)
         log_density[ended] = sensor.stop_log_likelihood(inside[ended], d[ended], s[ended], limits)
-    log_density = np.maximum(log_density, LOG_LEAST) + np.log(w)
+    log_density = np.maximum(log_density, MIN_LOG_DENSITY) + np.log(w)
     # Typed readings, and the cumulative, which begins with too close.
-    typed_distance = np.linspace(0.0, limits.max_m, TYPED)
+    typed_distance = np.linspace(0.0, limits.max_m, TYPED_DISTANCES)
     typed_spread = share / (1.0 - share) * np.interp(typed_distance, distance, scale)
-    log_typed = np.stack([_typed(sensor, code, typed_distance, typed_spread, limits) for code in (-np.inf, np.inf)])
+    log_typed = np.stack([_log_typed(sensor, code, typed_distance, typed_spread, limits) for code in (-np.inf, np.inf)])
     too_close = np.exp(np.stack([np.interp(distance, typed_distance, row) for row in log_typed[0]]))[..., None]
     below = _cumulated(np.exp(log_density) / w, z)
     if typed:
-        below_least = [np.interp(limits.min_m, z[i], below[i]) for i in np.ndindex(z.shape[:2])]
-        below += too_close - np.reshape(below_least, z.shape[:2])[..., None]
+        below_min = [np.interp(limits.min_m, z[i], below[i]) for i in np.ndindex(z.shape[:2])]
+        below += too_close - np.reshape(below_min, z.shape[:2])[..., None]
     # Beams that stop nowhere.
     low, high = (limits.min_m, limits.max_m) if typed else (-limits.max_m, 2.0 * limits.max_m)
-    r = np.linspace(low, high, NOWHERE)
-    log_nowhere = np.maximum(sensor.log_likelihood(r, np.full(NOWHERE, np.inf), limits), LOG_LEAST)
-    ends = sensor.log_likelihood(np.array([-np.inf, np.inf]), np.full(2, np.inf), limits)
-    nowhere = _cumulated(np.exp(log_nowhere), r) + (np.exp(ends[0]) if typed else 0.0)
+    nowhere_z, nowhere_d = np.linspace(low, high, NOWHERE_RANGES), np.full(NOWHERE_RANGES, np.inf)
+    log_nowhere = np.maximum(sensor.log_likelihood(nowhere_z, nowhere_d, limits), MIN_LOG_DENSITY)
+    log_ends = sensor.log_likelihood(np.array([-np.inf, np.inf]), np.full(2, np.inf), limits)
+    below_nowhere = _cumulated(np.exp(log_nowhere), nowhere_z) + (np.exp(log_ends[0]) if typed else 0.0)
+    # The model's own cumulative, or none if the integrals show that its probabilities do not sum to one.
     if type(sensor).cumulative is not SensorModel.cumulative:
         below = np.stack([sensor.cumulative(z[i], d[i], limits, spread_m=s[i]) for i in range(SPREADS)])
-        nowhere = sensor.cumulative(r, np.full(NOWHERE, np.inf), limits)
-    elif not typed and np.abs(below[0, :, -1] - 1.0).max() > SLACK:
-        below, nowhere = np.full_like(below, np.nan), np.full_like(nowhere, np.nan)
-    f32, (log_close, log_no_return) = np.float32, np.maximum(ends, LOG_LEAST).tolist()
+        below_nowhere = sensor.cumulative(nowhere_z, nowhere_d, limits)
+    elif not typed and np.abs(below[0, :, -1] - 1.0).max() > MAX_SUM_ERROR:
+        below, below_nowhere = np.full_like(below, np.nan), np.full_like(below_nowhere, np.nan)
+    f32, (log_too_close, log_no_return) = np.float32, np.maximum(log_ends, MIN_LOG_DENSITY).tolist()
     return TabulatedLaw(
-        min_m=limits.min_m, low_m=low, high_m=high, typed=typed, scale_m=scale.astype(f32), most=most,
+        min_m=limits.min_m, low_m=low, high_m=high, typed=typed, scale_m=scale.astype(f32), max_offset=max_offset,
         log_density=log_density.astype(f32), below=np.clip(below, 0.0, 1.0).astype(f32),
         log_typed=log_typed.astype(f32), log_nowhere=log_nowhere.astype(f32),
-        below_nowhere=np.clip(nowhere, 0.0, 1.0).astype(f32), log_typed_nowhere=(log_close, log_no_return),
+        below_nowhere=np.clip(below_nowhere, 0.0, 1.0).astype(f32), log_typed_nowhere=(log_too_close, log_no_return),
     )  # fmt: skip
 
 
 def scales(sensor: SensorModel, distance_m: Floats, limits: RangeLimits) -> Floats:
-    """Return the scale of readings about stops at distances, (D,): a line fitted to samples: nodes need it smooth."""
+    """Estimate the scale of readings about stops at distances, (D,), by a line through samples, to make it smooth."""
     # Next to the limits, an unknown half of the readings is lost.
-    span = limits.max_m - limits.min_m
-    stop = np.linspace(limits.min_m + 0.1 * span, limits.max_m - 0.1 * span, DISTANCES)
-    readings = sensor.sample(np.random.default_rng(0), np.repeat(stop[:, None], SAMPLES, axis=1), limits)
-    error = np.where(np.isfinite(readings), np.abs(readings - stop[:, None]), np.nan)
+    span_m = limits.max_m - limits.min_m
+    stop_m = np.linspace(limits.min_m + 0.1 * span_m, limits.max_m - 0.1 * span_m, DISTANCES)
+    readings = sensor.sample(np.random.default_rng(0), np.repeat(stop_m[:, None], SAMPLES, axis=1), limits)
+    error = np.where(np.isfinite(readings), np.abs(readings - stop_m[:, None]), np.nan)
     enough = np.isfinite(error).sum(axis=1) >= SAMPLES // 8
     if not enough.any():
-        return np.full(len(distance_m), 0.1 * span)
+        return np.full(len(distance_m), 0.1 * span_m)
     # A quarter of a normal distribution lies within 0.32 standard deviations.
     sigma = np.nanquantile(error[enough], 0.25, axis=1) / 0.32
-    line = np.polynomial.Polynomial.fit(stop[enough], sigma, min(1, enough.sum() - 1))
-    return np.asarray(np.clip(line(distance_m), max(0.5 * sigma.min(), LEAST_SCALE_M), limits.max_m))
+    line = np.polynomial.Polynomial.fit(stop_m[enough], sigma, min(1, enough.sum() - 1))
+    return np.asarray(np.clip(line(distance_m), max(0.5 * sigma.min(), MIN_SCALE_M), limits.max_m))
 
 
-def _typed(sensor: SensorModel, code: float, d: Floats, s: Floats, limits: RangeLimits) -> Floats:
+def _log_typed(sensor: SensorModel, code: float, d: Floats, s: Floats, limits: RangeLimits) -> Floats:
     """Return the log probabilities of a typed reading, (S, D), for distances, (D,), and spreads, (S, D)."""
     log_p = [sensor.stop_log_likelihood(np.full(d.shape, code), d, spread, limits) for spread in s]
-    return np.maximum(np.stack(log_p), LOG_LEAST)
+    return np.maximum(np.stack(log_p), MIN_LOG_DENSITY)
 
 
 def _is_typed(sensor: SensorModel, limits: RangeLimits) -> bool:
     """Return whether the probabilities of ranges within the limits and of typed readings add up to one."""
     d = np.linspace(0.0, limits.max_m, 9)[:, None]
-    return bool(np.abs(total_probability(sensor, d, limits) - 1.0).max() < SLACK)
+    return bool(np.abs(total_probability(sensor, d, limits) - 1.0).max() < MAX_SUM_ERROR)
 
 
 def total_probability(sensor: SensorModel, distance_m: Floats, limits: RangeLimits) -> Floats:
     """Return P(too close) + the integral of the density over the limits + P(no return), for (n, 1) distances."""
     scale = scales(sensor, distance_m[:, 0], limits)[:, None]
-    most = np.arcsinh(limits.max_m / scale.min())
-    z = np.clip(distance_m + scale * np.sinh(np.linspace(-most, most, 2001)), limits.min_m, limits.max_m)
+    max_offset = np.arcsinh(limits.max_m / scale.min())
+    z = distance_m + scale * np.sinh(np.linspace(-max_offset, max_offset, 2001))
+    z = np.clip(z, limits.min_m, limits.max_m)
     p = np.exp(sensor.log_likelihood(z, distance_m, limits))
     ends = np.exp(sensor.log_likelihood(np.array([[-np.inf, np.inf]]), distance_m, limits)).sum(axis=1)
     return np.asarray(np.trapezoid(p, z, axis=1) + ends)
@@ -157,5 +160,5 @@ def total_probability(sensor: SensorModel, distance_m: Floats, limits: RangeLimi
 
 def _cumulated(density: Floats, z: Floats) -> Floats:
     """Integrate a density from its first node on, by the trapezoidal rule, along the last axis."""
-    pieces = 0.5 * (density[..., 1:] + density[..., :-1]) * np.diff(z, axis=-1)
-    return np.concatenate([np.zeros((*pieces.shape[:-1], 1)), np.cumsum(pieces, axis=-1)], axis=-1)
+    areas = 0.5 * (density[..., 1:] + density[..., :-1]) * np.diff(z, axis=-1)
+    return np.concatenate([np.zeros((*areas.shape[:-1], 1)), np.cumsum(areas, axis=-1)], axis=-1)

@@ -8,8 +8,11 @@ from numpy.typing import NDArray
 
 Value = TypeVar("Value", bound=np.generic)
 Indices = NDArray[np.intp]
+Ints = NDArray[np.int32]
 Mask = NDArray[np.bool_]
 Numbers = NDArray[np.floating] | NDArray[np.integer]
+Rng = np.random.Generator
+Singles = NDArray[np.float32]
 
 
 def evenly_spaced(values: NDArray[Value], max_count: int) -> NDArray[Value]:

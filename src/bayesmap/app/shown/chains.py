@@ -31,7 +31,7 @@ from bayesmap.result import Run
 from bayesmap.run.chains import DrawRecord, SweepPlan
 from bayesmap.run.runner import MAX_BUFFER_BYTES, advance_chains, empty_draws
 from bayesmap.samplers.fit import PILOT_SWEEPS, first_sensor, pilot_sweeps
-from bayesmap.samplers.methods import Gibbs, sampler_of
+from bayesmap.samplers.methods import Gibbs, make_sampler
 from bayesmap.samplers.sampler import Keep, Problem, Sampler
 from bayesmap.samplers.wall_problem import WallProblem
 from bayesmap.samplers.walls import Start, start_maps
@@ -154,7 +154,7 @@ class RunningChains(Estimate):
         mean = self.means().mean(axis=0)
         if self.model.poses.unknown:  # from other poses beams touch other cells
             return np.asarray(mean)
-        return np.where(self.problem.touched(), mean, self.model.cells.mean_stop(self.model.grid))
+        return np.where(self.problem.touched_map(), mean, self.model.cells.mean_stop(self.model.grid))
 
     def means(self) -> Floats:
         """Return the mean map of each chain, (chains, nx, ny)."""
@@ -285,7 +285,7 @@ def chains_of_walls(scene: Scene, document: Document, first_maps: NDArray[np.boo
     """
     walls = scene.problem
     model = scene.model(walls.prior)
-    sampler = sampler_of(walls.prior.methods[document.sampler], walls.grid, Gibbs(document.order, first_maps))
+    sampler = make_sampler(walls.prior.methods[document.sampler], walls.grid, Gibbs(document.order, first_maps))
     poses = pose_prior(document)
     if poses is None:
         return RunningChains(model, sampler, walls, document)
@@ -386,12 +386,12 @@ def fit_by_pilot(scene: Scene, document: Document, show: Callable[[Pilot], None]
     prior = BUILT_IN[document.cells]()
     start_sensor = first_sensor(prior, document.grid.resolution)
     model = replace(scene.model(prior), sensor=start_sensor, hit_depth=prior.hit_depth)
-    sampler = sampler_of(prior.methods["gibbs"], model.grid, Gibbs())
+    sampler = make_sampler(prior.methods["gibbs"], model.grid, Gibbs())
     problem = sampler.prepare(model, "cpu")
     yield
     pilot = pilot_sweeps(problem, document.seed, PILOT_SWEEPS, keep=Keep(every=1))
     draws: Draws | None = None
-    touched = scene.problem.touched()
+    touched = scene.problem.touched_map()
     for sweep, (fit, info) in enumerate(pilot, 1):
         problem, model = problem.under(fit.sensor, fit.prior), replace(model, sensor=fit.sensor, cells=fit.prior)
         latest = Draws(model.grid, fit.prior.arrays, info.draws, problem.coordinates)

@@ -13,7 +13,7 @@ from bayesmap.app.shown.result import FixedMap
 from bayesmap.beams.table import BeamTable
 from bayesmap.cells.kind import CellPrior
 from bayesmap.cells.kinds import default_sensor
-from bayesmap.posterior.baselines import P_HIT, P_MISS, hit_ratio, log_odds, log_odds_as_usual
+from bayesmap.posterior.baselines import P_HIT, P_MISS, hit_ratio, octomap_map, odds_map
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
@@ -81,7 +81,7 @@ def stop_probabilities(counts: NDArray[np.int64], prior: CellPrior, p_wall: floa
     if hasattr(prior, "a") and hasattr(prior, "b"):  # the beta prior of reflectivities
         return hit_ratio(hits, passes, {"a": prior.a, "b": prior.b})
     p_start = float(np.clip(p_wall, 1e-4, 1 - 1e-4))  # log odds must be finite
-    return log_odds(hits, passes, {"p_hit": P_HIT, "p_miss": P_MISS, "p_start": p_start})
+    return odds_map(hits, passes, {"p_hit": P_HIT, "p_miss": P_MISS, "p_start": p_start})
 
 
 def hit_count_map(scans: Scans, grid: Grid) -> HitCountMap:
@@ -91,7 +91,7 @@ def hit_count_map(scans: Scans, grid: Grid) -> HitCountMap:
     counts = count_hits(thin_scans(scans), grid)
     hits, passes = (np.asarray(n, dtype=np.float64).reshape(grid.shape) for n in counts)
     observed = hits + passes > 0
-    return HitCountMap(np.where(observed, log_odds_as_usual(hits, passes, {}), 0.5), observed)
+    return HitCountMap(np.where(observed, octomap_map(hits, passes, {}), 0.5), observed)
 
 
 def thin_scans(scans: Scans) -> Scans:

@@ -96,7 +96,7 @@ class Preview(Estimate):
     def as_run(self, result: Result) -> Run:
         began_s, document = time.perf_counter(), result.document
         request = methods.DrawRequest(CHAINS, SAVED_DRAWS, document.seed, document.sweeps, self.rounds)
-        draws = methods.draws_by_beliefs(result.scene.problem, request, replace(self.marginals(), finished=True))
+        draws = methods.draw_from_marginals(result.scene.problem, request, replace(self.marginals(), finished=True))
         return _run_of_draws(result, self.problem, draws, began_s, self.rounds)
 
 
@@ -153,7 +153,7 @@ class Weighing(Estimate):
     def as_run(self, result: Result) -> Run:
         began_s, document = time.perf_counter(), result.document
         request = methods.DrawRequest(CHAINS, SAVED_DRAWS, document.seed, document.sweeps, 0)
-        draws = methods.draws_by_importance(self.problem, request, self.particles)
+        draws = methods.resample_particles(self.problem, request, self.particles)
         return _run_of_draws(result, self.problem, draws, began_s)
 
 
