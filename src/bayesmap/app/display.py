@@ -1,4 +1,4 @@
-"""Reports of a job to the pages: fields, rays, overlays and progress. `field_of` makes the main one, a picture."""
+"""Reports of a job to the pages: fields, rays, overlays and progress. `make_field` makes the main one, a picture."""
 
 import time
 from collections.abc import Callable
@@ -61,7 +61,7 @@ class Display:
 
     def _send_field(self, view: View, result: Result, client: int | None) -> None:
         """Send a field to one page, or to all pages without fields of their own."""
-        self.send(*field_of(result, view, self.generation, round(1e3 * self.elapsed_s(), 1)), client)
+        self.send(*make_field(result, view, self.generation, round(1e3 * self.elapsed_s(), 1)), client)
 
     def send_scan(self, scene: Scene, scan: int | None) -> None:
         """Send the beams of one scan, or of all sensors."""
@@ -70,7 +70,7 @@ class Display:
     def send_overlay(self, result: Result) -> None:
         """Send the overlay of a file: surfaces and trajectory."""
         if not result.document.simulated:
-            self.send(Overlay(generation=self.generation), overlay_of(result))
+            self.send(Overlay(generation=self.generation), make_overlay(result))
             self._overlay_sent_s = time.perf_counter()
 
     def send_grid(self, grid: Grid) -> None:
@@ -93,7 +93,7 @@ class Display:
         return time.perf_counter() - self._frame_sent_s > MIN_FRAME_SECONDS
 
 
-def field_of(result: Result, view: View, generation: int, milliseconds: float) -> tuple[Field, Buffers]:
+def make_field(result: Result, view: View, generation: int, milliseconds: float) -> tuple[Field, Buffers]:
     """Return the field of a view and its buffers. If the draw or the interval does not exist, return the mean."""
     estimate, layer, lowest = result.estimate, view.layer, None
     # The trace and the histogram of weights, which every layer has.
@@ -125,9 +125,9 @@ def to_levels(values: NDArray[Any]) -> NDArray[np.uint8]:
     return np.rint(values * np.float32(MAX_LEVEL)).astype(np.uint8)
 
 
-def overlay_of(result: Result) -> dict[str, NDArray[np.float32]]:
+def make_overlay(result: Result) -> dict[str, NDArray[np.float32]]:
     """Return the buffers of the overlay of a file: surfaces and trajectory."""
-    return {"strokes": strokes_of(result), "trajectory": result.scan_poses[:, :2].astype(np.float32)}
+    return {"strokes": make_strokes(result), "trajectory": result.scan_poses[:, :2].astype(np.float32)}
 
 
 def thin_trace(log_joint: NDArray[np.float64]) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
@@ -146,7 +146,7 @@ def histogram(log_weights: NDArray[np.float64]) -> tuple[NDArray[np.float32], fl
     return counts.astype(np.float32), lowest
 
 
-def strokes_of(result: Result) -> NDArray[np.float32]:
+def make_strokes(result: Result) -> NDArray[np.float32]:
     """Return surfaces as segments, (U, 5): x, y, x, y in metres, and the reflectivity."""
     surfaces = result.surfaces
     if surfaces is None:

@@ -15,7 +15,7 @@ import numpy as np
 from msgspec import Struct, structs
 from numpy.typing import NDArray
 
-from bayesmap.app.display import field_of, overlay_of, to_levels
+from bayesmap.app.display import make_field, make_overlay, to_levels
 from bayesmap.app.figures import page_in_one_file
 from bayesmap.app.protocol.actions import Export
 from bayesmap.app.protocol.document import Document
@@ -99,14 +99,14 @@ def build_recording(result: Result) -> tuple[Recording, Buffers]:
     """Return the recording of a result, which the page's `recordedTransport` plays, and its buffers."""
     # The mean, the draws, the interval widths and the number of beams through each cell.
     draw_indices, draws, packed_draws = _pack_draws(result)
-    field, field_buffers = field_of(result, View("mean"), 1, 0.0)
+    field, field_buffers = make_field(result, View("mean"), 1, 0.0)
     beam_cells = result.scene.problem.table.cells
     n_beams = np.bincount(beam_cells, minlength=result.document.grid.n_cells).astype(np.uint32)
     buffers: dict[str, NDArray[Any] | bytes] = {"draws": packed_draws, **field_buffers, "beams": n_beams}
     if result.width is not None:
         buffers["width"] = to_levels(result.width)
     if not result.document.simulated:
-        buffers |= overlay_of(result)
+        buffers |= make_overlay(result)
     # The scans; long logs are thinned evenly.
     scan_indices = evenly_spaced_indices(len(result.scene.scans), MAX_BEAMS // len(result.scene.scans.angles_rad))
     recording = Recording(

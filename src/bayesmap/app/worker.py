@@ -22,7 +22,7 @@ from typing import Any, TypeVar
 from bayesmap.app.protocol.tasks import ALIVE_SECONDS, Alive, Infer, Ready, Report, Task, Unusable
 from bayesmap.errors import BadInput
 
-T = TypeVar("T")
+AnyTask = TypeVar("AnyTask")
 NICENESS = 3  # page and server come before the worker; at 10 other programs left it a tenth of a core
 EARLY_EXIT_SECONDS = 5.0  # a worker that ends sooner is restarted after a pause
 FIRST_PAUSE_SECONDS, MAX_PAUSE_SECONDS = 0.25, 8.0  # the pause doubles each time
@@ -77,9 +77,9 @@ def run_tasks(pipe: Connection, path: str | None, log_options: dict[str, Any]) -
         engine.advance()
 
 
-def drop_outdated(tasks: Sequence[T]) -> list[T]:
+def drop_outdated(tasks: Sequence[AnyTask]) -> list[AnyTask]:
     """Return the tasks without outdated jobs. The last `Infer` stays, and earlier ones whose chains it continues."""
-    reversed_valid: list[T] = []
+    reversed_valid: list[AnyTask] = []
     later: Infer | None = None  # the job after the present one
     outdated = False
     for task in reversed(tasks):
