@@ -19,11 +19,11 @@ class BadInput(ValueError):
     """Invalid input. The message names the place and the remedy."""
 
 
-def check_count(where: str, name: str, value: int, minimum: int) -> int:
-    """Return an argument as an int. Raises `BadInput` unless it is a whole number of ``minimum`` or more."""
+def check_count(caller: str, name: str, value: int, minimum: int) -> int:
+    """Return a caller's argument as an int. Raises `BadInput` unless it is a whole number of ``minimum`` or more."""
     is_number = hasattr(value, "__float__") and not isinstance(value, bool | str)
     if not is_number or not math.isfinite(value) or value != int(value) or value < minimum:
-        raise BadInput(f"{where}: {name} must be a whole number of {minimum} or more, got {value!r}")
+        raise BadInput(f"{caller}: {name} must be a whole number of {minimum} or more, got {value!r}")
     return int(value)
 
 

@@ -169,7 +169,7 @@ def load_saved(path: str | os.PathLike[str]) -> tuple[Posterior, "InferredTrajec
         with netCDF4.Dataset(path, "r") as file:
             file.set_auto_mask(False)
             attributes = {name: file.getncattr(name) for name in file.ncattrs()}
-            reason = _not_ours(attributes)
+            reason = _unreadable_reason(attributes)
             if reason is None:
                 text = attributes["bayesmap"]
                 if attributes["checksum"] != zlib.crc32(text.encode()):
@@ -182,7 +182,7 @@ def load_saved(path: str | os.PathLike[str]) -> tuple[Posterior, "InferredTrajec
     raise BadInput(f"{path}: {reason}")
 
 
-def _not_ours(attributes: dict[str, Any]) -> str | None:
+def _unreadable_reason(attributes: dict[str, Any]) -> str | None:
     """Return the reason why an undamaged netCDF file cannot be read, or None if it can."""
     if attributes.get("format") != FORMAT:
         return "a netCDF file, but not a saved run of bayesmap's"

@@ -39,16 +39,14 @@ class PoseMessages:
     def add(self, topic: Topic, message: Any, received_ns: int) -> None:
         """Append a message of one of `TF_TYPES` or `POSE_TYPES`. Raises `MalformedMessage` for bad numbers or times."""
         if topic.type in TF_TYPES:
-            is_static = topic.name.rpartition("/")[2] == "tf_static"
             for entry in message.transforms:
                 parent, child = frame_name(entry.header.frame_id), frame_name(entry.child_frame_id)
                 numbers = pose_numbers(entry.transform.translation, entry.transform.rotation)
                 if parent == child:
                     raise MalformedMessage(f"puts the frame {parent!r} into itself")
                 stamp_ns = stamp_ns_of(entry.header)
-                samples = self.transforms.setdefault(
-                    (topic.name, parent, child), Samples(is_static=is_static, topic=topic.name)
-                )
+                empty = Samples(is_static=topic.name.rpartition("/")[2] == "tf_static", topic=topic.name)
+                samples = self.transforms.setdefault((topic.name, parent, child), empty)
                 samples.add(stamp_ns, received_ns, numbers)
             return
         pose = message.pose if topic.type == POSE else message.pose.pose
