@@ -58,7 +58,7 @@ def brightness(image: "ImageLike | Image") -> NDArray[np.float64]:
     """Return each pixel's brightness, 0 to 1, (height, width), row 0 the top. Raises `BadInput` for no image."""
     from PIL import Image as pil  # on first use: most programs never read an image
 
-    if isinstance(image, str | os.PathLike):
+    if isinstance(image, str | os.PathLike):  # a path: brightness of the opened image
         try:
             with pil.open(image) as picture:
                 return brightness(picture)
@@ -85,7 +85,7 @@ def brightness(image: "ImageLike | Image") -> NDArray[np.float64]:
     if values.ndim == 2:
         return values
     grey = values[..., :3].mean(axis=2)
-    if values.shape[2] == 4:
+    if values.shape[2] == 4:  # transparent pixels count as white
         grey = grey * values[..., 3] + (1.0 - values[..., 3])
     return np.asarray(grey)
 

@@ -55,7 +55,7 @@ class Channel:
     latched: bool = True  # true if late subscribers get the last message
 
 
-def container_of(path: str | os.PathLike[str]) -> str:
+def ending_of(path: str | os.PathLike[str]) -> str:
     """Return the ending of a path, one of `ENDINGS`; a path without ending is a folder. Raises `BadInput`."""
     name = os.fspath(path)
     if name.endswith(os.sep) or Path(path).is_dir():
@@ -72,7 +72,7 @@ class Recorder:
     def __init__(self, path: str | os.PathLike[str]) -> None:
         from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
-        self.target, self.ending = Path(path), container_of(path)
+        self.target, self.ending = Path(path), ending_of(path)
         self.is_ros1 = self.ending == ".bag"
         self.store = get_typestore(Stores.ROS1_NOETIC if self.is_ros1 else Stores.ROS2_HUMBLE)
         # The messages of the package grid_map_msgs, which rosbags lacks.
@@ -111,7 +111,7 @@ class Recorder:
         return self.make(TRANSFORMS, transforms=[stamped])
 
     def write(self, *channels: Channel) -> Path:
-        """Write topics, whole or not at all, and return the path. Raises `BadInput` if that is impossible."""
+        """Write topics, whole or not at all, and return the path. Raises `BadInput` if the path cannot be written."""
         # The bag names its file after its folder, so it is made in a folder of the right name, and moved. Both folders
         # are in one file system.
         target, ending, is_folder = self.target, self.ending, self.ending == FOLDER
