@@ -306,9 +306,8 @@ class PoseMixture:
         return PoseMixture(self.means, self.covariances, np.array(masses))
 
     def adapt(self, population: Population, widen: float = 1.5) -> tuple[PoseMixture, float]:
-        """Return the places at the weighted moments of their draws, and the lowest tempering: the power of the weights.
-        With a power of 1 the proposals are near the target. With a lower power, another round will improve them.
-        """
+        """Return the places at the weighted moments of their draws, and the lowest power of the tempered weights."""
+        # With a power of 1 the proposals are near the target. With a lower power, another round will improve them.
         count, min_tempering = len(self.means), 1.0
         means, covariances, log_mass = self.means.copy(), self.covariances.copy(), np.full(count, -np.inf)
         for k in range(count):

@@ -224,9 +224,8 @@ def rescale_by_place_weights(weights: Floats, place_of: Indices, log_weights: Fl
 
 
 def rescale_by_place_evidence(weights: Floats, place_of: Indices, prior_shares: Floats, power: float) -> Floats:
-    """Rescale weights, (N,), so that places have shares by a power of the evidence. Ratios within each place stay.
-    With a power of 0 the shares are ``prior_shares``, (K,), as before the scan; with 1 the sums of the weights.
-    """
+    """Rescale weights, (N,), so that places have shares by a power of the evidence. Ratios within each place stay."""
+    # With a power of 0 the shares are those before the scan, (K,); with 1 the sums of the weights.
     sums = np.bincount(place_of, weights, len(prior_shares))
     with np.errstate(divide="ignore"):
         logs = (1.0 - power) * np.log(prior_shares) + power * np.log(sums)
@@ -267,9 +266,8 @@ def _reweight_beams(population: Population, log_likelihood: Floats, factor: floa
 def _evidence_and_fit(
     known: KnownMap, scan: Scan, population: Population, log_likelihood: Floats, belief: PoseBelief
 ) -> tuple[float, float]:
-    """Return the log evidence of the likeliest mode, and the log-likelihood per beam at the best pose, nats.
-    Beams have more weight here, because a scan tells more about whether it fits at all than about its exact pose.
-    """
+    """Return the log evidence of the likeliest mode, and the log-likelihood per beam at the best pose, nats."""
+    # Beams have more weight here: a scan tells more about whether it fits at all than about its exact pose.
     beam_weight = known.beam_weight_for_pose(scan.ranges_m)
     logs = _reweight_beams(population, log_likelihood, known.beam_weight_for_fit(scan.ranges_m) / beam_weight)
     if belief.mode_of is not None:

@@ -93,6 +93,7 @@ def align(
     annealing: Annealing, *, firm: Mask | None = None, on_progress: Callable[[int, Floats], None] | None = None,
 ) -> Alignment:  # fmt: skip
     """Align S scans with all their partners and with odometry.
+
     ``select_pairs`` returns the pairs of scans at poses (S, 3), in the first and the middle round. ``firm`` is the mask
     of odometry's relative poses without slip, (M,). ``on_progress`` is called with the number of rounds done and poses.
     """

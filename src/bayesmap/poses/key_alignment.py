@@ -51,6 +51,7 @@ class KeyAlignment:
         self, stage: str, poses: Floats, factors: Factors, rounds: int = 8, *, coarse: bool, firm: Mask | None = None
     ) -> Alignment:
         """Align the key scans with odometry's factors.
+
         Poses may be decimetres off if ``coarse``. ``firm`` is the mask of factors without slip of the wheels, (K - 1,).
         """
 
@@ -62,9 +63,7 @@ class KeyAlignment:
         return align(self.geometry, poses, factors, select_pairs, annealing, firm=firm, on_progress=callback)
 
     def improve(self, aligned: Alignment, factors: Factors) -> ScoredAlignment:
-        """Match each scan to the others, move scans that the others explain better elsewhere, and align all again.
-        A moved scan goes back for good if its score after the next alignment is lower than before the move.
-        """
+        """Match each scan to the others, move scans that the others explain better elsewhere, and align all again."""
         count, half_width_m = len(aligned.poses), min(self.half_width_m, MAX_HALF_WIDTH_M)
         callback = self.report(self.track, "rematch", IMPROVEMENT_ROUNDS + 1)
         poor_score, poses_before, scores = 0.0, aligned.poses, np.zeros(count)
@@ -77,7 +76,7 @@ class KeyAlignment:
                 search=number < IMPROVEMENT_ROUNDS, before=result, changed=changed,
             )  # fmt: skip
             callback(number + 1, np.where(result.is_better[:, None], result.best_poses, aligned.poses))
-            # Return moved scans whose score fell, and move the others that match better elsewhere.
+            # Return moved scans whose score fell, for good, and move the others that match better elsewhere.
             returned = moved & (result.scores < scores)
             stays |= returned
             moved = result.is_better & ~stays
@@ -96,7 +95,8 @@ class KeyAlignment:
 
     def realign_over_leaps(self, matched: ScoredAlignment, factors: Factors) -> ScoredAlignment:
         """Align once more with firm odometry over leaps, if odometry agrees with the front end there.
-        A leap is a step that contradicts the front end's. Returns ``matched`` unless the new alignment has fewer leaps.
+
+        A leap is a step that contradicts the front end's. Returns ``matched`` unless this leaves fewer leaps.
         """
         track, poses = self.track, matched.alignment.poses
         leaps = contradicted_links(track, poses)
@@ -184,9 +184,8 @@ def match_without_itself(
 
 
 def flag_unexplained(explained: Floats, keys: Indices) -> Mask:
-    """Flag scans whose scores ``explained``, (S,), are far below the median. Returns a mask, (S,).
-    Key scans and other scans have separate medians. A median of 0 is replaced by the median of the positive scores.
-    """
+    """Flag scans whose scores ``explained``, (S,), are far below the median. Returns a mask, (S,)."""
+    # Key scans and other scans have separate medians. A median of 0 is replaced by the median of the positive scores.
     flagged, is_key = np.zeros(len(explained), np.bool_), np.zeros(len(explained), np.bool_)
     is_key[keys] = True
     for group in (is_key, ~is_key):

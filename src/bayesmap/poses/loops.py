@@ -126,6 +126,7 @@ def find_closures(
     path: KeyPath, precision: Precision, half_width_m: float, search: Search, *, within_segments: bool = False
 ) -> Closures:
     """Find closures among all key scans, or only within segments of a broken path.
+
     The graph's ``precision`` gives the search windows. ``half_width_m`` is the half width of submaps' grids.
     """
     # 1. Pair key scans that may show one place.
@@ -144,9 +145,7 @@ def find_closures(
 def _candidate_pairs(
     path: KeyPath, precision: Precision, half_width_m: float, search: Search, *, within_segments: bool
 ) -> tuple[Indices, Indices, Floats]:
-    """Return earlier and later key scans to try, (M,) each, and standard deviations of their relative poses, (M, 3).
-    Each visit of a place gives two pairs, the nearest poses and the nearest views, since two scans may face each other.
-    """
+    """Return earlier and later key scans to try, (M,) each, and standard deviations of their relative poses, (M, 3)."""
     # Select pairs of places that are far apart along the path and near each other on the map.
     path_m, poses, places = path.path_m, path.poses, path.places(search.spacing_m)
     view_m = min(0.7 * half_width_m, 8.0)
@@ -165,7 +164,7 @@ def _candidate_pairs(
     sigma = np.sqrt(np.maximum(np.diagonal(covariance, axis1=1, axis2=2), 0.0))
     near = distance_m < np.minimum(WINDOW_SIGMAS * sigma[:, :2].max(axis=1), search.max_half_m) + view_m
     earlier, later, distance_m, sigma = earlier[near], later[near], distance_m[near], sigma[near]
-    # Two costs of a pair: the difference of poses, and the distance between the middles of the views.
+    # Two costs of a pair: the difference of poses, and, since scans may face each other, the distance of their views.
     pose_cost = distance_m + 0.7 * np.abs(wrap_angle(poses[earlier, 2] - poses[later, 2]))
     middles = _view_middles(path)
     view_cost = np.hypot(*(middles[earlier] - middles[later]).T)

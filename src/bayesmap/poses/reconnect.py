@@ -130,6 +130,7 @@ def _queries(path: KeyPath, search_pass: int) -> Indices:
 
 def _merge_segments(path: KeyPath, matches: Closures, min_places: int) -> KeyPath:
     """Return the path with segments merged to islands where ``min_places`` places agree on their relative pose.
+
     The key scans of an island have the number of its first segment, and poses in that segment's frame.
     """
     islands, max_rival_share = path, MAX_RIVAL_SHARE if min_places == MIN_PLACES else MAX_RIVAL_SHARE_EARLIER
@@ -209,16 +210,14 @@ def is_consistent(islands: KeyPath, merge: Merge) -> bool:
 
 
 def _assemble(path: KeyPath, islands: KeyPath) -> tuple[Floats, Mask]:
-    """Bring all islands to one frame. Returns poses, (K, 3), and a mask of segments joined to an earlier one, (P,).
-    An island that is not joined keeps its motion from the segment before on ``path``.
-    """
+    """Bring all islands to one frame. Returns poses, (K, 3), and a mask of segments joined to an earlier one, (P,)."""
     poses, segments = path.poses, path.segments
     result, joined = islands.poses.copy(), np.ones(int(segments[-1]) + 1, np.bool_)
     for segment in range(1, len(joined)):
         begin = int(np.searchsorted(segments, segment))
         if islands.segments[begin] != segment:
             continue  # joined to an earlier segment
-        joined[segment] = False
+        joined[segment] = False  # keep its motion from the segment before on ``path``
         guess = compose(result[begin - 1], between(poses[begin - 1], poses[begin]))
         motion = compose(guess, inverse(islands.poses[begin]))
         is_moved = islands.segments == segment

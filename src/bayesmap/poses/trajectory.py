@@ -92,8 +92,7 @@ class InferredTrajectory:
     order: Indices  # index in the log of each scan, (S,)
     odometry: Factors | None = None  # factors of corrected odometry between key scans; None without odometry
     leaps: Indices = field(default_factory=lambda: np.empty(0, np.intp))
-    """Indices of scans before which the motion is doubtful: it contradicts the front end or odometry, see
-    `bayesmap.poses.key_graph.contradicted_links` and `unconfirmed_links`."""
+    """Indices of scans before which the motion is doubtful: `contradicted_links`, `unconfirmed_links` of key_graph."""
     alternatives: Alternatives = NO_ALTERNATIVES  # covariances and draws contain their spread
 
     def __len__(self) -> int:
