@@ -85,14 +85,15 @@ def run_chains(
         step = next(steps, None)
         if step is None:
             break
-        is_warmup = running.sweep < schedule.warmup
-        running.record_step(*step)
+        (state, info), is_warmup = step, running.sweep < schedule.warmup
+        running.record_step(state, info)
         running.seconds["sampling"] += time.perf_counter() - began
-        sweep, log_joint = running.sweep, step[1].log_likelihood[:, -1] + step[1].log_prior[:, -1]
+        # Look at the error, report the progress, and write a checkpoint if one is due.
+        sweep, log_joint = running.sweep, float(np.mean(info.log_likelihood[:, -1] + info.log_prior[:, -1]))
         rule.check(sweep)
         watch.report(
-            "warm-up" if is_warmup else "draws", sweep, rule.expected_sweeps(sweep), float(np.mean(log_joint)),
-            rule.error, schedule.warmup, rule.end_is_open,
+            "warm-up" if is_warmup else "draws", sweep, rule.expected_sweeps(sweep), log_joint, rule.error,
+            schedule.warmup, rule.end_is_open,
         )  # fmt: skip
         checkpoints.offer(running.results, at_once=is_warmup and sweep == schedule.warmup)
         began, stopped = time.perf_counter(), watch.should_stop()
