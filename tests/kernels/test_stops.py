@@ -24,7 +24,7 @@ from bayesmap.kernels.device import Float64s
 from bayesmap.kernels.random import mix
 from bayesmap.kernels.sensor_law import SensorLaw32, object_decay, sensor_law
 from bayesmap.kernels.surfaces.cell_draws import TRIES_EVERY
-from bayesmap.kernels.surfaces.square_counts import stop_point_m
+from bayesmap.kernels.surfaces.square_counts import draw_stop_point_m
 from bayesmap.samplers.stop_problem import update_periods
 from bayesmap.sensors.model import RangeLimits
 
@@ -301,7 +301,7 @@ def points(
 ):
     i = wp.tid()
     decay = object_decay(law, reading)
-    out[i] = stop_point_m(law, reading, decay, distance, variance, key, wp.uint64(i) * wp.uint64(4))
+    out[i] = draw_stop_point_m(law, reading, decay, distance, variance, key, wp.uint64(i) * wp.uint64(4))
 
 
 law_of = cache(sensor_law)

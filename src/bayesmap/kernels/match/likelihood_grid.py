@@ -57,6 +57,7 @@ def stamp_points(first: int, bands: int, grids: GridScansArrays, scene: ScanArra
         for b in range(scene.points.shape[1]):
             if scene.kind[scan, b] == wp.uint8(0):
                 continue
+            # Stamps from this point towards the next, if both lie on one surface.
             point = scene.points[scan, b]
             to_next = wp.vec2f()
             stamps = int(1)
@@ -68,6 +69,7 @@ def stamp_points(first: int, bands: int, grids: GridScansArrays, scene: ScanArra
                         stamps = 1 + int(apart / grids.spacing_m)
                         to_next = (scene.points[scan, c] - point) / wp.float32(stamps)
             for k in range(stamps):
+                # The cell of the stamp's middle.
                 px = wp.float64(point[0] + wp.float32(k) * to_next[0])
                 py = wp.float64(point[1] + wp.float32(k) * to_next[1])
                 cx = int(wp.floor((pose[0] + cosine * px - sine * py - grids.origins[grid][0]) / grids.resolution))

@@ -344,6 +344,7 @@ def compare_views(
             continue
         total += 1
         point = turn * scene.points[source[pair], beam] + shift
+        # A match: near a point, or near the wall between two points.
         if nearest_point(scene, other, point, near) >= 0:
             matched += 1
             continue
@@ -353,6 +354,7 @@ def compare_views(
         if is_near_wall(scene, other, middle - 1, point, near) + is_near_wall(scene, other, middle, point, near) > 0:
             matched += 1
             continue
+        # A contradiction: the beams about the point pass through it.
         away = wp.length(point)
         through = int(0)
         for step in range(-1, 2):

@@ -366,6 +366,7 @@ def beam_log_likelihoods(first: int, law: SensorLaw64, frame: Frame, maps: MapAr
     z = scans.range_m[beam]
     if wp.isnan(z):
         return
+    # The line of the beam in the world frame.
     mount = thread % scans.beams
     if scans.mounts.shape[0] > scans.beams:
         mount = beam
@@ -373,6 +374,7 @@ def beam_log_likelihoods(first: int, law: SensorLaw64, frame: Frame, maps: MapAr
     x = scans.pose[row, 0] + wp.cos(yaw) * scans.mounts[mount, 0] - wp.sin(yaw) * scans.mounts[mount, 1]
     y = scans.pose[row, 1] + wp.sin(yaw) * scans.mounts[mount, 0] + wp.cos(yaw) * scans.mounts[mount, 1]
     line = line_in(frame, x, y, yaw + scans.mounts[mount, 2])
+    # Walk, and sum the density over stops; then add the beam that stops nowhere.
     min_survival = wp.where(law.kind == MIXTURE, MIN_SURVIVAL_MIXTURE, MIN_SURVIVAL)
     decay = laws.object_decay(law, z)
     sums = no_sum(law)

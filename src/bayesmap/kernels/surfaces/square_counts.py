@@ -38,25 +38,25 @@ IMPOSSIBLE = wp.constant(wp.float64(-1.0e300))  # log weight of an impossible ca
 
 
 @wp.func
-def stop_point_m(
+def draw_stop_point_m(
     law: SensorLaw32, reading: wp.float32, decay: wp.float32, distance: wp.float32, variance: wp.float32,
     key: wp.uint64, counter: wp.uint64,
 ) -> wp.float64:  # fmt: skip
     """Draw the distance at which a beam was stopped, given its reading, metres, never negative; takes 4 counters."""
     mean = wp.float64(distance)
-    variance_sq_m = wp.float64(variance)
+    variance_m2 = wp.float64(variance)
     if law.kind == TABLE:
-        if variance_sq_m > MIN_VARIANCE:
-            return wp.max(point_by_table_m(law, reading, mean, variance_sq_m, key, counter), wp.float64(0.0))
+        if variance_m2 > MIN_VARIANCE:
+            return wp.max(draw_point_by_table_m(law, reading, mean, variance_m2, key, counter), wp.float64(0.0))
         return wp.max(mean, wp.float64(0.0))
     if wp.isfinite(reading):
         returned = returned_density(law, reading, decay, distance, variance)
         u = wp.float32(to_uniform(random_bits(key, counter)))
         if u * mixed_density(law, reading, decay, distance, returned) < returned:
             total = wp.float64(variance_at(law, distance, variance))
-            mean += variance_sq_m / total * (wp.float64(reading) - mean)
-            variance_sq_m = variance_sq_m * (total - variance_sq_m) / total
-    point = mean + wp.sqrt(wp.max(variance_sq_m, wp.float64(0.0))) * normal(key, counter + wp.uint64(1))
+            mean += variance_m2 / total * (wp.float64(reading) - mean)
+            variance_m2 = variance_m2 * (total - variance_m2) / total
+    point = mean + wp.sqrt(wp.max(variance_m2, wp.float64(0.0))) * normal(key, counter + wp.uint64(1))
     return wp.max(point, wp.float64(0.0))
 
 
@@ -68,7 +68,7 @@ def logistic_density(x: wp.float64, middle: wp.float64, scale: wp.float64) -> wp
 
 
 @wp.func
-def point_by_table_m(
+def draw_point_by_table_m(
     law: SensorLaw32, reading: wp.float32, mean: wp.float64, variance: wp.float64, key: wp.uint64, counter: wp.uint64
 ) -> wp.float64:
     """Draw the distance under a tabulated law, metres; it may be negative."""
@@ -150,7 +150,7 @@ def count_in_squares(
     counter = STREAM_POINT + wp.uint64(beam) * wp.uint64(4)
     moments = state.stop_moments[element]
     key = sweep_key(state.keys[chain], sweep, BEAMS)
-    point = stop_point_m(law, rays.range_m[beam], rays.decay[beam], moments[0], moments[1], key, counter)
+    point = draw_stop_point_m(law, rays.range_m[beam], rays.decay[beam], moments[0], moments[1], key, counter)
     line = line_of(squares.lines, beam)
     # From the last entry back to the square that holds the point.
     entry = end - 1

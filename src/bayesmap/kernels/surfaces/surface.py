@@ -135,10 +135,10 @@ def pseudo_counts(prior: PriorNumbers, solid: wp.uint8) -> wp.vec2d:
 
 
 @wp.func
-def centre_of(c: int, ny: int, edge_m: wp.float64) -> wp.vec2:
-    """Return the centre of a cell, metres from the grid's lower left corner."""
-    x = wp.float32((wp.float64(c // ny) + HALF) * edge_m)
-    return wp.vec2(x, wp.float32((wp.float64(c % ny) + HALF) * edge_m))
+def centre_of(index: int, ny: int, edge_m: wp.float64) -> wp.vec2:
+    """Return the centre of the cell with a flat index, metres from the grid's lower left corner."""
+    x = wp.float32((wp.float64(index // ny) + HALF) * edge_m)
+    return wp.vec2(x, wp.float32((wp.float64(index % ny) + HALF) * edge_m))
 
 
 @wp.func

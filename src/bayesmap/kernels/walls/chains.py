@@ -4,8 +4,8 @@
 (walls - free cells among its neighbours). At a coupling of 0 no neighbour is read.
 
 The walls alone determine the state of a chain, so only the walls are saved. `Chain` documents the rest of the state.
-An *entry* is a cell of a beam in the beam table, an *incidence* the same in the index by cells. `run_sweeps` runs the
-sweep of `bayesmap.kernels.walls.gibbs` or `bayesmap.kernels.walls.block`.
+An *entry* is a cell of a beam in the beam table, an *incidence* is an entry in the index by cells. `run_sweeps` runs
+the sweep of `bayesmap.kernels.walls.gibbs` or `bayesmap.kernels.walls.block`.
 """
 
 from collections.abc import Sequence
@@ -33,7 +33,7 @@ class WallPriorArrays:
     logit: Float64s  # log-odds
     log_prior_gain: Float64s  # log-odds, but 0 in cells that the prior fixes
     log_all_free: wp.float64  # log prior, without pairs, of the map that has only the fixed walls
-    uniform: int  # 1 if all cells have one probability
+    is_uniform: int  # 1 if all cells have one probability
     coupling: wp.float64  # log prior that a pair of alike neighbours adds
     nx: int
     ny: int
@@ -109,7 +109,7 @@ def log_prior(prior: WallPriorArrays, walls: Uint8s) -> wp.float64:
     total = wp.float64(prior.log_all_free)
     if prior.coupling != NO_COUPLING:
         total += prior.coupling * wp.float64(pairs_alike(walls, 0, 0, walls.shape[0], prior.nx, prior.ny))
-    if prior.uniform != 0:
+    if prior.is_uniform != 0:
         n_walls = int(0)
         for cell in range(walls.shape[0]):
             n_walls += int(walls[cell])
@@ -127,7 +127,7 @@ def wall_prior_to_device(
     fixed = (p_wall == 0) | (p_wall == 1)
     return devices.pack(
         WallPriorArrays, device, level=np.round(p_wall * CERTAIN_LEVEL).astype(np.uint64), logit=logit,
-        log_prior_gain=np.where(fixed, 0.0, logit), uniform=int((p_wall == p_wall[0]).all()), coupling=coupling,
+        log_prior_gain=np.where(fixed, 0.0, logit), is_uniform=int((p_wall == p_wall[0]).all()), coupling=coupling,
         log_all_free=float(np.log1p(-p_wall[p_wall < 1.0]).sum()), nx=shape[0], ny=shape[1],
     )  # fmt: skip
 
