@@ -44,7 +44,7 @@ def simulate(
     poses_world = asked_poses("simulate", poses)
     angles = as_angles(angles_rad)
     check_limits(min_range_m, max_range_m)
-    seed = check_count("simulate", "seed", seed, 0)
+    rng = np.random.default_rng(check_count("simulate", "seed", seed, 0))
     is_wall = np.asarray(walls) != 0
     _check_walls(is_wall, grid)
     for scan, (x, y, _) in enumerate(poses_world):
@@ -59,7 +59,6 @@ def simulate(
         if opacity.shape != grid.shape or not ((opacity >= 0) & (opacity <= 1)).all():
             raise BadInput(f"simulate: opacity must be {grid.shape} numbers in [0, 1], one a cell; got {opacity.shape}")
     # Cast rays. With an opacity, each scan meets its own random walls.
-    rng = np.random.default_rng(seed)
     if opacity is None:
         distances_m = _distances_m(is_wall, grid, poses_world, angles, np.inf, device)
     else:

@@ -222,8 +222,7 @@ def simulate_odometry(
     """Simulate the poses that a robot's odometry reports along a path, (S, 3), from the true first pose.
     ``poses_world`` are the true poses of the robot's base: x, y in metres and yaw in radians. The errors are those of
     ``noise``; the noise of a step does not depend on later steps. The result is in a frame that drifts away from the
-    world's. A lag needs ``stamps_s``, the strictly ascending time of each pose, (S,).
-    Raises `BadInput` for shapes that do not fit, stamps that do not ascend, or a lag without stamps.
+    world's. A lag needs ``stamps_s``, the ascending times of the poses, (S,). Raises `BadInput` for faulty arguments.
     """
     noise = OdometryNoise() if noise is None else noise
     truth = as_poses(poses_world)
@@ -256,30 +255,32 @@ def travel_times_s(poses_world: ArrayLike, speed_m_per_s: float, turn_rad_per_s:
 
 
 def _reported_steps(steps: Floats, noise: OdometryNoise, rng: np.random.Generator) -> Floats:
-    """Return the reported steps, (S - 1, 3), given true steps, each in the frame of its first pose."""
+    """Return the reported motions from pose to pose, (S - 1, 3), given the true ones, in the frames of their starts."""
     # Divide each step into turn, straight, turn.
     normals, slips = rng.standard_normal((len(steps), 4)), rng.random((len(steps), 2))
-    distance = np.hypot(steps[:, 0], steps[:, 1])
-    first = np.where(distance > MIN_STRAIGHT_M, np.arctan2(steps[:, 1], steps[:, 0]), 0.0)
-    backwards = np.abs(first) > math.pi / 2  # a robot that reverses does not turn about first
-    first = np.where(backwards, wrap_angle(first + math.pi), first)
-    last = wrap_angle(steps[:, 2] - first)
-    signed = np.where(backwards, -distance, distance)
+    distance_m = np.hypot(steps[:, 0], steps[:, 1])
+    first_turn = np.where(distance_m > MIN_STRAIGHT_M, np.arctan2(steps[:, 1], steps[:, 0]), 0.0)
+    backwards = np.abs(first_turn) > math.pi / 2  # a robot that reverses does not turn about first
+    first_turn = np.where(backwards, wrap_angle(first_turn + math.pi), first_turn)
+    last_turn = wrap_angle(steps[:, 2] - first_turn)
+    straight_m = np.where(backwards, -distance_m, distance_m)
     # Add noise to the straight and the turns, by the formulas of the module's docstring.
-    turned = np.abs(first) + np.abs(last)
-    sigma = np.sqrt(noise.distance_per_m**2 * distance + noise.distance_per_rad**2 * turned)
-    reported = (1.0 + noise.distance_scale) * signed + sigma * normals[:, 0]
+    turned_rad = np.abs(first_turn) + np.abs(last_turn)
+    sigma_m = np.sqrt(noise.distance_per_m**2 * distance_m + noise.distance_per_rad**2 * turned_rad)
+    straight_m = (1.0 + noise.distance_scale) * straight_m + sigma_m * normals[:, 0]
 
-    def noisy_turn(true: Floats, normal: Floats) -> Floats:
-        sigma = np.sqrt(noise.turn_per_m**2 * distance / 2 + noise.turn_per_rad**2 * np.abs(true))
-        return np.asarray((1.0 + noise.turn_scale) * true + noise.drift_rad_per_m * distance / 2 + sigma * normal)
+    def noisy_turn(turn: Floats, normal: Floats) -> Floats:
+        sigma_rad = np.sqrt(noise.turn_per_m**2 * distance_m / 2 + noise.turn_per_rad**2 * np.abs(turn))
+        drift_rad = noise.drift_rad_per_m * distance_m / 2
+        return np.asarray((1.0 + noise.turn_scale) * turn + drift_rad + sigma_rad * normal)
 
-    first, last = noisy_turn(first, normals[:, 1]), noisy_turn(last, normals[:, 2])
+    first_turn, last_turn = noisy_turn(first_turn, normals[:, 1]), noisy_turn(last_turn, normals[:, 2])
     # Slips: exponential distance, normal yaw.
-    slipped = slips[:, 0] < -np.expm1(-noise.slips_per_m * (distance + turned))
-    reported = reported + np.where(slipped, -noise.slip_m * np.log1p(-slips[:, 1]), 0.0)
-    last = last + np.where(slipped, noise.slip_rad * normals[:, 3], 0.0)
-    return np.stack([reported * np.cos(first), reported * np.sin(first), wrap_angle(first + last)], axis=-1)
+    slipped = slips[:, 0] < -np.expm1(-noise.slips_per_m * (distance_m + turned_rad))
+    straight_m = straight_m + np.where(slipped, -noise.slip_m * np.log1p(-slips[:, 1]), 0.0)
+    last_turn = last_turn + np.where(slipped, noise.slip_rad * normals[:, 3], 0.0)
+    x, y = straight_m * np.cos(first_turn), straight_m * np.sin(first_turn)
+    return np.stack([x, y, wrap_angle(first_turn + last_turn)], axis=-1)
 
 
 def related_pairs(poses_world: Floats, seed: int = 0) -> tuple[Indices, Indices]:
