@@ -21,7 +21,7 @@ from bayesmap.localization.known_map import KnownMap, Trust
 from bayesmap.poses.prior import Odometry
 from bayesmap.sensors.model import RangeLimits
 from bayesmap.space.planar import Floats, between, compose, frame_jacobians, rotation
-from bayesmap.space.scans import Scans, asked_poses, check_sigma_rad
+from bayesmap.space.scans import Scans, as_user_poses, check_sigma_rad
 from bayesmap.space.trajectory import Trajectory, step_to
 
 if TYPE_CHECKING:
@@ -53,7 +53,7 @@ class InitialPose:
         pose = np.asarray(self.pose, dtype=np.float64)
         if pose.shape != (3,) or not np.isfinite(pose).all() or not (self.sigma_m > 0 and self.sigma_rad > 0):
             raise BadInput("InitialPose: give pose (x, y, yaw), and sigma_m and sigma_rad above 0")
-        asked_poses("InitialPose", pose)
+        as_user_poses("InitialPose", pose)
         check_sigma_rad("InitialPose", self.sigma_rad)
         object.__setattr__(self, "pose", pose)
 

@@ -28,7 +28,7 @@ from bayesmap.poses.matcher import ANY_SCORE, LikelihoodGrids, Pull, SearchWindo
 from bayesmap.poses.scan_geometry import ScanGeometry
 from bayesmap.space.arrays import Indices, Mask
 from bayesmap.space.planar import Floats, between, chain_motions, compose, rotation, ways_and_turns, wrap_yaw
-from bayesmap.space.time_order import SAME_S
+from bayesmap.space.time_order import EQUAL_STAMPS_S
 
 KEY_DISTANCE_M, KEY_TURN_RAD = 0.4, np.radians(20.0)  # a scan this far from the last key scan becomes a key scan
 KEY_SCORE = 0.5  # a scan with a lower score becomes a key scan, too
@@ -345,7 +345,7 @@ def predict(
     if motions is None:
         # Assume constant velocity. Its standard deviations grow by 0.5 m and 0.6 rad per second.
         gap_s = gap_before_s = 0.2
-        if stamps_s is not None and last > 0 and (np.diff(stamps_s[last - 1 : last + 2]) >= SAME_S).all():
+        if stamps_s is not None and last > 0 and (np.diff(stamps_s[last - 1 : last + 2]) >= EQUAL_STAMPS_S).all():
             gap_before_s, gap_s = np.diff(stamps_s[last - 1 : last + 2])
         motion = between(poses[last - 1], poses[last]) if last > 0 else np.zeros(3)
         sigma = np.array([0.05 + 0.5 * min(gap_s, 1.0)] * 2 + [np.radians(4.0) + 0.6 * min(gap_s, 1.0)])

@@ -24,7 +24,7 @@ from bayesmap.samplers.sampler import Stream
 from bayesmap.space.arrays import Indices, Singles
 from bayesmap.space.grid import Grid
 from bayesmap.space.planar import Floats
-from bayesmap.space.scans import Scans, as_angles, as_poses, asked_poses
+from bayesmap.space.scans import Scans, as_angles, as_poses, as_user_poses
 
 if TYPE_CHECKING:
     from bayesmap.cells.arrays import Draws
@@ -240,7 +240,7 @@ def information_of(
     if draws is not None and draws < 2:
         raise BadInput(f"information_gain: draws must be 2 or more, got {draws!r}")
     fan = Fan.of("information_gain", posterior, angles_rad, max_range_m, sensor)
-    poses_world = asked_poses("information_gain", poses)
+    poses_world = as_user_poses("information_gain", poses)
     chains = posterior.draws.chains if posterior.has_chains and posterior.draws.count > 1 else 1
     draws_per_chain = int((INFORMATION_PAIRS / chains) ** 0.5) if draws is None else max(2, draws // chains)
     thinned = posterior.draws.thinned(draws_per_chain * chains)

@@ -24,7 +24,7 @@ from bayesmap.sensors.model import RangeLimits, SensorModel
 from bayesmap.space.arrays import Indices, Ints, Singles
 from bayesmap.space.grid import Grid
 from bayesmap.space.planar import Floats
-from bayesmap.space.scans import ReadingKind, Scans, as_angles, asked_poses
+from bayesmap.space.scans import ReadingKind, Scans, as_angles, as_user_poses
 
 if TYPE_CHECKING:
     from bayesmap.kernels.predict.density import DeviceMaps
@@ -298,7 +298,7 @@ def predict(
     from bayesmap.kernels.predict.stop_mixture import mix_stops, range_quantiles
     from bayesmap.kernels.rays import trace_rays
 
-    fan, poses_world = Fan.of("predict", posterior, angles_rad, max_range_m, sensor), asked_poses("predict", poses)
+    fan, poses_world = Fan.of("predict", posterior, angles_rad, max_range_m, sensor), as_user_poses("predict", poses)
     grid, predictor = posterior.grid, predictor_of(posterior, fan.sensor)
     for i, (x, y, _) in enumerate(poses_world):
         if grid.cell_at(x, y) is None:

@@ -8,7 +8,7 @@ from bayesmap.sensors.model import AdditiveNoise, RangeLimits, SensorModel
 from bayesmap.space.arrays import Mask
 from bayesmap.space.grid import Grid
 from bayesmap.space.planar import Floats
-from bayesmap.space.scans import Scans, as_angles, as_poses, asked_poses, check_limits
+from bayesmap.space.scans import Scans, as_angles, as_poses, as_user_poses, check_limits
 
 
 def ranges(
@@ -41,7 +41,7 @@ def simulate(
     model decides: additive noise reads the largest range plus noise, as in the tutorial.
     Raises `BadInput` as `ranges`, and for a pose inside a wall.
     """
-    poses_world = asked_poses("simulate", poses)
+    poses_world = as_user_poses("simulate", poses)
     angles = as_angles(angles_rad)
     check_limits(min_range_m, max_range_m)
     rng = np.random.default_rng(check_count("simulate", "seed", seed, 0))

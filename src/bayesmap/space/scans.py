@@ -262,7 +262,7 @@ def as_poses(poses: ArrayLike) -> Floats:
     return array
 
 
-def asked_poses(caller: str, poses: ArrayLike) -> Floats:
+def as_user_poses(caller: str, poses: ArrayLike) -> Floats:
     """Return poses that a user gave to the function ``caller``, (P, 3). Raises `BadInput` for headings in degrees.
     Headings in radians may add up along a path, so that only a change by over two turns at once is refused.
     """

@@ -16,7 +16,7 @@ from bayesmap.space.scans import Scans
 
 MIN_RESET_S = 1.0  # stamps that fall by less are of scans logged late, not of a clock that was reset
 MIN_SCANS_AFTER_RESET = 10  # fewest scans after a reset; half as many on each side must overlap in time
-SAME_S = 1e-3  # stamps that are closer, in seconds, are equal: no laser sweeps so fast
+EQUAL_STAMPS_S = 1e-3  # stamps that are closer, in seconds, are equal: no laser sweeps so fast
 MIN_ALTERNATIONS = 0.7  # fewest changes between two groups of scans that alternate, per scan of the smaller group
 MAX_SPEED_M_PER_S = 10.0  # of a robot in a building
 MIN_JUMP_M = 0.2  # shortest step whose speed is judged: the time of shorter steps is too uncertain
@@ -89,7 +89,7 @@ def time_order(stamps_s: NDArray[np.float64]) -> TimeOrder:
 
 def repeated_stamps(stamps_s: NDArray[np.float64]) -> NDArray[np.bool_]:
     """Return the mask of scans that share their stamp with the scan before or after them, (S,)."""
-    same = np.concatenate([[False], np.abs(np.diff(stamps_s)) < SAME_S, [False]])
+    same = np.concatenate([[False], np.abs(np.diff(stamps_s)) < EQUAL_STAMPS_S, [False]])
     return np.asarray(same[:-1] | same[1:])[: len(stamps_s)]
 
 
@@ -98,7 +98,7 @@ def elapsed_s(stamps_s: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArr
     Stamps, (S,), may be rounded. Scans that share a stamp lie anywhere between the stamps before and after it.
     """
     gaps_s = np.abs(np.diff(stamps_s))
-    same = gaps_s < SAME_S
+    same = gaps_s < EQUAL_STAMPS_S
     # Runs of scans with one stamp: the number of each scan's run, and the gap before each run and after the last.
     run = np.concatenate([[0], np.cumsum(~same)])
     run_gaps_s = np.concatenate([[np.inf], gaps_s[~same], [np.inf]])

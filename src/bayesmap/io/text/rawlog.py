@@ -33,7 +33,7 @@ from bayesmap.io.log_reading import LogAccount, LogOptions, Pose, ScanLog, Skipp
 from bayesmap.io.text.lines import file_chunks
 from bayesmap.space.planar import Floats, compose, interpolate
 from bayesmap.space.scans import MAX_BEAMS, fan_fault, side_by_side
-from bayesmap.space.time_order import SAME_S, moment
+from bayesmap.space.time_order import EQUAL_STAMPS_S, moment
 
 SCAN = "CObservation2DRangeScan"
 MOTION = "CActionRobotMovement2D"
@@ -193,7 +193,7 @@ class RawlogObjects:
         """Read and add an object. Returns false for an object that is not needed, which is not read."""
         if header.name == SCAN:
             scan, last = scan_of(reader, header, len(self.motions)), self.last_odometry
-            if last is not None and scan.stamp_s is not None and abs(scan.stamp_s - last[0]) < SAME_S:
+            if last is not None and scan.stamp_s is not None and abs(scan.stamp_s - last[0]) < EQUAL_STAMPS_S:
                 scan = replace(scan, odometry=last[1])
             self.scans.append(scan)
         elif header.name == COLLECTION:  # the next motions in the log are estimates of one motion
