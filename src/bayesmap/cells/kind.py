@@ -92,7 +92,8 @@ class CellPrior(ABC):
         """Draw a map."""
 
     def propose(self, cells: Cells, site: tuple[int, int], rng: Rng, grid: Grid) -> tuple[dict[str, Any], float]:
-        """Propose one cell's state in every array, with log (prior ratio x proposal ratio); here a prior draw."""
+        """Propose a new state of one cell: its value in every array, and the log of prior ratio x proposal ratio."""
+        # A draw of the prior has the ratio 1, if the prior makes cells independent.
         proposal = self.sample_cells(rng, Grid((1, 1), grid.resolution))
         return {name: values[0, 0] for name, values in proposal.items()}, 0.0
 

@@ -50,7 +50,7 @@ def _is_thinned_from(train: Scans, scans: Scans) -> bool:
 
 
 def match_scans(train: Scans, scans: Scans) -> Indices:
-    """Return the index of the run's scan with a scan's stamp and readings (pose if without), -1 if none, (S,)."""
+    """Return the index of the run's scan with the stamp and readings of each scan, -1 if none has them, (S,)."""
     shared_angles = train.own_angles_rad is None and scans.own_angles_rad is None
     if shared_angles and not _equal_angles(train.angles_rad, scans.angles_rad):
         return np.full(len(scans), -1)

@@ -95,7 +95,7 @@ def entropy_bits(occupancy: Floats) -> Floats:
 def posterior_of_chains(
     model: Model, chains: Chains, settings: dict[str, Any], seconds: dict[str, float], parameters: Parameters | None
 ) -> Posterior:
-    """Return the posterior of chains. ``parameters`` were fitted to the scans; ``seconds`` are further times."""
+    """Return the posterior of chains, with ``parameters`` fitted to the scans and further times in ``seconds``."""
     prior = model.cells if parameters is None else parameters.prior
     return Posterior(
         scans=model.scans, sensor=model.sensor if parameters is None else parameters.sensor, prior=prior,

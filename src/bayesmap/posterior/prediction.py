@@ -265,7 +265,7 @@ class Fan:
         cls, caller: str, posterior: Posterior, angles_rad: ArrayLike | None, max_range_m: float | None,
         sensor: SensorModel | None,
     ) -> Fan:  # fmt: skip
-        """Return a run's fan, with arguments in place of its own. Raises `BadInput`: angles, range, or no sensor."""
+        """Return the fan of a run's scans, or of the arguments that are given. Raises `BadInput` if one is invalid."""
         scans, law = posterior.scans, posterior.sensor if sensor is None else sensor
         if law is None:
             raise BadInput(f"{caller}: the sensor model of this run is not one of bayesmap's; pass sensor=")

@@ -115,7 +115,7 @@ def tail_ess(values: Floats) -> float:
 
 @dataclass(frozen=True)
 class CellDiagnostics:
-    """The convergence of a map's cells; `Summary` documents the fields. Judged are cells that changed or disagree."""
+    """The convergence of the cells of a map: `Summary` documents the fields."""
 
     rhat_max: float
     ess_min: float

@@ -223,7 +223,8 @@ class StopGibbs:
         return replace(state, problem=problem, chains=moved_chains)
 
     def present_cells(self, state: StopState) -> Singles:
-        """Return present reflectivities (C, N) or surfaces (C, N, 6). With labels, draws untouched cells in place."""
+        """Return the chains' present reflectivities, (C, N), or surfaces, (C, N, 6)."""
+        # If cells have labels, sweeps do not need the reflectivities of untouched cells: draw them now, in place.
         if state.problem.prior.has_labels and state.chains.swept:
             state.chains.draw_untouched(state.sweep)
         cells = _stack_chains(state.chains.cells, state.chains)

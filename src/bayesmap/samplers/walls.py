@@ -211,8 +211,9 @@ class WallGibbs(WallSampler):
 
 @dataclass(frozen=True, eq=False)
 class WallBlocks(WallSampler):
-    """A sampler whose sweeps draw each of the overlapping 2 x 2 blocks once. It moves a too near wall in one step."""
+    """A sampler whose sweeps draw each of the overlapping 2 x 2 blocks once, its four cells together."""
 
+    # A wall too near the sensor moves in one step; single cells would have to remove it before they set another.
     site_edge = 2
 
     def kernel(self, problem: WallProblem) -> SweepKernel:
