@@ -1,7 +1,7 @@
 """Save a posterior as one netCDF-4 file in the arviz layout, and load it: `save` and `load_saved`.
 
 Settings, grid, prior, sensor and timings are the header, JSON in an attribute of the root. netCDF has neither bits nor
-half precision: booleans are deflated bytes in the file, and half precision is 32-bit floats, whose last bits are zero
+half precision: booleans are bytes in the file, and half precision is 32-bit floats, whose last bits are zero
 and compress well. HDF5 checks each array by its Fletcher-32 sum, and the header has a CRC, so a damaged file is
 refused. A trajectory's group holds the inputs of its approximation (`bayesmap.poses.trajectory`).
 """
@@ -256,8 +256,13 @@ def write_arrays(
     """Write arrays of the same dimensions; new dimensions get the arrays' sizes."""
     for name, values in arrays.items():
         _create_dimensions(group, dimensions, values.shape)
-        filters = {"zlib": compressed, "complevel": 1, "fletcher32": bool(dimensions)}
-        group.createVariable(name, values.dtype, dimensions, **filters)[:] = values
+        filters = {"compression": _compression(group) if compressed else None, "complevel": 1}
+        group.createVariable(name, values.dtype, dimensions, fletcher32=bool(dimensions), **filters)[:] = values
+
+
+def _compression(group: Any) -> str:
+    """Return Zstandard: a quarter of deflate's time, and files a tenth smaller. Deflate if the library lacks it."""
+    return "zstd" if group.has_zstd_filter() else "zlib"
 
 
 def write_draws(
@@ -272,8 +277,8 @@ def write_draws(
     draw_shape = (CHUNK_NUMBERS,) if size > CHUNK_NUMBERS and len(shape) == 1 else tuple(max(1, n) for n in shape)
     chunks = (1, _draws_per_chunk(draws, size), *draw_shape)
     variable = group.createVariable(
-        spec.name, dtype, dimensions, zlib=True, complevel=1, shuffle=spec.storage != "bits", chunksizes=chunks,
-        fletcher32=True,
+        spec.name, dtype, dimensions, compression=_compression(group), complevel=1, shuffle=spec.storage != "bits",
+        chunksizes=chunks, fletcher32=True,
     )  # fmt: skip
     # Chunks are written whole, so a small cache suffices: the default keeps 64 MB per array until the file is closed.
     variable.set_var_chunk_cache(size=math.prod(chunks) * np.dtype(dtype).itemsize)
