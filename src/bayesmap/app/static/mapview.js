@@ -1118,6 +1118,7 @@ section { display: grid; gap: 7px; padding: 10px 16px 12px; border-bottom: 1px s
 section:last-child { border-bottom: 0; }
 .story { background: var(--tint); grid-template-columns: minmax(0, 1fr); }
 .story .buttons { flex-wrap: wrap; }
+@media (min-height: 700px) { .story .buttons { position: sticky; bottom: 0; padding: 4px 0; background: var(--tint); } } /* in view on a tall phone */
 .story nav { display: flex; gap: 4px; }
 .story nav a { flex: 1 1 0; min-width: 0; max-width: 40px; padding: 3px 0; border-radius: 6px; border: 1px solid var(--control); background: var(--card); color:\
  inherit; text-align: center; text-decoration: none; }
