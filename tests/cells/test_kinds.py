@@ -19,7 +19,7 @@ from bayesmap.cells.arrays import as_halves, count_walls, pack, unpack
 from bayesmap.cells.kinds import prior_from
 from bayesmap.cells.reflectivity import recover_counts
 from bayesmap.io.ros.maps import read_map
-from bayesmap.kernels.surfaces.cell_draws import log_gamma
+from bayesmap.kernels.random import log_gamma
 from bayesmap.run import runner
 from bayesmap.samplers.fit import refit_prior
 from bayesmap.samplers.stop_gibbs import StopGibbs

@@ -234,20 +234,20 @@ PRIORS = {
 
 
 @pytest.mark.parametrize("name", PRIORS)
-def test_the_change_of_one_pose_or_of_a_colour_is_the_change_of_the_density(name):
-    """Moving all of a colour at once changes the density by the sum of their changes; of all scans it does not."""
+def test_the_change_of_one_pose_or_of_a_group_is_the_change_of_the_density(name):
+    """Moving all of a group at once changes the density by the sum of their changes; of all scans it does not."""
     law = PRIORS[name].law(trajectory(4))
     rng = np.random.default_rng(5)
     poses = law.sample(rng)
     proposed = poses + rng.normal(0, 0.05, poses.shape)
-    changes, colours = law.log_change(poses, proposed), law.colours(len(poses))
+    changes, groups = law.log_change(poses, proposed), law.independent_groups()
 
     def unlike(moved):
         together = poses.copy()
         together[moved] = proposed[moved]
         return abs(law.log_prob(together) - law.log_prob(poses) - changes[moved].sum())
 
-    assert max(unlike(moved) for moved in [*colours, *np.concatenate(colours)[:, None]]) < 1e-8
+    assert max(unlike(moved) for moved in [*groups, *np.concatenate(groups)[:, None]]) < 1e-8
     assert name == "uncertain" or unlike(np.arange(1, len(poses))) > 1e-3
 
 
@@ -256,7 +256,7 @@ def test_the_precision_is_the_curvature_of_the_density(name):
     law = PRIORS[name].law(trajectory(6))
     poses = trajectory(6)  # where errors are zero, so that second derivatives of the motions have no part
     precision, h = law.precision(poses), 1e-4
-    for i in np.concatenate(law.colours(len(poses))):
+    for i in np.concatenate(law.independent_groups()):
         curvature = np.zeros((3, 3))
         for a, b, sa, sb in product(range(3), range(3), (1, -1), (1, -1)):
             one = poses.copy()
@@ -318,10 +318,10 @@ def test_a_motion_that_odometry_missed_pulls_at_no_pose():
 def test_known_poses_do_not_move_nor_does_the_first_of_odometry():
     log = trajectory(10)
     law = KnownPoses().law(log)
-    assert (law.colours(len(log)), law.log_prob(log), law.log_prob(log + 1e-9)) == ((), 0, -np.inf)
+    assert (law.independent_groups(), law.log_prob(log), law.log_prob(log + 1e-9)) == ((), 0, -np.inf)
     assert (law.sample(np.random.default_rng(0)) == log).all()
     law = PRIORS["odometry"].law(trajectory(11))
-    assert 0 not in np.concatenate(law.colours(6))
+    assert 0 not in np.concatenate(law.independent_groups())
     assert law.log_prob(trajectory(11) + np.array([1e-3, 0, 0])) == -np.inf
 
 

@@ -222,8 +222,8 @@ def lattice_draws(p, rng, count, centre):
 @pytest.mark.parametrize(("name", "seed", "beta"), latin(4, list(WIDE_PRIORS), [0, 1, 2], [1.0, 0.4]))
 def test_poses_drawn_by_enumeration_still_follow_it_after_many_steps(name, seed, beta, monkeypatch):
     walls, scans, law = scene(seed, WIDE_PRIORS[name])
-    colours, chains = tuple(c[c > 0] for c in law.colours(3)), 3000  # the first scan stays
-    monkeypatch.setattr(type(law), "colours", lambda self, n_scans: colours)
+    groups, chains = tuple(g[g > 0] for g in law.independent_groups()), 3000  # the first scan stays
+    monkeypatch.setattr(type(law), "independent_groups", lambda self: groups)
     centre = np.broadcast_to(scans.poses, (chains, 3, 3))
     likelihood, factor = ScanLikelihood(scans, SMALL_GRID, BLUNT, 0.0), np.broadcast_to(np.eye(3), (3, 3, 3))
     sampler = LatticeSteps(likelihood, law, factor, centre=centre)

@@ -32,6 +32,7 @@ ZERO, HALF, ONE = (wp.constant(wp.float64(x)) for x in (0.0, 0.5, 1.0))
 ZERO_32, ONE_32 = (wp.constant(wp.float32(x)) for x in (0.0, 1.0))
 
 _START_LOCK = threading.Lock()
+MIN_THREADED_BEAMS = 1_000  # fewer beams than this are traced before a second thread has started, which takes 0.2 ms
 
 
 def start() -> None:
@@ -111,9 +112,6 @@ def load_kernels(kernel: Any, device: str) -> None:
     """Compile the module of a kernel for a device, or fetch it from Warp's cache, before its first launch."""
     # Launches on the CPU use blocks of one. Any other size would compile a variant that is never used.
     kernel.module.load(wp.get_device(device), 1 if device == "cpu" else None)
-
-
-MIN_THREADED_BEAMS = 1_000  # fewer beams than this are traced before a second thread has started, which takes 0.2 ms
 
 
 def ceil_div(a: Any, b: int) -> Any:

@@ -2,6 +2,7 @@
 
 The generator is SplitMix64 (Steele, Lea and Flood, OOPSLA 2014) read at a given counter. A key stands for (seed, chain,
 stream), a counter for (sweep, cell): results do not depend on threads, and a resumed chain repeats exactly.
+At the end are the logarithms of the gamma and beta functions, which the variates' densities need.
 """
 
 import warp as wp
@@ -13,6 +14,18 @@ MIX_1 = wp.constant(wp.uint64(0xBF58476D1CE4E5B9))
 MIX_2 = wp.constant(wp.uint64(0x94D049BB133111EB))
 PER_BITS_53 = wp.constant(wp.float64(1.0 / 9007199254740992.0))  # 2^-53
 LOW_64_BITS = (1 << 64) - 1  # mask for a Python integer
+ODD_1 = wp.constant(wp.uint32(0x9E3779B1))
+ODD_2 = wp.constant(wp.uint32(0x85EBCA6B))
+TWO_PI = wp.constant(wp.float64(6.283185307179586))
+SQUEEZE = wp.constant(wp.float64(0.0331))  # constant of Marsaglia and Tsang's quick acceptance
+SUM_MEAN = wp.constant(wp.float32(2.0 * 0xFFFF))  # mean of the sum of four numbers from 0 to 0xFFFF
+PER_SUM_SIGMA = wp.constant(wp.float32((3.0 / (0x10000**2 - 1.0)) ** 0.5))  # their variance is (2^32 - 1) / 12 each
+LOG_NEGLIGIBLE = wp.constant(wp.float64(-100.0))  # log of a negligible factor, see `beta_or_zero`
+COUNTERS_PER_GAMMA = 64  # counters reserved per gamma variate: its rejection fails 1 in 20 times, never 20 in a row
+HALF_LOG_TWO_PI = wp.constant(wp.float64(0.9189385332046727))
+MIN_STIRLING = wp.constant(wp.float64(10.0))  # argument from which Stirling's series is used
+STIRLING_1, STIRLING_3, STIRLING_5 = (wp.constant(wp.float64(c)) for c in (1 / 12, -1 / 360, 1 / 1260))
+STIRLING_7, STIRLING_9, STIRLING_11 = (wp.constant(wp.float64(c)) for c in (-1 / 1680, 1 / 1188, -691 / 360360))
 
 
 @wp.func
@@ -54,10 +67,6 @@ def mix(*words: int) -> int:
     return state
 
 
-ODD_1 = wp.constant(wp.uint32(0x9E3779B1))
-ODD_2 = wp.constant(wp.uint32(0x85EBCA6B))
-
-
 @wp.func
 def scramble(x: wp.uint32, key: wp.uint32) -> wp.uint32:
     """Mix a word with a key: the round function of the cipher, which need not be invertible."""
@@ -92,16 +101,6 @@ def permuted_index(i: wp.uint32, size: wp.uint32, bits: wp.uint32, key: wp.uint6
 def cipher_bits(size: int) -> int:
     """Return the width in bits of the cipher that shuffles ``size`` elements: at least two, one for each half."""
     return max(2, (size - 1).bit_length())
-
-
-TWO_PI = wp.constant(wp.float64(6.283185307179586))
-SQUEEZE = wp.constant(wp.float64(0.0331))  # constant of Marsaglia and Tsang's quick acceptance
-SUM_MEAN = wp.constant(wp.float32(2.0 * 0xFFFF))  # mean of the sum of four numbers from 0 to 0xFFFF
-PER_SUM_SIGMA = wp.constant(wp.float32((3.0 / (0x10000**2 - 1.0)) ** 0.5))  # their variance is (2^32 - 1) / 12 each
-LOG_NEGLIGIBLE = wp.constant(wp.float64(-100.0))  # log of a negligible factor, see `beta_or_zero`
-COUNTERS_PER_GAMMA = (
-    64  # counters reserved per gamma variate: its rejection fails 1 in 20 times, never 30 times in a row
-)
 
 
 @wp.func
@@ -167,3 +166,23 @@ def beta_or_zero(a: wp.float64, b: wp.float64, key: wp.uint64, counter: wp.uint6
     if a < ONE and b > ONE and wp.log(to_uniform(random_bits(key, counter))) < LOG_NEGLIGIBLE * a:
         return wp.float64(0.0)
     return beta_variate(a, b, key, counter)
+
+
+@wp.func
+def log_gamma(x: wp.float64) -> wp.float64:
+    """Return the logarithm of the gamma function of a positive number, to 1e-13: Stirling's series from 10 on."""
+    below = ONE
+    while x < MIN_STIRLING:
+        below = below * x
+        x = x + ONE
+    y = ONE / x
+    z = y * y
+    series = STIRLING_7 + z * (STIRLING_9 + z * STIRLING_11)
+    series = y * (STIRLING_1 + z * (STIRLING_3 + z * (STIRLING_5 + z * series)))
+    return (x - wp.float64(0.5)) * wp.log(x) - x + HALF_LOG_TWO_PI + series - wp.log(below)
+
+
+@wp.func
+def log_beta(a: wp.float64, b: wp.float64) -> wp.float64:
+    """Return the logarithm of the beta function."""
+    return log_gamma(a) + log_gamma(b) - log_gamma(a + b)

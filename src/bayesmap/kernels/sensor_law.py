@@ -27,6 +27,15 @@ TINY = wp.constant(wp.float64(1.0e-300))  # replaces zero in Lentz's method
 FRACTION_TOLERANCE = wp.constant(wp.float64(1.0e-14))  # relative change at which the continued fraction ends
 MAX_POWER = 16  # whole power computed by multiplication; a Student-t of more degrees is nearly normal
 
+# Kinds of laws.
+NOISE = wp.constant(0)  # noise alone
+MIXTURE = wp.constant(1)  # the robust mixture
+TABLE = wp.constant(2)  # any other model
+FAR_SQ = wp.constant(wp.float64(81.0))  # squared standard distance past which normal noise adds nothing
+MIN_PROBABILITY = wp.constant(wp.float64(math.exp(LOG_IMPOSSIBLE)))  # least probability of a typed reading
+CERTAIN_TAIL = 1e-10  # probability of noise that cumulative probabilities leave out
+THIRD = wp.constant(wp.float64(1.0 / 3.0))
+
 
 @wp.func
 def noise_log_density(law: Any, square: Any):
@@ -124,16 +133,6 @@ def student_below(dof: wp.float64, log_height: wp.float64, t: wp.float64) -> wp.
     else:
         tail = HALF * (ONE - front * beta_fraction(HALF, a, y) / HALF)
     return wp.where(t > wp.float64(0.0), ONE - tail, tail)
-
-
-# Kinds of laws.
-NOISE = wp.constant(0)  # noise alone
-MIXTURE = wp.constant(1)  # the robust mixture
-TABLE = wp.constant(2)  # any other model
-FAR_SQ = wp.constant(wp.float64(81.0))  # squared standard distance past which normal noise adds nothing
-MIN_PROBABILITY = wp.constant(wp.float64(math.exp(LOG_IMPOSSIBLE)))  # least probability of a typed reading
-CERTAIN_TAIL = 1e-10  # probability of noise that cumulative probabilities leave out
-THIRD = wp.constant(wp.float64(1.0 / 3.0))
 
 
 def _law_struct(name: str, real: Any) -> Any:

@@ -28,23 +28,21 @@ SIDE_Y = wp.constant(2)
 class Walk:
     """The state of a walk, in cells. It touches the cell (cell_x, cell_y) at ``distance``, and is over past ``end``."""
 
-    cell_x: int
+    cell_x: int  # the cell that is touched now
     cell_y: int
-    distance: wp.float64
+    distance: wp.float64  # at which the beam touches it
     end: wp.float64
-    # the cell that the beam is in, the side cells still to report, and where those lie
-    x: int
-    y: int
-    sides: int
-    side_x: int
+    beam_x: int  # the cell that the beam is in; side cells lie beside it
+    beam_y: int
+    sides: int  # bits of the side cells that are touched next: SIDE_X, SIDE_Y
+    side_x: int  # offset of the side cell in x: -1 or 1
     side_y: int
-    along_line: int
-    # per axis: direction of travel, distance of the next grid line, distance between lines
-    step_x: int
+    along_line: int  # SIDE_X or SIDE_Y if the beam runs along a grid line, so that every cell has a side cell; else 0
+    step_x: int  # direction of travel: -1, 1, or 0 if the beam is parallel to the lines
     step_y: int
-    next_x: wp.float64
+    next_x: wp.float64  # distance of the next grid line
     next_y: wp.float64
-    gap_x: wp.float64
+    gap_x: wp.float64  # distance between two grid lines along the beam
     gap_y: wp.float64
 
 
@@ -86,21 +84,21 @@ def begin_walk(start: wp.vec2d, direction: wp.vec2d, nx: int, ny: int, max_dista
     w.end = leave + TIE
 
     # First cell and next grid lines. A direction that counts as parallel keeps its coordinate.
-    w.x = cell_before(px + wp.where(w.step_x == 0, ZERO, enter * ux), w.step_x)
-    w.y = cell_before(py + wp.where(w.step_y == 0, ZERO, enter * uy), w.step_y)
+    w.beam_x = cell_before(px + wp.where(w.step_x == 0, ZERO, enter * ux), w.step_x)
+    w.beam_y = cell_before(py + wp.where(w.step_y == 0, ZERO, enter * uy), w.step_y)
     if w.step_x != 0:
-        w.next_x = (wp.float64(w.x + wp.max(w.step_x, 0)) - px) / ux
+        w.next_x = (wp.float64(w.beam_x + wp.max(w.step_x, 0)) - px) / ux
     if w.step_y != 0:
-        w.next_y = (wp.float64(w.y + wp.max(w.step_y, 0)) - py) / uy
+        w.next_y = (wp.float64(w.beam_y + wp.max(w.step_y, 0)) - py) / uy
     # A beam along a grid line touches the cells on its other side too.
-    if w.step_x == 0 and wp.abs(px - wp.float64(w.x)) <= TIE:
+    if w.step_x == 0 and wp.abs(px - wp.float64(w.beam_x)) <= TIE:
         w.along_line = SIDE_X
         w.side_x = -1
-    if w.step_y == 0 and wp.abs(py - wp.float64(w.y)) <= TIE:
+    if w.step_y == 0 and wp.abs(py - wp.float64(w.beam_y)) <= TIE:
         w.along_line = SIDE_Y
         w.side_y = -1
-    w.cell_x = w.x
-    w.cell_y = w.y
+    w.cell_x = w.beam_x
+    w.cell_y = w.beam_y
     w.sides = w.along_line
     w.distance = wp.max(ZERO, wp.min(w.next_x, w.next_y))
     return w
@@ -111,35 +109,35 @@ def advance_walk(w: Walk) -> Walk:
     """Advance to the next touch: a side cell that is still due, else the cell across the next grid line."""
     if w.sides != 0:
         if (w.sides & SIDE_X) != 0:
-            w.cell_x = w.x + w.side_x
-            w.cell_y = w.y
+            w.cell_x = w.beam_x + w.side_x
+            w.cell_y = w.beam_y
             w.sides = w.sides & SIDE_Y
         else:
-            w.cell_x = w.x
-            w.cell_y = w.y + w.side_y
+            w.cell_x = w.beam_x
+            w.cell_y = w.beam_y + w.side_y
             w.sides = 0
         return w
     if w.next_x < w.next_y - TIE:
         w.distance = w.next_x
         w.next_x = w.next_x + w.gap_x
-        w.x = w.x + w.step_x
+        w.beam_x = w.beam_x + w.step_x
         w.sides = w.along_line
     elif w.next_y < w.next_x - TIE:
         w.distance = w.next_y
         w.next_y = w.next_y + w.gap_y
-        w.y = w.y + w.step_y
+        w.beam_y = w.beam_y + w.step_y
         w.sides = w.along_line
     else:  # through a corner: both neighbours first touched here, then the cell beyond
         w.distance = wp.min(w.next_x, w.next_y)
         w.next_x = w.next_x + w.gap_x
         w.next_y = w.next_y + w.gap_y
-        w.x = w.x + w.step_x
-        w.y = w.y + w.step_y
+        w.beam_x = w.beam_x + w.step_x
+        w.beam_y = w.beam_y + w.step_y
         w.side_x = -w.step_x
         w.side_y = -w.step_y
         w.sides = SIDE_X + SIDE_Y
-    w.cell_x = w.x
-    w.cell_y = w.y
+    w.cell_x = w.beam_x
+    w.cell_y = w.beam_y
     return w
 
 
@@ -175,9 +173,12 @@ def find_first_hits(
 def cast_beams(
     walls: NDArray[Any], starts_cells: Floats, angles_rad: Floats, longest_cells: float, device: str = "cpu"
 ) -> tuple[Floats, Ints]:
-    """Return beams' distances to walls, (nx, ny), and numbers of cells visited, (B,); starts are in cells, (B, 2)."""
+    """Return the distance of each beam to the first wall, in cells, and the number of cells that it visits, (B,) each.
+
+    ``walls`` is (nx, ny), ``starts_cells`` (B, 2). A beam without a wall has the distance ``longest_cells``.
+    """
     device = devices.resolve(device)
     beams = (len(starts_cells),)
     inputs = [walls != 0, starts_cells, angles_rad, longest_cells, beams, beams]
-    distance, visits = devices.launch(find_first_hits, len(starts_cells), inputs, device, 1)
+    distance, visits = devices.launch(find_first_hits, len(starts_cells), inputs, device, threads=1)
     return distance, visits

@@ -26,6 +26,17 @@ MIN_MODE_SIGMA = np.array([0.002, 0.002, np.radians(0.05)])  # standard deviatio
 LINKING_WEIGHT = 0.995  # share of the weight whose poses link others into modes
 MIN_PROBABILITY = 1e-4  # probability of a mode that is listed
 REGION_DRAWS = 4000  # number of draws by which a region is computed
+LogDensity = Callable[[Floats], Floats]  # of poses (P, 3), not normalised, (P,)
+DOF = 5.0  # degrees of freedom of proposals
+STUDENT_CONSTANT = gammaln((DOF + 3) / 2) - gammaln(DOF / 2) - 1.5 * np.log(DOF * np.pi)
+LATTICE = 1.1673039782614187 ** -np.arange(1.0, 5.0)  # steps of the lattice of draws: powers of the root of x^5 = x + 1
+MIN_SIGMA = np.array([0.004, 0.004, np.radians(0.1)])  # standard deviations of a proposal
+SAME_MODE_SIGMAS = 2.0  # places nearer than this are one mode, in standard deviations
+SAME_MODE_XY_YAW = np.array([0.2, 0.2, np.radians(7.0)])  # places nearer than this are one mode: metres, radians
+EFFECTIVE_SHARE = 0.3  # weights are tempered until this share of a place's draws is effective
+EFFECTIVE_DRAWS = 16.0  # or until this number of draws is effective
+MIN_TEMPERING = 1e-3  # power to which weights are tempered
+NEGLIGIBLE_NATS = 15.0  # difference in log mass from the greatest beyond which places are dropped
 
 
 @dataclass(frozen=True, eq=False)
@@ -214,19 +225,6 @@ def _are_inside(positions: Floats, corners: Floats) -> Mask:
     with np.errstate(divide="ignore", invalid="ignore"):
         crossing_x = ax + (y - ay) * (bx - ax) / (by - ay)
     return np.asarray((crosses & (x < crossing_x)).sum(axis=1) % 2 == 1)
-
-
-LogDensity = Callable[[Floats], Floats]  # of poses (P, 3), not normalised, (P,)
-DOF = 5.0  # degrees of freedom of proposals
-STUDENT_CONSTANT = gammaln((DOF + 3) / 2) - gammaln(DOF / 2) - 1.5 * np.log(DOF * np.pi)
-LATTICE = 1.1673039782614187 ** -np.arange(1.0, 5.0)  # steps of the lattice of draws: powers of the root of x^5 = x + 1
-MIN_SIGMA = np.array([0.004, 0.004, np.radians(0.1)])  # standard deviations of a proposal
-SAME_MODE_SIGMAS = 2.0  # places nearer than this are one mode, in standard deviations
-SAME_MODE_XY_YAW = np.array([0.2, 0.2, np.radians(7.0)])  # places nearer than this are one mode: metres, radians
-EFFECTIVE_SHARE = 0.3  # weights are tempered until this share of a place's draws is effective
-EFFECTIVE_DRAWS = 16.0  # or until this number of draws is effective
-MIN_TEMPERING = 1e-3  # power to which weights are tempered
-NEGLIGIBLE_NATS = 15.0  # difference in log mass from the greatest beyond which places are dropped
 
 
 def log_sum(logs: Floats) -> Floats:

@@ -42,6 +42,17 @@ MAX_REFINEMENTS = 3  # rounds in which places are moved; one less for several pl
 DRAWS_PER_ROUND = 240  # draws per round for all places together
 MIN_DRAWS_PER_PLACE = 24  # draws per place
 
+# Settings of `locate`
+LOCATE_CANDIDATES = 32  # places of the search, at most
+LOCATE_PLACES = 16  # places that remain after a round, at most
+RISING_ROUNDS = 6  # rounds in which the beams' weight rises
+MAX_FINAL_ROUNDS = 4  # rounds with the final beam weight
+LOCATE_BEAMS = 60  # a scan is thinned to at least this many beams while their weight rises
+LOCATE_ROUND_DRAWS = 24  # draws per place in a round
+LOCATE_LAST_DRAWS = 192  # draws per place in the last round
+SAME_PLACE_SIGMAS = 1.0  # places nearer than this coincide, in standard deviations
+SAME_PLACE_XY_YAW = np.array([0.02, 0.02, np.radians(1.0)])  # places nearer than this coincide: metres, radians
+
 
 @dataclass(frozen=True, eq=False)
 class Scan:
@@ -275,18 +286,6 @@ def _evidence_and_fit(
         logs = np.where(belief.mode_of == likeliest, logs, -np.inf)
     log_evidence = float(log_sum(logs) - np.log(len(logs)))
     return log_evidence, float(log_likelihood[int(np.argmax(logs))] / beam_weight / n_valid(scan.ranges_m))
-
-
-# Settings of `locate`
-LOCATE_CANDIDATES = 32  # places of the search, at most
-LOCATE_PLACES = 16  # places that remain after a round, at most
-RISING_ROUNDS = 6  # rounds in which the beams' weight rises
-MAX_FINAL_ROUNDS = 4  # rounds with the final beam weight
-LOCATE_BEAMS = 60  # a scan is thinned to at least this many beams while their weight rises
-LOCATE_ROUND_DRAWS = 24  # draws per place in a round
-LOCATE_LAST_DRAWS = 192  # draws per place in the last round
-SAME_PLACE_SIGMAS = 1.0  # places nearer than this coincide, in standard deviations
-SAME_PLACE_XY_YAW = np.array([0.02, 0.02, np.radians(1.0)])  # places nearer than this coincide: metres, radians
 
 
 def locate(known: KnownMap, scan: Scan, rng: np.random.Generator) -> PoseBelief:

@@ -26,6 +26,14 @@ BLOCK_CELLS = 4  # side of blocks that keep their best position, in coarse cells
 MAX_BLOCKS = 240  # blocks to refine
 MIN_APART_M, MIN_APART_RAD = 0.3, np.radians(8.0)  # distances between candidates: in x or y, or in yaw
 MAX_VALUE = 255  # value of a fine cell on a wall
+SIGMA_M = 0.12  # scale of the field about an obstacle: errors of map and pose that a search must tolerate
+WALL_STOP = 0.3  # stop probability from which a cell counts as a wall
+MIN_LIKELIHOOD = 0.01  # likelihood of an end point in the open, relative to one on a wall
+COARSE_M = 0.3  # width of a coarse cell
+FINE_M = 0.025  # width of the cells of an `EndpointField`
+MAX_CELLS = 16_000_000  # cells of an `EndpointField`
+SURFACE_FLOOR = 0.02  # likelihood of an end point far from all surfaces, relative to one on a surface
+MIN_STOP = 0.1  # cells that stop beams with a lower probability have no surface in an `EndpointField`
 
 
 @dataclass(frozen=True, eq=False)
@@ -145,16 +153,6 @@ def _apart(poses: Floats, order: Indices, max_poses: int, apart_m: float, apart_
             selected.append(k)
             is_apart &= ~near[k]
     return order[np.array(selected, dtype=np.intp)]
-
-
-SIGMA_M = 0.12  # scale of the field about an obstacle: errors of map and pose that a search must tolerate
-WALL_STOP = 0.3  # stop probability from which a cell counts as a wall
-MIN_LIKELIHOOD = 0.01  # likelihood of an end point in the open, relative to one on a wall
-COARSE_M = 0.3  # width of a coarse cell
-FINE_M = 0.025  # width of the cells of an `EndpointField`
-MAX_CELLS = 16_000_000  # cells of an `EndpointField`
-SURFACE_FLOOR = 0.02  # likelihood of an end point far from all surfaces, relative to one on a surface
-MIN_STOP = 0.1  # cells that stop beams with a lower probability have no surface in an `EndpointField`
 
 
 def likelihood_field(

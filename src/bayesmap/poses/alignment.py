@@ -15,10 +15,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from bayesmap.kernels.match import line_pairs
 from bayesmap.kernels.match.line_pairs import PairRules, PairSums, match_counts, pair_sums
 from bayesmap.kernels.match.scan_refinement import Convergence, Refinement, refine_scans
 from bayesmap.poses.graph import Factors, PoseGaussian, Quadratic, quadratic, solve_step
-from bayesmap.poses.scan_geometry import ScanGeometry
+from bayesmap.poses.scan_geometry import NO_POINT, ScanGeometry
 from bayesmap.space.arrays import Indices, Mask, bracketing_indices, evenly_spaced, nearest_index, offsets_of
 from bayesmap.space.planar import Floats, between, compose, rotation
 
@@ -31,9 +32,10 @@ TRIAL_REACH_M, TRIAL_SCALE_M = 0.3, 0.15  # reach and scale when partners are se
 TRIAL_BEAMS = 45  # approximate number of beams of a scan when partners are selected
 MIN_COSINE = 0.7  # cosine of paired normals
 MIN_MATCHED_SHARE = 0.2  # share of a scan's points that match a partner
-SLACK_FACTOR = 4.0  # on the subtracted mean information from errors of normals: a pair's may be three times the mean
+SLACK_FACTOR = 4.0  # f of H - f sigma^2 S, see `without_slack`: a pair's slack may be three times its mean S
 EARLY_BEAMS = 180  # at least so many beams of a scan are used until reach and scale have shrunk; then all
 SIGMA_BOUNDS_M = (0.002, 0.05)  # bounds on the estimated standard deviation of a point
+MIN_STEP = 2e-4  # metres and radians: an alignment ends early if no pose moves further in a round
 SLIP_SQ = 25.0  # odometry's cost grows less than quadratically beyond this squared Mahalanobis distance: wheels slip
 SHARED_ERROR_SHARE = 0.1  # share of points' variance that shared errors of pairs contain too, as in simulated offices
 MIN_ERROR_PAIRS = 8000  # pairs of scans on which the error of points is measured, if there are so many
@@ -97,7 +99,8 @@ def align(
     ``select_pairs`` returns the pairs of scans at poses (S, 3), in the first and the middle round. ``firm`` is the mask
     of odometry's relative poses without slip, (M,). ``on_progress`` is called with the number of rounds done and poses.
     """
-    rounds, sigma_m = annealing.rounds, geometry.noise_m
+    rounds = annealing.rounds
+    sigma_m = geometry.noise_m
     for number in range(rounds):
         # Pair the scans, and weight beams by the number of their partners.
         rules = annealing.rules(number, geometry)
@@ -114,12 +117,12 @@ def align(
         step, _ = solve_step(len(poses), [laser, wheels])
         poses = compose(poses, step)
         gaussian = _gaussian(poses, laser, wheels)
-        cost, weight = sums.totals[:, 0].sum(), sums.totals[:, 1].sum()
-        variance = max(cost / max(weight, 1e-9), 1e-8) / 2.0
+        weight = max(sums.totals[:, line_pairs.WEIGHT].sum(), 1e-9)  # not 0 if no points are paired
+        variance = max(sums.totals[:, line_pairs.COST].sum() / weight, 1e-8) / 2.0
         sigma_m = float(np.clip(np.sqrt(variance), *SIGMA_BOUNDS_M))
         if on_progress is not None:
             on_progress(number + 1, poses)
-        if number > rounds // 2 + 1 and np.abs(step).max() < 2e-4:
+        if number > rounds // 2 + 1 and np.abs(step).max() < MIN_STEP:
             break
     return Alignment(poses, pairs, sigma_m, gaussian)
 
@@ -133,14 +136,17 @@ def _beam_weights(geometry: ScanGeometry, pairs: Pairs, relative: Floats, rules:
 def _laser_cost(pairs: Pairs, relative: Floats, sums: PairSums, sigma_m: float, stride: int) -> Quadratic:
     """Return the laser's cost over the relative poses of pairs, (M, 3), from the sums over every ``stride``-th beam."""
     curvature, gradient = without_slack(sums.second, sums.slack, sums.gradient, sigma_m)
-    factor, target, source = stride / sigma_m**2, pairs.target.astype(np.intp), pairs.source.astype(np.intp)
+    factor = stride / sigma_m**2
+    target, source = pairs.target.astype(np.intp), pairs.source.astype(np.intp)
     return Quadratic(target, source, relative, curvature * factor, gradient * factor)
 
 
 def without_slack(hessian: Floats, slack: Floats, gradient: Floats, sigma_m: float) -> tuple[Floats, Floats]:
-    """Return second derivatives, (M, 3, 3), and first ones, (M, 3), without the part from errors of normals."""
-    # Errors of normals add information along a corridor. Without this part odometry decides there. Set negative
-    # eigenvalues to 0. The minimum of the cost stays where it was.
+    """Return second derivatives, (M, 3, 3), and first ones, (M, 3), without the slack: the part from errors of normals.
+
+    Errors of normals add information along a corridor, where odometry should decide. Their mean part of the Hessian H
+    is sigma^2 S, with ``slack`` S. Negative eigenvalues of the rest are set to 0. The cost keeps its minimum.
+    """
     values, vectors = np.linalg.eigh(hessian - SLACK_FACTOR * sigma_m**2 * slack)
     curvature = (vectors * np.maximum(values, 0.0)[:, None, :]) @ np.swapaxes(vectors, 1, 2)
     size = np.trace(hessian, axis1=1, axis2=2)[:, None, None]
@@ -151,7 +157,8 @@ def without_slack(hessian: Floats, slack: Floats, gradient: Floats, sigma_m: flo
 
 def _gaussian(poses: Floats, laser: Quadratic, wheels: Quadratic) -> PoseGaussian:
     """Return the Gaussian of both costs. Only the laser's pairs have forces, since motions err independently."""
-    first, second = np.concatenate([laser.first, wheels.first]), np.concatenate([laser.second, wheels.second])
+    first = np.concatenate([laser.first, wheels.first])
+    second = np.concatenate([laser.second, wheels.second])
     curvature = np.concatenate([laser.curvature, wheels.curvature])
     force = np.concatenate([laser.gradient, np.zeros_like(wheels.gradient)])
     return PoseGaussian(poses, first, second, between(poses[first], poses[second]), curvature, force)
@@ -159,31 +166,42 @@ def _gaussian(poses: Floats, laser: Quadratic, wheels: Quadratic) -> PoseGaussia
 
 def overlapping_pairs(geometry: ScanGeometry, poses: Floats, reach_m: float) -> Pairs:
     """Select partners of scans at poses (S, 3): scans up to ``reach_m`` apart whose walls explain most points."""
-    from scipy.spatial import cKDTree
-
     count = len(poses)
     if count < 2:
         return Pairs(np.empty(0, np.int32), np.empty(0, np.int32), np.zeros(count + 1, np.int32))
-    # Find near scans, by a distance in which half a turn is as far as 3 m.
+    source, target = _near_pairs(poses, reach_m)
+    # Compute the share of each scan's points that the other explains.
+    rules = PairRules(TRIAL_REACH_M, TRIAL_SCALE_M, MIN_COSINE, max(1, geometry.beams // TRIAL_BEAMS))
+    relative = between(poses[target], poses[source])
+    matched = pair_sums(geometry, None, source, target, relative, rules, geometry.threads).totals[:, line_pairs.MATCHED]
+    sampled = np.maximum((geometry.host_kind[:, :: rules.stride] != NO_POINT).sum(axis=1), 1)
+    share = matched / sampled[source]
+    good = share > MIN_MATCHED_SHARE
+    source, target = _best_partners(source[good], target[good], share[good], count)
+    return Pairs(source, target, np.searchsorted(source, np.arange(count + 1)).astype(np.int32))
+
+
+def _near_pairs(poses: Floats, reach_m: float) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """Select pairs of near scans: all that are near in time too, and the nearest of the others. Returns both scans."""
+    from scipy.spatial import cKDTree
+
+    # Half a turn counts as 3 m.
     tree = cKDTree(np.column_stack([poses[:, :2], np.cos(poses[:, 2]), np.sin(poses[:, 2])]) * [1.0, 1.0, 1.5, 1.5])
-    _, near = tree.query(tree.data, k=min(4 * MAX_CANDIDATES, count), workers=1)
-    source = np.repeat(np.arange(count), near.shape[1])
+    _, near = tree.query(tree.data, k=min(4 * MAX_CANDIDATES, len(poses)), workers=1)
+    source = np.repeat(np.arange(len(poses)), near.shape[1])
     target = near.ravel()
     distance_m = np.hypot(*(poses[source, :2] - poses[target, :2]).T)
     candidate = (source != target) & (distance_m < reach_m)
     same_visit = np.abs(source - target) <= SAME_VISIT_SCANS
-    # Keep all scans that are near in time, and the nearest of the others.
-    rank = np.cumsum((candidate & ~same_visit).reshape(count, -1), axis=1).ravel()
+    rank = np.cumsum((candidate & ~same_visit).reshape(len(poses), -1), axis=1).ravel()
     candidate &= same_visit | (rank <= MAX_CANDIDATES)
-    source, target = source[candidate].astype(np.int32), target[candidate].astype(np.int32)
-    # Compute the share of each scan's points that the other explains.
-    rules = PairRules(TRIAL_REACH_M, TRIAL_SCALE_M, MIN_COSINE, max(1, geometry.beams // TRIAL_BEAMS))
-    relative = between(poses[target], poses[source])
-    matched = pair_sums(geometry, None, source, target, relative, rules, geometry.threads).totals[:, 2]
-    sampled = np.maximum((geometry.host_kind[:, :: rules.stride] > 0).sum(axis=1), 1)
-    share = matched / sampled[source]
-    good = share > MIN_MATCHED_SHARE
-    source, target, share = source[good], target[good], share[good]
+    return source[candidate].astype(np.int32), target[candidate].astype(np.int32)
+
+
+def _best_partners(
+    source: NDArray[np.int32], target: NDArray[np.int32], share: Floats, count: int
+) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """Select at most `MAX_PARTNERS` of each of ``count`` source scans, by share of explained points. Returns pairs."""
     # Order the partners of each scan: other visits first, each group by share. Number each group from 0.
     same_visit = np.abs(source.astype(np.int64) - target) <= SAME_VISIT_SCANS
     order = np.lexsort((-share, same_visit, source))
@@ -195,8 +213,7 @@ def overlapping_pairs(geometry: ScanGeometry, poses: Floats, reach_m: float) -> 
     # Each group has half of the partners, plus those that the other group lacks.
     half = MAX_PARTNERS // 2
     quota = np.where(same_visit, MAX_PARTNERS - np.minimum(n_others, half), np.maximum(half, MAX_PARTNERS - n_same))
-    source, target = source[rank < quota], target[rank < quota]
-    return Pairs(source, target, np.searchsorted(source, np.arange(count + 1)).astype(np.int32))
+    return source[rank < quota], target[rank < quota]
 
 
 @dataclass(frozen=True, eq=False)
@@ -231,7 +248,8 @@ def point_error(geometry: ScanGeometry, aligned: Alignment) -> PointError:
 
     sums = sums_at(np.zeros(3))
     curvature = np.einsum("mii->i", sums.second)
-    weight, force_sq = float(sums.totals[:, 1].sum()), float(sums.totals[:, 4].sum())
+    weight = float(sums.totals[:, line_pairs.WEIGHT].sum())
+    force_sq = float(sums.totals[:, line_pairs.FORCE_SQ].sum())
     if not (curvature.min(initial=np.inf) > 0.0 and weight > 0.0):
         return PointError(aligned.sigma_m, np.ones(3))
     # Measure how the gradient changes with a shift. Scans look any way, so that x and y share one response.
@@ -330,6 +348,6 @@ def _information(
     in_target = curvature / error.scatter_m**2
     to_target = rotation(relative[:, 2])
     in_source = np.swapaxes(to_target, 1, 2) @ in_target @ to_target
-    points = np.maximum((geometry.host_kind > 0).sum(axis=1), 1)
+    points = np.maximum((geometry.host_kind != NO_POINT).sum(axis=1), 1)
     explained = np.minimum(counts, 1.0).sum(axis=1) / points
     return np.asarray(error.response[:, None] * in_source * error.response), np.asarray(explained, np.float64)

@@ -18,6 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from bayesmap.kernels.match.line_pairs import SEEN, WEIGHT
 from bayesmap.kernels.match.scan_refinement import Convergence, Refinement, refine_scans
 from bayesmap.poses.prior import Odometry
 from bayesmap.poses.scan_geometry import ScanGeometry, scan_geometry
@@ -32,6 +33,27 @@ PRIOR_RATIO = 3.0  # prior of this multiple
 PRIOR_COUNT = 12.0  # number of motions that the prior counts as
 MEMORY_MOTIONS = 300.0  # number of motions over which the noise is averaged, since floors differ
 SLOPE_SIGMA = 0.15  # prior standard deviation of the entries of C: 15 % of the motion
+ORDINARY_RATES = np.array([[1e-3, 1e-3, 1e-5], [5e-4, 5e-4, 1e-5], [1e-3, 2e-3, 1e-6]])
+"""Variance rates of ordinary robots: rows x, y, yaw; columns per metre, per radian, per scan."""
+
+FACTOR_SIGMA = np.log(10.0)  # prior standard deviation of the logarithm of each rate: a factor of ten either way
+MAX_INFORMATIVE_SHARE = 0.5  # a motion is fitted if its matched variance is below this share of the expected one
+MIN_FITTED_MOTIONS = 20  # informative motions to which an axis is fitted
+MAX_LOG = 9.0  # size of the logarithm of a rate, in units of `ORDINARY_RATES`
+DEGREES_OF_FREEDOM = 4.0  # nu of Student's t in the cost
+CONSISTENCY_FACTOR = 1.2718  # 1 / E[(nu + 1) z^2 / (nu + z^2)] for a standard normal z and nu = 4
+VELOCITY_WINDOW_S = 0.4  # time over which a stated velocity is averaged, seconds
+LAG_SIGMA_S = 0.2  # prior standard deviation of the lag
+MAX_LAG_S = 0.5  # size of the lag, early or late
+FIT_ROUNDS = 6  # rounds of robust least squares and of the fit of the noise
+MAX_PAIRS = 400  # pairs of scans from which the angle between beams is estimated
+MIN_PAIRS = 20  # pairs that an estimate needs
+MIN_TURN_RAD, MAX_TURN_RAD = np.radians(25.0), np.radians(130.0)  # bounds on the turn between scans of such a pair
+MAX_STRETCH = 0.0125  # relative change of the angle that is tried
+JACKKNIFE_GROUPS = 20  # groups of pairs, for the standard error of the angle
+MIN_STANDARD_ERRORS = 4.0  # standard errors beyond which the angle is changed
+MIN_STANDARD_ERRORS_TO_REGULAR = 2.0  # the same, if the new angle is within one standard error of a regular angle
+REGULAR_TOLERANCE = 0.005  # relative accuracy of the estimated angle between beams
 
 
 def stated_motions(poses: Floats, stamps_s: Floats | None) -> tuple[Floats, Mask]:
@@ -110,17 +132,6 @@ class RunningOdometry:
         self._count = forgetting * self._count + 1.0
 
 
-ORDINARY_RATES = np.array([[1e-3, 1e-3, 1e-5], [5e-4, 5e-4, 1e-5], [1e-3, 2e-3, 1e-6]])
-"""Variance rates of ordinary robots: rows x, y, yaw; columns per metre, per radian, per scan."""
-
-FACTOR_SIGMA = np.log(10.0)  # prior standard deviation of the logarithm of each rate: a factor of ten either way
-MAX_INFORMATIVE_SHARE = 0.5  # a motion is fitted if its matched variance is below this share of the expected one
-MIN_FITTED_MOTIONS = 20  # informative motions to which an axis is fitted
-MAX_LOG = 9.0  # size of the logarithm of a rate, in units of `ORDINARY_RATES`
-DEGREES_OF_FREEDOM = 4.0  # nu of Student's t in the cost
-CONSISTENCY_FACTOR = 1.2718  # 1 / E[(nu + 1) z^2 / (nu + z^2)] for a standard normal z and nu = 4
-
-
 @dataclass(frozen=True, eq=False)
 class MotionNoise:
     """Variance rates of x, y and yaw (rows) per metre, per radian and per scan (columns), (3, 3)."""
@@ -190,20 +201,6 @@ def _rate_cost(log_factors: Floats, squares: Floats, features: Floats, usual: Fl
     prior = log_factors / FACTOR_SIGMA
     gradient = (slopes[:, None] * contributions).sum(axis=0) + prior / FACTOR_SIGMA
     return float(value + 0.5 * (prior**2).sum()), gradient
-
-
-VELOCITY_WINDOW_S = 0.4  # time over which a stated velocity is averaged, seconds
-LAG_SIGMA_S = 0.2  # prior standard deviation of the lag
-MAX_LAG_S = 0.5  # size of the lag, early or late
-FIT_ROUNDS = 6  # rounds of robust least squares and of the fit of the noise
-MAX_PAIRS = 400  # pairs of scans from which the angle between beams is estimated
-MIN_PAIRS = 20  # pairs that an estimate needs
-MIN_TURN_RAD, MAX_TURN_RAD = np.radians(25.0), np.radians(130.0)  # bounds on the turn between scans of such a pair
-MAX_STRETCH = 0.0125  # relative change of the angle that is tried
-JACKKNIFE_GROUPS = 20  # groups of pairs, for the standard error of the angle
-MIN_STANDARD_ERRORS = 4.0  # standard errors beyond which the angle is changed
-MIN_STANDARD_ERRORS_TO_REGULAR = 2.0  # the same, if the new angle is within one standard error of a regular angle
-REGULAR_TOLERANCE = 0.005  # relative accuracy of the estimated angle between beams
 
 
 @dataclass(frozen=True, eq=False)
@@ -347,9 +344,8 @@ def _pair_residuals(
     offsets, start = np.arange(len(first) + 1, dtype=np.int32), poses[first]
     refinement = Refinement(first, offsets, second, poses[second], start, start, weak_prior)
     convergence = Convergence(0.02, 10, geometry.reach_m(0.2, 0.15), geometry.scale_m(0.05, 0.03), 0.7)
-    _, _, totals = refine_scans(geometry, refinement, convergence, threads)
-    weight, in_view = totals[:, 1], totals[:, 3]
-    return np.asarray(1.0 - weight / np.maximum(in_view, 1.0))
+    totals = refine_scans(geometry, refinement, convergence, threads).totals
+    return np.asarray(1.0 - totals[:, WEIGHT] / np.maximum(totals[:, SEEN], 1.0))
 
 
 def _parabola_minimum(factors: Floats, values: Floats) -> float:

@@ -25,7 +25,7 @@ from bayesmap.kernels.match.scan_refinement import Convergence, Refinement, refi
 from bayesmap.poses.calibration import RunningOdometry
 from bayesmap.poses.graph import DOUBTFUL_SQ
 from bayesmap.poses.matcher import ANY_SCORE, LikelihoodGrids, Pull, SearchWindows, likelihood_grids, match
-from bayesmap.poses.scan_geometry import ScanGeometry
+from bayesmap.poses.scan_geometry import NO_POINT, ScanGeometry
 from bayesmap.space.arrays import Indices, Mask
 from bayesmap.space.planar import Floats, between, chain_motions, compose, rotation, ways_and_turns, wrap_yaw
 from bayesmap.space.time_order import EQUAL_STAMPS_S
@@ -45,6 +45,21 @@ MAX_AHEAD_SCANS, MAX_AHEAD_M, MAX_AHEAD_RAD = 10, 1.5, np.radians(90.0)  # scans
 UNKNOWN_SIGMA = np.array([1.0, 1.0, np.radians(60.0)])  # standard deviations of an unknown motion
 INITIAL_SCORE = 0.6  # usual score before the first scan is matched
 SCORE_RATE = 0.05  # rate at which the usual score follows the scores of scans
+UNUSUAL_LOSS = 0.04  # scans this far below the usual score may have gone backwards, unreported by odometry
+BACKWARDS_GAIN = 0.05  # minimum gain in score for going backwards: along a wall both directions fit
+WIDE_M = 1.0  # half width of the wide search, metres
+WIDE_STAGES = ((np.radians(45.0), 0.1), (np.pi, 0.15))  # half ranges of angle, and minimum gains in score
+MIN_GAIN_POINTS = 6.0  # gain in score as a number of points, for scans with few points
+POINT_SIGMA_M = 0.02  # sigma of a point-to-line residual: the laser's noise, rough walls, a scan's own distortion
+MAX_POINTS = 200  # points of a scan that are matched
+REACH_M = (0.3, 0.12)  # maximum distance of paired points: in the first step and in the last
+SCALE_M = (0.15, 0.05)  # distance from which points count as outliers: in the first step and in the last
+MIN_COSINE = 0.7  # cosine of paired normals
+MAX_REFINEMENT_STEPS = 8  # steps of a refinement
+BATCH_KEYS = 6  # number of newest key scans against which scans are refined, if several scans are placed at once
+VIEW_AGREEMENT = Agreement(near_m=0.2, clear_m=0.5, beams=90)  # limits for a scan and a key scan
+MAX_AGAINST_SHARE = 0.2  # share of contradicting points: people walk
+MIN_JUDGED_POINTS = 60  # points that decide
 
 
 @dataclass(frozen=True, eq=False)
@@ -296,25 +311,8 @@ def _posterior_variance(placed: PlacedScans, k: int) -> Floats:
 def grid_half_width(geometry: ScanGeometry) -> float:
     """Return the half width of grids that hold nearly all points of a scan taken at their middle, metres."""
     sampled = slice(None, None, max(1, len(geometry) // 500))
-    distance = np.linalg.norm(geometry.host_points[sampled][geometry.host_kind[sampled] > 0], axis=-1)
+    distance = np.linalg.norm(geometry.host_points[sampled][geometry.host_kind[sampled] != NO_POINT], axis=-1)
     return float(np.clip(np.percentile(distance, 97.0) + 1.0, 4.0, 30.0)) if len(distance) else 4.0
-
-
-UNUSUAL_LOSS = 0.04  # scans this far below the usual score may have gone backwards, unreported by odometry
-BACKWARDS_GAIN = 0.05  # minimum gain in score for going backwards: along a wall both directions fit
-WIDE_M = 1.0  # half width of the wide search, metres
-WIDE_STAGES = ((np.radians(45.0), 0.1), (np.pi, 0.15))  # half ranges of angle, and minimum gains in score
-MIN_GAIN_POINTS = 6.0  # gain in score as a number of points, for scans with few points
-POINT_SIGMA_M = 0.02  # sigma of a point-to-line residual: the laser's noise, rough walls, a scan's own distortion
-MAX_POINTS = 200  # points of a scan that are matched
-REACH_M = (0.3, 0.12)  # maximum distance of paired points: in the first step and in the last
-SCALE_M = (0.15, 0.05)  # distance from which points count as outliers: in the first step and in the last
-MIN_COSINE = 0.7  # cosine of paired normals
-MAX_REFINEMENT_STEPS = 8  # steps of a refinement
-BATCH_KEYS = 6  # number of newest key scans against which scans are refined, if several scans are placed at once
-VIEW_AGREEMENT = Agreement(near_m=0.2, clear_m=0.5, beams=90)  # limits for a scan and a key scan
-MAX_AGAINST_SHARE = 0.2  # share of contradicting points: people walk
-MIN_JUDGED_POINTS = 60  # points that decide
 
 
 @dataclass(frozen=True, eq=False)

@@ -34,6 +34,11 @@ DEGREES_OF_FREEDOM = 10.0
 """Degrees of freedom of Student's t. Errors of the model (curved walls, people, bent scans) have heavy tails on real
 logs, and none on simulated ones. With this value both are right within some per cent (docs/lab/poses.md)."""
 DOUBTFUL_SQ = 11.3  # squared Mahalanobis distance of a doubtful loop: 99 % quantile of chi-squared, 3 degrees
+STRETCH_M, TURN_M = 4.0, 0.5
+"""Length of a stretch of path whose scans see the same walls, and the length that a radian of turning counts as.
+With 8 m, regions of 50, 80 and 95 % hold 61, 86 and 95 % of the relative poses of Intel's halves, not 56, 82 and 93."""
+
+BOOTSTRAP_DRAWS, BOOTSTRAP_SEED = 64, 1  # draws of signs: the spread of the bends is known to an eighth of itself
 
 
 @dataclass(frozen=True, eq=False)
@@ -277,12 +282,6 @@ def relative_covariances(precision: Precision, poses: Floats, first: Indices, se
     result = result + by_second @ marginals[second] @ np.swapaxes(by_second, 1, 2)
     mixed = by_second @ cross @ np.swapaxes(by_first, 1, 2)
     return np.asarray(result + mixed + np.swapaxes(mixed, 1, 2))
-
-
-STRETCH_M, TURN_M = 4.0, 0.5
-"""Length of a stretch of path whose scans see the same walls, and the length that a radian of turning counts as.
-With 8 m, regions of 50, 80 and 95 % hold 61, 86 and 95 % of the relative poses of Intel's halves, not 56, 82 and 93."""
-BOOTSTRAP_DRAWS, BOOTSTRAP_SEED = 64, 1  # draws of signs: the spread of the bends is known to an eighth of itself
 
 
 def sample_bends(poses: Floats, laser: Quadratic, precision: Precision) -> Floats:

@@ -28,6 +28,14 @@ MAX_HALF_WIDTH_M = 14.0  # half width of the grids for leave-one-out matching, m
 FINE_REACH_M, FINE_SCALE_M = (0.15, 0.08), (0.06, 0.03)  # for poses known to a decimetre; see `Annealing`
 IMPROVEMENT_ROUNDS = 2  # rounds of leave-one-out matching that move scans
 POOR_SHARE = 0.6  # a score is poor below this share of the median best score
+NARROW_M, NARROW_RAD = 0.3, np.radians(6.0)  # half width and half range of angles of the narrow window
+WIDE_M, WIDE_RAD = 1.5, np.radians(40.0)  # half width and half range of angles of the wide window
+NARROW_PULL = Pull(0.2, np.radians(5.0), 0.005)  # penalty in the narrow window for leaving the present pose
+MIN_NARROW_GAIN, MIN_WIDE_GAIN = 0.015, 0.12  # minimum gain in score, from 0 to 1, in the narrow and in the wide window
+SCANS_AT_ONCE = 24  # number of scans matched at once
+MAX_POINTS = 200  # points of a scan that are matched
+SIGMA_M = 0.06  # scale of the likelihood grids
+FLAGGED_SHARE = 0.55  # a scan is flagged if its score is below this share of the median score
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,16 +117,6 @@ class KeyAlignment:
         half_width_m = min(self.half_width_m, MAX_HALF_WIDTH_M)
         result = match_without_itself(self.geometry, realigned.poses, realigned.pairs, half_width_m, search=False)
         return ScoredAlignment(realigned, result.scores)
-
-
-NARROW_M, NARROW_RAD = 0.3, np.radians(6.0)  # half width and half range of angles of the narrow window
-WIDE_M, WIDE_RAD = 1.5, np.radians(40.0)  # half width and half range of angles of the wide window
-NARROW_PULL = Pull(0.2, np.radians(5.0), 0.005)  # penalty in the narrow window for leaving the present pose
-MIN_NARROW_GAIN, MIN_WIDE_GAIN = 0.015, 0.12  # minimum gain in score, from 0 to 1, in the narrow and in the wide window
-SCANS_AT_ONCE = 24  # number of scans matched at once
-MAX_POINTS = 200  # points of a scan that are matched
-SIGMA_M = 0.06  # scale of the likelihood grids
-FLAGGED_SHARE = 0.55  # a scan is flagged if its score is below this share of the median score
 
 
 @dataclass(frozen=True, eq=False)

@@ -30,10 +30,9 @@ from bayesmap.space.arrays import Indices, Mask
 from bayesmap.space.planar import Floats, are_within, between, compose, rotation, wrap_angle, wrap_yaw
 
 ROUNDS: tuple[Search, ...] = (
-    Search(5.0, np.radians(45.0), max_sigmas_off=3.0, visits=2, spacing_m=2.0),
-    Search(4.0, np.radians(30.0)),
+    Search(5.0, np.radians(45.0), max_sigmas_off=3.0, visits=2, spacing_m=2.0), Search(4.0, np.radians(30.0)),
     Search(2.0, np.radians(20.0)),
-)
+)  # fmt: skip
 """Limits of the search in each round. Windows are smaller if the covariance is. In the first round the graph is the
 chain alone, and its covariance is wide: a match far outside is another place that looks alike. Later rounds trust
 earlier closures to centimetres, and some of these are wrong. On logs and simulated robots, right closures lay up to 2.1
@@ -42,6 +41,21 @@ CONVERGED_M = 0.3  # the search for loops ends after a round that moves no key s
 LINK_DEFLATION = 4.0  # divisor of the information of the front end's links, whose windows overlap
 MIN_LINK_SIGMA = np.array([0.004, 0.004, np.radians(0.12)])  # standard deviations of a link, m and rad
 MAX_BEND_M = 5.0  # bend of a path before loops are closed, metres
+PLACE_M = 5.0  # maximum distance along the path between ends of closures of one visit, and length of one place, metres
+AGREE_M, AGREE_RAD = 0.4, np.radians(6.0)  # maximum difference between closures that agree
+VISIT_ODDS = 5.0  # prior log odds that a visit of one place is right
+PLACE_ODDS = 1.0  # addition to the log odds per further place
+MAX_STEPS = 12  # steps of Gauss-Newton without a visit
+MIN_LOG_ODDS = -np.log(19.0)  # log odds of an alternative that is reported: a probability of 0.05
+SURE_LOG_ODDS = np.log(20.0)  # log odds above which a visit is surely right
+DIFFERS_M, DIFFERS_RAD = 0.3, np.radians(5.0)  # an alternative must move at least one pose by more than one of these
+LEAP_M, LEAP_RAD = 0.3, np.radians(10.0)  # a leap differs by more from the front end's step
+LEAP_SIGMAS = 8.0  # and by more than this many of its standard deviations
+REFUSED_LEAP_SIGMAS = 4.0  # `LEAP_SIGMAS` for steps that odometry contradicts, too
+REFUSED_SIGMAS = 5.0  # odometry contradicts a step that is more than this many of its standard deviations off
+MAX_CONFIRMED_LOSS = 0.2  # key scans confirm a step if the next one's score is lower than usual by at most this
+MAX_HALF_M = 1.5  # distance from odometry's prediction at which a scan is searched for elsewhere, metres
+GUESS_SIGMAS = 3.0  # a step over a break is in doubt this many `UNKNOWN_SIGMA` off the front end's guess, if it fitted
 
 
 @dataclass(frozen=True, eq=False)
@@ -138,16 +152,6 @@ def _fitted_after_break(track: Track) -> Mask:
     """Select steps over a break of the path after which the next key scan fitted as well as usual, (K - 1,)."""
     after = track.keys[1:]
     return np.asarray(track.broken[after] & (track.scores[after] > np.median(track.scores) - front_end.SLIP_LOSS))
-
-
-PLACE_M = 5.0  # maximum distance along the path between ends of closures of one visit, and length of one place, metres
-AGREE_M, AGREE_RAD = 0.4, np.radians(6.0)  # maximum difference between closures that agree
-VISIT_ODDS = 5.0  # prior log odds that a visit of one place is right
-PLACE_ODDS = 1.0  # addition to the log odds per further place
-MAX_STEPS = 12  # steps of Gauss-Newton without a visit
-MIN_LOG_ODDS = -np.log(19.0)  # log odds of an alternative that is reported: a probability of 0.05
-SURE_LOG_ODDS = np.log(20.0)  # log odds above which a visit is surely right
-DIFFERS_M, DIFFERS_RAD = 0.3, np.radians(5.0)  # an alternative must move at least one pose by more than one of these
 
 
 @dataclass(frozen=True, eq=False)
@@ -282,15 +286,6 @@ def twist_squares(expected: Floats, measured: Floats, covariance: Floats) -> Flo
     twist = np.stack([cotangent * x + half * y, -half * x + cotangent * y, yaw], axis=1)
     twist_covariance = to_twist @ covariance @ np.swapaxes(to_twist, 1, 2)
     return np.asarray(np.einsum("mi,mij,mj->m", twist, np.linalg.inv(twist_covariance), twist))
-
-
-LEAP_M, LEAP_RAD = 0.3, np.radians(10.0)  # a leap differs by more from the front end's step
-LEAP_SIGMAS = 8.0  # and by more than this many of its standard deviations
-REFUSED_LEAP_SIGMAS = 4.0  # `LEAP_SIGMAS` for steps that odometry contradicts, too
-REFUSED_SIGMAS = 5.0  # odometry contradicts a step that is more than this many of its standard deviations off
-MAX_CONFIRMED_LOSS = 0.2  # key scans confirm a step if the next one's score is lower than usual by at most this
-MAX_HALF_M = 1.5  # distance from odometry's prediction at which a scan is searched for elsewhere, metres
-GUESS_SIGMAS = 3.0  # a step over a break is in doubt this many `UNKNOWN_SIGMA` off the front end's guess, if it fitted
 
 
 def contradicted_links(track: Track, poses: Floats, sigmas: float = LEAP_SIGMAS) -> Mask:

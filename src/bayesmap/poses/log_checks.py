@@ -31,6 +31,12 @@ MIN_SCORE_GAIN = 0.05  # gain in score, from 0 to 1, of a scan at late odometry 
 WINDOW_SIGMAS = 3.0  # half the window about either pose, in standard deviations of an ordinary robot's odometry
 MAX_POINTS = 200  # points per scan that are matched
 MAX_HALF_WIDTH_M = 20.0  # half width of the grid
+WINDOW_SCANS = 15  # number of scans over which odometry is as good as the truth
+MIN_AGREEMENT = 0.8  # relative agreement below which poses are raw odometry
+CELL_M = 0.2  # width of a cell in which hits and passes are counted, metres
+MAX_AGREEMENT_SCANS = 900  # scans that are compared
+MAX_HIT_M = 15.0  # range of hits that are used, metres: heading errors move far hits most, in any log
+DOUBLED = "at these poses the same walls stand in several places"  # in words
 
 
 def median_gap_s(scans: Scans) -> float:
@@ -151,14 +157,6 @@ def _range_changes_m(scans: Scans, first: int, second: int) -> Floats:
         first_ranges = first_ranges[order][np.searchsorted(middles, angles)]
     hit = np.isfinite(ranges) & np.isfinite(first_ranges)
     return np.abs(ranges[hit] - first_ranges[hit])
-
-
-WINDOW_SCANS = 15  # number of scans over which odometry is as good as the truth
-MIN_AGREEMENT = 0.8  # relative agreement below which poses are raw odometry
-CELL_M = 0.2  # width of a cell in which hits and passes are counted, metres
-MAX_AGREEMENT_SCANS = 900  # scans that are compared
-MAX_HIT_M = 15.0  # range of hits that are used, metres: heading errors move far hits most, in any log
-DOUBLED = "at these poses the same walls stand in several places"  # in words
 
 
 def agreement(scans: Scans) -> float | None:

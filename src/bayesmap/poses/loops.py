@@ -31,6 +31,23 @@ MIN_PATH_PLACES = 120.0  # number of places that a path is divided into: a small
 MAX_SUBMAP_KEYS = 16  # key scans of a submap: every second, third or so of the key scans
 MAX_SCAN_POINTS = 180  # points of each scan of a submap that are matched
 TURN_M = 0.5  # length of path that counts as much as a turn by one radian, metres
+MIN_LOOP_M = 8.0  # length of a loop along the path, metres
+WINDOW_SIGMAS = 3.0  # half the window in standard deviations
+BEND_SIGMA = np.array([0.3, 0.3, np.radians(5.0)])  # standard deviations of bends that the graph does not model
+VISIT_GAP_M = 4.0  # minimum gap along the path between two visits of a place, metres
+MAX_VIEW_POINTS = 60  # points of a scan from which the middle of its view is computed
+EARLIER_HALF_M = 2.0  # half length of the earlier end's submap along the path, metres
+LATER_HALF_M = 0.7  # half length of the later end's submap
+EARLIER_VIEW_HALF_M = 1.0  # half length of the path whose scans `_ends_agree` compares at the earlier end
+RESOLUTION_M, SIGMA_M = 0.1, 0.1  # width of a cell and scale of submaps' likelihood grids
+GRIDS_AT_ONCE = 24  # number of submaps' grids in memory
+SUBMAP_MODES = ModeRule(2, min_score_ratio=0.92, apart_m=0.6, apart_rad=np.radians(8.0))  # poses that are refined
+MIN_COSINE = 0.7  # cosine between the normals of paired points
+VIEW_AGREEMENT = Agreement(near_m=0.15, clear_m=0.4, beams=90)  # limits for scans of two submaps
+MIN_MATCHED_SHARE = 0.2  # share of matching points
+MAX_AGAINST_SHARE = 0.15  # share of contradicting points among decided points
+MIN_CLOSURE_SIGMA = np.array([0.02, 0.02, np.radians(0.3)])  # standard deviations of a closure: submaps bend
+MAX_SLIP_M, MAX_SLIP_RAD = 0.4, np.radians(6.0)  # a refinement that moves further has slid onto other surfaces
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,13 +118,6 @@ def no_closures() -> Closures:
     """Return an empty set of closures."""
     none = np.empty(0, np.intp)
     return Closures(none, none, np.empty((0, 3)), np.empty((0, 3, 3)), np.empty(0), none)
-
-
-MIN_LOOP_M = 8.0  # length of a loop along the path, metres
-WINDOW_SIGMAS = 3.0  # half the window in standard deviations
-BEND_SIGMA = np.array([0.3, 0.3, np.radians(5.0)])  # standard deviations of bends that the graph does not model
-VISIT_GAP_M = 4.0  # minimum gap along the path between two visits of a place, metres
-MAX_VIEW_POINTS = 60  # points of a scan from which the middle of its view is computed
 
 
 @dataclass(frozen=True)
@@ -214,20 +224,6 @@ def select_supported(closures: Closures, path: KeyPath) -> Closures:
     agree = (lengths_m < 0.15 + 0.02 * apart_m) & (turns_rad < np.radians(2.0) + np.radians(0.3) * apart_m)
     support = np.bincount(a[agree & other_end[a, b]], minlength=len(closures))
     return replace(closures, support=support).select(support >= 2)
-
-
-EARLIER_HALF_M = 2.0  # half length of the earlier end's submap along the path, metres
-LATER_HALF_M = 0.7  # half length of the later end's submap
-EARLIER_VIEW_HALF_M = 1.0  # half length of the path whose scans `_ends_agree` compares at the earlier end
-RESOLUTION_M, SIGMA_M = 0.1, 0.1  # width of a cell and scale of submaps' likelihood grids
-GRIDS_AT_ONCE = 24  # number of submaps' grids in memory
-SUBMAP_MODES = ModeRule(2, min_score_ratio=0.92, apart_m=0.6, apart_rad=np.radians(8.0))  # poses that are refined
-MIN_COSINE = 0.7  # cosine between the normals of paired points
-VIEW_AGREEMENT = Agreement(near_m=0.15, clear_m=0.4, beams=90)  # limits for scans of two submaps
-MIN_MATCHED_SHARE = 0.2  # share of matching points
-MAX_AGAINST_SHARE = 0.15  # share of contradicting points among decided points
-MIN_CLOSURE_SIGMA = np.array([0.02, 0.02, np.radians(0.3)])  # standard deviations of a closure: submaps bend
-MAX_SLIP_M, MAX_SLIP_RAD = 0.4, np.radians(6.0)  # a refinement that moves further has slid onto other surfaces
 
 
 @dataclass(frozen=True)

@@ -1,7 +1,7 @@
 """Priors of the poses of a log: known, uncertain, or odometry through a motion model.
 
 A prior (`KnownPoses`, `UncertainPoses`, `Odometry`, `Motions`) is a value that users pass. With the poses that the log
-states it becomes a density over the poses of all scans, a `PoseLaw`, which samplers use. The laws follow the priors.
+states it becomes a *law*, a density over the poses of all scans (`PoseLaw`), which samplers use. Laws follow priors.
 """
 
 from __future__ import annotations
@@ -35,8 +35,8 @@ class PoseLaw(Protocol):
     def precision(self, poses: Floats) -> Floats:
         """Return the precision of each pose given the others, in world axes, (S, 3, 3)."""
 
-    def colours(self, n_scans: int) -> tuple[Indices, ...]:
-        """Return groups (colours) of the scans that may move. Scans of one group are independent given all others."""
+    def independent_groups(self) -> tuple[Indices, ...]:
+        """Return groups of the scans that may move. Scans of one group are independent given all others."""
 
     def sample(self, rng: np.random.Generator) -> Floats:
         """Draw the poses of all scans, (S, 3)."""
@@ -61,7 +61,7 @@ class PosePrior(ABC):
 class KnownPoses(PosePrior):
     """The prior that fixes the poses at those of the log."""
 
-    kind = "known"
+    kind: ClassVar[str] = "known"
     unknown: ClassVar[bool] = False
 
     def law(self, log_poses: Floats) -> PoseLaw:
@@ -80,7 +80,7 @@ class UncertainPoses(PosePrior):
     Raises `BadInput` for a number that is not positive.
     """
 
-    kind = "uncertain"
+    kind: ClassVar[str] = "uncertain"
     sigma_m: float
     sigma_rad: float
 
@@ -114,7 +114,7 @@ class Odometry(PosePrior):
     Raises `BadInput` for a number that is negative, or a standing error that is not positive.
     """
 
-    kind = "odometry"
+    kind: ClassVar[str] = "odometry"
     m_per_m: float = 0.1
     m_per_rad: float = 0.05
     rad_per_m: float = 0.05
@@ -152,7 +152,7 @@ class Motions(PosePrior):
     Raises `BadInput` for shapes that do not fit, deviations that are not positive, or a probability outside [0, 1).
     """
 
-    kind = "motions"
+    kind: ClassVar[str] = "motions"
     relative: Floats  # each scan's pose in the frame of the one before, (S - 1, 3)
     sigmas: Floats  # standard deviations of their x, y and yaw, (S - 1, 3)
     p_slip: float = 0.0  # probability of a slip
@@ -191,9 +191,9 @@ class _FixedLaw:
         return np.where((proposed == self.poses).all(axis=-1), 0.0, -np.inf)
 
     def precision(self, poses: Floats) -> Floats:
-        return np.broadcast_to(np.eye(3) * 1e30, (len(self.poses), 3, 3))
+        return np.broadcast_to(np.eye(3) * 1e30, (len(self.poses), 3, 3))  # no pose can move
 
-    def colours(self, n_scans: int) -> tuple[Indices, ...]:
+    def independent_groups(self) -> tuple[Indices, ...]:
         return ()
 
     def sample(self, rng: np.random.Generator) -> Floats:
@@ -219,8 +219,8 @@ class _IndependentLaw:
     def precision(self, poses: Floats) -> Floats:
         return np.broadcast_to(np.diag(self.sigma**-2.0), (len(self.mean), 3, 3))
 
-    def colours(self, n_scans: int) -> tuple[Indices, ...]:
-        return (np.arange(n_scans),)
+    def independent_groups(self) -> tuple[Indices, ...]:
+        return (np.arange(len(self.mean)),)
 
     def sample(self, rng: np.random.Generator) -> Floats:
         return np.asarray(self.mean + self.sigma * rng.standard_normal(self.mean.shape))
@@ -254,7 +254,7 @@ class _MarkovLaw:
         change = np.zeros(poses.shape[:-1])
         change[..., 1:] += self._log_densities(poses[..., :-1, :], proposed[..., 1:, :]) - present
         change[..., :-1] += self._log_densities(proposed[..., :-1, :], poses[..., 1:, :]) - present
-        change[..., 0] = -np.inf
+        change[..., 0] = -np.inf  # the first pose is fixed
         return change
 
     def precision(self, poses: Floats) -> Floats:
@@ -272,7 +272,8 @@ class _MarkovLaw:
         precision[:-1] += np.einsum("sji,sj,sjk->sik", by_earlier, weights, by_earlier)
         return precision if len(poses) > 1 else np.eye(3)[None]
 
-    def colours(self, n_scans: int) -> tuple[Indices, ...]:
+    def independent_groups(self) -> tuple[Indices, ...]:
+        n_scans = len(self.motions) + 1
         groups = np.arange(1, n_scans, 2), np.arange(2, n_scans, 2)
         return tuple(group for group in groups if len(group))
 
@@ -291,6 +292,7 @@ def _log_normal(error: Floats, sigma: Floats) -> Floats:
 
 
 def _check_positive(name: str, **values: float) -> None:
+    """Raise `BadInput` for a field of the prior ``name`` that is not a positive number."""
     for field, value in values.items():
         if not (math.isfinite(value) and value > 0):
             raise BadInput(f"{name}: {field} must be a positive number, got {value!r}")

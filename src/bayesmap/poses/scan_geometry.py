@@ -31,6 +31,10 @@ MIN_REACH_SIGMAS = 6.0  # pairing distance in standard deviations of a range
 MIN_SCALE_SIGMAS = 3.0  # outlier scale in standard deviations of a range
 MERGED_RAD = np.radians(1.0)  # closer beams are merged to this spacing, so that points are about a cell apart
 BINS_A_BEAM = 4  # bins of angle per beam in the table of `Fans`
+BINS_BOUNDS = (360, 1 << 16)  # bounds on the number of bins
+MAX_ARC = 8  # a fan of at most so many beams is an arc, never a full circle
+CIRCLE_GAP = 1.9  # a full circle has a smaller gap between its last and its first beam, in steps of the fan
+NO_POINT = 0  # kind of a beam without an end point
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,14 +58,14 @@ class Fans:
         # Compute the step of each layout, whether it is a full circle, and its table of beams by angle.
         steps = [float(np.median(np.diff(fan))) if len(fan) > 1 else np.pi for fan in fans]
         steps = [step if step > 0 else np.pi for step in steps]  # beams that repeat one direction have no step
-        fans_steps = list(zip(fans, steps, strict=True))
-        circle = [len(fan) > 8 and 2.0 * np.pi - (fan[-1] - fan[0]) < 1.9 * step for fan, step in fans_steps]
-        bins = int(np.clip(np.ceil(2.0 * np.pi / min(steps) * BINS_A_BEAM), 360, 1 << 16))
+        layouts = list(zip(fans, steps, strict=True))
+        circle = [len(fan) > MAX_ARC and 2.0 * np.pi - (fan[-1] - fan[0]) < CIRCLE_GAP * step for fan, step in layouts]
+        bins = int(np.clip(np.ceil(2.0 * np.pi / min(steps) * BINS_A_BEAM), *BINS_BOUNDS))
         by_scan = np.broadcast_to(layout, scans)
         return cls(
             beams=np.broadcast_to(beams, scans).astype(np.int32), step_rad=np.array(steps)[by_scan],
             full_circle=np.array(circle, np.int32)[by_scan], layout=by_scan.astype(np.int32),
-            beam_of_angle=np.array([_beam_of_angle(fan, step, bins) for fan, step in fans_steps]),
+            beam_of_angle=np.array([_beam_of_angle(fan, step, bins) for fan, step in layouts]),
         )  # fmt: skip
 
     def select(self, scans: Indices) -> Fans:
@@ -78,7 +82,7 @@ class ScanGeometry:
 
     points: Any  # end point of each beam, metres in the laser's frame, (S, B)
     normals: Any  # unit normal of the wall there, towards the laser, (S, B); zero where there is none
-    kind: Any  # 0 no point, 1 a point, 2 a point with a normal, (S, B)
+    kind: Any  # NO_POINT, 1 a point, 2 a point with a normal, (S, B)
     spread: Any  # variance of the normal's angle for a unit variance of the points, 1 / m^2, (S, B)
     fans: Fans  # directions of the beams
     farthest_m: float  # range beyond which hits are left out, metres
@@ -115,8 +119,8 @@ class ScanGeometry:
         return np.asarray(self.kind.numpy())
 
     @cached_property
-    def packed(self) -> dict[int | str, Any]:
-        """The structs that kernels read, by stride, and equal weights of the beams."""
+    def kernel_inputs(self) -> dict[str, Any]:
+        """The structs that kernels read, by name: a cache that `bayesmap.kernels.match.scan_geometry` fills."""
         return {}
 
     def select(self, scans: Indices) -> ScanGeometry:
@@ -130,7 +134,7 @@ class ScanGeometry:
 
     def points_of(self, scan: int, max_points: int | None = None) -> Floats:
         """Return the points of one scan, (N, 2): all, or at most ``max_points``, evenly spaced by beams."""
-        points: Floats = self.host_points[scan][self.host_kind[scan] > 0].astype(np.float64)
+        points: Floats = self.host_points[scan][self.host_kind[scan] != NO_POINT].astype(np.float64)
         return points if max_points is None else evenly_spaced(points, max_points)
 
 

@@ -185,12 +185,11 @@ def refit_sensor(sensor: BeamMixture, stops: DrawnStops, limits: RangeLimits, st
     new_rate = (n_objects + PSEUDO_BEAMS) / (sum_m + PSEUDO_BEAMS / rate)
     residuals = StopResiduals(reading_m[wall] - wall_m[wall], wall_m[wall], stops.variance[wall], by_wall[wall])
     return BeamMixture(
-        noise=refit_noise(sensor.noise, residuals, step_size),
+        noise=refit_noise(sensor.noise, residuals, step_size), rate_short_per_m=_between(rate, new_rate, step_size),
         p_random=max(_between(sensor.p_random, p_random, step_size), MIN_RANDOM),
         p_no_return=_between(max(sensor.p_no_return, MIN_SHARE), p_no_return, step_size),
         p_short=_between(max(sensor.p_short, MIN_SHARE), p_short, step_size),
-        rate_short_per_m=_between(rate, new_rate, step_size),
-    )
+    )  # fmt: skip
 
 
 def _smoothed_share(count: float, total: float, present: float) -> float:
@@ -251,6 +250,7 @@ def refit_noise(noise: AdditiveNoise, residuals: StopResiduals, step_size: float
 
 def refit_prior(prior: Beta, hits: Ints, passes: Ints, step_size: float, solid: Mask | None = None) -> Beta:
     """Move the Beta of each label towards the likeliest for its cells, whose reflectivities are integrated out.
+
     Cells stopped ``hits`` beams and let ``passes`` beams pass, (T,) each; a cell without counts has negative passes.
     ``solid`` holds the labels, (T,), if the prior has labels.
     """

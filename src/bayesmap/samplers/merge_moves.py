@@ -134,6 +134,7 @@ def try_changes(
     maps: ChainMaps, changes: Sequence[Changes], evidence_of: EvidenceOf, evidence: Floats, half: int, min_gain: float
 ) -> list[Mask]:
     """Change maps, and undo the changes that raise the evidence by less than ``min_gain`` nats around their site.
+
     The readings of ``half`` cells to each side of a site are compared; these squares do not overlap. ``evidence``, (C,
     nx, ny), is updated around the changes that stay. Returns the masks of these changes, (n,), by chain.
     """
@@ -201,6 +202,7 @@ def merge_surfaces(
     evidence_of: EvidenceOf, evidence: Floats,
 ) -> list[int]:  # fmt: skip
     """Merge surfaces of few beams with neighbours where this raises the evidence; return the numbers by chain.
+
     Maps change in place. Beams have end points from the grid's corner, (B, 2), not finite if none, and variances of
     their ``noise``, m^2, (B,). ``owners`` holds by chain the cell that stopped each beam, flat, or -1, (B,).
     """
@@ -275,6 +277,7 @@ def variance_along(moments: Floats, direction: Floats) -> Floats:
 
 def best_neighbours(cells: Singles, readings: ExplainedReadings, axes: SurfaceAxes, grid: Grid) -> Merges:
     """Find the cells that stop few beams, and the neighbour of each whose axis lies closest to its readings.
+
     Neighbours stop as many beams or more. Cells without a neighbour within `MAX_OFF_SIGMAS` are left out.
     """
     (nx, ny), offsets = grid.shape, range(-MAX_NEIGHBOUR_CELLS, MAX_NEIGHBOUR_CELLS + 1)
@@ -303,6 +306,7 @@ def lengthen(
     cells: Singles, readings: ExplainedReadings, axes: SurfaceAxes, source: Indices, target: Indices, grid: Grid
 ) -> Floats:
     """Lengthen the surfaces of ``target`` to reach the readings of ``source``. Returns mean, l11, l21, l22, (n, 5).
+
     A surface moves along its axis, within its square, to the mean of both cells' readings, and gets their scatter.
     """
     mean, axis = cells[target, 1:3].astype(np.float64), axes.direction[target]

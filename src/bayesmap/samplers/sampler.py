@@ -28,6 +28,8 @@ Stage = Literal[
     "trace", "compile", "start", "fit", "propagate", "warm-up", "draws", "particles", "save", "score",
     "front end", "loops", "aligned", "aligned-again", "aligned-rematched", "rematch", "placing",
 ]  # fmt: skip
+PILOT = 1 << 32  # number of the pilot chain, which fits the sensor; no other chain has this number
+MAPS_TO_INSPECT = 8  # most draws per chain that decide which cells count as observed
 
 
 @dataclass(frozen=True)
@@ -79,10 +81,6 @@ class Stream(IntEnum):
     READINGS = 8  # readings that a run predicts
     NOISE = 11  # readings of the page's simulated sensors
     TYPICAL = 12  # poses of typical scans in a world that is drawn on the page
-
-
-PILOT = 1 << 32  # number of the pilot chain, which fits the sensor; no other chain has this number
-MAPS_TO_INSPECT = 8  # most draws per chain that decide which cells count as observed
 
 
 @dataclass(frozen=True)
@@ -199,6 +197,7 @@ class Sampler(Protocol[P, S]):
 
     def step(self, state: S, sweeps: int, beta: float = 1.0, keep: Keep = Keep()) -> tuple[S, Info]:
         """Make some sweeps of all chains. Do not use the argument ``state`` afterwards.
+
         ``beta`` is the power of p(reading | stop) (walls: of the likelihood): 0 samples the prior, 1 the posterior.
         """
 
@@ -207,6 +206,7 @@ class Sampler(Protocol[P, S]):
 
     def observed_counts(self, state: S, draws: Mapping[str, NDArray[Any]]) -> Ints:
         """Count the draws of all chains in which at least one beam observes each cell, and the draws inspected.
+
         Returns (2, nx, ny). `draws_to_inspect` selects ``draws``; without draws, the present maps are inspected.
         """
 

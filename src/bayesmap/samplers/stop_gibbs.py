@@ -107,6 +107,7 @@ def expected_reflectivity(
     hits: Ints, passes: Ints, prior: Beta, drawn: NDArray[np.float16], solid: Mask | None = None
 ) -> Singles:
     """Compute the mean of each cell's reflectivity given its counts, (a + hits) / (a + b + hits + passes), (T,).
+
     The density of one more beam under these means is the mean density under draws (docs/surfaces.md, Predictions). The
     counts must come from the sweep that began at the draw, with its surfaces. A cell that this sweep did not update has
     the counts of its last update, an approximation: its correlation with later changes is lost.
@@ -133,6 +134,7 @@ class StopState(ChainState):
 @dataclass(frozen=True)
 class StopGibbs:
     """A sampler whose sweeps draw stops, labels, reflectivities and surfaces.
+
     In the first ``early_sweeps``, surfaces take `EARLY_SURFACE_STEPS` steps each; then, if any, they are merged.
     """
 
@@ -212,14 +214,9 @@ class StopGibbs:
         values = chains.counted, chains.observed_counts, chains.solid
         counts, observed, solid = (_stack_chains(value, chains) for value in values)
         moved_chains = StopChains(
-            plan,
-            chains.cells,
-            state.keys,
-            threads=problem.threads,
-            counts=counts,
-            observed_counts=observed,
+            plan, chains.cells, state.keys, threads=problem.threads, counts=counts, observed_counts=observed,
             solid=solid,
-        )
+        )  # fmt: skip
         return replace(state, problem=problem, chains=moved_chains)
 
     def present_cells(self, state: StopState) -> Singles:

@@ -52,6 +52,7 @@ CELLS_MOVED = 2  # cells by which readings may move with the poses: draws keep s
 @dataclass(frozen=True, eq=False)
 class InitialEstimate:
     """Counts and moments of the readings in each of the T cells that beams touch.
+
     Readings end in U of these cells, the endpoint cells. Means of end points are shrunk towards the cell's centre.
     Covariances are shrunk towards the prior's size, then widened by `widen_along_wall`.
     """
@@ -165,6 +166,7 @@ def draw_first_labels(estimate: InitialEstimate, prior: Beta, grid: Grid, rng: R
 
 def draw_start(estimate: InitialEstimate, prior: Beta, rays: Rays, rng: Rng, solid: Mask | None = None) -> Singles:
     """Draw a chain's first state of all cells of the grid, (N, 6), scattered about the estimate like the posterior.
+
     Columns are the reflectivity, the mean's x and y from the grid's corner, and l11, l21 and l22, metres. ``solid``
     holds labels, (N,), if any. A cell without readings takes its surface from the prior, one without beams its state.
     """
@@ -194,6 +196,7 @@ def draw_start(estimate: InitialEstimate, prior: Beta, rays: Rays, rng: Rng, sol
 
 def update_periods(estimate: InitialEstimate) -> NDArray[np.uint8]:
     """Return the update period of each cell, in sweeps, (T,): 0 for endpoint cells, which every sweep updates.
+
     Most cells that beams cross are free, and a sweep changes little in them, above all far from all readings. A cell
     that few beams pass costs little, and may not be free: a large reflectivity would stay until its next update.
     """
@@ -203,6 +206,7 @@ def update_periods(estimate: InitialEstimate) -> NDArray[np.uint8]:
 
 def step_sizes(estimate: InitialEstimate, edge_m: float) -> Singles:
     """Return step sizes and frames of the endpoint cells, (U, 8), see `bayesmap.kernels.surfaces.endpoint_cells`.
+
     Columns are the steps of logit, mean along, mean across, length, slant and thickness, and the frame's cosine, sine.
     Steps along the wall are a share of the cell's edge; steps across it shrink with the number of readings.
     """
@@ -299,6 +303,7 @@ def _stop_ranges_m(scans: Scans, sensor: SensorModel, resolution_m: float) -> tu
 
 def _tail_m(noise: Gaussian | StudentT, range_m: Floats, floor: float) -> Floats:
     """Return the distance from a stop within which the noise of readings is evaluated, metres.
+
     For normal noise it is `SIGMAS_AROUND` standard deviations. For Student's t it ends where the density,
     c / scale (1 + (x / scale)^2 / dof)^-((dof + 1) / 2), falls to ``floor``, but not before `SIGMAS_AROUND` scales.
     """

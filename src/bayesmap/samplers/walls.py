@@ -43,6 +43,7 @@ def start_maps(
     problem: WallProblem, start: Start | Mask, chain_ids: Sequence[int], seed: int, marginals: Marginals | None = None
 ) -> Mask:
     """Return the maps at which chains start, (C, nx, ny), from a start by name, a map (nx, ny), or maps (N, nx, ny).
+
     The start "propagate" thresholds the marginals of belief propagation. Cells whose marginal equals the prior take a
     prior draw, independent for each chain. Chains with similar starts can agree before they have forgotten their start:
     start from "prior" to check this. If neighbours are coupled, "prior" is approximate (`Ising.start`).
@@ -194,6 +195,7 @@ def radial_distance(problem: WallProblem) -> NDArray[np.int64]:
 @dataclass(frozen=True, eq=False)
 class WallGibbs(WallSampler):
     """A sampler whose sweeps draw each cell once from its conditional.
+
     The order "raster" goes by rows of the array. "radial" goes outwards from the nearest sensor, so that the shadow of
     a wall is drawn after the wall in the same sweep. "random" is another permutation in each sweep.
     """

@@ -64,6 +64,7 @@ class PoseMetropolis:
         self, state: PoseState, cells: Singles, count: int = 1, *, beta: float = 1.0, adaptation_rate: float = 0.0
     ) -> tuple[PoseState, Floats]:
         """Propose a new pose for every scan ``count`` times. Returns the chains, and the share of accepted steps, (C,).
+
         ``cells`` holds one map per chain (`ScanLikelihood.beams`). A scan's step size grows with accepted steps and
         shrinks with others (Robbins and Monro, 1951) at ``adaptation_rate``, which must be 0 once draws are kept.
         """
@@ -75,17 +76,17 @@ class PoseMetropolis:
             noise, log_uniform = self._random(state, step)
             shifts = np.exp(log_scale)[..., None] * (self.factor @ noise[..., None])[..., 0]
             accepted = np.zeros((n_chains, n_scans), dtype=np.bool_)
-            # Scans of one colour are independent given the others, so they are accepted or not one by one.
-            for colour in self.prior.colours(n_scans):
+            # Scans of one group are independent given the others, so they are accepted or not one by one.
+            for group in self.prior.independent_groups():
                 proposed = poses.copy()
-                proposed[:, colour] += shifts[:, colour]
-                proposed_log_lik = self._log_likelihoods(cells, proposed, colour)
-                log_ratio = beta * (proposed_log_lik - log_lik[:, colour])
-                log_ratio += self.prior.log_change(poses, proposed)[:, colour]
-                accept = log_uniform[:, colour] < log_ratio
-                accepted[:, colour] = accept
-                poses[:, colour] = np.where(accept[..., None], proposed[:, colour], poses[:, colour])
-                log_lik[:, colour] = np.where(accept, proposed_log_lik, log_lik[:, colour])
+                proposed[:, group] += shifts[:, group]
+                proposed_log_lik = self._log_likelihoods(cells, proposed, group)
+                log_ratio = beta * (proposed_log_lik - log_lik[:, group])
+                log_ratio += self.prior.log_change(poses, proposed)[:, group]
+                accept = log_uniform[:, group] < log_ratio
+                accepted[:, group] = accept
+                poses[:, group] = np.where(accept[..., None], proposed[:, group], poses[:, group])
+                log_lik[:, group] = np.where(accept, proposed_log_lik, log_lik[:, group])
             share_accepted += accepted.mean(axis=1) / count
             log_scale += adaptation_rate * (accepted - TARGET_ACCEPTANCE)
         return replace(state, poses=poses, log_scale=log_scale, n_steps=state.n_steps + count), share_accepted
@@ -109,6 +110,7 @@ def proposal_factors(
     likelihood: ScanLikelihood, cells: Singles, poses: Floats, prior: PoseLaw, step_m: float
 ) -> Floats:
     """Return Cholesky factors of proposals that fit the posterior of each scan's pose given one map, (S, 3, 3).
+
     The map is (1, N) or (1, N, 6). The information sums the outer products of the gradients of beams' log densities, by
     central differences: shifts by ``step_m``, about the noise, and turns that move the median range's point as far.
     """

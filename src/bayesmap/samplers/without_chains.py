@@ -26,6 +26,9 @@ from bayesmap.space.arrays import Indices, Mask, Rng
 
 DAMPING, ROUNDS = 0.5, 20  # defaults of `propagate`
 MAX_UNKNOWN = 16  # most unknown cells of `enumerate_maps`: 65 536 states
+BATCH_CELLS = 1 << 23  # cells per batch of maps
+COUPLED_BATCH_CELLS = 1 << 13  # cells per batch of maps with coupled neighbours
+NEGLIGIBLE_NATS = 40.0  # a particle this far below the best adds nothing to any mean
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,6 +49,7 @@ def propagate(
     watch: Watch = SILENT,
 ) -> Marginals:  # fmt: skip
     """Pass messages between all beams and cells until beliefs converge, or for a number of rounds.
+
     If no cell lies on two beams and neighbours are not coupled, one undamped round is exact. If beams and coupled
     neighbours form a tree, as many rounds as it is wide are exact. Other marginals are approximate, mostly too certain.
     Rounds end when no probability changes by over ``tolerance``. ``damping`` in [0, 1) is the old message's weight in
@@ -86,11 +90,6 @@ def propagate_to_start(problem: WallProblem, rounds: int = ROUNDS, watch: Watch 
     if problem.coupling == 0.0:
         return marginals
     return replace(marginals, prior=propagate(problem, rounds=rounds, beta=0.0).p_wall)
-
-
-BATCH_CELLS = 1 << 23  # cells per batch of maps
-COUPLED_BATCH_CELLS = 1 << 13  # cells per batch of maps with coupled neighbours
-NEGLIGIBLE_NATS = 40.0  # a particle this far below the best adds nothing to any mean
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,10 +14,11 @@ from numpy.typing import NDArray
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.device import Float32Rows, Float32s, Floats, Int32s, Ints, Singles, Uint8Rows, Vec2ds, Vec3ds
 from bayesmap.kernels.match.branch_and_bound import Pyramid
-from bayesmap.kernels.match.scan_geometry import ScanArrays, max_gap, neighbour, scan_arrays
+from bayesmap.kernels.match.scan_geometry import NO_POINT, ScanArrays, max_gap, neighbour, scan_arrays
 from bayesmap.space.grid import Grid
 
 wp.set_module_options({"enable_backward": False})
+MAX_SIGMAS = wp.constant(wp.float32(3.0))  # standard deviations from a surface past which its density is left out
 
 
 class GridScans(NamedTuple):
@@ -55,7 +56,7 @@ def stamp_points(first: int, bands: int, grids: GridScansArrays, scene: ScanArra
         cosine = wp.cos(pose[2])
         sine = wp.sin(pose[2])
         for b in range(scene.points.shape[1]):
-            if scene.kind[scan, b] == wp.uint8(0):
+            if scene.kind[scan, b] == NO_POINT:
                 continue
             # Stamps from this point towards the next, if both lie on one surface.
             point = scene.points[scan, b]
@@ -63,7 +64,7 @@ def stamp_points(first: int, bands: int, grids: GridScansArrays, scene: ScanArra
             stamps = int(1)
             c = neighbour(b, 1, scene.beams[scan], scene.full_circle[scan])
             if c >= 0:
-                if scene.kind[scan, c] != wp.uint8(0):
+                if scene.kind[scan, c] != NO_POINT:
                     apart = wp.length(scene.points[scan, c] - point)
                     if apart > grids.spacing_m and apart < max_gap(scene.step[scan], wp.length(point)):
                         stamps = 1 + int(apart / grids.spacing_m)
@@ -158,9 +159,6 @@ def field_sums(field: NDArray[np.uint8], grid: Grid, points: Floats, poses: Floa
     poses_cells = np.column_stack([grid.to_cells(poses[:, :2]), poses[:, 2]])
     inputs = [field, points / grid.resolution, poses_cells, (len(poses),)]
     return np.asarray(devices.launch(sum_field, len(poses), inputs, "cpu", 1)[0])
-
-
-MAX_SIGMAS = wp.constant(wp.float32(3.0))  # standard deviations from a surface past which its density is left out
 
 
 @wp.kernel

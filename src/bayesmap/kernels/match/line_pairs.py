@@ -19,13 +19,15 @@ import warp as wp
 
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.device import Float32Rows, Float64Rows, Floats, Int32Rows, Int32s, Ints, Singles, Vec3ds
-from bayesmap.kernels.match.scan_geometry import WITH_NORMAL, ScanArrays, equal_weights, max_gap, neighbour, scan_arrays
+from bayesmap.kernels.match import scan_geometry as scenes
+from bayesmap.kernels.match.scan_geometry import ScanArrays, equal_weights, max_gap, neighbour, scan_arrays
 from bayesmap.space.planar import inverse
 
 wp.set_module_options({"enable_backward": False})
 OUT_OF_VIEW = wp.constant(-2)  # result of `nearest_point` if no beam points towards the point
 MAX_SIDE_BEAMS = wp.constant(25)  # most beams searched to either side
 MAX_SPACING_M = wp.constant(0.15)  # points of less dense surfaces, such as walls that beams graze, fix no pose
+COST, WEIGHT, MATCHED, SEEN, FORCE_SQ = 0, 1, 2, 3, 4  # columns of ``totals``: sums of `Sums`, by pair or job
 
 
 class PairRules(NamedTuple):
@@ -126,7 +128,7 @@ def neighbour_distance(scene: ScanArrays, scan: int, beam: int) -> float:
     for side in range(2):
         beside = neighbour(beam, 2 * side - 1, beams, scene.full_circle[scan])
         if beside >= 0:
-            if scene.kind[scan, beside] != wp.uint8(0):
+            if scene.kind[scan, beside] != scenes.NO_POINT:
                 nearest = wp.min(nearest, wp.length(scene.points[scan, beside] - point))
     return wp.max(nearest, 0.1)
 
@@ -168,7 +170,7 @@ def pair_scans(
     matched = int(0)
     seen = int(0)
     for beam in range(0, scene.kind.shape[1], rules.stride):
-        if scene.kind[source, beam] == wp.uint8(0):
+        if scene.kind[source, beam] == scenes.NO_POINT:
             continue
         arm = turn * scene.points[source, beam]  # from the source's laser to its point, in the target's axes
         point = arm + shift
@@ -179,8 +181,8 @@ def pair_scans(
         if partner < 0:
             continue
         offset = point - scene.points[target, partner]
-        has_normal = scene.kind[source, beam] == WITH_NORMAL
-        partner_has_normal = scene.kind[target, partner] == WITH_NORMAL
+        has_normal = scene.kind[source, beam] == scenes.WITH_NORMAL
+        partner_has_normal = scene.kind[target, partner] == scenes.WITH_NORMAL
         if has_normal and partner_has_normal:
             # Both points have normals: e is the offset along their mean, with the derivative ``across``.
             normal = turn * scene.normals[source, beam]
@@ -221,7 +223,7 @@ class PairSums(NamedTuple):
     second: Floats  # H, (P, 3, 3)
     slack: Floats  # (P, 3, 3)
     gradient: Floats  # g, (P, 3)
-    totals: Floats  # cost, weight, matched, seen, force_sq of `Sums`, (P, 5)
+    totals: Floats  # COST, WEIGHT, MATCHED, SEEN, FORCE_SQ, (P, 5)
 
 
 Mat33ds = wp.array(dtype=wp.mat33d)
@@ -239,11 +241,11 @@ def sum_pairs(
     out.second[pair] = symmetric(sums.second)
     out.slack[pair] = symmetric(sums.slack)
     out.gradient[pair] = wp.vec3d(sums.first)
-    out.totals[pair, 0] = wp.float64(sums.cost)
-    out.totals[pair, 1] = wp.float64(sums.weight)
-    out.totals[pair, 2] = wp.float64(sums.matched)
-    out.totals[pair, 3] = wp.float64(sums.seen)
-    out.totals[pair, 4] = wp.float64(sums.force_sq)
+    out.totals[pair, COST] = wp.float64(sums.cost)
+    out.totals[pair, WEIGHT] = wp.float64(sums.weight)
+    out.totals[pair, MATCHED] = wp.float64(sums.matched)
+    out.totals[pair, SEEN] = wp.float64(sums.seen)
+    out.totals[pair, FORCE_SQ] = wp.float64(sums.force_sq)
 
 
 def pair_sums(
@@ -272,7 +274,7 @@ def count_matches(
         turn = rotation_of(relative[pair])
         shift = position_of(relative[pair])
         for beam in range(0, scene.kind.shape[1], rules.stride):
-            if scene.kind[source, beam] == wp.uint8(0):
+            if scene.kind[source, beam] == scenes.NO_POINT:
                 continue
             point = turn * scene.points[source, beam] + shift
             partner = nearest_point(scene, other, point, rules.reach_m)
@@ -280,7 +282,7 @@ def count_matches(
                 continue
             offset = point - scene.points[other, partner]
             error_sq = wp.length_sq(offset)
-            if scene.kind[source, beam] == WITH_NORMAL:
+            if scene.kind[source, beam] == scenes.WITH_NORMAL:
                 normal = scene.normals[other, partner]
                 if wp.dot(turn * scene.normals[source, beam], normal) < rules.min_cosine:
                     continue
@@ -312,7 +314,7 @@ def is_near_wall(scene: ScanArrays, scan: int, beam: int, point: wp.vec2f, near:
     end = neighbour(start, 1, beams, scene.full_circle[scan])
     if end < 0:
         return 0
-    if scene.kind[scan, start] == wp.uint8(0) or scene.kind[scan, end] == wp.uint8(0):
+    if scene.kind[scan, start] == scenes.NO_POINT or scene.kind[scan, end] == scenes.NO_POINT:
         return 0
     start_point = scene.points[scan, start]
     wall = scene.points[scan, end] - start_point
@@ -340,7 +342,7 @@ def compare_views(
     against = int(0)
     total = int(0)
     for beam in range(0, scene.kind.shape[1], scene.stride):
-        if scene.kind[source[pair], beam] == wp.uint8(0):
+        if scene.kind[source[pair], beam] == scenes.NO_POINT:
             continue
         total += 1
         point = turn * scene.points[source[pair], beam] + shift
@@ -355,12 +357,12 @@ def compare_views(
             matched += 1
             continue
         # A contradiction: the beams about the point pass through it.
-        away = wp.length(point)
+        beyond = wp.length(point) + clear
         through = int(0)
         for step in range(-1, 2):
             beside = neighbour(middle, step, scene.beams[other], scene.full_circle[other])
             if beside >= 0:
-                if scene.kind[other, beside] != wp.uint8(0) and wp.length(scene.points[other, beside]) > away + clear:
+                if scene.kind[other, beside] != scenes.NO_POINT and wp.length(scene.points[other, beside]) > beyond:
                     through += 1
         if through == 3:
             against += 1

@@ -11,7 +11,7 @@ from bayesmap.kernels.device import Float32Rows, Float32s, Float64Rows, Floats, 
 from bayesmap.sensors.model import RangeLimits
 
 wp.set_module_options({"enable_backward": False})
-POINT = wp.constant(wp.uint8(1))
+NO_POINT, POINT = (wp.constant(wp.uint8(kind)) for kind in (0, 1))
 WITH_NORMAL = wp.constant(wp.uint8(2))
 NOWHERE_M = wp.constant(wp.float32(1.0e6))  # where beams without a point end: too far to be nearest to any point
 MAX_FITS = wp.constant(3)  # fits tried per beam, each twice as wide as the one before
@@ -67,7 +67,7 @@ def scan_points(
     row = wp.min(scan, angles.shape[0] - 1)
     for beam in range(ranges.shape[1]):
         r = ranges[scan, beam]
-        scene.kind[scan, beam] = wp.uint8(0)
+        scene.kind[scan, beam] = NO_POINT
         scene.points[scan, beam] = wp.vec2f(NOWHERE_M, NOWHERE_M)
         if r > nearest and r < farthest:  # false for NaN and for either infinity
             x = wp.float32(r * wp.cos(angles[row, beam]))
@@ -90,7 +90,7 @@ def scan_normals(first: int, scene: ScanArrays, reach_m: wp.float32, noise_m: wp
     for beam in range(scene.points.shape[1]):
         scene.normals[scan, beam] = wp.vec2f(wp.float32(0.0), wp.float32(0.0))
         scene.spread[scan, beam] = wp.float32(0.0)
-        if scene.kind[scan, beam] == wp.uint8(0):
+        if scene.kind[scan, beam] == NO_POINT:
             continue
         point = scene.points[scan, beam]
         away = wp.length(point)
@@ -109,7 +109,7 @@ def scan_normals(first: int, scene: ScanArrays, reach_m: wp.float32, noise_m: wp
                     other_beam = neighbour(beam, wp.where(side == 0, -k, k), beams, full_circle)
                     if other_beam < 0:
                         break
-                    if scene.kind[scan, other_beam] == wp.uint8(0):
+                    if scene.kind[scan, other_beam] == NO_POINT:
                         break
                     other = scene.points[scan, other_beam]
                     if wp.length(other - last) > gap:
@@ -184,18 +184,19 @@ def _pack_fans(fans: Any, device: str, **fields: Any) -> Any:
 
 def scan_arrays(geometry: Any, stride: int = 1) -> Any:
     """Return a `bayesmap.poses.scan_geometry.ScanGeometry` as kernels read it; it is packed once for each stride."""
-    if stride not in geometry.packed:
+    key = f"stride {stride}"
+    if key not in geometry.kernel_inputs:
         fields = {name: getattr(geometry, name) for name in ("points", "normals", "kind", "spread")}
-        geometry.packed[stride] = _pack_fans(geometry.fans, geometry.device, stride=stride, **fields)
-    return geometry.packed[stride]
+        geometry.kernel_inputs[key] = _pack_fans(geometry.fans, geometry.device, stride=stride, **fields)
+    return geometry.kernel_inputs[key]
 
 
 def equal_weights(geometry: Any) -> Any:
     """Return equal weights of all beams, (S, B), on the geometry's device; front ends use them for every scan."""
-    if "weights" not in geometry.packed:
+    if "weights" not in geometry.kernel_inputs:
         shape = (len(geometry), geometry.beams)
-        geometry.packed["weights"] = wp.full(shape, 1.0, dtype=wp.float32, device=geometry.device)
-    return geometry.packed["weights"]
+        geometry.kernel_inputs["weights"] = wp.full(shape, 1.0, dtype=wp.float32, device=geometry.device)
+    return geometry.kernel_inputs["weights"]
 
 
 def select_rows(array: Any, rows: NDArray[np.intp]) -> Any:

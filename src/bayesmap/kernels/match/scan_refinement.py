@@ -11,6 +11,7 @@ import warp as wp
 
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.device import ZERO, Float32Rows, Float64Rows, Floats, Int32s, Ints, Vec3ds
+from bayesmap.kernels.match import line_pairs
 from bayesmap.kernels.match.line_pairs import Mat33ds, PairRulesArrays, pair_scans, symmetric
 from bayesmap.kernels.match.scan_geometry import ScanArrays, equal_weights, scan_arrays
 
@@ -69,7 +70,7 @@ class RefinedScans(NamedTuple):
 
     poses: Floats  # in the world frame, (J, 3)
     information: Floats  # of the pairs alone, in the world's axes, (J, 3, 3)
-    totals: Floats  # cost, weight, matched, seen of `line_pairs.Sums` in the last step, (J, 4)
+    totals: Floats  # COST, WEIGHT, MATCHED, SEEN of `line_pairs` in the last step, (J, 4)
 
 
 RefinementArrays = devices.struct_like(Refinement, Int32s, Int32s, Int32s, Vec3ds, Vec3ds, Vec3ds, Mat33ds)
@@ -138,10 +139,10 @@ def refine(
             change = change * (MAX_STEP / length)
         pose = pose - change
         information = laser_information
-        out.totals[job, 0] = cost
-        out.totals[job, 1] = weight
-        out.totals[job, 2] = wp.float64(matched)
-        out.totals[job, 3] = wp.float64(seen)
+        out.totals[job, line_pairs.COST] = cost
+        out.totals[job, line_pairs.WEIGHT] = weight
+        out.totals[job, line_pairs.MATCHED] = wp.float64(matched)
+        out.totals[job, line_pairs.SEEN] = wp.float64(seen)
         if share >= 1.0 and length < MIN_STEP:
             converged = 1
     out.poses[job] = wp.vec3d(pose[0], pose[1], wrap_angle(pose[2]))

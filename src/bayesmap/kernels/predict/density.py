@@ -42,6 +42,13 @@ mean x and y in metres from the grid's lower left corner, and Cholesky factor l1
 
 MIN_STOP_CHANCE = 2e-3  # cells below it count as empty in fast weighing, unless near the reading: poses lose it alike
 
+# A beam is followed until its chance to get so far is below this. The limit is lower for noise alone, under which an
+# unlikely stop may be the only one that explains a reading; the mixture has a floor.
+MIN_SURVIVAL = wp.constant(wp.float64(1.0e-30))
+MIN_SURVIVAL_MIXTURE = wp.constant(wp.float64(1.0e-14))
+CELLS_PAST_REACH = 4.0  # cells past a reading's reach whose surfaces, which extend along the beam, may explain it
+MIN_THREADED_BEAMS = 5_000  # fewer beams than this are done before a second thread has started
+
 
 @wp.struct
 class MapArrays:
@@ -97,7 +104,7 @@ def stop_on_walk(maps: MapArrays, row: int, line: Line, w: Walk) -> wp.vec3d:
         return wp.vec3d(stop[0], stop[1], wp.sqrt(stop[2]))
     # Length of the beam inside the cell: 0 if it only touches a corner.
     chord = wp.min(wp.min(w.next_x, w.next_y), NEVER) - w.distance
-    if w.cell_x != w.x or w.cell_y != w.y:
+    if w.cell_x != w.beam_x or w.cell_y != w.beam_y:
         chord = wp.where(w.along_line != 0, chord, wp.float64(0.0))
     distance = wp.float64(wp.float32((w.distance + maps.depth * chord) * line.edge_m))
     return wp.vec3d(wp.float64(maps.stop[row, cell]), distance, wp.float64(0.0))
@@ -158,14 +165,6 @@ def require_draws(draws: int) -> None:
     """Raise `BadInput` if there are no draws."""
     if draws == 0:
         raise BadInput("score: there is no draw to predict from")
-
-
-# A beam is followed until its chance to get so far is below this. The limit is lower for noise alone, under which an
-# unlikely stop may be the only one that explains a reading; the mixture has a floor.
-MIN_SURVIVAL = wp.constant(wp.float64(1.0e-30))
-MIN_SURVIVAL_MIXTURE = wp.constant(wp.float64(1.0e-14))
-CELLS_PAST_REACH = 4.0  # cells past a reading's reach whose surfaces, which extend along the beam, may explain it
-MIN_THREADED_BEAMS = 5_000  # fewer beams than this are done before a second thread has started
 
 
 @wp.func

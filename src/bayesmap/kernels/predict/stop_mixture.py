@@ -26,6 +26,7 @@ wp.set_module_options({"enable_backward": False, "max_unroll": 1})  # halvings u
 MIN_EVENT_CHANCE = wp.constant(wp.float64(1.0e-12))  # least chance of an event, and of getting to it
 MIN_WEIGHT = wp.constant(wp.float64(1.0e-10))  # stops of less weight are skipped: a thousand of them add nothing
 MAX_EVENT_CHANCE = wp.constant(wp.float64(1.0 - 1.0e-7))  # largest chance that single precision distinguishes from one
+HALVINGS = wp.constant(15)  # halvings of the span of ranges: quantiles are off by at most 1 / 30 000 of it
 
 
 @wp.struct
@@ -183,9 +184,6 @@ def first_hit_events(stops: StopMixture, sensor: SensorModel, device: str = "cpu
     inputs += [rays_to_device(rays, device), rays.range_m, chance, stopped]
     devices.launch(find_events, rays.n_beams, inputs, device, devices.threads_for(rays.n_beams))
     return chance.numpy(), stopped.numpy()
-
-
-HALVINGS = wp.constant(15)  # halvings of the span of ranges: quantiles are off by at most 1 / 30 000 of it
 
 
 @wp.struct

@@ -1,4 +1,8 @@
-"""Draw where beams stop in maps (`draw_scan_stops`), and compute beams' information (`independent_information`)."""
+"""Draw where beams stop in maps (`draw_scan_stops`), and compute beams' information (`independent_information`).
+
+A *view* is a pose with the beams of a scan that the robot would take there. The information is FSMI, the fast Shannon
+mutual information between the scan's readings and the map, beam by beam.
+"""
 
 import numpy as np
 import warp as wp
@@ -15,6 +19,9 @@ from bayesmap.space.grid import Grid
 wp.set_module_options({"enable_backward": False})
 MIN_SURVIVAL = wp.constant(wp.float64(1.0e-6))  # least chance of getting to a cell at which a beam is followed
 INTEGRATION_SIGMAS = wp.constant(wp.float64(4.0))  # standard deviations about a stop in which readings are integrated
+
+# Elements of a cell: its probability, and the information in a hit and in a pass.
+OCCUPIED, HIT_NATS, PASS_NATS = 0, 1, 2
 
 
 @wp.struct
@@ -64,10 +71,10 @@ def draw_scan_stops(
 
     Returns distances, at most ``max_m`` or infinite, and their standard deviations, (P, A) each.
     """
-    beams = (len(poses) * len(angles_rad),)
+    n_beams = len(poses) * len(angles_rad)
     views = devices.pack(Views, maps.device, poses=poses, angles=angles_rad, max_m=max_m)
-    inputs = [grid_frame(maps.grid), maps.arrays, views, draw, key, beams, beams]
-    distance_m, spread_m = devices.launch(draw_stop_distances, beams[0], inputs, maps.device)
+    inputs = [grid_frame(maps.grid), maps.arrays, views, draw, key, (n_beams,), (n_beams,)]
+    distance_m, spread_m = devices.launch(draw_stop_distances, n_beams, inputs, maps.device)
     return distance_m.reshape(len(poses), -1), spread_m.reshape(len(poses), -1)
 
 
@@ -80,7 +87,7 @@ def normal_below(x: wp.float64) -> wp.float64:
 @wp.func
 def is_crossed(w: Walk) -> bool:
     """Return whether the walk now touches the cell that the beam is in, not a cell at its side."""
-    return w.cell_x == w.x and w.cell_y == w.y
+    return w.cell_x == w.beam_x and w.cell_y == w.beam_y
 
 
 @wp.func
@@ -89,12 +96,57 @@ def exit_distance(w: Walk) -> wp.float64:
     return wp.min(w.next_x, w.next_y)
 
 
-# Elements of a cell: its probability, and the information in a hit and in a pass.
-OCCUPIED, HIT_NATS, PASS_NATS = 0, 1, 2
+@wp.struct
+class Trail:
+    """A walk, and the cells that its beam has passed. Distances are in cells."""
+
+    walk: Walk
+    entered_at: wp.float64  # distance at which the beam enters the cell that it is in
+    passed_nats: wp.float64  # information of passing all cells before
+
+
+@wp.func
+def pass_cells(trail: Trail, frame: Frame, cells: Vec3ds, limit: wp.float64) -> Trail:
+    """Walk on past all cells that the beam leaves before the distance ``limit``."""
+    walk = trail.walk
+    entered_at = trail.entered_at
+    passed_nats = trail.passed_nats
+    while exit_distance(walk) < limit and walk.distance <= walk.end:
+        if is_crossed(walk):
+            entered_at = exit_distance(walk)
+            if is_inside(walk, frame.nx, frame.ny):
+                passed_nats += cells[walk.cell_x * frame.ny + walk.cell_y][PASS_NATS]
+        walk = advance_walk(walk)
+    return Trail(walk, entered_at, passed_nats)
+
+
+@wp.func
+def add_stop_information(
+    total: wp.float64, frame: Frame, cells: Vec3ds, trail: Trail, middle: wp.float64, sigma: wp.float64,
+    weight: wp.float64,
+) -> wp.float64:  # fmt: skip
+    """Add to ``total`` the information of readings about a stop at ``middle``, times the stop's ``weight``."""
+    # Each cell k ahead of the trail holds the readings from where the beam enters it to where the beam leaves it.
+    walk = trail.walk
+    entered_at = trail.entered_at
+    passed_nats = trail.passed_nats
+    cdf_at_entry = normal_below((entered_at - middle) / sigma)
+    while walk.distance <= walk.end and entered_at < middle + INTEGRATION_SIGMAS * sigma:
+        if is_crossed(walk):
+            leaves_at = exit_distance(walk)
+            cdf_at_exit = normal_below((leaves_at - middle) / sigma)
+            if is_inside(walk, frame.nx, frame.ny):
+                cell = walk.cell_x * frame.ny + walk.cell_y
+                total += weight * (cdf_at_exit - cdf_at_entry) * (passed_nats + cells[cell][HIT_NATS])
+                passed_nats += cells[cell][PASS_NATS]
+            entered_at = leaves_at
+            cdf_at_entry = cdf_at_exit
+        walk = advance_walk(walk)
+    return total
 
 
 @wp.kernel
-def add_beam_information(first: int, frame: Frame, views: Views, cells: Vec3ds, sigma_m: wp.float64, out: Float64s):
+def beam_information(first: int, frame: Frame, views: Views, cells: Vec3ds, sigma_m: wp.float64, out: Float64s):
     """One thread per beam: sum FSMI's information over cells that stop the beam and cells of the reading.
 
     A reading in cell k has the information C_k = f(hit, r_k) + sum_{i < k} f(pass, r_i), with f of the cells' odds r.
@@ -105,57 +157,27 @@ def add_beam_information(first: int, frame: Frame, views: Views, cells: Vec3ds, 
     sigma = sigma_m / frame.resolution
     total = wp.float64(0.0)
     survive = wp.float64(1.0)
-    # The outer walk w visits the cells j in which the beam may stop. A second walk, behind, trails it: it sums the
-    # information of passes before the first cell k that a reading of such a stop can fall into.
-    behind = walk_along(line_of_view(frame, views, beam), frame.nx, views.max_m)
-    behind_enter = wp.float64(0.0)  # the walk touches the cell in which it starts at its exit
-    passed_nats = wp.float64(0.0)
-    w = behind
-    enter = wp.float64(0.0)
-    while w.distance <= w.end and survive > MIN_SURVIVAL:
-        if is_crossed(w):
-            leave = exit_distance(w)
-            if is_inside(w, frame.nx, frame.ny):
-                p = cells[w.cell_x * frame.ny + w.cell_y][OCCUPIED]
+    # The walk visits the cells j in which the beam may stop. The trail follows it: it has passed the cells before the
+    # first cell k that a reading of such a stop can fall into.
+    walk = walk_along(line_of_view(frame, views, beam), frame.nx, views.max_m)
+    entered_at = wp.float64(0.0)  # the walk touches the cell in which it starts at its exit
+    trail = Trail(walk, entered_at, wp.float64(0.0))
+    while walk.distance <= walk.end and survive > MIN_SURVIVAL:
+        if is_crossed(walk):
+            leaves_at = exit_distance(walk)
+            if is_inside(walk, frame.nx, frame.ny):
+                p = cells[walk.cell_x * frame.ny + walk.cell_y][OCCUPIED]
                 weight = survive * p
                 survive = survive * (ONE - p)
-                middle = HALF * (enter + leave)
-                low = middle - INTEGRATION_SIGMAS * sigma
-                high = middle + INTEGRATION_SIGMAS * sigma
-                # The walk behind adds the information of passing the cells before all readings about this stop.
-                while weight > MIN_SURVIVAL and exit_distance(behind) < low and behind.distance <= behind.end:
-                    if is_crossed(behind):
-                        behind_enter = exit_distance(behind)
-                        if is_inside(behind, frame.nx, frame.ny):
-                            passed_nats += cells[behind.cell_x * frame.ny + behind.cell_y][PASS_NATS]
-                    behind = advance_walk(behind)
-                # A third walk, ahead, visits the cells k of readings about this stop.
-                ahead = behind
-                entry = behind_enter
-                ahead_nats = passed_nats
-                below = wp.float64(0.0)
                 if weight > MIN_SURVIVAL:
-                    below = normal_below((entry - middle) / sigma)
-                while weight > MIN_SURVIVAL and ahead.distance <= ahead.end and entry < high:
-                    if is_crossed(ahead):
-                        exit = exit_distance(ahead)
-                        below_exit = normal_below((exit - middle) / sigma)
-                        if is_inside(ahead, frame.nx, frame.ny):
-                            cell = ahead.cell_x * frame.ny + ahead.cell_y
-                            total += weight * (below_exit - below) * (ahead_nats + cells[cell][HIT_NATS])
-                            ahead_nats += cells[cell][PASS_NATS]
-                        entry = exit
-                        below = below_exit
-                    ahead = advance_walk(ahead)
-            enter = leave
-        w = advance_walk(w)
-    # A beam that meets nothing passes every cell.
-    if survive > MIN_SURVIVAL:
-        while behind.distance <= behind.end:
-            if is_inside(behind, frame.nx, frame.ny) and is_crossed(behind):
-                passed_nats += cells[behind.cell_x * frame.ny + behind.cell_y][PASS_NATS]
-            behind = advance_walk(behind)
-        total += survive * passed_nats
+                    middle = HALF * (entered_at + leaves_at)
+                    trail = pass_cells(trail, frame, cells, middle - INTEGRATION_SIGMAS * sigma)
+                    total = add_stop_information(total, frame, cells, trail, middle, sigma, weight)
+            entered_at = leaves_at
+        walk = advance_walk(walk)
+    if survive > MIN_SURVIVAL:  # a beam that meets nothing passes every cell
+        trail = pass_cells(trail, frame, cells, wp.float64(wp.inf))
+        total += survive * trail.passed_nats
     out[beam] = total
 
 
@@ -174,9 +196,10 @@ def independent_information(
     ``occupied`` are probabilities inside (0, 1), (N,). Readings have the standard deviation ``sigma_m``. A reading in a
     cell multiplies the cell's odds by ``hit_factor``, over 1; a reading behind it by ``pass_factor``.
     """
-    device, beams = devices.resolve(device), len(poses) * len(angles_rad)
+    device = devices.resolve(device)
+    n_beams = len(poses) * len(angles_rad)
     odds = occupied / (1.0 - occupied)
     cells = np.stack([occupied, surprise(hit_factor, odds), surprise(pass_factor, odds)], axis=-1)
     views = devices.pack(Views, device, poses=poses, angles=angles_rad, max_m=max_m)
-    inputs = [grid_frame(grid), views, cells, sigma_m, (beams,)]
-    return np.asarray(devices.launch(add_beam_information, beams, inputs, device)[0].reshape(len(poses), -1))
+    inputs = [grid_frame(grid), views, cells, sigma_m, (n_beams,)]
+    return np.asarray(devices.launch(beam_information, n_beams, inputs, device)[0].reshape(len(poses), -1))

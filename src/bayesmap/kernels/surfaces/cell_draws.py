@@ -3,27 +3,27 @@
 Cells in which readings end have kernels of their own (`bayesmap.kernels.surfaces.endpoint_cells`). Any other cell does
 one of two things when it is updated (`begin_sweep` chooses, `update_free_cells` does it):
 
-- It draws its reflectivity, m ~ Beta(a + hits, b + met), with a and b of its label if cells have labels.
+- It draws its reflectivity from Beta(a + hits, b + met), with a and b of its label if cells have labels.
 - It tries a candidate for its surface, drawn from the prior, and accepts it with probability min(1, exp(gain)). The
   gain is the beams' part of the ratio (`bayesmap.kernels.surfaces.stops`).
 
 A label is drawn before the reflectivity, given its four neighbours' labels and its own counts, with the reflectivity
-integrated out (docs/surfaces.md): a Gibbs step of the pair. Cells that learn nothing in a sweep keep both. A cell that
-no beam touches draws its reflectivity only when beams may come to it. The grid is a checkerboard: cells of one colour
-have no neighbour among them, and can be drawn at once. Sums run over slices of fixed size, whatever the threads.
+integrated out (docs/surfaces.md): a Gibbs step of the pair. Cells that do not *learn* in a sweep (they count no beams)
+keep both. A cell whose surface no beam observes is *silent*: now and then it takes a surface from the prior. A cell
+that no beam touches draws its reflectivity only when beams may come to it. The grid is a checkerboard: cells of one
+colour have no neighbour among them, and can be drawn at once. Sums run over slices of fixed size, whatever the threads.
 """
 
-import math
 from typing import Any
 
 import numpy as np
 import warp as wp
 
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.device import ONE, Float32s, Float64Rows, Int32s, Ints, Uint8s
-from bayesmap.kernels.random import CELLS, beta_or_zero, beta_variate, random_bits, sweep_key, to_uniform
+from bayesmap.kernels.device import Float32s, Float64Rows, Int32s, Ints, Uint8s
+from bayesmap.kernels.random import CELLS, beta_or_zero, beta_variate, log_beta, random_bits, sweep_key, to_uniform
 from bayesmap.kernels.surfaces import surface
-from bayesmap.kernels.surfaces.stops import GAIN_UNITS, LEARNS, NEGLIGIBLE_REFLECTIVITY, ChainArrays
+from bayesmap.kernels.surfaces.stops import GAIN_UNITS, LEARNS, NEGLIGIBLE_REFLECTIVITY, NOT_COUNTED, ChainArrays
 from bayesmap.kernels.surfaces.surface import REFLECTIVITY, TRYING, Cell, PriorNumbers
 from bayesmap.kernels.walls.chains import draw_wall, pairs_alike, walls_less_free
 
@@ -31,13 +31,19 @@ wp.set_module_options({"enable_backward": False})
 FROM_UNITS = wp.constant(wp.float64(1.0 / GAIN_UNITS))  # from units of `ChainArrays.gain` to nats
 NO_CANDIDATE = wp.constant(wp.float32(0.0))  # a cell that tries no candidate
 HAS_CANDIDATE = wp.constant(wp.float32(1.0))  # a cell that tries a candidate from the prior
-TRIES_EVERY = wp.constant(4)  # updates per candidate of a cell in which no reading ends; the others draw reflectivity
-SILENT_EVERY = wp.constant(3)  # sweeps between two surfaces from the prior in a cell whose surface no beam observes
+CANDIDATE_EVERY = wp.constant(4)  # updates per candidate of a cell in which no reading ends; others draw reflectivity
+RENEWAL_EVERY = wp.constant(3)  # sweeps between two surfaces from the prior in a silent cell
 
 # Random counters of one cell in one sweep, part CELLS; `square_counts` defines a further one.
 PER_CELL = wp.constant(wp.uint64(1024))
 AT_ACCEPT, AT_BETA, AT_CANDIDATE = (wp.constant(wp.uint64(i)) for i in (0, 32, 256))
-AT_SILENT, AT_LABEL, AT_UNTOUCHED = (wp.constant(wp.uint64(i)) for i in (448, 800, 832))
+AT_RENEWAL_ACCEPT, AT_RENEWAL, AT_LABEL, AT_UNTOUCHED = (wp.constant(wp.uint64(i)) for i in (447, 448, 800, 832))
+SLICE = wp.constant(4096)  # numbers summed by one thread
+
+# Status of a cell.
+UNTOUCHED = 0  # no beam touches it
+TOUCHED = 1  # some beams touch it
+COUNTED = 2  # `endpoint_cells` counts these beams
 
 
 @wp.struct
@@ -70,16 +76,16 @@ def place_of(thread: int, cells: Int32s, n_cells: int) -> Place:
 @wp.func
 def tries_candidate(sweep: int, period: int, cell: int) -> bool:
     """Return whether a cell in which no reading ends tries a candidate when it is updated, if it has surfaces."""
-    return (sweep // period + cell) % TRIES_EVERY == 0
+    return (sweep // period + cell) % CANDIDATE_EVERY == 0
 
 
 @wp.func
-def is_silent(active: ActiveCells, state: ChainArrays, at: Place, sweep: int, m: wp.float32) -> bool:
-    """Return whether a cell of reflectivity m in which no reading ends renews its surface at the end of a sweep."""
-    # It takes one from the prior in some sweeps, if it stopped no beam and m is too small for passing beams to tell.
+def renews_surface(active: ActiveCells, state: ChainArrays, at: Place, sweep: int, reflectivity: wp.float32) -> bool:
+    """Return whether a cell of this reflectivity is silent, and takes a surface from the prior after the sweep."""
+    # Its surface is not observed if it stopped no beam, and reflects too little to change the chance of passing beams.
     has_turn = active.without_surfaces == 0 and active.period[at.number] != wp.uint8(0)
-    has_turn = has_turn and (sweep + at.cell) % SILENT_EVERY == 0
-    return has_turn and m <= NEGLIGIBLE_REFLECTIVITY and state.stopped_in[at.element] != sweep
+    has_turn = has_turn and (sweep + at.cell) % RENEWAL_EVERY == 0
+    return has_turn and reflectivity <= NEGLIGIBLE_REFLECTIVITY and state.stopped_in[at.element] != sweep
 
 
 @wp.func
@@ -90,9 +96,19 @@ def accept_surface(
     """Return a candidate from the prior, if it is accepted given the beams' log ratio ``gain``; else the cell."""
     log_ratio = gain + (surface.log_size_penalty(prior, candidate) - surface.log_size_penalty(prior, cell))
     accepted = wp.log(to_uniform(random_bits(key, counter))) < log_ratio
-    if accepted and surface.is_own(prior, centre, candidate):
+    if accepted and surface.is_in_square(prior, centre, candidate):
         return candidate
     return cell
+
+
+@wp.func
+def reset_counts(state: ChainArrays, chain: int, cell: int):
+    """Set a cell's counts of beams and its candidate's log ratio to zero, in all parts of the beams."""
+    for part in range(state.parts):
+        row = chain * state.parts + part
+        state.met[row, cell] = 0
+        state.hits[row, cell] = 0
+        state.gain[row, cell] = wp.int64(0)
 
 
 @wp.kernel
@@ -103,42 +119,38 @@ def begin_sweep(
     """One thread per chain's cell, before a sweep: reset the counts of its beams, and draw its candidate if any."""
     at = place_of(first + wp.tid(), active.cell, state.n_cells)
     period = int(active.period[at.number])
-    last_m = state.fixed_m[at.element]  # in the sweep before
-    learns = True
+    is_updated = True
     if period != 0:
-        learns = sweep % period == 0
-    renewed = is_silent(active, state, at, sweep - 1, last_m)
-    outdated = prior_changed != 0 or period == 0 or renewed or last_m == LEARNS
-    if not outdated and not learns:
+        is_updated = sweep % period == 0
+    # Compute the log prior again if the last sweep can have changed it.
+    last_reflectivity = state.fixed_reflectivity[at.element]  # LEARNS if the cell learned in the last sweep
+    renewed = renews_surface(active, state, at, sweep - 1, last_reflectivity)
+    outdated = prior_changed != 0 or period == 0 or renewed or last_reflectivity == LEARNS
+    if not outdated and not is_updated:
         return
     cell = state.cells[at.element]
     centre = surface.centre_of(at.cell, state.ny, state.edge_m)
-    # Compute the log prior again if the last sweep can have changed it.
     if outdated:
         density = surface.log_reflectivity_prior(prior, state.solid[at.element], cell[REFLECTIVITY])
         if active.without_surfaces == 0:
             density += wp.float32(surface.log_surface_prior(prior, centre, cell))
         log_prior[first + wp.tid()] = density
-    # Does the cell count beams in this sweep, and does it try a candidate?
+    # Does the cell learn in this sweep, and does it try a candidate? `endpoint_cells` counts the beams of period 0.
+    learns = is_updated and (period != 0 or active.without_surfaces != 0)
+    tries = False
+    if learns and active.without_surfaces == 0:
+        tries = tries_candidate(sweep, period, at.cell)
+    if tries:  # if passing beams are not informative, the cell takes surfaces from the prior instead
+        learns = cell[REFLECTIVITY] > NEGLIGIBLE_REFLECTIVITY
     trying = NO_CANDIDATE
-    if active.without_surfaces == 0:
-        if period == 0:
-            learns = False  # `endpoint_cells` counts its beams
-        elif learns and tries_candidate(sweep, period, at.cell):
-            # If passing beams are not informative, the cell takes surfaces from the prior instead.
-            learns = cell[REFLECTIVITY] > NEGLIGIBLE_REFLECTIVITY
-            if learns:
-                trying = HAS_CANDIDATE
-                key = sweep_key(state.keys[at.chain], sweep, CELLS)
-                counter = wp.uint64(at.cell) * PER_CELL + AT_CANDIDATE
-                state.candidates[at.element] = surface.fresh_surface(prior, centre, cell, key, counter)
+    if learns and tries:
+        trying = HAS_CANDIDATE
+        key = sweep_key(state.keys[at.chain], sweep, CELLS)
+        counter = wp.uint64(at.cell) * PER_CELL + AT_CANDIDATE
+        state.candidates[at.element] = surface.fresh_surface(prior, centre, cell, key, counter)
     if learns:
-        for part in range(state.parts):
-            row = at.chain * state.parts + part
-            state.met[row, at.cell] = 0
-            state.hits[row, at.cell] = 0
-            state.gain[row, at.cell] = wp.int64(0)
-    state.fixed_m[at.element] = wp.where(learns, LEARNS, cell[REFLECTIVITY])
+        reset_counts(state, at.chain, at.cell)
+    state.fixed_reflectivity[at.element] = wp.where(learns, LEARNS, cell[REFLECTIVITY])
     if cell[TRYING] != trying:
         cell[TRYING] = trying
         state.cells[at.element] = cell
@@ -158,9 +170,9 @@ def count_beams(state: ChainArrays, chain: int, cell: int) -> wp.vec2i:
 def update_free_cells(first: int, sweep: int, prior: PriorNumbers, active: ActiveCells, state: ChainArrays):
     """One thread per chain's cell: decide on its candidate, draw its reflectivity, or renew its surface."""
     at = place_of(first + wp.tid(), active.cell, state.n_cells)
-    last_m = state.fixed_m[at.element]
-    learns = last_m == LEARNS
-    if not learns and not is_silent(active, state, at, sweep, last_m):
+    reflectivity = state.fixed_reflectivity[at.element]
+    learns = reflectivity == LEARNS
+    if not learns and not renews_surface(active, state, at, sweep, reflectivity):
         return
     cell = state.cells[at.element]
     key = sweep_key(state.keys[at.chain], sweep, CELLS)
@@ -180,9 +192,9 @@ def update_free_cells(first: int, sweep: int, prior: PriorNumbers, active: Activ
                 units += state.gain[at.chain * state.parts + part, at.cell]
             gain = wp.float64(units) * FROM_UNITS
             cell = accept_surface(prior, centre, cell, state.candidates[at.element], gain, key, counter + AT_ACCEPT)
-    if is_silent(active, state, at, sweep, cell[REFLECTIVITY]):
-        candidate = surface.fresh_surface(prior, centre, cell, key, counter + AT_SILENT)
-        cell = accept_surface(prior, centre, cell, candidate, wp.float64(0.0), key, counter + AT_SILENT - wp.uint64(1))
+    if renews_surface(active, state, at, sweep, cell[REFLECTIVITY]):
+        candidate = surface.fresh_surface(prior, centre, cell, key, counter + AT_RENEWAL)
+        cell = accept_surface(prior, centre, cell, candidate, wp.float64(0.0), key, counter + AT_RENEWAL_ACCEPT)
     cell[TRYING] = NO_CANDIDATE
     state.cells[at.element] = cell
 
@@ -192,12 +204,9 @@ def count_observed(first: int, active: ActiveCells, state: ChainArrays):
     """One thread per chain's cell, after a sweep: count it as inspected, and as observed, if it has counted beams."""
     at = place_of(first + wp.tid(), active.cell, state.n_cells)
     element = at.element
-    if state.last_met[element] >= 0:
+    if state.last_met[element] != NOT_COUNTED:
         observed = wp.where(state.last_hits[element] + state.last_met[element] > 0, 1, 0)
         state.observed_counts[element] = state.observed_counts[element] + wp.vec2i(observed, 1)
-
-
-SLICE = wp.constant(4096)  # numbers summed by one thread
 
 
 @wp.kernel
@@ -242,43 +251,12 @@ def sum_log_joint(
     log_prior[chain, column] = add_row(add_row(wp.float64(0.0), cells, chain), labels, chain)
 
 
-# Status of a cell.
-UNTOUCHED = 0  # no beam touches it
-TOUCHED = 1  # some beams touch it
-COUNTED = 2  # `endpoint_cells` counts these beams
-
-HALF_LOG_TWO_PI = wp.constant(wp.float64(0.5 * math.log(2.0 * math.pi)))
-MIN_STIRLING = wp.constant(wp.float64(10.0))  # argument from which Stirling's series is used
-STIRLING_1, STIRLING_3, STIRLING_5 = (wp.constant(wp.float64(c)) for c in (1 / 12, -1 / 360, 1 / 1260))
-STIRLING_7, STIRLING_9, STIRLING_11 = (wp.constant(wp.float64(c)) for c in (-1 / 1680, 1 / 1188, -691 / 360360))
-
-
 def status_to_device(cells: int, touched: Ints, counted: Ints, device: str) -> Any:
     """Put the status of each cell on a device, by flat indices of the cells that are touched and counted."""
     status = np.full(cells, UNTOUCHED, dtype=np.uint8)
     status[touched] = TOUCHED
     status[counted] = COUNTED
     return devices.to_device(status, wp.uint8, device)
-
-
-@wp.func
-def log_gamma(x: wp.float64) -> wp.float64:
-    """Return the logarithm of the gamma function of a positive number, to 1e-13: Stirling's series from 10 on."""
-    below = ONE
-    while x < MIN_STIRLING:
-        below = below * x
-        x = x + ONE
-    y = ONE / x
-    z = y * y
-    series = STIRLING_7 + z * (STIRLING_9 + z * STIRLING_11)
-    series = y * (STIRLING_1 + z * (STIRLING_3 + z * (STIRLING_5 + z * series)))
-    return (x - wp.float64(0.5)) * wp.log(x) - x + HALF_LOG_TWO_PI + series - wp.log(below)
-
-
-@wp.func
-def log_beta(a: wp.float64, b: wp.float64) -> wp.float64:
-    """Return the logarithm of the beta function."""
-    return log_gamma(a) + log_gamma(b) - log_gamma(a + b)
 
 
 @wp.kernel
@@ -296,7 +274,7 @@ def draw_labels(first: int, colour: int, sweep: int, prior: PriorNumbers, status
     if int(status[cell]) != UNTOUCHED:
         beams = wp.vec2i(state.last_hits[element], state.last_met[element])
         if int(status[cell]) != COUNTED:
-            if state.fixed_m[element] != LEARNS or state.cells[element][TRYING] != wp.float32(0.0):
+            if state.fixed_reflectivity[element] != LEARNS or state.cells[element][TRYING] != NO_CANDIDATE:
                 return
             beams = count_beams(state, chain, cell)
         hits, met = wp.float64(beams[0]), wp.float64(beams[1])

@@ -23,6 +23,19 @@ from bayesmap.kernels.surfaces.stops import MIN_FACTOR, TracedRays, hit_density
 from bayesmap.kernels.surfaces.surface import CROSSING_WIDTH_SQ, L11, L21, L22, MEAN_X, MEAN_Y, REFLECTIVITY, Cell
 
 MIN_PRODUCT = wp.constant(wp.float32(1.0e-20))  # products are turned into logarithms before they underflow
+BLOCK_WIDTH = 8  # beams of a block
+Lanes = wp.types.vector(length=BLOCK_WIDTH, dtype=wp.float32)  # one number of each of eight beams
+# Lanes of a block. Passing beams: offset of the cell's centre from the beam, and direction of the beam. Stopped beams:
+# also distance of the centre along the beam, reading, decay, and 1 if the beam counts, 0 if it only fills a lane.
+OFFSET, LINE_X, LINE_Y, PASSING_LANES = 0, 1, 2, 3
+CENTRE, READING, DECAY, COUNTS, STOPPED_LANES = 3, 4, 5, 6, 7
+PRODUCT_LANES = wp.constant(2)  # lanes before the blocks: product and least product, see `log_stops_in_lanes`
+CHUNK_BLOCKS = wp.constant(4)  # blocks whose factors are multiplied before the product is turned into a logarithm
+MIN_LANE_PRODUCT = wp.constant(wp.float32(1.0e-35))  # a smaller product may have underflowed
+STEEP_SLOPE = wp.constant(wp.float32(1.0e30))  # slope of the step function `positive`
+MAX_EXPONENT = wp.constant(wp.float32(41.0))
+FAR_OFFSET_M = wp.constant(wp.float32(1.0e3))  # no surface of a cell is met at this offset
+UNKNOWN = wp.constant(wp.float64(1.0e300))  # stands for a sum that could not be computed
 
 
 @wp.struct
@@ -98,7 +111,7 @@ def log_stops(
     endpoints = likelihood.endpoints
     total = wp.float64(0.0)
     product = ONE_32
-    m = cell[REFLECTIVITY]
+    reflectivity = cell[REFLECTIVITY]
     dx, dy = cell[MEAN_X] - centre[0], cell[MEAN_Y] - centre[1]
     for i in range(beams.stopped_begin, beams.stopped_end):
         incidence = beams.entries[i]
@@ -111,7 +124,7 @@ def log_stops(
             likelihood.law, likelihood.beta, endpoints.entry[incidence], likelihood.rays.near[beam],
             endpoints.centre_and_range[incidence][1], likelihood.rays.decay[beam], crossing,
         )  # fmt: skip
-        product = product * wp.max(m * crossing.chance * p, MIN_FACTOR)
+        product = product * wp.max(reflectivity * crossing.chance * p, MIN_FACTOR)
         if product < MIN_PRODUCT or product > ONE_32 / MIN_PRODUCT:
             total += wp.log(wp.float64(product))
             product = ONE_32
@@ -123,7 +136,7 @@ def log_stops(
     floor = wp.max(MIN_PRODUCT, wp.float32(wp.exp(least - total)))
     for i in range(beams.passing_begin, beams.passing_end):
         g = crossing_probability_of(endpoints.line[beams.entries[i]], dx, dy, cell)
-        product = product * wp.max(ONE_32 - m * g, MIN_FACTOR)
+        product = product * wp.max(ONE_32 - reflectivity * g, MIN_FACTOR)
         if product < floor:
             total += wp.log(wp.float64(product))
             if total < least:
@@ -131,21 +144,6 @@ def log_stops(
             product = ONE_32
             floor = wp.max(MIN_PRODUCT, wp.float32(wp.exp(least - total)))
     return total + wp.log(wp.float64(product))
-
-
-BLOCK_WIDTH = 8  # beams of a block
-Lanes = wp.types.vector(length=BLOCK_WIDTH, dtype=wp.float32)  # one number of each of eight beams
-# Lanes of a block. Passing beams: offset of the cell's centre from the beam, and direction of the beam. Stopped beams:
-# also distance of the centre along the beam, reading, decay, and 1 if the beam counts, 0 if it only fills a lane.
-OFFSET, LINE_X, LINE_Y, PASSING_LANES = 0, 1, 2, 3
-CENTRE, READING, DECAY, COUNTS, STOPPED_LANES = 3, 4, 5, 6, 7
-PRODUCT_LANES = wp.constant(2)  # lanes before the blocks: product and least product, see `log_stops_in_lanes`
-CHUNK_BLOCKS = wp.constant(4)  # blocks whose factors are multiplied before the product is turned into a logarithm
-MIN_LANE_PRODUCT = wp.constant(wp.float32(1.0e-35))  # a smaller product may have underflowed
-STEEP_SLOPE = wp.constant(wp.float32(1.0e30))  # slope of the step function `positive`
-MAX_EXPONENT = wp.constant(wp.float32(41.0))
-FAR_OFFSET_M = wp.constant(wp.float32(1.0e3))  # no surface of a cell is met at this offset
-UNKNOWN = wp.constant(wp.float64(1.0e300))  # stands for a sum that could not be computed
 
 
 @wp.struct
@@ -208,12 +206,9 @@ def exponential(x: Lanes) -> Lanes:
     y = one + wp.float32(1.0 / 3.0) * wp.cw_mul(z, y)
     y = one + wp.float32(1.0 / 2.0) * wp.cw_mul(z, y)
     y = one + wp.cw_mul(z, y)
-    y = wp.cw_mul(y, y)
-    y = wp.cw_mul(y, y)
-    y = wp.cw_mul(y, y)
-    y = wp.cw_mul(y, y)
-    y = wp.cw_mul(y, y)
-    return wp.cw_mul(y, y)
+    for _ in range(6):  # Warp unrolls this loop
+        y = wp.cw_mul(y, y)
+    return y
 
 
 @wp.func
@@ -352,19 +347,20 @@ def log_product(blocks: LaneBlocks, row: int, begin: int) -> wp.float64:
 
 @wp.func
 def log_stops_in_lanes(
-    law: SensorLaw32, blocks: LaneBlocks, own: CellBlocks, centre: wp.vec2, cell: Cell, least: wp.float64
+    law: SensorLaw32, blocks: LaneBlocks, cell_blocks: CellBlocks, centre: wp.vec2, cell: Cell, least: wp.float64
 ) -> wp.float64:
     """Compute `log_stops` of the beams in a cell's own blocks; UNKNOWN if a product was too small."""
     # The product and the smallest product so far are stored in every round, because compilers vectorise eight lanes
     # that are stored together.
-    row, begin = own.row, own.begin
+    row, begin = cell_blocks.row, cell_blocks.begin
     one = Lanes(wp.float32(1.0))
-    m = cell[REFLECTIVITY]
+    reflectivity = cell[REFLECTIVITY]
     l11, l21, l22 = cell[L11], cell[L21], cell[L22]
     dx, dy = cell[MEAN_X] - centre[0], cell[MEAN_Y] - centre[1]
-    passing_blocks, stopped_blocks = block_count(own.n_passing), block_count(own.n_stopped)
-    stopped_begin = begin + stopped_blocks_begin(own.n_passing)
-    total = wp.float64(own.n_stopped) * wp.log(wp.float64(wp.max(m, MIN_FACTOR)) * wp.float64(law.peak))
+    passing_blocks, stopped_blocks = block_count(cell_blocks.n_passing), block_count(cell_blocks.n_stopped)
+    stopped_begin = begin + stopped_blocks_begin(cell_blocks.n_passing)
+    highest = wp.float64(wp.max(reflectivity, MIN_FACTOR)) * wp.float64(law.peak)
+    total = wp.float64(cell_blocks.n_stopped) * wp.log(highest)
     area = l11 * l22
     per_peak = wp.float32(1.0) / law.peak
     # Stopped beams: the arithmetic of `cross_at` and `stop_density`; lane: the block's first lane.
@@ -416,7 +412,7 @@ def log_stops_in_lanes(
             side_2 = l22 * vx
             side = wp.cw_mul(side_1, side_1) + wp.cw_mul(side_2, side_2)
             chance = crossing_probability_lanes(blocks.lanes[row, passing_lane + OFFSET] + dy * vx - dx * vy, side)
-            passed = wp.cw_mul(passed, wp.max(one - m * chance, Lanes(MIN_FACTOR)))
+            passed = wp.cw_mul(passed, wp.max(one - reflectivity * chance, Lanes(MIN_FACTOR)))
             lowest = wp.min(lowest, passed)
             blocks.lanes[row, begin] = passed
             blocks.lanes[row, begin + 1] = lowest

@@ -7,8 +7,8 @@ Metropolis steps, which do not use the counts (`update_endpoint_cells`).
 The beams hardly determine where *along* a wall a surface lies and how far it extends, but they determine its position
 and thickness *across* the wall to millimetres. So each cell has a frame whose first axis points along its wall
 (`bayesmap.samplers.stop_problem`). A cell in its frame is a `Cell` with the mean from the cell's centre and the
-Cholesky factor in these axes. A row of step sizes holds the sizes for logit m, mean along, mean across, log l11, l21
-and log l22, and the frame's cosine and sine. They are fixed beforehand: they may not depend on the chain's state.
+Cholesky factor in these axes. A row of step sizes holds the sizes for logit m (m: reflectivity), mean along, mean
+across, log l11, l21 and log l22, and the frame's cosine and sine. They may not depend on the chain's state.
 """
 
 import warp as wp
@@ -25,10 +25,13 @@ from bayesmap.kernels.surfaces.surface import L11, L21, L22, MEAN_X, MEAN_Y, REF
 wp.set_module_options({"enable_backward": False})
 COSINE, SINE = 6, 7  # elements of a row of step sizes
 SHORT_STEP = wp.constant(wp.float32(0.3))  # size of short steps, relative to the others
-# Limits of m within which single precision can reverse a step of logit m.
+# Limits of the reflectivity m within which single precision can reverse a step of logit m.
 MIN_REFLECTIVITY = wp.constant(wp.float64(1.0e-30))
 MAX_REFLECTIVITY = wp.constant(wp.float64(1.0 - 1.0e-7))
 MIN_VARIANCE = wp.constant(wp.float32(1.0e-12))  # after rounding, square metres
+STEPS = 6  # Metropolis steps of a surface in each sweep
+UNBOUNDED = wp.constant(wp.float64(-1.0e300))  # below every log joint: sums are finished
+AT_STEP = wp.constant(wp.uint64(32))  # random counters per step of a cell's surface, part SURFACES
 
 
 @wp.func
@@ -78,11 +81,12 @@ def propose_step(cell: Cell, step: Cell, key: wp.uint64, counter: wp.uint64, i: 
     e_2 = size * nearly_normal(random_bits(key, counter + wp.uint64(2)))
     e_3 = size * nearly_normal(random_bits(key, counter + wp.uint64(3)))
     if i % 2 == 0:
-        m = wp.float64(cell[REFLECTIVITY])
-        odds = m / wp.max(ONE - m, MIN_REFLECTIVITY) * wp.float64(wp.exp(e_3 * step[REFLECTIVITY]))
-        moved_m = odds / (ONE + odds)
-        if wp.min(m, moved_m) > MIN_REFLECTIVITY and wp.max(m, moved_m) < MAX_REFLECTIVITY:
-            cell[REFLECTIVITY] = wp.float32(moved_m)
+        reflectivity = wp.float64(cell[REFLECTIVITY])
+        odds = reflectivity / wp.max(ONE - reflectivity, MIN_REFLECTIVITY)
+        odds = odds * wp.float64(wp.exp(e_3 * step[REFLECTIVITY]))
+        proposed = odds / (ONE + odds)
+        if wp.min(reflectivity, proposed) > MIN_REFLECTIVITY and wp.max(reflectivity, proposed) < MAX_REFLECTIVITY:
+            cell[REFLECTIVITY] = wp.float32(proposed)
         cell[MEAN_X] = cell[MEAN_X] + e_1 * step[MEAN_X]
         cell[L11] = cell[L11] * wp.exp(e_2 * step[L11])
     else:
@@ -90,11 +94,6 @@ def propose_step(cell: Cell, step: Cell, key: wp.uint64, counter: wp.uint64, i: 
         cell[L21] = cell[L21] + e_2 * step[L21]
         cell[L22] = cell[L22] * wp.exp(e_3 * step[L22])
     return cell
-
-
-STEPS = 6  # Metropolis steps of a surface in each sweep
-UNBOUNDED = wp.constant(wp.float64(-1.0e300))  # below every log joint: sums are finished
-AT_STEP = wp.constant(wp.uint64(32))  # random counters per step of a cell's surface, part SURFACES
 
 
 @wp.func
@@ -121,18 +120,18 @@ def beams_of_cell(lists: BeamLists, endpoints: EndpointCells, chain: int, number
 
 @wp.func
 def log_beams(
-    likelihood: StopLikelihood, blocks: LaneBlocks, own: CellBlocks, beams: CellBeams, centre: wp.vec2, cell: Cell,
-    least: wp.float64,
+    likelihood: StopLikelihood, blocks: LaneBlocks, cell_blocks: CellBlocks, beams: CellBeams, centre: wp.vec2,
+    cell: Cell, least: wp.float64,
 ) -> wp.float64:  # fmt: skip
     """Compute `log_stops` of a cell's beams: in lanes as far as possible, the other beams one by one."""
     # Stopped beams without a lane are the first of their list.
     passing_end = beams.passing_end
     stopped_end = beams.stopped_end
     total = wp.float64(0.0)
-    if own.row >= 0:
-        n_others = stopped_end - beams.stopped_begin - own.n_stopped
+    if cell_blocks.row >= 0:
+        n_others = stopped_end - beams.stopped_begin - cell_blocks.n_stopped
         lanes_least = wp.where(n_others == 0, least, UNBOUNDED)
-        total = endpoint_beams.log_stops_in_lanes(likelihood.law, blocks, own, centre, cell, lanes_least)
+        total = endpoint_beams.log_stops_in_lanes(likelihood.law, blocks, cell_blocks, centre, cell, lanes_least)
         if total == endpoint_beams.UNKNOWN:
             total = wp.float64(0.0)
         else:
@@ -155,7 +154,7 @@ def count_endpoint_cells(first: int, sweep: int, endpoints: EndpointCells, state
     key = sweep_key(state.keys[at.chain], sweep, random.MEETINGS)
     cell = state.cells[at.element]
     centre = surface.centre_of(at.cell, state.ny, state.edge_m)
-    m = cell[REFLECTIVITY]
+    reflectivity = cell[REFLECTIVITY]
     dx, dy = cell[MEAN_X] - centre[0], cell[MEAN_Y] - centre[1]
     begin, end = endpoints.offsets[at.number], endpoints.offsets[at.number + 1]
     # List passing beams from the front, stopped beams from the back.
@@ -176,7 +175,7 @@ def count_endpoint_cells(first: int, sweep: int, endpoints: EndpointCells, state
         passing = entries[i]
         g = endpoint_beams.crossing_probability_of(endpoints.line[passing], dx, dy, cell)
         u = wp.float32(to_uniform(random_bits(key, wp.uint64(passing))))
-        n_met += wp.where(u * (ONE_32 - m * g) < g * (ONE_32 - m), 1, 0)
+        n_met += wp.where(u * (ONE_32 - reflectivity * g) < g * (ONE_32 - reflectivity), 1, 0)
     lists.passes[at.chain, at.number] = passing_end - begin
     state.last_hits[at.element] = end - stopped_begin
     state.last_met[at.element] = n_met
@@ -202,7 +201,7 @@ def update_endpoint_cells(
     cell[REFLECTIVITY] = wp.float32(random.beta_variate(a, b, beta_key, counter + AT_BETA))
     # Copy the beams to blocks, if the law allows it.
     beams = beams_of_cell(lists, endpoints, at.chain, at.number, state.last_hits[at.element])
-    own = endpoint_beams.fill_blocks(likelihood, blocks, at.chain * state.parts + part, beams)
+    cell_blocks = endpoint_beams.fill_blocks(likelihood, blocks, at.chain * state.parts + part, beams)
     # Metropolis steps. Round 0 computes the present log joint, so that the long function is called in one place.
     key = sweep_key(state.keys[at.chain], sweep, random.SURFACES)
     step = endpoints.step[at.number]
@@ -217,9 +216,9 @@ def update_endpoint_cells(
             candidate = propose_step(framed, step, key, step_counter + wp.uint64(1), i - 1)
             moved = out_of_frame(candidate, step, centre)
             least = present + wp.log(to_uniform(random_bits(key, step_counter + AT_ACCEPT)))
-        if i == 0 or surface.is_own(prior, centre, moved):
+        if i == 0 or surface.is_in_square(prior, centre, moved):
             log_joint = log_cell_prior(prior, solid, candidate)
-            log_joint += log_beams(likelihood, blocks, own, beams, centre, moved, least - log_joint)
+            log_joint += log_beams(likelihood, blocks, cell_blocks, beams, centre, moved, least - log_joint)
             if log_joint > least:
                 framed = candidate
                 present = log_joint

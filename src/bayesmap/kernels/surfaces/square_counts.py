@@ -35,6 +35,8 @@ PER_CANDIDATE = wp.constant(wp.float64(1.0 / 16.0))  # 1 / CANDIDATES_PER_LAW
 LOGISTIC_SCALE = wp.constant(wp.float64(0.6))  # of a logistic in place of a normal: longer tails, known quantiles
 MIN_VARIANCE = wp.constant(wp.float64(1.0e-12))  # square metres: a thinner surface counts as one point
 IMPOSSIBLE = wp.constant(wp.float64(-1.0e300))  # log weight of an impossible candidate
+AT_SQUARE = wp.constant(wp.uint64(640))  # random counter of a cell in a sweep
+STREAM_POINT = wp.constant(wp.uint64(5 << 32))  # first random counter of the points of beams
 
 
 @wp.func
@@ -117,10 +119,6 @@ def draw_point_by_table_m(
         else:
             target = (target - p) / (ONE - p)
     return chosen
-
-
-AT_SQUARE = wp.constant(wp.uint64(640))  # random counter of a cell in a sweep
-STREAM_POINT = wp.constant(wp.uint64(5 << 32))  # first random counter of the points of beams
 
 
 @wp.struct

@@ -130,7 +130,7 @@ class StopChains:
             stops.ChainArrays, device, n_cells=cells, n_beams=beams, parts=parts, beta=1.0, nx=rays.grid.shape[0],
             ny=rays.grid.shape[1], edge_m=rays.grid.resolution, keys=np.array(keys, dtype=np.uint64),
             cells=by_cell, solid=by_cell if solid is None else solid.ravel().astype(np.uint8),
-            fixed_m=np.full(by_cell, stops.LEARNS, dtype=np.float32),
+            fixed_reflectivity=np.full(by_cell, stops.LEARNS, dtype=np.float32),
             candidates=(1,) if self.without_surfaces else by_cell, met=by_part, hits=by_part, gain=by_part,
             stop=np.full(by_beam, -1, dtype=np.int32), stop_moments=by_beam, stopped_in=unknown, log_likelihood=by_beam,
             lazy_survival=by_beam, last_hits=by_cell if counts is None else counts[:, 0].flatten(),
@@ -289,7 +289,7 @@ class StopChains:
         wp.launch(cell_draws.draw_untouched, dim=size, inputs=inputs, device=self.device)
 
     def counted(self, chain: int) -> tuple[Ints, Ints]:
-        """Return the beams stopped, and met and passed, (N,) each, when each cell last drew m; before that 0 and -1."""
+        """Return the beams stopped, and met and passed, (N,) each, when each cell was last drawn, before that 0, -1."""
         return self._view(self._state.last_hits, chain), self._view(self._state.last_met, chain)
 
     @property

@@ -1,12 +1,14 @@
 """The first half of a sweep: draw where every beam stops, given the cells (docs/surfaces.md, "The sampler").
 
-In each cell a beam meets the surface with chance g, and is then stopped with probability m. Let a = m g, and let T be
-the product of 1 - a over the cells before. The posterior probability of a stop is proportional to T a p(z | stop). Far
-before the reading, p(z | stop) is the constant density of a random reading: these cells cost one multiplication each.
+In each cell a beam meets the surface with chance g, and is then stopped with probability m, the cell's reflectivity.
+Let a = m g, and let T be the product of 1 - a over the cells before. The posterior probability of a stop is
+proportional to T a p(z | stop). Far before the reading z, p(z | stop) is the constant density of a random reading:
+these cells cost one multiplication each.
 
-A cell learns whether a passing beam *met* its surface, which has probability g (1 - m) / (1 - a). In a sweep that tries
-a candidate for the surface, the cell learns log (1 - m g') / (1 - m g) instead, the beam's part of the Metropolis
-ratio. Both are summed as integers: the result does not depend on the order of beams.
+A cell *learns* in a sweep if it counts the sweep's beams and is updated by the counts. Otherwise its reflectivity is
+fixed. It counts the passing beams that *met* its surface, each with probability g (1 - m) / (1 - a). While it tries a
+candidate for its surface, it sums log (1 - m g') / (1 - m g) instead, the beam's part of the Metropolis ratio. Both are
+sums of integers: the result does not depend on the order of beams.
 
 Most cells are free, and are updated *lazily*, all in the same sweeps. The product of 1 - m g over a beam's lazy cells
 far before its reading is computed once after each update (`pass_lazy_cells`). The other far cells, in which readings
@@ -37,12 +39,15 @@ TO_UNITS = wp.constant(wp.float32(GAIN_UNITS))
 MIN_FACTOR = wp.constant(wp.float32(1.0e-30))  # smaller factors are raised to this before a logarithm
 TO_UNIT_24 = wp.constant(wp.float32(1.0 / (1 << 24)))  # from 24 random bits to a number in [0, 1)
 FAR = wp.constant(-1)  # a stop before the near entries
-LEARNS = wp.constant(wp.float32(-1.0))  # in `ChainArrays.fixed_m`: the cell counts beams in this sweep
-NEGLIGIBLE_REFLECTIVITY = wp.constant(wp.float32(2.0**-26))  # for smaller m, 1 - m is 1 in single precision
+LEARNS = wp.constant(wp.float32(-1.0))  # in `ChainArrays.fixed_reflectivity`: the cell learns in this sweep
+NOT_COUNTED = wp.constant(-1)  # in `ChainArrays.last_met`: the cell has not counted its beams yet
+NEGLIGIBLE_REFLECTIVITY = wp.constant(wp.float32(2.0**-26))  # for a smaller m, 1 - m is 1 in single precision
+MIN_DENSITY = wp.constant(wp.float64(1.0e-300))  # smaller densities of readings are raised to this
 MIN_RELATIVE_WEIGHT = wp.constant(wp.float32(2.0**-26))  # relative weight below single precision
 
 # First random counters of a sweep, one per purpose; the entry or beam is added.
 STREAM_CHOICE, STREAM_END, STREAM_FAR = (wp.constant(wp.uint64(i << 32)) for i in (1, 2, 3))
+MAX_WATCHED_PERIOD = 2  # longest update period of watched cells, in sweeps
 
 
 @wp.struct
@@ -76,7 +81,7 @@ class ChainArrays:
     keys: wp.array(dtype=wp.uint64)  # key of each chain's random numbers
     cells: wp.array(dtype=Cell)
     solid: Uint8s  # labels; all zero where cells have none
-    fixed_m: Float32s  # reflectivity of a cell that learns nothing in this sweep, else LEARNS
+    fixed_reflectivity: Float32s  # reflectivity of a cell that does not learn in this sweep; LEARNS if it does
     candidates: wp.array(dtype=Cell)  # candidate for each cell's surface, while one is tried
     met: Int32Rows  # (chains * parts, n_cells): beams that met the surface and passed
     hits: Int32Rows  # beams that stopped
@@ -87,7 +92,7 @@ class ChainArrays:
     stopped_in: Int32s  # the last sweep in which a cell stopped a beam
     log_likelihood: Float32s  # log-likelihood of the beam's reading, summed over all stops
     last_hits: Int32s  # beams that stopped in a cell when it last drew its reflectivity
-    last_met: Int32s  # beams that met its surface and passed at that draw; -1 before the first draw
+    last_met: Int32s  # beams that met its surface and passed at that draw; NOT_COUNTED before it
     observed_counts: wp.array(dtype=wp.vec2i)  # draws in which some beam observes a cell, and draws inspected
 
 
@@ -158,7 +163,7 @@ def draw_stops(
     first: int, part: int, sweep: int, lazy_updates: int, law: SensorLaw32, rays: TracedRays, state: ChainArrays
 ):
     """One thread per chain's beam: draw and count its stop. ``lazy_updates`` is 1 if the sweep updates lazy cells."""
-    # As in the module's text, m: reflectivity; g: chance of meeting the surface; a: m g; survive: T.
+    # As in the module's text, g: chance of meeting the surface; a: reflectivity times g; survive: T.
     element = first + wp.tid()  # the beam in the arrays of all chains
     chain = element // state.n_beams
     b = element - chain * state.n_beams
@@ -189,12 +194,12 @@ def draw_stops(
         if lazy_updates == 0:
             far_entry = rays.watched[far]
         c_far = rays.cells[far_entry]
-        m_far = state.fixed_m[beam.cell_0 + c_far]
-        if m_far < wp.float32(0.0) or m_far > NEGLIGIBLE_REFLECTIVITY:
+        fixed_far = state.fixed_reflectivity[beam.cell_0 + c_far]
+        if fixed_far == LEARNS or fixed_far > NEGLIGIBLE_REFLECTIVITY:
             cell_far = state.cells[beam.cell_0 + c_far]
             g_far = meeting_chance(rays, cell_far, beam.ray)
             survive = survive * (ONE_32 - cell_far[REFLECTIVITY] * g_far)
-            if m_far < wp.float32(0.0):
+            if fixed_far == LEARNS:
                 count_pass(state, beam, c_far, cell_far, g_far, far_entry, 1)
     stopped_far = ONE_32 - survive
     total = wp.float64(tempered(law.uniform, state.beta)) * wp.float64(stopped_far)
@@ -208,10 +213,10 @@ def draw_stops(
     some_learn = int(0)
     for near_entry in range(beam.near, beam.end):
         c_near = rays.cells[near_entry]
-        m_near = state.fixed_m[beam.cell_0 + c_near]
-        if m_near < wp.float32(0.0):
+        fixed_near = state.fixed_reflectivity[beam.cell_0 + c_near]
+        if fixed_near == LEARNS:
             some_learn = 1
-        if m_near < wp.float32(0.0) or m_near * survive > bound or m_near > NEGLIGIBLE_REFLECTIVITY:
+        if fixed_near == LEARNS or fixed_near * survive > bound or fixed_near > NEGLIGIBLE_REFLECTIVITY:
             cell_near = state.cells[beam.cell_0 + c_near]
             if cell_near[REFLECTIVITY] * survive > bound:
                 crossing = cross_cell(rays, near_entry, cell_near, beam.ray)
@@ -234,7 +239,7 @@ def draw_stops(
     if to_uniform(random_bits(beam.key, STREAM_END + wp.uint64(b))) * total < nowhere:
         choice = beam.end
         some_learn = 1  # perhaps a cell behind the end of the walk learns
-    state.log_likelihood[element] = wp.float32(wp.log(wp.max(total, wp.float64(1.0e-300))))
+    state.log_likelihood[element] = wp.float32(wp.log(wp.max(total, MIN_DENSITY)))
 
     # Count passes of near cells before the stop; then store the stop, and count it in its cell.
     if choice == FAR:
@@ -242,7 +247,7 @@ def draw_stops(
         choice = find_far_stop(rays, state, beam, u_far * stopped_far)
     for passed_entry in range(beam.near, wp.where(some_learn != 0, wp.min(choice, beam.end), beam.near)):
         c_passed = rays.cells[passed_entry]
-        if state.fixed_m[beam.cell_0 + c_passed] < wp.float32(0.0):
+        if state.fixed_reflectivity[beam.cell_0 + c_passed] == LEARNS:
             cell_passed = state.cells[beam.cell_0 + c_passed]
             g_passed = meeting_chance(rays, cell_passed, beam.ray)
             count_pass(state, beam, c_passed, cell_passed, g_passed, passed_entry, 1)
@@ -253,21 +258,22 @@ def draw_stops(
         stopped = cross_cell(rays, choice, cell_stop, beam.ray)
         state.stop_moments[element] = wp.vec2(stopped.distance_m, stopped.variance)
         state.stopped_in[beam.cell_0 + c_stop] = sweep
-        if state.fixed_m[beam.cell_0 + c_stop] < wp.float32(0.0):  # else it learns nothing, or `endpoint_cells` counts
+        if state.fixed_reflectivity[beam.cell_0 + c_stop] == LEARNS:  # else nothing counts it, or `endpoint_cells` does
             count_stop(law, state, beam, choice, c_stop, cell_stop, stopped)
 
 
 @wp.func
 def count_pass(state: ChainArrays, beam: Beam, c: int, cell: Cell, g: wp.float32, entry: int, sign: int):
     """Count that a beam passed cell c, which it met with chance g; with sign -1, undo the count."""
-    m = cell[REFLECTIVITY]
+    reflectivity = cell[REFLECTIVITY]
     if cell[TRYING] != wp.float32(0.0):
         candidate_g = surface.crossing_probability(state.candidates[beam.cell_0 + c], beam.ray)
-        log_ratio = wp.log(wp.max(ONE_32 - m * candidate_g, MIN_FACTOR) / wp.max(ONE_32 - m * g, MIN_FACTOR))
+        candidate_pass = wp.max(ONE_32 - reflectivity * candidate_g, MIN_FACTOR)
+        log_ratio = wp.log(candidate_pass / wp.max(ONE_32 - reflectivity * g, MIN_FACTOR))
         wp.atomic_add(state.gain, beam.row, c, wp.int64(sign) * to_gain_units(log_ratio))
         return
     u = wp.float32(random_bits(beam.key, wp.uint64(entry)) >> wp.uint64(40)) * TO_UNIT_24
-    if u * (ONE_32 - m * g) < g * (ONE_32 - m):
+    if u * (ONE_32 - reflectivity * g) < g * (ONE_32 - reflectivity):
         wp.atomic_add(state.met, beam.row, c, sign)
 
 
@@ -283,7 +289,7 @@ def find_far_stop(rays: TracedRays, state: ChainArrays, beam: Beam, target: wp.f
         survive = survive * (ONE_32 - cell[REFLECTIVITY] * g)
         if choice == FAR and (ONE_32 - survive >= target or entry == beam.near - 1):
             choice = entry
-        if choice != FAR and state.fixed_m[beam.cell_0 + c] < wp.float32(0.0):
+        if choice != FAR and state.fixed_reflectivity[beam.cell_0 + c] == LEARNS:
             count_pass(state, beam, c, cell, g, entry, -1)
     return choice
 
@@ -300,9 +306,6 @@ def count_stop(law: SensorLaw32, state: ChainArrays, beam: Beam, entry: int, c: 
         wp.atomic_add(state.gain, beam.row, c, to_gain_units(wp.log(ratio)))
 
 
-MAX_WATCHED_PERIOD = 2  # longest update period of watched cells, in sweeps
-
-
 @wp.kernel
 def pass_lazy_cells(first: int, lazy: Uint8s, rays: TracedRays, state: ChainArrays):
     """One thread per chain's beam: compute its chance to pass the far cells that ``lazy`` marks."""
@@ -314,7 +317,7 @@ def pass_lazy_cells(first: int, lazy: Uint8s, rays: TracedRays, state: ChainArra
     survive = wp.float32(1.0)
     for entry in range(rays.offsets[b], rays.near[b]):
         c = rays.cells[entry]
-        if lazy[c] != wp.uint8(0) and state.fixed_m[cell_0 + c] > NEGLIGIBLE_REFLECTIVITY:
+        if lazy[c] != wp.uint8(0) and state.fixed_reflectivity[cell_0 + c] > NEGLIGIBLE_REFLECTIVITY:
             cell = state.cells[cell_0 + c]
             survive = survive * (wp.float32(1.0) - cell[REFLECTIVITY] * meeting_chance(rays, cell, ray))
     state.lazy_survival[element] = survive

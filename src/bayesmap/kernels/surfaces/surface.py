@@ -28,6 +28,7 @@ REFLECTIVITY = 0
 MEAN_X, MEAN_Y = 1, 2  # metres from the grid's corner
 L11, L21, L22 = 3, 4, 5  # Cholesky factor of Sigma
 TRYING = 6  # 1 while a candidate for the surface is tried, else 0
+MEAN_TRIES = wp.constant(8)  # most draws of a mean's coordinate
 
 
 def cells_to_device(states: Singles, device: str) -> Any:
@@ -96,9 +97,6 @@ def cross_surface(cell: Cell, ray: Ray) -> Crossing:
     return cross_at(u[0] * ry - u[1] * rx, u[0] * rx + u[1] * ry, cell, u[0], u[1])
 
 
-MEAN_TRIES = wp.constant(8)  # most draws of a mean's coordinate
-
-
 @wp.struct
 class PriorNumbers:
     """`KernelNumbers`, and if cells have labels, log normalisers of their Betas; else these are 0."""
@@ -142,7 +140,7 @@ def centre_of(index: int, ny: int, edge_m: wp.float64) -> wp.vec2:
 
 
 @wp.func
-def is_own(prior: PriorNumbers, centre: wp.vec2, cell: Cell) -> bool:
+def is_in_square(prior: PriorNumbers, centre: wp.vec2, cell: Cell) -> bool:
     """Return whether the surface's mean lies in the cell's own square."""
     half = wp.float32(prior.half_m)
     return wp.abs(cell[MEAN_X] - centre[0]) <= half and wp.abs(cell[MEAN_Y] - centre[1]) <= half
@@ -200,9 +198,9 @@ def log_size_penalty(prior: PriorNumbers, cell: Cell) -> wp.float64:
 
 
 @wp.func
-def log_reflectivity_prior(prior: PriorNumbers, solid: wp.uint8, m: wp.float32) -> wp.float32:
-    """Return the log density of logit m given the label; without labels, up to a constant."""
-    m = wp.clamp(m, wp.float32(1.0e-30), wp.float32(1.0 - 1.0e-7))
+def log_reflectivity_prior(prior: PriorNumbers, solid: wp.uint8, reflectivity: wp.float32) -> wp.float32:
+    """Return the log density of the logit of a reflectivity given the label; without labels, up to a constant."""
+    m = wp.clamp(reflectivity, wp.float32(1.0e-30), wp.float32(1.0 - 1.0e-7))  # its logarithms are finite
     counts = pseudo_counts(prior, solid)
     density = wp.float32(counts[0]) * wp.log(m) + wp.float32(counts[1]) * wp.log(wp.float32(1.0) - m)
     return density - wp.float32(wp.where(solid != wp.uint8(0), prior.log_beta_solid, prior.log_beta))

@@ -24,6 +24,8 @@ from bayesmap.kernels.walls.chains import Chain, Kept, Sweeps, Table, WallChainA
 wp.set_module_options({"enable_backward": False, "max_unroll": 1})  # unrolled, it takes half a minute to compile
 LOOK_BACK = wp.constant(8)  # entries: a beam's cells in one block lie close together, even if it runs along a line
 Weights = wp.types.vector(length=16, dtype=wp.float64)  # one number per state of a block; bit j: cell j is a wall
+CERTAIN_LEVEL = wp.constant(wp.uint64(chains.CERTAIN_LEVEL))
+IMPOSSIBLE = wp.constant(wp.float64(-1.0e300))  # log weight
 
 
 @wp.struct
@@ -121,10 +123,6 @@ def list_blocks(table: BeamTable, device: str) -> BlockArrays:
     blocks.is_first = devices.to_device(np.array(is_first), Weights, device)
     blocks.beam, blocks.first, blocks.last = (a.to(device) for a in entries)
     return blocks
-
-
-CERTAIN_LEVEL = wp.constant(wp.uint64(chains.CERTAIN_LEVEL))
-IMPOSSIBLE = wp.constant(wp.float64(-1.0e300))  # log weight
 
 
 @wp.func

@@ -23,6 +23,9 @@ from bayesmap.kernels.random import cipher_bits, permuted_index, to_uniform
 wp.set_module_options({"enable_backward": False})
 CERTAIN_LEVEL = 1 << 53  # the level of probability one
 NO_COUPLING = wp.constant(wp.float64(0.0))  # coupling of independent cells
+UNKNOWN = wp.constant(wp.uint8(0))  # the gain has to be summed again
+BOUND = wp.constant(wp.uint8(1))  # the sum is at most the gain for a free cell, at least the gain for a wall
+EXACT = wp.constant(wp.uint8(2))  # the sum is the gain
 
 
 @wp.struct
@@ -146,11 +149,6 @@ class Table:
     cell_loglik: Float32s
     cell_gain_bound: Float32s
     cell_advantage: Float32s
-
-
-UNKNOWN = wp.constant(wp.uint8(0))  # the gain has to be summed again
-BOUND = wp.constant(wp.uint8(1))  # the sum is at most the gain for a free cell, at least the gain for a wall
-EXACT = wp.constant(wp.uint8(2))  # the sum is the gain
 
 
 @wp.struct

@@ -30,6 +30,8 @@ MAX_RATIO = wp.constant(wp.float32(1.0e6))
 MAX_PRODUCT = wp.constant(wp.float32(1.0e30))  # beyond it, a product is replaced by its logarithm
 FIXED_LOG_ODDS = wp.constant(wp.float32(1.0e12))  # prior log-odds that no beam can outweigh: the prior fixes the cell
 MAX_LOG_ODDS = wp.constant(wp.float32(60.0))  # log-odds are clipped before their exponential
+CPU_PARTS = 4  # fixed, so that sums do not depend on the number of cores
+GPU_PARTS = 256
 
 
 @wp.struct
@@ -166,10 +168,6 @@ def gather_beliefs(first: int, from_neighbours: Float32Rows, beliefs: BeliefArra
             total += from_neighbours[side, cell]
     beliefs.belief[cell] = total
     beliefs.odds[cell] = wp.exp(wp.clamp(total, -MAX_LOG_ODDS, MAX_LOG_ODDS))
-
-
-CPU_PARTS = 4  # fixed, so that sums do not depend on the number of cores
-GPU_PARTS = 256
 
 
 class Beliefs:
