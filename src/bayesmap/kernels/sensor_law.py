@@ -1,4 +1,4 @@
-"""The law of a reading, compiled: the formulas of `bayesmap.sensors`, in single and in double precision.
+"""The law of a reading (its density given the stop), compiled: the formulas of `bayesmap.sensors`, in two precisions.
 
 A beam stops at a distance known up to a variance, which widens the noise to ``sqrt(scale(d)^2 + variance)``. Functions
 take their precision from their arguments, of the type ``Any``: chains weigh stops in single precision (`SensorLaw32`),

@@ -110,9 +110,8 @@ def expected_reflectivity(
 
     The density of one more beam under these means is the mean density under draws (docs/surfaces.md, Predictions). The
     counts must come from the sweep that began at the draw, with its surfaces. A cell that this sweep did not update has
-    the counts of its last update, an approximation: its correlation with later changes is lost.
-    Cells have stopped ``hits`` beams, and let ``passes`` beams pass. If ``passes`` is negative, a cell has not counted
-    yet, and the ``drawn`` reflectivity stays. Labels ``solid`` choose a and b. All are (T,).
+    the counts of its last update, an approximation. Cells have stopped ``hits`` beams and let ``passes`` pass. A cell
+    with negative ``passes`` has not counted yet, and keeps ``drawn``. Labels ``solid`` choose a and b. All are (T,).
     """
     stopped = hits.astype(np.float32)
     total = stopped + np.maximum(passes, 0)

@@ -31,11 +31,11 @@ def invert_on_pattern(
                     p += 1
                 column_sums[b - first] -= lower[a] * inverse[p]
                 column_sums[a - first] -= lower[b] * inverse[p]
-        own = wp.float64(1.0) / pivot[j]
+        diagonal = wp.float64(1.0) / pivot[j]
         for a in range(first, last):
             inverse[a] = column_sums[a - first]
-            own -= lower[a] * inverse[a]
-        inverse[begin[j]] = own
+            diagonal -= lower[a] * inverse[a]
+        inverse[begin[j]] = diagonal
 
 
 def selected_inverse(begin: Ints, row: Ints, lower: Floats, pivot: Floats) -> Floats:

@@ -428,7 +428,7 @@ class ScanLikelihood:
 
     @cached_property
     def _on_device(self) -> tuple[Any, Any]:
-        """Return the mounts of beams and the readings on the device."""
+        """The mounts of beams and the readings on the device."""
         scans = self.scans
         readings = devices.to_device(scans.ranges_m.ravel(), wp.float64, self.device)
         mounts = np.zeros((len(scans.angles_rad), 3))
