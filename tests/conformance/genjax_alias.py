@@ -78,11 +78,11 @@ def _on_flags(known: Any, traced: Any) -> Any:
 
 INTERNAL = {
     "FlagOp": types.SimpleNamespace(
-        and_=masks.both,
+        and_=masks.flag_and,
         or_=_on_flags(operator.or_, jnp.logical_or),
         xor_=_on_flags(operator.xor, jnp.logical_xor),
         not_=_on_flags(operator.not_, jnp.logical_not),
-        where=masks.where,
+        where=masks.where_leaves,
     ),
     "multi_switch": _multi_switch,
     "tree_choose": _tree_choose,

@@ -43,6 +43,15 @@ def test_joining_prefers_the_left_value(join):
     assert (both["x"], both["y"], both["z", "w"]) == (1.0, 2.0, 4.0)
 
 
+def test_a_masked_value_lets_elements_and_switches_below_it_through():
+    """As in GenJAX, the left value is taken where it is present."""
+    elements, zeros = C[jnp.array([0, 2])].set(jnp.array([5.0, 6.0])), C.v(jnp.zeros(3))
+    joined = C.v(jnp.ones(3)).mask(jnp.array(False)) | elements
+    assert (joined[2].unmask(), joined[1].flag, (joined | zeros)[()].tolist()) == (6.0, False, [5.0, 0.0, 6.0])
+    assert (C.switch(jnp.array(1), [C.v(1.0), C.n()]) | C.switch(jnp.array(0), [C.v(3.0), C.n()]))[()].unmask() == 3.0
+    assert "no rule" in str(pickle.loads(pickle.dumps(genjax.NotSupportedEditRequest(C.n(), C.n()))))
+
+
 def test_and_filters_the_right_map_by_the_left_ones_addresses_and_at_set_replaces():
     both = C["x"].set(1.0) & (C["x"].set(3.0) | C["y"].set(2.0))
     assert both["x"] == 3.0

@@ -19,7 +19,7 @@ import jax
 import jax.numpy as jnp
 
 from bayesmap.gen.errors import ChoiceMapNoValueAtAddress, ShapeMismatch, format_address
-from bayesmap.gen.masks import Mask, overlay, same_index, where
+from bayesmap.gen.masks import Mask, overlay, same_index, where_leaves
 from bayesmap.gen.pytree import Pytree, dataclass
 from bayesmap.gen.selection import Selection
 
@@ -121,7 +121,7 @@ def _elements(tree: Any, index: Any) -> Any:
 
 
 class ChoiceMap(Outlined, Pytree):
-    """Base of choice maps, made by `ChoiceMapBuilder`, conventionally called `C`. Its subclasses are kinds of nodes."""
+    """Base of choice maps, made by the `Builder` that users import as `C`. Its subclasses are kinds of nodes."""
 
     def get_value(self) -> Any:
         """Return the value at the empty address, or None. It is a Mask if its presence is decided at run time."""
@@ -132,6 +132,10 @@ class ChoiceMap(Outlined, Pytree):
                 values = [chm.get_value() for chm in maps]
                 masks = [Mask.build(value) for value in values if value is not None]
                 return Mask.or_n(*masks) if masks else None
+            case Or(left, right):
+                first, second = left.get_value(), right.get_value()
+                # One value alone may lack the elements that the other map has at indices.
+                return None if first is None or second is None else _first_present(first, second)
         return None
 
     def get_inner_map(self, component: Any) -> "ChoiceMap":
@@ -300,7 +304,7 @@ class ChoiceMap(Outlined, Pytree):
             value = value.flatten()
         return Static({}) if value is None or (_is_array(value) and 0 in value.shape) else Choice(value)
 
-    value = choice
+    value = choice  # GenJAX's other name
 
     @staticmethod
     def entry(value: Any, *address: Any) -> "ChoiceMap":
@@ -341,9 +345,9 @@ def _is_array(value: Any) -> bool:
 
 @dataclass
 class Choice(ChoiceMap):
-    """A node with a bare value: an array, or a Mask of an array."""
+    """A node with a bare value `v`: an array, or a Mask of an array."""
 
-    v: Any
+    v: Any  # GenJAX's name: `value` is the static method above
 
 
 @dataclass
@@ -360,25 +364,26 @@ class Static(ChoiceMap):
 
 @dataclass
 class Indexed(ChoiceMap):
-    """A node with the map `c` at the index `addr`: an int, a scalar, or an array (k,) with values (k, ...)."""
+    """A node with the map `chm` at `index`: an int, a scalar, or an array (k,) with values (k, ...)."""
 
-    c: ChoiceMap
-    addr: Any
+    chm: ChoiceMap
+    index: Any
 
     @staticmethod
-    def build(chm: ChoiceMap, addr: Any) -> ChoiceMap:
-        """Return `chm` at the index `addr`. Raises ValueError if `chm` and `addr` both have an array of indices."""
-        if jnp.ndim(addr) > 0 and any(jnp.ndim(c) > 0 for path in chm.paths() for c in path if not isinstance(c, str)):
+    def build(chm: ChoiceMap, index: Any) -> ChoiceMap:
+        """Return `chm` at `index`. Raises ValueError if `chm` and `index` both have an array of indices."""
+        inner_indices = [part for path in chm.paths() for part in path if not isinstance(part, str)]
+        if jnp.ndim(index) > 0 and any(jnp.ndim(inner) > 0 for inner in inner_indices):
             raise ValueError("An address can hold one array of indices, and single indices before it")
-        return Indexed(chm, addr)
+        return Indexed(chm, index)
 
 
 @dataclass
 class Or(ChoiceMap):
-    """A node with two maps that `|` cannot join immediately. The left map, `c1`, takes precedence."""
+    """A node with two maps that `|` cannot join immediately. The left map takes precedence."""
 
-    c1: ChoiceMap
-    c2: ChoiceMap
+    left: ChoiceMap
+    right: ChoiceMap
 
 
 @dataclass
@@ -386,7 +391,7 @@ class Switch(ChoiceMap):
     """A node with several maps. Map number k is masked by `idx == k`, with an integer array `idx`."""
 
     idx: Any
-    chms: tuple[ChoiceMap, ...]
+    maps: tuple[ChoiceMap, ...]
 
 
 def _element_at(chm: ChoiceMap, index: Any, component: Any) -> ChoiceMap:
@@ -400,32 +405,41 @@ def _element_at(chm: ChoiceMap, index: Any, component: Any) -> ChoiceMap:
     return _elements(chm, first).filter(jnp.asarray(hits)[first])  # type: ignore[no-any-return]
 
 
+def _first_present(first: Any, second: Any) -> Any:
+    """Return `first` where it is present, and `second` elsewhere. Values without a flag are present."""
+    if not isinstance(first, Mask):
+        return first
+    combined = overlay(first, Mask.build(second))
+    return combined if isinstance(second, Mask) else combined.value
+
+
 def join(left: ChoiceMap, right: ChoiceMap) -> ChoiceMap:
     """Return everything in either map. If both have a value at an address, the left map's value is returned."""
     if left.static_is_empty() or right.static_is_empty():
         return right if left.static_is_empty() else left
     match left, right:
         # Submaps by name: join submaps of the same name.
-        case Static(a), Static(b):
-            joined = dict(a)
-            for name, submap in b.items():
-                joined[name] = join(a[name], submap) if name in a else submap
+        case Static(left_maps), Static(right_maps):
+            joined = dict(left_maps)
+            for name, submap in right_maps.items():
+                joined[name] = join(left_maps[name], submap) if name in left_maps else submap
             return Static.build(joined)
-        # A mask over a value: the mask's value where its flag is True, else the right value.
-        case Choice(Mask() as a), Choice(b):
-            combined = overlay(a, Mask.build(b))
-            return Choice(combined if isinstance(b, Mask) else combined.value)
-        # A value without a flag covers everything on the right.
-        case Choice(), Choice() | Indexed():
+        case Choice(first), Choice(second):
+            return Choice(_first_present(first, second))
+        # A value without a flag covers all elements on the right.
+        case Choice(value), Indexed() if not isinstance(value, Mask):
             return left
+        # A mask over elements over a value: join from the right, so that the elements replace the value's.
+        case Or(Choice() as mask, Indexed() as elements), Choice():
+            return join(mask, join(elements, right))
         # Elements over an array: replace the array's elements.
         case Indexed(), Choice(value) if not isinstance(value, Mask):
             return Choice(overwrite(left, jnp.asarray(value)))
         # A switch by a scalar: join the other map to each branch, masked as the branch is.
-        case (Switch(idx, chms), other) if jnp.ndim(idx) == 0 and not isinstance(other, Switch):
-            return Switch(idx, tuple(chm | other.mask(idx == k) for k, chm in enumerate(chms)))
-        case (other, Switch(idx, chms)) if jnp.ndim(idx) == 0 and not isinstance(other, Switch):
-            return Switch(idx, tuple(other.mask(idx == k) | chm for k, chm in enumerate(chms)))
+        case (Switch(idx, maps), other) if jnp.ndim(idx) == 0 and not isinstance(other, Switch):
+            return Switch(idx, tuple(chm | other.mask(idx == k) for k, chm in enumerate(maps)))
+        case (other, Switch(idx, maps)) if jnp.ndim(idx) == 0 and not isinstance(other, Switch):
+            return Switch(idx, tuple(other.mask(idx == k) | chm for k, chm in enumerate(maps)))
         # A bare value and names cannot share an address.
         case (Choice(), Static()) | (Static(), Choice()):
             names = format_address(next(path for chm in (left, right) for path in chm.paths() if path))
@@ -440,7 +454,7 @@ def overwrite(chm: ChoiceMap, array: Any) -> Any:
         case Indexed(inner, index):
             return array.at[index].set(overwrite(inner, array[index]))
         case Choice(Mask(value, flag)):
-            return where(flag, value, array)
+            return where_leaves(flag, value, array)
         case Choice(value):
             return value
     raise ValueError(f"Names below an index cannot replace elements of an array of shape {array.shape}")

@@ -18,7 +18,7 @@ from bayesmap.gen.diff import Diff
 from bayesmap.gen.edits import Edited, EditRequest, Regenerate, Update
 from bayesmap.gen.errors import BadArguments, MissingAddress, NotSupportedEditRequest, OutsideSupport, ShapeMismatch
 from bayesmap.gen.generative_function import GenerativeFunction, Trace
-from bayesmap.gen.masks import Mask, check, in_optional_part, is_concrete, where
+from bayesmap.gen.masks import Mask, check_flags, in_optional_part, is_concrete, where_leaves
 from bayesmap.gen.pytree import Const, dataclass, static
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
@@ -86,7 +86,7 @@ class Distribution(GenerativeFunction):
             # A missing value is an error if this is known now; compiled code returns NaN.
             if is_concrete(flags) and not in_optional_part() and not bool(jnp.all(flags)):
                 raise MissingAddress((), "its mask's flag is False" if jnp.ndim(flags) == 0 else f"given: {flags}")
-            check(jnp.logical_or(flags, in_optional_part()), "assess: a choice is masked, and its flag is False")
+            check_flags(jnp.logical_or(flags, in_optional_part()), "assess: a choice is masked, and its flag is False")
             score = jnp.where(jnp.all(flags), score, jnp.nan)
         return score, value
 
@@ -99,7 +99,7 @@ class Distribution(GenerativeFunction):
         if flags is None:
             return DistributionTrace(self, args, value, score), score
         drawn_score, drawn = self.random_weighted(key, *args)
-        new = DistributionTrace(self, args, where(flags, value, drawn), jnp.where(flags, score, drawn_score))
+        new = DistributionTrace(self, args, where_leaves(flags, value, drawn), jnp.where(flags, score, drawn_score))
         return new, jnp.where(flags, score, 0.0)
 
     def edit(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
@@ -111,7 +111,7 @@ class Distribution(GenerativeFunction):
                 if value is None:
                     return self._rescore(key, trace, argdiffs)
                 value = self.like(value, old)
-                value = value if flags is None else where(flags, value, old)
+                value = value if flags is None else where_leaves(flags, value, old)
                 new = DistributionTrace(self, args, value, self.estimate_logpdf(key, value, *args) + penalty)
                 discard = ChoiceMap.choice(old if flags is None else Mask(old, flags))
                 return new, new.score - trace.score, Diff.unknown_change(value), Update(discard)
@@ -191,7 +191,7 @@ class ExactDensity(Distribution):
         if value is None or flags is None:
             return super().generate(key, constraint, args)
         drawn = self.draw(key, args)
-        value = where(flags, self.like(value, drawn), drawn)
+        value = where_leaves(flags, self.like(value, drawn), drawn)
         new = DistributionTrace(self, args, value, self.score(value, args) + penalty)
         return new, self.score(value, args, flags) + penalty
 
@@ -226,7 +226,7 @@ class ExactDensity(Distribution):
         if possible is True:
             return 0.0
         if flags is not None:
-            possible = where(flags, possible, jnp.ones_like(possible))
+            possible = where_leaves(flags, possible, jnp.ones_like(possible))
         if not is_concrete(possible):
             return jnp.where(jnp.all(possible), 0.0, -jnp.inf)
         if not bool(jnp.all(possible)):

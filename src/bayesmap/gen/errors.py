@@ -38,7 +38,7 @@ class AddressError(BadInput):
         return f"{self.headline} {format_address(self.address)}{': ' if self.detail else ''}{self.detail}"
 
 
-class NotAnAddress(AddressError, TypeError):
+class NotAnAddress(AddressError, TypeError, headline="A part that is no string in address"):
     """A site's address is not made of strings."""
 
 
@@ -78,4 +78,8 @@ class NotSupportedEditRequest(TypeError):
     """A generative function got a request that it has no rule for: a fault of a program, not of a user's input."""
 
     def __init__(self, gen_fn: Any, request: Any) -> None:
-        super().__init__(f"{type(gen_fn).__name__} has no rule for the edit request {type(request).__name__}")
+        super().__init__(gen_fn, request)  # an error is unpickled by its arguments
+
+    def __str__(self) -> str:
+        gen_fn, request = self.args
+        return f"{type(gen_fn).__name__} has no rule for the edit request {type(request).__name__}"

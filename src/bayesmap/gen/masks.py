@@ -30,7 +30,7 @@ def is_known(flag: Any) -> bool:
     return isinstance(flag, bool | np.bool_)
 
 
-def both(first: Flag, second: Flag) -> Flag:
+def flag_and(first: Flag, second: Flag) -> Flag:
     """Return whether both flags are True: a Python bool if both flags are known."""
     if is_known(first) and is_known(second):
         return bool(first) and bool(second)
@@ -42,7 +42,7 @@ def same_index(a: Any, b: Any) -> Flag:
     return a == b if isinstance(a, int) and isinstance(b, int) else jnp.asarray(a) == jnp.asarray(b)
 
 
-def where(flag: Any, yes: Any, no: Any) -> Any:
+def where_leaves(flag: Any, yes: Any, no: Any) -> Any:
     """Return `jnp.where` of each pair of leaves. The flag's shape is a prefix of every leaf's shape."""
 
     def choose(a: Any, b: Any) -> Any:
@@ -74,18 +74,18 @@ def do_checkify() -> AbstractContextManager[None]:
 
 
 def optional_part() -> AbstractContextManager[None]:
-    """Let choices be absent in the code inside. It scores a part of a model that a flag may switch off."""
+    """Let choices be absent in the code inside: `mask` and `switch` score a part that a flag may switch off."""
     return _set_true(_optional)
 
 
-def check(condition: Any, message: str) -> None:
+def check_flags(condition: Any, message: str) -> None:
     """Report an error if an element of `condition` is False and the code runs inside `do_checkify`."""
     if _checking.get():
         checkify.check(jnp.all(condition), message)
 
 
 def in_optional_part() -> bool:
-    """Return whether this code runs inside `optional_part`."""
+    """Return whether this code runs inside `optional_part`: a distribution then scores an absent choice by NaN."""
     return _optional.get()
 
 
@@ -114,7 +114,7 @@ class Mask(Pytree):
             raise ValueError(f"Can't build a Mask with non-matching Flag shapes {new} and {old}")
         if new:
             flag = jnp.reshape(flag, new + (1,) * (len(old) - len(new)))
-        return Mask(value.value, both(flag, value.flag))
+        return Mask(value.value, flag_and(flag, value.flag))
 
     @staticmethod
     def maybe_mask(value: Any, flag: Flag) -> Any:
@@ -137,8 +137,8 @@ class Mask(Pytree):
         Without a default the stored value is returned everywhere; inside `do_checkify` a False flag is then an error.
         """
         if default is not None:
-            return where(self.primal_flag(), self.value, default)
-        check(self.primal_flag(), "unmask: a flag is False, so the value is invalid; give a default")
+            return where_leaves(self.primal_flag(), self.value, default)
+        check_flags(self.primal_flag(), "unmask: a flag is False, so the value is invalid; give a default")
         return self.value
 
     def __getitem__(self, index: Any) -> "Mask":
@@ -152,16 +152,18 @@ class Mask(Pytree):
     def __or__(self, other: "Mask") -> "Mask":
         """Return this value where it is present, and the other value elsewhere."""
         flag, other_flag = _flags_of_alike(self, other)
+        # A known flag decides. Otherwise each element decides, and the new flag is an array.
         if is_known(flag):
             return self if flag else other
-        return Mask(where(flag, self.value, other.value), jnp.logical_or(flag, other_flag))
+        return Mask(where_leaves(flag, self.value, other.value), jnp.logical_or(flag, other_flag))
 
     def __xor__(self, other: "Mask") -> "Mask":
         """Return the value that is present; no value is present where both are."""
         flag, other_flag = _flags_of_alike(self, other)
+        # Both flags must be known for the result to be: the other value's presence takes this one away.
         if is_known(flag) and is_known(other_flag):
             return Mask.build(self if flag else other, flag != other_flag)
-        return Mask(where(flag, self.value, other.value), jnp.logical_xor(flag, other_flag))
+        return Mask(where_leaves(flag, self.value, other.value), jnp.logical_xor(flag, other_flag))
 
     def __invert__(self) -> "Mask":
         """Return the value with the opposite flag."""

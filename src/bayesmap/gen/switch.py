@@ -19,7 +19,7 @@ from bayesmap.gen.diff import Diff, NoChange
 from bayesmap.gen.edits import Edited, EditRequest, EmptyRequest, Regenerate, Update
 from bayesmap.gen.errors import AddressError, BadArguments, NotSupportedEditRequest, UnknownAddress
 from bayesmap.gen.generative_function import GenerativeFunction, OuterTrace, Trace, in_dtypes_of, method
-from bayesmap.gen.masks import Mask, is_concrete, optional_part, where
+from bayesmap.gen.masks import Mask, is_concrete, optional_part, where_leaves
 from bayesmap.gen.pytree import dataclass
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.static import gen
@@ -137,7 +137,7 @@ class SwitchTrace(Trace):
             raise AddressError(address, "the branches' traces differ there, and which one ran is not known")
         selected = next(iter(subtraces.values()))
         for k, trace in subtraces.items():
-            selected = where(self.index == k, trace, selected)
+            selected = where_leaves(self.index == k, trace, selected)
         return selected
 
 
@@ -146,12 +146,15 @@ def run_branch(index: Any, thunks: Sequence[Callable[[], tuple[Any, Any]]]) -> t
     Returns (own results of all thunks, zeros for those that did not run; shared result in common dtypes and shapes).
     """
     own_shapes, shared_shapes = zip(*(jax.eval_shape(t) for t in thunks), strict=True)
-    common = jax.tree.map(lambda *s: (jnp.broadcast_shapes(*(x.shape for x in s)), jnp.result_type(*s)), *shared_shapes)
+
+    def in_common(x: Any, *of_thunks: jax.ShapeDtypeStruct) -> Any:
+        shape = jnp.broadcast_shapes(*(s.shape for s in of_thunks))
+        return jnp.broadcast_to(jnp.asarray(x, jnp.result_type(*of_thunks)), shape)
 
     def run(k: int) -> Any:
         own, shared = thunks[k]()
         zeros = [jax.tree.map(lambda s: jnp.zeros(s.shape, s.dtype), shapes) for shapes in own_shapes]
-        shared = jax.tree.map(lambda x, c: jnp.broadcast_to(jnp.asarray(x, c[1]), c[0]), shared, common)
+        shared = jax.tree.map(in_common, shared, *shared_shapes)
         return (*zeros[:k], own, *zeros[k + 1 :]), shared
 
     return jax.lax.switch(index, [partial(run, k) for k in range(len(thunks))])  # type: ignore[no-any-return]
@@ -184,6 +187,10 @@ class Switch(GenerativeFunction):
         traces, (retval, score, weight) = run_branch(index, [partial(run, thunk) for thunk in thunks])
         return SwitchTrace(self, args, index, traces, retval, score), weight
 
+    def _thunks(self, run: Callable[..., Any], *columns: Sequence[Any]) -> list[Callable[[], Any]]:
+        """Return one function per branch. It calls `run` with the branch and the branch's value in each column."""
+        return [partial(run, *values) for values in zip(self.branches, *columns, strict=True)]
+
     def _choices_of_branches(self, choices: ChoiceMap, args: Sequence[Any]) -> list[ChoiceMap]:
         """Return for each branch the choices that it can make. Raises UnknownAddress for a choice of no branch."""
         selections = [fn.choice_shapes(a).get_selection() for fn, a in zip(self.branches, args, strict=True)]
@@ -193,21 +200,19 @@ class Switch(GenerativeFunction):
 
     def simulate(self, key: PRNGKey, args: Arguments) -> SwitchTrace:
         _, all_args = self._split(args)
-        thunks = [lambda fn=fn, a=a: (fn.simulate(key, a), 0.0) for fn, a in zip(self.branches, all_args, strict=True)]
-        return self._build(args, thunks)[0]
+        return self._build(args, self._thunks(lambda fn, a: (fn.simulate(key, a), 0.0), all_args))[0]
 
     def generate(self, key: PRNGKey, constraint: ChoiceMap, args: Arguments) -> tuple[SwitchTrace, Weight]:
         """Generate a trace of the branch with the given index, from the part of the constraint that it can make."""
         _, all_args = self._split(args)
-        triples = zip(self.branches, self._choices_of_branches(constraint, all_args), all_args, strict=True)
-        thunks = [lambda fn=fn, c=c, a=a: fn.generate(key, c, a) for fn, c, a in triples]
-        return self._build(args, thunks)
+        constraints = self._choices_of_branches(constraint, all_args)
+        return self._build(args, self._thunks(lambda fn, c, a: fn.generate(key, c, a), constraints, all_args))
 
     def assess(self, choices: ChoiceMap, args: Arguments) -> tuple[Score, Any]:
         """Assess the choices by the branch with the given index."""
         index, all_args = self._split(args)
-        triples = zip(self.branches, self._choices_of_branches(choices, all_args), all_args, strict=True)
-        thunks = [lambda fn=fn, c=c, a=a: ((), fn.assess(c, a)) for fn, c, a in triples]
+        choices_of_branches = self._choices_of_branches(choices, all_args)
+        thunks = self._thunks(lambda fn, c, a: ((), fn.assess(c, a)), choices_of_branches, all_args)
         with optional_part():
             return run_branch(index, thunks)[1]  # type: ignore[no-any-return]
 
@@ -217,6 +222,7 @@ class Switch(GenerativeFunction):
         """
         if not isinstance(request, Update | EmptyRequest | Regenerate):
             raise NotSupportedEditRequest(self, request)
+        # Each branch gets the part of an update that it can make.
         _, diffs = self._split(argdiffs)
         constraint = request.constraint if isinstance(request, Update) else ChoiceMap.empty()
         constraints = self._choices_of_branches(constraint, [Diff.tree_primal(d) for d in diffs])
@@ -229,9 +235,12 @@ class Switch(GenerativeFunction):
 
         def generate(k: int) -> Any:
             new, weight = self.branches[k].generate(key, constraints[k], Diff.tree_primal(diffs[k]))
+            # The old branch's score leaves the trace; the new one's own draws cancel in `weight`. `lax.cond` needs
+            # results of one dtype, and the stored trace decides it.
             return in_dtypes_of(trace.branches[k], new.with_args(None)), weight - trace.score
 
         def edit_or_generate(k: int) -> Any:
+            # An index that is marked as unchanged needs no `cond`, which would compile both cases.
             return edit(k) if same_index else jax.lax.cond(trace.index == k, partial(edit, k), partial(generate, k))
 
         args = Diff.tree_primal(argdiffs)
@@ -241,8 +250,7 @@ class Switch(GenerativeFunction):
         return new, weight, retdiff, Update(trace.get_choices())
 
     def project(self, key: PRNGKey, trace: Any, selection: Selection) -> Weight:
-        pairs = zip(self.branches, trace.branches, strict=True)
-        thunks = [lambda fn=fn, t=t: ((), fn.project(key, t, selection)) for fn, t in pairs]
+        thunks = self._thunks(lambda fn, t: ((), fn.project(key, t, selection)), trace.branches)
         return run_branch(trace.index, thunks)[1]  # type: ignore[no-any-return]
 
 

@@ -19,7 +19,7 @@ from bayesmap.gen.generative_function import GenerativeFunction, Trace, decorato
 from bayesmap.gen.inference.smc import Algorithm, SampleDistribution, Target
 from bayesmap.gen.pytree import dataclass, nth, static
 from bayesmap.gen.selection import Selection
-from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
+from bayesmap.gen.typing import Arguments, Array, PRNGKey, Score, Weight
 
 
 @dataclass
@@ -57,7 +57,7 @@ class Marginal(SampleDistribution):
         # Importance sampling would draw the open choice, and it needs exact densities of the choices that it draws.
         _require_all(self.gen_fn.choice_shapes(args).filter(self.selection), constraint)
 
-    def _importance_sample(self, key: PRNGKey, shown: ChoiceMap, args: Arguments, n: int) -> tuple[Trace, Any]:
+    def _importance_sample(self, key: PRNGKey, shown: ChoiceMap, args: Arguments, n: int) -> tuple[Trace, Array]:
         """Return `n` runs that agree with `shown`, and their log weights, (n,)."""
         return jax.vmap(lambda k: self.gen_fn.generate(k, shown, args))(jax.random.split(key, n))
 
@@ -93,6 +93,7 @@ class Marginal(SampleDistribution):
             trace, score = nth(traces, 0), logsumexp(log_weights) - jnp.log(self.particles)
         else:
             trace, _ = self.gen_fn.generate(key, constraint, args)
+            # The kept run uses this key too, but has no part in the estimate, which therefore stays unbiased.
             score = self.algorithm.estimate_normalizing_constant(key, Target(self.gen_fn, args, constraint))
         shown = trace.get_choices().filter(self.selection)
         _require_all(shown, constraint)
@@ -106,7 +107,7 @@ class Marginal(SampleDistribution):
             raise NotImplementedError("this marginal density is an estimate that needs a key: use generate")
         return score, trace.get_retval()
 
-    def edit(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
+    def edit(self, key: PRNGKey, trace: MarginalTrace, request: EditRequest, argdiffs: Any) -> Edited:
         """Replace shown choices by an Update, or all of them by a Regenerate. The hidden choices are drawn anew."""
         args = Diff.tree_primal(argdiffs)
         match request:
@@ -123,11 +124,11 @@ class Marginal(SampleDistribution):
                 return new, jnp.zeros(()), Diff.unknown_change(new.retval), Update(trace.choices)
         raise NotSupportedEditRequest(self, request)
 
-    def project(self, key: PRNGKey, trace: Any, selection: Selection) -> Weight:
+    def project(self, key: PRNGKey, trace: MarginalTrace, selection: Selection) -> Weight:
         """Return the score. Raises NotImplementedError unless all shown choices are selected."""
         if not trace.choices.filter(~selection).static_is_empty():
             raise NotImplementedError("a marginal's score cannot be split among its choices")
-        return trace.score  # type: ignore[no-any-return]
+        return trace.score
 
 
 def _require_all(shown: ChoiceMap, constraint: ChoiceMap) -> None:
