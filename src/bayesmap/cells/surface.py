@@ -1,8 +1,8 @@
 """Surfaces: each cell has a reflectivity, and a normal distribution of the points at which it stops beams.
 
 Normal-distributions-transform maps (Biber and Strasser, 2003) store this distribution as well; here it is inferred.
-The class `Surface` is the prior, with its draws in edges of a cell and its stops in metres.
-`bayesmap.kernels.surfaces.surface` computes how a surface stops a beam.
+The class `Surface` is the prior of all cells. Its draws are in edges of a cell. Its stops, the numbers by which kernels
+let cells stop beams, are in metres: `bayesmap.kernels.surfaces.surface` computes how a surface stops a beam.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from bayesmap.errors import BadInput
 from bayesmap.space.arrays import Ints, Rng, Singles
 from bayesmap.space.grid import Grid
 
-MAX_SPREAD = 3.0  # largest spread in units of size_scale: beyond it, almost all prior draws are rejected
+MAX_SPREAD_RATIO = 3.0  # largest spread in units of size_scale: beyond it, almost all prior draws are rejected
 ROUNDING = 1e-3  # edges by which rounding to half precision may move a mean out of its cell
 PARTS = ("mean_x", "mean_y", "l11", "l21", "l22")  # mean from the cell's centre, Cholesky factor, in edges
 
@@ -46,7 +46,7 @@ STOP_CHANCES = tuple(
 
 @dataclass(frozen=True)
 class Surface(Beta):
-    """A reflectivity in each cell as in `Beta`, and a surface with mean mu and covariance Sigma.
+    """The prior of cells that each have a reflectivity, as in `Beta`, and a surface with mean mu and covariance Sigma.
 
     The prior is mu ~ N(centre, tau^2 I) inside the cell's own square, and Sigma ~ InverseWishart(nu, psi I) x
     exp(-tr Sigma / (2 kappa^2)). Lengths are in edges of a cell, so that one prior serves all resolutions.
@@ -80,9 +80,9 @@ class Surface(Beta):
                 raise BadInput(f"Surface: {name} must be a positive number of cells, got {value!r}")
         if not (math.isfinite(self.dof) and self.dof > 1):
             raise BadInput(f"Surface: dof must exceed 1, got {self.dof!r}")
-        if self.spread > MAX_SPREAD * self.size_scale:  # almost no draw would be small enough
+        if self.spread > MAX_SPREAD_RATIO * self.size_scale:  # almost no draw would be small enough
             raise BadInput(
-                f"Surface: spread must not exceed {MAX_SPREAD:g} times size_scale, got {self.spread!r} and "
+                f"Surface: spread must not exceed {MAX_SPREAD_RATIO:g} times size_scale, got {self.spread!r} and "
                 f"{self.size_scale!r}"
             )
 
@@ -165,11 +165,14 @@ class Surface(Beta):
 
     def surfaces(self, draws: Draws) -> MeanSurfaces:
         """Compute the posterior mean surfaces of the cells in which readings end."""
-        edge, cells = draws.grid.resolution, draws.index["surface_cell"]
-        mean, covariance = np.zeros((len(cells), 2)), np.zeros((len(cells), 2, 2))
+        edge = draws.grid.resolution
+        cells = draws.index["surface_cell"]
+        mean = np.zeros((len(cells), 2))
+        covariance = np.zeros((len(cells), 2, 2))
         # Sum means and covariances over draws.
-        for draw in draws.numbers():
-            x, y, l11, l21, l22 = (draws.arrays[f"surface_{part}"][draw].astype(np.float64) * edge for part in PARTS)
+        for chain, draw in draws.numbers():
+            arrays = [draws.arrays[f"surface_{part}"][chain, draw] for part in PARTS]
+            x, y, l11, l21, l22 = (array.astype(np.float64) * edge for array in arrays)
             mean += np.stack([x, y], axis=-1)
             covariance[:, 0, 0] += l11**2
             covariance[:, 0, 1] += l11 * l21
@@ -185,9 +188,11 @@ class Surface(Beta):
     def surface_writer(self, draws: Draws, cells: Ints) -> Callable[[Singles, int, int], None]:
         """Return a function (stops, chain, draw) that writes the surfaces of a draw's cells into stops, (n, 6)."""
         position, stored = positions_in(draws.index["surface_cell"], cells)
-        position, centre, rng = position[stored], draws.grid.centers_from_corner_m(cells), np.random.default_rng(0)
+        position = position[stored]
+        centre = draws.grid.centers_from_corner_m(cells)
+        rng = np.random.default_rng(0)
         # Surfaces that draws do not store almost follow the prior, and are drawn from it. The pool of prior surfaces is
-        # drawn once; each draw of the map reads it from another random offset, as surfaces are independent.
+        # drawn once; each call of `write` reads it from the next random offset: results follow the order of calls.
         pool = self.sample_surfaces(rng, POOL_CELLS).astype(np.float32)
 
         def write(stops: Singles, chain: int, draw: int) -> None:
@@ -202,5 +207,5 @@ class Surface(Beta):
 
     def describe(self) -> dict[str, Any]:
         """Return the prior as plain JSON values."""
-        own = {name: getattr(self, name) for name in ("mean_scale", "spread", "dof", "size_scale")}
-        return {**super().describe(), "kind": "surface", **own}
+        parameters = {name: getattr(self, name) for name in ("mean_scale", "spread", "dof", "size_scale")}
+        return {**super().describe(), "kind": "surface", **parameters}

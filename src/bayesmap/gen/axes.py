@@ -104,9 +104,7 @@ def dense(chm: ChoiceMap, shape: tuple[int, ...]) -> tuple[Any, Any] | None:
 
 
 def vectorise(chm: ChoiceMap, n: int) -> ChoiceMap:
-    """Return the choice map with a leading axis of length `n` on every leaf, ready to be mapped over.
-    Raises ShapeMismatch for an array of another length, UnknownAddress for an index out of range.
-    """
+    """Return the map with a leading axis of `n` on every leaf. Raises ShapeMismatch or UnknownAddress if it misfits."""
     match chm:
         case Choice(Mask(value, flag)):
             _check_leading(value, (n,))

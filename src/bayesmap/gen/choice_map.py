@@ -68,8 +68,8 @@ class Builder:
     """Builder of choice maps: `C["x", 0].set(v)`, `C.v(value)`, `C.d({...})`, `C.kw(...)` and `C.n()`."""
 
     def __init__(self, base: "ChoiceMap | None", address: tuple[Any, ...]) -> None:
-        # The map to change, None for the empty map, and the address at which a value is set.
-        self._base, self._address = base, address
+        self._base = base  # the map to change; None for the empty map
+        self._address = address  # at which a value is set
 
     def __getitem__(self, address: Any) -> "Builder":
         return Builder(self._base, (*self._address, *components(address)))
@@ -133,7 +133,8 @@ class ChoiceMap(Outlined, Pytree):
                 masks = [Mask.build(value) for value in values if value is not None]
                 return Mask.or_n(*masks) if masks else None
             case Or(left, right):
-                first, second = left.get_value(), right.get_value()
+                first = left.get_value()
+                second = right.get_value()
                 # One value alone may lack the elements that the other map has at indices.
                 return None if first is None or second is None else _first_present(first, second)
         return None
@@ -297,12 +298,10 @@ class ChoiceMap(Outlined, Pytree):
 
     @staticmethod
     def choice(value: Any) -> "ChoiceMap":
-        """Return the map of a bare value at the empty address.
-        The map is empty for an array without elements, and for a Mask whose flag is Python's False.
-        """
+        """Return the map of a bare value; the empty map for an array without elements, or a Mask known to be False."""
         if isinstance(value, Mask):
             value = value.flatten()
-        return Static({}) if value is None or (_is_array(value) and 0 in value.shape) else Choice(value)
+        return Static({}) if value is None or 0 in getattr(value, "shape", ()) else Choice(value)
 
     value = choice  # GenJAX's other name
 
@@ -336,11 +335,6 @@ class ChoiceMap(Outlined, Pytree):
         if isinstance(idx, int):
             return chms[idx]
         return Switch(idx, tuple(chm.mask(idx == k) for k, chm in enumerate(chms)))
-
-
-def _is_array(value: Any) -> bool:
-    """Return whether `value` is an array of JAX or NumPy."""
-    return hasattr(value, "shape") and hasattr(value, "dtype")
 
 
 @dataclass

@@ -126,7 +126,8 @@ class GenerativeFunctionClosure(Outer):
 
     def __matmul__(self, address: Any) -> Any:
         """Visit the site at `address` of the body that runs, and return the value of the call."""
-        stack, path = getattr(_local, "stack", []), as_path(address)
+        stack = getattr(_local, "stack", [])
+        path = as_path(address)
         if not stack:
             raise AddressError(path, "`@` is for the body of a @gen function; call the closure with a key instead")
         stack[-1].enter(path)

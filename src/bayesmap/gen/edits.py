@@ -46,9 +46,7 @@ class EditRequest(Pytree):
 
 @dataclass
 class DiffAnnotate(EditRequest):
-    """A request whose marks of change pass through functions, which inspect or overrule them.
-    A function that marks a changed value as unchanged makes the edit wrong.
-    """
+    """A request with functions that inspect or overrule its marks of change. A wrong mark makes the edit wrong."""
 
     request: EditRequest
     argdiff_fn: Callable[[Any], Any] = static(default=_unaltered)

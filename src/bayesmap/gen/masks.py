@@ -67,9 +67,7 @@ def _set_true(variable: ContextVar[bool]) -> Iterator[None]:
 
 
 def do_checkify() -> AbstractContextManager[None]:
-    """Let the code inside check that it uses no value whose flag is False.
-    Compiled code reports through `jax.experimental.checkify.checkify`; other code raises at once.
-    """
+    """Let the code inside raise errors for values whose flag is False; compiled code needs `checkify.checkify`."""
     return _set_true(_checking)
 
 

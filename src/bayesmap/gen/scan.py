@@ -201,6 +201,7 @@ def iterate(*, n: int) -> Callable[[GenerativeFunction], Any]:
 @decorator_method
 def masked_iterate() -> Callable[[GenerativeFunction], Any]:
     """Return a decorator that turns `state -> state` into `(state, flags) -> states`, with all n + 1 states.
+
     If a step's flag is False, its choices do not count, but the step still changes the state.
     """
     return lambda gen_fn: dimap(post=_all_states)(_steps(_flagged(gen_fn)))

@@ -197,9 +197,7 @@ class _Edit(_Run):
 
 
 def _body_dataflow(old: StaticTrace, args: Arguments) -> list[Origin] | None:
-    """Return the origins of the leaves of each site's function and arguments, in order, and of the return value.
-    Returns None if the body needs the values of its arguments. Then every change is unknown.
-    """
+    """Return the origins of the leaves of sites' functions and arguments, and of the result; None if unknown."""
 
     def body(gen_fn: Any, args: Arguments, *retvals: Any) -> Any:
         replay = Replay(dict(zip(old.subtraces, retvals, strict=True)))
@@ -258,13 +256,11 @@ def _require_reachable(paths: Iterable[Any], visited: list[StaticAddress]) -> No
 
 @dataclass
 class StaticGenerativeFunction(GenerativeFunction):
-    """A Python function, `source`, under `@gen`. The fixed `partial_args` come before its arguments.
-    With `by_name` the arguments have the form `((positional, ...), {"name": value})`.
-    """
+    """A Python function under `@gen`."""
 
-    partial_args: tuple[Any, ...]
-    source: Callable[..., Any] = static()
-    by_name: bool = static(default=False)
+    partial_args: tuple[Any, ...]  # fixed arguments, which come before the others
+    source: Callable[..., Any] = static()  # the Python function
+    by_name: bool = static(default=False)  # if True, arguments have the form ((positional, ...), {"name": value})
 
     def call(self, args: Arguments) -> Any:
         """Run the body."""

@@ -143,18 +143,18 @@ class SwitchTrace(Trace):
 
 def run_branch(index: Any, thunks: Sequence[Callable[[], tuple[Any, Any]]]) -> tuple[tuple[Any, ...], Any]:
     """Run thunk number `index`, a function that returns (own result, shared result).
-    Returns (own results of all thunks, zeros for those that did not run; shared result in common dtypes and shapes).
+    Returns (own results of all thunks, zeros for those that did not run; shared result in common types and shapes).
     """
     own_shapes, shared_shapes = zip(*(jax.eval_shape(t) for t in thunks), strict=True)
-
-    def in_common(x: Any, *of_thunks: jax.ShapeDtypeStruct) -> Any:
-        shape = jnp.broadcast_shapes(*(s.shape for s in of_thunks))
-        return jnp.broadcast_to(jnp.asarray(x, jnp.result_type(*of_thunks)), shape)
+    types = jax.tree.map(jnp.result_type, *shared_shapes)
+    shapes = jax.tree.map(lambda *s: jnp.broadcast_shapes(*(x.shape for x in s)), *shared_shapes)
 
     def run(k: int) -> Any:
         own, shared = thunks[k]()
-        zeros = [jax.tree.map(lambda s: jnp.zeros(s.shape, s.dtype), shapes) for shapes in own_shapes]
-        shared = jax.tree.map(in_common, shared, *shared_shapes)
+        zeros = [jax.tree.map(lambda s: jnp.zeros(s.shape, s.dtype), trees) for trees in own_shapes]
+        shared = jax.tree.map(
+            lambda x, dtype, size: jnp.broadcast_to(jnp.asarray(x, dtype), size), shared, types, shapes
+        )
         return (*zeros[:k], own, *zeros[k + 1 :]), shared
 
     return jax.lax.switch(index, [partial(run, k) for k in range(len(thunks))])  # type: ignore[no-any-return]
@@ -169,7 +169,8 @@ class Switch(GenerativeFunction):
     def _split(self, args: Any) -> tuple[Any, list[Any]]:
         """Return (index, arguments of each branch). Raises BadArguments for a known index out of range."""
         index, *branch_args = args
-        index, n = Diff.tree_primal(index), len(self.branches)
+        index = Diff.tree_primal(index)
+        n = len(self.branches)
         if len(branch_args) != n:
             raise BadArguments(f"switch takes an index and {n} tuples of arguments, not {len(branch_args)}")
         if is_concrete(index) and not 0 <= int(index) < n:

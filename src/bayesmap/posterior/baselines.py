@@ -90,7 +90,8 @@ def _climb(
     score: Score, parameters: Sequence[Parameter], start: Mapping[str, float], tolerance: float, on_share: OnShare
 ) -> tuple[Values, float]:
     """Climb from a start to a local maximum of a score. Returns the values and the score there."""
-    usual_calls, n_calls = USUAL_GRADIENTS * (len(parameters) + 1), 0
+    usual_calls = USUAL_GRADIENTS * (len(parameters) + 1)
+    n_calls = 0
 
     def values_at(point: NDArray[np.float64]) -> Values:
         return {p.name: p.decode(x) for p, x in zip(parameters, point.tolist(), strict=True)}
@@ -183,7 +184,8 @@ def inner_score(held_out: HeldOut, baseline: Baseline, dof: float | None, values
     from bayesmap.kernels.predict.density import log_densities
 
     stops = [baseline.stops(fold.hits, fold.passes, values)[fold.rays.touched] for fold in held_out.folds]
-    maps, sensor = np.concatenate(stops)[None].astype(np.float32), sensor_of(values, dof)
+    maps = np.concatenate(stops)[None].astype(np.float32)
+    sensor = sensor_of(values, dof)
     logs = log_densities(held_out.rays, [maps], sensor, values["hit_depth"], columns=held_out.columns)
     return float(np.nanmean(logs))
 

@@ -104,33 +104,34 @@ def expected_information(
     """
     from bayesmap.kernels.predict.density import ScanLikelihood, device_maps
 
-    poses_world, grid, chains = as_poses(poses), draws.grid, draws.chains
+    poses_world = as_poses(poses)
+    chains = draws.chains
     n_draws = len(draws.cells)
     draws_per_chain = n_draws // chains
     if draws_per_chain < 2:
         raise BadInput(f"information: {draws_per_chain} draws of the map from each chain; two are the fewest")
-    maps = device_maps([draws.cells], grid, draws.hit_depth, device=device)
+    maps = device_maps([draws.cells], draws.grid, draws.hit_depth, device=device)
     draw_index = np.arange(n_draws)
     # All pairs of draws of one chain: the scan of the first is weighed in the second.
     scan = np.repeat(draw_index, draws_per_chain)
     other_draw = np.tile(draw_index.reshape(chains, 1, draws_per_chain), (1, draws_per_chain, 1)).ravel()
-    bounds, limits = np.empty((4, len(poses_world))), fan.limits
+    bounds = np.empty((4, len(poses_world)))
+    limits = fan.limits
     # For each pose, simulate a scan in every draw, and weigh each scan in every draw of its chain.
     for i, pose in enumerate(poses_world):
         poses_of_draws = np.broadcast_to(pose, (n_draws, 3))
         readings = draw_readings(maps, fan, poses_of_draws, draw_index, (seed, i, Stream.VIEWS))
         scans = Scans(poses_of_draws, fan.angles_rad, readings, limits.max_m, limits.min_m)
-        likelihood = ScanLikelihood(scans, grid, fan.sensor, draws.hit_depth, device)
+        likelihood = ScanLikelihood(scans, draws.grid, fan.sensor, draws.hit_depth, device)
         log_p = likelihood.beams(maps, np.broadcast_to(pose, (len(scan), 3)), scan, other_draw)
         bounds[:, i] = _bounds(log_p.reshape(chains, draws_per_chain, draws_per_chain, -1))
         on_progress((i + 1) / len(poses_world))
-    return InformationGain(bounds[0], bounds[1], bounds[2], bounds[3], n_draws)
+    at_least, at_least_error, at_most, at_most_error = bounds
+    return InformationGain(at_least, at_least_error, at_most, at_most_error, n_draws)
 
 
 def _bounds(beam_log_p: Floats) -> tuple[float, float, float, float]:
-    """Return the lower bound, its error, the upper bound and its error, given log p(beam b of draw d's scan | draw e of
-    chain c), (C, D, D, B) by c, d, e, b.
-    """
+    """Return both bounds with their errors, given log p(beam b of draw d's scan | draw e of chain c), (C, D, D, B)."""
     n_chains, n_draws = beam_log_p.shape[:2]
     draw_index = np.arange(n_draws)
     without_own = np.where(np.eye(n_draws, dtype=bool), -np.inf, 0.0)
@@ -196,7 +197,8 @@ class HasDraws(Protocol):
 def path_is_free(posterior: HasDraws, path: ArrayLike, radius_m: float) -> routes.FreeProbability:
     """Compute the chance that a disc can follow a path. Raises `BadInput`: no draws, path off the map, radius <= 0."""
     _check_draws(posterior, "free_probability")
-    corners, grid = routes.check_path(path), posterior.draws.grid
+    corners = routes.check_path(path)
+    grid = posterior.draws.grid
     _check_radius(radius_m)
     inside = ((corners >= np.array(grid.extent_m[::2])) & (corners <= np.array(grid.extent_m[1::2]))).all(axis=1)
     if not inside.all():

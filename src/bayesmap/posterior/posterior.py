@@ -81,7 +81,7 @@ class Posterior:
 
     @property
     def has_chains(self) -> bool:
-        """Whether the draws come from Markov chains."""
+        """True if the draws come from Markov chains."""
         return self.settings["method"] not in WITHOUT_CHAINS
 
 
@@ -155,7 +155,8 @@ def by_reading(posterior: Posterior, device: str = "cpu") -> Singles:
     depth = float(posterior.settings["hit_depth"])
     likelihood = ScanLikelihood(scans, posterior.grid, posterior.sensor, depth, device)
     drawn_poses = draws.values("poses") if "poses" in draws.arrays else None
-    valid, scan = valid_readings(posterior), np.arange(len(scans))
+    valid = valid_readings(posterior)
+    scan = np.arange(len(scans))
     log_p = np.empty((draws.chains, draws.count, len(valid[0])), np.float32)
     stops = itertools.chain.from_iterable(posterior.prior.drawn_stops(draws))
     for (chain, draw), cells in zip(draws.numbers(), stops, strict=True):

@@ -1,9 +1,9 @@
 """Predictions of readings by draws of a map: draws and quantiles of scans from any pose, and held-out residuals.
 
-docs/scoring.md states the law of a reading. Its quantile of level q is the least range z with P(reading <= z) >= q.
-Beams of one drawn scan share a draw of the map, so draws tell how readings vary together. `predict` draws scans and
-computes quantiles, `ScanPredictor` computes quantiles of one scan, `residuals_of` compares readings with their laws.
-The first functions of the file report the progress of tasks with several stages.
+The law of a reading is its distribution given a map (docs/scoring.md). The quantile of level q is the least range z
+with P(reading <= z) >= q. Beams of one drawn scan share a draw of the map, so draws tell how readings vary together.
+`predict` draws scans and computes quantiles, `ScanPredictor` computes quantiles of one scan, `residuals_of` compares
+readings with their laws. The first functions of the file report the progress of tasks with several stages.
 """
 
 from __future__ import annotations
@@ -34,8 +34,7 @@ OnShare = Callable[[float], None]  # called with the share of the work that is d
 CENTRAL_80 = (0.1, 0.5, 0.9)  # levels of the median and of the ends of the central 80 % interval
 PREDICTED_DRAWS = 200  # largest number of maps that readings are drawn from
 MIN_SURVIVAL = 1e-3  # probability of getting further at which a beam is no longer followed: largest error of a level
-MapStates = Singles
-Batches = Callable[..., Iterator[MapStates]]
+Batches = Callable[..., Iterator[Singles]]
 """A function of flat indices of cells (none: all), which yields batches of draws of their states: stop probabilities
 (draws, cells), or surfaces (draws, cells, 6) as in `bayesmap.kernels.predict.density`."""
 
@@ -85,7 +84,7 @@ class Predictor:
 def fixed_maps(stop: NDArray[np.floating]) -> Batches:
     """Return the batches of maps that are all in memory, stop probabilities, (draws, cells)."""
 
-    def batches(cells: Ints | None = None) -> Iterator[MapStates]:
+    def batches(cells: Ints | None = None) -> Iterator[Singles]:
         yield np.ascontiguousarray(stop if cells is None else stop[:, cells], dtype=np.float32)
 
     return batches
@@ -102,7 +101,7 @@ def predictor_of(posterior: Posterior, sensor: SensorModel | None = None) -> Pre
     if posterior.draws.size == 0:
         raise BadInput("score: the run has no draws yet; let it finish its warm-up")
 
-    def batches(cells: Ints | None = None) -> Iterator[MapStates]:
+    def batches(cells: Ints | None = None) -> Iterator[Singles]:
         return posterior.prior.predictive_stops(posterior.draws, cells)
 
     return Predictor(posterior.grid, batches, sensor, float(posterior.settings["hit_depth"]), posterior.draws.size)
@@ -210,7 +209,9 @@ class SurfaceOffset:
 def surface_offset(mean: Floats, covariance: Floats, point: Floats, sensor: Floats) -> SurfaceOffset:
     """Return a point, (2,), in the frame of a surface, mean (2,), covariance (2, 2), seen by a sensor at (2,)."""
     variances, axes = np.linalg.eigh(covariance)
-    normal, to_sensor, to_point = axes[:, 0], sensor - mean, point - mean
+    normal = axes[:, 0]
+    to_sensor = sensor - mean
+    to_point = point - mean
     if normal @ to_sensor < 0:
         normal = -normal
     # The sensor looks against the normal: its left is the normal turned clockwise.
@@ -299,7 +300,8 @@ def predict(
     from bayesmap.kernels.rays import trace_rays
 
     fan, poses_world = Fan.of("predict", posterior, angles_rad, max_range_m, sensor), as_user_poses("predict", poses)
-    grid, predictor = posterior.grid, predictor_of(posterior, fan.sensor)
+    grid = posterior.grid
+    predictor = predictor_of(posterior, fan.sensor)
     for i, (x, y, _) in enumerate(poses_world):
         if grid.cell_at(x, y) is None:
             raise BadInput(f"predict: pose {i}, {poses_world[i].tolist()}, lies outside the map, {grid.extent_words()}")

@@ -143,7 +143,8 @@ def beam_log_scores(
         raise BadInput("score: none of the scans has a valid reading")
     sensor, limits = predictor.sensor, RangeLimits(scans.min_range_m, scans.max_range_m)
     reach_m = explained_within_m(scans.ranges_m.ravel(), sensor, limits, predictor.grid.resolution)
-    rays, n_draws = trace_rays(scans, predictor.grid, reach_m=reach_m, device=device), predictor.draws
+    rays = trace_rays(scans, predictor.grid, reach_m=reach_m, device=device)
+    n_draws = predictor.draws
     batches = predictor.batches(rays.touched)
     reported = report_batches(batches, n_draws, lambda share: on_progress(round(share * n_draws), n_draws))
     return log_densities(rays, reported, sensor, predictor.hit_depth, device=device)
@@ -151,13 +152,11 @@ def beam_log_scores(
 
 @dataclass(frozen=True)
 class Coverage:
-    """The share of readings in central intervals of one probability, and the width of these intervals.
-    An end of an interval at "no return" counts as the largest range, an end at "too close" as the least.
-    """
+    """The share of readings in central intervals of one probability, and the width of these intervals."""
 
     level: float  # probability of the intervals
     share: Estimate  # share of readings inside; typed readings are randomised
-    mean_width_m: float
+    mean_width_m: float  # an end at "no return" counts as the largest range, at "too close" as the least
     median_width_m: float
 
 
@@ -277,7 +276,8 @@ def score_prediction(
     coverage = []
     for level in LEVELS:
         low, high = (np.argmin(np.abs(ends - end)) for end in (0.5 - level / 2, 0.5 + level / 2))
-        width, share = quantiles[:, high] - quantiles[:, low], blocks.mean(inside(pit, level).astype(np.float64))
+        width = quantiles[:, high] - quantiles[:, low]
+        share = blocks.mean(inside(pit, level).astype(np.float64))
         coverage.append(Coverage(level, share, float(width.mean()), float(np.median(width))))
     # Score the events that a reading decides.
     event = stopped >= 0

@@ -131,7 +131,9 @@ def diagnose_cells(prior: CellPrior, draws: Draws, observed: Mask) -> CellDiagno
     Only ``observed`` cells, (nx, ny), are judged: the worst of a hundred thousand prior draws is bad by chance.
     """
     constant, agreed = prior.constant_cells(draws)
-    changed, n_disagreeing, n_unchanged = np.flatnonzero(observed.ravel()), 0, None
+    changed = np.flatnonzero(observed.ravel())
+    n_disagreeing = 0
+    n_unchanged: int | None = None
     if constant is not None and agreed is not None:
         n_disagreeing = int((constant & ~agreed & observed.ravel()).sum())
         changed, n_unchanged = np.flatnonzero(observed.ravel() & ~constant), int(agreed.sum())

@@ -1,8 +1,8 @@
 """Sensors as generative functions of the walls: the law of readings, the base of all sensors, the one at known poses.
 
-`ReadingLaw` is the law of readings at given distances. `RangeSensor` is the contract of sensors. `BeamSensor` is the
-sensor at known poses, whose beams cross the cells of a `BeamGeometry`. Its trace stores the position of each beam's
-first hit. A changed cell matters only to beams through it, so that an edit reads these beams alone.
+`ReadingLaw` is the law, or probability distribution, of readings at given distances. `RangeSensor` is the contract of
+sensors. `BeamSensor` is the sensor at known poses, whose beams cross the cells of a `BeamGeometry`. Its trace stores
+the position of each beam's first hit. Only beams through a changed cell matter, so an edit reads these beams alone.
 """
 
 import dataclasses
@@ -86,7 +86,8 @@ class ReadingLaw(ExactDensity):
 
     def _log_noise(self, reading: Any, wall: Any) -> Any:
         """Return the log density of wall + noise at the reading: Student's t, or normal if dof is 0."""
-        scale, dof = self._scale(wall), self.parameters.dof
+        scale = self._scale(wall)
+        dof = self.parameters.dof
         x = (reading - wall) / scale
         if dof > 0:
             half = 0.5 * (dof + 1)
@@ -161,22 +162,22 @@ class BeamGeometry:
 
     @property
     def n_beams(self) -> int:
-        """Return B, the number of beams."""
+        """B, the number of beams."""
         return len(self.cells)
 
     @property
     def n_cells(self) -> int:
-        """Return N, the number of cells of the grid."""
+        """N, the number of cells of the grid."""
         return self.shape[0] * self.shape[1]
 
     @property
     def longest(self) -> int:
-        """Return L + 1, the number of outcomes of the longest beam; its last position is a sentinel."""
+        """L + 1, the number of outcomes of the longest beam; its last position is a sentinel."""
         return int(self.cells.shape[1]) - CELLS_AT_ONCE + 1
 
     @property
     def position_dtype(self) -> np.dtype[np.unsignedinteger]:
-        """Return the smallest type that holds a position."""
+        """The smallest type that holds a position."""
         return np.min_scalar_type(self.longest)
 
     @cached_property
@@ -226,9 +227,7 @@ def beam_geometry(
 
 
 class ReadingsTrace(Trace):
-    """Base of sensors' traces, whose only choice is the field `readings`.
-    The score is computed from the first hits when it is read: it does not drift, and edits do not compute it.
-    """
+    """Base of sensors' traces, with the choice `readings`. The score is computed when read, so that it cannot drift."""
 
     readings: Any
 
@@ -395,7 +394,8 @@ class BeamSensor(RangeSensor):
 
     def _change_cell(self, walls: Any, cell: Any, first_hit: Any, readings: Any) -> tuple[Any, Weight]:
         """Return (first hits, change of the log-likelihood) after one cell changed, by groups of the cell's beams."""
-        geometry, is_wall = self.geometry, self._wall_at(walls, cell)
+        geometry = self.geometry
+        is_wall = self._wall_at(walls, cell)
         offsets, beams, positions = map(jnp.asarray, (geometry.offsets, geometry.beam, geometry.position))
         distance_m = jnp.asarray(geometry.distance_m)
         end = offsets[cell + 1]

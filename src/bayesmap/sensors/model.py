@@ -60,15 +60,11 @@ class SensorModel(ABC):
 
     @abstractmethod
     def log_likelihood(self, range_m: Floats, distance_m: Floats, limits: RangeLimits) -> Floats:
-        """Return log p(range | distance) in nats, broadcast over both.
-        It is a log density for a hit, a log probability for no return and too close, and 0 for an invalid reading.
-        """
+        """Return log p(range | distance), nats, broadcast: density of hits, probability of typed readings, or 0."""
 
     @abstractmethod
     def reach_m(self, range_m: Floats, limits: RangeLimits) -> Floats:
-        """Return for each reading the distance past which `log_likelihood` no longer changes; ``inf`` if none.
-        The table has one entry for the rest of the beam, with ``log_likelihood(range, inf)``.
-        """
+        """Return the distance past which each `log_likelihood` no longer changes; ``inf`` if there is none."""
 
     @abstractmethod
     def sample(self, rng: Rng, distance_m: Floats, limits: RangeLimits) -> Floats:

@@ -1,9 +1,9 @@
 r"""Sensor models without a compiled formula, as tables that kernels can read.
 
-Kernels cannot call a `SensorModel`. So `tabulated` computes its law once at nodes, and kernels interpolate its
-logarithm (`bayesmap.kernels.law_table`). Nodes are dense within the scale of readings, which is estimated with the
-model's own `sample`. Let a stop lie at distance d known up to a spread s, and let w = sqrt(scale(d)^2 + s^2). The
-density is stored as
+Kernels cannot call a `SensorModel`. So `tabulated` computes its law, the distribution of a reading given where the beam
+stops, at nodes, and kernels interpolate the logarithm (`bayesmap.kernels.law_table`). Nodes are dense within the scale
+of readings, which is estimated with the model's own `sample`. Let a stop lie at distance d known up to a spread s, and
+let w = sqrt(scale(d)^2 + s^2). The density is stored as
 
     log (w p(z | d, s))  at nodes of  d,  s / (s + scale(d))  and  asinh((z - d) / w)
 
@@ -19,8 +19,6 @@ import numpy as np
 
 from bayesmap.sensors.model import LOG_IMPOSSIBLE, Floats, RangeLimits, SensorModel
 from bayesmap.space.arrays import Singles
-
-Table = Singles
 
 # Numbers of nodes:
 DISTANCES, SPREADS, OFFSETS = 33, 8, 193  # of the density of a range
@@ -44,13 +42,13 @@ class TabulatedLaw:
     # true if no return and too close are separate outcomes, and ranges stay within the limits. Otherwise they stand
     # for the limits, as in `bayesmap.sensors.model.AdditiveNoise`
     typed: bool
-    scale_m: Table  # scale of readings about a stop at each distance, (D,)
+    scale_m: Singles  # scale of readings about a stop at each distance, (D,)
     max_offset: float  # the largest node of asinh((z - d) / w)
-    log_density: Table  # log (w p(z | d, s)), (S, D, V)
-    below: Table  # P(reading <= z | d, s), (S, D, V); NaN throughout where the density does not integrate to one
-    log_typed: Table  # log probabilities of too close and of no return, (2, S, T)
-    log_nowhere: Table  # log density of the range of a beam that stops nowhere, (N,)
-    below_nowhere: Table  # cumulative of the range of a beam that stops nowhere, (N,)
+    log_density: Singles  # log (w p(z | d, s)), (S, D, V)
+    below: Singles  # P(reading <= z | d, s), (S, D, V); NaN throughout where the density does not integrate to one
+    log_typed: Singles  # log probabilities of too close and of no return, (2, S, T)
+    log_nowhere: Singles  # log density of the range of a beam that stops nowhere, (N,)
+    below_nowhere: Singles  # cumulative of the range of a beam that stops nowhere, (N,)
     log_typed_nowhere: tuple[float, float]  # log probabilities of too close and no return of this beam
 
     @property
@@ -100,7 +98,8 @@ def _tabulated(sensor: SensorModel, limits: RangeLimits) -> TabulatedLaw:
         below += too_close - np.reshape(below_min, z.shape[:2])[..., None]
     # Beams that stop nowhere.
     low, high = (limits.min_m, limits.max_m) if typed else (-limits.max_m, 2.0 * limits.max_m)
-    nowhere_z, nowhere_d = np.linspace(low, high, NOWHERE_RANGES), np.full(NOWHERE_RANGES, np.inf)
+    nowhere_z = np.linspace(low, high, NOWHERE_RANGES)
+    nowhere_d = np.full(NOWHERE_RANGES, np.inf)
     log_nowhere = np.maximum(sensor.log_likelihood(nowhere_z, nowhere_d, limits), MIN_LOG_DENSITY)
     log_ends = sensor.log_likelihood(np.array([-np.inf, np.inf]), np.full(2, np.inf), limits)
     below_nowhere = _cumulated(np.exp(log_nowhere), nowhere_z) + (np.exp(log_ends[0]) if typed else 0.0)
@@ -110,7 +109,8 @@ def _tabulated(sensor: SensorModel, limits: RangeLimits) -> TabulatedLaw:
         below_nowhere = sensor.cumulative(nowhere_z, nowhere_d, limits)
     elif not typed and np.abs(below[0, :, -1] - 1.0).max() > MAX_SUM_ERROR:
         below, below_nowhere = np.full_like(below, np.nan), np.full_like(below_nowhere, np.nan)
-    f32, (log_too_close, log_no_return) = np.float32, np.maximum(log_ends, MIN_LOG_DENSITY).tolist()
+    f32 = np.float32
+    log_too_close, log_no_return = np.maximum(log_ends, MIN_LOG_DENSITY).tolist()
     return TabulatedLaw(
         min_m=limits.min_m, low_m=low, high_m=high, typed=typed, scale_m=scale.astype(f32), max_offset=max_offset,
         log_density=log_density.astype(f32), below=np.clip(below, 0.0, 1.0).astype(f32),

@@ -80,9 +80,7 @@ def drive(
 
 
 class _Lattice:
-    """The planning lattice of a building: the largest connected graph of every k-th cell in which a robot fits.
-    ``nodes`` are its cells, (N, 2), ``points_m`` their positions, (N, 2), and ``graph`` the costs of links.
-    """
+    """The planning lattice of a building: the largest connected graph of every k-th cell in which a robot fits."""
 
     def __init__(self, building: Building) -> None:
         from scipy import ndimage
@@ -102,10 +100,10 @@ class _Lattice:
         if count == 0:
             raise BadInput("patrol: there is no floor wide enough for a robot")
         largest = 1 + int(np.argmax(np.bincount(labels[labels > 0])[1:]))
-        self.nodes = np.argwhere(labels == largest)
+        self.nodes = np.argwhere(labels == largest)  # cells, (N, 2)
         self.points_m = np.column_stack([x[self.nodes[:, 0]], y[self.nodes[:, 1]]])
         self.node_clearance_m = clearance[tuple(self.nodes.T)]
-        self.graph = self._links(fits.shape, stride * self.resolution)
+        self.graph = self._links(fits.shape, stride * self.resolution)  # costs of the links between nodes
 
     def _links(self, shape: tuple[int, ...], spacing_m: float) -> Any:
         """Return the costs of the links between neighbouring nodes: lengths, weighted by the closeness to walls."""

@@ -18,8 +18,10 @@ from bayesmap.space.scans import Scans, as_array
 from bayesmap.space.time_order import since_start
 
 MAX_CELLS = 100_000_000  # of a grid; a larger grid is probably a mistake in the units
+MARGIN_M = 0.5  # default width of the border of free cells around poses and hits
 MAX_REACH_RATIO = 20.0  # a scan whose reach exceeds this many median reaches is an outlier
 MAX_OUTLIER_SHARE = 0.1  # if a larger share of the scans lies far away, no scan is an outlier
+ROUNDING = 1e-5  # accepted excess of a number over its bounds: arrays in single precision are rounded
 
 
 @dataclass(frozen=True)
@@ -47,7 +49,7 @@ class Grid:
         nx, ny = (int(n) for n in self.shape)
         if nx * ny > MAX_CELLS:
             raise BadInput(
-                f"grid: {_large(nx, ny)} is over the limit of {MAX_CELLS:,}; "
+                f"grid: {_size_words(nx, ny)} is over the limit of {MAX_CELLS:,}; "
                 "use a coarser resolution, or check that ranges and poses are in metres"
             )
         if not (math.isfinite(self.resolution) and self.resolution > 0):
@@ -97,7 +99,7 @@ class Grid:
         return (i, j) if 0 <= i < self.shape[0] and 0 <= j < self.shape[1] else None
 
     @classmethod
-    def covering(cls, scans: Scans, resolution: float, margin_m: float = 0.5) -> "Grid":
+    def covering(cls, scans: Scans, resolution: float, margin_m: float = MARGIN_M) -> "Grid":
         """Return the smallest grid that holds every pose and every hit, with a free border of ``margin_m``, metres.
         The origin is a multiple of the resolution, so that maps of two recordings of a building line up. Raises
         `BadInput` for no scans, or for more than `MAX_CELLS` cells; the message names the furthest outlying scan.
@@ -108,7 +110,7 @@ class Grid:
         if len(outliers):
             others = f" ({len(outliers)} scans are so far out, this one most)" if len(outliers) > 1 else ""
             reason = why_outlying(scans, int(outliers[0]))
-            raise BadInput(f"grid: covering the scans would take {_large(nx, ny)}: {reason}{others}")
+            raise BadInput(f"grid: covering the scans would take {_size_words(nx, ny)}: {reason}{others}")
         return cls.over(low, high, resolution)
 
     @classmethod
@@ -120,7 +122,7 @@ class Grid:
         return cls(shape=shape, resolution=resolution, origin=(x * resolution, y * resolution))
 
 
-def bounds_m(scans: Scans, margin_m: float = 0.5) -> tuple[tuple[float, float], tuple[float, float]]:
+def bounds_m(scans: Scans, margin_m: float = MARGIN_M) -> tuple[tuple[float, float], tuple[float, float]]:
     """Return the lower left and upper right corner of all poses and hits with a margin, in world metres."""
     points = np.concatenate([scans.poses[:, :2], scans.hit_points_world()])
     if len(points) == 0:
@@ -140,7 +142,7 @@ def _whole_cells(
     return (end[0] - first[0], end[1] - first[1]), (first[0], first[1])
 
 
-def _large(nx: int, ny: int) -> str:
+def _size_words(nx: int, ny: int) -> str:
     """Return a grid's size in words. It is rounded, because outliers can give a size with hundreds of digits."""
     return f"{nx:.6g} x {ny:.6g} cells"
 
@@ -178,9 +180,6 @@ def why_outlying(scans: Scans, scan: int) -> str:
         f"scan {scan}{when} was taken at ({x:.6g}, {y:.6g}) m, far from all others; correct its pose in the log or "
         "leave it out, or name the cells yourself (--grid)"
     )
-
-
-ROUNDING = 1e-5  # accepted excess of a number over its bounds: arrays in single precision are rounded
 
 
 def as_numbers(grid: Grid, values: ArrayLike, name: str, *, unknown: bool = False) -> Floats:

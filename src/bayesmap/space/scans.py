@@ -196,7 +196,8 @@ class Scans:
 
     def stretched(self, ratio: float) -> "Scans":
         """Return the scans with all angles between beams multiplied by ``ratio``. First beams keep their angles."""
-        angles, own = self.angles_rad[0] + ratio * (self.angles_rad - self.angles_rad[0]), self.own_angles_rad
+        angles = self.angles_rad[0] + ratio * (self.angles_rad - self.angles_rad[0])
+        own = self.own_angles_rad
         if own is not None:
             first = self._first_and_last()[0][:, None]
             own = first + ratio * (own - first)
@@ -302,9 +303,7 @@ def as_angles(angles_rad: ArrayLike) -> Floats:
 
 
 def _as_own_angles(largest: ArrayLike, own: ArrayLike, ranges_m: Floats) -> tuple[Floats, Floats | None]:
-    """Return the angles of the largest scan, (A,), and of each scan, (S, A), or None if all scans have equal angles.
-    ``largest`` is a guess of the first result: it is used if its shape is (A,).
-    """
+    """Return angles of the largest scan, (A,), ``largest`` if it fits, and of all, (S, A); None if all are equal."""
     # Check shapes and angles: a missing beam has the angle NaN and the reading NaN.
     angles = as_array(own, "scans: angles_rad")
     if angles.shape != ranges_m.shape or not angles.shape[1]:
@@ -360,9 +359,7 @@ def side_by_side(angles_rad: Sequence[Floats], readings_m: Sequence[NDArray[np.f
 
 
 def fan_fault(lowest_rad: float, highest_rad: float) -> str | None:
-    """Return the reason in words why no sensor has beams at these angles; None for possible angles.
-    Angles are possible if they span at most `MAX_FAN_TURNS`, and lie at most as far from straight ahead.
-    """
+    """Return in words why angles are impossible: over `MAX_FAN_TURNS` in span, or from straight ahead; else None."""
     turns = (highest_rad - lowest_rad) / (2 * math.pi)
     away_rad = 0.0 if lowest_rad <= 0 <= highest_rad else min(abs(lowest_rad), abs(highest_rad))
     if turns <= MAX_FAN_TURNS and away_rad <= 2 * math.pi * MAX_FAN_TURNS:

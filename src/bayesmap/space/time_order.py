@@ -71,7 +71,8 @@ def time_order(stamps_s: NDArray[np.float64]) -> TimeOrder:
     fall by more than `MIN_RESET_S`, and many of them lie among the stamps of many earlier scans, the clock was reset.
     Sorting would then mix two passes of the robot, so the order of the log is kept there.
     """
-    stamps, resets, backs_s = np.array(stamps_s, dtype=np.float64), [], []
+    stamps = np.array(stamps_s, dtype=np.float64)
+    resets, backs_s = [], []
     start = 0  # index of the first scan since the last reset
     while (offset := _first_reset(stamps[start:])) is not None:
         # Shift the stamps after the reset, so that they continue at the usual interval.

@@ -158,7 +158,8 @@ def plot_surfaces(
     Surfaces below `MIN_WEIGHT` are left out. By default strokes have the colour of walls. The label is "surface".
     Raises `BadInput` if shapes do not fit, a weight is outside [0, 1], or `surface_strokes` raises it.
     """
-    strokes, alpha = surface_strokes(means_world, covariances_m2, longest_m), as_array(weights, "weights")
+    strokes = surface_strokes(means_world, covariances_m2, longest_m)
+    alpha = as_array(weights, "weights")
     if alpha.shape != (len(strokes),) or not ((alpha >= 0.0) & (alpha <= 1.0)).all():
         raise BadInput(f"picture: weights must be {len(strokes)} numbers in [0, 1], one a surface")
     visible = alpha >= MIN_WEIGHT

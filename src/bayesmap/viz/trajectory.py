@@ -6,13 +6,12 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import EllipseCollection, LineCollection
 from matplotlib.figure import Figure
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from bayesmap.space.arrays import Mask
 from bayesmap.space.grid import Grid
 from bayesmap.space.planar import Floats
 from bayesmap.viz import maps, palette
-
-Mask = NDArray[np.bool_]
 
 CHI2_95 = 5.991  # squared Mahalanobis radius of the ellipse with 95 % of a normal distribution in the plane
 MIN_SIGMA_SHARE = 0.006  # smallest visible standard deviation, as a share of the map's longer side
@@ -35,7 +34,7 @@ def plot_ellipses(ax: Axes, means: Floats, covariances: Floats, magnification: f
 
 def trajectory_figure(
     grid: Grid, occupancy: ArrayLike, observed: ArrayLike, poses: Floats, covariances: Floats,
-    flagged: NDArray[np.bool_] | None = None,
+    flagged: Mask | None = None,
 ) -> Figure:  # fmt: skip
     """Return a figure of a map, a trajectory, (S, 3), and 95 % ellipses of its covariances, (S, 3, 3).
     Flagged scans, a mask (S,), are marked. Parts of the map with only stray readings are cut off.
@@ -50,7 +49,8 @@ def trajectory_figure(
 
 def crop_to_walls(grid: Grid, occupancy: ArrayLike, observed: ArrayLike, poses: Floats) -> tuple[Grid, Floats, Mask]:
     """Return the grid, the occupancy and the mask of observed cells in the window around walls and poses."""
-    values, mask = np.asarray(occupancy, dtype=np.float64), np.asarray(observed, dtype=np.bool_)
+    values = np.asarray(occupancy, dtype=np.float64)
+    mask = np.asarray(observed, dtype=np.bool_)
     inner, window = maps.window_of_walls(grid, mask & (values > 0.5), poses[:, :2])
     return inner, values[window], mask[window]
 

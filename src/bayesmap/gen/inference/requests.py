@@ -19,11 +19,10 @@ from bayesmap.gen.typing import PRNGKey
 
 @dataclass
 class Rejuvenate(EditRequest):
-    """A request to propose new values from a generative function whose choices have the model's addresses.
-    `argument_mapping` turns choices into the proposal's arguments: the old choices, or the new ones for the way back.
-    """
+    """A request to propose new values from a generative function whose choices have the model's addresses."""
 
     proposal: GenerativeFunction
+    # from the old choices, or the new ones for the way back, to the proposal's arguments
     argument_mapping: Callable[[ChoiceMap], Any] = static()
 
     def edit(self, key: PRNGKey, trace: Trace, argdiffs: Any) -> Edited:

@@ -51,9 +51,7 @@ class SampleDistribution(Distribution):
 
 
 class Algorithm(SampleDistribution):
-    """Base of inference algorithms: distributions over a target's open choices, with estimates of their densities.
-    `random_weighted(key, target)` returns (estimate, choices), and `estimate_logpdf(key, choices, target)` an estimate.
-    """
+    """Base of inference algorithms: distributions over a target's open choices, with estimates of their densities."""
 
     def estimate_normalizing_constant(self, key: PRNGKey, target: Target) -> Weight:
         """Return the log of an unbiased estimate of the target's evidence."""
@@ -110,9 +108,7 @@ class ParticleCollection(Pytree):
         return ParticleCollection(nth(self.particles, parents), mean)
 
     def edit(self, key: PRNGKey, request: EditRequest, argdiffs: Any = None) -> "ParticleCollection":
-        """Edit every trace, and multiply its weight by the edit's weight: a step of sequential Monte Carlo.
-        The new arguments of all traces are `argdiffs`, as `Diff` leaves; None keeps the arguments.
-        """
+        """Edit every trace, and multiply its weight by the edit's: a step of SMC. None keeps the arguments."""
         keys = jax.random.split(key, self.log_weights.shape[0])
         particles, weights = jax.vmap(lambda key, trace: trace.edit(key, request, argdiffs)[:2])(keys, self.particles)
         return ParticleCollection(particles, self.log_weights + weights)
@@ -180,12 +176,10 @@ class SMCAlgorithm(Algorithm):
 
 @dataclass
 class ImportanceK(SMCAlgorithm):
-    """Importance sampling with `k_particles` traces. Without a proposal the model draws the open choices.
-    A proposal `q` is a generative function of the target, or a distribution over choice maps, for some of the choices.
-    """
+    """Importance sampling with `k_particles` traces. Without a proposal the model draws the open choices."""
 
     target: Target
-    q: GenerativeFunction | None = None  # the proposal
+    q: GenerativeFunction | None = None  # proposal of some choices: a function of the target, or of choice maps
     k_particles: int = static(default=2)  # number of traces
 
     def get_num_particles(self) -> int:
