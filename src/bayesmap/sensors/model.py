@@ -60,7 +60,7 @@ class SensorModel(ABC):
 
     @abstractmethod
     def log_likelihood(self, range_m: Floats, distance_m: Floats, limits: RangeLimits) -> Floats:
-        """Return log p(range | distance), nats, broadcast: density of hits, probability of typed readings, or 0."""
+        """Return log p(range | distance), nats, broadcast: density of hits, probability if typed, 0 if invalid."""
 
     @abstractmethod
     def reach_m(self, range_m: Floats, limits: RangeLimits) -> Floats:
