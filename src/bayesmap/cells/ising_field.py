@@ -6,10 +6,10 @@ two cells of a half are neighbours, so each half is drawn at once. A sweep uses 
 the order of maps: if one map has all walls of another before the sweep, it has them after the sweep.
 
 The algorithm sends two maps, all walls and all free, through the same sweeps from a time in the past to time 0. If the
-two maps meet, every starting map would have led to the same result, which is then a draw from the stationary law. Else
+two maps meet, every starting map would have led to the same result, which is then a draw from the Ising field. Else
 the start moves twice as far back, with the same random numbers for the same sweeps.
 
-Labels of cells, free or solid, are an Ising field at p = 1/2 and select one of two Beta laws for a reflectivity (a
+Labels of cells, free or solid, are an Ising field at p = 1/2 and select one of two Beta priors for a reflectivity (a
 hidden Markov random field: Geman and Geman, 1984; Besag, *On the statistical analysis of dirty pictures*, 1986).
 """
 

@@ -2,7 +2,7 @@
 
 A kind defines the state of a cell (its arrays), its prior probability, how it stops beams, and its names on maps and
 axes. Samplers, files, scores, pictures, the command line and the page use this interface only. A class of your own that
-extends `CellPrior` works everywhere, too. The methods stand in the order prior, stop law, draws, files; abstract ones
+extends `CellPrior` works everywhere, too. The methods stand in the order prior, stops, draws, files; abstract ones
 must be defined, and the defaults of the others suit independent cells whose draws cover the grid.
 """
 
@@ -97,7 +97,7 @@ class CellPrior(ABC):
         proposal = self.sample_cells(rng, Grid((1, 1), grid.resolution))
         return {name: values[0, 0] for name, values in proposal.items()}, 0.0
 
-    # The stop law
+    # The stops: how cells stop beams
     @abstractmethod
     def stops(self, cells: Cells, grid: Grid) -> NDArray[np.floating]:
         """Return the stops of all cells as `bayesmap.beams.rays.stops_of` takes them. Cell (x, y) is x * ny + y."""

@@ -100,7 +100,7 @@ class Surface(Beta):
         q = l21 / (l11 * l22)
         shape = -self.dof * np.log(l11) - (self.dof + 1) * np.log(l22)
         shape -= 0.5 * (self.spread * edge) ** 2 * (1 / l11**2 + 1 / l22**2 + q**2)
-        # The bound of the size, tr Sigma / kappa^2, and the normal law of the mean.
+        # The bound of the size, tr Sigma / kappa^2, and the normal distribution of the mean.
         size = (l11**2 + l21**2 + l22**2) / (self.size_scale * edge) ** 2
         mean = (x**2 + y**2) / (self.mean_scale * edge) ** 2
         if max(np.abs(x).max(initial=0.0), np.abs(y).max(initial=0.0)) > (0.5 + ROUNDING) * edge:
@@ -128,7 +128,7 @@ class Surface(Beta):
 
     def _sample_unbounded(self, rng: Rng, count: int) -> Floats:
         """Draw surfaces without the factor that bounds their size, (count, 5)."""
-        # Means are truncated normals by inversion; Cholesky factors invert Bartlett's factor of the Wishart law.
+        # Means are truncated normals by inversion; Cholesky factors invert Bartlett's factor of a Wishart draw.
         a11 = np.sqrt(rng.chisquare(self.dof, count))
         a22 = np.sqrt(rng.chisquare(self.dof - 1.0, count))
         a21 = rng.standard_normal(count)

@@ -150,7 +150,7 @@ class Mask(Pytree):
     def __or__(self, other: "Mask") -> "Mask":
         """Return this value where it is present, and the other value elsewhere."""
         flag, other_flag = _flags_of_alike(self, other)
-        # A known flag decides. Otherwise each element decides, and the new flag is an array.
+        # A known flag decides for all elements. Otherwise each element decides, and the new flag is an array.
         if is_known(flag):
             return self if flag else other
         return Mask(where_leaves(flag, self.value, other.value), jnp.logical_or(flag, other_flag))

@@ -151,7 +151,7 @@ def _empty_scans(poses: Floats, angles_rad: Floats, limits: RangeLimits) -> Scan
 
 @dataclass(frozen=True, eq=False)
 class Residuals:
-    """Readings of the n beams that hit something or had no return, against their predictive laws."""
+    """Readings of the n beams that hit something or had no return, against their predictions."""
 
     ends_world: Floats  # end of the beam, metres, (n, 2); without return, the point at its predicted median
     residual_m: Floats  # reading minus predicted median, metres; no return counts as the sensor's largest range, (n,)
@@ -183,7 +183,7 @@ def comparable_beams(scans: Scans) -> Indices:
 
 
 def compare_readings(scans: Scans, median_m: Floats, log_density: Floats) -> Residuals:
-    """Compare readings with the medians of their laws, (B,), infinite where typed, and log densities, (B,)."""
+    """Compare readings with their predicted medians, (B,), infinite where typed, and log densities, (B,)."""
     beams = comparable_beams(scans)
     median = np.clip(median_m[beams], scans.min_range_m, scans.max_range_m)
     range_m = scans.ranges_m.ravel()[beams]

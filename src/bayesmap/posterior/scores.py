@@ -254,7 +254,7 @@ def score_prediction(
     limits = RangeLimits(scans.min_range_m, scans.max_range_m)
     sensor, range_m = predictor.sensor, scans.ranges_m.ravel()
     rays = trace_rays(scans, predictor.grid, device=device)
-    # Predict: density and transform of each reading, quantiles of its law, and chances of first hits.
+    # Predict: density and transform of each reading, quantiles of its distribution, and chances of first hits.
     depth, n_draws = predictor.hit_depth, predictor.draws
     times = (n_draws, MIX_TIME * n_draws, QUANTILES_TIME, EVENTS_TIME)
     on_forecast, on_mix, on_quantiles, on_events = split_progress(on_progress, *times)

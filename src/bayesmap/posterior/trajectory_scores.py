@@ -159,9 +159,9 @@ def score_trajectory(
 
 
 def _score_by_law(law: RelativeLaw, stamps_s: Floats, relations: Relations, errors: Floats) -> tuple[Floats, Floats]:
-    """Compute NEES and least regions by the law of nearest scans: with scale S and dof nu, e' S^-1 e / 3 ~ F(3, nu)."""
+    """Compute NEES and least regions by Student's t of the nearest scans: with scale S, e' S^-1 e / 3 ~ F(3, dof)."""
     first, second = (arrays.nearest_index(stamps_s, end_s) for end_s in (relations.first_s, relations.second_s))
-    # If both times are nearest to one scan, use the law of the step to a neighbouring scan, which is as wide or wider.
+    # If both times are nearest to one scan, use the step to a neighbouring scan: its distribution is at least as wide.
     second = np.where(first == second, np.where(second > 0, second - 1, second + 1), second)
     scale = _in_end_frame(law.scales(first, second), relations) + 1e-15 * np.eye(DIMENSIONS)
     square = np.einsum("ni,nij,nj->n", errors, np.linalg.inv(scale), errors)

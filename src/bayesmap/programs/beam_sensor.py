@@ -244,7 +244,7 @@ class ReadingsTrace(Trace):
 
 
 class RangeSensor(GenerativeFunction):
-    """Base of sensors: readings in metres, at the address (), follow `law`. Sensors implement four methods, below."""
+    """Base of sensors: readings in metres, at (), have the distribution `law`. A sensor implements four methods."""
 
     law: ReadingLaw
 

@@ -3,7 +3,7 @@
     model = bm.mapping_model(grid, pose, angles_rad, bm.Independent(0.5), bm.Gaussian(0.2), max_range_m=42.0)
     trace, weight = model.importance(key, C["readings"].set(ranges_m), ())
 
-The model has the joint law of `bayesmap.infer`. For unknown poses pass a generative function instead of an array.
+The joint distribution is that of `bayesmap.infer`. For unknown poses pass a generative function, not an array.
 """
 
 from typing import Any
@@ -59,7 +59,7 @@ def mapping_model(
     grid: Grid, poses: ArrayLike | GenerativeFunction, angles_rad: ArrayLike, prior: Independent, sensor: SensorModel,
     *, max_range_m: float, min_range_m: float = 0.0, hit_depth: float = 0.0,
 ) -> StaticGenerativeFunction:  # fmt: skip
-    """Return the joint law of a map and its readings, as a generative function without arguments.
+    """Return the joint distribution of a map and its readings, as a generative function without arguments.
 
     Its choices, which it also returns, are
 

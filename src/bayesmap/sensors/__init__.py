@@ -1,1 +1,1 @@
-"""Sensor models: the law of a reading given where its beam stops."""
+"""Sensor models: the probability distribution of a reading given where its beam stops."""

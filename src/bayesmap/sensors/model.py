@@ -1,4 +1,4 @@
-r"""Sensor models: the law of a reading given the distance of the beam's first hit. The interface, and built-in models.
+r"""Sensor models: the law of a reading, its distribution given the distance of the beam's first hit; built-in models.
 
 **Additive noise.** The reading is the distance of the first hit, at most ``max_range_m``, plus noise: the tutorial's
 sensor. A typed no-return is scored as the reading ``max_range_m``, and too close as ``min_range_m``.

@@ -1,7 +1,7 @@
 """A trajectory: poses over time with their uncertainty, as plain data.
 
-`Trajectory` is the result of SLAM and localization, and the reference of scores. `RelativeLaw` is the law of a scan's
-pose in the frame of another scan. `step_to` chooses whose poses are returned: the robot's or the laser's.
+`Trajectory` is the result of SLAM and localization, and the reference of scores. `RelativeLaw` is the distribution of
+a scan's pose in the frame of another scan. `step_to` chooses whose poses are returned: the robot's or the laser's.
 """
 
 from collections.abc import Callable
@@ -34,7 +34,7 @@ class RelativeLaw:
         return self.dof / (self.dof - 2.0) * self.scales(first, second)
 
     def of_frame(self, poses: Floats, mount: Floats) -> "RelativeLaw":
-        """Return the law of a frame at ``mount``, (3,), in this frame. ``poses``, (S, 3), are those of this frame."""
+        """Return the distribution for a frame at ``mount``, (3,), given the ``poses`` of this frame, (S, 3)."""
 
         def scales(first: Indices, second: Indices) -> Floats:
             jacobians = mount_jacobians(between(poses[first], poses[second])[:, 2], mount)

@@ -30,7 +30,7 @@ Rows = Sequence[tuple[str, "Score"]]  # maps by name, with their scores
 
 
 def plot_pit(ax: Axes, rows: Rows) -> None:
-    """Plot histograms of the probability integral transform, which are flat if the predictive laws are calibrated.
+    """Plot histograms of the probability integral transform, which are flat if the predictions are calibrated.
     High ends mean that predictions are too narrow, a hump in the middle that they are too wide. A slope is a bias.
     """
     for i, (name, score) in enumerate(rows):
