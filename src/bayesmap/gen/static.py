@@ -107,9 +107,7 @@ class StaticTrace(Trace):
 
 
 class _Run(Handler):
-    """A run that records a trace for each site, and the sum of the sites' weights.
-    `trace_site(path, function, arguments, key)` returns a site's (trace, weight). Site i has the key `fold_in(key, i)`.
-    """
+    """A run that records traces from `trace_site(path, function, arguments, key)`, and the sum of their weights."""
 
     def __init__(self, key: PRNGKey, trace_site: Callable[..., tuple[Trace, Any]]) -> None:
         super().__init__()

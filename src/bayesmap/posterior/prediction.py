@@ -299,13 +299,15 @@ def predict(
     from bayesmap.kernels.predict.stop_mixture import mix_stops, range_quantiles
     from bayesmap.kernels.rays import trace_rays
 
-    fan, poses_world = Fan.of("predict", posterior, angles_rad, max_range_m, sensor), as_user_poses("predict", poses)
+    fan = Fan.of("predict", posterior, angles_rad, max_range_m, sensor)
+    poses_world = as_user_poses("predict", poses)
     grid = posterior.grid
     predictor = predictor_of(posterior, fan.sensor)
     for i, (x, y, _) in enumerate(poses_world):
         if grid.cell_at(x, y) is None:
             raise BadInput(f"predict: pose {i}, {poses_world[i].tolist()}, lies outside the map, {grid.extent_words()}")
-    quantile_levels, seed = check_levels(levels), check_count("predict", "seed", seed, 0)
+    quantile_levels = check_levels(levels)
+    seed = check_count("predict", "seed", seed, 0)
     thinned = posterior.draws.thinned(check_count("predict", "draws", draws, 1))
     # Draw all scans in one map after the other.
     draws_m: list[Floats] = []

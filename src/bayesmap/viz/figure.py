@@ -182,16 +182,20 @@ def posterior_figure(
         label_panel(panel, titles[name], layout.max_ticks, leftmost=position % layout.columns == 0)
     color_bar(figure, layout, layout.corners[0], mean, label)
     color_bar(figure, layout, layout.corners[1], uncertainty, unit)
-    patches: list[Artist] = []
-    if draw is not None and np.isin(np.asarray(draw), (0, 1)).all():
-        colors = palette.probability_colors(2)
-        patches = [
-            Patch(facecolor=tuple(color), edgecolor=palette.FRAME, linewidth=0.6, label=name)
-            for name, color in zip(("free", "wall"), colors.tolist(), strict=True)
-        ]
-    place_legend(figure, [*patches, *([] if observed_mask.all() else [maps.hatch_patch()]), *keys])
+    place_legend(figure, [*_state_keys(draw), *([] if observed_mask.all() else [maps.hatch_patch()]), *keys])
     layout.title(figure, title)
     return figure
+
+
+def _state_keys(draw: ArrayLike | None) -> list[Artist]:
+    """Return a legend key for each state of a cell, free and wall, if these are the only states in a draw."""
+    if draw is None or not np.isin(np.asarray(draw), (0, 1)).all():
+        return []
+    colors = palette.probability_colors(2)
+    return [
+        Patch(facecolor=tuple(color), edgecolor=palette.FRAME, linewidth=0.6, label=name)
+        for name, color in zip(("free", "wall"), colors.tolist(), strict=True)
+    ]
 
 
 def write_figure(figure: Figure, path: str | os.PathLike[str]) -> None:

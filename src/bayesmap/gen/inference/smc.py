@@ -340,10 +340,8 @@ def _streams(key: PRNGKey, k: int) -> PRNGKey:
 
 
 def _trajectories(kernel: GenerativeFunction, args: Any, last: Any, recorded: tuple[Any, ...]) -> ScanTrace:
-    """Return the traces of `kernel.scan(n=n)`, one per particle, from the records of its steps, (n, k, ...).
-    They are (traces, states before, outputs, parents) of the particles. `last` are the last states, (k, ...).
-    """
-    traces, carries, y, parents = recorded
+    """Return the traces of `kernel.scan(n=n)`, one per particle, from records of steps, (n, k, ...), and last state."""
+    traces, carries, y, parents = recorded  # carries: the states before each step; y: the outputs
     n, k = parents.shape
 
     # Particle j of step t + 1 comes from particle `parents[t + 1, j]` of step t. Follow the parents back from the last
