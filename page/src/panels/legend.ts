@@ -60,9 +60,12 @@ export function captionOf(session: Session) {
   const { shown, document, layer, quantity, draws } = session;
   if (!shown || !document) return "";
   const { kind, mean, value } = quantity;
+  // A chain that has not converged, and particles that have collapsed, give no draw of the posterior.
+  const ofPosterior = shown.verdict?.level !== "bad";
+  const oneMap = ofPosterior ? "One map drawn from the posterior" : /importance/.test(shown.method) ? "One particle" : "The map of one chain, which has not converged";
   const what = {
     mean: kind === "binary" ? "How probable a wall is in each cell" : sentence(`${mean} of each cell`),
-    draw: `One map drawn from the posterior${kind === "binary" ? "" : `, by its ${value}`}${draws.count ? `, ${session.draw + 1} of ${draws.count}` : ""}`,
+    draw: `${oneMap}${kind === "binary" ? "" : `, by its ${value}`}${draws.count ? `, ${session.draw + 1} of ${draws.count}` : ""}`,
     entropy: "How uncertain each cell is, in bits", width: "How wide the 90 % interval of each cell is",
   }[layer];
   if (shown.method === "none") return `${what} before any reading: the prior.`;
@@ -70,7 +73,7 @@ export function captionOf(session: Session) {
   const given = source.kind === "simulation" ? `${counted(angles * sensors.length, "beam")} of ${counted(sensors.length, "sensor")}` : counted(scans_used ?? source.scans, "scan");
   const quick = shown.method === "propagate" || shown.method === "pilot" || /hits|counts/.test(shown.method);
   const by = quick && shown.approximate ? ", approximately" : layer !== "draw" && shown.burned ? `: the mean of the sweeps after the first ${shown.burned}` : "";
-  return `${what}, given ${given}${by}.`;
+  return `${what}, given ${given}${by}${ofPosterior || layer === "draw" ? "" : ", as far as it is known"}.`;
 }
 
 /** What is seen. */

@@ -8,6 +8,7 @@ import type { Ui } from "./ui";
 /** A robot that may be anywhere within so much is nowhere in particular. */
 const ANYWHERE_M = 2;
 const LISTED = 6;
+const TIED = 0.9; // share of the greatest probability from which a place is as probable as the first
 const LOST = 0.5;
 const MENTIONED = 0.005;
 
@@ -47,8 +48,9 @@ function places(modes: Place[]) {
   const known = `known to ${length(first.sigma_m)} and ${degrees(first.sigma_rad, 1)}`;
   if (modes.length === 1) return vague ? `It may be almost anywhere: positions are ${length(first.sigma_m)} apart.` : `One place: ${at}, ${known}.`;
   const listed = modes.slice(0, LISTED).map(({ probability }) => percent(probability));
+  const tied = modes.length > 1 && modes[1].probability > TIED * first.probability;
   const more = modes.length > LISTED ? " and less" : "";
-  return `${modes.length} places: ${listed.join(", ")}${more}. The likeliest: ${at}, ${known}.`;
+  return `${modes.length} places: ${listed.join(", ")}${more}. ${tied ? "One of them" : "The likeliest"}: ${at}, ${known}.`;
 }
 
 /** How far the truth, or what the file says, is from the nearest place. */

@@ -723,25 +723,27 @@ draw",text:"this draw",when:({flicker:t})=>!!t.under},{mark:"ghost",text:"predic
 path",text:"path, as wide as the robot",when:({decisions:t})=>!!(t.path&&t.pathShown),may:Fi}],dh=[{mark:"belief",text:"possible pose"},{mark:"place",text:"95 %\
  of a place"}],fh=[{mark:"for",text:"speaks for it"},{mark:"against",text:"speaks against it"}];function mh(t,e,n){let o=k("p",{className:"sentence"});return t.
 each(()=>C(o,"textContent",Bm(t.session))),k("div",{className:"legend"},o,Wm(t,e,n),Gm(t))}var $i=(t,e)=>`${t.toLocaleString("en")} ${e}${t===1?"":"s"}`;function Bm(t){
-let{shown:e,document:n,layer:o,quantity:s,draws:r}=t;if(!e||!n)return"";let{kind:i,mean:a,value:l}=s,c={mean:i==="binary"?"How probable a wall is in each cell":
-Qt(`${a} of each cell`),draw:`One map drawn from the posterior${i==="binary"?"":`, by its ${l}`}${r.count?`, ${t.draw+1} of ${r.count}`:""}`,entropy:"How uncert\
-ain each cell is, in bits",width:"How wide the 90 % interval of each cell is"}[o];if(e.method==="none")return`${c} before any reading: the prior.`;let{source:h,
-angles:d,sensors:u,scans_used:m}=n,b=h.kind==="simulation"?`${$i(d*u.length,"beam")} of ${$i(u.length,"sensor")}`:$i(m??h.scans,"scan"),w=(e.method==="propagate"||
-e.method==="pilot"||/hits|counts/.test(e.method))&&e.approximate?", approximately":o!=="draw"&&e.burned?`: the mean of the sweeps after the first ${e.burned}`:"";
-return`${c}, given ${b}${w}.`}function Wm(t,e,n){let{session:o}=t,s=k("span",{className:"ramp"}),r=k("span",{className:"name"}),i=uh.map(h=>{let[d,u]=Vs(h),{mark:m,
-when:b}=h;return b&&t.visible(d,()=>b(o)),m==="stroke"&&t.each(()=>C(u,"textContent",Bo(n())?h.text:ph)),m==="path"&&t.each(()=>d.firstElementChild?.classList.toggle(
-"risky",o.decisions.path?.within_risk===!1)),d}),[a,l]=[dh,fh].map(h=>h.map(d=>Vs(d)[0]));for(let h of a)t.visible(h,()=>!!o.where.found);for(let h of l)t.visible(
-h,()=>!!o.evidence.cellShown);let c="";return t.each(()=>{let{layer:h}=o;C(r,"textContent",gh(o,h));let d=h==="entropy"||h==="width",u=`${d} ${e().ground}`;c!==
-u&&(c=u,s.style.background=Jr(d?oo:m=>Kr(e(),m)))}),k("ul",{"aria-label":"Legend"},k("li",{},r,k("span",{className:"scale"},"0",s,"1")),...i,Hm(t),...a,...l)}function Gm(t){
-let{session:e}=t,n=["mean","draw","entropy","width"].map(c=>{let h=k("span");return t.each(()=>C(h,"textContent",gh(e,c))),c==="width"&&t.visible(h,()=>e.quantity.
-interval),h}),o=uh.map(c=>{let[h,d]=Vs(c);c.mark==="stroke"&&(d.textContent=ph);let{may:u}=c;return u&&t.visible(h,()=>u(e)),h}),s=k("span",{className:"scale"},
-"00.0",k("span",{className:"ramp"}),"000.0 nats"),r=[dh,fh].map(c=>k("ul",{},...c.map(h=>Vs(h)[0]))),i=[k("ul",{},k("li",{},"one more scan tells",s)),...r],a=k(
-"li",{className:"either"},...i);t.visible(a,()=>Fi(e));let l=k("span",{className:"scale"},"0",k("span",{className:"ramp"}),"1");return k("ul",{className:"room",
-"aria-hidden":"true"},k("li",{},k("span",{className:"name either"},...n),l),...o,a)}function Vs({mark:t,text:e}){let n=k("i",{className:t});t==="sensor"&&n.append(
-mn("sensor"));let o=k("span",{textContent:e});return[k("li",{},n,o),o]}function gh({quantity:t},e){let{kind:n,mean:o,value:s}=t;return e==="entropy"?"entropy (b\
-it)":e==="width"?"width of the 90 % interval":n==="binary"?"P(wall)":e==="draw"?s:o}function Hm(t){let{decisions:e}=t.session,n=k("span",{className:"ramp"});n.style.
-background=Jr(oo);let[o,s]=[k("span"),k("span")],r=k("li",{className:"views"},"one more scan tells",k("span",{className:"scale"},o,n,s));return t.visible(r,()=>e.
-looking&&!!e.views?.nats.length),t.each(()=>{let i=e.views?.nats;i?.length&&(C(o,"textContent","0"),C(s,"textContent",`${fe(Math.max(...i),1)} nats`))}),r}var jm=[.05,.1,.2,.4,.8],zm=t=>t<1?`${+(100*t).toPrecision(3)} cm`:`${+t.toPrecision(3)} m`;function yh(t){let{session:e}=t,n=k("select",{onchange:()=>e.act({type:"\
+let{shown:e,document:n,layer:o,quantity:s,draws:r}=t;if(!e||!n)return"";let{kind:i,mean:a,value:l}=s,c=e.verdict?.level!=="bad",h=c?"One map drawn from the post\
+erior":/importance/.test(e.method)?"One particle":"The map of one chain, which has not converged",d={mean:i==="binary"?"How probable a wall is in each cell":Qt(
+`${a} of each cell`),draw:`${h}${i==="binary"?"":`, by its ${l}`}${r.count?`, ${t.draw+1} of ${r.count}`:""}`,entropy:"How uncertain each cell is, in bits",width:"\
+How wide the 90 % interval of each cell is"}[o];if(e.method==="none")return`${d} before any reading: the prior.`;let{source:u,angles:m,sensors:b,scans_used:x}=n,
+w=u.kind==="simulation"?`${$i(m*b.length,"beam")} of ${$i(b.length,"sensor")}`:$i(x??u.scans,"scan"),S=(e.method==="propagate"||e.method==="pilot"||/hits|counts/.
+test(e.method))&&e.approximate?", approximately":o!=="draw"&&e.burned?`: the mean of the sweeps after the first ${e.burned}`:"";return`${d}, given ${w}${S}${c||
+o==="draw"?"":", as far as it is known"}.`}function Wm(t,e,n){let{session:o}=t,s=k("span",{className:"ramp"}),r=k("span",{className:"name"}),i=uh.map(h=>{let[d,
+u]=Vs(h),{mark:m,when:b}=h;return b&&t.visible(d,()=>b(o)),m==="stroke"&&t.each(()=>C(u,"textContent",Bo(n())?h.text:ph)),m==="path"&&t.each(()=>d.firstElementChild?.
+classList.toggle("risky",o.decisions.path?.within_risk===!1)),d}),[a,l]=[dh,fh].map(h=>h.map(d=>Vs(d)[0]));for(let h of a)t.visible(h,()=>!!o.where.found);for(let h of l)
+t.visible(h,()=>!!o.evidence.cellShown);let c="";return t.each(()=>{let{layer:h}=o;C(r,"textContent",gh(o,h));let d=h==="entropy"||h==="width",u=`${d} ${e().ground}`;
+c!==u&&(c=u,s.style.background=Jr(d?oo:m=>Kr(e(),m)))}),k("ul",{"aria-label":"Legend"},k("li",{},r,k("span",{className:"scale"},"0",s,"1")),...i,Hm(t),...a,...l)}
+function Gm(t){let{session:e}=t,n=["mean","draw","entropy","width"].map(c=>{let h=k("span");return t.each(()=>C(h,"textContent",gh(e,c))),c==="width"&&t.visible(
+h,()=>e.quantity.interval),h}),o=uh.map(c=>{let[h,d]=Vs(c);c.mark==="stroke"&&(d.textContent=ph);let{may:u}=c;return u&&t.visible(h,()=>u(e)),h}),s=k("span",{className:"\
+scale"},"00.0",k("span",{className:"ramp"}),"000.0 nats"),r=[dh,fh].map(c=>k("ul",{},...c.map(h=>Vs(h)[0]))),i=[k("ul",{},k("li",{},"one more scan tells",s)),...r],
+a=k("li",{className:"either"},...i);t.visible(a,()=>Fi(e));let l=k("span",{className:"scale"},"0",k("span",{className:"ramp"}),"1");return k("ul",{className:"ro\
+om","aria-hidden":"true"},k("li",{},k("span",{className:"name either"},...n),l),...o,a)}function Vs({mark:t,text:e}){let n=k("i",{className:t});t==="sensor"&&n.
+append(mn("sensor"));let o=k("span",{textContent:e});return[k("li",{},n,o),o]}function gh({quantity:t},e){let{kind:n,mean:o,value:s}=t;return e==="entropy"?"ent\
+ropy (bit)":e==="width"?"width of the 90 % interval":n==="binary"?"P(wall)":e==="draw"?s:o}function Hm(t){let{decisions:e}=t.session,n=k("span",{className:"ramp"});
+n.style.background=Jr(oo);let[o,s]=[k("span"),k("span")],r=k("li",{className:"views"},"one more scan tells",k("span",{className:"scale"},o,n,s));return t.visible(
+r,()=>e.looking&&!!e.views?.nats.length),t.each(()=>{let i=e.views?.nats;i?.length&&(C(o,"textContent","0"),C(s,"textContent",`${fe(Math.max(...i),1)} nats`))}),
+r}var jm=[.05,.1,.2,.4,.8],zm=t=>t<1?`${+(100*t).toPrecision(3)} cm`:`${+t.toPrecision(3)} m`;function yh(t){let{session:e}=t,n=k("select",{onchange:()=>e.act({type:"\
 set",patch:{resolution:Number(n.value)}})}),o="";t.each(()=>{let{grid:r,source:i}=e.document??{};if(!r||i?.kind!=="log"||!i.bounds)return;let[a,l]=i.bounds,c=Math.
 max(l[0]-a[0],l[1]-a[1]),h=[...new Set([...jm,r.resolution])].sort((u,m)=>u-m),[,d]=t.limits("side_of_log");if(o!==`${h} ${d}`){o=`${h} ${d}`;let u=m=>k("option",
 {value:String(m),textContent:zm(m),disabled:c/m>d-1});n.replaceChildren(...h.map(u))}C(n,"value",String(r.resolution))});let s=t.row("Cell size",n);return t.visible(
@@ -885,39 +887,39 @@ still));let c=t.checkbox("Draws over the mean",()=>n.flicker.on,d=>e.over(d),"Ea
 a,l),h)}function $h(t){let{session:e}=t,n=k("input",{type:"range",min:0,step:1,"aria-label":"Scan number"}),o=k("output");n.addEventListener("input",()=>e.act({
 type:"scan",index:Number(n.value)}));let s=t.section("Scan",k("div",{className:"player bare"},n,o));return t.each(()=>{let r=e.document?.source.kind==="simulati\
 on"?0:e.document?.source.scans??0;C(s,"hidden",r<2),C(n,"max",String(Math.max(0,r-1))),En(n)||C(n,"value",String(e.scan?.index??0)),n.style.setProperty("--fill",
-`${100*Number(n.value)/Math.max(1,r-1)}%`),C(o,"textContent",`${Number(n.value)+1} / ${r}`)}),s}var Ih=2,Fh=6,ug=.5,dg=.005;function Oh(t){let{session:e,hand:n}=t,o=k("p",{className:"whereabouts",role:"status"}),s=k("p",{className:"caption"}),r=t.section("\
-Where am I?",o,s);return t.visible(r,()=>n.tool==="where"),t.each(()=>{e.where.follow(n.tool==="where",n.sensor?.id??null),C(o,"textContent",fg(t)),C(s,"textCon\
-tent",e.editable?"Drag the robot: its scan is located among the walls that are drawn, as if nothing were known of its pose.":"Choose a scan below: it is located\
- in this map, as if nothing were known of its pose. The arrow is where it was recorded.")}),r}function fg({session:t}){let{found:e,trouble:n}=t.where;if(n)return`${n.
-charAt(0).toUpperCase()}${n.slice(1)}.`;if(!e)return"Looking everywhere.";let o=e.p_lost>ug?`The scan fits nowhere on this map, with probability ${e.p_lost.toFixed(
-2)}: the robot is lost, or the map is outdated. If it is on the map: `:"",s=!o&&e.p_lost>dg?` That it is lost, or the map outdated, has probability ${e.p_lost.toFixed(
-2)}.`:"";return`${o}${mg(e.modes)}${gg(e,t.editable)}${s}`}function mg(t){let[e]=t;if(!e)return"No place.";let n=e.sigma_m>Ih,o=`${e.mean[0].toFixed(2)}, ${e.mean[1].
+`${100*Number(n.value)/Math.max(1,r-1)}%`),C(o,"textContent",`${Number(n.value)+1} / ${r}`)}),s}var Ih=2,Fh=6,ug=.9,dg=.5,fg=.005;function Oh(t){let{session:e,hand:n}=t,o=k("p",{className:"whereabouts",role:"status"}),s=k("p",{className:"caption"}),r=t.section(
+"Where am I?",o,s);return t.visible(r,()=>n.tool==="where"),t.each(()=>{e.where.follow(n.tool==="where",n.sensor?.id??null),C(o,"textContent",mg(t)),C(s,"textCo\
+ntent",e.editable?"Drag the robot: its scan is located among the walls that are drawn, as if nothing were known of its pose.":"Choose a scan below: it is locate\
+d in this map, as if nothing were known of its pose. The arrow is where it was recorded.")}),r}function mg({session:t}){let{found:e,trouble:n}=t.where;if(n)return`${n.
+charAt(0).toUpperCase()}${n.slice(1)}.`;if(!e)return"Looking everywhere.";let o=e.p_lost>dg?`The scan fits nowhere on this map, with probability ${e.p_lost.toFixed(
+2)}: the robot is lost, or the map is outdated. If it is on the map: `:"",s=!o&&e.p_lost>fg?` That it is lost, or the map outdated, has probability ${e.p_lost.toFixed(
+2)}.`:"";return`${o}${gg(e.modes)}${yg(e,t.editable)}${s}`}function gg(t){let[e]=t;if(!e)return"No place.";let n=e.sigma_m>Ih,o=`${e.mean[0].toFixed(2)}, ${e.mean[1].
 toFixed(2)} m, heading ${Oi(e.mean[2],0)}`,s=`known to ${Ui(e.sigma_m)} and ${Oi(e.sigma_rad,1)}`;if(t.length===1)return n?`It may be almost anywhere: positions\
- are ${Ui(e.sigma_m)} apart.`:`One place: ${o}, ${s}.`;let r=t.slice(0,Fh).map(({probability:a})=>Qr(a)),i=t.length>Fh?" and less":"";return`${t.length} places:\
- ${r.join(", ")}${i}. The likeliest: ${o}, ${s}.`}function gg({modes:t,pose:e},n){if(!t.length||t[0].sigma_m>Ih)return"";let o=t.map(({mean:a})=>Math.hypot(a[0]-
-e[0],a[1]-e[1])),s=o.indexOf(Math.min(...o)),r=Math.abs(Math.atan2(Math.sin(t[s].mean[2]-e[2]),Math.cos(t[s].mean[2]-e[2]))),i=t.length===1?"there":s===0?"the l\
-ikeliest":`the ${yg(s+1)}`;return` The robot ${n?"stands":"was recorded"} ${Ui(o[s])} and ${Oi(r,1)} from ${i}.`}var yg=t=>`${t}${["th","st","nd","rd"][t%100>10&&
-t%100<14?0:t%10]??"th"}`,Oi=(t,e)=>`${(t*180/Math.PI).toFixed(e).replace(/^-(?=0(\.0*)?$)/,"")}°`,Ui=t=>t<.0095?`${(1e3*t).toFixed(0)} mm`:t<1?`${(100*t).toFixed(
-0)} cm`:`${t.toFixed(1)} m`;var Mo="recording";function Uh(t,e,n,{kept:o}){let{shown:s,status:r}=t;return{document:t.effectiveDocument(),generation:t.generation,painted:s&&{generation:s.generation,layer:t.layer,
+ are ${Ui(e.sigma_m)} apart.`:`One place: ${o}, ${s}.`;let r=t.slice(0,Fh).map(({probability:l})=>Qr(l)),i=t.length>1&&t[1].probability>ug*e.probability,a=t.length>
+Fh?" and less":"";return`${t.length} places: ${r.join(", ")}${a}. ${i?"One of them":"The likeliest"}: ${o}, ${s}.`}function yg({modes:t,pose:e},n){if(!t.length||
+t[0].sigma_m>Ih)return"";let o=t.map(({mean:a})=>Math.hypot(a[0]-e[0],a[1]-e[1])),s=o.indexOf(Math.min(...o)),r=Math.abs(Math.atan2(Math.sin(t[s].mean[2]-e[2]),
+Math.cos(t[s].mean[2]-e[2]))),i=t.length===1?"there":s===0?"the likeliest":`the ${bg(s+1)}`;return` The robot ${n?"stands":"was recorded"} ${Ui(o[s])} and ${Oi(
+r,1)} from ${i}.`}var bg=t=>`${t}${["th","st","nd","rd"][t%100>10&&t%100<14?0:t%10]??"th"}`,Oi=(t,e)=>`${(t*180/Math.PI).toFixed(e).replace(/^-(?=0(\.0*)?$)/,"")}\
+°`,Ui=t=>t<.0095?`${(1e3*t).toFixed(0)} mm`:t<1?`${(100*t).toFixed(0)} cm`:`${t.toFixed(1)} m`;var Mo="recording";function Uh(t,e,n,{kept:o}){let{shown:s,status:r}=t;return{document:t.effectiveDocument(),generation:t.generation,painted:s&&{generation:s.generation,layer:t.layer,
 approximate:s.approximate,sweeps:s.sweeps,method:s.method,quantity:t.quantity,rhat:s.rhat,verdict:s.verdict,trace:s.trace,traced:s.traced,weights:s.weights,ess:s.
 ess,chain:s.chain,draw:s.draw},probability:s?.p??new Uint8Array(0),reached:s?.reached??new Uint8Array(0),walls:t.walls,sensors:t.document?.sensors??[],scan:t.scan,
 status:{text:r.text,level:r.level},connected:t.connection.connected,decisions:{path:t.decisions.path,views:t.decisions.views,trouble:t.decisions.trouble||t.decisions.
-viewTrouble},where:{found:t.where.found,trouble:t.where.trouble},stage:t.stage,ghost:wg(t),reading:{picked:t.reading.picked,found:t.reading.found,trouble:t.reading.
-trouble},evidence:{cell:t.evidence.cell,together:t.evidence.together,each:t.evidence.each&&bg(t.evidence.each)},over:!!t.flicker.under,beside:o&&{layer:o.layer,
+viewTrouble},where:{found:t.where.found,trouble:t.where.trouble},stage:t.stage,ghost:xg(t),reading:{picked:t.reading.picked,found:t.reading.found,trouble:t.reading.
+trouble},evidence:{cell:t.evidence.cell,together:t.evidence.together,each:t.evidence.each&&wg(t.evidence.each)},over:!!t.flicker.under,beside:o&&{layer:o.layer,
 chain:o.view.chain,draw:o.draw,method:o.shown?.method,probability:Array.from(o.shown?.p??[])},overlay:t.overlay&&{strokes:t.overlay.strokes.length/5,trajectory:t.
 overlay.trajectory.length/2},worker:t.worker,running:t.running,draws:t.draws,view:t.view,seq:{sent:t.acted,confirmed:t.state?.seq??0},events:{...t.counts,eventToPaint_ms:t.
-latency.eventToPaint_ms},layers:{...n.paints},transform:{...e.transform}}}var bg=t=>Object.fromEntries(Object.entries(t).map(([e,n])=>[e,Array.from(n)]));function wg({
+latency.eventToPaint_ms},layers:{...n.paints},transform:{...e.transform}}}var wg=t=>Object.fromEntries(Object.entries(t).map(([e,n])=>[e,Array.from(n)]));function xg({
 ghost:t}){let{held:e,pose:n,fan:o,answers:s,trouble:r}=t;return{held:e,pose:n,answers:s,trouble:r,fan:o&&{...o,near:o.near&&{...o.near}}}}var Bi=new Set(["walls","move_sensor","set","view","live"]),Bh=({type:t})=>!Bi.has(t),Wh="Not while the connection is lost: this needs the server";function Gh(t,e){
 let{document:n,walls:o}=t,s=n.grid.shape[1];if(e.type==="walls")for(let[r,i]of e.cells)o[r*s+i]=e.wall?1:0;else if(e.type==="set"){let{resolution:r,...i}=e.patch;
 Object.assign(n,i)}else if(e.type==="live")t.state={...t.state,live:e.on};else if(e.type==="view")t.view={layer:e.layer,chain:e.chain??t.view.chain,draw:e.draw??
-null};else if(e.type==="move_sensor"){let r=n.sensors.find(i=>i.id===e.id);if(r)for(let i of["x","y","yaw"])r[i]=e[i]??r[i]}}var xg=t=>Qt(`${t.replace(/^(plan|path|explore): /,"")}.`),Qs=class{constructor(e){this.session=e}start=null;goal=null;radius=.25;risk=.01;path=null;views=null;trouble="";viewTrouble="";version=0;pathShown=!0;looking=!1;askedPath="";askedViews="";point(e){
+null};else if(e.type==="move_sensor"){let r=n.sensors.find(i=>i.id===e.id);if(r)for(let i of["x","y","yaw"])r[i]=e[i]??r[i]}}var vg=t=>Qt(`${t.replace(/^(plan|path|explore): /,"")}.`),Qs=class{constructor(e){this.session=e}start=null;goal=null;radius=.25;risk=.01;path=null;views=null;trouble="";viewTrouble="";version=0;pathShown=!0;looking=!1;askedPath="";askedViews="";point(e){
 this.start&&!this.goal?this.goal=e:[this.start,this.goal]=[e,null],this.path=null,this.trouble="",this.version++,this.ask(),this.session.changed()}set(e){Object.
 assign(this,e),this.ask()}showPath(e){this.pathShown!==e&&this.version++,this.pathShown=e}look(e){this.looking!==e&&(this.looking=e,this.viewTrouble="",e||([this.
 views,this.askedViews]=[null,""]),this.version++,this.ask(),this.session.changed())}forget(){this.forgetPath(),this.views=null,this.askedViews=""}forgetPath(){this.
 start=this.goal=this.path=null,this.askedPath=this.trouble="",this.version++,this.session.changed()}ask(){let{session:e,start:n,goal:o,radius:s,risk:r}=this,{shown:i}=e;
 if(!i||i.generation!==e.generation||!e.answers)return;let a=`${i.generation} ${e.sampling}`,l=`${a} ${JSON.stringify([n,o,s,r])}`;n&&o&&!i.approximate&&l!==this.
 askedPath&&(this.askedPath=l,e.act({type:"path",start:[n.x,n.y],goal:[o.x,o.y],radius:s,risk:r})),this.looking&&(!i.approximate||e.document?.method==="propagate")&&
-a!==this.askedViews&&(this.askedViews=a,e.act({type:"views"}))}receive(e,n){let o=e.type==="undecided"?xg(e.text):"",s=e.type==="undecided"?e.question:e.type;s===
+a!==this.askedViews&&(this.askedViews=a,e.act({type:"views"}))}receive(e,n){let o=e.type==="undecided"?vg(e.text):"",s=e.type==="undecided"?e.question:e.type;s===
 "views"?(this.viewTrouble=o,this.views=null):this.trouble=o,e.type==="path"?this.path=e:e.type==="views"&&this.looking?this.views={pose:n.pose,nats:n.nats,spacing:e.
 spacing}:s==="path"&&(this.path=null),this.version++}nearest(e){let{views:n}=this;if(!n?.nats.length)return null;let[o,s]=[0,1/0];for(let r=0;r<n.nats.length;r++){
 let i=Math.hypot(n.pose[3*r]-e.x,n.pose[3*r+1]-e.y);i<s&&([o,s]=[r,i])}return o}};var er=class{constructor(e){this.session=e}facts=null;cell=null;together=null;each=null;version=0;held=!1;asked="";get cellShown(){return this.held&&this.cell!==
@@ -925,15 +927,15 @@ null}hold(e){this.held!==e&&(this.held=e,this.version++,this.ask())}pin(e){this.
 this.version++,this.ask(),this.session.changed()}forget(){this.cell=this.together=this.each=this.facts=null,this.version++}ask(){let{session:e,cell:n}=this,{shown:o}=e;
 if(!this.held||!n||!o||o.generation!==e.generation||!e.answers)return;let{chain:s,draw:r}=o,i=o.layer==="draw"&&s!==null&&r!==null&&e.draws.count?{chain:s,draw:r}:
 {},a=`${o.generation} ${e.sampling} ${o.approximate} ${n.x} ${n.y} ${JSON.stringify(i)}`;a!==this.asked&&(this.asked=a,e.act({type:"inspect",x:n.x,y:n.y,each:!0,
-...i}))}receive(e,n){this.facts=e,!(!e.each||e.x!==this.cell?.x||e.y!==this.cell?.y)&&(this.together=this.facts,this.each=n.nats?n:null,this.version++)}};var vg="(prefers-reduced-motion: reduce)",tr=class{constructor(e){this.session=e}on=!1;mean=null;get still(){return matchMedia(vg).matches}get under(){let{mean:e,
+...i}))}receive(e,n){this.facts=e,!(!e.each||e.x!==this.cell?.x||e.y!==this.cell?.y)&&(this.together=this.facts,this.each=n.nats?n:null,this.version++)}};var kg="(prefers-reduced-motion: reduce)",tr=class{constructor(e){this.session=e}on=!1;mean=null;get still(){return matchMedia(kg).matches}get under(){let{mean:e,
 session:n}=this,{shown:o}=n;return this.on&&e&&o?.layer==="draw"&&e.generation===o.generation&&e.p.length===o.p.length?e:null}get wantsMean(){return this.on&&this.
-mean?.generation!==this.session.generation}take(e){e.layer!=="draw"&&e.layer!=="width"&&(this.mean=e)}};var kg=2e3,Sg=3e3,Mg=2,nr=class{constructor(e){this.session=e}held=!1;pose=null;fan=null;trouble="";version=0;answers=0;moving=!1;askedAt=-1/0;waiting=0;asked="";hold(e){
+mean?.generation!==this.session.generation}take(e){e.layer!=="draw"&&e.layer!=="width"&&(this.mean=e)}};var Sg=2e3,Mg=3e3,Tg=2,nr=class{constructor(e){this.session=e}held=!1;pose=null;fan=null;trouble="";version=0;answers=0;moving=!1;askedAt=-1/0;waiting=0;asked="";hold(e){
 this.held!==e&&(this.held=e,this.version++,this.ask(),this.session.changed())}move(e,n=!1){let{pose:o}=this;this.moving=n,this.pose={x:0,y:0,yaw:0,...o,...e},this.
 version++,this.ask(),this.session.changed()}rest(){this.moving&&(this.moving=!1,this.ask())}refit(){let{pose:e,session:n}=this,o=e&&n.document&&Tn(e,n.document.
 grid);(!o||!qt(o,n.shape))&&(this.pose=null),this.fan=null,this.asked=this.trouble="",this.version++}ask(){let{session:e}=this,{shown:n,scan:o}=e;if(!this.held||
 !e.answers||!n||n.generation!==e.generation)return;!this.pose&&o?.pose.length&&(this.pose={x:o.pose[0],y:o.pose[1],yaw:o.pose[2]});let{pose:s}=this;if(!s)return;
-let r=performance.now();if(r-this.askedAt>kg&&(this.waiting=0),this.waiting>=Mg)return;let i=JSON.stringify([s,this.moving,n.generation,e.sampling,n.approximate]),
-a=e.sampling&&r-this.askedAt>Sg;i===this.asked&&!a||([this.asked,this.askedAt]=[i,r],this.waiting++,e.act({type:"ghost",...s,coarse:this.moving}))}receive(e,n){
+let r=performance.now();if(r-this.askedAt>Sg&&(this.waiting=0),this.waiting>=Tg)return;let i=JSON.stringify([s,this.moving,n.generation,e.sampling,n.approximate]),
+a=e.sampling&&r-this.askedAt>Mg;i===this.asked&&!a||([this.asked,this.askedAt]=[i,r],this.waiting++,e.act({type:"ghost",...s,coarse:this.moving}))}receive(e,n){
 if(this.waiting=Math.max(0,this.waiting-1),this.trouble=e.type==="undecided"?e.text:"",e.type==="ghost"){let{angles:o,low:s,median:r,high:i,near_pose:a,near_ranges:l,
 near_hit:c}=n,{x:h,y:d,yaw:u,generation:m,draws:b,coarse:x,milliseconds:w}=e,M=e.near&&{...e.near,pose:a,ranges:l,hit:c};this.fan={x:h,y:d,yaw:u,generation:m,draws:b,
 coarse:x,milliseconds:w,angles:o,low:s,median:r,high:i,near:M},this.answers++}else this.fan=null;this.version++,this.ask()}};var or=class{eventToPaint_ms=[];waiting=[];seqOfGeneration=new Map;sent(e,n){this.waiting.push({seq:e,time:n.timeStamp})}refused(e){this.waiting=this.waiting.filter(
@@ -942,11 +944,11 @@ waiting)s.seq<=n&&this.eventToPaint_ms.push(o-s.time);this.waiting=this.waiting.
 delete(s)}forget(){this.waiting=[],this.seqOfGeneration.clear()}};var sr=class{generation=-1;last=0;from={sweeps:0,time:0};hear(e){e.approximate||e.sweeps<=0||((this.generation!==e.generation||e.sweeps<this.last)&&(this.generation=
 e.generation,this.from={sweeps:e.sweeps,time:performance.now()}),this.last=e.sweeps)}remaining_s(e){let n=e.sweeps-this.from.sweeps;return n>0?(e.total-e.sweeps)*
 (performance.now()-this.from.time)/n/1e3:null}};var rr=class{constructor(e){this.session=e}picked=null;found=null;trouble="";slow=!1;version=0;timer=0;point(e,n){let{session:o}=this,s=o.document&&o.document.source.
-kind!=="simulation"&&!o.recorded,r=e&&s&&o.scan?Tg(o.scan,e,n,o.document?.max_range??1/0):null;r?.beam===this.picked?.beam&&r?.scan===this.picked?.scan||(this.picked=
+kind!=="simulation"&&!o.recorded,r=e&&s&&o.scan?Ag(o.scan,e,n,o.document?.max_range??1/0):null;r?.beam===this.picked?.beam&&r?.scan===this.picked?.scan||(this.picked=
 r,this.found=null,this.trouble="",this.slow=!1,this.version++,clearTimeout(this.timer),r&&(this.timer=window.setTimeout(()=>this.ask(r),120)),o.changed())}ask({
 scan:e,beam:n}){this.session.act({type:"beam",scan:e,beam:n}),this.timer=window.setTimeout(()=>{this.slow=!0,this.session.changed()},1e3)}forget(){this.picked&&
 (clearTimeout(this.timer),this.picked=this.found=null,this.slow=!1,this.version++)}receive(e){e.type==="undecided"?this.trouble=e.text:e.beam===this.picked?.beam&&
-e.scan===this.picked.scan&&(this.found=e),this.version++}};function Tg({index:t,pose:e,angles:n,ranges:o,hit:s},r,i,a){if(t===null)return null;let l={x:e[0],y:e[1]},
+e.scan===this.picked.scan&&(this.found=e),this.version++}};function Ag({index:t,pose:e,angles:n,ranges:o,hit:s},r,i,a){if(t===null)return null;let l={x:e[0],y:e[1]},
 [c,h]=[-1,1/0];for(let d=0;d<n.length;d++){let[u,m]=[Math.cos(e[2]+n[d]),Math.sin(e[2]+n[d])],[b,x]=[r.x-l.x,r.y-l.y],w=b*u+x*m,M=s[d]?o[d]:a,S=s[d]?Math.hypot(
 b-M*u,x-M*m):1/0,E=w>0&&w<M?Math.abs(b*m-x*u):1/0,_=Math.min(S,i/2+2*E);_<h&&([c,h]=[d,_])}return h<i?{scan:t,beam:c,from:l,angle:e[2]+n[c]}:null}var ir=class{constructor(e){this.session=e}found=null;trouble="";version=0;wanted=!1;sensor=null;asked="";waitingSince=0;follow(e,n){this.sensor=n,e!==this.wanted&&
 (this.wanted=e,this.found=null,[this.trouble,this.asked,this.waitingSince]=["","",0],this.version++,this.session.changed()),e&&this.ask()}receive(e,n){if(this.waitingSince=
@@ -1119,6 +1121,7 @@ section:last-child { border-bottom: 0; }
 .story { background: var(--tint); grid-template-columns: minmax(0, 1fr); }
 .story .buttons { flex-wrap: wrap; }
 @media (min-height: 700px) { .story .buttons { position: sticky; bottom: 0; padding: 4px 0; background: var(--tint); } } /* in view on a tall phone */
+@media (max-width: 760px) { .story .told { display: grid; } .story p:not(.task) { order: 1; } } /* what to do comes before what is seen */
 .story nav { display: flex; gap: 4px; }
 .story nav a { flex: 1 1 0; min-width: 0; max-width: 40px; padding: 3px 0; border-radius: 6px; border: 1px solid var(--control); background: var(--card); color:\
  inherit; text-align: center; text-decoration: none; }
@@ -1282,12 +1285,12 @@ px; }
 }
 @media (prefers-reduced-motion: no-preference) { button, .segmented label { transition: background-color .12s; } }
 @media (forced-colors: active) { .story [aria-current=step], .segmented label:has(:checked) { outline: 2px solid Highlight; } }
-`;var Yh="bayesmap-theme",Vh={auto:"light",light:"dark",dark:"auto"},lr=class{constructor(e,n){this.app=e;this.dressed=n;let o=Pg();o&&o in Vh&&(this.choice=o),this.
+`;var Yh="bayesmap-theme",Vh={auto:"light",light:"dark",dark:"auto"},lr=class{constructor(e,n){this.app=e;this.dressed=n;let o=_g();o&&o in Vh&&(this.choice=o),this.
 media.addEventListener("change",this.listen)}theme=xs.light;media=matchMedia("(prefers-color-scheme: dark)");choice="auto";listen=()=>this.dress();dress(){let e=this.
 choice==="dark"||this.choice==="auto"&&this.media.matches,n=this.theme=e?xs.dark:xs.light;this.app.dataset.theme=e?"dark":"light";let{truth:o,ray:s,noReturn:r,sensor:i,
 hatch:a,unobserved:l,draw:c,ghost:h,belief:d}=n;for(let[u,m]of Object.entries({truth:o,ray:s,miss:r,sensor:i,hatch:a,unobserved:l,draw:c,ghost:h,belief:d}))this.
 app.style.setProperty(`--${u}`,m);this.dressed(this.choice==="auto"?"automatic":this.choice)}next(){this.choice=Vh[this.choice];try{localStorage.setItem(Yh,this.
-choice)}catch{}this.dress()}destroy(){this.media.removeEventListener("change",this.listen)}};function Pg(){try{return localStorage.getItem(Yh)}catch{return null}}var qh=12;function Jo(t,e,{embedded:n=!1,adopt:o=null,notice:s=null,play:r}={}){let i=t.shadowRoot??t.attachShadow({mode:"open"}),a=new CSSStyleSheet;a.replaceSync(
+choice)}catch{}this.dress()}destroy(){this.media.removeEventListener("change",this.listen)}};function _g(){try{return localStorage.getItem(Yh)}catch{return null}}var qh=12;function Jo(t,e,{embedded:n=!1,adopt:o=null,notice:s=null,play:r}={}){let i=t.shadowRoot??t.attachShadow({mode:"open"}),a=new CSSStyleSheet;a.replaceSync(
 jh+zh),i.adoptedStyleSheets=[a],t.toggleAttribute("data-embedded",n);let l=0,c=()=>{l||=requestAnimationFrame(Wt)},h=new To(e,c,o,s);e.open();let d=new to,u=new ps(
 h),m=new hs(h,u),b=new Zs(h),x=new ar(h),w=new Xs(h,u,m,Gt,V=>b.showLayer(V),n),M=[new io,new lo,new po,new ho,new Ms,new vs,new co,new so,new uo,new ao,new ys],
 S=M.map(({name:V})=>k("canvas",{className:V})),E=S[S.length-1];Object.assign(E,{tabIndex:0,role:"application"});let _=new Uo(M,S);new gs(E,h,d,u,m,n);let D=new fs(
@@ -1317,38 +1320,38 @@ re),command:Gt})}],[window,"online",()=>e.retry?.()],[window,"hashchange",async(
 V):Ie.story&&me!==null?Ie.go(me):re&&h.say($o,"error")}],[t,"dragover",V=>V.preventDefault()],[t,"drop",V=>{V.preventDefault();let re=V.dataTransfer?.files[0];re&&
 Ga(re,h,r)}]];for(let[V,re,me]of De)V.addEventListener(re,me);return ot.dress(),{destroy(){Jt.disconnect(),cancelAnimationFrame(l),ot.destroy();for(let[V,re,me]of De)
 V.removeEventListener(re,me);e.close(),i.replaceChildren()},snapshot:()=>Uh(h,d,_,x),cellToClient(V,re){let me=E.getBoundingClientRect(),st=d.fromGrid({x:V+.5,y:re+
-.5},h.shape[1]);return{x:me.left+st.x,y:me.top+st.y}}}}var _g=200,Cg=.2,ze=class extends Error{},Kh=({grid:t,walls:e})=>bt(ht(e),t.shape[0]*t.shape[1]);function Jh({grid:t},{x:e,y:n}){let[o,s]=[Math.floor((e-t.origin[0])/
+.5},h.shape[1]);return{x:me.left+st.x,y:me.top+st.y}}}}var Cg=200,Lg=.2,ze=class extends Error{},Kh=({grid:t,walls:e})=>bt(ht(e),t.shape[0]*t.shape[1]);function Jh({grid:t},{x:e,y:n}){let[o,s]=[Math.floor((e-t.origin[0])/
 t.resolution),Math.floor((n-t.origin[1])/t.resolution)];return o>=0&&o<t.shape[0]&&s>=0&&s<t.shape[1]?o*t.shape[1]+s:null}function Wi(t,e){let n=Jh(t,e);if(n===
 null)throw new ze("the sensor cannot stand outside the map");if(Kh(t)[n])throw new ze("the sensor cannot stand in a wall; move it to a free cell");return{...e,yaw:e.
-yaw-2*Math.PI*Math.round(e.yaw/(2*Math.PI))}}function Xh(t,e,n){switch(e.type){case"set":return[Gi({...t,...e.patch},t,n),""];case"walls":return Lg(t,e.cells,e.
+yaw-2*Math.PI*Math.round(e.yaw/(2*Math.PI))}}function Xh(t,e,n){switch(e.type){case"set":return[Gi({...t,...e.patch},t,n),""];case"walls":return Ng(t,e.cells,e.
 wall);case"clear":return e.what==="walls"?[{...t,walls:Zh(t.grid.shape)},""]:null;case"add_sensor":{if(t.sensors.length>=n.sensors[1])throw new ze(`there are ${t.
 sensors.length} sensors already; remove one first`);let o=Math.max(...t.sensors.map(s=>s.id))+1;return[{...t,sensors:[...t.sensors,Wi(t,{id:o,x:e.x,y:e.y,yaw:e.
 yaw??0})]},""]}case"move_sensor":{let o=s=>Wi(t,{id:s.id,x:e.x??s.x,y:e.y??s.y,yaw:e.yaw??s.yaw});return[{...t,sensors:t.sensors.map(s=>s.id===e.id?o(s):s)},""]}case"\
 remove_sensor":{let o=t.sensors.filter(s=>s.id!==e.id);if(!o.length)throw new ze("the last sensor cannot be removed; add another first");return[{...t,sensors:o},
-""]}case"new":return[Ng(t,e.shape,e.world),""];default:return null}}var Zh=([t,e])=>Mn(new Uint8Array(t*e+7>>3));function Lg(t,e,n){let o=Kh(t),s=t.grid.shape[1];
+""]}case"new":return[Dg(t,e.shape,e.world),""];default:return null}}var Zh=([t,e])=>Mn(new Uint8Array(t*e+7>>3));function Ng(t,e,n){let o=Kh(t),s=t.grid.shape[1];
 for(let[i,a]of e)o[i*s+a]=n?1:0;let r="";for(let i of t.sensors){let a=Jh(t,i);o[a]&&(r=`a sensor stands in cell (${Math.floor(a/s)}, ${a%s}): it stays free`),o[a]=
-0}return[{...t,walls:Mn(Zn(o))},r]}function Ng(t,e,n){if(n!=="blank")throw new ze("this figure can begin blank maps alone; bayesmap app has others");let[o,s]=e.
-map(i=>Math.floor((i-1)/2));return{...t,grid:{shape:e,resolution:1,origin:[-.5,-.5]},walls:Zh(e),sensors:[{id:1,x:o,y:s,yaw:0}],noise:Cg,max_range:2*Math.max(...e)}}
+0}return[{...t,walls:Mn(Zn(o))},r]}function Dg(t,e,n){if(n!=="blank")throw new ze("this figure can begin blank maps alone; bayesmap app has others");let[o,s]=e.
+map(i=>Math.floor((i-1)/2));return{...t,grid:{shape:e,resolution:1,origin:[-.5,-.5]},walls:Zh(e),sensors:[{id:1,x:o,y:s,yaw:0}],noise:Lg,max_range:2*Math.max(...e)}}
 function Gi(t,e,n){let o=t;for(let[h,d]of Object.entries(e)){let u=o[h];if(d!==null&&(typeof u!=typeof d||u===null))throw new ze(`${h} is missing, or of another\
  type`);let m=n[h];if(m&&typeof u=="number"&&!(u>=m[0]&&u<=m[1]))throw new ze(`${h}: ${u}; give ${m[0]} to ${m[1]}`)}let{grid:s,source:r,sensors:i,walls:a}=o;if(r.
 kind!=="simulation")throw new ze("this figure shows drawn maps alone; start bayesmap app with the file");if(o.cells!=="binary"||o.pose_sigma>0||o.heading_sigma>
 0)throw new ze("this figure samples walls seen from known poses alone; bayesmap app samples others");if(o.method==="propagate")throw new ze("this figure has no \
 belief propagation; choose another method");let[l,c]=n.side;if(!(s.shape.length===2&&s.shape.every(h=>Number.isInteger(h)&&h>=l&&h<=c)&&s.resolution>0))throw new ze(
 `grid: give ${l} to ${c} cells a side`);if(ht(a).length!==s.shape[0]*s.shape[1]+7>>3)throw new ze("walls: another number of cells than the grid's");if(!(i.length>=
-n.sensors[0]&&i.length<=n.sensors[1]))throw new ze(`sensors: give ${n.sensors[0]} to ${n.sensors[1]}`);return{...o,sensors:i.map(h=>Wi(o,h))}}function Dg(t){return t.
+n.sensors[0]&&i.length<=n.sensors[1]))throw new ze(`sensors: give ${n.sensors[0]} to ${n.sensors[1]}`);return{...o,sensors:i.map(h=>Wi(o,h))}}function Rg(t){return t.
 type==="walls"&&t.stroke?`walls ${t.stroke}`:t.type==="set"&&t.drag?`set ${t.drag} ${Object.keys(t.patch).sort()}`:t.type==="move_sensor"&&t.drag?`move ${t.drag}\
  ${t.id}`:null}var cr=class{constructor(e){this.present=e}past=[];future=[];gesture=null;get canUndo(){return this.past.length>0}get canRedo(){return this.future.
-length>0}push(e,n){let o=Dg(n);(o===null||o!==this.gesture)&&(this.past.push(this.present),this.past.length>_g&&this.past.shift()),this.future=[],this.gesture=o,
+length>0}push(e,n){let o=Rg(n);(o===null||o!==this.gesture)&&(this.past.push(this.present),this.past.length>Cg&&this.past.shift()),this.future=[],this.gesture=o,
 this.present=e}step(e){let[n,o]=e?[this.past,this.future]:[this.future,this.past],s=n.pop();return s?(o.push(this.present),this.present=s,this.gesture=null,!0):
-!1}};var Rg=11102230246251565e-32,Qh=2**32,ep=1,tp=2,np=3;function Hi(t,e,n){let{high:o,low:s}=t,r=s&65535,i=s>>>16,a=n&65535,l=n>>>16,c=r*a,h=i*a+(c>>>16),d=r*l+(h&
+!1}};var $g=11102230246251565e-32,Qh=2**32,ep=1,tp=2,np=3;function Hi(t,e,n){let{high:o,low:s}=t,r=s&65535,i=s>>>16,a=n&65535,l=n>>>16,c=r*a,h=i*a+(c>>>16),d=r*l+(h&
 65535),u=i*l+(h>>>16)+(d>>>16);t.low=((d&65535)<<16|c&65535)>>>0,t.high=u+Math.imul(o,n)+Math.imul(s,e)>>>0}function ji(t,e){let{high:n,low:o}=t;t.low=(o^(o>>>e|
 n<<32-e))>>>0,t.high=(n^n>>>e)>>>0}function Bt(t,e,n){let o=e+1;n.high=Math.floor(o/Qh)>>>0,n.low=o>>>0,Hi(n,2654435769,2135587861);let s=n.low+t.low;n.high=n.high+
 t.high+(s>=Qh?1:0)>>>0,n.low=s>>>0,ji(n,30),Hi(n,3210233709,484763065),ji(n,27),Hi(n,2496678331,321982955),ji(n,31)}var Vi=({high:t,low:e})=>t*2097152+(e>>>11),
-Rn=t=>(Vi(t)+.5)*Rg;function gn(...t){let e=o=>BigInt.asUintN(64,o),n=0n;for(let o of t){let s=e((n^BigInt(o))+0x9e3779b97f4a7c15n);s=e((s^s>>30n)*0xbf58476d1ce4e5b9n),
-s=e((s^s>>27n)*0x94d049bb133111ebn),n=s^s>>31n}return{high:Number(n>>32n),low:Number(n&0xffffffffn)}}var zi=2654435761,$g=2246822507;function hr(t,e){let n=Math.
-imul(t+e,zi);return n=Math.imul(n^n>>>15,$g),n^n>>>13}function op(t,e,n,o){let s=n>>>1,r=(1<<s)-1,i=(1<<n-s)-1,a=t;do{let l=a>>>s,c=a&r;l^=hr(c,o.low)&i,c^=hr(l,
+Rn=t=>(Vi(t)+.5)*$g;function gn(...t){let e=o=>BigInt.asUintN(64,o),n=0n;for(let o of t){let s=e((n^BigInt(o))+0x9e3779b97f4a7c15n);s=e((s^s>>30n)*0xbf58476d1ce4e5b9n),
+s=e((s^s>>27n)*0x94d049bb133111ebn),n=s^s>>31n}return{high:Number(n>>32n),low:Number(n&0xffffffffn)}}var zi=2654435761,Fg=2246822507;function hr(t,e){let n=Math.
+imul(t+e,zi);return n=Math.imul(n^n>>>15,Fg),n^n>>>13}function op(t,e,n,o){let s=n>>>1,r=(1<<s)-1,i=(1<<n-s)-1,a=t;do{let l=a>>>s,c=a&r;l^=hr(c,o.low)&i,c^=hr(l,
 o.high)&r,l^=hr(c,o.low^zi)&i,c^=hr(l,o.high^zi)&r,a=(l<<s|c)>>>0}while(a>=e);return a}var sp=t=>Math.max(2,32-Math.clz32(t-1));function pr(t,e){let n={high:0,low:0};
-Bt(t,e,n);let o=Rn(n);return Bt(t,e+1,n),Math.sqrt(-2*Math.log(o))*Math.cos(2*Math.PI*Rn(n))}var Fg=2**53,rp=20,ip=1e15,[ur,Yi,ap]=[0,1,2],fr=class{constructor(e){this.p=e;let n=e*Fg,o=Math.round(n);this.level=o-n===.5&&o%2?o-1:o,this.logit=Math.min(Math.
+Bt(t,e,n);let o=Rn(n);return Bt(t,e+1,n),Math.sqrt(-2*Math.log(o))*Math.cos(2*Math.PI*Rn(n))}var Ig=2**53,rp=20,ip=1e15,[ur,Yi,ap]=[0,1,2],fr=class{constructor(e){this.p=e;let n=e*Ig,o=Math.round(n);this.level=o-n===.5&&o%2?o-1:o,this.logit=Math.min(Math.
 max(Math.log(e)-Math.log1p(-e),-ip),ip)}level;logit;draws(e){return Vi(e)<this.level}logProb(e){if(this.p===0||this.p===1)return 0;let n=0;for(let o of e)n+=o;return e.
 length*Math.log1p(-this.p)+n*this.logit}};function dr(t,e){return t>40?!0:t<-40?!1:e*(1+Math.exp(-t))<1}function qi({order:t,shuffle:e},n,o){if(!e)return i=>t[i];
 let s=sp(t.length),r={high:0,low:0};return Bt(n,-1-o,r),i=>t[op(i,t.length,s,r)]}var mr=class{constructor(e,n,o){this.problem=e;this.walls=n;this.key=o;let{offsets:s,
@@ -1367,34 +1370,34 @@ o.draws(this.bits)?1:0}}becomes(e,n){let{logit:o}=this.problem.prior;return this
 1];h++){let d=l+a[h];if(d<n){l=d,c=Yi;break}this.first[s[h]]>r[h]&&(l+=Math.fround(i[h]-this.current[s[h]]))}this.gain[e]=l,this.known[e]=c}stays(e,n){let{table:o,
 index:s,prior:r}=this.problem;if(this.known[e]===ur){let l=0;for(let c=s.offsets[e];c<s.offsets[e+1];c++)this.first[s.beam[c]]===s.entry[c]&&(l+=s.advantage[c]);
 this.gain[e]=l,this.known[e]=Yi}let i=r.logit+this.gain[e];if(this.known[e]===Yi&&i>rp&&dr(i,n))return!0;let a=0;for(let l=s.offsets[e];l<s.offsets[e+1];l++){let c=s.
-beam[l],h=s.entry[l];this.first[c]===h&&(a+=Math.fround(s.loglik[l]-this.entryLoglik(c,this.nextWall(h+1,o.offsets[c+1]))))}return dr(r.logit+a,n)}};var Ig=8,Og=-1e300,Ug=2**53;function Ki(t,e,n,o){let s=Math.floor(t/o)-e,r=t%o-n;return s<0||s>1||r<0||r>1?-1:2*s+r}function lp({table:t,shape:[e,n]}){let{offsets:o,
+beam[l],h=s.entry[l];this.first[c]===h&&(a+=Math.fround(s.loglik[l]-this.entryLoglik(c,this.nextWall(h+1,o.offsets[c+1]))))}return dr(r.logit+a,n)}};var Og=8,Ug=-1e300,Bg=2**53;function Ki(t,e,n,o){let s=Math.floor(t/o)-e,r=t%o-n;return s<0||s>1||r<0||r>1?-1:2*s+r}function lp({table:t,shape:[e,n]}){let{offsets:o,
 cells:s,noHit:r}=t,i=Math.max(1,e-1),a=Math.max(1,n-1),l=Array.from({length:i*a},()=>[]);for(let u=0;u<r.length;u++)for(let m=o[u];m<o[u+1];m++)for(let b=0;b<4;b++){
-let x=Math.floor(s[m]/n)-(b>>1),w=s[m]%n-(b&1);if(x<0||x>=i||w<0||w>=a)continue;let M=l[x*a+w],S=M[M.length-1];S?.b===u&&S.last>=m-Ig?S.last=m:M.push({b:u,first:m,
+let x=Math.floor(s[m]/n)-(b>>1),w=s[m]%n-(b&1);if(x<0||x>=i||w<0||w>=a)continue;let M=l[x*a+w],S=M[M.length-1];S?.b===u&&S.last>=m-Og?S.last=m:M.push({b:u,first:m,
 last:m})}let c=new Int32Array(l.length+1);l.forEach((u,m)=>c[m+1]=c[m]+u.length);let h=l.flat(),d=u=>Int32Array.from(h,m=>m[u]);return{offsets:c,beam:d("b"),first:d(
 "first"),last:d("last"),rows:a}}function cp(t,e,n,o){let{prior:s,shape:[r,i]}=t.problem,{rows:a}=e,l=n.order.length,c=qi(n,t.key,o),h=new Float64Array(16),d=new Float64Array(
 16),u={high:0,low:0};for(let m=0;m<l;m++){let b=c(m),x=Math.floor(b/a),w=b%a,M=4*(o*l+b),S=D=>x+(D>>1)<r&&w+(D&1)<i?(x+(D>>1))*i+w+(D&1):-1,E=0;for(let D=0;D<4;D++)
-S(D)>=0&&(E+=t.reached[S(D)]);if(!E){for(let D=0;D<4;D++)S(D)<0||(Bt(t.key,M+D,u),t.walls[S(D)]=s.draws(u)?1:0);continue}Bg(t,e,b,x,w,h),d.fill(0);for(let D=0;D<
-4;D++){let L=S(D)<0||s.level===0,O=!L&&s.level===Ug;for(let G=0;G<16;G++)(G>>D&1)===(O?0:1)&&(d[G]+=L||O?Og:s.logit)}for(let D=0;D<16;D++)h[D]+=d[D];Bt(t.key,M,
-u);let _=Wg(h,Rn(u));for(let D=0;D<4;D++){let L=S(D);L<0||(_>>D&1?t.walls[L]||t.put(L):t.walls[L]&&t.remove(L))}}}function Bg(t,e,n,o,s,r){let{table:i,shape:[,a]}=t.
+S(D)>=0&&(E+=t.reached[S(D)]);if(!E){for(let D=0;D<4;D++)S(D)<0||(Bt(t.key,M+D,u),t.walls[S(D)]=s.draws(u)?1:0);continue}Wg(t,e,b,x,w,h),d.fill(0);for(let D=0;D<
+4;D++){let L=S(D)<0||s.level===0,O=!L&&s.level===Bg;for(let G=0;G<16;G++)(G>>D&1)===(O?0:1)&&(d[G]+=L||O?Ug:s.logit)}for(let D=0;D<16;D++)h[D]+=d[D];Bt(t.key,M,
+u);let _=Gg(h,Rn(u));for(let D=0;D<4;D++){let L=S(D);L<0||(_>>D&1?t.walls[L]||t.put(L):t.walls[L]&&t.remove(L))}}}function Wg(t,e,n,o,s,r){let{table:i,shape:[,a]}=t.
 problem,{offsets:l,cells:c,loglik:h}=i;r.fill(0);for(let d=e.offsets[n];d<e.offsets[n+1];d++){let u=e.beam[d],m=t.first[u],b=e.first[d];if(m<b)continue;let x=e.
 last[d],w=l[u+1],M=m;if(m<=x&&m<w&&Ki(c[m],o,s,a)>=0)for(M=m+1;M<w&&!(t.walls[c[M]]&&Ki(c[M],o,s,a)<0);)M++;let S=t.entryLoglik(u,M),E=0;for(let _=b;_<Math.min(
-x+1,M);_++){let D=Ki(c[_],o,s,a);if(D<0)continue;let L=Math.fround(h[_]-S);for(let O=0;O<16;O++)O>>D&1&&!(O&E)&&(r[O]+=L);E|=1<<D}}}function Wg(t,e){let n=Math.
+x+1,M);_++){let D=Ki(c[_],o,s,a);if(D<0)continue;let L=Math.fround(h[_]-S);for(let O=0;O<16;O++)O>>D&1&&!(O&E)&&(r[O]+=L);E|=1<<D}}}function Gg(t,e){let n=Math.
 max(...t),o=t.map(r=>r>n-40?Math.exp(r-n):0),s=e*o.reduce((r,i)=>r+i,0);for(let r=0;r<16;r++)if(s-=o[r],s<=0&&o[r]>0)return r;return 15}function $n(t){let e=0;for(let n=0;n<t.length;n++)e+=t[n];return e/t.length}var Ji=t=>{let e=$n(t);return t.reduce((n,o)=>n+(o-e)**2,0)/(t.length-1)},gr=(t,e)=>t.
 reduceRight((n,o)=>n*e+o,0),hp=[[3.3871328727963665,133.14166789178438,1971.5909503065513,13731.69376550946,45921.95393154987,67265.7709270087,33430.57558358813,
 2509.0809287301227],[1,42.31333070160091,687.1870074920579,5394.196021424751,21213.794301586597,39307.89580009271,28729.085735721943,5226.495278852854]],pp=[[1.4234371107496835,
 4.630337846156546,5.769497221460691,3.6478483247632045,1.2704582524523684,.2417807251774506,.022723844989269184,.0007745450142783414],[1,2.053191626637759,1.6763848301838038,
-.6897673349851,.14810397642748008,.015198666563616457,.0005475938084995345,10507500716444169e-25]];function Gg(t){let e=t-.5;if(Math.abs(e)<=.425){let o=.180625-
-e*e;return e*gr(hp[0],o)/gr(hp[1],o)}let n=Math.sqrt(-Math.log(e<0?t:1-t))-1.6;return Math.sign(e)*gr(pp[0],n)/gr(pp[1],n)}function Hg(t){let e=t[0].length>>1;return[
+.6897673349851,.14810397642748008,.015198666563616457,.0005475938084995345,10507500716444169e-25]];function Hg(t){let e=t-.5;if(Math.abs(e)<=.425){let o=.180625-
+e*e;return e*gr(hp[0],o)/gr(hp[1],o)}let n=Math.sqrt(-Math.log(e<0?t:1-t))-1.6;return Math.sign(e)*gr(pp[0],n)/gr(pp[1],n)}function jg(t){let e=t[0].length>>1;return[
 ...t.map(n=>n.slice(0,e)),...t.map(n=>n.slice(n.length-e))]}function up(t){let e=Float64Array.from(t.flat()).sort(),n=new Map;for(let o=0;o<e.length;){let s=o+1;
-for(;s<e.length&&e[s]===e[o];)s++;n.set(e[o],Gg(((o+1+s)/2-.375)/(e.length+.25))),o=s}return t.map(o=>o.map(s=>n.get(s)))}function dp(t){let e=t[0].length;return Math.
+for(;s<e.length&&e[s]===e[o];)s++;n.set(e[o],Hg(((o+1+s)/2-.375)/(e.length+.25))),o=s}return t.map(o=>o.map(s=>n.get(s)))}function dp(t){let e=t[0].length;return Math.
 sqrt((e-1)/e+Ji(t.map($n))/$n(t.map(Ji)))}function fp(t,e){let n=t.length;for(let o=1,s=0;o<n;o++){let r=n>>1;for(;s&r;r>>=1)s^=r;s^=r,o<s&&([t[o],t[s],e[o],e[s]]=
 [t[s],t[o],e[s],e[o]])}for(let o=2;o<=n;o*=2)for(let s=0;s<o/2;s++){let r=-2*Math.PI*s/o,[i,a]=[Math.cos(r),Math.sin(r)];for(let l=s;l<n;l+=o){let c=l+o/2,[h,d]=[
-t[c]*i-e[c]*a,t[c]*a+e[c]*i];[t[c],e[c]]=[t[l]-h,e[l]-d],t[l]+=h,e[l]+=d}}}function jg(t){let e=t.length,n=$n(t),o=2**Math.ceil(Math.log2(2*e)),[s,r]=[new Float64Array(
-o),new Float64Array(o)];t.forEach((i,a)=>s[a]=i-n),fp(s,r);for(let i=0;i<o;i++)[s[i],r[i]]=[s[i]**2+r[i]**2,0];return fp(s,r),s.slice(0,e).map(i=>i/o/e)}function zg(t){
-let[e,n]=[t.length,t[0].length],o=t.map(jg),s=$n(o.map(h=>h[0]))*n/(n-1),r=s*(n-1)/n+Ji(t.map($n)),i=h=>h?1-(s-$n(o.map(d=>d[h])))/r:1,a=Math.max(1,Math.ceil((n-
+t[c]*i-e[c]*a,t[c]*a+e[c]*i];[t[c],e[c]]=[t[l]-h,e[l]-d],t[l]+=h,e[l]+=d}}}function zg(t){let e=t.length,n=$n(t),o=2**Math.ceil(Math.log2(2*e)),[s,r]=[new Float64Array(
+o),new Float64Array(o)];t.forEach((i,a)=>s[a]=i-n),fp(s,r);for(let i=0;i<o;i++)[s[i],r[i]]=[s[i]**2+r[i]**2,0];return fp(s,r),s.slice(0,e).map(i=>i/o/e)}function Vg(t){
+let[e,n]=[t.length,t[0].length],o=t.map(zg),s=$n(o.map(h=>h[0]))*n/(n-1),r=s*(n-1)/n+Ji(t.map($n)),i=h=>h?1-(s-$n(o.map(d=>d[h])))/r:1,a=Math.max(1,Math.ceil((n-
 2)/2)),l=-1,c=1/0;for(let h=0;h<a;h++){let d=i(2*h),u=d+i(2*h+1);if(!(u>0)||h===a-1){l+=u>0?d:Math.max(d,0);break}c=Math.min(c,u),l+=2*c}return e*n/Math.max(l,1/
-Math.log10(e*n))}function mp(t){if(t[0].length<4||t.every(c=>c.every(h=>h===t[0][0])))return null;let e=Hg(t),n=Float64Array.from(e.flat()).sort(),o=(n[n.length-
-1>>1]+n[n.length>>1])/2,s=e.map(c=>c.map(h=>Math.abs(h-o))),r=up(e),[i,a]=[dp(r),dp(up(s))];return{rhat:Number.isNaN(a)?i:Number.isNaN(i)?a:Math.max(i,a),ess:zg(
+Math.log10(e*n))}function mp(t){if(t[0].length<4||t.every(c=>c.every(h=>h===t[0][0])))return null;let e=jg(t),n=Float64Array.from(e.flat()).sort(),o=(n[n.length-
+1>>1]+n[n.length>>1])/2,s=e.map(c=>c.map(h=>Math.abs(h-o))),r=up(e),[i,a]=[dp(r),dp(up(s))];return{rhat:Number.isNaN(a)?i:Number.isNaN(i)?a:Math.max(i,a),ess:Vg(
 r)}}function gp({table:t,prior:e,shape:n},o,s,r){let{offsets:i,cells:a,loglik:l,noHit:c}=t,h=n[0]*n[1],d={high:0,low:0},u=new Int8Array(h);return Float64Array.from(
 {length:r},(m,b)=>{u.fill(0);let x=0;for(let w=0;w<c.length;w++){let M=c[w];for(let S=i[w];S<i[w+1];S++){let E=a[S];if(u[E]||(Bt(o,(s+b)*h+E,d),u[E]=e.draws(d)?
 1:-1),u[E]>0){M=l[S];break}}x+=M}return x})}function Xi({prior:t,shape:e},n,o){let s=e[0]*e[1],r={high:0,low:0};return Uint8Array.from({length:s},(i,a)=>(Bt(n,o*
@@ -1413,13 +1416,13 @@ this.sides=3),n||(this.nextX+=this.gapX,this.x+=this.stepX),e||(this.nextY+=this
 n],o,s){for(let r=new yr(o,e,n,s);!r.over;r.next())if(r.inside&&t[r.cellX*n+r.cellY])return Math.min(r.distance,s);return s}function bp([t,e],n,o){let s=[],r=new Int32Array(
 n.length+1);return n.forEach((i,a)=>{for(let l=new yr(i,t,e,o);!l.over;l.next())l.inside&&s.push(l.cellX*e+l.cellY);r[a+1]=s.length}),{offsets:r,cells:Int32Array.
 from(s)}}function wp({x:t,y:e,ux:n,uy:o},s,r){let i=Math.floor(s/r),a=s-i*r,l=0,c=1e300,h=!0,d=(u,m,b)=>{let x=Qi(m);if(!x)return;let w=1/m,M=b+(x>0?0:1)-u;l=Math.
-max(l,M*w),c=Math.min(c,(M+x)*w),h&&=b===Zi(u,x)};return d(t,n,i),d(e,o,a),h?Math.max(c,0):l}var Vg=Math.fround(.001),Yg=-.5*Math.log(2*Math.PI);function xp(t,e,n,o,s,r){let{offsets:i,cells:a}=t,l=o.sigma_m*o.sigma_m,c=.5*Math.log(l),h=(m,b)=>{let x=m-Math.
-min(b,o.max_m);return Yg-.5*(x*x/l)-c},d=new Float32Array(a.length),u=new Float32Array(e.length);for(let m=0;m<e.length;m++){u[m]=h(n[m],1/0);for(let b=i[m];b<i[m+
+max(l,M*w),c=Math.min(c,(M+x)*w),h&&=b===Zi(u,x)};return d(t,n,i),d(e,o,a),h?Math.max(c,0):l}var Yg=Math.fround(.001),qg=-.5*Math.log(2*Math.PI);function xp(t,e,n,o,s,r){let{offsets:i,cells:a}=t,l=o.sigma_m*o.sigma_m,c=.5*Math.log(l),h=(m,b)=>{let x=m-Math.
+min(b,o.max_m);return qg-.5*(x*x/l)-c},d=new Float32Array(a.length),u=new Float32Array(e.length);for(let m=0;m<e.length;m++){u[m]=h(n[m],1/0);for(let b=i[m];b<i[m+
 1];b++)d[b]=h(n[m],wp(e[m],a[b],s)*r)}return{offsets:i,cells:a,loglik:d,noHit:u}}function vp({offsets:t,cells:e,loglik:n,noHit:o},s){let r=Float32Array.from(o),
 i=new Float32Array(e.length);for(let u=0;u<o.length;u++){let m=o[u];for(let b=t[u+1]-1;b>=t[u];b--)i[b]=n[b]-m,m=Math.max(m,n[b]),r[u]=Math.min(r[u],n[b])}let a=new Int32Array(
 s+1);for(let u of e)a[u+1]++;for(let u=0;u<s;u++)a[u+1]+=a[u];let l=()=>new Float32Array(e.length),c=()=>new Int32Array(e.length),h={offsets:a,entry:c(),beam:c(),
 loglik:l(),gainBound:l(),advantage:l()},d=a.slice();for(let u of[!0,!1])for(let m=0;m<o.length;m++)for(let b=t[m];b<t[m+1];b++){let x=Math.fround(n[b]-r[m]);if(x>
-Vg!==u)continue;let w=d[e[b]]++;h.entry[w]=b,h.beam[w]=m,h.loglik[w]=n[b],h.gainBound[w]=x,h.advantage[w]=i[b]}for(let u=0;u<s;u++)for(let m=a[u+1]-2;m>=a[u];m--)
+Yg!==u)continue;let w=d[e[b]]++;h.entry[w]=b,h.beam[w]=m,h.loglik[w]=n[b],h.gainBound[w]=x,h.advantage[w]=i[b]}for(let u=0;u<s;u++)for(let m=a[u+1]-2;m>=a[u];m--)
 h.gainBound[m]+=h.gainBound[m+1];return h}function Xo({angles:t,fov:e}){let n=e*(180/Math.PI);if(n===360)return Float64Array.from({length:t},(s,r)=>r*2*Math.PI/t);let o=n/(t-t%2);return Float64Array.from(
 {length:t},(s,r)=>(o*r-n/2)*(Math.PI/180))}function kp(t){let{origin:e,resolution:n}=t.grid,o=[...Xo(t)];return t.sensors.flatMap(({x:s,y:r,yaw:i})=>o.map(a=>({
 x:(s-e[0])/n,y:(r-e[1])/n,ux:Math.cos(i+a),uy:Math.sin(i+a)})))}function Sp({grid:t,walls:e,max_range:n},o){let s=bt(ht(e),t.shape[0]*t.shape[1]),r=n/t.resolution;
@@ -1427,7 +1430,7 @@ return Float64Array.from(o,i=>Math.min(br(s,t.shape,i,r)*t.resolution,n))}functi
 i,s,o/a),c=xp(l,s,r,{sigma_m:e,max_m:o},i[1],a);return{table:c,index:vp(c,i[0]*i[1]),prior:new fr(n),shape:i}}function Tp({grid:t,sensors:e,order:n},o){let[s,r]=t.
 shape,[i,a]=o?[Math.max(1,s-1),Math.max(1,r-1)]:[s,r],l=Int32Array.from({length:i*a},(u,m)=>m);if(n!=="radial")return{order:l,shuffle:n==="random"};let c=(u,m)=>Math.
 min(Math.max(u,0),m-1),h=e.map(({x:u,y:m})=>[c(Math.floor((u-t.origin[0])/t.resolution),s),c(Math.floor((m-t.origin[1])/t.resolution),r)]),d=l.map(u=>Math.min(...h.
-map(([m,b])=>Math.abs(Math.floor(u/a)-m)+Math.abs(u%a-b))));return{order:Int32Array.from([...l].sort((u,m)=>d[u]-d[m]||u-m)),shuffle:!1}}var nn=2,Ap=32,qg=300,Kg=100,Jg=64<<20,Xg=.1,Zg=16,Qg=40,ea=24,Ep=[.1,.3,.5,.7,.9],Cp={chains:0,count:0},ey={gibbs:"Gibbs sampling, cell by cell",block:"Gibbs s\
+map(([m,b])=>Math.abs(Math.floor(u/a)-m)+Math.abs(u%a-b))));return{order:Int32Array.from([...l].sort((u,m)=>d[u]-d[m]||u-m)),shuffle:!1}}var nn=2,Ap=32,Kg=300,Jg=100,Xg=64<<20,Zg=.1,Qg=16,ey=40,ea=24,Ep=[.1,.3,.5,.7,.9],Cp={chains:0,count:0},ty={gibbs:"Gibbs sampling, cell by cell",block:"Gibbs s\
 ampling, 2 x 2 blocks",importance:"importance sampling",none:"none yet: this is the prior"},Ao=()=>performance.now(),Pp=t=>Uint8Array.from(t,e=>Math.round(255*e)),
 _p=t=>String(+t.toPrecision(4)),Eo=class{constructor(e,n){this.document=e;this.problem=n;this.cells=n.shape[0]*n.shape[1]}done=!1;seconds=0;method="none";cells;work(e){
 let n=Ao();do this.step();while(!this.done&&Ao()-n<e);this.seconds+=(Ao()-n)/1e3}step(){this.done=!0}get draws(){return Cp}beamsThrough(e){let{offsets:n}=this.problem.
@@ -1435,15 +1438,15 @@ index;return n[e+1]-n[e]}mean(){return new Float64Array(this.cells).fill(this.do
 return{sweeps:0,total:0,ess:null,rhat:null,log_joint:null,verdict:null,burned:0}}draw(e){return null}weights(){return null}picture(e,n,o,s){let{document:r,method:i}=this,
 a=e.layer==="draw"?this.draw(e):null,l=this.weights(),c=i==="gibbs"?`, ${r.order} order`:"",h={type:"field",generation:n,milliseconds:o,layer:a?"draw":"mean",method:i,
 approximate:!1,...this.figures(s),draws:this.draws,quantity:{kind:"binary",mean:"P(wall)",value:"wall",interval:!1},chain:null,draw:null,averaged:null,lowest:l?.
-lowest??null,seconds:i==="none"?null:this.seconds,about:[["Method",ey[i]+c],["Prior",`independent: p wall ${_p(r.prior)}`],["Sensor",`gaussian: sigma ${_p(r.noise)}\
+lowest??null,seconds:i==="none"?null:this.seconds,about:[["Method",ty[i]+c],["Prior",`independent: p wall ${_p(r.prior)}`],["Sensor",`gaussian: sigma ${_p(r.noise)}\
  m`],["Poses","known"],["Computed","in this page"]],...a&&{chain:a.chain,draw:a.draw,log_joint:a.log_joint}},d=Pp(a?a.map:this.mean());return[h,{p:d,reached:Pp(
 this.reached()),...this.trace(),...l&&{weights:l.weights}}]}recording(e){let{document:n}=this,{chains:o,count:s}=this.draws,[r,i]=this.picture({layer:"mean",chain:0,
 draw:null},1,0,!0),a=Uint32Array.from({length:this.cells},(d,u)=>this.beamsThrough(u)),{log_joint:l,draws:c}=this.recorded(),h=n.sensors.map(({id:d})=>d);return[
 {version:1,document:n,field:r,ids:h,draws:{chains:o,count:s,kept:s,bits:!0},log_joint:l},{...i,...e,beams:a,draws:c}]}recorded(){return{log_joint:[],draws:new Uint8Array(
-0)}}trace(){let e=this.logJoint,n=e[0]?.length??0,o=Math.min(n,qg),s=Array.from({length:o},(a,l)=>Math.round(o>1?1+l*(n-1)/(o-1):1)),r=Array.from({length:Math.min(
-n,Kg)},(a,l)=>l+1),i=[...new Set([...r,...s])].sort((a,l)=>a-l);return{trace:Float32Array.from(e.flatMap(a=>i.map(l=>a[l-1]))),traced:Float32Array.from(i)}}},Zo=class extends Eo{constructor(n,o,s,r){
+0)}}trace(){let e=this.logJoint,n=e[0]?.length??0,o=Math.min(n,Kg),s=Array.from({length:o},(a,l)=>Math.round(o>1?1+l*(n-1)/(o-1):1)),r=Array.from({length:Math.min(
+n,Jg)},(a,l)=>l+1),i=[...new Set([...r,...s])].sort((a,l)=>a-l);return{trace:Float32Array.from(e.flatMap(a=>i.map(l=>a[l-1]))),traced:Float32Array.from(i)}}},Zo=class extends Eo{constructor(n,o,s,r){
 super(n,o);this.judging=s;let{seed:i,start:a,sweeps:l}=n;this.method=r?"block":"gibbs",this.blocks=r?lp(o):null,this.sites=Tp(n,r),this.thin=Math.ceil(l*nn*Math.
-ceil(this.cells/8)/Jg),this.chains=Array.from({length:nn},(c,h)=>{let u=a==="empty"&&n.prior<1?new Uint8Array(this.cells):Xi(o,gn(i,h,tp),0);return new mr(o,u,gn(
+ceil(this.cells/8)/Xg),this.chains=Array.from({length:nn},(c,h)=>{let u=a==="empty"&&n.prior<1?new Uint8Array(this.cells):Xi(o,gn(i,h,tp),0);return new mr(o,u,gn(
 i,h,ep))}),this.touched=new Uint8Array(this.cells);for(let c of o.table.cells)this.touched[c]=1;this.present={sweep:0,sums:this.chains.map(()=>new Float64Array(
 this.cells)),reached:new Uint32Array(this.cells),looks:0},this.past=[this.copy()],this.goOn(l)}chains;blocks;sites;lookAt=new Set;touched;joint=Array.from({length:nn},
 ()=>[]);likelihood=Array.from({length:nn},()=>[]);kept=Array.from({length:nn},()=>[]);thin;total=0;sweep=0;present;past;diagnosis=null;diagnosed=0;diagnoseAt=0;goOn(n){
@@ -1463,7 +1466,7 @@ past,o=Math.max(1,this.present.looks-n.looks);return Float64Array.from(this.pres
 draw:o}){let s=Math.min(n,nn-1),{count:r}=this.draws;if(!r)return{map:this.chains[s].walls,chain:s,draw:0,log_joint:this.joint[s].at(-1)??0};let i=Math.min(o??r-
 1,r-1);return{map:bt(this.kept[s][i],this.cells),chain:s,draw:i,log_joint:this.joint[s][(i+1)*this.thin-1]}}figures(n){let[{sweep:o}]=this.past,s=Ao();(s>=this.
 diagnoseAt||this.done&&this.diagnosed<this.sweep)&&(this.diagnosis=mp(this.joint.map(c=>c.slice(o))),this.diagnosed=this.sweep,this.diagnoseAt=this.done?1/0:Ao()+
-(Ao()-s)/Xg);let r=this.joint.reduce((c,h)=>c+h[h.length-1],0)/nn,{ess:i=null,rhat:a=null}=this.diagnosis??{},l=c=>c!==null&&Number.isFinite(c)?c:null;return{sweeps:this.
+(Ao()-s)/Zg);let r=this.joint.reduce((c,h)=>c+h[h.length-1],0)/nn,{ess:i=null,rhat:a=null}=this.diagnosis??{},l=c=>c!==null&&Number.isFinite(c)?c:null;return{sweeps:this.
 sweep,total:this.total,ess:l(i),rhat:l(a),log_joint:r,verdict:this.verdict(n||this.done),burned:o}}verdict(n){let{judging:o,sweep:s}=this,r=s<o.fewest_sweeps;if(r&&
 !n)return null;let i=(d,u,m=null)=>({level:d,why:u,cell:m}),a=this.difference();if(!r&&a.cells>o.chance_share*a.among){let[d,u]=a.cell,m=`in ${a.cells} of ${a.among}\
  observed cells, most in cell (${d}, ${u}), by ${a.by.toFixed(2)}`;return i("bad",`P(wall) differs by over ${o.bad_difference} between the chains ${m}`,a.cell)}
@@ -1477,25 +1480,25 @@ i=2*(s-Math.min(...r)),a=2/(9*n);return i>n*(1-a+this.judging.misfit_sigmas*Math
 r={by:0,cell:[0,0],cells:0,among:0};for(let i=0;i<this.cells;i++){if(s[i]<.5)continue;let a=Math.abs(n[i]-o[i]);r.among++,a>this.judging.bad_difference&&r.cells++,
 a>r.by&&([r.by,r.cell]=[a,[Math.floor(i/this.problem.shape[1]),i%this.problem.shape[1]]])}return r}},wr=class extends Eo{constructor(n,o,s){super(n,o);this.judging=
 s;this.method="importance",this.key=gn(n.seed,0,np),this.sums=new Float64Array(this.cells),this.touched=new Uint8Array(this.cells);for(let r of o.table.cells)this.
-touched[r]=1}key;logWeights=[];most=-1/0;sum=0;sums;touched;step(){let n=this.logWeights.length,o=Math.min(Zg,this.document.sweeps-n);gp(this.problem,this.key,n,
+touched[r]=1}key;logWeights=[];most=-1/0;sum=0;sums;touched;step(){let n=this.logWeights.length,o=Math.min(Qg,this.document.sweeps-n);gp(this.problem,this.key,n,
 o).forEach((s,r)=>{if(this.logWeights.push(s),s>this.most){let l=Math.exp(this.most-s);this.sum*=l;for(let c=0;c<this.cells;c++)this.sums[c]*=l;this.most=s}if(s<
-this.most-Qg)return;let i=Math.exp(s-this.most),a=Xi(this.problem,this.key,n+r);this.sum+=i;for(let l=0;l<this.cells;l++)a[l]&&(this.sums[l]+=i)}),this.done=this.
+this.most-ey)return;let i=Math.exp(s-this.most),a=Xi(this.problem,this.key,n+r);this.sum+=i;for(let l=0;l<this.cells;l++)a[l]&&(this.sums[l]+=i)}),this.done=this.
 logWeights.length>=this.document.sweeps}mean(){return this.sums.map((n,o)=>this.touched[o]?n/this.sum:this.document.prior)}reached(){let n=this.mean(),{offsets:o,
 cells:s,noHit:r}=this.problem.table,i=new Float64Array(this.cells);for(let a of Ep){let l=new Uint8Array(this.cells);for(let c=0;c<r.length;c++)for(let h=o[c];h<
 o[c+1]&&(l[s[h]]=1,!(n[s[h]]>a));h++);for(let c=0;c<this.cells;c++)i[c]+=l[c]/Ep.length}return i}figures(){let{effectiveSampleSize:n}=yp(Float64Array.from(this.
 logWeights));return{sweeps:this.logWeights.length,total:this.document.sweeps,ess:n,rhat:null,log_joint:null,verdict:this.verdict(n),burned:0}}verdict(n){let{bad_ess:o,
 good_ess:s}=this.judging,r=n.toFixed(1)==="1.0"?"one particle carries":`${n.toFixed(1)} particles carry`;return n<o?{level:"bad",why:`${r} all the weight`,cell:null}:
 {level:n>=s?"good":"fair",why:`${n.toFixed(0)} effective particles`,cell:null}}weights(){let n=this.logWeights.map(r=>r-this.most),o=Math.min(-1,...n.filter(Number.
-isFinite).reduce((r,i)=>[Math.min(r[0],i)],[0])),s=new Float32Array(ea);for(let r of n)s[Math.min(ea-1,Math.floor(ea*(1-r/o)))]++;return{weights:s,lowest:o}}};var xr=.03,ty=40,Fn=180,Lp=90,ta=9,ny=24,Np=60,na=7,Dp=50,oy=25,sy=10,Rp=1e3,ry=4e3,iy=21;function Op(t,e,n){let{grid:o,noise:s,max_range:r,seed:i}=t,{shape:[a,
+isFinite).reduce((r,i)=>[Math.min(r[0],i)],[0])),s=new Float32Array(ea);for(let r of n)s[Math.min(ea-1,Math.floor(ea*(1-r/o)))]++;return{weights:s,lowest:o}}};var xr=.03,ny=40,Fn=180,Lp=90,ta=9,oy=24,Np=60,na=7,Dp=50,sy=25,ry=10,Rp=1e3,iy=4e3,ay=21;function Op(t,e,n){let{grid:o,noise:s,max_range:r,seed:i}=t,{shape:[a,
 l],resolution:c,origin:h}=o,d=bt(ht(t.walls),a*l),u=Xo(t),m=r/c,b=(A,P,B)=>c*br(d,o.shape,{x:A,y:P,ux:Math.cos(B),uy:Math.sin(B)},m),x=(A,P)=>A>=0&&P>=0&&A<a&&P<
 l&&!d[Math.floor(A)*l+Math.floor(P)],w=(1-xr)/(s*Math.sqrt(2*Math.PI)),M=([A,P,B])=>{if(!x(A,P))return-1/0;let I=0;for(let ie=0;ie<u.length;ie++){let K=b(A,P,B+
-u[ie]),J=(e[ie]-K)/s,Q=K>=r;n[ie]?I+=Math.log((Q?0:w*Math.exp(-.5*J*J))+xr/r):I+=Math.log(Q?1-xr/2:xr/2)}return I},S=$(),E=$p(S.slice(0,ry),A=>A,1.5,.2,Np);if(E.
-length===Np)return ee(S.filter((A,P)=>P%Math.ceil(S.length/Rp)===0));let _=gn(i,0,iy),[D,L]=[0,-1/0],O=E.slice(0,ny).map(A=>({mean:A,root:oa(.4,.4,.04),poses:[],
-logs:[],top:-1/0}));for(let A=0;A<=na;A++){for(let P of O){let B=A===na,I=B?1.4:1.2,ie=Array.from({length:B?3*Dp:Dp},()=>ay(P.mean,P.root,I,_,D+=3)),K=ie.map(({
+u[ie]),J=(e[ie]-K)/s,Q=K>=r;n[ie]?I+=Math.log((Q?0:w*Math.exp(-.5*J*J))+xr/r):I+=Math.log(Q?1-xr/2:xr/2)}return I},S=$(),E=$p(S.slice(0,iy),A=>A,1.5,.2,Np);if(E.
+length===Np)return ee(S.filter((A,P)=>P%Math.ceil(S.length/Rp)===0));let _=gn(i,0,ay),[D,L]=[0,-1/0],O=E.slice(0,oy).map(A=>({mean:A,root:oa(.4,.4,.04),poses:[],
+logs:[],top:-1/0}));for(let A=0;A<=na;A++){for(let P of O){let B=A===na,I=B?1.4:1.2,ie=Array.from({length:B?3*Dp:Dp},()=>ly(P.mean,P.root,I,_,D+=3)),K=ie.map(({
 pose:q,log:W})=>M(q)-W);P.top=Math.max(P.top,...ie.map(({log:q},W)=>K[W]+q)),L=Math.max(L,P.top),Object.assign(P,{poses:ie.map(({pose:q})=>q),logs:K});let[J,Q]=Ip(
-P.poses,Fp(K,B?1:sy));!B&&Q&&([P.mean,P.root]=[J,ly(Q)])}O=O.filter(P=>P.top>L-oy*(na-A+1)),A>=2&&(O=$p(O.sort((P,B)=>B.top-P.top),({mean:P})=>P,1,.15))}let G=Math.
+P.poses,Fp(K,B?1:ry));!B&&Q&&([P.mean,P.root]=[J,cy(Q)])}O=O.filter(P=>P.top>L-sy*(na-A+1)),A>=2&&(O=$p(O.sort((P,B)=>B.top-P.top),({mean:P})=>P,1,.15))}let G=Math.
 max(...O.flatMap(({logs:A})=>A)),te=O.map(({poses:A,logs:P})=>P.map(B=>Math.exp(B-G)/A.length)),X=te.flat().reduce((A,P)=>A+P,0);return U(O.map(({poses:A},P)=>({
-poses:A,weights:te[P].map(B=>B/X)})),L/u.length);function $(){let A=new Float32Array(Fn),P=Array.from(u.keys()).filter((K,J)=>J%Math.ceil(u.length/ty)===0),B=Math.
+poses:A,weights:te[P].map(B=>B/X)})),L/u.length);function $(){let A=new Float32Array(Fn),P=Array.from(u.keys()).filter((K,J)=>J%Math.ceil(u.length/ny)===0),B=Math.
 hypot(s,.3*c),I=[];for(let K=0;K<a*l;K++){if(d[K])continue;let[J,Q]=[Math.floor(K/l)+.5,K%l+.5];for(let q=0;q<Fn;q++)A[q]=b(J,Q,q*2*Math.PI/Fn);for(let q=0;q<Lp;q++){
 let W=q*2*Math.PI/Lp,de=0;for(let ue of P){let he=Math.round((W+u[ue])*Fn/(2*Math.PI)),ae=A[(he%Fn+Fn)%Fn],Fe=(e[ue]-ae)/B;de+=n[ue]?Math.min(Fe*Fe,ta):ae>=r?0:
 ta}I.push({pose:[J,Q,W],loss:de})}}I.sort((K,J)=>K.loss-J.loss);let ie=I[0]?.loss??0;return I.filter(({loss:K})=>K<ie+.25*ta*P.length).map(({pose:K})=>K)}function ee(A){
@@ -1505,22 +1508,22 @@ Ie,0),[[q,W,de],ue]=Ip(K,J.map(Ne=>Ne/Q)),he=[c,c,1],ae=(ue??oa(0,0,0)).map((Ne,
 ie=A.flatMap(({poses:K,weights:J})=>K.map((Q,q)=>({pose:Q,weight:J[q]}))).sort((K,J)=>K.weight-J.weight).slice(-Rp);return{modes:B.sort((K,J)=>J.probability-K.probability),
 pose:Float32Array.from(ie.flatMap(({pose:[K,J,Q]})=>[h[0]+K*c,h[1]+J*c,Q])),weight:Float32Array.from(ie,({weight:K})=>K),nats_per_beam:P}}}function $p(t,e,n,o,s=1/0){
 let r=[];for(let i of t){if(r.length>=s)break;let[a,l,c]=e(i),h=d=>{let[u,m,b]=e(d);return Math.hypot(a-u,l-m)<n&&Math.abs(Math.atan2(Math.sin(c-b),Math.cos(c-b)))<
-o};r.some(h)||r.push(i)}return r}var oa=(...t)=>t.map((e,n)=>t.map((o,s)=>n===s?e:0));function ay(t,e,n,o,s){let r=[0,1,2].map(l=>pr(o,2*(s+l))),i=t.map((l,c)=>l+
+o};r.some(h)||r.push(i)}return r}var oa=(...t)=>t.map((e,n)=>t.map((o,s)=>n===s?e:0));function ly(t,e,n,o,s){let r=[0,1,2].map(l=>pr(o,2*(s+l))),i=t.map((l,c)=>l+
 n*e[c].reduce((h,d,u)=>h+d*r[u],0)),a=-.5*(r[0]**2+r[1]**2+r[2]**2)-Math.log(n**3*e[0][0]*e[1][1]*e[2][2]);return{pose:i,log:a}}function Fp(t,e){let n=Math.max(
 ...t);if(n===-1/0)return t.map(()=>1/t.length);for(let o=1;;o/=2){let s=t.map(i=>Math.exp(o*(i-n))),r=s.reduce((i,a)=>i+a,0);if(o<1e-6||r**2>=e*s.reduce((i,a)=>i+
 a*a,0))return s.map(i=>i/r)}}function Ip(t,e){let n=t[e.indexOf(Math.max(...e))],o=t.map(l=>l.map((c,h)=>h===2?Math.atan2(Math.sin(c-n[2]),Math.cos(c-n[2])):c-n[h])),
 s=l=>o.reduce((c,h,d)=>c+e[d]*l(h),0),r=[0,1,2].map(l=>s(c=>c[l])),i=r.map((l,c)=>r.map((h,d)=>s(u=>(u[c]-l)*(u[d]-h))));return[n.map((l,c)=>l+r[c]),i.every((l,c)=>l[c]>=
-0)&&Number.isFinite(i[0][0])?i:null]}function ly(t){let e=oa(0,0,0);for(let n=0;n<3;n++)for(let o=0;o<=n;o++){let s=t[n][o];for(let r=0;r<o;r++)s-=e[n][r]*e[o][r];
-e[n][o]=n===o?Math.sqrt(Math.max(s,1e-7)):s/e[o][o]}return e}var cy=12,hy=80,py=11,uy=new Set(["path","views","ghost","beam"]),sa="This figure has no such tool: bayesmap app has it";async function Up(t){return JSON.parse(
-new TextDecoder().decode(await Qn(ht(t))))}function dy(t,e){let n=Sp(t,e),{seed:o,noise:s,angles:r,sensors:i}=t,a=i.map(({id:c})=>gn(o,c,py)),l=n.map((c,h)=>t.readings===
-"exact"?c:c+s*pr(a[Math.floor(h/r)],2*(h%r)));return{exact:n,readings:l}}function fy({method:t,prior:e},{rare_walls:n}){return t!=="auto"?t:Math.min(e,1-e)<=n?"\
+0)&&Number.isFinite(i[0][0])?i:null]}function cy(t){let e=oa(0,0,0);for(let n=0;n<3;n++)for(let o=0;o<=n;o++){let s=t[n][o];for(let r=0;r<o;r++)s-=e[n][r]*e[o][r];
+e[n][o]=n===o?Math.sqrt(Math.max(s,1e-7)):s/e[o][o]}return e}var hy=12,py=80,uy=11,dy=new Set(["path","views","ghost","beam"]),sa="This figure has no such tool: bayesmap app has it";async function Up(t){return JSON.parse(
+new TextDecoder().decode(await Qn(ht(t))))}function fy(t,e){let n=Sp(t,e),{seed:o,noise:s,angles:r,sensors:i}=t,a=i.map(({id:c})=>gn(o,c,uy)),l=n.map((c,h)=>t.readings===
+"exact"?c:c+s*pr(a[Math.floor(h/r)],2*(h%r)));return{exact:n,readings:l}}function my({method:t,prior:e},{rare_walls:n}){return t!=="auto"?t:Math.min(e,1-e)<=n?"\
 block":"gibbs"}function Bp(t,e=n=>setTimeout(n)){let{limits:n,judging:o}=t,s=new cr(t.document),[r,i]=[0,0],[a,l,c]=[!0,!1,!1],h={layer:"mean",chain:0,draw:null},
 d="live",u=null,[m,b]=[!1,!1],[x,w]=[0,0],M=null,S=(A,P)=>U.onmessage({type:"status",text:A,level:P},{}),E=()=>U.onmessage({type:"state",document:s.present,generation:r,
 seq:i,can_undo:s.canUndo,can_redo:s.canRedo,live:a,running:l,working:c,draws:!c&&u?.draws||{chains:0,count:0},scan:0,view:h},{}),_=(A=!1)=>{u&&(w=performance.now(),
-U.onmessage(...u.picture(h,r,Math.round(w-x),A)))};function D(){if(m=!1,b||!c)return;let A=!u;u??=O(),d!=="clear"&&u.work(cy);let P=u.done||d==="clear";(A||P||performance.
-now()-w>hy)&&_(),P?(l=c=!1,E()):L()}function L(){m||e(D),m=!0}function O(){let A=s.present,{sensors:P,max_range:B}=A,I=kp(A),{exact:ie,readings:K}=dy(A,I),J=Float64Array.
+U.onmessage(...u.picture(h,r,Math.round(w-x),A)))};function D(){if(m=!1,b||!c)return;let A=!u;u??=O(),d!=="clear"&&u.work(hy);let P=u.done||d==="clear";(A||P||performance.
+now()-w>py)&&_(),P?(l=c=!1,E()):L()}function L(){m||e(D),m=!0}function O(){let A=s.present,{sensors:P,max_range:B}=A,I=kp(A),{exact:ie,readings:K}=fy(A,I),J=Float64Array.
 from(P.flatMap(({x:ue,y:he,yaw:ae})=>[ue,he,ae])),Q=ue=>Float32Array.from(ue),q={pose:J,angles:Q(Xo(A)),ranges:Q(K),exact:Q(ie),hit:Uint8Array.from(ie,ue=>ue<B?
-1:0)};M=q,U.onmessage({type:"scan",generation:r,ids:P.map(({id:ue})=>ue),index:null},q);let W=Mp(A,I,K),de=fy(A,t);return d==="clear"?new Eo(A,W):de==="importan\
+1:0)};M=q,U.onmessage({type:"scan",generation:r,ids:P.map(({id:ue})=>ue),index:null},q);let W=Mp(A,I,K),de=my(A,t);return d==="clear"?new Eo(A,W):de==="importan\
 ce"?new wr(A,W,o):new Zo(A,W,o,de==="block")}function G(A=a?"live":"clear"){r++,d=A,u=null,l=d==="run",c=!0,x=performance.now(),E(),L()}function te(){if(!c)return E();
 if(!u)return G("clear");l=c=!1,_(!0),E()}function X(A){if(A)return s.push(Gi(A,t.document,n),{type:"hello"}),G();if(!r)return G();E(),_()}function $(A){let{sensors:P,
 angles:B}=s.present,I=Math.max(0,P.findIndex(he=>he.id===A)),{x:ie,y:K,yaw:J}=P[I],Q=[I*B,(I+1)*B];if(!M||b)return;let{modes:q,pose:W,weight:de,nats_per_beam:ue}=Op(
@@ -1533,21 +1536,21 @@ document")throw new ze(sa);let ie=new TextEncoder().encode(`${JSON.stringify(s.p
 s.present,A,n);if(!P)throw new ze(sa);let[B,I]=P;s.push(B,A),I&&S(I,"warning"),G()}let U={...hn(),open:()=>{U.onmessage({type:"welcome",version:1,limits:n,recorded:!1,
 figure:!0,lacks:[],story:t.story},{}),U.onmessage({type:"worker",state:"ready"},{}),U.onstatus({connected:!0})},send:A=>{if(A.type!=="painted"){if(A.type==="ins\
 pect"){let P=u?.beamsThrough(A.x*s.present.grid.shape[1]+A.y);if(P===void 0)return;let B={beams_for:null,nats_for:null,beams_against:null,nats_against:null,draw:null,
-chain:null,prior_nats:null,log_odds:null};return U.onmessage({type:"cell",x:A.x,y:A.y,each:!1,beams:P,...B},{})}if(A.type==="where")return e(()=>$(A.sensor));if(uy.
+chain:null,prior_nats:null,log_odds:null};return U.onmessage({type:"cell",x:A.x,y:A.y,each:!1,beams:P,...B},{})}if(A.type==="where")return e(()=>$(A.sensor));if(dy.
 has(A.type))return S(sa,"warning");i=A.seq??i;try{ee(A)}catch(P){if(!(P instanceof ze))throw P;if(A.type==="hello")return U.onmessage({type:"error",text:P.message,
-remedy:"",seq:i},{});S(P.message,"warning"),E()}}},record:()=>u&&M&&u.recording(M),close:()=>{b=!0}};return U}var ra=250,my=8e3;function Wp(t){let e=null,n=ra,o=0,s=!1;function r(){clearTimeout(o);let a=new URL("socket",t());a.protocol=a.protocol.replace("http","ws"),a.
+remedy:"",seq:i},{});S(P.message,"warning"),E()}}},record:()=>u&&M&&u.recording(M),close:()=>{b=!0}};return U}var ra=250,gy=8e3;function Wp(t){let e=null,n=ra,o=0,s=!1;function r(){clearTimeout(o);let a=new URL("socket",t());a.protocol=a.protocol.replace("http","ws"),a.
 search=t().search;let l=new WebSocket(a),c=!1;e=l,l.binaryType="arraybuffer",l.onopen=()=>{c=!0,n=ra,i.onstatus({connected:!0})},l.onmessage=({data:h})=>{typeof h==
 "string"?i.onmessage(JSON.parse(h),{}):i.onmessage(...pn(h))},l.onclose=()=>{if(s||e!==l)return;o=window.setTimeout(r,n);let h={connected:!1,retryIn_ms:n};i.onstatus(
-h),c||gy(t()).then(d=>d&&e===l&&i.onstatus({...h,refused:d})),n=Math.min(my,2*n)}}let i={...hn(),open:r,send:a=>{e?.readyState===WebSocket.OPEN&&e.send(JSON.stringify(
+h),c||yy(t()).then(d=>d&&e===l&&i.onstatus({...h,refused:d})),n=Math.min(gy,2*n)}}let i={...hn(),open:r,send:a=>{e?.readyState===WebSocket.OPEN&&e.send(JSON.stringify(
 a))},read:(a,l)=>new Promise((c,h)=>{let d=new URL("open",t());d.search=t().search,d.searchParams.set("name",a.name);let u=new XMLHttpRequest;u.open("POST",d),u.
 responseType="arraybuffer",u.upload.onprogress=({loaded:m,total:b})=>l(m/b),u.onload=()=>u.status===200?c(u.response):h(new Error(new TextDecoder().decode(u.response))),
 u.onerror=()=>h(new Error("the connection is lost")),u.send(a)}),retry:()=>{n=ra,e?.readyState!==WebSocket.OPEN&&r()},close:()=>{s=!0,clearTimeout(o),e?.close()}};
-return i}async function gy(t){try{return(await fetch(t.pathname+t.search,{method:"HEAD",cache:"no-store"})).status===403}catch{return!1}}function Gp(t){let e=(o,s=[])=>n.onmessage(o,Wa(o,s)),n={...hn(),open:()=>{t.on("msg:custom",e),n.onstatus({connected:!0})},send:o=>t.send(o),close:()=>t.off("m\
-sg:custom",e)};return n}var yy="This is the map that was drawn here when the connection was lost; undo leads back",vr=t=>Object.assign(window,{bayesmap:t}),Jx={render({model:t,el:e}){let n=document.
+return i}async function yy(t){try{return(await fetch(t.pathname+t.search,{method:"HEAD",cache:"no-store"})).status===403}catch{return!1}}function Gp(t){let e=(o,s=[])=>n.onmessage(o,Wa(o,s)),n={...hn(),open:()=>{t.on("msg:custom",e),n.onstatus({connected:!0})},send:o=>t.send(o),close:()=>t.off("m\
+sg:custom",e)};return n}var by="This is the map that was drawn here when the connection was lost; undo leads back",vr=t=>Object.assign(window,{bayesmap:t}),Xx={render({model:t,el:e}){let n=document.
 createElement("div");e.append(n);let o=Jo(n,Gp(t),{embedded:!0});return vr(o),()=>o.destroy()}};function Hp(t,e){let n=Jo(t,cs(e),{play:ia(t,()=>n)});vr(n)}var ia=(t,e)=>n=>{
-e().destroy(),Hp(t,n)};async function by(){let t=document.querySelector("[data-bayesmap]");if(!t||t.shadowRoot)return;let e=new CSSStyleSheet;e.replaceSync("bod\
+e().destroy(),Hp(t,n)};async function wy(){let t=document.querySelector("[data-bayesmap]");if(!t||t.shadowRoot)return;let e=new CSSStyleSheet;e.replaceSync("bod\
 y { margin: 0; }"),document.adoptedStyleSheets.push(e);let n=document.querySelector("script[data-recording]");if(n){Hp(t,await ls(n.textContent??""));return}let o=document.
 querySelector("script[data-figure]");if(o){let[{document:h,damaged:d},u]=await Promise.all([Fo(),Up(o.textContent??"")]),m=d?{text:$o,level:"error"}:null,b=Jo(t,
 Bp(u),{adopt:h,notice:m,play:ia(t,()=>b)});vr(b);return}xl(new URLSearchParams(location.search).get("token"));let{document:s,damaged:r}=await Fo(),i=s?null:yl(),
 a=Wp(()=>new URL(location.href));vl(h=>{history.replaceState(null,"",`${location.pathname}?token=${encodeURIComponent(h)}${location.hash}`),a.retry?.()});let c=Jo(
-t,a,{adopt:s??i,notice:r?{text:$o,level:"error"}:i?{text:yy,level:"info"}:null,play:ia(t,()=>c)});vr(c)}by();export{Jx as default,Bp as localTransport,Jo as mount,Up as readFigure,ls as readRecording,cs as recordedTransport,Wp as webSocketTransport,Gp as widgetTransport};
+t,a,{adopt:s??i,notice:r?{text:$o,level:"error"}:i?{text:by,level:"info"}:null,play:ia(t,()=>c)});vr(c)}wy();export{Xx as default,Bp as localTransport,Jo as mount,Up as readFigure,ls as readRecording,cs as recordedTransport,Wp as webSocketTransport,Gp as widgetTransport};
