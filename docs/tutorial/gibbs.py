@@ -100,8 +100,9 @@ def log_joint(walls, p_wall=P_WALL):
 #
 # Gibbs sampling goes through the cells, and draws each cell from its distribution *given all other cells and the
 # readings*. A cell has only two states, so this conditional distribution is easy to compute: score the map with the
-# cell as a wall and with the cell free, and compare. One pass over all cells is a *sweep*. From any start, the maps
-# after many sweeps are draws from the posterior.
+# cell as a wall and with the cell free, and compare. One pass over all cells is a *sweep*, and the maps after each
+# sweep are a *chain*. From any start, the maps after many sweeps are nearly draws from the posterior, each like the
+# one before. How many are many, see *Where walls are rare*.
 
 # %%
 
@@ -456,8 +457,8 @@ assert chances[2] > 20 * chances[1]
 # %% [markdown]
 # Model and readings are the same for cell and block. Only the set of cells that change together differs.
 #
-# **Try it yourself**: start the live page with `bayesmap app`, set the prior to 0.05, and compare the methods *gibbs*
-# and *block*.
+# **Try it yourself**: start the live page with `bayesmap app`, set the prior to 0.05, and compare the methods
+# *Gibbs, cell by cell* and *Gibbs, 2 × 2 blocks*.
 #
 # ## Exercises
 #

@@ -304,7 +304,7 @@ print(f"had it known where it began, its commands alone would put it {distance_m
 #    explains the new readings.
 # 2. *Resample*: draw particles by weight. Good particles are copied, and bad ones are dropped.
 # 3. *Rejuvenate*: two equal particles are worth no more than one, so each particle moves a little. Metropolis-Hastings
-#    proposes a pose nearby, and accepts this pose with the probability that leaves the posterior unchanged.
+#    proposes a pose nearby, and accepts it with a probability chosen so that draws of the posterior stay draws of it.
 #    `Rejuvenate` makes the proposal, and `metropolis_hastings` accepts or rejects the edited trace.
 
 # %%
@@ -545,7 +545,7 @@ assert 35 < factor < 50
 assert 1e11 < needed < 1e12
 
 # %% [markdown]
-# **3.** One of ten particles has the weight 0.1. With which probability does resampling drop this particle? And how
+# **3.** One of ten particles has the weight 0.1. With what probability does resampling drop this particle? And how
 # many of ten equally weighted particles are still there, on average, after one resampling?
 
 # %% Answer 3 tags=["hide-cell"]

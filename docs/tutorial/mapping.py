@@ -116,8 +116,9 @@ for name, fit in first_fits.items():
 assert list(first_fits.values()) == sorted(first_fits.values(), reverse=True)
 
 # %% [markdown]
-# The true map explains the readings best. Differences of log probabilities are called *nats* on these pages: a map
-# that is 10 nats better is exp(10), some twenty thousand times, as probable.
+# Among the three, the true map explains the readings best. Differences of log probabilities are called *nats* on these
+# pages: a map that is 10 nats better is exp(10), some twenty thousand times, as probable, if both were equally probable
+# before the readings.
 #
 # This is the whole sensor. Inferring the walls takes the scores of many maps, and random choices that have names. For
 # that we use JAX, which compiles functions of arrays, and `bayesmap.gen`, in which a model is a program. Three tools of
@@ -183,7 +184,7 @@ show(
 # compute it once. The second part is a minimum: the range is the smallest of these distances among the wall cells.
 #
 # A cell is a square, the intersection of a vertical and a horizontal strip. The beam is in the square while it is in
-# both strips. So the beam enters the square when it enters the second strip, and leaves the square when it leaves one
+# both strips. So the beam enters the square at the later of its two entries, and leaves the square when it leaves one
 # of them. If the entry comes after the exit, the beam misses the cell.
 
 # %%
@@ -407,7 +408,7 @@ assert np.isclose(of_three, 8 / 3)
 assert of_one == 1
 
 # %% [markdown]
-# **3.** Let walls be rare: each cell is a wall with probability 0.05. With which probability does a map from the prior
+# **3.** Let walls be rare: each cell is a wall with probability 0.05. With what probability does a map from the prior
 # now leave all passed cells free? Does importance sampling find the walls with this prior?
 
 # %% Answer 3 tags=["hide-cell"]
