@@ -130,12 +130,12 @@ def drag(page: Any, seconds: float, name: str) -> None:
 def figure(browser: Any, seconds: float) -> None:
     """Drags the robot in a figure that samples without a server."""
     from bayesmap.app.edits import tutorial_document
-    from bayesmap.app.figures import to_figure
+    from bayesmap.app.figures import figure_page
 
     page = browser.new_page(viewport={"width": 1280, "height": 860})
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder, "figure.html")
-        file.write_text(to_figure(tutorial_document()), encoding="utf-8")
+        file.write_text(figure_page(tutorial_document()), encoding="utf-8")
         page.goto(file.as_uri())
         until(page, "s.painted?.sweeps === 1000")
     drag(page, seconds, "figure without a server, 21 x 21, 100 beams")

@@ -50,10 +50,10 @@ def story_frame(step: int, up: str) -> str:
 def story() -> str:
     """Return the story that is built in, as a page in one file."""
     from bayesmap.app.edits import tutorial_document
-    from bayesmap.app.figures import BUILT_IN_STORY, read_story, to_figure
+    from bayesmap.app.figures import BUILT_IN_STORY, figure_page, read_story
 
     told = read_story(BUILT_IN_STORY, tutorial_document())
-    return to_figure(told.steps[0].document, told)
+    return figure_page(told.steps[0].document, told)
 
 
 def on_files(files: Files, config: MkDocsConfig) -> Files:

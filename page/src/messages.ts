@@ -754,7 +754,7 @@ export type RecordedDraws = {
   bits: boolean;
 };
 
-/** The result in a page in one file: the messages of a session, for a page without one. Buffers: the buffers of `Field` for the mean; width uint8 (nx, ny) if there are intervals; beams uint32 (nx, ny), the beams through each cell; draws uint8 (chains, count, bytes of a map); the buffers of `Scan` for all recorded scans, with one row of angles for each scan if scans differ in them; for a file the buffers of `Overlay`. */
+/** The result in a page in one file: the messages of a session, for a page without one. Buffers: the buffers of `Field` for the mean; width uint8 (nx, ny) if there are intervals; beams uint32 (nx * ny,), the beams through each cell; draws uint8 (chains, count, bytes of a map); the buffers of `Scan` for all recorded scans, with one row of angles for each scan if scans differ in them; for a file the buffers of `Overlay`. */
 export type Recording = {
   /** Version of this format. */
   version: 1;

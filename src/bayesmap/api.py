@@ -266,7 +266,7 @@ class Inference:
 
     @property
     def sampler_name(self) -> str:
-        """Return the name of the sampler that implements the method for this kind of cells."""
+        """The name of the sampler that implements the method for this kind of cells."""
         return self.model.cells.methods[self.method_name]
 
     def run(self, checkpoints: Checkpoints, watch: Watch) -> Run:
@@ -302,7 +302,8 @@ class Inference:
             sampler = self._sampler(clock.plan.warmup)
             problem_here = sampler.prepare(model, device, threads, watch)
             clock.make_first_map(model, sampler, problem_here)
-        plan = clock.remaining_plan()
+        limit_s = clock.plan.seconds
+        plan = clock.plan if limit_s is None else replace(clock.plan, seconds=max(0.0, limit_s - clock.elapsed_s()))
         settings["warmup"] = plan.warmup
         job = Job(
             model, self._sampler(plan.warmup), plan, self.request.seed, chain_ids=tuple(range(self.request.chains)),
@@ -427,11 +428,6 @@ class _RunClock:
             self._preview(Run(posterior_of_chains(model, first_map, self._settings, seconds, None)))
         if plan.seconds is not None:  # the pilot makes as many sweeps as the warm-up
             self.plan = plan.shortened(sweep_s * (1 + chains), plan.seconds - self.elapsed_s())
-
-    def remaining_plan(self) -> SweepPlan:
-        """Return the plan of the chains for the remaining time."""
-        seconds = self.plan.seconds
-        return self.plan if seconds is None else replace(self.plan, seconds=max(0.0, seconds - self.elapsed_s()))
 
 
 def _check_scans(scans: Scans, grid: Grid) -> None:

@@ -26,8 +26,7 @@ MORE_DRAWS = 10  # factor on the default number of draws if the precision is bel
 def need_value(function: str, name: str, value: object, kind: type) -> None:
     """Raise `BadInput`, with an example, for an argument that is not of the class ``kind``."""
     if not isinstance(value, kind):
-        example = f"bm.{kind.__name__}()"
-        raise BadInput(f"{function}: {name} must be one such as {example}, got {value!r}")
+        raise BadInput(f"{function}: {name} must be one such as bm.{kind.__name__}(), got {value!r}")
 
 
 @dataclass(frozen=True)

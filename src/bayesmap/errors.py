@@ -1,7 +1,6 @@
 """Define the exception for invalid input, and check arguments.
 
-Every layer raises `BadInput` with a message that names the place, the error and the remedy. The command line prints the
-message on one line and exits with code 3.
+Every layer raises `BadInput`, whose message names place, error and remedy. The command line prints it; exit code 3.
 """
 
 import difflib

@@ -23,8 +23,7 @@ def write_whole(path: str | os.PathLike[str]) -> Iterator[Path]:
 
     The temporary file has the suffix of ``path``, since some libraries choose a format by it. It is flushed to disk
     before the rename: after an error, a crash or a kill ``path`` holds either the old or the new content. A symbolic
-    link's target is replaced. Raises `BadInput` if the folder does not exist, or cannot be written to, and `OSError`
-    naming ``path`` if writing failed.
+    link's target is replaced. Raises `BadInput` for no folder, or none to write to, and `OSError` if writing fails.
     """
     target = Path(os.path.realpath(path))
     temporary = target.with_name(f".{target.stem}.{secrets.token_hex(4)}.partial{target.suffix}")

@@ -59,7 +59,7 @@ class Model:
 
     @property
     def arrays(self) -> tuple[ArraySpec, ...]:
-        """Return the arrays of a draw: its cells' arrays, and the poses if they are unknown."""
+        """The arrays of a draw: its cells' arrays, and the poses if they are unknown."""
         return (*self.cells.arrays, POSES) if self.poses.unknown else self.cells.arrays
 
     def state(self, cells: Cells) -> State:
@@ -97,22 +97,24 @@ def log_likelihoods(
     rays: Rays, states: NDArray[np.floating], sensor: SensorModel, hit_depth: float, beta: float = 1.0
 ) -> Floats:
     """Compute log p(reading | map) of every beam, (B,), by the formula of this module; 0 for an invalid reading.
+
     ``states`` is as in `bayesmap.beams.rays.stops_of`. The inverse temperature ``beta`` is the power of p(z | stop).
     """
     stops = stops_of(rays, states, hit_depth)
-    beam, last = rays.beam_of_entry(), np.arange(rays.n_beams)
+    beam = rays.beam_of_entry()
     # One row per beam: its stops, and in the last column the case of no stop in the map.
     shape = rays.n_beams, int(rays.lengths.max(initial=0)) + 1
     entry = beam, np.arange(rays.n_incidences) - rays.offsets[beam]
-    chance, law = np.zeros(shape), np.full(shape, -np.inf)
+    chance = np.zeros(shape)
+    log_p = np.full(shape, -np.inf)
     chance[entry] = stops.chance
-    law[entry] = sensor.stop_log_likelihood(rays.range_m[beam], stops.distance_m, stops.spread_m, rays.limits)
-    law[:, -1] = sensor.log_likelihood(rays.range_m, np.full(rays.n_beams, np.inf), rays.limits)
+    log_p[entry] = sensor.stop_log_likelihood(rays.range_m[beam], stops.distance_m, stops.spread_m, rays.limits)
+    log_p[:, -1] = sensor.log_likelihood(rays.range_m, np.full(rays.n_beams, np.inf), rays.limits)
     # Weight of a stop: its chance, times the chance of passing all cells before it.
     passed = np.cumprod(1.0 - chance, axis=1)
     weight = chance
     weight[:, 1:] *= passed[:, :-1]
-    weight[last, -1] = passed[:, -1]
-    tempered = beta * law if beta > 0 else np.zeros(shape)  # p^0 is 1, also for impossible readings
+    weight[:, -1] = passed[:, -1]
+    tempered = beta * log_p if beta > 0 else np.zeros(shape)  # p^0 is 1, also for impossible readings
     with np.errstate(divide="ignore"):
         return np.asarray(np.logaddexp.reduce(np.log(weight) + tempered, axis=1))

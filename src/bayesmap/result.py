@@ -25,6 +25,7 @@ from bayesmap.posterior.scores import Score, beam_log_scores, score_prediction
 from bayesmap.posterior.summary import Summary, rhat, summarise
 from bayesmap.sensors.model import SensorModel
 from bayesmap.space.grid import Grid
+from bayesmap.space.planar import Floats
 from bayesmap.space.scans import Scans
 
 if TYPE_CHECKING:
@@ -38,8 +39,6 @@ if TYPE_CHECKING:
     from bayesmap.posterior.prediction import Prediction
     from bayesmap.posterior.route import FreeProbability, Route
     from bayesmap.posterior.summary import PoseSummary
-
-Floats = NDArray[np.float64]
 
 THUMBNAIL_PIXELS = 240  # longer side, in pixels, of the picture of a run in a notebook
 
@@ -58,27 +57,27 @@ class Run:
 
     @property
     def grid(self) -> Grid:
-        """Return the grid of the cells."""
+        """The grid of the cells."""
         return self.posterior.grid
 
     @property
     def sensor(self) -> SensorModel | None:
-        """Return the law of the readings, as fitted; None in a loaded run with a sensor model of your own."""
+        """The law of the readings given the map, as fitted; None in a loaded run with a sensor model of your own."""
         return self.posterior.sensor
 
     @property
     def prior(self) -> CellPrior:
-        """Return the prior of the cells, as fitted."""
+        """The prior of the cells, as fitted."""
         return self.posterior.prior
 
     @property
     def finished(self) -> bool:
-        """Return False if the run was stopped before its last draw; `bayesmap.Checkpoints(resume=run)` resumes it."""
+        """Whether the run has all its draws. `bayesmap.Checkpoints(resume=run)` resumes a run that was stopped."""
         return self.posterior.finished
 
     @property
     def occupancy(self) -> Floats:
-        """Return the posterior mean of the probability that a cell stops a beam, (nx, ny).
+        """The posterior mean of the probability that a cell stops a beam, (nx, ny).
 
         For binary walls it is the probability of a wall, with surfaces that a beam which enters the cell's square stops
         inside it (docs/surfaces.md). Except for walls it has less noise than the mean of ``draws``.
@@ -87,17 +86,18 @@ class Run:
 
     @property
     def entropy(self) -> Floats:
-        """Return the entropy, in bits, of the event that a cell stops a beam that meets its content, (nx, ny)."""
+        """The entropy, in bits, of the event that a cell stops a beam that meets its content, (nx, ny)."""
         return entropy_bits(self.posterior.occupancy)
 
     @property
     def observed(self) -> NDArray[np.bool_]:
-        """Return a mask of the cells that a beam observes in at least half of the draws, (nx, ny)."""
+        """The mask of the cells that a beam observes in at least half of the draws, (nx, ny)."""
         return self.posterior.observed
 
     @cached_property
     def draws(self) -> NDArray[Any]:
-        """Return all kept maps, (chain, draw, nx, ny): walls, or chances to stop a beam.
+        """All kept maps, (chain, draw, nx, ny): walls, or chances to stop a beam.
+
         Unobserved cells have the prior's mean. The array is made on first use: 1 or 4 bytes per cell and draw.
         """
         draws = self.posterior.draws
@@ -109,7 +109,7 @@ class Run:
 
     @property
     def n_draws(self) -> int:
-        """Return the number of draws per chain."""
+        """The number of draws per chain."""
         return self.posterior.draws.count
 
     def map_of(self, chain: int, draw: int) -> NDArray[Any]:
@@ -118,7 +118,7 @@ class Run:
 
     @property
     def poses(self) -> Floats:
-        """Return draws of the poses, (chain, draw, scan, 3): x, y in metres, yaw in radians. Known poses repeat."""
+        """The draws of the poses, (chain, draw, scan, 3): x, y in metres, yaw in radians. Known poses repeat."""
         draws = self.posterior.draws
         if "poses" in draws.arrays:
             return draws.values("poses")
@@ -138,11 +138,12 @@ class Run:
         if self.trajectory is None or summary.mixed or len(self.trajectory.keys) != len(summary.mean):
             return summary
         keys = self.trajectory.keys
-        mean, covariance = self.trajectory.poses[keys], self.trajectory.covariances()[keys]
-        return replace(summary, mean=mean, covariance=covariance, by_approximation=True)
+        covariance = self.trajectory.covariances()[keys]
+        return replace(summary, mean=self.trajectory.poses[keys], covariance=covariance, by_approximation=True)
 
     def interval(self, level: float = 0.9) -> tuple[Floats, Floats]:
         """Compute the central credible interval of each cell's chance to stop a beam: lower and upper ends, (nx, ny).
+
         Raises `BadInput` for a level outside (0, 1), a run stopped before its first draw, or binary walls.
         """
         if not 0 < level < 1:
@@ -152,6 +153,7 @@ class Run:
 
     def surfaces(self) -> tuple[Floats, Floats, Floats]:
         """Return mean surfaces: means (U, 2) in metres, covariances (U, 2, 2) in square metres, reflectivities (U,).
+
         Raises `BadInput` for a run without surfaces or without draws.
         """
         self._need_marginals()
@@ -159,12 +161,12 @@ class Run:
 
     @property
     def log_joint(self) -> Floats:
-        """Return log p(cells, readings) of every draw, in nats, (chain, draw)."""
+        """The log joint density log p(cells, readings) of every draw, in nats, (chain, draw)."""
         return self.posterior.log_joint
 
     @property
     def log_weights(self) -> Floats:
-        """Return normalised log weights of importance sampling, (particles,). Other methods raise `BadInput`."""
+        """The normalised log weights of importance sampling, (particles,). Other methods raise `BadInput`."""
         if self.posterior.log_weights is None:
             raise BadInput(f"run: method {self.posterior.settings['method']!r} has no importance weights")
         return self.posterior.log_weights
@@ -278,8 +280,10 @@ class Run:
         self, path: str | os.PathLike[str], on_progress: Callable[[int, int], None] = lambda done, total: None, *,
         by_reading: bool = False,
     ) -> None:  # fmt: skip
-        """Write the run to one netCDF file, whole or not at all. ``on_progress`` gets the count done and the total.
-        ``by_reading`` adds the log likelihood of every valid reading in every draw, which arviz's ``loo`` needs.
+        """Write the run to one netCDF file, whole or not at all.
+
+        ``on_progress`` is called with the count done and the total. ``by_reading`` adds the log likelihood of every
+        valid reading in every draw, which arviz's ``loo`` needs.
         """
         from bayesmap.io.saved import save
 
@@ -288,8 +292,8 @@ class Run:
     def plot(self, **options: Any) -> Figure:
         """Plot the mean map, its uncertainty, the readings and one draw, with surfaces if cells are large enough.
 
-        Takes the options of `bayesmap.viz.figure.posterior_figure`. Raises `BadInput` for a run that was stopped before
-        its first draw.
+        Takes the options of `bayesmap.viz.figure.posterior_figure`: ``draw``, ``truth``, ``scans``, ``title``,
+        ``label``, ``width``, ``surfaces``. Raises `BadInput` for a run that was stopped before its first draw.
         """
         from bayesmap.viz.figure import posterior_figure
 
@@ -324,8 +328,8 @@ class Run:
         if self.prior.thresholds is not None and mode == "trinary":
             for name, threshold in zip(("occupied_thresh", "free_thresh"), self.prior.thresholds, strict=True):
                 options[name] = threshold if options.get(name) is None else options[name]
-        draws, free_thresh = self.posterior.draws, options.get("free_thresh")
-        known = known_cells(self.prior, draws, self.occupancy, self.observed, free_thresh)
+        free_thresh = options.get("free_thresh")
+        known = known_cells(self.prior, self.posterior.draws, self.occupancy, self.observed, free_thresh)
         return export_run(path, self, self.posterior.scans, known=known, **options)
 
     def __repr__(self) -> str:
@@ -356,7 +360,8 @@ class Run:
 
 def _overview(posterior: Posterior) -> tuple[str, list[tuple[str, str]]]:
     """Return a title, and four rows of name and value: scans, method, log joint and time."""
-    (nx, ny), counts, log_joint = posterior.grid.shape, posterior.counts, posterior.log_joint
+    nx, ny = posterior.grid.shape
+    log_joint = posterior.log_joint
     title = f"Run: {posterior.prior.words.states}, {nx} x {ny} cells of {posterior.grid.resolution:g} m"
     n_chains, n_draws = log_joint.shape
     work = f"{n_chains} chains of {posterior.sweep:,} sweeps, {n_draws:,} draws each"
@@ -368,7 +373,7 @@ def _overview(posterior: Posterior) -> tuple[str, list[tuple[str, str]]]:
         level += f", R-hat {rhat(log_joint):.3f}"
     observed = f"{np.count_nonzero(posterior.observed):,} of {posterior.observed.size:,} cells observed"
     return title, [
-        ("scans", f"{counts['scans']:,}, {counts['beams']:,} beams; {observed}"),
+        ("scans", f"{posterior.counts['scans']:,}, {posterior.counts['beams']:,} beams; {observed}"),
         ("method", f"{posterior.settings['method']}, {work}, {state}"),
         ("log joint", level),
         ("seconds", f"{posterior.seconds['total']:.1f}, {posterior.seconds['sampling']:.1f} of them in sweeps"),

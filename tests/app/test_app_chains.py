@@ -118,7 +118,7 @@ def test_methods_that_take_poses_as_known_do_so(method):
 def test_chains_at_several_shifts_are_judged_at_each_and_told_what_would_help(monkeypatch):
     for module in ("chains", "result"):
         limits = VerdictLimits(fewest_sweeps=40)  # sweeps of sixteen chains take long
-        monkeypatch.setattr(f"bayesmap.app.shown.{module}.LIMITS", limits)
+        monkeypatch.setattr(f"bayesmap.app.shown.{module}.VERDICT_LIMITS", limits)
     document = replace(tutorial_document(), pose_sigma=1.0, sweeps=40, angles=40)
     heard = Heard()
     header, _ = heard.infer(document)
@@ -274,7 +274,7 @@ def test_particles_are_judged_by_their_effective_number(ess, level, why):
 
 def test_one_cell_of_a_hundred_makes_no_verdict_red_and_the_words_are_the_kind_s():
     def judged(cells):
-        return judge_chains(1.001, 900, 1000, Difference(0.9, (3, 4), cells, 200), mean="mean reflectivity")
+        return judge_chains(1.001, 900, 1000, Difference(0.9, (3, 4), cells, 200), quantity="mean reflectivity")
 
     assert judged(2).level == "good"
     assert (judged(3).level, judged(3).cell) == ("bad", (3, 4))

@@ -15,7 +15,7 @@ from bayesmap.app.protocol.actions import Cancel, Inspect
 from bayesmap.app.protocol.notices import DrawCount, View
 from bayesmap.app.scene import simulate_document, simulated_scene
 from bayesmap.app.shown.chains import MAX_DRAW_BYTES, RunningChains
-from bayesmap.app.shown.result import LIMITS
+from bayesmap.app.shown.result import VERDICT_LIMITS
 from bayesmap.model import Model
 from bayesmap.posterior.summary import bulk_ess
 from bayesmap.run.chains import SweepPlan
@@ -147,7 +147,7 @@ def test_cancelled_and_few_sweeps_are_kept_and_judged_once_they_are_over():
     heard.ask(Cancel())
     assert not heard.engine.busy
     field, count = heard.last("field")[0], heard.all("finished")[-1]["draws"].count
-    assert 0 < count == field["sweeps"] < LIMITS.fewest_sweeps
+    assert 0 < count == field["sweeps"] < VERDICT_LIMITS.fewest_sweeps
     assert field["verdict"]["level"] == "bad"
     assert heard.answer(View("mean"))[0]["verdict"] == field["verdict"]
     assert heard.answer(View("draw", 0, count - 1))[0]["draw"] == count - 1

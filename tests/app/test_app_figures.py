@@ -1,4 +1,4 @@
-"""Progress that sample without a server, and stories: read, refused with the step and the key, and gone through."""
+"""Pages that sample without a server, and stories: read, refused with the step and the key, and gone through."""
 
 import json
 import re
@@ -11,7 +11,7 @@ from page_driver import snapshot, until
 from page_hands import click
 
 from bayesmap.app.edits import tutorial_document
-from bayesmap.app.figures import BUILT_IN_STORY, read_story, to_figure
+from bayesmap.app.figures import BUILT_IN_STORY, figure_page, read_story
 from bayesmap.app.session import Session
 from bayesmap.errors import BadInput
 
@@ -25,7 +25,7 @@ def test_the_live_page_exports_a_figure_of_what_is_drawn_from_known_poses():
 
 
 def test_a_figure_is_sampled_in_the_page_as_it_is_drawn_in(open_page, tmp_path):
-    (tmp_path / "figure.html").write_text(to_figure(tutorial_document()), encoding="utf-8")
+    (tmp_path / "figure.html").write_text(figure_page(tutorial_document()), encoding="utf-8")
     page = open_page((tmp_path / "figure.html").as_uri())
     until(page, "s.painted?.sweeps === s.document.sweeps")
     first = snapshot(page)
@@ -84,7 +84,7 @@ def test_files_without_a_story_and_steps_that_no_figure_has_are_refused(tmp_path
         ({"state": {"method": "propagate"}}, "step 2: method"),
     ):
         with pytest.raises(BadInput, match=why):
-            to_figure(tutorial_document(), told(tmp_path, **step))
+            figure_page(tutorial_document(), told(tmp_path, **step))
     for text, why in (("{", "not JSON"), ("[]", "story: "), ('{"title": "a", "steps": []}', "a list of 1 to 30")):
         (tmp_path / "none.json").write_text(text)
         with pytest.raises(BadInput, match=rf"none\.json: .*{why}"):
@@ -94,7 +94,7 @@ def test_files_without_a_story_and_steps_that_no_figure_has_are_refused(tmp_path
 def test_a_reader_goes_through_our_story_in_one_file(open_page, tmp_path):
     story = read_story(BUILT_IN_STORY, tutorial_document())
     assert next(iter(Session(story.steps[0].document, story).join(1))).message.story == story  # of a server, too
-    (tmp_path / "story.html").write_text(to_figure(story.steps[0].document, story), encoding="utf-8")
+    (tmp_path / "story.html").write_text(figure_page(story.steps[0].document, story), encoding="utf-8")
     page = open_page((tmp_path / "story.html").as_uri() + "#step=3")
     until(page, f"s.painted.method === 'importance' && s.painted.ess < 2 && {DONE}")
     # Next is another state, and the address follows.

@@ -299,7 +299,8 @@ def test_an_archive_holds_the_fields_of_scans(tmp_path):
     scans = simulated(TIMES)
     path = tmp_path / "scans.npz"
     fields = {name: getattr(scans, name) for name in ("poses", "angles_rad", "ranges_m", "max_range_m", "stamps_s")}
-    np.savez_compressed(path, min_range_m=scans.min_range_m, **fields)
+    unused = np.array([None])  # an array of objects, which cannot be read
+    np.savez_compressed(path, min_range_m=scans.min_range_m, notes=unused, **fields)
     reading = describe_log(path)
     same(reading.scans, scans)
     assert (reading.format, reading.no_return.code_m) == ("npz", None)

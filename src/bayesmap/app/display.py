@@ -81,8 +81,7 @@ class Display:
 
     def send_finished(self, result: Result | None) -> None:
         """Report that the job is done."""
-        draws = DrawCount() if result is None else result.draw_count
-        self.send(Finished(draws, generation=self.generation))
+        self.send(Finished(DrawCount() if result is None else result.draw_count, generation=self.generation))
 
     def elapsed_s(self) -> float:
         """Return the seconds since the job began."""

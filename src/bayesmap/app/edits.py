@@ -19,7 +19,9 @@ from bayesmap.app.protocol.document import SENSOR_COUNT_RANGE, SETTINGS, Documen
 from bayesmap.sim.drawing import TUTORIAL_GRID, tutorial
 from bayesmap.space.grid import Grid
 
-MAP_NOISE_M, BUILDING_NOISE_M = 0.2, 0.05  # range noise of a new map, and of a new building
+MAP_NOISE_M = 0.2  # range noise of a new map
+BUILDING_NOISE_M = 0.05  # range noise of a new building
+BUILDING_RESOLUTIONS_M = (0.1, 0.25)  # cell sizes of a new building: the first with which it fits is taken
 CLEARANCE_CELLS = 6  # distance from a first sensor to the walls, if there is that much room
 MAX_UNDO_STEPS = 200  # steps that can be undone
 MAX_UNPAINTED = 2  # unpainted pictures at which the edits of a page wait
@@ -31,32 +33,33 @@ ActionOfPage = tuple[int, actions.AnyAction]  # the number of a page, and its ac
 
 def tutorial_document(seed: int = 0) -> Document:
     """Return the tutorial's map and robot."""
-    walls, (x, y, yaw) = tutorial()
-    return Document(
-        TUTORIAL_GRID, pack_walls(walls), (Sensor(1, float(x), float(y), float(yaw)),), method="auto", seed=seed
-    )
+    walls, robot_pose = tutorial()
+    sensor = Sensor(1, *map(float, robot_pose))
+    return Document(TUTORIAL_GRID, pack_walls(walls), (sensor,), method="auto", seed=seed)
 
 
 def new_document(world: actions.World, shape: tuple[int, int], before: Document) -> Document:
     """Return a document with a new map, and the settings of the document before as far as they fit.
 
-    The sensor's longest range is twice the longer side, as in the tutorial: every beam can leave the map. Raises
-    `Refused` if the shape does not fit the world.
+    The sensor's longest range is twice the longer side, as in the tutorial: every beam can leave the map. A small
+    shape cuts the tutorial's walls off. Raises `Refused` if the shape is too small for a building.
     """
-    grid, noise_m, sensor = Grid(shape, 1.0, (-0.5, -0.5)), MAP_NOISE_M, None
+    grid = Grid(shape, 1.0, (-0.5, -0.5))
+    sensor = None
     if world == "blank":
         walls = np.zeros(shape, dtype=np.bool_)
     elif world == "tutorial":
         drawn_walls, robot_pose = tutorial()
         x, y = robot_pose[:2] + (np.array(shape) - drawn_walls.shape) // 2
-        walls, sensor = _center_map(drawn_walls, shape), Sensor(1, float(x), float(y))
+        walls = _center_map(drawn_walls, shape)
+        sensor = Sensor(1, float(x), float(y))
     else:
         walls, grid = _make_building(shape, before.seed)
-        noise_m = BUILDING_NOISE_M
     return replace(
         before, grid=grid, walls=pack_walls(walls), source=Source(), scans_used=None, poses="logged", cells="binary",
         sensors=(_first_sensor(walls, grid) if sensor is None else sensor,),
-        noise=noise_m, angles=min(1000, max(10, before.angles)), max_range=2.0 * max(shape) * grid.resolution,
+        noise=BUILDING_NOISE_M if world == "building" else MAP_NOISE_M, angles=min(1000, max(10, before.angles)),
+        max_range=2.0 * max(shape) * grid.resolution,
     )  # fmt: skip
 
 
@@ -73,12 +76,12 @@ def _make_building(shape: tuple[int, int], seed: int) -> tuple[NDArray[np.bool_]
     """Return the walls of a random building and their grid, with the finest cells that fit, or raise `Refused`."""
     from bayesmap.sim.building import MARGIN_M, MIN_SIZE_M, building
 
-    for resolution in (0.1, 0.25):
+    for resolution in BUILDING_RESOLUTIONS_M:
         margin = round(MARGIN_M / resolution)
         size_m = ((shape[0] - 2 * margin) * resolution, (shape[1] - 2 * margin) * resolution)
         if max(size_m) >= MIN_SIZE_M[0] and min(size_m) >= MIN_SIZE_M[1]:
             return _center_map(building(seed, size_m, resolution).walls, shape), Grid(shape, resolution, (0.0, 0.0))
-    nx, ny = (round(size_m / 0.25) + 4 for size_m in MIN_SIZE_M)
+    nx, ny = (round(side_m / resolution) + 2 * margin for side_m in MIN_SIZE_M)
     raise Refused(f"new: a building does not fit {shape[0]} x {shape[1]} cells", f"{nx} x {ny} are enough")
 
 
@@ -119,6 +122,7 @@ def edit_document(document: Document, action: actions.Edit) -> tuple[Document, s
 
 
 def _change_settings(document: Document, action: actions.ChangeSettings) -> Document:
+    """Return the document with other settings. Raises `Refused` for a setting that its source fixes."""
     changed = actions.changed_settings(action.patch)
     # A log's cell size and number of scans are no plain fields: they change the grid, or depend on the file.
     if "resolution" in changed:
@@ -133,6 +137,7 @@ def _change_settings(document: Document, action: actions.ChangeSettings) -> Docu
 
 
 def _draw_walls(document: Document, action: actions.Walls) -> tuple[Document, str]:
+    """Return the document with drawn or erased walls, and a remark if cells of sensors stay free."""
     cells = np.array(action.cells)
     if (cells >= document.grid.shape).any():
         raise Refused("walls: a cell outside the map", f"the map has {document.grid.shape} cells")
@@ -146,6 +151,7 @@ def _draw_walls(document: Document, action: actions.Walls) -> tuple[Document, st
 
 
 def _add_sensor(document: Document, action: actions.AddSensor) -> Document:
+    """Return the document with another sensor, whose id is the largest so far plus 1."""
     sensors = document.sensors
     if len(sensors) >= SENSOR_COUNT_RANGE[1]:
         raise Refused(f"there are {len(sensors)} sensors already", "remove one first")
@@ -155,6 +161,7 @@ def _add_sensor(document: Document, action: actions.AddSensor) -> Document:
 
 
 def _move_sensor(document: Document, action: actions.MoveSensor) -> Document:
+    """Return the document with a sensor at another pose. Coordinates that are None stay as they are."""
     unmoved = _find_sensor(document, action.id)
     coordinates: dict[str, Any] = {"x": action.x, "y": action.y, "yaw": action.yaw}
     moved = replace(unmoved, **{name: value for name, value in coordinates.items() if value is not None})
@@ -163,6 +170,7 @@ def _move_sensor(document: Document, action: actions.MoveSensor) -> Document:
 
 
 def _remove_sensor(document: Document, action: actions.RemoveSensor) -> Document:
+    """Return the document without one of its sensors. The last one cannot be removed."""
     removed = _find_sensor(document, action.id)
     if len(document.sensors) <= SENSOR_COUNT_RANGE[0]:
         raise Refused("the last sensor cannot be removed", "add another first")
@@ -170,6 +178,7 @@ def _remove_sensor(document: Document, action: actions.RemoveSensor) -> Document
 
 
 def _find_sensor(document: Document, sensor_id: int) -> Sensor:
+    """Return the sensor of an id. Raises `Refused` if there is none."""
     for sensor in document.sensors:
         if sensor.id == sensor_id:
             return sensor
@@ -204,17 +213,16 @@ def merge_actions(before: actions.Action, after: Action) -> Action | None:
 def adopt_document(present: Document, other: Document) -> Document:
     """Return the document to show when a page brings another document, as after a lost connection.
 
-    It is the other document if both are simulations, or the present one with the other's settings if both show one
-    file. Otherwise raises `Refused`.
+    For two simulations it is the other; for one file, the present one with the other's settings. Else raises `Refused`.
     """
     if other.simulated and present.simulated:
         return other
     if other.source == present.source:
         # If a trajectory is inferred, the size of the map is not known before, so only the cell sizes have to agree.
         any_size = "odometry" in (other.poses, present.poses)
-        document, resolution_m = present, other.grid.resolution
-        if other.grid != present.grid and not (any_size and resolution_m == present.grid.resolution):
-            document = present.with_resolution(resolution_m)
+        document = present
+        if other.grid != present.grid and not (any_size and other.grid.resolution == present.grid.resolution):
+            document = present.with_resolution(other.grid.resolution)
         if any_size or other.grid == document.grid:
             fixed = present.source.fixed_settings
             settings = {name: getattr(other, name) for name in SETTINGS if name not in fixed}
@@ -273,7 +281,8 @@ class Pace:
         """Accept an action of a page. Returns the actions to apply now, in order."""
         if gesture_of(action, client) is None or not self._must_wait(client):
             return [*self._release(), (client, action)]
-        before, self._waiting = self._waiting, (client, action)
+        before = self._waiting
+        self._waiting = client, action
         if before is None:
             return []
         merged = merge_actions(before[1], action) if before[0] == client else None
@@ -283,7 +292,7 @@ class Pace:
         return []
 
     def release_due(self) -> list[ActionOfPage]:
-        """Return the waiting action if it need not wait any longer. It then waits no more."""
+        """Return the waiting action if it need not wait any longer."""
         return [] if self._waiting is None or self._must_wait(self._waiting[0]) else self._release()
 
     def record_sent(self, client: int | None, generation: int) -> None:
@@ -301,8 +310,10 @@ class Pace:
         self._unpainted.pop(client, None)
 
     def _must_wait(self, client: int) -> bool:
+        """Return whether a page's edit has to wait: for the worker, or for the page to paint."""
         return self.computing or len(self._unpainted.get(client, ())) >= MAX_UNPAINTED
 
     def _release(self) -> list[ActionOfPage]:
+        """Return the waiting action, if there is one. It then waits no more."""
         waiting, self._waiting = self._waiting, None
         return [] if waiting is None else [waiting]

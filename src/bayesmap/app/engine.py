@@ -1,7 +1,8 @@
 """The engine of the worker process: it turns tasks into reports.
 
 `Engine.take` begins a job, and `Engine.advance` does a short step of it, so that a new task never waits long.
-`Engine._run_job` is a whole job: scene, preview by belief propagation, then chains.
+`Engine._run_job` is a whole job, and the task's mode says how far it goes: "clear" shows the prior, "coarse" counts of
+hits in a log, "preview" belief propagation, "live" also chains after it, and "run" all sweeps of the document's method.
 
 A job depends on its document alone: the readings on its seed, the start of live chains on the beliefs from these
 readings, and every sweep's draws on (seed, chain, sweep, cell). So the same document gives the same posterior, however
@@ -68,12 +69,15 @@ class Engine:
         """Answer a question, or begin another job."""
         if isinstance(task, Infer) and task.mode == "run" and self._has_live_chains_of(task.document):
             # The present job goes on: its chains get more sweeps.
-            self._task, self._extra_sweeps = task, self._extra_sweeps + task.document.sweeps
+            self._task = task
+            self._extra_sweeps += task.document.sweeps
             self._display.begin(task)
         elif isinstance(task, Infer):
             # Another job replaces the present one. Its result may give the next job its chains.
-            self._earlier_result, self._extra_sweeps = self._result, 0
-            self._task, self._result, self._scan = task, None, task.scan
+            self._earlier_result, self._result = self._result, None
+            self._extra_sweeps = 0
+            self._task = task
+            self._scan = task.scan
             self._display.begin(task)
             self._job = self._run_job(task)
         elif isinstance(task, Cancel):
@@ -131,6 +135,7 @@ class Engine:
                 self.take(task)
 
     def _fail(self, text: str) -> None:
+        """End the job, and report why it failed."""
         self._job = None
         self._display.send(Failed(text, generation=self._display.generation))
 
@@ -164,7 +169,7 @@ class Engine:
             self._display.send_frame(self._result)
             return
         if document.cells != "binary":
-            yield from self._sample_stops(scene, document)
+            yield from self._sample_reflectivities_or_surfaces(scene, document)
             return
         self._fitted = None
         if task.mode == "run" and document.method == "importance":
@@ -186,11 +191,11 @@ class Engine:
 
     def _preview_and_sample(self, scene: Scene, document: Document, task: Infer) -> Iterator[None]:
         """Show belief propagation, then chains that start from it, unless the mode is "preview"."""
-        preview, chains = Preview(scene.near_problem), task.mode != "preview" and document.method in CHAIN_METHODS
+        preview = Preview(scene.near_problem)
         # Belief propagation treats poses as known. If they are uncertain, chains make the first picture.
         quiet = task.mode != "preview" and document.samples_poses
         yield from self._propagate(scene, document, preview, quiet=quiet)
-        if not chains:
+        if task.mode == "preview" or document.method not in CHAIN_METHODS:
             self._display.send_finished(self._result)
             return
         # Unless the preview was quick, give a moving hand time for its next edit before chains are set up.
@@ -245,7 +250,8 @@ class Engine:
         if log is not None:
             document = log.fit_grid(document)
         self._display.send_grid(document.grid)
-        earlier, without_effect = self._scene_document, ("cells", *SETTINGS_OF_CHAINS)
+        earlier = self._scene_document
+        without_effect = ("cells", *SETTINGS_OF_CHAINS)  # settings that do not change the readings
         if self._scene is not None and earlier is not None and earlier.equals_except(document, without_effect):
             scene = self._scene if earlier.prior == document.prior else self._scene.with_prior(document.prior)
         else:
@@ -284,7 +290,7 @@ class Engine:
         yield
         yield from self._advance_to_end(scene, document, chains_of_walls(scene, document, first_maps))
 
-    def _sample_stops(self, scene: Scene, document: Document) -> Iterator[None]:
+    def _sample_reflectivities_or_surfaces(self, scene: Scene, document: Document) -> Iterator[None]:
         """Run chains of reflectivities or surfaces to their end, after a pilot has fitted the sensor."""
         if not document.simulated:
             self._show_hit_counts(document)

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from bayesmap.app.display import make_field, make_overlay, to_levels
 from bayesmap.app.figures import page_in_one_file
-from bayesmap.app.protocol.actions import Export
+from bayesmap.app.protocol.actions import Export, FileKind
 from bayesmap.app.protocol.document import Document
 from bayesmap.app.protocol.notices import Download, DrawCount, Field, Status, View
 from bayesmap.app.protocol.tasks import Buffers, Report
@@ -44,7 +44,7 @@ class RecordedDraws(Struct, frozen=True):
 class Recording(Struct, frozen=True, kw_only=True):
     """The result in a page in one file: the messages of a session, for a page without one.
 
-    Buffers: the buffers of `Field` for the mean; width uint8 (nx, ny) if there are intervals; beams uint32 (nx, ny),
+    Buffers: the buffers of `Field` for the mean; width uint8 (nx, ny) if there are intervals; beams uint32 (nx * ny,),
     the beams through each cell; draws uint8 (chains, count, bytes of a map); the buffers of `Scan` for all recorded
     scans, with one row of angles for each scan if scans differ in them; for a file the buffers of `Overlay`.
     """
@@ -68,24 +68,28 @@ def export_report(question: Export, result: Result | None, client: int) -> Repor
     return Report(download, {"data": data}, client)
 
 
-def make_file(result: Result, what: str) -> tuple[Download, bytes]:
-    """Return a file of a result of the kind `Export.what`. Raises `BadInput` if a run has no draws."""
-    if what == "recording":
-        return Download("recording", "application/octet-stream"), encode_recording(*build_recording(result))
-    if what == "html":
-        recording, buffers = build_recording(result)
-        page = page_in_one_file("recording", encode_recording(recording, buffers))
-        return Download("bayesmap.html", "text/html", _describe_draws(recording.draws)), page.encode()
+def make_file(result: Result, kind: FileKind) -> tuple[Download, bytes]:
+    """Return a file of a result. Raises `BadInput` if a run has no draws."""
     with tempfile.TemporaryDirectory(prefix="bayesmap-") as folder:
-        if what == "run":
-            path = Path(folder) / "run.nc"
-            result.as_run().save(path)
-            return Download("run.nc", "application/x-netcdf"), path.read_bytes()
-        archive = io.BytesIO()
-        with zipfile.ZipFile(archive, "w", zipfile.ZIP_DEFLATED) as files:
-            for path in result.estimate.write_map(Path(folder) / "map.yaml", result):
-                files.write(path, path.name)
-        return Download("map.zip", "application/zip"), archive.getvalue()
+        match kind:
+            case "recording":
+                return Download("recording", "application/octet-stream"), encode_recording(*build_recording(result))
+            case "html":
+                recording, buffers = build_recording(result)
+                page = page_in_one_file("recording", encode_recording(recording, buffers))
+                return Download("bayesmap.html", "text/html", _describe_draws(recording.draws)), page.encode()
+            case "run":
+                path = Path(folder) / "run.nc"
+                result.as_run().save(path)
+                return Download("run.nc", "application/x-netcdf"), path.read_bytes()
+            case "map":
+                archive = io.BytesIO()
+                with zipfile.ZipFile(archive, "w", zipfile.ZIP_DEFLATED) as files:
+                    for path in result.estimate.write_map(Path(folder) / "map.yaml", result):
+                        files.write(path, path.name)
+                return Download("map.zip", "application/zip"), archive.getvalue()
+            case "figure" | "document":
+                raise AssertionError("the session makes the files of a drawn world")
 
 
 def encode_recording(recording: Recording, buffers: Buffers) -> bytes:
@@ -98,11 +102,11 @@ def encode_recording(recording: Recording, buffers: Buffers) -> bytes:
 def build_recording(result: Result) -> tuple[Recording, Buffers]:
     """Return the recording of a result, which the page's `recordedTransport` plays, and its buffers."""
     # The mean, the draws, the interval widths and the number of beams through each cell.
-    draw_indices, draws, packed_draws = _pack_draws(result)
+    recorded, draw_indices, packed = _pack_draws(result)
     field, field_buffers = make_field(result, View("mean"), 1, 0.0)
     beam_cells = result.scene.problem.table.cells
     n_beams = np.bincount(beam_cells, minlength=result.document.grid.n_cells).astype(np.uint32)
-    buffers: dict[str, NDArray[Any] | bytes] = {"draws": packed_draws, **field_buffers, "beams": n_beams}
+    buffers: dict[str, NDArray[Any] | bytes] = {"draws": packed, **field_buffers, "beams": n_beams}
     if result.width is not None:
         buffers["width"] = to_levels(result.width)
     if not result.document.simulated:
@@ -110,27 +114,27 @@ def build_recording(result: Result) -> tuple[Recording, Buffers]:
     # The scans; long logs are thinned evenly.
     scan_indices = evenly_spaced_indices(len(result.scene.scans), MAX_BEAMS // len(result.scene.scans.angles_rad))
     recording = Recording(
-        document=result.document, field=structs.replace(field, draws=DrawCount(draws.chains, draws.count)),
-        ids=[result.scene.ids[i] for i in scan_indices], draws=draws,
+        document=result.document, draws=recorded, ids=[result.scene.ids[i] for i in scan_indices],
+        field=structs.replace(field, draws=DrawCount(recorded.chains, recorded.count)),
         log_joint=result.estimate.log_joint_of_draws()[:, draw_indices].tolist(),
     )  # fmt: skip
     return recording, {**buffers, **scan_buffers(result.scene, scan_indices)}
 
 
-def _pack_draws(result: Result) -> tuple[NDArray[np.intp], RecordedDraws, NDArray[Any]]:
-    """Return the indices of the recorded draws, their numbers, and the draws: packed walls, or maps in 255ths."""
+def _pack_draws(result: Result) -> tuple[RecordedDraws, NDArray[np.intp], NDArray[Any]]:
+    """Return the numbers of the recorded draws, their indices, and the draws: packed walls, or maps in 255ths."""
     draws = result.estimate.kept_draws
     if draws is None:
-        return np.zeros(0, dtype=np.intp), RecordedDraws(), np.zeros((0, 0, 0), dtype=np.uint8)
+        return RecordedDraws(), np.zeros(0, dtype=np.intp), np.zeros((0, 0, 0), dtype=np.uint8)
     bits = draws.specs[0].storage == "bits"
     draw_bytes = draws.chains * result.document.grid.n_cells // (8 if bits else 1)
     indices = evenly_spaced_indices(draws.count, min(MAX_DRAWS // draws.chains, MAX_DRAW_BYTES // max(1, draw_bytes)))
     if bits:
         packed = np.asarray(draws.arrays[draws.specs[0].name])[:, indices]
     else:
-        map_of, chains = result.prior.map_of, range(draws.chains)
-        packed = np.array([[to_levels(map_of(draws, c, int(d))).ravel() for d in indices] for c in chains])
-    return indices, RecordedDraws(draws.chains, len(indices), draws.count, bits), packed
+        map_of = result.prior.map_of
+        packed = np.array([[to_levels(map_of(draws, c, int(d))).ravel() for d in indices] for c in range(draws.chains)])
+    return RecordedDraws(draws.chains, len(indices), draws.count, bits), indices, packed
 
 
 def _describe_draws(draws: RecordedDraws) -> str:

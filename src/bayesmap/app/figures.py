@@ -1,7 +1,7 @@
 """What an author prepares for readers: stories, and figures, which are pages in one file without a server.
 
 A story is a series of steps that are shown beside the map. `read_story` reads it from the file that an author writes
-(docs/stories.md). A figure is a drawn world, perhaps with a story, that the page itself samples; `to_figure` checks
+(docs/stories.md). A figure is a drawn world, perhaps with a story, that the page itself samples; `figure_page` checks
 that the page can do so. `page_in_one_file` makes the page of a figure or of a recording (docs/app.md).
 """
 
@@ -26,9 +26,9 @@ from bayesmap.sim.drawing import from_text
 
 BUILT_IN_STORY = "tutorial"  # name of the story that is shipped in the package
 # Keys that a state may change: all fields of a document, and the walls as rows of text.
-KEYS = ("map", *(field.name for field in fields(Document)))
+STATE_KEYS = ("map", *(field.name for field in fields(Document)))
 Text = Annotated[str, Meta(min_length=1, max_length=1000)]
-TOOLS: tuple[Tool, ...] = ("draw", "erase", "sensor", "pan", "where")  # the tools of a figure
+FIGURE_TOOLS: tuple[Tool, ...] = ("draw", "erase", "sensor", "pan", "where")
 
 
 class Figure(Struct, frozen=True, kw_only=True):
@@ -54,15 +54,15 @@ def page_in_one_file(kind: Literal["recording", "figure"], data: bytes) -> str:
     return page.replace("__MODULE__", _compress(module))
 
 
-def to_figure(document: Document, story: Story | None = None) -> str:
+def figure_page(document: Document, story: Story | None = None) -> str:
     """Return a page in one file that samples a drawn world, and the steps of a story, without a server.
 
     Raises `Refused` for a file, uncertain poses or belief propagation in a document, or a step without its tool.
     """
     for number, step in enumerate(story.steps if story else (), start=1):
         try:
-            if step.tool not in TOOLS:
-                raise Refused(f"tool: a figure has no {step.tool}", f"there are: {', '.join(TOOLS)}")
+            if step.tool not in FIGURE_TOOLS:
+                raise Refused(f"tool: a figure has no {step.tool}", f"there are: {', '.join(FIGURE_TOOLS)}")
             for step_document in filter(None, (step.document, step.solution)):
                 _check_can_sample(step_document)
         except Refused as refused:
@@ -118,9 +118,13 @@ def read_story(path: str, document: Document) -> Story:
         written = convert(values, WrittenStory, "story")
         start = _change_document(document, written.start, "start")
         return Story(written.title, [_read_step(step, i, start) for i, step in enumerate(written.steps, start=1)])
-    except (OSError, ValueError, RecursionError) as error:
-        reason = error.strerror if isinstance(error, OSError) else error if isinstance(error, BadInput) else "not JSON"
-        raise BadInput(f"{path}: {reason}; docs/stories.md describes the format") from None
+    except OSError as error:
+        reason = str(error.strerror)
+    except BadInput as error:
+        reason = str(error)
+    except (ValueError, RecursionError):
+        reason = "not JSON"
+    raise BadInput(f"{path}: {reason}; docs/stories.md describes the format")
 
 
 def _read_step(values: Mapping[str, Any], number: int, start: Document) -> Step:
@@ -138,9 +142,9 @@ def _read_step(values: Mapping[str, Any], number: int, start: Document) -> Step:
 def _change_document(document: Document, changes: Mapping[str, Any], place: str) -> Document:
     """Return a document with an author's changes. Raises `Refused`, with the place, if a change is invalid."""
     try:
-        unknown = sorted(changes.keys() - set(KEYS))
+        unknown = sorted(changes.keys() - set(STATE_KEYS))
         if unknown:
-            raise Refused(f"there is no {unknown[0]}", f"there are: {', '.join(KEYS)}")
+            raise Refused(f"there is no {unknown[0]}", f"there are: {', '.join(STATE_KEYS)}")
         values = {**document.to_json(), **changes}
         if "map" in values:
             # The first line of a drawn map is its top; the arrays of a map begin at the lower left, [x, y].

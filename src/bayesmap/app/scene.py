@@ -131,13 +131,12 @@ def scan_message(scene: Scene, scan: int | None, generation: int) -> tuple[Scan,
 
 def scan_buffers(scene: Scene, rows: NDArray[np.intp]) -> Buffers:
     """Return the buffers of the scans in these rows, as the message `Scan` lists them."""
-    scans, exact_m = scene.scans, scene.exact_m
+    scans = scene.scans
+    exact_m = scene.exact_m[rows] if len(scene.exact_m) else scene.exact_m
     # If scans differ in their beam angles, angles have one row per scan.
     angles = scans.angles_rad if scans.own_angles_rad is None else scans.angles_by_scan()[rows]
     return {
-        "pose": scans.poses[rows],
-        "angles": angles.astype(np.float32),
-        "ranges": scans.ranges_m[rows].astype(np.float32),
-        "exact": (exact_m[rows] if len(exact_m) else exact_m).astype(np.float32),
+        "pose": scans.poses[rows], "angles": angles.astype(np.float32),
+        "ranges": scans.ranges_m[rows].astype(np.float32), "exact": exact_m.astype(np.float32),
         "hit": hit_mask(scene)[rows].astype(np.uint8),
-    }
+    }  # fmt: skip

@@ -42,16 +42,12 @@ HEADERS = {
         "default-src 'none'; script-src {scripts}; style-src 'self' 'unsafe-inline'; connect-src 'self'{sockets}; "
         "img-src 'self' data: blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
     ),
-    "Referrer-Policy": "no-referrer",
-    "X-Content-Type-Options": "nosniff",
-    "Cross-Origin-Opener-Policy": "same-origin",
-    "Cross-Origin-Resource-Policy": "same-origin",
-    "Cache-Control": "no-store",
-}
+    "Referrer-Policy": "no-referrer", "X-Content-Type-Options": "nosniff", "Cross-Origin-Opener-Policy": "same-origin",
+    "Cross-Origin-Resource-Policy": "same-origin", "Cache-Control": "no-store",
+}  # fmt: skip
 POLICY_VIOLATION = 1008  # code with which a WebSocket is closed (RFC 6455)
 
-# The script of this page tries the token that the browser kept from an earlier visit, once. The policy lets only this
-# script run, by its hash.
+# The script of this page tries once the token that the browser kept. The policy lets only it run, by its hash.
 WRONG_TOKEN_PAGE = read_static("wrong_token.html")
 TOKEN_SCRIPT = WRONG_TOKEN_PAGE.partition("<script>")[2].partition("</script>")[0]
 SCRIPT_HASH = "sha256-" + base64.b64encode(hashlib.sha256(TOKEN_SCRIPT.encode()).digest()).decode()
@@ -61,7 +57,10 @@ class Guard:
     """Middleware that refuses requests without the token, with an unknown Host, or with a foreign Origin."""
 
     def __init__(self, app: ASGIApp, token: str, host: str, port: int) -> None:
-        self.app, self.token, self.host, self.port = app, token.encode(), host, port
+        self.app = app
+        self.token = token.encode()
+        self.host = host
+        self.port = port
         self.any_address = host in ("0.0.0.0", "::", "")  # whether the server listens on all addresses
         names = ["127.0.0.1", "localhost", "[::1]", f"[{host}]" if ":" in host else host]
         if self.any_address:
@@ -271,7 +270,9 @@ async def _serve(
     make_server: Callable[[uvicorn.Config, Callable[[], None]], uvicorn.Server] = _Server,
 ) -> None:  # fmt: skip
     """Serve a hub, and announce the page's address when requests are accepted and a picture is there."""
-    port, token, hub = listener.getsockname()[1], secrets.token_urlsafe(24), make_hub()
+    port = listener.getsockname()[1]
+    token = secrets.token_urlsafe(24)
+    hub = make_hub()
     name = f"[{host}]" if ":" in host else host
     name = {"0.0.0.0": "127.0.0.1", "[::]": "[::1]"}.get(name, name)  # a browser cannot open "all addresses"
     try:

@@ -13,7 +13,7 @@ from typing import Literal, get_args
 import msgspec
 
 from bayesmap.app.edits import ActionOfPage, History, Pace, adopt_document, edit_document, gesture_of
-from bayesmap.app.figures import to_figure
+from bayesmap.app.figures import figure_page
 from bayesmap.app.protocol import actions, notices, tasks
 from bayesmap.app.protocol.document import VERSION, Document, Refused, encode_json
 from bayesmap.app.protocol.wire import parse_document
@@ -147,7 +147,7 @@ class Session:
                 return [ToPage(notices.Download("document.json", "application/json"), {"data": data}, client)]
             case actions.Export(what="figure"):
                 download = notices.Download("figure.html", "text/html", "which samples by itself")
-                return [ToPage(download, {"data": to_figure(self.document, self._story).encode()}, client)]
+                return [ToPage(download, {"data": figure_page(self.document, self._story).encode()}, client)]
             case actions.Export():
                 return [tasks.Ask(client, action), *self._state_for_all()]
             case _:
@@ -166,8 +166,7 @@ class Session:
             coarse = action.coarse and self.document.source.kind == "log"
             if "scans_used" in actions.changed_settings(action.patch):
                 self.scan = (self.document.scans_used or self.document.source.scans) - 1
-        coarse_ends = self._mode == "coarse" and not coarse
-        if self.document is before and not coarse_ends:
+        if self.document is before and (coarse or self._mode != "coarse"):
             return [*effects, *self._state_for_all()]
         return effects + self._restart("coarse" if coarse else None)
 

@@ -17,7 +17,7 @@ from bayesmap.app.protocol.document import MAX_FILE_SIDE, MAX_LOG_SIDE, METHODS,
 from bayesmap.app.protocol.wire import parse_simulation
 from bayesmap.app.scene import Scene, scene_of_file
 from bayesmap.app.shown.hit_maps import HitCountMap, HitCounts, stop_probabilities
-from bayesmap.app.shown.result import DrawnMap, Estimate, Floats, Progress, Result, judge_chains, rhat_and_ess
+from bayesmap.app.shown.result import DrawnMap, Estimate, Progress, Result, judge_chains, rhat_and_ess
 from bayesmap.beams.table import BeamTable
 from bayesmap.cells.arrays import Draws
 from bayesmap.cells.binary import Independent
@@ -27,6 +27,7 @@ from bayesmap.errors import BadInput
 from bayesmap.result import Run, load
 from bayesmap.sensors.model import Gaussian, SensorModel
 from bayesmap.space.grid import Grid, bounds_m
+from bayesmap.space.planar import Floats
 from bayesmap.space.scans import Scans
 
 LOG_RESOLUTION_M = 0.1  # cell size with which a log is opened

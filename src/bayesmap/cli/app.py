@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 @click.option("--port", type=click.IntRange(0, 65535), default=0, help="Port to listen on. [default: any free one]")
 @click.option("--no-browser", is_flag=True, help="Only print the address.")
 @click.option("--export", metavar="FILE.html", help="Write a page that samples by itself, and start no server.")
-@click.option("--story", metavar="FILE.json", help="Tell a story beside the map; 'tutorial' is ours.")
+@click.option("--story", metavar="FILE.json", help="Tell a story beside the map; 'tutorial' comes with bayesmap.")
 @click.option("--seed", type=click.IntRange(0, 2**31 - 1), default=0, show_default=True, help="Seed of random numbers.")
 def app(
     call: Call[LogSettings], file: str | None, host: str, port: int, no_browser: bool, export: str | None,
@@ -63,26 +63,26 @@ def app(
     from bayesmap.app.server import serve
     from bayesmap.app.sources import read_document
 
-    # Read what the page shows. A run or a log stays in ``file``, which the server opens.
-    document = tutorial_document(seed)
-    if file is not None and file.endswith(".json"):
-        document, file = read_document(file), None
-    told_story = None
+    # Read what the page shows. The server opens a run or a log.
+    is_document = file is not None and file.endswith(".json")
+    document_file, opened_file = (file, None) if is_document else (None, file)
+    document = tutorial_document(seed) if document_file is None else read_document(document_file)
+    told = None
     if story is not None:
-        if file is not None:
-            raise BadInput(f"--story: a story has its own maps, and {file} is a file; leave one of the two out")
-        told_story = read_story(story, document)
-        document = told_story.steps[0].document
+        if opened_file is not None:
+            raise BadInput(f"--story: a story has its own maps, and {opened_file} is a file; leave one of the two out")
+        told = read_story(story, document)
+        document = told.steps[0].document
 
     if export is not None:
-        if file is not None:
+        if opened_file is not None:
             remedy = "open it with bayesmap app, and choose Export there, which writes a page with its draws"
-            raise BadInput(f"--export: {file} is no drawn world; {remedy}")
-        _export_page(call, document, told_story, export)
+            raise BadInput(f"--export: {opened_file} is no drawn world; {remedy}")
+        _export_page(call, document, told, export)
         return
 
     # Serve the page until Ctrl-C.
-    call.console.say("starting the worker ..." if file is None else f"opening {file} ...")
+    call.console.say("starting the worker ..." if opened_file is None else f"opening {opened_file} ...")
 
     def show_address(address: str) -> None:
         if call.console.as_json:
@@ -95,14 +95,14 @@ def app(
 
             webbrowser.open(address)
 
-    serve(document, path=file, log_options=log_options, story=told_story, host=host, port=port, on_ready=show_address)
+    serve(document, path=opened_file, log_options=log_options, story=told, host=host, port=port, on_ready=show_address)
 
 
 def _export_page(call: Call[LogSettings], document: Document, story: Story | None, file: str) -> None:
     """Write a page that samples in the reader's browser, and needs no server."""
-    from bayesmap.app.figures import to_figure
+    from bayesmap.app.figures import figure_page
 
     target, _ = check_ending(file, ("html",), "--export")
-    page = to_figure(document, story).encode()
+    page = figure_page(document, story).encode()
     write_file(target, page)
     call.console.result({"path": str(target), "bytes": len(page)}, [target])

@@ -97,14 +97,15 @@ def _take_call(context: click.Context, section: str | None, arguments: dict[str,
         value = arguments.pop(key.name)
         if context.get_parameter_source(key.name) is ParameterSource.COMMANDLINE:
             flags[key.name] = convert_value(key, value)
-    config, pairs = arguments.pop("config"), arguments.pop("pairs")
-    quiet, verbose = arguments.pop("quiet"), arguments.pop("verbose")
-    context.meta[VERBOSE] = verbose
-    as_json, bar = arguments.pop("as_json"), not arguments.pop("no_progress")
-    console = Console(quiet=quiet, verbose=verbose, as_json=as_json, bar=bar)
+    context.meta[VERBOSE] = arguments["verbose"]
+    console = Console(
+        quiet=arguments.pop("quiet"), verbose=arguments.pop("verbose"), as_json=arguments.pop("as_json"),
+        bar=not arguments.pop("no_progress"),
+    )  # fmt: skip
+    config = arguments.pop("config")
     file_layer = read_file(config) if config is not None else {}
     flag_layer = {section: flags} if section is not None else {}
-    return Call[Any](console, section or "", (file_layer, read_pairs(pairs, section), flag_layer))
+    return Call[Any](console, section or "", (file_layer, read_pairs(arguments.pop("pairs"), section), flag_layer))
 
 
 def _option(key: Key) -> click.Option:

@@ -64,7 +64,7 @@ class Console:
 
     @property
     def draws_bar(self) -> bool:
-        """Return whether to draw a progress bar: the user allows it, and standard error is a terminal."""
+        """Whether to draw a progress bar: the user allows it, and standard error is a terminal."""
         return self.bar and not self.quiet and sys.stderr.isatty() and os.environ.get("TERM") != "dumb"
 
 
@@ -125,7 +125,7 @@ def complain(text: str) -> None:
         click.echo(text, err=True)
 
 
-STAGES = {
+STAGES = {  # names of the stages of a run for the user, and the unit that is counted in each
     "compile": ("compiling kernels, once", "kernels"), "trace": ("tracing beams", "beams"),
     "start": ("setting up chains", "parts"), "fit": ("fitting the sensor", "sweeps"),
     "propagate": ("belief propagation", "rounds"), "front end": ("matching scans", "scans"),
@@ -135,7 +135,6 @@ STAGES = {
     "warm-up": ("warm-up", "sweeps"), "draws": ("drawing", "sweeps"), "particles": ("importance sampling", "particles"),
     "save": ("saving", "%"), "score": ("scoring held-out beams", "draws"),
 }  # fmt: skip
-"""Names of the stages of a run for the user, and the unit that is counted in each."""
 
 SAMPLING = ("warm-up", "draws")  # stages that count sweeps of the chains
 SETTING_UP = ("compile", "trace", "start", "fit")  # stages in which a run has not changed its folder yet

@@ -42,32 +42,28 @@ def plan(call: Call[PlanSettings], run_file: str, start: str, goal: str, output:
     It warns first if the chains of the run have not converged.
     """
     settings = call.settings()
-    start_m, goal_m = numbers_of(start, "--from", "X,Y", (2,)), numbers_of(goal, "--to", "X,Y", (2,))
+    start_m = numbers_of(start, "--from", "X,Y", (2,))
+    goal_m = numbers_of(goal, "--to", "X,Y", (2,))
     run, target = _load_run(call, run_file, output, "plan.png", force=force)
+    # These modules import SciPy and Matplotlib: a wrong argument is reported without waiting for them.
     from bayesmap.posterior.decisions import shortest_safe_path
-
-    with share_bar(call.console, "looking at draws of the map") as report:
-        route = shortest_safe_path(run.posterior, start_m, goal_m, settings.radius, settings.risk, report)
     from bayesmap.viz.figure import write_figure
     from bayesmap.viz.overlays import route_figure
 
+    with share_bar(call.console, "looking at draws of the map") as report:
+        route = shortest_safe_path(run.posterior, start_m, goal_m, settings.radius, settings.risk, report)
     picture = route_figure(
         run.grid, run.occupancy, run.observed, route.path, settings.radius,
         title=_route_sentence(route), label=run.posterior.prior.words.mean,
     )  # fmt: skip
     write_figure(picture, target)
     if not route.within_risk:
-        least_risk = digits_beside(1 - route.free.probability, settings.risk)
+        least_risk = distinguishable(1 - route.free.probability, settings.risk)
         finding = f"no path was found whose risk is {settings.risk:g} or less; the safest has a risk of {least_risk}"
         call.console.warn(f"{finding}: accept it with --risk, give a smaller --radius, or map more of the way")
-    if call.console.as_json:
-        document = {
-            **_route_document(route, settings), "run": run_file, "problems": run.summary().problems(),
-            "outputs": {target.name: str(target)},
-        }  # fmt: skip
-        call.console.result(document, [])
-        return
-    write_lines([*(f"{x:.3f},{y:.3f}" for x, y in route.path), _route_sentence(route), target])
+    lines = [*(f"{x:.3f},{y:.3f}" for x, y in route.path), _route_sentence(route)]
+    document = {**_route_document(route, settings), "run": run_file, "problems": run.summary().problems()}
+    _print_result(call, document, lines, target)
 
 
 def _load_run(call: Call[Any], run_file: str, output: str | None, default: str, *, force: bool) -> tuple[Run, Path]:
@@ -90,6 +86,14 @@ def _load_run(call: Call[Any], run_file: str, output: str | None, default: str, 
     return run, target
 
 
+def _print_result(call: Call[Any], document: dict[str, Any], lines: list[str], target: Path) -> None:
+    """Print the lines and the picture's path, or with --json the document and the picture's path."""
+    if call.console.as_json:
+        call.console.result({**document, "outputs": {target.name: str(target)}}, [])
+    else:
+        write_lines([*lines, target])
+
+
 def _route_sentence(route: Route) -> str:
     """Return the length of a path and its probability of being free, in words."""
     free = route.free
@@ -97,13 +101,14 @@ def _route_sentence(route: Route) -> str:
     return f"{route.length_m:.2f} m, free with probability {probability}"
 
 
-def digits_beside(value: float, bound: float) -> str:
+def distinguishable(value: float, bound: float) -> str:
     """Return a number with 3 digits, or with as many as distinguish it from the printed bound."""
     texts = (f"{value:.{digits}g}" for digits in range(3, 18))
     return next((text for text in texts if float(text) != float(f"{bound:g}")), f"{value:.17g}")
 
 
 def _route_document(route: Route, settings: PlanSettings) -> dict[str, Any]:
+    """Return a path and its probabilities of being free as JSON values."""
     free = route.free
     return {
         "path": route.path.tolist(), "length_m": route.length_m, "radius_m": settings.radius, "risk": settings.risk,
@@ -131,29 +136,25 @@ def explore(call: Call[ExploreSettings], run_file: str, output: str | None, forc
     settings = call.settings()
     run, target = _load_run(call, run_file, output, "explore.png", force=force)
     from bayesmap.posterior.decisions import next_views
+    from bayesmap.viz.figure import write_figure
+    from bayesmap.viz.overlays import views_figure
 
     with share_bar(call.console, "comparing views") as report:
         views = next_views(
             run.posterior, settings.candidates, settings.views, settings.radius, draws=settings.draws,
             seed=settings.seed, on_progress=report,
         )  # fmt: skip
-    from bayesmap.viz.figure import write_figure
-    from bayesmap.viz.overlays import views_figure
-
     information = views.information
     picture = views_figure(
         run.grid, run.occupancy, run.observed, views.candidates, views.independent, views.best, information.at_most
     )
     write_figure(picture, target)
     best_views = _best_views_json(views)
-    if call.console.as_json:
-        document = {
-            "run": run_file, "problems": run.summary().problems(), "candidates": len(views.candidates),
-            "draws": information.draws, "views": best_views, "outputs": {target.name: str(target)},
-        }  # fmt: skip
-        call.console.result(document, [])
-        return
-    write_lines([*(_view_line(rank, view) for rank, view in enumerate(best_views, 1)), target])
+    document = {
+        "run": run_file, "problems": run.summary().problems(), "candidates": len(views.candidates),
+        "draws": information.draws, "views": best_views,
+    }  # fmt: skip
+    _print_result(call, document, [_view_line(rank, view) for rank, view in enumerate(best_views, 1)], target)
 
 
 def _best_views_json(views: Views) -> list[dict[str, Any]]:
@@ -172,6 +173,7 @@ def _best_views_json(views: Views) -> list[dict[str, Any]]:
 
 
 def _view_line(rank: int, view: dict[str, Any]) -> str:
+    """Return the pose of a view, and its information, in words."""
     x, y, yaw = view["pose"]
     information = f"at most {view['at_most_nats']:.0f} +- {view['at_most_error']:.0f} nats"
     return f"{rank}: x {x:.2f} m  y {y:.2f} m  yaw {math.degrees(yaw):.0f} degrees  {information}"

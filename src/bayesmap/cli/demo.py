@@ -20,11 +20,16 @@ from bayesmap.files import write_file
 if TYPE_CHECKING:
     from bayesmap.result import Run
 
-N_BEAMS = 100  # of the scan
+N_BEAMS = 100  # beams of the scan
 SIGMA_M = 0.2  # noise of the sensor
 MAX_RANGE_M = 42.0  # longer than the map's diagonal, so that every beam meets a wall
 FILM_SWEEPS = 80  # sweeps in the film of a chain, one frame each
 MIN_EFFECTIVE_SAMPLE_SIZE = 10.0  # below, importance sampling is reported as collapsed
+P_WALL = {"gibbs": 0.5, "block": 0.05, "importance": 0.5, "film": 0.5}  # prior wall probability of each run
+TITLES = {  # of the compared methods
+    "gibbs": f"single-site Gibbs, prior {P_WALL['gibbs']}", "block": f"2 x 2 block Gibbs, prior {P_WALL['block']}",
+    "importance": f"importance sampling, prior {P_WALL['importance']}",
+}  # fmt: skip
 
 
 @command("demo")
@@ -67,7 +72,6 @@ def _infer_by_all_methods(console: Console, settings: DemoSettings) -> dict[str,
     from bayesmap.api import infer
     from bayesmap.arguments import Schedule, Where
     from bayesmap.cells.binary import Independent
-    from bayesmap.cells.kind import CellPrior
     from bayesmap.samplers.methods import Block, Gibbs, Importance, Method
     from bayesmap.sensors.model import Gaussian
     from bayesmap.sim.drawing import TUTORIAL_GRID, tutorial
@@ -75,26 +79,25 @@ def _infer_by_all_methods(console: Console, settings: DemoSettings) -> dict[str,
 
     # Simulate the scan.
     walls, pose = tutorial()
-    sensor, seed = Gaussian(SIGMA_M), settings.seed
+    sensor = Gaussian(SIGMA_M)
     angles_rad = np.arange(N_BEAMS) * 2 * np.pi / N_BEAMS
     console.detail(f"simulating {N_BEAMS} beams with noise of {SIGMA_M} m")
-    scans = simulate(walls, TUTORIAL_GRID, pose, angles_rad, sensor=sensor, max_range_m=MAX_RANGE_M, seed=seed)
-    # Choose prior, method and schedule of each run.
-    half, rare, where = Independent(0.5), Independent(0.05), Where(threads=settings.threads)
+    scans = simulate(walls, TUTORIAL_GRID, pose, angles_rad, sensor=sensor, max_range_m=MAX_RANGE_M, seed=settings.seed)
+    # Choose method and schedule of each run.
     long_schedule = Schedule(settings.chains, settings.warmup, settings.draws)
-    arguments: dict[str, tuple[CellPrior, Method, Schedule]] = {
-        "gibbs": (half, Gibbs(), long_schedule),
-        "block": (rare, Block(), long_schedule),
-        "importance": (half, Importance(settings.particles), Schedule(chains=1, draws=1000)),
-        "film": (half, Gibbs(), Schedule(chains=1, warmup=0, draws=FILM_SWEEPS)),
+    arguments: dict[str, tuple[Method, Schedule]] = {
+        "gibbs": (Gibbs(), long_schedule),
+        "block": (Block(), long_schedule),
+        "importance": (Importance(settings.particles), Schedule(chains=1, draws=1000)),
+        "film": (Gibbs(), Schedule(chains=1, warmup=0, draws=FILM_SWEEPS)),
     }
     # Run the methods one after the other; Ctrl-C ends the command, since it compares all runs.
     runs: dict[str, Run] = {}
-    for name, (prior, method, schedule) in arguments.items():
+    for name, (method, schedule) in arguments.items():
         with progress_bar(console, "compiling" if not runs else "tracing beams") as report:
             runs[name] = infer(
-                scans, TUTORIAL_GRID, prior=prior, sensor=sensor, method=method, schedule=schedule, seed=seed,
-                where=where, on_progress=report,
+                scans, TUTORIAL_GRID, prior=Independent(P_WALL[name]), sensor=sensor, method=method, schedule=schedule,
+                seed=settings.seed, where=Where(threads=settings.threads), on_progress=report,
             )  # fmt: skip
         if not runs[name].finished:
             raise KeyboardInterrupt
@@ -112,13 +115,9 @@ def _write_products(runs: dict[str, Run], folder: Path) -> list[Path]:
 
     walls, pose = tutorial()
     paths = []
-    for name, method, title in (
-        ("posterior.png", "gibbs", "single-site Gibbs, prior 0.5"),
-        ("posterior-block.png", "block", "2 x 2 block Gibbs, prior 0.05"),
-        ("posterior-importance.png", "importance", "importance sampling, prior 0.5"),
-    ):
-        paths.append(folder / name)
-        write_figure(runs[method].plot(truth=walls, title=title), paths[-1])
+    for name, title in TITLES.items():
+        paths.append(folder / ("posterior.png" if name == "gibbs" else f"posterior-{name}.png"))
+        write_figure(runs[name].plot(truth=walls, title=title), paths[-1])
     # The tutorial's axis ends at -10 000 nats, but nearly all weights of this scan are lower: extend the axis.
     weights = runs["importance"].log_weights
     low = min(-10_000.0, 10_000.0 * float(np.floor(np.quantile(weights, 0.01) / 10_000.0)))
@@ -142,12 +141,13 @@ def _short_document(run: Run) -> dict[str, Any]:
 
 def _print_report(console: Console, runs: dict[str, Run], folder: Path) -> None:
     """Print the speed and the convergence of each method, and where the files are."""
-    for name, title in (("gibbs", "single-site Gibbs, prior 0.5:  "), ("block", "2 x 2 block Gibbs, prior 0.05: ")):
-        summary, posterior = runs[name].summary(), runs[name].posterior
-        work = f"{posterior.draws.chains} chains of {posterior.sweep:,} sweeps"
+    for name in ("gibbs", "block"):
+        summary = runs[name].summary()
+        work = f"{runs[name].posterior.draws.chains} chains of {runs[name].posterior.sweep:,} sweeps"
         speed = f"{summary.microseconds_per_sweep:.0f} us a sweep"
-        console.say(f"{title} {work}, {speed}, R-hat of the log joint {summary.rhat_log_joint:.3f}")
-    weights, size = runs["importance"].log_weights, runs["importance"].summary().effective_sample_size
+        console.say(f"{TITLES[name] + ':':31} {work}, {speed}, R-hat of the log joint {summary.rhat_log_joint:.3f}")
+    n_particles = len(runs["importance"].log_weights)
+    size = runs["importance"].summary().effective_sample_size
     state = ": importance sampling has collapsed" if size < MIN_EFFECTIVE_SAMPLE_SIZE else ""
-    console.say(f"importance sampling:            {len(weights):,} particles, effective sample size {size:.1f}{state}")
+    console.say(f"importance sampling:            {n_particles:,} particles, effective sample size {size:.1f}{state}")
     console.say(f"pictures, the saved run and demo.json are in {folder}")

@@ -41,8 +41,7 @@ DERIVED = (
 class Folder:
     """The folder into which `infer` and `slam` write.
 
-    Until `begin`, only the file ``outdated`` may be written: it marks an older run that is to be replaced. The older
-    run stays until the first `save` of the new run.
+    Until `begin`, only the file ``outdated`` is written. It marks an older run, which the first `save` replaces.
     """
 
     path: Path  # the folder
@@ -172,12 +171,14 @@ class Folder:
 
 def run_document(run: Run) -> dict[str, Any]:
     """Return the JSON document of a run: its settings, result, timings, diagnostics and problems."""
-    posterior, summary, joint = run.posterior, run.summary(), run.log_joint
-    counts, diagnostics = posterior.counts, summary.as_json()
+    posterior = run.posterior
+    joint = run.log_joint
+    summary = run.summary()
+    diagnostics = summary.as_json()
     last, mean = (finite(joint[:, -1].mean()), finite(joint.mean())) if joint.size else (None, None)
     return {
         "version": __version__, "grid": grid_document(run.grid),
-        "scans": counts["scans"], "beams": counts["beams"], "incidences": counts["incidences"],
+        **{name: posterior.counts[name] for name in ("scans", "beams", "incidences")},
         "cells": posterior.kind, "states": posterior.prior.words.states, "fitted": posterior.settings.get("fitted"),
         **{name: posterior.settings[name] for name in SETTINGS},
         "draws": int(joint.shape[1]), "sweeps": posterior.sweep, "finished": run.finished,

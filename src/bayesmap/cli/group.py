@@ -18,7 +18,7 @@ from bayesmap.cli.console import BAD_INPUT, FAILURE, INTERRUPTED, VERBOSE, compl
 from bayesmap.errors import BadInput
 from bayesmap.version import __version__
 
-COMMANDS = {
+COMMANDS = {  # in the order of use; each is a function of this name, in the module of this name or in `MODULES`
     "demo": "The tutorial's map, end to end: scan, infer, pictures.",
     "simulate": "Draw the scans of a robot in a known world.",
     "info": "Say what is in a log, a recording or a saved run.",
@@ -33,7 +33,6 @@ COMMANDS = {
     "app": "Draw walls, drag the robot, watch the posterior live.",
     "config": "Print the effective settings as TOML.",
 }
-"""The commands in the order of use. Each is a function of this name, in the module of this name or in `MODULES`."""
 
 MODULES = {"plan": "decisions", "explore": "decisions", "export": "render", "config": "info"}  # others have their own
 

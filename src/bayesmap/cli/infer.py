@@ -113,13 +113,13 @@ class FleetLog:
 
     @property
     def checked_task(self) -> Task[InferSettings]:
-        """Return the task of a log whose settings were checked."""
+        """The task of a log whose settings were checked."""
         assert self.task is not None
         return self.task
 
     @property
     def problems(self) -> list[str]:
-        """Return the problems that the diagnostics report."""
+        """The problems that the diagnostics report."""
         return [] if self.document is None else list(self.document["problems"])
 
     def fail(self, error: Exception, console: Console) -> None:

@@ -16,7 +16,7 @@ import msgspec
 from bayesmap.cli.command import Call, as_toml, command
 from bayesmap.cli.console import BAD_INPUT, counted, write_lines, write_out
 from bayesmap.cli.folder import run_document, work_done
-from bayesmap.cli.keys import Settings, Value
+from bayesmap.cli.keys import Settings
 from bayesmap.cli.pipeline import cost_of_suggestion
 from bayesmap.cli.translation import LOG, need_file
 from bayesmap.errors import BadInput
@@ -119,11 +119,11 @@ def _lines(document: dict[str, Any]) -> list[str]:
 
 
 def _run_lines(run: dict[str, Any]) -> list[str]:
-    (nx, ny), resolution = run["grid"]["shape"], run["grid"]["resolution"]
+    nx, ny = run["grid"]["shape"]
     state = "finished" if run["finished"] else "not finished"
     draws = f", {counted(run['draws'], 'draw')} each" if run["sweeps"] else ""
     lines = [
-        f"grid: {nx} x {ny} cells of {resolution:g} m, {run['states']}",
+        f"grid: {nx} x {ny} cells of {run['grid']['resolution']:g} m, {run['states']}",
         f"method: {run['method']}, {work_done(run)}{draws}, {state}",
     ]
     fitted = run["fitted"] or {}
@@ -184,15 +184,10 @@ def config(call: Call[Settings]) -> None:
     """
     settings = call.all_settings()
     if call.console.as_json:
-        tables = {
-            section: {name: _as_json(value) for name, value in msgspec.structs.asdict(values).items()}
+        tables = {  # infinity is a text in JSON, which --set can read
+            section: {k: "inf" if value == math.inf else value for k, value in msgspec.structs.asdict(values).items()}
             for section, values in settings.items()
         }
         call.console.result({"settings": tables}, [])
     else:
         write_out(as_toml(settings))
-
-
-def _as_json(value: Value) -> Value:
-    """Return a value for JSON. Infinity becomes a text, which `--set` can read."""
-    return str(value) if isinstance(value, float) and not math.isfinite(value) else value

@@ -2,8 +2,7 @@
 
 Each command has a class of settings. A setting has a type, a rule for its value (`Rule`), a line of help (`Help`) and
 a default. Read the classes as tables; `keys_of` turns them into values of `Key`, and `convert_value` checks a value.
-The choices are repeated here because the modules that define them load NumPy and SciPy, which would slow ``--help``
-down. A test checks that both lists are equal.
+The choices are repeated here, as the modules that define them load SciPy, which slows ``--help``. A test compares them.
 """
 
 import math
@@ -270,12 +269,11 @@ class ExploreSettings(Settings, kw_only=True, frozen=True):
     seed: Seed = 0
 
 
-SECTIONS: Mapping[str, type[Settings]] = {
+SECTIONS: Mapping[str, type[Settings]] = {  # the tables of a configuration file: one per command
     "infer": InferSettings, "slam": SlamSettings, "simulate": SimulateSettings, "demo": DemoSettings,
     "render": RenderSettings, "export": ExportSettings, "score": ScoreSettings, "localize": LocalizeSettings,
     "app": LogSettings, "plan": PlanSettings, "explore": ExploreSettings,
 }
-"""The tables of a configuration file: one per command."""
 # fmt: on
 
 
@@ -293,12 +291,12 @@ class Key:
 
     @property
     def flag(self) -> str:
-        """Return the flag, such as ``--max-range``."""
+        """The flag, such as ``--max-range``."""
         return "--" + self.name.replace("_", "-")
 
     @property
     def expectation(self) -> str:
-        """Return the end of the error message "must be ..."."""
+        """The end of the error message "must be ..."."""
         if self.rule is not None:
             return self.rule.words
         if self.choices:

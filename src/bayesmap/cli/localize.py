@@ -84,7 +84,8 @@ def localize(
     if idle_s is not None and not follow:
         raise click.UsageError("--for says how long --follow waits: give both")
     target = None if output is None else _checked_path(output, force)
-    first_pose, corners = _initial_pose_of(prior), _corners_of(area)
+    first_pose = _initial_pose_of(prior)
+    corners = _corners_of(area)
     live = follow and can_follow(call.console, log)
     if not live:
         need_file(log, "the log whose scans are to be located", runs=False)
@@ -195,8 +196,8 @@ def _locate_scans(request: _Request, print_belief: Callable[[int, PoseBelief], b
     from bayesmap.localization.localize import localize
 
     call, path = request.call, request.log
-    max_range_m, options = request.map.max_range_m, log_options_of(call.settings())
-    log = describe_log(path, max_range_m=max_range_m, without_poses=request.independent, **options)
+    options = log_options_of(call.settings())
+    log = describe_log(path, max_range_m=request.map.max_range_m, without_poses=request.independent, **options)
     for note in log.notes:
         call.console.say(f"{path}: {note}")
     span, stamps_s, mount = _slice_of(request.span, len(log.scans)), log.scans.stamps_s, log.scans.mount
@@ -398,7 +399,8 @@ def live_scans_of(request: _Request, idle_s: float | None) -> Iterator[Scans]:
     """Return the scans of a live log, one at a time, until none arrives for ``idle_s``. Refuses settings of others."""
     from bayesmap.io.live import live_scans
 
-    console, log, settings = request.call.console, request.log, request.call.settings()
+    log = request.log
+    settings = request.call.settings()
     for name in NOT_LIVE:
         value = getattr(settings, name)
         if value is not None:
@@ -407,7 +409,7 @@ def live_scans_of(request: _Request, idle_s: float | None) -> Iterator[Scans]:
     scans = live_scans(
         log, max_range_m=request.map.live_max_range_m, no_return=settings.no_return, idle_s=idle_s,
         skip_bad_lines=settings.skip_bad_lines, laser=log_options_of(settings)["laser"],
-        on_skipped=lambda line, reason: console.say(f"{log}: line {line} left out: {reason}"),
+        on_skipped=lambda line, reason: request.call.console.say(f"{log}: line {line} left out: {reason}"),
         without_poses=request.independent,
     )  # fmt: skip
     return itertools.islice(_thin(scans, settings.thin_scans), span.start or 0, span.stop)

@@ -54,7 +54,7 @@ HEADINGS = ("map", "nats/beam", "50 %", "80 %", "95 %", "80 % width", "PIT", "Br
 @FORCE
 def score(
     call: Call[ScoreSettings], run_file: str, log: str | None, all_scans: bool, compare: bool, relations: str | None,
-    frame: str | None, exact: bool, picture: str | None, force: bool,
+    frame: Frame | None, exact: bool, picture: str | None, force: bool,
 ) -> None:  # fmt: skip
     r"""Score a saved run, or another program's map or trajectory, on held-out scans of LOG.
 
@@ -130,10 +130,11 @@ class Scores:
 
 
 def score_run(
-    call: Call[ScoreSettings], path: str, log: str | None, frame: str | None, *, all_scans: bool, compare: bool,
+    call: Call[ScoreSettings], path: str, log: str | None, frame: Frame | None, *, all_scans: bool, compare: bool,
     scores_poses: bool,
 ) -> Scores:  # fmt: skip
     """Score a saved run, and with ``compare`` classic maps, on the scans of a log that the run has not seen.
+
     Without a log it returns only the trajectory of ``frame``. If ``scores_poses``, held-out scans may be missing.
     """
     from bayesmap.io.exports import trajectory_of
@@ -141,7 +142,8 @@ def score_run(
     from bayesmap.posterior.prediction import predictor_of
     from bayesmap.result import load
 
-    run, settings = load(path), call.settings()
+    run = load(path)
+    settings = call.settings()
     mount = run.posterior.scans.mount if settings.laser is None else log_options_of(settings)["laser"]
     trajectory = trajectory_of(run, run.posterior.scans).of(frame, mount)
     if scores_poses and frame is None and mount is None:
@@ -160,24 +162,26 @@ def score_run(
         call.console.say(f"only the poses are scored, not the map: {error}")
         return Scores([], [], 0, trajectory)
     call.console.say(f"scoring {len(heldout):,} scans of {log} that the run has not seen")
-    rows = [_score(call, f"{run.posterior.kind} posterior", predictor_of(run.posterior), heldout)]
-    fits = _score_classic_maps(call, run.posterior.scans, run.grid, heldout, rows) if compare else []
-    return Scores(rows, fits, every, trajectory)
+    row = _score(call, f"{run.posterior.kind} posterior", predictor_of(run.posterior), heldout)
+    classic_rows, fits = _score_classic_maps(call, run.posterior.scans, run.grid, heldout) if compare else ([], [])
+    return Scores([row, *classic_rows], fits, every, trajectory)
 
 
-def score_others(call: Call[ScoreSettings], path: str, log: str | None, frame: str | None, *, compare: bool) -> Scores:
+def score_others(
+    call: Call[ScoreSettings], path: str, log: str | None, frame: Frame | None, *, compare: bool
+) -> Scores:
     """Score a map of another program, or a trajectory by a map inferred from it, on scans of ``log``."""
     from bayesmap.posterior.prediction import predictor_of
 
-    settings, words = call.settings(), None
+    settings = call.settings()
+    fit = None
     if is_map(path):
         if log is None:
             raise click.UsageError(f"give the LOG whose scans score {path}")
         split = split_log(log, settings, frame)
         call.console.say(f"scoring every {settings.holdout}-th scan of {log}: {len(split.heldout):,}")
         fit = fit_map(call, path, split)
-        rows, grid = [_score(call, fit.name, fit.predictor, split.heldout)], fit.predictor.grid
-        words = verdict(fit, rows[0][1], split)
+        name, predictor = fit.name, fit.predictor
     else:
         if log is not None:
             raise click.UsageError(f"{path}: neither a saved run (.nc) nor a map (.yaml)")
@@ -185,40 +189,40 @@ def score_others(call: Call[ScoreSettings], path: str, log: str | None, frame: s
             raise click.UsageError(f"{path}: a log by itself; give --trajectory, or the run or map to score on it")
         split = split_log(path, settings, frame)
         run = infer_map(call, split)
-        rows, grid = (
-            [_score(call, f"{run.posterior.kind} posterior", predictor_of(run.posterior), split.heldout)],
-            run.grid,
-        )
-    fits = _score_classic_maps(call, split.train, grid, split.heldout, rows) if compare else []
-    return Scores(rows, fits, settings.holdout, split.trajectory, words)
+        name, predictor = f"{run.posterior.kind} posterior", predictor_of(run.posterior)
+    row = _score(call, name, predictor, split.heldout)
+    words = None if fit is None else verdict(fit, row[1], split)
+    classic_rows, fits = _score_classic_maps(call, split.train, predictor.grid, split.heldout) if compare else ([], [])
+    return Scores([row, *classic_rows], fits, settings.holdout, split.trajectory, words)
 
 
 def _score(call: Call[ScoreSettings], name: str, predictor: Predictor, heldout: Scans) -> tuple[str, Score]:
     """Score a map's predictions. Returns a row of the table."""
     from bayesmap.posterior.scores import score_prediction
 
-    seed, device = call.settings().seed, call.settings().device
+    seed = call.settings().seed
     with share_bar(call.console, f"scoring {name}") as report:
-        return name, score_prediction(predictor, heldout, seed=seed, device=device, on_progress=report)
+        return name, score_prediction(predictor, heldout, seed=seed, device=call.settings().device, on_progress=report)
 
 
 def _score_classic_maps(
-    call: Call[ScoreSettings], train: Scans, grid: Grid, heldout: Scans, rows: list[tuple[str, Score]]
-) -> list[FittedBaseline]:
-    """Fit hit ratios and log-odds to the training scans, add a row for each, and return the fits."""
+    call: Call[ScoreSettings], train: Scans, grid: Grid, heldout: Scans
+) -> tuple[list[tuple[str, Score]], list[FittedBaseline]]:
+    """Fit hit ratios and log-odds to the training scans. Returns a row of the table and a fit of each."""
     from bayesmap.posterior.baselines import BASELINES, fit_baseline
     from bayesmap.posterior.heldout import make_folds
 
     with progress_bar(call.console, "tracing beams"):
         folds = make_folds(train, grid)
     fits = []
+    rows = []
     for baseline in BASELINES:
         call.console.say(f"fitting {baseline.name} to the scans that are not scored")
         with share_bar(call.console, f"fitting {baseline.name}") as report:
             fit = fit_baseline(baseline, train, grid, folds, report)
         fits.append(fit)
         rows.append(_score(call, fit.name, fit.predictor, heldout))
-    return fits
+    return rows, fits
 
 
 @dataclass(frozen=True, eq=False)
@@ -230,7 +234,7 @@ class SplitLog:
     trajectory: Trajectory
 
 
-def split_log(log: str, settings: ScoreSettings, frame: str | None) -> SplitLog:
+def split_log(log: str, settings: ScoreSettings, frame: Frame | None) -> SplitLog:
     """Read a log at its poses, or at those of ``settings.trajectory``, and split off every n-th scan."""
     need_file(log, "the log that the map was made from", runs=False)
     from bayesmap.io.logs import read_log
@@ -263,11 +267,12 @@ def verdict(fit: FittedBaseline, score: Score, split: SplitLog) -> str:
     from bayesmap.localization.known_map import log_anywhere, readings_anywhere
 
     # Gain per beam over a prediction without a map.
-    heldout, values = split.heldout, fit.values
-    law = readings_anywhere(split.train)
+    heldout = split.heldout
+    law = readings_anywhere(split.train)  # the density of a reading that is taken anywhere, without a map
     beams = max(1, int((~np.isnan(heldout.ranges_m)).sum()))
     gain = score.nats_per_beam - log_anywhere(law, heldout.ranges_m, split.train.max_range_m) / beams
     # Scatter about a wall at `VERDICT_M`, and beams that meet something else before it, in per cent.
+    values = fit.values
     scatter_m = values["scale_m"] + values["scale_per_m"] * VERDICT_M
     p_object = values["p_short"] * -math.expm1(-values["rate_short_per_m"] * VERDICT_M)
     strays = 100 * (values["p_random"] + (1 - values["p_random"]) * p_object)

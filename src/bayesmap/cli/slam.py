@@ -160,15 +160,15 @@ def _sample(task: Task[SlamSettings], scans: Scans, saved: Run | None, files: Tr
         if saved is None:
             # Save the settings before the first stage: they are needed to resume the finished stages.
             folder.begin(toml)
-        stages, every_s = folder.path / STAGES, settings.checkpoint_every
         run = slam(
             scans, resolution=settings.resolution, prior=translation.prior_of(settings),
             sensor=translation.sensor_for(settings, settings.resolution),
             fast=translation.fast_of(settings), no_odometry=settings.no_odometry,
             schedule=translation.schedule_of(settings), seed=settings.seed, hit_depth=settings.hit_depth,
-            where=Where(settings.threads, settings.device, any_size=settings.any_size),
-            checkpoints=Checkpoints(saved, on_checkpoint, every_s, stages, on_preview, files.write),
-            on_progress=on_progress,
+            where=Where(settings.threads, settings.device, any_size=settings.any_size), on_progress=on_progress,
+            checkpoints=Checkpoints(
+                saved, on_checkpoint, settings.checkpoint_every, folder.path / STAGES, on_preview, files.write
+            ),
         )  # fmt: skip
         if run.finished or run.posterior.sweep > 0:
             folder.begin(toml)  # a resumed run that had finished reports no sweep
@@ -216,8 +216,8 @@ class TrajectoryFiles:
         from bayesmap.viz.figure import write_figure
         from bayesmap.viz.trajectory import trajectory_figure
 
-        poses, covariances = trajectory.poses, trajectory.covariances()
-        figure = trajectory_figure(grid, occupancy, observed, poses, covariances, trajectory.flagged)
+        covariances = trajectory.covariances()
+        figure = trajectory_figure(grid, occupancy, observed, trajectory.poses, covariances, trajectory.flagged)
         write_figure(figure, self.folder.path / "trajectory.png")
 
     def _write(self, trajectory: InferredTrajectory) -> list[Path]:

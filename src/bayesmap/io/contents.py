@@ -19,13 +19,12 @@ from bayesmap.poses.log_checks import DOUBLED, TOO_SELDOM, look_like_odometry, s
 from bayesmap.space.scans import Scans
 from bayesmap.space.time_order import steps_m
 
-CONVERTERS = {
+CONVERTERS = {  # ROS packages that turn other messages into range scans, by type of message
     "sensor_msgs/msg/PointCloud2": "pointcloud_to_laserscan turns its sensor_msgs/msg/PointCloud2 into scans",
     "velodyne_msgs/msg/VelodyneScan": "velodyne_laserscan turns its velodyne_msgs/msg/VelodyneScan into scans",
     "sensor_msgs/msg/MultiEchoLaserScan": "laser_proc turns its sensor_msgs/msg/MultiEchoLaserScan into scans",
     "sensor_msgs/msg/Image": "depthimage_to_laserscan turns depth images of sensor_msgs/msg/Image into scans",
 }
-"""ROS packages that turn other messages into range scans, by type of message."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -32,11 +32,10 @@ if TYPE_CHECKING:
     from bayesmap.poses.trajectory import InferredTrajectory
 
 RECORDING_ENDINGS = tuple(ending for ending in writer.ENDINGS if ending != writer.FOLDER)
-FORMATS = {
+FORMATS = {  # formats with the endings that select them; a name without ending is an occupancy grid in a folder
     "map-server": (".yaml", ".yml"), "occupancy-grid": RECORDING_ENDINGS, "gridmap": (), "rerun": (".rrd",),
     "tum": (".tum",), "trajectory": (), "g2o": (".g2o",), "geotiff": (".tif", ".tiff"),
 }  # fmt: skip
-"""Formats with the endings that select them; a name without ending is an occupancy grid in a folder."""
 TRAJECTORIES = ("tum", "trajectory", "g2o")  # formats of trajectories
 THRESHOLDED = ("map-server", "occupancy-grid")  # formats in per cent, which take a mode and thresholds
 APPROXIMATION = "the Student-t approximation of all scans' poses"
@@ -207,9 +206,9 @@ def export_run(
     trajectory = trajectory_of(run, scans)
     if chosen == "rerun":
         return (write_rerun(path, layers_of(run), grid, observed, scans=scans, trajectory=trajectory),)
-    framed, edges = trajectory.of(frame, scans.mount), None
-    is_approximation = trajectory.relative is not None and run.trajectory is not None
-    if chosen == "g2o" and is_approximation:
+    framed = trajectory.of(frame, scans.mount)
+    edges = None
+    if chosen == "g2o" and trajectory.relative is not None and run.trajectory is not None:
         edges = slam_edges(run.trajectory)
         if framed.frame == "base":
             edges = edges.of_frame(inverse(np.asarray(scans.mount)))

@@ -1,8 +1,7 @@
 """Read the scans of a log that is still being written: CARMEN lines, or CSV with one row per scan.
 
-`bayesmap.read_log` looks at the whole log, which is not possible here. So `live_scans` yields scans in the order of the
-lines, from the first kind of laser message. Readings are no return from the given or stated number on, or above the
-largest range.
+`bayesmap.read_log` looks at the whole log. Here `live_scans` yields scans in the order of the lines, from the first
+kind of laser message. Readings are no return from the given or stated number on, or above the largest range.
 """
 
 import math
@@ -109,8 +108,8 @@ def _carmen_scans(lines: Iterable[tuple[int, bytes]], reject: Reject, options: L
         ranges, _ = decode(scan.readings_m[None], stated if options.no_return is None else options.no_return)
         ranges[ranges > limit_m] = np.inf
         mount = between(scan.robot_pose, scan.laser_pose) if options.laser is None else np.array(options.laser)
-        pose, stamps = scan.pose(options.laser)[None], np.array([scan.stamp_s])
-        yield Scans(pose, scan.fan.angles_rad(), ranges, limit_m, stamps_s=stamps, mount=mount)
+        pose = scan.pose(options.laser)[None]
+        yield Scans(pose, scan.fan.angles_rad(), ranges, limit_m, stamps_s=np.array([scan.stamp_s]), mount=mount)
 
 
 def _pieces(name: str, idle_s: float | None) -> Iterator[bytes]:

@@ -154,8 +154,7 @@ def decode(
 def _code_at_top(readings_m: NDArray[np.float64], views: "Views | None") -> tuple[float | None, float | None]:
     """Return the smallest code at the top, and a doubtful number (see `NoReturn`); None for each that is missing.
 
-    A number that is repeated from one place in one direction counts once: a robot that stands in front of a distant
-    wall, or turns on the spot, makes no code.
+    A number repeated from one place in one direction counts once: a robot that stands or turns there makes no code.
     """
     usable = np.isfinite(readings_m) & (readings_m > 0)
     if not usable.any():

@@ -325,14 +325,13 @@ def _blocks(chains: int, draws: int, size: int) -> Iterator[tuple[int, slice]]:
 
 VECTOR = ("pose_part",)
 MATRIX = ("pose_part", "other_pose_part")
-FIELDS: dict[str, tuple[str, ...]] = {
+FIELDS: dict[str, tuple[str, ...]] = {  # arrays of the trajectory itself, with their dimensions
     "poses": ("scan", *VECTOR), "stamps_s": ("scan",), "nearest_key": ("scan",), "own_covariance": ("scan", *MATRIX),
     "explained": ("scan",), "flagged": ("scan",), "order": ("scan",), "keys": ("key",), "breaks": ("break",),
     "leaps": ("leap",),
 }  # fmt: skip
-"""Arrays of the trajectory itself, with their dimensions."""
 
-PARTS: dict[str, dict[str, tuple[str, ...]]] = {
+PARTS: dict[str, dict[str, tuple[str, ...]]] = {  # arrays of the parts of a trajectory, saved as part_name
     "gaussian": {
         "poses": ("key", *VECTOR), "first": ("pair",), "second": ("pair",), "relative": ("pair", *VECTOR),
         "curvature": ("pair", *MATRIX), "force": ("pair", *VECTOR), "elsewhere": ("alternative", "key", *VECTOR),
@@ -351,7 +350,6 @@ PARTS: dict[str, dict[str, tuple[str, ...]]] = {
     },
     "calibration": {"angles_rad": ("beam",)},
 }  # fmt: skip
-"""Arrays of the trajectory's parts with their dimensions, saved as part_name."""
 
 
 def trajectory_arrays(trajectory: "InferredTrajectory") -> dict[str, tuple[tuple[str, ...], NDArray[Any]]]:

@@ -211,8 +211,7 @@ docs/surfaces.md, with a third of the incidences in endpoint cells."""
 REFLECTIVITIES = SamplerCost(26.0, 18.0, 8.0, 0.0, 75.0, 20.0)
 """Times: 0.6 of surfaces (72 ms for 118 ms a sweep of Intel, docs/lab/benchmarks.md). Bytes: docs/surfaces.md."""
 WALLS = SamplerCost(7.0, 7.0, 32.0, 0.0, 11.0, 8.0)
-"""Times: 28.7 ms a settled sweep of 6.5 M incidences (docs/lab/benchmarks.md), 7.6 ns in whole runs. Bytes:
-docs/beam-table.md."""
+"""Times: 28.7 ms a sweep of 6.5 M incidences (docs/lab/benchmarks.md), 7.6 ns in runs. Bytes: docs/beam-table.md."""
 BLOCKS = SamplerCost(None, None, 57.0, 0.0, 11.0, 8.0)  # bytes: docs/beam-table.md; times were not measured
 TABLE = SamplerCost(None, None, 40.0, 0.0, 32.0, 8.0)
 """Methods without chains: the beam table and the messages of belief propagation; times were not measured."""
@@ -255,9 +254,9 @@ class Sampling:
     def draw_bytes(self, size: ProblemSize) -> float:
         """Return the bytes of a draw of one chain."""
         counts = {"cell": size.cells if self.samples_poses else size.touched, "surface_cell": size.endpoints, "scan": 0}
-        packed_bytes, total = {"bits": 1 / 8, "half": 2.0}, 0.0
+        total = 0.0
         for spec in self.arrays:
-            item_bytes = packed_bytes.get(spec.storage, np.dtype(spec.dtype).itemsize)
+            item_bytes = {"bits": 1 / 8, "half": 2.0}.get(spec.storage, np.dtype(spec.dtype).itemsize)
             total += item_bytes * counts.get(spec.dims[0], size.cells)
         return total
 

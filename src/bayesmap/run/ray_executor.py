@@ -239,8 +239,7 @@ class _RayRun:
         has_started = group.sweep >= 0
         until = self.ends.after(group.sweep) if has_started else 0
         snapshot = group.snapshots[group.sweep] if has_started else None
-        reference = self.submit_segment(self.name, *self.shared, group.chain_ids, until, snapshot)
-        self.running[reference] = group
+        self.running[self.submit_segment(self.name, *self.shared, group.chain_ids, until, snapshot)] = group
 
     def _note(self, group: Group, segment: Chains) -> None:
         """Store the result of a task, and report the progress of all chains."""

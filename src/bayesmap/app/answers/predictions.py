@@ -71,13 +71,13 @@ class VirtualScanPredictor:
 
     def _predictor_of(self, result: Result, coarse: bool) -> tuple[ScanPredictor, int]:
         """Return the predictor of a result and its number of draws, at most `COARSE_DRAWS` if coarse."""
-        estimate, now_s = result.estimate, time.perf_counter()
+        estimate = result.estimate
         # Cache key: the result of a method without chains, or the chains themselves. A pilot is a new object after
         # every sweep, so its key is the scene. While chains run, the key stays, and only the predictor's age counts.
         key: object = result
         if estimate.sweep:
             key = result.scene if isinstance(estimate, Pilot) else estimate
-        stale = estimate.sweep != self._sweep and (estimate.done or now_s > self._stale_at_s)
+        stale = estimate.sweep != self._sweep and (estimate.done or time.perf_counter() > self._stale_at_s)
         if self._predictor is None or key is not self._key or stale:
             predictor, self._n_draws = predictor_of_result(result)
             limits = RangeLimits(result.scene.scans.min_range_m, result.scene.scans.max_range_m)
@@ -95,15 +95,18 @@ def predictor_of_result(result: Result) -> tuple[Predictor, int]:
 
     Raises `BadInput` if there is nothing to predict from, or the run's sensor model is not built in.
     """
-    scene, grid, draws, prior = result.scene, result.document.grid, result.estimate.available_draws, result.prior
+    scene = result.scene
+    grid = result.document.grid
+    draws = result.estimate.available_draws
     if isinstance(result.estimate, PriorMap):
         raise BadInput("there is nothing to predict from yet; run inference first")
     if draws is None:
         return Predictor(grid, fixed_maps(result.estimate.mean().reshape(1, -1)), scene.sensor, scene.hit_depth), 0
     sensor, hit_depth = result.sensor_and_depth
-    draw_bytes = grid.n_cells * (32 if prior.has_surfaces else 4)
+    draw_bytes = grid.n_cells * (32 if result.prior.has_surfaces else 4)
     thinned = draws.thinned(int(np.clip(MAX_DRAW_BYTES // draw_bytes, draws.chains, MAX_DRAWS)))
-    return Predictor(grid, partial(prior.predictive_stops, thinned), sensor, hit_depth, thinned.size), thinned.size
+    stops = partial(result.prior.predictive_stops, thinned)
+    return Predictor(grid, stops, sensor, hit_depth, thinned.size), thinned.size
 
 
 def nearest_scan(
@@ -175,7 +178,7 @@ def _surface_offset_of(
     row = int(np.searchsorted(surfaces.cells, rays.cells[int(np.argmax(np.where(has_surface, log_p, -np.inf)))]))
     start = rays.start_m[0] + predictor.grid.origin
     point = start + range_m * rays.direction[0]
-    mean, covariance = surfaces.means_m[row], surfaces.covariances_m2[row]
+    mean = surfaces.means_m[row]
     if np.hypot(*(point - mean)) > MAX_SURFACE_CELLS * predictor.grid.resolution:
         return None
-    return SurfaceOffset(**asdict(surface_offset(mean, covariance, point, start)))
+    return SurfaceOffset(**asdict(surface_offset(mean, surfaces.covariances_m2[row], point, start)))

@@ -26,10 +26,9 @@ from bayesmap.cells.binary import BinaryWalls
 from bayesmap.errors import BadInput
 from bayesmap.posterior.decisions import beam_information, shortest_safe_path, typical_sigma_m
 
-ANSWERED_BY: Mapping[type, Literal["path", "views", "ghost", "beam"]] = {
+ANSWERED_BY: Mapping[type, Literal["path", "views", "ghost", "beam"]] = {  # types of the answers, by type of question
     FindPath: "path", FindViews: "views", MoveGhost: "ghost", CompareBeam: "beam",
 }  # fmt: skip
-"""Questions about the posterior, and the types of the messages that answer them."""
 
 MAX_VIEWS = 400  # places in the map of expected information
 MAX_P_STOP = 0.3  # a sensor may stand in a cell whose probability of stopping a beam is below this
@@ -114,8 +113,7 @@ def _wall_facts(question: Inspect, result: Result, table: BeamTable) -> tuple[An
             facts = structs.replace(facts, prior_nats=prior_nats, log_odds=log_odds)
     buffers = strongest_beams(ratios, result.scene.scans.at(result.scan_poses))
     if estimate.kept_draws is not None:
-        trace = prior.traces(estimate.kept_draws, np.array([cell]))[:, :, 0]
-        buffers |= {"trace": trace.astype(np.uint8)}
+        buffers |= {"trace": prior.traces(estimate.kept_draws, np.array([cell]))[:, :, 0].astype(np.uint8)}
     return facts, buffers
 
 

@@ -18,6 +18,7 @@ Side = Annotated[int, Meta(ge=SIDE_RANGE[0], le=SIDE_RANGE[1])]
 Resolution = Annotated[float, Meta(ge=RESOLUTION_RANGE_M[0], le=RESOLUTION_RANGE_M[1], title="cell size (m)")]
 World = Literal["blank", "tutorial", "building"]
 Layer = Literal["mean", "draw", "entropy", "width"]
+FileKind = Literal["run", "map", "html", "figure", "document", "recording"]
 
 
 class Action(Struct, frozen=True, kw_only=True, tag_field="type"):
@@ -152,7 +153,7 @@ class ShowScan(Action, frozen=True, tag="scan"):
 class Export(Action, frozen=True, tag="export"):
     """Ask for a file of the result or the document; answered by `download`."""
 
-    what: Literal["run", "map", "html", "figure", "document", "recording"]  # kind of file
+    what: FileKind  # kind of file
 
 
 class Inspect(Action, frozen=True, tag="inspect"):

@@ -251,19 +251,19 @@ def empty_walls(grid: Grid) -> bytes:
 
 
 def bounds_of(hint: object) -> tuple[float, float] | None:
-    """Return the smallest and largest value of a type that is declared with limits; None for other types."""
+    """Return the smallest and largest value of a type whose one `Meta` has ``ge`` and ``le`` or ``lt``; else None."""
     if not hasattr(hint, "__metadata__"):
         return None
     (meta,) = hint.__metadata__
     return meta.ge, meta.lt - 1 if meta.le is None else meta.le
 
 
+# The smallest and largest value of every numeric setting.
 SETTING_BOUNDS: Mapping[str, tuple[float, float]] = {
     name: bounds
     for name, hint in get_type_hints(Settings, include_extras=True).items()
     if (bounds := bounds_of(hint)) is not None
 }
-"""The smallest and largest value of every numeric setting."""
 
 # The limits of a map's numbers, by their names in `bayesmap.app.protocol.notices.Limits`.
 MAP_BOUNDS: Mapping[str, tuple[float, float]] = {

@@ -1,7 +1,6 @@
 """Tasks that the session sends to the worker process, and the reports that the worker sends back.
 
-All are plain data, which are pickled for a pipe. `Task` lists the tasks. A `Report` carries a notice for pages or a
-`Signal` for the session.
+All are plain data, pickled for a pipe. `Task` lists the tasks. A `Report` carries a notice for pages or a `Signal`.
 """
 
 from collections.abc import Mapping

@@ -61,9 +61,8 @@ def read_seq(data: str | bytes | Mapping[str, Any]) -> int | None:
 def parse_document(value: object) -> Document:
     """Read a document.
 
-    A document that shows a file has no walls and no sensors, only the file's name, its grid and the settings that can
-    be changed. `bayesmap.app.edits.adopt_document` decides how it is used. Raises `Refused`, with the place of the
-    value, if a value is invalid.
+    A document that shows a file has only the file's name, its grid and the settings that can be changed; how it is used
+    is decided by `bayesmap.app.edits.adopt_document`. Raises `Refused`, with the place of the value, if one is invalid.
     """
     if not isinstance(value, Mapping):
         raise Refused("document: not an object", "send one as in docs/app.md")

@@ -2,8 +2,7 @@
 
 `RunningChains` advances the chains. `chains_of_walls` prepares chains of walls, which start from `first_maps_of` and
 `pose_starts`. `fit_by_pilot` prepares chains of reflectivities or surfaces. The pilot is a short chain that fits the
-sensor and the prior. Both are near their final values after a few sweeps. So the latter half of the pilot's draws is
-shown as a first estimate (docs/app.md).
+sensor and the prior. The latter half of its draws is shown as a first estimate (docs/app.md).
 """
 
 import math
@@ -20,7 +19,7 @@ from bayesmap.app.protocol.document import Document
 from bayesmap.app.protocol.notices import Verdict
 from bayesmap.app.scene import Scene
 from bayesmap.app.shown import result as results
-from bayesmap.app.shown.result import CHAINS, LIMITS, DrawnMap, Estimate, Floats, Progress, Result
+from bayesmap.app.shown.result import CHAINS, VERDICT_LIMITS, DrawnMap, Estimate, Progress, Result
 from bayesmap.app.shown.without_chains import Preview
 from bayesmap.cells.arrays import Draws
 from bayesmap.cells.kinds import BUILT_IN
@@ -38,6 +37,7 @@ from bayesmap.samplers.walls import Start, start_maps
 from bayesmap.samplers.with_poses import MovableSampler, PoseProblem, WithPoses
 from bayesmap.samplers.without_chains import Marginals
 from bayesmap.sensors.model import Gaussian
+from bayesmap.space.planar import Floats
 
 POSE_CHAINS = 16  # number of chains if poses are uncertain: a map fixes its sensors, so each stays near its start
 STEP_SECONDS = 0.015  # duration of one step of the chains. The worker reads its pipe between two steps.
@@ -192,19 +192,21 @@ class RunningChains(Estimate):
 
     def progress(self, ended: bool) -> Progress:
         """Return the sweeps done and the diagnostics, which may be of an earlier sweep while the chains run."""
-        burned, joint, now_s = self._checkpoints[0].sweep, self.log_joint(), time.perf_counter()
+        burned = self._checkpoints[0].sweep
+        joint = self.log_joint()
+        now_s = time.perf_counter()
         if now_s >= self._diagnose_at_s or (self.done and self._diagnosed_sweep < self.sweep):
             self._rhat, self._ess = results.rhat_and_ess(joint[:, burned:])
             self._diagnosed_sweep = self.sweep
             pause_s = (time.perf_counter() - now_s) / MAX_DIAGNOSIS_SHARE
             self._diagnose_at_s = math.inf if self.done else now_s + pause_s
-        misfit, sensor = None, self.model.sensor
-        if isinstance(sensor, Gaussian) and not self.model.poses.unknown:
+        misfit = None
+        if isinstance(self.model.sensor, Gaussian) and not self.model.poses.unknown:
             log_likelihood = self._log_likelihood[:, burned : self.sweep]
-            misfit = results.misfit_of(log_likelihood, sensor.sigma_m, self.model.scans.ranges_m.size)
+            misfit = results.misfit_of(log_likelihood, self.model.sensor.sigma_m, self.model.scans.ranges_m.size)
         verdict = results.judge_chains(
             self._rhat, self._ess, self.sweep, results.compare_means(self.means(), self.observed()),
-            ended=ended or self.done, mean=self.model.cells.words.mean, misfit=misfit,
+            ended=ended or self.done, quantity=self.model.cells.words.mean, misfit=misfit,
         )  # fmt: skip
         return Progress(
             self.sweep, self.total, self._ess, self._rhat, float(joint[:, -1].mean()) if joint.shape[1] else math.nan,
@@ -214,7 +216,7 @@ class RunningChains(Estimate):
     def _judge_shifts(self, verdict: Verdict | None) -> Verdict | None:
         """Judge chains at several shifts: chains at one shift must agree. Other verdicts are returned unchanged."""
         shifts, shift_of_chain = np.unique(self.shifts, axis=0, return_inverse=True)
-        if verdict is None or verdict.level != "bad" or len(shifts) < 2 or self.sweep < LIMITS.fewest_sweeps:
+        if verdict is None or verdict.level != "bad" or len(shifts) < 2 or self.sweep < VERDICT_LIMITS.fewest_sweeps:
             return verdict
         joint = self.log_joint()[:, self._checkpoints[0].sweep :]
         groups = [joint[shift_of_chain.ravel() == k] for k in range(len(shifts))]
@@ -224,7 +226,7 @@ class RunningChains(Estimate):
             f"gives them, and none moves from one to another. Blocks and more sweeps do not change that; another "
             f"sensor or surer poses leave fewer. At each shift R-hat is at most {max_rhat:.2f}"
         )
-        return Verdict("fair" if max_rhat <= LIMITS.rhat_limit else "bad", why)
+        return Verdict("fair" if max_rhat <= VERDICT_LIMITS.rhat_limit else "bad", why)
 
     def as_run(self, result: Result) -> Run:
         if self.kept_draws is None:
@@ -280,8 +282,7 @@ def pose_starts(document: Document, chains: int) -> NDArray[np.float64]:
 def chains_of_walls(scene: Scene, document: Document, first_maps: NDArray[np.bool_]) -> RunningChains:
     """Return chains of a document with walls that start from `first_maps`, one per chain, (chains, nx, ny).
 
-    Uncertain poses are sampled together with the walls, as in `bayesmap.infer(..., poses=UncertainPoses(...))` without
-    warm-up. They start from `pose_starts`.
+    Uncertain poses are sampled with the walls, as by `bayesmap.infer` without warm-up. They start from `pose_starts`.
     """
     walls = scene.problem
     model = scene.model(walls.prior)

@@ -30,8 +30,8 @@ from bayesmap.posterior.summary import CHANCE_SHARE, RHAT_LIMIT, bulk_ess, rhat
 from bayesmap.result import Run
 from bayesmap.run.chains import RANDOM_STREAMS
 from bayesmap.sensors.model import SensorModel, describe
+from bayesmap.space.planar import Floats
 
-Floats = NDArray[np.float64]
 CHAINS = 2  # number of chains with known poses, also in the saved run of a method without chains
 SAVED_DRAWS = 500  # independent draws per chain in the saved run of a method without chains
 INTERVAL_DRAWS = 60  # number of draws used for credible intervals
@@ -68,9 +68,9 @@ class VerdictLimits(Struct, frozen=True):
     chance_share: float = CHANCE_SHARE  # share of the cells in which means of chains may differ by more
 
 
-LIMITS = VerdictLimits()
+VERDICT_LIMITS = VerdictLimits()
 
-METHODS = {
+METHOD_WORDS = {
     "gibbs": "Gibbs sampling, cell by cell", "block": "Gibbs sampling, 2 x 2 blocks", "exact": "all maps enumerated",
     "propagate": "belief propagation", "importance": "importance sampling", "metropolis": "Metropolis sampling",
     "pilot": "Gibbs sampling, while the sensor is fitted", "none": "none yet: this is the prior",
@@ -201,9 +201,9 @@ class Estimate(ABC):
         from bayesmap.io.exports import known_cells
         from bayesmap.io.ros.maps import write_map
 
-        mean, prior = np.clip(self.mean(), 0.0, 1.0), result.prior
-        occupied, free = prior.thresholds or (None, None)
-        known = known_cells(prior, self.available_draws, mean, self.observed())
+        mean = np.clip(self.mean(), 0.0, 1.0)
+        occupied, free = result.prior.thresholds or (None, None)
+        known = known_cells(result.prior, self.available_draws, mean, self.observed())
         return list(write_map(target, mean, result.document.grid, known, occupied_thresh=occupied, free_thresh=free))
 
 
@@ -213,7 +213,7 @@ class Result:
 
     scene: Scene  # the readings
     document: Document  # the document
-    method: str  # name of the inference method, a key of `METHODS`
+    method: str  # name of the inference method, a key of `METHOD_WORDS`
     estimate: Estimate  # estimate of the method
     ended: bool = False  # whether chains were cancelled, and will not go on
 
@@ -265,7 +265,7 @@ class Result:
     @property
     def about(self) -> list[tuple[str, str]]:
         """The method, the prior, the sensor and the poses, in words."""
-        method = METHODS.get(self.method, self.method)
+        method = METHOD_WORDS.get(self.method, self.method)
         if self.method == "gibbs" and self.document.cells == "binary":
             method += f", {self.document.order} order"
         rows = [("Method", method)]
@@ -307,7 +307,9 @@ class FixedMap(Estimate):
     """A map that does not change any more: mean stop probabilities and observed cells, (nx, ny) each."""
 
     def __init__(self, mean: Floats, observed: NDArray[np.bool_], prior: CellPrior | None = None) -> None:
-        self._mean, self._observed, self._prior = mean, observed, prior
+        self._mean = mean
+        self._observed = observed
+        self._prior = prior
 
     @property
     def prior(self) -> CellPrior | None:
@@ -355,44 +357,45 @@ def compare_means(means: Floats, mask: NDArray[np.bool_]) -> Difference | None:
         return None
     ranges = np.where(mask, np.ptp(means, axis=0), 0.0)
     i, j = np.unravel_index(np.argmax(ranges), ranges.shape)
-    n_bad = int((ranges > LIMITS.bad_difference).sum())
+    n_bad = int((ranges > VERDICT_LIMITS.bad_difference).sum())
     return Difference(float(ranges[i, j]), (int(i), int(j)), n_bad, int(mask.sum()))
 
 
 def judge_chains(
-    rhat: float, ess: float, sweeps: int, difference: Difference | None, *, ended: bool = False, mean: str = "P(wall)",
-    misfit: float | None = None,
+    joint_rhat: float, ess: float, sweeps: int, difference: Difference | None, *, ended: bool = False,
+    quantity: str = "P(wall)", misfit: float | None = None,
 ) -> Verdict | None:  # fmt: skip
     """Return the verdict on chains, or None if it is too early.
 
     Chains that have ended (finished, cancelled or saved) get a verdict even after few sweeps. Means of few draws differ
     by chance, so then only the log joint is judged. As in the summary of a run, one cell in a hundred may differ.
-    ``mean`` names the quantity whose means are compared. ``misfit`` is the result of `misfit_of`.
+    ``joint_rhat`` and ``ess`` are of the log joint. Means of ``quantity`` are compared. ``misfit`` is from `misfit_of`.
     """
-    few = sweeps < LIMITS.fewest_sweeps
+    few = sweeps < VERDICT_LIMITS.fewest_sweeps
     if few and not ended:
         return None
-    if difference is not None and difference.n_bad > LIMITS.chance_share * difference.n_compared and not few:
-        (x, y), n_bad, n_compared = difference.cell, difference.n_bad, difference.n_compared
-        where = f"in {n_bad:,} of {n_compared:,} observed cells, most in cell ({x}, {y}), by {difference.largest:.2f}"
-        why = f"{mean} differs by over {LIMITS.bad_difference} between the chains {where}"
+    if difference is not None and difference.n_bad > VERDICT_LIMITS.chance_share * difference.n_compared and not few:
+        x, y = difference.cell
+        share = f"{difference.n_bad:,} of {difference.n_compared:,} observed cells"
+        where = f"in {share}, most in cell ({x}, {y}), by {difference.largest:.2f}"
+        why = f"{quantity} differs by over {VERDICT_LIMITS.bad_difference} between the chains {where}"
         return Verdict("bad", why, difference.cell)
-    if 0 < sweeps < LIMITS.fewest_diagnosed:
+    if 0 < sweeps < VERDICT_LIMITS.fewest_diagnosed:
         return Verdict("bad", f"{sweeps} {'sweep is' if sweeps == 1 else 'sweeps are'} too few to judge")
-    if rhat > LIMITS.rhat_limit:
-        return Verdict("bad", f"R-hat is {rhat:.2f}, over {LIMITS.rhat_limit}")
+    if joint_rhat > VERDICT_LIMITS.rhat_limit:
+        return Verdict("bad", f"R-hat is {joint_rhat:.2f}, over {VERDICT_LIMITS.rhat_limit}")
     if misfit is not None:
         why = f"the chains agree, but on maps that the readings contradict: they differ by {misfit:.3g} times the noise"
         return Verdict("bad", why)
-    if not (np.isfinite(rhat) and np.isfinite(ess)):
+    if not (np.isfinite(joint_rhat) and np.isfinite(ess)):
         why = "nothing varies: the log joint is the same in all draws of all chains"
         return Verdict("fair" if difference is None else "good", why)
-    if ess < LIMITS.bad_ess:
+    if ess < VERDICT_LIMITS.bad_ess:
         return Verdict("bad", f"only {ess:.0f} effective draws")
-    if rhat > LIMITS.good_rhat or ess < LIMITS.good_ess:
-        good = f"{LIMITS.good_rhat} and {LIMITS.good_ess:.0f} are good"
-        return Verdict("fair", f"R-hat {rhat:.3f} and {ess:.0f} effective draws; {good}")
-    return Verdict("good", f"R-hat {rhat:.3f}, {ess:.0f} effective draws")
+    if joint_rhat > VERDICT_LIMITS.good_rhat or ess < VERDICT_LIMITS.good_ess:
+        good = f"{VERDICT_LIMITS.good_rhat} and {VERDICT_LIMITS.good_ess:.0f} are good"
+        return Verdict("fair", f"R-hat {joint_rhat:.3f} and {ess:.0f} effective draws; {good}")
+    return Verdict("good", f"R-hat {joint_rhat:.3f}, {ess:.0f} effective draws")
 
 
 def misfit_of(log_likelihood: Floats, sigma_m: float, n_beams: int) -> float | None:
@@ -408,14 +411,14 @@ def misfit_of(log_likelihood: Floats, sigma_m: float, n_beams: int) -> float | N
     max_log_likelihood = -n_beams * math.log(sigma_m * math.sqrt(2 * math.pi))  # that of readings without differences
     chi_squared = 2 * (max_log_likelihood - float(log_likelihood.mean(axis=1).min()))
     variance = 2 / (9 * n_beams)  # variance of the cube root of a chi-squared variable over its mean
-    limit = n_beams * (1 - variance + LIMITS.misfit_sigmas * math.sqrt(variance)) ** 3
+    limit = n_beams * (1 - variance + VERDICT_LIMITS.misfit_sigmas * math.sqrt(variance)) ** 3
     return math.sqrt(chi_squared / n_beams) if chi_squared > limit else None
 
 
 def judge_particles(ess: float) -> Verdict:
     """Return the verdict on weighted particles by their effective sample size."""
-    if ess < LIMITS.bad_ess:
+    if ess < VERDICT_LIMITS.bad_ess:
         number = f"{ess:.1f}"
         subject = "one particle carries" if number == "1.0" else f"{number} particles carry"
         return Verdict("bad", f"{subject} all the weight")
-    return Verdict("good" if ess >= LIMITS.good_ess else "fair", f"{ess:.0f} effective particles")
+    return Verdict("good" if ess >= VERDICT_LIMITS.good_ess else "fair", f"{ess:.0f} effective particles")

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import special
 
-from bayesmap.app.shown.result import CHAINS, SAVED_DRAWS, Estimate, Floats, Progress, Result, judge_particles
+from bayesmap.app.shown.result import CHAINS, SAVED_DRAWS, Estimate, Progress, Result, judge_particles
 from bayesmap.beams.table import BeamTable
 from bayesmap.kernels.random import mix
 from bayesmap.kernels.walls.propagate import Beliefs
@@ -22,6 +22,7 @@ from bayesmap.samplers import without_chains as methods
 from bayesmap.samplers.sampler import Stream
 from bayesmap.samplers.wall_problem import WallProblem, log_odds
 from bayesmap.space.grid import Grid
+from bayesmap.space.planar import Floats
 
 TOLERANCE = 1e-3  # belief propagation has converged when no probability changes by more than this in a round
 THREADS_FROM_INCIDENCES = 200_000  # smaller tables use one thread, so that the page has the other cores for painting
@@ -67,8 +68,8 @@ class Preview(Estimate):
         """Do one more round of belief propagation."""
         began_s = time.perf_counter()
         self._beliefs.round(methods.DAMPING, self._threads)
-        before, p = self._p, special.expit(self._beliefs.log_odds())
-        self._p = np.where(self._fixed, before, p)
+        before = self._p
+        self._p = np.where(self._fixed, before, special.expit(self._beliefs.log_odds()))
         self.rounds += 1
         self._seconds += time.perf_counter() - began_s
         max_change = float(np.abs(self._p - before).max())

@@ -28,17 +28,15 @@ from bayesmap.io.ros.recording import Damaged, Message, Recording, Topic, messag
 
 ZSTD = b"\x28\xb5\x2f\xfd"
 COMPRESSION_MAGICS = {"zstd": ZSTD, "gzip": b"\x1f\x8b", "bzip2": b"BZh"}  # first bytes of compressed files
-UNPACKERS: dict[str, Callable[[Any], Any]] = {
+UNPACKERS: dict[str, Callable[[Any], Any]] = {  # functions that open compressed files for reading
     "zstd": lambda file: zstd().open(file, "rb"), "gzip": lambda file: gzip.GzipFile(fileobj=file),
     "bzip2": bz2.BZ2File,
 }  # fmt: skip
-"""Functions that open compressed files for reading."""
 CHUNK_BYTES = 1 << 16  # unpacked at a time
 MAGICS = {"rosbag1": raw.BAG_MAGIC, "rosbag2-sqlite3": raw.SQLITE_MAGIC, "mcap": raw.MCAP_MAGIC}  # first bytes of files
-RECORD_READERS: dict[str, Callable[[str | os.PathLike[str], raw.OnDamage], raw.Records]] = {
+RECORD_READERS: dict[str, Callable[[str | os.PathLike[str], raw.OnDamage], raw.Records]] = {  # by format
     "rosbag1": raw.bag_records, "rosbag2-sqlite3": raw.sqlite_records, "mcap": raw.mcap_records,
 }  # fmt: skip
-"""Functions that read the records of files one by one."""
 RECORD_BY_RECORD = ("rosbag1", "mcap")  # formats with undamaged files that rosbags refuses and these functions read
 ANY_BAG = b"#ROSBAG V"  # first bytes of bags of any version
 ENDINGS = tuple(name + packed for name in (".db3", ".mcap") for packed in ("", ".zstd", ".zst"))
@@ -59,8 +57,7 @@ def open_recording(path: str | os.PathLike[str], *, salvage: bool, types: Collec
     """Open a recording: a file of a format in `RECORD_READERS`, or a folder of rosbag2's.
 
     With ``salvage`` a damaged recording is read as far as possible, and a note describes the damage. Only damage to
-    messages of ``types`` counts. Raises `BadInput` for a recording that is damaged (without ``salvage``) or cannot be
-    read at all, and for a bag of another version.
+    messages of ``types`` counts. Raises `BadInput` for an unreadable or damaged recording, or a bag of another version.
     """
     name = os.fspath(path)
     start = b"" if Path(path).is_dir() else first_bytes(path, 16)

@@ -204,8 +204,8 @@ def _place_run(run: "ClockRun", messages: _Messages, account: LogAccount) -> _Pl
     remedy = "; choose another topic with --scan-topic"
     sign = account.beam_sign(axis_height(motion), f"the frame {messages.sensor!r}", remedy)
     first_ray_poses = planar_pose(motion) if source.posed else np.zeros((len(stamps_ns), 3))
-    notes, n_late = tuple(account.notes), account.reordered
-    return _PlacedRun(source, scans, stamps_ns, ray_times_ns, first_ray_poses, sign, n_late, notes)
+    notes = tuple(account.notes)
+    return _PlacedRun(source, scans, stamps_ns, ray_times_ns, first_ray_poses, sign, account.reordered, notes)
 
 
 def _sort_by_time(
@@ -412,8 +412,7 @@ def _cut(samples_by_key: Mapping[Any, Samples], resets_ns: list[int]) -> list[di
     runs: list[dict[Any, Samples]] = [{} for _ in range(len(resets_ns) + 1)]
     for key, samples in samples_by_key.items():
         is_constant = samples.is_constant()
-        spans = _Stream(samples.stamps_ns, samples.received_ns).cut(resets_ns)
-        for run, span in zip(runs, spans, strict=True):
+        for run, span in zip(runs, _Stream(samples.stamps_ns, samples.received_ns).cut(resets_ns), strict=True):
             piece = samples if is_constant else samples.select(span)
             if piece.poses:
                 run[key] = piece

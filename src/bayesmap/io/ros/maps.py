@@ -222,8 +222,7 @@ def from_map_image(
     The image is as for `from_image`, ``resolution`` the metres per pixel, and ``origin`` the world position in metres
     of the image's lower-left corner. With ``negate`` white is occupied and black is free. A pixel whose shade, from 0
     (white) to 1 (black), is above ``occupied_thresh`` is occupied, below ``free_thresh`` free, and unknown between: a
-    wall if ``unknown_is_wall``, else free. Raises `BadInput` as `from_image`, or for thresholds that are not 0 <=
-    free_thresh < occupied_thresh <= 1.
+    wall if ``unknown_is_wall``, else free. Raises `BadInput` as `from_image`, or for thresholds out of 0 to 1 or order.
     """
     _check_thresholds(occupied_thresh, free_thresh)
     shade = brightness(image)

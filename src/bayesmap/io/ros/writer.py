@@ -57,8 +57,7 @@ class Channel:
 
 def ending_of(path: str | os.PathLike[str]) -> str:
     """Return the ending of a path, one of `ENDINGS`; a path without ending is a folder. Raises `BadInput`."""
-    name = os.fspath(path)
-    if name.endswith(os.sep) or Path(path).is_dir():
+    if os.fspath(path).endswith(os.sep) or Path(path).is_dir():
         return FOLDER
     ending = Path(path).suffix.lower()
     if ending not in ENDINGS:
@@ -95,9 +94,9 @@ class Recorder:
 
     def pose(self, x_m: float, y_m: float, yaw_rad: float = 0.0) -> Any:
         """Return a geometry_msgs/Pose in the plane."""
-        qz, qw = math.sin(0.5 * yaw_rad), math.cos(0.5 * yaw_rad)
         position = self.make("geometry_msgs/msg/Point", x=x_m, y=y_m, z=0.0)
-        orientation = self.make("geometry_msgs/msg/Quaternion", x=0.0, y=0.0, z=qz, w=qw)
+        half = 0.5 * yaw_rad
+        orientation = self.make("geometry_msgs/msg/Quaternion", x=0.0, y=0.0, z=math.sin(half), w=math.cos(half))
         return self.make("geometry_msgs/msg/Pose", position=position, orientation=orientation)
 
     def transform(self, stamp_s: float, parent: str, child: str, pose: Sequence[float]) -> Any:
@@ -112,14 +111,14 @@ class Recorder:
 
     def write(self, *channels: Channel) -> Path:
         """Write topics, whole or not at all, and return the path. Raises `BadInput` if the path cannot be written."""
-        # The bag names its file after its folder, so it is made in a folder of the right name, and moved. Both folders
-        # are in one file system.
-        target, ending, is_folder = self.target, self.ending, self.ending == FOLDER
+        # The bag names its file after its folder: make it in a folder of that name, in one file system, and move it.
+        target = self.target
+        is_folder = self.ending == FOLDER
         whole = write_whole_folder(target, is_ros2_bag) if is_folder else write_whole(target)
         with whole as unfinished, TemporaryDirectory(prefix=".bayesmap-", dir=unfinished.parent) as scratch:
             bag = Path(scratch) / (target.name if is_folder else target.stem)
             self._write(bag, channels)
-            os.replace(bag if is_folder or self.is_ros1 else bag / (bag.name + ending), unfinished)
+            os.replace(bag if is_folder or self.is_ros1 else bag / (bag.name + self.ending), unfinished)
         return target
 
     def _write(self, path: Path, channels: Sequence[Channel]) -> None:
@@ -221,8 +220,7 @@ def _matrix(ros: Recorder, values: NDArray[np.float32]) -> Any:
     """Return a layer, (nx, ny), as grid_map stores it (Fankhauser and Hutter 2016, "A Universal Grid Map Library").
 
     Row 0, column 0 is the corner with the largest x and y; rows run towards -x, columns towards -y. A layer is a matrix
-    in Eigen's order, column by column. So cell (i, j) is at ``data[column * nx + row]`` with row nx - 1 - i and column
-    ny - 1 - j.
+    in Eigen's order, by columns. Cell (i, j) is at ``data[column * nx + row]``, row nx - 1 - i and column ny - 1 - j.
     """
     rows, columns = values.shape
     sizes = (("column_index", columns, rows * columns), ("row_index", rows, rows))

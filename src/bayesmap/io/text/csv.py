@@ -35,13 +35,12 @@ _BEAM = re.compile(r"r_(\d+)")  # column of a reading
 _ECHOED_BEAM = re.compile(r"(?:.*[./])?ranges[._\[]?(\d+)\]?")  # column of a reading in tables of messages
 _DECIMAL_COMMA = re.compile(rb"[-+]?\d+,\d+(?:[eE][-+]?\d+)?")
 
-ECHOED = {
+ECHOED = {  # columns of tables of LaserScan messages, with their names in this module
     "header.stamp": "stamp", "header.stamp.secs": "stamp", "header.stamp.sec": "stamp",
     "header.stamp.nsecs": NANOSECONDS, "header.stamp.nanosec": NANOSECONDS,
     "%time": RECEIVED, "time": RECEIVED,
     "angle_min": "angle_min", "angle_increment": "angle_increment", "range_min": "range_min", "range_max": "range_max",
 }  # fmt: skip
-"""Columns of tables of LaserScan messages, with their names in this module."""
 
 ROS2_FIELDS = ("stamp", NANOSECONDS, "", "angle_min", "", "angle_increment", "", "", "range_min", "range_max")
 """Fields of a LaserScan before its readings, by their names in this module; "" for fields that are not read."""

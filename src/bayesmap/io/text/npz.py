@@ -24,15 +24,16 @@ OPTIONAL = ("max_range_m", "min_range_m", "stamps_s", "beam_poses")
 def read_npz(path: str | os.PathLike[str], options: LogOptions) -> ScanLog:
     """Read scans from an .npz archive. Raises `BadInput` for an array that is missing or does not fit."""
     account = LogAccount(os.fspath(path), "npz", options)
-    name, arrays = account.name, _read_arrays(os.fspath(path))
+    name = account.name
+    arrays, all_names = _read_arrays(os.fspath(path))
     posed = "poses" in arrays
-    if not posed and options.without_poses and "ranges_m" in arrays:
-        arrays["poses"] = np.zeros((len(np.atleast_2d(arrays["ranges_m"])), 3))
-    if arrays.keys() >= {"angles_rad", "ranges_m"} and "poses" not in arrays:
+    missing = [key for key in NEEDED if key not in arrays and not (key == "poses" and options.without_poses)]
+    if missing == ["poses"]:
         raise account.no_poses_error("the archive has no 'poses'")
-    missing = [key for key in NEEDED if key not in arrays]
     if missing:
-        raise BadInput(f"{name}: the archive has no {missing[0]!r}; it has {', '.join(sorted(arrays)) or 'nothing'}")
+        raise BadInput(f"{name}: the archive has no {missing[0]!r}; it has {', '.join(all_names) or 'nothing'}")
+    if not posed:
+        arrays["poses"] = np.zeros((len(np.atleast_2d(arrays["ranges_m"])), 3))
     if options.laser is not None:
         for key in {"poses", "beam_poses"} & arrays.keys():
             arrays[key] = compose(arrays[key], np.array(options.laser))
@@ -43,16 +44,17 @@ def read_npz(path: str | os.PathLike[str], options: LogOptions) -> ScanLog:
             "scans", arrays["poses"], arrays["angles_rad"], _readings(account, arrays),
             beam_poses=arrays.get("beam_poses"), posed=posed,
         )  # fmt: skip
-    except BadInput as problem:
+    except BadInput as problem:  # errors of readings begin with the name already, errors of scans do not
         raise BadInput(f"{name}: {str(problem).removeprefix(f'{name}: ')}") from None
 
 
 def _readings(account: LogAccount, arrays: Arrays) -> Readings:
     """Return the readings with the sensor's limits in the archive. Raises `BadInput` if none is valid."""
-    name, code = account.name, account.options.no_return
-    ranges, no_return = np.atleast_2d(arrays["ranges_m"]), NoReturn(None, "none")
-    if code is not None:
-        ranges, no_return = decode(ranges, code)
+    name = account.name
+    ranges = np.atleast_2d(arrays["ranges_m"])
+    no_return = NoReturn(None, "none")
+    if account.options.no_return is not None:
+        ranges, no_return = decode(ranges, account.options.no_return)
     if not ranges.size or np.isnan(ranges).all():
         raise BadInput(f"{name}: none of {ranges.size:,} readings is valid")
     given_m = account.options.max_range_m
@@ -62,27 +64,25 @@ def _readings(account: LogAccount, arrays: Arrays) -> Readings:
     return Readings(ranges, no_return, min_range_m, max_range_m, origin, ())
 
 
-def _read_arrays(name: str) -> Arrays:
-    """Return all arrays of an archive; those that are used hold doubles. Raises `BadInput` for a damaged one."""
-    arrays: Arrays = {}
+def _read_arrays(name: str) -> tuple[Arrays, list[str]]:
+    """Return the arrays that are used, as doubles, and the names of all. Raises `BadInput` for a damaged archive."""
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # about old or odd headers: the arrays are checked below
             with Path(name).open("rb") as file, np.load(file, allow_pickle=False) as archive:
-                for key in archive.files:
-                    arrays[key] = np.asarray(archive[key])
+                names = sorted(archive.files)
+                arrays = {key: np.asarray(archive[key]) for key in (*NEEDED, *OPTIONAL) if key in names}
     except Exception as error:  # NumPy and zipfile raise many kinds of errors
         reason = " ".join(str(error).split()) or type(error).__name__
         raise BadInput(f"{name}: not a readable .npz archive; damaged or cut short? ({reason})") from None
-    for key in (*NEEDED, *OPTIONAL):
-        if key in arrays:
-            if arrays[key].dtype.kind not in "iuf":
-                raise BadInput(f"{name}: {key} holds {arrays[key].dtype}, not numbers")
-            arrays[key] = arrays[key].astype(np.float64)
-    return arrays
+    for key, array in arrays.items():
+        if array.dtype.kind not in "iuf":
+            raise BadInput(f"{name}: {key} holds {array.dtype}, not numbers")
+    return {key: array.astype(np.float64) for key, array in arrays.items()}, names
 
 
 def _number(name: str, arrays: Arrays, key: str) -> float:
+    """Return an array of one number as a number. Raises `BadInput` for another size."""
     if arrays[key].size != 1:
         raise BadInput(f"{name}: {key} has shape {arrays[key].shape}, expected one number")
     return float(arrays[key].reshape(()))
