@@ -77,8 +77,7 @@ def localize(
     else of the laser (--frame). Scans are numbered as in the log, from 0.
 
     A map of another program (map_server YAML) has no sensor law. The command first locates scans under a cautious
-    sensor law. It fits the final law to the scans located with certainty, and prints it. With --follow it keeps the
-    cautious law.
+    sensor law. It then fits the law to the scans located with certainty, and prints it (not with --follow).
     """
     # Check the arguments.
     if idle_s is not None and not follow:
@@ -300,7 +299,8 @@ def _belief_json(belief: PoseBelief, corners: list[float] | None) -> dict[str, A
 def _lines(posteriors: _Posteriors, corners: list[float] | None) -> list[str]:
     """Return the posterior of the last pose as lines of text: its likeliest modes, lost, and the area."""
     localization, last = posteriors.localization, posteriors.first + len(posteriors.beliefs) - 1
-    lines = [f"the {localization.frame} at {posteriors.describe(last, last)}:"]
+    if_found = ", if it is on the map" if localization.p_lost > 0.5 else ""
+    lines = [f"the {localization.frame} at {posteriors.describe(last, last)}{if_found}:"]
     for mode in localization.modes[:MAX_MODES]:
         (x, y, yaw), sd = mode.mean, [math.sqrt(variance) for variance in mode.covariance.diagonal()]
         position = f"x {x:.3f} +- {sd[0]:.3f} m  y {y:.3f} +- {sd[1]:.3f} m"

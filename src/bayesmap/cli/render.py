@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     Window = tuple[slice, slice]  # the cells of a part of the map
 
 WITHOUT_WINDOW = ("figure", "animation", "trace", "weights")  # pictures that always show the whole map
+DEFAULT_ENDINGS = {"trajectory": ".mcap", "gridmap": ".mcap"}  # by --format
 
 
 @command("render")
@@ -255,7 +256,7 @@ def export(call: Call[ExportSettings], run_file: str, output: str | None, force:
 
     settings = call.settings()
     chosen_format = None if settings.format == "auto" else settings.format
-    target = output or str(Path(run_file).with_name("export.yaml"))
+    target = output or str(Path(run_file).with_name(f"export{DEFAULT_ENDINGS.get(settings.format, '.yaml')}"))
     existing_file = path_to_replace(target, chosen_format)
     need_free([] if existing_file is None else [existing_file], force=force)
     if not Path(target).parent.is_dir():

@@ -52,10 +52,10 @@ def slam(call: Call[SlamSettings], log: str, output: str | None, resume: bool, f
     too, each chain from its own draw of the trajectory. Of more key scans, or with --fast, the trajectory counts as
     known, and the map is made from as many scans and beams as its cells need.
 
-    The command writes into DIR the saved run (run.nc), the trajectory of all scans (trajectory.tum, and its covariances
-    in a second file), the map for nav2 (map.yaml), pictures (posterior.png, trajectory.png, odometry.png, loops.png),
-    the JSON document (summary.json) and the settings (config.toml). Ctrl-C keeps finished stages and sweeps; --resume
-    continues from them. The trajectory and its pictures are written before the chains begin.
+    The command writes into DIR the saved run (run.nc), the trajectory of all scans (trajectory.tum; covariances in a
+    second file), the map for nav2 (map.yaml), pictures (posterior.png, surfaces.png, trajectory.png, odometry.png,
+    loops.png), summary.json, and the settings (config.toml). Ctrl-C keeps finished stages and sweeps; --resume
+    continues from them. The trajectory comes before the chains begin.
 
     \b
     bayesmap slam recording.bag -o runs/office
