@@ -55,7 +55,7 @@ def _loop_of_a_browser(request):
         asyncio._set_running_loop(loop)
 
 
-ENOUGH_BYTES = 1_000_000_000  # below it JAX keeps programs: files share half, compiling takes time
+ENOUGH_BYTES = 500_000_000  # below it JAX keeps programs: files share half, compiling takes time
 
 
 def resident_bytes():
