@@ -8,8 +8,6 @@ this cell". One more is for "no wall in these cells". With the position ``first_
 Memory: 8 bytes per beam-cell incidence, and 20 more in the index by cells that the Gibbs samplers use (`CellIndex`).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -20,8 +20,6 @@ The balance of c is the number of walls less the number of free cells among its 
 coupling, and its maximum is consistent as maps grow. Cells that the prior fixes count as neighbours only.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass

@@ -13,8 +13,6 @@ Labels of cells, free or solid, are an Ising field at p = 1/2 and select one of 
 hidden Markov random field: Geman and Geman, 1984; Besag, *On the statistical analysis of dirty pictures*, 1986).
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 from scipy import special

@@ -4,8 +4,6 @@ The defaults fit any building. The noise of a good laser is widened, because the
 unknown. They were chosen among a few round values by held-out score on a public office log (docs/lab/maps.md).
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from typing import Any

@@ -5,8 +5,6 @@ prior. Draws hold the cells that beams touch only: "reflectivity" is a drawn m, 
 draw's stops. Other cells follow the prior wherever a whole map is needed.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field

@@ -5,8 +5,6 @@ The class `Surface` is the prior of all cells. Its draws are in edges of a cell.
 let cells stop beams, are in metres: `bayesmap.kernels.surfaces.surface` computes how a surface stops a beam.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass

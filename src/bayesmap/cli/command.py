@@ -5,8 +5,6 @@ Settings come in layers. Later layers override earlier ones: defaults, a resumed
 then the layers: `read_file`, `read_pairs`, `merge_layers`.
 """
 
-from __future__ import annotations
-
 import difflib
 import inspect
 import itertools
