@@ -23,7 +23,7 @@ from bayesmap.kernels import device
 from bayesmap.kernels.device import Float64s
 from bayesmap.kernels.random import mix
 from bayesmap.kernels.sensor_law import SensorLaw32, object_decay, sensor_law
-from bayesmap.kernels.surfaces.cell_draws import TRIES_EVERY
+from bayesmap.kernels.surfaces.cell_draws import CANDIDATE_EVERY
 from bayesmap.kernels.surfaces.square_counts import draw_stop_point_m
 from bayesmap.samplers.stop_problem import update_periods
 from bayesmap.sensors.model import RangeLimits
@@ -129,7 +129,7 @@ def turn_of(worlds, sweep):
     """Cells whose turn to try a candidate a sweep is."""
     every, cells = update_periods(worlds.problem.estimate).astype(int), worlds.problem.rays.touched
     length = np.maximum(every, 1)
-    return (every > 0) & (sweep % length == 0) & ((sweep // length + cells) % TRIES_EVERY == 0)
+    return (every > 0) & (sweep % length == 0) & ((sweep // length + cells) % CANDIDATE_EVERY == 0)
 
 
 @pytest.mark.parametrize("kind", PRIORS)
