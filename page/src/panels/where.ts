@@ -41,14 +41,14 @@ function words({ session }: Ui) {
 }
 
 function places(modes: Place[]) {
-  const [first] = modes;
+  const [first, second] = modes;
   if (!first) return "No place.";
   const vague = first.sigma_m > ANYWHERE_M;
   const at = `${first.mean[0].toFixed(2)}, ${first.mean[1].toFixed(2)} m, heading ${degrees(first.mean[2], 0)}`;
   const known = `known to ${length(first.sigma_m)} and ${degrees(first.sigma_rad, 1)}`;
-  if (modes.length === 1) return vague ? `It may be almost anywhere: positions are ${length(first.sigma_m)} apart.` : `One place: ${at}, ${known}.`;
+  if (!second) return vague ? `It may be almost anywhere: positions are ${length(first.sigma_m)} apart.` : `One place: ${at}, ${known}.`;
   const listed = modes.slice(0, LISTED).map(({ probability }) => percent(probability));
-  const tied = modes.length > 1 && modes[1].probability > TIED * first.probability;
+  const tied = second.probability > TIED * first.probability;
   const more = modes.length > LISTED ? " and less" : "";
   return `${modes.length} places: ${listed.join(", ")}${more}. ${tied ? "One of them" : "The likeliest"}: ${at}, ${known}.`;
 }

@@ -47,10 +47,15 @@ def read_static(name: str) -> str:
     return resources.files("bayesmap.app").joinpath("static", name).read_text(encoding="utf-8")
 
 
+def read_page(name: str) -> str:
+    """Return the text of one of the static pages, with the head that all of them begin with."""
+    return read_static(name).replace("__HEAD__", read_static("head.html"))
+
+
 def page_in_one_file(kind: Literal["recording", "figure"], data: bytes) -> str:
     """Return a page in one file, with the page's module and its data. It loads nothing else."""
     module = read_static("mapview.js").encode()
-    page = read_static("one_file.html").replace("__KIND__", kind).replace("__DATA__", _compress(data))
+    page = read_page("one_file.html").replace("__KIND__", kind).replace("__DATA__", _compress(data))
     return page.replace("__MODULE__", _compress(module))
 
 

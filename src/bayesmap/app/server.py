@@ -29,7 +29,7 @@ from starlette.routing import Route, WebSocketRoute
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
-from bayesmap.app.figures import read_static
+from bayesmap.app.figures import read_page, read_static
 from bayesmap.app.hub import Hub, Outbox
 from bayesmap.app.protocol.document import Document, Refused
 from bayesmap.app.protocol.notices import Story
@@ -48,7 +48,7 @@ HEADERS = {
 POLICY_VIOLATION = 1008  # code with which a WebSocket is closed (RFC 6455)
 
 # The script of this page tries once the token that the browser kept. The policy lets only it run, by its hash.
-WRONG_TOKEN_PAGE = read_static("wrong_token.html")
+WRONG_TOKEN_PAGE = read_page("wrong_token.html")
 TOKEN_SCRIPT = WRONG_TOKEN_PAGE.partition("<script>")[2].partition("</script>")[0]
 SCRIPT_HASH = "sha256-" + base64.b64encode(hashlib.sha256(TOKEN_SCRIPT.encode()).digest()).decode()
 
@@ -158,7 +158,7 @@ def build_application(hub: Hub, token: str, host: str, port: int) -> Guard:
     """Return the ASGI application: the page, its module, the socket and dropped runs, behind the guard."""
 
     def get_page(request: Request) -> Response:
-        return HTMLResponse(read_static("index.html").replace("__TOKEN__", token))
+        return HTMLResponse(read_page("index.html").replace("__TOKEN__", token))
 
     def get_module(request: Request) -> Response:
         return Response(read_static("mapview.js"), media_type="text/javascript")

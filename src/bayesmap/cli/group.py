@@ -5,8 +5,6 @@ place where exceptions become a line on standard error and an exit code: 0 succe
 input, 4 problems with ``--strict``, 130 interrupted.
 """
 
-from __future__ import annotations
-
 import difflib
 import errno
 import importlib

@@ -3,8 +3,6 @@
 `info` first makes the JSON document of a saved run or a log. `_lines` turns it into text.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import fields
 from pathlib import Path

@@ -32,7 +32,6 @@ if TYPE_CHECKING:
     Window = tuple[slice, slice]  # the cells of a part of the map
 
 WITHOUT_WINDOW = ("figure", "animation", "trace", "weights")  # pictures that always show the whole map
-DEFAULT_ENDINGS = {"trajectory": ".mcap", "gridmap": ".mcap"}  # by --format
 
 
 @command("render")
@@ -251,12 +250,13 @@ def export(call: Call[ExportSettings], run_file: str, output: str | None, force:
     """
     import numpy as np
 
-    from bayesmap.io.exports import TRAJECTORIES, export_format, path_to_replace
+    from bayesmap.io.exports import FORMATS, TRAJECTORIES, export_format, path_to_replace
     from bayesmap.result import load
 
     settings = call.settings()
     chosen_format = None if settings.format == "auto" else settings.format
-    target = output or str(Path(run_file).with_name(f"export{DEFAULT_ENDINGS.get(settings.format, '.yaml')}"))
+    endings = FORMATS.get(chosen_format or "map-server") or (".mcap",)  # no ending alone selects the other formats
+    target = output or str(Path(run_file).with_name(f"export{endings[0]}"))
     existing_file = path_to_replace(target, chosen_format)
     need_free([] if existing_file is None else [existing_file], force=force)
     if not Path(target).parent.is_dir():

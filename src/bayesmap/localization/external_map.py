@@ -6,8 +6,6 @@ about the stop by the noise of sensor and map together. People, furniture and do
 walls (`BeamMixture.p_short`). Beams of a scan share errors (`Trust`). More: docs/how/localization.md.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace

@@ -8,8 +8,6 @@ outdated: then readings have the law of readings anywhere (`compute_belief`).
 `locate` works in a map that is known exactly, where the posterior is narrow and may have many places.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial

@@ -85,11 +85,13 @@ def run_chains(
         step = next(steps, None)
         if step is None:
             break
-        (state, info), is_warmup = step, running.sweep < schedule.warmup
+        state, info = step
+        is_warmup = running.sweep < schedule.warmup
         running.record_step(state, info)
         running.seconds["sampling"] += time.perf_counter() - began
         # Look at the error, report the progress, and write a checkpoint if one is due.
-        sweep, log_joint = running.sweep, float(np.mean(info.log_likelihood[:, -1] + info.log_prior[:, -1]))
+        sweep = running.sweep
+        log_joint = float(np.mean(info.log_likelihood[:, -1] + info.log_prior[:, -1]))
         rule.check(sweep)
         watch.report(
             "warm-up" if is_warmup else "draws", sweep, rule.expected_sweeps(sweep), log_joint, rule.error,

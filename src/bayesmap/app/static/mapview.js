@@ -893,14 +893,14 @@ ntent",e.editable?"Drag the robot: its scan is located among the walls that are 
 d in this map, as if nothing were known of its pose. The arrow is where it was recorded.")}),r}function mg({session:t}){let{found:e,trouble:n}=t.where;if(n)return`${n.
 charAt(0).toUpperCase()}${n.slice(1)}.`;if(!e)return"Looking everywhere.";let o=e.p_lost>dg?`The scan fits nowhere on this map, with probability ${e.p_lost.toFixed(
 2)}: the robot is lost, or the map is outdated. If it is on the map: `:"",s=!o&&e.p_lost>fg?` That it is lost, or the map outdated, has probability ${e.p_lost.toFixed(
-2)}.`:"";return`${o}${gg(e.modes)}${yg(e,t.editable)}${s}`}function gg(t){let[e]=t;if(!e)return"No place.";let n=e.sigma_m>Ih,o=`${e.mean[0].toFixed(2)}, ${e.mean[1].
-toFixed(2)} m, heading ${Oi(e.mean[2],0)}`,s=`known to ${Ui(e.sigma_m)} and ${Oi(e.sigma_rad,1)}`;if(t.length===1)return n?`It may be almost anywhere: positions\
- are ${Ui(e.sigma_m)} apart.`:`One place: ${o}, ${s}.`;let r=t.slice(0,Fh).map(({probability:l})=>Qr(l)),i=t.length>1&&t[1].probability>ug*e.probability,a=t.length>
-Fh?" and less":"";return`${t.length} places: ${r.join(", ")}${a}. ${i?"One of them":"The likeliest"}: ${o}, ${s}.`}function yg({modes:t,pose:e},n){if(!t.length||
-t[0].sigma_m>Ih)return"";let o=t.map(({mean:a})=>Math.hypot(a[0]-e[0],a[1]-e[1])),s=o.indexOf(Math.min(...o)),r=Math.abs(Math.atan2(Math.sin(t[s].mean[2]-e[2]),
-Math.cos(t[s].mean[2]-e[2]))),i=t.length===1?"there":s===0?"the likeliest":`the ${bg(s+1)}`;return` The robot ${n?"stands":"was recorded"} ${Ui(o[s])} and ${Oi(
-r,1)} from ${i}.`}var bg=t=>`${t}${["th","st","nd","rd"][t%100>10&&t%100<14?0:t%10]??"th"}`,Oi=(t,e)=>`${(t*180/Math.PI).toFixed(e).replace(/^-(?=0(\.0*)?$)/,"")}\
-°`,Ui=t=>t<.0095?`${(1e3*t).toFixed(0)} mm`:t<1?`${(100*t).toFixed(0)} cm`:`${t.toFixed(1)} m`;var Mo="recording";function Uh(t,e,n,{kept:o}){let{shown:s,status:r}=t;return{document:t.effectiveDocument(),generation:t.generation,painted:s&&{generation:s.generation,layer:t.layer,
+2)}.`:"";return`${o}${gg(e.modes)}${yg(e,t.editable)}${s}`}function gg(t){let[e,n]=t;if(!e)return"No place.";let o=e.sigma_m>Ih,s=`${e.mean[0].toFixed(2)}, ${e.
+mean[1].toFixed(2)} m, heading ${Oi(e.mean[2],0)}`,r=`known to ${Ui(e.sigma_m)} and ${Oi(e.sigma_rad,1)}`;if(!n)return o?`It may be almost anywhere: positions a\
+re ${Ui(e.sigma_m)} apart.`:`One place: ${s}, ${r}.`;let i=t.slice(0,Fh).map(({probability:c})=>Qr(c)),a=n.probability>ug*e.probability,l=t.length>Fh?" and less":
+"";return`${t.length} places: ${i.join(", ")}${l}. ${a?"One of them":"The likeliest"}: ${s}, ${r}.`}function yg({modes:t,pose:e},n){if(!t.length||t[0].sigma_m>Ih)
+return"";let o=t.map(({mean:a})=>Math.hypot(a[0]-e[0],a[1]-e[1])),s=o.indexOf(Math.min(...o)),r=Math.abs(Math.atan2(Math.sin(t[s].mean[2]-e[2]),Math.cos(t[s].mean[2]-
+e[2]))),i=t.length===1?"there":s===0?"the likeliest":`the ${bg(s+1)}`;return` The robot ${n?"stands":"was recorded"} ${Ui(o[s])} and ${Oi(r,1)} from ${i}.`}var bg=t=>`${t}${[
+"th","st","nd","rd"][t%100>10&&t%100<14?0:t%10]??"th"}`,Oi=(t,e)=>`${(t*180/Math.PI).toFixed(e).replace(/^-(?=0(\.0*)?$)/,"")}°`,Ui=t=>t<.0095?`${(1e3*t).toFixed(
+0)} mm`:t<1?`${(100*t).toFixed(0)} cm`:`${t.toFixed(1)} m`;var Mo="recording";function Uh(t,e,n,{kept:o}){let{shown:s,status:r}=t;return{document:t.effectiveDocument(),generation:t.generation,painted:s&&{generation:s.generation,layer:t.layer,
 approximate:s.approximate,sweeps:s.sweeps,method:s.method,quantity:t.quantity,rhat:s.rhat,verdict:s.verdict,trace:s.trace,traced:s.traced,weights:s.weights,ess:s.
 ess,chain:s.chain,draw:s.draw},probability:s?.p??new Uint8Array(0),reached:s?.reached??new Uint8Array(0),walls:t.walls,sensors:t.document?.sensors??[],scan:t.scan,
 status:{text:r.text,level:r.level},connected:t.connection.connected,decisions:{path:t.decisions.path,views:t.decisions.views,trouble:t.decisions.trouble||t.decisions.
