@@ -109,6 +109,7 @@ def test_exported_files_of_a_run_open_again_with_all_its_draws(drawn, open_page,
 
 
 def test_a_picture_is_made_in_the_page(drawn):
+    settled(drawn)  # the first picture after an edit is paler: belief propagation has only begun
     image = Image.open(saved(drawn, "Picture").path())
     assert image.format == "PNG"
     assert image.width >= 1600
