@@ -118,7 +118,7 @@ def test_of_a_browser():
 """
 
 
-@pytest.mark.parametrize(("workers", "full"), [pytest.param(0, True, marks=pytest.mark.full), (2, False)])
+@pytest.mark.parametrize(("workers", "full"), [pytest.param(0, True, marks=pytest.mark.full), (1, False)])
 def test_the_last_lines_say_what_was_not_run_and_how_to_run_it(tmp_path, workers, full):
     (tmp_path / "test_two_tiers.py").write_text(TWO_TIERS)
     (tmp_path / "conftest.py").write_text((TESTS / "conftest.py").read_text())

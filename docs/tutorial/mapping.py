@@ -402,7 +402,7 @@ assert loss > 2 * (34.0 / SIGMA_M) ** 2 / 2
 
 # %% Answer 2 tags=["hide-cell"]
 of_three = 1 / np.sum(np.array([1 / 2, 1 / 4, 1 / 4]) ** 2)
-of_one = 1 / np.sum(np.eye(10_000)[0] ** 2)
+of_one = 1 / np.sum(np.eye(1, 10_000) ** 2)
 print(f"{of_three:.2f} of three maps, and {of_one:.0f} of ten thousand")
 assert np.isclose(of_three, 8 / 3)
 assert of_one == 1
