@@ -32,6 +32,10 @@ def test_a_block_s_output_becomes_the_file_unless_the_block_fails(tmp_path):
     with pytest.raises(RuntimeError, match="half-way"):
         write_half()
     assert path.read_text() == "new"
+    with write_whole(path) as one, write_whole(path) as other:  # two programs at once: each has a file of its own
+        one.write_text("one")
+        other.write_text("the other")
+    assert path.read_text() == "one"  # it was closed last
     assert list(tmp_path.iterdir()) == [path]
 
 
