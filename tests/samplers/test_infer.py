@@ -115,9 +115,10 @@ def test_belief_propagation_stopped_by_ctrl_c_is_not_finished_and_the_handler_is
     ({"scans": slice(0, 1)}, "scans or on another grid"), ({"seed": 2}, r"seed \(1, now 2\)"),
     ({"draws": 21}, r"draws \(20, now 21\)"), ({"method": "block"}, r"method \('gibbs', now 'block'\)"),
     ({"sensor": bm.Gaussian(0.6)}, "sensor"), ({"prior": bm.Independent(0.31)}, "prior"),
+    ({"start": np.eye(4, dtype=bool)}, "scans or on another grid"),
 ])  # fmt: skip
 def test_a_run_made_with_other_arguments_is_not_resumed(case, change, message):
-    options = {"method": "gibbs", "warmup": 10, "draws": 20, "seed": 1}
+    options = {"method": "gibbs", "warmup": 10, "draws": 20, "seed": 1, "start": np.zeros((4, 4), dtype=bool)}
     saved, other = infer(case, **options), dict(change)
     if "scans" in other:
         case = replace(case, scans=case.scans.select(other.pop("scans")))
