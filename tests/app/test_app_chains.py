@@ -13,6 +13,7 @@ from bayesmap.app import scene as scanning
 from bayesmap.app.edits import new_document, tutorial_document
 from bayesmap.app.protocol.document import Sensor
 from bayesmap.app.scene import simulate_document, simulated_scene
+from bayesmap.app.shown import verdicts
 from bayesmap.app.shown.chains import (
     MIN_SIGMA_M,
     MIN_SIGMA_RAD,
@@ -22,7 +23,7 @@ from bayesmap.app.shown.chains import (
     pose_prior,
     pose_starts,
 )
-from bayesmap.app.shown.result import Difference, VerdictLimits, compare_means, judge_chains, judge_particles, misfit_of
+from bayesmap.app.shown.verdicts import Difference, compare_means, judge_chains, judge_particles, misfit_of
 from bayesmap.app.shown.without_chains import Preview
 from bayesmap.kernels.walls.table import trace
 from bayesmap.samplers.wall_problem import WallProblem
@@ -116,9 +117,7 @@ def test_methods_that_take_poses_as_known_do_so(method):
 
 
 def test_chains_at_several_shifts_are_judged_at_each_and_told_what_would_help(monkeypatch):
-    for module in ("chains", "result"):
-        limits = VerdictLimits(fewest_sweeps=40)  # sweeps of sixteen chains take long
-        monkeypatch.setattr(f"bayesmap.app.shown.{module}.VERDICT_LIMITS", limits)
+    monkeypatch.setattr(verdicts, "VERDICT_LIMITS", verdicts.VerdictLimits(fewest_sweeps=40))  # sixteen chains take long
     document = replace(tutorial_document(), pose_sigma=1.0, sweeps=40, angles=40)
     heard = Heard()
     header, _ = heard.infer(document)

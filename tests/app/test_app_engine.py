@@ -15,7 +15,7 @@ from bayesmap.app.protocol.actions import Cancel, Inspect
 from bayesmap.app.protocol.notices import DrawCount, View
 from bayesmap.app.scene import simulate_document, simulated_scene
 from bayesmap.app.shown.chains import MAX_DRAW_BYTES, RunningChains
-from bayesmap.app.shown.result import VERDICT_LIMITS
+from bayesmap.app.shown.verdicts import VERDICT_LIMITS
 from bayesmap.model import Model
 from bayesmap.posterior.summary import bulk_ess
 from bayesmap.run.chains import SweepPlan

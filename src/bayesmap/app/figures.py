@@ -20,7 +20,7 @@ from bayesmap.app.protocol.actions import Layer
 from bayesmap.app.protocol.document import RARE_WALLS, Document, Refused, encode_json, pack_walls
 from bayesmap.app.protocol.notices import LIMITS, Limits, Step, Story, Tool
 from bayesmap.app.protocol.wire import convert, parse_simulation
-from bayesmap.app.shown.result import VerdictLimits
+from bayesmap.app.shown.verdicts import VerdictLimits
 from bayesmap.errors import BadInput
 from bayesmap.sim.drawing import from_text
 

@@ -17,7 +17,8 @@ from bayesmap.app.protocol.document import MAX_FILE_SIDE, MAX_LOG_SIDE, METHODS,
 from bayesmap.app.protocol.wire import parse_simulation
 from bayesmap.app.scene import Scene, scene_of_file
 from bayesmap.app.shown.hit_maps import HitCountMap, HitCounts, stop_probabilities
-from bayesmap.app.shown.result import DrawnMap, Estimate, Progress, Result, judge_chains, rhat_and_ess
+from bayesmap.app.shown.result import DrawnMap, Estimate, Progress, Result
+from bayesmap.app.shown.verdicts import judge_chains, rhat_and_ess
 from bayesmap.beams.table import BeamTable
 from bayesmap.cells.arrays import Draws
 from bayesmap.cells.binary import Independent

@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 from bayesmap.app.protocol.document import Document
 from bayesmap.app.protocol.notices import Verdict
 from bayesmap.app.scene import Scene
-from bayesmap.app.shown import result as results
-from bayesmap.app.shown.result import CHAINS, VERDICT_LIMITS, DrawnMap, Estimate, Progress, Result
+from bayesmap.app.shown.result import CHAINS, DrawnMap, Estimate, Progress, Result
+from bayesmap.app.shown.verdicts import compare_means, judge_chains, judge_shifted_chains, misfit_of, rhat_and_ess
 from bayesmap.app.shown.without_chains import Preview
 from bayesmap.cells.arrays import Draws
 from bayesmap.cells.kinds import BUILT_IN
@@ -67,12 +67,14 @@ class RunningChains(Estimate):
         self._burn_in = document.burn_in  # share of the sweeps
         self.model: Model = model
         self.requested_poses: Mapping[str, Any] = model.poses.describe()  # the document's prior of the poses
-        self.problem, self._sampler = problem, sampler
+        self.problem = problem
+        self._sampler = sampler
         self.n_chains = POSE_CHAINS if model.poses.unknown else CHAINS
         self.state = sampler.init(problem, range(self.n_chains), document.seed)
         empty = empty_draws(model, self.state, self.n_chains)
         self._draw_bytes = sum(spec.empty(self.n_chains, 1, empty.shape_of(spec)).nbytes for spec in empty.specs)
-        self.total, self.thin = 0, 1  # sweeps to do; sweeps per kept draw
+        self.total = 0  # sweeps to do
+        self.thin = 1  # sweeps per kept draw
         self._record = DrawRecord(empty, SweepPlan(0, 0))
         # Results of the steps so far: latest draws, sums for the means, diagnostics, counts and trace.
         self.seconds = 0.0
@@ -80,7 +82,8 @@ class RunningChains(Estimate):
         self._latest = empty
         self._sums = np.zeros((self.n_chains, *model.grid.shape))
         self._rhat = self._ess = math.nan
-        self._diagnose_at_s, self._diagnosed_sweep = 0.0, 0  # time of the next diagnosis, and sweep of the last
+        self._diagnose_at_s = 0.0  # time of the next computation of R-hat and effective sample size
+        self._diagnosed_sweep = 0  # sweep of the last one
         self._observed_counts = np.zeros((2, *model.grid.shape), dtype=np.int32)
         self._log_likelihood = self._log_joint = np.zeros((self.n_chains, 0))
         # The sums after the burn-in, and after later sweeps at which a longer burn-in may end.
@@ -95,7 +98,8 @@ class RunningChains(Estimate):
         self.total = math.ceil(total / self.thin) * self.thin
         self._record = self._record.grown(SweepPlan(0, self.total // self.thin, self.thin))
         padding = ((0, 0), (0, self.total - self._log_joint.shape[1]))
-        self._log_joint, self._log_likelihood = np.pad(self._log_joint, padding), np.pad(self._log_likelihood, padding)
+        self._log_joint = np.pad(self._log_joint, padding)
+        self._log_likelihood = np.pad(self._log_likelihood, padding)
         # Count observed cells at fixed sweeps. The length of a step depends on the machine, but the page must not.
         doubling = (2**k for k in range(self.total.bit_length()))
         evenly = (self.total * k // OBSERVED_COUNTS for k in range(1, OBSERVED_COUNTS + 1))
@@ -105,7 +109,8 @@ class RunningChains(Estimate):
             self._sampler, self.state, self.total, keep=Keep(every=1), step_seconds=STEP_SECONDS,
             max_kept=max(1, MAX_BUFFER_BYTES // max(self._draw_bytes, 1)), stops=tuple(sorted(self._counted_sweeps)),
         )  # fmt: skip
-        self.done, self._diagnose_at_s = False, 0.0
+        self.done = False
+        self._diagnose_at_s = 0.0
 
     def advance(self) -> None:
         """Do some sweeps: about `STEP_SECONDS` of work."""
@@ -193,40 +198,35 @@ class RunningChains(Estimate):
     def progress(self, ended: bool) -> Progress:
         """Return the sweeps done and the diagnostics, which may be of an earlier sweep while the chains run."""
         burned = self._checkpoints[0].sweep
-        joint = self.log_joint()
-        now_s = time.perf_counter()
-        if now_s >= self._diagnose_at_s or (self.done and self._diagnosed_sweep < self.sweep):
-            self._rhat, self._ess = results.rhat_and_ess(joint[:, burned:])
-            self._diagnosed_sweep = self.sweep
-            pause_s = (time.perf_counter() - now_s) / MAX_DIAGNOSIS_SHARE
-            self._diagnose_at_s = math.inf if self.done else now_s + pause_s
-        misfit = None
-        if isinstance(self.model.sensor, Gaussian) and not self.model.poses.unknown:
-            log_likelihood = self._log_likelihood[:, burned : self.sweep]
-            misfit = results.misfit_of(log_likelihood, self.model.sensor.sigma_m, self.model.scans.ranges_m.size)
-        verdict = results.judge_chains(
-            self._rhat, self._ess, self.sweep, results.compare_means(self.means(), self.observed()),
-            ended=ended or self.done, quantity=self.model.cells.words.mean, misfit=misfit,
-        )  # fmt: skip
+        log_joint = self.log_joint()
+        self._diagnose(log_joint[:, burned:])
         return Progress(
-            self.sweep, self.total, self._ess, self._rhat, float(joint[:, -1].mean()) if joint.shape[1] else math.nan,
-            self._judge_shifts(verdict), burned, self.seconds,
+            sweeps=self.sweep, total=self.total, ess=self._ess, rhat=self._rhat,
+            log_joint=float(log_joint[:, -1].mean()) if log_joint.shape[1] else math.nan,
+            verdict=self._judge(log_joint[:, burned:], ended or self.done), burned=burned, seconds=self.seconds,
         )  # fmt: skip
 
-    def _judge_shifts(self, verdict: Verdict | None) -> Verdict | None:
-        """Judge chains at several shifts: chains at one shift must agree. Other verdicts are returned unchanged."""
-        shifts, shift_of_chain = np.unique(self.shifts, axis=0, return_inverse=True)
-        if verdict is None or verdict.level != "bad" or len(shifts) < 2 or self.sweep < VERDICT_LIMITS.fewest_sweeps:
-            return verdict
-        joint = self.log_joint()[:, self._checkpoints[0].sweep :]
-        groups = [joint[shift_of_chain.ravel() == k] for k in range(len(shifts))]
-        max_rhat = np.nanmax([1.0, *(results.rhat_and_ess(group)[0] for group in groups)])
-        why = (
-            f"chains stand at {len(shifts)} shifts of map and sensors together, in the shares that the poses' prior "
-            f"gives them, and none moves from one to another. Blocks and more sweeps do not change that; another "
-            f"sensor or surer poses leave fewer. At each shift R-hat is at most {max_rhat:.2f}"
-        )
-        return Verdict("fair" if max_rhat <= VERDICT_LIMITS.rhat_limit else "bad", why)
+    def _diagnose(self, log_joint: Floats) -> None:
+        """Update R-hat and effective sample size of the log joint after the burn-in, (chains, n), if it is time to."""
+        began_s = time.perf_counter()
+        if began_s >= self._diagnose_at_s or (self.done and self._diagnosed_sweep < self.sweep):
+            self._rhat, self._ess = rhat_and_ess(log_joint)
+            self._diagnosed_sweep = self.sweep
+            pause_s = (time.perf_counter() - began_s) / MAX_DIAGNOSIS_SHARE
+            self._diagnose_at_s = math.inf if self.done else began_s + pause_s
+
+    def _judge(self, log_joint: Floats, ended: bool) -> Verdict | None:
+        """Return the verdict on the chains, given the log joint after the burn-in, (chains, n); None if too early."""
+        misfit = None
+        if isinstance(self.model.sensor, Gaussian) and not self.model.poses.unknown:
+            log_likelihood = self._log_likelihood[:, self._checkpoints[0].sweep : self.sweep]
+            misfit = misfit_of(log_likelihood, self.model.sensor.sigma_m, self.model.scans.ranges_m.size)
+        difference = compare_means(self.means(), self.observed())
+        verdict = judge_chains(
+            self._rhat, self._ess, self.sweep, difference, ended=ended, quantity=self.model.cells.words.mean,
+            misfit=misfit,
+        )  # fmt: skip
+        return judge_shifted_chains(verdict, log_joint, self.sweep, self.shifts)
 
     def as_run(self, result: Result) -> Run:
         if self.kept_draws is None:

@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import special
 
-from bayesmap.app.shown.result import CHAINS, SAVED_DRAWS, Estimate, Progress, Result, judge_particles
+from bayesmap.app.shown.result import CHAINS, SAVED_DRAWS, Estimate, Progress, Result
+from bayesmap.app.shown.verdicts import judge_particles
 from bayesmap.beams.table import BeamTable
 from bayesmap.kernels.random import mix
 from bayesmap.kernels.walls.propagate import Beliefs
