@@ -117,7 +117,7 @@ def test_methods_that_take_poses_as_known_do_so(method):
 
 
 def test_chains_at_several_shifts_are_judged_at_each_and_told_what_would_help(monkeypatch):
-    monkeypatch.setattr(verdicts, "VERDICT_LIMITS", verdicts.VerdictLimits(fewest_sweeps=40))  # sixteen chains take long
+    monkeypatch.setattr(verdicts, "VERDICT_LIMITS", verdicts.VerdictLimits(fewest_sweeps=40))  # sixteen take long
     document = replace(tutorial_document(), pose_sigma=1.0, sweeps=40, angles=40)
     heard = Heard()
     header, _ = heard.infer(document)

@@ -23,7 +23,7 @@ from bayesmap.app.exports import export_report
 from bayesmap.app.protocol.actions import Cancel, Export, MoveGhost, ShowScan, WhereAmI
 from bayesmap.app.protocol.document import CHAIN_METHODS, SETTINGS_OF_CHAINS, Document
 from bayesmap.app.protocol.notices import Status
-from bayesmap.app.protocol.tasks import Ask, Failed, Infer, RestoreTrajectory, Show, Task
+from bayesmap.app.protocol.tasks import Ask, Failed, Infer, Mode, RestoreTrajectory, Show, Task
 from bayesmap.app.scene import Scene, simulated_scene
 from bayesmap.app.shown.chains import FittedModel, Pilot, RunningChains, chains_of_walls, first_maps_of, fit_by_pilot
 from bayesmap.app.shown.result import Result, prior_result
@@ -40,25 +40,27 @@ SLEEP_SECONDS = 0.002  # duration of one sleep while chains rest
 
 
 class Engine:
-    """The present job, its result and the state that later jobs reuse. ``on_report`` gets every report."""
+    """Does one job at a time, and answers questions about its result. ``on_report`` gets every report."""
 
     def __init__(self, on_report: OnReport, opened: OpenedRun | OpenedLog | None = None) -> None:
         self._on_report = on_report
         self._opened = opened
         self._log_trajectory = LogTrajectory(opened) if isinstance(opened, OpenedLog) else None
         self._display = Display(on_report)
+        self._answers = Answers()
+        self._waiting: list[Ask] = []  # questions that came before there was a result
         self._scan = 0  # index of the scan on show, for a file
-        self._job: Iterator[None] | None = None  # the steps of the present job
-        self._task: Infer | None = None  # the task of the present or the last job
+        self._rest_until_s = 0.0  # time until which the job rests after a virtual scan
+        # The present job, or the last one if none is under way.
+        self._task: Infer | None = None
+        self._job: Iterator[None] | None = None  # the steps that are left; None if no job is under way
+        self._result: Result | None = None  # the result so far
+        self._extra_sweeps = 0  # sweeps that its chains have still to add to the sweeps of its document
+        # What the next job may reuse.
+        self._earlier_result: Result | None = None  # the last result of the job before
         self._scene: Scene | None = None  # the readings of the last document
         self._scene_document: Document | None = None  # the document of the scene
-        self._result: Result | None = None  # the present result of the job
-        self._earlier_result: Result | None = None  # the last result of the job before
-        self._extra_sweeps = 0  # sweeps that the present job's chains do besides the sweeps of its document
-        self._waiting: list[Ask] = []  # questions that came before there was a result
-        self._answers = Answers()
         self._fitted: tuple[Document, FittedModel] | None = None  # the last pilot's document, and its fit
-        self._rest_until_s = 0.0  # time until which chains rest after a virtual scan
 
     @property
     def busy(self) -> bool:
@@ -66,35 +68,37 @@ class Engine:
         return self._job is not None
 
     def take(self, task: Task) -> None:
-        """Answer a question, or begin another job."""
-        if isinstance(task, Infer) and task.mode == "run" and self._has_live_chains_of(task.document):
-            # The present job goes on: its chains get more sweeps.
-            self._task = task
+        """Do a task: begin, extend or end a job, answer a question, or change what is shown."""
+        match task:
+            case Infer():
+                self._begin_or_extend_job(task)
+            case Cancel():
+                self._cancel()
+            case Show():
+                self._display.show(task, self._result)
+            case ShowScan():
+                self._scan = task.index
+                if self._scene is not None and self._opened is not None:
+                    self._display.send_scan(self._scene, task.index)
+            case Ask():
+                self._answer_or_wait(task)
+            case RestoreTrajectory() if self._log_trajectory is not None:
+                self._log_trajectory.restore(task)
+
+    def _begin_or_extend_job(self, task: Infer) -> None:
+        """Let the present job's chains do more sweeps if the task is to run their document, or begin another job."""
+        if task.mode == "run" and self._has_live_chains_of(task.document):
             self._extra_sweeps += task.document.sweeps
-            self._display.begin(task)
-        elif isinstance(task, Infer):
-            # Another job replaces the present one. Its result may give the next job its chains.
+        else:
             self._earlier_result, self._result = self._result, None
             self._extra_sweeps = 0
-            self._task = task
             self._scan = task.scan
-            self._display.begin(task)
             self._job = self._run_job(task)
-        elif isinstance(task, Cancel):
-            self._cancel()
-        elif isinstance(task, Show):
-            self._display.show(task, self._result)
-        elif isinstance(task, ShowScan):
-            self._scan = task.index
-            if self._scene is not None and self._opened is not None:
-                self._display.send_scan(self._scene, task.index)
-        elif isinstance(task, Ask):
-            self._answer_or_wait(task)
-        elif isinstance(task, RestoreTrajectory) and self._log_trajectory is not None:
-            self._log_trajectory.restore(task)
+        self._task = task
+        self._display.begin(task)
 
     def _has_live_chains_of(self, document: Document) -> bool:
-        """Return whether the present job makes chains of this document, which a run can continue."""
+        """Return whether the present job runs live chains of this document, or will when its preview is done."""
         if self._job is None or self._task is None or document.from_odometry:
             return False
         samples_chains = document.sampler in CHAIN_METHODS or document.cells != "binary"
@@ -132,7 +136,7 @@ class Engine:
         if self._waiting and (self._result is not None or self._job is None):
             waiting, self._waiting = self._waiting, []
             for task in waiting:
-                self.take(task)
+                self._answer_or_wait(task)
 
     def _fail(self, text: str) -> None:
         """End the job, and report why it failed."""
@@ -141,61 +145,68 @@ class Engine:
 
     def _run_job(self, task: Infer) -> Iterator[None]:
         """Do a job; yield after each step."""
-        document = replace(task.document, method=task.document.sampler)
+        document = replace(task.document, method=task.document.sampler)  # "auto" is resolved
         if document.source.kind == "run":
-            self._show_saved_run(document, task)
+            self._show_saved_run(document)
             return
-        # A log from raw odometry: first its trajectory.
-        if document.from_odometry and not (yield from self._infer_trajectory(structs.replace(task, document=document))):
-            return
+        # The trajectory, for a log from raw odometry.
+        if document.from_odometry:
+            is_known = yield from self._infer_trajectory(structs.replace(task, document=document))
+            if not is_known:
+                return
         # The readings, and the fastest picture of a log.
         scene, document = self._scene_for(document)
-        self._display.send_scan(scene, None if document.simulated else task.scan)
+        self._display.send_scan(scene, None if document.simulated else self._scan)
         if task.mode == "coarse":
             self._show_hit_counts(document)
             self._display.send_finished(self._result)
             return
-        # A run continues the chains on show, if they sample this document.
-        chains = self._chains_of(document) if task.mode == "run" else None
+        # A run continues the chains of the job before, if they sample this document.
+        chains = self._earlier_chains_of(document) if task.mode == "run" else None
         self._earlier_result = None
         if chains is not None:
-            self._extra_sweeps = document.sweeps
+            chains.extend(document.sweeps)
             yield from self._advance_to_end(scene, document, chains)
             return
-        # The overlay of the scene before is replaced at once. Then inference by the document's method.
-        self._display.send_overlay(prior_result(scene, document))
+        # The prior's overlay replaces that of the scene before at once. Inference follows.
+        prior = prior_result(scene, document)
+        self._display.send_overlay(prior)
         if task.mode == "clear":
-            self._result = prior_result(scene, document)
-            self._display.send_frame(self._result)
-            return
+            self._result = prior
+            self._display.send_frame(prior)
+        else:
+            yield from self._infer_map(scene, document, task.mode)
+
+    def _infer_map(self, scene: Scene, document: Document, mode: Mode) -> Iterator[None]:
+        """Infer the map by the document's method, as far as the mode says; yield after each step."""
         if document.cells != "binary":
             yield from self._sample_reflectivities_or_surfaces(scene, document)
             return
-        self._fitted = None
-        if task.mode == "run" and document.method == "importance":
+        self._fitted = None  # frees the memory of another kind of cells
+        if mode == "run" and document.method == "importance":
             yield from self._advance_to_end(scene, document, Weighing(scene.problem, document.sweeps, document.seed))
-        elif task.mode == "run" and document.method in CHAIN_METHODS and document.simulated:
+        elif mode == "run" and document.method in CHAIN_METHODS and document.simulated:
             yield from self._sample_walls(scene, document, None)
         else:
-            yield from self._preview_and_sample(scene, document, task)
+            yield from self._preview_and_sample(scene, document, mode)
 
-    def _show_saved_run(self, document: Document, task: Infer) -> None:
+    def _show_saved_run(self, document: Document) -> None:
         """Show a saved run, which needs no inference."""
         assert isinstance(self._opened, OpenedRun)
         self._result = self._opened.result
         self._scene, self._scene_document = self._result.scene, document
-        self._display.send_scan(self._scene, task.scan)
+        self._display.send_scan(self._scene, self._scan)
         self._display.send_frame(self._result)
         self._display.send_overlay(self._result)
         self._display.send_finished(self._result)
 
-    def _preview_and_sample(self, scene: Scene, document: Document, task: Infer) -> Iterator[None]:
+    def _preview_and_sample(self, scene: Scene, document: Document, mode: Mode) -> Iterator[None]:
         """Show belief propagation, then chains that start from it, unless the mode is "preview"."""
         preview = Preview(scene.near_problem)
         # Belief propagation treats poses as known. If they are uncertain, chains make the first picture.
-        quiet = task.mode != "preview" and document.samples_poses
+        quiet = mode != "preview" and document.samples_poses
         yield from self._propagate(scene, document, preview, quiet=quiet)
-        if task.mode == "preview" or document.method not in CHAIN_METHODS:
+        if mode == "preview" or document.method not in CHAIN_METHODS:
             self._display.send_finished(self._result)
             return
         # Unless the preview was quick, give a moving hand time for its next edit before chains are set up.
@@ -206,7 +217,7 @@ class Engine:
                 yield
         yield from self._sample_walls(scene, document, preview)
 
-    def _chains_of(self, document: Document) -> RunningChains | None:
+    def _earlier_chains_of(self, document: Document) -> RunningChains | None:
         """Return the chains of the job before if they sample this document."""
         result = self._earlier_result
         if result is None or result.document != document or not isinstance(result.estimate, RunningChains):
@@ -304,7 +315,9 @@ class Engine:
         if self._fitted is None or not self._fitted[0].equals_except(document, SETTINGS_OF_CHAINS):
             self._fitted = None  # free the old problem first: two may not fit in memory
             self._fitted = document, (yield from fit_by_pilot(scene, document, show_pilot))
-        yield from self._advance_to_end(scene, document, RunningChains(*self._fitted[1], document))
+        _, fitted = self._fitted
+        chains = RunningChains(fitted.model, fitted.sampler, fitted.problem, document)
+        yield from self._advance_to_end(scene, document, chains)
 
     def _advance_to_end(self, scene: Scene, document: Document, estimate: RunningChains | Weighing) -> Iterator[None]:
         """Run chains or importance sampling, with frames at intervals and one at the end."""
