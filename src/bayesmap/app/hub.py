@@ -4,6 +4,7 @@ The session turns a page's message or a worker's report into effects. `Hub._carr
 """
 
 import asyncio
+import contextvars
 import itertools
 from collections import deque
 from collections.abc import Callable, Mapping
@@ -50,11 +51,10 @@ class Hub:
         story: Story | None = None,
     ) -> None:  # fmt: skip
         self.session = Session(document, story)  # the session that the pages share
-        self._first_picture = asyncio.Event()  # event that is set when there is a first field, or an error instead
-        self._loop = asyncio.get_running_loop()
-        on_report = self._on_loop(self._receive_report)
-        on_lost = self._on_loop(lambda: self._carry_out(self.session.worker_lost()))
-        self._supervisor = Supervisor(on_report, on_lost, path, log_options=log_options)
+        self._first_picture = asyncio.Event()  # set when there is a first field, or an error instead
+        self._supervisor = Supervisor(
+            on_this_loop(self._receive_report), on_this_loop(self._worker_lost), path, log_options=log_options
+        )
         self._outboxes: dict[int, Outbox] = {}  # the outbox of each connected page, by its number
         self._numbers = itertools.count(1)
         self._file_fault: str | None = None  # the reason why the file cannot be opened
@@ -115,11 +115,30 @@ class Hub:
         if isinstance(report.message, Field | Failed):
             self._first_picture.set()
 
-    def _on_loop(self, call: Callable[..., None]) -> Callable[..., None]:
-        """Return a function that calls `call` on the event loop. The supervisor calls it on its own threads."""
+    def _worker_lost(self) -> None:
+        self._carry_out(self.session.worker_lost())
 
-        def call_later(*arguments: Report) -> None:
-            if not self._loop.is_closed():
-                self._loop.call_soon_threadsafe(call, *arguments)
 
-        return call_later
+def on_this_loop(call: Callable[..., None]) -> Callable[..., None]:
+    """Return a function with which other threads run a call on this event loop; without a loop, the call itself.
+
+    The call runs in the present context, and no more once the loop is closed.
+    """
+    loop = running_loop()
+    if loop is None:
+        return call
+    context = contextvars.copy_context()
+
+    def call_later(*arguments: Any) -> None:
+        if not loop.is_closed():
+            loop.call_soon_threadsafe(call, *arguments, context=context)
+
+    return call_later
+
+
+def running_loop() -> asyncio.AbstractEventLoop | None:
+    """Return the event loop that runs in this thread, or None."""
+    try:
+        return asyncio.get_running_loop()
+    except RuntimeError:
+        return None

@@ -3,17 +3,16 @@
 `MapWidget` connects one page with a session and a worker, as `bayesmap.app.hub.Hub` does for many pages.
 """
 
-import asyncio
-import contextvars
 import tempfile
 import threading
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from bayesmap.app.edits import tutorial_document
 from bayesmap.app.exports import build_recording, encode_recording
 from bayesmap.app.figures import page_in_one_file, read_static
+from bayesmap.app.hub import on_this_loop, running_loop
 from bayesmap.app.protocol.document import Refused
 from bayesmap.app.protocol.notices import AnyNotice
 from bayesmap.app.protocol.tasks import Buffers, Report, Unusable
@@ -60,7 +59,8 @@ class MapWidget(anywidget.AnyWidget):
         self._session = Session(first_document if run is None else open_run(run, "run").document)
         # Without an event loop, the supervisor's threads call the session directly.
         self._session_lock = threading.RLock()
-        self._call_later = _caller_on_this_loop()
+        self._on_report = on_this_loop(self._receive_report)
+        self._on_lost = on_this_loop(self._worker_lost)
         self.on_msg(self._receive_message)
         self._end_with_notebook()
 
@@ -109,7 +109,7 @@ class MapWidget(anywidget.AnyWidget):
 
         # Each visitor of an app has a thread. When the visitor leaves, nothing is closed, but the thread ends.
         thread = threading.current_thread()
-        if thread is not threading.main_thread() and _running_loop() is not None:
+        if thread is not threading.main_thread() and running_loop() is not None:
 
             def end_after() -> None:
                 thread.join()
@@ -139,10 +139,7 @@ class MapWidget(anywidget.AnyWidget):
             self._folder = tempfile.TemporaryDirectory(prefix="bayesmap-")
             path = str(Path(self._folder.name) / "run.nc")
             self._run.save(path)
-        self._supervisor = Supervisor(
-            lambda report: self._call_later(lambda: self._receive_report(report)),
-            lambda: self._call_later(self._worker_lost), path,
-        )  # fmt: skip
+        self._supervisor = Supervisor(self._on_report, self._on_lost, path)
         self._supervisor.start()
 
     def _receive_report(self, report: Report) -> None:
@@ -165,24 +162,3 @@ class MapWidget(anywidget.AnyWidget):
     def _post(self, message: AnyNotice, buffers: Buffers) -> None:
         header, arrays = separate_arrays(message, buffers)
         self.send(header, [array.tobytes() for array in arrays])
-
-
-def _caller_on_this_loop() -> Callable[[Callable[[], None]], None]:
-    """Return a function that runs a call on the notebook's event loop, or directly if there is no loop."""
-    loop = _running_loop()
-    if loop is None:
-        return lambda call: call()
-    context = contextvars.copy_context()
-
-    def call_later(call: Callable[[], None]) -> None:
-        if not loop.is_closed():
-            loop.call_soon_threadsafe(call, context=context)
-
-    return call_later
-
-
-def _running_loop() -> asyncio.AbstractEventLoop | None:
-    try:
-        return asyncio.get_running_loop()
-    except RuntimeError:
-        return None
