@@ -1,7 +1,8 @@
 """``bayesmap score``: score runs, and maps and trajectories of other programs, on unseen beams and true relations.
 
 A map is scored by the densities that it predicts for held-out readings (`score_run`). `score_others` fits a sensor
-to a map, or infers a map from a trajectory, before that. A trajectory is scored by its errors in known relative poses.
+to a map, or infers a map from a trajectory, before that. A trajectory is scored by its errors in known relative poses
+(`_score_poses`). The functions that print the scores come last.
 """
 
 from __future__ import annotations
@@ -87,43 +88,42 @@ def score(
     if picture is not None:
         check_ending(picture, ("png", "pdf", "svg"), "figure")  # check before minutes of computation
         need_free([Path(picture), _poses_picture(Path(picture))], force=force, option="--picture")
-    # Score the map.
+    # Score the map, then the poses.
     if is_run:
-        if log is None and relations is None:
-            raise click.UsageError("give LOG, whose held-out scans score the run, or --relations, or both")
         scores_poses = relations is not None
         scores = score_run(call, run_file, log, frame, all_scans=all_scans, compare=compare, scores_poses=scores_poses)
     else:
         scores = score_others(call, run_file, log, frame, compare=compare)
-    # Score the poses.
-    pose_score = None
-    if relations is not None:
-        from bayesmap.io.text.trajectories import read_relations
-        from bayesmap.posterior.trajectory_scores import score_trajectory
-
-        pose_score = score_trajectory(scores.trajectory, read_relations(relations), exact=exact)
+    pose_score = None if relations is None else _score_poses(scores.trajectory, relations, exact=exact)
     # Render and print.
-    written = [] if picture is None else _write_pictures(Path(picture), scores.rows, pose_score)
-    outputs = {path.name: str(path) for path in written}
+    written = [] if picture is None else _write_pictures(Path(picture), scores.maps, pose_score)
     frame_words = str(scores.trajectory.frame)
     if call.console.as_json:
         poses_json = None if pose_score is None else {"file": relations, "frame": frame_words, **pose_score.as_json()}
-        call.console.result(_document(run_file, log, scores, poses_json, outputs), [])
+        call.console.result(_document(run_file, log, scores, poses_json, written), [])
         return
     if scores.verdict is not None:
         write_lines([scores.verdict])
-    if scores.rows:
-        write_lines(align_rows([HEADINGS, *(_table_row(name, score) for name, score in scores.rows)]))
+    if scores.maps:
+        write_lines(align_rows([HEADINGS, *map(_table_row, scores.maps)]))
     if pose_score is not None:
-        write_lines(pose_score_lines(pose_score, frame_words, exact=exact, is_run=is_run))
+        write_lines(_pose_score_lines(pose_score, frame_words, exact=exact, is_run=is_run))
+
+
+@dataclass(frozen=True, eq=False)
+class MapScore:
+    """The score of one map: a row of the table."""
+
+    name: str  # name of the map
+    score: Score
+    fit: FittedBaseline | None = None  # fit to the training scans, if this is a classic map for comparison
 
 
 @dataclass(frozen=True, eq=False)
 class Scores:
-    """The scores of a map, and of classic maps of the same scans, with the trajectory to score."""
+    """The scores of maps on the same held-out scans, and the trajectory to score."""
 
-    rows: list[tuple[str, Score]]  # name and score of each row of the table; the first row is the scored map
-    fits: list[FittedBaseline]  # fits of the classic maps in the other rows
+    maps: list[MapScore]  # the map in question first, then classic maps; empty if only poses are scored
     every: int  # every n-th scan was held out; 0 if none was
     trajectory: Trajectory  # in the frame of the relations
     verdict: str | None = None  # verdict on the map of another program, in words
@@ -135,8 +135,11 @@ def score_run(
 ) -> Scores:  # fmt: skip
     """Score a saved run, and with ``compare`` classic maps, on the scans of a log that the run has not seen.
 
-    Without a log it returns only the trajectory of ``frame``. If ``scores_poses``, held-out scans may be missing.
+    The scans are every n-th of the log, or ``all_scans`` of another recording. If ``scores_poses``, the log or its
+    held-out scans may be missing. No map is scored then; the trajectory, of ``frame``, is returned in any case.
     """
+    if log is None and not scores_poses:
+        raise click.UsageError("give LOG, whose held-out scans score the run, or --relations, or both")
     from bayesmap.io.exports import trajectory_of
     from bayesmap.posterior.heldout import NoneHeldOut
     from bayesmap.posterior.prediction import predictor_of
@@ -144,13 +147,15 @@ def score_run(
 
     run = load(path)
     settings = call.settings()
+    # The trajectory, of the base or the laser.
     mount = run.posterior.scans.mount if settings.laser is None else log_options_of(settings)["laser"]
     trajectory = trajectory_of(run, run.posterior.scans).of(frame, mount)
     if scores_poses and frame is None and mount is None:
         remedy = "if they are the base's, add --laser X,Y,DEGREES"
         call.console.warn(f"{path}: {NO_MOUNT}: relations are taken as those of the laser; {remedy}")
     if log is None:
-        return Scores([], [], 0, trajectory)
+        return Scores([], 0, trajectory)
+    # The map, on scans that the run has not seen.
     every = 0 if all_scans else settings.holdout
     if every == 0 and not all_scans:
         raise BadInput("score: --holdout 0 leaves nothing to score; give 2 or more, or --all for another recording")
@@ -160,11 +165,11 @@ def score_run(
         if not scores_poses:
             raise
         call.console.say(f"only the poses are scored, not the map: {error}")
-        return Scores([], [], 0, trajectory)
+        return Scores([], 0, trajectory)
     call.console.say(f"scoring {len(heldout):,} scans of {log} that the run has not seen")
-    row = _score(call, f"{run.posterior.kind} posterior", predictor_of(run.posterior), heldout)
-    classic_rows, fits = _score_classic_maps(call, run.posterior.scans, run.grid, heldout) if compare else ([], [])
-    return Scores([row, *classic_rows], fits, every, trajectory)
+    maps = [_score_map(call, f"{run.posterior.kind} posterior", predictor_of(run.posterior), heldout)]
+    maps += _score_classic_maps(call, run.posterior.scans, run.grid, heldout) if compare else []
+    return Scores(maps, every, trajectory)
 
 
 def score_others(
@@ -190,39 +195,46 @@ def score_others(
         split = split_log(path, settings, frame)
         run = infer_map(call, split)
         name, predictor = f"{run.posterior.kind} posterior", predictor_of(run.posterior)
-    row = _score(call, name, predictor, split.heldout)
-    words = None if fit is None else verdict(fit, row[1], split)
-    classic_rows, fits = _score_classic_maps(call, split.train, predictor.grid, split.heldout) if compare else ([], [])
-    return Scores([row, *classic_rows], fits, settings.holdout, split.trajectory, words)
+    maps = [_score_map(call, name, predictor, split.heldout)]
+    words = None if fit is None else verdict(fit, maps[0].score, split)
+    maps += _score_classic_maps(call, split.train, predictor.grid, split.heldout) if compare else []
+    return Scores(maps, settings.holdout, split.trajectory, words)
 
 
-def _score(call: Call[ScoreSettings], name: str, predictor: Predictor, heldout: Scans) -> tuple[str, Score]:
-    """Score a map's predictions. Returns a row of the table."""
+def _score_map(
+    call: Call[ScoreSettings], name: str, predictor: Predictor, heldout: Scans, fit: FittedBaseline | None = None
+) -> MapScore:
+    """Score a map's predictions of held-out scans. ``fit`` is that of a classic map."""
     from bayesmap.posterior.scores import score_prediction
 
-    seed = call.settings().seed
+    seed, device = call.settings().seed, call.settings().device
     with share_bar(call.console, f"scoring {name}") as report:
-        return name, score_prediction(predictor, heldout, seed=seed, device=call.settings().device, on_progress=report)
+        score = score_prediction(predictor, heldout, seed=seed, device=device, on_progress=report)
+    return MapScore(name, score, fit)
 
 
-def _score_classic_maps(
-    call: Call[ScoreSettings], train: Scans, grid: Grid, heldout: Scans
-) -> tuple[list[tuple[str, Score]], list[FittedBaseline]]:
-    """Fit hit ratios and log-odds to the training scans. Returns a row of the table and a fit of each."""
+def _score_classic_maps(call: Call[ScoreSettings], train: Scans, grid: Grid, heldout: Scans) -> list[MapScore]:
+    """Fit hit ratios and log-odds to the training scans, and score them on the held-out scans."""
     from bayesmap.posterior.baselines import BASELINES, fit_baseline
     from bayesmap.posterior.heldout import make_folds
 
     with progress_bar(call.console, "tracing beams"):
         folds = make_folds(train, grid)
-    fits = []
-    rows = []
+    maps = []
     for baseline in BASELINES:
         call.console.say(f"fitting {baseline.name} to the scans that are not scored")
         with share_bar(call.console, f"fitting {baseline.name}") as report:
             fit = fit_baseline(baseline, train, grid, folds, report)
-        fits.append(fit)
-        rows.append(_score(call, fit.name, fit.predictor, heldout))
-    return rows, fits
+        maps.append(_score_map(call, fit.name, fit.predictor, heldout, fit))
+    return maps
+
+
+def _score_poses(trajectory: Trajectory, relations_file: str, *, exact: bool) -> TrajectoryScore:
+    """Score a trajectory by true relations; if ``exact``, only by those at times of poses."""
+    from bayesmap.io.text.trajectories import read_relations
+    from bayesmap.posterior.trajectory_scores import score_trajectory
+
+    return score_trajectory(trajectory, read_relations(relations_file), exact=exact)
 
 
 @dataclass(frozen=True, eq=False)
@@ -310,63 +322,58 @@ def _poses_picture(picture: Path) -> Path:
     return picture.with_stem(f"{picture.stem}-poses")
 
 
-def _write_pictures(picture: Path, rows: list[tuple[str, Score]], poses: TrajectoryScore | None) -> list[Path]:
+def _write_pictures(picture: Path, maps: list[MapScore], poses: TrajectoryScore | None) -> list[Path]:
     """Render calibration and pose errors, and return the paths. With both, the errors go to NAME-poses.png."""
     from bayesmap.viz.figure import write_figure
     from bayesmap.viz.scores import calibration_figure, errors_figure
 
     written = []
-    if rows:
+    if maps:
         written.append(picture)
-        write_figure(calibration_figure(rows), picture)
+        write_figure(calibration_figure([(row.name, row.score) for row in maps]), picture)
     if poses is not None:
-        written.append(_poses_picture(picture) if rows else picture)
+        written.append(_poses_picture(picture) if maps else picture)
         write_figure(errors_figure(poses), written[-1])
     return written
 
 
 def _document(
-    path: str, log: str | None, scores: Scores, poses: dict[str, Any] | None, outputs: dict[str, str]
+    path: str, log: str | None, scores: Scores, poses: dict[str, Any] | None, written: list[Path]
 ) -> dict[str, Any]:
     """Return the JSON document of the scores; ``poses`` is the score of the trajectory as JSON values."""
-    baselines = []
-    for (name, score), fit in zip(scores.rows[1:], scores.fits, strict=True):
-        fitted = {key: float(value) for key, value in fit.values.items()}
-        inner = {"fitted": fitted, "inner_nats_per_beam": fit.inner_nats_per_beam}
-        baselines.append({"map": name, **score.as_json(), **inner})
     document: dict[str, Any] = {"run": path, "log": log}
-    if scores.rows:
-        name, score = scores.rows[0]
+    if scores.maps:
+        score = scores.maps[0].score
         counts = {"scans": score.scans, "beams": score.beams, "nats_per_beam": score.nats_per_beam}
         document["heldout"] = {"every": scores.every or None, **counts}
-        document["score"] = {"map": name, **score.as_json()}
+        document["score"] = {"map": scores.maps[0].name, **score.as_json()}
     if scores.verdict is not None:
         document["verdict"] = scores.verdict
+    baselines = []
+    for row in scores.maps:
+        if row.fit is not None:
+            fitted = {name: float(value) for name, value in row.fit.values.items()}
+            inner = {"fitted": fitted, "inner_nats_per_beam": row.fit.inner_nats_per_beam}
+            baselines.append({"map": row.name, **row.score.as_json(), **inner})
+    outputs = {file.name: str(file) for file in written}
     return {**document, "baselines": baselines or None, "relations": poses, "outputs": outputs}
 
 
-def _table_row(name: str, score: Score) -> tuple[str, ...]:
-    """Return the cells of a score in the table, as in `HEADINGS`."""
+def _table_row(row: MapScore) -> tuple[str, ...]:
+    """Return the cells of a map's score in the table, as in `HEADINGS`."""
+    score = row.score
     shares = [f"{100 * interval.share.value:.1f}" for interval in score.coverage]
     width_m = next(interval.median_width_m for interval in score.coverage if interval.level == 0.8)
     nats = f"{score.nats_per_beam:.3f} +- {score.nats_per_beam_error:.3f}"
     events = (f"{score.brier.value:.4f}", f"{score.log_loss.value:.4f}")
-    return (name, nats, *shares, f"{width_m:.3f} m", f"{score.pit_distance:.3f}", *events)
+    return (row.name, nats, *shares, f"{width_m:.3f} m", f"{score.pit_distance:.3f}", *events)
 
 
-def pose_score_lines(score: TrajectoryScore, frame: str, *, exact: bool, is_run: bool) -> list[str]:
+def _pose_score_lines(score: TrajectoryScore, frame: str, *, exact: bool, is_run: bool) -> list[str]:
     """Return the score of poses, of a saved run if ``is_run``, as lines of text. ``frame`` is the relations' frame."""
-    from bayesmap.space.trajectory import LONGEST_GAP_S
-
     figures = score.as_json()
-    missing = ""
-    if figures["in_gaps"]:
-        reason = "not at times of poses" if exact else f"between poses over {LONGEST_GAP_S:g} s apart"
-        missing = f"; {figures['in_gaps']:,} more are {reason}, and left out"
-    if n_outside := figures["not_covered"] - figures["in_gaps"]:
-        missing += f"; {n_outside:,} more are of other times"
     lines = [
-        f"relations    {figures['relations']:,}, of the {frame}{missing}",
+        f"relations    {figures['relations']:,}, of the {frame}{_words_for_missing(figures, exact=exact)}",
         f"translation  {figures['translation_m_mean']:.4f} +- {figures['translation_m_std']:.4f} m, "
         f"median {figures['translation_m_median']:.4f}",
         f"rotation     {figures['rotation_deg_mean']:.3f} +- {figures['rotation_deg_std']:.3f} degrees, "
@@ -385,3 +392,16 @@ def pose_score_lines(score: TrajectoryScore, frame: str, *, exact: bool, is_run:
         remedy = "--trajectory FILE.tum with FILE-covariances.txt beside it has them"
         lines.append(f"regions      unknown: the poses come without covariances; {remedy}")
     return lines
+
+
+def _words_for_missing(figures: dict[str, Any], *, exact: bool) -> str:
+    """Return words for the relations that the ``figures`` of a trajectory's score leave out; empty if there is none."""
+    from bayesmap.space.trajectory import LONGEST_GAP_S
+
+    words = ""
+    if figures["in_gaps"]:
+        reason = "not at times of poses" if exact else f"between poses over {LONGEST_GAP_S:g} s apart"
+        words = f"; {figures['in_gaps']:,} more are {reason}, and left out"
+    if n_outside := figures["not_covered"] - figures["in_gaps"]:
+        words += f"; {n_outside:,} more are of other times"
+    return words
