@@ -268,14 +268,10 @@ class Session:
 
     # Consequences of actions and reports
 
-    def _default_mode(self) -> tasks.Mode:
-        """Return the mode of inference after an edit."""
-        return "live" if self.live else "preview"
-
     def _restart(self, mode: tasks.Mode | None = None) -> Effects:
-        """Begin a new generation: inference starts again on the present document, by default in `_default_mode`."""
+        """Begin a new generation: inference starts again on the present document. None is the mode after an edit."""
         self.generation += 1
-        self._mode = mode if mode is not None else self._default_mode()
+        self._mode = mode or ("live" if self.live else "preview")
         self.running, self.working = self._mode == "run", self._mode != "clear"
         self.draws = notices.DrawCount()
         self._pace.computing = True

@@ -9,7 +9,6 @@ import queue
 import threading
 import time
 from collections.abc import Generator
-from contextlib import closing
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -208,8 +207,7 @@ class LogTrajectory:
         scans, grid, progress = self.log.scans, self.log.fit_grid(task.document).grid, StageProgress("reading", 0, 1)
         yield _make_picture(task, scans, grid, hit_count_map(scans, grid), progress, STAGE_TEXTS["reading"])
         job = TrajectoryJob(task, scans, grid)
-        with closing(job.reports()) as reports:
-            yield from reports
+        yield from job.reports()
         assert job.trajectory is not None
         # The session keeps the trajectory for a later worker.
         moved_scans = move_to_trajectory(scans, job.trajectory)

@@ -307,9 +307,7 @@ def run_group(
     return segment
 
 
-def run_segment(
-    job: Job, until: int, resume: Snapshot | None, state: ChainState | None = None
-) -> tuple[Chains, ChainState]:
+def run_segment(job: Job, until: int, resume: Snapshot | None, state: ChainState | None) -> tuple[Chains, ChainState]:
     """Run the chains of a job up to a number of sweeps. Returns the new draws of the chains, and their state.
 
     The job has its problem prepared. ``until`` is the number of sweeps at the end; 0 only starts the chains. Observed

@@ -18,6 +18,7 @@ from scipy import ndimage
 
 from bayesmap.errors import BadInput
 from bayesmap.files import check_ending, write_file
+from bayesmap.space.arrays import Mask
 from bayesmap.space.grid import ROUNDING, Grid, as_mask, as_observed
 from bayesmap.space.scans import as_poses
 from bayesmap.viz import palette
@@ -93,9 +94,7 @@ def render_frames(
 class _Canvas:
     """The parts that all frames share: size, colours, and the marks over the map."""
 
-    def __init__(
-        self, grid: Grid, observed: NDArray[np.bool_], truth: ArrayLike | None, poses: ArrayLike | None
-    ) -> None:
+    def __init__(self, grid: Grid, observed: Mask, truth: ArrayLike | None, poses: ArrayLike | None) -> None:
         self.scale = math.ceil(MIN_SIDE_PX / max(grid.shape))
         width, height = (n * self.scale for n in grid.shape)
         self.font = ImageFont.load_default(size=15)
@@ -141,7 +140,7 @@ class _Canvas:
         """Convert cells [x, y] to pixels [row, column], with the first row on top."""
         return cells.T[::-1].repeat(self.scale, axis=0).repeat(self.scale, axis=1)
 
-    def _outline(self, walls: NDArray[np.bool_]) -> None:
+    def _outline(self, walls: Mask) -> None:
         """Mark a line around the walls, outside them, so that the walls stay visible."""
         solid = np.zeros(self.marks.shape, dtype=np.bool_)
         solid[self.inside] = self._enlarge(walls.astype(np.uint8)) == 1

@@ -110,7 +110,7 @@ def _select_spread(beams: NDArray[np.intp], max_count: int) -> NDArray[np.intp]:
     return beams[np.linspace(0, len(beams) - 1, max_count).astype(np.intp)]
 
 
-def _rays(scans: Scans, beams: NDArray[np.intp]) -> NDArray[np.float64]:
+def _rays(scans: Scans, beams: NDArray[np.intp]) -> Floats:
     """Return start and end of beams, given by flat index, metres, (n, 2, 2). No return ends at the largest range."""
     angles = scans.beam_angles_world().ravel()[beams]
     ranges = scans.ranges_m.ravel()[beams]
@@ -126,9 +126,7 @@ def _arrow(yaw_rad: float) -> MarkerStyle:
     return MarkerStyle(Path(outline, closed=True), transform=Affine2D().rotate(yaw_rad))
 
 
-def surface_strokes(
-    means_world: ArrayLike, covariances_m2: ArrayLike, longest_m: float = np.inf
-) -> NDArray[np.float64]:
+def surface_strokes(means_world: ArrayLike, covariances_m2: ArrayLike, longest_m: float = np.inf) -> Floats:
     """Return both ends of the strokes of n surfaces, metres, (n, 2, 2), given means (n, 2) and covariances (n, 2, 2).
     Longer strokes than ``longest_m`` are cut. Raises `BadInput` for other shapes, infinite numbers, or no covariance.
     """

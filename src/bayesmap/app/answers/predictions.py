@@ -24,6 +24,7 @@ from bayesmap.app.shown.result import PriorMap, Result
 from bayesmap.errors import BadInput
 from bayesmap.posterior.prediction import CENTRAL_80, Predictor, ScanPredictor, fixed_maps, surface_offset
 from bayesmap.sensors.model import RangeLimits
+from bayesmap.space.planar import Floats
 from bayesmap.space.scans import Scans, fan
 
 if TYPE_CHECKING:
@@ -109,9 +110,7 @@ def predictor_of_result(result: Result) -> tuple[Predictor, int]:
     return Predictor(grid, stops, sensor, hit_depth, thinned.size), thinned.size
 
 
-def nearest_scan(
-    poses: NDArray[np.float64], pose: tuple[float, float, float], angles_rad: NDArray[np.float64]
-) -> Near | None:
+def nearest_scan(poses: Floats, pose: tuple[float, float, float], angles_rad: Floats) -> Near | None:
     """Find the scan nearest to a pose; None if none is within `MAX_NEARBY_M` and shares `MIN_SHARED_VIEW`."""
     view_rad = float(np.ptp(angles_rad)) if len(angles_rad) > 1 else 0.0
     distance_m = np.hypot(poses[:, 0] - pose[0], poses[:, 1] - pose[1])
@@ -152,7 +151,7 @@ def compare_beam(result: Result, question: CompareBeam, generation: int) -> Comp
         range=_finite(range_m), low=_finite(low), median=_finite(median), high=_finite(high),
         residual=_finite(range_m - median), nats=_finite(-predicted.log_density[0]),
         no_return=_finite(predicted.p_no_return[0]),
-        wall=_surface_offset_of(result, predictor, stops, range_m) if is_hit else None,
+        wall=_surface_offset(result, predictor, stops, range_m) if is_hit else None,
     )  # fmt: skip
 
 
@@ -160,9 +159,7 @@ def _finite(value: float) -> float | None:
     return float(value) if math.isfinite(value) else None
 
 
-def _surface_offset_of(
-    result: Result, predictor: Predictor, stops: StopMixture, range_m: float
-) -> SurfaceOffset | None:
+def _surface_offset(result: Result, predictor: Predictor, stops: StopMixture, range_m: float) -> SurfaceOffset | None:
     """Return a reading in the frame of the surface at which its beam most probably stopped; None if none is near."""
     surfaces = result.surfaces
     if surfaces is None:

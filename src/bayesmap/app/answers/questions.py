@@ -10,7 +10,6 @@ from typing import Literal
 
 import numpy as np
 from msgspec import structs
-from numpy.typing import NDArray
 
 from bayesmap.app.answers.evidence import BeamRatios, stop_ratios, strongest_beams, sum_evidence, wall_ratios
 from bayesmap.app.answers.predictions import VirtualScanPredictor, compare_beam
@@ -25,6 +24,8 @@ from bayesmap.beams.table import BeamTable
 from bayesmap.cells.binary import BinaryWalls
 from bayesmap.errors import BadInput
 from bayesmap.posterior.decisions import beam_information, shortest_safe_path, typical_sigma_m
+from bayesmap.space.arrays import Mask
+from bayesmap.space.planar import Floats
 
 ANSWERED_BY: Mapping[type, Literal["path", "views", "ghost", "beam"]] = {  # types of the answers, by type of question
     FindPath: "path", FindViews: "views", MoveGhost: "ghost", CompareBeam: "beam",
@@ -166,9 +167,7 @@ def rank_views(result: Result, generation: int) -> tuple[Views, Buffers]:
     return Views(spacing_m, generation=generation), buffers
 
 
-def _free_lattice(
-    document: Document, mean: NDArray[np.float64], observed: NDArray[np.bool_]
-) -> tuple[NDArray[np.float64], float]:
+def _free_lattice(document: Document, mean: Floats, observed: Mask) -> tuple[Floats, float]:
     """Return poses at the centres of free cells, at most `MAX_VIEWS`, (P, 3), and their spacing in metres.
 
     Raises `BadInput` if no cell is known to be free.

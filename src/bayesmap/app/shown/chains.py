@@ -21,6 +21,7 @@ from bayesmap.app.scene import Scene
 from bayesmap.app.shown.result import CHAINS, DrawnMap, Estimate, Progress, Result
 from bayesmap.app.shown.verdicts import compare_means, judge_chains, judge_shifted_chains, misfit_of, rhat_and_ess
 from bayesmap.app.shown.without_chains import Preview
+from bayesmap.arguments import Schedule
 from bayesmap.cells.arrays import Draws
 from bayesmap.cells.kinds import BUILT_IN
 from bayesmap.model import Model
@@ -244,10 +245,8 @@ class RunningChains(Estimate):
             log_prior=chains.log_prior[:, first:], warmup_log_joint=self.log_joint()[:, : burned.sweep],
             observed_counts=self._observed_counts - burned.observed_counts,
         )  # fmt: skip
-        n_draws = self.total // self.thin - first
-        settings = result.settings_of_run(
-            self.model, chains=self.n_chains, draws=n_draws, warmup=burned.sweep, thin=self.thin
-        )
+        schedule = Schedule(self.n_chains, burned.sweep, draws=self.total // self.thin - first, thin=self.thin)
+        settings = result.settings_of_run(self.model, schedule)
         return Run(posterior_of_chains(self.model, chains, settings, {"total": self.seconds}, None))
 
 

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from bayesmap.app.protocol.document import Document
 from bayesmap.app.protocol.notices import DrawCount, Quantity, Verdict
 from bayesmap.app.scene import Scene
+from bayesmap.arguments import Schedule
 from bayesmap.cells.arrays import Draws
 from bayesmap.cells.kind import CellPrior
 from bayesmap.cells.kinds import BUILT_IN
@@ -273,17 +274,15 @@ class Result:
         """Return the result as a run, as `bayesmap.infer` does. Raises `BadInput` if there are no kept draws."""
         return self.estimate.as_run(self)
 
-    def settings_of_run(
-        self, model: Model, *, chains: int, draws: int, warmup: int = 0, thin: int = 1, rounds: int = 0
-    ) -> dict[str, Any]:
-        """Return the settings that `bayesmap.infer` writes into a saved run."""
+    def settings_of_run(self, model: Model, schedule: Schedule, rounds: int = 0) -> dict[str, Any]:
+        """Return the settings that `bayesmap.infer` writes into a saved run. ``rounds`` are of belief propagation."""
         document = self.document
         return {
-            "method": self.method, "order": document.order, "chains": chains, "warmup": warmup, "draws": draws,
-            "thin": thin, "seed": document.seed, "start": "prior" if document.simulated else "propagate",
-            "particles": document.sweeps, "rounds": rounds, "hit_depth": model.hit_depth,
-            "prior": model.cells.describe(), "sensor": describe(model.sensor), "streams": RANDOM_STREAMS,
-            "poses": model.poses.describe(), "fingerprint": "made by the page",
+            "method": self.method, "order": document.order, "chains": schedule.chains, "warmup": schedule.warmup,
+            "draws": schedule.draws, "thin": schedule.thin, "seed": document.seed,
+            "start": "prior" if document.simulated else "propagate", "particles": document.sweeps, "rounds": rounds,
+            "hit_depth": model.hit_depth, "prior": model.cells.describe(), "sensor": describe(model.sensor),
+            "streams": RANDOM_STREAMS, "poses": model.poses.describe(), "fingerprint": "made by the page",
         }  # fmt: skip
 
 

@@ -13,6 +13,7 @@ from scipy import special
 
 from bayesmap.app.shown.result import CHAINS, SAVED_DRAWS, Estimate, Progress, Result
 from bayesmap.app.shown.verdicts import judge_particles
+from bayesmap.arguments import Schedule
 from bayesmap.beams.table import BeamTable
 from bayesmap.kernels.random import mix
 from bayesmap.kernels.walls.propagate import Beliefs
@@ -164,6 +165,6 @@ def _run_of_draws(
 ) -> Run:
     """Return a run of independent draws that were begun at a time of `time.perf_counter`, after rounds, if any."""
     model = result.scene.model(problem.prior)
-    settings = result.settings_of_run(model, chains=CHAINS, draws=SAVED_DRAWS, rounds=rounds)
+    settings = result.settings_of_run(model, Schedule(CHAINS, warmup=0, draws=SAVED_DRAWS, thin=1), rounds)
     seconds = {"trace": 0.0, "total": time.perf_counter() - began_s}
     return Run(posterior_of_draws(model, draws, result.scene.problem.n_incidences, settings, seconds))
