@@ -10,7 +10,6 @@ import threading
 import time
 from collections.abc import Generator
 from dataclasses import dataclass, replace
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -49,24 +48,17 @@ class Picture:
     text: str = ""  # text for the status line, or empty
 
 
-class StageProgress(NamedTuple):
-    """Progress in a stage of the inference."""
-
-    stage: str  # name of the stage, a key of `STAGE_TEXTS`
-    done: int  # number of parts done
-    total: int  # number of parts in all
-
-
 def _make_picture(
-    task: Infer, scans: Scans, grid: Grid, hit_map: HitCountMap, progress: StageProgress | None, text: str = ""
+    task: Infer, scans: Scans, grid: Grid, hit_map: HitCountMap, stage: Stage | None, text: str = ""
 ) -> Picture:
+    """Return a picture of the hit-count map of scans, at their present poses."""
     result = Result(untraced_scene(scans, grid, task.document.prior), task.document.on_grid(grid), "counts", hit_map)
-    return Picture(grid, result, None if progress is None else _stage_notice(task, progress), text)
+    return Picture(grid, result, stage, text)
 
 
-def _stage_notice(task: Infer, progress: StageProgress) -> Stage:
-    stage, done, total = progress
-    return Stage(stage, STAGE_TEXTS[stage], done, total, generation=task.generation)
+def _make_stage(task: Infer, name: str, done: int, total: int) -> Stage:
+    """Return the progress in a stage of `STAGE_TEXTS`: ``done`` of ``total`` parts."""
+    return Stage(name, STAGE_TEXTS[name], done, total, generation=task.generation)
 
 
 class Cancelled(Exception):
@@ -81,11 +73,13 @@ class TrajectoryJob:
     def __init__(self, task: Infer, scans: Scans, grid: Grid) -> None:
         self.trajectory: InferredTrajectory | None = None  # the trajectory, when the job has ended
         self.error: BaseException | None = None  # the error that ended the job instead
-        self._task, self._scans, self._grid = task, scans, grid
+        self._task = task
+        self._scans = scans
+        self._grid = grid
         self._time_order, _ = sort_by_time(scans)
         self._reports: queue.SimpleQueue[Picture | Stage | Status] = queue.SimpleQueue()
         self._stop = threading.Event()
-        self._progress = StageProgress("", 0, 1)
+        self._stage: Stage | None = None  # the latest progress
         self._pictured_stage = ""  # stage of the last picture
         self._next_progress_s = self._next_picture_s = 0.0  # earliest times of the next reports within a stage
         self._earlier_thread = TrajectoryJob._latest_thread
@@ -134,12 +128,13 @@ class TrajectoryJob:
     def _on_progress(self, stage: str, done: int, total: int) -> None:
         """Queue the progress, at once where a stage begins, and otherwise at intervals."""
         self._raise_if_cancelled()
-        new_stage, now_s = stage != self._progress.stage, time.monotonic()
-        self._progress = StageProgress(stage, done, total)
-        if new_stage:
-            self._reports.put(Status(STAGE_TEXTS[stage], "info"))
-        if new_stage or now_s >= self._next_progress_s:
-            self._reports.put(_stage_notice(self._task, self._progress))
+        now_s = time.monotonic()
+        is_new = self._stage is None or stage != self._stage.name
+        self._stage = _make_stage(self._task, stage, done, total)
+        if is_new:
+            self._reports.put(Status(self._stage.text, "info"))
+        if is_new or now_s >= self._next_progress_s:
+            self._reports.put(self._stage)
             self._next_progress_s = now_s + MIN_PICTURE_SECONDS
 
     def _on_poses(self, stage: str, poses: NDArray[np.float64]) -> None:
@@ -152,7 +147,7 @@ class TrajectoryJob:
         scans = self._scans.at(poses[np.argsort(self._time_order)])  # poses are in the order of time
         self._grid = grow_grid(self._grid, scans)
         hit_map = hit_count_map(scans, self._grid)
-        self._reports.put(_make_picture(self._task, scans, self._grid, hit_map, self._progress))
+        self._reports.put(_make_picture(self._task, scans, self._grid, hit_map, self._stage))
         now_s = time.monotonic()
         self._next_picture_s = now_s + max(MIN_PICTURE_SECONDS, (now_s - began_s) / MAX_PICTURE_SHARE)
 
@@ -204,8 +199,9 @@ class LogTrajectory:
             yield _make_picture(task, self.log.scans, grid, hit_map, None, ASK_TO_RUN)
 
     def _infer(self, task: Infer) -> Generator[Picture | Stage | TrajectoryInferred | Status | None, None, None]:
-        scans, grid, progress = self.log.scans, self.log.fit_grid(task.document).grid, StageProgress("reading", 0, 1)
-        yield _make_picture(task, scans, grid, hit_count_map(scans, grid), progress, STAGE_TEXTS["reading"])
+        scans, grid = self.log.scans, self.log.fit_grid(task.document).grid
+        stage = _make_stage(task, "reading", 0, 1)
+        yield _make_picture(task, scans, grid, hit_count_map(scans, grid), stage, stage.text)
         job = TrajectoryJob(task, scans, grid)
         yield from job.reports()
         assert job.trajectory is not None
