@@ -1,8 +1,7 @@
 """``bayesmap score``: score runs, and maps and trajectories of other programs, on unseen beams and true relations.
 
 A map is scored by the densities that it predicts for held-out readings (`score_run`). `score_others` fits a sensor
-to a map, or infers a map from a trajectory, before that. A trajectory is scored by its errors in known relative poses
-(`_score_poses`). The functions that print the scores come last.
+to a map, or infers a map from a trajectory, before that. A trajectory is scored by its errors in known relative poses.
 """
 
 from __future__ import annotations

@@ -134,10 +134,8 @@ def reading_law(sensor: SensorModel, limits: RangeLimits) -> ReadingLaw:
     """Return the law of a sensor model. Raises `BadInput` if the model has no `kernel_parameters`."""
     parameters = sensor.kernel_parameters()
     if parameters is None:
-        raise BadInput(
-            f"mapping_model: {type(sensor).__name__} has no likelihood on JAX, because it gives no "
-            "kernel_parameters(); use Gaussian, StudentT or BeamMixture"
-        )
+        fault = f"{type(sensor).__name__} has no likelihood on JAX, because it gives no kernel_parameters()"
+        raise BadInput(f"mapping_model: {fault}; use Gaussian, StudentT or BeamMixture")
     return ReadingLaw(parameters, limits)
 
 

@@ -173,10 +173,8 @@ def _as_chain(grid: Grid, draws: ArrayLike) -> NDArray[Any]:
     if chain.dtype.kind not in "buif":
         raise BadInput(f"animation: draws must be an array of numbers, not of {chain.dtype}")
     if chain.ndim != 3 or chain.shape[1:] != grid.shape:
-        own = f"(n, {grid.shape[0]}, {grid.shape[1]})"
-        raise BadInput(
-            f"animation: draws has shape {chain.shape}, a chain on this grid {own}; choose one chain, as run.draws[0]"
-        )
+        fault = f"draws has shape {chain.shape}, a chain on this grid (n, {grid.shape[0]}, {grid.shape[1]})"
+        raise BadInput(f"animation: {fault}; choose one chain, as run.draws[0]")
     if len(chain) == 0:
         raise BadInput("animation: the chain is empty; an animation needs at least one draw")
     for number, draw in enumerate(chain):

@@ -67,10 +67,8 @@ def _as_traces(log_joint: ArrayLike) -> NDArray[np.float64]:
         raise BadInput(f"trace: log_joint has shape {traces.shape}; give (chain, draw), with at least one draw")
     if not np.isfinite(traces).all():
         chain, draw = (int(v) for v in np.argwhere(~np.isfinite(traces))[0])
-        raise BadInput(
-            f"trace: log_joint[{chain}, {draw}] is {traces[chain, draw]}; a chain never reaches a map of "
-            "probability zero, so look at the sensor model, or cut the trace before it"
-        )
+        fault = f"log_joint[{chain}, {draw}] is {traces[chain, draw]}; a chain never reaches a map of probability zero"
+        raise BadInput(f"trace: {fault}, so look at the sensor model, or cut the trace before it")
     return traces
 
 

@@ -74,10 +74,8 @@ def window(grid: Grid, x_m: tuple[float, float], y_m: tuple[float, float]) -> tu
         start, stop = max(math.floor(first + 1e-9), 0), min(math.ceil(last - 1e-9), cells)
         if start >= stop:
             edges = grid.extent_m[2 * axis : 2 * axis + 2]
-            raise BadInput(
-                f"picture: the window {low:g} to {high:g} m lies outside the map, whose {'xy'[axis]} runs from "
-                f"{edges[0]:g} to {edges[1]:g} m"
-            )
+            own = f"the map, whose {'xy'[axis]} runs from {edges[0]:g} to {edges[1]:g} m"
+            raise BadInput(f"picture: the window {low:g} to {high:g} m lies outside {own}")
         slices.append(slice(start, stop))
         origin.append(grid.origin[axis] + start * grid.resolution)
     shape = (slices[0].stop - slices[0].start, slices[1].stop - slices[1].start)

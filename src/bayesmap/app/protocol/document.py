@@ -192,10 +192,9 @@ class Document(Settings):
         grid = Grid.over(*bounds, resolution_m)
         if max(grid.shape) > MAX_LOG_SIDE:
             min_resolution_m = max(high - low for low, high in zip(*bounds, strict=True)) / (MAX_LOG_SIDE - 1)
-            raise Refused(
-                f"cells of {resolution_m:g} m make a map of {grid.shape[0]} x {grid.shape[1]} cells, more than "
-                f"{MAX_LOG_SIDE} a side", f"give at least {min_resolution_m:.3f} m"
-            )  # fmt: skip
+            size = f"{grid.shape[0]} x {grid.shape[1]} cells, more than {MAX_LOG_SIDE} a side"
+            remedy = f"give at least {min_resolution_m:.3f} m"
+            raise Refused(f"cells of {resolution_m:g} m make a map of {size}", remedy)
         return self.on_grid(grid)
 
     def with_scans_used(self, n_used: int | None) -> Document:

@@ -1,9 +1,7 @@
 """Verdicts on results: whether chains, or weighted particles, represent the posterior well.
 
-`judge_chains` and `judge_particles` give the verdicts by `VerdictLimits`. The verdict on chains depends on R-hat and
-effective sample size of the log joint (`rhat_and_ess`), on differences between the chains' mean maps (`compare_means`),
-and on the fit of the maps to the readings (`misfit_of`). `judge_shifted_chains` corrects it for chains at several
-shifts. The page's figures repeat these rules in TypeScript (page/src/figure).
+`judge_chains` and `judge_particles` give the verdicts by `VerdictLimits`. The functions before them compute what the
+verdict on chains depends on. The page's figures repeat these rules in TypeScript (page/src/figure).
 """
 
 import math
@@ -86,15 +84,8 @@ def judge_chains(
 
     Chains that have ended (finished, cancelled or saved) get a verdict even after few sweeps. Means of few draws differ
     by chance, so then only the log joint is judged. As in the summary of a run, one cell in a hundred may differ.
-
-    Args:
-        joint_rhat: R-hat of the log joint; NaN if the log joint never changed.
-        ess: effective sample size of the log joint; NaN if the log joint never changed.
-        sweeps: number of sweeps of each chain.
-        difference: differences between the chains' mean maps; None if they were not compared.
-        ended: whether the chains will not go on.
-        quantity: words for the mean, which name it in the reason.
-        misfit: misfit of the maps, from `misfit_of`.
+    ``joint_rhat`` and ``ess`` are from `rhat_and_ess`, ``difference`` is from `compare_means`, and ``misfit`` from
+    `misfit_of`. ``quantity`` names the means that are compared.
     """
     few = sweeps < VERDICT_LIMITS.fewest_sweeps
     if few and not ended:
