@@ -62,7 +62,8 @@ class SavedRun(Estimate):
         self.run = run
 
     def progress(self, ended: bool) -> Progress:
-        sweeps, log_joint = self.run.posterior.sweep, self.run.log_joint
+        sweeps = self.run.posterior.sweep
+        log_joint = self.run.log_joint
         seconds = self.run.posterior.seconds["total"]
         if not log_joint.size:
             return Progress(sweeps, sweeps, seconds=seconds)
@@ -112,7 +113,8 @@ class SavedRun(Estimate):
         if not self.run.n_draws:
             return None
         last = self.run.n_draws - 1
-        chain, number = min(chain or 0, len(self.run.log_joint) - 1), last if number is None else min(number, last)
+        chain = min(chain or 0, len(self.run.log_joint) - 1)
+        number = last if number is None else min(number, last)
         return DrawnMap(self.run.map_of(chain, number), chain, number)
 
     def as_run(self, result: Result) -> Run:
@@ -157,8 +159,8 @@ class OpenedLog:
         if traced.counts is None:
             traced.counts = HitCounts(self.scans, traced.table)
         counts = traced.counts.count_first(document.scans_used)
-        prior = None if document.cells == "binary" else BUILT_IN[document.cells]()
-        p_stop = stop_probabilities(counts, Independent(document.prior) if prior is None else prior, document.prior)
+        prior: CellPrior = Independent(document.prior) if document.cells == "binary" else BUILT_IN[document.cells]()
+        p_stop = stop_probabilities(counts, prior, document.prior)
         shape = document.grid.shape
         hit_map = HitCountMap(p_stop.reshape(shape), counts.any(axis=0).reshape(shape), prior)
         return Result(self.scene(document), document, "hits", hit_map)
@@ -178,8 +180,9 @@ class OpenedLog:
 def first_beams(table: BeamTable, n_beams: int) -> BeamTable:
     """Return the first beams of a table, as views of its arrays."""
     offsets = table.offsets[: n_beams + 1]
-    entries, no_hit = slice(int(offsets[-1])), table.no_hit[:n_beams]
-    return replace(table, offsets=offsets, cells=table.cells[entries], loglik=table.loglik[entries], no_hit=no_hit)
+    n = int(offsets[-1])  # number of table entries of these beams
+    cells, loglik, no_hit = table.cells[:n], table.loglik[:n], table.no_hit[:n_beams]
+    return replace(table, offsets=offsets, cells=cells, loglik=loglik, no_hit=no_hit)
 
 
 def read_document(path: str) -> Document:
@@ -187,7 +190,7 @@ def read_document(path: str) -> Document:
     try:
         return parse_simulation(json.loads(Path(path).read_text(encoding="utf-8")))
     except (OSError, ValueError, RecursionError) as error:
-        reason = error.strerror if isinstance(error, OSError) else error if isinstance(error, Refused) else "not JSON"
+        reason = error if isinstance(error, Refused) else getattr(error, "strerror", "not JSON")
         raise BadInput(f"{path}: {reason}; give a document that the page has exported") from None
 
 

@@ -2,13 +2,9 @@
 
 A run costs time and memory in proportion to its *incidences*: the cells that a beam crosses, summed over all beams.
 
-    processor_s = incidences * (warmup * (chains + pilot) * warmup_ns + sweeps * chains * sweep_ns) * 1e-9
-                  + MATCHING_S_PER_SCAN * matched scans + FILE_S_PER_BYTE * bytes of all draws + FIXED_S
-    peak_bytes  = BASE_BYTES + CELL_BYTES * cells + READING_BYTES * readings + incidence_bytes * incidences
-                  + chains * (cost of a chain by its incidences, cells and beams) + bytes of all draws
-
-Read `estimate` and `Estimate` (the answer), `size_of` (measures scans on a grid), `Sampling` (the formula above), and
-`_remedies`. Each constant names the measurement that it comes from. docs/scale.md compares estimates with whole runs.
+Read `estimate` and `Estimate` (the answer), `size_of` (measures scans on a grid), `Sampling.processor_s` and
+`Sampling.peak_bytes` (the formulas), and `_remedies`. Each constant names the measurement that it comes from.
+docs/scale.md compares estimates with whole runs.
 """
 
 from __future__ import annotations
@@ -261,14 +257,15 @@ class Sampling:
         return total
 
     def peak_bytes(self, size: ProblemSize, draws: int) -> float:
-        """Return the peak of the memory for a number of draws per chain, by the formula of this module."""
+        """Return the peak of the memory in bytes, for a number of draws per chain."""
         cost = self.constants
         assert cost is not None
-        chain = cost.chain_cell_bytes * size.cells + cost.chain_beam_bytes * size.beams
-        chain += cost.chain_incidence_bytes * size.incidences
+        # All chains share the problem; each has a state and draws of its own.
         shared = BASE_BYTES + CELL_BYTES * size.cells + cost.incidence_bytes * size.incidences
+        state = cost.chain_cell_bytes * size.cells + cost.chain_beam_bytes * size.beams
+        state += cost.chain_incidence_bytes * size.incidences
         draw_bytes = self.chains * draws * self.draw_bytes(size)
-        return shared + self.chains * chain + draw_bytes + READING_BYTES * size.readings
+        return shared + self.chains * state + draw_bytes + READING_BYTES * size.readings
 
     def processor_s(self, size: ProblemSize, draws: int) -> float | None:
         """Return the processor time for a number of draws per chain, in seconds; None if it is not known."""

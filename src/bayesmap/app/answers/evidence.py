@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import special
 
-from bayesmap.app.answers.predictions import predictor_of_result
+from bayesmap.app.answers.predictions import one_beam_each, predictor_of_result
 from bayesmap.app.shown.result import Result
 from bayesmap.beams.table import BeamTable
 from bayesmap.posterior.prediction import Predictor
@@ -113,16 +113,6 @@ def _log_ratio(table: BeamTable, p_wall: NDArray[np.float64], beam: int, entry: 
             log_stop, log_pass = np.log(p_stop), np.log1p(-p_stop[:-1])
         log_means.append(special.logsumexp(np.append(0.0, np.cumsum(log_pass)) + log_stop + log_p))
     return float(np.nan_to_num(log_means[0] - log_means[1]))
-
-
-def one_beam_each(scans: Scans, beams: NDArray[np.intp]) -> Scans:
-    """Return the beams with these flat indices, each as a scan of its own with one beam straight ahead."""
-    start = scans.beam_starts_world().reshape(-1, 2)[beams]
-    angle_rad = scans.beam_angles_world().ravel()[beams]
-    return Scans(
-        np.column_stack([start, angle_rad]), np.zeros(1), scans.ranges_m.ravel()[beams, None],
-        max_range_m=scans.max_range_m, min_range_m=scans.min_range_m,
-    )  # fmt: skip
 
 
 def log_ratios(predictor: Predictor, scans: Scans, cell: int) -> NDArray[np.float64]:

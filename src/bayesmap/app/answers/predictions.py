@@ -20,7 +20,7 @@ from bayesmap.app.protocol.notices import ComparedBeam, GhostScan, Near, Surface
 from bayesmap.app.protocol.tasks import Buffers
 from bayesmap.app.scene import hit_mask
 from bayesmap.app.shown.chains import Pilot
-from bayesmap.app.shown.result import PriorMap, Result
+from bayesmap.app.shown.result import Result
 from bayesmap.errors import BadInput
 from bayesmap.posterior.prediction import CENTRAL_80, Predictor, ScanPredictor, fixed_maps, surface_offset
 from bayesmap.sensors.model import RangeLimits
@@ -99,7 +99,7 @@ def predictor_of_result(result: Result) -> tuple[Predictor, int]:
     scene = result.scene
     grid = result.document.grid
     draws = result.estimate.available_draws
-    if isinstance(result.estimate, PriorMap):
+    if result.method == "none":
         raise BadInput("there is nothing to predict from yet; run inference first")
     if draws is None:
         return Predictor(grid, fixed_maps(result.estimate.mean().reshape(1, -1)), scene.sensor, scene.hit_depth), 0
@@ -108,6 +108,16 @@ def predictor_of_result(result: Result) -> tuple[Predictor, int]:
     thinned = draws.thinned(int(np.clip(MAX_DRAW_BYTES // draw_bytes, draws.chains, MAX_DRAWS)))
     stops = partial(result.prior.predictive_stops, thinned)
     return Predictor(grid, stops, sensor, hit_depth, thinned.size), thinned.size
+
+
+def one_beam_each(scans: Scans, beams: NDArray[np.intp]) -> Scans:
+    """Return the beams with these flat indices, each as a scan of its own with one beam straight ahead."""
+    start = scans.beam_starts_world().reshape(-1, 2)[beams]
+    angle_rad = scans.beam_angles_world().ravel()[beams]
+    return Scans(
+        np.column_stack([start, angle_rad]), np.zeros(1), scans.ranges_m.ravel()[beams, None],
+        max_range_m=scans.max_range_m, min_range_m=scans.min_range_m,
+    )  # fmt: skip
 
 
 def nearest_scan(poses: Floats, pose: tuple[float, float, float], angles_rad: Floats) -> Near | None:
@@ -132,11 +142,8 @@ def compare_beam(result: Result, question: CompareBeam, generation: int) -> Comp
 
     # The beam as a scan of its own.
     predictor, n_draws = predictor_of_result(result)
-    scans, row = result.scene.scans, [question.scan]
-    beam_scan = Scans(
-        result.scan_poses[row], scans.angles_by_scan()[question.scan, [question.beam]],
-        scans.ranges_m[row, [question.beam]], max_range_m=scans.max_range_m, min_range_m=scans.min_range_m,
-    )  # fmt: skip
+    beam = np.ravel_multi_index((question.scan, question.beam), result.scene.scans.ranges_m.shape)
+    beam_scan = one_beam_each(result.scene.scans.at(result.scan_poses), np.array([beam]))
     # The distribution of the distance at which the beam stops, and the quantiles and the density of its reading.
     rays = trace_rays(beam_scan, predictor.grid)
     stops = mix_stops(rays, predictor.batches(rays.touched), predictor.hit_depth)

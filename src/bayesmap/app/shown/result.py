@@ -306,13 +306,9 @@ class FixedMap(Estimate):
         return self._observed.astype(np.float64)
 
 
-class PriorMap(FixedMap):
-    """The prior, before inference begins."""
-
-
 def prior_result(scene: Scene, document: Document) -> Result:
     """Return the result before inference begins: the prior."""
     # The scene's prior is that of walls. It does not apply to other kinds of cells.
     prior: CellPrior = scene.prior if document.cells == scene.prior.words.kind else BUILT_IN[document.cells]()
-    estimate = PriorMap(prior.mean_stop(scene.grid), np.zeros(scene.grid.shape, dtype=np.bool_), prior)
+    estimate = FixedMap(prior.mean_stop(scene.grid), np.zeros(scene.grid.shape, dtype=np.bool_), prior)
     return Result(scene, document, "none", estimate)
