@@ -4,6 +4,7 @@ The session turns a page's message or a worker's report into effects. `Hub._carr
 """
 
 import asyncio
+import contextlib
 import contextvars
 import itertools
 from collections import deque
@@ -52,9 +53,8 @@ class Hub:
     ) -> None:  # fmt: skip
         self.session = Session(document, story)  # the session that the pages share
         self._first_picture = asyncio.Event()  # set when there is a first field, or an error instead
-        self._supervisor = Supervisor(
-            on_this_loop(self._receive_report), on_this_loop(self._worker_lost), path, log_options=log_options
-        )
+        on_report, on_lost = on_this_loop(self._receive_report), on_this_loop(self._worker_lost)
+        self._supervisor = Supervisor(on_report, on_lost, path, log_options=log_options)
         self._outboxes: dict[int, Outbox] = {}  # the outbox of each connected page, by its number
         self._numbers = itertools.count(1)
         self._file_fault: str | None = None  # the reason why the file cannot be opened
@@ -120,10 +120,7 @@ class Hub:
 
 
 def on_this_loop(call: Callable[..., None]) -> Callable[..., None]:
-    """Return a function with which other threads run a call on this event loop; without a loop, the call itself.
-
-    The call runs in the present context, and no more once the loop is closed.
-    """
+    """Return a function by which other threads run a call on this thread's event loop; the call itself without one."""
     loop = running_loop()
     if loop is None:
         return call
@@ -138,7 +135,6 @@ def on_this_loop(call: Callable[..., None]) -> Callable[..., None]:
 
 def running_loop() -> asyncio.AbstractEventLoop | None:
     """Return the event loop that runs in this thread, or None."""
-    try:
+    with contextlib.suppress(RuntimeError):
         return asyncio.get_running_loop()
-    except RuntimeError:
-        return None
+    return None

@@ -41,10 +41,8 @@ class Scene:
     sensor: SensorModel  # the sensor model
     grid: Grid  # the map's cells
     prior: BinaryWalls  # the prior of walls
-    # Functions, since many a scene is replaced before its beams are needed. One traces the beams of the scans used for
-    # the map; the other only a little past their readings (None means `trace`).
-    trace: Callable[[], BeamTable]
-    trace_near: Callable[[], BeamTable] | None = None
+    trace: Callable[[], BeamTable]  # traces the beams of the used scans; many scenes are replaced before that is needed
+    trace_near: Callable[[], BeamTable] | None = None  # traces them only a little past their readings; None: `trace`
     hit_depth: float = 0.0  # depth in a cell at which a beam is expected to stop
     n_used: int | None = None  # number of first scans used for the map; None means all scans
 
@@ -103,11 +101,12 @@ def simulated_scene(document: Document) -> Scene:
     from bayesmap.kernels.walls.table import trace
 
     scans, exact_m = simulate_document(document)
-    sensor, grid, ids = Gaussian(document.noise), document.grid, tuple(sensor.id for sensor in document.sensors)
+    model = Gaussian(document.noise)
+    trace_all = partial(trace, scans, document.grid, model)
     # Cutting beams past their readings does not change belief propagation: the omitted cells send messages equal to 1.
-    reach_m = scans.ranges_m.ravel() + CUT_SIGMAS * sensor.sigma_m
-    trace_all, trace_near = partial(trace, scans, grid, sensor), partial(trace, scans, grid, sensor, reach_m=reach_m)
-    return Scene(scans, exact_m, ids, sensor, grid, Independent(document.prior), trace_all, trace_near)
+    trace_near = partial(trace_all, reach_m=scans.ranges_m.ravel() + CUT_SIGMAS * model.sigma_m)
+    ids = tuple(sensor.id for sensor in document.sensors)
+    return Scene(scans, exact_m, ids, model, document.grid, Independent(document.prior), trace_all, trace_near)
 
 
 def hit_mask(scene: Scene) -> NDArray[np.bool_]:

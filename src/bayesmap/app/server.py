@@ -116,11 +116,10 @@ class Guard:
 
 def _is_address(name: str) -> bool:
     """Return whether a name is a numeric address, which cannot be made to point to another machine."""
-    try:
+    with contextlib.suppress(ValueError):
         ipaddress.ip_address(name.strip("[]"))
-    except ValueError:
-        return False
-    return True
+        return True
+    return False
 
 
 def _read_header(scope: Scope, name: bytes) -> str:

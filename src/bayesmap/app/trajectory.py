@@ -87,10 +87,6 @@ class TrajectoryJob:
         TrajectoryJob._latest_thread = self._thread
         self._thread.start()
 
-    def cancel(self) -> None:
-        """End the job when it next reports progress."""
-        self._stop.set()
-
     def reports(self) -> Generator[Picture | Stage | Status | None, None, None]:
         """Yield pictures and progress, and None while there is nothing new. Raises errors of `infer_trajectory`."""
         try:
@@ -104,7 +100,7 @@ class TrajectoryJob:
                         break
                     yield None
         finally:
-            self.cancel()
+            self._stop.set()  # a job that is still running ends at its next report
         if self.error is not None:
             raise self.error
 

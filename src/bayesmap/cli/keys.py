@@ -88,12 +88,10 @@ class LogSettings(Settings, kw_only=True, frozen=True):
     no_return: Annotated[NoReturn | None,
         Help("Number that means no return in the log; inf: none.", "found in the log", "METRES")] = None
     skip_bad_lines: Annotated[bool, Help("Leave out malformed lines and messages instead of refusing the log.")] = False
-    scan_topic: Annotated[str | None,
-        Help("Topic of the scans in a recording.", "the only topic of scans", "TOPIC")] = None
+    scan_topic: Annotated[str | None, Help("Topic of a recording's scans.", "the only topic of scans", "TOPIC")] = None
     pose_topic: Annotated[str | None,
-        Help("Topic of the poses in a recording.", "/tf, or the only topic of poses", "TOPIC")] = None
-    fixed_frame: Annotated[str | None,
-        Help("Frame of the map in a recording's /tf.", "map, odom or world", "FRAME")] = None
+        Help("Topic of a recording's poses.", "/tf, or the only topic of poses", "TOPIC")] = None
+    fixed_frame: Annotated[str | None, Help("Map's frame in a recording's /tf.", "map, odom or world", "FRAME")] = None
     laser: Annotated[str | None, Help("Where the laser sits on the robot.", "as the log says", "X,Y,DEGREES")] = None
     deskew: Annotated[bool, Help("Give each beam the pose of its own time, from a recording's time_increment.")] = False
     thin_scans: Annotated[LengthFromZero,
@@ -115,8 +113,7 @@ class SamplingSettings(LogSettings, kw_only=True, frozen=True):
     warmup: Warmup = 30
     draws: Annotated[Count | None,
         Help("Maps that each chain keeps, at most.", "100, to 200 for few beams; binary 100")] = None
-    thin: Annotated[Count | None,
-        Help("Sweeps from one kept map to the next.", "3; binary, or with draws given, 1")] = None
+    thin: Annotated[Count | None, Help("Sweeps per kept map.", "3; binary, or with draws given, 1")] = None
     precision: Annotated[Probability | None,
         Help("Stop chains when 99 of 100 cells have this standard error or less.", "0.03; with draws given, none", "P")
     ] = None
@@ -128,8 +125,7 @@ class SamplingSettings(LogSettings, kw_only=True, frozen=True):
         Help("Where in a cell a beam stops, from 0 (its near edge) to 1.", "0.5; binary 0.25")] = None
     threads: Threads = None
     device: Device = "cpu"
-    checkpoint_every: Annotated[SecondsFromZero,
-        Help("Seconds from one checkpoint to the next.", metavar="SECONDS")] = 30.0
+    checkpoint_every: Annotated[SecondsFromZero, Help("Seconds between two checkpoints.", metavar="SECONDS")] = 30.0
     any_size: Annotated[bool, Help("Begin a run that will not fit into memory, by its estimate.")] = False
     strict: Strict = False
 
@@ -157,7 +153,7 @@ class SlamSettings(SamplingSettings, kw_only=True, frozen=True):
     """Settings of `slam`."""
 
     draws: Annotated[Count | None, Help("Maps that each chain keeps, at most.", "50, to 200 for few beams")] = None
-    thin: Annotated[Count, Help("Sweeps from one kept map to the next.")] = 1
+    thin: Annotated[Count, Help("Sweeps per kept map.")] = 1
     fast: Annotated[bool, Help("Stop after the approximate trajectory, and infer the map as if it were known.")] = False
     sample_poses: Annotated[bool, Help("Sample the poses of over 100 key scans, too, and use all their beams.")] = False
     no_odometry: Annotated[bool, Help("Do not use the log's poses; scans must come at 5 Hz or more.")] = False
@@ -167,13 +163,11 @@ class SlamSettings(SamplingSettings, kw_only=True, frozen=True):
 class SimulateSettings(Settings, kw_only=True, frozen=True):
     """Settings of `simulate`."""
 
-    format: Annotated[Literal["carmen", "mcap"] | None,
-        Help("Format of the log.", "by the name of LOG, or carmen")] = None
+    format: Annotated[Literal["carmen", "mcap"] | None, Help("Format of the log.", "by LOG's name, or carmen")] = None
     world: Annotated[str | None,
         Help("tutorial, building, or a FILE: drawing, picture, map_server YAML.", "tutorial; mcap: building", "WORLD")
     ] = None
-    resolution: Annotated[Length | None,
-        Help("Edge of a cell in metres.", "1 for tutorial and drawings, else 0.1")] = None
+    resolution: Annotated[Length | None, Help("Edge of a cell in metres.", "tutorial, drawings: 1; else 0.1")] = None
     size: Annotated[str, Help("Size of a building, in metres.", metavar="WxD")] = "30x20"
     scans: Annotated[Count, Help("Scans along the robot's path through a building.", metavar="N")] = 200
     minutes: Annotated[Length | None,
@@ -187,8 +181,7 @@ class SimulateSettings(Settings, kw_only=True, frozen=True):
         Help("Poses of the log: true, typical, or with numbers (see above).", "true; mcap: typical", "ODOMETRY")] = None
     laser: Annotated[str | None,
         Help("Where the laser sits on the robot.", "0,0,0; mcap: -0.1,0.03,180", "X,Y,DEGREES")] = None
-    speed: Annotated[Speed,
-        Help("Speed of the robot, used for the time stamps with --odometry.", metavar="M_PER_S")] = 0.5
+    speed: Annotated[Speed, Help("Speed of the robot, for the time stamps with --odometry.", metavar="M_PER_S")] = 0.5
     seed: Seed = 0
 
 

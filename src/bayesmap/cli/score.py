@@ -1,6 +1,6 @@
 """``bayesmap score``: score runs, and maps and trajectories of other programs, on unseen beams and true relations.
 
-A map is scored by the densities that it predicts for held-out readings (`score_run`). `score_others` fits a sensor
+A map is scored by the densities that it predicts for held-out readings (`score_run`). `score_other` fits a sensor
 to a map, or infers a map from a trajectory, before that. A trajectory is scored by its errors in known relative poses.
 """
 
@@ -92,7 +92,7 @@ def score(
         scores_poses = relations is not None
         scores = score_run(call, run_file, log, frame, all_scans=all_scans, compare=compare, scores_poses=scores_poses)
     else:
-        scores = score_others(call, run_file, log, frame, compare=compare)
+        scores = score_other(call, run_file, log, frame, compare=compare)
     pose_score = None if relations is None else _score_poses(scores.trajectory, relations, exact=exact)
     # Render and print.
     written = [] if picture is None else _write_pictures(Path(picture), scores.maps, pose_score)
@@ -171,9 +171,7 @@ def score_run(
     return Scores(maps, every, trajectory)
 
 
-def score_others(
-    call: Call[ScoreSettings], path: str, log: str | None, frame: Frame | None, *, compare: bool
-) -> Scores:
+def score_other(call: Call[ScoreSettings], path: str, log: str | None, frame: Frame | None, *, compare: bool) -> Scores:
     """Score a map of another program, or a trajectory by a map inferred from it, on scans of ``log``."""
     from bayesmap.posterior.prediction import predictor_of
 

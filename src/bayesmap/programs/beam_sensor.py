@@ -359,7 +359,6 @@ class BeamSensor(RangeSensor):
         return (self.distances_at(hits).reshape(self.readings_shape),)
 
     def trace(self, args: Arguments, hits: Any, readings: Any) -> BeamTrace:
-        """Return the trace of a run with these hits and readings."""
         return BeamTrace(self, args, hits, readings)
 
     def change_hits(self, trace: Any, args: Arguments, tangents: Sequence[Change]) -> tuple[Any, Weight] | None:

@@ -99,10 +99,8 @@ def lay_out(grid: Grid, panels: int, *, bars: int, titled: bool) -> Layout:
     # Ticks whose labels fit.
     x0, x1, y0, y1 = grid.extent_m
     x_letters, y_letters = _tick_letters(x0, x1), _tick_letters(y0, y1)
-    max_ticks = (
-        max(1, min(6, int(panel[0] / dpi / ((x_letters + 2) * LETTER_IN)))),
-        max(1, min(6, int(panel[1] / dpi / LINE_IN))),
-    )
+    max_x_ticks = max(1, min(6, int(panel[0] / dpi / ((x_letters + 2) * LETTER_IN))))
+    max_y_ticks = max(1, min(6, int(panel[1] / dpi / LINE_IN)))
     # Margins and corners, in pixels.
     left_in = LEFT_IN + y_letters * LETTER_IN
     gap_in = max(GAP_IN, (x_letters + 2) * LETTER_IN)  # labels at the ends of two axes must not meet
@@ -119,7 +117,7 @@ def lay_out(grid: Grid, panels: int, *, bars: int, titled: bool) -> Layout:
         for column in range(columns)
     ]
     figure = (left + columns * pitch - gap + right, legend + sum(row_heights) + (title if titled else 0))
-    return Layout(dpi, figure, panel, corners, exact, columns, max_ticks)
+    return Layout(dpi, figure, panel, corners, exact, columns, (max_x_ticks, max_y_ticks))
 
 
 def _tick_letters(low: float, high: float) -> int:

@@ -20,6 +20,7 @@ from matplotlib.transforms import Affine2D
 from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
+from bayesmap.space.arrays import evenly_spaced_indices
 from bayesmap.space.grid import Grid, as_mask
 from bayesmap.space.planar import Floats
 from bayesmap.space.scans import ReadingKind, Scans, as_array, as_poses
@@ -32,6 +33,7 @@ MIN_WEIGHT = 0.02  # of a plotted surface: fainter surfaces would be invisible, 
 MIN_WIDTH_PT, MAX_WIDTH_PT = 0.8, 2.5  # limits of a stroke's width
 FOOT_IN = 0.6  # height of the legend below the map, inches
 CIRCLE_CORNERS = 24  # corners in the outline of a disc
+Marks = list[LineCollection | PathCollection]
 
 
 def plot_truth_outline(ax: Axes, grid: Grid, true_walls: ArrayLike) -> LineCollection:
@@ -45,9 +47,7 @@ def plot_truth_outline(ax: Axes, grid: Grid, true_walls: ArrayLike) -> LineColle
     return lines
 
 
-def plot_rays(
-    ax: Axes, scans: Scans, max_beams: int = 400, max_readings: int = 20_000
-) -> list[LineCollection | PathCollection]:
+def plot_rays(ax: Axes, scans: Scans, max_beams: int = 400, max_readings: int = 20_000) -> Marks:
     """Plot beams with their end points, and beams without return as dashed lines to the largest range.
     Readings that are too close or invalid have no end point and are left out. If there are more beams or end points
     than the limits, an evenly spaced part is shown, always the same one. Points hide less than lines, so their limit is
@@ -57,12 +57,14 @@ def plot_rays(
     if max_beams < 1 or max_readings < 1:
         raise BadInput(f"picture: show at least 1 beam and 1 reading, got {max_beams} and {max_readings}")
     kinds = scans.readings.ravel()
-    beams = _select_spread(np.flatnonzero((kinds == ReadingKind.HIT) | (kinds == ReadingKind.NO_RETURN)), max_beams)
+    beams = np.flatnonzero((kinds == ReadingKind.HIT) | (kinds == ReadingKind.NO_RETURN))
+    beams = beams[evenly_spaced_indices(len(beams), max_beams)]
     hit, lost = beams[kinds[beams] == ReadingKind.HIT], beams[kinds[beams] == ReadingKind.NO_RETURN]
-    points = _select_spread(np.flatnonzero(kinds == ReadingKind.HIT), max_readings)
+    points = np.flatnonzero(kinds == ReadingKind.HIT)
+    points = points[evenly_spaced_indices(len(points), max_readings)]
     # The more rays, the fainter each: they must not hide the map.
     alpha = float(np.clip(60.0 / max(len(beams), 1), 0.12, 0.55))
-    artists: list[LineCollection | PathCollection] = []
+    artists: Marks = []
     if len(hit):
         rays = list(_rays(scans, hit))
         artists.append(LineCollection(rays, colors=palette.RAY, linewidths=0.6, alpha=alpha, label="beam", zorder=3.2))
@@ -101,13 +103,6 @@ def plot_sensor(ax: Axes, poses: ArrayLike) -> list[Line2D]:
         )  # fmt: skip
     marks[0].set_label("trajectory" if many else "sensor")
     return marks
-
-
-def _select_spread(beams: NDArray[np.intp], max_count: int) -> NDArray[np.intp]:
-    """Select at most ``max_count`` of the beams, evenly spaced, with the first and the last."""
-    if len(beams) <= max_count:
-        return beams
-    return beams[np.linspace(0, len(beams) - 1, max_count).astype(np.intp)]
 
 
 def _rays(scans: Scans, beams: NDArray[np.intp]) -> Floats:

@@ -90,15 +90,13 @@ def strongest_beams(ratios: BeamRatios, scans: Scans) -> dict[str, NDArray[np.fl
     """
     order = np.argsort(-np.abs(ratios.nats), kind="stable")[:MAX_LISTED_BEAMS]
     order = order[np.abs(ratios.nats[order]) > MAX_NEUTRAL_NATS]
-    beams = ratios.beams[order]
+    nats, beams = ratios.nats[order], ratios.beams[order]
     start = scans.beam_starts_world().reshape(-1, 2)[beams]
     angle_rad = scans.beam_angles_world().ravel()[beams]
     length_m = np.clip(scans.ranges_m.ravel()[beams], scans.min_range_m, scans.max_range_m)
     end = start + length_m[:, None] * np.column_stack([np.cos(angle_rad), np.sin(angle_rad)])
     scan, beam = np.divmod(beams, scans.ranges_m.shape[1])
-    return {
-        "start": start, "end": end, "nats": ratios.nats[order], "scan": scan.astype(float), "beam": beam.astype(float),
-    }  # fmt: skip
+    return {"start": start, "end": end, "nats": nats, "scan": scan.astype(float), "beam": beam.astype(float)}
 
 
 def _log_ratio(table: BeamTable, p_wall: NDArray[np.float64], beam: int, entry: int) -> float:

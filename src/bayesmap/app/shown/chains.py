@@ -9,7 +9,6 @@ import math
 import time
 from collections.abc import Callable, Generator, Mapping
 from dataclasses import replace
-from functools import cached_property
 from typing import Any, NamedTuple, cast
 
 import numpy as np
@@ -222,10 +221,9 @@ class RunningChains(Estimate):
         if isinstance(self.model.sensor, Gaussian) and not self.model.poses.unknown:
             log_likelihood = self._log_likelihood[:, self._checkpoints[0].sweep : self.sweep]
             misfit = misfit_of(log_likelihood, self.model.sensor.sigma_m, self.model.scans.ranges_m.size)
-        difference = compare_means(self.means(), self.observed())
         verdict = judge_chains(
-            self._rhat, self._ess, self.sweep, difference, ended=ended, quantity=self.model.cells.words.mean,
-            misfit=misfit,
+            self._rhat, self._ess, self.sweep, compare_means(self.means(), self.observed()), ended=ended,
+            quantity=self.model.cells.words.mean, misfit=misfit,
         )  # fmt: skip
         return judge_shifted_chains(verdict, log_joint, self.sweep, self.shifts)
 
@@ -343,12 +341,8 @@ class Pilot(Estimate):
     def progress(self, ended: bool) -> Progress:
         return Progress(self.sweep, self.total)
 
-    @cached_property
-    def _mean(self) -> Floats:
-        return self.model.cells.mean_map(self.draws)
-
     def mean(self) -> Floats:
-        return self._mean
+        return self.model.cells.mean_map(self.draws)
 
     def reached(self) -> Floats:
         """Return 1 in the cells that a beam touches, and 0 in the others, (nx, ny)."""

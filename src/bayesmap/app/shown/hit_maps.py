@@ -15,6 +15,7 @@ from bayesmap.cells.kind import CellPrior
 from bayesmap.cells.kinds import default_sensor
 from bayesmap.cells.reflectivity import Beta
 from bayesmap.posterior.baselines import P_HIT, P_MISS, hit_ratio, octomap_map, odds_map
+from bayesmap.space.arrays import evenly_spaced_indices
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
@@ -97,9 +98,7 @@ def hit_count_map(scans: Scans, grid: Grid) -> HitCountMap:
 
 def thin_scans(scans: Scans) -> Scans:
     """Return at most `MAX_SCANS` of the scans, evenly chosen."""
-    if len(scans) <= MAX_SCANS:
-        return scans
-    return scans.select(np.linspace(0, len(scans) - 1, MAX_SCANS).astype(np.intp))
+    return scans.select(evenly_spaced_indices(len(scans), MAX_SCANS))
 
 
 def grow_grid(grid: Grid, scans: Scans) -> Grid:
