@@ -77,9 +77,9 @@ class Guard:
             await receive()
             await send({"type": "websocket.close", "code": POLICY_VIOLATION, "reason": reason})
             return
-        sockets, scripts = "", f"'{SCRIPT_HASH}'"
-        if reason is None:
-            sockets, scripts = f" ws://{_read_header(scope, b'host')}", "'self'"
+        # A refused page may only run its own script. An admitted page runs its module, and connects to the socket.
+        scripts = f"'{SCRIPT_HASH}'" if reason is not None else "'self'"
+        sockets = "" if reason is not None else f" ws://{_read_header(scope, b'host')}"
 
         async def send_with_headers(message: Message) -> None:
             if message["type"] == "http.response.start":

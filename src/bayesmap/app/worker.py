@@ -139,8 +139,11 @@ class Supervisor:
         self, on_report: Callable[[Report], None], on_lost: Callable[[], None], path: str | None = None,
         silence_s: float = MAX_SILENCE_SECONDS, log_options: Mapping[str, Any] | None = None,
     ) -> None:  # fmt: skip
-        self._on_report, self._on_lost, self._path = on_report, on_lost, path
-        self._silence_s, self._log_options = silence_s, dict(log_options or {})
+        self._on_report = on_report
+        self._on_lost = on_lost
+        self._path = path
+        self._log_options = dict(log_options or {})
+        self._silence_s = silence_s
         self._tasks: queue.SimpleQueue[Task | None] = queue.SimpleQueue()
         self._stopping = threading.Event()
         self._lock = threading.Lock()

@@ -170,8 +170,7 @@ class SimulateSettings(Settings, kw_only=True, frozen=True):
     resolution: Annotated[Length | None, Help("Edge of a cell in metres.", "tutorial, drawings: 1; else 0.1")] = None
     size: Annotated[str, Help("Size of a building, in metres.", metavar="WxD")] = "30x20"
     scans: Annotated[Count, Help("Scans along the robot's path through a building.", metavar="N")] = 200
-    minutes: Annotated[Length | None,
-        Help("Minutes of driving through a building, 10 scans a second.", "mcap: 2", "N")] = None
+    minutes: Annotated[Length | None, Help("Minutes of driving in a building, scans at 10 Hz.", "mcap: 2", "N")] = None
     angles: Annotated[int | None, Help("Beams per scan.", "tutorial: 100; mcap: 720; else 180", "N")] = None
     fov: Annotated[float | None, Help("Field of view in degrees.", "tutorial, mcap: 360; else 180", "DEGREES")] = None
     max_range: Annotated[Length | None,
@@ -257,8 +256,7 @@ class ExploreSettings(Settings, kw_only=True, frozen=True):
     candidates: Annotated[Count, Help("Number of candidate poses.")] = 200
     views: Annotated[Count, Help("Number of best views to show; views lie apart from each other.")] = 5
     radius: Radius = 0.25
-    draws: Annotated[Count,
-        Help("Maps that are compared; more maps tighten the bounds; the work grows with their square.")] = 50
+    draws: Annotated[Count, Help("Maps to compare; more tighten the bounds; the work grows with their square.")] = 50
     seed: Seed = 0
 
 

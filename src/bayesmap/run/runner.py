@@ -107,7 +107,9 @@ class _RunningChains:
     """The chains of a job in this process: their present state, their draws so far, and the seconds spent."""
 
     def __init__(self, job: Job, resume: Chains | None, watch: Watch) -> None:
-        self._job, problem, began = job, job.problem, time.perf_counter()
+        self._job = job
+        began = time.perf_counter()
+        problem = job.problem
         if problem is None:
             problem = job.sampler.prepare(job.model_to_trace, job.device, job.threads, watch)
         if job.parameters is not None:

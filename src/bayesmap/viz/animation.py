@@ -101,9 +101,8 @@ class _Canvas:
         self.size = (width + 2 * MARGIN_PX, height + 2 * MARGIN_PX + CAPTION_PX)
         self.colors = _palette_bytes()
         # The marks cover the map where they are not 0. No mark has the index 0, which is "surely free".
-        self.marks = np.zeros((height + 2 * MARGIN_PX, width + 2 * MARGIN_PX), dtype=np.uint8)
+        self.marks = np.full((height + 2 * MARGIN_PX, width + 2 * MARGIN_PX), BACKGROUND, dtype=np.uint8)
         self.inside = (slice(MARGIN_PX, -MARGIN_PX), slice(MARGIN_PX, -MARGIN_PX))
-        self.marks[:] = BACKGROUND
         edge = slice(MARGIN_PX - 1, 1 - MARGIN_PX)
         self.marks[edge, edge] = FRAME
         self.marks[self.inside] = self._enlarge(np.where(observed, 0, UNOBSERVED).astype(np.uint8))

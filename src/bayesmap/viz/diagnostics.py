@@ -113,8 +113,7 @@ def plot_weights(
     ax.set_yscale("log")
     ax.set(xlim=(low - 0.01 * (high - low), high + 0.025 * (high - low)))
     ax.set(ylim=(0.5, 20.0 * max(1.0, float(counts.max()))))
-    ax.set_xlabel("normalised log weight [nats]")
-    ax.set_ylabel("samples")
+    ax.set(xlabel="normalised log weight [nats]", ylabel="samples")
     size = effective_sample_size(logs)
     ax.set_title(f"{len(logs):,} samples, effective sample size {size:,.{1 if size < 100 else 0}f}")
     # Mark the largest weight, and count the weights below the range.

@@ -230,10 +230,9 @@ def _plot_overlays(panels: dict[str, Axes], grid: Grid, truth: ArrayLike | None,
 def label_panel(panel: Axes, title: str, max_ticks: tuple[int, int], *, leftmost: bool) -> None:
     """Set the panel's title and fonts. Only the leftmost panel labels the y axis."""
     panel.set_title(title, fontsize=FONT_PT + 1.0, pad=5.0, color=palette.TEXT)
-    panel.xaxis.label.set(fontsize=FONT_PT, color=palette.TEXT)
-    panel.yaxis.label.set(fontsize=FONT_PT, color=palette.TEXT)
-    panel.xaxis.set_major_locator(maps.tick_locator(max_ticks[0]))
-    panel.yaxis.set_major_locator(maps.tick_locator(max_ticks[1]))
+    for axis, max_intervals in zip((panel.xaxis, panel.yaxis), max_ticks, strict=True):
+        axis.label.set(fontsize=FONT_PT, color=palette.TEXT)
+        axis.set_major_locator(maps.tick_locator(max_intervals))
     panel.tick_params(labelsize=FONT_PT - 0.5, labelleft=leftmost)
     if not leftmost:
         panel.set_ylabel("")

@@ -82,8 +82,11 @@ class VirtualScanPredictor:
         if self._predictor is None or key is not self._key or stale:
             predictor, self._n_draws = predictor_of_result(result)
             limits = RangeLimits(result.scene.scans.min_range_m, result.scene.scans.max_range_m)
-            self._predictor, self._coarse_predictor, self._key = ScanPredictor.of(predictor, limits), None, key
-            self._sweep, self._stale_at_s = estimate.sweep, time.perf_counter() + STALE_SECONDS
+            self._predictor = ScanPredictor.of(predictor, limits)
+            self._coarse_predictor = None
+            self._key = key
+            self._sweep = estimate.sweep
+            self._stale_at_s = time.perf_counter() + STALE_SECONDS
         if not coarse or self._n_draws <= COARSE_DRAWS:
             return self._predictor, self._n_draws
         if self._coarse_predictor is None:

@@ -40,25 +40,25 @@ class Locator:
         self._known_map: KnownMap | None = None
         self._key: Hashable = None  # the values that the known map depends on
 
-    def answer(
-        self, question: WhereAmI, result: Result | None, scan: int, generation: int
-    ) -> tuple[Whereabouts, Buffers]:
+    def answer(self, question: WhereAmI, result: Result | None, scan: int, picture: int) -> tuple[Whereabouts, Buffers]:
         """Find the places where a scan may have been taken, or return the reason why there is no answer.
 
         In a drawn world, the question names the sensor. For a file, ``scan`` is the index of the scan on show.
+        ``picture`` is the number of the present picture.
         """
         try:
             if result is None:
                 raise BadInput("there is no map to be located in yet")
-            one_scan, sensor_id, scan_index = _select_scan(question, result, scan)
+            one_scan, row = _select_scan(question, result, scan)
             belief = _locate(self._known_map_of(result), one_scan, result.document)
         except BadInput as error:
-            return Whereabouts(generation, trouble=str(error).removeprefix("localize: ")), {}
+            return Whereabouts(picture, trouble=str(error).removeprefix("localize: ")), {}
+        is_file = not result.document.simulated
         heaviest = np.argsort(belief.weights, kind="stable")[-MAX_POSES:]
         whereabouts = Whereabouts(
-            generation, sensor=sensor_id, index=scan_index, pose=one_scan.poses[0].tolist(),
-            modes=[_place_of(mode) for mode in belief.modes], p_lost=float(belief.p_lost),
-            nats_per_beam=float(belief.nats_per_beam),
+            picture, sensor=None if is_file else result.scene.ids[row], index=row if is_file else None,
+            pose=one_scan.poses[0].tolist(), modes=[_place_of(mode) for mode in belief.modes],
+            p_lost=float(belief.p_lost), nats_per_beam=float(belief.nats_per_beam),
         )  # fmt: skip
         poses, weights = belief.poses[heaviest].astype(np.float32), belief.weights[heaviest].astype(np.float32)
         return whereabouts, {"pose": poses, "weight": weights}
@@ -121,13 +121,13 @@ def _place_of(mode: Mode) -> Place:
     return Place(**mode.as_json(), sigma_m=sigma_m, sigma_rad=float(np.sqrt(mode.covariance[2, 2])))
 
 
-def _select_scan(question: WhereAmI, result: Result, scan: int) -> tuple[Scans, int | None, int | None]:
-    """Return the scan to locate, the sensor's id in a drawn world (else None), and the index in a file (else None)."""
+def _select_scan(question: WhereAmI, result: Result, scan: int) -> tuple[Scans, int]:
+    """Return the scan to locate, and its index in the scene: ``scan`` for a file, else that of the sensor asked for."""
     scene = result.scene
     if not result.document.simulated:
-        return scene.scans.select(slice(scan, scan + 1)), None, scan
+        return scene.scans.select(slice(scan, scan + 1)), scan
     row = scene.ids.index(question.sensor) if question.sensor in scene.ids else 0
     sensor_scan = scene.scans.select(slice(row, row + 1))
     # The reading of a beam that met nothing is the longest range plus noise. Mark such readings as no return.
     ranges_m = np.where(hit_mask(scene)[[row]], sensor_scan.ranges_m, np.inf)
-    return replace(sensor_scan, ranges_m=ranges_m), scene.ids[row], None
+    return replace(sensor_scan, ranges_m=ranges_m), row

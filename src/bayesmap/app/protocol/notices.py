@@ -44,7 +44,6 @@ else:
 
 LIMITS = Limits(**_LIMITS)
 
-
 Tool = Literal["draw", "erase", "sensor", "pan", "where", "path", "evidence", "look", "ghost"]
 
 
