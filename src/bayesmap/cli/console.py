@@ -32,7 +32,7 @@ PROBLEMS = 4  # --strict, and the diagnostics found problems
 INTERRUPTED = 130
 
 VERBOSE = "bayesmap.verbose"  # key of the click context: whether the command prints details, also about its failure
-SCHEMA_VERSION = 1  # of JSON documents: it grows when a key changes its meaning or disappears, not for new keys
+SCHEMA_VERSION = 1  # version of JSON documents: it grows when a key changes its meaning or disappears, not for new keys
 
 
 @dataclass(frozen=True)
@@ -170,7 +170,7 @@ def exit_unless_good(*, finished: bool, problems: bool, failed: bool = False) ->
 
 
 SPEED_S = 600.0  # seconds over which the progress bar averages the speed: sweeps of long logs take up to half a minute
-MAX_FEW_STEPS = 5  # so few steps differ too much in length to predict the time that is left
+MAX_FEW_STEPS = 5  # up to so many steps, the time left is not predicted: their lengths differ too much
 LINE_S = 60.0  # seconds from one line of progress to the next if there is no terminal
 
 
@@ -178,11 +178,11 @@ LINE_S = 60.0  # seconds from one line of progress to the next if there is no te
 class _Step:
     """The progress that a bar or a line shows."""
 
-    name: str  # of the stage, in words
+    name: str  # name of the stage, in words
     unit: str  # counted unit; "%" for a share
     done: int
     total: int  # a lower bound if ``end_is_open``
-    quality: str = ""  # of the map so far, in words
+    quality: str = ""  # precision of the map so far, in words
     warmup: int = 0  # units of the total that are warm-up
     end_is_open: bool = False  # whether the time left cannot be predicted
 
@@ -228,7 +228,7 @@ class _BarTasks:
 
     def __init__(self, bar: Progress, begin: str) -> None:
         self._bar, self._visible = bar, bar.add_task(begin, total=None, count="", quality="")
-        self._tasks: dict[tuple[str, int], TaskID] = {}  # by unit and total
+        self._tasks: dict[tuple[str, int], TaskID] = {}  # tasks of rich, by unit and total
 
     def show(self, step: _Step) -> None:
         """Update the task of a step, and make it the visible one."""

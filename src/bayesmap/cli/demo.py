@@ -26,7 +26,7 @@ MAX_RANGE_M = 42.0  # longer than the map's diagonal, so that every beam meets a
 FILM_SWEEPS = 80  # sweeps in the film of a chain, one frame each
 MIN_EFFECTIVE_SAMPLE_SIZE = 10.0  # below, importance sampling is reported as collapsed
 P_WALL = {"gibbs": 0.5, "block": 0.05, "importance": 0.5, "film": 0.5}  # prior wall probability of each run
-TITLES = {  # of the compared methods
+TITLES = {  # titles of the compared methods
     "gibbs": f"single-site Gibbs, prior {P_WALL['gibbs']}", "block": f"2 x 2 block Gibbs, prior {P_WALL['block']}",
     "importance": f"importance sampling, prior {P_WALL['importance']}",
 }  # fmt: skip

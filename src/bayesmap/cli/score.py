@@ -31,10 +31,10 @@ if TYPE_CHECKING:
     from bayesmap.space.scans import Scans
     from bayesmap.space.trajectory import Trajectory
 
-MIN_PARTIAL_NATS = 0.3  # least gain over no map, per beam, at which it agrees in part
-MIN_AGREEMENT_NATS = 1.0  # least gain over no map, per beam, at which it agrees
-MAX_STRAY_PER_CENT = 40.0  # most beams that meet something before a wall at `VERDICT_M`, if it agrees
-VERDICT_M = 3.0  # distance of that wall
+VERDICT_M = 3.0  # distance of the wall for which a verdict states errors
+MIN_PARTIAL_NATS = 0.3  # a map that gains less over no map, per beam, does not agree with the scans
+MIN_AGREEMENT_NATS = 1.0  # a map that gains less agrees in part
+MAX_STRAY_PER_CENT = 40.0  # if more beams than this meet something before a wall at `VERDICT_M`, it agrees in part
 
 HEADINGS = ("map", "nats/beam", "50 %", "80 %", "95 %", "80 % width", "PIT", "Brier", "log loss")
 
@@ -124,7 +124,7 @@ class Scores:
 
     maps: list[MapScore]  # the map in question first, then classic maps; empty if only poses are scored
     every: int  # every n-th scan was held out; 0 if none was
-    trajectory: Trajectory  # in the frame of the relations
+    trajectory: Trajectory  # trajectory of the run or the log, in the frame of the relations
     verdict: str | None = None  # verdict on the map of another program, in words
 
 

@@ -55,7 +55,7 @@ gaussian:0.02,sigma_per_m=0.005, student-t:0.05,dof=4 or
 mixture:0.05,p_random=0.05,p_no_return=0.02,p_short=0.1,rate_short_per_m=0.5 (the beam model, Gaussian noise inside;
 with noise=student-t heavier tails)."""
 
-_NAMELESS = {"gaussian": "sigma_m", "student-t": "scale_m"}  # parameter of each kind of noise that goes without a name
+_NAMELESS = {"gaussian": "sigma_m", "student-t": "scale_m"}  # the parameter that needs no name, by kind of noise
 _MIXTURE_PARAMETERS = ("p_random", "p_no_return", "p_short", "rate_short_per_m")  # all others describe the noise
 
 
@@ -256,8 +256,8 @@ def log_options_of(settings: LogSettings) -> dict[str, Any]:
     return {**options, "trajectory": trajectory, "thin_m": settings.thin_scans, "laser": laser}
 
 
-BAG_ENDINGS = (".db3", ".mcap", ".zstd")  # of the files of a ROS 2 bag
-MAP_ENDINGS = (".yaml", ".yml")  # of map_server maps
+BAG_ENDINGS = (".db3", ".mcap", ".zstd")  # endings of the files of a ROS 2 bag
+MAP_ENDINGS = (".yaml", ".yml")  # endings of map_server maps
 LOG = "a log or a recording of range scans"
 NO_MOUNT = "nothing in it says where the laser sits on the robot, as in runs of older versions"
 

@@ -150,10 +150,10 @@ class BeamGeometry:
     be a static part of JAX's trees: models of equal geometry share one compilation, and traces hold no copies of it.
     """
 
-    shape: tuple[int, int]  # of the grid
+    shape: tuple[int, int]  # shape of the grid
     # Flat indices x * ny + y in the order of touch, then sentinels N, which count as walls: (B, L + CELLS_AT_ONCE).
     cells: NDArray[np.int32]
-    distance_m: NDArray[np.float32]  # at which the beam hits each cell; inf at sentinels
+    distance_m: NDArray[np.float32]  # distances at which the beam hits these cells; inf at sentinels
     offsets: NDArray[np.int32]  # (N + 1,); cell c has the entries offsets[c] : offsets[c + 1] of the two arrays below
     beam: NDArray[np.int32]  # the beam of each of K crossings of a beam and a cell, then padding, (K + BEAMS_AT_ONCE,)
     position: NDArray[np.int32]  # the cell's position in this beam, then padding, (K + BEAMS_AT_ONCE,)

@@ -110,7 +110,7 @@ class PoseSensor(RangeSensor):
     """`sensor(walls, poses)`: walls (nx, ny), poses (3,) or (S, 3); readings in metres, (A,) or (S, A), at ()."""
 
     grid: Grid = static()
-    angles_rad: tuple[float, ...] = static()  # of the A beams, in the sensor frame
+    angles_rad: tuple[float, ...] = static()  # angles of the A beams, in the sensor frame
     law: ReadingLaw = static()
     hit_depth: float = static()  # where in a cell a beam stops, as a fraction of its chord
 

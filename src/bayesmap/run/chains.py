@@ -110,9 +110,9 @@ class Chains:
     """The draws and the states of chains so far. Log densities are in nats."""
 
     draws: Draws  # kept draws of all unknowns
-    log_likelihood: Floats  # of each kept draw, (chains, kept)
-    log_prior: Floats  # of each kept draw, (chains, kept)
-    warmup_log_joint: Floats  # of each warm-up sweep so far, (chains, warm-up sweeps)
+    log_likelihood: Floats  # log likelihood of each kept draw, (chains, kept)
+    log_prior: Floats  # log prior of each kept draw, (chains, kept)
+    warmup_log_joint: Floats  # log joint of each warm-up sweep so far, (chains, warm-up sweeps)
     snapshot: Snapshot  # states from which the chains continue
     observed_counts: NDArray[np.int32]  # draws in which some beam observes each cell, and draws inspected, (2, nx, ny)
     statistics: Mapping[str, Floats]  # results of the start, by name
@@ -230,7 +230,7 @@ class DrawRecord:
         # Kept sweeps: log likelihood, log prior and draws. Samplers may return the kept draws alone, or all of a step.
         kept_sweeps = self._keep.sweeps(begin, begin + n_sweeps)
         columns = slice(self.kept, self.kept + len(kept_sweeps))
-        indices = [sweep - begin - 1 for sweep in kept_sweeps]  # of the kept sweeps in this step
+        indices = [sweep - begin - 1 for sweep in kept_sweeps]  # indices of the kept sweeps within this step
         densities = {"log_likelihood": info.log_likelihood, "log_prior": info.log_prior}
         for name, values in {**info.draws, **densities}.items():
             self._arrays[name][:, columns] = values if values.shape[1] == len(kept_sweeps) else values[:, indices]

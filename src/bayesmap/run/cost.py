@@ -55,8 +55,8 @@ def _estimate_without_remedy(size: ProblemSize, sampling: Sampling) -> Estimate:
 class Estimate:
     """The cost of a run: pairs of the least and the most, since chains end when the map is known."""
 
-    peak_bytes: tuple[float, float]  # of memory
-    processor_s: tuple[float, float] | None  # None if it is not known
+    peak_bytes: tuple[float, float]  # peak of the memory
+    processor_s: tuple[float, float] | None  # processor time; None if it is not known
     cores: int
     available_bytes: int | None  # memory of the machine; None if not known
     remedy: str = ""  # options of the command line that make it fit, or shorter; empty if it fits or nothing helps
@@ -128,7 +128,7 @@ def memory_bytes() -> int | None:
 
 CELLS_PER_CELL_LENGTH = 4.0 / math.pi  # mean number of cells that a line of the length of a cell's edge enters
 MARGIN_CELLS = 4.0  # traced behind a reading: 1.5 cells and six standard deviations of 4 cm at 10 cm
-MAX_MEASURED_BEAMS = 500_000  # of more beams, evenly spaced scans are measured
+MAX_MEASURED_BEAMS = 500_000  # if there are more beams, evenly spaced scans are measured
 MAX_TRACED_BEAMS = 20_000  # number of beams whose touched cells are counted
 POINTS_PER_BEAM = 64  # points at which touched cells are looked up
 SQUARE_CELLS = 4  # edge, in cells, of the squares in which touched cells are counted
@@ -138,12 +138,12 @@ SQUARE_CELLS = 4  # edge, in cells, of the squares in which touched cells are co
 class ProblemSize:
     """The counts that decide the cost of a run."""
 
-    beams: float
+    beams: float  # number of beams
     incidences: float  # cells that a beam crosses, summed over all beams
-    cells: float  # of the grid
+    cells: float  # cells of the grid
     touched: float  # cells that some beam touches
     endpoints: float  # cells in which readings end
-    readings: float  # of the log that is in memory
+    readings: float  # readings of the log, which is in memory
     matched: int = 0  # scans whose poses `slam` infers first
 
     def thinned(self, share: float) -> ProblemSize:
@@ -194,7 +194,7 @@ class SamplerCost:
 
     warmup_ns: float | None
     sweep_ns: float | None
-    incidence_bytes: float  # once for all chains
+    incidence_bytes: float  # per incidence, once for all chains
     chain_incidence_bytes: float  # per chain and incidence
     chain_cell_bytes: float  # per chain and cell
     chain_beam_bytes: float  # per chain and beam
@@ -217,7 +217,7 @@ MATCHING_S_PER_SCAN = 7.4e-3  # time for the trajectory: 22 s for 3000 scans, 90
 FIXED_S = 8.0  # time for files and pictures: with 40 draws of 1.1 MB 10 s
 FILE_S_PER_BYTE = 40e-9  # more time for them: with 200 draws 17 to 20 s
 BASE_BYTES = 390e6  # peak of runs of 3000 beams
-READING_BYTES = 40.0  # by what 2.2 M readings added to the peak of `slam`
+READING_BYTES = 40.0  # for each reading: measured with 2.2 M readings and `slam`
 CELL_BYTES = 100.0  # beside the chains: a map of 2 million cells, three beams and one draw took 101, and 107 a chain
 
 
@@ -225,8 +225,8 @@ CELL_BYTES = 100.0  # beside the chains: a map of 2 million cells, three beams a
 class Sampling:
     """The settings of a sampler that decide, with the `ProblemSize`, the cost of a run."""
 
-    sampler: str  # as `CellPrior.methods` names it
-    arrays: tuple[ArraySpec, ...]  # of a draw
+    sampler: str  # name of the sampler, as in `CellPrior.methods`
+    arrays: tuple[ArraySpec, ...]  # arrays of a draw
     has_surfaces: bool  # whether cells have surfaces
     chains: int
     plan: SweepPlan

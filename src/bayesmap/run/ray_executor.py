@@ -95,10 +95,10 @@ class Group:
     """Chains that advance together, with their results."""
 
     selection: slice  # the group among all chains of the run
-    chain_ids: tuple[int, ...]  # their numbers, which decide their random numbers
+    chain_ids: tuple[int, ...]  # numbers of the chains, which decide their random numbers
     resume: Chains | None  # results from before this run
     segments: list[Chains] = field(default_factory=list)  # consecutive results of this run; snapshots without arrays
-    snapshots: dict[int, Snapshot] = field(default_factory=dict)  # by number of sweeps, as far as they may be needed
+    snapshots: dict[int, Snapshot] = field(default_factory=dict)  # those that may be needed, by number of sweeps
 
     @property
     def sweep(self) -> int:
@@ -118,7 +118,7 @@ class SegmentEnds:
 
     schedule: SweepPlan
     segment_s: float  # seconds of work in a segment
-    ends: list[int]  # chosen so far, ascending
+    ends: list[int]  # ends chosen so far, ascending
     per_sweep_s: float = 0.0  # seconds per sweep of the slowest group; 0 before it is measured
 
     def after(self, sweep: int) -> int:
@@ -272,7 +272,7 @@ class ProblemCache:
 
     run: str  # name of the run
     problem: Any
-    chains: tuple[tuple[int, ...], ChainState] | None = None  # their numbers and their state
+    chains: tuple[tuple[int, ...], ChainState] | None = None  # numbers and state of these chains
 
 
 _cache: ProblemCache | None = None

@@ -27,13 +27,13 @@ from bayesmap.run.chains import Chains, DrawRecord, StoppingRule, SweepPlan, map
 from bayesmap.samplers.fit import Parameters
 from bayesmap.samplers.sampler import PILOT, SILENT, ChainState, Info, Keep, Sampler, Snapshot, Watch, draws_to_inspect
 
-STEP_SECONDS = 0.25  # of work per step
+STEP_SECONDS = 0.25  # seconds of work per step
 SECONDS_PER_INCIDENCE = 2e-8  # a first guess, for the first step; later steps use the measured time
 MAX_FIRST_STEP_SWEEPS = 16  # a limit, because the first guess of the speed may be far off
 MAX_STEP_GROWTH = 16  # largest ratio of the sweeps of a step to the sweeps of the step before
 MAX_BUFFER_BYTES = 64 << 20  # size of the draws of one step
 MAX_CHECKPOINT_SHARE = 0.05  # largest share of the time that checkpoints may take
-FIRST_MAP_SWEEPS = 5  # sweeps of the chain that draws a first map: its walls are where they stay, but still thick
+FIRST_MAP_SWEEPS = 5  # sweeps of the chain that draws a first map, whose walls are in place but still thick
 
 OnCheckpoint = Callable[[Chains], None] | None  # saves the chains so far
 

@@ -11,7 +11,7 @@ from bayesmap.errors import BadInput
 from bayesmap.space.scans import as_array
 from bayesmap.viz import palette
 
-MAX_POINTS = 4000  # of a trace; a longer trace shows minimum and maximum of each stretch, so that spikes stay
+MAX_POINTS = 4000  # points of a trace; a longer trace shows minimum and maximum of each stretch, so spikes stay
 MAX_CHAINS_IN_LEGEND = 8
 TRACE_BINS = 40  # bins of the histogram of the log joint
 WEIGHT_BINS = 100  # bins of the histogram of weights

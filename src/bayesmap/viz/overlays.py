@@ -29,7 +29,7 @@ from bayesmap.viz.maps import boundary_segments
 
 MAX_ARROWS = 12  # poses with an arrow each; more poses become a trajectory with one arrow at its end
 DEVIATIONS = 2.0  # standard deviations from the mean to each end of a stroke
-MIN_WEIGHT = 0.02  # of a plotted surface: fainter surfaces would be invisible, and most cells are free
+MIN_WEIGHT = 0.02  # least weight of a plotted surface: fainter ones would be invisible, and most cells are free
 MIN_WIDTH_PT, MAX_WIDTH_PT = 0.8, 2.5  # limits of a stroke's width
 FOOT_IN = 0.6  # height of the legend below the map, inches
 CIRCLE_CORNERS = 24  # corners in the outline of a disc

@@ -100,7 +100,7 @@ class RunningChains(Estimate):
         padding = ((0, 0), (0, self.total - self._log_joint.shape[1]))
         self._log_joint = np.pad(self._log_joint, padding)
         self._log_likelihood = np.pad(self._log_likelihood, padding)
-        # Count observed cells at fixed sweeps. The length of a step depends on the machine, but the page must not.
+        # Count observed cells at fixed sweeps. The page must not depend on the lengths of steps, hence on the machine.
         doubling = (2**k for k in range(self.total.bit_length()))
         evenly = (self.total * k // OBSERVED_COUNTS for k in range(1, OBSERVED_COUNTS + 1))
         self._burn_in_end = int(self._burn_in * self.total) // self.thin * self.thin
@@ -157,7 +157,7 @@ class RunningChains(Estimate):
         If poses are known, cells that no beam touches get the exact prior mean, to which their draws converge.
         """
         mean = self.means().mean(axis=0)
-        if self.model.poses.unknown:  # from other poses beams touch other cells
+        if self.model.poses.unknown:  # which cells beams touch depends on the poses
             return np.asarray(mean)
         return np.where(self.problem.touched_map(), mean, self.model.cells.mean_stop(self.model.grid))
 

@@ -69,7 +69,7 @@ def misfit_of(log_likelihood: Floats, sigma_m: float, n_beams: int) -> float | N
     """
     if not n_beams or not log_likelihood.size:
         return None
-    max_log_likelihood = -n_beams * math.log(sigma_m * math.sqrt(2 * math.pi))  # that of readings without differences
+    max_log_likelihood = -n_beams * math.log(sigma_m * math.sqrt(2 * math.pi))  # if readings equal the map's ranges
     chi_squared = 2 * (max_log_likelihood - float(log_likelihood.mean(axis=1).min()))
     variance = 2 / (9 * n_beams)  # variance of the cube root of a chi-squared variable over its mean
     limit = n_beams * (1 - variance + VERDICT_LIMITS.misfit_sigmas * math.sqrt(variance)) ** 3
