@@ -33,7 +33,7 @@ MIN_WEIGHT = 0.02  # least weight of a plotted surface: fainter ones would be in
 MIN_WIDTH_PT, MAX_WIDTH_PT = 0.8, 2.5  # limits of a stroke's width
 FOOT_IN = 0.6  # height of the legend below the map, inches
 CIRCLE_CORNERS = 24  # corners in the outline of a disc
-Marks = list[LineCollection | PathCollection]
+Marks = list[LineCollection | PathCollection]  # artists of beams and readings
 
 
 def plot_truth_outline(ax: Axes, grid: Grid, true_walls: ArrayLike) -> LineCollection:

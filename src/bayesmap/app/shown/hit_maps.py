@@ -13,7 +13,6 @@ from bayesmap.app.shown.result import FixedMap
 from bayesmap.beams.table import BeamTable
 from bayesmap.cells.kind import CellPrior
 from bayesmap.cells.kinds import default_sensor
-from bayesmap.cells.reflectivity import Beta
 from bayesmap.posterior.baselines import P_HIT, P_MISS, hit_ratio, octomap_map, odds_map
 from bayesmap.space.arrays import evenly_spaced_indices
 from bayesmap.space.grid import Grid
@@ -80,7 +79,7 @@ def stop_probabilities(counts: NDArray[np.int64], prior: CellPrior, p_wall: floa
     For reflectivities and surfaces, it is the share of beams that stop. For walls, it is OctoMap's, given ``p_wall``.
     """
     hits, passes = counts.astype(np.float64)
-    if isinstance(prior, Beta):
+    if hasattr(prior, "a") and hasattr(prior, "b"):  # the beta prior of reflectivities
         return hit_ratio(hits, passes, {"a": prior.a, "b": prior.b})
     p_start = float(np.clip(p_wall, 1e-4, 1 - 1e-4))  # log odds must be finite
     return odds_map(hits, passes, {"p_hit": P_HIT, "p_miss": P_MISS, "p_start": p_start})
