@@ -94,7 +94,8 @@ class Display:
 
 def make_field(result: Result, view: View, generation: int, milliseconds: float) -> tuple[Field, Buffers]:
     """Return the field of a view and its buffers. If the draw or the interval does not exist, return the mean."""
-    estimate, layer, lowest = result.estimate, view.layer, None
+    estimate, layer = result.estimate, view.layer
+    lowest: float | None = None  # lower edge of the histogram of weights
     # The trace and the histogram of weights, which every layer has.
     trace, traced = thin_trace(estimate.log_joint())
     buffers: dict[str, NDArray[np.generic]] = {"trace": trace, "traced": traced}

@@ -55,7 +55,7 @@ class Engine:
         self._task: Infer | None = None
         self._job: Iterator[None] | None = None  # the steps that are left; None if no job is under way
         self._result: Result | None = None  # the result so far
-        self._extra_sweeps = 0  # sweeps that its chains have still to add to the sweeps of its document
+        self._extra_sweeps = 0  # sweeps that the chains still have to add to those of the document
         # What the next job may reuse.
         self._earlier_result: Result | None = None  # the last result of the job before
         self._scene: Scene | None = None  # the readings of the last document

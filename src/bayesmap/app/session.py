@@ -269,7 +269,7 @@ class Session:
     # Consequences of actions and reports
 
     def _restart(self, mode: tasks.Mode | None = None) -> Effects:
-        """Begin a new generation: inference starts again on the present document. None is the mode after an edit."""
+        """Begin a new generation: inference starts again on the present document. Mode None: as after an edit."""
         self.generation += 1
         self._mode = mode or ("live" if self.live else "preview")
         self.running, self.working = self._mode == "run", self._mode != "clear"

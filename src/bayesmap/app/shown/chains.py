@@ -83,7 +83,7 @@ class RunningChains(Estimate):
         self._sums = np.zeros((self.n_chains, *model.grid.shape))
         self._rhat = self._ess = math.nan
         self._diagnose_at_s = 0.0  # time of the next computation of R-hat and effective sample size
-        self._diagnosed_sweep = 0  # sweep of the last one
+        self._diagnosed_sweep = 0  # number of sweeps at the last computation
         self._observed_counts = np.zeros((2, *model.grid.shape), dtype=np.int32)
         self._log_likelihood = self._log_joint = np.zeros((self.n_chains, 0))
         # The sums after the burn-in, and after later sweeps at which a longer burn-in may end.
