@@ -9,6 +9,7 @@ docs/scale.md compares estimates with whole runs.
 
 from __future__ import annotations
 
+import contextlib
 import math
 import os
 from collections.abc import Iterator
@@ -114,15 +115,12 @@ def _range_in_unit(bounds: tuple[float, float], unit: float) -> str:
 
 def memory_bytes() -> int | None:
     """Return the memory of this machine, or the limit of this container, in bytes; None if unknown."""
-    try:
-        sizes = [os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")]
-    except (AttributeError, OSError, ValueError):
-        sizes = []
+    sizes: list[int] = []
+    with contextlib.suppress(AttributeError, OSError, ValueError):
+        sizes.append(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"))
     for path in CONTAINER_LIMIT_FILES:
-        try:
+        with contextlib.suppress(OSError, ValueError):  # no such file, or "max" for no limit
             sizes.append(int(Path(path).read_text()))
-        except (OSError, ValueError):  # no such file, or "max" for no limit
-            continue
     return min(sizes, default=None)
 
 
@@ -162,29 +160,31 @@ class ProblemSize:
 def size_of(scans: Scans, grid: Grid, log: Scans | None = None) -> ProblemSize:
     """Measure scans on a grid. ``log`` has the scans whose trajectory `slam` infers first; None for `infer`."""
     stride = max(1, math.ceil(scans.ranges_m.size / MAX_MEASURED_BEAMS))
-    readings, scans = (scans if log is None else log).ranges_m.size, scans.select(slice(None, None, stride))
+    readings = (scans if log is None else log).ranges_m.size
+    scans = scans.select(slice(None, None, stride))
     # Lengths of the beams on the grid, in cells; a beam without return ends at the grid's edge.
-    ranges = scans.ranges_m.ravel()
-    valid = ~np.isnan(ranges)
-    start = grid.to_cells(scans.beam_starts_world()).reshape(-1, 2)[valid]
-    angle = scans.beam_angles_world().ravel()[valid]
-    direction = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
-    reading = np.where(np.isneginf(ranges[valid]), scans.min_range_m, np.minimum(ranges[valid], scans.max_range_m))
+    valid = ~np.isnan(scans.ranges_m.ravel())
+    ranges_m = scans.ranges_m.ravel()[valid]
+    starts = grid.to_cells(scans.beam_starts_world()).reshape(-1, 2)[valid]
+    angles_rad = scans.beam_angles_world().ravel()[valid]
+    directions = np.stack([np.cos(angles_rad), np.sin(angles_rad)], axis=-1)
+    ends_m = np.where(np.isneginf(ranges_m), scans.min_range_m, np.minimum(ranges_m, scans.max_range_m))
     with np.errstate(divide="ignore", invalid="ignore"):
-        side_distances = np.where(direction > 0, np.array(grid.shape) - start, -start) / direction
-    edge_distance = np.where(direction == 0, np.inf, side_distances).min(axis=-1)
-    length = np.clip(np.minimum(reading / grid.resolution + MARGIN_CELLS, edge_distance), 0.0, None)
+        to_sides = np.where(directions > 0, np.array(grid.shape) - starts, -starts) / directions
+    to_edge = np.where(directions == 0, np.inf, to_sides).min(axis=-1)
+    lengths = np.clip(np.minimum(ends_m / grid.resolution + MARGIN_CELLS, to_edge), 0.0, None)
     # Count the squares that some beams touch, and the cells in which readings end.
-    sampled = slice(None, None, max(1, len(length) // MAX_TRACED_BEAMS))
-    distances = length[sampled, None, None] * np.linspace(0.0, 1.0, POINTS_PER_BEAM)[:, None]
-    points = start[sampled, None] + direction[sampled, None] * distances
+    sampled = slice(None, None, max(1, len(lengths) // MAX_TRACED_BEAMS))
+    distances = lengths[sampled, None, None] * np.linspace(0.0, 1.0, POINTS_PER_BEAM)[:, None]
+    points = starts[sampled, None] + directions[sampled, None] * distances
     squares = np.floor(points / SQUARE_CELLS).astype(np.int64)
     touched = len(np.unique(squares[..., 0] * (max(grid.shape) + 1) + squares[..., 1])) * SQUARE_CELLS**2
     ends = np.floor(grid.to_cells(scans.hit_points_world())).astype(np.int64)
     endpoints = len(np.unique(ends[:, 0] * (grid.shape[1] + 1) + ends[:, 1]))
     return ProblemSize(
-        stride * len(length), stride * CELLS_PER_CELL_LENGTH * float(length.sum()), grid.n_cells,
-        min(touched, grid.n_cells), min(endpoints, grid.n_cells), readings, 0 if log is None else len(log),
+        beams=stride * len(lengths), incidences=stride * CELLS_PER_CELL_LENGTH * float(lengths.sum()),
+        cells=grid.n_cells, touched=min(touched, grid.n_cells), endpoints=min(endpoints, grid.n_cells),
+        readings=readings, matched=0 if log is None else len(log),
     )  # fmt: skip
 
 
