@@ -183,11 +183,10 @@ async def open_dropped_run(request: Request) -> Response:
     if not name.endswith(".nc"):
         return PlainTextResponse("not a saved run (.nc)", status_code=415)
     with tempfile.TemporaryDirectory(prefix="bayesmap-") as folder:
-        path, n_bytes = Path(folder) / name, 0
+        path = Path(folder) / name
         with path.open("wb") as file:
             async for chunk in request.stream():
-                n_bytes += len(chunk)
-                if n_bytes > MAX_FILE_BYTES:
+                if file.tell() + len(chunk) > MAX_FILE_BYTES:
                     return PlainTextResponse("too large for the page; start bayesmap app with it", status_code=413)
                 file.write(chunk)
         # A process of its own reads the file and makes the recording, so a damaged file cannot stop the server.

@@ -74,7 +74,7 @@ class StoppingRule:
 
     def __init__(self, plan: SweepPlan, estimate_error: Callable[[], float]) -> None:
         """Start the clock. ``estimate_error`` returns the `map_error` of all draws so far."""
-        self._plan, self._estimate_error, self._began = plan, estimate_error, time.monotonic()
+        self._plan, self._estimate_error, self._began_s = plan, estimate_error, time.monotonic()
         self.is_met = False  # whether the chains may end
         self._expected = next(iter(plan.marks), plan.sweeps)  # number of sweeps at the expected end
         self.error: float | None = None  # the latest `map_error`; None before the first mark
@@ -89,7 +89,7 @@ class StoppingRule:
             self._expected = int(min(plan.warmup + draws_ratio * (sweep - plan.warmup), plan.sweeps))
             self.is_met = error <= plan.precision
         if plan.seconds is not None and sweep >= plan.warmup + MIN_DRAWS_PER_CHAIN * plan.thin:
-            self.is_met = self.is_met or time.monotonic() - self._began >= plan.seconds
+            self.is_met = self.is_met or time.monotonic() - self._began_s >= plan.seconds
 
     @property
     def end_is_open(self) -> bool:
@@ -100,7 +100,7 @@ class StoppingRule:
         """Return the expected number of sweeps at the end, at least ``sweep``, by the latest error and the time."""
         expected = self._expected
         if self._plan.seconds is not None and sweep > 0:
-            spent_s = max(time.monotonic() - self._began, 1e-3)
+            spent_s = max(time.monotonic() - self._began_s, 1e-3)
             expected = min(expected, int(sweep * max(1.0, self._plan.seconds / spent_s)))
         return max(expected, sweep)
 

@@ -262,8 +262,8 @@ def prepare_problem(job: Job, version: str) -> tuple[Any, float]:
     """Return the prepared problem and the seconds spent. Raises `BadInput` for another version of bayesmap."""
     if version != __version__:
         raise BadInput(f"RayExecutor: a worker has bayesmap {__version__}, this process {version}; all need the same")
-    began = time.perf_counter()
-    return job.sampler.prepare(job.model_to_trace, job.device, job.threads), time.perf_counter() - began
+    began_s = time.perf_counter()
+    return job.sampler.prepare(job.model_to_trace, job.device, job.threads), time.perf_counter() - began_s
 
 
 @dataclass
@@ -316,10 +316,10 @@ def run_segment(job: Job, until: int, resume: Snapshot | None, state: ChainState
     """
     schedule, keep = job.schedule, job.schedule.keep
     # Start the chains, or continue from the snapshot.
-    began = time.perf_counter()
+    began_s = time.perf_counter()
     state = job.sampler.init(job.problem, job.chain_ids, job.seed, resume) if state is None else state
     assert state is not None
-    started = time.perf_counter()
+    started_s = time.perf_counter()
     sweep, statistics = state.sweep, state.statistics if resume is None else {}
     # Advance the chains, and record the draws of this segment alone.
     n_kept = len(keep.sweeps(sweep, until)) if schedule.draws else 0
@@ -328,7 +328,7 @@ def run_segment(job: Job, until: int, resume: Snapshot | None, state: ChainState
     for advanced, info in advance_chains(job.sampler, state, until, keep=keep):
         record.add(info, sweep)
         sweep, state = advanced.sweep, advanced
-    seconds = {"trace": 0.0, "warm_start": started - began, "sampling": time.perf_counter() - started}
+    seconds = {"trace": 0.0, "warm_start": started_s - began_s, "sampling": time.perf_counter() - started_s}
     segment = record.chains(
         snapshot=job.sampler.snapshot(state), finished=state.sweep >= schedule.sweeps, statistics=statistics,
         observed_counts=np.zeros((2, 0, 0), dtype=np.int32), n_incidences=state.problem.n_incidences, seconds=seconds,

@@ -79,7 +79,7 @@ def run_chains(
     rule.check(running.sweep)  # a resumed run may stand at a mark
     checkpoints = CheckpointTimer(on_checkpoint, checkpoint_every_s)
     # Advance step by step until the last sweep, the stopping rule, or a stop by the user.
-    began = time.perf_counter()
+    began_s = time.perf_counter()
     stopped = watch.should_stop()
     while not (stopped or rule.is_met):
         step = next(steps, None)
@@ -88,7 +88,7 @@ def run_chains(
         state, info = step
         is_warmup = running.sweep < schedule.warmup
         running.record_step(state, info)
-        running.seconds["sampling"] += time.perf_counter() - began
+        running.seconds["sampling"] += time.perf_counter() - began_s
         # Look at the error, report the progress, and write a checkpoint if one is due.
         sweep = running.sweep
         log_joint = float(np.mean(info.log_likelihood[:, -1] + info.log_prior[:, -1]))
@@ -98,7 +98,7 @@ def run_chains(
             schedule.warmup, rule.end_is_open,
         )  # fmt: skip
         checkpoints.offer(running.results, at_once=is_warmup and sweep == schedule.warmup)
-        began, stopped = time.perf_counter(), watch.should_stop()
+        began_s, stopped = time.perf_counter(), watch.should_stop()
     # A stop in the last step counts, too: the caller must not begin the work that follows the chains.
     return replace(running.results(), finished=not stopped and (rule.is_met or running.sweep >= schedule.sweeps))
 
@@ -108,16 +108,16 @@ class _RunningChains:
 
     def __init__(self, job: Job, resume: Chains | None, watch: Watch) -> None:
         self._job = job
-        began = time.perf_counter()
+        began_s = time.perf_counter()
         problem = job.problem
         if problem is None:
             problem = job.sampler.prepare(job.model_to_trace, job.device, job.threads, watch)
         if job.parameters is not None:
             problem = problem.under(job.parameters.sensor, job.parameters.prior)
-        traced = time.perf_counter()
+        traced_s = time.perf_counter()
         snapshot = None if resume is None else resume.snapshot
         self.state: ChainState = job.sampler.init(problem, job.chain_ids, job.seed, snapshot, watch)
-        self.seconds = {"trace": traced - began, "warm_start": time.perf_counter() - traced, "sampling": 0.0}
+        self.seconds = {"trace": traced_s - began_s, "warm_start": time.perf_counter() - traced_s, "sampling": 0.0}
         self.sweep = self.state.sweep  # number of sweeps of each chain; a state must not be read after a step from it
         self._statistics = self.state.statistics
         if resume is not None:
@@ -167,9 +167,9 @@ def advance_chains(
         if max_kept is not None and keep.every:
             kept_sweeps = keep.sweeps(state.sweep, state.sweep + count)
             count = kept_sweeps[max_kept - 1] - state.sweep if len(kept_sweeps) > max_kept else count
-        began = time.perf_counter()
+        began_s = time.perf_counter()
         state, info = sampler.step(state, count, keep=keep)
-        per_sweep_s, max_sweeps = (time.perf_counter() - began) / count, MAX_STEP_GROWTH * count
+        per_sweep_s, max_sweeps = (time.perf_counter() - began_s) / count, MAX_STEP_GROWTH * count
         yield state, info
 
 
@@ -184,15 +184,15 @@ class CheckpointTimer:
 
     def __init__(self, write: OnCheckpoint, every_s: float) -> None:
         self._write, self._every_s = write, every_s
-        self._written_at, self._pause_s = time.monotonic(), every_s
+        self._written_at_s, self._pause_s = time.monotonic(), every_s
 
     def offer(self, chains: Callable[[], Chains], at_once: bool) -> None:
         """Write a checkpoint if one is due, or in any case if ``at_once``. ``chains`` returns what to save."""
-        began = time.monotonic()
-        if self._write is not None and (at_once or began - self._written_at >= self._pause_s):
+        began_s = time.monotonic()
+        if self._write is not None and (at_once or began_s - self._written_at_s >= self._pause_s):
             self._write(replace(chains(), finished=False))
-            self._written_at = time.monotonic()
-            self._pause_s = checkpoint_pause_s(self._written_at - began, self._every_s)
+            self._written_at_s = time.monotonic()
+            self._pause_s = checkpoint_pause_s(self._written_at_s - began_s, self._every_s)
 
 
 def checkpoint_pause_s(checkpoint_s: float, every_s: float) -> float:
@@ -229,9 +229,9 @@ def draw_first_map(sampler: Sampler[Any, Any], problem: Any, model: Model, seed:
     """Draw a first, rough map with a short chain of its own. Returns it, and the seconds of a sweep on all threads."""
     state = sampler.init(problem, [PILOT], seed)
     state, _ = sampler.step(state, 1)  # a first sweep is slower, so it is not timed
-    began = time.perf_counter()
+    began_s = time.perf_counter()
     state, _ = sampler.step(state, FIRST_MAP_SWEEPS - 2)
-    sweep_s = (time.perf_counter() - began) / (FIRST_MAP_SWEEPS - 2)
+    sweep_s = (time.perf_counter() - began_s) / (FIRST_MAP_SWEEPS - 2)
     state, info = sampler.step(state, 1, keep=Keep(state.sweep, 1))
     draws = replace(empty_draws(model, state, 1), arrays=info.draws)
     chains = Chains(

@@ -96,7 +96,8 @@ def cell_facts(question: Inspect, snapshot: Snapshot) -> tuple[AnyNotice, Buffer
 
 def _wall_facts(question: Inspect, result: Result, table: BeamTable) -> tuple[AnyNotice, Buffers]:
     """Return the evidence about a wall, given the mean or one draw of the other cells, and the trace of the cell."""
-    prior, estimate = BinaryWalls.of(result.prior, "the evidence about a wall"), result.estimate
+    prior = BinaryWalls.of(result.prior, "the evidence about a wall")
+    estimate = result.estimate
     site = question.x, question.y
     cell = int(np.ravel_multi_index(site, table.grid.shape))
     # If poses are sampled, each draw belongs to poses of its own, but the table to the document's poses: take the mean.

@@ -117,9 +117,9 @@ class Weighing(Estimate):
     def advance(self) -> None:
         """Weigh more particles: about `STEP_SECONDS` of work."""
         began_s = time.perf_counter()
-        n, problem = min(self._step_particles, self.total - self.count), self.problem
+        n = min(self._step_particles, self.total - self.count)
         self._log_weights[self.count : self.count + n] = particle_log_weights(
-            problem.device_table, problem.device_prior, self._key, self.count, n, problem.device
+            self.problem.device_table, self.problem.device_prior, self._key, self.count, n, self.problem.device
         )
         self.count += n
         self.done = self.count == self.total
