@@ -188,6 +188,16 @@ def test_unequal_draws_of_places_leave_the_integral_right():
     assert places.draw_counts(40).tolist() == [40, round(40 * np.sqrt(1 / 3))]
 
 
+@pytest.mark.parametrize("uniform_share", [0.0, 0.4])
+def test_the_density_of_a_prior_is_one_over_the_poses_on_the_map(uniform_share):
+    walls, grid = walls_of(6.0, 5.0)
+    here = known(walls, grid, scan_from(walls, grid, [3.0, 2.5, 0.0]))
+    prior = Prior(bm.InitialPose([3.0, 2.5, 0.5], 0.3, 0.3).components(), uniform_share)
+    steps = [np.arange(0.05, 6.0, 0.1), np.arange(0.05, 5.0, 0.1), np.arange(-np.pi, np.pi, np.pi / 32)]
+    poses = np.stack(np.meshgrid(*steps, indexing="ij"), axis=-1).reshape(-1, 3)
+    assert np.exp(prior.log_density(poses, here)).sum() * 0.1**2 * np.pi / 32 == pytest.approx(1.0, abs=0.01)
+
+
 def test_a_wide_prior_is_narrowed_about_the_pose_but_by_a_scan_with_few_hits():
     walls, grid = walls_of(4.0, 3.0)
     truth = np.array([1.52, 1.23, 0.4])
