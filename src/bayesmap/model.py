@@ -27,7 +27,8 @@ from bayesmap.cells.arrays import ArraySpec
 from bayesmap.cells.kind import CellPrior, Cells
 from bayesmap.errors import BadInput
 from bayesmap.poses.prior import KnownPoses, PosePrior
-from bayesmap.sensors.model import Floats, SensorModel
+from bayesmap.sensors.model import SensorModel
+from bayesmap.space.arrays import Floats
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 

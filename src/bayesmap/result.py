@@ -24,8 +24,8 @@ from bayesmap.posterior.prediction import CENTRAL_80, PREDICTED_DRAWS, predictor
 from bayesmap.posterior.scores import Score, beam_log_scores, score_prediction
 from bayesmap.posterior.summary import Summary, rhat, summarise
 from bayesmap.sensors.model import SensorModel
+from bayesmap.space.arrays import Floats
 from bayesmap.space.grid import Grid
-from bayesmap.space.planar import Floats
 from bayesmap.space.scans import Scans
 
 if TYPE_CHECKING:

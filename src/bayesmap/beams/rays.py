@@ -37,8 +37,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.sensors.model import Floats, RangeLimits
-from bayesmap.space.arrays import Ints, Mask, Singles
+from bayesmap.sensors.model import RangeLimits
+from bayesmap.space.arrays import Floats, Ints, Mask, Singles
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 

@@ -32,9 +32,9 @@ from scipy import special
 
 from bayesmap.cells.arrays import ArraySpec, Draws, count_walls, unpack
 from bayesmap.cells.ising_field import balance_at, count_alike_pairs, perfect_draws, rough_draw
-from bayesmap.cells.kind import BATCH_BYTES, CellPrior, Cells, Floats, Words
+from bayesmap.cells.kind import BATCH_BYTES, CellPrior, Cells, Words
 from bayesmap.errors import BadInput
-from bayesmap.space.arrays import Indices, Ints, Mask, Rng, Singles
+from bayesmap.space.arrays import Floats, Indices, Ints, Mask, Rng, Singles
 from bayesmap.space.grid import Grid
 
 FIT = "fit"

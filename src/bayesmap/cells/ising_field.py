@@ -18,9 +18,8 @@ from numpy.typing import NDArray
 from scipy import special
 
 from bayesmap.cells.arrays import ArraySpec, Draws, count_walls, unpack
-from bayesmap.cells.kind import Floats
 from bayesmap.errors import BadInput
-from bayesmap.space.arrays import Mask, Rng
+from bayesmap.space.arrays import Floats, Mask, Rng
 
 MAX_SWEEPS = 4096  # most sweeps from the past: if the maps have not met by then, exact draws take too long
 HALVINGS = 60  # halvings of [0, 1] in `mixture_quantiles`: the rest is below double precision

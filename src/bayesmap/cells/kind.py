@@ -18,10 +18,9 @@ from numpy.typing import NDArray
 
 from bayesmap.cells.arrays import ArraySpec, Draws
 from bayesmap.errors import BadInput
-from bayesmap.space.arrays import Indices, Ints, Mask, Rng, Singles
+from bayesmap.space.arrays import Floats, Indices, Ints, Mask, Rng, Singles
 from bayesmap.space.grid import Grid
 
-Floats = NDArray[np.float64]
 Cells = Mapping[str, NDArray[Any]]  # one map: the arrays of a kind by name, each (nx, ny)
 BATCH_BYTES = 12 << 20  # most bytes of one batch of stops
 

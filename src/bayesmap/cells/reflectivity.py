@@ -17,9 +17,9 @@ from scipy import special
 from bayesmap.cells import ising_field
 from bayesmap.cells.arrays import ArraySpec, Draws
 from bayesmap.cells.binary import MAX_COUPLING
-from bayesmap.cells.kind import BATCH_BYTES, CellPrior, Cells, Floats, Words
+from bayesmap.cells.kind import BATCH_BYTES, CellPrior, Cells, Words
 from bayesmap.errors import BadInput
-from bayesmap.space.arrays import Indices, Ints, Mask, Rng, Singles
+from bayesmap.space.arrays import Floats, Indices, Ints, Mask, Rng, Singles
 from bayesmap.space.grid import Grid
 
 MIN_REFLECTIVITY, MAX_REFLECTIVITY = 1e-30, 1.0 - 1e-7  # between these, single precision can hold log odds

@@ -15,10 +15,10 @@ from numpy.typing import NDArray
 from scipy import special
 
 from bayesmap.cells.arrays import ArraySpec, Draws
-from bayesmap.cells.kind import Cells, Floats, MeanSurfaces, Words
+from bayesmap.cells.kind import Cells, MeanSurfaces, Words
 from bayesmap.cells.reflectivity import EXPECTED, POOL_CELLS, REFLECTIVITY, Beta, KernelNumbers, positions_in
 from bayesmap.errors import BadInput
-from bayesmap.space.arrays import Ints, Rng, Singles
+from bayesmap.space.arrays import Floats, Ints, Rng, Singles
 from bayesmap.space.grid import Grid
 
 MAX_SPREAD_RATIO = 3.0  # largest spread in units of size_scale: beyond it, almost all prior draws are rejected

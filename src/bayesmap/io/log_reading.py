@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
 from bayesmap.io.returns import NoReturn, Readings, Views, classify
-from bayesmap.space.planar import Floats
+from bayesmap.space.arrays import Floats
 from bayesmap.space.scans import Scans
 from bayesmap.space.time_order import moment, time_order
 from bayesmap.space.trajectory import LONGEST_GAP_S, Trajectory

@@ -10,9 +10,9 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bayesmap.errors import BadInput
+from bayesmap.space.arrays import Floats, Indices, Mask
 
 TOP_SHARE = 0.8  # of the largest reading: candidates are larger; and of a candidate: repeats are compared with these
 MIN_REPEATS = 10  # of a code: reports, and their ratio to the mean count of the smaller values
@@ -54,7 +54,7 @@ class NoReturn:
 class Readings:
     """Classified readings, coded as in REP-117, with no finite number outside the sensor's limits."""
 
-    ranges_m: NDArray[np.float64]  # (S, A)
+    ranges_m: Floats  # (S, A)
     no_return: NoReturn
     min_range_m: float
     max_range_m: float
@@ -63,7 +63,7 @@ class Readings:
 
 
 def classify(
-    name: str, readings_m: NDArray[np.float64], stated_min_m: float, stated_max_m: float, *,
+    name: str, readings_m: Floats, stated_min_m: float, stated_max_m: float, *,
     no_return: float | None, max_range_m: float | None, views: "Views | None" = None,
 ) -> Readings:  # fmt: skip
     """Classify raw readings, (S, A), as hits, no return, too close or invalid.
@@ -115,9 +115,9 @@ def classify(
 
 
 def decode(
-    readings_m: NDArray[np.float64], no_return: float | None = None, sensor_max_m: float | None = None,
+    readings_m: Floats, no_return: float | None = None, sensor_max_m: float | None = None,
     views: "Views | None" = None,
-) -> tuple[NDArray[np.float64], NoReturn]:  # fmt: skip
+) -> tuple[Floats, NoReturn]:  # fmt: skip
     """Replace the codes in raw readings, (S, A), by the codes of REP-117. Returns the ranges, and the no-return code.
 
     Ranges are +inf for no return, and NaN for numbers that cannot be ranges. If ``no_return`` is infinity, the log has
@@ -151,7 +151,7 @@ def decode(
     return ranges, NoReturn(code, origin, coded_m, doubtful)
 
 
-def _code_at_top(readings_m: NDArray[np.float64], views: "Views | None") -> tuple[float | None, float | None]:
+def _code_at_top(readings_m: Floats, views: "Views | None") -> tuple[float | None, float | None]:
     """Return the smallest code at the top, and a doubtful number (see `NoReturn`); None for each that is missing.
 
     A number repeated from one place in one direction counts once: a robot that stands or turns there makes no code.
@@ -173,7 +173,7 @@ def _code_at_top(readings_m: NDArray[np.float64], views: "Views | None") -> tupl
     return None, doubtful
 
 
-def _numbers_standing_out(readings_m: NDArray[np.float64], usable: NDArray[np.bool_]) -> list[float]:
+def _numbers_standing_out(readings_m: Floats, usable: Mask) -> list[float]:
     """Return the numbers at the top that are repeated, or isolated, among the usable readings; ascending.
 
     Candidates v are within 20 % of the largest number, with at most 8 above, and reported by at least 3 beams. Repeated
@@ -197,7 +197,7 @@ def _numbers_standing_out(readings_m: NDArray[np.float64], usable: NDArray[np.bo
     ]
 
 
-def _count_beams(mask: NDArray[np.bool_]) -> int:
+def _count_beams(mask: Mask) -> int:
     """Count the beams, columns of a mask (S, A), with a reading under it."""
     return int(mask.any(axis=0).sum())
 
@@ -206,12 +206,12 @@ def _count_beams(mask: NDArray[np.bool_]) -> int:
 class Views:
     """From where, and in which direction, each reading was taken."""
 
-    place: NDArray[np.intp]  # of each scan, (S,); consecutive scans from one place have one number
-    direction_rad: NDArray[np.float64]  # of each reading in the world, (S, A)
+    place: Indices  # of each scan, (S,); consecutive scans from one place have one number
+    direction_rad: Floats  # of each reading in the world, (S, A)
     step_rad: float  # angle between two beams
 
     @classmethod
-    def of(cls, poses: NDArray[np.float64], angles_rad: NDArray[np.float64]) -> "Views":
+    def of(cls, poses: Floats, angles_rad: Floats) -> "Views":
         """Return the views of scans at poses (S, 3) with beams at angles (A,) or (S, A)."""
         place, first = np.zeros(len(poses), dtype=np.intp), 0
         for i in range(1, len(poses)):
@@ -223,7 +223,7 @@ class Views:
         step = float(np.nanmedian(steps)) if steps.size else 0.0
         return cls(place, poses[:, 2:] + angles_rad, step)
 
-    def repeated(self, readings_m: NDArray[np.float64], mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    def repeated(self, readings_m: Floats, mask: Mask) -> Mask:
         """Select the readings under a mask that repeat an earlier one from the same place and direction, (S, A)."""
         repeated = np.zeros(readings_m.shape, dtype=np.bool_)
         stays = np.bincount(self.place)[self.place] > 1
@@ -238,7 +238,7 @@ class Views:
             repeated[scan[repetitions], beam[repetitions]] = True
         return repeated
 
-    def count(self, mask: NDArray[np.bool_]) -> int:
+    def count(self, mask: Mask) -> int:
         """Count the places, and the separate directions from each, of the readings under a mask, (S, A)."""
         scan, beam = np.nonzero(mask)
         place, direction = self.place[scan], self.direction_rad[scan, beam] % math.tau
@@ -249,7 +249,7 @@ class Views:
 
 
 def max_range_of(
-    name: str, ranges_m: NDArray[np.float64], given_m: float | None, stated_m: float | None = None,
+    name: str, ranges_m: Floats, given_m: float | None, stated_m: float | None = None,
     cap_m: float = math.inf,
 ) -> tuple[float, str]:  # fmt: skip
     """Return the sensor's maximum range and its origin: "given" by the user, the "message" of the log, or "readings".

@@ -22,8 +22,8 @@ from bayesmap.errors import BadInput
 from bayesmap.posterior.heldout import THIN, Fold, HeldOut, join_folds, make_folds, one_fold
 from bayesmap.posterior.prediction import OnShare, Predictor, fixed_maps, ignore_share, split_progress
 from bayesmap.sensors.model import BeamMixture, noise_with
+from bayesmap.space.arrays import Floats
 from bayesmap.space.grid import Grid
-from bayesmap.space.planar import Floats
 from bayesmap.space.scans import Scans
 
 Values = dict[str, float]  # parameters by name

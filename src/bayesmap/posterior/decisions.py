@@ -21,9 +21,8 @@ from bayesmap.posterior import route as routes
 from bayesmap.posterior.posterior import Posterior
 from bayesmap.posterior.prediction import Fan, OnShare, draw_readings, ignore_share, report_batches, split_progress
 from bayesmap.samplers.sampler import Stream
-from bayesmap.space.arrays import Indices, Singles
+from bayesmap.space.arrays import Floats, Indices, Singles
 from bayesmap.space.grid import Grid
-from bayesmap.space.planar import Floats
 from bayesmap.space.scans import Scans, as_angles, as_poses, as_user_poses
 
 if TYPE_CHECKING:

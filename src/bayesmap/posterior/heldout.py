@@ -14,9 +14,8 @@ from numpy.typing import NDArray
 
 from bayesmap.beams.rays import Rays
 from bayesmap.errors import BadInput
-from bayesmap.space.arrays import Indices, Ints, Mask
+from bayesmap.space.arrays import Floats, Indices, Ints, Mask
 from bayesmap.space.grid import Grid
-from bayesmap.space.planar import Floats
 from bayesmap.space.scans import ReadingKind, Scans
 
 MAX_SUGGESTED_EVERY = 100  # largest hold-out period that an error message suggests

@@ -21,9 +21,8 @@ from bayesmap.samplers.fit import Parameters
 from bayesmap.samplers.sampler import Snapshot
 from bayesmap.samplers.without_chains import IndependentDraws
 from bayesmap.sensors.model import SensorModel
-from bayesmap.space.arrays import Indices, Mask, Singles
+from bayesmap.space.arrays import Floats, Indices, Mask, Singles
 from bayesmap.space.grid import Grid
-from bayesmap.space.planar import Floats
 from bayesmap.space.scans import ReadingKind, Scans
 
 if TYPE_CHECKING:

@@ -21,9 +21,8 @@ from bayesmap.errors import BadInput, check_count
 from bayesmap.posterior.posterior import Posterior
 from bayesmap.samplers.sampler import Stream
 from bayesmap.sensors.model import RangeLimits, SensorModel
-from bayesmap.space.arrays import Indices, Ints, Singles
+from bayesmap.space.arrays import Floats, Indices, Ints, Singles
 from bayesmap.space.grid import Grid
-from bayesmap.space.planar import Floats
 from bayesmap.space.scans import ReadingKind, Scans, as_angles, as_user_poses
 
 if TYPE_CHECKING:

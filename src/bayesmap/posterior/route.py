@@ -20,9 +20,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.space.arrays import Indices, Ints, Mask, Singles
+from bayesmap.space.arrays import Floats, Indices, Ints, Mask, Singles
 from bayesmap.space.grid import Grid
-from bayesmap.space.planar import Floats
 
 SOLID = 0.1  # stop probability below which a cell counts as free, as in maps for navigation
 REACH_CELLS = 2.5  # greatest distance of any part of a surface from its cell's centre, in edges of a cell

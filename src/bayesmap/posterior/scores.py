@@ -25,8 +25,7 @@ from numpy.typing import NDArray
 from bayesmap.errors import BadInput
 from bayesmap.posterior.prediction import OnShare, Predictor, ignore_share, report_batches, split_progress
 from bayesmap.sensors.model import RangeLimits, describe
-from bayesmap.space.arrays import Indices, Mask
-from bayesmap.space.planar import Floats
+from bayesmap.space.arrays import Floats, Indices, Mask
 from bayesmap.space.scans import ReadingKind, Scans
 
 REPLICATES = 1000  # replicates of the bootstrap: standard errors are then accurate to about 2 %

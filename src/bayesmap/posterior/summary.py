@@ -20,8 +20,8 @@ from bayesmap.cells.arrays import Draws
 from bayesmap.cells.kind import CellPrior
 from bayesmap.posterior.posterior import Posterior
 from bayesmap.run.chains import PRECISION, map_error
-from bayesmap.space.arrays import Mask
-from bayesmap.space.planar import Floats, wrap_angle
+from bayesmap.space.arrays import Floats, Mask
+from bayesmap.space.planar import wrap_angle
 
 RHAT_LIMIT, ESS_LIMIT = 1.05, 100.0  # over this R-hat chains have not mixed; under this size means are too noisy
 BATCH_CELLS = 4096  # cells whose traces are in memory together

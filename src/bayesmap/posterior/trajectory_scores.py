@@ -16,8 +16,8 @@ import scipy
 
 from bayesmap.errors import BadInput
 from bayesmap.space import arrays, planar
-from bayesmap.space.arrays import Indices, Mask
-from bayesmap.space.planar import Floats, between, interpolate, rotation, wrap_angle
+from bayesmap.space.arrays import Floats, Indices, Mask
+from bayesmap.space.planar import between, interpolate, rotation, wrap_angle
 from bayesmap.space.time_order import moment
 from bayesmap.space.trajectory import LONGEST_GAP_S, RelativeLaw, Trajectory
 

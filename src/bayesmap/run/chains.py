@@ -19,11 +19,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.cells.arrays import Draws
-from bayesmap.cells.kind import CellPrior, Floats
+from bayesmap.cells.kind import CellPrior
 from bayesmap.errors import BadInput
 from bayesmap.model import Model
 from bayesmap.samplers.sampler import Info, Keep, Snapshot
 from bayesmap.sensors.model import RangeLimits
+from bayesmap.space.arrays import Floats
 
 PRECISION = 0.03  # default error of the mean map at which chains stop: an error of 0.1 is visible on a grey map
 FIRST_MARK_DRAWS = 10  # draws per chain at the first estimate of the map's error

@@ -22,7 +22,7 @@ import scipy
 from scipy import special
 
 from bayesmap.cells.binary import Ising, count_by_balance, maximise_pseudo_likelihood
-from bayesmap.cells.kind import CellPrior, Floats
+from bayesmap.cells.kind import CellPrior
 from bayesmap.cells.kinds import prior_from
 from bayesmap.cells.reflectivity import Beta
 from bayesmap.model import Model
@@ -31,7 +31,7 @@ from bayesmap.samplers.stop_gibbs import StopGibbs, StopState
 from bayesmap.samplers.stop_problem import StopProblem, trace_stops
 from bayesmap.samplers.walls import WallSampler
 from bayesmap.sensors.model import AdditiveNoise, BeamMixture, RangeLimits, describe, from_description, noise_with
-from bayesmap.space.arrays import Ints, Mask
+from bayesmap.space.arrays import Floats, Ints, Mask
 
 PILOT_SWEEPS = 40  # most sweeps of the pilot of reflectivities and surfaces; a short warm-up has a shorter pilot
 SENSOR_SWEEPS = 30  # sweeps of the pilot that fits a sensor alone

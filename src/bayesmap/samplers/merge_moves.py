@@ -22,10 +22,9 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from scipy import ndimage
 
-from bayesmap.cells.kind import Floats
 from bayesmap.cells.reflectivity import Beta
 from bayesmap.samplers.stop_problem import ALONG_WALL_SIGMAS, INSIDE_SHARE, StopProblem, end_cells, longer_axis
-from bayesmap.space.arrays import Indices, Ints, Mask, Singles
+from bayesmap.space.arrays import Floats, Indices, Ints, Mask, Singles
 from bayesmap.space.grid import Grid
 
 if TYPE_CHECKING:

@@ -10,7 +10,6 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar, get_args
 
-from bayesmap.cells.kind import Floats
 from bayesmap.errors import BadInput, check_count
 from bayesmap.samplers import without_chains
 from bayesmap.samplers.merge_moves import EARLY_SHARE
@@ -20,7 +19,7 @@ from bayesmap.samplers.stop_gibbs import StopGibbs
 from bayesmap.samplers.wall_problem import WallProblem
 from bayesmap.samplers.walls import Order, Start, WallBlocks, WallGibbs, WallSampler, default_start
 from bayesmap.samplers.without_chains import ROUNDS, DrawRequest, IndependentDraws
-from bayesmap.space.arrays import Mask
+from bayesmap.space.arrays import Floats, Mask
 from bayesmap.space.grid import Grid
 
 PARTICLES = 100_000

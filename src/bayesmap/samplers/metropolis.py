@@ -16,10 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.beams.rays import Rays
-from bayesmap.cells.kind import Floats
 from bayesmap.model import Model, log_likelihoods
 from bayesmap.samplers.sampler import SILENT, ChainState, Info, Keep, RaysProblem, Snapshot, Stream, Watch
-from bayesmap.space.arrays import Ints, Rng
+from bayesmap.space.arrays import Floats, Ints, Rng
 
 
 @dataclass(frozen=True, eq=False)

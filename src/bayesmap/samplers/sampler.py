@@ -19,9 +19,8 @@ from numpy.typing import NDArray
 from bayesmap.beams.rays import Rays
 from bayesmap.beams.table import BeamTable
 from bayesmap.cells.arrays import Draws
-from bayesmap.cells.kind import Floats
 from bayesmap.model import Model
-from bayesmap.space.arrays import Ints, Mask
+from bayesmap.space.arrays import Floats, Ints, Mask
 from bayesmap.space.grid import Grid
 
 Stage = Literal[

@@ -18,12 +18,11 @@ from scipy import ndimage, special
 
 from bayesmap.beams.rays import Rays, around_readings
 from bayesmap.cells.ising_field import rough_draw
-from bayesmap.cells.kind import Floats
 from bayesmap.cells.reflectivity import Beta
 from bayesmap.errors import BadInput
 from bayesmap.samplers.sampler import SILENT, RaysProblem, Watch, keep_cached
 from bayesmap.sensors.model import BeamMixture, Gaussian, RangeLimits, SensorModel, StudentT
-from bayesmap.space.arrays import Ints, Mask, Rng, Singles
+from bayesmap.space.arrays import Floats, Ints, Mask, Rng, Singles
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 

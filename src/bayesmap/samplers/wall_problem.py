@@ -14,10 +14,9 @@ import numpy as np
 
 from bayesmap.beams.table import BeamTable, CellIndex
 from bayesmap.cells.binary import BinaryWalls
-from bayesmap.cells.kind import Floats
 from bayesmap.model import Model
 from bayesmap.samplers.sampler import Problem, keep_cached
-from bayesmap.space.arrays import Mask
+from bayesmap.space.arrays import Floats, Mask
 
 MAX_LOG_ODDS = 1e15  # replaces infinite log-odds in cells that the prior fixes: more than any scan can outweigh
 

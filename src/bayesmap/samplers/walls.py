@@ -15,13 +15,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.cells.arrays import unpack
-from bayesmap.cells.kind import Floats
 from bayesmap.errors import BadInput
 from bayesmap.model import Model
 from bayesmap.samplers.sampler import SILENT, ChainState, Info, Keep, Snapshot, Stream, Watch
 from bayesmap.samplers.wall_problem import WallProblem, trace_walls
 from bayesmap.samplers.without_chains import ROUNDS, Marginals, propagate_to_start
-from bayesmap.space.arrays import Ints, Mask, Singles
+from bayesmap.space.arrays import Floats, Ints, Mask, Singles
 from bayesmap.space.grid import Grid
 
 if TYPE_CHECKING:

@@ -22,12 +22,12 @@ from numpy.typing import NDArray
 
 from bayesmap.beams.rays import Rays
 from bayesmap.beams.table import BeamTable
-from bayesmap.cells.kind import CellPrior, Floats
+from bayesmap.cells.kind import CellPrior
 from bayesmap.model import POSES, Model
 from bayesmap.poses.prior import PoseLaw
 from bayesmap.samplers.sampler import SILENT, ChainState, Info, Keep, Problem, Sampler, Snapshot, Stream, Watch
 from bayesmap.sensors.model import SensorModel
-from bayesmap.space.arrays import Indices, Ints, Singles
+from bayesmap.space.arrays import Floats, Indices, Ints, Singles
 
 if TYPE_CHECKING:
     from bayesmap.kernels.predict.density import ScanLikelihood

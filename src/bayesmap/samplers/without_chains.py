@@ -18,11 +18,10 @@ from numpy.typing import NDArray
 from scipy import special
 
 from bayesmap.cells.arrays import pack
-from bayesmap.cells.kind import Floats
 from bayesmap.errors import BadInput, check_count
 from bayesmap.samplers.sampler import SILENT, Stream, Watch
 from bayesmap.samplers.wall_problem import WallProblem
-from bayesmap.space.arrays import Indices, Mask, Rng
+from bayesmap.space.arrays import Floats, Indices, Mask, Rng
 
 DAMPING, ROUNDS = 0.5, 20  # defaults of `propagate`
 MAX_UNKNOWN = 16  # most unknown cells of `enumerate_maps`: 65 536 states

@@ -33,13 +33,11 @@ from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import special
 
 from bayesmap.errors import BadInput
-from bayesmap.space.arrays import Mask, Rng
+from bayesmap.space.arrays import Floats, Mask, Rng
 
-Floats = NDArray[np.float64]
 STOP_NODES = np.linspace(-6.0, 6.0, 97)  # nodes of the distance of a stop, in standard deviations
 
 

@@ -17,8 +17,8 @@ from functools import lru_cache
 
 import numpy as np
 
-from bayesmap.sensors.model import LOG_IMPOSSIBLE, Floats, RangeLimits, SensorModel
-from bayesmap.space.arrays import Singles
+from bayesmap.sensors.model import LOG_IMPOSSIBLE, RangeLimits, SensorModel
+from bayesmap.space.arrays import Floats, Singles
 
 # Numbers of nodes:
 DISTANCES, SPREADS, OFFSETS = 33, 8, 193  # of the density of a range

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 Value = TypeVar("Value", bound=np.generic)
+Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
 Ints = NDArray[np.int32]
 Mask = NDArray[np.bool_]

@@ -9,11 +9,9 @@ theory", but the retraction is plain composition, not the exponential map.
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
+from bayesmap.space.arrays import Floats as Floats
 from bayesmap.space.arrays import Mask
-
-Floats = NDArray[np.float64]
 
 
 def wrap_angle(angle_rad: Floats) -> Floats:
