@@ -11,7 +11,7 @@ except ModuleNotFoundError:
 # isort: off
 # fmt: off
 from bayesmap.gen import inference
-from bayesmap.gen.choice_map import ChoiceMap, ChoiceMapBuilder, pretty, render
+from bayesmap.gen.choice_map import ChoiceMap, ChoiceMapBuilder
 from bayesmap.gen.closure import Dimap, GenerativeFunctionClosure, contramap, dimap, map
 from bayesmap.gen.densities import (
     DiscreteHMM, DiscreteHMMConfiguration,
@@ -41,6 +41,7 @@ from bayesmap.gen.inference.smc import (
     particle_filter,
 )
 from bayesmap.gen.masks import Mask, do_checkify
+from bayesmap.gen.outline import pretty, render
 from bayesmap.gen.pytree import Closure, Const, PythonicPytree, Pytree, nth
 from bayesmap.gen.scan import (
     Scan, accumulate, iterate, iterate_final, masked_iterate, masked_iterate_final, reduce, scan,

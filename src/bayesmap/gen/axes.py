@@ -14,7 +14,7 @@ import jax.numpy as jnp
 from jax.custom_batching import custom_vmap
 from jax.extend.core import jaxprs_in_params
 
-from bayesmap.gen.choice_map import Choice, ChoiceMap, Indexed, Or, Static, Switch
+from bayesmap.gen.choice_map import Branches, Choice, ChoiceMap, Indexed, Or, Static
 from bayesmap.gen.errors import ShapeMismatch, UnknownAddress
 from bayesmap.gen.masks import Mask, is_concrete, overlay
 from bayesmap.gen.typing import InAxes
@@ -95,7 +95,7 @@ def dense(chm: ChoiceMap, shape: tuple[int, ...]) -> tuple[Any, Any] | None:
             value, inner_flags = dense(inner, jnp.shape(index) + shape[1:]) or (None, None)
             flags = jnp.zeros(shape, bool).at[index].set(True if inner_flags is None else inner_flags)
             return _put(value, index, shape[0]), flags
-        case Or() | Switch():
+        case Or() | Branches():
             maps = (chm.left, chm.right) if isinstance(chm, Or) else chm.maps
             arrays = [array for array in (dense(m, shape) for m in maps) if array is not None]
             joined = reduce(overlay, [Mask(value, True if flags is None else flags) for value, flags in arrays])
@@ -124,8 +124,8 @@ def vectorise(chm: ChoiceMap, n: int) -> ChoiceMap:
             return _at_index(inner, check_index(index, n), n)
         case Or(left, right):
             return vectorise(left, n) | vectorise(right, n)
-        case Switch(index, maps):
-            return Switch(jnp.broadcast_to(index, (n,)), tuple(vectorise(m, n) for m in maps))
+        case Branches(index, maps):
+            return Branches(jnp.broadcast_to(index, (n,)), tuple(vectorise(m, n) for m in maps))
     raise TypeError(f"{type(chm).__name__} is no choice map")
 
 
@@ -143,8 +143,8 @@ def _at_index(chm: ChoiceMap, index: Any, n: int) -> ChoiceMap:
             return Indexed(_at_index(inner, index, n), _put(inner_index, index, n))
         case Or(left, right):
             return _at_index(left, index, n) | _at_index(right, index, n)
-        case Switch(branch, maps):
-            return Switch(_put(branch, index, n), tuple(_at_index(m, index, n) for m in maps))
+        case Branches(branch, maps):
+            return Branches(_put(branch, index, n), tuple(_at_index(m, index, n) for m in maps))
     raise TypeError(f"{type(chm).__name__} is no choice map")
 
 

@@ -1,17 +1,18 @@
-"""Choice maps: values of random choices by address, as in `C["walls"].set(w) | C["readings"].set(z)`, and their text.
+"""Choice maps: values of random choices by address, as in `C["walls"].set(w) | C["readings"].set(z)`.
 
 An address is a name, an index, or a tuple of names and indices. A vectorised model stores its values as whole arrays:
 `chm["v"]` is `chm[:, "v"]`, and `chm[0, "v"]` its first element. An index selects from the leading axis of all arrays.
 
-A flag may be an array, such as a comparison of index arrays. Then the map stores the value as a Mask.
+A choice map is a tree of nodes of five kinds. `Choice` holds a value, `Static` submaps by name, and `Indexed` a map at
+an index. `Or` holds two maps, of which the left one takes precedence, and `Branches` a map for each branch of a switch.
+Each operation of `ChoiceMap` is a match over these kinds. `join` is the rule of `|`.
 
-`Builder` makes maps, `ChoiceMap` reads and combines them, and five kinds of nodes store them. Each operation of
-`ChoiceMap` is a match over the kinds of nodes. `join` is the rule of `|`.
+A flag may be an array, such as a comparison of index arrays. Then the map stores the value as a Mask.
+`Builder`, at the end, makes maps.
 """
 
 import operator
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import suppress
 from functools import reduce
 from typing import Any
 
@@ -20,43 +21,9 @@ import jax.numpy as jnp
 
 from bayesmap.gen.errors import ChoiceMapNoValueAtAddress, ShapeMismatch, format_address
 from bayesmap.gen.masks import Mask, overlay, same_index, where_leaves
+from bayesmap.gen.outline import Outlined, leaf_text
 from bayesmap.gen.pytree import Pytree, dataclass
 from bayesmap.gen.selection import Selection
-
-
-class Outlined:
-    """Base of values that print as a tree, one choice per line."""
-
-    def outline(self, label: str = "") -> list[str]:
-        """Return the lines. The first begins with `label`."""
-        raise NotImplementedError
-
-    def __repr__(self) -> str:
-        return "\n".join(self.outline())
-
-
-def leaf_text(value: Any) -> str:
-    """Return the text of a short array's elements, or of a long array's dtype and shape."""
-    if isinstance(value, Mask):
-        return f"{leaf_text(value.value)} where {leaf_text(value.flag)}"
-    with suppress(TypeError):  # raised if the value is not an array
-        if isinstance(value, jax.core.Tracer) or jnp.size(value) > 8:
-            return f"{jnp.result_type(value)}{list(jnp.shape(value))}"
-    return str(value)
-
-
-def pretty() -> None:
-    """Make notebooks show values by treescope, if it is installed. Without it they show the same tree as text."""
-    with suppress(ImportError, RuntimeError):  # treescope raises RuntimeError outside IPython
-        import treescope
-
-        treescope.register_as_default()
-        treescope.register_autovisualize_magic()
-
-
-def render(value: Outlined) -> str:  # GenJAX's name
-    """Return the text of a trace or a choice map as a tree, one choice per line."""
-    return repr(value)
 
 
 def components(address: Any) -> tuple[Any, ...]:
@@ -64,78 +31,21 @@ def components(address: Any) -> tuple[Any, ...]:
     return address if isinstance(address, tuple) else (address,)
 
 
-class Builder:
-    """Builder of choice maps: `C["x", 0].set(v)`, `C.v(value)`, `C.d({...})`, `C.kw(...)` and `C.n()`."""
-
-    def __init__(self, base: "ChoiceMap | None", address: tuple[Any, ...]) -> None:
-        self._base = base  # the map to change; None for the empty map
-        self._address = address  # at which a value is set
-
-    def __getitem__(self, address: Any) -> "Builder":
-        return Builder(self._base, (*self._address, *components(address)))
-
-    def set(self, value: Any) -> "ChoiceMap":
-        """Return the base map with `value` at the address. `value` is a value, a dict or a map."""
-        new = ChoiceMap.entry(value, *self._address)
-        if self._base is None:
-            return new
-        old_value = self._base.get_submap(self._address).get_value()
-        new_value = new.get_submap(self._address).get_value()
-        if old_value is not None and new_value is not None and jnp.shape(old_value) != jnp.shape(new_value):
-            raise ShapeMismatch(self._address, f"found {jnp.shape(new_value)}, expected {jnp.shape(old_value)}")
-        return new | self._base
-
-    def update(self, f: Callable[[Any], Any]) -> "ChoiceMap":
-        """Return the base map with `f` applied to the value or the submap at the address."""
-        submap = (ChoiceMap.empty() if self._base is None else self._base).get_submap(self._address)
-        return self.set(f(submap.get_value() if submap.has_value() else submap))
-
-    def v(self, value: Any) -> "ChoiceMap":
-        """Return the base map with the bare value at the address; a dict counts as a value."""
-        return self.set(ChoiceMap.choice(value))
-
-    def n(self) -> "ChoiceMap":
-        """Return the empty map."""
-        return ChoiceMap.empty()
-
-    def d(self, mapping: dict[Any, Any]) -> "ChoiceMap":
-        """Return the base map with `ChoiceMap.d(mapping)` at the address."""
-        return self.set(ChoiceMap.d(mapping))
-
-    def kw(self, **values: Any) -> "ChoiceMap":
-        """Return the base map with `ChoiceMap.kw(**values)` at the address."""
-        return self.set(ChoiceMap.kw(**values))
-
-    def from_mapping(self, pairs: Iterable[tuple[Any, Any]]) -> "ChoiceMap":
-        """Return the base map with `ChoiceMap.from_mapping(pairs)` at the address."""
-        return self.set(ChoiceMap.from_mapping(pairs))
-
-    def switch(self, idx: Any, chms: Iterable["ChoiceMap"]) -> "ChoiceMap":
-        """Return the base map with `ChoiceMap.switch(idx, chms)` at the address."""
-        return self.set(ChoiceMap.switch(idx, chms))
-
-
-def _elements(tree: Any, index: Any) -> Any:
-    """Return `leaf[index]` of each leaf, where a Mask is one leaf."""
-    return jax.tree.map(lambda leaf: leaf[index], tree, is_leaf=lambda leaf: isinstance(leaf, Mask))
-
-
 class ChoiceMap(Outlined, Pytree):
-    """Base of choice maps, made by the `Builder` that users import as `C`. Its subclasses are kinds of nodes."""
+    """Base of choice maps, made by the `Builder` that users import as `C`. Its subclasses are the kinds of nodes."""
 
     def get_value(self) -> Any:
         """Return the value at the empty address, or None. It is a Mask if its presence is decided at run time."""
         match self:
             case Choice(value):
                 return value
-            case Switch(_, maps):
+            case Branches(_, maps):
                 values = [chm.get_value() for chm in maps]
                 masks = [Mask.build(value) for value in values if value is not None]
                 return Mask.or_n(*masks) if masks else None
             case Or(left, right):
-                first = left.get_value()
-                second = right.get_value()
-                # One value alone may lack the elements that the other map has at indices.
+                first, second = left.get_value(), right.get_value()
+                # If only one map has a value here, the other has elements at indices, which the value lacks.
                 return None if first is None or second is None else _first_present(first, second)
         return None
 
@@ -153,10 +63,10 @@ class ChoiceMap(Outlined, Pytree):
                 return _element_at(chm, index, component)
             case Or(left, right):
                 return left.get_inner_map(component) | right.get_inner_map(component)
-            case Switch(idx, maps):
+            case Branches(idx, maps):
                 inner_maps = tuple(chm.get_inner_map(component) for chm in maps)
-                idx = idx if by_name or jnp.ndim(idx) == 0 else idx[component]
-                return Static({}) if all(chm.static_is_empty() for chm in inner_maps) else Switch(idx, inner_maps)
+                inner_idx = idx if by_name or jnp.ndim(idx) == 0 else idx[component]
+                return Static({}) if all(m.static_is_empty() for m in inner_maps) else Branches(inner_idx, inner_maps)
         return Static({})
 
     def filter(self, selection: Any) -> "ChoiceMap":
@@ -174,8 +84,8 @@ class ChoiceMap(Outlined, Pytree):
                 return chm.filter(selection).extend(index)
             case Or(left, right):
                 return left.filter(selection) | right.filter(selection)
-            case Switch(idx, maps):
-                return Switch(idx, tuple(chm.filter(selection) for chm in maps))
+            case Branches(idx, maps):
+                return Branches(idx, tuple(chm.filter(selection) for chm in maps))
         raise TypeError(f"{type(self).__name__} is no choice map")
 
     def paths(self) -> Iterator[tuple[Any, ...]]:
@@ -189,7 +99,7 @@ class ChoiceMap(Outlined, Pytree):
                 yield from ((index, *path) for path in chm.paths())
             case Or(left, right):
                 yield from (path for chm in (left, right) for path in chm.paths())
-            case Switch(_, maps):
+            case Branches(_, maps):
                 yield from dict.fromkeys(path for chm in maps for path in chm.paths())
 
     def static_is_empty(self) -> bool:
@@ -197,7 +107,7 @@ class ChoiceMap(Outlined, Pytree):
         match self:
             case Static(mapping):
                 return not mapping
-            case Switch(_, maps):
+            case Branches(_, maps):
                 return all(chm.static_is_empty() for chm in maps)
         return False
 
@@ -215,7 +125,7 @@ class ChoiceMap(Outlined, Pytree):
                 return chm.outline(f"{label}[{leaf_text(index)}]")
             case Or(left, right):
                 return [*left.outline(label), *right.outline(label)]
-            case Switch(idx, maps):
+            case Branches(idx, maps):
                 lines = ["  " + line for k, chm in enumerate(maps) for line in chm.outline(f"[{k}]")]
                 return [f"{label or 'switch'}: branch {leaf_text(idx)} of", *lines]
         raise TypeError(f"{type(self).__name__} is no choice map")
@@ -287,7 +197,7 @@ class ChoiceMap(Outlined, Pytree):
         return chm
 
     @property
-    def at(self) -> Builder:
+    def at(self) -> "Builder":
         """Builder from this map: `chm.at["x"].set(v)` is this map with the value at "x" replaced."""
         return Builder(self, ())
 
@@ -334,7 +244,7 @@ class ChoiceMap(Outlined, Pytree):
         chms = list(chms)
         if isinstance(idx, int):
             return chms[idx]
-        return Switch(idx, tuple(chm.mask(idx == k) for k, chm in enumerate(chms)))
+        return Branches(idx, tuple(chm.mask(idx == k) for k, chm in enumerate(chms)))
 
 
 @dataclass
@@ -381,15 +291,20 @@ class Or(ChoiceMap):
 
 
 @dataclass
-class Switch(ChoiceMap):
-    """A node with several maps. Map number k is masked by `idx == k`, with an integer array `idx`."""
+class Branches(ChoiceMap):
+    """A node with the maps of a switch's branches. Map number k is masked by `idx == k`."""
 
-    idx: Any
+    idx: Any  # number of the branch that ran, an integer array
     maps: tuple[ChoiceMap, ...]
 
 
+def _elements(tree: Any, index: Any) -> Any:
+    """Return `leaf[index]` of each leaf, where a Mask is one leaf."""
+    return jax.tree.map(lambda leaf: leaf[index], tree, is_leaf=lambda leaf: isinstance(leaf, Mask))
+
+
 def _element_at(chm: ChoiceMap, index: Any, component: Any) -> ChoiceMap:
-    """Return the element `component` of a map at `index`, with a mask that is False if `index` lacks this element."""
+    """Return the element `component` of the map `chm` at `index`, masked by False if `index` lacks this element."""
     if isinstance(component, slice):
         raise ValueError(f"Slices are not allowed against array-shaped dynamic addresses: only {index} is there")
     hits = same_index(index, component)
@@ -430,10 +345,10 @@ def join(left: ChoiceMap, right: ChoiceMap) -> ChoiceMap:
         case Indexed(), Choice(value) if not isinstance(value, Mask):
             return Choice(overwrite(left, jnp.asarray(value)))
         # A switch by a scalar: join the other map to each branch, masked as the branch is.
-        case (Switch(idx, maps), other) if jnp.ndim(idx) == 0 and not isinstance(other, Switch):
-            return Switch(idx, tuple(chm | other.mask(idx == k) for k, chm in enumerate(maps)))
-        case (other, Switch(idx, maps)) if jnp.ndim(idx) == 0 and not isinstance(other, Switch):
-            return Switch(idx, tuple(other.mask(idx == k) | chm for k, chm in enumerate(maps)))
+        case (Branches(idx, maps), other) if jnp.ndim(idx) == 0 and not isinstance(other, Branches):
+            return Branches(idx, tuple(chm | other.mask(idx == k) for k, chm in enumerate(maps)))
+        case (other, Branches(idx, maps)) if jnp.ndim(idx) == 0 and not isinstance(other, Branches):
+            return Branches(idx, tuple(other.mask(idx == k) | chm for k, chm in enumerate(maps)))
         # A bare value and names cannot share an address.
         case (Choice(), Static()) | (Static(), Choice()):
             names = format_address(next(path for chm in (left, right) for path in chm.paths() if path))
@@ -452,6 +367,57 @@ def overwrite(chm: ChoiceMap, array: Any) -> Any:
         case Choice(value):
             return value
     raise ValueError(f"Names below an index cannot replace elements of an array of shape {array.shape}")
+
+
+class Builder:
+    """Builder of choice maps: `C["x", 0].set(v)`, `C.v(value)`, `C.d({...})`, `C.kw(...)` and `C.n()`."""
+
+    def __init__(self, base: ChoiceMap | None, address: tuple[Any, ...]) -> None:
+        self._base = base  # the map to change; None for the empty map
+        self._address = address  # at which a value is set
+
+    def __getitem__(self, address: Any) -> "Builder":
+        return Builder(self._base, (*self._address, *components(address)))
+
+    def set(self, value: Any) -> ChoiceMap:
+        """Return the base map with `value` at the address. `value` is a value, a dict or a map."""
+        new = ChoiceMap.entry(value, *self._address)
+        if self._base is None:
+            return new
+        old_value = self._base.get_submap(self._address).get_value()
+        new_value = new.get_submap(self._address).get_value()
+        if old_value is not None and new_value is not None and jnp.shape(old_value) != jnp.shape(new_value):
+            raise ShapeMismatch(self._address, f"found {jnp.shape(new_value)}, expected {jnp.shape(old_value)}")
+        return new | self._base
+
+    def update(self, f: Callable[[Any], Any]) -> ChoiceMap:
+        """Return the base map with `f` applied to the value or the submap at the address."""
+        submap = (ChoiceMap.empty() if self._base is None else self._base).get_submap(self._address)
+        return self.set(f(submap.get_value() if submap.has_value() else submap))
+
+    def v(self, value: Any) -> ChoiceMap:
+        """Return the base map with the bare value at the address; a dict counts as a value."""
+        return self.set(ChoiceMap.choice(value))
+
+    def n(self) -> ChoiceMap:
+        """Return the empty map."""
+        return ChoiceMap.empty()
+
+    def d(self, mapping: dict[Any, Any]) -> ChoiceMap:
+        """Return the base map with `ChoiceMap.d(mapping)` at the address."""
+        return self.set(ChoiceMap.d(mapping))
+
+    def kw(self, **values: Any) -> ChoiceMap:
+        """Return the base map with `ChoiceMap.kw(**values)` at the address."""
+        return self.set(ChoiceMap.kw(**values))
+
+    def from_mapping(self, pairs: Iterable[tuple[Any, Any]]) -> ChoiceMap:
+        """Return the base map with `ChoiceMap.from_mapping(pairs)` at the address."""
+        return self.set(ChoiceMap.from_mapping(pairs))
+
+    def switch(self, idx: Any, chms: Iterable[ChoiceMap]) -> ChoiceMap:
+        """Return the base map with `ChoiceMap.switch(idx, chms)` at the address."""
+        return self.set(ChoiceMap.switch(idx, chms))
 
 
 ChoiceMapBuilder = Builder(None, ())

@@ -22,10 +22,11 @@ import jax
 import jax.numpy as jnp
 
 from bayesmap.gen.axes import in_chunks
-from bayesmap.gen.choice_map import ChoiceMap, Outlined, leaf_text
+from bayesmap.gen.choice_map import ChoiceMap
 from bayesmap.gen.diff import Diff
 from bayesmap.gen.edits import Edited, EditRequest, EmptyRequest, Update
 from bayesmap.gen.errors import AddressError
+from bayesmap.gen.outline import Outlined, leaf_text
 from bayesmap.gen.pytree import Pytree, dataclass
 from bayesmap.gen.selection import Selection
 from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
