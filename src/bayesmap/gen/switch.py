@@ -1,6 +1,7 @@
-"""Generative functions chosen at run time: `mask` lets one count or not, `switch` runs one of several branches.
+"""Generative functions chosen at run time: `mask` gives a function a flag, and `switch` runs one of several branches.
 
-`or_else` and `mix` are cases of `switch`. JAX compiles all branches, so that a trace has room for each branch's trace.
+If the flag is False, the function's choices do not count. `or_else` and `mix` are cases of `switch`. JAX compiles all
+branches, so that the trace of a switch stores a trace of each branch.
 """
 
 import operator
@@ -28,7 +29,7 @@ from bayesmap.gen.typing import Arguments, PRNGKey, Score, Weight
 
 @dataclass
 class MaskTrace(OuterTrace):
-    """The trace `inner`, whose choices and score count if `flag` is True. It has arguments if this trace has them."""
+    """The trace of a masked function. The choices and the score of `inner` count if `flag` is True."""
 
     flag: Any
 
@@ -42,11 +43,12 @@ class MaskTrace(OuterTrace):
         return self.inner.get_choices().mask(self.flag)
 
     def with_args(self, args: Arguments | None) -> "MaskTrace":
+        """Return this trace with other arguments. The first is the flag, the others are those of `inner`."""
         return self.replace(args=args, inner=self.inner.with_args(None if args is None else args[1:]))
 
 
 def _flag(args: Arguments) -> Any:
-    """Return the first argument: Python's True, or a Boolean array (), which leaves the choices in the map, masked."""
+    """Return the flag, which is the first argument: Python's True as it is, all else as a Boolean array, shape ()."""
     if jnp.ndim(args[0]) > 0:
         raise BadArguments(f"mask: the flag is an array of shape {jnp.shape(args[0])}; map over it with .mask().vmap()")
     return True if args[0] is True else jnp.asarray(args[0], bool)
@@ -54,7 +56,7 @@ def _flag(args: Arguments) -> Any:
 
 @dataclass
 class MaskCombinator(Outer):
-    """A generative function whose first argument, a flag, decides whether it counts. See `mask`."""
+    """A generative function whose first argument is a flag. If it is False, the choices do not count. See `mask`."""
 
     inner: GenerativeFunction
 
@@ -85,9 +87,9 @@ class MaskCombinator(Outer):
         old_flag, new_flag = jnp.asarray(trace.flag), jnp.asarray(_flag(args))
         inner, weight, retdiff, backward = request.edit(key, trace.inner, argdiffs[1:])
         new = self.wrap(args, inner)
-        # The edit's weight counts if the flag is and was True. A flag that changes adds or removes a score.
-        switched = jnp.where(new_flag, inner.get_score(), 0.0) - jnp.where(old_flag, trace.inner.get_score(), 0.0)
-        weight = jnp.where(old_flag & new_flag, weight, jnp.where(old_flag == new_flag, 0.0, switched))
+        # The edit's weight counts if the flag was and is True. A flag that changes adds or removes the whole score.
+        score_change = new.get_score() - trace.get_score()
+        weight = jnp.where(old_flag & new_flag, weight, jnp.where(old_flag == new_flag, 0.0, score_change))
         retval = new.get_retval()
         unchanged = argdiffs[0].tangent == NoChange and Diff.static_check_no_change(retdiff)
         return new, weight, (Diff.no_change if unchanged else Diff.unknown_change)(retval), backward
@@ -142,20 +144,20 @@ class SwitchTrace(Trace):
 
 
 def run_branch(index: Any, thunks: Sequence[Callable[[], tuple[Any, Any]]]) -> tuple[tuple[Any, ...], Any]:
-    """Run thunk number `index`, a function that returns (own result, shared result).
-    Returns (own results of all thunks, zeros for those that did not run; shared result in common types and shapes).
+    """Run thunk number `index`, a function without arguments that returns (own result, shared result).
+    Returns (own results of all thunks, zeros for those that did not run; shared result in common dtypes and shapes).
     """
     own_shapes, shared_shapes = zip(*(jax.eval_shape(t) for t in thunks), strict=True)
-    types = jax.tree.map(jnp.result_type, *shared_shapes)
+    dtypes = jax.tree.map(jnp.result_type, *shared_shapes)
     shapes = jax.tree.map(lambda *s: jnp.broadcast_shapes(*(x.shape for x in s)), *shared_shapes)
 
+    def in_common_form(x: Any, dtype: Any, shape: tuple[int, ...]) -> Any:
+        return jnp.broadcast_to(jnp.asarray(x, dtype), shape)
+
     def run(k: int) -> Any:
-        own, shared = thunks[k]()
-        zeros = [jax.tree.map(lambda s: jnp.zeros(s.shape, s.dtype), trees) for trees in own_shapes]
-        shared = jax.tree.map(
-            lambda x, dtype, size: jnp.broadcast_to(jnp.asarray(x, dtype), size), shared, types, shapes
-        )
-        return (*zeros[:k], own, *zeros[k + 1 :]), shared
+        results = [jax.tree.map(lambda s: jnp.zeros(s.shape, s.dtype), trees) for trees in own_shapes]
+        results[k], shared = thunks[k]()
+        return tuple(results), jax.tree.map(in_common_form, shared, dtypes, shapes)
 
     return jax.lax.switch(index, [partial(run, k) for k in range(len(thunks))])  # type: ignore[no-any-return]
 
@@ -177,45 +179,46 @@ class Switch(GenerativeFunction):
             raise BadArguments(f"switch: there is no branch {int(index)}; the branches are 0 to {n - 1}")
         return (index if isinstance(index, int) else jnp.clip(index, 0, n - 1)), branch_args
 
-    def _build(self, args: Arguments, thunks: Sequence[Callable[[], Any]]) -> tuple[SwitchTrace, Weight]:
-        """Return the trace and the weight of the branch that runs. Each thunk returns a branch's (trace, weight)."""
+    def _run(self, index: Any, run: Callable[[int], tuple[Any, Any]]) -> tuple[tuple[Any, ...], Any]:
+        """Return `run_branch`, where thunk number k is `run(k)`."""
+        return run_branch(index, [partial(run, k) for k in range(len(self.branches))])
+
+    def _trace(self, args: Arguments, trace_branch: Callable[[int], tuple[Trace, Any]]) -> tuple[SwitchTrace, Weight]:
+        """Return the trace and the weight of the branch that runs. `trace_branch(k)` returns those of branch k."""
         index, _ = self._split(args)
 
-        def run(thunk: Callable[[], Any]) -> Any:
-            trace, weight = thunk()
+        def run(k: int) -> Any:
+            trace, weight = trace_branch(k)
             return trace.with_args(None), (trace.get_retval(), trace.get_score(), jnp.asarray(weight))
 
-        traces, (retval, score, weight) = run_branch(index, [partial(run, thunk) for thunk in thunks])
+        traces, (retval, score, weight) = self._run(index, run)
         return SwitchTrace(self, args, index, traces, retval, score), weight
-
-    def _thunks(self, run: Callable[..., Any], *columns: Sequence[Any]) -> list[Callable[[], Any]]:
-        """Return one function per branch. It calls `run` with the branch and the branch's value in each column."""
-        return [partial(run, *values) for values in zip(self.branches, *columns, strict=True)]
 
     def _choices_of_branches(self, choices: ChoiceMap, args: Sequence[Any]) -> list[ChoiceMap]:
         """Return for each branch the choices that it can make. Raises UnknownAddress for a choice of no branch."""
         selections = [fn.choice_shapes(a).get_selection() for fn, a in zip(self.branches, args, strict=True)]
-        for path in choices.filter(~reduce(operator.or_, selections)).paths():
-            raise UnknownAddress(path, "no branch has it")
+        unknown = next(choices.filter(~reduce(operator.or_, selections)).paths(), None)
+        if unknown is not None:
+            raise UnknownAddress(unknown, "no branch has it")
         return [choices.filter(selection) for selection in selections]
 
     def simulate(self, key: PRNGKey, args: Arguments) -> SwitchTrace:
-        _, all_args = self._split(args)
-        return self._build(args, self._thunks(lambda fn, a: (fn.simulate(key, a), 0.0), all_args))[0]
+        _, branch_args = self._split(args)
+        return self._trace(args, lambda k: (self.branches[k].simulate(key, branch_args[k]), 0.0))[0]
 
     def generate(self, key: PRNGKey, constraint: ChoiceMap, args: Arguments) -> tuple[SwitchTrace, Weight]:
         """Generate a trace of the branch with the given index, from the part of the constraint that it can make."""
-        _, all_args = self._split(args)
-        constraints = self._choices_of_branches(constraint, all_args)
-        return self._build(args, self._thunks(lambda fn, c, a: fn.generate(key, c, a), constraints, all_args))
+        _, branch_args = self._split(args)
+        constraints = self._choices_of_branches(constraint, branch_args)
+        return self._trace(args, lambda k: self.branches[k].generate(key, constraints[k], branch_args[k]))
 
     def assess(self, choices: ChoiceMap, args: Arguments) -> tuple[Score, Any]:
         """Assess the choices by the branch with the given index."""
-        index, all_args = self._split(args)
-        choices_of_branches = self._choices_of_branches(choices, all_args)
-        thunks = self._thunks(lambda fn, c, a: ((), fn.assess(c, a)), choices_of_branches, all_args)
+        index, branch_args = self._split(args)
+        branch_choices = self._choices_of_branches(choices, branch_args)
         with optional_part():
-            return run_branch(index, thunks)[1]  # type: ignore[no-any-return]
+            _, assessed = self._run(index, lambda k: ((), self.branches[k].assess(branch_choices[k], branch_args[k])))
+        return assessed  # type: ignore[no-any-return]
 
     def edit(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
         """Edit the branch that stays active, or generate a newly active branch, whose draws add no weight.
@@ -224,35 +227,36 @@ class Switch(GenerativeFunction):
         if not isinstance(request, Update | EmptyRequest | Regenerate):
             raise NotSupportedEditRequest(self, request)
         # Each branch gets the part of an update that it can make.
-        _, diffs = self._split(argdiffs)
+        _, branch_diffs = self._split(argdiffs)
         constraint = request.constraint if isinstance(request, Update) else ChoiceMap.empty()
-        constraints = self._choices_of_branches(constraint, [Diff.tree_primal(d) for d in diffs])
+        constraints = self._choices_of_branches(constraint, [Diff.tree_primal(d) for d in branch_diffs])
         same_index = argdiffs[0].tangent == NoChange
 
-        def edit(k: int) -> Any:
+        def edit_active(k: int) -> Any:
             branch_request = Update(constraints[k]) if isinstance(request, Update) else request
-            new, weight, _, _ = branch_request.edit(key, trace.branches[k], diffs[k])
+            new, weight, _, _ = branch_request.edit(key, trace.branches[k], branch_diffs[k])
             return new.with_args(None), weight
 
-        def generate(k: int) -> Any:
-            new, weight = self.branches[k].generate(key, constraints[k], Diff.tree_primal(diffs[k]))
+        def generate_new(k: int) -> Any:
+            new, weight = self.branches[k].generate(key, constraints[k], Diff.tree_primal(branch_diffs[k]))
             # The old branch's score leaves the trace; the new one's own draws cancel in `weight`. `lax.cond` needs
             # results of one dtype, and the stored trace decides it.
             return in_dtypes_of(trace.branches[k], new.with_args(None)), weight - trace.score
 
-        def edit_or_generate(k: int) -> Any:
+        def edit_branch(k: int) -> Any:
             # An index that is marked as unchanged needs no `cond`, which would compile both cases.
-            return edit(k) if same_index else jax.lax.cond(trace.index == k, partial(edit, k), partial(generate, k))
+            if same_index:
+                return edit_active(k)
+            return jax.lax.cond(trace.index == k, partial(edit_active, k), partial(generate_new, k))
 
-        args = Diff.tree_primal(argdiffs)
-        new, weight = self._build(args, [partial(edit_or_generate, k) for k in range(len(self.branches))])
+        new, weight = self._trace(Diff.tree_primal(argdiffs), edit_branch)
         unchanged = isinstance(request, EmptyRequest) and Diff.static_check_no_change(argdiffs)
         retdiff = (Diff.no_change if unchanged else Diff.unknown_change)(new.retval)
         return new, weight, retdiff, Update(trace.get_choices())
 
     def project(self, key: PRNGKey, trace: Any, selection: Selection) -> Weight:
-        thunks = self._thunks(lambda fn, t: ((), fn.project(key, t, selection)), trace.branches)
-        return run_branch(trace.index, thunks)[1]  # type: ignore[no-any-return]
+        _, score = self._run(trace.index, lambda k: ((), self.branches[k].project(key, trace.branches[k], selection)))
+        return score  # type: ignore[no-any-return]
 
 
 @method
