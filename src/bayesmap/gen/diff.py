@@ -95,11 +95,6 @@ class Diff(Pytree):
         return Diff.tree(value, UnknownChange)
 
     @staticmethod
-    def index_change(value: Any, *index: Any) -> Any:
-        """Return `value` with every leaf marked as changed at `index` alone."""
-        return Diff.tree(value, IndexChange(index))
-
-    @staticmethod
     def tree_primal(value: Any) -> Any:
         """Return `value` without its marks."""
         return jax.tree.map(lambda leaf: leaf.primal if Diff.is_diff(leaf) else leaf, value, is_leaf=Diff.is_diff)
