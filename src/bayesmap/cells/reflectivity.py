@@ -257,7 +257,7 @@ class Beta(CellPrior):
         # Draws hold the touched cells; the others follow the prior.
         position, stored = positions_in(draws.index["cell"], cells)
         position, stored_indices = position[stored], np.flatnonzero(stored)
-        prior_reflectivities = self._prior_reflectivities(cells, drawn=drawn)
+        prior_reflectivities = self._prior_sampler(cells) if drawn else self._prior_mean
         reflectivities = draws.arrays["reflectivity" if drawn else "expected"]
         write_surfaces = self.surface_writer(draws, cells)
         # Batches of draws whose memory is limited.
@@ -275,12 +275,12 @@ class Beta(CellPrior):
                 m[stored_indices] = reflectivities[chain, draw][position]
             yield batch
 
-    def _prior_reflectivities(
-        self, cells: Ints, *, drawn: bool
-    ) -> Callable[[Mask | None], NDArray[np.floating] | float]:
-        """Return a function from the cells' labels (None if they have none) to prior means or draws, (n,)."""
-        if not drawn:
-            return lambda solid: self.mean if solid is None else self.mean_given(solid)
+    def _prior_mean(self, solid: Mask | None) -> NDArray[np.floating] | float:
+        """Return the prior mean of reflectivities, given the labels of their cells, (n,); None without labels."""
+        return self.mean if solid is None else self.mean_given(solid)
+
+    def _prior_sampler(self, cells: Ints) -> Callable[[Mask | None], NDArray[np.floating] | float]:
+        """Return a function that draws the reflectivities of cells from the prior, (n,), given labels as above."""
         # Pools of draws are made once; each call reads them from another random offset.
         rng = np.random.default_rng(POOL_SEED)
         pools = [rng.beta(self.a, self.b, POOL_CELLS).astype(np.float32)]
