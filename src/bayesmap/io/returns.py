@@ -21,7 +21,7 @@ MIN_ISOLATION = 2.0  # ratio of an isolated code to any smaller reading
 MAX_CODES = 8  # different values above a code
 MIN_VIEWS = 3  # places, or separate directions from one place, from which a code must be reported
 SAME_PLACE_M = 0.05  # largest distance of scans from one place
-SAME_DIRECTION_RAD = math.radians(1.0)
+SAME_DIRECTION_RAD = math.radians(1.0)  # width of the bins of directions
 MAX_GAP_STEPS = 2.5  # gap, in steps between beams, within one direction; a larger gap separates two directions
 PRINT_PRECISION_M = 1e-3  # tolerance of a code: 81.83 also stands for 81.8299 in the log
 MAX_STATED_RANGE_M = 1e6  # a larger stated range is no sensor's limit
@@ -31,7 +31,6 @@ MAX_INVALID_SHARE = 0.01  # of zero and negative readings; a note names a larger
 @dataclass(frozen=True)
 class NoReturn:
     """The number that a log writes for no return.
-
     This and larger readings are no return. If it is zero or negative, all readings of zero and below are. A number is
     doubtful if it stands out like a code, but was reported from one place in one direction, like a wall. It is a hit.
     """
@@ -67,24 +66,16 @@ def classify(
     no_return: float | None, max_range_m: float | None, views: "Views | None" = None,
 ) -> Readings:  # fmt: skip
     """Classify raw readings, (S, A), as hits, no return, too close or invalid.
-
     The sensor's stated limits may be 0, NaN or nonsense. ``no_return`` and ``max_range_m`` are the user's, or None; a
     no-return code of infinity means that the log has none. Error messages name the file, ``name``. Raises `BadInput` if
     all readings are invalid, or a given number makes no sense.
     """
-    # The stated limits.
-    notes: list[str] = []
-    stated_max = stated_max_m if math.isfinite(stated_max_m) and 0 < stated_max_m <= MAX_STATED_RANGE_M else None
-    min_range_m = stated_min_m if math.isfinite(stated_min_m) and stated_min_m >= 0 else 0.0
-    if stated_max is None and not math.isinf(stated_max_m):
-        notes.append(f"the log states a largest range of {stated_max_m:g} m, which was not used")
-    if stated_max is not None and min_range_m >= stated_max:
-        notes.append(f"the log states ranges from {min_range_m:g} to {stated_max:g} m: the smallest was not used")
-        min_range_m = 0.0
-    # Codes: a log with infinities has none.
+    min_range_m, stated_max, notes = _usable_limits(stated_min_m, stated_max_m)
+    # Replace the codes. A log with infinities has none.
     is_zero_or_less = np.isfinite(readings_m) & (readings_m <= 0)
     if no_return is None and np.isinf(readings_m).any():
-        ranges, code = np.where(is_zero_or_less, np.nan, readings_m), NoReturn(None, "none")
+        ranges = np.where(is_zero_or_less, np.nan, readings_m)
+        code = NoReturn(None, "none")
     else:
         ranges, code = decode(readings_m, no_return, stated_max, views)
         notes += code.notes()
@@ -92,18 +83,8 @@ def classify(
     if n_invalid > MAX_INVALID_SHARE * readings_m.size:
         fault = "are zero or negative, taken as invalid; --no-return 0 takes them as no return"
         notes.append(f"{n_invalid:,} readings of {readings_m.size:,} {fault}")
-    # Finite numbers outside the limits.
-    is_finite = np.isfinite(ranges)
-    too_close = is_finite & (ranges < min_range_m)
-    if too_close.any():
-        count = int(too_close.sum())
-        notes.append(f"{count:,} readings below the smallest range of {min_range_m:g} m were taken as invalid")
-    ranges[too_close] = np.nan
-    if stated_max is not None:
-        too_far = is_finite & (ranges > stated_max)
-        if too_far.any():
-            notes.append(f"{int(too_far.sum()):,} readings above the largest range of {stated_max:g} m are no return")
-        ranges[too_far] = np.inf
+    # Replace the finite readings outside the limits.
+    notes += _apply_limits(ranges, min_range_m, stated_max)
     if np.isnan(ranges).all():
         fault = f"none of {ranges.size:,} readings in {len(ranges):,} scans is valid"
         remedy = "(all are NaN, or outside the sensor's range); check the sensor and its range_min and range_max"
@@ -114,12 +95,40 @@ def classify(
     return Readings(ranges, code, min_range_m, limit, origin, tuple(notes))
 
 
-def decode(
-    readings_m: Floats, no_return: float | None = None, sensor_max_m: float | None = None,
-    views: "Views | None" = None,
-) -> tuple[Floats, NoReturn]:  # fmt: skip
-    """Replace the codes in raw readings, (S, A), by the codes of REP-117. Returns the ranges, and the no-return code.
+def _usable_limits(stated_min_m: float, stated_max_m: float) -> tuple[float, float | None, list[str]]:
+    """Return the least range, the largest range or None, and notes about stated limits that are not used."""
+    notes: list[str] = []
+    max_m = stated_max_m if math.isfinite(stated_max_m) and 0 < stated_max_m <= MAX_STATED_RANGE_M else None
+    min_m = stated_min_m if math.isfinite(stated_min_m) and stated_min_m >= 0 else 0.0
+    if max_m is None and not math.isinf(stated_max_m):
+        notes.append(f"the log states a largest range of {stated_max_m:g} m, which was not used")
+    if max_m is not None and min_m >= max_m:
+        notes.append(f"the log states ranges from {min_m:g} to {max_m:g} m: the smallest was not used")
+        min_m = 0.0
+    return min_m, max_m, notes
 
+
+def _apply_limits(ranges_m: Floats, min_m: float, max_m: float | None) -> list[str]:
+    """Replace finite ranges below the limits by NaN, and those above by +inf, in place. Returns notes about them."""
+    notes: list[str] = []
+    is_finite = np.isfinite(ranges_m)
+    too_close = is_finite & (ranges_m < min_m)
+    if too_close.any():
+        count = int(too_close.sum())
+        notes.append(f"{count:,} readings below the smallest range of {min_m:g} m were taken as invalid")
+    ranges_m[too_close] = np.nan
+    if max_m is not None:
+        too_far = is_finite & (ranges_m > max_m)
+        if too_far.any():
+            notes.append(f"{int(too_far.sum()):,} readings above the largest range of {max_m:g} m are no return")
+        ranges_m[too_far] = np.inf
+    return notes
+
+
+def decode(
+    readings_m: Floats, no_return: float | None = None, sensor_max_m: float | None = None, views: "Views | None" = None
+) -> tuple[Floats, NoReturn]:
+    """Replace the codes in raw readings, (S, A), by the codes of REP-117. Returns the ranges, and the no-return code.
     Ranges are +inf for no return, and NaN for numbers that cannot be ranges. If ``no_return`` is infinity, the log has
     none; if it is None, the rules of this module find the code. Readings of the maximum range that the log states, and
     larger ones, are no return, even if they are not repeated. Raises `BadInput` if ``no_return`` is NaN or -inf.
@@ -153,7 +162,6 @@ def decode(
 
 def _code_at_top(readings_m: Floats, views: "Views | None") -> tuple[float | None, float | None]:
     """Return the smallest code at the top, and a doubtful number (see `NoReturn`); None for each that is missing.
-
     A number repeated from one place in one direction counts once: a robot that stands or turns there makes no code.
     """
     usable = np.isfinite(readings_m) & (readings_m > 0)
@@ -175,7 +183,6 @@ def _code_at_top(readings_m: Floats, views: "Views | None") -> tuple[float | Non
 
 def _numbers_standing_out(readings_m: Floats, usable: Mask) -> list[float]:
     """Return the numbers at the top that are repeated, or isolated, among the usable readings; ascending.
-
     Candidates v are within 20 % of the largest number, with at most 8 above, and reported by at least 3 beams. Repeated
     is v with 10 reports, and 10 times the mean of a number in [0.8 v, v). Isolated is v with 3 reports of v and above,
     and at least twice any smaller reading: the rule for short logs.
@@ -213,7 +220,8 @@ class Views:
     @classmethod
     def of(cls, poses: Floats, angles_rad: Floats) -> "Views":
         """Return the views of scans at poses (S, 3) with beams at angles (A,) or (S, A)."""
-        place, first = np.zeros(len(poses), dtype=np.intp), 0
+        place = np.zeros(len(poses), dtype=np.intp)
+        first = 0  # first scan from the present place
         for i in range(1, len(poses)):
             has_moved = math.dist(poses[i, :2], poses[first, :2]) > SAME_PLACE_M
             if has_moved:
@@ -249,11 +257,9 @@ class Views:
 
 
 def max_range_of(
-    name: str, ranges_m: Floats, given_m: float | None, stated_m: float | None = None,
-    cap_m: float = math.inf,
-) -> tuple[float, str]:  # fmt: skip
+    name: str, ranges_m: Floats, given_m: float | None, stated_m: float | None = None, cap_m: float = math.inf
+) -> tuple[float, str]:
     """Return the sensor's maximum range and its origin: "given" by the user, the "message" of the log, or "readings".
-
     The last is the largest hit, rounded up to a whole metre, at most ``cap_m``. Raises `BadInput` without a hit.
     """
     if given_m is not None:
