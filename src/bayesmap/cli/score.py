@@ -393,11 +393,11 @@ def _pose_score_lines(score: TrajectoryScore, frame: str, *, exact: bool, is_run
 
 def _words_for_missing(figures: dict[str, Any], *, exact: bool) -> str:
     """Return words for the relations that the ``figures`` of a trajectory's score leave out; empty if there is none."""
-    from bayesmap.space.trajectory import LONGEST_GAP_S
+    from bayesmap.space.trajectory import MAX_INTERPOLATED_S
 
     words = ""
     if figures["in_gaps"]:
-        reason = "not at times of poses" if exact else f"between poses over {LONGEST_GAP_S:g} s apart"
+        reason = "not at times of poses" if exact else f"between poses over {MAX_INTERPOLATED_S:g} s apart"
         words = f"; {figures['in_gaps']:,} more are {reason}, and left out"
     if n_outside := figures["not_covered"] - figures["in_gaps"]:
         words += f"; {n_outside:,} more are of other times"

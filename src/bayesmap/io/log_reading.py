@@ -17,7 +17,7 @@ from bayesmap.io.returns import NoReturn, Readings, Views, classify
 from bayesmap.space.arrays import Floats
 from bayesmap.space.scans import Scans
 from bayesmap.space.time_order import moment, time_order
-from bayesmap.space.trajectory import LONGEST_GAP_S, Trajectory
+from bayesmap.space.trajectory import MAX_INTERPOLATED_S, Trajectory
 
 Pose = tuple[float, float, float]  # x and y in metres, yaw in radians
 MIN_AXIS_HEIGHT = math.cos(math.radians(45.0))  # vertical component of a sensor's z axis; a steeper sensor is refused
@@ -80,7 +80,6 @@ class ScanLog:
 
     def placed(self, trajectory: Trajectory) -> "ScanLog":
         """Return this log with its scans at interpolated poses of a trajectory.
-
         Scans outside the trajectory's times and in its gaps are left out. Raises `BadInput` for scans or a trajectory
         without stamps, no scan within its time, or poses of a base on which the place of the laser is not known.
         """
@@ -93,12 +92,12 @@ class ScanLog:
         span = f"the trajectory reaches from {moment(start)} to {moment(end)}"
         if not is_placed.any():
             first, last = scans.stamps_s[[0, -1]]
-            gaps = f", with poses more than {LONGEST_GAP_S:g} s apart around each scan" if is_inside.any() else ""
+            gaps = f", with poses more than {MAX_INTERPOLATED_S:g} s apart around each scan" if is_inside.any() else ""
             scan_span = f"its scans are from {moment(first)} to {moment(last)}"
             raise BadInput(f"{self.path}: {scan_span}, and {span}{gaps}; are both of one clock?")
         frame = trajectory.frame or ("laser" if scans.mount is None else "base")
         notes = [*self.notes, f"the scans stand at the poses of the given trajectory, taken as poses of the {frame}"]
-        gap = f"its poses are over {LONGEST_GAP_S:g} s apart there"
+        gap = f"its poses are over {MAX_INTERPOLATED_S:g} s apart there"
         for count, reason in (((~is_inside).sum(), span), ((is_inside & ~is_near_pose).sum(), gap)):
             notes += [f"{count:,} scans were left out: {reason}"] if count else []
         scans = replace(scans, poses=poses, beam_poses=None).select(is_placed)
@@ -165,7 +164,6 @@ class LogAccount:
 
     def beam_sign(self, axis_heights: Floats, sensor: str, remedy: str = "") -> float:
         """Return the sign of the beams' angles, 1 for an upright sensor, -1 for one upside down, and note a tilt.
-
         ``axis_heights`` are the vertical components of the sensor's z axis in each scan, (S,). Raises `BadInput`, which
         ends in the remedy, if the sensor does not scan the plane, or is upside down in some scans only.
         """
@@ -195,7 +193,6 @@ class LogAccount:
         beam_poses: Floats | None = None, mount: Pose | None = None, **attributes: Any,
     ) -> ScanLog:  # fmt: skip
         """Return the log, given the laser's poses (S, 3), the beams' angles and their readings, in time order.
-
         ``beam_poses`` are the poses of all beams, (S, A, 3), if they differ. ``mount`` is the laser's pose on the robot
         in the log, if it is known. ``attributes`` are further fields of `ScanLog`.
         """

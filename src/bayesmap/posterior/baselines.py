@@ -27,12 +27,12 @@ from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
 Values = dict[str, float]  # parameters by name
-Score = Callable[[Values], float]  # the score of values, to be maximised
+Objective = Callable[[Values], float]  # returns the score of values, which is to be maximised
 
-LAST_CLIMB_TIME = 8.0  # of the last climb, which uses the full score, relative to a rough climb, for progress
-GRADIENT_STEP = 2e-3  # of the numeric gradient, in logarithms or logits: above the noise of stops in single precision
-USUAL_GRADIENTS = 20  # per climb, for progress
-MAX_STEPS = 100  # per climb
+LAST_CLIMB_TIME = 8.0  # time of the last climb, which uses the full score, in times of a rough climb; for the progress
+GRADIENT_STEP = 2e-3  # step of the numeric gradient, in logarithms or logits: above the rounding of single precision
+USUAL_GRADIENTS = 20  # gradients that a climb usually computes; for the progress
+MAX_STEPS = 100  # most steps of a climb
 ROUGH_TOLERANCE, FINE_TOLERANCE = 1e-4, 1e-6  # relative gains in score at which rough climbs and the last one end
 P_HIT, P_MISS = 0.7, 0.4  # probabilities of a cell after a hit and after a miss, OctoMap's defaults
 P_BOUNDS = (0.1192, 0.971)  # bounds of a cell's probability, OctoMap's defaults
@@ -75,7 +75,7 @@ def sensor_of(values: Mapping[str, float], dof: float | None) -> BeamMixture:
 
 
 def maximise(
-    score: Score, rough_score: Score, parameters: Sequence[Parameter], starts: Sequence[Mapping[str, float]],
+    score: Objective, rough_score: Objective, parameters: Sequence[Parameter], starts: Sequence[Mapping[str, float]],
     on_progress: OnShare = ignore_share,
 ) -> tuple[Values, float]:  # fmt: skip
     """Find the values of the highest score, and the score, from the best result of rough climbs from all starts."""
@@ -87,7 +87,7 @@ def maximise(
 
 
 def _climb(
-    score: Score, parameters: Sequence[Parameter], start: Mapping[str, float], tolerance: float, on_share: OnShare
+    score: Objective, parameters: Sequence[Parameter], start: Mapping[str, float], tolerance: float, on_share: OnShare
 ) -> tuple[Values, float]:
     """Climb from a start to a local maximum of a score. Returns the values and the score there."""
     usual_calls = USUAL_GRADIENTS * (len(parameters) + 1)

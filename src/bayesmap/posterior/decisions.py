@@ -37,6 +37,7 @@ MIN_FREE = 0.5  # least probability that the disc touches nothing at the positio
 HEADINGS = 8  # headings that are tried at each position
 FULL_CIRCLE_RAD = np.radians(350.0)  # field of view from which one heading is enough
 MIN_SEPARATION = 0.05  # least distance of two views, as a share of the map's diagonal
+CANDIDATES_KEY = 6  # with the seed, the key of the random numbers of candidates
 
 
 @dataclass(frozen=True, eq=False)
@@ -333,7 +334,7 @@ def _draw_candidates(posterior: Posterior, blocked: Floats, count: int, seed: in
     cells = np.argwhere(open_cells)
     nearest = cells[np.hypot(*(centres[tuple(cells.T)] - [x, y]).T).argmin()]
     reachable = np.argwhere(labels == labels[tuple(nearest)])
-    selected = reachable[np.random.default_rng([seed, 6]).permutation(len(reachable))[:count]]
+    selected = reachable[np.random.default_rng([seed, CANDIDATES_KEY]).permutation(len(reachable))[:count]]
     return np.column_stack([centres[tuple(selected.T)], np.zeros(len(selected))])
 
 

@@ -19,7 +19,7 @@ from bayesmap.space.grid import Grid
 from bayesmap.space.scans import ReadingKind, Scans
 
 MAX_SUGGESTED_EVERY = 100  # largest hold-out period that an error message suggests
-FOLDS = 10  # each fold leaves out every tenth scan, as the protocol does: inner and outer counts are as dense
+FOLDS = 10  # a fold has every tenth scan, as the held-out scans do: maps of the others are about as dense as the run's
 FIT_BEAMS = 20_000  # valid beams for a fit: a dozen parameters over-fit by about 6 / 20 000 nats per beam
 THIN = 4  # a rough search uses every fourth scan of a fold, or every fourth fold
 PAST_READING_M = 3.0  # distance past a reading to which a beam is traced for fitting: its density is flat there
@@ -152,7 +152,8 @@ def make_folds(train: Scans, grid: Grid) -> list[Fold]:
     from bayesmap.kernels.rays import count_hits
 
     folds: list[Fold] = []
-    n_folds, n_beams = min(FOLDS, len(train)), 0
+    n_folds = min(FOLDS, len(train))
+    n_beams = 0
     if n_folds < 2:
         raise BadInput("score: baselines are fitted by holding out training scans, which takes two scans or more")
     hits, passes = count_hits(train, grid)

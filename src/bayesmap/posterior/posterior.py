@@ -182,7 +182,7 @@ def dataset_of(posterior: Posterior, with_readings: bool) -> xarray.Dataset:
         variables[name] = (("chain", "draw"), getattr(posterior, density), {"units": "nats"})
     words = posterior.prior.words
     variables["occupancy"] = (("x", "y"), posterior.occupancy, {"long_name": words.mean})
-    variables["observed"] = (("x", "y"), posterior.observed, {"long_name": "some beam says something of the cell"})
+    variables["observed"] = (("x", "y"), posterior.observed, {"long_name": "observed in half of the draws or more"})
     coordinates = {
         "chain": np.arange(draws.chains), "draw": np.arange(draws.count),
         "x": ("x", x, {"units": "m"}), "y": ("y", y, {"units": "m"}),

@@ -1,8 +1,8 @@
 """The probability that a disc moves along a path without touching anything, and the shortest path of bounded risk.
 
 docs/decisions.md explains both. The probability is the share of draws of the map in which the disc touches nothing. An
-obstacle stops at least `SOLID` of the beams that come to it. For a cell without a surface the obstacle is its square.
-For a surface it is the ellipse of two standard deviations of the points where it stops beams.
+obstacle stops at least the share `MIN_OBSTACLE` of the beams that come to it. It is the square of a cell without a
+surface. For a surface it is the ellipse of two standard deviations of the points where the surface stops beams.
 
 A search on a graph proposes paths that minimise length plus a price per metre near possible obstacles. Prices rise
 until the joint draws of the map judge a path as safe enough (`plan_route`). The probability comes first in the file.
@@ -23,7 +23,7 @@ from bayesmap.errors import BadInput
 from bayesmap.space.arrays import Floats, Indices, Ints, Mask, Singles
 from bayesmap.space.grid import Grid
 
-SOLID = 0.1  # stop probability below which a cell counts as free, as in maps for navigation
+MIN_OBSTACLE = 0.1  # least stop probability of an obstacle; cells with less count as free, as in maps for navigation
 REACH_CELLS = 2.5  # greatest distance of any part of a surface from its cell's centre, in edges of a cell
 
 PROBE_SIGMAS = np.array([-2.0, -1.0, 0.0, 1.0, 2.0])  # points on the long axis from which distances are computed
@@ -138,10 +138,10 @@ def blocking_cells(batches: Iterable[Singles], cells: Ints, grid: Grid, path: Fl
     masks = []
     for batch in batches:
         if batch.ndim == 2:
-            masks.append((batch >= SOLID) & (square_m < radius_m))
+            masks.append((batch >= MIN_OBSTACLE) & (square_m < radius_m))
             continue
         blocks = np.zeros(batch.shape[:2], dtype=np.bool_)
-        draw, cell = np.nonzero(batch[..., 0] >= SOLID)
+        draw, cell = np.nonzero(batch[..., 0] >= MIN_OBSTACLE)
         surface = batch[draw, cell].astype(np.float64)
         blocks[draw, cell] = _surface_touches(surface, np.array(grid.origin), path, radius_m)
         masks.append(blocks)
@@ -157,7 +157,7 @@ def _surface_touches(surface: Floats, origin: Floats, path: Floats, radius_m: fl
 
 
 def _probes(surface: Floats, origin: Floats | float = 0.0) -> tuple[Floats, Floats]:
-    """Return points on the long axis of each surface, (n, 6): (n, 5, 2), and its short standard deviation, (n,)."""
+    """Return five points on the long axis of surfaces, (n, 6): (n, 5, 2), and their short standard deviation, (n,)."""
     l11, l21, l22 = surface[:, 3:].T
     var_x, cov_xy, var_y = l11**2, l11 * l21, l21**2 + l22**2
     mean_variance, half_difference = 0.5 * (var_x + var_y), np.hypot(0.5 * (var_x - var_y), cov_xy)
@@ -234,9 +234,9 @@ def blocked_probability(batches: Iterable[Singles], grid: Grid, radius_m: float)
 def _solid_squares(stops: Singles, grid: Grid) -> Mask:
     """Return the mask of the grid's squares in which something solid lies in one draw, (nx, ny)."""
     if stops.ndim == 1:
-        return np.asarray(stops.reshape(grid.shape) >= SOLID)
+        return np.asarray(stops.reshape(grid.shape) >= MIN_OBSTACLE)
     solid = np.zeros(grid.shape, dtype=np.bool_)
-    probes, _ = _probes(stops[stops[:, 0] >= SOLID].astype(np.float64))
+    probes, _ = _probes(stops[stops[:, 0] >= MIN_OBSTACLE].astype(np.float64))
     cell = np.floor(probes.reshape(-1, 2) / grid.resolution).astype(int)
     inside = ((cell >= 0) & (cell < grid.shape)).all(axis=1)
     solid[cell[inside, 0], cell[inside, 1]] = True

@@ -32,12 +32,13 @@ REPLICATES = 1000  # replicates of the bootstrap: standard errors are then accur
 INTERVALS = 100  # intervals of u at whose ends its distribution is compared with the uniform one
 LEVELS = (0.5, 0.8, 0.95)  # probabilities of central intervals
 BINS = 20  # of the histogram of u
+PIT_KEY, BOOTSTRAP_KEY = 0x917, 0xB00  # with the seed, keys of the random numbers v and of the bootstrap
 MIX_TIME, QUANTILES_TIME, EVENTS_TIME = 0.5, 12.0, 6.0  # computing times relative to the forecast of one draw
 
 
 def randomised_pit(low: Floats, high: Floats, seed: int = 0) -> Floats:
     """Draw the probability integral transform, (B,), between P(reading < z), ``low``, and P(reading <= z), ``high``."""
-    return low + np.random.default_rng([seed, 0x917]).random(low.shape) * (high - low)
+    return low + np.random.default_rng([seed, PIT_KEY]).random(low.shape) * (high - low)
 
 
 def pit_histogram(pit: Floats, bins: int) -> Floats:
@@ -59,7 +60,7 @@ def binary_scores(chance: Floats, happened: Mask) -> tuple[Floats, Floats]:
 
 
 @dataclass(frozen=True)
-class Estimate:
+class MeanAndError:
     """A mean and its standard error."""
 
     value: float
@@ -82,7 +83,7 @@ class ScanBlocks:
         """Draw the replicates: each draws S of the S blocks, with replacement. ``block`` may skip numbers."""
         _, compact = np.unique(block, return_inverse=True)
         n_blocks = int(compact.max()) + 1 if len(compact) else 1
-        rng = np.random.default_rng([seed, 0xB00])
+        rng = np.random.default_rng([seed, BOOTSTRAP_KEY])
         weights = rng.multinomial(n_blocks, np.full(n_blocks, 1.0 / n_blocks), size=replicates)
         return cls(compact, weights.astype(np.float64))
 
@@ -90,12 +91,12 @@ class ScanBlocks:
         """Return the sum of the values in each block, (S,)."""
         return np.bincount(self.block, values, minlength=self.weights.shape[1]).astype(np.float64)
 
-    def mean(self, values: Floats) -> Estimate:
+    def mean(self, values: Floats) -> MeanAndError:
         """Return the mean of all items. Its error is the standard deviation over replicates, NaN with one block."""
         if self.weights.shape[1] < 2:
-            return Estimate(float(values.mean()), float("nan"))
+            return MeanAndError(float(values.mean()), float("nan"))
         means = (self.weights @ self.sums(values)) / (self.weights @ self.sums(np.ones(len(values))))
-        return Estimate(float(values.mean()), float(means.std()))
+        return MeanAndError(float(values.mean()), float(means.std()))
 
     def uniformity(self, pit: Floats) -> tuple[float, float]:
         """Return the Kolmogorov-Smirnov distance of the distribution of u from the uniform one, and its p-value.
@@ -154,7 +155,7 @@ class Coverage:
     """The share of readings in central intervals of one probability, and the width of these intervals."""
 
     level: float  # probability of the intervals
-    share: Estimate  # share of readings inside; typed readings are randomised
+    share: MeanAndError  # share of readings inside; typed readings are randomised
     mean_width_m: float  # an end at "no return" counts as the largest range, at "too close" as the least
     median_width_m: float
 
@@ -194,8 +195,8 @@ class Score:
     pit_distance: float
     pit_p_value: float
     events: int
-    brier: Estimate
-    log_loss: Estimate
+    brier: MeanAndError
+    log_loss: MeanAndError
     reliability: tuple[tuple[float, float, int], ...] = field(repr=False)
     p_no_return: tuple[float, float]
     sensor: dict[str, Any]
@@ -283,7 +284,7 @@ def score_prediction(
     happened, p = stopped[event] == 1, chance[event].astype(np.float64)
     brier, loss = binary_scores(p, happened)
     event_blocks = ScanBlocks.make(np.repeat(scan, rays.lengths)[event], seed)
-    no_events = Estimate(float("nan"), float("nan"))
+    no_events = MeanAndError(float("nan"), float("nan"))
     return Score(
         scans=len(np.unique(scan[valid])), beams=int(valid.sum()), nats_per_beam=nats.value,
         nats_per_beam_error=nats.error, coverage=tuple(coverage), pit=pit, by_beam=prediction.log_density[valid],

@@ -19,9 +19,9 @@ from bayesmap.space import arrays, planar
 from bayesmap.space.arrays import Floats, Indices, Mask
 from bayesmap.space.planar import between, interpolate, rotation, wrap_angle
 from bayesmap.space.time_order import moment
-from bayesmap.space.trajectory import LONGEST_GAP_S, RelativeLaw, Trajectory
+from bayesmap.space.trajectory import MAX_INTERPOLATED_S, RelativeLaw, Trajectory
 
-SLACK_S = 0.001  # a stamp this far outside the trajectory, or off a pose, still counts
+STAMP_TOLERANCE_S = 0.001  # a stamp this far outside the trajectory, or off a pose, still counts
 LEVELS = (0.5, 0.8, 0.95)  # probabilities of regions
 DIMENSIONS = 3  # of a pose
 
@@ -74,7 +74,7 @@ class RelationErrors:
 def relation_errors(stamps_s: Floats, poses: Floats, relations: Relations, *, exact: bool = False) -> RelationErrors:
     """Compute the errors of a trajectory by true relations, given its ascending stamps, (S,), and poses, (S, 3).
     Poses and relations are of one frame. ``exact`` uses only relations whose two stamps are stamps of poses. Otherwise
-    poses are interpolated if their neighbours are at most `LONGEST_GAP_S` apart.
+    poses are interpolated if their neighbours are at most `MAX_INTERPOLATED_S` apart.
     Raises `BadInput` for arrays that do not fit, stamps that descend, or no relation that the trajectory covers.
     """
     stamps_s, poses = np.asarray(stamps_s, np.float64), np.asarray(poses, np.float64)
@@ -85,10 +85,10 @@ def relation_errors(stamps_s: Floats, poses: Floats, relations: Relations, *, ex
     ends_s = relations.first_s, relations.second_s
     within, has_poses = (np.ones(len(relations), dtype=np.bool_) for _ in range(2))
     for end_s in ends_s:
-        within &= (end_s >= stamps_s[0] - SLACK_S) & (end_s <= stamps_s[-1] + SLACK_S)
+        within &= (end_s >= stamps_s[0] - STAMP_TOLERANCE_S) & (end_s <= stamps_s[-1] + STAMP_TOLERANCE_S)
         earlier_s, later_s = (stamps_s[index] for index in arrays.bracketing_indices(stamps_s, end_s))
-        at_pose = np.minimum(np.abs(end_s - later_s), np.abs(end_s - earlier_s)) <= SLACK_S
-        has_poses &= at_pose if exact else at_pose | (later_s - earlier_s <= LONGEST_GAP_S + SLACK_S)
+        at_pose = np.minimum(np.abs(end_s - later_s), np.abs(end_s - earlier_s)) <= STAMP_TOLERANCE_S
+        has_poses &= at_pose if exact else at_pose | (later_s - earlier_s <= MAX_INTERPOLATED_S + STAMP_TOLERANCE_S)
     covered = within & has_poses
     if not within.any():
         raise BadInput(
@@ -96,7 +96,7 @@ def relation_errors(stamps_s: Floats, poses: Floats, relations: Relations, *, ex
             f"{moment(stamps_s[0])} to {moment(stamps_s[-1])}; are the stamps of one clock?"
         )
     if not covered.any():
-        needed = "at a pose" if exact else f"at a pose, or between two at most {LONGEST_GAP_S:g} s apart"
+        needed = "at a pose" if exact else f"at a pose, or between two at most {MAX_INTERPOLATED_S:g} s apart"
         raise BadInput(
             f"relations: none of the {within.sum():,} relations within the trajectory's time has both of its times "
             f"{needed}; its poses are {np.median(np.diff(stamps_s)):.3g} s apart at the median: give one with more"

@@ -15,7 +15,7 @@ from bayesmap.space.planar import Floats, between, compose, frame_jacobians, int
 from bayesmap.space.scans import as_poses, path_words
 
 SLACK_S = 0.002  # a time outside a trajectory by less is at its end: logs are written with few digits
-LONGEST_GAP_S = 0.3  # longest time between two poses that are interpolated: in seconds a robot turns corners
+MAX_INTERPOLATED_S = 0.3  # longest time between two poses with interpolation: in a longer time a robot turns corners
 FRAMES = ("base", "laser")  # frames on a robot whose poses a trajectory may have
 
 
@@ -135,13 +135,13 @@ class Trajectory:
 
     def placed(self, at_s: Floats) -> tuple[Floats, Mask, Mask]:
         """Return poses at times as `at` does, (N, 3), and two masks, (N,) each: times within, and times in no gap.
-        A gap lies between two poses more than `LONGEST_GAP_S` apart, and begins and ends `SLACK_S` from the poses.
+        A gap lies between two poses more than `MAX_INTERPOLATED_S` apart, and begins and ends `SLACK_S` from the poses.
         """
         poses, inside = self.at(at_s)
         assert self.stamps_s is not None
         before, after = self.stamps_s[list(bracketing_indices(self.stamps_s, at_s))]
         near = np.minimum(np.abs(at_s - before), np.abs(at_s - after)) <= SLACK_S
-        return poses, inside, near | (after - before <= LONGEST_GAP_S + SLACK_S)
+        return poses, inside, near | (after - before <= MAX_INTERPOLATED_S + SLACK_S)
 
     def of(self, frame: str | None, mount: Floats | None) -> "Trajectory":
         """Return the trajectory of the frame "base" or "laser"; ``mount`` is the laser's pose on the base, (3,).
