@@ -132,10 +132,6 @@ def slam(
     # Refuse an impossible grid at once: the map will cover the first scan, whose pose stays as odometry stated it.
     Grid.covering(log.select(slice(0, 1)), resolution)
 
-    def on_stage(stage: str, done: int, total: int) -> None:
-        if on_progress is not None:
-            on_progress(Event(stage, done, total))  # type: ignore[arg-type]
-
     # Refuse what cannot fit into memory.
     if not where.any_size:
         cost = estimate_slam(log, resolution, ChosenLaws(prior, sensor), fast, no_odometry, schedule, where)
@@ -145,7 +141,7 @@ def slam(
     # Approximate the trajectory of all scans.
     trajectory = infer_trajectory(
         log, no_odometry=no_odometry, seed=seed, threads=where.threads, device=where.device,
-        checkpoint=checkpoints.stages, on_progress=on_stage,
+        checkpoint=checkpoints.stages, on_progress=Watch(on_progress).report,  # type: ignore[arg-type]
     )  # fmt: skip
     if checkpoints.trajectory is not None:
         checkpoints.trajectory(trajectory)
@@ -297,7 +293,8 @@ class Inference:
             return Run(posterior_of_chains(model, chains, settings, seconds, parameters))
 
         # Show a first map, unless a pilot has done so. If the chains run elsewhere, no beams are traced here.
-        problem_here, is_local = None, isinstance(executor, ThreadExecutor) and not model.poses.unknown
+        problem_here = None
+        is_local = isinstance(executor, ThreadExecutor) and not model.poses.unknown
         if clock.needs_first_map and parameters is None and stopped is None and is_local:
             sampler = self._sampler(clock.plan.warmup)
             problem_here = sampler.prepare(model, device, threads, watch)
@@ -309,7 +306,8 @@ class Inference:
             model, self._sampler(plan.warmup), plan, self.request.seed, chain_ids=tuple(range(self.request.chains)),
             device=device, threads=threads, parameters=parameters, problem=problem_here,
         )  # fmt: skip
-        save, earlier = checkpoints.save, None if stopped is None else chains_of(stopped)
+        save = checkpoints.save
+        earlier = None if stopped is None else chains_of(stopped)
         on_checkpoint = None if save is None else lambda chains: save(as_run(chains))
         return as_run(executor.run(job, earlier, watch, on_checkpoint, checkpoints.every_s))
 
@@ -317,7 +315,8 @@ class Inference:
         self, clock: _RunClock, settings: dict[str, Any], stopped: Posterior | None, watch: Watch
     ) -> tuple[Model, Parameters | None]:
         """Fit sensor and prior where asked for. Returns the model of the chains, and the parameters of a pilot."""
-        model, parameters = self.model, None
+        model = self.model
+        parameters = None
         device, threads, seed = self.where.device, self.where.threads, self.request.seed
         if self.is_fitted and self.sampler_name == "stop-gibbs":  # a pilot fits the sensor and the prior of stops
             if stopped is not None:
@@ -365,14 +364,16 @@ class Inference:
 
     def _posterior_to_resume(self, run: Run | None, settings: dict[str, Any]) -> Posterior | None:
         """Add the fingerprint to the settings, and return the posterior to resume; None without a run or a sweep."""
-        start_cells = getattr(self.method, "start", None)
-        starts = None if isinstance(start_cells, str) else start_cells, getattr(self.method, "start_poses", None)
-        settings["fingerprint"] = compute_fingerprint(settings, self.model, *starts)
+        start = getattr(self.method, "start", None)
+        start_map = None if isinstance(start, str) else start
+        start_poses = getattr(self.method, "start_poses", None)
+        settings["fingerprint"] = compute_fingerprint(settings, self.model, start_map, start_poses)
         if run is None:
             return None
-        posterior, words = run.posterior, self.model.cells.words
-        if posterior.kind != words.kind:
-            raise BadInput(f"resume: the saved run is one over {posterior.prior.words.states}, not over {words.states}")
+        posterior = run.posterior
+        old, new = posterior.prior.words, self.model.cells.words
+        if old.kind != new.kind:
+            raise BadInput(f"resume: the saved run is one over {old.states}, not over {new.states}")
         refuse_changes(posterior.settings, settings)
         return posterior if posterior.sweep > 0 else None
 
@@ -396,7 +397,7 @@ class Inference:
 
 
 class _RunClock:
-    """The clock of a run: elapsed seconds, a first map if the chains take long, and their plan in a limited time."""
+    """The time of a run: seconds elapsed, the plan of the chains in a limited time, and a first map of slow runs."""
 
     def __init__(
         self, inference: Inference, checkpoints: Checkpoints, settings: dict[str, Any], stopped: Posterior | None,

@@ -20,7 +20,6 @@ from bayesmap.errors import BadInput
 @contextlib.contextmanager
 def write_whole(path: str | os.PathLike[str]) -> Iterator[Path]:
     """Yield a temporary path. If the block succeeds, the file written there becomes ``path``.
-
     The temporary file has the suffix of ``path``, since some libraries choose a format by it. It is flushed to disk
     before the rename: after an error, a crash or a kill ``path`` holds either the old or the new content. A symbolic
     link's target is replaced. Raises `BadInput` for no folder, or none to write to, and `OSError` if writing fails.
@@ -46,7 +45,6 @@ def write_whole(path: str | os.PathLike[str]) -> Iterator[Path]:
 
 def write_file(path: str | os.PathLike[str], content: bytes | str | Iterable[str]) -> Path:
     """Write bytes, a text or lines of text, whole or not at all, gzipped if the name ends in .gz. Returns the path.
-
     Raises `BadInput` if the folder does not exist, or is not writable.
     """
     target = Path(path)
@@ -61,7 +59,6 @@ def write_file(path: str | os.PathLike[str], content: bytes | str | Iterable[str
 @contextlib.contextmanager
 def write_whole_folder(path: str | os.PathLike[str], may_replace: Callable[[Path], bool]) -> Iterator[Path]:
     """Yield the name of a temporary folder, to be made by the block. If the block succeeds, it becomes ``path``.
-
     An older folder at ``path`` is removed whole, but only if ``may_replace`` accepts it: a typing error must not delete
     a folder with other content. If the block raises an error, ``path`` is unchanged. Raises `BadInput` if ``path`` may
     not be replaced, or its parent folder is missing or not writable, and `OSError` naming ``path`` if writing failed.
@@ -133,7 +130,6 @@ def saved_run_hint(folder: str | os.PathLike[str]) -> str | None:
 
 def check_ending(path: str | os.PathLike[str], endings: tuple[str, ...], kind: str) -> tuple[Path, str]:
     """Check a file's name before any slow work. Returns the path, and its ending in lower case without the dot.
-
     Raises `BadInput`, which names the ``kind`` of file, for an ending not among ``endings``, or a missing folder.
     """
     target = Path(path)

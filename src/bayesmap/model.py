@@ -98,7 +98,6 @@ def log_likelihoods(
     rays: Rays, states: NDArray[np.floating], sensor: SensorModel, hit_depth: float, beta: float = 1.0
 ) -> Floats:
     """Compute log p(reading | map) of every beam, (B,), by the formula of this module; 0 for an invalid reading.
-
     ``states`` is as in `bayesmap.beams.rays.stops_of`. The inverse temperature ``beta`` is the power of p(z | stop).
     """
     stops = stops_of(rays, states, hit_depth)

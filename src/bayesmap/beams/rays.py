@@ -145,7 +145,6 @@ class Rays:
 
 def around_readings(scans: Scans, margin_m: float | Floats, resolution_m: float) -> tuple[Floats, Floats]:
     """Return ``reach_m`` and ``near_m`` of `bayesmap.kernels.rays.trace_rays` around readings, (B,) each.
-
     If a reading is not a range, they are the sensor's largest range and 0. ``margin_m`` is the largest distance of a
     stop from its reading, one number or (B,). Stops are weighed from one cell before the margin on.
     """
@@ -166,7 +165,6 @@ class Stops(NamedTuple):
 
 def stops_of(rays: Rays, states: NDArray[np.floating], hit_depth: float) -> Stops:
     """Compute the stops that a map offers to rays.
-
     ``states`` are stop probabilities of the grid's cells, (N,), at ``hit_depth`` of their stretches, or surfaces, (N,
     6): reflectivity, mean x and y in metres from the grid's lower left corner, and l11, l21, l22 of Sigma = L L'.
     """

@@ -37,7 +37,7 @@ from bayesmap.errors import BadInput
 from bayesmap.space.arrays import Floats, Indices, Ints, Mask, Rng, Singles
 from bayesmap.space.grid import Grid
 
-FIT = "fit"
+FIT = "fit"  # value of ``coupling`` that asks for a fit
 MAX_COUPLING = 50.0  # an unlike pair then costs a factor of e^50; a larger coupling has the same effect
 START_SWEEPS = 50  # from a map of independent cells to the start of a chain
 MAX_FITTED_COUPLING = 4.0  # for a map of alike cells alone, the likeliest coupling would be infinite
@@ -60,7 +60,8 @@ class BinaryWalls(CellPrior):
     has_walls: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
-        name, p = type(self).__name__, np.asarray(self.p_wall, dtype=np.float64)
+        name = type(self).__name__
+        p = np.asarray(self.p_wall, dtype=np.float64)
         if p.ndim not in (0, 2):
             raise BadInput(f"{name}: p_wall must be a number or an (nx, ny) array, got shape {p.shape}")
         if not ((p >= 0) & (p <= 1)).all():
@@ -283,13 +284,15 @@ class BalanceCounts(NamedTuple):
 
 def count_by_balance(maps: Mask, p_wall: Floats) -> BalanceCounts:
     """Group the cells of maps, (nx, ny) or (n, nx, ny), by log-odds and balance, for the pseudo-likelihood."""
-    balance, p = balance_map(maps), np.broadcast_to(p_wall, maps.shape)
+    balance = balance_map(maps)
+    p = np.broadcast_to(p_wall, maps.shape)
     varies = (p > 0) & (p < 1)  # the cells that the prior does not fix
     if p_wall.ndim == 0:
         cells = np.bincount(balance[varies] + 4, minlength=9).astype(np.float64)
         walls = np.bincount(balance[varies] + 4, weights=maps[varies], minlength=9).astype(np.float64)
         return BalanceCounts(np.full(9, float(special.logit(p_wall))), np.arange(-4.0, 5.0), cells, walls)
-    logit, cells = np.asarray(special.logit(p[varies])), np.ones(int(varies.sum()))
+    logit = np.asarray(special.logit(p[varies]))
+    cells = np.ones(int(varies.sum()))
     return BalanceCounts(logit, balance[varies].astype(np.float64), cells, maps[varies].astype(np.float64))
 
 

@@ -200,7 +200,8 @@ def apply(gen_fn: GenerativeFunction, args: tuple[Any, ...], kwargs: dict[str, A
 def _apply_to_diffs(fn: Callable[..., Any], *inputs: Any) -> Any:
     """Return `fn` of the primal inputs, marked with the change that follows from the marks of the inputs."""
     primal = Diff.tree_primal(inputs)
-    origins, value = dataflow(fn, *primal), fn(*primal)
+    origins = dataflow(fn, *primal)
+    value = fn(*primal)
     if origins is None:
         return Diff.unknown_change(value)
     tangents = Diff.tangents(inputs)

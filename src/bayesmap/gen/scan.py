@@ -113,7 +113,8 @@ class Scan(Vectorised):
         trace, args_weight, _, _ = EmptyRequest().edit(key, trace, argdiffs)
         old, *step_args = nth((trace.inner, trace.carries, args[1]), i)
         new, weight, retdiff, backward = request.edit(key, old, Diff.no_change(tuple(step_args)))
-        state_diff, out = retdiff[0], new.get_retval()[1]
+        state_diff, _ = retdiff
+        _, out = new.get_retval()
         new = new.with_args(None)
 
         def store(stack: Any, value: Any) -> Any:
@@ -201,7 +202,6 @@ def iterate(*, n: int) -> Callable[[GenerativeFunction], Any]:
 @decorator_method
 def masked_iterate() -> Callable[[GenerativeFunction], Any]:
     """Return a decorator that turns `state -> state` into `(state, flags) -> states`, with all n + 1 states.
-
     If a step's flag is False, its choices do not count, but the step still changes the state.
     """
     return lambda gen_fn: dimap(post=_all_states)(_steps(_flagged(gen_fn)))

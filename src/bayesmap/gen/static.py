@@ -77,7 +77,7 @@ class StaticTrace(Trace):
         """Return the return value, whose leaves come from `computed` and from the sites' traces."""
         computed = iter(self.computed)
         site_leaves = {path: jax.tree.leaves(t.get_retval()) for path, t in self.subtraces.items()}
-        leaves = [next(computed) if s is None else site_leaves[s[0]][s[1]] for s in self.sources]
+        leaves = [next(computed) if source is None else site_leaves[source[0]][source[1]] for source in self.sources]
         return self.retval_tree.unflatten(leaves)
 
     def get_score(self) -> Score:

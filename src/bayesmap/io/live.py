@@ -56,7 +56,6 @@ def live_scans(
     laser: Pose | None = None, without_poses: bool = False,
 ) -> Iterator[Scans]:  # fmt: skip
     """Yield the scans of a log as it is written: a file, a pipe or standard input ("-").
-
     A pipe and standard input end when their last writer closes them. A file ends after ``idle_s`` seconds without new
     data, if it is given; a last line without line end is then a line. Readings over ``max_range_m`` are no return, and
     readings from ``no_return`` on. ``on_skipped`` is called with the number of each malformed line left out, and the
@@ -90,7 +89,8 @@ def live_scans(
 
 def _carmen_scans(lines: Iterable[tuple[int, bytes]], reject: Reject, options: LogOptions) -> Iterator[Scans]:
     """Yield the scans of the first kind of laser message, each with its own beams, if it has readings."""
-    kind, limit_m = "", options.max_range_m
+    kind = ""
+    limit_m = options.max_range_m
     assert limit_m is not None
     for number, line in lines:
         try:

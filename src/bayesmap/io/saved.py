@@ -47,7 +47,6 @@ def save(
     *, by_reading: bool = False,
 ) -> None:  # fmt: skip
     """Write a posterior, whole or not at all, with the approximation of all scans' poses, if there is one.
-
     ``on_progress`` is called with the count of the draws' numbers written so far, and their total. ``by_reading`` adds
     the group ``log_likelihood``, which is not read back. Raises `BadInput` for a folder that cannot be written to.
     """
@@ -323,8 +322,8 @@ def _blocks(chains: int, draws: int, size: int) -> Iterator[tuple[int, slice]]:
             yield chain, slice(i, min(i + n_draws, draws))
 
 
-VECTOR = ("pose_part",)
-MATRIX = ("pose_part", "other_pose_part")
+VECTOR = ("pose_part",)  # dimensions of a pose
+MATRIX = ("pose_part", "other_pose_part")  # dimensions of the covariance of a pose
 FIELDS: dict[str, tuple[str, ...]] = {  # arrays of the trajectory itself, with their dimensions
     "poses": ("scan", *VECTOR), "stamps_s": ("scan",), "nearest_key": ("scan",), "own_covariance": ("scan", *MATRIX),
     "explained": ("scan",), "flagged": ("scan",), "order": ("scan",), "keys": ("key",), "breaks": ("break",),

@@ -36,11 +36,11 @@ from bayesmap.space.arrays import Floats, Ints, Mask
 PILOT_SWEEPS = 40  # most sweeps of the pilot of reflectivities and surfaces; a short warm-up has a shorter pilot
 SENSOR_SWEEPS = 30  # sweeps of the pilot that fits a sensor alone
 SPREAD_WITHOUT_SURFACE = 0.3  # standard deviation of stops in cells without surfaces, in edges, with which a fit starts
-MAX_FIT_BEAMS = 40_000  # beams used in each sweep, at most about
-FIRST_FIT_SWEEP = 3  # the first sweep that moves parameters
-FULL_STEPS_UNTIL = 20  # the sweep until which parameters move all the way
+MAX_FIT_BEAMS = 40_000  # most beams used in each sweep, approximately
+FIRST_FIT_SWEEP = 3  # the first sweep, counted from 0, that moves parameters
+FULL_STEPS_UNTIL = 20  # the sweep until which parameters move all the way to their estimates
 PRIOR_EVERY = 2  # sweeps from one move of the prior to the next
-MIN_SHARE = 1e-5
+MIN_SHARE = 1e-5  # least estimate of a share
 MIN_RANDOM = 5e-4  # least share of random readings: a map of few scans may explain all theirs, but not new ones
 PSEUDO_BEAMS = 2.0  # weight of a share's present value, in beams: it stays positive if a log has no such readings
 DOFS = (3.0, 5.0, 9.0, 17.0, math.inf)  # degrees of freedom to try; odd numbers need no logarithm in kernels
@@ -250,7 +250,6 @@ def refit_noise(noise: AdditiveNoise, residuals: StopResiduals, step_size: float
 
 def refit_prior(prior: Beta, hits: Ints, passes: Ints, step_size: float, solid: Mask | None = None) -> Beta:
     """Move the Beta of each label towards the likeliest for its cells, whose reflectivities are integrated out.
-
     Cells stopped ``hits`` beams and let ``passes`` beams pass, (T,) each; a cell without counts has negative passes.
     ``solid`` holds the labels, (T,), if the prior has labels.
     """

@@ -56,11 +56,13 @@ def merge_sweeps(early_sweeps: int) -> list[int]:
 
 def merge(problem: StopProblem, chains: StopChains, beta: float) -> None:
     """Merge surfaces that stop few beams with surfaces of neighbours, if that is better. Changes chains in place."""
-    grid, rays, maps = problem.grid, problem.rays, ChainMaps.of(chains)
+    grid, rays = problem.grid, problem.rays
+    maps = ChainMaps.of(chains)
     evidence_of = make_evidence_of(problem, chains, beta)
     evidence = evidence_of(maps)
     owners = [chains.stopped_by(chain) for chain in range(chains.n_chains)]
-    range_m, noise = np.where(np.isfinite(rays.range_m), rays.range_m, 0.0), problem.sensor.kernel_parameters()
+    range_m = np.where(np.isfinite(rays.range_m), rays.range_m, 0.0)
+    noise = problem.sensor.kernel_parameters()
     # Without parameters of the sensor, the thickness of surfaces is used alone.
     sigma_m = 0.0 * range_m if noise is None else noise.sigma_m + noise.sigma_per_m * range_m
     merge_surfaces(maps, rays.end_points_m(), sigma_m**2, owners, grid, evidence_of, evidence)
@@ -133,7 +135,6 @@ def try_changes(
     maps: ChainMaps, changes: Sequence[Changes], evidence_of: EvidenceOf, evidence: Floats, half: int, min_gain: float
 ) -> list[Mask]:
     """Change maps, and undo the changes that raise the evidence by less than ``min_gain`` nats around their site.
-
     The readings of ``half`` cells to each side of a site are compared; these squares do not overlap. ``evidence``, (C,
     nx, ny), is updated around the changes that stay. Returns the masks of these changes, (n,), by chain.
     """
@@ -141,7 +142,9 @@ def try_changes(
     for cells, solid, new in zip(maps.cells, maps.solid, changes, strict=True):
         replaced.append(Changes(new.middle, new.index, cells[new.index], solid[new.index]))
         cells[new.index], solid[new.index] = new.cells, new.solid
-    after, masks, width = evidence_of(maps), [], 2 * half + 1
+    after = evidence_of(maps)
+    masks = []
+    width = 2 * half + 1  # edge of the compared squares, in cells
     for chain, previous in enumerate(replaced):
         # Sums over the square of cells around each cell.
         gain = ndimage.uniform_filter(after[chain] - evidence[chain], width, mode="constant") * width**2
@@ -201,14 +204,14 @@ def merge_surfaces(
     evidence_of: EvidenceOf, evidence: Floats,
 ) -> list[int]:  # fmt: skip
     """Merge surfaces of few beams with neighbours where this raises the evidence; return the numbers by chain.
-
     Maps change in place. Beams have end points from the grid's corner, (B, 2), not finite if none, and variances of
     their ``noise``, m^2, (B,). ``owners`` holds by chain the cell that stopped each beam, flat, or -1, (B,).
     """
     chains = zip(maps.cells, maps.solid, owners, strict=True)
     pending = [propose_merges(*chain, end_points_m, noise, grid) for chain in chains]
     changed = np.zeros(maps.solid.shape, dtype=np.bool_)
-    n_removed, evidence = [0] * len(pending), evidence.copy()
+    n_removed = [0] * len(pending)
+    evidence = evidence.copy()
     for _ in range(MERGE_ROUNDS):
         tried = []
         for chain, changes in enumerate(pending):
@@ -230,7 +233,8 @@ def propose_merges(
     cells: Singles, solid: Mask, owner: Ints, end_points_m: Floats, noise: Floats, grid: Grid
 ) -> Changes:
     """Propose to remove surfaces of few beams and to lengthen the neighbour of closest axis, the closest axes first."""
-    readings, axes = explained_readings(cells, owner, end_points_m, noise, grid), surface_axes(cells)
+    readings = explained_readings(cells, owner, end_points_m, noise, grid)
+    axes = surface_axes(cells)
     merges = best_neighbours(cells, readings, axes, grid)
     order = np.argsort(merges.off_sigmas, kind="stable")
     source, target = merges.source[order], merges.target[order]
@@ -276,13 +280,14 @@ def variance_along(moments: Floats, direction: Floats) -> Floats:
 
 def best_neighbours(cells: Singles, readings: ExplainedReadings, axes: SurfaceAxes, grid: Grid) -> Merges:
     """Find the cells that stop few beams, and the neighbour of each whose axis lies closest to its readings.
-
     Neighbours stop as many beams or more. Cells without a neighbour within `MAX_OFF_SIGMAS` are left out.
     """
-    (nx, ny), offsets = grid.shape, range(-MAX_NEIGHBOUR_CELLS, MAX_NEIGHBOUR_CELLS + 1)
+    nx, ny = grid.shape
+    offsets = range(-MAX_NEIGHBOUR_CELLS, MAX_NEIGHBOUR_CELLS + 1)
     stops = (cells[:, 0] >= MIN_SOLID) & (readings.count > 0)
     source = np.flatnonzero(stops & (readings.count <= MAX_READINGS))
-    best_square, target = np.full(len(source), np.inf), source.copy()
+    best_square = np.full(len(source), np.inf)
+    target = source.copy()
     for dx, dy in itertools.product(offsets, offsets):
         x, y = source // ny + dx, source % ny + dy
         inside = (x >= 0) & (x < nx) & (y >= 0) & (y < ny)
@@ -305,10 +310,10 @@ def lengthen(
     cells: Singles, readings: ExplainedReadings, axes: SurfaceAxes, source: Indices, target: Indices, grid: Grid
 ) -> Floats:
     """Lengthen the surfaces of ``target`` to reach the readings of ``source``. Returns mean, l11, l21, l22, (n, 5).
-
     A surface moves along its axis, within its square, to the mean of both cells' readings, and gets their scatter.
     """
-    mean, axis = cells[target, 1:3].astype(np.float64), axes.direction[target]
+    mean = cells[target, 1:3].astype(np.float64)
+    axis = axes.direction[target]
     # The means of the readings along the axis, from the surface's mean.
     n_source, n_target = readings.count[source], readings.count[target]
     source_m, target_m = (((readings.mean_m[cell] - mean) * axis).sum(axis=1) for cell in (source, target))
@@ -321,7 +326,10 @@ def lengthen(
     source_square = variance_along(readings.moments[source], axis) + (source_m - shift) ** 2
     target_square = variance_along(readings.moments[target], axis) + (target_m - shift) ** 2
     scatter = (n_source * source_square + n_target * target_square) / (n_source + n_target)
-    along, across, (x, y) = np.maximum(axes.along[target], ALONG_WALL_SIGMAS**2 * scatter), axes.across[target], axis.T
+    # The Cholesky factor of the covariance with these variances along and across the axis.
+    along = np.maximum(axes.along[target], ALONG_WALL_SIGMAS**2 * scatter)
+    across = axes.across[target]
+    x, y = axis.T
     l11 = np.sqrt(along * x**2 + across * y**2)
     l21 = (along - across) * x * y / l11
     l22 = np.sqrt(along * across) / l11

@@ -22,7 +22,7 @@ from bayesmap.samplers.without_chains import ROUNDS, DrawRequest, IndependentDra
 from bayesmap.space.arrays import Floats, Mask
 from bayesmap.space.grid import Grid
 
-PARTICLES = 100_000
+PARTICLES = 100_000  # default of `Importance`
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,7 +103,6 @@ INDEPENDENT_SAMPLERS: Mapping[str, Callable[[WallProblem, DrawRequest, Watch], I
 
 def resolve_method(method: Method | str | None, samplers: Mapping[str, str], kind: str) -> tuple[str, Method]:
     """Return the name of a method, and the method with its options; None gives the first of the kind of cells.
-
     ``samplers`` maps the names of the kind's methods to their samplers. Raises `BadInput` for another method.
     """
     if method is None:

@@ -88,7 +88,8 @@ class Metropolis:
     ) -> tuple[MetropolisState, Info]:
         """Make some sweeps of all chains, in place; a kept draw is the map after its sweep."""
         problem, n_chains = state.problem, len(state.maps)
-        prior, sizes = problem.model.cells, {"x": problem.grid.shape[0], "y": problem.grid.shape[1]}
+        prior = problem.model.cells
+        sizes = dict(zip(("x", "y"), problem.grid.shape, strict=True))
         kept = keep.sweeps(state.sweep, state.sweep + sweeps)
         shapes = {spec.name: tuple(sizes[dim] for dim in spec.dims) for spec in prior.arrays}
         draws = {spec.name: spec.empty(n_chains, len(kept), shapes[spec.name]) for spec in prior.arrays}

@@ -64,7 +64,7 @@ class Watch:
         return lambda done, total: self.report(stage, done, total)
 
 
-SILENT = Watch()
+SILENT = Watch()  # reports nothing, and never stops a run
 
 
 class Stream(IntEnum):
@@ -196,7 +196,6 @@ class Sampler(Protocol[P, S]):
 
     def step(self, state: S, sweeps: int, beta: float = 1.0, keep: Keep = Keep()) -> tuple[S, Info]:
         """Make some sweeps of all chains. Do not use the argument ``state`` afterwards.
-
         ``beta`` is the power of p(reading | stop) (walls: of the likelihood): 0 samples the prior, 1 the posterior.
         """
 
@@ -205,7 +204,6 @@ class Sampler(Protocol[P, S]):
 
     def observed_counts(self, state: S, draws: Mapping[str, NDArray[Any]]) -> Ints:
         """Count the draws of all chains in which at least one beam observes each cell, and the draws inspected.
-
         Returns (2, nx, ny). `draws_to_inspect` selects ``draws``; without draws, the present maps are inspected.
         """
 

@@ -63,7 +63,7 @@ class StopDraws:
         draw = self._draw_of_sweep.get(sweep)
         if draw is None:
             return
-        cells, edge_m = self._chains.cells(chain), self._problem.grid.resolution
+        cells = self._chains.cells(chain)
         self._store("reflectivity", chain, draw, cells[self._cells["cell"], 0])
         if self._problem.prior.has_labels:
             self._solid[chain] = self._chains.solid(chain).copy()
@@ -71,7 +71,7 @@ class StopDraws:
         if self._centres_m is not None:
             surfaces = cells[self._cells["surface_cell"], 1:].astype(np.float64)
             surfaces[:, :2] -= self._centres_m
-            for part, values in zip(PARTS, surfaces.T / edge_m, strict=True):
+            for part, values in zip(PARTS, surfaces.T / self._problem.grid.resolution, strict=True):
                 self._store(f"surface_{part}", chain, draw, values)
 
     def end(self, chain: int, sweep: int) -> None:
@@ -107,7 +107,6 @@ def expected_reflectivity(
     hits: Ints, passes: Ints, prior: Beta, drawn: NDArray[np.float16], solid: Mask | None = None
 ) -> Singles:
     """Compute the mean of each cell's reflectivity given its counts, (a + hits) / (a + b + hits + passes), (T,).
-
     The density of one more beam under these means is the mean density under draws (docs/surfaces.md, Predictions). The
     counts must come from the sweep that began at the draw, with its surfaces. A cell that this sweep did not update has
     the counts of its last update, an approximation. Cells have stopped ``hits`` beams and let ``passes`` pass. A cell
@@ -133,7 +132,6 @@ class StopState(ChainState):
 @dataclass(frozen=True)
 class StopGibbs:
     """A sampler whose sweeps draw stops, labels, reflectivities and surfaces.
-
     In the first ``early_sweeps``, surfaces take `EARLY_SURFACE_STEPS` steps each; then, if any, they are merged.
     """
 

@@ -51,7 +51,6 @@ CELLS_MOVED = 2  # cells by which readings may move with the poses: draws keep s
 @dataclass(frozen=True, eq=False)
 class InitialEstimate:
     """Counts and moments of the readings in each of the T cells that beams touch.
-
     Readings end in U of these cells, the endpoint cells. Means of end points are shrunk towards the cell's centre.
     Covariances are shrunk towards the prior's size, then widened by `widen_along_wall`.
     """
@@ -79,7 +78,8 @@ def initial_estimate(rays: Rays, prior: Beta, device: str = "cpu") -> InitialEst
     from bayesmap.kernels.rays import count_passes
 
     # Hits of each cell.
-    grid, edge = rays.grid, rays.grid.resolution
+    grid = rays.grid
+    edge = grid.resolution
     end_cell = end_cells(rays)
     ended = end_cell >= 0
     hits = np.bincount(end_cell[ended], minlength=grid.n_cells).astype(np.int32)
@@ -165,11 +165,11 @@ def draw_first_labels(estimate: InitialEstimate, prior: Beta, grid: Grid, rng: R
 
 def draw_start(estimate: InitialEstimate, prior: Beta, rays: Rays, rng: Rng, solid: Mask | None = None) -> Singles:
     """Draw a chain's first state of all cells of the grid, (N, 6), scattered about the estimate like the posterior.
-
     Columns are the reflectivity, the mean's x and y from the grid's corner, and l11, l21 and l22, metres. ``solid``
     holds labels, (N,), if any. A cell without readings takes its surface from the prior, one without beams its state.
     """
-    grid, n_cells = rays.grid, rays.grid.n_cells
+    grid = rays.grid
+    n_cells = grid.n_cells
     state = np.zeros((n_cells, 6), dtype=np.float32)
     stopped, passed = estimate_counts(estimate, n_cells)
     a, b = (prior.a, prior.b) if solid is None else prior.beta_given(solid)
@@ -195,7 +195,6 @@ def draw_start(estimate: InitialEstimate, prior: Beta, rays: Rays, rng: Rng, sol
 
 def update_periods(estimate: InitialEstimate) -> NDArray[np.uint8]:
     """Return the update period of each cell, in sweeps, (T,): 0 for endpoint cells, which every sweep updates.
-
     Most cells that beams cross are free, and a sweep changes little in them, above all far from all readings. A cell
     that few beams pass costs little, and may not be free: a large reflectivity would stay until its next update.
     """
@@ -205,7 +204,6 @@ def update_periods(estimate: InitialEstimate) -> NDArray[np.uint8]:
 
 def step_sizes(estimate: InitialEstimate, edge_m: float) -> Singles:
     """Return step sizes and frames of the endpoint cells, (U, 8), see `bayesmap.kernels.surfaces.endpoint_cells`.
-
     Columns are the steps of logit, mean along, mean across, length, slant and thickness, and the frame's cosine, sine.
     Steps along the wall are a share of the cell's edge; steps across it shrink with the number of readings.
     """
@@ -302,7 +300,6 @@ def _stop_ranges_m(scans: Scans, sensor: SensorModel, resolution_m: float) -> tu
 
 def _tail_m(noise: Gaussian | StudentT, range_m: Floats, floor: float) -> Floats:
     """Return the distance from a stop within which the noise of readings is evaluated, metres.
-
     For normal noise it is `SIGMAS_AROUND` standard deviations. For Student's t it ends where the density,
     c / scale (1 + (x / scale)^2 / dof)^-((dof + 1) / 2), falls to ``floor``, but not before `SIGMAS_AROUND` scales.
     """

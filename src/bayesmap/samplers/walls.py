@@ -42,15 +42,16 @@ def start_maps(
     problem: WallProblem, start: Start | Mask, chain_ids: Sequence[int], seed: int, marginals: Marginals | None = None
 ) -> Mask:
     """Return the maps at which chains start, (C, nx, ny), from a start by name, a map (nx, ny), or maps (N, nx, ny).
-
     The start "propagate" thresholds the marginals of belief propagation. Cells whose marginal equals the prior take a
     prior draw, independent for each chain. Chains with similar starts can agree before they have forgotten their start:
     start from "prior" to check this. If neighbours are coupled, "prior" is approximate (`Ising.start`).
     Raises `BadInput` for maps of another shape than the grid's, or fewer maps than chains.
     """
-    grid, shape = problem.grid, (len(chain_ids), *problem.grid.shape)
+    grid = problem.grid
+    shape = len(chain_ids), *grid.shape
     if not isinstance(start, str):
-        maps, n_needed = np.asarray(start), max(chain_ids) + 1
+        maps = np.asarray(start)
+        n_needed = max(chain_ids) + 1
         one_each = maps.ndim == 3
         if maps.shape[-2:] != grid.shape or maps.ndim not in (2, 3) or (one_each and len(maps) < n_needed):
             raise BadInput(
@@ -97,7 +98,6 @@ class WallSampler(ABC):
 
     def sites(self, problem: WallProblem) -> Ints:
         """Return the sites of a sweep in their order; the order "random" shuffles them in every sweep.
-
         Site ``x * rows + y`` has its lower-left cell at (x, y), for all positions on the grid.
         """
         columns, rows = (max(1, n + 1 - self.site_edge) for n in problem.grid.shape)
@@ -124,7 +124,8 @@ class WallSampler(ABC):
         kernel = self.kernel(problem)  # builds tables now, not in the first sweep
         statistics: dict[str, Floats] = {}
         if resume is None:
-            start, marginals = default_start(problem.grid) if self.start is None else self.start, None
+            start = default_start(problem.grid) if self.start is None else self.start
+            marginals = None
             if isinstance(start, str) and start == "propagate":
                 marginals = propagate_to_start(problem, self.rounds, watch)
                 statistics["belief_changes"] = marginals.changes
@@ -194,7 +195,6 @@ def radial_distance(problem: WallProblem) -> NDArray[np.int64]:
 @dataclass(frozen=True, eq=False)
 class WallGibbs(WallSampler):
     """A sampler whose sweeps draw each cell once from its conditional.
-
     The order "raster" goes by rows of the array. "radial" goes outwards from the nearest sensor, so that the shadow of
     a wall is drawn after the wall in the same sweep. "random" is another permutation in each sweep.
     """

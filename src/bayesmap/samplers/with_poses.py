@@ -64,7 +64,6 @@ class PoseMetropolis:
         self, state: PoseState, cells: Singles, count: int = 1, *, beta: float = 1.0, adaptation_rate: float = 0.0
     ) -> tuple[PoseState, Floats]:
         """Propose a new pose for every scan ``count`` times. Returns the chains, and the share of accepted steps, (C,).
-
         ``cells`` holds one map per chain (`ScanLikelihood.beams`). A scan's step size grows with accepted steps and
         shrinks with others (Robbins and Monro, 1951) at ``adaptation_rate``, which must be 0 once draws are kept.
         """
@@ -110,7 +109,6 @@ def proposal_factors(
     likelihood: ScanLikelihood, cells: Singles, poses: Floats, prior: PoseLaw, step_m: float
 ) -> Floats:
     """Return Cholesky factors of proposals that fit the posterior of each scan's pose given one map, (S, 3, 3).
-
     The map is (1, N) or (1, N, 6). The information sums the outer products of the gradients of beams' log densities, by
     central differences: shifts by ``step_m``, about the noise, and turns that move the median range's point as far.
     """
@@ -220,7 +218,8 @@ class WithPoses:
         """Start chains, or continue from a snapshot."""
         n_chains, n_scans = len(chain_ids), len(problem.model.scans)
         if resume is None:
-            sweep, poses = 0, np.stack([self._first_poses(problem, chain, seed) for chain in chain_ids])
+            sweep = 0
+            poses = np.stack([self._first_poses(problem, chain, seed) for chain in chain_ids])
             log_scale, factor = np.zeros((n_chains, n_scans)), np.zeros((n_chains, n_scans, 3, 3))
         else:
             sweep = resume.sweep
@@ -240,7 +239,8 @@ class WithPoses:
 
     def step(self, state: JointState, sweeps: int, beta: float = 1.0, keep: Keep = Keep()) -> tuple[JointState, Info]:
         """Make some sweeps of all chains, with a round of pose steps after every few."""
-        end, infos, drawn_poses = state.sweep + sweeps, [], []
+        end = state.sweep + sweeps
+        infos, drawn_poses = [], []
         while state.sweep < end:
             # Sweep the cells up to the next round, or to the end; the poses are the same in all these draws.
             count = min(end, (state.sweep // self.every + 1) * self.every) - state.sweep

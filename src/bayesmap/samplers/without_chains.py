@@ -23,7 +23,8 @@ from bayesmap.samplers.sampler import SILENT, Stream, Watch
 from bayesmap.samplers.wall_problem import WallProblem
 from bayesmap.space.arrays import Floats, Indices, Mask, Rng
 
-DAMPING, ROUNDS = 0.5, 20  # defaults of `propagate`
+DAMPING = 0.5  # default of `propagate`: weight of the old message
+ROUNDS = 20  # default of `propagate`: most rounds
 MAX_UNKNOWN = 16  # most unknown cells of `enumerate_maps`: 65 536 states
 BATCH_CELLS = 1 << 23  # cells per batch of maps
 COUPLED_BATCH_CELLS = 1 << 13  # cells per batch of maps with coupled neighbours
@@ -48,7 +49,6 @@ def propagate(
     watch: Watch = SILENT,
 ) -> Marginals:  # fmt: skip
     """Pass messages between all beams and cells until beliefs converge, or for a number of rounds.
-
     If no cell lies on two beams and neighbours are not coupled, one undamped round is exact. If beams and coupled
     neighbours form a tree, as many rounds as it is wide are exact. Other marginals are approximate, mostly too certain.
     Rounds end when no probability changes by over ``tolerance``. ``damping`` in [0, 1) is the old message's weight in
@@ -267,7 +267,8 @@ def _count_alike_pairs(
     problem: WallProblem, state: NDArray[np.int64], bit_of_cell: NDArray[np.int64]
 ) -> NDArray[np.int64]:
     """Count the pairs of neighbours that are both walls or both free, in each state, (2^n,)."""
-    cells, pairs = np.arange(problem.grid.n_cells).reshape(problem.grid.shape), np.zeros(len(state), dtype=np.int64)
+    cells = np.arange(problem.grid.n_cells).reshape(problem.grid.shape)
+    pairs = np.zeros(len(state), dtype=np.int64)
     for cell, neighbour in ((cells[1:], cells[:-1]), (cells[:, 1:], cells[:, :-1])):
         for a, b in zip(cell.ravel().tolist(), neighbour.ravel().tolist(), strict=True):
             pairs += _walls_in(a, problem, state, bit_of_cell) == _walls_in(b, problem, state, bit_of_cell)

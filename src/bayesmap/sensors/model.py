@@ -114,7 +114,7 @@ class KernelParameters:
     sigma_per_m: float = 0.0  # growth of the scale per metre of distance
     dof: float = 0.0  # degrees of freedom of Student-t noise; 0 for Gaussian noise
     robust: bool = False  # true if the mixture applies; otherwise the reading is distance plus noise alone
-    # As in `bayesmap.sensors.model.BeamMixture`:
+    # As in `BeamMixture`:
     p_random: float = 0.0
     p_no_return: float = 0.0
     p_short: float = 0.0

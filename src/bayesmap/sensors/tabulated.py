@@ -28,7 +28,7 @@ NOWHERE_RANGES = 4097  # of the range of a beam that stops nowhere
 MAX_SPREAD_SCALES = 63.0  # the largest spread, in scales: larger spreads are clipped to it
 MIN_LOG_DENSITY = -1e6  # least log density at a node, in nats: minus infinity cannot be interpolated
 SAMPLES = 512  # samples per distance for the scale
-MIN_SCALE_M = 1e-4
+MIN_SCALE_M = 1e-4  # least scale of readings about a stop
 MAX_SUM_ERROR = 0.05  # largest distance of a sum of probabilities from one, integration errors included
 
 

@@ -90,7 +90,8 @@ class Marginal(SampleDistribution):
             return self.simulate(key, args), jnp.zeros(())
         if self.algorithm is None:
             traces, log_weights = self._importance_sample(key, constraint, args, self.particles)
-            trace, score = nth(traces, 0), logsumexp(log_weights) - jnp.log(self.particles)
+            trace = nth(traces, 0)
+            score = logsumexp(log_weights) - jnp.log(self.particles)
         else:
             trace, _ = self.gen_fn.generate(key, constraint, args)
             # The kept run uses this key too, but has no part in the estimate, which therefore stays unbiased.

@@ -51,7 +51,8 @@ class HMC(EditRequest):
         momentum_key, edit_key = jax.random.split(key)
         # Move the trace to the new arguments, and check that the selected choices are real.
         current, args_weight, _, _ = EmptyRequest().edit(edit_key, trace, argdiffs)
-        args, choices = Diff.tree_primal(argdiffs), current.get_choices()
+        args = Diff.tree_primal(argdiffs)
+        choices = current.get_choices()
         start = choices.filter(self.selection)
         for path in start.paths():
             dtype = jnp.result_type(start[path])

@@ -317,7 +317,8 @@ def particle_filter(
 
 def _resample_if_low(key: PRNGKey, states: Any, log_weights: Array, threshold: float) -> tuple[Any, Array, IntArray]:
     """Return (states, log weights, parents), resampled if the effective sample size is below `threshold` times k."""
-    particles, k = ParticleCollection(states, log_weights), log_weights.shape[0]
+    particles = ParticleCollection(states, log_weights)
+    k = log_weights.shape[0]
 
     def resample() -> tuple[Any, Array, IntArray]:
         parents = systematic(key, log_weights)

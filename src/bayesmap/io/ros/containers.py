@@ -55,7 +55,6 @@ def reason_of(error: Exception) -> str:
 
 def open_recording(path: str | os.PathLike[str], *, salvage: bool, types: Collection[str]) -> Recording:
     """Open a recording: a file of a format in `RECORD_READERS`, or a folder of rosbag2's.
-
     With ``salvage`` a damaged recording is read as far as possible, and a note describes the damage. Only damage to
     messages of ``types`` counts. Raises `BadInput` for an unreadable or damaged recording, or a bag of another version.
     """
@@ -275,7 +274,6 @@ def first_bytes(path: str | os.PathLike[str], count: int) -> bytes:
 
 def _unpacked_copy(path: Path, stack: ExitStack, on_damage: raw.OnDamage) -> Path:
     """Return a temporary unpacked copy of a file, or the file itself if it is not compressed.
-
     If the file is damaged and ``on_damage`` returns, the copy ends before the damage.
     """
     with path.open("rb") as file:

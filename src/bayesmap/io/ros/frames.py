@@ -183,7 +183,6 @@ class Chain:
 
 class FrameTree:
     """Frames and the transforms between them, given the samples of transforms by topic, parent and child.
-
     ``ranks`` holds the rank of each topic to use: if several topics place a frame, the topics of the lowest rank are
     used. None uses all topics equally. ``topics`` are the topics used. If a frame has several parents, the parent with
     most messages is used, ``notes`` has a sentence for the user, and ``rivals`` the topics that place the frame.

@@ -41,7 +41,6 @@ MAX_SWEEP_S = 60.0  # time of a scan; a longer time is taken for damage
 
 def read_recording(path: str | os.PathLike[str], options: LogOptions) -> ScanLog:
     """Read the scans of one topic of a recording, with their poses.
-
     Raises `BadInput` for a damaged recording or message, a missing topic or frame, several to choose from, or no scan
     with a pose; the message lists the choices and names the option.
     """
@@ -245,7 +244,6 @@ def _sort_by_time(
 
 def _ray_times_ns(stamps_ns: NDArray[np.int64], scans: list[LaserMessage], account: LogAccount) -> NDArray[np.int64]:
     """Return the time of each ray, (S, A). A missing ray gets the time of the last ray of its scan.
-
     Without ``deskew``, return the times of the first rays, (S, 1).
     """
     if not account.options.deskew:

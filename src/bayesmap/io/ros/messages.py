@@ -64,13 +64,16 @@ class LaserMessage:
 def laser_message(type_name: str, message: Any, number: int, received_ns: int) -> LaserMessage:
     """Return a message as a scan. Raises `MalformedMessage` for angles that do not fit its readings."""
     if type_name == RANGE:
-        layout, oddity = Layout(1, 0.0, 0.0, frame_name(message.header.frame_id)), ""
+        layout = Layout(1, 0.0, 0.0, frame_name(message.header.frame_id))
+        oddity = ""
         readings = np.array([message.range], dtype=np.float32)
-        limits, interval = (float(message.min_range), float(message.max_range)), 0.0
+        limits = float(message.min_range), float(message.max_range)
+        interval = 0.0
     else:
         readings = np.asarray(message.ranges, dtype=np.float32)
         layout, oddity = _layout(message, len(readings))
-        limits, interval = (float(message.range_min), float(message.range_max)), float(message.time_increment)
+        limits = float(message.range_min), float(message.range_max)
+        interval = float(message.time_increment)
     return LaserMessage(number, received_ns, stamp_ns_of(message.header), layout, readings, limits, interval, oddity)
 
 
@@ -162,7 +165,8 @@ def scan_topic_of(recording: Recording, name: str | None) -> Topic:
 def read_messages(recording: Recording, topics: list[Topic], poses: PoseMessages, reject: Reject) -> list[LaserMessage]:
     """Return the scans on topics, and add other messages to poses. Raises `BadInput` for a damaged recording."""
     by_name = {topic.name: topic for topic in topics}
-    scans, counts = list[LaserMessage](), Counter[str]()
+    scans: list[LaserMessage] = []
+    counts: Counter[str] = Counter()
     try:
         types = {topic.name: _types_of(topic) for topic in by_name.values()}
         for message in recording.read(frozenset(by_name)):
@@ -211,7 +215,6 @@ def _ros_types(encoding: str) -> Any:
 
 def _types_of(topic: Topic) -> Any:
     """Return the definitions to read the messages of a topic: the recording's, or else ROS's own.
-
     Databases before ROS 2 Iron hold no definitions; the messages that are read here were equal in all versions before.
     Raises `Damaged` for a definition that cannot be parsed, of a type or an MD5 sum that ROS does not know.
     """

@@ -176,7 +176,6 @@ def _alternation(name: str, samples: Samples) -> Contradiction | None:
 
 def two_motions(stamps_ns: NDArray[np.int64], poses: NDArray[np.float64], topic_of: NDArray[np.intp]) -> int | None:
     """Return the index of a sample beside the motion of its neighbours if samples come from two motions; else None.
-
     If two publishers alternate, the samples of each alone are smooth, and the offset between the two motions changes
     slowly. A jump, a corner or noise has one of these properties, but not both. Stamps ascend, (T,); poses are
     positions and quaternions, (T, 7). ``topic_of`` is the index of each sample's topic, (T,). With several topics, only
@@ -205,7 +204,8 @@ def two_motions(stamps_ns: NDArray[np.int64], poses: NDArray[np.float64], topic_
     def distance(sample: int, before: int, after: int) -> NDArray[np.float64]:
         return np.asarray(np.linalg.norm(offset_from_line(sample, before, after), axis=1))
 
-    offsets, roughness = offset_from_line(0, -1, 1), distance(0, -1, 1)
+    offsets = offset_from_line(0, -1, 1)
+    roughness = np.linalg.norm(offsets, axis=1)
     # The neighbours must belong to the other publisher: smooth with the next or second next sample on their far side.
     before = np.minimum(distance(-1, -2, 1), distance(-1, -3, 1))
     after = np.minimum(distance(1, -1, 2), distance(1, -1, 3))

@@ -176,12 +176,12 @@ def write_occupancy_grid(
     stamp_s: float | None = None, **thresholds: Any,
 ) -> Path:  # fmt: skip
     """Write a map as the one message of a recording, an OccupancyGrid. Returns the path.
-
     Arguments and errors are as in `bayesmap.io.ros.maps.in_percent` and `Recorder`.
     """
     from bayesmap.io.ros.maps import in_percent
 
-    cells, ros = in_percent(occupancy, grid, observed, **thresholds), Recorder(path)
+    cells = in_percent(occupancy, grid, observed, **thresholds)
+    ros = Recorder(path)
     info = ros.make(
         "nav_msgs/msg/MapMetaData", map_load_time=ros.time(stamp_s), resolution=grid.resolution, width=grid.shape[0],
         height=grid.shape[1], origin=ros.pose(*grid.origin),
@@ -196,11 +196,11 @@ def write_grid_map(
     stamp_s: float | None = None,
 ) -> Path:  # fmt: skip
     """Write layers (see `as_layers`), the first as the basic layer, as the one message of a recording, a GridMap.
-
     Cells that no beam reached are NaN, and invalid in grid_map, because ``mean`` is the basic layer. Raises `BadInput`
     for layers that do not fit, another ending, or a file that cannot be written.
     """
-    checked, ros = as_layers(grid, layers, observed), Recorder(path)
+    checked = as_layers(grid, layers, observed)
+    ros = Recorder(path)
     length_m = np.array(grid.shape) * grid.resolution
     x_m, y_m = (float(v) for v in np.array(grid.origin) + length_m / 2)
     # In ROS 1 the header belongs to the info, in ROS 2 to the map.
@@ -218,7 +218,6 @@ def write_grid_map(
 
 def _matrix(ros: Recorder, values: NDArray[np.float32]) -> Any:
     """Return a layer, (nx, ny), as grid_map stores it (Fankhauser and Hutter 2016, "A Universal Grid Map Library").
-
     Row 0, column 0 is the corner with the largest x and y; rows run towards -x, columns towards -y. A layer is a matrix
     in Eigen's order, by columns. Cell (i, j) is at ``data[column * nx + row]``, row nx - 1 - i and column ny - 1 - j.
     """
@@ -234,7 +233,6 @@ def _matrix(ros: Recorder, values: NDArray[np.float32]) -> Any:
 
 def write_trajectory_recording(path: str | os.PathLike[str], trajectory: Trajectory, *, frame: str = FRAME) -> Path:
     """Write a trajectory as a recording, whole or not at all; without stamps, poses get 0, 1, 2 and so on, in seconds.
-
     Raises `BadInput` for no pose, another ending, or a file that cannot be written.
     """
     if len(trajectory) == 0:
@@ -261,14 +259,14 @@ def write_trajectory_recording(path: str | os.PathLike[str], trajectory: Traject
 
 def write_scans(path: str | os.PathLike[str], scans: Scans, base_poses: ArrayLike, mount: Sequence[float]) -> Path:
     """Write scans as a robot records them: /scan, odometry in /tf, and the laser's place in /tf_static.
-
     The scans have one fan of beams, and stamps of 1 ns and later. ``base_poses``, (S, 3), are the poses of the robot's
     base by its odometry, and ``mount`` is the pose of the laser in the frame of the base. Raises `BadInput` for scans
     without stamps, another ending, or a file that cannot be written.
     """
     if scans.stamps_s is None or scans.own_angles_rad is not None:
         raise BadInput("recording: scans need stamps and one fan of beams")
-    ros, angles, stamps = Recorder(path), scans.angles_rad, scans.stamps_s.tolist()
+    ros = Recorder(path)
+    angles, stamps = scans.angles_rad, scans.stamps_s.tolist()
     limits = {"range_min": float(scans.min_range_m), "range_max": float(scans.max_range_m)}
     first, last, step = float(angles[0]), float(angles[-1]), float(angles[1] - angles[0])
     beams = {"angle_min": first, "angle_max": last, "angle_increment": step, "time_increment": 0.0, "scan_time": 0.0}

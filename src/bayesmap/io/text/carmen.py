@@ -69,7 +69,6 @@ PlacedScan = tuple[LaserLine, Floats]  # a scan of a log, and the pose of the la
 
 def read_carmen(path: str | os.PathLike[str], options: LogOptions) -> ScanLog:
     """Read the scans of a CARMEN log, plain or gzipped.
-
     If a log holds several kinds of laser message, the kind with most scans is read. A note names the others. Raises
     `BadInput` for a file that cannot be read or holds no scans, and for a malformed line, unless the options skip it.
     """
@@ -246,7 +245,6 @@ def _why_no_scans(lines: int, account: LogAccount) -> str:
 
 def write_carmen(path: str | os.PathLike[str], scans: Scans, robot_poses: Floats | None = None) -> str:
     """Write scans as a CARMEN log, whole or not at all; gzipped if the name ends in .gz.
-
     FLASER lines, which every tool reads, are written if `read_carmen` would find the same angles and hits in them, and
     ROBOTLASER1 lines otherwise. Returns the kind of message that was written.
 

@@ -67,7 +67,8 @@ def read_csv(path: str | os.PathLike[str], options: LogOptions) -> ScanLog:
     order = account.sort_by_time(stamps, len(readings))
     if options.laser is not None:
         poses = compose(poses, np.array(options.laser))
-    poses, angles = poses[order], angles if angles.ndim == 1 else angles[order]
+    poses = poses[order]
+    angles = angles if angles.ndim == 1 else angles[order]
     first_poses, beam_poses = (poses[:, 0], poses) if poses.ndim == 3 else (poses, None)
     classified = account.classify(readings[order], table.limits(), first_poses, angles)
     kind = "row of a scan" if "r_0" in table.columns else "row of a beam"
@@ -76,7 +77,8 @@ def read_csv(path: str | os.PathLike[str], options: LogOptions) -> ScanLog:
 
 def live_rows(name: str, lines: Iterable[tuple[int, bytes]], reject: Reject, options: LogOptions) -> Iterator[Scans]:
     """Yield the scans of a table of one row a scan as lines arrive. Errors are as in `read_csv`."""
-    table, max_range_m = _Table(name, reject), options.max_range_m
+    table = _Table(name, reject)
+    max_range_m = options.max_range_m
     mount = None if options.laser is None else np.array(options.laser)
     assert max_range_m is not None
     for number, line in lines:
@@ -94,7 +96,8 @@ def live_rows(name: str, lines: Iterable[tuple[int, bytes]], reject: Reject, opt
         if not len(readings):
             continue
         # One scan is too little to find a no-return code: it is given, or the stated maximum, or there is none.
-        limits, code = table.limits(), options.no_return
+        limits = table.limits()
+        code = options.no_return
         if code is None and not np.isinf(readings).any():
             code = limits[1] if limits[1] > 0 else math.inf
         if not np.isnan(readings).all():
@@ -144,7 +147,8 @@ class _Table:
             if setting and (key := setting[1].decode()) in SETTINGS:
                 self.settings[key] = _setting(self.name, number, key, setting[2])
         elif self.headless or (not self.columns and _is_ros2_row(line)):
-            self.headless, self.columns = True, [*ROS2_COLUMNS, "r_0"]
+            self.headless = True
+            self.columns = [*ROS2_COLUMNS, "r_0"]
             if text:
                 self._take_ros2_row(number, text)
         elif self.columns:

@@ -136,7 +136,6 @@ def write_g2o(path: str | os.PathLike[str], poses_world: Floats, edges: Edges) -
 
 def chain_edges(trajectory: Trajectory) -> Edges:
     """Return the graph of successive poses of a trajectory: each pose in the frame of the pose before.
-
     The covariance of a step comes from the law of relative poses, or else from the draws. Without both, it is the sum
     of the covariances of both poses, as if they were independent, which is too large. Raises `BadInput` for a
     trajectory without draws and without covariances, or of a single pose.
@@ -163,7 +162,6 @@ def chain_edges(trajectory: Trajectory) -> Edges:
 
 def slam_edges(trajectory: "InferredTrajectory") -> Edges:
     """Return the pose graph of `bayesmap.slam`: its constraints between key scans, and each other scan with its key.
-
     Informations are the curvatures of the cost, divided by two factors: the ratio of Student's t covariances to scales,
     and the mean growth of covariances by common errors of pairs. A pose graph can represent neither.
     """

@@ -29,14 +29,14 @@ class DamagedFile(BadInput):
 
 def read_lines(path: str | os.PathLike[str]) -> Generator[tuple[int, bytes]]:
     """Yield the lines of a file with their numbers, counted from 1, without line ends.
-
     The first two bytes of a file, not its name, decide whether it is gzipped. A byte order mark, which spreadsheets and
     editors write, is removed; UTF-16 after such a mark is turned into UTF-8.
 
     Raises `DamagedFile` for a damaged or truncated gzip stream, after all the whole lines that could be read, and
     `BadInput` for an unreadable file, or a line over `MAX_LINE_BYTES`.
     """
-    name, number = os.fspath(path), 0
+    name = os.fspath(path)
+    number = 0
     chunks = file_chunks(path, lambda: f" after line {number}")
     try:
         for number, line in split_lines(name, as_utf8(chunks)):
@@ -73,7 +73,6 @@ def split_lines(name: str, pieces: Iterable[bytes]) -> Iterator[tuple[int, bytes
 
 def file_chunks(path: str | os.PathLike[str], position: Callable[[], str] = lambda: "") -> Iterator[bytes]:
     """Yield the content of a file in pieces, decompressed if it is gzipped.
-
     ``position`` returns a text for error messages, such as " after line 7". Raises `DamagedFile` for a damaged gzip
     stream, after all that could be read, and `BadInput` if the file is unreadable.
     """
@@ -110,7 +109,8 @@ def _chunks(file: BinaryIO) -> Iterator[bytes]:
 
 def as_utf8(pieces: Iterable[bytes]) -> Iterator[bytes]:
     """Yield the pieces of a text without its byte order mark; UTF-16 after such a mark becomes UTF-8."""
-    pieces, start = iter(pieces), b""
+    pieces = iter(pieces)
+    start = b""
     for piece in pieces:
         start += piece
         if not piece or len(start) >= len(codecs.BOM_UTF8):
@@ -150,7 +150,6 @@ def _is_number(word: bytes) -> bool:
 
 def read_table(path: str | os.PathLike[str], columns: int, form: str, if_empty: str) -> NDArray[np.float64]:
     """Return the numbers of a text file, plain or gzipped, (N, columns); commas are white space, # begins a comment.
-
     Raises `BadInput` for an unreadable file, an empty one (with the message ``if_empty``), or a line of another form.
     """
     name, rows = os.fspath(path), []

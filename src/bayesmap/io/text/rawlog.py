@@ -61,7 +61,6 @@ def starts_as_rawlog(path: Path) -> bool:
 
 def read_rawlog(path: str | os.PathLike[str], options: LogOptions) -> ScanLog:
     """Read the scans of a rawlog, of the sensor with most scans.
-
     Raises `BadInput` for a file that cannot be read, no scans, no poses (unless the options need none), or an object
     that is damaged or of an unknown version (unless the options skip it).
     """
@@ -192,7 +191,8 @@ class RawlogObjects:
     def add(self, reader: Reader, header: Header) -> bool:
         """Read and add an object. Returns false for an object that is not needed, which is not read."""
         if header.name == SCAN:
-            scan, last = scan_of(reader, header, len(self.motions)), self.last_odometry
+            scan = scan_of(reader, header, len(self.motions))
+            last = self.last_odometry
             if last is not None and scan.stamp_s is not None and abs(scan.stamp_s - last[0]) < EQUAL_STAMPS_S:
                 scan = replace(scan, odometry=last[1])
             self.scans.append(scan)
@@ -214,7 +214,8 @@ class RawlogObjects:
 
 def find_objects(data: bytes, account: LogAccount) -> RawlogObjects:
     """Find the objects of a log by the names of their classes, and read them. Rejects objects that are unreadable."""
-    objects, read_until = RawlogObjects(), 0
+    objects = RawlogObjects()
+    read_until = 0  # position in the data
     for match in CLASS.finditer(data):
         # The header begins before the name, with one byte that has a flag, or with four bytes.
         position = match.start() - (1 if match.start() and data[match.start() - 1] & 0x80 else 4)
@@ -249,7 +250,8 @@ def scan_of(reader: Reader, header: Header, n_motions: int) -> RawScan:
         raise UnreadableObject("is damaged")
     ranges = reader.array("<f4", count)
     valid = reader.array("u1", count) != 0 if version >= 1 else ranges < max_range
-    stamp_s, label = None, ""
+    stamp_s = None
+    label = ""
     if version >= 2:
         reader.number("f")  # standard deviation
     if version >= 3:
@@ -291,7 +293,8 @@ def motion_of(reader: Reader, header: Header) -> Motion:
     if version == 2:
         trailing_fields = [["44x"]]
     else:
-        n_gaussian, n_thrun = (5 if version == 3 else 6), (4 if version < 5 else 6)  # parameters of two noise models
+        n_gaussian = 5 if version == 3 else 6  # parameters of the Gaussian noise model
+        n_thrun = 4 if version < 5 else 6  # parameters of the noise model of Thrun's book
         trailing_fields = [["4x"], [f"{n_gaussian}f", f"{n_gaussian}d"], ["4x"], [f"{n_thrun}f", f"{n_thrun}d"]]
     if version < 7:
         trailing_fields += [["?2f", "?2d"], ["?2i"]]
@@ -440,7 +443,6 @@ class Reader:
 
     def finish(self, header: Header, trailing_fields: list[list[str]]) -> None:
         """Read the last fields, whose widths some releases changed without a new version.
-
         ``trailing_fields`` holds the alternatives of each field as struct formats; the end mark decides between them.
         A format that starts with T starts with a flag, a byte, that must be 1. With F the flag must be 0.
         """
