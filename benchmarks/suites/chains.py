@@ -13,7 +13,7 @@ import warp as wp
 import bayesmap as bm
 from bayesmap.cells.kinds import HIT_DEPTH, P_WALL, default_sensor
 from bayesmap.kernels.walls.table import trace
-from bayesmap.samplers.fit import first_sensor
+from bayesmap.samplers.fit import initial_sensor
 from bayesmap.samplers.sampler import Sampler
 from bayesmap.samplers.stop_gibbs import StopGibbs
 from bayesmap.samplers.stop_problem import trace_stops
@@ -61,7 +61,7 @@ def run(device: str, with_peers: bool) -> Iterator[Figure]:
     grid = bm.Grid.covering(scans, RESOLUTION_M)
     table = trace(scans, grid, default_sensor(RESOLUTION_M), hit_depth=HIT_DEPTH, device=device)
     walls = WallProblem(table, bm.Independent(P_WALL), scans.poses, device)
-    sensor, surface = first_sensor(bm.Surface(), RESOLUTION_M), bm.Surface()
+    sensor, surface = initial_sensor(bm.Surface(), RESOLUTION_M), bm.Surface()
     stops = trace_stops(scans, grid, surface, sensor, device=device)
     for chains in BUILDING_ON_CPU if device == "cpu" else BUILDING_ON_GPU:
         yield chain_sweeps(f"chains/building_gibbs_{chains}", WallGibbs("radial", "propagate"), walls, chains, 3)

@@ -6,7 +6,7 @@ import numpy as np
 
 import bayesmap as bm
 from bayesmap.kernels.walls.table import trace
-from bayesmap.samplers.fit import first_sensor
+from bayesmap.samplers.fit import initial_sensor
 from bayesmap.samplers.stop_gibbs import StopGibbs
 from bayesmap.samplers.stop_problem import trace_stops
 from bayesmap.samplers.wall_problem import WallProblem
@@ -49,7 +49,7 @@ def surfaces_of_a_building(device: str) -> Iterator[Figure]:
     world = bm.worlds.building(seed=1, size_m=(30.0, 20.0), resolution=0.1)
     poses = bm.worlds.patrol(world, max(SCANS), seed=1)
     angles = np.arange(SCAN_BEAMS) / SCAN_BEAMS * 2 * np.pi
-    sensor, prior = first_sensor(bm.Surface(), world.grid.resolution), bm.Surface()
+    sensor, prior = initial_sensor(bm.Surface(), world.grid.resolution), bm.Surface()
     everything = bm.simulate(
         world.walls, world.grid, poses, angles, sensor=sensor, max_range_m=20.0, seed=1, opacity=world.opacity
     )

@@ -17,7 +17,7 @@ from bayesmap.posterior.posterior import Posterior
 from bayesmap.posterior.prediction import predictor_of
 from bayesmap.posterior.scores import score_prediction
 from bayesmap.result import load
-from bayesmap.samplers.fit import first_sensor, fit
+from bayesmap.samplers.fit import fit, initial_sensor
 from bayesmap.samplers.stop_gibbs import StopGibbs
 from bayesmap.samplers.stop_problem import trace_stops
 from bayesmap.space.grid import Grid
@@ -64,7 +64,7 @@ def run(device: str, with_peers: bool, slow: bool = False) -> Iterator[Figure]:
 def settled_sweeps(kind: str, train: Scans, grid: Grid, device: str) -> tuple[Callable[[], int], str]:
     """Work for the stopwatch, sweeps of one settled chain on one core, the sensor fitted; and what it is."""
     prior = PRIORS[kind]
-    problem = trace_stops(train, grid, prior, first_sensor(prior, grid.resolution), device=device)
+    problem = trace_stops(train, grid, prior, initial_sensor(prior, grid.resolution), device=device)
     fitted = fit(problem, 0, SETTLING)
     sweeps = sweeps_of(StopGibbs(), problem.under(fitted.sensor, fitted.prior), SWEEPS, settling=SETTLING)
     against = f"{problem.rays.n_beams:,} beams, {problem.rays.n_incidences * 1e-6:.1f} M incidences, one core"

@@ -29,7 +29,7 @@ from bayesmap.run.chains import FIRST_MARK_DRAWS, RANDOM_STREAMS, Chains, SweepP
 from bayesmap.run.cost import MIN_TOUCHED_SHARE, Estimate, Sampling, estimate, size_of
 from bayesmap.run.runner import Job, ThreadExecutor, draw_first_map, stop_on_interrupt
 from bayesmap.samplers import methods
-from bayesmap.samplers.fit import PILOT_SWEEPS, Parameters, first_sensor, fit, fit_coupling_to_scans, fit_sensor
+from bayesmap.samplers.fit import PILOT_SWEEPS, Parameters, fit, fit_coupling_to_scans, fit_sensor, initial_sensor
 from bayesmap.samplers.methods import Gibbs, Method, Propagate
 from bayesmap.samplers.sampler import Event as Event
 from bayesmap.samplers.sampler import Sampler, Watch
@@ -241,7 +241,7 @@ class Inference:
             raise BadInput(f"infer: start_poses has shape {np.shape(start_poses)}, expected (chains, {len(scans)}, 3)")
         _check_scans(scans, grid)
         is_fitted = isinstance(laws.sensor, str)
-        sensor = first_sensor(prior, grid.resolution) if isinstance(laws.sensor, str) else laws.sensor
+        sensor = initial_sensor(prior, grid.resolution) if isinstance(laws.sensor, str) else laws.sensor
         model = Model(scans, grid, prior, sensor, poses, float(laws.hit_depth))
         if poses.unknown and prior.methods[method_name] not in POSE_SAMPLERS:
             reason = f"method {method_name!r} of {type(prior).__name__} takes poses as known"

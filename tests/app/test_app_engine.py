@@ -20,7 +20,7 @@ from bayesmap.model import Model
 from bayesmap.posterior.summary import bulk_ess
 from bayesmap.run.chains import SweepPlan
 from bayesmap.run.runner import Job, run_chains
-from bayesmap.samplers.fit import PILOT_SWEEPS, first_sensor, fit
+from bayesmap.samplers.fit import PILOT_SWEEPS, fit, initial_sensor
 from bayesmap.samplers.stop_gibbs import StopGibbs
 from bayesmap.samplers.walls import WallGibbs
 from bayesmap.samplers.without_chains import sample_importance
@@ -220,7 +220,7 @@ def test_other_kinds_of_cells_run_on_the_page_as_in_the_library_and_are_saved(ce
     assert header["draws"] == {"chains": 2, "count": 8}
     assert not any(f["approximate"] for f in heard.all("field") if f["method"] != "pilot")
     prior, scans = {"reflectivity": bm.Beta(), "surface": bm.Surface()}[cells], simulate_document(document)[0]
-    model = Model(scans, document.grid, prior, first_sensor(prior, document.grid.resolution), hit_depth=0.5)
+    model = Model(scans, document.grid, prior, initial_sensor(prior, document.grid.resolution), hit_depth=0.5)
     found = fit(StopGibbs().prepare(model, "cpu"), document.seed, PILOT_SWEEPS)
     assert found.prior != prior
     chains = run_chains(Job(model, StopGibbs(), SweepPlan(0, 8), document.seed, (0, 1), parameters=found))

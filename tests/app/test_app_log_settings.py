@@ -17,7 +17,7 @@ from bayesmap.app.scene import hit_mask
 from bayesmap.app.shown.hit_maps import HitCounts, stop_probabilities
 from bayesmap.app.sources import OpenedLog, first_beams, open_log
 from bayesmap.cells.arrays import Draws
-from bayesmap.samplers.fit import first_sensor, pilot_sweeps
+from bayesmap.samplers.fit import initial_sensor, pilot_sweeps
 from bayesmap.samplers.sampler import Keep
 from bayesmap.samplers.stop_gibbs import StopGibbs
 from bayesmap.space.grid import Grid
@@ -230,7 +230,7 @@ def test_surfaces_of_a_log_are_counted_first_then_shown_by_the_draws_of_the_chai
     assert all(f["approximate"] and f["total"] == 40 for f, _ in pilots)
     # the same chain, by the library
     prior, document = bm.Surface(), surfaces_of(log)
-    model = replace(log.scene(document).model(prior), sensor=first_sensor(prior, 0.2), hit_depth=prior.hit_depth)
+    model = replace(log.scene(document).model(prior), sensor=initial_sensor(prior, 0.2), hit_depth=prior.hit_depth)
     problem = StopGibbs().prepare(model, "cpu")
     maps = []
     for found, info in pilot_sweeps(problem, document.seed, 7, keep=Keep(every=1)):

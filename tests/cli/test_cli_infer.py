@@ -14,7 +14,7 @@ from bayesmap.cli.pipeline import announce, cost_of_suggestion
 from bayesmap.io.logs import read_log
 from bayesmap.io.ros.maps import read_map
 from bayesmap.run import cost, runner
-from bayesmap.samplers.fit import first_sensor
+from bayesmap.samplers.fit import initial_sensor
 from bayesmap.sensors.model import describe
 from bayesmap.space.planar import compose, inverse
 
@@ -62,7 +62,7 @@ def test_everything_is_left_in_the_folder_and_told_in_the_document(office, tmp_p
         assert document["sensor"] == "fit"
         fitted = document["fitted"]
         assert fitted["prior"]["kind"] == document["prior"]["kind"]
-        assert fitted["sensor"] != describe(first_sensor(prior_from(document["prior"]), 0.25))
+        assert fitted["sensor"] != describe(initial_sensor(prior_from(document["prior"]), 0.25))
         assert fitted["sensor"] == describe(run.posterior.sensor)
         assert document["unchanged_cells"] == 0  # no two draws of a number are the same
         assert document["diagnostics"]["unchanged_cells"] is None

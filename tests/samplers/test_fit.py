@@ -71,7 +71,7 @@ def drawn_map(prior, seed, poses=250, beams=30):
 def test_with_an_unknown_map_the_fit_comes_near_the_truth(prior):
     """7500 beams, of which some thousand say something about each number: a standard error of 3 to 15 %."""
     data, grid = drawn_map(prior, 4)
-    problem = trace_stops(data, grid, replace(prior, a=0.02, b=0.2), fits.first_sensor(prior, grid.resolution))
+    problem = trace_stops(data, grid, replace(prior, a=0.02, b=0.2), fits.initial_sensor(prior, grid.resolution))
     found = fits.fit(problem, 0, 80)
     mine, truth = found.sensor, TRUTH
     for name, tolerance in (("p_random", 0.5), ("p_no_return", 0.5), ("p_short", 0.4), ("rate_short_per_m", 0.6)):
@@ -93,7 +93,7 @@ def test_a_pilot_fits_and_all_chains_run_under_what_it_found():
     stops = []
     run = infer("surfaces", on_checkpoint=stops.append, checkpoint_every_s=0.0)
     assert {stop.posterior.sensor for stop in stops} == {run.posterior.sensor}
-    problem = trace_stops(scans(), GRID, bm.Surface(), fits.first_sensor(bm.Surface(), GRID.resolution))
+    problem = trace_stops(scans(), GRID, bm.Surface(), fits.initial_sensor(bm.Surface(), GRID.resolution))
     found = fits.fit(problem, 0, 12)
     assert (run.posterior.sensor, run.posterior.prior) == (found.sensor, found.prior)
     assert found != fits.fit(problem, 1, 12)
@@ -106,7 +106,7 @@ def test_a_pilot_is_as_long_as_the_warm_up_or_as_it_helps_and_a_given_sensor_and
     infer("surfaces", scans(poses=3), warmup=fits.PILOT_SWEEPS + 5, draws=0, chains=1, on_progress=events.append)
     assert max(event.done for event in events if event.stage == "fit") == fits.PILOT_SWEEPS
     run = infer("surfaces", scans(poses=3), warmup=0, draws=1)
-    assert run.posterior.sensor == fits.first_sensor(bm.Surface(), GRID.resolution)
+    assert run.posterior.sensor == fits.initial_sensor(bm.Surface(), GRID.resolution)
     run = infer("surfaces", sensor=TRUTH)
     assert (run.posterior.sensor, run.posterior.prior) == (TRUTH, bm.Surface())
     assert "fitted" not in run.posterior.settings

@@ -15,7 +15,7 @@ from bayesmap.model import Model
 from bayesmap.run import runner
 from bayesmap.run.chains import SweepPlan, join_chains
 from bayesmap.run.runner import Job, run_chains
-from bayesmap.samplers.fit import first_sensor, fit
+from bayesmap.samplers.fit import fit, initial_sensor
 from bayesmap.samplers.merge_moves import EARLY_SHARE
 from bayesmap.samplers.sampler import Keep
 from bayesmap.samplers.stop_gibbs import StopGibbs
@@ -47,7 +47,7 @@ def test_chain_two_is_the_same_wherever_it_runs(kind):
     """Three jobs of one chain each, joined, are the run of three chains: other processes would do no otherwise."""
     whole = infer(kind, chains=3, warmup=6, draws=4)
     prior = (PRIORS | LABELLED)[kind]
-    model = Model(scans(), GRID, prior, first_sensor(prior, GRID.resolution), hit_depth=0.5)
+    model = Model(scans(), GRID, prior, initial_sensor(prior, GRID.resolution), hit_depth=0.5)
     sampler, parts = StopGibbs(early_sweeps=int(EARLY_SHARE * 6)), []
     for chain in (0, 1, 2):
         found = fit(sampler.prepare(model, "cpu"), 0, 6)
@@ -225,7 +225,7 @@ def test_scans_that_saw_nothing_leave_the_prior_and_the_fit_s_start(kind):
     run = infer(kind, ODD["one beam, out of the grid"](), sensor=TRUTH, draws=4)
     np.testing.assert_allclose(run.occupancy[~run.observed], PRIORS[kind].mean)
     assert run.observed.sum() == 1
-    start = first_sensor(PRIORS[kind], GRID.resolution)
+    start = initial_sensor(PRIORS[kind], GRID.resolution)
     found = fit(trace_stops(filled(NAN), GRID, PRIORS[kind], start), seed=0, sweeps=30).sensor
     for name in ("p_random", "p_no_return", "p_short", "rate_short_per_m"):
         assert getattr(found, name) == pytest.approx(getattr(start, name), rel=1e-6)

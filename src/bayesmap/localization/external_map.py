@@ -23,7 +23,7 @@ from bayesmap.posterior.prediction import OnShare, ignore_share
 from bayesmap.sensors.model import RangeLimits
 from bayesmap.space.arrays import Mask
 from bayesmap.space.grid import Grid
-from bayesmap.space.planar import Floats, between, ways_and_turns
+from bayesmap.space.planar import Floats, between, lengths_and_turns
 from bayesmap.space.scans import Scans
 
 FITTED = (
@@ -158,7 +158,7 @@ def search_single_scans(known: KnownMap, scans: Scans, seed: int) -> tuple[Refer
     scores: list[Floats] = []
     for pose, angles, ranges in zip(scans.poses, scans.angles_by_scan(), scans.ranges_m, strict=True):
         places = update(known, Prior(), Scan(angles, ranges, limits), rng, look_everywhere=True).places(1e-9)
-        lengths_m, turns_rad = ways_and_turns(between(pose, np.array([place.mean for place in places])))
+        lengths_m, turns_rad = lengths_and_turns(between(pose, np.array([place.mean for place in places])))
         is_right = lengths_m + turns_rad < NEAR_M
         missed += int(not is_right.any())
         log_likelihood = known.log_likelihood(pose[None], angles, ranges, limits, weight=1.0)[0]

@@ -23,7 +23,7 @@ from bayesmap.kernels.match.scan_refinement import Convergence, Refinement, refi
 from bayesmap.poses.prior import Odometry
 from bayesmap.poses.scan_geometry import ScanGeometry, scan_geometry
 from bayesmap.space.arrays import Indices, Mask, evenly_spaced, matrix_roots
-from bayesmap.space.planar import Floats, between, interpolate, ways_and_turns, wrap_angle, wrap_yaw
+from bayesmap.space.planar import Floats, between, interpolate, lengths_and_turns, wrap_angle, wrap_yaw
 from bayesmap.space.scans import Scans
 from bayesmap.space.time_order import elapsed_s, repeated_stamps
 
@@ -63,7 +63,7 @@ def stated_motions(poses: Floats, stamps_s: Floats | None) -> tuple[Floats, Mask
     is much longer than usual and too fast for the shortest time.
     """
     motions = between(poses[:-1], poses[1:])
-    lengths_m, _ = ways_and_turns(motions)
+    lengths_m, _ = lengths_and_turns(motions)
     unusual = lengths_m > max(2.0, 20.0 * float(np.median(lengths_m)) if len(lengths_m) else 2.0)
     if stamps_s is None:
         return motions, unusual
@@ -74,7 +74,7 @@ def stated_motions(poses: Floats, stamps_s: Floats | None) -> tuple[Floats, Mask
 def motion_variances(motions: Floats, ratios: Floats) -> Floats:
     """Return variances of x, y and yaw of motions, (..., 3), with ``ratios``, (2,), times an ordinary robot's noise."""
     variance = (ORDINARY_ODOMETRY.sigmas(motions) * ratios[[0, 0, 1]]) ** 2
-    lever_m = 0.5 * ways_and_turns(motions)[0]  # a heading error arises half-way on average, and moves the end
+    lever_m = 0.5 * lengths_and_turns(motions)[0]  # a heading error arises half-way on average, and moves the end
     variance[..., :2] += (lever_m**2 * variance[..., 2])[..., None]
     return np.asarray(variance)
 
@@ -140,12 +140,12 @@ class MotionNoise:
 
     def variances(self, motions: Floats) -> Floats:
         """Return variances of x, y and yaw of motions from scan to scan, (..., 3)."""
-        lengths_m, turns_rad = ways_and_turns(motions)
+        lengths_m, turns_rad = lengths_and_turns(motions)
         return np.asarray(np.stack([lengths_m, turns_rad, np.ones_like(lengths_m)], axis=-1) @ self.rates.T)
 
     def as_odometry(self, motions: Floats) -> Odometry:
         """Return the noise as parameters of `Odometry` that give equal total variances over motions, (S - 1, 3)."""
-        lengths_m, turns_rad = ways_and_turns(motions)
+        lengths_m, turns_rad = lengths_and_turns(motions)
         per_m = lengths_m.sum() / max(float((lengths_m**2).sum()), 1e-12)
         per_rad = turns_rad.sum() / max(float((turns_rad**2).sum()), 1e-12)
         position, yaw = self.rates[:2].mean(axis=0), self.rates[2]
@@ -262,7 +262,7 @@ def fit_odometry(
         return wrap_yaw(error - motion @ coefficients[:9].reshape(3, 3).T - coefficients[9] * velocity_change)
 
     # Path lengths, turns and numbers of scans between key scans, by sums over motions from scan to scan.
-    totals = np.cumsum(ways_and_turns(between(stated[:-1], stated[1:])), axis=1)
+    totals = np.cumsum(lengths_and_turns(between(stated[:-1], stated[1:])), axis=1)
     lengths_m, turns_rad = np.diff(np.concatenate([[[0.0], [0.0]], totals], axis=1)[:, keys], axis=1)
     features = np.stack([lengths_m, turns_rad, np.diff(keys)], axis=-1)
     noise = fit_noise(error, features, laser_variance, expected_variance)

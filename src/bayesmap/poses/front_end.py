@@ -27,7 +27,7 @@ from bayesmap.poses.graph import DOUBTFUL_SQ
 from bayesmap.poses.matcher import ANY_SCORE, LikelihoodGrids, Pull, SearchWindows, likelihood_grids, match
 from bayesmap.poses.scan_geometry import NO_POINT, ScanGeometry
 from bayesmap.space.arrays import Indices, Mask
-from bayesmap.space.planar import Floats, between, chain_motions, compose, rotation, ways_and_turns, wrap_yaw
+from bayesmap.space.planar import Floats, between, chain_motions, compose, lengths_and_turns, rotation, wrap_yaw
 from bayesmap.space.time_order import EQUAL_STAMPS_S
 
 KEY_DISTANCE_M, KEY_TURN_RAD = 0.4, np.radians(20.0)  # a scan this far from the last key scan becomes a key scan
@@ -280,7 +280,7 @@ class _Path:
         if self.motions is None:
             return np.array([self.last + 1])
         end = min(self.last + MAX_BATCH, len(self.poses) - 1)
-        lengths_m, turns_rad = np.cumsum(ways_and_turns(self.motions[self.last : end]), axis=1)
+        lengths_m, turns_rad = np.cumsum(lengths_and_turns(self.motions[self.last : end]), axis=1)
         off = between(self.poses[self.keys[-1]], self.poses[self.last])
         near = (lengths_m < KEY_DISTANCE_M - np.hypot(off[0], off[1])) & (turns_rad < KEY_TURN_RAD - abs(off[2]))
         count = int(np.argmin(near) if not near.all() else len(near) - 1)
@@ -290,7 +290,7 @@ class _Path:
         """Return the scans in which a fit is sought after a contradiction, none of them over a break."""
         assert self.motions is not None
         motions = self.motions[self.last : self.last + MAX_AHEAD_SCANS]
-        lengths_m, turns_rad = np.cumsum(ways_and_turns(motions), axis=1)
+        lengths_m, turns_rad = np.cumsum(lengths_and_turns(motions), axis=1)
         unknown = np.maximum.accumulate(self.unknown[self.last :][: len(motions)])
         count = max(1, int(((lengths_m < MAX_AHEAD_M) & (turns_rad < MAX_AHEAD_RAD) & ~unknown).sum()))
         return np.arange(self.last + 1, self.last + 1 + count)

@@ -25,7 +25,7 @@ from scipy import sparse
 from scipy.sparse.linalg import splu
 
 from bayesmap.space.arrays import Indices, Mask, matrix_roots
-from bayesmap.space.planar import Floats, between, between_jacobians, compose, ways_and_turns, wrap_yaw
+from bayesmap.space.planar import Floats, between, between_jacobians, compose, lengths_and_turns, wrap_yaw
 
 ANCHOR = 1e8  # information that fixes the first pose, 1 / m^2 and 1 / rad^2
 RIDGE = 1e-4  # information added to every pose, so that the matrix is regular even if a pose has no factor
@@ -287,7 +287,7 @@ def relative_covariances(precision: Precision, poses: Floats, first: Indices, se
 def sample_bends(poses: Floats, laser: Quadratic, precision: Precision) -> Floats:
     """Draw steps of poses (K, 3), in their own frames, under forces with random signs, (BOOTSTRAP_DRAWS, K, 3)."""
     # Label each pair by the two stretches of path that it ties together: a cluster.
-    lengths_m, turns_rad = ways_and_turns(wrap_yaw(np.diff(poses, axis=0)))
+    lengths_m, turns_rad = lengths_and_turns(wrap_yaw(np.diff(poses, axis=0)))
     stretch = (np.concatenate([[0.0], np.cumsum(lengths_m + TURN_M * turns_rad)]) / STRETCH_M).astype(np.intp)
     pairs = np.sort(np.stack([stretch[laser.first], stretch[laser.second]], axis=1), axis=1)
     clusters, cluster = np.unique(pairs, axis=0, return_inverse=True)

@@ -24,7 +24,7 @@ from bayesmap.poses.graph import Factors, Precision, relative_covariances
 from bayesmap.poses.matcher import ModeRule, SearchWindows, likelihood_grids, match
 from bayesmap.poses.scan_geometry import ScanGeometry
 from bayesmap.space.arrays import Indices, Mask, offsets_of
-from bayesmap.space.planar import Floats, are_within, between, compose, transform, ways_and_turns, wrap_angle, wrap_yaw
+from bayesmap.space.planar import Floats, are_within, between, compose, lengths_and_turns, transform, wrap_yaw
 
 GAP_M = 1000.0  # length that a break counts as: no submap reaches over it, and places on both sides may close
 MIN_PATH_PLACES = 120.0  # number of places that a path is divided into: a small loop has few places that close it
@@ -96,7 +96,7 @@ class KeyPath:
 
 def key_path(geometry: ScanGeometry, keys: Indices, poses: Floats, begins: Mask) -> KeyPath:
     """Return the path of key scans at poses (K, 3). The mask ``begins``, (K,), marks keys that begin a new segment."""
-    lengths_m, turns_rad = ways_and_turns(between(poses[:-1], poses[1:]))
+    lengths_m, turns_rad = lengths_and_turns(between(poses[:-1], poses[1:]))
     path_m = np.concatenate([[0.0], np.cumsum(np.where(begins[1:], GAP_M, lengths_m + TURN_M * turns_rad))])
     return KeyPath(geometry, keys, poses, path_m, np.cumsum(begins).astype(np.intp))
 
@@ -175,7 +175,7 @@ def _candidate_pairs(
     near = distance_m < np.minimum(WINDOW_SIGMAS * sigma[:, :2].max(axis=1), search.max_half_m) + view_m
     earlier, later, distance_m, sigma = earlier[near], later[near], distance_m[near], sigma[near]
     # Two costs of a pair: the difference of poses, and, since scans may face each other, the distance of their views.
-    pose_cost = distance_m + 0.7 * np.abs(wrap_angle(poses[earlier, 2] - poses[later, 2]))
+    pose_cost = distance_m + 0.7 * np.abs(wrap_yaw(poses[earlier] - poses[later])[:, 2])
     middles = _view_middles(path)
     view_cost = np.hypot(*(middles[earlier] - middles[later]).T)
     # Take the best pair of each visit, from the best visits of each later place.
@@ -218,7 +218,7 @@ def select_supported(closures: Closures, path: KeyPath) -> Closures:
     other_end = closures.second[:, None] != closures.second
     distinct = other_end | (closures.first[:, None] != closures.first)
     a, b = np.nonzero((first_apart_m < 5.0) & (second_apart_m < 5.0) & distinct)
-    lengths_m, turns_rad = ways_and_turns(closures.disagreements(path.poses, a, b))
+    lengths_m, turns_rad = lengths_and_turns(closures.disagreements(path.poses, a, b))
     # The tolerance grows with the length of path between the ends.
     apart_m = first_apart_m[a, b] + second_apart_m[a, b]
     agree = (lengths_m < 0.15 + 0.02 * apart_m) & (turns_rad < np.radians(2.0) + np.radians(0.3) * apart_m)

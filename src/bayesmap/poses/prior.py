@@ -16,7 +16,7 @@ import numpy as np
 
 from bayesmap.errors import BadInput
 from bayesmap.space.arrays import Indices
-from bayesmap.space.planar import Floats, between, chain_motions, rotation, ways_and_turns, wrap_yaw
+from bayesmap.space.planar import Floats, between, chain_motions, lengths_and_turns, rotation, wrap_yaw
 from bayesmap.space.scans import check_sigma_rad
 
 LOG_ROOT_TWO_PI = 0.5 * math.log(2 * math.pi)
@@ -136,7 +136,7 @@ class Odometry(PosePrior):
 
     def sigmas(self, motions: Floats) -> Floats:
         """Return standard deviations of x, y and yaw of the error of each motion, (..., 3)."""
-        lengths_m, turns_rad = ways_and_turns(motions)
+        lengths_m, turns_rad = lengths_and_turns(motions)
         xy = np.sqrt((self.m_per_m * lengths_m) ** 2 + (self.m_per_rad * turns_rad) ** 2 + self.still_m**2)
         yaw = np.sqrt((self.rad_per_m * lengths_m) ** 2 + (self.rad_per_rad * turns_rad) ** 2 + self.still_rad**2)
         return np.stack([xy, xy, yaw], axis=-1)

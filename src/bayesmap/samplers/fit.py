@@ -70,7 +70,7 @@ class Parameters:
         return cls(sensor, Beta.of(prior_from(values["prior"]), "fitted parameters"))
 
 
-def first_sensor(prior: CellPrior, resolution_m: float) -> BeamMixture:
+def initial_sensor(prior: CellPrior, resolution_m: float) -> BeamMixture:
     """Return the sensor with which a fit starts: a laser with few outliers."""
     sigma_m = 0.02 if prior.has_surfaces else math.hypot(0.02, SPREAD_WITHOUT_SURFACE * resolution_m)
     return BeamMixture(noise_with(math.inf, sigma_m, 0.003), p_random=0.02, p_no_return=0.01, p_short=0.02)
@@ -90,7 +90,7 @@ def fit(problem: StopProblem, seed: int, sweeps: int, watch: Watch = SILENT) -> 
 def fit_sensor(model: Model, device: str, *, seed: int, threads: int | None, watch: Watch = SILENT) -> BeamMixture:
     """Fit the sensor to the model's scans by a pilot over reflectivities. Raises `BadInput` as `trace_stops`."""
     scans, grid, depth, prior = model.scans, model.grid, model.hit_depth, Beta()
-    sensor = first_sensor(prior, grid.resolution)
+    sensor = initial_sensor(prior, grid.resolution)
     problem = trace_stops(scans, grid, prior, sensor, hit_depth=depth, device=device, threads=threads)
     return fit(problem, seed, SENSOR_SWEEPS, watch).sensor
 
@@ -114,7 +114,7 @@ def pilot_sweeps(
             sensor = refit_sensor(sensor, select_stops(state, beams), problem.rays.limits, step_size)
             if sweep % PRIOR_EVERY == 0:
                 touched = problem.estimate.touched
-                hits, passes = (count[touched] for count in state.chains.counted(0))
+                hits, passes = (count[touched] for count in state.chains.hits_and_passes(0))
                 solid = state.chains.solid(0)[touched] if prior.has_labels else None
                 prior = refit_prior(prior, hits, passes, step_size, solid)
             state = replace(state, problem=problem.under(sensor, prior))

@@ -82,7 +82,7 @@ class StopDraws:
         if self._centres_m is not None:
             self._store_chances(chain, draw, self._chains.in_squares(chain, sweep, True, self._solid.get(chain)))
         cells, prior = self._cells["cell"], self._problem.prior
-        hits, passes = (count[cells] for count in self._chains.counted(chain))
+        hits, passes = (count[cells] for count in self._chains.hits_and_passes(chain))
         solid = self._solid[chain][cells] if prior.has_labels else None
         drawn = self.arrays["reflectivity"][chain, draw]
         self._store("expected", chain, draw, expected_reflectivity(hits, passes, prior, drawn, solid))
@@ -208,7 +208,7 @@ class StopGibbs:
         from bayesmap.kernels.surfaces.stop_chains import StopChains
 
         chains, plan = state.chains, _plan(problem)
-        values = chains.counted, chains.observed_counts, chains.solid
+        values = chains.hits_and_passes, chains.observed_counts, chains.solid
         counts, observed, solid = (_stack_chains(value, chains) for value in values)
         moved_chains = StopChains(
             plan, chains.cells, state.keys, threads=problem.threads, counts=counts, observed_counts=observed,
@@ -219,7 +219,7 @@ class StopGibbs:
     def present_cells(self, state: StopState) -> Singles:
         """Return the chains' present reflectivities, (C, N), or surfaces, (C, N, 6)."""
         # If cells have labels, sweeps do not need the reflectivities of untouched cells: draw them now, in place.
-        if state.problem.prior.has_labels and state.chains.swept:
+        if state.problem.prior.has_labels and state.chains.has_swept:
             state.chains.draw_untouched(state.sweep)
         cells = _stack_chains(state.chains.cells, state.chains)
         return np.ascontiguousarray(cells if state.problem.prior.has_surfaces else cells[..., 0])
@@ -262,7 +262,7 @@ class StopGibbs:
         chains, cells = state.chains, state.problem.coordinates["cell"]
         arrays = {
             "state": _stack_chains(lambda chain: chains.cells(chain)[cells], chains),
-            "counts": _stack_chains(lambda chain: np.stack(chains.counted(chain))[:, cells], chains),
+            "counts": _stack_chains(lambda chain: np.stack(chains.hits_and_passes(chain))[:, cells], chains),
             "observed_counts": _stack_chains(lambda chain: chains.observed_counts(chain)[cells].T, chains),
         }
         if state.problem.prior.has_labels:
@@ -281,10 +281,10 @@ class StopGibbs:
     def _observed_in_last_sweep(self, state: StopState, chain: int) -> Mask:
         """Return the masks of the cells that a beam observes in a chain's last sweep, and that it counted, (2, N)."""
         if not state.problem.prior.has_surfaces:
-            hits, passes = state.chains.counted(chain)
+            hits, passes = state.chains.hits_and_passes(chain)
             return np.stack([(passes >= 0) & (hits + passes > 0), passes >= 0])
         masks = np.zeros((2, state.problem.grid.n_cells), dtype=np.bool_)
-        if state.chains.swept:
+        if state.chains.has_swept:
             squares = state.chains.in_squares(chain, state.sweep - 1, kept=False)
             touched = state.problem.rays.touched
             masks[0, touched], masks[1, touched] = squares.stopped + squares.passed > 0, True

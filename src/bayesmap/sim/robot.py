@@ -23,7 +23,7 @@ from bayesmap.errors import BadInput, check_count
 from bayesmap.sim.building import Building
 from bayesmap.sim.furniture import lattice_stride, passage_m, wall_distance_m
 from bayesmap.space.arrays import Indices
-from bayesmap.space.planar import Floats, between, compose, interpolate, ways_and_turns, wrap_angle, wrap_yaw
+from bayesmap.space.planar import Floats, between, compose, interpolate, lengths_and_turns, wrap_angle, wrap_yaw
 from bayesmap.space.scans import as_poses
 
 WALL_COST = 4.0  # extra cost of a path close to walls, relative to open floor: robots keep to the middle
@@ -246,8 +246,8 @@ def travel_times_s(poses_world: ArrayLike, speed_m_per_s: float, turn_rad_per_s:
         if not (math.isfinite(value) and value > 0):
             raise BadInput(f"odometry: the {name} must be a positive number, got {value!r}")
     poses = as_poses(poses_world)
-    ways_m, turns_rad = ways_and_turns(between(poses[:-1], poses[1:]))
-    steps_s = np.maximum(ways_m / speed_m_per_s, turns_rad / turn_rad_per_s)
+    lengths_m, turns_rad = lengths_and_turns(between(poses[:-1], poses[1:]))
+    steps_s = np.maximum(lengths_m / speed_m_per_s, turns_rad / turn_rad_per_s)
     # Stamps ascend even if the robot stands still.
     return np.concatenate([[0.0], np.cumsum(np.maximum(steps_s, 1e-3))])
 

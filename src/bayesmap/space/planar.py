@@ -39,15 +39,15 @@ def between(first: Floats, second: Floats) -> Floats:
     return np.stack([cosine * dx + sine * dy, cosine * dy - sine * dx, wrap_angle(dyaw)], axis=-1)
 
 
-def ways_and_turns(motions: Floats) -> tuple[Floats, Floats]:
+def lengths_and_turns(motions: Floats) -> tuple[Floats, Floats]:
     """Return the length in metres and the absolute turn in radians of each motion, (...) each."""
     return np.hypot(motions[..., 0], motions[..., 1]), np.abs(motions[..., 2])
 
 
-def are_within(motions: Floats, way_m: float, turn_rad: float) -> Mask:
-    """Return the mask of motions that are shorter than ``way_m`` and turn by less than ``turn_rad``, (...)."""
-    ways_m, turns_rad = ways_and_turns(motions)
-    return np.asarray((ways_m < way_m) & (turns_rad < turn_rad))
+def are_within(motions: Floats, length_m: float, turn_rad: float) -> Mask:
+    """Return the mask of motions that are shorter than ``length_m`` and turn by less than ``turn_rad``, (...)."""
+    lengths_m, turns_rad = lengths_and_turns(motions)
+    return np.asarray((lengths_m < length_m) & (turns_rad < turn_rad))
 
 
 def chain_motions(start: Floats, motions: Floats) -> Floats:

@@ -29,7 +29,7 @@ from bayesmap.posterior.posterior import posterior_of_chains
 from bayesmap.result import Run
 from bayesmap.run.chains import DrawRecord, SweepPlan
 from bayesmap.run.runner import MAX_BUFFER_BYTES, advance_chains, empty_draws
-from bayesmap.samplers.fit import PILOT_SWEEPS, first_sensor, pilot_sweeps
+from bayesmap.samplers.fit import PILOT_SWEEPS, initial_sensor, pilot_sweeps
 from bayesmap.samplers.methods import Gibbs, make_sampler
 from bayesmap.samplers.sampler import Keep, Problem, Sampler
 from bayesmap.samplers.wall_problem import WallProblem
@@ -378,7 +378,7 @@ def fit_by_pilot(scene: Scene, document: Document, show: Callable[[Pilot], None]
     The document gives the kind of cells and the seed. ``show`` gets the pilot after every sweep.
     """
     prior = BUILT_IN[document.cells]()
-    start_sensor = first_sensor(prior, document.grid.resolution)
+    start_sensor = initial_sensor(prior, document.grid.resolution)
     model = replace(scene.model(prior), sensor=start_sensor, hit_depth=prior.hit_depth)
     sampler = make_sampler(prior.methods["gibbs"], model.grid, Gibbs())
     problem = sampler.prepare(model, "cpu")

@@ -159,7 +159,7 @@ class StopChains:
         `in_squares` counts them. The callbacks get the numbers of chain and sweep, ``after`` on the thread of the
         sweep. Returns log-likelihood and log prior of the cells *before* each sweep, (chains, count) each.
         """
-        changed, is_start = self._laws != (sensor, prior, beta), not self.swept
+        changed, is_start = self._laws != (sensor, prior, beta), not self.has_swept
         self._laws, self._state.beta = (sensor, prior, beta), beta
         law = sensor_law(sensor, self.plan.rays.limits, self.device, SensorLaw32)
         self._law, self._prior = law, pack_prior(prior)
@@ -283,17 +283,17 @@ class StopChains:
 
     def draw_untouched(self, sweep: int) -> None:
         """Draw the reflectivities of cells that no beam touches, which sweeps leave out, before the sweep ``sweep``."""
-        assert self.swept, "no sweep has been made"
+        assert self.has_swept, "no sweep has been made"
         size = self.n_chains * self._state.n_cells
         inputs = [0, sweep, self._prior, self._status, self._state]
         wp.launch(cell_draws.draw_untouched, dim=size, inputs=inputs, device=self.device)
 
-    def counted(self, chain: int) -> tuple[Ints, Ints]:
-        """Return the beams stopped, and met and passed, (N,) each, when each cell was last drawn, before that 0, -1."""
+    def hits_and_passes(self, chain: int) -> tuple[Ints, Ints]:
+        """Return the hits and passes counted at each cell's last draw, (N,) each; before its first draw 0 and -1."""
         return self._view(self._state.last_hits, chain), self._view(self._state.last_met, chain)
 
     @property
-    def swept(self) -> bool:
+    def has_swept(self) -> bool:
         """Whether these chains have made a sweep on this device, so that beams have stopped somewhere."""
         return self._law is not None
 
@@ -303,7 +303,7 @@ class StopChains:
         If ``kept``, `observed_counts` counts the draw. ``solid`` holds the labels before the sweep, (N,), if any.
         """
         assert self._squares, "cells without surfaces stop beams inside their own squares"
-        assert self.swept, "no sweep has been made"
+        assert self.has_swept, "no sweep has been made"
         squares, touched, state = self._squares[chain], self.plan.rays.touched, self._state
         # Count the stops of beams in squares, then draw each square's chance of a stop given its counts.
         squares.stopped_inside.zero_()
@@ -321,7 +321,7 @@ class StopChains:
         return InSquares(stopped, crossings - stopped - stopped_before, *chances)
 
     def observed_counts(self, chain: int) -> Ints:
-        """Return the draws in which some beam observes each cell, and the draws inspected, (N, 2); see `counted`."""
+        """Count the draws in which at least one beam observes each cell, and the draws inspected, (N, 2)."""
         return self._view(self._state.observed_counts, chain)
 
     def log_likelihood(self, chain: int) -> Singles:
