@@ -19,7 +19,7 @@ from bayesmap.kernels.random import (
     normal,
     random_bits,
 )
-from bayesmap.kernels.surfaces.surface import Cell, PriorNumbers, fresh_surface
+from bayesmap.kernels.surfaces.surface import Cell, PriorArrays, fresh_surface
 
 wp.set_module_options({"enable_backward": False})
 
@@ -68,7 +68,7 @@ def draw_nearly_normal(key: wp.uint64, out: Float64s):
 
 
 @wp.kernel
-def draw_surface(prior: PriorNumbers, key: wp.uint64, out: wp.array(dtype=Cell)):
+def draw_surface(prior: PriorArrays, key: wp.uint64, out: wp.array(dtype=Cell)):
     i = wp.tid()
     out[i] = fresh_surface(prior, wp.vec2(1.5, 2.5), Cell(), key, at(i))
 
@@ -138,7 +138,7 @@ def surface_functions(surfaces):
 
 def by_kernel(prior):
     """Prior surfaces of the kernel, about their centre, in edges of a cell, which are 0.5 m here."""
-    packed = PriorNumbers()
+    packed = PriorArrays()
     packed.a, packed.b = prior.a, prior.b
     packed.tau_m, packed.psi_m2, packed.nu = prior.mean_scale * 0.5, (prior.spread * 0.5) ** 2, prior.dof
     out = wp.zeros(COUNT, dtype=Cell, device="cpu")

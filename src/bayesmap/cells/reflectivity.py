@@ -52,6 +52,8 @@ class KernelNumbers(NamedTuple):
     coupling: float  # of the labels of neighbours
     a_solid: float  # of the Beta prior of solid cells
     b_solid: float
+    log_beta: float = 0.0  # log normaliser of free cells' Beta, which kernels fill in if cells have labels
+    log_beta_solid: float = 0.0  # log normaliser of solid cells' Beta
 
 
 @dataclass(frozen=True)

@@ -1,17 +1,18 @@
 """The second half of a sweep: draw the cells, given where the beams stopped, and sum the chain's log joint.
 
 Cells in which readings end have kernels of their own (`bayesmap.kernels.surfaces.endpoint_cells`). Any other cell does
-one of two things when it is updated (`begin_sweep` chooses, `update_free_cells` does it):
+one of two things when it is updated (`update_of` chooses one, `update_free_cells` does it):
 
 - It draws its reflectivity from Beta(a + hits, b + met), with a and b of its label if cells have labels.
 - It tries a candidate for its surface, drawn from the prior, and accepts it with probability min(1, exp(gain)). The
   gain is the beams' part of the ratio (`bayesmap.kernels.surfaces.stops`).
 
-A label is drawn before the reflectivity, given its four neighbours' labels and its own counts, with the reflectivity
-integrated out (docs/surfaces.md): a Gibbs step of the pair. Cells that do not *learn* in a sweep (they count no beams)
-keep both. A cell whose surface no beam observes is *silent*: now and then it takes a surface from the prior. A cell
-that no beam touches draws its reflectivity only when beams may come to it. The grid is a checkerboard: cells of one
-colour have no neighbour among them, and can be drawn at once. Sums run over slices of fixed size, whatever the threads.
+A label is drawn before the reflectivity, given the labels of the four neighbours and the cell's own counts, with the
+reflectivity integrated out (docs/surfaces.md): a Gibbs step of the pair. Cells that do not *learn* in a sweep (they
+count no beams) keep both. A cell whose surface no beam observes is *silent*: in every third sweep it takes a surface
+from the prior. A cell that no beam touches draws its reflectivity only before poses move, since beams may then touch
+it. The grid is a checkerboard: no two cells of one colour are neighbours, so that they are drawn at once. Sums run over
+slices of fixed size, whatever the threads.
 """
 
 from typing import Any
@@ -24,7 +25,7 @@ from bayesmap.kernels.device import Float32s, Float64Rows, Int32s, Ints, Uint8s
 from bayesmap.kernels.random import CELLS, beta_or_zero, beta_variate, log_beta, random_bits, sweep_key, to_uniform
 from bayesmap.kernels.surfaces import surface
 from bayesmap.kernels.surfaces.stops import GAIN_UNITS, LEARNS, NEGLIGIBLE_REFLECTIVITY, NOT_COUNTED, ChainArrays
-from bayesmap.kernels.surfaces.surface import REFLECTIVITY, TRYING, Cell, PriorNumbers
+from bayesmap.kernels.surfaces.surface import REFLECTIVITY, TRYING, Cell, PriorArrays
 from bayesmap.kernels.walls.chains import draw_wall, pairs_alike, walls_less_free
 
 wp.set_module_options({"enable_backward": False})
@@ -40,10 +41,13 @@ AT_ACCEPT, AT_BETA, AT_CANDIDATE = (wp.constant(wp.uint64(i)) for i in (0, 32, 2
 AT_RENEWAL_ACCEPT, AT_RENEWAL, AT_LABEL, AT_UNTOUCHED = (wp.constant(wp.uint64(i)) for i in (447, 448, 800, 832))
 SLICE = wp.constant(4096)  # numbers summed by one thread
 
-# Status of a cell.
+# Kinds of cells.
 UNTOUCHED = 0  # no beam touches it
 TOUCHED = 1  # some beams touch it
-COUNTED = 2  # `endpoint_cells` counts these beams
+ENDPOINT = 2  # readings end in it: `endpoint_cells` counts its beams
+
+# What a cell in which no reading ends does in a sweep.
+KEEPS, DRAWS, TRIES = 0, 1, 2  # it keeps its state, draws its reflectivity, or tries a candidate for its surface
 
 
 @wp.struct
@@ -57,7 +61,7 @@ class ActiveCells:
 
 @wp.struct
 class Place:
-    """A listed cell of one chain."""
+    """The place of a listed cell of one chain."""
 
     chain: int
     number: int  # position in the list of cells
@@ -67,30 +71,40 @@ class Place:
 
 @wp.func
 def place_of(thread: int, cells: Int32s, n_cells: int) -> Place:
-    """Return the place of a thread, if there is a thread for each listed cell of each chain of ``n_cells`` cells."""
+    """Return the place of a thread's cell. Each listed cell of each chain of ``n_cells`` cells has a thread."""
     chain = thread // cells.shape[0]
     number = thread - chain * cells.shape[0]
     return Place(chain, number, cells[number], chain * n_cells + cells[number])
 
 
 @wp.func
-def tries_candidate(sweep: int, period: int, cell: int) -> bool:
-    """Return whether a cell in which no reading ends tries a candidate when it is updated, if it has surfaces."""
-    return (sweep // period + cell) % CANDIDATE_EVERY == 0
+def update_of(active: ActiveCells, place: Place, sweep: int, reflectivity: wp.float32) -> int:
+    """Return what a cell of this reflectivity does in a sweep: KEEPS, DRAWS or TRIES."""
+    period = int(active.period[place.number])
+    if sweep % wp.max(period, 1) != 0:
+        return KEEPS
+    if active.without_surfaces != 0:
+        return DRAWS
+    if period == 0:  # `endpoint_cells` updates the cell
+        return KEEPS
+    if (sweep // period + place.cell) % CANDIDATE_EVERY != 0:
+        return DRAWS
+    # If the cell reflects too little for passing beams to observe it, it takes surfaces from the prior instead.
+    return wp.where(reflectivity > NEGLIGIBLE_REFLECTIVITY, TRIES, KEEPS)
 
 
 @wp.func
-def renews_surface(active: ActiveCells, state: ChainArrays, at: Place, sweep: int, reflectivity: wp.float32) -> bool:
+def renews_surface(active: ActiveCells, state: ChainArrays, place: Place, sweep: int, reflectivity: wp.float32) -> bool:
     """Return whether a cell of this reflectivity is silent, and takes a surface from the prior after the sweep."""
     # Its surface is not observed if it stopped no beam, and reflects too little to change the chance of passing beams.
-    has_turn = active.without_surfaces == 0 and active.period[at.number] != wp.uint8(0)
-    has_turn = has_turn and (sweep + at.cell) % RENEWAL_EVERY == 0
-    return has_turn and reflectivity <= NEGLIGIBLE_REFLECTIVITY and state.stopped_in[at.element] != sweep
+    has_turn = active.without_surfaces == 0 and active.period[place.number] != wp.uint8(0)
+    has_turn = has_turn and (sweep + place.cell) % RENEWAL_EVERY == 0
+    return has_turn and reflectivity <= NEGLIGIBLE_REFLECTIVITY and state.stopped_in[place.element] != sweep
 
 
 @wp.func
 def accept_surface(
-    prior: PriorNumbers, centre: wp.vec2, cell: Cell, candidate: Cell, gain: wp.float64, key: wp.uint64,
+    prior: PriorArrays, centre: wp.vec2, cell: Cell, candidate: Cell, gain: wp.float64, key: wp.uint64,
     counter: wp.uint64,
 ) -> Cell:  # fmt: skip
     """Return a candidate from the prior, if it is accepted given the beams' log ratio ``gain``; else the cell."""
@@ -113,52 +127,43 @@ def reset_counts(state: ChainArrays, chain: int, cell: int):
 
 @wp.kernel
 def begin_sweep(
-    first: int, sweep: int, prior: PriorNumbers, prior_changed: int, active: ActiveCells, state: ChainArrays,
+    first: int, sweep: int, prior: PriorArrays, prior_changed: int, active: ActiveCells, state: ChainArrays,
     log_prior: Float32s,
 ):  # fmt: skip
     """One thread per chain's cell, before a sweep: reset the counts of its beams, and draw its candidate if any."""
-    at = place_of(first + wp.tid(), active.cell, state.n_cells)
-    period = int(active.period[at.number])
-    is_updated = True
-    if period != 0:
-        is_updated = sweep % period == 0
-    # Compute the log prior again if the last sweep can have changed it.
-    last_reflectivity = state.fixed_reflectivity[at.element]  # LEARNS if the cell learned in the last sweep
-    renewed = renews_surface(active, state, at, sweep - 1, last_reflectivity)
-    outdated = prior_changed != 0 or period == 0 or renewed or last_reflectivity == LEARNS
-    if not outdated and not is_updated:
-        return
-    cell = state.cells[at.element]
-    centre = surface.centre_of(at.cell, state.ny, state.edge_m)
-    if outdated:
-        density = surface.log_reflectivity_prior(prior, state.solid[at.element], cell[REFLECTIVITY])
+    place = place_of(first + wp.tid(), active.cell, state.n_cells)
+    period = int(active.period[place.number])
+    # Is the log prior outdated because the last sweep may have changed the cell?
+    last_reflectivity = state.fixed_reflectivity[place.element]  # LEARNS if the cell learned in the last sweep
+    is_renewed = renews_surface(active, state, place, sweep - 1, last_reflectivity)
+    is_outdated = prior_changed != 0 or period == 0 or is_renewed or last_reflectivity == LEARNS
+    if not is_outdated and sweep % wp.max(period, 1) != 0:
+        return  # the sweep does not update the cell
+    cell = state.cells[place.element]
+    centre = surface.centre_of(place.cell, state.ny, state.edge_m)
+    if is_outdated:
+        density = surface.log_reflectivity_prior(prior, state.solid[place.element], cell[REFLECTIVITY])
         if active.without_surfaces == 0:
             density += wp.float32(surface.log_surface_prior(prior, centre, cell))
         log_prior[first + wp.tid()] = density
-    # Does the cell learn in this sweep, and does it try a candidate? `endpoint_cells` counts the beams of period 0.
-    learns = is_updated and (period != 0 or active.without_surfaces != 0)
-    tries = False
-    if learns and active.without_surfaces == 0:
-        tries = tries_candidate(sweep, period, at.cell)
-    if tries:  # if passing beams are not informative, the cell takes surfaces from the prior instead
-        learns = cell[REFLECTIVITY] > NEGLIGIBLE_REFLECTIVITY
-    trying = NO_CANDIDATE
-    if learns and tries:
-        trying = HAS_CANDIDATE
-        key = sweep_key(state.keys[at.chain], sweep, CELLS)
-        counter = wp.uint64(at.cell) * PER_CELL + AT_CANDIDATE
-        state.candidates[at.element] = surface.fresh_surface(prior, centre, cell, key, counter)
-    if learns:
-        reset_counts(state, at.chain, at.cell)
-    state.fixed_reflectivity[at.element] = wp.where(learns, LEARNS, cell[REFLECTIVITY])
+    # Prepare what the cell does in this sweep.
+    update = update_of(active, place, sweep, cell[REFLECTIVITY])
+    if update == TRIES:
+        key = sweep_key(state.keys[place.chain], sweep, CELLS)
+        counter = wp.uint64(place.cell) * PER_CELL + AT_CANDIDATE
+        state.candidates[place.element] = surface.fresh_surface(prior, centre, cell, key, counter)
+    if update != KEEPS:
+        reset_counts(state, place.chain, place.cell)
+    state.fixed_reflectivity[place.element] = wp.where(update != KEEPS, LEARNS, cell[REFLECTIVITY])
+    trying = wp.where(update == TRIES, HAS_CANDIDATE, NO_CANDIDATE)
     if cell[TRYING] != trying:
         cell[TRYING] = trying
-        state.cells[at.element] = cell
+        state.cells[place.element] = cell
 
 
 @wp.func
 def count_beams(state: ChainArrays, chain: int, cell: int) -> wp.vec2i:
-    """Sum a cell's hits, and the beams that met it and passed, over the parts of the beams."""
+    """Return a cell's hits, and the number of beams that met it and passed, summed over the parts of the beams."""
     counts = wp.vec2i(0, 0)
     for part in range(state.parts):
         row = chain * state.parts + part
@@ -167,43 +172,42 @@ def count_beams(state: ChainArrays, chain: int, cell: int) -> wp.vec2i:
 
 
 @wp.kernel
-def update_free_cells(first: int, sweep: int, prior: PriorNumbers, active: ActiveCells, state: ChainArrays):
-    """One thread per chain's cell: decide on its candidate, draw its reflectivity, or renew its surface."""
-    at = place_of(first + wp.tid(), active.cell, state.n_cells)
-    reflectivity = state.fixed_reflectivity[at.element]
+def update_free_cells(first: int, sweep: int, prior: PriorArrays, active: ActiveCells, state: ChainArrays):
+    """One thread per chain's cell: draw its reflectivity, decide on its candidate, or renew its surface."""
+    place = place_of(first + wp.tid(), active.cell, state.n_cells)
+    reflectivity = state.fixed_reflectivity[place.element]
     learns = reflectivity == LEARNS
-    if not learns and not renews_surface(active, state, at, sweep, reflectivity):
+    if not learns and not renews_surface(active, state, place, sweep, reflectivity):
         return
-    cell = state.cells[at.element]
-    key = sweep_key(state.keys[at.chain], sweep, CELLS)
-    counter = wp.uint64(at.cell) * PER_CELL
-    centre = surface.centre_of(at.cell, state.ny, state.edge_m)
-    if learns:
-        if cell[TRYING] == NO_CANDIDATE:
-            beams = count_beams(state, at.chain, at.cell)
-            counts = surface.pseudo_counts(prior, state.solid[at.element])
-            a, b = counts[0] + wp.float64(beams[0]), counts[1] + wp.float64(beams[1])
-            cell[REFLECTIVITY] = wp.float32(beta_or_zero(a, b, key, counter + AT_BETA))
-            state.last_hits[at.element] = beams[0]
-            state.last_met[at.element] = beams[1]
-        else:
-            units = wp.int64(0)
-            for part in range(state.parts):
-                units += state.gain[at.chain * state.parts + part, at.cell]
-            gain = wp.float64(units) * FROM_UNITS
-            cell = accept_surface(prior, centre, cell, state.candidates[at.element], gain, key, counter + AT_ACCEPT)
-    if renews_surface(active, state, at, sweep, cell[REFLECTIVITY]):
+    cell = state.cells[place.element]
+    key = sweep_key(state.keys[place.chain], sweep, CELLS)
+    counter = wp.uint64(place.cell) * PER_CELL
+    centre = surface.centre_of(place.cell, state.ny, state.edge_m)
+    if learns and cell[TRYING] == NO_CANDIDATE:
+        beams = count_beams(state, place.chain, place.cell)
+        counts = surface.pseudo_counts(prior, state.solid[place.element])
+        a, b = counts[0] + wp.float64(beams[0]), counts[1] + wp.float64(beams[1])
+        cell[REFLECTIVITY] = wp.float32(beta_or_zero(a, b, key, counter + AT_BETA))
+        state.last_hits[place.element] = beams[0]
+        state.last_met[place.element] = beams[1]
+    elif learns:
+        units = wp.int64(0)
+        for part in range(state.parts):
+            units += state.gain[place.chain * state.parts + part, place.cell]
+        gain = wp.float64(units) * FROM_UNITS
+        cell = accept_surface(prior, centre, cell, state.candidates[place.element], gain, key, counter + AT_ACCEPT)
+    if renews_surface(active, state, place, sweep, cell[REFLECTIVITY]):
         candidate = surface.fresh_surface(prior, centre, cell, key, counter + AT_RENEWAL)
         cell = accept_surface(prior, centre, cell, candidate, wp.float64(0.0), key, counter + AT_RENEWAL_ACCEPT)
     cell[TRYING] = NO_CANDIDATE
-    state.cells[at.element] = cell
+    state.cells[place.element] = cell
 
 
 @wp.kernel
 def count_observed(first: int, active: ActiveCells, state: ChainArrays):
     """One thread per chain's cell, after a sweep: count it as inspected, and as observed, if it has counted beams."""
-    at = place_of(first + wp.tid(), active.cell, state.n_cells)
-    element = at.element
+    place = place_of(first + wp.tid(), active.cell, state.n_cells)
+    element = place.element
     if state.last_met[element] != NOT_COUNTED:
         observed = wp.where(state.last_hits[element] + state.last_met[element] > 0, 1, 0)
         state.observed_counts[element] = state.observed_counts[element] + wp.vec2i(observed, 1)
@@ -222,7 +226,7 @@ def sum_slices(first: int, size: int, values: Float32s, slices: Float64Rows):
 
 
 @wp.kernel
-def sum_label_prior(first: int, prior: PriorNumbers, state: ChainArrays, slices: Float64Rows):
+def sum_label_prior(first: int, prior: PriorArrays, state: ChainArrays, slices: Float64Rows):
     """One thread per slice of a chain's cells: sum the log prior of their pairs with the next cell in x and in y."""
     thread = first + wp.tid()
     chain = thread // slices.shape[1]
@@ -251,17 +255,17 @@ def sum_log_joint(
     log_prior[chain, column] = add_row(add_row(wp.float64(0.0), cells, chain), labels, chain)
 
 
-def status_to_device(cells: int, touched: Ints, counted: Ints, device: str) -> Any:
-    """Put the status of each cell on a device, by flat indices of the cells that are touched and counted."""
-    status = np.full(cells, UNTOUCHED, dtype=np.uint8)
-    status[touched] = TOUCHED
-    status[counted] = COUNTED
-    return devices.to_device(status, wp.uint8, device)
+def kinds_to_device(n_cells: int, touched: Ints, endpoints: Ints, device: str) -> Any:
+    """Put the kind of each cell on a device, given the flat indices of touched cells and of endpoint cells."""
+    kinds = np.full(n_cells, UNTOUCHED, dtype=np.uint8)
+    kinds[touched] = TOUCHED
+    kinds[endpoints] = ENDPOINT
+    return devices.to_device(kinds, wp.uint8, device)
 
 
 @wp.kernel
-def draw_labels(first: int, colour: int, sweep: int, prior: PriorNumbers, status: Uint8s, state: ChainArrays):
-    """One thread per chain's cell: draw its label, if it has the colour and is updated in this sweep or untouched."""
+def draw_labels(first: int, colour: int, sweep: int, prior: PriorArrays, kinds: Uint8s, state: ChainArrays):
+    """One thread per chain's cell of this colour: draw its label, unless the cell keeps its state in this sweep."""
     element = first + wp.tid()
     chain = element // state.n_cells
     cell_0 = chain * state.n_cells
@@ -270,12 +274,14 @@ def draw_labels(first: int, colour: int, sweep: int, prior: PriorNumbers, status
     y = cell - x * state.ny
     if (x + y) % 2 != colour:
         return
+    kind = int(kinds[cell])
+    if kind == TOUCHED:
+        if state.fixed_reflectivity[element] != LEARNS or state.cells[element][TRYING] != NO_CANDIDATE:
+            return
     log_odds = prior.coupling * wp.float64(walls_less_free(state.solid, cell_0, cell, state.nx, state.ny))
-    if int(status[cell]) != UNTOUCHED:
+    if kind != UNTOUCHED:
         beams = wp.vec2i(state.last_hits[element], state.last_met[element])
-        if int(status[cell]) != COUNTED:
-            if state.fixed_reflectivity[element] != LEARNS or state.cells[element][TRYING] != NO_CANDIDATE:
-                return
+        if kind == TOUCHED:
             beams = count_beams(state, chain, cell)
         hits, met = wp.float64(beams[0]), wp.float64(beams[1])
         log_odds += log_beta(prior.a_solid + hits, prior.b_solid + met) - prior.log_beta_solid
@@ -286,12 +292,12 @@ def draw_labels(first: int, colour: int, sweep: int, prior: PriorNumbers, status
 
 
 @wp.kernel
-def draw_untouched(first: int, sweep: int, prior: PriorNumbers, status: Uint8s, state: ChainArrays):
+def draw_untouched(first: int, sweep: int, prior: PriorArrays, kinds: Uint8s, state: ChainArrays):
     """One thread per chain's cell: draw the reflectivity of a cell that no beam touches, given its label."""
     element = first + wp.tid()
     chain = element // state.n_cells
     index = element - chain * state.n_cells
-    if int(status[index]) != UNTOUCHED:
+    if int(kinds[index]) != UNTOUCHED:
         return
     counter = wp.uint64(index) * PER_CELL + AT_UNTOUCHED
     counts = surface.pseudo_counts(prior, state.solid[element])

@@ -50,11 +50,11 @@ class EndpointCells:
     line: wp.array(dtype=wp.vec3)  # offset of the cell's centre from the beam, metres, and direction of the beam
     centre_and_range: wp.array(dtype=wp.vec2)  # distance of the centre along the beam, and the reading, metres
     # of each cell
-    step: wp.array(dtype=Cell)  # frame and sizes of its steps, see `bayesmap.kernels.surfaces.endpoint_cells`
+    step_sizes: wp.array(dtype=Cell)  # sizes of its steps and its frame, see `bayesmap.kernels.surfaces.endpoint_cells`
 
 
-def endpoint_cells_to_device(rays: Rays, cells: Ints, steps: Singles, device: str) -> EndpointCells:
-    """List the incidences of cells, flat, ascending, (U,), on a device; ``steps`` holds their steps, (U, 8)."""
+def endpoint_cells_to_device(rays: Rays, cells: Ints, step_sizes: Singles, device: str) -> EndpointCells:
+    """List the incidences of cells, flat, ascending, (U,), on a device; ``step_sizes`` is (U, 8)."""
     listed = np.zeros(rays.grid.n_cells, dtype=np.bool_)
     listed[cells] = True
     entry = np.nonzero(listed[rays.cells])[0].astype(np.int32)
@@ -66,7 +66,7 @@ def endpoint_cells_to_device(rays: Rays, cells: Ints, steps: Singles, device: st
     line = np.stack([ux * to_centre[:, 1] - uy * to_centre[:, 0], ux, uy], axis=-1)
     centre_and_range = np.stack([(to_centre * rays.direction[beam]).sum(axis=1), rays.range_m[beam]], axis=-1)
     return devices.pack(
-        EndpointCells, device, cell=cells, step=steps, entry=entry, beam=beam, line=line,
+        EndpointCells, device, cell=cells, step_sizes=step_sizes, entry=entry, beam=beam, line=line,
         offsets=np.append(np.searchsorted(cell_of_entry, cells), len(entry)), centre_and_range=centre_and_range,
     )  # fmt: skip
 
@@ -345,30 +345,31 @@ def log_product(blocks: LaneBlocks, row: int, begin: int) -> wp.float64:
     return wp.log(product)
 
 
+# In the loops over lanes the product and the smallest product so far are stored in every round, because compilers
+# vectorise eight lanes that are stored together.
+
+
 @wp.func
 def log_stops_in_lanes(
     law: SensorLaw32, blocks: LaneBlocks, cell_blocks: CellBlocks, centre: wp.vec2, cell: Cell, least: wp.float64
 ) -> wp.float64:
     """Compute `log_stops` of the beams in a cell's own blocks; UNKNOWN if a product was too small."""
-    # The product and the smallest product so far are stored in every round, because compilers vectorise eight lanes
-    # that are stored together.
+    # Stopped beams: the arithmetic of `cross_at` and `stop_density`. Densities are relative to the law's peak.
     row, begin = cell_blocks.row, cell_blocks.begin
     one = Lanes(wp.float32(1.0))
-    reflectivity = cell[REFLECTIVITY]
     l11, l21, l22 = cell[L11], cell[L21], cell[L22]
-    dx, dy = cell[MEAN_X] - centre[0], cell[MEAN_Y] - centre[1]
-    passing_blocks, stopped_blocks = block_count(cell_blocks.n_passing), block_count(cell_blocks.n_stopped)
-    stopped_begin = begin + stopped_blocks_begin(cell_blocks.n_passing)
-    highest = wp.float64(wp.max(reflectivity, MIN_FACTOR)) * wp.float64(law.peak)
-    total = wp.float64(cell_blocks.n_stopped) * wp.log(highest)
     area = l11 * l22
+    dx, dy = cell[MEAN_X] - centre[0], cell[MEAN_Y] - centre[1]  # mean relative to the cell's centre
+    stopped_begin = begin + stopped_blocks_begin(cell_blocks.n_passing)
+    stopped_blocks = block_count(cell_blocks.n_stopped)
+    highest = wp.float64(wp.max(cell[REFLECTIVITY], MIN_FACTOR)) * wp.float64(law.peak)
+    total = wp.float64(cell_blocks.n_stopped) * wp.log(highest)
     per_peak = wp.float32(1.0) / law.peak
-    # Stopped beams: the arithmetic of `cross_at` and `stop_density`; lane: the block's first lane.
     for chunk in range(0, stopped_blocks, CHUNK_BLOCKS):
         product = one
         smallest = one
         for i in range(chunk, wp.min(chunk + CHUNK_BLOCKS, stopped_blocks)):
-            lane = stopped_begin + STOPPED_LANES * i
+            lane = stopped_begin + STOPPED_LANES * i  # the block's first
             ux = blocks.lanes[row, lane + LINE_X]
             uy = blocks.lanes[row, lane + LINE_Y]
             offset = blocks.lanes[row, lane + OFFSET] + dy * ux - dx * uy
@@ -399,23 +400,36 @@ def log_stops_in_lanes(
         total += log_stopped
     if total < least:
         return total
+    return add_passing_in_lanes(total, blocks, cell_blocks, dx, dy, cell, least)
 
-    # Passing beams: the arithmetic of `crossing_probability`; passing_lane: the block's first lane.
+
+@wp.func
+def add_passing_in_lanes(
+    total: wp.float64, blocks: LaneBlocks, cell_blocks: CellBlocks, dx: wp.float32, dy: wp.float32, cell: Cell,
+    least: wp.float64,
+) -> wp.float64:  # fmt: skip
+    """Add the log-likelihood of a cell's passing beams to ``total``; UNKNOWN if a product was too small."""
+    # The arithmetic of `crossing_probability`. A sum below ``least`` is returned unfinished.
+    row, begin = cell_blocks.row, cell_blocks.begin
+    one = Lanes(wp.float32(1.0))
+    l11, l21, l22 = cell[L11], cell[L21], cell[L22]
+    reflectivity = cell[REFLECTIVITY]
+    passing_blocks = block_count(cell_blocks.n_passing)
     for chunk in range(0, passing_blocks, CHUNK_BLOCKS):
-        passed = one
-        lowest = one
+        product = one
+        smallest = one
         for i in range(chunk, wp.min(chunk + CHUNK_BLOCKS, passing_blocks)):
-            passing_lane = begin + PRODUCT_LANES + PASSING_LANES * i
-            vx = blocks.lanes[row, passing_lane + LINE_X]
-            vy = blocks.lanes[row, passing_lane + LINE_Y]
-            side_1 = l21 * vx - l11 * vy
-            side_2 = l22 * vx
-            side = wp.cw_mul(side_1, side_1) + wp.cw_mul(side_2, side_2)
-            chance = crossing_probability_lanes(blocks.lanes[row, passing_lane + OFFSET] + dy * vx - dx * vy, side)
-            passed = wp.cw_mul(passed, wp.max(one - reflectivity * chance, Lanes(MIN_FACTOR)))
-            lowest = wp.min(lowest, passed)
-            blocks.lanes[row, begin] = passed
-            blocks.lanes[row, begin + 1] = lowest
+            lane = begin + PRODUCT_LANES + PASSING_LANES * i  # the block's first
+            ux = blocks.lanes[row, lane + LINE_X]
+            uy = blocks.lanes[row, lane + LINE_Y]
+            across_1 = l21 * ux - l11 * uy
+            across_2 = l22 * ux
+            across = wp.cw_mul(across_1, across_1) + wp.cw_mul(across_2, across_2)
+            chance = crossing_probability_lanes(blocks.lanes[row, lane + OFFSET] + dy * ux - dx * uy, across)
+            product = wp.cw_mul(product, wp.max(one - reflectivity * chance, Lanes(MIN_FACTOR)))
+            smallest = wp.min(smallest, product)
+            blocks.lanes[row, begin] = product
+            blocks.lanes[row, begin + 1] = smallest
         log_passing = log_product(blocks, row, begin)
         if log_passing == UNKNOWN:
             return UNKNOWN

@@ -7,8 +7,8 @@ Metropolis steps, which do not use the counts (`update_endpoint_cells`).
 The beams hardly determine where *along* a wall a surface lies and how far it extends, but they determine its position
 and thickness *across* the wall to millimetres. So each cell has a frame whose first axis points along its wall
 (`bayesmap.samplers.stop_problem`). A cell in its frame is a `Cell` with the mean from the cell's centre and the
-Cholesky factor in these axes. A row of step sizes holds the sizes for logit m (m: reflectivity), mean along, mean
-across, log l11, l21 and log l22, and the frame's cosine and sine. They may not depend on the chain's state.
+Cholesky factor in these axes. ``sizes`` holds the sizes of a cell's steps of logit m (m: reflectivity), mean along,
+mean across, log l11, l21 and log l22, then the frame's cosine and sine. They may not depend on the chain's state.
 """
 
 import warp as wp
@@ -20,10 +20,10 @@ from bayesmap.kernels.surfaces import endpoint_beams, surface
 from bayesmap.kernels.surfaces.cell_draws import AT_ACCEPT, AT_BETA, PER_CELL, place_of
 from bayesmap.kernels.surfaces.endpoint_beams import CellBeams, CellBlocks, EndpointCells, LaneBlocks, StopLikelihood
 from bayesmap.kernels.surfaces.stops import ChainArrays
-from bayesmap.kernels.surfaces.surface import L11, L21, L22, MEAN_X, MEAN_Y, REFLECTIVITY, Cell, PriorNumbers
+from bayesmap.kernels.surfaces.surface import L11, L21, L22, MEAN_X, MEAN_Y, REFLECTIVITY, Cell, PriorArrays
 
 wp.set_module_options({"enable_backward": False})
-COSINE, SINE = 6, 7  # elements of a row of step sizes
+COSINE, SINE = 6, 7  # numbers of a cell's ``sizes``
 SHORT_STEP = wp.constant(wp.float32(0.3))  # size of short steps, relative to the others
 # Limits of the reflectivity m within which single precision can reverse a step of logit m.
 MIN_REFLECTIVITY = wp.constant(wp.float64(1.0e-30))
@@ -37,8 +37,7 @@ AT_STEP = wp.constant(wp.uint64(32))  # random counters per step of a cell's sur
 @wp.func
 def turn_surface(cell: Cell, cosine: wp.float32, sine: wp.float32) -> Cell:
     """Return the surface in axes turned by an angle: the factor of R Sigma R', with its determinant unchanged."""
-    x = cell[MEAN_X]
-    y = cell[MEAN_Y]
+    x, y = cell[MEAN_X], cell[MEAN_Y]
     var_x = cell[L11] * cell[L11]
     covariance = cell[L11] * cell[L21]
     var_y = cell[L21] * cell[L21] + cell[L22] * cell[L22]
@@ -55,24 +54,24 @@ def turn_surface(cell: Cell, cosine: wp.float32, sine: wp.float32) -> Cell:
 
 
 @wp.func
-def into_frame(cell: Cell, step: Cell, centre: wp.vec2) -> Cell:
-    """Return a cell, given in the grid's axes, in its frame."""
+def into_frame(cell: Cell, sizes: Cell, centre: wp.vec2) -> Cell:
+    """Return a cell, given in the grid's axes, in its frame, which ``sizes`` holds."""
     cell[MEAN_X] = cell[MEAN_X] - centre[0]
     cell[MEAN_Y] = cell[MEAN_Y] - centre[1]
-    return turn_surface(cell, step[COSINE], step[SINE])
+    return turn_surface(cell, sizes[COSINE], sizes[SINE])
 
 
 @wp.func
-def out_of_frame(cell: Cell, step: Cell, centre: wp.vec2) -> Cell:
+def out_of_frame(cell: Cell, sizes: Cell, centre: wp.vec2) -> Cell:
     """Return a cell, given in its frame, in the grid's axes."""
-    cell = turn_surface(cell, step[COSINE], -step[SINE])
+    cell = turn_surface(cell, sizes[COSINE], -sizes[SINE])
     cell[MEAN_X] = cell[MEAN_X] + centre[0]
     cell[MEAN_Y] = cell[MEAN_Y] + centre[1]
     return cell
 
 
 @wp.func
-def propose_step(cell: Cell, step: Cell, key: wp.uint64, counter: wp.uint64, i: int) -> Cell:
+def propose_step(cell: Cell, sizes: Cell, key: wp.uint64, counter: wp.uint64, i: int) -> Cell:
     """Return the cell, in its frame, moved by the i-th random step, half of the time a short one."""
     # Even steps change logit m, mean along and size, which beams hardly determine: a wide surface that stops few beams
     # looks like a small one that stops many. Odd steps change mean across, slope and thickness.
@@ -83,21 +82,21 @@ def propose_step(cell: Cell, step: Cell, key: wp.uint64, counter: wp.uint64, i: 
     if i % 2 == 0:
         reflectivity = wp.float64(cell[REFLECTIVITY])
         odds = reflectivity / wp.max(ONE - reflectivity, MIN_REFLECTIVITY)
-        odds = odds * wp.float64(wp.exp(e_3 * step[REFLECTIVITY]))
+        odds = odds * wp.float64(wp.exp(e_3 * sizes[REFLECTIVITY]))
         proposed = odds / (ONE + odds)
         if wp.min(reflectivity, proposed) > MIN_REFLECTIVITY and wp.max(reflectivity, proposed) < MAX_REFLECTIVITY:
             cell[REFLECTIVITY] = wp.float32(proposed)
-        cell[MEAN_X] = cell[MEAN_X] + e_1 * step[MEAN_X]
-        cell[L11] = cell[L11] * wp.exp(e_2 * step[L11])
+        cell[MEAN_X] = cell[MEAN_X] + e_1 * sizes[MEAN_X]
+        cell[L11] = cell[L11] * wp.exp(e_2 * sizes[L11])
     else:
-        cell[MEAN_Y] = cell[MEAN_Y] + e_1 * step[MEAN_Y]
-        cell[L21] = cell[L21] + e_2 * step[L21]
-        cell[L22] = cell[L22] * wp.exp(e_3 * step[L22])
+        cell[MEAN_Y] = cell[MEAN_Y] + e_1 * sizes[MEAN_Y]
+        cell[L21] = cell[L21] + e_2 * sizes[L21]
+        cell[L22] = cell[L22] * wp.exp(e_3 * sizes[L22])
     return cell
 
 
 @wp.func
-def log_cell_prior(prior: PriorNumbers, solid: wp.uint8, cell: Cell) -> wp.float64:
+def log_cell_prior(prior: PriorArrays, solid: wp.uint8, cell: Cell) -> wp.float64:
     """Return the log prior of logit m and of the surface in its frame, up to a constant common to all frames."""
     density = surface.log_surface_prior(prior, wp.vec2(wp.float32(0.0), wp.float32(0.0)), cell)
     return density + wp.float64(surface.log_reflectivity_prior(prior, solid, cell[REFLECTIVITY]))
@@ -148,15 +147,15 @@ def log_beams(
 @wp.kernel
 def count_endpoint_cells(first: int, sweep: int, endpoints: EndpointCells, state: ChainArrays, lists: BeamLists):
     """One thread per chain's cell in which readings end: list its incidences, and count stopped and meeting beams."""
-    at = place_of(first + wp.tid(), endpoints.cell, state.n_cells)
-    beam_0 = at.chain * state.n_beams
-    entries = lists.entries[at.chain]
-    key = sweep_key(state.keys[at.chain], sweep, random.MEETINGS)
-    cell = state.cells[at.element]
-    centre = surface.centre_of(at.cell, state.ny, state.edge_m)
+    place = place_of(first + wp.tid(), endpoints.cell, state.n_cells)
+    beam_0 = place.chain * state.n_beams
+    entries = lists.entries[place.chain]
+    key = sweep_key(state.keys[place.chain], sweep, random.MEETINGS)
+    cell = state.cells[place.element]
+    centre = surface.centre_of(place.cell, state.ny, state.edge_m)
     reflectivity = cell[REFLECTIVITY]
     dx, dy = cell[MEAN_X] - centre[0], cell[MEAN_Y] - centre[1]
-    begin, end = endpoints.offsets[at.number], endpoints.offsets[at.number + 1]
+    begin, end = endpoints.offsets[place.number], endpoints.offsets[place.number + 1]
     # List passing beams from the front, stopped beams from the back.
     passing_end = begin
     stopped_begin = end
@@ -176,36 +175,36 @@ def count_endpoint_cells(first: int, sweep: int, endpoints: EndpointCells, state
         g = endpoint_beams.crossing_probability_of(endpoints.line[passing], dx, dy, cell)
         u = wp.float32(to_uniform(random_bits(key, wp.uint64(passing))))
         n_met += wp.where(u * (ONE_32 - reflectivity * g) < g * (ONE_32 - reflectivity), 1, 0)
-    lists.passes[at.chain, at.number] = passing_end - begin
-    state.last_hits[at.element] = end - stopped_begin
-    state.last_met[at.element] = n_met
+    lists.passes[place.chain, place.number] = passing_end - begin
+    state.last_hits[place.element] = end - stopped_begin
+    state.last_met[place.element] = n_met
 
 
 @wp.kernel
 def update_endpoint_cells(
-    first: int, part: int, sweep: int, steps: int, likelihood: StopLikelihood, prior: PriorNumbers, state: ChainArrays,
+    first: int, part: int, sweep: int, steps: int, likelihood: StopLikelihood, prior: PriorArrays, state: ChainArrays,
     lists: BeamLists, blocks: LaneBlocks,
 ):  # fmt: skip
     """One thread per chain's cell in which readings end: draw its reflectivity, then step reflectivity and surface."""
     endpoints = likelihood.endpoints
-    at = place_of(first + wp.tid(), endpoints.cell, state.n_cells)
-    counter = wp.uint64(at.cell) * PER_CELL
-    cell = state.cells[at.element]
-    solid = state.solid[at.element]
-    centre = surface.centre_of(at.cell, state.ny, state.edge_m)
+    place = place_of(first + wp.tid(), endpoints.cell, state.n_cells)
+    counter = wp.uint64(place.cell) * PER_CELL
+    cell = state.cells[place.element]
+    solid = state.solid[place.element]
+    centre = surface.centre_of(place.cell, state.ny, state.edge_m)
     # Draw the reflectivity from its Beta.
     counts = surface.pseudo_counts(prior, solid)
-    hits, met = wp.float64(state.last_hits[at.element]), wp.float64(state.last_met[at.element])
+    hits, met = wp.float64(state.last_hits[place.element]), wp.float64(state.last_met[place.element])
     a, b = counts[0] + hits, counts[1] + met
-    beta_key = sweep_key(state.keys[at.chain], sweep, random.CELLS)
+    beta_key = sweep_key(state.keys[place.chain], sweep, random.CELLS)
     cell[REFLECTIVITY] = wp.float32(random.beta_variate(a, b, beta_key, counter + AT_BETA))
     # Copy the beams to blocks, if the law allows it.
-    beams = beams_of_cell(lists, endpoints, at.chain, at.number, state.last_hits[at.element])
-    cell_blocks = endpoint_beams.fill_blocks(likelihood, blocks, at.chain * state.parts + part, beams)
+    beams = beams_of_cell(lists, endpoints, place.chain, place.number, state.last_hits[place.element])
+    cell_blocks = endpoint_beams.fill_blocks(likelihood, blocks, place.chain * state.parts + part, beams)
     # Metropolis steps. Round 0 computes the present log joint, so that the long function is called in one place.
-    key = sweep_key(state.keys[at.chain], sweep, random.SURFACES)
-    step = endpoints.step[at.number]
-    framed = into_frame(cell, step, centre)
+    key = sweep_key(state.keys[place.chain], sweep, random.SURFACES)
+    sizes = endpoints.step_sizes[place.number]
+    framed = into_frame(cell, sizes, centre)
     candidate = framed
     moved = cell
     present = wp.float64(0.0)
@@ -213,8 +212,8 @@ def update_endpoint_cells(
         least = UNBOUNDED
         if i > 0:
             step_counter = counter + AT_STEP * wp.uint64(i)
-            candidate = propose_step(framed, step, key, step_counter + wp.uint64(1), i - 1)
-            moved = out_of_frame(candidate, step, centre)
+            candidate = propose_step(framed, sizes, key, step_counter + wp.uint64(1), i - 1)
+            moved = out_of_frame(candidate, sizes, centre)
             least = present + wp.log(to_uniform(random_bits(key, step_counter + AT_ACCEPT)))
         if i == 0 or surface.is_in_square(prior, centre, moved):
             log_joint = log_cell_prior(prior, solid, candidate)
@@ -222,4 +221,4 @@ def update_endpoint_cells(
             if log_joint > least:
                 framed = candidate
                 present = log_joint
-    state.cells[at.element] = out_of_frame(framed, step, centre)
+    state.cells[place.element] = out_of_frame(framed, sizes, centre)

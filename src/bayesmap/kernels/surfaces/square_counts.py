@@ -26,7 +26,7 @@ from bayesmap.kernels.rays import Lines, line_of, lines_to_device, stretch
 from bayesmap.kernels.sensor_law import TABLE, SensorLaw32, mixed_density, returned_density, variance_at
 from bayesmap.kernels.surfaces.cell_draws import PER_CELL
 from bayesmap.kernels.surfaces.stops import ChainArrays, TracedRays
-from bayesmap.kernels.surfaces.surface import PriorNumbers, pseudo_counts
+from bayesmap.kernels.surfaces.surface import PriorArrays, pseudo_counts
 
 wp.set_module_options({"enable_backward": False})
 CANDIDATES = wp.constant(32)
@@ -164,7 +164,7 @@ def count_in_squares(
 
 @wp.kernel
 def draw_stop_chances(
-    chain: int, sweep: int, prior: PriorNumbers, state: ChainArrays, squares: SquareArrays, solid: Uint8s, kept: int
+    chain: int, sweep: int, prior: PriorArrays, state: ChainArrays, squares: SquareArrays, solid: Uint8s, kept: int
 ):
     """One thread per touched cell: draw q from its Beta posterior, compute its mean, and count a kept draw."""
     i = wp.tid()
@@ -178,8 +178,7 @@ def draw_stop_chances(
     squares.drawn[i] = wp.float32(beta_or_zero(a, b, key, wp.uint64(cell) * PER_CELL + AT_SQUARE))
     squares.expected[i] = wp.float32(a / (a + b))
     if kept != 0:
-        observed = wp.where(arrived > 0, 1, 0)
-        state.observed_counts[element] = state.observed_counts[element] + wp.vec2i(observed, 1)
+        state.observed_counts[element] = state.observed_counts[element] + wp.vec2i(wp.where(arrived > 0, 1, 0), 1)
 
 
 class InSquares(NamedTuple):

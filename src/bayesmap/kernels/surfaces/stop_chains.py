@@ -95,7 +95,6 @@ class StopChains:
         counts: Ints | None = None, observed_counts: Ints | None = None, solid: NDArray[np.bool_] | None = None,
     ) -> None:  # fmt: skip
         """Put chains on the device, one per key; ``states`` returns the cells of each, (N, 6).
-
         ``solid`` holds labels (C, N). Chains that continue have ``counts`` (C, 2, N) and ``observed_counts`` (C, N, 2).
         """
         self.plan = plan
@@ -115,11 +114,11 @@ class StopChains:
         self._endpoints = endpoint_cells_to_device(rays, plan.endpoints, plan.steps, device)
         fields = {"cell": rays.touched, "period": plan.periods, "without_surfaces": self.without_surfaces}
         self._active = devices.pack(cell_draws.ActiveCells, device, **fields)
-        counted = plan.endpoints[:0] if self.without_surfaces else plan.endpoints
-        self._status = cell_draws.status_to_device(cells, rays.touched, counted, device)
+        endpoints = plan.endpoints[:0] if self.without_surfaces else plan.endpoints
+        self._kinds = cell_draws.kinds_to_device(cells, rays.touched, endpoints, device)
         self._laws: tuple[Any, ...] = ()  # sensor, prior and beta of the last sweep; empty if cells were replaced since
         self._law: Any = None  # `SensorLaw32` of the last sweep; None before the first one
-        self._prior: Any = None  # `PriorNumbers` of the last sweep
+        self._prior: Any = None  # `PriorArrays` of the last sweep
         self._squares = square_arrays(rays, 0 if self.without_surfaces else chains, device)
 
         # The state of all chains, with labels and counts from the host if given.
@@ -153,7 +152,6 @@ class StopChains:
         before: Callable[[int, int], None] | None = None, after: Callable[[int, int], None] | None = None,
     ) -> tuple[Floats, Floats]:  # fmt: skip
         """Advance every chain by ``count`` sweeps, numbered from ``first``, at the inverse temperature ``beta``.
-
         A surface makes ``steps`` Metropolis steps in a sweep, at most 24: a cell has random counters for this many.
         With 0, cells stay. From sweep ``observe_from`` on, the cells which beams observe are counted; with surfaces
         `in_squares` counts them. The callbacks get the numbers of chain and sweep, ``after`` on the thread of the
@@ -168,8 +166,7 @@ class StopChains:
         sums = [wp.zeros((self.n_chains, count), dtype=wp.float64, device=self.device) for _ in range(2)]
         beams = {"rays": self._rays, "endpoints": self._endpoints}
         likelihood = devices.pack(StopLikelihood, self.device, law=law, beta=beta, **beams)
-        arguments = first, count, steps, observe_from, before, after
-        request = SweepRequest(*arguments, likelihood, changed, is_start, *sums)
+        request = SweepRequest(first, count, steps, observe_from, before, after, likelihood, changed, is_start, *sums)
         single_chains = [range(chain, chain + 1) for chain in range(self.n_chains)]
         if self.device != "cpu":
             self._sweep_alone(request, range(self.n_chains))
@@ -202,8 +199,7 @@ class StopChains:
         beams, touched, state = self.plan.rays.n_beams, len(self.plan.rays.touched), self._state
         is_first = sweep == request.first
         # Reset counts, and draw candidates. Lazy cells keep their part in a beam's chance until they are updated.
-        outdated = int(request.laws_changed and is_first)
-        inputs = [sweep, self._prior, outdated, self._active, state, self._log_priors]
+        inputs = [sweep, self._prior, int(request.laws_changed and is_first), self._active, state, self._log_priors]
         launches = [Launch(cell_draws.begin_sweep, touched, inputs)]
         lazy, lazy_before = (int(self._schedule.updates_lazy(number)) for number in (sweep, sweep - 1))
         if not lazy and (lazy_before or (request.is_start and is_first)):
@@ -230,7 +226,7 @@ class StopChains:
         launches = [Launch(endpoint_cells.count_endpoint_cells, endpoints, inputs)]
         if prior.coupling > 0:  # cells of one colour of the checkerboard after those of the other
             launches.append(Launch(cell_draws.sum_label_prior, label_sums.shape[1], [prior, state, label_sums]))
-            inputs = [sweep, prior, self._status, state]
+            inputs = [sweep, prior, self._kinds, state]
             launches += [Launch(cell_draws.draw_labels, state.n_cells, [colour, *inputs]) for colour in (0, 1)]
         launches.append(Launch(cell_draws.update_free_cells, touched, [sweep, prior, self._active, state]))
         inputs = [sweep, request.steps, request.likelihood, prior, state, self._lists, self._blocks]
@@ -285,7 +281,7 @@ class StopChains:
         """Draw the reflectivities of cells that no beam touches, which sweeps leave out, before the sweep ``sweep``."""
         assert self.has_swept, "no sweep has been made"
         size = self.n_chains * self._state.n_cells
-        inputs = [0, sweep, self._prior, self._status, self._state]
+        inputs = [0, sweep, self._prior, self._kinds, self._state]
         wp.launch(cell_draws.draw_untouched, dim=size, inputs=inputs, device=self.device)
 
     def hits_and_passes(self, chain: int) -> tuple[Ints, Ints]:
@@ -299,7 +295,6 @@ class StopChains:
 
     def in_squares(self, chain: int, sweep: int, kept: bool, solid: NDArray[np.bool_] | None = None) -> InSquares:
         """Count the stops of a chain with surfaces in each square, after its last sweep, which has this number.
-
         If ``kept``, `observed_counts` counts the draw. ``solid`` holds the labels before the sweep, (N,), if any.
         """
         assert self._squares, "cells without surfaces stop beams inside their own squares"

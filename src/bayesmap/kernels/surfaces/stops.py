@@ -147,6 +147,8 @@ def compute_decays(first: int, law: SensorLaw32, rays: TracedRays):
 class Beam:
     """A beam of one chain in a sweep."""
 
+    number: int  # of the beam in the chain
+    element: int  # of the beam in arrays of all chains
     row: int  # row of its counts in `ChainArrays`
     cell_0: int  # the chain's first element in arrays of cells
     begin: int  # its entries in the rays are [begin, end)
@@ -158,19 +160,27 @@ class Beam:
     key: wp.uint64  # of the chain's beams in the sweep
 
 
+@wp.struct
+class StopChoice:
+    """A choice among a beam's near entries, all far ones together, and no stop at all."""
+
+    entry: int  # the near entry; FAR for a far stop, the end of the beam's entries for none
+    density: wp.float64  # density of the reading, summed over all stops
+    some_learn: int  # 1 if cells of near entries may learn in this sweep
+
+
 @wp.kernel
 def draw_stops(
     first: int, part: int, sweep: int, lazy_updates: int, law: SensorLaw32, rays: TracedRays, state: ChainArrays
 ):
     """One thread per chain's beam: draw and count its stop. ``lazy_updates`` is 1 if the sweep updates lazy cells."""
-    # As in the module's text, g: chance of meeting the surface; a: reflectivity times g; survive: T.
-    element = first + wp.tid()  # the beam in the arrays of all chains
+    element = first + wp.tid()
     chain = element // state.n_beams
-    b = element - chain * state.n_beams
+    number = element - chain * state.n_beams
     beam = Beam(
-        chain * state.parts + part, chain * state.n_cells, rays.offsets[b], rays.near[b], rays.offsets[b + 1],
-        Ray(rays.start_m[b], rays.direction[b]), rays.range_m[b], rays.decay[b],
-        sweep_key(state.keys[chain], sweep, BEAMS),
+        number, element, chain * state.parts + part, chain * state.n_cells, rays.offsets[number], rays.near[number],
+        rays.offsets[number + 1], Ray(rays.start_m[number], rays.direction[number]), rays.range_m[number],
+        rays.decay[number], sweep_key(state.keys[chain], sweep, BEAMS),
     )  # fmt: skip
     if beam.begin == beam.end or wp.isnan(beam.reading):
         state.stop[element] = beam.end
@@ -179,87 +189,101 @@ def draw_stops(
             density = laws.no_stop_density(law, beam.reading, beam.decay)
             state.log_likelihood[element] = wp.log(tempered(density, state.beta))
         return
+    # Choose the stop, and if it is far, its entry.
+    survive_far = pass_far_entries(rays, state, beam, lazy_updates)
+    choice = choose_stop(law, rays, state, beam, survive_far)
+    state.log_likelihood[element] = wp.float32(wp.log(wp.max(choice.density, MIN_DENSITY)))
+    stop = choice.entry
+    if stop == FAR:
+        u = wp.float32(to_uniform(random_bits(beam.key, STREAM_FAR + wp.uint64(number))))
+        stop = find_far_stop(rays, state, beam, u * (ONE_32 - survive_far))
+    # Count the passes of near cells before the stop.
+    for entry in range(beam.near, wp.where(choice.some_learn != 0, wp.min(stop, beam.end), beam.near)):
+        c_passed = rays.cells[entry]
+        if state.fixed_reflectivity[beam.cell_0 + c_passed] == LEARNS:
+            passed = state.cells[beam.cell_0 + c_passed]
+            count_pass(state, beam, c_passed, passed, meeting_chance(rays, passed, beam.ray), entry, 1)
+    # Store the stop, and count it in its cell.
+    state.stop[element] = stop
+    if stop < beam.end:
+        c = rays.cells[stop]
+        cell = state.cells[beam.cell_0 + c]
+        crossing = cross_cell(rays, stop, cell, beam.ray)
+        state.stop_moments[element] = wp.vec2(crossing.distance_m, crossing.variance)
+        state.stopped_in[beam.cell_0 + c] = sweep
+        if state.fixed_reflectivity[beam.cell_0 + c] == LEARNS:  # else nothing counts it, or `endpoint_cells` does
+            count_stop(law, state, beam, stop, c, cell, crossing)
 
-    # Far entries: multiply up T, and count passes in cells that learn.
+
+@wp.func
+def pass_far_entries(rays: TracedRays, state: ChainArrays, beam: Beam, lazy_updates: int) -> wp.float32:
+    """Return the chance that a beam passes its far entries, and count the passes in cells that learn."""
     survive = ONE_32
-    far_begin = beam.begin
-    far_end = beam.near
-    if lazy_updates == 0:
-        survive = state.lazy_survival[element]
-        far_begin = rays.watched_offsets[b]
-        far_end = rays.watched_offsets[b + 1]
-    # Each loop has its own names: Warp would carry shared ones, and whole cells, from round to round.
-    for far in range(far_begin, far_end):
-        far_entry = far
+    begin = beam.begin
+    end = beam.near
+    if lazy_updates == 0:  # walk the watched entries only
+        survive = state.lazy_survival[beam.element]
+        begin = rays.watched_offsets[beam.number]
+        end = rays.watched_offsets[beam.number + 1]
+    for i in range(begin, end):
+        entry = i
         if lazy_updates == 0:
-            far_entry = rays.watched[far]
-        c_far = rays.cells[far_entry]
-        fixed_far = state.fixed_reflectivity[beam.cell_0 + c_far]
-        if fixed_far == LEARNS or fixed_far > NEGLIGIBLE_REFLECTIVITY:
-            cell_far = state.cells[beam.cell_0 + c_far]
-            g_far = meeting_chance(rays, cell_far, beam.ray)
-            survive = survive * (ONE_32 - cell_far[REFLECTIVITY] * g_far)
-            if fixed_far == LEARNS:
-                count_pass(state, beam, c_far, cell_far, g_far, far_entry, 1)
-    stopped_far = ONE_32 - survive
-    total = wp.float64(tempered(law.uniform, state.beta)) * wp.float64(stopped_far)
-    choice = FAR
+            entry = rays.watched[i]
+        c = rays.cells[entry]
+        fixed = state.fixed_reflectivity[beam.cell_0 + c]
+        if fixed == LEARNS or fixed > NEGLIGIBLE_REFLECTIVITY:
+            cell = state.cells[beam.cell_0 + c]
+            g = meeting_chance(rays, cell, beam.ray)
+            survive = survive * (ONE_32 - cell[REFLECTIVITY] * g)
+            if fixed == LEARNS:
+                count_pass(state, beam, c, cell, g, entry, 1)
+    return survive
 
-    # Near entries: choose a stop by weight. A stop is skipped if its weight is below single precision beside the total,
-    # which is at least the weight of the least likely stop.
+
+@wp.func
+def choose_stop(
+    law: SensorLaw32, rays: TracedRays, state: ChainArrays, beam: Beam, survive_far: wp.float32
+) -> StopChoice:
+    """Choose the stop of a beam that passes its far entries with the chance ``survive_far``."""
+    # As in the module's text, survive: T; a: reflectivity times chance of meeting the surface.
+    survive = survive_far
+    total = wp.float64(tempered(law.uniform, state.beta)) * wp.float64(ONE_32 - survive_far)
+    choice = FAR
+    some_learn = int(0)
+    # A stop is skipped if its weight is below single precision beside the total, which is at least the weight of the
+    # least likely stop.
     peak = tempered(laws.highest_density(law, beam.reading), state.beta)
     negligible = MIN_RELATIVE_WEIGHT / peak
     bound = negligible * tempered(laws.lowest_density(law, beam.reading), state.beta)
-    some_learn = int(0)
-    for near_entry in range(beam.near, beam.end):
-        c_near = rays.cells[near_entry]
-        fixed_near = state.fixed_reflectivity[beam.cell_0 + c_near]
-        if fixed_near == LEARNS:
+    for entry in range(beam.near, beam.end):
+        c = rays.cells[entry]
+        fixed = state.fixed_reflectivity[beam.cell_0 + c]
+        if fixed == LEARNS:
             some_learn = 1
-        if fixed_near == LEARNS or fixed_near * survive > bound or fixed_near > NEGLIGIBLE_REFLECTIVITY:
-            cell_near = state.cells[beam.cell_0 + c_near]
-            if cell_near[REFLECTIVITY] * survive > bound:
-                crossing = cross_cell(rays, near_entry, cell_near, beam.ray)
-                a = cell_near[REFLECTIVITY] * crossing.chance
+        if fixed == LEARNS or fixed * survive > bound or fixed > NEGLIGIBLE_REFLECTIVITY:
+            cell = state.cells[beam.cell_0 + c]
+            if cell[REFLECTIVITY] * survive > bound:
+                crossing = cross_cell(rays, entry, cell, beam.ray)
+                a = cell[REFLECTIVITY] * crossing.chance
                 likelihood = laws.stop_density(law, beam.reading, beam.decay, crossing.distance_m, crossing.variance)
                 weight = wp.float64(survive * a * tempered(likelihood, state.beta))
                 total += weight
                 bound = wp.max(bound, negligible * wp.float32(total))
-                u = to_uniform(random_bits(beam.key, STREAM_CHOICE + wp.uint64(near_entry)))
+                u = to_uniform(random_bits(beam.key, STREAM_CHOICE + wp.uint64(entry)))
                 if u * total < weight:
-                    choice = near_entry
+                    choice = entry
                 survive = survive * (ONE_32 - a)
-            elif cell_near[REFLECTIVITY] > NEGLIGIBLE_REFLECTIVITY:
-                survive = survive * (ONE_32 - cell_near[REFLECTIVITY] * meeting_chance(rays, cell_near, beam.ray))
+            elif cell[REFLECTIVITY] > NEGLIGIBLE_REFLECTIVITY:
+                survive = survive * (ONE_32 - cell[REFLECTIVITY] * meeting_chance(rays, cell, beam.ray))
             if survive <= bound:
                 break  # further stops, often many behind a wall, have no weight
     # No stop at all.
     nowhere = wp.float64(survive * tempered(laws.no_stop_density(law, beam.reading, beam.decay), state.beta))
     total += nowhere
-    if to_uniform(random_bits(beam.key, STREAM_END + wp.uint64(b))) * total < nowhere:
+    if to_uniform(random_bits(beam.key, STREAM_END + wp.uint64(beam.number))) * total < nowhere:
         choice = beam.end
         some_learn = 1  # perhaps a cell behind the end of the walk learns
-    state.log_likelihood[element] = wp.float32(wp.log(wp.max(total, MIN_DENSITY)))
-
-    # Count passes of near cells before the stop; then store the stop, and count it in its cell.
-    if choice == FAR:
-        u_far = wp.float32(to_uniform(random_bits(beam.key, STREAM_FAR + wp.uint64(b))))
-        choice = find_far_stop(rays, state, beam, u_far * stopped_far)
-    for passed_entry in range(beam.near, wp.where(some_learn != 0, wp.min(choice, beam.end), beam.near)):
-        c_passed = rays.cells[passed_entry]
-        if state.fixed_reflectivity[beam.cell_0 + c_passed] == LEARNS:
-            cell_passed = state.cells[beam.cell_0 + c_passed]
-            g_passed = meeting_chance(rays, cell_passed, beam.ray)
-            count_pass(state, beam, c_passed, cell_passed, g_passed, passed_entry, 1)
-    state.stop[element] = choice
-    if choice < beam.end:
-        c_stop = rays.cells[choice]
-        cell_stop = state.cells[beam.cell_0 + c_stop]
-        stopped = cross_cell(rays, choice, cell_stop, beam.ray)
-        state.stop_moments[element] = wp.vec2(stopped.distance_m, stopped.variance)
-        state.stopped_in[beam.cell_0 + c_stop] = sweep
-        if state.fixed_reflectivity[beam.cell_0 + c_stop] == LEARNS:  # else nothing counts it, or `endpoint_cells` does
-            count_stop(law, state, beam, choice, c_stop, cell_stop, stopped)
+    return StopChoice(choice, total, some_learn)
 
 
 @wp.func

@@ -97,35 +97,19 @@ def cross_surface(cell: Cell, ray: Ray) -> Crossing:
     return cross_at(u[0] * ry - u[1] * rx, u[0] * rx + u[1] * ry, cell, u[0], u[1])
 
 
-@wp.struct
-class PriorNumbers:
-    """`KernelNumbers`, and if cells have labels, log normalisers of their Betas; else these are 0."""
-
-    a: wp.float64
-    b: wp.float64
-    tau_m: wp.float64
-    psi_m2: wp.float64
-    nu: wp.float64
-    kappa_m: wp.float64
-    half_m: wp.float64  # half of a cell's edge
-    coupling: wp.float64
-    a_solid: wp.float64
-    b_solid: wp.float64
-    log_beta: wp.float64
-    log_beta_solid: wp.float64
+PriorArrays = devices.struct_like(KernelNumbers, *[wp.float64] * len(KernelNumbers._fields))
 
 
 def pack_prior(numbers: KernelNumbers) -> Any:
-    """Pack a prior as kernels read it."""
-    packed = devices.pack(PriorNumbers, "cpu", **numbers._asdict())
+    """Pack a prior as kernels read it, with the log normalisers of the Betas if cells have labels."""
     if numbers.coupling > 0:
-        packed.log_beta = float(special.betaln(numbers.a, numbers.b))
-        packed.log_beta_solid = float(special.betaln(numbers.a_solid, numbers.b_solid))
-    return packed
+        log_betas = special.betaln((numbers.a, numbers.a_solid), (numbers.b, numbers.b_solid))
+        numbers = numbers._replace(log_beta=float(log_betas[0]), log_beta_solid=float(log_betas[1]))
+    return devices.pack(PriorArrays, "cpu", **numbers._asdict())
 
 
 @wp.func
-def pseudo_counts(prior: PriorNumbers, solid: wp.uint8) -> wp.vec2d:
+def pseudo_counts(prior: PriorArrays, solid: wp.uint8) -> wp.vec2d:
     """Return a and b of the reflectivity of a cell with this label; without labels all cells are free."""
     if solid != wp.uint8(0):
         return wp.vec2d(prior.a_solid, prior.b_solid)
@@ -140,14 +124,14 @@ def centre_of(index: int, ny: int, edge_m: wp.float64) -> wp.vec2:
 
 
 @wp.func
-def is_in_square(prior: PriorNumbers, centre: wp.vec2, cell: Cell) -> bool:
+def is_in_square(prior: PriorArrays, centre: wp.vec2, cell: Cell) -> bool:
     """Return whether the surface's mean lies in the cell's own square."""
     half = wp.float32(prior.half_m)
     return wp.abs(cell[MEAN_X] - centre[0]) <= half and wp.abs(cell[MEAN_Y] - centre[1]) <= half
 
 
 @wp.func
-def draw_mean_coordinate(prior: PriorNumbers, key: wp.uint64, counter: wp.uint64) -> wp.float32:
+def draw_mean_coordinate(prior: PriorArrays, key: wp.uint64, counter: wp.uint64) -> wp.float32:
     """Draw a coordinate of a mean, relative to the cell's centre, by rejection; takes 2 `MEAN_TRIES` counters."""
     # Under the default prior one try in five fails. All fail once in 300 000 times; that candidate is not accepted.
     x = prior.tau_m * normal(key, counter)
@@ -158,7 +142,7 @@ def draw_mean_coordinate(prior: PriorNumbers, key: wp.uint64, counter: wp.uint64
 
 
 @wp.func
-def fresh_surface(prior: PriorNumbers, centre: wp.vec2, cell: Cell, key: wp.uint64, counter: wp.uint64) -> Cell:
+def fresh_surface(prior: PriorArrays, centre: wp.vec2, cell: Cell, key: wp.uint64, counter: wp.uint64) -> Cell:
     """Return the cell with a surface drawn from the prior without `log_size_penalty`, which the acceptance includes."""
     # Sigma^-1 = A A' / psi with Bartlett's lower triangular A. The inverse has the upper factor A^-T sqrt(psi), which
     # becomes a lower factor when x and y are exchanged; the law is symmetric in them. n: next counter.
@@ -178,7 +162,7 @@ def fresh_surface(prior: PriorNumbers, centre: wp.vec2, cell: Cell, key: wp.uint
 
 
 @wp.func
-def log_surface_prior(prior: PriorNumbers, centre: wp.vec2, cell: Cell) -> wp.float64:
+def log_surface_prior(prior: PriorArrays, centre: wp.vec2, cell: Cell) -> wp.float64:
     """Return the log density of a surface in the coordinates of its steps, up to a constant."""
     # (x, y): mean relative to the centre; q: the lower left entry of L^-1, up to its sign.
     x, y = wp.float64(cell[MEAN_X] - centre[0]), wp.float64(cell[MEAN_Y] - centre[1])
@@ -191,14 +175,14 @@ def log_surface_prior(prior: PriorNumbers, centre: wp.vec2, cell: Cell) -> wp.fl
 
 
 @wp.func
-def log_size_penalty(prior: PriorNumbers, cell: Cell) -> wp.float64:
+def log_size_penalty(prior: PriorArrays, cell: Cell) -> wp.float64:
     """Return the logarithm of the factor that keeps a surface from growing beyond its cell: -tr Sigma / (2 kappa^2)."""
     l11, l21, l22 = wp.float64(cell[L11]), wp.float64(cell[L21]), wp.float64(cell[L22])
     return wp.float64(-0.5) * (l11 * l11 + l21 * l21 + l22 * l22) / (prior.kappa_m * prior.kappa_m)
 
 
 @wp.func
-def log_reflectivity_prior(prior: PriorNumbers, solid: wp.uint8, reflectivity: wp.float32) -> wp.float32:
+def log_reflectivity_prior(prior: PriorArrays, solid: wp.uint8, reflectivity: wp.float32) -> wp.float32:
     """Return the log density of the logit of a reflectivity given the label; without labels, up to a constant."""
     m = wp.clamp(reflectivity, wp.float32(1.0e-30), wp.float32(1.0 - 1.0e-7))  # its logarithms are finite
     counts = pseudo_counts(prior, solid)
