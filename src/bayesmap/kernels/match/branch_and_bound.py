@@ -138,8 +138,7 @@ def bound_blocks(
     job = rows.job[row]
     corner = origins[jobs.grid[job]]  # of the grid, metres
     cosine, sine = wp.cos(jobs.angles_rad[row]), wp.sin(jobs.angles_rad[row])
-    x0 = jobs.centres[job][0] - corner[0]
-    y0 = jobs.centres[job][1] - corner[1]
+    x0, y0 = jobs.centres[job][0] - corner[0], jobs.centres[job][1] - corner[1]
     for i in range(jobs.point_offsets[job + 1] - jobs.point_offsets[job]):
         point = jobs.points[jobs.point_offsets[job] + i]
         x = int(wp.floor((x0 + cosine * point[0] - sine * point[1]) / resolution))
@@ -173,6 +172,36 @@ def is_near_earlier(earlier: EarlierModes, block: Block) -> bool:
     return False
 
 
+@wp.func
+def push_quarters(
+    jobs: WindowsArrays, rows: Rows, pyramid: Pyramid, earlier: EarlierModes, strands: Strands, strand: int, size: int,
+    block: Block, limit: wp.float64,
+) -> int:  # fmt: skip
+    """Push the quarters of a block whose bound reaches ``limit`` on a stack of this size. Returns the new size."""
+    base = size
+    half = 1 << (block.level - 1)
+    for child in range(4):
+        dx = block.dx + half * (child / 2)
+        dy = block.dy + half * (child % 2)
+        if dx > jobs.half_cells[block.job][0] or dy > jobs.half_cells[block.job][1]:
+            continue
+        quarter = Block(block.job, block.row, block.level - 1, dx, dy)
+        if is_near_earlier(earlier, quarter):
+            continue
+        bound = block_bound(jobs, rows, pyramid, quarter)
+        if bound < limit or bound <= jobs.min_scores[block.job]:
+            continue
+        place = size  # quarters in ascending order, so that the best is on top
+        while place > base and strands.bound[strand, wp.max(place - 1, 0)] > bound:
+            strands.bound[strand, place] = strands.bound[strand, place - 1]
+            strands.node[strand, place] = strands.node[strand, place - 1]
+            place -= 1
+        strands.bound[strand, place] = bound
+        strands.node[strand, place] = wp.vec3i(block.level - 1, dx, dy)
+        size += 1
+    return size
+
+
 @wp.kernel
 def search_blocks(
     first: int, per_job: int, jobs: WindowsArrays, rows: Rows, roots: Roots, pyramid: Pyramid, earlier: EarlierModes,
@@ -200,42 +229,20 @@ def search_blocks(
             value = strands.bound[strand, size]
             if value < limit or value <= jobs.min_scores[job]:
                 continue
-            level = strands.node[strand, size][0]
-            left = strands.node[strand, size][1]
-            bottom = strands.node[strand, size][2]
-            # A single translation: keep it if it is better, or equal and earlier in the order.
-            if level == 0:
-                is_tie = value == best_score and best_node[0] >= 0
-                is_first = left < best_node[1] or (left == best_node[1] and bottom < best_node[2])
-                is_first = row < best_node[0] or (row == best_node[0] and is_first)
-                if value > best_score or (is_tie and is_first):
-                    best_score = value
-                    best_node = wp.vec3i(row, left, bottom)
-                    if value > strands.incumbent[job]:
-                        strands.incumbent[job] = value
+            top = strands.node[strand, size]
+            block = Block(job, row, top[0], top[1], top[2])
+            if block.level > 0:
+                size = push_quarters(jobs, rows, pyramid, earlier, strands, strand, size, block, limit)
                 continue
-            # Push those of the block's quarters that can still win.
-            half = 1 << (level - 1)
-            base = size
-            for child in range(4):
-                dx = left + half * (child / 2)
-                dy = bottom + half * (child % 2)
-                if dx > jobs.half_cells[job][0] or dy > jobs.half_cells[job][1]:
-                    continue
-                block = Block(job, row, level - 1, dx, dy)
-                if is_near_earlier(earlier, block):
-                    continue
-                score = block_bound(jobs, rows, pyramid, block)
-                if score < limit or score <= jobs.min_scores[job]:
-                    continue
-                place = size  # children in ascending order, so that the best is on top
-                while place > base and strands.bound[strand, wp.max(place - 1, 0)] > score:
-                    strands.bound[strand, place] = strands.bound[strand, place - 1]
-                    strands.node[strand, place] = strands.node[strand, place - 1]
-                    place -= 1
-                strands.bound[strand, place] = score
-                strands.node[strand, place] = wp.vec3i(level - 1, dx, dy)
-                size += 1
+            # A single translation: keep it if it is better, or equal and earlier in the order.
+            is_tie = value == best_score and best_node[0] >= 0
+            is_first = block.dx < best_node[1] or (block.dx == best_node[1] and block.dy < best_node[2])
+            is_first = row < best_node[0] or (row == best_node[0] and is_first)
+            if value > best_score or (is_tie and is_first):
+                best_score = value
+                best_node = wp.vec3i(row, block.dx, block.dy)
+                if value > strands.incumbent[job]:
+                    strands.incumbent[job] = value
     strands.score[strand] = best_score
     strands.pose[strand] = best_node
 
@@ -253,7 +260,6 @@ def search_grids(
     grids: Any, windows: Windows, modes: Modes, strands: int, threads: int | None = None
 ) -> tuple[Floats, NDArray[np.int64]]:
     """Find the best poses of each job: scores (J, modes), -inf where there is none, and (row, dx, dy), (J, modes, 3).
-
     ``grids`` are `bayesmap.poses.matcher.LikelihoodGrids`; ``strands`` threads share a job.
     """
     pyramid, device = grids.pyramid, grids.device

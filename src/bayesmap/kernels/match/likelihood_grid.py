@@ -53,8 +53,7 @@ def stamp_points(first: int, bands: int, grids: GridScansArrays, scene: ScanArra
     for entry in range(grids.offsets[grid], grids.offsets[grid + 1]):
         scan = grids.scan[entry]
         pose = grids.poses[entry]
-        cosine = wp.cos(pose[2])
-        sine = wp.sin(pose[2])
+        cosine, sine = wp.cos(pose[2]), wp.sin(pose[2])
         for b in range(scene.points.shape[1]):
             if scene.kind[scan, b] == NO_POINT:
                 continue
@@ -142,8 +141,7 @@ def sum_field(first: int, field: Uint8Rows, points: Float32Rows, poses: Float32R
     """One thread per pose, in cells from the grid's corner: sum the field's values at the points."""
     pose = first + wp.tid()
     cosine, sine = wp.cos(poses[pose, 2]), wp.sin(poses[pose, 2])
-    x = poses[pose, 0]
-    y = poses[pose, 1]
+    x, y = poses[pose, 0], poses[pose, 1]
     total = int(0)
     for k in range(points.shape[0]):
         i = int(wp.floor(cosine * points[k, 0] - sine * points[k, 1] + x))
@@ -169,8 +167,7 @@ def render_surfaces(first: int, mean: Float32Rows, covariance: Float32Rows, stre
     xy = covariance[k, 1]
     yy = covariance[k, 2]
     determinant = xx * yy - xy * xy
-    reach_x = MAX_SIGMAS * wp.sqrt(xx)
-    reach_y = MAX_SIGMAS * wp.sqrt(yy)
+    reach_x, reach_y = MAX_SIGMAS * wp.sqrt(xx), MAX_SIGMAS * wp.sqrt(yy)
     i_from = wp.max(0, int(wp.floor(mean[k, 0] - reach_x)))
     i_to = wp.min(out.shape[0] - 1, int(wp.floor(mean[k, 0] + reach_x)))
     j_from = wp.max(0, int(wp.floor(mean[k, 1] - reach_y)))
@@ -185,7 +182,6 @@ def render_surfaces(first: int, mean: Float32Rows, covariance: Float32Rows, stre
 
 def render_field(means: Floats, covariances: Floats, strengths: Floats, shape: tuple[int, int]) -> Singles:
     """Return the largest of s exp(-d^2 / 2) over all surfaces, d the Mahalanobis distance from the mean, (nx, ny).
-
     ``means`` (K, 2) are in cells from the corner, ``covariances`` (K, 3) are xx, xy, yy, ``strengths`` are s, (K,).
     """
     devices.start()

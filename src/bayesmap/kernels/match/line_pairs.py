@@ -18,7 +18,7 @@ import numpy as np
 import warp as wp
 
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.device import Float32Rows, Float64Rows, Floats, Int32Rows, Int32s, Ints, Singles, Vec3ds
+from bayesmap.kernels.device import Float32Rows, Floats, Int32Rows, Int32s, Ints, Singles, Vec3ds
 from bayesmap.kernels.match import scan_geometry as scenes
 from bayesmap.kernels.match.scan_geometry import ScanArrays, equal_weights, max_gap, neighbour, scan_arrays
 from bayesmap.space.planar import inverse
@@ -27,7 +27,14 @@ wp.set_module_options({"enable_backward": False})
 OUT_OF_VIEW = wp.constant(-2)  # result of `nearest_point` if no beam points towards the point
 MAX_SIDE_BEAMS = wp.constant(25)  # most beams searched to either side
 MAX_SPACING_M = wp.constant(0.15)  # points of less dense surfaces, such as walls that beams graze, fix no pose
-COST, WEIGHT, MATCHED, SEEN, FORCE_SQ = 0, 1, 2, 3, 4  # columns of ``totals``: sums of `Sums`, by pair or job
+
+# Numbers of a `Totals`: sums over the pairs of points. COST and WEIGHT are of pairs with normals. MATCHED is the number
+# of pairs, SEEN that of points between the beams of the target, within its range. FORCE_SQ sums the squared weighted
+# residuals; a point's own weight enters once.
+COST, WEIGHT, MATCHED, SEEN, FORCE_SQ = 0, 1, 2, 3, 4
+Totals = wp.types.vector(length=5, dtype=wp.float32)
+Totals64 = wp.types.vector(length=5, dtype=wp.float64)
+Totals64s = wp.array(dtype=Totals64)
 
 
 class PairRules(NamedTuple):
@@ -44,16 +51,12 @@ PairRulesArrays = devices.struct_like(PairRules, float, float, float, int)
 
 @wp.struct
 class Sums:
-    """Sums over the pairs of two scans."""
+    """Sums over the pairs of points of two scans."""
 
-    second: wp.mat33f  # above the diagonal
+    second: wp.mat33f  # H, above the diagonal
     slack: wp.mat33f  # above the diagonal
-    first: wp.vec3f
-    cost: float
-    weight: float
-    force_sq: float  # sum of the squared weighted residuals; a point's own weight enters once
-    matched: int
-    seen: int  # points that fall between the beams of the other scan, within its range
+    first: wp.vec3f  # g
+    totals: Totals
 
 
 @wp.func
@@ -143,15 +146,8 @@ def symmetric(m: wp.mat33f) -> wp.mat33d:
 @wp.func
 def rotation_of(pose: wp.vec3d) -> wp.mat22f:
     """Return the rotation of a pose."""
-    c = float(wp.cos(pose[2]))
-    s = float(wp.sin(pose[2]))
+    c, s = float(wp.cos(pose[2])), float(wp.sin(pose[2]))
     return wp.mat22f(c, -s, s, c)
-
-
-@wp.func
-def position_of(pose: wp.vec3d) -> wp.vec2f:
-    """Return the position of a pose."""
-    return wp.vec2f(float(pose[0]), float(pose[1]))
 
 
 @wp.func
@@ -160,15 +156,11 @@ def pair_scans(
 ) -> Sums:
     """Sum over the pairs of a source scan's points, at its pose in the target's frame, with a target scan."""
     turn = rotation_of(pose)
-    shift = position_of(pose)
+    shift = wp.vec2f(float(pose[0]), float(pose[1]))
     second = wp.mat33f()
     slack = wp.mat33f()
     first = wp.vec3f()
-    cost = float(0.0)
-    total = float(0.0)
-    force_sq = float(0.0)
-    matched = int(0)
-    seen = int(0)
+    totals = Totals()
     for beam in range(0, scene.kind.shape[1], rules.stride):
         if scene.kind[source, beam] == scenes.NO_POINT:
             continue
@@ -177,7 +169,7 @@ def pair_scans(
         partner = nearest_point(scene, target, point, rules.reach_m)
         if partner == OUT_OF_VIEW:
             continue
-        seen += 1
+        totals[SEEN] += 1.0
         if partner < 0:
             continue
         offset = point - scene.points[target, partner]
@@ -193,7 +185,7 @@ def pair_scans(
             e = wp.dot(mean_normal, offset)
             weight = 1.0 / (1.0 + e * e / (rules.scale_m * rules.scale_m))
             weight = weight * weight
-            force_sq += weights[source, beam] * weight * weight * e * e
+            totals[FORCE_SQ] += weights[source, beam] * weight * weight * e * e
             weight = weight * weights[source, beam]
             across = wp.vec3f(mean_normal[0], mean_normal[1], mean_normal[1] * arm[0] - mean_normal[0] * arm[1])
             second += wp.outer(weight * across, across)
@@ -201,9 +193,9 @@ def pair_scans(
             slack_weight = weight * 0.25 * (scene.spread[source, beam] + scene.spread[target, partner])
             along = wp.vec3f(-mean_normal[1], mean_normal[0], wp.dot(mean_normal, arm))
             slack += wp.outer(slack_weight * along, along)
-            cost += weight * e * e
-            total += weight
-            matched += 1
+            totals[COST] += weight * e * e
+            totals[WEIGHT] += weight
+            totals[MATCHED] += 1.0
         elif not has_normal and not partner_has_normal:
             # Neither point has a normal: both components of the offset count.
             spacing = 0.5 * neighbour_distance(scene, target, partner)
@@ -213,12 +205,12 @@ def pair_scans(
             w = w * w * weights[source, beam] * (0.01 * 0.01) / (spacing * spacing)
             second += wp.mat33f(w, 0.0, -w * arm[1], 0.0, w, w * arm[0], 0.0, 0.0, w * wp.length_sq(arm))
             first += w * wp.vec3f(offset[0], offset[1], arm[0] * offset[1] - arm[1] * offset[0])
-            matched += 1
-    return Sums(second, slack, first, cost, total, force_sq, matched, seen)
+            totals[MATCHED] += 1.0
+    return Sums(second, slack, first, totals)
 
 
 class PairSums(NamedTuple):
-    """The `Sums` of P pairs of scans."""
+    """The `Sums` of P pairs of scans, in double precision."""
 
     second: Floats  # H, (P, 3, 3)
     slack: Floats  # (P, 3, 3)
@@ -227,7 +219,7 @@ class PairSums(NamedTuple):
 
 
 Mat33ds = wp.array(dtype=wp.mat33d)
-PairSumsArrays = devices.struct_like(PairSums, Mat33ds, Mat33ds, Vec3ds, Float64Rows)
+PairSumsArrays = devices.struct_like(PairSums, Mat33ds, Mat33ds, Vec3ds, Totals64s)
 
 
 @wp.kernel
@@ -241,11 +233,7 @@ def sum_pairs(
     out.second[pair] = symmetric(sums.second)
     out.slack[pair] = symmetric(sums.slack)
     out.gradient[pair] = wp.vec3d(sums.first)
-    out.totals[pair, COST] = wp.float64(sums.cost)
-    out.totals[pair, WEIGHT] = wp.float64(sums.weight)
-    out.totals[pair, MATCHED] = wp.float64(sums.matched)
-    out.totals[pair, SEEN] = wp.float64(sums.seen)
-    out.totals[pair, FORCE_SQ] = wp.float64(sums.force_sq)
+    out.totals[pair] = Totals64(sums.totals)
 
 
 def pair_sums(
@@ -255,7 +243,7 @@ def pair_sums(
     """Sum the pairs of scans ``source`` and ``target``, (P,); ``relative`` are poses in the targets' frames, (P, 3)."""
     device, count = geometry.device, len(source)
     weights = equal_weights(geometry) if weights is None else weights
-    out = devices.pack(PairSumsArrays, device, second=(count,), slack=(count,), gradient=(count,), totals=(count, 5))
+    out = devices.pack(PairSumsArrays, device, second=(count,), slack=(count,), gradient=(count,), totals=(count,))
     packed_rules = devices.pack(PairRulesArrays, "cpu", **rules._asdict())
     inputs = [scan_arrays(geometry, rules.stride), weights, source, target, relative, packed_rules, out]
     devices.launch(sum_pairs, count, inputs, device, threads)
@@ -272,7 +260,7 @@ def count_matches(
     for pair in range(offsets[source], offsets[source + 1]):
         other = target[pair]
         turn = rotation_of(relative[pair])
-        shift = position_of(relative[pair])
+        shift = wp.vec2f(float(relative[pair][0]), float(relative[pair][1]))
         for beam in range(0, scene.kind.shape[1], rules.stride):
             if scene.kind[source, beam] == scenes.NO_POINT:
                 continue
@@ -337,7 +325,7 @@ def compare_views(
     pair = first + wp.tid()
     other = target[pair]
     turn = rotation_of(relative[pair])
-    shift = position_of(relative[pair])
+    shift = wp.vec2f(float(relative[pair][0]), float(relative[pair][1]))
     matched = int(0)
     against = int(0)
     total = int(0)

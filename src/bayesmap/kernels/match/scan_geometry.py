@@ -75,18 +75,53 @@ def scan_points(
             scene.kind[scan, beam] = POINT
 
 
+@wp.struct
+class PointSums:
+    """Sums over a point and its neighbours along the wall, of their offsets from the point."""
+
+    count: float  # number of points, this one included
+    offset: wp.vec2f
+    square: wp.mat22f  # offset times offset transposed
+
+
+@wp.func
+def sum_neighbours(
+    scene: ScanArrays, scan: int, beam: int, reach: wp.float32, gap: wp.float32, farthest: wp.float32
+) -> PointSums:
+    """Sum the offsets of consecutive points to both sides: no two further apart than ``gap``, all within ``reach``."""
+    # The next two points to either side may lie beyond the reach, up to ``farthest``.
+    point = scene.points[scan, beam]
+    sums = PointSums()
+    sums.count = 1.0
+    for side in range(2):
+        last = point
+        for k in range(1, MAX_NEIGHBOURS):
+            other_beam = neighbour(beam, wp.where(side == 0, -k, k), scene.beams[scan], scene.full_circle[scan])
+            if other_beam < 0:
+                break
+            if scene.kind[scan, other_beam] == NO_POINT:
+                break
+            other = scene.points[scan, other_beam]
+            offset = other - point
+            distance = wp.length(offset)
+            if wp.length(other - last) > gap or distance > farthest or (k > 2 and distance > reach):
+                break
+            sums.count += 1.0
+            sums.offset += offset
+            sums.square += wp.outer(offset, offset)
+            last = other
+    return sums
+
+
 @wp.kernel
 def scan_normals(first: int, scene: ScanArrays, reach_m: wp.float32, noise_m: wp.float32):
     """One thread per scan: fit the line through each point's neighbours along the wall, by least squares.
-
     Neighbours are consecutive beams without a gap, at first within ``reach_m``. The reach is doubled as long as the
     wall stays straight within ``noise_m``. A piece whose direction the noise hides has no normal. ``spread`` is the
     variance of the normal's angle per variance of a point: one over the sum of squared distances along the line.
     """
     scan = first + wp.tid()
-    beams = scene.beams[scan]
     step_rad = scene.step[scan]
-    full_circle = scene.full_circle[scan]
     for beam in range(scene.points.shape[1]):
         scene.normals[scan, beam] = wp.vec2f(wp.float32(0.0), wp.float32(0.0))
         scene.spread[scan, beam] = wp.float32(0.0)
@@ -99,49 +134,24 @@ def scan_normals(first: int, scene: ScanArrays, reach_m: wp.float32, noise_m: wp
         farthest = wp.max(wp.max(wp.float32(0.5), wp.float32(20.0) * noise_m), wp.float32(2.2) * apart)
         reach = reach_m
         for fit in range(MAX_FITS):
-            # Sum the neighbours' offsets to both sides.
-            n = float(1.0)
-            sums = wp.vec2f()
-            squares = wp.mat22f()
-            for side in range(2):
-                last = point
-                for k in range(1, MAX_NEIGHBOURS):
-                    other_beam = neighbour(beam, wp.where(side == 0, -k, k), beams, full_circle)
-                    if other_beam < 0:
-                        break
-                    if scene.kind[scan, other_beam] == NO_POINT:
-                        break
-                    other = scene.points[scan, other_beam]
-                    if wp.length(other - last) > gap:
-                        break
-                    offset = other - point
-                    distance = wp.length(offset)
-                    if distance > farthest:
-                        break
-                    if k > 2 and distance > reach:
-                        break
-                    n += 1.0
-                    sums += offset
-                    squares += wp.outer(offset, offset)
-                    last = other
-            if n < 3.0:
+            sums = sum_neighbours(scene, scan, beam, reach, gap, farthest)
+            if sums.count < 3.0:
                 break
             # Eigenvalues of the scatter matrix (xx, xy; xy, yy), along the wall and across.
-            xx = squares[0, 0] - sums[0] * sums[0] / n
-            xy = squares[0, 1] - sums[0] * sums[1] / n
-            yy = squares[1, 1] - sums[1] * sums[1] / n
+            xx = sums.square[0, 0] - sums.offset[0] * sums.offset[0] / sums.count
+            xy = sums.square[0, 1] - sums.offset[0] * sums.offset[1] / sums.count
+            yy = sums.square[1, 1] - sums.offset[1] * sums.offset[1] / sums.count
             root = wp.sqrt(wp.max(wp.float32(0.0), (xx - yy) * (xx - yy) * wp.float32(0.25) + xy * xy))
             along = (xx + yy) * wp.float32(0.5) + root
             across = wp.max((xx + yy) * wp.float32(0.5) - root, wp.float32(0.0))
-            # Is the piece long enough beside its thickness, and as straight as the noise lets it be?
-            long = across < wp.float32(0.04) * along
-            straight = across < n * wp.float32(4.0) * noise_m * noise_m
+            # Is the piece as straight as the noise lets it be, and long enough beside its thickness?
+            is_straight = across < sums.count * wp.float32(4.0) * noise_m * noise_m
             if fit > 0:
-                straight = straight and across < n * wp.float32(1.5) * noise_m * noise_m
-            if not straight:
+                is_straight = is_straight and across < sums.count * wp.float32(1.5) * noise_m * noise_m
+            if not is_straight:
                 break
             reach = reach * wp.float32(2.0)
-            if not long:
+            if across >= wp.float32(0.04) * along:
                 continue  # noise hides the direction of so short a piece: a longer one may show it
             turn = wp.float32(0.5) * wp.atan2(wp.float32(2.0) * xy, xx - yy)
             normal = wp.vec2f(-wp.sin(turn), wp.cos(turn))
@@ -149,7 +159,7 @@ def scan_normals(first: int, scene: ScanArrays, reach_m: wp.float32, noise_m: wp
                 normal = -normal  # towards the laser
             scene.normals[scan, beam] = normal
             scene.spread[scan, beam] = wp.float32(1.0) / wp.max(along, wp.float32(1.0e-6))
-    for beam in range(beams):
+    for beam in range(scene.beams[scan]):
         if scene.spread[scan, beam] > wp.float32(0.0):
             scene.kind[scan, beam] = WITH_NORMAL
 
@@ -159,7 +169,6 @@ def points_and_normals(
     threads: int | None = None,
 ) -> Any:  # fmt: skip
     """Compute the `ScanArrays` of scans, with points, normals, kinds and spreads.
-
     Readings are (S, B), NaN past a scan's last beam; ascending angles (1, B) for all scans, or (S, B). Readings between
     the limits are points. ``fans`` is a `bayesmap.poses.scan_geometry.Fans`.
     """

@@ -10,9 +10,8 @@ from typing import Any, NamedTuple
 import warp as wp
 
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.device import ZERO, Float32Rows, Float64Rows, Floats, Int32s, Ints, Vec3ds
-from bayesmap.kernels.match import line_pairs
-from bayesmap.kernels.match.line_pairs import Mat33ds, PairRulesArrays, pair_scans, symmetric
+from bayesmap.kernels.device import ZERO, Float32Rows, Floats, Int32s, Ints, Vec3ds
+from bayesmap.kernels.match.line_pairs import Mat33ds, PairRulesArrays, Totals64, Totals64s, pair_scans, symmetric
 from bayesmap.kernels.match.scan_geometry import ScanArrays, equal_weights, scan_arrays
 
 wp.set_module_options({"enable_backward": False})
@@ -36,9 +35,9 @@ def pose_between(a: wp.vec3d, b: wp.vec3d) -> wp.vec3d:
 
 
 @wp.func
-def wrap_angle(angle: wp.float64) -> wp.float64:
-    """Wrap an angle to [-pi, pi]."""
-    return wp.atan2(wp.sin(angle), wp.cos(angle))
+def wrap_yaw(pose: wp.vec3d) -> wp.vec3d:
+    """Return a pose, or a difference of poses, with yaw in [-pi, pi]."""
+    return wp.vec3d(pose[0], pose[1], wp.atan2(wp.sin(pose[2]), wp.cos(pose[2])))
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,12 +69,45 @@ class RefinedScans(NamedTuple):
 
     poses: Floats  # in the world frame, (J, 3)
     information: Floats  # of the pairs alone, in the world's axes, (J, 3, 3)
-    totals: Floats  # COST, WEIGHT, MATCHED, SEEN of `line_pairs` in the last step, (J, 4)
+    totals: Floats  # sums of `bayesmap.kernels.match.line_pairs.Totals` over all pairs in the last step, (J, 5)
 
 
 RefinementArrays = devices.struct_like(Refinement, Int32s, Int32s, Int32s, Vec3ds, Vec3ds, Vec3ds, Mat33ds)
 ConvergenceArrays = devices.struct_like(Convergence, wp.float64, int, wp.vec2f, wp.vec2f, float)
-RefinedScansArrays = devices.struct_like(RefinedScans, Vec3ds, Mat33ds, Float64Rows)
+RefinedScansArrays = devices.struct_like(RefinedScans, Vec3ds, Mat33ds, Totals64s)
+
+
+@wp.struct
+class JobSums:
+    """Sums over the pairs of a moving scan with all its fixed scans, in the world's axes, see `line_pairs.Sums`."""
+
+    second: wp.mat33d
+    slack: wp.mat33d
+    gradient: wp.vec3d
+    totals: Totals64
+
+
+@wp.func
+def sum_fixed_scans(
+    scene: ScanArrays, weights: Float32Rows, jobs: RefinementArrays, job: int, pose: wp.vec3d, rules: PairRulesArrays
+) -> JobSums:
+    """Sum over the pairs of a job's moving scan, at a pose, with its fixed scans."""
+    total = JobSums()
+    for entry in range(jobs.offsets[job], jobs.offsets[job + 1]):
+        frame = jobs.other_poses[entry]
+        sums = pair_scans(scene, weights, jobs.scans[job], jobs.others[entry], pose_between(frame, pose), rules)
+        turn = turn_of(frame[2])
+        total.second += turn * symmetric(sums.second) * wp.transpose(turn)
+        total.slack += turn * symmetric(sums.slack) * wp.transpose(turn)
+        total.gradient += turn * wp.vec3d(sums.first)
+        total.totals += Totals64(sums.totals)
+    return total
+
+
+@wp.func
+def step_size(step: wp.vec3d) -> wp.float64:
+    """Return the size of a step of a pose, metres plus radians."""
+    return wp.abs(step[0]) + wp.abs(step[1]) + wp.abs(step[2])
 
 
 @wp.kernel
@@ -84,69 +116,40 @@ def refine(
     out: RefinedScansArrays,
 ):  # fmt: skip
     """One thread per job: minimise the cost of prior and pairs, with a reach and a scale that shrink step by step."""
-    # While reach and scale shrink, only every other point is used. The information comes from the pairs alone, less
-    # slack.
     job = first + wp.tid()
-    scan = jobs.scans[job]
     pose = jobs.starts[job]
     count = wp.float64(jobs.offsets[job + 1] - jobs.offsets[job])
-    converged = int(0)
-    information = wp.mat33d()
+    is_converged = int(0)
     for step in range(schedule.steps):
-        if converged >= 1:
+        if is_converged >= 1:
             continue
+        # While reach and scale shrink, during two thirds of the steps, only every other point is used.
         share = wp.min(1.0, 1.5 * float(step) / float(wp.max(schedule.steps - 1, 1)))
         reach = schedule.reach_m[0] * wp.pow(schedule.reach_m[1] / schedule.reach_m[0], share)
         scale = schedule.scale_m[0] * wp.pow(schedule.scale_m[1] / schedule.scale_m[0], share)
         sparse = wp.where(share < 1.0, 2, 1)
         rules = PairRulesArrays(reach, scale, schedule.min_cosine, sparse * scene.stride)
         gain = wp.float64(sparse) / (schedule.sigma_m * schedule.sigma_m * (count + wp.float64(1.0)))
-        # Sum the pairs with all fixed scans, in the world's axes.
-        second = wp.mat33d()
-        slack = wp.mat33d()
-        gradient = wp.vec3d()
-        cost = wp.float64(0.0)
-        weight = wp.float64(0.0)
-        matched = int(0)
-        seen = int(0)
-        for entry in range(jobs.offsets[job], jobs.offsets[job + 1]):
-            frame = jobs.other_poses[entry]
-            relative = pose_between(frame, pose)
-            sums = pair_scans(scene, weights, scan, jobs.others[entry], relative, rules)
-            turn = turn_of(frame[2])
-            second += turn * symmetric(sums.second) * wp.transpose(turn)
-            slack += turn * symmetric(sums.slack) * wp.transpose(turn)
-            gradient += turn * wp.vec3d(sums.first)
-            cost += wp.float64(sums.cost)
-            weight += wp.float64(sums.weight)
-            matched += sums.matched
-            seen += sums.seen
-        offset = pose - jobs.priors[job]
-        offset = wp.vec3d(offset[0], offset[1], wrap_angle(offset[2]))
-        # H (H + s^2 S)^-1 H: about H if the slack S is small, and never negative.
+        sums = sum_fixed_scans(scene, weights, jobs, job, pose, rules)
+        # The information of the pairs is H (H + s^2 S)^-1 H: about H if the slack S is small, and never negative.
         ridge = wp.identity(n=3, dtype=wp.float64) * wp.float64(1.0e-6)
-        trusted = second * wp.inverse(second + slack * (schedule.sigma_m * schedule.sigma_m) + ridge)
-        laser_information = trusted * second * gain
-        pull = trusted * gradient * gain
-        total_information = laser_information + jobs.prior_information[job]
-        change = wp.inverse(total_information) * (pull + jobs.prior_information[job] * offset)
-        # Take a step of limited length.
-        length = wp.abs(change[0]) + wp.abs(change[1]) + wp.abs(change[2])
-        if not wp.isfinite(length):
+        trusted = sums.second * wp.inverse(sums.second + sums.slack * (schedule.sigma_m * schedule.sigma_m) + ridge)
+        information = trusted * sums.second * gain
+        pull = trusted * sums.gradient * gain
+        # Solve for the step under pairs and prior, and limit its size.
+        offset = wrap_yaw(pose - jobs.priors[job])
+        prior = jobs.prior_information[job]
+        change = wp.inverse(information + prior) * (pull + prior * offset)
+        if not wp.isfinite(step_size(change)):
             change = wp.vec3d()
-            length = wp.float64(0.0)
-        if length > MAX_STEP:
-            change = change * (MAX_STEP / length)
+        if step_size(change) > MAX_STEP:
+            change = change * (MAX_STEP / step_size(change))
         pose = pose - change
-        information = laser_information
-        out.totals[job, line_pairs.COST] = cost
-        out.totals[job, line_pairs.WEIGHT] = weight
-        out.totals[job, line_pairs.MATCHED] = wp.float64(matched)
-        out.totals[job, line_pairs.SEEN] = wp.float64(seen)
-        if share >= 1.0 and length < MIN_STEP:
-            converged = 1
-    out.poses[job] = wp.vec3d(pose[0], pose[1], wrap_angle(pose[2]))
-    out.information[job] = information
+        out.information[job] = information
+        out.totals[job] = sums.totals
+        if share >= 1.0 and step_size(change) < MIN_STEP:
+            is_converged = 1
+    out.poses[job] = wrap_yaw(pose)
 
 
 def refine_scans(
@@ -156,7 +159,7 @@ def refine_scans(
     device, count = geometry.device, len(refinement.scans)
     jobs = devices.pack(RefinementArrays, device, **vars(refinement))
     schedule = devices.pack(ConvergenceArrays, device, **vars(convergence))
-    out = devices.pack(RefinedScansArrays, device, poses=(count,), information=(count,), totals=(count, 4))
+    out = devices.pack(RefinedScansArrays, device, poses=(count,), information=(count,), totals=(count,))
     inputs = [scan_arrays(geometry), equal_weights(geometry), jobs, schedule, out]
     devices.launch(refine, count, inputs, device, threads)
     return RefinedScans(out.poses.numpy(), out.information.numpy(), out.totals.numpy())

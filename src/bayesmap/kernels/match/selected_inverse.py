@@ -40,7 +40,6 @@ def invert_on_pattern(
 
 def selected_inverse(begin: Ints, row: Ints, lower: Floats, pivot: Floats) -> Floats:
     """Compute the entries of (L D L^T)^-1 on the pattern of L (Takahashi, Fagan and Chin, 1973), in L's order.
-
     Column j of L has the entries begin[j] to begin[j + 1], with ascending rows, the diagonal first; ``lower`` holds
     them with a unit diagonal, ``pivot`` the diagonal of D, (n,). The pattern must be closed under elimination.
     """
