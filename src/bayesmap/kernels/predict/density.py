@@ -40,7 +40,7 @@ StopStates = Singles
 mean x and y in metres from the grid's lower left corner, and Cholesky factor l11, l21, l22."""
 
 
-MIN_STOP_CHANCE = 2e-3  # cells below it count as empty in fast weighing, unless near the reading: poses lose it alike
+MIN_STOP_CHANCE = 2e-3  # cells with less count as empty in fast weighing unless near the reading: all poses lose alike
 
 # A beam is followed until its chance to get so far is below this. The limit is lower for noise alone, under which an
 # unlikely stop may be the only one that explains a reading; the mixture has a floor.
@@ -257,7 +257,7 @@ def add_forecasts(
 
 @dataclass(frozen=True, eq=False)
 class Forecast:
-    """The prediction of each beam's reading; NaN where the reading is invalid."""
+    """The prediction of each beam's reading, and its probability integral transform (PIT); NaN for invalid readings."""
 
     log_density: Floats  # log predictive density of a range in nats per metre, log probability of a typed reading, (B,)
     pit_low: Floats  # predictive P(value < reading), (B,)
@@ -292,7 +292,7 @@ def _summed_forecasts(
     rays: Rays, columns: Ints, batches: Iterable[StopStates], sensor: SensorModel, hit_depth: float, device: str, *,
     with_cumulative: bool,
 ) -> tuple[Floats, list[Floats]]:  # fmt: skip
-    """Compute log densities, and mean cumulative probabilities at the reading and at both limits."""
+    """Compute log densities, and mean cumulatives at the reading and at the largest and smallest range, (B,) each."""
     device = devices.resolve(device)
     law = (law_with_cumulative if with_cumulative else laws.sensor_law)(sensor, rays.limits, device)
     beams, cumulatives = rays.n_beams, (rays.n_beams if with_cumulative else 1,)
@@ -327,7 +327,6 @@ def forecast(
     rays: Rays, batches: Iterable[StopStates], sensor: SensorModel, hit_depth: float, *, device: str = "cpu"
 ) -> Forecast:
     """Predict the reading of every beam, traced over its whole length, under the mean of the law over draws.
-
     The columns of the draws are the cells ``rays.touched``. Without a surface, a beam stops at the share ``hit_depth``
     of its stretch. Raises `BadInput` without draws, or if probabilities of a user's sensor do not add up to one.
     """
@@ -407,7 +406,6 @@ class ScanLikelihood:
         self, cells: Singles | DeviceMaps, poses: Floats, scan: NDArray[np.intp], chain: NDArray[np.intp]
     ) -> Floats:
         """Compute the log density of each reading at poses in the world frame, invalid ones 0, in nats, (P, A).
-
         ``cells`` holds a map of the whole grid per chain, see `StopStates`; `DeviceMaps` are not copied. ``scan`` and
         ``chain`` are the indices of the scan and of the map at each pose, (P,).
         """

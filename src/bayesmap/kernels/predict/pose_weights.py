@@ -54,6 +54,17 @@ def stop_chance(maps: MapArrays, draw: int, cell: int, ray: Ray) -> wp.float32:
 
 
 @wp.func
+def relevant_span_m(law: SensorLaw32, frame: Frame, z: wp.float32) -> wp.vec2:
+    """Return the distances, metres, between which the position of a stop matters for the density of a reading z."""
+    end = wp.clamp(z, ZERO_32, law.max_m)
+    margin = MARGIN_SCALES * wp.sqrt(laws.variance_at(law, end, ZERO_32)) + MARGIN_CELLS * wp.float32(frame.resolution)
+    last = law.max_m
+    if wp.isfinite(z):
+        last = wp.min(last, z + margin)
+    return wp.vec2(end - margin, last)
+
+
+@wp.func
 def reading_log_density(
     law: SensorLaw32, frame: Frame, maps: MapArrays, draw: int, start_m: wp.vec2, angle: wp.float32, z: wp.float32
 ) -> wp.float32:
@@ -64,32 +75,23 @@ def reading_log_density(
     depth = wp.float32(maps.depth)
     ux, uy = wp.cos(angle), wp.sin(angle)
     px, py = start_m[0] / resolution, start_m[1] / resolution
-    cx = int(wp.floor(px))
-    cy = int(wp.floor(py))
+    cx, cy = int(wp.floor(px)), int(wp.floor(py))
     step_x, step_y = wp.where(ux > ZERO_32, 1, -1), wp.where(uy > ZERO_32, 1, -1)
-    next_x = next_line(px, ux)
-    next_y = next_line(py, uy)
+    next_x, next_y = next_line(px, ux), next_line(py, uy)
     gap_x = wp.where(next_x < NEVER, wp.abs(ONE_32 / ux), NEVER)
     gap_y = wp.where(next_y < NEVER, wp.abs(ONE_32 / uy), NEVER)
-    # Distances, in cells, between which the position of the stop matters.
+    # Walk, and sum the density over stops: chance of getting to the cell, times chance and density of its stop.
     ray = Ray(start_m, wp.vec2(ux, uy))
     decay = laws.object_decay(law, z)
-    last_relevant = law.max_m
-    end = wp.clamp(z, ZERO_32, law.max_m)
-    margin = MARGIN_SCALES * wp.sqrt(laws.variance_at(law, end, ZERO_32)) + MARGIN_CELLS * resolution
-    first_relevant = (end - margin) / resolution
-    if wp.isfinite(z):
-        last_relevant = wp.min(last_relevant, z + margin)
-    last_relevant = last_relevant / resolution
-    # Walk, and sum the density over stops: chance of getting to the cell, times chance and density of its stop.
+    relevant = relevant_span_m(law, frame, z) / resolution
     entry = wp.min(next_x, next_y)
     total = ZERO_32
     survive = ONE_32
-    while entry <= last_relevant and survive > MIN_SURVIVAL:
+    while entry <= relevant[1] and survive > MIN_SURVIVAL:
         exit = wp.min(next_x, next_y)
         if cx >= 0 and cx < frame.nx and cy >= 0 and cy < frame.ny:
             cell = cx * frame.ny + cy
-            if entry >= first_relevant:
+            if entry >= relevant[0]:
                 chance = stop_chance(maps, draw, cell, ray)
                 if chance > MIN_CHANCE:
                     distance = (entry + depth * (exit - entry)) * resolution
@@ -174,7 +176,6 @@ def scan_log_likelihood(
     scan: NDArray[np.intp] | None = None, draws: int | None = None, in_turn: bool = False, threads: int | None = None,
 ) -> Floats:  # fmt: skip
     """Compute the log-likelihood of scans at poses under draws of the map, nats, (P, D); invalid readings count 0.
-
     Readings belong to one scan, (A,), or several, (S, A). ``scan`` is the index of each pose's scan, (P,); None for the
     first. The first ``draws`` of the map are used; if ``in_turn``, one for each pose, in turn: the result is (P, 1).
     """

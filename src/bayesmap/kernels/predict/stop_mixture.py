@@ -145,8 +145,7 @@ def find_events(
     before = wp.float64(-1.0)
     for entry in range(rays.offsets[beam], rays.offsets[beam + 1]):
         inside = stretch(line, rays.cells[entry])
-        enter = inside[0]
-        leave = inside[1]
+        enter, leave = inside[0], inside[1]
         if entry + 1 < rays.offsets[beam + 1]:
             leave = stretch(line, rays.cells[entry + 1])[0]
         leave = wp.min(leave, law.max_m)
@@ -172,7 +171,6 @@ def stops_to_device(stops: StopMixture, device: str) -> Any:
 
 def first_hit_events(stops: StopMixture, sensor: SensorModel, device: str = "cpu") -> tuple[Singles, NDArray[np.int8]]:
     """Predict, for each stretch of a beam in a cell that its reading reaches, whether the reading ends there.
-
     With the beam's predictive cumulative F and the stretch [a, b), the chance is (F(b) - F(a)) / (1 - F(a)). Returns
     chances and outcomes, (K,) each: 1 if the reading ended there, 0 if it went on, -1 without an event.
     """
