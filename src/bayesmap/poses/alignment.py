@@ -23,24 +23,28 @@ from bayesmap.poses.scan_geometry import NO_POINT, ScanGeometry
 from bayesmap.space.arrays import Indices, Mask, bracketing_indices, evenly_spaced, nearest_index, offsets_of
 from bayesmap.space.planar import Floats, between, compose, rotation
 
+# Selection of pairs.
 MAX_PARTNERS = 20  # partners of a scan
 MAX_CANDIDATES = 64  # near scans among which partners are selected
 SAME_VISIT_SCANS = 10  # partners within this many scans in time share the drift: at least half are from other times
-REACH_M = (0.3, 0.08)  # maximum distance of paired points: in the first round, and from the middle round on
-SCALE_M = (0.12, 0.03)  # Geman and McClure's c: in the first round, and from the middle round on
 TRIAL_REACH_M, TRIAL_SCALE_M = 0.3, 0.15  # reach and scale when partners are selected
 TRIAL_BEAMS = 45  # approximate number of beams of a scan when partners are selected
-MIN_COSINE = 0.7  # cosine of paired normals
 MIN_MATCHED_SHARE = 0.2  # share of a scan's points that match a partner
-SLACK_FACTOR = 4.0  # f of H - f sigma^2 S, see `without_slack`: a pair's slack may be three times its mean S
+MIN_COSINE = 0.7  # cosine of paired normals, here and below
+# Alignment.
+REACH_M = (0.3, 0.08)  # maximum distance of paired points: in the first round, and from the middle round on
+SCALE_M = (0.12, 0.03)  # Geman and McClure's c: in the first round, and from the middle round on
+SLACK_FACTOR = 4.0  # multiple of the mean slack that is subtracted: the slack of one pair may be several times the mean
 EARLY_BEAMS = 180  # at least so many beams of a scan are used until reach and scale have shrunk; then all
 SIGMA_BOUNDS_M = (0.002, 0.05)  # bounds on the estimated standard deviation of a point
 MIN_STEP = 2e-4  # metres and radians: an alignment ends early if no pose moves further in a round
 SLIP_SQ = 25.0  # odometry's cost grows less than quadratically beyond this squared Mahalanobis distance: wheels slip
+# Error of points.
 SHARED_ERROR_SHARE = 0.1  # share of points' variance that shared errors of pairs contain too, as in simulated offices
 MIN_ERROR_PAIRS = 8000  # pairs of scans on which the error of points is measured, if there are so many
 LEVER_M = 4.0  # typical distance of points from the laser, metres, for turns
 RESPONSE_BOUNDS = (0.2, 1.0)  # bounds on k; if forces hardly respond to a shift, there are too few points
+# Refinement of the scans between key scans.
 MAX_COMPARED = 10  # key scans that each scan is compared with
 PRIOR_SIGMA = np.array([0.03, 0.03, np.radians(1.0)])  # sigmas of a scan before its beams are used
 SCATTER_FACTOR = 2.0  # factor on the scatter of points during refinement: rough first steps stay near the prior
@@ -81,7 +85,7 @@ class Annealing:
     scale_m: tuple[float, float] = SCALE_M  # Geman and McClure's c: first round, and from the middle on
 
     def rules(self, number: int, geometry: ScanGeometry) -> PairRules:
-        """Return the rules of pairs in a round. Part of the beams are used until the middle round."""
+        """Return the rules of pairs of points in a round. Only part of the beams are used before the middle round."""
         reach_m, scale_m = geometry.reach_m(*self.reach_m), geometry.scale_m(*self.scale_m)
         share = min(1.0, number / max(1.0, 0.5 * self.rounds))
         reach = reach_m[0] * (reach_m[1] / reach_m[0]) ** share
@@ -99,17 +103,18 @@ def align(
     ``select_pairs`` returns the pairs of scans at poses (S, 3), in the first and the middle round. ``firm`` is the mask
     of odometry's relative poses without slip, (M,). ``on_progress`` is called with the number of rounds done and poses.
     """
-    rounds = annealing.rounds
     sigma_m = geometry.noise_m
-    for number in range(rounds):
-        # Pair the scans, and weight beams by the number of their partners.
+    for number in range(annealing.rounds):
+        # Pair the scans in the first and the middle round. Weight beams by the number of their partners then, and anew
+        # before the end.
         rules = annealing.rules(number, geometry)
-        if number in (0, (rounds + 1) // 2):
+        has_new_pairs = number in (0, (annealing.rounds + 1) // 2)
+        if has_new_pairs:
             pairs = select_pairs(poses)
         relative = between(poses[pairs.target], poses[pairs.source])
-        if number in (0, (rounds + 1) // 2, rounds - 2):
+        if has_new_pairs or number == annealing.rounds - 2:
             weights = _beam_weights(geometry, pairs, relative, rules)
-        # Solve for one step of laser and odometry, and estimate the noise from the residuals.
+        # Solve for one step of laser and odometry.
         sums = pair_sums(geometry, weights, pairs.source, pairs.target, relative, rules, geometry.threads)
         laser = _laser_cost(pairs, relative, sums, sigma_m, rules.stride)
         slip_weights = 1.0 / (1.0 + odometry.squares(poses) / SLIP_SQ)
@@ -117,12 +122,10 @@ def align(
         step, _ = solve_step(len(poses), [laser, wheels])
         poses = compose(poses, step)
         gaussian = _gaussian(poses, laser, wheels)
-        weight = max(sums.totals[:, line_pairs.WEIGHT].sum(), 1e-9)  # not 0 if no points are paired
-        variance = max(sums.totals[:, line_pairs.COST].sum() / weight, 1e-8) / 2.0
-        sigma_m = float(np.clip(np.sqrt(variance), *SIGMA_BOUNDS_M))
+        sigma_m = _point_sigma_m(sums)
         if on_progress is not None:
             on_progress(number + 1, poses)
-        if number > rounds // 2 + 1 and np.abs(step).max() < MIN_STEP:
+        if number > annealing.rounds // 2 + 1 and np.abs(step).max() < MIN_STEP:
             break
     return Alignment(poses, pairs, sigma_m, gaussian)
 
@@ -141,17 +144,24 @@ def _laser_cost(pairs: Pairs, relative: Floats, sums: PairSums, sigma_m: float, 
     return Quadratic(target, source, relative, curvature * factor, gradient * factor)
 
 
+def _point_sigma_m(sums: PairSums) -> float:
+    """Estimate the standard deviation of a point from the residuals of pairs, which have the errors of two points."""
+    weight = max(sums.totals[:, line_pairs.WEIGHT].sum(), 1e-9)  # not 0 if no points are paired
+    variance = max(sums.totals[:, line_pairs.COST].sum() / weight, 1e-8) / 2.0
+    return float(np.clip(np.sqrt(variance), *SIGMA_BOUNDS_M))
+
+
 def without_slack(hessian: Floats, slack: Floats, gradient: Floats, sigma_m: float) -> tuple[Floats, Floats]:
     """Return second derivatives, (M, 3, 3), and first ones, (M, 3), without the slack: the part from errors of normals.
 
-    Errors of normals add information along a corridor, where odometry should decide. Their mean part of the Hessian H
-    is sigma^2 S, with ``slack`` S. Negative eigenvalues of the rest are set to 0. The cost keeps its minimum.
+    Errors of normals add information along a corridor, where odometry should decide. On average they add sigma^2 S to
+    the Hessian H, where S is ``slack``. `SLACK_FACTOR` times this mean is subtracted, and negative eigenvalues of the
+    rest are set to 0. The cost keeps its minimum.
     """
     values, vectors = np.linalg.eigh(hessian - SLACK_FACTOR * sigma_m**2 * slack)
     curvature = (vectors * np.maximum(values, 0.0)[:, None, :]) @ np.swapaxes(vectors, 1, 2)
-    size = np.trace(hessian, axis1=1, axis2=2)[:, None, None]
-    ridge = hessian + np.eye(3) * (1e-6 * size + 1e-12)
-    minimum = np.linalg.solve(ridge, gradient[..., None])
+    ridge = 1e-6 * np.trace(hessian, axis1=1, axis2=2)[:, None, None] + 1e-12
+    minimum = np.linalg.solve(hessian + np.eye(3) * ridge, gradient[..., None])
     return curvature, (curvature @ minimum)[..., 0]
 
 
@@ -165,12 +175,12 @@ def _gaussian(poses: Floats, laser: Quadratic, wheels: Quadratic) -> PoseGaussia
 
 
 def overlapping_pairs(geometry: ScanGeometry, poses: Floats, reach_m: float) -> Pairs:
-    """Select partners of scans at poses (S, 3): scans up to ``reach_m`` apart whose walls explain most points."""
+    """Select pairs of scans at poses (S, 3): each scan, and those up to ``reach_m`` away that share most points."""
     count = len(poses)
     if count < 2:
         return Pairs(np.empty(0, np.int32), np.empty(0, np.int32), np.zeros(count + 1, np.int32))
     source, target = _near_pairs(poses, reach_m)
-    # Compute the share of each scan's points that the other explains.
+    # Compute the share of the source's points that lie on walls of the target.
     rules = PairRules(TRIAL_REACH_M, TRIAL_SCALE_M, MIN_COSINE, max(1, geometry.beams // TRIAL_BEAMS))
     relative = between(poses[target], poses[source])
     matched = pair_sums(geometry, None, source, target, relative, rules, geometry.threads).totals[:, line_pairs.MATCHED]
@@ -182,10 +192,10 @@ def overlapping_pairs(geometry: ScanGeometry, poses: Floats, reach_m: float) -> 
 
 
 def _near_pairs(poses: Floats, reach_m: float) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-    """Select pairs of near scans: all that are near in time too, and the nearest of the others. Returns both scans."""
+    """Select candidate pairs: all near scans of the same visit, and the nearest others. Returns sources and targets."""
     from scipy.spatial import cKDTree
 
-    # Half a turn counts as 3 m.
+    # Rank scans by distance; headings that are opposite count as 3 m.
     tree = cKDTree(np.column_stack([poses[:, :2], np.cos(poses[:, 2]), np.sin(poses[:, 2])]) * [1.0, 1.0, 1.5, 1.5])
     _, near = tree.query(tree.data, k=min(4 * MAX_CANDIDATES, len(poses)), workers=1)
     source = np.repeat(np.arange(len(poses)), near.shape[1])
@@ -201,7 +211,7 @@ def _near_pairs(poses: Floats, reach_m: float) -> tuple[NDArray[np.int32], NDArr
 def _best_partners(
     source: NDArray[np.int32], target: NDArray[np.int32], share: Floats, count: int
 ) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-    """Select at most `MAX_PARTNERS` of each of ``count`` source scans, by share of explained points. Returns pairs."""
+    """Select at most `MAX_PARTNERS` for each of ``count`` scans, by ``share``, (M,). Returns sources and targets."""
     # Order the partners of each scan: other visits first, each group by share. Number each group from 0.
     same_visit = np.abs(source.astype(np.int64) - target) <= SAME_VISIT_SCANS
     order = np.lexsort((-share, same_visit, source))
@@ -218,10 +228,10 @@ def _best_partners(
 
 @dataclass(frozen=True, eq=False)
 class PointError:
-    """The error of points, and the response of the forces to a shift."""
+    """The error of points, and the response of the forces to a shift, as `point_error` measures them."""
 
     scatter_m: float  # standard deviation of a point's force over its mean weight, metres
-    response: Floats  # k for shifts along x and y and for turns, (3,)
+    response: Floats  # share k for shifts along x, along y, and for turns, (3,)
 
     @property
     def sigma_m(self) -> float:
@@ -276,10 +286,10 @@ def with_point_error(aligned: Alignment, error: PointError) -> PoseGaussian:
 
 @dataclass(frozen=True, eq=False)
 class Placement:
-    """Poses of all scans."""
+    """Poses of all scans: aligned ones of key scans, and refined ones of the scans between them."""
 
     poses: Floats  # (S, 3)
-    information: Floats  # of each pose given the key scans, in its own frame, (S, 3, 3)
+    information: Floats  # of each refined pose given the key scans, in its own frame, (S, 3, 3); 0 for key scans
     explained: Floats  # share of each scan's points on walls of compared key scans, (S,); 1 for key scans
 
     def own_covariance(self, keys: Indices) -> Floats:
@@ -292,14 +302,14 @@ class Placement:
 def place_scans(
     geometry: ScanGeometry, start_poses: Floats, keys: Indices, aligned: Alignment, error: PointError
 ) -> Placement:
-    """Refine every scan against the partners of the key scan nearest to it in time. Key scans keep their poses."""
+    """Refine scans from their poses, (S, 3), against the key scans of `compared_keys`. Key scans keep aligned poses."""
     count = len(start_poses)
     scans = np.setdiff1d(np.arange(count), keys)
     result, information, explained = start_poses.copy(), np.zeros((count, 3, 3)), np.ones(count)
     result[keys] = aligned.poses
     if not len(scans):
         return Placement(result, information, explained)
-    # Refine all scans at once; each starts at its pose, which is also the mean of its prior.
+    # Refine the other scans at once; each starts at its pose, which is also the mean of its prior.
     offsets, compared = compared_keys(scans, keys, aligned)
     targets, target_poses = keys[compared].astype(np.int32), aligned.poses[compared]
     starts, to_world = start_poses[scans], rotation(start_poses[scans, 2])
@@ -319,7 +329,10 @@ def place_scans(
 
 
 def compared_keys(scans: Indices, keys: Indices, aligned: Alignment) -> tuple[NDArray[np.int32], Indices]:
-    """Select keys to compare scans with: before and after each, and partners of the nearer. Returns offsets, keys."""
+    """Select key scans to compare scans with, (N,): the ones before and after each, and partners of the nearer one.
+
+    Returns offsets, (N + 1,), and positions among the keys: scan i has those from ``offsets[i]`` to ``offsets[i + 1]``.
+    """
     before, after = bracketing_indices(keys, scans)
     nearer = nearest_index(keys, scans)
     farther = np.where(nearer == before, after, before)
@@ -333,12 +346,12 @@ def _information(
     geometry: ScanGeometry, source: NDArray[np.int32], target: NDArray[np.int32], relative: Floats, rules: PairRules,
     error: PointError,
 ) -> tuple[Floats, Floats]:  # fmt: skip
-    """Return the information of M pairs' points about the source scan's pose, in its frame, (M, 3, 3).
+    """Return the information of M pairs of scans, (M, 3, 3), and the share of each scan's points they explain, (S,).
 
-    Pairs are sorted by source, and ``relative`` are poses of sources in the frames of targets, (M, 3). A beam that is
-    matched with c scans has its own error once and the mean error of c others. Its variance is sigma^2 (1 + 1 / c), so
-    that it counts 1 / (c + 1) in each pair. The second result is the share of each scan's points that any of its pairs
-    explains, (S,). A point that fits one wall well, or several walls half, counts fully.
+    The information is about the source's pose, in its own frame. Pairs are sorted by source, and ``relative`` are poses
+    of sources in the frames of targets, (M, 3). A beam that is matched with c scans has its own error once and the mean
+    error of c others. Its variance is sigma^2 (1 + 1 / c), so that it counts 1 / (c + 1) in each pair. A point that
+    fits one wall well, or several walls half, is explained fully.
     """
     offsets = np.searchsorted(source, np.arange(len(geometry) + 1)).astype(np.int32)
     counts = match_counts(geometry, offsets, target, relative, rules, geometry.threads)
@@ -348,6 +361,5 @@ def _information(
     in_target = curvature / error.scatter_m**2
     to_target = rotation(relative[:, 2])
     in_source = np.swapaxes(to_target, 1, 2) @ in_target @ to_target
-    points = np.maximum((geometry.host_kind != NO_POINT).sum(axis=1), 1)
-    explained = np.minimum(counts, 1.0).sum(axis=1) / points
+    explained = np.minimum(counts, 1.0).sum(axis=1) / np.maximum((geometry.host_kind != NO_POINT).sum(axis=1), 1)
     return np.asarray(error.response[:, None] * in_source * error.response), np.asarray(explained, np.float64)
