@@ -78,8 +78,7 @@ def resolve(name: str = "cpu") -> str:
 
 def to_device(array: np.ndarray[Any, Any], dtype: Any, device: str) -> Any:
     """Put a NumPy array on a device, vectors along its last axis; on the CPU it shares memory if it can."""
-    scalar = getattr(dtype, "_wp_scalar_type_", dtype)
-    flat = np.ascontiguousarray(array, dtype=wp.dtype_to_numpy(scalar))
+    flat = np.ascontiguousarray(array, dtype=wp.dtype_to_numpy(getattr(dtype, "_wp_scalar_type_", dtype)))
     return wp.array(flat, dtype=dtype, device=device, copy=device != "cpu")
 
 
@@ -146,12 +145,10 @@ def launch(
     kernel: Any, size: int, inputs: Sequence[Any], device: str, threads: int | None = None, begin: int = 0
 ) -> list[Any]:
     """Run ``kernel(first, *inputs)`` over ``size`` elements from ``begin`` on; on the CPU, one slice per thread.
-
     ``first`` is the index of a slice's first element. NumPy arrays among the inputs are put on the device with the
     types of the kernel's arguments. A shape, a tuple, stands for an output, zero at first. Returns the outputs.
     """
-    declared = kernel.adj.args[1:]
-    arguments = [_as_argument(value, a.type, device) for value, a in zip(inputs, declared, strict=True)]
+    arguments = [_as_argument(value, a.type, device) for value, a in zip(inputs, kernel.adj.args[1:], strict=True)]
     threads = min(threads or available_cores(), size) if device == "cpu" else 1
     if size > 0 and threads == 1:
         wp.launch(kernel, dim=size, inputs=[begin, *arguments], device=device)

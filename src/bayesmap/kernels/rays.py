@@ -98,8 +98,7 @@ def line_of(lines: Lines, beam: int) -> Line:
 @wp.func
 def walk_along(line: Line, nx: int, max_m: wp.float64) -> Walk:
     """Start the walk along a line in its grid, ``nx`` cells wide."""
-    start = wp.vec2d(line.x.start, line.y.start)
-    return begin_walk(start, line.direction, nx, line.ny, max_m / line.edge_m)
+    return begin_walk(wp.vec2d(line.x.start, line.y.start), line.direction, nx, line.ny, max_m / line.edge_m)
 
 
 @wp.func
@@ -213,7 +212,6 @@ def trace_rays(
     on_progress: Callable[[int, int], None] = lambda done, total: None,
 ) -> Rays:  # fmt: skip
     """Follow every beam of S scans of A beams through a grid: beam ``s * A + a`` of the rays is beam a of scan s.
-
     Beams with invalid readings, and beams that a scan lacks, get no entry. ``poses_world`` are other poses, as
     `bayesmap.space.scans.Scans.at` takes them. Each beam is followed for ``reach_m``, (B,), at most to the sensor's
     largest range, the default. No stop before ``near_m``, (B,), could explain its reading; 0 if None. ``on_progress``
@@ -287,7 +285,6 @@ def count_hits_and_passes(
 
 def count_hits(scans: Scans, grid: Grid, device: str = "cpu") -> tuple[Ints, Ints]:
     """Count the beams that stopped in each cell and the beams that passed it, (nx * ny,) each.
-
     A hit stops in the last cell touched at its range; outside the grid it passes all cells. A beam without return
     passes all cells up to the sensor's range. Beams that are too close or invalid do not count.
     """

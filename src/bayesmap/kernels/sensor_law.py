@@ -220,8 +220,7 @@ def unblocked_near(law: Any, reading_m: Any, decay: Any, distance_m: Any):
     if wp.abs(x) > law.series or reading_m < type(distance_m)(0.0):
         return unblocked(law, distance_m)
     half = type(distance_m)(0.5)
-    third = type(distance_m)(THIRD)
-    ratio = one - x * (one - x * half * (one - x * third * (one - x * half * half)))
+    ratio = one - x * (one - x * half * (one - x * type(distance_m)(THIRD) * (one - x * half * half)))
     return one - law.p_short * (one - decay * ratio)
 
 
@@ -279,8 +278,7 @@ def stop_density(law: Any, reading_m: Any, decay: Any, distance_m: Any, variance
         above = type(one)(0.0)
         if law.dof > type(one)(0.0) or (law.max_m - wall) * (law.max_m - wall) < type(one)(FAR_SQ) * scale * scale:
             above = noise_below(law, (wall - law.max_m) / scale)  # the noise is symmetric
-        p_none = law.p_known * (free * law.p_no_return + hit * above)
-        return wp.max(p_none, type(one)(MIN_PROBABILITY))
+        return wp.max(law.p_known * (free * law.p_no_return + hit * above), type(one)(MIN_PROBABILITY))
     # Too close.
     below = noise_below(law, (law.min_m - wall) / scale)
     return wp.max(law.p_known * (blocked(law, wp.min(wall, law.min_m)) + hit * below), type(one)(MIN_PROBABILITY))

@@ -155,8 +155,7 @@ def find_first_hits(
     """One thread per beam: walk to the first wall. Outputs are ``distance`` and the number of ``visits``."""
     beam = first + wp.tid()
     nx, ny = walls.shape[0], walls.shape[1]
-    direction = wp.vec2d(wp.cos(angle_rad[beam]), wp.sin(angle_rad[beam]))
-    w = begin_walk(start[beam], direction, nx, ny, max_distance)
+    w = begin_walk(start[beam], wp.vec2d(wp.cos(angle_rad[beam]), wp.sin(angle_rad[beam])), nx, ny, max_distance)
     nearest = wp.float64(max_distance)
     n_visited = int(0)
     while w.distance <= w.end:
@@ -174,7 +173,6 @@ def cast_beams(
     walls: NDArray[Any], starts_cells: Floats, angles_rad: Floats, longest_cells: float, device: str = "cpu"
 ) -> tuple[Floats, Ints]:
     """Return the distance of each beam to the first wall, in cells, and the number of cells that it visits, (B,) each.
-
     ``walls`` is (nx, ny), ``starts_cells`` (B, 2). A beam without a wall has the distance ``longest_cells``.
     """
     device = devices.resolve(device)

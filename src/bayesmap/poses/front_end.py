@@ -226,8 +226,7 @@ class _Path:
         self.poses[scan], self.information[scan] = placed.poses[k], placed.information[k]
         self.scores[scan], self.is_reversed[scan] = placed.scores[k], placed.is_reversed[k]
         score = float(placed.scores[k])
-        variance_before = placed.variance[k - 1] if k else 0.0
-        self.variance_since_key = self.variance_since_key + placed.variance[k] - variance_before
+        self.variance_since_key = self.variance_since_key + placed.variance[k] - (placed.variance[k - 1] if k else 0.0)
         self.odometry_variance[scan] = self.variance_since_key
         # Learn only from scans that fit as usual: others say little about odometry.
         if self.motions is not None:
@@ -440,9 +439,8 @@ def _refine(
         scans.astype(np.int32), np.arange(jobs + 1, dtype=np.int32) * len(keys), np.tile(keys, jobs).astype(np.int32),
         np.tile(poses, (jobs, 1)), start, predicted, prior_information,
     )  # fmt: skip
-    sigma_m = max(POINT_SIGMA_M, geometry.noise_m)
     reach, scale = geometry.reach_m(*REACH_M), geometry.scale_m(*SCALE_M)
-    convergence = Convergence(sigma_m, MAX_REFINEMENT_STEPS, reach, scale, MIN_COSINE)
+    convergence = Convergence(max(POINT_SIGMA_M, geometry.noise_m), MAX_REFINEMENT_STEPS, reach, scale, MIN_COSINE)
     refined, laser_information, _ = refine_scans(geometry, refinement, convergence, geometry.threads)
     to_world = rotation(refined[:, 2])
     return refined, np.swapaxes(to_world, 1, 2) @ laser_information @ to_world

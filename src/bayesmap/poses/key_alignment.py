@@ -171,8 +171,7 @@ def match_without_itself(
         poor = np.nonzero(best < poor_score)[0]
         if len(poor):
             windows = SearchWindows(origin[poor], WIDE_M, WIDE_RAD, np.radians(1.0))
-            min_score = best[poor] + MIN_WIDE_GAIN
-            wide = match(grids, [points[k] for k in poor], windows, grid_of=poor, min_score=min_score)
+            wide = match(grids, [points[k] for k in poor], windows, grid_of=poor, min_score=best[poor] + MIN_WIDE_GAIN)
             in_wide = wide.has_pose[:, 0]
             moved = poor[in_wide]
             best[moved], offsets[moved] = wide.scores[in_wide, 0], wide.poses[in_wide, 0]

@@ -79,8 +79,7 @@ def close_loops(
     path, rounds, joined = key_path(geometry, keys, poses, track.broken[keys]), ROUNDS, np.ones(1, np.bool_)
     if path.segments.any():
         # Loops within a segment first: segments bent by metres fit each other at several relative poses.
-        chain = chain_links(track, poses)
-        weighed, _ = _close_in_rounds(path, chain, ROUNDS[:2], half_width_m, within_segments=True)
+        weighed, _ = _close_in_rounds(path, chain_links(track, poses), ROUNDS[:2], half_width_m, within_segments=True)
         poses, joined = reconnect_segments(path.at(weighed.poses), half_width_m)
         path, rounds = path.at(poses), ROUNDS[1:]
     weighed, closures = _close_in_rounds(path, chain_links(track, poses), rounds, half_width_m, on_progress)
@@ -359,6 +358,5 @@ def poses_between_keys(track_poses: Floats, keys: Indices, key_poses: Floats, br
     change = wrap_yaw(key_poses[after] - expected)
     if broken is not None:
         change[broken[keys[after]]] = 0.0
-    step = np.maximum(keys[after] - keys[before], 1)
-    share = (np.arange(count) - keys[before]) / step
+    share = (np.arange(count) - keys[before]) / np.maximum(keys[after] - keys[before], 1)
     return wrap_yaw(result + change * np.where(after > before, share, 0.0)[:, None])

@@ -276,8 +276,7 @@ def _refine(path: KeyPath, first: Indices, second: Indices, start: Floats, score
     # List the scans of all first submaps one after the other, with their poses in the first key's frame.
     members = [path.submap_members(int(key), EARLIER_HALF_M) for key in first]
     offsets, others = offsets_of(members), np.concatenate(members)
-    anchors = np.repeat(first, np.diff(offsets))
-    other_poses = between(path.poses[anchors], path.poses[others])
+    other_poses = between(path.poses[np.repeat(first, np.diff(offsets))], path.poses[others])
     weak_prior = np.tile(np.diag([1.0, 1.0, 4.0]), (len(first), 1, 1))
     refinement = Refinement(path.scans(second), offsets, path.scans(others), other_poses, start, start, weak_prior)
     convergence = Convergence(0.02, 15, (0.4, 0.12), (0.2, 0.05), MIN_COSINE)

@@ -43,8 +43,7 @@ def select_key_scans(log: Scans, trajectory: InferredTrajectory, chains: int, se
     scans = calibrated_keys(log, trajectory)
     # All trajectories share the first pose: it is the frame of the map.
     draws = trajectory.draw(chains, seed)[:, trajectory.keys]
-    starts = compose(scans.poses[0], between(draws[:, :1], draws))
-    return KeyScans(scans, _prior_of(trajectory), starts)
+    return KeyScans(scans, _prior_of(trajectory), compose(scans.poses[0], between(draws[:, :1], draws)))
 
 
 def select_keys_by_odometry(log: Scans, *, no_odometry: bool) -> Scans:
@@ -71,9 +70,8 @@ def _prior_of(trajectory: InferredTrajectory) -> PosePrior:
     sigmas = relative + FREE_SIGMA
     factors = trajectory.odometry
     if factors is not None:
-        covariance = np.linalg.inv(factors.information)
         relative[factors.first] = factors.relative
-        sigmas[factors.first] = np.sqrt(np.diagonal(covariance, axis1=1, axis2=2))
+        sigmas[factors.first] = np.sqrt(np.diagonal(np.linalg.inv(factors.information), axis1=1, axis2=2))
     return Motions(relative, sigmas, P_SLIP)
 
 

@@ -129,8 +129,7 @@ def compose_factors(motions: Floats, variances: Floats, keys: Indices) -> Factor
     """Return factors between successive keys, from motions between scans and their variances, (S - 1, 3) each."""
     relative, covariance = np.zeros((len(keys) - 1, 3)), np.zeros((len(keys) - 1, 3, 3))
     # Step k adds the k-th motion after each key, for all keys at once.
-    longest = int(np.diff(keys).max(initial=1))
-    for k in range(longest):
+    for k in range(int(np.diff(keys).max(initial=1))):
         number = keys[:-1] + k
         active = np.nonzero(number < keys[1:])[0]
         motion, variance = motions[number[active]], variances[number[active]]

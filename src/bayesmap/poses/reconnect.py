@@ -32,10 +32,7 @@ CHANCE_SCORE = 0.5  # a place votes with the square of its score above this
 MAX_HYPOTHESES = 6  # relative poses of two segments that are tested against free space
 MIN_PLACES, MIN_PLACES_EARLIER = 3, 4  # places that must agree on a relative pose in the last and in earlier passes
 MIN_RIVAL_PLACES = 2  # places that must agree on a rival relative pose before the last pass
-MAX_RIVAL_SHARE, MAX_RIVAL_SHARE_EARLIER = (
-    0.5,
-    0.4,
-)  # a rival with this share of the best pose's votes makes it doubtful
+MAX_RIVAL_SHARE, MAX_RIVAL_SHARE_EARLIER = 0.5, 0.4  # a rival with this share of the best pose's votes casts doubt
 SAME_M, SAME_RAD = 0.5, np.radians(6.0)  # maximum difference of equal relative poses: segments are bent
 COMPARED_M = 5.0  # maximum distance of compared key scans of two segments
 MAX_COMPARED = 600  # pairs of key scans that are compared

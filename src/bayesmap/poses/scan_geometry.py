@@ -187,9 +187,8 @@ def merge_beams(
     angles = angles_rad[: groups * size].reshape(groups, size)
     valid = (readings > nearest_m) & (readings < farthest_m)  # False for NaN and for either infinity
     # Average the readings of each group that are near its median reading.
-    ordered = np.sort(np.where(valid, readings, np.inf), axis=2)
     middle = np.maximum(valid.sum(axis=2, keepdims=True) - 1, 0) // 2
-    median = np.take_along_axis(ordered, middle, axis=2)
+    median = np.take_along_axis(np.sort(np.where(valid, readings, np.inf), axis=2), middle, axis=2)
     with np.errstate(invalid="ignore", divide="ignore"):
         used = valid & (np.abs(readings - median) < GAP_M + GAP_STEPS * step * median)
         count = used.sum(axis=2)
@@ -230,6 +229,5 @@ def _beam_of_angle(angles_rad: Floats, step_rad: float, bins: int) -> NDArray[np
     around = np.concatenate([angles_rad - 2.0 * np.pi, angles_rad, angles_rad + 2.0 * np.pi])
     after = np.clip(np.searchsorted(around, middles), 1, len(around) - 1)
     nearest = np.where(middles - around[after - 1] < around[after] - middles, after - 1, after)
-    beam = nearest % len(angles_rad)
-    far = np.abs(around[nearest] - middles) > 2.0 * step_rad
-    return np.where(far, -1, beam).astype(np.int32)
+    is_far = np.abs(around[nearest] - middles) > 2.0 * step_rad
+    return np.where(is_far, -1, nearest % len(angles_rad)).astype(np.int32)

@@ -351,10 +351,8 @@ class _Construction:
         """Put a pane in the middle of the outer wall, with free cells on both sides."""
         self.opacity[x0:x1, y0:y1] = 0.0
         x, y = (x0 + x1) // 2, (y0 + y1) // 2
-        if along_x:
-            self.add_pane(x0, x1, y, y + 1, along_x=True)
-        else:
-            self.add_pane(x, x + 1, y0, y1, along_x=False)
+        pane = (x0, x1, y, y + 1) if along_x else (x, x + 1, y0, y1)
+        self.add_pane(*pane, along_x=along_x)
 
     def add_pane(self, x0: int, x1: int, y0: int, y1: int, *, along_x: bool) -> None:
         """Put glass in these cells, with a mullion every 1.2 m."""

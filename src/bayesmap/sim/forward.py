@@ -21,8 +21,7 @@ def ranges(
     Returns metres, at most ``max_range_m``, (A,) for a pose of shape (3,), else (S, A). Raises `BadInput` for shapes
     that do not fit, numbers that are not finite, or a cap that is not positive.
     """
-    poses_world = as_poses(poses)
-    distances_m = _distances_m(walls, grid, poses_world, as_angles(angles_rad), max_range_m, device)
+    distances_m = _distances_m(walls, grid, as_poses(poses), as_angles(angles_rad), max_range_m, device)
     return distances_m[0] if np.ndim(poses) == 1 else distances_m
 
 

@@ -109,8 +109,7 @@ def _office(room: RoomFloor, clutter: float) -> None:
     """Place desks at one or both side walls, far from the door, and cabinets."""
     _, depth = room.size_m
     for side in room.rng.permutation(2)[: 1 + (room.rng.random() < 0.6 * clutter)]:
-        y = depth - room.rng.uniform(1.9, 2.4)
-        _desk_at_wall(room, y, left=bool(side))
+        _desk_at_wall(room, depth - room.rng.uniform(1.9, 2.4), left=bool(side))
     _cabinets(room, room.rng.poisson(1.3 * clutter))
 
 
@@ -190,9 +189,8 @@ def _store(room: RoomFloor, clutter: float) -> None:
 def _server(room: RoomFloor, clutter: float) -> None:
     """Place rows of racks, two metres apart."""
     width, depth = room.size_m
-    racks = int((depth - 2.6) / 0.6)
     for x in np.arange(0.9, width - 1.8, 2.0):
-        room.place(Rectangle(float(x), 1.6, 1.0, 0.6 * racks))
+        room.place(Rectangle(float(x), 1.6, 1.0, 0.6 * int((depth - 2.6) / 0.6)))
 
 
 def _kitchen(room: RoomFloor, clutter: float) -> None:

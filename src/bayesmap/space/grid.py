@@ -89,8 +89,7 @@ class Grid:
 
     def to_cells(self, points_world: Floats) -> Floats:
         """Return world points, ``(..., 2)`` in metres, in units of cells from the origin, ``(..., 2)``."""
-        points = np.asarray(points_world, dtype=np.float64)
-        return np.asarray((points - np.asarray(self.origin)) / self.resolution)
+        return np.asarray((np.asarray(points_world, dtype=np.float64) - np.asarray(self.origin)) / self.resolution)
 
     def cell_at(self, x_m: float, y_m: float) -> tuple[int, int] | None:
         """Return the cell ``(i, j)`` that holds a world point, or None outside the grid."""

@@ -72,8 +72,7 @@ def interpolate(stamps_s: Floats, poses: Floats, at_s: Floats) -> Floats:
     before = np.clip(np.searchsorted(stamps_s, at_s, side="right") - 1, 0, len(stamps_s) - 2)
     gap_s = stamps_s[before + 1] - stamps_s[before]
     share = np.where(gap_s > 0, (at_s - stamps_s[before]) / np.where(gap_s > 0, gap_s, 1.0), 1.0)
-    motion = between(poses[before], poses[before + 1])
-    return compose(poses[before], motion * np.clip(share, 0.0, 1.0)[:, None])
+    return compose(poses[before], between(poses[before], poses[before + 1]) * np.clip(share, 0.0, 1.0)[:, None])
 
 
 def transform(pose: Floats, points: Floats) -> Floats:

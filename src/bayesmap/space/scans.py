@@ -184,8 +184,7 @@ class Scans:
         """Return the end points of the beams that hit something, metres, shape (H, 2)."""
         angles = self.beam_angles_world()
         hit = np.isfinite(self.ranges_m)
-        ranges = self.ranges_m[hit]
-        ends = np.stack([np.cos(angles[hit]), np.sin(angles[hit])], axis=-1) * ranges[:, None]
+        ends = np.stack([np.cos(angles[hit]), np.sin(angles[hit])], axis=-1) * self.ranges_m[hit][:, None]
         return np.asarray(self.beam_starts_world()[hit] + ends)
 
     def select(self, scans: Indices | Mask | slice) -> "Scans":

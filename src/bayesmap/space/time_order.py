@@ -188,6 +188,5 @@ def jumps(scans: Scans) -> NDArray[np.intp]:
     lengths_m = steps_m(scans.poses)
     is_jump = (lengths_m > MAX_STEP_M) & (lengths_m > MAX_STEP_RATIO * np.median(lengths_m))
     if scans.stamps_s is not None:
-        longest_s = elapsed_s(scans.stamps_s)[1]
-        is_jump |= (lengths_m > MIN_JUMP_M) & (lengths_m > MAX_SPEED_M_PER_S * longest_s)
+        is_jump |= (lengths_m > MIN_JUMP_M) & (lengths_m > MAX_SPEED_M_PER_S * elapsed_s(scans.stamps_s)[1])
     return np.nonzero(is_jump)[0] + 1

@@ -147,8 +147,7 @@ class Trajectory:
         """Return the trajectory of the frame "base" or "laser"; ``mount`` is the laser's pose on the base, (3,).
         None is the default of `step_to`, both for ``frame`` and for a trajectory that does not name its frame.
         """
-        own = self.frame or ("laser" if mount is None else "base")
-        new_frame, step = step_to(frame, mount, own)
+        new_frame, step = step_to(frame, mount, self.frame or ("laser" if mount is None else "base"))
         return replace(self if step is None else self.of_frame(step), frame=new_frame)
 
     def of_frame(self, mount: Floats) -> "Trajectory":

@@ -26,8 +26,7 @@ def exact_gain(table: Table, chain: Chain, cell: int) -> wp.float64:
         entry = table.cell_entry[i]
         if chain.first_wall[beam] == entry:
             end = table.offsets[beam + 1]
-            next_entry = chains.next_wall(table, chain.walls, entry + 1, end)
-            behind = chains.entry_loglik(table, beam, next_entry, end)
+            behind = chains.entry_loglik(table, beam, chains.next_wall(table, chain.walls, entry + 1, end), end)
             gain += wp.float64(table.cell_loglik[i] - behind)
     return gain
 

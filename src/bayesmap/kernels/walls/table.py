@@ -34,7 +34,6 @@ def trace(
     device: str = "cpu",
 ) -> BeamTable:  # fmt: skip
     """Build the beam table of S scans of A beams: beam ``s * A + a`` of the table is beam a of scan s.
-
     A beam stops at the fraction ``hit_depth`` of its chord in a cell: 0 is its entry (the tutorial's closed squares).
     It is followed for ``reach_m``, (B,), by default as far as its reading depends on stops. Raises `BadInput` if 32-bit
     indices cannot count the incidences.
