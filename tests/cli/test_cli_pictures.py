@@ -229,6 +229,16 @@ def test_raw_odometry_with_the_truth_beside_it(tmp_path):
     np.testing.assert_allclose(between(relations[:, [2, 3, 7]], between(start, end)), 0.0, atol=1e-4)
 
 
+def test_another_drive_is_in_the_same_building(tmp_path):
+    poses, walls = [], []
+    for options in ("--seed 4", "--seed 4 --drive-seed 5", "--seed 5"):
+        simulated(tmp_path, options, "--force")
+        poses.append(describe_log(tmp_path / "office.log").scans.poses)
+        walls.append((tmp_path / "office-truth.pgm").read_bytes())
+    assert walls[0] == walls[1] != walls[2]
+    assert np.abs(poses[1] - poses[0]).max() > 0.1
+
+
 def test_a_recording_holds_scans_odometry_and_the_place_of_the_laser(tmp_path):
     options = "--format mcap --size 12x8 --resolution 0.25 --minutes 0.05 --angles 60 --laser 0.2,0,90 --json"
     document = json_of("simulate", options, "-o", tmp_path / "robot.mcap")

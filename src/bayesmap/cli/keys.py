@@ -181,6 +181,7 @@ class SimulateSettings(Settings, kw_only=True, frozen=True):
     laser: Annotated[str | None,
         Help("Where the laser sits on the robot.", "0,0,0; mcap: -0.1,0.03,180", "X,Y,DEGREES")] = None
     speed: Annotated[Speed, Help("Speed of the robot, for the time stamps with --odometry.", metavar="M_PER_S")] = 0.5
+    drive_seed: Annotated[CountFromZero | None, Help("Another drive in the same building.", "as --seed", "N")] = None
     seed: Seed = 0
 
 

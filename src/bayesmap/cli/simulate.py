@@ -64,6 +64,7 @@ def simulate(call: Call[SimulateSettings], output: str | None, poses: tuple[str,
 
     \b
     bayesmap simulate --world building --odometry typical --laser 0.1,0,0 -o office.log
+    bayesmap simulate --world building --odometry typical --drive-seed 1 -o second-drive.log
 
     {odometry}
 
@@ -75,6 +76,7 @@ def simulate(call: Call[SimulateSettings], output: str | None, poses: tuple[str,
     if output is not None and settings.format not in (None, "mcap" if is_recording else "carmen"):
         raise click.UsageError(f"-o {output}: the name of a log of --format {settings.format} ends differently")
     settings = _completed(settings, is_recording=is_recording, has_poses=bool(poses))
+    drive_seed = seed_of_drive(settings)
     noise, mount = odometry_of(str(settings.odometry)), pose_of(str(settings.laser), "--laser")
     log = Path(output or f"{Path(str(settings.world)).stem}{'.mcap' if is_recording else '.log'}")
     if log.suffix not in (".log", ".gz", ".mcap"):
@@ -105,7 +107,7 @@ def simulate(call: Call[SimulateSettings], output: str | None, poses: tuple[str,
     if stamps_s is not None:
         stamps_s = stamps_s + (START_S if is_recording else 0.0)
         if noise is not None:
-            base = simulate_odometry(base, noise, stamps_s=stamps_s, seed=settings.seed)
+            base = simulate_odometry(base, noise, stamps_s=stamps_s, seed=drive_seed)
         scans = replace(scans, poses=compose(base, np.array(mount)), stamps_s=stamps_s)
     # Write the log and the truth.
     log.parent.mkdir(parents=True, exist_ok=True)
@@ -117,14 +119,14 @@ def simulate(call: Call[SimulateSettings], output: str | None, poses: tuple[str,
     outputs = [log, *write_map(true_map, world.walls.astype(float), world.grid)]
     if noise is not None:
         assert stamps_s is not None
-        outputs += _write_true_poses(trajectory, relations, world.poses, stamps_s, settings.seed)
+        outputs += _write_true_poses(trajectory, relations, world.poses, stamps_s, drive_seed)
     # Print the result.
     grid = world.grid
     document = {
         "world": settings.world, "grid": grid_document(grid), "scans": len(scans), "beams": scans.n_beams,
         "readings": scans.counts(), "message": message, "max_range_m": scans.max_range_m, "sensor": describe(sensor),
         "odometry": None if noise is None else asdict(noise), "laser": list(mount), "seed": settings.seed,
-        "outputs": {path.name: str(path) for path in outputs},
+        "drive_seed": drive_seed, "outputs": {path.name: str(path) for path in outputs},
     }  # fmt: skip
     poses_kind = "true poses" if noise is None else "raw odometry"
     size = f"{len(scans):,} scans of {scans.ranges_m.shape[1]} beams"
@@ -149,6 +151,11 @@ def _completed(settings: SimulateSettings, *, is_recording: bool, has_poses: boo
     return settings
 
 
+def seed_of_drive(settings: SimulateSettings) -> int:
+    """Return the seed of the robot's path, its readings and its odometry. The building has a seed of its own."""
+    return settings.seed if settings.drive_seed is None else settings.drive_seed
+
+
 def _draw_scans(
     settings: SimulateSettings, world: World, mount: tuple[float, float, float], sensor: SensorModel
 ) -> Scans:
@@ -164,8 +171,8 @@ def _draw_scans(
     laser_poses = compose(world.poses, np.array(mount)) if any(mount) else world.poses  # composing may round
     max_range_m = world.max_range_m if settings.max_range is None else settings.max_range
     return forward.simulate(
-        world.walls, world.grid, laser_poses, angles_rad, sensor=sensor, max_range_m=max_range_m, seed=settings.seed,
-        opacity=world.opacity, typed=True,
+        world.walls, world.grid, laser_poses, angles_rad, sensor=sensor, max_range_m=max_range_m,
+        seed=seed_of_drive(settings), opacity=world.opacity, typed=True,
     )  # fmt: skip
 
 
@@ -245,11 +252,12 @@ def _building(settings: SimulateSettings, typed_poses: Floats | None) -> World:
     from bayesmap.sim.robot import drive, patrol
 
     plan, stamps_s = building(settings.seed, _size(settings.size), settings.resolution or 0.1), None
+    drive_seed = seed_of_drive(settings)
     if settings.minutes is not None:
         speeds = {"speed_m_per_s": settings.speed, "turn_rad_per_s": TURN_RAD_PER_S}
-        stamps_s, poses = drive(plan, 60.0 * settings.minutes, RATE_HZ, **speeds, seed=settings.seed)
+        stamps_s, poses = drive(plan, 60.0 * settings.minutes, RATE_HZ, **speeds, seed=drive_seed)
     else:
-        poses = patrol(plan, settings.scans, settings.seed) if typed_poses is None else typed_poses
+        poses = patrol(plan, settings.scans, drive_seed) if typed_poses is None else typed_poses
     return World(plan.walls, plan.grid, poses, stamps_s, plan.opacity)
 
 
