@@ -77,7 +77,7 @@ def test_poses_are_those_of_the_frame_that_is_asked_for(office, office_run, tmp_
     np.testing.assert_allclose(compose(found["base"], mount)[:2], found["laser"][:2], atol=0.05)
 
 
-def test_lost_scans_are_named_with_their_times(office, office_run, monkeypatch):
+def test_lost_scans_are_named_with_their_times_and_are_no_poses(office, office_run, monkeypatch, tmp_path):
     from bayesmap.localization import localize as module
 
     kept = module.follow
@@ -87,12 +87,19 @@ def test_lost_scans_are_named_with_their_times(office, office_run, monkeypatch):
             yield replace(belief, p_lost=0.9 if number in (0, 1, 2, 5) else 0.0)
 
     monkeypatch.setattr(module, "follow", losing)
-    result = call("localize", office_run / "run.nc", office, "--scans 4:11 --json")
+    target = tmp_path / "where.tum"
+    result = call("localize", office_run / "run.nc", office, "--scans 4:11 --json -o", target)
     stamps = read_log(office).stamps_s
     times = [f"{stamps[scan] - stamps[0]:.1f}" for scan in (4, 6, 9)]
     assert json.loads(result.stdout)["lost_scans"] == [4, 5, 6, 9]
     told = f"scans 4 to 6 (at {times[0]} to {times[1]} s), scan 9 (at {times[2]} s)"
     assert f"4 of 7 scans fit nowhere on the map: lost, or the map is outdated: {told}" in result.stderr
+    text, back = target.read_text(), read_trajectory(target)
+    assert "# 4 lines begin with '# lost: ': these scans fit nowhere" in text
+    assert (text.count("\n# lost: "), back.covariances.shape) == (4, (3, 3, 3))
+    np.testing.assert_allclose(back.stamps_s, stamps[[7, 8, 10]], atol=1e-6)
+    refused = refusal_of("localize", office_run / "run.nc", office, "--scans 4:7 -o", tmp_path / "none.tum")
+    assert "not written, since all scans are lost" in refused
 
 
 @pytest.mark.parametrize("follow", [(), ("--follow --for 0",)])

@@ -37,13 +37,14 @@ IMAGE_ENDINGS = (".pgm", ".png", ".bmp")  # of the images that the YAML file of 
 ENDINGS = (".tum", ".mcap", ".bag", ".db3", ".jsonl")  # of the files that -o may name
 NOT_LIVE = ("scan_topic", "pose_topic", "fixed_frame", "trajectory")  # settings that a growing log cannot have
 MAX_NAMED_STRETCHES = 5  # number of stretches of lost scans that are named
+MAX_P_LOST = 0.5  # probability of being lost above which a scan counts as lost
 MAX_MODES = 5  # number of modes of the last pose that are printed
 
 
 @command("localize")
 @click.argument("run_file", metavar="RUN.nc|MAP.yaml")
 @click.argument("log")
-@click.option("-o", "--output", metavar="FILE", help=f"Trajectory: {', '.join(ENDINGS)}.")
+@click.option("-o", "--output", metavar="FILE", help=f"Trajectory, without lost scans: {', '.join(ENDINGS)}.")
 @click.option("--follow", is_flag=True, help="Print a JSON line for each scan as it arrives; see below.")
 @click.option(
     "--for", "idle_s", type=click.FloatRange(min=0), metavar="SECONDS", help="With --follow: the longest wait."
@@ -101,10 +102,10 @@ def localize(
         posteriors = _locate_scans(request, print_belief if follow else None)
     # Write and print the result.
     localization, lost = posteriors.localization, posteriors.lost_scans()
-    outputs = [] if target is None else _write(target, posteriors)
     if lost:
         share, which = f"{len(lost):,} of {len(localization):,} scans", posteriors.describe_stretches(lost)
         call.console.warn(f"{share} fit nowhere on the map: lost, or the map is outdated: {which}")
+    outputs = [] if target is None else _write(target, posteriors)
     exit_unless_good(finished=not interrupted, problems=False)
     if follow:
         return
@@ -168,7 +169,7 @@ class _Posteriors:
 
     def lost_scans(self) -> list[int]:
         """Return the numbers of the scans that are probably lost."""
-        return [self.first + i for i, belief in enumerate(self.beliefs) if belief.p_lost > 0.5]
+        return [self.first + i for i, belief in enumerate(self.beliefs) if belief.p_lost > MAX_P_LOST]
 
     def describe(self, first: int, last: int) -> str:
         """Return a scan, or the scans from the first to the last, in words, with their times."""
@@ -299,7 +300,7 @@ def _belief_json(belief: PoseBelief, corners: list[float] | None) -> dict[str, A
 def _lines(posteriors: _Posteriors, corners: list[float] | None) -> list[str]:
     """Return the posterior of the last pose as lines of text: its likeliest modes, lost, and the area."""
     localization, last = posteriors.localization, posteriors.first + len(posteriors.beliefs) - 1
-    if_found = ", if it is on the map" if localization.p_lost > 0.5 else ""
+    if_found = ", if it is on the map" if localization.p_lost > MAX_P_LOST else ""
     lines = [f"the {localization.frame} at {posteriors.describe(last, last)}{if_found}:"]
     for mode in localization.modes[:MAX_MODES]:
         (x, y, yaw), sd = mode.mean, [math.sqrt(variance) for variance in mode.covariance.diagonal()]
@@ -320,15 +321,21 @@ def _per_cent(probability: float) -> str:
 
 
 def _write(target: Path, posteriors: _Posteriors) -> list[Path]:
-    """Write the trajectory, or all posteriors for .jsonl, and return the paths."""
+    """Write the trajectory without lost scans, or all posteriors for .jsonl. Raises `BadInput` if all are lost."""
     from bayesmap.files import write_file
     from bayesmap.io.exports import export_trajectory
 
     localization = posteriors.localization
-    if target.suffix != ".jsonl":
-        return list(export_trajectory(target, localization.trajectory()))
-    numbered = enumerate(localization.beliefs, posteriors.first)
-    return [write_file(target, (json.dumps({"scan": i, **b.as_json()}, allow_nan=False) for i, b in numbered))]
+    if target.suffix == ".jsonl":
+        numbered = enumerate(localization.beliefs, posteriors.first)
+        return [write_file(target, (json.dumps({"scan": i, **b.as_json()}, allow_nan=False) for i, b in numbered))]
+    lost = [belief.p_lost > MAX_P_LOST for belief in localization.beliefs]
+    if all(lost):
+        raise BadInput(f"{target}: not written, since all scans are lost; .jsonl has the posteriors of lost scans, too")
+    if target.suffix == ".tum":
+        return list(export_trajectory(target, localization.trajectory(), lost=lost))
+    found = tuple(belief for belief in localization.beliefs if belief.p_lost <= MAX_P_LOST)
+    return list(export_trajectory(target, replace(localization, beliefs=found).trajectory()))
 
 
 def _checked_path(output: str, force: bool) -> Path:

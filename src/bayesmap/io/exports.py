@@ -7,7 +7,7 @@ GeoTIFF and of rerun's pictures run from the top, the largest y. rerun's coordin
 
 import contextlib
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -125,24 +125,26 @@ def approximate_trajectory(trajectory: "InferredTrajectory", known_by: str = APP
 
 
 def export_trajectory(
-    path: str | os.PathLike[str], trajectory: Trajectory, *, format: str | None = None, edges: Edges | None = None
-) -> tuple[Path, ...]:
+    path: str | os.PathLike[str], trajectory: Trajectory, *, format: str | None = None, edges: Edges | None = None,
+    lost: Sequence[bool] = (),
+) -> tuple[Path, ...]:  # fmt: skip
     """Write a trajectory as "tum", "g2o" or "trajectory" (a recording), by the path's ending if ``format`` is None.
 
     An existing file is replaced. ``edges`` is the pose graph for g2o; if None, the chain of steps
     (`bayesmap.io.text.g2o.chain_edges`). Returns the paths of the files written. If covariances are known,
-    NAME-covariances.txt is written beside NAME.tum. Raises `BadInput` for another format, no pose, a graph of a
-    trajectory without covariances, or a file that cannot be written.
+    NAME-covariances.txt is written beside NAME.tum. There, poses that are ``lost``, (S,), become comments. Raises
+    `BadInput` for another format, no pose, a graph of a trajectory without covariances, or an unwritable file.
     """
     ending = Path(path).suffix.lower()
     chosen = {".tum": "tum", ".g2o": "g2o"}.get(ending, "trajectory") if format is None else format
     if chosen == "g2o":
         return (write_g2o(path, trajectory.poses, chain_edges(trajectory) if edges is None else edges),)
     if chosen == "tum":
-        written = (write_trajectory(path, trajectory.poses, trajectory.stamps_s, trajectory.frame),)
+        written = (write_trajectory(path, trajectory.poses, trajectory.stamps_s, trajectory.frame, lost),)
         if trajectory.covariances is None:
             return written
-        return (*written, write_covariances(covariances_path(path), trajectory.covariances, trajectory.stamps_s))
+        covariances = write_covariances(covariances_path(path), trajectory.covariances, trajectory.stamps_s, lost)
+        return (*written, covariances)
     if chosen != "trajectory":
         raise BadInput(f"export: a trajectory is written as {', '.join(TRAJECTORIES)}, not as {chosen!r}")
     return (writer.write_trajectory_recording(path, trajectory),)

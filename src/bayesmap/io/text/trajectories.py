@@ -10,6 +10,7 @@ In the plane z, roll and pitch are 0.
 
 import os
 import re
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -26,16 +27,19 @@ if TYPE_CHECKING:
     from bayesmap.posterior.trajectory_scores import Relations
 
 MAX_TILT_SINE = 0.1  # sine of half the tilt of a pose in the plane
+LOST = "# lost: "  # beginning of a line with the pose of a lost scan: a comment, which other programs skip
 FRAME_HEADER = re.compile(rb"# poses of the (base|laser)\b")  # beginning of the header, which names the frame
 
 
 def write_trajectory(
-    path: str | os.PathLike[str], poses_world: ArrayLike, stamps_s: ArrayLike | None = None, frame: str | None = None
-) -> Path:
+    path: str | os.PathLike[str], poses_world: ArrayLike, stamps_s: ArrayLike | None = None, frame: str | None = None,
+    lost: Sequence[bool] = (),
+) -> Path:  # fmt: skip
     """Write poses, (S, 3), as a TUM trajectory, whole or not at all. Returns the path.
 
     The stamps, (S,), are in seconds; if None, they are 0, 1, 2 and so on. The header names the frame, if it is known.
-    Raises `BadInput` for shapes that do not fit, numbers that are not finite, no pose, or an unwritable file.
+    Poses that are ``lost``, (S,), become comments (`LOST`), which the header explains. Raises `BadInput` for
+    shapes that do not fit, numbers that are not finite, no pose, or an unwritable file.
     """
     poses = as_poses(poses_world)
     if len(poses) == 0:
@@ -43,12 +47,16 @@ def write_trajectory(
     stamps, half_yaw = _stamps(stamps_s, len(poses)), poses[:, 2] / 2
     first_column = "scan number (the scans have no stamps)" if stamps_s is None else "timestamp"
     # Nine decimals: nanoseconds of a stamp, and more than any sensor's precision.
+    starts = [LOST * is_lost for is_lost in lost] or [""] * len(poses)
+    columns = starts, stamps, poses, np.sin(half_yaw), np.cos(half_yaw)
     rows = (
-        f"{stamp:.9f} {x:.9f} {y:.9f} 0 0 0 {qz:.12f} {qw:.12f}"
-        for stamp, (x, y, _), qz, qw in zip(stamps, poses, np.sin(half_yaw), np.cos(half_yaw), strict=True)
+        f"{start}{stamp:.9f} {x:.9f} {y:.9f} 0 0 0 {qz:.12f} {qw:.12f}"
+        for start, stamp, (x, y, _), qz, qw in zip(*columns, strict=True)
     )
-    header = "" if frame is None else f"poses of the {frame}: "
-    return write_file(path, [f"# {header}{first_column} tx ty tz qx qy qz qw", *rows])
+    header = [f"# {'' if frame is None else f'poses of the {frame}: '}{first_column} tx ty tz qx qy qz qw"]
+    if any(lost):
+        header.append(f"# {sum(lost):,} lines begin with '{LOST}': these scans fit nowhere on the map")
+    return write_file(path, [*header, *rows])
 
 
 def covariances_path(path: str | os.PathLike[str]) -> Path:
@@ -57,13 +65,16 @@ def covariances_path(path: str | os.PathLike[str]) -> Path:
     return target.with_name(f"{target.stem}-covariances.txt")
 
 
-def write_covariances(path: str | os.PathLike[str], covariances: ArrayLike, stamps_s: ArrayLike | None = None) -> Path:
-    """Write the covariances of a trajectory's poses in world axes, (S, 3, 3). Errors are as in `write_trajectory`."""
+def write_covariances(
+    path: str | os.PathLike[str], covariances: ArrayLike, stamps_s: ArrayLike | None = None, lost: Sequence[bool] = ()
+) -> Path:
+    """Write the covariances of a trajectory's poses in world axes, (S, 3, 3). All else is as in `write_trajectory`."""
     values = np.asarray(covariances, dtype=np.float64)
     if values.ndim != 3 or values.shape[1:] != (3, 3) or len(values) == 0 or not np.isfinite(values).all():
         raise BadInput(f"trajectory: covariances must be finite, (S, 3, 3), got shape {values.shape}")
-    rows = zip(_stamps(stamps_s, len(values)), values[:, *np.triu_indices(3)], strict=True)
-    lines = (f"{stamp:.9f} " + " ".join(f"{v:.9e}" for v in row) for stamp, row in rows)
+    starts = [LOST * is_lost for is_lost in lost] or [""] * len(values)
+    rows = zip(starts, _stamps(stamps_s, len(values)), values[:, *np.triu_indices(3)], strict=True)
+    lines = (f"{begin}{stamp:.9f} " + " ".join(f"{v:.9e}" for v in row) for begin, stamp, row in rows)
     return write_file(path, ["# timestamp xx xy xyaw yy yyaw yawyaw", *lines])
 
 
