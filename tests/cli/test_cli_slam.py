@@ -15,7 +15,7 @@ import bayesmap as bm
 import bayesmap.api
 from bayesmap.cli.console import Console
 from bayesmap.cli.pipeline import report
-from bayesmap.cli.slam import _doubtful, _good
+from bayesmap.cli.slam import _doubtful, _good, _notes
 from bayesmap.io.text.trajectories import read_trajectory
 from bayesmap.poses.slam import infer_trajectory
 from bayesmap.space.planar import compose, inverse
@@ -48,6 +48,7 @@ def test_the_end_says_what_is_good_then_what_is_doubtful_then_what_to_do(slam_ru
     kinds = ["warning" if "warning" in line else line.split(":")[0] for line in lines]
     assert kinds == sorted(kinds, key=["good", "warning", "next", "  bayesmap app 'a b.nc'"].index)
     assert lines[0].startswith("good: the trajectory of the base at ")
+    assert len(_notes(told)) == 1  # an approximation that chains did not improve is not called good
     assert "1 scans see what few others see: people, glass, a new place, or a wrong pose" in "".join(lines)
     assert lines[-1] == "  bayesmap app 'a b.nc'"
 

@@ -1,5 +1,7 @@
 """R-hat and effective sample sizes are arviz's; summaries name problems, those of poses have the draws' moments."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from flat_options import infer
@@ -145,7 +147,9 @@ def test_a_sound_run_has_no_problems_a_collapsed_one_and_one_too_short_to_judge_
     assert str(summary).startswith("doubtful: importance sampling has an effective sample size of ")
     assert "use 'gibbs'" in str(summary)
     summary = run_of("gibbs", draws=20, precision=0.01).summary()
-    assert any("the mean map is known to" in problem for problem in summary.problems())
+    assert any("of 100 observed cells, which is good up to 0.015: " in problem for problem in summary.problems())
+    told = replace(summary, map_error=0.014).strengths()[0]
+    assert told.endswith("is known to 0.014 in 99 of 100 observed cells (good up to 0.015); 0.01 takes more draws")
     assert summary.as_json()["effective_sample_size"] is None
 
 

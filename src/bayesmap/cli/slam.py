@@ -1,7 +1,8 @@
 """``bayesmap slam``: infer the posterior over map and trajectory from a log with raw odometry.
 
 `slam` takes the steps of `bayesmap.cli.pipeline`. The trajectory of all scans is known before the chains of the map
-begin: `TrajectoryFiles` writes it. `summarise` turns it into JSON values, `_good` and `_doubtful` into sentences.
+begin: `TrajectoryFiles` writes it. `summarise` turns it into JSON values, and `_good`, `_notes` and `_doubtful` make
+sentences.
 """
 
 from __future__ import annotations
@@ -114,6 +115,8 @@ def slam(call: Call[SlamSettings], log: str, output: str | None, resume: bool, f
     thin = ["--thin-scans", "0.3"] if len(scan_log.scans) > MAX_UNTHINNED_SCANS else []  # score makes its own map
     score = ["score", log, "--trajectory", str(folder / "trajectory.tum"), *thin]
     commands = [["app", file], score, ["explore", file]]
+    for note in _notes(trajectory):
+        call.console.say(f"note: {note}")
     pipeline.report(call.console, document, good=_good(trajectory), doubtful=_doubtful(trajectory), commands=commands)
     pipeline.print_result(call, document, strict=task.settings.strict)
 
@@ -137,6 +140,7 @@ def _sample(task: Task[SlamSettings], scans: Scans, saved: Run | None, files: Tr
     """Infer trajectory and map, with checkpoints in the folder; ``saved`` is the run to resume."""
     from bayesmap.api import Event, slam
     from bayesmap.arguments import Checkpoints, Where
+    from bayesmap.poses.map_scans import MAX_SAMPLED_KEYS
 
     folder, settings = task.folder, task.settings
     toml = as_toml({"slam": settings})
@@ -157,6 +161,12 @@ def _sample(task: Task[SlamSettings], scans: Scans, saved: Run | None, files: Tr
             folder.preview(run)
             files.render(run)
 
+        def on_trajectory(trajectory: InferredTrajectory) -> None:
+            files.write(trajectory)
+            if translation.fast_of(settings) is None and len(trajectory.keys) <= MAX_SAMPLED_KEYS:
+                few = f"the log is short ({len(trajectory.keys)} key scans, {MAX_SAMPLED_KEYS} at most)"
+                folder.console.say(f"{few}: chains sample its poses with the map, which takes longer; --fast does not")
+
         if saved is None:
             # Save the settings before the first stage: they are needed to resume the finished stages.
             folder.begin(toml)
@@ -167,7 +177,7 @@ def _sample(task: Task[SlamSettings], scans: Scans, saved: Run | None, files: Tr
             schedule=translation.schedule_of(settings), seed=settings.seed, hit_depth=settings.hit_depth,
             where=Where(settings.threads, settings.device, any_size=settings.any_size), on_progress=on_progress,
             checkpoints=Checkpoints(
-                saved, on_checkpoint, settings.checkpoint_every, folder.path / STAGES, on_preview, files.write
+                saved, on_checkpoint, settings.checkpoint_every, folder.path / STAGES, on_preview, on_trajectory
             ),
         )  # fmt: skip
         if run.finished or run.posterior.sweep > 0:
@@ -311,11 +321,17 @@ def _good(trajectory: dict[str, Any]) -> list[str]:
     if sampled is None:
         beams = f"the map of {used['beams']:,} beams of {used['scans']:,} key scans, at the poses of the trajectory"
         good.append(f"{beams}; the others have seen the same (--sample-poses uses all beams of all key scans)")
-    elif sampled["by_approximation"]:
-        which = "poses and covariances are those of the approximation, also in scores and exports"
-        mixing = f"R-hat up to {sampled['rhat_max']:.2f}, effective sample size from {sampled['ess_min']:.0f}"
-        good.append(f"{which}, since the chains over poses were too short to replace it ({mixing})")
     return good
+
+
+def _notes(trajectory: dict[str, Any]) -> list[str]:
+    """Return a sentence if the chains did not improve the trajectory, whose `summarise` is given."""
+    sampled = trajectory.get("sampled")
+    if sampled is None or not sampled["by_approximation"]:
+        return []
+    which = "poses and covariances are those of the approximation, also in scores and exports"
+    mixing = f"R-hat up to {sampled['rhat_max']:.2f}, effective sample size from {sampled['ess_min']:.0f}"
+    return [f"{which}, since the chains over poses were too short to replace it ({mixing})"]
 
 
 def _doubtful(trajectory: dict[str, Any]) -> list[str]:

@@ -29,6 +29,7 @@ MIN_DRAWS_PER_CHAIN = 4  # fewest draws of a chain with which its halves have a 
 # Share of the cells that may be over a limit without a warning. With 50 independent draws of each of four chains, one
 # cell in a thousand has an R-hat over 1.05, and four in a thousand an effective sample size under 100, by chance.
 CHANCE_SHARE = 0.01
+MORE_DRAWS = "infer more draws (--draws of infer and slam; in Python Schedule(draws=...))"  # a remedy
 MAX_ERROR_RATIO = 1.5  # of the map's error to the requested precision without a warning: slow cells fall short
 LEGEND = """R-hat compares chains with one another: 1 is equal, and over 1.05 they have not mixed. A cell that
 changed only once in one chain has a large R-hat. The map is judged by the error of its mean, not by single cells."""
@@ -223,8 +224,9 @@ class Summary(CellDiagnostics):
         """Return the good results of the diagnostics, in words with figures; empty if there are none."""
         strengths = []
         if self.map_error <= MAX_ERROR_RATIO * self.precision:
-            remark = "" if self.map_error <= self.precision else f"; {self.precision:g} takes more draws"
-            strengths.append(f"the mean map is known to {self.map_error:.3f} in 99 of 100 observed cells{remark}")
+            limit = f" (good up to {MAX_ERROR_RATIO * self.precision:g})" if self.precision < math.inf else ""
+            limit += "" if self.map_error <= self.precision else f"; {self.precision:g} takes more draws"
+            strengths.append(f"the mean map is known to {self.map_error:.3f} in 99 of 100 observed cells{limit}")
         if self.rhat_log_likelihood <= RHAT_LIMIT:
             strengths.append(f"the chains agree: R-hat of the log likelihood is {self.rhat_log_likelihood:.3f}")
         if self.effective_sample_size >= ESS_LIMIT:
@@ -239,18 +241,18 @@ class Summary(CellDiagnostics):
         if self.disagreeing_cells and self.disagreeing_cells > CHANCE_SHARE * self.judged_cells:
             problems.append(
                 f"{self.disagreeing_cells} cells are stuck at different values in different chains: warm up longer "
-                "(warmup), or use method 'block'"
+                "(--warmup), or use method 'block'"
             )
         if MAX_ERROR_RATIO * self.precision < self.map_error < math.inf:
             problems.append(
-                f"the mean map is known to {self.map_error:.3f} in 99 of 100 observed cells, not to "
-                f"{self.precision:g}: draw more maps (draws)"
+                f"the mean map is known to {self.map_error:.3f} in 99 of 100 observed cells, which is good up to "
+                f"{MAX_ERROR_RATIO * self.precision:g}: {MORE_DRAWS}"
             )
         has_sweeps = not math.isnan(self.microseconds_per_sweep)
         if self.finished and has_sweeps and math.isnan(self.rhat_log_joint):
             problems.append(
-                f"nothing can be judged: under {MIN_DRAWS_PER_CHAIN} draws of each chain, or none that differ; draw "
-                "more maps (draws)"
+                f"nothing can be judged: under {MIN_DRAWS_PER_CHAIN} draws of each chain, or none that differ; "
+                f"{MORE_DRAWS}"
             )
         if self.effective_sample_size < ESS_LIMIT:
             ess = self.effective_sample_size
