@@ -243,4 +243,5 @@ def test_loops_are_coloured_by_residual_and_the_worst_is_named():
     figure = figures.loops_figure(POSES, first, second, residuals, np.array([1.0, 0.9, 0.0, 1.0]))
     (lines,) = [c for c in figure.axes[0].collections if c.get_array() is not None]
     np.testing.assert_allclose(lines.get_array(), [1.0, 2.0, 8.0])  # the rejected closure has no colour
+    assert (lines.get_clim(), "usual: up to 10 cm" in figure.axes[1].get_ylabel()) == ((0.0, 20.0), True)
     assert "scans 2 and 12, 8.0 cm" in figure.axes[0].get_title()

@@ -16,6 +16,7 @@ from bayesmap.viz import maps, palette
 CHI2_95 = 5.991  # squared Mahalanobis radius of the ellipse with 95 % of a normal distribution in the plane
 MIN_SIGMA_SHARE = 0.006  # smallest visible standard deviation, as a share of the map's longer side
 SIZE_IN = 8.0
+SCALE_CM = 20.0  # residual with the darkest colour, or the largest residual if that is greater: most are under 10 cm
 ODOMETRY_COLOR, INFERRED_COLOR, FLAGGED_COLOR = "#c1440e", "#0b7a5b", "#d6278a"
 
 
@@ -116,9 +117,9 @@ def loops_figure(
         order = np.nonzero(accepted)[0][np.argsort(shift_cm[accepted])]
         colors = palette.surprise_colormap()
         lines = LineCollection(list(ends[order]), array=shift_cm[order], cmap=colors, linewidths=1.0)
-        lines.set(zorder=3.1, clim=(0.0, shift_cm[order[-1]]))
+        lines.set(zorder=3.1, clim=(0.0, max(SCALE_CM, shift_cm[order[-1]])))
         ax.add_collection(lines)
-        figure.colorbar(lines, ax=ax, label="residual of a loop closure [cm]", shrink=0.8)
+        figure.colorbar(lines, ax=ax, label="residual of a loop closure [cm]\n(usual: up to 10 cm)", shrink=0.8)
         worst = order[-1]
         ax.plot(*ends[worst].T, "o", color=palette.TEXT, markersize=4, zorder=4)
         ax.set_title(
