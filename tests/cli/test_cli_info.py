@@ -149,7 +149,10 @@ def test_poses_under_which_walls_stand_twice_are_not_always_raw_odometry(tmp_pat
     )
     shown = call("info", turned).stdout
     assert "the same walls stand in several places" in shown
+    assert max(len(line) for line in shown.partition("note: at these")[2].splitlines()[:3]) < 130
     assert "--laser X,Y,DEGREES" in shown
+    (tmp_path / "way.tum").write_text("0 1 2 0 0 0 0 1\n")
+    assert "way.tum: a trajectory of poses in time (TUM), not a log; " in refusal_of("info", tmp_path / "way.tum")
 
 
 @pytest.mark.parametrize("command", ["infer", "slam", "localize", "score", "render", "app"])

@@ -111,6 +111,8 @@ def test_a_topic_that_tells_other_transforms_is_to_be_chosen_from(tmp_path):
     choice = "choose one with --pose-topic: /tf (tf2_msgs/msg/TFMessage, 42 messages), /tf_other ("
     r.refused(file, "the transform odom -> base_link differs between topics: /tf says x ", choice)
     same(describe_log(file, pose_topic="/tf").scans, scans)
+    assert [source["name"] for source in contents_of(file).pose_sources] == ["/tf", "/tf_other"]
+    assert "tf_static" not in r.refused(file, "there is no such topic; poses are on /tf (", pose_topic="/nothing")
 
 
 def mounts(topic, *values, **angles):

@@ -82,7 +82,6 @@ def _describe_recording(path: str | os.PathLike[str]) -> Contents:
         topics.append({"name": topic.name, "type": topic.type, "count": topic.count, "rate_hz": rate_hz})
     pose_messages = poses.PoseMessages()
     messages.read_messages(recording, recording.of_type(TF_TYPES), pose_messages, lambda *_: None)
-    pose_topics = recording.of_type((*TF_TYPES, *POSE_TYPES))
     # Read the scans of each topic, and suggest a command for the best: with poses, then with most readings.
     scan_topics = recording.of_type(SCAN_TYPES)
     scans_by_topic: dict[str, Scans] = {}
@@ -104,7 +103,7 @@ def _describe_recording(path: str | os.PathLike[str]) -> Contents:
         path=name, format=recording.format, start_s=None if recording.start_ns is None else recording.start_ns * 1e-9,
         end_s=None if recording.end_ns is None else recording.end_ns * 1e-9, topics=topics,
         frames=frames.FrameTree(pose_messages.transforms).frames(), sensors=sensors,
-        pose_sources=[{"name": topic.name, "type": topic.type, "count": topic.count} for topic in pose_topics],
+        pose_sources=[{"name": t.name, "type": t.type, "count": t.count} for t in poses.pose_topics(recording)],
         suggestion=suggestion, notes=tuple(notes), scans=scans,
     )  # fmt: skip
 
@@ -160,9 +159,9 @@ def _pose_remedies(log: ScanLog) -> list[str]:
     in_degrees = any(note.endswith(DEGREES_QUESTION) for note in log.notes)
     return [
         *(["if the yaw is in degrees, convert it to radians first"] if in_degrees else []),
-        f"{DOUBLED}. If the poses are raw odometry, bayesmap slam finds better ones; if they should be right, look at "
-        "the notes, at where the laser sits (--laser X,Y,DEGREES; if it is upside down, its beams sweep the other "
-        "way), and, in a recording, at --pose-topic and --fixed-frame",
+        f"{DOUBLED}. If the poses are raw odometry, bayesmap slam finds better ones",
+        "if the poses should be right, look at where the laser sits (--laser X,Y,DEGREES), and whether upside down",
+        "in a recording, look at --pose-topic and --fixed-frame, too",
     ]
 
 

@@ -164,6 +164,9 @@ def _folder_format(name: str, folder: Path) -> str:
 
 def _text_format(name: str) -> str:
     """Return the format of a text file. Raises `BadInput` if it is empty or unknown."""
+    if name.endswith(".tum"):
+        uses = f"`bayesmap infer LOG --trajectory {name}` takes the poses of a log's scans from it"
+        raise BadInput(f"{name}: a trajectory of poses in time (TUM), not a log; {uses}, and score compares it")
     carmen_words = {message.encode() for message in CARMEN_MESSAGES}
     is_carmen = False
     is_empty = True

@@ -56,9 +56,15 @@ class PoseMessages:
         samples.add(stamp_ns, received_ns, numbers)
 
 
+def pose_topics(recording: Recording) -> list[Topic]:
+    """Return the topics from which poses can come: of poses, and of transforms other than the static ones."""
+    topics = recording.of_type((*TF_TYPES, *POSE_TYPES))
+    return [topic for topic in topics if topic.name.rpartition("/")[2] != "tf_static"]
+
+
 def pose_topic_of(recording: Recording, name: str) -> Topic:
     """Return the topic of poses that the user names. Raises `BadInput`, with the choices, for other topics."""
-    topics = ", ".join(map(str, recording.of_type((*POSE_TYPES, *TF_TYPES))))
+    topics = ", ".join(map(str, pose_topics(recording)))
     choices = f"poses are on {topics}" if topics else f"no topic holds poses ({', '.join((*POSE_TYPES, TF_TYPES[0]))})"
     return recording.named("--pose-topic", name, (*POSE_TYPES, *TF_TYPES), choices)
 
