@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from shell import call, json_of, refusal_of, succeed
 
-from bayesmap.cli.decisions import distinguishable
+from bayesmap.cli.decisions import _view_line, distinguishable
 from bayesmap.io.logs import read_log
 from bayesmap.posterior.route import is_within_risk
 from bayesmap.result import Run, load
@@ -86,6 +86,7 @@ def test_views_are_printed_best_first_and_drawn(office_run, tmp_path):
     assert text.stdout.splitlines()[-1] == str(picture)
     lines = [line.partition("at most ")[2].split(" +-")[0] for line in text.stdout.splitlines()[:-1]]
     assert lines == [f"{value:.0f}" for value in nats]  # as in the picture
+    assert _view_line(1, document["views"][0], any_yaw=True).partition(" m  any yaw  at most ")[1]  # for a full circle
 
 
 @pytest.mark.parametrize(("arguments", "code", "message"), [

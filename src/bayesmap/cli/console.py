@@ -185,6 +185,7 @@ class _Step:
     quality: str = ""  # precision of the map so far, in words
     warmup: int = 0  # units of the total that are warm-up
     end_is_open: bool = False  # whether the time left cannot be predicted
+    total_kind: str = ""  # "about " or "at least " before a total that will change, once the warm-up is over
 
     @classmethod
     def of(cls, event: Event) -> _Step:
@@ -192,16 +193,18 @@ class _Step:
         quality = "" if event.log_joint is None else f"log joint {event.log_joint:,.1f}"
         if event.error is not None and event.error < 1.0:
             quality = f"map within {event.error:.3f}"
-        return cls(*STAGES[event.stage], event.done, event.total, quality, event.warmup, event.end_is_open)
+        total_kind = "at least " if event.end_is_open else "" if event.error is None else "about "
+        name, unit = STAGES[event.stage]
+        return cls(name, unit, event.done, event.total, quality, event.warmup, event.end_is_open, total_kind)
 
     def count(self, separator: str) -> str:
         """Return the count in words. Warm-up and the draws after it are counted apart."""
         done, total = self.done, self.total
         if self.unit == "%":
             return f"{100 * done // max(total, 1)} %"
-        if self.warmup:
-            done, total = (done, self.warmup) if done <= self.warmup else (done - self.warmup, total - self.warmup)
-        return f"{done:,}{separator}{total:,} {self.unit}"
+        if self.warmup and done <= self.warmup:
+            return f"{done:,}{separator}{self.warmup:,} {self.unit}"
+        return f"{done - self.warmup:,}{separator}{self.total_kind}{total - self.warmup:,} {self.unit}"
 
 
 @contextlib.contextmanager

@@ -54,7 +54,7 @@ def plan(call: Call[PlanSettings], run_file: str, start: str, goal: str, output:
         route = shortest_safe_path(run.posterior, start_m, goal_m, settings.radius, settings.risk, report)
     picture = route_figure(
         run.grid, run.occupancy, run.observed, route.path, settings.radius,
-        title=_route_sentence(route), label=run.posterior.prior.words.mean,
+        title=_route_sentence(route).replace(" (", "\n("), label=run.posterior.prior.words.mean,
     )  # fmt: skip
     write_figure(picture, target)
     if not route.within_risk:
@@ -135,7 +135,7 @@ def explore(call: Call[ExploreSettings], run_file: str, output: str | None, forc
     """
     settings = call.settings()
     run, target = _load_run(call, run_file, output, "explore.png", force=force)
-    from bayesmap.posterior.decisions import next_views
+    from bayesmap.posterior.decisions import headings_to_try, next_views
     from bayesmap.viz.figure import write_figure
     from bayesmap.viz.overlays import views_figure
 
@@ -154,7 +154,9 @@ def explore(call: Call[ExploreSettings], run_file: str, output: str | None, forc
         "run": run_file, "problems": run.summary().problems(), "candidates": len(views.candidates),
         "draws": information.draws, "views": best_views,
     }  # fmt: skip
-    _print_result(call, document, [_view_line(rank, view) for rank, view in enumerate(best_views, 1)], target)
+    any_yaw = len(headings_to_try(run.posterior.scans.angles_rad)) == 1
+    lines = [_view_line(rank, view, any_yaw=any_yaw) for rank, view in enumerate(best_views, 1)]
+    _print_result(call, document, lines, target)
 
 
 def _best_views_json(views: Views) -> list[dict[str, Any]]:
@@ -172,8 +174,9 @@ def _best_views_json(views: Views) -> list[dict[str, Any]]:
     ]  # fmt: skip
 
 
-def _view_line(rank: int, view: dict[str, Any]) -> str:
-    """Return the pose of a view, and its information, in words."""
+def _view_line(rank: int, view: dict[str, Any], *, any_yaw: bool) -> str:
+    """Return the pose of a view, and its information, in words; with ``any_yaw`` all yaws are as good."""
     x, y, yaw = view["pose"]
+    heading = "any yaw" if any_yaw else f"yaw {math.degrees(yaw):.0f} degrees"
     information = f"at most {view['at_most_nats']:.0f} +- {view['at_most_error']:.0f} nats"
-    return f"{rank}: x {x:.2f} m  y {y:.2f} m  yaw {math.degrees(yaw):.0f} degrees  {information}"
+    return f"{rank}: x {x:.2f} m  y {y:.2f} m  {heading}  {information}"

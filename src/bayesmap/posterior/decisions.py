@@ -305,7 +305,7 @@ def next_views(
     fan = Fan.of("explore", posterior, None, None, None)
     # Rank candidates with all headings by the fast formula, and keep each one's best heading.
     poses = _draw_candidates(posterior, blocked_anywhere(posterior, radius_m, on_search), candidates, seed)
-    headings = _headings(fan.angles_rad)
+    headings = headings_to_try(fan.angles_rad)
     turned = np.repeat(poses, len(headings), axis=0)
     turned[:, 2] += np.tile(headings, len(poses))
     nats_by_heading = independent_information(posterior, turned, fan).reshape(len(poses), -1)
@@ -338,7 +338,7 @@ def _draw_candidates(posterior: Posterior, blocked: Floats, count: int, seed: in
     return np.column_stack([centres[tuple(selected.T)], np.zeros(len(selected))])
 
 
-def _headings(angles_rad: Floats) -> Floats:
+def headings_to_try(angles_rad: Floats) -> Floats:
     """Return the yaws to try, radians: one if the sensor sees a full circle."""
     count = 1 if np.ptp(angles_rad) * (1 + 1 / max(len(angles_rad), 1)) >= FULL_CIRCLE_RAD else HEADINGS
     return np.arange(count) / count * 2 * np.pi
