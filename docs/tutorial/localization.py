@@ -491,7 +491,7 @@ by_edits = chain(jrand.split(jrand.key(9), 8), begin)[:, 100:]
 apart = jnp.linalg.norm(by_edits.mean(axis=(0, 1))[:, :2] - smoothed.mean(axis=0)[:, :2], axis=-1)
 print(f"mean places by particles and by edits are {apart.mean():.3f} m apart on average, {apart.max():.3f} m at most")
 spreads = smoothed[..., :2].std(axis=0).mean(), by_edits[..., :2].std(axis=(0, 1)).mean()
-print(f"their spreads: {spreads[0]:.3f} m and {spreads[1]:.3f} m")
+print(f"their spreads along one axis: {spreads[0]:.3f} m and {spreads[1]:.3f} m")
 
 # %% tags=["hide-input"]
 assert near(smoothed[:, 0], true_pose).mean() > 0.99
