@@ -12,8 +12,8 @@ from tiers import full_but
 import bayesmap as bm
 from bayesmap.localization.belief import PoseBelief
 from bayesmap.localization.external_map import ASSUMED, external_map, fit_law, search_single_scans
-from bayesmap.localization.filter import rescale_by_place_evidence
-from bayesmap.localization.localize import InitialPose, localize
+from bayesmap.localization.filter import Prior, rescale_by_place_evidence, update_lost
+from bayesmap.localization.localize import InitialPose, localize, predict_lost
 from bayesmap.localization.search import likelihood_field
 from bayesmap.space.planar import between, compose
 from bayesmap.space.scans import side_by_side
@@ -107,6 +107,37 @@ def test_scans_of_another_building_are_lost_and_those_of_this_are_not(offices):
     assert sum(found) >= 8
     assert not any(np.array(found) & np.array(lost))
     assert sum(belief.p_lost > 0.5 for belief in wrong.beliefs) >= 7
+
+
+def test_being_lost_is_that_of_all_enumerated_paths_of_states():
+    """On the map, lost where scans fit, lost elsewhere: 3 ** 6 paths. The twin without such places is far too sure."""
+    rng = np.random.default_rng(3)
+    ways_m, fits, anywhere = rng.uniform(0.0, 2.0, 6), np.append(-4.0, rng.normal(4.0, 1.0, 5)), rng.normal(size=6)
+    states = np.indices((3,) * 6).reshape(6, -1).T
+    joint = np.array([0.98, 0.002, 0.018])[states[:, 0]] * np.exp([fits, fits, anywhere])[states, range(6)].prod(axis=1)
+    for k in range(1, 6):
+        lost, found, unlike = np.array([1e-3, 0.05, 0.4]) * np.clip(ways_m[k] / 1.5, (0.02, 0.02, 0.0), 1.0)
+        rows = [1 - lost, 0.1 * lost, 0.9 * lost], [0, 1 - unlike, unlike], [found, unlike / 9, 1 - found - unlike / 9]
+        joint *= np.array(rows)[states[:, k - 1], states[:, k]]
+    exact = joint[states[:, -1] > 0].sum() / joint.sum()
+    for share in (1.0, 0.0):
+        p_lost, p_alike = 0.02, 0.002
+        for k in range(6):
+            if k > 0:
+                p_lost, p_alike, _ = predict_lost(p_lost, p_alike, ways_m[k])
+            p_lost, p_alike = update_lost(Prior(p_lost=p_lost, p_alike=share * p_alike), fits[k], anywhere[k])
+        assert p_lost == pytest.approx(exact, rel=1e-9) if share else p_lost < 0.1 * exact
+
+
+def test_a_corridor_like_the_maps_does_not_make_a_lost_robot_sure():
+    """It comes from a hall that is not on the map, and drives on through a corridor as wide as the one that is."""
+    walls, grid = walls_of(16.0, 2.0, alcove=False)
+    route = np.column_stack([4.0 + 0.1 * np.arange(20), np.full(20, 1.0), np.zeros(20)])
+    scans = scan_from(walls, grid, route, SHARP_LASER, max_range_m=4.0)
+    hall = scan_from(*walls_of(7.0, 5.0), [2.0, 2.5, 0.0], SHARP_LASER, max_range_m=4.0)
+    scans = replace(scans, ranges_m=np.concatenate([hall.ranges_m, scans.ranges_m[1:]]))
+    p_lost = [belief.p_lost for belief in localize(known(walls, grid, scans), scans).beliefs]
+    assert (p_lost[0] > 0.9, min(p_lost) > 0.1) == (True, True)
 
 
 def test_a_robot_that_looks_past_the_edge_of_the_map_is_found(offices):

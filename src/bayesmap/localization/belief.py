@@ -78,6 +78,7 @@ class PoseBelief:
     stamp_s: float | None = None  # stamp of the scan
     mode_of: Indices | None = None  # number of each pose's mode, (N,); None: poses near each other make one
     shared_error: Floats | None = None  # standard deviations of the map's error, (3,): modes are wider by it
+    p_alike: float = 0.0  # part of ``p_lost``: probability that the robot is lost where scans fit a place on the map
 
     def __repr__(self) -> str:
         """Return four lines: size, the likeliest pose, its probability, and that of being lost."""

@@ -13,7 +13,6 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
-from scipy.special import expit
 
 from bayesmap.localization.belief import NEGLIGIBLE_NATS, Population, PoseBelief, PoseMixture, log_sum
 from bayesmap.localization.known_map import INDEPENDENT_BEAMS, KnownMap, log_anywhere, n_valid
@@ -32,8 +31,7 @@ ROUND_BEAMS = 40  # approximate number of beams of a scan that are used before t
 SEARCH_SIGMA = np.array([0.06, 0.06, np.radians(1.2)])  # of a pose of a search from the best pose near it: m, m, rad
 UNIFORM_DRAWS = 3000  # poses that are drawn over the whole map if a search finds no place
 P_LOST_AT_FIRST = 0.02  # probability that the robot is not on the map, or the map outdated, before the first scan
-P_GETS_LOST = 1e-3  # probability per scan that a robot on the map gets lost
-P_FOUND = 0.05  # probability per scan that a lost robot is back on the map
+P_ALIKE = 0.1  # probability that a scan of a lost robot fits a place on the map: corridors and rooms are alike
 POINTS = 60  # end points per scan; they affect the number of rounds, not the results
 POINT_WEIGHT = 2.0  # weight of an end point relative to a beam's
 MAX_REFINEMENTS = 3  # rounds in which places are moved; one less for several places, which come from a search
@@ -70,6 +68,7 @@ class Prior:
     components: PoseMixture | None = None  # normal distributions; None if the robot may be anywhere on the map
     uniform_share: float = 1.0  # share of the mass that is uniform over the map's free cells; 1 without components
     p_lost: float = P_LOST_AT_FIRST  # probability that the robot is elsewhere, or the map outdated
+    p_alike: float = 0.0  # part of ``p_lost``: probability that the robot is lost where scans fit a place on the map
 
     def log_density(self, poses: Floats, known: KnownMap) -> Floats:
         """Compute the log density of poses on the map, (P,); -inf in walls."""
@@ -214,14 +213,23 @@ def compute_belief(
         weights = rescale_by_place_evidence(weights, place_of, prior_shares, power * scan.new_share)
     belief = PoseBelief(population.poses, weights, 0.0, 0.0, scan.stamp_s, place_of, known.shared_error)
     if not np.isfinite(scan.ranges_m).any():
-        return replace(belief, p_lost=prior.p_lost)  # a scan without hits does not tell whether the robot is lost
+        # A scan without hits does not tell whether the robot is lost.
+        return replace(belief, p_lost=prior.p_lost, p_alike=prior.p_alike)
     # Compare with the evidence of readings anywhere.
     log_evidence, fit = _evidence_and_fit(known, scan, population, log_likelihood, belief)
     log_elsewhere = log_anywhere(known.elsewhere, scan.ranges_m, known.max_range_m)
     log_elsewhere = known.beam_weight_for_fit(scan.ranges_m) * log_elsewhere
+    p_lost, p_alike = update_lost(prior, log_evidence, log_elsewhere)
+    return replace(belief, p_lost=p_lost, p_alike=p_alike, nats_per_beam=fit)
+
+
+def update_lost(prior: Prior, log_evidence: float, log_elsewhere: float) -> tuple[float, float]:
+    """Return ``p_lost`` and ``p_alike`` after a scan, given its log evidence on the map, and elsewhere."""
     with np.errstate(divide="ignore"):
-        log_odds = np.log(prior.p_lost) - np.log1p(-prior.p_lost) + log_elsewhere - log_evidence
-    return replace(belief, p_lost=float(expit(log_odds)), nats_per_beam=fit)
+        logs = np.log([1.0 - prior.p_lost, prior.p_alike, max(prior.p_lost - prior.p_alike, 0.0)])
+    logs += [log_evidence, log_evidence, log_elsewhere]  # a place that is alike explains the scan as the map does
+    _, alike, elsewhere = np.exp(logs - log_sum(logs)).tolist()
+    return alike + elsewhere, alike
 
 
 def rescale_by_place_weights(weights: Floats, place_of: Indices, log_weights: Floats) -> Floats:

@@ -16,7 +16,7 @@ from scipy.special import ndtr
 
 from bayesmap.errors import BadInput, check_count, near_names
 from bayesmap.localization.belief import MIN_SIGMA, Mode, PoseBelief, PoseMixture, Region
-from bayesmap.localization.filter import P_FOUND, P_GETS_LOST, P_LOST_AT_FIRST, Prior, Scan, update
+from bayesmap.localization.filter import P_ALIKE, P_LOST_AT_FIRST, Prior, Scan, update
 from bayesmap.localization.known_map import KnownMap, Trust
 from bayesmap.poses.prior import Odometry
 from bayesmap.sensors.model import RangeLimits
@@ -31,6 +31,10 @@ MIN_SURE_PROBABILITY = 0.99  # probability of the likeliest mode below which eve
 MIN_MAP_PROBABILITY = 1e-3  # probability of the map's area under a prior
 TURN_M = 0.5  # length of path with as much new evidence as a turn by one radian, metres
 MIN_NEW_SHARE = 0.02  # share of a scan's evidence that counts as new even if the robot stands still
+LOST_PATH_M = 1.5  # length of path along which the next three are probabilities; a shorter path has a share of them
+P_GETS_LOST = 1e-3  # a robot on the map gets lost; the least share is `MIN_NEW_SHARE`
+P_FOUND = 0.05  # a lost robot is back on the map; the least share is `MIN_NEW_SHARE`
+P_UNLIKE = 0.4  # a lost robot leaves the places that are like some on the map; no share while it stands still
 
 
 @dataclass(frozen=True, eq=False)
@@ -173,8 +177,9 @@ def follow(
     _check_arguments(known, prior, odometry)
     rng = np.random.default_rng(check_count("localize", "seed", seed, 0))
     missed = 0.0 if known.reference_fit is None else known.reference_fit.missed
-    anywhere = Prior(p_lost=max(P_LOST_AT_FIRST, missed))
-    pose_prior = anywhere if prior is None else Prior(prior.components(), trust.p_carried, P_LOST_AT_FIRST)
+    p_alike = P_ALIKE * P_LOST_AT_FIRST
+    anywhere = Prior(p_lost=max(P_LOST_AT_FIRST, missed), p_alike=p_alike)
+    pose_prior = anywhere if prior is None else Prior(prior.components(), trust.p_carried, P_LOST_AT_FIRST, p_alike)
     belief, pose, since_search_m = None, np.zeros(3), 0.0
     singles = (scans.select(slice(i, i + 1)) for i in range(len(scans))) if isinstance(scans, Scans) else scans
     for single in singles:
@@ -188,7 +193,7 @@ def follow(
             since_search_m += path_m
             if path_m < trust.shared_path_m:
                 new_share = max(MIN_NEW_SHARE, path_m / trust.shared_path_m)
-            pose_prior = predict(belief, motion, odometry.sigmas(motion), trust, new_share)
+            pose_prior = predict(belief, motion, odometry.sigmas(motion), trust, path_m, new_share)
         # Search the whole map if the pose is uncertain, or after a long path.
         unsure = belief is None or belief.p_lost > 0.5 or belief.modes[0].probability < MIN_SURE_PROBABILITY
         search_all = independent or unsure or since_search_m >= trust.search_path_m
@@ -233,7 +238,9 @@ def _check_arguments(known: KnownMap, prior: InitialPose | None, odometry: Odome
         )
 
 
-def predict(belief: PoseBelief, motion: Floats, sigmas: Floats, trust: Trust, new_share: float = 1.0) -> Prior:
+def predict(
+    belief: PoseBelief, motion: Floats, sigmas: Floats, trust: Trust, path_m: float, new_share: float = 1.0
+) -> Prior:
     """Return the prior of the pose after a motion in the frame of the pose before, (3,), with deviations (3,)."""
     modes = belief.places(float(np.exp(-trust.forgotten_nats)))
     means = np.array([mode.mean for mode in modes])
@@ -244,7 +251,17 @@ def predict(belief: PoseBelief, motion: Floats, sigmas: Floats, trust: Trust, ne
     log_mass = np.log([mode.probability for mode in modes])
     components = PoseMixture(ends, shift @ covariances @ np.swapaxes(shift, 1, 2) + noise, log_mass)
     # A lost robot may return to any position.
-    p_found, p_carried = new_share * P_FOUND, new_share * trust.p_carried
-    uniform_share = p_carried + (1.0 - p_carried) * min(belief.p_lost * new_share * P_FOUND, 0.5)
-    p_lost = belief.p_lost * (1.0 - p_found) + (1.0 - belief.p_lost) * new_share * P_GETS_LOST
-    return Prior(components, uniform_share, p_lost)
+    p_lost, p_alike, p_returned = predict_lost(belief.p_lost, belief.p_alike, path_m)
+    p_carried = new_share * trust.p_carried
+    return Prior(components, p_carried + (1.0 - p_carried) * min(p_returned, 0.5), p_lost, p_alike)
+
+
+def predict_lost(p_lost: float, p_alike: float, path_m: float) -> tuple[float, float, float]:
+    """Return ``p_lost`` and ``p_alike`` after a path, and the probability that a lost robot has returned to the map."""
+    share = min(path_m / LOST_PATH_M, 1.0)
+    p_unlike, share = share * P_UNLIKE, max(share, MIN_NEW_SHARE)
+    # The share of the alike places stays `P_ALIKE`, as long as no scan tells more.
+    p_elsewhere, p_got_lost = p_lost - p_alike, share * P_GETS_LOST * (1.0 - p_lost)
+    p_returned = share * P_FOUND * p_elsewhere
+    p_alike += p_unlike * (P_ALIKE / (1.0 - P_ALIKE) * p_elsewhere - p_alike) + P_ALIKE * p_got_lost
+    return p_lost + p_got_lost - p_returned, p_alike, p_returned
