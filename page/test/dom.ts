@@ -20,6 +20,9 @@ export class Element {
   open = false;
   returnValue = "";
   clientWidth = 0;
+  scrollTop = 0;
+  /** Where it lies on the screen, for a test to say. */
+  box = { left: 0, top: 0, width: 960, height: 800 };
   private own = "";
   private readonly attributes = new Map<string, string>();
   private readonly listeners = new Map<string, Listener[]>();
@@ -46,8 +49,12 @@ export class Element {
   get lastElementChild(): Element | null {
     return this.children.at(-1) ?? null;
   }
+  get parentElement() {
+    return this.parent;
+  }
   readonly classList = {
     add: (name: string) => this.classList.toggle(name, true),
+    remove: (name: string) => this.classList.toggle(name, false),
     toggle: (name: string, on: boolean) => {
       const names = this.className.split(" ").filter((other) => other && other !== name);
       this.className = [...names, ...(on ? [name] : [])].join(" ");
@@ -67,6 +74,15 @@ export class Element {
   }
   querySelector(tag: string): Element | null {
     return this.all((element) => element.tagName === tag)[0] ?? null;
+  }
+  /** The nearest of it and those around it that is hidden, or of one of the tags named. */
+  closest(selector: string): Element | null {
+    const tags = selector.split(", ");
+    const is = (tags.includes("[hidden]") && this.hidden) || tags.includes(this.tagName);
+    return is ? this : (this.parent?.closest(selector) ?? null);
+  }
+  contains(other: Element | null): boolean {
+    return other === this || Boolean(other?.parent && this.contains(other.parent));
   }
   /** It and all below it that are as wanted. */
   all(wanted: (element: Element) => boolean): Element[] {
@@ -115,7 +131,8 @@ export class Element {
     return null;
   }
   getBoundingClientRect() {
-    return { left: 0, top: 0, width: 960, height: 800 };
+    const { left, top, width, height } = this.box;
+    return { left, top, width, height, right: left + width, bottom: top + height };
   }
   setPointerCapture() {}
   focus() {
@@ -148,6 +165,7 @@ Object.assign(globalThis, {
   }),
   HTMLSelectElement: Select,
   HTMLInputElement: Input,
+  getComputedStyle: ({ style }: Element) => style,
   ResizeObserver: class {
     observe() {}
   },

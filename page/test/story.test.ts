@@ -1,14 +1,18 @@
 // Stories: the way through the steps, what the panel says, and what a figure answers to "Where was I?".
 
 import { aDocument, LIMITS, panel, wallsOf } from "./desk";
+import { Element, page } from "./dom";
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import type { Story } from "../src/messages";
+import { h } from "../src/panels/dom";
+import { inferencePanel, modelPanel } from "../src/panels/settings";
 import { storyPanel } from "../src/panels/story";
+import type { Ui } from "../src/panels/ui";
 import type { MapDocument, Pair } from "../src/protocol";
 import { locate } from "../src/sampler/where";
 import { beamsOf, rangesOf } from "../src/sampler/world";
-import { linkedStep, stepFragment } from "../src/state/story";
+import { linkedStep, namedIn, stepFragment } from "../src/state/story";
 
 const [FIRST, SECOND, SOLVED] = [aDocument({ prior: 0.3 }), aDocument({ method: "importance" }), aDocument({ method: "block" })];
 const STORY: Story = {
@@ -49,6 +53,66 @@ test("each step is a state of the page, with what is seen and one thing to do", 
   telling.go(-1);
   assert.deepEqual(gone, [1, 1, 1, 0]);
   assert.deepEqual(brought().at(-1), FIRST);
+});
+
+test("a task names controls by whole words, the longest name first, without units", () => {
+  const names = ["Noise (m)", "Draw", "Draws over the mean", "Prior P(wall)", "Where am I?", "Add"];
+  const named = (text: string) => namedIn(text, names).map(({ text, at }) => (at === null ? text : `<${names[at]}>`)).join("");
+  assert.equal(named("Set Prior P(wall), under Model, to 0.3."), "Set <Prior P(wall)>, under Model, to 0.3.");
+  assert.equal(named("Choose Draw, then Where am I? again."), "Choose <Draw>, then <Where am I?> again.");
+  assert.equal(named("Tick Draws over the mean. Noise stays."), "Tick <Draws over the mean>. <Noise (m)> stays.");
+  assert.equal(named("Drawing Additional noise"), "Drawing Additional noise");
+  assert.deepEqual([namedIn("Do it.", []), namedIn("Add", names)], [[{ text: "Do it.", at: null }], [{ text: "Add", at: 5 }]]);
+});
+
+/** The story above the settings, in a panel 400 pixels high in which the control of a label lies 900 pixels down. */
+function beside(task: string, label: string) {
+  const steps = [STORY.steps[0], { ...STORY.steps[1], task }];
+  const [desk, shown] = panel((ui: Ui) => h("aside", {}, storyPanel(ui), modelPanel(ui), inferencePanel(ui)));
+  desk.says("welcome", { limits: LIMITS, recorded: false, figure: false, lacks: [], story: { ...STORY, steps } });
+  const [aside] = shown.find(({ tagName }) => tagName === "aside");
+  aside.box.height = 400;
+  const [section] = shown.find(({ className }) => className === "story");
+  section.box.height = 150;
+  const row = shown.control(label).parent!;
+  Object.defineProperty(row, "box", { get: () => ({ left: 0, top: 900 - aside.scrollTop, width: 300, height: 30 }) });
+  const lead = () => shown.find(({ tagName, title }) => tagName === "button" && title === "Go to this control")[0] as Element;
+  return { desk, shown, aside, section, row, lead };
+}
+
+test("the control that a step names is marked, and its name leads to it", () => {
+  const { desk, shown, aside, row, lead } = beside("Set Prior P(wall) to 0.3.", "Prior P(wall)");
+  assert.doesNotMatch(row.className, /named/);
+  aside.scrollTop = 300;
+  desk.session.telling.go(1);
+  assert.match(shown.text, /Set Prior P\(wall\) to 0\.3\./);
+  assert.match(row.className, /row slider named/);
+  assert.equal(aside.scrollTop, 0); // where the step does not stay in view, it is read first
+  lead().click();
+  assert.equal(aside.scrollTop, 715); // in the middle
+  assert.equal(page.activeElement, shown.control("Prior P(wall)", "range"));
+  desk.session.telling.go(0);
+  desk.ui.refresh();
+  assert.doesNotMatch(row.className, /named/);
+});
+
+test("where a step stays in view, the control that it names is brought beneath it, until the reader scrolls", () => {
+  const { desk, aside, section, row } = beside("Set Particles to 20 000.", "Sweeps");
+  section.style.position = "sticky";
+  desk.session.telling.go(1);
+  desk.ui.refresh();
+  assert.doesNotMatch(row.className, /named/); // until the step's method is there, they are sweeps
+  desk.confirm(SECOND, { working: true });
+  desk.ui.refresh();
+  assert.match(row.className, /named/);
+  assert.equal(aside.scrollTop, 640); // in the middle of what the step leaves
+  Object.defineProperty(row, "box", { get: () => ({ left: 0, top: 1100 - aside.scrollTop, width: 300, height: 30 }) });
+  desk.ui.refresh(); // a chart has come
+  assert.equal(aside.scrollTop, 840);
+  aside.scrollTop = 500;
+  desk.ui.refresh();
+  desk.ui.refresh();
+  assert.equal(aside.scrollTop, 500);
 });
 
 test("without Live a step is sampled all the same, and without a story nothing is told", () => {

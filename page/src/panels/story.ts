@@ -1,8 +1,9 @@
-// A story: the title and number of the step, what is seen, one thing to do, and the way to other steps.
+// A story: the title and number of the step, what is seen, one thing to do, and the way to other steps. The controls that
+// a task names are marked, and their names lead to them.
 
-import { stepFragment } from "../state/story";
+import { namedIn, stepFragment } from "../state/story";
 import { h, mark, put } from "./dom";
-import type { Ui } from "./ui";
+import type { Named, Ui } from "./ui";
 
 export function storyPanel(ui: Ui) {
   const { telling } = ui.session;
@@ -43,8 +44,68 @@ export function storyPanel(ui: Ui) {
     put(heading, "textContent", story.title);
     put(title, "textContent", step.title);
     put(text, "textContent", step.text);
-    put(task, "textContent", step.task);
     Array.from(steps.children).forEach((link, i) => mark(link, "aria-current", i === at ? "step" : "false"));
   });
+  pointOut(ui, section, task);
   return section;
+}
+
+/** Marks the controls that the task names, makes their names lead to them, and brings the first of a new step into view. */
+function pointOut(ui: Ui, section: HTMLElement, task: HTMLElement) {
+  const { telling } = ui.session;
+  let marked: Named[] = [];
+  let [told, cut] = ["", ""];
+  let begun = -1;
+  /** Where the panel was scrolled to while the layout of a new step settles; null once it has, or once the reader scrolls. */
+  let following: number | null = null;
+  ui.each(() => {
+    const { step, begins } = telling;
+    if (!step) return;
+    const all = ui.named.filter(({ place }) => !place.closest("[hidden], dialog"));
+    const names = all.map(({ name }) => name());
+    const key = [step.task, ...names].join("|");
+    const parts = key === told ? null : namedIn(step.task, names);
+    told = key;
+    if (parts && JSON.stringify(parts) !== cut) {
+      cut = JSON.stringify(parts);
+      for (const { place } of marked) place.classList.remove("named");
+      marked = parts.flatMap(({ at }) => (at === null ? [] : [all[at]]));
+      for (const { place } of marked) place.classList.add("named");
+      task.replaceChildren(
+        ...parts.map(({ text, at }) => {
+          if (at === null) return text;
+          const lead = () => {
+            following = null;
+            reveal(section, all[at].place);
+            all[at].control.focus({ preventScroll: true });
+          };
+          return h("button", { type: "button", title: "Go to this control", textContent: text, onclick: lead });
+        }),
+      );
+    }
+    const panel = section.parentElement;
+    if (!panel) return;
+    if (begun !== begins) {
+      begun = begins;
+      panel.scrollTop = 0; // the step is read first
+      following = 0;
+    }
+    if (following === null) return;
+    if (panel.scrollTop !== following) return void (following = null);
+    if (marked.length && stays(section)) reveal(section, marked[0].place);
+    following = telling.settled ? null : panel.scrollTop;
+  });
+}
+
+/** Whether the step stays in view while the panel is scrolled. */
+const stays = (section: HTMLElement) => getComputedStyle(section).position === "sticky";
+
+/** Scrolls the panel so that a control in it is seen, below the step where that stays. */
+function reveal(section: HTMLElement, place: HTMLElement) {
+  const panel = section.parentElement as HTMLElement;
+  if (!panel.contains(place)) return; // the bar is always seen
+  const [room, at] = [panel.getBoundingClientRect(), place.getBoundingClientRect()];
+  const top = room.top + (stays(section) ? section.getBoundingClientRect().height : 0);
+  // in the middle, so that the heading and the neighbours of the control are seen, too
+  if (at.top < top || at.bottom > room.bottom) panel.scrollTop += (at.top + at.bottom - top - room.bottom) / 2;
 }

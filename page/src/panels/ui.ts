@@ -15,11 +15,15 @@ type ButtonOptions = { className?: string; text?: string; when?: () => boolean; 
 /** `scale` is for people who read degrees where the document holds radians: the number on show is that many times the document's. */
 type Range = { step: number; log?: boolean; unit?: string; scale?: number };
 type NumberOptions = { step: number | "any"; limits?: keyof Limits; scale?: number };
+/** A control that words can name: `place` is what surrounds it with its label. */
+export type Named = { name: () => string; place: HTMLElement; control: HTMLElement };
 type SliderKey = "prior" | "noise" | "angles" | "sweeps" | "pose_sigma" | "heading_sigma" | "burn_in";
 
 export class Ui {
   /** Makes ids of elements unique. */
   readonly prefix = `bayesmap${count++}`;
+  /** The controls with a name that is read. */
+  readonly named: Named[] = [];
   private readonly updates: (() => void)[] = [];
   // begins with a number that undo has not seen on this connection
   private drag = Math.floor(Math.random() * 2 ** 30);
@@ -79,7 +83,10 @@ export class Ui {
 
   button(image: IconName | null, label: string, action: () => void, { className = "", text = "", when, why, title }: ButtonOptions = {}) {
     const element = h("button", { type: "button", className, title: title ?? label, onclick: action }, image && icon(image));
-    if (text) element.append(h("span", { textContent: text }));
+    if (text) {
+      element.append(h("span", { textContent: text }));
+      this.named.push({ name: () => text, place: element, control: element });
+    }
     if (text !== label) element.setAttribute("aria-label", label);
     if (when)
       this.each(() => {
@@ -101,7 +108,9 @@ export class Ui {
     const group = h("div", { className: "segmented", role: "radiogroup", "aria-label": label });
     for (const [value, text, image] of options) {
       const input = h("input", { type: "radio", name, value, onchange: () => choose(value) });
-      group.append(h("label", { title: text }, input, image ? icon(image) : null, h("span", { textContent: text })));
+      const place = h("label", { title: text }, input, image ? icon(image) : null, h("span", { textContent: text }));
+      group.append(place);
+      this.named.push({ name: () => text, place, control: input });
       this.each(() => {
         put(input, "checked", current() === value);
         if (when) put(input, "disabled", !when(value));
@@ -118,7 +127,9 @@ export class Ui {
   /** A label beside a control. */
   row(label: string, control: HTMLElement) {
     control.id = `${this.prefix}-${label.replace(/\W/g, "")}`;
-    return h("div", { className: "row" }, h("label", { for: control.id, textContent: label }), control);
+    const place = h("div", { className: "row" }, h("label", { for: control.id, textContent: label }), control);
+    this.named.push({ name: () => label, place, control });
+    return place;
   }
 
   /** A slider with a number beside it. */
@@ -161,7 +172,9 @@ export class Ui {
       range.style.setProperty("--fill", `${clamp(fill, 0, 100)}%`);
       if (!focused(exact)) put(exact, "value", String(value));
     });
-    return h("div", { className: "row slider" }, text, range, exact);
+    const place = h("div", { className: "row slider" }, text, range, exact);
+    this.named.push({ name: label, place, control: range });
+    return place;
   }
 
   select<T extends string>(label: string, options: Record<T, string>, current: () => T, choose: (value: T) => void, when?: () => boolean, why = "") {
@@ -199,7 +212,9 @@ export class Ui {
   checkbox(label: string, current: () => boolean, choose: (on: boolean) => void, title = "") {
     const input = h("input", { type: "checkbox", onchange: () => choose(input.checked) });
     this.each(() => put(input, "checked", current()));
-    return h("label", { className: "check", title }, input, h("span", { textContent: label }));
+    const place = h("label", { className: "check", title }, input, h("span", { textContent: label }));
+    this.named.push({ name: () => label, place, control: input });
+    return place;
   }
 
   dialog(title: string, ...children: (Node | string)[]) {
