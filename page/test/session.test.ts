@@ -421,6 +421,24 @@ test("the robot's place is asked for one question at a time, of the sensor in th
   assert.equal(where.trouble, "");
 });
 
+test("while a scan of a drawn world is located, the picture is the known map, and follows its walls", () => {
+  const desk = new Desk({ walls: wallsOf([[3, 4]]) });
+  const { session } = desk;
+  desk.field({ p: new Uint8Array(441).fill(100), reached: new Uint8Array(441), layer: "draw" });
+  assert.equal(session.picture, session.shown);
+  session.where.follow(true, 1);
+  const known = session.picture!;
+  assert.deepEqual([known.p[3 * 21 + 4], known.p[3 * 21 + 5], known.reached[0], session.layer], [255, 0, 255, "mean"]);
+  assert.equal(session.picture, known); // nothing to paint anew
+  session.act({ type: "walls", cells: [[3, 5]], wall: true, stroke: 1 });
+  assert.equal(session.picture!.p[3 * 21 + 5], 255);
+  session.where.follow(false, 1);
+  assert.equal(session.picture, session.shown);
+  const log = new Desk(LOG);
+  log.session.where.follow(true, null);
+  assert.equal(log.session.where.map, null); // its map is the posterior's
+});
+
 /** A desk with a scan from (2, 2): beams along x, along y, between them with no return, and one that passes by the first one's end. */
 function withScan() {
   const desk = new Desk({ ...LOG, max_range: 10 });

@@ -2,8 +2,10 @@ import "./dom";
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { decisionsPanel } from "../src/panels/decisions";
+import { h } from "../src/panels/dom";
 import { evidencePanel } from "../src/panels/evidence";
 import { ghostPanel } from "../src/panels/ghost";
+import { captionOf } from "../src/panels/legend";
 import { banner, chip, foot } from "../src/panels/notice";
 import { posteriorPanel } from "../src/panels/posterior";
 import { readingPanel, readingWords } from "../src/panels/reading";
@@ -295,6 +297,20 @@ test("where the robot may be, in words", () => {
   assert.match(said([place(1)], { p_lost: 0.2 }), /That it is lost, or the map outdated, has probability 0.20/);
   assert.match(said([place(1)], { p_lost: 0.9 }), /The scan fits nowhere on this map, with probability 0.90/);
   assert.match(said([], { trouble: "there are no draws yet" }), /There are no draws yet\./);
+});
+
+test("where walls are known, nothing is said of the posterior of unknown ones", () => {
+  const [desk, found] = panel((ui) => h("div", {}, chip(ui), foot(ui).element, posteriorPanel(ui), wherePanel(ui)));
+  desk.field(BAD);
+  assert.match(found.text, /^mean .*not converged.*Ready, but the chains/);
+  assert.doesNotMatch(found.text, /not known/);
+  desk.choose("where");
+  desk.ui.refresh(); // the map is asked for
+  desk.hand.point({ x: 12, y: 4 });
+  assert.match(found.text, /^known map: the walls as drawn Ready Cell 12, 4 .* wall, as drawn Posterior This is the posterior of walls that are not known/);
+  assert.match(captionOf(desk.session), /^The walls as they are drawn/);
+  desk.hand.point({ x: 1, y: 1 });
+  assert.match(found.text, /free, as drawn/);
 });
 
 test("a reading in words: along its beam, and across and along the wall that it met", () => {

@@ -27,7 +27,7 @@ export class FieldLayer implements Layer {
   private drawn = { field: null as Field | null, reached: null as Uint8Array | null, palette: "", hatch: "" };
 
   depends({ session }: Scene) {
-    return [session.flicker.under ?? session.shown, session.view.layer === "entropy", ...session.shape];
+    return [session.picture, session.layer === "entropy", ...session.shape];
   }
 
   shows({ session }: Scene) {
@@ -40,13 +40,13 @@ export class FieldLayer implements Layer {
     const [nx, ny] = session.shape;
     const { scale, x, y } = view.transform;
     clipToMap(context, scene);
-    const field = session.flicker.under ?? session.shown;
+    const field = session.picture;
     if (!field || field.p.length !== nx * ny) {
       context.fillStyle = look.theme.unobserved;
       context.fillRect(x, y, nx * scale, ny * scale);
       return;
     }
-    this.fill(field, nx, ny, look.theme, kindOf(field, session.view.layer));
+    this.fill(field, nx, ny, look.theme, kindOf(field, session.layer));
     context.imageSmoothingEnabled = false;
     context.drawImage(this.cells.canvas, x, y, nx * scale, ny * scale);
     this.fillHatch(scene);

@@ -1,7 +1,11 @@
 // A draw over the mean: what stops beams in this draw, in a colour of its own.
 
 import type { Field } from "../protocol";
+import type { Session } from "../state/session";
 import { clipToMap, type Layer, type Scene } from "./layer";
+
+/** The draw that lies over the mean, or null. */
+const drawOver = ({ flicker, shown, where }: Session) => (flicker.under && !where.map ? shown : null);
 
 export class HypothesisLayer implements Layer {
   readonly name = "hypothesis";
@@ -9,16 +13,16 @@ export class HypothesisLayer implements Layer {
   private drawn = { field: null as Field | null, colour: "" };
 
   depends({ session }: Scene) {
-    return [session.flicker.under && session.shown];
+    return [drawOver(session)];
   }
 
   shows({ session }: Scene) {
-    return Boolean(session.flicker.under && session.shown);
+    return drawOver(session) !== null;
   }
 
   paint(context: CanvasRenderingContext2D, scene: Scene) {
     const { session, view, look } = scene;
-    const field = session.flicker.under && session.shown;
+    const field = drawOver(session);
     if (!field) return;
     const [nx, ny] = session.shape;
     const { scale, x, y } = view.transform;

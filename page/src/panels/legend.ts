@@ -59,6 +59,7 @@ const counted = (n: number, word: string) => `${n.toLocaleString("en")} ${word}$
 export function captionOf(session: Session) {
   const { shown, document, layer, quantity, draws } = session;
   if (!shown || !document) return "";
+  if (session.where.map) return "The walls as they are drawn: where a scan was taken is asked in a known map.";
   const { kind, mean, value } = quantity;
   // A chain that has not converged, and particles that have collapsed, give no draw of the posterior.
   const ofPosterior = shown.verdict?.level !== "bad";

@@ -26,7 +26,8 @@ export function chip(ui: Ui) {
   const remedy = ui.button(null, "Not converged", () => tryRemedy(session)?.apply?.(), { text: "Not converged", className: "chip doubt" });
   const element = h("div", { className: "chips" }, what, remedy);
   ui.each(() => {
-    const found = tryRemedy(session);
+    const known = session.where.map !== null;
+    const found = known ? null : tryRemedy(session);
     put(remedy, "hidden", !found);
     if (found) {
       const words = [verdictNames(session).bad, found.text].filter(Boolean).join(": ");
@@ -37,10 +38,14 @@ export function chip(ui: Ui) {
     }
     const field = session.shown;
     if (!field || !session.document) return put(element, "hidden", true);
+    put(element, "hidden", false);
+    if (known) {
+      put(what, "textContent", "known map: the walls as drawn");
+      return put(what, "className", "chip");
+    }
     const numbered = session.draws.count ? `draw ${session.draw + 1} of ${session.draws.count}` : "draw";
     const kind = field.layer === "draw" ? numbered + (session.flicker.under ? " over the mean" : "") : field.layer === "width" ? "width of the 90 % interval" : session.view.layer === "entropy" ? "entropy" : "mean";
     if (field.method === "counts") {
-      put(element, "hidden", false);
       const along = session.halfway ? "along poses found so far" : "along raw odometry";
       put(what, "textContent", `hits and passes \u00b7 ${session.stage ? session.stage.text.toLowerCase() : along}`);
       return put(what, "className", "chip approximate");
@@ -48,7 +53,6 @@ export function chip(ui: Ui) {
     const other = { importance: "importance sampling", propagate: "belief propagation" }[field.method];
     const until = session.document.method === "importance" && field.method === "propagate" ? ", until Run weighs particles" : "";
     const by = field.approximate ? `approximate, ${quick(field, session.working)}${until}` : (other ?? `${field.sweeps} sweeps`);
-    put(element, "hidden", false);
     put(what, "textContent", `${kind} \u00b7 ${by}`);
     put(what, "className", field.approximate ? "chip approximate" : "chip");
   });
@@ -114,7 +118,7 @@ export function foot(ui: Ui) {
     const fingers = matchMedia("(pointer: coarse)").matches;
     const idle = fingers ? "Touch a cell" : session.editable ? "Point at a cell, or press ? for the keys" : "Point at a cell";
     put(readout, "textContent", cell ? describeCell(session, cell) : idle);
-    const doubt = session.status.text === "Ready" && session.shown?.verdict?.level === "bad";
+    const doubt = session.status.text === "Ready" && session.shown?.verdict?.level === "bad" && !session.where.map;
     const fitting = session.status.text === "Ready" && isFitting(session);
     const bad = session.shown?.method === "importance" ? "Ready, but importance sampling has collapsed" : "Ready, but the chains have not converged";
     const lost = session.everConnected && !session.connection.connected && session.status.level === "info";
@@ -133,7 +137,9 @@ function describeCell(session: Session, cell: Point) {
   const digits = Math.max(1, Math.ceil(-Math.log10(resolution)) + 1);
   const { x, y } = centreOf(cell, document.grid);
   const parts = [`Cell ${cell.x}, ${cell.y}`, `${x.toFixed(digits)}, ${y.toFixed(digits)} m`];
-  if (shown && shown.p.length === shape[0] * shape[1]) {
+  const { map } = session.where;
+  if (map) parts.push(map.p[i] ? "wall, as drawn" : "free, as drawn");
+  else if (shown && shown.p.length === shape[0] * shape[1]) {
     const p = shown.p[i] / 255;
     const { kind, mean, value, interval } = session.quantity;
     if (shown.layer === "width") parts.push(`90 % interval ${p.toFixed(2)} wide`);

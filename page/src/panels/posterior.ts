@@ -36,7 +36,9 @@ export function posteriorPanel(ui: Ui, ...charts: HTMLElement[]) {
     else if (field && fitting) put(doing, "textContent", `Fitting the sensor: sweep ${field.sweeps} of ${field.total}`);
     else put(doing, "textContent", sentence([done, burned, state, done && count].filter(Boolean).join(", ")) || idle(session));
   });
-  return ui.section("Posterior", buttons(ui), progress, doing, figures(ui), verdict(ui), ...charts, about(ui));
+  const aside = h("p", { className: "caption", textContent: "This is the posterior of walls that are not known. The map shows the drawn walls, which Where am I? takes as known." });
+  ui.visible(aside, () => session.where.map !== null);
+  return ui.section("Posterior", aside, buttons(ui), progress, doing, figures(ui), verdict(ui), ...charts, about(ui));
 }
 
 /** Where there are no sweeps to count. */

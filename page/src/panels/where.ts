@@ -21,7 +21,7 @@ export function wherePanel(ui: Ui) {
   ui.each(() => {
     session.where.follow(hand.tool === "where", hand.sensor?.id ?? null);
     put(said, "textContent", words(ui));
-    const drawn = "Drag the robot: its scan is located among the walls that are drawn, as if nothing were known of its pose.";
+    const drawn = "Drag the robot: its scan is located among the walls that are drawn, which the map shows, as if nothing were known of its pose.";
     const recorded = "Choose a scan below: it is located in this map, as if nothing were known of its pose. The arrow is where it was recorded.";
     put(hint, "textContent", session.editable ? drawn : recorded);
   });

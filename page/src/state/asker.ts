@@ -5,6 +5,9 @@ import type { Action, DrawCount, Field, MapDocument, Pair, Scan } from "../proto
 export interface Asker {
   readonly document: MapDocument | null;
   readonly shape: Pair;
+  /** (nx, ny), one byte a cell, as drawn; `wallsVersion` counts its changes. */
+  readonly walls: Uint8Array;
+  readonly wallsVersion: number;
   /** The field on the canvas. */
   readonly shown: Field | null;
   readonly scan: Scan | null;

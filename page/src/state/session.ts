@@ -109,8 +109,13 @@ export class Session {
   }
   /** What the colours on show are; before there are draws or intervals, the mean stands for them. */
   get layer(): Layer {
+    if (this.where.map) return "mean";
     const own = this.shown?.layer;
     return own === "draw" || own === "width" ? own : this.view.layer === "entropy" ? "entropy" : "mean";
+  }
+  /** The field whose colours the cells have: a known map, the mean under a draw, or what was sent last. */
+  get picture(): Field | null {
+    return this.where.map ?? this.flicker.under ?? this.shown;
   }
   /** How far the trajectory is that is being inferred. */
   get stage() {

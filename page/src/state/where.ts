@@ -1,7 +1,7 @@
 // "Where am I?": the posterior of the pose of one scan, asked for again whenever the picture is another.
 
 import type { Whereabouts } from "../messages";
-import type { Buffers } from "../protocol";
+import type { Buffers, Field } from "../protocol";
 import type { Asker } from "./asker";
 
 /** Where a scan may have been taken; its cloud (n, 3) and weights (n), the lightest first. */
@@ -20,6 +20,8 @@ export class Where {
   version = 0;
   private wanted = false;
   private sensor: number | null = null;
+  private known: Field | null = null;
+  private knownVersion = -1;
   private asked = "";
   private waitingSince = 0;
 
@@ -36,6 +38,17 @@ export class Where {
       this.session.changed();
     }
     if (wanted) this.ask();
+  }
+
+  /** The known map in which a scan of a drawn world is located, the walls as they are drawn; null where there is none. */
+  get map(): Field | null {
+    const { shown, editable, walls, wallsVersion } = this.session;
+    if (!this.wanted || !editable || !shown) return null;
+    if (!this.known || this.knownVersion !== wallsVersion) {
+      this.known = { ...shown, layer: "mean", p: walls.map((wall) => 255 * wall), reached: new Uint8Array(walls.length).fill(255) };
+      this.knownVersion = wallsVersion;
+    }
+    return this.known;
   }
 
   receive(notice: Whereabouts, buffers: Buffers) {
