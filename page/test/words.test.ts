@@ -197,6 +197,24 @@ test("what is left out, how long it took, and of which model and method the pict
   assert.match(found.text, /7 rounds of belief propagation/);
 });
 
+test("Run is disabled with its reason where belief propagation is done, and its key says so", () => {
+  const [desk, found] = panel(posterior, { method: "propagate" });
+  assert.equal(found.control("Run").disabled, false); // its picture is not there
+  desk.field({ method: "propagate", approximate: true, sweeps: 7, total: 0 });
+  assert.equal(found.control("Run").disabled, true);
+  assert.match(found.control("Run").title, /^Belief propagation is done/);
+  assert.match(found.text, /7 rounds of belief propagation; it is done, and Run has nothing to add/);
+  desk.key("r");
+  assert.match(desk.status, /^Belief propagation is done and has no sweeps to add; choose Gibbs/);
+  assert.deepEqual(desk.asked("run"), []);
+  desk.confirm({ method: "gibbs" });
+  assert.equal(found.control("Run").disabled, false);
+  assert.equal(found.control("Run").title, "Run (R): more sweeps of the chains on show");
+  const [log, ofLog] = panel(posterior, { ...LOG, method: "propagate", poses: "odometry" });
+  log.field({ method: "propagate", approximate: true });
+  assert.equal(ofLog.control("Run").disabled, false); // it infers the trajectory
+});
+
 test("a path, and why there is none, in words", () => {
   const [desk, found] = panel(decisionsPanel);
   desk.choose("path");

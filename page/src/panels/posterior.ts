@@ -42,9 +42,9 @@ export function posteriorPanel(ui: Ui, ...charts: HTMLElement[]) {
 }
 
 /** Where there are no sweeps to count. */
-function idle({ shown, working, document }: Session) {
-  const particles = document?.method === "importance" ? "; Run weighs particles" : "";
-  if (shown?.method === "propagate") return `${shown.sweeps} rounds of belief propagation${particles}`;
+function idle({ shown, working, document, nothingToRun }: Session) {
+  const next = document?.method === "importance" ? "; Run weighs particles" : nothingToRun && "; it is done, and Run has nothing to add";
+  if (shown?.method === "propagate") return `${shown.sweeps} rounds of belief propagation${next}`;
   if (shown?.method === "hits") return "Counts of hits and passes";
   if (shown?.method === "counts") return "Run infers where the robot was";
   if (shown?.method === "pilot") return "Stopped while the sensor was fitted";
@@ -53,7 +53,13 @@ function idle({ shown, working, document }: Session) {
 
 function buttons(ui: Ui) {
   const { session } = ui;
-  const run = ui.button("play", "Run", () => session.act({ type: "run" }), { className: "primary", text: "Run", title: "Run (R): more sweeps of the chains on show", when: () => session.connection.connected, why: "Not while the connection is lost" });
+  const run = ui.button("play", "Run", () => session.act({ type: "run" }), {
+    className: "primary",
+    text: "Run",
+    title: "Run (R): more sweeps of the chains on show",
+    when: () => session.connection.connected && !session.nothingToRun,
+    why: () => session.nothingToRun || "Not while the connection is lost",
+  });
   const cancel = ui.button("close", "Cancel", () => session.act({ type: "cancel" }), {
     text: "Cancel",
     title: "Cancel (Escape)",

@@ -11,7 +11,7 @@ import { icon, type IconName } from "./icons";
 let count = 0; // several pages may stand in one notebook
 
 /** `why` is said where the button is disabled. */
-type ButtonOptions = { className?: string; text?: string; when?: () => boolean; why?: string; title?: string };
+type ButtonOptions = { className?: string; text?: string; when?: () => boolean; why?: string | (() => string); title?: string };
 /** `scale` is for people who read degrees where the document holds radians: the number on show is that many times the document's. */
 type Range = { step: number; log?: boolean; unit?: string; scale?: number };
 type NumberOptions = { step: number | "any"; limits?: keyof Limits; scale?: number };
@@ -91,7 +91,8 @@ export class Ui {
     if (when)
       this.each(() => {
         put(element, "disabled", !when());
-        if (why) put(element, "title", element.disabled ? why : (title ?? label));
+        const reason = typeof why === "function" ? why() : why;
+        if (reason) put(element, "title", element.disabled ? reason : (title ?? label));
       });
     return element;
   }

@@ -133,6 +133,13 @@ export class Session {
     const field = this.shown;
     return Boolean(field && !field.approximate && field.sweeps < field.total && this.working);
   }
+  /** Why Run would change nothing; empty where it would. */
+  get nothingToRun() {
+    const { document, shown, working } = this;
+    const ended = shown?.method === "propagate" && shown.generation === this.generation && !working;
+    const propagates = document?.method === "propagate" && document.cells === "binary" && document.poses === "logged";
+    return ended && propagates ? "Belief propagation is done and has no sweeps to add; choose Gibbs to sample maps" : "";
+  }
   /** The draw on show, from 0. */
   get draw() {
     const last = Math.max(0, this.draws.count - 1);
@@ -151,6 +158,7 @@ export class Session {
   act(action: Action, event?: Event) {
     if (!this.document && action.type !== "hello") return;
     if (!this.connection.connected && this.everConnected && !QUESTIONS.has(action.type) && needsServer(action)) return this.say(NO_SERVER, "warning");
+    if (action.type === "run" && this.nothingToRun) return this.say(this.nothingToRun);
     const sent = { ...action, seq: ++this.seq };
     if (!QUESTIONS.has(action.type)) this.acted = this.seq; // a question changes nothing, and no state confirms it
     if (FORESEEN.has(action.type)) {

@@ -274,24 +274,24 @@ burned?`the first ${i.burned} left out`:"",b=n.sampling||n.running||!i||i.sweeps
 total>id?"scans":"rounds"}`):l?C(s,"textContent","Computing"):i&&c?C(s,"textContent",`Fitting the sensor: sweep ${i.sweeps} of ${i.total}`):C(s,"textContent",Qt(
 [m,v,w,m&&b].filter(Boolean).join(", "))||ld(n))});let r=k("p",{className:"caption",textContent:"This is the posterior of walls that are not known. The map show\
 s the drawn walls, which Where am I? takes as known."});return t.visible(r,()=>n.where.map!==null),t.section("Posterior",r,cd(t),o,s,hd(t),ud(t),...e,pd(t))}function ld({
-shown:t,working:e,document:n}){let o=n?.method==="importance"?"; Run weighs particles":"";return t?.method==="propagate"?`${t.sweeps} rounds of belief propagati\
-on${o}`:t?.method==="hits"?"Counts of hits and passes":t?.method==="counts"?"Run infers where the robot was":t?.method==="pilot"?"Stopped while the sensor was f\
-itted":e?"Computing":"No chain yet"}function cd(t){let{session:e}=t,n=t.button("play","Run",()=>e.act({type:"run"}),{className:"primary",text:"Run",title:"Run (\
-R): more sweeps of the chains on show",when:()=>e.connection.connected,why:"Not while the connection is lost"}),o=t.button("close","Cancel",()=>e.act({type:"can\
-cel"}),{text:"Cancel",title:"Cancel (Escape)",when:()=>e.running||e.sampling||Es(e),why:"Nothing is running"}),s=t.checkbox("Live",()=>!!(e.state?.live??!0),i=>e.
-act({type:"live",on:i}),"Every edit restarts the chains, and Run goes on from their draws"),r=k("div",{className:"buttons"},n,o,s);return t.visible(r,()=>!e.recorded&&
-e.document?.source.kind!=="run"),r}function hd(t){let{session:e}=t,n=k("dl"),o=(r,i,a,l=!1)=>{let c=k("dd",{textContent:"–"}),h=k("div",{title:i},k("dt",{textContent:r}),
-c);return n.append(h),t.each(()=>{C(c,"textContent",e.shown?a(e.shown):"–"),l&&C(c,"className",e.shown?.verdict?.level??"")}),h};o("ESS","Effective sample siz\
-e of the log joint",r=>fe(r.ess,0),!0),o("R-hat","Agreement of the chains on the log joint; 1 is full",r=>fe(r.rhat,3),!0),o("log joint","Log of prior times lik\
-elihood at the last sweep",r=>fe(r.log_joint,Math.abs(r.log_joint??0)<1e5?1:0)),o("time","Time spent on sweeps, rounds or particles",r=>fe(r.seconds,1," s"));let s=o(
-"reply","From the hand's last move to its picture",()=>fe(e.latency.eventToPaint_ms.at(-1),0," ms"));return t.visible(s,()=>!e.recorded),n}var Go=({shown:t})=>t?.
-method==="importance"?{good:"Enough particles",fair:"Few particles",bad:"Collapsed"}:{good:"Converged",fair:"Nearly converged",bad:"Not converged"};function pd(t){
-let{session:e}=t,n=k("dl",{className:"about"}),o=k("details",{},k("summary",{textContent:"Model and method of this picture"}),n),s="";return t.each(()=>{let r=e.
-shown?.about??[];C(o,"hidden",!r.length),String(r)!==s&&(s=String(r),n.replaceChildren(...r.flatMap(([i,a])=>[k("dt",{textContent:i}),k("dd",{textContent:a})])))}),
-o}function ud(t){let{session:e}=t,n=k("span"),o=t.button(null,"Show the cell",()=>t.command(`cell ${e.shown?.verdict?.cell}`),{text:"Show the cell"});t.visible(
-o,()=>!!e.shown?.verdict?.cell);let s=k("div",{className:"verdict"},n,o);return t.each(()=>{let r=e.shown?.verdict;if(!r)return C(s,"hidden",s.hidden||!e.working),
-C(n,"textContent","Too early to judge."),C(s,"className","verdict early");C(s,"hidden",!1),C(n,"textContent",`${Go(e)[r.level]}: ${r.why}`),C(s,"className",`ver\
-dict ${r.level}`)}),s}function Al(t,e){let{session:n}=t,s=t.checkbox("Keep this result beside the next",()=>e.kept!==null,r=>r?e.keep():e.forget(),"Change the method, the order, the \
+shown:t,working:e,document:n,nothingToRun:o}){let s=n?.method==="importance"?"; Run weighs particles":o&&"; it is done, and Run has nothing to add";return t?.method===
+"propagate"?`${t.sweeps} rounds of belief propagation${s}`:t?.method==="hits"?"Counts of hits and passes":t?.method==="counts"?"Run infers where the robot was":
+t?.method==="pilot"?"Stopped while the sensor was fitted":e?"Computing":"No chain yet"}function cd(t){let{session:e}=t,n=t.button("play","Run",()=>e.act({type:"\
+run"}),{className:"primary",text:"Run",title:"Run (R): more sweeps of the chains on show",when:()=>e.connection.connected&&!e.nothingToRun,why:()=>e.nothingToRun||
+"Not while the connection is lost"}),o=t.button("close","Cancel",()=>e.act({type:"cancel"}),{text:"Cancel",title:"Cancel (Escape)",when:()=>e.running||e.sampling||
+Es(e),why:"Nothing is running"}),s=t.checkbox("Live",()=>!!(e.state?.live??!0),i=>e.act({type:"live",on:i}),"Every edit restarts the chains, and Run goes on fro\
+m their draws"),r=k("div",{className:"buttons"},n,o,s);return t.visible(r,()=>!e.recorded&&e.document?.source.kind!=="run"),r}function hd(t){let{session:e}=t,n=k(
+"dl"),o=(r,i,a,l=!1)=>{let c=k("dd",{textContent:"–"}),h=k("div",{title:i},k("dt",{textContent:r}),c);return n.append(h),t.each(()=>{C(c,"textContent",e.shown?
+a(e.shown):"–"),l&&C(c,"className",e.shown?.verdict?.level??"")}),h};o("ESS","Effective sample size of the log joint",r=>fe(r.ess,0),!0),o("R-hat","Agreement \
+of the chains on the log joint; 1 is full",r=>fe(r.rhat,3),!0),o("log joint","Log of prior times likelihood at the last sweep",r=>fe(r.log_joint,Math.abs(r.log_joint??
+0)<1e5?1:0)),o("time","Time spent on sweeps, rounds or particles",r=>fe(r.seconds,1," s"));let s=o("reply","From the hand's last move to its picture",()=>fe(e.latency.
+eventToPaint_ms.at(-1),0," ms"));return t.visible(s,()=>!e.recorded),n}var Go=({shown:t})=>t?.method==="importance"?{good:"Enough particles",fair:"Few particles",
+bad:"Collapsed"}:{good:"Converged",fair:"Nearly converged",bad:"Not converged"};function pd(t){let{session:e}=t,n=k("dl",{className:"about"}),o=k("details",{},k(
+"summary",{textContent:"Model and method of this picture"}),n),s="";return t.each(()=>{let r=e.shown?.about??[];C(o,"hidden",!r.length),String(r)!==s&&(s=String(
+r),n.replaceChildren(...r.flatMap(([i,a])=>[k("dt",{textContent:i}),k("dd",{textContent:a})])))}),o}function ud(t){let{session:e}=t,n=k("span"),o=t.button(null,
+"Show the cell",()=>t.command(`cell ${e.shown?.verdict?.cell}`),{text:"Show the cell"});t.visible(o,()=>!!e.shown?.verdict?.cell);let s=k("div",{className:"verd\
+ict"},n,o);return t.each(()=>{let r=e.shown?.verdict;if(!r)return C(s,"hidden",s.hidden||!e.working),C(n,"textContent","Too early to judge."),C(s,"className","v\
+erdict early");C(s,"hidden",!1),C(n,"textContent",`${Go(e)[r.level]}: ${r.why}`),C(s,"className",`verdict ${r.level}`)}),s}function Al(t,e){let{session:n}=t,s=t.checkbox("Keep this result beside the next",()=>e.kept!==null,r=>r?e.keep():e.forget(),"Change the method, the order, the \
 prior or the map, and compare: both results follow the layer and the draw");return t.visible(s,()=>n.locates&&(e.kept!==null||n.shown!==null)),s}function El(t,e){
 let[n,o]=[k("p",{className:"told-apart"}),k("p",{className:"told-apart"})];return t.visible(n,()=>e.kept!==null),t.each(()=>{if(!e.kept)return;let[s,r]=e.differences();
 C(n,"textContent",`Now: ${s}. ${Tl(t.session)}`),C(o,"textContent",`Kept: ${r}. ${Tl(e.kept)}`)}),{now:n,kept:o}}function Tl(t){let{shown:e,draws:n}=t;if(!e)return"";
@@ -851,28 +851,28 @@ this.session.act({type:"set",patch:{scans_used:e},drag:this.drag,...n?{coarse:n}
 2];return n===1?[o,s]:[Math.ceil(10*o*n-1e-6)/10,Math.floor(10*s*n+1e-6)/10]}bounded(e,n,o=1){this.each(()=>{let[s,r]=this.limits(n,o);C(e,"min",String(s)),C(e,
 "max",String(r))})}visible(e,n){this.each(()=>C(e,"hidden",!n()))}button(e,n,o,{className:s="",text:r="",when:i,why:a,title:l}={}){let c=k("button",{type:"butto\
 n",className:s,title:l??n,onclick:o},e&&mn(e));return r&&(c.append(k("span",{textContent:r})),this.named.push({name:()=>r,place:c,control:c})),r!==n&&c.setAttribute(
-"aria-label",n),i&&this.each(()=>{C(c,"disabled",!i()),a&&C(c,"title",c.disabled?a:l??n)}),c}segmented(e,n,o,s,r){let i=`${this.prefix}-${e.replace(/\W/g,"")}`,
-a=k("div",{className:"segmented",role:"radiogroup","aria-label":e});for(let[l,c,h]of n){let d=k("input",{type:"radio",name:i,value:l,onchange:()=>s(l)}),u=k("la\
-bel",{title:c},d,h?mn(h):null,k("span",{textContent:c}));a.append(u),this.named.push({name:()=>c,place:u,control:d}),this.each(()=>{C(d,"checked",o()===l),r&&C(
-d,"disabled",!r(l))})}return a}section(e,...n){let o=`${this.prefix}-${e.replace(/\W/g,"")}`;return k("section",{"aria-labelledby":o},k("h2",{id:o,textContent:e}),
-...n)}row(e,n){n.id=`${this.prefix}-${e.replace(/\W/g,"")}`;let o=k("div",{className:"row"},k("label",{for:n.id,textContent:e}),n);return this.named.push({name:()=>e,
-place:o,control:n}),o}slider(e,n,{step:o,log:s=!1,unit:r="",scale:i=1}){let a=`${this.prefix}-${e}`,l=()=>this.limits(e,i),c=b=>{let[M,S]=l();return s?1e3*Math.
-log(b/M)/Math.log(S/M):b},h=b=>{if(!s)return b;let[M,S]=l(),E=M*(S/M)**(b/1e3),P=E<100?1:10**(Math.floor(Math.log10(E))-1);return le(Math.round(E/P)*P,M,S)},d=()=>{
-let b=this.session.document?.[e];return b===void 0?l()[0]:i===1?b:Number((b*i).toFixed(3))},u=k("label",{for:a}),m=k("input",{type:"range",id:a,...s?{min:0,max:1e3,
-step:1}:{step:o}}),w=k("input",{type:"number",step:String(o)});s||this.bounded(m,e,i),this.bounded(w,e,i),m.addEventListener("input",()=>this.set({[e]:h(Number(
-m.value))/i})),m.addEventListener("change",()=>this.endDrag()),w.addEventListener("change",()=>{this.typed(w,n(),l(),d,b=>this.set({[e]:s?Math.round(b):b/i})),this.
-endDrag()}),this.each(()=>{let b=d();C(u,"textContent",n()),nt(w,"aria-label",`${n()}, number`),h(Number(m.value))!==b&&(m.value=String(c(b))),nt(m,"aria-valuet\
-ext",`${b}${r}`);let M=100*(c(b)-Number(m.min))/(Number(m.max)-Number(m.min));m.style.setProperty("--fill",`${le(M,0,100)}%`),En(w)||C(w,"value",String(b))});let v=k(
-"div",{className:"row slider"},u,m,w);return this.named.push({name:n,place:v,control:m}),v}select(e,n,o,s,r,i=""){let a=k("select",{onchange:()=>s(a.value)});for(let[
-l,c]of Object.entries(n))a.append(k("option",{value:l,textContent:c}));return this.each(()=>{C(a,"value",o()),r&&C(a,"disabled",!r()),i&&C(a,"title",a.disabled?
-i:"")}),this.row(e,a)}typed(e,n,[o,s],r,i){let a=e.value===""?NaN:Number(e.value);Number.isFinite(a)&&i(le(a,o,s)),e.value=String(r()),a<o?this.session.say(`${n}\
- is at least ${o}`,"warning"):a>s&&this.session.say(`${n} is at most ${s}`,"warning")}numberInput(e,n,o,{step:s,limits:r,scale:i}){let a=k("input",{type:"number",
-step:String(s)}),l=()=>r?this.limits(r,i):[-1/0,1/0];return r&&this.bounded(a,r,i),a.addEventListener("change",()=>this.typed(a,e,l(),n,o)),this.each(()=>{En(a)||
-C(a,"value",String(n()))}),this.row(e,a)}checkbox(e,n,o,s=""){let r=k("input",{type:"checkbox",onchange:()=>o(r.checked)});this.each(()=>C(r,"checked",n()));let i=k(
-"label",{className:"check",title:s},r,k("span",{textContent:e}));return this.named.push({name:()=>e,place:i,control:r}),i}dialog(e,...n){let o=`${this.prefix}-d\
-ialog-${e.replace(/\W/g,"")}`,s=k("button",{type:"button",className:"plain","aria-label":"Close",onclick:()=>i.close()},mn("close")),r=k("div",{className:"title"},
-k("h2",{id:o,textContent:e}),s),i=k("dialog",{"aria-labelledby":o},r,...n);return i.addEventListener("click",a=>{a.target===i&&i.close()}),i.addEventListener("k\
-eydown",a=>a.stopPropagation()),i}};var fg=[["mean","Mean"],["draw","One draw"],["entropy","Entropy"],["width","Width"]],Ih="There are no draws yet: chains keep them",mg={2:"2 / s",10:"10 / s",30:"\
+"aria-label",n),i&&this.each(()=>{C(c,"disabled",!i());let h=typeof a=="function"?a():a;h&&C(c,"title",c.disabled?h:l??n)}),c}segmented(e,n,o,s,r){let i=`${this.
+prefix}-${e.replace(/\W/g,"")}`,a=k("div",{className:"segmented",role:"radiogroup","aria-label":e});for(let[l,c,h]of n){let d=k("input",{type:"radio",name:i,value:l,
+onchange:()=>s(l)}),u=k("label",{title:c},d,h?mn(h):null,k("span",{textContent:c}));a.append(u),this.named.push({name:()=>c,place:u,control:d}),this.each(()=>{C(
+d,"checked",o()===l),r&&C(d,"disabled",!r(l))})}return a}section(e,...n){let o=`${this.prefix}-${e.replace(/\W/g,"")}`;return k("section",{"aria-labelledby":o},
+k("h2",{id:o,textContent:e}),...n)}row(e,n){n.id=`${this.prefix}-${e.replace(/\W/g,"")}`;let o=k("div",{className:"row"},k("label",{for:n.id,textContent:e}),n);
+return this.named.push({name:()=>e,place:o,control:n}),o}slider(e,n,{step:o,log:s=!1,unit:r="",scale:i=1}){let a=`${this.prefix}-${e}`,l=()=>this.limits(e,i),c=b=>{
+let[M,S]=l();return s?1e3*Math.log(b/M)/Math.log(S/M):b},h=b=>{if(!s)return b;let[M,S]=l(),E=M*(S/M)**(b/1e3),P=E<100?1:10**(Math.floor(Math.log10(E))-1);return le(
+Math.round(E/P)*P,M,S)},d=()=>{let b=this.session.document?.[e];return b===void 0?l()[0]:i===1?b:Number((b*i).toFixed(3))},u=k("label",{for:a}),m=k("input",{type:"\
+range",id:a,...s?{min:0,max:1e3,step:1}:{step:o}}),w=k("input",{type:"number",step:String(o)});s||this.bounded(m,e,i),this.bounded(w,e,i),m.addEventListener("in\
+put",()=>this.set({[e]:h(Number(m.value))/i})),m.addEventListener("change",()=>this.endDrag()),w.addEventListener("change",()=>{this.typed(w,n(),l(),d,b=>this.set(
+{[e]:s?Math.round(b):b/i})),this.endDrag()}),this.each(()=>{let b=d();C(u,"textContent",n()),nt(w,"aria-label",`${n()}, number`),h(Number(m.value))!==b&&(m.value=
+String(c(b))),nt(m,"aria-valuetext",`${b}${r}`);let M=100*(c(b)-Number(m.min))/(Number(m.max)-Number(m.min));m.style.setProperty("--fill",`${le(M,0,100)}%`),En(
+w)||C(w,"value",String(b))});let v=k("div",{className:"row slider"},u,m,w);return this.named.push({name:n,place:v,control:m}),v}select(e,n,o,s,r,i=""){let a=k("\
+select",{onchange:()=>s(a.value)});for(let[l,c]of Object.entries(n))a.append(k("option",{value:l,textContent:c}));return this.each(()=>{C(a,"value",o()),r&&C(a,
+"disabled",!r()),i&&C(a,"title",a.disabled?i:"")}),this.row(e,a)}typed(e,n,[o,s],r,i){let a=e.value===""?NaN:Number(e.value);Number.isFinite(a)&&i(le(a,o,s)),e.
+value=String(r()),a<o?this.session.say(`${n} is at least ${o}`,"warning"):a>s&&this.session.say(`${n} is at most ${s}`,"warning")}numberInput(e,n,o,{step:s,limits:r,
+scale:i}){let a=k("input",{type:"number",step:String(s)}),l=()=>r?this.limits(r,i):[-1/0,1/0];return r&&this.bounded(a,r,i),a.addEventListener("change",()=>this.
+typed(a,e,l(),n,o)),this.each(()=>{En(a)||C(a,"value",String(n()))}),this.row(e,a)}checkbox(e,n,o,s=""){let r=k("input",{type:"checkbox",onchange:()=>o(r.checked)});
+this.each(()=>C(r,"checked",n()));let i=k("label",{className:"check",title:s},r,k("span",{textContent:e}));return this.named.push({name:()=>e,place:i,control:r}),
+i}dialog(e,...n){let o=`${this.prefix}-dialog-${e.replace(/\W/g,"")}`,s=k("button",{type:"button",className:"plain","aria-label":"Close",onclick:()=>i.close()},
+mn("close")),r=k("div",{className:"title"},k("h2",{id:o,textContent:e}),s),i=k("dialog",{"aria-labelledby":o},r,...n);return i.addEventListener("click",a=>{a.target===
+i&&i.close()}),i.addEventListener("keydown",a=>a.stopPropagation()),i}};var fg=[["mean","Mean"],["draw","One draw"],["entropy","Entropy"],["width","Width"]],Ih="There are no draws yet: chains keep them",mg={2:"2 / s",10:"10 / s",30:"\
 30 / s",1e3:"fastest"},Zs=class{constructor(e){this.session=e}playing=!1;drawsPerSecond=10;afterMean=!1;before=null;showLayer(e){if(e!=="draw")this.play(!1);else if(!this.
 session.hasDraws)return;this.before=null,this.session.act({type:"view",layer:e,chain:this.session.view.chain})}showDraw(e,n=this.session.view.chain){this.session.
 act({type:"view",layer:"draw",chain:n,draw:e})}play(e){let{draw:n,draws:o,flicker:s,shown:r}=this.session;this.playing=e&&!s.still,e&&s.wantsMean?this.session.act(
@@ -981,38 +981,41 @@ return!this.recorded&&!this.figure}get locates(){return this.answers||this.figur
 return this.connection.connected&&!!this.state?.working}get layer(){if(this.where.map)return"mean";let e=this.shown?.layer;return e==="draw"||e==="width"?e:this.
 view.layer==="entropy"?"entropy":"mean"}get picture(){return this.where.map??this.flicker.under??this.shown}get stage(){return this.running&&this.shown?.method===
 "counts"?this.lastStage:null}get halfway(){return this.lastStage?.generation===this.shown?.generation}get draws(){return this.state?.draws??{chains:0,count:0}}get sampling(){
-let e=this.shown;return!!(e&&!e.approximate&&e.sweeps<e.total&&this.working)}get draw(){let e=Math.max(0,this.draws.count-1);return Math.min(e,this.view.draw??(this.
-shown?.layer==="draw"?this.shown.draw??e:e))}get hasDraws(){return this.draws.count>0||!this.recorded&&/auto|gibbs|block/.test(this.document?.method??"")}say(e,n="\
-info"){this.status.say(e,n,this.acted),this.changed()}act(e,n){if(!this.document&&e.type!=="hello")return;if(!this.connection.connected&&this.everConnected&&!Yh.
-has(e.type)&&jh(e))return this.say(Vh,"warning");let o={...e,seq:++this.seq};Yh.has(e.type)||(this.acted=this.seq),Wi.has(e.type)&&(this.pending.push(o),this.foresee(
-o)),n&&this.latency.sent(o.seq,n),this.connection.connected?this.transport.send(o):this.everConnected&&oi(this.portableDocument()),this.changed()}bring(e){this.
-act(e?{type:"hello",document:e}:{type:"hello"}),this.broughtAt=e?this.seq:null}effectiveDocument(){return this.packed.version!==this.wallsVersion&&(this.packed=
-{version:this.wallsVersion,text:Mn(Zn(this.walls))}),this.document&&{...this.document,walls:this.packed.text}}portableDocument(){let e=this.effectiveDocument();
-return e&&(e.source.kind==="simulation"?e:{...e,walls:""})}take(){return!this.next||!this.document?!1:(this.shown=this.next,this.next=null,this.flicker.take(this.
-shown),!0)}painted(){this.counts.paints++;let{generation:e}=this.shown??this;this.latency.painted(e),e>this.reported&&!this.recorded&&this.transport.send({type:"\
-painted",generation:e}),this.reported=e;for(let n of[this.decisions,this.ghost,this.evidence])n.ask()}get quantity(){return this.shown?.quantity??{kind:"binary",
-mean:"P(wall)",value:"wall",interval:!1}}remaining_s(){return this.shown&&this.sampling?this.progress.remaining_s(this.shown):null}onstatus(e){let n=this.connection.
-connected;if(this.connection=e,e.connected){let o=this.everConnected?this.portableDocument():this.adopt;this.pending=[],this.latency.forget(),this.bring(o),this.
-view.layer!=="mean"&&this.document&&this.act({type:"view",...this.view}),this.everConnected?this.say("Connected again"):this.notice&&this.say(this.notice.text,this.
-notice.level),this.everConnected=!0}else this.everConnected&&(n&&this.say("Connection lost","error"),oi(this.portableDocument()));this.changed()}receive(e,n){switch(e.
-type){case"welcome":this.generation=this.reported=-1,this.limits=e.limits,this.recorded=e.recorded,this.figure=e.figure,this.lacks=e.lacks,this.telling.story=e.
-story??null,this.latency.forget(),this.next=null;break;case"state":this.receiveState(e);break;case"scan":e.generation>=this.generation&&this.receiveScan(e,n);break;case"\
-overlay":this.overlay=n;break;case"field":this.receiveField(e,n);break;case"stage":this.lastStage=e;break;case"where":this.where.receive(e,n);break;case"cell":this.
-evidence.receive(e,n);break;case"path":case"views":this.decisions.receive(e,n);break;case"ghost":this.ghost.receive(e,n);break;case"beam":this.reading.receive(e);
-break;case"undecided":e.question==="ghost"?this.ghost.receive(e,n):e.question==="beam"?this.reading.receive(e):this.decisions.receive(e,n);break;case"status":this.
-status.say(e.text,e.level,this.acted);break;case"error":this.receiveRefusal(e);break;case"worker":this.worker=e.state,this.status.worker(e.state);break;case"dow\
-nload":this.ondownload(e.name,e.mime,n.data),this.status.say(e.name===Mo?"Kept beside":`Saved ${e.name}${e.note&&`, ${e.note}`}`,"info",this.acted);break}this.changed()}receiveScan({
-ids:e,index:n},{pose:o,angles:s,ranges:r,exact:i,hit:a}){this.scan?.index!==n&&this.reading.forget(),this.scan={ids:e,index:n,pose:o,angles:s,ranges:r,exact:i,hit:a}}receiveRefusal({
-seq:e,text:n,remedy:o}){let s=e!==null&&e===this.broughtAt;s&&(this.broughtAt=null,this.act({type:"hello"}));let r=[n,o].filter(Boolean).join("; ");this.status.
-say(s?`The map that was brought along cannot be shown: ${r}`:r,"error",this.acted),this.pending=this.pending.filter(i=>i.seq!==e),e!==null&&this.latency.refused(
-e),this.rebuild()}receiveState(e){this.status.confirmed(e.seq),this.state=e,e.document.source.kind==="simulation"&&(this.overlay=null,yl()),this.generation=Math.
-max(this.generation,e.generation),this.latency.confirmed(e.generation,e.seq),this.pending=this.pending.filter(n=>n.seq>e.seq),this.rebuild()}receiveField(e,n){if(e.
-generation<this.generation){this.counts.stale++;return}this.generation=e.generation;let o=n.p,{trace:s,traced:r,weights:i}=n,a=this.next??this.shown,l=n.reached,
-c=a&&a.p.length===o.length&&a.reached.every((h,d)=>h===l[d])?a.reached:l;this.next={...e,p:o,trace:s,traced:r,weights:i,reached:c},this.progress.hear(this.next)}rebuild(){
-if(!this.state)return;let{document:e}=this.state,[n,o]=e.grid.shape,s=this.confirmedWalls;if((e.walls!==s.text||s.walls.length!==n*o)&&(this.confirmedWalls={text:e.
-walls,walls:wt(ht(e.walls),n*o)}),this.document={...e,sensors:e.sensors.map(r=>({...r}))},(this.confirmedWalls!==s||this.wallsAhead)&&(this.walls=this.confirmedWalls.
-walls.slice(),this.wallsVersion++,this.wallsAhead=!1),!this.pending.some(r=>r.type==="view")){let{layer:r,chain:i,draw:a}=this.state.view;this.view={layer:r,chain:i??
-0,draw:a}}for(let r of this.pending)this.foresee(r)}foresee(e){!this.document||!this.state||(zh(this,e),e.type==="walls"&&(this.wallsVersion++,this.wallsAhead=!0))}};var ar=class{constructor(e){this.main=e}kept=null;draws={chains:0,count:0,kept:0};keep(){let{transport:e}=this.main;if(!e.record)return this.main.act({type:"exp\
+let e=this.shown;return!!(e&&!e.approximate&&e.sweeps<e.total&&this.working)}get nothingToRun(){let{document:e,shown:n,working:o}=this,s=n?.method==="propagate"&&
+n.generation===this.generation&&!o,r=e?.method==="propagate"&&e.cells==="binary"&&e.poses==="logged";return s&&r?"Belief propagation is done and has no sweeps t\
+o add; choose Gibbs to sample maps":""}get draw(){let e=Math.max(0,this.draws.count-1);return Math.min(e,this.view.draw??(this.shown?.layer==="draw"?this.shown.
+draw??e:e))}get hasDraws(){return this.draws.count>0||!this.recorded&&/auto|gibbs|block/.test(this.document?.method??"")}say(e,n="info"){this.status.say(e,n,this.
+acted),this.changed()}act(e,n){if(!this.document&&e.type!=="hello")return;if(!this.connection.connected&&this.everConnected&&!Yh.has(e.type)&&jh(e))return this.
+say(Vh,"warning");if(e.type==="run"&&this.nothingToRun)return this.say(this.nothingToRun);let o={...e,seq:++this.seq};Yh.has(e.type)||(this.acted=this.seq),Wi.has(
+e.type)&&(this.pending.push(o),this.foresee(o)),n&&this.latency.sent(o.seq,n),this.connection.connected?this.transport.send(o):this.everConnected&&oi(this.portableDocument()),
+this.changed()}bring(e){this.act(e?{type:"hello",document:e}:{type:"hello"}),this.broughtAt=e?this.seq:null}effectiveDocument(){return this.packed.version!==this.
+wallsVersion&&(this.packed={version:this.wallsVersion,text:Mn(Zn(this.walls))}),this.document&&{...this.document,walls:this.packed.text}}portableDocument(){let e=this.
+effectiveDocument();return e&&(e.source.kind==="simulation"?e:{...e,walls:""})}take(){return!this.next||!this.document?!1:(this.shown=this.next,this.next=null,this.
+flicker.take(this.shown),!0)}painted(){this.counts.paints++;let{generation:e}=this.shown??this;this.latency.painted(e),e>this.reported&&!this.recorded&&this.transport.
+send({type:"painted",generation:e}),this.reported=e;for(let n of[this.decisions,this.ghost,this.evidence])n.ask()}get quantity(){return this.shown?.quantity??{kind:"\
+binary",mean:"P(wall)",value:"wall",interval:!1}}remaining_s(){return this.shown&&this.sampling?this.progress.remaining_s(this.shown):null}onstatus(e){let n=this.
+connection.connected;if(this.connection=e,e.connected){let o=this.everConnected?this.portableDocument():this.adopt;this.pending=[],this.latency.forget(),this.bring(
+o),this.view.layer!=="mean"&&this.document&&this.act({type:"view",...this.view}),this.everConnected?this.say("Connected again"):this.notice&&this.say(this.notice.
+text,this.notice.level),this.everConnected=!0}else this.everConnected&&(n&&this.say("Connection lost","error"),oi(this.portableDocument()));this.changed()}receive(e,n){
+switch(e.type){case"welcome":this.generation=this.reported=-1,this.limits=e.limits,this.recorded=e.recorded,this.figure=e.figure,this.lacks=e.lacks,this.telling.
+story=e.story??null,this.latency.forget(),this.next=null;break;case"state":this.receiveState(e);break;case"scan":e.generation>=this.generation&&this.receiveScan(
+e,n);break;case"overlay":this.overlay=n;break;case"field":this.receiveField(e,n);break;case"stage":this.lastStage=e;break;case"where":this.where.receive(e,n);break;case"\
+cell":this.evidence.receive(e,n);break;case"path":case"views":this.decisions.receive(e,n);break;case"ghost":this.ghost.receive(e,n);break;case"beam":this.reading.
+receive(e);break;case"undecided":e.question==="ghost"?this.ghost.receive(e,n):e.question==="beam"?this.reading.receive(e):this.decisions.receive(e,n);break;case"\
+status":this.status.say(e.text,e.level,this.acted);break;case"error":this.receiveRefusal(e);break;case"worker":this.worker=e.state,this.status.worker(e.state);break;case"\
+download":this.ondownload(e.name,e.mime,n.data),this.status.say(e.name===Mo?"Kept beside":`Saved ${e.name}${e.note&&`, ${e.note}`}`,"info",this.acted);break}this.
+changed()}receiveScan({ids:e,index:n},{pose:o,angles:s,ranges:r,exact:i,hit:a}){this.scan?.index!==n&&this.reading.forget(),this.scan={ids:e,index:n,pose:o,angles:s,
+ranges:r,exact:i,hit:a}}receiveRefusal({seq:e,text:n,remedy:o}){let s=e!==null&&e===this.broughtAt;s&&(this.broughtAt=null,this.act({type:"hello"}));let r=[n,o].
+filter(Boolean).join("; ");this.status.say(s?`The map that was brought along cannot be shown: ${r}`:r,"error",this.acted),this.pending=this.pending.filter(i=>i.
+seq!==e),e!==null&&this.latency.refused(e),this.rebuild()}receiveState(e){this.status.confirmed(e.seq),this.state=e,e.document.source.kind==="simulation"&&(this.
+overlay=null,yl()),this.generation=Math.max(this.generation,e.generation),this.latency.confirmed(e.generation,e.seq),this.pending=this.pending.filter(n=>n.seq>e.
+seq),this.rebuild()}receiveField(e,n){if(e.generation<this.generation){this.counts.stale++;return}this.generation=e.generation;let o=n.p,{trace:s,traced:r,weights:i}=n,
+a=this.next??this.shown,l=n.reached,c=a&&a.p.length===o.length&&a.reached.every((h,d)=>h===l[d])?a.reached:l;this.next={...e,p:o,trace:s,traced:r,weights:i,reached:c},
+this.progress.hear(this.next)}rebuild(){if(!this.state)return;let{document:e}=this.state,[n,o]=e.grid.shape,s=this.confirmedWalls;if((e.walls!==s.text||s.walls.
+length!==n*o)&&(this.confirmedWalls={text:e.walls,walls:wt(ht(e.walls),n*o)}),this.document={...e,sensors:e.sensors.map(r=>({...r}))},(this.confirmedWalls!==s||
+this.wallsAhead)&&(this.walls=this.confirmedWalls.walls.slice(),this.wallsVersion++,this.wallsAhead=!1),!this.pending.some(r=>r.type==="view")){let{layer:r,chain:i,
+draw:a}=this.state.view;this.view={layer:r,chain:i??0,draw:a}}for(let r of this.pending)this.foresee(r)}foresee(e){!this.document||!this.state||(zh(this,e),e.type===
+"walls"&&(this.wallsVersion++,this.wallsAhead=!0))}};var ar=class{constructor(e){this.main=e}kept=null;draws={chains:0,count:0,kept:0};keep(){let{transport:e}=this.main;if(!e.record)return this.main.act({type:"exp\
 ort",what:Mo});let n=e.record();n&&this.receive(n),this.main.changed()}forget(){this.kept=null,this.main.changed()}receive(e){this.draws=e[0].draws;let n=cs(e);
 this.kept=new To(n,this.main.changed),n.open()}follow(){let{kept:e,main:n,draws:o}=this;if(!e)return;let{layer:s,chain:r}=n.view,i=Math.max(0,Math.min(r,o.chains-
 1)),a=s==="draw"&&o.count?Math.round(n.draw*(o.count-1)/Math.max(1,o.kept-1)):null,{view:l}=e;(s!==l.layer||i!==l.chain||a!==l.draw)&&e.act({type:"view",layer:s,
