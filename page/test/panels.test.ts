@@ -2,19 +2,23 @@ import { browser, Element } from "./dom";
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { THEMES, type Theme } from "../src/colour";
+import type { Figure } from "../src/messages";
 import { bar } from "../src/panels/bar";
 import { helpDialog, newDialog, shareDialog } from "../src/panels/dialogs";
+import { h } from "../src/panels/dom";
 import { head } from "../src/panels/head";
 import { legend } from "../src/panels/legend";
 import { logPanel } from "../src/panels/log";
 import { posesPanel } from "../src/panels/poses";
 import { posteriorPanel } from "../src/panels/posterior";
 import { clearPanel, inferencePanel, modelPanel, sensorPanel } from "../src/panels/settings";
-import type { Ui } from "../src/panels/ui";
+import { Ui } from "../src/panels/ui";
 import { scanPanel, viewPanel } from "../src/panels/view";
+import { Session } from "../src/state/session";
 import { ThemeChoice } from "../src/theme";
+import { localTransport } from "../src/transport/local";
 import type { MapDocument, Quantity } from "../src/protocol";
-import { Desk, LOG, Panel, RUN, panel, SURFACES, LIMITS } from "./desk";
+import { aDocument, Desk, LOG, Panel, RUN, panel, SURFACES, LIMITS } from "./desk";
 
 const patches = (desk: Desk) => desk.asked("set").map(({ patch }) => patch);
 const last = (desk: Desk) => patches(desk).at(-1);
@@ -31,6 +35,30 @@ test("a slider's number and its hand set the document, and one slide is one step
   assert.equal(model.control("Prior P(wall), number").value, "0.1");
   model.control("Noise (m), number").put("2", "change");
   assert.deepEqual(last(desk), { noise: 2 });
+});
+
+test("two choices of one control are two steps of undo, and so are two slides", () => {
+  const figure = { version: 1, document: aDocument({ method: "gibbs" }), limits: LIMITS, rare_walls: 0.2, judging: {}, story: null } as unknown as Figure;
+  const session = new Session(localTransport(figure, () => {}), () => {});
+  session.transport.open();
+  const desk = new Desk();
+  const ui = new Ui(session, desk.hand, desk.editor, () => {}, () => {}, false);
+  const found = new Panel({ ui } as Desk, () => h("div", {}, modelPanel(ui), inferencePanel(ui)));
+  const steps: [string, string, string[], keyof MapDocument, unknown[]][] = [
+    ["Method", "", ["block", "importance"], "method", ["gibbs", "block", "importance"]],
+    ["Seed", "", ["3", "4"], "seed", [0, 3, 4]],
+    ["Prior P(wall), number", "", ["0.4", "0.3"], "prior", [0.5, 0.4, 0.3]],
+    ["Prior P(wall)", "range", ["0.2", "0.1"], "prior", [0.3, 0.2, 0.1]],
+  ];
+  for (const [label, type, values, key, states] of steps) {
+    for (const value of values) found.control(label, type).put(value);
+    assert.equal(session.document![key], states[2], label);
+    for (const state of [states[1], states[0]]) {
+      session.act({ type: "undo" });
+      assert.equal(session.document![key], state, label);
+    }
+    for (const _ of values) session.act({ type: "redo" });
+  }
 });
 
 test("long scales are logarithmic, and end at round numbers within their limits", () => {

@@ -116,13 +116,13 @@ def test_actions_that_cannot_be_done_change_nothing(message):
     assert acted.session.generation == before
 
 
-def test_edits_of_a_gesture_wait_for_the_picture_and_are_merged():
+def test_edits_of_a_gesture_wait_for_the_picture_and_are_merged_but_not_with_those_of_another():
     acted = Acted()
-    for i in range(1, 6):
-        acted.act("move_sensor", id=1, x=10 + 0.1 * i, y=10, drag=1)
-    assert len(acted.inferred) == 1
+    for i in range(1, 7):
+        acted.act("move_sensor", id=1, x=10 + 0.1 * i, y=10, drag=1 + i // 6)
+    assert len(acted.inferred) == 2  # what waits is applied when another drag begins
     acted.picture()
-    assert [task.document.sensors[0].x for task in acted.inferred[1:]] == [10.5]
+    assert [task.document.sensors[0].x for task in acted.inferred[1:]] == [10.5, 10.6]
     assert acted.state["seq"] == acted.seq
 
 

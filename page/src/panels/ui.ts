@@ -47,8 +47,13 @@ export class Ui {
     for (const update of this.updates) update();
   }
 
-  /** Changes settings; all changes of one slide are one step of undo. */
+  /** Changes settings, as a step of undo of its own. */
   set(patch: Patch) {
+    this.session.act({ type: "set", patch });
+  }
+
+  /** Changes settings by a slide, all of which is one step of undo. */
+  private slide(patch: Patch) {
     this.session.act({ type: "set", patch, drag: this.drag });
   }
 
@@ -157,12 +162,9 @@ export class Ui {
     const exact = h("input", { type: "number", step: String(step) });
     if (!log) this.bounded(range, key, scale);
     this.bounded(exact, key, scale);
-    range.addEventListener("input", () => this.set({ [key]: toValue(Number(range.value)) / scale }));
+    range.addEventListener("input", () => this.slide({ [key]: toValue(Number(range.value)) / scale }));
     range.addEventListener("change", () => this.endDrag());
-    exact.addEventListener("change", () => {
-      this.typed(exact, label(), limits(), shown, (value) => this.set({ [key]: log ? Math.round(value) : value / scale }));
-      this.endDrag();
-    });
+    exact.addEventListener("change", () => this.typed(exact, label(), limits(), shown, (value) => this.set({ [key]: log ? Math.round(value) : value / scale })));
     this.each(() => {
       const value = shown();
       put(text, "textContent", label());

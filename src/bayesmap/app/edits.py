@@ -279,17 +279,17 @@ class Pace:
 
     def accept(self, client: int, action: actions.AnyAction) -> list[ActionOfPage]:
         """Accept an action of a page. Returns the actions to apply now, in order."""
-        if gesture_of(action, client) is None or not self._must_wait(client):
+        gesture = gesture_of(action, client)
+        if gesture is None or not self._must_wait(client):
             return [*self._release(), (client, action)]
         before = self._waiting
         self._waiting = client, action
         if before is None:
             return []
-        merged = merge_actions(before[1], action) if before[0] == client else None
-        if merged is None:
-            return [before]
-        self._waiting = client, merged
-        return []
+        merged = merge_actions(before[1], action) if gesture_of(before[1], before[0]) == gesture else None
+        if merged is not None:
+            self._waiting = client, merged
+        return [before] if merged is None else []
 
     def release_due(self) -> list[ActionOfPage]:
         """Return the waiting action if it need not wait any longer."""
