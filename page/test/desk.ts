@@ -18,7 +18,7 @@ export type Message = { type: string; [field: string]: any };
 
 /** As a server has them; where these are the library's, tests/app/test_page_build.py passes the library's. */
 export const LIMITS: Limits = {
-  prior: [0, 1], noise: [0.01, 5], angles: [10, 1000], max_range: [0.1, 10000], fov: [Math.PI / 36, 2 * Math.PI], pose_sigma: [0, 2],
+  prior: [0.001, 0.999], noise: [0.01, 5], angles: [10, 1000], max_range: [0.1, 10000], fov: [Math.PI / 36, 2 * Math.PI], pose_sigma: [0, 2],
   heading_sigma: [0, 0.6], sweeps: [1, 100000], burn_in: [0, 0.9], seed: [0, 2 ** 31 - 1], radius: [0.001, 100], risk: [1e-6, 1 - 1e-6], side: [2, 500],
   sensors: [1, 32], resolution: [0.02, 2], side_of_log: [1, 1000],
 };

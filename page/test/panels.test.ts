@@ -77,7 +77,7 @@ test("long scales are logarithmic, and end at round numbers within their limits"
 
 const NUMBERS: [string, string, number, number, (value: number) => object][] = [
   ["Noise (m), number", "noise", 0.01, 5, (noise) => ({ noise })],
-  ["Prior P(wall), number", "prior", 0, 1, (prior) => ({ prior })],
+  ["Prior P(wall), number", "prior", 0.001, 0.999, (prior) => ({ prior })],
   ["Angles, number", "angles", 10, 1000, (angles) => ({ angles })],
   ["Longest range (m)", "max_range", 0.1, 10_000, (max_range) => ({ max_range })],
   ["Field of view (\u00b0)", "fov", 5, 360, (degrees) => ({ fov: (degrees * Math.PI) / 180 })],
@@ -111,6 +111,17 @@ test("limits are those that the server sent: in degrees what lies inside them", 
   poses.control("Yaw \u00b1, number").put("89", "change");
   assert(Math.abs((last(desk) as any).heading_sigma - (89 * Math.PI) / 180) < 1e-12);
   assert.deepEqual([poses.control("Position \u00b1", "range").max, poses.control("Yaw \u00b1", "range").max], ["7", "90"]);
+});
+
+test("a prior of 0 or 1 is not taken, and the slider keeps to its steps inside the limits", () => {
+  const [desk, model] = panel(modelPanel);
+  for (const [typed, taken, words] of [["0", 0.001, "at least 0.001"], ["1", 0.999, "at most 0.999"]] as const) {
+    model.control("Prior P(wall), number").put(typed, "change");
+    assert.deepEqual(last(desk), { prior: taken });
+    assert.equal(desk.status, `Prior P(wall) is ${words}`);
+  }
+  const { min, max } = model.control("Prior P(wall)", "range");
+  assert.deepEqual([min, max], ["0.01", "0.99"]); // steps count from the least
 });
 
 test("a field that was emptied, or holds no number, shows its number again and sends nothing", () => {

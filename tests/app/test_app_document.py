@@ -39,7 +39,7 @@ def documents(draw):
         sensors.append(Sensor(n, float(x[i]), float(y[j]), draw(st.floats(-3.14, 3.14))))
         cells[i, j] = False
     settings = {
-        "prior": st.floats(0, 1), "noise": st.floats(0.01, 5), "angles": st.integers(10, 1000),
+        "prior": st.floats(0.001, 0.999), "noise": st.floats(0.01, 5), "angles": st.integers(10, 1000),
         "max_range": st.floats(0.1, 10_000), "fov": st.floats(0.1, 6.28),
         "readings": st.sampled_from(["noisy", "exact"]), "start": st.sampled_from(["auto", "prior", "empty"]),
         "method": st.sampled_from(["auto", "gibbs", "block", "propagate", "importance"]),
@@ -85,7 +85,7 @@ GOOD = tutorial_document().to_json()
     ("sensors", [{"id": 1, "x": 10, "y": 10}] * 2, "same id"),
     ("sensors", [{"id": 1, "x": "10", "y": 10}], "sensors\\[0\\].x"),
     ("sensors", [{"id": 1, "x": 99, "y": 10}], "outside"), ("sensors", [{"id": 1, "x": 2, "y": 2}], "wall"),
-    ("prior", True, "prior"), ("prior", 1.01, "prior"),
+    ("prior", True, "prior"), ("prior", 0, "prior: 0 is not a number from 0.001 to 0.999"),
     ("noise", -0.1, "noise \\(m\\): -0.1 is not a number from 0.01 to 5"), ("angles", 9, "angles"),
     ("angles", 10.5, "angles"), ("sweeps", 10**400, "sweeps"),
     ("method", "exact", "method: 'exact' is not one of auto, block, gibbs"), ("method", ["gibbs"], "method"),

@@ -72,12 +72,14 @@ export class Ui {
     return scale === 1 ? [low, high] : [Math.ceil(10 * low * scale - 1e-6) / 10, Math.floor(10 * high * scale + 1e-6) / 10];
   }
 
-  /** Keeps a field's limits those of the server. */
-  bounded(field: HTMLInputElement, key: keyof Limits, scale = 1) {
+  /** Keeps a field's limits those of the server; where it has steps, the outermost ones inside these limits. */
+  bounded(field: HTMLInputElement, key: keyof Limits, scale = 1, step = 0) {
     this.each(() => {
       const [low, high] = this.limits(key, scale);
-      put(field, "min", String(low));
-      put(field, "max", String(high));
+      const [first, last] = step ? [Math.ceil(low / step - 1e-6), Math.floor(high / step + 1e-6)] : [low, high];
+      const text = (steps: number) => String(step ? +(steps * step).toPrecision(9) : steps);
+      put(field, "min", text(first));
+      put(field, "max", text(last));
     });
   }
 
@@ -160,7 +162,7 @@ export class Ui {
     const text = h("label", { for: id });
     const range = h("input", { type: "range", id, ...(log ? { min: 0, max: 1000, step: 1 } : { step }) });
     const exact = h("input", { type: "number", step: String(step) });
-    if (!log) this.bounded(range, key, scale);
+    if (!log) this.bounded(range, key, scale, step);
     this.bounded(exact, key, scale);
     range.addEventListener("input", () => this.slide({ [key]: toValue(Number(range.value)) / scale }));
     range.addEventListener("change", () => this.endDrag());

@@ -92,7 +92,7 @@ class Source:
 class Settings:
     """The settings that the page's sliders and choices change."""
 
-    prior: Annotated[float, Meta(ge=0, le=1)] = 0.5  # prior probability that a cell is a wall
+    prior: Annotated[float, Meta(ge=0.001, le=0.999)] = 0.5  # prior probability that a cell is a wall
     # standard deviation of a range, metres
     noise: Annotated[float, Meta(ge=MIN_NOISE_M, le=5, title="noise (m)")] = 0.2
     angles: Annotated[int, Meta(ge=10, le=1000)] = 100  # number of beams per scan

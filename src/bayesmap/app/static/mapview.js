@@ -848,31 +848,31 @@ null,"Clear inference",()=>e.act({type:"clear",what:"inference"}),{text:"Clear i
 buttons"},n,o))}var dg=0,Xs=class{constructor(e,n,o,s,r,i){this.session=e;this.hand=n;this.editor=o;this.command=s;this.showLayer=r;this.embedded=i}prefix=`bayesmap${dg++}`;named=[];updates=[];drag=Math.
 floor(Math.random()*2**30);each(e){this.updates.push(e)}refresh(){for(let e of this.updates)e()}set(e){this.session.act({type:"set",patch:e})}slide(e){this.session.
 act({type:"set",patch:e,drag:this.drag})}scrub(e,n){this.session.act({type:"set",patch:{scans_used:e},drag:this.drag,...n?{coarse:n}:{}})}endDrag(){this.drag++}limits(e,n=1){
-let[o,s]=this.session.limits?.[e]??[1,2];return n===1?[o,s]:[Math.ceil(10*o*n-1e-6)/10,Math.floor(10*s*n+1e-6)/10]}bounded(e,n,o=1){this.each(()=>{let[s,r]=this.
-limits(n,o);C(e,"min",String(s)),C(e,"max",String(r))})}visible(e,n){this.each(()=>C(e,"hidden",!n()))}button(e,n,o,{className:s="",text:r="",when:i,why:a,title:l}={}){
-let c=k("button",{type:"button",className:s,title:l??n,onclick:o},e&&mn(e));return r&&(c.append(k("span",{textContent:r})),this.named.push({name:()=>r,place:c,control:c})),
-r!==n&&c.setAttribute("aria-label",n),i&&this.each(()=>{C(c,"disabled",!i());let h=typeof a=="function"?a():a;h&&C(c,"title",c.disabled?h:l??n)}),c}segmented(e,n,o,s,r){
-let i=`${this.prefix}-${e.replace(/\W/g,"")}`,a=k("div",{className:"segmented",role:"radiogroup","aria-label":e});for(let[l,c,h]of n){let d=k("input",{type:"rad\
-io",name:i,value:l,onchange:()=>s(l)}),u=k("label",{title:c},d,h?mn(h):null,k("span",{textContent:c}));a.append(u),this.named.push({name:()=>c,place:u,control:d}),
-this.each(()=>{C(d,"checked",o()===l),r&&C(d,"disabled",!r(l))})}return a}section(e,...n){let o=`${this.prefix}-${e.replace(/\W/g,"")}`;return k("section",{"ari\
-a-labelledby":o},k("h2",{id:o,textContent:e}),...n)}row(e,n){n.id=`${this.prefix}-${e.replace(/\W/g,"")}`;let o=k("div",{className:"row"},k("label",{for:n.id,textContent:e}),
-n);return this.named.push({name:()=>e,place:o,control:n}),o}slider(e,n,{step:o,log:s=!1,unit:r="",scale:i=1}){let a=`${this.prefix}-${e}`,l=()=>this.limits(e,i),
-c=b=>{let[M,S]=l();return s?1e3*Math.log(b/M)/Math.log(S/M):b},h=b=>{if(!s)return b;let[M,S]=l(),E=M*(S/M)**(b/1e3),P=E<100?1:10**(Math.floor(Math.log10(E))-1);
-return le(Math.round(E/P)*P,M,S)},d=()=>{let b=this.session.document?.[e];return b===void 0?l()[0]:i===1?b:Number((b*i).toFixed(3))},u=k("label",{for:a}),m=k("i\
-nput",{type:"range",id:a,...s?{min:0,max:1e3,step:1}:{step:o}}),w=k("input",{type:"number",step:String(o)});s||this.bounded(m,e,i),this.bounded(w,e,i),m.addEventListener(
-"input",()=>this.slide({[e]:h(Number(m.value))/i})),m.addEventListener("change",()=>this.endDrag()),w.addEventListener("change",()=>this.typed(w,n(),l(),d,b=>this.
-set({[e]:s?Math.round(b):b/i}))),this.each(()=>{let b=d();C(u,"textContent",n()),nt(w,"aria-label",`${n()}, number`),h(Number(m.value))!==b&&(m.value=String(c(b))),
-nt(m,"aria-valuetext",`${b}${r}`);let M=100*(c(b)-Number(m.min))/(Number(m.max)-Number(m.min));m.style.setProperty("--fill",`${le(M,0,100)}%`),En(w)||C(w,"value",
-String(b))});let v=k("div",{className:"row slider"},u,m,w);return this.named.push({name:n,place:v,control:m}),v}select(e,n,o,s,r,i=""){let a=k("select",{onchange:()=>s(
-a.value)});for(let[l,c]of Object.entries(n))a.append(k("option",{value:l,textContent:c}));return this.each(()=>{C(a,"value",o()),r&&C(a,"disabled",!r()),i&&C(a,
-"title",a.disabled?i:"")}),this.row(e,a)}typed(e,n,[o,s],r,i){let a=e.value===""?NaN:Number(e.value);Number.isFinite(a)&&i(le(a,o,s)),e.value=String(r()),a<o?this.
-session.say(`${n} is at least ${o}`,"warning"):a>s&&this.session.say(`${n} is at most ${s}`,"warning")}numberInput(e,n,o,{step:s,limits:r,scale:i}){let a=k("inp\
-ut",{type:"number",step:String(s)}),l=()=>r?this.limits(r,i):[-1/0,1/0];return r&&this.bounded(a,r,i),a.addEventListener("change",()=>this.typed(a,e,l(),n,o)),this.
-each(()=>{En(a)||C(a,"value",String(n()))}),this.row(e,a)}checkbox(e,n,o,s=""){let r=k("input",{type:"checkbox",onchange:()=>o(r.checked)});this.each(()=>C(r,"c\
-hecked",n()));let i=k("label",{className:"check",title:s},r,k("span",{textContent:e}));return this.named.push({name:()=>e,place:i,control:r}),i}dialog(e,...n){let o=`${this.
-prefix}-dialog-${e.replace(/\W/g,"")}`,s=k("button",{type:"button",className:"plain","aria-label":"Close",onclick:()=>i.close()},mn("close")),r=k("div",{className:"\
-title"},k("h2",{id:o,textContent:e}),s),i=k("dialog",{"aria-labelledby":o},r,...n);return i.addEventListener("click",a=>{a.target===i&&i.close()}),i.addEventListener(
-"keydown",a=>a.stopPropagation()),i}};var fg=[["mean","Mean"],["draw","One draw"],["entropy","Entropy"],["width","Width"]],Ih="There are no draws yet: chains keep them",mg={2:"2 / s",10:"10 / s",30:"\
+let[o,s]=this.session.limits?.[e]??[1,2];return n===1?[o,s]:[Math.ceil(10*o*n-1e-6)/10,Math.floor(10*s*n+1e-6)/10]}bounded(e,n,o=1,s=0){this.each(()=>{let[r,i]=this.
+limits(n,o),[a,l]=s?[Math.ceil(r/s-1e-6),Math.floor(i/s+1e-6)]:[r,i],c=h=>String(s?+(h*s).toPrecision(9):h);C(e,"min",c(a)),C(e,"max",c(l))})}visible(e,n){this.
+each(()=>C(e,"hidden",!n()))}button(e,n,o,{className:s="",text:r="",when:i,why:a,title:l}={}){let c=k("button",{type:"button",className:s,title:l??n,onclick:o},
+e&&mn(e));return r&&(c.append(k("span",{textContent:r})),this.named.push({name:()=>r,place:c,control:c})),r!==n&&c.setAttribute("aria-label",n),i&&this.each(()=>{
+C(c,"disabled",!i());let h=typeof a=="function"?a():a;h&&C(c,"title",c.disabled?h:l??n)}),c}segmented(e,n,o,s,r){let i=`${this.prefix}-${e.replace(/\W/g,"")}`,a=k(
+"div",{className:"segmented",role:"radiogroup","aria-label":e});for(let[l,c,h]of n){let d=k("input",{type:"radio",name:i,value:l,onchange:()=>s(l)}),u=k("label",
+{title:c},d,h?mn(h):null,k("span",{textContent:c}));a.append(u),this.named.push({name:()=>c,place:u,control:d}),this.each(()=>{C(d,"checked",o()===l),r&&C(d,"di\
+sabled",!r(l))})}return a}section(e,...n){let o=`${this.prefix}-${e.replace(/\W/g,"")}`;return k("section",{"aria-labelledby":o},k("h2",{id:o,textContent:e}),...n)}row(e,n){
+n.id=`${this.prefix}-${e.replace(/\W/g,"")}`;let o=k("div",{className:"row"},k("label",{for:n.id,textContent:e}),n);return this.named.push({name:()=>e,place:o,control:n}),
+o}slider(e,n,{step:o,log:s=!1,unit:r="",scale:i=1}){let a=`${this.prefix}-${e}`,l=()=>this.limits(e,i),c=b=>{let[M,S]=l();return s?1e3*Math.log(b/M)/Math.log(S/
+M):b},h=b=>{if(!s)return b;let[M,S]=l(),E=M*(S/M)**(b/1e3),P=E<100?1:10**(Math.floor(Math.log10(E))-1);return le(Math.round(E/P)*P,M,S)},d=()=>{let b=this.session.
+document?.[e];return b===void 0?l()[0]:i===1?b:Number((b*i).toFixed(3))},u=k("label",{for:a}),m=k("input",{type:"range",id:a,...s?{min:0,max:1e3,step:1}:{step:o}}),
+w=k("input",{type:"number",step:String(o)});s||this.bounded(m,e,i,o),this.bounded(w,e,i),m.addEventListener("input",()=>this.slide({[e]:h(Number(m.value))/i})),
+m.addEventListener("change",()=>this.endDrag()),w.addEventListener("change",()=>this.typed(w,n(),l(),d,b=>this.set({[e]:s?Math.round(b):b/i}))),this.each(()=>{let b=d();
+C(u,"textContent",n()),nt(w,"aria-label",`${n()}, number`),h(Number(m.value))!==b&&(m.value=String(c(b))),nt(m,"aria-valuetext",`${b}${r}`);let M=100*(c(b)-Number(
+m.min))/(Number(m.max)-Number(m.min));m.style.setProperty("--fill",`${le(M,0,100)}%`),En(w)||C(w,"value",String(b))});let v=k("div",{className:"row slider"},u,m,
+w);return this.named.push({name:n,place:v,control:m}),v}select(e,n,o,s,r,i=""){let a=k("select",{onchange:()=>s(a.value)});for(let[l,c]of Object.entries(n))a.append(
+k("option",{value:l,textContent:c}));return this.each(()=>{C(a,"value",o()),r&&C(a,"disabled",!r()),i&&C(a,"title",a.disabled?i:"")}),this.row(e,a)}typed(e,n,[o,
+s],r,i){let a=e.value===""?NaN:Number(e.value);Number.isFinite(a)&&i(le(a,o,s)),e.value=String(r()),a<o?this.session.say(`${n} is at least ${o}`,"warning"):a>s&&
+this.session.say(`${n} is at most ${s}`,"warning")}numberInput(e,n,o,{step:s,limits:r,scale:i}){let a=k("input",{type:"number",step:String(s)}),l=()=>r?this.limits(
+r,i):[-1/0,1/0];return r&&this.bounded(a,r,i),a.addEventListener("change",()=>this.typed(a,e,l(),n,o)),this.each(()=>{En(a)||C(a,"value",String(n()))}),this.row(
+e,a)}checkbox(e,n,o,s=""){let r=k("input",{type:"checkbox",onchange:()=>o(r.checked)});this.each(()=>C(r,"checked",n()));let i=k("label",{className:"check",title:s},
+r,k("span",{textContent:e}));return this.named.push({name:()=>e,place:i,control:r}),i}dialog(e,...n){let o=`${this.prefix}-dialog-${e.replace(/\W/g,"")}`,s=k("b\
+utton",{type:"button",className:"plain","aria-label":"Close",onclick:()=>i.close()},mn("close")),r=k("div",{className:"title"},k("h2",{id:o,textContent:e}),s),i=k(
+"dialog",{"aria-labelledby":o},r,...n);return i.addEventListener("click",a=>{a.target===i&&i.close()}),i.addEventListener("keydown",a=>a.stopPropagation()),i}};var fg=[["mean","Mean"],["draw","One draw"],["entropy","Entropy"],["width","Width"]],Ih="There are no draws yet: chains keep them",mg={2:"2 / s",10:"10 / s",30:"\
 30 / s",1e3:"fastest"},Zs=class{constructor(e){this.session=e}playing=!1;drawsPerSecond=10;afterMean=!1;before=null;showLayer(e){if(e!=="draw")this.play(!1);else if(!this.
 session.hasDraws)return;this.before=null,this.session.act({type:"view",layer:e,chain:this.session.view.chain})}showDraw(e,n=this.session.view.chain){this.session.
 act({type:"view",layer:"draw",chain:n,draw:e})}play(e){let{draw:n,draws:o,flicker:s,shown:r}=this.session;this.playing=e&&!s.still,e&&s.wantsMean?this.session.act(
