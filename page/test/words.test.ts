@@ -176,6 +176,8 @@ test("figures are shown with their verdict, and a dash where there are none", ()
   assert.match(found.text, /ESS 812 R-hat 1.012 log joint -123.5/);
   assert.match(found.text, /Converged: R-hat 1.01/);
   assert.equal(found.find((one) => one.tagName === "dd" && one.className === "good").length, 2);
+  const [meaning] = found.find(({ tagName, firstElementChild }) => tagName === "details" && firstElementChild?.textContent === "What these figures mean");
+  assert.match(meaning.innerText, /ESS +Effective sample size .* R-hat +Agreement of the chains on the log joint: 1 where they agree/);
   assert(!found.sees("Show the cell"));
   desk.field({ ess: 1, method: "importance", verdict: { level: "bad", why: "one particle", cell: null } });
   assert.match(found.text, /Collapsed: one particle/);

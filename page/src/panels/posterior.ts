@@ -38,7 +38,7 @@ export function posteriorPanel(ui: Ui, ...charts: HTMLElement[]) {
   });
   const aside = h("p", { className: "caption", textContent: "This is the posterior of walls that are not known. The map shows the drawn walls, which Where am I? takes as known." });
   ui.visible(aside, () => session.where.map !== null);
-  return ui.section("Posterior", aside, buttons(ui), progress, doing, figures(ui), verdict(ui), ...charts, about(ui));
+  return ui.section("Posterior", aside, buttons(ui), progress, doing, ...figures(ui), verdict(ui), ...charts, about(ui));
 }
 
 /** Where there are no sweeps to count. */
@@ -80,23 +80,26 @@ function buttons(ui: Ui) {
 function figures(ui: Ui) {
   const { session } = ui;
   const values = h("dl");
+  const meanings = h("dl", { className: "about" });
   const add = (label: string, title: string, read: (field: Field) => string, judged = false) => {
     const value = h("dd", { textContent: "\u2013" });
     const entry = h("div", { title }, h("dt", { textContent: label }), value);
     values.append(entry);
+    meanings.append(h("dt", { textContent: label }), h("dd", { textContent: title }));
     ui.each(() => {
       put(value, "textContent", session.shown ? read(session.shown) : "\u2013");
       if (judged) put(value, "className", session.shown?.verdict?.level ?? "");
     });
     return entry;
   };
-  add("ESS", "Effective sample size of the log joint", (field) => figure(field.ess, 0), true);
-  add("R-hat", "Agreement of the chains on the log joint; 1 is full", (field) => figure(field.rhat, 3), true);
+  add("ESS", "Effective sample size of the log joint: so many independent draws would tell as much of its mean", (field) => figure(field.ess, 0), true);
+  add("R-hat", "Agreement of the chains on the log joint: 1 where they agree, more where each still tells of its start", (field) => figure(field.rhat, 3), true);
   add("log joint", "Log of prior times likelihood at the last sweep", (field) => figure(field.log_joint, Math.abs(field.log_joint ?? 0) < 1e5 ? 1 : 0));
   add("time", "Time spent on sweeps, rounds or particles", (field) => figure(field.seconds, 1, " s"));
   const reply = add("reply", "From the hand's last move to its picture", () => figure(session.latency.eventToPaint_ms.at(-1), 0, " ms"));
   ui.visible(reply, () => !session.recorded);
-  return values;
+  // a title needs a mouse; this opens by a tap and by a key, too
+  return [values, h("details", {}, h("summary", { textContent: "What these figures mean" }), meanings)];
 }
 
 /** What a verdict is called: importance sampling has no chains that could converge. */

@@ -273,25 +273,27 @@ eps",m=i&&!i.approximate&&i.total?`${i.sweeps} of ${i.total} ${u}`:"",w=d!==null
 burned?`the first ${i.burned} left out`:"",b=n.sampling||n.running||!i||i.sweeps>=i.total?"":"stopped";a?C(s,"textContent",`${a.text}: ${a.done} of ${a.total} ${a.
 total>id?"scans":"rounds"}`):l?C(s,"textContent","Computing"):i&&c?C(s,"textContent",`Fitting the sensor: sweep ${i.sweeps} of ${i.total}`):C(s,"textContent",Qt(
 [m,v,w,m&&b].filter(Boolean).join(", "))||ld(n))});let r=k("p",{className:"caption",textContent:"This is the posterior of walls that are not known. The map show\
-s the drawn walls, which Where am I? takes as known."});return t.visible(r,()=>n.where.map!==null),t.section("Posterior",r,cd(t),o,s,hd(t),ud(t),...e,pd(t))}function ld({
-shown:t,working:e,document:n,nothingToRun:o}){let s=n?.method==="importance"?"; Run weighs particles":o&&"; it is done, and Run has nothing to add";return t?.method===
-"propagate"?`${t.sweeps} rounds of belief propagation${s}`:t?.method==="hits"?"Counts of hits and passes":t?.method==="counts"?"Run infers where the robot was":
-t?.method==="pilot"?"Stopped while the sensor was fitted":e?"Computing":"No chain yet"}function cd(t){let{session:e}=t,n=t.button("play","Run",()=>e.act({type:"\
-run"}),{className:"primary",text:"Run",title:"Run (R): more sweeps of the chains on show",when:()=>e.connection.connected&&!e.nothingToRun,why:()=>e.nothingToRun||
-"Not while the connection is lost"}),o=t.button("close","Cancel",()=>e.act({type:"cancel"}),{text:"Cancel",title:"Cancel (Escape)",when:()=>e.running||e.sampling||
-Es(e),why:"Nothing is running"}),s=t.checkbox("Live",()=>!!(e.state?.live??!0),i=>e.act({type:"live",on:i}),"Every edit restarts the chains, and Run goes on fro\
-m their draws"),r=k("div",{className:"buttons"},n,o,s);return t.visible(r,()=>!e.recorded&&e.document?.source.kind!=="run"),r}function hd(t){let{session:e}=t,n=k(
-"dl"),o=(r,i,a,l=!1)=>{let c=k("dd",{textContent:"–"}),h=k("div",{title:i},k("dt",{textContent:r}),c);return n.append(h),t.each(()=>{C(c,"textContent",e.shown?
-a(e.shown):"–"),l&&C(c,"className",e.shown?.verdict?.level??"")}),h};o("ESS","Effective sample size of the log joint",r=>fe(r.ess,0),!0),o("R-hat","Agreement \
-of the chains on the log joint; 1 is full",r=>fe(r.rhat,3),!0),o("log joint","Log of prior times likelihood at the last sweep",r=>fe(r.log_joint,Math.abs(r.log_joint??
-0)<1e5?1:0)),o("time","Time spent on sweeps, rounds or particles",r=>fe(r.seconds,1," s"));let s=o("reply","From the hand's last move to its picture",()=>fe(e.latency.
-eventToPaint_ms.at(-1),0," ms"));return t.visible(s,()=>!e.recorded),n}var Go=({shown:t})=>t?.method==="importance"?{good:"Enough particles",fair:"Few particles",
-bad:"Collapsed"}:{good:"Converged",fair:"Nearly converged",bad:"Not converged"};function pd(t){let{session:e}=t,n=k("dl",{className:"about"}),o=k("details",{},k(
-"summary",{textContent:"Model and method of this picture"}),n),s="";return t.each(()=>{let r=e.shown?.about??[];C(o,"hidden",!r.length),String(r)!==s&&(s=String(
-r),n.replaceChildren(...r.flatMap(([i,a])=>[k("dt",{textContent:i}),k("dd",{textContent:a})])))}),o}function ud(t){let{session:e}=t,n=k("span"),o=t.button(null,
-"Show the cell",()=>t.command(`cell ${e.shown?.verdict?.cell}`),{text:"Show the cell"});t.visible(o,()=>!!e.shown?.verdict?.cell);let s=k("div",{className:"verd\
-ict"},n,o);return t.each(()=>{let r=e.shown?.verdict;if(!r)return C(s,"hidden",s.hidden||!e.working),C(n,"textContent","Too early to judge."),C(s,"className","v\
-erdict early");C(s,"hidden",!1),C(n,"textContent",`${Go(e)[r.level]}: ${r.why}`),C(s,"className",`verdict ${r.level}`)}),s}function Al(t,e){let{session:n}=t,s=t.checkbox("Keep this result beside the next",()=>e.kept!==null,r=>r?e.keep():e.forget(),"Change the method, the order, the \
+s the drawn walls, which Where am I? takes as known."});return t.visible(r,()=>n.where.map!==null),t.section("Posterior",r,cd(t),o,s,...hd(t),ud(t),...e,pd(t))}
+function ld({shown:t,working:e,document:n,nothingToRun:o}){let s=n?.method==="importance"?"; Run weighs particles":o&&"; it is done, and Run has nothing to add";
+return t?.method==="propagate"?`${t.sweeps} rounds of belief propagation${s}`:t?.method==="hits"?"Counts of hits and passes":t?.method==="counts"?"Run infers wh\
+ere the robot was":t?.method==="pilot"?"Stopped while the sensor was fitted":e?"Computing":"No chain yet"}function cd(t){let{session:e}=t,n=t.button("play","Run",
+()=>e.act({type:"run"}),{className:"primary",text:"Run",title:"Run (R): more sweeps of the chains on show",when:()=>e.connection.connected&&!e.nothingToRun,why:()=>e.
+nothingToRun||"Not while the connection is lost"}),o=t.button("close","Cancel",()=>e.act({type:"cancel"}),{text:"Cancel",title:"Cancel (Escape)",when:()=>e.running||
+e.sampling||Es(e),why:"Nothing is running"}),s=t.checkbox("Live",()=>!!(e.state?.live??!0),i=>e.act({type:"live",on:i}),"Every edit restarts the chains, and Run\
+ goes on from their draws"),r=k("div",{className:"buttons"},n,o,s);return t.visible(r,()=>!e.recorded&&e.document?.source.kind!=="run"),r}function hd(t){let{session:e}=t,
+n=k("dl"),o=k("dl",{className:"about"}),s=(i,a,l,c=!1)=>{let h=k("dd",{textContent:"–"}),d=k("div",{title:a},k("dt",{textContent:i}),h);return n.append(d),o.append(
+k("dt",{textContent:i}),k("dd",{textContent:a})),t.each(()=>{C(h,"textContent",e.shown?l(e.shown):"–"),c&&C(h,"className",e.shown?.verdict?.level??"")}),d};s(
+"ESS","Effective sample size of the log joint: so many independent draws would tell as much of its mean",i=>fe(i.ess,0),!0),s("R-hat","Agreement of the chains o\
+n the log joint: 1 where they agree, more where each still tells of its start",i=>fe(i.rhat,3),!0),s("log joint","Log of prior times likelihood at the last swee\
+p",i=>fe(i.log_joint,Math.abs(i.log_joint??0)<1e5?1:0)),s("time","Time spent on sweeps, rounds or particles",i=>fe(i.seconds,1," s"));let r=s("reply","From the \
+hand's last move to its picture",()=>fe(e.latency.eventToPaint_ms.at(-1),0," ms"));return t.visible(r,()=>!e.recorded),[n,k("details",{},k("summary",{textContent:"\
+What these figures mean"}),o)]}var Go=({shown:t})=>t?.method==="importance"?{good:"Enough particles",fair:"Few particles",bad:"Collapsed"}:{good:"Converged",fair:"\
+Nearly converged",bad:"Not converged"};function pd(t){let{session:e}=t,n=k("dl",{className:"about"}),o=k("details",{},k("summary",{textContent:"Model and method\
+ of this picture"}),n),s="";return t.each(()=>{let r=e.shown?.about??[];C(o,"hidden",!r.length),String(r)!==s&&(s=String(r),n.replaceChildren(...r.flatMap(([i,a])=>[
+k("dt",{textContent:i}),k("dd",{textContent:a})])))}),o}function ud(t){let{session:e}=t,n=k("span"),o=t.button(null,"Show the cell",()=>t.command(`cell ${e.shown?.
+verdict?.cell}`),{text:"Show the cell"});t.visible(o,()=>!!e.shown?.verdict?.cell);let s=k("div",{className:"verdict"},n,o);return t.each(()=>{let r=e.shown?.verdict;
+if(!r)return C(s,"hidden",s.hidden||!e.working),C(n,"textContent","Too early to judge."),C(s,"className","verdict early");C(s,"hidden",!1),C(n,"textContent",`${Go(
+e)[r.level]}: ${r.why}`),C(s,"className",`verdict ${r.level}`)}),s}function Al(t,e){let{session:n}=t,s=t.checkbox("Keep this result beside the next",()=>e.kept!==null,r=>r?e.keep():e.forget(),"Change the method, the order, the \
 prior or the map, and compare: both results follow the layer and the draw");return t.visible(s,()=>n.locates&&(e.kept!==null||n.shown!==null)),s}function El(t,e){
 let[n,o]=[k("p",{className:"told-apart"}),k("p",{className:"told-apart"})];return t.visible(n,()=>e.kept!==null),t.each(()=>{if(!e.kept)return;let[s,r]=e.differences();
 C(n,"textContent",`Now: ${s}. ${Tl(t.session)}`),C(o,"textContent",`Kept: ${r}. ${Tl(e.kept)}`)}),{now:n,kept:o}}function Tl(t){let{shown:e,draws:n}=t;if(!e)return"";
