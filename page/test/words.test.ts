@@ -192,7 +192,8 @@ test("figures are shown with their verdict, and a dash where there are none", ()
 test("what is left out, how long it took, and of which model and method the picture is", () => {
   const [desk, found] = panel(posterior);
   desk.field({ burned: 100, seconds: 3.21, about: [["Method", "Gibbs sampling"], ["Prior", "independent: p wall 0.5"]] });
-  assert.match(found.text, /1000 of 1000 sweeps, the first 100 left out/);
+  assert.match(found.text, /1000 of 1000 sweeps, without the first 100 \(burn-in\)/);
+  assert.match(captionOf(desk.session), /: the mean of the sweeps without the first 100 \(burn-in\)\.$/);
   assert.match(found.text, /time 3.2 s/);
   assert.match(found.text, /Model and method of this picture Method Gibbs sampling Prior independent: p wall 0.5/);
   desk.field({ method: "propagate", approximate: true, sweeps: 7, total: 0 });

@@ -7,6 +7,7 @@ import type { Session } from "../state/session";
 import { sentence } from "../state/status";
 import { figure, h, put } from "./dom";
 import { icon } from "./icons";
+import { leftOut } from "./posterior";
 import type { Ui } from "./ui";
 
 /** Scale of the map on show, in CSS pixels a cell. */
@@ -73,7 +74,7 @@ export function captionOf(session: Session) {
   const { source, angles, sensors, scans_used } = document;
   const given = source.kind === "simulation" ? `${counted(angles * sensors.length, "beam")} of ${counted(sensors.length, "sensor")}` : counted(scans_used ?? source.scans, "scan");
   const quick = shown.method === "propagate" || shown.method === "pilot" || /hits|counts/.test(shown.method);
-  const by = quick && shown.approximate ? ", approximately" : layer !== "draw" && shown.burned ? `: the mean of the sweeps after the first ${shown.burned}` : "";
+  const by = quick && shown.approximate ? ", approximately" : layer !== "draw" && shown.burned ? `: the mean of the sweeps ${leftOut(shown.burned)}` : "";
   return `${what}, given ${given}${by}${ofPosterior || layer === "draw" ? "" : ", as far as it is known"}.`;
 }
 

@@ -10,6 +10,9 @@ import type { Ui } from "./ui";
 const ROUNDS = 20;
 const UNITS: { [method: string]: string } = { importance: "particles", propagate: "rounds" };
 
+/** The burn-in in words, the same wherever it is said. */
+export const leftOut = (sweeps: number) => `without the first ${sweeps} (burn-in)`;
+
 /** Whether the sensor is being fitted, before there are chains. */
 export const isFitting = ({ working, shown }: Session) => working && shown?.method === "pilot";
 
@@ -29,7 +32,7 @@ export function posteriorPanel(ui: Ui, ...charts: HTMLElement[]) {
     const unit = UNITS[field?.method ?? ""] ?? "sweeps";
     const done = field && !field.approximate && field.total ? `${field.sweeps} of ${field.total} ${unit}` : "";
     const state = left !== null ? (left < 1 ? "less than 1 s left" : `${Math.ceil(left)} s left`) : session.running ? "running" : "";
-    const burned = done && field?.burned ? `the first ${field.burned} left out` : "";
+    const burned = done && field?.burned ? leftOut(field.burned) : "";
     const count = session.sampling || session.running || !field || field.sweeps >= field.total ? "" : "stopped";
     if (stage) put(doing, "textContent", `${stage.text}: ${stage.done} of ${stage.total} ${stage.total > ROUNDS ? "scans" : "rounds"}`);
     else if (old) put(doing, "textContent", "Computing");
