@@ -41,8 +41,10 @@ test("each step is a state of the page, with what is seen and one thing to do", 
   const gone: number[] = [];
   telling.onstep = (at) => gone.push(at);
   assert.match(shown.text, /A story.*One.*Seen\..*Do it\./s);
+  const titles = () => ["Back", "Next"].map((name) => [shown.control(name).disabled, shown.control(name).title]);
+  assert.deepEqual(titles(), [[true, "This is the first step"], [false, "Next"]]);
   shown.control("Next").dispatch("click");
-  desk.ui.refresh();
+  assert.deepEqual(titles(), [[false, "Back"], [true, "This is the last step"]]);
   assert.match(shown.text, /Two.*Also seen\..*Do that\./s);
   assert.deepEqual([brought(), desk.asked("view").at(-1)!.layer, desk.asked("run").length], [[SECOND], "entropy", 1]);
   shown.control("Show me").dispatch("click");

@@ -14,8 +14,8 @@ export function storyPanel(ui: Ui) {
   const buttons = h(
     "div",
     { className: "buttons" },
-    ui.button(null, "Back", go(-1), { text: "Back", when: () => telling.at > 0 }),
-    ui.button(null, "Next", go(1), { className: "primary", text: "Next", when: () => telling.at < telling.last }),
+    ui.button(null, "Back", go(-1), { text: "Back", when: () => telling.at > 0, why: "This is the first step" }),
+    ui.button(null, "Next", go(1), { className: "primary", text: "Next", when: () => telling.at < telling.last, why: "This is the last step" }),
     ui.button(null, "Start this step again", go(0), { text: "Again" }),
   );
   const solve = ui.button(null, "Show me", () => telling.solve(), { text: "Show me" });

@@ -813,19 +813,20 @@ let{state:e,acted:n,working:o,shown:s}=this.session;return!!(s&&e&&e.seq>=n&&!o)
 steps.length??1)-1}go(e){this.at=Math.min(Math.max(e,0),this.last);let{step:n}=this;n&&(this.begins++,this.bring(n.document),this.session.view.layer!==n.layer&&
 this.session.act({type:"view",layer:n.layer}),this.onstep(this.at),this.session.changed())}solve(){this.step?.solution&&this.bring(this.step.solution)}bring(e){
 let{session:n}=this;n.state&&!n.state.live&&n.act({type:"live",on:!0}),n.bring(e),n.answers&&e.method==="importance"&&n.act({type:"run"})}};function Nh(t){let{telling:e}=t.session,[n,o,s]=[k("h3"),k("p"),k("p",{className:"task"})],r=k("div",{className:"told","aria-live":"polite"},n,o,s),i=k("nav",{"\
-aria-label":"Steps"}),a=m=>()=>e.go(e.at+m),l=k("div",{className:"buttons"},t.button(null,"Back",a(-1),{text:"Back",when:()=>e.at>0}),t.button(null,"Next",a(1),
-{className:"primary",text:"Next",when:()=>e.at<e.last}),t.button(null,"Start this step again",a(0),{text:"Again"})),c=t.button(null,"Show me",()=>e.solve(),{text:"\
-Show me"});t.visible(c,()=>!!e.step?.solution),l.append(c);let h=t.section("Story",i,r,l);h.className="story";let d=h.querySelector("h2");t.visible(h,()=>!!e.story);
-let u=null;return t.each(()=>{let{story:m,step:w,at:v}=e;!m||!w||(u!==m&&i.replaceChildren(...m.steps.map(({title:b},M)=>{let S=E=>{E.preventDefault(),e.go(M)};
-return k("a",{href:Ks(M),title:b,"aria-label":`Step ${M+1}: ${b}`,textContent:String(M+1),onclick:S})})),u=m,C(d,"textContent",m.title),C(n,"textContent",w.title),
-C(o,"textContent",w.text),Array.from(i.children).forEach((b,M)=>nt(b,"aria-current",M===v?"step":"false")))}),ig(t,h,s),h}function ig(t,e,n){let{telling:o}=t.session,
-s=[],[r,i]=["",""],a=-1,l=null;t.each(()=>{let{step:c,begins:h}=o;if(!c)return;let d=t.named.filter(({place:b})=>!b.closest("[hidden], dialog")),u=d.map(({name:b})=>b()),
-m=[c.task,...u].join("|"),w=m===r?null:Ch(c.task,u);if(r=m,w&&JSON.stringify(w)!==i){i=JSON.stringify(w);for(let{place:b}of s)b.classList.remove("named");s=w.flatMap(
-({at:b})=>b===null?[]:[d[b]]);for(let{place:b}of s)b.classList.add("named");n.replaceChildren(...w.map(({text:b,at:M})=>M===null?b:k("button",{type:"button",title:"\
-Go to this control",textContent:b,onclick:()=>{l=null,Lh(e,d[M].place),d[M].control.focus({preventScroll:!0})}})))}let v=e.parentElement;if(v&&(a!==h&&(a=h,v.scrollTop=
-0,l=0),l!==null)){if(v.scrollTop!==l)return void(l=null);s.length&&Dh(e)&&Lh(e,s[0].place),l=o.settled?null:v.scrollTop}})}var Dh=t=>getComputedStyle(t).position===
-"sticky";function Lh(t,e){let n=t.parentElement;if(!n.contains(e))return;let[o,s]=[n.getBoundingClientRect(),e.getBoundingClientRect()],r=o.top+(Dh(t)?t.getBoundingClientRect().
-height:0);(s.top<r||s.bottom>o.bottom)&&(n.scrollTop+=(s.top+s.bottom-r-o.bottom)/2)}var ag={auto:"Chosen by the prior",gibbs:"Gibbs, cell by cell",block:"Gibbs, 2 × 2 blocks",propagate:"Belief propagation",importance:"Importance sampling"},lg={
+aria-label":"Steps"}),a=m=>()=>e.go(e.at+m),l=k("div",{className:"buttons"},t.button(null,"Back",a(-1),{text:"Back",when:()=>e.at>0,why:"This is the first step"}),
+t.button(null,"Next",a(1),{className:"primary",text:"Next",when:()=>e.at<e.last,why:"This is the last step"}),t.button(null,"Start this step again",a(0),{text:"\
+Again"})),c=t.button(null,"Show me",()=>e.solve(),{text:"Show me"});t.visible(c,()=>!!e.step?.solution),l.append(c);let h=t.section("Story",i,r,l);h.className="\
+story";let d=h.querySelector("h2");t.visible(h,()=>!!e.story);let u=null;return t.each(()=>{let{story:m,step:w,at:v}=e;!m||!w||(u!==m&&i.replaceChildren(...m.steps.
+map(({title:b},M)=>{let S=E=>{E.preventDefault(),e.go(M)};return k("a",{href:Ks(M),title:b,"aria-label":`Step ${M+1}: ${b}`,textContent:String(M+1),onclick:S})})),
+u=m,C(d,"textContent",m.title),C(n,"textContent",w.title),C(o,"textContent",w.text),Array.from(i.children).forEach((b,M)=>nt(b,"aria-current",M===v?"step":"fals\
+e")))}),ig(t,h,s),h}function ig(t,e,n){let{telling:o}=t.session,s=[],[r,i]=["",""],a=-1,l=null;t.each(()=>{let{step:c,begins:h}=o;if(!c)return;let d=t.named.filter(
+({place:b})=>!b.closest("[hidden], dialog")),u=d.map(({name:b})=>b()),m=[c.task,...u].join("|"),w=m===r?null:Ch(c.task,u);if(r=m,w&&JSON.stringify(w)!==i){i=JSON.
+stringify(w);for(let{place:b}of s)b.classList.remove("named");s=w.flatMap(({at:b})=>b===null?[]:[d[b]]);for(let{place:b}of s)b.classList.add("named");n.replaceChildren(
+...w.map(({text:b,at:M})=>M===null?b:k("button",{type:"button",title:"Go to this control",textContent:b,onclick:()=>{l=null,Lh(e,d[M].place),d[M].control.focus(
+{preventScroll:!0})}})))}let v=e.parentElement;if(v&&(a!==h&&(a=h,v.scrollTop=0,l=0),l!==null)){if(v.scrollTop!==l)return void(l=null);s.length&&Dh(e)&&Lh(e,s[0].
+place),l=o.settled?null:v.scrollTop}})}var Dh=t=>getComputedStyle(t).position==="sticky";function Lh(t,e){let n=t.parentElement;if(!n.contains(e))return;let[o,s]=[
+n.getBoundingClientRect(),e.getBoundingClientRect()],r=o.top+(Dh(t)?t.getBoundingClientRect().height:0);(s.top<r||s.bottom>o.bottom)&&(n.scrollTop+=(s.top+s.bottom-
+r-o.bottom)/2)}var ag={auto:"Chosen by the prior",gibbs:"Gibbs, cell by cell",block:"Gibbs, 2 × 2 blocks",propagate:"Belief propagation",importance:"Importance sampling"},lg={
 binary:"walls",reflectivity:"reflectivities",surface:"surfaces"},cg={noisy:"with noise",exact:"exact"},hg={auto:"as is best",prior:"draws of the prior",empty:"t\
 he empty map"},pg={raster:"raster",radial:"radial",random:"random"},Js=2*Math.PI,ug=t=>Math.round(t*1800/Math.PI)/10,dg={importance:"Particles",propagate:"Round\
 s"};function Rh(t){let{session:e,hand:n,editor:o}=t,s=k("select",{"aria-label":"Selected sensor"});s.addEventListener("change",()=>{n.selected=Number(s.value),n.
