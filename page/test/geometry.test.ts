@@ -8,6 +8,8 @@ import { GUTTER, Viewport } from "../src/layers/viewport";
 import type { Grid, Pair } from "../src/protocol";
 import { aDocument, SHAPE } from "./desk";
 
+/** The tutorial's map, packed. */
+const TUTORIAL = "AAAAAAAcAICgBAQAOCAAQQACDAA4IABBAAIIABBAAIPgfAECAAhwAEIAAhAAH4AAAAAAAAAAAAA=";
 const GRID: Grid = { shape: [40, 30], resolution: 0.2, origin: [-1.3, 2.5] };
 
 /** Numbers that look random, and are the same each time. */
@@ -100,6 +102,19 @@ test("another sensor stands in the open, apart from others, and never in a wall"
   assert.equal(mostOpen(document, new Uint8Array(441).fill(1)), null);
   // the outside is no better than a wall
   assert.deepEqual(mostOpen({ ...document, sensors: [] }, new Uint8Array(441)), { x: 10, y: 10 });
+});
+
+test("another sensor stands in sight of the first, not behind a wall where there is more room", () => {
+  const walls = new Uint8Array(441);
+  for (let i = 8; i <= 12; i++) for (const [x, y] of [[8, i], [12, i], [i, 8], [i, 12]]) walls[x * 21 + y] = 1;
+  const place = mostOpen(aDocument(), walls);
+  assert(place && [place.x, place.y].every((v) => v > 8 && v < 12) && (place.x !== 10 || place.y !== 10));
+  walls[9 * 21 + 9] = walls[9 * 21 + 10] = walls[9 * 21 + 11] = walls[10 * 21 + 9] = walls[10 * 21 + 11] = 1;
+  for (const y of [9, 10, 11]) walls[11 * 21 + y] = 1;
+  const outside = mostOpen(aDocument(), walls); // there is no room beside the first
+  assert(outside && walls[outside.x * 21 + outside.y] === 0);
+  const tutorial = aDocument({ walls: TUTORIAL });
+  assert.deepEqual(mostOpen(tutorial, unpackBits(fromBase64(TUTORIAL), 441)), { x: 3, y: 7 });
 });
 
 test("the nearest free cell is no wall and holds no sensor", () => {

@@ -1,7 +1,7 @@
 // Where another sensor can stand.
 
 import type { MapDocument, Point } from "../protocol";
-import { cellOf, centreOf } from "./cells";
+import { cellOf, centreOf, lineOfCells } from "./cells";
 
 /** The centre of the free cell nearest to a cell, in metres; null where there is none. */
 export function nearestFree(document: MapDocument, walls: Uint8Array, to: Point): Point | null {
@@ -10,16 +10,37 @@ export function nearestFree(document: MapDocument, walls: Uint8Array, to: Point)
   return best(document, (x, y, i) => (walls[i] || taken.includes(i) ? -Infinity : score(x, y)));
 }
 
-/** The centre of the free cell that is farthest from walls and, twice as far, from other sensors; null where there is none. */
+/**
+ * The centre of the free cell that is farthest from walls and, twice as far, from other sensors: one in sight of a sensor,
+ * so that it stands in a room and not behind its walls; any where none is in sight; null where there is none.
+ */
 export function mostOpen(document: MapDocument, walls: Uint8Array): Point | null {
   const away = distanceToWalls(walls, document.grid.shape);
   const sensors = sensorCells(document);
-  return best(document, (x, y, i) => {
+  const openness = (x: number, y: number, i: number) => {
     if (walls[i]) return -Infinity;
     let least = 2 * away[i];
     for (const sensor of sensors) least = Math.min(least, Math.hypot(x - sensor.x, y - sensor.y));
     return least > 0 ? least : -Infinity;
-  });
+  };
+  const seen = inSight(walls, document.grid.shape, sensors);
+  return best(document, (x, y, i) => (seen[i] ? openness(x, y, i) : -Infinity)) ?? best(document, openness);
+}
+
+/** Which cells a straight line from a sensor reaches before a wall, one byte a cell. */
+function inSight(walls: Uint8Array, [nx, ny]: [number, number], sensors: Point[]): Uint8Array {
+  const seen = new Uint8Array(nx * ny);
+  const look = (from: Point, to: Point) => {
+    for (const { x, y } of lineOfCells(from, to)) {
+      if (walls[x * ny + y]) return;
+      seen[x * ny + y] = 1;
+    }
+  };
+  for (const sensor of sensors) {
+    for (let x = 0; x < nx; x++) for (const y of [0, ny - 1]) look(sensor, { x, y });
+    for (let y = 0; y < ny; y++) for (const x of [0, nx - 1]) look(sensor, { x, y });
+  }
+  return seen;
 }
 
 const sensorCells = ({ sensors, grid }: MapDocument) => sensors.map((sensor) => cellOf(sensor, grid));
