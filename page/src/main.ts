@@ -13,6 +13,10 @@ export { localTransport, mount, readFigure, readRecording, recordedTransport, we
 
 const KEPT = "This is the map that was drawn here when the connection was lost; undo leads back";
 
+/** In Safari the last to come of what the page needs (docs/app.md). */
+const isTooOld = () => !("DecompressionStream" in window && "adoptedStyleSheets" in document);
+const TOO_OLD = "This page needs a newer browser: Safari 16.4, Firefox 121, Chrome 111, or later.";
+
 /** `window.bayesmap` is the page that was shown last. */
 const expose = (handle: Handle) => Object.assign(window, { bayesmap: handle });
 
@@ -21,6 +25,7 @@ export default {
   render({ model, el }: { model: Model; el: HTMLElement }) {
     const host = document.createElement("div");
     el.append(host);
+    if (isTooOld()) return void (host.textContent = TOO_OLD);
     const handle = mount(host, widgetTransport(model), { embedded: true });
     expose(handle);
     return () => handle.destroy();
@@ -41,6 +46,7 @@ const replay = (host: HTMLElement, shown: () => Handle) => (recording: Parameter
 async function start() {
   const host = document.querySelector<HTMLElement>("[data-bayesmap]");
   if (!host || host.shadowRoot) return;
+  if (isTooOld()) return void (host.textContent = TOO_OLD);
   const sheet = new CSSStyleSheet();
   sheet.replaceSync("body { margin: 0; }");
   document.adoptedStyleSheets.push(sheet);

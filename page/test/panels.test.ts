@@ -384,6 +384,18 @@ test("what there is to save is offered: a run where draws were kept, or none are
   assert.equal(found.control("Export").getAttribute("aria-expanded"), "false");
 });
 
+test("the menu of exports closes when the focus leaves it, and not where a click on it gives the focus to what is around it", () => {
+  const [, found] = panel(top);
+  const [anchor] = found.find(({ className }) => className === "anchor") as (Element & { tabIndex?: number })[];
+  const isOpen = () => found.control("Export").getAttribute("aria-expanded");
+  assert.equal(anchor.tabIndex, -1);
+  found.control("Export").click();
+  found.control("Map for robots (YAML and PGM)").dispatch("focusout", { relatedTarget: anchor });
+  assert.equal(isOpen(), "true");
+  found.control("Map for robots (YAML and PGM)").dispatch("focusout", { relatedTarget: null });
+  assert.equal(isOpen(), "false");
+});
+
 test("a recording offers neither edits, nor runs, nor what needs a server", () => {
   const desk = new Desk(RUN);
   desk.says("welcome", { recorded: true });

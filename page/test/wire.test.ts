@@ -56,6 +56,16 @@ test("the library's frame, its links and its limits are understood", async (cont
   assert.deepEqual(library.limits, LIMITS); // those that the other tests have
 });
 
+test("an exported page says so where a browser is too old to unpack it", () => {
+  const page = readFileSync("../src/bayesmap/app/static/one_file.html", "utf8");
+  const [, script] = /<script>([^]*?)<\/script>/.exec(page)!;
+  for (const [window, words] of [[{}, /^This page needs a newer browser: Safari 16\.4/], [{ DecompressionStream: class {} }, /^$/]] as const) {
+    const host = { textContent: "" };
+    new Function("window", "document", script)(window, { querySelector: () => host });
+    assert.match(host.textContent, words);
+  }
+});
+
 test("a link holds the document, and is read back from the address and taken off it", async () => {
   const document = aDocument({ prior: 0.375 });
   const link = await toFragment(document);

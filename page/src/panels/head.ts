@@ -66,7 +66,8 @@ function exportMenu(ui: Ui) {
     if (on) (menu.firstElementChild as HTMLElement).focus();
   };
   open(false);
-  const anchor = h("div", { className: "anchor" }, toggle, menu);
+  // Safari gives a button that is clicked no focus: what is around it takes it, or the menu would close before the click
+  const anchor = h("div", { className: "anchor", tabIndex: -1 }, toggle, menu);
   anchor.addEventListener("keydown", (event) => {
     if (event.key !== "Escape" || menu.hidden) return;
     open(false);

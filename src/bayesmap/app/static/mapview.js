@@ -3,9 +3,9 @@ function wt(t,e){let n=new Uint8Array(e);for(let o=0;o<e;o++)n[o]=t[o>>3]>>7-(o&
 length;n++)t[n]&&(e[n>>3]|=128>>(n&7));return e}function ht(t){let e=atob(t.replace(/-/g,"+").replace(/_/g,"/"));return Uint8Array.from(e,n=>n.charCodeAt(0))}function Mn(t){
 let e="";for(let n=0;n<t.length;n+=8192)e+=String.fromCharCode(...t.subarray(n,n+8192));return btoa(e)}async function Wa(t,e){let n=new Blob([t]).stream().pipeThrough(
 e);return new Uint8Array(await new Response(n).arrayBuffer())}var Qn=t=>Wa(t,new DecompressionStream("deflate-raw")),Ga=t=>Wa(t,new CompressionStream("deflate-r\
-aw"));async function Ha(t){let e=await Ga(new TextEncoder().encode(JSON.stringify(t)));return"#m="+Mn(e).replace(/\+/g,"-").replace(/\//g,"_").replace(/=+$/,"")}async function Tu(t){
+aw"));async function Ha(t){let e=await Ga(new TextEncoder().encode(JSON.stringify(t)));return"#m="+Mn(e).replace(/\+/g,"-").replace(/\//g,"_").replace(/=+$/,"")}async function Eu(t){
 let e=/^#m=([\w-]+)$/.exec(t);return e&&JSON.parse(new TextDecoder().decode(await Qn(ht(e[1]))))}var $o="The link's map cannot be read: copy the link again, who\
-le";async function Fo(){let t=await Tu(location.hash).catch(()=>null),e=!t&&location.hash.startsWith("#m=");return t&&history.replaceState(null,"",location.pathname+
+le";async function Fo(){let t=await Eu(location.hash).catch(()=>null),e=!t&&location.hash.startsWith("#m=");return t&&history.replaceState(null,"",location.pathname+
 location.search),{document:t,damaged:e}}var zr={uint8:Uint8Array,uint32:Uint32Array,float32:Float32Array,float64:Float64Array},ja=8,hn=()=>({onmessage:()=>{},onstatus:()=>{}});function pn(t){let e=new DataView(
 t).getUint32(0,!0),n=JSON.parse(new TextDecoder().decode(new Uint8Array(t,4,e))),o={},s=4+e;for(let{name:r,dtype:i,shape:a}of n.buffers??[]){let l=a.reduce((c,h)=>c*
 h,1)*zr[i].BYTES_PER_ELEMENT;o[r]=new zr[i](t.slice(s,s+l)),s+=Math.ceil(l/ja)*ja}return[n,o]}function Va(t,e){let n={};return(t.buffers??[]).forEach(({name:o,dtype:s},r)=>{
@@ -21,11 +21,11 @@ layer:ee,...U},{p:A,reached:O,trace:G,traced:te,...X&&{weights:X}})},P={...hn(),
 {type:"overlay",generation:h},{strokes:e.strokes,trajectory:e.trajectory}),E()}else if(D.type==="view")m={layer:D.layer,chain:D.chain??m.chain,draw:D.draw??null},
 b(D.seq),E();else if(D.type==="scan"){let L=o.map(O=>Math.abs(O-1-D.index));u=L.indexOf(Math.min(...L)),b(D.seq),M()}else if(D.type==="inspect"){let{x:L,y:O}=D,
 G=e.beams[L*n.grid.shape[1]+O];P.onmessage({type:"cell",x:L,y:O,each:!1,beams:G,beams_for:null,nats_for:null,beams_against:null,nats_against:null,draw:null,chain:null,
-prior_nats:null,log_odds:null},{})}},close:()=>{}};return P}async function Au(t,e){let n=new TextDecoder,o=t.stream().getReader(),[s,r]=["",0];for(let i=await o.read();!i.done;i=await o.read())s+=n.decode(i.value,{stream:!0}),
-e((r+=i.value.length)/t.size);return s}async function Eu(t,e,n,o){try{let s=await n(t,r=>e.say(r<1?`Reading ${t.name}: ${Math.round(100*r)} %`:`Reading ${t.name}\
+prior_nats:null,log_odds:null},{})}},close:()=>{}};return P}async function Pu(t,e){let n=new TextDecoder,o=t.stream().getReader(),[s,r]=["",0];for(let i=await o.read();!i.done;i=await o.read())s+=n.decode(i.value,{stream:!0}),
+e((r+=i.value.length)/t.size);return s}async function _u(t,e,n,o){try{let s=await n(t,r=>e.say(r<1?`Reading ${t.name}: ${Math.round(100*r)} %`:`Reading ${t.name}\
 : making its picture`));o(pn(s))}catch(s){e.say(`${t.name} cannot be shown: ${s.message}`,"error")}}async function za(t,e,n){let{name:o}=t;if(o.endsWith(".nc")&&
-e.transport.read&&n)return Eu(t,e,e.transport.read,n);if(!/\.(html|json)$/.test(o))return e.say(`${o} is not read in the page: start bayesmap app with it`,"warn\
-ing");try{let s=await Au(t,i=>e.say(`Reading ${o}: ${Math.round(100*i)} %`)),r=/data-recording>(.*?)<\/script>/s.exec(s)?.[1];r&&n?n(await ls(r)):o.endsWith(".j\
+e.transport.read&&n)return _u(t,e,e.transport.read,n);if(!/\.(html|json)$/.test(o))return e.say(`${o} is not read in the page: start bayesmap app with it`,"warn\
+ing");try{let s=await Pu(t,i=>e.say(`Reading ${o}: ${Math.round(100*i)} %`)),r=/data-recording>(.*?)<\/script>/s.exec(s)?.[1];r&&n?n(await ls(r)):o.endsWith(".j\
 son")&&!e.recorded?e.bring(JSON.parse(s)):e.say(`${o} holds nothing that can be shown here`,"warning")}catch{e.say(`${o} cannot be read: export it again, whole`,
 "error")}}var le=(t,e,n)=>Math.min(n,Math.max(e,t)),qt=({x:t,y:e},[n,o])=>t>=0&&e>=0&&t<n&&e<o,Le=(t,{resolution:e,origin:n})=>({x:(t.x-n[0])/e,y:(t.y-n[1])/e}),Yr=(t,{resolution:e,
 origin:n})=>({x:n[0]+t.x*e,y:n[1]+t.y*e});function Tn(t,e){let{x:n,y:o}=Le(t,e);return{x:Math.floor(n),y:Math.floor(o)}}var eo=(t,e)=>Yr({x:t.x+.5,y:t.y+.5},e);
@@ -33,11 +33,11 @@ function hs(t,e){let n=[],o=Math.max(Math.abs(e.x-t.x),Math.abs(e.y-t.y));for(le
 t.y+r*(e.y-t.y))})}return n}function Ya(t,[e,n]){let o=new Path2D,s=(r,i)=>r>=0&&r<e&&i>=0&&i<n?t[r*n+i]:0;for(let r=0;r<=e;r++)for(let i=0,a=-1;i<=n;i++){let l=i<
 n&&s(r-1,i)!==s(r,i);l&&a<0&&(a=i),!l&&a>=0&&(o.moveTo(r,a),o.lineTo(r,i),a=-1)}for(let r=0;r<=n;r++)for(let i=0,a=-1;i<=e;i++){let l=i<e&&s(i,r-1)!==s(i,r);l&&
 a<0&&(a=i),!l&&a>=0&&(o.moveTo(a,r),o.lineTo(i,r),a=-1)}return o}var Io=t=>t<=0||t>=1?0:-(t*Math.log2(t)+(1-t)*Math.log2(1-t));function qa(t,e,n){let o=Ja(t).map(({x:r,y:i})=>r*t.grid.shape[1]+i),s=(r,i)=>-((r-n.x)**2+(i-n.y)**2);return qr(t,(r,i,a)=>e[a]||o.includes(a)?-1/0:s(r,i))}function Ka(t,e){
-let n=_u(e,t.grid.shape),o=Ja(t),s=(i,a,l)=>{if(e[l])return-1/0;let c=2*n[l];for(let h of o)c=Math.min(c,Math.hypot(i-h.x,a-h.y));return c>0?c:-1/0},r=Pu(e,t.grid.
-shape,o);return qr(t,(i,a,l)=>r[l]?s(i,a,l):-1/0)??qr(t,s)}function Pu(t,[e,n],o){let s=new Uint8Array(e*n),r=(i,a)=>{for(let{x:l,y:c}of hs(i,a)){if(t[l*n+c])return;
+let n=Lu(e,t.grid.shape),o=Ja(t),s=(i,a,l)=>{if(e[l])return-1/0;let c=2*n[l];for(let h of o)c=Math.min(c,Math.hypot(i-h.x,a-h.y));return c>0?c:-1/0},r=Cu(e,t.grid.
+shape,o);return qr(t,(i,a,l)=>r[l]?s(i,a,l):-1/0)??qr(t,s)}function Cu(t,[e,n],o){let s=new Uint8Array(e*n),r=(i,a)=>{for(let{x:l,y:c}of hs(i,a)){if(t[l*n+c])return;
 s[l*n+c]=1}};for(let i of o){for(let a=0;a<e;a++)for(let l of[0,n-1])r(i,{x:a,y:l});for(let a=0;a<n;a++)for(let l of[0,e-1])r(i,{x:l,y:a})}return s}var Ja=({sensors:t,
 grid:e})=>t.map(n=>Tn(n,e));function qr(t,e){let[n,o]=t.grid.shape,s=null,r=-1/0;for(let i=0;i<n;i++)for(let a=0;a<o;a++){let l=e(i,a,i*o+a);l>r&&([s,r]=[{x:i,y:a},
-l])}return s&&eo(s,t.grid)}function _u(t,[e,n]){let o=new Uint16Array(e*n),s=(r,i)=>r<0||i<0||r>=e||i>=n?0:o[r*n+i];for(let r=0;r<e;r++)for(let i=0;i<n;i++)o[r*
+l])}return s&&eo(s,t.grid)}function Lu(t,[e,n]){let o=new Uint16Array(e*n),s=(r,i)=>r<0||i<0||r>=e||i>=n?0:o[r*n+i];for(let r=0;r<e;r++)for(let i=0;i<n;i++)o[r*
 n+i]=t[r*n+i]?0:1+Math.min(s(r-1,i-1),s(r-1,i),s(r-1,i+1),s(r,i-1));for(let r=e-1;r>=0;r--)for(let i=n-1;i>=0;i--){let a=1+Math.min(s(r+1,i+1),s(r+1,i),s(r+1,i-
 1),s(r,i+1));o[r*n+i]=Math.min(o[r*n+i],a)}return o}var ps=class{constructor(e,n){this.session=e;this.hand=n}isWall(e){return qt(e,this.session.shape)&&this.session.walls[e.x*this.session.shape[1]+e.y]===1}setWalls(e,n,o,s){
 let{document:r,shape:i}=this.session;if(!r)return;let a=n?r.sensors.map(c=>Tn(c,r.grid)):[],l=new Map;for(let c of e)!qt(c,i)||this.isWall(c)===n||a.some(h=>h.x===
@@ -47,19 +47,19 @@ if(!o)return;let s=e==="where there is room"?Ka(o,n.walls):"world"in e?e.world:q
 re can be ${r} sensors at most.`,"warning"):this.refuses(s)||(n.act({type:"add_sensor",x:s.x,y:s.y,yaw:typeof e=="object"&&"world"in e?e.yaw??0:0}),this.hand.selected=
 Math.max(0,...o.sensors.map(i=>i.id))+1):n.say("There is no free cell for a sensor.","warning")}removeSensor(){let{sensor:e}=this.hand;e&&this.session.act({type:"\
 remove_sensor",id:e.id})}refuses(e){let{session:n}=this;if(!n.document)return!0;let o=Tn(e,n.document.grid),s=this.isWall(o);return!s&&qt(o,n.shape)?(n.status.text.
-startsWith("A sensor cannot")&&n.say("Ready"),!1):(n.say(s?"A sensor cannot stand in a wall.":"A sensor cannot stand outside the map.","warning"),!0)}};var Et=new Set(["pan","path","look","where","ghost","evidence"]),Cu=120,us=class{constructor(e){this.session=e}tool="draw";selected=null;hover=null;cursor=null;busy=!1;announce=()=>{};describe=()=>"";gestures=Math.
+startsWith("A sensor cannot")&&n.say("Ready"),!1):(n.say(s?"A sensor cannot stand in a wall.":"A sensor cannot stand outside the map.","warning"),!0)}};var Et=new Set(["pan","path","look","where","ghost","evidence"]),Nu=120,us=class{constructor(e){this.session=e}tool="draw";selected=null;hover=null;cursor=null;busy=!1;announce=()=>{};describe=()=>"";gestures=Math.
 floor(Math.random()*2**30);asked=0;nextGesture(){return++this.gestures}get sensor(){let e=this.session.document?.sensors??[];return e.find(n=>n.id===this.selected)??
 e[0]??null}choose(e){this.tool=e,this.session.decisions.look(e==="look"),this.session.decisions.showPath(e==="path"||e==="pan"||!Et.has(e)),this.session.ghost.hold(
 e==="ghost"),this.session.evidence.hold(e==="evidence"),this.session.changed()}select(e){this.selected=e,this.session.changed()}point(e){let n=e&&qt(e,this.session.
 shape)?e:null;n?.x===this.hover?.x&&n?.y===this.hover?.y||(this.hover=n,this.ask(n),this.session.changed())}setCursor(e){!e&&!this.cursor||(this.cursor=e,this.ask(
 e),this.session.changed())}ask(e){clearTimeout(this.asked),!(!e||this.busy)&&(this.asked=window.setTimeout(()=>{this.session.act({type:"inspect",x:e.x,y:e.y}),this.
-cursor&&this.announce(this.describe(e))},Cu))}};var tt={left:36,right:12,top:34,bottom:26},Lu=60,Nu=160,to=class{width=0;height=0;ratio=1;transform={scale:1,x:0,y:0};fitted=!0;corner={x:0,y:0};resize(e,n,o){[
+cursor&&this.announce(this.describe(e))},Nu))}};var tt={left:36,right:12,top:34,bottom:26},Du=60,Ru=160,to=class{width=0;height=0;ratio=1;transform={scale:1,x:0,y:0};fitted=!0;corner={x:0,y:0};resize(e,n,o){[
 this.width,this.height,this.ratio]=[e,n,o]}get middle(){return{x:this.width/2,y:this.height/2}}fit([e,n]){let o={x:this.width-tt.left-tt.right,y:this.height-tt.
 top-tt.bottom},s=Math.max(.05,Math.min(o.x/e,o.y/n));s*this.ratio>4&&(s=Math.floor(s*this.ratio)/this.ratio),this.transform.scale=s,this.corner={x:tt.left+(o.x-
 s*e)/2,y:tt.top+(o.y-s*n)/2},this.fitted=!0,this.settle([e,n]),this.corner={x:this.transform.x,y:this.transform.y}}zoom(e,n,o){let{scale:s}=this.transform,{x:r,
-y:i}=this.corner,a=le(s*e,Math.min(this.width,this.height)/Math.max(...o)/3,Nu),l=a/s;this.transform.scale=a,this.corner={x:n.x-l*(n.x-r),y:n.y-l*(n.y-i)},this.
+y:i}=this.corner,a=le(s*e,Math.min(this.width,this.height)/Math.max(...o)/3,Ru),l=a/s;this.transform.scale=a,this.corner={x:n.x-l*(n.x-r),y:n.y-l*(n.y-i)},this.
 fitted=!1,this.settle(o)}pan(e,n,o){this.corner.x+=e,this.corner.y+=n,this.fitted=!1,this.settle(o)}toGrid(e,n){let{scale:o,x:s,y:r}=this.transform;return{x:(e.
-x-s)/o,y:n-(e.y-r)/o}}fromGrid(e,n){let{scale:o,x:s,y:r}=this.transform;return{x:s+e.x*o,y:r+(n-e.y)*o}}settle([e,n]){let{scale:o}=this.transform,s=Lu;this.corner.
+x-s)/o,y:n-(e.y-r)/o}}fromGrid(e,n){let{scale:o,x:s,y:r}=this.transform;return{x:s+e.x*o,y:r+(n-e.y)*o}}settle([e,n]){let{scale:o}=this.transform,s=Du;this.corner.
 x=le(this.corner.x,s-e*o,this.width-s),this.corner.y=le(this.corner.y,s-n*o,this.height-s),this.transform.x=Math.round(this.corner.x*this.ratio)/this.ratio,this.
 transform.y=Math.round(this.corner.y*this.ratio)/this.ratio}};var ds=new Set(["path","look","evidence"]);function fs(t,e,n,o){if(e.tool==="path")return t.decisions.point(o);if(e.tool==="evidence"&&t.document){let{x:h,y:d}=Le(
 o,t.document.grid);return t.evidence.pin({x:Math.floor(h),y:Math.floor(d)})}let s=t.decisions.nearest(o),{views:r}=t.decisions;if(s===null||!r)return;let[i,a,l]=r.
@@ -68,10 +68,10 @@ would tell ${c}`)}var el=[["D, E, S","draw, erase, sensor","drawn"],["P, G, L","
 ked"],["arrows","move the cursor, the sensor, the ghost or the view; with Shift by five cells"],["Space","draw or erase at the cursor; next sensor","drawn"],["S\
 pace","at the cursor: start or goal of a path, where to look from, or the cell to ask about","asked"],["[ and ]","turn the sensor or the ghost","asked"],["A, De\
 lete","add, remove a sensor","drawn"],["R, Escape","run, cancel","inferred"],["Escape","take a path off the map","asked"],["M, N, H","show the mean, a draw, the\
- entropy or the width"],["Ctrl+Z, Ctrl+Y","undo, redo","edited"],["+, −, 0","zoom in, out, whole map"],["?","this help"]],Du={ArrowLeft:[-1,0],ArrowRight:[1,0],
+ entropy or the width"],["Ctrl+Z, Ctrl+Y","undo, redo","edited"],["+, −, 0","zoom in, out, whole map"],["?","this help"]],$u={ArrowLeft:[-1,0],ArrowRight:[1,0],
 ArrowUp:[0,1],ArrowDown:[0,-1]},Xa=Math.PI/12,ms=class{constructor(e,n,o,s,r){this.canvas=e;this.session=n;this.view=o;this.hand=s;this.editor=r;e.addEventListener(
 "keydown",i=>{delete e.dataset.pointed,this.key(i)}),e.addEventListener("blur",()=>{delete e.dataset.pointed,s.setCursor(null)})}focus(){this.canvas.focus({preventScroll:!0})}key(e){
-let{session:n,hand:o,editor:s}=this;if(!n.document||e.ctrlKey||e.metaKey||e.altKey)return;let r=Du[e.key],i=e.shiftKey?5:1;if(r)this.arrow(r[0]*i,r[1]*i);else if(e.
+let{session:n,hand:o,editor:s}=this;if(!n.document||e.ctrlKey||e.metaKey||e.altKey)return;let r=$u[e.key],i=e.shiftKey?5:1;if(r)this.arrow(r[0]*i,r[1]*i);else if(e.
 key===" ")this.space(e);else if(e.key==="["||e.key==="]"){let a=e.key==="["?Xa:-Xa;o.tool==="ghost"&&n.ghost.pose?n.ghost.move({yaw:n.ghost.pose.yaw+a}):n.editable&&
 o.sensor&&s.moveSensor(o.sensor,{yaw:o.sensor.yaw+a},void 0,e)}else if(e.key.toLowerCase()==="a"&&n.editable)this.addSensor();else if((e.key==="Delete"||e.key===
 "Backspace")&&n.editable)s.removeSensor();else if(e.key==="Escape"&&o.cursor)o.setCursor(null);else return;e.preventDefault(),e.stopPropagation()}addSensor(){this.
@@ -103,13 +103,13 @@ m.x)>=r+m.half||Math.abs(u-m.y)>=2*Kr),h=a.find(d=>l(d)&&c(d));return h&&this.pl
 placed)Zt(this.context,e,n,o,this.theme,"center",!0)}};function Jr({document:t,scan:e}){return t?t.source.kind==="simulation"||!e?t.sensors:Array.from({length:e.pose.length/3},(o,s)=>s).map(o=>({id:o,x:e.pose[3*o],y:e.
 pose[3*o+1],yaw:e.pose[3*o+2]})):[]}function un(t,e,n){let o=n.fromGrid(Le(t,e),e.shape[1]),s=le(n.transform.scale*.42,7,13),r=s*2.6,i={x:o.x+r*Math.cos(t.yaw),
 y:o.y-r*Math.sin(t.yaw)};return{point:o,size:s,handle:i}}function nl(t,{session:e,view:n,look:o}){let s=e.document;if(!s)return;let{theme:r}=o,i=Jr(e);t.lineJoin=
-"round";for(let a of i){let l=un(a,s.grid,n),{point:c,size:h}=l;a.id===o.selected&&Ru(t,l,o);let[d,u]=[Math.cos(a.yaw),-Math.sin(a.yaw)],m=(w,v)=>[c.x+h*(w*d-v*
+"round";for(let a of i){let l=un(a,s.grid,n),{point:c,size:h}=l;a.id===o.selected&&Fu(t,l,o);let[d,u]=[Math.cos(a.yaw),-Math.sin(a.yaw)],m=(w,v)=>[c.x+h*(w*d-v*
 u),c.y+h*(w*u+v*d)];t.beginPath(),t.moveTo(...m(1.25,0)),t.lineTo(...m(-.9,.8)),t.lineTo(...m(-.45,0)),t.lineTo(...m(-.9,-.8)),t.closePath(),t.strokeStyle=r.halo,
-t.lineWidth=3,t.stroke(),t.fillStyle=r.sensor,t.fill(),i.length>1&&i.length<100&&Zt(t,String(a.id),c.x,c.y+h*2+4,r,"center",!0)}}function Ru(t,{point:e,size:n,handle:o},{
+t.lineWidth=3,t.stroke(),t.fillStyle=r.sensor,t.fill(),i.length>1&&i.length<100&&Zt(t,String(a.id),c.x,c.y+h*2+4,r,"center",!0)}}function Fu(t,{point:e,size:n,handle:o},{
 theme:s}){t.beginPath(),t.moveTo(e.x,e.y),t.lineTo(o.x,o.y),t.moveTo(o.x+4.5,o.y),t.arc(o.x,o.y,4.5,0,2*Math.PI),t.moveTo(e.x+n*1.7,e.y),t.arc(e.x,e.y,n*1.7,0,2*
 Math.PI),An(t,s,s.sensor,1.5),t.beginPath(),t.arc(o.x,o.y,4,0,2*Math.PI),t.fillStyle=s.halo,t.fill()}function ol(t,e,n,o,s){let r=l=>Math.hypot(e.x-l.x,e.y-l.y),i=t.pose&&un({id:0,...t.pose},o,s);return i&&r(i.handle)<Math.min(n,r(i.point))?{kind:"ghost",turn:!0,
 grip:{x:0,y:0}}:{kind:"ghost",turn:!1,grip:i&&r(i.point)<Math.max(n,i.size)?{x:i.point.x-e.x,y:i.point.y-e.y}:{x:0,y:0}}}function sl(t,e,n){e.turn?t.pose&&t.move(
-{yaw:Math.atan2(n.y-t.pose.y,n.x-t.pose.x)},!0):t.move(n,!0)}var rl={touch:24,other:11},$u=5,Fu=90,ys=class{constructor(e,n,o,s,r,i){this.canvas=e;this.session=n;this.view=o;this.hand=s;this.editor=r;this.embedded=i;let a=(l,c)=>e.
+{yaw:Math.atan2(n.y-t.pose.y,n.x-t.pose.x)},!0):t.move(n,!0)}var rl={touch:24,other:11},Iu=5,Ou=90,ys=class{constructor(e,n,o,s,r,i){this.canvas=e;this.session=n;this.view=o;this.hand=s;this.editor=r;this.embedded=i;let a=(l,c)=>e.
 addEventListener(l,c,{passive:!1});a("pointerdown",l=>this.down(l)),a("pointermove",l=>this.move(l)),a("pointerup",l=>this.up(l)),a("pointercancel",l=>this.up(l)),
 a("pointerleave",()=>{s.point(null),this.touched||n.reading.point(null,0)}),a("wheel",l=>this.wheel(l)),a("contextmenu",l=>l.preventDefault())}fingers=new Map;gesture=null;touched=!1;at(e){
 let n=this.canvas.getBoundingClientRect();return{x:e.clientX-n.left,y:e.clientY-n.top}}cellAt(e){let n=this.view.toGrid(e,this.session.shape[1]);return{x:Math.floor(
@@ -121,7 +121,7 @@ begin({kind:"pick",first:r});let i=o.tool==="where"&&n.editable&&e.button!==1?th
 if(e.button===1||Et.has(o.tool)||!n.editable)return this.begin({kind:"pan",last:r});let a=this.gripAt(r,e,s);if(a)this.begin(a),a.kind==="sensor"&&o.select(a.id);else if(o.
 tool==="sensor")e.shiftKey?this.editor.addSensor({world:this.metres(r,s)}):o.sensor&&(o.selected=o.sensor.id,this.begin({kind:"sensor",id:o.sensor.id,drag:o.nextGesture(),
 grip:{x:0,y:0}}),this.dragSensor(e));else{let l=o.tool==="draw"!==(e.button===2||e.shiftKey),c=this.cellAt(r),h=l&&this.editor.isWall(c);this.begin({kind:"strok\
-e",id:o.nextGesture(),wall:l,last:c,held:e,onWall:h}),e.pointerType!=="touch"?this.release():setTimeout(()=>this.release(),Fu)}}gripAt(e,n,o){let{hand:s,view:r}=this,
+e",id:o.nextGesture(),wall:l,last:c,held:e,onWall:h}),e.pointerType!=="touch"?this.release():setTimeout(()=>this.release(),Ou)}}gripAt(e,n,o){let{hand:s,view:r}=this,
 i=this.reach(n),a=u=>Math.hypot(e.x-u.x,e.y-u.y),l=s.tool==="sensor"&&s.sensor?un(s.sensor,o.grid,r):null;if(l&&s.sensor&&a(l.handle)<Math.min(i,a(l.point)))return{
 kind:"turn",id:s.sensor.id,drag:s.nextGesture()};if(n.button!==0||s.tool==="erase")return null;let c=o.sensors.map(u=>({id:u.id,...un(u,o.grid,r)}));c.sort((u,m)=>a(
 u.point)-a(m.point));let h=c.find(({point:u,size:m})=>a(u)<Math.max(i,m));if(!h)return null;let d={x:h.point.x-e.x,y:h.point.y-e.y};return{kind:"sensor",id:h.id,
@@ -130,7 +130,7 @@ gesture.last],e)}move(e){let{gesture:n,session:o,view:s,hand:r}=this,i=this.at(e
 cellAt(i)),this.pointAtReading(e);else if(n.kind==="ghost")this.dragGhost(e);else if(n.kind==="stroke"){this.release();let a=[],l=e.getCoalescedEvents?.()??[];for(let c of l.
 length?l:[e]){let h=this.cellAt(this.at(c));(h.x!==n.last.x||h.y!==n.last.y)&&(n.onWall=!1),a.push(...hs(n.last,h)),n.last=h}this.stroke(a,e),r.point(n.last)}else if(n.
 kind==="sensor")this.dragSensor(e);else if(n.kind==="turn"){let a=o.document?.sensors.find(c=>c.id===n.id);if(!a||!o.document)return;let l=this.metres(i,o.document);
-this.editor.moveSensor(a,{yaw:Math.atan2(l.y-a.y,l.x-a.x)},n.drag,e)}else if(n.kind==="pick")Math.hypot(i.x-n.first.x,i.y-n.first.y)>$u&&this.begin({kind:"pan",
+this.editor.moveSensor(a,{yaw:Math.atan2(l.y-a.y,l.x-a.x)},n.drag,e)}else if(n.kind==="pick")Math.hypot(i.x-n.first.x,i.y-n.first.y)>Iu&&this.begin({kind:"pan",
 last:i});else if(n.kind==="pan")s.pan(i.x-n.last.x,i.y-n.last.y,o.shape),n.last=i,o.changed();else if(this.fingers.size===2){let{middle:a,spread:l}=this.spread();
 s.pan(a.x-n.middle.x,a.y-n.middle.y,o.shape),s.zoom(l/n.spread,a,o.shape),Object.assign(n,{middle:a,spread:l}),o.changed()}}up(e){e.type==="pointerup"&&this.release(),
 e.type==="pointerup"&&this.gesture?.kind==="stroke"&&this.gesture.onWall&&this.editor.setWalls([this.gesture.last],!1,this.gesture.id,e),e.type==="pointerup"&&this.
@@ -144,26 +144,26 @@ return;let n=this.canvas.getRootNode().activeElement===this.canvas;if(this.embed
 this.view.pan(-o*(e.deltaX||e.deltaY),0,this.session.shape):this.view.zoom(Math.exp(-o*e.deltaY*(e.ctrlKey?.01:.0016)),this.at(e),this.session.shape),this.session.
 changed()}stroke(e,n){let{session:o,gesture:s}=this;s?.kind==="stroke"&&(this.editor.setWalls(e,s.wall,s.id,n),o.status.level==="error"&&o.say("Ready"))}dragSensor(e){
 let{gesture:n,session:o}=this,{document:s}=o;if(n?.kind!=="sensor"||!s)return;this.hand.point(null);let r=s.sensors.find(l=>l.id===n.id),i=this.at(e),a=this.metres(
-{x:i.x+n.grip.x,y:i.y+n.grip.y},s);r&&this.editor.moveSensor(r,a,n.drag,e)}};var Iu=5,ws=class{name="cursor";depends({session:e,look:n}){return[n.hover?.x,n.hover?.y,n.cursor?.x,n.cursor?.y,e.shape[1]]}paint(e,{session:n,view:o,look:s}){
+{x:i.x+n.grip.x,y:i.y+n.grip.y},s);r&&this.editor.moveSensor(r,a,n.drag,e)}};var Uu=5,ws=class{name="cursor";depends({session:e,look:n}){return[n.hover?.x,n.hover?.y,n.cursor?.x,n.cursor?.y,e.shape[1]]}paint(e,{session:n,view:o,look:s}){
 let{theme:r}=s;e.beginPath(),e.rect(tt.left,0,o.width,o.height-tt.bottom),e.clip(),s.hover&&il(e,s.hover,n.shape[1],o,r,r.axis,1.5),s.cursor&&il(e,s.cursor,n.shape[1],
-o,r,r.ray,2.5)}};function il(t,e,n,o,s,r,i){let{scale:a}=o.transform,l=o.fromGrid({x:e.x,y:e.y+1},n),c=Math.max(a,Iu),[h,d]=[l.x-(c-a)/2,l.y-(c-a)/2];t.lineWidth=
-i+2,t.strokeStyle=s.halo,t.strokeRect(h,d,c,c),t.lineWidth=i,t.strokeStyle=r,t.strokeRect(h,d,c,c)}var Ou={paper:[98,0,1],ink:[14,6,-24],unobserved:"#efe7d8",unobservedWall:"#d3c5aa",hatch:"#bfae92",truth:"#d55e00",ray:"#0072b2",noReturn:"#b0679a",sensor:"#00\
-9e73",draw:"#e69f00",ghost:"#7b52c9",belief:"#6a3fb5",halo:"#ffffff",lines:"rgba(20,30,60,.07)",frame:"#6b7078",axis:"#565d68",ground:"#f4f5f7"},Uu={paper:[17,0,
+o,r,r.ray,2.5)}};function il(t,e,n,o,s,r,i){let{scale:a}=o.transform,l=o.fromGrid({x:e.x,y:e.y+1},n),c=Math.max(a,Uu),[h,d]=[l.x-(c-a)/2,l.y-(c-a)/2];t.lineWidth=
+i+2,t.strokeStyle=s.halo,t.strokeRect(h,d,c,c),t.lineWidth=i,t.strokeStyle=r,t.strokeRect(h,d,c,c)}var Bu={paper:[98,0,1],ink:[14,6,-24],unobserved:"#efe7d8",unobservedWall:"#d3c5aa",hatch:"#bfae92",truth:"#d55e00",ray:"#0072b2",noReturn:"#b0679a",sensor:"#00\
+9e73",draw:"#e69f00",ghost:"#7b52c9",belief:"#6a3fb5",halo:"#ffffff",lines:"rgba(20,30,60,.07)",frame:"#6b7078",axis:"#565d68",ground:"#f4f5f7"},Wu={paper:[17,0,
 -5],ink:[95,-2,6],unobserved:"#322d25",unobservedWall:"#5a503f",hatch:"#635843",truth:"#f08c3c",ray:"#56b4e9",noReturn:"#d99abf",sensor:"#2fcf9f",draw:"#ffb92e",
-ghost:"#b99cff",belief:"#c3a6ff",halo:"#10141a",lines:"rgba(220,230,255,.07)",frame:"#7d8694",axis:"#a3abb8",ground:"#12151a"},vs={light:Ou,dark:Uu},al="00224e0\
-02e6a1a386f32436d434e6c535a6d61656f6f70737d7c788c88789b9476aba072bcae6ccdbb63dec958f0d846fee838";function Bu([t,e,n]){let o=(t+16)/116,s=[.95047,1,1.08883],[r,i,
+ghost:"#b99cff",belief:"#c3a6ff",halo:"#10141a",lines:"rgba(220,230,255,.07)",frame:"#7d8694",axis:"#a3abb8",ground:"#12151a"},vs={light:Bu,dark:Wu},al="00224e0\
+02e6a1a386f32436d434e6c535a6d61656f6f70737d7c788c88789b9476aba072bcae6ccdbb63dec958f0d846fee838";function Gu([t,e,n]){let o=(t+16)/116,s=[.95047,1,1.08883],[r,i,
 a]=[o+e/500,o,o-n/200].map((l,c)=>(l>.20689655172413793?l**3:.12841854934601665*(l-.13793103448275862))*s[c]);return[3.2404542*r-1.5371385*i-.4985314*a,-.969266*
 r+1.8760108*i+.041556*a,.0556434*r-.2040259*i+1.0572252*a].map(l=>{let c=le(l,0,1);return Math.round(255*(c<=.0031308?12.92*c:1.055*c**(1/2.4)-.055))})}var bs=(t,e=1)=>[
-0,2,4].map(n=>parseInt(t.slice(e+n,e+n+2),16)),xs=(t,e,n)=>t.map((o,s)=>o+n*(e[s]-o)),Xr=(t,e)=>Bu(xs(t.paper,t.ink,e));function oo(t){let e=Math.min(15,Math.floor(
+0,2,4].map(n=>parseInt(t.slice(e+n,e+n+2),16)),xs=(t,e,n)=>t.map((o,s)=>o+n*(e[s]-o)),Xr=(t,e)=>Gu(xs(t.paper,t.ink,e));function oo(t){let e=Math.min(15,Math.floor(
 t*16));return xs(bs(al,6*e),bs(al,6*e+6),t*16-e)}function ll(t,e){let n=new Uint8ClampedArray(17408).fill(255),[o,s]=[bs(t.unobserved),bs(t.unobservedWall)];for(let r=0;r<
 256;r++){let i=e==="entropy"?Io(r/255):r/255,a=e==="value"?Xr(t,r/255):oo(i),l=e==="value"?xs(o,s,r/255):a;for(let c=0;c<=16;c++)n.set(xs(l,a,c/16),4*(r+256*c))}
 return new Uint32Array(n.buffer)}var Zr=t=>`linear-gradient(90deg,${[0,.125,.25,.375,.5,.625,.75,.875,1].map(e=>`rgb(${t(e).map(Math.round)})`)})`;function k(t,e={},...n){let o=document.createElement(t);for(let[s,r]of Object.entries(e))s.startsWith("on")?o.addEventListener(s.slice(2),r):s.includes("-")||s===
 "role"||s==="for"?o.setAttribute(s,r):o[s]=r;for(let s of n)s!==null&&o.append(s);return o}function C(t,e,n){t[e]!==n&&(t[e]=n)}function nt(t,e,n){t.getAttribute(
 e)!==n&&t.setAttribute(e,n)}var En=t=>t.getRootNode().activeElement===t,fe=(t,e,n="")=>t==null||!Number.isFinite(t)?"–":t.toFixed(e)+n;function Qr(t,e){let n=URL.
-createObjectURL(e);k("a",{href:n,download:t}).click(),setTimeout(()=>URL.revokeObjectURL(n),1e4)}var Wu=9,Gu=2.5,so=class{name="decisions";depends({session:e}){return[e.decisions.version,e.document?.grid.resolution]}shows({session:{decisions:e,document:n}}){
+createObjectURL(e);k("a",{href:n,download:t}).click(),setTimeout(()=>URL.revokeObjectURL(n),1e4)}var Hu=9,ju=2.5,so=class{name="decisions";depends({session:e}){return[e.decisions.version,e.document?.grid.resolution]}shows({session:{decisions:e,document:n}}){
 return!!(n&&(e.start&&e.pathShown||e.looking&&e.views))}paint(e,n){let{session:o}=n;if(!o.document)return;let s=new no(e,n.look.theme,n.view.width,n.view.height);
 e.save(),Oe(e,n),o.decisions.looking&&this.views(e,n,s),o.decisions.pathShown&&this.path(e,n,s),e.restore(),s.write()}views(e,{session:n,view:o,look:s},r){let{views:i}=n.
-decisions,a=n.document?.grid;if(!i?.nats.length||!a)return;let l=Math.max(...i.nats),c=le(.38*i.spacing*o.transform.scale/a.resolution,Gu,Wu),h=i.nats.indexOf(l);
+decisions,a=n.document?.grid;if(!i?.nats.length||!a)return;let l=Math.max(...i.nats),c=le(.38*i.spacing*o.transform.scale/a.resolution,ju,Hu),h=i.nats.indexOf(l);
 for(let d=0;d<i.nats.length;d++){let u=o.fromGrid(Le({x:i.pose[3*d],y:i.pose[3*d+1]},a),a.shape[1]);e.beginPath(),e.arc(u.x,u.y,c,0,2*Math.PI),e.fillStyle=`rgb(${oo(
 le(i.nats[d]/Math.max(l,1e-9),0,1)).map(Math.round)})`,e.fill(),d===h&&(e.lineWidth=2.5,e.strokeStyle=s.theme.truth,e.stroke(),r.place(`${fe(l,1)} nats`,u.x,u.y,
 c))}}path(e,{session:n,view:o,look:s},r){let{start:i,goal:a,path:l,radius:c}=n.decisions,h=n.document?.grid;if(!h||!i)return;let d=u=>o.fromGrid(Le(u,h),h.shape[1]);
@@ -171,29 +171,29 @@ if(l){e.beginPath();for(let[u,m]of l.path){let w=d({x:u,y:m});e.lineTo(w.x,w.y)}
 truth,e.globalAlpha=.3,e.lineWidth=2*c*o.transform.scale/h.resolution,e.stroke(),e.globalAlpha=1,e.lineWidth=2,e.stroke()}for(let u of a?[i,a]:[i]){let{x:m,y:w}=d(
 u);e.beginPath(),e.arc(m,w,5,0,2*Math.PI),e.fillStyle=u===i?s.theme.sensor:s.theme.truth,e.fill(),e.lineWidth=2,e.strokeStyle=s.theme.halo,e.stroke()}if(l){let u=l.
 path.length,[[m,w],[v,b]]=[l.path[u-1>>1],l.path[u>>1]],M=d({x:(m+v)/2,y:(w+b)/2});r.place(`${fe(l.length_m,1)} m, free with probability ${fe(l.probability,3)}`,
-M.x,M.y,4)}else a&&n.decisions.trouble&&r.place("no path",d(a).x,d(a).y,7)}};var Hu=5,[ju,cl]=[.8,5],Vu=6,ks=class{name="evidence";depends({session:e}){return[e.evidence.version,e.document?.grid.resolution,e.document?.grid.origin.join()]}shows({
+M.x,M.y,4)}else a&&n.decisions.trouble&&r.place("no path",d(a).x,d(a).y,7)}};var Vu=5,[zu,cl]=[.8,5],Yu=6,ks=class{name="evidence";depends({session:e}){return[e.evidence.version,e.document?.grid.resolution,e.document?.grid.origin.join()]}shows({
 session:{evidence:e,document:n}}){return!!(e.cellShown&&n)}paint(e,n){let{session:o,view:s,look:r}=n,{cell:i,each:a}=o.evidence,l=o.document?.grid;if(!i||!l)return;
 Oe(e,n);let c=(v,b)=>s.fromGrid(Le({x:v,y:b},l),l.shape[1]),h=v=>[c(a.start[2*v],a.start[2*v+1]),c(a.end[2*v],a.end[2*v+1])],d=a?.nats.length??0;e.lineCap="roun\
 d";for(let v=d-1;v>=0;v--){let[b,M]=h(v),S=a.nats[v];e.beginPath(),e.moveTo(b.x,b.y),e.lineTo(M.x,M.y),e.globalAlpha=le(.25+Math.abs(S)/2,0,.9),e.lineWidth=le(cl*
-Math.sqrt(Math.abs(S)/Vu),ju,cl),e.strokeStyle=S>0?r.theme.ray:r.theme.truth,e.stroke()}e.globalAlpha=1;let{scale:u}=s.transform,m=s.fromGrid({x:i.x,y:i.y+1},l.
-shape[1]),w=Math.max(1,4-u/2);e.beginPath(),e.rect(m.x-w,m.y-w,u+2*w,u+2*w),An(e,r.theme,r.theme.belief,2);for(let v=Math.min(Hu,d)-1;v>=0;v--){let[b,M]=h(v),S=.35+
-.1*v,E={x:b.x+S*(M.x-b.x),y:b.y+S*(M.y-b.y)};Zt(e,ro(a.nats[v]),E.x,E.y,r.theme,"center",!0)}}},ro=t=>`${t<0?"−":"+"}${Math.abs(t).toFixed(1)}`;var zu=10,Yu=7,qu=(t,e)=>t.layer==="width"?"width":e==="entropy"&&t.layer!=="draw"?"entropy":"value",Ss=()=>document.createElement("canvas").getContext("2d"),io=class{name="\
+Math.sqrt(Math.abs(S)/Yu),zu,cl),e.strokeStyle=S>0?r.theme.ray:r.theme.truth,e.stroke()}e.globalAlpha=1;let{scale:u}=s.transform,m=s.fromGrid({x:i.x,y:i.y+1},l.
+shape[1]),w=Math.max(1,4-u/2);e.beginPath(),e.rect(m.x-w,m.y-w,u+2*w,u+2*w),An(e,r.theme,r.theme.belief,2);for(let v=Math.min(Vu,d)-1;v>=0;v--){let[b,M]=h(v),S=.35+
+.1*v,E={x:b.x+S*(M.x-b.x),y:b.y+S*(M.y-b.y)};Zt(e,ro(a.nats[v]),E.x,E.y,r.theme,"center",!0)}}},ro=t=>`${t<0?"−":"+"}${Math.abs(t).toFixed(1)}`;var qu=10,Ku=7,Ju=(t,e)=>t.layer==="width"?"width":e==="entropy"&&t.layer!=="draw"?"entropy":"value",Ss=()=>document.createElement("canvas").getContext("2d"),io=class{name="\
 field";cells=Ss();mask=Ss();hatch=Ss();palettes=new Map;image=new ImageData(1,1);drawn={field:null,reached:null,palette:"",hatch:""};depends({session:e}){return[
 e.picture,e.layer==="entropy",...e.shape]}shows({session:e}){return e.document!==null}paint(e,n){let{session:o,view:s,look:r}=n;if(!o.document)return;let[i,a]=o.
 shape,{scale:l,x:c,y:h}=s.transform;Oe(e,n);let d=o.picture;if(!d||d.p.length!==i*a){e.fillStyle=r.theme.unobserved,e.fillRect(c,h,i*l,a*l);return}this.fill(d,i,
-a,r.theme,qu(d,o.layer)),e.imageSmoothingEnabled=!1,e.drawImage(this.cells.canvas,c,h,i*l,a*l),this.fillHatch(n),e.drawImage(this.hatch.canvas,0,0,this.hatch.canvas.
-width/s.ratio,this.hatch.canvas.height/s.ratio),l>=zu&&this.lines(e,n)}fill(e,n,o,s,r){let{cells:i,mask:a,drawn:l}=this,c=`${s.ground} ${r}`;if(l.field===e&&l.palette===
+a,r.theme,Ju(d,o.layer)),e.imageSmoothingEnabled=!1,e.drawImage(this.cells.canvas,c,h,i*l,a*l),this.fillHatch(n),e.drawImage(this.hatch.canvas,0,0,this.hatch.canvas.
+width/s.ratio,this.hatch.canvas.height/s.ratio),l>=qu&&this.lines(e,n)}fill(e,n,o,s,r){let{cells:i,mask:a,drawn:l}=this,c=`${s.ground} ${r}`;if(l.field===e&&l.palette===
 c)return;let h=this.palettes.get(c)??ll(s,r);if(this.palettes.set(c,h),this.image.width!==n||this.image.height!==o){this.image=new ImageData(n,o);for(let{canvas:u}of[
 i,a])Object.assign(u,{width:n,height:o});l.reached=null}let d=new Uint32Array(this.image.data.buffer);for(let u=0,m=0;u<o;u++)for(let w=o-1-u;w<n*o;w+=o)d[m++]=
 h[e.p[w]+256*(e.reached[w]+8>>4)];if(i.putImageData(this.image,0,0),l.reached!==e.reached){for(let u=0,m=0;u<o;u++)for(let w=o-1-u;w<n*o;w+=o)d[m++]=255-e.reached[w]<<
 24;a.putImageData(this.image,0,0),l.hatch=""}Object.assign(l,{field:e,reached:e.reached,palette:c})}fillHatch({session:e,view:n,look:o}){let{hatch:s,mask:r,drawn:i}=this,
 {ratio:a,width:l,height:c}=n,{scale:h,x:d,y:u}=n.transform,[m,w]=e.shape,v=[o.theme.ground,h,d,u,l,c,a].join(" ");if(i.hatch===v)return;i.hatch=v;let b=Ss(),M=b.
-canvas.width=b.canvas.height=Math.round(Yu*a);b.strokeStyle=o.theme.hatch,b.lineWidth=a,b.beginPath();for(let E of[-M,0,M])b.moveTo(E-1,M+1),b.lineTo(E+M+1,-1);
+canvas.width=b.canvas.height=Math.round(Ku*a);b.strokeStyle=o.theme.hatch,b.lineWidth=a,b.beginPath();for(let E of[-M,0,M])b.moveTo(E-1,M+1),b.lineTo(E+M+1,-1);
 b.stroke(),Object.assign(s.canvas,{width:Math.ceil(l*a),height:Math.ceil(c*a)}),s.setTransform(a,0,0,a,0,0),s.imageSmoothingEnabled=!1,s.drawImage(r.canvas,d,u,
 m*h,w*h),s.globalCompositeOperation="source-in",s.setTransform(1,0,0,1,0,0);let S=s.createPattern(b.canvas,"repeat");S.setTransform(new DOMMatrix().translate(Math.
 round(d*a),Math.round(u*a))),s.fillStyle=S,s.fillRect(0,0,s.canvas.width,s.canvas.height)}lines(e,{session:n,view:o,look:s}){let[r,i]=n.shape,{scale:a,x:l,y:c}=o.
 transform;e.beginPath();for(let h=1;h<r;h++)e.moveTo(l+h*a,c),e.lineTo(l+h*a,c+i*a);for(let h=1;h<i;h++)e.moveTo(l,c+h*a),e.lineTo(l+r*a,c+h*a);e.strokeStyle=s.
-theme.lines,e.lineWidth=1,e.stroke()}};var Ku=[[1.25,0],[-.9,.8],[-.45,0],[-.9,-.8]],ao=class{name="ghost";depends({session:e}){return[e.ghost.version,e.document?.grid.resolution,e.document?.max_range]}shows({
+theme.lines,e.lineWidth=1,e.stroke()}};var Xu=[[1.25,0],[-.9,.8],[-.45,0],[-.9,-.8]],ao=class{name="ghost";depends({session:e}){return[e.ghost.version,e.document?.grid.resolution,e.document?.max_range]}shows({
 session:{ghost:e,document:n}}){return!!(e.held&&e.pose&&n)}paint(e,n){let{ghost:o}=n.session;if(!(!o.held||!o.pose||!n.session.document)){if(Oe(e,n),o.fan){let s=this.
 fan(e,n,o.fan);o.fan.near&&this.near(e,n,o.fan,o.fan.near),e.fillStyle=n.look.theme.ghost,e.fill(s)}this.robot(e,n,o.pose)}}ends({session:e,view:n},o,s,r){let{grid:i,
 max_range:a}=e.document;return Array.from(s,(l,c)=>{let h=le(r[c],0,a),d=o.yaw+l,u={x:o.x+h*Math.cos(d),y:o.y+h*Math.sin(d)};return n.fromGrid(Le(u,i),i.shape[1])})}fan(e,n,o){
@@ -204,44 +204,44 @@ strokeStyle=s.ghost,e.lineCap="round",e.lineWidth=le(n.view.transform.scale*.25,
 hit:i}){let{theme:a}=n.look,l=le(n.view.transform.scale*.14,1.5,4),c=this.ends(n,{x:s[0],y:s[1],yaw:s[2]},o.angles,r),h=new Path2D;c.forEach(({x:d,y:u},m)=>{i[m]&&
 (h.moveTo(d+l,u),h.arc(d,u,l,0,2*Math.PI))}),e.lineWidth=1,e.strokeStyle=a.truth,e.stroke(h)}robot(e,{session:n,view:o,look:s},r){let{grid:i}=n.document,{point:a,
 size:l,handle:c}=un({id:0,...r},i,o),[h,d]=[Math.cos(r.yaw),-Math.sin(r.yaw)];e.beginPath(),e.moveTo(a.x,a.y),e.lineTo(c.x,c.y),An(e,s.theme,s.theme.ghost,1.5),
-e.beginPath();for(let[u,m]of Ku)e.lineTo(a.x+l*(u*h-m*d),a.y+l*(u*d+m*h));e.closePath(),e.lineJoin="round",An(e,s.theme,s.theme.ghost,2),e.fillStyle=s.theme.halo,
+e.beginPath();for(let[u,m]of Xu)e.lineTo(a.x+l*(u*h-m*d),a.y+l*(u*d+m*h));e.closePath(),e.lineJoin="round",An(e,s.theme,s.theme.ghost,2),e.fillStyle=s.theme.halo,
 e.fill(),e.beginPath(),e.arc(c.x,c.y,4.5,0,2*Math.PI),e.fill(),e.stroke()}};var ei=({flicker:t,shown:e,where:n})=>t.under&&!n.map?e:null,lo=class{name="hypothesis";cells=document.createElement("canvas").getContext("2d");drawn={field:null,
 colour:""};depends({session:e}){return[ei(e)]}shows({session:e}){return ei(e)!==null}paint(e,n){let{session:o,view:s,look:r}=n,i=ei(o);if(!i)return;let[a,l]=o.shape,
 {scale:c,x:h,y:d}=s.transform;(this.drawn.field!==i||this.drawn.colour!==r.theme.draw)&&this.fill(i,a,l,r.theme.draw),Oe(e,n),e.imageSmoothingEnabled=!1,e.drawImage(
 this.cells.canvas,h,d,a*c,l*c)}fill(e,n,o,s){let[r,i,a]=[1,3,5].map(c=>parseInt(s.slice(c,c+2),16));Object.assign(this.cells.canvas,{width:n,height:o});let l=new ImageData(
 n,o);for(let c=0,h=0;c<o;c++)for(let d=o-1-c;d<n*o;d+=o,h+=4)l.data.set([r,i,a,Math.round(e.p[d]*e.reached[d]/255)],h);this.cells.putImageData(l,0,0),this.drawn=
-{field:e,colour:s}}};var Ju=46,Xu=22;function Zu(t){let e=10**Math.floor(Math.log10(t));return e*([1,2,5].find(n=>n*e>=t)??10)}function hl(t,{session:e,view:n,look:o}){if(!e.document)
-return;let{theme:s}=o,{width:r,height:i}=n,{origin:a,resolution:l,shape:c}=e.document.grid,{scale:h,x:d,y:u}=n.transform,m=Zu(Ju/h*l),w=Math.min(u+c[1]*h,i-tt.bottom)+
+{field:e,colour:s}}};var Zu=46,Qu=22;function ed(t){let e=10**Math.floor(Math.log10(t));return e*([1,2,5].find(n=>n*e>=t)??10)}function hl(t,{session:e,view:n,look:o}){if(!e.document)
+return;let{theme:s}=o,{width:r,height:i}=n,{origin:a,resolution:l,shape:c}=e.document.grid,{scale:h,x:d,y:u}=n.transform,m=ed(Zu/h*l),w=Math.min(u+c[1]*h,i-tt.bottom)+
 .5,v=Math.max(d,tt.left)-.5;t.fillStyle=s.ground,d<v&&t.fillRect(0,0,v,i+1),u+c[1]*h>w&&t.fillRect(0,w,r+1,i+1-w);let b=Math.max(0,-Math.floor(Math.log10(m)+1e-9));
 t.strokeStyle=s.frame,t.lineWidth=1,t.beginPath();let M=E=>Math.ceil(a[E]/m-1e-9)*m,S=E=>a[E]+c[E]*l+1e-9;for(let E=M(0);E<=S(0);E+=m){let P=d+(E-a[0])/l*h;P<v||
 P>r-4||(t.moveTo(P,w),t.lineTo(P,w+4),Zt(t,E.toFixed(b),P,w+12,s,"center"))}for(let E=M(1);E<=S(1);E+=m){let P=u+(c[1]-(E-a[1])/l)*h;P>w||P<4||(t.moveTo(v,P),t.
-lineTo(v-4,P),Zt(t,E.toFixed(b),v-7,P,s,"right"))}t.stroke(),Zt(t,"m",v-Xu,w+12,s,"right")}var co=class{name="marks";edges=new Path2D;edgesOf=-1;depends({session:e,look:n}){let o=Jr(e).flatMap(({id:i,x:a,y:l,yaw:c})=>[i,a,l,c]),{grid:s}=e.document??{},
+lineTo(v-4,P),Zt(t,E.toFixed(b),v-7,P,s,"right"))}t.stroke(),Zt(t,"m",v-Qu,w+12,s,"right")}var co=class{name="marks";edges=new Path2D;edgesOf=-1;depends({session:e,look:n}){let o=Jr(e).flatMap(({id:i,x:a,y:l,yaw:c})=>[i,a,l,c]),{grid:s}=e.document??{},
 r=pl(e)&&n.truth&&e.wallsVersion;return[s&&[...s.shape,...s.origin,s.resolution].join(),r,n.selected,...o]}shows({session:e}){return e.document!==null}paint(e,n){
 let{session:o,view:s,look:r}=n;if(!o.document)return;let[i,a]=o.shape,{scale:l,x:c,y:h}=s.transform;r.truth&&pl(o)&&this.truth(e,n),e.strokeStyle=r.theme.frame,
 e.lineWidth=1,e.strokeRect(c-.5,h-.5,i*l+1,a*l+1),nl(e,n),hl(e,n)}truth(e,n){let{session:o,view:s,look:r}=n,{scale:i,x:a,y:l}=s.transform;this.edgesOf!==o.wallsVersion&&
 (this.edges=Ya(o.walls,o.shape),this.edgesOf=o.wallsVersion),e.save(),Oe(e,n),e.transform(i,0,0,-i,a,l+o.shape[1]*i),e.lineCap="square",e.strokeStyle=r.theme.truth,
-e.lineWidth=le(i*.09,1,2.5)/i,e.stroke(this.edges),e.restore()}},pl=({document:t})=>t?.source.kind==="simulation";var Qu=600,ed=1500,td=65536,ti=.3,ho=class{name="rays";depends({session:e,look:n}){return[e.scan,e.document?.max_range,n.rays,n.readings,e.document?.scans_used]}shows({
+e.lineWidth=le(i*.09,1,2.5)/i,e.stroke(this.edges),e.restore()}},pl=({document:t})=>t?.source.kind==="simulation";var td=600,nd=1500,od=65536,ti=.3,ho=class{name="rays";depends({session:e,look:n}){return[e.scan,e.document?.max_range,n.rays,n.readings,e.document?.scans_used]}shows({
 session:e,look:n}){return!!(e.scan&&e.document&&(n.rays||n.readings)&&!e.ghost.held&&!e.evidence.cellShown)}paint(e,n){let{session:o,view:s,look:r}=n,{scan:i,document:a}=o;
-if(!i||!a)return;Oe(e,n);let{scale:l}=s.transform,c=1/a.grid.resolution,h=a.grid.shape[1],d=i.angles.length,u=i.pose.length/3,m=Math.ceil(d*u/ed),[w,v,b]=[new Path2D,
-new Path2D,new Path2D],M=d*u>Qu,S=new Map,E=le(l*.1,1.3,4),P=a.scans_used??1/0,D=(i.index??0)<P?1:ti;for(let L=0;L<u;L++){let[O,G,te]=i.pose.subarray(3*L,3*L+3),
+if(!i||!a)return;Oe(e,n);let{scale:l}=s.transform,c=1/a.grid.resolution,h=a.grid.shape[1],d=i.angles.length,u=i.pose.length/3,m=Math.ceil(d*u/nd),[w,v,b]=[new Path2D,
+new Path2D,new Path2D],M=d*u>td,S=new Map,E=le(l*.1,1.3,4),P=a.scans_used??1/0,D=(i.index??0)<P?1:ti;for(let L=0;L<u;L++){let[O,G,te]=i.pose.subarray(3*L,3*L+3),
 X=s.fromGrid(Le({x:O,y:G},a.grid),h);for(let $=0;$<d;$++){let ee=i.ranges[L*d+$],U=i.hit[L*d+$]===1,A=(U?ee:a.max_range)*c*l,_=i.angles[$]+te,B={x:X.x+A*Math.cos(
-_),y:X.y-A*Math.sin(_)},I=U?w:v;(L*d+$)%m===0&&(I.moveTo(X.x,X.y),I.lineTo(B.x,B.y)),U&&(M?S.set(Math.round(B.x)*td+Math.round(B.y),B):(b.moveTo(B.x+E,B.y),b.arc(
+_),y:X.y-A*Math.sin(_)},I=U?w:v;(L*d+$)%m===0&&(I.moveTo(X.x,X.y),I.lineTo(B.x,B.y)),U&&(M?S.set(Math.round(B.x)*od+Math.round(B.y),B):(b.moveTo(B.x+E,B.y),b.arc(
 B.x,B.y,E,0,2*Math.PI)))}}if(r.rays&&(e.lineWidth=1,e.globalAlpha=D*le(28/Math.sqrt(d*u/m)/5,.07,.45),e.strokeStyle=r.theme.ray,e.stroke(w),e.strokeStyle=r.theme.
 noReturn,e.stroke(v),e.globalAlpha=1),r.readings){e.globalAlpha=D,e.fillStyle=r.theme.ray,e.fill(b);let L=1.8*E;for(let{x:O,y:G}of S.values())e.fillRect(O-L/2,G-
-L/2,L,L);e.globalAlpha=1}}};var nd=2.5,Bo=t=>t>=nd,po=class{name="overlay";depends({session:e,look:n}){return[e.overlay,n.strokes,n.trajectory,e.document?.grid.resolution,e.document?.scans_used]}shows({
+L/2,L,L);e.globalAlpha=1}}};var sd=2.5,Bo=t=>t>=sd,po=class{name="overlay";depends({session:e,look:n}){return[e.overlay,n.strokes,n.trajectory,e.document?.grid.resolution,e.document?.scans_used]}shows({
 session:e,look:n}){return!!(e.overlay&&e.document&&(n.strokes||n.trajectory))}paint(e,n){let{session:o,look:s}=n,{overlay:r,document:i}=o;!r||!i||(Oe(e,n),s.trajectory&&
 this.trajectory(e,n,r.trajectory),s.strokes&&Bo(n.view.transform.scale)&&this.strokes(e,n,r.strokes))}trajectory(e,{session:n,view:o,look:s},r){let i=n.document?.
 grid;if(!i)return;let a=r.length/2,l=Math.min(a,n.document?.scans_used??a);e.strokeStyle=s.theme.sensor,e.lineWidth=1,e.lineJoin="round";for(let[c,h,d]of[[0,l,.6],
 [Math.max(0,l-1),a,.6*ti]]){e.beginPath();for(let u=c;u<h;u++){let m=o.fromGrid(Le({x:r[2*u],y:r[2*u+1]},i),i.shape[1]);e.lineTo(m.x,m.y)}e.globalAlpha=d,e.stroke()}
 e.globalAlpha=1}strokes(e,{session:n,view:o,look:s},r){let i=n.document?.grid;if(i){e.beginPath();for(let a=0;a<r.length;a+=5){let[l,c,h,d]=r.subarray(a,a+4),[u,
 m]=[o.fromGrid(Le({x:l,y:c},i),i.shape[1]),o.fromGrid(Le({x:h,y:d},i),i.shape[1])];e.moveTo(u.x,u.y),e.lineTo(m.x,m.y)}e.strokeStyle=s.theme.ray,e.lineCap="roun\
-d",e.lineWidth=le(o.transform.scale/5,.8,2.5),e.stroke()}}};var od=2.2,Ms=7,[sd,rd]=[.03,.75],id=2.4477,ul=9,uo=class{name="where";depends({session:e}){return[e.where.version,e.document?.grid.resolution,e.document?.grid.
+d",e.lineWidth=le(o.transform.scale/5,.8,2.5),e.stroke()}}};var rd=2.2,Ms=7,[id,ad]=[.03,.75],ld=2.4477,ul=9,uo=class{name="where";depends({session:e}){return[e.where.version,e.document?.grid.resolution,e.document?.grid.
 origin.join()]}shows({session:e}){return!!(e.where.found&&e.document)}paint(e,n){let{session:o}=n,{found:s}=o.where,r=o.document?.grid;if(!s||!r)return;let i=new no(
 e,n.look.theme,n.view.width,n.view.height);e.save(),Oe(e,n),this.cloud(e,n,r);for(let a of s.modes)this.place(e,n,r,a,i);e.restore(),i.write()}cloud(e,{session:n,
 view:o,look:s},r){let{cloud:i,weight:a}=n.where.found,l=a[a.length-1]||1;e.strokeStyle=e.fillStyle=s.theme.belief,e.lineWidth=1.2;for(let c=0;c<a.length;c++){if(a[c]<
-sd**2*l)continue;let[h,d,u]=i.subarray(3*c,3*c+3),m=o.fromGrid(Le({x:h,y:d},r),r.shape[1]);e.globalAlpha=rd*Math.sqrt(a[c]/l),e.beginPath(),e.arc(m.x,m.y,od,0,2*
+id**2*l)continue;let[h,d,u]=i.subarray(3*c,3*c+3),m=o.fromGrid(Le({x:h,y:d},r),r.shape[1]);e.globalAlpha=ad*Math.sqrt(a[c]/l),e.beginPath(),e.arc(m.x,m.y,rd,0,2*
 Math.PI),e.fill(),e.beginPath(),e.moveTo(m.x,m.y),e.lineTo(m.x+Ms*Math.cos(u),m.y-Ms*Math.sin(u)),e.stroke()}e.globalAlpha=1}place(e,{view:n,look:o},s,r,i){let[
-a,l,c]=r.mean,h=n.fromGrid(Le({x:a,y:l},s),s.shape[1]),d=id*n.transform.scale/s.resolution,[[u,m],[,w]]=r.covariance,[v,b]=[(u+w)/2,Math.hypot((u-w)/2,m)],[M,S]=[
+a,l,c]=r.mean,h=n.fromGrid(Le({x:a,y:l},s),s.shape[1]),d=ld*n.transform.scale/s.resolution,[[u,m],[,w]]=r.covariance,[v,b]=[(u+w)/2,Math.hypot((u-w)/2,m)],[M,S]=[
 v+b,v-b].map(P=>Math.max(ul,d*Math.sqrt(Math.max(P,0))));e.beginPath(),e.ellipse(h.x,h.y,M,S,-Math.atan2(2*m,u-w)/2,0,2*Math.PI);let E=ul+1;e.moveTo(h.x+E*Math.
 cos(c),h.y-E*Math.sin(c)),e.lineTo(h.x+(E+Ms)*Math.cos(c),h.y-(E+Ms)*Math.sin(c)),e.strokeStyle=o.theme.halo,e.lineWidth=4,e.stroke(),e.strokeStyle=o.theme.belief,
 e.lineWidth=2,e.stroke(),i.place(ni(r.probability),h.x,h.y,S)}},ni=t=>t>.995&&t<1?"over 99 %":t<.005?"under 1 %":`${Math.round(100*t)} %`;var dl=900,Wo=2,oi=()=>[new io,new lo,new po,new ho,new co,new so,new uo,new ao];function fl({session:t,look:e}){let[n,o]=t.shape,s=new to;s.resize(dl,Math.round(
@@ -258,41 +258,41 @@ localStorage.removeItem(t):localStorage.setItem(t,e)}catch{}}function ri(t){t?.s
 t))}function wl(){As(si,null)}function bl(){let t=yl(si);try{return t&&JSON.parse(t)}catch{return null}}var xl=()=>yl(gl)!==null,vl=t=>As(gl,t?"all":null);function kl(t){
 t&&As(ml,t)}function Sl(t){let e=n=>{n.key===ml&&n.newValue&&t(n.newValue)};return window.addEventListener("storage",e),()=>window.removeEventListener("storage",
 e)}var ii=[["draw","Draw","draw"],["erase","Erase","erase"],["sensor","Sensor","sensor"],["pan","Pan","pan"],["where","Where am I?","where"],["path","Path","path"],
-["evidence","Evidence","evidence"],["look","Look next","look"],["ghost","Ghost","ghost"]],ad=5;function Ml(t){let{hand:e,session:n}=t,o=t.segmented("Tool",ii,()=>n.
+["evidence","Evidence","evidence"],["look","Look next","look"],["ghost","Ghost","ghost"]],cd=5;function Ml(t){let{hand:e,session:n}=t,o=t.segmented("Tool",ii,()=>n.
 editable||!n.document||Et.has(e.tool)?e.tool:"pan",i=>e.choose(i),i=>(Et.has(i)?n.answers||i==="where"&&n.locates:n.editable)||i==="pan");t.visible(o,()=>!n.recorded);
 let s=xl(),r=t.button(null,"More tools",()=>{vl(s=!s),n.changed()},{text:"More"});return t.visible(r,()=>n.answers),t.each(()=>{let i=ii.filter(([l])=>Et.has(l)?
-!n.figure||l==="pan"||l==="where":!n.document||n.editable).map(([l])=>l),a=new Set(s?i:i.slice(0,ad));ii.forEach(([l],c)=>C(o.children[c],"hidden",!a.has(l)&&!(l===
+!n.figure||l==="pan"||l==="where":!n.document||n.editable).map(([l])=>l),a=new Set(s?i:i.slice(0,cd));ii.forEach(([l],c)=>C(o.children[c],"hidden",!a.has(l)&&!(l===
 e.tool&&i.includes(l)))),C(r.lastElementChild,"textContent",s?"Fewer":"More"),nt(r,"aria-label",s?"Fewer tools":"More tools"),C(r,"title",s?"Fewer tools":"More \
 tools: paths, evidence, where to look next, the ghost")}),k("div",{className:"bar"},o,r,k("span",{className:"space"}),t.button("minus","Zoom out",()=>t.command(
 "out"),{title:"Zoom out (−)"}),t.button("plus","Zoom in",()=>t.command("in"),{title:"Zoom in (+)"}),t.button("fit","Whole map",()=>t.command("fit"),{title:"Wh\
 ole map (0)"}))}var Qt=t=>t.charAt(0).toUpperCase()+t.slice(1),Es=class{text="Connecting";level="info";until=0;say(e,n,o){this.text=Qt(e),this.level=n,this.until=o}confirmed(e){
 let n=e>this.until&&!/worker/.test(this.text);(this.text==="Connecting"||n)&&this.say("Ready","info",e)}worker(e){e==="restarted"?this.say("The worker stopped a\
 nd is being started again; the map is kept","warning",this.until):e==="ready"&&this.text==="Connecting"?this.say("Ready","info",this.until):e==="ready"&&/worker/.
-test(this.text)&&this.say("The worker runs again","info",this.until)}};var ld=20,cd={importance:"particles",propagate:"rounds"},ai=t=>`without the first ${t} (burn-in)`,Ps=({working:t,shown:e})=>t&&e?.method==="pilot";function Tl(t,...e){
+test(this.text)&&this.say("The worker runs again","info",this.until)}};var hd=20,pd={importance:"particles",propagate:"rounds"},ai=t=>`without the first ${t} (burn-in)`,Ps=({working:t,shown:e})=>t&&e?.method==="pilot";function Tl(t,...e){
 let{session:n}=t,o=k("progress",{max:1,value:0,"aria-label":"Progress"}),s=k("div",{className:"doing"});t.each(()=>{let i=n.shown,{stage:a}=n,l=i?.generation!==
 n.generation&&(n.running||n.document?.source.kind==="log"),c=Ps(n),h=a?a.done/a.total:i&&!l&&i.total>0&&(c||!i.approximate)?i.sweeps/i.total:0;C(o,"value",h);let d=n.
-remaining_s(),u=cd[i?.method??""]??"sweeps",m=i&&!i.approximate&&i.total?`${i.sweeps} of ${i.total} ${u}`:"",w=d!==null?d<1?"less than 1 s left":`${Math.ceil(d)}\
+remaining_s(),u=pd[i?.method??""]??"sweeps",m=i&&!i.approximate&&i.total?`${i.sweeps} of ${i.total} ${u}`:"",w=d!==null?d<1?"less than 1 s left":`${Math.ceil(d)}\
  s left`:n.running?"running":"",v=m&&i?.burned?ai(i.burned):"",b=n.sampling||n.running||!i||i.sweeps>=i.total?"":"stopped";a?C(s,"textContent",`${a.text}: ${a.done}\
- of ${a.total} ${a.total>ld?"scans":"rounds"}`):l?C(s,"textContent","Computing"):i&&c?C(s,"textContent",`Fitting the sensor: sweep ${i.sweeps} of ${i.total}`):C(
-s,"textContent",Qt([m,v,w,m&&b].filter(Boolean).join(", "))||hd(n))});let r=k("p",{className:"caption",textContent:"This is the posterior of walls that are not \
-known. The map shows the drawn walls, which Where am I? takes as known."});return t.visible(r,()=>n.where.map!==null),t.section("Posterior",r,pd(t),o,s,...ud(t),
-fd(t),...e,dd(t))}function hd({shown:t,working:e,document:n,nothingToRun:o}){let s=n?.method==="importance"?"; Run weighs particles":o&&"; it is done, and Run h\
+ of ${a.total} ${a.total>hd?"scans":"rounds"}`):l?C(s,"textContent","Computing"):i&&c?C(s,"textContent",`Fitting the sensor: sweep ${i.sweeps} of ${i.total}`):C(
+s,"textContent",Qt([m,v,w,m&&b].filter(Boolean).join(", "))||ud(n))});let r=k("p",{className:"caption",textContent:"This is the posterior of walls that are not \
+known. The map shows the drawn walls, which Where am I? takes as known."});return t.visible(r,()=>n.where.map!==null),t.section("Posterior",r,dd(t),o,s,...fd(t),
+gd(t),...e,md(t))}function ud({shown:t,working:e,document:n,nothingToRun:o}){let s=n?.method==="importance"?"; Run weighs particles":o&&"; it is done, and Run h\
 as nothing to add";return t?.method==="propagate"?`${t.sweeps} rounds of belief propagation${s}`:t?.method==="hits"?"Counts of hits and passes":t?.method==="cou\
-nts"?"Run infers where the robot was":t?.method==="pilot"?"Stopped while the sensor was fitted":e?"Computing":"No chain yet"}function pd(t){let{session:e}=t,n=t.
+nts"?"Run infers where the robot was":t?.method==="pilot"?"Stopped while the sensor was fitted":e?"Computing":"No chain yet"}function dd(t){let{session:e}=t,n=t.
 button("play","Run",()=>e.act({type:"run"}),{className:"primary",text:"Run",title:"Run (R): more sweeps of the chains on show",when:()=>e.connection.connected&&
 !e.nothingToRun,why:()=>e.nothingToRun||"Not while the connection is lost"}),o=t.button("close","Cancel",()=>e.act({type:"cancel"}),{text:"Cancel",title:"Cancel\
  (Escape)",when:()=>e.running||e.sampling||Ps(e),why:"Nothing is running"}),s=t.checkbox("Live",()=>!!(e.state?.live??!0),i=>e.act({type:"live",on:i}),"Every ed\
 it restarts the chains, and Run goes on from their draws"),r=k("div",{className:"buttons"},n,o,s);return t.visible(r,()=>!e.recorded&&e.document?.source.kind!==
-"run"),r}function ud(t){let{session:e}=t,n=k("dl"),o=k("dl",{className:"about"}),s=(i,a,l,c=!1)=>{let h=k("dd",{textContent:"–"}),d=k("div",{title:a},k("dt",{
+"run"),r}function fd(t){let{session:e}=t,n=k("dl"),o=k("dl",{className:"about"}),s=(i,a,l,c=!1)=>{let h=k("dd",{textContent:"–"}),d=k("div",{title:a},k("dt",{
 textContent:i}),h);return n.append(d),o.append(k("dt",{textContent:i}),k("dd",{textContent:a})),t.each(()=>{C(h,"textContent",e.shown?l(e.shown):"–"),c&&C(h,"\
 className",e.shown?.verdict?.level??"")}),d};s("ESS","Effective sample size of the log joint: so many independent draws would tell as much of its mean",i=>fe(i.
 ess,0),!0),s("R-hat","Agreement of the chains on the log joint: 1 where they agree, more where each still tells of its start",i=>fe(i.rhat,3),!0),s("log joint",
 "Log of prior times likelihood at the last sweep",i=>fe(i.log_joint,Math.abs(i.log_joint??0)<1e5?1:0)),s("time","Time spent on sweeps, rounds or particles",i=>fe(
 i.seconds,1," s"));let r=s("reply","From the hand's last move to its picture",()=>fe(e.latency.eventToPaint_ms.at(-1),0," ms"));return t.visible(r,()=>!e.recorded),
 [n,k("details",{},k("summary",{textContent:"What these figures mean"}),o)]}var Go=({shown:t})=>t?.method==="importance"?{good:"Enough particles",fair:"Few parti\
-cles",bad:"Collapsed"}:{good:"Converged",fair:"Nearly converged",bad:"Not converged"};function dd(t){let{session:e}=t,n=k("dl",{className:"about"}),o=k("details",
+cles",bad:"Collapsed"}:{good:"Converged",fair:"Nearly converged",bad:"Not converged"};function md(t){let{session:e}=t,n=k("dl",{className:"about"}),o=k("details",
 {},k("summary",{textContent:"Model and method of this picture"}),n),s="";return t.each(()=>{let r=e.shown?.about??[];C(o,"hidden",!r.length),String(r)!==s&&(s=String(
-r),n.replaceChildren(...r.flatMap(([i,a])=>[k("dt",{textContent:i}),k("dd",{textContent:a})])))}),o}function fd(t){let{session:e}=t,n=k("span"),o=t.button(null,
+r),n.replaceChildren(...r.flatMap(([i,a])=>[k("dt",{textContent:i}),k("dd",{textContent:a})])))}),o}function gd(t){let{session:e}=t,n=k("span"),o=t.button(null,
 "Show the cell",()=>t.command(`cell ${e.shown?.verdict?.cell}`),{text:"Show the cell"});t.visible(o,()=>!!e.shown?.verdict?.cell);let s=k("div",{className:"verd\
 ict"},n,o);return t.each(()=>{let r=e.shown?.verdict;if(!r)return C(s,"hidden",s.hidden||!e.working),C(n,"textContent","Too early to judge."),C(s,"className","v\
 erdict early");C(s,"hidden",!1),C(n,"textContent",`${Go(e)[r.level]}: ${r.why}`),C(s,"className",`verdict ${r.level}`)}),s}function El(t,e){let{session:n}=t,s=t.checkbox("Keep this result beside the next",()=>e.kept!==null,r=>r?e.keep():e.forget(),"Change the method, the order, the \
@@ -300,59 +300,59 @@ prior or the map, and compare: both results follow the layer and the draw");retu
 let[n,o]=[k("p",{className:"told-apart"}),k("p",{className:"told-apart"})];return t.visible(n,()=>e.kept!==null),t.each(()=>{if(!e.kept)return;let[s,r]=e.differences();
 C(n,"textContent",`Now: ${s}. ${Al(t.session)}`),C(o,"textContent",`Kept: ${r}. ${Al(e.kept)}`)}),{now:n,kept:o}}function Al(t){let{shown:e,draws:n}=t;if(!e)return"";
 let o=e.layer==="draw"?[`Draw ${t.draw+1} of ${n.count}, log joint ${fe(e.log_joint,1)}`]:[],s=e.verdict?[Go(t)[e.verdict.level]]:[],r=e.rhat===null?[]:[`R-hat ${fe(
-e.rhat,3)}, ESS ${fe(e.ess,0)}`];return[...o,...s,...r].map(i=>`${i}.`).join(" ")}var md="uplot",gd="u-hz",yd="u-vt",wd="u-title",bd="u-wrap",xd="u-under",vd="u-over",kd="u-axis",Cn="u-off",Sd="u-select",Md="u-cursor-x",Td="u-cursor-y",Ad="u-\
-cursor-pt",Ed="u-legend",Pd="u-live",_d="u-inline",Cd="u-series",Ld="u-marker",_l="u-label",Nd="u-value",jo="width",Vo="height";var Cl="bottom",fo="left",li="right",Ti="#000",Ll=Ti+"0",ci="mousemove",Nl="mousedown",hi="mouseup",Dl="mouseenter",Rl="mouseleave",$l="dblclick",Dd="resize",Rd="\
-scroll",Fl="change",Ds="dppxchange",Ai="--",vo=typeof window<"u",mi=vo?document:null,go=vo?window:null,$d=vo?navigator:null,be,_s;function gi(){let t=devicePixelRatio;
+e.rhat,3)}, ESS ${fe(e.ess,0)}`];return[...o,...s,...r].map(i=>`${i}.`).join(" ")}var yd="uplot",wd="u-hz",bd="u-vt",xd="u-title",vd="u-wrap",kd="u-under",Sd="u-over",Md="u-axis",Cn="u-off",Td="u-select",Ad="u-cursor-x",Ed="u-cursor-y",Pd="u-\
+cursor-pt",_d="u-legend",Cd="u-live",Ld="u-inline",Nd="u-series",Dd="u-marker",_l="u-label",Rd="u-value",jo="width",Vo="height";var Cl="bottom",fo="left",li="right",Ti="#000",Ll=Ti+"0",ci="mousemove",Nl="mousedown",hi="mouseup",Dl="mouseenter",Rl="mouseleave",$l="dblclick",$d="resize",Fd="\
+scroll",Fl="change",Ds="dppxchange",Ai="--",vo=typeof window<"u",mi=vo?document:null,go=vo?window:null,Id=vo?navigator:null,be,_s;function gi(){let t=devicePixelRatio;
 be!=t&&(be=t,_s&&wi(Fl,_s,gi),_s=matchMedia(`(min-resolution: ${be-.001}dppx) and (max-resolution: ${be+.001}dppx)`),Ln(Fl,_s,gi),go.dispatchEvent(new CustomEvent(
 Ds)))}function bt(t,e){if(e!=null){let n=t.classList;!n.contains(e)&&n.add(e)}}function yi(t,e){let n=t.classList;n.contains(e)&&n.remove(e)}function _e(t,e,n){
 t.style[e]=n+"px"}function It(t,e,n,o){let s=mi.createElement(t);return e!=null&&bt(s,e),n?.insertBefore(s,o),s}function Pt(t,e){return It("div",t,e)}var Il=new WeakMap;
 function Kt(t,e,n,o,s){let r="translate("+e+"px,"+n+"px)",i=Il.get(t);r!=i&&(t.style.transform=r,Il.set(t,r),e<0||n<0||e>o||n>s?bt(t,Cn):yi(t,Cn))}var Ol=new WeakMap;
 function Ul(t,e,n){let o=e+n,s=Ol.get(t);o!=s&&(Ol.set(t,o),t.style.background=e,t.style.borderColor=n)}var Bl=new WeakMap;function Wl(t,e,n,o){let s=e+""+n,r=Bl.
-get(t);s!=r&&(Bl.set(t,s),t.style.height=n+"px",t.style.width=e+"px",t.style.marginLeft=o?-e/2+"px":0,t.style.marginTop=o?-n/2+"px":0)}var Ei={passive:!0},Fd={...Ei,
-capture:!0};function Ln(t,e,n,o){e.addEventListener(t,n,o?Fd:Ei)}function wi(t,e,n,o){e.removeEventListener(t,n,Ei)}vo&&gi();function Ot(t,e,n,o){let s;n=n||0,o=
+get(t);s!=r&&(Bl.set(t,s),t.style.height=n+"px",t.style.width=e+"px",t.style.marginLeft=o?-e/2+"px":0,t.style.marginTop=o?-n/2+"px":0)}var Ei={passive:!0},Od={...Ei,
+capture:!0};function Ln(t,e,n,o){e.addEventListener(t,n,o?Od:Ei)}function wi(t,e,n,o){e.removeEventListener(t,n,Ei)}vo&&gi();function Ot(t,e,n,o){let s;n=n||0,o=
 o||e.length-1;let r=o<=2147483647;for(;o-n>1;)s=r?n+o>>1:xt((n+o)/2),e[s]<t?n=s:o=s;return t-e[n]<=e[o]-t?n:o}function mc(t){return(n,o,s)=>{let r=-1,i=-1;for(let a=o;a<=
-s;a++)if(t(n[a])){r=a;break}for(let a=s;a>=o;a--)if(t(n[a])){i=a;break}return[r,i]}}var gc=t=>t!=null,yc=t=>t!=null&&t>0,Fs=mc(gc),Id=mc(yc);function Od(t,e,n,o=0,s=!1){
-let r=s?Id:Fs,i=s?yc:gc;[e,n]=r(t,e,n);let a=t[e],l=t[e];if(e>-1)if(o==1)a=t[e],l=t[n];else if(o==-1)a=t[n],l=t[e];else for(let c=e;c<=n;c++){let h=t[c];i(h)&&(h<
+s;a++)if(t(n[a])){r=a;break}for(let a=s;a>=o;a--)if(t(n[a])){i=a;break}return[r,i]}}var gc=t=>t!=null,yc=t=>t!=null&&t>0,Fs=mc(gc),Ud=mc(yc);function Bd(t,e,n,o=0,s=!1){
+let r=s?Ud:Fs,i=s?yc:gc;[e,n]=r(t,e,n);let a=t[e],l=t[e];if(e>-1)if(o==1)a=t[e],l=t[n];else if(o==-1)a=t[n],l=t[e];else for(let c=e;c<=n;c++){let h=t[c];i(h)&&(h<
 a?a=h:h>l&&(l=h))}return[a??Me,l??-Me]}function Is(t,e,n,o){let s=jl(t),r=jl(e);t==e&&(s==-1?(t*=n,e/=n):(t/=n,e*=n));let i=n==10?en:wc,a=s==1?xt:_t,l=r==1?_t:xt,
 c=a(i(He(t))),h=l(i(He(e))),d=yo(n,c),u=yo(n,h);return n==10&&(c<0&&(d=Te(d,-c)),h<0&&(u=Te(u,-h))),o||n==2?(t=d*s,e=u*r):(t=kc(t,d),e=Os(e,u)),[t,e]}function Pi(t,e,n,o){
-let s=Is(t,e,n,o);return t==0&&(s[0]=0),e==0&&(s[1]=0),s}var _i=.1,Gl={mode:3,pad:_i},Yo={pad:0,soft:null,mode:0},Ud={min:Yo,max:Yo};function Rs(t,e,n,o){return Us(
-n)?Hl(t,e,n):(Yo.pad=n,Yo.soft=o?0:null,Yo.mode=o?3:0,Hl(t,e,Ud))}function ye(t,e){return t??e}function Bd(t,e,n){for(e=ye(e,0),n=ye(n,t.length-1);e<=n;){if(t[e]!=
+let s=Is(t,e,n,o);return t==0&&(s[0]=0),e==0&&(s[1]=0),s}var _i=.1,Gl={mode:3,pad:_i},Yo={pad:0,soft:null,mode:0},Wd={min:Yo,max:Yo};function Rs(t,e,n,o){return Us(
+n)?Hl(t,e,n):(Yo.pad=n,Yo.soft=o?0:null,Yo.mode=o?3:0,Hl(t,e,Wd))}function ye(t,e){return t??e}function Gd(t,e,n){for(e=ye(e,0),n=ye(n,t.length-1);e<=n;){if(t[e]!=
 null)return!0;e++}return!1}function Hl(t,e,n){let o=n.min,s=n.max,r=ye(o.pad,0),i=ye(s.pad,0),a=ye(o.hard,-Me),l=ye(s.hard,Me),c=ye(o.soft,Me),h=ye(s.soft,-Me),
 d=ye(o.mode,0),u=ye(s.mode,0),m=e-t,w=en(m),v=pt(He(t),He(e)),b=en(v),M=He(b-w);(m<1e-24||M>10)&&(m=0,(t==0||e==0)&&(m=1e-24,d==2&&c!=Me&&(r=0),u==2&&h!=-Me&&(i=
 0)));let S=m||v||1e3,E=en(S),P=yo(10,xt(E)),D=S*(m==0?t==0?.1:1:r),L=Te(kc(t-D,P/10),24),O=t>=c&&(d==1||d==3&&L<=c||d==2&&L>=c)?c:Me,G=pt(a,L<O&&t>=O?O:Ut(O,L)),
-te=S*(m==0?e==0?.1:1:i),X=Te(Os(e+te,P/10),24),$=e<=h&&(u==1||u==3&&X>=h||u==2&&X<=h)?h:-Me,ee=Ut(l,X>$&&e<=$?$:pt($,X));return G==ee&&G==0&&(ee=100),[G,ee]}var Wd=new Intl.
-NumberFormat(vo?$d.language:"en-US"),Ci=t=>Wd.format(t),vt=Math,Ns=vt.PI,He=vt.abs,xt=vt.floor,Ge=vt.round,_t=vt.ceil,Ut=vt.min,pt=vt.max,yo=vt.pow,jl=vt.sign,en=vt.
-log10,wc=vt.log2,Gd=(t,e=1)=>vt.sinh(t)*e,pi=(t,e=1)=>vt.asinh(t/e),Me=1/0;function Vl(t){return(en((t^t>>31)-(t>>31))|0)+1}function bi(t,e,n){return Ut(pt(t,e),
-n)}function bc(t){return typeof t=="function"}function pe(t){return bc(t)?t:()=>t}var Hd=()=>{},xc=t=>t,vc=(t,e)=>e,jd=t=>null,zl=t=>!0,Yl=(t,e)=>t==e,Vd=/\.\d*?(?=9{6,}|0{6,})/gm,
-Nn=t=>{if(Mc(t)||fn.has(t))return t;let e=`${t}`,n=e.match(Vd);if(n==null)return t;let o=n[0].length-1;if(e.indexOf("e-")!=-1){let[s,r]=e.split("e");return+`${Nn(
+te=S*(m==0?e==0?.1:1:i),X=Te(Os(e+te,P/10),24),$=e<=h&&(u==1||u==3&&X>=h||u==2&&X<=h)?h:-Me,ee=Ut(l,X>$&&e<=$?$:pt($,X));return G==ee&&G==0&&(ee=100),[G,ee]}var Hd=new Intl.
+NumberFormat(vo?Id.language:"en-US"),Ci=t=>Hd.format(t),vt=Math,Ns=vt.PI,He=vt.abs,xt=vt.floor,Ge=vt.round,_t=vt.ceil,Ut=vt.min,pt=vt.max,yo=vt.pow,jl=vt.sign,en=vt.
+log10,wc=vt.log2,jd=(t,e=1)=>vt.sinh(t)*e,pi=(t,e=1)=>vt.asinh(t/e),Me=1/0;function Vl(t){return(en((t^t>>31)-(t>>31))|0)+1}function bi(t,e,n){return Ut(pt(t,e),
+n)}function bc(t){return typeof t=="function"}function pe(t){return bc(t)?t:()=>t}var Vd=()=>{},xc=t=>t,vc=(t,e)=>e,zd=t=>null,zl=t=>!0,Yl=(t,e)=>t==e,Yd=/\.\d*?(?=9{6,}|0{6,})/gm,
+Nn=t=>{if(Mc(t)||fn.has(t))return t;let e=`${t}`,n=e.match(Yd);if(n==null)return t;let o=n[0].length-1;if(e.indexOf("e-")!=-1){let[s,r]=e.split("e");return+`${Nn(
 s)}e${r}`}return Te(t,o)};function Pn(t,e){return Nn(Te(Nn(t/e))*e)}function Os(t,e){return Nn(_t(Nn(t/e))*e)}function kc(t,e){return Nn(xt(Nn(t/e))*e)}function Te(t,e=0){
 if(Mc(t))return t;let n=10**e,o=t*n*(1+Number.EPSILON);return Ge(o)/n}var fn=new Map;function Sc(t){return((""+t).split(".")[1]||"").length}function Ko(t,e,n,o){
 let s=[],r=o.map(Sc);for(let i=e;i<n;i++){let a=He(i),l=Te(yo(t,i),a);for(let c=0;c<o.length;c++){let h=t==10?+`${o[c]}e${i}`:o[c]*l,d=(i>=0?0:a)+(i>=r[c]?0:r[c]),
-u=t==10?h:Te(h,d);s.push(u),fn.set(u,d)}}return s}var qo={},Li=[],wo=[null,null],dn=Array.isArray,Mc=Number.isInteger,zd=t=>t===void 0;function ql(t){return typeof t==
-"string"}function Us(t){let e=!1;if(t!=null){let n=t.constructor;e=n==null||n==Object}return e}function Yd(t){return t!=null&&typeof t=="object"}var qd=Object.getPrototypeOf(
+u=t==10?h:Te(h,d);s.push(u),fn.set(u,d)}}return s}var qo={},Li=[],wo=[null,null],dn=Array.isArray,Mc=Number.isInteger,qd=t=>t===void 0;function ql(t){return typeof t==
+"string"}function Us(t){let e=!1;if(t!=null){let n=t.constructor;e=n==null||n==Object}return e}function Kd(t){return t!=null&&typeof t=="object"}var Jd=Object.getPrototypeOf(
 Uint8Array),Tc="__proto__";function bo(t,e=Us){let n;if(dn(t)){let o=t.find(s=>s!=null);if(dn(o)||e(o)){n=Array(t.length);for(let s=0;s<t.length;s++)n[s]=bo(t[s],
-e)}else n=t.slice()}else if(t instanceof qd)n=t.slice();else if(e(t)){n={};for(let o in t)o!=Tc&&(n[o]=bo(t[o],e))}else n=t;return n}function Ue(t){let e=arguments;
-for(let n=1;n<e.length;n++){let o=e[n];for(let s in o)s!=Tc&&(Us(t[s])?Ue(t[s],bo(o[s])):t[s]=bo(o[s]))}return t}var Kd=0,Jd=1,Xd=2;function Zd(t,e,n){for(let o=0,
-s,r=-1;o<e.length;o++){let i=e[o];if(i>r){for(s=i-1;s>=0&&t[s]==null;)t[s--]=null;for(s=i+1;s<n&&t[s]==null;)t[r=s++]=null}}}function Qd(t,e){if(nf(t)){let i=t[0].
-slice();for(let a=1;a<t.length;a++)i.push(...t[a].slice(1));return of(i[0])||(i=tf(i)),i}let n=new Set;for(let i=0;i<t.length;i++){let l=t[i][0],c=l.length;for(let h=0;h<
+e)}else n=t.slice()}else if(t instanceof Jd)n=t.slice();else if(e(t)){n={};for(let o in t)o!=Tc&&(n[o]=bo(t[o],e))}else n=t;return n}function Ue(t){let e=arguments;
+for(let n=1;n<e.length;n++){let o=e[n];for(let s in o)s!=Tc&&(Us(t[s])?Ue(t[s],bo(o[s])):t[s]=bo(o[s]))}return t}var Xd=0,Zd=1,Qd=2;function ef(t,e,n){for(let o=0,
+s,r=-1;o<e.length;o++){let i=e[o];if(i>r){for(s=i-1;s>=0&&t[s]==null;)t[s--]=null;for(s=i+1;s<n&&t[s]==null;)t[r=s++]=null}}}function tf(t,e){if(sf(t)){let i=t[0].
+slice();for(let a=1;a<t.length;a++)i.push(...t[a].slice(1));return rf(i[0])||(i=of(i)),i}let n=new Set;for(let i=0;i<t.length;i++){let l=t[i][0],c=l.length;for(let h=0;h<
 c;h++)n.add(l[h])}let o=[Array.from(n).sort((i,a)=>i-a)],s=o[0].length,r=new Map;for(let i=0;i<s;i++)r.set(o[0][i],i);for(let i=0;i<t.length;i++){let a=t[i],l=a[0];
-for(let c=1;c<a.length;c++){let h=a[c],d=Array(s).fill(void 0),u=e?e[i][c]:Jd,m=[];for(let w=0;w<h.length;w++){let v=h[w],b=r.get(l[w]);v===null?u!=Kd&&(d[b]=v,
-u==Xd&&m.push(b)):d[b]=v}Zd(d,m,s),o.push(d)}}return o}var ef=typeof queueMicrotask>"u"?t=>Promise.resolve().then(t):queueMicrotask;function tf(t){let e=t[0],n=e.
+for(let c=1;c<a.length;c++){let h=a[c],d=Array(s).fill(void 0),u=e?e[i][c]:Zd,m=[];for(let w=0;w<h.length;w++){let v=h[w],b=r.get(l[w]);v===null?u!=Xd&&(d[b]=v,
+u==Qd&&m.push(b)):d[b]=v}ef(d,m,s),o.push(d)}}return o}var nf=typeof queueMicrotask>"u"?t=>Promise.resolve().then(t):queueMicrotask;function of(t){let e=t[0],n=e.
 length,o=Array(n);for(let r=0;r<o.length;r++)o[r]=r;o.sort((r,i)=>e[r]-e[i]);let s=[];for(let r=0;r<t.length;r++){let i=t[r],a=Array(n);for(let l=0;l<n;l++)a[l]=
-i[o[l]];s.push(a)}return s}function nf(t){let e=t[0][0],n=e.length;for(let o=1;o<t.length;o++){let s=t[o][0];if(s.length!=n)return!1;if(s!=e){for(let r=0;r<n;r++)
-if(s[r]!=e[r])return!1}}return!0}function of(t,e=100){let n=t.length;if(n<=1)return!0;let o=0,s=n-1;for(;o<=s&&t[o]==null;)o++;for(;s>=o&&t[s]==null;)s--;if(s<=
+i[o[l]];s.push(a)}return s}function sf(t){let e=t[0][0],n=e.length;for(let o=1;o<t.length;o++){let s=t[o][0];if(s.length!=n)return!1;if(s!=e){for(let r=0;r<n;r++)
+if(s[r]!=e[r])return!1}}return!0}function rf(t,e=100){let n=t.length;if(n<=1)return!0;let o=0,s=n-1;for(;o<=s&&t[o]==null;)o++;for(;s>=o&&t[s]==null;)s--;if(s<=
 o)return!0;let r=pt(1,xt((s-o+1)/e));for(let i=t[o],a=o+r;a<=s;a+=r){let l=t[a];if(l!=null){if(l<=i)return!1;i=l}}return!0}var Ac=["January","February","March",
 "April","May","June","July","August","September","October","November","December"],Ec=["Sunday","Monday","Tuesday","Wednesday","Thursday","Friday","Saturday"];function Pc(t){
-return t.slice(0,3)}var sf=Ec.map(Pc),rf=Ac.map(Pc),af={MMMM:Ac,MMM:rf,WWWW:Ec,WWW:sf};function Ho(t){return(t<10?"0":"")+t}function lf(t){return(t<10?"00":t<100?
-"0":"")+t}var cf={YYYY:t=>t.getFullYear(),YY:t=>(t.getFullYear()+"").slice(2),MMMM:(t,e)=>e.MMMM[t.getMonth()],MMM:(t,e)=>e.MMM[t.getMonth()],MM:t=>Ho(t.getMonth()+
+return t.slice(0,3)}var af=Ec.map(Pc),lf=Ac.map(Pc),cf={MMMM:Ac,MMM:lf,WWWW:Ec,WWW:af};function Ho(t){return(t<10?"0":"")+t}function hf(t){return(t<10?"00":t<100?
+"0":"")+t}var pf={YYYY:t=>t.getFullYear(),YY:t=>(t.getFullYear()+"").slice(2),MMMM:(t,e)=>e.MMMM[t.getMonth()],MMM:(t,e)=>e.MMM[t.getMonth()],MM:t=>Ho(t.getMonth()+
 1),M:t=>t.getMonth()+1,DD:t=>Ho(t.getDate()),D:t=>t.getDate(),WWWW:(t,e)=>e.WWWW[t.getDay()],WWW:(t,e)=>e.WWW[t.getDay()],HH:t=>Ho(t.getHours()),H:t=>t.getHours(),
 h:t=>{let e=t.getHours();return e==0?12:e>12?e-12:e},AA:t=>t.getHours()>=12?"PM":"AM",aa:t=>t.getHours()>=12?"pm":"am",a:t=>t.getHours()>=12?"p":"a",mm:t=>Ho(t.
-getMinutes()),m:t=>t.getMinutes(),ss:t=>Ho(t.getSeconds()),s:t=>t.getSeconds(),fff:t=>lf(t.getMilliseconds())};function Ni(t,e){e=e||af;let n=[],o=/\{([a-z]+)\}|[^{]+/gi,
-s;for(;s=o.exec(t);)n.push(s[0][0]=="{"?cf[s[1]]:s[0]);return r=>{let i="";for(let a=0;a<n.length;a++)i+=typeof n[a]=="string"?n[a]:n[a](r,e);return i}}var hf=new Intl.
-DateTimeFormat().resolvedOptions().timeZone;function pf(t,e){let n;return e=="UTC"||e=="Etc/UTC"?n=new Date(+t+t.getTimezoneOffset()*6e4):e==hf?n=t:(n=new Date(
-t.toLocaleString("en-US",{timeZone:e})),n.setMilliseconds(t.getMilliseconds())),n}var _c=t=>t%1==0,$s=[1,2,2.5,5],uf=Ko(10,-32,0,$s),Cc=Ko(10,0,32,$s),df=Cc.filter(
-_c),_n=uf.concat(Cc),Di=`
-`,Lc="{YYYY}",Kl=Di+Lc,Nc="{M}/{D}",zo=Di+Nc,Cs=zo+"/{YY}",Dc="{aa}",ff="{h}:{mm}",mo=ff+Dc,Jl=Di+mo,Xl=":{ss}",ve=null;function Rc(t){let e=t*1e3,n=e*60,o=n*60,
+getMinutes()),m:t=>t.getMinutes(),ss:t=>Ho(t.getSeconds()),s:t=>t.getSeconds(),fff:t=>hf(t.getMilliseconds())};function Ni(t,e){e=e||cf;let n=[],o=/\{([a-z]+)\}|[^{]+/gi,
+s;for(;s=o.exec(t);)n.push(s[0][0]=="{"?pf[s[1]]:s[0]);return r=>{let i="";for(let a=0;a<n.length;a++)i+=typeof n[a]=="string"?n[a]:n[a](r,e);return i}}var uf=new Intl.
+DateTimeFormat().resolvedOptions().timeZone;function df(t,e){let n;return e=="UTC"||e=="Etc/UTC"?n=new Date(+t+t.getTimezoneOffset()*6e4):e==uf?n=t:(n=new Date(
+t.toLocaleString("en-US",{timeZone:e})),n.setMilliseconds(t.getMilliseconds())),n}var _c=t=>t%1==0,$s=[1,2,2.5,5],ff=Ko(10,-32,0,$s),Cc=Ko(10,0,32,$s),mf=Cc.filter(
+_c),_n=ff.concat(Cc),Di=`
+`,Lc="{YYYY}",Kl=Di+Lc,Nc="{M}/{D}",zo=Di+Nc,Cs=zo+"/{YY}",Dc="{aa}",gf="{h}:{mm}",mo=gf+Dc,Jl=Di+mo,Xl=":{ss}",ve=null;function Rc(t){let e=t*1e3,n=e*60,o=n*60,
 s=o*24,r=s*30,i=s*365,l=(t==1?Ko(10,0,3,$s).filter(_c):Ko(10,-3,0,$s)).concat([e,e*5,e*10,e*15,e*30,n,n*5,n*10,n*15,n*30,o,o*2,o*3,o*4,o*6,o*8,o*12,s,s*2,s*3,s*
 4,s*5,s*6,s*7,s*8,s*9,s*10,s*15,r,r*2,r*3,r*4,r*6,i,i*2,i*5,i*10,i*25,i*50,i*100]),c=[[i,Lc,ve,ve,ve,ve,ve,ve,1],[s*28,"{MMM}",Kl,ve,ve,ve,ve,ve,1],[s,Nc,Kl,ve,
 ve,ve,ve,ve,1],[o,"{h}"+Dc,Cs,ve,zo,ve,ve,ve,1],[n,mo,Cs,ve,zo,ve,ve,ve,1],[e,Xl,Cs+" "+mo,ve,zo+" "+mo,ve,Jl,ve,1],[t,Xl+".{fff}",Cs+" "+mo,ve,zo+" "+mo,ve,Jl,
@@ -360,45 +360,45 @@ ve,1]];function h(d){return(u,m,w,v,b,M)=>{let S=[],E=b>=i,P=b>=r&&b<i,D=d(w),L=
 if(P||E){let te=P?b/r:0,X=E?b/i:0,$=L==G?L:Te(ui(O.getFullYear()+X,O.getMonth()+te,1)*t,3),ee=new Date(Ge($/t)),U=ee.getFullYear(),A=ee.getMonth();for(let _=0;$<=
 v;_++){let B=ui(U+X*_,A+te*_,1),I=B-d(Te(B*t,3));$=Te((+B+I)*t,3),$<=v&&S.push($)}}else{let te=b>=s?s:b,X=xt(w)-xt(L),$=G+X+Os(L-G,te);S.push($);let ee=d($),U=ee.
 getHours()+ee.getMinutes()/n+ee.getSeconds()/o,A=b/o,_=u.axes[m]._space,B=M/_;for(;$=Te($+b,t==1?0:3),!($>v);)if(A>1){let I=xt(Te(U+A,6))%24,J=d($).getHours()-I;
-J>1&&(J=-1),$-=J*o,U=(U+A)%24;let Q=S[S.length-1];Te(($-Q)/b,3)*B>=.7&&S.push($)}else S.push($)}return S}}return[l,c,h]}var[mf,gf,yf]=Rc(1),[wf,bf,xf]=Rc(.001);
+J>1&&(J=-1),$-=J*o,U=(U+A)%24;let Q=S[S.length-1];Te(($-Q)/b,3)*B>=.7&&S.push($)}else S.push($)}return S}}return[l,c,h]}var[yf,wf,bf]=Rc(1),[xf,vf,kf]=Rc(.001);
 Ko(2,-53,53,[1]);function Zl(t,e){return t.map(n=>n.map((o,s)=>s==0||s==8||o==null?o:e(s==1||n[8]==0?o:n[1]+o)))}function Ql(t,e){return(n,o,s,r,i)=>{let a=e.find(
 w=>i>=w[0])||e[e.length-1],l,c,h,d,u,m;return o.map(w=>{let v=t(w),b=v.getFullYear(),M=v.getMonth(),S=v.getDate(),E=v.getHours(),P=v.getMinutes(),D=v.getSeconds(),
-L=b!=l&&a[2]||M!=c&&a[3]||S!=h&&a[4]||E!=d&&a[5]||P!=u&&a[6]||D!=m&&a[7]||a[1];return l=b,c=M,h=S,d=E,u=P,m=D,L(v)})}}function vf(t,e){let n=Ni(e);return(o,s,r,i,a)=>s.
-map(l=>n(t(l)))}function ui(t,e,n){return new Date(t,e,n)}function ec(t,e){return e(t)}var kf="{YYYY}-{MM}-{DD} {h}:{mm}{aa}";function tc(t,e){return(n,o,s,r)=>r==
-null?Ai:e(t(o))}function Sf(t,e){let n=t.series[e];return n.width?n.stroke(t,e):n.points.width?n.points.stroke(t,e):null}function Mf(t,e){return t.series[e].fill(
-t,e)}var Tf={show:!0,live:!0,isolate:!1,mount:Hd,markers:{show:!0,width:2,stroke:Sf,fill:Mf,dash:"solid"},idx:null,idxs:null,values:[]};function Af(t,e){let n=t.
+L=b!=l&&a[2]||M!=c&&a[3]||S!=h&&a[4]||E!=d&&a[5]||P!=u&&a[6]||D!=m&&a[7]||a[1];return l=b,c=M,h=S,d=E,u=P,m=D,L(v)})}}function Sf(t,e){let n=Ni(e);return(o,s,r,i,a)=>s.
+map(l=>n(t(l)))}function ui(t,e,n){return new Date(t,e,n)}function ec(t,e){return e(t)}var Mf="{YYYY}-{MM}-{DD} {h}:{mm}{aa}";function tc(t,e){return(n,o,s,r)=>r==
+null?Ai:e(t(o))}function Tf(t,e){let n=t.series[e];return n.width?n.stroke(t,e):n.points.width?n.points.stroke(t,e):null}function Af(t,e){return t.series[e].fill(
+t,e)}var Ef={show:!0,live:!0,isolate:!1,mount:Vd,markers:{show:!0,width:2,stroke:Tf,fill:Af,dash:"solid"},idx:null,idxs:null,values:[]};function Pf(t,e){let n=t.
 cursor.points,o=Pt(),s=n.size(t,e);_e(o,jo,s),_e(o,Vo,s);let r=s/-2;_e(o,"marginLeft",r),_e(o,"marginTop",r);let i=n.width(t,e,s);return i&&_e(o,"borderWidth",i),
-o}function Ef(t,e){let n=t.series[e].points;return n._fill||n._stroke}function Pf(t,e){let n=t.series[e].points;return n._stroke||n._fill}function _f(t,e){return t.
-series[e].points.size}var di=[0,0];function Cf(t,e,n){return di[0]=e,di[1]=n,di}function Ls(t,e,n,o=!0){return s=>{s.button==0&&(!o||s.target==e)&&n(s)}}function fi(t,e,n,o=!0){
-return s=>{(!o||s.target==e)&&n(s)}}var Lf={show:!0,x:!0,y:!0,lock:!1,move:Cf,points:{one:!1,show:Af,size:_f,width:0,stroke:Pf,fill:Ef},bind:{mousedown:Ls,mouseup:Ls,
+o}function _f(t,e){let n=t.series[e].points;return n._fill||n._stroke}function Cf(t,e){let n=t.series[e].points;return n._stroke||n._fill}function Lf(t,e){return t.
+series[e].points.size}var di=[0,0];function Nf(t,e,n){return di[0]=e,di[1]=n,di}function Ls(t,e,n,o=!0){return s=>{s.button==0&&(!o||s.target==e)&&n(s)}}function fi(t,e,n,o=!0){
+return s=>{(!o||s.target==e)&&n(s)}}var Df={show:!0,x:!0,y:!0,lock:!1,move:Nf,points:{one:!1,show:Pf,size:Lf,width:0,stroke:Cf,fill:_f},bind:{mousedown:Ls,mouseup:Ls,
 click:Ls,dblclick:Ls,mousemove:fi,mouseleave:fi,mouseenter:fi},drag:{setScale:!0,x:!0,y:!1,dist:0,uni:null,click:(t,e)=>{e.stopPropagation(),e.stopImmediatePropagation()},
 _x:!1,_y:!1},focus:{dist:(t,e,n,o,s)=>o-s,prox:-1,bias:0},hover:{skip:[void 0],prox:null,bias:0},left:-10,top:-10,idx:null,dataIdx:null,idxs:null,event:null},$c={
 show:!0,stroke:"rgba(0,0,0,0.07)",width:2},Ri=Ue({},$c,{filter:vc}),Fc=Ue({},Ri,{size:10}),Ic=Ue({},$c,{show:!1}),$i='12px system-ui, -apple-system, "Segoe UI",\
  Roboto, "Helvetica Neue", Arial, "Noto Sans", sans-serif, "Apple Color Emoji", "Segoe UI Emoji", "Segoe UI Symbol", "Noto Color Emoji"',Oc="bold "+$i,Uc=1.5,nc={
 show:!0,scale:"x",stroke:Ti,space:50,gap:5,alignTo:1,size:50,labelGap:0,labelSize:30,labelFont:Oc,side:2,grid:Ri,ticks:Fc,border:Ic,font:$i,lineGap:Uc,rotate:0},
-Nf="Value",Df="Time",oc={show:!0,scale:"x",auto:!1,sorted:1,min:Me,max:-Me,idxs:[]};function Rf(t,e,n,o,s){return e.map(r=>r==null?"":Ci(r))}function $f(t,e,n,o,s,r,i){
+Rf="Value",$f="Time",oc={show:!0,scale:"x",auto:!1,sorted:1,min:Me,max:-Me,idxs:[]};function Ff(t,e,n,o,s){return e.map(r=>r==null?"":Ci(r))}function If(t,e,n,o,s,r,i){
 let a=[],l=fn.get(s)||0;n=i?n:Te(Os(n,s),l);for(let c=n;c<=o;c=Te(c+s,l))a.push(Object.is(c,-0)?0:c);return a}function xi(t,e,n,o,s,r,i){let a=[],l=t.scales[t.axes[e].
 scale].log,c=l==10?en:wc,h=xt(c(n));s=yo(l,h),l==10&&(s=_n[Ot(s,_n)]);let d=n,u=s*l;l==10&&(u=_n[Ot(u,_n)]);do a.push(d),d=d+s,l==10&&!fn.has(d)&&(d=Te(d,fn.get(
-s))),d>=u&&(s=d,u=s*l,l==10&&(u=_n[Ot(u,_n)]));while(d<=o);return a}function Ff(t,e,n,o,s,r,i){let l=t.scales[t.axes[e].scale].asinh,c=o>l?xi(t,e,pt(l,n),o,s):[
-l],h=o>=0&&n<=0?[0]:[];return(n<-l?xi(t,e,pt(l,-o),-n,s):[l]).reverse().map(u=>-u).concat(h,c)}var Bc=/./,If=/[12357]/,Of=/[125]/,sc=/1/,vi=(t,e,n,o)=>t.map((s,r)=>e==
-4&&s==0||r%o==0&&n.test(s.toExponential()[s<0?1:0])?s:null);function Uf(t,e,n,o,s){let r=t.axes[n],i=r.scale,a=t.scales[i],l=t.valToPos,c=r._space,h=l(10,i),d=l(
-9,i)-h>=c?Bc:l(7,i)-h>=c?If:l(5,i)-h>=c?Of:sc;if(d==sc){let u=He(l(1,i)-h);if(u<c)return vi(e.slice().reverse(),a.distr,d,_t(c/u)).reverse()}return vi(e,a.distr,
-d,1)}function Bf(t,e,n,o,s){let r=t.axes[n],i=r.scale,a=r._space,l=t.valToPos,c=He(l(1,i)-l(2,i));return c<a?vi(e.slice().reverse(),3,Bc,_t(a/c)).reverse():e}function Wf(t,e,n,o){
+s))),d>=u&&(s=d,u=s*l,l==10&&(u=_n[Ot(u,_n)]));while(d<=o);return a}function Of(t,e,n,o,s,r,i){let l=t.scales[t.axes[e].scale].asinh,c=o>l?xi(t,e,pt(l,n),o,s):[
+l],h=o>=0&&n<=0?[0]:[];return(n<-l?xi(t,e,pt(l,-o),-n,s):[l]).reverse().map(u=>-u).concat(h,c)}var Bc=/./,Uf=/[12357]/,Bf=/[125]/,sc=/1/,vi=(t,e,n,o)=>t.map((s,r)=>e==
+4&&s==0||r%o==0&&n.test(s.toExponential()[s<0?1:0])?s:null);function Wf(t,e,n,o,s){let r=t.axes[n],i=r.scale,a=t.scales[i],l=t.valToPos,c=r._space,h=l(10,i),d=l(
+9,i)-h>=c?Bc:l(7,i)-h>=c?Uf:l(5,i)-h>=c?Bf:sc;if(d==sc){let u=He(l(1,i)-h);if(u<c)return vi(e.slice().reverse(),a.distr,d,_t(c/u)).reverse()}return vi(e,a.distr,
+d,1)}function Gf(t,e,n,o,s){let r=t.axes[n],i=r.scale,a=r._space,l=t.valToPos,c=He(l(1,i)-l(2,i));return c<a?vi(e.slice().reverse(),3,Bc,_t(a/c)).reverse():e}function Hf(t,e,n,o){
 return o==null?Ai:e==null?"":Ci(e)}var rc={show:!0,scale:"y",stroke:Ti,space:30,gap:5,alignTo:1,size:50,labelGap:0,labelSize:30,labelFont:Oc,side:3,grid:Ri,ticks:Fc,
-border:Ic,font:$i,lineGap:Uc,rotate:0};function Gf(t,e){let n=3+(t||1)*2;return Te(n*e,3)}function Hf(t,e){let{scale:n,idxs:o}=t.series[0],s=t._data[0],r=t.valToPos(
+border:Ic,font:$i,lineGap:Uc,rotate:0};function jf(t,e){let n=3+(t||1)*2;return Te(n*e,3)}function Vf(t,e){let{scale:n,idxs:o}=t.series[0],s=t._data[0],r=t.valToPos(
 s[o[0]],n,!0),i=t.valToPos(s[o[1]],n,!0),a=He(i-r),l=t.series[e],c=a/(l.points.space*be);return o[1]-o[0]<=c}var ic={scale:null,auto:!0,sorted:0,min:Me,max:-Me},
 Wc=(t,e,n,o,s)=>s,ac={show:!0,auto:!0,sorted:0,gaps:Wc,alpha:1,facets:[Ue({},ic,{scale:"x"}),Ue({},ic,{scale:"y"})]},lc={scale:"y",auto:!0,sorted:0,show:!0,spanGaps:!1,
-gaps:Wc,alpha:1,points:{show:Hf,filter:null},values:null,min:Me,max:-Me,idxs:[],path:null,clip:null};function jf(t,e,n,o,s){return n/10}var Gc={time:!0,auto:!0,
-distr:1,log:10,asinh:1,min:null,max:null,dir:1,ori:0},Vf=Ue({},Gc,{time:!1,ori:1}),cc={};function Hc(t,e){let n=cc[t];return n||(n={key:t,plots:[],sub(o){n.plots.
+gaps:Wc,alpha:1,points:{show:Vf,filter:null},values:null,min:Me,max:-Me,idxs:[],path:null,clip:null};function zf(t,e,n,o,s){return n/10}var Gc={time:!0,auto:!0,
+distr:1,log:10,asinh:1,min:null,max:null,dir:1,ori:0},Yf=Ue({},Gc,{time:!1,ori:1}),cc={};function Hc(t,e){let n=cc[t];return n||(n={key:t,plots:[],sub(o){n.plots.
 push(o)},unsub(o){n.plots=n.plots.filter(s=>s!=o)},pub(o,s,r,i,a,l,c){for(let h=0;h<n.plots.length;h++)n.plots[h]!=s&&n.plots[h].pub(o,s,r,i,a,l,c)}},t!=null&&(cc[t]=
 n)),n}var xo=1,ki=2;function Dn(t,e,n){let o=t.mode,s=t.series[e],r=o==2?t._data[e]:t._data,i=t.scales,a=t.bbox,l=r[0],c=o==2?r[1]:r[e],h=o==2?i[s.facets[0].scale]:
 i[t.series[0].scale],d=o==2?i[s.facets[1].scale]:i[s.scale],u=a.left,m=a.top,w=a.width,v=a.height,b=t.valToPosH,M=t.valToPosV;return h.ori==0?n(s,l,c,h,d,b,M,u,
 m,w,v,Ws,ko,Hs,Vc,Yc):n(s,l,c,h,d,M,b,m,u,v,w,Gs,So,Oi,zc,qc)}function Fi(t,e){let n=0,o=0,s=ye(t.bands,Li);for(let r=0;r<s.length;r++){let i=s[r];i.series[0]==
-e?n=i.dir:i.series[1]==e&&(i.dir==1?o|=1:o|=2)}return[n,o==1?-1:o==2?1:o==3?2:0]}function zf(t,e,n,o,s){let r=t.mode,i=t.series[e],a=r==2?i.facets[1].scale:i.scale,
+e?n=i.dir:i.series[1]==e&&(i.dir==1?o|=1:o|=2)}return[n,o==1?-1:o==2?1:o==3?2:0]}function qf(t,e,n,o,s){let r=t.mode,i=t.series[e],a=r==2?i.facets[1].scale:i.scale,
 l=t.scales[a];return s==-1?l.min:s==1?l.max:l.distr==3?l.dir==1?l.min:l.max:0}function tn(t,e,n,o,s,r){return Dn(t,e,(i,a,l,c,h,d,u,m,w,v,b)=>{let M=i.pxRound,S=c.
 dir*(c.ori==0?1:-1),E=c.ori==0?ko:So,P,D;S==1?(P=n,D=o):(P=o,D=n);let L=M(d(a[P],c,v,m)),O=M(u(l[P],h,b,w)),G=M(d(a[D],c,v,m)),te=M(u(r==1?h.max:h.min,h,b,w)),X=new Path2D(
 s);return E(X,G,te),E(X,L,te),E(X,L,O),X})}function Bs(t,e,n,o,s,r){let i=null;if(t.length>0){i=new Path2D;let a=e==0?Hs:Oi,l=n;for(let d=0;d<t.length;d++){let u=t[d];
-if(u[1]>u[0]){let m=u[0]-l;m>0&&a(i,l,o,m,o+r),l=u[1]}}let c=n+s-l,h=10;c>0&&a(i,l,o-h/2,c,o+r+h)}return i}function Yf(t,e,n){let o=t[t.length-1];o&&o[0]==e?o[1]=
+if(u[1]>u[0]){let m=u[0]-l;m>0&&a(i,l,o,m,o+r),l=u[1]}}let c=n+s-l,h=10;c>0&&a(i,l,o-h/2,c,o+r+h)}return i}function Kf(t,e,n){let o=t[t.length-1];o&&o[0]==e?o[1]=
 n:t.push([e,n])}function Ii(t,e,n,o,s,r,i){let a=[],l=t.length;for(let c=s==1?n:o;c>=n&&c<=o;c+=s)if(e[c]===null){let d=c,u=c;if(s==1)for(;++c<=o&&e[c]===null;)
 u=c;else for(;--c>=n&&e[c]===null;)u=c;let m=r(t[d]),w=u==d?m:r(t[u]),v=d-s;m=i<=0&&v>=0&&v<l?r(t[v]):m;let M=u+s;w=i>=0&&M>=0&&M<l?r(t[M]):w,w>=m&&a.push([m,w])}
 return a}function hc(t){return t==0?xc:t==1?Ge:e=>Pn(e,t)}function jc(t){let e=t==0?Ws:Gs,n=t==0?(s,r,i,a,l,c)=>{s.arcTo(r,i,a,l,c)}:(s,r,i,a,l,c)=>{s.arcTo(i,r,
@@ -409,14 +409,14 @@ t.bezierCurveTo(e,n,o,s,r,i)},qc=(t,e,n,o,s,r,i)=>{t.bezierCurveTo(n,e,s,o,i,r)}
 points:S}=i,E,P;c.ori==0?(E=Ws,P=Vc):(E=Gs,P=zc);let D=Te(S.width*be,3),L=(S.size-S.width)/2*be,O=Te(L*2,3),G=new Path2D,te=new Path2D,{left:X,top:$,width:ee,height:U}=e.
 bbox;Hs(te,X-O,$-O,ee+O*2,U+O*2);let A=_=>{if(l[_]!=null){let B=M(d(a[_],c,v,m)),I=M(u(l[_],h,b,w));E(G,B+L,I),P(G,B,I,L,0,Ns*2)}};if(r)r.forEach(A);else for(let _=o;_<=
 s;_++)A(_);return{stroke:D>0?G:null,fill:G,clip:te,flags:xo|ki}})}function Jc(t){return(e,n,o,s,r,i)=>{o!=s&&(r!=o&&i!=o&&t(e,n,o),r!=s&&i!=s&&t(e,n,s),t(e,n,i))}}
-var qf=Jc(ko),Kf=Jc(So);function Xc(t){let e=ye(t?.alignGaps,0);return(n,o,s,r)=>Dn(n,o,(i,a,l,c,h,d,u,m,w,v,b)=>{[s,r]=Fs(l,s,r);let M=i.pxRound,S=U=>M(d(U,c,v,
-m)),E=U=>M(u(U,h,b,w)),P,D;c.ori==0?(P=ko,D=qf):(P=So,D=Kf);let L=c.dir*(c.ori==0?1:-1),O={stroke:new Path2D,fill:null,clip:null,band:null,gaps:null,flags:xo},G=O.
+var Jf=Jc(ko),Xf=Jc(So);function Xc(t){let e=ye(t?.alignGaps,0);return(n,o,s,r)=>Dn(n,o,(i,a,l,c,h,d,u,m,w,v,b)=>{[s,r]=Fs(l,s,r);let M=i.pxRound,S=U=>M(d(U,c,v,
+m)),E=U=>M(u(U,h,b,w)),P,D;c.ori==0?(P=ko,D=Jf):(P=So,D=Xf);let L=c.dir*(c.ori==0?1:-1),O={stroke:new Path2D,fill:null,clip:null,band:null,gaps:null,flags:xo},G=O.
 stroke,te=!1;if(r-s>=v*4){let U=W=>n.posToVal(W,c.key,!0),A=null,_=null,B,I,ae,K=S(a[L==1?s:r]),J=S(a[s]),Q=S(a[r]),q=U(L==1?J+1:Q-1);for(let W=L==1?s:r;W>=s&&W<=
 r;W+=L){let de=a[W],he=(L==1?de<q:de>q)?K:S(de),se=l[W];he==K?se!=null?(I=se,A==null?(P(G,he,E(I)),B=A=_=I):I<A?A=I:I>_&&(_=I)):se===null&&(te=!0):(A!=null&&D(G,
 K,E(A),E(_),E(B),E(I)),se!=null?(I=se,P(G,he,E(I)),A=_=B=I):(A=_=null,se===null&&(te=!0)),K=he,q=U(K+L))}A!=null&&A!=_&&ae!=K&&D(G,K,E(A),E(_),E(B),E(I))}else for(let U=L==
 1?s:r;U>=s&&U<=r;U+=L){let A=l[U];A===null?te=!0:A!=null&&P(G,S(a[U]),E(A))}let[$,ee]=Fi(n,o);if(i.fill!=null||$!=0){let U=O.fill=new Path2D(G),A=i.fillTo(n,o,i.
 min,i.max,$),_=E(A),B=S(a[s]),I=S(a[r]);L==-1&&([I,B]=[B,I]),P(U,I,_),P(U,B,_)}if(!i.spanGaps){let U=[];te&&U.push(...Ii(a,l,s,r,L,S,e)),O.gaps=U=i.gaps(n,o,s,r,
-U),O.clip=Bs(U,c.ori,m,w,v,b)}return ee!=0&&(O.band=ee==2?[tn(n,o,s,r,G,-1),tn(n,o,s,r,G,1)]:tn(n,o,s,r,G,ee)),O})}function Jf(t){let e=ye(t.align,1),n=ye(t.ascDesc,
+U),O.clip=Bs(U,c.ori,m,w,v,b)}return ee!=0&&(O.band=ee==2?[tn(n,o,s,r,G,-1),tn(n,o,s,r,G,1)]:tn(n,o,s,r,G,ee)),O})}function Zf(t){let e=ye(t.align,1),n=ye(t.ascDesc,
 !1),o=ye(t.alignGaps,0),s=ye(t.extend,!1);return(r,i,a,l)=>Dn(r,i,(c,h,d,u,m,w,v,b,M,S,E)=>{[a,l]=Fs(d,a,l);let P=c.pxRound,{left:D,width:L}=r.bbox,O=J=>P(w(J,u,
 S,b)),G=J=>P(v(J,m,E,M)),te=u.ori==0?ko:So,X={stroke:new Path2D,fill:null,clip:null,band:null,gaps:null,flags:xo},$=X.stroke,ee=u.dir*(u.ori==0?1:-1),U=G(d[ee==
 1?a:l]),A=O(h[ee==1?a:l]),_=A,B=A;s&&e==-1&&(B=D,te($,B,U)),te($,A,U);for(let J=ee==1?a:l;J>=a&&J<=l;J+=ee){let Q=d[J];if(Q==null)continue;let q=O(h[J]),W=G(Q);
@@ -424,7 +424,7 @@ e==1?te($,q,U):te($,_,W),te($,q,W),U=W,_=q}let I=_;s&&e==1&&(I=D+L,te($,I,U));le
 i,c.min,c.max,ae),q=G(Q);te(J,I,q),te(J,B,q)}if(!c.spanGaps){let J=[];J.push(...Ii(h,d,a,l,ee,O,o));let Q=c.width*be/2,q=n||e==1?Q:-Q,W=n||e==-1?-Q:Q;J.forEach(
 de=>{de[0]+=q,de[1]+=W}),X.gaps=J=c.gaps(r,i,a,l,J),X.clip=Bs(J,u.ori,b,M,S,E)}return K!=0&&(X.band=K==2?[tn(r,i,a,l,$,-1),tn(r,i,a,l,$,1)]:tn(r,i,a,l,$,K)),X})}
 function pc(t,e,n,o,s,r,i=Me){if(t.length>1){let a=null;for(let l=0,c=1/0;l<t.length;l++)if(e[l]!==void 0){if(a!=null){let h=He(t[l]-t[a]);h<c&&(c=h,i=He(n(t[l],
-o,s,r)-n(t[a],o,s,r)))}a=l}}return i}function Xf(t){t=t||qo;let e=ye(t.size,[.6,Me,1]),n=t.align||0,o=t.gap||0,s=t.radius;s=s==null?[0,0]:typeof s=="number"?[s,
+o,s,r)-n(t[a],o,s,r)))}a=l}}return i}function Qf(t){t=t||qo;let e=ye(t.size,[.6,Me,1]),n=t.align||0,o=t.gap||0,s=t.radius;s=s==null?[0,0]:typeof s=="number"?[s,
 0]:s;let r=pe(s),i=1-e[0],a=ye(e[1],Me),l=ye(e[2],1),c=ye(t.disp,qo),h=ye(t.each,m=>{}),{fill:d,stroke:u}=c;return(m,w,v,b)=>Dn(m,w,(M,S,E,P,D,L,O,G,te,X,$)=>{let ee=M.
 pxRound,U=n,A=o*be,_=a*be,B=l*be,I,ae;P.ori==0?[I,ae]=r(m,w):[ae,I]=r(m,w);let K=P.dir*(P.ori==0?1:-1),J=P.ori==0?Hs:Oi,Q=P.ori==0?h:(V,Se,De,z,ie,me,st)=>{h(V,
 Se,De,ie,z,st,me)},q=ye(m.bands,Li).find(V=>V.series[0]==w),W=q!=null?q.dir:0,de=M.fillTo(m,w,M.min,M.max,W),ue=ee(O(de,D,$,te)),he,se,Be,We=X,xe=ee(M.width*be),
@@ -437,51 +437,51 @@ series[1]];else{let{y0:V,y1:Se}=c;V!=null&&Se!=null&&(E=Se.values(m,w,v,b),Nt=V.
 if(Se==null)continue;if(Nt!=null){let ut=Nt[V]??0;if(Se-ut==0)continue;ue=O(ut,D,$,te)}let De=P.distr!=2||c!=null?S[V]:V,z=L(De,P,X,G),ie=O(ye(Se,de),D,$,te),me=ee(
 z-he),st=ee(pt(ie,ue)),ft=ee(Ut(ie,ue)),kt=st-ft;if(Se!=null){let ut=Se<0?re:Gt,Dt=Se<0?Gt:re;it?(xe>0&&Fe[V]!=null&&J(Ct.get(Fe[V]),me,ft+xt(xe/2),se,pt(0,kt-xe),
 ut,Dt),ot[V]!=null&&J(Ne.get(ot[V]),me,ft+xt(xe/2),se,pt(0,kt-xe),ut,Dt)):J(Jt,me,ft+xt(xe/2),se,pt(0,kt-xe),ut,Dt),Q(m,w,V,me-xe/2,ft,se+xe,kt)}}return xe>0?ze.
-stroke=it?Ct:Jt:it||(ze._fill=M.width==0?M._fill:M._stroke??M._fill,ze.width=0),ze.fill=it?Ne:Jt,ze})}function Zf(t,e){let n=ye(e?.alignGaps,0);return(o,s,r,i)=>Dn(
+stroke=it?Ct:Jt:it||(ze._fill=M.width==0?M._fill:M._stroke??M._fill,ze.width=0),ze.fill=it?Ne:Jt,ze})}function em(t,e){let n=ye(e?.alignGaps,0);return(o,s,r,i)=>Dn(
 o,s,(a,l,c,h,d,u,m,w,v,b,M)=>{[r,i]=Fs(c,r,i);let S=a.pxRound,E=I=>S(u(I,h,b,w)),P=I=>S(m(I,d,M,v)),D,L,O;h.ori==0?(D=Ws,O=ko,L=Yc):(D=Gs,O=So,L=qc);let G=h.dir*
 (h.ori==0?1:-1),te=E(l[G==1?r:i]),X=te,$=[],ee=[];for(let I=G==1?r:i;I>=r&&I<=i;I+=G)if(c[I]!=null){let K=l[I],J=E(K);$.push(X=J),ee.push(P(c[I]))}let U={stroke:t(
 $,ee,D,O,L,S),fill:null,clip:null,band:null,gaps:null,flags:xo},A=U.stroke,[_,B]=Fi(o,s);if(a.fill!=null||_!=0){let I=U.fill=new Path2D(A),ae=a.fillTo(o,s,a.min,
 a.max,_),K=P(ae);O(I,X,K),O(I,te,K)}if(!a.spanGaps){let I=[];I.push(...Ii(l,c,r,i,G,E,n)),U.gaps=I=a.gaps(o,s,r,i,I),U.clip=Bs(I,h.ori,w,v,b,M)}return B!=0&&(U.
-band=B==2?[tn(o,s,r,i,A,-1),tn(o,s,r,i,A,1)]:tn(o,s,r,i,A,B)),U})}function Qf(t){return Zf(em,t)}function em(t,e,n,o,s,r){let i=t.length;if(i<2)return null;let a=new Path2D;
+band=B==2?[tn(o,s,r,i,A,-1),tn(o,s,r,i,A,1)]:tn(o,s,r,i,A,B)),U})}function tm(t){return em(nm,t)}function nm(t,e,n,o,s,r){let i=t.length;if(i<2)return null;let a=new Path2D;
 if(n(a,t[0],e[0]),i==2)o(a,t[1],e[1]);else{let l=Array(i),c=Array(i-1),h=Array(i-1),d=Array(i-1);for(let u=0;u<i-1;u++)h[u]=e[u+1]-e[u],d[u]=t[u+1]-t[u],c[u]=h[u]/
 d[u];l[0]=c[0];for(let u=1;u<i-1;u++)c[u]===0||c[u-1]===0||c[u-1]>0!=c[u]>0?l[u]=0:(l[u]=3*(d[u-1]+d[u])/((2*d[u]+d[u-1])/c[u-1]+(d[u]+2*d[u-1])/c[u]),isFinite(
 l[u])||(l[u]=0));l[i-1]=c[i-2];for(let u=0;u<i-1;u++)s(a,t[u]+d[u]/3,e[u]+l[u]*d[u]/3,t[u+1]-d[u]/3,e[u+1]-l[u+1]*d[u]/3,t[u+1],e[u+1])}return a}var Si=new Set;
-function uc(){for(let t of Si)t.syncRect(!0)}vo&&(Ln(Dd,go,uc),Ln(Rd,go,uc,!0),Ln(Ds,go,()=>{je.pxRatio=be}));var tm=Xc(),nm=Kc();function dc(t,e,n,o){return(o?
-[t[0],t[1]].concat(t.slice(2)):[t[0]].concat(t.slice(1))).map((r,i)=>Mi(r,i,e,n))}function om(t,e){return t.map((n,o)=>o==0?{}:Ue({},e,n))}function Mi(t,e,n,o){
-return Ue({},e==0?n:o,t)}function Zc(t,e,n){return e==null?wo:[e,n]}var sm=Zc;function rm(t,e,n){return e==null?wo:Rs(e,n,_i,!0)}function Qc(t,e,n,o){return e==
-null?wo:Is(e,n,t.scales[o].log,!1)}var im=Qc;function eh(t,e,n,o){return e==null?wo:Pi(e,n,t.scales[o].log,!1)}var am=eh;function lm(t,e,n,o,s){let r=pt(Vl(t),Vl(
+function uc(){for(let t of Si)t.syncRect(!0)}vo&&(Ln($d,go,uc),Ln(Fd,go,uc,!0),Ln(Ds,go,()=>{je.pxRatio=be}));var om=Xc(),sm=Kc();function dc(t,e,n,o){return(o?
+[t[0],t[1]].concat(t.slice(2)):[t[0]].concat(t.slice(1))).map((r,i)=>Mi(r,i,e,n))}function rm(t,e){return t.map((n,o)=>o==0?{}:Ue({},e,n))}function Mi(t,e,n,o){
+return Ue({},e==0?n:o,t)}function Zc(t,e,n){return e==null?wo:[e,n]}var im=Zc;function am(t,e,n){return e==null?wo:Rs(e,n,_i,!0)}function Qc(t,e,n,o){return e==
+null?wo:Is(e,n,t.scales[o].log,!1)}var lm=Qc;function eh(t,e,n,o){return e==null?wo:Pi(e,n,t.scales[o].log,!1)}var cm=eh;function hm(t,e,n,o,s){let r=pt(Vl(t),Vl(
 e)),i=e-t,a=Ot(s/o*i,n);do{let l=n[a],c=o*l/i;if(c>=s&&r+(l<5?fn.get(l):0)<=17)return[l,c]}while(++a<n.length);return[0,0]}function fc(t){let e,n;return t=t.replace(
-/(\d+)px/,(o,s)=>(e=Ge((n=+s)*be))+"px"),[t,e,n]}function cm(t){t.show&&[t.font,t.labelFont].forEach(e=>{let n=Te(e[2]*be,1);e[0]=e[0].replace(/[0-9.]+px/,n+"px"),
+/(\d+)px/,(o,s)=>(e=Ge((n=+s)*be))+"px"),[t,e,n]}function pm(t){t.show&&[t.font,t.labelFont].forEach(e=>{let n=Te(e[2]*be,1);e[0]=e[0].replace(/[0-9.]+px/,n+"px"),
 e[1]=n})}function je(t,e,n){let o={mode:ye(t.mode,1)},s=o.mode;function r(p,f,g,y){let x=f.valToPct(p);return y+g*(f.dir==-1?1-x:x)}function i(p,f,g,y){let x=f.
 valToPct(p);return y+g*(f.dir==-1?x:1-x)}function a(p,f,g,y){return f.ori==0?r(p,f,g,y):i(p,f,g,y)}o.valToPosH=r,o.valToPosV=i;let l=!1;o.status=0;let c=o.root=
-Pt(md);if(t.id!=null&&(c.id=t.id),bt(c,t.class),t.title){let p=Pt(wd,c);p.textContent=t.title}let h=It("canvas"),d=o.ctx=h.getContext("2d"),u=Pt(bd,c);Ln("click",
-u,p=>{p.target===w&&(Ae!=Yn||Ce!=qn)&&et.click(o,p)},!0);let m=o.under=Pt(xd,u);u.appendChild(h);let w=o.over=Pt(vd,u);t=bo(t);let v=+ye(t.pxAlign,1),b=hc(v);(t.
-plugins||[]).forEach(p=>{p.opts&&(t=p.opts(o,t)||t)});let M=t.ms||.001,S=o.series=s==1?dc(t.series||[],oc,lc,!1):om(t.series||[null],ac),E=o.axes=dc(t.axes||[],
-nc,rc,!0),P=o.scales={},D=o.bands=t.bands||[];D.forEach(p=>{p.fill=pe(p.fill||null),p.dir=ye(p.dir,-1)});let L=s==2?S[1].facets[0].scale:S[0].scale,O={axes:hu,series:ru},
+Pt(yd);if(t.id!=null&&(c.id=t.id),bt(c,t.class),t.title){let p=Pt(xd,c);p.textContent=t.title}let h=It("canvas"),d=o.ctx=h.getContext("2d"),u=Pt(vd,c);Ln("click",
+u,p=>{p.target===w&&(Ae!=Yn||Ce!=qn)&&et.click(o,p)},!0);let m=o.under=Pt(kd,u);u.appendChild(h);let w=o.over=Pt(Sd,u);t=bo(t);let v=+ye(t.pxAlign,1),b=hc(v);(t.
+plugins||[]).forEach(p=>{p.opts&&(t=p.opts(o,t)||t)});let M=t.ms||.001,S=o.series=s==1?dc(t.series||[],oc,lc,!1):rm(t.series||[null],ac),E=o.axes=dc(t.axes||[],
+nc,rc,!0),P=o.scales={},D=o.bands=t.bands||[];D.forEach(p=>{p.fill=pe(p.fill||null),p.dir=ye(p.dir,-1)});let L=s==2?S[1].facets[0].scale:S[0].scale,O={axes:uu,series:au},
 G=(t.drawOrder||["axes","series"]).map(p=>O[p]);function te(p){let f=p.distr==3?g=>en(g>0?g:p.clamp(o,g,p.min,p.max,p.key)):p.distr==4?g=>pi(g,p.asinh):p.distr==
 100?g=>p.fwd(g):g=>g;return g=>{let y=f(g),{_min:x,_max:T}=p,N=T-x;return(y-x)/N}}function X(p){let f=P[p];if(f==null){let g=(t.scales||qo)[p]||qo;if(g.from!=null){
-X(g.from);let y=Ue({},P[g.from],g,{key:p});y.valToPct=te(y),P[p]=y}else{f=P[p]=Ue({},p==L?Gc:Vf,g),f.key=p;let y=f.time,x=f.range,T=dn(x);if((p!=L||s==2&&!y)&&(T&&
+X(g.from);let y=Ue({},P[g.from],g,{key:p});y.valToPct=te(y),P[p]=y}else{f=P[p]=Ue({},p==L?Gc:Yf,g),f.key=p;let y=f.time,x=f.range,T=dn(x);if((p!=L||s==2&&!y)&&(T&&
 (x[0]==null||x[1]==null)&&(x={min:x[0]==null?Gl:{mode:1,hard:x[0],soft:x[0]},max:x[1]==null?Gl:{mode:1,hard:x[1],soft:x[1]}},T=!1),!T&&Us(x))){let N=x;x=(R,F,H)=>F==
-null?wo:Rs(F,H,N)}f.range=pe(x||(y?sm:p==L?f.distr==3?im:f.distr==4?am:Zc:f.distr==3?Qc:f.distr==4?eh:rm)),f.auto=pe(T?!1:f.auto),f.clamp=pe(f.clamp||jf),f._min=
+null?wo:Rs(F,H,N)}f.range=pe(x||(y?im:p==L?f.distr==3?lm:f.distr==4?cm:Zc:f.distr==3?Qc:f.distr==4?eh:am)),f.auto=pe(T?!1:f.auto),f.clamp=pe(f.clamp||zf),f._min=
 f._max=null,f.valToPct=te(f)}}}X("x"),X("y"),s==1&&S.forEach(p=>{X(p.scale)}),E.forEach(p=>{X(p.scale)});for(let p in t.scales)X(p);let $=P[L],ee=$.distr,U,A;$.
-ori==0?(bt(c,gd),U=r,A=i):(bt(c,yd),U=i,A=r);let _={};for(let p in P){let f=P[p];(f.min!=null||f.max!=null)&&(_[p]={min:f.min,max:f.max},f.min=f.max=null)}let B=t.
-tzDate||(p=>new Date(Ge(p/M))),I=t.fmtDate||Ni,ae=M==1?yf(B):xf(B),K=Ql(B,Zl(M==1?gf:bf,I)),J=tc(B,ec(kf,I)),Q=[],q=o.legend=Ue({},Tf,t.legend),W=o.cursor=Ue({},
-Lf,{drag:{y:s==2}},t.cursor),de=q.show,ue=W.show,he=q.markers;q.idxs=Q,he.width=pe(he.width),he.dash=pe(he.dash),he.stroke=pe(he.stroke),he.fill=pe(he.fill);let se,
-Be,We,xe=[],it=[],ot,Ne=!1,Fe={};if(q.live){let p=S[1]?S[1].values:null;Ne=p!=null,ot=Ne?p(o,1,0):{_:0};for(let f in ot)Fe[f]=Ai}if(de)if(se=It("table",Ed,c),We=
+ori==0?(bt(c,wd),U=r,A=i):(bt(c,bd),U=i,A=r);let _={};for(let p in P){let f=P[p];(f.min!=null||f.max!=null)&&(_[p]={min:f.min,max:f.max},f.min=f.max=null)}let B=t.
+tzDate||(p=>new Date(Ge(p/M))),I=t.fmtDate||Ni,ae=M==1?bf(B):kf(B),K=Ql(B,Zl(M==1?wf:vf,I)),J=tc(B,ec(Mf,I)),Q=[],q=o.legend=Ue({},Ef,t.legend),W=o.cursor=Ue({},
+Df,{drag:{y:s==2}},t.cursor),de=q.show,ue=W.show,he=q.markers;q.idxs=Q,he.width=pe(he.width),he.dash=pe(he.dash),he.stroke=pe(he.stroke),he.fill=pe(he.fill);let se,
+Be,We,xe=[],it=[],ot,Ne=!1,Fe={};if(q.live){let p=S[1]?S[1].values:null;Ne=p!=null,ot=Ne?p(o,1,0):{_:0};for(let f in ot)Fe[f]=Ai}if(de)if(se=It("table",_d,c),We=
 It("tbody",null,se),q.mount(o,se),Ne){Be=It("thead",null,se,We);let p=It("tr",null,Be);It("th",null,p);for(var Ct in ot)It("th",_l,p).textContent=Ct}else bt(se,
-_d),q.live&&bt(se,Pd);let Lt={show:!0},yn={show:!1};function on(p,f){if(f==0&&(Ne||!q.live||s==2))return wo;let g=[],y=It("tr",Cd,We,We.childNodes[f]);bt(y,p.class),
-p.show||bt(y,Cn);let x=It("th",null,y);if(he.show){let R=Pt(Ld,x);if(f>0){let F=he.width(o,f);F&&(R.style.border=F+"px "+he.dash(o,f)+" "+he.stroke(o,f)),R.style.
+Ld),q.live&&bt(se,Cd);let Lt={show:!0},yn={show:!1};function on(p,f){if(f==0&&(Ne||!q.live||s==2))return wo;let g=[],y=It("tr",Nd,We,We.childNodes[f]);bt(y,p.class),
+p.show||bt(y,Cn);let x=It("th",null,y);if(he.show){let R=Pt(Dd,x);if(f>0){let F=he.width(o,f);F&&(R.style.border=F+"px "+he.dash(o,f)+" "+he.stroke(o,f)),R.style.
 background=he.fill(o,f)}}let T=Pt(_l,x);p.label instanceof HTMLElement?T.appendChild(p.label):T.textContent=p.label,f>0&&(he.show||(T.style.color=p.width>0?he.stroke(
 o,f):he.fill(o,f)),ze("click",x,R=>{if(W._lock)return;bn(R);let F=S.indexOf(p);if((R.ctrlKey||R.metaKey)!=q.isolate){let H=S.some((j,Y)=>Y>0&&Y!=F&&j.show);S.forEach(
 (j,Y)=>{Y>0&&jt(Y,H?Y==F?Lt:yn:Lt,!0,Ie.setSeries)})}else jt(F,{show:!p.show},!0,Ie.setSeries)},!1),On&&ze(Dl,x,R=>{W._lock||(bn(R),jt(S.indexOf(p),Jn,!0,Ie.setSeries))},
-!1));for(var N in ot){let R=It("td",Nd,y);R.textContent="--",g.push(R)}return[y,g]}let Wt=new Map;function ze(p,f,g,y=!0){let x=Wt.get(f)||{},T=W.bind[p](o,f,g,
+!1));for(var N in ot){let R=It("td",Rd,y);R.textContent="--",g.push(R)}return[y,g]}let Wt=new Map;function ze(p,f,g,y=!0){let x=Wt.get(f)||{},T=W.bind[p](o,f,g,
 y);T&&(Ln(p,f,x[p]=T),Wt.set(f,x))}function Jt(p,f,g){let y=Wt.get(f)||{};for(let x in y)(p==null||x==p)&&(wi(x,f,y[x]),delete y[x]);p==null&&Wt.delete(f)}let Nt=0,
 Gt=0,re=0,V=0,Se=0,De=0,z=Se,ie=De,me=re,st=V,ft=0,kt=0,ut=0,Dt=0;o.bbox={};let Sr=!1,Qo=!1,In=!1,wn=!1,es=!1,St=!1;function Mr(p,f,g){(g||p!=o.width||f!=o.height)&&
-pa(p,f),Hn(!1),In=!0,Qo=!0,jn()}function pa(p,f){o.width=Nt=re=p,o.height=Gt=V=f,Se=De=0,Zp(),Qp();let g=o.bbox;ft=g.left=Pn(Se*be,.5),kt=g.top=Pn(De*be,.5),ut=
-g.width=Pn(re*be,.5),Dt=g.height=Pn(V*be,.5)}let Kp=3;function Jp(){let p=!1,f=0;for(;!p;){f++;let g=lu(f),y=cu(f);p=f==Kp||g&&y,p||(pa(o.width,o.height),Qo=!0)}}
-function Xp({width:p,height:f}){Mr(p,f)}o.setSize=Xp;function Zp(){let p=!1,f=!1,g=!1,y=!1;E.forEach((x,T)=>{if(x.show&&x._show){let{side:N,_size:R}=x,F=N%2,H=x.
+pa(p,f),Hn(!1),In=!0,Qo=!0,jn()}function pa(p,f){o.width=Nt=re=p,o.height=Gt=V=f,Se=De=0,eu(),tu();let g=o.bbox;ft=g.left=Pn(Se*be,.5),kt=g.top=Pn(De*be,.5),ut=
+g.width=Pn(re*be,.5),Dt=g.height=Pn(V*be,.5)}let Xp=3;function Zp(){let p=!1,f=0;for(;!p;){f++;let g=hu(f),y=pu(f);p=f==Xp||g&&y,p||(pa(o.width,o.height),Qo=!0)}}
+function Qp({width:p,height:f}){Mr(p,f)}o.setSize=Qp;function eu(){let p=!1,f=!1,g=!1,y=!1;E.forEach((x,T)=>{if(x.show&&x._show){let{side:N,_size:R}=x,F=N%2,H=x.
 label!=null?x.labelSize:0,j=R+H;j>0&&(F?(re-=j,N==3?(Se+=j,y=!0):g=!0):(V-=j,N==0?(De+=j,p=!0):f=!0))}}),xn[0]=p,xn[1]=g,xn[2]=f,xn[3]=y,re-=sn[1]+sn[3],Se+=sn[3],
-V-=sn[2]+sn[0],De+=sn[0]}function Qp(){let p=Se+re,f=De+V,g=Se,y=De;function x(T,N){switch(T){case 1:return p+=N,p-N;case 2:return f+=N,f-N;case 3:return g-=N,g+
+V-=sn[2]+sn[0],De+=sn[0]}function tu(){let p=Se+re,f=De+V,g=Se,y=De;function x(T,N){switch(T){case 1:return p+=N,p-N;case 2:return f+=N,f-N;case 3:return g-=N,g+
 N;case 0:return y-=N,y+N}}E.forEach((T,N)=>{if(T.show&&T._show){let R=T.side;T._pos=x(R,T._size),T.label!=null&&(T._lpos=x(R,T.labelSize))}})}if(W.dataIdx==null){
 let p=W.hover,f=p.skip=new Set(p.skip??[]);f.add(void 0);let g=p.prox=pe(p.prox),y=p.bias??=0;W.dataIdx=(x,T,N,R)=>{if(T==0)return N;let F=N,H=g(x,T,N,R)??Me,j=H>=
 0&&H<Me,Y=$.ori==0?re:V,oe=W.left,we=e[0],ge=e[T];if(f.has(ge[N])){F=null;let ce=null,ne=null,Z;if(y==0||y==-1)for(Z=N;ce==null&&Z-- >0;)f.has(ge[Z])||(ce=Z);if(y==
@@ -489,20 +489,20 @@ let p=W.hover,f=p.skip=new Set(p.skip??[]);f.add(void 0);let g=p.prox=pe(p.prox)
 Pe,ke=Re-oe;Ze<=ke?Ze<=H&&(F=ce):ke<=H&&(F=ne)}else F=ne==null?ce:ce==null?ne:N-ce<=ne-N?ce:ne}else j&&He(oe-U(we[N],$,Y,0))>H&&(F=null);return F}}let bn=p=>{W.
 event=p};W.idxs=Q,W._lock=!1;let rt=W.points;rt.show=pe(rt.show),rt.size=pe(rt.size),rt.stroke=pe(rt.stroke),rt.width=pe(rt.width),rt.fill=pe(rt.fill);let Ht=o.
 focus=Ue({},t.focus||{alpha:.3},W.focus),On=Ht.prox>=0,Un=On&&rt.one,Mt=[],Bn=[],Wn=[];function ua(p,f){let g=rt.show(o,f);if(g instanceof HTMLElement)return bt(
-g,Ad),bt(g,p.class),Kt(g,-10,-10,re,V),w.insertBefore(g,Mt[f]),g}function da(p,f){if(s==1||f>0){let g=s==1&&P[p.scale].time,y=p.value;p.value=g?ql(y)?tc(B,ec(y,
-I)):y||J:y||Wf,p.label=p.label||(g?Df:Nf)}if(Un||f>0){p.width=p.width==null?1:p.width,p.paths=p.paths||tm||jd,p.fillTo=pe(p.fillTo||zf),p.pxAlign=+ye(p.pxAlign,
-v),p.pxRound=hc(p.pxAlign),p.stroke=pe(p.stroke||null),p.fill=pe(p.fill||null),p._stroke=p._fill=p._paths=p._focus=null;let g=Gf(pt(1,p.width),1),y=p.points=Ue(
-{},{size:g,width:pt(1,g*.2),stroke:p.stroke,space:g*2,paths:nm,_stroke:null,_fill:null},p.points);y.show=pe(y.show),y.filter=pe(y.filter),y.fill=pe(y.fill),y.stroke=
+g,Pd),bt(g,p.class),Kt(g,-10,-10,re,V),w.insertBefore(g,Mt[f]),g}function da(p,f){if(s==1||f>0){let g=s==1&&P[p.scale].time,y=p.value;p.value=g?ql(y)?tc(B,ec(y,
+I)):y||J:y||Hf,p.label=p.label||(g?$f:Rf)}if(Un||f>0){p.width=p.width==null?1:p.width,p.paths=p.paths||om||zd,p.fillTo=pe(p.fillTo||qf),p.pxAlign=+ye(p.pxAlign,
+v),p.pxRound=hc(p.pxAlign),p.stroke=pe(p.stroke||null),p.fill=pe(p.fill||null),p._stroke=p._fill=p._paths=p._focus=null;let g=jf(pt(1,p.width),1),y=p.points=Ue(
+{},{size:g,width:pt(1,g*.2),stroke:p.stroke,space:g*2,paths:sm,_stroke:null,_fill:null},p.points);y.show=pe(y.show),y.filter=pe(y.filter),y.fill=pe(y.fill),y.stroke=
 pe(y.stroke),y.paths=pe(y.paths),y.pxAlign=p.pxAlign}if(de){let g=on(p,f);xe.splice(f,0,g[0]),it.splice(f,0,g[1]),q.values.push(null)}if(ue){Q.splice(f,0,null);
-let g=null;Un?f==0&&(g=ua(p,f)):f>0&&(g=ua(p,f)),Mt.splice(f,0,g),Bn.splice(f,0,0),Wn.splice(f,0,0)}Xe("addSeries",f)}function eu(p,f){f=f??S.length,p=s==1?Mi(p,
-f,oc,lc):Mi(p,f,{},ac),S.splice(f,0,p),da(S[f],f)}o.addSeries=eu;function tu(p){if(S.splice(p,1),de){q.values.splice(p,1),it.splice(p,1);let f=xe.splice(p,1)[0];
-Jt(null,f.firstChild),f.remove()}ue&&(Q.splice(p,1),Mt.splice(p,1)[0].remove(),Bn.splice(p,1),Wn.splice(p,1)),Xe("delSeries",p)}o.delSeries=tu;let xn=[!1,!1,!1,
-!1];function nu(p,f){if(p._show=p.show,p.show){let g=p.side%2,y=P[p.scale];y==null&&(p.scale=g?S[1].scale:L,y=P[p.scale]);let x=y.time;p.size=pe(p.size),p.space=
-pe(p.space),p.rotate=pe(p.rotate),dn(p.incrs)&&p.incrs.forEach(N=>{!fn.has(N)&&fn.set(N,Sc(N))}),p.incrs=pe(p.incrs||(y.distr==2?df:x?M==1?mf:wf:_n)),p.splits=pe(
-p.splits||(x&&y.distr==1?ae:y.distr==3?xi:y.distr==4?Ff:$f)),p.stroke=pe(p.stroke),p.grid.stroke=pe(p.grid.stroke),p.ticks.stroke=pe(p.ticks.stroke),p.border.stroke=
-pe(p.border.stroke);let T=p.values;p.values=dn(T)&&!dn(T[0])?pe(T):x?dn(T)?Ql(B,Zl(T,I)):ql(T)?vf(B,T):T||K:T||Rf,p.filter=pe(p.filter||(y.distr>=3&&y.log==10?Uf:
-y.distr==3&&y.log==2?Bf:vc)),p.font=fc(p.font),p.labelFont=fc(p.labelFont),p._size=p.size(o,null,f,0),p._space=p._rotate=p._incrs=p._found=p._splits=p._values=null,
-p._size>0&&(xn[f]=!0,p._el=Pt(kd,u))}}function Po(p,f,g,y){let[x,T,N,R]=g,F=f%2,H=0;return F==0&&(R||T)&&(H=f==0&&!x||f==2&&!N?Ge(nc.size/3):0),F==1&&(x||N)&&(H=
+let g=null;Un?f==0&&(g=ua(p,f)):f>0&&(g=ua(p,f)),Mt.splice(f,0,g),Bn.splice(f,0,0),Wn.splice(f,0,0)}Xe("addSeries",f)}function nu(p,f){f=f??S.length,p=s==1?Mi(p,
+f,oc,lc):Mi(p,f,{},ac),S.splice(f,0,p),da(S[f],f)}o.addSeries=nu;function ou(p){if(S.splice(p,1),de){q.values.splice(p,1),it.splice(p,1);let f=xe.splice(p,1)[0];
+Jt(null,f.firstChild),f.remove()}ue&&(Q.splice(p,1),Mt.splice(p,1)[0].remove(),Bn.splice(p,1),Wn.splice(p,1)),Xe("delSeries",p)}o.delSeries=ou;let xn=[!1,!1,!1,
+!1];function su(p,f){if(p._show=p.show,p.show){let g=p.side%2,y=P[p.scale];y==null&&(p.scale=g?S[1].scale:L,y=P[p.scale]);let x=y.time;p.size=pe(p.size),p.space=
+pe(p.space),p.rotate=pe(p.rotate),dn(p.incrs)&&p.incrs.forEach(N=>{!fn.has(N)&&fn.set(N,Sc(N))}),p.incrs=pe(p.incrs||(y.distr==2?mf:x?M==1?yf:xf:_n)),p.splits=pe(
+p.splits||(x&&y.distr==1?ae:y.distr==3?xi:y.distr==4?Of:If)),p.stroke=pe(p.stroke),p.grid.stroke=pe(p.grid.stroke),p.ticks.stroke=pe(p.ticks.stroke),p.border.stroke=
+pe(p.border.stroke);let T=p.values;p.values=dn(T)&&!dn(T[0])?pe(T):x?dn(T)?Ql(B,Zl(T,I)):ql(T)?Sf(B,T):T||K:T||Ff,p.filter=pe(p.filter||(y.distr>=3&&y.log==10?Wf:
+y.distr==3&&y.log==2?Gf:vc)),p.font=fc(p.font),p.labelFont=fc(p.labelFont),p._size=p.size(o,null,f,0),p._space=p._rotate=p._incrs=p._found=p._splits=p._values=null,
+p._size>0&&(xn[f]=!0,p._el=Pt(Md,u))}}function Po(p,f,g,y){let[x,T,N,R]=g,F=f%2,H=0;return F==0&&(R||T)&&(H=f==0&&!x||f==2&&!N?Ge(nc.size/3):0),F==1&&(x||N)&&(H=
 f==1&&!T||f==3&&!R?Ge(rc.size/2):0),H}let fa=o.padding=(t.padding||[Po,Po,Po,Po]).map(p=>pe(ye(p,Po))),sn=o._padding=fa.map((p,f)=>p(o,f,xn,0)),Qe,Ye=null,qe=null,
 ts=s==1?S[0].idxs:null,Rt=null,_o=!1;function ma(p,f){if(e=p??[],o.data=o._data=e,s==2){Qe=0;for(let g=1;g<S.length;g++)Qe+=e[g][0].length}else{e.length==0&&(o.
 data=o._data=e=[[]]),Rt=e[0],Qe=Rt.length;let g=e;if(ee==2){g=e.slice();let y=g[0]=Array(Qe);for(let x=0;x<Qe;x++)y[x]=x}o._data=e=g}if(Hn(!0),Xe("setData"),ee==
@@ -511,9 +511,9 @@ ts[1]=Qe-1,p=e[0][Ye],f=e[0][qe],ee==2?(p=Ye,f=qe):p==f&&(ee==3?[p,f]=Is(p,p,$.l
 (Ye=ts[0]=p=null,qe=ts[1]=f=null)),an(L,p,f)}let ns,Gn,Ar,Er,Pr,_r,Cr,Lr,Nr,dt;function ga(p,f,g,y,x,T){p??=Ll,g??=Li,y??="butt",x??=Ll,T??="round",p!=ns&&(d.strokeStyle=
 ns=p),x!=Gn&&(d.fillStyle=Gn=x),f!=Ar&&(d.lineWidth=Ar=f),T!=Pr&&(d.lineJoin=Pr=T),y!=_r&&(d.lineCap=_r=y),g!=Er&&d.setLineDash(Er=g)}function ya(p,f,g,y){f!=Gn&&
 (d.fillStyle=Gn=f),p!=Cr&&(d.font=Cr=p),g!=Lr&&(d.textAlign=Lr=g),y!=Nr&&(d.textBaseline=Nr=y)}function Dr(p,f,g,y,x=0){if(y.length>0&&p.auto(o,_o)&&(f==null||f.
-min==null)){let T=ye(Ye,0),N=ye(qe,y.length-1),R=g.min==null?Od(y,T,N,x,p.distr==3):[g.min,g.max];p.min=Ut(p.min,g.min=R[0]),p.max=pt(p.max,g.max=R[1])}}let wa={
-min:null,max:null};function ou(){for(let y in P){let x=P[y];_[y]==null&&(x.min==null||_[L]!=null&&x.auto(o,_o))&&(_[y]=wa)}for(let y in P){let x=P[y];_[y]==null&&
-x.from!=null&&_[x.from]!=null&&(_[y]=wa)}_[L]!=null&&Hn(!0);let p={};for(let y in _){let x=_[y];if(x!=null){let T=p[y]=bo(P[y],Yd);if(x.min!=null)Ue(T,x);else if(y!=
+min==null)){let T=ye(Ye,0),N=ye(qe,y.length-1),R=g.min==null?Bd(y,T,N,x,p.distr==3):[g.min,g.max];p.min=Ut(p.min,g.min=R[0]),p.max=pt(p.max,g.max=R[1])}}let wa={
+min:null,max:null};function ru(){for(let y in P){let x=P[y];_[y]==null&&(x.min==null||_[L]!=null&&x.auto(o,_o))&&(_[y]=wa)}for(let y in P){let x=P[y];_[y]==null&&
+x.from!=null&&_[x.from]!=null&&(_[y]=wa)}_[L]!=null&&Hn(!0);let p={};for(let y in _){let x=_[y];if(x!=null){let T=p[y]=bo(P[y],Kd);if(x.min!=null)Ue(T,x);else if(y!=
 L||s==2)if(Qe==0&&T.from==null){let N=T.range(o,null,null,y);T.min=N[0],T.max=N[1]}else T.min=Me,T.max=-Me}}if(Qe>0){S.forEach((y,x)=>{if(s==1){let T=y.scale,N=_[T];
 if(N==null)return;let R=p[T];if(x==0){let F=R.range(o,R.min,R.max,T);R.min=F[0],R.max=F[1],Ye=Ot(R.min,e[0]),qe=Ot(R.max,e[0]),qe-Ye>1&&(e[0][Ye]<R.min&&Ye++,e[0][qe]>
 R.max&&qe--),y.min=Rt[Ye],y.max=Rt[qe]}else y.show&&y.auto&&Dr(R,N,y,e[x],y.sorted);y.idxs[0]=Ye,y.idxs[1]=qe}else if(x>0&&y.show&&y.auto){let[T,N]=y.facets,R=T.
@@ -522,27 +522,27 @@ T=_[y];if(x.from==null&&(T==null||T.min==null)){let N=x.range(o,x.min==Me?null:x
 if(x.from!=null){let T=p[x.from];if(T.min==null)x.min=x.max=null;else{let N=x.range(o,T.min,T.max,y);x.min=N[0],x.max=N[1]}}}let f={},g=!1;for(let y in p){let x=p[y],
 T=P[y];if(T.min!=x.min||T.max!=x.max){T.min=x.min,T.max=x.max;let N=T.distr;T._min=N==3?en(T.min):N==4?pi(T.min,T.asinh):N==100?T.fwd(T.min):T.min,T._max=N==3?en(
 T.max):N==4?pi(T.max,T.asinh):N==100?T.fwd(T.max):T.max,f[y]=g=!0}}if(g){S.forEach((y,x)=>{s==2?x>0&&f.y&&(y._paths=null):f[y.scale]&&(y._paths=null)});for(let y in f)
-In=!0,Xe("setScale",y);ue&&W.left>=0&&(wn=St=!0)}for(let y in _)_[y]=null}function su(p){let f=bi(Ye-1,0,Qe-1),g=bi(qe+1,0,Qe-1);for(;p[f]==null&&f>0;)f--;for(;p[g]==
-null&&g<Qe-1;)g++;return[f,g]}function ru(){if(Qe>0){let p=S.some(f=>f._focus)&&dt!=Ht.alpha;p&&(d.globalAlpha=dt=Ht.alpha),S.forEach((f,g)=>{if(g>0&&f.show&&(ba(
-g,!1),ba(g,!0),f._paths==null)){let y=dt;dt!=f.alpha&&(d.globalAlpha=dt=f.alpha);let x=s==2?[0,e[g][0].length-1]:su(e[g]);f._paths=f.paths(o,g,x[0],x[1]),dt!=y&&
+In=!0,Xe("setScale",y);ue&&W.left>=0&&(wn=St=!0)}for(let y in _)_[y]=null}function iu(p){let f=bi(Ye-1,0,Qe-1),g=bi(qe+1,0,Qe-1);for(;p[f]==null&&f>0;)f--;for(;p[g]==
+null&&g<Qe-1;)g++;return[f,g]}function au(){if(Qe>0){let p=S.some(f=>f._focus)&&dt!=Ht.alpha;p&&(d.globalAlpha=dt=Ht.alpha),S.forEach((f,g)=>{if(g>0&&f.show&&(ba(
+g,!1),ba(g,!0),f._paths==null)){let y=dt;dt!=f.alpha&&(d.globalAlpha=dt=f.alpha);let x=s==2?[0,e[g][0].length-1]:iu(e[g]);f._paths=f.paths(o,g,x[0],x[1]),dt!=y&&
 (d.globalAlpha=dt=y)}}),S.forEach((f,g)=>{if(g>0&&f.show){let y=dt;dt!=f.alpha&&(d.globalAlpha=dt=f.alpha),f._paths!=null&&xa(g,!1);{let x=f._paths!=null?f._paths.
 gaps:null,T=f.points.show(o,g,Ye,qe,x),N=f.points.filter(o,g,T,x);(T||N)&&(f.points._paths=f.points.paths(o,g,Ye,qe,N),xa(g,!0))}dt!=y&&(d.globalAlpha=dt=y),Xe(
 "drawSeries",g)}}),p&&(d.globalAlpha=dt=1)}}function ba(p,f){let g=f?S[p].points:S[p];g._stroke=g.stroke(o,p),g._fill=g.fill(o,p)}function xa(p,f){let g=f?S[p].
 points:S[p],{stroke:y,fill:x,clip:T,flags:N,_stroke:R=g._stroke,_fill:F=g._fill,_width:H=g.width}=g._paths;H=Te(H*be,3);let j=null,Y=H%2/2;f&&F==null&&(F=H>0?"#\
 fff":R);let oe=g.pxAlign==1&&Y>0;if(oe&&d.translate(Y,Y),!f){let we=ft-H/2,ge=kt-H/2,ce=ut+H,ne=Dt+H;j=new Path2D,j.rect(we,ge,ce,ne)}f?Rr(R,H,g.dash,g.cap,F,y,
-x,N,T):iu(p,R,H,g.dash,g.cap,F,y,x,N,j,T),oe&&d.translate(-Y,-Y)}function iu(p,f,g,y,x,T,N,R,F,H,j){let Y=!1;F!=0&&D.forEach((oe,we)=>{if(oe.series[0]==p){let ge=S[oe.
-series[1]],ce=e[oe.series[1]],ne=(ge._paths||qo).band;dn(ne)&&(ne=oe.dir==1?ne[0]:ne[1]);let Z,Pe=null;ge.show&&ne&&Bd(ce,Ye,qe)?(Pe=oe.fill(o,we)||T,Z=ge._paths.
+x,N,T):lu(p,R,H,g.dash,g.cap,F,y,x,N,j,T),oe&&d.translate(-Y,-Y)}function lu(p,f,g,y,x,T,N,R,F,H,j){let Y=!1;F!=0&&D.forEach((oe,we)=>{if(oe.series[0]==p){let ge=S[oe.
+series[1]],ce=e[oe.series[1]],ne=(ge._paths||qo).band;dn(ne)&&(ne=oe.dir==1?ne[0]:ne[1]);let Z,Pe=null;ge.show&&ne&&Gd(ce,Ye,qe)?(Pe=oe.fill(o,we)||T,Z=ge._paths.
 clip):ne=null,Rr(f,g,y,x,Pe,N,R,F,H,j,Z,ne),Y=!0}}),Y||Rr(f,g,y,x,T,N,R,F,H,j)}let va=xo|ki;function Rr(p,f,g,y,x,T,N,R,F,H,j,Y){ga(p,f,g,y,x),(F||H||Y)&&(d.save(),
 F&&d.clip(F),H&&d.clip(H)),Y?(R&va)==va?(d.clip(Y),j&&d.clip(j),ss(x,N),os(p,T,f)):R&ki?(ss(x,N),d.clip(Y),os(p,T,f)):R&xo&&(d.save(),d.clip(Y),j&&d.clip(j),ss(
 x,N),d.restore(),os(p,T,f)):(ss(x,N),os(p,T,f)),(F||H||Y)&&d.restore()}function os(p,f,g){g>0&&(f instanceof Map?f.forEach((y,x)=>{d.strokeStyle=ns=x,d.stroke(y)}):
-f!=null&&p&&d.stroke(f))}function ss(p,f){f instanceof Map?f.forEach((g,y)=>{d.fillStyle=Gn=y,d.fill(g)}):f!=null&&p&&d.fill(f)}function au(p,f,g,y){let x=E[p],
-T;if(y<=0)T=[0,0];else{let N=x._space=x.space(o,p,f,g,y),R=x._incrs=x.incrs(o,p,f,g,y,N);T=lm(f,g,R,y,N)}return x._found=T}function $r(p,f,g,y,x,T,N,R,F,H){let j=N%
+f!=null&&p&&d.stroke(f))}function ss(p,f){f instanceof Map?f.forEach((g,y)=>{d.fillStyle=Gn=y,d.fill(g)}):f!=null&&p&&d.fill(f)}function cu(p,f,g,y){let x=E[p],
+T;if(y<=0)T=[0,0];else{let N=x._space=x.space(o,p,f,g,y),R=x._incrs=x.incrs(o,p,f,g,y,N);T=hm(f,g,R,y,N)}return x._found=T}function $r(p,f,g,y,x,T,N,R,F,H){let j=N%
 2/2;v==1&&d.translate(j,j),ga(R,N,F,H,R),d.beginPath();let Y,oe,we,ge,ce=x+(y==0||y==3?-T:T);g==0?(oe=x,ge=ce):(Y=x,we=ce);for(let ne=0;ne<p.length;ne++)f[ne]!=
-null&&(g==0?Y=we=p[ne]:oe=ge=p[ne],d.moveTo(Y,oe),d.lineTo(we,ge));d.stroke(),v==1&&d.translate(-j,-j)}function lu(p){let f=!0;return E.forEach((g,y)=>{if(!g.show)
-return;let x=P[g.scale];if(x.min==null){g._show&&(f=!1,g._show=!1,Hn(!1));return}else g._show||(f=!1,g._show=!0,Hn(!1));let T=g.side,N=T%2,{min:R,max:F}=x,[H,j]=au(
+null&&(g==0?Y=we=p[ne]:oe=ge=p[ne],d.moveTo(Y,oe),d.lineTo(we,ge));d.stroke(),v==1&&d.translate(-j,-j)}function hu(p){let f=!0;return E.forEach((g,y)=>{if(!g.show)
+return;let x=P[g.scale];if(x.min==null){g._show&&(f=!1,g._show=!1,Hn(!1));return}else g._show||(f=!1,g._show=!0,Hn(!1));let T=g.side,N=T%2,{min:R,max:F}=x,[H,j]=cu(
 y,R,F,N==0?re:V);if(j==0)return;let Y=x.distr==2,oe=g._splits=g.splits(o,y,R,F,H,j,Y),we=x.distr==2?oe.map(Z=>Rt[Z]):oe,ge=x.distr==2?Rt[oe[1]]-Rt[oe[0]]:H,ce=g.
 _values=g.values(o,g.filter(o,we,y,j,ge),y,j,ge);g._rotate=T==2?g.rotate(o,ce,y,j):0;let ne=g._size;g._size=_t(g.size(o,ce,y,p)),ne!=null&&g._size!=ne&&(f=!1)}),
-f}function cu(p){let f=!0;return fa.forEach((g,y)=>{let x=g(o,y,xn,p);x!=sn[y]&&(f=!1),sn[y]=x}),f}function hu(){for(let p=0;p<E.length;p++){let f=E[p];if(!f.show||
+f}function pu(p){let f=!0;return fa.forEach((g,y)=>{let x=g(o,y,xn,p);x!=sn[y]&&(f=!1),sn[y]=x}),f}function uu(){for(let p=0;p<E.length;p++){let f=E[p];if(!f.show||
 !f._show)continue;let g=f.side,y=g%2,x,T,N=f.stroke(o,p),R=g==0||g==3?-1:1,[F,H]=f._found;if(f.label!=null){let lt=f.labelGap*R,yt=Ge((f._lpos+lt)*be);ya(f.labelFont[0],
 N,"center",g==2?"top":Cl),d.save(),y==1?(x=T=0,d.translate(yt,Ge(kt+Dt/2)),d.rotate((g==3?-Ns:Ns)/2)):(x=Ge(ft+ut/2),T=yt);let Sn=bc(f.label)?f.label(o,p,F,H):f.
 label;d.fillText(Sn,x,T),d.restore()}if(H==0)continue;let j=P[f.scale],Y=y==0?ut:Dt,oe=y==0?ft:kt,we=f._splits,ge=j.distr==2?we.map(lt=>Rt[lt]):we,ce=j.distr==2?
@@ -554,8 +554,8 @@ At[lt]:T=At[lt],yt=""+yt;let Sn=yt.indexOf(`
 Ba,x,T+ct*gt)}}}ne.show&&$r(At,ne.filter(o,ge,p,H,ce),y,g,$e,Re,Te(ne.width*be,3),ne.stroke(o,p),ne.dash,ne.cap);let Yt=f.grid;Yt.show&&$r(At,Yt.filter(o,ge,p,H,
 ce),y,y==0?2:1,y==0?kt:ft,y==0?Dt:ut,Te(Yt.width*be,3),Yt.stroke(o,p),Yt.dash,Yt.cap),Z.show&&$r([$e],[1],y==0?1:0,y==0?1:2,y==1?kt:ft,y==1?Dt:ut,Te(Z.width*be,
 3),Z.stroke(o,p),Z.dash,Z.cap)}Xe("drawAxes")}function Hn(p){S.forEach((f,g)=>{g>0&&(f._paths=null,p&&(s==1?(f.min=null,f.max=null):f.facets.forEach(y=>{y.min=null,
-y.max=null})))})}let rs=!1,Fr=!1,Co=[];function pu(){Fr=!1;for(let p=0;p<Co.length;p++)Xe(...Co[p]);Co.length=0}function jn(){rs||(ef(ka),rs=!0)}function uu(p,f=!1){
-rs=!0,Fr=f,p(o),ka(),f&&Co.length>0&&queueMicrotask(pu)}o.batch=uu;function ka(){if(Sr&&(ou(),Sr=!1),In&&(Jp(),In=!1),Qo){if(_e(m,fo,Se),_e(m,"top",De),_e(m,jo,
+y.max=null})))})}let rs=!1,Fr=!1,Co=[];function du(){Fr=!1;for(let p=0;p<Co.length;p++)Xe(...Co[p]);Co.length=0}function jn(){rs||(nf(ka),rs=!0)}function fu(p,f=!1){
+rs=!0,Fr=f,p(o),ka(),f&&Co.length>0&&queueMicrotask(du)}o.batch=fu;function ka(){if(Sr&&(ru(),Sr=!1),In&&(Zp(),In=!1),Qo){if(_e(m,fo,Se),_e(m,"top",De),_e(m,jo,
 re),_e(m,Vo,V),_e(w,fo,Se),_e(w,"top",De),_e(w,jo,re),_e(w,Vo,V),_e(u,jo,Nt),_e(u,Vo,Gt),h.width=Ge(Nt*be),h.height=Ge(Gt*be),E.forEach(({_el:p,_show:f,_size:g,
 _pos:y,side:x})=>{if(p!=null)if(f){let T=x===3||x===0?g:0,N=x%2==1;_e(p,N?"left":"top",y-T),_e(p,N?"width":"height",g),_e(p,N?"top":"left",N?De:Se),_e(p,N?"heig\
 ht":"width",N?V:re),yi(p,Cn)}else bt(p,Cn)}),ns=Gn=Ar=Pr=_r=Cr=Lr=Nr=Er=null,dt=1,Do(!0),Se!=z||De!=ie||re!=me||V!=st){Hn(!1);let p=re/me,f=V/st;if(ue&&!wn&&W.left>=
@@ -565,21 +565,21 @@ _t(Wn[g]),re,V))}}if(Ee.show&&!es&&Ee.left>=0&&Ee.width>0){Ee.left*=p,Ee.width*=
 wn=!1),q.show&&q.live&&St&&(Br(),St=!1),l||(l=!0,o.status=1,Xe("ready")),_o=!1,rs=!1}o.redraw=(p,f)=>{In=f||!1,p!==!1?an(L,$.min,$.max):jn()};function Ir(p,f){let g=P[p];
 if(g.from==null){if(Qe==0){let y=g.range(o,f.min,f.max,p);f.min=y[0],f.max=y[1]}if(f.min>f.max){let y=f.min;f.min=f.max,f.max=y}if(Qe>1&&f.min!=null&&f.max!=null&&
 f.max-f.min<1e-16)return;p==L&&g.distr==2&&Qe>0&&(f.min=Ot(f.min,e[0]),f.max=Ot(f.max,e[0]),f.min==f.max&&f.max++),_[p]=f,Sr=!0,jn()}}o.setScale=Ir;let Or,Ur,Vn,
-zn,Sa,Ma,Yn,qn,Ta,Aa,Ae,Ce,rn=!1,et=W.drag,Ke=et.x,Je=et.y;ue&&(W.x&&(Or=Pt(Md,w)),W.y&&(Ur=Pt(Td,w)),$.ori==0?(Vn=Or,zn=Ur):(Vn=Ur,zn=Or),Ae=W.left,Ce=W.top);let Ee=o.
-select=Ue({show:!0,over:!0,left:0,width:0,top:0,height:0},t.select),Kn=Ee.show?Pt(Sd,Ee.over?w:m):null;function is(p,f){if(Ee.show){for(let g in p)Ee[g]=p[g],g in
-Gr&&_e(Kn,g,p[g]);f!==!1&&Xe("setSelect")}}o.setSelect=is;function du(p){if(S[p].show)de&&yi(xe[p],Cn);else if(de&&bt(xe[p],Cn),ue){let g=Un?Mt[0]:Mt[p];g!=null&&
-Kt(g,-10,-10,re,V)}}function an(p,f,g){Ir(p,{min:f,max:g})}function jt(p,f,g,y){f.focus!=null&&wu(p),f.show!=null&&S.forEach((x,T)=>{T>0&&(p==T||p==null)&&(x.show=
-f.show,du(T),s==2?(an(x.facets[0].scale,null,null),an(x.facets[1].scale,null,null)):an(x.scale,null,null),jn())}),g!==!1&&Xe("setSeries",p,f),y&&Ro("setSeries",
-o,p,f)}o.setSeries=jt;function fu(p,f){Ue(D[p],f)}function mu(p,f){p.fill=pe(p.fill||null),p.dir=ye(p.dir,-1),f=f??D.length,D.splice(f,0,p)}function gu(p){p==null?
-D.length=0:D.splice(p,1)}o.addBand=mu,o.setBand=fu,o.delBand=gu;function yu(p,f){S[p].alpha=f,ue&&Mt[p]!=null&&(Mt[p].style.opacity=f),de&&xe[p]&&(xe[p].style.opacity=
-f)}let Xt,ln,vn,Jn={focus:!0};function wu(p){if(p!=vn){let f=p==null,g=Ht.alpha!=1;S.forEach((y,x)=>{if(s==1||x>0){let T=f||x==0||x==p;y._focus=f?null:T,g&&yu(x,
+zn,Sa,Ma,Yn,qn,Ta,Aa,Ae,Ce,rn=!1,et=W.drag,Ke=et.x,Je=et.y;ue&&(W.x&&(Or=Pt(Ad,w)),W.y&&(Ur=Pt(Ed,w)),$.ori==0?(Vn=Or,zn=Ur):(Vn=Ur,zn=Or),Ae=W.left,Ce=W.top);let Ee=o.
+select=Ue({show:!0,over:!0,left:0,width:0,top:0,height:0},t.select),Kn=Ee.show?Pt(Td,Ee.over?w:m):null;function is(p,f){if(Ee.show){for(let g in p)Ee[g]=p[g],g in
+Gr&&_e(Kn,g,p[g]);f!==!1&&Xe("setSelect")}}o.setSelect=is;function mu(p){if(S[p].show)de&&yi(xe[p],Cn);else if(de&&bt(xe[p],Cn),ue){let g=Un?Mt[0]:Mt[p];g!=null&&
+Kt(g,-10,-10,re,V)}}function an(p,f,g){Ir(p,{min:f,max:g})}function jt(p,f,g,y){f.focus!=null&&xu(p),f.show!=null&&S.forEach((x,T)=>{T>0&&(p==T||p==null)&&(x.show=
+f.show,mu(T),s==2?(an(x.facets[0].scale,null,null),an(x.facets[1].scale,null,null)):an(x.scale,null,null),jn())}),g!==!1&&Xe("setSeries",p,f),y&&Ro("setSeries",
+o,p,f)}o.setSeries=jt;function gu(p,f){Ue(D[p],f)}function yu(p,f){p.fill=pe(p.fill||null),p.dir=ye(p.dir,-1),f=f??D.length,D.splice(f,0,p)}function wu(p){p==null?
+D.length=0:D.splice(p,1)}o.addBand=yu,o.setBand=gu,o.delBand=wu;function bu(p,f){S[p].alpha=f,ue&&Mt[p]!=null&&(Mt[p].style.opacity=f),de&&xe[p]&&(xe[p].style.opacity=
+f)}let Xt,ln,vn,Jn={focus:!0};function xu(p){if(p!=vn){let f=p==null,g=Ht.alpha!=1;S.forEach((y,x)=>{if(s==1||x>0){let T=f||x==0||x==p;y._focus=f?null:T,g&&bu(x,
 T?1:Ht.alpha)}}),vn=p,g&&jn()}}de&&On&&ze(Rl,se,p=>{W._lock||(bn(p),vn!=null&&jt(null,Jn,!0,Ie.setSeries))});function Vt(p,f,g){let y=P[f];g&&(p=p/be-(y.ori==1?
-De:Se));let x=re;y.ori==1&&(x=V,p=x-p),y.dir==-1&&(p=x-p);let T=y._min,N=y._max,R=p/x,F=T+(N-T)*R,H=y.distr;return H==3?yo(10,F):H==4?Gd(F,y.asinh):H==100?y.bwd(
-F):F}function bu(p,f){let g=Vt(p,L,f);return Ot(g,e[0],Ye,qe)}o.valToIdx=p=>Ot(p,e[0]),o.posToIdx=bu,o.posToVal=Vt,o.valToPos=(p,f,g)=>P[f].ori==0?r(p,P[f],g?ut:
+De:Se));let x=re;y.ori==1&&(x=V,p=x-p),y.dir==-1&&(p=x-p);let T=y._min,N=y._max,R=p/x,F=T+(N-T)*R,H=y.distr;return H==3?yo(10,F):H==4?jd(F,y.asinh):H==100?y.bwd(
+F):F}function vu(p,f){let g=Vt(p,L,f);return Ot(g,e[0],Ye,qe)}o.valToIdx=p=>Ot(p,e[0]),o.posToIdx=vu,o.posToVal=Vt,o.valToPos=(p,f,g)=>P[f].ori==0?r(p,P[f],g?ut:
 re,g?ft:0):i(p,P[f],g?Dt:V,g?kt:0),o.setCursor=(p,f,g)=>{Ae=p.left,Ce=p.top,kn(null,f,g)};function Ea(p,f){_e(Kn,fo,Ee.left=p),_e(Kn,jo,Ee.width=f)}function Pa(p,f){
-_e(Kn,"top",Ee.top=p),_e(Kn,Vo,Ee.height=f)}let Lo=$.ori==0?Ea:Pa,No=$.ori==1?Ea:Pa;function xu(){if(de&&q.live)for(let p=s==2?1:0;p<S.length;p++){if(p==0&&Ne)continue;
-let f=q.values[p],g=0;for(let y in f)it[p][g++].firstChild.nodeValue=f[y]}}function Br(p,f){if(p!=null&&(p.idxs?p.idxs.forEach((g,y)=>{Q[y]=g}):zd(p.idx)||Q.fill(
-p.idx),q.idx=Q[0]),de&&q.live){for(let g=0;g<S.length;g++)(g>0||s==1&&!Ne)&&vu(g,Q[g]);xu()}St=!1,f!==!1&&Xe("setLegend")}o.setLegend=Br;function vu(p,f){let g=S[p],
+_e(Kn,"top",Ee.top=p),_e(Kn,Vo,Ee.height=f)}let Lo=$.ori==0?Ea:Pa,No=$.ori==1?Ea:Pa;function ku(){if(de&&q.live)for(let p=s==2?1:0;p<S.length;p++){if(p==0&&Ne)continue;
+let f=q.values[p],g=0;for(let y in f)it[p][g++].firstChild.nodeValue=f[y]}}function Br(p,f){if(p!=null&&(p.idxs?p.idxs.forEach((g,y)=>{Q[y]=g}):qd(p.idx)||Q.fill(
+p.idx),q.idx=Q[0]),de&&q.live){for(let g=0;g<S.length;g++)(g>0||s==1&&!Ne)&&Su(g,Q[g]);ku()}St=!1,f!==!1&&Xe("setLegend")}o.setLegend=Br;function Su(p,f){let g=S[p],
 y=p==0&&ee==2?Rt:e[p],x;Ne?x=g.values(o,p,f)??Fe:(x=g.value(o,f==null?null:y[f],p,f),x=x==null?Fe:{_:x}),q.values[p]=x}function kn(p,f,g){Ta=Ae,Aa=Ce,[Ae,Ce]=W.
 move(o,Ae,Ce),W.left=Ae,W.top=Ce,ue&&(Vn&&Kt(Vn,Ge(Ae),0,re,V),zn&&Kt(zn,0,Ge(Ce),re,V));let y,x=Ye>qe;Xt=Me,ln=null;let T=$.ori==0?re:V,N=$.ori==1?re:V;if(Ae<0||
 Qe==0||x){y=W.idx=null;for(let R=0;R<S.length;R++){let F=Mt[R];F!=null&&Kt(F,-10,-10,re,V)}On&&jt(null,Jn,!0,p==null&&Ie.setSeries),q.live&&(Q.fill(y),St=!0)}else{
@@ -608,35 +608,35 @@ null?y=Z(j,ce)?a(we,P[j],Ze,0):-10:y=Ze*(at/$e),$.ori==1){let Tt=g;g=y,y=Tt}}F&&
 rn=!0,Ke=Je=et._x=et._y=!1,Wr(p,f,g,y,x,T,N,!0,!1),p!=null&&(ze(hi,mi,$a,!1),Ro(Nl,o,Yn,qn,re,V,null));let{left:R,top:F,width:H,height:j}=Ee;Ca=R,La=F,Na=H,Da=j}
 function $a(p,f,g,y,x,T,N){rn=et._x=et._y=!1,Wr(p,f,g,y,x,T,N,!1,!0);let{left:R,top:F,width:H,height:j}=Ee,Y=H>0||j>0,oe=Ca!=R||La!=F||Na!=H||Da!=j;if(Y&&oe&&is(
 Ee),et.setScale&&Y&&oe){let we=R,ge=H,ce=F,ne=j;if($.ori==1&&(we=F,ge=j,ce=R,ne=H),Ke&&an(L,Vt(we,L),Vt(we+ge,L)),Je)for(let Z in P){let Pe=P[Z];Z!=L&&Pe.from==
-null&&Pe.min!=Me&&an(Z,Vt(ce+ne,Z),Vt(ce,Z))}Hr()}else W.lock&&(W._lock=!W._lock,kn(f,!0,p!=null));p!=null&&(Jt(hi,mi),Ro(hi,o,Ae,Ce,re,V,null))}function ku(p,f,g,y,x,T,N){
+null&&Pe.min!=Me&&an(Z,Vt(ce+ne,Z),Vt(ce,Z))}Hr()}else W.lock&&(W._lock=!W._lock,kn(f,!0,p!=null));p!=null&&(Jt(hi,mi),Ro(hi,o,Ae,Ce,re,V,null))}function Mu(p,f,g,y,x,T,N){
 if(W._lock)return;bn(p);let R=rn;if(rn){let F=!0,H=!0,j=10,Y,oe;$.ori==0?(Y=Ke,oe=Je):(Y=Je,oe=Ke),Y&&oe&&(F=Ae<=j||Ae>=re-j,H=Ce<=j||Ce>=V-j),Y&&F&&(Ae=Ae<Yn?0:
 re),oe&&H&&(Ce=Ce<qn?0:V),kn(null,!0,!0),rn=!1}Ae=-10,Ce=-10,Q.fill(null),kn(null,!0,!0),R&&(rn=R)}function Fa(p,f,g,y,x,T,N){W._lock||(bn(p),Tr(),Hr(),p!=null&&
-Ro($l,o,Ae,Ce,re,V,null))}function Ia(){E.forEach(cm),Mr(o.width,o.height,!0)}Ln(Ds,go,Ia);let Xn={};Xn.mousedown=Ra,Xn.mousemove=_a,Xn.mouseup=$a,Xn.dblclick=Fa,
-Xn.setSeries=(p,f,g,y)=>{let x=Ie.match[2];g=x(o,f,g),g!=-1&&jt(g,y,!0,!1)},ue&&(ze(Nl,w,Ra),ze(ci,w,_a),ze(Dl,w,p=>{bn(p),Do(!1)}),ze(Rl,w,ku),ze($l,w,Fa),Si.add(
+Ro($l,o,Ae,Ce,re,V,null))}function Ia(){E.forEach(pm),Mr(o.width,o.height,!0)}Ln(Ds,go,Ia);let Xn={};Xn.mousedown=Ra,Xn.mousemove=_a,Xn.mouseup=$a,Xn.dblclick=Fa,
+Xn.setSeries=(p,f,g,y)=>{let x=Ie.match[2];g=x(o,f,g),g!=-1&&jt(g,y,!0,!1)},ue&&(ze(Nl,w,Ra),ze(ci,w,_a),ze(Dl,w,p=>{bn(p),Do(!1)}),ze(Rl,w,Mu),ze($l,w,Fa),Si.add(
 o),o.syncRect=Do);let as=o.hooks=t.hooks||{};function Xe(p,f,g){Fr?Co.push([p,f,g]):p in as&&as[p].forEach(y=>{y.call(null,o,f,g)})}(t.plugins||[]).forEach(p=>{
 for(let f in p.hooks)as[f]=(as[f]||[]).concat(p.hooks[f])});let Oa=(p,f,g)=>g,Ie=Ue({key:null,setSeries:!1,filters:{pub:zl,sub:zl},scales:[L,S[1]?S[1].scale:null],
 match:[Yl,Yl,Oa],values:[null,null]},W.sync);Ie.match.length==2&&Ie.match.push(Oa),W.sync=Ie;let Ua=Ie.key,jr=Hc(Ua);function Ro(p,f,g,y,x,T,N){Ie.filters.pub(p,
-f,g,y,x,T,N)&&jr.pub(p,f,g,y,x,T,N)}jr.sub(o);function Su(p,f,g,y,x,T,N){Ie.filters.sub(p,f,g,y,x,T,N)&&Xn[p](null,f,g,y,x,T,N)}o.pub=Su;function Mu(){jr.unsub(
-o),Si.delete(o),Wt.clear(),wi(Ds,go,Ia),c.remove(),se?.remove(),Xe("destroy")}o.destroy=Mu;function Vr(){Xe("init",t,e),ma(e||t.data,!1),_[L]?Ir(L,_[L]):Tr(),es=
-Ee.show&&(Ee.width>0||Ee.height>0),wn=St=!0,Mr(t.width,t.height)}return S.forEach(da),E.forEach(nu),n?n instanceof HTMLElement?(n.appendChild(c),Vr()):n(o,Vr):Vr(),
-o}je.assign=Ue;je.fmtNum=Ci;je.rangeNum=Rs;je.rangeLog=Is;je.rangeAsinh=Pi;je.orient=Dn;je.pxRatio=be;je.join=Qd;je.fmtDate=Ni,je.tzDate=pf;je.sync=Hc;{je.addGap=
-Yf,je.clipGaps=Bs;let t=je.paths={points:Kc};t.linear=Xc,t.stepped=Jf,t.bars=Xf,t.spline=Qf}var js=128,th=50,hm=.25,pm=t=>[t.ray,t.truth,t.sensor,t.noReturn],um=(t,e)=>Math.max(40,14+6.6*Math.max(0,...(e??[]).map(n=>n?.length??0))),dm=({data:t})=>Math.
+f,g,y,x,T,N)&&jr.pub(p,f,g,y,x,T,N)}jr.sub(o);function Tu(p,f,g,y,x,T,N){Ie.filters.sub(p,f,g,y,x,T,N)&&Xn[p](null,f,g,y,x,T,N)}o.pub=Tu;function Au(){jr.unsub(
+o),Si.delete(o),Wt.clear(),wi(Ds,go,Ia),c.remove(),se?.remove(),Xe("destroy")}o.destroy=Au;function Vr(){Xe("init",t,e),ma(e||t.data,!1),_[L]?Ir(L,_[L]):Tr(),es=
+Ee.show&&(Ee.width>0||Ee.height>0),wn=St=!0,Mr(t.width,t.height)}return S.forEach(da),E.forEach(su),n?n instanceof HTMLElement?(n.appendChild(c),Vr()):n(o,Vr):Vr(),
+o}je.assign=Ue;je.fmtNum=Ci;je.rangeNum=Rs;je.rangeLog=Is;je.rangeAsinh=Pi;je.orient=Dn;je.pxRatio=be;je.join=tf;je.fmtDate=Ni,je.tzDate=df;je.sync=Hc;{je.addGap=
+Kf,je.clipGaps=Bs;let t=je.paths={points:Kc};t.linear=Xc,t.stepped=Zf,t.bars=Qf,t.spline=tm}var js=128,th=50,um=.25,dm=t=>[t.ray,t.truth,t.sensor,t.noReturn],fm=(t,e)=>Math.max(40,14+6.6*Math.max(0,...(e??[]).map(n=>n?.length??0))),mm=({data:t})=>Math.
 max(10,4+3.3*(t?.[0]?.at(-1)??0).toLocaleString("en").length),Vs=(t,e)=>({font:gs,size:e,stroke:()=>t().axis,grid:{stroke:()=>t().lines,width:1},ticks:{stroke:()=>t().
 frame,width:1,size:4}});function nh(t,e,n){let o=null,s=null,r=()=>Math.floor(t.clientWidth);return new ResizeObserver(()=>o&&r()>0&&o.setSize({width:r(),height:js})).
 observe(t),i=>r()<=0?null:((!o||i||s!==n())&&(o?.destroy(),o=e(),o.setSize({width:r(),height:js}),s=n()),o)}function oh(t,e){let{session:n}=t,o=k("div",{className:"\
 chart",role:"img","aria-label":"Trace: log joint by sweep"}),s="all",r=t.segmented("Trace",[["all","All"],["first",`First ${th}`]],()=>s,w=>{s=w,c=null,n.changed()}),
-i=0,a=-1/0,l=-1,c=null,d=nh(o,()=>{let w=pm(e()),v=Array.from({length:i},(b,M)=>({label:`chain ${M+1}`,stroke:w[M%w.length],width:1,points:{show:!1}}));return new je(
-{width:100,height:js,legend:{show:!1},cursor:{drag:{x:!1,y:!1},y:!1},padding:[8,dm,0,0],scales:{x:{time:!1,range:(b,M,S)=>[M,Math.max(S,M+1)]},y:{range:(b,M,S)=>ym(
-Math.max(M,a),S)}},axes:[Vs(e,26),Vs(e,um)],series:[{label:"sweep"},...v],hooks:{draw:[b=>bm(b,l,e()),b=>wm(b,c?.burned??0,e())]}},[[],...v.map(()=>[])],o)},e),
+i=0,a=-1/0,l=-1,c=null,d=nh(o,()=>{let w=dm(e()),v=Array.from({length:i},(b,M)=>({label:`chain ${M+1}`,stroke:w[M%w.length],width:1,points:{show:!1}}));return new je(
+{width:100,height:js,legend:{show:!1},cursor:{drag:{x:!1,y:!1},y:!1},padding:[8,mm,0,0],scales:{x:{time:!1,range:(b,M,S)=>[M,Math.max(S,M+1)]},y:{range:(b,M,S)=>bm(
+Math.max(M,a),S)}},axes:[Vs(e,26),Vs(e,fm)],series:[{label:"sweep"},...v],hooks:{draw:[b=>vm(b,l,e()),b=>xm(b,c?.burned??0,e())]}},[[],...v.map(()=>[])],o)},e),
 u=k("span",{className:"caption",textContent:"log joint by sweep"}),m=k("div",{className:"charted"},k("div",{className:"buttons"},r,u),o);return t.each(()=>{let w=n.
 shown,v=w?.traced?.length?w.trace.length/w.traced.length:0;if(C(m,"hidden",v===0&&(m.hidden||!n.working)),!w||!v)return;let b=n.document?.source.kind==="run"?"d\
 raw":"sweep";C(u,"textContent",`log joint by ${b}`);let M=w.layer==="draw"&&n.draws.count?(n.draw+1)*w.traced[w.traced.length-1]/n.draws.count:-1,S=d(v!==i&&(i=
-v,!0));if(!S||c===w&&l===M&&S.data[0].length)return;[c,l]=[w,M],a=s==="all"?gm(w,v):-1/0;let E=fm(w,v,s);S.setData(E),o.setAttribute("data-sweeps",E[0].join())}),
-m}function fm({trace:t,traced:e},n,o){let s=o==="all"?mm(e):[...e.keys()].filter(i=>e[i]<=th),r=i=>Float32Array.from(s,a=>i[a]);return[r(e),...Array.from({length:n},
-(i,a)=>r(t.subarray(a*e.length,(a+1)*e.length)))]}function mm(t){let e=t.length,n=e>2?Math.min(t[e-1]-t[e-2],t[e-2]-t[e-3]):1,o=-1/0;return[...t.keys()].filter(
-s=>t[s]<o&&s<e-1?!1:(o=t[s]+n,!0))}function gm({trace:t,traced:e},n){let o=e.length,s=e.findIndex(r=>r>=hm*e[o-1]);return Math.min(...Array.from({length:n},(r,i)=>Math.
-min(...t.slice(i*o+s,(i+1)*o))))}function ym(t,e){let n=Math.max(.06*(e-t),.5);return[t-n,e+n]}function wm(t,e,n){let{left:o,top:s,width:r,height:i}=t.bbox;e&&(t.
-ctx.save(),t.ctx.globalAlpha=.12,t.ctx.fillStyle=n.axis,t.ctx.fillRect(o,s,Math.min(r,Math.max(0,t.valToPos(e,"x",!0)-o)),i),t.ctx.restore())}function bm(t,e,n){
+v,!0));if(!S||c===w&&l===M&&S.data[0].length)return;[c,l]=[w,M],a=s==="all"?wm(w,v):-1/0;let E=gm(w,v,s);S.setData(E),o.setAttribute("data-sweeps",E[0].join())}),
+m}function gm({trace:t,traced:e},n,o){let s=o==="all"?ym(e):[...e.keys()].filter(i=>e[i]<=th),r=i=>Float32Array.from(s,a=>i[a]);return[r(e),...Array.from({length:n},
+(i,a)=>r(t.subarray(a*e.length,(a+1)*e.length)))]}function ym(t){let e=t.length,n=e>2?Math.min(t[e-1]-t[e-2],t[e-2]-t[e-3]):1,o=-1/0;return[...t.keys()].filter(
+s=>t[s]<o&&s<e-1?!1:(o=t[s]+n,!0))}function wm({trace:t,traced:e},n){let o=e.length,s=e.findIndex(r=>r>=um*e[o-1]);return Math.min(...Array.from({length:n},(r,i)=>Math.
+min(...t.slice(i*o+s,(i+1)*o))))}function bm(t,e){let n=Math.max(.06*(e-t),.5);return[t-n,e+n]}function xm(t,e,n){let{left:o,top:s,width:r,height:i}=t.bbox;e&&(t.
+ctx.save(),t.ctx.globalAlpha=.12,t.ctx.fillStyle=n.axis,t.ctx.fillRect(o,s,Math.min(r,Math.max(0,t.valToPos(e,"x",!0)-o)),i),t.ctx.restore())}function vm(t,e,n){
 if(e<0)return;let{left:o,top:s,width:r,height:i}=t.bbox,a=t.valToPos(e,"x",!0);a<o||a>o+r||(t.ctx.save(),t.ctx.fillStyle=n.axis,t.ctx.fillRect(a-1,s,2,i),t.ctx.
 restore())}function sh(t,e){let{session:n}=t,o=k("div",{className:"chart",role:"img","aria-label":"Histogram of the particles' weights"}),s=k("div",{className:"\
 caption",textContent:"particles by weight, nats below the heaviest"}),r=k("div",{className:"charted"},s,o),a=nh(o,()=>new je({width:100,height:js,legend:{show:!1},
@@ -646,57 +646,57 @@ each(()=>{let c=n.shown;C(r,"hidden",!c?.weights);let h=c?.weights&&a(!1);if(!c?
 -1)/d.length,m=[...d.map((w,v)=>(c.lowest??-1)+v*u),0];h.setData([m,[...d.map(w=>w||null),null]])}),r}function rh(t){let{session:e,hand:n}=t,{decisions:o}=e,s=k("p",{className:"said",role:"status"}),r=k("div",{className:"double"},t.numberInput("Robot's radius (m\
 )",()=>o.radius,c=>o.set({radius:c}),{step:"any",limits:"radius"}),t.numberInput("Highest risk",()=>o.risk,c=>o.set({risk:c}),{step:"any",limits:"risk"})),i=()=>n.
 tool==="path"?"Path":"Where to look next",a=t.section("Decision",r,s),l=a.querySelector("h2");return t.visible(a,()=>n.tool==="path"||n.tool==="look"),t.visible(
-r,()=>n.tool==="path"),t.each(()=>{C(l,"textContent",i()),C(s,"textContent",n.tool==="path"?xm(t):vm(t))}),a}function xm({session:t}){let{start:e,goal:n,path:o,
+r,()=>n.tool==="path"),t.each(()=>{C(l,"textContent",i()),C(s,"textContent",n.tool==="path"?km(t):Sm(t))}),a}function km({session:t}){let{start:e,goal:n,path:o,
 trouble:s}=t.decisions;if(s)return s;if(!e)return"Click where the robot is, then where it is to go.";if(!n)return"Now click where it is to go.";if(!o)return t.shown?.
 approximate?"Waiting for draws of the map.":"Looking for a path.";let r=o.within_risk?"":" No path was found whose risk is low enough; this is the safest.";return`${fe(
 o.length_m,2)} m, free with probability ${fe(o.probability,3)} ± ${fe(o.standard_error,3)} by ${o.draws} draws. Independent cells would say ${fe(o.independent,
-3)}.${r}`}function vm({session:t}){let{views:e,viewTrouble:n}=t.decisions;if(n)return n;if(!e)return"Working out how much a scan would tell.";let o=Math.max(...e.
+3)}.${r}`}function Sm({session:t}){let{views:e,viewTrouble:n}=t.decisions;if(n)return n;if(!e)return"Working out how much a scan would tell.";let o=Math.max(...e.
 nats),s=t.editable?" Click to place another sensor.":"";return`One more scan would tell ${fe(Math.min(...e.nats),1)} to ${fe(o,1)} nats, cells taken for indepen\
-dent; the best place has a ring.${s}`}var km=[["tutorial","the tutorial's map"],["building","a building"],["blank","blank"]],Sm="Draw walls, and drag the robot: a beam reads the first wall that it h\
-its, with noise.",Mm="Shown is what the readings tell about the walls: how probable each is (mean), one whole map that explains them (one draw), and where doubt\
- remains (entropy). The denser the hatch, the less probably a beam reaches the cell; where it is full, the prior is all there is.",Tm="Shown is what the reading\
+dent; the best place has a ring.${s}`}var Mm=[["tutorial","the tutorial's map"],["building","a building"],["blank","blank"]],Tm="Draw walls, and drag the robot: a beam reads the first wall that it h\
+its, with noise.",Am="Shown is what the readings tell about the walls: how probable each is (mean), one whole map that explains them (one draw), and where doubt\
+ remains (entropy). The denser the hatch, the less probably a beam reaches the cell; where it is full, the prior is all there is.",Em="Shown is what the reading\
 s tell about how likely each cell is to stop a beam: what is expected (mean), one whole map that explains them (one draw), and how wide the 90 % interval is (wi\
-dth). The denser the hatch, the less probably a beam reaches the cell; where it is full, the prior is all there is.",Am="While you edit, the answer is belief pr\
-opagation, which is approximate. Gibbs sampling follows, and is exact in the long run.",Em="This page samples by itself: the answer is that of the chosen method\
- after as many sweeps as are shown, and gets better as they go on.",Pm="The map is made from the scans of this log. Where its poses are raw odometry, Run first \
-infers where the robot was; then it samples maps.",_m="This is a saved run: its draws, and what they say together.",Cm="Mouse: the wheel zooms, the middle butto\
-n pans.",Lm="Shift or the right button erases, and so does a click on a wall.",Nm="Touch: two fingers zoom and pan.";function ih(t){let{session:e}=t,n=k("div"),
-o=el.map(([i,a,l])=>{let c=k("tr",{},k("th",{scope:"row"},k("kbd",{textContent:i})),k("td",{textContent:a}));return t.visible(c,()=>Dm[l??"all"](e)),c}),s=k("p"),
-r="";return t.each(()=>{let i=e.document?.source.kind,a=e.quantity.interval?Tm:Mm,l=e.editable?[`${Sm} ${a}`,e.figure?Em:Am]:i==="log"?[a,Pm]:i==="run"?[a,_m]:[
-a];l.join()!==r&&n.replaceChildren(...l.map(c=>k("p",{textContent:c}))),r=l.join(),C(s,"textContent",[Cm,...e.editable?[Lm]:[],Nm].join(" "))}),t.dialog("Help",
-n,s,k("table",{},k("tbody",{},...o)))}var Dm={all:()=>!0,drawn:t=>t.editable,asked:t=>t.answers,located:t=>t.locates,edited:t=>!t.recorded,inferred:t=>!t.recorded&&
+dth). The denser the hatch, the less probably a beam reaches the cell; where it is full, the prior is all there is.",Pm="While you edit, the answer is belief pr\
+opagation, which is approximate. Gibbs sampling follows, and is exact in the long run.",_m="This page samples by itself: the answer is that of the chosen method\
+ after as many sweeps as are shown, and gets better as they go on.",Cm="The map is made from the scans of this log. Where its poses are raw odometry, Run first \
+infers where the robot was; then it samples maps.",Lm="This is a saved run: its draws, and what they say together.",Nm="Mouse: the wheel zooms, the middle butto\
+n pans.",Dm="Shift or the right button erases, and so does a click on a wall.",Rm="Touch: two fingers zoom and pan.";function ih(t){let{session:e}=t,n=k("div"),
+o=el.map(([i,a,l])=>{let c=k("tr",{},k("th",{scope:"row"},k("kbd",{textContent:i})),k("td",{textContent:a}));return t.visible(c,()=>$m[l??"all"](e)),c}),s=k("p"),
+r="";return t.each(()=>{let i=e.document?.source.kind,a=e.quantity.interval?Em:Am,l=e.editable?[`${Tm} ${a}`,e.figure?_m:Pm]:i==="log"?[a,Cm]:i==="run"?[a,Lm]:[
+a];l.join()!==r&&n.replaceChildren(...l.map(c=>k("p",{textContent:c}))),r=l.join(),C(s,"textContent",[Nm,...e.editable?[Dm]:[],Rm].join(" "))}),t.dialog("Help",
+n,s,k("table",{},k("tbody",{},...o)))}var $m={all:()=>!0,drawn:t=>t.editable,asked:t=>t.answers,located:t=>t.locates,edited:t=>!t.recorded,inferred:t=>!t.recorded&&
 t.document?.source.kind!=="run"};function ah(t){let e=()=>k("input",{type:"number",step:1,required:!0,value:"21"}),[n,o]=[e(),e()];for(let i of[n,o])t.bounded(i,
-"side");let s=k("select",{});for(let[i,a]of km){let l=k("option",{value:i,textContent:a});s.append(l),i!=="blank"&&t.each(()=>C(l,"disabled",t.session.figure))}
+"side");let s=k("select",{});for(let[i,a]of Mm){let l=k("option",{value:i,textContent:a});s.append(l),i!=="blank"&&t.each(()=>C(l,"disabled",t.session.figure))}
 t.each(()=>t.session.figure&&C(s,"value","blank")),s.addEventListener("change",()=>{s.value==="building"&&Number(n.value)<60&&([n.value,o.value]=["120","80"])});
 let r=k("form",{method:"dialog"},t.row("World",s),t.row("Width (cells)",n),t.row("Height (cells)",o),k("div",{className:"buttons end"},k("button",{type:"submit",
 className:"primary",textContent:"Create"})));return r.addEventListener("submit",()=>{t.session.act({type:"new",shape:[Number(n.value),Number(o.value)],world:s.value}),
-t.hand.selected=null}),t.dialog("New map",r)}var Rm="The link holds the walls, the sensors and all settings after its #, and no token. It opens in this browser \
-while the server runs; the part from # on can be put after the address of any bayesmap page.",$m="The link holds the walls, the sensors and all settings after i\
-ts #. The part from # on can be put after the address of any bayesmap page.",Fm="The link holds the file's name and all settings after its #, but no scans and n\
+t.hand.selected=null}),t.dialog("New map",r)}var Fm="The link holds the walls, the sensors and all settings after its #, and no token. It opens in this browser \
+while the server runs; the part from # on can be put after the address of any bayesmap page.",Im="The link holds the walls, the sensors and all settings after i\
+ts #. The part from # on can be put after the address of any bayesmap page.",Om="The link holds the file's name and all settings after its #, but no scans and n\
 o token. It opens in this browser while the server shows this file; the part from # on can be put after the address of any bayesmap page that shows it.";function lh(t){
 let e=k("input",{type:"text",readOnly:!0,"aria-label":"Link"}),n=k("span",{role:"status",className:"copied"}),o=async()=>{e.select();try{await navigator.clipboard.
 writeText(e.value)}catch{document.execCommand("copy")}n.textContent="Copied",setTimeout(()=>n.textContent="",2e3)},s=t.button(null,"Copy the link",o,{className:"\
-primary",text:"Copy"}),r=k("p");t.each(()=>C(r,"textContent",t.session.figure?$m:t.session.document?.source.kind==="simulation"?Rm:Fm));let i=t.dialog("Share",r,
-k("div",{className:"buttons"},e,s),n);return{dialog:i,show(a){e.value=a,i.showModal(),e.select()}}}var Im=8;function ch(t){let{session:e,hand:n}=t,o=k("p",{className:"words",role:"status"}),s=k("ol",{className:"spoken"}),r=k("p",{className:"words"}),i=k("canv\
+primary",text:"Copy"}),r=k("p");t.each(()=>C(r,"textContent",t.session.figure?Im:t.session.document?.source.kind==="simulation"?Fm:Om));let i=t.dialog("Share",r,
+k("div",{className:"buttons"},e,s),n);return{dialog:i,show(a){e.value=a,i.showModal(),e.select()}}}var Um=8;function ch(t){let{session:e,hand:n}=t,o=k("p",{className:"words",role:"status"}),s=k("ol",{className:"spoken"}),r=k("p",{className:"words"}),i=k("canv\
 as",{className:"trace",width:296,height:48,role:"img"}),a=k("p",{className:"caption"}),l=t.section("Evidence of beams",o,r,s,i,a),c=-1;return t.visible(l,()=>n.
-tool==="evidence"),t.each(()=>{let{evidence:h}=e;if(C(o,"textContent",Wm(e)),c===h.version)return;c=h.version,C(r,"textContent",Um(e));let d=Bm(i,h.each?.trace,
+tool==="evidence"),t.each(()=>{let{evidence:h}=e;if(C(o,"textContent",Hm(e)),c===h.version)return;c=h.version,C(r,"textContent",Wm(e));let d=Gm(i,h.each?.trace,
 e.draws.chains);C(i,"hidden",!d.length),C(a,"textContent",d.length?`Share of draws so far with a wall, by draw: ${d.map((b,M)=>`chain ${M+1} ${b.toFixed(2)}`).join(
-", ")}`:"");let{nats:u,scan:m,beam:w}=h.each??{nats:[],scan:[],beam:[]},v=Array.from(u.slice(0,Im),(b,M)=>k("li",{},`${ro(b)} nats: ${Om(e,m[M],w[M])}`));s.replaceChildren(
-...v)}),l}var Om=({document:t,editable:e},n,o)=>`beam ${o+1} of ${e?`sensor ${t?.sensors[n]?.id??n+1}`:`scan ${n+1}`}`;function Um({evidence:{together:t},quantity:e}){
+", ")}`:"");let{nats:u,scan:m,beam:w}=h.each??{nats:[],scan:[],beam:[]},v=Array.from(u.slice(0,Um),(b,M)=>k("li",{},`${ro(b)} nats: ${Bm(e,m[M],w[M])}`));s.replaceChildren(
+...v)}),l}var Bm=({document:t,editable:e},n,o)=>`beam ${o+1} of ${e?`sensor ${t?.sensors[n]?.id??n+1}`:`scan ${n+1}`}`;function Wm({evidence:{together:t},quantity:e}){
 if(!t?.beams||e.kind!=="binary"||t.nats_for===null||t.nats_against===null)return"";let{prior_nats:n,log_odds:o,draw:s,nats_for:r,nats_against:i}=t;if(s==null)return"\
 Each beam is asked by itself, with the other cells as probable as they are: the sum is not the log odds of P(wall). Show one draw for that.";if(n==null||o===null||
 o===void 0)return`Given all other cells of draw ${s+1}.`;let a=1/(1+Math.exp(-o));return`Given all other cells of draw ${s+1}: prior ${ro(n)}, beams ${ro(r-i)},\
- together log odds ${ro(o)}: Gibbs draws a wall with probability ${a.toFixed(3)}.`}function Bm(t,e,n){let o=e&&n?e.length/n:0,s=o?t.getContext("2d"):null,r=s&&getComputedStyle(
+ together log odds ${ro(o)}: Gibbs draws a wall with probability ${a.toFixed(3)}.`}function Gm(t,e,n){let o=e&&n?e.length/n:0,s=o?t.getContext("2d"):null,r=s&&getComputedStyle(
 t);return s?.clearRect(0,0,t.width,t.height),Array.from({length:o?n:0},(i,a)=>{let l=0;s?.beginPath();for(let c=0;c<o;c++)l+=e[a*o+c],s?.lineTo(t.width*(c+.5)/o,
-2+(t.height-4)*(1-l/(c+1)));return s&&r&&(s.strokeStyle=r.getPropertyValue(a?"--truth":"--ray")||"gray"),s?.stroke(),l/o})}function Wm({evidence:t,quantity:e}){
+2+(t.height-4)*(1-l/(c+1)));return s&&r&&(s.strokeStyle=r.getPropertyValue(a?"--truth":"--ray")||"gray"),s?.stroke(),l/o})}function Hm({evidence:t,quantity:e}){
 let{cell:n,together:o}=t;if(!n)return"Click a cell to see which beams speak for what is there (blue) and which against it (orange), in nats each.";let s=`Cell ${n.
 x}, ${n.y}`;if(!o)return`${s}: asking its beams.`;if(!o.beams)return`${s}: no beam reaches it.`;let r=o.beams===1?"1 beam":`${o.beams} beams`;if(o.nats_for===null||
 o.nats_against===null)return`${s}: ${r}; there are no draws to ask what they say.`;let i={binary:"a wall",surface:"its surface"}[e.kind]??"what is there",a=o.beams_for||
 o.beams_against?"":" None of them says anything.";return`${s}: ${r}. For ${i} (blue) ${o.beams_for}, ${o.nats_for.toFixed(1)} nats; against (orange) ${o.beams_against}\
 , ${o.nats_against.toFixed(1)} nats.${a}`}var hh=t=>Math.round(t*180/Math.PI);function ph(t){let{session:e,hand:n}=t,{ghost:o}=e,s=(l,c)=>t.numberInput(l,()=>Number((o.pose?.[c]??0).toFixed(2)),h=>o.move(
 {[c]:h}),{step:"any"}),r=t.numberInput("Ghost yaw (°)",()=>hh(o.pose?.yaw??0),l=>o.move({yaw:l*Math.PI/180}),{step:5}),i=k("p",{className:"words ghosted"}),a=t.
-section("Ghost",k("div",{className:"triple"},s("Ghost x","x"),s("Ghost y","y"),r),i);return t.visible(a,()=>n.tool==="ghost"),t.each(()=>C(i,"textContent",Gm(t))),
-a}function Gm({session:t}){let{ghost:e}=t;if(e.trouble)return Qt(`${e.trouble}.`);if(!e.fan)return e.pose?"Working out what its laser would read.":"Drag the gho\
+section("Ghost",k("div",{className:"triple"},s("Ghost x","x"),s("Ghost y","y"),r),i);return t.visible(a,()=>n.tool==="ghost"),t.each(()=>C(i,"textContent",jm(t))),
+a}function jm({session:t}){let{ghost:e}=t;if(e.trouble)return Qt(`${e.trouble}.`);if(!e.fan)return e.pose?"Working out what its laser would read.":"Drag the gho\
 st to see what its laser would read.";let{draws:n,low:o,high:s,near:r}=e.fan,i=Array.from(s,(h,d)=>h-o[d]).filter(Number.isFinite).sort((h,d)=>h-d),a=i.length?`${fe(
 100*i[i.length>>1],0)} cm wide at the median beam`:"as wide as the laser's range",l=n?`${n} draws of the map`:"the mean map, cells taken for independent",c=r?` \
 Rings are the hits of scan ${r.index+1}, taken ${fe(100*r.away,0)} cm from here, turned by ${hh(r.turn)}°.`:"";return`Dots are predictive medians, bars the cen\
@@ -706,14 +706,14 @@ act({type:"undo"}),{title:"Undo (Ctrl+Z)",when:()=>!!e.state?.can_undo,why:"Noth
 Redo (Ctrl+Y)",when:()=>!!e.state?.can_redo,why:"Nothing to redo"}),k("span",{className:"gap"}),t.button("grid","New map",()=>t.command("new"),{text:"New map",when:o}),
 ...t.embedded?[]:[t.button("link","Share",()=>t.command("share"),{text:"Share",when:o})]];for(let c of s)t.visible(c,()=>!e.recorded);let r=t.button("theme","Th\
 eme: automatic",()=>t.command("theme")),i=t.button("help","Help",()=>t.command("help"),{title:"Help (?)"}),a=k("span",{className:"space"});return{element:k("hea\
-der",{},k("h1",{textContent:"bayesmap"}),n,a,...s,jm(t),r,i),nameTheme(c){let h=`Theme: ${c}`;nt(r,"aria-label",h),C(r,"title",h)}}}var Hm=({shown:t,draws:e})=>e.
-count>0||/importance|propagate/.test(t?.method??"");function jm(t){let{session:e}=t,n=(l,c,h,d,u)=>{let m=t.button(null,l,()=>t.command(`export ${c}`),{text:l,when:d,
+der",{},k("h1",{textContent:"bayesmap"}),n,a,...s,zm(t),r,i),nameTheme(c){let h=`Theme: ${c}`;nt(r,"aria-label",h),C(r,"title",h)}}}var Vm=({shown:t,draws:e})=>e.
+count>0||/importance|propagate/.test(t?.method??"");function zm(t){let{session:e}=t,n=(l,c,h,d,u)=>{let m=t.button(null,l,()=>t.command(`export ${c}`),{text:l,when:d,
 why:u});return h!=="all"&&t.visible(m,()=>!e.recorded&&(h==="document"||!e.figure)),m},o=n("Figure that samples by itself (HTML)","figure","server");t.visible(o,
-()=>e.editable&&!e.figure);let s=k("div",{className:"menu",hidden:!0},n("Picture (PNG)","png","all"),n("Saved run (netCDF)","run","server",()=>Hm(e),"There are \
+()=>e.editable&&!e.figure);let s=k("div",{className:"menu",hidden:!0},n("Picture (PNG)","png","all"),n("Saved run (netCDF)","run","server",()=>Vm(e),"There are \
 no draws yet: chains keep them"),n("Map for robots (YAML and PGM)","map","server"),n("Page in one file (HTML)","html","server"),o,n("Document (JSON)","document",
 "document")),r=t.button("save","Export",()=>i(s.hidden),{text:"Export",when:()=>!!e.document}),i=l=>{s.hidden=!l,r.setAttribute("aria-expanded",String(l)),l&&s.
-firstElementChild.focus()};i(!1);let a=k("div",{className:"anchor"},r,s);return a.addEventListener("keydown",l=>{l.key!=="Escape"||s.hidden||(i(!1),r.focus(),l.
-stopPropagation())}),a.addEventListener("focusout",l=>{a.contains(l.relatedTarget)||i(!1)}),s.addEventListener("click",()=>{i(!1),r.focus()}),a}var Vm={draw:"M4 20l1-5L15.5 4.5l4 4L9 19zM13 7l4 4",erase:"M9 20h11M4.5 14.5l9-9 6 6-8.5 8.5H8zM9 10l6 6",sensor:"M12 3l7 17-7-4-7 4z",pan:"M12 3v18M3 12h18M9.\
+firstElementChild.focus()};i(!1);let a=k("div",{className:"anchor",tabIndex:-1},r,s);return a.addEventListener("keydown",l=>{l.key!=="Escape"||s.hidden||(i(!1),
+r.focus(),l.stopPropagation())}),a.addEventListener("focusout",l=>{a.contains(l.relatedTarget)||i(!1)}),s.addEventListener("click",()=>{i(!1),r.focus()}),a}var Ym={draw:"M4 20l1-5L15.5 4.5l4 4L9 19zM13 7l4 4",erase:"M9 20h11M4.5 14.5l9-9 6 6-8.5 8.5H8zM9 10l6 6",sensor:"M12 3l7 17-7-4-7 4z",pan:"M12 3v18M3 12h18M9.\
 5 5.5L12 3l2.5 2.5M9.5 18.5L12 21l2.5-2.5M5.5 9.5L3 12l2.5 2.5M18.5 9.5L21 12l-2.5 2.5",path:"M5 19a2 2 0 1 0 .1 0M7 18c9-1 1-11 10-12M19 3a2 2 0 1 0 .1 0",look:"\
 M2.500 12c4.500-7.500 14.500-7.500 19 0-4.500 7.500-14.500 7.500-19 0M12 9a3 3 0 1 0 .1 0",where:"M12 21c-4-5-6-7.500-6-11a6 6 0 0 1 12 0c0 3.500-2 6-6 11M12 8a\
 2 2 0 1 0 .1 0",ghost:"M5 20V11a7 7 0 0 1 14 0v9l-2.300-2-2.400 2-2.300-2-2.300 2-2.400-2zM9.500 11v.5M14.500 11v.5",evidence:"M3 5l13 7M3 19l13-7M3 12h13M17 8.\
@@ -722,45 +722,45 @@ M4 9V4h5M15 4h5v5M20 15v5h-5M9 20H4v-5",play:"M7 4.5l12 7.5-12 7.5z",pause:"M8.5
 4 0 0 0-5.7 0l-3 3a4 4 0 0 0 5.7 5.7l1-1",save:"M12 4v11M7.5 10.5L12 15l4.5-4.5M4 20h16",grid:"M4 4h16v16H4zM4 12h16M12 4v16",theme:"M12 3a9 9 0 1 0 0 18zM12 3a\
 9 9 0 0 1 0 18",help:"M8.5 9a3.5 3.5 0 1 1 5 3.2c-1.1.6-1.5 1.200-1.500 2.500M12 18v.5",close:"M6 6l12 12M18 6L6 18"};function mn(t){let e=document.createElementNS(
 "http://www.w3.org/2000/svg","svg"),n=document.createElementNS("http://www.w3.org/2000/svg","path");return e.setAttribute("viewBox","0 0 24 24"),e.setAttribute(
-"aria-hidden","true"),n.setAttribute("d",Vm[t]),e.append(n),e}var zs=({document:t})=>!t||t.source.kind==="simulation",Bi=({answers:t})=>t,dh="surface (zoom in)",fh=[{mark:"truth",text:"true wall",when:zs,may:zs},{mark:"ray",
+"aria-hidden","true"),n.setAttribute("d",Ym[t]),e.append(n),e}var zs=({document:t})=>!t||t.source.kind==="simulation",Bi=({answers:t})=>t,dh="surface (zoom in)",fh=[{mark:"truth",text:"true wall",when:zs,may:zs},{mark:"ray",
 text:"ray"},{mark:"miss",text:"no return"},{mark:"dot",text:"reading"},{mark:"sensor",text:"sensor"},{mark:"stroke",text:"surface",when:({overlay:t})=>!!t?.strokes.
 length,may:t=>!zs(t)},{mark:"trajectory",text:"trajectory",when:({overlay:t})=>!!t?.trajectory.length,may:t=>!zs(t)},{mark:"unobserved",text:"unobserved"},{mark:"\
 draw",text:"this draw",when:({flicker:t})=>!!t.under},{mark:"ghost",text:"predicted reading",when:({ghost:t,reading:e})=>t.held||e.picked!==null,may:Bi},{mark:"\
 path",text:"path, as wide as the robot",when:({decisions:t})=>!!(t.path&&t.pathShown),may:Bi}],mh=[{mark:"belief",text:"possible pose"},{mark:"place",text:"95 %\
  of a place"}],gh=[{mark:"for",text:"speaks for it"},{mark:"against",text:"speaks against it"}];function yh(t,e,n){let o=k("p",{className:"sentence"});return t.
-each(()=>C(o,"textContent",zm(t.session))),k("div",{className:"legend"},o,Ym(t,e,n),qm(t))}var Ui=(t,e)=>`${t.toLocaleString("en")} ${e}${t===1?"":"s"}`;function zm(t){
+each(()=>C(o,"textContent",qm(t.session))),k("div",{className:"legend"},o,Km(t,e,n),Jm(t))}var Ui=(t,e)=>`${t.toLocaleString("en")} ${e}${t===1?"":"s"}`;function qm(t){
 let{shown:e,document:n,layer:o,quantity:s,draws:r}=t;if(!e||!n)return"";if(t.where.map)return"The walls as they are drawn: where a scan was taken is asked in a \
 known map.";let{kind:i,mean:a,value:l}=s,c=e.verdict?.level!=="bad",h=c?"One map drawn from the posterior":/importance/.test(e.method)?"One particle":"The map o\
 f one chain, which has not converged",d={mean:i==="binary"?"How probable a wall is in each cell":Qt(`${a} of each cell`),draw:`${h}${i==="binary"?"":`, by its ${l}`}${r.
 count?`, ${t.draw+1} of ${r.count}`:""}`,entropy:"How uncertain each cell is, in bits",width:"How wide the 90 % interval of each cell is"}[o];if(e.method==="non\
 e")return`${d} before any reading: the prior.`;let{source:u,angles:m,sensors:w,scans_used:v}=n,b=u.kind==="simulation"?`${Ui(m*w.length,"beam")} of ${Ui(w.length,
 "sensor")}`:Ui(v??u.scans,"scan"),S=(e.method==="propagate"||e.method==="pilot"||/hits|counts/.test(e.method))&&e.approximate?", approximately":o!=="draw"&&e.burned?
-`: the mean of the sweeps ${ai(e.burned)}`:"";return`${d}, given ${b}${S}${c||o==="draw"?"":", as far as it is known"}.`}function Ym(t,e,n){let{session:o}=t,s=k(
+`: the mean of the sweeps ${ai(e.burned)}`:"";return`${d}, given ${b}${S}${c||o==="draw"?"":", as far as it is known"}.`}function Km(t,e,n){let{session:o}=t,s=k(
 "span",{className:"ramp"}),r=k("span",{className:"name"}),i=fh.map(h=>{let[d,u]=Ys(h),{mark:m,when:w}=h;return w&&t.visible(d,()=>w(o)),m==="stroke"&&t.each(()=>C(
 u,"textContent",Bo(n())?h.text:dh)),m==="path"&&t.each(()=>d.firstElementChild?.classList.toggle("risky",o.decisions.path?.within_risk===!1)),d}),[a,l]=[mh,gh].
 map(h=>h.map(d=>Ys(d)[0]));for(let h of a)t.visible(h,()=>!!o.where.found);for(let h of l)t.visible(h,()=>!!o.evidence.cellShown);let c="";return t.each(()=>{let{
 layer:h}=o;C(r,"textContent",wh(o,h));let d=h==="entropy"||h==="width",u=`${d} ${e().ground}`;c!==u&&(c=u,s.style.background=Zr(d?oo:m=>Xr(e(),m)))}),k("ul",{"a\
-ria-label":"Legend"},k("li",{},r,k("span",{className:"scale"},"0",s,"1")),...i,Km(t),...a,...l)}function qm(t){let{session:e}=t,n=["mean","draw","entropy","widt\
+ria-label":"Legend"},k("li",{},r,k("span",{className:"scale"},"0",s,"1")),...i,Xm(t),...a,...l)}function Jm(t){let{session:e}=t,n=["mean","draw","entropy","widt\
 h"].map(c=>{let h=k("span");return t.each(()=>C(h,"textContent",wh(e,c))),c==="width"&&t.visible(h,()=>e.quantity.interval),h}),o=fh.map(c=>{let[h,d]=Ys(c);c.mark===
 "stroke"&&(d.textContent=dh);let{may:u}=c;return u&&t.visible(h,()=>u(e)),h}),s=k("span",{className:"scale"},"00.0",k("span",{className:"ramp"}),"000.0 nats"),r=[
 mh,gh].map(c=>k("ul",{},...c.map(h=>Ys(h)[0]))),i=[k("ul",{},k("li",{},"one more scan tells",s)),...r],a=k("li",{className:"either"},...i);t.visible(a,()=>Bi(e));
 let l=k("span",{className:"scale"},"0",k("span",{className:"ramp"}),"1");return k("ul",{className:"room","aria-hidden":"true"},k("li",{},k("span",{className:"na\
 me either"},...n),l),...o,a)}function Ys({mark:t,text:e}){let n=k("i",{className:t});t==="sensor"&&n.append(mn("sensor"));let o=k("span",{textContent:e});return[
 k("li",{},n,o),o]}function wh({quantity:t},e){let{kind:n,mean:o,value:s}=t;return e==="entropy"?"entropy (bit)":e==="width"?"width of the 90 % interval":n==="bi\
-nary"?"P(wall)":e==="draw"?s:o}function Km(t){let{decisions:e}=t.session,n=k("span",{className:"ramp"});n.style.background=Zr(oo);let[o,s]=[k("span"),k("span")],
+nary"?"P(wall)":e==="draw"?s:o}function Xm(t){let{decisions:e}=t.session,n=k("span",{className:"ramp"});n.style.background=Zr(oo);let[o,s]=[k("span"),k("span")],
 r=k("li",{className:"views"},"one more scan tells",k("span",{className:"scale"},o,n,s));return t.visible(r,()=>e.looking&&!!e.views?.nats.length),t.each(()=>{let i=e.
-views?.nats;i?.length&&(C(o,"textContent","0"),C(s,"textContent",`${fe(Math.max(...i),1)} nats`))}),r}var Jm=[.05,.1,.2,.4,.8],Xm=t=>t<1?`${+(100*t).toPrecision(3)} cm`:`${+t.toPrecision(3)} m`;function bh(t){let{session:e}=t,n=k("select",{onchange:()=>e.act({type:"\
+views?.nats;i?.length&&(C(o,"textContent","0"),C(s,"textContent",`${fe(Math.max(...i),1)} nats`))}),r}var Zm=[.05,.1,.2,.4,.8],Qm=t=>t<1?`${+(100*t).toPrecision(3)} cm`:`${+t.toPrecision(3)} m`;function bh(t){let{session:e}=t,n=k("select",{onchange:()=>e.act({type:"\
 set",patch:{resolution:Number(n.value)}})}),o="";t.each(()=>{let{grid:r,source:i}=e.document??{};if(!r||i?.kind!=="log"||!i.bounds)return;let[a,l]=i.bounds,c=Math.
-max(l[0]-a[0],l[1]-a[1]),h=[...new Set([...Jm,r.resolution])].sort((u,m)=>u-m),[,d]=t.limits("side_of_log");if(o!==`${h} ${d}`){o=`${h} ${d}`;let u=m=>k("option",
-{value:String(m),textContent:Xm(m),disabled:c/m>d-1});n.replaceChildren(...h.map(u))}C(n,"value",String(r.resolution))});let s=t.row("Cell size",n);return t.visible(
+max(l[0]-a[0],l[1]-a[1]),h=[...new Set([...Zm,r.resolution])].sort((u,m)=>u-m),[,d]=t.limits("side_of_log");if(o!==`${h} ${d}`){o=`${h} ${d}`;let u=m=>k("option",
+{value:String(m),textContent:Qm(m),disabled:c/m>d-1});n.replaceChildren(...h.map(u))}C(n,"value",String(r.resolution))});let s=t.row("Cell size",n);return t.visible(
 s,()=>e.document?.source.kind==="log"),s}function xh(t){let{session:e}=t,n=k("input",{type:"range",min:1,step:1,"aria-label":"Scans used"}),o=k("output"),s=()=>e.
 document?.source.scans??0,r=a=>{let l=Number(n.value);t.scrub(l>=s()?null:l,a)};n.addEventListener("input",()=>r(!0)),n.addEventListener("change",()=>{r(!1),t.endDrag()});
 let i=t.section("Log",k("div",{className:"player bare"},n,o));return t.visible(i,()=>!e.recorded&&e.document?.source.kind==="log"&&s()>1),t.each(()=>{let a=s(),
 l=e.document?.scans_used??a;C(n,"max",String(Math.max(1,a))),(!En(n)||Number(n.value)!==l)&&C(n,"value",String(l));let c=l===a?`all ${a} scans`:`after ${l} of ${a}`;
-n.style.setProperty("--fill",`${100*(l-1)/Math.max(1,a-1)}%`),nt(n,"aria-valuetext",c),C(o,"textContent",c)}),i}var Zm="The server was started again, with another address. Open the address that it has printed: this page then goes on with it, and the map is kept here.",vh=200,
-Qm="For and against a wall: the log ratio of each beam's likelihood with a wall in the cell and without, summed over the beams that it makes likelier, and less \
+n.style.setProperty("--fill",`${100*(l-1)/Math.max(1,a-1)}%`),nt(n,"aria-valuetext",c),C(o,"textContent",c)}),i}var eg="The server was started again, with another address. Open the address that it has printed: this page then goes on with it, and the map is kept here.",vh=200,
+tg="For and against a wall: the log ratio of each beam's likelihood with a wall in the cell and without, summed over the beams that it makes likelier, and less \
 likely",kh="For and against what is there: how much likelier each beam's reading is under the draws of the map than under the same draws with this cell emptied \
-(log ratio), summed over the beams that it makes likelier, and less likely",eg="Emptied means without the surface that the cell owns: where a neighbour's surfac\
+(log ratio), summed over the beams that it makes likelier, and less likely",ng="Emptied means without the surface that the cell owns: where a neighbour's surfac\
 e explains the same readings, they say little of this one.";function Th(t){let{session:e}=t,n=k("span",{className:"chip"}),o=t.button(null,"Not converged",()=>Sh(
 e)?.apply?.(),{text:"Not converged",className:"chip doubt"}),s=k("div",{className:"chips"},n,o);return t.each(()=>{let r=e.where.map!==null,i=r?null:Sh(e);if(C(
 o,"hidden",!i),i){let m=[Go(e).bad,i.text].filter(Boolean).join(": ");C(o.firstElementChild,"textContent",m.charAt(0).toLowerCase()+m.slice(1)),C(o,"title",`${e.
@@ -769,8 +769,8 @@ if(C(s,"hidden",!1),r)return C(n,"textContent","known map: the walls as drawn"),
 "draw",c=a.layer==="draw"?l+(e.flicker.under?" over the mean":""):a.layer==="width"?"width of the 90 % interval":e.view.layer==="entropy"?"entropy":"mean";if(a.
 method==="counts"){let m=e.halfway?"along poses found so far":"along raw odometry";return C(n,"textContent",`hits and passes · ${e.stage?e.stage.text.toLowerCase():
 m}`),C(n,"className","chip approximate")}let h={importance:"importance sampling",propagate:"belief propagation"}[a.method],d=e.document.method==="importance"&&a.
-method==="propagate"?", until Run weighs particles":"",u=a.approximate?`approximate, ${tg(a,e.working)}${d}`:h??`${a.sweeps} sweeps`;C(n,"textContent",`${c} · ${u}`),
-C(n,"className",a.approximate?"chip approximate":"chip")}),s}function tg({method:t,sweeps:e,total:n,averaged:o},s){return t==="hits"?"counts of hits":t!=="pilot"?
+method==="propagate"?", until Run weighs particles":"",u=a.approximate?`approximate, ${og(a,e.working)}${d}`:h??`${a.sweeps} sweeps`;C(n,"textContent",`${c} · ${u}`),
+C(n,"className",a.approximate?"chip approximate":"chip")}),s}function og({method:t,sweeps:e,total:n,averaged:o},s){return t==="hits"?"counts of hits":t!=="pilot"?
 "belief propagation":`${o===1?"1 draw":`${o} draws`} of one chain, sensor ${s?"being":"half"} fitted: sweep ${e} of ${n}`}function Sh(t){let{shown:e,document:n}=t;
 if(e?.verdict?.level!=="bad"||!n)return null;if(t.recorded||n.source.kind==="run")return{text:""};let o=a=>()=>t.act({type:"set",patch:a}),s=e.sweeps<vh,r=n.pose_sigma===
 0&&n.heading_sigma===0;if(e.method==="gibbs"&&n.source.kind==="simulation"&&!s&&r)return{text:"try blocks",apply:o({method:"block"})};if(e.method==="importance")
@@ -778,10 +778,10 @@ return{text:"try Gibbs",apply:o({method:"auto"})};if(e.sweeps<e.total)return nul
 0,Math.max(vh,4*n.sweeps));return i>n.sweeps?{text:`try ${i} sweeps`,apply:o({sweeps:i})}:{text:""}}function Ah(t){let{session:e}=t,n=k("span"),o=t.button(null,
 "Reconnect now",()=>e.transport.retry?.(),{text:"Reconnect now"}),s=k("div",{className:"banner",role:"alert",hidden:!0},n,o);return t.each(()=>{let r=e.everConnected&&
 !e.connection.connected,i=Math.max(1,Math.round((e.connection.retryIn_ms??0)/1e3));C(s,"hidden",!r&&e.worker!=="restarted"),C(s,"className",r?"banner":"banner m\
-ild"),C(o,"hidden",!r);let a=`Connection lost. Trying again in ${i} s; the map is kept here.`,l=e.connection.refused?Zm:a;C(n,"textContent",r?l:"The worker stop\
+ild"),C(o,"hidden",!r);let a=`Connection lost. Trying again in ${i} s; the map is kept here.`,l=e.connection.refused?eg:a;C(n,"textContent",r?l:"The worker stop\
 ped and is being started again. The map is kept.")}),s}function Eh(t){let{session:e,hand:n}=t,o=k("div",{className:"readout",id:`${t.prefix}-readout`}),s=k("spa\
 n",{role:"status","aria-live":"polite"}),r=k("span",{className:"hidden","aria-live":"polite"});return n.announce=i=>C(r,"textContent",i),n.describe=i=>Mh(e,i),t.
-each(()=>{let{kind:i}=e.quantity;C(o,"title",i==="binary"?Qm:i==="surface"?`${kh}. ${eg}`:kh);let a=n.cursor??n.hover,c=matchMedia("(pointer: coarse)").matches?
+each(()=>{let{kind:i}=e.quantity;C(o,"title",i==="binary"?tg:i==="surface"?`${kh}. ${ng}`:kh);let a=n.cursor??n.hover,c=matchMedia("(pointer: coarse)").matches?
 "Touch a cell":e.editable?"Point at a cell, or press ? for the keys":"Point at a cell";C(o,"textContent",a?Mh(e,a):c);let h=e.status.text==="Ready"&&e.shown?.verdict?.
 level==="bad"&&!e.where.map,d=e.status.text==="Ready"&&Ps(e),u=e.shown?.method==="importance"?"Ready, but importance sampling has collapsed":"Ready, but the cha\
 ins have not converged",m=e.everConnected&&!e.connection.connected&&e.status.level==="info";C(s,"textContent",m?"Connection lost":h?u:d?"Fitting the sensor":e.status.
@@ -794,15 +794,15 @@ draw"):h.push(`P(wall) ${u.toFixed(2)}`,`entropy ${Io(u).toFixed(2)} bit`);let M
 255,D=n.source.kind==="run";if(P?!D&&P<.995&&h.push(`reached by a beam with probability ${P.toFixed(2)}`):h.push(D?"reached by a beam in less than half of the d\
 raws":"unobserved"),P&&E!==null&&h.push(E===1?"1 beam":`${E} beams`),P&&S&&S.nats_for!==null&&S.nats_against!==null&&E){let L={binary:"a wall",surface:"its surf\
 ace"}[t.quantity.kind]??"what is there";h.push(`for ${L} ${S.beams_for}, ${S.nats_for.toFixed(1)} nats`,`against ${S.beams_against}, ${S.nats_against.toFixed(1)}\
- nats`)}}return h.join(" · ")}var ng={logged:"as logged",odometry:"from raw odometry"},og=180/Math.PI;function Ph(t){let{session:e}=t,n=()=>e.document?.source.kind==="log",o=t.select("Poses",
-ng,()=>e.document?.poses??"logged",a=>t.set({poses:a}));o.classList.add("wide"),t.visible(o,n);let s=[t.slider("pose_sigma",()=>"Position ±",{step:.05,unit:" m"}),
-t.slider("heading_sigma",()=>"Yaw ±",{step:.5,unit:"°",scale:og})];for(let a of s)t.visible(a,()=>e.editable);let r=k("p",{className:"caption"});t.each(()=>{let{
+ nats`)}}return h.join(" · ")}var sg={logged:"as logged",odometry:"from raw odometry"},rg=180/Math.PI;function Ph(t){let{session:e}=t,n=()=>e.document?.source.kind==="log",o=t.select("Poses",
+sg,()=>e.document?.poses??"logged",a=>t.set({poses:a}));o.classList.add("wide"),t.visible(o,n);let s=[t.slider("pose_sigma",()=>"Position ±",{step:.05,unit:" m"}),
+t.slider("heading_sigma",()=>"Yaw ±",{step:.5,unit:"°",scale:rg})];for(let a of s)t.visible(a,()=>e.editable);let r=k("p",{className:"caption"});t.each(()=>{let{
 pose_sigma:a=0,heading_sigma:l=0,method:c="auto"}=e.document??{},h=n()&&e.document?.poses==="odometry"&&e.shown?.method==="counts"&&!e.running,d=e.editable&&(a>
 0||l>0)&&!/auto|gibbs|block/.test(c);C(r,"hidden",!d&&!h),C(r,"textContent",h?"Run infers where the robot was.":"This method takes poses as known; Gibbs does no\
-t.")});let i=t.section("Where the robot was",o,...s,r);return t.visible(i,()=>e.editable&&!e.figure||n()&&!e.recorded),i}var qs=t=>Math.abs(t)<.995?`${fe(100*Math.abs(t),1)} cm`:`${fe(Math.abs(t),2)} m`,sg="Point at a reading to compare it with what the posterior predicts of it.",
-rg=": preparing the comparison. The first one after an installation takes some seconds.";function _h(t){let{session:e}=t,n=k("p",{className:"words reading",role:"\
+t.")});let i=t.section("Where the robot was",o,...s,r);return t.visible(i,()=>e.editable&&!e.figure||n()&&!e.recorded),i}var qs=t=>Math.abs(t)<.995?`${fe(100*Math.abs(t),1)} cm`:`${fe(Math.abs(t),2)} m`,ig="Point at a reading to compare it with what the posterior predicts of it.",
+ag=": preparing the comparison. The first one after an installation takes some seconds.";function _h(t){let{session:e}=t,n=k("p",{className:"words reading",role:"\
 status"}),o=t.section("Reading",n);return t.visible(o,()=>!e.recorded&&!!e.document&&e.document?.source.kind!=="simulation"),t.each(()=>{let{picked:s,found:r,trouble:i,
-slow:a}=e.reading,l=s?`Beam ${s.beam+1} of scan ${s.scan+1}${a?rg:"."}`:sg;C(n,"textContent",i||(r?ig(r):l))}),o}function ig({scan:t,beam:e,reading:n,range:o,low:s,
+slow:a}=e.reading,l=s?`Beam ${s.beam+1} of scan ${s.scan+1}${a?ag:"."}`:ig;C(n,"textContent",i||(r?lg(r):l))}),o}function lg({scan:t,beam:e,reading:n,range:o,low:s,
 median:r,high:i,residual:a,no_return:l,wall:c}){let h=`Beam ${e+1} of scan ${t+1}`,d=(M,S)=>M===null?S:`${fe(M,2)} m`,u=`median ${d(r,"no return")}, 80 % betwee\
 n ${d(s,"too close")} and ${d(i,"no return")}`;if(n==="none")return`${h} came back from nothing, which was predicted with probability ${fe(l??0,3)} (${u}).`;if(n!==
 "hit"||o===null)return`${h} read nothing that says how far (${u}).`;let m=a===null?"":`, ${qs(a)} ${a<0?"shorter":"longer"} than the predicted median`,w=`${h} r\
@@ -821,16 +821,16 @@ Again"})),c=t.button(null,"Show me",()=>e.solve(),{text:"Show me"});t.visible(c,
 story";let d=h.querySelector("h2");t.visible(h,()=>!!e.story);let u=null;return t.each(()=>{let{story:m,step:w,at:v}=e;!m||!w||(u!==m&&i.replaceChildren(...m.steps.
 map(({title:b},M)=>{let S=E=>{E.preventDefault(),e.go(M)};return k("a",{href:Js(M),title:b,"aria-label":`Step ${M+1}: ${b}`,textContent:String(M+1),onclick:S})})),
 u=m,C(d,"textContent",m.title),C(n,"textContent",w.title),C(o,"textContent",w.text),Array.from(i.children).forEach((b,M)=>nt(b,"aria-current",M===v?"step":"fals\
-e")))}),ag(t,h,s),h}function ag(t,e,n){let{telling:o}=t.session,s=[],[r,i]=["",""],a=-1,l=null;t.each(()=>{let{step:c,begins:h}=o;if(!c)return;let d=t.named.filter(
+e")))}),cg(t,h,s),h}function cg(t,e,n){let{telling:o}=t.session,s=[],[r,i]=["",""],a=-1,l=null;t.each(()=>{let{step:c,begins:h}=o;if(!c)return;let d=t.named.filter(
 ({place:b})=>!b.closest("[hidden], dialog")),u=d.map(({name:b})=>b()),m=[c.task,...u].join("|"),w=m===r?null:Ch(c.task,u);if(r=m,w&&JSON.stringify(w)!==i){i=JSON.
 stringify(w);for(let{place:b}of s)b.classList.remove("named");s=w.flatMap(({at:b})=>b===null?[]:[d[b]]);for(let{place:b}of s)b.classList.add("named");n.replaceChildren(
 ...w.map(({text:b,at:M})=>M===null?b:k("button",{type:"button",title:"Go to this control",textContent:b,onclick:()=>{l=null,Lh(e,d[M].place),d[M].control.focus(
 {preventScroll:!0})}})))}let v=e.parentElement;if(v&&(a!==h&&(a=h,v.scrollTop=0,l=0),l!==null)){if(v.scrollTop!==l)return void(l=null);s.length&&Dh(e)&&Lh(e,s[0].
 place),l=o.settled?null:v.scrollTop}})}var Dh=t=>getComputedStyle(t).position==="sticky";function Lh(t,e){let n=t.parentElement;if(!n.contains(e))return;let[o,s]=[
 n.getBoundingClientRect(),e.getBoundingClientRect()],r=o.top+(Dh(t)?t.getBoundingClientRect().height:0);(s.top<r||s.bottom>o.bottom)&&(n.scrollTop+=(s.top+s.bottom-
-r-o.bottom)/2)}var lg={auto:"Chosen by the prior",gibbs:"Gibbs, cell by cell",block:"Gibbs, 2 × 2 blocks",propagate:"Belief propagation",importance:"Importance sampling"},cg={
-binary:"walls",reflectivity:"reflectivities",surface:"surfaces"},hg={noisy:"with noise",exact:"exact"},pg={auto:"as is best",prior:"draws of the prior",empty:"t\
-he empty map"},ug={raster:"raster",radial:"radial",random:"random"},Xs=2*Math.PI,dg=t=>Math.round(t*1800/Math.PI)/10,fg={importance:"Particles",propagate:"Round\
+r-o.bottom)/2)}var hg={auto:"Chosen by the prior",gibbs:"Gibbs, cell by cell",block:"Gibbs, 2 × 2 blocks",propagate:"Belief propagation",importance:"Importance sampling"},pg={
+binary:"walls",reflectivity:"reflectivities",surface:"surfaces"},ug={noisy:"with noise",exact:"exact"},dg={auto:"as is best",prior:"draws of the prior",empty:"t\
+he empty map"},fg={raster:"raster",radial:"radial",random:"random"},Xs=2*Math.PI,mg=t=>Math.round(t*1800/Math.PI)/10,gg={importance:"Particles",propagate:"Round\
 s"};function Rh(t){let{session:e,hand:n,editor:o}=t,s=k("select",{"aria-label":"Selected sensor"});s.addEventListener("change",()=>{n.selected=Number(s.value),n.
 choose("sensor")});let r="";t.each(()=>{let d=e.document?.sensors??[],u=d.map(m=>m.id).join();u!==r&&s.replaceChildren(...d.map(({id:m})=>k("option",{value:String(
 m),textContent:`Sensor ${m}`}))),r=u,C(s,"value",String(n.sensor?.id??""))});let i=(d,u)=>t.numberInput(d,()=>Number((n.sensor?.[u]??0).toFixed(2)),m=>n.sensor&&
@@ -839,18 +839,18 @@ o.moveSensor(n.sensor,{[u]:m}),{step:"any"}),a=t.numberInput("heading (°)",()=>
 Remove",when:()=>(e.document?.sensors.length??0)>1,why:"The last sensor stays"});t.visible(a,()=>(e.document?.fov??Xs)<Xs);let h=k("div",{className:"triple"},i(
 "x (m)","x"),i("y (m)","y"),a);return t.section("Sensors",k("div",{className:"buttons"},s,l,c),h)}function $h(t){let{session:e}=t,n=t.numberInput("Longest range\
  (m)",()=>e.document?.max_range??0,a=>t.set({max_range:a}),{step:"any",limits:"max_range"}),o=[t.slider("noise",()=>"Noise (m)",{step:.01,unit:" m"}),t.slider("\
-angles",()=>"Angles",{step:1,log:!0}),n,t.numberInput("Field of view (°)",()=>dg(e.document?.fov??Xs),a=>t.set({fov:a>=360?Xs:a*Math.PI/180}),{step:5,limits:"f\
-ov",scale:180/Math.PI}),t.select("Readings",hg,()=>e.document?.readings??"noisy",a=>t.set({readings:a}))];for(let a of o)t.visible(a,()=>e.editable);let s=t.slider(
-"prior",()=>"Prior P(wall)",{step:.01}),r=()=>(e.document?.cells??"binary")==="binary";t.visible(s,r);let i=t.select("Cells",cg,()=>e.document?.cells??"binary",
+angles",()=>"Angles",{step:1,log:!0}),n,t.numberInput("Field of view (°)",()=>mg(e.document?.fov??Xs),a=>t.set({fov:a>=360?Xs:a*Math.PI/180}),{step:5,limits:"f\
+ov",scale:180/Math.PI}),t.select("Readings",ug,()=>e.document?.readings??"noisy",a=>t.set({readings:a}))];for(let a of o)t.visible(a,()=>e.editable);let s=t.slider(
+"prior",()=>"Prior P(wall)",{step:.01}),r=()=>(e.document?.cells??"binary")==="binary";t.visible(s,r);let i=t.select("Cells",pg,()=>e.document?.cells??"binary",
 a=>t.set({cells:a}));return t.visible(i,()=>e.document?.source.kind==="log"),t.section("Model",i,bh(t),s,...o)}function Fh(t){let{session:e}=t,n=()=>e.document?.
-method??"auto",o=()=>(e.document?.cells??"binary")==="binary",s=()=>/auto|gibbs|block/.test(n()),r=[t.select("Method",lg,n,l=>t.set({method:l})),t.select("Order",
-ug,()=>e.document?.order??"radial",l=>t.set({order:l}),()=>n()==="gibbs"||n()==="auto","Only Gibbs, cell by cell, has an order"),t.select("Start",pg,()=>e.document?.
+method??"auto",o=()=>(e.document?.cells??"binary")==="binary",s=()=>/auto|gibbs|block/.test(n()),r=[t.select("Method",hg,n,l=>t.set({method:l})),t.select("Order",
+fg,()=>e.document?.order??"radial",l=>t.set({order:l}),()=>n()==="gibbs"||n()==="auto","Only Gibbs, cell by cell, has an order"),t.select("Start",dg,()=>e.document?.
 start??"auto",l=>t.set({start:l}),s,"Only chains have a start")],i=Array.from(r[0].lastElementChild.children);for(let l of i)l.value==="propagate"&&t.visible(l,
 ()=>!e.figure);for(let l of r)t.visible(l,o);let a=t.slider("burn_in",()=>"Burn-in (%)",{step:5,scale:100});return t.visible(a,()=>s()||!o()),t.section("Inferen\
-ce",...r,a,t.slider("sweeps",()=>fg[n()]??"Sweeps",{step:1,log:!0}),t.numberInput("Seed",()=>e.document?.seed??0,l=>t.set({seed:Math.round(l)}),{step:1,limits:"\
+ce",...r,a,t.slider("sweeps",()=>gg[n()]??"Sweeps",{step:1,log:!0}),t.numberInput("Seed",()=>e.document?.seed??0,l=>t.set({seed:Math.round(l)}),{step:1,limits:"\
 seed"}))}function Ih(t){let{session:e}=t,n=t.button(null,"Clear walls",()=>e.act({type:"clear",what:"walls"}),{text:"Clear walls",when:()=>e.editable}),o=t.button(
 null,"Clear inference",()=>e.act({type:"clear",what:"inference"}),{text:"Clear inference"});return t.visible(n,()=>e.editable),t.section("Clear",k("div",{className:"\
-buttons"},n,o))}var mg=0,Zs=class{constructor(e,n,o,s,r,i){this.session=e;this.hand=n;this.editor=o;this.command=s;this.showLayer=r;this.embedded=i}prefix=`bayesmap${mg++}`;named=[];updates=[];drag=Math.
+buttons"},n,o))}var yg=0,Zs=class{constructor(e,n,o,s,r,i){this.session=e;this.hand=n;this.editor=o;this.command=s;this.showLayer=r;this.embedded=i}prefix=`bayesmap${yg++}`;named=[];updates=[];drag=Math.
 floor(Math.random()*2**30);each(e){this.updates.push(e)}refresh(){for(let e of this.updates)e()}set(e){this.session.act({type:"set",patch:e})}slide(e){this.session.
 act({type:"set",patch:e,drag:this.drag})}scrub(e,n){this.session.act({type:"set",patch:{scans_used:e},drag:this.drag,...n?{coarse:n}:{}})}endDrag(){this.drag++}limits(e,n=1){
 let[o,s]=this.session.limits?.[e]??[1,2];return n===1?[o,s]:[Math.ceil(10*o*n-1e-6)/10,Math.floor(10*s*n+1e-6)/10]}bounded(e,n,o=1,s=0){this.each(()=>{let[r,i]=this.
@@ -877,7 +877,7 @@ r,i):[-1/0,1/0];return r&&this.bounded(a,r,i),a.addEventListener("change",()=>th
 e,a)}checkbox(e,n,o,s=""){let r=k("input",{type:"checkbox",onchange:()=>o(r.checked)});this.each(()=>C(r,"checked",n()));let i=k("label",{className:"check",title:s},
 r,k("span",{textContent:e}));return this.named.push({name:()=>e,place:i,control:r}),i}dialog(e,...n){let o=`${this.prefix}-dialog-${e.replace(/\W/g,"")}`,s=k("b\
 utton",{type:"button",className:"plain","aria-label":"Close",onclick:()=>i.close()},mn("close")),r=k("div",{className:"title"},k("h2",{id:o,textContent:e}),s),i=k(
-"dialog",{"aria-labelledby":o},r,...n);return i.addEventListener("click",a=>{a.target===i&&i.close()}),i.addEventListener("keydown",a=>a.stopPropagation()),i}};var gg=[["mean","Mean"],["draw","One draw"],["entropy","Entropy"],["width","Width"]],Oh="There are no draws yet: chains keep them",yg={2:"2 / s",10:"10 / s",30:"\
+"dialog",{"aria-labelledby":o},r,...n);return i.addEventListener("click",a=>{a.target===i&&i.close()}),i.addEventListener("keydown",a=>a.stopPropagation()),i}};var wg=[["mean","Mean"],["draw","One draw"],["entropy","Entropy"],["width","Width"]],Oh="There are no draws yet: chains keep them",bg={2:"2 / s",10:"10 / s",30:"\
 30 / s",1e3:"fastest"},Qs=class{constructor(e){this.session=e}playing=!1;drawsPerSecond=10;afterMean=!1;before=null;showLayer(e){if(e!=="draw")this.play(!1);else if(!this.
 session.hasDraws)return;this.before=null,this.session.act({type:"view",layer:e,chain:this.session.view.chain})}showDraw(e,n=this.session.view.chain){this.session.
 act({type:"view",layer:"draw",chain:n,draw:e})}play(e){let{draw:n,draws:o,flicker:s,shown:r}=this.session;this.playing=e&&!s.still,e&&s.wantsMean?this.session.act(
@@ -887,18 +887,18 @@ let{flicker:n,view:o}=this.session;n.on=e,e?n.wantsMean?(this.afterMean=!0,this.
 showDraw(0),this.playing=!0,this.session.changed()}step(){let{shown:e,flicker:n}=this.session;if(n.on&&(this.afterMean||this.playing)&&e?.layer==="mean"&&!n.wantsMean)
 return this.afterMean=!1,this.showDraw(this.session.draw);!this.playing||e?.layer!=="draw"||setTimeout(()=>{if(!this.playing)return;let{draw:o,draws:s}=this.session;
 o+1>=s.count&&n.on?this.showDraw(0):o+1>=s.count?this.play(!1):this.showDraw(o+1)},1e3/this.drawsPerSecond)}};function Uh(t,e,n,o){let{session:s}=t,r=t.segmented(
-"Show",gg,()=>s.view.layer,m=>e.showLayer(m),m=>m==="draw"?s.hasDraws:!s.lacks.includes(m)),[,,i,a]=Array.from(r.children);C(a,"title","Width of each cell's 90 \
+"Show",wg,()=>s.view.layer,m=>e.showLayer(m),m=>m==="draw"?s.hasDraws:!s.lacks.includes(m)),[,,i,a]=Array.from(r.children);C(a,"title","Width of each cell's 90 \
 % interval"),t.visible(i,()=>!s.quantity.interval),t.visible(a,()=>s.quantity.interval);let l=(m,w)=>t.checkbox(m,()=>n[w],v=>{n[w]=v,s.changed()}),c=l("True wa\
 lls","truth");t.visible(c,()=>!s.document||s.document.source.kind==="simulation");let[h,d]=[l("Surfaces","strokes"),l("Trajectory","trajectory")];t.visible(h,()=>!!s.
 overlay?.strokes.length),t.each(()=>C(h.lastElementChild,"textContent",Bo(o())?"Surfaces":"Surfaces (zoom in)")),t.visible(d,()=>!!s.overlay?.trajectory.length);
-let u=k("div",{className:"checks",role:"group","aria-label":"Marks"},c,l("Rays","rays"),l("Readings","readings"),h,d);return t.section("View",r,wg(t,e),u)}function wg(t,e){
+let u=k("div",{className:"checks",role:"group","aria-label":"Marks"},c,l("Rays","rays"),l("Readings","readings"),h,d);return t.section("View",r,xg(t,e),u)}function xg(t,e){
 let{session:n}=t,o=k("input",{type:"range",min:0,step:1,"aria-label":"Draw number"});o.addEventListener("input",()=>{e.play(!1),e.showDraw(Number(o.value))});let s=t.
 button("play","Play the draws",()=>e.play(!e.playing),{when:()=>n.draws.count>1,why:Oh}),r=k("output"),i=k("select",{"aria-label":"Chain"});i.addEventListener("\
 change",()=>e.showDraw(n.draw,Number(i.value))),t.each(()=>{let{chains:d,count:u}=n.draws;C(o,"max",String(Math.max(0,u-1))),C(o,"disabled",u===0),C(o,"value",String(
 n.draw));let m=u?`${n.draw+1} of ${u}`:"none kept";nt(o,"aria-valuetext",m),o.style.setProperty("--fill",`${u>1?100*n.draw/(u-1):0}%`),C(r,"textContent",m),i.length!==
 Math.max(1,d)&&i.replaceChildren(...Array.from({length:Math.max(1,d)},(v,b)=>k("option",{value:String(b),textContent:`chain ${b+1}`}))),C(i,"value",String(n.view.
 chain)),C(i,"disabled",d<2),u<2&&e.playing&&e.play(!1);let w=n.flicker.still?"Next draw":e.playing?"Pause the draws":"Play the draws";s.getAttribute("aria-label")!==
-w&&(s.setAttribute("aria-label",w),s.replaceChildren(mn(e.playing?"pause":"play")))});let a=k("select",{"aria-label":"Speed"});for(let[d,u]of Object.entries(yg))
+w&&(s.setAttribute("aria-label",w),s.replaceChildren(mn(e.playing?"pause":"play")))});let a=k("select",{"aria-label":"Speed"});for(let[d,u]of Object.entries(bg))
 a.append(k("option",{value:d,textContent:u}));a.value=String(e.drawsPerSecond),a.addEventListener("change",()=>e.drawsPerSecond=Number(a.value));let l=t.button(
 null,"From the first sweep",()=>e.playFromStart(),{text:"From the first",when:()=>n.draws.count>1,why:Oh});t.each(()=>C(a,"disabled",n.draws.count<2||n.flicker.
 still));let c=t.checkbox("Draws over the mean",()=>n.flicker.on,d=>e.over(d),"Each draw in its own colour over the mean, as one of the maps that the scans leave\
@@ -906,39 +906,39 @@ still));let c=t.checkbox("Draws over the mean",()=>n.flicker.on,d=>e.over(d),"Ea
 a,l),h)}function Bh(t){let{session:e}=t,n=k("input",{type:"range",min:0,step:1,"aria-label":"Scan number"}),o=k("output");n.addEventListener("input",()=>e.act({
 type:"scan",index:Number(n.value)}));let s=t.section("Scan",k("div",{className:"player bare"},n,o));return t.each(()=>{let r=e.document?.source.kind==="simulati\
 on"?0:e.document?.source.scans??0;C(s,"hidden",r<2),C(n,"max",String(Math.max(0,r-1))),En(n)||C(n,"value",String(e.scan?.index??0)),n.style.setProperty("--fill",
-`${100*Number(n.value)/Math.max(1,r-1)}%`),C(o,"textContent",`${Number(n.value)+1} / ${r}`)}),s}var Gh=2,Wh=6,bg=.9,xg=.5,vg=.005;function Hh(t){let{session:e,hand:n}=t,o=k("p",{className:"whereabouts",role:"status"}),s=k("p",{className:"caption"}),r=t.section(
-"Where am I?",o,s);return t.visible(r,()=>n.tool==="where"),t.each(()=>{e.where.follow(n.tool==="where",n.sensor?.id??null),C(o,"textContent",kg(t)),C(s,"textCo\
+`${100*Number(n.value)/Math.max(1,r-1)}%`),C(o,"textContent",`${Number(n.value)+1} / ${r}`)}),s}var Gh=2,Wh=6,vg=.9,kg=.5,Sg=.005;function Hh(t){let{session:e,hand:n}=t,o=k("p",{className:"whereabouts",role:"status"}),s=k("p",{className:"caption"}),r=t.section(
+"Where am I?",o,s);return t.visible(r,()=>n.tool==="where"),t.each(()=>{e.where.follow(n.tool==="where",n.sensor?.id??null),C(o,"textContent",Mg(t)),C(s,"textCo\
 ntent",e.editable?"Drag the robot: its scan is located among the walls that are drawn, which the map shows, as if nothing were known of its pose.":"Choose a sca\
-n below: it is located in this map, as if nothing were known of its pose. The arrow is where it was recorded.")}),r}function kg({session:t}){let{found:e,trouble:n}=t.
-where;if(n)return`${n.charAt(0).toUpperCase()}${n.slice(1)}.`;if(!e)return"Looking everywhere.";let o=e.p_lost>xg?`The scan fits nowhere on this map, with proba\
-bility ${e.p_lost.toFixed(2)}: the robot is lost, or the map is outdated. If it is on the map: `:"",s=!o&&e.p_lost>vg?` That it is lost, or the map outdated, ha\
-s probability ${e.p_lost.toFixed(2)}.`:"";return`${o}${Sg(e.modes)}${Mg(e,t.editable)}${s}`}function Sg(t){let[e,n]=t;if(!e)return"No place.";let o=e.sigma_m>Gh,
+n below: it is located in this map, as if nothing were known of its pose. The arrow is where it was recorded.")}),r}function Mg({session:t}){let{found:e,trouble:n}=t.
+where;if(n)return`${n.charAt(0).toUpperCase()}${n.slice(1)}.`;if(!e)return"Looking everywhere.";let o=e.p_lost>kg?`The scan fits nowhere on this map, with proba\
+bility ${e.p_lost.toFixed(2)}: the robot is lost, or the map is outdated. If it is on the map: `:"",s=!o&&e.p_lost>Sg?` That it is lost, or the map outdated, ha\
+s probability ${e.p_lost.toFixed(2)}.`:"";return`${o}${Tg(e.modes)}${Ag(e,t.editable)}${s}`}function Tg(t){let[e,n]=t;if(!e)return"No place.";let o=e.sigma_m>Gh,
 s=`${e.mean[0].toFixed(2)}, ${e.mean[1].toFixed(2)} m, heading ${Gi(e.mean[2],0)}`,r=`known to ${Hi(e.sigma_m)} and ${Gi(e.sigma_rad,1)}`;if(!n)return o?`It may\
- be almost anywhere: positions are ${Hi(e.sigma_m)} apart.`:`One place: ${s}, ${r}.`;let i=t.slice(0,Wh).map(({probability:c})=>ni(c)),a=n.probability>bg*e.probability,
-l=t.length>Wh?" and less":"";return`${t.length} places: ${i.join(", ")}${l}. ${a?"One of them":"The likeliest"}: ${s}, ${r}.`}function Mg({modes:t,pose:e},n){if(!t.
+ be almost anywhere: positions are ${Hi(e.sigma_m)} apart.`:`One place: ${s}, ${r}.`;let i=t.slice(0,Wh).map(({probability:c})=>ni(c)),a=n.probability>vg*e.probability,
+l=t.length>Wh?" and less":"";return`${t.length} places: ${i.join(", ")}${l}. ${a?"One of them":"The likeliest"}: ${s}, ${r}.`}function Ag({modes:t,pose:e},n){if(!t.
 length||t[0].sigma_m>Gh)return"";let o=t.map(({mean:a})=>Math.hypot(a[0]-e[0],a[1]-e[1])),s=o.indexOf(Math.min(...o)),r=Math.abs(Math.atan2(Math.sin(t[s].mean[2]-
-e[2]),Math.cos(t[s].mean[2]-e[2]))),i=t.length===1?"there":s===0?"the likeliest":`the ${Tg(s+1)}`;return` The robot ${n?"stands":"was recorded"} ${Hi(o[s])} and\
- ${Gi(r,1)} from ${i}.`}var Tg=t=>`${t}${["th","st","nd","rd"][t%100>10&&t%100<14?0:t%10]??"th"}`,Gi=(t,e)=>`${(t*180/Math.PI).toFixed(e).replace(/^-(?=0(\.0*)?$)/,
+e[2]),Math.cos(t[s].mean[2]-e[2]))),i=t.length===1?"there":s===0?"the likeliest":`the ${Eg(s+1)}`;return` The robot ${n?"stands":"was recorded"} ${Hi(o[s])} and\
+ ${Gi(r,1)} from ${i}.`}var Eg=t=>`${t}${["th","st","nd","rd"][t%100>10&&t%100<14?0:t%10]??"th"}`,Gi=(t,e)=>`${(t*180/Math.PI).toFixed(e).replace(/^-(?=0(\.0*)?$)/,
 "")}°`,Hi=t=>t<.0095?`${(1e3*t).toFixed(0)} mm`:t<1?`${(100*t).toFixed(0)} cm`:`${t.toFixed(1)} m`;var Mo="recording";function jh(t,e,n,{kept:o}){let{shown:s,status:r}=t;return{document:t.effectiveDocument(),generation:t.generation,painted:s&&{generation:s.generation,layer:t.layer,
 approximate:s.approximate,sweeps:s.sweeps,method:s.method,quantity:t.quantity,rhat:s.rhat,verdict:s.verdict,trace:s.trace,traced:s.traced,weights:s.weights,ess:s.
 ess,chain:s.chain,draw:s.draw},probability:s?.p??new Uint8Array(0),reached:s?.reached??new Uint8Array(0),walls:t.walls,sensors:t.document?.sensors??[],scan:t.scan,
 status:{text:r.text,level:r.level},connected:t.connection.connected,decisions:{path:t.decisions.path,views:t.decisions.views,trouble:t.decisions.trouble||t.decisions.
-viewTrouble},where:{found:t.where.found,trouble:t.where.trouble},stage:t.stage,ghost:Eg(t),reading:{picked:t.reading.picked,found:t.reading.found,trouble:t.reading.
-trouble},evidence:{cell:t.evidence.cell,together:t.evidence.together,each:t.evidence.each&&Ag(t.evidence.each)},over:!!t.flicker.under,beside:o&&{layer:o.layer,
+viewTrouble},where:{found:t.where.found,trouble:t.where.trouble},stage:t.stage,ghost:_g(t),reading:{picked:t.reading.picked,found:t.reading.found,trouble:t.reading.
+trouble},evidence:{cell:t.evidence.cell,together:t.evidence.together,each:t.evidence.each&&Pg(t.evidence.each)},over:!!t.flicker.under,beside:o&&{layer:o.layer,
 chain:o.view.chain,draw:o.draw,method:o.shown?.method,probability:Array.from(o.shown?.p??[])},overlay:t.overlay&&{strokes:t.overlay.strokes.length/5,trajectory:t.
 overlay.trajectory.length/2},worker:t.worker,running:t.running,draws:t.draws,view:t.view,seq:{sent:t.acted,confirmed:t.state?.seq??0},events:{...t.counts,eventToPaint_ms:t.
-latency.eventToPaint_ms},layers:{...n.paints},transform:{...e.transform}}}var Ag=t=>Object.fromEntries(Object.entries(t).map(([e,n])=>[e,Array.from(n)]));function Eg({
+latency.eventToPaint_ms},layers:{...n.paints},transform:{...e.transform}}}var Pg=t=>Object.fromEntries(Object.entries(t).map(([e,n])=>[e,Array.from(n)]));function _g({
 ghost:t}){let{held:e,pose:n,fan:o,answers:s,trouble:r}=t;return{held:e,pose:n,answers:s,trouble:r,fan:o&&{...o,near:o.near&&{...o.near}}}}var ji=new Set(["walls","move_sensor","set","view","live"]),Vh=({type:t})=>!ji.has(t),zh="Not while the connection is lost: this needs the server";function Yh(t,e){
 let{document:n,walls:o}=t,s=n.grid.shape[1];if(e.type==="walls")for(let[r,i]of e.cells)o[r*s+i]=e.wall?1:0;else if(e.type==="set"){let{resolution:r,...i}=e.patch;
 Object.assign(n,i)}else if(e.type==="live")t.state={...t.state,live:e.on};else if(e.type==="view")t.view={layer:e.layer,chain:e.chain??t.view.chain,draw:e.draw??
-null};else if(e.type==="move_sensor"){let r=n.sensors.find(i=>i.id===e.id);if(r)for(let i of["x","y","yaw"])r[i]=e[i]??r[i]}}var Pg=t=>Qt(`${t.replace(/^(plan|path|explore): /,"")}.`),er=class{constructor(e){this.session=e}start=null;goal=null;radius=.25;risk=.01;path=null;views=null;trouble="";viewTrouble="";version=0;pathShown=!0;looking=!1;askedPath="";askedViews="";point(e){
+null};else if(e.type==="move_sensor"){let r=n.sensors.find(i=>i.id===e.id);if(r)for(let i of["x","y","yaw"])r[i]=e[i]??r[i]}}var Cg=t=>Qt(`${t.replace(/^(plan|path|explore): /,"")}.`),er=class{constructor(e){this.session=e}start=null;goal=null;radius=.25;risk=.01;path=null;views=null;trouble="";viewTrouble="";version=0;pathShown=!0;looking=!1;askedPath="";askedViews="";point(e){
 this.start&&!this.goal?this.goal=e:[this.start,this.goal]=[e,null],this.path=null,this.trouble="",this.version++,this.ask(),this.session.changed()}set(e){Object.
 assign(this,e),this.ask()}showPath(e){this.pathShown!==e&&this.version++,this.pathShown=e}look(e){this.looking!==e&&(this.looking=e,this.viewTrouble="",e||([this.
 views,this.askedViews]=[null,""]),this.version++,this.ask(),this.session.changed())}forget(){this.forgetPath(),this.views=null,this.askedViews=""}forgetPath(){this.
 start=this.goal=this.path=null,this.askedPath=this.trouble="",this.version++,this.session.changed()}ask(){let{session:e,start:n,goal:o,radius:s,risk:r}=this,{shown:i}=e;
 if(!i||i.generation!==e.generation||!e.answers)return;let a=`${i.generation} ${e.sampling}`,l=`${a} ${JSON.stringify([n,o,s,r])}`;n&&o&&!i.approximate&&l!==this.
 askedPath&&(this.askedPath=l,e.act({type:"path",start:[n.x,n.y],goal:[o.x,o.y],radius:s,risk:r})),this.looking&&(!i.approximate||e.document?.method==="propagate")&&
-a!==this.askedViews&&(this.askedViews=a,e.act({type:"views"}))}receive(e,n){let o=e.type==="undecided"?Pg(e.text):"",s=e.type==="undecided"?e.question:e.type;s===
+a!==this.askedViews&&(this.askedViews=a,e.act({type:"views"}))}receive(e,n){let o=e.type==="undecided"?Cg(e.text):"",s=e.type==="undecided"?e.question:e.type;s===
 "views"?(this.viewTrouble=o,this.views=null):this.trouble=o,e.type==="path"?this.path=e:e.type==="views"&&this.looking?this.views={pose:n.pose,nats:n.nats,spacing:e.
 spacing}:s==="path"&&(this.path=null),this.version++}nearest(e){let{views:n}=this;if(!n?.nats.length)return null;let[o,s]=[0,1/0];for(let r=0;r<n.nats.length;r++){
 let i=Math.hypot(n.pose[3*r]-e.x,n.pose[3*r+1]-e.y);i<s&&([o,s]=[r,i])}return o}};var tr=class{constructor(e){this.session=e}facts=null;cell=null;together=null;each=null;version=0;held=!1;asked="";get cellShown(){return this.held&&this.cell!==
@@ -946,15 +946,15 @@ null}hold(e){this.held!==e&&(this.held=e,this.version++,this.ask())}pin(e){this.
 this.version++,this.ask(),this.session.changed()}forget(){this.cell=this.together=this.each=this.facts=null,this.version++}ask(){let{session:e,cell:n}=this,{shown:o}=e;
 if(!this.held||!n||!o||o.generation!==e.generation||!e.answers)return;let{chain:s,draw:r}=o,i=o.layer==="draw"&&s!==null&&r!==null&&e.draws.count?{chain:s,draw:r}:
 {},a=`${o.generation} ${e.sampling} ${o.approximate} ${n.x} ${n.y} ${JSON.stringify(i)}`;a!==this.asked&&(this.asked=a,e.act({type:"inspect",x:n.x,y:n.y,each:!0,
-...i}))}receive(e,n){this.facts=e,!(!e.each||e.x!==this.cell?.x||e.y!==this.cell?.y)&&(this.together=this.facts,this.each=n.nats?n:null,this.version++)}};var _g="(prefers-reduced-motion: reduce)",nr=class{constructor(e){this.session=e}on=!1;mean=null;get still(){return matchMedia(_g).matches}get under(){let{mean:e,
+...i}))}receive(e,n){this.facts=e,!(!e.each||e.x!==this.cell?.x||e.y!==this.cell?.y)&&(this.together=this.facts,this.each=n.nats?n:null,this.version++)}};var Lg="(prefers-reduced-motion: reduce)",nr=class{constructor(e){this.session=e}on=!1;mean=null;get still(){return matchMedia(Lg).matches}get under(){let{mean:e,
 session:n}=this,{shown:o}=n;return this.on&&e&&o?.layer==="draw"&&e.generation===o.generation&&e.p.length===o.p.length?e:null}get wantsMean(){return this.on&&this.
-mean?.generation!==this.session.generation}take(e){e.layer!=="draw"&&e.layer!=="width"&&(this.mean=e)}};var Cg=2e3,Lg=3e3,Ng=2,or=class{constructor(e){this.session=e}held=!1;pose=null;fan=null;trouble="";version=0;answers=0;moving=!1;askedAt=-1/0;waiting=0;asked="";hold(e){
+mean?.generation!==this.session.generation}take(e){e.layer!=="draw"&&e.layer!=="width"&&(this.mean=e)}};var Ng=2e3,Dg=3e3,Rg=2,or=class{constructor(e){this.session=e}held=!1;pose=null;fan=null;trouble="";version=0;answers=0;moving=!1;askedAt=-1/0;waiting=0;asked="";hold(e){
 this.held!==e&&(this.held=e,this.version++,this.ask(),this.session.changed())}move(e,n=!1){let{pose:o}=this;this.moving=n,this.pose={x:0,y:0,yaw:0,...o,...e},this.
 version++,this.ask(),this.session.changed()}rest(){this.moving&&(this.moving=!1,this.ask())}refit(){let{pose:e,session:n}=this,o=e&&n.document&&Tn(e,n.document.
 grid);(!o||!qt(o,n.shape))&&(this.pose=null),this.fan=null,this.asked=this.trouble="",this.version++}ask(){let{session:e}=this,{shown:n,scan:o}=e;if(!this.held||
 !e.answers||!n||n.generation!==e.generation)return;!this.pose&&o?.pose.length&&(this.pose={x:o.pose[0],y:o.pose[1],yaw:o.pose[2]});let{pose:s}=this;if(!s)return;
-let r=performance.now();if(r-this.askedAt>Cg&&(this.waiting=0),this.waiting>=Ng)return;let i=JSON.stringify([s,this.moving,n.generation,e.sampling,n.approximate]),
-a=e.sampling&&r-this.askedAt>Lg;i===this.asked&&!a||([this.asked,this.askedAt]=[i,r],this.waiting++,e.act({type:"ghost",...s,coarse:this.moving}))}receive(e,n){
+let r=performance.now();if(r-this.askedAt>Ng&&(this.waiting=0),this.waiting>=Rg)return;let i=JSON.stringify([s,this.moving,n.generation,e.sampling,n.approximate]),
+a=e.sampling&&r-this.askedAt>Dg;i===this.asked&&!a||([this.asked,this.askedAt]=[i,r],this.waiting++,e.act({type:"ghost",...s,coarse:this.moving}))}receive(e,n){
 if(this.waiting=Math.max(0,this.waiting-1),this.trouble=e.type==="undecided"?e.text:"",e.type==="ghost"){let{angles:o,low:s,median:r,high:i,near_pose:a,near_ranges:l,
 near_hit:c}=n,{x:h,y:d,yaw:u,generation:m,draws:w,coarse:v,milliseconds:b}=e,M=e.near&&{...e.near,pose:a,ranges:l,hit:c};this.fan={x:h,y:d,yaw:u,generation:m,draws:w,
 coarse:v,milliseconds:b,angles:o,low:s,median:r,high:i,near:M},this.answers++}else this.fan=null;this.version++,this.ask()}};var sr=class{eventToPaint_ms=[];waiting=[];seqOfGeneration=new Map;sent(e,n){this.waiting.push({seq:e,time:n.timeStamp})}refused(e){this.waiting=this.waiting.filter(
@@ -963,11 +963,11 @@ waiting)s.seq<=n&&this.eventToPaint_ms.push(o-s.time);this.waiting=this.waiting.
 delete(s)}forget(){this.waiting=[],this.seqOfGeneration.clear()}};var rr=class{generation=-1;last=0;from={sweeps:0,time:0};hear(e){e.approximate||e.sweeps<=0||((this.generation!==e.generation||e.sweeps<this.last)&&(this.generation=
 e.generation,this.from={sweeps:e.sweeps,time:performance.now()}),this.last=e.sweeps)}remaining_s(e){let n=e.sweeps-this.from.sweeps;return n>0?(e.total-e.sweeps)*
 (performance.now()-this.from.time)/n/1e3:null}};var ir=class{constructor(e){this.session=e}picked=null;found=null;trouble="";slow=!1;version=0;timer=0;point(e,n){let{session:o}=this,s=o.document&&o.document.source.
-kind!=="simulation"&&!o.recorded,r=e&&s&&o.scan?Dg(o.scan,e,n,o.document?.max_range??1/0):null;r?.beam===this.picked?.beam&&r?.scan===this.picked?.scan||(this.picked=
+kind!=="simulation"&&!o.recorded,r=e&&s&&o.scan?$g(o.scan,e,n,o.document?.max_range??1/0):null;r?.beam===this.picked?.beam&&r?.scan===this.picked?.scan||(this.picked=
 r,this.found=null,this.trouble="",this.slow=!1,this.version++,clearTimeout(this.timer),r&&(this.timer=window.setTimeout(()=>this.ask(r),120)),o.changed())}ask({
 scan:e,beam:n}){this.session.act({type:"beam",scan:e,beam:n}),this.timer=window.setTimeout(()=>{this.slow=!0,this.session.changed()},1e3)}forget(){this.picked&&
 (clearTimeout(this.timer),this.picked=this.found=null,this.slow=!1,this.version++)}receive(e){e.type==="undecided"?this.trouble=e.text:e.beam===this.picked?.beam&&
-e.scan===this.picked.scan&&(this.found=e),this.version++}};function Dg({index:t,pose:e,angles:n,ranges:o,hit:s},r,i,a){if(t===null)return null;let l={x:e[0],y:e[1]},
+e.scan===this.picked.scan&&(this.found=e),this.version++}};function $g({index:t,pose:e,angles:n,ranges:o,hit:s},r,i,a){if(t===null)return null;let l={x:e[0],y:e[1]},
 [c,h]=[-1,1/0];for(let d=0;d<n.length;d++){let[u,m]=[Math.cos(e[2]+n[d]),Math.sin(e[2]+n[d])],[w,v]=[r.x-l.x,r.y-l.y],b=w*u+v*m,M=s[d]?o[d]:a,S=s[d]?Math.hypot(
 w-M*u,v-M*m):1/0,E=b>0&&b<M?Math.abs(w*m-v*u):1/0,P=Math.min(S,i/2+2*E);P<h&&([c,h]=[d,P])}return h<i?{scan:t,beam:c,from:l,angle:e[2]+n[c]}:null}var ar=class{constructor(e){this.session=e}found=null;trouble="";version=0;wanted=!1;sensor=null;known=null;knownVersion=-1;asked="";waitingSince=0;follow(e,n){
 this.sensor=n,e!==this.wanted&&(this.wanted=e,this.found=null,[this.trouble,this.asked,this.waitingSince]=["","",0],this.version++,this.session.changed()),e&&this.
@@ -1315,12 +1315,12 @@ px; }
 }
 @media (prefers-reduced-motion: no-preference) { button, .segmented label { transition: background-color .12s; } }
 @media (forced-colors: active) { .story [aria-current=step], .segmented label:has(:checked), .named { outline: 2px solid Highlight; } }
-`;var Zh="bayesmap-theme",Xh={auto:"light",light:"dark",dark:"auto"},cr=class{constructor(e,n){this.app=e;this.dressed=n;let o=Fg();o&&o in Xh&&(this.choice=o),this.
+`;var Zh="bayesmap-theme",Xh={auto:"light",light:"dark",dark:"auto"},cr=class{constructor(e,n){this.app=e;this.dressed=n;let o=Og();o&&o in Xh&&(this.choice=o),this.
 media.addEventListener("change",this.listen)}theme=vs.light;media=matchMedia("(prefers-color-scheme: dark)");choice="auto";listen=()=>this.dress();dress(){let e=this.
 choice==="dark"||this.choice==="auto"&&this.media.matches,n=this.theme=e?vs.dark:vs.light;this.app.dataset.theme=e?"dark":"light";let{truth:o,ray:s,noReturn:r,sensor:i,
 hatch:a,unobserved:l,draw:c,ghost:h,belief:d}=n;for(let[u,m]of Object.entries({truth:o,ray:s,miss:r,sensor:i,hatch:a,unobserved:l,draw:c,ghost:h,belief:d}))this.
 app.style.setProperty(`--${u}`,m);this.dressed(this.choice==="auto"?"automatic":this.choice)}next(){this.choice=Xh[this.choice];try{localStorage.setItem(Zh,this.
-choice)}catch{}this.dress()}destroy(){this.media.removeEventListener("change",this.listen)}};function Fg(){try{return localStorage.getItem(Zh)}catch{return null}}var Qh=12;function Jo(t,e,{embedded:n=!1,adopt:o=null,notice:s=null,play:r}={}){let i=t.shadowRoot??t.attachShadow({mode:"open"}),a=new CSSStyleSheet;a.replaceSync(
+choice)}catch{}this.dress()}destroy(){this.media.removeEventListener("change",this.listen)}};function Og(){try{return localStorage.getItem(Zh)}catch{return null}}var Qh=12;function Jo(t,e,{embedded:n=!1,adopt:o=null,notice:s=null,play:r}={}){let i=t.shadowRoot??t.attachShadow({mode:"open"}),a=new CSSStyleSheet;a.replaceSync(
 Kh+Jh),i.adoptedStyleSheets=[a],t.toggleAttribute("data-embedded",n);let l=0,c=()=>{l||=requestAnimationFrame(Wt)},h=new To(e,c,o,s);e.open();let d=new to,u=new us(
 h),m=new ps(h,u),w=new Qs(h),v=new lr(h),b=new Zs(h,u,m,Gt,z=>w.showLayer(z),n),M=[new io,new lo,new po,new ho,new Ts,new ks,new co,new so,new uo,new ao,new ws],
 S=M.map(({name:z})=>k("canvas",{className:z})),E=S[S.length-1];Object.assign(E,{tabIndex:0,role:"application"});let P=new Uo(M,S);new ys(E,h,d,u,m,n);let D=new ms(
@@ -1350,38 +1350,38 @@ ie),command:Gt})}],[window,"online",()=>e.retry?.()],[window,"hashchange",async(
 z):Fe.story&&me!==null?Fe.go(me):ie&&h.say($o,"error")}],[t,"dragover",z=>z.preventDefault()],[t,"drop",z=>{z.preventDefault();let ie=z.dataTransfer?.files[0];ie&&
 za(ie,h,r)}]];for(let[z,ie,me]of De)z.addEventListener(ie,me);return ot.dress(),{destroy(){Jt.disconnect(),cancelAnimationFrame(l),ot.destroy();for(let[z,ie,me]of De)
 z.removeEventListener(ie,me);e.close(),i.replaceChildren()},snapshot:()=>jh(h,d,P,v),cellToClient(z,ie){let me=E.getBoundingClientRect(),st=d.fromGrid({x:z+.5,y:ie+
-.5},h.shape[1]);return{x:me.left+st.x,y:me.top+st.y}}}}var Ig=200,Og=.2,Ve=class extends Error{},ep=({grid:t,walls:e})=>wt(ht(e),t.shape[0]*t.shape[1]);function tp({grid:t},{x:e,y:n}){let[o,s]=[Math.floor((e-t.origin[0])/
+.5},h.shape[1]);return{x:me.left+st.x,y:me.top+st.y}}}}var Ug=200,Bg=.2,Ve=class extends Error{},ep=({grid:t,walls:e})=>wt(ht(e),t.shape[0]*t.shape[1]);function tp({grid:t},{x:e,y:n}){let[o,s]=[Math.floor((e-t.origin[0])/
 t.resolution),Math.floor((n-t.origin[1])/t.resolution)];return o>=0&&o<t.shape[0]&&s>=0&&s<t.shape[1]?o*t.shape[1]+s:null}function Vi(t,e){let n=tp(t,e);if(n===
 null)throw new Ve("the sensor cannot stand outside the map");if(ep(t)[n])throw new Ve("the sensor cannot stand in a wall; move it to a free cell");return{...e,yaw:e.
-yaw-2*Math.PI*Math.round(e.yaw/(2*Math.PI))}}function np(t,e,n){switch(e.type){case"set":return[zi({...t,...e.patch},t,n),""];case"walls":return Ug(t,e.cells,e.
+yaw-2*Math.PI*Math.round(e.yaw/(2*Math.PI))}}function np(t,e,n){switch(e.type){case"set":return[zi({...t,...e.patch},t,n),""];case"walls":return Wg(t,e.cells,e.
 wall);case"clear":return e.what==="walls"?[{...t,walls:op(t.grid.shape)},""]:null;case"add_sensor":{if(t.sensors.length>=n.sensors[1])throw new Ve(`there are ${t.
 sensors.length} sensors already; remove one first`);let o=Math.max(...t.sensors.map(s=>s.id))+1;return[{...t,sensors:[...t.sensors,Vi(t,{id:o,x:e.x,y:e.y,yaw:e.
 yaw??0})]},""]}case"move_sensor":{let o=s=>Vi(t,{id:s.id,x:e.x??s.x,y:e.y??s.y,yaw:e.yaw??s.yaw});return[{...t,sensors:t.sensors.map(s=>s.id===e.id?o(s):s)},""]}case"\
 remove_sensor":{let o=t.sensors.filter(s=>s.id!==e.id);if(!o.length)throw new Ve("the last sensor cannot be removed; add another first");return[{...t,sensors:o},
-""]}case"new":return[Bg(t,e.shape,e.world),""];default:return null}}var op=([t,e])=>Mn(new Uint8Array(t*e+7>>3));function Ug(t,e,n){let o=ep(t),s=t.grid.shape[1];
+""]}case"new":return[Gg(t,e.shape,e.world),""];default:return null}}var op=([t,e])=>Mn(new Uint8Array(t*e+7>>3));function Wg(t,e,n){let o=ep(t),s=t.grid.shape[1];
 for(let[i,a]of e)o[i*s+a]=n?1:0;let r="";for(let i of t.sensors){let a=tp(t,i);o[a]&&(r=`a sensor stands in cell (${Math.floor(a/s)}, ${a%s}): it stays free`),o[a]=
-0}return[{...t,walls:Mn(Zn(o))},r]}function Bg(t,e,n){if(n!=="blank")throw new Ve("this figure can begin blank maps alone; bayesmap app has others");let[o,s]=e.
-map(i=>Math.floor((i-1)/2));return{...t,grid:{shape:e,resolution:1,origin:[-.5,-.5]},walls:op(e),sensors:[{id:1,x:o,y:s,yaw:0}],noise:Og,max_range:2*Math.max(...e)}}
+0}return[{...t,walls:Mn(Zn(o))},r]}function Gg(t,e,n){if(n!=="blank")throw new Ve("this figure can begin blank maps alone; bayesmap app has others");let[o,s]=e.
+map(i=>Math.floor((i-1)/2));return{...t,grid:{shape:e,resolution:1,origin:[-.5,-.5]},walls:op(e),sensors:[{id:1,x:o,y:s,yaw:0}],noise:Bg,max_range:2*Math.max(...e)}}
 function zi(t,e,n){let o=t;for(let[h,d]of Object.entries(e)){let u=o[h];if(d!==null&&(typeof u!=typeof d||u===null))throw new Ve(`${h} is missing, or of another\
  type`);let m=n[h];if(m&&typeof u=="number"&&!(u>=m[0]&&u<=m[1]))throw new Ve(`${h}: ${u}; give ${m[0]} to ${m[1]}`)}let{grid:s,source:r,sensors:i,walls:a}=o;if(r.
 kind!=="simulation")throw new Ve("this figure shows drawn maps alone; start bayesmap app with the file");if(o.cells!=="binary"||o.pose_sigma>0||o.heading_sigma>
 0)throw new Ve("this figure samples walls seen from known poses alone; bayesmap app samples others");if(o.method==="propagate")throw new Ve("this figure has no \
 belief propagation; choose another method");let[l,c]=n.side;if(!(s.shape.length===2&&s.shape.every(h=>Number.isInteger(h)&&h>=l&&h<=c)&&s.resolution>0))throw new Ve(
 `grid: give ${l} to ${c} cells a side`);if(ht(a).length!==s.shape[0]*s.shape[1]+7>>3)throw new Ve("walls: another number of cells than the grid's");if(!(i.length>=
-n.sensors[0]&&i.length<=n.sensors[1]))throw new Ve(`sensors: give ${n.sensors[0]} to ${n.sensors[1]}`);return{...o,sensors:i.map(h=>Vi(o,h))}}function Wg(t){return t.
+n.sensors[0]&&i.length<=n.sensors[1]))throw new Ve(`sensors: give ${n.sensors[0]} to ${n.sensors[1]}`);return{...o,sensors:i.map(h=>Vi(o,h))}}function Hg(t){return t.
 type==="walls"&&t.stroke?`walls ${t.stroke}`:t.type==="set"&&t.drag?`set ${t.drag} ${Object.keys(t.patch).sort()}`:t.type==="move_sensor"&&t.drag?`move ${t.drag}\
  ${t.id}`:null}var hr=class{constructor(e){this.present=e}past=[];future=[];gesture=null;get canUndo(){return this.past.length>0}get canRedo(){return this.future.
-length>0}push(e,n){let o=Wg(n);(o===null||o!==this.gesture)&&(this.past.push(this.present),this.past.length>Ig&&this.past.shift()),this.future=[],this.gesture=o,
+length>0}push(e,n){let o=Hg(n);(o===null||o!==this.gesture)&&(this.past.push(this.present),this.past.length>Ug&&this.past.shift()),this.future=[],this.gesture=o,
 this.present=e}step(e){let[n,o]=e?[this.past,this.future]:[this.future,this.past],s=n.pop();return s?(o.push(this.present),this.present=s,this.gesture=null,!0):
-!1}};var Gg=11102230246251565e-32,sp=2**32,rp=1,ip=2,ap=3;function Yi(t,e,n){let{high:o,low:s}=t,r=s&65535,i=s>>>16,a=n&65535,l=n>>>16,c=r*a,h=i*a+(c>>>16),d=r*l+(h&
+!1}};var jg=11102230246251565e-32,sp=2**32,rp=1,ip=2,ap=3;function Yi(t,e,n){let{high:o,low:s}=t,r=s&65535,i=s>>>16,a=n&65535,l=n>>>16,c=r*a,h=i*a+(c>>>16),d=r*l+(h&
 65535),u=i*l+(h>>>16)+(d>>>16);t.low=((d&65535)<<16|c&65535)>>>0,t.high=u+Math.imul(o,n)+Math.imul(s,e)>>>0}function qi(t,e){let{high:n,low:o}=t;t.low=(o^(o>>>e|
 n<<32-e))>>>0,t.high=(n^n>>>e)>>>0}function Bt(t,e,n){let o=e+1;n.high=Math.floor(o/sp)>>>0,n.low=o>>>0,Yi(n,2654435769,2135587861);let s=n.low+t.low;n.high=n.high+
 t.high+(s>=sp?1:0)>>>0,n.low=s>>>0,qi(n,30),Yi(n,3210233709,484763065),qi(n,27),Yi(n,2496678331,321982955),qi(n,31)}var Ji=({high:t,low:e})=>t*2097152+(e>>>11),
-Rn=t=>(Ji(t)+.5)*Gg;function gn(...t){let e=o=>BigInt.asUintN(64,o),n=0n;for(let o of t){let s=e((n^BigInt(o))+0x9e3779b97f4a7c15n);s=e((s^s>>30n)*0xbf58476d1ce4e5b9n),
-s=e((s^s>>27n)*0x94d049bb133111ebn),n=s^s>>31n}return{high:Number(n>>32n),low:Number(n&0xffffffffn)}}var Ki=2654435761,Hg=2246822507;function pr(t,e){let n=Math.
-imul(t+e,Ki);return n=Math.imul(n^n>>>15,Hg),n^n>>>13}function lp(t,e,n,o){let s=n>>>1,r=(1<<s)-1,i=(1<<n-s)-1,a=t;do{let l=a>>>s,c=a&r;l^=pr(c,o.low)&i,c^=pr(l,
+Rn=t=>(Ji(t)+.5)*jg;function gn(...t){let e=o=>BigInt.asUintN(64,o),n=0n;for(let o of t){let s=e((n^BigInt(o))+0x9e3779b97f4a7c15n);s=e((s^s>>30n)*0xbf58476d1ce4e5b9n),
+s=e((s^s>>27n)*0x94d049bb133111ebn),n=s^s>>31n}return{high:Number(n>>32n),low:Number(n&0xffffffffn)}}var Ki=2654435761,Vg=2246822507;function pr(t,e){let n=Math.
+imul(t+e,Ki);return n=Math.imul(n^n>>>15,Vg),n^n>>>13}function lp(t,e,n,o){let s=n>>>1,r=(1<<s)-1,i=(1<<n-s)-1,a=t;do{let l=a>>>s,c=a&r;l^=pr(c,o.low)&i,c^=pr(l,
 o.high)&r,l^=pr(c,o.low^Ki)&i,c^=pr(l,o.high^Ki)&r,a=(l<<s|c)>>>0}while(a>=e);return a}var cp=t=>Math.max(2,32-Math.clz32(t-1));function ur(t,e){let n={high:0,low:0};
-Bt(t,e,n);let o=Rn(n);return Bt(t,e+1,n),Math.sqrt(-2*Math.log(o))*Math.cos(2*Math.PI*Rn(n))}var jg=2**53,hp=20,pp=1e15,[dr,Xi,up]=[0,1,2],mr=class{constructor(e){this.p=e;let n=e*jg,o=Math.round(n);this.level=o-n===.5&&o%2?o-1:o,this.logit=Math.min(Math.
+Bt(t,e,n);let o=Rn(n);return Bt(t,e+1,n),Math.sqrt(-2*Math.log(o))*Math.cos(2*Math.PI*Rn(n))}var zg=2**53,hp=20,pp=1e15,[dr,Xi,up]=[0,1,2],mr=class{constructor(e){this.p=e;let n=e*zg,o=Math.round(n);this.level=o-n===.5&&o%2?o-1:o,this.logit=Math.min(Math.
 max(Math.log(e)-Math.log1p(-e),-pp),pp)}level;logit;draws(e){return Ji(e)<this.level}logProb(e){if(this.p===0||this.p===1)return 0;let n=0;for(let o of e)n+=o;return e.
 length*Math.log1p(-this.p)+n*this.logit}};function fr(t,e){return t>40?!0:t<-40?!1:e*(1+Math.exp(-t))<1}function Zi({order:t,shuffle:e},n,o){if(!e)return i=>t[i];
 let s=cp(t.length),r={high:0,low:0};return Bt(n,-1-o,r),i=>t[lp(i,t.length,s,r)]}var gr=class{constructor(e,n,o){this.problem=e;this.walls=n;this.key=o;let{offsets:s,
@@ -1400,34 +1400,34 @@ o.draws(this.bits)?1:0}}becomes(e,n){let{logit:o}=this.problem.prior;return this
 1];h++){let d=l+a[h];if(d<n){l=d,c=Xi;break}this.first[s[h]]>r[h]&&(l+=Math.fround(i[h]-this.current[s[h]]))}this.gain[e]=l,this.known[e]=c}stays(e,n){let{table:o,
 index:s,prior:r}=this.problem;if(this.known[e]===dr){let l=0;for(let c=s.offsets[e];c<s.offsets[e+1];c++)this.first[s.beam[c]]===s.entry[c]&&(l+=s.advantage[c]);
 this.gain[e]=l,this.known[e]=Xi}let i=r.logit+this.gain[e];if(this.known[e]===Xi&&i>hp&&fr(i,n))return!0;let a=0;for(let l=s.offsets[e];l<s.offsets[e+1];l++){let c=s.
-beam[l],h=s.entry[l];this.first[c]===h&&(a+=Math.fround(s.loglik[l]-this.entryLoglik(c,this.nextWall(h+1,o.offsets[c+1]))))}return fr(r.logit+a,n)}};var Vg=8,zg=-1e300,Yg=2**53;function Qi(t,e,n,o){let s=Math.floor(t/o)-e,r=t%o-n;return s<0||s>1||r<0||r>1?-1:2*s+r}function dp({table:t,shape:[e,n]}){let{offsets:o,
+beam[l],h=s.entry[l];this.first[c]===h&&(a+=Math.fround(s.loglik[l]-this.entryLoglik(c,this.nextWall(h+1,o.offsets[c+1]))))}return fr(r.logit+a,n)}};var Yg=8,qg=-1e300,Kg=2**53;function Qi(t,e,n,o){let s=Math.floor(t/o)-e,r=t%o-n;return s<0||s>1||r<0||r>1?-1:2*s+r}function dp({table:t,shape:[e,n]}){let{offsets:o,
 cells:s,noHit:r}=t,i=Math.max(1,e-1),a=Math.max(1,n-1),l=Array.from({length:i*a},()=>[]);for(let u=0;u<r.length;u++)for(let m=o[u];m<o[u+1];m++)for(let w=0;w<4;w++){
-let v=Math.floor(s[m]/n)-(w>>1),b=s[m]%n-(w&1);if(v<0||v>=i||b<0||b>=a)continue;let M=l[v*a+b],S=M[M.length-1];S?.b===u&&S.last>=m-Vg?S.last=m:M.push({b:u,first:m,
+let v=Math.floor(s[m]/n)-(w>>1),b=s[m]%n-(w&1);if(v<0||v>=i||b<0||b>=a)continue;let M=l[v*a+b],S=M[M.length-1];S?.b===u&&S.last>=m-Yg?S.last=m:M.push({b:u,first:m,
 last:m})}let c=new Int32Array(l.length+1);l.forEach((u,m)=>c[m+1]=c[m]+u.length);let h=l.flat(),d=u=>Int32Array.from(h,m=>m[u]);return{offsets:c,beam:d("b"),first:d(
 "first"),last:d("last"),rows:a}}function fp(t,e,n,o){let{prior:s,shape:[r,i]}=t.problem,{rows:a}=e,l=n.order.length,c=Zi(n,t.key,o),h=new Float64Array(16),d=new Float64Array(
 16),u={high:0,low:0};for(let m=0;m<l;m++){let w=c(m),v=Math.floor(w/a),b=w%a,M=4*(o*l+w),S=D=>v+(D>>1)<r&&b+(D&1)<i?(v+(D>>1))*i+b+(D&1):-1,E=0;for(let D=0;D<4;D++)
-S(D)>=0&&(E+=t.reached[S(D)]);if(!E){for(let D=0;D<4;D++)S(D)<0||(Bt(t.key,M+D,u),t.walls[S(D)]=s.draws(u)?1:0);continue}qg(t,e,w,v,b,h),d.fill(0);for(let D=0;D<
-4;D++){let L=S(D)<0||s.level===0,O=!L&&s.level===Yg;for(let G=0;G<16;G++)(G>>D&1)===(O?0:1)&&(d[G]+=L||O?zg:s.logit)}for(let D=0;D<16;D++)h[D]+=d[D];Bt(t.key,M,
-u);let P=Kg(h,Rn(u));for(let D=0;D<4;D++){let L=S(D);L<0||(P>>D&1?t.walls[L]||t.put(L):t.walls[L]&&t.remove(L))}}}function qg(t,e,n,o,s,r){let{table:i,shape:[,a]}=t.
+S(D)>=0&&(E+=t.reached[S(D)]);if(!E){for(let D=0;D<4;D++)S(D)<0||(Bt(t.key,M+D,u),t.walls[S(D)]=s.draws(u)?1:0);continue}Jg(t,e,w,v,b,h),d.fill(0);for(let D=0;D<
+4;D++){let L=S(D)<0||s.level===0,O=!L&&s.level===Kg;for(let G=0;G<16;G++)(G>>D&1)===(O?0:1)&&(d[G]+=L||O?qg:s.logit)}for(let D=0;D<16;D++)h[D]+=d[D];Bt(t.key,M,
+u);let P=Xg(h,Rn(u));for(let D=0;D<4;D++){let L=S(D);L<0||(P>>D&1?t.walls[L]||t.put(L):t.walls[L]&&t.remove(L))}}}function Jg(t,e,n,o,s,r){let{table:i,shape:[,a]}=t.
 problem,{offsets:l,cells:c,loglik:h}=i;r.fill(0);for(let d=e.offsets[n];d<e.offsets[n+1];d++){let u=e.beam[d],m=t.first[u],w=e.first[d];if(m<w)continue;let v=e.
 last[d],b=l[u+1],M=m;if(m<=v&&m<b&&Qi(c[m],o,s,a)>=0)for(M=m+1;M<b&&!(t.walls[c[M]]&&Qi(c[M],o,s,a)<0);)M++;let S=t.entryLoglik(u,M),E=0;for(let P=w;P<Math.min(
-v+1,M);P++){let D=Qi(c[P],o,s,a);if(D<0)continue;let L=Math.fround(h[P]-S);for(let O=0;O<16;O++)O>>D&1&&!(O&E)&&(r[O]+=L);E|=1<<D}}}function Kg(t,e){let n=Math.
+v+1,M);P++){let D=Qi(c[P],o,s,a);if(D<0)continue;let L=Math.fround(h[P]-S);for(let O=0;O<16;O++)O>>D&1&&!(O&E)&&(r[O]+=L);E|=1<<D}}}function Xg(t,e){let n=Math.
 max(...t),o=t.map(r=>r>n-40?Math.exp(r-n):0),s=e*o.reduce((r,i)=>r+i,0);for(let r=0;r<16;r++)if(s-=o[r],s<=0&&o[r]>0)return r;return 15}function $n(t){let e=0;for(let n=0;n<t.length;n++)e+=t[n];return e/t.length}var ea=t=>{let e=$n(t);return t.reduce((n,o)=>n+(o-e)**2,0)/(t.length-1)},yr=(t,e)=>t.
 reduceRight((n,o)=>n*e+o,0),mp=[[3.3871328727963665,133.14166789178438,1971.5909503065513,13731.69376550946,45921.95393154987,67265.7709270087,33430.57558358813,
 2509.0809287301227],[1,42.31333070160091,687.1870074920579,5394.196021424751,21213.794301586597,39307.89580009271,28729.085735721943,5226.495278852854]],gp=[[1.4234371107496835,
 4.630337846156546,5.769497221460691,3.6478483247632045,1.2704582524523684,.2417807251774506,.022723844989269184,.0007745450142783414],[1,2.053191626637759,1.6763848301838038,
-.6897673349851,.14810397642748008,.015198666563616457,.0005475938084995345,10507500716444169e-25]];function Jg(t){let e=t-.5;if(Math.abs(e)<=.425){let o=.180625-
-e*e;return e*yr(mp[0],o)/yr(mp[1],o)}let n=Math.sqrt(-Math.log(e<0?t:1-t))-1.6;return Math.sign(e)*yr(gp[0],n)/yr(gp[1],n)}function Xg(t){let e=t[0].length>>1;return[
+.6897673349851,.14810397642748008,.015198666563616457,.0005475938084995345,10507500716444169e-25]];function Zg(t){let e=t-.5;if(Math.abs(e)<=.425){let o=.180625-
+e*e;return e*yr(mp[0],o)/yr(mp[1],o)}let n=Math.sqrt(-Math.log(e<0?t:1-t))-1.6;return Math.sign(e)*yr(gp[0],n)/yr(gp[1],n)}function Qg(t){let e=t[0].length>>1;return[
 ...t.map(n=>n.slice(0,e)),...t.map(n=>n.slice(n.length-e))]}function yp(t){let e=Float64Array.from(t.flat()).sort(),n=new Map;for(let o=0;o<e.length;){let s=o+1;
-for(;s<e.length&&e[s]===e[o];)s++;n.set(e[o],Jg(((o+1+s)/2-.375)/(e.length+.25))),o=s}return t.map(o=>o.map(s=>n.get(s)))}function wp(t){let e=t[0].length;return Math.
+for(;s<e.length&&e[s]===e[o];)s++;n.set(e[o],Zg(((o+1+s)/2-.375)/(e.length+.25))),o=s}return t.map(o=>o.map(s=>n.get(s)))}function wp(t){let e=t[0].length;return Math.
 sqrt((e-1)/e+ea(t.map($n))/$n(t.map(ea)))}function bp(t,e){let n=t.length;for(let o=1,s=0;o<n;o++){let r=n>>1;for(;s&r;r>>=1)s^=r;s^=r,o<s&&([t[o],t[s],e[o],e[s]]=
 [t[s],t[o],e[s],e[o]])}for(let o=2;o<=n;o*=2)for(let s=0;s<o/2;s++){let r=-2*Math.PI*s/o,[i,a]=[Math.cos(r),Math.sin(r)];for(let l=s;l<n;l+=o){let c=l+o/2,[h,d]=[
-t[c]*i-e[c]*a,t[c]*a+e[c]*i];[t[c],e[c]]=[t[l]-h,e[l]-d],t[l]+=h,e[l]+=d}}}function Zg(t){let e=t.length,n=$n(t),o=2**Math.ceil(Math.log2(2*e)),[s,r]=[new Float64Array(
-o),new Float64Array(o)];t.forEach((i,a)=>s[a]=i-n),bp(s,r);for(let i=0;i<o;i++)[s[i],r[i]]=[s[i]**2+r[i]**2,0];return bp(s,r),s.slice(0,e).map(i=>i/o/e)}function Qg(t){
-let[e,n]=[t.length,t[0].length],o=t.map(Zg),s=$n(o.map(h=>h[0]))*n/(n-1),r=s*(n-1)/n+ea(t.map($n)),i=h=>h?1-(s-$n(o.map(d=>d[h])))/r:1,a=Math.max(1,Math.ceil((n-
+t[c]*i-e[c]*a,t[c]*a+e[c]*i];[t[c],e[c]]=[t[l]-h,e[l]-d],t[l]+=h,e[l]+=d}}}function ey(t){let e=t.length,n=$n(t),o=2**Math.ceil(Math.log2(2*e)),[s,r]=[new Float64Array(
+o),new Float64Array(o)];t.forEach((i,a)=>s[a]=i-n),bp(s,r);for(let i=0;i<o;i++)[s[i],r[i]]=[s[i]**2+r[i]**2,0];return bp(s,r),s.slice(0,e).map(i=>i/o/e)}function ty(t){
+let[e,n]=[t.length,t[0].length],o=t.map(ey),s=$n(o.map(h=>h[0]))*n/(n-1),r=s*(n-1)/n+ea(t.map($n)),i=h=>h?1-(s-$n(o.map(d=>d[h])))/r:1,a=Math.max(1,Math.ceil((n-
 2)/2)),l=-1,c=1/0;for(let h=0;h<a;h++){let d=i(2*h),u=d+i(2*h+1);if(!(u>0)||h===a-1){l+=u>0?d:Math.max(d,0);break}c=Math.min(c,u),l+=2*c}return e*n/Math.max(l,1/
-Math.log10(e*n))}function xp(t){if(t[0].length<4||t.every(c=>c.every(h=>h===t[0][0])))return null;let e=Xg(t),n=Float64Array.from(e.flat()).sort(),o=(n[n.length-
-1>>1]+n[n.length>>1])/2,s=e.map(c=>c.map(h=>Math.abs(h-o))),r=yp(e),[i,a]=[wp(r),wp(yp(s))];return{rhat:Number.isNaN(a)?i:Number.isNaN(i)?a:Math.max(i,a),ess:Qg(
+Math.log10(e*n))}function xp(t){if(t[0].length<4||t.every(c=>c.every(h=>h===t[0][0])))return null;let e=Qg(t),n=Float64Array.from(e.flat()).sort(),o=(n[n.length-
+1>>1]+n[n.length>>1])/2,s=e.map(c=>c.map(h=>Math.abs(h-o))),r=yp(e),[i,a]=[wp(r),wp(yp(s))];return{rhat:Number.isNaN(a)?i:Number.isNaN(i)?a:Math.max(i,a),ess:ty(
 r)}}function vp({table:t,prior:e,shape:n},o,s,r){let{offsets:i,cells:a,loglik:l,noHit:c}=t,h=n[0]*n[1],d={high:0,low:0},u=new Int8Array(h);return Float64Array.from(
 {length:r},(m,w)=>{u.fill(0);let v=0;for(let b=0;b<c.length;b++){let M=c[b];for(let S=i[b];S<i[b+1];S++){let E=a[S];if(u[E]||(Bt(o,(s+w)*h+E,d),u[E]=e.draws(d)?
 1:-1),u[E]>0){M=l[S];break}}v+=M}return v})}function ta({prior:t,shape:e},n,o){let s=e[0]*e[1],r={high:0,low:0};return Uint8Array.from({length:s},(i,a)=>(Bt(n,o*
@@ -1446,13 +1446,13 @@ this.sides=3),n||(this.nextX+=this.gapX,this.x+=this.stepX),e||(this.nextY+=this
 n],o,s){for(let r=new wr(o,e,n,s);!r.over;r.next())if(r.inside&&t[r.cellX*n+r.cellY])return Math.min(r.distance,s);return s}function Sp([t,e],n,o){let s=[],r=new Int32Array(
 n.length+1);return n.forEach((i,a)=>{for(let l=new wr(i,t,e,o);!l.over;l.next())l.inside&&s.push(l.cellX*e+l.cellY);r[a+1]=s.length}),{offsets:r,cells:Int32Array.
 from(s)}}function Mp({x:t,y:e,ux:n,uy:o},s,r){let i=Math.floor(s/r),a=s-i*r,l=0,c=1e300,h=!0,d=(u,m,w)=>{let v=oa(m);if(!v)return;let b=1/m,M=w+(v>0?0:1)-u;l=Math.
-max(l,M*b),c=Math.min(c,(M+v)*b),h&&=w===na(u,v)};return d(t,n,i),d(e,o,a),h?Math.max(c,0):l}var ey=Math.fround(.001),ty=-.5*Math.log(2*Math.PI);function Tp(t,e,n,o,s,r){let{offsets:i,cells:a}=t,l=o.sigma_m*o.sigma_m,c=.5*Math.log(l),h=(m,w)=>{let v=m-Math.
-min(w,o.max_m);return ty-.5*(v*v/l)-c},d=new Float32Array(a.length),u=new Float32Array(e.length);for(let m=0;m<e.length;m++){u[m]=h(n[m],1/0);for(let w=i[m];w<i[m+
+max(l,M*b),c=Math.min(c,(M+v)*b),h&&=w===na(u,v)};return d(t,n,i),d(e,o,a),h?Math.max(c,0):l}var ny=Math.fround(.001),oy=-.5*Math.log(2*Math.PI);function Tp(t,e,n,o,s,r){let{offsets:i,cells:a}=t,l=o.sigma_m*o.sigma_m,c=.5*Math.log(l),h=(m,w)=>{let v=m-Math.
+min(w,o.max_m);return oy-.5*(v*v/l)-c},d=new Float32Array(a.length),u=new Float32Array(e.length);for(let m=0;m<e.length;m++){u[m]=h(n[m],1/0);for(let w=i[m];w<i[m+
 1];w++)d[w]=h(n[m],Mp(e[m],a[w],s)*r)}return{offsets:i,cells:a,loglik:d,noHit:u}}function Ap({offsets:t,cells:e,loglik:n,noHit:o},s){let r=Float32Array.from(o),
 i=new Float32Array(e.length);for(let u=0;u<o.length;u++){let m=o[u];for(let w=t[u+1]-1;w>=t[u];w--)i[w]=n[w]-m,m=Math.max(m,n[w]),r[u]=Math.min(r[u],n[w])}let a=new Int32Array(
 s+1);for(let u of e)a[u+1]++;for(let u=0;u<s;u++)a[u+1]+=a[u];let l=()=>new Float32Array(e.length),c=()=>new Int32Array(e.length),h={offsets:a,entry:c(),beam:c(),
 loglik:l(),gainBound:l(),advantage:l()},d=a.slice();for(let u of[!0,!1])for(let m=0;m<o.length;m++)for(let w=t[m];w<t[m+1];w++){let v=Math.fround(n[w]-r[m]);if(v>
-ey!==u)continue;let b=d[e[w]]++;h.entry[b]=w,h.beam[b]=m,h.loglik[b]=n[w],h.gainBound[b]=v,h.advantage[b]=i[w]}for(let u=0;u<s;u++)for(let m=a[u+1]-2;m>=a[u];m--)
+ny!==u)continue;let b=d[e[w]]++;h.entry[b]=w,h.beam[b]=m,h.loglik[b]=n[w],h.gainBound[b]=v,h.advantage[b]=i[w]}for(let u=0;u<s;u++)for(let m=a[u+1]-2;m>=a[u];m--)
 h.gainBound[m]+=h.gainBound[m+1];return h}function Xo({angles:t,fov:e}){let n=e*(180/Math.PI);if(n===360)return Float64Array.from({length:t},(s,r)=>r*2*Math.PI/t);let o=n/(t-t%2);return Float64Array.from(
 {length:t},(s,r)=>(o*r-n/2)*(Math.PI/180))}function Ep(t){let{origin:e,resolution:n}=t.grid,o=[...Xo(t)];return t.sensors.flatMap(({x:s,y:r,yaw:i})=>o.map(a=>({
 x:(s-e[0])/n,y:(r-e[1])/n,ux:Math.cos(i+a),uy:Math.sin(i+a)})))}function Pp({grid:t,walls:e,max_range:n},o){let s=wt(ht(e),t.shape[0]*t.shape[1]),r=n/t.resolution;
@@ -1460,7 +1460,7 @@ return Float64Array.from(o,i=>Math.min(br(s,t.shape,i,r)*t.resolution,n))}functi
 i,s,o/a),c=Tp(l,s,r,{sigma_m:e,max_m:o},i[1],a);return{table:c,index:Ap(c,i[0]*i[1]),prior:new mr(n),shape:i}}function Cp({grid:t,sensors:e,order:n},o){let[s,r]=t.
 shape,[i,a]=o?[Math.max(1,s-1),Math.max(1,r-1)]:[s,r],l=Int32Array.from({length:i*a},(u,m)=>m);if(n!=="radial")return{order:l,shuffle:n==="random"};let c=(u,m)=>Math.
 min(Math.max(u,0),m-1),h=e.map(({x:u,y:m})=>[c(Math.floor((u-t.origin[0])/t.resolution),s),c(Math.floor((m-t.origin[1])/t.resolution),r)]),d=l.map(u=>Math.min(...h.
-map(([m,w])=>Math.abs(Math.floor(u/a)-m)+Math.abs(u%a-w))));return{order:Int32Array.from([...l].sort((u,m)=>d[u]-d[m]||u-m)),shuffle:!1}}var nn=2,Lp=32,ny=300,oy=100,sy=64<<20,ry=.1,iy=16,ay=40,sa=24,Np=[.1,.3,.5,.7,.9],$p={chains:0,count:0},ly={gibbs:"Gibbs sampling, cell by cell",block:"Gibbs s\
+map(([m,w])=>Math.abs(Math.floor(u/a)-m)+Math.abs(u%a-w))));return{order:Int32Array.from([...l].sort((u,m)=>d[u]-d[m]||u-m)),shuffle:!1}}var nn=2,Lp=32,sy=300,ry=100,iy=64<<20,ay=.1,ly=16,cy=40,sa=24,Np=[.1,.3,.5,.7,.9],$p={chains:0,count:0},hy={gibbs:"Gibbs sampling, cell by cell",block:"Gibbs s\
 ampling, 2 x 2 blocks",importance:"importance sampling",none:"none yet: this is the prior"},Ao=()=>performance.now(),Dp=t=>Uint8Array.from(t,e=>Math.round(255*e)),
 Rp=t=>String(+t.toPrecision(4)),Eo=class{constructor(e,n){this.document=e;this.problem=n;this.cells=n.shape[0]*n.shape[1]}done=!1;seconds=0;method="none";cells;work(e){
 let n=Ao();do this.step();while(!this.done&&Ao()-n<e);this.seconds+=(Ao()-n)/1e3}step(){this.done=!0}get draws(){return $p}beamsThrough(e){let{offsets:n}=this.problem.
@@ -1468,15 +1468,15 @@ index;return n[e+1]-n[e]}mean(){return new Float64Array(this.cells).fill(this.do
 return{sweeps:0,total:0,ess:null,rhat:null,log_joint:null,verdict:null,burned:0}}draw(e){return null}weights(){return null}picture(e,n,o,s){let{document:r,method:i}=this,
 a=e.layer==="draw"?this.draw(e):null,l=this.weights(),c=i==="gibbs"?`, ${r.order} order`:"",h={type:"field",generation:n,milliseconds:o,layer:a?"draw":"mean",method:i,
 approximate:!1,...this.figures(s),draws:this.draws,quantity:{kind:"binary",mean:"P(wall)",value:"wall",interval:!1},chain:null,draw:null,averaged:null,lowest:l?.
-lowest??null,seconds:i==="none"?null:this.seconds,about:[["Method",ly[i]+c],["Prior",`independent: p wall ${Rp(r.prior)}`],["Sensor",`gaussian: sigma ${Rp(r.noise)}\
+lowest??null,seconds:i==="none"?null:this.seconds,about:[["Method",hy[i]+c],["Prior",`independent: p wall ${Rp(r.prior)}`],["Sensor",`gaussian: sigma ${Rp(r.noise)}\
  m`],["Poses","known"],["Computed","in this page"]],...a&&{chain:a.chain,draw:a.draw,log_joint:a.log_joint}},d=Dp(a?a.map:this.mean());return[h,{p:d,reached:Dp(
 this.reached()),...this.trace(),...l&&{weights:l.weights}}]}recording(e){let{document:n}=this,{chains:o,count:s}=this.draws,[r,i]=this.picture({layer:"mean",chain:0,
 draw:null},1,0,!0),a=Uint32Array.from({length:this.cells},(d,u)=>this.beamsThrough(u)),{log_joint:l,draws:c}=this.recorded(),h=n.sensors.map(({id:d})=>d);return[
 {version:1,document:n,field:r,ids:h,draws:{chains:o,count:s,kept:s,bits:!0},log_joint:l},{...i,...e,beams:a,draws:c}]}recorded(){return{log_joint:[],draws:new Uint8Array(
-0)}}trace(){let e=this.logJoint,n=e[0]?.length??0,o=Math.min(n,ny),s=Array.from({length:o},(a,l)=>Math.round(o>1?1+l*(n-1)/(o-1):1)),r=Array.from({length:Math.min(
-n,oy)},(a,l)=>l+1),i=[...new Set([...r,...s])].sort((a,l)=>a-l);return{trace:Float32Array.from(e.flatMap(a=>i.map(l=>a[l-1]))),traced:Float32Array.from(i)}}},Zo=class extends Eo{constructor(n,o,s,r){
+0)}}trace(){let e=this.logJoint,n=e[0]?.length??0,o=Math.min(n,sy),s=Array.from({length:o},(a,l)=>Math.round(o>1?1+l*(n-1)/(o-1):1)),r=Array.from({length:Math.min(
+n,ry)},(a,l)=>l+1),i=[...new Set([...r,...s])].sort((a,l)=>a-l);return{trace:Float32Array.from(e.flatMap(a=>i.map(l=>a[l-1]))),traced:Float32Array.from(i)}}},Zo=class extends Eo{constructor(n,o,s,r){
 super(n,o);this.judging=s;let{seed:i,start:a,sweeps:l}=n;this.method=r?"block":"gibbs",this.blocks=r?dp(o):null,this.sites=Cp(n,r),this.thin=Math.ceil(l*nn*Math.
-ceil(this.cells/8)/sy),this.chains=Array.from({length:nn},(c,h)=>{let u=a==="empty"&&n.prior<1?new Uint8Array(this.cells):ta(o,gn(i,h,ip),0);return new gr(o,u,gn(
+ceil(this.cells/8)/iy),this.chains=Array.from({length:nn},(c,h)=>{let u=a==="empty"&&n.prior<1?new Uint8Array(this.cells):ta(o,gn(i,h,ip),0);return new gr(o,u,gn(
 i,h,rp))}),this.touched=new Uint8Array(this.cells);for(let c of o.table.cells)this.touched[c]=1;this.present={sweep:0,sums:this.chains.map(()=>new Float64Array(
 this.cells)),reached:new Uint32Array(this.cells),looks:0},this.past=[this.copy()],this.goOn(l)}chains;blocks;sites;lookAt=new Set;touched;joint=Array.from({length:nn},
 ()=>[]);likelihood=Array.from({length:nn},()=>[]);kept=Array.from({length:nn},()=>[]);thin;total=0;sweep=0;present;past;diagnosis=null;diagnosed=0;diagnoseAt=0;goOn(n){
@@ -1496,7 +1496,7 @@ past,o=Math.max(1,this.present.looks-n.looks);return Float64Array.from(this.pres
 draw:o}){let s=Math.min(n,nn-1),{count:r}=this.draws;if(!r)return{map:this.chains[s].walls,chain:s,draw:0,log_joint:this.joint[s].at(-1)??0};let i=Math.min(o??r-
 1,r-1);return{map:wt(this.kept[s][i],this.cells),chain:s,draw:i,log_joint:this.joint[s][(i+1)*this.thin-1]}}figures(n){let[{sweep:o}]=this.past,s=Ao();(s>=this.
 diagnoseAt||this.done&&this.diagnosed<this.sweep)&&(this.diagnosis=xp(this.joint.map(c=>c.slice(o))),this.diagnosed=this.sweep,this.diagnoseAt=this.done?1/0:Ao()+
-(Ao()-s)/ry);let r=this.joint.reduce((c,h)=>c+h[h.length-1],0)/nn,{ess:i=null,rhat:a=null}=this.diagnosis??{},l=c=>c!==null&&Number.isFinite(c)?c:null;return{sweeps:this.
+(Ao()-s)/ay);let r=this.joint.reduce((c,h)=>c+h[h.length-1],0)/nn,{ess:i=null,rhat:a=null}=this.diagnosis??{},l=c=>c!==null&&Number.isFinite(c)?c:null;return{sweeps:this.
 sweep,total:this.total,ess:l(i),rhat:l(a),log_joint:r,verdict:this.verdict(n||this.done),burned:o}}verdict(n){let{judging:o,sweep:s}=this,r=s<o.fewest_sweeps;if(r&&
 !n)return null;let i=(d,u,m=null)=>({level:d,why:u,cell:m}),a=this.difference();if(!r&&a.cells>o.chance_share*a.among){let[d,u]=a.cell,m=`in ${a.cells} of ${a.among}\
  observed cells, most in cell (${d}, ${u}), by ${a.by.toFixed(2)}`;return i("bad",`P(wall) differs by over ${o.bad_difference} between the chains ${m}`,a.cell)}
@@ -1510,25 +1510,25 @@ i=2*(s-Math.min(...r)),a=2/(9*n);return i>n*(1-a+this.judging.misfit_sigmas*Math
 r={by:0,cell:[0,0],cells:0,among:0};for(let i=0;i<this.cells;i++){if(s[i]<.5)continue;let a=Math.abs(n[i]-o[i]);r.among++,a>this.judging.bad_difference&&r.cells++,
 a>r.by&&([r.by,r.cell]=[a,[Math.floor(i/this.problem.shape[1]),i%this.problem.shape[1]]])}return r}},xr=class extends Eo{constructor(n,o,s){super(n,o);this.judging=
 s;this.method="importance",this.key=gn(n.seed,0,ap),this.sums=new Float64Array(this.cells),this.touched=new Uint8Array(this.cells);for(let r of o.table.cells)this.
-touched[r]=1}key;logWeights=[];most=-1/0;sum=0;sums;touched;step(){let n=this.logWeights.length,o=Math.min(iy,this.document.sweeps-n);vp(this.problem,this.key,n,
+touched[r]=1}key;logWeights=[];most=-1/0;sum=0;sums;touched;step(){let n=this.logWeights.length,o=Math.min(ly,this.document.sweeps-n);vp(this.problem,this.key,n,
 o).forEach((s,r)=>{if(this.logWeights.push(s),s>this.most){let l=Math.exp(this.most-s);this.sum*=l;for(let c=0;c<this.cells;c++)this.sums[c]*=l;this.most=s}if(s<
-this.most-ay)return;let i=Math.exp(s-this.most),a=ta(this.problem,this.key,n+r);this.sum+=i;for(let l=0;l<this.cells;l++)a[l]&&(this.sums[l]+=i)}),this.done=this.
+this.most-cy)return;let i=Math.exp(s-this.most),a=ta(this.problem,this.key,n+r);this.sum+=i;for(let l=0;l<this.cells;l++)a[l]&&(this.sums[l]+=i)}),this.done=this.
 logWeights.length>=this.document.sweeps}mean(){return this.sums.map((n,o)=>this.touched[o]?n/this.sum:this.document.prior)}reached(){let n=this.mean(),{offsets:o,
 cells:s,noHit:r}=this.problem.table,i=new Float64Array(this.cells);for(let a of Np){let l=new Uint8Array(this.cells);for(let c=0;c<r.length;c++)for(let h=o[c];h<
 o[c+1]&&(l[s[h]]=1,!(n[s[h]]>a));h++);for(let c=0;c<this.cells;c++)i[c]+=l[c]/Np.length}return i}figures(){let{effectiveSampleSize:n}=kp(Float64Array.from(this.
 logWeights));return{sweeps:this.logWeights.length,total:this.document.sweeps,ess:n,rhat:null,log_joint:null,verdict:this.verdict(n),burned:0}}verdict(n){let{bad_ess:o,
 good_ess:s}=this.judging,r=n.toFixed(1)==="1.0"?"one particle carries":`${n.toFixed(1)} particles carry`;return n<o?{level:"bad",why:`${r} all the weight`,cell:null}:
 {level:n>=s?"good":"fair",why:`${n.toFixed(0)} effective particles`,cell:null}}weights(){let n=this.logWeights.map(r=>r-this.most),o=Math.min(-1,...n.filter(Number.
-isFinite).reduce((r,i)=>[Math.min(r[0],i)],[0])),s=new Float32Array(sa);for(let r of n)s[Math.min(sa-1,Math.floor(sa*(1-r/o)))]++;return{weights:s,lowest:o}}};var vr=.03,cy=40,Fn=180,Fp=90,ra=9,hy=24,Ip=60,ia=7,Op=50,py=25,uy=10,Up=1e3,dy=4e3,fy=21;function Hp(t,e,n){let{grid:o,noise:s,max_range:r,seed:i}=t,{shape:[a,
+isFinite).reduce((r,i)=>[Math.min(r[0],i)],[0])),s=new Float32Array(sa);for(let r of n)s[Math.min(sa-1,Math.floor(sa*(1-r/o)))]++;return{weights:s,lowest:o}}};var vr=.03,py=40,Fn=180,Fp=90,ra=9,uy=24,Ip=60,ia=7,Op=50,dy=25,fy=10,Up=1e3,my=4e3,gy=21;function Hp(t,e,n){let{grid:o,noise:s,max_range:r,seed:i}=t,{shape:[a,
 l],resolution:c,origin:h}=o,d=wt(ht(t.walls),a*l),u=Xo(t),m=r/c,w=(A,_,B)=>c*br(d,o.shape,{x:A,y:_,ux:Math.cos(B),uy:Math.sin(B)},m),v=(A,_)=>A>=0&&_>=0&&A<a&&_<
 l&&!d[Math.floor(A)*l+Math.floor(_)],b=(1-vr)/(s*Math.sqrt(2*Math.PI)),M=([A,_,B])=>{if(!v(A,_))return-1/0;let I=0;for(let ae=0;ae<u.length;ae++){let K=w(A,_,B+
-u[ae]),J=(e[ae]-K)/s,Q=K>=r;n[ae]?I+=Math.log((Q?0:b*Math.exp(-.5*J*J))+vr/r):I+=Math.log(Q?1-vr/2:vr/2)}return I},S=$(),E=Bp(S.slice(0,dy),A=>A,1.5,.2,Ip);if(E.
-length===Ip)return ee(S.filter((A,_)=>_%Math.ceil(S.length/Up)===0));let P=gn(i,0,fy),[D,L]=[0,-1/0],O=E.slice(0,hy).map(A=>({mean:A,root:aa(.4,.4,.04),poses:[],
-logs:[],top:-1/0}));for(let A=0;A<=ia;A++){for(let _ of O){let B=A===ia,I=B?1.4:1.2,ae=Array.from({length:B?3*Op:Op},()=>my(_.mean,_.root,I,P,D+=3)),K=ae.map(({
+u[ae]),J=(e[ae]-K)/s,Q=K>=r;n[ae]?I+=Math.log((Q?0:b*Math.exp(-.5*J*J))+vr/r):I+=Math.log(Q?1-vr/2:vr/2)}return I},S=$(),E=Bp(S.slice(0,my),A=>A,1.5,.2,Ip);if(E.
+length===Ip)return ee(S.filter((A,_)=>_%Math.ceil(S.length/Up)===0));let P=gn(i,0,gy),[D,L]=[0,-1/0],O=E.slice(0,uy).map(A=>({mean:A,root:aa(.4,.4,.04),poses:[],
+logs:[],top:-1/0}));for(let A=0;A<=ia;A++){for(let _ of O){let B=A===ia,I=B?1.4:1.2,ae=Array.from({length:B?3*Op:Op},()=>yy(_.mean,_.root,I,P,D+=3)),K=ae.map(({
 pose:q,log:W})=>M(q)-W);_.top=Math.max(_.top,...ae.map(({log:q},W)=>K[W]+q)),L=Math.max(L,_.top),Object.assign(_,{poses:ae.map(({pose:q})=>q),logs:K});let[J,Q]=Gp(
-_.poses,Wp(K,B?1:uy));!B&&Q&&([_.mean,_.root]=[J,gy(Q)])}O=O.filter(_=>_.top>L-py*(ia-A+1)),A>=2&&(O=Bp(O.sort((_,B)=>B.top-_.top),({mean:_})=>_,1,.15))}let G=Math.
+_.poses,Wp(K,B?1:fy));!B&&Q&&([_.mean,_.root]=[J,wy(Q)])}O=O.filter(_=>_.top>L-dy*(ia-A+1)),A>=2&&(O=Bp(O.sort((_,B)=>B.top-_.top),({mean:_})=>_,1,.15))}let G=Math.
 max(...O.flatMap(({logs:A})=>A)),te=O.map(({poses:A,logs:_})=>_.map(B=>Math.exp(B-G)/A.length)),X=te.flat().reduce((A,_)=>A+_,0);return U(O.map(({poses:A},_)=>({
-poses:A,weights:te[_].map(B=>B/X)})),L/u.length);function $(){let A=new Float32Array(Fn),_=Array.from(u.keys()).filter((K,J)=>J%Math.ceil(u.length/cy)===0),B=Math.
+poses:A,weights:te[_].map(B=>B/X)})),L/u.length);function $(){let A=new Float32Array(Fn),_=Array.from(u.keys()).filter((K,J)=>J%Math.ceil(u.length/py)===0),B=Math.
 hypot(s,.3*c),I=[];for(let K=0;K<a*l;K++){if(d[K])continue;let[J,Q]=[Math.floor(K/l)+.5,K%l+.5];for(let q=0;q<Fn;q++)A[q]=w(J,Q,q*2*Math.PI/Fn);for(let q=0;q<Fp;q++){
 let W=q*2*Math.PI/Fp,de=0;for(let ue of _){let he=Math.round((W+u[ue])*Fn/(2*Math.PI)),se=A[(he%Fn+Fn)%Fn],Be=(e[ue]-se)/B;de+=n[ue]?Math.min(Be*Be,ra):se>=r?0:
 ra}I.push({pose:[J,Q,W],loss:de})}}I.sort((K,J)=>K.loss-J.loss);let ae=I[0]?.loss??0;return I.filter(({loss:K})=>K<ae+.25*ra*_.length).map(({pose:K})=>K)}function ee(A){
@@ -1538,22 +1538,22 @@ Fe,0),[[q,W,de],ue]=Gp(K,J.map(Ne=>Ne/Q)),he=[c,c,1],se=(ue??aa(0,0,0)).map((Ne,
 ae=A.flatMap(({poses:K,weights:J})=>K.map((Q,q)=>({pose:Q,weight:J[q]}))).sort((K,J)=>K.weight-J.weight).slice(-Up);return{modes:B.sort((K,J)=>J.probability-K.probability),
 pose:Float32Array.from(ae.flatMap(({pose:[K,J,Q]})=>[h[0]+K*c,h[1]+J*c,Q])),weight:Float32Array.from(ae,({weight:K})=>K),nats_per_beam:_}}}function Bp(t,e,n,o,s=1/0){
 let r=[];for(let i of t){if(r.length>=s)break;let[a,l,c]=e(i),h=d=>{let[u,m,w]=e(d);return Math.hypot(a-u,l-m)<n&&Math.abs(Math.atan2(Math.sin(c-w),Math.cos(c-w)))<
-o};r.some(h)||r.push(i)}return r}var aa=(...t)=>t.map((e,n)=>t.map((o,s)=>n===s?e:0));function my(t,e,n,o,s){let r=[0,1,2].map(l=>ur(o,2*(s+l))),i=t.map((l,c)=>l+
+o};r.some(h)||r.push(i)}return r}var aa=(...t)=>t.map((e,n)=>t.map((o,s)=>n===s?e:0));function yy(t,e,n,o,s){let r=[0,1,2].map(l=>ur(o,2*(s+l))),i=t.map((l,c)=>l+
 n*e[c].reduce((h,d,u)=>h+d*r[u],0)),a=-.5*(r[0]**2+r[1]**2+r[2]**2)-Math.log(n**3*e[0][0]*e[1][1]*e[2][2]);return{pose:i,log:a}}function Wp(t,e){let n=Math.max(
 ...t);if(n===-1/0)return t.map(()=>1/t.length);for(let o=1;;o/=2){let s=t.map(i=>Math.exp(o*(i-n))),r=s.reduce((i,a)=>i+a,0);if(o<1e-6||r**2>=e*s.reduce((i,a)=>i+
 a*a,0))return s.map(i=>i/r)}}function Gp(t,e){let n=t[e.indexOf(Math.max(...e))],o=t.map(l=>l.map((c,h)=>h===2?Math.atan2(Math.sin(c-n[2]),Math.cos(c-n[2])):c-n[h])),
 s=l=>o.reduce((c,h,d)=>c+e[d]*l(h),0),r=[0,1,2].map(l=>s(c=>c[l])),i=r.map((l,c)=>r.map((h,d)=>s(u=>(u[c]-l)*(u[d]-h))));return[n.map((l,c)=>l+r[c]),i.every((l,c)=>l[c]>=
-0)&&Number.isFinite(i[0][0])?i:null]}function gy(t){let e=aa(0,0,0);for(let n=0;n<3;n++)for(let o=0;o<=n;o++){let s=t[n][o];for(let r=0;r<o;r++)s-=e[n][r]*e[o][r];
-e[n][o]=n===o?Math.sqrt(Math.max(s,1e-7)):s/e[o][o]}return e}var yy=12,wy=80,by=11,xy=new Set(["path","views","ghost","beam"]),la="This figure has no such tool: bayesmap app has it";async function jp(t){return JSON.parse(
-new TextDecoder().decode(await Qn(ht(t))))}function vy(t,e){let n=Pp(t,e),{seed:o,noise:s,angles:r,sensors:i}=t,a=i.map(({id:c})=>gn(o,c,by)),l=n.map((c,h)=>t.readings===
-"exact"?c:c+s*ur(a[Math.floor(h/r)],2*(h%r)));return{exact:n,readings:l}}function ky({method:t,prior:e},{rare_walls:n}){return t!=="auto"?t:Math.min(e,1-e)<=n?"\
+0)&&Number.isFinite(i[0][0])?i:null]}function wy(t){let e=aa(0,0,0);for(let n=0;n<3;n++)for(let o=0;o<=n;o++){let s=t[n][o];for(let r=0;r<o;r++)s-=e[n][r]*e[o][r];
+e[n][o]=n===o?Math.sqrt(Math.max(s,1e-7)):s/e[o][o]}return e}var by=12,xy=80,vy=11,ky=new Set(["path","views","ghost","beam"]),la="This figure has no such tool: bayesmap app has it";async function jp(t){return JSON.parse(
+new TextDecoder().decode(await Qn(ht(t))))}function Sy(t,e){let n=Pp(t,e),{seed:o,noise:s,angles:r,sensors:i}=t,a=i.map(({id:c})=>gn(o,c,vy)),l=n.map((c,h)=>t.readings===
+"exact"?c:c+s*ur(a[Math.floor(h/r)],2*(h%r)));return{exact:n,readings:l}}function My({method:t,prior:e},{rare_walls:n}){return t!=="auto"?t:Math.min(e,1-e)<=n?"\
 block":"gibbs"}function Vp(t,e=n=>setTimeout(n)){let{limits:n,judging:o}=t,s=new hr(t.document),[r,i]=[0,0],[a,l,c]=[!0,!1,!1],h={layer:"mean",chain:0,draw:null},
 d="live",u=null,[m,w]=[!1,!1],[v,b]=[0,0],M=null,S=(A,_)=>U.onmessage({type:"status",text:A,level:_},{}),E=()=>U.onmessage({type:"state",document:s.present,generation:r,
 seq:i,can_undo:s.canUndo,can_redo:s.canRedo,live:a,running:l,working:c,draws:!c&&u?.draws||{chains:0,count:0},scan:0,view:h},{}),P=(A=!1)=>{u&&(b=performance.now(),
-U.onmessage(...u.picture(h,r,Math.round(b-v),A)))};function D(){if(m=!1,w||!c)return;let A=!u;u??=O(),d!=="clear"&&u.work(yy);let _=u.done||d==="clear";(A||_||performance.
-now()-b>wy)&&P(),_?(l=c=!1,E()):L()}function L(){m||e(D),m=!0}function O(){let A=s.present,{sensors:_,max_range:B}=A,I=Ep(A),{exact:ae,readings:K}=vy(A,I),J=Float64Array.
+U.onmessage(...u.picture(h,r,Math.round(b-v),A)))};function D(){if(m=!1,w||!c)return;let A=!u;u??=O(),d!=="clear"&&u.work(by);let _=u.done||d==="clear";(A||_||performance.
+now()-b>xy)&&P(),_?(l=c=!1,E()):L()}function L(){m||e(D),m=!0}function O(){let A=s.present,{sensors:_,max_range:B}=A,I=Ep(A),{exact:ae,readings:K}=Sy(A,I),J=Float64Array.
 from(_.flatMap(({x:ue,y:he,yaw:se})=>[ue,he,se])),Q=ue=>Float32Array.from(ue),q={pose:J,angles:Q(Xo(A)),ranges:Q(K),exact:Q(ae),hit:Uint8Array.from(ae,ue=>ue<B?
-1:0)};M=q,U.onmessage({type:"scan",generation:r,ids:_.map(({id:ue})=>ue),index:null},q);let W=_p(A,I,K),de=ky(A,t);return d==="clear"?new Eo(A,W):de==="importan\
+1:0)};M=q,U.onmessage({type:"scan",generation:r,ids:_.map(({id:ue})=>ue),index:null},q);let W=_p(A,I,K),de=My(A,t);return d==="clear"?new Eo(A,W):de==="importan\
 ce"?new xr(A,W,o):new Zo(A,W,o,de==="block")}function G(A=a?"live":"clear"){r++,d=A,u=null,l=d==="run",c=!0,v=performance.now(),E(),L()}function te(){if(!c)return E();
 if(!u)return G("clear");l=c=!1,P(!0),E()}function X(A){if(A)return s.push(zi(A,t.document,n),{type:"hello"}),G();if(!r)return G();E(),P()}function $(A){let{sensors:_,
 angles:B}=s.present,I=Math.max(0,_.findIndex(he=>he.id===A)),{x:ae,y:K,yaw:J}=_[I],Q=[I*B,(I+1)*B];if(!M||w)return;let{modes:q,pose:W,weight:de,nats_per_beam:ue}=Hp(
@@ -1566,21 +1566,23 @@ document")throw new Ve(la);let ae=new TextEncoder().encode(`${JSON.stringify(s.p
 s.present,A,n);if(!_)throw new Ve(la);let[B,I]=_;s.push(B,A),I&&S(I,"warning"),G()}let U={...hn(),open:()=>{U.onmessage({type:"welcome",version:1,limits:n,recorded:!1,
 figure:!0,lacks:[],story:t.story},{}),U.onmessage({type:"worker",state:"ready"},{}),U.onstatus({connected:!0})},send:A=>{if(A.type!=="painted"){if(A.type==="ins\
 pect"){let _=u?.beamsThrough(A.x*s.present.grid.shape[1]+A.y);if(_===void 0)return;let B={beams_for:null,nats_for:null,beams_against:null,nats_against:null,draw:null,
-chain:null,prior_nats:null,log_odds:null};return U.onmessage({type:"cell",x:A.x,y:A.y,each:!1,beams:_,...B},{})}if(A.type==="where")return e(()=>$(A.sensor));if(xy.
+chain:null,prior_nats:null,log_odds:null};return U.onmessage({type:"cell",x:A.x,y:A.y,each:!1,beams:_,...B},{})}if(A.type==="where")return e(()=>$(A.sensor));if(ky.
 has(A.type))return S(la,"warning");i=A.seq??i;try{ee(A)}catch(_){if(!(_ instanceof Ve))throw _;if(A.type==="hello")return U.onmessage({type:"error",text:_.message,
-remedy:"",seq:i},{});S(_.message,"warning"),E()}}},record:()=>u&&M&&u.recording(M),close:()=>{w=!0}};return U}var ca=250,Sy=8e3;function zp(t){let e=null,n=ca,o=0,s=!1;function r(){clearTimeout(o);let a=new URL("socket",t());a.protocol=a.protocol.replace("http","ws"),a.
+remedy:"",seq:i},{});S(_.message,"warning"),E()}}},record:()=>u&&M&&u.recording(M),close:()=>{w=!0}};return U}var ca=250,Ty=8e3;function zp(t){let e=null,n=ca,o=0,s=!1;function r(){clearTimeout(o);let a=new URL("socket",t());a.protocol=a.protocol.replace("http","ws"),a.
 search=t().search;let l=new WebSocket(a),c=!1;e=l,l.binaryType="arraybuffer",l.onopen=()=>{c=!0,n=ca,i.onstatus({connected:!0})},l.onmessage=({data:h})=>{typeof h==
 "string"?i.onmessage(JSON.parse(h),{}):i.onmessage(...pn(h))},l.onclose=()=>{if(s||e!==l)return;o=window.setTimeout(r,n);let h={connected:!1,retryIn_ms:n};i.onstatus(
-h),c||My(t()).then(d=>d&&e===l&&i.onstatus({...h,refused:d})),n=Math.min(Sy,2*n)}}let i={...hn(),open:r,send:a=>{e?.readyState===WebSocket.OPEN&&e.send(JSON.stringify(
+h),c||Ay(t()).then(d=>d&&e===l&&i.onstatus({...h,refused:d})),n=Math.min(Ty,2*n)}}let i={...hn(),open:r,send:a=>{e?.readyState===WebSocket.OPEN&&e.send(JSON.stringify(
 a))},read:(a,l)=>new Promise((c,h)=>{let d=new URL("open",t());d.search=t().search,d.searchParams.set("name",a.name);let u=new XMLHttpRequest;u.open("POST",d),u.
 responseType="arraybuffer",u.upload.onprogress=({loaded:m,total:w})=>l(m/w),u.onload=()=>u.status===200?c(u.response):h(new Error(new TextDecoder().decode(u.response))),
 u.onerror=()=>h(new Error("the connection is lost")),u.send(a)}),retry:()=>{n=ca,e?.readyState!==WebSocket.OPEN&&r()},close:()=>{s=!0,clearTimeout(o),e?.close()}};
-return i}async function My(t){try{return(await fetch(t.pathname+t.search,{method:"HEAD",cache:"no-store"})).status===403}catch{return!1}}function Yp(t){let e=(o,s=[])=>n.onmessage(o,Va(o,s)),n={...hn(),open:()=>{t.on("msg:custom",e),n.onstatus({connected:!0})},send:o=>t.send(o),close:()=>t.off("m\
-sg:custom",e)};return n}var Ty="This is the map that was drawn here when the connection was lost; undo leads back",kr=t=>Object.assign(window,{bayesmap:t}),rv={render({model:t,el:e}){let n=document.
-createElement("div");e.append(n);let o=Jo(n,Yp(t),{embedded:!0});return kr(o),()=>o.destroy()}};function qp(t,e){let n=Jo(t,cs(e),{play:ha(t,()=>n)});kr(n)}var ha=(t,e)=>n=>{
-e().destroy(),qp(t,n)};async function Ay(){let t=document.querySelector("[data-bayesmap]");if(!t||t.shadowRoot)return;let e=new CSSStyleSheet;e.replaceSync("bod\
-y { margin: 0; }"),document.adoptedStyleSheets.push(e);let n=document.querySelector("script[data-recording]");if(n){qp(t,await ls(n.textContent??""));return}let o=document.
-querySelector("script[data-figure]");if(o){let[{document:h,damaged:d},u]=await Promise.all([Fo(),jp(o.textContent??"")]),m=d?{text:$o,level:"error"}:null,w=Jo(t,
-Vp(u),{adopt:h,notice:m,play:ha(t,()=>w)});kr(w);return}kl(new URLSearchParams(location.search).get("token"));let{document:s,damaged:r}=await Fo(),i=s?null:bl(),
-a=zp(()=>new URL(location.href));Sl(h=>{history.replaceState(null,"",`${location.pathname}?token=${encodeURIComponent(h)}${location.hash}`),a.retry?.()});let c=Jo(
-t,a,{adopt:s??i,notice:r?{text:$o,level:"error"}:i?{text:Ty,level:"info"}:null,play:ha(t,()=>c)});kr(c)}Ay();export{rv as default,Vp as localTransport,Jo as mount,jp as readFigure,ls as readRecording,cs as recordedTransport,zp as webSocketTransport,Yp as widgetTransport};
+return i}async function Ay(t){try{return(await fetch(t.pathname+t.search,{method:"HEAD",cache:"no-store"})).status===403}catch{return!1}}function Yp(t){let e=(o,s=[])=>n.onmessage(o,Va(o,s)),n={...hn(),open:()=>{t.on("msg:custom",e),n.onstatus({connected:!0})},send:o=>t.send(o),close:()=>t.off("m\
+sg:custom",e)};return n}var Ey="This is the map that was drawn here when the connection was lost; undo leads back",qp=()=>!("DecompressionStream"in window&&"adoptedStyleSheets"in document),
+Kp="This page needs a newer browser: Safari 16.4, Firefox 121, Chrome 111, or later.",kr=t=>Object.assign(window,{bayesmap:t}),av={render({model:t,el:e}){let n=document.
+createElement("div");if(e.append(n),qp())return void(n.textContent=Kp);let o=Jo(n,Yp(t),{embedded:!0});return kr(o),()=>o.destroy()}};function Jp(t,e){let n=Jo(
+t,cs(e),{play:ha(t,()=>n)});kr(n)}var ha=(t,e)=>n=>{e().destroy(),Jp(t,n)};async function Py(){let t=document.querySelector("[data-bayesmap]");if(!t||t.shadowRoot)
+return;if(qp())return void(t.textContent=Kp);let e=new CSSStyleSheet;e.replaceSync("body { margin: 0; }"),document.adoptedStyleSheets.push(e);let n=document.querySelector(
+"script[data-recording]");if(n){Jp(t,await ls(n.textContent??""));return}let o=document.querySelector("script[data-figure]");if(o){let[{document:h,damaged:d},u]=await Promise.
+all([Fo(),jp(o.textContent??"")]),m=d?{text:$o,level:"error"}:null,w=Jo(t,Vp(u),{adopt:h,notice:m,play:ha(t,()=>w)});kr(w);return}kl(new URLSearchParams(location.
+search).get("token"));let{document:s,damaged:r}=await Fo(),i=s?null:bl(),a=zp(()=>new URL(location.href));Sl(h=>{history.replaceState(null,"",`${location.pathname}\
+?token=${encodeURIComponent(h)}${location.hash}`),a.retry?.()});let c=Jo(t,a,{adopt:s??i,notice:r?{text:$o,level:"error"}:i?{text:Ey,level:"info"}:null,play:ha(
+t,()=>c)});kr(c)}Py();export{av as default,Vp as localTransport,Jo as mount,jp as readFigure,ls as readRecording,cs as recordedTransport,zp as webSocketTransport,Yp as widgetTransport};
