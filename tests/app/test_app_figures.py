@@ -97,17 +97,17 @@ def test_a_reader_goes_through_our_story_in_one_file(open_page, tmp_path):
     (tmp_path / "story.html").write_text(figure_page(story.steps[0].document, story), encoding="utf-8")
     page = open_page((tmp_path / "story.html").as_uri() + "#step=3")
     until(page, f"s.painted.method === 'importance' && s.painted.ess < 2 && {DONE}")
-    # Next is another state, and the address follows.
-    page.get_by_role("button", name="Next", exact=True).click()
+    page.get_by_role("button", name="Particles", exact=True).click()  # the name leads to the control
+    assert 0 < page.get_by_role("slider", name="Particles").bounding_box()["y"] < page.viewport_size["height"]
+    page.get_by_role("button", name="Next", exact=True).click()  # another state, and the address follows
     until(page, f"s.document.order === 'radial' && s.painted.layer === 'draw' && {DONE}")
     assert page.evaluate("location.hash") == "#step=4"
-    outwards = snapshot(page)["painted"]["trace"]
+    outwards = snapshot(page)["painted"]["trace"]  # both chains arrive within six sweeps; row by row they do not
     page.get_by_role("button", name="Show me").click()
     until(page, f"s.document.order === 'raster' && {DONE}")
-    # After six sweeps outwards both chains have arrived; row by row they have not.
     assert min(map(float, outwards[5::6])) > -1000 > max(map(float, snapshot(page)["painted"]["trace"][5::6]))
-    # A step is a link. The last one locates the scan in the page.
-    page.get_by_role("link", name="Step 7").click()
+    page.get_by_role("link", name="Step 7").click()  # the last one locates the scan in the page, in a known map
     until(page, "s.where.found?.modes.length === 4 && location.hash === '#step=7'")
+    page.get_by_text("known map: the walls as drawn").wait_for()
     page.get_by_role("button", name="Show me").click()
     until(page, "s.where.found?.modes.length === 1 && Math.abs(s.where.found.modes[0].mean[0] - 6) < 0.2")
