@@ -119,11 +119,6 @@ export function mount(element: HTMLElement, transport: Transport, { embedded = f
   const [sensors, model, inference, clear] = [sensorPanel(ui), modelPanel(ui), inferencePanel(ui), clearPanel(ui)];
   const viewing = viewPanel(ui, player, shown, scale);
   viewing.append(keepControl(ui, beside));
-  let held = hand.tool;
-  ui.each(() => {
-    if (held !== hand.tool) panel.scrollTop = 0; // there a tool's answers are
-    held = hand.tool;
-  });
   const panels = [
     storyPanel(ui),
     decisionsPanel(ui), wherePanel(ui), ghostPanel(ui), evidencePanel(ui), logPanel(ui), posteriorPanel(ui, traceChart(ui, dressed), weightChart(ui, dressed)),
@@ -135,7 +130,10 @@ export function mount(element: HTMLElement, transport: Transport, { embedded = f
   ui.visible(model, () => !isRun());
   ui.visible(inference, () => !isRun());
   ui.visible(clear, () => !isRun());
+  let held = hand.tool;
   ui.each(() => {
+    if (held !== hand.tool) panel.scrollTop = 0; // there a tool's answers are
+    held = hand.tool;
     put(tools, "inert", !session.document);
     put(panel, "inert", !session.document);
   });

@@ -56,9 +56,10 @@ function pointOut(ui: Ui, section: HTMLElement, task: HTMLElement) {
   let marked: Named[] = [];
   let [told, cut] = ["", ""];
   let begun = -1;
-  /** Where the panel was scrolled to while the layout of a new step settles; null once it has, or once the reader scrolls. */
-  let following: number | null = null;
-  ui.each(() => {
+  /** Whether the first control is kept in view: while the layout of a new step settles, and until the reader does something. */
+  let following = false;
+  let heard = false;
+  ui.after(() => {
     const { step, begins } = telling;
     if (!step) return;
     const all = ui.named.filter(({ place }) => !place.closest("[hidden], dialog"));
@@ -75,7 +76,6 @@ function pointOut(ui: Ui, section: HTMLElement, task: HTMLElement) {
         ...parts.map(({ text, at }) => {
           if (at === null) return text;
           const lead = () => {
-            following = null;
             reveal(section, all[at].place);
             all[at].control.focus({ preventScroll: true });
           };
@@ -85,15 +85,16 @@ function pointOut(ui: Ui, section: HTMLElement, task: HTMLElement) {
     }
     const panel = section.parentElement;
     if (!panel) return;
+    if (!heard) for (const type of ["wheel", "touchmove", "pointerdown", "keydown"]) panel.addEventListener(type, () => (following = false), { passive: true });
+    heard = true;
     if (begun !== begins) {
       begun = begins;
       panel.scrollTop = 0; // the step is read first
-      following = 0;
+      following = true;
     }
-    if (following === null) return;
-    if (panel.scrollTop !== following) return void (following = null);
+    if (!following) return;
     if (marked.length && stays(section)) reveal(section, marked[0].place);
-    following = telling.settled ? null : panel.scrollTop;
+    following = !telling.settled;
   });
 }
 

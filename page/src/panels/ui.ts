@@ -25,6 +25,7 @@ export class Ui {
   /** The controls with a name that is read. */
   readonly named: Named[] = [];
   private readonly updates: (() => void)[] = [];
+  private readonly afterwards: (() => void)[] = [];
   // begins with a number that undo has not seen on this connection
   private drag = Math.floor(Math.random() * 2 ** 30);
 
@@ -43,8 +44,13 @@ export class Ui {
     this.updates.push(update);
   }
 
+  /** Runs after every change, once all else is up to date and has its place. */
+  after(update: () => void) {
+    this.afterwards.push(update);
+  }
+
   refresh() {
-    for (const update of this.updates) update();
+    for (const update of [...this.updates, ...this.afterwards]) update();
   }
 
   /** Changes settings, as a step of undo of its own. */
