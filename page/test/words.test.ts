@@ -177,6 +177,7 @@ test("figures are shown with their verdict, and a dash where there are none", ()
   assert.match(found.text, /Converged: R-hat 1.01/);
   assert.equal(found.find((one) => one.tagName === "dd" && one.className === "good").length, 2);
   const [meaning] = found.find(({ tagName, firstElementChild }) => tagName === "details" && firstElementChild?.textContent === "What these figures mean");
+  assert.deepEqual(desk.ui.named.map(({ name }) => name()).filter((name) => /[A-Z]{2}|-/.test(name)), ["ESS", "R-hat"]); // of a story
   assert.match(meaning.innerText, /ESS +Effective sample size .* R-hat +Agreement of the chains on the log joint: 1 where they agree/);
   assert(!found.sees("Show the cell"));
   desk.field({ ess: 1, method: "importance", verdict: { level: "bad", why: "one particle", cell: null } });
@@ -192,8 +193,8 @@ test("figures are shown with their verdict, and a dash where there are none", ()
 test("what is left out, how long it took, and of which model and method the picture is", () => {
   const [desk, found] = panel(posterior);
   desk.field({ burned: 100, seconds: 3.21, about: [["Method", "Gibbs sampling"], ["Prior", "independent: p wall 0.5"]] });
-  assert.match(found.text, /1000 of 1000 sweeps, without the first 100 \(burn-in\)/);
-  assert.match(captionOf(desk.session), /: the mean of the sweeps without the first 100 \(burn-in\)\.$/);
+  assert.match(found.text, /1000 of 1000 sweeps, burn-in of 100 left out/);
+  assert.match(captionOf(desk.session), /: the mean of sweeps, burn-in of 100 left out\.$/);
   assert.match(found.text, /time 3.2 s/);
   assert.match(found.text, /Model and method of this picture Method Gibbs sampling Prior independent: p wall 0.5/);
   desk.field({ method: "propagate", approximate: true, sweeps: 7, total: 0 });

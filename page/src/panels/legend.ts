@@ -74,7 +74,7 @@ export function captionOf(session: Session) {
   const { source, angles, sensors, scans_used } = document;
   const given = source.kind === "simulation" ? `${counted(angles * sensors.length, "beam")} of ${counted(sensors.length, "sensor")}` : counted(scans_used ?? source.scans, "scan");
   const quick = shown.method === "propagate" || shown.method === "pilot" || /hits|counts/.test(shown.method);
-  const by = quick && shown.approximate ? ", approximately" : layer !== "draw" && shown.burned ? `: the mean of the sweeps ${leftOut(shown.burned)}` : "";
+  const by = quick && shown.approximate ? ", approximately" : layer !== "draw" && shown.burned ? `: the mean of sweeps, ${leftOut(shown.burned)}` : "";
   return `${what}, given ${given}${by}${ofPosterior || layer === "draw" ? "" : ", as far as it is known"}.`;
 }
 

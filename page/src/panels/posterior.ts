@@ -11,7 +11,7 @@ const ROUNDS = 20;
 const UNITS: { [method: string]: string } = { importance: "particles", propagate: "rounds" };
 
 /** The burn-in in words, the same wherever it is said. */
-export const leftOut = (sweeps: number) => `without the first ${sweeps} (burn-in)`;
+export const leftOut = (sweeps: number) => `burn-in of ${sweeps} left out`;
 
 /** Whether the sensor is being fitted, before there are chains. */
 export const isFitting = ({ working, shown }: Session) => working && shown?.method === "pilot";
@@ -88,6 +88,7 @@ function figures(ui: Ui) {
     const value = h("dd", { textContent: "\u2013" });
     const entry = h("div", { title }, h("dt", { textContent: label }), value);
     values.append(entry);
+    if (judged) ui.named.push({ name: () => label, place: entry, control: entry });
     meanings.append(h("dt", { textContent: label }), h("dd", { textContent: title }));
     ui.each(() => {
       put(value, "textContent", session.shown ? read(session.shown) : "\u2013");

@@ -15,7 +15,7 @@ type ButtonOptions = { className?: string; text?: string; when?: () => boolean; 
 /** `scale` is for people who read degrees where the document holds radians: the number on show is that many times the document's. */
 type Range = { step: number; log?: boolean; unit?: string; scale?: number };
 type NumberOptions = { step: number | "any"; limits?: keyof Limits; scale?: number };
-/** A control that words can name: `place` is what surrounds it with its label. */
+/** A control, or a figure, that words can name: `place` is what surrounds it with its label. */
 export type Named = { name: () => string; place: HTMLElement; control: HTMLElement };
 type SliderKey = "prior" | "noise" | "angles" | "sweeps" | "pose_sigma" | "heading_sigma" | "burn_in";
 

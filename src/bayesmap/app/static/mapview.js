@@ -268,25 +268,25 @@ tools: paths, evidence, where to look next, the ghost")}),k("div",{className:"ba
 ole map (0)"}))}var Qt=t=>t.charAt(0).toUpperCase()+t.slice(1),Es=class{text="Connecting";level="info";until=0;say(e,n,o){this.text=Qt(e),this.level=n,this.until=o}confirmed(e){
 let n=e>this.until&&!/worker/.test(this.text);(this.text==="Connecting"||n)&&this.say("Ready","info",e)}worker(e){e==="restarted"?this.say("The worker stopped a\
 nd is being started again; the map is kept","warning",this.until):e==="ready"&&this.text==="Connecting"?this.say("Ready","info",this.until):e==="ready"&&/worker/.
-test(this.text)&&this.say("The worker runs again","info",this.until)}};var hu=20,pu={importance:"particles",propagate:"rounds"},ai=t=>`without the first ${t} (burn-in)`,Ps=({working:t,shown:e})=>t&&e?.method==="pilot";function Tl(t,...e){
-let{session:n}=t,o=k("progress",{max:1,value:0,"aria-label":"Progress"}),s=k("div",{className:"doing"});t.each(()=>{let i=n.shown,{stage:a}=n,l=i?.generation!==
-n.generation&&(n.running||n.document?.source.kind==="log"),c=Ps(n),h=a?a.done/a.total:i&&!l&&i.total>0&&(c||!i.approximate)?i.sweeps/i.total:0;C(o,"value",h);let u=n.
-remaining_s(),d=pu[i?.method??""]??"sweeps",m=i&&!i.approximate&&i.total?`${i.sweeps} of ${i.total} ${d}`:"",w=u!==null?u<1?"less than 1 s left":`${Math.ceil(u)}\
- s left`:n.running?"running":"",v=m&&i?.burned?ai(i.burned):"",b=n.sampling||n.running||!i||i.sweeps>=i.total?"":"stopped";a?C(s,"textContent",`${a.text}: ${a.done}\
- of ${a.total} ${a.total>hu?"scans":"rounds"}`):l?C(s,"textContent","Computing"):i&&c?C(s,"textContent",`Fitting the sensor: sweep ${i.sweeps} of ${i.total}`):C(
-s,"textContent",Qt([m,v,w,m&&b].filter(Boolean).join(", "))||du(n))});let r=k("p",{className:"caption",textContent:"This is the posterior of walls that are not \
-known. The map shows the drawn walls, which Where am I? takes as known."});return t.visible(r,()=>n.where.map!==null),t.section("Posterior",r,uu(t),o,s,...fu(t),
-gu(t),...e,mu(t))}function du({shown:t,working:e,document:n,nothingToRun:o}){let s=n?.method==="importance"?"; Run weighs particles":o&&"; it is done, and Run h\
-as nothing to add";return t?.method==="propagate"?`${t.sweeps} rounds of belief propagation${s}`:t?.method==="hits"?"Counts of hits and passes":t?.method==="cou\
-nts"?"Run infers where the robot was":t?.method==="pilot"?"Stopped while the sensor was fitted":e?"Computing":"No chain yet"}function uu(t){let{session:e}=t,n=t.
-button("play","Run",()=>e.act({type:"run"}),{className:"primary",text:"Run",title:"Run (R): more sweeps of the chains on show",when:()=>e.connection.connected&&
-!e.nothingToRun,why:()=>e.nothingToRun||"Not while the connection is lost"}),o=t.button("close","Cancel",()=>e.act({type:"cancel"}),{text:"Cancel",title:"Cancel\
- (Escape)",when:()=>e.running||e.sampling||Ps(e),why:"Nothing is running"}),s=t.checkbox("Live",()=>!!(e.state?.live??!0),i=>e.act({type:"live",on:i}),"Every ed\
-it restarts the chains, and Run goes on from their draws"),r=k("div",{className:"buttons"},n,o,s);return t.visible(r,()=>!e.recorded&&e.document?.source.kind!==
-"run"),r}function fu(t){let{session:e}=t,n=k("dl"),o=k("dl",{className:"about"}),s=(i,a,l,c=!1)=>{let h=k("dd",{textContent:"–"}),u=k("div",{title:a},k("dt",{
-textContent:i}),h);return n.append(u),o.append(k("dt",{textContent:i}),k("dd",{textContent:a})),t.each(()=>{C(h,"textContent",e.shown?l(e.shown):"–"),c&&C(h,"\
-className",e.shown?.verdict?.level??"")}),u};s("ESS","Effective sample size of the log joint: so many independent draws would tell as much of its mean",i=>fe(i.
-ess,0),!0),s("R-hat","Agreement of the chains on the log joint: 1 where they agree, more where each still tells of its start",i=>fe(i.rhat,3),!0),s("log joint",
+test(this.text)&&this.say("The worker runs again","info",this.until)}};var hu=20,pu={importance:"particles",propagate:"rounds"},ai=t=>`burn-in of ${t} left out`,Ps=({working:t,shown:e})=>t&&e?.method==="pilot";function Tl(t,...e){let{
+session:n}=t,o=k("progress",{max:1,value:0,"aria-label":"Progress"}),s=k("div",{className:"doing"});t.each(()=>{let i=n.shown,{stage:a}=n,l=i?.generation!==n.generation&&
+(n.running||n.document?.source.kind==="log"),c=Ps(n),h=a?a.done/a.total:i&&!l&&i.total>0&&(c||!i.approximate)?i.sweeps/i.total:0;C(o,"value",h);let u=n.remaining_s(),
+d=pu[i?.method??""]??"sweeps",m=i&&!i.approximate&&i.total?`${i.sweeps} of ${i.total} ${d}`:"",w=u!==null?u<1?"less than 1 s left":`${Math.ceil(u)} s left`:n.running?
+"running":"",v=m&&i?.burned?ai(i.burned):"",b=n.sampling||n.running||!i||i.sweeps>=i.total?"":"stopped";a?C(s,"textContent",`${a.text}: ${a.done} of ${a.total} ${a.
+total>hu?"scans":"rounds"}`):l?C(s,"textContent","Computing"):i&&c?C(s,"textContent",`Fitting the sensor: sweep ${i.sweeps} of ${i.total}`):C(s,"textContent",Qt(
+[m,v,w,m&&b].filter(Boolean).join(", "))||du(n))});let r=k("p",{className:"caption",textContent:"This is the posterior of walls that are not known. The map show\
+s the drawn walls, which Where am I? takes as known."});return t.visible(r,()=>n.where.map!==null),t.section("Posterior",r,uu(t),o,s,...fu(t),gu(t),...e,mu(t))}
+function du({shown:t,working:e,document:n,nothingToRun:o}){let s=n?.method==="importance"?"; Run weighs particles":o&&"; it is done, and Run has nothing to add";
+return t?.method==="propagate"?`${t.sweeps} rounds of belief propagation${s}`:t?.method==="hits"?"Counts of hits and passes":t?.method==="counts"?"Run infers wh\
+ere the robot was":t?.method==="pilot"?"Stopped while the sensor was fitted":e?"Computing":"No chain yet"}function uu(t){let{session:e}=t,n=t.button("play","Run",
+()=>e.act({type:"run"}),{className:"primary",text:"Run",title:"Run (R): more sweeps of the chains on show",when:()=>e.connection.connected&&!e.nothingToRun,why:()=>e.
+nothingToRun||"Not while the connection is lost"}),o=t.button("close","Cancel",()=>e.act({type:"cancel"}),{text:"Cancel",title:"Cancel (Escape)",when:()=>e.running||
+e.sampling||Ps(e),why:"Nothing is running"}),s=t.checkbox("Live",()=>!!(e.state?.live??!0),i=>e.act({type:"live",on:i}),"Every edit restarts the chains, and Run\
+ goes on from their draws"),r=k("div",{className:"buttons"},n,o,s);return t.visible(r,()=>!e.recorded&&e.document?.source.kind!=="run"),r}function fu(t){let{session:e}=t,
+n=k("dl"),o=k("dl",{className:"about"}),s=(i,a,l,c=!1)=>{let h=k("dd",{textContent:"–"}),u=k("div",{title:a},k("dt",{textContent:i}),h);return n.append(u),c&&
+t.named.push({name:()=>i,place:u,control:u}),o.append(k("dt",{textContent:i}),k("dd",{textContent:a})),t.each(()=>{C(h,"textContent",e.shown?l(e.shown):"–"),c&&
+C(h,"className",e.shown?.verdict?.level??"")}),u};s("ESS","Effective sample size of the log joint: so many independent draws would tell as much of its mean",i=>fe(
+i.ess,0),!0),s("R-hat","Agreement of the chains on the log joint: 1 where they agree, more where each still tells of its start",i=>fe(i.rhat,3),!0),s("log joint",
 "Log of prior times likelihood at the last sweep",i=>fe(i.log_joint,Math.abs(i.log_joint??0)<1e5?1:0)),s("time","Time spent on sweeps, rounds or particles",i=>fe(
 i.seconds,1," s"));let r=s("reply","From the hand's last move to its picture",()=>fe(e.latency.eventToPaint_ms.at(-1),0," ms"));return t.visible(r,()=>!e.recorded),
 [n,k("details",{},k("summary",{textContent:"What these figures mean"}),o)]}var Go=({shown:t})=>t?.method==="importance"?{good:"Enough particles",fair:"Few parti\
@@ -735,8 +735,8 @@ f one chain, which has not converged",u={mean:i==="binary"?"How probable a wall 
 count?`, ${t.draw+1} of ${r.count}`:""}`,entropy:"How uncertain each cell is, in bits",width:"How wide the 90 % interval of each cell is"}[o];if(e.method==="non\
 e")return`${u} before any reading: the prior.`;let{source:d,angles:m,sensors:w,scans_used:v}=n,b=d.kind==="simulation"?`${Ui(m*w.length,"beam")} of ${Ui(w.length,
 "sensor")}`:Ui(v??d.scans,"scan"),S=(e.method==="propagate"||e.method==="pilot"||/hits|counts/.test(e.method))&&e.approximate?", approximately":o!=="draw"&&e.burned?
-`: the mean of the sweeps ${ai(e.burned)}`:"";return`${u}, given ${b}${S}${c||o==="draw"?"":", as far as it is known"}.`}function Km(t,e,n){let{session:o}=t,s=k(
-"span",{className:"ramp"}),r=k("span",{className:"name"}),i=fh.map(h=>{let[u,d]=Ys(h),{mark:m,when:w}=h;return w&&t.visible(u,()=>w(o)),m==="stroke"&&t.each(()=>C(
+`: the mean of sweeps, ${ai(e.burned)}`:"";return`${u}, given ${b}${S}${c||o==="draw"?"":", as far as it is known"}.`}function Km(t,e,n){let{session:o}=t,s=k("s\
+pan",{className:"ramp"}),r=k("span",{className:"name"}),i=fh.map(h=>{let[u,d]=Ys(h),{mark:m,when:w}=h;return w&&t.visible(u,()=>w(o)),m==="stroke"&&t.each(()=>C(
 d,"textContent",Bo(n())?h.text:uh)),m==="path"&&t.each(()=>u.firstElementChild?.classList.toggle("risky",o.decisions.path?.within_risk===!1)),u}),[a,l]=[mh,gh].
 map(h=>h.map(u=>Ys(u)[0]));for(let h of a)t.visible(h,()=>!!o.where.found);for(let h of l)t.visible(h,()=>!!o.evidence.cellShown);let c="";return t.each(()=>{let{
 layer:h}=o;C(r,"textContent",wh(o,h));let u=h==="entropy"||h==="width",d=`${u} ${e().ground}`;c!==d&&(c=d,s.style.background=Zr(u?oo:m=>Xr(e(),m)))}),k("ul",{"a\
@@ -1157,7 +1157,7 @@ section:last-child { border-bottom: 0; }
 .story .task button { display: inline; height: auto; min-height: 0; padding: 0; border: 0; border-radius: 2px; background: none; color: var(--accent); font-weig\
 ht: inherit; text-align: left; text-decoration: underline; text-underline-offset: 2px; white-space: normal; }
 .named { border-radius: 6px; box-shadow: 0 0 0 2px var(--card), 0 0 0 4px var(--accent); }
-.row.named { box-shadow: 0 0 0 4px var(--card), 0 0 0 6px var(--accent); }
+.row.named, dl .named { box-shadow: 0 0 0 4px var(--card), 0 0 0 6px var(--accent); }
 @container (min-width: 761px) and (min-height: 700px) { .story { position: sticky; top: 0; z-index: 3; max-height: 62cqh; overflow-y: auto; } } /* what a step a\
 sks for is read beside what it asks to change */
 .buttons { display: flex; align-items: center; gap: 8px; }
