@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import base64
 import html
-import io
 import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
@@ -339,8 +338,10 @@ class Run:
 
     def _repr_html_(self) -> str:
         """Return a small picture of the mean map beside the five lines of `repr`, for notebooks."""
+        from bayesmap.viz.thumbnail import thumbnail
+
         title, rows = _overview(self.posterior)
-        size, png = _thumbnail(self.occupancy, self.observed)
+        size, png = thumbnail(self.occupancy, self.observed, THUMBNAIL_PIXELS)
         lines = "".join(
             f"<tr><th align='left'>{html.escape(name)}</th><td align='left'>{html.escape(value)}</td></tr>"
             for name, value in rows
@@ -378,23 +379,6 @@ def _overview(posterior: Posterior) -> tuple[str, list[tuple[str, str]]]:
         ("log joint", level),
         ("seconds", f"{posterior.seconds['total']:.1f}, {posterior.seconds['sampling']:.1f} of them in sweeps"),
     ]
-
-
-def _thumbnail(occupancy: Floats, observed: NDArray[np.bool_]) -> tuple[tuple[int, int], bytes]:
-    """Return width and height in pixels, and the PNG file, of the mean map, x to the right and y up."""
-    from PIL import Image
-
-    from bayesmap.viz import palette
-
-    observed_mean = np.ma.masked_array(np.nan_to_num(occupancy, nan=0.5), ~observed)
-    colours = palette.probability_colormap()(observed_mean)[..., :3]
-    pixels = np.rint(255 * colours[:, ::-1].transpose(1, 0, 2)).astype(np.uint8)
-    scale = THUMBNAIL_PIXELS / max(occupancy.shape)
-    width, height = (max(1, round(side * scale)) for side in occupancy.shape)
-    resampling = Image.Resampling.BOX if scale < 1 else Image.Resampling.NEAREST
-    buffer = io.BytesIO()
-    Image.fromarray(pixels).resize((width, height), resampling).save(buffer, format="PNG", optimize=True)
-    return (width, height), buffer.getvalue()
 
 
 def load(path: str | os.PathLike[str]) -> Run:

@@ -36,6 +36,8 @@ DERIVED = (
 )  # fmt: skip
 """Files made from the run. They are removed when another run takes its place."""
 
+PREVIEW_PIXELS = 800  # longer side of the picture of a first map
+
 
 @dataclass
 class Folder:
@@ -121,11 +123,16 @@ class Folder:
             self.start_afresh()
 
     def preview(self, run: Run) -> None:
-        """Render and export a first map. An older run in the folder keeps its picture."""
+        """Write a picture of a first map without axes, and export it. An older run in the folder keeps its picture."""
+        from bayesmap.viz.thumbnail import thumbnail
+
         if not self.run_path.exists():
             self.path.mkdir(parents=True, exist_ok=True)
             self._previewed = True
-            self.console.say(f"a first, rough map: {self.render(run)[0]}")
+            _, png = thumbnail(run.occupancy, run.observed, PREVIEW_PIXELS)
+            picture = write_file(self.path / "posterior.png", png)
+            run.export(self.path / "map.yaml")
+            self.console.say(f"a first, rough map: {picture}")
 
     def render(self, run: Run) -> list[Path]:
         """Render the map of a run (a single draw without uncertainty), and export it for nav2. Returns the paths."""

@@ -8,17 +8,19 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from bayesmap.errors import BadInput
-from bayesmap.poses.calibration import motion_variances
-from bayesmap.poses.matcher import ANY_SCORE, SearchWindows, likelihood_grids, match
-from bayesmap.poses.scan_geometry import ScanGeometry
 from bayesmap.space.arrays import Mask
 from bayesmap.space.grid import Grid
 from bayesmap.space.planar import Floats, between, compose, interpolate
 from bayesmap.space.scans import Scans
 from bayesmap.space.time_order import since_start
+
+if TYPE_CHECKING:
+    from bayesmap.poses.scan_geometry import ScanGeometry
 
 MAX_GAP_S = 0.5  # median time between scans above which they cannot be matched without odometry, seconds
 TOO_SELDOM = "scans come too seldom to be followed without odometry, which takes 5 Hz or so"
@@ -120,6 +122,10 @@ def correct_late_odometry(scans: Scans, geometry: ScanGeometry) -> Floats:
 
 def _motion_began_early(geometry: ScanGeometry, first: int, last: int, motion: Floats) -> bool:
     """Check that the motion to scan ``last + 1`` began at scan ``first``, not at ``last``, by the fit of that scan."""
+    # Not at the top: `infer` checks its log, too, and loading the matcher would delay its first picture.
+    from bayesmap.poses.calibration import motion_variances
+    from bayesmap.poses.matcher import ANY_SCORE, SearchWindows, likelihood_grids, match
+
     half_width_m = float(np.clip(np.abs(geometry.points_of(first)).max(initial=0.0) + 1.0, 2.0, MAX_HALF_WIDTH_M))
     grids = likelihood_grids(
         geometry, [np.array([first]), np.array([last])], [np.zeros((1, 3))] * 2, np.zeros((2, 2)), half_width_m,

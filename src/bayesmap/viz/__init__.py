@@ -1,21 +1,26 @@
 """Figures and animations of maps, posteriors and chains.
 
 Import this package inside the function that renders: matplotlib and Pillow load slowly, and most runs render nothing.
+Public names are loaded on first use, since a first map needs no more than `bayesmap.viz.palette`.
 """
 
-from bayesmap.viz.animation import render_frames, write_animation
-from bayesmap.viz.diagnostics import plot_log_joint, plot_running_mean, plot_weights, trace_figure, weights_figure
-from bayesmap.viz.figure import Candidate, comparison_figure, panel_figure, posterior_figure, write_figure
-from bayesmap.viz.maps import plot_deviation, plot_entropy, plot_probability, plot_sample, plot_width, window
-from bayesmap.viz.overlays import (
-    plot_rays,
-    plot_sensor,
-    plot_surfaces,
-    plot_truth_outline,
-    surface_strokes,
-    surfaces_figure,
-)  # fmt: skip
-from bayesmap.viz.scores import plot_residuals, residual_scale, residuals_figure, surprise_scale
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from bayesmap.viz.animation import render_frames, write_animation
+    from bayesmap.viz.diagnostics import plot_log_joint, plot_running_mean, plot_weights, trace_figure, weights_figure
+    from bayesmap.viz.figure import Candidate, comparison_figure, panel_figure, posterior_figure, write_figure
+    from bayesmap.viz.maps import plot_deviation, plot_entropy, plot_probability, plot_sample, plot_width, window
+    from bayesmap.viz.overlays import (
+        plot_rays,
+        plot_sensor,
+        plot_surfaces,
+        plot_truth_outline,
+        surface_strokes,
+        surfaces_figure,
+    )  # fmt: skip
+    from bayesmap.viz.scores import plot_residuals, residual_scale, residuals_figure, surprise_scale
 
 __all__ = [
     "Candidate", "comparison_figure", "panel_figure", "plot_deviation", "plot_entropy", "plot_log_joint",
@@ -24,3 +29,10 @@ __all__ = [
     "residual_scale", "residuals_figure", "surface_strokes", "surfaces_figure", "surprise_scale", "trace_figure",
     "weights_figure", "window", "write_animation", "write_figure",
 ]  # fmt: skip
+
+
+def __getattr__(name: str) -> Any:
+    for module in ("animation", "diagnostics", "figure", "maps", "overlays", "scores") if name in __all__ else ():
+        if hasattr(loaded := import_module(f"{__name__}.{module}"), name):
+            return getattr(loaded, name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

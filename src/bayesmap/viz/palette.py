@@ -11,15 +11,16 @@
 - **Lines and marks** are from Okabe and Ito, "Color Universal Design" (2008): distinct for all common colour vision.
 """
 
-from typing import Final
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
-from matplotlib import colormaps
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.colors import Colormap, ListedColormap
-from matplotlib.figure import Figure
-from matplotlib.layout_engine import ConstrainedLayoutEngine
 from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from matplotlib.colors import Colormap, ListedColormap
+    from matplotlib.figure import Figure
 
 # Colours that end in _LAB are in CIELAB (D65).
 PAPER_LAB: Final = (98.0, 0.0, 1.0)  # probability 0: nearly white
@@ -70,23 +71,32 @@ def probability_colors(n: int = 256) -> NDArray[np.float64]:
 
 def probability_colormap() -> Colormap:
     """Return the colours of probability: free is light, wall is dark, unobserved (masked) is `UNOBSERVED`."""
-    return ListedColormap(probability_colors().tolist(), name="bayesmap.probability").with_extremes(bad=UNOBSERVED)
+    return _colormap("probability", probability_colors()).with_extremes(bad=UNOBSERVED)
 
 
 def uncertainty_colormap() -> Colormap:
     """Return the colours of uncertainty: certain is dark, uncertain is bright, unobserved (masked) is `UNOBSERVED`."""
-    cividis = colormaps["cividis"](np.linspace(0.0, 1.0, 256))
-    return ListedColormap(cividis.tolist(), name="bayesmap.uncertainty").with_extremes(bad=UNOBSERVED)
+    from matplotlib import colormaps
+
+    return _colormap("uncertainty", colormaps["cividis"](np.linspace(0.0, 1.0, 256))).with_extremes(bad=UNOBSERVED)
 
 
 def residual_colormap() -> Colormap:
     """Return the colours of residuals, from shorter than predicted to longer."""
-    return ListedColormap(_blend_lab(SHORTER_LAB, NEUTRAL_LAB, LONGER_LAB).tolist(), name="bayesmap.residual")
+    return _colormap("residual", _blend_lab(SHORTER_LAB, NEUTRAL_LAB, LONGER_LAB))
 
 
 def surprise_colormap() -> Colormap:
     """Return the colours of surprise: expected is light grey; the more surprising, the darker and redder."""
-    return ListedColormap(_blend_lab(NEUTRAL_LAB, LONGER_LAB, ALARMING_LAB).tolist(), name="bayesmap.surprise")
+    return _colormap("surprise", _blend_lab(NEUTRAL_LAB, LONGER_LAB, ALARMING_LAB))
+
+
+def _colormap(name: str, colors: NDArray[np.float64]) -> ListedColormap:
+    """Return a colormap of equal steps, given their colours, (n, 3) or (n, 4)."""
+    # This module loads no matplotlib: a first map is written without it.
+    from matplotlib.colors import ListedColormap
+
+    return ListedColormap(colors.tolist(), name=f"bayesmap.{name}")
 
 
 def _blend_lab(*ends: tuple[float, float, float]) -> NDArray[np.float64]:
@@ -97,6 +107,8 @@ def _blend_lab(*ends: tuple[float, float, float]) -> NDArray[np.float64]:
 
 def draw_colormap() -> ListedColormap:
     """Return the colours of the kinds of cell in one draw: free, wall, unobserved and free, unobserved and wall."""
+    from matplotlib.colors import ListedColormap
+
     free, wall = (tuple(color) for color in probability_colors(2).tolist())
     return ListedColormap([free, wall, UNOBSERVED, UNOBSERVED_WALL], name="bayesmap.draw")
 
@@ -108,6 +120,10 @@ def chain_color(chain: int) -> str:
 
 def blank_figure(width_in: float, height_in: float, dpi: float = 160.0, *, arranged: bool = True) -> Figure:
     """Return an empty figure with its own Agg canvas, outside pyplot. If ``arranged``, matplotlib places its panels."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+    from matplotlib.layout_engine import ConstrainedLayoutEngine
+
     layout = ConstrainedLayoutEngine(h_pad=PAD_IN, w_pad=PAD_IN) if arranged else None
     figure = Figure(figsize=(width_in, height_in), dpi=dpi, facecolor="white", layout=layout)
     FigureCanvasAgg(figure)
