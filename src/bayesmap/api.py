@@ -17,7 +17,7 @@ from typing import Any, Literal, cast
 
 import numpy as np
 
-from bayesmap.arguments import PREVIEW_FROM_S, Checkpoints, Schedule, Where, need_value
+from bayesmap.arguments import Checkpoints, Schedule, Where, need_value
 from bayesmap.cells.kind import CellPrior
 from bayesmap.cells.surface import Surface
 from bayesmap.errors import BadInput, check_count, near_names
@@ -25,7 +25,7 @@ from bayesmap.model import Model
 from bayesmap.poses.prior import KnownPoses, PosePrior, UncertainPoses
 from bayesmap.posterior.posterior import Posterior, chains_of, posterior_of_chains, posterior_of_draws
 from bayesmap.result import Run
-from bayesmap.run.chains import FIRST_MARK_DRAWS, RANDOM_STREAMS, Chains, SweepPlan, compute_fingerprint, refuse_changes
+from bayesmap.run.chains import RANDOM_STREAMS, Chains, SweepPlan, compute_fingerprint, refuse_changes
 from bayesmap.run.cost import MIN_TOUCHED_SHARE, Estimate, Sampling, estimate, size_of
 from bayesmap.run.runner import Job, ThreadExecutor, draw_first_map, stop_on_interrupt
 from bayesmap.samplers import methods
@@ -397,7 +397,7 @@ class Inference:
 
 
 class _RunClock:
-    """The time of a run: seconds elapsed, the plan of the chains in a limited time, and a first map of slow runs."""
+    """The time of a run: seconds elapsed, the plan of the chains in a limited time, and a first map."""
 
     def __init__(
         self, inference: Inference, checkpoints: Checkpoints, settings: dict[str, Any], stopped: Posterior | None,
@@ -417,18 +417,17 @@ class _RunClock:
         return time.perf_counter() - self._began
 
     def make_first_map(self, model: Model, sampler: Sampler[Any, Any], problem: Any) -> None:
-        """Show a first map if the chains take long, and shorten the warm-up if their time is limited."""
+        """Show a first map, and shorten the warm-up if the time of the chains is limited."""
         if not self.needs_first_map:
             return
-        plan, chains = self.plan, self._request.chains
+        plan = self.plan
         model = replace(model, poses=KnownPoses())  # a first map samples no poses
         first_map, sweep_s = draw_first_map(sampler, problem, model, self._request.seed)
-        is_long = sweep_s * chains * (plan.warmup + FIRST_MARK_DRAWS * plan.thin) >= PREVIEW_FROM_S
-        if self._preview is not None and is_long:
+        if self._preview is not None:
             seconds = {"total": self.elapsed_s(), "fit": 0.0}
             self._preview(Run(posterior_of_chains(model, first_map, self._settings, seconds, None)))
         if plan.seconds is not None:  # the pilot makes as many sweeps as the warm-up
-            self.plan = plan.shortened(sweep_s * (1 + chains), plan.seconds - self.elapsed_s())
+            self.plan = plan.shortened(sweep_s * (1 + self._request.chains), plan.seconds - self.elapsed_s())
 
 
 def _check_scans(scans: Scans, grid: Grid) -> None:

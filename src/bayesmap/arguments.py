@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from bayesmap.result import Run
 
 CHECKPOINT_S = 30.0  # default number of seconds between two checkpoints
-PREVIEW_FROM_S = 2.0  # a first map is drawn if the chains are expected to take at least this many seconds
 MORE_DRAWS = 10  # factor on the default number of draws if the precision is below the default, or has no limit
 
 
@@ -118,8 +117,8 @@ class Checkpoints:
             ``lambda run: run.save("run.nc")``.
         every_s: seconds between two calls of ``save``; more if ``save`` is so slow that it would delay the chains.
         stages: folder for the finished stages of the trajectory, for `slam`; existing stages are reused.
-        preview: function called a few seconds after the start with a run of one draw, a first rough map; not called if
-            the chains take less than `PREVIEW_FROM_S` or resume.
+        preview: function called within seconds of the start with a run of one draw, a first rough map; not called if
+            the chains resume.
         trajectory: function called by `slam` with the approximate trajectory of all scans, before the map is inferred.
 
     Raises `BadInput` for an object that is no run, a callback that is no function, or a negative number of seconds.

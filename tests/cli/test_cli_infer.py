@@ -214,7 +214,6 @@ def test_the_laser_s_place_on_the_robot_is_kept_with_the_run(office, office_run,
 
 
 def test_a_first_map_stands_in_the_folder_at_once(office, tmp_path, short, monkeypatch):
-    monkeypatch.setattr("bayesmap.api.PREVIEW_FROM_S", 0.0)
     shown, sampled, run_chains = [], [], runner.run_chains
 
     def chains(*args, **options):

@@ -213,7 +213,6 @@ def test_the_printed_command_ends_as_if_nothing_had_stopped_it(raw_log, slam_run
 @pytest.mark.parametrize("stage", ["fit", "warm-up"])
 def test_the_trajectory_and_a_first_map_precede_the_chains(raw_log, slam_run, tmp_path, monkeypatch, stage):
     whole, folder = slam_run[0], tmp_path / "run"
-    monkeypatch.setattr("bayesmap.api.PREVIEW_FROM_S", 0.0)
     stopped = slam_until(monkeypatch, stage, raw_log, "-o", folder, SLAM, "--json")
     assert stopped.stderr.count("the trajectory of the base, at all scans: ") == 1
     assert stopped.stderr.count("a first, rough map: ") == 1

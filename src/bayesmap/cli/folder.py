@@ -130,9 +130,12 @@ class Folder:
             self.path.mkdir(parents=True, exist_ok=True)
             self._previewed = True
             _, png = thumbnail(run.occupancy, run.observed, PREVIEW_PIXELS)
-            picture = write_file(self.path / "posterior.png", png)
-            run.export(self.path / "map.yaml")
-            self.console.say(f"a first, rough map: {picture}")
+            try:
+                picture = write_file(self.path / "posterior.png", png)
+                run.export(self.path / "map.yaml")
+                self.console.say(f"a first, rough map: {picture}")
+            except OSError as error:
+                self.console.warn(f"{self.path}: a first map could not be written: {error.strerror or error}")
 
     def render(self, run: Run) -> list[Path]:
         """Render the map of a run (a single draw without uncertainty), and export it for nav2. Returns the paths."""
