@@ -58,9 +58,13 @@ def endpoint_cells_to_device(rays: Rays, cells: Ints, step_sizes: Singles, devic
     listed = np.zeros(rays.grid.n_cells, dtype=np.bool_)
     listed[cells] = True
     entry = np.nonzero(listed[rays.cells])[0].astype(np.int32)
-    entry = entry[np.argsort(rays.cells[entry], kind="stable")]
+    beam = np.searchsorted(rays.offsets, entry, side="right") - 1  # while entries ascend, which is faster
+    # Order entries by the number of their cell: NumPy sorts numbers of 16 bits much faster.
+    number = np.zeros(rays.grid.n_cells, dtype=np.min_scalar_type(len(cells)))
+    number[cells] = np.arange(len(cells))
+    order = np.argsort(number[rays.cells[entry]], kind="stable")
+    entry, beam = entry[order], beam[order]
     cell_of_entry = rays.cells[entry]
-    beam = np.searchsorted(rays.offsets, entry, side="right") - 1
     to_centre = rays.grid.centers_from_corner_m(cell_of_entry) - rays.start_m[beam]
     ux, uy = rays.direction[beam].astype(np.float64).T
     line = np.stack([ux * to_centre[:, 1] - uy * to_centre[:, 0], ux, uy], axis=-1)
