@@ -324,8 +324,8 @@ class Inference:
             else:
                 problem = self._sampler(clock.plan.warmup).prepare(model, device, threads, watch)
                 cells = problem.cells if model.poses.unknown else problem
-                clock.make_first_map(model, StopGibbs(), cells)
-                parameters = fit(cells, seed, min(PILOT_SWEEPS, clock.plan.warmup), watch)
+                begun = clock.make_first_map(model, StopGibbs(), cells)
+                parameters = fit(cells, seed, min(PILOT_SWEEPS, clock.plan.warmup), watch, begun)
             settings["fitted"] = parameters.describe()
         elif self.is_fitted:  # walls, without a pilot
             model = replace(model, sensor=fit_sensor(model, device, seed=seed, threads=threads, watch=watch))
@@ -416,18 +416,19 @@ class _RunClock:
         """Return the seconds since the start of the run, earlier parts included."""
         return time.perf_counter() - self._began
 
-    def make_first_map(self, model: Model, sampler: Sampler[Any, Any], problem: Any) -> None:
-        """Show a first map, and shorten the warm-up if the time of the chains is limited."""
+    def make_first_map(self, model: Model, sampler: Sampler[Any, Any], problem: Any) -> Any:
+        """Show a first map, and shorten the warm-up if the time of the chains is limited. Returns the pilot so far."""
         if not self.needs_first_map:
-            return
+            return None
         plan = self.plan
         model = replace(model, poses=KnownPoses())  # a first map samples no poses
-        first_map, sweep_s = draw_first_map(sampler, problem, model, self._request.seed)
+        first_map, sweep_s, pilot = draw_first_map(sampler, problem, model, self._request.seed)
         if self._preview is not None:
             seconds = {"total": self.elapsed_s(), "fit": 0.0}
             self._preview(Run(posterior_of_chains(model, first_map, self._settings, seconds, None)))
         if plan.seconds is not None:  # the pilot makes as many sweeps as the warm-up
             self.plan = plan.shortened(sweep_s * (1 + self._request.chains), plan.seconds - self.elapsed_s())
+        return pilot
 
 
 def _check_scans(scans: Scans, grid: Grid) -> None:

@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from bayesmap.cells.arrays import Draws
 from bayesmap.model import Model
 from bayesmap.run.chains import Chains, DrawRecord, StoppingRule, SweepPlan, map_error, observed_cells
-from bayesmap.samplers.fit import Parameters
+from bayesmap.samplers.fit import FIRST_FIT_SWEEP, Parameters
 from bayesmap.samplers.sampler import PILOT, SILENT, ChainState, Info, Keep, Sampler, Snapshot, Watch, draws_to_inspect
 
 STEP_SECONDS = 0.25  # seconds of work per step
@@ -33,7 +33,7 @@ MAX_FIRST_STEP_SWEEPS = 16  # a limit, because the first guess of the speed may 
 MAX_STEP_GROWTH = 16  # largest ratio of the sweeps of a step to the sweeps of the step before
 MAX_BUFFER_BYTES = 64 << 20  # size of the draws of one step
 MAX_CHECKPOINT_SHARE = 0.05  # largest share of the time that checkpoints may take
-FIRST_MAP_SWEEPS = 5  # sweeps of the chain that draws a first map, whose walls are in place but still thick
+FIRST_MAP_SWEEPS = FIRST_FIT_SWEEP  # of the pilot: its walls are in place but still thick, and a fit can go on
 
 OnCheckpoint = Callable[[Chains], None] | None  # saves the chains so far
 
@@ -225,8 +225,11 @@ class ThreadExecutor:
         )
 
 
-def draw_first_map(sampler: Sampler[Any, Any], problem: Any, model: Model, seed: int) -> tuple[Chains, float]:
-    """Draw a first, rough map with a short chain of its own. Returns it, and the seconds of a sweep on all threads."""
+def draw_first_map(sampler: Sampler[Any, Any], problem: Any, model: Model, seed: int) -> tuple[Chains, float, Any]:
+    """Draw a first, rough map by the first sweeps of the pilot.
+
+    Returns the map, the seconds of a sweep on all threads, and the pilot's state, from which its fit may go on.
+    """
     state = sampler.init(problem, [PILOT], seed)
     state, _ = sampler.step(state, 1)  # a first sweep is slower, so it is not timed
     began_s = time.perf_counter()
@@ -238,7 +241,7 @@ def draw_first_map(sampler: Sampler[Any, Any], problem: Any, model: Model, seed:
         draws, info.log_likelihood, info.log_prior, np.zeros((1, 0)), Snapshot(0),
         sampler.observed_counts(state, draws_to_inspect(draws)), {}, problem.n_incidences, {}, finished=False,
     )  # fmt: skip
-    return chains, sweep_s
+    return chains, sweep_s, state
 
 
 @contextlib.contextmanager

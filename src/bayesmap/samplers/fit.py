@@ -76,11 +76,16 @@ def initial_sensor(prior: CellPrior, resolution_m: float) -> BeamMixture:
     return BeamMixture(noise_with(math.inf, sigma_m, 0.003), p_random=0.02, p_no_return=0.01, p_short=0.02)
 
 
-def fit(problem: StopProblem, seed: int, sweeps: int, watch: Watch = SILENT) -> Parameters:
-    """Fit sensor and prior, from the problem's on, by ``sweeps`` pilot sweeps. A watch's stop ends pilot and run."""
+def fit(
+    problem: StopProblem, seed: int, sweeps: int, watch: Watch = SILENT, begun: StopState | None = None
+) -> Parameters:
+    """Fit sensor and prior, from the problem's on, by ``sweeps`` pilot sweeps. A watch's stop ends pilot and run.
+
+    ``begun`` is the pilot after at most `FIRST_FIT_SWEEP` of its sweeps, which a first map has made.
+    """
     assert isinstance(problem.sensor, BeamMixture)
     fitted = Parameters(problem.sensor, problem.prior)
-    for parameters, _ in pilot_sweeps(problem, seed, sweeps, watch):
+    for parameters, _ in pilot_sweeps(problem, seed, sweeps, watch, begun=begun):
         fitted = parameters
         if watch.should_stop():
             break
@@ -96,18 +101,19 @@ def fit_sensor(model: Model, device: str, *, seed: int, threads: int | None, wat
 
 
 def pilot_sweeps(
-    problem: StopProblem, seed: int, sweeps: int, watch: Watch = SILENT, keep: Keep = Keep()
-) -> Iterator[tuple[Parameters, Info]]:
-    """Run the pilot. Yields the parameters after each sweep, and the sweep's report with its draw, if kept."""
+    problem: StopProblem, seed: int, sweeps: int, watch: Watch = SILENT, keep: Keep = Keep(),
+    begun: StopState | None = None,
+) -> Iterator[tuple[Parameters, Info]]:  # fmt: skip
+    """Run the pilot, see `fit`. Yields the parameters after each sweep, and the sweep's report with a kept draw."""
     if sweeps == 0:
         return
     assert isinstance(problem.sensor, BeamMixture)
     sampler, sensor, prior = StopGibbs(), problem.sensor, problem.prior
-    state = sampler.init(problem, [PILOT], seed)
+    state = sampler.init(problem, [PILOT], seed) if begun is None else begun
     # Fit to evenly spaced beams of all scans.
     spacing = max(1, math.ceil(problem.rays.n_beams / MAX_FIT_BEAMS))
     beams = slice(spacing // 2, None, spacing)
-    for sweep in range(sweeps):
+    for sweep in range(state.sweep, sweeps):
         state, info = sampler.step(state, 1, keep=keep)
         if sweep >= FIRST_FIT_SWEEP:
             step_size = step_size_after(sweep)
