@@ -157,10 +157,6 @@ def _sample(task: Task[SlamSettings], scans: Scans, saved: Run | None, files: Tr
             folder.checkpoint(run, lambda done, total: show(Event("save", done, total)))
             files.write()
 
-        def on_preview(run: Run) -> None:
-            folder.preview(run)
-            files.render(run)
-
         def on_trajectory(trajectory: InferredTrajectory) -> None:
             files.write(trajectory)
             if translation.fast_of(settings) is None and len(trajectory.keys) <= MAX_SAMPLED_KEYS:
@@ -177,7 +173,7 @@ def _sample(task: Task[SlamSettings], scans: Scans, saved: Run | None, files: Tr
             schedule=translation.schedule_of(settings), seed=settings.seed, hit_depth=settings.hit_depth,
             where=Where(settings.threads, settings.device, any_size=settings.any_size), on_progress=on_progress,
             checkpoints=Checkpoints(
-                saved, on_checkpoint, settings.checkpoint_every, folder.path / STAGES, on_preview, on_trajectory
+                saved, on_checkpoint, settings.checkpoint_every, folder.path / STAGES, folder.preview, on_trajectory
             ),
         )  # fmt: skip
         if run.finished or run.posterior.sweep > 0:
