@@ -420,13 +420,12 @@ class _RunClock:
         """Show a first map, and shorten the warm-up if the time of the chains is limited. Returns the pilot so far."""
         if not self.needs_first_map:
             return None
-        plan = self.plan
         model = replace(model, poses=KnownPoses())  # a first map samples no poses
         first_map, sweep_s, pilot = draw_first_map(sampler, problem, model, self._request.seed)
         if self._preview is not None:
             seconds = {"total": self.elapsed_s(), "fit": 0.0}
             self._preview(Run(posterior_of_chains(model, first_map, self._settings, seconds, None)))
-        if plan.seconds is not None:  # the pilot makes as many sweeps as the warm-up
+        if (plan := self.plan).seconds is not None:  # the pilot makes as many sweeps as the warm-up
             self.plan = plan.shortened(sweep_s * (1 + self._request.chains), plan.seconds - self.elapsed_s())
         return pilot
 

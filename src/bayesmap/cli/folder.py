@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from bayesmap.space.grid import Grid
 
 
+PREVIEW_PIXELS = 800  # longer side of the picture of a first map
 SETTINGS = ("method", "order", "prior", "sensor", "hit_depth", "start", "seed", "chains", "warmup", "thin")
 """Settings of a run that its document repeats."""
 
@@ -35,8 +36,6 @@ DERIVED = (
     "trajectory.png", "odometry.png", "loops.png", "surfaces.png",
 )  # fmt: skip
 """Files made from the run. They are removed when another run takes its place."""
-
-PREVIEW_PIXELS = 800  # longer side of the picture of a first map
 
 
 @dataclass

@@ -122,7 +122,6 @@ def correct_late_odometry(scans: Scans, geometry: ScanGeometry) -> Floats:
 
 def _motion_began_early(geometry: ScanGeometry, first: int, last: int, motion: Floats) -> bool:
     """Check that the motion to scan ``last + 1`` began at scan ``first``, not at ``last``, by the fit of that scan."""
-    # Not at the top: `infer` checks its log, too, and loading the matcher would delay its first picture.
     from bayesmap.poses.calibration import motion_variances
     from bayesmap.poses.matcher import ANY_SCORE, SearchWindows, likelihood_grids, match
 

@@ -226,10 +226,7 @@ class ThreadExecutor:
 
 
 def draw_first_map(sampler: Sampler[Any, Any], problem: Any, model: Model, seed: int) -> tuple[Chains, float, Any]:
-    """Draw a first, rough map by the first sweeps of the pilot.
-
-    Returns the map, the seconds of a sweep on all threads, and the pilot's state, from which its fit may go on.
-    """
+    """Draw a first, rough map by the pilot. Returns it, seconds of a sweep on all threads, and the pilot's state."""
     state = sampler.init(problem, [PILOT], seed)
     state, _ = sampler.step(state, 1)  # a first sweep is slower, so it is not timed
     began_s = time.perf_counter()

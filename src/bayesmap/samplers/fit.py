@@ -79,10 +79,7 @@ def initial_sensor(prior: CellPrior, resolution_m: float) -> BeamMixture:
 def fit(
     problem: StopProblem, seed: int, sweeps: int, watch: Watch = SILENT, begun: StopState | None = None
 ) -> Parameters:
-    """Fit sensor and prior, from the problem's on, by ``sweeps`` pilot sweeps. A watch's stop ends pilot and run.
-
-    ``begun`` is the pilot after at most `FIRST_FIT_SWEEP` of its sweeps, which a first map has made.
-    """
+    """Fit sensor and prior by ``sweeps`` pilot sweeps; ``begun`` has made up to `FIRST_FIT_SWEEP`. A stop ends all."""
     assert isinstance(problem.sensor, BeamMixture)
     fitted = Parameters(problem.sensor, problem.prior)
     for parameters, _ in pilot_sweeps(problem, seed, sweeps, watch, begun=begun):

@@ -5,22 +5,7 @@ Public names are loaded on first use, since a first map needs no more than `baye
 """
 
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    from bayesmap.viz.animation import render_frames, write_animation
-    from bayesmap.viz.diagnostics import plot_log_joint, plot_running_mean, plot_weights, trace_figure, weights_figure
-    from bayesmap.viz.figure import Candidate, comparison_figure, panel_figure, posterior_figure, write_figure
-    from bayesmap.viz.maps import plot_deviation, plot_entropy, plot_probability, plot_sample, plot_width, window
-    from bayesmap.viz.overlays import (
-        plot_rays,
-        plot_sensor,
-        plot_surfaces,
-        plot_truth_outline,
-        surface_strokes,
-        surfaces_figure,
-    )  # fmt: skip
-    from bayesmap.viz.scores import plot_residuals, residual_scale, residuals_figure, surprise_scale
+from typing import Any
 
 __all__ = [
     "Candidate", "comparison_figure", "panel_figure", "plot_deviation", "plot_entropy", "plot_log_joint",

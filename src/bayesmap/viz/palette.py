@@ -11,9 +11,8 @@
 - **Lines and marks** are from Okabe and Ito, "Color Universal Design" (2008): distinct for all common colour vision.
 """
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Final
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -69,34 +68,34 @@ def probability_colors(n: int = 256) -> NDArray[np.float64]:
     return lab_to_srgb((1.0 - steps) * np.array(PAPER_LAB) + steps * np.array(INK_LAB))
 
 
-def probability_colormap() -> Colormap:
+def probability_colormap() -> "Colormap":
     """Return the colours of probability: free is light, wall is dark, unobserved (masked) is `UNOBSERVED`."""
     return _colormap("probability", probability_colors()).with_extremes(bad=UNOBSERVED)
 
 
-def uncertainty_colormap() -> Colormap:
+def uncertainty_colormap() -> "Colormap":
     """Return the colours of uncertainty: certain is dark, uncertain is bright, unobserved (masked) is `UNOBSERVED`."""
     from matplotlib import colormaps
 
     return _colormap("uncertainty", colormaps["cividis"](np.linspace(0.0, 1.0, 256))).with_extremes(bad=UNOBSERVED)
 
 
-def residual_colormap() -> Colormap:
+def residual_colormap() -> "Colormap":
     """Return the colours of residuals, from shorter than predicted to longer."""
     return _colormap("residual", _blend_lab(SHORTER_LAB, NEUTRAL_LAB, LONGER_LAB))
 
 
-def surprise_colormap() -> Colormap:
+def surprise_colormap() -> "Colormap":
     """Return the colours of surprise: expected is light grey; the more surprising, the darker and redder."""
     return _colormap("surprise", _blend_lab(NEUTRAL_LAB, LONGER_LAB, ALARMING_LAB))
 
 
-def _colormap(name: str, colors: NDArray[np.float64]) -> ListedColormap:
-    """Return a colormap of equal steps, given their colours, (n, 3) or (n, 4)."""
+def _colormap(name: str, colors: Iterable[Any]) -> "ListedColormap":
+    """Return a colormap of equal steps, given their colours."""
     # This module loads no matplotlib: a first map is written without it.
     from matplotlib.colors import ListedColormap
 
-    return ListedColormap(colors.tolist(), name=f"bayesmap.{name}")
+    return ListedColormap(list(colors), name=f"bayesmap.{name}")
 
 
 def _blend_lab(*ends: tuple[float, float, float]) -> NDArray[np.float64]:
@@ -105,12 +104,10 @@ def _blend_lab(*ends: tuple[float, float, float]) -> NDArray[np.float64]:
     return lab_to_srgb(np.stack([np.interp(steps, knots, channel) for channel in np.array(ends).T], axis=1))
 
 
-def draw_colormap() -> ListedColormap:
+def draw_colormap() -> "ListedColormap":
     """Return the colours of the kinds of cell in one draw: free, wall, unobserved and free, unobserved and wall."""
-    from matplotlib.colors import ListedColormap
-
     free, wall = (tuple(color) for color in probability_colors(2).tolist())
-    return ListedColormap([free, wall, UNOBSERVED, UNOBSERVED_WALL], name="bayesmap.draw")
+    return _colormap("draw", [free, wall, UNOBSERVED, UNOBSERVED_WALL])
 
 
 def chain_color(chain: int) -> str:
@@ -118,7 +115,7 @@ def chain_color(chain: int) -> str:
     return CHAINS[chain % len(CHAINS)]
 
 
-def blank_figure(width_in: float, height_in: float, dpi: float = 160.0, *, arranged: bool = True) -> Figure:
+def blank_figure(width_in: float, height_in: float, dpi: float = 160.0, *, arranged: bool = True) -> "Figure":
     """Return an empty figure with its own Agg canvas, outside pyplot. If ``arranged``, matplotlib places its panels."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
