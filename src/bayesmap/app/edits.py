@@ -147,7 +147,8 @@ def _draw_walls(document: Document, action: actions.Walls) -> tuple[Document, st
     for cell in occupied:
         is_wall[cell] = False
     remark = f"a sensor stands in cell ({occupied[0][0]}, {occupied[0][1]}): it stays free" if occupied else ""
-    return document.with_walls(is_wall), remark
+    walls = pack_walls(is_wall)
+    return document if walls == document.walls else replace(document, walls=walls), remark
 
 
 def _add_sensor(document: Document, action: actions.AddSensor) -> Document:

@@ -52,10 +52,6 @@ class Call(Generic[S]):
         """Return the command's settings; the user's settings override those of a run that is ``resumed``."""
         return cast(S, merge_layers(self.section, resumed or {}, *self.layers))
 
-    def all_settings(self) -> dict[str, Settings]:
-        """Return the settings of all commands."""
-        return {section: merge_layers(section, *self.layers) for section in SECTIONS}
-
 
 def command(section: str | None) -> Callable[[Callable[..., None]], click.Command]:
     """Return a decorator that makes a function of a `Call` a command; ``section`` is its table of settings."""

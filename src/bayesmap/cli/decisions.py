@@ -62,7 +62,12 @@ def plan(call: Call[PlanSettings], run_file: str, start: str, goal: str, output:
         finding = f"no path was found whose risk is {settings.risk:g} or less; the safest has a risk of {least_risk}"
         call.console.warn(f"{finding}: accept it with --risk, give a smaller --radius, or map more of the way")
     lines = [*(f"{x:.3f},{y:.3f}" for x, y in route.path), _route_sentence(route)]
-    document = {**_route_document(route, settings), "run": run_file, "problems": run.summary().problems()}
+    free = route.free
+    document = {
+        "path": route.path.tolist(), "length_m": route.length_m, "radius_m": settings.radius, "risk": settings.risk,
+        "within_risk": route.within_risk, "free_probability": free.probability, "standard_error": free.standard_error,
+        "independent_cells": free.independent, "run": run_file, "problems": run.summary().problems(),
+    }  # fmt: skip
     _print_result(call, document, lines, target)
 
 
@@ -105,16 +110,6 @@ def distinguishable(value: float, bound: float) -> str:
     """Return a number with 3 digits, or with as many as distinguish it from the printed bound."""
     texts = (f"{value:.{digits}g}" for digits in range(3, 18))
     return next((text for text in texts if float(text) != float(f"{bound:g}")), f"{value:.17g}")
-
-
-def _route_document(route: Route, settings: PlanSettings) -> dict[str, Any]:
-    """Return a path and its probabilities of being free as JSON values."""
-    free = route.free
-    return {
-        "path": route.path.tolist(), "length_m": route.length_m, "radius_m": settings.radius, "risk": settings.risk,
-        "within_risk": route.within_risk, "free_probability": free.probability, "standard_error": free.standard_error,
-        "independent_cells": free.independent,
-    }  # fmt: skip
 
 
 @command("explore")

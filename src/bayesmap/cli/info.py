@@ -11,10 +11,10 @@ from typing import Any
 import click
 import msgspec
 
-from bayesmap.cli.command import Call, as_toml, command
+from bayesmap.cli.command import Call, as_toml, command, merge_layers
 from bayesmap.cli.console import BAD_INPUT, counted, write_lines, write_out
 from bayesmap.cli.folder import run_document, work_done
-from bayesmap.cli.keys import Settings
+from bayesmap.cli.keys import SECTIONS, Settings
 from bayesmap.cli.pipeline import cost_of_suggestion
 from bayesmap.cli.translation import LOG, need_file
 from bayesmap.errors import BadInput
@@ -180,7 +180,7 @@ def config(call: Call[Settings]) -> None:
     bayesmap config > my.toml
     bayesmap infer -c my.toml --set resolution=0.05 office.log
     """
-    settings = call.all_settings()
+    settings = {section: merge_layers(section, *call.layers) for section in SECTIONS}
     if call.console.as_json:
         tables = {  # infinity is a text in JSON, which --set can read
             section: {k: "inf" if value == math.inf else value for k, value in msgspec.structs.asdict(values).items()}

@@ -93,7 +93,12 @@ def score(
         scores = score_run(call, run_file, log, frame, all_scans=all_scans, compare=compare, scores_poses=scores_poses)
     else:
         scores = score_other(call, run_file, log, frame, compare=compare)
-    pose_score = None if relations is None else _score_poses(scores.trajectory, relations, exact=exact)
+    pose_score = None
+    if relations is not None:
+        from bayesmap.io.text.trajectories import read_relations
+        from bayesmap.posterior.trajectory_scores import score_trajectory
+
+        pose_score = score_trajectory(scores.trajectory, read_relations(relations), exact=exact)
     # Render and print.
     written = [] if picture is None else _write_pictures(Path(picture), scores.maps, pose_score)
     frame_words = str(scores.trajectory.frame)
@@ -224,14 +229,6 @@ def _score_classic_maps(call: Call[ScoreSettings], train: Scans, grid: Grid, hel
             fit = fit_baseline(baseline, train, grid, folds, report)
         maps.append(_score_map(call, fit.name, fit.predictor, heldout, fit))
     return maps
-
-
-def _score_poses(trajectory: Trajectory, relations_file: str, *, exact: bool) -> TrajectoryScore:
-    """Score a trajectory by true relations; if ``exact``, only by those at times of poses."""
-    from bayesmap.io.text.trajectories import read_relations
-    from bayesmap.posterior.trajectory_scores import score_trajectory
-
-    return score_trajectory(trajectory, read_relations(relations_file), exact=exact)
 
 
 @dataclass(frozen=True, eq=False)

@@ -99,7 +99,11 @@ class _Canvas:
         width, height = (n * self.scale for n in grid.shape)
         self.font = ImageFont.load_default(size=15)
         self.size = (width + 2 * MARGIN_PX, height + 2 * MARGIN_PX + CAPTION_PX)
-        self.colors = _palette_bytes()
+        # The colours of all palette indices, three bytes each.
+        unobserved = [palette.UNOBSERVED, palette.UNOBSERVED_HATCH]
+        marks = ["#FFFFFF", *unobserved, palette.TRUTH, palette.SENSOR, palette.FRAME]
+        colors = np.concatenate([palette.probability_colors(LEVELS), [to_rgb(mark) for mark in marks]])
+        self.colors = np.rint(255.0 * colors).astype(np.uint8).tobytes()
         # The marks cover the map where they are not 0. No mark has the index 0, which is "surely free".
         self.marks = np.full((height + 2 * MARGIN_PX, width + 2 * MARGIN_PX), BACKGROUND, dtype=np.uint8)
         self.inside = (slice(MARGIN_PX, -MARGIN_PX), slice(MARGIN_PX, -MARGIN_PX))
@@ -156,14 +160,6 @@ class _Canvas:
             for radius, color in ((dot_px + 1.5, BACKGROUND), (dot_px, SENSOR)):
                 pen.ellipse((x - radius, y - radius, x + radius, y + radius), fill=color)
         self.marks = np.asarray(image)
-
-
-def _palette_bytes() -> bytes:
-    """Return the colours of all palette indices, three bytes each."""
-    unobserved = [palette.UNOBSERVED, palette.UNOBSERVED_HATCH]
-    marks = ["#FFFFFF", *unobserved, palette.TRUTH, palette.SENSOR, palette.FRAME]
-    colors = np.concatenate([palette.probability_colors(LEVELS), [to_rgb(mark) for mark in marks]])
-    return np.rint(255.0 * colors).astype(np.uint8).tobytes()
 
 
 def _as_chain(grid: Grid, draws: ArrayLike) -> NDArray[Any]:

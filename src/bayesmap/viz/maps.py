@@ -196,7 +196,7 @@ def hatch_patch(path: Path | None = None) -> PathPatch:
         edgecolor=palette.UNOBSERVED_HATCH, linewidth=0.0, hatch=palette.HATCH,
         label=None if path is not None else "unobserved",
     )  # fmt: skip
-    patch.set_hatch_linewidth(palette.HATCH_WIDTH_PT)
+    patch.set_hatch_linewidth(0.6)  # points
     return patch
 
 

@@ -32,7 +32,6 @@ DEVIATIONS = 2.0  # standard deviations from the mean to each end of a stroke
 MIN_WEIGHT = 0.02  # least weight of a plotted surface: fainter ones would be invisible, and most cells are free
 MIN_WIDTH_PT, MAX_WIDTH_PT = 0.8, 2.5  # limits of a stroke's width
 FOOT_IN = 0.6  # height of the legend below the map, inches
-CIRCLE_CORNERS = 24  # corners in the outline of a disc
 Marks = list[LineCollection | PathCollection]  # artists of beams and readings
 
 
@@ -226,11 +225,19 @@ def views_figure(
     """
     figure, ax = maps.map_figure(grid, aspects=(0.5, 3.0), foot_in=FOOT_IN)
     maps.plot_probability(ax, grid, occupancy, observed)
-    dots = plot_candidates(ax, candidates, nats)
+    # A dot at each candidate, the most informative on top.
+    views, values = np.asarray(candidates, dtype=np.float64), np.asarray(nats, dtype=np.float64)
+    if views.ndim != 2 or views.shape[1] != 3 or values.shape != views.shape[:1]:
+        raise BadInput(f"picture: candidates have shape {views.shape} and nats {values.shape}; give (P, 3) and (P,)")
+    order = np.argsort(values)
+    dots = ax.scatter(
+        views[order, 0], views[order, 1], c=values[order], cmap=palette.surprise_colormap(), s=16, linewidths=0.4,
+        edgecolors="white", label="candidates", zorder=3.3,
+    )  # fmt: skip
     bar = figure.colorbar(dots, ax=ax, label="candidates, by the fast formula", shrink=0.8)
     low, high = dots.get_clim()
     bar.set_ticks([low, high], labels=["tells least", "tells most"])
-    poses = np.asarray(candidates, dtype=np.float64)[np.asarray(best, dtype=np.intp)]
+    poses = views[np.asarray(best, dtype=np.intp)]
     for rank, (pose, bound_nats) in enumerate(zip(poses, np.asarray(best_nats, dtype=np.float64), strict=True), 1):
         plot_sensor(ax, pose)[0].set_label("best views: at most so many nats" if rank == 1 else "_")
         ax.annotate(
@@ -241,18 +248,6 @@ def views_figure(
     return _with_legend(figure)
 
 
-def plot_candidates(ax: Axes, candidates: ArrayLike, nats: ArrayLike) -> PathCollection:
-    """Plot a dot at each candidate view, (P, 3), coloured by its information, (P,), the most informative on top."""
-    poses, values = np.asarray(candidates, dtype=np.float64), np.asarray(nats, dtype=np.float64)
-    if poses.ndim != 2 or poses.shape[1] != 3 or values.shape != poses.shape[:1]:
-        raise BadInput(f"picture: candidates have shape {poses.shape} and nats {values.shape}; give (P, 3) and (P,)")
-    order = np.argsort(values)
-    return ax.scatter(
-        poses[order, 0], poses[order, 1], c=values[order], cmap=palette.surprise_colormap(), s=16, linewidths=0.4,
-        edgecolors="white", label="candidates", zorder=3.3,
-    )  # fmt: skip
-
-
 def _with_legend(figure: Figure) -> Figure:
     """Add a legend below the panel, and return the figure."""
     figure.legend(loc="outside lower center", ncols=4, frameon=False, fontsize=8)
@@ -261,7 +256,7 @@ def _with_legend(figure: Figure) -> Figure:
 
 def _swept(corners: Floats, radius_m: float) -> Path:
     """Return the union of discs along a polyline, as overlapping outlines of the same orientation."""
-    angles = np.linspace(0.0, 2 * np.pi, CIRCLE_CORNERS, endpoint=False)
+    angles = np.linspace(0.0, 2 * np.pi, 24, endpoint=False)
     circle = radius_m * np.stack([np.cos(angles), np.sin(angles)], axis=-1)
     shapes = [corner + circle for corner in corners]
     # A rectangle joins the discs at both ends of each leg.

@@ -44,7 +44,6 @@ FRAME: Final = "#6B7078"
 # Line colours of the chains, in order, repeated for more chains.
 CHAINS: Final = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
 HATCH: Final = "//////"
-HATCH_WIDTH_PT: Final = 0.6
 PAD_IN: Final = 0.08  # margin around the panels of a figure, inches
 
 

@@ -24,7 +24,6 @@ if TYPE_CHECKING:
 
 LEVELS = np.linspace(0.02, 0.98, 49)  # probabilities of central intervals
 MIN_EVENTS = 20  # number of events for a share to be plotted
-FAINT = 0.3  # opacity of the map below the dots
 MAX_POINTS = 60_000  # end points; more are thinned evenly, but the worst `MAX_POINTS` / 2 all stay
 Rows = Sequence[tuple[str, "Score"]]  # maps by name, with their scores
 
@@ -182,7 +181,7 @@ def residuals_figure(
     """
     scale = residual_scale(values) if scale is None else scale
     figure, axes = maps.map_figure(grid, aspects=(0.4, 2.5), dpi=200)
-    maps.plot_probability(axes, grid, occupancy, observed).set_alpha(FAINT)
+    maps.plot_probability(axes, grid, occupancy, observed).set_alpha(0.3)  # faint, below the dots
     dots = plot_residuals(axes, ends_world, values, scale)
     bar = figure.colorbar(dots, ax=axes, label=scale.label, shrink=0.8, extend="both")
     bar.ax.tick_params(colors=palette.TEXT)

@@ -207,11 +207,6 @@ class Document(Settings):
         """Return the document with an empty map of its size."""
         return replace(self, walls=empty_walls(self.grid))
 
-    def with_walls(self, is_wall: NDArray[np.bool_]) -> Document:
-        """Return the document with another map, (nx, ny), or this document if the map is the same."""
-        walls = pack_walls(is_wall)
-        return self if walls == self.walls else replace(self, walls=walls)
-
     def check_position(self, sensor: Sensor) -> None:
         """Check that a sensor stands inside the grid and in a free cell. Raises `Refused` if it does not."""
         cell = self.grid.cell_at(sensor.x, sensor.y)

@@ -59,7 +59,6 @@ METHOD_WORDS = {
     "pilot": "Gibbs sampling, while the sensor is fitted", "none": "none yet: this is the prior",
     "hits": "counts of hits and passes", "counts": "counts of hits and passes",
 }  # fmt: skip
-COUNT_METHODS = ("hits", "counts")  # methods without prior and sensor
 
 
 def describe_in_words(description: Mapping[str, Any]) -> str:
@@ -254,7 +253,7 @@ class Result:
         if self.method == "gibbs" and self.document.cells == "binary":
             method += f", {self.document.order} order"
         rows = [("Method", method)]
-        if self.method in COUNT_METHODS:
+        if self.method in ("hits", "counts"):  # without prior and sensor
             return rows
         try:
             model, hit_depth = self.sensor_and_depth

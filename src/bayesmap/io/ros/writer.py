@@ -138,7 +138,12 @@ class Recorder:
                     options = {"offered_qos_profiles": [_quality_of_service(channel.latched)]}
                 connection = bag.add_connection(channel.topic, channel.type_name, typestore=self.store, **options)
                 connections.append(connection)
-            for time_ns, number, message in _in_time_order(channels):
+            messages = [
+                (max(1, round((stamp_s or 0.0) * NS_PER_S)), number, message)
+                for number, channel in enumerate(channels)
+                for stamp_s, message in channel.messages
+            ]
+            for time_ns, number, message in sorted(messages, key=lambda timed: timed[:2]):
                 bag.write(connections[number], time_ns, serialize(message, channels[number].type_name))
 
 
@@ -146,16 +151,6 @@ def is_ros2_bag(folder: Path) -> bool:
     """Return true if a folder holds a ROS 2 bag and nothing else."""
     others = [file.name for file in folder.iterdir() if file.suffix not in (".db3", ".mcap")]
     return others == ["metadata.yaml"]
-
-
-def _in_time_order(channels: Sequence[Channel]) -> list[tuple[int, int, Any]]:
-    """Return the time in nanoseconds, the channel and the message of all messages, in time order."""
-    messages = [
-        (max(1, round((stamp_s or 0.0) * NS_PER_S)), number, message)
-        for number, channel in enumerate(channels)
-        for stamp_s, message in channel.messages
-    ]
-    return sorted(messages, key=lambda timed: timed[:2])
 
 
 def _quality_of_service(latched: bool) -> Any:
