@@ -147,7 +147,14 @@ class Engine:
         """Do a job; yield after each step."""
         document = replace(task.document, method=task.document.sampler)  # "auto" is resolved
         if document.source.kind == "run":
-            self._show_saved_run(document)
+            # A saved run needs no inference.
+            assert isinstance(self._opened, OpenedRun)
+            self._result = self._opened.result
+            self._scene, self._scene_document = self._result.scene, document
+            self._display.send_scan(self._scene, self._scan)
+            self._display.send_frame(self._result)
+            self._display.send_overlay(self._result)
+            self._display.send_finished(self._result)
             return
         # The trajectory, for a log from raw odometry.
         if document.from_odometry:
@@ -189,16 +196,6 @@ class Engine:
             yield from self._sample_walls(scene, document, None)
         else:
             yield from self._preview_and_sample(scene, document, mode)
-
-    def _show_saved_run(self, document: Document) -> None:
-        """Show a saved run, which needs no inference."""
-        assert isinstance(self._opened, OpenedRun)
-        self._result = self._opened.result
-        self._scene, self._scene_document = self._result.scene, document
-        self._display.send_scan(self._scene, self._scan)
-        self._display.send_frame(self._result)
-        self._display.send_overlay(self._result)
-        self._display.send_finished(self._result)
 
     def _preview_and_sample(self, scene: Scene, document: Document, mode: Mode) -> Iterator[None]:
         """Show belief propagation, then chains that start from it, unless the mode is "preview"."""

@@ -125,7 +125,17 @@ def _write_posterior(posterior: Posterior, file: Any, on_progress: Callable[[int
 
 def _write_constants(posterior: Posterior, file: Any) -> None:
     """Write scans, marginals, parameters and statistics that are arrays, and the state to continue the chains."""
-    constant = _write_scans(file, posterior.scans)
+    scans = posterior.scans
+    write_arrays(file.createGroup("observed_data"), ("scan", "beam"), {"range_m": scans.ranges_m})
+    constant = file.createGroup("constant_data")
+    write_arrays(constant, ("scan", "pose_part"), {"pose_world": scans.poses})
+    write_arrays(constant, ("beam",), {"angle_rad": scans.angles_rad})
+    if scans.own_angles_rad is not None:
+        write_arrays(constant, ("scan", "beam"), {"own_angle_rad": scans.own_angles_rad})
+    if scans.stamps_s is not None:
+        write_arrays(constant, ("scan",), {"stamp_s": scans.stamps_s})
+    if scans.beam_poses is not None:
+        write_arrays(constant, ("scan", "beam", "pose_part"), {"beam_pose_world": scans.beam_poses})
     observed = posterior.observed.astype(np.int8)
     write_arrays(constant, ("x", "y"), {"occupancy": posterior.occupancy, "observed": observed})
     arrays = {f"prior_{name}": np.asarray(values) for name, values in posterior.prior.parameters().items()}
@@ -138,21 +148,6 @@ def _write_constants(posterior: Posterior, file: Any) -> None:
         # Large arrays of random bits: compression would only take time.
         dimensions = ("chain", *(f"{name}_{i}" for i in range(1, values.ndim)))
         write_arrays(state, dimensions, {name: values}, compressed=values.dtype == np.uint8)
-
-
-def _write_scans(file: Any, scans: Scans) -> Any:
-    """Write the scans. Returns the group of constants."""
-    write_arrays(file.createGroup("observed_data"), ("scan", "beam"), {"range_m": scans.ranges_m})
-    constant = file.createGroup("constant_data")
-    write_arrays(constant, ("scan", "pose_part"), {"pose_world": scans.poses})
-    write_arrays(constant, ("beam",), {"angle_rad": scans.angles_rad})
-    if scans.own_angles_rad is not None:
-        write_arrays(constant, ("scan", "beam"), {"own_angle_rad": scans.own_angles_rad})
-    if scans.stamps_s is not None:
-        write_arrays(constant, ("scan",), {"stamp_s": scans.stamps_s})
-    if scans.beam_poses is not None:
-        write_arrays(constant, ("scan", "beam", "pose_part"), {"beam_pose_world": scans.beam_poses})
-    return constant
 
 
 def load_saved(path: str | os.PathLike[str]) -> tuple[Posterior, "InferredTrajectory | None"]:
@@ -209,8 +204,15 @@ def _read(file: Any, header: dict[str, Any]) -> tuple[Posterior, "InferredTrajec
     empty = Draws(grid, specs, {}, index)
     arrays = {spec.name: read_draws(draws[spec.name], spec, empty.shape_of(spec)) for spec in specs}
     sensor = header["settings"]["sensor"] if header["sensor"] is None else header["sensor"]
+    scans = Scans(
+        poses=constant["pose_world"][:], angles_rad=constant["angle_rad"][:],
+        ranges_m=file["observed_data"]["range_m"][:], min_range_m=header["limits"][0],
+        max_range_m=header["limits"][1], stamps_s=_optional(constant, "stamp_s"),
+        beam_poses=_optional(constant, "beam_pose_world"), own_angles_rad=_optional(constant, "own_angle_rad"),
+        mount=header.get("mount"),
+    )  # fmt: skip
     posterior = Posterior(
-        scans=_scans_from(file, header), sensor=from_description(sensor), prior=prior, settings=header["settings"],
+        scans=scans, sensor=from_description(sensor), prior=prior, settings=header["settings"],
         draws=Draws(grid, specs, arrays, index), occupancy=constant["occupancy"][:],
         observed=constant["observed"][:] != 0, log_likelihood=stats["log_likelihood"][:],
         log_prior=stats["log_prior"][:], warmup_log_joint=file["warmup_sample_stats"]["lp"][:],
@@ -236,17 +238,6 @@ def _index(draws: Any, dimension: str, grid: Grid) -> NDArray[np.int32]:
 
 def _optional(constant: Any, name: str) -> NDArray[np.float64] | None:
     return constant[name][:] if name in constant.variables else None
-
-
-def _scans_from(file: Any, header: dict[str, Any]) -> Scans:
-    constant = file["constant_data"]
-    return Scans(
-        poses=constant["pose_world"][:], angles_rad=constant["angle_rad"][:],
-        ranges_m=file["observed_data"]["range_m"][:], min_range_m=header["limits"][0],
-        max_range_m=header["limits"][1], stamps_s=_optional(constant, "stamp_s"),
-        beam_poses=_optional(constant, "beam_pose_world"), own_angles_rad=_optional(constant, "own_angle_rad"),
-        mount=header.get("mount"),
-    )  # fmt: skip
 
 
 def write_arrays(

@@ -132,14 +132,12 @@ class RunningChains(Estimate):
             while len(self._checkpoints) > 1 and self._checkpoints[1].sweep <= self._burn_in * self.sweep:
                 del self._checkpoints[0]
         if self.done and self._checkpoints[0].sweep < self._burn_in_end:
-            self._burn_in_until(self._burn_in_end)
+            # There is no checkpoint of this sweep: the kept draws give the sums up to it.
+            end = self._burn_in_end
+            burned_draws = self.draws.select(slice(end // self.thin))
+            maps = [self.model.cells.mean_map(burned_draws.of_chain(chain)) * end for chain in range(self.n_chains)]
+            self._checkpoints = [Checkpoint(end, np.array(maps), self._checkpoints[0].observed_counts)]
         self.seconds += time.perf_counter() - began_s
-
-    def _burn_in_until(self, sweep: int) -> None:
-        """End the burn-in at a sweep of which there is no checkpoint. The kept draws give the sums up to it."""
-        burned_draws = self.draws.select(slice(sweep // self.thin))
-        maps = [self.model.cells.mean_map(burned_draws.of_chain(chain)) * sweep for chain in range(self.n_chains)]
-        self._checkpoints = [Checkpoint(sweep, np.array(maps), self._checkpoints[0].observed_counts)]
 
     @property
     def poses(self) -> Mapping[str, Any]:
