@@ -40,8 +40,6 @@ EPILOG = """Results go to standard output, progress and messages to standard err
 PATH_ERRORS = (errno.ENOENT, errno.ENOTDIR, errno.EEXIST, errno.EISDIR, errno.EACCES, errno.EPERM, errno.EROFS)
 """Operating system errors after which another path may help: bad input, not a failure."""
 
-WARP_OUT_OF_MEMORY = "Failed to allocate"  # first words of Warp's error when there is no memory for an array
-
 
 class Commands(click.Group):
     """A click group that loads commands on first use, and turns exceptions into one line and an exit code."""
@@ -98,7 +96,7 @@ def exit_code_and_message(error: BaseException) -> tuple[int, str]:
         return BAD_INPUT, f"{_system_message(error)}; name another file or folder, or see who may write there"
     if isinstance(error, OSError):
         return FAILURE, _system_message(error)
-    if isinstance(error, MemoryError) or str(error).startswith(WARP_OUT_OF_MEMORY):
+    if isinstance(error, MemoryError) or str(error).startswith("Failed to allocate"):  # by Warp
         return FAILURE, "out of memory; use a coarser --resolution, fewer chains, or fewer draws"
     return FAILURE, f"unexpected {type(error).__name__}: {error}"
 

@@ -35,7 +35,6 @@ if TYPE_CHECKING:
 
 IMAGE_ENDINGS = (".pgm", ".png", ".bmp")  # of the images that the YAML file of a map names
 ENDINGS = (".tum", ".mcap", ".bag", ".db3", ".jsonl")  # of the files that -o may name
-NOT_LIVE = ("scan_topic", "pose_topic", "fixed_frame", "trajectory")  # settings that a growing log cannot have
 MAX_NAMED_STRETCHES = 5  # number of stretches of lost scans that are named
 MAX_P_LOST = 0.5  # probability of being lost above which a scan counts as lost
 MAX_MODES = 5  # number of modes of the last pose that are printed
@@ -100,7 +99,6 @@ def localize(
         posteriors, interrupted = _locate_live(request, idle_s, print_belief)
     else:
         posteriors = _locate_scans(request, print_belief if follow else None)
-    # Write and print the result.
     localization, lost = posteriors.localization, posteriors.lost_scans()
     if lost:
         share, which = f"{len(lost):,} of {len(localization):,} scans", posteriors.describe_stretches(lost)
@@ -408,7 +406,7 @@ def live_scans_of(request: _Request, idle_s: float | None) -> Iterator[Scans]:
 
     log = request.log
     settings = request.call.settings()
-    for name in NOT_LIVE:
+    for name in ("scan_topic", "pose_topic", "fixed_frame", "trajectory"):
         value = getattr(settings, name)
         if value is not None:
             raise BadInput(f"{log}: --{name.replace('_', '-')} {value}: a log that is followed has its own poses alone")

@@ -105,19 +105,17 @@ of the last two followed by numbers that differ: typical,drift_rad_per_m=0.02,la
 Numbers: distance_per_m, distance_per_rad, turn_per_m, turn_per_rad (standard deviations after one metre or radian),
 distance_scale, turn_scale, drift_rad_per_m (bias), slips_per_m, slip_m, slip_rad, lag_s."""
 
-TRUE_ODOMETRY = "true"
-
 
 def odometry_of(text: str) -> OdometryNoise | None:
     """Return the odometry of a text, None for ``true``. Raises `BadInput` for an invalid one."""
-    if text == TRUE_ODOMETRY:
+    if text == "true":
         return None
     from bayesmap.sim.robot import OdometryNoise
 
     known = [field.name for field in fields(OdometryNoise)]
     base, *assignments = (word.strip() for word in text.split(","))
     if base not in ("typical", "perfect"):
-        raise BadInput(f"odometry {text!r}: begin with {TRUE_ODOMETRY}, typical or perfect, got {base!r}")
+        raise BadInput(f"odometry {text!r}: begin with true, typical or perfect, got {base!r}")
     values = dict.fromkeys(known, 0.0) if base == "perfect" else {}
     for assignment in assignments:
         name, equals, value = (word.strip() for word in assignment.partition("="))

@@ -261,7 +261,6 @@ class DrawRecord:
 
 
 RANDOM_STREAMS = 8  # version of the assignment of random numbers: chains of another version cannot be continued
-DERIVED_SETTINGS = ("fingerprint", "threads_used", "fitted")  # entries of a run's settings that are not arguments
 PROBES = 64  # number of readings and of distances at which a sensor model is evaluated for the fingerprint
 
 
@@ -289,7 +288,7 @@ def refuse_changes(saved: dict[str, Any], current: dict[str, Any]) -> None:
     if saved.get("streams") != current["streams"]:
         remedy = "it can be looked at and scored, but not gone on with: start again"
         raise BadInput(f"resume: the saved run was made by a version of bayesmap with other random numbers; {remedy}")
-    arguments = [name for name in current if name not in (*DERIVED_SETTINGS, "streams")]
+    arguments = [name for name in current if name not in ("fingerprint", "threads_used", "fitted", "streams")]
     changed = [name for name in arguments if saved.get(name) != current[name]]
     settings = "; ".join(f"{name} ({saved.get(name)!r}, now {current[name]!r})" for name in changed)
     different = settings or "scans or on another grid, or with another sensor"
