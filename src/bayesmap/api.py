@@ -35,6 +35,7 @@ from bayesmap.samplers.sampler import Event as Event
 from bayesmap.samplers.sampler import Sampler, Watch
 from bayesmap.samplers.stop_gibbs import StopGibbs
 from bayesmap.samplers.wall_problem import trace_walls
+from bayesmap.samplers.walls import WallGibbs
 from bayesmap.samplers.with_poses import MovableSampler, WithPoses
 from bayesmap.samplers.without_chains import ROUNDS, DrawRequest
 from bayesmap.sensors.model import SensorModel, describe
@@ -331,7 +332,7 @@ class Inference:
             model = replace(model, sensor=fit_sensor(model, device, seed=seed, threads=threads, watch=watch))
             settings["fitted"] = {"sensor": describe(model.sensor)}
         if model.cells.is_incomplete:  # the coupling of walls
-            walls = methods.make_wall_sampler(self.sampler_name)
+            walls = methods.WALL_SAMPLERS.get(self.sampler_name, WallGibbs)()  # single cells, if without chains
             prior = fit_coupling_to_scans(model, walls, device, seed=seed, threads=threads, watch=watch)
             model = replace(model, cells=prior)
             settings["fitted"] = {**settings.get("fitted", {}), "prior": prior.describe()}

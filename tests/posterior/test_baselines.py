@@ -25,20 +25,20 @@ def log():
 
 
 def test_a_scan_is_known_by_readings_and_pose_or_stamp_and_moved_or_thinned_ones_cannot_judge(log):
-    np.testing.assert_array_equal(np.flatnonzero(heldout.used_scans(log.select(slice(2, 5)), log)), [2, 3, 4])
+    np.testing.assert_array_equal(np.flatnonzero(heldout.match_scans(log.select(slice(2, 5)), log) >= 0), [2, 3, 4])
     moved = dataclasses.replace(log, poses=log.poses + 1.0)
-    assert not heldout.used_scans(log, moved).any()
-    assert not heldout.used_scans(log, dataclasses.replace(log, angles_rad=log.angles_rad + 0.1)).any()
+    assert not (heldout.match_scans(log, moved) >= 0).any()
+    assert not (heldout.match_scans(log, dataclasses.replace(log, angles_rad=log.angles_rad + 0.1)) >= 0).any()
     stamped = dataclasses.replace(log, stamps_s=np.arange(20.0))
     run = dataclasses.replace(stamped, poses=stamped.poses + 1.0).select(slice(2, 8))
-    np.testing.assert_array_equal(np.flatnonzero(heldout.used_scans(run, stamped)), np.arange(2, 8))
+    np.testing.assert_array_equal(np.flatnonzero(heldout.match_scans(run, stamped) >= 0), np.arange(2, 8))
     assert heldout.has_moved_scans(run, stamped)
     assert not heldout.has_moved_scans(stamped.select(slice(2, 8)), stamped)
-    assert not heldout.used_scans(run, dataclasses.replace(stamped, ranges_m=stamped.ranges_m + 0.01)).any()
-    assert not heldout.used_scans(run, dataclasses.replace(stamped, stamps_s=stamped.stamps_s + 0.5)).any()
+    assert not (heldout.match_scans(run, dataclasses.replace(stamped, ranges_m=stamped.ranges_m + 0.01)) >= 0).any()
+    assert not (heldout.match_scans(run, dataclasses.replace(stamped, stamps_s=stamped.stamps_s + 0.5)) >= 0).any()
     blind = dataclasses.replace(stamped, ranges_m=np.full(stamped.ranges_m.shape, np.inf))
-    assert heldout.used_scans(blind, blind).all()
-    assert not heldout.used_scans(dataclasses.replace(blind, poses=blind.poses + 1.0), blind).any()
+    assert (heldout.match_scans(blind, blind) >= 0).all()
+    assert not (heldout.match_scans(dataclasses.replace(blind, poses=blind.poses + 1.0), blind) >= 0).any()
     moved = dataclasses.replace(stamped, poses=stamped.poses + 1.0)
     with pytest.raises(heldout.NoneHeldOut, match=r"a.log: the run has its scans elsewhere than this log"):
         heldout.unseen_scans(moved.holdout(5)[0], stamped, 5, "a.log")

@@ -138,7 +138,7 @@ def test_the_work_on_one_cell_does_not_grow_with_the_map():
             else:
                 yield from (v.aval.size for v in eqn.outvars)
 
-    first_hit = jnp.zeros(9, sensor.geometry.position_dtype)
+    first_hit = jnp.zeros(9, np.min_scalar_type(sensor.geometry.longest))
     walls = jnp.zeros((50, 51), bool)
     program = jax.make_jaxpr(lambda w, h: sensor._change_cell(w, 7, h, jnp.ones(9)))(walls, first_hit)
     sizes = list(computed(program.jaxpr))

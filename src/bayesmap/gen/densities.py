@@ -147,11 +147,6 @@ def _real(draw: Callable[..., Any]) -> Callable[..., Any]:
     return lambda key, shape, *params: draw(key, *params, shape).astype(jnp.result_type(float))
 
 
-def _failures(key: PRNGKey, p: Any, log_p: Any, log_not_p: Any, shape: tuple[int, ...]) -> Any:
-    """Draw the numbers of failures before the first success."""
-    return jr.geometric(key, p, shape) - 1
-
-
 def _counts(value: Any) -> Any:
     """Return elementwise whether the value is 0, 1, 2, ..."""
     return (value >= 0) & (value == jnp.floor(value))
@@ -218,8 +213,8 @@ poisson = _named(
     lambda v, rate: _masked_to_nonnegative(v, xlogy(v, rate) - rate - gammaln(v + 1.0)), support=_counts,
 )  # fmt: skip
 geometric = _named(
-    "geometric", _event, _real(_failures), lambda v, p, yes, no: _masked_to_nonnegative(v, yes + xlog1py(v, -p)),
-    support=_counts,
+    "geometric", _event, lambda key, shape, p, *_: (jr.geometric(key, p, shape) - 1).astype(jnp.result_type(float)),
+    lambda v, p, yes, no: _masked_to_nonnegative(v, yes + xlog1py(v, -p)), support=_counts,
 )  # fmt: skip
 """The number of failures before the first success."""
 binomial = _named(

@@ -85,7 +85,6 @@ class ScanGeometry:
     kind: Any  # NO_POINT, 1 a point, 2 a point with a normal, (S, B)
     spread: Any  # variance of the normal's angle for a unit variance of the points, 1 / m^2, (S, B)
     fans: Fans  # directions of the beams
-    farthest_m: float  # range beyond which hits are left out, metres
     noise_m: float = MIN_NOISE_M  # standard deviation of a range, estimated from the scans
     device: str = "cpu"  # device of the arrays
     threads: int | None = None  # number of threads for all that is computed from this geometry; all cores if None
@@ -165,7 +164,7 @@ def scan_geometry(
     noise = range_noise_m(np.where((ranges > nearest) & (ranges < limit), ranges, np.nan), step)
     fit = LineFit(max(MIN_NORMAL_REACH_M, MIN_NORMAL_REACH_SIGMAS * noise), noise)
     scene = points_and_normals(ranges, angles, RangeLimits(nearest, limit), fans, fit, device, threads)
-    return ScanGeometry(scene.points, scene.normals, scene.kind, scene.spread, fans, limit, noise, device, threads)
+    return ScanGeometry(scene.points, scene.normals, scene.kind, scene.spread, fans, noise, device, threads)
 
 
 def merge_beams(

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from bayesmap.beams.rays import Rays
 from bayesmap.errors import BadInput
-from bayesmap.space.arrays import Floats, Indices, Ints, Mask
+from bayesmap.space.arrays import Floats, Indices, Ints
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import ReadingKind, Scans
 
@@ -27,11 +27,6 @@ PAST_READING_M = 3.0  # distance past a reading to which a beam is traced for fi
 
 class NoneHeldOut(BadInput):
     """Error: the log is the run's own, and none of its scans can judge the map."""
-
-
-def used_scans(train: Scans, scans: Scans) -> Mask:
-    """Return the mask of the scans that a run has used, (S,), by `match_scans`. ``train`` holds the run's scans."""
-    return match_scans(train, scans) >= 0
 
 
 def has_moved_scans(train: Scans, scans: Scans) -> bool:
@@ -87,7 +82,7 @@ def unseen_scans(train: Scans, scans: Scans, every: int, log: str) -> Scans:
         NoneHeldOut: the run has used all scans, or has moved its scans, so that the poses of the others are unknown.
         BadInput: the run has used some of the held-out scans, which would bias the score; or it is another log.
     """
-    used = used_scans(train, scans)
+    used = match_scans(train, scans) >= 0
     if every == 0:
         if used.any():
             raise BadInput(

@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
@@ -100,9 +101,7 @@ def predictor_of(posterior: Posterior, sensor: SensorModel | None = None) -> Pre
     if posterior.draws.size == 0:
         raise BadInput("score: the run has no draws yet; let it finish its warm-up")
 
-    def batches(cells: Ints | None = None) -> Iterator[Singles]:
-        return posterior.prior.predictive_stops(posterior.draws, cells)
-
+    batches = partial(posterior.prior.predictive_stops, posterior.draws)
     return Predictor(posterior.grid, batches, sensor, float(posterior.settings["hit_depth"]), posterior.draws.size)
 
 

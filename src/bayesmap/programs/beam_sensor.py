@@ -173,11 +173,6 @@ class BeamGeometry:
         """L + 1, the number of outcomes of the longest beam; its last position is a sentinel."""
         return int(self.cells.shape[1]) - CELLS_AT_ONCE + 1
 
-    @property
-    def position_dtype(self) -> np.dtype[np.unsignedinteger]:
-        """The smallest type that holds a position."""
-        return np.min_scalar_type(self.longest)
-
     @cached_property
     def _digest(self) -> bytes:
         """The hash of all fields."""
@@ -345,7 +340,7 @@ class BeamSensor(RangeSensor):
         geometry = self.geometry
         cells = geometry.cells[:, : geometry.longest]
         is_wall = jnp.append(checked_walls(walls, geometry.shape).reshape(-1) != 0, True)  # the sentinel is a wall
-        positions = jnp.arange(geometry.longest, dtype=geometry.position_dtype)
+        positions = jnp.arange(geometry.longest, dtype=np.min_scalar_type(geometry.longest))
         return jnp.where(is_wall[cells], positions, positions[-1]).min(axis=1)
 
     def distances_at(self, first_hit: Any) -> Any:

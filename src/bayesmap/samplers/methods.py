@@ -114,11 +114,6 @@ def resolve_method(method: Method | str | None, samplers: Mapping[str, str], kin
     return name, METHODS.get(name, Gibbs)() if isinstance(method, str) else method
 
 
-def make_wall_sampler(name: str) -> WallSampler:
-    """Return the sampler of binary walls by its name, with defaults; for any other name, that of single cells."""
-    return WALL_SAMPLERS.get(name, WallGibbs)()
-
-
 def make_sampler(name: str, grid: Grid, method: Gibbs, warmup: int = 0) -> Sampler[Any, Any]:
     """Return the Markov chain sampler of a name. Surfaces merge during ``warmup`` sweeps; with 0 they do not merge."""
     if name == "stop-gibbs":

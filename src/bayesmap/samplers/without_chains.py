@@ -37,7 +37,6 @@ class Marginals:
 
     p_wall: Floats  # approximate posterior wall probability, (nx, ny)
     changes: Floats  # largest change of any cell's probability in each round, (rounds,)
-    mean_changes: Floats  # mean change over the cells that beams touch, (rounds,)
     converged: bool  # whether the last largest change was below the tolerance
     finished: bool  # whether it converged or made all rounds; false if it was stopped early
     seconds: float
@@ -61,23 +60,20 @@ def propagate(
         raise BadInput(f"propagate: damping must lie in [0, 1), got {damping!r}")
     began = time.perf_counter()
     beliefs = Beliefs(problem.table, problem.logit, problem.device, beta, problem.coupling)
-    touched = problem.table.touched_map().ravel()
     p_wall = special.expit(beliefs.log_odds().astype(np.float64))
-    changes, mean_changes = [], []
+    changes = []
     for number in range(rounds):
         previous = p_wall
         beliefs.round(damping, problem.threads)
         p_wall = special.expit(beliefs.log_odds().astype(np.float64))
-        change = np.abs(p_wall - previous)
-        changes.append(float(change.max()))
-        mean_changes.append(float(change[touched].mean()) if touched.any() else 0.0)
+        changes.append(float(np.abs(p_wall - previous).max()))
         watch.report("propagate", number + 1, rounds)
         if changes[-1] < tolerance or watch.should_stop():
             break
     # The log-odds of fixed cells are large but finite: set their probabilities exactly.
     p_wall = np.where((problem.p_wall == 0) | (problem.p_wall == 1), problem.p_wall, p_wall)
     return Marginals(
-        p_wall=p_wall.reshape(problem.table.grid.shape), changes=np.array(changes), mean_changes=np.array(mean_changes),
+        p_wall=p_wall.reshape(problem.table.grid.shape), changes=np.array(changes),
         converged=changes[-1] < tolerance, finished=changes[-1] < tolerance or len(changes) == rounds,
         seconds=time.perf_counter() - began,
     )  # fmt: skip

@@ -91,7 +91,7 @@ class Preview(Estimate):
 
     def marginals(self) -> methods.Marginals:
         """Return the current marginals, for starts of chains and for independent draws."""
-        return methods.Marginals(self.mean(), np.zeros(0), np.zeros(0), self.converged, self.converged, 0.0)
+        return methods.Marginals(self.mean(), np.zeros(0), self.converged, self.converged, 0.0)
 
     def progress(self, ended: bool) -> Progress:
         return Progress(sweeps=self.rounds, seconds=self._seconds)
