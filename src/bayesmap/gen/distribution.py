@@ -177,12 +177,10 @@ class ExactDensity(Distribution):
         return True
 
     def random_weighted(self, key: PRNGKey, *args: Any) -> tuple[Score, Any]:
-        """Draw a value. Returns (exact log density, draw)."""
         value = self.draw(key, args)
         return self.score(value, args), value
 
     def estimate_logpdf(self, key: PRNGKey, value: Any, *args: Any) -> Score:
-        """Return the exact log density at `value`, shape ()."""
         return self.score(value, args)
 
     def generate(self, key: PRNGKey, constraint: ChoiceMap, args: Arguments) -> tuple[Trace, Weight]:

@@ -116,11 +116,9 @@ class OuterTrace(Trace):
     inner: Trace
 
     def get_choices(self) -> ChoiceMap:
-        """Return the choices by address."""
         return self.inner.get_choices()
 
     def get_inner_trace(self, address: Any) -> Trace:
-        """Return the trace of the call at one address."""
         return self.inner.get_inner_trace(address)
 
 

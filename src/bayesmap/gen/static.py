@@ -41,7 +41,6 @@ class Replay(Handler):
             return gen_fn.call(args)
 
     def visit(self, path: StaticAddress, gen_fn: Any, args: Arguments) -> Any:
-        """Return the site's stored value."""
         if path not in self.retvals:
             raise UnknownAddress(path, "the trace that is edited has no such site")
         self.calls[path] = (gen_fn, args)
@@ -81,11 +80,9 @@ class StaticTrace(Trace):
         return self.retval_tree.unflatten(leaves)
 
     def get_score(self) -> Score:
-        """Return the sum of the sites' scores."""
         return sum((t.get_score() for t in self.subtraces.values()), start=jnp.zeros(()))
 
     def get_choices(self) -> ChoiceMap:
-        """Return the sites' choices below the sites' addresses."""
         return ChoiceMap.from_mapping((path, t.get_choices()) for path, t in self.subtraces.items())
 
     def get_inner_trace(self, address: Any) -> Trace:
@@ -289,7 +286,6 @@ class StaticGenerativeFunction(GenerativeFunction):
         return _unpickle, (self.source.__module__, self.source.__qualname__, self.partial_args, self.by_name)
 
     def simulate(self, key: PRNGKey, args: Arguments) -> StaticTrace:
-        """Run the body, and simulate each site."""
         return _Run(key, lambda path, gen_fn, args, key: (gen_fn.simulate(key, args), 0.0)).run(self, args)[0]
 
     def generate(self, key: PRNGKey, constraint: ChoiceMap, args: Arguments) -> tuple[StaticTrace, Weight]:
@@ -308,7 +304,6 @@ class StaticGenerativeFunction(GenerativeFunction):
         return handler.score, retval
 
     def project(self, key: PRNGKey, trace: Any, selection: Selection) -> Weight:
-        """Return the sum of the sites' projections."""
         projections = (t.project(key, selection(path)) for path, t in trace.subtraces.items())
         return sum(projections, start=jnp.zeros(()))
 

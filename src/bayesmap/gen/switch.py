@@ -213,7 +213,6 @@ class Switch(GenerativeFunction):
         return self._trace(args, lambda k: self.branches[k].generate(key, constraints[k], branch_args[k]))
 
     def assess(self, choices: ChoiceMap, args: Arguments) -> tuple[Score, Any]:
-        """Assess the choices by the branch with the given index."""
         index, branch_args = self._split(args)
         branch_choices = self._choices_of_branches(choices, branch_args)
         with optional_part():

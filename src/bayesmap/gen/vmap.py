@@ -199,7 +199,6 @@ class Vmap(Vectorised):
         return total(scores), retvals
 
     def edit_all(self, key: PRNGKey, trace: Any, request: EditRequest, argdiffs: Any) -> Edited:
-        """Edit every element. Leaves of `request` have a leading axis."""
         args = Diff.tree_primal(argdiffs)
         mapped = self._map(args)
         pairs = zip(Diff.tangents(argdiffs), mapped.axes, strict=True)

@@ -133,7 +133,8 @@ class _Path:
         # Break the path over an unknown motion.
         if self.unknown[self.last]:
             scan, placed = self.last + 1, self._place_near(batch[:1])[0]
-            self._break(scan, placed, self._search(scan, placed.predicted[0], placed.scores[0]))
+            wide = search_widely(self.geometry, self.window, scan, placed.predicted[0], placed.scores[0])
+            self._break(scan, placed, wide)
             return
         # Match the scans up to the next unknown motion; look further ahead if the first contradicts the key scans.
         breaks = np.nonzero(self.unknown[self.last : int(batch[-1])])[0]
@@ -146,7 +147,7 @@ class _Path:
         scan, wide = int(batch[0]), None
         may_slip = self.motions is not None and placed.scores[0] <= self.usual_score - SLIP_LOSS
         if misfits.all() or (may_slip and not misfits[0]):
-            wide = self._search(scan, placed.predicted[0], placed.scores[0])
+            wide = search_widely(self.geometry, self.window, scan, placed.predicted[0], placed.scores[0])
         if wide is not None and self._accept_slip(scan, placed, wide):
             return
         # Accept the scans before the first misfit, skip misfits before one that fits, or break the path.
@@ -204,7 +205,7 @@ class _Path:
                 self.keys = [key for key in self.keys if key < begin]
                 self.window = self._latest_window(self.window)
             pose, score = self.poses[begin], float(self.scores[begin])
-            wide = self._search(begin, pose, score)
+            wide = search_widely(self.geometry, self.window, begin, pose, score)
         # Begin a new segment with a key scan that the laser says nothing about.
         self.poses[begin], self.scores[begin] = (pose, score) if wide is None else (wide.pose, wide.score)
         self.information[begin], self.last = 0.0, begin
@@ -212,10 +213,6 @@ class _Path:
         self.broken[begin] = True
         self._add_key(begin)
         self.segment_begin = len(self.keys) - 1
-
-    def _search(self, scan: int, pose: Floats, score: float) -> WideMatch | None:
-        """Search wide windows about a pose for a pose with a clearly better score."""
-        return search_widely(self.geometry, self.window, scan, pose, float(score))
 
     def _poor_score(self) -> float:
         """Return the score below which a scan is badly explained."""
@@ -269,7 +266,7 @@ class _Path:
             return True
         if (np.sqrt(_posterior_variance(placed, k)) > LOST_SIGMA).any():
             return True
-        wide = self._search(scan, placed.predicted[k], placed.scores[k])
+        wide = search_widely(self.geometry, self.window, scan, placed.predicted[k], placed.scores[k])
         if wide is not None and wide.near:
             placed.poses[k], placed.information[k], placed.scores[k] = wide.pose, wide.information, wide.score
         return wide is not None and not wide.near

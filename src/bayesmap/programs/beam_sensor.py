@@ -44,7 +44,6 @@ class ReadingLaw(ExactDensity):
     limits: RangeLimits = static()
 
     def sample(self, key: PRNGKey, distance_m: Any, /) -> Any:
-        """Return a reading for each distance."""
         distance = jnp.asarray(distance_m, jnp.result_type(float))
         law, limits, shape = self.parameters, self.limits, distance.shape
         keys = jr.split(key, 6)
@@ -258,7 +257,6 @@ class RangeSensor(GenerativeFunction):
         raise NotImplementedError
 
     def simulate(self, key: PRNGKey, args: Arguments) -> Trace:
-        """Find the hits, and draw the readings."""
         hits = self.find_hits(args)
         return self.trace(args, hits, self.law.draw(key, self.law_args(args, hits)))
 

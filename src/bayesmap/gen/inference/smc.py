@@ -190,7 +190,6 @@ class ImportanceK(SMCAlgorithm):
         return ParticleCollection(*jax.vmap(self._draw_particle)(jax.random.split(key, self.k_particles)))
 
     def run_csmc(self, key: PRNGKey, retained: ChoiceMap) -> ParticleCollection:
-        """Draw all particles except the last one, whose open choices are `retained`."""
         *keys, last_key = jax.random.split(key, self.k_particles)
         last = jax.tree.map(lambda x: jnp.asarray(x)[None], self._retained(last_key, retained))
         if not keys:
