@@ -1,7 +1,4 @@
-"""Scenes: the readings of a document, and the inference problem built from them.
-
-`simulated_scene` makes the scene of a drawn world, and `scene_of_file` that of a run or a log.
-"""
+"""Scenes: the readings of a document, and the inference problem built from them."""
 
 from __future__ import annotations
 

@@ -1,7 +1,4 @@
-"""Files that the page shows: a saved run, or a log of scans, from which the worker infers a map.
-
-`open_file` opens either. An `OpenedRun` has its result already. An `OpenedLog` makes the scene of a document.
-"""
+"""Files that the page shows: a saved run, or a log of scans, from which the worker infers a map."""
 
 import json
 import math

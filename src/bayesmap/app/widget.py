@@ -1,7 +1,4 @@
-"""The page as a widget in a notebook: it runs the page's module over the notebook's own channel, without a server.
-
-`MapWidget` connects one page with a session and a worker, as `bayesmap.app.hub.Hub` does for many pages.
-"""
+"""The page as a widget in a notebook: it runs the page's module over the notebook's own channel, without a server."""
 
 import tempfile
 import threading

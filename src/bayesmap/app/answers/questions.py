@@ -1,7 +1,4 @@
-"""Answers to a page's questions about the result on show. Each answer is a report for that page alone.
-
-`Answers.answer` chooses the function. Predictions and whereabouts have modules of their own.
-"""
+"""Answers to a page's questions about the result on show. Each answer is a report for that page alone."""
 
 import math
 from collections.abc import Mapping

@@ -1,7 +1,4 @@
-"""Find the poses of the sensor in /tf, or in a topic of poses and the transform from the robot's body to the sensor.
-
-`source_by_transforms` and `source_by_topic` return a `PoseSource`, with notes on what was chosen.
-"""
+"""Find the poses of the sensor in /tf, or in a topic of poses and the transform from the robot's body to it."""
 
 import math
 from collections.abc import Iterable
