@@ -3,6 +3,7 @@
 import contextlib
 
 import pytest
+from acted import Acted, Heard
 from building_log import room_run
 from page_driver import ARGUMENTS, CHROMIUM, WAIT_SECONDS, document, new_context, served, until, watch_for_trouble
 from warm_worker import FORKS, Forked
@@ -19,6 +20,16 @@ def warm_workers():
         if FORKS:
             changed.setattr(worker, "start_worker", Forked)
         yield
+
+
+@pytest.fixture
+def acted():
+    return Acted()
+
+
+@pytest.fixture
+def heard():
+    return Heard()
 
 
 @pytest.fixture(scope="session")

@@ -36,8 +36,7 @@ PATH = FindPath((6.0, 15.0), (10.0, 14.0), 0.4, 0.05)
 
 
 @pytest.mark.parametrize("mode", ["live", "run"])
-def test_a_path_s_probability_is_that_of_the_draws(mode):
-    heard = Heard()
+def test_a_path_s_probability_is_that_of_the_draws(heard, mode):
     heard.infer(DOCUMENT, mode)
     header, _ = heard.answer(PATH)
     assert (header["type"], header["generation"]) == ("path", heard.generation)
@@ -53,16 +52,14 @@ def test_a_path_s_probability_is_that_of_the_draws(mode):
         assert [saved.answer(question)[0]["type"] for question in (PATH, FindViews())] == ["path", "views"]
 
 
-def test_a_path_needs_draws():
-    heard = Heard()
+def test_a_path_needs_draws(heard):
     heard.infer(replace(DOCUMENT, method="propagate"), "preview")
     header, _ = heard.answer(PATH)
     assert header["type"] == "undecided"
     assert "draws" in header["text"]
 
 
-def test_views_stand_where_it_is_free_and_tell_more_where_less_is_known():
-    heard = Heard()
+def test_views_stand_where_it_is_free_and_tell_more_where_less_is_known(heard):
     _, field = heard.infer(DOCUMENT, "live")
     header, buffers = heard.answer(FindViews())
     assert (header["type"], header["spacing"]) == ("views", 1.0)
@@ -144,8 +141,7 @@ def test_a_scan_of_no_place_is_lost():
     assert notice.p_lost > 0.5
 
 
-def test_a_question_waits_for_a_picture_or_is_answered_by_a_reason():
-    heard = Heard()
+def test_a_question_waits_for_a_picture_or_is_answered_by_a_reason(heard):
     assert "no map" in heard.answer(WhereAmI())[0]["trouble"]
     heard.infer(tutorial_document(), "preview", steps=0)
     assert heard.ask(WhereAmI(1)) == []
@@ -208,8 +204,7 @@ def test_the_histogram_reaches_to_the_lightest_particle():
     assert (counts[0] > 0, counts[-1]) == (True, 1)
 
 
-def test_beams_speak_for_a_wall_and_against_floor_and_each_is_told_on_request():
-    heard = Heard()
+def test_beams_speak_for_a_wall_and_against_floor_and_each_is_told_on_request(heard):
     _, field = heard.infer(tutorial_document())
     wall = tuple(np.argwhere((field["reached"] >= 128) & (field["p"].reshape(21, 21) == 255))[0].tolist())
     (of_wall, _), (of_floor, nothing) = (heard.answer(Inspect(*cell)) for cell in (wall, (10, 12)))
@@ -286,8 +281,7 @@ def test_beams_speak_for_the_wall_of_a_room_and_neither_for_nor_against_its_floo
     assert (unseen["beams"], unseen["nats_for"], unseen["nats_against"]) == (0, 0.0, 0.0)
 
 
-def test_prior_and_beams_given_one_draw_are_the_log_odds_by_which_gibbs_draws_the_cell():
-    heard = Heard()
+def test_prior_and_beams_given_one_draw_are_the_log_odds_by_which_gibbs_draws_the_cell(heard):
     heard.infer(replace(tutorial_document(), prior=0.3, noise=0.6, angles=30, sweeps=40))
     stream = heard.engine._result.estimate
     for (x, y), chain, draw in (((12, 6), 0, 5), ((8, 10), 1, 39), ((11, 10), 0, 0)):

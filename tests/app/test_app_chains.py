@@ -38,9 +38,8 @@ def test_known_poses_are_sampled_as_known():
 @pytest.mark.parametrize(
     "changes", [{"pose_sigma": 0.5}, {"heading_sigma": 0.1}, {"pose_sigma": 0.5, "method": "block"}]
 )
-def test_a_run_is_that_of_the_library_and_saved_with_its_poses(changes, tmp_path):
+def test_a_run_is_that_of_the_library_and_saved_with_its_poses(heard, changes, tmp_path):
     document = replace(tutorial_document(), sweeps=6, angles=40, burn_in=0.0, **changes)
-    heard = Heard()
     heard.infer(document, "run")
     scans, _ = simulate_document(document)
     sigma_m = max(document.pose_sigma, MIN_SIGMA_M)
@@ -116,10 +115,9 @@ def test_methods_that_take_poses_as_known_do_so(method):
     assert np.array_equal(buffers["p"], Heard().infer(replace(document, pose_sigma=0.0), "run")[1]["p"])
 
 
-def test_chains_at_several_shifts_are_judged_at_each_and_told_what_would_help(monkeypatch):
+def test_chains_at_several_shifts_are_judged_at_each_and_told_what_would_help(heard, monkeypatch):
     monkeypatch.setattr(verdicts, "VERDICT_LIMITS", verdicts.VerdictLimits(fewest_sweeps=40))  # sixteen take long
     document = replace(tutorial_document(), pose_sigma=1.0, sweeps=40, angles=40)
-    heard = Heard()
     header, _ = heard.infer(document)
     places = np.unique(heard.engine._result.estimate.shifts, axis=0)
     assert len(places) > 1
@@ -236,9 +234,8 @@ def test_chains_that_agree_on_maps_that_the_readings_contradict_are_not_called_c
 
 
 @pytest.mark.parametrize("method", ["gibbs", "block"])
-def test_rare_walls_cell_by_cell_from_the_prior_are_seen_to_be_impossible_and_blocks_are_not(method):
+def test_rare_walls_cell_by_cell_from_the_prior_are_seen_to_be_impossible_and_blocks_are_not(heard, method):
     document = replace(tutorial_document(), prior=0.05, method=method, start="prior", sweeps=250, seed=3)
-    heard = Heard()
     verdict = heard.infer(document)[0]["verdict"]
     stream = heard.engine._result.estimate
     likelihood = stream._log_likelihood[:, stream._checkpoints[0].sweep :]

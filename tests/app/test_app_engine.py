@@ -35,8 +35,7 @@ def test_a_prior_that_fixes_every_cell_is_the_answer(prior):
     assert (Heard().infer(replace(tutorial_document(), prior=prior, sweeps=5))[1]["p"] == 255 * prior).all()
 
 
-def test_a_job_is_a_preview_and_then_chains_to_their_last_sweep():
-    heard = Heard()
+def test_a_job_is_a_preview_and_then_chains_to_their_last_sweep(heard):
     heard.infer(tutorial_document(), "preview")
     assert {field["method"] for field in heard.all("field")} == {"propagate"}  # a preview alone stops there
     heard.reports.clear()
@@ -50,10 +49,9 @@ def test_a_job_is_a_preview_and_then_chains_to_their_last_sweep():
     assert heard.all("finished")[-1]["draws"] == DrawCount(2, 1000)
 
 
-def test_interruptions_do_not_change_the_posterior_of_a_document():
+def test_interruptions_do_not_change_the_posterior_of_a_document(heard):
     document = replace(tutorial_document(), sweeps=300)
     alone = probability(Heard().infer(document))
-    heard = Heard()
     for steps, other in ((3, 0.1), (1, 0.2), (7, 0.3)):
         heard.infer(replace(document, prior=other), steps=steps)
         heard.infer(document, steps=steps)
@@ -63,8 +61,7 @@ def test_interruptions_do_not_change_the_posterior_of_a_document():
 
 @pytest.mark.parametrize("burn_in", [0.0, 0.3, 0.9])
 @pytest.mark.parametrize("mode", ["live", "run"])
-def test_the_burn_in_is_left_out_of_mean_diagnostics_and_saved_runs(burn_in, mode, tmp_path):
-    heard = Heard()
+def test_the_burn_in_is_left_out_of_mean_diagnostics_and_saved_runs(heard, burn_in, mode, tmp_path):
     heard.infer(replace(tutorial_document(), sweeps=100, start="empty", burn_in=burn_in), mode)
     fields = [(header, buffers) for header, buffers in heard.every("field") if not header["approximate"]]
     assert all(header["burned"] <= burn_in * header["sweeps"] for header, _ in fields)
@@ -82,9 +79,8 @@ def test_the_burn_in_is_left_out_of_mean_diagnostics_and_saved_runs(burn_in, mod
 
 
 @pytest.mark.parametrize("method", ["gibbs", "block"])
-def test_a_run_is_that_of_the_library(method):
+def test_a_run_is_that_of_the_library(heard, method):
     document = replace(tutorial_document(), sweeps=40, method=method, prior=0.25)
-    heard = Heard()
     header, buffers = heard.infer(document, "run")
     run = infer(
         simulate_document(document)[0], document.grid, prior=bm.Independent(0.25), sensor=bm.Gaussian(0.2),
@@ -104,13 +100,12 @@ def test_a_run_is_that_of_the_library(method):
 
 @pytest.mark.parametrize("burn_in", [0.0, 0.3])
 @pytest.mark.parametrize(("most", "steps"), [(7, None), (60, None), (60, 0), (60, 4)])
-def test_run_goes_on_from_the_draws_of_live_and_of_a_run(most, steps, burn_in, monkeypatch):
+def test_run_goes_on_from_the_draws_of_live_and_of_a_run(heard, most, steps, burn_in, monkeypatch):
     document = replace(tutorial_document(), sweeps=20, burn_in=burn_in)
     whole = Heard()
     whole.infer(replace(document, sweeps=60), "live")
     reference = whole.engine._result.estimate
     monkeypatch.setattr("bayesmap.app.shown.chains.MAX_DRAW_BYTES", most * reference._draw_bytes)
-    heard = Heard()
     heard.infer(document, "live", steps=steps)
     for _ in range(2):
         header, _ = heard.infer(document, "run")
@@ -135,8 +130,7 @@ def test_run_starts_anew_for_another_document_or_after_clearing():
     assert heard.infer(document, "run")[0]["total"] == 20
 
 
-def test_cancelled_and_few_sweeps_are_kept_and_judged_once_they_are_over():
-    heard = Heard()
+def test_cancelled_and_few_sweeps_are_kept_and_judged_once_they_are_over(heard):
     heard.infer(replace(tutorial_document(), sweeps=10), "run")
     *before, last = [field for field in heard.all("field") if not field["approximate"]]
     assert all(field["verdict"] is None for field in before)
@@ -155,8 +149,7 @@ def test_cancelled_and_few_sweeps_are_kept_and_judged_once_they_are_over():
 
 
 @pytest.mark.parametrize(("mode", "method"), [("run", "gibbs"), ("live", "gibbs"), ("run", "importance")])
-def test_cancel_before_there_is_anything_shows_the_preview(mode, method):
-    heard = Heard()
+def test_cancel_before_there_is_anything_shows_the_preview(heard, mode, method):
     heard.infer(replace(tutorial_document(), method=method), mode, steps=0)
     heard.ask(Cancel())
     heard.finish()
@@ -173,8 +166,7 @@ def test_importance_sampling_is_that_of_the_library():
     assert field[0]["sweeps"] == field[0]["total"] == 500
 
 
-def test_a_fault_is_told_and_the_engine_goes_on(monkeypatch, capsys):
-    heard = Heard()
+def test_a_fault_is_told_and_the_engine_goes_on(heard, monkeypatch, capsys):
     with monkeypatch.context() as broken:
         broken.setattr("bayesmap.app.engine.simulated_scene", lambda document: 1 / 0)
         heard.infer(tutorial_document(), steps=1)
@@ -190,8 +182,7 @@ def test_the_worker_loads_neither_jax_nor_matplotlib():
     assert done.stdout.strip() == "set()"
 
 
-def test_the_scan_says_where_beams_truly_end_and_a_cell_counts_its_beams():
-    heard = Heard()
+def test_the_scan_says_where_beams_truly_end_and_a_cell_counts_its_beams(heard):
     heard.infer(replace(tutorial_document(), noise=0.01), "preview")
     header, buffers = heard.last("scan")
     assert header["ids"] == [1]
@@ -211,10 +202,9 @@ def test_many_sweeps_of_a_large_map_are_thinned_to_fit():
 
 
 @pytest.mark.parametrize("cells", ["reflectivity", "surface"])
-def test_other_kinds_of_cells_run_on_the_page_as_in_the_library_and_are_saved(cells, tmp_path):
+def test_other_kinds_of_cells_run_on_the_page_as_in_the_library_and_are_saved(heard, cells, tmp_path):
     """A pilot fits the sensor, and the draws are those of the library's chains under it."""
     document = replace(tutorial_document(), cells=cells, sweeps=8, noise=0.1, angles=40, burn_in=0.0)
-    heard = Heard()
     header, field = heard.infer(document, "run")
     assert header["sweeps"] == header["total"] == 8
     assert header["draws"] == {"chains": 2, "count": 8}

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from acted import Heard, shown
+from acted import shown
 from building_log import ANGLES, GRID, SENSOR, room_run, room_scans
 
 import bayesmap as bm
@@ -70,8 +70,7 @@ def test_near_means_half_a_metre_and_a_shared_field_of_view():
 
 
 @pytest.mark.parametrize(("mode", "draws"), [("live", 32), ("run", 32), ("preview", 0), ("clear", None)])
-def test_it_works_on_live_posteriors_and_says_how_many_draws_there_are(mode, draws):
-    heard = Heard()
+def test_it_works_on_live_posteriors_and_says_how_many_draws_there_are(heard, mode, draws):
     heard.infer(replace(tutorial_document(), sweeps=40), mode)
     header, buffers = heard.answer(MoveGhost(6.0, 15.0, 0.0))
     if draws is None:
@@ -83,9 +82,8 @@ def test_it_works_on_live_posteriors_and_says_how_many_draws_there_are(mode, dra
     assert (buffers["low"] <= buffers["median"]).all()
 
 
-def test_chains_rest_while_it_is_moved(monkeypatch):
+def test_chains_rest_while_it_is_moved(heard, monkeypatch):
     monkeypatch.setattr("bayesmap.app.engine.VIRTUAL_SCAN_SECONDS", 60.0)  # this process may be kept waiting
-    heard = Heard()
     heard.infer_until(replace(tutorial_document(), sweeps=100_000), heard.chains_run)
     heard.answer(MoveGhost(6.0, 15.0, 0.0))
     before = heard.engine._result.estimate.sweep
@@ -93,9 +91,8 @@ def test_chains_rest_while_it_is_moved(monkeypatch):
     assert heard.engine._result.estimate.sweep == before
 
 
-def test_its_draws_are_those_of_the_last_sweep_once_chains_are_done(monkeypatch):
+def test_its_draws_are_those_of_the_last_sweep_once_chains_are_done(heard, monkeypatch):
     monkeypatch.setattr("bayesmap.app.answers.predictions.STALE_SECONDS", 60.0)
-    heard = Heard()
     heard.infer_until(replace(tutorial_document(), sweeps=2000), heard.chains_run)
 
     def asked(x):

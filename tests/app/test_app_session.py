@@ -20,8 +20,7 @@ def walls_of(acted):
     return acted.session.document.is_wall
 
 
-def test_hello_is_answered_by_the_state_and_what_was_seen_last_and_a_document_is_adopted():
-    acted = Acted()
+def test_hello_is_answered_by_the_state_and_what_was_seen_last_and_a_document_is_adopted(acted):
     acted.hear(Scan([1], generation=0))
     acted.picture()
     assert [m["type"] for m in acted.act("hello", client=2)] == ["state", "scan", "field"]
@@ -76,8 +75,7 @@ def test_a_stroke_or_a_drag_is_one_step_of_undo():
 
 
 @pytest.mark.parametrize(("x", "y", "named"), [(2.0, 2.0, "wall"), (-3.0, 5.0, "outside"), (1e5, 1e5, "outside")])
-def test_a_sensor_cannot_go_into_a_wall_or_outside(x, y, named):
-    acted = Acted()
+def test_a_sensor_cannot_go_into_a_wall_or_outside(acted, x, y, named):
     before, generation = acted.session.document, acted.session.generation
     answers = acted.act("move_sensor", id=1, x=x, y=y, drag=1)
     assert [m["type"] for m in answers] == []  # the first picture is in flight: it waits
@@ -108,16 +106,14 @@ def test_walls_spare_sensors_which_are_added_up_to_the_limit_and_removed_down_to
     {"type": "walls", "cells": [[21, 0]], "wall": True, "stroke": 0}, {"type": "remove_sensor", "id": 9},
     {"type": "undo"}, {"type": "redo"}, {"type": "scan", "index": 0},
 ], ids=lambda m: m["type"])  # fmt: skip
-def test_actions_that_cannot_be_done_change_nothing(message):
-    acted = Acted()
+def test_actions_that_cannot_be_done_change_nothing(acted, message):
     acted.picture()
     before = acted.session.generation
     assert [m["type"] for m in acted.act(message.pop("type"), **message)] == ["status", "state"]
     assert acted.session.generation == before
 
 
-def test_edits_of_a_gesture_wait_for_the_picture_and_are_merged_but_not_with_those_of_another():
-    acted = Acted()
+def test_edits_of_a_gesture_wait_for_the_picture_and_are_merged_but_not_with_those_of_another(acted):
     for i in range(1, 7):
         acted.act("move_sensor", id=1, x=10 + 0.1 * i, y=10, drag=1 + i // 6)
     assert len(acted.inferred) == 2  # what waits is applied when another drag begins
@@ -138,8 +134,7 @@ def dragged(acted, moves, paints=False):
 @pytest.mark.parametrize(
     ("paints", "pictures"), [("slowly", 2), ("in time", 8), ("and never says so", 8), ("elsewhere", 8)]
 )
-def test_a_drag_is_shown_as_far_as_its_page_paints(paints, pictures):
-    acted = Acted()
+def test_a_drag_is_shown_as_far_as_its_page_paints(acted, paints, pictures):
     acted.picture()
     if paints == "elsewhere":  # one slow page does not hold up another
         acted.session.join(2)
@@ -152,8 +147,7 @@ def test_a_drag_is_shown_as_far_as_its_page_paints(paints, pictures):
     assert (acted.inferred[-1].document.sensors[0].x, acted.state["seq"]) == (10.08, acted.seq)
 
 
-def test_edits_that_waited_for_a_page_are_applied_when_it_leaves():
-    acted = Acted()
+def test_edits_that_waited_for_a_page_are_applied_when_it_leaves(acted):
     acted.picture()
     acted.painted()
     dragged(acted, 4)
@@ -161,8 +155,7 @@ def test_edits_that_waited_for_a_page_are_applied_when_it_leaves():
     assert acted.session.document.sensors[0].x == 10.04
 
 
-def test_strokes_that_wait_lose_no_cell_and_anything_else_applies_what_waits_first():
-    acted = Acted()
+def test_strokes_that_wait_lose_no_cell_and_anything_else_applies_what_waits_first(acted):
     for y in range(20):
         acted.act("walls", cells=[[0, y]], wall=True, stroke=1)
     acted.act("set", patch={"prior": 0.2})
@@ -170,8 +163,7 @@ def test_strokes_that_wait_lose_no_cell_and_anything_else_applies_what_waits_fir
     assert acted.inferred[-1].document.prior == 0.2
 
 
-def test_run_keeps_draws_until_the_next_edit_and_the_state_says_whether_the_picture_will_change():
-    acted = Acted()
+def test_run_keeps_draws_until_the_next_edit_and_the_state_says_whether_the_picture_will_change(acted):
     for kind, fields in (("run", {}), ("set", {"patch": {"prior": 0.1}})):  # live chains are no run
         acted.act(kind, **fields)
         assert acted.inferred[-1].mode == ("run" if kind == "run" else "live")
@@ -191,8 +183,7 @@ def test_run_keeps_draws_until_the_next_edit_and_the_state_says_whether_the_pict
 
 
 @pytest.mark.parametrize("ended", [Finished(DrawCount(), generation=0), Failed("too many beams", generation=0)])
-def test_a_job_that_is_cancelled_or_fails_lets_waiting_edits_go_on(ended):
-    acted = Acted()
+def test_a_job_that_is_cancelled_or_fails_lets_waiting_edits_go_on(acted, ended):
     acted.act("move_sensor", id=1, x=10.3, y=10, drag=1)
     acted.act("cancel")  # which applies what waits, and so begins a picture
     acted.act("move_sensor", id=1, x=10.4, y=10, drag=1)
@@ -201,8 +192,7 @@ def test_a_job_that_is_cancelled_or_fails_lets_waiting_edits_go_on(ended):
     assert ("too many beams" in [m.get("text") for m in acted.sent]) == isinstance(ended, Failed)
 
 
-def test_questions_go_to_the_worker_and_change_nothing():
-    acted = Acted()
+def test_questions_go_to_the_worker_and_change_nothing(acted):
     before = acted.session.generation
     acted.act("inspect", x=3, y=4, each=True)
     acted.act("path", start=[0, 0], goal=[1.5, 2], radius=0.2, risk=0.1)
@@ -217,8 +207,7 @@ def test_questions_go_to_the_worker_and_change_nothing():
     assert acted.state["view"] == {"layer": "draw", "chain": 1, "draw": 5}
 
 
-def test_each_page_has_its_own_view():
-    acted = Acted()
+def test_each_page_has_its_own_view(acted):
     acted.picture()
     for client in (1, 2):
         acted.session.join(client)
@@ -233,8 +222,7 @@ def test_each_page_has_its_own_view():
     assert acted.session.leave(2)[0] == Show(2, View("mean"))  # nobody is shown that draw any more
 
 
-def test_a_page_undoes_its_own_steps_and_those_of_pages_that_have_gone():
-    acted = Acted()
+def test_a_page_undoes_its_own_steps_and_those_of_pages_that_have_gone(acted):
     acted.picture()
     acted.session.join(2)
     acted.act("set", patch={"prior": 0.3})
@@ -248,8 +236,7 @@ def test_a_page_undoes_its_own_steps_and_those_of_pages_that_have_gone():
     assert acted.session.document.prior == 0.3
 
 
-def test_the_document_is_exported_without_the_worker_and_live_off_leaves_the_preview():
-    acted = Acted()
+def test_the_document_is_exported_without_the_worker_and_live_off_leaves_the_preview(acted):
     assert (acted.act("export", what="document")[0]["type"], acted.asked) == ("download", [])
     acted.act("live", on=False)
     acted.act("set", patch={"prior": 0.1})
@@ -258,8 +245,7 @@ def test_the_document_is_exported_without_the_worker_and_live_off_leaves_the_pre
     assert acted.inferred[-1].mode == "live"
 
 
-def test_a_worker_that_died_is_given_everything_again():
-    acted = Acted()
+def test_a_worker_that_died_is_given_everything_again(acted):
     acted.act("view", layer="entropy")
     acted.act("set", patch={"prior": 0.1})
     assert [m["type"] for m in acted.do(acted.session.worker_lost())] == ["worker", "status"]
