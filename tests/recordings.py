@@ -106,9 +106,10 @@ def sonar(seconds, reading, frame="sonar"):
 
 def written(path: Path, messages, writer="mcap", definitions=None):
     """Write (topic, type, seconds received, message), for ROS 1 with ``definitions`` {type: (text, MD5)}; the path."""
+    path.mkdir(parents=True, exist_ok=True)
     if writer.startswith("rosbag1"):
-        return _rosbag1(Path(path), messages, writer, definitions or {})
-    return {"mcap-ros1": _mcap_ros1}.get(writer, _ros2)(Path(path), messages, writer)
+        return _rosbag1(path, messages, writer, definitions or {})
+    return {"mcap-ros1": _mcap_ros1}.get(writer, _ros2)(path, messages, writer)
 
 
 def packed(content):
@@ -120,7 +121,6 @@ def packed(content):
 
 def _rosbag1(path, messages, writer, definitions):
     file = path / "recording.bag"
-    file.parent.mkdir(parents=True, exist_ok=True)
     bag = Writer1(file)
     if writer in COMPRESSED:
         bag.set_compression(COMPRESSED[writer])
@@ -138,7 +138,6 @@ def _ros2(path, messages, writer):
     if writer in ("mcap-zstd", "mcap-lz4", "mcap-plain"):
         return _mcap_ros2(path, messages, writer.removeprefix("mcap-"))
     folder = path / "recording"
-    folder.parent.mkdir(parents=True, exist_ok=True)
     storage = StoragePlugin.SQLITE3 if writer.startswith(("sqlite3", "db3")) else StoragePlugin.MCAP
     bag = Writer2(folder, version=9, storage_plugin=storage)
     if writer in COMPRESSED:
@@ -158,7 +157,6 @@ def _mcap_ros2(path, messages, compression):
     from mcap.writer import CompressionType
     from mcap_ros2.writer import Writer
 
-    path.mkdir(parents=True, exist_ok=True)
     file = path / "recording.mcap"
     chosen = {"zstd": CompressionType.ZSTD, "lz4": CompressionType.LZ4, "plain": CompressionType.NONE}[compression]
     with file.open("wb") as out:
@@ -174,7 +172,6 @@ def _mcap_ros2(path, messages, compression):
 def _mcap_ros1(path, messages, _):
     from mcap.writer import Writer
 
-    path.mkdir(parents=True, exist_ok=True)
     file = path / "recording.mcap"
     with file.open("wb") as out:
         bag, channels = Writer(out), {}
@@ -268,6 +265,14 @@ def robot(
     for t, row in zip(SCAN_TIMES, scans.ranges_m, strict=True):
         messages.append((f"{space}/scan", SCAN, t + 0.02, laser(t, row, ANGLES, frame[3])))
     return sorted(messages, key=lambda m: m[2]), scans
+
+
+def replaced(change, topic="/scan", **options):
+    """Return the messages of a robot, of which a topic's fifth is changed, and the scans before that."""
+    messages, scans = robot(**options)
+    at = [i for i, m in enumerate(messages) if m[0] == topic][4]
+    messages[at] = (*messages[at][:3], {**messages[at][3], **change})
+    return messages, scans
 
 
 def merged(*parts):

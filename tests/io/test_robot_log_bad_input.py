@@ -164,19 +164,12 @@ def test_recordings_with_a_choice_or_without_use_are_refused_with_their_topics(t
 def test_the_chosen_laser_is_read_and_a_scan_of_nan_leaves_the_others(tmp_path):
     assert len(read_log(r.written(tmp_path, two_lasers()), scan_topic="/rear")) == 4
     nothing = [math.nan] * 41
-    messages, scans = replaced({"ranges": nothing})
+    messages, scans = r.replaced({"ranges": nothing})
     read = read_log(r.written(tmp_path / "one", messages))
     assert np.isnan(read.ranges_m[4]).all()
     np.testing.assert_array_equal(np.delete(read.ranges_m, 4, 0), np.delete(scans.ranges_m, 4, 0))
     every = [(*m[:3], {**m[3], "ranges": nothing}) if m[0] == "/scan" else m for m in messages]
     assert "none of 410 readings in 10 scans is valid" in r.refused(r.written(tmp_path / "all", every))
-
-
-def replaced(change, topic="/scan", **options):
-    messages, scans = r.robot(**options)
-    at = [i for i, m in enumerate(messages) if m[0] == topic][4]
-    messages[at] = (*messages[at][:3], {**messages[at][3], **change})
-    return messages, scans
 
 
 def pose(position, orientation):
@@ -195,7 +188,7 @@ def pose(position, orientation):
     ("/odom", pose(r.point(0, 0), dict.fromkeys("xyzw", 0.0)), "which is no unit quaternion"),
 ])  # fmt: skip
 def test_a_scan_or_pose_that_cannot_be_used_is_named_and_left_out_on_request(tmp_path, topic, change, reason):
-    messages, scans = replaced(change, topic, tf_poses=False, odom=True)
+    messages, scans = r.replaced(change, topic, tf_poses=False, odom=True)
     path = r.written(tmp_path, messages)
     r.refused(path, f"message 5 on {topic}", reason, "--skip-bad-lines")
     reading = describe_log(path, skip_bad_lines=True)
