@@ -66,15 +66,15 @@ def test_a_single_scan_with_a_prior(office, office_run):
 def test_poses_are_those_of_the_frame_that_is_asked_for(office, office_run, tmp_path):
     """The laser sits 2 m before the base, turned by 90 degrees; the prior is of the frame that is asked for."""
     mount, scans = np.array([2.0, 0.0, np.pi / 2]), read_log(office, laser=(2.0, 0.0, np.pi / 2))
-    laser, found = scans.poses[3], {}
+    laser, found = scans.poses[0], {}
     for frame, pose in (("base", compose(laser, inverse(mount))), ("laser", laser)):
         prior = f"{pose[0]},{pose[1]},{np.degrees(pose[2])},0.2,5"
-        how = ["--scans 3:4 --laser 2,0,90 --frame", frame, f"--prior={prior}", "-o", tmp_path / f"{frame}.tum"]
+        how = ["--laser 2,0,90 --frame", frame, f"--prior={prior}", "-o", tmp_path / f"{frame}.tum"]
         document = json_of("localize", office_run / "run.nc", office, *how, "--json")
         assert document["frame"] == frame
         found[frame] = np.array(document["last"]["mean"])
         assert read_trajectory(tmp_path / f"{frame}.tum").frame == frame
-    np.testing.assert_allclose(compose(found["base"], mount)[:2], found["laser"][:2], atol=0.05)
+    np.testing.assert_allclose(compose(found["base"], mount)[:2], found["laser"][:2], atol=0.2)
 
 
 def test_lost_scans_are_named_with_their_times_and_are_no_poses(office, office_run, monkeypatch, tmp_path):

@@ -247,7 +247,7 @@ def test_a_default_run_stops_early_a_number_of_draws_is_kept_to_and_a_limit_that
     run = infer(scans(), GRID, precision=0.001, **ASKED | {"draws": 40})
     assert run.n_draws == 40
     [problem] = run.summary().problems()
-    assert "not to 0.001: draw more maps" in problem
+    assert "good up to 0.0015: infer more draws" in problem
     cells = {"prior": bm.Independent(0.3), "sensor": bm.Gaussian(0.2), "seed": 3}
     assert bm.infer(scans(), GRID, **cells).n_draws < 1000
     assert bm.infer(scans(), GRID, schedule=bm.Schedule(draws=70), **cells).n_draws == 70
