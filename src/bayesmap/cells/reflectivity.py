@@ -118,6 +118,11 @@ class Beta(CellPrior):
         """Return the pseudo-counts of stopped and of passing beams in cells with these labels."""
         return np.where(solid, self.a_solid, self.a), np.where(solid, self.b_solid, self.b)
 
+    @property
+    def first_spread(self) -> float:
+        """Size of surfaces for the initial estimate, in edges of a cell."""
+        return 0.3
+
     def log_prob(self, cells: Cells, grid: Grid) -> float:
         """Compute the log density of labels and of the log odds of all reflectivities, up to a constant."""
         m = np.clip(np.asarray(cells["reflectivity"], dtype=np.float64), MIN_REFLECTIVITY, MAX_REFLECTIVITY)
@@ -151,6 +156,10 @@ class Beta(CellPrior):
         m = np.asarray(cells["reflectivity"], dtype=np.float64)
         mean = self.mean_given(np.asarray(cells["solid"]) != 0) if self.has_labels else np.asarray(self.mean)
         return {**cells, "reflectivity": np.where(np.isnan(m), mean, m)}
+
+    def sample_surfaces(self, rng: Rng, count: int) -> Floats:
+        """Return zeros as placeholders, (count, 5): these cells have no surfaces."""
+        return np.zeros((count, 5))
 
     def stops(self, cells: Cells, grid: Grid) -> NDArray[np.floating]:
         """Return the reflectivities, (N,)."""

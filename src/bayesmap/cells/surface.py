@@ -84,6 +84,11 @@ class Surface(Beta):
                 f"{self.size_scale!r}"
             )
 
+    @property
+    def first_spread(self) -> float:
+        """Size of surfaces for the initial estimate, in edges of a cell."""
+        return self.spread
+
     def log_prob(self, cells: Cells, grid: Grid) -> float:
         """Compute the log density of (logit m, mean, log l11, l21, log l22) of all cells, metres, up to a constant."""
         edge = grid.resolution

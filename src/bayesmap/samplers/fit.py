@@ -28,13 +28,14 @@ from bayesmap.cells.reflectivity import Beta
 from bayesmap.model import Model
 from bayesmap.samplers.sampler import PILOT, SILENT, Info, Keep, Watch
 from bayesmap.samplers.stop_gibbs import StopGibbs, StopState
-from bayesmap.samplers.stop_problem import SPREAD_WITHOUT_SURFACE, StopProblem, trace_stops
+from bayesmap.samplers.stop_problem import StopProblem, trace_stops
 from bayesmap.samplers.walls import WallSampler
 from bayesmap.sensors.model import AdditiveNoise, BeamMixture, RangeLimits, describe, from_description, noise_with
 from bayesmap.space.arrays import Floats, Ints, Mask
 
 PILOT_SWEEPS = 40  # most sweeps of the pilot of reflectivities and surfaces; a short warm-up has a shorter pilot
 SENSOR_SWEEPS = 30  # sweeps of the pilot that fits a sensor alone
+SPREAD_WITHOUT_SURFACE = 0.3  # standard deviation of stops in cells without surfaces, in edges, with which a fit starts
 MAX_FIT_BEAMS = 40_000  # most beams used in each sweep, approximately
 FIRST_FIT_SWEEP = 3  # the first sweep, counted from 0, that moves parameters
 FULL_STEPS_UNTIL = 20  # the sweep until which parameters move all the way to their estimates

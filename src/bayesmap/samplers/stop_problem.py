@@ -19,7 +19,6 @@ from scipy import ndimage, special
 from bayesmap.beams.rays import Rays, around_readings
 from bayesmap.cells.ising_field import rough_draw
 from bayesmap.cells.reflectivity import Beta
-from bayesmap.cells.surface import Surface
 from bayesmap.errors import BadInput
 from bayesmap.samplers.sampler import SILENT, RaysProblem, Watch, keep_cached
 from bayesmap.sensors.model import BeamMixture, Gaussian, RangeLimits, SensorModel, StudentT
@@ -27,7 +26,6 @@ from bayesmap.space.arrays import Floats, Ints, Mask, Rng, Singles
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
-SPREAD_WITHOUT_SURFACE = 0.3  # standard deviation of stops in cells without surfaces, in edges, before a fit
 CENTRE_WEIGHT_HITS = 0.3  # weight of the prior's centre, in hits
 FREE_PERIOD = 8  # update period, in sweeps, of cells in which no reading ends
 FAR_PERIOD = 16  # update period, in sweeps, of cells in which no reading ends, nor in the cells around them
@@ -101,12 +99,10 @@ def initial_estimate(rays: Rays, prior: Beta, device: str = "cpu") -> InitialEst
     from_mean = points - mean[index]
     centre_from_mean = centre - mean
 
-    spread_m = edge * (prior.spread if isinstance(prior, Surface) else SPREAD_WITHOUT_SURFACE)
-
     def covariance(i: int, j: int) -> Floats:
         scatter = sum_by_cell(from_mean[:, i] * from_mean[:, j])
         scatter += CENTRE_WEIGHT_HITS * centre_from_mean[:, i] * centre_from_mean[:, j]
-        return np.asarray((scatter + (i == j) * 0.5 * spread_m**2) / (hits_of_cell + 1.0))
+        return np.asarray((scatter + (i == j) * 0.5 * (prior.first_spread * edge) ** 2) / (hits_of_cell + 1.0))
 
     var_x, cov_xy, var_y = widen_along_wall(covariance(0, 0), covariance(0, 1), covariance(1, 1))
     # Cholesky factors; no surface is thinner than a thousandth of the edge.
@@ -178,7 +174,7 @@ def draw_start(estimate: InitialEstimate, prior: Beta, rays: Rays, rng: Rng, sol
     stopped, passed = estimate_counts(estimate, n_cells)
     a, b = (prior.a, prior.b) if solid is None else prior.beta_given(solid)
     state[:, 0] = rng.beta(stopped + a, passed + b)
-    if not isinstance(prior, Surface):
+    if not prior.has_surfaces:
         return state
     # Surfaces of all cells, from the prior.
     pool = prior.sample_surfaces(rng, min(n_cells, MAX_PRIOR_SURFACES)) * grid.resolution
