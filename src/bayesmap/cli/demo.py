@@ -77,13 +77,11 @@ def _infer_by_all_methods(console: Console, settings: DemoSettings) -> dict[str,
     from bayesmap.sim.drawing import TUTORIAL_GRID, tutorial
     from bayesmap.sim.forward import simulate
 
-    # Simulate the scan.
     walls, pose = tutorial()
     sensor = Gaussian(SIGMA_M)
     angles_rad = np.arange(N_BEAMS) * 2 * np.pi / N_BEAMS
     console.detail(f"simulating {N_BEAMS} beams with noise of {SIGMA_M} m")
     scans = simulate(walls, TUTORIAL_GRID, pose, angles_rad, sensor=sensor, max_range_m=MAX_RANGE_M, seed=settings.seed)
-    # Choose method and schedule of each run.
     long_schedule = Schedule(settings.chains, settings.warmup, settings.draws)
     arguments: dict[str, tuple[Method, Schedule]] = {
         "gibbs": (Gibbs(), long_schedule),

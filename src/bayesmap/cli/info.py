@@ -1,7 +1,4 @@
-"""``bayesmap info`` and ``bayesmap config``: print the contents of a file, and the effective settings.
-
-`info` first makes the JSON document of a saved run or a log. `_lines` turns it into text.
-"""
+"""``bayesmap info`` and ``bayesmap config``: print the contents of a file, and the effective settings."""
 
 import math
 from dataclasses import fields
@@ -18,8 +15,6 @@ from bayesmap.cli.keys import SECTIONS, Settings
 from bayesmap.cli.pipeline import cost_of_suggestion
 from bayesmap.cli.translation import LOG, need_file
 from bayesmap.errors import BadInput
-
-CUT_SHORT = "cut short"  # words of the notes on damaged recordings
 
 
 @command(None)
@@ -43,7 +38,7 @@ def info(call: Call[Settings], file: str) -> None:
         write_lines(_lines(document))
     n_skipped = sum(sensor.get("skipped") or 0 for sensor in document["sensors"])
     missing = [f"malformed messages or lines ({n_skipped:,})"] if n_skipped else []
-    missing += ["what stood behind the damage"] if any(CUT_SHORT in note for note in document["notes"]) else []
+    missing += ["what stood behind the damage"] if any("cut short" in note for note in document["notes"]) else []
     if missing:
         n_scans = sum(sensor["scans"] for sensor in document["sensors"] if not sensor.get("error"))
         part, remedy = counted(n_scans, "scan"), "infer and slam take the same scans with --skip-bad-lines"

@@ -1,7 +1,4 @@
-"""Describe the contents of a recording or a log, without any option from the user.
-
-`contents_of` reads the scans of every sensor as far as possible, and suggests the command that infers a map.
-"""
+"""Describe the contents of a recording or a log, without any option from the user, and suggest a command."""
 
 import math
 import os

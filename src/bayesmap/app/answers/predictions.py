@@ -143,7 +143,6 @@ def compare_beam(result: Result, question: CompareBeam, generation: int) -> Comp
     from bayesmap.kernels.predict.stop_mixture import mix_stops, range_quantiles
     from bayesmap.kernels.rays import trace_rays
 
-    # The beam as a scan of its own.
     predictor, n_draws = predictor_of_result(result)
     beam = np.ravel_multi_index((question.scan, question.beam), result.scene.scans.ranges_m.shape)
     beam_scan = one_beam_each(result.scene.scans.at(result.scan_poses), np.array([beam]))
