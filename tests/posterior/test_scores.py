@@ -109,7 +109,7 @@ def test_the_summary_is_json_names_problems_and_judges_the_map_not_single_cells_
         effective_sample_size=5.0,
     )  # fmt: skip
     problems = " / ".join(bad.problems())
-    for words in ("stopped before", "known to 0.050", "good up to 0.045: infer more draws", "3 cells are stuck", "of 5.0"):
+    for words in ("stopped before", "known to 0.050", "good up to 0.045: infer", "3 cells are stuck", "of 5.0"):
         assert words in problems
     good = dataclasses.replace(
         run.summary(), rhat_log_joint=1.2, rhat_log_likelihood=1.2, rhat_max=1.3, ess_min=12.0, rhat_high_cells=30,
