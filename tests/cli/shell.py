@@ -23,7 +23,7 @@ from bayesmap.result import Run, load
 from bayesmap.space.scans import Scans
 
 SOURCE = Path(__file__).resolve().parents[2] / "src"
-SLAM = "--chains 2 --warmup 3 --draws 4 --resolution 0.25 --max-range 7 --threads 2"  # takes seconds
+SLAM = "--chains 2 --warmup 4 --draws 4 --resolution 0.25 --max-range 7 --threads 2"  # takes seconds
 COMMAND = [sys.executable, "-m", "bayesmap.cli.main"]
 
 
