@@ -332,7 +332,7 @@ def _write(target: Path, posteriors: _Posteriors) -> list[Path]:
         raise BadInput(f"{target}: not written, since all scans are lost; .jsonl has the posteriors of lost scans, too")
     if target.suffix == ".tum":
         return list(export_trajectory(target, localization.trajectory(), lost=lost))
-    found = tuple(belief for belief in localization.beliefs if belief.p_lost <= MAX_P_LOST)
+    found = tuple(belief for belief, is_lost in zip(localization.beliefs, lost, strict=True) if not is_lost)
     return list(export_trajectory(target, replace(localization, beliefs=found).trajectory()))
 
 
