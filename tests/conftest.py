@@ -5,6 +5,7 @@ import ctypes
 import gc
 import os
 import signal
+import subprocess
 import sys
 from collections import Counter
 
@@ -85,6 +86,17 @@ def pytest_collection():
 def pytest_xdist_auto_num_workers(config):
     """One more than there are cores: a fifth of the time tests wait for browsers and for other processes."""
     return available_cores() + 1
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_setupnodes(config):
+    """Compile all kernels before the workers start: with an empty cache each of them would compile most of them."""
+    import test_cuda
+
+    here = os.path.dirname(test_cuda.__file__)
+    compile_them = [sys.executable, "-c", "import sys, test_cuda; test_cuda.compile_for_cpu(sys.argv[1:])"]
+    for half in [subprocess.Popen(compile_them + test_cuda.MODULES[i::2], cwd=here) for i in range(2)]:
+        half.wait()
 
 
 @pytest.hookimpl(tryfirst=True)

@@ -317,8 +317,7 @@ def test_the_house_stays_small(capsys):
     }
     with capsys.disabled():
         for name, lines in lengths.items():
-            line = f"{name}: {len(lines)} files, {sum(lines)} lines, median {median(lines):.0f}, most {max(lines)}"
-            print(f"\n{line}", end="")
+            print(f"\n{name}: {len(lines)} files, {sum(lines)} lines, median {median(lines):.0f}, most {max(lines)}")
     assert len(lengths["src"]) <= MOST_FILES
     assert median(lengths["src"]) >= LEAST_MEDIAN
     assert {name: sum(lines) for name, lines in lengths.items() if sum(lines) > MOST_LINES_OF[name]} == {}

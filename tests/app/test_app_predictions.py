@@ -105,11 +105,6 @@ def test_its_draws_are_those_of_the_last_sweep_once_chains_are_done(heard, monke
     assert asked(6.1) is not held
 
 
-def straight_ahead_on_the_lower_wall(run):
-    """The beam of the first scan that meets the wall at the bottom, of edge y = 0.2 m, nearly at a right angle."""
-    return int(np.argmin(np.abs(run.posterior.scans.poses[0, 2] + ANGLES + np.pi / 2)))
-
-
 def compared(run, scan, beam):
     header, _ = shown(run).answer(CompareBeam(scan, beam))
     assert header["type"] == "beam"
@@ -118,7 +113,8 @@ def compared(run, scan, beam):
 
 def test_a_reading_is_compared_along_its_beam_and_across_and_along_its_wall():
     run = room_run(bm.Surface(), draws=10, thin=10)  # so far apart that a mean surface has its wall's direction
-    scans, beam = run.posterior.scans, straight_ahead_on_the_lower_wall(run)
+    scans = run.posterior.scans  # the beam that meets the wall at the bottom, of edge y = 0.2 m, at a right angle:
+    beam = int(np.argmin(np.abs(scans.poses[0, 2] + ANGLES + np.pi / 2)))
     answer = compared(run, 0, beam)
     law = ScanPredictor.of(predictor_of(run.posterior), limits_of(run))
     assert answer["range"] == pytest.approx(scans.ranges_m[0, beam])

@@ -71,11 +71,9 @@ def start(*arguments: object, first: str | None = None, **options: Any) -> subpr
     return subprocess.Popen(command, stdout=pipe, stderr=pipe, text=True, env=environment, **options)
 
 
-def press_ctrl_c(_: Run) -> None:
-    os.kill(os.getpid(), signal.SIGINT)
-
-
-def interrupt_at_checkpoint(monkeypatch: pytest.MonkeyPatch, press: Callable[[Run], None] = press_ctrl_c) -> None:
+def interrupt_at_checkpoint(
+    monkeypatch: pytest.MonkeyPatch, press: Callable[[Run], None] = lambda _: os.kill(os.getpid(), signal.SIGINT)
+) -> None:
     """Press Ctrl-C as soon as the first checkpoint is there, or do something else then."""
     save = Folder.checkpoint
 

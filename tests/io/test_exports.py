@@ -4,6 +4,7 @@ import builtins
 import os
 import zlib
 from typing import get_args
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
@@ -69,12 +70,8 @@ def test_an_image_that_would_be_replaced_counts_as_existing(tmp_path):
     assert path_to_replace(tmp_path / "folder") is None
 
 
-def refuse_interval(level):
-    raise BadInput("walls have none")
-
-
 def test_walls_have_no_interval_and_reflectivities_do(tmp_path):
-    for run in (binary_run(), binary_run(interval=refuse_interval)):
+    for run in (binary_run(), binary_run(interval=Mock(side_effect=BadInput("walls have none")))):
         assert list(layers_of(run)) == ["mean", "entropy"]
     (path,) = export_run(tmp_path / "m.mcap", reflectivity_run(), scans(), format="gridmap")
     (found,) = READERS[".mcap"](path)

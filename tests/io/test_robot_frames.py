@@ -212,15 +212,10 @@ def test_one_noisy_publisher_is_not_taken_for_two_and_two_are(noise):
     assert found == 20
 
 
-def received_later(messages, seconds):
-    """Delay messages: they are received later than their stamps say, by the recorder's own clock."""
-    return [(topic, kind, t + seconds, message) for topic, kind, t, message in messages]
-
-
 def run_of(number, seconds, **options):
     """A run of the simulated robot on a path of its own, received from a time on, and its scans."""
     messages, scans = r.robot(path=way(number), **options)
-    return received_later(messages, seconds), scans
+    return [(topic, kind, t + seconds, message) for topic, kind, t, message in messages], scans
 
 
 @pytest.mark.parametrize("writer", ["mcap", "db3", "rosbag1"])

@@ -180,13 +180,6 @@ TRUTH = path_around()
 SCALE, ALIKE = 0.1, 0.7
 
 
-@cache
-def ring_geometry(full):
-    """Return the points and normals of twelve scans along the path, of half a circle or a full one."""
-    angles, ranges = scans_of(ring(), TRUTH[:12], noise_m=0.02 if full else 0.005, full=full)
-    return scan_geometry(bm.Scans(TRUTH[:12], angles, ranges, max_range_m=12.0))
-
-
 def plain(geometry, i, j, z, reach):
     """The sums by NumPy: nearest point of all of j, mean normal, Geman and McClure's weight."""
     points, normals, kind = geometry.host_points, geometry.normals.numpy(), geometry.host_kind
@@ -228,7 +221,8 @@ def plain(geometry, i, j, z, reach):
 
 @pytest.mark.parametrize(("full", "reach"), [(False, 0.3), (True, 0.08), (True, 0.6)])
 def test_sums_equal_the_plain_formula(full, reach):
-    geometry = ring_geometry(full)
+    angles, ranges = scans_of(ring(), TRUTH[:12], noise_m=0.02 if full else 0.005, full=full)
+    geometry = scan_geometry(bm.Scans(TRUTH[:12], angles, ranges, max_range_m=12.0))
     for i, j in ((3, 1), (5, 2), (11, 8)):
         z = between(TRUTH[j], TRUTH[i]) + np.array([0.02, -0.03, 0.01])
         pair = np.array([i], np.int32), np.array([j], np.int32), z[None]
