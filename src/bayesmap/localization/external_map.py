@@ -93,7 +93,7 @@ def external_map(
         raise BadInput("localize: the map has no occupied cell that a beam could meet; are its thresholds right?")
     stop = stop_probabilities(occupancy, law.values)
     known = KnownMap.of_draws(
-        stop.ravel()[None].astype(np.float32), grid, sensor_of(law.values, None), scans, occupancy=stop,
+        stop.ravel()[None].astype(np.float32), grid, sensor_of(law.values), scans, occupancy=stop,
         observed=~np.isnan(occupancy), beam_weight=beam_weight, device=device,
     )  # fmt: skip
     return replace(known, trust=law.trust, reference_fit=law.reference_fit)
@@ -197,6 +197,6 @@ def _log_densities(packed: DeviceMaps, scans: Scans, thin: int, values: Mapping[
     # Make scans of one beam each: the kernel sums over beams, but densities of single beams are needed.
     poses = np.repeat(scans.poses, ranges.shape[1], axis=0)
     poses[:, 2] += angles.ravel()
-    sensor, which = sensor_of(values, None), np.arange(ranges.size)
+    sensor, which = sensor_of(values), np.arange(ranges.size)
     logs = scan_log_likelihood(packed, poses, np.zeros(1), ranges.reshape(-1, 1), sensor, limits, scan=which)
     return np.where(np.isnan(ranges), np.nan, logs[:, 0].reshape(ranges.shape))

@@ -36,7 +36,7 @@ MAX_STEPS = 100  # most steps of a climb
 ROUGH_TOLERANCE, FINE_TOLERANCE = 1e-4, 1e-6  # relative gains in score at which rough climbs and the last one end
 P_HIT, P_MISS = 0.7, 0.4  # probabilities of a cell after a hit and after a miss, OctoMap's defaults
 P_BOUNDS = (0.1192, 0.971)  # bounds of a cell's probability, OctoMap's defaults
-NOISE_DOFS: tuple[float | None, ...] = (None, 4.0)  # degrees of freedom of the noises that are tried; None for normal
+NOISES: tuple[Values, ...] = ({}, {"dof": 4.0})  # noises that are tried: normal, and with heavy tails
 
 
 @dataclass(frozen=True)
@@ -66,10 +66,9 @@ SENSOR = (
 """Parameters of every prediction beside its map: the robust beam model, and where in a cell beams stop."""
 
 
-def sensor_of(values: Mapping[str, float], dof: float | None) -> BeamMixture:
-    """Return the beam model of some values: Student-t noise of ``dof`` degrees of freedom, or Gaussian if None."""
-    scale, growth = values["scale_m"], values["scale_per_m"]
-    noise = noise_with(math.inf if dof is None else dof, scale, growth)
+def sensor_of(values: Mapping[str, float]) -> BeamMixture:
+    """Return the beam model of some values; its noise is normal unless they have degrees of freedom, "dof"."""
+    noise = noise_with(values.get("dof", math.inf), values["scale_m"], values["scale_per_m"])
     names = ("p_random", "p_no_return", "p_short", "rate_short_per_m")
     return BeamMixture(noise, **{name: values[name] for name in names})
 
@@ -78,7 +77,10 @@ def maximise(
     score: Objective, rough_score: Objective, parameters: Sequence[Parameter], starts: Sequence[Mapping[str, float]],
     on_progress: OnShare = ignore_share,
 ) -> tuple[Values, float]:  # fmt: skip
-    """Find the values of the highest score, and the score, from the best result of rough climbs from all starts."""
+    """Find the values of the highest score, and the score, from the best result of rough climbs from all starts.
+
+    Values of a start that are no ``parameters`` stay as they are.
+    """
     *rough_shares, last_share = split_progress(on_progress, *(1.0 for _ in starts), LAST_CLIMB_TIME)
     climb = partial(_climb, rough_score, parameters, tolerance=ROUGH_TOLERANCE)
     rough = [climb(start=start, on_share=on_share) for start, on_share in zip(starts, rough_shares, strict=True)]
@@ -94,7 +96,7 @@ def _climb(
     n_calls = 0
 
     def values_at(point: NDArray[np.float64]) -> Values:
-        return {p.name: p.decode(x) for p, x in zip(parameters, point.tolist(), strict=True)}
+        return {**start, **{p.name: p.decode(x) for p, x in zip(parameters, point.tolist(), strict=True)}}
 
     def cost(point: NDArray[np.float64]) -> float:
         nonlocal n_calls
@@ -179,14 +181,13 @@ class FittedBaseline:
     inner_nats_per_beam: float  # score on the inner hold-out
 
 
-def inner_score(held_out: HeldOut, baseline: Baseline, dof: float | None, values: Values) -> float:
+def inner_score(held_out: HeldOut, baseline: Baseline, values: Values) -> float:
     """Compute the mean log predictive density of the folds' beams, each under the counts of the other scans."""
     from bayesmap.kernels.predict.density import log_densities
 
     stops = [baseline.stops(fold.hits, fold.passes, values)[fold.rays.touched] for fold in held_out.folds]
     maps = np.concatenate(stops)[None].astype(np.float32)
-    sensor = sensor_of(values, dof)
-    logs = log_densities(held_out.rays, [maps], sensor, values["hit_depth"], columns=held_out.columns)
+    logs = log_densities(held_out.rays, [maps], sensor_of(values), values["hit_depth"], columns=held_out.columns)
     return float(np.nanmean(logs))
 
 
@@ -206,22 +207,15 @@ def fit_baseline(
         "rate_short_per_m": default.rate_short_per_m, "hit_depth": HIT_DEPTH,
     }  # fmt: skip
     many_outliers = few_outliers | {"p_random": 0.3, "p_short": 0.5, "rate_short_per_m": 0.1}
-    starts = [sensor | dict(start) for start in baseline.starts for sensor in (few_outliers, many_outliers)]
+    sensors = [sensor | noise for noise in NOISES for sensor in (few_outliers, many_outliers)]
+    starts = [sensor | dict(start) for start in baseline.starts for sensor in sensors]
     # The rough score uses a share of the beams: some scans of the first fold, or some folds if it has few scans.
     rough = [folds[0].thinned()] if len(folds[0].scans) >= 2 * THIN else folds[: math.ceil(len(folds) / THIN)]
-    all_beams, rough_beams = join_folds(folds), join_folds(rough)
-    fits: list[tuple[float, Values, float | None]] = []
-    times = [len(starts) + LAST_CLIMB_TIME] + [1 + LAST_CLIMB_TIME] * (len(NOISE_DOFS) - 1)
-    for dof, on_share in zip(NOISE_DOFS, split_progress(on_progress, *times), strict=True):
-        scores = partial(inner_score, all_beams, baseline, dof), partial(inner_score, rough_beams, baseline, dof)
-        values, score = maximise(*scores, (*SENSOR, *baseline.parameters), starts, on_share)
-        fits.append((score, values, dof))
-        # Heavy tails start from the fit of normal noise: the other parameters change little.
-        starts = [values | {"scale_m": 0.7 * values["scale_m"]}]
-    score, values, dof = max(fits, key=lambda fit: fit[0])
+    scores = [partial(inner_score, join_folds(some), baseline) for some in (folds, rough)]
+    values, score = maximise(*scores, (*SENSOR, *baseline.parameters), starts, on_progress)
     hits, passes = count_hits(train, grid)
     stop = baseline.stops(hits.astype(float), passes.astype(float), values)
-    predictor = Predictor(grid, fixed_maps(stop[None]), sensor_of(values, dof), values["hit_depth"])
+    predictor = Predictor(grid, fixed_maps(stop[None]), sensor_of(values), values["hit_depth"])
     return FittedBaseline(baseline.name, predictor, values, score)
 
 
