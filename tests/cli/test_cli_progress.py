@@ -55,7 +55,7 @@ def test_scores_and_the_baselines_that_are_fitted_for_them_are_named_too(office,
     asked = ("score", tmp_path / "run.nc", office, "--holdout", "4", "--compare")
     shown = on_a_terminal(*asked)
     names = ("hit ratio", "log-odds, tuned", "log-odds", "log-odds, clamped")
-    for name in ("the surface posterior", *names):
+    for name in ("surface posterior", *names):
         assert f"scoring {name}" in shown
     for name in names:
         assert f"fitting {name}" in shown

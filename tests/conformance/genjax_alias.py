@@ -100,6 +100,8 @@ class Counterpart(types.ModuleType):
     def __getattr__(self, name: str) -> object:
         if name in INTERNAL:
             return INTERNAL[name]
+        if name == "Switch" and "Branches" in vars(self.ours):
+            return vars(self.ours)["Branches"]
         if name in vars(self.ours):
             return vars(self.ours)[name]
         if not name.startswith("__"):

@@ -58,7 +58,7 @@ def assert_same(one, other, but=()):
             np.testing.assert_array_equal(getattr(mine, name), getattr(theirs, name), err_msg=name)
     for name in ("sensor", "prior", "sweep", "finished", "counts"):
         if name not in but:
-            assert getattr(mine, name) == getattr(theirs, name), name
+            assert repr(getattr(mine, name)) == repr(getattr(theirs, name)), name
 
 
 def surfaces_of(posterior):

@@ -96,7 +96,7 @@ def dense(chm: ChoiceMap, shape: tuple[int, ...]) -> tuple[Any, Any] | None:
             flags = jnp.zeros(shape, bool).at[index].set(True if inner_flags is None else inner_flags)
             return _put(value, index, shape[0]), flags
         case Or() | Branches():
-            maps = (chm.left, chm.right) if isinstance(chm, Or) else chm.maps
+            maps = (chm.left, chm.right) if isinstance(chm, Or) else chm.chms
             arrays = [array for array in (dense(m, shape) for m in maps) if array is not None]
             joined = reduce(overlay, [Mask(value, True if flags is None else flags) for value, flags in arrays])
             return joined.value, jnp.broadcast_to(joined.flag, shape)

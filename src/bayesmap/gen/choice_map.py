@@ -295,7 +295,7 @@ class Branches(ChoiceMap):
     """A node with the maps of a switch's branches. Map number k is masked by `idx == k`."""
 
     idx: Any  # number of the branch that ran, an integer array
-    maps: tuple[ChoiceMap, ...]
+    chms: tuple[ChoiceMap, ...]  # GenJAX's name
 
 
 def _elements(tree: Any, index: Any) -> Any:
