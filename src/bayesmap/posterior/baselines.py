@@ -36,7 +36,7 @@ MAX_STEPS = 100  # most steps of a climb
 ROUGH_TOLERANCE, FINE_TOLERANCE = 1e-4, 1e-6  # relative gains in score at which rough climbs and the last one end
 P_HIT, P_MISS = 0.7, 0.4  # probabilities of a cell after a hit and after a miss, OctoMap's defaults
 P_BOUNDS = (0.1192, 0.971)  # bounds of a cell's probability, OctoMap's defaults
-NOISES: tuple[Values, ...] = ({}, {"dof": 4.0})  # noises that are tried: normal, and with heavy tails
+HEAVY_TAILS = {"dof": 4.0}  # Student's t with 4 degrees of freedom, which is tried beside normal noise
 
 
 @dataclass(frozen=True)
@@ -207,7 +207,7 @@ def fit_baseline(
         "rate_short_per_m": default.rate_short_per_m, "hit_depth": HIT_DEPTH,
     }  # fmt: skip
     many_outliers = few_outliers | {"p_random": 0.3, "p_short": 0.5, "rate_short_per_m": 0.1}
-    sensors = [sensor | noise for noise in NOISES for sensor in (few_outliers, many_outliers)]
+    sensors = (few_outliers, many_outliers, many_outliers | HEAVY_TAILS)
     starts = [sensor | dict(start) for start in baseline.starts for sensor in sensors]
     # The rough score uses a share of the beams: some scans of the first fold, or some folds if it has few scans.
     rough = [folds[0].thinned()] if len(folds[0].scans) >= 2 * THIN else folds[: math.ceil(len(folds) / THIN)]
