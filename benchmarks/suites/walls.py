@@ -129,7 +129,7 @@ def against_walls(name: str, stop: Floats, observed: NDArray[np.bool_], grid: Gr
     yield Figure(name % "distance", 1e3 * float(centre[said].mean()), "mm", against="centre to what is solid")
 
     rays = trace_rays(truth.exact, grid, device="cpu")
-    enter, leave = rays.stretches()
+    enter, leave = rays.chords()
     reading = rays.range_m[rays.beam_of_entry()]
     comes = (enter < reading) & (leave > enter) & observed.ravel()[rays.cells]
     p, stops = stop.ravel()[rays.cells[comes]], leave[comes] >= reading[comes]

@@ -239,7 +239,7 @@ def test_the_strongest_beams_come_first_with_their_ends():
 def density(rays, beam, stop):
     """The density of a beam's reading under one map of stop probabilities, (N,), cell by cell."""
     entries = slice(*rays.offsets[beam : beam + 2])
-    distance = np.append(rays.distance_m(DEPTH)[entries], np.inf)
+    distance = np.append(rays.stop_distance_m(DEPTH)[entries], np.inf)
     chance = np.append(stop[rays.cells[entries]], 1.0)
     arrives = np.cumprod(np.append(1.0, 1.0 - chance[:-1]))
     reading = np.full(len(distance), rays.range_m[beam])

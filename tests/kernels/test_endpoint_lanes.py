@@ -337,14 +337,14 @@ def test_chains_are_those_of_beams_that_walk_all_their_cells(problem, whole, mon
 
 def test_cells_that_were_let_pass_unseen_would_be_noticed(problem, whole, monkeypatch):
     """The wrong twin: beams pass lazy cells as if these stopped none."""
-    mark_watched = stops.UpdateSchedule.mark_watched
+    watched_to_device = stops.UpdateSchedule.watched_to_device
 
     def forgetful(self, rays, device):
-        lazy = mark_watched(self, rays, device)
+        lazy = watched_to_device(self, rays, device)
         lazy.zero_()
         return lazy
 
-    monkeypatch.setattr(stops.UpdateSchedule, "mark_watched", forgetful)
+    monkeypatch.setattr(stops.UpdateSchedule, "watched_to_device", forgetful)
     assert abs(whole - swept(problem)).max() > 1.0
 
 

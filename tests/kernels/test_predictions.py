@@ -54,7 +54,7 @@ def batches(rays, *maps):
 def plain_stops(rays, maps):
     """Weight, distance and spread of every stop under every draw, nowhere last, (draws, B, K + 1); beams are padded."""
     paths, plain = paths_of(rays, far=False), maps.ndim == 2
-    enter, leave = rays.stretches()
+    enter, leave = rays.chords()
     paths.plain_m[paths.there] = enter + DEPTH * (leave - enter)
     states = maps.reshape(len(maps), GRID.n_cells, -1)[:, rays.touched].astype(float)
     stopped, distance, variance = stops(paths, states, plain)
@@ -179,7 +179,7 @@ def test_events_multiply_to_the_chance_of_the_cell(name):
     scans = dataclasses.replace(scans, ranges_m=np.where(np.isfinite(scans.ranges_m), scans.ranges_m, 3.0))
     rays, z = trace_rays(scans, GRID), scans.ranges_m.ravel()
     chance, stopped = first_hit_events(mix_stops(rays, batches(rays, maps), DEPTH), sensor)
-    enter, leave = rays.stretches()
+    enter, leave = rays.chords()
     checked = 0
     for b in range(rays.n_beams):
         mine = slice(rays.offsets[b], rays.offsets[b + 1])

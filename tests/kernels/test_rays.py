@@ -58,7 +58,7 @@ def test_cells_and_where_they_are_entered_are_the_formula_s(kind):
         rays = trace_rays(scans, GRID)
         met = touches(*beams(scans.poses, scans.angles_rad, GRID), GRID.shape) * GRID.resolution
         met[np.isnan(scans.ranges_m.ravel())] = np.inf
-        enter, _ = rays.stretches()
+        enter, _ = rays.chords()
         for b in range(rays.n_beams):
             cells = of_beam(rays.cells, rays, b)
             reached, at_most = (set(np.flatnonzero(met[b] <= scans.max_range_m + by)) for by in (-1e-8, 1e-8))
@@ -72,7 +72,7 @@ def test_a_stretch_begins_and_ends_on_its_cell_s_border_and_the_next_begins_no_e
     """Compiled stops lie at the given part of the stretch."""
     for seed, depth in enumerate((0.0, 0.25, 0.5, 1.0)):
         rays = trace_rays(random_scans(seed, lattice=KINDS[kind]), GRID)
-        enter, leave = rays.stretches()
+        enter, leave = rays.chords()
         np.testing.assert_allclose(stop_distances(rays, depth), enter + depth * (leave - enter), rtol=1e-6, atol=1e-8)
     edge, beam = GRID.resolution, rays.beam_of_entry()
     low = np.stack([rays.cells // GRID.shape[1], rays.cells % GRID.shape[1]], -1)
@@ -85,13 +85,13 @@ def test_a_stretch_begins_and_ends_on_its_cell_s_border_and_the_next_begins_no_e
         assert (np.diff(of_beam(enter, rays, b)) > -1e-9).all()
 
 
-def test_a_start_next_to_a_grid_line_counts_as_on_it_in_the_walk_and_in_the_stretches():
+def test_a_start_next_to_a_grid_line_counts_as_on_it_in_the_walk_and_in_the_chords():
     """Within a billionth of a cell the walk takes a start for one on the line; so must what follows from the cells."""
     for off in (-2e-9, -5e-10, 0.0, 5e-10, 2e-9):
         for angle in (np.arange(8) * np.pi / 4 + np.array([[0.0], [1e-3]])).ravel():
             scans = bm.Scans([4.0 + off * 0.25, -0.5 + off * 0.25, angle], [0.0], [[np.inf]], max_range_m=4.0)
             rays = trace_rays(scans, GRID)
-            enter, leave = rays.stretches()
+            enter, leave = rays.chords()
             assert (np.diff(enter) > -1e-8).all()
             assert (leave - enter <= np.sqrt(2) * 0.25 + 1e-9).all()
             np.testing.assert_allclose(stop_distances(rays, 0.5), (enter + leave) / 2, rtol=1e-6, atol=1e-9)
@@ -108,7 +108,9 @@ def test_a_table_s_cells_are_its_rays_and_selected_beams_are_those_beams():
     selected = rays.select(beams)
     for mine, whole in enumerate(beams):
         np.testing.assert_array_equal(of_beam(selected.cells, selected, mine), of_beam(rays.cells, rays, whole))
-    np.testing.assert_array_equal(selected.near - selected.offsets[:-1], (rays.near - rays.offsets[:-1])[beams])
+    np.testing.assert_array_equal(
+        selected.first_near - selected.offsets[:-1], (rays.first_near - rays.offsets[:-1])[beams]
+    )
     np.testing.assert_array_equal(selected.direction, rays.direction[beams])
     np.testing.assert_array_equal(selected.range_m, rays.range_m[beams])
 
@@ -151,11 +153,11 @@ def test_beams_are_traced_some_at_a_time_to_the_same_rays_and_too_many_incidence
 def test_a_ray_ends_where_no_stop_can_explain_its_reading_and_near_begins_not_far_before_it(kind):
     scans = random_scans(3, lattice=KINDS[kind])
     rays, whole = near_readings(scans, MARGIN_M), trace_rays(scans, GRID)
-    entered, entered_whole = rays.stretches()[0], whole.stretches()[0]
+    entered, entered_whole = rays.chords()[0], whole.chords()[0]
     for b, reading in enumerate(scans.ranges_m.ravel()):
         within = of_beam(entered_whole, whole, b) <= (reading + MARGIN_M if np.isfinite(reading) else np.inf) + 1e-6
         np.testing.assert_array_equal(of_beam(rays.cells, rays, b), of_beam(whole.cells, whole, b)[within])
-        enter, far = of_beam(entered, rays, b), int(rays.near[b] - rays.offsets[b])
+        enter, far = of_beam(entered, rays, b), int(rays.first_near[b] - rays.offsets[b])
         nearest = reading - MARGIN_M - GRID.resolution if np.isfinite(reading) else -np.inf
         assert (enter[:far] < nearest).all()
         assert far == len(enter) or enter[far] >= nearest - 1e-6
@@ -169,7 +171,7 @@ def test_margins_may_differ_from_beam_to_beam_and_end_points_are_in_metres_from_
     for b in (1, scans.n_beams // 2, scans.n_beams - 1):
         alone = near_readings(scans, float(margins[b]))
         assert rays.lengths[b] == alone.lengths[b]
-        assert rays.near[b] - rays.offsets[b] == alone.near[b] - alone.offsets[b]
+        assert rays.first_near[b] - rays.offsets[b] == alone.first_near[b] - alone.offsets[b]
     scans = random_scans(3)
     ends = near_readings(scans, MARGIN_M).end_points_m()
     hit = np.isfinite(scans.ranges_m.ravel())
@@ -181,9 +183,9 @@ def test_margins_may_differ_from_beam_to_beam_and_end_points_are_in_metres_from_
 def test_no_valid_beam_or_none_through_the_grid_is_no_entry(readings):
     rays = trace_rays(bm.Scans([-0.5, 1.5, np.pi], [0.0, 0.1], [readings], max_range_m=9.0), bm.Grid((4, 3)))
     assert rays.n_incidences == len(rays.touched) == 0
-    assert (rays.n_beams, rays.distance_m(0.5).shape) == (2, (0,))
+    assert (rays.n_beams, rays.stop_distance_m(0.5).shape) == (2, (0,))
     whole = near_readings(random_scans(3), np.inf)  # without a warning of readings that are too close
-    assert (whole.near == whole.offsets[:-1]).all()
+    assert (whole.first_near == whole.offsets[:-1]).all()
 
 
 @EVERYWHERE
@@ -192,7 +194,7 @@ def test_hits_and_passes_are_those_of_a_slow_count(kind):
         scans = random_scans(seed, lattice=KINDS[kind])
         met = touches(*beams(scans.poses, scans.angles_rad, GRID), GRID.shape) * GRID.resolution
         rays = trace_rays(scans, GRID)
-        _, leave = rays.stretches()
+        _, leave = rays.chords()
         hits, passes = np.zeros((2, GRID.n_cells), int)
         for b, z in enumerate(scans.ranges_m.ravel()):
             reach = min(z, scans.max_range_m)

@@ -222,7 +222,7 @@ def test_invalid_readings_and_empty_beams_say_nothing_and_draws_do_not_repeat_in
 def law_of_points(worlds, states, given_reading=True):
     """Chances that the point of a beam's stop lies in each entry's square, and that the beam passes it; (B, K) each."""
     rays, paths = worlds.problem.rays, paths_of(worlds.problem.rays)
-    enter, leave = rays.stretches()
+    enter, leave = rays.chords()
     beams = len(READINGS)
     _, distance, variance = stops(paths, states, False)
     chances = joint(paths, states, SENSOR, False)

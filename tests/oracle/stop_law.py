@@ -41,8 +41,8 @@ def paths_of(rays, *, far=True, hit_depth=0.5):
     at = np.where(there, rays.offsets[:-1, None] + column, 0)
     pad = np.zeros(1)
     cell = np.where(there, np.append(rays.columns, pad)[at], 0).astype(int)
-    plain_m = np.where(there, np.append(rays.distance_m(hit_depth), pad)[at], 0.0).astype(float)
-    is_far = there & (at < rays.near[:, None]) & far
+    plain_m = np.where(there, np.append(rays.stop_distance_m(hit_depth), pad)[at], 0.0).astype(float)
+    is_far = there & (at < rays.first_near[:, None]) & far
     lines = (rays.start_m.astype(float), rays.direction.astype(float))
     return Paths(cell, there, plain_m, is_far, *lines, rays.range_m, rays.limits)
 

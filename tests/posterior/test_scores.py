@@ -216,7 +216,7 @@ def drawn_from_the_model(sensor, seed, scans=150, rays=24):
     poses = np.column_stack([rng.uniform(0.5, 3.5, (scans, 2)), rng.uniform(-4, 4, scans)])
     blank = bm.Scans(poses, np.linspace(0, 6, rays), np.ones((scans, rays)), max_range_m=4.0, min_range_m=0.2)
     traced = trace_rays(blank, HALL)
-    where = traced.distance_m(DEPTH)
+    where = traced.stop_distance_m(DEPTH)
     d = np.full(blank.n_beams, np.inf)
     for b in range(blank.n_beams):
         mine = slice(traced.offsets[b], traced.offsets[b + 1])

@@ -204,7 +204,7 @@ def problem():
 def naive(rays):
     """The touched cell in which each reading ends, and hits and passes by cell, beam by beam."""
     edge, ny = rays.grid.resolution, rays.grid.shape[1]
-    distance_m = rays.distance_m(0.0)
+    distance_m = rays.stop_distance_m(0.0)
     ends, hits, passes = [], np.zeros(rays.grid.n_cells, int), np.zeros(rays.grid.n_cells, int)
     for b, z in enumerate(rays.range_m):
         end = -1

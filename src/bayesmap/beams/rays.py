@@ -1,7 +1,7 @@
-r"""Rays: the cells of a grid that each beam crosses, where it crosses them, and where it may stop.
+"""Rays: the cells of a grid that each beam crosses, where it crosses them, and where it may stop.
 
 Rays store the cells only, 4 bytes for each. Where a beam enters and leaves a cell follows from its line and the cell's
-square (`Rays.stretches`; `bayesmap.kernels.rays.stretch` compiled):
+square (`Rays.chords`; `bayesmap.kernels.rays.chord` compiled):
 
     t_in  = max over axes of (side that the beam enters by - start) / direction
     t_out = min over axes of (side that it leaves by - start) / direction
@@ -9,23 +9,10 @@ square (`Rays.stretches`; `bayesmap.kernels.rays.stretch` compiled):
 (the slab method: Kay and Kajiya, *Ray tracing complex scenes*, 1986), with three rules for a touch:
 
 - the cell in which a beam starts is met where the beam leaves it, as in the tutorial: t_in = t_out;
-- a cell that is touched in a corner only has a stretch of no length;
+- a cell that is touched in a corner only has a chord of no length;
 - an axis along which the beam does not move (a direction cosine below `PARALLEL`) limits nothing.
 
-`stops_of` is the plain reference for every kernel that draws or predicts stops. A cell has a probability of stopping
-beams at its hit depth, or a surface: reflectivity m, mean mu, and covariance Sigma of the points where beams stop. A
-beam from p in direction u, with normal n, passes the mean at the offset o = n . (mu - p); across the beam the surface
-has the standard deviation v = sqrt(n' Sigma n). The beam meets the surface with probability
-
-    g = 1 / (1 + (o / (w v))^6)
-
-which is nearly one where it crosses the surface's body and nearly zero beside it (docs/surfaces.md). It is then stopped
-with probability m, at the distance t ~ N(t*, s^2), the law of a point of the surface *given that it lies on the beam*:
-
-    t* = u . (mu - p) - (u' Sigma n / c^2) o        s^2 = u' Sigma u - (u' Sigma n)^2 / c^2
-
-A beam's direction is known up to an angle omega only, so c^2 = v^2 + (omega d)^2 at the mean's distance d = u . (mu -
-p). The probability g keeps v: with c in it, held-out scans were predicted worse.
+`stops_of` is the plain reference for every kernel that draws or predicts stops.
 """
 
 from __future__ import annotations
@@ -42,21 +29,21 @@ from bayesmap.space.arrays import Floats, Ints, Mask, Singles
 from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
-MAX_INCIDENCES = 2**31 - 1  # indices of entries have 32 bits
+MAX_INCIDENCES = 2**31 - 1  # most entries: their indices have 32 bits
 TIE = 1.0e-9  # cells: a start closer than this to a grid line lies on it
 PARALLEL = 1.0e-10  # direction cosines below this count as zero, as in the tutorial
-CROSSING_WIDTH = 2.2  # w above
-DIRECTION_RAD = 0.005  # omega above: 4 to 8 mrad predict held-out scans best (docs/lab/surfaces.md)
+CROSSING_WIDTH = 2.2  # w in `stops_of`
+DIRECTION_RAD = 0.005  # omega in `stops_of`: 4 to 8 mrad predict held-out scans best (docs/lab/surfaces.md)
 
 
 @dataclass(frozen=True, eq=False)
 class Rays:
-    """B beams with the cells that each touches, in order: K entries. Metres from the grid's lower left corner."""
+    """B beams and the cells that each touches, in order: K entries, or incidences. Metres from the grid's corner."""
 
     grid: Grid  # the grid that has the cells
     offsets: Ints  # the entries of beam b are offsets[b]:offsets[b + 1], (B + 1,)
     cells: Ints  # flat index x * ny + y of the touched cell, (K,)
-    near: Ints  # first entry of each beam at which a stop may explain the reading, (B,)
+    first_near: Ints  # first entry of each beam at which a stop may explain the reading, (B,)
     start_m: Floats  # start of each beam, (B, 2)
     direction: Floats  # unit vector of each beam, (B, 2)
     range_m: Floats  # reading of each beam, coded as in `bayesmap.space.scans.Scans`, (B,)
@@ -69,7 +56,7 @@ class Rays:
 
     @property
     def n_incidences(self) -> int:
-        """The number of pairs of a beam and a cell that it touches: the work of one sweep."""
+        """The number of entries, K: the work of one sweep."""
         return len(self.cells)
 
     @property
@@ -84,7 +71,7 @@ class Rays:
         entries = np.repeat(self.offsets[beams] - offsets[:-1], lengths) + np.arange(offsets[-1])
         return Rays(
             grid=self.grid, offsets=offsets, cells=self.cells[entries], limits=self.limits,
-            near=offsets[:-1] + self.near[beams] - self.offsets[beams], start_m=self.start_m[beams],
+            first_near=offsets[:-1] + self.first_near[beams] - self.offsets[beams], start_m=self.start_m[beams],
             direction=self.direction[beams], range_m=self.range_m[beams],
         )  # fmt: skip
 
@@ -95,21 +82,19 @@ class Rays:
     @cached_property
     def touched(self) -> Ints:
         """The flat indices of the cells that any beam touches, ascending, (T,)."""
-        is_touched = np.zeros(self.grid.n_cells, dtype=np.bool_)
-        is_touched[self.cells] = True
-        return np.flatnonzero(is_touched).astype(np.int32)
+        return np.flatnonzero(self.touched_map()).astype(np.int32)
 
     def touched_map(self) -> Mask:
         """Return the mask of the cells that some beam touches, (nx, ny)."""
         is_touched = np.zeros(self.grid.n_cells, dtype=np.bool_)
-        is_touched[self.touched] = True
+        is_touched[self.cells] = True
         return is_touched.reshape(self.grid.shape)
 
-    def stretches(self) -> tuple[Floats, Floats]:
+    def chords(self) -> tuple[Floats, Floats]:
         """Return where each beam enters and leaves each of its cells, metres, (K,) each: the plain reference."""
         beam, ny = self.beam_of_entry(), self.grid.shape[1]
         enter, leave = np.zeros(len(beam)), np.full(len(beam), np.inf)
-        holds_start = np.ones(len(beam), dtype=np.bool_)
+        holds_start = np.ones(len(beam), dtype=np.bool_)  # mask of entries of the cell that holds the start
         for axis, cell in enumerate((self.cells // ny, self.cells % ny)):
             start, cosine = self.start_m[:, axis] / self.grid.resolution, self.direction[:, axis]
             moves = np.abs(cosine) >= PARALLEL
@@ -125,9 +110,9 @@ class Rays:
         enter = np.where(holds_start, leave, enter)
         return enter * self.grid.resolution, np.maximum(leave, enter) * self.grid.resolution
 
-    def distance_m(self, hit_depth: float) -> Singles:
-        """Return the distance of a stop in each cell, ``hit_depth`` of the stretch inside, metres, (K,)."""
-        enter, leave = self.stretches()
+    def stop_distance_m(self, hit_depth: float) -> Singles:
+        """Return the distance of a stop in each cell, at the share ``hit_depth`` of the chord, metres, (K,)."""
+        enter, leave = self.chords()
         return (enter + hit_depth * (leave - enter)).astype(np.float32)
 
     def end_points_m(self) -> Floats:
@@ -144,9 +129,9 @@ class Rays:
 
 
 def around_readings(scans: Scans, margin_m: float | Floats, resolution_m: float) -> tuple[Floats, Floats]:
-    """Return ``reach_m`` and ``near_m`` of `bayesmap.kernels.rays.trace_rays` around readings, (B,) each.
+    """Return ``reach_m`` and ``near_m`` of `trace_rays` for each beam, (B,): weigh stops only around the readings.
     If a reading is not a range, they are the sensor's largest range and 0. ``margin_m`` is the largest distance of a
-    stop from its reading, one number or (B,). Stops are weighed from one cell before the margin on.
+    stop from its reading, one number or one per beam. Stops are weighed from one cell before the margin on.
     """
     range_m = scans.ranges_m.ravel()
     is_hit = np.isfinite(range_m)
@@ -165,12 +150,25 @@ class Stops(NamedTuple):
 
 def stops_of(rays: Rays, states: NDArray[np.floating], hit_depth: float) -> Stops:
     """Compute the stops that a map offers to rays.
-    ``states`` are stop probabilities of the grid's cells, (N,), at ``hit_depth`` of their stretches, or surfaces, (N,
-    6): reflectivity, mean x and y in metres from the grid's lower left corner, and l11, l21, l22 of Sigma = L L'.
+
+    ``states`` are stop probabilities of the grid's cells, (N,), at ``hit_depth`` of their chords, or surfaces, (N, 6):
+    reflectivity m, mean mu in metres from the grid's lower left corner, and l11, l21, l22 of the covariance Sigma = L
+    L' of the points where beams stop. A beam from p in direction u, with normal n, passes the mean at the offset
+    o = n . (mu - p). Across the beam the surface has the variance v^2 = n' Sigma n. The beam meets it with probability
+
+        g = 1 / (1 + (o / (w v))^6)
+
+    which is nearly one where it crosses the surface's body and nearly zero beside it (docs/surfaces.md). It is then
+    stopped with probability m, at a distance t ~ N(t*, s^2), the law of a point of the surface *if it is on the beam*:
+
+        t* = u . (mu - p) - (u' Sigma n / c^2) o        s^2 = u' Sigma u - (u' Sigma n)^2 / c^2
+
+    A beam's direction is known up to an angle omega only, so c^2 = v^2 + (omega d)^2 at the mean's distance d = u .
+    (mu - p). The probability g keeps v: with c in it, held-out scans were predicted worse.
     """
     state = np.asarray(states, dtype=np.float64)[rays.cells]
     if state.ndim == 1:
-        enter, leave = rays.stretches()
+        enter, leave = rays.chords()
         return Stops(state, enter + hit_depth * (leave - enter), np.zeros(len(state)))
     # The mean of each surface, along the beam (depth) and across it (offset).
     beam = rays.beam_of_entry()
@@ -178,16 +176,16 @@ def stops_of(rays: Rays, states: NDArray[np.floating], hit_depth: float) -> Stop
     normal = np.stack([-direction[:, 1], direction[:, 0]], axis=-1)
     to_mean = state[:, 1:3] - rays.start_m[beam]
     depth, offset = (to_mean * direction).sum(axis=-1), (to_mean * normal).sum(axis=-1)
-    # Its covariance in these directions: v^2 = n' Sigma n, and u' Sigma n.
     l11, l21, l22 = state[:, 3:].T
     u_1, u_2 = l11 * direction[:, 0] + l21 * direction[:, 1], l22 * direction[:, 1]  # L' u
     n_1, n_2 = l11 * normal[:, 0] + l21 * normal[:, 1], l22 * normal[:, 1]  # L' n
-    across, mixed = n_1**2 + n_2**2, u_1 * n_1 + u_2 * n_2
-    # The law of the stop, by the formulas above; widened is c^2.
-    crosses = 1.0 / (1.0 + (offset**2 / (CROSSING_WIDTH**2 * across)) ** 3)
-    off_line = (DIRECTION_RAD * np.maximum(depth, 0.0)) ** 2
-    widened = across + off_line
-    distance = np.maximum(depth - mixed / widened * offset, 0.0)
-    # u' Sigma u - mixed^2 / widened, without a difference of large numbers.
-    variance = ((l11 * l22) ** 2 + off_line * (u_1**2 + u_2**2)) / widened
-    return Stops(state[:, 0] * crosses, distance, np.sqrt(variance))
+    v_sq = n_1**2 + n_2**2
+    u_sigma_n = u_1 * n_1 + u_2 * n_2
+    # The law of the stop.
+    g = 1.0 / (1.0 + (offset**2 / (CROSSING_WIDTH**2 * v_sq)) ** 3)
+    direction_variance = (DIRECTION_RAD * np.maximum(depth, 0.0)) ** 2
+    c_sq = v_sq + direction_variance
+    distance = np.maximum(depth - u_sigma_n / c_sq * offset, 0.0)
+    # s^2 = u' Sigma u - (u' Sigma n)^2 / c^2, without a difference of large numbers.
+    variance = ((l11 * l22) ** 2 + direction_variance * (u_1**2 + u_2**2)) / c_sq
+    return Stops(state[:, 0] * g, distance, np.sqrt(variance))

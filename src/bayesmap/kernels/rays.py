@@ -1,7 +1,7 @@
 """Trace rays: list the cells of each beam, compute where it crosses them, and count hits and passes of cells.
 
 `trace_rays` walks every beam twice: the first walk counts its cells, the second lists them. Kernels of other files read
-the lists, and compute with `stretch` where a beam enters and leaves a cell.
+the lists, and compute with `chord` where a beam enters and leaves a cell.
 """
 
 from collections.abc import Callable
@@ -102,9 +102,9 @@ def walk_along(line: Line, nx: int, max_m: wp.float64) -> Walk:
 
 
 @wp.func
-def stretch(line: Line, cell: int) -> wp.vec2d:
-    """Return the distances at which a beam enters and leaves a cell that it touches, metres (`Rays.stretches`)."""
-    # Intersect the stretches of the line between the cell's sides in x and in y.
+def chord(line: Line, cell: int) -> wp.vec2d:
+    """Return the distances at which a beam enters and leaves a cell that it touches, metres (`Rays.chords`)."""
+    # Intersect the parts of the line between the cell's sides in x and in y.
     x = int((wp.float64(cell) + wp.float64(0.5)) * line.per_column)  # a division of whole numbers takes longer
     y = cell - x * line.ny
     enter = ZERO
@@ -129,8 +129,8 @@ def stretch(line: Line, cell: int) -> wp.vec2d:
 
 @wp.func
 def distance_at(line: Line, cell: int, depth: wp.float64) -> wp.float64:
-    """Return the distance at which a beam stops in a cell, metres; ``depth`` is a share of its stretch inside."""
-    inside = stretch(line, cell)
+    """Return the distance at which a beam stops in a cell, metres; ``depth`` is a share of its chord."""
+    inside = chord(line, cell)
     return inside[0] + depth * (inside[1] - inside[0])
 
 
@@ -150,7 +150,7 @@ def first_past(line: Line, cells: Int32s, begin: int, end: int, distance_m: wp.f
 
 @wp.kernel
 def list_cells(
-    first: int, lines: Lines, reach_m: Float64s, near_m: Float64s, offsets: Int32s, cells: Int32s, near: Int32s
+    first: int, lines: Lines, reach_m: Float64s, near_m: Float64s, offsets: Int32s, cells: Int32s, first_near: Int32s
 ):
     """One thread per beam: write its cells, and the entry of the first cell that it enters at ``near_m`` or later."""
     # Without room for cells, and at an infinite ``near_m``, cells are counted. w: walk; entry: the next one.
@@ -158,16 +158,16 @@ def list_cells(
     entry = offsets[beam]
     near_distance = near_m[beam] / lines.edge_m
     w = walk_along(line_of(lines, beam), lines.nx, reach_m[beam])
-    near_entry = int(entry)
+    near = int(entry)
     while w.distance <= w.end:
         if is_inside(w, lines.nx, lines.ny):
             if cells.shape[0] > 0:
                 cells[entry] = w.cell_x * lines.ny + w.cell_y
             entry += 1
             if w.distance < near_distance:
-                near_entry = entry
+                near = entry
         w = advance_walk(w)
-    near[beam] = near_entry
+    first_near[beam] = near
 
 
 @wp.kernel
@@ -180,7 +180,7 @@ def fill_distances(first: int, rays: RayArrays, depth: wp.float64, distance_m: F
 
 
 def stop_distances(rays: Rays, hit_depth: float, device: str = "cpu") -> Singles:
-    """Compute `Rays.distance_m` by a kernel: metres, (K,)."""
+    """Compute `Rays.stop_distance_m` by a kernel: metres, (K,)."""
     distance_m = wp.empty(rays.n_incidences, dtype=wp.float32, device=device)
     inputs = [rays_to_device(rays, device), hit_depth, distance_m]
     devices.launch(fill_distances, rays.n_beams, inputs, device, devices.threads_for(rays.n_beams))
@@ -227,24 +227,24 @@ def trace_rays(
     reach = devices.to_device(reach, wp.float64, device)
 
     def follow_beams(beams_before: int, near_m: Floats, offsets: Ints, cells: Any) -> Ints:
-        """Follow all beams, a piece at a time. Returns the ``near`` of `list_cells`."""
-        near = wp.empty(beams, dtype=wp.int32, device=device)
+        """Follow all beams, a piece at a time. Returns the ``first_near`` of `list_cells`."""
+        first_near = wp.empty(beams, dtype=wp.int32, device=device)
         arrays = [devices.to_device(near_m, wp.float64, device), devices.to_device(offsets, wp.int32, device)]
         for begin in range(0, beams, BEAMS_PER_REPORT):
             size = min(BEAMS_PER_REPORT, beams - begin)
-            inputs = [lines, reach, *arrays, cells, near]
+            inputs = [lines, reach, *arrays, cells, first_near]
             devices.launch(list_cells, size, inputs, device, devices.threads_for(size), begin)
             on_progress((beams_before + begin + size) // 2, beams)
-        return np.asarray(near.numpy())
+        return np.asarray(first_near.numpy())
 
     # The first walk counts the cells of each beam, the second lists them.
     counts = follow_beams(0, np.full(beams, np.inf), np.zeros(beams), wp.empty(0, dtype=wp.int32, device=device))
     offsets = offsets_from(counts)
     cells = wp.empty(int(offsets[-1]), dtype=wp.int32, device=device)
-    near = follow_beams(beams, np.zeros(beams) if near_m is None else near_m, offsets, cells)
+    first_near = follow_beams(beams, np.zeros(beams) if near_m is None else near_m, offsets, cells)
     return Rays(
-        grid=grid, offsets=offsets, cells=cells.numpy(), near=near, start_m=start_m, direction=direction,
-        range_m=ranges, limits=RangeLimits(scans.min_range_m, scans.max_range_m),
+        grid=grid, offsets=offsets, cells=cells.numpy(), first_near=first_near, start_m=start_m,
+        direction=direction, range_m=ranges, limits=RangeLimits(scans.min_range_m, scans.max_range_m),
     )  # fmt: skip
 
 

@@ -201,6 +201,6 @@ def join_folds(folds: Sequence[Fold]) -> HeldOut:
     names = ("cells", "start_m", "direction", "range_m")
     unshifted = {name: np.concatenate([getattr(rays, name) for rays in by_fold]) for name in names}
     offsets = np.append(0, np.cumsum(np.concatenate([rays.lengths for rays in by_fold]))).astype(np.int32)
-    near = joined("near", entry_offsets)
-    rays = Rays(grid=by_fold[0].grid, offsets=offsets, near=near, limits=by_fold[0].limits, **unshifted)
+    first_near = joined("first_near", entry_offsets)
+    rays = Rays(grid=by_fold[0].grid, offsets=offsets, first_near=first_near, limits=by_fold[0].limits, **unshifted)
     return HeldOut(tuple(folds), rays, joined("columns", cell_offsets))

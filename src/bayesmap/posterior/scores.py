@@ -174,7 +174,7 @@ class Score:
         scan_of_beam, reading_m: scan and reading of each beam, (beams,).
         pit_histogram: share of ``pit`` in each of 20 bins.
         pit_distance, pit_p_value: result of `ScanBlocks.uniformity` for ``pit``.
-        events: number of first-hit events: stretches of beams in cells that readings reached.
+        events: number of first-hit events: chords of beams in cells that readings reached.
         brier, log_loss: mean over events of the two scores of "does the reading end here?". Lower is better.
         reliability: groups of events by predicted chance: (mean chance, share that happened, count).
         p_no_return: mean predicted probability of no return, and observed share.

@@ -208,7 +208,7 @@ def beam_geometry(
     cells = np.full((rays.n_beams, width), grid.n_cells, dtype=np.int32)
     distance_m = np.full((rays.n_beams, width), np.inf, dtype=np.float32)
     cells[beam, position] = rays.cells
-    distance_m[beam, position] = rays.distance_m(hit_depth)
+    distance_m[beam, position] = rays.stop_distance_m(hit_depth)
     # Sort the beams by the cells that they cross.
     by_cell = np.argsort(rays.cells, kind="stable")
     offsets = np.zeros(grid.n_cells + 1, dtype=np.int32)

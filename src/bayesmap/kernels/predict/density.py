@@ -58,7 +58,7 @@ class MapArrays:
     stop: Float32Rows  # stop probabilities, if cells have no surfaces
     surface: wp.array2d(dtype=Cell)  # otherwise, the surfaces
     has_surfaces: int  # 1 if cells have surfaces
-    depth: wp.float64  # where beams stop in cells without a surface, as a share of their stretch
+    depth: wp.float64  # where beams stop in cells without a surface, as a share of their chord
     empty: Uint8Rows  # 1 in cells that stop less than `MIN_STOP_CHANCE`; only in maps of whole grids
 
 
@@ -91,7 +91,7 @@ def surface_stop(maps: MapArrays, row: int, column: int, line: Line) -> wp.vec3d
     """Return chance, distance and variance of the stop of a beam on a surface."""
     state = maps.surface[row, column]
     crossing = cross_surface(state, Ray(wp.vec2(line.start_m), wp.vec2(line.direction)))
-    chance = wp.float64(state[REFLECTIVITY]) * wp.float64(crossing.chance)
+    chance = wp.float64(state[REFLECTIVITY]) * wp.float64(crossing.meeting_chance)
     return wp.vec3d(chance, wp.float64(crossing.distance_m), wp.float64(crossing.variance))
 
 
@@ -328,7 +328,7 @@ def forecast(
 ) -> Forecast:
     """Predict the reading of every beam, traced over its whole length, under the mean of the law over draws.
     The columns of the draws are the cells ``rays.touched``. Without a surface, a beam stops at the share ``hit_depth``
-    of its stretch. Raises `BadInput` without draws, or if probabilities of a user's sensor do not add up to one.
+    of its chord. Raises `BadInput` without draws, or if probabilities of a user's sensor do not add up to one.
     """
     log_density, cumulative = _summed_forecasts(
         rays, rays.columns, batches, sensor, hit_depth, device, with_cumulative=True

@@ -20,7 +20,7 @@ from bayesmap.kernels import sensor_law as laws
 from bayesmap.kernels.device import ONE_32, ZERO_32, Float64Rows, Float64s, Floats, Int32s
 from bayesmap.kernels.predict.density import DeviceMaps, Frame, MapArrays, grid_frame
 from bayesmap.kernels.sensor_law import SensorLaw32
-from bayesmap.kernels.surfaces.surface import REFLECTIVITY, Ray, cross_surface, crossing_probability
+from bayesmap.kernels.surfaces.surface import REFLECTIVITY, Ray, cross_surface, meeting_chance
 from bayesmap.sensors.model import RangeLimits, SensorModel
 
 wp.set_module_options({"enable_backward": False})
@@ -49,7 +49,7 @@ def stop_chance(maps: MapArrays, draw: int, cell: int, ray: Ray) -> wp.float32:
     """Return the chance that a beam which comes to a cell stops in it."""
     if maps.has_surfaces != 0:
         state = maps.surface[draw, cell]
-        return state[REFLECTIVITY] * crossing_probability(state, ray)
+        return state[REFLECTIVITY] * meeting_chance(state, ray)
     return maps.stop[draw, cell]
 
 

@@ -18,7 +18,7 @@ from bayesmap.kernels import sensor_law as laws
 from bayesmap.kernels.device import ONE, Float32s, Float64Rows, Float64s, Floats, Int32s, Ints, Singles
 from bayesmap.kernels.predict import density
 from bayesmap.kernels.predict.density import DeviceMaps, MapArrays, StopStates
-from bayesmap.kernels.rays import RayArrays, distance_at, line_of, rays_to_device, stop_distances, stretch
+from bayesmap.kernels.rays import RayArrays, chord, distance_at, line_of, rays_to_device, stop_distances
 from bayesmap.kernels.sensor_law import MIXTURE, SensorLaw64
 from bayesmap.sensors.model import SensorModel
 
@@ -134,9 +134,9 @@ def find_events(
     first: int, law: SensorLaw64, stops: StopMixtureArrays, rays: RayArrays, range_m: Float64s, chance: Float32s,
     stopped: wp.array(dtype=wp.int8),
 ):  # fmt: skip
-    """One thread per beam: compute the chance that its reading ends in each stretch, and whether it ends there."""
-    # before, after: cumulative probability at the stretch's two ends; stopped: stays -1 if the reading does not reach
-    # the stretch, or if the stretch has no length.
+    """One thread per beam: compute the chance that its reading ends in each chord, and whether it ends there."""
+    # before, after: cumulative probability at the chord's two ends; stopped: stays -1 if the reading does not reach
+    # the chord, or if the chord has no length.
     beam = first + wp.tid()
     z = range_m[beam]  # the reading
     if wp.isnan(z):
@@ -144,10 +144,10 @@ def find_events(
     line = line_of(rays.lines, beam)
     before = wp.float64(-1.0)
     for entry in range(rays.offsets[beam], rays.offsets[beam + 1]):
-        inside = stretch(line, rays.cells[entry])
+        inside = chord(line, rays.cells[entry])
         enter, leave = inside[0], inside[1]
         if entry + 1 < rays.offsets[beam + 1]:
-            leave = stretch(line, rays.cells[entry + 1])[0]
+            leave = chord(line, rays.cells[entry + 1])[0]
         leave = wp.min(leave, law.max_m)
         if enter > z:
             break
@@ -170,8 +170,8 @@ def stops_to_device(stops: StopMixture, device: str) -> Any:
 
 
 def first_hit_events(stops: StopMixture, sensor: SensorModel, device: str = "cpu") -> tuple[Singles, NDArray[np.int8]]:
-    """Predict, for each stretch of a beam in a cell that its reading reaches, whether the reading ends there.
-    With the beam's predictive cumulative F and the stretch [a, b), the chance is (F(b) - F(a)) / (1 - F(a)). Returns
+    """Predict, for each chord of a beam in a cell that its reading reaches, whether the reading ends there.
+    With the beam's predictive cumulative F and the chord [a, b), the chance is (F(b) - F(a)) / (1 - F(a)). Returns
     chances and outcomes, (K,) each: 1 if the reading ended there, 0 if it went on, -1 without an event.
     """
     device = devices.resolve(device)

@@ -66,7 +66,7 @@ class Place:
     chain: int
     number: int  # position in the list of cells
     cell: int  # flat index in the grid
-    element: int  # index in the arrays of all chains
+    index: int  # index in the arrays of all chains
 
 
 @wp.func
@@ -99,7 +99,7 @@ def renews_surface(active: ActiveCells, state: ChainArrays, place: Place, sweep:
     # Its surface is not observed if it stopped no beam, and reflects too little to change the chance of passing beams.
     has_turn = active.without_surfaces == 0 and active.period[place.number] != wp.uint8(0)
     has_turn = has_turn and (sweep + place.cell) % RENEWAL_EVERY == 0
-    return has_turn and reflectivity <= NEGLIGIBLE_REFLECTIVITY and state.stopped_in[place.element] != sweep
+    return has_turn and reflectivity <= NEGLIGIBLE_REFLECTIVITY and state.stopped_in[place.index] != sweep
 
 
 @wp.func
@@ -134,15 +134,15 @@ def begin_sweep(
     place = place_of(first + wp.tid(), active.cell, state.n_cells)
     period = int(active.period[place.number])
     # Is the log prior outdated because the last sweep may have changed the cell?
-    last_reflectivity = state.fixed_reflectivity[place.element]  # LEARNS if the cell learned in the last sweep
+    last_reflectivity = state.fixed_reflectivity[place.index]  # LEARNS if the cell learned in the last sweep
     is_renewed = renews_surface(active, state, place, sweep - 1, last_reflectivity)
     is_outdated = prior_changed != 0 or period == 0 or is_renewed or last_reflectivity == LEARNS
     if not is_outdated and sweep % wp.max(period, 1) != 0:
         return  # the sweep does not update the cell
-    cell = state.cells[place.element]
+    cell = state.cells[place.index]
     centre = surface.centre_of(place.cell, state.ny, state.edge_m)
     if is_outdated:
-        density = surface.log_reflectivity_prior(prior, state.solid[place.element], cell[REFLECTIVITY])
+        density = surface.log_reflectivity_prior(prior, state.solid[place.index], cell[REFLECTIVITY])
         if active.without_surfaces == 0:
             density += wp.float32(surface.log_surface_prior(prior, centre, cell))
         log_prior[first + wp.tid()] = density
@@ -151,14 +151,14 @@ def begin_sweep(
     if update == TRIES:
         key = sweep_key(state.keys[place.chain], sweep, CELLS)
         counter = wp.uint64(place.cell) * PER_CELL + AT_CANDIDATE
-        state.candidates[place.element] = surface.fresh_surface(prior, centre, cell, key, counter)
+        state.candidates[place.index] = surface.fresh_surface(prior, centre, cell, key, counter)
     if update != KEEPS:
         reset_counts(state, place.chain, place.cell)
-    state.fixed_reflectivity[place.element] = wp.where(update != KEEPS, LEARNS, cell[REFLECTIVITY])
+    state.fixed_reflectivity[place.index] = wp.where(update != KEEPS, LEARNS, cell[REFLECTIVITY])
     trying = wp.where(update == TRIES, HAS_CANDIDATE, NO_CANDIDATE)
     if cell[TRYING] != trying:
         cell[TRYING] = trying
-        state.cells[place.element] = cell
+        state.cells[place.index] = cell
 
 
 @wp.func
@@ -175,42 +175,42 @@ def count_beams(state: ChainArrays, chain: int, cell: int) -> wp.vec2i:
 def update_free_cells(first: int, sweep: int, prior: PriorArrays, active: ActiveCells, state: ChainArrays):
     """One thread per chain's cell: draw its reflectivity, decide on its candidate, or renew its surface."""
     place = place_of(first + wp.tid(), active.cell, state.n_cells)
-    reflectivity = state.fixed_reflectivity[place.element]
+    reflectivity = state.fixed_reflectivity[place.index]
     learns = reflectivity == LEARNS
     if not learns and not renews_surface(active, state, place, sweep, reflectivity):
         return
-    cell = state.cells[place.element]
+    cell = state.cells[place.index]
     key = sweep_key(state.keys[place.chain], sweep, CELLS)
     counter = wp.uint64(place.cell) * PER_CELL
     centre = surface.centre_of(place.cell, state.ny, state.edge_m)
     if learns and cell[TRYING] == NO_CANDIDATE:
         beams = count_beams(state, place.chain, place.cell)
-        counts = surface.pseudo_counts(prior, state.solid[place.element])
+        counts = surface.pseudo_counts(prior, state.solid[place.index])
         a, b = counts[0] + wp.float64(beams[0]), counts[1] + wp.float64(beams[1])
         cell[REFLECTIVITY] = wp.float32(beta_or_zero(a, b, key, counter + AT_BETA))
-        state.last_hits[place.element] = beams[0]
-        state.last_met[place.element] = beams[1]
+        state.last_hits[place.index] = beams[0]
+        state.last_met[place.index] = beams[1]
     elif learns:
         units = wp.int64(0)
         for part in range(state.parts):
             units += state.gain[place.chain * state.parts + part, place.cell]
         gain = wp.float64(units) * FROM_UNITS
-        cell = accept_surface(prior, centre, cell, state.candidates[place.element], gain, key, counter + AT_ACCEPT)
+        cell = accept_surface(prior, centre, cell, state.candidates[place.index], gain, key, counter + AT_ACCEPT)
     if renews_surface(active, state, place, sweep, cell[REFLECTIVITY]):
         candidate = surface.fresh_surface(prior, centre, cell, key, counter + AT_RENEWAL)
         cell = accept_surface(prior, centre, cell, candidate, wp.float64(0.0), key, counter + AT_RENEWAL_ACCEPT)
     cell[TRYING] = NO_CANDIDATE
-    state.cells[place.element] = cell
+    state.cells[place.index] = cell
 
 
 @wp.kernel
 def count_observed(first: int, active: ActiveCells, state: ChainArrays):
     """One thread per chain's cell, after a sweep: count it as inspected, and as observed, if it has counted beams."""
     place = place_of(first + wp.tid(), active.cell, state.n_cells)
-    element = place.element
-    if state.last_met[element] != NOT_COUNTED:
-        observed = wp.where(state.last_hits[element] + state.last_met[element] > 0, 1, 0)
-        state.observed_counts[element] = state.observed_counts[element] + wp.vec2i(observed, 1)
+    index = place.index
+    if state.last_met[index] != NOT_COUNTED:
+        observed = wp.where(state.last_hits[index] + state.last_met[index] > 0, 1, 0)
+        state.observed_counts[index] = state.observed_counts[index] + wp.vec2i(observed, 1)
 
 
 @wp.kernel
@@ -266,21 +266,21 @@ def kinds_to_device(n_cells: int, touched: Ints, endpoints: Ints, device: str) -
 @wp.kernel
 def draw_labels(first: int, colour: int, sweep: int, prior: PriorArrays, kinds: Uint8s, state: ChainArrays):
     """One thread per chain's cell of this colour: draw its label, unless the cell keeps its state in this sweep."""
-    element = first + wp.tid()
-    chain = element // state.n_cells
+    index = first + wp.tid()
+    chain = index // state.n_cells
     cell_0 = chain * state.n_cells
-    cell = element - cell_0
+    cell = index - cell_0
     x = cell // state.ny
     y = cell - x * state.ny
     if (x + y) % 2 != colour:
         return
     kind = int(kinds[cell])
     if kind == TOUCHED:
-        if state.fixed_reflectivity[element] != LEARNS or state.cells[element][TRYING] != NO_CANDIDATE:
+        if state.fixed_reflectivity[index] != LEARNS or state.cells[index][TRYING] != NO_CANDIDATE:
             return
     log_odds = prior.coupling * wp.float64(walls_less_free(state.solid, cell_0, cell, state.nx, state.ny))
     if kind != UNTOUCHED:
-        beams = wp.vec2i(state.last_hits[element], state.last_met[element])
+        beams = wp.vec2i(state.last_hits[index], state.last_met[index])
         if kind == TOUCHED:
             beams = count_beams(state, chain, cell)
         hits, met = wp.float64(beams[0]), wp.float64(beams[1])
@@ -288,20 +288,20 @@ def draw_labels(first: int, colour: int, sweep: int, prior: PriorArrays, kinds: 
         log_odds -= log_beta(prior.a + hits, prior.b + met) - prior.log_beta
     key = sweep_key(state.keys[chain], sweep, CELLS)
     is_solid = draw_wall(log_odds, to_uniform(random_bits(key, wp.uint64(cell) * PER_CELL + AT_LABEL)))
-    state.solid[element] = wp.uint8(wp.where(is_solid, 1, 0))
+    state.solid[index] = wp.uint8(wp.where(is_solid, 1, 0))
 
 
 @wp.kernel
 def draw_untouched(first: int, sweep: int, prior: PriorArrays, kinds: Uint8s, state: ChainArrays):
     """One thread per chain's cell: draw the reflectivity of a cell that no beam touches, given its label."""
-    element = first + wp.tid()
-    chain = element // state.n_cells
-    index = element - chain * state.n_cells
-    if int(kinds[index]) != UNTOUCHED:
+    index = first + wp.tid()
+    chain = index // state.n_cells
+    flat_index = index - chain * state.n_cells
+    if int(kinds[flat_index]) != UNTOUCHED:
         return
-    counter = wp.uint64(index) * PER_CELL + AT_UNTOUCHED
-    counts = surface.pseudo_counts(prior, state.solid[element])
+    counter = wp.uint64(flat_index) * PER_CELL + AT_UNTOUCHED
+    counts = surface.pseudo_counts(prior, state.solid[index])
     key = sweep_key(state.keys[chain], sweep, CELLS)
-    cell = state.cells[element]
+    cell = state.cells[index]
     cell[REFLECTIVITY] = wp.float32(beta_variate(counts[0], counts[1], key, counter))
-    state.cells[element] = cell
+    state.cells[index] = cell

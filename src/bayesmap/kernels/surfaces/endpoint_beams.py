@@ -44,12 +44,12 @@ class EndpointCells:
 
     cell: Int32s
     offsets: Int32s
-    # of each incidence
+    # One an incidence:
     entry: Int32s  # its entry in the rays
     beam: Int32s
     line: wp.array(dtype=wp.vec3)  # offset of the cell's centre from the beam, metres, and direction of the beam
     centre_and_range: wp.array(dtype=wp.vec2)  # distance of the centre along the beam, and the reading, metres
-    # of each cell
+    # One a cell:
     step_sizes: wp.array(dtype=Cell)  # sizes of its steps and its frame, see `bayesmap.kernels.surfaces.endpoint_cells`
 
 
@@ -76,11 +76,11 @@ def endpoint_cells_to_device(rays: Rays, cells: Ints, step_sizes: Singles, devic
 
 
 @wp.func
-def crossing_probability_of(line: wp.vec3, dx: wp.float32, dy: wp.float32, cell: Cell) -> wp.float32:
+def meeting_chance_of(line: wp.vec3, dx: wp.float32, dy: wp.float32, cell: Cell) -> wp.float32:
     """Return the chance of meeting a surface whose mean lies (dx, dy) from the cell's centre."""
     offset = line[0] + line[1] * dy - line[2] * dx
     across_1, across_2 = cell[L21] * line[1] - cell[L11] * line[2], cell[L22] * line[1]
-    return surface.crossing_probability_at(offset, across_1 * across_1 + across_2 * across_2)
+    return surface.meeting_chance_at(offset, across_1 * across_1 + across_2 * across_2)
 
 
 @wp.struct
@@ -97,7 +97,7 @@ class StopLikelihood:
 class CellBeams:
     """Incidences of one cell, as indices into `EndpointCells`: beams that pass it, and beams that it stops."""
 
-    number: int  # of the cell in `EndpointCells`
+    number: int  # number of the cell in `EndpointCells`
     entries: Int32s  # passing beams are entries[passing_begin:passing_end], stopped beams follow further on
     passing_begin: int
     passing_end: int
@@ -125,10 +125,10 @@ def log_stops(
         ahead = endpoints.centre_and_range[incidence][0] + line[1] * dx + line[2] * dy
         crossing = surface.cross_at(offset, ahead, cell, line[1], line[2])
         p = hit_density(
-            likelihood.law, likelihood.beta, endpoints.entry[incidence], likelihood.rays.near[beam],
+            likelihood.law, likelihood.beta, endpoints.entry[incidence], likelihood.rays.first_near[beam],
             endpoints.centre_and_range[incidence][1], likelihood.rays.decay[beam], crossing,
         )  # fmt: skip
-        product = product * wp.max(reflectivity * crossing.chance * p, MIN_FACTOR)
+        product = product * wp.max(reflectivity * crossing.meeting_chance * p, MIN_FACTOR)
         if product < MIN_PRODUCT or product > ONE_32 / MIN_PRODUCT:
             total += wp.log(wp.float64(product))
             product = ONE_32
@@ -139,7 +139,7 @@ def log_stops(
     product = ONE_32
     floor = wp.max(MIN_PRODUCT, wp.float32(wp.exp(least - total)))
     for i in range(beams.passing_begin, beams.passing_end):
-        g = crossing_probability_of(endpoints.line[beams.entries[i]], dx, dy, cell)
+        g = meeting_chance_of(endpoints.line[beams.entries[i]], dx, dy, cell)
         product = product * wp.max(ONE_32 - reflectivity * g, MIN_FACTOR)
         if product < floor:
             total += wp.log(wp.float64(product))
@@ -231,8 +231,8 @@ def positive(x: Lanes) -> Lanes:
 
 
 @wp.func
-def crossing_probability_lanes(offset: Lanes, across: Lanes) -> Lanes:
-    """Compute `crossing_probability_at` for each beam."""
+def meeting_chance_lanes(offset: Lanes, across: Lanes) -> Lanes:
+    """Compute `meeting_chance_at` for each beam."""
     one = Lanes(wp.float32(1.0))
     r = wp.cw_div(wp.cw_mul(offset, offset), CROSSING_WIDTH_SQ * across)
     return wp.cw_div(one, one + wp.cw_mul(r, wp.cw_mul(r, r)))
@@ -322,7 +322,7 @@ def fill_blocks(likelihood: StopLikelihood, blocks: LaneBlocks, row: int, beams:
         incidence = beams.entries[i]
         beam = endpoints.beam[incidence]
         centre_and_range = endpoints.centre_and_range[incidence]
-        if endpoints.entry[incidence] >= rays.near[beam] and wp.isfinite(centre_and_range[1]):
+        if endpoints.entry[incidence] >= rays.first_near[beam] and wp.isfinite(centre_and_range[1]):
             numbers = wp.vec4(centre_and_range[0], centre_and_range[1], rays.decay[beam], wp.float32(1.0))
             write_stopped(blocks, row, stopped_lane, n_stopped, endpoints.line[incidence], numbers)
             n_stopped = n_stopped + 1
@@ -392,7 +392,7 @@ def log_stops_in_lanes(
             variance = wp.cw_mul(Lanes(area * area) + wp.cw_mul(unsure, along), per_across)
             reading = blocks.lanes[row, lane + READING]
             p = stop_density_lanes(law, reading, blocks.lanes[row, lane + DECAY], distance, variance)
-            factor = wp.max(per_peak * wp.cw_mul(crossing_probability_lanes(offset, body), p), Lanes(MIN_FACTOR))
+            factor = wp.max(per_peak * wp.cw_mul(meeting_chance_lanes(offset, body), p), Lanes(MIN_FACTOR))
             counts = blocks.lanes[row, lane + COUNTS]
             product = wp.cw_mul(product, wp.cw_mul(counts, factor) + (one - counts))
             smallest = wp.min(smallest, product)
@@ -413,7 +413,7 @@ def add_passing_in_lanes(
     least: wp.float64,
 ) -> wp.float64:  # fmt: skip
     """Add the log-likelihood of a cell's passing beams to ``total``; UNKNOWN if a product was too small."""
-    # The arithmetic of `crossing_probability`. A sum below ``least`` is returned unfinished.
+    # The arithmetic of `meeting_chance`. A sum below ``least`` is returned unfinished.
     row, begin = cell_blocks.row, cell_blocks.begin
     one = Lanes(wp.float32(1.0))
     l11, l21, l22 = cell[L11], cell[L21], cell[L22]
@@ -429,7 +429,7 @@ def add_passing_in_lanes(
             across_1 = l21 * ux - l11 * uy
             across_2 = l22 * ux
             across = wp.cw_mul(across_1, across_1) + wp.cw_mul(across_2, across_2)
-            chance = crossing_probability_lanes(blocks.lanes[row, lane + OFFSET] + dy * ux - dx * uy, across)
+            chance = meeting_chance_lanes(blocks.lanes[row, lane + OFFSET] + dy * ux - dx * uy, across)
             product = wp.cw_mul(product, wp.max(one - reflectivity * chance, Lanes(MIN_FACTOR)))
             smallest = wp.min(smallest, product)
             blocks.lanes[row, begin] = product

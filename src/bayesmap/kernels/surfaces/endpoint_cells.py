@@ -151,7 +151,7 @@ def count_endpoint_cells(first: int, sweep: int, endpoints: EndpointCells, state
     beam_0 = place.chain * state.n_beams
     entries = lists.entries[place.chain]
     key = sweep_key(state.keys[place.chain], sweep, random.MEETINGS)
-    cell = state.cells[place.element]
+    cell = state.cells[place.index]
     centre = surface.centre_of(place.cell, state.ny, state.edge_m)
     reflectivity = cell[REFLECTIVITY]
     dx, dy = cell[MEAN_X] - centre[0], cell[MEAN_Y] - centre[1]
@@ -172,12 +172,12 @@ def count_endpoint_cells(first: int, sweep: int, endpoints: EndpointCells, state
     n_met = int(0)
     for i in range(begin, passing_end):
         passing = entries[i]
-        g = endpoint_beams.crossing_probability_of(endpoints.line[passing], dx, dy, cell)
+        g = endpoint_beams.meeting_chance_of(endpoints.line[passing], dx, dy, cell)
         u = wp.float32(to_uniform(random_bits(key, wp.uint64(passing))))
         n_met += wp.where(u * (ONE_32 - reflectivity * g) < g * (ONE_32 - reflectivity), 1, 0)
     lists.passes[place.chain, place.number] = passing_end - begin
-    state.last_hits[place.element] = end - stopped_begin
-    state.last_met[place.element] = n_met
+    state.last_hits[place.index] = end - stopped_begin
+    state.last_met[place.index] = n_met
 
 
 @wp.kernel
@@ -189,17 +189,17 @@ def update_endpoint_cells(
     endpoints = likelihood.endpoints
     place = place_of(first + wp.tid(), endpoints.cell, state.n_cells)
     counter = wp.uint64(place.cell) * PER_CELL
-    cell = state.cells[place.element]
-    solid = state.solid[place.element]
+    cell = state.cells[place.index]
+    solid = state.solid[place.index]
     centre = surface.centre_of(place.cell, state.ny, state.edge_m)
     # Draw the reflectivity from its Beta.
     counts = surface.pseudo_counts(prior, solid)
-    hits, met = wp.float64(state.last_hits[place.element]), wp.float64(state.last_met[place.element])
+    hits, met = wp.float64(state.last_hits[place.index]), wp.float64(state.last_met[place.index])
     a, b = counts[0] + hits, counts[1] + met
     beta_key = sweep_key(state.keys[place.chain], sweep, random.CELLS)
     cell[REFLECTIVITY] = wp.float32(random.beta_variate(a, b, beta_key, counter + AT_BETA))
     # Copy the beams to blocks, if the law allows it.
-    beams = beams_of_cell(lists, endpoints, place.chain, place.number, state.last_hits[place.element])
+    beams = beams_of_cell(lists, endpoints, place.chain, place.number, state.last_hits[place.index])
     cell_blocks = endpoint_beams.fill_blocks(likelihood, blocks, place.chain * state.parts + part, beams)
     # Metropolis steps. Round 0 computes the present log joint, so that the long function is called in one place.
     key = sweep_key(state.keys[place.chain], sweep, random.SURFACES)
@@ -221,4 +221,4 @@ def update_endpoint_cells(
             if log_joint > least:
                 framed = candidate
                 present = log_joint
-    state.cells[place.element] = out_of_frame(framed, sizes, centre)
+    state.cells[place.index] = out_of_frame(framed, sizes, centre)

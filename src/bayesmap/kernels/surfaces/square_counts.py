@@ -22,7 +22,7 @@ from bayesmap.kernels import device as devices
 from bayesmap.kernels.device import ONE, Float32s, Int32s, Ints, Singles, Uint8s
 from bayesmap.kernels.law_table import readings_scale_m, table_log_density
 from bayesmap.kernels.random import BEAMS, CELLS, beta_or_zero, normal, random_bits, sweep_key, to_uniform
-from bayesmap.kernels.rays import Lines, line_of, lines_to_device, stretch
+from bayesmap.kernels.rays import Lines, chord, line_of, lines_to_device
 from bayesmap.kernels.sensor_law import TABLE, SensorLaw32, mixed_density, returned_density, variance_at
 from bayesmap.kernels.surfaces.cell_draws import PER_CELL
 from bayesmap.kernels.surfaces.stops import ChainArrays, TracedRays
@@ -140,25 +140,25 @@ def count_in_squares(
 ):
     """One thread per beam of a chain: count it as stopped in one square, and as stopped before each square behind."""
     beam = wp.tid()
-    element = chain * state.n_beams + beam  # in the arrays of all chains
+    index = chain * state.n_beams + beam  # in the arrays of all chains
     begin, end = rays.offsets[beam], rays.offsets[beam + 1]
-    stop = state.stop[element]
+    stop = state.stop[index]
     if stop < begin or stop >= end:
         return
     counter = STREAM_POINT + wp.uint64(beam) * wp.uint64(4)
-    moments = state.stop_moments[element]
+    moments = state.stop_moments[index]
     key = sweep_key(state.keys[chain], sweep, BEAMS)
     point = draw_stop_point_m(law, rays.range_m[beam], rays.decay[beam], moments[0], moments[1], key, counter)
     line = line_of(squares.lines, beam)
     # From the last entry back to the square that holds the point.
     entry = end - 1
-    interval = stretch(line, rays.cells[entry])
+    interval = chord(line, rays.cells[entry])
     if point > interval[1]:  # further than the beam is followed
         return
     while entry > begin and interval[0] > point:
         wp.atomic_add(squares.stopped_before, rays.cells[entry], 1)
         entry -= 1
-        interval = stretch(line, rays.cells[entry])
+        interval = chord(line, rays.cells[entry])
     wp.atomic_add(squares.stopped_inside, rays.cells[entry], 1)
 
 
@@ -169,7 +169,7 @@ def draw_stop_chances(
     """One thread per touched cell: draw q from its Beta posterior, compute its mean, and count a kept draw."""
     i = wp.tid()
     cell = squares.touched[i]
-    element = chain * state.n_cells + cell
+    index = chain * state.n_cells + cell
     arrived = squares.crossings[cell] - squares.stopped_before[cell]
     counts = pseudo_counts(prior, solid[cell])
     a = counts[0] + wp.float64(squares.stopped_inside[cell])
@@ -178,7 +178,7 @@ def draw_stop_chances(
     squares.drawn[i] = wp.float32(beta_or_zero(a, b, key, wp.uint64(cell) * PER_CELL + AT_SQUARE))
     squares.expected[i] = wp.float32(a / (a + b))
     if kept != 0:
-        state.observed_counts[element] = state.observed_counts[element] + wp.vec2i(wp.where(arrived > 0, 1, 0), 1)
+        state.observed_counts[index] = state.observed_counts[index] + wp.vec2i(wp.where(arrived > 0, 1, 0), 1)
 
 
 class InSquares(NamedTuple):

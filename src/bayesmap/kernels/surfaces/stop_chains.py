@@ -106,11 +106,11 @@ class StopChains:
         self.threads = (threads or devices.available_cores()) if device == "cpu" else 1
         self._rays = devices.pack(
             stops.TracedRays, device, without_surfaces=self.without_surfaces, offsets=rays.offsets, cells=rays.cells,
-            near=rays.near, start_m=rays.start_m, direction=rays.direction, range_m=rays.range_m, decay=(beams,),
-            distance_m=np.zeros(1) if plan.distance_m is None else plan.distance_m,
+            first_near=rays.first_near, start_m=rays.start_m, direction=rays.direction, range_m=rays.range_m,
+            decay=(beams,), distance_m=np.zeros(1) if plan.distance_m is None else plan.distance_m,
         )  # fmt: skip
         self._schedule = stops.UpdateSchedule(rays, plan.periods)
-        self._lazy = self._schedule.mark_watched(self._rays, device)
+        self._lazy = self._schedule.watched_to_device(self._rays, device)
         self._endpoints = endpoint_cells_to_device(rays, plan.endpoints, plan.steps, device)
         fields = {"cell": rays.touched, "period": plan.periods, "without_surfaces": self.without_surfaces}
         self._active = devices.pack(cell_draws.ActiveCells, device, **fields)

@@ -3,16 +3,17 @@
 In each cell a beam meets the surface with chance g, and is then stopped with probability m, the cell's reflectivity.
 Let a = m g, and let T be the product of 1 - a over the cells before. The posterior probability of a stop is
 proportional to T a p(z | stop). Far before the reading z, p(z | stop) is the constant density of a random reading:
-these cells cost one multiplication each.
+these cells cost one multiplication each. The text below uses four words:
 
-A cell *learns* in a sweep if it counts the sweep's beams and is updated by the counts. Otherwise its reflectivity is
-fixed. It counts the passing beams that *met* its surface, each with probability g (1 - m) / (1 - a). While it tries a
-candidate for its surface, it sums log (1 - m g') / (1 - m g) instead, the beam's part of the Metropolis ratio. Both are
+- *Far* entries of a beam lie far before its reading, *near* ones around it.
+- A cell *learns* in a sweep if it counts the sweep's beams and is updated by the counts. Others keep reflectivities.
+- *Lazy* cells, most free ones, are all updated in the same sweeps. `pass_lazy_cells` then computes the product of
+  1 - m g over a beam's far entries in them.
+- *Watched* far entries lie in cells in which readings end or few beams pass. Every sweep walks them.
+
+A cell that learns counts the passing beams that *met* its surface, each with probability g (1 - m) / (1 - a). While it
+tries a candidate for its surface, it sums log (1 - m g') / (1 - m g), the beam's part of the Metropolis ratio. Both are
 sums of integers: the result does not depend on the order of beams.
-
-Most cells are free, and are updated *lazily*, all in the same sweeps. The product of 1 - m g over a beam's lazy cells
-far before its reading is computed once after each update (`pass_lazy_cells`). The other far cells, in which readings
-end or few beams pass, are *watched*: every sweep walks them.
 
 At an inverse temperature beta the law of the reading is p(z | stop)^beta; the law of stops given the cells is not
 tempered. For walls, 0 or 1, this is the likelihood to the power of beta. The main kernel is `draw_stops`.
@@ -58,18 +59,18 @@ class TracedRays:
     offsets: Int32s
     cells: Int32s
     distance_m: Float32s
-    near: Int32s  # first entry of each beam at which a stop may explain the reading
+    first_near: Int32s  # first entry of each beam at which a stop may explain the reading
     start_m: wp.array(dtype=wp.vec2)
     direction: wp.array(dtype=wp.vec2)
     range_m: Float32s
     decay: Float32s  # see `compute_decays`
-    watched_offsets: Int32s  # first element of each beam in ``watched``
+    watched_offsets: Int32s  # first index of each beam in ``watched``
     watched: Int32s  # far entries whose cells are not lazy
 
 
 @wp.struct
 class ChainArrays:
-    """All chains on a device. Cell c of chain n is element ``n * n_cells + c``, beam b is ``n * n_beams + b``."""
+    """All chains on a device. Cell c of chain n has the index ``n * n_cells + c``, beam b has ``n * n_beams + b``."""
 
     n_cells: int
     nx: int
@@ -105,10 +106,10 @@ def tempered(p: wp.float32, beta: wp.float32) -> wp.float32:
 
 
 @wp.func
-def cross_cell(rays: TracedRays, k: int, cell: Cell, ray: Ray) -> Crossing:
-    """Return the crossing of the surface in the cell of entry k; without surfaces it has the chance 1."""
+def cross_cell(rays: TracedRays, entry: int, cell: Cell, ray: Ray) -> Crossing:
+    """Return the crossing of the surface in the cell of an entry. Without surfaces its chance is 1."""
     if rays.without_surfaces != 0:
-        return Crossing(wp.float32(1.0), rays.distance_m[k], wp.float32(0.0))
+        return Crossing(wp.float32(1.0), rays.distance_m[entry], wp.float32(0.0))
     return surface.cross_surface(cell, ray)
 
 
@@ -120,18 +121,19 @@ def to_gain_units(log_ratio: wp.float32) -> wp.int64:
 
 @wp.func
 def meeting_chance(rays: TracedRays, cell: Cell, ray: Ray) -> wp.float32:
-    """Return the chance of meeting a cell's surface; 1 if cells have no surfaces."""
+    """Return the chance g of meeting a cell's surface; 1 if cells have no surfaces."""
     if rays.without_surfaces != 0:
         return wp.float32(1.0)
-    return surface.crossing_probability(cell, ray)
+    return surface.meeting_chance(cell, ray)
 
 
 @wp.func
 def hit_density(
-    law: SensorLaw32, beta: wp.float32, entry: int, near: int, z: wp.float32, decay: wp.float32, crossing: Crossing
-) -> wp.float32:
+    law: SensorLaw32, beta: wp.float32, entry: int, first_near: int, z: wp.float32, decay: wp.float32,
+    crossing: Crossing,
+) -> wp.float32:  # fmt: skip
     """Return p(z | stop)^beta of a reading z at an entry; before the near entries, the density of a random reading."""
-    if entry < near:
+    if entry < first_near:
         return tempered(law.uniform, beta)
     return tempered(laws.stop_density(law, z, decay, crossing.distance_m, crossing.variance), beta)
 
@@ -147,17 +149,17 @@ def compute_decays(first: int, law: SensorLaw32, rays: TracedRays):
 class Beam:
     """A beam of one chain in a sweep."""
 
-    number: int  # of the beam in the chain
-    element: int  # of the beam in arrays of all chains
+    number: int  # number of the beam in its chain
+    index: int  # its index in arrays of all chains
     row: int  # row of its counts in `ChainArrays`
-    cell_0: int  # the chain's first element in arrays of cells
+    cell_0: int  # index of the chain's first cell in arrays of cells
     begin: int  # its entries in the rays are [begin, end)
-    near: int  # far entries are [begin, near)
+    first_near: int  # far entries are [begin, first_near)
     end: int
     ray: Ray
     reading: wp.float32
     decay: wp.float32  # see `compute_decays`
-    key: wp.uint64  # of the chain's beams in the sweep
+    key: wp.uint64  # random key of the chain's beams in the sweep
 
 
 @wp.struct
@@ -173,45 +175,48 @@ class StopChoice:
 def draw_stops(
     first: int, part: int, sweep: int, lazy_updates: int, law: SensorLaw32, rays: TracedRays, state: ChainArrays
 ):
-    """One thread per chain's beam: draw and count its stop. ``lazy_updates`` is 1 if the sweep updates lazy cells."""
-    element = first + wp.tid()
-    chain = element // state.n_beams
-    number = element - chain * state.n_beams
+    """One thread per chain's beam, from index ``first`` on: draw and count its stop, in the counts of ``part``."""
+    # lazy_updates: 1 if the sweep updates lazy cells.
+    index = first + wp.tid()
+    chain = index // state.n_beams
+    number = index - chain * state.n_beams
     beam = Beam(
-        number, element, chain * state.parts + part, chain * state.n_cells, rays.offsets[number], rays.near[number],
-        rays.offsets[number + 1], Ray(rays.start_m[number], rays.direction[number]), rays.range_m[number],
-        rays.decay[number], sweep_key(state.keys[chain], sweep, BEAMS),
+        number, index, chain * state.parts + part, chain * state.n_cells,
+        rays.offsets[number], rays.first_near[number], rays.offsets[number + 1],
+        Ray(rays.start_m[number], rays.direction[number]), rays.range_m[number], rays.decay[number],
+        sweep_key(state.keys[chain], sweep, BEAMS),
     )  # fmt: skip
     if beam.begin == beam.end or wp.isnan(beam.reading):
-        state.stop[element] = beam.end
-        state.log_likelihood[element] = wp.float32(0.0)
+        state.stop[beam.index] = beam.end
+        state.log_likelihood[beam.index] = wp.float32(0.0)
         if not wp.isnan(beam.reading):
             density = laws.no_stop_density(law, beam.reading, beam.decay)
-            state.log_likelihood[element] = wp.log(tempered(density, state.beta))
+            state.log_likelihood[beam.index] = wp.log(tempered(density, state.beta))
         return
     # Choose the stop, and if it is far, its entry.
     survive_far = pass_far_entries(rays, state, beam, lazy_updates)
     choice = choose_stop(law, rays, state, beam, survive_far)
-    state.log_likelihood[element] = wp.float32(wp.log(wp.max(choice.density, MIN_DENSITY)))
+    state.log_likelihood[beam.index] = wp.float32(wp.log(wp.max(choice.density, MIN_DENSITY)))
     stop = choice.entry
     if stop == FAR:
         u = wp.float32(to_uniform(random_bits(beam.key, STREAM_FAR + wp.uint64(number))))
         stop = find_far_stop(rays, state, beam, u * (ONE_32 - survive_far))
-    # Count the passes of near cells before the stop.
-    for entry in range(beam.near, wp.where(choice.some_learn != 0, wp.min(stop, beam.end), beam.near)):
+    # Count the passes of near cells before the stop, if any cell learns.
+    end = wp.where(choice.some_learn != 0, wp.min(stop, beam.end), beam.first_near)
+    for entry in range(beam.first_near, end):
         c_passed = rays.cells[entry]
         if state.fixed_reflectivity[beam.cell_0 + c_passed] == LEARNS:
             passed = state.cells[beam.cell_0 + c_passed]
             count_pass(state, beam, c_passed, passed, meeting_chance(rays, passed, beam.ray), entry, 1)
     # Store the stop, and count it in its cell.
-    state.stop[element] = stop
+    state.stop[beam.index] = stop
     if stop < beam.end:
         c = rays.cells[stop]
         cell = state.cells[beam.cell_0 + c]
         crossing = cross_cell(rays, stop, cell, beam.ray)
-        state.stop_moments[element] = wp.vec2(crossing.distance_m, crossing.variance)
+        state.stop_moments[beam.index] = wp.vec2(crossing.distance_m, crossing.variance)
         state.stopped_in[beam.cell_0 + c] = sweep
-        if state.fixed_reflectivity[beam.cell_0 + c] == LEARNS:  # else nothing counts it, or `endpoint_cells` does
+        if state.fixed_reflectivity[beam.cell_0 + c] == LEARNS:  # `endpoint_cells` counts other stops, or nothing does
             count_stop(law, state, beam, stop, c, cell, crossing)
 
 
@@ -220,9 +225,9 @@ def pass_far_entries(rays: TracedRays, state: ChainArrays, beam: Beam, lazy_upda
     """Return the chance that a beam passes its far entries, and count the passes in cells that learn."""
     survive = ONE_32
     begin = beam.begin
-    end = beam.near
+    end = beam.first_near
     if lazy_updates == 0:  # walk the watched entries only
-        survive = state.lazy_survival[beam.element]
+        survive = state.lazy_survival[beam.index]
         begin = rays.watched_offsets[beam.number]
         end = rays.watched_offsets[beam.number + 1]
     for i in range(begin, end):
@@ -255,7 +260,7 @@ def choose_stop(
     peak = tempered(laws.highest_density(law, beam.reading), state.beta)
     negligible = MIN_RELATIVE_WEIGHT / peak
     bound = negligible * tempered(laws.lowest_density(law, beam.reading), state.beta)
-    for entry in range(beam.near, beam.end):
+    for entry in range(beam.first_near, beam.end):
         c = rays.cells[entry]
         fixed = state.fixed_reflectivity[beam.cell_0 + c]
         if fixed == LEARNS:
@@ -264,7 +269,7 @@ def choose_stop(
             cell = state.cells[beam.cell_0 + c]
             if cell[REFLECTIVITY] * survive > bound:
                 crossing = cross_cell(rays, entry, cell, beam.ray)
-                a = cell[REFLECTIVITY] * crossing.chance
+                a = cell[REFLECTIVITY] * crossing.meeting_chance
                 likelihood = laws.stop_density(law, beam.reading, beam.decay, crossing.distance_m, crossing.variance)
                 weight = wp.float64(survive * a * tempered(likelihood, state.beta))
                 total += weight
@@ -291,7 +296,7 @@ def count_pass(state: ChainArrays, beam: Beam, c: int, cell: Cell, g: wp.float32
     """Count that a beam passed cell c, which it met with chance g; with sign -1, undo the count."""
     reflectivity = cell[REFLECTIVITY]
     if cell[TRYING] != wp.float32(0.0):
-        candidate_g = surface.crossing_probability(state.candidates[beam.cell_0 + c], beam.ray)
+        candidate_g = surface.meeting_chance(state.candidates[beam.cell_0 + c], beam.ray)
         candidate_pass = wp.max(ONE_32 - reflectivity * candidate_g, MIN_FACTOR)
         log_ratio = wp.log(candidate_pass / wp.max(ONE_32 - reflectivity * g, MIN_FACTOR))
         wp.atomic_add(state.gain, beam.row, c, wp.int64(sign) * to_gain_units(log_ratio))
@@ -306,12 +311,12 @@ def find_far_stop(rays: TracedRays, state: ChainArrays, beam: Beam, target: wp.f
     """Return the far entry at which the chance of a stop so far exceeds ``target``, and undo the counts from it on."""
     choice = FAR
     survive = wp.float32(1.0)
-    for entry in range(beam.begin, beam.near):
+    for entry in range(beam.begin, beam.first_near):
         c = rays.cells[entry]
         cell = state.cells[beam.cell_0 + c]
         g = meeting_chance(rays, cell, beam.ray)
         survive = survive * (ONE_32 - cell[REFLECTIVITY] * g)
-        if choice == FAR and (ONE_32 - survive >= target or entry == beam.near - 1):
+        if choice == FAR and (ONE_32 - survive >= target or entry == beam.first_near - 1):
             choice = entry
         if choice != FAR and state.fixed_reflectivity[beam.cell_0 + c] == LEARNS:
             count_pass(state, beam, c, cell, g, entry, -1)
@@ -324,27 +329,29 @@ def count_stop(law: SensorLaw32, state: ChainArrays, beam: Beam, entry: int, c: 
     wp.atomic_add(state.hits, beam.row, c, 1)
     if cell[TRYING] != wp.float32(0.0):
         new = surface.cross_surface(state.candidates[beam.cell_0 + c], beam.ray)
-        new_density = hit_density(law, state.beta, entry, beam.near, beam.reading, beam.decay, new)
-        old_density = hit_density(law, state.beta, entry, beam.near, beam.reading, beam.decay, crossing)
-        ratio = wp.max(new.chance * new_density, MIN_FACTOR) / wp.max(crossing.chance * old_density, MIN_FACTOR)
+        new_density = hit_density(law, state.beta, entry, beam.first_near, beam.reading, beam.decay, new)
+        old_density = hit_density(law, state.beta, entry, beam.first_near, beam.reading, beam.decay, crossing)
+        ratio = wp.max(new.meeting_chance * new_density, MIN_FACTOR) / wp.max(
+            crossing.meeting_chance * old_density, MIN_FACTOR
+        )
         wp.atomic_add(state.gain, beam.row, c, to_gain_units(wp.log(ratio)))
 
 
 @wp.kernel
 def pass_lazy_cells(first: int, lazy: Uint8s, rays: TracedRays, state: ChainArrays):
     """One thread per chain's beam: compute its chance to pass the far cells that ``lazy`` marks."""
-    element = first + wp.tid()
-    chain = element // state.n_beams
-    b = element - chain * state.n_beams
+    index = first + wp.tid()
+    chain = index // state.n_beams
+    b = index - chain * state.n_beams
     cell_0 = chain * state.n_cells
     ray = Ray(rays.start_m[b], rays.direction[b])
     survive = wp.float32(1.0)
-    for entry in range(rays.offsets[b], rays.near[b]):
+    for entry in range(rays.offsets[b], rays.first_near[b]):
         c = rays.cells[entry]
         if lazy[c] != wp.uint8(0) and state.fixed_reflectivity[cell_0 + c] > NEGLIGIBLE_REFLECTIVITY:
             cell = state.cells[cell_0 + c]
             survive = survive * (wp.float32(1.0) - cell[REFLECTIVITY] * meeting_chance(rays, cell, ray))
-    state.lazy_survival[element] = survive
+    state.lazy_survival[index] = survive
 
 
 class UpdateSchedule:
@@ -362,13 +369,13 @@ class UpdateSchedule:
         """Return whether a sweep updates some of the lazy cells."""
         return any(sweep % period == 0 for period in self._periods)
 
-    def mark_watched(self, traced: TracedRays, device: str) -> Any:
-        """List the watched far entries in the rays on a device. Returns the mask of lazy cells, on the device."""
+    def watched_to_device(self, traced: TracedRays, device: str) -> Any:
+        """Write the watched far entries to ``traced``. Returns the mask of lazy cells on the device."""
         rays = self._rays
         watched = np.flatnonzero(~self._lazy[rays.cells])
         beam = np.searchsorted(rays.offsets, watched, side="right") - 1
-        far = watched < rays.near[beam]
-        counts = np.bincount(beam[far], minlength=rays.n_beams)
-        traced.watched = devices.to_device(watched[far], wp.int32, device)
+        is_far = watched < rays.first_near[beam]
+        counts = np.bincount(beam[is_far], minlength=rays.n_beams)
+        traced.watched = devices.to_device(watched[is_far], wp.int32, device)
         traced.watched_offsets = devices.to_device(np.concatenate([[0], np.cumsum(counts)]), wp.int32, device)
         return devices.to_device(self._lazy, wp.uint8, device)

@@ -1,4 +1,4 @@
-r"""The surface of a cell: the beams that meet it (`bayesmap.beams.rays` states the law), and its prior.
+r"""The surface of a cell: the beams that meet it (`bayesmap.beams.rays.stops_of` states the law), and its prior.
 
 `bayesmap.cells.surface.Surface` states the prior. Its factor exp(-tr Sigma / (2 kappa^2)) keeps surfaces from growing
 beyond their cell: beams of other cells are no evidence against it. Steps are taken in mu, log l11, l21 and log l22 of
@@ -48,27 +48,27 @@ class Ray:
 
 @wp.struct
 class Crossing:
-    """Probability of meeting the surface, and mean and variance of the distance at which the beam meets it."""
+    """Chance g of meeting the surface, and mean and variance of the distance at which the beam meets it."""
 
-    chance: wp.float32
+    meeting_chance: wp.float32
     distance_m: wp.float32
     variance: wp.float32
 
 
 @wp.func
-def crossing_probability_at(offset: wp.float32, across: wp.float32) -> wp.float32:
-    """Return the chance of meeting a surface, given the offset of its mean and its variance across the beam."""
+def meeting_chance_at(offset: wp.float32, across: wp.float32) -> wp.float32:
+    """Return the chance g of meeting a surface, given the offset of its mean and its variance across the beam."""
     r = offset * offset / (CROSSING_WIDTH_SQ * across)
     return wp.float32(1.0) / (wp.float32(1.0) + r * r * r)
 
 
 @wp.func
-def crossing_probability(cell: Cell, ray: Ray) -> wp.float32:
-    """Return the chance that the beam meets the cell's surface."""
+def meeting_chance(cell: Cell, ray: Ray) -> wp.float32:
+    """Return the chance g that the beam meets the cell's surface."""
     u = ray.direction
     offset = u[0] * (cell[MEAN_Y] - ray.start_m[1]) - u[1] * (cell[MEAN_X] - ray.start_m[0])
     across_1, across_2 = cell[L21] * u[0] - cell[L11] * u[1], cell[L22] * u[0]
-    return crossing_probability_at(offset, across_1 * across_1 + across_2 * across_2)
+    return meeting_chance_at(offset, across_1 * across_1 + across_2 * across_2)
 
 
 @wp.func
@@ -86,7 +86,7 @@ def cross_at(offset: wp.float32, ahead: wp.float32, cell: Cell, ux: wp.float32, 
     area = l11 * l22
     # |Sigma + unsure n n'| / w^2 = (|Sigma| + unsure u' Sigma u) / w^2: no difference of large numbers
     variance = (area * area + unsure * (along_1 * along_1 + along_2 * along_2)) * per_across
-    return Crossing(crossing_probability_at(offset, body), wp.max(ahead - slope * offset, wp.float32(0.0)), variance)
+    return Crossing(meeting_chance_at(offset, body), wp.max(ahead - slope * offset, wp.float32(0.0)), variance)
 
 
 @wp.func
