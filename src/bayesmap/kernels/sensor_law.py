@@ -3,7 +3,7 @@
 A beam stops at a distance known up to a variance, which widens the noise to ``sqrt(scale(d)^2 + variance)``. Functions
 take their precision from their arguments, of the type ``Any``: chains weigh stops in single precision (`SensorLaw32`),
 tables and predictions in double (`SensorLaw64`). A model without a compiled formula is tabulated
-(`bayesmap.kernels.law_table`). The main function is `stop_density`.
+(`bayesmap.kernels.law_table`). A typed reading is a no return (`inf`) or too close (`-inf`).
 """
 
 import math
@@ -21,20 +21,21 @@ from bayesmap.sensors.tabulated import tabulated
 SIGMAS_TO_CERTAINTY = wp.constant(wp.float64(9.0))  # standard deviations past which the normal's cumulative is 0 or 1
 INV_SQRT_2 = wp.constant(wp.float64(0.7071067811865476))
 INV_PI = wp.constant(wp.float64(0.3183098861837907))
-MAX_TERMS = wp.constant(wp.float64(16.0))  # terms of the finite sums in `student_below`
-MAX_FRACTION_STEPS = wp.constant(400)  # steps of the continued fraction; it takes some tens
+MAX_TERMS = wp.constant(wp.float64(16.0))  # most terms of the finite sums in `student_below`
+MAX_FRACTION_STEPS = wp.constant(400)  # most steps of the continued fraction; it takes some tens
 TINY = wp.constant(wp.float64(1.0e-300))  # replaces zero in Lentz's method
 FRACTION_TOLERANCE = wp.constant(wp.float64(1.0e-14))  # relative change at which the continued fraction ends
-MAX_POWER = 16  # whole power computed by multiplication; a Student-t of more degrees is nearly normal
+MAX_POWER = 16  # largest whole power computed by multiplication; a Student-t of more degrees is nearly normal
+
+FAR_SQ = wp.constant(wp.float64(81.0))  # squared standard distance past which normal noise adds nothing
+MIN_PROBABILITY = wp.constant(wp.float64(math.exp(LOG_IMPOSSIBLE)))  # least probability of a typed reading
+CERTAIN_TAIL = 1e-10  # probability of noise that cumulative probabilities leave out
+THIRD = wp.constant(wp.float64(1.0 / 3.0))
 
 # Kinds of laws.
 NOISE = wp.constant(0)  # noise alone
 MIXTURE = wp.constant(1)  # the robust mixture
 TABLE = wp.constant(2)  # any other model
-FAR_SQ = wp.constant(wp.float64(81.0))  # squared standard distance past which normal noise adds nothing
-MIN_PROBABILITY = wp.constant(wp.float64(math.exp(LOG_IMPOSSIBLE)))  # least probability of a typed reading
-CERTAIN_TAIL = 1e-10  # probability of noise that cumulative probabilities leave out
-THIRD = wp.constant(wp.float64(1.0 / 3.0))
 
 
 @wp.func
@@ -146,7 +147,7 @@ def _law_struct(name: str, real: Any) -> Any:
         "passing",  # density of a passing object at distance 0
         "peak",  # upper bound of the mixture's density of a finite reading
         "certain_sq",  # squared standard distance past which the noise's tail is below `CERTAIN_TAIL`
-        "series",  # for smaller x the fifth term of exp(-x) is below the precision
+        "series",  # largest x for which `p_unblocked_near` computes exp(-x) by its series
     )  # fmt: skip
     others = {"kind": int, "power": int, "table": LawTable}  # power: see `noise_density`
     annotations: dict[str, Any] = others | dict.fromkeys(reals, real)
@@ -157,19 +158,19 @@ SensorLaw64 = _law_struct("SensorLaw64", wp.float64)
 SensorLaw32 = _law_struct("SensorLaw32", wp.float32)
 
 
-def sensor_law(sensor: SensorModel, limits: RangeLimits, device: str, law: Any = SensorLaw64) -> Any:
+def sensor_law(sensor: SensorModel, limits: RangeLimits, device: str, struct: Any = SensorLaw64) -> Any:
     """Pack a sensor's numbers for kernels, as a `SensorLaw64` or a `SensorLaw32`."""
-    packed = law()
+    packed = struct()
     packed.min_m, packed.max_m = limits.min_m, limits.max_m
     parameters = sensor.kernel_parameters()
     if parameters is None:
         # For the sampler of stops, in single precision, no beam may make a map impossible. Predictions have no bound.
-        packed.min_log = LOG_IMPOSSIBLE if law is SensorLaw32 else -math.inf
+        packed.min_log = LOG_IMPOSSIBLE if struct is SensorLaw32 else -math.inf
         packed.kind, packed.peak = TABLE, math.inf
         packed.table = devices.pack(LawTable, device, **vars(tabulated(sensor, limits)))
         return packed
     packed.kind = MIXTURE if parameters.robust else NOISE
-    packed.series = 0.1 if law is SensorLaw32 else 0.002
+    packed.series = 0.1 if struct is SensorLaw32 else 0.002
     for name, value in vars(parameters).items():
         if name != "robust":
             setattr(packed, name, value)
@@ -191,16 +192,16 @@ def sensor_law(sensor: SensorModel, limits: RangeLimits, device: str, law: Any =
 
 
 @wp.func
-def blocked(law: Any, distance_m: Any):
+def p_blocked(law: Any, distance_m: Any):
     """Return the chance that a passing object stands before the distance."""
     # type(x)(1.0) is a one in the precision of x, here and below.
     return law.p_short * (type(distance_m)(1.0) - wp.exp(-law.rate_short_per_m * distance_m))
 
 
 @wp.func
-def unblocked(law: Any, distance_m: Any):
+def p_unblocked(law: Any, distance_m: Any):
     """Return the chance that no passing object stands before the distance."""
-    return type(distance_m)(1.0) - blocked(law, distance_m)
+    return type(distance_m)(1.0) - p_blocked(law, distance_m)
 
 
 @wp.func
@@ -213,12 +214,12 @@ def object_decay(law: Any, reading_m: Any):
 
 
 @wp.func
-def unblocked_near(law: Any, reading_m: Any, decay: Any, distance_m: Any):
-    """Compute `unblocked`; if distance and reading are close, exp(-x) is computed by its series."""
+def p_unblocked_near(law: Any, reading_m: Any, decay: Any, distance_m: Any):
+    """Compute `p_unblocked`; if distance and reading are close, exp(-x) is computed by its series."""
     one = type(distance_m)(1.0)
     x = law.rate_short_per_m * (distance_m - reading_m)
     if wp.abs(x) > law.series or reading_m < type(distance_m)(0.0):
-        return unblocked(law, distance_m)
+        return p_unblocked(law, distance_m)
     half = type(distance_m)(0.5)
     ratio = one - x * (one - x * half * (one - x * type(distance_m)(THIRD) * (one - x * half * half)))
     return one - law.p_short * (one - decay * ratio)
@@ -242,7 +243,7 @@ def returned_density(law: Any, reading_m: Any, decay: Any, distance_m: Any, vari
         return type(total)(0.0)
     precision = type(total)(1.0) / total
     density = noise_density(law, square * precision) * wp.sqrt(precision)
-    return law.p_known * unblocked_near(law, reading_m, decay, distance_m) * law.p_return * density
+    return law.p_known * p_unblocked_near(law, reading_m, decay, distance_m) * law.p_return * density
 
 
 @wp.func
@@ -257,31 +258,33 @@ def mixed_density(law: Any, reading_m: Any, decay: Any, distance_m: Any, returne
 @wp.func
 def stop_density(law: Any, reading_m: Any, decay: Any, distance_m: Any, variance: Any):
     """Return p(reading | the beam stops at about the distance): a density, or the probability of a typed reading."""
-    # decay: `object_decay` of the reading; distance_m: infinite if the beam stops nowhere; wall: the distance, at most
-    # the largest range; free: chance that no passing object blocks the beam.
+    # decay: `object_decay` of the reading; distance_m: infinite if the beam stops nowhere.
     if law.kind != MIXTURE:
-        return wp.exp(stop_log_density_without_objects(law, reading_m, distance_m, variance))
-    one = type(variance)(1.0)
-    wall = wp.min(distance_m, law.max_m)
+        return wp.exp(log_density_without_mixture(law, reading_m, distance_m, variance))
     if wp.isfinite(reading_m):
         returned = returned_density(law, reading_m, decay, distance_m, variance)
         return mixed_density(law, reading_m, decay, distance_m, returned)
-    # A typed reading of a beam that stops nowhere within the range.
-    free = unblocked(law, wall)
+    return wp.max(typed_probability(law, reading_m, distance_m, variance), type(variance)(MIN_PROBABILITY))
+
+
+@wp.func
+def typed_probability(law: Any, reading_m: Any, distance_m: Any, variance: Any):
+    """Return the mixture's probability of a typed reading, given that the beam stops at about the distance."""
+    zero = type(variance)(0.0)
+    is_no_return = reading_m > type(reading_m)(0.0)
+    wall_m = wp.min(distance_m, law.max_m)
+    free = p_unblocked(law, wall_m)
     if distance_m > law.max_m:
-        if reading_m > type(reading_m)(0.0):
-            return wp.max(law.p_known * free, type(one)(MIN_PROBABILITY))
-        return wp.max(law.p_known * blocked(law, wp.min(wall, law.min_m)), type(one)(MIN_PROBABILITY))
+        return law.p_known * wp.where(is_no_return, free, p_blocked(law, wp.min(wall_m, law.min_m)))
     hit = free * law.p_return
-    scale = wp.sqrt(variance_at(law, wall, variance))
-    if reading_m > type(reading_m)(0.0):  # no return
-        above = type(one)(0.0)
-        if law.dof > type(one)(0.0) or (law.max_m - wall) * (law.max_m - wall) < type(one)(FAR_SQ) * scale * scale:
-            above = noise_below(law, (wall - law.max_m) / scale)  # the noise is symmetric
-        return wp.max(law.p_known * (free * law.p_no_return + hit * above), type(one)(MIN_PROBABILITY))
-    # Too close.
-    below = noise_below(law, (law.min_m - wall) / scale)
-    return wp.max(law.p_known * (blocked(law, wp.min(wall, law.min_m)) + hit * below), type(one)(MIN_PROBABILITY))
+    scale = wp.sqrt(variance_at(law, wall_m, variance))
+    if is_no_return:
+        above = zero
+        if law.dof > zero or (law.max_m - wall_m) * (law.max_m - wall_m) < type(zero)(FAR_SQ) * scale * scale:
+            above = noise_below(law, (wall_m - law.max_m) / scale)  # the noise is symmetric
+        return law.p_known * (free * law.p_no_return + hit * above)
+    below = noise_below(law, (law.min_m - wall_m) / scale)
+    return law.p_known * (p_blocked(law, wp.min(wall_m, law.min_m)) + hit * below)
 
 
 @wp.func
@@ -306,16 +309,16 @@ def lowest_density(law: Any, reading_m: Any):
 
 
 @wp.func
-def stop_log_density_without_objects(law: Any, reading_m: Any, distance_m: Any, variance: Any):
+def log_density_without_mixture(law: Any, reading_m: Any, distance_m: Any, variance: Any):
     """Return log p(reading | stop) for noise alone and for a table; a typed reading of noise stands for a limit."""
     if law.kind == TABLE:
         return table_log_density(law, reading_m, distance_m, variance)
     z = reading_m
     if wp.isinf(reading_m):
         z = wp.where(reading_m > type(reading_m)(0.0), law.max_m, law.min_m)
-    wall = wp.min(distance_m, law.max_m)
-    total = variance_at(law, wall, variance)
-    return noise_log_density(law, (z - wall) * (z - wall) / total) - type(total)(0.5) * wp.log(total)
+    wall_m = wp.min(distance_m, law.max_m)
+    total = variance_at(law, wall_m, variance)
+    return noise_log_density(law, (z - wall_m) * (z - wall_m) / total) - type(total)(0.5) * wp.log(total)
 
 
 @wp.func
@@ -323,7 +326,7 @@ def stop_log_density(law: Any, reading_m: Any, decay: Any, distance_m: Any, vari
     """Return the logarithm of `stop_density`, even if the density underflows."""
     if law.kind == MIXTURE:
         return wp.log(stop_density(law, reading_m, decay, distance_m, variance))
-    return stop_log_density_without_objects(law, reading_m, distance_m, variance)
+    return log_density_without_mixture(law, reading_m, distance_m, variance)
 
 
 @wp.func
@@ -337,9 +340,9 @@ def cumulative(law: Any, reading_m: Any, distance_m: Any, variance: Any):
     """Return P(reading <= range | the beam stops at about the distance), for a finite range."""
     if law.kind == TABLE:
         return table_cumulative(law.table, reading_m, distance_m, variance, law.max_m)
-    wall = wp.min(distance_m, law.max_m)
+    wall_m = wp.min(distance_m, law.max_m)
     if law.kind == NOISE:
-        return noise_below(law, (reading_m - wall) / wp.sqrt(variance_at(law, wall, variance)))
+        return noise_below(law, (reading_m - wall_m) / wp.sqrt(variance_at(law, wall_m, variance)))
     z = wp.clamp(reading_m, law.min_m, law.max_m)
     not_random = not_random_below(law, z, wp.exp(-law.rate_short_per_m * z), distance_m, variance)
     return random_below(law, z) + law.p_known * not_random
@@ -359,14 +362,14 @@ def not_random_below(law: Any, z: Any, decay: Any, distance_m: Any, variance: An
     one = type(z)(1.0)
     if is_behind(law, z, distance_m, variance):
         return law.p_short * (one - decay)
-    wall = wp.min(distance_m, law.max_m)
-    past = wp.exp(-law.rate_short_per_m * wall)
-    met = law.p_short * (one - wp.where(wall < z, past, decay))
+    wall_m = wp.min(distance_m, law.max_m)
+    past = wp.exp(-law.rate_short_per_m * wall_m)
+    met = law.p_short * (one - wp.where(wall_m < z, past, decay))
     if distance_m > law.max_m:
         return met
     returned = one
     if not is_before(law, z, distance_m, variance):
-        returned = noise_below(law, (z - wall) / wp.sqrt(variance_at(law, wall, variance)))
+        returned = noise_below(law, (z - wall_m) / wp.sqrt(variance_at(law, wall_m, variance)))
     return met + returned * law.p_return * (one - law.p_short * (one - past))
 
 
