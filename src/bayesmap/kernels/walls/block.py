@@ -26,19 +26,20 @@ LOOK_BACK = wp.constant(8)  # entries: a beam's cells in one block lie close tog
 Weights = wp.types.vector(length=16, dtype=wp.float64)  # one number per state of a block; bit j: cell j is a wall
 CERTAIN_LEVEL = wp.constant(wp.uint64(chains.CERTAIN_LEVEL))
 IMPOSSIBLE = wp.constant(wp.float64(-1.0e300))  # log weight
+NEGLIGIBLE_NATS = wp.constant(wp.float64(40.0))  # states this far below the largest log weight are not drawn
 
 
 @wp.struct
 class BlockArrays:
     """The beams that touch each block, and their entries in it."""
 
-    offsets: Int32s  # block i has the incidences offsets[i] to offsets[i + 1]
+    offsets: Int32s  # block i has the beams offsets[i]:offsets[i + 1]
     beam: Int32s
     first: Int32s  # first entry of the beam in the block
     last: Int32s  # last entry of the beam in the block
-    # [4 * mask + j][state]: 1 if cell j is a wall in the state and the cells of the mask, which come before it, are not
+    # [4 * mask + j][state]: 1 if j is a wall and the cells of the mask before it are free; [j][state]: 1 if j is a wall
     is_first: wp.array(dtype=Weights)
-    rows: int  # positions of a block in y
+    block_rows: int  # positions of a block in y
     nx: int
     ny: int
 
@@ -64,8 +65,9 @@ def index_in_block(cell: int, x: int, y: int, ny: int) -> int:
 
 
 @wp.kernel
-def list_block_beams(first: int, filling: int, bounds: Int32s, table: Table, blocks: BlockArrays, counts: Int32s):
-    """One thread per range of block columns: count the beams of each block; if ``filling``, write their entries."""
+def list_block_beams(first: int, fills: int, bounds: Int32s, table: Table, blocks: BlockArrays, next_slot: Int32s):
+    """One thread per range of block columns: count the beams of each block; if ``fills`` is 1, write their entries."""
+    # next_slot: the count of beams so far in each block; if ``fills`` is 1, the next free slot of each block.
     thread = first + wp.tid()
     for beam in range(table.offsets.shape[0] - 1):
         for entry in range(table.offsets[beam], table.offsets[beam + 1]):
@@ -74,34 +76,35 @@ def list_block_beams(first: int, filling: int, bounds: Int32s, table: Table, blo
             for corner in range(4):
                 x = cell_x - corner // 2  # one of the four blocks that hold the cell
                 y = cell_y - corner % 2
-                if x >= bounds[thread] and x < bounds[thread + 1] and y >= 0 and y < blocks.rows:
-                    # An earlier entry of the beam may have listed it for this block.
-                    is_listed = int(0)
-                    for earlier in range(wp.max(table.offsets[beam], entry - LOOK_BACK), entry):
-                        if index_in_block(table.cells[earlier], x, y, blocks.ny) >= 0:
-                            is_listed = 1
-                    block = x * blocks.rows + y
-                    if is_listed == 0:
-                        i = counts[block]
-                        counts[block] = i + 1
-                        if filling != 0:
-                            blocks.beam[i] = beam
-                            blocks.first[i] = entry
-                            blocks.last[i] = entry
-                    elif filling != 0:
-                        blocks.last[counts[block] - 1] = entry
+                if x < bounds[thread] or x >= bounds[thread + 1] or y < 0 or y >= blocks.block_rows:
+                    continue
+                # An earlier entry of the beam may have listed it for this block.
+                is_listed = int(0)
+                for earlier in range(wp.max(table.offsets[beam], entry - LOOK_BACK), entry):
+                    if index_in_block(table.cells[earlier], x, y, blocks.ny) >= 0:
+                        is_listed = 1
+                block = x * blocks.block_rows + y
+                if is_listed == 0:
+                    slot = next_slot[block]
+                    next_slot[block] = slot + 1
+                    if fills != 0:
+                        blocks.beam[slot] = beam
+                        blocks.first[slot] = entry
+                        blocks.last[slot] = entry
+                elif fills != 0:
+                    blocks.last[next_slot[block] - 1] = entry
 
 
 def list_blocks(table: BeamTable, device: str) -> BlockArrays:
     """List the beams of every block. Memory is about 25 bytes per incidence of the table."""
     # First launch: count the beams of each block.
     nx, ny = table.grid.shape
-    columns, rows = max(1, nx - 1), max(1, ny - 1)
-    threads = min(devices.available_cores(), columns)
-    bounds = np.linspace(0, columns, threads + 1).astype(np.int32)
-    counts = np.zeros(columns * rows, dtype=np.int32)
+    block_columns, block_rows = max(1, nx - 1), max(1, ny - 1)
+    threads = min(devices.available_cores(), block_columns)
+    bounds = np.linspace(0, block_columns, threads + 1).astype(np.int32)
+    counts = np.zeros(block_columns * block_rows, dtype=np.int32)
     on_host = chains.table_to_device(table, None, "cpu")
-    blocks = devices.pack(BlockArrays, "cpu", rows=rows, nx=nx, ny=ny)
+    blocks = devices.pack(BlockArrays, "cpu", block_rows=block_rows, nx=nx, ny=ny)
     devices.launch(list_block_beams, threads, [0, bounds, on_host, blocks, counts], "cpu")
     total = int(counts.sum(dtype=np.int64))
     if total > MAX_INCIDENCES:
@@ -112,16 +115,15 @@ def list_blocks(table: BeamTable, device: str) -> BlockArrays:
     # Second launch: fill in the beams and their entries.
     offsets = np.zeros(len(counts) + 1, dtype=np.int32)
     np.cumsum(counts, out=offsets[1:])
-    entries = [wp.empty(total, dtype=wp.int32, device="cpu") for _ in range(3)]
-    blocks.beam, blocks.first, blocks.last = entries
+    arrays = [wp.empty(total, dtype=wp.int32, device="cpu") for _ in range(3)]
+    blocks.beam, blocks.first, blocks.last = arrays
     devices.launch(list_block_beams, threads, [1, bounds, on_host, blocks, offsets[:-1].copy()], "cpu")
-
     # Look-up table of the first wall in each of the 16 states.
     states = np.arange(16)
     is_first = [((states >> j) & 1) * ((states & mask) == 0) for mask in range(16) for j in range(4)]
     blocks.offsets = devices.to_device(offsets, wp.int32, device)
     blocks.is_first = devices.to_device(np.array(is_first), Weights, device)
-    blocks.beam, blocks.first, blocks.last = (a.to(device) for a in entries)
+    blocks.beam, blocks.first, blocks.last = (array.to(device) for array in arrays)
     return blocks
 
 
@@ -159,21 +161,20 @@ def block_weights(table: Table, blocks: BlockArrays, chain: Chain, block: int, x
 
 @wp.func
 def draw_state(weights: Weights, u: wp.float64) -> int:
-    """Draw from a categorical law given by unnormalised log weights, by inversion."""
-    # States more than 40 nats below the largest weight are left out.
+    """Draw a state by inversion from unnormalised log weights."""
     largest = weights[0]
     for state in range(1, 16):
         largest = wp.max(largest, weights[state])
     total = wp.float64(0.0)
-    share = Weights()
+    relative = Weights()
     for state in range(16):
-        if weights[state] > largest - wp.float64(40.0):
-            share[state] = wp.exp(weights[state] - largest)
-            total += share[state]
+        if weights[state] > largest - NEGLIGIBLE_NATS:
+            relative[state] = wp.exp(weights[state] - largest)
+            total += relative[state]
     level = u * total
     for state in range(16):
-        level -= share[state]
-        if level <= wp.float64(0.0) and share[state] > wp.float64(0.0):
+        level -= relative[state]
+        if level <= wp.float64(0.0) and relative[state] > wp.float64(0.0):
             return state
     return 15
 
@@ -232,12 +233,12 @@ def coupling_weights(blocks: BlockArrays, prior: WallPriorArrays, walls: Uint8s,
         cell = cell_of_block(blocks, x, y, j)
         if cell >= 0:
             # Walls less free cells among the neighbours outside the block: cells j ^ 1 and j ^ 2 are inside.
-            around = int(chains.walls_less_free(walls, 0, cell, blocks.nx, blocks.ny))
+            balance = int(chains.walls_less_free(walls, 0, cell, blocks.nx, blocks.ny))
             for flip in range(1, 3):
-                beside = cell_of_block(blocks, x, y, j ^ flip)
-                if beside >= 0:
-                    around -= wp.where(walls[beside] != wp.uint8(0), 1, -1)
-            weights = weights + wp.float64(around) * blocks.is_first[j]
+                neighbour = cell_of_block(blocks, x, y, j ^ flip)
+                if neighbour >= 0:
+                    balance -= wp.where(walls[neighbour] != wp.uint8(0), 1, -1)
+            weights = weights + wp.float64(balance) * blocks.is_first[j]
     # A cell that is outside of a narrow grid is free in all possible states, and has no pairs.
     if blocks.ny > 1:
         weights = weights + equal_in_block(blocks, 0, 1)
@@ -264,8 +265,8 @@ def block_sweeps(
         shuffle_key = random_bits(key, ~sweep)
         for i in range(size):
             block = chains.site_of(sweeps, i, shuffle_key)
-            x = block // blocks.rows
-            y = block % blocks.rows
+            x = block // blocks.block_rows
+            y = block % blocks.block_rows
             counter = base + wp.uint64(4 * block)
             n_reaching = beams_reaching(blocks, chain.reaching, x, y)
             if n_reaching == 0 and prior.coupling == ZERO:
