@@ -19,7 +19,7 @@ from bayesmap.io.live import live_scans
 from bayesmap.io.logs import describe_log, read_log
 from bayesmap.io.text.carmen import write_carmen
 from bayesmap.space.planar import wrap_angle
-from bayesmap.space.time_order import jumps, steps_m, thinned
+from bayesmap.space.time_order import find_jumps, steps_m, thin_scans
 
 CORPUS = Path(__file__).with_name("corpus")
 
@@ -104,15 +104,15 @@ def scans_at(positions, stamps=None):
 
 def test_the_distance_is_that_of_the_path_and_steps_that_make_a_metre_keep_every_tenth_scan():
     scans = scans_at([(0.1 * i, 0.0) for i in range(31)])
-    np.testing.assert_array_equal(thinned(scans, 1.0).ranges_m[:, 0], [1, 11, 21, 31])
+    np.testing.assert_array_equal(thin_scans(scans, 1.0).ranges_m[:, 0], [1, 11, 21, 31])
     there_and_back = [(0, 0), (0.6, 0), (0, 0), (0.6, 0), (0, 0)]
-    np.testing.assert_array_equal(thinned(scans_at(there_and_back), 1.0).ranges_m[:, 0], [1, 3, 5])
+    np.testing.assert_array_equal(thin_scans(scans_at(there_and_back), 1.0).ranges_m[:, 0], [1, 3, 5])
 
 
 @given(st.lists(st.tuples(st.floats(-50, 50), st.floats(-50, 50)), min_size=1, max_size=30), st.floats(0, 20))
 def test_kept_scans_are_far_enough_apart_and_none_more_could_be_dropped(positions, spacing):
     scans = scans_at(positions)
-    kept = thinned(scans, spacing).ranges_m[:, 0].astype(int) - 1
+    kept = thin_scans(scans, spacing).ranges_m[:, 0].astype(int) - 1
     travelled = np.concatenate([[0.0], np.cumsum(steps_m(scans.poses))])
     assert kept[0] == 0
     assert (np.diff(travelled[kept]) >= spacing * (1 - 1e-8)).all()
@@ -123,7 +123,7 @@ def test_kept_scans_are_far_enough_apart_and_none_more_could_be_dropped(position
 @pytest.mark.parametrize("spacing", [-1.0, np.nan, np.inf])
 def test_a_spacing_that_is_none_is_refused(spacing):
     with pytest.raises(bm.BadInput, match="thin"):
-        thinned(scans_at([(0, 0)]), spacing)
+        thin_scans(scans_at([(0, 0)]), spacing)
 
 
 @pytest.mark.parametrize(("x_m", "stamps", "jumped"), [
@@ -133,16 +133,16 @@ def test_a_spacing_that_is_none_is_refused(spacing):
     ([0, 0.1, 0], np.array([0.0, 0.0, 1e-6]), []),  # a trembling pose, however close the stamps
 ])  # fmt: skip
 def test_a_step_is_a_jump_if_it_is_too_fast_or_far_longer_than_others(x_m, stamps, jumped):
-    np.testing.assert_array_equal(jumps(scans_at([(x, 0) for x in x_m], stamps)), jumped)
+    np.testing.assert_array_equal(find_jumps(scans_at([(x, 0) for x in x_m], stamps)), jumped)
 
 
 @pytest.mark.parametrize("grain_s", [1.0, 10.0, 1e6])
 def test_stamps_that_repeat_make_no_jump_of_an_ordinary_step(grain_s):
     times = 1.13486e9 + 0.5 * np.arange(100)
     walk = [(1.5 * i, 0) for i in range(100)]
-    assert len(jumps(scans_at(walk, np.floor(times / grain_s) * grain_s))) == 0
+    assert len(find_jumps(scans_at(walk, np.floor(times / grain_s) * grain_s))) == 0
     walk[60:] = [(x + 40.0, 0) for x, _ in walk[60:]]
-    np.testing.assert_array_equal(jumps(scans_at(walk, np.floor(times / grain_s) * grain_s)), [60])
+    np.testing.assert_array_equal(find_jumps(scans_at(walk, np.floor(times / grain_s) * grain_s)), [60])
 
 
 FANS = {

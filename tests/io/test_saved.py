@@ -290,7 +290,7 @@ def test_the_approximation_comes_back_and_says_the_same(saved, options, tmp_path
         assert theirs[name][0] == dims
         np.testing.assert_array_equal(theirs[name][1], values, err_msg=name)
     first, second = np.array([0, 1, 5]), np.array([9, 4, 6])
-    np.testing.assert_array_equal(back.relative_covariances(first, second), found.relative_covariances(first, second))
+    np.testing.assert_array_equal(back.relative_scales(first, second), found.relative_scales(first, second))
     np.testing.assert_array_equal(back.draw(2, seed=3), found.draw(2, seed=3))
     assert back.flagged.dtype == bool
 
@@ -310,7 +310,7 @@ def test_alternatives_come_back_and_covariances_hold_them(saved, tmp_path):
         np.testing.assert_array_equal(getattr(back.alternatives, name), getattr(other, name))
     np.testing.assert_array_equal(back.alternative_poses(0), found.alternative_poses(0))
     pair = np.array([1]), np.array([14])
-    np.testing.assert_array_equal(back.relative_covariances(*pair), found.relative_covariances(*pair))
-    added = back.relative_covariances(*pair)[0] - plain.relative_covariances(*pair)[0]
+    np.testing.assert_array_equal(back.relative_scales(*pair), found.relative_scales(*pair))
+    added = back.relative_scales(*pair)[0] - plain.relative_scales(*pair)[0]
     assert added[0, 0] + added[1, 1] > 0.5, "probability 0.2 times 2 m squared, and Student's scale"
     np.testing.assert_array_equal(back.draw(2, seed=3), found.draw(2, seed=3))

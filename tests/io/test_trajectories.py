@@ -206,7 +206,7 @@ def test_the_graph_s_solution_and_its_covariances_are_those_of_the_run(force, tm
     precision = Precision(normal_equations(len(poses), [quadratic(graph, poses)])[0])
     first, second = np.triu_indices(len(found), 2)
     mine = relative_covariances(precision, poses, first, second)
-    theirs = found.gaussian.dof / (found.gaussian.dof - 2.0) * found.relative_covariances(first, second)
+    theirs = found.gaussian.dof / (found.gaussian.dof - 2.0) * found.relative_scales(first, second)
     if force == 0.0:
         spread = np.sqrt(np.diagonal(theirs, axis1=1, axis2=2))
         assert (np.abs(mine - theirs) / (spread[:, :, None] * spread[:, None, :])).max() < 1e-3

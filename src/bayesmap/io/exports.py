@@ -119,7 +119,7 @@ def trajectory_of(run: object, scans: Scans) -> Trajectory:
 
 def approximate_trajectory(trajectory: "InferredTrajectory", known_by: str = APPROXIMATION) -> Trajectory:
     """Return the approximate trajectory of `bayesmap.slam` with its law of relative poses."""
-    law = RelativeLaw(trajectory.relative_covariances, trajectory.gaussian.dof)
+    law = RelativeLaw(trajectory.relative_scales, trajectory.gaussian.dof)
     covariances = trajectory.covariances()
     return Trajectory(trajectory.poses, trajectory.stamps_s, covariances, None, law, known_by, frame="laser")
 

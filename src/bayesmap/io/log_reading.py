@@ -16,7 +16,7 @@ from bayesmap.errors import BadInput
 from bayesmap.io.returns import NoReturn, Readings, Views, classify
 from bayesmap.space.arrays import Floats
 from bayesmap.space.scans import Scans
-from bayesmap.space.time_order import moment, time_order
+from bayesmap.space.time_order import stamp_words, time_order
 from bayesmap.space.trajectory import MAX_INTERPOLATED_S, Trajectory
 
 Pose = tuple[float, float, float]  # x and y in metres, yaw in radians
@@ -89,11 +89,11 @@ class ScanLog:
         poses, is_inside, is_near_pose = laser_path.placed(scans.stamps_s)
         is_placed = is_inside & is_near_pose
         start, end = laser_path.stamps_s[[0, -1]]
-        span = f"the trajectory reaches from {moment(start)} to {moment(end)}"
+        span = f"the trajectory reaches from {stamp_words(start)} to {stamp_words(end)}"
         if not is_placed.any():
             first, last = scans.stamps_s[[0, -1]]
             gaps = f", with poses more than {MAX_INTERPOLATED_S:g} s apart around each scan" if is_inside.any() else ""
-            scan_span = f"its scans are from {moment(first)} to {moment(last)}"
+            scan_span = f"its scans are from {stamp_words(first)} to {stamp_words(last)}"
             raise BadInput(f"{self.path}: {scan_span}, and {span}{gaps}; are both of one clock?")
         frame = trajectory.frame or ("laser" if scans.mount is None else "base")
         notes = [*self.notes, f"the scans stand at the poses of the given trajectory, taken as poses of the {frame}"]

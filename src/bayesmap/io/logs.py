@@ -26,7 +26,7 @@ from bayesmap.io.text.npz import NPZ_MAGIC, read_npz
 from bayesmap.io.text.rawlog import read_rawlog, starts_as_rawlog
 from bayesmap.io.text.trajectories import read_trajectory
 from bayesmap.space.scans import Scans
-from bayesmap.space.time_order import EQUAL_STAMPS_S, coarse_stamps_note, jumps, since_start, steps_m, thinned
+from bayesmap.space.time_order import EQUAL_STAMPS_S, coarse_stamps_note, find_jumps, steps_m, thin_scans, times_words
 from bayesmap.space.trajectory import Trajectory
 
 FORMATS = (
@@ -103,7 +103,7 @@ def describe_log(path: str | os.PathLike[str], **options: Any) -> ScanLog:
     log = replace(log, notes=(*log.notes, *(note for note in notes if note is not None)))
     if log_options.thin_m == 0:
         return log
-    scans = thinned(log.scans, log_options.thin_m)
+    scans = thin_scans(log.scans, log_options.thin_m)
     return replace(log, scans=scans, thin_m=log_options.thin_m, scans_read=len(log.scans))
 
 
@@ -205,14 +205,14 @@ def _coarse_stamps_note(log: ScanLog) -> str | None:
 
 def _jumps_note(log: ScanLog) -> str | None:
     """Return a note if the robot jumps between two scans."""
-    scans, jumped = log.scans, jumps(log.scans)
+    scans, jumped = log.scans, find_jumps(log.scans)
     if not len(jumped):
         return None
     scan = int(jumped[0])
     step = float(steps_m(scans.poses)[scan - 1])
     gap_s = 0.0 if scans.stamps_s is None else float(scans.stamps_s[scan] - scans.stamps_s[scan - 1])
     duration = f" in {gap_s:.3g} s" if abs(gap_s) >= EQUAL_STAMPS_S else ""
-    time = since_start(scans.stamps_s, scan)
+    time = times_words(scans.stamps_s, scan)
     first = f"the first is the pose of scan {scan}{time}, {step:.3g} m from the one before{duration}"
     return f"{len(jumped):,} poses jump: {first}; walls will appear twice if the poses are wrong"
 

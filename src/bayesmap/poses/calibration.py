@@ -25,7 +25,7 @@ from bayesmap.poses.scan_geometry import ScanGeometry, scan_geometry
 from bayesmap.space.arrays import Indices, Mask, evenly_spaced, matrix_roots
 from bayesmap.space.planar import Floats, between, interpolate, lengths_and_turns, wrap_angle, wrap_yaw
 from bayesmap.space.scans import Scans
-from bayesmap.space.time_order import elapsed_s, repeated_stamps
+from bayesmap.space.time_order import elapsed_bounds_s, repeated_stamps
 
 MAX_SPEED_M_PER_S = 3.0  # possible speed of a robot: faster motions count as impossible
 ORDINARY_ODOMETRY = Odometry(0.1, 0.05, 0.05, 0.1, 0.01, 0.01)  # a robot's noise is a multiple of this noise
@@ -67,7 +67,7 @@ def stated_motions(poses: Floats, stamps_s: Floats | None) -> tuple[Floats, Mask
     unusual = lengths_m > max(2.0, 20.0 * float(np.median(lengths_m)) if len(lengths_m) else 2.0)
     if stamps_s is None:
         return motions, unusual
-    max_short_m, max_long_m = (MAX_SPEED_M_PER_S * (elapsed + 0.3) + 0.5 for elapsed in elapsed_s(stamps_s))
+    max_short_m, max_long_m = (MAX_SPEED_M_PER_S * (elapsed + 0.3) + 0.5 for elapsed in elapsed_bounds_s(stamps_s))
     return motions, (lengths_m > max_long_m) | (unusual & (lengths_m > max_short_m))
 
 

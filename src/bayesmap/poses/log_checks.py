@@ -17,7 +17,7 @@ from bayesmap.space.arrays import Mask
 from bayesmap.space.grid import Grid
 from bayesmap.space.planar import Floats, between, compose, interpolate
 from bayesmap.space.scans import Scans
-from bayesmap.space.time_order import since_start
+from bayesmap.space.time_order import times_words
 
 if TYPE_CHECKING:
     from bayesmap.poses.scan_geometry import ScanGeometry
@@ -78,7 +78,7 @@ def check_scans(scans: Scans, *, no_odometry: bool) -> None:
 def odometry_warnings(scans: Scans, *, no_odometry: bool) -> list[str]:
     """Return warnings about the odometry of scans in the order of time, one sentence each."""
     return [] if no_odometry else [
-        f"odometry stands still from scan {first} to {last}{since_start(scans.stamps_s, first, last)}, but the scans "
+        f"odometry stands still from scan {first} to {last}{times_words(scans.stamps_s, first, last)}, but the scans "
         "see the robot move: it may have been frozen there; --no-odometry goes without"
         for first, last in frozen_stretches(scans)
     ]  # fmt: skip

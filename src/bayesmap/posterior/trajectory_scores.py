@@ -18,7 +18,7 @@ from bayesmap.errors import BadInput
 from bayesmap.space import arrays, planar
 from bayesmap.space.arrays import Floats, Indices, Mask
 from bayesmap.space.planar import between, interpolate, rotation, wrap_angle
-from bayesmap.space.time_order import moment
+from bayesmap.space.time_order import stamp_words
 from bayesmap.space.trajectory import MAX_INTERPOLATED_S, RelativeLaw, Trajectory
 
 STAMP_TOLERANCE_S = 0.001  # a stamp this far outside the trajectory, or off a pose, still counts
@@ -93,7 +93,7 @@ def relation_errors(stamps_s: Floats, poses: Floats, relations: Relations, *, ex
     if not within.any():
         raise BadInput(
             f"relations: none of the {len(relations):,} relations lies within the trajectory's time, "
-            f"{moment(stamps_s[0])} to {moment(stamps_s[-1])}; are the stamps of one clock?"
+            f"{stamp_words(stamps_s[0])} to {stamp_words(stamps_s[-1])}; are the stamps of one clock?"
         )
     if not covered.any():
         needed = "at a pose" if exact else f"at a pose, or between two at most {MAX_INTERPOLATED_S:g} s apart"

@@ -15,7 +15,7 @@ from bayesmap.errors import BadInput
 from bayesmap.space.arrays import Indices, Mask
 from bayesmap.space.planar import Floats
 from bayesmap.space.scans import Scans, as_array
-from bayesmap.space.time_order import since_start
+from bayesmap.space.time_order import times_words
 
 MAX_CELLS = 100_000_000  # of a grid; a larger grid is probably a mistake in the units
 MARGIN_M = 0.5  # default width of the border of free cells around poses and hits
@@ -166,7 +166,7 @@ def _offsets_m(scans: Scans) -> tuple[Floats, Floats]:
 
 def why_outlying(scans: Scans, scan: int) -> str:
     """Return the fault of an outlying scan and its remedy in words, for an error message."""
-    when = since_start(scans.stamps_s, scan)
+    when = times_words(scans.stamps_s, scan)
     away_m, longest_m = (offsets[scan] for offsets in _offsets_m(scans))
     if away_m < longest_m:
         beam = int(np.argmax(np.where(np.isfinite(scans.ranges_m[scan]), scans.ranges_m[scan], -np.inf)))

@@ -26,7 +26,7 @@ from bayesmap.io.ros.frames import Chain, Samples, axis_height, planar_pose
 from bayesmap.io.ros.messages import LaserMessage, read_messages
 from bayesmap.io.ros.poses import PoseMessages
 from bayesmap.io.ros.recording import POSE_TYPES, TF_TYPES, TYPES, Recording, Topic
-from bayesmap.space.time_order import moment
+from bayesmap.space.time_order import stamp_words
 
 MIN_JUMP_NS = 10**9  # step back of stamps; smaller ones are messages that came late
 SLACK_NS = 10**9  # longest time between the same step of the clock on different topics
@@ -135,7 +135,8 @@ def _place_runs(messages: _Messages, account: LogAccount) -> list[_PlacedRun]:
             account.notes.append(f"one run of the clock was left out: {reason}")
             continue
         if placed:
-            step = f"by {run.back_ns * 1e-9:.3g} s at {moment(run.before_ns * 1e-9)}, as when a simulation starts again"
+            time = stamp_words(run.before_ns * 1e-9)
+            step = f"by {run.back_ns * 1e-9:.3g} s at {time}, as when a simulation starts again"
             cure = "what was received later was kept apart from what came before, and stamps from there on are later"
             account.notes.append(f"the clock goes back {step}: {cure} than the recording says")
         placed.append(placed_run)
@@ -266,9 +267,9 @@ def _coverage_notes(
     if span_ns is None:
         return [f"{source.label} does not move the sensor in the whole recording"]
     start_ns, end_ns = span_ns
-    known = f"poses by {source.label} are known from {moment(start_ns * 1e-9)} to {moment(end_ns * 1e-9)}"
+    known = f"poses by {source.label} are known from {stamp_words(start_ns * 1e-9)} to {stamp_words(end_ns * 1e-9)}"
     if not is_inside.any():
-        scan_span = f"the scans are from {moment(stamps_ns[0] * 1e-9)} to {moment(stamps_ns[-1] * 1e-9)}"
+        scan_span = f"the scans are from {stamp_words(stamps_ns[0] * 1e-9)} to {stamp_words(stamps_ns[-1] * 1e-9)}"
         remedy = "are both by the same clock? Choose other poses with --pose-topic or --fixed-frame"
         raise BadInput(f"{name}: no scan has a pose: {known}, {scan_span}; {remedy}")
     notes = []

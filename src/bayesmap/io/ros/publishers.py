@@ -14,7 +14,7 @@ from scipy.spatial.transform import Rotation
 
 from bayesmap.io.ros.frames import PoseNumbers, Samples, poses_agree
 from bayesmap.space.arrays import bracketing_indices
-from bayesmap.space.time_order import moment
+from bayesmap.space.time_order import stamp_words
 
 SAME_WITHIN = 1e-4  # largest difference of equal values, in metres and radians: 1 mm at 10 m
 NOISE = 0.01  # largest distance between two sources of motion, in metres and radians, that counts as noise
@@ -169,7 +169,7 @@ def _alternation(name: str, samples: Samples) -> Contradiction | None:
     if i is None:
         return None
     values = f"it is {in_words(poses[i])}, and just before and after {in_words(poses[i - 1])}"
-    example = f"at {moment(float(stamps[i] * 1e-9))} {values}"
+    example = f"at {stamp_words(float(stamps[i] * 1e-9))} {values}"
     cause = "it has two publishers, or the clock of the recording started again"
     return Contradiction(f"{name} on {samples.topic} goes to and fro between values that differ: {example}; {cause}")
 

@@ -33,7 +33,7 @@ from bayesmap.io.log_reading import LogAccount, LogOptions, Pose, ScanLog, Skipp
 from bayesmap.io.text.lines import file_chunks
 from bayesmap.space.planar import Floats, compose, interpolate
 from bayesmap.space.scans import MAX_BEAMS, fan_fault, side_by_side
-from bayesmap.space.time_order import EQUAL_STAMPS_S, moment
+from bayesmap.space.time_order import EQUAL_STAMPS_S, stamp_words
 
 SCAN = "CObservation2DRangeScan"
 MOTION = "CActionRobotMovement2D"
@@ -150,7 +150,7 @@ def _poses_by_odometry(odometry: dict[str, list[TimedPose]], scans: list[RawScan
     samples = sorted(longest, key=lambda sample: sample[0])
     times_s, poses = np.array([time_s for time_s, _ in samples]), np.array([pose for _, pose in samples])
     is_inside = (stamps_s >= times_s[0]) & (stamps_s <= times_s[-1])
-    span = f"{ODOMETRY} is known from {moment(times_s[0])} to {moment(times_s[-1])}"
+    span = f"{ODOMETRY} is known from {stamp_words(times_s[0])} to {stamp_words(times_s[-1])}"
     note = "" if is_inside.all() else f"{int((~is_inside).sum()):,} scans were left out: {span}"
     result = interpolate(times_s, poses, stamps_s)
     # Of several poses with the stamp of a scan, the last before the scan in the log is meant, unless labels mix.
