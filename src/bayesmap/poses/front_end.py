@@ -34,32 +34,36 @@ KEY_DISTANCE_M, KEY_TURN_RAD = 0.4, np.radians(20.0)  # a scan this far from the
 KEY_SCORE = 0.5  # a scan with a lower score becomes a key scan, too
 MIN_KEY_MOTION = 0.05  # motion along x, y or yaw after which a low score makes a key scan, metres or radians
 WINDOW_KEYS = 12  # number of latest key scans that a scan is matched to
-MAX_BATCH = 12  # scans that are matched to them at once
-POOR_SCORE, POOR_LOSS = 0.45, 0.25  # a score is poor below the greater of this, and the usual score less that
+MAX_BATCH = 12  # most scans that are matched to the key scans at once
+POOR_SCORE, POOR_LOSS = 0.45, 0.25  # a scan is poor below max(POOR_SCORE, usual score - POOR_LOSS)
 LOST_SIGMA = np.array([0.5, 0.5, np.radians(30.0)])  # sigmas of a pose beyond which a poor scan is a contradiction
 SLIP_LOSS = 0.15  # a wide search may move a scan to a score that is lower than usual by at most this
 REMATCH_LOSS = 0.1  # scans this far below the usual score are matched again, from the pose of the scan before
 MAX_LEARN_LOSS = 0.25  # odometry is not calibrated by a scan whose score is lower than usual by more than this
 MAX_BACKWARDS_M = 1.0  # longest motion that odometry may have stated with the wrong sign, metres
-MAX_AHEAD_SCANS, MAX_AHEAD_M, MAX_AHEAD_RAD = 10, 1.5, np.radians(90.0)  # scans, path and turn in which a fit is sought
+MAX_AHEAD_SCANS, MAX_AHEAD_M, MAX_AHEAD_RAD = 10, 1.5, np.radians(90.0)  # most scans, path and turn to seek a fit in
 UNKNOWN_SIGMA = np.array([1.0, 1.0, np.radians(60.0)])  # standard deviations of an unknown motion
 INITIAL_SCORE = 0.6  # usual score before the first scan is matched
 SCORE_RATE = 0.05  # rate at which the usual score follows the scores of scans
 UNUSUAL_LOSS = 0.04  # scans this far below the usual score may have gone backwards, unreported by odometry
-BACKWARDS_GAIN = 0.05  # minimum gain in score for going backwards: along a wall both directions fit
+BACKWARDS_GAIN = 0.05  # least gain in score for going backwards: along a wall both directions fit
 WIDE_M = 1.0  # half width of the wide search, metres
-WIDE_STAGES = ((np.radians(45.0), 0.1), (np.pi, 0.15))  # half ranges of angle, and minimum gains in score
-MIN_GAIN_POINTS = 6.0  # gain in score as a number of points, for scans with few points
+WIDE_STAGES = (
+    (np.radians(45.0), 0.1),
+    (np.pi, 0.15),
+)  # stages of the wide search: half range of angle, minimum gain in score
+MIN_GAIN_POINTS = 6.0  # least gain in score, in points that fit: it decides for scans with few points
 POINT_SIGMA_M = 0.02  # sigma of a point-to-line residual: the laser's noise, rough walls, a scan's own distortion
-MAX_POINTS = 200  # points of a scan that are matched
+MAX_POINTS = 200  # most points of a scan that are matched
 REACH_M = (0.3, 0.12)  # maximum distance of paired points: in the first step and in the last
 SCALE_M = (0.15, 0.05)  # distance from which points count as outliers: in the first step and in the last
-MIN_COSINE = 0.7  # cosine of paired normals
-MAX_REFINEMENT_STEPS = 8  # steps of a refinement
+MIN_COSINE = 0.7  # least cosine of the angle between paired normals
+MAX_REFINEMENT_STEPS = 8  # most steps of a refinement
 BATCH_KEYS = 6  # number of newest key scans against which scans are refined, if several scans are placed at once
-VIEW_AGREEMENT = Agreement(near_m=0.2, clear_m=0.5, beams=90)  # limits for a scan and a key scan
-MAX_AGAINST_SHARE = 0.2  # share of contradicting points: people walk
-MIN_JUDGED_POINTS = 60  # points that decide
+VIEW_AGREEMENT = Agreement(near_m=0.2, clear_m=0.5, beams=90)  # limits when a scan is compared with a key scan
+MAX_AGAINST_SHARE = 0.2  # greater shares of contradicting points are a contradiction: fewer are people
+MIN_JUDGED_POINTS = 60  # fewest compared points for a contradiction
+MATCH_VARIANCE = 1e-5  # variance of a matched motion beyond that of the pose: 3 mm and 3 mrad
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,12 +71,12 @@ class Track:
     """The result of the front end."""
 
     poses: Floats  # poses of the laser, (S, 3). The first is the origin.
-    information: Floats  # of each pose by the laser, given earlier key scans, in its own frame, (S, 3, 3)
+    information: Floats  # inverse covariance of each pose by laser and earlier key scans, own frame, (S, 3, 3)
     odometry_variance: Floats  # variance of odometry's motion from the key scan before, x, y and yaw, (S, 3)
     scores: Floats  # fit of each scan to the key scans, from 0 to 1, (S,); 1 for the first
     keys: Indices  # indices of the key scans, ascending
-    broken: Mask  # scans that begin a new segment of the path: nothing confirms the motion before them, (S,)
-    is_reversed: Mask  # scans before which the robot moved opposite to odometry, (S,)
+    broken: Mask  # mask of scans that begin a new segment of the path: nothing confirms the motion before them, (S,)
+    is_reversed: Mask  # mask of scans before which the robot moved opposite to odometry, (S,)
     slope: Floats  # correction of odometry's systematic error, (3, 3)
     noise_ratios: Floats  # odometry's noise as a multiple of an ordinary robot's, position and heading, (2,)
 
@@ -120,7 +124,7 @@ class _Path:
         # Running estimates, and the state since the last key scan.
         self.odometry = RunningOdometry()
         self.usual_score = INITIAL_SCORE  # running mean of scores
-        self.variance_since_key = np.zeros(3)  # odometry's variance
+        self.variance_since_key = np.zeros(3)  # variance of odometry since the last key scan
         self.pose_variance = np.zeros(3)  # variance of the last scan's pose
         self.usual_since_key = True  # True if all motions since the last key scan were usual
         self.window = self._latest_window(None)
@@ -132,19 +136,20 @@ class _Path:
         batch = self._batch()
         # Break the path over an unknown motion.
         if self.unknown[self.last]:
-            scan, placed = self.last + 1, self._place_near(batch[:1])[0]
-            wide = search_widely(self.geometry, self.window, scan, placed.predicted[0], placed.scores[0])
-            self._break(scan, placed, wide)
+            placed, _ = self._place_near(batch[:1])
+            wide = search_widely(self.geometry, self.window, self.last + 1, placed.predicted[0], placed.scores[0])
+            self._break(self.last + 1, placed, wide)
             return
         # Match the scans up to the next unknown motion; look further ahead if the first contradicts the key scans.
-        breaks = np.nonzero(self.unknown[self.last : int(batch[-1])])[0]
-        batch = batch[: int(breaks[0]) if len(breaks) else len(batch)]
+        unknown = np.nonzero(self.unknown[self.last : int(batch[-1])])[0]
+        batch = batch[: int(unknown[0]) if len(unknown) else len(batch)]
         placed, misfits = self._place_near(batch)
         if misfits[0] and self.motions is not None:
             batch = self._scans_ahead()
             placed, misfits = self._place_near(batch)
         # If no scan fits, or the first fits worse than usual, wheels may have slipped: search widely.
-        scan, wide = int(batch[0]), None
+        scan = int(batch[0])
+        wide = None
         may_slip = self.motions is not None and placed.scores[0] <= self.usual_score - SLIP_LOSS
         if misfits.all() or (may_slip and not misfits[0]):
             wide = search_widely(self.geometry, self.window, scan, placed.predicted[0], placed.scores[0])
@@ -172,7 +177,7 @@ class _Path:
                 break
 
     def _skip(self, batch: Indices, placed: PlacedScans, next_fit: int) -> None:
-        """Give odometry's poses to the scans before number ``next_fit`` of the batch, which becomes a key scan."""
+        """Give odometry's poses to the scans of a batch before number ``next_fit``, which becomes a key scan."""
         for k in range(next_fit + 1):
             self._store(int(batch[k]), placed, k)
         skipped = batch[:next_fit]
@@ -181,23 +186,24 @@ class _Path:
         self._add_key(int(batch[next_fit]))
 
     def _accept_slip(self, scan: int, placed: PlacedScans, wide: WideMatch) -> bool:
-        """Accept a pose that is near or allowed by odometry, if the scan fits as usual. Returns True if accepted."""
-        off = wrap_yaw(between(placed.predicted[0], wide.pose))
-        allowed = float((off**2 / placed.variance[0]).sum()) < DOUBTFUL_SQ
-        if not (wide.near or allowed) or wide.score < self.usual_score - SLIP_LOSS:
+        """Accept a pose near by or allowed by odometry, if the scan fits as usual. Returns whether it was accepted."""
+        deviation = wrap_yaw(between(placed.predicted[0], wide.pose))
+        is_allowed = wide.is_near or float((deviation**2 / placed.variance[0]).sum()) < DOUBTFUL_SQ
+        if not is_allowed or wide.score < self.usual_score - SLIP_LOSS:
             return False
         if contradicts(self.geometry, self.window, scan, wide.pose):
             return False
         self.poses[scan], self.information[scan], self.scores[scan] = wide.pose, wide.information, wide.score
         self.odometry_variance[scan] = self.variance_since_key + placed.variance[0] + UNKNOWN_SIGMA**2
-        self.last, self.usual_since_key = scan, False
+        self.usual_since_key = False
         self._add_key(scan)
+        self.last = scan
         return True
 
     def _break(self, scan: int, placed: PlacedScans, wide: WideMatch | None) -> None:
         """Break the path before an unconfirmed scan, and go on from the pose of a wide search, or of odometry."""
         # Move the break back over scans just before it that are badly explained, too.
-        pose, score, begin = placed.predicted[0], float(placed.scores[0]), scan
+        begin, pose, score = scan, placed.predicted[0], float(placed.scores[0])
         while begin - 1 > self.keys[self.segment_begin] and self.scores[begin - 1] < self._poor_score():
             begin -= 1
         if begin < scan:
@@ -208,10 +214,11 @@ class _Path:
             wide = search_widely(self.geometry, self.window, begin, pose, score)
         # Begin a new segment with a key scan that the laser says nothing about.
         self.poses[begin], self.scores[begin] = (pose, score) if wide is None else (wide.pose, wide.score)
-        self.information[begin], self.last = 0.0, begin
+        self.information[begin] = 0.0
         self.odometry_variance[begin] = self.variance_since_key + placed.variance[0] + UNKNOWN_SIGMA**2
         self.broken[begin] = True
         self._add_key(begin)
+        self.last = begin
         self.segment_begin = len(self.keys) - 1
 
     def _poor_score(self) -> float:
@@ -223,14 +230,15 @@ class _Path:
         self.poses[scan], self.information[scan] = placed.poses[k], placed.information[k]
         self.scores[scan], self.is_reversed[scan] = placed.scores[k], placed.is_reversed[k]
         score = float(placed.scores[k])
-        self.variance_since_key = self.variance_since_key + placed.variance[k] - (placed.variance[k - 1] if k else 0.0)
+        added_variance = placed.variance[k] - (placed.variance[k - 1] if k else 0.0)  # they accumulate over the batch
+        self.variance_since_key = self.variance_since_key + added_variance
         self.odometry_variance[scan] = self.variance_since_key
         # Learn only from scans that fit as usual: others say little about odometry.
         if self.motions is not None:
             self.pose_variance = _posterior_variance(placed, k)
             if score > max(KEY_SCORE, self.usual_score - MAX_LEARN_LOSS) and not placed.is_reversed[k]:
                 matched = between(self.poses[scan - 1], self.poses[scan])
-                self.odometry.learn_noise(self.motions[scan - 1], matched, self.pose_variance + 1e-5)
+                self.odometry.learn_noise(self.motions[scan - 1], matched, self.pose_variance + MATCH_VARIANCE)
             else:
                 self.usual_since_key = False
         self.usual_score += SCORE_RATE * (score - self.usual_score)
@@ -239,37 +247,36 @@ class _Path:
     def _add_key(self, scan: int) -> None:
         """Make a scan a key scan, and learn odometry's systematic error from the motion since the last key scan."""
         if self.motions is not None and self.usual_since_key and not self.broken[scan]:
-            before = self.keys[-1]
-            stated = chain_motions(np.zeros(3), self.motions[before:scan])[-1]
-            matched = between(self.poses[before], self.poses[scan])
-            self.odometry.learn_slope(stated, matched, self.pose_variance + 1e-5)
+            last_key = self.keys[-1]
+            stated = chain_motions(np.zeros(3), self.motions[last_key:scan])[-1]
+            matched = between(self.poses[last_key], self.poses[scan])
+            self.odometry.learn_slope(stated, matched, self.pose_variance + MATCH_VARIANCE)
         self.usual_since_key = True
         self.keys.append(scan)
         self.variance_since_key = np.zeros(3)
 
     def _place_near(self, scans: Indices) -> tuple[PlacedScans, Mask]:
-        """Place the next scans near odometry's poses. Returns them, and the mask of scans that contradict the keys."""
+        """Place the next scans near odometry's poses. Returns them, and the mask of misfits: scans that do not fit."""
         predicted, variance = predict(self.poses, self.last, len(scans), self.motions, self.stamps_s, self.odometry)
-        backwards, span = None, slice(self.last, int(scans[-1]))
-        if self.motions is not None and np.hypot(*self.motions[span, :2].sum(axis=0)) < MAX_BACKWARDS_M:
-            reversed_motions = self.odometry.corrected(self.motions[span]) * [-1.0, -1.0, 1.0]
-            backwards = chain_motions(self.poses[self.last], reversed_motions)
+        backwards = None
+        stated = None if self.motions is None else self.motions[self.last : int(scans[-1])]
+        if stated is not None and np.hypot(*stated[:, :2].sum(axis=0)) < MAX_BACKWARDS_M:
+            backwards = chain_motions(self.poses[self.last], self.odometry.corrected(stated) * [-1.0, -1.0, 1.0])
         placed = place_near(self.geometry, self.window, scans, predicted, variance, backwards, self.usual_score)
         misfits = placed.scores < self._poor_score()
         for k in np.nonzero(misfits)[0]:
-            misfits[k] = self._is_doubtful(int(scans[k]), placed, int(k))
+            misfits[k] = self._rematch_misfit(int(scans[k]), placed, int(k))
         return placed, misfits
 
-    def _is_doubtful(self, scan: int, placed: PlacedScans, k: int) -> bool:
-        """Check whether a poor scan contradicts the keys or fits far away. Move it if it fits better near by."""
-        if contradicts(self.geometry, self.window, scan, placed.poses[k]):
-            return True
-        if (np.sqrt(_posterior_variance(placed, k)) > LOST_SIGMA).any():
+    def _rematch_misfit(self, scan: int, placed: PlacedScans, k: int) -> bool:
+        """Match a misfit again in a wide window. Stores a better pose near by; returns whether it is still a misfit."""
+        is_uncertain = (np.sqrt(_posterior_variance(placed, k)) > LOST_SIGMA).any()
+        if is_uncertain or contradicts(self.geometry, self.window, scan, placed.poses[k]):
             return True
         wide = search_widely(self.geometry, self.window, scan, placed.predicted[k], placed.scores[k])
-        if wide is not None and wide.near:
+        if wide is not None and wide.is_near:
             placed.poses[k], placed.information[k], placed.scores[k] = wide.pose, wide.information, wide.score
-        return wide is not None and not wide.near
+        return wide is not None and not wide.is_near
 
     def _batch(self) -> Indices:
         """Return the scans to match next: those that odometry predicts near the last key scan, and one more."""
@@ -277,9 +284,10 @@ class _Path:
             return np.array([self.last + 1])
         end = min(self.last + MAX_BATCH, len(self.poses) - 1)
         lengths_m, turns_rad = np.cumsum(lengths_and_turns(self.motions[self.last : end]), axis=1)
-        off = between(self.poses[self.keys[-1]], self.poses[self.last])
-        near = (lengths_m < KEY_DISTANCE_M - np.hypot(off[0], off[1])) & (turns_rad < KEY_TURN_RAD - abs(off[2]))
-        count = int(np.argmin(near) if not near.all() else len(near) - 1)
+        since_key = between(self.poses[self.keys[-1]], self.poses[self.last])
+        is_near = lengths_m < KEY_DISTANCE_M - np.hypot(since_key[0], since_key[1])
+        is_near &= turns_rad < KEY_TURN_RAD - abs(since_key[2])
+        count = int(np.argmin(is_near) if not is_near.all() else len(is_near) - 1)
         return np.arange(self.last + 1, self.last + 2 + count)
 
     def _scans_ahead(self) -> Indices:
@@ -293,10 +301,11 @@ class _Path:
 
     def _latest_window(self, before: Window | None) -> Window:
         """Return the window of the latest key scans. Its grid reuses the memory of the window before."""
-        latest = np.array(self.keys[self.segment_begin :][-WINDOW_KEYS:][::-1])
-        poses, reuse = self.poses[latest], None if before is None else before.grid
-        grid = likelihood_grids(self.geometry, [latest], [poses], poses[0, :2], self.half_width_m, reuse=reuse)
-        return Window(latest, poses, grid)
+        keys = np.array(self.keys[self.segment_begin :][-WINDOW_KEYS:][::-1])
+        poses = self.poses[keys]
+        reuse = None if before is None else before.grid
+        grid = likelihood_grids(self.geometry, [keys], [poses], poses[0, :2], self.half_width_m, reuse=reuse)
+        return Window(keys, poses, grid)
 
 
 def _posterior_variance(placed: PlacedScans, k: int) -> Floats:
@@ -306,9 +315,10 @@ def _posterior_variance(placed: PlacedScans, k: int) -> Floats:
 
 def grid_half_width(geometry: ScanGeometry) -> float:
     """Return the half width of grids that hold nearly all points of a scan taken at their middle, metres."""
-    sampled = slice(None, None, max(1, len(geometry) // 500))
-    distance = np.linalg.norm(geometry.host_points[sampled][geometry.host_kind[sampled] != NO_POINT], axis=-1)
-    return float(np.clip(np.percentile(distance, 97.0) + 1.0, 4.0, 30.0)) if len(distance) else 4.0
+    sampled = slice(None, None, max(1, len(geometry) // 500))  # 500 scans or somewhat more
+    distance_m = np.linalg.norm(geometry.host_points[sampled][geometry.host_kind[sampled] != NO_POINT], axis=-1)
+    # The width holds 97 % of the points and a margin of a metre. Limits bound the memory of grids.
+    return float(np.clip(np.percentile(distance_m, 97.0) + 1.0, 4.0, 30.0)) if len(distance_m) else 4.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -325,7 +335,7 @@ class PlacedScans:
     """Poses of N scans, by odometry and the window."""
 
     predicted: Floats  # poses predicted by odometry, (N, 3)
-    variance: Floats  # variance of the prediction, x, y and yaw in the poses' own frames, (N, 3)
+    variance: Floats  # variance of the prediction since the last path pose, x, y and yaw, own frames, (N, 3)
     poses: Floats  # poses after matching, (N, 3)
     information: Floats  # inverse covariance by the laser alone, in the poses' own frames, (N, 3, 3)
     scores: Floats  # fit of each scan to the window, from 0 to 1, (N,)
@@ -337,8 +347,9 @@ def predict(
 ) -> tuple[Floats, Floats]:
     """Predict poses of ``count`` scans after scan ``last``, and variances in their own frames, (N, 3) each."""
     if motions is None:
-        # Assume constant velocity. Its standard deviations grow by 0.5 m and 0.6 rad per second.
-        gap_s = gap_before_s = 0.2
+        # Assume constant velocity. Standard deviations begin at 0.05 m and 4 degrees and grow by 0.5 m and 0.6 rad a
+        # second, for at most a second. After a longer gap the motion is at most 1.5 times the last one.
+        gap_s = gap_before_s = 0.2  # without stamps
         if stamps_s is not None and last > 0 and (np.diff(stamps_s[last - 1 : last + 2]) >= EQUAL_STAMPS_S).all():
             gap_before_s, gap_s = np.diff(stamps_s[last - 1 : last + 2])
         motion = between(poses[last - 1], poses[last]) if last > 0 else np.zeros(3)
@@ -352,30 +363,30 @@ def place_near(
     geometry: ScanGeometry, window: Window, scans: Indices, predicted: Floats, variance: Floats,
     backwards: Floats | None, usual_score: float,
 ) -> PlacedScans:  # fmt: skip
-    """Match N scans near predicted poses, or near poses ``backwards`` against odometry's motion, (N, 3) each."""
-    # Search the windows that odometry allows.
+    """Match N scans near predicted poses, (N, 3). Unusual misfits are also tried at ``backwards``: robots reverse."""
+    # Search windows of 3.5 standard deviations of odometry, within limits.
     points = [geometry.points_of(int(scan), MAX_POINTS) for scan in scans]
     sigma = np.sqrt(variance)
     half_m = np.clip(3.5 * sigma[:, :2].max(axis=1), 0.1, 1.5)
     half_rad = np.clip(3.5 * sigma[:, 2], np.radians(1.5), np.radians(60.0))
-    sigma_m, sigma_rad = float(sigma[:, :2].max()), float(sigma[:, 2].max())
-    pull = Pull(max(sigma_m, 0.03), max(sigma_rad, np.radians(1.0)))
+    pull = Pull(max(float(sigma[:, :2].max()), 0.03), max(float(sigma[:, 2].max()), np.radians(1.0)))
     windows = SearchWindows(predicted, half_m, half_rad)
     best = match(window.grid, points, windows, min_score=ANY_SCORE, pull=pull)
     start, scores = best.poses[:, 0], best.scores[:, 0]
     # Try the motion backwards for scans that fit worse than usual.
-    centre, is_reversed = predicted.copy(), np.zeros(len(scans), np.bool_)
+    prior_mean, is_reversed = predicted.copy(), np.zeros(len(scans), np.bool_)
     doubtful = np.nonzero(scores < usual_score - UNUSUAL_LOSS)[0]
     if backwards is not None and len(doubtful):
         doubtful_points = [points[k] for k in doubtful]
         windows = SearchWindows(backwards[doubtful], half_m[doubtful], half_rad[doubtful])
         min_score = scores[doubtful] + _min_gains(BACKWARDS_GAIN, doubtful_points)
-        back = match(window.grid, doubtful_points, windows, min_score=min_score, pull=pull)
-        better = back.has_pose[:, 0]
-        moved = doubtful[better]
-        start[moved], scores[moved] = back.poses[better, 0], back.scores[better, 0]
-        centre[moved], is_reversed[moved] = backwards[moved], True
-    poses, information = _refine(geometry, window, scans, start, centre, variance)
+        reverse = match(window.grid, doubtful_points, windows, min_score=min_score, pull=pull)
+        is_better = reverse.has_pose[:, 0]
+        moved = doubtful[is_better]
+        start[moved], scores[moved] = reverse.poses[is_better, 0], reverse.scores[is_better, 0]
+        prior_mean[moved] = backwards[moved]
+        is_reversed[moved] = True
+    poses, information = _refine(geometry, window, scans, start, prior_mean, variance)
     return PlacedScans(predicted, variance, poses, information, scores, is_reversed)
 
 
@@ -386,7 +397,7 @@ class WideMatch:
     pose: Floats  # (3,)
     information: Floats  # inverse covariance by the laser alone, in the pose's own frame, (3, 3)
     score: float  # fit to the window, from 0 to 1
-    near: bool  # True if it is within `WIDE_M` and the first angle of `WIDE_STAGES` of the prediction
+    is_near: bool  # True if it is within `WIDE_M` and the first angle of `WIDE_STAGES` of the prediction
 
 
 def search_widely(
@@ -395,14 +406,14 @@ def search_widely(
     """Return the best pose in wide windows about a prediction, (3,), or None if no score is clearly above ``score``."""
     points = [geometry.points_of(scan, MAX_POINTS)]
     for stage, (wide_rad, gain) in enumerate(WIDE_STAGES):
-        windows = SearchWindows(predicted[None], WIDE_M, wide_rad, np.radians(1.0))
+        windows = SearchWindows(predicted[None], WIDE_M, wide_rad, step_rad=np.radians(1.0))
         min_score = score + _min_gains(gain, points)
-        wide = match(window.grid, points, windows, min_score=min_score, pull=Pull(WIDE_M, wide_rad))
-        if wide.has_pose[0, 0]:
-            variance = np.array([[0.05, 0.05, 0.02]])  # odometry was wrong: centre the prior at the new pose instead
-            start = wide.poses[:, 0]
+        matches = match(window.grid, points, windows, min_score=min_score, pull=Pull(WIDE_M, wide_rad))
+        if matches.has_pose[0, 0]:
+            # Odometry was wrong: the prior is centred at the new pose, with sigmas of 0.22 m and 8 degrees.
+            start, variance = matches.poses[:, 0], np.array([[0.05, 0.05, 0.02]])
             poses, information = _refine(geometry, window, np.array([scan]), start, start, variance)
-            return WideMatch(poses[0], information[0], float(wide.scores[0, 0]), stage == 0)
+            return WideMatch(poses[0], information[0], float(matches.scores[0, 0]), is_near=stage == 0)
     return None
 
 
@@ -412,7 +423,7 @@ def _min_gains(gain: float, points: list[Floats]) -> Floats:
 
 
 def contradicts(geometry: ScanGeometry, window: Window, scan: int, pose: Floats) -> bool:
-    """Check whether a scan at a pose contradicts the window's key scans: beams pass through surfaces of the other."""
+    """Return whether a scan at a pose and the window's key scans contradict each other: beams pass through surfaces."""
     keys, scans = window.keys.astype(np.int32), np.full(len(window.keys), scan, np.int32)
     relative = between(window.poses, pose)
     counts = mutual_view_counts(geometry, keys, scans, relative, VIEW_AGREEMENT, geometry.threads)
@@ -422,19 +433,19 @@ def contradicts(geometry: ScanGeometry, window: Window, scan: int, pose: Floats)
 
 
 def _refine(
-    geometry: ScanGeometry, window: Window, scans: Indices, start: Floats, predicted: Floats, variance: Floats
+    geometry: ScanGeometry, window: Window, scans: Indices, start: Floats, prior_mean: Floats, variance: Floats
 ) -> tuple[Floats, Floats]:
     """Return poses refined under odometry's Gaussian, and the laser's information in the poses' own frames."""
     jobs = len(scans)
     newest = slice(None, None if jobs == 1 else BATCH_KEYS)
     keys, poses = window.keys[newest], window.poses[newest]
-    # Add an error of about a centimetre for the pose before.
+    # Add the variance of the pose before: 1 cm and 5 mrad.
     own_information = np.array([np.diag(1.0 / (row + np.array([1e-4, 1e-4, 2.5e-5]))) for row in variance])
-    to_world = rotation(predicted[:, 2])
+    to_world = rotation(prior_mean[:, 2])
     prior_information = to_world @ own_information @ np.swapaxes(to_world, 1, 2)
     refinement = Refinement(
         scans.astype(np.int32), np.arange(jobs + 1, dtype=np.int32) * len(keys), np.tile(keys, jobs).astype(np.int32),
-        np.tile(poses, (jobs, 1)), start, predicted, prior_information,
+        np.tile(poses, (jobs, 1)), start, prior_mean, prior_information,
     )  # fmt: skip
     reach, scale = geometry.reach_m(*REACH_M), geometry.scale_m(*SCALE_M)
     convergence = Convergence(max(POINT_SIGMA_M, geometry.noise_m), MAX_REFINEMENT_STEPS, reach, scale, MIN_COSINE)
