@@ -29,9 +29,7 @@ def difference_scales(
     one: InferredTrajectory, other: InferredTrajectory, first: NDArray[np.intp], second: NDArray[np.intp]
 ) -> Floats:
     """Scale matrices of what relative poses of pairs of scans differ by, (N, 3, 3)."""
-    return _laser_alone(one).relative_covariances(first, second) + _laser_alone(other).relative_covariances(
-        first, second
-    )
+    return _laser_alone(one).relative_scales(first, second) + _laser_alone(other).relative_scales(first, second)
 
 
 @dataclass(frozen=True, eq=False)

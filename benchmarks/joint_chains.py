@@ -153,7 +153,7 @@ def loop() -> None:
         within = np.sqrt(x.var(axis=1).mean(axis=(0, 2)))
         apart = np.sqrt(x.mean(axis=1).var(axis=0, ddof=1).mean(axis=1))
         dof = found.gaussian.dof
-        scale = dof / (dof - 2.0) * found.relative_covariances(keys[first], keys[second])
+        scale = dof / (dof - 2.0) * found.relative_scales(keys[first], keys[second])
         said = np.sqrt(0.5 * (scale[:, 0, 0] + scale[:, 1, 1]))
         worst = [max(float(rhat(x[:, :, k, i])) for i in range(2)) for k in range(len(first))]
         print(

@@ -290,7 +290,7 @@ def judge(found: InferredTrajectory, truth: Floats, seed: int = 0) -> Outcome:
             said |= (a < scan) & (scan <= b)
         said |= found.flagged[a] | found.flagged[b]
         dof = found.gaussian.dof
-        inverse = np.linalg.inv(dof / (dof - 2.0) * found.relative_covariances(a, b))
+        inverse = np.linalg.inv(dof / (dof - 2.0) * found.relative_scales(a, b))
         # The error in the frame of the first, as covariances are.
         true, mine = between(truth[a], truth[b]), between(found.poses[a], found.poses[b])
         e = mine - true

@@ -102,7 +102,7 @@ def simulated_office(scans: int) -> Iterator[Figure]:
     yield Figure(f"{name}/far_off", float((error > FAR_OFF_M).sum()), "scans", against=f"of {scans}")
     first, second = pairs_of(len(found))
     truth = between(case.truth[first], case.truth[second])
-    square = squares(between(found.poses[first], found.poses[second]), truth, found.relative_covariances(first, second))
+    square = squares(between(found.poses[first], found.poses[second]), truth, found.relative_scales(first, second))
     yield from coverage(name, square, np.hypot(*truth[:, :2].T), found.gaussian.dof)
 
 

@@ -142,7 +142,7 @@ covariances = found.covariances()
 error = in_frame_of_first(found.poses) - in_frame_of_first(true_poses)
 error[:, 2] = wrap_angle(error[:, 2])
 widening = found.gaussian.dof / (found.gaussian.dof - 2)  # from the scale matrix of Student's t to its covariance
-relative = widening * found.relative_covariances(np.zeros(len(found), int), np.arange(len(found)))
+relative = widening * found.relative_scales(np.zeros(len(found), int), np.arange(len(found)))
 squares = np.einsum("si,sij,sj->s", error[1:], np.linalg.inv(relative[1:]), error[1:])
 print(f"squared errors by their covariance: {squares.mean():.1f} on average")
 sigma_mm = 1e3 * np.sqrt(np.linalg.eigvalsh(covariances[:, :2, :2])[:, 1])

@@ -142,7 +142,7 @@ def squares(truth, gaussian):
     """Squared errors of relative poses over metres by their scale matrices, as multiples of what is expected."""
     first, second = np.arange(0, POSES - 32, 7), np.arange(32, POSES, 7)
     off = between(gaussian.poses[first], gaussian.poses[second]) - between(truth[first], truth[second])
-    return np.einsum("mi,mij,mj->m", off, np.linalg.inv(gaussian.relative_covariances(first, second)), off) / 3.0
+    return np.einsum("mi,mij,mj->m", off, np.linalg.inv(gaussian.relative_scales(first, second)), off) / 3.0
 
 
 @pytest.mark.full
@@ -185,13 +185,13 @@ def corridor(*, seen_m):
 
 def test_a_length_that_odometry_alone_knows_is_as_uncertain_as_its_scale_and_one_that_the_laser_knows_is_not():
     found, plain = corridor(seen_m=1e3)
-    added = found.relative_covariances([0, 5], [STEPS, 9]) - plain.relative_covariances([0, 5], [STEPS, 9])
+    added = found.relative_scales([0, 5], [STEPS, 9]) - plain.relative_scales([0, 5], [STEPS, 9])
     lengths = np.array([STEPS * STEP_M, 4 * STEP_M])
     np.testing.assert_allclose(added[:, 0, 0], found.scale_of_covariance * (SCALE_SIGMA * lengths) ** 2, rtol=1e-3)
     draws = replace(found, dof=1e6).draw(2000, seed=1)
     assert draws[:, STEPS, 0].std() == pytest.approx(np.hypot(SCALE_SIGMA * 10.0, 0.01 * np.sqrt(STEPS)), rel=0.08)
     found, plain = corridor(seen_m=1e-4)
-    added = found.relative_covariances([0], [STEPS]) - plain.relative_covariances([0], [STEPS])
+    added = found.relative_scales([0], [STEPS]) - plain.relative_scales([0], [STEPS])
     assert added[0, 0, 0] < 1e-8
 
 

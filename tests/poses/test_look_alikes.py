@@ -112,7 +112,7 @@ def test_covariances_and_draws_hold_the_alternative():
     step = np.zeros((1, 5, 3))
     step[0, 3:, 1] = np.sqrt(0.2) * 2.0  # probability 0.2, 2 m to the side
     plain, other = PoseGaussian(*parts), PoseGaussian(*parts, elsewhere=step)
-    before, after = (g.relative_covariances([0, 1], [4, 2]) for g in (plain, other))
+    before, after = (g.relative_scales([0, 1], [4, 2]) for g in (plain, other))
     expected = np.diag([0.0, 0.2 * 4.0, 0.0]) * other.scale_of_covariance
     np.testing.assert_allclose((after - before)[0], expected, atol=1e-9)
     np.testing.assert_allclose(after[1], before[1], atol=1e-12)

@@ -271,7 +271,7 @@ def squares(truth, gaussian):
     """Mean squared errors of relative poses by their scale matrices, as multiples of what Student's t expects."""
     first, second = np.arange(len(truth) - APART), np.arange(APART, len(truth))
     off = between(gaussian.poses[first], gaussian.poses[second]) - between(truth[first], truth[second])
-    scale = gaussian.relative_covariances(first, second)
+    scale = gaussian.relative_scales(first, second)
     expected = 3.0 * gaussian.dof / (gaussian.dof - 2.0)
     return float(np.einsum("mi,mij,mj->m", off, np.linalg.inv(scale), off).mean()) / expected
 

@@ -53,7 +53,7 @@ def test_draws_have_the_spread_of_the_covariances(trajectory):
     draws = trajectory.draw(2000, seed=4)
     a, b = 12, 70
     relative = between(draws[:, a], draws[:, b])
-    scale = trajectory.relative_covariances([a], [b])[0]
+    scale = trajectory.relative_scales([a], [b])[0]
     # The median absolute deviation of Student's t with 4 degrees is 0.7407 scales.
     found = np.median(np.abs(relative - np.median(relative, axis=0)), axis=0) / 0.7407
     np.testing.assert_allclose(found, np.sqrt(np.diag(scale)), rtol=0.15)
@@ -177,7 +177,7 @@ def test_the_posterior_stretches_along_a_corridor():
     ranges = np.where(exact < 8.0, exact, np.inf) + 0.01 * rng.normal(size=(40, 180))
     poses = np.column_stack([np.cumsum(0.3 + 0.03 * rng.normal(size=40)), np.zeros(40), np.zeros(40)])
     result = infer_trajectory(bm.Scans(poses, angles, ranges, max_range_m=8.0, stamps_s=np.arange(40.0)), threads=1)
-    sigma = np.sqrt(np.diag(result.relative_covariances([5], [30])[0]))
+    sigma = np.sqrt(np.diag(result.relative_scales([5], [30])[0]))
     assert sigma[0] > 5.0 * sigma[1]
     # The laser must not pull the scans together or apart along the walls.
     assert abs(between(result.poses[5], result.poses[30])[0] - (poses[30] - poses[5])[0]) < 0.2

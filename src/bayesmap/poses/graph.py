@@ -362,7 +362,7 @@ class PoseGaussian:
     def _cost(self) -> Quadratic:
         return Quadratic(self.first, self.second, self.relative, self.curvature, self.force)
 
-    def relative_covariances(self, first: Indices, second: Indices) -> Floats:
+    def relative_scales(self, first: Indices, second: Indices) -> Floats:
         """Return the scale matrix of Student's t of between(first, second), in the first's frame, (N, 3, 3)."""
         first, second = np.asarray(first), np.asarray(second)
         shared = self.scale_of_covariance * bend_covariances(self.bends, self.poses, first, second)
@@ -373,7 +373,7 @@ class PoseGaussian:
 
         Draw number n depends on (seed, n) alone. It solves H x = sum_k J_k^T C_k e_k, where C_k C_k^T is the curvature
         of term k and e_k is standard normal, so that x has covariance H^-1. A normal sum of the bends, with (dof - 2) /
-        dof of their covariance, is added, and the sum is stretched by the root of dof over a chi-squared number.
+        dof of their covariance, is added, and the sum is multiplied by the root of dof over a chi-squared number.
         """
         root = matrix_roots(self.curvature)
         by_first, by_second = between_jacobians(self.relative)
@@ -388,8 +388,8 @@ class PoseGaussian:
             right[0] = rng.standard_normal(3) * np.sqrt(ANCHOR + RIDGE)
             for ends, to_ends in ((self.first, to_first), (self.second, to_second)):
                 _add_to_rows(right, ends, np.einsum("mij,mj->mi", to_ends, noise))
-            stretch = np.sqrt(self.dof / rng.chisquare(self.dof))
+            t_scale = np.sqrt(self.dof / rng.chisquare(self.dof))
             bend = np.tensordot(rng.standard_normal(len(self.bends)), self.bends, 1) * bend_scale
             step = self.precision.solve(right.ravel()).reshape(-1, 3) + bend
-            draws[n] = compose(self.poses, stretch * step)
+            draws[n] = compose(self.poses, t_scale * step)
         return draws

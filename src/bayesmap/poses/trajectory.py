@@ -33,10 +33,10 @@ class LoopClosures:
 
 @dataclass(frozen=True, eq=False)
 class Alternatives:
-    """A other possible trajectories. In each, one stretch has other poses, since a visit may be of another place."""
+    """A alternative trajectories. In each, one span of scans lies elsewhere: a recognised place may be another one."""
 
-    first: Indices  # scan at the beginning of the stretch, (A,)
-    last: Indices  # scan at its end, (A,)
+    first: Indices  # first scan of the span, (A,)
+    last: Indices  # last scan of the span, (A,)
     probabilities: Floats  # probability that the alternative is right and not the trajectory, (A,)
     poses: Floats  # poses of the key scans in each alternative, (A, K, 3)
 
@@ -66,8 +66,8 @@ def calibrated(scans: Scans, angle_step_ratio: float) -> Scans:
 def with_arcs(scale: Floats, dof: float) -> Floats:
     """Return scale matrices of relative poses, (N, 3, 3), with the second-order effect of heading errors added.
 
-    An error phi of the heading turns the path after it: its end moves by phi times the lever across, and by -phi^2 / 2
-    times the lever along. The lever is the covariance of position and heading over the variance of the heading, turned
+    A heading error phi moves the end of the path by phi times the lever across, and by -phi^2 / 2 times the lever
+    along. The lever is the covariance of position and heading over the variance of the heading, turned
     by a right angle. The mean of phi^4 follows from Student's t with ``dof`` degrees of freedom, over 4.
     """
     along = np.stack([scale[:, 1, 2], -scale[:, 0, 2], np.zeros(len(scale))], axis=1)
@@ -81,18 +81,18 @@ class InferredTrajectory:
     poses: Floats  # poses of the laser in the map's frame, in which the first scan is where odometry stated it, (S, 3)
     stamps_s: Floats | None  # times of the scans, (S,), ascending
     keys: Indices  # indices of the key scans, (K,)
-    gaussian: PoseGaussian  # distribution of the poses of the key scans
-    nearest_key: Indices  # position among the keys of each scan's nearest key, (S,)
+    gaussian: PoseGaussian  # distribution of the poses of the key scans: Student's t about a Gaussian
+    nearest_key: Indices  # index among the keys of each scan's nearest key, (S,)
     own_covariance: Floats  # scale matrix of Student's t of each scan about its key, own frame, (S, 3, 3); keys have 0
     explained: Floats  # share of each scan's points that other scans explain, from 0 to 1, (S,)
-    flagged: Mask  # mask of scans that stay badly explained, (S,); half of them were misplaced in simulated logs
+    flagged: Mask  # mask of badly explained scans, (S,): in simulated logs half of these were misplaced
     breaks: Indices  # indices of scans before which neither odometry nor the laser confirms the motion
     closures: LoopClosures
     calibration: Calibration
     order: Indices  # index in the log of each scan, (S,)
     odometry: Factors | None = None  # factors of corrected odometry between key scans; None without odometry
+    # indices of scans before which the motion is doubtful: `contradicted_links`, `unconfirmed_links` of key_graph
     leaps: Indices = field(default_factory=lambda: np.empty(0, np.intp))
-    """Indices of scans before which the motion is doubtful: `contradicted_links`, `unconfirmed_links` of key_graph."""
     alternatives: Alternatives = NO_ALTERNATIVES  # covariances and draws contain their spread
 
     def __len__(self) -> int:
@@ -112,19 +112,19 @@ class InferredTrajectory:
         keys = self.alternatives.poses[number]
         return compose(keys[self.nearest_key], between(self.gaussian.poses[self.nearest_key], self.poses))
 
-    def relative_covariances(self, first: Indices, second: Indices) -> Floats:
+    def relative_scales(self, first: Indices, second: Indices) -> Floats:
         """Return scale matrices of Student's t of relative poses, in the first's frame, (N, 3, 3)."""
-        # Take the covariance of the nearest keys a and b, and the poses of the scans in the frames of their keys.
+        # Take the scale matrix of the nearest keys a and b, and the poses of the scans in the frames of their keys.
         first, second = np.asarray(first, np.intp), np.asarray(second, np.intp)
         a, b = self.nearest_key[first], self.nearest_key[second]
-        key_covariances = self.gaussian.relative_covariances(a, b)
+        key_scales = self.gaussian.relative_scales(a, b)
         in_a = between(self.gaussian.poses[a], self.poses[first])
         in_b = between(self.gaussian.poses[b], self.poses[second])
         # Chain rule: between(first, second) = in_a^-1 * between(a, b) * in_b.
         to_first = np.swapaxes(rotation(in_a[:, 2]), 1, 2)
         yaw = between(self.gaussian.poses[a], self.gaussian.poses[b])[:, 2]
         by_keys = to_first @ frame_jacobians(yaw, in_b)
-        result = by_keys @ key_covariances @ np.swapaxes(by_keys, 1, 2)
+        result = by_keys @ key_scales @ np.swapaxes(by_keys, 1, 2)
         by_first, by_second = between_jacobians(between(self.poses[first], self.poses[second]))
         for jacobian, scans in ((by_first, first), (by_second, second)):
             result += jacobian @ self.own_covariance[scans] @ np.swapaxes(jacobian, 1, 2)
@@ -132,7 +132,7 @@ class InferredTrajectory:
 
     def covariances(self) -> Floats:
         """Return the covariance of each pose given the first, in the world's axes, (S, 3, 3)."""
-        relative = self.relative_covariances(np.zeros(len(self), np.intp), np.arange(len(self)))
+        relative = self.relative_scales(np.zeros(len(self), np.intp), np.arange(len(self)))
         to_world, dof = rotation(self.poses[0, 2]), self.gaussian.dof
         return np.asarray(dof / (dof - 2.0) * to_world @ relative @ to_world.T)
 
@@ -144,7 +144,7 @@ class InferredTrajectory:
         draws = np.empty((count, len(self), 3))
         for n in range(count):
             rng = np.random.Generator(np.random.Philox(key=[seed & (2**64 - 1), first_draw + n + (1 << 32)]))
-            stretch = np.sqrt(self.gaussian.dof / rng.chisquare(self.gaussian.dof, (len(self), 1)))
-            own_steps = stretch * np.einsum("sij,sj->si", root, rng.standard_normal((len(self), 3)))
+            t_scale = np.sqrt(self.gaussian.dof / rng.chisquare(self.gaussian.dof, (len(self), 1)))
+            own_steps = t_scale * np.einsum("sij,sj->si", root, rng.standard_normal((len(self), 3)))
             draws[n] = compose(compose(keys[n][self.nearest_key], relative), own_steps)
         return draws
