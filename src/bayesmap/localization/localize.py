@@ -28,13 +28,15 @@ if TYPE_CHECKING:
     from bayesmap.space.grid import Grid
 
 MIN_SURE_PROBABILITY = 0.99  # probability of the likeliest mode below which every scan is searched for in the whole map
-MIN_MAP_PROBABILITY = 1e-3  # probability of the map's area under a prior
+MAX_SURE_P_LOST = 0.5  # probability of being lost above which every scan is searched for in the whole map, too
+MIN_MAP_PROBABILITY = 1e-3  # least probability of the map's area under a prior
 TURN_M = 0.5  # length of path with as much new evidence as a turn by one radian, metres
-MIN_NEW_SHARE = 0.02  # share of a scan's evidence that counts as new even if the robot stands still
-LOST_PATH_M = 1.5  # length of path along which the next three are probabilities; a shorter path has a share of them
-P_GETS_LOST = 1e-3  # a robot on the map gets lost; the least share is `MIN_NEW_SHARE`
-P_FOUND = 0.05  # a lost robot is back on the map; the least share is `MIN_NEW_SHARE`
-P_UNLIKE = 0.4  # a lost robot leaves the places that are like some on the map; no share while it stands still
+MIN_NEW_SHARE = 0.02  # least share of new evidence, and of `P_GETS_LOST` and `P_FOUND`: for a robot that stands still
+LOST_PATH_M = 1.5  # path, metres, over which the three probabilities below apply; over less, in proportion
+P_GETS_LOST = 1e-3  # probability that a robot on the map gets lost
+P_FOUND = 0.05  # probability that a lost robot returns to the map
+P_UNLIKE = 0.4  # probability that a lost robot leaves a place that looks like one on the map
+MAX_P_RETURNED = 0.5  # largest share of the prior that stands for a return to the map
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,7 +116,7 @@ class Localization:
         return self.last.p_lost
 
     def region(self, level: float = 0.95) -> Region:
-        """Return the smallest region of positions that holds a probability."""
+        """Return the smallest region of positions that holds the probability ``level``."""
         return self.last.region(level)
 
     def probability_in(self, area: ArrayLike) -> float:
@@ -160,7 +162,7 @@ def localize(
     if len(scans) == 0:
         raise BadInput("localize: there is no scan")
     beliefs = []
-    located = follow(_known_map(run, device), scans, prior, odometry, independent=independent, seed=seed)
+    located = follow(known_map_of(run, device), scans, prior, odometry, independent=independent, seed=seed)
     for number, belief in enumerate(located):
         beliefs.append(belief)
         if on_belief is not None:
@@ -169,17 +171,19 @@ def localize(
 
 
 def follow(
-    known: KnownMap, scans: Scans | Iterable[Scans], prior: InitialPose | None = None, odometry: Odometry | None = None,
-    *, independent: bool = False, seed: int = 0,
+    known_map: KnownMap, scans: Scans | Iterable[Scans], prior: InitialPose | None = None,
+    odometry: Odometry | None = None, *, independent: bool = False, seed: int = 0,
 ) -> Iterator[PoseBelief]:  # fmt: skip
     """Yield the posterior of each scan before the next scan is read. The arguments are those of `localize`."""
-    odometry, trust = Odometry() if odometry is None else odometry, known.trust
-    _check_arguments(known, prior, odometry)
+    odometry, trust = Odometry() if odometry is None else odometry, known_map.trust
+    _check_arguments(known_map, prior, odometry)
     rng = np.random.default_rng(check_count("localize", "seed", seed, 0))
-    missed = 0.0 if known.reference_fit is None else known.reference_fit.missed
+    p_missed = 0.0 if known_map.reference_fit is None else known_map.reference_fit.missed
     p_alike = P_ALIKE * P_LOST_AT_FIRST
-    anywhere = Prior(p_lost=max(P_LOST_AT_FIRST, missed), p_alike=p_alike)
-    pose_prior = anywhere if prior is None else Prior(prior.components(), trust.p_carried, P_LOST_AT_FIRST, p_alike)
+    anywhere = Prior(p_lost=max(P_LOST_AT_FIRST, p_missed), p_alike=p_alike)
+    pose_prior = anywhere
+    if prior is not None:
+        pose_prior = Prior(prior.components(), trust.p_carried, p_lost=P_LOST_AT_FIRST, p_alike=p_alike)
     belief, pose, since_search_m = None, np.zeros(3), 0.0
     singles = (scans.select(slice(i, i + 1)) for i in range(len(scans))) if isinstance(scans, Scans) else scans
     for single in singles:
@@ -195,11 +199,13 @@ def follow(
                 new_share = max(MIN_NEW_SHARE, path_m / trust.shared_path_m)
             pose_prior = predict(belief, motion, odometry.sigmas(motion), trust, path_m, new_share)
         # Search the whole map if the pose is uncertain, or after a long path.
-        unsure = belief is None or belief.p_lost > 0.5 or belief.modes[0].probability < MIN_SURE_PROBABILITY
-        search_all = independent or unsure or since_search_m >= trust.search_path_m
+        is_unsure = (
+            belief is None or belief.p_lost > MAX_SURE_P_LOST or belief.modes[0].probability < MIN_SURE_PROBABILITY
+        )
+        search_all = independent or is_unsure or since_search_m >= trust.search_path_m
         if search_all:
             since_search_m = 0.0
-        belief = update(known, pose_prior, _scan_of(single, new_share), rng, look_everywhere=search_all)
+        belief = update(known_map, pose_prior, _scan_of(single, new_share), rng, look_everywhere=search_all)
         yield belief
 
 
@@ -213,7 +219,7 @@ def _scan_of(single: Scans, new_share: float) -> Scan:
     return Scan(angles, ranges, limits, stamp_s, new_share)
 
 
-def _known_map(run: Any, device: str) -> KnownMap:
+def known_map_of(run: Any, device: str) -> KnownMap:
     """Return the prepared map of a run. Raises `BadInput` for anything that is neither a run nor a `KnownMap`."""
     if isinstance(run, KnownMap):
         return run
@@ -222,7 +228,7 @@ def _known_map(run: Any, device: str) -> KnownMap:
     return KnownMap.of_run(run, device=device)
 
 
-def _check_arguments(known: KnownMap, prior: InitialPose | None, odometry: Odometry) -> None:
+def _check_arguments(known_map: KnownMap, prior: InitialPose | None, odometry: Odometry) -> None:
     """Raise `BadInput` for a prior or odometry of another type, and for a prior outside the map."""
     if not isinstance(odometry, Odometry):
         raise BadInput(f"localize: odometry must be such as bm.Odometry(), got {odometry!r}")
@@ -230,8 +236,8 @@ def _check_arguments(known: KnownMap, prior: InitialPose | None, odometry: Odome
         return
     if not isinstance(prior, InitialPose):
         raise BadInput(f"localize: prior must be such as bm.InitialPose((x, y, yaw)), or None: anywhere; got {prior!r}")
-    if prior.share_in(known.grid) < MIN_MAP_PROBABILITY:
-        (x0, x1, y0, y1), (x, y) = known.grid.extent_m, np.asarray(prior.pose)[:2]
+    if prior.share_in(known_map.grid) < MIN_MAP_PROBABILITY:
+        (x0, x1, y0, y1), (x, y) = known_map.grid.extent_m, np.asarray(prior.pose)[:2]
         raise BadInput(
             f"prior: ({x:g}, {y:g}) +- {prior.sigma_m:g} m lies outside the map, which is from {x0:g} to {x1:g} m in x "
             f"and from {y0:g} to {y1:g} m in y"
@@ -246,22 +252,24 @@ def predict(
     means = np.array([mode.mean for mode in modes])
     covariances = np.array([mode.covariance for mode in modes])
     ends = compose(means, motion)
-    shift, to_world = frame_jacobians(np.zeros(len(means)), ends - means), rotation(means[:, 2])
+    jacobian, to_world = frame_jacobians(np.zeros(len(means)), ends - means), rotation(means[:, 2])
     noise = to_world @ np.diag(sigmas**2 + MIN_SIGMA**2) @ np.swapaxes(to_world, 1, 2)
     log_mass = np.log([mode.probability for mode in modes])
-    components = PoseMixture(ends, shift @ covariances @ np.swapaxes(shift, 1, 2) + noise, log_mass)
+    components = PoseMixture(ends, jacobian @ covariances @ np.swapaxes(jacobian, 1, 2) + noise, log_mass)
     # A lost robot may return to any position.
     p_lost, p_alike, p_returned = predict_lost(belief.p_lost, belief.p_alike, path_m)
     p_carried = new_share * trust.p_carried
-    return Prior(components, p_carried + (1.0 - p_carried) * min(p_returned, 0.5), p_lost, p_alike)
+    uniform_share = p_carried + (1.0 - p_carried) * min(p_returned, MAX_P_RETURNED)
+    return Prior(components, uniform_share, p_lost=p_lost, p_alike=p_alike)
 
 
 def predict_lost(p_lost: float, p_alike: float, path_m: float) -> tuple[float, float, float]:
-    """Return ``p_lost`` and ``p_alike`` after a path, and the probability that a lost robot has returned to the map."""
-    share = min(path_m / LOST_PATH_M, 1.0)
-    p_unlike, share = share * P_UNLIKE, max(share, MIN_NEW_SHARE)
+    """Return ``p_lost``, ``p_alike`` (as in `Prior`) and the probability of return to the map, after a path."""
+    moved_share = min(path_m / LOST_PATH_M, 1.0)
+    share, p_unlike = max(moved_share, MIN_NEW_SHARE), moved_share * P_UNLIKE
     # The share of the alike places stays `P_ALIKE`, as long as no scan tells more.
-    p_elsewhere, p_got_lost = p_lost - p_alike, share * P_GETS_LOST * (1.0 - p_lost)
+    p_elsewhere = p_lost - p_alike
+    p_got_lost = share * P_GETS_LOST * (1.0 - p_lost)
     p_returned = share * P_FOUND * p_elsewhere
     p_alike += p_unlike * (P_ALIKE / (1.0 - P_ALIKE) * p_elsewhere - p_alike) + P_ALIKE * p_got_lost
     return p_lost + p_got_lost - p_returned, p_alike, p_returned

@@ -27,22 +27,22 @@ class WallProblem(Problem):
 
     table: BeamTable
     prior: BinaryWalls
-    poses: Floats  # poses of the sensor in the world frame, (S, 3), for the order of sweeps outwards from it
+    poses: Floats  # poses of the sensor in the world frame, (S, 3): sweeps go outwards from these
     device: str = "cpu"
     threads: int | None = None  # all cores if None
 
     @property
     def traced(self) -> BeamTable:
-        """The table."""
+        """The beam table, under the name that all problems share."""
         return self.table
 
     def for_any_poses(self) -> WallProblem:
-        """Return this problem, whose draws cover the grid and so keep all cells when poses move."""
+        """Return this problem: draws of walls keep all cells, wherever the poses are."""
         return self
 
     def under(self, prior: BinaryWalls) -> WallProblem:
         """Return this problem under another prior."""
-        return keep_cached(replace(self, prior=prior), self, "index", "device_table")
+        return keep_cached(replace(self, prior=prior), self, "index", "device_table")  # names of cached properties
 
     @cached_property
     def index(self) -> CellIndex:
@@ -70,8 +70,8 @@ class WallProblem(Problem):
 
     @cached_property
     def logit(self) -> Floats:
-        """Prior log-odds of a wall in every cell, (N,); large but finite where the prior fixes a cell."""
-        return log_odds(self.p_wall)
+        """Prior log-odds of a wall in every cell, (N,). They are large but finite where the prior fixes a cell."""
+        return finite_logit(self.p_wall)
 
     @cached_property
     def device_prior(self) -> Any:
@@ -85,22 +85,22 @@ class WallProblem(Problem):
         return self.table.log_likelihood(walls) + self.prior.log_prob(walls, self.table.grid)
 
     def with_fixed_cells(self, walls: Mask) -> Mask:
-        """Return maps, (..., nx, ny), with the cells that the prior fixes set. Raises `BadInput` for another shape."""
+        """Set the cells that the prior fixes, in maps (..., nx, ny). Raises `BadInput` for another shape."""
         shape = self.table.grid.shape
         if np.shape(walls)[-2:] != shape:
             self.table.check_walls(walls)
-        p = self.p_wall.reshape(shape)
-        return np.asarray(((np.asarray(walls) != 0) | (p == 1)) & (p != 0))
+        p_wall = self.p_wall.reshape(shape)
+        return np.asarray(((np.asarray(walls) != 0) | (p_wall == 1)) & (p_wall != 0))
 
 
-def log_odds(p_wall: Floats) -> Floats:
-    """Return the log-odds of probabilities, (N,); large but finite where they are 0 or 1."""
+def finite_logit(p_wall: Floats) -> Floats:
+    """Return the log-odds of probabilities, (N,). They are large but finite for probabilities of 0 and 1."""
     with np.errstate(divide="ignore"):
         return np.asarray(np.clip(np.log(p_wall) - np.log1p(-p_wall), -MAX_LOG_ODDS, MAX_LOG_ODDS))
 
 
 def trace_walls(model: Model, device: str = "cpu", threads: int | None = None) -> WallProblem:
-    """Trace the beam table. Raises `BadInput` for another prior, an unknown device, or too many incidences."""
+    """Trace a model into a `WallProblem`. Raises `BadInput`: another prior, unknown device, too many incidences."""
     from bayesmap.kernels.device import resolve
     from bayesmap.kernels.walls.table import trace
 

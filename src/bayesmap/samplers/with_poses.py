@@ -219,7 +219,11 @@ class WithPoses:
         n_chains, n_scans = len(chain_ids), len(problem.model.scans)
         if resume is None:
             sweep = 0
-            poses = np.stack([self._first_poses(problem, chain, seed) for chain in chain_ids])
+            if self.start is not None:
+                poses = np.stack([np.asarray(self.start[chain % len(self.start)], np.float64) for chain in chain_ids])
+            else:
+                rngs = [np.random.default_rng([seed, chain, Stream.START_POSES]) for chain in chain_ids]
+                poses = np.stack([problem.law.sample(rng) for rng in rngs])
             log_scale, factor = np.zeros((n_chains, n_scans)), np.zeros((n_chains, n_scans, 3, 3))
         else:
             sweep = resume.sweep
@@ -268,12 +272,6 @@ class WithPoses:
             for i, chain in enumerate(state.cells)
         ]
         return np.asarray(np.sum(by_chain, axis=0))
-
-    def _first_poses(self, problem: PoseProblem, chain: int, seed: int) -> Floats:
-        """Return the first poses of a chain, (S, 3)."""
-        if self.start is not None:
-            return np.asarray(self.start[chain % len(self.start)], dtype=np.float64)
-        return problem.law.sample(np.random.default_rng([seed, chain, Stream.START_POSES]))
 
     def _sweep_cells(self, state: JointState, count: int, beta: float, keep: Keep) -> tuple[JointState, Info]:
         """Make some sweeps of the cells at fixed poses."""

@@ -80,7 +80,9 @@ def _tabulated(sensor: SensorModel, limits: RangeLimits) -> TabulatedLaw:
     d, s, w = (np.broadcast_to(a[..., None], (SPREADS, DISTANCES, OFFSETS)) for a in (distance[None], spread, width))
     z = d + w * offset
     inside = np.clip(z, limits.min_m, limits.max_m)
-    typed = _is_typed(sensor, limits)
+    # Typed if the probabilities of ranges within the limits and of typed readings add up to one.
+    some_d = np.linspace(0.0, limits.max_m, 9)[:, None]
+    typed = bool(np.abs(total_probability(sensor, some_d, limits) - 1.0).max() < MAX_SUM_ERROR)
     log_density = np.stack([sensor.stop_log_likelihood(z[i], d[i], s[i], limits) for i in range(SPREADS)])
     if typed:
         # Interpolation needs nodes on both sides of a limit: if the formula ends there, the limit's value continues it.
@@ -139,12 +141,6 @@ def _log_typed(sensor: SensorModel, code: float, d: Floats, s: Floats, limits: R
     """Return the log probabilities of a typed reading, (S, D), for distances, (D,), and spreads, (S, D)."""
     log_p = [sensor.stop_log_likelihood(np.full(d.shape, code), d, spread, limits) for spread in s]
     return np.maximum(np.stack(log_p), MIN_LOG_DENSITY)
-
-
-def _is_typed(sensor: SensorModel, limits: RangeLimits) -> bool:
-    """Return whether the probabilities of ranges within the limits and of typed readings add up to one."""
-    d = np.linspace(0.0, limits.max_m, 9)[:, None]
-    return bool(np.abs(total_probability(sensor, d, limits) - 1.0).max() < MAX_SUM_ERROR)
 
 
 def total_probability(sensor: SensorModel, distance_m: Floats, limits: RangeLimits) -> Floats:

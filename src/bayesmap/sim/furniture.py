@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 ROBOT_CLEARANCE_M = 0.25  # smallest distance between a pose of a simulated robot and a wall
 LATTICE_M = 0.1  # approximate distance between nodes of the planning lattice, on every k-th cell
-SOLID = 1.0  # opacity: the chance that a cell stops a beam
+SOLID = 1.0  # opacity: probability that a cell stops a beam
 LEG = 0.5  # opacity of a leg, which is thinner than a cell: about half of the beams that enter its cell pass
 MAX_CUT_OFF_M2 = 0.4  # largest floor that a piece may make unreachable, besides the floor under it
 
@@ -54,7 +54,7 @@ def passage_m(resolution: float) -> float:
 class RoomFloor:
     """A room to furnish. In its frame, in metres, x runs along the corridor's wall and y away from the corridor."""
 
-    opacity: NDArray[np.float64]  # of the room's cells and the walls around them, (nx + 2, ny + 2), changed in place
+    opacity: NDArray[np.float64]  # opacity of the room and the walls around it, (nx + 2, ny + 2), changed in place
     keep_free: NDArray[np.bool_]  # mask of door openings and the cells in front of them, where nothing may stand
     resolution: float
     rng: np.random.Generator
@@ -84,7 +84,7 @@ class RoomFloor:
         return True
 
     def _leaves_floor_reachable(self, opacity: NDArray[np.float64]) -> bool:
-        """Return true if a robot can pass between all doors, and reach all floor but `MAX_CUT_OFF_M2`."""
+        """Return whether a robot can pass between all doors, and reach all floor but `MAX_CUT_OFF_M2`."""
         from scipy import ndimage
 
         passable = wall_distance_m(opacity > 0, self.resolution) >= passage_m(self.resolution)
@@ -101,40 +101,33 @@ def furnish(room: RoomFloor, kind: str, clutter: float) -> None:
     if clutter <= 0:
         return
     FURNISHERS[kind](room, clutter)
-    for _ in range(room.rng.poisson(clutter * room.size_m[0] * room.size_m[1] / 25)):
-        _box(room)
+    for _ in range(room.rng.poisson(clutter * room.size_m[0] * room.size_m[1] / 25)):  # one box in 25 m2
+        _place_box(room)
 
 
-def _office(room: RoomFloor, clutter: float) -> None:
+def _furnish_office(room: RoomFloor, clutter: float) -> None:
     """Place desks at one or both side walls, far from the door, and cabinets."""
     _, depth = room.size_m
     for side in room.rng.permutation(2)[: 1 + (room.rng.random() < 0.6 * clutter)]:
-        _desk_at_wall(room, depth - room.rng.uniform(1.9, 2.4), left=bool(side))
-    _cabinets(room, room.rng.poisson(1.3 * clutter))
+        _place_desk(room, depth - room.rng.uniform(1.9, 2.4), left=bool(side))
+    _place_cabinets(room, room.rng.poisson(1.3 * clutter))
 
 
-def _desk_at_wall(room: RoomFloor, y: float, *, left: bool) -> None:
+def _place_desk(room: RoomFloor, y: float, *, left: bool) -> None:
     """Place a desk along a side wall: drawers under one end, legs at the other, a chair in front."""
-    width, _ = room.size_m
+    width, _ = room.size_m  # the desk is 0.6 m deep and 1.5 m long, its legs are 0.08 m wide
     x_wall = 0.0 if left else width - 0.6
     x_edge = 0.6 if left else width - 0.7
     if room.place(Rectangle(x_wall, y, 0.6, 0.4), Rectangle(x_edge, y + 1.5, 0.08, 0.08, LEG)):
-        _chair(room, 0.95 if left else width - 1.1, y + 0.85)
+        _place_chair(room, 0.95 if left else width - 1.1, y + 0.85)
 
 
-def _chair(room: RoomFloor, x: float, y: float) -> None:
+def _place_chair(room: RoomFloor, x: float, y: float) -> None:
     """Place a swivel chair: the column and five short feet fill about a square of 0.2 m."""
     room.place(Rectangle(x + room.rng.uniform(-0.2, 0.2), y + room.rng.uniform(-0.2, 0.2), 0.2, 0.2, LEG))
 
 
-def _four_legs(x: float, y: float, width: float, depth: float) -> list[Rectangle]:
-    """Return the legs at the corners of a table top."""
-    size = 0.08
-    corners = [(x + dx * (width - size), y + dy * (depth - size)) for dx in (0, 1) for dy in (0, 1)]
-    return [Rectangle(*corner, size, size, LEG) for corner in corners]
-
-
-def _table(room: RoomFloor, clutter: float) -> None:
+def _place_table(room: RoomFloor, clutter: float) -> None:
     """Place a table with four legs in the middle, and chairs along its sides."""
     width, depth = room.size_m
     along_x = width > depth
@@ -143,7 +136,9 @@ def _table(room: RoomFloor, clutter: float) -> None:
         return
     table_width, table_depth = (length, across) if along_x else (across, length)
     x, y = (width - table_width) / 2, (depth - table_depth) / 2
-    if not room.place(*_four_legs(x, y, table_width, table_depth)):
+    size = 0.08  # width of a leg
+    corners = [(x + dx * (table_width - size), y + dy * (table_depth - size)) for dx in (0, 1) for dy in (0, 1)]
+    if not room.place(*(Rectangle(*corner, size, size, LEG) for corner in corners)):
         return
     # A chair per 0.8 m of each long side; some are missing, more with less clutter.
     for k in range(int(length / 0.8)):
@@ -152,56 +147,56 @@ def _table(room: RoomFloor, clutter: float) -> None:
                 lengthwise = (k + 0.5) * length / int(length / 0.8) - 0.1
                 crosswise = across / 2 + side * (across / 2 + 0.25) - 0.1
                 dx, dy = (lengthwise, crosswise) if along_x else (crosswise, lengthwise)
-                _chair(room, x + dx, y + dy)
+                _place_chair(room, x + dx, y + dy)
 
 
-def _meeting(room: RoomFloor, clutter: float) -> None:
+def _furnish_meeting_room(room: RoomFloor, clutter: float) -> None:
     """Place a table with chairs, and perhaps a cabinet."""
-    _table(room, clutter)
-    _cabinets(room, int(room.rng.random() < 0.5 * clutter))
+    _place_table(room, clutter)
+    _place_cabinets(room, int(room.rng.random() < 0.5 * clutter))
 
 
-def _open_plan(room: RoomFloor, clutter: float) -> None:
+def _furnish_open_plan(room: RoomFloor, clutter: float) -> None:
     """Place islands of four desks: a screen down the middle, drawers at the outer ends, a chair at each desk."""
     width, depth = room.size_m
     islands = max(1, int((width - 0.8) / 3.6))
     for k in range(islands):
         x = (k + 0.5) * width / islands
-        y = depth / 2 - 1.6 + 0.3
+        y = depth / 2 - 1.6 + 0.3  # islands are 3.2 m long and stand 0.3 m behind the middle
         room.place(Rectangle(x - 0.05, y, 0.08, 3.2))
         for side in (-1, 1):
-            for end in (0.0, 1.7):
+            for end in (0.0, 1.7):  # drawers begin at 0 and 2.8 m
                 if room.rng.random() < 0.9 * min(clutter, 1):
                     room.place(Rectangle(x + (0.15 if side > 0 else -0.75), y + end * 1.65, 0.5, 0.4))
-                    _chair(room, x + side * 1.0 - 0.1, y + end + 0.6)
-    _cabinets(room, room.rng.poisson(2 * clutter))
+                    _place_chair(room, x + side * 1.0 - 0.1, y + end + 0.6)
+    _place_cabinets(room, room.rng.poisson(2 * clutter))
 
 
-def _store(room: RoomFloor, clutter: float) -> None:
+def _furnish_store(room: RoomFloor, clutter: float) -> None:
     """Place shelves along both side walls, and boxes."""
     width, depth = room.size_m
     for x in (0.0, width - 0.4):
         room.place(Rectangle(x, 1.3, 0.4, depth - 1.3))
     for _ in range(room.rng.poisson(4 * clutter)):
-        _box(room)
+        _place_box(room)
 
 
-def _server(room: RoomFloor, clutter: float) -> None:
+def _furnish_server_room(room: RoomFloor, clutter: float) -> None:
     """Place rows of racks, two metres apart."""
     width, depth = room.size_m
     for x in np.arange(0.9, width - 1.8, 2.0):
         room.place(Rectangle(float(x), 1.6, 1.0, 0.6 * int((depth - 2.6) / 0.6)))
 
 
-def _kitchen(room: RoomFloor, clutter: float) -> None:
+def _furnish_kitchen(room: RoomFloor, clutter: float) -> None:
     """Place a worktop along the back wall, a fridge at a side wall, and a table."""
     width, depth = room.size_m
     room.place(Rectangle(0.0, depth - 0.6, width, 0.6))
     room.place(Rectangle(0.0, 1.4, 0.6, 0.7))
-    _table(room, clutter)
+    _place_table(room, clutter)
 
 
-def _washroom(room: RoomFloor, clutter: float) -> None:
+def _furnish_washroom(room: RoomFloor, clutter: float) -> None:
     """Place stalls along the back wall, with open doors, and a row of basins."""
     width, depth = room.size_m
     stalls = max(1, int(width / 1.0))
@@ -213,28 +208,28 @@ def _washroom(room: RoomFloor, clutter: float) -> None:
     room.place(Rectangle(0.0, 1.4, 0.5, max(0.6, depth - 3.4)))
 
 
-def _lobby(room: RoomFloor, clutter: float) -> None:
+def _furnish_lobby(room: RoomFloor, clutter: float) -> None:
     """Place a reception desk, three armchairs and a plant."""
     width, depth = room.size_m
     room.place(Rectangle(width * 0.15, depth * 0.45, min(2.2, width * 0.5), 0.6))
     for _ in range(3):
-        _against_wall(room, 0.8, 0.8)
-    _against_wall(room, 0.4, 0.4)
+        _place_against_wall(room, 0.8, 0.8)
+    _place_against_wall(room, 0.4, 0.4)
 
 
-def _corridor(room: RoomFloor, clutter: float) -> None:
+def _furnish_corridor(room: RoomFloor, clutter: float) -> None:
     """Place cupboards, bins and benches along the walls, on average one in eight metres."""
     for _ in range(room.rng.poisson(0.12 * clutter * max(room.size_m))):
-        _against_wall(room, float(room.rng.choice([0.3, 0.6, 0.8, 1.2])), 0.4)
+        _place_against_wall(room, float(room.rng.choice([0.3, 0.6, 0.8, 1.2])), 0.4)
 
 
-def _cabinets(room: RoomFloor, count: int) -> None:
+def _place_cabinets(room: RoomFloor, count: int) -> None:
     """Place cabinets of three widths along the walls."""
     for _ in range(count):
-        _against_wall(room, float(room.rng.choice([0.8, 1.0, 1.6])), 0.45)
+        _place_against_wall(room, float(room.rng.choice([0.8, 1.0, 1.6])), 0.45)
 
 
-def _against_wall(room: RoomFloor, length: float, thickness: float, tries: int = 6) -> None:
+def _place_against_wall(room: RoomFloor, length: float, thickness: float, tries: int = 6) -> None:
     """Place a solid piece with its back to a random wall, at the first of some random positions that fits."""
     room_width, room_depth = room.size_m
     for _ in range(tries):
@@ -248,13 +243,15 @@ def _against_wall(room: RoomFloor, length: float, thickness: float, tries: int =
             return
 
 
-def _box(room: RoomFloor) -> None:
+def _place_box(room: RoomFloor) -> None:
     """Place a box of random size against a wall."""
     size = room.rng.uniform(0.25, 0.6, 2)
-    _against_wall(room, float(size[0]), float(size[1]), tries=2)
+    _place_against_wall(room, float(size[0]), float(size[1]), tries=2)
 
 
+# Some furnishers place fixed furniture, whatever the clutter.
 FURNISHERS: dict[str, Callable[[RoomFloor, float], None]] = {
-    "corridor": _corridor, "office": _office, "meeting": _meeting, "open plan": _open_plan, "store": _store,
-    "server": _server, "kitchen": _kitchen, "washroom": _washroom, "lobby": _lobby,
+    "corridor": _furnish_corridor, "office": _furnish_office, "meeting": _furnish_meeting_room,
+    "open plan": _furnish_open_plan, "store": _furnish_store, "server": _furnish_server_room,
+    "kitchen": _furnish_kitchen, "washroom": _furnish_washroom, "lobby": _furnish_lobby,
 }  # fmt: skip

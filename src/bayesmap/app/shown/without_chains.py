@@ -22,7 +22,7 @@ from bayesmap.posterior.posterior import posterior_of_draws
 from bayesmap.result import Run
 from bayesmap.samplers import without_chains as methods
 from bayesmap.samplers.sampler import Stream
-from bayesmap.samplers.wall_problem import WallProblem, log_odds
+from bayesmap.samplers.wall_problem import WallProblem, finite_logit
 from bayesmap.space.grid import Grid
 from bayesmap.space.planar import Floats
 
@@ -64,7 +64,7 @@ class Preview(Estimate):
         self._fixed = (self._p == 0) | (self._p == 1)
         self.converged = len(self.cells) == 0 or bool(self._fixed.all())
         if not self.converged:
-            self._beliefs = Beliefs(self.table, log_odds(self._p), problem.device)
+            self._beliefs = Beliefs(self.table, finite_logit(self._p), problem.device)
 
     def round(self) -> None:
         """Do one more round of belief propagation."""
