@@ -22,16 +22,9 @@ from bayesmap.model import Model
 from bayesmap.posterior.heldout import unseen_scans
 from bayesmap.space import arrays
 from bayesmap.space import planar as p
+from bayesmap.space import time_order as times
 from bayesmap.space.grid import outlying
 from bayesmap.space.scans import fan, side_by_side
-from bayesmap.space.time_order import (
-    coarse_stamps_note,
-    elapsed_bounds_s,
-    repeated_stamps,
-    stamp_words,
-    time_order,
-    times_words,
-)
 
 SENSOR = bm.BeamMixture(bm.Gaussian(0.05), p_random=0.05, p_no_return=0.05, p_short=0.05)
 BEAMS, SCANS = 60, 16
@@ -202,7 +195,7 @@ EVEN = np.arange(400) * 0.1
 
 
 def is_sorted(stamps_s, expected_s=EVEN):
-    ordered = time_order(stamps_s)
+    ordered = times.time_order(stamps_s)
     np.testing.assert_array_equal(ordered.stamps_s, expected_s)
     np.testing.assert_array_equal(stamps_s[ordered.order], expected_s)
     assert ordered.resets == ()
@@ -223,23 +216,23 @@ def test_a_clock_that_was_set_back_keeps_the_order_of_the_log(back_s):
     stamps = EVEN + np.random.default_rng(1).uniform(-0.02, 0.02, 400)
     stamps[200:] -= back_s
     stamps[300:] -= back_s
-    ordered = time_order(stamps)
+    ordered = times.time_order(stamps)
     assert ordered.resets == (200, 300)
     np.testing.assert_array_equal(ordered.order, np.arange(400))
     assert (np.diff(ordered.stamps_s) > 0).all()
     np.testing.assert_allclose(ordered.stamps_s, EVEN, atol=0.15)
     np.testing.assert_allclose(ordered.set_back_s, back_s - 0.1, atol=0.05)
     first, second = ordered.notes(stamps)
-    assert f"at scan 200 (at {stamp_words(stamps[200])}); from there on" in first
+    assert f"at scan 200 (at {times.stamp_words(stamps[200])}); from there on" in first
     assert "at scan 300" in second
 
 
 def test_stamps_are_told_as_people_tell_time():
     told = {59.31: "59.3 s", 0.0: "0.0 s", 1.7e9 + 0.96: "2023-11-14 22:13:21.0 UTC", 1e30: f"{1e30:.1f} s"}
-    assert {stamp: stamp_words(stamp) for stamp in told} == told
-    assert times_words(EVEN + 1.7e9, 30, 60) == " (3.0 to 6.0 s after the first scan)"
-    assert times_words(EVEN, 30) == " (3.0 s after the first scan)"
-    assert times_words(None, 30) == ""
+    assert {stamp: times.stamp_words(stamp) for stamp in told} == told
+    assert times.times_words(EVEN + 1.7e9, 30, 60) == " (3.0 to 6.0 s after the first scan)"
+    assert times.times_words(EVEN, 30) == " (3.0 s after the first scan)"
+    assert times.times_words(None, 30) == ""
 
 
 @pytest.mark.parametrize("scans", [30, 129, 400, 5000])
@@ -255,21 +248,21 @@ EVERY_FIFTH = 1.7e9 + 0.2 * np.arange(200)
 
 def test_stamps_that_all_differ_are_exact_a_pause_in_coarse_ones_is_one_and_only_repeated_ones_are_coarse():
     stamps = np.array([0.0, 0.2, 0.5, 9.0])
-    for bound in elapsed_bounds_s(stamps):
+    for bound in times.elapsed_bounds_s(stamps):
         np.testing.assert_array_equal(bound, np.diff(stamps))
-    assert not repeated_stamps(stamps).any()
-    assert coarse_stamps_note(stamps) is None
-    assert elapsed_bounds_s(stamps[:1])[0].shape == elapsed_bounds_s(stamps[:0])[0].shape == (0,)
+    assert not times.repeated_stamps(stamps).any()
+    assert times.coarse_stamps_note(stamps) is None
+    assert times.elapsed_bounds_s(stamps[:1])[0].shape == times.elapsed_bounds_s(stamps[:0])[0].shape == (0,)
     stamps = np.floor(EVERY_FIFTH + 60.0 * (np.arange(200) >= 100))
-    least_s, most_s = elapsed_bounds_s(stamps)
+    least_s, most_s = times.elapsed_bounds_s(stamps)
     assert 59.0 <= least_s[99] <= 60.2 <= most_s[99] <= 62.0
     stamps = np.append(EVERY_FIFTH[:100], np.repeat(EVERY_FIFTH[99], 20))
-    least_s, most_s = elapsed_bounds_s(stamps)
+    least_s, most_s = times.elapsed_bounds_s(stamps)
     np.testing.assert_allclose(least_s[:98], 0.2, atol=1e-6)
     np.testing.assert_array_equal(most_s[99:], np.inf)
     np.testing.assert_array_equal(least_s[99:], 0.0)
-    np.testing.assert_array_equal(np.nonzero(repeated_stamps(stamps))[0], np.arange(99, 120))
-    assert coarse_stamps_note(stamps).startswith("stamps are coarse: 21 of 120 scans")
+    np.testing.assert_array_equal(np.nonzero(times.repeated_stamps(stamps))[0], np.arange(99, 120))
+    assert times.coarse_stamps_note(stamps).startswith("stamps are coarse: 21 of 120 scans")
 
 
 @pytest.mark.parametrize(
@@ -279,11 +272,11 @@ def test_stamps_that_all_differ_are_exact_a_pause_in_coarse_ones_is_one_and_only
 )
 def test_the_true_time_lies_between_the_bounds_of_coarse_stamps(coarse):
     stamps = coarse(EVERY_FIFTH)
-    least_s, most_s = elapsed_bounds_s(stamps)
+    least_s, most_s = times.elapsed_bounds_s(stamps)
     assert (least_s <= 0.2 + 1e-6).all()
     assert (most_s >= 0.2 - 1e-6).all()
-    assert repeated_stamps(stamps).mean() > 0.9
-    assert "stamps are coarse: " in coarse_stamps_note(stamps)
+    assert times.repeated_stamps(stamps).mean() > 0.9
+    assert "stamps are coarse: " in times.coarse_stamps_note(stamps)
 
 
 @pytest.fixture

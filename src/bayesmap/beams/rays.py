@@ -116,7 +116,7 @@ class Rays:
         return (enter + hit_depth * (leave - enter)).astype(np.float32)
 
     def end_points_m(self) -> Floats:
-        """Return the end point of each reading, (B, 2); NaN if the reading is not a range."""
+        """Return the end point of each reading, (B, 2), or NaN if the reading is not a range."""
         range_m = np.where(np.isfinite(self.range_m), self.range_m, np.nan)
         return np.asarray(self.start_m + range_m[:, None] * self.direction)
 

@@ -17,7 +17,7 @@ from bayesmap.space.arrays import Indices, Ints, Mask, evenly_spaced_indices
 from bayesmap.space.grid import Grid
 
 BATCH_BITS = 1 << 26  # cells that `count_walls` unpacks at once
-MIN_NORMAL = float(np.finfo(np.float16).smallest_normal)  # in half precision
+MIN_NORMAL = float(np.finfo(np.float16).smallest_normal)  # smallest normal number in half precision
 MIN_SUBNORMAL = float(np.finfo(np.float16).smallest_subnormal)
 CELL_DIMENSIONS = ("cell", "surface_cell")  # dimensions that index a subset of the grid's cells
 
@@ -58,13 +58,13 @@ def as_halves(values: NDArray[np.floating]) -> NDArray[np.float16]:
 class ArraySpec:
     """The description of one array of a draw."""
 
-    name: str  # in `Cells`, in saved runs and in `Run.dataset`
+    name: str  # name in `Cells`, in saved runs and in `Run.dataset`
     # dimensions beside chain and draw: ("x", "y") for the whole grid, ("cell",) for the cells that a beam touches,
     # ("surface_cell",) for the cells in which a reading ends
     dims: tuple[str, ...]
     dtype: str  # type of the values
     storage: Literal["bits", "half", "plain"] = "plain"  # form in memory: packed booleans, half precision, unchanged
-    meaning: str = ""  # in words, with the unit
+    meaning: str = ""  # meaning in words, with the unit
 
     def stored(self, values: NDArray[Any]) -> NDArray[Any]:
         """Return values (..., *dims) in their stored form."""

@@ -39,8 +39,8 @@ from bayesmap.space.grid import Grid
 
 FIT = "fit"  # value of ``coupling`` that asks for a fit
 MAX_COUPLING = 50.0  # an unlike pair then costs a factor of e^50; a larger coupling has the same effect
-START_SWEEPS = 50  # from a map of independent cells to the start of a chain
-MAX_FITTED_COUPLING = 4.0  # for a map of alike cells alone, the likeliest coupling would be infinite
+START_SWEEPS = 50  # sweeps from a map of independent cells to the start of a chain
+MAX_FITTED_COUPLING = 4.0  # largest fitted coupling: for a map of alike cells it would be infinite
 
 
 @dataclass(frozen=True, eq=False)
@@ -121,7 +121,7 @@ class BinaryWalls(CellPrior):
         return unpack(draws.arrays["walls"][chain, draw], draws.grid.shape)
 
     def mean_map(self, draws: Draws) -> Floats:
-        """Return the fraction of all draws in which each cell is a wall, (nx, ny); NaN without draws."""
+        """Return the fraction of all draws in which each cell is a wall, (nx, ny), or NaN without draws."""
         packed = draws.arrays["walls"]
         if draws.size == 0:
             return np.full(draws.grid.shape, np.nan)

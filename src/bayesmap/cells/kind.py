@@ -122,7 +122,7 @@ class CellPrior(ABC):
         return self._stop_chances(draws.cells(chain, draw), draws.grid)
 
     def mean_map(self, draws: Draws) -> Floats:
-        """Return the mean over draws of the probability that a cell stops a beam, (nx, ny); NaN without draws."""
+        """Return the mean over draws of the probability that a cell stops a beam, (nx, ny), or NaN without draws."""
         total = np.zeros(draws.grid.shape)
         for chain, draw in draws.numbers():
             total += self.map_of(draws, chain, draw)
@@ -155,7 +155,7 @@ class CellPrior(ABC):
         return self.traces(draws, cells)
 
     def constant_cells(self, draws: Draws) -> tuple[Mask | None, Mask | None]:
-        """Return masks of the cells with one value in each chain, and in all, (N,) each; None for real numbers."""
+        """Return masks of the cells with one value in each chain, and in all, (N,) each, or None for real numbers."""
         return None, None
 
     def surfaces(self, draws: Draws) -> MeanSurfaces:

@@ -29,7 +29,7 @@ MAX_STOPS = 32  # stopped beams that `recover_counts` tries; a cell with more is
 POOL_CELLS = 1 << 16  # size of the pool of prior states for cells that no beam touched
 MIN_DRAWS, MAX_DRAWS = 100, 200  # bounds of the default number of draws per chain
 MIN_DRAWS_UNTHINNED = 50  # least default number if every sweep is kept: a further draw then adds less
-BEAMS_AT_MIN_DRAWS = 100_000  # with this many beams or more, the default is the least number
+BEAMS_AT_MIN_DRAWS = 100_000  # fewest beams for which the default is the least number
 MAX_DRAW_BYTES = 1 << 30  # most bytes of all chains' draws, if beams were to touch every cell of the grid
 BYTES_A_CELL = 4  # bytes of a cell in a draw: two arrays in half precision
 POOL_SEED = 1  # seed of the pool of states drawn from the prior
@@ -42,15 +42,15 @@ EXPECTED = ArraySpec(
 class KernelNumbers(NamedTuple):
     """Parameters of the priors of reflectivities, surfaces and labels."""
 
-    a: float  # of the Beta prior of a reflectivity; with labels, of free cells
+    a: float  # parameter of the Beta prior of reflectivities; with labels, of free cells
     b: float
     tau_m: float  # standard deviation of a surface's mean
     psi_m2: float  # scale of the inverse Wishart prior of its covariance
     nu: float  # degrees of freedom of the inverse Wishart prior
     kappa_m: float  # size beyond which a surface is unlikely
     half_m: float  # half of a cell's edge
-    coupling: float  # of the labels of neighbours
-    a_solid: float  # of the Beta prior of solid cells
+    coupling: float  # coupling of the labels of neighbours
+    a_solid: float  # parameter of the Beta prior of solid cells
     b_solid: float
     log_beta: float = 0.0  # log normaliser of free cells' Beta, which kernels fill in if cells have labels
     log_beta_solid: float = 0.0  # log normaliser of solid cells' Beta
@@ -193,7 +193,7 @@ class Beta(CellPrior):
         return draws.to_grid(draws.arrays[self.shown[0]][chain, draw], "cell", elsewhere)
 
     def mean_map(self, draws: Draws) -> Floats:
-        """Return the mean of the draws' expected chances to stop a beam, (nx, ny); NaN without draws."""
+        """Return the mean of the draws' expected chances to stop a beam, (nx, ny), or NaN without draws."""
         # It has the same limit as the mean of drawn chances, and less noise.
         if draws.size == 0:
             return np.full(draws.grid.shape, np.nan)
@@ -278,7 +278,7 @@ class Beta(CellPrior):
             yield batch
 
     def _prior_mean(self, solid: Mask | None) -> NDArray[np.floating] | float:
-        """Return the prior mean of reflectivities, given the labels of their cells, (n,); None without labels."""
+        """Return the prior mean of reflectivities, given the labels of their cells, (n,), or None without labels."""
         return self.mean if solid is None else self.mean_given(solid)
 
     def _prior_sampler(self, cells: Ints) -> Callable[[Mask | None], NDArray[np.floating] | float]:

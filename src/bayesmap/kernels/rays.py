@@ -28,7 +28,7 @@ BEAMS_PER_REPORT = 1 << 16  # beams traced between two reports of progress
 class Lines:
     """Beams and their grid, on a device."""
 
-    start_m: Vec2ds  # from the grid's lower left corner
+    start_m: Vec2ds  # start of each beam from the grid's lower left corner
     direction: Vec2ds  # unit vectors
     nx: int
     ny: int

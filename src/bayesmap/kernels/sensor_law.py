@@ -206,7 +206,7 @@ def p_unblocked(law: Any, distance_m: Any):
 
 @wp.func
 def object_decay(law: Any, reading_m: Any):
-    """Return exp(-rate z), the decay of passing objects from distance 0 to the reading; 0 for a typed reading."""
+    """Return exp(-rate z), the decay of passing objects from distance 0 to the reading, or 0 for a typed reading."""
     zero = type(reading_m)(0.0)
     if not wp.isfinite(reading_m):
         return zero

@@ -30,7 +30,7 @@ class Walk:
 
     cell_x: int  # the cell that is touched now
     cell_y: int
-    distance: wp.float64  # at which the beam touches it
+    distance: wp.float64  # distance at which the beam touches it
     end: wp.float64
     beam_x: int  # the cell that the beam is in; side cells lie beside it
     beam_y: int
@@ -82,7 +82,6 @@ def begin_walk(start: wp.vec2d, direction: wp.vec2d, nx: int, ny: int, max_dista
     elif py < -TIE or py > wp.float64(ny) + TIE:
         leave = -ONE
     w.end = leave + TIE
-
     # First cell and next grid lines. A direction that counts as parallel keeps its coordinate.
     w.beam_x = cell_before(px + wp.where(w.step_x == 0, ZERO, enter * ux), w.step_x)
     w.beam_y = cell_before(py + wp.where(w.step_y == 0, ZERO, enter * uy), w.step_y)

@@ -26,7 +26,7 @@ MIN_MODE_SIGMA = np.array([0.002, 0.002, np.radians(0.05)])  # standard deviatio
 LINKING_WEIGHT = 0.995  # share of the weight whose poses link others into modes
 MIN_PROBABILITY = 1e-4  # probability of a mode that is listed
 REGION_DRAWS = 4000  # number of draws by which a region is computed
-LogDensity = Callable[[Floats], Floats]  # of poses (P, 3), not normalised, (P,)
+LogDensity = Callable[[Floats], Floats]  # log density of poses, (P, 3), not normalised, (P,)
 DOF = 5.0  # degrees of freedom of proposals
 STUDENT_CONSTANT = gammaln((DOF + 3) / 2) - gammaln(DOF / 2) - 1.5 * np.log(DOF * np.pi)
 LATTICE = 1.1673039782614187 ** -np.arange(1.0, 5.0)  # steps of the lattice of draws: powers of the root of x^5 = x + 1
@@ -44,8 +44,8 @@ class Mode:
     """One place where the robot may be."""
 
     mean: Floats  # x, y in metres and yaw in radians, (3,)
-    covariance: Floats  # of x, y and yaw in world axes, (3, 3)
-    probability: float  # that the robot is there, if it is on the map at all
+    covariance: Floats  # covariance of x, y and yaw in world axes, (3, 3)
+    probability: float  # probability that the robot is there, if it is on the map at all
 
     def as_json(self) -> dict[str, Any]:
         """Return the mode as JSON values."""

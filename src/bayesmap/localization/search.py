@@ -46,7 +46,7 @@ class Field:
 
     grid: Grid
     fine: NDArray[np.uint8]  # values from 0 to 255, (nx, ny)
-    coarse_grid: Grid  # with the origin of the fine grid
+    coarse_grid: Grid  # coarse grid with the origin of the fine grid
     coarse: NDArray[np.uint16]  # largest fine value within each coarse cell, 0 to 255, (mx, my)
     open: Mask  # mask of coarse cells in which a robot can be, (mx, my)
 
@@ -61,7 +61,7 @@ class Field:
 class Candidates:
     """K poses from which a scan could have been taken."""
 
-    poses: Floats  # in the world frame, best first, (K, 3)
+    poses: Floats  # poses in the world frame, best first, (K, 3)
     scores: Floats  # mean of the field at the scan's points, from 0 to 1, (K,)
 
 
@@ -196,7 +196,7 @@ def likelihood_in_unknown(p_unknown: float, sigma_m: float, resolution: float) -
 
 
 def _blocks(values: NDArray[np.generic], stride: int, shape: tuple[int, int]) -> NDArray[np.generic]:
-    """Return cells in blocks of ``stride``, (mx, stride, my, stride); 0 beyond the border."""
+    """Return cells in blocks of ``stride``, (mx, stride, my, stride), or 0 beyond the border."""
     mx, my = shape
     nx, ny = values.shape
     padded = np.pad(values, ((0, mx * stride - nx), (0, my * stride - ny)))
@@ -254,6 +254,6 @@ def _surfaces(states: NDArray[np.float32], grid: Grid, known: Mask) -> tuple[Flo
         surfaces = states[solid].astype(np.float64)
         l11, l21, l22 = surfaces[:, 3:6].T
         return np.asarray(surfaces[:, 1:3]), np.stack([l11**2, l11 * l21, l21**2 + l22**2], axis=1), strengths
-    variance = grid.resolution**2 / 12.0  # of a point anywhere in the cell
+    variance = grid.resolution**2 / 12.0  # variance of a point anywhere in the cell
     covariances = np.tile([variance, 0.0, variance], (len(strengths), 1))
     return grid.centers_from_corner_m(solid[1]), covariances, strengths

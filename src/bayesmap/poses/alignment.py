@@ -35,7 +35,7 @@ MIN_COSINE = 0.7  # cosine of paired normals, here and below
 REACH_M = (0.3, 0.08)  # maximum distance of paired points: in the first round, and from the middle round on
 SCALE_M = (0.12, 0.03)  # Geman and McClure's c: in the first round, and from the middle round on
 SLACK_FACTOR = 4.0  # multiple of the mean slack that is subtracted: the slack of one pair may be several times the mean
-EARLY_BEAMS = 180  # at least so many beams of a scan are used until reach and scale have shrunk; then all
+EARLY_BEAMS = 180  # fewest beams of a scan that are used until reach and scale have shrunk; then all
 SIGMA_BOUNDS_M = (0.002, 0.05)  # bounds on the estimated standard deviation of a point
 MIN_STEP = 2e-4  # metres and radians: an alignment ends early if no pose moves further in a round
 SLIP_SQ = 25.0  # odometry's cost grows less than quadratically beyond this squared Mahalanobis distance: wheels slip
@@ -105,8 +105,7 @@ def align(
     """
     sigma_m = geometry.noise_m
     for number in range(annealing.rounds):
-        # Pair the scans in the first and the middle round. Weight beams by the number of their partners then, and anew
-        # before the end.
+        # Pair the scans in the first and the middle round. Then and at the end, weight beams by numbers of partners.
         rules = annealing.rules(number, geometry)
         has_new_pairs = number in (0, (annealing.rounds + 1) // 2)
         if has_new_pairs:
@@ -122,7 +121,10 @@ def align(
         step, _ = solve_step(len(poses), [laser, wheels])
         poses = compose(poses, step)
         gaussian = _gaussian(poses, laser, wheels)
-        sigma_m = _point_sigma_m(sums)
+        # Residuals have the errors of two points.
+        weight = max(sums.totals[:, line_pairs.WEIGHT].sum(), 1e-9)  # not 0 if no points are paired
+        point_variance = max(sums.totals[:, line_pairs.COST].sum() / weight, 1e-8) / 2.0
+        sigma_m = float(np.clip(np.sqrt(point_variance), *SIGMA_BOUNDS_M))
         if on_progress is not None:
             on_progress(number + 1, poses)
         if number > annealing.rounds // 2 + 1 and np.abs(step).max() < MIN_STEP:
@@ -142,13 +144,6 @@ def _laser_cost(pairs: Pairs, relative: Floats, sums: PairSums, sigma_m: float, 
     factor = stride / sigma_m**2
     target, source = pairs.target.astype(np.intp), pairs.source.astype(np.intp)
     return Quadratic(target, source, relative, curvature * factor, gradient * factor)
-
-
-def _point_sigma_m(sums: PairSums) -> float:
-    """Estimate the standard deviation of a point from the residuals of pairs, which have the errors of two points."""
-    weight = max(sums.totals[:, line_pairs.WEIGHT].sum(), 1e-9)  # not 0 if no points are paired
-    variance = max(sums.totals[:, line_pairs.COST].sum() / weight, 1e-8) / 2.0
-    return float(np.clip(np.sqrt(variance), *SIGMA_BOUNDS_M))
 
 
 def without_slack(hessian: Floats, slack: Floats, gradient: Floats, sigma_m: float) -> tuple[Floats, Floats]:
@@ -289,7 +284,7 @@ class Placement:
     """Poses of all scans: aligned ones of key scans, and refined ones of the scans between them."""
 
     poses: Floats  # (S, 3)
-    information: Floats  # of each refined pose given the key scans, in its own frame, (S, 3, 3); 0 for key scans
+    information: Floats  # inverse covariance of each refined pose given the key scans, own frame, (S, 3, 3); 0 for keys
     explained: Floats  # share of each scan's points on walls of compared key scans, (S,); 1 for key scans
 
     def own_covariance(self, keys: Indices) -> Floats:

@@ -27,32 +27,32 @@ from bayesmap.space.planar import Floats, between, interpolate, lengths_and_turn
 from bayesmap.space.scans import Scans
 from bayesmap.space.time_order import elapsed_bounds_s, repeated_stamps
 
-MAX_SPEED_M_PER_S = 3.0  # possible speed of a robot: faster motions count as impossible
+MAX_SPEED_M_PER_S = 3.0  # largest speed of a robot: faster motions count as impossible
 ORDINARY_ODOMETRY = Odometry(0.1, 0.05, 0.05, 0.1, 0.01, 0.01)  # a robot's noise is a multiple of this noise
-PRIOR_RATIO = 3.0  # prior of this multiple
-PRIOR_COUNT = 12.0  # number of motions that the prior counts as
+PRIOR_RATIO = 3.0  # prior value of this multiple
+PRIOR_COUNT = 12.0  # number of motions that the prior value counts as
 MEMORY_MOTIONS = 300.0  # number of motions over which the noise is averaged, since floors differ
 SLOPE_SIGMA = 0.15  # prior standard deviation of the entries of C: 15 % of the motion
 ORDINARY_RATES = np.array([[1e-3, 1e-3, 1e-5], [5e-4, 5e-4, 1e-5], [1e-3, 2e-3, 1e-6]])
 """Variance rates of ordinary robots: rows x, y, yaw; columns per metre, per radian, per scan."""
 
 FACTOR_SIGMA = np.log(10.0)  # prior standard deviation of the logarithm of each rate: a factor of ten either way
-MAX_INFORMATIVE_SHARE = 0.5  # a motion is fitted if its matched variance is below this share of the expected one
-MIN_FITTED_MOTIONS = 20  # informative motions to which an axis is fitted
-MAX_LOG = 9.0  # size of the logarithm of a rate, in units of `ORDINARY_RATES`
+MAX_INFORMATIVE_SHARE = 0.5  # largest share of matched in expected variance of a fitted motion
+MIN_FITTED_MOTIONS = 20  # fewest informative motions to which an axis is fitted
+MAX_LOG = 9.0  # largest size of the logarithm of a rate, in units of `ORDINARY_RATES`
 DEGREES_OF_FREEDOM = 4.0  # nu of Student's t in the cost
 CONSISTENCY_FACTOR = 1.2718  # 1 / E[(nu + 1) z^2 / (nu + z^2)] for a standard normal z and nu = 4
 VELOCITY_WINDOW_S = 0.4  # time over which a stated velocity is averaged, seconds
 LAG_SIGMA_S = 0.2  # prior standard deviation of the lag
-MAX_LAG_S = 0.5  # size of the lag, early or late
+MAX_LAG_S = 0.5  # largest size of the lag, early or late
 FIT_ROUNDS = 6  # rounds of robust least squares and of the fit of the noise
-MAX_PAIRS = 400  # pairs of scans from which the angle between beams is estimated
-MIN_PAIRS = 20  # pairs that an estimate needs
-MIN_TURN_RAD, MAX_TURN_RAD = np.radians(25.0), np.radians(130.0)  # bounds on the turn between scans of such a pair
-MAX_STRETCH = 0.0125  # relative change of the angle that is tried
+MAX_PAIRS = 400  # most pairs of scans from which the angle between beams is estimated
+MIN_PAIRS = 20  # fewest pairs for an estimate
+MIN_TURN_RAD, MAX_TURN_RAD = np.radians(25.0), np.radians(130.0)  # bounds on the turn between the two scans of a pair
+MAX_STRETCH = 0.0125  # largest relative change of the angle that is tried
 JACKKNIFE_GROUPS = 20  # groups of pairs, for the standard error of the angle
-MIN_STANDARD_ERRORS = 4.0  # standard errors beyond which the angle is changed
-MIN_STANDARD_ERRORS_TO_REGULAR = 2.0  # the same, if the new angle is within one standard error of a regular angle
+MIN_STANDARD_ERRORS = 4.0  # fewest standard errors by which the angle is changed
+MIN_STANDARD_ERRORS_TO_REGULAR = 2.0  # fewest if a regular angle lies within one standard error
 REGULAR_TOLERANCE = 0.005  # relative accuracy of the estimated angle between beams
 
 

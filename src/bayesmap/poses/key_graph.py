@@ -40,22 +40,22 @@ standard deviations off in the first round, and up to 3.2 later. Wrong ones that
 CONVERGED_M = 0.3  # the search for loops ends after a round that moves no key scan further than this, metres
 LINK_DEFLATION = 4.0  # divisor of the information of the front end's links, whose windows overlap
 MIN_LINK_SIGMA = np.array([0.004, 0.004, np.radians(0.12)])  # standard deviations of a link, m and rad
-MAX_BEND_M = 5.0  # bend of a path before loops are closed, metres
+MAX_BEND_M = 5.0  # largest bend of a path before loops are closed, metres
 PLACE_M = 5.0  # maximum distance along the path between ends of closures of one visit, and length of one place, metres
 AGREE_M, AGREE_RAD = 0.4, np.radians(6.0)  # maximum difference between closures that agree
 VISIT_ODDS = 5.0  # prior log odds that a visit of one place is right
 PLACE_ODDS = 1.0  # addition to the log odds per further place
-MAX_STEPS = 12  # steps of Gauss-Newton without a visit
-MIN_LOG_ODDS = -np.log(19.0)  # log odds of an alternative that is reported: a probability of 0.05
+MAX_STEPS = 12  # most steps of Gauss-Newton without a visit
+MIN_LOG_ODDS = -np.log(19.0)  # least log odds of an alternative that is reported: a probability of 0.05
 SURE_LOG_ODDS = np.log(20.0)  # log odds above which a visit is surely right
-DIFFERS_M, DIFFERS_RAD = 0.3, np.radians(5.0)  # an alternative must move at least one pose by more than one of these
-LEAP_M, LEAP_RAD = 0.3, np.radians(10.0)  # a leap differs by more from the front end's step
-LEAP_SIGMAS = 8.0  # and by more than this many of its standard deviations
+DIFFERS_M, DIFFERS_RAD = 0.3, np.radians(5.0)  # an alternative moves at least one pose by more than one of these
+LEAP_M, LEAP_RAD = 0.3, np.radians(10.0)  # largest difference from the front end's step that is no leap
+LEAP_SIGMAS = 8.0  # largest difference in standard deviations of the step that is no leap
 REFUSED_LEAP_SIGMAS = 4.0  # `LEAP_SIGMAS` for steps that odometry contradicts, too
 REFUSED_SIGMAS = 5.0  # odometry contradicts a step that is more than this many of its standard deviations off
 MAX_CONFIRMED_LOSS = 0.2  # key scans confirm a step if the next one's score is lower than usual by at most this
-MAX_HALF_M = 1.5  # distance from odometry's prediction at which a scan is searched for elsewhere, metres
-GUESS_SIGMAS = 3.0  # a step over a break is in doubt this many `UNKNOWN_SIGMA` off the front end's guess, if it fitted
+MAX_HALF_M = 1.5  # largest distance from odometry's prediction at which a scan is searched for elsewhere, metres
+GUESS_SIGMAS = 3.0  # largest difference, in `UNKNOWN_SIGMA`, of a step over a break from a guess that fitted
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,7 +111,7 @@ def _close_in_rounds(
 
 
 def _is_guess_confirmed(path: KeyPath, segment: int, closures: Closures, weighed: WeighedGraph) -> bool:
-    """Check that closures confirm the relative pose of a segment and those before, as ``path`` has it."""
+    """Return whether closures confirm the relative pose of a segment and those before, as ``path`` has it."""
     guess, poses = path.poses, weighed.poses
     is_across = (path.segments[closures.first] < segment) & (path.segments[closures.second] == segment)
     begin = int(np.searchsorted(path.segments, segment))
@@ -178,7 +178,7 @@ def find_alternatives(weighed: WeighedGraph, keys: Indices, poses: Floats) -> tu
 class VisitTest(NamedTuple):
     """The test of a visit, or an alternative that decides about the visit."""
 
-    log_odds: float  # that the visit, or the alternative, is right
+    log_odds: float  # log odds that the visit, or the alternative, is right
     visit: int  # number of the visit
     poses: Floats  # poses of the keys without the visit, or in the alternative, (K, 3)
 
@@ -273,7 +273,7 @@ def twist_squares(expected: Floats, measured: Floats, covariance: Floats) -> Flo
     twist, a turn about any point is a straight line (Barfoot and Furgale 2014, IEEE Transactions on Robotics 30(3)).
     ``covariance`` is that of the expected relative poses, x, y and yaw in the first's frame, (M, 3, 3).
     """
-    to_twist = np.tile(np.eye(3), (len(expected), 1, 1))  # from steps of x, y and yaw
+    to_twist = np.tile(np.eye(3), (len(expected), 1, 1))  # matrices from steps of x, y and yaw to twists
     to_twist[:, 0, 2], to_twist[:, 1, 2] = expected[:, 1], -expected[:, 0]
     yaw = wrap_angle(measured[:, 2] - expected[:, 2])
     cosine, sine = np.cos(yaw), np.sin(yaw)
@@ -328,7 +328,7 @@ def unconfirmed_links(geometry: ScanGeometry, track: Track, odometry: Factors, p
 def _fits_elsewhere(
     grid: LikelihoodGrids, points: Floats, step: Floats, score: float, usual_score: float, odometry: Factors
 ) -> bool:
-    """Check whether another pose that odometry allows fits as well as usual, and clearly better than a step."""
+    """Return whether another pose that odometry allows fits as well as usual, and clearly better than a step."""
     stated, information = odometry.relative, odometry.information[0]
     sigma = np.sqrt(np.diag(np.linalg.inv(information)))
     min_gain = max(MAX_CONFIRMED_LOSS, front_end.MIN_GAIN_POINTS / max(len(points), 1))

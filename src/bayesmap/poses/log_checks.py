@@ -24,25 +24,25 @@ if TYPE_CHECKING:
 
 MAX_GAP_S = 0.5  # median time between scans above which they cannot be matched without odometry, seconds
 TOO_SELDOM = "scans come too seldom to be followed without odometry, which takes 5 Hz or so"
-MIN_FROZEN_SCANS = 10  # scans at one pose in a frozen stretch: odometry that is merely slow repeats less often
-MIN_CHANGE_M = 0.2  # change of a reading that counts, metres
-MIN_CHANGED_SHARE = 0.3  # share of changed readings if the robot moved: few change along a corridor
-MIN_COMMON_HITS = 8  # beams with hits in both scans
+MIN_FROZEN_SCANS = 10  # fewest scans at one pose in a frozen stretch: odometry that is merely slow repeats less often
+MIN_CHANGE_M = 0.2  # least change of a reading that counts, metres
+MIN_CHANGED_SHARE = 0.3  # least share of changed readings if the robot moved: few change along a corridor
+MIN_COMMON_HITS = 8  # fewest beams with hits in both scans
 EQUAL_POSE_TOLERANCE = 1e-6  # metres and radians; stated poses that differ by less are equal, in spite of rounding
-MIN_SCORE_GAIN = 0.05  # gain in score, from 0 to 1, of a scan at late odometry over stated odometry
+MIN_SCORE_GAIN = 0.05  # least gain in score, from 0 to 1, of a scan at late odometry over stated odometry
 WINDOW_SIGMAS = 3.0  # half the window about either pose, in standard deviations of an ordinary robot's odometry
-MAX_POINTS = 200  # points per scan that are matched
-MAX_HALF_WIDTH_M = 20.0  # half width of the grid
+MAX_POINTS = 200  # most points per scan that are matched
+MAX_HALF_WIDTH_M = 20.0  # largest half width of the grid
 WINDOW_SCANS = 15  # number of scans over which odometry is as good as the truth
-MIN_AGREEMENT = 0.8  # relative agreement below which poses are raw odometry
+MIN_AGREEMENT = 0.8  # least relative agreement of poses that are not raw odometry
 CELL_M = 0.2  # width of a cell in which hits and passes are counted, metres
-MAX_AGREEMENT_SCANS = 900  # scans that are compared
-MAX_HIT_M = 15.0  # range of hits that are used, metres: heading errors move far hits most, in any log
-DOUBLED = "at these poses the same walls stand in several places"  # in words
+MAX_AGREEMENT_SCANS = 900  # most scans that are compared
+MAX_HIT_M = 15.0  # largest range of hits that are used, metres: heading errors move far hits most, in any log
+DOUBLED = "at these poses the same walls stand in several places"  # what the eye sees in such a map
 
 
 def median_gap_s(scans: Scans) -> float:
-    """Return the median time between scans, seconds; 0 without stamps."""
+    """Return the median time between scans, seconds, or 0 without stamps."""
     if scans.stamps_s is None or len(scans) < 2:
         return 0.0
     return float(np.median(np.diff(np.sort(scans.stamps_s))))
@@ -121,7 +121,7 @@ def correct_late_odometry(scans: Scans, geometry: ScanGeometry) -> Floats:
 
 
 def _motion_began_early(geometry: ScanGeometry, first: int, last: int, motion: Floats) -> bool:
-    """Check that the motion to scan ``last + 1`` began at scan ``first``, not at ``last``, by the fit of that scan."""
+    """Return whether the motion to scan ``last + 1`` began at scan ``first``, not at ``last``, by the scan's fit."""
     from bayesmap.poses.calibration import motion_variances
     from bayesmap.poses.matcher import ANY_SCORE, SearchWindows, likelihood_grids, match
 
@@ -141,7 +141,7 @@ def _motion_began_early(geometry: ScanGeometry, first: int, last: int, motion: F
 
 
 def _robot_moved(scans: Scans, first: int, last: int) -> bool:
-    """Check whether most scans of a stretch's second half differ from its first scan."""
+    """Return whether most scans of a stretch's second half differ from its first scan."""
     later = range(first + (last - first + 1) // 2, last + 1)
     n_moved = 0
     for scan in later:

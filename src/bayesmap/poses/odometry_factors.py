@@ -20,7 +20,7 @@ from bayesmap.space.arrays import Indices, Mask
 from bayesmap.space.planar import Floats, between, chain_motions, compose, frame_jacobians, rotation, wrap_yaw
 from bayesmap.space.scans import Scans
 
-FRONT_END_INFORMATION = np.diag(1.0 / np.array([0.1, 0.1, np.radians(3.0)]) ** 2)  # of links without odometry
+FRONT_END_INFORMATION = np.diag(1.0 / np.array([0.1, 0.1, np.radians(3.0)]) ** 2)  # of a link without odometry
 UNKNOWN_MOTION_INFORMATION = np.diag(1.0 / UNKNOWN_SIGMA**2)  # keeps the segments of a broken path from drifting away
 MEDIAN_MOTIONS = 7  # number of successive motions over which the median variance is computed
 

@@ -25,19 +25,19 @@ NEAR_PLACES = 6  # number of the nearest places of other segments that are compa
 FAR_M = 3.0  # spacing along the path of places that are compared everywhere, and half width of their windows
 SAME_VIEW_M, SAME_VIEW_RAD = 1.5, np.radians(45.0)  # a place this near an earlier one shows the same view
 QUERY_SPACING_M = 1.0  # distance of query places along a segment
-MAX_SEGMENT_QUERIES, MAX_QUERIES = 24, 96  # query places of a segment, and of all segments
+MAX_SEGMENT_QUERIES, MAX_QUERIES = 24, 96  # most query places of a segment, and of all segments
 COARSE = Fineness(60, np.radians(2.0))  # refinement uses whole scans: more would add little
-MIN_NEAR_SCORE, MIN_FAR_SCORE = 0.6, 0.75  # with more places, chance matches score better
-CHANCE_SCORE = 0.5  # a place votes with the square of its score above this
-MAX_HYPOTHESES = 6  # relative poses of two segments that are tested against free space
-MIN_PLACES, MIN_PLACES_EARLIER = 3, 4  # places that must agree on a relative pose in the last and in earlier passes
-MIN_RIVAL_PLACES = 2  # places that must agree on a rival relative pose before the last pass
+MIN_NEAR_SCORE, MIN_FAR_SCORE = 0.6, 0.75  # least scores: with more places, chance matches score better
+CHANCE_SCORE = 0.5  # score of chance matches: a place votes with the square of its excess
+MAX_HYPOTHESES = 6  # most relative poses of two segments that are tested against free space
+MIN_PLACES, MIN_PLACES_EARLIER = 3, 4  # fewest places that agree on a relative pose, in the last and in earlier passes
+MIN_RIVAL_PLACES = 2  # fewest places that agree on a rival relative pose before the last pass
 MAX_RIVAL_SHARE, MAX_RIVAL_SHARE_EARLIER = 0.5, 0.4  # a rival with this share of the best pose's votes casts doubt
 SAME_M, SAME_RAD = 0.5, np.radians(6.0)  # maximum difference of equal relative poses: segments are bent
 COMPARED_M = 5.0  # maximum distance of compared key scans of two segments
-MAX_COMPARED = 600  # pairs of key scans that are compared
-VIEW_AGREEMENT = Agreement(near_m=0.2, clear_m=0.4, beams=60)  # limits for scans of two segments
-MAX_AGAINST_SHARE = 0.15  # share of contradicting points
+MAX_COMPARED = 600  # most pairs of key scans that are compared
+VIEW_AGREEMENT = Agreement(near_m=0.2, clear_m=0.4, beams=60)  # limits when scans of two segments are compared
+MAX_AGAINST_SHARE = 0.15  # largest share of contradicting points
 
 
 @dataclass(frozen=True, eq=False)
@@ -190,7 +190,7 @@ def _propose_merges(matches: Closures, islands: KeyPath, min_places: int) -> Ite
 
 
 def is_consistent(islands: KeyPath, merge: Merge) -> bool:
-    """Check that two merged segments do not contradict each other: few points of one lie in the other's free space."""
+    """Return whether two merged segments agree: few points of one lie in the free space of the other."""
     # Select near pairs of key scans, evenly thinned.
     geometry = islands.geometry
     earlier = np.nonzero(islands.segments == merge.earlier)[0]

@@ -19,7 +19,7 @@ from bayesmap.space.planar import Floats
 from bayesmap.space.scans import Scans
 
 MIN_NOISE_M = 0.01  # standard deviation of a range: walls are rough, and robots move while they scan
-MAX_NOISE_M = 0.05  # with more, neighbouring walls could not be distinguished
+MAX_NOISE_M = 0.05  # largest noise: with more, neighbouring walls could not be distinguished
 MAX_NOISE_SCANS = 300  # scans from which the noise is estimated
 MIN_TRIPLES = 100  # triples of neighbouring beams
 GAP_M, GAP_STEPS = 0.15, 3.5  # metres plus beam spacings beyond which neighbouring readings lie on different surfaces
@@ -220,7 +220,7 @@ def range_noise_m(ranges_m: Floats, step_rad: float) -> float:
 
 
 def _beam_of_angle(angles_rad: Floats, step_rad: float, bins: int) -> NDArray[np.int32]:
-    """Return the nearest beam for each bin of angle, (bins,); -1 where it is more than two steps away."""
+    """Return the nearest beam for each bin of angle, (bins,), or -1 where it is more than two steps away."""
     if not len(angles_rad):
         return np.full(bins, -1, dtype=np.int32)
     # Repeat the beams a turn before and after, so that bins next to -pi and pi have neighbours on both sides.

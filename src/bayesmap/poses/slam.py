@@ -79,7 +79,6 @@ def infer_trajectory(
     report = StageReport(np.zeros(3) if no_odometry else scans.poses[0], on_progress, on_poses)
     geometry = scan_geometry(scans, farthest_m=MAX_HIT_M, device=device, threads=threads)
     odometry = stated_odometry(scans, None if no_odometry else geometry)
-
     # Match every scan to earlier scans, and find motions that are stated the wrong way round.
     motions = odometry.motions if odometry.used else None
     callback = report.begin_front_end(odometry)
@@ -87,15 +86,12 @@ def infer_trajectory(
     track = cache.get("front-end", Track, match_scans)
     odometry = odometry.reversed_at(track.is_reversed)
     keys = track.keys
-
     # Close loops between key scans.
     closed = cache.get("loops", ClosedGraph, lambda: close_loops(geometry, track, report.begin(track, "loops", 3)))
-
     # Align key scans with all others that see the same walls.
     aligner = KeyAlignment(geometry.select(keys), track, grid_half_width(geometry), report.begin)
     poses = closed.weighed.poses
     first = aligner.align("aligned", poses, odometry.first_factors(track, poses), coarse=True)
-
     # Calibrate laser and odometry, and align key scans once more.
     poses, pairs, ratio = first.poses, first.pairs, 1.0
     key_scans = scans.select(keys)
@@ -111,20 +107,17 @@ def infer_trajectory(
         aligner = replace(aligner, geometry=geometry.select(keys))
     fit, factors = odometry.fit_errors(track, first)
     second = aligner.align("aligned-again", poses, factors, coarse=ratio != 1.0)
-
     # Match every key scan without itself, and move it where the others explain it better.
     scored = aligner.improve(second, factors)
     if odometry.used:
         scored = aligner.realign_over_leaps(scored, factors)
     final = scored.alignment
-
     # Place the other scans between the key scans.
     start_poses = poses_between_keys(track.poses, keys, final.poses, track.broken)
     error = point_error(aligner.geometry, final)
     report.progress("placing", 0, len(scans))
     placed = place_scans(geometry, start_poses, keys, final, error)
     report.finish_round("placing", len(scans), len(scans), placed.poses)
-
     # Return poses, their uncertainty, and the doubtful steps.
     leaps = key_graph.contradicted_links(track, final.poses)
     if odometry.used:

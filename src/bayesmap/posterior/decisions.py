@@ -37,7 +37,7 @@ MIN_FREE = 0.5  # least probability that the disc touches nothing at the positio
 HEADINGS = 8  # headings that are tried at each position
 FULL_CIRCLE_RAD = np.radians(350.0)  # field of view from which one heading is enough
 MIN_SEPARATION = 0.05  # least distance of two views, as a share of the map's diagonal
-CANDIDATES_KEY = 6  # with the seed, the key of the random numbers of candidates
+CANDIDATES_KEY = 6  # key of the random numbers of candidates, with the seed
 
 
 @dataclass(frozen=True, eq=False)

@@ -46,9 +46,9 @@ class Posterior:
     draws: Draws
     occupancy: Floats  # (nx, ny)
     observed: Mask  # cells that at least one beam observes in at least half of the draws, (nx, ny)
-    log_likelihood: Floats  # of every draw, nats, (chains, draws)
-    log_prior: Floats  # of every draw, nats, (chains, draws)
-    warmup_log_joint: Floats  # of every warm-up sweep, nats, (chains, warm-up sweeps)
+    log_likelihood: Floats  # log-likelihood of every draw, nats, (chains, draws)
+    log_prior: Floats  # log prior of every draw, nats, (chains, draws)
+    warmup_log_joint: Floats  # log joint of every warm-up sweep, nats, (chains, warm-up sweeps)
     snapshot: Snapshot  # state of the chains
     finished: bool  # false if the run was stopped early
     seconds: dict[str, float]  # "trace", "warm_start", "sampling", "total", "fit"

@@ -101,7 +101,7 @@ def square_to_path_m(centres: Floats, edge_m: float, path: Floats) -> Floats:
 
 def _crosses(centres: Floats, half: float, start: Floats, end: Floats) -> Mask:
     """Return the mask of the squares that a segment meets, by its intervals between opposite sides (slabs), (n,)."""
-    enter, leave = np.zeros(len(centres)), np.ones(len(centres))  # as shares of the segment
+    enter, leave = np.zeros(len(centres)), np.ones(len(centres))  # shares of the segment
     for axis, length in enumerate(end - start):
         low, high = centres[:, axis] - half - start[axis], centres[:, axis] + half - start[axis]
         if length == 0:
@@ -285,7 +285,7 @@ def _free_cell(point: Floats, grid: Grid, blocked: Floats, name: str) -> int:
 
 
 def _cheapest_path(danger: Floats, price: float, shape: tuple[int, int], start: int, goal: int) -> Indices | None:
-    """Return the flat indices of the cells of the cheapest path; None if there is no path."""
+    """Return the flat indices of the cells of the cheapest path, or None if there is no path."""
     from scipy import sparse
     from scipy.sparse import csgraph
 

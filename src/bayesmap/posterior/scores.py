@@ -31,8 +31,8 @@ from bayesmap.space.scans import ReadingKind, Scans
 REPLICATES = 1000  # replicates of the bootstrap: standard errors are then accurate to about 2 %
 INTERVALS = 100  # intervals of u at whose ends its distribution is compared with the uniform one
 LEVELS = (0.5, 0.8, 0.95)  # probabilities of central intervals
-BINS = 20  # of the histogram of u
-PIT_KEY, BOOTSTRAP_KEY = 0x917, 0xB00  # with the seed, keys of the random numbers v and of the bootstrap
+BINS = 20  # bins of the histogram of u
+PIT_KEY, BOOTSTRAP_KEY = 0x917, 0xB00  # keys of the random numbers v and of the bootstrap, with the seed
 MIX_TIME, QUANTILES_TIME, EVENTS_TIME = 0.5, 12.0, 6.0  # computing times relative to the forecast of one draw
 
 

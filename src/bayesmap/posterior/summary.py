@@ -30,7 +30,7 @@ MIN_DRAWS_PER_CHAIN = 4  # fewest draws of a chain with which its halves have a 
 # cell in a thousand has an R-hat over 1.05, and four in a thousand an effective sample size under 100, by chance.
 CHANCE_SHARE = 0.01
 MORE_DRAWS = "infer more draws (--draws of infer and slam; in Python Schedule(draws=...))"  # a remedy
-MAX_ERROR_RATIO = 1.5  # of the map's error to the requested precision without a warning: slow cells fall short
+MAX_ERROR_RATIO = 1.5  # largest ratio of error to requested precision without a warning: slow cells fall short
 LEGEND = """R-hat compares chains with one another: 1 is equal, and over 1.05 they have not mixed. A cell that
 changed only once in one chain has a large R-hat. The map is judged by the error of its mean, not by single cells."""
 
@@ -289,8 +289,8 @@ def summarise(posterior: Posterior) -> Summary:
 class PoseSummary:
     """The mean and covariance of each scan's pose, ``by_approximation`` if chains have not mixed, and the mixing."""
 
-    mean: Floats  # in the world frame, (S, 3), with the circular mean of headings
-    covariance: Floats  # of x, y and yaw, (S, 3, 3), metres and radians
+    mean: Floats  # mean in the world frame, (S, 3), with the circular mean of headings
+    covariance: Floats  # covariance of x, y and yaw, (S, 3, 3), metres and radians
     rhat: Floats  # split R-hat of x, y and yaw, (S, 3); NaN below four draws a chain, or if a pose never moved
     ess: Floats  # effective sample size of x, y and yaw, (S, 3)
     by_approximation: bool = False  # whether mean and covariance come from the approximation that chains started from
@@ -311,7 +311,7 @@ class PoseSummary:
 
     @property
     def rhat_max(self) -> float:
-        """The largest R-hat; infinite if chains are too short for one, or if the chains of a pose disagree."""
+        """The largest R-hat, or infinity if chains are too short for one, or if the chains of a pose disagree."""
         return float(np.where(np.isfinite(self.rhat), self.rhat, np.inf)[self._free].max(initial=1.0))
 
     @property
@@ -344,7 +344,7 @@ class PoseSummary:
 
 def summarise_poses(poses: Floats) -> PoseSummary:
     """Compute means, covariances and mixing of draws of poses, (chains, draws, S, 3)."""
-    flat = poses.reshape(-1, *poses.shape[2:])  # of all chains
+    flat = poses.reshape(-1, *poses.shape[2:])  # poses of all chains
     heading = np.arctan2(np.sin(flat[..., 2]).mean(axis=0), np.cos(flat[..., 2]).mean(axis=0))
     mean = np.concatenate([flat[..., :2].mean(axis=0), heading[:, None]], axis=-1)
     errors = poses - mean

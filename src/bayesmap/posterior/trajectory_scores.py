@@ -23,7 +23,7 @@ from bayesmap.space.trajectory import MAX_INTERPOLATED_S, RelativeLaw, Trajector
 
 STAMP_TOLERANCE_S = 0.001  # a stamp this far outside the trajectory, or off a pose, still counts
 LEVELS = (0.5, 0.8, 0.95)  # probabilities of regions
-DIMENSIONS = 3  # of a pose
+DIMENSIONS = 3  # dimensions of a pose
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,14 +109,14 @@ def relation_errors(stamps_s: Floats, poses: Floats, relations: Relations, *, ex
 class TrajectoryScore:
     """The accuracy of a trajectory, and the calibration of its regions."""
 
-    errors: RelationErrors  # of each relation, in the true frame of its second pose
+    errors: RelationErrors  # errors of each relation, in the true frame of its second pose
     nees: Floats | None = None  # squared Mahalanobis lengths of the errors, (M,); None without covariances
     region: Floats | None = None  # least probability of a region that holds the truth, (M,): uniform if it is right
     assumed_independent: bool = False  # whether the trajectory has covariances of single poses alone
     known_by: str = ""  # source of the covariances, in words
 
     def coverage(self, level: float) -> float:
-        """Return the share of relations whose truth lies in the region of a probability; NaN without regions."""
+        """Return the share of relations whose truth lies in the region of a probability, or NaN without regions."""
         return float("nan") if self.region is None else float((self.region <= level).mean())
 
     def as_json(self) -> dict[str, Any]:

@@ -35,7 +35,7 @@ PROPOSED_SPACINGS_M = (0.1, 0.2, 0.5, 1.0)  # distances between scans that are p
 
 
 def estimate(scans: Scans, grid: Grid, size: ProblemSize, sampling: Sampling) -> Estimate | None:
-    """Estimate the cost of a run here, with a remedy if it is long or large; None for an unknown sampler."""
+    """Estimate the cost of a run here, with a remedy if it is long or large, or None for an unknown sampler."""
     if sampling.constants is None:
         return None
     cost = _estimate_without_remedy(size, sampling)
@@ -45,7 +45,10 @@ def estimate(scans: Scans, grid: Grid, size: ProblemSize, sampling: Sampling) ->
 
 
 def _estimate_without_remedy(size: ProblemSize, sampling: Sampling) -> Estimate:
-    fewest, most = sampling.draws_range
+    # The fewest and the most draws per chain.
+    plan = sampling.plan
+    fewest = plan.draws if plan.precision is None else min(FIRST_MARK_DRAWS, plan.draws)
+    fewest, most = min(fewest, 2) if plan.seconds else fewest, plan.draws
     times = sampling.processor_s(size, fewest), sampling.processor_s(size, most)
     processor_s = None if times[0] is None or times[1] is None else (times[0], times[1])
     peak_bytes = sampling.peak_bytes(size, fewest), sampling.peak_bytes(size, most)
@@ -108,13 +111,13 @@ class Estimate:
 
 
 def _range_in_unit(bounds: tuple[float, float], unit: float) -> str:
-    """Return two numbers in a unit, with about two digits; one number if both have the same digits."""
+    """Return two numbers in a unit, with about two digits, or one number if both have the same digits."""
     words = [f"{value / unit:.{0 if value >= 9.5 * unit else 1}f}" for value in bounds]
     return " to ".join(dict.fromkeys(words))
 
 
 def memory_bytes() -> int | None:
-    """Return the memory of this machine, or the limit of this container, in bytes; None if unknown."""
+    """Return the memory of this machine, or the limit of this container, in bytes, or None if unknown."""
     sizes: list[int] = []
     with contextlib.suppress(AttributeError, OSError, ValueError):
         sizes.append(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"))
@@ -194,10 +197,10 @@ class SamplerCost:
 
     warmup_ns: float | None
     sweep_ns: float | None
-    incidence_bytes: float  # per incidence, once for all chains
-    chain_incidence_bytes: float  # per chain and incidence
-    chain_cell_bytes: float  # per chain and cell
-    chain_beam_bytes: float  # per chain and beam
+    incidence_bytes: float  # bytes per incidence, once for all chains
+    chain_incidence_bytes: float  # bytes per chain and incidence
+    chain_cell_bytes: float  # bytes per chain and cell
+    chain_beam_bytes: float  # bytes per chain and beam
 
 
 SURFACES = SamplerCost(43.0, 29.0, 16.0, 1.3, 110.0, 20.0)
@@ -217,7 +220,7 @@ MATCHING_S_PER_SCAN = 7.4e-3  # time for the trajectory: 22 s for 3000 scans, 90
 FIXED_S = 8.0  # time for files and pictures: with 40 draws of 1.1 MB 10 s
 FILE_S_PER_BYTE = 40e-9  # more time for them: with 200 draws 17 to 20 s
 BASE_BYTES = 390e6  # peak of runs of 3000 beams
-READING_BYTES = 40.0  # for each reading: measured with 2.2 M readings and `slam`
+READING_BYTES = 40.0  # bytes of each reading: measured with 2.2 M readings and `slam`
 CELL_BYTES = 100.0  # beside the chains: a map of 2 million cells, three beams and one draw took 101, and 107 a chain
 
 
@@ -236,16 +239,10 @@ class Sampling:
 
     @property
     def constants(self) -> SamplerCost | None:
-        """The constants of the sampler; None for one whose cost is not known."""
+        """The constants of the sampler, or None for one whose cost is not known."""
         stops = SURFACES if self.has_surfaces else REFLECTIVITIES
         costs = {"stop-gibbs": stops, "wall-gibbs": WALLS, "wall-blocks": BLOCKS}
         return costs.get(self.sampler, None if self.sampler == "metropolis" else TABLE)
-
-    @property
-    def draws_range(self) -> tuple[int, int]:
-        """The fewest and the most draws per chain."""
-        fewest = self.plan.draws if self.plan.precision is None else min(FIRST_MARK_DRAWS, self.plan.draws)
-        return (min(fewest, 2) if self.plan.seconds else fewest), self.plan.draws
 
     def draw_bytes(self, size: ProblemSize) -> float:
         """Return the bytes of a draw of one chain."""
@@ -268,7 +265,7 @@ class Sampling:
         return shared + self.chains * state + draw_bytes + READING_BYTES * size.readings
 
     def processor_s(self, size: ProblemSize, draws: int) -> float | None:
-        """Return the processor time for a number of draws per chain, in seconds; None if it is not known."""
+        """Return the processor time for a number of draws per chain, in seconds, or None if it is not known."""
         cost, plan = self.constants, self.plan
         if cost is None or cost.warmup_ns is None or cost.sweep_ns is None:
             return None

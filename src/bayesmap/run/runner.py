@@ -33,7 +33,7 @@ MAX_FIRST_STEP_SWEEPS = 16  # a limit, because the first guess of the speed may 
 MAX_STEP_GROWTH = 16  # largest ratio of the sweeps of a step to the sweeps of the step before
 MAX_BUFFER_BYTES = 64 << 20  # size of the draws of one step
 MAX_CHECKPOINT_SHARE = 0.05  # largest share of the time that checkpoints may take
-FIRST_MAP_SWEEPS = FIRST_FIT_SWEEP  # of the pilot: its walls are in place but still thick, and a fit can go on
+FIRST_MAP_SWEEPS = FIRST_FIT_SWEEP  # sweeps of the pilot: its walls are in place but still thick, and a fit can go on
 
 OnCheckpoint = Callable[[Chains], None] | None  # saves the chains so far
 

@@ -52,7 +52,7 @@ class MetropolisState(ChainState):
     """Maps of several chains between two sweeps."""
 
     problem: MetropolisProblem
-    maps: tuple[dict[str, NDArray[Any]], ...]  # by chain, the arrays of the cells by name, changed in place
+    maps: tuple[dict[str, NDArray[Any]], ...]  # arrays of the cells by name, for each chain, changed in place
     chain_ids: tuple[int, ...]  # numbers among all chains of the run
     seed: int
 

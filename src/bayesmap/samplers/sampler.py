@@ -101,8 +101,8 @@ class Keep:
 class Info:
     """The report of some sweeps. At an inverse temperature the likelihood is tempered."""
 
-    log_likelihood: Floats  # of each sweep's draw, nats, (chains, sweeps)
-    log_prior: Floats  # of each sweep's draw, nats, (chains, sweeps)
+    log_likelihood: Floats  # log-likelihood of each sweep's draw, nats, (chains, sweeps)
+    log_prior: Floats  # log prior of each sweep's draw, nats, (chains, sweeps)
     draws: Mapping[str, NDArray[Any]]  # kept draws by array name, in stored form, (chains, kept, ...)
 
     @classmethod
@@ -120,7 +120,7 @@ class Snapshot:
     """The states of chains: all that is needed to continue them."""
 
     sweep: int  # number of sweeps that each chain has made
-    arrays: Mapping[str, NDArray[Any]] = field(default_factory=dict)  # by name, (chains, ...)
+    arrays: Mapping[str, NDArray[Any]] = field(default_factory=dict)  # arrays by name, (chains, ...)
 
 
 class Problem:

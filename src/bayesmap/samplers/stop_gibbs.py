@@ -185,7 +185,7 @@ class StopGibbs:
     def _first_labels(
         self, problem: StopProblem, chain_ids: Sequence[int], seed: int, stored: Mapping[str, NDArray[Any]]
     ) -> Mask | None:
-        """Return the labels of all cells, stored ones or draws, (C, N); None if the prior has no labels."""
+        """Return the labels of all cells, stored ones or draws, (C, N), or None if the prior has no labels."""
         if not problem.prior.has_labels:
             return None
         cells = problem.grid.n_cells

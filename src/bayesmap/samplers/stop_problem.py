@@ -37,11 +37,11 @@ MAX_PRIOR_SURFACES = 1 << 16  # most surfaces drawn from the prior; on larger gr
 LABEL_SWEEPS = 30  # sweeps of the first labels
 
 # Sizes of Metropolis steps: with these, a third to a half of the steps are accepted.
-STEP_LOGIT = 1.0  # of the reflectivity's logit, in its standard deviations given the counts
-STEP_ALONG_CELLS = 0.25  # of the mean along the wall, in edges of a cell
-STEP_ACROSS_SIGMAS = 1.5  # of the mean across the wall, and of the slant, in standard deviations of the posterior
-STEP_LENGTH = 0.5  # of the logarithm of the length
-STEP_THICKNESS = 1.2  # of the logarithm of the thickness, in standard deviations of the posterior
+STEP_LOGIT = 1.0  # step of the reflectivity's logit, in its standard deviations given the counts
+STEP_ALONG_CELLS = 0.25  # step of the mean along the wall, in edges of a cell
+STEP_ACROSS_SIGMAS = 1.5  # step of the mean across the wall and of the slant, in standard deviations of the posterior
+STEP_LENGTH = 0.5  # step of the logarithm of the length
+STEP_THICKNESS = 1.2  # step of the logarithm of the thickness, in standard deviations of the posterior
 CELLS_AROUND = 1.5  # cells from a stop within which a reading may be its return; elsewhere it is random
 SIGMAS_AROUND = 6.0  # standard deviations that are added to this distance
 SHARE_AROUND = 0.1  # density at which tails of Student's t are cut off, as a share of a random reading's density
@@ -249,9 +249,10 @@ class StopProblem(RaysProblem):
 
     def for_any_poses(self) -> StopProblem:
         """Return this problem for poses that may move: draws keep all cells, and surfaces around present end points."""
-        ends = np.zeros(self.grid.n_cells, dtype=np.bool_)
-        ends[self.estimate.endpoint_cells] = True
-        reachable = ndimage.binary_dilation(ends.reshape(self.grid.shape), np.ones((3, 3)), iterations=CELLS_MOVED)
+        is_endpoint = np.bincount(self.estimate.endpoint_cells, minlength=self.grid.n_cells) > 0
+        reachable = ndimage.binary_dilation(
+            is_endpoint.reshape(self.grid.shape), np.ones((3, 3)), iterations=CELLS_MOVED
+        )
         surfaces = {"surface_cell": np.flatnonzero(reachable).astype(np.int32)} if self.prior.has_surfaces else {}
         return replace(self, kept={"cell": np.arange(self.grid.n_cells, dtype=np.int32)} | surfaces)
 

@@ -65,7 +65,7 @@ class WallProblem(Problem):
 
     @property
     def coupling(self) -> float:
-        """The log prior that each pair of alike neighbours adds, nats; 0 if cells are independent."""
+        """The log prior that each pair of alike neighbours adds, nats, or 0 if cells are independent."""
         return self.prior.pair_coupling
 
     @cached_property

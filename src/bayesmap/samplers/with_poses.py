@@ -45,7 +45,7 @@ STEP_ARRAYS = ("pose_log_scale", "pose_factor")  # arrays of a snapshot beside t
 class PoseState:
     """The present poses of some chains. Seed, number of the chain and step determine the next random numbers."""
 
-    poses: Floats  # in the world frame, (C, S, 3)
+    poses: Floats  # poses in the world frame, (C, S, 3)
     log_scale: Floats  # logarithm of the size of the steps of each scan, (C, S); warm-up adapts it
     chain_ids: Indices  # numbers among all chains of the run, (C,)
     seed: int

@@ -276,10 +276,10 @@ class DrawRequest:
     """A request of ``chains * draws`` draws."""
 
     chains: int
-    draws: int  # per chain
+    draws: int  # draws per chain
     seed: int
-    particles: int  # for importance sampling
-    rounds: int  # for belief propagation
+    particles: int  # number of particles for importance sampling
+    rounds: int  # number of rounds of belief propagation
 
 
 @dataclass(frozen=True, eq=False)
@@ -287,7 +287,7 @@ class IndependentDraws:
     """Independent draws, and further results of the method, as in `bayesmap.posterior.posterior.Posterior`."""
 
     walls: NDArray[np.uint8]  # packed maps, (chains, draws, ceil(N / 8))
-    log_likelihood: Floats  # of each map, (chains, draws)
+    log_likelihood: Floats  # log-likelihood of each map, (chains, draws)
     log_prior: Floats
     occupancy: Floats  # marginals, (nx, ny)
     observed: Mask  # cells that a beam reaches in at least half of the maps, (nx, ny)

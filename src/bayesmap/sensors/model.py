@@ -62,7 +62,7 @@ class SensorModel(ABC):
 
     @abstractmethod
     def reach_m(self, range_m: Floats, limits: RangeLimits) -> Floats:
-        """Return the distance past which each `log_likelihood` no longer changes; ``inf`` if there is none."""
+        """Return the distance past which each `log_likelihood` no longer changes, or ``inf`` if there is none."""
 
     @abstractmethod
     def sample(self, rng: Rng, distance_m: Floats, limits: RangeLimits) -> Floats:
@@ -141,7 +141,7 @@ class AdditiveNoise(SensorModel):
         """Draw standard noise."""
 
     def log_likelihood(self, range_m: Floats, distance_m: Floats, limits: RangeLimits) -> Floats:
-        """Return the log density of ``range - min(distance, max_range)``; 0 where the reading is invalid."""
+        """Return the log density of ``range - min(distance, max_range)``, or 0 where the reading is invalid."""
         return self.stop_log_likelihood(range_m, distance_m, np.zeros(()), limits)
 
     def stop_log_likelihood(self, range_m: Floats, distance_m: Floats, spread_m: Floats, limits: RangeLimits) -> Floats:
@@ -264,7 +264,7 @@ def _check_scale(model: str, name: str, scale_m: float, per_m: float) -> None:
 
 
 FLAT_NATS = 1e-4  # most nats that the noise may add to the log-likelihood past the end of a beam in the table
-BISECTIONS = 16  # in `BeamMixture.reach_m`: accurate to 1/65536 of the sensor's range, and rounded up
+BISECTIONS = 16  # number in `BeamMixture.reach_m`: accurate to 1/65536 of the sensor's range, and rounded up
 LOG_IMPOSSIBLE = -30.0  # least log-likelihood of a reading, so that no single beam makes a map impossible
 
 
@@ -350,7 +350,7 @@ class BeamMixture(SensorModel):
         return np.asarray((1 - self.p_random) * (blocked + returned * below))
 
     def cumulative(self, range_m: Floats, distance_m: Floats, limits: RangeLimits, spread_m: float = 0.0) -> Floats:
-        """Return P(reading <= range | distance) by the last formula above; NaN for an invalid reading."""
+        """Return P(reading <= range | distance) by the last formula above, or NaN for an invalid reading."""
         z, d = np.broadcast_arrays(range_m, distance_m)
         reading, wall_m = np.clip(z, limits.min_m, limits.max_m), np.minimum(d, limits.max_m)
         uniform = (reading - limits.min_m) / (limits.max_m - limits.min_m)
@@ -361,7 +361,7 @@ class BeamMixture(SensorModel):
         return np.asarray(np.where(np.isposinf(z), 1.0, p))
 
     def reach_m(self, range_m: Floats, limits: RangeLimits) -> Floats:
-        """Return where the wall's noise falls below `FLAT_NATS` of the random floor; infinity for typed readings."""
+        """Return where the wall's noise falls below `FLAT_NATS` of the random floor, or infinity for typed readings."""
         z = np.asarray(range_m, dtype=np.float64)
         floor = self.p_random / (limits.max_m - limits.min_m) * FLAT_NATS
 
@@ -395,7 +395,7 @@ class BeamMixture(SensorModel):
         return np.where(rng.random(d.shape) < self.p_random, uniform, reading)
 
     def kernel_parameters(self) -> KernelParameters | None:
-        """Return the noise's own parameters, inside the mixture; None if the noise has none."""
+        """Return the noise's own parameters, inside the mixture, or None if the noise has none."""
         noise = self.noise.kernel_parameters()
         if noise is None:
             return None

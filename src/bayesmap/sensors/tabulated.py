@@ -21,9 +21,9 @@ from bayesmap.sensors.model import LOG_IMPOSSIBLE, RangeLimits, SensorModel
 from bayesmap.space.arrays import Floats, Singles
 
 # Numbers of nodes:
-DISTANCES, SPREADS, OFFSETS = 33, 8, 193  # of the density of a range
-TYPED_DISTANCES = 513  # of the distance for typed readings
-NOWHERE_RANGES = 4097  # of the range of a beam that stops nowhere
+DISTANCES, SPREADS, OFFSETS = 33, 8, 193  # nodes of the density of a range
+TYPED_DISTANCES = 513  # nodes of the distance for typed readings
+NOWHERE_RANGES = 4097  # nodes of the range of a beam that stops nowhere
 
 MAX_SPREAD_SCALES = 63.0  # the largest spread, in scales: larger spreads are clipped to it
 MIN_LOG_DENSITY = -1e6  # least log density at a node, in nats: minus infinity cannot be interpolated

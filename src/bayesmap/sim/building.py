@@ -34,7 +34,7 @@ MARGIN_M = 0.5  # width of the open ground around the building
 DOOR_M, WIDE_DOOR_M = 0.9, 1.6  # widths of doors
 DOOR_CLEAR_M = 1.1  # depth of the floor that stays free on both sides of a door
 MIN_SIZE_M = (12.0, 8.0)  # long and short side of the smallest building
-MAX_CELLS = 50_000_000  # of a building
+MAX_CELLS = 50_000_000  # most cells of a building
 UNSPLIT_WIDTHS_M, UNSPLIT_CHANCES = (3.4, 4.6, 6.5, 9.5), (0.42, 0.30, 0.18, 0.10)
 """A piece of a row is not split if it is narrower than a width that is drawn from these, with these probabilities."""
 WIDE_ROOM_M = 6.2  # width beyond which a room is an open plan, and has two doors
@@ -52,7 +52,7 @@ class Room:
 class Building:
     """The map of a building, as arrays indexed ``[x, y]``, and its rooms."""
 
-    grid: Grid  # of the arrays
+    grid: Grid  # grid of the arrays
     walls: Mask  # cells that are not empty, furniture included, (nx, ny)
     glass: Mask  # wall cells that are glass, (nx, ny)
     # Chance that a beam which enters a cell stops there, (nx, ny): 1 for walls, ``1 - glass_pass`` for glass, less than

@@ -17,7 +17,7 @@ from bayesmap.space.planar import Floats
 from bayesmap.space.scans import Scans, as_array
 from bayesmap.space.time_order import times_words
 
-MAX_CELLS = 100_000_000  # of a grid; a larger grid is probably a mistake in the units
+MAX_CELLS = 100_000_000  # most cells of a grid; a larger grid is probably a mistake in the units
 MARGIN_M = 0.5  # default width of the border of free cells around poses and hits
 MAX_REACH_RATIO = 20.0  # a scan whose reach exceeds this many median reaches is an outlier
 MAX_OUTLIER_SHARE = 0.1  # if a larger share of the scans lies far away, no scan is an outlier

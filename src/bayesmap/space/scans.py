@@ -18,7 +18,7 @@ from bayesmap.space.arrays import Indices, Mask
 from bayesmap.space.planar import Floats, between, compose
 
 MAX_FAN_TURNS = 1.1  # largest angle from the first to the last beam: beams may overlap a little after a whole turn
-MAX_BEAMS = 100_000  # per scan
+MAX_BEAMS = 100_000  # most beams per scan
 
 
 class ReadingKind(IntEnum):
@@ -216,7 +216,7 @@ class Scans:
         return np.diff(self.angles_rad if self.own_angles_rad is None else self.own_angles_rad, axis=-1)
 
     def _first_and_last(self) -> tuple[Floats, Floats]:
-        """Return the angles of the first and last beam of each scan, (S,) each; 0 for a scan without beams."""
+        """Return the angles of the first and last beam of each scan, (S,) each, or 0 for a scan without beams."""
         has_beam, scans = self.has_beam, np.arange(len(self))
         first, last = has_beam.argmax(axis=1), has_beam.shape[1] - 1 - has_beam[:, ::-1].argmax(axis=1)
         angles = np.nan_to_num(np.asarray(self.own_angles_rad))
@@ -302,7 +302,7 @@ def as_angles(angles_rad: ArrayLike) -> Floats:
 
 
 def _as_own_angles(largest: ArrayLike, own: ArrayLike, ranges_m: Floats) -> tuple[Floats, Floats | None]:
-    """Return angles of the largest scan, (A,), ``largest`` if it fits, and of all, (S, A); None if all are equal."""
+    """Return angles of the largest scan, (A,), ``largest`` if it fits, and of all, (S, A), or None if all are equal."""
     # Check shapes and angles: a missing beam has the angle NaN and the reading NaN.
     angles = as_array(own, "scans: angles_rad")
     if angles.shape != ranges_m.shape or not angles.shape[1]:

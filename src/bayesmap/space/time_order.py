@@ -46,7 +46,7 @@ class TimeOrder:
     """The time order of S scans, with stamps that never fall: after a reset of the clock they go on from the last."""
 
     order: NDArray[np.intp]  # indices of the scans in time order, (S,)
-    stamps_s: NDArray[np.float64]  # in time order, (S,)
+    stamps_s: NDArray[np.float64]  # stamps in time order, (S,)
     resets: tuple[int, ...] = ()  # indices in the log of the first scan after each reset of the clock, ascending
     set_back_s: tuple[float, ...] = ()  # time by which each reset set the clock back, seconds
 

@@ -70,7 +70,7 @@ class Trajectory:
 
     poses: Floats  # x, y in metres and yaw in radians in the world frame, (S, 3)
     stamps_s: Floats | None = None  # time of each pose in seconds, (S,), ascending
-    covariances: Floats | None = None  # of x, y and yaw in world axes (m^2, m rad, rad^2), (S, 3, 3)
+    covariances: Floats | None = None  # covariances of x, y and yaw in world axes, (S, 3, 3)
     draws: Floats | None = None  # poses of whole trajectories drawn from a posterior, (D, S, 3)
     relative: RelativeLaw | None = None  # law of relative poses; None if it follows from the draws, too
     known_by: str = ""  # source of the uncertainty, in words

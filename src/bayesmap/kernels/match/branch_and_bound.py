@@ -55,7 +55,7 @@ class Block:
     """A block of 2^level x 2^level translations at one angle, of which (dx, dy) is the first, in cells."""
 
     job: int
-    row: int  # of its angle
+    row: int  # row of its angle
     level: int
     dx: int
     dy: int
@@ -68,7 +68,7 @@ class Roots:
     begin: Int32s
     row_begin: Int32s  # first node of each row
     order: Int32s  # nodes
-    bound: Float64s  # of each node
+    bound: Float64s  # bound of each node
     node: wp.array(dtype=wp.vec3i)  # row, dx, dy
 
 
@@ -136,7 +136,7 @@ def bound_blocks(
     # Cells are computed with the sensor at the window's centre.
     row = first + wp.tid()
     job = rows.job[row]
-    corner = origins[jobs.grid[job]]  # of the grid, metres
+    corner = origins[jobs.grid[job]]  # corner of the grid, metres
     cosine, sine = wp.cos(jobs.angles_rad[row]), wp.sin(jobs.angles_rad[row])
     x0, y0 = jobs.centres[job][0] - corner[0], jobs.centres[job][1] - corner[1]
     for i in range(jobs.point_offsets[job + 1] - jobs.point_offsets[job]):
@@ -211,7 +211,7 @@ def search_blocks(
     # Strands share the best score of the job. An outdated value costs time, but does not change the result.
     strand = first + wp.tid()
     job = strand / per_job
-    best_score = wp.float64(jobs.min_scores[job])  # of the strand
+    best_score = wp.float64(jobs.min_scores[job])  # best score of the strand
     best_node = wp.vec3i(-1, 0, 0)
     rank = roots.begin[job] + strand - job * per_job
     while rank < roots.begin[job + 1]:
@@ -268,7 +268,7 @@ def search_grids(
     threads = 1 if n_look_ups < MIN_THREADED_LOOK_UPS else threads
     jobs, rows, roots = _bound_roots(grids, windows, threads)
     earlier = devices.pack(EarlierModes, device, apart=wp.vec3i(*modes.apart))
-    stack = (n_strands, 4 * pyramid.shape[1] + 4)  # at most four children a level
+    stack = (n_strands, 4 * pyramid.shape[1] + 4)  # room for at most four children a level
     state = devices.pack(Strands, device, score=(n_strands,), pose=(n_strands,), bound=stack, node=stack)
     min_scores = windows.min_scores
     scores = np.full((n_jobs, modes.count), -np.inf)

@@ -75,7 +75,7 @@ def angle_in_turns(vector: wp.vec2f) -> float:
 
 @wp.func
 def beam_towards(scene: ScanArrays, scan: int, point: wp.vec2f) -> int:
-    """Return the beam of a scan that points towards a point; -1 if there is none."""
+    """Return the beam of a scan that points towards a point, or -1 if there is none."""
     bins = scene.beam_of_angle.shape[1]
     bin = int((angle_in_turns(point) + 0.5) * float(bins))
     return scene.beam_of_angle[scene.layout[scan], wp.clamp(bin, 0, bins - 1)]
@@ -83,7 +83,7 @@ def beam_towards(scene: ScanArrays, scan: int, point: wp.vec2f) -> int:
 
 @wp.func
 def nearest_point(scene: ScanArrays, scan: int, point: wp.vec2f, reach: float) -> int:
-    """Return the beam of the nearest point of a scan within reach; -1 if there is none, or `OUT_OF_VIEW`."""
+    """Return the beam of the nearest point of a scan within reach, or -1 if there is none, or `OUT_OF_VIEW`."""
     middle = beam_towards(scene, scan, point)
     if middle < 0:
         return OUT_OF_VIEW

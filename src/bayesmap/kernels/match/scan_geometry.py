@@ -43,7 +43,7 @@ class LineFit(NamedTuple):
 
 @wp.func
 def neighbour(beam: int, steps: int, beams: int, full_circle: int) -> int:
-    """Return the beam ``steps`` further on; -1 past the end of a scan that is not a full circle."""
+    """Return the beam ``steps`` further on, or -1 past the end of a scan that is not a full circle."""
     other = beam + steps
     if full_circle != 0:
         return (other + beams) % beams

@@ -67,8 +67,8 @@ class Convergence:
 class RefinedScans(NamedTuple):
     """The results of J jobs."""
 
-    poses: Floats  # in the world frame, (J, 3)
-    information: Floats  # of the pairs alone, in the world's axes, (J, 3, 3)
+    poses: Floats  # poses in the world frame, (J, 3)
+    information: Floats  # information of the pairs alone, in the world's axes, (J, 3, 3)
     totals: Floats  # sums of `bayesmap.kernels.match.line_pairs.Totals` over all pairs in the last step, (J, 5)
 
 

@@ -197,7 +197,7 @@ class ForecastSums:
 
     range_m: Float64s  # readings
     reach_m: Float64s  # distance up to which stops may explain them
-    largest: Float64s  # with ``total``: density, see `no_sum`
+    largest: Float64s  # density together with ``total``, see `no_sum`
     total: Float64s
     below: Float64s  # cumulative probability at the beam's reading
     below_max: Float64s  # at the largest range
@@ -284,7 +284,7 @@ def are_typed(sensor: SensorModel, limits: RangeLimits) -> bool:
 
 
 def explained_within_m(range_m: Floats, sensor: SensorModel, limits: RangeLimits, resolution_m: float) -> Floats:
-    """Return the distance past which a stop explains a reading no better than no stop, metres; infinity if none."""
+    """Return the distance past which a stop explains a reading no better than no stop, metres, or infinity if none."""
     return np.asarray(sensor.reach_m(range_m, limits) + CELLS_PAST_REACH * resolution_m)
 
 
@@ -319,7 +319,7 @@ def log_densities(
     device: str = "cpu",
 ) -> Floats:  # fmt: skip
     """Compute the log predictive density of every reading, (B,), of beams traced at least as far as it reaches."""
-    columns = rays.columns if columns is None else columns  # of the entries' cells in the draws, (K,)
+    columns = rays.columns if columns is None else columns  # columns of the entries' cells in the draws, (K,)
     return _summed_forecasts(rays, columns, batches, sensor, hit_depth, device, with_cumulative=False)[0]
 
 
@@ -347,7 +347,7 @@ def forecast(
 class PosedScans:
     """Poses of scans of A beams each, and the maps under which they are weighed."""
 
-    pose: Float64Rows  # in the world frame
+    pose: Float64Rows  # pose in the world frame
     scan: Int32s  # index of the scan at each pose
     chain: Int32s  # index of the map of each pose
     mounts: Float64Rows  # start and angle in the scan's frame, of each beam of a scan or of all scans

@@ -34,8 +34,8 @@ OCCUPIED, HIT_NATS, PASS_NATS = 0, 1, 2
 class Views:
     """P poses, and the A beams of a scan at each. Beams are numbered pose by pose, from 0 to P A - 1."""
 
-    poses: Float64Rows  # in the world frame, (P, 3)
-    angles: Float64s  # of the beams, in the sensor's frame, (A,)
+    poses: Float64Rows  # poses in the world frame, (P, 3)
+    angles: Float64s  # angles of the beams in the sensor's frame, (A,)
     max_m: wp.float64  # distance to which beams are followed
 
 

@@ -29,7 +29,7 @@ from bayesmap.kernels.surfaces.surface import REFLECTIVITY, TRYING, Cell, PriorA
 from bayesmap.kernels.walls.chains import draw_wall, pairs_alike, walls_less_free
 
 wp.set_module_options({"enable_backward": False})
-FROM_UNITS = wp.constant(wp.float64(1.0 / GAIN_UNITS))  # from units of `ChainArrays.gain` to nats
+FROM_UNITS = wp.constant(wp.float64(1.0 / GAIN_UNITS))  # nats per unit of `ChainArrays.gain`
 NO_CANDIDATE = wp.constant(wp.float32(0.0))  # a cell that tries no candidate
 HAS_CANDIDATE = wp.constant(wp.float32(1.0))  # a cell that tries a candidate from the prior
 CANDIDATE_EVERY = wp.constant(4)  # updates per candidate of a cell in which no reading ends; others draw reflectivity

@@ -55,9 +55,8 @@ class EndpointCells:
 
 def endpoint_cells_to_device(rays: Rays, cells: Ints, step_sizes: Singles, device: str) -> EndpointCells:
     """List the incidences of cells, flat, ascending, (U,), on a device; ``step_sizes`` is (U, 8)."""
-    listed = np.zeros(rays.grid.n_cells, dtype=np.bool_)
-    listed[cells] = True
-    entry = np.nonzero(listed[rays.cells])[0].astype(np.int32)
+    is_listed = np.bincount(cells, minlength=rays.grid.n_cells) > 0
+    entry = np.nonzero(is_listed[rays.cells])[0].astype(np.int32)
     beam = np.searchsorted(rays.offsets, entry, side="right") - 1  # while entries ascend, which is faster
     # Order entries by the number of their cell: NumPy sorts numbers of 16 bits much faster.
     number = np.zeros(rays.grid.n_cells, dtype=np.min_scalar_type(len(cells)))
@@ -135,7 +134,6 @@ def log_stops(
     total += wp.log(wp.float64(product))
     if total < least:
         return total
-
     product = ONE_32
     floor = wp.max(MIN_PRODUCT, wp.float32(wp.exp(least - total)))
     for i in range(beams.passing_begin, beams.passing_end):
@@ -339,7 +337,7 @@ def fill_blocks(likelihood: StopLikelihood, blocks: LaneBlocks, row: int, beams:
 
 @wp.func
 def log_product(blocks: LaneBlocks, row: int, begin: int) -> wp.float64:
-    """Return the log of the product of all lanes at ``begin``; UNKNOWN if one of them was too small."""
+    """Return the log of the product of all lanes at ``begin``, or UNKNOWN if one of them was too small."""
     if wp.min(blocks.lanes[row, begin + 1]) < MIN_LANE_PRODUCT:
         return UNKNOWN
     product = wp.float64(1.0)
@@ -357,7 +355,7 @@ def log_product(blocks: LaneBlocks, row: int, begin: int) -> wp.float64:
 def log_stops_in_lanes(
     law: SensorLaw32, blocks: LaneBlocks, cell_blocks: CellBlocks, centre: wp.vec2, cell: Cell, least: wp.float64
 ) -> wp.float64:
-    """Compute `log_stops` of the beams in a cell's own blocks; UNKNOWN if a product was too small."""
+    """Compute `log_stops` of the beams in a cell's own blocks, or UNKNOWN if a product was too small."""
     # Stopped beams: the arithmetic of `cross_at` and `stop_density`. Densities are relative to the law's peak.
     row, begin = cell_blocks.row, cell_blocks.begin
     one = Lanes(wp.float32(1.0))

@@ -30,7 +30,7 @@ MIN_REFLECTIVITY = wp.constant(wp.float64(1.0e-30))
 MAX_REFLECTIVITY = wp.constant(wp.float64(1.0 - 1.0e-7))
 MIN_VARIANCE = wp.constant(wp.float32(1.0e-12))  # after rounding, square metres
 STEPS = 6  # Metropolis steps of a surface in each sweep
-UNBOUNDED = wp.constant(wp.float64(-1.0e300))  # below every log joint: sums are finished
+UNBOUNDED = wp.constant(wp.float64(-1.0e300))  # a value below every log joint: sums are finished
 AT_STEP = wp.constant(wp.uint64(32))  # random counters per step of a cell's surface, part SURFACES
 
 

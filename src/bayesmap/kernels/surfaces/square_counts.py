@@ -32,7 +32,7 @@ wp.set_module_options({"enable_backward": False})
 CANDIDATES = wp.constant(32)
 CANDIDATES_PER_LAW = wp.constant(16)
 PER_CANDIDATE = wp.constant(wp.float64(1.0 / 16.0))  # 1 / CANDIDATES_PER_LAW
-LOGISTIC_SCALE = wp.constant(wp.float64(0.6))  # of a logistic in place of a normal: longer tails, known quantiles
+LOGISTIC_SCALE = wp.constant(wp.float64(0.6))  # scale of a logistic for a normal: longer tails, known quantiles
 MIN_VARIANCE = wp.constant(wp.float64(1.0e-12))  # square metres: a thinner surface counts as one point
 IMPOSSIBLE = wp.constant(wp.float64(-1.0e300))  # log weight of an impossible candidate
 AT_SQUARE = wp.constant(wp.uint64(640))  # random counter of a cell in a sweep
@@ -125,7 +125,7 @@ def draw_point_by_table_m(
 class SquareArrays:
     """The squares of the grid: counts of one chain's beams for each, and the chances drawn for each touched square."""
 
-    lines: Lines  # of the beams
+    lines: Lines  # lines of the beams
     touched: Int32s  # cells of the touched squares, flat
     crossings: Int32s  # beams that cross the square, or would if they were not stopped before it
     stopped_inside: Int32s
@@ -140,7 +140,7 @@ def count_in_squares(
 ):
     """One thread per beam of a chain: count it as stopped in one square, and as stopped before each square behind."""
     beam = wp.tid()
-    index = chain * state.n_beams + beam  # in the arrays of all chains
+    index = chain * state.n_beams + beam  # index in the arrays of all chains
     begin, end = rays.offsets[beam], rays.offsets[beam + 1]
     stop = state.stop[index]
     if stop < begin or stop >= end:

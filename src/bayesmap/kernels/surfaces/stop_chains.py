@@ -84,7 +84,7 @@ class ChainStops(NamedTuple):
 
     stopped: NDArray[np.bool_]  # false for a beam that stopped nowhere
     distance_m: Singles
-    variance: Singles  # of the distance, square metres
+    variance: Singles  # variance of the distance, square metres
 
 
 class StopChains:
@@ -120,7 +120,6 @@ class StopChains:
         self._law: Any = None  # `SensorLaw32` of the last sweep; None before the first one
         self._prior: Any = None  # `PriorArrays` of the last sweep
         self._squares = square_arrays(rays, 0 if self.without_surfaces else chains, device)
-
         # The state of all chains, with labels and counts from the host if given.
         parts = devices.ceil_div(self.threads, chains)
         by_cell, by_beam, by_part = (chains * cells,), (chains * beams,), (chains * parts, cells)
@@ -324,7 +323,7 @@ class StopChains:
         return self._view(self._state.log_likelihood, chain)
 
     def stopped_by(self, chain: int) -> Ints:
-        """Return the cell that stopped each beam of a chain in its last sweep, flat; -1 for none, (B,)."""
+        """Return the cell that stopped each beam of a chain in its last sweep, flat, or -1 for none, (B,)."""
         stop, rays = self._view(self._state.stop, chain), self.plan.rays
         stopped = stop < rays.offsets[1:]
         cells = np.full(len(stop), -1, dtype=np.int32)  # the rays may have no cells at all

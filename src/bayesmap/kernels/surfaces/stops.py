@@ -38,11 +38,11 @@ wp.set_module_options({"enable_backward": False})
 GAIN_UNITS = 1 << 24  # units of `ChainArrays.gain` per nat
 TO_UNITS = wp.constant(wp.float32(GAIN_UNITS))
 MIN_FACTOR = wp.constant(wp.float32(1.0e-30))  # smaller factors are raised to this before a logarithm
-TO_UNIT_24 = wp.constant(wp.float32(1.0 / (1 << 24)))  # from 24 random bits to a number in [0, 1)
+TO_UNIT_24 = wp.constant(wp.float32(1.0 / (1 << 24)))  # factor from 24 random bits to a number in [0, 1)
 FAR = wp.constant(-1)  # a stop before the near entries
-LEARNS = wp.constant(wp.float32(-1.0))  # in `ChainArrays.fixed_reflectivity`: the cell learns in this sweep
-NOT_COUNTED = wp.constant(-1)  # in `ChainArrays.last_met`: the cell has not counted its beams yet
-NEGLIGIBLE_REFLECTIVITY = wp.constant(wp.float32(2.0**-26))  # for a smaller m, 1 - m is 1 in single precision
+LEARNS = wp.constant(wp.float32(-1.0))  # mark in `ChainArrays.fixed_reflectivity`: the cell learns in this sweep
+NOT_COUNTED = wp.constant(-1)  # mark in `ChainArrays.last_met`: the cell has not counted its beams yet
+NEGLIGIBLE_REFLECTIVITY = wp.constant(wp.float32(2.0**-26))  # largest m for which 1 - m is 1 in single precision
 MIN_DENSITY = wp.constant(wp.float64(1.0e-300))  # smaller densities of readings are raised to this
 MIN_RELATIVE_WEIGHT = wp.constant(wp.float32(2.0**-26))  # relative weight below single precision
 
@@ -361,8 +361,7 @@ class UpdateSchedule:
         """Select the lazy cells by ``periods``, see `bayesmap.kernels.surfaces.stop_chains.Plan`, (T,)."""
         is_lazy = periods > MAX_WATCHED_PERIOD
         self._periods = [int(period) for period in np.unique(periods[is_lazy])]
-        self._lazy = np.zeros(rays.grid.n_cells, dtype=np.bool_)
-        self._lazy[rays.touched[is_lazy]] = True
+        self._lazy = np.bincount(rays.touched[is_lazy], minlength=rays.grid.n_cells) > 0
         self._rays = rays
 
     def updates_lazy(self, sweep: int) -> bool:

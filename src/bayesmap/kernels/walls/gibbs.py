@@ -14,7 +14,7 @@ from bayesmap.kernels.walls.chains import BOUND, EXACT, UNKNOWN, Chain, Table, W
 
 wp.set_module_options({"enable_backward": False})
 MIN_BOUND_LOG_ODDS = wp.constant(wp.float64(20.0))  # log-odds from which a bound replaces the sum
-NO_BOUND = wp.constant(wp.float64(-1.0e300))  # below every sum: the sum is computed exactly
+NO_BOUND = wp.constant(wp.float64(-1.0e300))  # a value below every sum: the sum is computed exactly
 
 
 @wp.func

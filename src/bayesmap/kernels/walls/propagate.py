@@ -27,7 +27,7 @@ from bayesmap.kernels.device import ONE_32, Float32Rows, Float32s, Float64s, Flo
 wp.set_module_options({"enable_backward": False})
 TINY = wp.constant(wp.float32(1.0e-30))  # keeps likelihoods and divisors above zero
 MAX_RATIO = wp.constant(wp.float32(1.0e6))
-MAX_PRODUCT = wp.constant(wp.float32(1.0e30))  # beyond it, a product is replaced by its logarithm
+MAX_PRODUCT = wp.constant(wp.float32(1.0e30))  # largest product: a larger one is replaced by its logarithm
 FIXED_LOG_ODDS = wp.constant(wp.float32(1.0e12))  # prior log-odds that no beam can outweigh: the prior fixes the cell
 MAX_LOG_ODDS = wp.constant(wp.float32(60.0))  # log-odds are clipped before their exponential
 CPU_PARTS = 4  # fixed, so that sums do not depend on the number of cores
