@@ -57,9 +57,9 @@ class BeamTable:
     def beam_log_likelihoods(self, walls: Mask) -> Singles:
         """Return the log-likelihood of each beam's reading given a map, (B,)."""
         first = self.first_hits(walls)
-        hit = first < np.diff(self.offsets)
+        is_hit = first < np.diff(self.offsets)
         terms = self.no_hit.copy()
-        terms[hit] = self.loglik[(self.offsets[:-1] + first)[hit]]
+        terms[is_hit] = self.loglik[(self.offsets[:-1] + first)[is_hit]]
         return terms
 
     def log_likelihood(self, walls: Mask) -> float:

@@ -96,8 +96,8 @@ def count_alike_pairs(cells: Mask) -> int:
 def balance_at(cells: Mask, site: tuple[int, int]) -> int:
     """Return the balance of a cell: its neighbours that are set (walls, solid) less those that are not."""
     (x, y), (nx, ny) = site, cells.shape
-    around = [(x - 1, y), (x + 1, y), (x, y - 1), (x, y + 1)]
-    return sum(1 if cells[i, j] else -1 for i, j in around if 0 <= i < nx and 0 <= j < ny)
+    neighbours = [(x - 1, y), (x + 1, y), (x, y - 1), (x, y + 1)]
+    return sum(1 if cells[i, j] else -1 for i, j in neighbours if 0 <= i < nx and 0 <= j < ny)
 
 
 def labels_of_draw(draws: Draws, chain: int, draw: int) -> Mask:

@@ -238,8 +238,8 @@ def returned_density(law: Any, reading_m: Any, decay: Any, distance_m: Any, vari
     total = variance_at(law, distance_m, variance)
     error = reading_m - distance_m
     square = error * error
-    far = law.dof == type(total)(0.0) and square > type(total)(FAR_SQ) * total
-    if far or distance_m > law.max_m:
+    is_far = law.dof == type(total)(0.0) and square > type(total)(FAR_SQ) * total
+    if is_far or distance_m > law.max_m:
         return type(total)(0.0)
     precision = type(total)(1.0) / total
     density = noise_density(law, square * precision) * wp.sqrt(precision)

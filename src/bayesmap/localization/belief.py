@@ -185,10 +185,10 @@ class PoseBelief:
 def _moments(poses: Floats, weights: Floats) -> tuple[Floats, Floats]:
     """Return mean and covariance of weighted poses. Yaws count from their circular mean."""
     centre = np.arctan2(weights @ np.sin(poses[:, 2]), weights @ np.cos(poses[:, 2]))
-    off = poses.copy()
-    off[:, 2] = wrap_angle(poses[:, 2] - centre)
-    mean = weights @ off
-    error = off - mean
+    unwrapped = poses.copy()
+    unwrapped[:, 2] = wrap_angle(poses[:, 2] - centre)
+    mean = weights @ unwrapped
+    error = unwrapped - mean
     covariance = np.einsum("n,ni,nj->ij", weights, error, error)
     mean[2] = wrap_angle(mean[2] + centre)
     return mean, covariance
@@ -212,9 +212,9 @@ def _label_clusters(poses: Floats, weights: Floats) -> Indices:
 
 def _density(positions: Floats, means: Floats, covariances: Floats, shares: Floats) -> Floats:
     """Compute the density of a mixture of normal distributions in the plane, (N,)."""
-    off = positions[:, None] - means
+    deviations = positions[:, None] - means
     inverse = np.linalg.inv(covariances)
-    squared = np.einsum("nki,kij,nkj->nk", off, inverse, off)
+    squared = np.einsum("nki,kij,nkj->nk", deviations, inverse, deviations)
     return np.asarray((shares * np.sqrt(np.linalg.det(inverse)) / (2 * np.pi) * np.exp(-0.5 * squared)).sum(axis=1))
 
 
@@ -278,20 +278,20 @@ class PoseMixture:
 
         if len(self.means) == 1:
             return np.zeros(len(poses), dtype=np.intp)
-        off = self.means[:, None] - self.means
-        off[..., 2] = wrap_angle(off[..., 2])
+        deviations = self.means[:, None] - self.means
+        deviations[..., 2] = wrap_angle(deviations[..., 2])
         precision = np.linalg.inv(self.covariances[:, None] + self.covariances)
-        near = np.einsum("kli,klij,klj->kl", off, precision, off) < SAME_MODE_SIGMAS**2
-        near |= (np.abs(off) < SAME_MODE_XY_YAW).all(axis=2)
-        _, label = connected_components(near, directed=False)
+        is_same_mode = np.einsum("kli,klij,klj->kl", deviations, precision, deviations) < SAME_MODE_SIGMAS**2
+        is_same_mode |= (np.abs(deviations) < SAME_MODE_XY_YAW).all(axis=2)
+        _, label = connected_components(is_same_mode, directed=False)
         return np.asarray(label[self._student_logs(poses).argmax(axis=1)], dtype=np.intp)
 
     def squared_distances(self, poses: Floats) -> tuple[Floats, Floats]:
         """Return squared Mahalanobis distances of poses from the places, (P, K), and half of log determinants, (K,)."""
-        off = poses - self.means[:, None]
-        off[..., 2] = wrap_angle(off[..., 2])
+        deviations = poses - self.means[:, None]
+        deviations[..., 2] = wrap_angle(deviations[..., 2])
         inverse = np.linalg.inv(self.covariances)
-        squared = (np.matmul(off, inverse) * off).sum(axis=-1)
+        squared = (np.matmul(deviations, inverse) * deviations).sum(axis=-1)
         return np.ascontiguousarray(squared.T), -0.5 * np.linalg.slogdet(inverse)[1]
 
     def _student_logs(self, poses: Floats) -> Floats:
@@ -325,10 +325,10 @@ class PoseMixture:
                 weights = np.exp(tempering * logs)
             weights /= weights.sum()
             # Move the place to the weighted mean, and widen the weighted covariance.
-            off = population.poses[of_place] - means[k]
-            off[:, 2] = wrap_angle(off[:, 2])
-            shift = weights @ off
-            error = off - shift
+            deviations = population.poses[of_place] - means[k]
+            deviations[:, 2] = wrap_angle(deviations[:, 2])
+            shift = weights @ deviations
+            error = deviations - shift
             covariances[k] = widen * np.einsum("n,ni,nj->ij", weights, error, error) + np.diag(MIN_SIGMA**2)
             means[k] += shift
             min_tempering = min(min_tempering, tempering)

@@ -326,10 +326,10 @@ def without_duplicates(places: PoseMixture) -> PoseMixture:
     """Return the places without any that coincides with a place of greater mass."""
     selected: list[int] = []
     for i in np.argsort(-places.log_mass, kind="stable").tolist():
-        off = places.means[selected] - places.means[i]
-        off[:, 2] = wrap_angle(off[:, 2])
-        squared = np.einsum("ki,kij,kj->k", off, np.linalg.inv(places.covariances[selected]), off)
-        coincides = (squared < SAME_PLACE_SIGMAS**2) | (np.abs(off) < SAME_PLACE_XY_YAW).all(axis=1)
+        deviations = places.means[selected] - places.means[i]
+        deviations[:, 2] = wrap_angle(deviations[:, 2])
+        squared = np.einsum("ki,kij,kj->k", deviations, np.linalg.inv(places.covariances[selected]), deviations)
+        coincides = (squared < SAME_PLACE_SIGMAS**2) | (np.abs(deviations) < SAME_PLACE_XY_YAW).all(axis=1)
         if not coincides.any():
             selected.append(i)
     return places.select(selected)

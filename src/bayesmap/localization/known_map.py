@@ -119,18 +119,18 @@ class KnownMap:
         from bayesmap.kernels.predict.density import device_maps
 
         readings = scans.ranges_m[np.isfinite(scans.ranges_m)]
-        known = np.where(observed, np.asarray(occupancy, dtype=np.float64), 0.0)
-        free: Mask = np.logical_and(observed, known < PASSABLE)
+        known_occupancy = np.where(observed, np.asarray(occupancy, dtype=np.float64), 0.0)
+        free: Mask = np.logical_and(observed, known_occupancy < PASSABLE)
         if not free.any():
             raise BadInput("localize: the map has no free cell in which a robot could be")
         # A prior may have far more walls than the building. A search would then prefer poses in unknown cells.
         unknown, p_unknown = np.logical_not(observed), 0.0
         drawn = (states[..., 0] if states.ndim == 3 else states)[:, unknown.ravel()]
         if drawn.size:
-            p_unknown = min(float(drawn.mean()), float(known[observed].mean()))
+            p_unknown = min(float(drawn.mean()), float(known_occupancy[observed].mean()))
         return cls(
             grid=grid, packed=device_maps([states], grid, hit_depth, device=device), sensor=_compilable(sensor),
-            field=likelihood_field(known, grid, free, unknown, p_unknown), free=free, unknown=unknown,
+            field=likelihood_field(known_occupancy, grid, free, unknown, p_unknown), free=free, unknown=unknown,
             p_stop_unknown=p_unknown, elsewhere=readings_anywhere(scans), max_range_m=scans.max_range_m,
             typical_range_m=float(np.median(readings)) if len(readings) else scans.max_range_m, beam_weight=beam_weight,
         )  # fmt: skip

@@ -76,8 +76,8 @@ def search(field: Field, angles_rad: Floats, ranges_m: Floats, max_poses: int) -
 
 def end_points(angles_rad: Floats, ranges_m: Floats, max_points: int) -> Floats:
     """Return end points of a scan's beams in the sensor's frame, (N, 2): ``max_points`` or fewer, evenly spaced."""
-    hit = evenly_spaced(np.flatnonzero(np.isfinite(ranges_m) & (ranges_m > 0)), max_points)
-    return np.stack([np.cos(angles_rad[hit]), np.sin(angles_rad[hit])], axis=-1) * ranges_m[hit, None]
+    hits = evenly_spaced(np.flatnonzero(np.isfinite(ranges_m) & (ranges_m > 0)), max_points)
+    return np.stack([np.cos(angles_rad[hits]), np.sin(angles_rad[hits])], axis=-1) * ranges_m[hits, None]
 
 
 def _coarse_poses(field: Field, points: Floats) -> Floats:
@@ -101,7 +101,7 @@ def _coarse_poses(field: Field, points: Floats) -> Floats:
     blocks_x, blocks_y = math.ceil(mx / BLOCK_CELLS), math.ceil(my / BLOCK_CELLS)
     is_open = np.zeros((blocks_x * BLOCK_CELLS, blocks_y * BLOCK_CELLS), dtype=np.uint8)
     is_open[:mx, :my] = field.open
-    best = np.empty((HEADINGS, blocks_x, blocks_y), dtype=np.uint8)
+    block_sums = np.empty((HEADINGS, blocks_x, blocks_y), dtype=np.uint8)
     total, sums = np.zeros(mx * width, dtype=np.uint8), np.zeros(is_open.shape, dtype=np.uint8)
     for heading in range(HEADINGS):
         total[:] = 0
@@ -109,12 +109,12 @@ def _coarse_poses(field: Field, points: Floats) -> Floats:
             np.add(total[:length], quantised[shift : shift + length], out=total[:length])
         np.multiply(total.reshape(mx, width)[:, :my], is_open[:mx, :my], out=sums[:mx, :my])
         rows = np.maximum.reduce([sums[k::BLOCK_CELLS] for k in range(BLOCK_CELLS)])
-        best[heading] = np.maximum.reduce([rows[:, k::BLOCK_CELLS] for k in range(BLOCK_CELLS)])
+        block_sums[heading] = np.maximum.reduce([rows[:, k::BLOCK_CELLS] for k in range(BLOCK_CELLS)])
     # Select the best blocks, and find the best position within each by the exact field.
-    count = min(MAX_BLOCKS, best.size)
-    selected = np.argpartition(best.ravel(), -count)[-count:]
-    selected = selected[best.ravel()[selected] > 0]
-    heading_of, block_x, block_y = np.unravel_index(selected, best.shape)
+    count = min(MAX_BLOCKS, block_sums.size)
+    selected = np.argpartition(block_sums.ravel(), -count)[-count:]
+    selected = selected[block_sums.ravel()[selected] > 0]
+    heading_of, block_x, block_y = np.unravel_index(selected, block_sums.shape)
     k = np.arange(BLOCK_CELLS**2)
     cell_x = block_x[:, None] * BLOCK_CELLS + k // BLOCK_CELLS
     cell_y = block_y[:, None] * BLOCK_CELLS + k % BLOCK_CELLS
@@ -144,14 +144,14 @@ def refine(field: Field, points: Floats, poses: Floats, max_poses: int) -> Candi
 
 def _apart(poses: Floats, order: Indices, max_poses: int, apart_m: float, apart_rad: float) -> Indices:
     """Select the first poses of an order that are all apart from each other, ``max_poses`` or fewer."""
-    off = np.abs(poses[order][:, None] - poses[order])
-    near = (off[..., 0] < apart_m) & (off[..., 1] < apart_m) & (np.abs(wrap_angle(off[..., 2])) < apart_rad)
+    gaps = np.abs(poses[order][:, None] - poses[order])
+    is_near = (gaps[..., :2] < apart_m).all(axis=-1) & (np.abs(wrap_angle(gaps[..., 2])) < apart_rad)
     is_apart = np.ones(len(order), dtype=np.bool_)
     selected: list[int] = []
     for k in range(len(order)):
         if is_apart[k] and len(selected) < max_poses:
             selected.append(k)
-            is_apart &= ~near[k]
+            is_apart &= ~is_near[k]
     return order[np.array(selected, dtype=np.intp)]
 
 

@@ -64,11 +64,11 @@ def stated_motions(poses: Floats, stamps_s: Floats | None) -> tuple[Floats, Mask
     """
     motions = between(poses[:-1], poses[1:])
     lengths_m, _ = lengths_and_turns(motions)
-    unusual = lengths_m > max(2.0, 20.0 * float(np.median(lengths_m)) if len(lengths_m) else 2.0)
+    is_unusual = lengths_m > max(2.0, 20.0 * float(np.median(lengths_m)) if len(lengths_m) else 2.0)
     if stamps_s is None:
-        return motions, unusual
+        return motions, is_unusual
     max_short_m, max_long_m = (MAX_SPEED_M_PER_S * (elapsed + 0.3) + 0.5 for elapsed in elapsed_bounds_s(stamps_s))
-    return motions, (lengths_m > max_long_m) | (unusual & (lengths_m > max_short_m))
+    return motions, (lengths_m > max_long_m) | (is_unusual & (lengths_m > max_short_m))
 
 
 def motion_variances(motions: Floats, ratios: Floats) -> Floats:
@@ -228,8 +228,8 @@ def compensate_lag(poses: Floats, stamps_s: Floats | None, lag_s: float) -> Floa
     """Return odometry's poses at the scans' stamps, (S, 3), if it is late by ``lag_s``. Equal stamps keep theirs."""
     if stamps_s is None or lag_s == 0.0:
         return poses
-    late = interpolate(stamps_s, poses, stamps_s + lag_s)
-    return np.where(repeated_stamps(stamps_s)[:, None], poses, late)
+    shifted = interpolate(stamps_s, poses, stamps_s + lag_s)
+    return np.where(repeated_stamps(stamps_s)[:, None], poses, shifted)
 
 
 def velocities(poses: Floats, stamps_s: Floats) -> Floats:
@@ -325,8 +325,8 @@ def angle_step_ratio(
     # Find the factor with the lowest residual, and its standard error (Efron and Tibshirani 1993, ch. 11).
     lowest = _parabola_minimum(factors, values.mean(axis=1))
     is_left_out = np.arange(len(pairs)) % JACKKNIFE_GROUPS == np.arange(JACKKNIFE_GROUPS)[:, None]
-    without = np.array([_parabola_minimum(factors, values[:, ~group].mean(axis=1)) for group in is_left_out])
-    error = np.sqrt((JACKKNIFE_GROUPS - 1) / JACKKNIFE_GROUPS * ((without - without.mean()) ** 2).sum())
+    minima_without = np.array([_parabola_minimum(factors, values[:, ~group].mean(axis=1)) for group in is_left_out])
+    error = np.sqrt((JACKKNIFE_GROUPS - 1) / JACKKNIFE_GROUPS * ((minima_without - minima_without.mean()) ** 2).sum())
     # Change the angle if the factor is significant, or rather if it is near a regular angle.
     if not abs(lowest - 1.0) <= MAX_STRETCH:
         return 1.0

@@ -306,8 +306,8 @@ def bend_covariances(bends: Floats, poses: Floats, first: Indices, second: Indic
     by_first, by_second = between_jacobians(between(poses[first], poses[second]))
     result = np.zeros((len(first), 3, 3))
     for bend in bends:
-        off = np.einsum("mij,mj->mi", by_first, bend[first]) + np.einsum("mij,mj->mi", by_second, bend[second])
-        result += off[:, :, None] * off[:, None, :]
+        steps = np.einsum("mij,mj->mi", by_first, bend[first]) + np.einsum("mij,mj->mi", by_second, bend[second])
+        result += steps[:, :, None] * steps[:, None, :]
     return result / max(1, len(bends))
 
 

@@ -75,7 +75,7 @@ class KeyAlignment:
         count, half_width_m = len(aligned.poses), min(self.half_width_m, MAX_HALF_WIDTH_M)
         callback = self.report(self.track, "rematch", IMPROVEMENT_ROUNDS + 1)
         poor_score, poses_before, scores = 0.0, aligned.poses, np.zeros(count)
-        moved, stays = np.zeros(count, np.bool_), np.zeros(count, np.bool_)
+        is_moved, stays = np.zeros(count, np.bool_), np.zeros(count, np.bool_)
         result, changed = None, None
         for number in range(IMPROVEMENT_ROUNDS + 1):
             # Match each scan without itself. The last round only scores.
@@ -85,19 +85,19 @@ class KeyAlignment:
             )  # fmt: skip
             callback(number + 1, np.where(result.is_better[:, None], result.best_poses, aligned.poses))
             # Return moved scans whose score fell, for good, and move the others that match better elsewhere.
-            returned = moved & (result.scores < scores)
-            stays |= returned
-            moved = result.is_better & ~stays
-            scores = np.where(returned, scores, result.scores)
-            if not (moved | returned).any():
+            is_returned = is_moved & (result.scores < scores)
+            stays |= is_returned
+            is_moved = result.is_better & ~stays
+            scores = np.where(is_returned, scores, result.scores)
+            if not (is_moved | is_returned).any():
                 break
             poor_score = POOR_SHARE * float(np.median(result.best_scores))
-            poses = np.where(returned[:, None], poses_before, aligned.poses)
-            poses = np.where(moved[:, None], result.best_poses, poses)
+            poses = np.where(is_returned[:, None], poses_before, aligned.poses)
+            poses = np.where(is_moved[:, None], result.best_poses, poses)
             poses_before = aligned.poses
             aligned = self.align("aligned-rematched", poses, factors, 6, coarse=False)
             # Match only scans again that a move concerns: the moved ones, and scans with a moved partner.
-            changed = moved | returned
+            changed = is_moved | is_returned
             changed[aligned.pairs.source[changed[aligned.pairs.target]]] = True
         return ScoredAlignment(aligned, scores)
 

@@ -230,10 +230,10 @@ def label_visits(loops: Factors, poses: Floats, path_m: Floats) -> Indices:
     from scipy.sparse.csgraph import connected_components
 
     first_m, second_m = path_m[loops.first], path_m[loops.second]
-    near = (np.abs(first_m[:, None] - first_m) < PLACE_M) & (np.abs(second_m[:, None] - second_m) < PLACE_M)
-    a, b = np.nonzero(near)
-    agree = are_within(loops.disagreements(poses, a, b), AGREE_M, AGREE_RAD)
-    links = coo_matrix((np.ones(int(agree.sum())), (a[agree], b[agree])), shape=(len(loops), len(loops)))
+    is_near = (np.abs(first_m[:, None] - first_m) < PLACE_M) & (np.abs(second_m[:, None] - second_m) < PLACE_M)
+    a, b = np.nonzero(is_near)
+    agrees = are_within(loops.disagreements(poses, a, b), AGREE_M, AGREE_RAD)
+    links = coo_matrix((np.ones(int(agrees.sum())), (a[agrees], b[agrees])), shape=(len(loops), len(loops)))
     return np.asarray(connected_components(links, directed=False)[1], np.intp)
 
 
@@ -253,17 +253,17 @@ def _doubtful_visits(
         if prior_log_odds[number] - bound > SURE_LOG_ODDS:
             continue
         others, tested = loops.select(~removed & ~mask), loops.select(mask)
-        without, _ = optimise(poses, chain, others, graduated=False, steps=MAX_STEPS, tolerance=1e-3)
-        errors = tested.errors(without)
+        poses_without, _ = optimise(poses, chain, others, graduated=False, steps=MAX_STEPS, tolerance=1e-3)
+        errors = tested.errors(poses_without)
         # Skip a visit that the rest of the graph confirms to within the bending of a path.
         if are_within(np.median(np.abs(errors), axis=0), AGREE_M, AGREE_RAD):
             continue
-        others_cost = quadratic(others, without, others.robust_weights(without))
-        _, precision = solve_step(len(without), [quadratic(chain, without), others_cost])
-        covariance = relative_covariances(precision, without, tested.first, tested.second)
+        others_cost = quadratic(others, poses_without, others.robust_weights(poses_without))
+        _, precision = solve_step(len(poses_without), [quadratic(chain, poses_without), others_cost])
+        covariance = relative_covariances(precision, poses_without, tested.first, tested.second)
         covariance = covariance + np.linalg.inv(tested.information)
         distance = 0.5 * np.median(twist_squares(tested.relative + errors, tested.relative, covariance))
-        yield VisitTest(float(prior_log_odds[number] - distance), number, without)
+        yield VisitTest(float(prior_log_odds[number] - distance), number, poses_without)
 
 
 def twist_squares(expected: Floats, measured: Floats, covariance: Floats) -> Floats:
@@ -305,24 +305,24 @@ def unconfirmed_links(geometry: ScanGeometry, track: Track, odometry: Factors, p
     """
     # Select the steps of the first two cases.
     keys, usual_score, unbroken = track.keys, float(np.median(track.scores)), ~track.broken[track.keys[1:]]
-    refused = unbroken & (odometry.squares(poses) > REFUSED_SIGMAS**2)
-    poor = unbroken & (track.scores[keys[1:]] < usual_score - MAX_CONFIRMED_LOSS)
-    doubtful = refused & contradicted_links(track, poses, REFUSED_LEAP_SIGMAS)
+    is_refused = unbroken & (odometry.squares(poses) > REFUSED_SIGMAS**2)
+    is_poor = unbroken & (track.scores[keys[1:]] < usual_score - MAX_CONFIRMED_LOSS)
+    is_doubtful = is_refused & contradicted_links(track, poses, REFUSED_LEAP_SIGMAS)
     half_width_m, grid = grid_half_width(geometry), None
-    for k in np.nonzero((refused | poor) & ~doubtful)[0]:
+    for k in np.nonzero((is_refused | is_poor) & ~is_doubtful)[0]:
         # Score the next key scan on the grid of the key scans before, in the frame of the last of them.
-        before = np.arange(max(0, int(k) + 1 - WINDOW_KEYS), int(k) + 1)
-        relative = between(poses[k], poses[before])
-        grid = likelihood_grids(geometry, [keys[before]], [relative], np.zeros(2), half_width_m, reuse=grid)
+        window = np.arange(max(0, int(k) + 1 - WINDOW_KEYS), int(k) + 1)
+        relative = between(poses[k], poses[window])
+        grid = likelihood_grids(geometry, [keys[window]], [relative], np.zeros(2), half_width_m, reuse=grid)
         points, step = geometry.points_of(int(keys[k + 1]), front_end.MAX_POINTS), between(poses[k], poses[k + 1])
         score = float(score_at(grid, 0, points, step)[0])
-        doubtful[k] = score < usual_score - MAX_CONFIRMED_LOSS and (
-            refused[k] or _fits_elsewhere(grid, points, step, score, usual_score, odometry.select(np.array([k])))
+        is_doubtful[k] = score < usual_score - MAX_CONFIRMED_LOSS and (
+            is_refused[k] or _fits_elsewhere(grid, points, step, score, usual_score, odometry.select(np.array([k])))
         )
     # Add the third case: steps over a break.
-    off = wrap_yaw(between(poses[:-1], poses[1:]) - between(track.poses[keys[:-1]], track.poses[keys[1:]]))
-    moved = ((off / UNKNOWN_SIGMA) ** 2).sum(axis=1) > GUESS_SIGMAS**2
-    return np.asarray(doubtful | (_fitted_after_break(track) & moved))
+    deviation = wrap_yaw(between(poses[:-1], poses[1:]) - between(track.poses[keys[:-1]], track.poses[keys[1:]]))
+    is_moved = ((deviation / UNKNOWN_SIGMA) ** 2).sum(axis=1) > GUESS_SIGMAS**2
+    return np.asarray(is_doubtful | (_fitted_after_break(track) & is_moved))
 
 
 def _fits_elsewhere(
@@ -334,13 +334,13 @@ def _fits_elsewhere(
     min_gain = max(MAX_CONFIRMED_LOSS, front_end.MIN_GAIN_POINTS / max(len(points), 1))
     min_score = max(usual_score - front_end.SLIP_LOSS, score + min_gain)
     half_m, half_rad = min(REFUSED_SIGMAS * sigma[:2].max(), MAX_HALF_M), min(REFUSED_SIGMAS * sigma[2], np.pi)
-    best = match(grid, [points], SearchWindows(stated, half_m, half_rad, np.radians(1.0)), min_score=min_score)
-    if not best.has_pose[0, 0]:
+    matches = match(grid, [points], SearchWindows(stated, half_m, half_rad, np.radians(1.0)), min_score=min_score)
+    if not matches.has_pose[0, 0]:
         return False
-    pose = best.poses[0, 0]
+    pose = matches.poses[0, 0]
     error = wrap_yaw(pose - stated[0])
-    allowed = error @ information @ error < REFUSED_SIGMAS**2
-    return bool(allowed and not are_within(between(step, pose), LEAP_M, LEAP_RAD))
+    is_allowed = error @ information @ error < REFUSED_SIGMAS**2
+    return bool(is_allowed and not are_within(between(step, pose), LEAP_M, LEAP_RAD))
 
 
 def poses_between_keys(track_poses: Floats, keys: Indices, key_poses: Floats, broken: Mask | None = None) -> Floats:

@@ -160,8 +160,8 @@ def _range_changes_m(scans: Scans, first: int, second: int) -> Floats:
         order = np.argsort(first_angles, kind="stable")
         middles = 0.5 * (first_angles[order][1:] + first_angles[order][:-1])
         first_ranges = first_ranges[order][np.searchsorted(middles, angles)]
-    hit = np.isfinite(ranges) & np.isfinite(first_ranges)
-    return np.abs(ranges[hit] - first_ranges[hit])
+    is_hit = np.isfinite(ranges) & np.isfinite(first_ranges)
+    return np.abs(ranges[is_hit] - first_ranges[is_hit])
 
 
 def agreement(scans: Scans) -> float | None:

@@ -162,18 +162,18 @@ def _candidate_pairs(
     earlier, later = np.nonzero(path_m[places][:, None] < path_m[places] - MIN_LOOP_M)
     earlier, later = places[earlier], places[later]
     distance_m = np.hypot(*(poses[earlier, :2] - poses[later, :2]).T)
-    near = distance_m < search.max_half_m + view_m
+    is_near = distance_m < search.max_half_m + view_m
     if within_segments:
-        near &= path.segments[earlier] == path.segments[later]
-    earlier, later, distance_m = earlier[near], later[near], distance_m[near]
+        is_near &= path.segments[earlier] == path.segments[later]
+    earlier, later, distance_m = earlier[is_near], later[is_near], distance_m[is_near]
     if not len(earlier):
         return earlier, later, np.empty((0, 3))
     # Three neighbouring places share one covariance, which saves solves.
-    nearby = places[3 * (np.searchsorted(places, later) // 3)]
-    covariance = relative_covariances(precision, poses, earlier, nearby)
+    shared_places = places[3 * (np.searchsorted(places, later) // 3)]
+    covariance = relative_covariances(precision, poses, earlier, shared_places)
     sigma = np.sqrt(np.maximum(np.diagonal(covariance, axis1=1, axis2=2), 0.0))
-    near = distance_m < np.minimum(WINDOW_SIGMAS * sigma[:, :2].max(axis=1), search.max_half_m) + view_m
-    earlier, later, distance_m, sigma = earlier[near], later[near], distance_m[near], sigma[near]
+    is_near = distance_m < np.minimum(WINDOW_SIGMAS * sigma[:, :2].max(axis=1), search.max_half_m) + view_m
+    earlier, later, distance_m, sigma = earlier[is_near], later[is_near], distance_m[is_near], sigma[is_near]
     # Two costs of a pair: the difference of poses, and, since scans may face each other, the distance of their views.
     pose_cost = distance_m + 0.7 * np.abs(wrap_yaw(poses[earlier] - poses[later])[:, 2])
     middles = _view_middles(path)
@@ -184,8 +184,8 @@ def _candidate_pairs(
     for group in np.split(order, np.nonzero(np.diff(later[order]))[0] + 1) if len(order) else []:
         visits = np.split(group, np.nonzero(np.diff(path_m[earlier[group]]) > VISIT_GAP_M)[0] + 1)
         for cost in (pose_cost, view_cost):
-            best = sorted((float(cost[visit].min()), int(visit[np.argmin(cost[visit])])) for visit in visits)
-            selected += [pair for _, pair in best[: search.visits]]
+            cheapest = sorted((float(cost[visit].min()), int(visit[np.argmin(cost[visit])])) for visit in visits)
+            selected += [pair for _, pair in cheapest[: search.visits]]
     pairs = np.unique(np.array(selected, dtype=np.intp))
     return earlier[pairs], later[pairs], sigma[pairs]
 
@@ -204,9 +204,9 @@ def _agree_with_graph(closures: Closures, path: KeyPath, precision: Precision, m
     """Return a mask of closures within ``max_sigmas`` standard deviations of the graph's relative pose, (M,)."""
     if not len(closures):
         return np.zeros(0, np.bool_)
-    off = wrap_yaw(closures.relative - between(path.poses[closures.first], path.poses[closures.second]))
+    deviation = wrap_yaw(closures.relative - between(path.poses[closures.first], path.poses[closures.second]))
     covariance = relative_covariances(precision, path.poses, closures.first, closures.second) + np.diag(BEND_SIGMA**2)
-    squares = np.einsum("mi,mij,mj->m", off, np.linalg.inv(covariance), off)
+    squares = np.einsum("mi,mij,mj->m", deviation, np.linalg.inv(covariance), deviation)
     return np.asarray(squares < max_sigmas**2)
 
 
@@ -215,14 +215,14 @@ def select_supported(closures: Closures, path: KeyPath) -> Closures:
     # Pair closures whose ends are less than 5 m apart along the path.
     first_m, second_m = path.path_m[closures.first], path.path_m[closures.second]
     first_apart_m, second_apart_m = np.abs(first_m[:, None] - first_m), np.abs(second_m[:, None] - second_m)
-    other_end = closures.second[:, None] != closures.second
-    distinct = other_end | (closures.first[:, None] != closures.first)
-    a, b = np.nonzero((first_apart_m < 5.0) & (second_apart_m < 5.0) & distinct)
+    has_other_end = closures.second[:, None] != closures.second
+    is_distinct = has_other_end | (closures.first[:, None] != closures.first)
+    a, b = np.nonzero((first_apart_m < 5.0) & (second_apart_m < 5.0) & is_distinct)
     lengths_m, turns_rad = lengths_and_turns(closures.disagreements(path.poses, a, b))
     # The tolerance grows with the length of path between the ends.
     apart_m = first_apart_m[a, b] + second_apart_m[a, b]
-    agree = (lengths_m < 0.15 + 0.02 * apart_m) & (turns_rad < np.radians(2.0) + np.radians(0.3) * apart_m)
-    support = np.bincount(a[agree & other_end[a, b]], minlength=len(closures))
+    agrees = (lengths_m < 0.15 + 0.02 * apart_m) & (turns_rad < np.radians(2.0) + np.radians(0.3) * apart_m)
+    support = np.bincount(a[agrees & has_other_end[a, b]], minlength=len(closures))
     return replace(closures, support=support).select(support >= 2)
 
 
@@ -283,9 +283,9 @@ def _refine(path: KeyPath, first: Indices, second: Indices, start: Floats, score
     refined, laser_information, _ = refine_scans(path.geometry, refinement, convergence, path.geometry.threads)
     covariance = np.linalg.inv(laser_information + np.diag([1e-2, 1e-2, 1e-1])) + np.diag(MIN_CLOSURE_SIGMA**2)
     information = np.linalg.inv(covariance)
-    stayed = are_within(between(start, refined), MAX_SLIP_M, MAX_SLIP_RAD)
-    confirmed = stayed & _ends_agree(path, first, second, refined)
-    return Closures(first, second, refined, information, scores, np.zeros(len(first), np.intp)).select(confirmed)
+    has_stayed = are_within(between(start, refined), MAX_SLIP_M, MAX_SLIP_RAD)
+    is_confirmed = has_stayed & _ends_agree(path, first, second, refined)
+    return Closures(first, second, refined, information, scores, np.zeros(len(first), np.intp)).select(is_confirmed)
 
 
 def _ends_agree(path: KeyPath, first: Indices, second: Indices, relative: Floats) -> Mask:
@@ -305,5 +305,5 @@ def _ends_agree(path: KeyPath, first: Indices, second: Indices, relative: Floats
         path.geometry, path.scans(firsts), path.scans(seconds), across, VIEW_AGREEMENT, path.geometry.threads
     )
     matched, against, total = (np.bincount(closures, weights=column, minlength=len(first)) for column in counts.T)
-    decided = np.maximum(matched + against, 1.0)
-    return np.asarray((matched > MIN_MATCHED_SHARE * total) & (against < MAX_AGAINST_SHARE * decided))
+    n_compared = np.maximum(matched + against, 1.0)
+    return np.asarray((matched > MIN_MATCHED_SHARE * total) & (against < MAX_AGAINST_SHARE * n_compared))

@@ -52,8 +52,8 @@ def select_keys_by_odometry(log: Scans, *, no_odometry: bool) -> Scans:
         return log.select(slice(None, None, SCANS_PER_KEY))
     keys = [0]
     for scan, pose in enumerate(log.poses):
-        off = pose - log.poses[keys[-1]]
-        if np.hypot(off[0], off[1]) > KEY_DISTANCE_M or abs(wrap_angle(off[2])) > KEY_TURN_RAD:
+        since_key = pose - log.poses[keys[-1]]
+        if np.hypot(since_key[0], since_key[1]) > KEY_DISTANCE_M or abs(wrap_angle(since_key[2])) > KEY_TURN_RAD:
             keys.append(scan)
     return log.select(np.array(keys, np.intp))
 

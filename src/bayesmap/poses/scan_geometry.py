@@ -225,8 +225,8 @@ def _beam_of_angle(angles_rad: Floats, step_rad: float, bins: int) -> NDArray[np
         return np.full(bins, -1, dtype=np.int32)
     # Repeat the beams a turn before and after, so that bins next to -pi and pi have neighbours on both sides.
     middles = -np.pi + (np.arange(bins) + 0.5) * 2.0 * np.pi / bins
-    around = np.concatenate([angles_rad - 2.0 * np.pi, angles_rad, angles_rad + 2.0 * np.pi])
-    after = np.clip(np.searchsorted(around, middles), 1, len(around) - 1)
-    nearest = np.where(middles - around[after - 1] < around[after] - middles, after - 1, after)
-    is_far = np.abs(around[nearest] - middles) > 2.0 * step_rad
+    repeated_rad = np.concatenate([angles_rad - 2.0 * np.pi, angles_rad, angles_rad + 2.0 * np.pi])
+    above = np.clip(np.searchsorted(repeated_rad, middles), 1, len(repeated_rad) - 1)
+    nearest = np.where(middles - repeated_rad[above - 1] < repeated_rad[above] - middles, above - 1, above)
+    is_far = np.abs(repeated_rad[nearest] - middles) > 2.0 * step_rad
     return np.where(is_far, -1, nearest % len(angles_rad)).astype(np.int32)

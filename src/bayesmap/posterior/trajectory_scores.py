@@ -83,14 +83,14 @@ def relation_errors(stamps_s: Floats, poses: Floats, relations: Relations, *, ex
     if (np.diff(stamps_s) < 0).any():
         raise BadInput("relations: the trajectory's stamps must ascend; sort it by time")
     ends_s = relations.first_s, relations.second_s
-    within, has_poses = (np.ones(len(relations), dtype=np.bool_) for _ in range(2))
+    is_within, has_poses = (np.ones(len(relations), dtype=np.bool_) for _ in range(2))
     for end_s in ends_s:
-        within &= (end_s >= stamps_s[0] - STAMP_TOLERANCE_S) & (end_s <= stamps_s[-1] + STAMP_TOLERANCE_S)
+        is_within &= (end_s >= stamps_s[0] - STAMP_TOLERANCE_S) & (end_s <= stamps_s[-1] + STAMP_TOLERANCE_S)
         earlier_s, later_s = (stamps_s[index] for index in arrays.bracketing_indices(stamps_s, end_s))
         at_pose = np.minimum(np.abs(end_s - later_s), np.abs(end_s - earlier_s)) <= STAMP_TOLERANCE_S
         has_poses &= at_pose if exact else at_pose | (later_s - earlier_s <= MAX_INTERPOLATED_S + STAMP_TOLERANCE_S)
-    covered = within & has_poses
-    if not within.any():
+    covered = is_within & has_poses
+    if not is_within.any():
         raise BadInput(
             f"relations: none of the {len(relations):,} relations lies within the trajectory's time, "
             f"{stamp_words(stamps_s[0])} to {stamp_words(stamps_s[-1])}; are the stamps of one clock?"
@@ -98,11 +98,11 @@ def relation_errors(stamps_s: Floats, poses: Floats, relations: Relations, *, ex
     if not covered.any():
         needed = "at a pose" if exact else f"at a pose, or between two at most {MAX_INTERPOLATED_S:g} s apart"
         raise BadInput(
-            f"relations: none of the {within.sum():,} relations within the trajectory's time has both of its times "
+            f"relations: none of the {is_within.sum():,} relations within the trajectory's time has both of its times "
             f"{needed}; its poses are {np.median(np.diff(stamps_s)):.3g} s apart at the median: give one with more"
         )
     first, second = (interpolate(stamps_s, poses, end_s[covered]) for end_s in ends_s)
-    return RelationErrors(between(relations.relative[covered], between(first, second)), covered, within & ~covered)
+    return RelationErrors(between(relations.relative[covered], between(first, second)), covered, is_within & ~covered)
 
 
 @dataclass(frozen=True, eq=False)

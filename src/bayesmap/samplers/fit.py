@@ -151,23 +151,23 @@ def select_stops(state: StopState, beams: slice) -> DrawnStops:
 
 def refit_sensor(sensor: BeamMixture, stops: DrawnStops, limits: RangeLimits, step_size: float) -> BeamMixture:
     """Move the sensor by the share ``step_size`` of the way to the likeliest for the readings, given the stops."""
-    hit, no_return = np.isfinite(stops.range_m), np.isposinf(stops.range_m)
-    wall = hit & stops.stopped
+    is_hit, no_return = np.isfinite(stops.range_m), np.isposinf(stops.range_m)
+    wall = is_hit & stops.stopped
     p_model, rate = 1.0 - sensor.p_random, sensor.rate_short_per_m
     # Expectation: probabilities that a reading is random, a passing object, or a return of the wall.
     wall_m = np.where(stops.stopped, np.minimum(stops.distance_m, limits.max_m), limits.max_m)
-    reading_m = np.where(hit, stops.range_m, 0.0)
-    random = np.where(hit, sensor.p_random / (limits.max_m - limits.min_m), 0.0)
+    reading_m = np.where(is_hit, stops.range_m, 0.0)
+    random = np.where(is_hit, sensor.p_random / (limits.max_m - limits.min_m), 0.0)
     short = p_model * sensor.p_short * rate * np.exp(-rate * np.maximum(reading_m, 0.0))
-    short = np.where(hit & (reading_m < wall_m), short, 0.0)
+    short = np.where(is_hit & (reading_m < wall_m), short, 0.0)
     scale_m = np.sqrt(sensor.noise.scale_at(wall_m) ** 2 + stops.variance)
     noise = np.exp(sensor.noise.log_density(np.where(wall, reading_m - wall_m, 0.0) / scale_m))
     unblocked = sensor.unblocked(wall_m)
     returned = np.where(wall, p_model * unblocked * (1 - sensor.p_no_return) * noise / scale_m, 0.0)
-    density = np.where(hit, random + short + returned, 1.0)
+    density = np.where(is_hit, random + short + returned, 1.0)
     by_chance, by_object, by_wall = random / density, short / density, returned / density
     # Maximisation: random readings, and missed walls.
-    p_random = _smoothed_share(by_chance.sum(), float((hit | no_return).sum()), sensor.p_random)
+    p_random = _smoothed_share(by_chance.sum(), float((is_hit | no_return).sum()), sensor.p_random)
     # A stop within range without a return was missed, or its reading lay out of range.
     in_range = stops.stopped & (stops.distance_m <= limits.max_m)
     out_of_range = (1.0 - sensor.p_no_return) * sensor.noise.tail((limits.max_m - wall_m) / scale_m)
@@ -175,7 +175,7 @@ def refit_sensor(sensor: BeamMixture, stops: DrawnStops, limits: RangeLimits, st
     n_missed = float((no_return & in_range) @ share_missed)
     p_no_return = _smoothed_share(n_missed, n_missed + by_wall.sum(), sensor.p_no_return)
     # Passing objects may also be behind the end of the beam, unobserved.
-    unblocked_beams = np.where(hit, by_wall, no_return * 1.0)
+    unblocked_beams = np.where(is_hit, by_wall, no_return * 1.0)
     behind = unblocked_beams * sensor.p_short * np.exp(-rate * wall_m) / unblocked
     # Objects too close to be measured are unobserved as well: this many per object further away.
     too_close = math.expm1(rate * limits.min_m)

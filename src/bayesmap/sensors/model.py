@@ -75,9 +75,9 @@ class SensorModel(ABC):
         """
         z, d, s = np.broadcast_arrays(range_m, distance_m, spread_m)
         out = np.asarray(self.log_likelihood(z, d, limits), dtype=np.float64).copy()
-        wide = (s > 0) & np.isfinite(d)
-        if wide.any():
-            out[wide] = _mean_over_stops(self, z[wide], d[wide], s[wide], limits)
+        is_wide = (s > 0) & np.isfinite(d)
+        if is_wide.any():
+            out[is_wide] = _mean_over_stops(self, z[is_wide], d[is_wide], s[is_wide], limits)
         return out
 
     def cumulative(self, range_m: Floats, distance_m: Floats, limits: RangeLimits, spread_m: float = 0.0) -> Floats:
@@ -264,7 +264,7 @@ def _check_scale(model: str, name: str, scale_m: float, per_m: float) -> None:
 
 
 FLAT_NATS = 1e-4  # most nats that the noise may add to the log-likelihood past the end of a beam in the table
-BISECTIONS = 16  # number in `BeamMixture.reach_m`: accurate to 1/65536 of the sensor's range, and rounded up
+BISECTIONS = 16  # bisections in `BeamMixture.reach_m`: accurate to 1/65536 of the sensor's range, and rounded up
 LOG_IMPOSSIBLE = -30.0  # least log-likelihood of a reading, so that no single beam makes a map impossible
 
 
@@ -313,8 +313,8 @@ class BeamMixture(SensorModel):
         """Return the log-likelihood with the noise widened to ``sqrt(scale(d)^2 + spread^2)``."""
         z, d, s = np.broadcast_arrays(range_m, distance_m, spread_m)
         p = np.ones(z.shape)  # the likelihood of an invalid reading is 1
-        hit, no_return, too_close = np.isfinite(z), np.isposinf(z), np.isneginf(z)
-        p[hit] = self._p_hit(z[hit], d[hit], s[hit], limits)
+        is_hit, no_return, too_close = np.isfinite(z), np.isposinf(z), np.isneginf(z)
+        p[is_hit] = self._p_hit(z[is_hit], d[is_hit], s[is_hit], limits)
         p[no_return] = self._p_no_return(d[no_return], s[no_return], limits)
         p[too_close] = self._p_too_close(d[too_close], s[too_close], limits)
         with np.errstate(divide="ignore"):

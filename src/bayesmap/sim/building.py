@@ -283,8 +283,8 @@ class _Construction:
     def add_doors(self, room: Space) -> None:
         """Cut a door to the corridor near a corner, two for wide rooms; put glass along the lobby and some rooms."""
         side = int(self.rng.choice(room.corridors))
-        wide = room.width * self.resolution > WIDE_ROOM_M
-        corners = [True, False] if wide else [bool(self.rng.random() < 0.5)]
+        is_wide = room.width * self.resolution > WIDE_ROOM_M
+        corners = [True, False] if is_wide else [bool(self.rng.random() < 0.5)]
         if room.kind == "lobby" or (room.kind in ("meeting", "open plan") and self.rng.random() < 0.6):
             y0, y1 = self.wall_rows(room, side)
             frame = self.cells(0.2)
@@ -294,8 +294,8 @@ class _Construction:
 
     def add_door(self, room: Space, side: int, *, left: bool) -> None:
         """Cut a door near the left or right corner, keep the floor before it free, and add an open leaf to most."""
-        wide = room.kind in ("lobby", "open plan") and room.width * self.resolution > 4
-        opening = self.cells(WIDE_DOOR_M if wide else DOOR_M)
+        is_wide = room.kind in ("lobby", "open plan") and room.width * self.resolution > 4
+        opening = self.cells(WIDE_DOOR_M if is_wide else DOOR_M)
         opening += 1 - opening % 2  # odd, so that the middle of a cell is the middle of the door
         offset = self.cells(float(self.rng.uniform(0.2, 0.45)))
         x0 = room.x0 + offset if left else room.x1 - offset - opening
@@ -304,7 +304,7 @@ class _Construction:
         self.glass[x0 : x0 + opening, y0:y1] = False
         clear, beside = self.cells(DOOR_CLEAR_M), self.cells(0.1)
         self.keep_free[x0 - beside : x0 + opening + beside, y0 - clear : y1 + clear] = True
-        if not wide and self.rng.random() < 0.6:
+        if not is_wide and self.rng.random() < 0.6:
             # The leaf stands open at a right angle, with its hinge nearer to the side wall.
             hinge = x0 - 1 if left else x0 + opening
             leaf = slice(y0 - opening, y0) if side > 0 else slice(y1, y1 + opening)

@@ -267,11 +267,11 @@ def as_user_poses(caller: str, poses: ArrayLike) -> Floats:
     Headings in radians may add up along a path, so that only a change by over two turns at once is refused.
     """
     array = as_poses(poses)
-    wrong = np.flatnonzero(np.abs(np.diff(array[:, 2], prepend=0.0)) > 4 * math.pi)
-    if len(wrong):
+    too_far = np.flatnonzero(np.abs(np.diff(array[:, 2], prepend=0.0)) > 4 * math.pi)
+    if len(too_far):
         raise BadInput(
-            f"{caller}: heading of pose {wrong[0]} is {array[wrong[0], 2]:g} radians, two turns or more away; headings "
-            "must be in radians: are these degrees?"
+            f"{caller}: heading of pose {too_far[0]} is {array[too_far[0], 2]:g} radians, two turns or more away; "
+            "headings must be in radians: are these degrees?"
         )
     return array
 

@@ -140,8 +140,8 @@ class Trajectory:
         poses, inside = self.at(at_s)
         assert self.stamps_s is not None
         before, after = self.stamps_s[list(bracketing_indices(self.stamps_s, at_s))]
-        near = np.minimum(np.abs(at_s - before), np.abs(at_s - after)) <= SLACK_S
-        return poses, inside, near | (after - before <= MAX_INTERPOLATED_S + SLACK_S)
+        is_near = np.minimum(np.abs(at_s - before), np.abs(at_s - after)) <= SLACK_S
+        return poses, inside, is_near | (after - before <= MAX_INTERPOLATED_S + SLACK_S)
 
     def of(self, frame: str | None, mount: Floats | None) -> "Trajectory":
         """Return the trajectory of the frame "base" or "laser"; ``mount`` is the laser's pose on the base, (3,).

@@ -129,10 +129,10 @@ def neighbour_distance(scene: ScanArrays, scan: int, beam: int) -> float:
     nearest = float(2.0)
     point = scene.points[scan, beam]
     for side in range(2):
-        beside = neighbour(beam, 2 * side - 1, beams, scene.full_circle[scan])
-        if beside >= 0:
-            if scene.kind[scan, beside] != scenes.NO_POINT:
-                nearest = wp.min(nearest, wp.length(scene.points[scan, beside] - point))
+        nearby = neighbour(beam, 2 * side - 1, beams, scene.full_circle[scan])
+        if nearby >= 0:
+            if scene.kind[scan, nearby] != scenes.NO_POINT:
+                nearest = wp.min(nearest, wp.length(scene.points[scan, nearby] - point))
     return wp.max(nearest, 0.1)
 
 
@@ -348,9 +348,9 @@ def compare_views(
         beyond = wp.length(point) + clear
         through = int(0)
         for step in range(-1, 2):
-            beside = neighbour(middle, step, scene.beams[other], scene.full_circle[other])
-            if beside >= 0:
-                if scene.kind[other, beside] != scenes.NO_POINT and wp.length(scene.points[other, beside]) > beyond:
+            nearby = neighbour(middle, step, scene.beams[other], scene.full_circle[other])
+            if nearby >= 0:
+                if scene.kind[other, nearby] != scenes.NO_POINT and wp.length(scene.points[other, nearby]) > beyond:
                     through += 1
         if through == 3:
             against += 1
