@@ -27,10 +27,8 @@ Float64s, Uint8s = wp.array(dtype=wp.float64), wp.array(dtype=wp.uint8)
 Vec2ds, Vec3ds = wp.array(dtype=wp.vec2d), wp.array(dtype=wp.vec3d)
 Int32Rows, Float32Rows = wp.array2d(dtype=wp.int32), wp.array2d(dtype=wp.float32)
 Float64Rows, Uint8Rows = wp.array2d(dtype=wp.float64), wp.array2d(dtype=wp.uint8)
-
 ZERO, HALF, ONE = (wp.constant(wp.float64(x)) for x in (0.0, 0.5, 1.0))
 ZERO_32, ONE_32 = (wp.constant(wp.float32(x)) for x in (0.0, 1.0))
-
 _START_LOCK = threading.Lock()
 MIN_THREADED_BEAMS = 1_000  # fewer beams than this are traced before a second thread has started, which takes 0.2 ms
 

@@ -26,7 +26,6 @@ MAX_FRACTION_STEPS = wp.constant(400)  # most steps of the continued fraction; i
 TINY = wp.constant(wp.float64(1.0e-300))  # replaces zero in Lentz's method
 FRACTION_TOLERANCE = wp.constant(wp.float64(1.0e-14))  # relative change at which the continued fraction ends
 MAX_POWER = 16  # largest whole power computed by multiplication; a Student-t of more degrees is nearly normal
-
 FAR_SQ = wp.constant(wp.float64(81.0))  # squared standard distance past which normal noise adds nothing
 MIN_PROBABILITY = wp.constant(wp.float64(math.exp(LOG_IMPOSSIBLE)))  # least probability of a typed reading
 CERTAIN_TAIL = 1e-10  # probability of noise that cumulative probabilities leave out

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from bayesmap.space.grid import Grid
 
 MIN_SURE_PROBABILITY = 0.99  # probability of the likeliest mode below which every scan is searched for in the whole map
-MAX_SURE_P_LOST = 0.5  # probability of being lost above which every scan is searched for in the whole map, too
+SURE_P_LOST = 0.5  # probability of being lost above which every scan is searched for in the whole map, too
 MIN_MAP_PROBABILITY = 1e-3  # least probability of the map's area under a prior
 TURN_M = 0.5  # length of path with as much new evidence as a turn by one radian, metres
 MIN_NEW_SHARE = 0.02  # least share of new evidence, and of `P_GETS_LOST` and `P_FOUND`: for a robot that stands still
@@ -175,7 +175,8 @@ def follow(
     odometry: Odometry | None = None, *, independent: bool = False, seed: int = 0,
 ) -> Iterator[PoseBelief]:  # fmt: skip
     """Yield the posterior of each scan before the next scan is read. The arguments are those of `localize`."""
-    odometry, trust = Odometry() if odometry is None else odometry, known_map.trust
+    odometry = Odometry() if odometry is None else odometry
+    trust = known_map.trust
     _check_arguments(known_map, prior, odometry)
     rng = np.random.default_rng(check_count("localize", "seed", seed, 0))
     p_missed = 0.0 if known_map.reference_fit is None else known_map.reference_fit.missed
@@ -199,9 +200,7 @@ def follow(
                 new_share = max(MIN_NEW_SHARE, path_m / trust.shared_path_m)
             pose_prior = predict(belief, motion, odometry.sigmas(motion), trust, path_m, new_share)
         # Search the whole map if the pose is uncertain, or after a long path.
-        is_unsure = (
-            belief is None or belief.p_lost > MAX_SURE_P_LOST or belief.modes[0].probability < MIN_SURE_PROBABILITY
-        )
+        is_unsure = belief is None or belief.p_lost > SURE_P_LOST or belief.modes[0].probability < MIN_SURE_PROBABILITY
         search_all = independent or is_unsure or since_search_m >= trust.search_path_m
         if search_all:
             since_search_m = 0.0

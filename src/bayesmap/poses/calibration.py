@@ -185,7 +185,8 @@ def _fit_rates(errors: Floats, features: Floats, known_variance: Floats, usual: 
     """
     from scipy.optimize import minimize
 
-    data, bounds = (errors**2 + known_variance, features, usual), [(-MAX_LOG, MAX_LOG)] * 3
+    data = (errors**2 + known_variance, features, usual)
+    bounds = [(-MAX_LOG, MAX_LOG)] * 3
     optimum = minimize(_rate_cost, np.zeros(3), data, jac=True, method="L-BFGS-B", bounds=bounds)
     return np.asarray(usual * np.exp(optimum.x))
 
@@ -315,7 +316,8 @@ def angle_step_ratio(
     first, second = ends.reshape(2, -1).astype(np.int32)
     # Compute the residual of each pair with beams stretched by each factor.
     factors = 1.0 + np.linspace(-MAX_STRETCH, MAX_STRETCH, 11)
-    selected, values = scans.select(used), np.empty((len(factors), len(pairs)))
+    selected = scans.select(used)
+    values = np.empty((len(factors), len(pairs)))
     for k, factor in enumerate(factors.tolist()):
         geometry = scan_geometry(selected.stretched(factor), farthest_m=farthest_m, threads=threads)
         # Beams are stretched from the first one. Turn the pose back, so that the middle beam keeps its direction.

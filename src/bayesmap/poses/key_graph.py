@@ -76,7 +76,9 @@ def close_loops(
     """
     keys, poses = track.keys, track.poses[track.keys]
     half_width_m = grid_half_width(geometry)
-    path, rounds, joined = key_path(geometry, keys, poses, track.broken[keys]), ROUNDS, np.ones(1, np.bool_)
+    path = key_path(geometry, keys, poses, track.broken[keys])
+    rounds = ROUNDS
+    joined = np.ones(1, np.bool_)  # mask of segments joined to an earlier one
     if path.segments.any():
         # Loops within a segment first: segments bent by metres fit each other at several relative poses.
         weighed, _ = _close_in_rounds(path, chain_links(track, poses), ROUNDS[:2], half_width_m, within_segments=True)
@@ -189,7 +191,8 @@ def weigh_visits(poses: Floats, weights: Floats, chain: Factors, loops: Factors,
     ``poses`` and ``weights`` solve the graph of chain and loops. ``path_m`` are distances along the path, (K,).
     """
     # Compute the prior log odds of each visit by the number of its places.
-    visit, removed = label_visits(loops, poses, path_m), np.zeros(len(loops), np.bool_)
+    visit = label_visits(loops, poses, path_m)
+    removed = np.zeros(len(loops), np.bool_)
     prior_log_odds = np.zeros(int(visit.max(initial=-1)) + 1)
     for number in range(len(prior_log_odds)):
         span_m = min(np.ptp(path_m[ends[visit == number]]) for ends in (loops.first, loops.second))
@@ -304,17 +307,20 @@ def unconfirmed_links(geometry: ScanGeometry, track: Track, odometry: Factors, p
     * The step leads over a break of the path, and is far from the front end's step, although that one fitted as usual.
     """
     # Select the steps of the first two cases.
-    keys, usual_score, unbroken = track.keys, float(np.median(track.scores)), ~track.broken[track.keys[1:]]
+    keys, unbroken = track.keys, ~track.broken[track.keys[1:]]
+    usual_score = float(np.median(track.scores))
     is_refused = unbroken & (odometry.squares(poses) > REFUSED_SIGMAS**2)
     is_poor = unbroken & (track.scores[keys[1:]] < usual_score - MAX_CONFIRMED_LOSS)
     is_doubtful = is_refused & contradicted_links(track, poses, REFUSED_LEAP_SIGMAS)
-    half_width_m, grid = grid_half_width(geometry), None
+    half_width_m = grid_half_width(geometry)
+    grid = None
     for k in np.nonzero((is_refused | is_poor) & ~is_doubtful)[0]:
         # Score the next key scan on the grid of the key scans before, in the frame of the last of them.
         window = np.arange(max(0, int(k) + 1 - WINDOW_KEYS), int(k) + 1)
         relative = between(poses[k], poses[window])
         grid = likelihood_grids(geometry, [keys[window]], [relative], np.zeros(2), half_width_m, reuse=grid)
-        points, step = geometry.points_of(int(keys[k + 1]), front_end.MAX_POINTS), between(poses[k], poses[k + 1])
+        points = geometry.points_of(int(keys[k + 1]), front_end.MAX_POINTS)
+        step = between(poses[k], poses[k + 1])
         score = float(score_at(grid, 0, points, step)[0])
         is_doubtful[k] = score < usual_score - MAX_CONFIRMED_LOSS and (
             is_refused[k] or _fits_elsewhere(grid, points, step, score, usual_score, odometry.select(np.array([k])))

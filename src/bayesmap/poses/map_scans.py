@@ -22,7 +22,6 @@ MIN_STEP_RAD = np.radians(1.0)  # angle between beams that are used then
 ENOUGH_HITS = 20  # a cell with fewer hits counts as new
 MIN_NEW_SHARE = 0.2  # a scan is left out if a smaller share of its hits is in new cells
 SCANS_PER_KEY = 7  # scans for each key scan at 10 Hz and half a metre a second: 3000 scans had 426 key scans
-
 P_SLIP = 0.01
 """Probability that odometry is no evidence of a motion. In the Intel log eight motions of 891 are off by 200 to 350
 standard deviations, since a pose is repeated while the robot turns by 30 degrees. A normal law alone would turn the

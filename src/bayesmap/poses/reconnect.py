@@ -130,7 +130,8 @@ def _merge_segments(path: KeyPath, matches: Closures, min_places: int) -> KeyPat
 
     The key scans of an island have the number of its first segment, and poses in that segment's frame.
     """
-    islands, max_rival_share = path, MAX_RIVAL_SHARE if min_places == MIN_PLACES else MAX_RIVAL_SHARE_EARLIER
+    islands = path
+    max_rival_share = MAX_RIVAL_SHARE if min_places == MIN_PLACES else MAX_RIVAL_SHARE_EARLIER
     while True:
         merge = _select_merge(_propose_merges(matches, islands, min_places), islands, max_rival_share)
         if merge is None:

@@ -41,7 +41,6 @@ Progress = Callable[[str, int, int], None]  # called as (stage, done, total)
 OnPoses = Callable[[str, Floats], None]  # called as (stage, poses of all scans)
 Arrays = dict[str, NDArray[Any]]
 Stage = TypeVar("Stage")  # the result of a stage: a dataclass of arrays
-
 MAX_POSE_REPORTS = 60  # reports of poses during the front end
 CHECKPOINT_FORMAT = 4  # part of the name of a checkpoint; another number makes older checkpoints unused
 MAX_HIT_M = 30.0  # hits beyond are not matched: there beams are half a metre apart and more

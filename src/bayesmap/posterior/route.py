@@ -25,7 +25,6 @@ from bayesmap.space.grid import Grid
 
 MIN_OBSTACLE = 0.1  # least stop probability of an obstacle; cells with less count as free, as in maps for navigation
 REACH_CELLS = 2.5  # greatest distance of any part of a surface from its cell's centre, in edges of a cell
-
 PROBE_SIGMAS = np.array([-2.0, -1.0, 0.0, 1.0, 2.0])  # points on the long axis from which distances are computed
 PRICES = (0.0, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 1000.0)
 """Metres of detour that avoid one metre at which the disc is blocked with probability 1 - 1 / e."""

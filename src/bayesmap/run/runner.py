@@ -34,7 +34,6 @@ MAX_STEP_GROWTH = 16  # largest ratio of the sweeps of a step to the sweeps of t
 MAX_BUFFER_BYTES = 64 << 20  # size of the draws of one step
 MAX_CHECKPOINT_SHARE = 0.05  # largest share of the time that checkpoints may take
 FIRST_MAP_SWEEPS = FIRST_FIT_SWEEP  # sweeps of the pilot: its walls are in place but still thick, and a fit can go on
-
 OnCheckpoint = Callable[[Chains], None] | None  # saves the chains so far
 
 
@@ -158,7 +157,8 @@ def advance_chains(
     (`STEP_SECONDS` if None), keeps at most ``max_kept`` draws, and ends at each number of sweeps in ``stops``.
     """
     seconds = STEP_SECONDS if step_seconds is None else step_seconds
-    per_sweep_s, max_sweeps = SECONDS_PER_INCIDENCE * state.problem.n_incidences, MAX_FIRST_STEP_SWEEPS
+    per_sweep_s = SECONDS_PER_INCIDENCE * state.problem.n_incidences
+    max_sweeps = MAX_FIRST_STEP_SWEEPS
     while state.sweep < until:
         # Limit the sweeps of this step by the measured speed, by the next stop, and by the memory for draws.
         affordable = seconds / per_sweep_s if per_sweep_s > 0 else max_sweeps

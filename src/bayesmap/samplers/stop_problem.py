@@ -35,7 +35,6 @@ ALONG_WALL_SIGMAS = 1.5  # first standard deviation of a surface along its wall,
 INSIDE_SHARE = 0.98  # share of a cell's edge within which means start
 MAX_PRIOR_SURFACES = 1 << 16  # most surfaces drawn from the prior; on larger grids cells share surfaces
 LABEL_SWEEPS = 30  # sweeps of the first labels
-
 # Sizes of Metropolis steps: with these, a third to a half of the steps are accepted.
 STEP_LOGIT = 1.0  # step of the reflectivity's logit, in its standard deviations given the counts
 STEP_ALONG_CELLS = 0.25  # step of the mean along the wall, in edges of a cell

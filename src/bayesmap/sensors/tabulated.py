@@ -24,7 +24,6 @@ from bayesmap.space.arrays import Floats, Singles
 DISTANCES, SPREADS, OFFSETS = 33, 8, 193  # nodes of the density of a range
 TYPED_DISTANCES = 513  # nodes of the distance for typed readings
 NOWHERE_RANGES = 4097  # nodes of the range of a beam that stops nowhere
-
 MAX_SPREAD_SCALES = 63.0  # the largest spread, in scales: larger spreads are clipped to it
 MIN_LOG_DENSITY = -1e6  # least log density at a node, in nats: minus infinity cannot be interpolated
 SAMPLES = 512  # samples per distance for the scale

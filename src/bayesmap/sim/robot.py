@@ -144,8 +144,8 @@ class _Lattice:
         if not stops:
             return self.points_m[:1]
         cost, before = csgraph.dijkstra(self.graph, directed=False, indices=stops, return_predecessors=True)
-        remaining, current = set(range(1, len(stops))), 0
-        nodes = [stops[0]]
+        remaining = set(range(1, len(stops)))
+        current, nodes = 0, [stops[0]]
         while remaining:
             nearest = min(remaining, key=lambda stop: cost[current, stops[stop]])
             # Follow the predecessors back from the next stop to the current one.

@@ -27,7 +27,6 @@ wp.set_module_options({"enable_backward": False})
 OUT_OF_VIEW = wp.constant(-2)  # result of `nearest_point` if no beam points towards the point
 MAX_SIDE_BEAMS = wp.constant(25)  # most beams searched to either side
 MAX_SPACING_M = wp.constant(0.15)  # points of less dense surfaces, such as walls that beams graze, fix no pose
-
 # Numbers of a `Totals`: sums over the pairs of points. COST and WEIGHT are of pairs with normals. MATCHED is the number
 # of pairs, SEEN that of points between the beams of the target, within its range. FORCE_SQ sums the squared weighted
 # residuals; a point's own weight enters once.

@@ -41,7 +41,6 @@ mean x and y in metres from the grid's lower left corner, and Cholesky factor l1
 
 
 MIN_STOP_CHANCE = 2e-3  # cells with less count as empty in fast weighing unless near the reading: all poses lose alike
-
 # A beam is followed until its chance to get so far is below this. The limit is lower for noise alone, under which an
 # unlikely stop may be the only one that explains a reading; the mixture has a floor.
 MIN_SURVIVAL = wp.constant(wp.float64(1.0e-30))

@@ -24,7 +24,6 @@ from bayesmap.kernels.surfaces.surface import REFLECTIVITY, Ray, cross_surface, 
 from bayesmap.sensors.model import RangeLimits, SensorModel
 
 wp.set_module_options({"enable_backward": False})
-
 # Distance from a reading within which the position of the stop matters: noise scales plus cells.
 MARGIN_SCALES = wp.constant(wp.float32(6.0))
 MARGIN_CELLS = wp.constant(wp.float32(4.0))  # a surface is smaller than its cell

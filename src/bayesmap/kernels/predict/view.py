@@ -25,7 +25,6 @@ from bayesmap.space.grid import Grid
 wp.set_module_options({"enable_backward": False})
 MIN_CHANCE = wp.constant(wp.float64(1.0e-6))  # smaller chances of getting to a cell, or of a stop there, are left out
 INTEGRATION_SIGMAS = wp.constant(wp.float64(4.0))  # standard deviations about a stop in which readings are integrated
-
 # Numbers of a cell: probability that it is occupied, and the information of a hit in it and of a pass, in nats.
 OCCUPIED, HIT_NATS, PASS_NATS = 0, 1, 2
 

@@ -34,18 +34,15 @@ NO_CANDIDATE = wp.constant(wp.float32(0.0))  # a cell that tries no candidate
 HAS_CANDIDATE = wp.constant(wp.float32(1.0))  # a cell that tries a candidate from the prior
 CANDIDATE_EVERY = wp.constant(4)  # updates per candidate of a cell in which no reading ends; others draw reflectivity
 RENEWAL_EVERY = wp.constant(3)  # sweeps between two surfaces from the prior in a silent cell
-
 # Random counters of one cell in one sweep, part CELLS; `square_counts` defines a further one.
 PER_CELL = wp.constant(wp.uint64(1024))
 AT_ACCEPT, AT_BETA, AT_CANDIDATE = (wp.constant(wp.uint64(i)) for i in (0, 32, 256))
 AT_RENEWAL_ACCEPT, AT_RENEWAL, AT_LABEL, AT_UNTOUCHED = (wp.constant(wp.uint64(i)) for i in (447, 448, 800, 832))
 SLICE = wp.constant(4096)  # numbers summed by one thread
-
 # Kinds of cells.
 UNTOUCHED = 0  # no beam touches it
 TOUCHED = 1  # some beams touch it
 ENDPOINT = 2  # readings end in it: `endpoint_cells` counts its beams
-
 # What a cell in which no reading ends does in a sweep.
 KEEPS, DRAWS, TRIES = 0, 1, 2  # it keeps its state, draws its reflectivity, or tries a candidate for its surface
 

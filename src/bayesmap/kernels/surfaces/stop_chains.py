@@ -156,16 +156,19 @@ class StopChains:
         `in_squares` counts them. The callbacks get the numbers of chain and sweep, ``after`` on the thread of the
         sweep. Returns log-likelihood and log prior of the cells *before* each sweep, (chains, count) each.
         """
-        changed, is_start = self._laws != (sensor, prior, beta), not self.has_swept
-        self._laws, self._state.beta = (sensor, prior, beta), beta
+        laws_changed = self._laws != (sensor, prior, beta)
+        is_start = not self.has_swept
         law = sensor_law(sensor, self.plan.rays.limits, self.device, SensorLaw32)
-        self._law, self._prior = law, pack_prior(prior)
-        if changed:
+        self._laws, self._law, self._prior = (sensor, prior, beta), law, pack_prior(prior)
+        self._state.beta = beta
+        if laws_changed:
             wp.launch(stops.compute_decays, dim=self.plan.rays.n_beams, inputs=[0, law, self._rays], device=self.device)
         sums = [wp.zeros((self.n_chains, count), dtype=wp.float64, device=self.device) for _ in range(2)]
         beams = {"rays": self._rays, "endpoints": self._endpoints}
         likelihood = devices.pack(StopLikelihood, self.device, law=law, beta=beta, **beams)
-        request = SweepRequest(first, count, steps, observe_from, before, after, likelihood, changed, is_start, *sums)
+        request = SweepRequest(
+            first, count, steps, observe_from, before, after, likelihood, laws_changed, is_start, *sums
+        )
         single_chains = [range(chain, chain + 1) for chain in range(self.n_chains)]
         if self.device != "cpu":
             self._sweep_alone(request, range(self.n_chains))
@@ -220,8 +223,9 @@ class StopChains:
     def _cell_launches(self, request: SweepRequest, sweep: int) -> list[Launch]:
         """Return the launches that draw the cells given the stops."""
         state, prior = self._state, self._prior
-        touched, endpoints = len(self.plan.rays.touched), 0 if self.without_surfaces else len(self.plan.endpoints)
-        label_sums, inputs = self._slices[2], [sweep, self._endpoints, state, self._lists]
+        touched, label_sums = len(self.plan.rays.touched), self._slices[2]
+        endpoints = 0 if self.without_surfaces else len(self.plan.endpoints)
+        inputs = [sweep, self._endpoints, state, self._lists]
         launches = [Launch(endpoint_cells.count_endpoint_cells, endpoints, inputs)]
         if prior.coupling > 0:  # cells of one colour of the checkerboard after those of the other
             launches.append(Launch(cell_draws.sum_label_prior, label_sums.shape[1], [prior, state, label_sums]))

@@ -45,7 +45,6 @@ NOT_COUNTED = wp.constant(-1)  # mark in `ChainArrays.last_met`: the cell has no
 NEGLIGIBLE_REFLECTIVITY = wp.constant(wp.float32(2.0**-26))  # largest m for which 1 - m is 1 in single precision
 MIN_DENSITY = wp.constant(wp.float64(1.0e-300))  # smaller densities of readings are raised to this
 MIN_RELATIVE_WEIGHT = wp.constant(wp.float32(2.0**-26))  # relative weight below single precision
-
 # First random counters of a sweep, one per purpose; the entry or beam is added.
 STREAM_CHOICE, STREAM_END, STREAM_FAR = (wp.constant(wp.uint64(i << 32)) for i in (1, 2, 3))
 MAX_WATCHED_PERIOD = 2  # longest update period of watched cells, in sweeps
