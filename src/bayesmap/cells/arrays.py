@@ -75,7 +75,7 @@ class ArraySpec:
         return np.asarray(values, dtype=self.dtype)
 
     def values(self, stored: NDArray[Any], shape: tuple[int, ...]) -> NDArray[Any]:
-        """Return stored values in their plain form; ``shape`` are the sizes of the dimensions."""
+        """Return stored values in their plain form. ``shape`` are the sizes of the dimensions."""
         return unpack(stored, shape) if self.storage == "bits" else stored
 
     def empty(self, chains: int, draws: int, shape: tuple[int, ...]) -> NDArray[Any]:

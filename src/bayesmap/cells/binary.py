@@ -80,7 +80,7 @@ class BinaryWalls(CellPrior):
         return np.broadcast_to(p, grid.shape)
 
     def _logit(self, grid: Grid) -> Floats:
-        """Return the log-odds of a wall in every cell at a balance of 0, (nx, ny); infinite in fixed cells."""
+        """Return the log-odds of a wall in every cell at a balance of 0, (nx, ny). They are infinite in fixed cells."""
         p = self.probabilities(grid)
         with np.errstate(divide="ignore"):
             return np.asarray(np.log(p) - np.log1p(-p))
@@ -90,7 +90,7 @@ class BinaryWalls(CellPrior):
         return float(self._logit(grid)[site]) + self.pair_coupling * balance_at(walls, site)
 
     def log_prob(self, cells: Cells | Mask, grid: Grid) -> float:
-        """Compute log p(walls), in nats; ``cells`` may be a map of walls."""
+        """Compute log p(walls), in nats. ``cells`` may be a map of walls."""
         walls = cells["walls"] if isinstance(cells, Mapping) else cells
         p = self.probabilities(grid)
         with np.errstate(divide="ignore"):

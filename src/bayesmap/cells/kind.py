@@ -102,7 +102,7 @@ class CellPrior(ABC):
         """Return the stops of all cells as `bayesmap.beams.rays.stops_of` takes them. Cell (x, y) is x * ny + y."""
 
     def mean_stop(self, grid: Grid) -> Floats:
-        """Return the prior mean of the probability that a cell stops a beam, (nx, ny); by default from 200 draws."""
+        """Return the prior mean of the probability that a cell stops a beam, (nx, ny), by default from 200 draws."""
         rng = np.random.default_rng(0)
         maps = [self._stop_chances(self.sample_cells(rng, grid), grid) for _ in range(200)]
         return np.asarray(np.mean(maps, axis=0, dtype=np.float64))
@@ -151,7 +151,7 @@ class CellPrior(ABC):
         return np.reshape(values, (draws.chains, draws.count, len(cells)))
 
     def expected_traces(self, draws: Draws, cells: Indices) -> NDArray[Any]:
-        """Return the draws' expected values at the given cells, (chains, draws, n); their mean is `mean_map`."""
+        """Return the draws' expected values at cells, (chains, draws, n). Their mean is `mean_map`."""
         return self.traces(draws, cells)
 
     def constant_cells(self, draws: Draws) -> tuple[Mask | None, Mask | None]:
@@ -188,7 +188,7 @@ class CellPrior(ABC):
     # Files
     @abstractmethod
     def describe(self) -> dict[str, Any]:
-        """Return the prior as plain JSON values; "kind" is its name."""
+        """Return the prior as plain JSON values. "kind" is its name."""
 
     def parameters(self) -> Mapping[str, NDArray[Any]]:
         """Return the array parameters, which saved runs store beside the description."""

@@ -186,7 +186,7 @@ class Beta(CellPrior):
         )  # fmt: skip
 
     def map_of(self, draws: Draws, chain: int, draw: int) -> Floats:
-        """Return each cell's chance to stop a beam in one draw, (nx, ny); untouched cells have the prior's mean."""
+        """Return each cell's chance to stop a beam in one draw, (nx, ny). Untouched cells have the prior's mean."""
         elsewhere: Floats | float = self.mean
         if self.has_labels:
             elsewhere = self.mean_given(ising_field.labels_of_draw(draws, chain, draw))
@@ -278,7 +278,7 @@ class Beta(CellPrior):
             yield batch
 
     def _prior_mean(self, solid: Mask | None) -> NDArray[np.floating] | float:
-        """Return the prior mean of reflectivities, given the labels of their cells, (n,), or None without labels."""
+        """Return the prior mean of reflectivities, given labels, (n,), if cells have some."""
         return self.mean if solid is None else self.mean_given(solid)
 
     def _prior_sampler(self, cells: Ints) -> Callable[[Mask | None], NDArray[np.floating] | float]:

@@ -129,7 +129,7 @@ def chord(line: Line, cell: int) -> wp.vec2d:
 
 @wp.func
 def distance_at(line: Line, cell: int, depth: wp.float64) -> wp.float64:
-    """Return the distance at which a beam stops in a cell, metres; ``depth`` is a share of its chord."""
+    """Return the distance at which a beam stops in a cell, metres. ``depth`` is a share of its chord."""
     inside = chord(line, cell)
     return inside[0] + depth * (inside[1] - inside[0])
 

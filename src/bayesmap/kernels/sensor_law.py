@@ -192,14 +192,14 @@ def sensor_law(sensor: SensorModel, limits: RangeLimits, device: str, struct: An
 
 @wp.func
 def p_blocked(law: Any, distance_m: Any):
-    """Return the chance that a passing object stands before the distance."""
+    """Return the probability that a passing object stands before the distance."""
     # type(x)(1.0) is a one in the precision of x, here and below.
     return law.p_short * (type(distance_m)(1.0) - wp.exp(-law.rate_short_per_m * distance_m))
 
 
 @wp.func
 def p_unblocked(law: Any, distance_m: Any):
-    """Return the chance that no passing object stands before the distance."""
+    """Return the probability that no passing object stands before the distance."""
     return type(distance_m)(1.0) - p_blocked(law, distance_m)
 
 
@@ -214,7 +214,7 @@ def object_decay(law: Any, reading_m: Any):
 
 @wp.func
 def p_unblocked_near(law: Any, reading_m: Any, decay: Any, distance_m: Any):
-    """Compute `p_unblocked`; if distance and reading are close, exp(-x) is computed by its series."""
+    """Compute `p_unblocked`, by a series of exp(-x) if distance and reading are close."""
     one = type(distance_m)(1.0)
     x = law.rate_short_per_m * (distance_m - reading_m)
     if wp.abs(x) > law.series or reading_m < type(distance_m)(0.0):
@@ -288,7 +288,7 @@ def typed_probability(law: Any, reading_m: Any, distance_m: Any, variance: Any):
 
 @wp.func
 def highest_density(law: Any, reading_m: Any):
-    """Return an upper bound of `stop_density` of a reading over all stops; infinite for laws other than the mixture."""
+    """Return an upper bound of `stop_density` of a reading over all stops, or infinity for another law than MIXTURE."""
     if law.kind == MIXTURE and not wp.isfinite(reading_m):
         return type(reading_m)(1.0)
     return law.peak
@@ -296,7 +296,7 @@ def highest_density(law: Any, reading_m: Any):
 
 @wp.func
 def lowest_density(law: Any, reading_m: Any):
-    """Return a lower bound of `stop_density` of a reading in the mixture, wherever the beam stops; 0 for other laws."""
+    """Return a lower bound of `stop_density` of a reading over all stops, or 0 for another law than MIXTURE."""
     if law.kind != MIXTURE:
         return type(reading_m)(0.0)
     if wp.isfinite(reading_m):
@@ -309,7 +309,7 @@ def lowest_density(law: Any, reading_m: Any):
 
 @wp.func
 def log_density_without_mixture(law: Any, reading_m: Any, distance_m: Any, variance: Any):
-    """Return log p(reading | stop) for noise alone and for a table; a typed reading of noise stands for a limit."""
+    """Return log p(reading | stop) for noise alone and for a table. A typed reading of noise stands for a limit."""
     if law.kind == TABLE:
         return table_log_density(law, reading_m, distance_m, variance)
     z = reading_m

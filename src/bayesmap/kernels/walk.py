@@ -48,7 +48,7 @@ class Walk:
 
 @wp.func
 def cell_before(p: wp.float64, step: int) -> int:
-    """Return the cell of a coordinate; on a grid line, the cell that the beam leaves."""
+    """Return the cell of a coordinate. On a grid line it is the cell that the beam leaves."""
     if step > 0:
         return int(wp.ceil(p - TIE)) - 1
     return int(wp.floor(p + TIE))

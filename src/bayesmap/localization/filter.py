@@ -267,7 +267,7 @@ def _prior_shares(prior: Prior, places: PoseMixture, count: int) -> Floats:
 
 
 def _log_likelihood(known: KnownMap, prior: Prior, population: Population) -> Floats:
-    """Return the scan's log-likelihood at each pose, with the beams' usual weight, (N,); -inf where no robot can be."""
+    """Return the scan's log-likelihood at poses, with the beams' usual weight, (N,), or -inf where no robot can be."""
     prior_density = prior.log_density(population.poses, known)
     possible = np.isfinite(prior_density)
     return np.where(possible, population.log_target - np.where(possible, prior_density, 0.0), -np.inf)

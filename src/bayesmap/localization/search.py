@@ -66,7 +66,7 @@ class Candidates:
 
 
 def search(field: Field, angles_rad: Floats, ranges_m: Floats, max_poses: int) -> Candidates:
-    """Find the best poses of a scan over a whole map, all apart; none with fewer hits than `MIN_POINTS`."""
+    """Find the best poses of a scan over a whole map, all apart. There are none with fewer hits than `MIN_POINTS`."""
     points = end_points(angles_rad, ranges_m, COARSE_POINTS)
     coarse = _coarse_poses(field, points) if len(points) >= MIN_POINTS else np.empty((0, 3))
     if len(coarse) == 0:

@@ -172,7 +172,7 @@ class Motions(PosePrior):
         return _MarkovLaw(log_poses[0], self.relative, self.sigmas, self.p_slip)
 
     def describe(self) -> dict[str, object]:
-        """Return the prior as plain JSON values; the motions by their checksum."""
+        """Return the prior as plain JSON values, with the checksum of motions."""
         digest = hashlib.blake2b(self.relative.tobytes() + self.sigmas.tobytes(), digest_size=8)
         description = {"kind": self.kind, "count": len(self.relative), "checksum": digest.hexdigest()}
         return description | ({"p_slip": self.p_slip} if self.p_slip else {})

@@ -196,7 +196,7 @@ class CheckpointTimer:
 
 
 def checkpoint_pause_s(checkpoint_s: float, every_s: float) -> float:
-    """Return the seconds to the next checkpoint, assumed to take twice as long; 0 stays 0, every step."""
+    """Return the seconds to the next checkpoint, assumed to take twice as long. 0 stays 0: every step."""
     return max(every_s, 2 * checkpoint_s * (1 / MAX_CHECKPOINT_SHARE - 1)) if every_s > 0 else every_s
 
 

@@ -147,7 +147,7 @@ class Problem:
         return {}
 
     def touched_map(self) -> Mask:
-        """Return the mask of the cells that at least one beam touches, (nx, ny); the others follow the prior."""
+        """Return the mask of the cells that at least one beam touches, (nx, ny). The others follow the prior."""
         return self.traced.touched_map()
 
 

@@ -80,7 +80,8 @@ class StopDraws:
         if draw is None:
             return
         if self._centres_m is not None:
-            self._store_chances(chain, draw, self._chains.in_squares(chain, sweep, True, self._solid.get(chain)))
+            squares = self._chains.in_squares(chain, sweep, kept=True, solid=self._solid.get(chain))
+            self._store_chances(chain, draw, squares)
         cells, prior = self._cells["cell"], self._problem.prior
         hits, passes = (count[cells] for count in self._chains.hits_and_passes(chain))
         solid = self._solid[chain][cells] if prior.has_labels else None

@@ -133,7 +133,7 @@ def longer_axis(var_x: Floats, cov_xy: Floats, var_y: Floats) -> tuple[Floats, F
 
 
 def end_cells(rays: Rays) -> Ints:
-    """Return the flat index of the touched cell in which each reading ends, (B,); -1 if it ends in no touched cell."""
+    """Return the flat index of the touched cell in which each reading ends, (B,), or -1 if it ends in none."""
     nx, ny = rays.grid.shape
     points = rays.end_points_m()
     finite: Mask = np.asarray(np.isfinite(points).all(axis=1))
@@ -288,7 +288,7 @@ def trace_stops(
 
 
 def _stop_ranges_m(scans: Scans, sensor: SensorModel, resolution_m: float) -> tuple[Floats, Floats | None]:
-    """Return the largest and the least distance of stops that may explain each reading, (B,); None for a least of 0."""
+    """Return the largest and the least distance of stops that may explain each reading, (B,). None is a least of 0."""
     limits = RangeLimits(scans.min_range_m, scans.max_range_m)
     if isinstance(sensor, BeamMixture) and isinstance(sensor.noise, Gaussian | StudentT):
         range_m = np.where(np.isfinite(scans.ranges_m), scans.ranges_m, 0.0).ravel()

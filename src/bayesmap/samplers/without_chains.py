@@ -194,7 +194,7 @@ class Enumeration:
         return _bits(np.arange(len(self.log_posterior))[:, None], np.arange(len(self.unknown)))
 
     def marginals(self) -> Floats:
-        """Return the posterior wall probability of every cell, (nx, ny); the prior's if no beam observes the cell."""
+        """Return the posterior wall probability of every cell, (nx, ny). Unobserved cells keep the prior's."""
         p = self.problem.p_wall.copy()
         p[self.unknown] = np.exp(self.log_posterior) @ self.states()
         return p.reshape(self.problem.table.grid.shape)

@@ -81,7 +81,7 @@ class SensorModel(ABC):
         return out
 
     def cumulative(self, range_m: Floats, distance_m: Floats, limits: RangeLimits, spread_m: float = 0.0) -> Floats:
-        """Return P(reading <= range | distance), broadcast over both; too close is -inf, no return +inf.
+        """Return P(reading <= range | distance), broadcast over both. Too close is -inf, no return +inf.
         ``spread_m`` is a further standard deviation of the stop's distance. Only the calibration in `bayesmap.score`
         needs it. Raises `BadInput` if the model has no such method.
         """
@@ -168,7 +168,7 @@ class AdditiveNoise(SensorModel):
         return np.asarray(expected + self.scale_at(expected) * self.draw(rng, np.shape(expected)))
 
     def cumulative(self, range_m: Floats, distance_m: Floats, limits: RangeLimits, spread_m: float = 0.0) -> Floats:
-        """Return P(noise <= (range - min(distance, max)) / scale); typed readings stand for the limits."""
+        """Return P(noise <= (range - min(distance, max)) / scale). Typed readings stand for the limits."""
         return self.tail(-self._standardised(range_m, distance_m, spread_m, limits)[0])  # the noise is symmetric
 
 
@@ -251,7 +251,7 @@ class StudentT(AdditiveNoise):
 
 
 def noise_with(dof: float, scale_m: float, scale_per_m: float) -> Gaussian | StudentT:
-    """Return Student-t noise; Gaussian noise if the degrees of freedom are infinite."""
+    """Return Student-t noise, or Gaussian noise if the degrees of freedom are infinite."""
     return Gaussian(scale_m, scale_per_m) if dof == math.inf else StudentT(scale_m, dof, scale_per_m)
 
 
@@ -407,7 +407,7 @@ KINDS: dict[str, type[Any]] = {"gaussian": Gaussian, "student-t": StudentT, "mix
 
 
 def describe(sensor: SensorModel) -> dict[str, Any]:
-    """Return a model's kind and parameters as plain JSON values; for the user's own model, its name alone."""
+    """Return a model's kind and parameters as plain JSON values, or only the name of the user's own model."""
     for kind, cls in KINDS.items():
         if type(sensor) is cls:
             values: dict[str, Any] = {f.name: getattr(sensor, f.name) for f in fields(cls)}  # type: ignore[arg-type]

@@ -57,7 +57,7 @@ class TabulatedLaw:
 
 
 def tabulated(sensor: SensorModel, limits: RangeLimits) -> TabulatedLaw:
-    """Compute a sensor's law at all nodes; laws of hashable sensors are cached."""
+    """Compute a sensor's law at all nodes. Laws of hashable sensors are cached."""
     try:
         hash(sensor)
     except TypeError:

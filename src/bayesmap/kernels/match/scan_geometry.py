@@ -201,7 +201,7 @@ def scan_arrays(geometry: Any, stride: int = 1) -> Any:
 
 
 def equal_weights(geometry: Any) -> Any:
-    """Return equal weights of all beams, (S, B), on the geometry's device; front ends use them for every scan."""
+    """Return equal weights of all beams, (S, B), on the geometry's device. Front ends use them for every scan."""
     if "weights" not in geometry.kernel_inputs:
         shape = (len(geometry), geometry.beams)
         geometry.kernel_inputs["weights"] = wp.full(shape, 1.0, dtype=wp.float32, device=geometry.device)

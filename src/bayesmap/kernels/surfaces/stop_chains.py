@@ -277,7 +277,7 @@ class StopChains:
         self._laws, self._law = (), None  # numbers computed from the cells before are out of date
 
     def solid(self, chain: int) -> NDArray[np.bool_]:
-        """Return the labels of all cells of a chain, (N,), valid until the next sweep; all free if cells have none."""
+        """Return the labels of a chain's cells, (N,), valid until the next sweep. All are free if cells have none."""
         return self._view(self._state.solid, chain).view(np.bool_)
 
     def draw_untouched(self, sweep: int) -> None:
@@ -288,7 +288,7 @@ class StopChains:
         wp.launch(cell_draws.draw_untouched, dim=size, inputs=inputs, device=self.device)
 
     def hits_and_passes(self, chain: int) -> tuple[Ints, Ints]:
-        """Return the hits and passes counted at each cell's last draw, (N,) each; before its first draw 0 and -1."""
+        """Return the hits and passes counted at each cell's last draw, (N,) each. Before its first draw it has 0 and -1."""
         return self._view(self._state.last_hits, chain), self._view(self._state.last_met, chain)
 
     @property

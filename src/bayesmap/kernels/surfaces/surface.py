@@ -110,7 +110,7 @@ def pack_prior(numbers: KernelNumbers) -> Any:
 
 @wp.func
 def pseudo_counts(prior: PriorArrays, solid: wp.uint8) -> wp.vec2d:
-    """Return a and b of the reflectivity of a cell with this label; without labels all cells are free."""
+    """Return a and b of the reflectivity of a cell with this label. Without labels all cells are free."""
     if solid != wp.uint8(0):
         return wp.vec2d(prior.a_solid, prior.b_solid)
     return wp.vec2d(prior.a, prior.b)
@@ -183,7 +183,7 @@ def log_size_penalty(prior: PriorArrays, cell: Cell) -> wp.float64:
 
 @wp.func
 def log_reflectivity_prior(prior: PriorArrays, solid: wp.uint8, reflectivity: wp.float32) -> wp.float32:
-    """Return the log density of the logit of a reflectivity given the label; without labels, up to a constant."""
+    """Return the log density of the logit of a reflectivity given the label, up to a constant without labels."""
     m = wp.clamp(reflectivity, wp.float32(1.0e-30), wp.float32(1.0 - 1.0e-7))  # its logarithms are finite
     counts = pseudo_counts(prior, solid)
     density = wp.float32(counts[0]) * wp.log(m) + wp.float32(counts[1]) * wp.log(wp.float32(1.0) - m)

@@ -129,7 +129,7 @@ def list_blocks(table: BeamTable, device: str) -> BlockArrays:
 
 @wp.func
 def block_weights(table: Table, blocks: BlockArrays, chain: Chain, block: int, x: int, y: int) -> Weights:
-    """Return the log-likelihood of the 16 states, up to a constant; each beam is walked once."""
+    """Return the log-likelihood of the 16 states, up to a constant. Each beam is walked once."""
     weights = Weights()
     for i in range(blocks.offsets[block], blocks.offsets[block + 1]):
         beam = blocks.beam[i]
@@ -203,7 +203,7 @@ def draw_block_from_prior(
 
 @wp.func
 def prior_weights(blocks: BlockArrays, prior: WallPriorArrays, x: int, y: int) -> Weights:
-    """Return the log prior of the 16 states without pairs, up to a constant; fixed cells make states impossible."""
+    """Return the log prior of the 16 states without pairs, up to a constant. Fixed cells make states impossible."""
     weights = Weights()
     for j in range(4):
         cell = cell_of_block(blocks, x, y, j)

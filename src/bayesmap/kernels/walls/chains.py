@@ -60,19 +60,19 @@ def draw_wall(log_odds: wp.float64, u: wp.float64) -> bool:
 
 @wp.func
 def walls_less_free(walls: Uint8s, cell_0: int, cell: int, nx: int, ny: int) -> int:
-    """Count walls minus free cells among the neighbours of a cell; the map begins at element ``cell_0``."""
+    """Count walls minus free cells among the neighbours of a cell; the map begins at index ``cell_0``."""
     x = cell // ny
     y = cell - x * ny
-    element = cell_0 + cell
+    index = cell_0 + cell
     balance = int(0)
     if x > 0:
-        balance += wp.where(walls[element - ny] != wp.uint8(0), 1, -1)
+        balance += wp.where(walls[index - ny] != wp.uint8(0), 1, -1)
     if x < nx - 1:
-        balance += wp.where(walls[element + ny] != wp.uint8(0), 1, -1)
+        balance += wp.where(walls[index + ny] != wp.uint8(0), 1, -1)
     if y > 0:
-        balance += wp.where(walls[element - 1] != wp.uint8(0), 1, -1)
+        balance += wp.where(walls[index - 1] != wp.uint8(0), 1, -1)
     if y < ny - 1:
-        balance += wp.where(walls[element + 1] != wp.uint8(0), 1, -1)
+        balance += wp.where(walls[index + 1] != wp.uint8(0), 1, -1)
     return balance
 
 
@@ -94,21 +94,21 @@ def draw_given_neighbours(prior: WallPriorArrays, walls: Uint8s, cell: int, bits
 
 @wp.func
 def pairs_alike(walls: Uint8s, cell_0: int, begin: int, end: int, nx: int, ny: int) -> int:
-    """Count the pairs of equal neighbours whose first cell is in [begin, end); the map begins at element ``cell_0``."""
+    """Count the pairs of equal neighbours whose first cell is in [begin, end); the map begins at index ``cell_0``."""
     pairs = int(0)
     for cell in range(begin, end):
         x = cell // ny
-        element = cell_0 + cell
-        if x < nx - 1 and walls[element] == walls[element + ny]:
+        index = cell_0 + cell
+        if x < nx - 1 and walls[index] == walls[index + ny]:
             pairs += 1
-        if cell - x * ny < ny - 1 and walls[element] == walls[element + 1]:
+        if cell - x * ny < ny - 1 and walls[index] == walls[index + 1]:
             pairs += 1
     return pairs
 
 
 @wp.func
 def log_prior(prior: WallPriorArrays, walls: Uint8s) -> wp.float64:
-    """Return log p(walls); if neighbours are coupled, up to a constant."""
+    """Return log p(walls), up to a constant if neighbours are coupled."""
     total = wp.float64(prior.log_all_free)
     if prior.coupling != NO_COUPLING:
         total += prior.coupling * wp.float64(pairs_alike(walls, 0, 0, walls.shape[0], prior.nx, prior.ny))
@@ -209,7 +209,7 @@ def site_of(sweeps: Sweeps, i: int, shuffle_key: wp.uint64) -> int:
 
 @wp.func
 def chain_of(chains: WallChainArrays, i: int) -> Chain:
-    """Return the i-th chain; its arrays are views."""
+    """Return the i-th chain. Its arrays are views."""
     return Chain(
         chains.walls[i], chains.first_wall[i], chains.beam_loglik[i], chains.reaching[i],
         chains.log_likelihood_gain[i], chains.gain_status[i],
@@ -229,7 +229,7 @@ def next_wall(table: Table, walls: Uint8s, start: int, end: int) -> int:
 
 @wp.func
 def entry_loglik(table: Table, beam: int, entry: int, end: int) -> wp.float32:
-    """Return the log-likelihood of a beam's reading if its first wall is at an entry; ``end`` stands for no wall."""
+    """Return the log-likelihood of a beam's reading if its first wall is at an entry. ``end`` stands for no wall."""
     if entry < end:
         return table.loglik[entry]
     return table.no_hit[beam]
