@@ -226,23 +226,23 @@ def search_blocks(
         while size > 0:
             size -= 1
             limit = wp.max(best_score, strands.incumbent[job])
-            value = strands.bound[strand, size]
-            if value < limit or value <= jobs.min_scores[job]:
+            bound = strands.bound[strand, size]
+            if bound < limit or bound <= jobs.min_scores[job]:
                 continue
-            top = strands.node[strand, size]
-            block = Block(job, row, top[0], top[1], top[2])
+            node = strands.node[strand, size]
+            block = Block(job, row, node[0], node[1], node[2])
             if block.level > 0:
                 size = push_quarters(jobs, rows, pyramid, earlier, strands, strand, size, block, limit)
                 continue
             # A single translation: keep it if it is better, or equal and earlier in the order.
-            is_tie = value == best_score and best_node[0] >= 0
+            is_tie = bound == best_score and best_node[0] >= 0
             is_first = block.dx < best_node[1] or (block.dx == best_node[1] and block.dy < best_node[2])
             is_first = row < best_node[0] or (row == best_node[0] and is_first)
-            if value > best_score or (is_tie and is_first):
-                best_score = value
+            if bound > best_score or (is_tie and is_first):
+                best_score = bound
                 best_node = wp.vec3i(row, block.dx, block.dy)
-                if value > strands.incumbent[job]:
-                    strands.incumbent[job] = value
+                if bound > strands.incumbent[job]:
+                    strands.incumbent[job] = bound
     strands.score[strand] = best_score
     strands.pose[strand] = best_node
 
@@ -252,8 +252,8 @@ class Modes:
     """The number of poses searched in each job, and how far apart they must be."""
 
     count: int
-    min_score_ratio: float  # a further pose must exceed this share of the first pose's score
-    apart: tuple[int, int, int]  # and differ from earlier poses by more than these rows, cells in x, or cells in y
+    min_score_ratio: float  # least score of a further pose, divided by the first pose's score
+    apart: tuple[int, int, int]  # largest differences of poses that are not apart: rows, cells in x, cells in y
 
 
 def search_grids(

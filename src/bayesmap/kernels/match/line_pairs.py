@@ -25,7 +25,7 @@ from bayesmap.space.planar import inverse
 
 wp.set_module_options({"enable_backward": False})
 OUT_OF_VIEW = wp.constant(-2)  # result of `nearest_point` if no beam points towards the point
-MAX_SIDE_BEAMS = wp.constant(25)  # most beams searched to either side
+MAX_SIDE_BEAMS = wp.constant(25)  # most beams that are searched on either side
 MAX_SPACING_M = wp.constant(0.15)  # points of less dense surfaces, such as walls that beams graze, fix no pose
 # Numbers of a `Totals`: sums over the pairs of points. COST and WEIGHT are of pairs with normals. MATCHED is the number
 # of pairs, SEEN that of points between the beams of the target, within its range. FORCE_SQ sums the squared weighted
@@ -42,7 +42,7 @@ class PairRules(NamedTuple):
     reach_m: float  # largest distance of paired points
     scale_m: float  # c of Geman and McClure's weight
     min_cosine: float  # least cosine between the normals of a pair
-    stride: int = 1  # every so many-th point is paired
+    stride: int = 1  # one point in so many is paired
 
 
 PairRulesArrays = devices.struct_like(PairRules, float, float, float, int)
@@ -86,37 +86,37 @@ def nearest_point(scene: ScanArrays, scan: int, point: wp.vec2f, reach: float) -
     middle = beam_towards(scene, scan, point)
     if middle < 0:
         return OUT_OF_VIEW
-    away = wp.length(point)
+    distance = wp.length(point)
     step = scene.step[scan]
-    u = wp.min(1.0, reach / wp.max(away, 1.0e-6))
+    u = wp.min(1.0, reach / wp.max(distance, 1.0e-6))
     # No point within reach is further off by angle than asin(u) <= u + (pi / 2 - 1) u^3.
     side_beams = wp.min(MAX_SIDE_BEAMS, int((u + 0.5708 * u * u * u) / step) + 1)
     beams = scene.beams[scan]
-    circle = scene.full_circle[scan] != 0
-    closest = reach * reach
+    is_circle = scene.full_circle[scan] != 0
+    closest_sq = reach * reach
     nearest = int(-1)
     # Search outwards. Points of equal distance count in the order of beams, so that the lower side takes ties.
     for k in range(side_beams + 1):
-        # A beam that is off by the angle a has no point nearer than away sin(a) >= away (a - a^3 / 6).
+        # A beam that is off by the angle a has no point nearer than distance sin(a) >= distance (a - a^3 / 6).
         a = wp.min(float(k - 1) * step, 1.4)
-        bound = away * a * (1.0 - 0.16666667 * a * a)
-        if k > 1 and bound * bound > closest:
+        bound = distance * a * (1.0 - 0.16666667 * a * a)
+        if k > 1 and bound * bound > closest_sq:
             break
         low = middle - k
-        if low < 0 and circle:
+        if low < 0 and is_circle:
             low += beams
         if low >= 0:
-            d = wp.length_sq(scene.points[scan, low] - point)
-            if d <= closest:
-                closest = d
+            d_sq = wp.length_sq(scene.points[scan, low] - point)
+            if d_sq <= closest_sq:
+                closest_sq = d_sq
                 nearest = low
         high = middle + k
-        if high >= beams and circle:
+        if high >= beams and is_circle:
             high -= beams
         if k > 0 and high < beams:
-            d = wp.length_sq(scene.points[scan, high] - point)
-            if d < closest:
-                closest = d
+            d_sq = wp.length_sq(scene.points[scan, high] - point)
+            if d_sq < closest_sq:
+                closest_sq = d_sq
                 nearest = high
     return nearest
 

@@ -82,18 +82,18 @@ def reading_log_density(
     # Walk, and sum the density over stops: chance of getting to the cell, times chance and density of its stop.
     ray = Ray(start_m, wp.vec2(ux, uy))
     decay = laws.object_decay(law, z)
-    relevant = relevant_span_m(law, frame, z) / resolution
+    span = relevant_span_m(law, frame, z) / resolution
     entry = wp.min(next_x, next_y)
     total = ZERO_32
     survive = ONE_32
-    while entry <= relevant[1] and survive > MIN_SURVIVAL:
-        exit = wp.min(next_x, next_y)
+    while entry <= span[1] and survive > MIN_SURVIVAL:
+        leave = wp.min(next_x, next_y)
         if cx >= 0 and cx < frame.nx and cy >= 0 and cy < frame.ny:
             cell = cx * frame.ny + cy
-            if entry >= relevant[0]:
+            if entry >= span[0]:
                 chance = stop_chance(maps, draw, cell, ray)
                 if chance > MIN_CHANCE:
-                    distance = (entry + depth * (exit - entry)) * resolution
+                    distance = (entry + depth * (leave - entry)) * resolution
                     variance = ZERO_32
                     if maps.has_surfaces != 0:
                         crossing = cross_surface(maps.surface[draw, cell], ray)
@@ -105,12 +105,12 @@ def reading_log_density(
                 chance = stop_chance(maps, draw, cell, ray)
                 density = law.uniform
                 if not wp.isfinite(z):
-                    distance = (entry + depth * (exit - entry)) * resolution
+                    distance = (entry + depth * (leave - entry)) * resolution
                     density = laws.stop_density(law, z, decay, distance, ZERO_32)
                 total += survive * chance * density
                 survive = survive * (ONE_32 - chance)
         # Step to the next cell; end outside the grid.
-        entry = exit
+        entry = leave
         if next_x < next_y:
             cx += step_x
             next_x += gap_x

@@ -288,7 +288,7 @@ class StopChains:
         wp.launch(cell_draws.draw_untouched, dim=size, inputs=inputs, device=self.device)
 
     def hits_and_passes(self, chain: int) -> tuple[Ints, Ints]:
-        """Return the hits and passes counted at each cell's last draw, (N,) each. Before its first draw it has 0 and -1."""
+        """Return the hits and passes of each cell's last draw, (N,) each. Before its first draw they are 0 and -1."""
         return self._view(self._state.last_hits, chain), self._view(self._state.last_met, chain)
 
     @property
