@@ -230,8 +230,8 @@ class _Path:
         self.poses[scan], self.information[scan] = placed.poses[k], placed.information[k]
         self.scores[scan], self.is_reversed[scan] = placed.scores[k], placed.is_reversed[k]
         score = float(placed.scores[k])
-        added_variance = placed.variance[k] - (placed.variance[k - 1] if k else 0.0)  # they accumulate over the batch
-        self.variance_since_key = self.variance_since_key + added_variance
+        variance_before = placed.variance[k - 1] if k else 0.0  # variances accumulate over the batch
+        self.variance_since_key = self.variance_since_key + placed.variance[k] - variance_before
         self.odometry_variance[scan] = self.variance_since_key
         # Learn only from scans that fit as usual: others say little about odometry.
         if self.motions is not None:
