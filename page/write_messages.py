@@ -53,8 +53,8 @@ def declare(kind: inspect.Type, found: dict[str, str]) -> None:
         lines.append(f'  type: "{kind.tag}";')
     page_leaves_out = issubclass(kind.cls, Action | Patch)  # the library sends every field
     for field in kind.fields:
-        if field.encode_name in texts:
-            lines.append(f"  /** {texts[field.encode_name]} */")
+        if field.name in texts:
+            lines.append(f"  /** {texts[field.name]} */")
         mark = "?" if page_leaves_out and not field.required else ""
         lines.append(f"  {field.encode_name}{mark}: {typescript(field.type)};")
     found[name] = "\n".join([*lines, "};", ""])

@@ -121,7 +121,7 @@ export type ChangeSettings = {
 };
 
 /** Draw walls in cells, or erase them. */
-export type Walls = {
+export type PaintWalls = {
   type: "walls";
   /** Indices (x, y) of the cells. */
   cells: [number, number][];
@@ -177,7 +177,7 @@ export type Clear = {
 };
 
 /** Begin another map. */
-export type New = {
+export type NewMap = {
   type: "new";
   /** Number of cells along x and y. */
   shape: [number, number];
@@ -186,7 +186,7 @@ export type New = {
   seq?: number;
 };
 
-/** Undo the last step, if this page made it, or a page that is no longer connected. */
+/** Undo the last step of this page, or of a page that is no longer connected. */
 export type Undo = {
   type: "undo";
   seq?: number;
@@ -211,7 +211,7 @@ export type Cancel = {
 };
 
 /** Choose whether every edit restarts the chains after the preview. */
-export type Live = {
+export type SetLive = {
   type: "live";
   /** True if every edit restarts the chains. */
   on: boolean;
@@ -299,7 +299,7 @@ export type WhereAmI = {
 };
 
 /** Ask for the virtual scan at a pose in the world frame; answered by `ghost` or `undecided`. */
-export type MoveGhost = {
+export type MoveVirtualScan = {
   type: "ghost";
   /** Position, metres. */
   x: number;
@@ -579,7 +579,7 @@ export type Views = {
 };
 
 /** The real scan nearest to a pose. */
-export type Near = {
+export type NearestScan = {
   /** Index of the scan. */
   index: number;
   /** Distance of the scan's position from the pose, metres. */
@@ -589,7 +589,7 @@ export type Near = {
 };
 
 /** The virtual scan of a robot's laser at a pose, and the nearest real scan. Buffers: angles float32 (A); low, median, high float32 (A), the median and central 80 % interval of each beam in metres, infinite for no return; of the real scan near_pose float64 (3), near_ranges float32 (A), near_hit uint8 (A). */
-export type GhostScan = {
+export type VirtualScan = {
   type: "ghost";
   /** X of the pose, metres. */
   x: number;
@@ -602,7 +602,7 @@ export type GhostScan = {
   /** Number of draws used; 0 without draws, when cells count as independent. */
   draws: number;
   /** Nearest real scan, if one is near enough. */
-  near: Near | null;
+  near: NearestScan | null;
   /** Time that the prediction took. */
   milliseconds: number;
   generation: number;
@@ -811,17 +811,17 @@ export type Figure = {
 export type Action =
   | Hello
   | ChangeSettings
-  | Walls
+  | PaintWalls
   | AddSensor
   | MoveSensor
   | RemoveSensor
   | Clear
-  | New
+  | NewMap
   | Undo
   | Redo
   | Run
   | Cancel
-  | Live
+  | SetLive
   | ShowView
   | Painted
   | ShowScan
@@ -830,7 +830,7 @@ export type Action =
   | FindPath
   | FindViews
   | WhereAmI
-  | MoveGhost
+  | MoveVirtualScan
   | CompareBeam;
 
 export type Notice =
@@ -843,7 +843,7 @@ export type Notice =
   | CellFacts
   | SafePath
   | Views
-  | GhostScan
+  | VirtualScan
   | ComparedBeam
   | Undecided
   | Whereabouts

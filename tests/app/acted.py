@@ -172,7 +172,7 @@ class Acted:
     def asked(self):
         """Pages that asked, and what they asked the worker, without its number."""
         asked = [task for task in self.tasks if isinstance(task, Ask)]
-        return [(task.client, structs.replace(task.question, seq=0)) for task in asked]
+        return [(task.client, structs.replace(task.request, seq=0)) for task in asked]
 
     @property
     def state(self):

@@ -212,7 +212,7 @@ def test_beams_speak_for_a_wall_and_against_floor_and_each_is_told_on_request(he
     assert of_floor["nats_against"] > of_floor["nats_for"] + 1
     assert of_floor["beams_for"] + of_floor["beams_against"] <= of_floor["beams"]
     assert nothing == {}
-    header, each = heard.answer(Inspect(10, 12, each=True))
+    header, each = heard.answer(Inspect(10, 12, each_beam=True))
     assert {**header, "each": False} == of_floor
     nats = each["nats"]
     assert nats[nats > 0].sum() == pytest.approx(header["nats_for"])
@@ -285,7 +285,7 @@ def test_prior_and_beams_given_one_draw_are_the_log_odds_by_which_gibbs_draws_th
     heard.infer(replace(tutorial_document(), prior=0.3, noise=0.6, angles=30, sweeps=40))
     stream = heard.engine._result.estimate
     for (x, y), chain, draw in (((12, 6), 0, 5), ((8, 10), 1, 39), ((11, 10), 0, 0)):
-        facts, buffers = heard.answer(Inspect(x, y, each=True, chain=chain, draw=draw))
+        facts, buffers = heard.answer(Inspect(x, y, each_beam=True, chain=chain, draw=draw))
         maps = np.repeat(stream.draw(chain, draw)[0][None].astype(bool), 2, axis=0)
         maps[:, x, y] = [False, True]
         likelihood = log_likelihoods(stream.problem.table, np.packbits(maps.reshape(2, -1), axis=1))
@@ -295,5 +295,5 @@ def test_prior_and_beams_given_one_draw_are_the_log_odds_by_which_gibbs_draws_th
             facts["prior_nats"] + facts["nats_for"] - facts["nats_against"], abs=0.005 * facts["beams"]
         )
         assert np.array_equal(buffers["trace"], [[stream.draw(c, d)[0][x, y] for d in range(40)] for c in range(2)])
-    facts, _ = heard.answer(Inspect(12, 6, each=True))
+    facts, _ = heard.answer(Inspect(12, 6, each_beam=True))
     assert (facts["draw"], facts["log_odds"]) == (None, None)  # given the means, it is not

@@ -13,7 +13,7 @@ from bayesmap.app.edits import adopt_document
 from bayesmap.app.protocol.actions import Cancel, Export, Inspect, ShowScan
 from bayesmap.app.protocol.document import Refused
 from bayesmap.app.protocol.notices import DrawCount
-from bayesmap.app.protocol.tasks import GridChanged, Infer, Ready, RestoreTrajectory, TrajectoryInferred
+from bayesmap.app.protocol.tasks import GridChanged, Infer, Ready, TrajectoryInferred, TrajectoryState
 from bayesmap.app.protocol.wire import parse_document
 from bayesmap.app.shown.hit_maps import MAX_SCANS, grow_grid, hit_count_map, thin_scans
 from bayesmap.app.sources import open_log
@@ -112,7 +112,7 @@ def test_run_bends_the_trajectory_stage_by_stage_and_then_samples_the_cells(foun
 def test_an_inferred_trajectory_is_kept_and_told_to_the_next_worker(found):
     known = found.all("trajectoryinferred")[0]["trajectory"]
     heard = Heard(raw_log())
-    heard.engine.take(RestoreTrajectory(known.poses, known.angles_rad))
+    heard.engine.take(TrajectoryState(known.poses, known.angles_rad))
     field = heard.infer(few_sweeps(), "run")
     assert heard.all("stage") == []
     assert np.array_equal(field[1]["p"], found.last("field")[1]["p"])
@@ -136,7 +136,7 @@ def test_a_log_that_was_located_is_mapped_on_cells_of_any_size_from_the_first_of
         np.abs(buffers["p"] / 255 - hit_count_map(raw_scans().select(slice(40)), raw).mean()).max() <= 0.5 / 255 + 1e-9
     )
     known = found.all("trajectoryinferred")[0]["trajectory"]
-    heard.engine.take(RestoreTrajectory(known.poses, known.angles_rad))
+    heard.engine.take(TrajectoryState(known.poses, known.angles_rad))
     placed = heard.engine._log_trajectory.inferred_log.scans
     grid = Grid.covering(placed, 0.2)
     assert grid != raw
@@ -213,11 +213,11 @@ def test_the_session_takes_over_the_grid_and_keeps_the_trajectory_for_the_next_w
     acted.hear(GridChanged(Grid((30, 40), 0.1, (-1.0, 2.0)), generation=0))
     assert acted.state["document"]["grid"]["shape"] == [30, 40]
     assert not acted.state["can_undo"]
-    acted.hear(TrajectoryInferred(RestoreTrajectory(np.zeros((2, 3)), np.zeros(4)), generation=0))
+    acted.hear(TrajectoryInferred(TrajectoryState(np.zeros((2, 3)), np.zeros(4)), generation=0))
     acted.session.worker_lost()
     before = len(acted.tasks)
     acted.hear(Ready())
-    assert [type(task) for task in acted.tasks[before:]] == [RestoreTrajectory, Infer]
+    assert [type(task) for task in acted.tasks[before:]] == [TrajectoryState, Infer]
     assert acted.inferred[-1].mode == "run"  # it was under way
     acted.act("set", patch={"poses": "logged"})
     assert acted.inferred[-1].document.poses == "logged"

@@ -9,7 +9,7 @@ from building_log import ANGLES, room_scans
 
 import bayesmap as bm
 from bayesmap.app.edits import new_document, tutorial_document
-from bayesmap.app.protocol.actions import MoveGhost, ShowScan
+from bayesmap.app.protocol.actions import MoveVirtualScan, ShowScan
 from bayesmap.app.protocol.document import Source
 from bayesmap.app.protocol.notices import Overlay, View
 from bayesmap.app.protocol.wire import parse_document
@@ -265,7 +265,7 @@ def test_draws_intervals_and_surfaces_are_shown_while_the_sensor_is_fitted(log, 
     assert not np.array_equal(drawn["p"], width["p"])
     header, buffers = heard.last("overlay")
     assert len(buffers["strokes"]) > 10
-    (ghost,) = heard.ask(MoveGhost(1.5, 2.5, 0.3))
+    (ghost,) = heard.ask(MoveVirtualScan(1.5, 2.5, 0.3))
     assert (ghost.header["type"], ghost.header["draws"]) == ("ghost", heard.all("field")[-1]["averaged"])
 
 

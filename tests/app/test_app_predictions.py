@@ -11,7 +11,7 @@ import bayesmap as bm
 from bayesmap.app.answers.predictions import COARSE_DRAWS, nearest_scan
 from bayesmap.app.edits import tutorial_document
 from bayesmap.app.exports import build_recording
-from bayesmap.app.protocol.actions import CompareBeam, MoveGhost, ShowScan
+from bayesmap.app.protocol.actions import CompareBeam, MoveVirtualScan, ShowScan
 from bayesmap.posterior.prediction import ScanPredictor, predictor_of
 from bayesmap.sensors.model import RangeLimits
 from bayesmap.space.scans import side_by_side
@@ -31,26 +31,26 @@ def surfaces():
 
 def test_a_virtual_scan_is_the_library_s_law_by_a_few_of_the_draws_while_the_hand_moves(surfaces):
     heard, limits, whole = shown(surfaces), limits_of(surfaces), predictor_of(surfaces.posterior)
-    header, at_rest = heard.answer(MoveGhost(*POSE))
+    header, at_rest = heard.answer(MoveVirtualScan(*POSE))
     assert (header["type"], header["coarse"], header["draws"]) == ("ghost", False, 20)
     expected = ScanPredictor.of(whole, limits).quantiles(POSE, ANGLES)
     np.testing.assert_allclose(np.column_stack([at_rest[name] for name in QUANTILES]), expected, atol=1e-5)
     np.testing.assert_allclose(at_rest["angles"], ANGLES, atol=1e-6)
-    header, moving = heard.answer(MoveGhost(*POSE, coarse=True))
+    header, moving = heard.answer(MoveVirtualScan(*POSE, coarse=True))
     assert (header["coarse"], header["draws"]) == (True, COARSE_DRAWS)
     (states,) = whole.batches()
     few_states = states[np.linspace(0, len(states) - 1, COARSE_DRAWS).round().astype(int)]
     law = ScanPredictor.of(replace(whole, batches=lambda cells=None: iter([few_states]), draws=COARSE_DRAWS), limits)
     quantiles = np.column_stack([moving[name] for name in QUANTILES])
     np.testing.assert_allclose(quantiles, law.quantiles(POSE, ANGLES), atol=1e-5)
-    _, again = heard.answer(MoveGhost(*POSE))
+    _, again = heard.answer(MoveVirtualScan(*POSE))
     assert all(np.array_equal(again[name], at_rest[name]) for name in QUANTILES)
     assert not np.array_equal(moving["median"], at_rest["median"])
 
 
 def test_a_scan_taken_nearby_is_shown_beside_it(surfaces):
     scans = surfaces.posterior.scans
-    header, buffers = shown(surfaces).answer(MoveGhost(*(scans.poses[5] + [0.05, -0.02, 0.1])))
+    header, buffers = shown(surfaces).answer(MoveVirtualScan(*(scans.poses[5] + [0.05, -0.02, 0.1])))
     near = {"index": 5, "away": pytest.approx(np.hypot(0.05, 0.02), abs=1e-3), "turn": pytest.approx(-0.1, abs=1e-3)}
     assert header["near"] == near
     np.testing.assert_array_equal(buffers["near_ranges"], scans.ranges_m[5].astype(np.float32))
@@ -72,7 +72,7 @@ def test_near_means_half_a_metre_and_a_shared_field_of_view():
 @pytest.mark.parametrize(("mode", "draws"), [("live", 32), ("run", 32), ("preview", 0), ("clear", None)])
 def test_it_works_on_live_posteriors_and_says_how_many_draws_there_are(heard, mode, draws):
     heard.infer(replace(tutorial_document(), sweeps=40), mode)
-    header, buffers = heard.answer(MoveGhost(6.0, 15.0, 0.0))
+    header, buffers = heard.answer(MoveVirtualScan(6.0, 15.0, 0.0))
     if draws is None:
         assert (header["type"], header["question"]) == ("undecided", "ghost")
         return
@@ -85,7 +85,7 @@ def test_it_works_on_live_posteriors_and_says_how_many_draws_there_are(heard, mo
 def test_chains_rest_while_it_is_moved(heard, monkeypatch):
     monkeypatch.setattr("bayesmap.app.engine.VIRTUAL_SCAN_SECONDS", 60.0)  # this process may be kept waiting
     heard.infer_until(replace(tutorial_document(), sweeps=100_000), heard.chains_run)
-    heard.answer(MoveGhost(6.0, 15.0, 0.0))
+    heard.answer(MoveVirtualScan(6.0, 15.0, 0.0))
     before = heard.engine._result.estimate.sweep
     heard.engine.advance()
     assert heard.engine._result.estimate.sweep == before
@@ -96,7 +96,7 @@ def test_its_draws_are_those_of_the_last_sweep_once_chains_are_done(heard, monke
     heard.infer_until(replace(tutorial_document(), sweeps=2000), heard.chains_run)
 
     def asked(x):
-        heard.answer(MoveGhost(x, 15.0, 0.0))
+        heard.answer(MoveVirtualScan(x, 15.0, 0.0))
         return heard.engine._answers._virtual_scans._predictor
 
     held = asked(6.0)
@@ -176,7 +176,7 @@ def test_a_scan_with_its_own_beams_is_shown_compared_and_predicted_by_them(unlik
     header, _ = unlike.answer(CompareBeam(5, 10))
     assert header["range"] == pytest.approx(scans.ranges_m[5, 10])
     assert abs(header["residual"]) < 0.3  # three degrees to the side the wall is elsewhere
-    header, buffers = unlike.answer(MoveGhost(*scans.poses[5]))
+    header, buffers = unlike.answer(MoveVirtualScan(*scans.poses[5]))
     assert header["near"]["index"] == 5
     np.testing.assert_allclose(buffers["angles"][:n], angles, atol=1e-6)
     off = np.abs(buffers["near_ranges"][:n] - buffers["median"][:n])

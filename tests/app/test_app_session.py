@@ -200,7 +200,7 @@ def test_questions_go_to_the_worker_and_change_nothing(acted):
     acted.act("export", what="map")
     acted.act("cancel")
     path = FindPath((0.0, 0.0), (1.5, 2.0), 0.2, 0.1)
-    assert acted.asked == [(1, question) for question in (Inspect(3, 4, each=True), path, Export("map"))]
+    assert acted.asked == [(1, question) for question in (Inspect(3, 4, each_beam=True), path, Export("map"))]
     assert acted.session.generation == before
     assert Show(1, View("draw", 1, 5)) in acted.tasks
     assert isinstance(acted.tasks[-1], Cancel)

@@ -22,7 +22,7 @@ from bayesmap.app.edits import tutorial_document
 from bayesmap.app.protocol.actions import Export, Inspect, ShowScan
 from bayesmap.app.protocol.document import Sensor, pack_walls
 from bayesmap.app.protocol.notices import LIMITS, View
-from bayesmap.app.protocol.tasks import RestoreTrajectory
+from bayesmap.app.protocol.tasks import TrajectoryState
 from bayesmap.app.protocol.wire import encode_frame
 from bayesmap.app.scene import simulated_scene
 from bayesmap.app.sources import open_log
@@ -47,7 +47,7 @@ def of_log(cells, mode, poses="logged"):
     opened = open_log(scans, "room.log")
     heard = Heard(opened)
     if poses == "odometry":  # as a worker that is told what an earlier one has inferred
-        heard.engine.take(RestoreTrajectory(scans.poses + np.array([0.2, 0.1, 0.02]), scans.angles_rad))
+        heard.engine.take(TrajectoryState(scans.poses + np.array([0.2, 0.1, 0.02]), scans.angles_rad))
     heard.infer(replace(opened.document, cells=cells, sweeps=6, poses=poses), mode)
     return heard
 

@@ -1,12 +1,12 @@
 // Help, new map, share.
 
 import { KEYS, type KeysFor } from "../input/keys";
-import type { New } from "../messages";
+import type { NewMap } from "../messages";
 import type { Session } from "../state/session";
 import { h, put } from "./dom";
 import type { Ui } from "./ui";
 
-const WORLDS: [New["world"], string][] = [
+const WORLDS: [NewMap["world"], string][] = [
   ["tutorial", "the tutorial's map"],
   ["building", "a building"],
   ["blank", "blank"],
@@ -78,7 +78,7 @@ export function newDialog(ui: Ui) {
     h("div", { className: "buttons end" }, h("button", { type: "submit", className: "primary", textContent: "Create" })),
   );
   form.addEventListener("submit", () => {
-    ui.session.act({ type: "new", shape: [Number(width.value), Number(height.value)], world: world.value as New["world"] });
+    ui.session.act({ type: "new", shape: [Number(width.value), Number(height.value)], world: world.value as NewMap["world"] });
     ui.hand.selected = null;
   });
   return ui.dialog("New map", form);

@@ -1,16 +1,16 @@
 // A robot that is not there: where the hand has put it, and what its laser would read.
 
 import { cellOf, inside } from "../geometry/cells";
-import type { GhostScan, Near, Undecided } from "../messages";
+import type { VirtualScan, NearestScan, Undecided } from "../messages";
 import type { Buffers } from "../protocol";
 import type { Asker } from "./asker";
 
 /** Metres and radians, world frame. */
 export type Pose = { x: number; y: number; yaw: number };
 /** The scan that was taken nearest, and what it read. */
-export type NearScan = Near & { pose: Float64Array; ranges: Float32Array; hit: Uint8Array };
+export type NearScan = NearestScan & { pose: Float64Array; ranges: Float32Array; hit: Uint8Array };
 /** Predictive median and central 80 % interval of each beam, metres; no return is infinite. */
-export type Fan = Omit<GhostScan, "type" | "near"> & {
+export type Fan = Omit<VirtualScan, "type" | "near"> & {
   angles: Float32Array;
   low: Float32Array;
   median: Float32Array;
@@ -103,7 +103,7 @@ export class Ghost {
     session.act({ type: "ghost", ...pose, coarse: this.moving });
   }
 
-  receive(notice: GhostScan | Undecided, buffers: Buffers) {
+  receive(notice: VirtualScan | Undecided, buffers: Buffers) {
     this.waiting = Math.max(0, this.waiting - 1);
     this.trouble = notice.type === "undecided" ? notice.text : "";
     if (notice.type === "ghost") {

@@ -102,10 +102,10 @@ def _first_sensor(walls: NDArray[np.bool_], grid: Grid) -> Sensor:
 
 def edit_document(document: Document, action: actions.Edit) -> tuple[Document, str]:
     """Return the document after an action, and a remark if only a part was done. Raises `Refused` if none can be."""
-    if not document.simulated and not isinstance(action, actions.ChangeSettings | actions.New):
+    if not document.simulated and not isinstance(action, actions.ChangeSettings | actions.NewMap):
         raise Refused(f"{document.source.name} is a file, which cannot be edited", "begin a new map")
     match action:
-        case actions.Walls():
+        case actions.PaintWalls():
             return _draw_walls(document, action)
         case actions.ChangeSettings():
             return _change_settings(document, action), ""
@@ -117,7 +117,7 @@ def edit_document(document: Document, action: actions.Edit) -> tuple[Document, s
             return _remove_sensor(document, action), ""
         case actions.Clear():
             return document.without_walls(), ""
-        case actions.New():
+        case actions.NewMap():
             return new_document(action.world, action.shape, document), ""
 
 
@@ -136,7 +136,7 @@ def _change_settings(document: Document, action: actions.ChangeSettings) -> Docu
     return replace(document, **changed)
 
 
-def _draw_walls(document: Document, action: actions.Walls) -> tuple[Document, str]:
+def _draw_walls(document: Document, action: actions.PaintWalls) -> tuple[Document, str]:
     """Return the document with drawn or erased walls, and a remark if cells of sensors stay free."""
     cells = np.array(action.cells)
     if (cells >= document.grid.shape).any():
@@ -188,8 +188,8 @@ def _find_sensor(document: Document, sensor_id: int) -> Sensor:
 
 def gesture_of(action: actions.Action, client: int) -> tuple[Any, ...] | None:
     """Return a key of the stroke or drag to which an action belongs, or None. One gesture is one step of undo."""
-    if isinstance(action, actions.Walls) and action.stroke:
-        return client, actions.Walls, action.stroke
+    if isinstance(action, actions.PaintWalls) and action.stroke:
+        return client, actions.PaintWalls, action.stroke
     if isinstance(action, actions.ChangeSettings) and action.drag:
         return client, actions.ChangeSettings, action.drag, *sorted(actions.changed_settings(action.patch))
     if isinstance(action, actions.MoveSensor) and action.drag:
@@ -201,7 +201,7 @@ def merge_actions(before: actions.Action, after: Action) -> Action | None:
     """Return one action that replaces two actions of one gesture; None if they cannot be merged."""
     if isinstance(before, actions.ChangeSettings) and isinstance(after, actions.ChangeSettings):
         return structs.replace(after, patch=structs.replace(before.patch, **actions.changed_settings(after.patch)))
-    if isinstance(before, actions.Walls) and isinstance(after, actions.Walls):
+    if isinstance(before, actions.PaintWalls) and isinstance(after, actions.PaintWalls):
         same_stroke = (before.stroke, before.wall) == (after.stroke, after.wall)
         return structs.replace(after, cells=before.cells + after.cells) if same_stroke else None
     if isinstance(before, actions.MoveSensor) and isinstance(after, actions.MoveSensor) and before.id == after.id:

@@ -20,10 +20,10 @@ from msgspec import structs
 from bayesmap.app.answers.questions import Answers, Snapshot
 from bayesmap.app.display import Display, OnReport
 from bayesmap.app.exports import export_report
-from bayesmap.app.protocol.actions import Cancel, Export, MoveGhost, ShowScan, WhereAmI
+from bayesmap.app.protocol.actions import Cancel, Export, MoveVirtualScan, ShowScan, WhereAmI
 from bayesmap.app.protocol.document import CHAIN_METHODS, SETTINGS_OF_CHAINS, Document
 from bayesmap.app.protocol.notices import Status
-from bayesmap.app.protocol.tasks import Ask, Failed, Infer, Mode, RestoreTrajectory, Show, Task
+from bayesmap.app.protocol.tasks import Ask, Failed, Infer, Mode, Show, Task, TrajectoryState
 from bayesmap.app.scene import Scene, simulated_scene
 from bayesmap.app.shown.chains import FittedModel, Pilot, RunningChains, chains_of_walls, first_maps_of, fit_by_pilot
 from bayesmap.app.shown.result import Result, prior_result
@@ -82,7 +82,7 @@ class Engine:
                     self._display.send_scan(self._scene, task.index)
             case Ask():
                 self._answer_or_wait(task)
-            case RestoreTrajectory() if self._log_trajectory is not None:
+            case TrajectoryState() if self._log_trajectory is not None:
                 self._log_trajectory.restore(task)
 
     def _begin_or_extend_job(self, task: Infer) -> None:
@@ -106,15 +106,15 @@ class Engine:
 
     def _answer_or_wait(self, task: Ask) -> None:
         """Answer a question. If it needs a result and there is none yet, it waits."""
-        question = task.question
-        if isinstance(question, Export | WhereAmI) and self._result is None and self._job is not None:
+        request = task.request
+        if isinstance(request, Export | WhereAmI) and self._result is None and self._job is not None:
             self._waiting.append(task)
-        elif isinstance(question, Export):
-            self._on_report(export_report(question, self._result, task.client))
+        elif isinstance(request, Export):
+            self._on_report(export_report(request, self._result, task.client))
         else:
             snapshot = Snapshot(self._scene, self._result, self._scan, self._display.generation)
-            self._on_report(self._answers.answer(question, snapshot, task.client))
-            if isinstance(question, MoveGhost):
+            self._on_report(self._answers.answer(request, snapshot, task.client))
+            if isinstance(request, MoveVirtualScan):
                 self._rest_until_s = time.perf_counter() + VIRTUAL_SCAN_SECONDS
 
     def advance(self) -> None:
@@ -138,10 +138,10 @@ class Engine:
             for task in waiting:
                 self._answer_or_wait(task)
 
-    def _fail(self, text: str) -> None:
+    def _fail(self, reason: str) -> None:
         """End the job, and report why it failed."""
         self._job = None
-        self._display.send(Failed(text, generation=self._display.generation))
+        self._display.send(Failed(reason, generation=self._display.generation))
 
     def _run_job(self, task: Infer) -> Iterator[None]:
         """Do a job; yield after each step."""

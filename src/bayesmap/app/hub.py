@@ -13,7 +13,7 @@ from typing import Any
 
 from bayesmap.app.protocol.document import Document, Refused
 from bayesmap.app.protocol.notices import AnyNotice, Field, Scan, State, Story
-from bayesmap.app.protocol.tasks import Buffers, Failed, Report, Unusable
+from bayesmap.app.protocol.tasks import Buffers, Failed, FileUnusable, Report
 from bayesmap.app.protocol.wire import encode_frame, parse_action, read_seq
 from bayesmap.app.session import Effects, Session, ToPage, refusal
 from bayesmap.app.worker import Supervisor
@@ -107,8 +107,8 @@ class Hub:
 
     def _receive_report(self, report: Report) -> None:
         """Pass a report of the worker to the session, and note the first picture."""
-        if isinstance(report.message, Unusable):
-            self._file_fault = report.message.text
+        if isinstance(report.message, FileUnusable):
+            self._file_fault = report.message.reason
             self._first_picture.set()
             return
         self._carry_out(self.session.receive_report(report))

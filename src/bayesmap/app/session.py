@@ -55,7 +55,7 @@ class Session:
         self._pace = Pace()  # merges edits that arrive faster than pictures
         self._last_seqs: dict[int, int] = {}  # number of the last applied action of every page
         self._last_sent: dict[type, ToPage] = {}  # last message of each kind in `REPLAYED`
-        self._trajectory: tasks.RestoreTrajectory | None = None  # inferred from a log, for the next worker
+        self._trajectory: tasks.TrajectoryState | None = None  # inferred from a log, for the next worker
 
     @property
     def document(self) -> Document:
@@ -128,7 +128,7 @@ class Session:
                 return self._restart("run")
             case actions.Cancel():
                 return [action, *self._state_for_all()]
-            case actions.Live():
+            case actions.SetLive():
                 self.live = action.on
                 if self.running or self.document.source.kind == "run":
                     return self._state_for_all()
@@ -218,14 +218,14 @@ class Session:
                 return [*self._state_for_all(), *self._picture_computed()]
             case tasks.Failed():
                 self.running = self.working = False
-                return [_status(message.text, "error"), *self._state_for_all(), *self._picture_computed()]
+                return [_status(message.reason, "error"), *self._state_for_all(), *self._picture_computed()]
             case tasks.GridChanged():
                 self.history = replace(self.history, present=self.document.on_grid(message.grid))
                 return self._state_for_all()
             case tasks.TrajectoryInferred():
                 self._trajectory = message.trajectory
                 return []
-            case tasks.Alive() | tasks.Unusable():
+            case tasks.Alive() | tasks.FileUnusable():
                 return []
         notice = ToPage(message, report.buffers, report.client)
         if isinstance(message, REPLAYED) and report.client is None:

@@ -20,16 +20,17 @@ from bayesmap.beams.table import BeamTable
 from bayesmap.cells.arrays import Draws
 from bayesmap.cells.binary import Independent
 from bayesmap.cells.kind import CellPrior
-from bayesmap.cells.kinds import BUILT_IN
+from bayesmap.cells.kinds import BUILT_IN, P_WALL, default_sensor
 from bayesmap.errors import BadInput
+from bayesmap.poses.log_checks import look_like_odometry
 from bayesmap.result import Run, load
 from bayesmap.sensors.model import Gaussian, SensorModel
 from bayesmap.space.grid import Grid, bounds_m
 from bayesmap.space.planar import Floats
 from bayesmap.space.scans import Scans
 
-LOG_RESOLUTION_M = 0.1  # cell size with which a log is opened
-LOG_SWEEPS = 200  # sweeps with which a log is opened
+LOG_RESOLUTION_M = 0.1  # cell size of a log that is opened
+LOG_SWEEPS = 200  # number of sweeps for a log that is opened
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,8 +42,8 @@ class OpenedRun:
 
     @cached_property
     def result(self) -> Result:
-        """The run with its readings. The beam table only serves to count beams."""
-        from bayesmap.kernels.walls.table import trace
+        """The run as a `Result`. Its beam table, traced again, only counts beams."""
+        from bayesmap.kernels.walls.table import trace  # loads Warp
 
         posterior = self.run.posterior
         sensor = posterior.sensor if posterior.sensor is not None else Gaussian(posterior.grid.resolution)
@@ -78,7 +79,7 @@ class SavedRun(Estimate):
 
     @property
     def sensor_and_depth(self) -> None:
-        """None: the scene has the run's sensor model already. Raises `BadInput` if this model is not built in."""
+        """None, since the scene has the run's own sensor model. Raises `BadInput` if that model is the user's own."""
         if self.run.posterior.sensor is None:
             raise BadInput("the run's sensor model is not one of bayesmap's, so nothing can be predicted")
 
@@ -136,7 +137,7 @@ class OpenedLog:
         self._traced: TracedBeams | None = None  # the beams on the last grid
 
     def fit_grid(self, document: Document) -> Document:
-        """Return a document of this log on a grid of its cell size, or on the log's own grid if cells are too many."""
+        """Return the document on a grid of its cell size, or on the log's own grid if that has too many cells."""
         own_grid, bounds = self.document.grid, self.document.source.bounds
         if bounds is None or document.grid.resolution == own_grid.resolution:
             return document.on_grid(own_grid)
@@ -164,8 +165,7 @@ class OpenedLog:
 
     def _trace(self, grid: Grid) -> TracedBeams:
         """Return the beams traced on a grid, which are kept for later calls with this grid."""
-        from bayesmap.cells.kinds import default_sensor
-        from bayesmap.kernels.walls.table import trace
+        from bayesmap.kernels.walls.table import trace  # loads Warp
 
         if self._traced is None or self._traced.grid != grid:
             self._traced = None  # free the old table first: two may not fit in memory
@@ -177,8 +177,8 @@ class OpenedLog:
 def first_beams(table: BeamTable, n_beams: int) -> BeamTable:
     """Return the first beams of a table, as views of its arrays."""
     offsets = table.offsets[: n_beams + 1]
-    n = int(offsets[-1])  # number of table entries of these beams
-    cells, loglik, no_hit = table.cells[:n], table.loglik[:n], table.no_hit[:n_beams]
+    n_entries = int(offsets[-1])
+    cells, loglik, no_hit = table.cells[:n_entries], table.loglik[:n_entries], table.no_hit[:n_beams]
     return replace(table, offsets=offsets, cells=cells, loglik=loglik, no_hit=no_hit)
 
 
@@ -206,10 +206,10 @@ def open_run(run: Run, name: str) -> OpenedRun:
     """Open a run that is in memory. Raises `BadInput` if the map is too large for the page."""
     settings, scans = run.posterior.settings, run.posterior.scans
     p_wall = settings.get("prior", {}).get("p_wall")
+    p_wall = p_wall if isinstance(p_wall, int | float) else 0.5  # an array, or another kind of prior: 0.5
     method = settings.get("method")
-    prior = p_wall if isinstance(p_wall, int | float) else 0.5
     document = replace(
-        _file_document(run.grid, scans, Source("run", name, len(scans)), prior),
+        _file_document(run.grid, scans, Source("run", name, len(scans)), p_wall),
         method=method if method in METHODS else "gibbs",
         order=settings.get("order") or "radial",  # other kinds of cells than walls have no order
         cells=run.posterior.prior.words.kind,  # type: ignore[arg-type]
@@ -224,9 +224,6 @@ def open_log(scans: Scans, name: str) -> OpenedLog:
 
     Poses that look like raw odometry are at first treated as odometry. Raises `BadInput` if the log has no scans.
     """
-    from bayesmap.cells.kinds import P_WALL
-    from bayesmap.poses.log_checks import look_like_odometry
-
     grid = Grid.covering(scans, LOG_RESOLUTION_M)
     if max(grid.shape) > MAX_LOG_SIDE:
         grid = Grid.covering(scans, LOG_RESOLUTION_M * math.ceil(max(grid.shape) / MAX_LOG_SIDE))
@@ -235,11 +232,11 @@ def open_log(scans: Scans, name: str) -> OpenedLog:
     return OpenedLog(replace(document, poses="odometry") if look_like_odometry(scans) else document, scans)
 
 
-def _file_document(grid: Grid, scans: Scans, source: Source, prior: float) -> Document:
+def _file_document(grid: Grid, scans: Scans, source: Source, p_wall: float) -> Document:
     """Return the document of a file. Raises `BadInput` if the grid has too many cells for the page."""
     if max(grid.shape) > MAX_FILE_SIDE:
         raise BadInput(f"{source.name}: {grid.shape} cells are too many for the page, at most {MAX_FILE_SIDE}")
     return Document(
-        grid=grid, walls=empty_walls(grid), sensors=(), prior=float(prior), angles=len(scans.angles_rad),
+        grid=grid, walls=empty_walls(grid), sensors=(), prior=float(p_wall), angles=len(scans.angles_rad),
         max_range=scans.max_range_m, source=source,
     )  # fmt: skip

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from bayesmap.app.protocol.document import Document
 from bayesmap.app.protocol.notices import Stage, Status
-from bayesmap.app.protocol.tasks import Infer, RestoreTrajectory, TrajectoryInferred
+from bayesmap.app.protocol.tasks import Infer, TrajectoryInferred, TrajectoryState
 from bayesmap.app.shown.hit_maps import HitCountMap, grow_grid, hit_count_map, untraced_scene
 from bayesmap.app.shown.result import Result
 from bayesmap.app.sources import OpenedLog, open_log
@@ -174,7 +174,7 @@ class LogTrajectory:
         """Return the log along the inferred trajectory if the document asks for it and it is known, else as opened."""
         return self.inferred_log if document.from_odometry and self.inferred_log is not None else self.log
 
-    def restore(self, task: RestoreTrajectory) -> None:
+    def restore(self, task: TrajectoryState) -> None:
         """Take over the trajectory that an earlier worker inferred."""
         self._open_inferred(replace(self.log.scans.at(task.poses), angles_rad=task.angles_rad, own_angles_rad=None))
 
@@ -205,7 +205,7 @@ class LogTrajectory:
         moved_scans = move_to_trajectory(scans, job.trajectory)
         self._open_inferred(moved_scans)
         own_angles = moved_scans.own_angles_rad
-        trajectory = RestoreTrajectory(moved_scans.poses, moved_scans.angles_rad if own_angles is None else own_angles)
+        trajectory = TrajectoryState(moved_scans.poses, moved_scans.angles_rad if own_angles is None else own_angles)
         yield TrajectoryInferred(trajectory, generation=task.generation)
         yield Status(describe_trajectory(scans, job.trajectory), "info")
 

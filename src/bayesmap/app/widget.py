@@ -12,7 +12,7 @@ from bayesmap.app.figures import page_in_one_file, read_static
 from bayesmap.app.hub import on_this_loop, running_loop
 from bayesmap.app.protocol.document import Refused
 from bayesmap.app.protocol.notices import AnyNotice
-from bayesmap.app.protocol.tasks import Buffers, Report, Unusable
+from bayesmap.app.protocol.tasks import Buffers, FileUnusable, Report
 from bayesmap.app.protocol.wire import check_action, parse_simulation, read_seq, separate_arrays
 from bayesmap.app.session import Effects, Session, ToPage, refusal
 from bayesmap.app.sources import open_run
@@ -140,7 +140,7 @@ class MapWidget(anywidget.AnyWidget):
         self._supervisor.start()
 
     def _receive_report(self, report: Report) -> None:
-        if not isinstance(report.message, Unusable):
+        if not isinstance(report.message, FileUnusable):
             with self._session_lock:
                 self._carry_out(self._session.receive_report(report))
 

@@ -19,7 +19,7 @@ from dataclasses import replace
 from multiprocessing.connection import Connection
 from typing import Any, TypeVar
 
-from bayesmap.app.protocol.tasks import ALIVE_SECONDS, Alive, Infer, Ready, Report, Task, Unusable
+from bayesmap.app.protocol.tasks import ALIVE_SECONDS, Alive, FileUnusable, Infer, Ready, Report, Task
 from bayesmap.errors import BadInput
 
 AnyTask = TypeVar("AnyTask")
@@ -52,8 +52,8 @@ class Reporter:
 def run_tasks(pipe: Connection, path: str | None, log_options: dict[str, Any]) -> None:
     """Do the tasks from the pipe until its other end is closed.
 
-    The first report is `Unusable` if the file cannot be opened. Else it is `Ready` with the file's document, after a
-    small map has been inferred, so that all kernels are loaded. ``log_options`` are options of `bayesmap.read_log`.
+    The first report is `FileUnusable` if the file cannot be opened. Else it is `Ready` with the file's document, after
+    a small map has been inferred, so that all kernels are loaded. ``log_options`` are options of `bayesmap.read_log`.
     """
     from bayesmap.app.engine import Engine
     from bayesmap.app.sources import open_file
@@ -62,7 +62,7 @@ def run_tasks(pipe: Connection, path: str | None, log_options: dict[str, Any]) -
     try:
         opened = open_file(path, **log_options) if path is not None else None
     except (BadInput, OSError) as error:
-        report(Report(Unusable(str(error))))
+        report(Report(FileUnusable(str(error))))
         return
     _load_kernels()
     engine = Engine(report, opened)
@@ -206,7 +206,7 @@ class Supervisor:
                     if isinstance(report.message, Alive):
                         continue
                     self._on_report(report)
-                    if isinstance(report.message, Unusable):
+                    if isinstance(report.message, FileUnusable):
                         return
             if self._stopping.is_set():
                 return

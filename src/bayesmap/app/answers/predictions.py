@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.app.protocol.actions import CompareBeam, MoveGhost
-from bayesmap.app.protocol.notices import ComparedBeam, GhostScan, Near, SurfaceOffset
+from bayesmap.app.protocol.actions import CompareBeam, MoveVirtualScan
+from bayesmap.app.protocol.notices import ComparedBeam, NearestScan, SurfaceOffset, VirtualScan
 from bayesmap.app.protocol.tasks import Buffers
 from bayesmap.app.scene import hit_mask
 from bayesmap.app.shown.chains import Pilot
@@ -50,7 +50,7 @@ class VirtualScanPredictor:
         self._coarse_predictor: ScanPredictor | None = None  # thinned to `COARSE_DRAWS`; None before its first use
         self._n_draws = 0
 
-    def answer(self, result: Result, question: MoveGhost, generation: int) -> tuple[GhostScan, Buffers]:
+    def answer(self, result: Result, question: MoveVirtualScan, generation: int) -> tuple[VirtualScan, Buffers]:
         """Predict the scan at a pose, and find the nearest real scan. Raises `BadInput` if nothing can be predicted."""
         began_s = time.perf_counter()
         predictor, n_draws = self._predictor_of(result, question.coarse)
@@ -68,7 +68,7 @@ class VirtualScanPredictor:
         low, median, high = predictor.quantiles(pose, angles_rad).T.astype(np.float32)
         buffers |= {"angles": angles_rad.astype(np.float32), "low": low, "median": median, "high": high}
         milliseconds = round(1e3 * (time.perf_counter() - began_s), 1)
-        return GhostScan(*pose, question.coarse, n_draws, nearest, milliseconds, generation=generation), buffers
+        return VirtualScan(*pose, question.coarse, n_draws, nearest, milliseconds, generation=generation), buffers
 
     def _predictor_of(self, result: Result, coarse: bool) -> tuple[ScanPredictor, int]:
         """Return the predictor of a result and its number of draws, at most `COARSE_DRAWS` if coarse."""
@@ -123,7 +123,7 @@ def one_beam_each(scans: Scans, beams: NDArray[np.intp]) -> Scans:
     )  # fmt: skip
 
 
-def nearest_scan(poses: Floats, pose: tuple[float, float, float], angles_rad: Floats) -> Near | None:
+def nearest_scan(poses: Floats, pose: tuple[float, float, float], angles_rad: Floats) -> NearestScan | None:
     """Find the scan nearest to a pose; None if none is within `MAX_NEARBY_M` and shares `MIN_SHARED_VIEW`."""
     view_rad = float(np.ptp(angles_rad)) if len(angles_rad) > 1 else 0.0
     distance_m = np.hypot(poses[:, 0] - pose[0], poses[:, 1] - pose[1])
@@ -134,7 +134,7 @@ def nearest_scan(poses: Floats, pose: tuple[float, float, float], angles_rad: Fl
     if not is_near.any():
         return None
     nearest = int(np.where(is_near, distance_m / MAX_NEARBY_M + 1.0 - shared, np.inf).argmin())
-    return Near(nearest, round(float(distance_m[nearest]), 3), round(float(turn_rad[nearest]), 4))
+    return NearestScan(nearest, round(float(distance_m[nearest]), 3), round(float(turn_rad[nearest]), 4))
 
 
 def compare_beam(result: Result, question: CompareBeam, generation: int) -> ComparedBeam:

@@ -11,7 +11,7 @@ from msgspec import structs
 from bayesmap.app.answers.evidence import BeamRatios, stop_ratios, strongest_beams, sum_evidence, wall_ratios
 from bayesmap.app.answers.predictions import VirtualScanPredictor, compare_beam
 from bayesmap.app.answers.whereabouts import Locator
-from bayesmap.app.protocol.actions import CompareBeam, FindPath, FindViews, Inspect, MoveGhost, Question, WhereAmI
+from bayesmap.app.protocol.actions import CompareBeam, FindPath, FindViews, Inspect, MoveVirtualScan, Question, WhereAmI
 from bayesmap.app.protocol.document import Document
 from bayesmap.app.protocol.notices import AnyNotice, CellFacts, SafePath, Undecided, Views
 from bayesmap.app.protocol.tasks import Buffers, Report
@@ -24,14 +24,14 @@ from bayesmap.posterior.decisions import beam_information, shortest_safe_path, t
 from bayesmap.space.arrays import Mask
 from bayesmap.space.planar import Floats
 
-ANSWERED_BY: Mapping[type, Literal["path", "views", "ghost", "beam"]] = {  # types of the answers, by type of question
-    FindPath: "path", FindViews: "views", MoveGhost: "ghost", CompareBeam: "beam",
+UNDECIDED_QUESTION: Mapping[type, Literal["path", "views", "ghost", "beam"]] = {  # by type of question
+    FindPath: "path", FindViews: "views", MoveVirtualScan: "ghost", CompareBeam: "beam",
 }  # fmt: skip
 
 MAX_VIEWS = 400  # places in the map of expected information
 MAX_P_STOP = 0.3  # a sensor may stand in a cell whose probability of stopping a beam is below this
 HEADINGS = 8  # headings tried per place
-MAX_ANGLES = 180  # beams per view, evenly chosen; each also counts for the beams left out
+MAX_ANGLES = 180  # beams per view: every k-th, so their information is multiplied by k
 FULL_CIRCLE_RAD = 6.1  # one heading is enough for beams that span this: those of a full circle span a little under 2 pi
 
 
@@ -42,7 +42,7 @@ class Snapshot:
     scene: Scene | None  # the readings
     result: Result | None  # the result on show
     scan: int  # index of the scan on show, for a file
-    generation: int  # number of the present picture
+    generation: int  # number of the job, see `tasks.Infer`
 
 
 class Answers:
@@ -53,7 +53,7 @@ class Answers:
         self._locator = Locator()
 
     def answer(self, question: Question, snapshot: Snapshot, client: int) -> Report:
-        """Answer the question of a page."""
+        """Answer a page's question. Without a result, only `Inspect` and `WhereAmI` have an answer."""
         if isinstance(question, Inspect):
             return Report(*cell_facts(question, snapshot), client)
         result, generation = snapshot.result, snapshot.generation
@@ -67,12 +67,12 @@ class Answers:
                     return Report(find_safe_path(result, question, generation), {}, client)
                 case FindViews():
                     return Report(*rank_views(result, generation), client)
-                case MoveGhost():
+                case MoveVirtualScan():
                     return Report(*self._virtual_scans.answer(result, question, generation), client)
                 case CompareBeam():
                     return Report(compare_beam(result, question, generation), {}, client)
         except BadInput as error:
-            return Report(Undecided(str(error), ANSWERED_BY[type(question)], generation=generation), {}, client)
+            return Report(Undecided(str(error), UNDECIDED_QUESTION[type(question)], generation=generation), {}, client)
 
 
 def cell_facts(question: Inspect, snapshot: Snapshot) -> tuple[AnyNotice, Buffers]:
@@ -80,15 +80,15 @@ def cell_facts(question: Inspect, snapshot: Snapshot) -> tuple[AnyNotice, Buffer
     x, y, result = question.x, question.y, snapshot.result
     table = None if snapshot.scene is None else snapshot.scene.problem.table
     if table is None or x >= table.grid.shape[0] or y >= table.grid.shape[1]:
-        return CellFacts(x, y, question.each, 0), {}
+        return CellFacts(x, y, each_beam=question.each_beam, beams=0), {}
     cell = x * table.grid.shape[1] + y
-    if question.each and result is not None and result.prior.words.kind == "binary":
+    if question.each_beam and result is not None and result.prior.words.kind == "binary":
         return _wall_facts(question, result, table)
     ratios = None if result is None else _compute_ratios(result, table, cell)
     if result is None or ratios is None:
-        return CellFacts(x, y, question.each, int(np.count_nonzero(table.cells == cell))), {}
-    facts = CellFacts(x, y, question.each, **sum_evidence(ratios))
-    return facts, strongest_beams(ratios, result.scene.scans.at(result.scan_poses)) if question.each else {}
+        return CellFacts(x, y, each_beam=question.each_beam, beams=int(np.count_nonzero(table.cells == cell))), {}
+    facts = CellFacts(x, y, each_beam=question.each_beam, **sum_evidence(ratios))
+    return facts, strongest_beams(ratios, result.scene.scans.at(result.scan_poses)) if question.each_beam else {}
 
 
 def _wall_facts(question: Inspect, result: Result, table: BeamTable) -> tuple[AnyNotice, Buffers]:
@@ -97,12 +97,12 @@ def _wall_facts(question: Inspect, result: Result, table: BeamTable) -> tuple[An
     estimate = result.estimate
     site = question.x, question.y
     cell = int(np.ravel_multi_index(site, table.grid.shape))
-    # If poses are sampled, each draw belongs to poses of its own, but the table to the document's poses: take the mean.
+    # Draws with poses of their own do not fit the table, which was traced at the document's poses: take the mean.
     known_poses = estimate.scan_poses is None and (estimate.model is None or not estimate.model.poses.unknown)
     drawn = estimate.draw(question.chain, question.draw) if question.draw is not None and known_poses else None
     p_wall = estimate.mean() if drawn is None else drawn.values
     ratios = wall_ratios(table, p_wall.ravel().astype(float), cell)
-    facts = CellFacts(*site, True, **sum_evidence(ratios))
+    facts = CellFacts(*site, each_beam=True, **sum_evidence(ratios))
     if drawn is not None:
         facts = structs.replace(facts, draw=drawn.draw, chain=drawn.chain)
         # The log odds by which Gibbs sampling draws the cell: those of the prior plus the log ratios of all beams.

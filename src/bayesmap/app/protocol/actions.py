@@ -6,7 +6,7 @@ the view. The page's TypeScript types are generated from these declarations and 
 
 from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias, get_type_hints
 
-from msgspec import UNSET, Meta, Struct, UnsetType, defstruct
+from msgspec import UNSET, Meta, Struct, UnsetType, defstruct, field
 
 from bayesmap.app.protocol.document import RESOLUTION_RANGE_M, SIDE_RANGE, Metres, Radians, SensorId, Settings
 
@@ -35,7 +35,7 @@ class Hello(Action, frozen=True, tag="hello"):
     document: dict[str, Any] | None = None
 
 
-if TYPE_CHECKING:  # the fields of a patch are the settings, each optional: type checkers cannot follow that
+if TYPE_CHECKING:  # type checkers cannot see these fields: those of `Settings`, each optional
 
     class Patch(Struct, frozen=True):
         """Changed settings."""
@@ -63,7 +63,7 @@ class ChangeSettings(Action, frozen=True, tag="set"):
     coarse: bool = False
 
 
-class Walls(Action, frozen=True, tag="walls"):
+class PaintWalls(Action, frozen=True, tag="walls"):
     """Draw walls in cells, or erase them."""
 
     cells: Annotated[list[tuple[Index, Index]], Meta(min_length=1, max_length=MAX_CELLS)]  # indices (x, y) of the cells
@@ -101,7 +101,7 @@ class Clear(Action, frozen=True, tag="clear"):
     what: Literal["walls", "inference"]  # "inference" goes back to the prior
 
 
-class New(Action, frozen=True, tag="new"):
+class NewMap(Action, frozen=True, tag="new"):
     """Begin another map."""
 
     shape: tuple[Side, Side]  # number of cells along x and y
@@ -109,7 +109,7 @@ class New(Action, frozen=True, tag="new"):
 
 
 class Undo(Action, frozen=True, tag="undo"):
-    """Undo the last step, if this page made it, or a page that is no longer connected."""
+    """Undo the last step of this page, or of a page that is no longer connected."""
 
 
 class Redo(Action, frozen=True, tag="redo"):
@@ -124,7 +124,7 @@ class Cancel(Action, frozen=True, tag="cancel"):
     """Stop inference. The result so far stays."""
 
 
-class Live(Action, frozen=True, tag="live"):
+class SetLive(Action, frozen=True, tag="live"):
     """Choose whether every edit restarts the chains after the preview."""
 
     on: bool  # true if every edit restarts the chains
@@ -161,7 +161,7 @@ class Inspect(Action, frozen=True, tag="inspect"):
 
     x: Index  # index of the cell along x
     y: Index  # index of the cell along y
-    each: bool = False  # true to get also the evidence of each beam
+    each_beam: bool = field(name="each", default=False)  # true to get also the evidence of each beam
     chain: Count = 0  # index of the draw's chain
     draw: Count | None = None  # for walls, index of the draw that gives the other cells; null means the mean map
 
@@ -185,7 +185,7 @@ class WhereAmI(Action, frozen=True, tag="where"):
     sensor: SensorId | None = None  # id of the sensor whose scan is meant, in a drawn world
 
 
-class MoveGhost(Action, frozen=True, tag="ghost"):
+class MoveVirtualScan(Action, frozen=True, tag="ghost"):
     """Ask for the virtual scan at a pose in the world frame; answered by `ghost` or `undecided`."""
 
     x: Metres  # position, metres
@@ -201,11 +201,11 @@ class CompareBeam(Action, frozen=True, tag="beam"):
     beam: Index  # index of the beam
 
 
-Edit: TypeAlias = ChangeSettings | Walls | AddSensor | MoveSensor | RemoveSensor | Clear | New
+Edit: TypeAlias = ChangeSettings | PaintWalls | AddSensor | MoveSensor | RemoveSensor | Clear | NewMap
 """Actions that change the document. `clear` does so only for walls."""
 
-Question: TypeAlias = Inspect | FindPath | FindViews | WhereAmI | MoveGhost | CompareBeam  # answered to one page
+Question: TypeAlias = Inspect | FindPath | FindViews | WhereAmI | MoveVirtualScan | CompareBeam  # answered to one page
 
 AnyAction: TypeAlias = (
-    Hello | Edit | Undo | Redo | Run | Cancel | Live | ShowView | Painted | ShowScan | Export | Question
+    Hello | Edit | Undo | Redo | Run | Cancel | SetLive | ShowView | Painted | ShowScan | Export | Question
 )

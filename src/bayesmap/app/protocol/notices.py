@@ -7,7 +7,7 @@ the wire format and cannot change alone.
 
 from typing import TYPE_CHECKING, Literal, TypeAlias, get_type_hints
 
-from msgspec import Struct, defstruct
+from msgspec import Struct, defstruct, field
 
 from bayesmap.app.protocol.actions import FindPath, Layer
 from bayesmap.app.protocol.document import MAP_BOUNDS, SETTING_BOUNDS, Document, bounds_of
@@ -190,7 +190,7 @@ class CellFacts(Notice, frozen=True, tag="cell"):
 
     x: int  # index of the cell along x
     y: int  # index of the cell along y
-    each: bool  # whether the question asked for each beam
+    each_beam: bool = field(name="each")  # whether the question asked for each beam
     beams: int  # number of beams through the cell
     # number of beams for an obstacle; null, like the next fields, if the evidence cannot be computed
     beams_for: int | None = None
@@ -225,7 +225,7 @@ class Views(PictureNotice, frozen=True, tag="views"):
     spacing: float  # distance between neighbouring places, metres
 
 
-class Near(Struct, frozen=True):
+class NearestScan(Struct, frozen=True):
     """The real scan nearest to a pose."""
 
     index: int  # index of the scan
@@ -233,7 +233,7 @@ class Near(Struct, frozen=True):
     turn: float  # heading of the scan minus heading of the pose, radians
 
 
-class GhostScan(PictureNotice, frozen=True, tag="ghost"):
+class VirtualScan(PictureNotice, frozen=True, tag="ghost"):
     """The virtual scan of a robot's laser at a pose, and the nearest real scan.
 
     Buffers: angles float32 (A); low, median, high float32 (A), the median and central 80 % interval of each beam in
@@ -245,7 +245,7 @@ class GhostScan(PictureNotice, frozen=True, tag="ghost"):
     yaw: float  # heading of the pose, radians
     coarse: bool  # whether only a few draws were used, since the hand still moved
     draws: int  # number of draws used; 0 without draws, when cells count as independent
-    near: Near | None  # nearest real scan, if one is near enough
+    near: NearestScan | None  # nearest real scan, if one is near enough
     milliseconds: float  # time that the prediction took
 
 
@@ -342,6 +342,6 @@ class Download(Notice, frozen=True, tag="download"):
 
 
 AnyNotice: TypeAlias = (
-    Welcome | Worker | State | Scan | Field | Overlay | CellFacts | SafePath | Views | GhostScan | ComparedBeam
+    Welcome | Worker | State | Scan | Field | Overlay | CellFacts | SafePath | Views | VirtualScan | ComparedBeam
     | Undecided | Whereabouts | Stage | Status | Refusal | Download
 )  # fmt: skip

@@ -36,7 +36,7 @@ class Ask(Struct, frozen=True):
     """Answer the question of a page, or make a file for the page."""
 
     client: int  # number of the page
-    question: Question | Export
+    request: Question | Export
 
 
 class Show(Struct, frozen=True):
@@ -46,14 +46,14 @@ class Show(Struct, frozen=True):
     view: View
 
 
-class RestoreTrajectory(Struct, frozen=True, eq=False):
-    """Take over the trajectory that an earlier worker inferred from the log."""
+class TrajectoryState(Struct, frozen=True, eq=False):
+    """The trajectory inferred from a log. As a task: take it over from an earlier worker."""
 
     poses: NDArray[Any]  # poses of all scans in the world frame, in the order of the log, (S, 3)
     angles_rad: NDArray[Any]  # the inferred angles of the beams, (A,), or (S, A) if they differ from scan to scan
 
 
-Task: TypeAlias = Infer | Cancel | Show | ShowScan | Ask | RestoreTrajectory
+Task: TypeAlias = Infer | Cancel | Show | ShowScan | Ask | TrajectoryState
 
 
 class JobSignal(Struct, frozen=True, kw_only=True):
@@ -63,52 +63,52 @@ class JobSignal(Struct, frozen=True, kw_only=True):
 
 
 class Ready(Struct, frozen=True):
-    """The worker is ready for tasks."""
+    """Report that the worker is ready for tasks."""
 
     document: Document | None = None  # document of the opened file, if there is a file
 
 
 class GridChanged(JobSignal, frozen=True):
-    """The map is on another grid from now on."""
+    """Report that the map is on another grid from now on."""
 
     grid: Grid
 
 
 class TrajectoryInferred(JobSignal, frozen=True, eq=False):
-    """The trajectory of the log has been inferred, or cleared."""
+    """Report that the trajectory of the log has been inferred, or cleared."""
 
-    trajectory: RestoreTrajectory | None  # task that gives the trajectory to a later worker; None if cleared
+    trajectory: TrajectoryState | None  # None if cleared
 
 
 class Finished(JobSignal, frozen=True):
-    """The job is done."""
+    """Report that the job is done."""
 
     draws: DrawCount  # kept draws of the result
 
 
 class Failed(JobSignal, frozen=True):
-    """The job cannot be done."""
+    """Report that the job cannot be done."""
 
-    text: str  # the reason
+    reason: str
 
 
 class Alive(Struct, frozen=True):
-    """A signal that the worker is still responsive."""
+    """Report that the worker is still responsive."""
 
 
-class Unusable(Struct, frozen=True):
-    """The file cannot be opened. The worker ends."""
+class FileUnusable(Struct, frozen=True):
+    """Report that the file cannot be opened. The worker ends."""
 
-    text: str  # the reason
+    reason: str
 
 
-Signal: TypeAlias = Ready | GridChanged | TrajectoryInferred | Finished | Failed | Alive | Unusable
+Signal: TypeAlias = Ready | GridChanged | TrajectoryInferred | Finished | Failed | Alive | FileUnusable
 
 
 @dataclass(frozen=True)
 class Report:
     """A report of the worker: a notice for pages, or a signal."""
 
-    message: AnyNotice | Signal  # the notice or signal
+    message: AnyNotice | Signal
     buffers: Buffers = field(default_factory=dict)  # arrays by name
     client: int | None = None  # number of the page that the report is for; None for all pages
