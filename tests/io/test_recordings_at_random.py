@@ -158,7 +158,7 @@ FAULTS = dict.fromkeys(HARMLESS, ()) | {
     "moving world": ("the map is made in 'universe'",), "two mounts": ("has two values on",),
     "mounts on two topics": ("differs between topics",), "static and moving": ("differs between topics",),
     "two publishers": ("goes to and fro between values that differ",), "other topic": ("differs between topics",),
-    "others' transforms alone": ("other namespaces", "is called map, odom, world", "beside the namespace"),
+    "others' transforms alone": ("other namespaces", "is called map, odom, world", "outside the namespace"),
 }  # fmt: skip
 
 

@@ -11,7 +11,7 @@ from scipy.spatial.transform import RigidTransform, Rotation
 from bayesmap.io.contents import contents_of
 from bayesmap.io.logs import describe_log
 from bayesmap.io.ros.frames import Samples, Track
-from bayesmap.io.ros.publishers import contradiction
+from bayesmap.io.ros.publishers import find_contradiction
 
 
 def way(number):
@@ -203,12 +203,12 @@ def a_track(rng, samples, noise, late_s=0.0, away=(0.0, 0.0, 0.0)):
 def test_one_noisy_publisher_is_not_taken_for_two_and_two_are(noise):
     rng = np.random.default_rng(5)
     for _ in range(30):
-        assert contradiction("odom", "base_link", [a_track(rng, int(rng.integers(10, 300)), noise)]) is None
+        assert find_contradiction("odom", "base_link", [a_track(rng, int(rng.integers(10, 300)), noise)]) is None
     found = 0
     for seed in range(20):
         one = a_track(np.random.default_rng(seed), 150, 0.1 * noise)
         other = a_track(np.random.default_rng(seed), 150, 0.1 * noise, 0.05, (0.3, 0.4, 0.1))
-        found += contradiction("odom", "base_link", [Samples.joined([one, other])]) is not None
+        found += find_contradiction("odom", "base_link", [Samples.joined([one, other])]) is not None
     assert found == 20
 
 

@@ -77,7 +77,7 @@ def _describe_recording(path: str | os.PathLike[str]) -> Contents:
     for topic in recording.topics.values():
         rate_hz = round((topic.count - 1) / duration_s, 3) if topic.count > 1 and duration_s > 0 else None
         topics.append({"name": topic.name, "type": topic.type, "count": topic.count, "rate_hz": rate_hz})
-    pose_messages = poses.PoseMessages()
+    pose_messages = frames.PoseMessages()
     messages.read_messages(recording, recording.of_type(TF_TYPES), pose_messages, lambda *_: None)
     # Read the scans of each topic, and suggest a command for the best: with poses, then with most readings.
     scan_topics = recording.of_type(SCAN_TYPES)

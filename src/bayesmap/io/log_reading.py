@@ -46,9 +46,9 @@ class LogOptions:
 class SkippedPart:
     """A malformed line, message or object that was left out on request."""
 
-    number: int  # of the line, or of the message on its topic, from 1
+    number: int  # number of the line, or of the message on its topic, from 1
     reason: str
-    kind: str = "line"  # or another kind of part with its place, such as "message on /scan"
+    kind: str = "line"  # kind of the part, and its place if it is no line, such as "message on /scan"
 
     def __str__(self) -> str:
         kind, _, place = self.kind.partition(" ")
@@ -71,12 +71,12 @@ class ScanLog:
     notes: tuple[str, ...]  # sentences for the user
     scan_topic: str | None = None
     pose_source: str | None = None  # ``"/tf"``, another topic, or None if the scans hold their poses
-    fixed_frame: str | None = None  # of the poses
-    sensor_frame: str | None = None  # of the scans
-    deskewed: bool = False  # true if each beam has its own pose
+    fixed_frame: str | None = None  # frame of the poses
+    sensor_frame: str | None = None  # frame of the scans
+    deskewed: bool = False  # whether each beam has its own pose
     thin_m: float = 0.0  # minimum distance in metres between two scans; 0 if no scan was left out
     scans_read: int | None = None  # number of scans before thinning; None if they were not thinned
-    posed: bool = True  # true if the poses are known; if not, all are zero
+    posed: bool = True  # whether the poses are known; if not, all are zero
 
     def placed(self, trajectory: Trajectory) -> "ScanLog":
         """Return this log with its scans at interpolated poses of a trajectory.
@@ -127,10 +127,10 @@ class LogAccount:
     name: str  # path of the log
     format: str  # as in `ScanLog`
     options: LogOptions
-    counts: Counter[str] = field(default_factory=Counter)  # of lines, objects or messages, by kind
+    counts: Counter[str] = field(default_factory=Counter)  # numbers of lines, objects or messages, by kind
     skipped: list[SkippedPart] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
-    stamps_s: Floats | None = None  # of the scans in time order, (S,); None without stamps
+    stamps_s: Floats | None = None  # times of the scans in time order, (S,); None without stamps
     reordered: int = 0  # number of scans that follow a later scan in the file
 
     def reject(self, number: int, reason: str, kind: str = "line") -> None:

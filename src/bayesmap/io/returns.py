@@ -14,10 +14,10 @@ import numpy as np
 from bayesmap.errors import BadInput
 from bayesmap.space.arrays import Floats, Indices, Mask
 
-TOP_SHARE = 0.8  # of the largest reading: candidates are larger; and of a candidate: repeats are compared with these
-MIN_REPEATS = 10  # of a code: reports, and their ratio to the mean count of the smaller values
-MIN_BEAMS = 3  # beams that report a code
-MIN_ISOLATION = 2.0  # ratio of an isolated code to any smaller reading
+TOP_SHARE = 0.8  # share of the largest reading above which codes lie; and of a code, above which counts are compared
+MIN_REPEATS = 10  # fewest reports of a code, and their smallest ratio to the mean count of the smaller values
+MIN_BEAMS = 3  # fewest beams that report a code
+MIN_ISOLATION = 2.0  # smallest ratio of an isolated code to any smaller reading
 MAX_CODES = 8  # different values above a code
 MIN_VIEWS = 3  # places, or separate directions from one place, from which a code must be reported
 SAME_PLACE_M = 0.05  # largest distance of scans from one place
@@ -25,7 +25,7 @@ SAME_DIRECTION_RAD = math.radians(1.0)  # width of the bins of directions
 MAX_GAP_STEPS = 2.5  # gap, in steps between beams, within one direction; a larger gap separates two directions
 PRINT_PRECISION_M = 1e-3  # tolerance of a code: 81.83 also stands for 81.8299 in the log
 MAX_STATED_RANGE_M = 1e6  # a larger stated range is no sensor's limit
-MAX_INVALID_SHARE = 0.01  # of zero and negative readings; a note names a larger share
+MAX_INVALID_SHARE = 0.01  # share of zero and negative readings; a note names a larger share
 
 
 @dataclass(frozen=True)
@@ -75,7 +75,7 @@ def classify(
     is_zero_or_less = np.isfinite(readings_m) & (readings_m <= 0)
     if no_return is None and np.isinf(readings_m).any():
         ranges = np.where(is_zero_or_less, np.nan, readings_m)
-        code = NoReturn(None, "none")
+        code = NoReturn(code_m=None, origin="none")
     else:
         ranges, code = decode(readings_m, no_return, stated_max, views)
         notes += code.notes()
@@ -191,7 +191,7 @@ def _numbers_standing_out(readings_m: Floats, usable: Mask) -> list[float]:
     values, counts = np.unique(readings_m[usable], return_counts=True)
     n_below = np.concatenate([[0], np.cumsum(counts)])  # number of readings below values[i]
     candidates = np.nonzero(values >= TOP_SHARE * values[-1])[0][-1 - MAX_CODES :]
-    window_start = np.searchsorted(values, TOP_SHARE * values[candidates])  # of [0.8 v, v)
+    window_start = np.searchsorted(values, TOP_SHARE * values[candidates])  # start of [0.8 v, v)
     usual_count = (n_below[candidates] - n_below[window_start]) / np.maximum(candidates - window_start, 1)
     # Two ways to stand out: repetition, and a gap below.
     repeated = counts[candidates] >= MIN_REPEATS * np.maximum(usual_count, 1.0)
@@ -211,10 +211,10 @@ def _count_beams(mask: Mask) -> int:
 
 @dataclass(frozen=True, eq=False)
 class Views:
-    """From where, and in which direction, each reading was taken."""
+    """The place and the direction from which each reading was taken."""
 
-    place: Indices  # of each scan, (S,); consecutive scans from one place have one number
-    direction_rad: Floats  # of each reading in the world, (S, A)
+    place: Indices  # place number of each scan, (S,); consecutive scans from one place have one number
+    direction_rad: Floats  # direction of each reading in the world, (S, A)
     step_rad: float  # angle between two beams
 
     @classmethod

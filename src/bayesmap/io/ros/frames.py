@@ -16,19 +16,19 @@ from numpy.typing import NDArray
 from scipy.interpolate import make_interp_spline
 from scipy.spatial.transform import RigidTransform, Rotation, Slerp
 
-from bayesmap.io.ros.recording import MalformedMessage
+from bayesmap.io.ros.recording import ODOMETRY, POSE, TF_TYPES, MalformedMessage, Topic, base_name
 from bayesmap.space.arrays import bracketing_indices
 from bayesmap.space.planar import Floats
 
 MAX_COORDINATE_M = 1e7  # larger coordinates are malformed
-MAX_STAMP_NS = 2**62  # in the year 2116
+MAX_STAMP_NS = 2**62  # a time in the year 2116
 CONSTANT_TOLERANCE = 1e-6  # largest change of a constant transform, in metres and radians
 FIXED_FRAMES = ("map", "odom", "world")  # names of fixed frames, in order of preference
 PoseNumbers = tuple[float, float, float, float, float, float, float]  # translation x, y, z and rotation x, y, z, w
 
 
 def poses_agree(first: PoseNumbers, second: PoseNumbers, tolerance: float) -> bool:
-    """Return true if two poses agree within a tolerance in metres and radians; q and -q are one rotation."""
+    """Return whether two poses agree within a tolerance in metres and radians; q and -q are one rotation."""
     if first == second:
         return True
     sign = 1.0 if sum(a * b for a, b in zip(first[3:], second[3:], strict=True)) >= 0 else -1.0
@@ -42,7 +42,7 @@ def poses_agree(first: PoseNumbers, second: PoseNumbers, tolerance: float) -> bo
 class Samples:
     """The poses of a frame in another on one topic, in the order of receipt."""
 
-    is_static: bool = False  # true if the topic is /tf_static
+    is_static: bool = False  # whether the topic is /tf_static
     topic: str = ""
     stamps_ns: list[int] = field(default_factory=list)
     received_ns: list[int] = field(default_factory=list)
@@ -73,7 +73,7 @@ class Samples:
 
     @property
     def has_stamps(self) -> bool:
-        """True if any message has a stamp."""
+        """Whether any message has a stamp."""
         return any(self.stamps_ns)
 
     def times_ns(self) -> NDArray[np.int64]:
@@ -95,7 +95,7 @@ class Samples:
         return Track(stamps[order], motions, holds_always, inverted)
 
     def is_constant(self) -> bool:
-        """Return true if all poses are equal, or the topic is static."""
+        """Return whether all poses are equal, or the topic is static."""
         return self.is_static or all(poses_agree(pose, self.poses[0], CONSTANT_TOLERANCE) for pose in self.poses)
 
 
@@ -124,12 +124,44 @@ def frame_name(name: str) -> str:
     return name.lstrip("/")
 
 
+@dataclass(eq=False)
+class PoseMessages:
+    """Transforms by topic, parent and child, and poses by their frame and the body, in the order of receipt."""
+
+    transforms: dict[tuple[str, str, str], Samples] = field(default_factory=dict)
+    poses: dict[tuple[str, str], Samples] = field(default_factory=dict)
+
+    def add(self, topic: Topic, message: Any, received_ns: int) -> None:
+        """Append a message of one of `TF_TYPES` or `POSE_TYPES`. Raises `MalformedMessage` for bad numbers or times."""
+        if topic.type in TF_TYPES:
+            for entry in message.transforms:
+                parent, child = frame_name(entry.header.frame_id), frame_name(entry.child_frame_id)
+                numbers = pose_numbers(entry.transform.translation, entry.transform.rotation)
+                if parent == child:
+                    raise MalformedMessage(f"puts the frame {parent!r} into itself")
+                stamp_ns = stamp_ns_of(entry.header)
+                empty = Samples(is_static=base_name(topic.name) == "tf_static", topic=topic.name)
+                samples = self.transforms.setdefault((topic.name, parent, child), empty)
+                samples.add(stamp_ns, received_ns, numbers)
+            return
+        pose = message.pose if topic.type == POSE else message.pose.pose
+        body = frame_name(message.child_frame_id) if topic.type == ODOMETRY else ""
+        numbers, stamp_ns = pose_numbers(pose.position, pose.orientation), stamp_ns_of(message.header)
+        samples = self.poses.setdefault((frame_name(message.header.frame_id), body), Samples(topic=topic.name))
+        samples.add(stamp_ns, received_ns, numbers)
+
+
 class Transform(NamedTuple):
     """A transform of a frame tree, with its samples on each topic."""
 
     parent: str
     child: str
     by_topic: tuple[Samples, ...]
+
+
+def topics_of(transforms: Iterable[Transform]) -> list[str]:
+    """Return the topics on which transforms are, each once."""
+    return list(dict.fromkeys(samples.topic for transform in transforms for samples in transform.by_topic))
 
 
 @dataclass(frozen=True, eq=False)
@@ -185,14 +217,14 @@ class FrameTree:
     """Frames and the transforms between them, given the samples of transforms by topic, parent and child.
     ``ranks`` holds the rank of each topic to use: if several topics place a frame, the topics of the lowest rank are
     used. None uses all topics equally. ``topics`` are the topics used. If a frame has several parents, the parent with
-    most messages is used, ``notes`` has a sentence for the user, and ``rivals`` the topics that place the frame.
+    most messages is used, ``parent_conflicts`` names the parents, and ``rivals`` holds the topics that place the frame.
     """
 
     def __init__(
         self, transforms: Mapping[tuple[str, str, str], Samples], ranks: Mapping[str, int] | None = None
     ) -> None:
         self.topics = {topic for topic, _, _ in transforms if ranks is None or topic in ranks}
-        self.notes: dict[str, str] = {}
+        self.parent_conflicts: dict[str, str] = {}  # statements for the user, by child
         self.rivals: dict[str, tuple[str, ...]] = {}
         self._edges: dict[str, Transform] = {}  # by child
         # The samples of each child by parent, from the topics of the lowest rank.
@@ -213,8 +245,7 @@ class FrameTree:
                 self.rivals[child] = tuple(dict.fromkeys(samples.topic for name in names for samples in parents[name]))
                 number = "two" if len(names) == 2 else len(names)
                 stated = f"{' and '.join(map(repr, names))} (on {', '.join(self.rivals[child])})"
-                note = f"frame {child!r} has {number} parents, {stated}; the one with more messages was used"
-                self.notes[child] = note
+                self.parent_conflicts[child] = f"frame {child!r} has {number} parents, {stated}"
 
     def frames(self) -> list[str]:
         """Return all frames, by name."""
@@ -258,7 +289,7 @@ class FrameTree:
     def named_ancestor(self, sensor: str, names: Iterable[str]) -> str | None:
         """Return the nearest frame above the sensor's with the first matching name (or ``robot/name``), or None."""
         frames = self.path_to_root(sensor)[1:]
-        return next((frame for name in names for frame in frames if frame.rpartition("/")[2] == name), None)
+        return next((frame for name in names for frame in frames if base_name(frame) == name), None)
 
     def body_frame(self, sensor: str, names: Iterable[str]) -> str | None:
         """Return the frame of the robot's body by its name: above the sensor's, or else fixed to it; or None."""
@@ -269,21 +300,21 @@ class FrameTree:
         others = [frame for frame in self.frames() if frame != sensor and self.path_to_root(frame)[-1] == root]
         for name in names:
             for frame in sorted(others, key=len):
-                chain = self.chain(frame, sensor) if frame.rpartition("/")[2] == name else None
+                chain = self.chain(frame, sensor) if base_name(frame) == name else None
                 if chain is not None and chain.span_ns() is None:
                     return frame
         return None
 
     def moves(self, frame: str) -> bool:
-        """Return true if a transform between a frame and its root changes."""
+        """Return whether a transform between a frame and its root changes."""
         edges = [self._edges[child] for child in self.path_to_root(frame)[:-1]]
         return any(not Samples.joined(edge.by_topic).is_constant() for edge in edges)
 
 
 def planar_pose(motion: RigidTransform) -> Floats:
     """Return the pose in the plane, shape (..., 3): x, y, and the yaw of the child's x axis."""
-    ahead = motion.rotation.apply([1.0, 0.0, 0.0])
-    return np.concatenate([motion.translation[..., :2], np.arctan2(ahead[..., 1], ahead[..., 0])[..., None]], -1)
+    x_axis = motion.rotation.apply([1.0, 0.0, 0.0])
+    return np.concatenate([motion.translation[..., :2], np.arctan2(x_axis[..., 1], x_axis[..., 0])[..., None]], -1)
 
 
 def axis_height(motion: RigidTransform) -> Floats:
@@ -297,8 +328,8 @@ class Track:
 
     stamps_ns: NDArray[np.int64]  # strictly ascending, (T,)
     motions: Any  # T motions, a `RigidTransform`
-    holds_always: bool = False  # true if the last motion holds at all times
-    inverted: bool = False  # true if `at` and `last` return inverse motions
+    holds_always: bool = False  # whether the last motion holds at all times
+    inverted: bool = False  # whether `at` and `last` return inverse motions
 
     def covers(self, stamps_ns: NDArray[np.int64]) -> NDArray[np.bool_]:
         """Select the times between the first and the last."""

@@ -22,9 +22,8 @@ from bayesmap.io.log_reading import LogAccount, LogOptions, ScanLog
 from bayesmap.io.ros import messages as scan_messages
 from bayesmap.io.ros import poses as pose_sources
 from bayesmap.io.ros.containers import open_recording
-from bayesmap.io.ros.frames import Chain, Samples, axis_height, planar_pose
+from bayesmap.io.ros.frames import Chain, PoseMessages, Samples, axis_height, planar_pose
 from bayesmap.io.ros.messages import LaserMessage, read_messages
-from bayesmap.io.ros.poses import PoseMessages
 from bayesmap.io.ros.recording import POSE_TYPES, TF_TYPES, TYPES, Recording, Topic
 from bayesmap.space.time_order import stamp_words
 
@@ -101,7 +100,7 @@ def _read_single_pose_topic(messages: _Messages, options: LogOptions) -> Topic |
     if single is None:
         return None
     trees = pose_sources.frame_trees(messages.poses, topic, None)
-    body = pose_sources.body_of(recording.path, trees, sensor) if options.laser else sensor
+    body = pose_sources.mount_frame_of(recording.path, trees, sensor) if options.laser else sensor
     if body is not None and any(pose_sources.fixed_frame_of(tree, body) is not None for tree in trees):
         return None
     read_messages(recording, [single], messages.poses, messages.reject)
@@ -174,14 +173,14 @@ def _join_runs(runs: list[_PlacedRun], messages: _Messages, account: LogAccount)
     account.reordered = sum(run.reordered for run in runs)
     # Angles, readings and poses.
     limits = Counter(scan.limits_m for scan in scans).most_common(1)[0][0]
-    has_body = source.chain.span_ns() is not None or not source.posed  # the body is the last frame that moves
+    has_body = source.chain.span_ns() is not None or not source.has_poses  # the body is the last frame that moves
     angles, readings = scan_messages.beams_of(scans)
     angles, first_ray_poses = runs[0].sign * angles, np.concatenate([run.first_ray_poses for run in runs])
     return account.scan_log(
         topic.type, first_ray_poses, angles, account.classify(readings, limits, first_ray_poses, angles),
         beam_poses=_beam_poses(runs), mount=source.chain.sensor_on_body() if has_body else None,
-        scan_topic=topic.name, pose_source=source.label if source.posed else None,
-        fixed_frame=source.fixed_frame if source.posed else None, sensor_frame=sensor, posed=source.posed,
+        scan_topic=topic.name, pose_source=source.topics if source.has_poses else None,
+        fixed_frame=source.fixed_frame if source.has_poses else None, sensor_frame=sensor, posed=source.has_poses,
     )  # fmt: skip
 
 
@@ -195,7 +194,7 @@ def _place_run(run: "ClockRun", messages: _Messages, account: LogAccount) -> _Pl
     stamps_ns, scans = _sort_by_time(run.scans, messages, account)
     ray_times_ns = _ray_times_ns(stamps_ns, scans, account)
     is_inside = np.asarray(source.chain.covers(ray_times_ns).all(axis=1))
-    if source.posed:
+    if source.has_poses:
         account.notes += _coverage_notes(account.name, stamps_ns, is_inside, source)
     scans = [scan for scan, inside in zip(scans, is_inside, strict=True) if inside]
     stamps_ns, ray_times_ns = stamps_ns[is_inside], ray_times_ns[is_inside]
@@ -203,7 +202,7 @@ def _place_run(run: "ClockRun", messages: _Messages, account: LogAccount) -> _Pl
     motion = source.chain.at(stamps_ns)
     remedy = "; choose another topic with --scan-topic"
     sign = account.beam_sign(axis_height(motion), f"the frame {messages.sensor!r}", remedy)
-    first_ray_poses = planar_pose(motion) if source.posed else np.zeros((len(stamps_ns), 3))
+    first_ray_poses = planar_pose(motion) if source.has_poses else np.zeros((len(stamps_ns), 3))
     notes = tuple(account.notes)
     return _PlacedRun(source, scans, stamps_ns, ray_times_ns, first_ray_poses, sign, account.reordered, notes)
 
@@ -265,9 +264,9 @@ def _coverage_notes(
     """Return notes on the scans outside the time of the poses, and in gaps. Raises `BadInput` if none is inside."""
     span_ns = source.chain.span_ns()
     if span_ns is None:
-        return [f"{source.label} does not move the sensor in the whole recording"]
+        return [f"{source.topics} does not move the sensor in the whole recording"]
     start_ns, end_ns = span_ns
-    known = f"poses by {source.label} are known from {stamp_words(start_ns * 1e-9)} to {stamp_words(end_ns * 1e-9)}"
+    known = f"poses by {source.topics} are known from {moment(start_ns * 1e-9)} to {moment(end_ns * 1e-9)}"
     if not is_inside.any():
         scan_span = f"the scans are from {stamp_words(stamps_ns[0] * 1e-9)} to {stamp_words(stamps_ns[-1] * 1e-9)}"
         remedy = "are both by the same clock? Choose other poses with --pose-topic or --fixed-frame"
@@ -281,13 +280,13 @@ def _coverage_notes(
     if n_in_gaps:
         gap = f"for over {MAX_GAP_S:g} s while the robot moved over {MAX_GAP_M:g} m"
         warning = "their poses are interpolated, and may be wrong"
-        notes.append(f"{n_in_gaps:,} scans lie where {source.label} says nothing {gap}; {warning}")
+        notes.append(f"{n_in_gaps:,} scans lie where {source.topics} says nothing {gap}; {warning}")
     return notes
 
 
 def _beam_poses(runs: list[_PlacedRun]) -> NDArray[np.float64] | None:
     """Return the poses of all rays, (S, A, 3); None if only the times of the first rays are known."""
-    if not runs[0].source.posed or all(run.ray_times_ns.shape[1] == 1 for run in runs):
+    if not runs[0].source.has_poses or all(run.ray_times_ns.shape[1] == 1 for run in runs):
         return None
     beams = max(scan.layout.beams for run in runs for scan in run.scans)
     poses = []
@@ -303,10 +302,10 @@ def _pose_source(messages: _Messages, poses: PoseMessages, options: LogOptions) 
     recording, sensor, pose_topic, laser = messages.recording, messages.sensor, messages.pose_topic, options.laser
     trees = pose_sources.frame_trees(poses, messages.topic.name, None if pose_topic is None else pose_topic.name)
     if options.without_poses:
-        return pose_sources.unposed_source(trees, sensor)
+        return pose_sources.source_without_poses(trees, sensor)
     if pose_topic is not None and pose_topic.type in POSE_TYPES:
         return pose_sources.source_by_topic(recording, pose_topic, poses, trees, sensor, laser)
-    body = pose_sources.body_of(recording.path, trees, sensor) if laser else sensor
+    body = pose_sources.mount_frame_of(recording.path, trees, sensor) if laser else sensor
     source = None
     if body is not None:
         is_chosen = pose_topic is not None

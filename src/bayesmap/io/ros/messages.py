@@ -20,8 +20,7 @@ from rosbags.typesys import Stores, get_types_from_idl, get_types_from_msg, get_
 
 from bayesmap.errors import BadInput
 from bayesmap.io.ros.containers import REMEDY, ZSTD, NotUnpacked, reason_of, unpack_zstd
-from bayesmap.io.ros.frames import frame_name, stamp_ns_of
-from bayesmap.io.ros.poses import PoseMessages
+from bayesmap.io.ros.frames import PoseMessages, frame_name, stamp_ns_of
 from bayesmap.io.ros.recording import LASER_SCAN, RANGE, SCAN_TYPES, Damaged, MalformedMessage, Recording, Topic
 from bayesmap.space.scans import MAX_BEAMS, Fan, fan_fault, side_by_side
 

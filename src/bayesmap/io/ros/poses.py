@@ -2,14 +2,13 @@
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass, field
-from typing import Any
+from dataclasses import dataclass
 
 from bayesmap.errors import BadInput
 from bayesmap.io.log_reading import NO_POSES_REMEDY, Pose
-from bayesmap.io.ros.frames import FIXED_FRAMES, Chain, FrameTree, Samples, Track, frame_name, pose_numbers, stamp_ns_of
-from bayesmap.io.ros.publishers import contradiction
-from bayesmap.io.ros.recording import ODOMETRY, POSE, POSE_TYPES, TF_TYPES, MalformedMessage, Recording, Topic
+from bayesmap.io.ros.frames import FIXED_FRAMES, Chain, FrameTree, PoseMessages, Samples, Track, frame_name, topics_of
+from bayesmap.io.ros.publishers import find_contradiction
+from bayesmap.io.ros.recording import POSE_TYPES, TF_TYPES, Recording, Topic, base_name, namespace_of
 
 BODIES = ("base_footprint", "base_link", "base")  # names of a robot's body, for poses that do not name their frame
 MOUNT_FRAMES = ("base_link", "base_footprint", "base")  # names of the frame to which a user's mount refers
@@ -19,44 +18,17 @@ MOUNT_FRAMES = ("base_link", "base_footprint", "base")  # names of the frame to 
 class PoseSource:
     """The source of the sensor's poses."""
 
-    label: str  # the topics, in words
+    topics: str  # names, joined by commas
     fixed_frame: str  # frame of the map
-    chain: Chain  # from the map's frame to the sensor's
+    chain: Chain  # transforms from the map's frame to the sensor's
     notes: tuple[str, ...] = ()  # sentences for the user
-    posed: bool = True  # if false, poses are not known, and the chain only shows whether the sensor is upside down
-
-
-@dataclass(eq=False)
-class PoseMessages:
-    """Transforms by topic, parent and child, and poses by their frame and the body, in the order of receipt."""
-
-    transforms: dict[tuple[str, str, str], Samples] = field(default_factory=dict)
-    poses: dict[tuple[str, str], Samples] = field(default_factory=dict)
-
-    def add(self, topic: Topic, message: Any, received_ns: int) -> None:
-        """Append a message of one of `TF_TYPES` or `POSE_TYPES`. Raises `MalformedMessage` for bad numbers or times."""
-        if topic.type in TF_TYPES:
-            for entry in message.transforms:
-                parent, child = frame_name(entry.header.frame_id), frame_name(entry.child_frame_id)
-                numbers = pose_numbers(entry.transform.translation, entry.transform.rotation)
-                if parent == child:
-                    raise MalformedMessage(f"puts the frame {parent!r} into itself")
-                stamp_ns = stamp_ns_of(entry.header)
-                empty = Samples(is_static=topic.name.rpartition("/")[2] == "tf_static", topic=topic.name)
-                samples = self.transforms.setdefault((topic.name, parent, child), empty)
-                samples.add(stamp_ns, received_ns, numbers)
-            return
-        pose = message.pose if topic.type == POSE else message.pose.pose
-        body = frame_name(message.child_frame_id) if topic.type == ODOMETRY else ""
-        numbers, stamp_ns = pose_numbers(pose.position, pose.orientation), stamp_ns_of(message.header)
-        samples = self.poses.setdefault((frame_name(message.header.frame_id), body), Samples(topic=topic.name))
-        samples.add(stamp_ns, received_ns, numbers)
+    has_poses: bool = True  # if false, poses are not known, and the chain only shows whether the sensor is upside down
 
 
 def pose_topics(recording: Recording) -> list[Topic]:
     """Return the topics from which poses can come: of poses, and of transforms other than the static ones."""
     topics = recording.of_type((*TF_TYPES, *POSE_TYPES))
-    return [topic for topic in topics if topic.name.rpartition("/")[2] != "tf_static"]
+    return [topic for topic in topics if base_name(topic.name) != "tf_static"]
 
 
 def pose_topic_of(recording: Recording, name: str) -> Topic:
@@ -67,9 +39,9 @@ def pose_topic_of(recording: Recording, name: str) -> Topic:
 
 
 def single_pose_topic(recording: Recording, scan_topic: str) -> Topic | None:
-    """Return the topic of poses to use instead of /tf: the only one in the scans' namespace, or of all; or None."""
+    """Return the only pose topic of the nearest namespace around the scans', or of the recording; None if ambiguous."""
     topics = recording.of_type(POSE_TYPES)
-    by_namespace = [[t for t in topics if _namespace(t.name) == space] for space in _namespaces(scan_topic)]
+    by_namespace = [[t for t in topics if namespace_of(t.name) == space] for space in _namespaces(scan_topic)]
     candidates = next(filter(None, by_namespace), topics)
     return candidates[0] if len(candidates) == 1 else None
 
@@ -82,32 +54,27 @@ def frame_trees(messages: PoseMessages, scan_topic: str, pose_topic: str | None)
     """
     topics = list(dict.fromkeys(topic for topic, _, _ in messages.transforms))
     spaces = [*(_namespaces(pose_topic) if pose_topic else ()), *_namespaces(scan_topic)]
-    ranks = {topic: spaces.index(_namespace(topic)) for topic in topics if _namespace(topic) in spaces}
+    ranks = {topic: spaces.index(namespace_of(topic)) for topic in topics if namespace_of(topic) in spaces}
     if pose_topic in topics:
         ranks[pose_topic] = -1
     # The other topics, in the order of what their namespace shares with the scans' namespace.
     shared = {topic: len({*_namespaces(topic)} & {*_namespaces(scan_topic)}) for topic in topics}
-    all_ranks = {topic: ranks.get(topic, len(spaces) + 100 - shared[topic]) for topic in topics}
+    all_ranks = {topic: ranks.get(topic, 2 * len(spaces) - shared[topic]) for topic in topics}
     preferred = FrameTree(messages.transforms, ranks)
     return [preferred] if len(ranks) == len(topics) else [preferred, FrameTree(messages.transforms, all_ranks)]
 
 
 def fixed_frame_of(tree: FrameTree, sensor: str) -> str | None:
-    """Return the frame above a sensor's in which to map: by its name, or the topmost if the sensor moves in it."""
-    named = tree.named_ancestor(sensor, FIXED_FRAMES)
-    return tree.path_to_root(sensor)[-1] if named is None and tree.moves(sensor) else named
-
-
-def _namespace(topic: str) -> str:
-    """Return the namespace of a topic, such as ``/robot1`` for ``/robot1/tf``."""
-    return topic.rpartition("/")[0]
+    """Return the frame to map in: the nearest of `FIXED_FRAMES` above the sensor, else the root if the sensor moves."""
+    fixed_frame = tree.named_ancestor(sensor, FIXED_FRAMES)
+    return tree.path_to_root(sensor)[-1] if fixed_frame is None and tree.moves(sensor) else fixed_frame
 
 
 def _namespaces(topic: str) -> list[str]:
     """Return the namespaces around a topic, the nearest first: ``/a/b``, ``/a``, and the empty one."""
-    spaces = [_namespace(topic)]
+    spaces = [namespace_of(topic)]
     while spaces[-1]:
-        spaces.append(_namespace(spaces[-1]))
+        spaces.append(namespace_of(spaces[-1]))
     return spaces
 
 
@@ -120,59 +87,61 @@ def source_by_transforms(
     `FIXED_FRAMES` above the sensor. ``chosen`` is true if the user chose the topics. Raises `BadInput` for an unknown
     frame, a frame that is not connected with the sensor's, or a transform with two values.
     """
-    named = None if fixed_frame is None else frame_name(fixed_frame)
+    user_frame = None if fixed_frame is None else frame_name(fixed_frame)
     for tree in trees:
-        notes: list[str] = []
-        fixed = named or fixed_frame_of(tree, sensor)
-        chain = None if fixed is None else tree.chain(fixed, sensor)
-        if fixed is None or chain is None:
+        map_frame = user_frame or fixed_frame_of(tree, sensor)
+        chain = None if map_frame is None else tree.chain(map_frame, sensor)
+        if map_frame is None or chain is None:
             continue
-        if named is None and fixed.rpartition("/")[2] not in FIXED_FRAMES:
-            notes.append(f"no frame over {sensor!r} is called {', '.join(FIXED_FRAMES)}; the map is made in {fixed!r}")
-        if fixed not in tree.path_to_root(sensor):
-            notes.append(f"the frame {fixed!r} is not over that of the scans, {sensor!r}; if it moves, the map moves")
-        transforms = tree.transforms_between(fixed, sensor)
-        for parent, child, by_topic in transforms:
-            if sum(len(samples.poses) for samples in by_topic) == 1 and not by_topic[0].is_static:
-                single = f"a single message of the transform {parent} -> {child}"
-                notes.append(f"there is {single}; it was taken to hold at all times")
-        notes += value_notes(recording, tree, fixed, sensor)
-        notes += _namespace_notes(trees, tree, fixed, sensor)
+        notes = _frame_notes(tree, map_frame, sensor, chosen=user_frame is not None)
+        notes += conflict_notes(recording, tree, map_frame, sensor)
+        notes += _namespace_notes(trees, tree, map_frame, sensor)
         if len(trees) > 1 and tree is not trees[-1] and not chosen:
             others = [topic.name for topic in recording.of_type(TF_TYPES) if topic.name not in tree.topics]
             notes.append(f"transforms of other namespaces were not used: {', '.join(others)} (--pose-topic)")
         # The topics that move the sensor, or all if none does.
+        transforms = tree.transforms_between(map_frame, sensor)
         moving = [transform for transform in transforms if not Samples.joined(transform.by_topic).is_constant()]
-        topics = dict.fromkeys(samples.topic for transform in moving or transforms for samples in transform.by_topic)
-        return PoseSource(", ".join(topics) or "/tf", fixed, chain, tuple(notes))
-    if named is not None:
-        tree = trees[-1]
-        fault = "is not known" if named not in tree.frames() else f"is not connected with the scans' frame {sensor!r}"
-        remedy = f"{_frames_in_words(tree)}; take another by --fixed-frame"
-        raise BadInput(f"{recording.path}: the frame {named!r} {fault}; {remedy}")
-    return None
+        return PoseSource(", ".join(topics_of(moving or transforms)) or "/tf", map_frame, chain, tuple(notes))
+    if user_frame is None:
+        return None
+    tree = trees[-1]
+    fault = "is not known" if user_frame not in tree.frames() else f"is not connected with the scans' frame {sensor!r}"
+    remedy = f"{_frames_in_words(tree)}; take another by --fixed-frame"
+    raise BadInput(f"{recording.path}: the frame {user_frame!r} {fault}; {remedy}")
+
+
+def _frame_notes(tree: FrameTree, map_frame: str, sensor: str, *, chosen: bool) -> list[str]:
+    """Return notes on the map's frame, which the user may have chosen, and on transforms with a single message."""
+    notes = []
+    if not chosen and base_name(map_frame) not in FIXED_FRAMES:
+        notes.append(f"no frame over {sensor!r} is called {', '.join(FIXED_FRAMES)}; the map is made in {map_frame!r}")
+    if map_frame not in tree.path_to_root(sensor):
+        notes.append(f"the frame {map_frame!r} is not over that of the scans, {sensor!r}; if it moves, the map moves")
+    for parent, child, by_topic in tree.transforms_between(map_frame, sensor):
+        if sum(len(samples.poses) for samples in by_topic) == 1 and not by_topic[0].is_static:
+            notes.append(f"the transform {parent} -> {child} has a single message, which counts at all times")
+    return notes
 
 
 def _namespace_notes(trees: list[FrameTree], tree: FrameTree, fixed: str, sensor: str) -> list[str]:
-    """Return a note if the transforms of a chain are from the last of several trees, beside the scans' namespace."""
+    """Return a note if the transforms of a chain are from the last of several trees, outside the scans' namespace."""
     if len(trees) == 1 or tree is not trees[-1]:
         return []
-    transforms = tree.transforms_between(fixed, sensor)
-    topics = dict.fromkeys(samples.topic for transform in transforms for samples in transform.by_topic)
-    return [f"transforms were taken from {', '.join(topics)}, beside the namespace of the scans"]
+    topics = ", ".join(topics_of(tree.transforms_between(fixed, sensor)))
+    return [f"transforms were taken from {topics}, outside the namespace of the scans"]
 
 
-def value_notes(recording: Recording, tree: FrameTree, fixed: str, sensor: str) -> list[str]:
+def conflict_notes(recording: Recording, tree: FrameTree, fixed: str, sensor: str) -> list[str]:
     """Return notes on transforms with several values. Raises `BadInput` if the user must choose one."""
     notes = []
     for parent, child, by_topic in tree.transforms_between(fixed, sensor):
         rivals = tree.rivals.get(child, ())
-        if len({_namespace(topic) for topic in rivals}) > 1:
-            parents = tree.notes[child].partition(";")[0]
-            raise BadInput(f"{recording.path}: {parents}; {_choice_remedy(recording, rivals)}")
-        if child in tree.notes:
-            notes.append(tree.notes[child])
-        conflict = contradiction(parent, child, by_topic)
+        if len({namespace_of(topic) for topic in rivals}) > 1:
+            raise BadInput(f"{recording.path}: {tree.parent_conflicts[child]}; {_choice_remedy(recording, rivals)}")
+        if child in tree.parent_conflicts:
+            notes.append(f"{tree.parent_conflicts[child]}; the one with more messages was used")
+        conflict = find_contradiction(parent, child, by_topic)
         if conflict is not None and not conflict.fatal:
             notes.append(conflict.text)
         elif conflict is not None:
@@ -192,16 +161,16 @@ def _choice_remedy(recording: Recording, topics: Iterable[str]) -> str:
     return f"choose one with --pose-topic: {', '.join(str(recording.topics[name]) for name in topics)}"
 
 
-def body_of(path: str, trees: list[FrameTree], sensor: str) -> str | None:
-    """Return the body's frame for a user's mount, or None. Raises `BadInput` if several robots are possible."""
+def mount_frame_of(path: str, trees: list[FrameTree], sensor: str) -> str | None:
+    """Return the robot's frame for a user's mount, or None. Raises `BadInput` if several robots are possible."""
     for tree in trees:
         connected = tree.body_frame(sensor, MOUNT_FRAMES) if sensor in tree.frames() else None
         if connected is not None:
             return connected
-        # The sensor is in no tree: the robot is told by the prefix of the frames' names, if there are several.
+        # The sensor is in no tree: find its robot by the prefix of the frames' names.
         for name in MOUNT_FRAMES:
-            frames = [frame for frame in tree.frames() if frame.rpartition("/")[2] == name]
-            same_prefix = [frame for frame in frames if sensor.startswith(frame.rpartition("/")[0] + "/")]
+            frames = [frame for frame in tree.frames() if base_name(frame) == name]
+            same_prefix = [frame for frame in frames if sensor.startswith(namespace_of(frame) + "/")]
             frames = same_prefix if len(frames) > 1 and same_prefix else frames
             if len(frames) > 1:
                 remedy = f"/tf has {', '.join(frames)}; choose its poses with --pose-topic"
@@ -218,12 +187,12 @@ def mount_link(laser: Pose) -> Track:
     return Samples(is_static=True, stamps_ns=[0], received_ns=[0], poses=[numbers]).track(holds_always=True)
 
 
-def unposed_source(trees: list[FrameTree], sensor: str) -> PoseSource:
+def source_without_poses(trees: list[FrameTree], sensor: str) -> PoseSource:
     """Return a source without poses, with the chain from the body to the sensor if it is constant."""
     tree = next((tree for tree in trees if sensor in tree.frames()), trees[-1])
     body = tree.body_frame(sensor, BODIES) if sensor in tree.frames() else None
     chain = tree.chain(body, sensor) if body is not None else None
-    return PoseSource("", "", chain if chain is not None and chain.span_ns() is None else Chain(()), posed=False)
+    return PoseSource("", "", chain if chain is not None and chain.span_ns() is None else Chain(()), has_poses=False)
 
 
 def source_by_topic(
@@ -239,7 +208,7 @@ def source_by_topic(
     if others:
         unused = ", ".join(f"{child or '?'} in {parent or '?'}" for parent, child in others)
         notes.append(f"{topic.name} tells where {body or '?'} is in {fixed or '?'}; not used: {unused}")
-    conflict = contradiction(fixed or "?", body or "?", [samples])
+    conflict = find_contradiction(fixed or "?", body or "?", [samples])
     if conflict is not None:
         raise BadInput(f"{recording.path}: {conflict.text}; choose other poses with --pose-topic")
     if not samples.has_stamps:
@@ -248,8 +217,8 @@ def source_by_topic(
     if laser is not None:
         return PoseSource(topic.name, fixed or "?", Chain((track, mount_link(laser))), tuple(notes))
     # The mount by /tf.
-    tree = next((tree for tree in trees if _body_frame(tree, body, sensor)), trees[-1])
-    usual_body = _body_frame(tree, body, sensor) or body
+    tree = next((tree for tree in trees if _posed_frame_of(tree, body, sensor)), trees[-1])
+    usual_body = _posed_frame_of(tree, body, sensor) or body
     if usual_body != body:
         # The topic names no body, or one that is not in /tf: a frame with a usual name is taken.
         notes.append(f"{topic.name} does not say whose pose it tells; taken as the pose of {usual_body!r}")
@@ -261,12 +230,12 @@ def source_by_topic(
         notes.append(f"{fault}; the poses on {topic.name} {remedy}")
         mount = Chain(())
     elif body != sensor:
-        notes += value_notes(recording, tree, body, sensor)
+        notes += conflict_notes(recording, tree, body, sensor)
         notes += _namespace_notes(trees, tree, body, sensor)
     return PoseSource(topic.name, fixed or "?", Chain((track, *mount.links)), tuple(notes))
 
 
-def _body_frame(tree: FrameTree, body: str, sensor: str) -> str | None:
+def _posed_frame_of(tree: FrameTree, body: str, sensor: str) -> str | None:
     """Return the frame whose poses a topic has: the one that it names, or one with a usual name of a body."""
     if body == sensor:
         return sensor

@@ -52,6 +52,16 @@ class Message(NamedTuple):
     data: bytes
 
 
+def namespace_of(name: str) -> str:
+    """Return the namespace of a topic or a frame, such as ``/robot1`` for ``/robot1/tf``."""
+    return name.rpartition("/")[0]
+
+
+def base_name(name: str) -> str:
+    """Return the name of a topic or a frame without its namespace."""
+    return name.rpartition("/")[2]
+
+
 @dataclass(frozen=True)
 class Topic:
     """A topic of a recording."""

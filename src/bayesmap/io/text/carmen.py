@@ -29,7 +29,7 @@ from bayesmap.errors import BadInput
 from bayesmap.files import write_file
 from bayesmap.io.log_reading import NO_POSES_REMEDY, LogAccount, LogOptions, Pose, ScanLog
 from bayesmap.io.returns import Readings, Views, decode, max_range_of
-from bayesmap.io.text.lines import log_lines, numbers_in, printable
+from bayesmap.io.text.lines import log_lines, parse_numbers, printable
 from bayesmap.space.planar import Floats, between, compose
 from bayesmap.space.scans import MAX_BEAMS, Fan, Scans, as_poses, fan_fault, side_by_side
 
@@ -169,7 +169,7 @@ def _count(kind: str, words: list[bytes], position: int, items: str) -> int:
 
 def parse_floats(kind: str, words: list[bytes], first: int) -> Floats:
     """Return words as numbers, (N,); the first word has the index ``first`` in its line. Raises `MalformedLine`."""
-    numbers = numbers_in(words)
+    numbers = parse_numbers(words)
     if isinstance(numbers, int):
         raise MalformedLine(f"{kind} has '{printable(words[numbers])}' for a number, in field {first + numbers + 1}")
     return numbers

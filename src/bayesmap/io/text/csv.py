@@ -18,7 +18,7 @@ import numpy as np
 from bayesmap.errors import BadInput
 from bayesmap.io.log_reading import LogAccount, LogOptions, ScanLog
 from bayesmap.io.returns import classify
-from bayesmap.io.text.lines import log_lines, numbers_in, printable
+from bayesmap.io.text.lines import log_lines, parse_numbers, printable
 from bayesmap.space.planar import Floats, compose
 from bayesmap.space.scans import Scans, fan_fault, side_by_side
 
@@ -72,7 +72,7 @@ def read_csv(path: str | os.PathLike[str], options: LogOptions) -> ScanLog:
     first_poses, beam_poses = (poses[:, 0], poses) if poses.ndim == 3 else (poses, None)
     classified = account.classify(readings[order], table.limits(), first_poses, angles)
     kind = "row of a scan" if "r_0" in table.columns else "row of a beam"
-    return account.scan_log(kind, first_poses, angles, classified, beam_poses=beam_poses, posed=table.posed)
+    return account.scan_log(kind, first_poses, angles, classified, beam_poses=beam_poses, posed=table.has_poses)
 
 
 def live_rows(name: str, lines: Iterable[tuple[int, bytes]], reject: Reject, options: LogOptions) -> Iterator[Scans]:
@@ -107,7 +107,7 @@ def live_rows(name: str, lines: Iterable[tuple[int, bytes]], reject: Reject, opt
 
 
 def _need_poses(account: LogAccount, table: "_Table") -> None:
-    if not (table.posed or account.options.without_poses):
+    if not (table.has_poses or account.options.without_poses):
         raise account.no_poses_error("the table has no columns x, y and yaw")
 
 
@@ -177,7 +177,7 @@ class _Table:
         self._append(number, words, self.positions)
 
     def _append(self, number: int, words: list[bytes], positions: list[int]) -> None:
-        values = numbers_in(words)
+        values = parse_numbers(words)
         if isinstance(values, int):
             self.reject(number, f"field {positions[values] + 1} is '{printable(words[values])}', not a number")
             return
@@ -225,7 +225,7 @@ class _Table:
         self.rows = list(rows)
 
     @property
-    def posed(self) -> bool:
+    def has_poses(self) -> bool:
         """True if the table has the poses of the scans."""
         return set(POSE) <= set(self.columns)
 
@@ -239,7 +239,7 @@ def _is_ros2_row(line: bytes) -> bool:
     fields = line.split(b",")
     numbers = fields[: len(ROS2_FIELDS)]
     frame = numbers.pop(2) if len(fields) > len(ROS2_FIELDS) else b"0"
-    return not isinstance(numbers_in(numbers), int) and isinstance(numbers_in([frame]), int)
+    return not isinstance(parse_numbers(numbers), int) and isinstance(parse_numbers([frame]), int)
 
 
 def is_header(line: bytes) -> bool:
@@ -317,7 +317,7 @@ def _scans_of_scan_rows(table: _Table) -> TableScans:
 
 def _poses(table: _Table, rows: Floats) -> Floats:
     """Return the poses of the rows, (N, 3); zeros in a table without poses."""
-    return np.stack([table.column(name, rows) if table.posed else np.zeros(len(rows)) for name in POSE], axis=-1)
+    return np.stack([table.column(name, rows) if table.has_poses else np.zeros(len(rows)) for name in POSE], axis=-1)
 
 
 def _angles_of_rows(table: _Table, fans: Floats, readings: Floats) -> Floats:

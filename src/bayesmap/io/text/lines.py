@@ -19,7 +19,7 @@ from bayesmap.io.log_reading import LogAccount, SkippedPart
 
 GZIP_MAGIC = b"\x1f\x8b"
 GZIP_FORMAT = 16 + zlib.MAX_WBITS  # zlib's number for data with a gzip header
-CHUNK_BYTES = 1 << 18  # read at a time
+CHUNK_BYTES = 1 << 18  # bytes per read
 MAX_LINE_BYTES = 1 << 20  # 50 000 beams fit; a file with a longer line is no text log
 
 
@@ -37,7 +37,7 @@ def read_lines(path: str | os.PathLike[str]) -> Generator[tuple[int, bytes]]:
     """
     name = os.fspath(path)
     number = 0
-    chunks = file_chunks(path, lambda: f" after line {number}")
+    chunks = file_chunks(path, lambda: f" after line {number}")  # the line reached when an error occurs
     try:
         for number, line in split_lines(name, as_utf8(chunks)):
             yield number, line
@@ -71,23 +71,23 @@ def split_lines(name: str, pieces: Iterable[bytes]) -> Iterator[tuple[int, bytes
         yield number + 1, unfinished
 
 
-def file_chunks(path: str | os.PathLike[str], position: Callable[[], str] = lambda: "") -> Iterator[bytes]:
+def file_chunks(path: str | os.PathLike[str], where_in_file: Callable[[], str] = lambda: "") -> Iterator[bytes]:
     """Yield the content of a file in pieces, decompressed if it is gzipped.
-    ``position`` returns a text for error messages, such as " after line 7". Raises `DamagedFile` for a damaged gzip
-    stream, after all that could be read, and `BadInput` if the file is unreadable.
+    ``where_in_file`` returns words for error messages, such as " after line 7". Raises `DamagedFile` for a damaged
+    gzip stream, after all that could be read, and `BadInput` if the file is unreadable.
     """
     name = os.fspath(path)
     try:
         with Path(path).open("rb") as file:
-            yield from _chunks(file)
+            yield from _decompressed(file)
     except (EOFError, zlib.error) as error:
-        fault = f"the gzip file is damaged or cut short{position()} ({error})"
+        fault = f"the gzip file is damaged or cut short{where_in_file()} ({error})"
         raise DamagedFile(f"{name}: {fault}; copy it again, or read what is there with --skip-bad-lines") from None
     except OSError as error:
         raise BadInput(f"{name}: cannot be read: {error.strerror or error}") from None
 
 
-def _chunks(file: BinaryIO) -> Iterator[bytes]:
+def _decompressed(file: BinaryIO) -> Iterator[bytes]:
     data = file.read(CHUNK_BYTES)
     if not data.startswith(GZIP_MAGIC):
         while data:
@@ -113,7 +113,7 @@ def as_utf8(pieces: Iterable[bytes]) -> Iterator[bytes]:
     start = b""
     for piece in pieces:
         start += piece
-        if not piece or len(start) >= len(codecs.BOM_UTF8):
+        if len(start) >= len(codecs.BOM_UTF8):
             break
     if not start.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
         yield start.removeprefix(codecs.BOM_UTF8)
@@ -126,7 +126,7 @@ def as_utf8(pieces: Iterable[bytes]) -> Iterator[bytes]:
     yield decoder.decode(b"", final=True).encode()
 
 
-def numbers_in(words: list[bytes]) -> NDArray[np.float64] | int:
+def parse_numbers(words: list[bytes]) -> NDArray[np.float64] | int:
     """Return words as numbers, (N,), or the index of the first word that is no number."""
     # Python reads 1_0 as ten, but no logger writes underscores in numbers.
     if b"_" not in b"".join(words):
@@ -148,19 +148,19 @@ def _is_number(word: bytes) -> bool:
     return b"_" not in word
 
 
-def read_table(path: str | os.PathLike[str], columns: int, form: str, if_empty: str) -> NDArray[np.float64]:
+def read_table(path: str | os.PathLike[str], columns: int, line_form: str, empty_message: str) -> NDArray[np.float64]:
     """Return the numbers of a text file, plain or gzipped, (N, columns); commas are white space, # begins a comment.
-    Raises `BadInput` for an unreadable file, an empty one (with the message ``if_empty``), or a line of another form.
+    Raises `BadInput` for an unreadable file, a line of another form, or an empty file, with ``empty_message``.
     """
     name, rows = os.fspath(path), []
     for number, line in read_lines(path):
         words = line.split(b"#", 1)[0].replace(b",", b" ").split()
         if not words:
             continue
-        row = numbers_in(words)
+        row = parse_numbers(words)
         if isinstance(row, int) or len(row) != columns or not np.isfinite(row).all():
-            raise BadInput(f"{name}: line {number}: a line is {columns} numbers: {form}")
+            raise BadInput(f"{name}: line {number}: a line is {columns} numbers: {line_form}")
         rows.append(row)
     if not rows:
-        raise BadInput(f"{name}: {if_empty}")
+        raise BadInput(f"{name}: {empty_message}")
     return np.array(rows)

@@ -15,7 +15,7 @@ from bayesmap.io.log_reading import LogAccount, LogOptions, ScanLog
 from bayesmap.io.returns import NoReturn, Readings, decode, max_range_of
 from bayesmap.space.planar import compose
 
-Arrays = dict[str, NDArray[np.float64]]  # by their names in the archive
+Arrays = dict[str, NDArray[np.float64]]  # arrays by their names in the archive
 NPZ_MAGIC = b"PK\x03\x04"  # first bytes of the file
 NEEDED = ("poses", "angles_rad", "ranges_m")
 OPTIONAL = ("max_range_m", "min_range_m", "stamps_s", "beam_poses")
@@ -25,14 +25,14 @@ def read_npz(path: str | os.PathLike[str], options: LogOptions) -> ScanLog:
     """Read scans from an .npz archive. Raises `BadInput` for an array that is missing or does not fit."""
     account = LogAccount(os.fspath(path), "npz", options)
     name = account.name
-    arrays, all_names = _read_arrays(os.fspath(path))
-    posed = "poses" in arrays
+    arrays, all_names = _read_arrays(name)
+    has_poses = "poses" in arrays
     missing = [key for key in NEEDED if key not in arrays and not (key == "poses" and options.without_poses)]
     if missing == ["poses"]:
         raise account.no_poses_error("the archive has no 'poses'")
     if missing:
         raise BadInput(f"{name}: the archive has no {missing[0]!r}; it has {', '.join(all_names) or 'nothing'}")
-    if not posed:
+    if not has_poses:
         arrays["poses"] = np.zeros((len(np.atleast_2d(arrays["ranges_m"])), 3))
     if options.laser is not None:
         for key in {"poses", "beam_poses"} & arrays.keys():
@@ -42,7 +42,7 @@ def read_npz(path: str | os.PathLike[str], options: LogOptions) -> ScanLog:
         account.counts["scans"] = len(np.atleast_2d(arrays["ranges_m"]))
         return account.scan_log(
             "scans", arrays["poses"], arrays["angles_rad"], _readings(account, arrays),
-            beam_poses=arrays.get("beam_poses"), posed=posed,
+            beam_poses=arrays.get("beam_poses"), posed=has_poses,
         )  # fmt: skip
     except BadInput as problem:  # errors of readings begin with the name already, errors of scans do not
         raise BadInput(f"{name}: {str(problem).removeprefix(f'{name}: ')}") from None
@@ -52,23 +52,23 @@ def _readings(account: LogAccount, arrays: Arrays) -> Readings:
     """Return the readings with the sensor's limits in the archive. Raises `BadInput` if none is valid."""
     name = account.name
     ranges = np.atleast_2d(arrays["ranges_m"])
-    no_return = NoReturn(None, "none")
+    no_return = NoReturn(code_m=None, origin="none")
     if account.options.no_return is not None:
         ranges, no_return = decode(ranges, account.options.no_return)
     if not ranges.size or np.isnan(ranges).all():
         raise BadInput(f"{name}: none of {ranges.size:,} readings is valid")
-    given_m = account.options.max_range_m
-    stated_m = _number(name, arrays, "max_range_m") if given_m is None and "max_range_m" in arrays else None
-    max_range_m, origin = max_range_of(name, ranges, given_m, stated_m)
+    user_max_m = account.options.max_range_m
+    archive_max_m = _number(name, arrays, "max_range_m") if user_max_m is None and "max_range_m" in arrays else None
+    max_range_m, origin = max_range_of(name, ranges, user_max_m, archive_max_m)
     min_range_m = _number(name, arrays, "min_range_m") if "min_range_m" in arrays else 0.0
-    return Readings(ranges, no_return, min_range_m, max_range_m, origin, ())
+    return Readings(ranges, no_return, min_range_m, max_range_m, origin, notes=())
 
 
 def _read_arrays(name: str) -> tuple[Arrays, list[str]]:
     """Return the arrays that are used, as doubles, and the names of all. Raises `BadInput` for a damaged archive."""
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # about old or odd headers: the arrays are checked below
+            warnings.simplefilter("ignore")  # warnings about old headers: the arrays are checked below
             with Path(name).open("rb") as file, np.load(file, allow_pickle=False) as archive:
                 names = sorted(archive.files)
                 arrays = {key: np.asarray(archive[key]) for key in (*NEEDED, *OPTIONAL) if key in names}
