@@ -20,7 +20,7 @@ import click
 from bayesmap.cli.command import FORCE, Call, command
 from bayesmap.cli.console import Console, exit_unless_good, share_bar, write_lines, write_out
 from bayesmap.cli.keys import LocalizeSettings
-from bayesmap.cli.translation import is_map, log_options_of, need_file, need_free, numbers_of
+from bayesmap.cli.translation import corners_of, initial_pose_of, is_map, log_options_of, need_file, need_free, slice_of
 from bayesmap.errors import BadInput
 
 if TYPE_CHECKING:
@@ -33,17 +33,19 @@ if TYPE_CHECKING:
     from bayesmap.space.grid import Grid
     from bayesmap.space.scans import Scans
 
-IMAGE_ENDINGS = (".pgm", ".png", ".bmp")  # of the images that the YAML file of a map names
-ENDINGS = (".tum", ".mcap", ".bag", ".db3", ".jsonl")  # of the files that -o may name
-MAX_NAMED_STRETCHES = 5  # number of stretches of lost scans that are named
+IMAGE_ENDINGS = (".pgm", ".png", ".bmp")  # endings of the images that the YAML file of a map names
+OUTPUT_ENDINGS = (".tum", ".mcap", ".bag", ".db3", ".jsonl")  # endings of the files that -o may name
+MAX_NAMED_STRETCHES = 5  # number of stretches of consecutive lost scans that are named
 MAX_P_LOST = 0.5  # probability of being lost above which a scan counts as lost
 MAX_MODES = 5  # number of modes of the last pose that are printed
+
+PrintBelief = Callable[[int, "PoseBelief"], bool]  # prints a scan's posterior; False if nobody reads it any more
 
 
 @command("localize")
 @click.argument("run_file", metavar="RUN.nc|MAP.yaml")
 @click.argument("log")
-@click.option("-o", "--output", metavar="FILE", help=f"Trajectory, without lost scans: {', '.join(ENDINGS)}.")
+@click.option("-o", "--output", metavar="FILE", help=f"Trajectory, without lost scans: {', '.join(OUTPUT_ENDINGS)}.")
 @click.option("--follow", is_flag=True, help="Print a JSON line for each scan as it arrives; see below.")
 @click.option(
     "--for", "idle_s", type=click.FloatRange(min=0), metavar="SECONDS", help="With --follow: the longest wait."
@@ -83,9 +85,9 @@ def localize(
     if idle_s is not None and not follow:
         raise click.UsageError("--for says how long --follow waits: give both")
     target = None if output is None else _checked_path(output, force)
-    first_pose = _initial_pose_of(prior)
-    corners = _corners_of(area)
-    live = follow and can_follow(call.console, log)
+    first_pose = initial_pose_of(prior)
+    corners = corners_of(area)
+    live = follow and _can_follow(call.console, log)
     if not live:
         need_file(log, "the log whose scans are to be located", runs=False)
     request = _Request(call, log, _read_map(run_file, call.settings()), span, first_pose, independent)
@@ -103,19 +105,21 @@ def localize(
     if lost:
         share, which = f"{len(lost):,} of {len(localization):,} scans", posteriors.describe_stretches(lost)
         call.console.warn(f"{share} fit nowhere on the map: lost, or the map is outdated: {which}")
-    outputs = [] if target is None else _write(target, posteriors)
-    exit_unless_good(finished=not interrupted, problems=False)
-    if follow:
-        return
-    if call.console.as_json:
+    # Write the file and print the posterior, unless it has been printed scan by scan.
+    nothing_to_write = target is not None and target.suffix != ".jsonl" and len(lost) == len(localization)
+    outputs = [] if target is None or nothing_to_write else _write(target, posteriors)
+    if not follow and call.console.as_json:
         document = {
             "run": run_file, "log": log, "scans": len(localization), "lost": len(lost), "lost_scans": lost,
             "frame": localization.frame, "last": _belief_json(localization.last, corners),
             "outputs": {path.name: str(path) for path in outputs},
         }  # fmt: skip
         call.console.result(document, outputs)
-    else:
-        write_lines([*_lines(posteriors, corners), *outputs])
+    elif not follow:
+        write_lines([*_describe_last_pose(posteriors, corners), *outputs])
+    if nothing_to_write:
+        raise BadInput(f"{target}: not written, since all scans are lost; .jsonl has the posteriors of lost scans, too")
+    exit_unless_good(finished=not interrupted, problems=False)
 
 
 @dataclass(frozen=True, eq=False)
@@ -188,8 +192,8 @@ class _Posteriors:
         return ", ".join(words) + (f", and {n_more:,} more stretches" if n_more > 0 else "")
 
 
-def _locate_scans(request: _Request, print_belief: Callable[[int, PoseBelief], bool] | None) -> _Posteriors:
-    """Locate the scans that a log holds now; ``print_belief`` is called with number and posterior of each."""
+def _locate_scans(request: _Request, print_belief: PrintBelief | None) -> _Posteriors:
+    """Locate the scans that a log holds now, and print the posterior of each, if it is to be printed."""
     from bayesmap.io.logs import describe_log
     from bayesmap.localization.localize import localize
 
@@ -198,11 +202,11 @@ def _locate_scans(request: _Request, print_belief: Callable[[int, PoseBelief], b
     log = describe_log(path, max_range_m=request.map.max_range_m, without_poses=request.independent, **options)
     for note in log.notes:
         call.console.say(f"{path}: {note}")
-    span, stamps_s, mount = _slice_of(request.span, len(log.scans)), log.scans.stamps_s, log.scans.mount
+    span, stamps_s, mount = slice_of(request.span, len(log.scans)), log.scans.stamps_s, log.scans.mount
     scans, first = log.scans.select(span), range(len(log.scans))[span][0]
     posteriors = _Posteriors(call.settings().frame, mount, first, None if stamps_s is None else stamps_s[0])
     arguments = request.options(mount)
-    known_map = request.map.prepare(call.console, scans, False)
+    known_map = request.map.prepare(call.console, scans, live=False)
     with share_bar(call.console, "locating scans") as report:
 
         def on_belief(number: int, belief: PoseBelief) -> None:
@@ -215,22 +219,20 @@ def _locate_scans(request: _Request, print_belief: Callable[[int, PoseBelief], b
     return posteriors
 
 
-def _locate_live(
-    request: _Request, idle_s: float | None, print_belief: Callable[[int, PoseBelief], bool]
-) -> tuple[_Posteriors, bool]:
-    """Locate scans as they arrive, until the log or the output ends, or Ctrl-C. Returns whether it was Ctrl-C, too."""
+def _locate_live(request: _Request, idle_s: float | None, print_belief: PrintBelief) -> tuple[_Posteriors, bool]:
+    """Locate scans as they arrive, until the log or the output ends. Returns also whether Ctrl-C ended them."""
     from bayesmap.localization.localize import follow
 
-    scans = live_scans_of(request, idle_s)
+    scans = _live_scans_of(request, idle_s)
     request.call.console.detail(f"{request.log}: waiting for scans")
-    posteriors = _Posteriors(request.call.settings().frame, None, _slice_of(request.span).start or 0, None)
+    posteriors = _Posteriors(request.call.settings().frame, None, slice_of(request.span).start or 0, None)
     interrupted = False
     try:
         # Prepare the map with the first scan: an external map takes the law of readings from it.
         for first in scans:
             posteriors.mount, posteriors.start_s = first.mount, None if first.stamps_s is None else first.stamps_s[0]
             options = request.options(first.mount)
-            known_map = request.map.prepare(request.call.console, first, True)
+            known_map = request.map.prepare(request.call.console, first, live=True)
             for belief in follow(known_map, itertools.chain([first], scans), **options):
                 posteriors.beliefs.append(belief)
                 if not print_belief(*posteriors.latest()):
@@ -250,7 +252,7 @@ class _MapSource:
 
     max_range_m: float | None  # largest range of the sensor; None: as in the log
     live_max_range_m: float  # largest range for a log that is still being written
-    prepare: Callable[[Console, Scans, bool], KnownMap]  # prepares the map, given scans, and whether their log is live
+    prepare: Callable[..., KnownMap]  # prepares the map, given the console, scans, and whether their log is `live`
 
 
 def _read_map(file: str, settings: LocalizeSettings) -> _MapSource:
@@ -269,8 +271,8 @@ def _read_map(file: str, settings: LocalizeSettings) -> _MapSource:
         raise BadInput(f"{file}: the image of a map; give the YAML file that names it and says where it lies")
     run = load(file)
     max_range_m = run.posterior.scans.max_range_m
-    beam_weight, device = settings.beam_weight, settings.device
-    return _MapSource(max_range_m, max_range_m, lambda *_: KnownMap.of_run(run, beam_weight=beam_weight, device=device))
+    known_map = partial(KnownMap.of_run, run, beam_weight=settings.beam_weight, device=settings.device)
+    return _MapSource(max_range_m, max_range_m, lambda *_, **__: known_map())
 
 
 def _external_map(
@@ -281,7 +283,7 @@ def _external_map(
 
     law = None
     if not live:
-        with share_bar(console, "fitting what the map means") as report:  # of occupied, free and unknown cells
+        with share_bar(console, "fitting the map's occupied, free and unknown cells") as report:
             law = fit_law(occupancy, grid, scans, settings.seed, report)
         console.say(law.words())
     return external_map(occupancy, grid, scans, law, beam_weight=settings.beam_weight, device=settings.device)
@@ -295,8 +297,8 @@ def _belief_json(belief: PoseBelief, corners: list[float] | None) -> dict[str, A
     return document
 
 
-def _lines(posteriors: _Posteriors, corners: list[float] | None) -> list[str]:
-    """Return the posterior of the last pose as lines of text: its likeliest modes, lost, and the area."""
+def _describe_last_pose(posteriors: _Posteriors, corners: list[float] | None) -> list[str]:
+    """Describe the last pose in lines of text: likeliest modes, probability of being lost, probability of the area."""
     localization, last = posteriors.localization, posteriors.first + len(posteriors.beliefs) - 1
     if_found = ", if it is on the map" if localization.p_lost > MAX_P_LOST else ""
     lines = [f"the {localization.frame} at {posteriors.describe(last, last)}{if_found}:"]
@@ -319,7 +321,7 @@ def _per_cent(probability: float) -> str:
 
 
 def _write(target: Path, posteriors: _Posteriors) -> list[Path]:
-    """Write the trajectory without lost scans, or all posteriors for .jsonl. Raises `BadInput` if all are lost."""
+    """Write the trajectory without lost scans, of which not all are lost, or all posteriors for .jsonl."""
     from bayesmap.files import write_file
     from bayesmap.io.exports import export_trajectory
 
@@ -328,12 +330,10 @@ def _write(target: Path, posteriors: _Posteriors) -> list[Path]:
         numbered = enumerate(localization.beliefs, posteriors.first)
         return [write_file(target, (json.dumps({"scan": i, **b.as_json()}, allow_nan=False) for i, b in numbered))]
     lost = [belief.p_lost > MAX_P_LOST for belief in localization.beliefs]
-    if all(lost):
-        raise BadInput(f"{target}: not written, since all scans are lost; .jsonl has the posteriors of lost scans, too")
     if target.suffix == ".tum":
         return list(export_trajectory(target, localization.trajectory(), lost=lost))
-    found = tuple(belief for belief, is_lost in zip(localization.beliefs, lost, strict=True) if not is_lost)
-    return list(export_trajectory(target, replace(localization, beliefs=found).trajectory()))
+    not_lost = tuple(belief for belief, is_lost in zip(localization.beliefs, lost, strict=True) if not is_lost)
+    return list(export_trajectory(target, replace(localization, beliefs=not_lost).trajectory()))
 
 
 def _checked_path(output: str, force: bool) -> Path:
@@ -341,53 +341,15 @@ def _checked_path(output: str, force: bool) -> Path:
     from bayesmap.io.text.trajectories import covariances_path
 
     target = Path(output)
-    if target.suffix.lower() not in ENDINGS:
-        raise click.UsageError(f"-o {output}: end its name in one of {', '.join(ENDINGS)}")
+    if target.suffix.lower() not in OUTPUT_ENDINGS:
+        raise click.UsageError(f"-o {output}: end its name in one of {', '.join(OUTPUT_ENDINGS)}")
     need_free([target, covariances_path(target)] if target.suffix == ".tum" else [target], force=force)
     if not target.parent.is_dir():
         raise BadInput(f"{target.parent}: no such folder; make it first, or choose another with -o")
     return target
 
 
-def _initial_pose_of(text: str | None) -> InitialPose | None:
-    """Return the prior of the first pose that --prior describes."""
-    from bayesmap.localization.localize import InitialPose
-
-    if text is None:
-        return None
-    x, y, degrees, *spread = numbers_of(text, "--prior", "X,Y,DEGREES or X,Y,DEGREES,M,DEGREES", (3, 5))
-    pose = (x, y, math.radians(degrees))
-    return InitialPose(pose, spread[0], math.radians(spread[1])) if spread else InitialPose(pose)
-
-
-def _corners_of(text: str | None) -> list[float] | None:
-    """Return the corners of the rectangle that --area describes, in metres."""
-    if text is None:
-        return None
-    x0, x1, y0, y1 = corners = numbers_of(text, "--area", "X0,X1,Y0,Y1", (4,))
-    if not (x0 < x1 and y0 < y1):
-        raise BadInput(f"--area {text}: give X0 below X1, and Y0 below Y1")
-    return corners
-
-
-def _slice_of(text: str | None, count: int | None = None) -> slice:
-    """Return FIRST:LAST as a slice of ``count`` scans. ``count`` is None for a live log, whose end is not known."""
-    first, colon, last = (text or ":").partition(":")
-    try:
-        span = slice(int(first) if first else None, int(last) if last else None)
-    except ValueError:
-        colon, span = "", slice(None)
-    start = span.start or 0
-    is_empty_or_negative = start < 0 or (span.stop is not None and span.stop <= start)
-    if not colon or (count is None and is_empty_or_negative):  # scans to come cannot be counted from the end
-        which = " of scans to come" if count is None else ""
-        raise click.BadParameter(f"{text!r} is not FIRST:LAST{which}", param_hint="'--scans'")
-    if text is not None and count is not None and not range(count)[span]:
-        raise BadInput(f"--scans {text}: none of the log's {count:,} scans is among them")
-    return span
-
-
-def can_follow(console: Console, log: str) -> bool:
+def _can_follow(console: Console, log: str) -> bool:
     """Return whether a log can be followed; if not, warn that only the scans that it holds now are located."""
     from bayesmap.io.live import STANDARD_INPUT, can_be_followed
 
@@ -396,12 +358,12 @@ def can_follow(console: Console, log: str) -> bool:
     if can_be_followed(log):
         return True
     reason = "only CARMEN logs and CSV tables can be followed while they are written, as text"
-    console.warn(f"{log}: {reason}; of this file the scans that it holds now are located")
+    console.warn(f"{log}: {reason}; only the scans that it holds now are located")
     return False
 
 
-def live_scans_of(request: _Request, idle_s: float | None) -> Iterator[Scans]:
-    """Return the scans of a live log, one at a time, until none arrives for ``idle_s``. Refuses settings of others."""
+def _live_scans_of(request: _Request, idle_s: float | None) -> Iterator[Scans]:
+    """Return a live log's scans, until none arrives for ``idle_s``. Raises `BadInput` for settings of other logs."""
     from bayesmap.io.live import live_scans
 
     log = request.log
@@ -410,7 +372,7 @@ def live_scans_of(request: _Request, idle_s: float | None) -> Iterator[Scans]:
         value = getattr(settings, name)
         if value is not None:
             raise BadInput(f"{log}: --{name.replace('_', '-')} {value}: a log that is followed has its own poses alone")
-    span = _slice_of(request.span)
+    span = slice_of(request.span)
     scans = live_scans(
         log, max_range_m=request.map.live_max_range_m, no_return=settings.no_return, idle_s=idle_s,
         skip_bad_lines=settings.skip_bad_lines, laser=log_options_of(settings)["laser"],

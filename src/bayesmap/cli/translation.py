@@ -25,6 +25,7 @@ from bayesmap.files import saved_run_hint
 if TYPE_CHECKING:
     from bayesmap.arguments import Schedule
     from bayesmap.cells.kind import CellPrior
+    from bayesmap.localization.localize import InitialPose
     from bayesmap.result import Run
     from bayesmap.run.runner import Executor
     from bayesmap.samplers.methods import Method
@@ -48,6 +49,45 @@ def pose_of(text: str, flag: str = "--pose") -> tuple[float, float, float]:
     """Return a pose in metres and radians, from a text in metres and degrees. Raises `click.BadParameter`."""
     x, y, degrees = numbers_of(text, flag, "X,Y,DEGREES", (3,))
     return x, y, math.radians(degrees)
+
+
+def initial_pose_of(text: str | None) -> InitialPose | None:
+    """Return the prior of the first pose that --prior describes."""
+    from bayesmap.localization.localize import InitialPose
+
+    if text is None:
+        return None
+    x, y, degrees, *spread = numbers_of(text, "--prior", "X,Y,DEGREES or X,Y,DEGREES,M,DEGREES", (3, 5))
+    pose = (x, y, math.radians(degrees))
+    return InitialPose(pose, spread[0], math.radians(spread[1])) if spread else InitialPose(pose)
+
+
+def corners_of(text: str | None) -> list[float] | None:
+    """Return the corners of the rectangle that --area describes, in metres."""
+    if text is None:
+        return None
+    x0, x1, y0, y1 = corners = numbers_of(text, "--area", "X0,X1,Y0,Y1", (4,))
+    if not (x0 < x1 and y0 < y1):
+        raise BadInput(f"--area {text}: give X0 below X1, and Y0 below Y1")
+    return corners
+
+
+def slice_of(text: str | None, count: int | None = None) -> slice:
+    """Return FIRST:LAST as a slice of ``count`` scans. ``count`` is None for a live log, whose end is not known."""
+    which = " of scans to come" if count is None else ""
+    refusal = click.BadParameter(f"{text!r} is not FIRST:LAST{which}", param_hint="'--scans'")
+    first, colon, last = (text or ":").partition(":")
+    try:
+        span = slice(int(first) if first else None, int(last) if last else None)
+    except ValueError:
+        raise refusal from None
+    start = span.start or 0
+    is_empty_or_negative = start < 0 or (span.stop is not None and span.stop <= start)
+    if not colon or (count is None and is_empty_or_negative):  # scans to come cannot be counted from the end
+        raise refusal
+    if text is not None and count is not None and not range(count)[span]:
+        raise BadInput(f"--scans {text}: none of the log's {count:,} scans is among them")
+    return span
 
 
 SENSOR_HELP = """MODEL is default, or a kind with parameters: gaussian:0.2 (sigma in metres),

@@ -26,7 +26,7 @@ from bayesmap.gen.pytree import Pytree, dataclass
 from bayesmap.gen.selection import Selection
 
 
-def components(address: Any) -> tuple[Any, ...]:
+def as_path(address: Any) -> tuple[Any, ...]:
     """Return an address as a tuple."""
     return address if isinstance(address, tuple) else (address,)
 
@@ -45,7 +45,7 @@ class ChoiceMap(Outlined, Pytree):
                 return Mask.or_n(*masks) if masks else None
             case Or(left, right):
                 first, second = left.get_value(), right.get_value()
-                # If only one map has a value here, the other has elements at indices, which the value lacks.
+                # A map with elements only at indices has no value here, so a union with it has none either.
                 return None if first is None or second is None else _first_present(first, second)
         return None
 
@@ -69,23 +69,23 @@ class ChoiceMap(Outlined, Pytree):
                 return Static({}) if all(m.static_is_empty() for m in inner_maps) else Branches(inner_idx, inner_maps)
         return Static({})
 
-    def filter(self, selection: Any) -> "ChoiceMap":
+    def filter(self, selection_or_flag: Any) -> "ChoiceMap":
         """Return the part whose addresses are selected. A flag selects everything or nothing."""
-        by_address = isinstance(selection, Selection)
+        by_address = isinstance(selection_or_flag, Selection)
         match self:
             case Choice() if by_address:
-                return self if selection.check() else Static({})
+                return self if selection_or_flag.check() else Static({})
             case Choice(value):
-                return ChoiceMap.choice(Mask.build(value, selection))
+                return ChoiceMap.choice(Mask.build(value, selection_or_flag))
             case Static(mapping):
-                selections = {name: selection(name) if by_address else selection for name in mapping}
+                selections = {name: selection_or_flag(name) if by_address else selection_or_flag for name in mapping}
                 return Static.build({name: chm.filter(selections[name]) for name, chm in mapping.items()})
             case Indexed(chm, index):
-                return chm.filter(selection).extend(index)
+                return chm.filter(selection_or_flag).extend(index)
             case Or(left, right):
-                return left.filter(selection) | right.filter(selection)
+                return left.filter(selection_or_flag) | right.filter(selection_or_flag)
             case Branches(idx, maps):
-                return Branches(idx, tuple(chm.filter(selection) for chm in maps))
+                return Branches(idx, tuple(chm.filter(selection_or_flag) for chm in maps))
         raise TypeError(f"{type(self).__name__} is no choice map")
 
     def paths(self) -> Iterator[tuple[Any, ...]]:
@@ -131,14 +131,14 @@ class ChoiceMap(Outlined, Pytree):
         raise TypeError(f"{type(self).__name__} is no choice map")
 
     def get_submap(self, *addresses: Any) -> "ChoiceMap":
-        """Return the submap at an address; the empty map if there is none."""
-        path = [c for address in addresses for c in components(address)]
+        """Return the submap at an address. It is empty if there is none."""
+        path = [c for address in addresses for c in as_path(address)]
         return reduce(lambda chm, component: chm.get_inner_map(component), path, self)
 
     __call__ = get_submap
 
     def __getitem__(self, address: Any) -> Any:
-        """Return the value at an address; raise ChoiceMapNoValueAtAddress if there is none."""
+        """Return the value at an address. Raises ChoiceMapNoValueAtAddress if there is none."""
         value = self.get_submap(address).get_value()
         if value is None:
             raise ChoiceMapNoValueAtAddress(address)
@@ -185,7 +185,7 @@ class ChoiceMap(Outlined, Pytree):
         return self.filter(flag)
 
     def extend(self, *address: Any) -> "ChoiceMap":
-        """Return this map moved below `address`, which has no partial slice, and at most one array of indices."""
+        """Return this map moved below `address`: names, indices, `:`, and at most one array of indices."""
         chm = self
         for component in reversed(address):
             if isinstance(component, str):
@@ -208,7 +208,7 @@ class ChoiceMap(Outlined, Pytree):
 
     @staticmethod
     def choice(value: Any) -> "ChoiceMap":
-        """Return the map of a bare value; the empty map for an array without elements, or a Mask known to be False."""
+        """Return the map of a bare value. It is empty for an array without elements, or a Mask known to be False."""
         if isinstance(value, Mask):
             value = value.flatten()
         return Static({}) if value is None or 0 in getattr(value, "shape", ()) else Choice(value)
@@ -225,7 +225,7 @@ class ChoiceMap(Outlined, Pytree):
     @staticmethod
     def from_mapping(pairs: Iterable[tuple[Any, Any]]) -> "ChoiceMap":
         """Return the map of (address, value) pairs."""
-        entries = (ChoiceMap.entry(value, *components(address)) for address, value in pairs)
+        entries = (ChoiceMap.entry(value, *as_path(address)) for address, value in pairs)
         return reduce(operator.or_, entries, ChoiceMap.empty())
 
     @staticmethod
@@ -303,15 +303,15 @@ def _elements(tree: Any, index: Any) -> Any:
     return jax.tree.map(lambda leaf: leaf[index], tree, is_leaf=lambda leaf: isinstance(leaf, Mask))
 
 
-def _element_at(chm: ChoiceMap, index: Any, component: Any) -> ChoiceMap:
-    """Return the element `component` of the map `chm` at `index`, masked by False if `index` lacks this element."""
-    if isinstance(component, slice):
-        raise ValueError(f"Slices are not allowed against array-shaped dynamic addresses: only {index} is there")
-    hits = same_index(index, component)
-    if jnp.ndim(index) == 0:
-        return chm.filter(hits)
-    first = jnp.argmax(hits)
-    return _elements(chm, first).filter(jnp.asarray(hits)[first])  # type: ignore[no-any-return]
+def _element_at(chm: ChoiceMap, indices: Any, index: Any) -> ChoiceMap:
+    """Return the element `index` of the map `chm` at `indices`, masked by False if `indices` lack this element."""
+    if isinstance(index, slice):
+        raise ValueError(f"A slice cannot select from choices at the indices {indices}; give an index")
+    is_here = same_index(indices, index)
+    if jnp.ndim(indices) == 0:
+        return chm.filter(is_here)
+    first = jnp.argmax(is_here)
+    return _elements(chm, first).filter(jnp.asarray(is_here)[first])  # type: ignore[no-any-return]
 
 
 def _first_present(first: Any, second: Any) -> Any:
@@ -338,7 +338,7 @@ def join(left: ChoiceMap, right: ChoiceMap) -> ChoiceMap:
         # A value without a flag covers all elements on the right.
         case Choice(value), Indexed() if not isinstance(value, Mask):
             return left
-        # A mask over elements over a value: join from the right, so that the elements replace the value's.
+        # mask | elements | value: replace the value's elements first, then lay the mask over the result.
         case Or(Choice() as mask, Indexed() as elements), Choice():
             return join(mask, join(elements, right))
         # Elements over an array: replace the array's elements.
@@ -374,10 +374,10 @@ class Builder:
 
     def __init__(self, base: ChoiceMap | None, address: tuple[Any, ...]) -> None:
         self._base = base  # the map to change; None for the empty map
-        self._address = address  # at which a value is set
+        self._address = address  # the address at which a value is set
 
     def __getitem__(self, address: Any) -> "Builder":
-        return Builder(self._base, (*self._address, *components(address)))
+        return Builder(self._base, (*self._address, *as_path(address)))
 
     def set(self, value: Any) -> ChoiceMap:
         """Return the base map with `value` at the address. `value` is a value, a dict or a map."""

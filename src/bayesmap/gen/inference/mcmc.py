@@ -25,24 +25,24 @@ class Chain(NamedTuple):
 
 
 def metropolis_hastings(request: EditRequest | Callable[[Trace], EditRequest]) -> Kernel:
-    """Return a kernel that accepts an edit with probability min(1, exp(weight)). Requests may depend on the trace."""
+    """Return a Metropolis-Hastings kernel for an edit, or for a function that returns the edit of a trace."""
 
     def kernel(key: PRNGKey, trace: Trace) -> tuple[Trace, BoolArray]:
         edit_key, accept_key = jax.random.split(key)
         edit = request if isinstance(request, EditRequest) else request(trace)
         new, weight, _, _ = trace.edit(edit_key, edit)
         accepted = jnp.log(jax.random.uniform(accept_key)) < weight
-        # An unchanged leaf is the old object and needs no choice: `where` would copy a large array.
+        # Keep leaves that the edit left unchanged: `where` would copy a large array.
         return jax.tree.map(lambda a, b: a if a is b else jnp.where(accepted, a, b), new, trace), accepted
 
     return kernel
 
 
 def run_chain(
-    key: PRNGKey, trace: Trace, kernel: Kernel, n: int,
+    key: PRNGKey, trace: Trace, kernel: Kernel, n_steps: int,
     collect: Callable[[Trace], Any] = lambda trace: trace.get_choices(),
 ) -> Chain:  # fmt: skip
-    """Apply a kernel `n` times, with the key `fold_in(key, t)` in step t, and collect values of each trace.
+    """Apply a kernel `n_steps` times, with the key `fold_in(key, t)` in step t, and collect values of each trace.
     A longer run begins with the steps of a shorter one. For several chains use `jax.vmap` over keys and traces.
     """
 
@@ -51,7 +51,7 @@ def run_chain(
         return trace, (collect(trace), accepted)
 
     trace = jax.tree.map(jnp.asarray, trace)
-    last, (draws, accepted) = jax.lax.scan(step, trace, jnp.arange(n))
+    last, (draws, accepted) = jax.lax.scan(step, trace, jnp.arange(n_steps))
     return Chain(last, draws, accepted)
 
 
@@ -63,24 +63,24 @@ def split_rhat(draws: Array) -> Array:
     halves = jnp.concatenate([draws[:, :half], draws[:, half : 2 * half]]).astype(jnp.result_type(float))
     within = jnp.mean(jnp.var(halves, axis=1, ddof=1), axis=0)
     between = jnp.var(jnp.mean(halves, axis=1), axis=0, ddof=1)
-    return jnp.sqrt((half - 1) / half + between / within)
+    return jnp.sqrt((half - 1) / half + between / within)  # between = B / n in the book
 
 
 def effective_sample_size(draws: Array) -> Array:
     """Return the effective sample size by Geyer's initial positive sequence (BDA3, section 11.5).
     Draws are (chains, draws, ...), and the result is (...), one for each variable; NaN for draws that do not vary.
     """
-    # Autocovariances by the Fourier transform, averaged over chains. Zeros up to length 2 n avoid circular sums.
-    m, n = draws.shape[:2]
+    # Autocovariances by the Fourier transform, averaged over chains. Zeros up to twice the length avoid circular sums.
+    n_chains, n_draws = draws.shape[:2]
     draws = draws.astype(jnp.result_type(float))
     centred = draws - jnp.mean(draws, axis=1, keepdims=True)
-    spectrum = jnp.abs(jnp.fft.rfft(centred, 2 * n, axis=1)) ** 2
-    autocov = jnp.mean(jnp.fft.irfft(spectrum, 2 * n, axis=1)[:, :n], axis=0) / n
-    within = autocov[0] * n / (n - 1)
-    between = jnp.var(jnp.mean(draws, axis=1), axis=0, ddof=1) if m > 1 else 0.0
-    total = within * (n - 1) / n + between
+    spectrum = jnp.abs(jnp.fft.rfft(centred, 2 * n_draws, axis=1)) ** 2
+    autocov = jnp.mean(jnp.fft.irfft(spectrum, 2 * n_draws, axis=1)[:, :n_draws], axis=0) / n_draws
+    within = autocov[0] * n_draws / (n_draws - 1)
+    between = jnp.var(jnp.mean(draws, axis=1), axis=0, ddof=1) if n_chains > 1 else 0.0
+    total = within * (n_draws - 1) / n_draws + between
     # Autocorrelations, summed in pairs until the first pair that is not positive.
-    rho = 1 - (within - autocov * n / (n - 1)) / total
-    pairs = rho[: n // 2 * 2].reshape(n // 2, 2, *rho.shape[1:]).sum(axis=1)
+    rho = 1 - (within - autocov * n_draws / (n_draws - 1)) / total
+    pairs = rho[: n_draws // 2 * 2].reshape(n_draws // 2, 2, *rho.shape[1:]).sum(axis=1)
     positive = jnp.cumprod(pairs > 0, axis=0)
-    return m * n / (2 * jnp.sum(jnp.where(positive, pairs, 0.0), axis=0) - 1)
+    return n_chains * n_draws / (2 * jnp.sum(jnp.where(positive, pairs, 0.0), axis=0) - 1)
