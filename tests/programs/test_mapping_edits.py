@@ -101,7 +101,7 @@ def test_long_chains_of_edits(name):
         return trace.edit(key, block(i, j, values) if blocks else single(i, j, values[0]))[:2]
 
     def is_right(inner, choices):
-        return (inner.first_hit == inner.gen_fn.first_hits(choices["walls"])).all()
+        return (inner.first_hit == inner.gen_fn.find_hits((choices["walls"],))).all()
 
     check_chain(model, start(model, readings, walls), propose, is_right, rtol=1e-5)
 
@@ -115,7 +115,7 @@ def small():
 def test_edits_do_not_read_the_whole_map(small, monkeypatch):
     """The rest of the model is not run again: neither all first hits nor the law of all readings."""
     _, trace = small
-    monkeypatch.setattr(BeamSensor, "first_hits", lambda *_: pytest.fail("all beams were read"))
+    monkeypatch.setattr(BeamSensor, "find_hits", lambda *_: pytest.fail("all beams were read"))
     for request in (single(3, 4, True), Update(C["walls", 3, 4].set(True)), block(2, 5, np.ones(4, bool))):
         _, _, retdiff, _ = jax.jit(lambda t, r=request: t.edit(jr.key(0), r))(trace)
         tangents = Diff.tangents(retdiff)
@@ -138,7 +138,7 @@ def test_the_work_on_one_cell_does_not_grow_with_the_map():
             else:
                 yield from (v.aval.size for v in eqn.outvars)
 
-    first_hit = jnp.zeros(9, np.min_scalar_type(sensor.geometry.longest))
+    first_hit = jnp.zeros(9, np.min_scalar_type(sensor.geometry.n_outcomes))
     walls = jnp.zeros((50, 51), bool)
     program = jax.make_jaxpr(lambda w, h: sensor._change_cell(w, 7, h, jnp.ones(9)))(walls, first_hit)
     sizes = list(computed(program.jaxpr))
@@ -203,7 +203,7 @@ def test_no_beam_lists_a_cell_twice():
             assert len(np.unique(cells)) == len(cells)
         for c in range(geometry.n_cells):
             entries = slice(geometry.offsets[c], geometry.offsets[c + 1])
-            assert (geometry.cells[geometry.beam[entries], geometry.position[entries]] == c).all()
+            assert (geometry.cells[geometry.crossing_beam[entries], geometry.crossing_position[entries]] == c).all()
 
 
 GRID = bm.Grid((9, 7), 0.5, (-2.0, 1.0))
@@ -238,7 +238,7 @@ def test_beams_end_where_those_of_known_poses_do(depth):
     moving = pose_sensor_model(GRID, ANGLES, bm.Gaussian(0.2), max_range_m=50.0, hit_depth=depth)
     fixed = sensor_model(GRID, poses, ANGLES, bm.Gaussian(0.2), max_range_m=50.0, hit_depth=depth)
     found = np.asarray(jax.jit(lambda w: moving.distances_m(poses, moving.ends(w, poses)))(walls))
-    expected = np.asarray(jax.jit(lambda w: fixed.distances_at(fixed.first_hits(w)))(walls)).reshape(found.shape)
+    expected = np.asarray(jax.jit(lambda w: fixed.distances_at(fixed.find_hits((w,))))(walls)).reshape(found.shape)
     assert 0.2 < np.isinf(expected).mean() < 0.9
     np.testing.assert_allclose(found, expected, rtol=1e-4, atol=1e-4)
 

@@ -35,9 +35,10 @@ from bayesmap.space.scans import Scans
 
 @dataclass
 class ReadingLaw(ExactDensity):
-    """`law(distance_m)`: independent readings in metres, in the distances' shape; formulas of `bayesmap.sensors`.
+    """The distribution of independent readings, `law(distance_m)`, in metres and the distances' shape.
     The distance `inf` means that the beam meets nothing. Readings are coded as in `Scans`: `inf` is no return, `-inf`
-    is too close, and NaN is invalid. An invalid reading scores 0 and is never drawn.
+    is too close, and NaN is invalid. An invalid reading scores 0 and is never drawn. The formulas are those of
+    `bayesmap.sensors`; in them `wall_m` is the distance, or the largest range if it is smaller.
     """
 
     parameters: KernelParameters = static()
@@ -47,9 +48,9 @@ class ReadingLaw(ExactDensity):
         distance = jnp.asarray(distance_m, jnp.result_type(float))
         law, limits, shape = self.parameters, self.limits, distance.shape
         keys = jr.split(key, 6)
-        wall = jnp.minimum(distance, limits.max_m)
+        wall_m = jnp.minimum(distance, limits.max_m)
         noise = jr.t(keys[0], law.dof, shape) if law.dof > 0 else jr.normal(keys[0], shape)
-        reading = wall + self._scale(wall) * noise
+        reading = wall_m + self._scale(wall_m) * noise
         if not law.robust:
             return reading
         # The events of `BeamMixture` in reverse order: an earlier event there overrules a later one.
@@ -57,7 +58,7 @@ class ReadingLaw(ExactDensity):
         reading = jnp.where(lost, jnp.inf, reading)
         object_m = jr.exponential(keys[2], shape) / law.rate_short_per_m
         passing = jr.uniform(keys[3], shape) < law.p_short
-        reading = jnp.where(passing & (object_m < wall), object_m, reading)
+        reading = jnp.where(passing & (object_m < wall_m), object_m, reading)
         reading = jnp.where(reading > limits.max_m, jnp.inf, reading)
         reading = jnp.where(reading < limits.min_m, -jnp.inf, reading)
         uniform = jr.uniform(keys[4], shape, minval=limits.min_m, maxval=limits.max_m)
@@ -70,24 +71,24 @@ class ReadingLaw(ExactDensity):
     def logpdf(self, value: Any, distance_m: Any, /) -> Any:
         """Return the log density in nats, elementwise over readings and distances in metres."""
         reading, distance = jnp.asarray(value), jnp.asarray(distance_m)
-        wall = jnp.minimum(distance, self.limits.max_m)
+        wall_m = jnp.minimum(distance, self.limits.max_m)
         if self.parameters.robust:
-            log_density = self._mixture(reading, wall, distance <= self.limits.max_m)
+            log_density = self._mixture(reading, wall_m, distance <= self.limits.max_m)
         else:
             # Plain noise has no typed readings: they count as the range limits.
             finite = jnp.nan_to_num(reading, posinf=self.limits.max_m, neginf=self.limits.min_m)
-            log_density = self._log_noise(finite, wall)
+            log_density = self._log_noise(finite, wall_m)
         return jnp.where(jnp.isnan(reading), 0.0, log_density)
 
-    def _scale(self, wall: Any) -> Any:
+    def _scale(self, wall_m: Any) -> Any:
         """Return the scale of the noise in metres, given the distance of the wall in metres."""
-        return self.parameters.sigma_m + self.parameters.sigma_per_m * wall
+        return self.parameters.sigma_m + self.parameters.sigma_per_m * wall_m
 
-    def _log_noise(self, reading: Any, wall: Any) -> Any:
+    def _log_noise(self, reading: Any, wall_m: Any) -> Any:
         """Return the log density of wall + noise at the reading: Student's t, or normal if dof is 0."""
-        scale = self._scale(wall)
+        scale = self._scale(wall_m)
         dof = self.parameters.dof
-        x = (reading - wall) / scale
+        x = (reading - wall_m) / scale
         if dof > 0:
             half = 0.5 * (dof + 1)
             constant = math.lgamma(half) - math.lgamma(0.5 * dof) - 0.5 * math.log(dof * math.pi)
@@ -102,30 +103,30 @@ class ReadingLaw(ExactDensity):
             return jnp.where(x > 0, half, 1.0 - half)
         return ndtr(-x)
 
-    def _mixture(self, z: Any, wall: Any, in_range: Any) -> Any:
-        """Return the log density of readings `z` by the formula of `bayesmap.sensors.model` for the kind of each."""
+    def _mixture(self, reading: Any, wall_m: Any, in_range: Any) -> Any:
+        """Return the log density of readings by the formula of `bayesmap.sensors.model` for the kind of each."""
         law, limits = self.parameters, self.limits
 
         def unblocked(distance: Any) -> Any:
             return 1.0 + law.p_short * jnp.expm1(-law.rate_short_per_m * distance)
 
         # Hits: uniform, short of the wall, or from the wall with noise.
-        finite = jnp.isfinite(z)
-        reading = jnp.where(finite, z, limits.max_m)
-        returned = jnp.where(in_range, unblocked(wall) * (1.0 - law.p_no_return), 0.0)
-        lost = unblocked(wall) * jnp.where(in_range, law.p_no_return, 1.0)
-        passing = law.p_short * law.rate_short_per_m * jnp.exp(-law.rate_short_per_m * jnp.maximum(reading, 0.0))
-        short = jnp.where(reading < wall, passing, 0.0)
-        noise = jnp.exp(self._log_noise(reading, wall))
+        is_hit = jnp.isfinite(reading)
+        range_m = jnp.where(is_hit, reading, limits.max_m)
+        returned = jnp.where(in_range, unblocked(wall_m) * (1.0 - law.p_no_return), 0.0)
+        lost = unblocked(wall_m) * jnp.where(in_range, law.p_no_return, 1.0)
+        passing = law.p_short * law.rate_short_per_m * jnp.exp(-law.rate_short_per_m * jnp.maximum(range_m, 0.0))
+        short = jnp.where(range_m < wall_m, passing, 0.0)
+        noise = jnp.exp(self._log_noise(range_m, wall_m))
         hit = law.p_random / (limits.max_m - limits.min_m) + (1 - law.p_random) * (short + returned * noise)
         # No return and too close: the probabilities of noise beyond the limits.
-        scale = self._scale(wall)
-        above = self._tail((limits.max_m - wall) / scale)
-        below = self._tail((wall - limits.min_m) / scale)  # the noise is symmetric
+        scale = self._scale(wall_m)
+        above = self._tail((limits.max_m - wall_m) / scale)
+        below = self._tail((wall_m - limits.min_m) / scale)  # the noise is symmetric
         no_return = (1 - law.p_random) * (lost + returned * above)
-        blocked = -law.p_short * jnp.expm1(-law.rate_short_per_m * jnp.minimum(wall, limits.min_m))
+        blocked = -law.p_short * jnp.expm1(-law.rate_short_per_m * jnp.minimum(wall_m, limits.min_m))
         too_close = (1 - law.p_random) * (blocked + returned * below)
-        by_kind = jnp.where(finite, hit, jnp.where(z > 0, no_return, too_close))
+        by_kind = jnp.where(is_hit, hit, jnp.where(reading > 0, no_return, too_close))
         return jnp.maximum(jnp.log(by_kind), LOG_IMPOSSIBLE)
 
 
@@ -154,8 +155,8 @@ class BeamGeometry:
     cells: NDArray[np.int32]
     distance_m: NDArray[np.float32]  # distances at which the beam hits these cells; inf at sentinels
     offsets: NDArray[np.int32]  # (N + 1,); cell c has the entries offsets[c] : offsets[c + 1] of the two arrays below
-    beam: NDArray[np.int32]  # the beam of each of K crossings of a beam and a cell, then padding, (K + BEAMS_AT_ONCE,)
-    position: NDArray[np.int32]  # the cell's position in this beam, then padding, (K + BEAMS_AT_ONCE,)
+    crossing_beam: NDArray[np.int32]  # beam of each of K crossings with a cell, then padding, (K + BEAMS_AT_ONCE,)
+    crossing_position: NDArray[np.int32]  # the cell's position in this beam, then padding, (K + BEAMS_AT_ONCE,)
 
     @property
     def n_beams(self) -> int:
@@ -168,8 +169,8 @@ class BeamGeometry:
         return self.shape[0] * self.shape[1]
 
     @property
-    def longest(self) -> int:
-        """L + 1, the number of outcomes of the longest beam; its last position is a sentinel."""
+    def n_outcomes(self) -> int:
+        """L + 1, the number of outcomes of the longest beam. Its last position is a sentinel."""
         return int(self.cells.shape[1]) - CELLS_AT_ONCE + 1
 
     @cached_property
@@ -236,7 +237,7 @@ class ReadingsTrace(Trace):
 
 
 class RangeSensor(GenerativeFunction):
-    """Base of sensors: readings in metres, at (), have the distribution `law`. A sensor implements four methods."""
+    """Base of sensors. The readings in metres, their choice at (), follow `law`. Sensors define the first four methods."""
 
     law: ReadingLaw
 
@@ -285,8 +286,8 @@ class RangeSensor(GenerativeFunction):
                 keeps_readings = constraint.static_is_empty()
             case Regenerate(selection):
                 keeps_readings = not selection.check()
-        args, unchanged = Diff.tree_primal(argdiffs), Diff.static_check_no_change(argdiffs)
-        if keeps_readings and unchanged:
+        args, args_unchanged = Diff.tree_primal(argdiffs), Diff.static_check_no_change(argdiffs)
+        if keeps_readings and args_unchanged:
             return EmptyRequest().edit(key, trace, argdiffs)
         change = self.change_hits(trace, args, Diff.tangents(argdiffs)) if keeps_readings else None
         if change is not None:
@@ -294,7 +295,7 @@ class RangeSensor(GenerativeFunction):
             new = self.trace(args, hits, trace.readings)
             return new, weight, Diff.no_change(trace.readings), Update(ChoiceMap.empty())
         # Otherwise find all hits again, and let the law edit the readings.
-        hits = trace.hits if unchanged else self.find_hits(args)
+        hits = trace.hits if args_unchanged else self.find_hits(args)
         old = DistributionTrace(self.law, self.law_args(args, trace.hits), trace.readings, trace.get_score())
         law_diffs = Diff.unknown_change(self.law_args(args, hits))
         inner, weight, retdiff, backward = self.law.edit(key, old, request, law_diffs)
@@ -333,20 +334,17 @@ class BeamSensor(RangeSensor):
     law: ReadingLaw = static()
     readings_shape: tuple[int, ...] = static()
 
-    def first_hits(self, walls: Any) -> Any:
+    def find_hits(self, args: Arguments) -> Any:
         """Return the position of each beam's first wall, (B,), by a search through the cells of all beams."""
-        geometry = self.geometry
-        cells = geometry.cells[:, : geometry.longest]
+        (walls,), geometry = args, self.geometry
+        cells = geometry.cells[:, : geometry.n_outcomes]
         is_wall = jnp.append(checked_walls(walls, geometry.shape).reshape(-1) != 0, True)  # the sentinel is a wall
-        positions = jnp.arange(geometry.longest, dtype=np.min_scalar_type(geometry.longest))
+        positions = jnp.arange(geometry.n_outcomes, dtype=np.min_scalar_type(geometry.n_outcomes))
         return jnp.where(is_wall[cells], positions, positions[-1]).min(axis=1)
 
     def distances_at(self, first_hit: Any) -> Any:
         """Return the distances in metres of the first walls, (..., B); inf where there is none."""
         return jnp.asarray(self.geometry.distance_m)[jnp.arange(self.geometry.n_beams), first_hit]
-
-    def find_hits(self, args: Arguments) -> Any:
-        return self.first_hits(*args)
 
     def law_args(self, args: Arguments, hits: Any) -> Arguments:
         return (self.distances_at(hits).reshape(self.readings_shape),)
@@ -385,14 +383,16 @@ class BeamSensor(RangeSensor):
     def _change_cell(self, walls: Any, cell: Any, first_hit: Any, readings: Any) -> tuple[Any, Weight]:
         """Return (first hits, change of the log-likelihood) after one cell changed, by groups of the cell's beams."""
         geometry = self.geometry
-        is_wall = self._wall_at(walls, cell)
-        offsets, beams, positions = map(jnp.asarray, (geometry.offsets, geometry.beam, geometry.position))
+        is_wall = self._is_wall(walls, cell)
+        offsets, beams, positions = map(
+            jnp.asarray, (geometry.offsets, geometry.crossing_beam, geometry.crossing_position)
+        )
         distance_m = jnp.asarray(geometry.distance_m)
         end = offsets[cell + 1]
 
         def change_group(state: tuple[Any, Any, Any]) -> tuple[Any, Any, Any]:
             k, first_hit, weight = state
-            valid = k + jnp.arange(BEAMS_AT_ONCE, dtype=jnp.int32) < end  # the others in the last group are padding
+            valid = k + jnp.arange(BEAMS_AT_ONCE, dtype=jnp.int32) < end  # the last group ends with padding
             beam = jax.lax.dynamic_slice(beams, (k,), (BEAMS_AT_ONCE,))
             position = jax.lax.dynamic_slice(positions, (k,), (BEAMS_AT_ONCE,))
             # A beam whose wall is removed goes on to its next wall; a new wall before the hit replaces the hit.
@@ -411,7 +411,7 @@ class BeamSensor(RangeSensor):
         _, first_hit, weight = jax.lax.while_loop(lambda state: state[0] < end, change_group, start)
         return first_hit, weight
 
-    def _wall_at(self, walls: Any, cell: Any) -> Any:
+    def _is_wall(self, walls: Any, cell: Any) -> Any:
         """Return whether the cells with these flat indices are walls."""
         ny = self.geometry.shape[1]
         return walls[cell // ny, cell % ny] != 0
@@ -419,13 +419,13 @@ class BeamSensor(RangeSensor):
     def _next_walls(self, walls: Any, beam: Any, position: Any, uncovered: Any) -> Any:
         """Return the next walls behind `position` for uncovered beams, and `position` for others, (BEAMS_AT_ONCE,)."""
         cells, n_cells = jnp.asarray(self.geometry.cells), self.geometry.n_cells
-        ahead = jnp.arange(CELLS_AT_ONCE, dtype=jnp.int32)
+        steps = jnp.arange(CELLS_AT_ONCE, dtype=jnp.int32)
 
         def search(state: tuple[Any, Any]) -> tuple[Any, Any]:
             position, searching = state
-            next_cells = cells[beam[:, None], position[:, None] + 1 + ahead]
-            wall = (next_cells == n_cells) | self._wall_at(walls, jnp.minimum(next_cells, n_cells - 1))
-            step = jnp.where(wall, ahead, CELLS_AT_ONCE).min(axis=1)
+            next_cells = cells[beam[:, None], position[:, None] + 1 + steps]
+            is_wall = (next_cells == n_cells) | self._is_wall(walls, jnp.minimum(next_cells, n_cells - 1))
+            step = jnp.where(is_wall, steps, CELLS_AT_ONCE).min(axis=1)
             hit = step < CELLS_AT_ONCE
             position = jnp.where(searching, position + jnp.where(hit, step + 1, CELLS_AT_ONCE), position)
             return position, searching & ~hit

@@ -47,7 +47,7 @@ class SetCells(EditRequest):
         i, j, values = jnp.broadcast_arrays(*map(jnp.atleast_1d, (self.i, self.j, self.values)))
         old = trace.get_retval()[i, j]
         weight = jnp.zeros(())
-        for row, column, value in zip(i.ravel(), j.ravel(), values.ravel(), strict=True):
+        for row, column, value in zip(i.ravel(), j.ravel(), values.ravel(), strict=True):  # unrolled when compiled
             request = IndexRequest(row, IndexRequest(column, Update(ChoiceMap.choice(value))))
             trace, gain, _, _ = trace.edit(key, request, argdiffs)
             argdiffs = Diff.no_change(Diff.tree_primal(argdiffs))
@@ -91,7 +91,7 @@ def mapping_model(
     """
     remedy = "use infer, or write a program that draws its walls and gives them to sensor_model"
     prior = Independent.of(prior, "mapping_model", remedy)
-    walls = _Walls.of(prior.probabilities(grid))
+    walls = _WallPrior.of(prior.probabilities(grid))
     options = {"max_range_m": max_range_m, "min_range_m": min_range_m, "hit_depth": hit_depth}
     if isinstance(poses, GenerativeFunction):
         _check_pose_prior(poses)
@@ -125,7 +125,8 @@ def pose_sensor_model(
     max_range_m: float, min_range_m: float = 0.0, hit_depth: float = 0.0,
 ) -> PoseSensor:  # fmt: skip
     """Return the sensor alone, for unknown poses: a generative function of walls (nx, ny) and poses (3,) or (S, 3).
-    Use it as `sensor_model`, by `sensor(walls, poses) @ "readings"`, or to localize. The rest as in `mapping_model`.
+    Use it as `sensor_model`, by `sensor(walls, poses) @ "readings"`, or to localize. Other arguments and errors as for
+    `mapping_model`.
     """
     angles, law = as_angles(angles_rad), reading_law(sensor, _limits(min_range_m, max_range_m))
     return PoseSensor(grid, tuple(angles.tolist()), law, float(hit_depth))
@@ -149,16 +150,16 @@ def _check_pose_prior(prior: GenerativeFunction) -> None:
 
 
 @dataclass
-class _Walls(Pytree):
+class _WallPrior(Pytree):
     """The prior of the walls. Its probabilities are bytes, so that they can be a static part of JAX's trees."""
 
     shape: tuple[int, ...] = static()
     p_wall: bytes = static(repr=False)
 
     @staticmethod
-    def of(p_wall: NDArray[np.float64]) -> "_Walls":
+    def of(p_wall: NDArray[np.float64]) -> "_WallPrior":
         """Return the prior of an array of probabilities, (nx, ny)."""
-        return _Walls(p_wall.shape, np.asarray(p_wall, np.float64).tobytes())
+        return _WallPrior(p_wall.shape, np.asarray(p_wall, np.float64).tobytes())
 
     def draw(self) -> Any:
         """Return the call that draws the walls. Equal probabilities become one number, so that edits read no array."""
@@ -169,7 +170,7 @@ class _Walls(Pytree):
 
 
 @gen
-def _map_and_readings(prior: _Walls, sensor: BeamSensor) -> Any:
+def _map_and_readings(prior: _WallPrior, sensor: BeamSensor) -> Any:
     """Draw a map and its readings at known poses."""
     walls = prior.draw() @ "walls"
     readings = sensor(walls) @ "readings"
@@ -177,7 +178,7 @@ def _map_and_readings(prior: _Walls, sensor: BeamSensor) -> Any:
 
 
 @gen
-def _poses_map_and_readings(pose_prior: GenerativeFunction, prior: _Walls, sensor: PoseSensor) -> Any:
+def _poses_map_and_readings(pose_prior: GenerativeFunction, prior: _WallPrior, sensor: PoseSensor) -> Any:
     """Draw poses, a map and its readings."""
     poses = (pose_prior if isinstance(pose_prior, GenerativeFunctionClosure) else pose_prior()) @ "poses"
     walls = prior.draw() @ "walls"

@@ -107,7 +107,7 @@ class PoseTrace(ReadingsTrace):
 
 @dataclass
 class PoseSensor(RangeSensor):
-    """`sensor(walls, poses)`: walls (nx, ny), poses (3,) or (S, 3); readings in metres, (A,) or (S, A), at ()."""
+    """`sensor(walls, poses)`: walls (nx, ny), poses (3,) or (S, 3). The choice at () is readings, m, (A,) or (S, A)."""
 
     grid: Grid = static()
     angles_rad: tuple[float, ...] = static()  # angles of the A beams, in the sensor frame
