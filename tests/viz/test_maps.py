@@ -10,7 +10,7 @@ from viz_case import CORNER, GRID, HIDDEN, cell, observed, occupancy, panel
 
 import bayesmap as bm
 from bayesmap.viz import palette, plot_deviation, plot_entropy, plot_probability, plot_sample, plot_width
-from bayesmap.viz.maps import boundary_segments, boxes, window, window_around
+from bayesmap.viz.maps import boundary_segments, strip_outlines, window, window_around
 
 
 def to_lab(rgb):
@@ -98,7 +98,7 @@ def test_segments_are_the_edges_between_unlike_cells_and_boxes_cover_the_mask(se
     assert len(boundary_segments(bm.Grid(shape=(7, 5)), straight)) == 4  # one a side
 
     covered = np.zeros(mask.shape, dtype=int)
-    for box in boxes(bm.Grid(shape=mask.shape), mask).astype(int):
+    for box in strip_outlines(bm.Grid(shape=mask.shape), mask).astype(int):
         (x0, y0), (x1, y1) = box[0], box[2]
         covered[x0:x1, y0:y1] += 1
     np.testing.assert_array_equal(covered, mask)

@@ -200,7 +200,7 @@ def test_a_route_is_named_and_drawn_over_the_map():
     figure = route_figure(FLOOR, MEAN, None, PATH, 0.3, title="6 m, free with probability 0.9")
     ax = figure.axes[0]
     assert ax.get_title() == "6 m, free with probability 0.9"
-    assert {"path", "start", "goal", "what the robot sweeps"} <= set(ax.get_legend_handles_labels()[1])
+    assert {"path", "start", "goal", "swept area"} <= set(ax.get_legend_handles_labels()[1])
     assert png_of(figure) != png_of(route_figure(FLOOR, MEAN, None, PATH[:2], 0.3))
     for path in ([], [[1.0]], 3.0):
         with pytest.raises(bm.BadInput, match="path"):
@@ -209,15 +209,15 @@ def test_a_route_is_named_and_drawn_over_the_map():
 
 def test_views_are_numbered_best_first():
     poses = np.column_stack([np.linspace(-1, 6, 8), np.full(8, 3.0), np.zeros(8)])
-    figure = views_figure(FLOOR, MEAN, None, poses, np.arange(8.0), [7, 2], [31.4, 20.0])
+    figure = views_figure(FLOOR, MEAN, None, candidates=poses, nats=np.arange(8.0), best=[7, 2], best_nats=[31.4, 20.0])
     assert [text.get_text() for text in figure.axes[0].texts] == ["1: 31", "2: 20"]
-    assert "best views: at most so many nats" in labels(figure)
-    assert [text.get_text() for text in figure.axes[1].get_yticklabels()] == ["tells least", "tells most"]
+    assert "best views, with upper bounds in nats" in labels(figure)
+    assert [text.get_text() for text in figure.axes[1].get_yticklabels()] == ["least information", "most information"]
     assert len(figure.axes) == 2  # the map and one colour bar
     assert figure.axes[0].texts[0].xy[0] == pytest.approx(6.0)
     assert png_of(figure)
     with pytest.raises(bm.BadInput, match="candidates"):
-        views_figure(FLOOR, MEAN, None, np.zeros((4, 3)), np.zeros(3), [], [])
+        views_figure(FLOOR, MEAN, None, candidates=np.zeros((4, 3)), nats=np.zeros(3), best=[], best_nats=[])
 
 
 def test_the_end_of_a_stray_beam_does_not_widen_the_picture():

@@ -141,8 +141,9 @@ def explore(call: Call[ExploreSettings], run_file: str, output: str | None, forc
         )  # fmt: skip
     information = views.information
     picture = views_figure(
-        run.grid, run.occupancy, run.observed, views.candidates, views.independent, views.best, information.at_most
-    )
+        run.grid, run.occupancy, run.observed, candidates=views.candidates, nats=views.independent, best=views.best,
+        best_nats=information.at_most,
+    )  # fmt: skip
     write_figure(picture, target)
     best_views = _best_views_json(views)
     document = {

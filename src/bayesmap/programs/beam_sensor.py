@@ -237,7 +237,7 @@ class ReadingsTrace(Trace):
 
 
 class RangeSensor(GenerativeFunction):
-    """Base of sensors. The readings in metres, their choice at (), follow `law`. Sensors define the first four methods."""
+    """Base of sensors. The choice at () is the readings in metres, which follow `law`. Sensors define four methods."""
 
     law: ReadingLaw
 

@@ -39,7 +39,7 @@ def boundary_segments(grid: Grid, mask: NDArray[np.bool_]) -> NDArray[np.float64
     return _to_world(grid, np.concatenate([vertical, horizontal], axis=-1))
 
 
-def boxes(grid: Grid, mask: NDArray[np.bool_]) -> NDArray[np.float64]:
+def strip_outlines(grid: Grid, mask: NDArray[np.bool_]) -> NDArray[np.float64]:
     """Return strips along y that cover the true cells, as counter-clockwise outlines in metres, (M, 5, 2)."""
     x, y0, y1 = _strips(mask)
     return _to_world(grid, np.array([[x, y0], [x + 1, y0], [x + 1, y1], [x, y1], [x, y0]]))
@@ -83,7 +83,7 @@ def window(grid: Grid, x_m: tuple[float, float], y_m: tuple[float, float]) -> tu
 
 
 def window_around(grid: Grid, mask: ArrayLike, margin_m: float = 1.0) -> tuple[Grid, Window]:
-    """Return the `window` around the true cells of a mask, (nx, ny), with a margin. The default is the whole grid."""
+    """Return the `window` around the true cells of a mask, (nx, ny), with a margin; the whole grid if none is true."""
     cells = np.argwhere(as_mask(grid, mask, "mask"))
     first, end = (cells.min(axis=0), cells.max(axis=0) + 1) if len(cells) else (np.zeros(2), np.array(grid.shape))
     low = np.array(grid.origin) + first * grid.resolution - margin_m
@@ -132,20 +132,21 @@ def plot_width(ax: Axes, grid: Grid, width: ArrayLike, observed: ArrayLike | Non
 
 
 def _plot_uncertainty(
-    ax: Axes, grid: Grid, values: ArrayLike, observed: ArrayLike | None, name: str, top: float, reason: str
+    ax: Axes, grid: Grid, values: ArrayLike, observed: ArrayLike | None, name: str, vmax: float, reason: str
 ) -> AxesImage:
-    """Check that values lie between 0 and ``top``, and plot them as uncertainty."""
+    """Check that values lie between 0 and ``vmax``, and plot them as uncertainty."""
     numbers = as_numbers(grid, values, name)
-    if numbers.min() < -ROUNDING or numbers.max() > top + ROUNDING:
+    if numbers.min() < -ROUNDING or numbers.max() > vmax + ROUNDING:
         raise BadInput(f"picture: {name} runs from {numbers.min():g} to {numbers.max():g}, and {reason}")
-    return _plot_cells(ax, grid, numbers, as_observed(grid, observed), palette.uncertainty_colormap(), top)
+    return _plot_cells(ax, grid, numbers, as_observed(grid, observed), palette.uncertainty_colormap(), vmax)
 
 
 def plot_sample(ax: Axes, grid: Grid, walls: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
     """Plot a draw of walls, true or 1, as `plot_probability` does. Unobserved cells are faded: the prior drew them."""
     observed_mask = as_observed(grid, observed)
-    kind = np.where(observed_mask, 0, 2) + as_mask(grid, walls, "walls")
-    return _plot_cells(ax, grid, kind.astype(np.float64), observed_mask, palette.draw_colormap(), 3.0, hide=False)
+    kind = np.where(observed_mask, 0, 2) + as_mask(grid, walls, "walls")  # free, wall, unobserved free, unobserved wall
+    colors = palette.draw_colormap()
+    return _plot_cells(ax, grid, kind.astype(np.float64), observed_mask, colors, 3.0, hide_unobserved=False)
 
 
 def plot_draw(ax: Axes, grid: Grid, draw: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
@@ -157,12 +158,12 @@ def plot_draw(ax: Axes, grid: Grid, draw: ArrayLike, observed: ArrayLike | None 
 
 
 def map_figure(
-    grid: Grid, *, aspects: tuple[float, float] = (0.3, 3.0), bar_in: float = BAR_IN, foot_in: float = 0.0,
-    dpi: float = 160.0,
+    grid: Grid, *, aspects: tuple[float, float] = (0.3, 3.0), bar_width_in: float = BAR_IN,
+    foot_height_in: float = 0.0, dpi: float = 160.0,
 ) -> tuple[Figure, Axes]:  # fmt: skip
     """Return a figure with one panel. ``aspects`` limit its width over its height; bar and foot add room, inches."""
-    width_in = (HEIGHT_IN - LABELS_IN) * float(np.clip(grid.shape[0] / grid.shape[1], *aspects)) + bar_in
-    figure = palette.blank_figure(width_in, HEIGHT_IN + foot_in, dpi)
+    width_in = (HEIGHT_IN - LABELS_IN) * float(np.clip(grid.shape[0] / grid.shape[1], *aspects)) + bar_width_in
+    figure = palette.blank_figure(width_in, HEIGHT_IN + foot_height_in, dpi)
     return figure, figure.subplots()
 
 
@@ -189,30 +190,30 @@ def frame_axes(ax: Axes, grid: Grid) -> None:
 
 
 def hatch_patch(path: Path | None = None) -> PathPatch:
-    """Return the hatch over unobserved cells; without a path, its legend key with the colour below."""
+    """Return the hatch over unobserved cells; without a path, its legend key, filled with their colour."""
+    is_key = path is None
     square = Path(np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0), (0.0, 0.0)]), closed=True)
     patch = PathPatch(
-        square if path is None else path, facecolor=palette.UNOBSERVED if path is None else "none",
-        edgecolor=palette.UNOBSERVED_HATCH, linewidth=0.0, hatch=palette.HATCH,
-        label=None if path is not None else "unobserved",
+        square if path is None else path, facecolor=palette.UNOBSERVED if is_key else "none", linewidth=0.0,
+        edgecolor=palette.UNOBSERVED_HATCH, hatch=palette.HATCH, label="unobserved" if is_key else None,
     )  # fmt: skip
     patch.set_hatch_linewidth(0.6)  # points
     return patch
 
 
 def _plot_cells(
-    ax: Axes, grid: Grid, values: NDArray[np.float64], observed: NDArray[np.bool_], colors: Colormap, top: float, *,
-    hide: bool = True,
+    ax: Axes, grid: Grid, values: NDArray[np.float64], observed: NDArray[np.bool_], colors: Colormap, vmax: float, *,
+    hide_unobserved: bool = True,
 ) -> AxesImage:  # fmt: skip
-    """Plot cells from 0 to ``top``. Unobserved cells are hatched; with ``hide`` their values are left out."""
+    """Plot cells from 0 to ``vmax``. Unobserved cells are hatched, and their values are hidden or shown below."""
     # Enlarged cells stay sharp squares. With more cells than pixels colours are averaged: a thin wall fades.
     image = ax.imshow(
-        np.ma.array(values, mask=~observed & hide).T, cmap=colors, vmin=0.0, vmax=top, extent=grid.extent_m,
-        origin="lower", interpolation="auto", interpolation_stage="auto",
+        np.ma.array(values, mask=~observed & hide_unobserved).T, cmap=colors, vmin=0.0, vmax=vmax,
+        extent=grid.extent_m, origin="lower", interpolation="auto", interpolation_stage="auto",
     )  # fmt: skip
     frame_axes(ax, grid)
     if not observed.all():
-        outlines = boxes(grid, ~observed)
+        outlines = strip_outlines(grid, ~observed)
         codes = np.tile([Path.MOVETO, Path.LINETO, Path.LINETO, Path.LINETO, Path.CLOSEPOLY], len(outlines))
         # Not add_patch: it is slow, since it computes limits in Python that the panel already has.
         ax.add_artist(hatch_patch(Path(outlines.reshape(-1, 2), codes)))

@@ -28,10 +28,10 @@ from bayesmap.viz import maps, palette
 from bayesmap.viz.maps import boundary_segments
 
 MAX_ARROWS = 12  # poses with an arrow each; more poses become a trajectory with one arrow at its end
-DEVIATIONS = 2.0  # standard deviations from the mean to each end of a stroke
+STROKE_SIGMAS = 2.0  # standard deviations from the mean to each end of a stroke
 MIN_WEIGHT = 0.02  # least weight of a plotted surface: fainter ones would be invisible, and most cells are free
-MIN_WIDTH_PT, MAX_WIDTH_PT = 0.8, 2.5  # limits of a stroke's width
-FOOT_IN = 0.6  # height of the legend below the map, inches
+MIN_STROKE_PT, MAX_STROKE_PT = 0.8, 2.5  # limits of a stroke's width
+FOOT_HEIGHT_IN = 0.6  # height of the legend below the map, inches
 Marks = list[LineCollection | PathCollection]  # artists of beams and readings
 
 
@@ -85,22 +85,22 @@ def plot_rays(ax: Axes, scans: Scans, max_beams: int = 400, max_readings: int = 
 def plot_sensor(ax: Axes, poses: ArrayLike) -> list[Line2D]:
     """Plot the sensor as an arrow along its yaw. Many poses become a trajectory that ends in an arrow.
     ``poses`` are (S, 3) or (3,): x, y in metres and yaw in radians. Returns the marks; the first is labelled "sensor"
-    or "trajectory". Raises `BadInput` if the shape is another, there is no pose, or a number is not finite.
+    or "trajectory". Raises `BadInput` for another shape, no pose, or a number that is not finite.
     """
     poses_world = as_poses(poses)
     if len(poses_world) == 0:
         raise BadInput("picture: there is no pose to draw the sensor at; pass at least one (x, y, yaw)")
     marks: list[Line2D] = []
-    many = len(poses_world) > MAX_ARROWS
-    if many:
+    as_trajectory = len(poses_world) > MAX_ARROWS
+    if as_trajectory:
         x, y = poses_world[:, :2].T
         marks += ax.plot(x, y, color=palette.SENSOR, linewidth=0.9, solid_joinstyle="round", zorder=3.5)
-    for x, y, yaw in poses_world[-1:] if many else poses_world:
+    for x, y, yaw in poses_world[-1:] if as_trajectory else poses_world:
         marks += ax.plot(
             x, y, marker=_arrow(yaw), markersize=10.5, markerfacecolor=palette.SENSOR,
             markeredgecolor="white", markeredgewidth=0.6, linestyle="none", zorder=3.6, clip_on=True,
         )  # fmt: skip
-    marks[0].set_label("trajectory" if many else "sensor")
+    marks[0].set_label("trajectory" if as_trajectory else "sensor")
     return marks
 
 
@@ -122,7 +122,7 @@ def _arrow(yaw_rad: float) -> MarkerStyle:
 
 def surface_strokes(means_world: ArrayLike, covariances_m2: ArrayLike, longest_m: float = np.inf) -> Floats:
     """Return both ends of the strokes of n surfaces, metres, (n, 2, 2), given means (n, 2) and covariances (n, 2, 2).
-    Longer strokes than ``longest_m`` are cut. Raises `BadInput` for other shapes, infinite numbers, or no covariance.
+    Longer strokes than ``longest_m`` are cut. Raises `BadInput` for other shapes, infinite numbers, or no covariances.
     """
     means, covariances = as_array(means_world, "means_world"), as_array(covariances_m2, "covariances_m2")
     n = len(means)
@@ -134,10 +134,10 @@ def surface_strokes(means_world: ArrayLike, covariances_m2: ArrayLike, longest_m
     variances, axes = np.linalg.eigh(covariances)  # ascending
     scale = np.abs(covariances).max(axis=(1, 2))
     skew = np.abs(covariances[:, 0, 1] - covariances[:, 1, 0]) > 1e-6 * scale
-    wrong = skew | (variances[:, 0] < -1e-6 * scale)
-    if wrong.any():
-        raise BadInput(f"picture: matrix {int(np.argmax(wrong))} is no covariance: it must be symmetric, and >= 0")
-    half_m = np.minimum(DEVIATIONS * np.sqrt(np.maximum(variances[:, 1], 0.0)), longest_m / 2.0)
+    is_invalid = skew | (variances[:, 0] < -1e-6 * scale)
+    if is_invalid.any():
+        raise BadInput(f"picture: matrix {int(np.argmax(is_invalid))} is no covariance: it must be symmetric, and >= 0")
+    half_m = np.minimum(STROKE_SIGMAS * np.sqrt(np.maximum(variances[:, 1], 0.0)), longest_m / 2.0)
     half = half_m[:, None] * axes[:, :, 1]
     return np.stack([means - half, means + half], axis=1)
 
@@ -170,11 +170,11 @@ def surfaces_figure(
     grid: Grid, means_world: ArrayLike, covariances_m2: ArrayLike, weights: ArrayLike, observed: ArrayLike | None = None
 ) -> Figure:
     """Return a figure of all surfaces of a map, with the arguments of `plot_surfaces`. Unobserved cells are hatched."""
-    figure, axes = maps.map_figure(grid, aspects=(0.4, 2.5), bar_in=0.7, foot_in=0.35, dpi=200)
+    figure, axes = maps.map_figure(grid, aspects=(0.4, 2.5), bar_width_in=0.7, foot_height_in=0.35, dpi=200)
     maps.plot_sample(axes, grid, np.zeros(grid.shape, dtype=np.bool_), observed)
     # A stroke is a third of a cell thick, within limits.
     cell_pt = 72.0 * maps.HEIGHT_IN / max(grid.shape)
-    width_pt = float(np.clip(cell_pt / 3.0, MIN_WIDTH_PT, MAX_WIDTH_PT))
+    width_pt = float(np.clip(cell_pt / 3.0, MIN_STROKE_PT, MAX_STROKE_PT))
     # Hits of a cell lie in the cell: a longer stroke only shows that the surface is uncertain.
     longest_m = 1.5 * grid.resolution
     plot_surfaces(axes, means_world, covariances_m2, weights, width_pt=width_pt, longest_m=longest_m)
@@ -192,7 +192,7 @@ def route_figure(
     label: str = "probability of wall",
 ) -> Figure:  # fmt: skip
     """Return a figure of a path, (P, 2), and the area that a disc sweeps along it, over the mean map."""
-    figure, ax = maps.map_figure(grid, aspects=(0.5, 3.0), foot_in=FOOT_IN)
+    figure, ax = maps.map_figure(grid, aspects=(0.5, 3.0), foot_height_in=FOOT_HEIGHT_IN)
     image = maps.plot_probability(ax, grid, occupancy, observed)
     figure.colorbar(image, ax=ax, label=label, shrink=0.8)
     plot_route(ax, path, radius_m)
@@ -206,7 +206,7 @@ def plot_route(ax: Axes, path: ArrayLike, radius_m: float) -> PathPatch:
     if corners.ndim != 2 or corners.shape[1] != 2 or len(corners) == 0:
         raise BadInput(f"picture: the path has shape {corners.shape}; give (P, 2)")
     swept = PathPatch(_swept(corners, radius_m), facecolor=palette.SENSOR, edgecolor="none", alpha=0.3, zorder=3.2)
-    swept.set_label("what the robot sweeps")
+    swept.set_label("swept area")
     ax.add_patch(swept)
     ax.plot(*corners.T, color=palette.SENSOR, linewidth=1.4, label="path", zorder=3.4)
     ax.plot(*corners[0], "o", color=palette.TEXT, markersize=5, label="start", zorder=3.5)
@@ -215,7 +215,7 @@ def plot_route(ax: Axes, path: ArrayLike, radius_m: float) -> PathPatch:
 
 
 def views_figure(
-    grid: Grid, occupancy: ArrayLike, observed: ArrayLike | None, candidates: ArrayLike, nats: ArrayLike,
+    grid: Grid, occupancy: ArrayLike, observed: ArrayLike | None, *, candidates: ArrayLike, nats: ArrayLike,
     best: ArrayLike, best_nats: ArrayLike,
 ) -> Figure:  # fmt: skip
     """Return a figure of candidate views, (P, 3), over the mean map, coloured by a fast formula for their information.
@@ -223,7 +223,7 @@ def views_figure(
     numbered arrows with the upper bounds of their information, ``best_nats``, (V,). The colours have no numbers, since
     another formula gives them. Raises `BadInput` if shapes do not fit.
     """
-    figure, ax = maps.map_figure(grid, aspects=(0.5, 3.0), foot_in=FOOT_IN)
+    figure, ax = maps.map_figure(grid, aspects=(0.5, 3.0), foot_height_in=FOOT_HEIGHT_IN)
     maps.plot_probability(ax, grid, occupancy, observed)
     # A dot at each candidate, the most informative on top.
     views, values = np.asarray(candidates, dtype=np.float64), np.asarray(nats, dtype=np.float64)
@@ -236,10 +236,10 @@ def views_figure(
     )  # fmt: skip
     bar = figure.colorbar(dots, ax=ax, label="candidates, by the fast formula", shrink=0.8)
     low, high = dots.get_clim()
-    bar.set_ticks([low, high], labels=["tells least", "tells most"])
+    bar.set_ticks([low, high], labels=["least information", "most information"])
     poses = views[np.asarray(best, dtype=np.intp)]
     for rank, (pose, bound_nats) in enumerate(zip(poses, np.asarray(best_nats, dtype=np.float64), strict=True), 1):
-        plot_sensor(ax, pose)[0].set_label("best views: at most so many nats" if rank == 1 else "_")
+        plot_sensor(ax, pose)[0].set_label("best views, with upper bounds in nats" if rank == 1 else "_")
         ax.annotate(
             f"{rank}: {bound_nats:.0f}", (pose[0], pose[1]), xytext=(7, 7), textcoords="offset points", fontsize=8,
             fontweight="bold", color=palette.TEXT, zorder=3.8,
