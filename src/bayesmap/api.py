@@ -43,7 +43,7 @@ from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
 FIT = "fit"  # value of ``sensor`` that asks for a fit
-EXAMPLE_PRIORS = "bm.Independent(0.2) or bm.Surface()"  # for the messages of errors
+EXAMPLE_PRIORS = "bm.Independent(0.2) or bm.Surface()"  # priors that error messages suggest
 EXAMPLE_POSES = "bm.UncertainPoses(0.1, 0.05) or bm.Odometry()"
 POSE_SAMPLERS = ("wall-gibbs", "wall-blocks", "stop-gibbs")  # samplers that can sample unknown poses
 
@@ -221,8 +221,8 @@ class Inference:
     model: Model  # if the sensor is fitted, with the sensor that the fit starts from
     method_name: str
     method: Method
-    plan: SweepPlan  # of each chain
-    request: DrawRequest  # for methods without chains; chains take their number and seed from it too
+    plan: SweepPlan  # sweeps of each chain
+    request: DrawRequest  # draws of methods without chains; chains take their number and seed from it too
     is_fitted: bool  # whether the sensor is to be fitted
     where: Where
 

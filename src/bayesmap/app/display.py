@@ -16,7 +16,7 @@ from bayesmap.space.grid import Grid
 
 MIN_FRAME_SECONDS = 0.08  # time between two fields
 MIN_OVERLAY_SECONDS = 2.0  # time between two overlays of the surfaces of chains that go on
-MAX_LEVEL = 255  # the number that stands for a probability of one
+MAX_LEVEL = 255  # number that stands for a probability of one
 TRACE_POINTS = 300  # evenly chosen points of the trace in a field
 FIRST_SWEEPS = 100  # first sweeps that are all included in the trace
 MIN_REFLECTIVITY = 0.1  # surfaces with a smaller reflectivity are not shown

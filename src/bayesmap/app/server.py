@@ -142,7 +142,7 @@ class RateLimit:
         self.n_refused = 0  # number of messages refused so far
 
     def allow(self) -> bool:
-        """Take a token for one more message. Returns False if there is none."""
+        """Take a token for one more message. Returns whether there was one."""
         now_s = time.monotonic()
         self._tokens = min(BURST_MESSAGES, self._tokens + (now_s - self._refilled_s) * MESSAGES_PER_SECOND)
         self._refilled_s = now_s

@@ -170,7 +170,7 @@ def exit_unless_good(*, finished: bool, problems: bool, failed: bool = False) ->
 
 
 SPEED_S = 600.0  # seconds over which the progress bar averages the speed: sweeps of long logs take up to half a minute
-MAX_FEW_STEPS = 5  # up to so many steps, the time left is not predicted: their lengths differ too much
+MAX_FEW_STEPS = 5  # largest number of steps whose time left is not predicted: their lengths differ too much
 LINE_S = 60.0  # seconds from one line of progress to the next if there is no terminal
 
 

@@ -35,8 +35,8 @@ if TYPE_CHECKING:
 
 SETTINGS = "fleet.toml"  # file beside the folders of the runs: the settings of the last fleet
 MAX_RETRIES = 3  # number of times that a log is restarted from its last checkpoint after its worker has died
-WAIT_S = 0.25  # between two checks of the workers
-EVENT_S = 1.0  # between two progress messages of a worker
+WAIT_S = 0.25  # time between two checks of the workers
+EVENT_S = 1.0  # time between two progress messages of a worker
 STOP_S = 30.0  # longest wait for the workers after Ctrl-C
 MAX_NAMED_LOGS = 3  # number of logs that the progress bar names
 
@@ -179,7 +179,7 @@ def infer_fleet(call: Call[InferSettings], logs: list[str], output: Path, *, res
 
 
 def _infer_here(entry: FleetLog, console: Console) -> bool:
-    """Infer a log in this process. Return False if it was interrupted."""
+    """Infer a log in this process. Returns whether it was not interrupted."""
     try:
         document = infer_log(entry.checked_task)
     except Exception as error:
@@ -192,7 +192,7 @@ def _infer_here(entry: FleetLog, console: Console) -> bool:
 def table(fleet: list[FleetLog]) -> Iterator[str]:
     """Yield the lines of the table: a heading, and one line per log."""
     rows = [("log", "beams", "minutes", "R-hat", "held out")]
-    last_column = ["folder, or what went wrong"]  # to the left, unlike the numbers
+    last_column = ["folder, or what went wrong"]  # set to the left, unlike the numbers
     for entry in fleet:
         run = entry.document
         if run is None:

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from bayesmap.space.grid import Grid
     from bayesmap.space.scans import Scans
 
-MAX_UNTHINNED_SCANS = 500  # of more scans, the command that scores the trajectory takes one each 0.3 m
+MAX_UNTHINNED_SCANS = 500  # number of scans above which the command that scores the trajectory takes one each 0.3 m
 STAGES = "stages"  # folder of the finished stages of the trajectory, in the folder of the run
 MAX_LISTED_STRETCHES = 3  # number of doubtful stretches of odometry that are listed
 MAX_ALTERNATIVES = 5  # number of alternatives to the trajectory that are described

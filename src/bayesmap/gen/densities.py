@@ -39,7 +39,7 @@ class Family(NamedTuple):
     batch: Callable[..., tuple[int, ...]] = lambda *params: jnp.broadcast_shapes(*map(jnp.shape, params))
 
 
-_FAMILIES: dict[str, Family] = {}  # by the name of the distribution
+_FAMILIES: dict[str, Family] = {}  # families by the name of the distribution
 
 
 @dataclass

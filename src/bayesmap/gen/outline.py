@@ -8,7 +8,7 @@ import jax.numpy as jnp
 
 from bayesmap.gen.masks import Mask
 
-MAX_ELEMENTS = 8  # of an array whose elements are printed
+MAX_ELEMENTS = 8  # size of the largest array whose elements are printed
 
 
 class Outlined:

@@ -255,7 +255,7 @@ class StaticGenerativeFunction(GenerativeFunction):
 
     partial_args: tuple[Any, ...]  # fixed arguments, which come before the others
     source: Callable[..., Any] = static()  # the Python function
-    by_name: bool = static(default=False)  # if True, arguments have the form ((positional, ...), {"name": value})
+    by_name: bool = static(default=False)  # whether arguments have the form ((positional, ...), {"name": value})
 
     def call(self, args: Arguments) -> Any:
         """Run the body."""

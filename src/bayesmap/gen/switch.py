@@ -112,8 +112,8 @@ class SwitchTrace(Trace):
 
     index: Any  # number of the branch that ran
     branches: tuple[Trace, ...]  # a trace per branch, without arguments
-    retval: Any  # of the branch that ran, in common shapes and dtypes
-    score: Score  # of the branch that ran
+    retval: Any  # value of the branch that ran, in common shapes and dtypes
+    score: Score  # score of the branch that ran
 
     def get_idx(self) -> Any:
         """Return the number of the branch that ran."""

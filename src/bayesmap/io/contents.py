@@ -33,7 +33,7 @@ class Contents:
     start_s: float | None  # first time in seconds; None without times
     end_s: float | None  # last time
     topics: list[dict[str, Any]]  # name, type, count and rate; in a log, name and count of each message
-    frames: list[str] = field(default_factory=list)  # in /tf of a recording
+    frames: list[str] = field(default_factory=list)  # names of the frames in /tf of a recording
     sensors: list[dict[str, Any]] = field(default_factory=list)  # a summary of scans and poses for each source
     pose_sources: list[dict[str, Any]] = field(default_factory=list)  # topics of a recording with poses
     suggestion: str | None = None  # command that infers a map from the file

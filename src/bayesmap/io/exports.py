@@ -39,7 +39,7 @@ FORMATS = {  # formats with the endings that select them; a name without ending 
 TRAJECTORIES = ("tum", "trajectory", "g2o")  # formats of trajectories
 THRESHOLDED = ("map-server", "occupancy-grid")  # formats in per cent, which take a mode and thresholds
 APPROXIMATION = "the Student-t approximation of all scans' poses"
-INTERVAL_PROBABILITY = 0.9  # of the interval from the layer lower to the layer upper
+INTERVAL_PROBABILITY = 0.9  # probability of the interval from the layer lower to the layer upper
 ELLIPSE_PROBABILITY = 0.95
 MIN_DATE_S = 1e8  # larger stamps, in seconds, are dates; smaller ones count from the start of the log
 SENSOR_COLOR = TRAJECTORY_COLOR = (0, 158, 115)

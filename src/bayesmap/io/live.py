@@ -26,12 +26,12 @@ from bayesmap.space.planar import between
 from bayesmap.space.scans import Scans
 
 STANDARD_INPUT = ("-", "/dev/stdin")
-POLL_INTERVAL_S = 0.05  # between two looks at a file that has not grown
-CHUNK_BYTES = 1 << 16  # read at a time
+POLL_INTERVAL_S = 0.05  # time between two looks at a file that has not grown
+CHUNK_BYTES = 1 << 16  # bytes per read
 
 
 def can_be_followed(name: str) -> bool:
-    """Return true if a log can be read while it is written: text or pipe. Raises `BadInput` if it is unreadable."""
+    """Return whether a log can be read while it is written: text or pipe. Raises `BadInput` if it is unreadable."""
     if name in STANDARD_INPUT:
         return True
     try:

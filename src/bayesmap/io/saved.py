@@ -38,7 +38,7 @@ FORMAT = "bayesmap run"
 FORMAT_VERSION = 1
 BLOCK_NUMBERS = 1 << 22  # count of numbers converted at a time, so that no whole copy of the draws is made
 CHUNK_NUMBERS = 1 << 20  # count of numbers compressed together
-NOISE_NATS = 1e-4  # on log likelihoods by reading: arviz refuses a tail of weights that are all equal
+NOISE_NATS = 1e-4  # noise on log likelihoods by reading: arviz refuses a tail of equal weights
 
 
 def save(

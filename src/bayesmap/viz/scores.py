@@ -53,7 +53,7 @@ def plot_coverage(ax: Axes, rows: Rows) -> None:
 
 
 def plot_reliability(ax: Axes, rows: Rows) -> None:
-    """Plot the share of first hits by their predicted chance. A calibrated model follows the diagonal."""
+    """Plot the share of first hits by their predicted probability. A calibrated model follows the diagonal."""
     for i, (name, score) in enumerate(rows):
         points = [(p, share) for p, share, count in score.reliability if count >= MIN_EVENTS and share > 0]
         if points:
@@ -61,7 +61,7 @@ def plot_reliability(ax: Axes, rows: Rows) -> None:
             ax.plot(*zip(*points, strict=True), color=color, marker="o", markersize=3, linewidth=1.0, label=name)
     ax.plot([1e-4, 1], [1e-4, 1], color=palette.FRAME, linewidth=0.8, linestyle=":")
     ax.set(xscale="log", yscale="log", xlim=(1e-4, 1.0), ylim=(1e-4, 1.0))
-    ax.set(xlabel="predicted chance of a first hit", ylabel="share that were")
+    ax.set(xlabel="predicted probability of a first hit", ylabel="share of first hits")
     ax.set_aspect("equal")
 
 
@@ -128,7 +128,7 @@ class Scale:
     low: float
     high: float
     label: str
-    symmetric: bool = False  # True if zero in the middle is best, False if the low end is best
+    symmetric: bool = False  # whether zero in the middle is best, not the low end
 
 
 def residual_scale(residuals_m: ArrayLike, limit_m: float | None = None) -> Scale:

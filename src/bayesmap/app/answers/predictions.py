@@ -34,8 +34,8 @@ MAX_DRAWS = 32  # draws over which predictions are averaged
 MAX_DRAW_BYTES = 192 << 20  # memory of these draws
 COARSE_DRAWS = 8  # number of draws while the hand moves, since each virtual scan is soon replaced by the next
 STALE_SECONDS = 3.0  # while chains run, the predictor is rebuilt from their latest draws after this time
-MAX_NEARBY_M = 0.5  # a real scan is shown beside the virtual scan if its pose is this near
-MIN_SHARED_VIEW = 0.25  # and if it shares this part of the field of view
+MAX_NEARBY_M = 0.5  # largest distance of a real scan that is shown beside the virtual scan
+MIN_SHARED_VIEW = 0.25  # smallest share of the field of view that this real scan covers
 MAX_SURFACE_CELLS = 2.0  # distance in cells from a reading to the mean of the surface at which it may have ended
 
 
@@ -173,7 +173,7 @@ def _surface_offset(result: Result, predictor: Predictor, stops: StopMixture, ra
     surfaces = result.surfaces
     if surfaces is None:
         return None
-    # The beam's cell with the largest posterior weight: the chance to stop there times the likelihood of the reading.
+    # The beam's cell of the largest posterior weight: the probability of a stop times the likelihood of the reading.
     rays, weights = stops.rays, stops.weight.astype(np.float64)
     has_surface = np.isin(rays.cells, surfaces.cells) & (weights > 0)
     if not has_surface.any():

@@ -24,7 +24,7 @@ from bayesmap.posterior.decisions import beam_information, shortest_safe_path, t
 from bayesmap.space.arrays import Mask
 from bayesmap.space.planar import Floats
 
-UNDECIDED_QUESTION: Mapping[type, Literal["path", "views", "ghost", "beam"]] = {  # by type of question
+UNDECIDED_QUESTION: Mapping[type, Literal["path", "views", "ghost", "beam"]] = {  # by type
     FindPath: "path", FindViews: "views", MoveVirtualScan: "ghost", CompareBeam: "beam",
 }  # fmt: skip
 

@@ -127,7 +127,7 @@ class Cancel(Action, frozen=True, tag="cancel"):
 class SetLive(Action, frozen=True, tag="live"):
     """Choose whether every edit restarts the chains after the preview."""
 
-    on: bool  # true if every edit restarts the chains
+    on: bool  # whether every edit restarts the chains
 
 
 class ShowView(Action, frozen=True, tag="view"):

@@ -42,7 +42,7 @@ from bayesmap.space.planar import Floats
 POSE_CHAINS = 16  # number of chains if poses are uncertain: a map fixes its sensors, so each stays near its start
 STEP_SECONDS = 0.015  # duration of one step of the chains. The worker reads its pipe between two steps.
 MAX_DRAW_BYTES = 128 << 20  # memory of a run's kept draws, which are thinned to fit
-OBSERVED_COUNTS = 32  # the number of times per run that observed cells are counted, besides sweeps 1, 2, 4 and so on
+OBSERVED_COUNTS = 32  # counts of observed cells per run, besides those at sweeps 1, 2, 4 and so on
 MAX_DIAGNOSIS_SHARE = 0.1  # share of time spent on diagnostics; the last numbers are shown meanwhile
 RECENT_DRAWS = 200  # draws per chain that answer questions while chains run
 MAX_RECENT_BYTES = 16 << 20  # memory of a pilot's draws
@@ -169,7 +169,7 @@ class RunningChains(Estimate):
         return np.asarray(observed / np.maximum(1, inspected))
 
     def draw(self, chain: int | None, number: int | None) -> DrawnMap:
-        """Return one kept draw; the last if there is none of that number; before the first, the chain's latest draw."""
+        """Return a kept draw, the last if none has that number. Before the first, return the chain's latest draw."""
         draws, chain = self.draws, min(chain or 0, self.n_chains - 1)
         if draws.count == 0:
             return DrawnMap(self.model.cells.map_of(self._latest, chain, -1), chain, 0)

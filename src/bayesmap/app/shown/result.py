@@ -149,7 +149,7 @@ class Estimate(ABC):
         return self.kept_draws
 
     def draw(self, chain: int | None, number: int | None) -> DrawnMap | None:
-        """Return one draw; the last draw if there is none of that number; None if there are no draws."""
+        """Return one draw, the last if none has that number. Returns None if there are no draws."""
         return None
 
     def log_joint(self) -> Floats:

@@ -23,7 +23,7 @@ class VerdictLimits(Struct, frozen=True):
     good_rhat: float = 1.01  # R-hat up to this is good
     good_ess: float = 400.0  # this many effective draws make R-hat reliable
     bad_ess: float = 50.0  # fewer effective draws are bad
-    fewest_sweeps: int = 200  # with fewer, running chains get no verdict, and their means are not compared
+    fewest_sweeps: int = 200  # fewest sweeps for a verdict on running chains, and for a comparison of their means
     fewest_diagnosed: int = 4  # R-hat needs two draws in each half of a chain
     bad_difference: float = 0.25  # a cell's means in two chains differ: 5 standard errors of 200 draws at p = 1/2
     misfit_sigmas: float = 4.0  # one of 30 000 true maps has a larger misfit
@@ -69,7 +69,7 @@ def misfit_of(log_likelihood: Floats, sigma_m: float, n_beams: int) -> float | N
     """
     if not n_beams or not log_likelihood.size:
         return None
-    max_log_likelihood = -n_beams * math.log(sigma_m * math.sqrt(2 * math.pi))  # if readings equal the map's ranges
+    max_log_likelihood = -n_beams * math.log(sigma_m * math.sqrt(2 * math.pi))  # if readings equal the map
     chi_squared = 2 * (max_log_likelihood - float(log_likelihood.mean(axis=1).min()))
     variance = 2 / (9 * n_beams)  # variance of the cube root of a chi-squared variable over its mean
     limit = n_beams * (1 - variance + VERDICT_LIMITS.misfit_sigmas * math.sqrt(variance)) ** 3

@@ -39,7 +39,7 @@ class Marginal(SampleDistribution):
     """The marginal distribution of the selected choices of a generative function. See `marginal`."""
 
     gen_fn: GenerativeFunction  # the function with all choices
-    selection: Selection  # of the shown choices
+    selection: Selection  # selection of the shown choices
     algorithm: Algorithm | None = None  # the estimator of densities; None: importance sampling
     particles: int = static(default=1)  # number of runs in importance sampling
 

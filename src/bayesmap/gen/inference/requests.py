@@ -22,7 +22,7 @@ class Rejuvenate(EditRequest):
     """A request to propose new values from a generative function whose choices have the model's addresses."""
 
     proposal: GenerativeFunction
-    # from the old choices, or the new ones for the way back, to the proposal's arguments
+    # maps the old choices, or the new ones for the way back, to the proposal's arguments
     argument_mapping: Callable[[ChoiceMap], Any] = static()
 
     def edit(self, key: PRNGKey, trace: Trace, argdiffs: Any) -> Edited:

@@ -28,7 +28,7 @@ class Target(Pytree):
     """
 
     p: GenerativeFunction  # the model
-    args: tuple[Any, ...]  # of the model
+    args: tuple[Any, ...]  # arguments of the model
     constraint: ChoiceMap  # the given choices; the others are open
 
     def __post_init__(self) -> None:

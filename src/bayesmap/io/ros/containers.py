@@ -34,7 +34,7 @@ UNPACKERS: dict[str, Callable[[Any], Any]] = {  # functions that open compressed
 }  # fmt: skip
 CHUNK_BYTES = 1 << 16  # unpacked at a time
 MAGICS = {"rosbag1": raw.BAG_MAGIC, "rosbag2-sqlite3": raw.SQLITE_MAGIC, "mcap": raw.MCAP_MAGIC}  # first bytes of files
-RECORD_READERS: dict[str, Callable[[str | os.PathLike[str], raw.OnDamage], raw.Records]] = {  # by format
+RECORD_READERS: dict[str, Callable[[str | os.PathLike[str], raw.OnDamage], raw.Records]] = {  # readers by format
     "rosbag1": raw.bag_records, "rosbag2-sqlite3": raw.sqlite_records, "mcap": raw.mcap_records,
 }  # fmt: skip
 RECORD_BY_RECORD = ("rosbag1", "mcap")  # formats with undamaged files that rosbags refuses and these functions read
@@ -314,6 +314,6 @@ def container_of(path: str | os.PathLike[str]) -> str | None:
 
 def format_by_start(start: bytes) -> str | None:
     """Return the format of a recording by its first 16 bytes, unpacked; None for other files."""
-    if start.startswith(ANY_BAG):  # of any version: `open_recording` refuses other versions than 2.0
+    if start.startswith(ANY_BAG):  # a bag of any version: `open_recording` refuses other versions than 2.0
         return "rosbag1"
     return next((name for name, magic in MAGICS.items() if start.startswith(magic)), None)

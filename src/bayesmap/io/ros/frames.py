@@ -226,7 +226,7 @@ class FrameTree:
         self.topics = {topic for topic, _, _ in transforms if ranks is None or topic in ranks}
         self.parent_conflicts: dict[str, str] = {}  # statements for the user, by child
         self.rivals: dict[str, tuple[str, ...]] = {}
-        self._edges: dict[str, Transform] = {}  # by child
+        self._edges: dict[str, Transform] = {}  # transforms by child
         # The samples of each child by parent, from the topics of the lowest rank.
         parents_of: dict[str, dict[str, list[Samples]]] = {}
         lowest_rank: dict[str, int] = {}

@@ -29,7 +29,7 @@ from bayesmap.space.time_order import stamp_words
 
 MIN_JUMP_NS = 10**9  # step back of stamps; smaller ones are messages that came late
 SLACK_NS = 10**9  # longest time between the same step of the clock on different topics
-MIN_MESSAGES = 3  # on each side of a reset of the clock
+MIN_MESSAGES = 3  # fewest messages on each side of a reset of the clock
 ORDERED_MESSAGES = 5  # number of messages on each side of a reset that must be in order
 NEVER_NS = 2**62  # later than all times of receipt
 BEAMS_AT_ONCE = 1 << 18  # number of beams whose poses are computed together
@@ -55,14 +55,14 @@ class _Messages:
     """The usable messages of a recording, from which scans and poses are made."""
 
     recording: Recording
-    topic: Topic  # of the scans
+    topic: Topic  # topic of the scans
     sensor: str  # frame of the scans
-    scans: list[LaserMessage]  # with readings, in one frame, in the order of receipt
+    scans: list[LaserMessage]  # scans with readings, in one frame, in the order of receipt
     n_empty: int  # number of scans without readings
     pose_topic: Topic | None  # chosen by the user, or the only topic of poses
     poses: PoseMessages
     reject: scan_messages.Reject
-    replaces_tf: bool = False  # true if the only topic of poses replaces /tf
+    replaces_tf: bool = False  # whether the only topic of poses replaces /tf
 
 
 def _read_usable(recording: Recording, account: LogAccount) -> _Messages:
@@ -332,11 +332,11 @@ def _scan_notes(scans: list[LaserMessage]) -> list[str]:
 class ClockRun:
     """The messages between two resets of the clock. Constant transforms hold in all runs."""
 
-    scans: list[LaserMessage]  # in the order of receipt
+    scans: list[LaserMessage]  # scans in the order of receipt
     poses: PoseMessages
     back_ns: int = 0  # size of the step back of the clock before the run; 0 for the first
     before_ns: int = 0  # last stamp before the step
-    is_last: bool = True  # true if no run follows
+    is_last: bool = True  # whether no run follows
 
 
 class _Stream:
@@ -366,7 +366,7 @@ class _Stream:
         return next((int(i) for i in jumps if received[i] >= start_ns and received[i - 1] <= end_ns), None)
 
     def allows_reset(self, time_ns: int) -> bool:
-        """Return true if stamps jump back near a time of receipt, or no message was received before or after it."""
+        """Return whether stamps jump back near a time of receipt, or no message was received before or after it."""
         spans = self.received_ns[0] < time_ns - SLACK_NS and self.received_ns[-1] > time_ns + SLACK_NS
         return not spans or self.jump_between(time_ns - SLACK_NS, time_ns + SLACK_NS) is not None
 
@@ -418,5 +418,5 @@ def _cut(samples_by_key: Mapping[Any, Samples], resets_ns: list[int]) -> list[di
 
 
 def _mostly_ascending(stamps: NDArray[np.int64]) -> bool:
-    """Return true if stamps ascend, with at most one exception."""
+    """Return whether stamps ascend, with at most one exception."""
     return bool((np.diff(stamps) < 0).sum() <= 1)

@@ -31,7 +31,7 @@ ImageLike = str | os.PathLike[str] | ArrayLike  # a path, a PIL image, or an arr
 MAX_PIXELS = 100_000_000
 MODES = ("trinary", "scale", "raw")
 THRESHOLDS = {"trinary": (0.65, 0.25), "scale": (1.0, 0.0), "raw": (0.65, 0.25)}  # occupied, free by default
-OCCUPIED_GREY, FREE_GREY, UNKNOWN_GREY = 0, 254, 205  # of trinary images
+OCCUPIED_GREY, FREE_GREY, UNKNOWN_GREY = 0, 254, 205  # grey values of trinary images
 RAW_UNKNOWN_GREY = 255
 TRINARY_FILE_THRESHOLDS = (0.65, 0.196)  # occupied and free, between the three greys for nav2
 

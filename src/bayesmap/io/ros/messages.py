@@ -26,7 +26,7 @@ from bayesmap.space.scans import MAX_BEAMS, Fan, fan_fault, side_by_side
 
 Reject = Callable[[str, int, str], None]  # called with unusable messages: topic, number, reason
 READABLE = ("cdr", "ros1")  # encodings that can be read
-IDL_SEPARATOR = "=" * 80 + "\n"  # between the types of a definition
+IDL_SEPARATOR = "=" * 80 + "\n"  # line between the types of a definition
 MAX_MESSAGE_BYTES = 1 << 28  # larger sizes are taken for damage
 SAME_ANGLE_RAD = 1e-5  # largest difference of the first and last angles of equal fans: angles are in single precision
 AS_DEFINED = "beam i was taken at angle_min + i * angle_increment, as the message is defined"
@@ -39,7 +39,7 @@ class Layout(Fan):
     frame: str
 
     def equals(self, other: "Layout") -> bool:
-        """Return true if two scans have the same beams, within single precision."""
+        """Return whether two scans have the same beams, within single precision."""
         span = (self.beams - 1) * (self.step_rad - other.step_rad)
         offset = self.first_rad - other.first_rad
         is_same = (self.frame, self.beams) == (other.frame, other.beams)
@@ -50,13 +50,13 @@ class Layout(Fan):
 class LaserMessage:
     """The scan of one message."""
 
-    number: int  # on its topic, from 1
+    number: int  # number of the message on its topic, from 1
     received_ns: int
     stamp_ns: int  # time of the first ray; 0 if the driver did not state it
     layout: Layout
     ranges_m: NDArray[np.float32]  # raw readings, (A,)
     limits_m: tuple[float, float]  # smallest and largest range
-    ray_interval_s: float  # from one ray to the next (``time_increment``)
+    ray_interval_s: float  # time from one ray to the next (``time_increment``)
     oddity: str = ""  # an unusual but acceptable property, in words
 
 

@@ -67,10 +67,10 @@ class Topic:
     """A topic of a recording."""
 
     name: str
-    type: str  # in the ROS 2 spelling, such as ``"sensor_msgs/msg/LaserScan"``
-    count: int  # of messages
+    type: str  # type in the ROS 2 spelling, such as ``"sensor_msgs/msg/LaserScan"``
+    count: int  # number of messages
     definition: str = ""  # message definition in the recording; "" if there is none
-    language: str = "msg"  # of the definition: ``"msg"`` or ``"idl"``
+    language: str = "msg"  # language of the definition: ``"msg"`` or ``"idl"``
     encoding: str = "cdr"  # ``"cdr"``, ``"ros1"``, or another that cannot be read
     md5: str = ""  # ROS 1's MD5 sum over the definition, 32 hexadecimal digits; "" if none is stated
 
@@ -84,10 +84,10 @@ class Recording:
 
     path: str
     format: str  # ``"rosbag1"``, ``"rosbag2-sqlite3"`` or ``"mcap"``
-    topics: Mapping[str, Topic]  # in alphabetical order
+    topics: Mapping[str, Topic]  # topics by name, in alphabetical order
     read: Callable[[frozenset[str]], Iterable[Message]]  # all messages on topics; raises `Damaged` if it cannot
-    start_ns: int | None = None  # of the first message; None if the container does not state it
-    end_ns: int | None = None  # of the last message
+    start_ns: int | None = None  # time of the first message; None if the container does not state it
+    end_ns: int | None = None  # time of the last message
     notes: tuple[str, ...] = ()  # sentences for the user
 
     def of_type(self, types: Collection[str]) -> list[Topic]:
@@ -124,7 +124,7 @@ class Record(NamedTuple):
 
 
 Records = Iterator[Connection | Record]
-Times = tuple[int | None, int | None]  # of receipt of the first and the last message, in nanoseconds
+Times = tuple[int | None, int | None]  # times of receipt of the first and the last message, in nanoseconds
 
 
 def topics_of(records: Records) -> tuple[dict[str, Topic], Times]:
@@ -147,7 +147,7 @@ def topics_of(records: Records) -> tuple[dict[str, Topic], Times]:
 
 def messages_of(records: Records, topics: Mapping[str, Topic], names: frozenset[str]) -> Iterator[Message]:
     """Yield the messages on the topics ``names``, without messages of another type than the topic's."""
-    topic_of: dict[int, str] = {}  # by the id of the connection
+    topic_of: dict[int, str] = {}  # topic by the id of the connection
     for record in records:
         if isinstance(record, Connection):
             name = record.topic.name
@@ -162,11 +162,11 @@ MCAP_MAGIC = b"\x89MCAP0\r\n"
 SQLITE_MAGIC = b"SQLite format 3\0"
 BAG_MESSAGE, BAG_HEADER, BAG_INDEX, BAG_CHUNK, BAG_CONNECTION = (bytes([op]) for op in (2, 3, 4, 5, 7))
 FOOTER, SCHEMA, CHANNEL, MESSAGE, CHUNK, DATA_END = 2, 3, 4, 5, 6, 15
-LANGUAGES = {"ros1msg": "msg", "ros2msg": "msg", "ros2idl": "idl", "omgidl": "idl"}  # of definitions
+LANGUAGES = {"ros1msg": "msg", "ros2msg": "msg", "ros2idl": "idl", "omgidl": "idl"}  # languages of definitions
 INDEX_ENTRY_BYTES = 12
 MCAP_HEAD = struct.Struct("<BQ")  # kind and length of a record
-MAX_HEADER_BYTES = 1 << 24  # of one record; larger lengths are taken for damage
-MAX_DATA_BYTES = 1 << 30  # of one record or chunk
+MAX_HEADER_BYTES = 1 << 24  # length of one record; larger lengths are taken for damage
+MAX_DATA_BYTES = 1 << 30  # length of one record or chunk
 OnDamage = Callable[[str], None]  # called with the reason for an unreadable part; raises to stop
 
 

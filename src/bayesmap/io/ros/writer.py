@@ -51,8 +51,8 @@ class Channel:
 
     topic: str
     type_name: str
-    messages: Sequence[tuple[float | None, Any]]  # with times of receipt in seconds; None: 1 ns, as ROS refuses zero
-    latched: bool = True  # true if late subscribers get the last message
+    messages: Sequence[tuple[float | None, Any]]  # times of receipt in seconds, with messages; None: 1 ns, not 0
+    latched: bool = True  # whether late subscribers get the last message
 
 
 def ending_of(path: str | os.PathLike[str]) -> str:
@@ -148,7 +148,7 @@ class Recorder:
 
 
 def is_ros2_bag(folder: Path) -> bool:
-    """Return true if a folder holds a ROS 2 bag and nothing else."""
+    """Return whether a folder holds a ROS 2 bag and nothing else."""
     others = [file.name for file in folder.iterdir() if file.suffix not in (".db3", ".mcap")]
     return others == ["metadata.yaml"]
 

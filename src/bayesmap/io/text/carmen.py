@@ -38,7 +38,7 @@ LASERS = ("FLASER", "ROBOTLASER1", "RLASER", "ROBOTLASER2")  # messages that hol
 RAW = ("RAWLASER1", "RAWLASER2", "RAWLASER3", "RAWLASER4", "RAWLASER5")  # messages that hold a scan without a pose
 CARMEN_MESSAGES = (*LASERS, "ODOM", "PARAM", "SYNC", "NEFF", "TRUEPOS", "LASER3", "LASER4", "MARKER", *RAW)
 """Messages by which a CARMEN log is recognised."""
-STEP_DEG = {180: 1.0, 181: 1.0, 360: 0.5, 361: 0.5, 400: 0.25, 401: 0.25}  # by number of beams, if not stated
+STEP_DEG = {180: 1.0, 181: 1.0, 360: 0.5, 361: 0.5, 400: 0.25, 401: 0.25}  # default step, by number of beams
 MIN_CODE_M = 81.83  # smallest number written for no return, a SICK laser's; larger if hits come too near
 ANGLE_TOLERANCE_RAD = 1e-6
 _NAME = re.compile(rb"[A-Za-z][A-Za-z0-9_.:-]*")
@@ -54,8 +54,8 @@ class LaserLine:
 
     fan: Fan  # angles of the A beams
     readings_m: Floats  # raw, (A,)
-    laser_pose: Floats  # in the world, (3,)
-    robot_pose: Floats  # in the world, (3,)
+    laser_pose: Floats  # pose in the world, (3,)
+    robot_pose: Floats  # pose in the world, (3,)
     stamp_s: float
     max_range_m: float | None  # largest range of the sensor, if the line states it
 
@@ -300,7 +300,7 @@ def _even_fan(angles_rad: Floats) -> Fan:
 
 
 def _is_implied(angles_rad: Floats) -> bool:
-    """Return true if the reader derives these angles from their number alone, without a note."""
+    """Return whether the reader derives these angles from their number alone, without a note."""
     if (beams := len(angles_rad)) not in (180, 181, 360, 361):
         return False
     return bool(np.abs(_implied_fan("FLASER", beams).angles_rad() - angles_rad).max() <= ANGLE_TOLERANCE_RAD)

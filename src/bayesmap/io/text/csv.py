@@ -48,7 +48,7 @@ ROS2_COLUMNS = [name for name in ROS2_FIELDS if name]
 
 
 def starts_table(line: bytes) -> bool:
-    """Return true if a line begins a table: it is a header, or a row of ``ros2 topic echo --csv``."""
+    """Return whether a line begins a table: it is a header, or a row of ``ros2 topic echo --csv``."""
     return is_header(line) or _is_ros2_row(line)
 
 
@@ -124,13 +124,13 @@ class TableScans(NamedTuple):
 class _Table:
     """The contents of the file: settings from comments, the header, and the rows with their line numbers."""
 
-    name: str  # of the file
+    name: str  # name of the file
     reject: Reject
-    settings: dict[str, list[float]] = field(default_factory=dict)  # from comments, and columns that never change
+    settings: dict[str, list[float]] = field(default_factory=dict)  # numbers from comments and constant columns
     columns: list[str] = field(default_factory=list)  # names of the columns that are read
-    positions: list[int] = field(default_factory=list)  # of these columns in a line
+    positions: list[int] = field(default_factory=list)  # places of these columns in a line
     width: int = 0  # fields per line
-    line_numbers: list[int] = field(default_factory=list)  # of `rows`
+    line_numbers: list[int] = field(default_factory=list)  # line number of each row
     rows: list[Floats] = field(default_factory=list)  # one number per column of `columns`
     delimiter: bytes = b","
     headless: bool = False  # true for rows of ros2 topic echo --csv, which may differ in their number of readings
@@ -226,7 +226,7 @@ class _Table:
 
     @property
     def has_poses(self) -> bool:
-        """True if the table has the poses of the scans."""
+        """Whether the table has the poses of the scans."""
         return set(POSE) <= set(self.columns)
 
     def scans(self) -> TableScans:
@@ -235,7 +235,7 @@ class _Table:
 
 
 def _is_ros2_row(line: bytes) -> bool:
-    """Return true for numbers before the readings of a LaserScan, except the third field, the name of a frame."""
+    """Return whether fields are those before the readings of a LaserScan: numbers, but the third names a frame."""
     fields = line.split(b",")
     numbers = fields[: len(ROS2_FIELDS)]
     frame = numbers.pop(2) if len(fields) > len(ROS2_FIELDS) else b"0"
@@ -243,7 +243,7 @@ def _is_ros2_row(line: bytes) -> bool:
 
 
 def is_header(line: bytes) -> bool:
-    """Return true if a line is the header of a table of scans."""
+    """Return whether a line is the header of a table of scans."""
     columns = set(_columns_of(_names(line, max(DELIMITERS, key=line.count))))
     return "r_0" in columns or ({"angle", "range"} <= columns and bool({"scan", "stamp", *POSE} & columns))
 

@@ -34,10 +34,10 @@ VERTICES = (b"VERTEX_SE2", b"VERTEX2")
 G2O_TAGS = (*VERTICES, b"EDGE_SE2", b"VERTEX_SE3:QUAT", b"VERTEX_XY", b"PARAMS_SE2OFFSET", b"VERTEX_SE2_XY")
 """Words by which a g2o file is recognised."""
 MAX_COORDINATE_M = 1e7  # larger coordinates are malformed
-MIN_INFORMATION = 1e-3  # of an edge in any direction, 1 / m^2 and 1 / rad^2: other programs need invertible matrices
+MIN_INFORMATION = 1e-3  # least information of an edge, 1 / m^2 and 1 / rad^2: other programs invert its matrix
 MIN_VARIANCE = 1e-12  # added to the variances of an edge, m^2 and rad^2, which may be 0
 SAMPLED_PAIRS = 300  # random pairs of key scans that measure the effect of common errors
-SEED = 1  # of these pairs
+SEED = 1  # seed of the choice of these pairs
 
 
 def read_g2o(path: str | os.PathLike[str], options: LogOptions) -> ScanLog:
@@ -151,7 +151,7 @@ def chain_edges(trajectory: Trajectory) -> Edges:
         error = between(np.broadcast_to(relative, step_draws.shape), step_draws)
         covariance = np.einsum("dsi,dsj->sij", error, error) / (len(step_draws) - 1)
     elif trajectory.covariances is not None:
-        to_own_axes = rotation(-trajectory.poses[:, 2])  # from world axes to the axes of each pose
+        to_own_axes = rotation(-trajectory.poses[:, 2])  # turns world axes into the axes of each pose
         in_own_axes = to_own_axes @ trajectory.covariances @ np.swapaxes(to_own_axes, 1, 2)
         covariance = in_own_axes[:-1] + in_own_axes[1:]
     else:

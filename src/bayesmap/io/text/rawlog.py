@@ -52,7 +52,7 @@ class UnreadableObject(Exception):
 
 
 def starts_as_rawlog(path: Path) -> bool:
-    """Return true if a file, gzipped or not, begins with an object of MRPT's."""
+    """Return whether a file, gzipped or not, begins with an object of MRPT's."""
     try:
         return object_at(next(file_chunks(path), b"")[:200], 0, CLASS) is not None
     except BadInput:
@@ -168,7 +168,7 @@ class RawScan:
     stamp_s: float | None  # seconds since 1970; None if it is not known
     angles_rad: Floats  # (A,)
     readings_m: Floats  # (A,)
-    mount: Pose  # of the sensor on the robot, in the plane
+    mount: Pose  # pose of the sensor on the robot, in the plane
     axis_height: float  # vertical component of the sensor's z axis
     max_range_m: float
     n_motions: int  # number of the robot's motions before the scan
@@ -185,11 +185,11 @@ class RawlogObjects:
 
     scans: list[RawScan] = field(default_factory=list)
     motions: list[list[Motion]] = field(default_factory=list)  # the estimates of each motion
-    odometry: dict[str, list[TimedPose]] = field(default_factory=dict)  # by label
-    last_odometry: TimedPose | None = None  # of any label
+    odometry: dict[str, list[TimedPose]] = field(default_factory=dict)  # poses by label
+    last_odometry: TimedPose | None = None  # last pose of any label
 
     def add(self, reader: Reader, header: Header) -> bool:
-        """Read and add an object. Returns false for an object that is not needed, which is not read."""
+        """Read and add an object, if it is needed. Returns whether it is."""
         if header.name == SCAN:
             scan = scan_of(reader, header, len(self.motions))
             last = self.last_odometry
@@ -334,7 +334,7 @@ class Header:
 def object_at(data: bytes, position: int, names: re.Pattern[bytes]) -> Header | None:
     """Return the header of an object that begins at a byte, if its class matches ``names``; else None."""
     has_flag = position < len(data) and bool(data[position] & 0x80)
-    size = 1 if has_flag else 4  # of the length and of the version, in bytes
+    size = 1 if has_flag else 4  # bytes of the length and of the version
     start = position + size
     length = data[position] & 0x7F if has_flag else int.from_bytes(data[position:start], "little")
     end = start + length
@@ -455,7 +455,7 @@ class Reader:
         raise UnreadableObject("does not end where it should")
 
     def _skip_field(self, form: str) -> bool:
-        """Skip a field. Returns true if its flag has the required value."""
+        """Skip a field. Returns whether its flag has the required value."""
         flag = {"T": 1, "F": 0}.get(form[:1])
         fits = flag is None or self.data[self.position : self.position + 1] == bytes([flag])
         self.position += struct.calcsize("<" + form.replace("T", "x").replace("F", "x"))
