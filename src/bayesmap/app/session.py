@@ -62,8 +62,6 @@ class Session:
         """The present document."""
         return self.history.present
 
-    # From pages
-
     def receive(self, client: int, action: actions.AnyAction) -> Effects:
         """Apply an action of a page. Returns its effects in order. A refused action has a warning as its effect."""
         if isinstance(action, QUESTIONS):
@@ -202,8 +200,6 @@ class Session:
         self.history = history
         return self._restart()
 
-    # From the worker
-
     def receive_report(self, report: tasks.Report) -> Effects:
         """Return the effects of a worker's report. A report about an older generation has no effect."""
         message = report.message
@@ -265,8 +261,6 @@ class Session:
         """Apply the actions that waited for a picture."""
         self._pace.computing = False
         return self._apply_all(self._pace.release_due())
-
-    # Consequences of actions and reports
 
     def _restart(self, mode: tasks.Mode | None = None) -> Effects:
         """Begin a new generation: inference starts again on the present document. Mode None: as after an edit."""

@@ -27,11 +27,11 @@ if TYPE_CHECKING:
 @click.option("--port", type=click.IntRange(0, 65535), default=0, help="Port to listen on. [default: any free one]")
 @click.option("--no-browser", is_flag=True, help="Only print the address.")
 @click.option("--export", metavar="FILE.html", help="Write a page that samples by itself, and start no server.")
-@click.option("--story", metavar="FILE.json", help="Tell a story beside the map; 'tutorial' comes with bayesmap.")
+@click.option("--story", "story_file", metavar="FILE.json", help="Tell a story beside the map; 'tutorial' is built in.")
 @click.option("--seed", type=click.IntRange(0, 2**31 - 1), default=0, show_default=True, help="Seed of random numbers.")
 def app(
     call: Call[LogSettings], file: str | None, host: str, port: int, no_browser: bool, export: str | None,
-    story: str | None, seed: int,
+    story_file: str | None, seed: int,
 ) -> None:  # fmt: skip
     r"""Draw walls, drag the robot, and watch the posterior live in the browser.
 
@@ -67,21 +67,20 @@ def app(
     is_document = file is not None and file.endswith(".json")
     document_file, opened_file = (file, None) if is_document else (None, file)
     document = tutorial_document(seed) if document_file is None else read_document(document_file)
-    told = None
-    if story is not None:
+    story = None
+    if story_file is not None:
         if opened_file is not None:
             raise BadInput(f"--story: a story has its own maps, and {opened_file} is a file; leave one of the two out")
-        told = read_story(story, document)
-        document = told.steps[0].document
+        story = read_story(story_file, document)
+        document = story.steps[0].document
 
     if export is not None:
         if opened_file is not None:
             remedy = "open it with bayesmap app, and choose Export there, which writes a page with its draws"
             raise BadInput(f"--export: {opened_file} is no drawn world; {remedy}")
-        _export_page(call, document, told, export)
+        _export_page(call, document, story, export)
         return
 
-    # Serve the page until Ctrl-C.
     call.console.say("starting the worker ..." if opened_file is None else f"opening {opened_file} ...")
 
     def show_address(address: str) -> None:
@@ -95,7 +94,7 @@ def app(
 
             webbrowser.open(address)
 
-    serve(document, path=opened_file, log_options=log_options, story=told, host=host, port=port, on_ready=show_address)
+    serve(document, path=opened_file, log_options=log_options, story=story, host=host, port=port, on_ready=show_address)
 
 
 def _export_page(call: Call[LogSettings], document: Document, story: Story | None, file: str) -> None:

@@ -6,7 +6,7 @@ A fourth run without warm-up gives the frames of a film.
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
@@ -53,9 +53,13 @@ def demo(call: Call[DemoSettings], output: str, force: bool) -> None:
     runs = _infer_by_all_methods(call.console, call.settings())
     with progress_bar(call.console, "rendering pictures and a film"):
         outputs = [*_write_products(runs, folder), folder / "demo.json"]
+    # The keys in which the methods differ.
+    keys = ["method", "prior", "chains", "warmup", "draws", "sweeps", "seconds", "microseconds_per_sweep", "log_joint"]
+    keys += ["log_evidence", "diagnostics", "problems"]
+    documents = {name: run_document(run) for name, run in runs.items()}
     document = {
-        **run_document(runs["gibbs"]), "heldout": None,
-        "runs": {name: _short_document(run) for name, run in runs.items()},
+        **documents["gibbs"], "heldout": None,
+        "runs": {name: {key: entry[key] for key in keys} for name, entry in documents.items()},
         "outputs": {path.name: str(path) for path in outputs},
     }  # fmt: skip
     write_file(folder / "demo.json", as_json(document))
@@ -128,13 +132,6 @@ def _write_products(runs: dict[str, Run], folder: Path) -> list[Path]:
     paths.append(folder / "run.nc")
     runs["gibbs"].save(paths[-1])
     return [*paths, *runs["gibbs"].export(folder / "map.yaml")]
-
-
-def _short_document(run: Run) -> dict[str, Any]:
-    """Return the part of a run's document in which the methods differ."""
-    keys = ("method", "prior", "chains", "warmup", "draws", "sweeps", "seconds", "microseconds_per_sweep", "log_joint")
-    document = run_document(run)
-    return {key: document[key] for key in (*keys, "log_evidence", "diagnostics", "problems")}
 
 
 def _print_report(console: Console, runs: dict[str, Run], folder: Path) -> None:

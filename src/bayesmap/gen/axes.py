@@ -209,7 +209,8 @@ def in_chunks(fn: Callable[..., Any], *args: Any) -> Any:
         if chunk >= axis_size:
             out = jax.vmap(of_element)(batched)
         else:
-            chunk = _even_chunk(axis_size, chunk)
+            # Prefer a chunk that divides the batch: a remainder would copy all results again.
+            chunk = next((size for size in range(chunk, max(1, chunk // 4), -1) if axis_size % size == 0), chunk)
             out = jax.lax.map(of_element, batched, batch_size=chunk if chunk > 1 else None)
         return out, jax.tree.map(lambda _: True, out)
 
@@ -217,11 +218,6 @@ def in_chunks(fn: Callable[..., Any], *args: Any) -> Any:
     differentiable = jax.custom_jvp(chunked)
     differentiable.defjvp(lambda primals, tangents: jax.jvp(of_traced, primals, tangents))
     return differentiable(*(leaves[k] for k in traced))
-
-
-def _even_chunk(size: int, limit: int) -> int:
-    """Return a chunk near `limit` that divides the batch, else `limit`. A remainder would copy all results again."""
-    return next((chunk for chunk in range(limit, max(1, limit // 4), -1) if size % chunk == 0), limit)
 
 
 def _largest_array_bytes(jaxpr: Any) -> int:

@@ -40,8 +40,7 @@ class ChoiceMap(Outlined, Pytree):
             case Choice(value):
                 return value
             case Branches(_, maps):
-                values = [chm.get_value() for chm in maps]
-                masks = [Mask.build(value) for value in values if value is not None]
+                masks = [Mask.build(value) for chm in maps if (value := chm.get_value()) is not None]
                 return Mask.or_n(*masks) if masks else None
             case Or(left, right):
                 first, second = left.get_value(), right.get_value()

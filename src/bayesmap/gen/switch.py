@@ -286,7 +286,6 @@ def mix(*gen_fns: GenerativeFunction) -> Any:
     component = switch(*gen_fns)
 
     def mixture(logits: Any, *args: Any) -> Any:
-        index = categorical(logits=logits) @ "mixture_component"
-        return component(index, *args) @ "component_sample"
+        return component(categorical(logits=logits) @ "mixture_component", *args) @ "component_sample"
 
     return gen(mixture)

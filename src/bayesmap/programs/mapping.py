@@ -92,12 +92,16 @@ def mapping_model(
     remedy = "use infer, or write a program that draws its walls and gives them to sensor_model"
     prior = Independent.of(prior, "mapping_model", remedy)
     walls = _WallPrior.of(prior.probabilities(grid))
-    options = {"max_range_m": max_range_m, "min_range_m": min_range_m, "hit_depth": hit_depth}
     if isinstance(poses, GenerativeFunction):
         _check_pose_prior(poses)
-        pose_sensor = pose_sensor_model(grid, angles_rad, sensor, **options)
+        pose_sensor = pose_sensor_model(
+            grid, angles_rad, sensor, max_range_m=max_range_m, min_range_m=min_range_m, hit_depth=hit_depth
+        )
         return _poses_map_and_readings.partial_apply(poses, walls, pose_sensor)
-    return _map_and_readings.partial_apply(walls, sensor_model(grid, poses, angles_rad, sensor, **options))
+    beam_sensor = sensor_model(
+        grid, poses, angles_rad, sensor, max_range_m=max_range_m, min_range_m=min_range_m, hit_depth=hit_depth
+    )
+    return _map_and_readings.partial_apply(walls, beam_sensor)
 
 
 def sensor_model(

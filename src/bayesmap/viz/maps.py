@@ -49,8 +49,7 @@ def _strips(mask: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.intp]
     """Return the rows, the first columns and the ends of all runs of true cells along axis 1, (M,) each."""
     steps = np.diff(np.pad(mask, ((0, 0), (1, 1))).astype(np.int8), axis=1)
     row, start = np.nonzero(steps == 1)
-    stop = np.nonzero(steps == -1)[1]
-    return row, start, stop
+    return row, start, np.nonzero(steps == -1)[1]
 
 
 def _to_world(grid: Grid, cells: NDArray[np.intp]) -> NDArray[np.float64]:
@@ -144,9 +143,8 @@ def _plot_uncertainty(
 def plot_sample(ax: Axes, grid: Grid, walls: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:
     """Plot a draw of walls, true or 1, as `plot_probability` does. Unobserved cells are faded: the prior drew them."""
     observed_mask = as_observed(grid, observed)
-    kind = np.where(observed_mask, 0, 2) + as_mask(grid, walls, "walls")  # free, wall, unobserved free, unobserved wall
-    colors = palette.draw_colormap()
-    return _plot_cells(ax, grid, kind.astype(np.float64), observed_mask, colors, 3.0, hide_unobserved=False)
+    kind = np.where(observed_mask, 0.0, 2.0) + as_mask(grid, walls, "walls")  # free, wall; unobserved: free, wall
+    return _plot_cells(ax, grid, kind, observed_mask, palette.draw_colormap(), 3.0, hide_unobserved=False)
 
 
 def plot_draw(ax: Axes, grid: Grid, draw: ArrayLike, observed: ArrayLike | None = None) -> AxesImage:

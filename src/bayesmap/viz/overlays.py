@@ -193,8 +193,7 @@ def route_figure(
 ) -> Figure:  # fmt: skip
     """Return a figure of a path, (P, 2), and the area that a disc sweeps along it, over the mean map."""
     figure, ax = maps.map_figure(grid, aspects=(0.5, 3.0), foot_height_in=FOOT_HEIGHT_IN)
-    image = maps.plot_probability(ax, grid, occupancy, observed)
-    figure.colorbar(image, ax=ax, label=label, shrink=0.8)
+    figure.colorbar(maps.plot_probability(ax, grid, occupancy, observed), ax=ax, label=label, shrink=0.8)
     plot_route(ax, path, radius_m)
     ax.set_title(title, fontsize=9)
     return _with_legend(figure)

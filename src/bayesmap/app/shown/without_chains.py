@@ -74,8 +74,7 @@ class Preview(Estimate):
         self._p = np.where(self._fixed, before, special.expit(self._beliefs.log_odds()))
         self.rounds += 1
         self._seconds += time.perf_counter() - began_s
-        max_change = float(np.abs(self._p - before).max())
-        self.converged = self.rounds >= methods.ROUNDS or max_change < TOLERANCE
+        self.converged = self.rounds >= methods.ROUNDS or float(np.abs(self._p - before).max()) < TOLERANCE
 
     def mean(self) -> Floats:
         p = self.problem.p_wall.copy()

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from bayesmap.io.ros.frames import PoseNumbers, Samples, poses_agree
-from bayesmap.space.arrays import bracketing_indices
-from bayesmap.space.time_order import stamp_words
+from bayesmap.space.arrays import Floats, Indices, bracketing_indices
+from bayesmap.space.time_order import moment
 
 EQUAL_TOLERANCE = 1e-4  # largest difference of equal values, in metres and radians: 1 mm at 10 m
 MAX_DISTINCT_VALUES = 10  # number of different values of a static transform that are counted
@@ -140,7 +140,7 @@ def _find_distant_poses(reference: Samples, other: Samples) -> tuple[PoseNumbers
     return (*expected.translation[0], *expected.rotation.as_quat()[0]), other.poses[inside[i]]
 
 
-def _merge_samples(topics: Sequence[Samples]) -> tuple[NDArray[np.int64], list[PoseNumbers], NDArray[np.intp]]:
+def _merge_samples(topics: Sequence[Samples]) -> tuple[NDArray[np.int64], list[PoseNumbers], Indices]:
     """Return all samples by time, without repetitions: stamps, poses, and the index of each sample's topic."""
     stamps = np.concatenate([samples.times_ns() for samples in topics])
     poses = [pose for samples in topics for pose in samples.poses]
@@ -173,9 +173,7 @@ def _find_alternation(name: str, samples: Samples) -> Contradiction | None:
     return Contradiction(f"{name} on {samples.topic} goes to and fro between values that differ: {example}; {cause}")
 
 
-def _find_two_motions(
-    stamps_ns: NDArray[np.int64], poses: NDArray[np.float64], topic_of: NDArray[np.intp]
-) -> int | None:
+def _find_two_motions(stamps_ns: NDArray[np.int64], poses: Floats, topic_of: Indices) -> int | None:
     """Find two interleaved motions. Returns the index of a sample beside its neighbours' motion, or None.
     If two publishers alternate, the samples of each alone are smooth, and the offset between the two motions changes
     slowly. A jump, a corner or noise has one of these properties, but not both. Stamps ascend, (T,); poses are
@@ -193,7 +191,7 @@ def _find_two_motions(
     length = np.linalg.norm(motion, axis=1, keepdims=True)
     direction = np.where(length > 0, motion / np.where(length > 0, length, 1.0), 0.0)
 
-    def offset_from_line(step: int, step_before: int, step_after: int) -> NDArray[np.float64]:
+    def offset_from_line(step: int, step_before: int, step_after: int) -> Floats:
         """Return a sample's offset from the line between two neighbours, less `MAX_LATE_STEPS` along the motion."""
         i, j, k = middle + step, middle + step_before, middle + step_after
         span = seconds[k] - seconds[j]
@@ -202,7 +200,7 @@ def _find_two_motions(
         along = np.sum(offset * direction, axis=1, keepdims=True)
         return np.asarray(offset - np.clip(along, -MAX_LATE_STEPS * length, MAX_LATE_STEPS * length) * direction)
 
-    def distance(step: int, step_before: int, step_after: int) -> NDArray[np.float64]:
+    def distance(step: int, step_before: int, step_after: int) -> Floats:
         return np.asarray(np.linalg.norm(offset_from_line(step, step_before, step_after), axis=1))
 
     offsets = offset_from_line(0, -1, 1)
@@ -222,7 +220,7 @@ def _find_two_motions(
     return int(middle[is_beside][count // 2]) if _change_slowly(offsets[is_beside], limit) else None
 
 
-def _change_slowly(offsets: NDArray[np.float64], limit: float) -> bool:
+def _change_slowly(offsets: Floats, limit: float) -> bool:
     """Return whether the median relative change from one offset to the next, up to its sign, is at most the limit."""
     first, second = offsets[:-1], offsets[1:]
     largest = np.maximum(np.linalg.norm(first, axis=1), np.linalg.norm(second, axis=1))

@@ -149,8 +149,7 @@ class Recorder:
 
 def is_ros2_bag(folder: Path) -> bool:
     """Return whether a folder holds a ROS 2 bag and nothing else."""
-    others = [file.name for file in folder.iterdir() if file.suffix not in (".db3", ".mcap")]
-    return others == ["metadata.yaml"]
+    return [file.name for file in folder.iterdir() if file.suffix not in (".db3", ".mcap")] == ["metadata.yaml"]
 
 
 def _quality_of_service(latched: bool) -> Any:
