@@ -121,8 +121,8 @@ class Run:
         draws = self.posterior.draws
         if "poses" in draws.arrays:
             return draws.values("poses")
-        known = self.posterior.scans.poses
-        return np.broadcast_to(known, (draws.chains, draws.count, *known.shape))
+        known_poses = self.posterior.scans.poses
+        return np.broadcast_to(known_poses, (draws.chains, draws.count, *known_poses.shape))
 
     def pose_summary(self) -> PoseSummary:
         """Compute mean, covariance and R-hat of each scan's pose.

@@ -74,8 +74,8 @@ def infer(call: Call[InferSettings], logs: tuple[str, ...], output: str | None, 
     if resume and force:
         raise click.UsageError("--resume goes on with a run and --force replaces it: give one of them")
     # Several logs form a fleet.
-    all_logs, several = logs_of(logs)
-    if several:
+    all_logs, is_fleet = logs_of(logs)
+    if is_fleet:
         infer_fleet(call, all_logs, Path(output or "runs"), resume=resume, force=force)
         return
     # Check the arguments.

@@ -117,7 +117,9 @@ def slam(call: Call[SlamSettings], log: str, output: str | None, resume: bool, f
     commands = [["app", file], score, ["explore", file]]
     for note in _notes(trajectory):
         call.console.say(f"note: {note}")
-    pipeline.report(call.console, document, good=_good(trajectory), doubtful=_doubtful(trajectory), commands=commands)
+    pipeline.report(
+        call.console, document, good=_strengths(trajectory), doubtful=_doubtful(trajectory), commands=commands
+    )
     pipeline.print_result(call, document, strict=task.settings.strict)
 
 
@@ -306,18 +308,18 @@ def _alternative(trajectory: InferredTrajectory, number: int) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _good(trajectory: dict[str, Any]) -> list[str]:
+def _strengths(trajectory: dict[str, Any]) -> list[str]:
     """Return sentences about the quality of the trajectory, whose `summarise` is given."""
     sampled, used, sigma_m = trajectory.get("sampled"), trajectory["map"], trajectory["sigma_m"]
-    good = [
+    sentences = [
         f"the trajectory of the {trajectory['frame']} at {trajectory['scans']:,} scans, with "
         f"{trajectory['loop_closures']:,} loop closures: standard deviation {100 * sigma_m['median']:.1f} cm, "
         f"at most {100 * sigma_m['max']:.0f} cm"
     ]
     if sampled is None:
         beams = f"the map of {used['beams']:,} beams of {used['scans']:,} key scans, at the poses of the trajectory"
-        good.append(f"{beams}; the others have seen the same (--sample-poses uses all beams of all key scans)")
-    return good
+        sentences.append(f"{beams}; the others have seen the same (--sample-poses uses all beams of all key scans)")
+    return sentences
 
 
 def _notes(trajectory: dict[str, Any]) -> list[str]:

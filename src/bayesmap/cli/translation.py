@@ -319,25 +319,25 @@ def logs_of(names: Sequence[str]) -> tuple[list[str], bool]:
     `BadInput` for a pattern or a folder without logs.
     """
     logs: list[str] = []
-    several = len(names) > 1
+    are_several = len(names) > 1
     for name in names:
         path = Path(name)
         # A pattern, a folder of logs, or one log (a file, or the folder of a bag).
         if not path.exists() and any(sign in name for sign in "*?["):
-            several = True
+            are_several = True
             matches = sorted(glob.glob(name))
             if not matches:
                 raise BadInput(f"{name}: no file matches; give {LOG}")
             logs += matches
         elif path.is_dir() and not _is_recording(path) and not (path / "run.nc").is_file():
-            several = True
+            are_several = True
             logs_inside = [entry for entry in sorted(path.iterdir()) if _is_log(entry)]
             if not logs_inside:
                 raise BadInput(f"{name}: a folder without logs, by the endings of the names; give {LOG}")
             logs += map(str, logs_inside)
         else:
             logs.append(name)
-    return logs, several
+    return logs, are_several
 
 
 def _is_log(path: Path) -> bool:

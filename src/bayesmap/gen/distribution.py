@@ -228,8 +228,8 @@ class ExactDensity(Distribution):
         if not is_concrete(possible):
             return jnp.where(jnp.all(possible), 0.0, -jnp.inf)
         if not bool(jnp.all(possible)):
-            bad = value[jnp.logical_not(possible)].ravel()[0]
-            raise OutsideSupport((), f"found {bad}, which a choice of dtype {dtype} here never is")
+            impossible = value[jnp.logical_not(possible)].ravel()[0]
+            raise OutsideSupport((), f"found {impossible}, which a choice of dtype {dtype} here never is")
         return 0.0
 
 

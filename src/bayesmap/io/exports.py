@@ -61,8 +61,8 @@ def export_format(path: str | os.PathLike[str], format: str | None = None) -> st
     for name, endings in FORMATS.items():
         if ending in endings:
             return name
-    known = ", ".join(ending for endings in FORMATS.values() for ending in endings)
-    choices = f"the known endings are {known}, and a name without ending is the folder of a ROS 2 bag"
+    known_endings = ", ".join(ending for endings in FORMATS.values() for ending in endings)
+    choices = f"the known endings are {known_endings}, and a name without ending is the folder of a ROS 2 bag"
     raise BadInput(f"{path}: no format is known by the ending {ending!r}; {choices}")
 
 

@@ -104,8 +104,8 @@ def _carmen_scans(lines: Iterable[tuple[int, bytes]], reject: Reject, options: L
         kind = message
         if not scan.fan.beams:
             continue
-        stated = math.inf if scan.max_range_m is None else scan.max_range_m
-        ranges, _ = decode(scan.readings_m[None], stated if options.no_return is None else options.no_return)
+        stated_max_m = math.inf if scan.max_range_m is None else scan.max_range_m
+        ranges, _ = decode(scan.readings_m[None], stated_max_m if options.no_return is None else options.no_return)
         ranges[ranges > limit_m] = np.inf
         mount = between(scan.robot_pose, scan.laser_pose) if options.laser is None else np.array(options.laser)
         pose = scan.pose(options.laser)[None]

@@ -219,10 +219,10 @@ def _jumps_note(log: ScanLog) -> str | None:
 
 def _varying_beams_note(log: ScanLog) -> str | None:
     """Return a note if the beams differ from scan to scan."""
-    own = log.scans.own_angles_rad
-    if own is None:
+    own_angles = log.scans.own_angles_rad
+    if own_angles is None:
         return None
-    counts = np.isfinite(own).sum(axis=1)
+    counts = np.isfinite(own_angles).sum(axis=1)
     low, high = int(counts.min()), int(counts.max())
     beams = f"{low} to {high} beams" if low < high else f"{low} beams at angles that differ from scan to scan"
     return f"the scans have {beams}; each keeps its own"

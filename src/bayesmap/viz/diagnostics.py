@@ -148,9 +148,9 @@ def normalize_log_weights(log_weights: ArrayLike) -> NDArray[np.float64]:
     logs = as_array(log_weights, "log_weights")
     if logs.ndim != 1 or len(logs) == 0:
         raise BadInput(f"weights: log_weights has shape {logs.shape}; give one number per sample, shape (n,), n >= 1")
-    wrong = np.isnan(logs) | np.isposinf(logs)
-    if wrong.any():
-        sample = int(np.argmax(wrong))
+    is_invalid = np.isnan(logs) | np.isposinf(logs)
+    if is_invalid.any():
+        sample = int(np.argmax(is_invalid))
         raise BadInput(f"weights: log weight of sample {sample} is {logs[sample]}; it must be a number or -inf")
     if np.isneginf(logs.max()):
         raise BadInput("weights: every sample has weight zero; draw more samples, or allow for more noise")

@@ -69,8 +69,8 @@ class Layout:
     def title(self, figure: Figure, text: str | None) -> None:
         """Write a title over the figure, if there is a text."""
         if text is not None:
-            top = 1.0 - 0.12 * self.dpi / self.figure[1]
-            figure.text(0.5, top, text, ha="center", va="top", fontsize=FONT_PT + 2.0, color=palette.TEXT)
+            y = 1.0 - 0.12 * self.dpi / self.figure[1]
+            figure.text(0.5, y, text, ha="center", va="top", fontsize=FONT_PT + 2.0, color=palette.TEXT)
 
     def fractions(self, left: float, bottom: float, width: float, height: float) -> tuple[float, float, float, float]:
         """Convert a box in pixels to fractions of the figure, for `Figure.add_axes`."""
@@ -109,10 +109,10 @@ def lay_out(grid: Grid, panels: int, *, bars: int, titled: bool) -> Layout:
     top, title, label, bar, legend = (round(dpi * inches) for inches in (TOP_IN, TITLE_IN, LABEL_IN, BAR_IN, LEGEND_IN))
     pitch = max(panel[0], slot) + gap
     inset = (pitch - gap - panel[0]) // 2
-    below = [label + (bar if row * columns < bars else 0) for row in range(rows)]
-    row_heights = [top + panel[1] + room for room in below]
+    room_below = [label + (bar if row * columns < bars else 0) for row in range(rows)]
+    row_heights = [top + panel[1] + room for room in room_below]
     corners = [
-        (left + column * pitch + inset, legend + sum(row_heights[row + 1 :]) + below[row])
+        (left + column * pitch + inset, legend + sum(row_heights[row + 1 :]) + room_below[row])
         for row in range(rows)
         for column in range(columns)
     ]

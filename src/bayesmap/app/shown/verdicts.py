@@ -87,15 +87,15 @@ def judge_chains(
     ``joint_rhat`` and ``ess`` are from `rhat_and_ess`, ``difference`` is from `compare_means`, and ``misfit`` from
     `misfit_of`. ``quantity`` names the means that are compared.
     """
-    few = sweeps < VERDICT_LIMITS.fewest_sweeps
-    if few and not ended:
+    early = sweeps < VERDICT_LIMITS.fewest_sweeps
+    if early and not ended:
         return None
     # Do the chains disagree, on the map or on the log joint?
-    if difference is not None and difference.n_bad > VERDICT_LIMITS.chance_share * difference.n_compared and not few:
+    if difference is not None and difference.n_bad > VERDICT_LIMITS.chance_share * difference.n_compared and not early:
         x, y = difference.cell
         share = f"{difference.n_bad:,} of {difference.n_compared:,} observed cells"
-        where = f"in {share}, most in cell ({x}, {y}), by {difference.largest:.2f}"
-        why = f"{quantity} differs by over {VERDICT_LIMITS.bad_difference} between the chains {where}"
+        extent = f"in {share}, most in cell ({x}, {y}), by {difference.largest:.2f}"
+        why = f"{quantity} differs by over {VERDICT_LIMITS.bad_difference} between the chains {extent}"
         return Verdict("bad", why, difference.cell)
     if 0 < sweeps < VERDICT_LIMITS.fewest_diagnosed:
         return Verdict("bad", f"{sweeps} {'sweep is' if sweeps == 1 else 'sweeps are'} too few to judge")
@@ -112,8 +112,8 @@ def judge_chains(
     if ess < VERDICT_LIMITS.bad_ess:
         return Verdict("bad", f"only {ess:.0f} effective draws")
     if joint_rhat > VERDICT_LIMITS.good_rhat or ess < VERDICT_LIMITS.good_ess:
-        good = f"{VERDICT_LIMITS.good_rhat} and {VERDICT_LIMITS.good_ess:.0f} are good"
-        return Verdict("fair", f"R-hat {joint_rhat:.3f} and {ess:.0f} effective draws; {good}")
+        good_values = f"{VERDICT_LIMITS.good_rhat} and {VERDICT_LIMITS.good_ess:.0f} are good"
+        return Verdict("fair", f"R-hat {joint_rhat:.3f} and {ess:.0f} effective draws; {good_values}")
     return Verdict("good", f"R-hat {joint_rhat:.3f}, {ess:.0f} effective draws")
 
 

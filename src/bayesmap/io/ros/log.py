@@ -80,11 +80,11 @@ def _read_usable(recording: Recording, account: LogAccount) -> _Messages:
     received = read_messages(recording, [topic, *tf_topics, *([pose_topic] if pose_topic else [])], poses, reject)
     if not received:
         raise BadInput(f"{name}: no message on {topic.name} can be used{account.skipped_in_words()}")
-    usable = scan_messages.in_commonest_frame(topic.name, received, reject)
-    if not usable:
+    scans = scan_messages.in_commonest_frame(topic.name, received, reject)
+    if not scans:
         raise BadInput(f"{name}: no message on {topic.name} has a reading: their arrays of ranges are empty")
     messages = _Messages(
-        recording, topic, sensor=usable[0].layout.frame, scans=usable, pose_topic=pose_topic, poses=poses,
+        recording, topic, sensor=scans[0].layout.frame, scans=scans, pose_topic=pose_topic, poses=poses,
         reject=reject, n_empty=sum(not scan.layout.beams for scan in received),
     )  # fmt: skip
     if pose_topic is None and options.fixed_frame is None and not options.without_poses:
@@ -160,10 +160,10 @@ def _join_runs(runs: list[_PlacedRun], messages: _Messages, account: LogAccount)
     scans = [scan for run in runs for scan in run.scans]
     # Notes and stamps.
     if messages.replaces_tf and messages.pose_topic is not None:
-        several = len(messages.recording.of_type(POSE_TYPES)) > 1
-        where = f"{messages.pose_topic.name}, the only topic of poses"
-        where += f" in the namespace of {topic.name}" if several else ""
-        account.notes.append(f"/tf connects {sensor!r} with no fixed frame; poses were taken from {where}")
+        has_others = len(messages.recording.of_type(POSE_TYPES)) > 1
+        origin = f"{messages.pose_topic.name}, the only topic of poses"
+        origin += f" in the namespace of {topic.name}" if has_others else ""
+        account.notes.append(f"/tf connects {sensor!r} with no fixed frame; poses were taken from {origin}")
     account.notes += dict.fromkeys(note for run in runs for note in run.notes)
     account.notes += _scan_notes(scans)
     if messages.n_empty:

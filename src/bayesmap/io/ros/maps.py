@@ -92,8 +92,8 @@ def brightness(image: "ImageLike | Image") -> NDArray[np.float64]:
 
 def _check_thresholds(occupied_thresh: float, free_thresh: float) -> None:
     if not (0 <= free_thresh < occupied_thresh <= 1):
-        stated = f"free_thresh {free_thresh!r} and occupied_thresh {occupied_thresh!r}"
-        raise BadInput(f"map: thresholds must be 0 <= free_thresh < occupied_thresh <= 1, got {stated}")
+        values = f"free_thresh {free_thresh!r} and occupied_thresh {occupied_thresh!r}"
+        raise BadInput(f"map: thresholds must be 0 <= free_thresh < occupied_thresh <= 1, got {values}")
 
 
 def _thresholds(mode: str, occupied_thresh: float | None, free_thresh: float | None) -> tuple[float, float]:
@@ -157,20 +157,20 @@ def write_map(
     percent = in_percent(occupancy, grid, observed, mode=mode, occupied_thresh=occupied, free_thresh=free)
     # The greys of the cells, and the thresholds by which nav2 decodes them.
     p = np.asarray(occupancy, dtype=np.float64)
-    known = ~np.isnan(p) & as_observed(grid, observed)
+    is_known = ~np.isnan(p) & as_observed(grid, observed)
     if mode == "trinary":
         greys = np.select([percent == 100, percent == 0], [OCCUPIED_GREY, FREE_GREY], UNKNOWN_GREY)
         occupied, free = TRINARY_FILE_THRESHOLDS
     elif mode == "raw":
-        greys = np.where(known, percent.astype(np.int16), RAW_UNKNOWN_GREY)
+        greys = np.where(is_known, percent.astype(np.int16), RAW_UNKNOWN_GREY)
     else:
         # From the probabilities: 256 greys are finer than per cents, for programs that read the greys.
-        greys = np.rint(255 * (1 - np.where(known, p, 0.5)))
+        greys = np.rint(255 * (1 - np.where(is_known, p, 0.5)))
     rows = np.ascontiguousarray(greys.T[::-1].astype(np.uint8))
-    if mode != "scale" or known.all():
+    if mode != "scale" or is_known.all():
         image, suffix = Image.fromarray(rows), ".pgm"
     else:
-        opacity = np.where(known, 255, 0).astype(np.uint8).T[::-1]
+        opacity = np.where(is_known, 255, 0).astype(np.uint8).T[::-1]
         image, suffix = Image.fromarray(np.dstack([rows, opacity])), ".png"
     # The image comes first, so that a YAML file always has its image.
     path_image = target.with_suffix(suffix)
