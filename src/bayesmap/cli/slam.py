@@ -118,7 +118,7 @@ def slam(call: Call[SlamSettings], log: str, output: str | None, resume: bool, f
     for note in _notes(trajectory):
         call.console.say(f"note: {note}")
     pipeline.report(
-        call.console, document, good=_strengths(trajectory), doubtful=_doubtful(trajectory), commands=commands
+        call.console, document, good=_strengths(trajectory), doubtful=_doubts(trajectory), commands=commands
     )
     pipeline.print_result(call, document, strict=task.settings.strict)
 
@@ -332,7 +332,7 @@ def _notes(trajectory: dict[str, Any]) -> list[str]:
     return [f"{which}, since the chains over poses were too short to replace it ({mixing})"]
 
 
-def _doubtful(trajectory: dict[str, Any]) -> list[str]:
+def _doubts(trajectory: dict[str, Any]) -> list[str]:
     """Return sentences about doubtful scans, breaks and alternatives, with a remedy."""
     doubtful = []
     if trajectory["flagged"]:
