@@ -117,9 +117,7 @@ def slam(call: Call[SlamSettings], log: str, output: str | None, resume: bool, f
     commands = [["app", file], score, ["explore", file]]
     for note in _notes(trajectory):
         call.console.say(f"note: {note}")
-    pipeline.report(
-        call.console, document, good=_strengths(trajectory), doubtful=_doubts(trajectory), commands=commands
-    )
+    pipeline.report(call.console, document, good=_good(trajectory), doubtful=_doubtful(trajectory), commands=commands)
     pipeline.print_result(call, document, strict=task.settings.strict)
 
 
@@ -308,7 +306,7 @@ def _alternative(trajectory: InferredTrajectory, number: int) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _strengths(trajectory: dict[str, Any]) -> list[str]:
+def _good(trajectory: dict[str, Any]) -> list[str]:
     """Return sentences about the quality of the trajectory, whose `summarise` is given."""
     sampled, used, sigma_m = trajectory.get("sampled"), trajectory["map"], trajectory["sigma_m"]
     sentences = [
@@ -332,7 +330,7 @@ def _notes(trajectory: dict[str, Any]) -> list[str]:
     return [f"{which}, since the chains over poses were too short to replace it ({mixing})"]
 
 
-def _doubts(trajectory: dict[str, Any]) -> list[str]:
+def _doubtful(trajectory: dict[str, Any]) -> list[str]:
     """Return sentences about doubtful scans, breaks and alternatives, with a remedy."""
     doubtful = []
     if trajectory["flagged"]:
