@@ -73,14 +73,12 @@ def app(
             raise BadInput(f"--story: a story has its own maps, and {opened_file} is a file; leave one of the two out")
         story = read_story(story_file, document)
         document = story.steps[0].document
-
     if export is not None:
         if opened_file is not None:
             remedy = "open it with bayesmap app, and choose Export there, which writes a page with its draws"
             raise BadInput(f"--export: {opened_file} is no drawn world; {remedy}")
         _export_page(call, document, story, export)
         return
-
     call.console.say("starting the worker ..." if opened_file is None else f"opening {opened_file} ...")
 
     def show_address(address: str) -> None:

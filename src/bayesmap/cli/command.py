@@ -60,8 +60,7 @@ def command(section: str | None) -> Callable[[Callable[..., None]], click.Comman
         @click.pass_context
         def callback(context: click.Context, /, **arguments: Any) -> None:
             _refuse_empty_values(context, arguments)
-            call = _take_call(context, section, arguments)
-            function(call, **arguments)
+            function(_take_call(context, section, arguments), **arguments)
 
         # The function's own options come first in the help, then the settings, then the common options.
         # In the help, a raw backslash-b of the docstring becomes the character that stops click from reflowing.

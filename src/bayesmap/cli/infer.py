@@ -213,7 +213,8 @@ class RayFleet:
     def __init__(self, console: Console, address: str | None) -> None:
         from bayesmap.run.ray_executor import connect
 
-        self.console, self.ray = console, connect(address)
+        self.console = console
+        self.ray = connect(address)
         self.fleet: dict[str, FleetLog] = {}  # all logs, by path
         self.running: dict[Any, FleetLog] = {}  # logs by the references of their tasks
         self.logs: dict[str, Any] = {}  # references to the logs that were read, by path

@@ -198,14 +198,16 @@ def _locate_scans(request: _Request, print_belief: PrintBelief | None) -> _Poste
     from bayesmap.localization.localize import localize
 
     call, path = request.call, request.log
-    options = log_options_of(call.settings())
-    log = describe_log(path, max_range_m=request.map.max_range_m, without_poses=request.independent, **options)
+    log_options = log_options_of(call.settings())
+    log = describe_log(path, max_range_m=request.map.max_range_m, without_poses=request.independent, **log_options)
     for note in log.notes:
         call.console.say(f"{path}: {note}")
-    span, stamps_s, mount = slice_of(request.span, len(log.scans)), log.scans.stamps_s, log.scans.mount
-    scans, first = log.scans.select(span), range(len(log.scans))[span][0]
-    posteriors = _Posteriors(call.settings().frame, mount, first, None if stamps_s is None else stamps_s[0])
-    arguments = request.options(mount)
+    span = slice_of(request.span, len(log.scans))
+    scans = log.scans.select(span)
+    first = range(len(log.scans))[span][0]
+    start_s = None if log.scans.stamps_s is None else log.scans.stamps_s[0]
+    posteriors = _Posteriors(call.settings().frame, scans.mount, first, start_s)
+    options = request.options(scans.mount)
     known_map = request.map.prepare(call.console, scans, live=False)
     with share_bar(call.console, "locating scans") as report:
 
@@ -215,7 +217,7 @@ def _locate_scans(request: _Request, print_belief: PrintBelief | None) -> _Poste
             if print_belief is not None:
                 print_belief(*posteriors.latest())
 
-        localize(known_map, scans, on_belief=on_belief, **arguments)
+        localize(known_map, scans, on_belief=on_belief, **options)
     return posteriors
 
 

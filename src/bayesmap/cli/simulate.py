@@ -90,7 +90,6 @@ def simulate(call: Call[SimulateSettings], output: str | None, poses: tuple[str,
     world = world_of(settings, poses)
     sensor = world.sensor() if sensor is None else sensor
     scans = _draw_scans(settings, world, mount, sensor)
-
     import numpy as np
 
     from bayesmap.io.ros.maps import write_map

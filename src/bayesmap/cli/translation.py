@@ -362,7 +362,8 @@ def heldout_scans(run: Run, log: str, settings: LogSettings, every: int) -> Scan
     from bayesmap.io.logs import read_log
     from bayesmap.posterior.heldout import has_moved_scans, unseen_scans
 
-    train, options = run.posterior.scans, log_options_of(settings)
+    train = run.posterior.scans
+    options = log_options_of(settings)
     # A log's own poses are read without --laser first, since the run may have been made without it.
     laser = options.pop("laser")
     first_laser = laser if settings.trajectory is not None else None

@@ -184,8 +184,7 @@ class Vmap(Vectorised):
             trace, weight = self.inner.generate(key, constraint, args)
             return trace.with_args(None), weight
 
-        keys = jax.random.split(key, mapped.n)
-        inner, weights = mapped.vmap(element, keys, vectorise(constraint, mapped.n))
+        inner, weights = mapped.vmap(element, jax.random.split(key, mapped.n), vectorise(constraint, mapped.n))
         return self._trace(args, inner), total(weights)
 
     def assess(self, choices: ChoiceMap, args: Arguments) -> tuple[Score, Any]:

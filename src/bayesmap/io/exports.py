@@ -69,7 +69,8 @@ def export_format(path: str | os.PathLike[str], format: str | None = None) -> st
 def path_to_replace(path: str | os.PathLike[str], format: str | None = None) -> Path | None:
     """Return a file or folder that an export would replace, or None. Raises `BadInput` for an unknown format."""
     target = Path(path)
-    chosen, outputs = export_format(path, format), [target]
+    outputs = [target]
+    chosen = export_format(path, format)
     if chosen == "map-server":
         outputs += [target.with_suffix(ending) for ending in (".pgm", ".png")]
     elif chosen == "tum":

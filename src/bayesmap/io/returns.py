@@ -228,8 +228,7 @@ class Views:
                 first = i
             place[i] = place[i - 1] + has_moved
         steps = np.abs(np.diff(angles_rad, axis=-1))
-        step = float(np.nanmedian(steps)) if steps.size else 0.0
-        return cls(place, poses[:, 2:] + angles_rad, step)
+        return cls(place, poses[:, 2:] + angles_rad, float(np.nanmedian(steps)) if steps.size else 0.0)
 
     def repeated(self, readings_m: Floats, mask: Mask) -> Mask:
         """Select the readings under a mask that repeat an earlier one from the same place and direction, (S, A)."""

@@ -263,7 +263,8 @@ def write_draws(
     chains, draws = stored.shape[:2]
     dimensions = ("chain", "draw", *spec.dims)
     _create_dimensions(group, dimensions, (chains, draws, *shape))
-    size, dtype = int(np.prod(shape)), {"bits": "i1", "half": "f4"}.get(spec.storage, spec.dtype)
+    size = int(np.prod(shape))
+    dtype = {"bits": "i1", "half": "f4"}.get(spec.storage, spec.dtype)
     draw_shape = (CHUNK_NUMBERS,) if size > CHUNK_NUMBERS and len(shape) == 1 else tuple(max(1, n) for n in shape)
     chunks = (1, _draws_per_chunk(draws, size), *draw_shape)
     variable = group.createVariable(

@@ -114,7 +114,8 @@ class RunningChains(Estimate):
 
     def advance(self) -> None:
         """Do some sweeps: about `STEP_SECONDS` of work."""
-        before, began_s = self.sweep, time.perf_counter()
+        before = self.sweep
+        began_s = time.perf_counter()
         self.state, info = next(self._steps)
         self.sweep = int(self.state.sweep)
         self.done = self.sweep >= self.total

@@ -197,8 +197,7 @@ class Chain:
                 continue
             before, _ = bracketing_indices(track.stamps_ns, stamps_ns)
             steps_m = np.linalg.norm(np.diff(track.motions.translation, axis=0)[before], axis=-1)
-            is_long = np.diff(track.stamps_ns)[before] > max_gap_s * 1e9
-            result |= is_long & (steps_m > max_gap_m)
+            result |= (np.diff(track.stamps_ns)[before] > max_gap_s * 1e9) & (steps_m > max_gap_m)
         return result
 
     def sensor_on_body(self) -> tuple[float, float, float] | None:

@@ -94,8 +94,8 @@ def read_trajectory(path: str | os.PathLike[str], frame: str | None = None) -> T
     that is not eight numbers, a pose that is tilted out of the plane, or covariances of another trajectory.
     """
     # Poses: the yaw of each quaternion.
-    name, if_empty = os.fspath(path), "there is no pose in it"
-    rows = read_table(name, 8, "timestamp tx ty tz qx qy qz qw, is this a TUM trajectory?", if_empty)
+    name = os.fspath(path)
+    rows = read_table(name, 8, "timestamp tx ty tz qx qy qz qw, is this a TUM trajectory?", "there is no pose in it")
     quaternions = rows[:, 4:8] / np.maximum(np.linalg.norm(rows[:, 4:8], axis=1, keepdims=True), 1e-12)
     is_tilted = np.hypot(quaternions[:, 0], quaternions[:, 1]) > MAX_TILT_SINE
     if is_tilted.any():
@@ -106,7 +106,7 @@ def read_trajectory(path: str | os.PathLike[str], frame: str | None = None) -> T
     # Covariances: the upper triangle of each matrix.
     covariances, covariances_file = None, covariances_path(path)
     if covariances_file.is_file():
-        table = read_table(covariances_file, 7, "timestamp xx xy xyaw yy yyaw yawyaw", if_empty)
+        table = read_table(covariances_file, 7, "timestamp xx xy xyaw yy yyaw yawyaw", "there is no pose in it")
         if len(table) != len(rows) or np.abs(table[:, 0] - rows[:, 0]).max() > 1e-6:
             raise BadInput(f"{covariances_file}: its stamps are not those of {name}; delete it, or write both anew")
         covariances = table[order][:, [1, 2, 3, 2, 4, 5, 3, 5, 6]].reshape(-1, 3, 3)
