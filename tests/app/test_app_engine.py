@@ -170,7 +170,7 @@ def test_a_fault_is_told_and_the_engine_goes_on(heard, monkeypatch, capsys):
     with monkeypatch.context() as broken:
         broken.setattr("bayesmap.app.engine.simulated_scene", lambda document: 1 / 0)
         heard.infer(tutorial_document(), steps=1)
-    assert "ZeroDivisionError" in heard.all("failed")[0]["text"]
+    assert "ZeroDivisionError" in heard.all("failed")[0]["reason"]
     assert "ZeroDivisionError" in capsys.readouterr().err
     assert heard.infer(tutorial_document())[0]["sweeps"] == 1000
 

@@ -177,7 +177,7 @@ def test_trouble_of_the_inference_is_reported():
     heard = Heard(log)
     heard.infer(replace(log.document, poses="odometry"), "run", steps=0)
     heard.finish()
-    assert "no scan has a single hit" in heard.last("failed")[0]["text"]
+    assert "no scan has a single hit" in heard.last("failed")[0]["reason"]
 
 
 def test_a_log_gives_equal_poses_again_and_scans_stay_in_its_order(found):

@@ -6,9 +6,9 @@ e);return new Uint8Array(await new Response(n).arrayBuffer())}var Qn=t=>Wa(t,new
 aw"));async function Ha(t){let e=await Ga(new TextEncoder().encode(JSON.stringify(t)));return"#m="+Mn(e).replace(/\+/g,"-").replace(/\//g,"_").replace(/=+$/,"")}async function Ed(t){
 let e=/^#m=([\w-]+)$/.exec(t);return e&&JSON.parse(new TextDecoder().decode(await Qn(ht(e[1]))))}var $o="The link's map cannot be read: copy the link again, who\
 le";async function Fo(){let t=await Ed(location.hash).catch(()=>null),e=!t&&location.hash.startsWith("#m=");return t&&history.replaceState(null,"",location.pathname+
-location.search),{document:t,damaged:e}}var zr={uint8:Uint8Array,uint32:Uint32Array,float32:Float32Array,float64:Float64Array},ja=8,hn=()=>({onmessage:()=>{},onstatus:()=>{}});function pn(t){let e=new DataView(
+location.search),{document:t,damaged:e}}var zr={uint8:Uint8Array,uint32:Uint32Array,float32:Float32Array,float64:Float64Array},Va=8,hn=()=>({onmessage:()=>{},onstatus:()=>{}});function pn(t){let e=new DataView(
 t).getUint32(0,!0),n=JSON.parse(new TextDecoder().decode(new Uint8Array(t,4,e))),o={},s=4+e;for(let{name:r,dtype:i,shape:a}of n.buffers??[]){let l=a.reduce((c,h)=>c*
-h,1)*zr[i].BYTES_PER_ELEMENT;o[r]=new zr[i](t.slice(s,s+l)),s+=Math.ceil(l/ja)*ja}return[n,o]}function Va(t,e){let n={};return(t.buffers??[]).forEach(({name:o,dtype:s},r)=>{
+h,1)*zr[i].BYTES_PER_ELEMENT;o[r]=new zr[i](t.slice(s,s+l)),s+=Math.ceil(l/Va)*Va}return[n,o]}function ja(t,e){let n={};return(t.buffers??[]).forEach(({name:o,dtype:s},r)=>{
 let{buffer:i,byteOffset:a,byteLength:l}=e[r];n[o]=new zr[s](i.slice(a,a+l))}),n}async function ls(t){let e=await Qn(ht(t));return pn(e.buffer)}function cs([t,e]){let{document:n,ids:o,log_joint:s}=t,{chains:r,count:i,bits:a}=t.draws,l=n.grid.
 shape[0]*n.grid.shape[1],c=n.source.kind!=="simulation",h=1,u={chains:r,count:i},d=0,m={layer:"mean",chain:0,draw:null},w=(D,L=D.length===0)=>{let O=D.length/o.
 length;return c&&!L?D.slice(d*O,(d+1)*O):D},v=()=>o[d]-1,b=(D=0)=>{let L={generation:h,can_undo:!1,can_redo:!1,live:!1,running:!1,working:!1,scan:v()};P.onmessage(
@@ -160,10 +160,10 @@ t*16));return xs(bs(al,6*e),bs(al,6*e+6),t*16-e)}function ll(t,e){let n=new Uint
 return new Uint32Array(n.buffer)}var Zr=t=>`linear-gradient(90deg,${[0,.125,.25,.375,.5,.625,.75,.875,1].map(e=>`rgb(${t(e).map(Math.round)})`)})`;function k(t,e={},...n){let o=document.createElement(t);for(let[s,r]of Object.entries(e))s.startsWith("on")?o.addEventListener(s.slice(2),r):s.includes("-")||s===
 "role"||s==="for"?o.setAttribute(s,r):o[s]=r;for(let s of n)s!==null&&o.append(s);return o}function C(t,e,n){t[e]!==n&&(t[e]=n)}function nt(t,e,n){t.getAttribute(
 e)!==n&&t.setAttribute(e,n)}var En=t=>t.getRootNode().activeElement===t,fe=(t,e,n="")=>t==null||!Number.isFinite(t)?"–":t.toFixed(e)+n;function Qr(t,e){let n=URL.
-createObjectURL(e);k("a",{href:n,download:t}).click(),setTimeout(()=>URL.revokeObjectURL(n),1e4)}var Hd=9,jd=2.5,so=class{name="decisions";depends({session:e}){return[e.decisions.version,e.document?.grid.resolution]}shows({session:{decisions:e,document:n}}){
+createObjectURL(e);k("a",{href:n,download:t}).click(),setTimeout(()=>URL.revokeObjectURL(n),1e4)}var Hd=9,Vd=2.5,so=class{name="decisions";depends({session:e}){return[e.decisions.version,e.document?.grid.resolution]}shows({session:{decisions:e,document:n}}){
 return!!(n&&(e.start&&e.pathShown||e.looking&&e.views))}paint(e,n){let{session:o}=n;if(!o.document)return;let s=new no(e,n.look.theme,n.view.width,n.view.height);
 e.save(),Ue(e,n),o.decisions.looking&&this.views(e,n,s),o.decisions.pathShown&&this.path(e,n,s),e.restore(),s.write()}views(e,{session:n,view:o,look:s},r){let{views:i}=n.
-decisions,a=n.document?.grid;if(!i?.nats.length||!a)return;let l=Math.max(...i.nats),c=le(.38*i.spacing*o.transform.scale/a.resolution,jd,Hd),h=i.nats.indexOf(l);
+decisions,a=n.document?.grid;if(!i?.nats.length||!a)return;let l=Math.max(...i.nats),c=le(.38*i.spacing*o.transform.scale/a.resolution,Vd,Hd),h=i.nats.indexOf(l);
 for(let u=0;u<i.nats.length;u++){let d=o.fromGrid(Le({x:i.pose[3*u],y:i.pose[3*u+1]},a),a.shape[1]);e.beginPath(),e.arc(d.x,d.y,c,0,2*Math.PI),e.fillStyle=`rgb(${oo(
 le(i.nats[u]/Math.max(l,1e-9),0,1)).map(Math.round)})`,e.fill(),u===h&&(e.lineWidth=2.5,e.strokeStyle=s.theme.truth,e.stroke(),r.place(`${fe(l,1)} nats`,d.x,d.y,
 c))}}path(e,{session:n,view:o,look:s},r){let{start:i,goal:a,path:l,radius:c}=n.decisions,h=n.document?.grid;if(!h||!i)return;let u=d=>o.fromGrid(Le(d,h),h.shape[1]);
@@ -171,12 +171,12 @@ if(l){e.beginPath();for(let[d,m]of l.path){let w=u({x:d,y:m});e.lineTo(w.x,w.y)}
 truth,e.globalAlpha=.3,e.lineWidth=2*c*o.transform.scale/h.resolution,e.stroke(),e.globalAlpha=1,e.lineWidth=2,e.stroke()}for(let d of a?[i,a]:[i]){let{x:m,y:w}=u(
 d);e.beginPath(),e.arc(m,w,5,0,2*Math.PI),e.fillStyle=d===i?s.theme.sensor:s.theme.truth,e.fill(),e.lineWidth=2,e.strokeStyle=s.theme.halo,e.stroke()}if(l){let d=l.
 path.length,[[m,w],[v,b]]=[l.path[d-1>>1],l.path[d>>1]],M=u({x:(m+v)/2,y:(w+b)/2});r.place(`${fe(l.length_m,1)} m, free with probability ${fe(l.probability,3)}`,
-M.x,M.y,4)}else a&&n.decisions.trouble&&r.place("no path",u(a).x,u(a).y,7)}};var Vd=5,[zd,cl]=[.8,5],Yd=6,ks=class{name="evidence";depends({session:e}){return[e.evidence.version,e.document?.grid.resolution,e.document?.grid.origin.join()]}shows({
+M.x,M.y,4)}else a&&n.decisions.trouble&&r.place("no path",u(a).x,u(a).y,7)}};var jd=5,[zd,cl]=[.8,5],Yd=6,ks=class{name="evidence";depends({session:e}){return[e.evidence.version,e.document?.grid.resolution,e.document?.grid.origin.join()]}shows({
 session:{evidence:e,document:n}}){return!!(e.cellShown&&n)}paint(e,n){let{session:o,view:s,look:r}=n,{cell:i,each:a}=o.evidence,l=o.document?.grid;if(!i||!l)return;
 Ue(e,n);let c=(v,b)=>s.fromGrid(Le({x:v,y:b},l),l.shape[1]),h=v=>[c(a.start[2*v],a.start[2*v+1]),c(a.end[2*v],a.end[2*v+1])],u=a?.nats.length??0;e.lineCap="roun\
 d";for(let v=u-1;v>=0;v--){let[b,M]=h(v),S=a.nats[v];e.beginPath(),e.moveTo(b.x,b.y),e.lineTo(M.x,M.y),e.globalAlpha=le(.25+Math.abs(S)/2,0,.9),e.lineWidth=le(cl*
 Math.sqrt(Math.abs(S)/Yd),zd,cl),e.strokeStyle=S>0?r.theme.ray:r.theme.truth,e.stroke()}e.globalAlpha=1;let{scale:d}=s.transform,m=s.fromGrid({x:i.x,y:i.y+1},l.
-shape[1]),w=Math.max(1,4-d/2);e.beginPath(),e.rect(m.x-w,m.y-w,d+2*w,d+2*w),An(e,r.theme,r.theme.belief,2);for(let v=Math.min(Vd,u)-1;v>=0;v--){let[b,M]=h(v),S=.35+
+shape[1]),w=Math.max(1,4-d/2);e.beginPath(),e.rect(m.x-w,m.y-w,d+2*w,d+2*w),An(e,r.theme,r.theme.belief,2);for(let v=Math.min(jd,u)-1;v>=0;v--){let[b,M]=h(v),S=.35+
 .1*v,E={x:b.x+S*(M.x-b.x),y:b.y+S*(M.y-b.y)};Zt(e,ro(a.nats[v]),E.x,E.y,r.theme,"center",!0)}}},ro=t=>`${t<0?"−":"+"}${Math.abs(t).toFixed(1)}`;var qd=10,Kd=7,Jd=(t,e)=>t.layer==="width"?"width":e==="entropy"&&t.layer!=="draw"?"entropy":"value",Ss=()=>document.createElement("canvas").getContext("2d"),io=class{name="\
 field";cells=Ss();mask=Ss();hatch=Ss();palettes=new Map;image=new ImageData(1,1);drawn={field:null,reached:null,palette:"",hatch:""};depends({session:e}){return[
 e.picture,e.layer==="entropy",...e.shape]}shows({session:e}){return e.document!==null}paint(e,n){let{session:o,view:s,look:r}=n;if(!o.document)return;let[i,a]=o.
@@ -301,7 +301,7 @@ let[n,o]=[k("p",{className:"told-apart"}),k("p",{className:"told-apart"})];retur
 C(n,"textContent",`Now: ${s}. ${Al(t.session)}`),C(o,"textContent",`Kept: ${r}. ${Al(e.kept)}`)}),{now:n,kept:o}}function Al(t){let{shown:e,draws:n}=t;if(!e)return"";
 let o=e.layer==="draw"?[`Draw ${t.draw+1} of ${n.count}, log joint ${fe(e.log_joint,1)}`]:[],s=e.verdict?[Go(t)[e.verdict.level]]:[],r=e.rhat===null?[]:[`R-hat ${fe(
 e.rhat,3)}, ESS ${fe(e.ess,0)}`];return[...o,...s,...r].map(i=>`${i}.`).join(" ")}var yu="uplot",wu="u-hz",bu="u-vt",xu="u-title",vu="u-wrap",ku="u-under",Su="u-over",Mu="u-axis",Cn="u-off",Tu="u-select",Au="u-cursor-x",Eu="u-cursor-y",Pu="u-\
-cursor-pt",_u="u-legend",Cu="u-live",Lu="u-inline",Nu="u-series",Du="u-marker",_l="u-label",Ru="u-value",jo="width",Vo="height";var Cl="bottom",fo="left",li="right",Ti="#000",Ll=Ti+"0",ci="mousemove",Nl="mousedown",hi="mouseup",Dl="mouseenter",Rl="mouseleave",$l="dblclick",$u="resize",Fu="\
+cursor-pt",_u="u-legend",Cu="u-live",Lu="u-inline",Nu="u-series",Du="u-marker",_l="u-label",Ru="u-value",Vo="width",jo="height";var Cl="bottom",fo="left",li="right",Ti="#000",Ll=Ti+"0",ci="mousemove",Nl="mousedown",hi="mouseup",Dl="mouseenter",Rl="mouseleave",$l="dblclick",$u="resize",Fu="\
 scroll",Fl="change",Ds="dppxchange",Ai="--",vo=typeof window<"u",mi=vo?document:null,go=vo?window:null,Iu=vo?navigator:null,be,_s;function gi(){let t=devicePixelRatio;
 be!=t&&(be=t,_s&&wi(Fl,_s,gi),_s=matchMedia(`(min-resolution: ${be-.001}dppx) and (max-resolution: ${be+.001}dppx)`),Ln(Fl,_s,gi),go.dispatchEvent(new CustomEvent(
 Ds)))}function bt(t,e){if(e!=null){let n=t.classList;!n.contains(e)&&n.add(e)}}function yi(t,e){let n=t.classList;n.contains(e)&&n.remove(e)}function _e(t,e,n){
@@ -313,7 +313,7 @@ capture:!0};function Ln(t,e,n,o){e.addEventListener(t,n,o?Ou:Ei)}function wi(t,e
 o||e.length-1;let r=o<=2147483647;for(;o-n>1;)s=r?n+o>>1:xt((n+o)/2),e[s]<t?n=s:o=s;return t-e[n]<=e[o]-t?n:o}function mc(t){return(n,o,s)=>{let r=-1,i=-1;for(let a=o;a<=
 s;a++)if(t(n[a])){r=a;break}for(let a=s;a>=o;a--)if(t(n[a])){i=a;break}return[r,i]}}var gc=t=>t!=null,yc=t=>t!=null&&t>0,Fs=mc(gc),Uu=mc(yc);function Bu(t,e,n,o=0,s=!1){
 let r=s?Uu:Fs,i=s?yc:gc;[e,n]=r(t,e,n);let a=t[e],l=t[e];if(e>-1)if(o==1)a=t[e],l=t[n];else if(o==-1)a=t[n],l=t[e];else for(let c=e;c<=n;c++){let h=t[c];i(h)&&(h<
-a?a=h:h>l&&(l=h))}return[a??Me,l??-Me]}function Is(t,e,n,o){let s=jl(t),r=jl(e);t==e&&(s==-1?(t*=n,e/=n):(t/=n,e*=n));let i=n==10?en:wc,a=s==1?xt:_t,l=r==1?_t:xt,
+a?a=h:h>l&&(l=h))}return[a??Me,l??-Me]}function Is(t,e,n,o){let s=Vl(t),r=Vl(e);t==e&&(s==-1?(t*=n,e/=n):(t/=n,e*=n));let i=n==10?en:wc,a=s==1?xt:_t,l=r==1?_t:xt,
 c=a(i(He(t))),h=l(i(He(e))),u=yo(n,c),d=yo(n,h);return n==10&&(c<0&&(u=Te(u,-c)),h<0&&(d=Te(d,-h))),o||n==2?(t=u*s,e=d*r):(t=kc(t,u),e=Os(e,d)),[t,e]}function Pi(t,e,n,o){
 let s=Is(t,e,n,o);return t==0&&(s[0]=0),e==0&&(s[1]=0),s}var _i=.1,Gl={mode:3,pad:_i},Yo={pad:0,soft:null,mode:0},Wu={min:Yo,max:Yo};function Rs(t,e,n,o){return Us(
 n)?Hl(t,e,n):(Yo.pad=n,Yo.soft=o?0:null,Yo.mode=o?3:0,Hl(t,e,Wu))}function ye(t,e){return t??e}function Gu(t,e,n){for(e=ye(e,0),n=ye(n,t.length-1);e<=n;){if(t[e]!=
@@ -321,9 +321,9 @@ null)return!0;e++}return!1}function Hl(t,e,n){let o=n.min,s=n.max,r=ye(o.pad,0),
 u=ye(o.mode,0),d=ye(s.mode,0),m=e-t,w=en(m),v=pt(He(t),He(e)),b=en(v),M=He(b-w);(m<1e-24||M>10)&&(m=0,(t==0||e==0)&&(m=1e-24,u==2&&c!=Me&&(r=0),d==2&&h!=-Me&&(i=
 0)));let S=m||v||1e3,E=en(S),P=yo(10,xt(E)),D=S*(m==0?t==0?.1:1:r),L=Te(kc(t-D,P/10),24),O=t>=c&&(u==1||u==3&&L<=c||u==2&&L>=c)?c:Me,G=pt(a,L<O&&t>=O?O:Ut(O,L)),
 te=S*(m==0?e==0?.1:1:i),X=Te(Os(e+te,P/10),24),$=e<=h&&(d==1||d==3&&X>=h||d==2&&X<=h)?h:-Me,ee=Ut(l,X>$&&e<=$?$:pt($,X));return G==ee&&G==0&&(ee=100),[G,ee]}var Hu=new Intl.
-NumberFormat(vo?Iu.language:"en-US"),Ci=t=>Hu.format(t),vt=Math,Ns=vt.PI,He=vt.abs,xt=vt.floor,Ge=vt.round,_t=vt.ceil,Ut=vt.min,pt=vt.max,yo=vt.pow,jl=vt.sign,en=vt.
-log10,wc=vt.log2,ju=(t,e=1)=>vt.sinh(t)*e,pi=(t,e=1)=>vt.asinh(t/e),Me=1/0;function Vl(t){return(en((t^t>>31)-(t>>31))|0)+1}function bi(t,e,n){return Ut(pt(t,e),
-n)}function bc(t){return typeof t=="function"}function pe(t){return bc(t)?t:()=>t}var Vu=()=>{},xc=t=>t,vc=(t,e)=>e,zu=t=>null,zl=t=>!0,Yl=(t,e)=>t==e,Yu=/\.\d*?(?=9{6,}|0{6,})/gm,
+NumberFormat(vo?Iu.language:"en-US"),Ci=t=>Hu.format(t),vt=Math,Ns=vt.PI,He=vt.abs,xt=vt.floor,Ge=vt.round,_t=vt.ceil,Ut=vt.min,pt=vt.max,yo=vt.pow,Vl=vt.sign,en=vt.
+log10,wc=vt.log2,Vu=(t,e=1)=>vt.sinh(t)*e,pi=(t,e=1)=>vt.asinh(t/e),Me=1/0;function jl(t){return(en((t^t>>31)-(t>>31))|0)+1}function bi(t,e,n){return Ut(pt(t,e),
+n)}function bc(t){return typeof t=="function"}function pe(t){return bc(t)?t:()=>t}var ju=()=>{},xc=t=>t,vc=(t,e)=>e,zu=t=>null,zl=t=>!0,Yl=(t,e)=>t==e,Yu=/\.\d*?(?=9{6,}|0{6,})/gm,
 Nn=t=>{if(Mc(t)||fn.has(t))return t;let e=`${t}`,n=e.match(Yu);if(n==null)return t;let o=n[0].length-1;if(e.indexOf("e-")!=-1){let[s,r]=e.split("e");return+`${Nn(
 s)}e${r}`}return Te(t,o)};function Pn(t,e){return Nn(Te(Nn(t/e))*e)}function Os(t,e){return Nn(_t(Nn(t/e))*e)}function kc(t,e){return Nn(xt(Nn(t/e))*e)}function Te(t,e=0){
 if(Mc(t))return t;let n=10**e,o=t*n*(1+Number.EPSILON);return Ge(o)/n}var fn=new Map;function Sc(t){return((""+t).split(".")[1]||"").length}function Ko(t,e,n,o){
@@ -366,8 +366,8 @@ w=>i>=w[0])||e[e.length-1],l,c,h,u,d,m;return o.map(w=>{let v=t(w),b=v.getFullYe
 L=b!=l&&a[2]||M!=c&&a[3]||S!=h&&a[4]||E!=u&&a[5]||P!=d&&a[6]||D!=m&&a[7]||a[1];return l=b,c=M,h=S,u=E,d=P,m=D,L(v)})}}function Sf(t,e){let n=Ni(e);return(o,s,r,i,a)=>s.
 map(l=>n(t(l)))}function di(t,e,n){return new Date(t,e,n)}function ec(t,e){return e(t)}var Mf="{YYYY}-{MM}-{DD} {h}:{mm}{aa}";function tc(t,e){return(n,o,s,r)=>r==
 null?Ai:e(t(o))}function Tf(t,e){let n=t.series[e];return n.width?n.stroke(t,e):n.points.width?n.points.stroke(t,e):null}function Af(t,e){return t.series[e].fill(
-t,e)}var Ef={show:!0,live:!0,isolate:!1,mount:Vu,markers:{show:!0,width:2,stroke:Tf,fill:Af,dash:"solid"},idx:null,idxs:null,values:[]};function Pf(t,e){let n=t.
-cursor.points,o=Pt(),s=n.size(t,e);_e(o,jo,s),_e(o,Vo,s);let r=s/-2;_e(o,"marginLeft",r),_e(o,"marginTop",r);let i=n.width(t,e,s);return i&&_e(o,"borderWidth",i),
+t,e)}var Ef={show:!0,live:!0,isolate:!1,mount:ju,markers:{show:!0,width:2,stroke:Tf,fill:Af,dash:"solid"},idx:null,idxs:null,values:[]};function Pf(t,e){let n=t.
+cursor.points,o=Pt(),s=n.size(t,e);_e(o,Vo,s),_e(o,jo,s);let r=s/-2;_e(o,"marginLeft",r),_e(o,"marginTop",r);let i=n.width(t,e,s);return i&&_e(o,"borderWidth",i),
 o}function _f(t,e){let n=t.series[e].points;return n._fill||n._stroke}function Cf(t,e){let n=t.series[e].points;return n._stroke||n._fill}function Lf(t,e){return t.
 series[e].points.size}var ui=[0,0];function Nf(t,e,n){return ui[0]=e,ui[1]=n,ui}function Ls(t,e,n,o=!0){return s=>{s.button==0&&(!o||s.target==e)&&n(s)}}function fi(t,e,n,o=!0){
 return s=>{(!o||s.target==e)&&n(s)}}var Df={show:!0,x:!0,y:!0,lock:!1,move:Nf,points:{one:!1,show:Pf,size:Lf,width:0,stroke:Cf,fill:_f},bind:{mousedown:Ls,mouseup:Ls,
@@ -385,15 +385,15 @@ l],h=o>=0&&n<=0?[0]:[];return(n<-l?xi(t,e,pt(l,-o),-n,s):[l]).reverse().map(d=>-
 9,i)-h>=c?Bc:l(7,i)-h>=c?Uf:l(5,i)-h>=c?Bf:sc;if(u==sc){let d=He(l(1,i)-h);if(d<c)return vi(e.slice().reverse(),a.distr,u,_t(c/d)).reverse()}return vi(e,a.distr,
 u,1)}function Gf(t,e,n,o,s){let r=t.axes[n],i=r.scale,a=r._space,l=t.valToPos,c=He(l(1,i)-l(2,i));return c<a?vi(e.slice().reverse(),3,Bc,_t(a/c)).reverse():e}function Hf(t,e,n,o){
 return o==null?Ai:e==null?"":Ci(e)}var rc={show:!0,scale:"y",stroke:Ti,space:30,gap:5,alignTo:1,size:50,labelGap:0,labelSize:30,labelFont:Oc,side:3,grid:Ri,ticks:Fc,
-border:Ic,font:$i,lineGap:Uc,rotate:0};function jf(t,e){let n=3+(t||1)*2;return Te(n*e,3)}function Vf(t,e){let{scale:n,idxs:o}=t.series[0],s=t._data[0],r=t.valToPos(
+border:Ic,font:$i,lineGap:Uc,rotate:0};function Vf(t,e){let n=3+(t||1)*2;return Te(n*e,3)}function jf(t,e){let{scale:n,idxs:o}=t.series[0],s=t._data[0],r=t.valToPos(
 s[o[0]],n,!0),i=t.valToPos(s[o[1]],n,!0),a=He(i-r),l=t.series[e],c=a/(l.points.space*be);return o[1]-o[0]<=c}var ic={scale:null,auto:!0,sorted:0,min:Me,max:-Me},
 Wc=(t,e,n,o,s)=>s,ac={show:!0,auto:!0,sorted:0,gaps:Wc,alpha:1,facets:[Be({},ic,{scale:"x"}),Be({},ic,{scale:"y"})]},lc={scale:"y",auto:!0,sorted:0,show:!0,spanGaps:!1,
-gaps:Wc,alpha:1,points:{show:Vf,filter:null},values:null,min:Me,max:-Me,idxs:[],path:null,clip:null};function zf(t,e,n,o,s){return n/10}var Gc={time:!0,auto:!0,
+gaps:Wc,alpha:1,points:{show:jf,filter:null},values:null,min:Me,max:-Me,idxs:[],path:null,clip:null};function zf(t,e,n,o,s){return n/10}var Gc={time:!0,auto:!0,
 distr:1,log:10,asinh:1,min:null,max:null,dir:1,ori:0},Yf=Be({},Gc,{time:!1,ori:1}),cc={};function Hc(t,e){let n=cc[t];return n||(n={key:t,plots:[],sub(o){n.plots.
 push(o)},unsub(o){n.plots=n.plots.filter(s=>s!=o)},pub(o,s,r,i,a,l,c){for(let h=0;h<n.plots.length;h++)n.plots[h]!=s&&n.plots[h].pub(o,s,r,i,a,l,c)}},t!=null&&(cc[t]=
 n)),n}var xo=1,ki=2;function Dn(t,e,n){let o=t.mode,s=t.series[e],r=o==2?t._data[e]:t._data,i=t.scales,a=t.bbox,l=r[0],c=o==2?r[1]:r[e],h=o==2?i[s.facets[0].scale]:
 i[t.series[0].scale],u=o==2?i[s.facets[1].scale]:i[s.scale],d=a.left,m=a.top,w=a.width,v=a.height,b=t.valToPosH,M=t.valToPosV;return h.ori==0?n(s,l,c,h,u,b,M,d,
-m,w,v,Ws,ko,Hs,Vc,Yc):n(s,l,c,h,u,M,b,m,d,v,w,Gs,So,Oi,zc,qc)}function Fi(t,e){let n=0,o=0,s=ye(t.bands,Li);for(let r=0;r<s.length;r++){let i=s[r];i.series[0]==
+m,w,v,Ws,ko,Hs,jc,Yc):n(s,l,c,h,u,M,b,m,d,v,w,Gs,So,Oi,zc,qc)}function Fi(t,e){let n=0,o=0,s=ye(t.bands,Li);for(let r=0;r<s.length;r++){let i=s[r];i.series[0]==
 e?n=i.dir:i.series[1]==e&&(i.dir==1?o|=1:o|=2)}return[n,o==1?-1:o==2?1:o==3?2:0]}function qf(t,e,n,o,s){let r=t.mode,i=t.series[e],a=r==2?i.facets[1].scale:i.scale,
 l=t.scales[a];return s==-1?l.min:s==1?l.max:l.distr==3?l.dir==1?l.min:l.max:0}function tn(t,e,n,o,s,r){return Dn(t,e,(i,a,l,c,h,u,d,m,w,v,b)=>{let M=i.pxRound,S=c.
 dir*(c.ori==0?1:-1),E=c.ori==0?ko:So,P,D;S==1?(P=n,D=o):(P=o,D=n);let L=M(u(a[P],c,v,m)),O=M(d(l[P],h,b,w)),G=M(u(a[D],c,v,m)),te=M(d(r==1?h.max:h.min,h,b,w)),X=new Path2D(
@@ -401,12 +401,12 @@ s);return E(X,G,te),E(X,L,te),E(X,L,O),X})}function Bs(t,e,n,o,s,r){let i=null;i
 if(d[1]>d[0]){let m=d[0]-l;m>0&&a(i,l,o,m,o+r),l=d[1]}}let c=n+s-l,h=10;c>0&&a(i,l,o-h/2,c,o+r+h)}return i}function Kf(t,e,n){let o=t[t.length-1];o&&o[0]==e?o[1]=
 n:t.push([e,n])}function Ii(t,e,n,o,s,r,i){let a=[],l=t.length;for(let c=s==1?n:o;c>=n&&c<=o;c+=s)if(e[c]===null){let u=c,d=c;if(s==1)for(;++c<=o&&e[c]===null;)
 d=c;else for(;--c>=n&&e[c]===null;)d=c;let m=r(t[u]),w=d==u?m:r(t[d]),v=u-s;m=i<=0&&v>=0&&v<l?r(t[v]):m;let M=d+s;w=i>=0&&M>=0&&M<l?r(t[M]):w,w>=m&&a.push([m,w])}
-return a}function hc(t){return t==0?xc:t==1?Ge:e=>Pn(e,t)}function jc(t){let e=t==0?Ws:Gs,n=t==0?(s,r,i,a,l,c)=>{s.arcTo(r,i,a,l,c)}:(s,r,i,a,l,c)=>{s.arcTo(i,r,
+return a}function hc(t){return t==0?xc:t==1?Ge:e=>Pn(e,t)}function Vc(t){let e=t==0?Ws:Gs,n=t==0?(s,r,i,a,l,c)=>{s.arcTo(r,i,a,l,c)}:(s,r,i,a,l,c)=>{s.arcTo(i,r,
 l,a,c)},o=t==0?(s,r,i,a,l)=>{s.rect(r,i,a,l)}:(s,r,i,a,l)=>{s.rect(i,r,l,a)};return(s,r,i,a,l,c=0,h=0)=>{c==0&&h==0?o(s,r,i,a,l):(c=Ut(c,a/2,l/2),h=Ut(h,a/2,l/2),
 e(s,r+c,i),n(s,r+a,i,r+a,i+l,c),n(s,r+a,i+l,r,i+l,h),n(s,r,i+l,r,i,h),n(s,r,i,r+a,i,c),s.closePath())}}var Ws=(t,e,n)=>{t.moveTo(e,n)},Gs=(t,e,n)=>{t.moveTo(n,e)},
-ko=(t,e,n)=>{t.lineTo(e,n)},So=(t,e,n)=>{t.lineTo(n,e)},Hs=jc(0),Oi=jc(1),Vc=(t,e,n,o,s,r)=>{t.arc(e,n,o,s,r)},zc=(t,e,n,o,s,r)=>{t.arc(n,e,o,s,r)},Yc=(t,e,n,o,s,r,i)=>{
+ko=(t,e,n)=>{t.lineTo(e,n)},So=(t,e,n)=>{t.lineTo(n,e)},Hs=Vc(0),Oi=Vc(1),jc=(t,e,n,o,s,r)=>{t.arc(e,n,o,s,r)},zc=(t,e,n,o,s,r)=>{t.arc(n,e,o,s,r)},Yc=(t,e,n,o,s,r,i)=>{
 t.bezierCurveTo(e,n,o,s,r,i)},qc=(t,e,n,o,s,r,i)=>{t.bezierCurveTo(n,e,s,o,i,r)};function Kc(t){return(e,n,o,s,r)=>Dn(e,n,(i,a,l,c,h,u,d,m,w,v,b)=>{let{pxRound:M,
-points:S}=i,E,P;c.ori==0?(E=Ws,P=Vc):(E=Gs,P=zc);let D=Te(S.width*be,3),L=(S.size-S.width)/2*be,O=Te(L*2,3),G=new Path2D,te=new Path2D,{left:X,top:$,width:ee,height:U}=e.
+points:S}=i,E,P;c.ori==0?(E=Ws,P=jc):(E=Gs,P=zc);let D=Te(S.width*be,3),L=(S.size-S.width)/2*be,O=Te(L*2,3),G=new Path2D,te=new Path2D,{left:X,top:$,width:ee,height:U}=e.
 bbox;Hs(te,X-O,$-O,ee+O*2,U+O*2);let A=_=>{if(l[_]!=null){let B=M(u(a[_],c,v,m)),I=M(d(l[_],h,b,w));E(G,B+L,I),P(G,B,I,L,0,Ns*2)}};if(r)r.forEach(A);else for(let _=o;_<=
 s;_++)A(_);return{stroke:D>0?G:null,fill:G,clip:te,flags:xo|ki}})}function Jc(t){return(e,n,o,s,r,i)=>{o!=s&&(r!=o&&i!=o&&t(e,n,o),r!=s&&i!=s&&t(e,n,s),t(e,n,i))}}
 var Jf=Jc(ko),Xf=Jc(So);function Xc(t){let e=ye(t?.alignGaps,0);return(n,o,s,r)=>Dn(n,o,(i,a,l,c,h,u,d,m,w,v,b)=>{[s,r]=Fs(l,s,r);let M=i.pxRound,S=U=>M(u(U,c,v,
@@ -426,17 +426,17 @@ ue=>{ue[0]+=q,ue[1]+=W}),X.gaps=J=c.gaps(r,i,a,l,J),X.clip=Bs(J,d.ori,b,M,S,E)}r
 function pc(t,e,n,o,s,r,i=Me){if(t.length>1){let a=null;for(let l=0,c=1/0;l<t.length;l++)if(e[l]!==void 0){if(a!=null){let h=He(t[l]-t[a]);h<c&&(c=h,i=He(n(t[l],
 o,s,r)-n(t[a],o,s,r)))}a=l}}return i}function Qf(t){t=t||qo;let e=ye(t.size,[.6,Me,1]),n=t.align||0,o=t.gap||0,s=t.radius;s=s==null?[0,0]:typeof s=="number"?[s,
 0]:s;let r=pe(s),i=1-e[0],a=ye(e[1],Me),l=ye(e[2],1),c=ye(t.disp,qo),h=ye(t.each,m=>{}),{fill:u,stroke:d}=c;return(m,w,v,b)=>Dn(m,w,(M,S,E,P,D,L,O,G,te,X,$)=>{let ee=M.
-pxRound,U=n,A=o*be,_=a*be,B=l*be,I,ie;P.ori==0?[I,ie]=r(m,w):[ie,I]=r(m,w);let K=P.dir*(P.ori==0?1:-1),J=P.ori==0?Hs:Oi,Q=P.ori==0?h:(V,Se,De,z,re,me,st)=>{h(V,
-Se,De,re,z,st,me)},q=ye(m.bands,Li).find(V=>V.series[0]==w),W=q!=null?q.dir:0,ue=M.fillTo(m,w,M.min,M.max,W),de=ee(O(ue,D,$,te)),he,ae,Fe,We=X,ve=ee(M.width*be),
-it=!1,ot=null,Ne=null,Ie=null,Ct=null;u!=null&&(ve==0||d!=null)&&(it=!0,ot=u.values(m,w,v,b),Ne=new Map,new Set(ot).forEach(V=>{V!=null&&Ne.set(V,new Path2D)}),
-ve>0&&(Ie=d.values(m,w,v,b),Ct=new Map,new Set(Ie).forEach(V=>{V!=null&&Ct.set(V,new Path2D)})));let{x0:Lt,size:yn}=c;if(Lt!=null&&yn!=null){U=1,S=Lt.values(m,w,
-v,b),Lt.unit==2&&(S=S.map(De=>m.posToVal(G+De*X,P.key,!0)));let V=yn.values(m,w,v,b);yn.unit==2?ae=V[0]*X:ae=L(V[0],P,X,G)-L(0,P,X,G),We=pc(S,E,L,P,X,G,We),Fe=We-
+pxRound,U=n,A=o*be,_=a*be,B=l*be,I,ie;P.ori==0?[I,ie]=r(m,w):[ie,I]=r(m,w);let K=P.dir*(P.ori==0?1:-1),J=P.ori==0?Hs:Oi,Q=P.ori==0?h:(j,Se,De,z,re,me,st)=>{h(j,
+Se,De,re,z,st,me)},q=ye(m.bands,Li).find(j=>j.series[0]==w),W=q!=null?q.dir:0,ue=M.fillTo(m,w,M.min,M.max,W),de=ee(O(ue,D,$,te)),he,ae,Fe,We=X,ve=ee(M.width*be),
+it=!1,ot=null,Ne=null,Ie=null,Ct=null;u!=null&&(ve==0||d!=null)&&(it=!0,ot=u.values(m,w,v,b),Ne=new Map,new Set(ot).forEach(j=>{j!=null&&Ne.set(j,new Path2D)}),
+ve>0&&(Ie=d.values(m,w,v,b),Ct=new Map,new Set(Ie).forEach(j=>{j!=null&&Ct.set(j,new Path2D)})));let{x0:Lt,size:yn}=c;if(Lt!=null&&yn!=null){U=1,S=Lt.values(m,w,
+v,b),Lt.unit==2&&(S=S.map(De=>m.posToVal(G+De*X,P.key,!0)));let j=yn.values(m,w,v,b);yn.unit==2?ae=j[0]*X:ae=L(j[0],P,X,G)-L(0,P,X,G),We=pc(S,E,L,P,X,G,We),Fe=We-
 ae+A}else We=pc(S,E,L,P,X,G,We),Fe=We*i+A,ae=We-Fe;Fe<1&&(Fe=0),ve>=ae/2&&(ve=0),Fe<5&&(ee=xc);let on=Fe>0,Wt=We-Fe-(on?ve:0);ae=ee(bi(Wt,B,_)),he=(U==0?ae/2:U==
 K?0:ae)-U*K*((U==0?A/2:0)+(on?ve/2:0));let ze={stroke:null,fill:null,clip:null,band:null,gaps:null,flags:0},Jt=it?null:new Path2D,Nt=null;if(q!=null)Nt=m.data[q.
-series[1]];else{let{y0:V,y1:Se}=c;V!=null&&Se!=null&&(E=Se.values(m,w,v,b),Nt=V.values(m,w,v,b))}let Gt=I*ae,se=ie*ae;for(let V=K==1?v:b;V>=v&&V<=b;V+=K){let Se=E[V];
-if(Se==null)continue;if(Nt!=null){let dt=Nt[V]??0;if(Se-dt==0)continue;de=O(dt,D,$,te)}let De=P.distr!=2||c!=null?S[V]:V,z=L(De,P,X,G),re=O(ye(Se,ue),D,$,te),me=ee(
-z-he),st=ee(pt(re,de)),ft=ee(Ut(re,de)),kt=st-ft;if(Se!=null){let dt=Se<0?se:Gt,Dt=Se<0?Gt:se;it?(ve>0&&Ie[V]!=null&&J(Ct.get(Ie[V]),me,ft+xt(ve/2),ae,pt(0,kt-ve),
-dt,Dt),ot[V]!=null&&J(Ne.get(ot[V]),me,ft+xt(ve/2),ae,pt(0,kt-ve),dt,Dt)):J(Jt,me,ft+xt(ve/2),ae,pt(0,kt-ve),dt,Dt),Q(m,w,V,me-ve/2,ft,ae+ve,kt)}}return ve>0?ze.
+series[1]];else{let{y0:j,y1:Se}=c;j!=null&&Se!=null&&(E=Se.values(m,w,v,b),Nt=j.values(m,w,v,b))}let Gt=I*ae,se=ie*ae;for(let j=K==1?v:b;j>=v&&j<=b;j+=K){let Se=E[j];
+if(Se==null)continue;if(Nt!=null){let dt=Nt[j]??0;if(Se-dt==0)continue;de=O(dt,D,$,te)}let De=P.distr!=2||c!=null?S[j]:j,z=L(De,P,X,G),re=O(ye(Se,ue),D,$,te),me=ee(
+z-he),st=ee(pt(re,de)),ft=ee(Ut(re,de)),kt=st-ft;if(Se!=null){let dt=Se<0?se:Gt,Dt=Se<0?Gt:se;it?(ve>0&&Ie[j]!=null&&J(Ct.get(Ie[j]),me,ft+xt(ve/2),ae,pt(0,kt-ve),
+dt,Dt),ot[j]!=null&&J(Ne.get(ot[j]),me,ft+xt(ve/2),ae,pt(0,kt-ve),dt,Dt)):J(Jt,me,ft+xt(ve/2),ae,pt(0,kt-ve),dt,Dt),Q(m,w,j,me-ve/2,ft,ae+ve,kt)}}return ve>0?ze.
 stroke=it?Ct:Jt:it||(ze._fill=M.width==0?M._fill:M._stroke??M._fill,ze.width=0),ze.fill=it?Ne:Jt,ze})}function em(t,e){let n=ye(e?.alignGaps,0);return(o,s,r,i)=>Dn(
 o,s,(a,l,c,h,u,d,m,w,v,b,M)=>{[r,i]=Fs(c,r,i);let S=a.pxRound,E=I=>S(d(I,h,b,w)),P=I=>S(m(I,u,M,v)),D,L,O;h.ori==0?(D=Ws,O=ko,L=Yc):(D=Gs,O=So,L=qc);let G=h.dir*
 (h.ori==0?1:-1),te=E(l[G==1?r:i]),X=te,$=[],ee=[];for(let I=G==1?r:i;I>=r&&I<=i;I+=G)if(c[I]!=null){let K=l[I],J=E(K);$.push(X=J),ee.push(P(c[I]))}let U={stroke:t(
@@ -446,13 +446,13 @@ band=B==2?[tn(o,s,r,i,A,-1),tn(o,s,r,i,A,1)]:tn(o,s,r,i,A,B)),U})}function tm(t)
 if(n(a,t[0],e[0]),i==2)o(a,t[1],e[1]);else{let l=Array(i),c=Array(i-1),h=Array(i-1),u=Array(i-1);for(let d=0;d<i-1;d++)h[d]=e[d+1]-e[d],u[d]=t[d+1]-t[d],c[d]=h[d]/
 u[d];l[0]=c[0];for(let d=1;d<i-1;d++)c[d]===0||c[d-1]===0||c[d-1]>0!=c[d]>0?l[d]=0:(l[d]=3*(u[d-1]+u[d])/((2*u[d]+u[d-1])/c[d-1]+(u[d]+2*u[d-1])/c[d]),isFinite(
 l[d])||(l[d]=0));l[i-1]=c[i-2];for(let d=0;d<i-1;d++)s(a,t[d]+u[d]/3,e[d]+l[d]*u[d]/3,t[d+1]-u[d]/3,e[d+1]-l[d+1]*u[d]/3,t[d+1],e[d+1])}return a}var Si=new Set;
-function dc(){for(let t of Si)t.syncRect(!0)}vo&&(Ln($u,go,dc),Ln(Fu,go,dc,!0),Ln(Ds,go,()=>{je.pxRatio=be}));var om=Xc(),sm=Kc();function uc(t,e,n,o){return(o?
+function dc(){for(let t of Si)t.syncRect(!0)}vo&&(Ln($u,go,dc),Ln(Fu,go,dc,!0),Ln(Ds,go,()=>{Ve.pxRatio=be}));var om=Xc(),sm=Kc();function uc(t,e,n,o){return(o?
 [t[0],t[1]].concat(t.slice(2)):[t[0]].concat(t.slice(1))).map((r,i)=>Mi(r,i,e,n))}function rm(t,e){return t.map((n,o)=>o==0?{}:Be({},e,n))}function Mi(t,e,n,o){
 return Be({},e==0?n:o,t)}function Zc(t,e,n){return e==null?wo:[e,n]}var im=Zc;function am(t,e,n){return e==null?wo:Rs(e,n,_i,!0)}function Qc(t,e,n,o){return e==
-null?wo:Is(e,n,t.scales[o].log,!1)}var lm=Qc;function eh(t,e,n,o){return e==null?wo:Pi(e,n,t.scales[o].log,!1)}var cm=eh;function hm(t,e,n,o,s){let r=pt(Vl(t),Vl(
+null?wo:Is(e,n,t.scales[o].log,!1)}var lm=Qc;function eh(t,e,n,o){return e==null?wo:Pi(e,n,t.scales[o].log,!1)}var cm=eh;function hm(t,e,n,o,s){let r=pt(jl(t),jl(
 e)),i=e-t,a=Ot(s/o*i,n);do{let l=n[a],c=o*l/i;if(c>=s&&r+(l<5?fn.get(l):0)<=17)return[l,c]}while(++a<n.length);return[0,0]}function fc(t){let e,n;return t=t.replace(
 /(\d+)px/,(o,s)=>(e=Ge((n=+s)*be))+"px"),[t,e,n]}function pm(t){t.show&&[t.font,t.labelFont].forEach(e=>{let n=Te(e[2]*be,1);e[0]=e[0].replace(/[0-9.]+px/,n+"px"),
-e[1]=n})}function je(t,e,n){let o={mode:ye(t.mode,1)},s=o.mode;function r(p,f,g,y){let x=f.valToPct(p);return y+g*(f.dir==-1?1-x:x)}function i(p,f,g,y){let x=f.
+e[1]=n})}function Ve(t,e,n){let o={mode:ye(t.mode,1)},s=o.mode;function r(p,f,g,y){let x=f.valToPct(p);return y+g*(f.dir==-1?1-x:x)}function i(p,f,g,y){let x=f.
 valToPct(p);return y+g*(f.dir==-1?x:1-x)}function a(p,f,g,y){return f.ori==0?r(p,f,g,y):i(p,f,g,y)}o.valToPosH=r,o.valToPosV=i;let l=!1;o.status=0;let c=o.root=
 Pt(yu);if(t.id!=null&&(c.id=t.id),bt(c,t.class),t.title){let p=Pt(xu,c);p.textContent=t.title}let h=It("canvas"),u=o.ctx=h.getContext("2d"),d=Pt(vu,c);Ln("click",
 d,p=>{p.target===w&&(Ae!=Yn||Ce!=qn)&&et.click(o,p)},!0);let m=o.under=Pt(ku,d);d.appendChild(h);let w=o.over=Pt(Su,d);t=bo(t);let v=+ye(t.pxAlign,1),b=hc(v);(t.
@@ -472,26 +472,26 @@ It("tbody",null,ae),q.mount(o,ae),Ne){Fe=It("thead",null,ae,We);let p=It("tr",nu
 Lu),q.live&&bt(ae,Cu);let Lt={show:!0},yn={show:!1};function on(p,f){if(f==0&&(Ne||!q.live||s==2))return wo;let g=[],y=It("tr",Nu,We,We.childNodes[f]);bt(y,p.class),
 p.show||bt(y,Cn);let x=It("th",null,y);if(he.show){let R=Pt(Du,x);if(f>0){let F=he.width(o,f);F&&(R.style.border=F+"px "+he.dash(o,f)+" "+he.stroke(o,f)),R.style.
 background=he.fill(o,f)}}let T=Pt(_l,x);p.label instanceof HTMLElement?T.appendChild(p.label):T.textContent=p.label,f>0&&(he.show||(T.style.color=p.width>0?he.stroke(
-o,f):he.fill(o,f)),ze("click",x,R=>{if(W._lock)return;bn(R);let F=S.indexOf(p);if((R.ctrlKey||R.metaKey)!=q.isolate){let H=S.some((j,Y)=>Y>0&&Y!=F&&j.show);S.forEach(
-(j,Y)=>{Y>0&&jt(Y,H?Y==F?Lt:yn:Lt,!0,Oe.setSeries)})}else jt(F,{show:!p.show},!0,Oe.setSeries)},!1),On&&ze(Dl,x,R=>{W._lock||(bn(R),jt(S.indexOf(p),Jn,!0,Oe.setSeries))},
+o,f):he.fill(o,f)),ze("click",x,R=>{if(W._lock)return;bn(R);let F=S.indexOf(p);if((R.ctrlKey||R.metaKey)!=q.isolate){let H=S.some((V,Y)=>Y>0&&Y!=F&&V.show);S.forEach(
+(V,Y)=>{Y>0&&Vt(Y,H?Y==F?Lt:yn:Lt,!0,Oe.setSeries)})}else Vt(F,{show:!p.show},!0,Oe.setSeries)},!1),On&&ze(Dl,x,R=>{W._lock||(bn(R),Vt(S.indexOf(p),Jn,!0,Oe.setSeries))},
 !1));for(var N in ot){let R=It("td",Ru,y);R.textContent="--",g.push(R)}return[y,g]}let Wt=new Map;function ze(p,f,g,y=!0){let x=Wt.get(f)||{},T=W.bind[p](o,f,g,
 y);T&&(Ln(p,f,x[p]=T),Wt.set(f,x))}function Jt(p,f,g){let y=Wt.get(f)||{};for(let x in y)(p==null||x==p)&&(wi(x,f,y[x]),delete y[x]);p==null&&Wt.delete(f)}let Nt=0,
-Gt=0,se=0,V=0,Se=0,De=0,z=Se,re=De,me=se,st=V,ft=0,kt=0,dt=0,Dt=0;o.bbox={};let Sr=!1,Qo=!1,In=!1,wn=!1,es=!1,St=!1;function Mr(p,f,g){(g||p!=o.width||f!=o.height)&&
-pa(p,f),Hn(!1),In=!0,Qo=!0,jn()}function pa(p,f){o.width=Nt=se=p,o.height=Gt=V=f,Se=De=0,ed(),td();let g=o.bbox;ft=g.left=Pn(Se*be,.5),kt=g.top=Pn(De*be,.5),dt=
-g.width=Pn(se*be,.5),Dt=g.height=Pn(V*be,.5)}let Xp=3;function Zp(){let p=!1,f=0;for(;!p;){f++;let g=hd(f),y=pd(f);p=f==Xp||g&&y,p||(pa(o.width,o.height),Qo=!0)}}
+Gt=0,se=0,j=0,Se=0,De=0,z=Se,re=De,me=se,st=j,ft=0,kt=0,dt=0,Dt=0;o.bbox={};let Sr=!1,Qo=!1,In=!1,wn=!1,es=!1,St=!1;function Mr(p,f,g){(g||p!=o.width||f!=o.height)&&
+pa(p,f),Hn(!1),In=!0,Qo=!0,Vn()}function pa(p,f){o.width=Nt=se=p,o.height=Gt=j=f,Se=De=0,ed(),td();let g=o.bbox;ft=g.left=Pn(Se*be,.5),kt=g.top=Pn(De*be,.5),dt=
+g.width=Pn(se*be,.5),Dt=g.height=Pn(j*be,.5)}let Xp=3;function Zp(){let p=!1,f=0;for(;!p;){f++;let g=hd(f),y=pd(f);p=f==Xp||g&&y,p||(pa(o.width,o.height),Qo=!0)}}
 function Qp({width:p,height:f}){Mr(p,f)}o.setSize=Qp;function ed(){let p=!1,f=!1,g=!1,y=!1;E.forEach((x,T)=>{if(x.show&&x._show){let{side:N,_size:R}=x,F=N%2,H=x.
-label!=null?x.labelSize:0,j=R+H;j>0&&(F?(se-=j,N==3?(Se+=j,y=!0):g=!0):(V-=j,N==0?(De+=j,p=!0):f=!0))}}),xn[0]=p,xn[1]=g,xn[2]=f,xn[3]=y,se-=sn[1]+sn[3],Se+=sn[3],
-V-=sn[2]+sn[0],De+=sn[0]}function td(){let p=Se+se,f=De+V,g=Se,y=De;function x(T,N){switch(T){case 1:return p+=N,p-N;case 2:return f+=N,f-N;case 3:return g-=N,g+
+label!=null?x.labelSize:0,V=R+H;V>0&&(F?(se-=V,N==3?(Se+=V,y=!0):g=!0):(j-=V,N==0?(De+=V,p=!0):f=!0))}}),xn[0]=p,xn[1]=g,xn[2]=f,xn[3]=y,se-=sn[1]+sn[3],Se+=sn[3],
+j-=sn[2]+sn[0],De+=sn[0]}function td(){let p=Se+se,f=De+j,g=Se,y=De;function x(T,N){switch(T){case 1:return p+=N,p-N;case 2:return f+=N,f-N;case 3:return g-=N,g+
 N;case 0:return y-=N,y+N}}E.forEach((T,N)=>{if(T.show&&T._show){let R=T.side;T._pos=x(R,T._size),T.label!=null&&(T._lpos=x(R,T.labelSize))}})}if(W.dataIdx==null){
-let p=W.hover,f=p.skip=new Set(p.skip??[]);f.add(void 0);let g=p.prox=pe(p.prox),y=p.bias??=0;W.dataIdx=(x,T,N,R)=>{if(T==0)return N;let F=N,H=g(x,T,N,R)??Me,j=H>=
-0&&H<Me,Y=$.ori==0?se:V,oe=W.left,we=e[0],ge=e[T];if(f.has(ge[N])){F=null;let ce=null,ne=null,Z;if(y==0||y==-1)for(Z=N;ce==null&&Z-- >0;)f.has(ge[Z])||(ce=Z);if(y==
-0||y==1)for(Z=N;ne==null&&Z++<ge.length;)f.has(ge[Z])||(ne=Z);if(ce!=null||ne!=null)if(j){let Pe=ce==null?-1/0:U(we[ce],$,Y,0),Re=ne==null?1/0:U(we[ne],$,Y,0),Ze=oe-
-Pe,ke=Re-oe;Ze<=ke?Ze<=H&&(F=ce):ke<=H&&(F=ne)}else F=ne==null?ce:ce==null?ne:N-ce<=ne-N?ce:ne}else j&&He(oe-U(we[N],$,Y,0))>H&&(F=null);return F}}let bn=p=>{W.
+let p=W.hover,f=p.skip=new Set(p.skip??[]);f.add(void 0);let g=p.prox=pe(p.prox),y=p.bias??=0;W.dataIdx=(x,T,N,R)=>{if(T==0)return N;let F=N,H=g(x,T,N,R)??Me,V=H>=
+0&&H<Me,Y=$.ori==0?se:j,oe=W.left,we=e[0],ge=e[T];if(f.has(ge[N])){F=null;let ce=null,ne=null,Z;if(y==0||y==-1)for(Z=N;ce==null&&Z-- >0;)f.has(ge[Z])||(ce=Z);if(y==
+0||y==1)for(Z=N;ne==null&&Z++<ge.length;)f.has(ge[Z])||(ne=Z);if(ce!=null||ne!=null)if(V){let Pe=ce==null?-1/0:U(we[ce],$,Y,0),Re=ne==null?1/0:U(we[ne],$,Y,0),Ze=oe-
+Pe,ke=Re-oe;Ze<=ke?Ze<=H&&(F=ce):ke<=H&&(F=ne)}else F=ne==null?ce:ce==null?ne:N-ce<=ne-N?ce:ne}else V&&He(oe-U(we[N],$,Y,0))>H&&(F=null);return F}}let bn=p=>{W.
 event=p};W.idxs=Q,W._lock=!1;let rt=W.points;rt.show=pe(rt.show),rt.size=pe(rt.size),rt.stroke=pe(rt.stroke),rt.width=pe(rt.width),rt.fill=pe(rt.fill);let Ht=o.
 focus=Be({},t.focus||{alpha:.3},W.focus),On=Ht.prox>=0,Un=On&&rt.one,Mt=[],Bn=[],Wn=[];function da(p,f){let g=rt.show(o,f);if(g instanceof HTMLElement)return bt(
-g,Pu),bt(g,p.class),Kt(g,-10,-10,se,V),w.insertBefore(g,Mt[f]),g}function ua(p,f){if(s==1||f>0){let g=s==1&&P[p.scale].time,y=p.value;p.value=g?ql(y)?tc(B,ec(y,
+g,Pu),bt(g,p.class),Kt(g,-10,-10,se,j),w.insertBefore(g,Mt[f]),g}function ua(p,f){if(s==1||f>0){let g=s==1&&P[p.scale].time,y=p.value;p.value=g?ql(y)?tc(B,ec(y,
 I)):y||J:y||Hf,p.label=p.label||(g?$f:Rf)}if(Un||f>0){p.width=p.width==null?1:p.width,p.paths=p.paths||om||zu,p.fillTo=pe(p.fillTo||qf),p.pxAlign=+ye(p.pxAlign,
-v),p.pxRound=hc(p.pxAlign),p.stroke=pe(p.stroke||null),p.fill=pe(p.fill||null),p._stroke=p._fill=p._paths=p._focus=null;let g=jf(pt(1,p.width),1),y=p.points=Be(
+v),p.pxRound=hc(p.pxAlign),p.stroke=pe(p.stroke||null),p.fill=pe(p.fill||null),p._stroke=p._fill=p._paths=p._focus=null;let g=Vf(pt(1,p.width),1),y=p.points=Be(
 {},{size:g,width:pt(1,g*.2),stroke:p.stroke,space:g*2,paths:sm,_stroke:null,_fill:null},p.points);y.show=pe(y.show),y.filter=pe(y.filter),y.fill=pe(y.fill),y.stroke=
 pe(y.stroke),y.paths=pe(y.paths),y.pxAlign=p.pxAlign}if(ue){let g=on(p,f);ve.splice(f,0,g[0]),it.splice(f,0,g[1]),q.values.push(null)}if(de){Q.splice(f,0,null);
 let g=null;Un?f==0&&(g=da(p,f)):f>0&&(g=da(p,f)),Mt.splice(f,0,g),Bn.splice(f,0,0),Wn.splice(f,0,0)}Xe("addSeries",f)}function nd(p,f){f=f??S.length,p=s==1?Mi(p,
@@ -506,7 +506,7 @@ p._size>0&&(xn[f]=!0,p._el=Pt(Mu,d))}}function Po(p,f,g,y){let[x,T,N,R]=g,F=f%2,
 f==1&&!T||f==3&&!R?Ge(rc.size/2):0),H}let fa=o.padding=(t.padding||[Po,Po,Po,Po]).map(p=>pe(ye(p,Po))),sn=o._padding=fa.map((p,f)=>p(o,f,xn,0)),Qe,Ye=null,qe=null,
 ts=s==1?S[0].idxs:null,Rt=null,_o=!1;function ma(p,f){if(e=p??[],o.data=o._data=e,s==2){Qe=0;for(let g=1;g<S.length;g++)Qe+=e[g][0].length}else{e.length==0&&(o.
 data=o._data=e=[[]]),Rt=e[0],Qe=Rt.length;let g=e;if(ee==2){g=e.slice();let y=g[0]=Array(Qe);for(let x=0;x<Qe;x++)y[x]=x}o._data=e=g}if(Hn(!0),Xe("setData"),ee==
-2&&(In=!0),f!==!1){let g=$;g.auto(o,_o)?Tr():an(L,g.min,g.max),wn=wn||W.left>=0,St=!0,jn()}}o.setData=ma;function Tr(){_o=!0;let p,f;s==1&&(Qe>0?(Ye=ts[0]=0,qe=
+2&&(In=!0),f!==!1){let g=$;g.auto(o,_o)?Tr():an(L,g.min,g.max),wn=wn||W.left>=0,St=!0,Vn()}}o.setData=ma;function Tr(){_o=!0;let p,f;s==1&&(Qe>0?(Ye=ts[0]=0,qe=
 ts[1]=Qe-1,p=e[0][Ye],f=e[0][qe],ee==2?(p=Ye,f=qe):p==f&&(ee==3?[p,f]=Is(p,p,$.log,!1):ee==4?[p,f]=Pi(p,p,$.log,!1):$.time?f=p+Ge(86400/M):[p,f]=Rs(p,f,_i,!0))):
 (Ye=ts[0]=p=null,qe=ts[1]=f=null)),an(L,p,f)}let ns,Gn,Ar,Er,Pr,_r,Cr,Lr,Nr,ut;function ga(p,f,g,y,x,T){p??=Ll,g??=Li,y??="butt",x??=Ll,T??="round",p!=ns&&(u.strokeStyle=
 ns=p),x!=Gn&&(u.fillStyle=Gn=x),f!=Ar&&(u.lineWidth=Ar=f),T!=Pr&&(u.lineJoin=Pr=T),y!=_r&&(u.lineCap=_r=y),g!=Er&&u.setLineDash(Er=g)}function ya(p,f,g,y){f!=Gn&&
@@ -517,7 +517,7 @@ x.from!=null&&_[x.from]!=null&&(_[y]=wa)}_[L]!=null&&Hn(!0);let p={};for(let y i
 L||s==2)if(Qe==0&&T.from==null){let N=T.range(o,null,null,y);T.min=N[0],T.max=N[1]}else T.min=Me,T.max=-Me}}if(Qe>0){S.forEach((y,x)=>{if(s==1){let T=y.scale,N=_[T];
 if(N==null)return;let R=p[T];if(x==0){let F=R.range(o,R.min,R.max,T);R.min=F[0],R.max=F[1],Ye=Ot(R.min,e[0]),qe=Ot(R.max,e[0]),qe-Ye>1&&(e[0][Ye]<R.min&&Ye++,e[0][qe]>
 R.max&&qe--),y.min=Rt[Ye],y.max=Rt[qe]}else y.show&&y.auto&&Dr(R,N,y,e[x],y.sorted);y.idxs[0]=Ye,y.idxs[1]=qe}else if(x>0&&y.show&&y.auto){let[T,N]=y.facets,R=T.
-scale,F=N.scale,[H,j]=e[x],Y=p[R],oe=p[F];Y!=null&&Dr(Y,_[R],T,H,T.sorted),oe!=null&&Dr(oe,_[F],N,j,N.sorted),y.min=N.min,y.max=N.max}});for(let y in p){let x=p[y],
+scale,F=N.scale,[H,V]=e[x],Y=p[R],oe=p[F];Y!=null&&Dr(Y,_[R],T,H,T.sorted),oe!=null&&Dr(oe,_[F],N,V,N.sorted),y.min=N.min,y.max=N.max}});for(let y in p){let x=p[y],
 T=_[y];if(x.from==null&&(T==null||T.min==null)){let N=x.range(o,x.min==Me?null:x.min,x.max==-Me?null:x.max,y);x.min=N[0],x.max=N[1]}}}for(let y in p){let x=p[y];
 if(x.from!=null){let T=p[x.from];if(T.min==null)x.min=x.max=null;else{let N=x.range(o,T.min,T.max,y);x.min=N[0],x.max=N[1]}}}let f={},g=!1;for(let y in p){let x=p[y],
 T=P[y];if(T.min!=x.min||T.max!=x.max){T.min=x.min,T.max=x.max;let N=T.distr;T._min=N==3?en(T.min):N==4?pi(T.min,T.asinh):N==100?T.fwd(T.min):T.min,T._max=N==3?en(
@@ -528,106 +528,106 @@ g,!1),ba(g,!0),f._paths==null)){let y=ut;ut!=f.alpha&&(u.globalAlpha=ut=f.alpha)
 (u.globalAlpha=ut=y)}}),S.forEach((f,g)=>{if(g>0&&f.show){let y=ut;ut!=f.alpha&&(u.globalAlpha=ut=f.alpha),f._paths!=null&&xa(g,!1);{let x=f._paths!=null?f._paths.
 gaps:null,T=f.points.show(o,g,Ye,qe,x),N=f.points.filter(o,g,T,x);(T||N)&&(f.points._paths=f.points.paths(o,g,Ye,qe,N),xa(g,!0))}ut!=y&&(u.globalAlpha=ut=y),Xe(
 "drawSeries",g)}}),p&&(u.globalAlpha=ut=1)}}function ba(p,f){let g=f?S[p].points:S[p];g._stroke=g.stroke(o,p),g._fill=g.fill(o,p)}function xa(p,f){let g=f?S[p].
-points:S[p],{stroke:y,fill:x,clip:T,flags:N,_stroke:R=g._stroke,_fill:F=g._fill,_width:H=g.width}=g._paths;H=Te(H*be,3);let j=null,Y=H%2/2;f&&F==null&&(F=H>0?"#\
-fff":R);let oe=g.pxAlign==1&&Y>0;if(oe&&u.translate(Y,Y),!f){let we=ft-H/2,ge=kt-H/2,ce=dt+H,ne=Dt+H;j=new Path2D,j.rect(we,ge,ce,ne)}f?Rr(R,H,g.dash,g.cap,F,y,
-x,N,T):ld(p,R,H,g.dash,g.cap,F,y,x,N,j,T),oe&&u.translate(-Y,-Y)}function ld(p,f,g,y,x,T,N,R,F,H,j){let Y=!1;F!=0&&D.forEach((oe,we)=>{if(oe.series[0]==p){let ge=S[oe.
+points:S[p],{stroke:y,fill:x,clip:T,flags:N,_stroke:R=g._stroke,_fill:F=g._fill,_width:H=g.width}=g._paths;H=Te(H*be,3);let V=null,Y=H%2/2;f&&F==null&&(F=H>0?"#\
+fff":R);let oe=g.pxAlign==1&&Y>0;if(oe&&u.translate(Y,Y),!f){let we=ft-H/2,ge=kt-H/2,ce=dt+H,ne=Dt+H;V=new Path2D,V.rect(we,ge,ce,ne)}f?Rr(R,H,g.dash,g.cap,F,y,
+x,N,T):ld(p,R,H,g.dash,g.cap,F,y,x,N,V,T),oe&&u.translate(-Y,-Y)}function ld(p,f,g,y,x,T,N,R,F,H,V){let Y=!1;F!=0&&D.forEach((oe,we)=>{if(oe.series[0]==p){let ge=S[oe.
 series[1]],ce=e[oe.series[1]],ne=(ge._paths||qo).band;un(ne)&&(ne=oe.dir==1?ne[0]:ne[1]);let Z,Pe=null;ge.show&&ne&&Gu(ce,Ye,qe)?(Pe=oe.fill(o,we)||T,Z=ge._paths.
-clip):ne=null,Rr(f,g,y,x,Pe,N,R,F,H,j,Z,ne),Y=!0}}),Y||Rr(f,g,y,x,T,N,R,F,H,j)}let va=xo|ki;function Rr(p,f,g,y,x,T,N,R,F,H,j,Y){ga(p,f,g,y,x),(F||H||Y)&&(u.save(),
-F&&u.clip(F),H&&u.clip(H)),Y?(R&va)==va?(u.clip(Y),j&&u.clip(j),ss(x,N),os(p,T,f)):R&ki?(ss(x,N),u.clip(Y),os(p,T,f)):R&xo&&(u.save(),u.clip(Y),j&&u.clip(j),ss(
+clip):ne=null,Rr(f,g,y,x,Pe,N,R,F,H,V,Z,ne),Y=!0}}),Y||Rr(f,g,y,x,T,N,R,F,H,V)}let va=xo|ki;function Rr(p,f,g,y,x,T,N,R,F,H,V,Y){ga(p,f,g,y,x),(F||H||Y)&&(u.save(),
+F&&u.clip(F),H&&u.clip(H)),Y?(R&va)==va?(u.clip(Y),V&&u.clip(V),ss(x,N),os(p,T,f)):R&ki?(ss(x,N),u.clip(Y),os(p,T,f)):R&xo&&(u.save(),u.clip(Y),V&&u.clip(V),ss(
 x,N),u.restore(),os(p,T,f)):(ss(x,N),os(p,T,f)),(F||H||Y)&&u.restore()}function os(p,f,g){g>0&&(f instanceof Map?f.forEach((y,x)=>{u.strokeStyle=ns=x,u.stroke(y)}):
 f!=null&&p&&u.stroke(f))}function ss(p,f){f instanceof Map?f.forEach((g,y)=>{u.fillStyle=Gn=y,u.fill(g)}):f!=null&&p&&u.fill(f)}function cd(p,f,g,y){let x=E[p],
-T;if(y<=0)T=[0,0];else{let N=x._space=x.space(o,p,f,g,y),R=x._incrs=x.incrs(o,p,f,g,y,N);T=hm(f,g,R,y,N)}return x._found=T}function $r(p,f,g,y,x,T,N,R,F,H){let j=N%
-2/2;v==1&&u.translate(j,j),ga(R,N,F,H,R),u.beginPath();let Y,oe,we,ge,ce=x+(y==0||y==3?-T:T);g==0?(oe=x,ge=ce):(Y=x,we=ce);for(let ne=0;ne<p.length;ne++)f[ne]!=
-null&&(g==0?Y=we=p[ne]:oe=ge=p[ne],u.moveTo(Y,oe),u.lineTo(we,ge));u.stroke(),v==1&&u.translate(-j,-j)}function hd(p){let f=!0;return E.forEach((g,y)=>{if(!g.show)
-return;let x=P[g.scale];if(x.min==null){g._show&&(f=!1,g._show=!1,Hn(!1));return}else g._show||(f=!1,g._show=!0,Hn(!1));let T=g.side,N=T%2,{min:R,max:F}=x,[H,j]=cd(
-y,R,F,N==0?se:V);if(j==0)return;let Y=x.distr==2,oe=g._splits=g.splits(o,y,R,F,H,j,Y),we=x.distr==2?oe.map(Z=>Rt[Z]):oe,ge=x.distr==2?Rt[oe[1]]-Rt[oe[0]]:H,ce=g.
-_values=g.values(o,g.filter(o,we,y,j,ge),y,j,ge);g._rotate=T==2?g.rotate(o,ce,y,j):0;let ne=g._size;g._size=_t(g.size(o,ce,y,p)),ne!=null&&g._size!=ne&&(f=!1)}),
+T;if(y<=0)T=[0,0];else{let N=x._space=x.space(o,p,f,g,y),R=x._incrs=x.incrs(o,p,f,g,y,N);T=hm(f,g,R,y,N)}return x._found=T}function $r(p,f,g,y,x,T,N,R,F,H){let V=N%
+2/2;v==1&&u.translate(V,V),ga(R,N,F,H,R),u.beginPath();let Y,oe,we,ge,ce=x+(y==0||y==3?-T:T);g==0?(oe=x,ge=ce):(Y=x,we=ce);for(let ne=0;ne<p.length;ne++)f[ne]!=
+null&&(g==0?Y=we=p[ne]:oe=ge=p[ne],u.moveTo(Y,oe),u.lineTo(we,ge));u.stroke(),v==1&&u.translate(-V,-V)}function hd(p){let f=!0;return E.forEach((g,y)=>{if(!g.show)
+return;let x=P[g.scale];if(x.min==null){g._show&&(f=!1,g._show=!1,Hn(!1));return}else g._show||(f=!1,g._show=!0,Hn(!1));let T=g.side,N=T%2,{min:R,max:F}=x,[H,V]=cd(
+y,R,F,N==0?se:j);if(V==0)return;let Y=x.distr==2,oe=g._splits=g.splits(o,y,R,F,H,V,Y),we=x.distr==2?oe.map(Z=>Rt[Z]):oe,ge=x.distr==2?Rt[oe[1]]-Rt[oe[0]]:H,ce=g.
+_values=g.values(o,g.filter(o,we,y,V,ge),y,V,ge);g._rotate=T==2?g.rotate(o,ce,y,V):0;let ne=g._size;g._size=_t(g.size(o,ce,y,p)),ne!=null&&g._size!=ne&&(f=!1)}),
 f}function pd(p){let f=!0;return fa.forEach((g,y)=>{let x=g(o,y,xn,p);x!=sn[y]&&(f=!1),sn[y]=x}),f}function dd(){for(let p=0;p<E.length;p++){let f=E[p];if(!f.show||
 !f._show)continue;let g=f.side,y=g%2,x,T,N=f.stroke(o,p),R=g==0||g==3?-1:1,[F,H]=f._found;if(f.label!=null){let lt=f.labelGap*R,yt=Ge((f._lpos+lt)*be);ya(f.labelFont[0],
 N,"center",g==2?"top":Cl),u.save(),y==1?(x=T=0,u.translate(yt,Ge(kt+Dt/2)),u.rotate((g==3?-Ns:Ns)/2)):(x=Ge(ft+dt/2),T=yt);let Sn=bc(f.label)?f.label(o,p,F,H):f.
-label;u.fillText(Sn,x,T),u.restore()}if(H==0)continue;let j=P[f.scale],Y=y==0?dt:Dt,oe=y==0?ft:kt,we=f._splits,ge=j.distr==2?we.map(lt=>Rt[lt]):we,ce=j.distr==2?
+label;u.fillText(Sn,x,T),u.restore()}if(H==0)continue;let V=P[f.scale],Y=y==0?dt:Dt,oe=y==0?ft:kt,we=f._splits,ge=V.distr==2?we.map(lt=>Rt[lt]):we,ce=V.distr==2?
 Rt[we[1]]-Rt[we[0]]:F,ne=f.ticks,Z=f.border,Pe=ne.show?ne.size:0,Re=Ge(Pe*be),Ze=Ge((f.alignTo==2?f._size-Pe-f.gap:f.gap)*be),ke=f._rotate*-Ns/180,$e=b(f._pos*be),
 mt=(Re+Ze)*R,at=$e+mt;T=y==0?at:0,x=y==1?at:0;let Tt=f.font[0],$t=f.align==1?fo:f.align==2?li:ke>0?fo:ke<0?li:y==0?"center":g==3?li:fo,zt=ke||y==1?"middle":g==2?
-"top":Cl;ya(Tt,N,$t,zt);let gt=f.font[1]*f.lineGap,At=we.map(lt=>b(a(lt,j,Y,oe))),Ft=f._values;for(let lt=0;lt<Ft.length;lt++){let yt=Ft[lt];if(yt!=null){y==0?x=
+"top":Cl;ya(Tt,N,$t,zt);let gt=f.font[1]*f.lineGap,At=we.map(lt=>b(a(lt,V,Y,oe))),Ft=f._values;for(let lt=0;lt<Ft.length;lt++){let yt=Ft[lt];if(yt!=null){y==0?x=
 At[lt]:T=At[lt],yt=""+yt;let Sn=yt.indexOf(`
 `)==-1?[yt]:yt.split(/\n/gm);for(let ct=0;ct<Sn.length;ct++){let Ba=Sn[ct];ke?(u.save(),u.translate(x,T+ct*gt),u.rotate(ke),u.fillText(Ba,0,0),u.restore()):u.fillText(
 Ba,x,T+ct*gt)}}}ne.show&&$r(At,ne.filter(o,ge,p,H,ce),y,g,$e,Re,Te(ne.width*be,3),ne.stroke(o,p),ne.dash,ne.cap);let Yt=f.grid;Yt.show&&$r(At,Yt.filter(o,ge,p,H,
 ce),y,y==0?2:1,y==0?kt:ft,y==0?Dt:dt,Te(Yt.width*be,3),Yt.stroke(o,p),Yt.dash,Yt.cap),Z.show&&$r([$e],[1],y==0?1:0,y==0?1:2,y==1?kt:ft,y==1?Dt:dt,Te(Z.width*be,
 3),Z.stroke(o,p),Z.dash,Z.cap)}Xe("drawAxes")}function Hn(p){S.forEach((f,g)=>{g>0&&(f._paths=null,p&&(s==1?(f.min=null,f.max=null):f.facets.forEach(y=>{y.min=null,
-y.max=null})))})}let rs=!1,Fr=!1,Co=[];function ud(){Fr=!1;for(let p=0;p<Co.length;p++)Xe(...Co[p]);Co.length=0}function jn(){rs||(nf(ka),rs=!0)}function fd(p,f=!1){
-rs=!0,Fr=f,p(o),ka(),f&&Co.length>0&&queueMicrotask(ud)}o.batch=fd;function ka(){if(Sr&&(rd(),Sr=!1),In&&(Zp(),In=!1),Qo){if(_e(m,fo,Se),_e(m,"top",De),_e(m,jo,
-se),_e(m,Vo,V),_e(w,fo,Se),_e(w,"top",De),_e(w,jo,se),_e(w,Vo,V),_e(d,jo,Nt),_e(d,Vo,Gt),h.width=Ge(Nt*be),h.height=Ge(Gt*be),E.forEach(({_el:p,_show:f,_size:g,
+y.max=null})))})}let rs=!1,Fr=!1,Co=[];function ud(){Fr=!1;for(let p=0;p<Co.length;p++)Xe(...Co[p]);Co.length=0}function Vn(){rs||(nf(ka),rs=!0)}function fd(p,f=!1){
+rs=!0,Fr=f,p(o),ka(),f&&Co.length>0&&queueMicrotask(ud)}o.batch=fd;function ka(){if(Sr&&(rd(),Sr=!1),In&&(Zp(),In=!1),Qo){if(_e(m,fo,Se),_e(m,"top",De),_e(m,Vo,
+se),_e(m,jo,j),_e(w,fo,Se),_e(w,"top",De),_e(w,Vo,se),_e(w,jo,j),_e(d,Vo,Nt),_e(d,jo,Gt),h.width=Ge(Nt*be),h.height=Ge(Gt*be),E.forEach(({_el:p,_show:f,_size:g,
 _pos:y,side:x})=>{if(p!=null)if(f){let T=x===3||x===0?g:0,N=x%2==1;_e(p,N?"left":"top",y-T),_e(p,N?"width":"height",g),_e(p,N?"top":"left",N?De:Se),_e(p,N?"heig\
-ht":"width",N?V:se),yi(p,Cn)}else bt(p,Cn)}),ns=Gn=Ar=Pr=_r=Cr=Lr=Nr=Er=null,ut=1,Do(!0),Se!=z||De!=re||se!=me||V!=st){Hn(!1);let p=se/me,f=V/st;if(de&&!wn&&W.left>=
-0){W.left*=p,W.top*=f,Vn&&Kt(Vn,Ge(W.left),0,se,V),zn&&Kt(zn,0,Ge(W.top),se,V);for(let g=0;g<Mt.length;g++){let y=Mt[g];y!=null&&(Bn[g]*=p,Wn[g]*=f,Kt(y,_t(Bn[g]),
-_t(Wn[g]),se,V))}}if(Ee.show&&!es&&Ee.left>=0&&Ee.width>0){Ee.left*=p,Ee.width*=p,Ee.top*=f,Ee.height*=f;for(let g in Gr)_e(Kn,g,Ee[g])}z=Se,re=De,me=se,st=V}Xe(
+ht":"width",N?j:se),yi(p,Cn)}else bt(p,Cn)}),ns=Gn=Ar=Pr=_r=Cr=Lr=Nr=Er=null,ut=1,Do(!0),Se!=z||De!=re||se!=me||j!=st){Hn(!1);let p=se/me,f=j/st;if(de&&!wn&&W.left>=
+0){W.left*=p,W.top*=f,jn&&Kt(jn,Ge(W.left),0,se,j),zn&&Kt(zn,0,Ge(W.top),se,j);for(let g=0;g<Mt.length;g++){let y=Mt[g];y!=null&&(Bn[g]*=p,Wn[g]*=f,Kt(y,_t(Bn[g]),
+_t(Wn[g]),se,j))}}if(Ee.show&&!es&&Ee.left>=0&&Ee.width>0){Ee.left*=p,Ee.width*=p,Ee.top*=f,Ee.height*=f;for(let g in Gr)_e(Kn,g,Ee[g])}z=Se,re=De,me=se,st=j}Xe(
 "setSize"),Qo=!1}Nt>0&&Gt>0&&(u.clearRect(0,0,h.width,h.height),Xe("drawClear"),G.forEach(p=>p()),Xe("draw")),Ee.show&&es&&(is(Ee),es=!1),de&&wn&&(kn(null,!0,!1),
-wn=!1),q.show&&q.live&&St&&(Br(),St=!1),l||(l=!0,o.status=1,Xe("ready")),_o=!1,rs=!1}o.redraw=(p,f)=>{In=f||!1,p!==!1?an(L,$.min,$.max):jn()};function Ir(p,f){let g=P[p];
+wn=!1),q.show&&q.live&&St&&(Br(),St=!1),l||(l=!0,o.status=1,Xe("ready")),_o=!1,rs=!1}o.redraw=(p,f)=>{In=f||!1,p!==!1?an(L,$.min,$.max):Vn()};function Ir(p,f){let g=P[p];
 if(g.from==null){if(Qe==0){let y=g.range(o,f.min,f.max,p);f.min=y[0],f.max=y[1]}if(f.min>f.max){let y=f.min;f.min=f.max,f.max=y}if(Qe>1&&f.min!=null&&f.max!=null&&
-f.max-f.min<1e-16)return;p==L&&g.distr==2&&Qe>0&&(f.min=Ot(f.min,e[0]),f.max=Ot(f.max,e[0]),f.min==f.max&&f.max++),_[p]=f,Sr=!0,jn()}}o.setScale=Ir;let Or,Ur,Vn,
-zn,Sa,Ma,Yn,qn,Ta,Aa,Ae,Ce,rn=!1,et=W.drag,Ke=et.x,Je=et.y;de&&(W.x&&(Or=Pt(Au,w)),W.y&&(Ur=Pt(Eu,w)),$.ori==0?(Vn=Or,zn=Ur):(Vn=Ur,zn=Or),Ae=W.left,Ce=W.top);let Ee=o.
+f.max-f.min<1e-16)return;p==L&&g.distr==2&&Qe>0&&(f.min=Ot(f.min,e[0]),f.max=Ot(f.max,e[0]),f.min==f.max&&f.max++),_[p]=f,Sr=!0,Vn()}}o.setScale=Ir;let Or,Ur,jn,
+zn,Sa,Ma,Yn,qn,Ta,Aa,Ae,Ce,rn=!1,et=W.drag,Ke=et.x,Je=et.y;de&&(W.x&&(Or=Pt(Au,w)),W.y&&(Ur=Pt(Eu,w)),$.ori==0?(jn=Or,zn=Ur):(jn=Ur,zn=Or),Ae=W.left,Ce=W.top);let Ee=o.
 select=Be({show:!0,over:!0,left:0,width:0,top:0,height:0},t.select),Kn=Ee.show?Pt(Tu,Ee.over?w:m):null;function is(p,f){if(Ee.show){for(let g in p)Ee[g]=p[g],g in
 Gr&&_e(Kn,g,p[g]);f!==!1&&Xe("setSelect")}}o.setSelect=is;function md(p){if(S[p].show)ue&&yi(ve[p],Cn);else if(ue&&bt(ve[p],Cn),de){let g=Un?Mt[0]:Mt[p];g!=null&&
-Kt(g,-10,-10,se,V)}}function an(p,f,g){Ir(p,{min:f,max:g})}function jt(p,f,g,y){f.focus!=null&&xd(p),f.show!=null&&S.forEach((x,T)=>{T>0&&(p==T||p==null)&&(x.show=
-f.show,md(T),s==2?(an(x.facets[0].scale,null,null),an(x.facets[1].scale,null,null)):an(x.scale,null,null),jn())}),g!==!1&&Xe("setSeries",p,f),y&&Ro("setSeries",
-o,p,f)}o.setSeries=jt;function gd(p,f){Be(D[p],f)}function yd(p,f){p.fill=pe(p.fill||null),p.dir=ye(p.dir,-1),f=f??D.length,D.splice(f,0,p)}function wd(p){p==null?
+Kt(g,-10,-10,se,j)}}function an(p,f,g){Ir(p,{min:f,max:g})}function Vt(p,f,g,y){f.focus!=null&&xd(p),f.show!=null&&S.forEach((x,T)=>{T>0&&(p==T||p==null)&&(x.show=
+f.show,md(T),s==2?(an(x.facets[0].scale,null,null),an(x.facets[1].scale,null,null)):an(x.scale,null,null),Vn())}),g!==!1&&Xe("setSeries",p,f),y&&Ro("setSeries",
+o,p,f)}o.setSeries=Vt;function gd(p,f){Be(D[p],f)}function yd(p,f){p.fill=pe(p.fill||null),p.dir=ye(p.dir,-1),f=f??D.length,D.splice(f,0,p)}function wd(p){p==null?
 D.length=0:D.splice(p,1)}o.addBand=yd,o.setBand=gd,o.delBand=wd;function bd(p,f){S[p].alpha=f,de&&Mt[p]!=null&&(Mt[p].style.opacity=f),ue&&ve[p]&&(ve[p].style.opacity=
 f)}let Xt,ln,vn,Jn={focus:!0};function xd(p){if(p!=vn){let f=p==null,g=Ht.alpha!=1;S.forEach((y,x)=>{if(s==1||x>0){let T=f||x==0||x==p;y._focus=f?null:T,g&&bd(x,
-T?1:Ht.alpha)}}),vn=p,g&&jn()}}ue&&On&&ze(Rl,ae,p=>{W._lock||(bn(p),vn!=null&&jt(null,Jn,!0,Oe.setSeries))});function Vt(p,f,g){let y=P[f];g&&(p=p/be-(y.ori==1?
-De:Se));let x=se;y.ori==1&&(x=V,p=x-p),y.dir==-1&&(p=x-p);let T=y._min,N=y._max,R=p/x,F=T+(N-T)*R,H=y.distr;return H==3?yo(10,F):H==4?ju(F,y.asinh):H==100?y.bwd(
-F):F}function vd(p,f){let g=Vt(p,L,f);return Ot(g,e[0],Ye,qe)}o.valToIdx=p=>Ot(p,e[0]),o.posToIdx=vd,o.posToVal=Vt,o.valToPos=(p,f,g)=>P[f].ori==0?r(p,P[f],g?dt:
-se,g?ft:0):i(p,P[f],g?Dt:V,g?kt:0),o.setCursor=(p,f,g)=>{Ae=p.left,Ce=p.top,kn(null,f,g)};function Ea(p,f){_e(Kn,fo,Ee.left=p),_e(Kn,jo,Ee.width=f)}function Pa(p,f){
-_e(Kn,"top",Ee.top=p),_e(Kn,Vo,Ee.height=f)}let Lo=$.ori==0?Ea:Pa,No=$.ori==1?Ea:Pa;function kd(){if(ue&&q.live)for(let p=s==2?1:0;p<S.length;p++){if(p==0&&Ne)continue;
+T?1:Ht.alpha)}}),vn=p,g&&Vn()}}ue&&On&&ze(Rl,ae,p=>{W._lock||(bn(p),vn!=null&&Vt(null,Jn,!0,Oe.setSeries))});function jt(p,f,g){let y=P[f];g&&(p=p/be-(y.ori==1?
+De:Se));let x=se;y.ori==1&&(x=j,p=x-p),y.dir==-1&&(p=x-p);let T=y._min,N=y._max,R=p/x,F=T+(N-T)*R,H=y.distr;return H==3?yo(10,F):H==4?Vu(F,y.asinh):H==100?y.bwd(
+F):F}function vd(p,f){let g=jt(p,L,f);return Ot(g,e[0],Ye,qe)}o.valToIdx=p=>Ot(p,e[0]),o.posToIdx=vd,o.posToVal=jt,o.valToPos=(p,f,g)=>P[f].ori==0?r(p,P[f],g?dt:
+se,g?ft:0):i(p,P[f],g?Dt:j,g?kt:0),o.setCursor=(p,f,g)=>{Ae=p.left,Ce=p.top,kn(null,f,g)};function Ea(p,f){_e(Kn,fo,Ee.left=p),_e(Kn,Vo,Ee.width=f)}function Pa(p,f){
+_e(Kn,"top",Ee.top=p),_e(Kn,jo,Ee.height=f)}let Lo=$.ori==0?Ea:Pa,No=$.ori==1?Ea:Pa;function kd(){if(ue&&q.live)for(let p=s==2?1:0;p<S.length;p++){if(p==0&&Ne)continue;
 let f=q.values[p],g=0;for(let y in f)it[p][g++].firstChild.nodeValue=f[y]}}function Br(p,f){if(p!=null&&(p.idxs?p.idxs.forEach((g,y)=>{Q[y]=g}):qu(p.idx)||Q.fill(
 p.idx),q.idx=Q[0]),ue&&q.live){for(let g=0;g<S.length;g++)(g>0||s==1&&!Ne)&&Sd(g,Q[g]);kd()}St=!1,f!==!1&&Xe("setLegend")}o.setLegend=Br;function Sd(p,f){let g=S[p],
 y=p==0&&ee==2?Rt:e[p],x;Ne?x=g.values(o,p,f)??Ie:(x=g.value(o,f==null?null:y[f],p,f),x=x==null?Ie:{_:x}),q.values[p]=x}function kn(p,f,g){Ta=Ae,Aa=Ce,[Ae,Ce]=W.
-move(o,Ae,Ce),W.left=Ae,W.top=Ce,de&&(Vn&&Kt(Vn,Ge(Ae),0,se,V),zn&&Kt(zn,0,Ge(Ce),se,V));let y,x=Ye>qe;Xt=Me,ln=null;let T=$.ori==0?se:V,N=$.ori==1?se:V;if(Ae<0||
-Qe==0||x){y=W.idx=null;for(let R=0;R<S.length;R++){let F=Mt[R];F!=null&&Kt(F,-10,-10,se,V)}On&&jt(null,Jn,!0,p==null&&Oe.setSeries),q.live&&(Q.fill(y),St=!0)}else{
-let R,F,H;s==1&&(R=$.ori==0?Ae:Ce,F=Vt(R,L),y=W.idx=Ot(F,e[0],Ye,qe),H=U(e[0][y],$,T,0));let j=-10,Y=-10,oe=0,we=0,ge=!0,ce="",ne="";for(let Z=s==2?1:0;Z<S.length;Z++){
+move(o,Ae,Ce),W.left=Ae,W.top=Ce,de&&(jn&&Kt(jn,Ge(Ae),0,se,j),zn&&Kt(zn,0,Ge(Ce),se,j));let y,x=Ye>qe;Xt=Me,ln=null;let T=$.ori==0?se:j,N=$.ori==1?se:j;if(Ae<0||
+Qe==0||x){y=W.idx=null;for(let R=0;R<S.length;R++){let F=Mt[R];F!=null&&Kt(F,-10,-10,se,j)}On&&Vt(null,Jn,!0,p==null&&Oe.setSeries),q.live&&(Q.fill(y),St=!0)}else{
+let R,F,H;s==1&&(R=$.ori==0?Ae:Ce,F=jt(R,L),y=W.idx=Ot(F,e[0],Ye,qe),H=U(e[0][y],$,T,0));let V=-10,Y=-10,oe=0,we=0,ge=!0,ce="",ne="";for(let Z=s==2?1:0;Z<S.length;Z++){
 let Pe=S[Z],Re=Q[Z],Ze=Re==null?null:s==1?e[Z][Re]:e[Z][1][Re],ke=W.dataIdx(o,Z,y,F),$e=ke==null?null:s==1?e[Z][ke]:e[Z][1][ke];if(St=St||$e!=Ze||ke!=Re,Q[Z]=ke,
 Z>0&&Pe.show){let mt=ke==null?-10:ke==y?H:U(s==1?e[0][ke]:e[Z][0][ke],$,T,0),at=$e==null?-10:A($e,s==1?P[Pe.scale]:P[Pe.facets[1].scale],N,0);if(On&&$e!=null){let Tt=$.
-ori==1?Ae:Ce,$t=He(Ht.dist(o,Z,ke,at,Tt));if($t<Xt){let zt=Ht.bias;if(zt!=0){let gt=Vt(Tt,Pe.scale),At=$e>=0?1:-1,Ft=gt>=0?1:-1;Ft==At&&(Ft==1?zt==1?$e>=gt:$e<=
+ori==1?Ae:Ce,$t=He(Ht.dist(o,Z,ke,at,Tt));if($t<Xt){let zt=Ht.bias;if(zt!=0){let gt=jt(Tt,Pe.scale),At=$e>=0?1:-1,Ft=gt>=0?1:-1;Ft==At&&(Ft==1?zt==1?$e>=gt:$e<=
 gt:zt==1?$e<=gt:$e>=gt)&&(Xt=$t,ln=Z)}else Xt=$t,ln=Z}}if(St||Un){let Tt,$t;$.ori==0?(Tt=mt,$t=at):(Tt=at,$t=mt);let zt,gt,At,Ft,Yt,lt,yt=!0,Sn=rt.bbox;if(Sn!=null){
 yt=!1;let ct=Sn(o,Z);At=ct.left,Ft=ct.top,zt=ct.width,gt=ct.height}else At=Tt,Ft=$t,zt=gt=rt.size(o,Z);if(lt=rt.fill(o,Z),Yt=rt.stroke(o,Z),Un)Z==ln&&Xt<=Ht.prox&&
-(j=At,Y=Ft,oe=zt,we=gt,ge=yt,ce=lt,ne=Yt);else{let ct=Mt[Z];ct!=null&&(Bn[Z]=At,Wn[Z]=Ft,Wl(ct,zt,gt,yt),Ul(ct,lt,Yt),Kt(ct,_t(At),_t(Ft),se,V))}}}}if(Un){let Z=Ht.
-prox,Pe=vn==null?Xt<=Z:Xt>Z||ln!=vn;if(St||Pe){let Re=Mt[0];Re!=null&&(Bn[0]=j,Wn[0]=Y,Wl(Re,oe,we,ge),Ul(Re,ce,ne),Kt(Re,_t(j),_t(Y),se,V))}}}if(Ee.show&&rn)if(p!=
-null){let[R,F]=Oe.scales,[H,j]=Oe.match,[Y,oe]=p.cursor.sync.scales,we=p.cursor.drag;if(Ke=we._x,Je=we._y,Ke||Je){let{left:ge,top:ce,width:ne,height:Z}=p.select,
-Pe=p.scales[Y].ori,Re=p.posToVal,Ze,ke,$e,mt,at,Tt=R!=null&&H(R,Y),$t=F!=null&&j(F,oe);Tt&&Ke?(Pe==0?(Ze=ge,ke=ne):(Ze=ce,ke=Z),$e=P[R],mt=U(Re(Ze,Y),$e,T,0),at=
+(V=At,Y=Ft,oe=zt,we=gt,ge=yt,ce=lt,ne=Yt);else{let ct=Mt[Z];ct!=null&&(Bn[Z]=At,Wn[Z]=Ft,Wl(ct,zt,gt,yt),Ul(ct,lt,Yt),Kt(ct,_t(At),_t(Ft),se,j))}}}}if(Un){let Z=Ht.
+prox,Pe=vn==null?Xt<=Z:Xt>Z||ln!=vn;if(St||Pe){let Re=Mt[0];Re!=null&&(Bn[0]=V,Wn[0]=Y,Wl(Re,oe,we,ge),Ul(Re,ce,ne),Kt(Re,_t(V),_t(Y),se,j))}}}if(Ee.show&&rn)if(p!=
+null){let[R,F]=Oe.scales,[H,V]=Oe.match,[Y,oe]=p.cursor.sync.scales,we=p.cursor.drag;if(Ke=we._x,Je=we._y,Ke||Je){let{left:ge,top:ce,width:ne,height:Z}=p.select,
+Pe=p.scales[Y].ori,Re=p.posToVal,Ze,ke,$e,mt,at,Tt=R!=null&&H(R,Y),$t=F!=null&&V(F,oe);Tt&&Ke?(Pe==0?(Ze=ge,ke=ne):(Ze=ce,ke=Z),$e=P[R],mt=U(Re(Ze,Y),$e,T,0),at=
 U(Re(Ze+ke,Y),$e,T,0),Lo(Ut(mt,at),He(at-mt))):Lo(0,T),$t&&Je?(Pe==1?(Ze=ge,ke=ne):(Ze=ce,ke=Z),$e=P[F],mt=A(Re(Ze,oe),$e,N,0),at=A(Re(Ze+ke,oe),$e,N,0),No(Ut(mt,
 at),He(at-mt))):No(0,N)}else Hr()}else{let R=He(Ta-Sa),F=He(Aa-Ma);if($.ori==1){let oe=R;R=F,F=oe}Ke=et.x&&R>=et.dist,Je=et.y&&F>=et.dist;let H=et.uni;H!=null?Ke&&
-Je&&(Ke=R>=H,Je=F>=H,!Ke&&!Je&&(F>R?Je=!0:Ke=!0)):et.x&&et.y&&(Ke||Je)&&(Ke=Je=!0);let j,Y;Ke&&($.ori==0?(j=Yn,Y=Ae):(j=qn,Y=Ce),Lo(Ut(j,Y),He(Y-j)),Je||No(0,N)),
-Je&&($.ori==1?(j=Yn,Y=Ae):(j=qn,Y=Ce),No(Ut(j,Y),He(Y-j)),Ke||Lo(0,T)),!Ke&&!Je&&(Lo(0,0),No(0,0))}if(et._x=Ke,et._y=Je,p==null){if(g){if(Ua!=null){let[R,F]=Oe.
-scales;Oe.values[0]=R!=null?Vt($.ori==0?Ae:Ce,R):null,Oe.values[1]=F!=null?Vt($.ori==1?Ae:Ce,F):null}Ro(ci,o,Ae,Ce,se,V,y)}if(On){let R=g&&Oe.setSeries,F=Ht.prox;
-vn==null?Xt<=F&&jt(ln,Jn,!0,R):Xt>F?jt(null,Jn,!0,R):ln!=vn&&jt(ln,Jn,!0,R)}}St&&(q.idx=y,Br()),f!==!1&&Xe("setCursor")}let cn=null;Object.defineProperty(o,"rec\
+Je&&(Ke=R>=H,Je=F>=H,!Ke&&!Je&&(F>R?Je=!0:Ke=!0)):et.x&&et.y&&(Ke||Je)&&(Ke=Je=!0);let V,Y;Ke&&($.ori==0?(V=Yn,Y=Ae):(V=qn,Y=Ce),Lo(Ut(V,Y),He(Y-V)),Je||No(0,N)),
+Je&&($.ori==1?(V=Yn,Y=Ae):(V=qn,Y=Ce),No(Ut(V,Y),He(Y-V)),Ke||Lo(0,T)),!Ke&&!Je&&(Lo(0,0),No(0,0))}if(et._x=Ke,et._y=Je,p==null){if(g){if(Ua!=null){let[R,F]=Oe.
+scales;Oe.values[0]=R!=null?jt($.ori==0?Ae:Ce,R):null,Oe.values[1]=F!=null?jt($.ori==1?Ae:Ce,F):null}Ro(ci,o,Ae,Ce,se,j,y)}if(On){let R=g&&Oe.setSeries,F=Ht.prox;
+vn==null?Xt<=F&&Vt(ln,Jn,!0,R):Xt>F?Vt(null,Jn,!0,R):ln!=vn&&Vt(ln,Jn,!0,R)}}St&&(q.idx=y,Br()),f!==!1&&Xe("setCursor")}let cn=null;Object.defineProperty(o,"rec\
 t",{get(){return cn==null&&Do(!1),cn}});function Do(p=!1){p?cn=null:(cn=w.getBoundingClientRect(),Xe("syncRect",cn))}function _a(p,f,g,y,x,T,N){W._lock||rn&&p!=
 null&&p.movementX==0&&p.movementY==0||(Wr(p,f,g,y,x,T,N,!1,p!=null),p!=null?kn(null,!0,!0):kn(f,!0,!1))}function Wr(p,f,g,y,x,T,N,R,F){if(cn==null&&Do(!1),bn(p),
-p!=null)g=p.clientX-cn.left,y=p.clientY-cn.top;else{if(g<0||y<0){Ae=-10,Ce=-10;return}let[H,j]=Oe.scales,Y=f.cursor.sync,[oe,we]=Y.values,[ge,ce]=Y.scales,[ne,Z]=Oe.
-match,Pe=f.axes[0].side%2==1,Re=$.ori==0?se:V,Ze=$.ori==1?se:V,ke=Pe?T:x,$e=Pe?x:T,mt=Pe?y:g,at=Pe?g:y;if(ge!=null?g=ne(H,ge)?a(oe,P[H],Re,0):-10:g=Re*(mt/ke),ce!=
-null?y=Z(j,ce)?a(we,P[j],Ze,0):-10:y=Ze*(at/$e),$.ori==1){let Tt=g;g=y,y=Tt}}F&&(f==null||f.cursor.event.type==ci)&&((g<=1||g>=se-1)&&(g=Pn(g,se)),(y<=1||y>=V-1)&&
-(y=Pn(y,V))),R?(Sa=g,Ma=y,[Yn,qn]=W.move(o,g,y)):(Ae=g,Ce=y)}let Gr={width:0,height:0,left:0,top:0};function Hr(){is(Gr,!1)}let Ca,La,Na,Da;function Ra(p,f,g,y,x,T,N){
-rn=!0,Ke=Je=et._x=et._y=!1,Wr(p,f,g,y,x,T,N,!0,!1),p!=null&&(ze(hi,mi,$a,!1),Ro(Nl,o,Yn,qn,se,V,null));let{left:R,top:F,width:H,height:j}=Ee;Ca=R,La=F,Na=H,Da=j}
-function $a(p,f,g,y,x,T,N){rn=et._x=et._y=!1,Wr(p,f,g,y,x,T,N,!1,!0);let{left:R,top:F,width:H,height:j}=Ee,Y=H>0||j>0,oe=Ca!=R||La!=F||Na!=H||Da!=j;if(Y&&oe&&is(
-Ee),et.setScale&&Y&&oe){let we=R,ge=H,ce=F,ne=j;if($.ori==1&&(we=F,ge=j,ce=R,ne=H),Ke&&an(L,Vt(we,L),Vt(we+ge,L)),Je)for(let Z in P){let Pe=P[Z];Z!=L&&Pe.from==
-null&&Pe.min!=Me&&an(Z,Vt(ce+ne,Z),Vt(ce,Z))}Hr()}else W.lock&&(W._lock=!W._lock,kn(f,!0,p!=null));p!=null&&(Jt(hi,mi),Ro(hi,o,Ae,Ce,se,V,null))}function Md(p,f,g,y,x,T,N){
-if(W._lock)return;bn(p);let R=rn;if(rn){let F=!0,H=!0,j=10,Y,oe;$.ori==0?(Y=Ke,oe=Je):(Y=Je,oe=Ke),Y&&oe&&(F=Ae<=j||Ae>=se-j,H=Ce<=j||Ce>=V-j),Y&&F&&(Ae=Ae<Yn?0:
-se),oe&&H&&(Ce=Ce<qn?0:V),kn(null,!0,!0),rn=!1}Ae=-10,Ce=-10,Q.fill(null),kn(null,!0,!0),R&&(rn=R)}function Fa(p,f,g,y,x,T,N){W._lock||(bn(p),Tr(),Hr(),p!=null&&
-Ro($l,o,Ae,Ce,se,V,null))}function Ia(){E.forEach(pm),Mr(o.width,o.height,!0)}Ln(Ds,go,Ia);let Xn={};Xn.mousedown=Ra,Xn.mousemove=_a,Xn.mouseup=$a,Xn.dblclick=Fa,
-Xn.setSeries=(p,f,g,y)=>{let x=Oe.match[2];g=x(o,f,g),g!=-1&&jt(g,y,!0,!1)},de&&(ze(Nl,w,Ra),ze(ci,w,_a),ze(Dl,w,p=>{bn(p),Do(!1)}),ze(Rl,w,Md),ze($l,w,Fa),Si.add(
+p!=null)g=p.clientX-cn.left,y=p.clientY-cn.top;else{if(g<0||y<0){Ae=-10,Ce=-10;return}let[H,V]=Oe.scales,Y=f.cursor.sync,[oe,we]=Y.values,[ge,ce]=Y.scales,[ne,Z]=Oe.
+match,Pe=f.axes[0].side%2==1,Re=$.ori==0?se:j,Ze=$.ori==1?se:j,ke=Pe?T:x,$e=Pe?x:T,mt=Pe?y:g,at=Pe?g:y;if(ge!=null?g=ne(H,ge)?a(oe,P[H],Re,0):-10:g=Re*(mt/ke),ce!=
+null?y=Z(V,ce)?a(we,P[V],Ze,0):-10:y=Ze*(at/$e),$.ori==1){let Tt=g;g=y,y=Tt}}F&&(f==null||f.cursor.event.type==ci)&&((g<=1||g>=se-1)&&(g=Pn(g,se)),(y<=1||y>=j-1)&&
+(y=Pn(y,j))),R?(Sa=g,Ma=y,[Yn,qn]=W.move(o,g,y)):(Ae=g,Ce=y)}let Gr={width:0,height:0,left:0,top:0};function Hr(){is(Gr,!1)}let Ca,La,Na,Da;function Ra(p,f,g,y,x,T,N){
+rn=!0,Ke=Je=et._x=et._y=!1,Wr(p,f,g,y,x,T,N,!0,!1),p!=null&&(ze(hi,mi,$a,!1),Ro(Nl,o,Yn,qn,se,j,null));let{left:R,top:F,width:H,height:V}=Ee;Ca=R,La=F,Na=H,Da=V}
+function $a(p,f,g,y,x,T,N){rn=et._x=et._y=!1,Wr(p,f,g,y,x,T,N,!1,!0);let{left:R,top:F,width:H,height:V}=Ee,Y=H>0||V>0,oe=Ca!=R||La!=F||Na!=H||Da!=V;if(Y&&oe&&is(
+Ee),et.setScale&&Y&&oe){let we=R,ge=H,ce=F,ne=V;if($.ori==1&&(we=F,ge=V,ce=R,ne=H),Ke&&an(L,jt(we,L),jt(we+ge,L)),Je)for(let Z in P){let Pe=P[Z];Z!=L&&Pe.from==
+null&&Pe.min!=Me&&an(Z,jt(ce+ne,Z),jt(ce,Z))}Hr()}else W.lock&&(W._lock=!W._lock,kn(f,!0,p!=null));p!=null&&(Jt(hi,mi),Ro(hi,o,Ae,Ce,se,j,null))}function Md(p,f,g,y,x,T,N){
+if(W._lock)return;bn(p);let R=rn;if(rn){let F=!0,H=!0,V=10,Y,oe;$.ori==0?(Y=Ke,oe=Je):(Y=Je,oe=Ke),Y&&oe&&(F=Ae<=V||Ae>=se-V,H=Ce<=V||Ce>=j-V),Y&&F&&(Ae=Ae<Yn?0:
+se),oe&&H&&(Ce=Ce<qn?0:j),kn(null,!0,!0),rn=!1}Ae=-10,Ce=-10,Q.fill(null),kn(null,!0,!0),R&&(rn=R)}function Fa(p,f,g,y,x,T,N){W._lock||(bn(p),Tr(),Hr(),p!=null&&
+Ro($l,o,Ae,Ce,se,j,null))}function Ia(){E.forEach(pm),Mr(o.width,o.height,!0)}Ln(Ds,go,Ia);let Xn={};Xn.mousedown=Ra,Xn.mousemove=_a,Xn.mouseup=$a,Xn.dblclick=Fa,
+Xn.setSeries=(p,f,g,y)=>{let x=Oe.match[2];g=x(o,f,g),g!=-1&&Vt(g,y,!0,!1)},de&&(ze(Nl,w,Ra),ze(ci,w,_a),ze(Dl,w,p=>{bn(p),Do(!1)}),ze(Rl,w,Md),ze($l,w,Fa),Si.add(
 o),o.syncRect=Do);let as=o.hooks=t.hooks||{};function Xe(p,f,g){Fr?Co.push([p,f,g]):p in as&&as[p].forEach(y=>{y.call(null,o,f,g)})}(t.plugins||[]).forEach(p=>{
 for(let f in p.hooks)as[f]=(as[f]||[]).concat(p.hooks[f])});let Oa=(p,f,g)=>g,Oe=Be({key:null,setSeries:!1,filters:{pub:zl,sub:zl},scales:[L,S[1]?S[1].scale:null],
-match:[Yl,Yl,Oa],values:[null,null]},W.sync);Oe.match.length==2&&Oe.match.push(Oa),W.sync=Oe;let Ua=Oe.key,jr=Hc(Ua);function Ro(p,f,g,y,x,T,N){Oe.filters.pub(p,
-f,g,y,x,T,N)&&jr.pub(p,f,g,y,x,T,N)}jr.sub(o);function Td(p,f,g,y,x,T,N){Oe.filters.sub(p,f,g,y,x,T,N)&&Xn[p](null,f,g,y,x,T,N)}o.pub=Td;function Ad(){jr.unsub(
-o),Si.delete(o),Wt.clear(),wi(Ds,go,Ia),c.remove(),ae?.remove(),Xe("destroy")}o.destroy=Ad;function Vr(){Xe("init",t,e),ma(e||t.data,!1),_[L]?Ir(L,_[L]):Tr(),es=
-Ee.show&&(Ee.width>0||Ee.height>0),wn=St=!0,Mr(t.width,t.height)}return S.forEach(ua),E.forEach(sd),n?n instanceof HTMLElement?(n.appendChild(c),Vr()):n(o,Vr):Vr(),
-o}je.assign=Be;je.fmtNum=Ci;je.rangeNum=Rs;je.rangeLog=Is;je.rangeAsinh=Pi;je.orient=Dn;je.pxRatio=be;je.join=tf;je.fmtDate=Ni,je.tzDate=uf;je.sync=Hc;{je.addGap=
-Kf,je.clipGaps=Bs;let t=je.paths={points:Kc};t.linear=Xc,t.stepped=Zf,t.bars=Qf,t.spline=tm}var js=128,th=50,dm=.25,um=t=>[t.ray,t.truth,t.sensor,t.noReturn],fm=(t,e)=>Math.max(40,14+6.6*Math.max(0,...(e??[]).map(n=>n?.length??0))),mm=({data:t})=>Math.
-max(10,4+3.3*(t?.[0]?.at(-1)??0).toLocaleString("en").length),Vs=(t,e)=>({font:gs,size:e,stroke:()=>t().axis,grid:{stroke:()=>t().lines,width:1},ticks:{stroke:()=>t().
-frame,width:1,size:4}});function nh(t,e,n){let o=null,s=null,r=()=>Math.floor(t.clientWidth);return new ResizeObserver(()=>o&&r()>0&&o.setSize({width:r(),height:js})).
-observe(t),i=>r()<=0?null:((!o||i||s!==n())&&(o?.destroy(),o=e(),o.setSize({width:r(),height:js}),s=n()),o)}function oh(t,e){let{session:n}=t,o=k("div",{className:"\
+match:[Yl,Yl,Oa],values:[null,null]},W.sync);Oe.match.length==2&&Oe.match.push(Oa),W.sync=Oe;let Ua=Oe.key,Vr=Hc(Ua);function Ro(p,f,g,y,x,T,N){Oe.filters.pub(p,
+f,g,y,x,T,N)&&Vr.pub(p,f,g,y,x,T,N)}Vr.sub(o);function Td(p,f,g,y,x,T,N){Oe.filters.sub(p,f,g,y,x,T,N)&&Xn[p](null,f,g,y,x,T,N)}o.pub=Td;function Ad(){Vr.unsub(
+o),Si.delete(o),Wt.clear(),wi(Ds,go,Ia),c.remove(),ae?.remove(),Xe("destroy")}o.destroy=Ad;function jr(){Xe("init",t,e),ma(e||t.data,!1),_[L]?Ir(L,_[L]):Tr(),es=
+Ee.show&&(Ee.width>0||Ee.height>0),wn=St=!0,Mr(t.width,t.height)}return S.forEach(ua),E.forEach(sd),n?n instanceof HTMLElement?(n.appendChild(c),jr()):n(o,jr):jr(),
+o}Ve.assign=Be;Ve.fmtNum=Ci;Ve.rangeNum=Rs;Ve.rangeLog=Is;Ve.rangeAsinh=Pi;Ve.orient=Dn;Ve.pxRatio=be;Ve.join=tf;Ve.fmtDate=Ni,Ve.tzDate=uf;Ve.sync=Hc;{Ve.addGap=
+Kf,Ve.clipGaps=Bs;let t=Ve.paths={points:Kc};t.linear=Xc,t.stepped=Zf,t.bars=Qf,t.spline=tm}var Vs=128,th=50,dm=.25,um=t=>[t.ray,t.truth,t.sensor,t.noReturn],fm=(t,e)=>Math.max(40,14+6.6*Math.max(0,...(e??[]).map(n=>n?.length??0))),mm=({data:t})=>Math.
+max(10,4+3.3*(t?.[0]?.at(-1)??0).toLocaleString("en").length),js=(t,e)=>({font:gs,size:e,stroke:()=>t().axis,grid:{stroke:()=>t().lines,width:1},ticks:{stroke:()=>t().
+frame,width:1,size:4}});function nh(t,e,n){let o=null,s=null,r=()=>Math.floor(t.clientWidth);return new ResizeObserver(()=>o&&r()>0&&o.setSize({width:r(),height:Vs})).
+observe(t),i=>r()<=0?null:((!o||i||s!==n())&&(o?.destroy(),o=e(),o.setSize({width:r(),height:Vs}),s=n()),o)}function oh(t,e){let{session:n}=t,o=k("div",{className:"\
 chart",role:"img","aria-label":"Trace: log joint by sweep"}),s="all",r=t.segmented("Trace",[["all","All"],["first",`First ${th}`]],()=>s,w=>{s=w,c=null,n.changed()}),
-i=0,a=-1/0,l=-1,c=null,u=nh(o,()=>{let w=um(e()),v=Array.from({length:i},(b,M)=>({label:`chain ${M+1}`,stroke:w[M%w.length],width:1,points:{show:!1}}));return new je(
-{width:100,height:js,legend:{show:!1},cursor:{drag:{x:!1,y:!1},y:!1},padding:[8,mm,0,0],scales:{x:{time:!1,range:(b,M,S)=>[M,Math.max(S,M+1)]},y:{range:(b,M,S)=>bm(
-Math.max(M,a),S)}},axes:[Vs(e,26),Vs(e,fm)],series:[{label:"sweep"},...v],hooks:{draw:[b=>vm(b,l,e()),b=>xm(b,c?.burned??0,e())]}},[[],...v.map(()=>[])],o)},e),
+i=0,a=-1/0,l=-1,c=null,u=nh(o,()=>{let w=um(e()),v=Array.from({length:i},(b,M)=>({label:`chain ${M+1}`,stroke:w[M%w.length],width:1,points:{show:!1}}));return new Ve(
+{width:100,height:Vs,legend:{show:!1},cursor:{drag:{x:!1,y:!1},y:!1},padding:[8,mm,0,0],scales:{x:{time:!1,range:(b,M,S)=>[M,Math.max(S,M+1)]},y:{range:(b,M,S)=>bm(
+Math.max(M,a),S)}},axes:[js(e,26),js(e,fm)],series:[{label:"sweep"},...v],hooks:{draw:[b=>vm(b,l,e()),b=>xm(b,c?.burned??0,e())]}},[[],...v.map(()=>[])],o)},e),
 d=k("span",{className:"caption",textContent:"log joint by sweep"}),m=k("div",{className:"charted"},k("div",{className:"buttons"},r,d),o);return t.each(()=>{let w=n.
 shown,v=w?.traced?.length?w.trace.length/w.traced.length:0;if(C(m,"hidden",v===0&&(m.hidden||!n.working)),!w||!v)return;let b=n.document?.source.kind==="run"?"d\
 raw":"sweep";C(d,"textContent",`log joint by ${b}`);let M=w.layer==="draw"&&n.draws.count?(n.draw+1)*w.traced[w.traced.length-1]/n.draws.count:-1,S=u(v!==i&&(i=
@@ -639,9 +639,9 @@ min(...t.slice(i*o+s,(i+1)*o))))}function bm(t,e){let n=Math.max(.06*(e-t),.5);r
 ctx.save(),t.ctx.globalAlpha=.12,t.ctx.fillStyle=n.axis,t.ctx.fillRect(o,s,Math.min(r,Math.max(0,t.valToPos(e,"x",!0)-o)),i),t.ctx.restore())}function vm(t,e,n){
 if(e<0)return;let{left:o,top:s,width:r,height:i}=t.bbox,a=t.valToPos(e,"x",!0);a<o||a>o+r||(t.ctx.save(),t.ctx.fillStyle=n.axis,t.ctx.fillRect(a-1,s,2,i),t.ctx.
 restore())}function sh(t,e){let{session:n}=t,o=k("div",{className:"chart",role:"img","aria-label":"Histogram of the particles' weights"}),s=k("div",{className:"\
-caption",textContent:"particles by weight, nats below the heaviest"}),r=k("div",{className:"charted"},s,o),a=nh(o,()=>new je({width:100,height:js,legend:{show:!1},
-cursor:{show:!1},padding:[8,10,0,0],scales:{x:{time:!1,range:(c,h,u)=>[h,u]},y:{distr:3,range:(c,h,u)=>[.5,Math.max(10,2*u)]}},axes:[Vs(e,26),{...Vs(e,52),values:(c,h)=>h.
-map(u=>u>=1?String(u):"")}],series:[{},{fill:e().ray,stroke:e().ray,paths:je.paths.bars?.({size:[.9,100],align:1}),points:{show:!1}}]},[[],[]],o),e),l=null;return t.
+caption",textContent:"particles by weight, nats below the heaviest"}),r=k("div",{className:"charted"},s,o),a=nh(o,()=>new Ve({width:100,height:Vs,legend:{show:!1},
+cursor:{show:!1},padding:[8,10,0,0],scales:{x:{time:!1,range:(c,h,u)=>[h,u]},y:{distr:3,range:(c,h,u)=>[.5,Math.max(10,2*u)]}},axes:[js(e,26),{...js(e,52),values:(c,h)=>h.
+map(u=>u>=1?String(u):"")}],series:[{},{fill:e().ray,stroke:e().ray,paths:Ve.paths.bars?.({size:[.9,100],align:1}),points:{show:!1}}]},[[],[]],o),e),l=null;return t.
 each(()=>{let c=n.shown;C(r,"hidden",!c?.weights);let h=c?.weights&&a(!1);if(!c?.weights||!h||l===c&&h.data[0].length)return;l=c;let u=[...c.weights],d=-(c.lowest??
 -1)/u.length,m=[...u.map((w,v)=>(c.lowest??-1)+v*d),0];h.setData([m,[...u.map(w=>w||null),null]])}),r}function rh(t){let{session:e,hand:n}=t,{decisions:o}=e,s=k("p",{className:"said",role:"status"}),r=k("div",{className:"double"},t.numberInput("Robot's radius (m\
 )",()=>o.radius,c=>o.set({radius:c}),{step:"any",limits:"radius"}),t.numberInput("Highest risk",()=>o.risk,c=>o.set({risk:c}),{step:"any",limits:"risk"})),i=()=>n.
@@ -695,8 +695,8 @@ o.nats_against===null)return`${s}: ${r}; there are no draws to ask what they say
 o.beams_against?"":" None of them says anything.";return`${s}: ${r}. For ${i} (blue) ${o.beams_for}, ${o.nats_for.toFixed(1)} nats; against (orange) ${o.beams_against}\
 , ${o.nats_against.toFixed(1)} nats.${a}`}var hh=t=>Math.round(t*180/Math.PI);function ph(t){let{session:e,hand:n}=t,{ghost:o}=e,s=(l,c)=>t.numberInput(l,()=>Number((o.pose?.[c]??0).toFixed(2)),h=>o.move(
 {[c]:h}),{step:"any"}),r=t.numberInput("Ghost yaw (°)",()=>hh(o.pose?.yaw??0),l=>o.move({yaw:l*Math.PI/180}),{step:5}),i=k("p",{className:"words ghosted"}),a=t.
-section("Ghost",k("div",{className:"triple"},s("Ghost x","x"),s("Ghost y","y"),r),i);return t.visible(a,()=>n.tool==="ghost"),t.each(()=>C(i,"textContent",jm(t))),
-a}function jm({session:t}){let{ghost:e}=t;if(e.trouble)return Qt(`${e.trouble}.`);if(!e.fan)return e.pose?"Working out what its laser would read.":"Drag the gho\
+section("Ghost",k("div",{className:"triple"},s("Ghost x","x"),s("Ghost y","y"),r),i);return t.visible(a,()=>n.tool==="ghost"),t.each(()=>C(i,"textContent",Vm(t))),
+a}function Vm({session:t}){let{ghost:e}=t;if(e.trouble)return Qt(`${e.trouble}.`);if(!e.fan)return e.pose?"Working out what its laser would read.":"Drag the gho\
 st to see what its laser would read.";let{draws:n,low:o,high:s,near:r}=e.fan,i=Array.from(s,(h,u)=>h-o[u]).filter(Number.isFinite).sort((h,u)=>h-u),a=i.length?`${fe(
 100*i[i.length>>1],0)} cm wide at the median beam`:"as wide as the laser's range",l=n?`${n} draws of the map`:"the mean map, cells taken for independent",c=r?` \
 Rings are the hits of scan ${r.index+1}, taken ${fe(100*r.away,0)} cm from here, turned by ${hh(r.turn)}°.`:"";return`Dots are predictive medians, bars the cen\
@@ -706,10 +706,10 @@ act({type:"undo"}),{title:"Undo (Ctrl+Z)",when:()=>!!e.state?.can_undo,why:"Noth
 Redo (Ctrl+Y)",when:()=>!!e.state?.can_redo,why:"Nothing to redo"}),k("span",{className:"gap"}),t.button("grid","New map",()=>t.command("new"),{text:"New map",when:o}),
 ...t.embedded?[]:[t.button("link","Share",()=>t.command("share"),{text:"Share",when:o})]];for(let c of s)t.visible(c,()=>!e.recorded);let r=t.button("theme","Th\
 eme: automatic",()=>t.command("theme")),i=t.button("help","Help",()=>t.command("help"),{title:"Help (?)"}),a=k("span",{className:"space"});return{element:k("hea\
-der",{},k("h1",{textContent:"bayesmap"}),n,a,...s,zm(t),r,i),nameTheme(c){let h=`Theme: ${c}`;nt(r,"aria-label",h),C(r,"title",h)}}}var Vm=({shown:t,draws:e})=>e.
+der",{},k("h1",{textContent:"bayesmap"}),n,a,...s,zm(t),r,i),nameTheme(c){let h=`Theme: ${c}`;nt(r,"aria-label",h),C(r,"title",h)}}}var jm=({shown:t,draws:e})=>e.
 count>0||/importance|propagate/.test(t?.method??"");function zm(t){let{session:e}=t,n=(l,c,h,u,d)=>{let m=t.button(null,l,()=>t.command(`export ${c}`),{text:l,when:u,
 why:d});return h!=="all"&&t.visible(m,()=>!e.recorded&&(h==="document"||!e.figure)),m},o=n("Figure that samples by itself (HTML)","figure","server");t.visible(o,
-()=>e.editable&&!e.figure);let s=k("div",{className:"menu",hidden:!0},n("Picture (PNG)","png","all"),n("Saved run (netCDF)","run","server",()=>Vm(e),"There are \
+()=>e.editable&&!e.figure);let s=k("div",{className:"menu",hidden:!0},n("Picture (PNG)","png","all"),n("Saved run (netCDF)","run","server",()=>jm(e),"There are \
 no draws yet: chains keep them"),n("Map for robots (YAML and PGM)","map","server"),n("Page in one file (HTML)","html","server"),o,n("Document (JSON)","document",
 "document")),r=t.button("save","Export",()=>i(s.hidden),{text:"Export",when:()=>!!e.document}),i=l=>{s.hidden=!l,r.setAttribute("aria-expanded",String(l)),l&&s.
 firstElementChild.focus()};i(!1);let a=k("div",{className:"anchor",tabIndex:-1},r,s);return a.addEventListener("keydown",l=>{l.key!=="Escape"||s.hidden||(i(!1),
@@ -920,7 +920,7 @@ l=t.length>Wh?" and less":"";return`${t.length} places: ${i.join(", ")}${l}. ${a
 length||t[0].sigma_m>Gh)return"";let o=t.map(({mean:a})=>Math.hypot(a[0]-e[0],a[1]-e[1])),s=o.indexOf(Math.min(...o)),r=Math.abs(Math.atan2(Math.sin(t[s].mean[2]-
 e[2]),Math.cos(t[s].mean[2]-e[2]))),i=t.length===1?"there":s===0?"the likeliest":`the ${Eg(s+1)}`;return` The robot ${n?"stands":"was recorded"} ${Hi(o[s])} and\
  ${Gi(r,1)} from ${i}.`}var Eg=t=>`${t}${["th","st","nd","rd"][t%100>10&&t%100<14?0:t%10]??"th"}`,Gi=(t,e)=>`${(t*180/Math.PI).toFixed(e).replace(/^-(?=0(\.0*)?$)/,
-"")}°`,Hi=t=>t<.0095?`${(1e3*t).toFixed(0)} mm`:t<1?`${(100*t).toFixed(0)} cm`:`${t.toFixed(1)} m`;var Mo="recording";function jh(t,e,n,{kept:o}){let{shown:s,status:r}=t;return{document:t.effectiveDocument(),generation:t.generation,painted:s&&{generation:s.generation,layer:t.layer,
+"")}°`,Hi=t=>t<.0095?`${(1e3*t).toFixed(0)} mm`:t<1?`${(100*t).toFixed(0)} cm`:`${t.toFixed(1)} m`;var Mo="recording";function Vh(t,e,n,{kept:o}){let{shown:s,status:r}=t;return{document:t.effectiveDocument(),generation:t.generation,painted:s&&{generation:s.generation,layer:t.layer,
 approximate:s.approximate,sweeps:s.sweeps,method:s.method,quantity:t.quantity,rhat:s.rhat,verdict:s.verdict,trace:s.trace,traced:s.traced,weights:s.weights,ess:s.
 ess,chain:s.chain,draw:s.draw},probability:s?.p??new Uint8Array(0),reached:s?.reached??new Uint8Array(0),walls:t.walls,sensors:t.document?.sensors??[],scan:t.scan,
 status:{text:r.text,level:r.level},connected:t.connection.connected,decisions:{path:t.decisions.path,views:t.decisions.views,trouble:t.decisions.trouble||t.decisions.
@@ -929,7 +929,7 @@ trouble},evidence:{cell:t.evidence.cell,together:t.evidence.together,each:t.evid
 chain:o.view.chain,draw:o.draw,method:o.shown?.method,probability:Array.from(o.shown?.p??[])},overlay:t.overlay&&{strokes:t.overlay.strokes.length/5,trajectory:t.
 overlay.trajectory.length/2},worker:t.worker,running:t.running,draws:t.draws,view:t.view,seq:{sent:t.acted,confirmed:t.state?.seq??0},events:{...t.counts,eventToPaint_ms:t.
 latency.eventToPaint_ms},layers:{...n.paints},transform:{...e.transform}}}var Pg=t=>Object.fromEntries(Object.entries(t).map(([e,n])=>[e,Array.from(n)]));function _g({
-ghost:t}){let{held:e,pose:n,fan:o,answers:s,trouble:r}=t;return{held:e,pose:n,answers:s,trouble:r,fan:o&&{...o,near:o.near&&{...o.near}}}}var ji=new Set(["walls","move_sensor","set","view","live"]),Vh=({type:t})=>!ji.has(t),zh="Not while the connection is lost: this needs the server";function Yh(t,e){
+ghost:t}){let{held:e,pose:n,fan:o,answers:s,trouble:r}=t;return{held:e,pose:n,answers:s,trouble:r,fan:o&&{...o,near:o.near&&{...o.near}}}}var Vi=new Set(["walls","move_sensor","set","view","live"]),jh=({type:t})=>!Vi.has(t),zh="Not while the connection is lost: this needs the server";function Yh(t,e){
 let{document:n,walls:o}=t,s=n.grid.shape[1];if(e.type==="walls")for(let[r,i]of e.cells)o[r*s+i]=e.wall?1:0;else if(e.type==="set"){let{resolution:r,...i}=e.patch;
 Object.assign(n,i)}else if(e.type==="live")t.state={...t.state,live:e.on};else if(e.type==="view")t.view={layer:e.layer,chain:e.chain??t.view.chain,draw:e.draw??
 null};else if(e.type==="move_sensor"){let r=n.sensors.find(i=>i.id===e.id);if(r)for(let i of["x","y","yaw"])r[i]=e[i]??r[i]}}var Cg=t=>Qt(`${t.replace(/^(plan|path|explore): /,"")}.`),er=class{constructor(e){this.session=e}start=null;goal=null;radius=.25;risk=.01;path=null;views=null;trouble="";viewTrouble="";version=0;pathShown=!0;looking=!1;askedPath="";askedViews="";point(e){
@@ -991,8 +991,8 @@ let e=this.shown;return!!(e&&!e.approximate&&e.sweeps<e.total&&this.working)}get
 n.generation===this.generation&&!o,r=e?.method==="propagate"&&e.cells==="binary"&&e.poses==="logged";return s&&r?"Belief propagation is done and has no sweeps t\
 o add; choose Gibbs to sample maps":""}get draw(){let e=Math.max(0,this.draws.count-1);return Math.min(e,this.view.draw??(this.shown?.layer==="draw"?this.shown.
 draw??e:e))}get hasDraws(){return this.draws.count>0||!this.recorded&&/auto|gibbs|block/.test(this.document?.method??"")}say(e,n="info"){this.status.say(e,n,this.
-acted),this.changed()}act(e,n){if(!this.document&&e.type!=="hello")return;if(!this.connection.connected&&this.everConnected&&!qh.has(e.type)&&Vh(e))return this.
-say(zh,"warning");if(e.type==="run"&&this.nothingToRun)return this.say(this.nothingToRun);let o={...e,seq:++this.seq};qh.has(e.type)||(this.acted=this.seq),ji.has(
+acted),this.changed()}act(e,n){if(!this.document&&e.type!=="hello")return;if(!this.connection.connected&&this.everConnected&&!qh.has(e.type)&&jh(e))return this.
+say(zh,"warning");if(e.type==="run"&&this.nothingToRun)return this.say(this.nothingToRun);let o={...e,seq:++this.seq};qh.has(e.type)||(this.acted=this.seq),Vi.has(
 e.type)&&(this.pending.push(o),this.foresee(o)),n&&this.latency.sent(o.seq,n),this.connection.connected?this.transport.send(o):this.everConnected&&ri(this.portableDocument()),
 this.changed()}bring(e){this.act(e?{type:"hello",document:e}:{type:"hello"}),this.broughtAt=e?this.seq:null}effectiveDocument(){return this.packed.version!==this.
 wallsVersion&&(this.packed={version:this.wallsVersion,text:Mn(Zn(this.walls))}),this.document&&{...this.document,walls:this.packed.text}}portableDocument(){let e=this.
@@ -1350,37 +1350,37 @@ let De=[[n?t:window,"keydown",z=>{z.defaultPrevented||!h.document||Object.values
 re),command:Gt})}],[window,"online",()=>e.retry?.()],[window,"hashchange",async()=>{if(n)return;let{document:z,damaged:re}=await Fo(),me=Wi(location.hash);z?h.bring(
 z):Ie.story&&me!==null?Ie.go(me):re&&h.say($o,"error")}],[t,"dragover",z=>z.preventDefault()],[t,"drop",z=>{z.preventDefault();let re=z.dataTransfer?.files[0];re&&
 za(re,h,r)}]];for(let[z,re,me]of De)z.addEventListener(re,me);return ot.dress(),{destroy(){Jt.disconnect(),cancelAnimationFrame(l),ot.destroy();for(let[z,re,me]of De)
-z.removeEventListener(re,me);e.close(),i.replaceChildren()},snapshot:()=>jh(h,u,P,v),cellToClient(z,re){let me=E.getBoundingClientRect(),st=u.fromGrid({x:z+.5,y:re+
-.5},h.shape[1]);return{x:me.left+st.x,y:me.top+st.y}}}}var Ug=200,Bg=.2,Ve=class extends Error{},ep=({grid:t,walls:e})=>wt(ht(e),t.shape[0]*t.shape[1]);function tp({grid:t},{x:e,y:n}){let[o,s]=[Math.floor((e-t.origin[0])/
-t.resolution),Math.floor((n-t.origin[1])/t.resolution)];return o>=0&&o<t.shape[0]&&s>=0&&s<t.shape[1]?o*t.shape[1]+s:null}function Vi(t,e){let n=tp(t,e);if(n===
-null)throw new Ve("the sensor cannot stand outside the map");if(ep(t)[n])throw new Ve("the sensor cannot stand in a wall; move it to a free cell");return{...e,yaw:e.
+z.removeEventListener(re,me);e.close(),i.replaceChildren()},snapshot:()=>Vh(h,u,P,v),cellToClient(z,re){let me=E.getBoundingClientRect(),st=u.fromGrid({x:z+.5,y:re+
+.5},h.shape[1]);return{x:me.left+st.x,y:me.top+st.y}}}}var Ug=200,Bg=.2,je=class extends Error{},ep=({grid:t,walls:e})=>wt(ht(e),t.shape[0]*t.shape[1]);function tp({grid:t},{x:e,y:n}){let[o,s]=[Math.floor((e-t.origin[0])/
+t.resolution),Math.floor((n-t.origin[1])/t.resolution)];return o>=0&&o<t.shape[0]&&s>=0&&s<t.shape[1]?o*t.shape[1]+s:null}function ji(t,e){let n=tp(t,e);if(n===
+null)throw new je("the sensor cannot stand outside the map");if(ep(t)[n])throw new je("the sensor cannot stand in a wall; move it to a free cell");return{...e,yaw:e.
 yaw-2*Math.PI*Math.round(e.yaw/(2*Math.PI))}}function np(t,e,n){switch(e.type){case"set":return[zi({...t,...e.patch},t,n),""];case"walls":return Wg(t,e.cells,e.
-wall);case"clear":return e.what==="walls"?[{...t,walls:op(t.grid.shape)},""]:null;case"add_sensor":{if(t.sensors.length>=n.sensors[1])throw new Ve(`there are ${t.
-sensors.length} sensors already; remove one first`);let o=Math.max(...t.sensors.map(s=>s.id))+1;return[{...t,sensors:[...t.sensors,Vi(t,{id:o,x:e.x,y:e.y,yaw:e.
-yaw??0})]},""]}case"move_sensor":{let o=s=>Vi(t,{id:s.id,x:e.x??s.x,y:e.y??s.y,yaw:e.yaw??s.yaw});return[{...t,sensors:t.sensors.map(s=>s.id===e.id?o(s):s)},""]}case"\
-remove_sensor":{let o=t.sensors.filter(s=>s.id!==e.id);if(!o.length)throw new Ve("the last sensor cannot be removed; add another first");return[{...t,sensors:o},
+wall);case"clear":return e.what==="walls"?[{...t,walls:op(t.grid.shape)},""]:null;case"add_sensor":{if(t.sensors.length>=n.sensors[1])throw new je(`there are ${t.
+sensors.length} sensors already; remove one first`);let o=Math.max(...t.sensors.map(s=>s.id))+1;return[{...t,sensors:[...t.sensors,ji(t,{id:o,x:e.x,y:e.y,yaw:e.
+yaw??0})]},""]}case"move_sensor":{let o=s=>ji(t,{id:s.id,x:e.x??s.x,y:e.y??s.y,yaw:e.yaw??s.yaw});return[{...t,sensors:t.sensors.map(s=>s.id===e.id?o(s):s)},""]}case"\
+remove_sensor":{let o=t.sensors.filter(s=>s.id!==e.id);if(!o.length)throw new je("the last sensor cannot be removed; add another first");return[{...t,sensors:o},
 ""]}case"new":return[Gg(t,e.shape,e.world),""];default:return null}}var op=([t,e])=>Mn(new Uint8Array(t*e+7>>3));function Wg(t,e,n){let o=ep(t),s=t.grid.shape[1];
 for(let[i,a]of e)o[i*s+a]=n?1:0;let r="";for(let i of t.sensors){let a=tp(t,i);o[a]&&(r=`a sensor stands in cell (${Math.floor(a/s)}, ${a%s}): it stays free`),o[a]=
-0}return[{...t,walls:Mn(Zn(o))},r]}function Gg(t,e,n){if(n!=="blank")throw new Ve("this figure can begin blank maps alone; bayesmap app has others");let[o,s]=e.
+0}return[{...t,walls:Mn(Zn(o))},r]}function Gg(t,e,n){if(n!=="blank")throw new je("this figure can begin blank maps alone; bayesmap app has others");let[o,s]=e.
 map(i=>Math.floor((i-1)/2));return{...t,grid:{shape:e,resolution:1,origin:[-.5,-.5]},walls:op(e),sensors:[{id:1,x:o,y:s,yaw:0}],noise:Bg,max_range:2*Math.max(...e)}}
-function zi(t,e,n){let o=t;for(let[h,u]of Object.entries(e)){let d=o[h];if(u!==null&&(typeof d!=typeof u||d===null))throw new Ve(`${h} is missing, or of another\
- type`);let m=n[h];if(m&&typeof d=="number"&&!(d>=m[0]&&d<=m[1]))throw new Ve(`${h}: ${d}; give ${m[0]} to ${m[1]}`)}let{grid:s,source:r,sensors:i,walls:a}=o;if(r.
-kind!=="simulation")throw new Ve("this figure shows drawn maps alone; start bayesmap app with the file");if(o.cells!=="binary"||o.pose_sigma>0||o.heading_sigma>
-0)throw new Ve("this figure samples walls seen from known poses alone; bayesmap app samples others");if(o.method==="propagate")throw new Ve("this figure has no \
-belief propagation; choose another method");let[l,c]=n.side;if(!(s.shape.length===2&&s.shape.every(h=>Number.isInteger(h)&&h>=l&&h<=c)&&s.resolution>0))throw new Ve(
-`grid: give ${l} to ${c} cells a side`);if(ht(a).length!==s.shape[0]*s.shape[1]+7>>3)throw new Ve("walls: another number of cells than the grid's");if(!(i.length>=
-n.sensors[0]&&i.length<=n.sensors[1]))throw new Ve(`sensors: give ${n.sensors[0]} to ${n.sensors[1]}`);return{...o,sensors:i.map(h=>Vi(o,h))}}function Hg(t){return t.
+function zi(t,e,n){let o=t;for(let[h,u]of Object.entries(e)){let d=o[h];if(u!==null&&(typeof d!=typeof u||d===null))throw new je(`${h} is missing, or of another\
+ type`);let m=n[h];if(m&&typeof d=="number"&&!(d>=m[0]&&d<=m[1]))throw new je(`${h}: ${d}; give ${m[0]} to ${m[1]}`)}let{grid:s,source:r,sensors:i,walls:a}=o;if(r.
+kind!=="simulation")throw new je("this figure shows drawn maps alone; start bayesmap app with the file");if(o.cells!=="binary"||o.pose_sigma>0||o.heading_sigma>
+0)throw new je("this figure samples walls seen from known poses alone; bayesmap app samples others");if(o.method==="propagate")throw new je("this figure has no \
+belief propagation; choose another method");let[l,c]=n.side;if(!(s.shape.length===2&&s.shape.every(h=>Number.isInteger(h)&&h>=l&&h<=c)&&s.resolution>0))throw new je(
+`grid: give ${l} to ${c} cells a side`);if(ht(a).length!==s.shape[0]*s.shape[1]+7>>3)throw new je("walls: another number of cells than the grid's");if(!(i.length>=
+n.sensors[0]&&i.length<=n.sensors[1]))throw new je(`sensors: give ${n.sensors[0]} to ${n.sensors[1]}`);return{...o,sensors:i.map(h=>ji(o,h))}}function Hg(t){return t.
 type==="walls"&&t.stroke?`walls ${t.stroke}`:t.type==="set"&&t.drag?`set ${t.drag} ${Object.keys(t.patch).sort()}`:t.type==="move_sensor"&&t.drag?`move ${t.drag}\
  ${t.id}`:null}var hr=class{constructor(e){this.present=e}past=[];future=[];gesture=null;get canUndo(){return this.past.length>0}get canRedo(){return this.future.
 length>0}push(e,n){let o=Hg(n);(o===null||o!==this.gesture)&&(this.past.push(this.present),this.past.length>Ug&&this.past.shift()),this.future=[],this.gesture=o,
 this.present=e}step(e){let[n,o]=e?[this.past,this.future]:[this.future,this.past],s=n.pop();return s?(o.push(this.present),this.present=s,this.gesture=null,!0):
-!1}};var jg=11102230246251565e-32,sp=2**32,rp=1,ip=2,ap=3;function Yi(t,e,n){let{high:o,low:s}=t,r=s&65535,i=s>>>16,a=n&65535,l=n>>>16,c=r*a,h=i*a+(c>>>16),u=r*l+(h&
+!1}};var Vg=11102230246251565e-32,sp=2**32,rp=1,ip=2,ap=3;function Yi(t,e,n){let{high:o,low:s}=t,r=s&65535,i=s>>>16,a=n&65535,l=n>>>16,c=r*a,h=i*a+(c>>>16),u=r*l+(h&
 65535),d=i*l+(h>>>16)+(u>>>16);t.low=((u&65535)<<16|c&65535)>>>0,t.high=d+Math.imul(o,n)+Math.imul(s,e)>>>0}function qi(t,e){let{high:n,low:o}=t;t.low=(o^(o>>>e|
 n<<32-e))>>>0,t.high=(n^n>>>e)>>>0}function Bt(t,e,n){let o=e+1;n.high=Math.floor(o/sp)>>>0,n.low=o>>>0,Yi(n,2654435769,2135587861);let s=n.low+t.low;n.high=n.high+
 t.high+(s>=sp?1:0)>>>0,n.low=s>>>0,qi(n,30),Yi(n,3210233709,484763065),qi(n,27),Yi(n,2496678331,321982955),qi(n,31)}var Ji=({high:t,low:e})=>t*2097152+(e>>>11),
-Rn=t=>(Ji(t)+.5)*jg;function gn(...t){let e=o=>BigInt.asUintN(64,o),n=0n;for(let o of t){let s=e((n^BigInt(o))+0x9e3779b97f4a7c15n);s=e((s^s>>30n)*0xbf58476d1ce4e5b9n),
-s=e((s^s>>27n)*0x94d049bb133111ebn),n=s^s>>31n}return{high:Number(n>>32n),low:Number(n&0xffffffffn)}}var Ki=2654435761,Vg=2246822507;function pr(t,e){let n=Math.
-imul(t+e,Ki);return n=Math.imul(n^n>>>15,Vg),n^n>>>13}function lp(t,e,n,o){let s=n>>>1,r=(1<<s)-1,i=(1<<n-s)-1,a=t;do{let l=a>>>s,c=a&r;l^=pr(c,o.low)&i,c^=pr(l,
+Rn=t=>(Ji(t)+.5)*Vg;function gn(...t){let e=o=>BigInt.asUintN(64,o),n=0n;for(let o of t){let s=e((n^BigInt(o))+0x9e3779b97f4a7c15n);s=e((s^s>>30n)*0xbf58476d1ce4e5b9n),
+s=e((s^s>>27n)*0x94d049bb133111ebn),n=s^s>>31n}return{high:Number(n>>32n),low:Number(n&0xffffffffn)}}var Ki=2654435761,jg=2246822507;function pr(t,e){let n=Math.
+imul(t+e,Ki);return n=Math.imul(n^n>>>15,jg),n^n>>>13}function lp(t,e,n,o){let s=n>>>1,r=(1<<s)-1,i=(1<<n-s)-1,a=t;do{let l=a>>>s,c=a&r;l^=pr(c,o.low)&i,c^=pr(l,
 o.high)&r,l^=pr(c,o.low^Ki)&i,c^=pr(l,o.high^Ki)&r,a=(l<<s|c)>>>0}while(a>=e);return a}var cp=t=>Math.max(2,32-Math.clz32(t-1));function dr(t,e){let n={high:0,low:0};
 Bt(t,e,n);let o=Rn(n);return Bt(t,e+1,n),Math.sqrt(-2*Math.log(o))*Math.cos(2*Math.PI*Rn(n))}var zg=2**53,hp=20,pp=1e15,[ur,Xi,dp]=[0,1,2],mr=class{constructor(e){this.p=e;let n=e*zg,o=Math.round(n);this.level=o-n===.5&&o%2?o-1:o,this.logit=Math.min(Math.
 max(Math.log(e)-Math.log1p(-e),-pp),pp)}level;logit;draws(e){return Ji(e)<this.level}logProb(e){if(this.p===0||this.p===1)return 0;let n=0;for(let o of e)n+=o;return e.
@@ -1545,10 +1545,10 @@ n*e[c].reduce((h,u,d)=>h+u*r[d],0)),a=-.5*(r[0]**2+r[1]**2+r[2]**2)-Math.log(n**
 a*a,0))return s.map(i=>i/r)}}function Gp(t,e){let n=t[e.indexOf(Math.max(...e))],o=t.map(l=>l.map((c,h)=>h===2?Math.atan2(Math.sin(c-n[2]),Math.cos(c-n[2])):c-n[h])),
 s=l=>o.reduce((c,h,u)=>c+e[u]*l(h),0),r=[0,1,2].map(l=>s(c=>c[l])),i=r.map((l,c)=>r.map((h,u)=>s(d=>(d[c]-l)*(d[u]-h))));return[n.map((l,c)=>l+r[c]),i.every((l,c)=>l[c]>=
 0)&&Number.isFinite(i[0][0])?i:null]}function wy(t){let e=aa(0,0,0);for(let n=0;n<3;n++)for(let o=0;o<=n;o++){let s=t[n][o];for(let r=0;r<o;r++)s-=e[n][r]*e[o][r];
-e[n][o]=n===o?Math.sqrt(Math.max(s,1e-7)):s/e[o][o]}return e}var by=12,xy=80,vy=11,ky=new Set(["path","views","ghost","beam"]),la="This figure has no such tool: bayesmap app has it";async function jp(t){return JSON.parse(
+e[n][o]=n===o?Math.sqrt(Math.max(s,1e-7)):s/e[o][o]}return e}var by=12,xy=80,vy=11,ky=new Set(["path","views","ghost","beam"]),la="This figure has no such tool: bayesmap app has it";async function Vp(t){return JSON.parse(
 new TextDecoder().decode(await Qn(ht(t))))}function Sy(t,e){let n=Pp(t,e),{seed:o,noise:s,angles:r,sensors:i}=t,a=i.map(({id:c})=>gn(o,c,vy)),l=n.map((c,h)=>t.readings===
 "exact"?c:c+s*dr(a[Math.floor(h/r)],2*(h%r)));return{exact:n,readings:l}}function My({method:t,prior:e},{rare_walls:n}){return t!=="auto"?t:Math.min(e,1-e)<=n?"\
-block":"gibbs"}function Vp(t,e=n=>setTimeout(n)){let{limits:n,judging:o}=t,s=new hr(t.document),[r,i]=[0,0],[a,l,c]=[!0,!1,!1],h={layer:"mean",chain:0,draw:null},
+block":"gibbs"}function jp(t,e=n=>setTimeout(n)){let{limits:n,judging:o}=t,s=new hr(t.document),[r,i]=[0,0],[a,l,c]=[!0,!1,!1],h={layer:"mean",chain:0,draw:null},
 u="live",d=null,[m,w]=[!1,!1],[v,b]=[0,0],M=null,S=(A,_)=>U.onmessage({type:"status",text:A,level:_},{}),E=()=>U.onmessage({type:"state",document:s.present,generation:r,
 seq:i,can_undo:s.canUndo,can_redo:s.canRedo,live:a,running:l,working:c,draws:!c&&d?.draws||{chains:0,count:0},scan:0,view:h},{}),P=(A=!1)=>{d&&(b=performance.now(),
 U.onmessage(...d.picture(h,r,Math.round(b-v),A)))};function D(){if(m=!1,w||!c)return;let A=!d;d??=O(),u!=="clear"&&d.work(by);let _=d.done||u==="clear";(A||_||performance.
@@ -1562,13 +1562,13 @@ s.present,M.ranges.subarray(...Q),M.hit.subarray(...Q));U.onmessage({type:"where
 trouble:""},{pose:W,weight:ue})}function ee(A){switch(A.type){case"hello":return X(A.document);case"run":{u==="live"&&c&&(d??=O());let ie=d instanceof Zo?d:null;
 G("run"),ie?.goOn(s.present.sweeps),d=ie;return}case"cancel":return te();case"live":return a=A.on,l?E():a?G():te();case"view":return h={layer:A.layer,chain:A.chain??
 h.chain,draw:A.draw??null},E(),P(!c);case"undo":case"redo":return s.step(A.type==="undo")?G():(S(`nothing to ${A.type}`,"info"),E());case"export":{if(A.what!=="\
-document")throw new Ve(la);let ie=new TextEncoder().encode(`${JSON.stringify(s.present,null,1)}
+document")throw new je(la);let ie=new TextEncoder().encode(`${JSON.stringify(s.present,null,1)}
 `);return U.onmessage({type:"download",name:"document.json",mime:"application/json",note:""},{data:ie})}case"clear":if(A.what==="inference")return G("clear")}let _=np(
-s.present,A,n);if(!_)throw new Ve(la);let[B,I]=_;s.push(B,A),I&&S(I,"warning"),G()}let U={...hn(),open:()=>{U.onmessage({type:"welcome",version:1,limits:n,recorded:!1,
+s.present,A,n);if(!_)throw new je(la);let[B,I]=_;s.push(B,A),I&&S(I,"warning"),G()}let U={...hn(),open:()=>{U.onmessage({type:"welcome",version:1,limits:n,recorded:!1,
 figure:!0,lacks:[],story:t.story},{}),U.onmessage({type:"worker",state:"ready"},{}),U.onstatus({connected:!0})},send:A=>{if(A.type!=="painted"){if(A.type==="ins\
 pect"){let _=d?.beamsThrough(A.x*s.present.grid.shape[1]+A.y);if(_===void 0)return;let B={beams_for:null,nats_for:null,beams_against:null,nats_against:null,draw:null,
 chain:null,prior_nats:null,log_odds:null};return U.onmessage({type:"cell",x:A.x,y:A.y,each:!1,beams:_,...B},{})}if(A.type==="where")return e(()=>$(A.sensor));if(ky.
-has(A.type))return S(la,"warning");i=A.seq??i;try{ee(A)}catch(_){if(!(_ instanceof Ve))throw _;if(A.type==="hello")return U.onmessage({type:"error",text:_.message,
+has(A.type))return S(la,"warning");i=A.seq??i;try{ee(A)}catch(_){if(!(_ instanceof je))throw _;if(A.type==="hello")return U.onmessage({type:"error",text:_.message,
 remedy:"",seq:i},{});S(_.message,"warning"),E()}}},record:()=>d&&M&&d.recording(M),close:()=>{w=!0}};return U}var ca=250,Ty=8e3;function zp(t){let e=null,n=ca,o=0,s=!1;function r(){clearTimeout(o);let a=new URL("socket",t());a.protocol=a.protocol.replace("http","ws"),a.
 search=t().search;let l=new WebSocket(a),c=!1;e=l,l.binaryType="arraybuffer",l.onopen=()=>{c=!0,n=ca,i.onstatus({connected:!0})},l.onmessage=({data:h})=>{typeof h==
 "string"?i.onmessage(JSON.parse(h),{}):i.onmessage(...pn(h))},l.onclose=()=>{if(s||e!==l)return;o=window.setTimeout(r,n);let h={connected:!1,retryIn_ms:n};i.onstatus(
@@ -1576,14 +1576,14 @@ h),c||Ay(t()).then(u=>u&&e===l&&i.onstatus({...h,refused:u})),n=Math.min(Ty,2*n)
 a))},read:(a,l)=>new Promise((c,h)=>{let u=new URL("open",t());u.search=t().search,u.searchParams.set("name",a.name);let d=new XMLHttpRequest;d.open("POST",u),d.
 responseType="arraybuffer",d.upload.onprogress=({loaded:m,total:w})=>l(m/w),d.onload=()=>d.status===200?c(d.response):h(new Error(new TextDecoder().decode(d.response))),
 d.onerror=()=>h(new Error("the connection is lost")),d.send(a)}),retry:()=>{n=ca,e?.readyState!==WebSocket.OPEN&&r()},close:()=>{s=!0,clearTimeout(o),e?.close()}};
-return i}async function Ay(t){try{return(await fetch(t.pathname+t.search,{method:"HEAD",cache:"no-store"})).status===403}catch{return!1}}function Yp(t){let e=(o,s=[])=>n.onmessage(o,Va(o,s)),n={...hn(),open:()=>{t.on("msg:custom",e),n.onstatus({connected:!0})},send:o=>t.send(o),close:()=>t.off("m\
+return i}async function Ay(t){try{return(await fetch(t.pathname+t.search,{method:"HEAD",cache:"no-store"})).status===403}catch{return!1}}function Yp(t){let e=(o,s=[])=>n.onmessage(o,ja(o,s)),n={...hn(),open:()=>{t.on("msg:custom",e),n.onstatus({connected:!0})},send:o=>t.send(o),close:()=>t.off("m\
 sg:custom",e)};return n}var Ey="This is the map that was drawn here when the connection was lost; undo leads back",qp=()=>!("DecompressionStream"in window&&"adoptedStyleSheets"in document),
 Kp="This page needs a newer browser: Safari 16.4, Firefox 121, Chrome 111, or later.",kr=t=>Object.assign(window,{bayesmap:t}),av={render({model:t,el:e}){let n=document.
 createElement("div");if(e.append(n),qp())return void(n.textContent=Kp);let o=Jo(n,Yp(t),{embedded:!0});return kr(o),()=>o.destroy()}};function Jp(t,e){let n=Jo(
 t,cs(e),{play:ha(t,()=>n)});kr(n)}var ha=(t,e)=>n=>{e().destroy(),Jp(t,n)};async function Py(){let t=document.querySelector("[data-bayesmap]");if(!t||t.shadowRoot)
 return;if(qp())return void(t.textContent=Kp);let e=new CSSStyleSheet;e.replaceSync("body { margin: 0; }"),document.adoptedStyleSheets.push(e);let n=document.querySelector(
 "script[data-recording]");if(n){Jp(t,await ls(n.textContent??""));return}let o=document.querySelector("script[data-figure]");if(o){let[{document:h,damaged:u},d]=await Promise.
-all([Fo(),jp(o.textContent??"")]),m=u?{text:$o,level:"error"}:null,w=Jo(t,Vp(d),{adopt:h,notice:m,play:ha(t,()=>w)});kr(w);return}kl(new URLSearchParams(location.
+all([Fo(),Vp(o.textContent??"")]),m=u?{text:$o,level:"error"}:null,w=Jo(t,jp(d),{adopt:h,notice:m,play:ha(t,()=>w)});kr(w);return}kl(new URLSearchParams(location.
 search).get("token"));let{document:s,damaged:r}=await Fo(),i=s?null:bl(),a=zp(()=>new URL(location.href));Sl(h=>{history.replaceState(null,"",`${location.pathname}\
 ?token=${encodeURIComponent(h)}${location.hash}`),a.retry?.()});let c=Jo(t,a,{adopt:s??i,notice:r?{text:$o,level:"error"}:i?{text:Ey,level:"info"}:null,play:ha(
-t,()=>c)});kr(c)}Py();export{av as default,Vp as localTransport,Jo as mount,jp as readFigure,ls as readRecording,cs as recordedTransport,zp as webSocketTransport,Yp as widgetTransport};
+t,()=>c)});kr(c)}Py();export{av as default,jp as localTransport,Jo as mount,Vp as readFigure,ls as readRecording,cs as recordedTransport,zp as webSocketTransport,Yp as widgetTransport};
