@@ -213,7 +213,7 @@ export type Cancel = {
 /** Choose whether every edit restarts the chains after the preview. */
 export type SetLive = {
   type: "live";
-  /** True if every edit restarts the chains. */
+  /** Whether every edit restarts the chains. */
   on: boolean;
   seq?: number;
 };
@@ -780,7 +780,7 @@ export type VerdictLimits = {
   good_ess: number;
   /** Fewer effective draws are bad. */
   bad_ess: number;
-  /** With fewer, running chains get no verdict, and their means are not compared. */
+  /** Fewest sweeps for a verdict on running chains, and for a comparison of their means. */
   fewest_sweeps: number;
   /** R-hat needs two draws in each half of a chain. */
   fewest_diagnosed: number;
