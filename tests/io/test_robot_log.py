@@ -177,8 +177,8 @@ def test_times_of_receipt_replace_missing_stamps(tmp_path, which):
         messages.append(("/scan", r.SCAN, t, r.laser(None, row, r.ANGLES)))
     reading = describe_log(r.written(tmp_path, messages), pose_topic="/odom")
     np.testing.assert_allclose(reading.scans.stamps_s, scans.stamps_s, atol=1e-6)
-    assert any("no message on /scan says its time" in note for note in reading.notes)
-    assert any("no message on /odom says its time" in note for note in reading.notes) == (which == "both")
+    assert any("no message on /scan has a time stamp" in note for note in reading.notes)
+    assert any("no message on /odom has a time stamp" in note for note in reading.notes) == (which == "both")
 
 
 def test_a_scan_that_is_there_twice_counts_once_and_poses_that_jump_are_named(tmp_path):

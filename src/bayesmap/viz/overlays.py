@@ -122,7 +122,7 @@ def _arrow(yaw_rad: float) -> MarkerStyle:
 
 def surface_strokes(means_world: ArrayLike, covariances_m2: ArrayLike, longest_m: float = np.inf) -> Floats:
     """Return both ends of the strokes of n surfaces, metres, (n, 2, 2), given means (n, 2) and covariances (n, 2, 2).
-    Longer strokes than ``longest_m`` are cut. Raises `BadInput` for other shapes, infinite numbers, or no covariances.
+    Strokes are cut to ``longest_m``. Raises `BadInput` for other shapes, infinite numbers, or invalid covariances.
     """
     means, covariances = as_array(means_world, "means_world"), as_array(covariances_m2, "covariances_m2")
     n = len(means)

@@ -110,5 +110,5 @@ class Report:
     """A report of the worker: a notice for pages, or a signal."""
 
     message: AnyNotice | Signal
-    buffers: Buffers = field(default_factory=dict)  # arrays by name
+    buffers: Buffers = field(default_factory=dict)
     client: int | None = None  # number of the page that the report is for; None for all pages

@@ -214,7 +214,7 @@ def _sort_by_time(
     # Times, or times of receipt if no message has a time.
     topic, notes = messages.topic.name, account.notes
     if not any(scan.stamp_ns for scan in scans):
-        notes.append(f"no message on {topic} says its time; the times of receipt were used")
+        notes.append(f"no message on {topic} has a time stamp; the times of receipt were used")
         stamps_ns = np.array([scan.received_ns for scan in scans], dtype=np.int64)
     else:
         for scan in scans:

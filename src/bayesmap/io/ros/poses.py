@@ -124,18 +124,18 @@ def _frame_notes(tree: FrameTree, map_frame: str, sensor: str, *, chosen: bool) 
     return notes
 
 
-def _namespace_notes(trees: list[FrameTree], tree: FrameTree, fixed: str, sensor: str) -> list[str]:
+def _namespace_notes(trees: list[FrameTree], tree: FrameTree, frame: str, sensor: str) -> list[str]:
     """Return a note if the transforms of a chain are from the last of several trees, outside the scans' namespace."""
     if len(trees) == 1 or tree is not trees[-1]:
         return []
-    topics = ", ".join(topics_of(tree.transforms_between(fixed, sensor)))
+    topics = ", ".join(topics_of(tree.transforms_between(frame, sensor)))
     return [f"transforms were taken from {topics}, outside the namespace of the scans"]
 
 
-def conflict_notes(recording: Recording, tree: FrameTree, fixed: str, sensor: str) -> list[str]:
+def conflict_notes(recording: Recording, tree: FrameTree, frame: str, sensor: str) -> list[str]:
     """Return notes on transforms with several values. Raises `BadInput` if the user must choose one."""
     notes = []
-    for parent, child, by_topic in tree.transforms_between(fixed, sensor):
+    for parent, child, by_topic in tree.transforms_between(frame, sensor):
         rivals = tree.rivals.get(child, ())
         if len({namespace_of(topic) for topic in rivals}) > 1:
             raise BadInput(f"{recording.path}: {tree.parent_conflicts[child]}; {_choice_remedy(recording, rivals)}")
@@ -149,8 +149,8 @@ def conflict_notes(recording: Recording, tree: FrameTree, fixed: str, sensor: st
             others = recording.of_type(POSE_TYPES)
             if others and not remedies:
                 remedies.append(f"take the poses from another topic with --pose-topic: {', '.join(map(str, others))}")
-            below = tree.chain(child, sensor)
-            if below is not None and below.span_ns() is not None:
+            chain_below = tree.chain(child, sensor)
+            if chain_below is not None and chain_below.span_ns() is not None:
                 remedies.append(f"map in a frame below it with --fixed-frame {child}")
             remedy = ", or ".join(remedies) or "record again with one publisher"
             raise BadInput(f"{recording.path}: {conflict.text}; {remedy}")
@@ -207,12 +207,12 @@ def source_by_topic(
     others = [(parent, child) for parent, child in messages.poses if (parent, child) != (fixed, body)]
     if others:
         unused = ", ".join(f"{child or '?'} in {parent or '?'}" for parent, child in others)
-        notes.append(f"{topic.name} tells where {body or '?'} is in {fixed or '?'}; not used: {unused}")
+        notes.append(f"{topic.name} holds poses of {body or '?'} in {fixed or '?'}; not used: {unused}")
     conflict = find_contradiction(fixed or "?", body or "?", [samples])
     if conflict is not None:
         raise BadInput(f"{recording.path}: {conflict.text}; choose other poses with --pose-topic")
     if not samples.has_stamps:
-        notes.append(f"no message on {topic.name} says its time; the times of receipt were used")
+        notes.append(f"no message on {topic.name} has a time stamp; the times of receipt were used")
     track = samples.track()
     if laser is not None:
         return PoseSource(topic.name, fixed or "?", Chain((track, mount_link(laser))), tuple(notes))
@@ -221,7 +221,7 @@ def source_by_topic(
     usual_body = _posed_frame_of(tree, body, sensor) or body
     if usual_body != body:
         # The topic names no body, or one that is not in /tf: a frame with a usual name is taken.
-        notes.append(f"{topic.name} does not say whose pose it tells; taken as the pose of {usual_body!r}")
+        notes.append(f"{topic.name} does not name the frame of its poses; taken as poses of {usual_body!r}")
         body = usual_body
     mount = tree.chain(body, sensor) if body else None
     if mount is None:
