@@ -52,7 +52,7 @@ def test_poses_of_a_body_without_a_name_are_taken_as_the_base_s(tmp_path, kind):
         messages.append(("/pose", kind, t, {"header": r.header(t, "map"), "pose": told}))
     reading = describe_log(r.written(tmp_path, messages), pose_topic="pose")
     r.same(reading.scans, scans)
-    assert "taken as the pose of 'base_link'" in reading.notes[0]
+    assert "taken as poses of 'base_link'" in reading.notes[0]
 
 
 def test_readings_mean_what_rep_117_says_and_older_drivers_write_range_max_for_no_return(tmp_path):
