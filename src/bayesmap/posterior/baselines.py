@@ -211,12 +211,13 @@ def fit_baseline(
     starts = [sensor | dict(start) for start in baseline.starts for sensor in sensors]
     # The rough score uses a share of the beams: some scans of the first fold, or some folds if it has few scans.
     rough = [folds[0].thinned()] if len(folds[0].scans) >= 2 * THIN else folds[: math.ceil(len(folds) / THIN)]
-    scores = [partial(inner_score, join_folds(some), baseline) for some in (folds, rough)]
-    values, score = maximise(*scores, (*SENSOR, *baseline.parameters), starts, on_progress)
+    score, rough_score = (partial(inner_score, join_folds(some), baseline) for some in (folds, rough))
+    parameters = (*SENSOR, *baseline.parameters)
+    values, best_score = maximise(score, rough_score, parameters, starts, on_progress)
     hits, passes = count_hits(train, grid)
     stop = baseline.stops(hits.astype(float), passes.astype(float), values)
     predictor = Predictor(grid, fixed_maps(stop[None]), sensor_of(values), values["hit_depth"])
-    return FittedBaseline(baseline.name, predictor, values, score)
+    return FittedBaseline(baseline.name, predictor, values, best_score)
 
 
 EXTERNAL = (

@@ -266,7 +266,7 @@ def _coverage_notes(
     if span_ns is None:
         return [f"{source.topics} does not move the sensor in the whole recording"]
     start_ns, end_ns = span_ns
-    known = f"poses by {source.topics} are known from {moment(start_ns * 1e-9)} to {moment(end_ns * 1e-9)}"
+    known = f"poses by {source.topics} are known from {stamp_words(start_ns * 1e-9)} to {stamp_words(end_ns * 1e-9)}"
     if not is_inside.any():
         scan_span = f"the scans are from {stamp_words(stamps_ns[0] * 1e-9)} to {stamp_words(stamps_ns[-1] * 1e-9)}"
         remedy = "are both by the same clock? Choose other poses with --pose-topic or --fixed-frame"

@@ -14,7 +14,7 @@ from scipy.spatial.transform import Rotation
 
 from bayesmap.io.ros.frames import PoseNumbers, Samples, poses_agree
 from bayesmap.space.arrays import Floats, Indices, bracketing_indices
-from bayesmap.space.time_order import moment
+from bayesmap.space.time_order import stamp_words
 
 EQUAL_TOLERANCE = 1e-4  # largest difference of equal values, in metres and radians: 1 mm at 10 m
 MAX_DISTINCT_VALUES = 10  # number of different values of a static transform that are counted
