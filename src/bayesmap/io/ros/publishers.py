@@ -168,7 +168,7 @@ def _find_alternation(name: str, samples: Samples) -> Contradiction | None:
     if i is None:
         return None
     values = f"it is {pose_in_words(poses[i])}, and just before and after {pose_in_words(poses[i - 1])}"
-    example = f"at {moment(float(stamps[i] * 1e-9))} {values}"
+    example = f"at {stamp_words(float(stamps[i] * 1e-9))} {values}"
     cause = "it has two publishers, or the clock of the recording started again"
     return Contradiction(f"{name} on {samples.topic} goes to and fro between values that differ: {example}; {cause}")
 
