@@ -49,7 +49,7 @@ MAX_COMPARED = 10  # key scans that each scan is compared with
 PRIOR_SIGMA = np.array([0.03, 0.03, np.radians(1.0)])  # sigmas of a scan before its beams are used
 SCATTER_FACTOR = 2.0  # factor on the scatter of points during refinement: rough first steps stay near the prior
 MIN_SIGMA_M = 0.005  # scatter of points during refinement
-MAX_STEPS = 10  # steps of a refinement
+MAX_STEPS = 6  # most steps of a refinement: with 10, poses differ by less than 1 mm
 PLACING_REACH_M = (0.2, 0.08)  # maximum distance of paired points: in the first and in the last step
 PLACING_SCALE_M = (0.1, 0.03)  # distance from which points count as outliers: in the first and in the last step
 
