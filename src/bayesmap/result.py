@@ -198,9 +198,9 @@ class Run:
         disc. Returns ``.probability`` with its Monte Carlo ``.standard_error``, and ``.independent``: the product over
         independent cells. Raises `BadInput` for no draws, a path invalid or outside the map, or no positive radius.
         """
-        from bayesmap.posterior.decisions import path_is_free
+        from bayesmap.posterior.decisions import path_free_probability
 
-        return path_is_free(self.posterior, path, radius_m)
+        return path_free_probability(self.posterior, path, radius_m)
 
     def plan(self, start: ArrayLike, goal: ArrayLike, radius_m: float, risk: float = 0.01) -> Route:
         """Plan the shortest path of a disc whose probability of touching something is at most ``risk``.

@@ -28,7 +28,7 @@ from bayesmap.app.protocol.notices import CellFacts
 from bayesmap.app.sources import open_log, open_run
 from bayesmap.kernels.rays import trace_rays
 from bayesmap.kernels.walls.table import log_likelihoods, trace
-from bayesmap.posterior.decisions import path_is_free
+from bayesmap.posterior.decisions import path_free_probability
 from bayesmap.posterior.prediction import Predictor, fixed_maps
 
 DOCUMENT = replace(tutorial_document(), sweeps=300)
@@ -40,7 +40,7 @@ def test_a_path_s_probability_is_that_of_the_draws(heard, mode):
     heard.infer(DOCUMENT, mode)
     header, _ = heard.answer(PATH)
     assert (header["type"], header["generation"]) == ("path", heard.generation)
-    free = path_is_free(heard.engine._result, header["path"], 0.4)
+    free = path_free_probability(heard.engine._result, header["path"], 0.4)
     assert header["probability"] == free.probability
     assert header["within_risk"] == (1 - free.probability <= 0.05)
     assert [header["path"][0], header["path"][-1]] == [[6.0, 15.0], [10.0, 14.0]]

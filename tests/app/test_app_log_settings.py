@@ -219,7 +219,7 @@ def surfaces_of(log):
 
 def test_surfaces_of_a_log_are_counted_first_then_shown_by_the_draws_of_the_chain_that_fits_the_sensor_once(log):
     surfaces = Heard(log)
-    surfaces.engine._display.frame_is_due = lambda: True
+    surfaces.engine._display.fields_are_due = lambda: True
     _, first = surfaces.infer(surfaces_of(log), "run")
     fields = surfaces.every("field")
     methods = [header["method"] for header, _ in fields]
@@ -252,7 +252,7 @@ def test_surfaces_of_a_log_are_counted_first_then_shown_by_the_draws_of_the_chai
 def test_draws_intervals_and_surfaces_are_shown_while_the_sensor_is_fitted(log, monkeypatch):
     monkeypatch.setattr("bayesmap.app.display.MIN_OVERLAY_SECONDS", 0.0)
     heard = Heard(log)
-    heard.engine._display.frame_is_due = lambda: True
+    heard.engine._display.fields_are_due = lambda: True
     heard.infer(surfaces_of(log), "run", steps=9)
     assert heard.last("field")[0]["method"] == "pilot"
     heard.ask(View("draw"))

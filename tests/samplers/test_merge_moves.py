@@ -59,7 +59,7 @@ def test_moments_are_those_of_the_readings_that_a_surface_stopped():
         np.testing.assert_allclose(found.mean_m[at], mine.mean(axis=0))
         covariance = np.cov(mine.T, bias=True)
         np.testing.assert_allclose(found.moments[at], covariance[[0, 0, 1], [0, 1, 1]], atol=1e-12)
-        assert found.noise[at] == pytest.approx(NOISE_M**2)
+        assert found.noise_m2[at] == pytest.approx(NOISE_M**2)
         for angle in (0.0, 0.7):
             u = np.array([np.cos(angle), np.sin(angle)])
             assert moves.variance_along(found.moments[[at]], u[None])[0] == pytest.approx(u @ covariance @ u)
@@ -160,7 +160,7 @@ def test_readings_are_explained_better_than_before_and_no_surface_leaves_its_cel
 
 @pytest.mark.parametrize("cuts", [[30], [7, 3, 1, 1, 0, 1, 4, 13], [1] * 30])
 def test_surfaces_are_joined_in_the_warm_up_alone_after_the_same_sweeps_however_these_are_cut(monkeypatch, cuts):
-    after = [moves.merge_sweeps(int(moves.EARLY_SHARE * warmup)) for warmup in range(60)]
+    after = [moves.sweeps_before_merges(int(moves.EARLY_SHARE * warmup)) for warmup in range(60)]
     assert [len(sweeps) for sweeps in after] == 2 * [0] + 11 * [1] + 47 * [3]
     assert [warmup for warmup, sweeps in enumerate(after) if len(set(sweeps)) < len(sweeps)] == []
     assert [warmup for warmup, sweeps in enumerate(after) if max(sweeps, default=0) > warmup] == []
@@ -182,7 +182,7 @@ def test_surfaces_are_joined_in_the_warm_up_alone_after_the_same_sweeps_however_
         state, info = sampler.step(state, count)
         assert info.log_likelihood.shape == info.log_prior.shape == (2, count)
     assert state.sweep == 30
-    assert joined == moves.merge_sweeps(10) == [10, 11, 12]
+    assert joined == moves.sweeps_before_merges(10) == [10, 11, 12]
 
 
 def test_a_sweep_without_steps_moves_no_surface_of_a_cell_in_which_readings_end():

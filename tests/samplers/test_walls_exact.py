@@ -221,7 +221,7 @@ def test_enumeration_is_the_oracle_s(world):
     np.testing.assert_allclose(on_all_cells(found, case), case.exact.p, atol=close)
     np.testing.assert_allclose(found.marginals().ravel(), marginals(case.exact.p, case.n), atol=close)
     expected = pairs(case.exact.p, case.n)[np.ix_(found.unknown, found.unknown)]
-    np.testing.assert_allclose(found.pairs(), expected, atol=close)
+    np.testing.assert_allclose(found.pair_probabilities(), expected, atol=close)
 
 
 @pytest.mark.parametrize("world", [WORLDS[3], COUPLED[0], COUPLED[8]])

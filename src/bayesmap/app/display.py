@@ -1,4 +1,4 @@
-"""Reports of a job to the pages: fields, rays, overlays and progress. `make_field` makes the main one, a picture."""
+"""Reports of a job to pages: fields, rays, overlays, progress. `make_field` makes the main one, the cells' values."""
 
 import time
 from collections.abc import Callable
@@ -14,7 +14,7 @@ from bayesmap.app.scene import Scene, scan_message
 from bayesmap.app.shown.result import Result
 from bayesmap.space.grid import Grid
 
-MIN_FRAME_SECONDS = 0.08  # time between two fields
+MIN_FIELD_SECONDS = 0.08  # time between two fields of a page
 MIN_OVERLAY_SECONDS = 2.0  # time between two overlays of the surfaces of chains that go on
 MAX_LEVEL = 255  # number that stands for a probability of one
 TRACE_POINTS = 300  # evenly chosen points of the trace in a field
@@ -26,13 +26,13 @@ OnReport = Callable[[Report], None]
 
 
 class Display:
-    """Makes the reports of one job after another, and decides when the next picture is due."""
+    """Makes the reports of one job after another, and decides when the next fields are due."""
 
     def __init__(self, on_report: OnReport) -> None:
         self._on_report = on_report
-        self.generation, self.grid = -1, Grid((1, 1))  # number and grid of the present picture
+        self.generation, self.grid = -1, Grid((1, 1))  # number and grid of the present job
         self._views: dict[int, View] = {}  # the views of pages that get their own fields
-        self._began_s = self._frame_sent_s = self._overlay_sent_s = 0.0  # times of `time.perf_counter`
+        self._began_s = self._fields_sent_s = self._overlay_sent_s = 0.0  # times of `time.perf_counter`
 
     def begin(self, task: Infer) -> None:
         """Begin the reports of another job."""
@@ -51,12 +51,12 @@ class Display:
         """Send any message."""
         self._on_report(Report(message, buffers or {}, client))
 
-    def send_frame(self, result: Result) -> None:
+    def send_fields(self, result: Result) -> None:
         """Send a field to every page."""
         for client, view in ((None, View("mean")), *self._views.items()):
             self._send_field(view, result, client)
-        self._frame_sent_s = time.perf_counter()
-        if result.prior.has_surfaces and self._frame_sent_s - self._overlay_sent_s > MIN_OVERLAY_SECONDS:
+        self._fields_sent_s = time.perf_counter()
+        if result.prior.has_surfaces and self._fields_sent_s - self._overlay_sent_s > MIN_OVERLAY_SECONDS:
             self.send_overlay(result)
 
     def _send_field(self, view: View, result: Result, client: int | None) -> None:
@@ -87,18 +87,18 @@ class Display:
         """Return the seconds since the job began."""
         return time.perf_counter() - self._began_s
 
-    def frame_is_due(self) -> bool:
-        """Return whether the last frame was sent more than `MIN_FRAME_SECONDS` ago."""
-        return time.perf_counter() - self._frame_sent_s > MIN_FRAME_SECONDS
+    def fields_are_due(self) -> bool:
+        """Return whether the last fields were sent more than `MIN_FIELD_SECONDS` ago."""
+        return time.perf_counter() - self._fields_sent_s > MIN_FIELD_SECONDS
 
 
 def make_field(result: Result, view: View, generation: int, milliseconds: float) -> tuple[Field, Buffers]:
-    """Return the field of a view and its buffers. If the draw or the interval does not exist, return the mean."""
+    """Return the field of a view and its buffers. A draw or width that does not exist becomes the mean."""
     estimate, layer = result.estimate, view.layer
     lowest: float | None = None  # lower edge of the histogram of weights
     # The trace and the histogram of weights, which every layer has.
-    trace, traced = thin_trace(estimate.log_joint())
-    buffers: dict[str, NDArray[np.generic]] = {"trace": trace, "traced": traced}
+    trace, trace_sweeps = thin_trace(estimate.log_joint())
+    buffers: dict[str, NDArray[np.generic]] = {"trace": trace, "traced": trace_sweeps}
     if estimate.log_weights is not None:
         buffers["weights"], lowest = histogram(estimate.log_weights)
     # The values of the cells: of a draw, widths of intervals, or the mean.
@@ -131,15 +131,15 @@ def make_overlay(result: Result) -> dict[str, NDArray[np.float32]]:
 
 
 def thin_trace(log_joint: NDArray[np.float64]) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
-    """Return the log joint at all first and evenly chosen later sweeps, (chains, m), and these sweeps, from 1, (m,)."""
+    """Return the log joint at all first and at evenly chosen sweeps, (chains, m), and these sweeps, from 1, (m,)."""
     n_sweeps = log_joint.shape[1]
-    later = np.linspace(1, n_sweeps, min(n_sweeps, TRACE_POINTS)).round().astype(int)
-    sweeps = np.union1d(np.arange(1, min(n_sweeps, FIRST_SWEEPS) + 1), later)
+    even = np.linspace(1, n_sweeps, min(n_sweeps, TRACE_POINTS)).round().astype(int)
+    sweeps = np.union1d(np.arange(1, min(n_sweeps, FIRST_SWEEPS) + 1), even)
     return log_joint[:, sweeps - 1].astype(np.float32), sweeps.astype(np.float32)
 
 
 def histogram(log_weights: NDArray[np.float64]) -> tuple[NDArray[np.float32], float]:
-    """Count log weights, (n,), in equal bins up to the largest. Returns the counts and the lowest edge, in nats."""
+    """Count log weights, (n,), in equal bins up to the largest. Returns counts, and lowest less largest edge, nats."""
     relative = log_weights - log_weights.max()
     lowest = min(-1.0, float(relative[np.isfinite(relative)].min()))
     counts, _ = np.histogram(relative, WEIGHT_BINS, (lowest, 0.0))

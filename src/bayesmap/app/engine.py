@@ -152,7 +152,7 @@ class Engine:
             self._result = self._opened.result
             self._scene, self._scene_document = self._result.scene, document
             self._display.send_scan(self._scene, self._scan)
-            self._display.send_frame(self._result)
+            self._display.send_fields(self._result)
             self._display.send_overlay(self._result)
             self._display.send_finished(self._result)
             return
@@ -180,7 +180,7 @@ class Engine:
         self._display.send_overlay(prior)
         if task.mode == "clear":
             self._result = prior
-            self._display.send_frame(prior)
+            self._display.send_fields(prior)
         else:
             yield from self._infer_map(scene, document, task.mode)
 
@@ -249,7 +249,7 @@ class Engine:
             self._display.send(Status(picture.text, "info"))
         self._display.send_scan(self._scene, self._scan)
         self._display.send_overlay(self._result)
-        self._display.send_frame(self._result)
+        self._display.send_fields(self._result)
 
     def _scene_for(self, document: Document) -> tuple[Scene, Document]:
         """Return the scene of a document, and the document on the scene's grid. Unchanged readings are reused."""
@@ -273,17 +273,17 @@ class Engine:
         self._result = self._log_trajectory.log_for(document).hit_count_result(document)
         if self._result.prior.has_surfaces:  # the surfaces on show may be of other scans
             self._display.send_overlay(self._result)
-        self._display.send_frame(self._result)
+        self._display.send_fields(self._result)
 
     def _propagate(self, scene: Scene, document: Document, preview: Preview, *, quiet: bool) -> Iterator[None]:
         """Do rounds of belief propagation. Unless `quiet`, show a picture soon, then at intervals, and at the end."""
         pictured = False  # whether the first picture has been shown
         while True:
             first_is_due = preview.rounds >= MIN_ROUNDS and self._display.elapsed_s() > PREVIEW_SECONDS
-            due = self._display.frame_is_due() if pictured else first_is_due
+            due = self._display.fields_are_due() if pictured else first_is_due
             if not quiet and (preview.converged or due):
                 self._result = Result(scene, document, "propagate", preview)
-                self._display.send_frame(self._result)
+                self._display.send_fields(self._result)
                 pictured = True
             if preview.converged:
                 return
@@ -306,8 +306,8 @@ class Engine:
 
         def show_pilot(pilot: Pilot) -> None:
             self._result = Result(scene, document, "pilot", pilot)
-            if self._display.frame_is_due():
-                self._display.send_frame(self._result)
+            if self._display.fields_are_due():
+                self._display.send_fields(self._result)
 
         if self._fitted is None or not self._fitted[0].equals_except(document, SETTINGS_OF_CHAINS):
             self._fitted = None  # free the old problem first: two may not fit in memory
@@ -325,8 +325,8 @@ class Engine:
                 self._extra_sweeps = 0
             estimate.advance()
             self._result = Result(scene, document, document.method, estimate)
-            if estimate.done or self._display.frame_is_due():
-                self._display.send_frame(self._result)
+            if estimate.done or self._display.fields_are_due():
+                self._display.send_fields(self._result)
             if estimate.done:
                 break
         self._display.send_overlay(self._result)
@@ -341,5 +341,5 @@ class Engine:
             return
         self._job = None
         self._result = replace(self._result, ended=True)
-        self._display.send_frame(self._result)
+        self._display.send_fields(self._result)
         self._display.send_finished(self._result)

@@ -26,7 +26,7 @@ from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
 ASK_TO_RUN = "The poses of this log look like raw odometry: Run infers where the robot was"
-MIN_PICTURE_SECONDS = 0.25  # time between pictures of a stage
+MIN_PICTURE_SECONDS = 0.25  # time between pictures, and between reports of progress, within a stage
 MAX_PICTURE_SHARE = 0.1  # share of the job's time for pictures
 WAIT_SECONDS = 0.02  # how long to wait for a report of the job
 # The names of the stages on the page, in their order.
@@ -114,7 +114,7 @@ class TrajectoryJob:
             self.trajectory = infer_trajectory(self._scans, on_progress=self._on_progress, on_poses=self._on_poses)
         except Cancelled:
             pass
-        except BaseException as error:
+        except BaseException as error:  # `reports` raises it on the engine's thread
             self.error = error
 
     def _raise_if_cancelled(self) -> None:
@@ -200,7 +200,7 @@ class LogTrajectory:
         yield _make_picture(task, scans, grid, hit_count_map(scans, grid), stage, stage.text)
         job = TrajectoryJob(task, scans, grid)
         yield from job.reports()
-        assert job.trajectory is not None
+        assert job.trajectory is not None  # a cancelled job ends this generator before
         # The session keeps the trajectory for a later worker.
         moved_scans = move_to_trajectory(scans, job.trajectory)
         self._open_inferred(moved_scans)

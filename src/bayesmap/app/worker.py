@@ -23,7 +23,7 @@ from bayesmap.app.protocol.tasks import ALIVE_SECONDS, Alive, FileUnusable, Infe
 from bayesmap.errors import BadInput
 
 AnyTask = TypeVar("AnyTask")
-NICENESS = 3  # page and server come before the worker; at 10 other programs left it a tenth of a core
+NICENESS = 3  # lets page and server come first; at niceness 10, other programs left the worker a tenth of a core
 EARLY_EXIT_SECONDS = 5.0  # a worker that ends sooner is restarted after a pause
 FIRST_PAUSE_SECONDS, MAX_PAUSE_SECONDS = 0.25, 8.0  # the pause doubles each time
 MAX_SILENCE_SECONDS = 15.0  # a worker that sends no report for this time is replaced
@@ -116,7 +116,7 @@ def main(arguments: list[str]) -> None:
     try:
         run_tasks(pipe, path, log_options)
     except (EOFError, BrokenPipeError, ConnectionResetError):
-        os._exit(0)  # the server has gone
+        os._exit(0)  # the server has gone: end at once, with all threads
 
 
 def start_worker(pipe_end: socket.socket, path: str | None, log_options: Mapping[str, Any]) -> subprocess.Popen[bytes]:
@@ -146,10 +146,10 @@ class Supervisor:
         self._silence_s = silence_s
         self._tasks: queue.SimpleQueue[Task | None] = queue.SimpleQueue()
         self._stopping = threading.Event()
-        self._lock = threading.Lock()
+        self._lock = threading.Lock()  # held to change `_process` and `_pipe`
         self._process: subprocess.Popen[bytes] | None = None
         self._pipe: Connection | None = None
-        self._last_report_s = 0.0  # time of the last report
+        self._last_report_s = 0.0  # time of the last report; for a new worker, the end of its time to start
 
     @property
     def pid(self) -> int | None:

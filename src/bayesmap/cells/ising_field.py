@@ -1,9 +1,9 @@
 """Ising fields: their draws, and the labels of cells that stop beams.
 
 Exact draws use coupling from the past (Propp and Wilson, *Exact sampling with coupled Markov chains and applications
-to statistical mechanics*, 1996). A Gibbs sweep draws the cells whose coordinates have an even sum, then the others. No
-two cells of a half are neighbours, so each half is drawn at once. A sweep uses one uniform number per cell, and keeps
-the order of maps: if one map has all walls of another before the sweep, it has them after the sweep.
+to statistical mechanics*, 1996). A Gibbs sweep draws the half of the cells whose coordinates have an even sum, then the
+other half. No two cells of a half are neighbours, so each half is drawn at once. A sweep uses one uniform number per
+cell, and keeps the order of maps: if one map has all walls of another before the sweep, it has them after.
 
 The algorithm sends two maps, all walls and all free, through the same sweeps from a time in the past to time 0. If the
 two maps meet, every starting map would have led to the same result, which is then a draw from the Ising field. Else
@@ -75,7 +75,7 @@ def _wall_levels(u: Floats, logit: Floats, coupling: float) -> NDArray[np.int8]:
     """Return the balance of neighbours above which each cell becomes a wall, given its uniform number u."""
     # A cell is a wall if u < expit(logit + coupling * balance).
     with np.errstate(divide="ignore"):
-        level = np.clip((special.logit(u) - logit) / coupling, -9, 9)
+        level = np.clip((special.logit(u) - logit) / coupling, -9, 9)  # fits int8; a balance is from -4 to 4
     return np.asarray(np.floor(level), dtype=np.int8)
 
 
@@ -107,14 +107,14 @@ def labels_of_draw(draws: Draws, chain: int, draw: int) -> Mask:
 
 def solid_share(draws: Draws) -> Floats:
     """Return the share of all draws in which each cell is solid, flat, (N,)."""
-    packed = draws.arrays[SOLID.name]
+    packed = draws.arrays[SOLID.name]  # bits, like packed walls
     return np.asarray(count_walls(packed.reshape(-1, packed.shape[-1]), draws.grid.n_cells) / draws.size)
 
 
 def mixture_quantiles(
     share: Floats, free: tuple[float, float], solid: tuple[float, float], tails: tuple[float, float]
 ) -> Floats:
-    """Compute quantiles of reflectivities by bisection, (len(tails), N).
+    """Compute the quantiles of reflectivities at the probabilities ``tails``, (len(tails), N), by bisection.
     ``share`` is each cell's probability of being solid, (N,). ``free`` and ``solid`` hold a and b of two Beta laws.
     """
     # Cells with the same share have the same quantiles: compute them once per distinct share.

@@ -1,7 +1,7 @@
 """Read the scans of a log that is still being written: CARMEN lines, or CSV with one row per scan.
 
 `bayesmap.read_log` looks at the whole log. Here `live_scans` yields scans in the order of the lines, from the first
-kind of laser message. Readings are no return from the given or stated number on, or above the largest range.
+kind of laser message. A reading is no return if it is at least the given or stated number, or above the largest range.
 """
 
 import math
@@ -56,14 +56,14 @@ def live_scans(
     laser: Pose | None = None, without_poses: bool = False,
 ) -> Iterator[Scans]:  # fmt: skip
     """Yield the scans of a log as it is written: a file, a pipe or standard input ("-").
-    A pipe and standard input end when their last writer closes them. A file ends after ``idle_s`` seconds without new
+    A pipe and standard input end when their last writer closes them, and any input after ``idle_s`` seconds without new
     data, if it is given; a last line without line end is then a line. Readings over ``max_range_m`` are no return, and
     readings from ``no_return`` on. ``on_skipped`` is called with the number of each malformed line left out, and the
-    reason. ``laser`` replaces the laser's pose on the robot in the log. Tables without poses are accepted if
+    reason. ``laser`` replaces the log's pose of the laser on the robot. Tables without poses are accepted if
     ``without_poses`` is true. Raises `BadInput` for a log that cannot be read, has another format or a malformed line.
     """
     options = LogOptions(no_return, skip_bad_lines, max_range_m, laser=laser, without_poses=without_poses)
-    account = LogAccount(name, "", options)
+    account = LogAccount(name, "", options)  # the format is not known yet
 
     def reject(line: int, reason: str) -> None:
         account.reject(line, reason)
@@ -91,7 +91,7 @@ def _carmen_scans(lines: Iterable[tuple[int, bytes]], reject: Reject, options: L
     """Yield the scans of the first kind of laser message, each with its own beams, if it has readings."""
     kind = ""
     limit_m = options.max_range_m
-    assert limit_m is not None
+    assert limit_m is not None  # `live_scans` demands it
     for number, line in lines:
         try:
             message = message_name(line)

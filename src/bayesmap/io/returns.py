@@ -14,7 +14,7 @@ import numpy as np
 from bayesmap.errors import BadInput
 from bayesmap.space.arrays import Floats, Indices, Mask
 
-TOP_SHARE = 0.8  # share of the largest reading above which codes lie; and of a code, above which counts are compared
+TOP_SHARE = 0.8  # codes lie above this share of the largest reading; counts are compared above this share of a code
 MIN_REPEATS = 10  # fewest reports of a code, and their smallest ratio to the mean count of the smaller values
 MIN_BEAMS = 3  # fewest beams that report a code
 MIN_ISOLATION = 2.0  # smallest ratio of an isolated code to any smaller reading
@@ -70,29 +70,29 @@ def classify(
     no-return code of infinity means that the log has none. Error messages name the file, ``name``. Raises `BadInput` if
     all readings are invalid, or a given number makes no sense.
     """
-    min_range_m, stated_max, notes = _usable_limits(stated_min_m, stated_max_m)
+    min_range_m, usable_max_m, notes = _usable_limits(stated_min_m, stated_max_m)
     # Replace the codes. A log with infinities has none.
     is_zero_or_less = np.isfinite(readings_m) & (readings_m <= 0)
     if no_return is None and np.isinf(readings_m).any():
         ranges = np.where(is_zero_or_less, np.nan, readings_m)
-        code = NoReturn(code_m=None, origin="none")
+        no_return_rule = NoReturn(code_m=None, origin="none")
     else:
-        ranges, code = decode(readings_m, no_return, stated_max, views)
-        notes += code.notes()
+        ranges, no_return_rule = decode(readings_m, no_return, usable_max_m, views)
+        notes += no_return_rule.notes()
     n_invalid = int((is_zero_or_less & np.isnan(ranges)).sum())
     if n_invalid > MAX_INVALID_SHARE * readings_m.size:
         fault = "are zero or negative, taken as invalid; --no-return 0 takes them as no return"
         notes.append(f"{n_invalid:,} readings of {readings_m.size:,} {fault}")
     # Replace the finite readings outside the limits.
-    notes += _apply_limits(ranges, min_range_m, stated_max)
+    notes += _apply_limits(ranges, min_range_m, usable_max_m)
     if np.isnan(ranges).all():
         fault = f"none of {ranges.size:,} readings in {len(ranges):,} scans is valid"
         remedy = "(all are NaN, or outside the sensor's range); check the sensor and its range_min and range_max"
         raise BadInput(f"{name}: {fault} {remedy}")
-    limit, origin = max_range_of(name, ranges, max_range_m, stated_max)
+    limit, origin = max_range_of(name, ranges, max_range_m, usable_max_m)
     if not (math.isfinite(limit) and limit > min_range_m):
         raise BadInput(f"{name}: --max-range {limit:g}: give more than the sensor's smallest range, {min_range_m:g} m")
-    return Readings(ranges, code, min_range_m, limit, origin, tuple(notes))
+    return Readings(ranges, no_return_rule, min_range_m, limit, origin, tuple(notes))
 
 
 def _usable_limits(stated_min_m: float, stated_max_m: float) -> tuple[float, float | None, list[str]]:
@@ -126,7 +126,7 @@ def _apply_limits(ranges_m: Floats, min_m: float, max_m: float | None) -> list[s
 
 
 def decode(
-    readings_m: Floats, no_return: float | None = None, sensor_max_m: float | None = None, views: "Views | None" = None
+    readings_m: Floats, no_return: float | None = None, stated_max_m: float | None = None, views: "Views | None" = None
 ) -> tuple[Floats, NoReturn]:
     """Replace the codes in raw readings, (S, A), by the codes of REP-117. Returns the ranges, and the no-return code.
     Ranges are +inf for no return, and NaN for numbers that cannot be ranges. If ``no_return`` is infinity, the log has
@@ -144,8 +144,8 @@ def decode(
     elif no_return is None:
         code, doubtful = _code_at_top(readings_m, views)
         origin = "found"
-        if sensor_max_m is not None and (code is None or sensor_max_m <= code):
-            code, origin, doubtful = sensor_max_m, "message", None
+        if stated_max_m is not None and (code is None or stated_max_m <= code):
+            code, origin, doubtful = stated_max_m, "message", None
         if code is None and _count_beams(is_impossible) >= MIN_BEAMS:
             code = float(readings_m[is_impossible].max())
     # The readings that it covers.
@@ -155,7 +155,7 @@ def decode(
     ranges = np.where(is_impossible, np.nan, readings_m)
     ranges[is_coded] = np.inf
     coded_m = tuple(float(v) for v in np.unique(readings_m[is_coded])[:10])
-    if no_return is None and not coded_m and origin != "message":
+    if origin == "found" and not coded_m:
         code, origin = None, "none"
     return ranges, NoReturn(code, origin, coded_m, doubtful)
 
@@ -183,9 +183,9 @@ def _code_at_top(readings_m: Floats, views: "Views | None") -> tuple[float | Non
 
 def _numbers_standing_out(readings_m: Floats, usable: Mask) -> list[float]:
     """Return the numbers at the top that are repeated, or isolated, among the usable readings; ascending.
-    Candidates v are within 20 % of the largest number, with at most 8 above, and reported by at least 3 beams. Repeated
-    is v with 10 reports, and 10 times the mean of a number in [0.8 v, v). Isolated is v with 3 reports of v and above,
-    and at least twice any smaller reading: the rule for short logs.
+    A candidate v is at least 80 % of the largest number, with at most 8 above, and reported by 3 beams. It is repeated
+    if it has 10 reports, and 10 times as many as a number in [0.8 v, v) has on average. It is isolated if it is at
+    least twice any smaller reading, and 3 readings reach it: the rule for short logs.
     """
     # Candidates, and the mean count of a number in [0.8 v, v) for each candidate v.
     values, counts = np.unique(readings_m[usable], return_counts=True)
@@ -256,15 +256,15 @@ class Views:
 
 
 def max_range_of(
-    name: str, ranges_m: Floats, given_m: float | None, stated_m: float | None = None, cap_m: float = math.inf
+    name: str, ranges_m: Floats, given_m: float | None, stated_max_m: float | None = None, cap_m: float = math.inf
 ) -> tuple[float, str]:
     """Return the sensor's maximum range and its origin: "given" by the user, the "message" of the log, or "readings".
     The last is the largest hit, rounded up to a whole metre, at most ``cap_m``. Raises `BadInput` without a hit.
     """
     if given_m is not None:
         return float(given_m), "given"
-    if stated_m is not None:
-        return float(stated_m), "message"
+    if stated_max_m is not None:
+        return float(stated_max_m), "message"
     hits = ranges_m[np.isfinite(ranges_m)]
     limit = min(math.ceil(hits.max()) if hits.size and hits.max() > 0 else math.inf, cap_m)
     if math.isinf(limit):

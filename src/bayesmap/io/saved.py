@@ -65,13 +65,13 @@ def save(
 
 def _write_by_reading(posterior: Posterior, file: Any) -> None:
     """Write the log likelihood of every valid reading in every draw, as arviz's ``loo`` reads it."""
-    from bayesmap.posterior.posterior import by_reading, valid_readings
+    from bayesmap.posterior.posterior import log_p_by_reading, valid_readings
 
     group, draws = file.createGroup("log_likelihood"), posterior.draws
     for name, count in (("chain", draws.chains), ("draw", draws.count)):
         write_arrays(group, (name,), {name: np.arange(count)}, compressed=False)
     write_arrays(group, ("reading",), dict(zip(("scan", "beam"), valid_readings(posterior), strict=True)))
-    values = by_reading(posterior)
+    values = log_p_by_reading(posterior)
     values += np.random.default_rng(0).uniform(0.0, NOISE_NATS, values.shape).astype(np.float32)
     write_arrays(group, ("chain", "draw", "reading"), {"range_m": values})
     group["range_m"].coordinates = "scan beam"  # so that xarray takes them for no variables

@@ -40,7 +40,7 @@ TABLE = wp.constant(2)  # any other model
 @wp.func
 def noise_log_density(law: Any, square: Any):
     """Return the log density of the standard noise of a sensor's law, at a squared distance."""
-    half = type(square)(0.5)
+    half = type(square)(0.5)  # in the precision of `square`, as all such constants below
     if law.dof > type(square)(0.0):
         one = type(square)(1.0)
         return law.log_height - half * (law.dof + one) * wp.log(one + square / law.dof)
@@ -119,12 +119,12 @@ def student_below(dof: wp.float64, log_height: wp.float64, t: wp.float64) -> wp.
     # Odd dof.
     if dof == wp.floor(dof) and a <= MAX_TERMS:
         angle = wp.atan(wp.abs(t) / wp.sqrt(dof))
-        term_odd = wp.where(dof > ONE, wp.sqrt(x), wp.float64(0.0))
-        series_odd = term_odd
-        for j_odd in range(1, int(a)):
-            term_odd = term_odd * x * (ONE - ONE / wp.float64(2 * j_odd + 1))
-            series_odd += term_odd
-        return HALF + wp.sign(t) * INV_PI * (angle + wp.sqrt(y) * series_odd)
+        term = wp.where(dof > ONE, wp.sqrt(x), wp.float64(0.0))
+        series = term
+        for j in range(1, int(a)):
+            term = term * x * (ONE - ONE / wp.float64(2 * j + 1))
+            series += term
+        return HALF + wp.sign(t) * INV_PI * (angle + wp.sqrt(y) * series)
     # Any other dof: log 1 / B(dof / 2, 1 / 2) = log_height + log(dof) / 2
     front = wp.exp(log_height + HALF * wp.log(dof) + a * wp.log(x) + HALF * wp.log(y))
     tail = wp.float64(0.0)
@@ -138,7 +138,7 @@ def student_below(dof: wp.float64, log_height: wp.float64, t: wp.float64) -> wp.
 def _law_struct(name: str, real: Any) -> Any:
     """Return the struct of a sensor's numbers in single or double precision."""
     reals = (
-        "sigma_m", "sigma_per_m", "dof", "p_random", "p_known", "p_return", "p_no_return", "p_short",
+        "sigma_m", "sigma_per_m", "dof", "p_random", "p_not_random", "p_return", "p_no_return", "p_short",
         "rate_short_per_m", "min_m", "max_m",
         "min_log",  # log densities and log probabilities of a table are raised to at least this
         "log_height", "height",  # density of the standard noise at 0
@@ -169,7 +169,7 @@ def sensor_law(sensor: SensorModel, limits: RangeLimits, device: str, struct: An
         packed.table = devices.pack(LawTable, device, **vars(tabulated(sensor, limits)))
         return packed
     packed.kind = MIXTURE if parameters.robust else NOISE
-    packed.series = 0.1 if struct is SensorLaw32 else 0.002
+    packed.series = 0.1 if struct is SensorLaw32 else 0.002  # up to here the error x^5 / 120 is no more than rounding
     for name, value in vars(parameters).items():
         if name != "robust":
             setattr(packed, name, value)
@@ -182,9 +182,9 @@ def sensor_law(sensor: SensorModel, limits: RangeLimits, device: str, struct: An
         packed.log_height = -0.5 * math.log(2 * math.pi)
     packed.height = math.exp(packed.log_height)
     packed.certain_sq = special.stdtrit(dof, CERTAIN_TAIL) ** 2 if dof > 0 else float(FAR_SQ)
-    packed.p_known, packed.p_return = 1.0 - parameters.p_random, 1.0 - parameters.p_no_return
+    packed.p_not_random, packed.p_return = 1.0 - parameters.p_random, 1.0 - parameters.p_no_return
     packed.uniform = parameters.p_random / (limits.max_m - limits.min_m)
-    packed.passing = packed.p_known * parameters.p_short * parameters.rate_short_per_m
+    packed.passing = packed.p_not_random * parameters.p_short * parameters.rate_short_per_m
     densest = packed.height / parameters.sigma_m if parameters.sigma_m > 0 else math.inf
     packed.peak = packed.uniform + packed.passing + densest if parameters.robust else math.inf
     return packed
@@ -193,7 +193,6 @@ def sensor_law(sensor: SensorModel, limits: RangeLimits, device: str, struct: An
 @wp.func
 def p_blocked(law: Any, distance_m: Any):
     """Return the probability that a passing object stands before the distance."""
-    # type(x)(1.0) is a one in the precision of x, here and below.
     return law.p_short * (type(distance_m)(1.0) - wp.exp(-law.rate_short_per_m * distance_m))
 
 
@@ -242,7 +241,7 @@ def returned_density(law: Any, reading_m: Any, decay: Any, distance_m: Any, vari
         return type(total)(0.0)
     precision = type(total)(1.0) / total
     density = noise_density(law, square * precision) * wp.sqrt(precision)
-    return law.p_known * p_unblocked_near(law, reading_m, decay, distance_m) * law.p_return * density
+    return law.p_not_random * p_unblocked_near(law, reading_m, decay, distance_m) * law.p_return * density
 
 
 @wp.func
@@ -271,19 +270,19 @@ def typed_probability(law: Any, reading_m: Any, distance_m: Any, variance: Any):
     """Return the mixture's probability of a typed reading, given that the beam stops at about the distance."""
     zero = type(variance)(0.0)
     is_no_return = reading_m > type(reading_m)(0.0)
-    wall_m = wp.min(distance_m, law.max_m)
-    free = p_unblocked(law, wall_m)
+    stop_m = wp.min(distance_m, law.max_m)
+    free = p_unblocked(law, stop_m)
     if distance_m > law.max_m:
-        return law.p_known * wp.where(is_no_return, free, p_blocked(law, wp.min(wall_m, law.min_m)))
+        return law.p_not_random * wp.where(is_no_return, free, p_blocked(law, wp.min(stop_m, law.min_m)))
     hit = free * law.p_return
-    scale = wp.sqrt(variance_at(law, wall_m, variance))
+    scale = wp.sqrt(variance_at(law, stop_m, variance))
     if is_no_return:
         above = zero
-        if law.dof > zero or (law.max_m - wall_m) * (law.max_m - wall_m) < type(zero)(FAR_SQ) * scale * scale:
-            above = noise_below(law, (wall_m - law.max_m) / scale)  # the noise is symmetric
-        return law.p_known * (free * law.p_no_return + hit * above)
-    below = noise_below(law, (law.min_m - wall_m) / scale)
-    return law.p_known * (p_blocked(law, wp.min(wall_m, law.min_m)) + hit * below)
+        if law.dof > zero or (law.max_m - stop_m) * (law.max_m - stop_m) < type(zero)(FAR_SQ) * scale * scale:
+            above = noise_below(law, (stop_m - law.max_m) / scale)  # the noise is symmetric
+        return law.p_not_random * (free * law.p_no_return + hit * above)
+    below = noise_below(law, (law.min_m - stop_m) / scale)
+    return law.p_not_random * (p_blocked(law, wp.min(stop_m, law.min_m)) + hit * below)
 
 
 @wp.func
@@ -303,7 +302,7 @@ def lowest_density(law: Any, reading_m: Any):
         return law.uniform
     lowest = type(reading_m)(MIN_PROBABILITY)
     if reading_m > type(reading_m)(0.0):
-        return wp.max(law.p_known * (type(reading_m)(1.0) - law.p_short) * law.p_no_return, lowest)
+        return wp.max(law.p_not_random * (type(reading_m)(1.0) - law.p_short) * law.p_no_return, lowest)
     return lowest
 
 
@@ -315,9 +314,9 @@ def log_density_without_mixture(law: Any, reading_m: Any, distance_m: Any, varia
     z = reading_m
     if wp.isinf(reading_m):
         z = wp.where(reading_m > type(reading_m)(0.0), law.max_m, law.min_m)
-    wall_m = wp.min(distance_m, law.max_m)
-    total = variance_at(law, wall_m, variance)
-    return noise_log_density(law, (z - wall_m) * (z - wall_m) / total) - type(total)(0.5) * wp.log(total)
+    stop_m = wp.min(distance_m, law.max_m)
+    total = variance_at(law, stop_m, variance)
+    return noise_log_density(law, (z - stop_m) * (z - stop_m) / total) - type(total)(0.5) * wp.log(total)
 
 
 @wp.func
@@ -335,16 +334,16 @@ def no_stop_density(law: Any, reading_m: Any, decay: Any):
 
 
 @wp.func
-def cumulative(law: Any, reading_m: Any, distance_m: Any, variance: Any):
-    """Return P(reading <= range | the beam stops at about the distance), for a finite range."""
+def cumulative(law: Any, range_m: Any, distance_m: Any, variance: Any):
+    """Return P(reading <= range_m | the beam stops at about the distance), for a finite ``range_m``."""
     if law.kind == TABLE:
-        return table_cumulative(law.table, reading_m, distance_m, variance, law.max_m)
-    wall_m = wp.min(distance_m, law.max_m)
+        return table_cumulative(law.table, range_m, distance_m, variance, law.max_m)
+    stop_m = wp.min(distance_m, law.max_m)
     if law.kind == NOISE:
-        return noise_below(law, (reading_m - wall_m) / wp.sqrt(variance_at(law, wall_m, variance)))
-    z = wp.clamp(reading_m, law.min_m, law.max_m)
+        return noise_below(law, (range_m - stop_m) / wp.sqrt(variance_at(law, stop_m, variance)))
+    z = wp.clamp(range_m, law.min_m, law.max_m)
     not_random = not_random_below(law, z, wp.exp(-law.rate_short_per_m * z), distance_m, variance)
-    return random_below(law, z) + law.p_known * not_random
+    return random_below(law, z) + law.p_not_random * not_random
 
 
 @wp.func
@@ -361,14 +360,14 @@ def not_random_below(law: Any, z: Any, decay: Any, distance_m: Any, variance: An
     one = type(z)(1.0)
     if is_behind(law, z, distance_m, variance):
         return law.p_short * (one - decay)
-    wall_m = wp.min(distance_m, law.max_m)
-    past = wp.exp(-law.rate_short_per_m * wall_m)
-    met = law.p_short * (one - wp.where(wall_m < z, past, decay))
+    stop_m = wp.min(distance_m, law.max_m)
+    past = wp.exp(-law.rate_short_per_m * stop_m)
+    met = law.p_short * (one - wp.where(stop_m < z, past, decay))
     if distance_m > law.max_m:
         return met
     returned = one
     if not is_before(law, z, distance_m, variance):
-        returned = noise_below(law, (z - wall_m) / wp.sqrt(variance_at(law, wall_m, variance)))
+        returned = noise_below(law, (z - stop_m) / wp.sqrt(variance_at(law, stop_m, variance)))
     return met + returned * law.p_return * (one - law.p_short * (one - past))
 
 

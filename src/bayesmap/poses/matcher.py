@@ -41,7 +41,7 @@ class LikelihoodGrids:
         return len(self.origins)
 
 
-def stamp_of(resolution: float, sigma_m: float) -> NDArray[np.uint8]:
+def point_likelihood(resolution: float, sigma_m: float) -> NDArray[np.uint8]:
     """Return the likelihood around a single point, an odd square of bytes, out to about two standard deviations."""
     radius = max(1, int(np.ceil(2.0 * sigma_m / resolution)))
     offsets = np.arange(-radius, radius + 1) * resolution
@@ -54,9 +54,9 @@ def likelihood_grids(
     half_width_m: float, *, resolution: float = 0.05, sigma_m: float = 0.07, levels: int = 4,
     reuse: LikelihoodGrids | None = None,
 ) -> LikelihoodGrids:  # fmt: skip
-    """Compute square likelihood grids about their middles, (grids, 2), each from scans at poses in the grids' frame.
+    """Compute square likelihood grids about ``centres``, (grids, 2), each from scans at poses in the grids' frame.
 
-    ``half_width_m`` is the distance from the middle to each side. The search bounds blocks of up to 2^(levels - 1)
+    ``half_width_m`` is the distance from a centre to each side. The search bounds blocks of up to 2^(levels - 1)
     cells at once. ``reuse`` are grids of the same number, size and levels, whose memory is overwritten. Between
     neighbouring beams on one wall points are filled in, so that grids do not depend on the number of beams.
     """
@@ -67,7 +67,7 @@ def likelihood_grids(
     poses = np.concatenate([np.zeros((0, 3)), *(np.reshape(rows, (-1, 3)) for rows in scan_poses)])
     origins = np.asarray(centres, np.float64).reshape(-1, 2) - half_width_m
     grids = GridScans(
-        origins, resolution, offsets_of(scans), scan, poses, stamp_of(resolution, sigma_m), spacing_m=sigma_m
+        origins, resolution, offsets_of(scans), scan, poses, point_likelihood(resolution, sigma_m), spacing_m=sigma_m
     )
     overwritten = None if reuse is None else reuse.pyramid
     pyramid = render_grids(geometry, grids, (cells, cells), levels, geometry.threads, overwritten)
@@ -88,8 +88,8 @@ class SearchWindows:
     """The windows of poses, in the grids' frame, in which J jobs search."""
 
     centres: Floats  # poses of the middles, (J, 3)
-    half_m: Floats | float  # half widths, metres: one number, (J,), or (J, 2) for x and y
-    half_rad: Floats | float  # half ranges of headings: one number or (J,); pi or more is the full circle
+    half_m: Floats | float  # half widths, metres: one for all, one per job (J,), or x and y per job (J, 2)
+    half_rad: Floats | float  # half ranges of headings: one for all, or one per job (J,); pi or more is the full circle
     step_rad: float = np.radians(0.5)  # step between headings
 
 
@@ -130,6 +130,8 @@ def match(
     from bayesmap.kernels.match.branch_and_bound import Modes, Windows, search_grids
 
     jobs, step_rad, modes = len(points), windows.step_rad, ModeRule() if modes is None else modes
+    if jobs == 0:
+        return Matches(np.empty((0, modes.max_modes)), np.empty((0, modes.max_modes, 3)))
     centres = np.asarray(windows.centres, np.float64).reshape(-1, 3)
     if not np.isfinite(centres).all():
         raise BadInput("match: a window's centre is not finite")
@@ -137,13 +139,11 @@ def match(
         grid_of = np.zeros(jobs, np.intp) if len(grids) == 1 else np.arange(jobs)
     half_m = np.asarray(windows.half_m, np.float64)
     half_m = np.broadcast_to(half_m[:, None] if half_m.ndim == 1 else half_m, (jobs, 2))
-    if jobs == 0:
-        return Matches(np.empty((0, modes.max_modes)), np.empty((0, modes.max_modes, 3)))
     # List all angles of all jobs as rows, with the penalty of each angle and per cell of distance.
     half_rad = np.broadcast_to(np.asarray(windows.half_rad), (jobs,))
     deviations = [_deviations(float(half_range), step_rad) for half_range in half_rad]
-    rows, off_rad = offsets_of(deviations), np.concatenate(deviations)
-    angles = np.repeat(centres[:, 2], np.diff(rows)) + off_rad
+    row_offsets, off_rad = offsets_of(deviations), np.concatenate(deviations)
+    angles = np.repeat(centres[:, 2], np.diff(row_offsets)) + off_rad
     cell_cost, angle_costs = 0.0, np.zeros(len(off_rad))
     if pull is not None:
         cell_cost = pull.weight * grids.resolution**2 / (2.0 * pull.sigma_m**2)
@@ -155,7 +155,7 @@ def match(
         points=np.concatenate([np.reshape(xy, (-1, 2)) for xy in points]), point_offsets=offsets_of(points),
         grid=np.asarray(grid_of, np.int32), centres=np.ascontiguousarray(centres[:, :2]),
         half_cells=np.round(half_m / grids.resolution).astype(np.int32), angles_rad=angles, angle_costs=angle_costs,
-        row_offsets=rows, min_scores=np.array(np.broadcast_to(np.asarray(min_score, np.float64), (jobs,))),
+        row_offsets=row_offsets, min_scores=np.array(np.broadcast_to(np.asarray(min_score, np.float64), (jobs,))),
         off_centre_costs=np.full(jobs, cell_cost),
     )  # fmt: skip
     scores, nodes = search_grids(grids, on_device, rule, threads_per_job, grids.threads)

@@ -34,7 +34,7 @@ BINS_A_BEAM = 4  # bins of angle per beam in the table of `Fans`
 BINS_BOUNDS = (360, 1 << 16)  # bounds on the number of bins
 MAX_ARC = 8  # a fan of at most so many beams is an arc, never a full circle
 CIRCLE_GAP = 1.9  # a full circle has a smaller gap between its last and its first beam, in steps of the fan
-NO_POINT = 0  # kind of a beam without an end point
+NO_POINT, POINT, WITH_NORMAL = 0, 1, 2  # kinds of a beam's end: no point, a point, a point with a normal
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,7 +48,7 @@ class Fans:
     beam_of_angle: NDArray[np.int32]  # nearest to equal bins from -pi to pi, (layouts, bins); -1 if none is near
 
     @classmethod
-    def of(cls, angles_rad: Floats, scans: int) -> Fans:
+    def of(cls, angles_rad: Floats, n_scans: int) -> Fans:
         """Return the fans of beams at ascending angles, (1, A) for all scans or (S, A), NaN past a scan's last beam."""
         beams = np.isfinite(angles_rad).sum(axis=1)
         # Number the layouts, which are rows of equal angles, and take the beams of one scan of each.
@@ -61,9 +61,9 @@ class Fans:
         layouts = list(zip(fans, steps, strict=True))
         circle = [len(fan) > MAX_ARC and 2.0 * np.pi - (fan[-1] - fan[0]) < CIRCLE_GAP * step for fan, step in layouts]
         bins = int(np.clip(np.ceil(2.0 * np.pi / min(steps) * BINS_A_BEAM), *BINS_BOUNDS))
-        by_scan = np.broadcast_to(layout, scans)
+        by_scan = np.broadcast_to(layout, n_scans)
         return cls(
-            beams=np.broadcast_to(beams, scans).astype(np.int32), step_rad=np.array(steps)[by_scan],
+            beams=np.broadcast_to(beams, n_scans).astype(np.int32), step_rad=np.array(steps)[by_scan],
             full_circle=np.array(circle, np.int32)[by_scan], layout=by_scan.astype(np.int32),
             beam_of_angle=np.array([_beam_of_angle(fan, step, bins) for fan, step in layouts]),
         )  # fmt: skip
@@ -82,7 +82,7 @@ class ScanGeometry:
 
     points: Any  # end point of each beam, metres in the laser's frame, (S, B)
     normals: Any  # unit normal of the wall there, towards the laser, (S, B); zero where there is none
-    kind: Any  # NO_POINT, 1 a point, 2 a point with a normal, (S, B)
+    kind: Any  # one of the kinds above, (S, B)
     spread: Any  # variance of the normal's angle for a unit variance of the points, 1 / m^2, (S, B)
     fans: Fans  # directions of the beams
     noise_m: float = MIN_NOISE_M  # standard deviation of a range, estimated from the scans
@@ -163,8 +163,8 @@ def scan_geometry(
     step = float(np.median(fans.step_rad))
     noise = range_noise_m(np.where((ranges > nearest) & (ranges < limit), ranges, np.nan), step)
     fit = LineFit(max(MIN_NORMAL_REACH_M, MIN_NORMAL_REACH_SIGMAS * noise), noise)
-    scene = points_and_normals(ranges, angles, RangeLimits(nearest, limit), fans, fit, device, threads)
-    return ScanGeometry(scene.points, scene.normals, scene.kind, scene.spread, fans, noise, device, threads)
+    arrays = points_and_normals(ranges, angles, RangeLimits(nearest, limit), fans, fit, device, threads)
+    return ScanGeometry(arrays.points, arrays.normals, arrays.kind, arrays.spread, fans, noise, device, threads)
 
 
 def merge_beams(
@@ -178,7 +178,7 @@ def merge_beams(
     beams ascend, (B,). Returns readings (S, G), their angles (1, G) or (S, G), and the middles of the groups, (1, G).
     """
     step = float(np.median(np.diff(angles_rad))) if len(angles_rad) > 1 else spacing_rad
-    size = int(spacing_rad / step + 1e-3) if step > 0.0 else 1
+    size = int(spacing_rad / step + 1e-3) if step > 0.0 else 1  # 1e-3: so that whole ratios stay whole
     if size < 2:
         return ranges_m, angles_rad[None], angles_rad[None]
     groups = len(angles_rad) // size

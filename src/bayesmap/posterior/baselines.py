@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from bayesmap.cells.kinds import HIT_DEPTH, default_sensor
 from bayesmap.errors import BadInput
-from bayesmap.posterior.heldout import THIN, Fold, HeldOut, join_folds, make_folds, one_fold
+from bayesmap.posterior.heldout import THIN, Fold, JoinedFolds, join_folds, make_folds, one_fold
 from bayesmap.posterior.prediction import OnShare, Predictor, fixed_maps, ignore_share, split_progress
 from bayesmap.sensors.model import BeamMixture, noise_with
 from bayesmap.space.arrays import Floats
@@ -181,13 +181,13 @@ class FittedBaseline:
     inner_nats_per_beam: float  # score on the inner hold-out
 
 
-def inner_score(held_out: HeldOut, baseline: Baseline, values: Values) -> float:
+def inner_score(joined: JoinedFolds, baseline: Baseline, values: Values) -> float:
     """Compute the mean log predictive density of the folds' beams, each under the counts of the other scans."""
     from bayesmap.kernels.predict.density import log_densities
 
-    stops = [baseline.stops(fold.hits, fold.passes, values)[fold.rays.touched] for fold in held_out.folds]
+    stops = [baseline.stops(fold.hits, fold.passes, values)[fold.rays.touched] for fold in joined.folds]
     maps = np.concatenate(stops)[None].astype(np.float32)
-    logs = log_densities(held_out.rays, [maps], sensor_of(values), values["hit_depth"], columns=held_out.columns)
+    logs = log_densities(joined.rays, [maps], sensor_of(values), values["hit_depth"], columns=joined.columns)
     return float(np.nanmean(logs))
 
 

@@ -194,8 +194,8 @@ class HasDraws(Protocol):
         """The draws of the map."""
 
 
-def path_is_free(posterior: HasDraws, path: ArrayLike, radius_m: float) -> routes.FreeProbability:
-    """Compute the chance that a disc can follow a path. Raises `BadInput`: no draws, path off the map, radius <= 0."""
+def path_free_probability(posterior: HasDraws, path: ArrayLike, radius_m: float) -> routes.FreeProbability:
+    """Return a disc's chance to follow a path. Raises `BadInput` without draws, off the map, or for a radius <= 0."""
     _check_draws(posterior, "free_probability")
     corners = routes.check_path(path)
     grid = posterior.draws.grid
@@ -214,19 +214,19 @@ def shortest_safe_path(
     posterior: HasDraws, start: ArrayLike, goal: ArrayLike, radius_m: float, risk: float,
     on_progress: OnShare = ignore_share,
 ) -> routes.Route:  # fmt: skip
-    """Find a disc's shortest path of bounded risk. Raises `BadInput` as `plan_route`, and: no draws, radius <= 0."""
+    """Find the shortest path of bounded risk. Raises `BadInput` as `plan_route`, without draws, or if radius <= 0."""
     _check_draws(posterior, "plan")
     _check_radius(radius_m)
     ends = [routes.check_path(point) for point in (start, goal)]
     if any(len(end) != 1 for end in ends):
         raise BadInput("plan: start and goal are one point each: x, y in metres")
-    blocked = blocked_anywhere(posterior, radius_m, on_progress)
-    judge = partial(path_is_free, posterior, radius_m=radius_m)
+    blocked = blocked_by_cell(posterior, radius_m, on_progress)
+    judge = partial(path_free_probability, posterior, radius_m=radius_m)
     return routes.plan_route(blocked, posterior.draws.grid, ends[0][0], ends[1][0], risk, judge)
 
 
-def blocked_anywhere(posterior: HasDraws, radius_m: float, on_progress: OnShare = ignore_share) -> Floats:
-    """Compute the probability that a disc about each cell's centre touches something, (nx, ny), by `SEARCH_DRAWS`."""
+def blocked_by_cell(posterior: HasDraws, radius_m: float, on_progress: OnShare = ignore_share) -> Floats:
+    """Estimate from `SEARCH_DRAWS` draws the probability that a disc at a cell's centre touches something, (nx, ny)."""
     draws = posterior.draws.thinned(SEARCH_DRAWS)
     batches = report_batches(posterior.prior.drawn_stops(draws), draws.size, on_progress)
     return routes.blocked_probability(batches, draws.grid, radius_m)
@@ -249,10 +249,10 @@ def information_of(
     cells = np.concatenate(list(posterior.prior.drawn_stops(thinned)))
     map_draws = MapDraws(cells, posterior.grid, float(posterior.settings["hit_depth"]), chains)
     joint = expected_information(map_draws, fan, poses_world, seed=seed, device=device, on_progress=on_progress)
-    return replace(joint, independent=independent_information(posterior, poses_world, fan, device))
+    return replace(joint, independent=mean_beam_information(posterior, poses_world, fan, device))
 
 
-def independent_information(posterior: Posterior, poses: Floats, fan: Fan, device: str = "cpu") -> Floats:
+def mean_beam_information(posterior: Posterior, poses: Floats, fan: Fan, device: str = "cpu") -> Floats:
     """Compute the formula for independent cells and beams, nats, (P,): its mean over the mean maps of the chains.
     A cell that is a wall in one chain and free in another counts as known, because no scan tells why chains differ.
     """
@@ -304,11 +304,11 @@ def next_views(
     on_search, on_comparison = split_progress(on_progress, 1.0, 2.0)
     fan = Fan.of("explore", posterior, None, None, None)
     # Rank candidates with all headings by the fast formula, and keep each one's best heading.
-    poses = _draw_candidates(posterior, blocked_anywhere(posterior, radius_m, on_search), candidates, seed)
+    poses = _draw_candidates(posterior, blocked_by_cell(posterior, radius_m, on_search), candidates, seed)
     headings = headings_to_try(fan.angles_rad)
     turned = np.repeat(poses, len(headings), axis=0)
     turned[:, 2] += np.tile(headings, len(poses))
-    nats_by_heading = independent_information(posterior, turned, fan).reshape(len(poses), -1)
+    nats_by_heading = mean_beam_information(posterior, turned, fan).reshape(len(poses), -1)
     poses[:, 2] += headings[nats_by_heading.argmax(axis=1)]
     nats = nats_by_heading.max(axis=1)
     # Compare the best by joint draws.
@@ -339,7 +339,7 @@ def _draw_candidates(posterior: Posterior, blocked: Floats, count: int, seed: in
 
 
 def headings_to_try(angles_rad: Floats) -> Floats:
-    """Return the yaws to try, radians: one if the sensor sees a full circle."""
+    """Return the yaws to try, radians: one if the beams, with the step after the last, span a full circle."""
     count = 1 if np.ptp(angles_rad) * (1 + 1 / max(len(angles_rad), 1)) >= FULL_CIRCLE_RAD else HEADINGS
     return np.arange(count) / count * 2 * np.pi
 

@@ -30,7 +30,7 @@ class NoneHeldOut(BadInput):
 
 
 def has_moved_scans(train: Scans, scans: Scans) -> bool:
-    """Return whether a scan has another pose in the run, whose scans are ``train``."""
+    """Return whether a scan of a log has another pose than in the run, whose scans are ``train``."""
     match = match_scans(train, scans)
     used = match >= 0
     return not np.allclose(train.poses[match[used]], scans.poses[used], rtol=0.0, atol=1e-6)
@@ -69,9 +69,9 @@ def _fingerprints(scans: Scans, stamped: bool) -> list[bytes]:
     fingerprints = []
     for i in range(len(scans)):
         ranges = scans.beams_of(i)[1]
-        stamp = scans.stamps_s[i] if stamped and scans.stamps_s is not None else scans.poses[i]
+        identity = scans.stamps_s[i] if stamped and scans.stamps_s is not None else scans.poses[i]
         pose = b"" if np.isfinite(ranges).any() else scans.poses[i].tobytes()
-        fingerprints.append(stamp.tobytes() + pose + ranges.tobytes())
+        fingerprints.append(identity.tobytes() + pose + ranges.tobytes())
     return fingerprints
 
 
@@ -102,11 +102,11 @@ def unseen_scans(train: Scans, scans: Scans, every: int, log: str) -> Scans:
             f"its map by; bayesmap score {log} --trajectory DIR/trajectory.tum judges a map along its path"
         )
     # Check that the run was made with this hold-out.
-    mask = np.arange(len(scans)) % max(every, 2) == every // 2
-    if every < 2 or not mask.any():
-        scans.holdout(every)  # raises the fitting message
-    if not (mask & used).any():
-        return scans.select(mask)
+    held_out = np.arange(len(scans)) % max(every, 2) == every // 2
+    if every < 2 or not held_out.any():
+        scans.holdout(every)  # raises `BadInput`: every < 2, or too few scans
+    if not (held_out & used).any():
+        return scans.select(held_out)
     if used.all():
         raise NoneHeldOut(
             f"{log}: the run was made without holding scans out, so there is none to score it on; make one with "
@@ -115,8 +115,8 @@ def unseen_scans(train: Scans, scans: Scans, every: int, log: str) -> Scans:
     periods = [n for n in range(2, MAX_SUGGESTED_EVERY) if (~used == (np.arange(len(scans)) % n == n // 2)).all()]
     hint = f"it was made with --holdout {periods[0]}" if periods else "other scans were held out"
     raise BadInput(
-        f"{log}: with --holdout {every} the run has seen {(mask & used).sum():,} of the {mask.sum():,} scans that "
-        f"would score it; {hint}"
+        f"{log}: with --holdout {every} the run has seen {(held_out & used).sum():,} of the {held_out.sum():,} scans "
+        f"that would score it; {hint}"
     )
 
 
@@ -147,12 +147,12 @@ def make_folds(train: Scans, grid: Grid) -> list[Fold]:
     from bayesmap.kernels.rays import count_hits
 
     folds: list[Fold] = []
-    n_folds = min(FOLDS, len(train))
-    n_beams = 0
+    n_folds, n_beams = min(FOLDS, len(train)), 0
     if n_folds < 2:
         raise BadInput("score: baselines are fitted by holding out training scans, which takes two scans or more")
     hits, passes = count_hits(train, grid)
-    for i in np.random.default_rng(0).permutation(n_folds).tolist():  # a fixed order, but not that of the protocol
+    # In a fixed random order, since `FIT_BEAMS` may end it early.
+    for i in np.random.default_rng(0).permutation(n_folds).tolist():
         left_out = train.select(np.arange(len(train)) % n_folds == i)
         n_valid = int((left_out.readings != ReadingKind.INVALID).sum())
         if n_valid == 0:
@@ -179,7 +179,7 @@ def one_fold(train: Scans, grid: Grid) -> list[Fold]:
 
 
 @dataclass(frozen=True, eq=False)
-class HeldOut:
+class JoinedFolds:
     """Folds whose beams are predicted together, each fold under its own map of the cells that its beams touch."""
 
     folds: tuple[Fold, ...]
@@ -187,7 +187,7 @@ class HeldOut:
     columns: Ints  # index of each entry of the rays in the concatenated maps of the folds, (K,)
 
 
-def join_folds(folds: Sequence[Fold]) -> HeldOut:
+def join_folds(folds: Sequence[Fold]) -> JoinedFolds:
     """Join folds for one prediction, which is faster than many small ones."""
     by_fold = [fold.rays for fold in folds]
     # Offsets of each fold's entries in the joined rays, and of its cells in the joined maps.
@@ -203,4 +203,4 @@ def join_folds(folds: Sequence[Fold]) -> HeldOut:
     offsets = np.append(0, np.cumsum(np.concatenate([rays.lengths for rays in by_fold]))).astype(np.int32)
     first_near = joined("first_near", entry_offsets)
     rays = Rays(grid=by_fold[0].grid, offsets=offsets, first_near=first_near, limits=by_fold[0].limits, **unshifted)
-    return HeldOut(tuple(folds), rays, joined("columns", cell_offsets))
+    return JoinedFolds(tuple(folds), rays, joined("columns", cell_offsets))

@@ -1,6 +1,6 @@
 """The posterior as plain data, `Posterior`: all that a saved run holds, made from a method's results.
 
-`chains_of` gives chains back to continue them; `by_reading` and `dataset_of` convert it for other tools, such as ArviZ.
+`chains_of` gives chains back to continue them; `log_p_by_reading` and `dataset_of` convert it for tools like ArviZ.
 """
 
 from __future__ import annotations
@@ -124,7 +124,7 @@ def chains_of(posterior: Posterior) -> Chains:
     return Chains(
         draws=posterior.draws, log_likelihood=posterior.log_likelihood, log_prior=posterior.log_prior,
         warmup_log_joint=posterior.warmup_log_joint, snapshot=posterior.snapshot,
-        observed_counts=np.zeros((2, *posterior.grid.shape), dtype=np.int32),  # counted again, by draws and snapshot
+        observed_counts=np.zeros((2, *posterior.grid.shape), dtype=np.int32),  # chains that continue count again
         statistics=posterior.statistics, n_incidences=posterior.counts["incidences"],
         seconds={name: posterior.seconds[name] for name in ("trace", "warm_start", "sampling")},
         finished=posterior.finished,
@@ -142,7 +142,7 @@ def valid_readings(posterior: Posterior) -> tuple[Indices, Indices]:
     return scan, beam
 
 
-def by_reading(posterior: Posterior, device: str = "cpu") -> Singles:
+def log_p_by_reading(posterior: Posterior, device: str = "cpu") -> Singles:
     """Compute log p(reading | cells, poses) of every valid reading in every draw, nats, (chains, draws, n).
     Densities are per metre for ranges; a reading's stop is summed out. Raises `BadInput` without draws or known sensor.
     """
@@ -166,7 +166,7 @@ def by_reading(posterior: Posterior, device: str = "cpu") -> Singles:
 
 
 def dataset_of(posterior: Posterior, with_readings: bool) -> xarray.Dataset:
-    """Return draws, densities and marginals as xarray. Raises `BadInput` as `by_reading`, or without xarray."""
+    """Return draws, densities and marginals as xarray. Raises `BadInput` as `log_p_by_reading`, or without xarray."""
     try:
         import xarray
     except ImportError:
@@ -188,7 +188,8 @@ def dataset_of(posterior: Posterior, with_readings: bool) -> xarray.Dataset:
         "x": ("x", x, {"units": "m"}), "y": ("y", y, {"units": "m"}),
     }  # fmt: skip
     if with_readings:
-        variables["reading_log_likelihood"] = (("chain", "draw", "reading"), by_reading(posterior), {"units": "nats"})
+        log_p = log_p_by_reading(posterior)
+        variables["reading_log_likelihood"] = (("chain", "draw", "reading"), log_p, {"units": "nats"})
         scan, beam = valid_readings(posterior)
         coordinates |= {"reading_scan": ("reading", scan), "reading_beam": ("reading", beam)}
     for dimension, cells in draws.index.items():

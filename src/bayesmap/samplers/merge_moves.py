@@ -36,7 +36,7 @@ SURFACE_PARAMETERS = 5  # parameters of a surface: mean and covariance
 FULL_SWEEP = 1 << 24  # number of a sweep that updates all cells, past the numbers of all sweeps of a chain
 TRIAL_SWEEP = FULL_SWEEP + 1  # number of a sweep that updates few cells
 EARLY_SHARE = 0.8  # share of the warm-up before the first merge moves
-LATER_MERGES = 2  # further merges, each after a tenth of the sweeps before the first, still in the warm-up
+LATER_MERGES = 2  # further merges, ``early_sweeps // 10`` sweeps apart, still in the warm-up
 MAX_READINGS = 12  # most readings of a surface that may be merged: with more, removal is seldom better
 MAX_NEIGHBOUR_CELLS = 2  # most cells, in x and in y, from a surface to the neighbour that takes over its readings
 MAX_READING_CELLS = 3.0  # most cells between a reading and the mean of the surface that explains it
@@ -49,7 +49,7 @@ MIN_COMPONENT = 1e-9  # least component of an axis, for divisions
 MERGE_ROUNDS = 3  # most rounds of merges; five more gain nothing that held-out beams show
 
 
-def merge_sweeps(early_sweeps: int) -> list[int]:
+def sweeps_before_merges(early_sweeps: int) -> list[int]:
     """Return the numbers of the sweeps after which surfaces are merged, given the number before the first merge."""
     return sorted({early_sweeps + i * (early_sweeps // 10) for i in range(1 + LATER_MERGES)} - {0})
 
@@ -62,9 +62,9 @@ def merge(problem: StopProblem, chains: StopChains, beta: float) -> None:
     evidence = evidence_of(maps)
     owners = [chains.stopped_by(chain) for chain in range(chains.n_chains)]
     range_m = np.where(np.isfinite(rays.range_m), rays.range_m, 0.0)
-    noise = problem.sensor.kernel_parameters()
+    parameters = problem.sensor.kernel_parameters()
     # Without parameters of the sensor, the thickness of surfaces is used alone.
-    sigma_m = 0.0 * range_m if noise is None else noise.sigma_m + noise.sigma_per_m * range_m
+    sigma_m = 0.0 * range_m if parameters is None else parameters.sigma_m + parameters.sigma_per_m * range_m
     merge_surfaces(maps, rays.end_points_m(), sigma_m**2, owners, grid, evidence_of, evidence)
     maps.write_to(chains)
     chains.sweeps(FULL_SWEEP, 1, problem.sensor, problem.prior.kernel_numbers(grid.resolution), beta)
@@ -105,7 +105,7 @@ def make_evidence_of(problem: StopProblem, chains: StopChains, beta: float) -> E
 
 
 def evidence_by_cell(chains: StopChains, chain: int, end_cell: Ints, prior: Beta) -> Floats:
-    """Sum the terms above over the beams that end in each cell, (N,), in the last sweep, given `end_cells`."""
+    """Sum the terms of the module's formula over the beams that end in each cell, (N,), in the last sweep."""
     n_cells = chains.plan.rays.grid.n_cells
     owner = chains.stopped_by(chain)
     stopped = owner >= 0
@@ -132,11 +132,12 @@ class Changes:
 
 
 def try_changes(
-    maps: ChainMaps, changes: Sequence[Changes], evidence_of: EvidenceOf, evidence: Floats, half: int, min_gain: float
-) -> list[Mask]:
+    maps: ChainMaps, changes: Sequence[Changes], evidence_of: EvidenceOf, evidence: Floats, half_width: int,
+    min_gain: float,
+) -> list[Mask]:  # fmt: skip
     """Change maps, and undo the changes that raise the evidence by less than ``min_gain`` nats around their site.
-    The readings of ``half`` cells to each side of a site are compared; these squares do not overlap. ``evidence``, (C,
-    nx, ny), is updated around the changes that stay. Returns the masks of these changes, (n,), by chain.
+    The readings of ``half_width`` cells to each side of a site are compared; these squares do not overlap. The
+    ``evidence``, (C, nx, ny), is updated around the changes that stay. Returns their masks, (n,), by chain.
     """
     replaced = []
     for cells, solid, new in zip(maps.cells, maps.solid, changes, strict=True):
@@ -144,7 +145,7 @@ def try_changes(
         cells[new.index], solid[new.index] = new.cells, new.solid
     after = evidence_of(maps)
     masks = []
-    width = 2 * half + 1  # edge of the compared squares, in cells
+    width = 2 * half_width + 1  # edge of the compared squares, in cells
     for chain, previous in enumerate(replaced):
         # Sums over the square of cells around each cell.
         gain = ndimage.uniform_filter(after[chain] - evidence[chain], width, mode="constant") * width**2
@@ -152,15 +153,15 @@ def try_changes(
         undone = previous.select(~stays)
         maps.cells[chain][undone.index], maps.solid[chain][undone.index] = undone.cells, undone.solid
         for x, y in previous.middle[stays]:
-            square = _square(x, y, half)
+            square = _square(x, y, half_width)
             evidence[chain][square] = after[chain][square]
         masks.append(stays)
     return masks
 
 
-def _square(x: int, y: int, half: int) -> tuple[slice, slice]:
-    """Return the cells of a square, ``half`` cells to each side of its middle, cut off at the grid's borders."""
-    return slice(max(0, x - half), x + half + 1), slice(max(0, y - half), y + half + 1)
+def _square(x: int, y: int, half_width: int) -> tuple[slice, slice]:
+    """Return the cells of a square, ``half_width`` cells to each side of its middle, cut off at the grid's borders."""
+    return slice(max(0, x - half_width), x + half_width + 1), slice(max(0, y - half_width), y + half_width + 1)
 
 
 def select_apart(sites: Indices, gap: int, shape: tuple[int, int]) -> Mask:
@@ -179,7 +180,7 @@ class ExplainedReadings:
     count: Indices  # number of readings, (N,)
     mean_m: Floats  # mean of their end points from the grid's corner, (N, 2)
     moments: Floats  # second central moments xx, xy and yy, square metres, (N, 3)
-    noise: Floats  # mean variance of the noise, square metres, (N,)
+    noise_m2: Floats  # mean variance of the noise, (N,)
 
 
 @dataclass(frozen=True, eq=False)
@@ -200,15 +201,15 @@ class Merges(NamedTuple):
 
 
 def merge_surfaces(
-    maps: ChainMaps, end_points_m: Floats, noise: Floats, owners: list[Ints], grid: Grid,
+    maps: ChainMaps, end_points_m: Floats, noise_m2: Floats, owners: list[Ints], grid: Grid,
     evidence_of: EvidenceOf, evidence: Floats,
 ) -> list[int]:  # fmt: skip
-    """Merge surfaces of few beams with neighbours where this raises the evidence; return the numbers by chain.
+    """Merge surfaces of few beams with neighbours where this raises the evidence; return how many, by chain.
     Maps change in place. Beams have end points from the grid's corner, (B, 2), not finite if none, and variances of
-    their ``noise``, m^2, (B,). ``owners`` holds by chain the cell that stopped each beam, flat, or -1, (B,).
+    their noise, (B,). ``owners`` holds by chain the cell that stopped each beam, flat, or -1, (B,).
     """
     chains = zip(maps.cells, maps.solid, owners, strict=True)
-    pending = [propose_merges(*chain, end_points_m, noise, grid) for chain in chains]
+    pending = [propose_merges(*chain, end_points_m, noise_m2, grid) for chain in chains]
     changed = np.zeros(maps.solid.shape, dtype=np.bool_)
     n_removed = [0] * len(pending)
     evidence = evidence.copy()
@@ -230,10 +231,10 @@ def merge_surfaces(
 
 
 def propose_merges(
-    cells: Singles, solid: Mask, owner: Ints, end_points_m: Floats, noise: Floats, grid: Grid
+    cells: Singles, solid: Mask, owner: Ints, end_points_m: Floats, noise_m2: Floats, grid: Grid
 ) -> Changes:
     """Propose to remove surfaces of few beams and to lengthen the neighbour of closest axis, the closest axes first."""
-    readings = explained_readings(cells, owner, end_points_m, noise, grid)
+    readings = explained_readings(cells, owner, end_points_m, noise_m2, grid)
     axes = surface_axes(cells)
     merges = best_neighbours(cells, readings, axes, grid)
     order = np.argsort(merges.off_sigmas, kind="stable")
@@ -246,7 +247,7 @@ def propose_merges(
 
 
 def explained_readings(
-    cells: Singles, owner: Ints, end_points_m: Floats, noise: Floats, grid: Grid
+    cells: Singles, owner: Ints, end_points_m: Floats, noise_m2: Floats, grid: Grid
 ) -> ExplainedReadings:
     """Compute the moments of the readings that each surface explains."""
     stopped = np.flatnonzero((owner >= 0) & np.isfinite(end_points_m).all(axis=1))
@@ -261,7 +262,7 @@ def explained_readings(
     middle = np.stack([mean(points[:, 0]), mean(points[:, 1])], axis=-1)
     x, y = (points - middle[cell]).T
     moments = np.stack([mean(x * x), mean(x * y), mean(y * y)], axis=-1)
-    return ExplainedReadings(count, middle, moments, mean(noise[stopped]))
+    return ExplainedReadings(count, middle, moments, mean(noise_m2[stopped]))
 
 
 def surface_axes(cells: Singles) -> SurfaceAxes:
@@ -299,7 +300,7 @@ def best_neighbours(cells: Singles, readings: ExplainedReadings, axes: SurfaceAx
         normal = np.stack([-axes.direction[neighbour, 1], axes.direction[neighbour, 0]], axis=-1)
         offset_m = ((readings.mean_m[source] - cells[neighbour, 1:3]) * normal).sum(axis=1)
         square = offset_m**2 + variance_along(readings.moments[source], normal)
-        square /= axes.across[neighbour] + readings.noise[source]
+        square /= axes.across[neighbour] + readings.noise_m2[source]
         better = inside & stops[neighbour] & may_take & (square < best_square)
         best_square[better], target[better] = square[better], neighbour[better]
     close = best_square <= MAX_OFF_SIGMAS**2

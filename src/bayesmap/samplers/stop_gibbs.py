@@ -21,7 +21,7 @@ from bayesmap.cells.reflectivity import Beta, positions_in
 from bayesmap.cells.surface import PARTS
 from bayesmap.model import Model
 from bayesmap.samplers import stop_problem
-from bayesmap.samplers.merge_moves import merge, merge_sweeps
+from bayesmap.samplers.merge_moves import merge, sweeps_before_merges
 from bayesmap.samplers.sampler import SILENT, ChainState, Info, Keep, Snapshot, Stream, Watch
 from bayesmap.samplers.stop_problem import StopProblem, trace_stops
 from bayesmap.space.arrays import Indices, Ints, Mask, Singles
@@ -226,9 +226,9 @@ class StopGibbs:
         return np.ascontiguousarray(cells if state.problem.prior.has_surfaces else cells[..., 0])
 
     def step(self, state: StopState, sweeps: int, beta: float = 1.0, keep: Keep = Keep()) -> tuple[StopState, Info]:
-        """Make some sweeps of all chains, and merge surfaces after those that `merge_sweeps` lists."""
+        """Make some sweeps of all chains, and merge surfaces after those that `sweeps_before_merges` lists."""
         end = state.sweep + sweeps
-        merges = merge_sweeps(self.early_sweeps)
+        merges = sweeps_before_merges(self.early_sweeps)
         if not state.problem.prior.has_surfaces or state.sweep >= max(merges, default=0):
             return self._sweep(state, sweeps, beta, keep)
         infos: list[Info] = []

@@ -28,6 +28,7 @@ ROUNDS = 20  # default of `propagate`: most rounds
 MAX_UNKNOWN = 16  # most unknown cells of `enumerate_maps`: 65 536 states
 BATCH_CELLS = 1 << 23  # cells per batch of maps
 COUPLED_BATCH_CELLS = 1 << 13  # cells per batch of maps with coupled neighbours
+INSPECTED_MAPS = 32  # most maps that decide which cells count as observed
 NEGLIGIBLE_NATS = 40.0  # a particle this far below the best adds nothing to any mean
 
 
@@ -51,14 +52,14 @@ def propagate(
     If no cell lies on two beams and neighbours are not coupled, one undamped round is exact. If beams and coupled
     neighbours form a tree, as many rounds as it is wide are exact. Other marginals are approximate, mostly too certain.
     Rounds end when no probability changes by over ``tolerance``. ``damping`` in [0, 1) is the old message's weight in
-    the new one, geometrically. ``beta`` is the inverse temperature. Raises `BadInput`: rounds or damping out of range.
+    the new one, geometrically. ``beta`` is the inverse temperature. Raises `BadInput` if one is out of range.
     """
     from bayesmap.kernels.walls.propagate import Beliefs
 
     rounds = check_count("propagate", "rounds", rounds, 1)
     if not 0 <= damping < 1:
         raise BadInput(f"propagate: damping must lie in [0, 1), got {damping!r}")
-    began = time.perf_counter()
+    began_s = time.perf_counter()
     beliefs = Beliefs(problem.table, problem.logit, problem.device, beta, problem.coupling)
     p_wall = special.expit(beliefs.log_odds().astype(np.float64))
     changes = []
@@ -75,7 +76,7 @@ def propagate(
     return Marginals(
         p_wall=p_wall.reshape(problem.table.grid.shape), changes=np.array(changes),
         converged=changes[-1] < tolerance, finished=changes[-1] < tolerance or len(changes) == rounds,
-        seconds=time.perf_counter() - began,
+        seconds=time.perf_counter() - began_s,
     )  # fmt: skip
 
 
@@ -140,7 +141,7 @@ def sample_importance(
     particles = check_count("importance", "particles", particles, 1)
     key = mix(seed, 0, Stream.PARTICLES)
     log_likelihoods: list[Floats] = []
-    began = time.perf_counter()
+    began_s = time.perf_counter()
     batch_size, n_weighed = 256, 0
     watch.report("particles", 0, particles)  # the first particles of a large map take long
     while n_weighed < particles and not (log_likelihoods and watch.should_stop()):
@@ -148,13 +149,13 @@ def sample_importance(
         log_likelihoods.append(_weigh(problem, key, n_weighed, count))
         n_weighed += count
         # Later batches take about a quarter of a second, so that a stop is noticed soon.
-        batch_size = int(np.clip(0.25 * n_weighed / max(time.perf_counter() - began, 1e-9), 256, 1 << 20))
+        batch_size = int(np.clip(0.25 * n_weighed / max(time.perf_counter() - began_s, 1e-9), 256, 1 << 20))
         watch.report("particles", n_weighed, particles)
     log_weights = beta * np.concatenate(log_likelihoods)
     log_total = float(special.logsumexp(log_weights))
     return Particles(
         log_weights=log_weights - log_total, log_evidence=log_total - float(np.log(n_weighed)), problem=problem,
-        key=key, seconds=time.perf_counter() - began, finished=n_weighed == particles,
+        key=key, seconds=time.perf_counter() - began_s, finished=n_weighed == particles,
     )  # fmt: skip
 
 
@@ -199,7 +200,7 @@ class Enumeration:
         p[self.unknown] = np.exp(self.log_posterior) @ self.states()
         return p.reshape(self.problem.table.grid.shape)
 
-    def pairs(self) -> Floats:
+    def pair_probabilities(self) -> Floats:
         """Return the posterior probability that both of two enumerated cells are walls, (n, n)."""
         states = self.states().astype(np.float64)
         return np.asarray((states * np.exp(self.log_posterior)[:, None]).T @ states)
@@ -214,7 +215,7 @@ class Enumeration:
 
 
 def enumerate_maps(problem: WallProblem) -> Enumeration:
-    """Compute p(map | readings) of every map, in plain NumPy. Raises BadInput: over `MAX_UNKNOWN` unknown cells."""
+    """Compute p(map | readings) of every map in NumPy. Raises `BadInput` for more than `MAX_UNKNOWN` unknown cells."""
     table, p = problem.table, problem.p_wall
     # Cells that no beam touches matter if neighbours are coupled.
     matters = table.touched_map().ravel() | (problem.coupling != 0.0)
@@ -299,7 +300,7 @@ class IndependentDraws:
 
 
 def draw_by_enumeration(problem: WallProblem, request: DrawRequest, watch: Watch) -> IndependentDraws:
-    """Enumerate the whole posterior, and draw from it."""
+    """Enumerate the whole posterior, and draw from it; ``watch`` is not used."""
     posterior = enumerate_maps(problem)
     return _draw(problem, request, posterior.sample, posterior.marginals(), log_evidence=posterior.log_evidence)
 
@@ -343,7 +344,8 @@ def _draw(
     walls = np.stack([sample(rng, request.draws) for rng in rngs])
     packed = pack(walls)
     maps = walls.reshape(-1, *problem.grid.shape)
-    inspected = maps[np.unique(np.linspace(0, len(maps) - 1, 32).astype(int))] if len(maps) else occupancy[None] > 0.5
+    indices = np.unique(np.linspace(0, len(maps) - 1, INSPECTED_MAPS).astype(int))
+    inspected = maps[indices] if len(maps) else occupancy[None] > 0.5
     return IndependentDraws(
         walls=packed,
         log_likelihood=np.stack([log_likelihoods(problem.table, chain, problem.device) for chain in packed]),

@@ -20,19 +20,18 @@ from bayesmap.app.shown.result import Result
 from bayesmap.beams.table import BeamTable
 from bayesmap.cells.binary import BinaryWalls
 from bayesmap.errors import BadInput
-from bayesmap.posterior.decisions import beam_information, shortest_safe_path, typical_sigma_m
+from bayesmap.posterior.decisions import HEADINGS, beam_information, shortest_safe_path, typical_sigma_m
 from bayesmap.space.arrays import Mask
 from bayesmap.space.planar import Floats
 
-UNDECIDED_QUESTION: Mapping[type, Literal["path", "views", "ghost", "beam"]] = {  # by type
+UNDECIDED_QUESTION: Mapping[type, Literal["path", "views", "ghost", "beam"]] = {  # its name in `Undecided`, by type
     FindPath: "path", FindViews: "views", MoveVirtualScan: "ghost", CompareBeam: "beam",
 }  # fmt: skip
 
 MAX_VIEWS = 400  # places in the map of expected information
 MAX_P_STOP = 0.3  # a sensor may stand in a cell whose probability of stopping a beam is below this
-HEADINGS = 8  # headings tried per place
 MAX_ANGLES = 180  # beams per view: every k-th, so their information is multiplied by k
-FULL_CIRCLE_RAD = 6.1  # one heading is enough for beams that span this: those of a full circle span a little under 2 pi
+FULL_CIRCLE_RAD = 6.1  # beams that span this need one heading: a full circle less a step, which thinning makes larger
 
 
 @dataclass(frozen=True, eq=False)

@@ -41,7 +41,7 @@ def without_untouched_cells(table: BeamTable) -> tuple[NDArray[np.intp], BeamTab
     return cells, BeamTable(row_grid, table.offsets, numbers[table.cells], table.loglik, table.no_hit)
 
 
-def reach_by_means(table: BeamTable, p_wall: Floats) -> Floats:
+def approximate_reach(table: BeamTable, p_wall: Floats) -> Floats:
     """Return the share of five maps in which a beam reaches each cell, (nx, ny): walls have p over 0.1, 0.3 ... 0.9."""
     return reach_frequency(table, p_wall > np.arange(0.1, 1.0, 0.2)[:, None, None])
 
@@ -82,22 +82,23 @@ class Preview(Estimate):
         return p.reshape(self.problem.table.grid.shape)
 
     def reached(self) -> Floats:
-        """Return the approximate probability that a beam reaches each cell, (nx, ny), by `reach_by_means`."""
+        """Return the approximate probability that a beam reaches each cell, (nx, ny), by `approximate_reach`."""
         reached = np.zeros(self.problem.table.grid.n_cells)
         if len(self.cells):
-            reached[self.cells] = reach_by_means(self.table, self._p.reshape(self.table.grid.shape)).ravel()
+            reached[self.cells] = approximate_reach(self.table, self._p.reshape(self.table.grid.shape)).ravel()
         return reached.reshape(self.problem.table.grid.shape)
 
     def marginals(self) -> methods.Marginals:
-        """Return the current marginals, for starts of chains and for independent draws."""
-        return methods.Marginals(self.mean(), np.zeros(0), self.converged, self.converged, 0.0)
+        """Return the current marginals for starts of chains. `as_run` saves them, and calls them finished."""
+        converged = self.converged
+        return methods.Marginals(self.mean(), np.zeros(0), converged=converged, finished=converged, seconds=0.0)
 
     def progress(self, ended: bool) -> Progress:
         return Progress(sweeps=self.rounds, seconds=self._seconds)
 
     def as_run(self, result: Result) -> Run:
         began_s, document = time.perf_counter(), result.document
-        request = methods.DrawRequest(CHAINS, SAVED_DRAWS, document.seed, document.sweeps, self.rounds)
+        request = methods.DrawRequest(CHAINS, SAVED_DRAWS, document.seed, particles=0, rounds=self.rounds)
         draws = methods.draw_from_marginals(result.scene.problem, request, replace(self.marginals(), finished=True))
         return _run_of_draws(result, self.problem, draws, began_s, self.rounds)
 
@@ -149,12 +150,12 @@ class Weighing(Estimate):
         return self.particles.occupancy()
 
     def reached(self) -> Floats:
-        """Return the approximate probability that a beam reaches each cell, (nx, ny), by `reach_by_means`."""
-        return reach_by_means(self.problem.table, self.mean())
+        """Return the approximate probability that a beam reaches each cell, (nx, ny), by `approximate_reach`."""
+        return approximate_reach(self.problem.table, self.mean())
 
     def as_run(self, result: Result) -> Run:
         began_s, document = time.perf_counter(), result.document
-        request = methods.DrawRequest(CHAINS, SAVED_DRAWS, document.seed, document.sweeps, 0)
+        request = methods.DrawRequest(CHAINS, SAVED_DRAWS, document.seed, particles=document.sweeps, rounds=0)
         draws = methods.resample_particles(self.problem, request, self.particles)
         return _run_of_draws(result, self.problem, draws, began_s)
 
@@ -162,7 +163,7 @@ class Weighing(Estimate):
 def _run_of_draws(
     result: Result, problem: WallProblem, draws: methods.IndependentDraws, began_s: float, rounds: int = 0
 ) -> Run:
-    """Return a run of independent draws that were begun at a time of `time.perf_counter`, after rounds, if any."""
+    """Return a run of independent draws. ``began_s`` is a time of `time.perf_counter`; ``rounds`` are a preview's."""
     model = result.scene.model(problem.prior)
     settings = result.settings_of_run(model, Schedule(CHAINS, warmup=0, draws=SAVED_DRAWS, thin=1), rounds)
     seconds = {"trace": 0.0, "total": time.perf_counter() - began_s}

@@ -90,7 +90,7 @@ class Marginal(SampleDistribution):
             return self.simulate(key, args), jnp.zeros(())
         if self.algorithm is None:
             traces, log_weights = self._importance_sample(key, constraint, args, self.particles)
-            trace = nth(traces, 0)
+            trace = nth(traces, 0)  # all runs share the shown choices; the return value is the first run's
             score = logsumexp(log_weights) - jnp.log(self.particles)
         else:
             trace, _ = self.gen_fn.generate(key, constraint, args)
@@ -118,9 +118,7 @@ class Marginal(SampleDistribution):
                 new, score = self.generate(key, constraint | trace.choices, args)
                 discard = constraint & trace.choices
                 return new, score - trace.score, Diff.unknown_change(new.retval), Update(discard)
-            case Regenerate(selection) if not trace.choices.filter(~selection).static_is_empty():
-                raise NotSupportedEditRequest(self, request)
-            case Regenerate():
+            case Regenerate(selection) if trace.choices.filter(~selection).static_is_empty():
                 new = self.simulate(key, args)
                 return new, jnp.zeros(()), Diff.unknown_change(new.retval), Update(trace.choices)
         raise NotSupportedEditRequest(self, request)

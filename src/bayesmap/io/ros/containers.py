@@ -23,8 +23,8 @@ from pathlib import Path
 from typing import Any
 
 from bayesmap.errors import BadInput
-from bayesmap.io.ros import recording as raw
-from bayesmap.io.ros.recording import Damaged, Message, Recording, Topic, messages_of, topics_of, zstd
+from bayesmap.io.ros import recording as recordings
+from bayesmap.io.ros.recording import Damaged, Message, OnDamage, Recording, Topic, messages_of, refuse, topics_of, zstd
 
 ZSTD = b"\x28\xb5\x2f\xfd"
 COMPRESSION_MAGICS = {"zstd": ZSTD, "gzip": b"\x1f\x8b", "bzip2": b"BZh"}  # first bytes of compressed files
@@ -33,9 +33,9 @@ UNPACKERS: dict[str, Callable[[Any], Any]] = {  # functions that open compressed
     "bzip2": bz2.BZ2File,
 }  # fmt: skip
 CHUNK_BYTES = 1 << 16  # unpacked at a time
-MAGICS = {"rosbag1": raw.BAG_MAGIC, "rosbag2-sqlite3": raw.SQLITE_MAGIC, "mcap": raw.MCAP_MAGIC}  # first bytes of files
-RECORD_READERS: dict[str, Callable[[str | os.PathLike[str], raw.OnDamage], raw.Records]] = {  # readers by format
-    "rosbag1": raw.bag_records, "rosbag2-sqlite3": raw.sqlite_records, "mcap": raw.mcap_records,
+MAGICS = {"rosbag1": recordings.BAG_MAGIC, "rosbag2-sqlite3": recordings.SQLITE_MAGIC, "mcap": recordings.MCAP_MAGIC}
+RECORD_READERS: dict[str, Callable[[str | os.PathLike[str], OnDamage], recordings.Records]] = {  # by format
+    "rosbag1": recordings.bag_records, "rosbag2-sqlite3": recordings.sqlite_records, "mcap": recordings.mcap_records,
 }  # fmt: skip
 RECORD_BY_RECORD = ("rosbag1", "mcap")  # formats with undamaged files that rosbags refuses and these functions read
 ANY_BAG = b"#ROSBAG V"  # first bytes of bags of any version
@@ -60,7 +60,7 @@ def open_recording(path: str | os.PathLike[str], *, salvage: bool, types: Collec
     """
     name = os.fspath(path)
     start = b"" if Path(path).is_dir() else first_bytes(path, 16)
-    if start.startswith(ANY_BAG) and not start.startswith(raw.BAG_MAGIC):
+    if start.startswith(ANY_BAG) and not start.startswith(recordings.BAG_MAGIC):
         version = start[len(ANY_BAG) :].split(b"\n")[0].decode("ascii", "replace").strip()
         remedy = "If ROS wrote it before 2010, convert it with ROS 1: rosbag fix OLD.bag NEW.bag"
         raise BadInput(f"{name}: a ROS 1 bag of format {version}; only 2.0 is read. {remedy}")
@@ -91,7 +91,7 @@ def _open_whole(path: str | os.PathLike[str]) -> Recording:
     with ExitStack() as stack:
         pieces = []
         for file in files:
-            copy = _unpacked_copy(file, stack, raw.refuse)
+            copy = _unpacked_copy(file, stack, refuse)
             pieces.append(_by_rosbags(copy, container, _rosbags_reader(copy, container), is_file=True))
         return _joined(os.fspath(path), container, pieces, (note,) if Path(path).is_dir() else (), stack)
 
@@ -100,7 +100,7 @@ def _files_of(path: str | os.PathLike[str]) -> tuple[list[Path], str]:
     """Return a file, or the storage files of a folder without metadata in the order of their names, and the format."""
     if not Path(path).is_dir():
         container = container_of(path)
-        assert container is not None
+        assert container is not None  # the caller has recognised the file
         return [Path(path)], container
     files = [entry for entry in sorted(Path(path).iterdir()) if entry.name.endswith(ENDINGS)]
     # Leave out a packed file whose unpacked copy lies beside it.
@@ -133,7 +133,7 @@ def _by_rosbags(
         if not has_fallback:
             raise
         try:
-            return _by_records(path, container, raw.refuse, raw.refuse)
+            return _by_records(path, container, refuse, refuse)
         except Damaged as damage:
             raise Damaged(str(damage) or str(problem)) from None
 
@@ -143,25 +143,25 @@ def _by_rosbags(
         except Damaged:
             if not has_fallback:
                 raise
-            return list(messages_of(RECORD_READERS[container](path, raw.refuse), topics, names))
+            return list(messages_of(RECORD_READERS[container](path, refuse), topics, names))
 
     return Recording(os.fspath(path), container, topics, read, *times)
 
 
 def _by_records(
-    path: str | os.PathLike[str], container: str, on_damage: raw.OnDamage, on_damage_again: raw.OnDamage
+    path: str | os.PathLike[str], container: str, on_damage: OnDamage, on_damage_in_reading: OnDamage
 ) -> Recording:
-    """Return a recording read record by record. Opening it calls ``on_damage``, each reading ``on_damage_again``."""
+    """Return a recording read record by record. Opening calls ``on_damage``, each reading ``on_damage_in_reading``."""
     records = RECORD_READERS[container]
     topics, times = topics_of(records(path, on_damage))
 
     def read(names: frozenset[str]) -> Iterable[Message]:
-        return list(messages_of(records(path, on_damage_again), topics, names))
+        return list(messages_of(records(path, on_damage_in_reading), topics, names))
 
     return Recording(os.fspath(path), container, topics, read, *times)
 
 
-def _rosbags_topics(make_reader: Callable[[], Any], container: str) -> tuple[dict[str, Topic], raw.Times]:
+def _rosbags_topics(make_reader: Callable[[], Any], container: str) -> tuple[dict[str, Topic], recordings.Times]:
     """Return the topics with their counts, and the times of receipt of the first and the last message."""
     topics: dict[str, Topic] = {}
     with _opened(make_reader) as reader:
@@ -171,13 +171,13 @@ def _rosbags_topics(make_reader: Callable[[], Any], container: str) -> tuple[dic
                 continue
             count = connection.msgcount + (earlier.count if earlier else 0)
             language = "idl" if connection.msgdef.format.name == "IDL" else "msg"
-            ros1 = ("ros1", connection.digest)
+            is_ros1 = container == "rosbag1"
+            encoding, md5 = ("ros1", connection.digest) if is_ros1 else (connection.ext.serialization_format, "")
             topics[connection.topic] = Topic(
-                connection.topic, connection.msgtype, count, connection.msgdef.data, language,
-                *(ros1 if container == "rosbag1" else (connection.ext.serialization_format, "")),
-            )  # fmt: skip
-        metadata = reader if container == "rosbag1" or not hasattr(reader, "metadata") else reader.metadata
-        times = metadata.start_time, metadata.end_time - 1
+                connection.topic, connection.msgtype, count, connection.msgdef.data, language, encoding, md5
+            )
+        metadata = getattr(reader, "metadata", reader)  # rosbag1's reader has the times itself
+        times = metadata.start_time, metadata.end_time - 1  # rosbags' end is 1 ns past the last message
     return topics, times if any(topic.count for topic in topics.values()) else (None, None)
 
 
@@ -272,12 +272,12 @@ def first_bytes(path: str | os.PathLike[str], count: int) -> bytes:
             return b""
 
 
-def _unpacked_copy(path: Path, stack: ExitStack, on_damage: raw.OnDamage) -> Path:
+def _unpacked_copy(path: Path, stack: ExitStack, on_damage: OnDamage) -> Path:
     """Return a temporary unpacked copy of a file, or the file itself if it is not compressed.
     If the file is damaged and ``on_damage`` returns, the copy ends before the damage.
     """
     with path.open("rb") as file:
-        kind = compression_of(file.read(4))
+        kind = compression_of(file.read(4))  # as long as the longest magic
         if kind is None:
             return path
         file.seek(0)

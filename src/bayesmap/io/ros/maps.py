@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from PIL.Image import Image
 
 T = TypeVar("T", bound=np.generic)
-ImageLike = str | os.PathLike[str] | ArrayLike  # a path, a PIL image, or an array of rows
+ImageLike = str | os.PathLike[str] | ArrayLike  # a path, or an array of rows; signatures add PIL's Image
 MAX_PIXELS = 100_000_000
 MODES = ("trinary", "scale", "raw")
 THRESHOLDS = {"trinary": (0.65, 0.25), "scale": (1.0, 0.0), "raw": (0.65, 0.25)}  # occupied, free by default
@@ -200,9 +200,9 @@ def read_map(path_yaml: str | os.PathLike[str]) -> tuple[NDArray[np.float64], Gr
     free = _entry_number(path, entries, "free_thresh", 0.196)
     mode = str(entries.get("mode", "trinary"))
     _check_thresholds(occupied, free)
-    grey, opaque = _read_image(path.parent / str(_entry(path, entries, "image")), with_alpha=mode == "trinary")
     if mode not in MODES:
         raise BadInput(f"{path}: mode {mode!r} is not known; map_server has trinary, scale and raw")
+    grey, opaque = _read_image(path.parent / str(_entry(path, entries, "image")), with_alpha=mode == "trinary")
     if mode == "raw":
         cells = np.rint(255 * grey)
         cells[cells > 100] = np.nan

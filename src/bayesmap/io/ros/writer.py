@@ -51,7 +51,7 @@ class Channel:
 
     topic: str
     type_name: str
-    messages: Sequence[tuple[float | None, Any]]  # times of receipt in seconds, with messages; None: 1 ns, not 0
+    messages: Sequence[tuple[float | None, Any]]  # (seconds of receipt, message); None, like 0, is written as 1 ns
     latched: bool = True  # whether late subscribers get the last message
 
 
@@ -111,7 +111,7 @@ class Recorder:
 
     def write(self, *channels: Channel) -> Path:
         """Write topics, whole or not at all, and return the path. Raises `BadInput` if the path cannot be written."""
-        # The bag names its file after its folder: make it in a folder of that name, in one file system, and move it.
+        # rosbags names a bag's file after its folder: write a bag of the target's name beside it, then move it.
         target = self.target
         is_folder = self.ending == FOLDER
         whole = write_whole_folder(target, is_ros2_bag) if is_folder else write_whole(target)
@@ -190,7 +190,7 @@ def write_grid_map(
     stamp_s: float | None = None,
 ) -> Path:  # fmt: skip
     """Write layers (see `as_layers`), the first as the basic layer, as the one message of a recording, a GridMap.
-    Cells that no beam reached are NaN, and invalid in grid_map, because ``mean`` is the basic layer. Raises `BadInput`
+    Cells that no beam reached are NaN in all layers, and so invalid in grid_map. Raises `BadInput`
     for layers that do not fit, another ending, or a file that cannot be written.
     """
     checked = as_layers(grid, layers, observed)
@@ -238,24 +238,24 @@ def write_trajectory_recording(path: str | os.PathLike[str], trajectory: Traject
         ros.make("geometry_msgs/msg/PoseStamped", header=ros.header(frame, stamp), pose=pose)
         for pose, stamp in zip(poses, times, strict=True)
     ]
-    line = ros.make(PATH, header=ros.header(frame, times[-1]), poses=stamped)
-    channels = [Channel("/trajectory", PATH, [(times[-1], line)])]
+    path_message = ros.make(PATH, header=ros.header(frame, times[-1]), poses=stamped)
+    channels = [Channel("/trajectory", PATH, [(times[-1], path_message)])]
     if trajectory.covariances is not None:
         covariances = np.zeros((len(poses), 6, 6))
         covariances[:, IN_PLANE[:, None], IN_PLANE] = trajectory.covariances
         messages = []
         for pose, stamp, covariance in zip(poses, times, covariances, strict=True):
-            posed = ros.make("geometry_msgs/msg/PoseWithCovariance", pose=pose, covariance=covariance.ravel())
-            messages.append((stamp, ros.make(POSE, header=ros.header(frame, stamp), pose=posed)))
+            with_covariance = ros.make("geometry_msgs/msg/PoseWithCovariance", pose=pose, covariance=covariance.ravel())
+            messages.append((stamp, ros.make(POSE, header=ros.header(frame, stamp), pose=with_covariance)))
         channels.append(Channel("/pose", POSE, messages, latched=False))
     return ros.write(*channels)
 
 
 def write_scans(path: str | os.PathLike[str], scans: Scans, base_poses: ArrayLike, mount: Sequence[float]) -> Path:
     """Write scans as a robot records them: /scan, odometry in /tf, and the laser's place in /tf_static.
-    The scans have one fan of beams, and stamps of 1 ns and later. ``base_poses``, (S, 3), are the poses of the robot's
-    base by its odometry, and ``mount`` is the pose of the laser in the frame of the base. Raises `BadInput` for scans
-    without stamps, another ending, or a file that cannot be written.
+    The scans have one fan of two beams or more, and stamps of 1 ns and later. ``base_poses``, (S, 3), are the poses of
+    the robot's base by its odometry, and ``mount`` is the pose of the laser in the frame of the base. Raises `BadInput`
+    for scans without stamps, another ending, or a file that cannot be written.
     """
     if scans.stamps_s is None or scans.own_angles_rad is not None:
         raise BadInput("recording: scans need stamps and one fan of beams")

@@ -12,7 +12,7 @@ without poses and velocities, and are read only if no poses are needed. Scans ar
 
 ROBOTLASER1 lines state their first angle and the step. By CARMEN's own rule the first beam of FLASER is at -90 degrees.
 Beams are 1 degree apart if there are 180 or 181, half a degree if 360 or 361, a quarter if 400 or 401; any other number
-spreads over 180 degrees. (It puts 401 beams from -90 to +10 degrees; a SICK looked from -50 to +50.)
+spreads over 180 degrees. (401 beams get -90 to +10 degrees, though a SICK looked from -50 to +50: a note says so.)
 """
 
 import math
@@ -35,8 +35,8 @@ from bayesmap.space.scans import MAX_BEAMS, Fan, Scans, as_poses, fan_fault, sid
 
 IMPLICIT = ("FLASER", "RLASER")  # messages that do not state their angles
 LASERS = ("FLASER", "ROBOTLASER1", "RLASER", "ROBOTLASER2")  # messages that hold a scan with its pose; preferred first
-RAW = ("RAWLASER1", "RAWLASER2", "RAWLASER3", "RAWLASER4", "RAWLASER5")  # messages that hold a scan without a pose
-CARMEN_MESSAGES = (*LASERS, "ODOM", "PARAM", "SYNC", "NEFF", "TRUEPOS", "LASER3", "LASER4", "MARKER", *RAW)
+WITHOUT_POSES = ("RAWLASER1", "RAWLASER2", "RAWLASER3", "RAWLASER4", "RAWLASER5")  # scans without a pose
+CARMEN_MESSAGES = (*LASERS, "ODOM", "PARAM", "SYNC", "NEFF", "TRUEPOS", "LASER3", "LASER4", "MARKER", *WITHOUT_POSES)
 """Messages by which a CARMEN log is recognised."""
 STEP_DEG = {180: 1.0, 181: 1.0, 360: 0.5, 361: 0.5, 400: 0.25, 401: 0.25}  # default step, by number of beams
 MIN_CODE_M = 81.83  # smallest number written for no return, a SICK laser's; larger if hits come too near
@@ -73,7 +73,7 @@ def read_carmen(path: str | os.PathLike[str], options: LogOptions) -> ScanLog:
     `BadInput` for a file that cannot be read or holds no scans, and for a malformed line, unless the options skip it.
     """
     account = LogAccount(os.fspath(path), "carmen", options)
-    kinds = LASERS + RAW if options.without_poses else LASERS
+    kinds = LASERS + WITHOUT_POSES if options.without_poses else LASERS
     scans_by_kind: dict[str, list[PlacedScan]] = {kind: [] for kind in kinds}
     number = 0
     for number, line in log_lines(account):
@@ -125,14 +125,14 @@ def parse_laser(kind: str, words: list[bytes]) -> LaserLine:
         poses_at, total = readings_end, readings_end + 9
     else:
         poses_at = readings_end + 1 + _count(kind, words, readings_end, "remissions")
-        total = poses_at + (3 if kind in RAW else 14)
+        total = poses_at + (3 if kind in WITHOUT_POSES else 14)
     if len(words) != total:
         fields = f"{len(words)} fields where {total} are needed (is the line cut short, or joined with another?)"
         raise MalformedLine(f"{kind} with {beams} readings has {fields}")
     readings = parse_floats(kind, words[count_at + 1 : readings_end], count_at + 1)
     # Two poses, in the explicit format five more numbers, then time, host, and the logger's time.
     numbers = parse_floats(kind, [*words[poses_at : total - 2], words[total - 1]], poses_at)
-    numbers = np.append(np.zeros(6) if kind in RAW else numbers[:6], numbers[-2])
+    numbers = np.append(np.zeros(6) if kind in WITHOUT_POSES else numbers[:6], numbers[-2])
     if not np.isfinite(numbers).all():
         raise MalformedLine(f"{kind} has a pose or a time that is not finite: {numbers.tolist()}")
     laser_pose, robot_pose, stamp_s = numbers[:3], numbers[3:6], float(numbers[6])
@@ -145,8 +145,8 @@ def parse_laser(kind: str, words: list[bytes]) -> LaserLine:
         raise MalformedLine(angles)
     if (fault := fan_fault(first, first + step * max(beams - 1, 0))) is not None:
         raise MalformedLine(f"{angles}: {fault}")
-    stated_m = max_range if math.isfinite(max_range) and max_range > 0 else None
-    return LaserLine(Fan(beams, first, step), readings, laser_pose, robot_pose, stamp_s, stated_m)
+    stated_max_m = max_range if math.isfinite(max_range) and max_range > 0 else None
+    return LaserLine(Fan(beams, first, step), readings, laser_pose, robot_pose, stamp_s, stated_max_m)
 
 
 def _implied_fan(kind: str, beams: int) -> Fan:
@@ -184,7 +184,7 @@ def _check_odometry(words: list[bytes]) -> None:
 
 def scan_log_of(account: LogAccount, scans_by_kind: Mapping[str, Sequence[PlacedScan]]) -> tuple[ScanLog, list[Fan]]:
     """Return the scans of the kind of message with most scans, and their fans, the commonest first."""
-    kind = max(scans_by_kind, key=lambda kind: len(scans_by_kind[kind]))
+    kind = max(scans_by_kind, key=lambda name: len(scans_by_kind[name]))
     scans = [scan for scan, _ in scans_by_kind[kind] if scan.fan.beams]
     n_empty = len(scans_by_kind[kind]) - len(scans)
     if not scans:
@@ -206,18 +206,18 @@ def scan_log_of(account: LogAccount, scans_by_kind: Mapping[str, Sequence[Placed
     else:
         angles, raw = side_by_side([scan.fan.angles_rad() for scan in scans], readings)
         angles = angles[order]
-    stated_m = max((scan.max_range_m for scan in scans if scan.max_range_m is not None), default=None)
-    classified = _classify(account, raw[order], stated_m, Views.of(poses[order], angles))
+    stated_max_m = max((scan.max_range_m for scan in scans if scan.max_range_m is not None), default=None)
+    classified = _classify(account, raw[order], stated_max_m, Views.of(poses[order], angles))
     # Median pose of the laser in the robot's frame.
     robot_poses, laser_poses = np.array([s.robot_pose for s in scans]), np.array([s.laser_pose for s in scans])
     x, y, yaw = (float(v) for v in np.median(between(robot_poses, laser_poses), axis=0))
-    mount = None if kind in RAW else (x, y, yaw)
-    return account.scan_log(kind, poses[order], angles, classified, mount=mount, posed=kind not in RAW), fans
+    mount = None if kind in WITHOUT_POSES else (x, y, yaw)
+    return account.scan_log(kind, poses[order], angles, classified, mount=mount, posed=kind not in WITHOUT_POSES), fans
 
 
-def _classify(account: LogAccount, raw: Floats, stated_m: float | None, views: Views) -> Readings:
+def _classify(account: LogAccount, raw: Floats, stated_max_m: float | None, views: Views) -> Readings:
     """Classify readings, (S, A). The default largest range is the largest hit, up to the no-return code."""
-    ranges, no_return = decode(raw, account.options.no_return, stated_m, views)
+    ranges, no_return = decode(raw, account.options.no_return, stated_max_m, views)
     code_m = no_return.code_m if no_return.code_m is not None and no_return.code_m > 0 else math.inf
     limit, origin = max_range_of(account.name, ranges, account.options.max_range_m, cap_m=code_m)
     return Readings(ranges, no_return, 0.0, limit, origin, no_return.notes())
@@ -273,7 +273,7 @@ def write_carmen(path: str | os.PathLike[str], scans: Scans, robot_poses: Floats
 
     lines = ["# CARMEN log, written by bayesmap"]
     for scan, (stamp, has_beam) in enumerate(zip(stamps, scans.has_beam, strict=True)):
-        fan = fans[scan % len(fans)]
+        fan = fans[scan % len(fans)]  # the only fan, or the scan's own
         beams = f"{fan.beams} " + " ".join(f"{v:.4f}".rstrip("0").rstrip(".") for v in numbers[scan, has_beam])
         poses = " ".join(f"{v:.6f}" for v in (*scans.poses[scan], *robot_poses[scan]))
         end = f"{stamp:.6f} bayesmap {stamp - stamps[0]:.6f}"

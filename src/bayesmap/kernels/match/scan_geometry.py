@@ -11,8 +11,7 @@ from bayesmap.kernels.device import Float32Rows, Float32s, Float64Rows, Floats, 
 from bayesmap.sensors.model import RangeLimits
 
 wp.set_module_options({"enable_backward": False})
-NO_POINT, POINT = (wp.constant(wp.uint8(kind)) for kind in (0, 1))
-WITH_NORMAL = wp.constant(wp.uint8(2))
+NO_POINT, POINT, WITH_NORMAL = (wp.constant(wp.uint8(k)) for k in (0, 1, 2))  # `bayesmap.poses.scan_geometry`'s kinds
 NOWHERE_M = wp.constant(wp.float32(1.0e6))  # where beams without a point end: too far to be nearest to any point
 MAX_FITS = wp.constant(3)  # fits tried per beam, each twice as wide as the one before
 MAX_NEIGHBOURS = wp.constant(40)  # beams to either side, this one included

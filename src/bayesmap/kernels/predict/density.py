@@ -96,7 +96,7 @@ def surface_stop(maps: MapArrays, row: int, column: int, line: Line) -> wp.vec3d
 
 @wp.func
 def stop_on_walk(maps: MapArrays, row: int, line: Line, w: Walk) -> wp.vec3d:
-    """Return chance, distance and *spread* of the stop in the cell that a walk touches, in a map of the whole grid."""
+    """Return chance, distance and *spread*, not variance, of the stop in the cell of a walk in a map of the whole grid."""
     cell = w.cell_x * line.ny + w.cell_y
     if maps.has_surfaces != 0:
         stop = surface_stop(maps, row, cell, line)
@@ -184,7 +184,7 @@ def no_sum(law: SensorLaw64) -> wp.vec2d:
 def add_stop(
     law: SensorLaw64, sums: wp.vec2d, weight: wp.float64, z: wp.float64, decay: wp.float64, stop: wp.vec3d
 ) -> wp.vec2d:
-    """Add a stop's share of the density to the sum: its weight times p(reading | stop)."""
+    """Add ``weight``, in place of the stop's chance, times p(z | stop) to the sum. ``decay`` is `object_decay` of z."""
     if law.kind == MIXTURE:
         return wp.vec2d(sums[0], sums[1] + weight * laws.stop_density(law, z, decay, stop[1], stop[2]))
     return add_log(sums, wp.log(weight) + laws.stop_log_density(law, z, decay, stop[1], stop[2]))
@@ -294,7 +294,7 @@ def _summed_forecasts(
     """Compute log densities, and mean cumulatives at the reading and at the largest and smallest range, (B,) each."""
     device = devices.resolve(device)
     law = (law_with_cumulative if with_cumulative else laws.sensor_law)(sensor, rays.limits, device)
-    beams, cumulatives = rays.n_beams, (rays.n_beams if with_cumulative else 1,)
+    beams, cumulatives = rays.n_beams, (rays.n_beams if with_cumulative else 1,)  # 1: not used
     reach_m = explained_within_m(rays.range_m, sensor, rays.limits, rays.grid.resolution)
     sums = devices.pack(
         ForecastSums, device, range_m=rays.range_m, reach_m=reach_m, total=(beams,), below=cumulatives,
@@ -348,7 +348,7 @@ class PosedScans:
 
     pose: Float64Rows  # pose in the world frame
     scan: Int32s  # index of the scan at each pose
-    chain: Int32s  # index of the map of each pose
+    map_index: Int32s  # index of the map at each pose
     mounts: Float64Rows  # start and angle in the scan's frame, of each beam of a scan or of all scans
     range_m: Float64s  # readings of all scans
     beams: int  # A
@@ -379,7 +379,7 @@ def beam_log_likelihoods(first: int, law: SensorLaw64, frame: Frame, maps: MapAr
     w = walk_along(line, frame.nx, law.max_m)
     while w.distance <= w.end and survive >= min_survival:
         if is_inside(w, frame.nx, frame.ny):
-            stop = stop_on_walk(maps, scans.chain[row], line, w)
+            stop = stop_on_walk(maps, scans.map_index[row], line, w)
             weight = survive * stop[0]
             survive = survive * (ONE - stop[0])
             if weight > wp.float64(0.0):
@@ -402,26 +402,26 @@ class ScanLikelihood:
     device: str = "cpu"
 
     def beams(
-        self, cells: Singles | DeviceMaps, poses: Floats, scan: NDArray[np.intp], chain: NDArray[np.intp]
+        self, cells: Singles | DeviceMaps, poses: Floats, scan: NDArray[np.intp], map_index: NDArray[np.intp]
     ) -> Floats:
         """Compute the log density of each reading at poses in the world frame, invalid ones 0, in nats, (P, A).
-        ``cells`` holds a map of the whole grid per chain, see `StopStates`; `DeviceMaps` are not copied. ``scan`` and
-        ``chain`` are the indices of the scan and of the map at each pose, (P,).
+        ``cells`` holds a map of the whole grid per row, see `StopStates`; `DeviceMaps` are not copied. ``scan`` and
+        ``map_index`` are the indices of the scan and of the map at each pose, (P,).
         """
         device, beams = devices.resolve(self.device), self.scans.ranges_m.shape[1]
         limits = RangeLimits(self.scans.min_range_m, self.scans.max_range_m)
         law, size = laws.sensor_law(self.sensor, limits, device), len(poses) * beams
         maps = cells.arrays if isinstance(cells, DeviceMaps) else maps_to_device(cells, self.hit_depth, device)
         mounts, readings = self._on_device
-        fields = {"pose": poses, "scan": scan, "chain": chain, "mounts": mounts, "range_m": readings}
+        fields = {"pose": poses, "scan": scan, "map_index": map_index, "mounts": mounts, "range_m": readings}
         scans = devices.pack(PosedScans, device, beams=beams, **fields)
         inputs = [law, grid_frame(self.grid), maps, scans, (size,)]
         (out,) = devices.launch(beam_log_likelihoods, size, inputs, device, devices.threads_for(size))
         return np.asarray(out.reshape(len(poses), beams))
 
-    def __call__(self, cells: Singles, poses: Floats, scan: NDArray[np.intp], chain: NDArray[np.intp]) -> Floats:
+    def __call__(self, cells: Singles, poses: Floats, scan: NDArray[np.intp], map_index: NDArray[np.intp]) -> Floats:
         """Compute the log-likelihood of each scan at its pose, (P,): the sum of `beams`."""
-        return np.asarray(self.beams(cells, poses, scan, chain).sum(axis=1))
+        return np.asarray(self.beams(cells, poses, scan, map_index).sum(axis=1))
 
     @cached_property
     def _on_device(self) -> tuple[Any, Any]:

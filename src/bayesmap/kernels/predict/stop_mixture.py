@@ -209,7 +209,7 @@ def halve_span(law: SensorLaw64, stops: StopMixtureArrays, search: LevelSearch, 
         if weight > MIN_WEIGHT:
             distance = wp.float64(stops.distance_m[entry])
             p += weight * laws.not_random_below(law, z, decay, distance, wp.float64(stops.variance[entry]))
-    if search.total * laws.random_below(law, z) + law.p_known * p < level:
+    if search.total * laws.random_below(law, z) + law.p_not_random * p < level:
         # Upper half: decide the stops whose returns all lie below z.
         search.low = z
         is_decided = bool(True)

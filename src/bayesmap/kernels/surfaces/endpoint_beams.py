@@ -264,7 +264,7 @@ def stop_density_lanes(law: SensorLaw32, reading: Lanes, decay: Lanes, distance:
     # Add returns, random readings and passing objects.
     decay_at_stop = wp.cw_mul(decay, exponential(law.rate_short_per_m * error))
     unblocked = (wp.float32(1.0) - law.p_short) * one + law.p_short * decay_at_stop
-    returned = law.p_known * law.p_return * law.height * wp.cw_mul(unblocked, wp.cw_mul(returns, noise))
+    returned = law.p_not_random * law.p_return * law.height * wp.cw_mul(unblocked, wp.cw_mul(returns, noise))
     before = positive(wp.min(distance, limit) - reading)
     return Lanes(law.uniform) + returned + law.passing * wp.cw_mul(before, decay)
 
