@@ -182,7 +182,7 @@ class CellPrior(ABC):
         return self.predictive_stops(draws, cells)
 
     def default_draws(self, beams: int, cells: int, chains: int, thin: int = 1) -> int:
-        """Return the default number of draws per chain, ``thin`` sweeps apart."""
+        """Return the default number of draws per chain, ``thin`` sweeps apart: 1000, unless a kind needs others."""
         return 1000
 
     # Files

@@ -48,7 +48,7 @@ class Surface(Beta):
 
     The prior is mu ~ N(centre, tau^2 I) inside the cell's own square, and Sigma ~ InverseWishart(nu, psi I) x
     exp(-tr Sigma / (2 kappa^2)). Lengths are in edges of a cell, so that one prior serves all resolutions.
-    Raises `BadInput`: a number that is not positive, too few dof, or surfaces much larger than their scale.
+    Raises `BadInput` if a number is not positive, the dof are too few, or surfaces much exceed their scale.
 
     Attributes:
         a, b, coupling, a_solid, b_solid: as in `Beta`.

@@ -114,7 +114,7 @@ def update(known: KnownMap, prior: Prior, scan: Scan, rng: np.random.Generator, 
     # Take the places of the prior and of a search, and refine them by the end points.
     places = _starting_places(known, prior, scan, look_everywhere=look_everywhere)
     if places is None:
-        return compute_belief(known, prior, scan, draw_uniform_population(known, few_beams, rng), None)
+        return compute_belief(known, prior, scan, draw_uniform_population(known, few_beams, rng), place_of=None)
     places = refine_by_end_points(places, partial(prior.log_density, known=known), known, scan, rng)
     min_share, max_places = known.trust.min_draw_share, known.trust.max_places
     max_nats = max(NEGLIGIBLE_NATS, known.trust.forgotten_nats)
@@ -305,7 +305,7 @@ def locate(known: KnownMap, scan: Scan, rng: np.random.Generator) -> PoseBelief:
     final = Target(known, prior, scan, final_weight)
     candidates = search(known.field, scan.angles_rad, scan.ranges_m, LOCATE_CANDIDATES)
     if len(candidates.poses) == 0:
-        return compute_belief(known, prior, scan, draw_uniform_population(known, final, rng), None)
+        return compute_belief(known, prior, scan, draw_uniform_population(known, final, rng), place_of=None)
     places = _mixture_at(candidates.poses)
     # Adapt the places while the beams' weight rises, then at the final weight.
     thin = max(1, len(scan.angles_rad) // LOCATE_BEAMS)

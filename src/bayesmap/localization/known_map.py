@@ -98,7 +98,7 @@ class KnownMap:
 
         predictor = predictor_of(run.posterior)
         selected = set(np.linspace(0, predictor.draws - 1, min(draws, predictor.draws)).astype(int).tolist())
-        numbered = enumerate(state for batch in predictor.batches(None) for state in batch)
+        numbered = enumerate(state for batch in predictor.batches() for state in batch)
         states = np.stack([state.copy() for number, state in numbered if number in selected])
         return cls.of_draws(
             states, run.grid, predictor.sensor, run.posterior.scans, occupancy=np.asarray(run.occupancy),
@@ -138,7 +138,7 @@ class KnownMap:
     @cached_property
     def endpoints(self) -> EndpointField:
         """Field of the surfaces on which end points of beams fall, for proposals."""
-        assert isinstance(self.sensor, BeamMixture)
+        assert isinstance(self.sensor, BeamMixture)  # `_compilable` made it one
         scale_m = float(self.sensor.noise.scale_at(np.asarray(self.typical_range_m)))
         return endpoint_field(self.packed.states(), self.grid, scale_m, self.unknown, self.p_stop_unknown)
 

@@ -28,7 +28,7 @@ from bayesmap.space.scans import Scans
 from bayesmap.space.time_order import elapsed_bounds_s, repeated_stamps
 
 MAX_SPEED_M_PER_S = 3.0  # largest speed of a robot: faster motions count as impossible
-ORDINARY_ODOMETRY = Odometry(0.1, 0.05, 0.05, 0.1, 0.01, 0.01)  # a robot's noise is a multiple of this noise
+ORDINARY_ODOMETRY = Odometry(still_m=0.01, still_rad=0.01)  # a robot's noise is a multiple of this noise
 PRIOR_RATIO = 3.0  # prior value of this multiple
 PRIOR_COUNT = 12.0  # number of motions that the prior value counts as
 MEMORY_MOTIONS = 300.0  # number of motions over which the noise is averaged, since floors differ
@@ -345,7 +345,7 @@ def _pair_residuals(
     weak_prior = np.tile(np.diag([25.0, 25.0, 100.0]), (len(first), 1, 1))
     offsets, start = np.arange(len(first) + 1, dtype=np.int32), poses[first]
     refinement = Refinement(first, offsets, second, poses[second], start, start, weak_prior)
-    convergence = Convergence(0.02, 10, geometry.reach_m(0.2, 0.15), geometry.scale_m(0.05, 0.03), 0.7)
+    convergence = Convergence(0.02, 10, geometry.reach_m(0.2, 0.15), geometry.scale_m(0.05, 0.03), min_cosine=0.7)
     totals = refine_scans(geometry, refinement, convergence, threads).totals
     return np.asarray(1.0 - totals[:, WEIGHT] / np.maximum(totals[:, SEEN], 1.0))
 

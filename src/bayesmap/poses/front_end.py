@@ -292,7 +292,7 @@ class _Path:
 
     def _scans_ahead(self) -> Indices:
         """Return the scans in which a fit is sought after a contradiction, none of them over a break."""
-        assert self.motions is not None
+        assert self.motions is not None  # the caller has checked it
         motions = self.motions[self.last : self.last + MAX_AHEAD_SCANS]
         lengths_m, turns_rad = np.cumsum(lengths_and_turns(motions), axis=1)
         unknown = np.maximum.accumulate(self.unknown[self.last :][: len(motions)])

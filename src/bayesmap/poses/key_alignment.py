@@ -95,7 +95,7 @@ class KeyAlignment:
             poses = np.where(is_returned[:, None], poses_before, aligned.poses)
             poses = np.where(is_moved[:, None], result.best_poses, poses)
             poses_before = aligned.poses
-            aligned = self.align("aligned-rematched", poses, factors, 6, coarse=False)
+            aligned = self.align("aligned-rematched", poses, factors, rounds=6, coarse=False)
             # Match only scans again that a move concerns: the moved ones, and scans with a moved partner.
             changed = is_moved | is_returned
             changed[aligned.pairs.source[changed[aligned.pairs.target]]] = True

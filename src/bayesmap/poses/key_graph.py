@@ -118,13 +118,13 @@ def _is_guess_confirmed(path: KeyPath, segment: int, closures: Closures, weighed
     is_across = (path.segments[closures.first] < segment) & (path.segments[closures.second] == segment)
     begin = int(np.searchsorted(path.segments, segment))
     off = between(between(guess[begin - 1], guess[begin]), between(poses[begin - 1], poses[begin]))
-    n_confirming = (is_across & (weighed.weights > 0.5)).sum()
+    n_confirming = (is_across & (weighed.weights > 0.5)).sum()  # without outliers
     if not (are_within(off, SAME_M, SAME_RAD) and n_confirming >= MIN_PLACES):
         return False
     so_far = path.segments <= segment
     two_segments = (path.segments[so_far] == segment).astype(np.intp)
     both = KeyPath(path.geometry, path.keys[so_far], poses[so_far], path.path_m[so_far], two_segments)
-    return is_consistent(both, Merge(0, 1, np.zeros(3), 0.0))
+    return is_consistent(both, Merge(earlier=0, later=1, motion=np.zeros(3), votes=0.0))
 
 
 def chain_links(track: Track, poses: Floats) -> Factors:
@@ -248,7 +248,7 @@ def _doubtful_visits(
     strain = chain.squares(poses)
     for number in range(len(prior_log_odds)):
         mask = (visit == number) & ~removed
-        if not (weights[mask] > 0.5).any():
+        if not (weights[mask] > 0.5).any():  # the graph takes the visit for outliers already
             continue
         # The cost of the path between the two ends, plus the loops' cost, bounds D. Skip visits that are surely right.
         begin, end = loops.first[mask].min(), loops.second[mask].max()

@@ -279,7 +279,7 @@ def _refine(path: KeyPath, first: Indices, second: Indices, start: Floats, score
     other_poses = between(path.poses[np.repeat(first, np.diff(offsets))], path.poses[others])
     weak_prior = np.tile(np.diag([1.0, 1.0, 4.0]), (len(first), 1, 1))
     refinement = Refinement(path.scans(second), offsets, path.scans(others), other_poses, start, start, weak_prior)
-    convergence = Convergence(0.02, 15, (0.4, 0.12), (0.2, 0.05), MIN_COSINE)
+    convergence = Convergence(sigma_m=0.02, steps=15, reach_m=(0.4, 0.12), scale_m=(0.2, 0.05), min_cosine=MIN_COSINE)
     refined, laser_information, _ = refine_scans(path.geometry, refinement, convergence, path.geometry.threads)
     covariance = np.linalg.inv(laser_information + np.diag([1e-2, 1e-2, 1e-1])) + np.diag(MIN_CLOSURE_SIGMA**2)
     information = np.linalg.inv(covariance)

@@ -127,7 +127,7 @@ def odds_map(hits: Floats, passes: Floats, values: Mapping[str, float]) -> Float
 
 
 def octomap_map(hits: Floats, passes: Floats, values: Mapping[str, float]) -> Floats:
-    """Compute `odds_map` with OctoMap's hit and miss, from 1/2, without clamping."""
+    """Compute `odds_map` with OctoMap's hit and miss, from 1/2, without clamping; ``values`` are not used."""
     return odds_map(hits, passes, {"p_hit": P_HIT, "p_miss": P_MISS, "p_start": 0.5})
 
 
@@ -146,7 +146,7 @@ class Baseline:
     starts: tuple[Mapping[str, float], ...] = ({},)  # starting values of these parameters
 
     def stops(self, hits: Floats, passes: Floats, values: Mapping[str, float]) -> Floats:
-        """Return the stop probability of each cell, (N,); raise `ValueError` if ``stop`` returns another shape."""
+        """Return the stop probability of each cell, (N,). Raises `ValueError` if ``stop`` returns another shape."""
         probabilities = np.asarray(self.stop(hits, passes, values))
         if probabilities.shape != hits.shape:
             raise ValueError(f"{self.name}: stop gave shape {probabilities.shape} for cells of shape {hits.shape}")
@@ -200,7 +200,7 @@ def fit_baseline(
 
     folds = make_folds(train, grid) if folds is None else folds
     default = default_sensor(grid.resolution)
-    assert hasattr(default.noise, "sigma_m")
+    assert hasattr(default.noise, "sigma_m")  # the default noise is normal
     few_outliers = {
         "scale_m": default.noise.sigma_m, "scale_per_m": 0.005, "p_random": default.p_random,
         "p_no_return": default.p_no_return, "p_short": default.p_short,
@@ -257,7 +257,7 @@ def fit_external_map(
             f"({x1:.6g}, {y1:.6g}) m; are map and poses in one frame?"
         )
 
-    def stop(hits: Floats, passes: Floats, fitted: Mapping[str, float]) -> Floats:
+    def stop(hits: Floats, passes: Floats, fitted: Mapping[str, float]) -> Floats:  # counts are not used
         return stop_probabilities(values.ravel(), fitted)
 
     baseline = Baseline(name, stop, EXTERNAL, EXTERNAL_STARTS)

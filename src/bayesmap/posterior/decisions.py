@@ -105,8 +105,7 @@ def expected_information(
     from bayesmap.kernels.predict.density import ScanLikelihood, device_maps
 
     poses_world = as_poses(poses)
-    chains = draws.chains
-    n_draws = len(draws.cells)
+    chains, n_draws = draws.chains, len(draws.cells)
     draws_per_chain = n_draws // chains
     if draws_per_chain < 2:
         raise BadInput(f"information: {draws_per_chain} draws of the map from each chain; two are the fewest")
@@ -116,12 +115,11 @@ def expected_information(
     scan = np.repeat(draw_index, draws_per_chain)
     other_draw = np.tile(draw_index.reshape(chains, 1, draws_per_chain), (1, draws_per_chain, 1)).ravel()
     bounds = np.empty((4, len(poses_world)))
-    limits = fan.limits
     # For each pose, simulate a scan in every draw, and weigh each scan in every draw of its chain.
     for i, pose in enumerate(poses_world):
         poses_of_draws = np.broadcast_to(pose, (n_draws, 3))
         readings = draw_readings(maps, fan, poses_of_draws, draw_index, (seed, i, Stream.VIEWS))
-        scans = Scans(poses_of_draws, fan.angles_rad, readings, limits.max_m, limits.min_m)
+        scans = Scans(poses_of_draws, fan.angles_rad, readings, fan.limits.max_m, fan.limits.min_m)
         likelihood = ScanLikelihood(scans, draws.grid, fan.sensor, draws.hit_depth, device)
         log_p = likelihood.beams(maps, np.broadcast_to(pose, (len(scan), 3)), scan, other_draw)
         bounds[:, i] = _bounds(log_p.reshape(chains, draws_per_chain, draws_per_chain, -1))
@@ -302,7 +300,7 @@ def next_views(
         if count < 1:
             raise BadInput(f"explore: {name} must be 1 or more, got {count!r}")
     on_search, on_comparison = split_progress(on_progress, 1.0, 2.0)
-    fan = Fan.of("explore", posterior, None, None, None)
+    fan = Fan.of("explore", posterior, angles_rad=None, max_range_m=None, sensor=None)
     # Rank candidates with all headings by the fast formula, and keep each one's best heading.
     poses = _draw_candidates(posterior, blocked_by_cell(posterior, radius_m, on_search), candidates, seed)
     headings = headings_to_try(fan.angles_rad)

@@ -143,7 +143,7 @@ class Fold:
 
 
 def make_folds(train: Scans, grid: Grid) -> list[Fold]:
-    """Make interleaved folds until they have `FIT_BEAMS` beams; raise `BadInput` for too few scans."""
+    """Make interleaved folds until they have `FIT_BEAMS` beams. Raises `BadInput` for too few scans."""
     from bayesmap.kernels.rays import count_hits
 
     folds: list[Fold] = []
@@ -168,7 +168,7 @@ def make_folds(train: Scans, grid: Grid) -> list[Fold]:
 
 
 def one_fold(train: Scans, grid: Grid) -> list[Fold]:
-    """Make one fold of about `FIT_BEAMS` beams for a fixed map; raise `BadInput` without valid reading."""
+    """Make one fold of about `FIT_BEAMS` beams for a fixed map. Raises `BadInput` without a valid reading."""
     n_valid = (train.readings != ReadingKind.INVALID).sum(axis=1)
     usable = train.select(n_valid > 0)
     if len(usable) == 0:

@@ -91,7 +91,7 @@ def fixed_maps(stop: NDArray[np.floating]) -> Batches:
 
 
 def predictor_of(posterior: Posterior, sensor: SensorModel | None = None) -> Predictor:
-    """Return a posterior's predictor, by its sensor or another. Raises `BadInput`: no draws, or no known sensor."""
+    """Return a posterior's predictor, by its sensor or another. Raises `BadInput` without draws or a known sensor."""
     sensor = posterior.sensor if sensor is None else sensor
     if sensor is None:
         raise BadInput(

@@ -273,7 +273,7 @@ def plan_route(
 
 
 def _free_cell(point: Floats, grid: Grid, blocked: Floats, name: str) -> int:
-    """Return the flat index of the cell of start or goal; raise `BadInput` if it is outside the map or blocked."""
+    """Return the flat index of the cell of start or goal. Raises `BadInput` if it is outside the map or blocked."""
     cell = np.floor(grid.to_cells(point)).astype(int)
     words = f"{name} ({point[0]:.2f}, {point[1]:.2f} m)"
     if not ((cell >= 0) & (cell < grid.shape)).all():

@@ -66,7 +66,7 @@ class Parameters:
     def from_description(cls, values: dict[str, Any]) -> Parameters:
         """Return the parameters of a description."""
         sensor = from_description(values["sensor"])
-        assert isinstance(sensor, BeamMixture)
+        assert isinstance(sensor, BeamMixture)  # only mixtures are fitted
         return cls(sensor, Beta.of(prior_from(values["prior"]), "fitted parameters"))
 
 
@@ -80,7 +80,7 @@ def fit(
     problem: StopProblem, seed: int, sweeps: int, watch: Watch = SILENT, begun: StopState | None = None
 ) -> Parameters:
     """Fit sensor and prior by ``sweeps`` pilot sweeps; ``begun`` has made up to `FIRST_FIT_SWEEP`. A stop ends all."""
-    assert isinstance(problem.sensor, BeamMixture)
+    assert isinstance(problem.sensor, BeamMixture)  # `initial_sensor`'s
     fitted = Parameters(problem.sensor, problem.prior)
     for parameters, _ in pilot_sweeps(problem, seed, sweeps, watch, begun=begun):
         fitted = parameters
@@ -104,7 +104,7 @@ def pilot_sweeps(
     """Run the pilot, see `fit`. Yields the parameters after each sweep, and the sweep's report with a kept draw."""
     if sweeps == 0:
         return
-    assert isinstance(problem.sensor, BeamMixture)
+    assert isinstance(problem.sensor, BeamMixture)  # `initial_sensor`'s
     sampler, sensor, prior = StopGibbs(), problem.sensor, problem.prior
     state = sampler.init(problem, [PILOT], seed) if begun is None else begun
     # Fit to evenly spaced beams of all scans.
@@ -239,7 +239,7 @@ def refit_noise(noise: AdditiveNoise, residuals: StopResiduals, step_size: float
     if n_readings < MIN_WEIGHT:
         return noise
     present = noise.kernel_parameters()
-    assert present is not None
+    assert present is not None  # kernels have the noises that are fitted
     dof, scale_m, per_m = present.dof or math.inf, present.sigma_m, present.sigma_per_m
     index = DOFS.index(dof)
     candidates = DOFS[max(index - 1, 0) : index + 2] if step_size == 1.0 else (dof,)

@@ -29,7 +29,7 @@ PARTICLES = 100_000  # default of `Importance`
 class Gibbs:
     """Draw single cells from their conditionals, sweep after sweep: the default of all kinds of cells.
 
-    Reflectivities and surfaces have no order, start or rounds. Raises `BadInput`: unknown order or start, no rounds.
+    Reflectivities and surfaces have no order, start or rounds. Raises `BadInput` for other orders, starts or rounds.
 
     Attributes:
         order: order of the cells in a sweep: "radial", "raster" or "random".

@@ -64,7 +64,7 @@ class Metropolis:
     def prepare(
         self, model: Model, device: str, threads: int | None = None, watch: Watch = SILENT
     ) -> MetropolisProblem:
-        """Trace the beams; the sweeps run in NumPy, on the CPU."""
+        """Trace the beams. The sweeps run in NumPy, on the CPU, and do not use ``threads``."""
         from bayesmap.kernels.device import resolve
         from bayesmap.kernels.rays import trace_rays
 
@@ -75,7 +75,7 @@ class Metropolis:
         self, problem: MetropolisProblem, chain_ids: Sequence[int], seed: int, resume: Snapshot | None = None,
         watch: Watch = SILENT,
     ) -> MetropolisState:  # fmt: skip
-        """Start chains at draws from the prior, or at the maps of a snapshot."""
+        """Start chains at draws from the prior, or at the maps of a snapshot; ``watch`` is not used."""
         if resume is None:
             rngs = [np.random.default_rng([seed, chain, Stream.START]) for chain in chain_ids]
             starts = [problem.model.cells.sample_cells(rng, problem.grid) for rng in rngs]
@@ -112,7 +112,7 @@ class Metropolis:
         return Snapshot(state.sweep, {name: np.stack([cells[name] for cells in state.maps]) for name in state.maps[0]})
 
     def observed_counts(self, state: MetropolisState, draws: Mapping[str, NDArray[Any]]) -> Ints:
-        """Count each cell that a beam touches as observed in one draw. Returns (2, nx, ny)."""
+        """Count each cell that a beam touches as observed in one draw, whatever the draws. Returns (2, nx, ny)."""
         touched = state.problem.touched_map().astype(np.int32)
         return np.stack([touched, np.ones_like(touched)])
 

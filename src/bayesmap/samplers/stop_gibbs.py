@@ -159,7 +159,7 @@ class StopGibbs:
         self, problem: StopProblem, chain_ids: Sequence[int], seed: int, resume: Snapshot | None = None,
         watch: Watch = SILENT,
     ) -> StopState:  # fmt: skip
-        """Start chains scattered about the initial estimate, or continue from a snapshot."""
+        """Start chains scattered about the initial estimate, or continue from a snapshot; ``watch`` is not used."""
         from bayesmap.kernels.random import mix
         from bayesmap.kernels.surfaces.stop_chains import StopChains
 

@@ -271,7 +271,7 @@ def trace_stops(
     scans: Scans, grid: Grid, prior: Beta, sensor: SensorModel, *, hit_depth: float = 0.5, device: str = "cpu",
     threads: int | None = None, watch: Watch = SILENT,
 ) -> StopProblem:  # fmt: skip
-    """Trace rays as far as a stop may explain the reading. Raises `BadInput`: noise alone, or too many incidences."""
+    """Trace rays as far as a stop may explain the reading. Raises `BadInput` for noise alone, or too many beams."""
     from bayesmap.kernels.device import resolve
     from bayesmap.kernels.rays import trace_rays
 

@@ -100,7 +100,7 @@ def finite_logit(p_wall: Floats) -> Floats:
 
 
 def trace_walls(model: Model, device: str = "cpu", threads: int | None = None) -> WallProblem:
-    """Trace a model into a `WallProblem`. Raises `BadInput`: another prior, unknown device, too many incidences."""
+    """Trace a model. Raises `BadInput` for another prior, an unknown device, or too many incidences."""
     from bayesmap.kernels.device import resolve
     from bayesmap.kernels.walls.table import trace
 

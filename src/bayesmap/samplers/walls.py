@@ -110,7 +110,7 @@ class WallSampler(ABC):
         """Load the sweep kernel. Returns it with its first arguments, the tables."""
 
     def prepare(self, model: Model, device: str, threads: int | None = None, watch: Watch = SILENT) -> WallProblem:
-        """Trace the beam table."""
+        """Trace the beam table; ``watch`` is not used."""
         return trace_walls(model, device, threads)
 
     def init(

@@ -3,7 +3,7 @@
 Both leave the joint posterior of map and trajectory invariant (Gibbs sampling in two blocks). Each chain has its own
 poses. After its poses have moved, its rays are traced again, and its cells stay.
 
-Given the map, only the prior couples the poses: `bayesmap.poses.prior.PoseLaw.colours` tells which scans can move at
+Given the map, only the prior couples the poses: `independent_groups` of the prior's law tells which scans can move at
 once. A proposal is a normal step with the covariance of the scan's own likelihood and prior. The likelihood sums over
 the cells in which a beam may stop, and the next sweep draws these stops again (a collapsed Gibbs sampler: Liu, 1994).
 `WithPoses`, at the end, is the sampler of both; `PoseMetropolis` makes the steps of the poses.
@@ -118,12 +118,12 @@ def proposal_factors(
     lever_m = np.full(n_scans, 1.0)
     lever_m[has_hits] = np.maximum(np.nanmedian(range_m[has_hits], axis=1), 0.1)
     step = np.stack([np.full(n_scans, step_m), np.full(n_scans, step_m), step_m / lever_m], axis=-1)
-    scan, chain = np.arange(n_scans), np.zeros(n_scans, dtype=np.intp)
+    scan, map_index = np.arange(n_scans), np.zeros(n_scans, dtype=np.intp)
     slopes = []
     for axis in range(3):
         shift = np.zeros((n_scans, 3))
         shift[:, axis] = step[:, axis]
-        forward, backward = (likelihood.beams(cells, poses + sign * shift, scan, chain) for sign in (1.0, -1.0))
+        forward, backward = (likelihood.beams(cells, poses + sign * shift, scan, map_index) for sign in (1.0, -1.0))
         slopes.append(np.clip(forward - backward, -MAX_STEP_NATS, MAX_STEP_NATS) / (2 * step[:, axis : axis + 1]))
     gradient = np.stack(slopes, axis=-1)  # (S, A, 3)
     information = np.einsum("sai,saj->sij", gradient, gradient) + prior.precision(poses)

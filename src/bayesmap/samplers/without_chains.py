@@ -135,7 +135,7 @@ class Particles:
 def sample_importance(
     problem: WallProblem, particles: int, seed: int, *, beta: float = 1.0, watch: Watch = SILENT
 ) -> Particles:
-    """Weigh prior draws by their likelihood^beta. Raises `BadInput`: no particles, or too coupled a prior to draw."""
+    """Weigh prior draws by their likelihood^beta. Raises `BadInput` without particles, or if it cannot draw."""
     from bayesmap.kernels.random import mix
 
     particles = check_count("importance", "particles", particles, 1)

@@ -133,9 +133,10 @@ class Recorder:
         with bag:
             connections = []
             for channel in channels:
-                options: dict[str, Any] = {"callerid": "/bayesmap", "latching": int(channel.latched)}
-                if not self.is_ros1:
-                    options = {"offered_qos_profiles": [_quality_of_service(channel.latched)]}
+                options: dict[str, Any] = (
+                    {"callerid": "/bayesmap", "latching": int(channel.latched)} if self.is_ros1
+                    else {"offered_qos_profiles": [_quality_of_service(channel.latched)]}
+                )  # fmt: skip
                 connection = bag.add_connection(channel.topic, channel.type_name, typestore=self.store, **options)
                 connections.append(connection)
             messages = [

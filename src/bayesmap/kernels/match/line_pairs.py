@@ -54,7 +54,7 @@ class Sums:
 
     second: wp.mat33f  # H, above the diagonal
     slack: wp.mat33f  # above the diagonal
-    first: wp.vec3f  # g
+    gradient: wp.vec3f  # g
     totals: Totals
 
 
@@ -64,7 +64,7 @@ def angle_in_turns(vector: wp.vec2f) -> float:
     ax, ay = wp.abs(vector[0]), wp.abs(vector[1])
     t = wp.min(ax, ay) / wp.max(wp.max(ax, ay), 1.0e-9)
     t2 = t * t
-    angle = (((-0.0464964749 * t2 + 0.15931422) * t2 - 0.327622764) * t2 + 1.0) * t * 0.15915494309
+    angle = (((-0.0464964749 * t2 + 0.15931422) * t2 - 0.327622764) * t2 + 1.0) * t * 0.15915494309  # 1 / (2 pi)
     if ay > ax:
         angle = 0.25 - angle
     if vector[0] < 0.0:
@@ -76,24 +76,24 @@ def angle_in_turns(vector: wp.vec2f) -> float:
 def beam_towards(scene: ScanArrays, scan: int, point: wp.vec2f) -> int:
     """Return the beam of a scan that points towards a point, or -1 if there is none."""
     bins = scene.beam_of_angle.shape[1]
-    bin = int((angle_in_turns(point) + 0.5) * float(bins))
-    return scene.beam_of_angle[scene.layout[scan], wp.clamp(bin, 0, bins - 1)]
+    number = int((angle_in_turns(point) + 0.5) * float(bins))
+    return scene.beam_of_angle[scene.layout[scan], wp.clamp(number, 0, bins - 1)]
 
 
 @wp.func
-def nearest_point(scene: ScanArrays, scan: int, point: wp.vec2f, reach: float) -> int:
-    """Return the beam of the nearest point of a scan within reach, or -1 if there is none, or `OUT_OF_VIEW`."""
+def nearest_point(scene: ScanArrays, scan: int, point: wp.vec2f, reach_m: float) -> int:
+    """Return the beam of the nearest point of a scan within ``reach_m``, or -1 if there is none, or `OUT_OF_VIEW`."""
     middle = beam_towards(scene, scan, point)
     if middle < 0:
         return OUT_OF_VIEW
     distance = wp.length(point)
     step = scene.step[scan]
-    u = wp.min(1.0, reach / wp.max(distance, 1.0e-6))
+    u = wp.min(1.0, reach_m / wp.max(distance, 1.0e-6))
     # No point within reach is further off by angle than asin(u) <= u + (pi / 2 - 1) u^3.
     side_beams = wp.min(MAX_SIDE_BEAMS, int((u + 0.5708 * u * u * u) / step) + 1)
     beams = scene.beams[scan]
     is_circle = scene.full_circle[scan] != 0
-    closest_sq = reach * reach
+    closest_sq = reach_m * reach_m
     nearest = int(-1)
     # Search outwards. Points of equal distance count in the order of beams, so that the lower side takes ties.
     for k in range(side_beams + 1):
@@ -158,7 +158,7 @@ def pair_scans(
     shift = wp.vec2f(float(pose[0]), float(pose[1]))
     second = wp.mat33f()
     slack = wp.mat33f()
-    first = wp.vec3f()
+    gradient = wp.vec3f()
     totals = Totals()
     for beam in range(0, scene.kind.shape[1], rules.stride):
         if scene.kind[source, beam] == scenes.NO_POINT:
@@ -188,7 +188,7 @@ def pair_scans(
             weight = weight * weights[source, beam]
             across = wp.vec3f(mean_normal[0], mean_normal[1], mean_normal[1] * arm[0] - mean_normal[0] * arm[1])
             second += wp.outer(weight * across, across)
-            first += (weight * across) * e
+            gradient += (weight * across) * e
             slack_weight = weight * 0.25 * (scene.spread[source, beam] + scene.spread[target, partner])
             along = wp.vec3f(-mean_normal[1], mean_normal[0], wp.dot(mean_normal, arm))
             slack += wp.outer(slack_weight * along, along)
@@ -201,11 +201,11 @@ def pair_scans(
             if spacing > MAX_SPACING_M:
                 continue
             w = 1.0 / (1.0 + wp.length_sq(offset) / (rules.scale_m * rules.scale_m + spacing * spacing))
-            w = w * w * weights[source, beam] * (0.01 * 0.01) / (spacing * spacing)
+            w = w * w * weights[source, beam] * (0.01 * 0.01) / (spacing * spacing)  # 0.01 m: noise of a range
             second += wp.mat33f(w, 0.0, -w * arm[1], 0.0, w, w * arm[0], 0.0, 0.0, w * wp.length_sq(arm))
-            first += w * wp.vec3f(offset[0], offset[1], arm[0] * offset[1] - arm[1] * offset[0])
+            gradient += w * wp.vec3f(offset[0], offset[1], arm[0] * offset[1] - arm[1] * offset[0])
             totals[MATCHED] += 1.0
-    return Sums(second, slack, first, totals)
+    return Sums(second, slack, gradient, totals)
 
 
 class PairSums(NamedTuple):
@@ -231,7 +231,7 @@ def sum_pairs(
     sums = pair_scans(scene, weights, source[pair], target[pair], relative[pair], rules)
     out.second[pair] = symmetric(sums.second)
     out.slack[pair] = symmetric(sums.slack)
-    out.gradient[pair] = wp.vec3d(sums.first)
+    out.gradient[pair] = wp.vec3d(sums.gradient)
     out.totals[pair] = Totals64(sums.totals)
 
 
@@ -290,7 +290,7 @@ def match_counts(
 
 
 @wp.func
-def is_near_wall(scene: ScanArrays, scan: int, beam: int, point: wp.vec2f, near: float) -> int:
+def is_near_wall(scene: ScanArrays, scan: int, beam: int, point: wp.vec2f, near_m: float) -> int:
     """Return 1 if a point is near the wall between the points of a beam and the next beam, else 0."""
     beams = scene.beams[scan]
     start = beam
@@ -310,41 +310,41 @@ def is_near_wall(scene: ScanArrays, scan: int, beam: int, point: wp.vec2f, near:
         return 0
     to_point = point - start_point
     share = wp.clamp(wp.dot(to_point, wall) / wp.max(length * length, 1.0e-9), 0.0, 1.0)
-    return wp.where(wp.length(to_point - share * wall) < near, 1, 0)
+    return wp.where(wp.length(to_point - share * wall) < near_m, 1, 0)
 
 
 @wp.kernel
 def compare_views(
-    first: int, scene: ScanArrays, source: Int32s, target: Int32s, relative: Vec3ds, near: float, clear: float,
+    first: int, scene: ScanArrays, source: Int32s, target: Int32s, relative: Vec3ds, near_m: float, clear_m: float,
     counts: Int32Rows,
 ):  # fmt: skip
     """One thread per pair: count the points of the source that match the target, that contradict it, and all points."""
-    # A point contradicts the target if three neighbouring beams of the target all hit something ``clear`` metres
-    # beyond it.
+    # A point contradicts the target if three neighbouring beams of it all hit something ``clear_m`` beyond the point.
     pair = first + wp.tid()
     other = target[pair]
     turn = rotation_of(relative[pair])
     shift = wp.vec2f(float(relative[pair][0]), float(relative[pair][1]))
-    matched = int(0)
-    against = int(0)
-    total = int(0)
+    matched, contradicting, total = int(0), int(0), int(0)
     for beam in range(0, scene.kind.shape[1], scene.stride):
         if scene.kind[source[pair], beam] == scenes.NO_POINT:
             continue
         total += 1
         point = turn * scene.points[source[pair], beam] + shift
         # A match: near a point, or near the wall between two points.
-        if nearest_point(scene, other, point, near) >= 0:
+        if nearest_point(scene, other, point, near_m) >= 0:
             matched += 1
             continue
         middle = beam_towards(scene, other, point)
         if middle < 0:
             continue
-        if is_near_wall(scene, other, middle - 1, point, near) + is_near_wall(scene, other, middle, point, near) > 0:
+        walls = is_near_wall(scene, other, middle - 1, point, near_m) + is_near_wall(
+            scene, other, middle, point, near_m
+        )
+        if walls > 0:
             matched += 1
             continue
         # A contradiction: the beams about the point pass through it.
-        beyond = wp.length(point) + clear
+        beyond = wp.length(point) + clear_m
         through = int(0)
         for step in range(-1, 2):
             nearby = neighbour(middle, step, scene.beams[other], scene.full_circle[other])
@@ -352,9 +352,9 @@ def compare_views(
                 if scene.kind[other, nearby] != scenes.NO_POINT and wp.length(scene.points[other, nearby]) > beyond:
                     through += 1
         if through == 3:
-            against += 1
+            contradicting += 1
     counts[pair, 0] = matched
-    counts[pair, 1] = against
+    counts[pair, 1] = contradicting
     counts[pair, 2] = total
 
 

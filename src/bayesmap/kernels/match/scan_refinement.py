@@ -99,7 +99,7 @@ def sum_fixed_scans(
         turn = turn_of(frame[2])
         total.second += turn * symmetric(sums.second) * wp.transpose(turn)
         total.slack += turn * symmetric(sums.slack) * wp.transpose(turn)
-        total.gradient += turn * wp.vec3d(sums.first)
+        total.gradient += turn * wp.vec3d(sums.gradient)
         total.totals += Totals64(sums.totals)
     return total
 

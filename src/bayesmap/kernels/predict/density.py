@@ -96,7 +96,7 @@ def surface_stop(maps: MapArrays, row: int, column: int, line: Line) -> wp.vec3d
 
 @wp.func
 def stop_on_walk(maps: MapArrays, row: int, line: Line, w: Walk) -> wp.vec3d:
-    """Return chance, distance and *spread*, not variance, of the stop in the cell of a walk in a map of the whole grid."""
+    """Return chance, distance and *spread*, not variance, of the stop in a walk's cell, in a map of the whole grid."""
     cell = w.cell_x * line.ny + w.cell_y
     if maps.has_surfaces != 0:
         stop = surface_stop(maps, row, cell, line)
@@ -238,18 +238,19 @@ def add_forecasts(
                 stop = stop_in(maps, draw, columns[entry], line, rays.cells[entry])
                 weight = survive * stop[0]
                 survive = survive * (ONE - stop[0])
-            if weight > wp.float64(0.0):
-                if entry < beyond:
-                    sums = add_stop(law, sums, weight, z, decay, stop)
-                if with_cumulative != 0:
-                    out.below[beam] = out.below[beam] + weight * laws.cumulative(law, z_limit, stop[1], stop[2])
-                    if law.kind != NOISE:
-                        below_max = laws.cumulative(law, law.max_m, stop[1], stop[2])
-                        below_min = laws.cumulative(law, law.min_m, stop[1], stop[2])
-                        out.below_max[beam] = out.below_max[beam] + weight * below_max
-                        out.below_min[beam] = out.below_min[beam] + weight * below_min
-                if survive < min_survival:
-                    break
+            if weight <= wp.float64(0.0):
+                continue
+            if entry < beyond:
+                sums = add_stop(law, sums, weight, z, decay, stop)
+            if with_cumulative != 0:
+                out.below[beam] = out.below[beam] + weight * laws.cumulative(law, z_limit, stop[1], stop[2])
+                if law.kind != NOISE:
+                    below_max = laws.cumulative(law, law.max_m, stop[1], stop[2])
+                    below_min = laws.cumulative(law, law.min_m, stop[1], stop[2])
+                    out.below_max[beam] = out.below_max[beam] + weight * below_max
+                    out.below_min[beam] = out.below_min[beam] + weight * below_min
+            if survive < min_survival:
+                break
     out.largest[beam] = sums[0]
     out.total[beam] = sums[1]
 

@@ -29,8 +29,8 @@ from bayesmap.kernels.surfaces.stops import ChainArrays, TracedRays
 from bayesmap.kernels.surfaces.surface import PriorArrays, pseudo_counts
 
 wp.set_module_options({"enable_backward": False})
-CANDIDATES = wp.constant(32)
-CANDIDATES_PER_LAW = wp.constant(16)
+CANDIDATES = wp.constant(32)  # candidates for a beam's point under a tabulated law
+CANDIDATES_PER_LAW = wp.constant(16)  # half of them, from each of two laws
 PER_CANDIDATE = wp.constant(wp.float64(1.0 / 16.0))  # 1 / CANDIDATES_PER_LAW
 LOGISTIC_SCALE = wp.constant(wp.float64(0.6))  # scale of a logistic for a normal: longer tails, known quantiles
 MIN_VARIANCE = wp.constant(wp.float64(1.0e-12))  # square metres: a thinner surface counts as one point

@@ -123,16 +123,16 @@ class StopChains:
         # The state of all chains, with labels and counts from the host if given.
         parts = devices.ceil_div(self.threads, chains)
         by_cell, by_beam, by_part = (chains * cells,), (chains * beams,), (chains * parts, cells)
-        unknown = np.full(by_cell, -1, dtype=np.int32)
+        unset = np.full(by_cell, -1, dtype=np.int32)  # no sweep yet, and `stops.NOT_COUNTED`
         self._state: Any = devices.pack(
             stops.ChainArrays, device, n_cells=cells, n_beams=beams, parts=parts, beta=1.0, nx=rays.grid.shape[0],
             ny=rays.grid.shape[1], edge_m=rays.grid.resolution, keys=np.array(keys, dtype=np.uint64),
             cells=by_cell, solid=by_cell if solid is None else solid.ravel().astype(np.uint8),
             fixed_reflectivity=np.full(by_cell, stops.LEARNS, dtype=np.float32),
             candidates=(1,) if self.without_surfaces else by_cell, met=by_part, hits=by_part, gain=by_part,
-            stop=np.full(by_beam, -1, dtype=np.int32), stop_moments=by_beam, stopped_in=unknown, log_likelihood=by_beam,
+            stop=np.full(by_beam, -1, dtype=np.int32), stop_moments=by_beam, stopped_in=unset, log_likelihood=by_beam,
             lazy_survival=by_beam, last_hits=by_cell if counts is None else counts[:, 0].flatten(),
-            last_met=unknown.copy() if counts is None else counts[:, 1].flatten(),
+            last_met=unset.copy() if counts is None else counts[:, 1].flatten(),
             observed_counts=by_cell if observed_counts is None else np.array(observed_counts).reshape(-1, 2),
         )  # fmt: skip
         for chain in range(chains):

@@ -252,7 +252,7 @@ def choose_stop(
     # As in the module's text, survive: T; a: reflectivity times chance of meeting the surface.
     survive = survive_far
     total = wp.float64(tempered(law.uniform, state.beta)) * wp.float64(ONE_32 - survive_far)
-    choice = FAR
+    stop = FAR
     some_learn = int(0)
     # A stop is skipped if its weight is below single precision beside the total, which is at least the weight of the
     # least likely stop.
@@ -275,7 +275,7 @@ def choose_stop(
                 bound = wp.max(bound, negligible * wp.float32(total))
                 u = to_uniform(random_bits(beam.key, STREAM_CHOICE + wp.uint64(entry)))
                 if u * total < weight:
-                    choice = entry
+                    stop = entry
                 survive = survive * (ONE_32 - a)
             elif cell[REFLECTIVITY] > NEGLIGIBLE_REFLECTIVITY:
                 survive = survive * (ONE_32 - cell[REFLECTIVITY] * meeting_chance(rays, cell, beam.ray))
@@ -285,9 +285,9 @@ def choose_stop(
     nowhere = wp.float64(survive * tempered(laws.no_stop_density(law, beam.reading, beam.decay), state.beta))
     total += nowhere
     if to_uniform(random_bits(beam.key, STREAM_END + wp.uint64(beam.number))) * total < nowhere:
-        choice = beam.end
+        stop = beam.end
         some_learn = 1  # perhaps a cell behind the end of the walk learns
-    return StopChoice(choice, total, some_learn)
+    return StopChoice(stop, total, some_learn)
 
 
 @wp.func
@@ -308,18 +308,18 @@ def count_pass(state: ChainArrays, beam: Beam, c: int, cell: Cell, g: wp.float32
 @wp.func
 def find_far_stop(rays: TracedRays, state: ChainArrays, beam: Beam, target: wp.float32) -> int:
     """Return the far entry at which the chance of a stop so far exceeds ``target``, and undo the counts from it on."""
-    choice = FAR
+    stop = FAR
     survive = wp.float32(1.0)
     for entry in range(beam.begin, beam.first_near):
         c = rays.cells[entry]
         cell = state.cells[beam.cell_0 + c]
         g = meeting_chance(rays, cell, beam.ray)
         survive = survive * (ONE_32 - cell[REFLECTIVITY] * g)
-        if choice == FAR and (ONE_32 - survive >= target or entry == beam.first_near - 1):
-            choice = entry
-        if choice != FAR and state.fixed_reflectivity[beam.cell_0 + c] == LEARNS:
+        if stop == FAR and (ONE_32 - survive >= target or entry == beam.first_near - 1):
+            stop = entry
+        if stop != FAR and state.fixed_reflectivity[beam.cell_0 + c] == LEARNS:
             count_pass(state, beam, c, cell, g, entry, -1)
-    return choice
+    return stop
 
 
 @wp.func

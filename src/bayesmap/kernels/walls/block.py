@@ -208,7 +208,7 @@ def prior_weights(blocks: BlockArrays, prior: WallPriorArrays, x: int, y: int) -
     for j in range(4):
         cell = cell_of_block(blocks, x, y, j)
         if cell < 0 or prior.level[cell] == wp.uint64(0):
-            weights = weights + IMPOSSIBLE * blocks.is_first[j]
+            weights = weights + IMPOSSIBLE * blocks.is_first[j]  # all states in which j is a wall
         elif prior.level[cell] == CERTAIN_LEVEL:
             weights = weights + IMPOSSIBLE * (Weights(wp.float64(1.0)) - blocks.is_first[j])
         else:

@@ -51,7 +51,7 @@ def draw_from_prior(prior: WallPriorArrays, cell: int, bits: wp.uint64) -> bool:
 @wp.func
 def draw_wall(log_odds: wp.float64, u: wp.float64) -> bool:
     """Draw from a Bernoulli law by inversion: u < 1 / (1 + exp(-log_odds))."""
-    if log_odds > wp.float64(40.0):
+    if log_odds > wp.float64(40.0):  # certain in double precision
         return True
     if log_odds < wp.float64(-40.0):
         return False

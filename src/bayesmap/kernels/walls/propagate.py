@@ -26,11 +26,11 @@ from bayesmap.kernels.device import ONE_32, Float32Rows, Float32s, Float64s, Flo
 
 wp.set_module_options({"enable_backward": False})
 TINY = wp.constant(wp.float32(1.0e-30))  # keeps likelihoods and divisors above zero
-MAX_RATIO = wp.constant(wp.float32(1.0e6))
+MAX_RATIO = wp.constant(wp.float32(1.0e6))  # largest message of a beam; the smallest is its inverse
 MAX_PRODUCT = wp.constant(wp.float32(1.0e30))  # largest product: a larger one is replaced by its logarithm
 FIXED_LOG_ODDS = wp.constant(wp.float32(1.0e12))  # prior log-odds that no beam can outweigh: the prior fixes the cell
 MAX_LOG_ODDS = wp.constant(wp.float32(60.0))  # log-odds are clipped before their exponential
-CPU_PARTS = 4  # fixed, so that sums do not depend on the number of cores
+CPU_PARTS = 4  # parts of the beams; fixed, so that sums do not depend on the number of cores
 GPU_PARTS = 256
 
 
@@ -177,7 +177,7 @@ class Beliefs:
         cells, incidences, beams = table.grid.n_cells, table.n_incidences, table.n_beams
         parts = min(CPU_PARTS if device == "cpu" else GPU_PARTS, max(1, beams))
         bounds = np.searchsorted(table.offsets, np.linspace(0, incidences, parts + 1))
-        bounds[0], bounds[-1] = 0, beams
+        bounds[0], bounds[-1] = 0, beams  # beams without entries belong to a part, too
         arrays = devices.pack(
             BeliefArrays, device, bounds=bounds.astype(np.int32), offsets=table.offsets, cells=table.cells, logit=logit,
             relative=(incidences,), behind=(incidences,), relative_no_hit=(beams,), product=(parts, cells),

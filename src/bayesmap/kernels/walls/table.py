@@ -109,14 +109,14 @@ def find_beam_extremes(first: int, table: Table, lowest: Float32s, advantage: Fl
     """One thread per beam: find its lowest log-likelihood, and each entry's advantage over all entries behind it."""
     # From the last entry to the first; behind: largest log-likelihood of the entries behind, and of no hit.
     beam = first + wp.tid()
-    least = table.no_hit[beam]
+    beam_lowest = table.no_hit[beam]
     behind = table.no_hit[beam]
     for i in range(table.offsets[beam + 1] - table.offsets[beam]):
         entry = table.offsets[beam + 1] - 1 - i
         advantage[entry] = table.loglik[entry] - behind
         behind = wp.max(behind, table.loglik[entry])
-        least = wp.min(least, table.loglik[entry])
-    lowest[beam] = least
+        beam_lowest = wp.min(beam_lowest, table.loglik[entry])
+    lowest[beam] = beam_lowest
 
 
 @wp.kernel
@@ -126,14 +126,14 @@ def scatter_entries(
     """One thread per range of cells: write their index, with incidences that can gain over `MIN_GAIN_NATS` first."""
     thread = first + wp.tid()
     low, high = cell_bounds[thread], cell_bounds[thread + 1]
-    for gaining in range(2):
+    for turn in range(2):  # first the incidences that can gain, then the others
         for beam in range(table.no_hit.shape[0]):
-            least = lowest[beam]
+            beam_lowest = lowest[beam]
             for entry in range(table.offsets[beam], table.offsets[beam + 1]):
                 cell = table.cells[entry]
                 if cell >= low and cell < high:
-                    gain = table.loglik[entry] - least
-                    if (gain > MIN_GAIN_NATS) == (gaining == 0):
+                    gain = table.loglik[entry] - beam_lowest
+                    if (gain > MIN_GAIN_NATS) == (turn == 0):
                         i = next_free[cell]  # incidence of the cell
                         next_free[cell] = i + 1
                         table.cell_entry[i] = entry
