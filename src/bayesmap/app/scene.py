@@ -39,7 +39,7 @@ class Scene:
     grid: Grid  # the map's cells
     prior: BinaryWalls  # the prior of walls
     trace: Callable[[], BeamTable]  # traces the beams of the used scans; many scenes are replaced before that is needed
-    trace_near: Callable[[], BeamTable] | None = None  # traces them only a little past their readings; None: `trace`
+    trace_near: Callable[[], BeamTable] | None = None  # traces them only a little past their readings; if None, `trace`
     hit_depth: float = 0.0  # depth in a cell at which a beam is expected to stop
     n_used: int | None = None  # number of first scans used for the map; None means all scans
 

@@ -252,7 +252,7 @@ def _locate_live(request: _Request, idle_s: float | None, print_belief: PrintBel
 class _MapSource:
     """The map in which scans are located: that of a saved run, or of another program."""
 
-    max_range_m: float | None  # largest range of the sensor; None: as in the log
+    max_range_m: float | None  # largest range of the sensor; if None, as in the log
     live_max_range_m: float  # largest range for a log that is still being written
     prepare: Callable[..., KnownMap]  # prepares the map, given the console, scans, and whether their log is `live`
 

@@ -131,7 +131,7 @@ class Mask(Pytree):
         return self.flag.primal if isinstance(self.flag, Diff) else self.flag
 
     def unmask(self, default: Any = None) -> Any:
-        """Return the value where the flag is True, else `default`. None: the stored value, checked by `do_checkify`."""
+        """Return the value where the flag is True, else `default`; without it the stored value, see `do_checkify`."""
         if default is not None:
             return where_leaves(self.primal_flag(), self.value, default)
         check_flags(self.primal_flag(), "unmask: a flag is False, so the value is invalid; give a default")

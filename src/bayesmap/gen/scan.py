@@ -35,7 +35,7 @@ class Scan(Vectorised):
     """A generative function iterated over a state and inputs. See `scan`."""
 
     inner: GenerativeFunction  # (state, x) -> (state, y)
-    n: int | None = static(default=None)  # number of steps; None: the length of the inputs
+    n: int | None = static(default=None)  # number of steps; if None, the length of the inputs
 
     def length(self, args: Arguments) -> int:
         """Return the number of steps: `n`, or the length of the leading axis of the inputs."""

@@ -29,7 +29,7 @@ class Product(ExactDensity):
 
     inner: ExactDensity  # distribution of one element
     in_axes: InAxes = static()  # mapped axes of the arguments, as for `jax.vmap`
-    n: int | None = static()  # number of elements; None: the length of the mapped axes
+    n: int | None = static()  # number of elements; if None, the length of the mapped axes
 
     def _map(self, args: Arguments) -> Mapped:
         return map_over(self.in_axes, args, self.n)
@@ -160,7 +160,7 @@ class Vmap(Vectorised):
 
     inner: GenerativeFunction  # function of one element
     in_axes: InAxes = static()  # mapped axes of the arguments, as for `jax.vmap`
-    n: int | None = static()  # number of elements; None: the length of the mapped axes
+    n: int | None = static()  # number of elements; if None, the length of the mapped axes
 
     def _map(self, args: Arguments) -> Mapped:
         return map_over(self.in_axes, args, self.n)

@@ -76,7 +76,7 @@ class PoseBelief:
     p_lost: float  # probability that the robot is elsewhere, or the map outdated
     nats_per_beam: float  # log density of the scan's readings under the best pose, per beam
     stamp_s: float | None = None  # stamp of the scan
-    mode_of: Indices | None = None  # number of each pose's mode, (N,); None: poses near each other make one
+    mode_of: Indices | None = None  # number of each pose's mode, (N,); if None, poses near each other make one
     shared_error: Floats | None = None  # standard deviations of the map's error, (3,): modes are wider by it
     p_alike: float = 0.0  # part of ``p_lost``: probability that the robot is lost where scans fit a place on the map
 

@@ -76,7 +76,7 @@ class KnownMap:
     elsewhere: Floats  # law of readings of scans taken anywhere, see `readings_anywhere`
     max_range_m: float  # largest range of these scans
     typical_range_m: float  # median of their readings
-    beam_weight: float | None = None  # weight of a beam, as a share of an independent reading; None: by ``trust``
+    beam_weight: float | None = None  # weight of a beam, as a share of an independent reading; if None, by ``trust``
     trust: Trust = dataclasses.field(default_factory=Trust)
     reference_fit: ReferenceFit | None = None  # fit of scans at their own places; None if unknown
 

@@ -141,8 +141,8 @@ class _Path:
             self._break(self.last + 1, placed, wide)
             return
         # Match the scans up to the next unknown motion; look further ahead if the first contradicts the key scans.
-        unknown = np.nonzero(self.unknown[self.last : int(batch[-1])])[0]
-        batch = batch[: int(unknown[0]) if len(unknown) else len(batch)]
+        breaks = np.nonzero(self.unknown[self.last : int(batch[-1])])[0]
+        batch = batch[: int(breaks[0]) if len(breaks) else len(batch)]
         placed, misfits = self._place_near(batch)
         if misfits[0] and self.motions is not None:
             batch = self._scans_ahead()

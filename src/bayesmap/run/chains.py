@@ -43,8 +43,8 @@ class SweepPlan:
     warmup: int  # number of sweeps before the first draw
     draws: int  # largest number of draws per chain
     thin: int = 1  # sweeps from one draw to the next
-    precision: float | None = None  # chains stop at this `map_error`; None: no limit
-    seconds: float | None = None  # chains stop after this time, once each has `MIN_DRAWS_PER_CHAIN`; None: no limit
+    precision: float | None = None  # chains stop at this `map_error`, if given
+    seconds: float | None = None  # chains stop after this time, once each has `MIN_DRAWS_PER_CHAIN`, if given
 
     @property
     def sweeps(self) -> int:

@@ -48,7 +48,7 @@ class Job:
     chain_ids: tuple[int, ...]  # numbers of the chains among all chains of the run
     device: str = "cpu"
     threads: int | None = None  # all cores if None
-    parameters: Parameters | None = None  # sensor and prior that were fitted beforehand; None: the model's
+    parameters: Parameters | None = None  # sensor and prior that were fitted beforehand; if None, the model's
     problem: Any = None  # the sampler's prepared problem, if this process has it already
 
     @property

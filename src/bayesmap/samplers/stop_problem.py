@@ -230,7 +230,7 @@ class StopProblem(RaysProblem):
     device: str = "cpu"
     threads: int | None = None  # all cores if None
     # flat indices of the cells whose reflectivities ("cell") and surfaces ("surface_cell") draws and snapshots hold;
-    # None: the cells that beams touch, and the cells in which readings end
+    # if None, the cells that beams touch, and the cells in which readings end
     kept: Mapping[str, Ints] | None = None
 
     @cached_property

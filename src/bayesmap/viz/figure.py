@@ -302,7 +302,7 @@ class Candidate:
 
     title: str  # title of its panel
     occupancy: ArrayLike  # probability of a wall, or that a beam stops, per cell, shape (nx, ny)
-    observed: ArrayLike | None = None  # mask of the cells that a beam reached, shape (nx, ny); None: all cells
+    observed: ArrayLike | None = None  # mask of the cells that a beam reached, shape (nx, ny); if None, all cells
     note: str = ""  # a line under the title, for example its held-out score
 
 

@@ -40,7 +40,7 @@ class Marginal(SampleDistribution):
 
     gen_fn: GenerativeFunction  # the function with all choices
     selection: Selection  # selection of the shown choices
-    algorithm: Algorithm | None = None  # the estimator of densities; None: importance sampling
+    algorithm: Algorithm | None = None  # the estimator of densities; if None, importance sampling
     particles: int = static(default=1)  # number of runs in importance sampling
 
     def random_weighted(self, key: PRNGKey, *args: Any) -> tuple[Score, ChoiceMap]:

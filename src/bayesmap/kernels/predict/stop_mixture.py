@@ -119,7 +119,7 @@ class StopMixtureArrays:
 
 @wp.func
 def mixture_below(law: SensorLaw64, stops: StopMixtureArrays, beam: int, range_m: wp.float64) -> wp.float64:
-    """Return P(reading <= range) of a beam."""
+    """Return P(reading <= range_m) of a beam."""
     p = stops.no_stop[beam] * laws.cumulative(law, range_m, wp.float64(wp.inf), wp.float64(0.0))
     for entry in range(stops.offsets[beam], stops.offsets[beam + 1]):
         weight = wp.float64(stops.weight[entry])
@@ -230,8 +230,8 @@ def halve_span(law: SensorLaw64, stops: StopMixtureArrays, search: LevelSearch, 
         while is_decided and search.begin < search.end:
             entry = search.end - 1
             weight = wp.float64(stops.weight[entry])
-            behind = laws.is_behind(law, z, wp.float64(stops.distance_m[entry]), wp.float64(stops.variance[entry]))
-            is_decided = behind or weight <= MIN_WEIGHT
+            is_past = laws.is_behind(law, z, wp.float64(stops.distance_m[entry]), wp.float64(stops.variance[entry]))
+            is_decided = is_past or weight <= MIN_WEIGHT
             if is_decided:
                 if weight > MIN_WEIGHT:
                     search.behind += weight

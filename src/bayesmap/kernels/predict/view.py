@@ -88,7 +88,7 @@ def draw_scan_stops(
 @wp.func
 def normal_below(x: wp.float64) -> wp.float64:
     """Return P(standard normal < x)."""
-    return wp.float64(0.5) * wp.erfc(-x * wp.float64(0.7071067811865476))
+    return wp.float64(0.5) * wp.erfc(-x * wp.float64(0.7071067811865476))  # 1 / sqrt(2)
 
 
 @wp.func
