@@ -175,5 +175,5 @@ def test_the_enumeration_of_stops_equals_quadrature_over_reflectivities(prior):
         p = np.exp(log_likelihoods(mine, states, SENSOR, True).sum(axis=-1))
         p *= np.prod(np.stack(np.meshgrid(*[weights] * 4, indexing="ij")), axis=0).ravel()
         np.testing.assert_allclose(exact.mean(), p @ m / p.sum(), rtol=1e-8)
-        np.testing.assert_allclose(exact.pair_probabilities(), (m * p[:, None]).T @ m / p.sum(), rtol=1e-8)
+        np.testing.assert_allclose(exact.pairs(), (m * p[:, None]).T @ m / p.sum(), rtol=1e-8)
         assert exact.cdf(0)(1.0)[0] == pytest.approx(1.0)

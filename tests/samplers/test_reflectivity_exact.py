@@ -71,7 +71,7 @@ def p_values(m, exact):
     """Kolmogorov-Smirnov of every cell, and z-tests of all products of two."""
     out = [scipy.stats.kstest(m[:, i], exact.cdf(i)).pvalue for i in range(m.shape[1])]
     products = np.einsum("ni,nj->nij", m, m)
-    z = (products.mean(axis=0) - exact.pair_probabilities()) / (products.std(axis=0) / np.sqrt(len(m)))
+    z = (products.mean(axis=0) - exact.pairs()) / (products.std(axis=0) / np.sqrt(len(m)))
     return np.array([*out, *2 * scipy.stats.norm.sf(abs(z[np.triu_indices(m.shape[1])]))])
 
 
