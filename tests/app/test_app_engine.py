@@ -152,6 +152,7 @@ def test_cancelled_and_few_sweeps_are_kept_and_judged_once_they_are_over(heard):
 def test_cancel_before_there_is_anything_shows_the_preview(heard, mode, method):
     heard.infer(replace(tutorial_document(), method=method), mode, steps=0)
     heard.ask(Cancel())
+    assert not heard.engine._has_live_chains_of(heard.engine._task.document)
     heard.finish()
     assert heard.last("field")[0]["method"] == "propagate"
     assert len(heard.all("finished")) == 1

@@ -175,7 +175,7 @@ class Engine:
             chains.extend(document.sweeps)
             yield from self._advance_to_end(scene, document, chains)
             return
-        # The prior's overlay replaces that of the scene before at once. Inference follows.
+        # Show the prior's overlay at once: surfaces of the last scene must not stay on show during inference.
         prior = prior_result(scene, document)
         self._display.send_overlay(prior)
         if task.mode == "clear":
@@ -337,9 +337,9 @@ class Engine:
         if self._job is None or self._task is None:
             return
         if self._result is None:
-            self._job = self._run_job(structs.replace(self._task, mode="preview"))
-            return
-        self._job = None
-        self._result = replace(self._result, ended=True)
-        self._display.send_fields(self._result)
-        self._display.send_finished(self._result)
+            self._task = structs.replace(self._task, mode="preview")
+            self._job = self._run_job(self._task)
+        else:
+            self._job, self._result = None, replace(self._result, ended=True)
+            self._display.send_fields(self._result)
+            self._display.send_finished(self._result)
