@@ -128,6 +128,7 @@ def test_tables_that_cannot_be_used(tmp_path, change, message):
     (csv, 7, "1,2,3", "line 8: the row has 3 fields where the header has 45"),
     (csv, 7, ",".join(["1"] * 20 + ["x"] * 25), "line 8: field 21 is 'x', not a number"),
     (csv, 7, ",".join(["nan"] * 45), "line 8: a number that must be finite is not"),
+    (csv, 7, ",".join(["1e9"] * 45), "or is too large: {'x': 1000000000.0"),
 ])  # fmt: skip
 def test_malformed_lines_are_named_and_left_out_on_request(tmp_path, text, number, line, message):
     lines = text(simulated(TIMES)).splitlines()

@@ -30,7 +30,7 @@ NANOSECONDS, RECEIVED = "nanoseconds", "received"  # columns: the part of a stam
 MAX_STAMP_S = 1e12  # larger stamps are in nanoseconds
 MAX_COORDINATE_M = 1e7  # larger coordinates are malformed
 SETTINGS = ("angle_min", "angle_increment", "angles", "range_min", "range_max")  # names in comment lines
-_SETTING = re.compile(rb"#+\s*([a-z_]+)\s*[:=,]\s*(.*)")  # a comment line such as "# range_max: 30"
+_SETTING_LINE = re.compile(rb"#+\s*([a-z_]+)\s*[:=,]\s*(.*)")  # a comment line such as "# range_max: 30"
 _BEAM = re.compile(r"r_(\d+)")  # column of a reading
 _ECHOED_BEAM = re.compile(r"(?:.*[./])?ranges[._\[]?(\d+)\]?")  # column of a reading in tables of messages
 _DECIMAL_COMMA = re.compile(rb"[-+]?\d+,\d+(?:[eE][-+]?\d+)?")
@@ -58,7 +58,7 @@ def read_csv(path: str | os.PathLike[str], options: LogOptions) -> ScanLog:
     table = _Table(account.name, account.reject)
     for number, line in log_lines(account):
         table.take(number, line)
-    table.finish()
+    table.convert_columns()
     _need_poses(account, table)
     poses, angles, readings, stamps = table.scans()
     if not len(readings):
@@ -88,8 +88,8 @@ def live_rows(name: str, lines: Iterable[tuple[int, bytes]], reject: Reject, opt
         if table.columns:
             _need_poses(LogAccount(name, "csv", options), table)
         if not table.rows:
-            continue
-        table.finish()
+            continue  # the line was a comment, the header, or malformed
+        table.convert_columns()
         poses, angles, readings, stamps = table.scans()
         poses = poses if mount is None else compose(poses, mount)
         table.line_numbers, table.rows = [], []
@@ -124,7 +124,7 @@ class TableScans(NamedTuple):
 class _Table:
     """The contents of the file: settings from comments, the header, and the rows with their line numbers."""
 
-    name: str  # name of the file
+    path: str  # the file, for messages; "-" is standard input
     reject: Reject
     settings: dict[str, list[float]] = field(default_factory=dict)  # numbers from comments and constant columns
     columns: list[str] = field(default_factory=list)  # names of the columns that are read
@@ -143,9 +143,9 @@ class _Table:
         """Read the next line of the file. Lines before the header that are no comments are ignored."""
         text = line.strip().lstrip(b'"')  # spreadsheets quote comments that hold a comma
         if text.startswith(b"#"):
-            setting = _SETTING.fullmatch(text.rstrip(b'" \t,;'))
+            setting = _SETTING_LINE.fullmatch(text.rstrip(b'" \t,;'))
             if setting and (key := setting[1].decode()) in SETTINGS:
-                self.settings[key] = _setting(self.name, number, key, setting[2])
+                self.settings[key] = _parse_setting(self.path, number, key, setting[2])
         elif self.headless or (not self.columns and _is_ros2_row(line)):
             self.headless = True
             self.columns = [*ROS2_COLUMNS, "r_0"]
@@ -188,7 +188,7 @@ class _Table:
         fields = text.split(b",")
         if b"..." in fields:
             remedy = "use --full-length, or record with ros2 bag record"
-            raise BadInput(f"{self.name}: line {number}: ros2 topic echo cut the readings short ('...'); {remedy}")
+            raise BadInput(f"{self.path}: line {number}: ros2 topic echo cut the readings short ('...'); {remedy}")
         first = len(ROS2_FIELDS)
         n_after = len(fields) - first
         # An empty array of intensities is one empty field.
@@ -203,7 +203,7 @@ class _Table:
         """Return a column of the given rows, (N,); zeros if the table has no such column."""
         return rows[:, self.columns.index(name)] if name in self.columns else np.zeros(len(rows))
 
-    def finish(self) -> None:
+    def convert_columns(self) -> None:
         """Convert stamps to seconds in one column, and columns of limits to settings."""
         # Pad rows without header to one length.
         if self.headless and self.rows:
@@ -264,7 +264,7 @@ def _columns_of(names: list[str]) -> list[str]:
     return columns
 
 
-def _setting(name: str, line: int, key: str, text: bytes) -> list[float]:
+def _parse_setting(path: str, line: int, key: str, text: bytes) -> list[float]:
     # Commas are decimal points if every word has one, as in spreadsheets of some languages.
     words = re.split(rb"[\s;]+", text.strip())
     if (key != "angles" or len(words) > 1) and all(map(_DECIMAL_COMMA.fullmatch, words)):
@@ -274,7 +274,7 @@ def _setting(name: str, line: int, key: str, text: bytes) -> list[float]:
     except ValueError:
         values = []
     if not values or (len(values) > 1 and key != "angles"):
-        raise BadInput(f"{name}: line {line}: {key} must be a number, got {text[:40].decode('utf-8', 'replace')!r}")
+        raise BadInput(f"{path}: line {line}: {key} must be a number, got {text[:40].decode('utf-8', 'replace')!r}")
     return values
 
 
@@ -283,8 +283,8 @@ def _finite_rows(table: _Table, needed: tuple[str, ...]) -> Floats:
     rows = np.array(table.rows).reshape(-1, len(table.columns))
     needed = tuple(name for name in needed if name in table.columns)
     columns = [table.columns.index(name) for name in needed]
-    limit = MAX_COORDINATE_M * (1e6 if "stamp" in needed else 1)  # stamps are larger numbers than coordinates
-    is_usable = np.asarray((np.abs(rows[:, columns]) < limit).all(axis=1))
+    limits = MAX_COORDINATE_M * np.array([1e6 if name in ("scan", "stamp") else 1.0 for name in needed])
+    is_usable = np.asarray((np.abs(rows[:, columns]) < limits).all(axis=1))  # stamps are larger than coordinates
     for i in np.nonzero(~is_usable)[0]:
         values = dict(zip(needed, rows[i, columns].tolist(), strict=True))
         table.reject(table.line_numbers[i], f"a number that must be finite is not, or is too large: {values}")
@@ -296,19 +296,19 @@ def _scans_of_scan_rows(table: _Table) -> TableScans:
     """Return the scans of a table with one row per scan."""
     beams = sorted(int(match[1]) for column in table.columns if (match := _BEAM.fullmatch(column)))
     if beams != list(range(len(beams))):
-        raise BadInput(f"{table.name}: the columns of readings must be r_0 to r_{len(beams) - 1}, without gaps")
+        raise BadInput(f"{table.path}: the columns of readings must be r_0 to r_{len(beams) - 1}, without gaps")
     # Readings, and the angles of each row if it has its own.
     angle_columns = OWN_ANGLES if set(OWN_ANGLES) <= set(table.columns) else ()
     rows = _finite_rows(table, (*POSE, *angle_columns, "stamp"))
     readings = rows[:, [table.columns.index(f"r_{beam}") for beam in beams]]
     if not angle_columns:
-        angles = _common_angles(table.name, table.settings, len(beams))
+        angles = _common_angles(table.path, table.settings, len(beams))
     else:
         fans = np.stack([table.column(name, rows) for name in angle_columns], axis=-1)
         angles = _angles_of_rows(table, fans, readings)
         is_usable = ~np.isnan(angles).all(axis=1)
-        if is_usable.all() and len(rows) and (fans[0] == fans).all():
-            angles = _common_angles(table.name, dict(zip(angle_columns, fans[:1].T.tolist(), strict=True)), len(beams))
+        if is_usable.all() and len(rows) and (fans[0] == fans).all():  # all rows have the same angles: keep them once
+            angles = _common_angles(table.path, dict(zip(angle_columns, fans[:1].T.tolist(), strict=True)), len(beams))
         else:
             rows, angles, readings = rows[is_usable], angles[is_usable], readings[is_usable]
     stamps = table.column("stamp", rows) if "stamp" in table.columns else None
@@ -333,18 +333,18 @@ def _angles_of_rows(table: _Table, fans: Floats, readings: Floats) -> Floats:
     return angles
 
 
-def _common_angles(name: str, settings: dict[str, list[float]], beams: int) -> Floats:
+def _common_angles(path: str, settings: dict[str, list[float]], beams: int) -> Floats:
     """Return the angles of all scans by the settings, (A,). Raises `BadInput` if they are missing or impossible."""
     angles = np.array(settings.get("angles", []))
     if not len(angles) and "angle_min" in settings and ("angle_increment" in settings or beams == 1):
         angles = settings["angle_min"][0] + settings.get("angle_increment", [0.0])[0] * np.arange(beams)
     if len(angles) != beams or not np.isfinite(angles).all():
         remedy = f"'# angle_min: RADIANS' and '# angle_increment: RADIANS', or '# angles:' with {beams} numbers"
-        raise BadInput(f"{name}: the directions of {beams} beams are not said: add comment lines {remedy}")
+        raise BadInput(f"{path}: the directions of {beams} beams are not said: add comment lines {remedy}")
     if beams > 1 and not np.ptp(angles):
-        raise BadInput(f"{name}: all {beams} beams point the same way; '# angle_increment:' is the step in radians")
+        raise BadInput(f"{path}: all {beams} beams point the same way; '# angle_increment:' is the step in radians")
     if (fault := fan_fault(float(angles.min()), float(angles.max()))) is not None:
-        raise BadInput(f"{name}: {fault}")
+        raise BadInput(f"{path}: {fault}")
     return angles
 
 
@@ -352,7 +352,7 @@ def _scans_of_beam_rows(table: _Table) -> TableScans:
     """Return the scans of a table with one row per beam."""
     key = next((column for column in ("scan", "stamp") if column in table.columns), None)
     if key is None:
-        raise BadInput(f"{table.name}: a table of one row a beam needs a column 'scan' or 'stamp' to separate scans")
+        raise BadInput(f"{table.path}: a table of one row a beam needs a column 'scan' or 'stamp' to separate scans")
     rows = _finite_rows(table, (*POSE, "angle", key, "stamp"))
     if not len(rows):
         return TableScans(np.empty((0, 3)), np.empty(0), np.empty((0, 0)), None)
