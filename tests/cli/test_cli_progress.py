@@ -83,7 +83,7 @@ def test_a_stage_that_comes_between_does_not_stop_the_clock(monkeypatch):
 
     monkeypatch.setattr(Progress, "add_task", adding)
     monkeypatch.setattr(Progress, "update", updating)
-    monkeypatch.setattr(Console, "draws_bar", True)
+    monkeypatch.setattr(Console, "shows_bar", True)
     with progress_bar(Console(), "beginning") as report:
         for event in (Event("draws", 3, 9), Event("save", 1, 8), Event("save", 8, 8), Event("draws", 4, 9, -1.5)):
             report(event)

@@ -28,7 +28,7 @@ MAX_UNPAINTED = 2  # unpainted pictures at which the edits of a page wait
 
 Action = TypeVar("Action", bound=actions.Action)
 State = TypeVar("State")
-ActionOfPage = tuple[int, actions.AnyAction]  # the number of a page, and its action
+ActionOfPage = tuple[int, actions.AnyAction]  # the client number of a page, and its action
 
 
 def tutorial_document(seed: int = 0) -> Document:
@@ -186,7 +186,7 @@ def _find_sensor(document: Document, sensor_id: int) -> Sensor:
     raise Refused(f"there is no sensor {sensor_id}")
 
 
-def gesture_of(action: actions.Action, client: int) -> tuple[Any, ...] | None:
+def gesture_of(client: int, action: actions.Action) -> tuple[Any, ...] | None:
     """Return a key of the stroke or drag to which an action belongs, or None. One gesture is one step of undo."""
     if isinstance(action, actions.PaintWalls) and action.stroke:
         return client, actions.PaintWalls, action.stroke
@@ -219,16 +219,14 @@ def adopt_document(present: Document, other: Document) -> Document:
     if other.simulated and present.simulated:
         return other
     if other.source == present.source:
-        # If a trajectory is inferred, the size of the map is not known before, so only the cell sizes have to agree.
-        any_size = "odometry" in (other.poses, present.poses)
-        document = present
-        if other.grid != present.grid and not (any_size and other.grid.resolution == present.grid.resolution):
-            document = present.with_resolution(other.grid.resolution)
-        if any_size or other.grid == document.grid:
+        grid_is_inferred = "odometry" in (other.poses, present.poses)  # then only the cell sizes have to agree
+        agrees = other.grid == present.grid or (grid_is_inferred and other.grid.resolution == present.grid.resolution)
+        adopted = present if agrees else present.with_resolution(other.grid.resolution)
+        if grid_is_inferred or other.grid == adopted.grid:
             fixed = present.source.fixed_settings
             settings = {name: getattr(other, name) for name in SETTINGS if name not in fixed}
             n_used = settings.pop("scans_used", None)
-            return replace(document if n_used is None else document.with_scans_used(n_used), **settings)
+            return replace(adopted if n_used is None else adopted.with_scans_used(n_used), **settings)
     names = ["a map that was drawn" if either.simulated else either.source.name for either in (present, other)]
     remedy = f"start bayesmap app {'without a file' if other.simulated else f'with {other.source.name}'}"
     raise Refused(f"this server shows {names[0]}, not {names[1]}", remedy)
@@ -280,14 +278,14 @@ class Pace:
 
     def accept(self, client: int, action: actions.AnyAction) -> list[ActionOfPage]:
         """Accept an action of a page. Returns the actions to apply now, in order."""
-        gesture = gesture_of(action, client)
+        gesture = gesture_of(client, action)
         if gesture is None or not self._must_wait(client):
             return [*self._release(), (client, action)]
         before = self._waiting
         self._waiting = client, action
         if before is None:
             return []
-        merged = merge_actions(before[1], action) if gesture_of(before[1], before[0]) == gesture else None
+        merged = merge_actions(before[1], action) if gesture_of(*before) == gesture else None
         if merged is not None:
             self._waiting = client, merged
         return [before] if merged is None else []

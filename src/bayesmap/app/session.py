@@ -156,7 +156,7 @@ class Session:
         """Change the document by an edit, and restart inference if the document has changed."""
         before = self.document
         document, remark = edit_document(before, action)
-        self.history = self.history.push(document, gesture_of(action, client), client)
+        self.history = self.history.push(document, gesture_of(client, action), client)
         effects: Effects = [_status(remark, "warning", client)] if remark else []
         # While the hand drags a setting of a log, show only counts of hits. The end of the drag starts inference.
         coarse = False

@@ -155,7 +155,7 @@ def read_file(path: str | Path) -> Layer:
 
 
 def read_pairs(pairs: Iterable[str], section: str | None) -> Layer:
-    """Read the settings of ``--set key=value`` for the command's section, or all if None, or of ``section.key=value``.
+    """Read the pairs of ``--set``: ``key=value``, for ``section`` or all sections if None, or ``section.key=value``.
     Raises `click.BadParameter` for an unknown key or unreadable value, and `BadInput` for a number that is not allowed.
     """
     layer: dict[str, dict[str, Value]] = {}
@@ -180,7 +180,7 @@ def _sections_with_key(key: str, candidates: Iterable[str]) -> list[str]:
     keys = {section: SECTIONS[section].__struct_fields__ for section in candidates}
     sections = [section for section, names in keys.items() if key in names]
     if not sections:
-        _need_known(key, dict.fromkeys(itertools.chain(*keys.values())), "key")
+        _need_known(key, dict.fromkeys(itertools.chain(*keys.values())), "key")  # raises
     return sections
 
 
@@ -247,4 +247,4 @@ def _describe_key(key: Key) -> str:
     """Return the comment beside a key in TOML: its help, choices and default."""
     choices = f" One of {', '.join(key.choices)}." if key.choices and key.kind is str else ""
     unset = f" Default: {key.help.unset}." if key.help.unset else ""
-    return key.help.text.replace("see above", "see infer --help") + choices + unset
+    return key.help.text.replace("see above", "see infer --help") + choices + unset  # "above" is in that help only

@@ -32,7 +32,23 @@ PROBLEMS = 4  # --strict, and the diagnostics found problems
 INTERRUPTED = 130
 
 VERBOSE = "bayesmap.verbose"  # key of the click context: whether the command prints details, also about its failure
+STDOUT = "bayesmap.results"  # key of the click context: standard output while libraries print on standard error
 SCHEMA_VERSION = 1  # version of JSON documents: it grows when a key changes its meaning or disappears, not for new keys
+SPEED_S = 600.0  # seconds over which the progress bar averages the speed: sweeps of long logs take up to half a minute
+MAX_FEW_STEPS = 5  # largest number of steps whose time left is not predicted: their lengths differ too much
+LINE_S = 60.0  # seconds from one line of progress to the next if there is no terminal
+STAGES = {  # names of the stages of a run for the user, and the unit that is counted in each
+    "compile": ("compiling kernels, once", "kernels"), "trace": ("tracing beams", "beams"),
+    "start": ("setting up chains", "parts"), "fit": ("fitting the sensor", "sweeps"),
+    "propagate": ("belief propagation", "rounds"), "front end": ("matching scans", "scans"),
+    "loops": ("closing loops", "rounds"), "aligned": ("aligning all scans", "rounds"),
+    "aligned-again": ("aligning all scans", "rounds"), "aligned-rematched": ("aligning all scans", "rounds"),
+    "rematch": ("matching each scan with itself left out", "rounds"), "placing": ("placing the scans between", "scans"),
+    "warm-up": ("warm-up", "sweeps"), "draws": ("drawing", "sweeps"), "particles": ("importance sampling", "particles"),
+    "save": ("saving", "%"), "score": ("scoring held-out beams", "draws"),
+}  # fmt: skip
+SAMPLING = ("warm-up", "draws")  # stages that count sweeps of the chains
+SETTING_UP = ("compile", "trace", "start", "fit")  # stages in which a run has not changed its folder yet
 
 
 @dataclass(frozen=True)
@@ -47,23 +63,23 @@ class Console:
     def say(self, text: str) -> None:
         """Write a line of progress or advice, unless the call is quiet."""
         if not self.quiet:
-            complain(text)
+            write_err(text)
 
     def detail(self, text: str) -> None:
         """Write a line if the call is verbose."""
         if self.verbose:
-            complain(text)
+            write_err(text)
 
     def warn(self, text: str) -> None:
         """Write a warning, also if the call is quiet."""
-        complain(f"bayesmap: warning: {text}")
+        write_err(f"bayesmap: warning: {text}")
 
     def result(self, document: dict[str, Any], paths: Iterable[str | Path]) -> None:
         """Write the result: the document with ``--json``, otherwise the paths of the written files, one per line."""
         write_out(as_json(document) if self.as_json else "".join(f"{path}\n" for path in paths))
 
     @property
-    def draws_bar(self) -> bool:
+    def shows_bar(self) -> bool:
         """Whether to draw a progress bar: the user allows it, and standard error is a terminal."""
         return self.bar and not self.quiet and sys.stderr.isatty() and os.environ.get("TERM") != "dumb"
 
@@ -85,9 +101,6 @@ def as_json(document: dict[str, Any]) -> str:
     """Return a JSON document with both versions, ending in a newline. NaN and infinity raise an error."""
     versions = {"schema_version": SCHEMA_VERSION, "version": __version__}
     return json.dumps({**versions, **document}, indent=2, allow_nan=False) + "\n"
-
-
-STDOUT = "bayesmap.results"  # key of the click context: standard output while libraries print on standard error
 
 
 def reserve_stdout() -> None:
@@ -119,31 +132,16 @@ def write_out(text: str) -> bool:
     return True
 
 
-def complain(text: str) -> None:
+def write_err(text: str) -> None:
     """Write a line on standard error, if there is still a reader."""
     with contextlib.suppress(BrokenPipeError):
         click.echo(text, err=True)
 
 
-STAGES = {  # names of the stages of a run for the user, and the unit that is counted in each
-    "compile": ("compiling kernels, once", "kernels"), "trace": ("tracing beams", "beams"),
-    "start": ("setting up chains", "parts"), "fit": ("fitting the sensor", "sweeps"),
-    "propagate": ("belief propagation", "rounds"), "front end": ("matching scans", "scans"),
-    "loops": ("closing loops", "rounds"), "aligned": ("aligning all scans", "rounds"),
-    "aligned-again": ("aligning all scans", "rounds"), "aligned-rematched": ("aligning all scans", "rounds"),
-    "rematch": ("matching each scan with itself left out", "rounds"), "placing": ("placing the scans between", "scans"),
-    "warm-up": ("warm-up", "sweeps"), "draws": ("drawing", "sweeps"), "particles": ("importance sampling", "particles"),
-    "save": ("saving", "%"), "score": ("scoring held-out beams", "draws"),
-}  # fmt: skip
-
-SAMPLING = ("warm-up", "draws")  # stages that count sweeps of the chains
-SETTING_UP = ("compile", "trace", "start", "fit")  # stages in which a run has not changed its folder yet
-
-
 @contextlib.contextmanager
-def progress_bar(console: Console, begin: str) -> Iterator[Callable[[Event], None]]:
-    """Yield a function that shows the events of a run in a progress bar; before the first event it shows ``begin``."""
-    with _bar(console, begin) as show:
+def progress_bar(console: Console, first_text: str) -> Iterator[Callable[[Event], None]]:
+    """Yield a function that shows the events of a run in a progress bar, which begins with the text ``first_text``."""
+    with _bar(console, first_text) as show:
         yield lambda event: show(_Step.of(event))
 
 
@@ -169,11 +167,6 @@ def exit_unless_good(*, finished: bool, problems: bool, failed: bool = False) ->
             click.get_current_context().exit(code)
 
 
-SPEED_S = 600.0  # seconds over which the progress bar averages the speed: sweeps of long logs take up to half a minute
-MAX_FEW_STEPS = 5  # largest number of steps whose time left is not predicted: their lengths differ too much
-LINE_S = 60.0  # seconds from one line of progress to the next if there is no terminal
-
-
 @dataclass(frozen=True)
 class _Step:
     """The progress that a bar or a line shows."""
@@ -185,7 +178,7 @@ class _Step:
     quality: str = ""  # precision of the map so far, in words
     warmup: int = 0  # units of the total that are warm-up
     end_is_open: bool = False  # whether the time left cannot be predicted
-    total_kind: str = ""  # "about " or "at least " before a total that will change, once the warm-up is over
+    total_prefix: str = ""  # "about " or "at least " before a total that will change, once the warm-up is over
 
     @classmethod
     def of(cls, event: Event) -> _Step:
@@ -193,9 +186,9 @@ class _Step:
         quality = "" if event.log_joint is None else f"log joint {event.log_joint:,.1f}"
         if event.error is not None and event.error < 1.0:
             quality = f"map within {event.error:.3f}"
-        total_kind = "at least " if event.end_is_open else "" if event.error is None else "about "
+        total_prefix = "at least " if event.end_is_open else "" if event.error is None else "about "
         name, unit = STAGES[event.stage]
-        return cls(name, unit, event.done, event.total, quality, event.warmup, event.end_is_open, total_kind)
+        return cls(name, unit, event.done, event.total, quality, event.warmup, event.end_is_open, total_prefix)
 
     def count(self, separator: str) -> str:
         """Return the count in words. Warm-up and the draws after it are counted apart."""
@@ -204,33 +197,33 @@ class _Step:
             return f"{100 * done // max(total, 1)} %"
         if self.warmup and done <= self.warmup:
             return f"{done:,}{separator}{self.warmup:,} {self.unit}"
-        return f"{done - self.warmup:,}{separator}{self.total_kind}{total - self.warmup:,} {self.unit}"
+        return f"{done - self.warmup:,}{separator}{self.total_prefix}{total - self.warmup:,} {self.unit}"
 
 
 @contextlib.contextmanager
-def _bar(console: Console, begin: str) -> Iterator[Callable[[_Step], None]]:
+def _bar(console: Console, first_text: str) -> Iterator[Callable[[_Step], None]]:
     """Yield a function that draws the progress bar; without a terminal, one that prints a line per minute."""
-    if not console.draws_bar:
+    if not console.shows_bar:
         yield _Lines(console).show
         return
     # Import only here: it takes a tenth of a second, which batch jobs without a bar can save.
-    from rich.console import Console
+    from rich.console import Console as RichConsole
     from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
     bar = Progress(
         SpinnerColumn(), TextColumn("{task.description}"), BarColumn(bar_width=24), TextColumn("{task.fields[count]}"),
-        TimeRemainingColumn(), TimeElapsedColumn(), TextColumn("{task.fields[quality]}"), console=Console(stderr=True),
-        transient=True, speed_estimate_period=SPEED_S,
+        TimeRemainingColumn(), TimeElapsedColumn(), TextColumn("{task.fields[quality]}"),
+        console=RichConsole(stderr=True), transient=True, speed_estimate_period=SPEED_S,
     )  # fmt: skip
     with bar:
-        yield _BarTasks(bar, begin).show
+        yield _BarTasks(bar, first_text).show
 
 
 class _BarTasks:
     """The tasks of a progress bar: one per counted unit, so that the estimated time does not mix rounds with sweeps."""
 
-    def __init__(self, bar: Progress, begin: str) -> None:
-        self._bar, self._visible = bar, bar.add_task(begin, total=None, count="", quality="")
+    def __init__(self, bar: Progress, first_text: str) -> None:
+        self._bar, self._visible = bar, bar.add_task(first_text, total=None, count="", quality="")
         self._tasks: dict[tuple[str, int], TaskID] = {}  # tasks of rich, by unit and total
 
     def show(self, step: _Step) -> None:

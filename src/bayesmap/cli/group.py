@@ -12,7 +12,7 @@ from typing import Any
 
 import click
 
-from bayesmap.cli.console import BAD_INPUT, FAILURE, INTERRUPTED, VERBOSE, complain
+from bayesmap.cli.console import BAD_INPUT, FAILURE, INTERRUPTED, VERBOSE, write_err
 from bayesmap.errors import BadInput
 from bayesmap.version import __version__
 
@@ -79,10 +79,10 @@ class Commands(click.Group):
             if code == FAILURE and ctx.meta.get(VERBOSE):
                 import traceback
 
-                complain(traceback.format_exc().rstrip())
+                write_err(traceback.format_exc().rstrip())
             elif code == FAILURE and not isinstance(error, OSError | MemoryError):
                 message += "; -v shows where it happened (please report it)"
-            complain("bayesmap: error: " + " ".join(message.split()))  # on one line
+            write_err("bayesmap: error: " + " ".join(message.split()))  # on one line
             return ctx.exit(code)
 
 

@@ -57,10 +57,10 @@ def live_scans(
 ) -> Iterator[Scans]:  # fmt: skip
     """Yield the scans of a log as it is written: a file, a pipe or standard input ("-").
     A pipe and standard input end when their last writer closes them, and any input after ``idle_s`` seconds without new
-    data, if it is given; a last line without line end is then a line. Readings over ``max_range_m`` are no return, and
-    readings from ``no_return`` on. ``on_skipped`` is called with the number of each malformed line left out, and the
-    reason. ``laser`` replaces the log's pose of the laser on the robot. Tables without poses are accepted if
-    ``without_poses`` is true. Raises `BadInput` for a log that cannot be read, has another format or a malformed line.
+    data, if it is given; an unfinished last line then counts. Readings above ``max_range_m``, and of ``no_return`` or
+    more, are no return. ``on_skipped`` is called with the number of each malformed line left out, and the reason.
+    ``laser`` replaces the log's pose of the laser on the robot. Tables without poses are accepted if ``without_poses``
+    is true. Raises `BadInput` for a log that cannot be read, has another format or a malformed line.
     """
     options = LogOptions(no_return, skip_bad_lines, max_range_m, laser=laser, without_poses=without_poses)
     account = LogAccount(name, "", options)  # the format is not known yet
@@ -96,14 +96,14 @@ def _carmen_scans(lines: Iterable[tuple[int, bytes]], reject: Reject, options: L
         try:
             message = message_name(line)
             if message not in LASERS or (kind and message != kind):
-                continue
+                continue  # another kind of message
             scan = parse_laser(message, line.split())
         except MalformedLine as problem:
             reject(number, str(problem))
             continue
         kind = message
         if not scan.fan.beams:
-            continue
+            continue  # no readings
         stated_max_m = math.inf if scan.max_range_m is None else scan.max_range_m
         ranges, _ = decode(scan.readings_m[None], stated_max_m if options.no_return is None else options.no_return)
         ranges[ranges > limit_m] = np.inf
@@ -124,7 +124,7 @@ def _pieces(name: str, idle_s: float | None) -> Iterator[bytes]:
             while select.select([file], [], [], idle_s)[0]:
                 piece = file.read(CHUNK_BYTES)
                 if not piece:
-                    return
+                    return  # the last writer has closed the pipe
                 yield piece
     except OSError as error:
         raise BadInput(f"{name}: cannot be read: {error.strerror or error}") from None
@@ -143,5 +143,5 @@ def _file_pieces(name: str, descriptor: int, idle_s: float | None) -> Iterator[b
         if os.fstat(descriptor).st_size < n_read:
             raise BadInput(f"{name}: was cut short while it was followed")
         if idle_s is not None and time.monotonic() - last_s >= idle_s:
-            return
+            return  # no new data for too long
         time.sleep(POLL_INTERVAL_S if idle_s is None else min(POLL_INTERVAL_S, idle_s))

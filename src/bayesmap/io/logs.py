@@ -17,7 +17,7 @@ import numpy as np
 
 from bayesmap.errors import BadInput, near_names
 from bayesmap.io.log_reading import LogOptions, Pose, ScanLog
-from bayesmap.io.ros.containers import METADATA, compression_of, container_of, first_bytes, format_by_start
+from bayesmap.io.ros.containers import METADATA, compression_of, container_by_start, container_of, first_bytes
 from bayesmap.io.text.carmen import CARMEN_MESSAGES, read_carmen
 from bayesmap.io.text.csv import read_csv, starts_table
 from bayesmap.io.text.g2o import G2O_TAGS, read_g2o
@@ -138,8 +138,8 @@ def format_of(path: str | os.PathLike[str]) -> str:
         start = first_bytes(path, 16)
     except OSError as error:
         raise BadInput(f"{name}: cannot be read: {error.strerror or error}") from None
-    if (recording := format_by_start(start)) is not None:
-        return recording
+    if (container := container_by_start(start)) is not None:
+        return container
     if start.startswith(NPZ_MAGIC):
         return "npz"
     if start.startswith(NETCDF_MAGICS):

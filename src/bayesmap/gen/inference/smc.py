@@ -179,7 +179,7 @@ class ImportanceK(SMCAlgorithm):
     """Importance sampling with `k_particles` traces. Without a proposal the model draws the open choices."""
 
     target: Target
-    q: GenerativeFunction | None = None  # proposal of some choices: a function of the target, or of choice maps
+    q: GenerativeFunction | None = None  # proposes some open choices; called with the target, may be a Distribution
     k_particles: int = static(default=2)  # number of traces
 
     def get_num_particles(self) -> int:
@@ -277,7 +277,7 @@ def particle_filter(
     stacked along their leading axis, or None; then the number of steps `n` is needed. `constraint` has given choices at
     the addresses of `kernel.scan()`. The k particles are resampled if the effective sample size is below `threshold`
     times k. With `history` whole trajectories are kept, the ancestors of each last particle (smoothing). Returns
-    (particles, log of an unbiased estimate of the evidence). Particles are traces of the last step, or a scan.
+    (particles, log of an unbiased estimate of the evidence): traces of the last step; with `history`, of the scan.
     """
     first_state, xs = args
     leaves = jax.tree.leaves(xs)
@@ -308,15 +308,15 @@ def particle_filter(
     if not history:  # the carry holds the last step's traces: begin with zeros of their shapes
         shapes = jax.eval_shape(lambda: step(carry, nth(inputs, 0))[0][2])
         carry = (*carry[:2], jax.tree.map(lambda s: jnp.zeros(s.shape, s.dtype), shapes))
-    (states, log_weights, last), recorded = jax.lax.scan(step, carry, inputs, length=n)
-    particles: Any = _trajectories(kernel, args, states, recorded) if history else last
+    (states, log_weights, last_traces), recorded = jax.lax.scan(step, carry, inputs, length=n)
+    particles: Any = _trajectories(kernel, args, states, recorded) if history else last_traces
     result = ParticleCollection(particles, log_weights)
     return result, result.get_log_marginal_likelihood_estimate()
 
 
 def _resample_if_low(key: PRNGKey, states: Any, log_weights: Array, threshold: float) -> tuple[Any, Array, IntArray]:
     """Return (states, log weights, parents), resampled if the effective sample size is below `threshold` times k."""
-    particles = ParticleCollection(states, log_weights)
+    particles = ParticleCollection(states, log_weights)  # of states: only its weights are used
     k = log_weights.shape[0]
 
     def resample() -> tuple[Any, Array, IntArray]:
@@ -339,8 +339,8 @@ def _streams(key: PRNGKey, k: int) -> PRNGKey:
     return keys
 
 
-def _trajectories(kernel: GenerativeFunction, args: Any, last: Any, recorded: tuple[Any, ...]) -> ScanTrace:
-    """Return the traces of `kernel.scan(n=n)`, one per particle, from records of steps, (n, k, ...), and last state."""
+def _trajectories(kernel: GenerativeFunction, args: Any, last_states: Any, recorded: tuple[Any, ...]) -> ScanTrace:
+    """Return the traces of `kernel.scan(n=n)`, one per particle, from recorded steps, (n, k, ...), and last states."""
     traces, carries, y, parents = recorded  # carries: the states before each step; y: the outputs
     n, k = parents.shape
 
@@ -357,4 +357,4 @@ def _trajectories(kernel: GenerativeFunction, args: Any, last: Any, recorded: tu
 
     inner, carries, y = jax.tree.map(by_particle, (traces, carries, y))
     fn, args = jax.tree.map(lambda x: jnp.broadcast_to(x, (k, *jnp.shape(x))), (scan(n=n)(kernel), args))
-    return ScanTrace(fn, args, inner, carries, (last, y), jax.vmap(total)(inner.get_score()))
+    return ScanTrace(fn, args, inner, carries, (last_states, y), jax.vmap(total)(inner.get_score()))

@@ -34,10 +34,10 @@ UNPACKERS: dict[str, Callable[[Any], Any]] = {  # functions that open compressed
 }  # fmt: skip
 CHUNK_BYTES = 1 << 16  # unpacked at a time
 MAGICS = {"rosbag1": recordings.BAG_MAGIC, "rosbag2-sqlite3": recordings.SQLITE_MAGIC, "mcap": recordings.MCAP_MAGIC}
-RECORD_READERS: dict[str, Callable[[str | os.PathLike[str], OnDamage], recordings.Records]] = {  # by format
+RECORD_READERS: dict[str, Callable[[str | os.PathLike[str], OnDamage], recordings.Records]] = {  # by container
     "rosbag1": recordings.bag_records, "rosbag2-sqlite3": recordings.sqlite_records, "mcap": recordings.mcap_records,
 }  # fmt: skip
-RECORD_BY_RECORD = ("rosbag1", "mcap")  # formats with undamaged files that rosbags refuses and these functions read
+RECORD_BY_RECORD = ("rosbag1", "mcap")  # their undamaged files may need these functions: rosbags refuses some
 ANY_BAG = b"#ROSBAG V"  # first bytes of bags of any version
 ENDINGS = tuple(name + packed for name in (".db3", ".mcap") for packed in ("", ".zstd", ".zst"))
 METADATA = "metadata.yaml"
@@ -54,7 +54,7 @@ def reason_of(error: Exception) -> str:
 
 
 def open_recording(path: str | os.PathLike[str], *, salvage: bool, types: Collection[str]) -> Recording:
-    """Open a recording: a file of a format in `RECORD_READERS`, or a folder of rosbag2's.
+    """Open a recording: a file of a container in `RECORD_READERS`, or a folder of rosbag2's.
     With ``salvage`` a damaged recording is read as far as possible, and a note describes the damage. Only damage to
     messages of ``types`` counts. Raises `BadInput` for an unreadable or damaged recording, or a bag of another version.
     """
@@ -85,19 +85,19 @@ def _open_whole(path: str | os.PathLike[str]) -> Recording:
         from rosbags.rosbag2 import Reader
 
         is_mcap = any(".mcap" in entry.name for entry in Path(path).iterdir())
-        return _by_rosbags(path, "mcap" if is_mcap else "rosbag2-sqlite3", partial(Reader, Path(path)))
+        return _rosbags_recording(path, "mcap" if is_mcap else "rosbag2-sqlite3", partial(Reader, Path(path)))
     files, container = _files_of(path)
     note = f"the folder has no {METADATA}, as when a recording was not ended; its {len(files)} files were read"
     with ExitStack() as stack:
         pieces = []
         for file in files:
             copy = _unpacked_copy(file, stack, refuse)
-            pieces.append(_by_rosbags(copy, container, _rosbags_reader(copy, container), is_file=True))
-        return _joined(os.fspath(path), container, pieces, (note,) if Path(path).is_dir() else (), stack)
+            pieces.append(_rosbags_recording(copy, container, _rosbags_reader(copy, container), is_file=True))
+        return _join_pieces(os.fspath(path), container, pieces, (note,) if Path(path).is_dir() else (), stack)
 
 
 def _files_of(path: str | os.PathLike[str]) -> tuple[list[Path], str]:
-    """Return a file, or the storage files of a folder without metadata in the order of their names, and the format."""
+    """Return the files and their container: one file, or those of a folder without metadata in the order of names."""
     if not Path(path).is_dir():
         container = container_of(path)
         assert container is not None  # the caller has recognised the file
@@ -106,10 +106,10 @@ def _files_of(path: str | os.PathLike[str]) -> tuple[list[Path], str]:
     # Leave out a packed file whose unpacked copy lies beside it.
     names = {file.name for file in files}
     files = [file for file in files if not (file.suffix in (".zstd", ".zst") and file.stem in names)]
-    formats = {file: container for file in files if (container := container_of(file)) is not None}
-    if len(set(formats.values())) != 1:
+    containers = {file: container for file in files if (container := container_of(file)) is not None}
+    if len(set(containers.values())) != 1:
         raise Damaged(f"the folder has no {METADATA}, and no .db3 or .mcap files of one kind that can be read")
-    return list(formats), next(iter(formats.values()))
+    return list(containers), next(iter(containers.values()))
 
 
 def _rosbags_reader(path: Path, container: str) -> Callable[[], Any]:
@@ -122,7 +122,7 @@ def _rosbags_reader(path: Path, container: str) -> Callable[[], Any]:
     return partial(Reader2.STORAGE_PLUGINS[".mcap" if container == "mcap" else ".db3"], path)
 
 
-def _by_rosbags(
+def _rosbags_recording(
     path: str | os.PathLike[str], container: str, make_reader: Callable[[], Any], *, is_file: bool = False
 ) -> Recording:
     """Return a recording that rosbags reads. An MCAP file or a bag that it refuses is read record by record."""
@@ -133,7 +133,7 @@ def _by_rosbags(
         if not has_fallback:
             raise
         try:
-            return _by_records(path, container, refuse, refuse)
+            return _records_recording(path, container, refuse, refuse)
         except Damaged as damage:
             raise Damaged(str(damage) or str(problem)) from None
 
@@ -148,7 +148,7 @@ def _by_rosbags(
     return Recording(os.fspath(path), container, topics, read, *times)
 
 
-def _by_records(
+def _records_recording(
     path: str | os.PathLike[str], container: str, on_damage: OnDamage, on_damage_in_reading: OnDamage
 ) -> Recording:
     """Return a recording read record by record. Opening calls ``on_damage``, each reading ``on_damage_in_reading``."""
@@ -164,11 +164,11 @@ def _by_records(
 def _rosbags_topics(make_reader: Callable[[], Any], container: str) -> tuple[dict[str, Topic], recordings.Times]:
     """Return the topics with their counts, and the times of receipt of the first and the last message."""
     topics: dict[str, Topic] = {}
-    with _opened(make_reader) as reader:
+    with _open_reader(make_reader) as reader:
         for connection in sorted(reader.connections, key=lambda c: str(c.topic)):
             earlier = topics.get(connection.topic)
             if earlier is not None and earlier.type != connection.msgtype:
-                continue
+                continue  # a topic keeps its first type: messages of another type are left out
             count = connection.msgcount + (earlier.count if earlier else 0)
             language = "idl" if connection.msgdef.format.name == "IDL" else "msg"
             is_ros1 = container == "rosbag1"
@@ -178,19 +178,19 @@ def _rosbags_topics(make_reader: Callable[[], Any], container: str) -> tuple[dic
             )
         metadata = getattr(reader, "metadata", reader)  # rosbag1's reader has the times itself
         times = metadata.start_time, metadata.end_time - 1  # rosbags' end is 1 ns past the last message
-    return topics, times if any(topic.count for topic in topics.values()) else (None, None)
+    return topics, (times if any(topic.count for topic in topics.values()) else (None, None))
 
 
 def _rosbags_messages(make_reader: Callable[[], Any], topics: dict[str, Topic], names: frozenset[str]) -> list[Message]:
     """Return the messages on the topics ``names``, without messages of another type than the topic's."""
-    with _opened(make_reader) as reader:
+    with _open_reader(make_reader) as reader:
         connections = [c for c in reader.connections if c.topic in names and c.msgtype == topics[c.topic].type]
         messages = reader.messages(connections) if connections else ()
         return [Message(connection.topic, received_ns, bytes(data)) for connection, received_ns, data in messages]
 
 
 @contextmanager
-def _opened(make_reader: Callable[[], Any]) -> Iterator[Any]:
+def _open_reader(make_reader: Callable[[], Any]) -> Iterator[Any]:
     """Yield an open reader of rosbags', and turn its errors, which may be of any class, into `Damaged`."""
     try:
         reader = make_reader()
@@ -201,7 +201,9 @@ def _opened(make_reader: Callable[[], Any]) -> Iterator[Any]:
         raise Damaged(reason_of(error)) from None
 
 
-def _joined(path: str, container: str, pieces: list[Recording], notes: tuple[str, ...], stack: ExitStack) -> Recording:
+def _join_pieces(
+    path: str, container: str, pieces: list[Recording], notes: tuple[str, ...], stack: ExitStack
+) -> Recording:
     """Return several files as one recording, whose temporary files are removed when it is no longer used."""
     topics: dict[str, Topic] = {}
     for piece in pieces:
@@ -230,14 +232,14 @@ def _open_damaged(path: str | os.PathLike[str], problem: str) -> Recording:
     reasons: list[str] = []
     with ExitStack() as stack:
         pieces = [
-            _by_records(_unpacked_copy(file, stack, reasons.append), container, reasons.append, lambda reason: None)
+            _records_recording(_unpacked_copy(file, stack, reasons.append), container, reasons.append, lambda _: None)
             for file in files
         ]
         reasons = list(dict.fromkeys(reasons)) or [problem]
         more = f", and {len(reasons) - 1} more" if len(reasons) > 1 else ""
         count = sum(topic.count for piece in pieces for topic in piece.topics.values())
         note = f"the recording is damaged or cut short ({reasons[0]}{more}); {count:,} messages of it could be read"
-        return _joined(name, container, pieces, (note,), stack)
+        return _join_pieces(name, container, pieces, (note,), stack)
 
 
 def unpack_zstd(packed: bytes, max_bytes: int) -> bytes:
@@ -267,7 +269,7 @@ def first_bytes(path: str | os.PathLike[str], count: int) -> bytes:
         file.seek(0)
         try:
             with UNPACKERS[kind](file) as unpacked:
-                return _read(unpacked, count)
+                return _read_unpacked(unpacked, count)
         except NotUnpacked:
             return b""
 
@@ -285,7 +287,7 @@ def _unpacked_copy(path: Path, stack: ExitStack, on_damage: OnDamage) -> Path:
             folder = Path(tempfile.mkdtemp(prefix="bayesmap-"))
             stack.callback(shutil.rmtree, folder, ignore_errors=True)
             with UNPACKERS[kind](file) as unpacked, (folder / "unpacked").open("wb") as copy:
-                while block := _read(unpacked):
+                while block := _read_unpacked(unpacked):
                     copy.write(block)
         except NotUnpacked as problem:
             on_damage(f"it is compressed by {kind} and cannot be unpacked to its end: {problem}")
@@ -296,7 +298,7 @@ def _unpacked_copy(path: Path, stack: ExitStack, on_damage: OnDamage) -> Path:
     return folder / "unpacked"
 
 
-def _read(unpacked: Any, count: int = CHUNK_BYTES) -> bytes:
+def _read_unpacked(unpacked: Any, count: int = CHUNK_BYTES) -> bytes:
     """Read bytes from a compressed file. Raises `NotUnpacked` at damage."""
     try:
         return bytes(unpacked.read(count))
@@ -305,15 +307,15 @@ def _read(unpacked: Any, count: int = CHUNK_BYTES) -> bytes:
 
 
 def container_of(path: str | os.PathLike[str]) -> str | None:
-    """Return the format of a recording by its first bytes, ``"folder"`` for one of rosbag2's, None for other files."""
+    """Return the container of a recording by its first bytes, ``"folder"`` for a folder of rosbag2, None for others."""
     if not Path(path).is_dir():
-        return format_by_start(first_bytes(path, 16))
+        return container_by_start(first_bytes(path, 16))
     names = [entry.name for entry in Path(path).iterdir()]
     return "folder" if any(name == METADATA or name.endswith(ENDINGS) for name in names) else None
 
 
-def format_by_start(start: bytes) -> str | None:
-    """Return the format of a recording by its first 16 bytes, unpacked; None for other files."""
+def container_by_start(start: bytes) -> str | None:
+    """Return the container of a recording by its first 16 bytes, unpacked; None for other files."""
     if start.startswith(ANY_BAG):  # a bag of any version: `open_recording` refuses other versions than 2.0
         return "rosbag1"
     return next((name for name, magic in MAGICS.items() if start.startswith(magic)), None)

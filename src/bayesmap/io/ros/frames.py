@@ -194,7 +194,7 @@ class Chain:
         result = np.zeros(np.shape(stamps_ns), dtype=bool)
         for track in self.links:
             if track.holds_always or len(track.stamps_ns) < 2:
-                continue
+                continue  # nothing is interpolated
             before, _ = bracketing_indices(track.stamps_ns, stamps_ns)
             steps_m = np.linalg.norm(np.diff(track.motions.translation, axis=0)[before], axis=-1)
             result |= (np.diff(track.stamps_ns)[before] > max_gap_s * 1e9) & (steps_m > max_gap_m)
@@ -232,7 +232,7 @@ class FrameTree:
         for (topic, parent, child), samples in transforms.items():
             rank = 0 if ranks is None else ranks.get(topic)
             if rank is None or rank > lowest_rank.get(child, rank):
-                continue
+                continue  # a topic of lower rank states this transform
             if child not in lowest_rank or rank < lowest_rank[child]:
                 lowest_rank[child], parents_of[child] = rank, {}
             parents_of[child].setdefault(parent, []).append(samples)

@@ -309,6 +309,6 @@ def _origin(path: Path, entries: Mapping[str, Any]) -> tuple[float, float]:
         x, y, yaw = (float(part) for part in value)
     except (TypeError, ValueError):
         raise BadInput(f"{path}: origin must be [x, y, yaw], got {value!r}") from None
-    if not math.isclose(yaw, 0.0, abs_tol=1e-9):
+    if not math.isclose(yaw, 0.0, abs_tol=1e-9):  # up to rounding
         raise BadInput(f"{path}: the map is turned by {yaw:g} rad; only maps with yaw 0 can be read")
     return x, y

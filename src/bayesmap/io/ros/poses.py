@@ -92,7 +92,7 @@ def source_by_transforms(
         map_frame = user_frame or fixed_frame_of(tree, sensor)
         chain = None if map_frame is None else tree.chain(map_frame, sensor)
         if map_frame is None or chain is None:
-            continue
+            continue  # this tree does not connect the sensor with a map
         notes = _frame_notes(tree, map_frame, sensor, chosen=user_frame is not None)
         notes += conflict_notes(recording, tree, map_frame, sensor)
         notes += _namespace_notes(trees, tree, map_frame, sensor)

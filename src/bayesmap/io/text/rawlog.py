@@ -273,7 +273,7 @@ def scan_of(reader: Reader, header: Header, n_motions: int) -> RawScan:
         raise UnreadableObject("has a pose or an aperture that is not finite")
     if count and (fault := fan_fault(float(angles.min()), float(angles.max()))) is not None:
         raise UnreadableObject(f"has impossible angles: {fault}")
-    is_far = np.isfinite(max_range) & (ranges >= max_range - 1e-3) | np.isposinf(ranges)
+    is_far = np.isfinite(max_range) & (ranges >= max_range - 1e-3) | np.isposinf(ranges)  # 1e-3: against rounding
     readings = np.where(valid, ranges, np.where(is_far, np.inf, np.where(ranges <= 0.0, ranges, np.nan)))
     mount = (float(position[0]), float(position[1]), math.atan2(rotation[1, 0], rotation[0, 0]))
     return RawScan(label, stamp_s, angles, readings, mount, float(rotation[2, 2]), float(max_range), n_motions)
