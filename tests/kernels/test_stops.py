@@ -269,7 +269,7 @@ def z_of(worlds, counts, law):
 def in_squares():
     """Copies of a world whose surfaces may lie outside their own squares, and the squares of one sweep's stops."""
     worlds, states, sampler = swept("surfaces", 6000, one=state_of("surfaces", 0.12, 0.02))
-    return worlds, states, sampler.state.chains.in_squares(0, 0, kept=False)
+    return worlds, states, sampler.state.chains.in_squares(0, 0, is_kept=False)
 
 
 def test_beams_are_counted_where_their_points_lie(in_squares):

@@ -10,7 +10,7 @@ from simulated import path_around, ring, scans_of
 from tiers import full_but
 
 import bayesmap as bm
-from bayesmap.kernels.match.likelihood_grid import next_level, widen
+from bayesmap.kernels.match.likelihood_grid import next_level, next_level_on_cpu
 from bayesmap.kernels.match.line_pairs import Agreement, PairRules, pair_sums, view_counts
 from bayesmap.poses import alignment
 from bayesmap.poses.alignment import Annealing, Pairs, PointError, align, overlapping_pairs, place_scans, point_error
@@ -132,13 +132,12 @@ def test_scans_are_found_where_they_were_taken_and_nothing_is_where_nothing_scor
 def test_maxima_by_numpy_are_those_of_the_kernel():
     pyramid = np.random.default_rng(3).integers(0, 255, (2, 2, 37, 21), dtype=np.uint8)
     for level in (1, 2, 4):
-        half = 1 << (level - 1)
         stack = np.zeros((2, level + 1, 37, 21), np.uint8)
         stack[:, level - 1] = pyramid[:, 0]
         on_device = wp.array(stack, dtype=wp.uint8, device="cpu")
         wp.launch(next_level, dim=2 * 37, inputs=[0, level, on_device], device="cpu")
         found = np.empty((2, 37, 21), np.uint8)
-        widen(pyramid[:, 0], found, half)
+        next_level_on_cpu(pyramid[:, 0], found, 1 << (level - 1))
         np.testing.assert_array_equal(found, on_device.numpy()[:, level])
 
 

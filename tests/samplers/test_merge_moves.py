@@ -112,7 +112,7 @@ def merged_by(maps, owner, points, worth):
     def look(maps):
         return -worth * (maps.cells[..., 0] > 0.1).reshape(-1, *GRID.shape)
 
-    return moves.merge_surfaces(maps, points, noise_of(owner), [owner], GRID, look, look(maps))
+    return moves.merge_where_better(maps, points, noise_of(owner), [owner], GRID, look, look(maps))
 
 
 def test_merges_that_do_not_pay_are_taken_back_and_a_surface_takes_in_one_neighbour_at_a_time():
@@ -150,7 +150,7 @@ def test_readings_are_explained_better_than_before_and_no_surface_leaves_its_cel
     state, _ = sampler.step(sampler.init(problem, [0, 1], 0), 20)
     look, before = moves.make_evidence_of(problem, state.chains, 1.0), moves.ChainMaps.of(state.chains)
     seen = look(before)
-    moves.merge(problem, state.chains, 1.0)
+    moves.make_merge_moves(problem, state.chains, 1.0)
     after = moves.ChainMaps.of(state.chains)
     assert not np.array_equal(before.cells, after.cells)
     assert (look(after) - seen).sum() > 0
@@ -189,11 +189,11 @@ def test_a_sweep_without_steps_moves_no_surface_of_a_cell_in_which_readings_end(
     sampler, problem = prepared(PRIORS["surfaces"])
     state, _ = sampler.step(sampler.init(problem, [0], 0), 3)
     ends = np.unique(end_cells(problem.rays))[1:]
-    before, numbers = moves.ChainMaps.of(state.chains).cells[0], problem.prior.kernel_numbers(ROOM.resolution)
+    before, parameters = moves.ChainMaps.of(state.chains).cells[0], problem.prior.kernel_parameters(ROOM.resolution)
     moved = []
     for steps in (0, 6, 24):
         state.chains.put_cells(0, before)
-        state.chains.sweeps(3, 1, TRUTH, numbers, steps=steps)
+        state.chains.sweeps(3, 1, TRUTH, parameters, steps=steps)
         away = abs(state.chains.cells(0)[ends, 1:] - before[ends, 1:]).max(axis=1)
         moved.append((away > 1e-5).mean())  # metres: turning into a surface's frame and back rounds
     assert moved[0] == 0
@@ -233,9 +233,8 @@ def test_evidence_is_the_sum_over_beams_whose_readings_end_in_a_cell_and_a_look_
     seen = look(maps)
     assert np.array_equal(moves.ChainMaps.of(state.chains).cells, maps.cells)
     stops = state.chains.stopped_by(0)
-    numbers = problem.prior.kernel_numbers(ROOM.resolution)
-    state.chains.sweeps(moves.TRIAL_SWEEP, 1, problem.sensor, numbers)  # the same random numbers, and cells that go on
-    assert np.array_equal(state.chains.stopped_by(0), stops)
+    state.chains.sweeps(moves.TRIAL_SWEEP, 1, problem.sensor, problem.prior.kernel_parameters(ROOM.resolution))
+    assert np.array_equal(state.chains.stopped_by(0), stops)  # by the same random numbers, though cells went on
     assert not np.array_equal(moves.ChainMaps.of(state.chains).cells, maps.cells)
     found = moves.evidence_by_cell(state.chains, 0, end_cells(problem.rays), problem.prior)
     np.testing.assert_array_equal(found, seen[0].ravel())

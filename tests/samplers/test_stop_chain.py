@@ -144,7 +144,7 @@ def test_a_square_s_chance_has_the_pseudo_counts_of_the_label_that_the_draw_show
     state, info = sampler.step(sampler.init(problem, [0], 3), 6, keep=Keep(after=5, every=1))
     shown = SOLID.values(info.draws[SOLID.name][0, 0], GRID.shape).ravel()
     after = state.chains.solid(0)
-    found = state.chains.in_squares(0, 5, kept=False)
+    found = state.chains.in_squares(0, 5, is_kept=False)
     touched = problem.rays.touched
     np.testing.assert_array_equal(problem.coordinates["cell"], touched)
 

@@ -39,7 +39,7 @@ EXPECTED = ArraySpec(
 )
 
 
-class KernelNumbers(NamedTuple):
+class PriorParameters(NamedTuple):
     """Parameters of the priors of reflectivities, surfaces and labels."""
 
     a: float  # parameter of the Beta prior of reflectivities; with labels, of free cells
@@ -82,8 +82,8 @@ class Beta(CellPrior):
     methods: ClassVar[Mapping[str, str]] = {"gibbs": "stop-gibbs"}
     sensor_is_fitted: ClassVar[bool] = True
     sweeps_a_draw: ClassVar[int] = 3
-    shown: ClassVar[tuple[str, str]] = ("reflectivity", "expected")
-    """Names of the arrays that maps, intervals and diagnostics show: drawn values, and means given the draw's stops."""
+    drawn_array: ClassVar[str] = "reflectivity"  # the array of drawn values that maps and intervals show
+    expected_array: ClassVar[str] = "expected"  # the array of means given the draw's stops
     thresholds: ClassVar[tuple[float, float] | None] = (0.3, 0.1)  # a cell that stops 3 of 10 beams is no free floor
 
     def __post_init__(self) -> None:
@@ -120,7 +120,7 @@ class Beta(CellPrior):
 
     @property
     def first_spread(self) -> float:
-        """Size of surfaces for the initial estimate, in edges of a cell."""
+        """The prior width of surfaces in the first estimate from hits, in edges of a cell; it sizes the first steps."""
         return 0.3
 
     def log_prob(self, cells: Cells, grid: Grid) -> float:
@@ -170,17 +170,17 @@ class Beta(CellPrior):
         return np.full(grid.shape, self.mean)
 
     def default_draws(self, beams: int, cells: int, chains: int, thin: int = 1) -> int:
-        """Return the default number of draws per chain, between 100 (50 if ``thin`` is 1) and 200 (docs/defaults.md).
-        They take the time of 100 (50) draws with 100 000 beams. Large grids get fewer, to fit the draws into 1 GiB.
+        """Return the default number of draws per chain: 100 (50 if ``thin`` is 1) to 200 (docs/defaults.md).
+        They take the time of the least number at 100 000 beams. Large grids get fewer, to fit the draws into 1 GiB.
         """
         min_draws = MIN_DRAWS_UNTHINNED if thin == 1 else MIN_DRAWS
         draws_by_time = BEAMS_AT_MIN_DRAWS * min_draws // max(beams, 1)
         draws_by_memory = MAX_DRAW_BYTES // (BYTES_A_CELL * cells * chains)
         return max(min_draws, min(draws_by_time, draws_by_memory, MAX_DRAWS))
 
-    def kernel_numbers(self, edge_m: float) -> KernelNumbers:
+    def kernel_parameters(self, edge_m: float) -> PriorParameters:
         """Return the prior's parameters for kernels, which ignore the parameters of surfaces here."""
-        return KernelNumbers(
+        return PriorParameters(
             a=self.a, b=self.b, tau_m=edge_m, psi_m2=edge_m**2, nu=3.0, kappa_m=edge_m, half_m=0.5 * edge_m,
             coupling=self.coupling, a_solid=self.a_solid, b_solid=self.b_solid,
         )  # fmt: skip
@@ -190,7 +190,7 @@ class Beta(CellPrior):
         elsewhere: Floats | float = self.mean
         if self.has_labels:
             elsewhere = self.mean_given(ising_field.labels_of_draw(draws, chain, draw))
-        return draws.to_grid(draws.arrays[self.shown[0]][chain, draw], "cell", elsewhere)
+        return draws.to_grid(draws.arrays[self.drawn_array][chain, draw], "cell", elsewhere)
 
     def mean_map(self, draws: Draws) -> Floats:
         """Return the mean of the draws' expected chances to stop a beam, (nx, ny), or NaN without draws."""
@@ -198,13 +198,13 @@ class Beta(CellPrior):
         if draws.size == 0:
             return np.full(draws.grid.shape, np.nan)
         elsewhere = self.mean_given(ising_field.solid_share(draws)) if self.has_labels else self.mean
-        return draws.to_grid(draws.arrays[self.shown[1]].mean(axis=(0, 1), dtype=np.float64), "cell", elsewhere)
+        return draws.to_grid(draws.arrays[self.expected_array].mean(axis=(0, 1), dtype=np.float64), "cell", elsewhere)
 
     def interval(self, draws: Draws, level: float) -> tuple[Floats, Floats]:
         """Return the central credible interval of the chances: lower and upper end, (nx, ny) each."""
         tails = (0.5 * (1 - level), 0.5 * (1 + level))
         # Touched cells: quantiles of the draws, some cells at a time.
-        drawn = draws.arrays[self.shown[0]]
+        drawn = draws.arrays[self.drawn_array]
         ends = np.empty((2, drawn.shape[-1]))
         for i in range(0, drawn.shape[-1], BATCH_CELLS):
             batch = drawn[:, :, i : i + BATCH_CELLS]
@@ -226,7 +226,7 @@ class Beta(CellPrior):
         for chain in range(draws.chains):
             if self.has_labels:
                 solid = ising_field.labels_of_draw(draws, chain, -1)[cells]
-            expected = draws.arrays[self.shown[1]][chain, -1].astype(np.float64)
+            expected = draws.arrays[self.expected_array][chain, -1].astype(np.float64)
             counts += np.stack(recover_counts(expected, *self.beta_given(solid))) / draws.chains
         # Quantiles of Beta(1 + stopped, 1 + passed), once per distinct pair of counts.
         tails = (0.5 * (1 - level), 0.5 * (1 + level))
@@ -237,11 +237,11 @@ class Beta(CellPrior):
 
     def traces(self, draws: Draws, cells: Indices) -> NDArray[np.float16]:
         """Return the drawn chances of the given touched cells in all draws, (chains, draws, n)."""
-        return np.asarray(draws.arrays[self.shown[0]][:, :, np.searchsorted(draws.index["cell"], cells)])
+        return np.asarray(draws.arrays[self.drawn_array][:, :, np.searchsorted(draws.index["cell"], cells)])
 
     def expected_traces(self, draws: Draws, cells: Indices) -> NDArray[np.float16]:
         """Return the expected chances of the given touched cells in all draws, (chains, draws, n)."""
-        return np.asarray(draws.arrays[self.shown[1]][:, :, np.searchsorted(draws.index["cell"], cells)])
+        return np.asarray(draws.arrays[self.expected_array][:, :, np.searchsorted(draws.index["cell"], cells)])
 
     def predictive_stops(self, draws: Draws, cells: Ints | None = None) -> Iterator[Singles]:
         """Yield the stops of each draw with expected reflectivities; untouched cells have the prior's mean."""
@@ -318,11 +318,11 @@ def positions_in(stored: Ints, cells: Ints) -> tuple[Indices, Mask]:
 
 
 def recover_counts(expected: Floats, a: Floats, b: Floats) -> tuple[Floats, Floats]:
-    """Find the least counts of stopped and of passing beams that give the expected chances (a + stopped) / (a + b + n).
-    All arrays are (T,). The number n of beams must be whole, up to the rounding of half precision: this tells the
-    counts apart. A cell that stopped more than `MAX_STOPS` beams gets at least this count.
+    """Find the least whole counts (stopped, passing) that give each expected chance in half precision; all are (T,).
+    The chance is (a + stopped) / (a + b + stopped + passing). Cells that stopped over `MAX_STOPS` beams get at least
+    this count.
     """
-    chance = np.clip(expected, HALF_ROUNDING**2, 1.0 - 0.5 * HALF_ROUNDING)
+    chance = np.clip(expected, HALF_ROUNDING**2, 1.0 - 0.5 * HALF_ROUNDING)  # halves round to 0 and to 1
     stopped, beams = np.zeros_like(chance), np.zeros_like(chance)
     pending = np.arange(len(chance))
     for count in range(MAX_STOPS + 1):

@@ -16,7 +16,7 @@ from scipy import special
 
 from bayesmap.cells.arrays import ArraySpec, Draws
 from bayesmap.cells.kind import Cells, MeanSurfaces, Words
-from bayesmap.cells.reflectivity import EXPECTED, POOL_CELLS, REFLECTIVITY, Beta, KernelNumbers, positions_in
+from bayesmap.cells.reflectivity import EXPECTED, POOL_CELLS, REFLECTIVITY, Beta, PriorParameters, positions_in
 from bayesmap.errors import BadInput
 from bayesmap.space.arrays import Floats, Ints, Rng, Singles
 from bayesmap.space.grid import Grid
@@ -67,7 +67,8 @@ class Surface(Beta):
         "surface", "reflectivities and surfaces", "chance that a cell stops a beam", "chance that a cell stops a beam",
     )  # fmt: skip
     arrays: ClassVar[tuple[ArraySpec, ...]] = (REFLECTIVITY, EXPECTED, *STOP_CHANCES, *(_spec(part) for part in PARTS))
-    shown: ClassVar[tuple[str, str]] = ("stop_chance", "expected_stop_chance")
+    drawn_array: ClassVar[str] = "stop_chance"
+    expected_array: ClassVar[str] = "expected_stop_chance"
     has_surfaces: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
@@ -86,7 +87,7 @@ class Surface(Beta):
 
     @property
     def first_spread(self) -> float:
-        """Size of surfaces for the initial estimate, in edges of a cell."""
+        """The prior width of surfaces in the first estimate from hits, in edges of a cell; it sizes the first steps."""
         return self.spread
 
     def log_prob(self, cells: Cells, grid: Grid) -> float:
@@ -153,9 +154,9 @@ class Surface(Beta):
             complete[name] = np.where(np.isnan(stored), prior_draw[..., i], stored)
         return complete
 
-    def kernel_numbers(self, edge_m: float) -> KernelNumbers:
+    def kernel_parameters(self, edge_m: float) -> PriorParameters:
         """Return the prior's parameters for kernels."""
-        return KernelNumbers(
+        return PriorParameters(
             a=self.a, b=self.b, tau_m=self.mean_scale * edge_m, psi_m2=(self.spread * edge_m) ** 2, nu=self.dof,
             kappa_m=self.size_scale * edge_m, half_m=0.5 * edge_m, coupling=self.coupling, a_solid=self.a_solid,
             b_solid=self.b_solid,

@@ -7,8 +7,8 @@ if it raises the evidence, the log likelihood of nearby readings less the cost o
     sum over beams ( log p(z) - (log odds + 5/2 log (1 + n)) / n ),
 
 where n is the number of beams that the beam's surface stops. These moves are a search, not steps of a Markov chain, so
-they end before a draw is kept. `merge` is the entry: `propose_merges` proposes moves, and `try_changes` makes many at
-once and undoes those that do not raise the evidence around them.
+they end before a draw is kept. `make_merge_moves` is the entry: `propose_merges` proposes moves, and `try_changes`
+makes many at once and undoes those that do not raise the evidence around them.
 """
 
 from __future__ import annotations
@@ -37,16 +37,16 @@ FULL_SWEEP = 1 << 24  # number of a sweep that updates all cells, past the numbe
 TRIAL_SWEEP = FULL_SWEEP + 1  # number of a sweep that updates few cells
 EARLY_SHARE = 0.8  # share of the warm-up before the first merge moves
 LATER_MERGES = 2  # further merges, ``early_sweeps // 10`` sweeps apart, still in the warm-up
-MAX_READINGS = 12  # most readings of a surface that may be merged: with more, removal is seldom better
-MAX_NEIGHBOUR_CELLS = 2  # most cells, in x and in y, from a surface to the neighbour that takes over its readings
-MAX_READING_CELLS = 3.0  # most cells between a reading and the mean of the surface that explains it
-MAX_OFF_SIGMAS = 2.5  # most RMS distance of readings from the neighbour's axis, in sigmas of surface and noise
+MAX_READINGS = 12  # largest number of readings of a surface that may be merged: with more, removal is seldom better
+MAX_NEIGHBOUR_CELLS = 2  # largest distance in x and in y from a surface to the neighbour that takes over its readings
+MAX_READING_CELLS = 3.0  # largest distance in cells between a reading and the mean of the surface that explains it
+MAX_OFF_SIGMAS = 2.5  # largest RMS distance of readings from the neighbour's axis, in sigmas of surface and noise
 MIN_SOLID = 0.1  # reflectivity from which a cell counts as one that stops beams
 FREE = 1e-20  # reflectivity of a cell that became free
 COMPARED_CELLS = 3  # readings within so many cells of a cell that becomes free are compared
 MIN_GAIN_NATS = 1.0  # least gain of a merge: at 0 too many are merged, and separated again by sweeps; at 2 too few
 MIN_COMPONENT = 1e-9  # least component of an axis, for divisions
-MERGE_ROUNDS = 3  # most rounds of merges; five more gain nothing that held-out beams show
+MERGE_ROUNDS = 3  # largest number of rounds; five more gain nothing that held-out beams show
 
 
 def sweeps_before_merges(early_sweeps: int) -> list[int]:
@@ -54,7 +54,7 @@ def sweeps_before_merges(early_sweeps: int) -> list[int]:
     return sorted({early_sweeps + i * (early_sweeps // 10) for i in range(1 + LATER_MERGES)} - {0})
 
 
-def merge(problem: StopProblem, chains: StopChains, beta: float) -> None:
+def make_merge_moves(problem: StopProblem, chains: StopChains, beta: float) -> None:
     """Merge surfaces that stop few beams with surfaces of neighbours, if that is better. Changes chains in place."""
     grid, rays = problem.grid, problem.rays
     maps = ChainMaps.of(chains)
@@ -65,17 +65,17 @@ def merge(problem: StopProblem, chains: StopChains, beta: float) -> None:
     parameters = problem.sensor.kernel_parameters()
     # Without parameters of the sensor, the thickness of surfaces is used alone.
     sigma_m = 0.0 * range_m if parameters is None else parameters.sigma_m + parameters.sigma_per_m * range_m
-    merge_surfaces(maps, rays.end_points_m(), sigma_m**2, owners, grid, evidence_of, evidence)
+    merge_where_better(maps, rays.end_points_m(), sigma_m**2, owners, grid, evidence_of, evidence)
     maps.write_to(chains)
-    chains.sweeps(FULL_SWEEP, 1, problem.sensor, problem.prior.kernel_numbers(grid.resolution), beta)
-    maps.write_to(chains)  # the sweep updated the counts of beams, except in cells that tried a surface
+    chains.sweeps(FULL_SWEEP, 1, problem.sensor, problem.prior.kernel_parameters(grid.resolution), beta)
+    maps.write_to(chains)  # keep the counts of beams that the sweep updated, but not its cells
 
 
 @dataclass(frozen=True, eq=False)
 class ChainMaps:
     """The present maps of chains, changed in place."""
 
-    cells: Singles  # states, (C, N, 6)
+    cells: Singles  # reflectivity, mean x, y, l11, l21, l22 of each cell's surface, (C, N, 6) for C chains
     solid: Mask  # labels, (C, N)
 
     @classmethod
@@ -93,11 +93,11 @@ class ChainMaps:
 def make_evidence_of(problem: StopProblem, chains: StopChains, beta: float) -> EvidenceOf:
     """Return a function that puts maps into chains, draws stops of beams, and computes the evidence, (C, nx, ny)."""
     end_cell = end_cells(problem.rays)
-    numbers = problem.prior.kernel_numbers(problem.grid.resolution)
+    parameters = problem.prior.kernel_parameters(problem.grid.resolution)
 
     def evidence_of(maps: ChainMaps) -> Floats:
         maps.write_to(chains)
-        chains.sweeps(TRIAL_SWEEP, 1, problem.sensor, numbers, beta, steps=0)
+        chains.sweeps(TRIAL_SWEEP, 1, problem.sensor, parameters, beta, steps=0)
         nats = [evidence_by_cell(chains, chain, end_cell, problem.prior) for chain in range(chains.n_chains)]
         return np.stack(nats).reshape(-1, *problem.grid.shape)
 
@@ -200,7 +200,7 @@ class Merges(NamedTuple):
     off_sigmas: Floats  # RMS distance of the readings from the neighbour's axis, in sigmas of surface and noise
 
 
-def merge_surfaces(
+def merge_where_better(
     maps: ChainMaps, end_points_m: Floats, noise_m2: Floats, owners: list[Ints], grid: Grid,
     evidence_of: EvidenceOf, evidence: Floats,
 ) -> list[int]:  # fmt: skip
@@ -241,8 +241,8 @@ def propose_merges(
     source, target = merges.source[order], merges.target[order]
     index = np.stack([source, target], axis=-1)
     new = cells[index]
-    new[:, 0, 0] = FREE
-    new[:, 1, 1:] = lengthen(cells, readings, axes, source, target, grid)
+    new[:, 0, 0] = FREE  # reflectivity of the source
+    new[:, 1, 1:] = lengthen(cells, readings, axes, source, target, grid)  # surface of the target
     return Changes(np.stack(np.divmod(source, grid.shape[1]), axis=-1), index, new, solid[index])
 
 
@@ -287,7 +287,7 @@ def best_neighbours(cells: Singles, readings: ExplainedReadings, axes: SurfaceAx
     offsets = range(-MAX_NEIGHBOUR_CELLS, MAX_NEIGHBOUR_CELLS + 1)
     stops = (cells[:, 0] >= MIN_SOLID) & (readings.count > 0)
     source = np.flatnonzero(stops & (readings.count <= MAX_READINGS))
-    best_square = np.full(len(source), np.inf)
+    best_mean_sq = np.full(len(source), np.inf)
     target = source.copy()
     for dx, dy in itertools.product(offsets, offsets):
         x, y = source // ny + dx, source % ny + dy
@@ -299,12 +299,12 @@ def best_neighbours(cells: Singles, readings: ExplainedReadings, axes: SurfaceAx
         # The mean square distance of the readings from the neighbour's axis, in variances of surface and noise.
         normal = np.stack([-axes.direction[neighbour, 1], axes.direction[neighbour, 0]], axis=-1)
         offset_m = ((readings.mean_m[source] - cells[neighbour, 1:3]) * normal).sum(axis=1)
-        square = offset_m**2 + variance_along(readings.moments[source], normal)
-        square /= axes.across[neighbour] + readings.noise_m2[source]
-        better = inside & stops[neighbour] & may_take & (square < best_square)
-        best_square[better], target[better] = square[better], neighbour[better]
-    close = best_square <= MAX_OFF_SIGMAS**2
-    return Merges(source[close], target[close], np.sqrt(best_square[close]))
+        mean_sq = offset_m**2 + variance_along(readings.moments[source], normal)
+        mean_sq /= axes.across[neighbour] + readings.noise_m2[source]
+        better = inside & stops[neighbour] & may_take & (mean_sq < best_mean_sq)
+        best_mean_sq[better], target[better] = mean_sq[better], neighbour[better]
+    close = best_mean_sq <= MAX_OFF_SIGMAS**2
+    return Merges(source[close], target[close], np.sqrt(best_mean_sq[close]))
 
 
 def lengthen(
@@ -324,9 +324,9 @@ def lengthen(
     sides = from_mean[..., None] + INSIDE_SHARE * 0.5 * grid.resolution * np.array([-1.0, 1.0])
     exits = np.sort(sides / np.where(np.abs(axis) < MIN_COMPONENT, MIN_COMPONENT, axis)[..., None], axis=-1)
     shift = np.clip(joint_m, np.minimum(exits[..., 0].max(axis=-1), 0.0), np.maximum(exits[..., 1].min(axis=-1), 0.0))
-    source_square = variance_along(readings.moments[source], axis) + (source_m - shift) ** 2
-    target_square = variance_along(readings.moments[target], axis) + (target_m - shift) ** 2
-    scatter = (n_source * source_square + n_target * target_square) / (n_source + n_target)
+    source_mean_sq = variance_along(readings.moments[source], axis) + (source_m - shift) ** 2
+    target_mean_sq = variance_along(readings.moments[target], axis) + (target_m - shift) ** 2
+    scatter = (n_source * source_mean_sq + n_target * target_mean_sq) / (n_source + n_target)
     # The Cholesky factor of the covariance with these variances along and across the axis.
     along = np.maximum(axes.along[target], ALONG_WALL_SIGMAS**2 * scatter)
     across = axes.across[target]

@@ -21,14 +21,14 @@ from bayesmap.cells.reflectivity import Beta, positions_in
 from bayesmap.cells.surface import PARTS
 from bayesmap.model import Model
 from bayesmap.samplers import stop_problem
-from bayesmap.samplers.merge_moves import merge, sweeps_before_merges
+from bayesmap.samplers.merge_moves import make_merge_moves, sweeps_before_merges
 from bayesmap.samplers.sampler import SILENT, ChainState, Info, Keep, Snapshot, Stream, Watch
 from bayesmap.samplers.stop_problem import StopProblem, trace_stops
 from bayesmap.space.arrays import Indices, Ints, Mask, Singles
 from bayesmap.space.grid import Grid
 
 if TYPE_CHECKING:
-    from bayesmap.kernels.surfaces.square_counts import InSquares
+    from bayesmap.kernels.surfaces.square_counts import SquareCounts
     from bayesmap.kernels.surfaces.stop_chains import Plan, StopChains
 
 MAX_MEAN = float(np.nextafter(np.float16(1), np.float16(0)))  # the largest half below 1: a mean of 1 forbids passes
@@ -62,7 +62,7 @@ class StopDraws:
         """Record the cells before a sweep."""
         draw = self._draw_of_sweep.get(sweep)
         if draw is None:
-            return
+            return  # the sweep is not kept
         cells = self._chains.cells(chain)
         self._store("reflectivity", chain, draw, cells[self._cells["cell"], 0])
         if self._problem.prior.has_labels:
@@ -78,9 +78,9 @@ class StopDraws:
         """Record the means given the stops of a sweep, for the cells before it."""
         draw = self._draw_of_sweep.get(sweep)
         if draw is None:
-            return
+            return  # the sweep is not kept
         if self._centres_m is not None:
-            squares = self._chains.in_squares(chain, sweep, kept=True, solid=self._solid.get(chain))
+            squares = self._chains.in_squares(chain, sweep, is_kept=True, solid=self._solid.get(chain))
             self._store_chances(chain, draw, squares)
         cells, prior = self._cells["cell"], self._problem.prior
         hits, passes = (count[cells] for count in self._chains.hits_and_passes(chain))
@@ -88,7 +88,7 @@ class StopDraws:
         drawn = self.arrays["reflectivity"][chain, draw]
         self._store("expected", chain, draw, expected_reflectivity(hits, passes, prior, drawn, solid))
 
-    def _store_chances(self, chain: int, draw: int, squares: InSquares) -> None:
+    def _store_chances(self, chain: int, draw: int, squares: SquareCounts) -> None:
         """Store the chances that squares stop beams; a square that no beam can reach takes the prior mean."""
         prior, cells = self._problem.prior, self._cells["cell"]
         positions, touched = self._among_touched
@@ -239,7 +239,7 @@ class StopGibbs:
             state, info = self._sweep(state, count, beta, keep, EARLY_SURFACE_STEPS if is_early else None)
             infos.append(info)
             if count > 0 and state.sweep in merges:
-                merge(state.problem, state.chains, beta)
+                make_merge_moves(state.problem, state.chains, beta)
         return state, Info.joined(infos, axis=1)
 
     def _sweep(
@@ -252,7 +252,7 @@ class StopGibbs:
         kept = keep.sweeps(state.sweep, state.sweep + sweeps)
         draws = StopDraws(problem, chains, kept)
         log_likelihood, log_prior = chains.sweeps(
-            state.sweep, sweeps, problem.sensor, problem.prior.kernel_numbers(problem.grid.resolution), beta,
+            state.sweep, sweeps, problem.sensor, problem.prior.kernel_parameters(problem.grid.resolution), beta,
             steps=STEPS if surface_steps is None else surface_steps, observe_from=keep.after if keep.every else None,
             before=draws.begin if kept else None, after=draws.end if kept else None,
         )  # fmt: skip
@@ -286,7 +286,7 @@ class StopGibbs:
             return np.stack([(passes >= 0) & (hits + passes > 0), passes >= 0])
         masks = np.zeros((2, state.problem.grid.n_cells), dtype=np.bool_)
         if state.chains.has_swept:
-            squares = state.chains.in_squares(chain, state.sweep - 1, kept=False)
+            squares = state.chains.in_squares(chain, state.sweep - 1, is_kept=False)
             touched = state.problem.rays.touched
             masks[0, touched], masks[1, touched] = squares.stopped + squares.passed > 0, True
         return masks

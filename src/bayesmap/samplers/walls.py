@@ -220,7 +220,7 @@ class WallBlocks(WallSampler):
     def kernel(self, problem: WallProblem) -> SweepKernel:
         """Return the block kernel with the table and its own list of beams by block."""
         from bayesmap.kernels.device import load_kernels
-        from bayesmap.kernels.walls.block import block_sweeps, list_blocks
+        from bayesmap.kernels.walls.block import block_beams, block_sweeps
 
         load_kernels(block_sweeps, problem.device)
-        return block_sweeps, [problem.device_table, list_blocks(problem.table, problem.device)]
+        return block_sweeps, [problem.device_table, block_beams(problem.table, problem.device)]

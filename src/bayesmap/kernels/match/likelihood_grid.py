@@ -39,8 +39,8 @@ GridScansArrays = devices.struct_like(GridScans, Vec2ds, wp.float64, Int32s, Int
 @wp.kernel
 def stamp_points(first: int, bands: int, grids: GridScansArrays, scene: ScanArrays, pyramid: Pyramid):
     """One thread per band of a grid: set each cell to the largest of all stamps that cover it."""
-    # b, c: neighbouring beams. If their points lie further apart on one surface than ``spacing_m``, there are several
-    # stamps from b towards c.
+    # If the points of neighbouring beams lie further apart on one surface than ``spacing_m``, there are several stamps
+    # from the beam towards the next.
     thread = first + wp.tid()
     grid = thread / bands
     band = thread - grid * bands
@@ -49,25 +49,25 @@ def stamp_points(first: int, bands: int, grids: GridScansArrays, scene: ScanArra
     high = nx * (band + 1) / bands
     radius = grids.stamp.shape[0] / 2
     peak = grids.stamp[radius, radius]
-    unique = grids.stamp[radius, radius + 1] < peak
+    peak_is_unique = grids.stamp[radius, radius + 1] < peak
     for entry in range(grids.offsets[grid], grids.offsets[grid + 1]):
         scan = grids.scan[entry]
         pose = grids.poses[entry]
         cosine, sine = wp.cos(pose[2]), wp.sin(pose[2])
-        for b in range(scene.points.shape[1]):
-            if scene.kind[scan, b] == NO_POINT:
+        for beam in range(scene.points.shape[1]):
+            if scene.kind[scan, beam] == NO_POINT:
                 continue
             # Stamps from this point towards the next, if both lie on one surface.
-            point = scene.points[scan, b]
+            point = scene.points[scan, beam]
             to_next = wp.vec2f()
             stamps = int(1)
-            c = neighbour(b, 1, scene.beams[scan], scene.full_circle[scan])
-            if c >= 0:
-                if scene.kind[scan, c] != NO_POINT:
-                    apart = wp.length(scene.points[scan, c] - point)
+            next_beam = neighbour(beam, 1, scene.beams[scan], scene.full_circle[scan])
+            if next_beam >= 0:
+                if scene.kind[scan, next_beam] != NO_POINT:
+                    apart = wp.length(scene.points[scan, next_beam] - point)
                     if apart > grids.spacing_m and apart < max_gap(scene.step[scan], wp.length(point)):
                         stamps = 1 + int(apart / grids.spacing_m)
-                        to_next = (scene.points[scan, c] - point) / wp.float32(stamps)
+                        to_next = (scene.points[scan, next_beam] - point) / wp.float32(stamps)
             for k in range(stamps):
                 # The cell of the stamp's middle.
                 px = wp.float64(point[0] + wp.float32(k) * to_next[0])
@@ -77,7 +77,7 @@ def stamp_points(first: int, bands: int, grids: GridScansArrays, scene: ScanArra
                 if cy < -radius or cy >= ny + radius:
                     continue
                 # A cell with the peak's value is the middle of an earlier stamp.
-                if unique and cx >= low and cx < high and cy >= 0 and cy < ny:
+                if peak_is_unique and cx >= low and cx < high and cy >= 0 and cy < ny:
                     if pyramid[grid, 0, cx, cy] == peak:
                         continue
                 for x in range(wp.max(cx - radius, low), wp.min(cx + radius + 1, high)):
@@ -105,9 +105,9 @@ def next_level(first: int, level: int, pyramid: Pyramid):
 
 def render_grids(
     geometry: Any, grids: GridScans, shape: tuple[int, int], levels: int, threads: int | None = None,
-    pyramid: Any = None,
+    pyramid: Any = None,  # memory to use, if any
 ) -> Any:  # fmt: skip
-    """Render grids of scans with their pyramids, (grids, levels, nx, ny), on the device, into ``pyramid`` if given."""
+    """Render grids of the `ScanArrays` of ``geometry`` with their pyramids, (grids, levels, nx, ny), on the device."""
     count, device = len(grids.origins), geometry.device
     if pyramid is None:
         pyramid = wp.empty((count, levels, *shape), dtype=wp.uint8, device=device)
@@ -120,13 +120,13 @@ def render_grids(
     devices.launch(stamp_points, count * bands, inputs, device, threads)
     for level in range(1, levels):
         if device == "cpu":
-            widen(pyramid.numpy()[:, level - 1], pyramid.numpy()[:, level], 1 << (level - 1))
+            next_level_on_cpu(pyramid.numpy()[:, level - 1], pyramid.numpy()[:, level], 1 << (level - 1))
         else:
             devices.launch(next_level, count * shape[0], [level, pyramid], device, threads)
     return pyramid
 
 
-def widen(narrow: NDArray[np.uint8], wide: NDArray[np.uint8], half: int) -> None:
+def next_level_on_cpu(narrow: NDArray[np.uint8], wide: NDArray[np.uint8], half: int) -> None:
     """Compute `next_level` ten times as fast on the CPU: NumPy takes maxima of 32 bytes at once."""
     for grid, out in zip(narrow, wide, strict=True):
         in_x = np.empty_like(out)
@@ -137,7 +137,7 @@ def widen(narrow: NDArray[np.uint8], wide: NDArray[np.uint8], half: int) -> None
 
 
 @wp.kernel
-def sum_field(first: int, field: Uint8Rows, points: Float32Rows, poses: Float32Rows, out: Int32s):
+def sum_at_poses(first: int, field: Uint8Rows, points: Float32Rows, poses: Float32Rows, out: Int32s):
     """One thread per pose, in cells from the grid's corner: sum the field's values at the points."""
     pose = first + wp.tid()
     cosine, sine = wp.cos(poses[pose, 2]), wp.sin(poses[pose, 2])
@@ -156,11 +156,11 @@ def field_sums(field: NDArray[np.uint8], grid: Grid, points: Floats, poses: Floa
     devices.start()
     poses_cells = np.column_stack([grid.to_cells(poses[:, :2]), poses[:, 2]])
     inputs = [field, points / grid.resolution, poses_cells, (len(poses),)]
-    return np.asarray(devices.launch(sum_field, len(poses), inputs, "cpu", 1)[0])
+    return np.asarray(devices.launch(sum_at_poses, len(poses), inputs, "cpu", 1)[0])
 
 
 @wp.kernel
-def render_surfaces(first: int, mean: Float32Rows, covariance: Float32Rows, strength: Float32s, out: Float32Rows):
+def stamp_surfaces(first: int, mean: Float32Rows, covariance: Float32Rows, strength: Float32s, out: Float32Rows):
     """One thread per surface, in fine cells from the grid's corner: raise the cells around it to its own density."""
     k = first + wp.tid()
     xx = covariance[k, 0]
@@ -185,4 +185,4 @@ def render_field(means: Floats, covariances: Floats, strengths: Floats, shape: t
     ``means`` (K, 2) are in cells from the corner, ``covariances`` (K, 3) are xx, xy, yy, ``strengths`` are s, (K,).
     """
     devices.start()
-    return np.asarray(devices.launch(render_surfaces, len(means), [means, covariances, strengths, shape], "cpu", 1)[0])
+    return np.asarray(devices.launch(stamp_surfaces, len(means), [means, covariances, strengths, shape], "cpu", 1)[0])

@@ -1,14 +1,14 @@
 """Update the cells in which readings end: all of a sweep's work on these *endpoint cells*.
 
-Given where the beams stopped, a cell counts the beams that met its surface and went on (`count_endpoint_cells`). It
+Given where the beams stopped, a cell counts the beams that met its surface and went on (`list_and_count_beams`). It
 draws its label and, from its Beta law, its reflectivity. Then reflectivity and surface move together by a few
 Metropolis steps, which do not use the counts (`update_endpoint_cells`).
 
 The beams hardly determine where *along* a wall a surface lies and how far it extends, but they determine its position
 and thickness *across* the wall to millimetres. So each cell has a frame whose first axis points along its wall
 (`bayesmap.samplers.stop_problem`). A cell in its frame is a `Cell` with the mean from the cell's centre and the
-Cholesky factor in these axes. ``sizes`` holds the sizes of a cell's steps of logit m (m: reflectivity), mean along,
-mean across, log l11, l21 and log l22, then the frame's cosine and sine. They may not depend on the chain's state.
+Cholesky factor in these axes. ``steps_and_frame`` holds the sizes of a cell's steps of logit m (m: reflectivity), mean
+along, mean across, log l11, l21 and log l22, then the frame's cosine and sine. None may depend on the chain's state.
 """
 
 import warp as wp
@@ -23,7 +23,7 @@ from bayesmap.kernels.surfaces.stops import ChainArrays
 from bayesmap.kernels.surfaces.surface import L11, L21, L22, MEAN_X, MEAN_Y, REFLECTIVITY, Cell, PriorArrays
 
 wp.set_module_options({"enable_backward": False})
-COSINE, SINE = 6, 7  # numbers of a cell's ``sizes``
+COSINE, SINE = 6, 7  # places of the frame in ``steps_and_frame``, after the step sizes
 SHORT_STEP = wp.constant(wp.float32(0.3))  # size of short steps, relative to the others
 # Limits of the reflectivity m within which single precision can reverse a step of logit m.
 MIN_REFLECTIVITY = wp.constant(wp.float64(1.0e-30))
@@ -31,7 +31,7 @@ MAX_REFLECTIVITY = wp.constant(wp.float64(1.0 - 1.0e-7))
 MIN_VARIANCE = wp.constant(wp.float32(1.0e-12))  # after rounding, square metres
 STEPS = 6  # Metropolis steps of a surface in each sweep
 UNBOUNDED = wp.constant(wp.float64(-1.0e300))  # a value below every log joint: sums are finished
-AT_STEP = wp.constant(wp.uint64(32))  # random counters per step of a cell's surface, part SURFACES
+AT_STEP = wp.constant(wp.uint64(32))  # number of random counters per Metropolis step of a cell, in part SURFACES
 
 
 @wp.func
@@ -54,24 +54,24 @@ def turn_surface(cell: Cell, cosine: wp.float32, sine: wp.float32) -> Cell:
 
 
 @wp.func
-def into_frame(cell: Cell, sizes: Cell, centre: wp.vec2) -> Cell:
-    """Return a cell, given in the grid's axes, in its frame, which ``sizes`` holds."""
+def into_frame(cell: Cell, steps_and_frame: Cell, centre: wp.vec2) -> Cell:
+    """Return a cell, given in the grid's axes, in its frame, which ``steps_and_frame`` holds."""
     cell[MEAN_X] = cell[MEAN_X] - centre[0]
     cell[MEAN_Y] = cell[MEAN_Y] - centre[1]
-    return turn_surface(cell, sizes[COSINE], sizes[SINE])
+    return turn_surface(cell, steps_and_frame[COSINE], steps_and_frame[SINE])
 
 
 @wp.func
-def out_of_frame(cell: Cell, sizes: Cell, centre: wp.vec2) -> Cell:
+def out_of_frame(cell: Cell, steps_and_frame: Cell, centre: wp.vec2) -> Cell:
     """Return a cell, given in its frame, in the grid's axes."""
-    cell = turn_surface(cell, sizes[COSINE], -sizes[SINE])
+    cell = turn_surface(cell, steps_and_frame[COSINE], -steps_and_frame[SINE])
     cell[MEAN_X] = cell[MEAN_X] + centre[0]
     cell[MEAN_Y] = cell[MEAN_Y] + centre[1]
     return cell
 
 
 @wp.func
-def propose_step(cell: Cell, sizes: Cell, key: wp.uint64, counter: wp.uint64, i: int) -> Cell:
+def propose_step(cell: Cell, steps_and_frame: Cell, key: wp.uint64, counter: wp.uint64, i: int) -> Cell:
     """Return the cell, in its frame, moved by the i-th random step, half of the time a short one."""
     # Even steps change logit m, mean along and size, which beams hardly determine: a wide surface that stops few beams
     # looks like a small one that stops many. Odd steps change mean across, slope and thickness.
@@ -82,16 +82,16 @@ def propose_step(cell: Cell, sizes: Cell, key: wp.uint64, counter: wp.uint64, i:
     if i % 2 == 0:
         reflectivity = wp.float64(cell[REFLECTIVITY])
         odds = reflectivity / wp.max(ONE - reflectivity, MIN_REFLECTIVITY)
-        odds = odds * wp.float64(wp.exp(e_3 * sizes[REFLECTIVITY]))
+        odds = odds * wp.float64(wp.exp(e_3 * steps_and_frame[REFLECTIVITY]))
         proposed = odds / (ONE + odds)
         if wp.min(reflectivity, proposed) > MIN_REFLECTIVITY and wp.max(reflectivity, proposed) < MAX_REFLECTIVITY:
             cell[REFLECTIVITY] = wp.float32(proposed)
-        cell[MEAN_X] = cell[MEAN_X] + e_1 * sizes[MEAN_X]
-        cell[L11] = cell[L11] * wp.exp(e_2 * sizes[L11])
+        cell[MEAN_X] = cell[MEAN_X] + e_1 * steps_and_frame[MEAN_X]
+        cell[L11] = cell[L11] * wp.exp(e_2 * steps_and_frame[L11])
     else:
-        cell[MEAN_Y] = cell[MEAN_Y] + e_1 * sizes[MEAN_Y]
-        cell[L21] = cell[L21] + e_2 * sizes[L21]
-        cell[L22] = cell[L22] * wp.exp(e_3 * sizes[L22])
+        cell[MEAN_Y] = cell[MEAN_Y] + e_1 * steps_and_frame[MEAN_Y]
+        cell[L21] = cell[L21] + e_2 * steps_and_frame[L21]
+        cell[L22] = cell[L22] * wp.exp(e_3 * steps_and_frame[L22])
     return cell
 
 
@@ -122,7 +122,7 @@ def log_beams(
     likelihood: StopLikelihood, blocks: LaneBlocks, cell_blocks: CellBlocks, beams: CellBeams, centre: wp.vec2,
     cell: Cell, least: wp.float64,
 ) -> wp.float64:  # fmt: skip
-    """Compute `log_stops` of a cell's beams: in lanes as far as possible, the other beams one by one."""
+    """Compute `log_stops`, unfinished once below ``least``: beams in lanes as far as possible, the rest one by one."""
     # Stopped beams without a lane are the first of their list.
     passing_end = beams.passing_end
     stopped_end = beams.stopped_end
@@ -145,7 +145,7 @@ def log_beams(
 
 
 @wp.kernel
-def count_endpoint_cells(first: int, sweep: int, endpoints: EndpointCells, state: ChainArrays, lists: BeamLists):
+def list_and_count_beams(first: int, sweep: int, endpoints: EndpointCells, state: ChainArrays, lists: BeamLists):
     """One thread per chain's cell in which readings end: list its incidences, and count stopped and meeting beams."""
     place = place_of(first + wp.tid(), endpoints.cell, state.n_cells)
     beam_0 = place.chain * state.n_beams
@@ -203,22 +203,22 @@ def update_endpoint_cells(
     cell_blocks = endpoint_beams.fill_blocks(likelihood, blocks, place.chain * state.parts + part, beams)
     # Metropolis steps. Round 0 computes the present log joint, so that the long function is called in one place.
     key = sweep_key(state.keys[place.chain], sweep, random.SURFACES)
-    sizes = endpoints.step_sizes[place.number]
-    framed = into_frame(cell, sizes, centre)
-    candidate = framed
-    moved = cell
+    steps_and_frame = endpoints.step_sizes[place.number]
+    framed = into_frame(cell, steps_and_frame, centre)
+    framed_candidate = framed
+    candidate = cell
     present = wp.float64(0.0)
     for i in range(steps + 1):
         least = UNBOUNDED
         if i > 0:
             step_counter = counter + AT_STEP * wp.uint64(i)
-            candidate = propose_step(framed, sizes, key, step_counter + wp.uint64(1), i - 1)
-            moved = out_of_frame(candidate, sizes, centre)
+            framed_candidate = propose_step(framed, steps_and_frame, key, step_counter + wp.uint64(1), i - 1)
+            candidate = out_of_frame(framed_candidate, steps_and_frame, centre)
             least = present + wp.log(to_uniform(random_bits(key, step_counter + AT_ACCEPT)))
-        if i == 0 or surface.is_in_square(prior, centre, moved):
-            log_joint = log_cell_prior(prior, solid, candidate)
-            log_joint += log_beams(likelihood, blocks, cell_blocks, beams, centre, moved, least - log_joint)
+        if i == 0 or surface.is_in_square(prior, centre, candidate):
+            log_joint = log_cell_prior(prior, solid, framed_candidate)
+            log_joint += log_beams(likelihood, blocks, cell_blocks, beams, centre, candidate, least - log_joint)
             if log_joint > least:
-                framed = candidate
+                framed = framed_candidate
                 present = log_joint
-    state.cells[place.index] = out_of_frame(framed, sizes, centre)
+    state.cells[place.index] = out_of_frame(framed, steps_and_frame, centre)

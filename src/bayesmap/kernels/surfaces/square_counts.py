@@ -30,13 +30,13 @@ from bayesmap.kernels.surfaces.surface import PriorArrays, pseudo_counts
 
 wp.set_module_options({"enable_backward": False})
 CANDIDATES = wp.constant(32)  # candidates for a beam's point under a tabulated law
-CANDIDATES_PER_LAW = wp.constant(16)  # half of them, from each of two laws
+CANDIDATES_PER_LAW = wp.constant(16)  # of each of the two laws
 PER_CANDIDATE = wp.constant(wp.float64(1.0 / 16.0))  # 1 / CANDIDATES_PER_LAW
 LOGISTIC_SCALE = wp.constant(wp.float64(0.6))  # scale of a logistic for a normal: longer tails, known quantiles
 MIN_VARIANCE = wp.constant(wp.float64(1.0e-12))  # square metres: a thinner surface counts as one point
 IMPOSSIBLE = wp.constant(wp.float64(-1.0e300))  # log weight of an impossible candidate
-AT_SQUARE = wp.constant(wp.uint64(640))  # random counter of a cell in a sweep
-STREAM_POINT = wp.constant(wp.uint64(5 << 32))  # first random counter of the points of beams
+AT_SQUARE = wp.constant(wp.uint64(640))  # random counter of a cell in part CELLS, apart from those of `cell_draws`
+AT_POINTS = wp.constant(wp.uint64(5 << 32))  # first random counter of the beams' points, in part BEAMS
 
 
 @wp.func
@@ -44,7 +44,7 @@ def draw_stop_point_m(
     law: SensorLaw32, reading: wp.float32, decay: wp.float32, distance: wp.float32, variance: wp.float32,
     key: wp.uint64, counter: wp.uint64,
 ) -> wp.float64:  # fmt: skip
-    """Draw the distance at which a beam was stopped, given its reading, metres, never negative; takes 4 counters."""
+    """Draw where a beam was stopped, metres >= 0, given its reading and that one's `object_decay`; takes 4 counters."""
     mean = wp.float64(distance)
     variance_m2 = wp.float64(variance)
     if law.kind == TABLE:
@@ -84,7 +84,7 @@ def draw_point_by_table_m(
         suggested = mean + variance / total * (wp.float64(reading) - mean)
         suggested_scale = LOGISTIC_SCALE * wp.sqrt(variance * sigma * sigma / total)
     shift = to_uniform(random_bits(key, counter))
-    target = to_uniform(random_bits(key, counter + wp.uint64(1)))
+    choice = to_uniform(random_bits(key, counter + wp.uint64(1)))
     # Weights are summed relative to the largest so far. Each candidate replaces the chosen one with its share of the
     # weights so far. One uniform number serves all choices: it is rescaled to be uniform again after each.
     chosen = mean
@@ -113,11 +113,11 @@ def draw_point_by_table_m(
         weight = wp.exp(log_weight - largest)
         total_weight += weight
         p = weight / total_weight
-        if target <= p:  # rounding may have made it one
+        if choice <= p:  # rounding may have made it one
             chosen = t
-            target = target / p
+            choice = choice / p
         else:
-            target = (target - p) / (ONE - p)
+            choice = (choice - p) / (ONE - p)
     return chosen
 
 
@@ -144,8 +144,8 @@ def count_in_squares(
     begin, end = rays.offsets[beam], rays.offsets[beam + 1]
     stop = state.stop[index]
     if stop < begin or stop >= end:
-        return
-    counter = STREAM_POINT + wp.uint64(beam) * wp.uint64(4)
+        return  # no surface stopped it
+    counter = AT_POINTS + wp.uint64(beam) * wp.uint64(4)
     moments = state.stop_moments[index]
     key = sweep_key(state.keys[chain], sweep, BEAMS)
     point = draw_stop_point_m(law, rays.range_m[beam], rays.decay[beam], moments[0], moments[1], key, counter)
@@ -164,9 +164,9 @@ def count_in_squares(
 
 @wp.kernel
 def draw_stop_chances(
-    chain: int, sweep: int, prior: PriorArrays, state: ChainArrays, squares: SquareArrays, solid: Uint8s, kept: int
+    chain: int, sweep: int, prior: PriorArrays, state: ChainArrays, squares: SquareArrays, solid: Uint8s, is_kept: int
 ):
-    """One thread per touched cell: draw q from its Beta posterior, compute its mean, and count a kept draw."""
+    """One thread per touched cell: draw q from its Beta posterior, compute its mean; count it if ``is_kept`` is 1."""
     i = wp.tid()
     cell = squares.touched[i]
     index = chain * state.n_cells + cell
@@ -177,11 +177,11 @@ def draw_stop_chances(
     key = sweep_key(state.keys[chain], sweep, CELLS)
     squares.drawn[i] = wp.float32(beta_or_zero(a, b, key, wp.uint64(cell) * PER_CELL + AT_SQUARE))
     squares.expected[i] = wp.float32(a / (a + b))
-    if kept != 0:
+    if is_kept != 0:
         state.observed_counts[index] = state.observed_counts[index] + wp.vec2i(wp.where(arrived > 0, 1, 0), 1)
 
 
-class InSquares(NamedTuple):
+class SquareCounts(NamedTuple):
     """Counts of each touched square, (T,) each: beams stopped, beams passed, chance of a stop drawn, and its mean."""
 
     stopped: Ints

@@ -18,19 +18,19 @@ import warp as wp
 from numpy.typing import NDArray
 
 from bayesmap.beams.rays import Rays
-from bayesmap.cells.reflectivity import KernelNumbers
+from bayesmap.cells.reflectivity import PriorParameters
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.device import Floats, Ints, Singles
 from bayesmap.kernels.sensor_law import SensorLaw32, sensor_law
 from bayesmap.kernels.surfaces import cell_draws, endpoint_cells, stops
 from bayesmap.kernels.surfaces.endpoint_beams import StopLikelihood, endpoint_cells_to_device, room_for_blocks
-from bayesmap.kernels.surfaces.square_counts import InSquares, count_in_squares, draw_stop_chances, square_arrays
+from bayesmap.kernels.surfaces.square_counts import SquareCounts, count_in_squares, draw_stop_chances, square_arrays
 from bayesmap.kernels.surfaces.surface import cells_to_device, pack_prior
 from bayesmap.sensors.model import SensorModel
 
 STATE_SIZE = 6  # numbers of a `Cell` that belong to its state; the other two do not
 KERNELS = (
-    cell_draws.begin_sweep, stops.pass_lazy_cells, stops.draw_stops, endpoint_cells.count_endpoint_cells,
+    cell_draws.begin_sweep, stops.pass_lazy_cells, stops.draw_stops, endpoint_cells.list_and_count_beams,
     cell_draws.draw_labels, cell_draws.draw_untouched, cell_draws.update_free_cells,
     endpoint_cells.update_endpoint_cells, count_in_squares, draw_stop_chances,
 )  # fmt: skip
@@ -146,7 +146,7 @@ class StopChains:
         self._slices = [wp.zeros((chains, count), dtype=wp.float64, device=device) for count in slices]
 
     def sweeps(
-        self, first: int, count: int, sensor: SensorModel, prior: KernelNumbers, beta: float = 1.0, *,
+        self, first: int, count: int, sensor: SensorModel, prior: PriorParameters, beta: float = 1.0, *,
         steps: int = endpoint_cells.STEPS, observe_from: int | None = None,
         before: Callable[[int, int], None] | None = None, after: Callable[[int, int], None] | None = None,
     ) -> tuple[Floats, Floats]:  # fmt: skip
@@ -226,7 +226,7 @@ class StopChains:
         touched, label_sums = len(self.plan.rays.touched), self._slices[2]
         endpoints = 0 if self.without_surfaces else len(self.plan.endpoints)
         inputs = [sweep, self._endpoints, state, self._lists]
-        launches = [Launch(endpoint_cells.count_endpoint_cells, endpoints, inputs)]
+        launches = [Launch(endpoint_cells.list_and_count_beams, endpoints, inputs)]
         if prior.coupling > 0:  # cells of one colour of the checkerboard after those of the other
             launches.append(Launch(cell_draws.sum_label_prior, label_sums.shape[1], [prior, state, label_sums]))
             inputs = [sweep, prior, self._kinds, state]
@@ -296,9 +296,9 @@ class StopChains:
         """Whether these chains have made a sweep on this device, so that beams have stopped somewhere."""
         return self._law is not None
 
-    def in_squares(self, chain: int, sweep: int, kept: bool, solid: NDArray[np.bool_] | None = None) -> InSquares:
+    def in_squares(self, chain: int, sweep: int, is_kept: bool, solid: NDArray[np.bool_] | None = None) -> SquareCounts:
         """Count the stops of a chain with surfaces in each square, after its last sweep, which has this number.
-        If ``kept``, `observed_counts` counts the draw. ``solid`` holds the labels before the sweep, (N,), if any.
+        If ``is_kept``, `observed_counts` counts the draw. ``solid`` holds the labels before the sweep, (N,), if any.
         """
         assert self._squares, "cells without surfaces stop beams inside their own squares"
         assert self.has_swept, "no sweep has been made"
@@ -311,12 +311,12 @@ class StopChains:
         labels = state.solid[chain * state.n_cells : (chain + 1) * state.n_cells]
         if solid is not None:
             labels = devices.to_device(solid, wp.uint8, self.device)
-        inputs = [chain, sweep, self._prior, state, squares, labels, int(kept)]
+        inputs = [chain, sweep, self._prior, state, squares, labels, int(is_kept)]
         wp.launch(draw_stop_chances, dim=len(touched), inputs=inputs, device=self.device)
         arrays = squares.crossings, squares.stopped_inside, squares.stopped_before
         crossings, stopped, stopped_before = (a.numpy()[touched] for a in arrays)
         chances = (np.array(a.numpy()) for a in (squares.drawn, squares.expected))
-        return InSquares(stopped, crossings - stopped - stopped_before, *chances)
+        return SquareCounts(stopped, crossings - stopped - stopped_before, *chances)
 
     def observed_counts(self, chain: int) -> Ints:
         """Count the draws in which at least one beam observes each cell, and the draws inspected, (N, 2)."""

@@ -16,7 +16,7 @@ import warp as wp
 from scipy import special
 
 from bayesmap.beams.rays import CROSSING_WIDTH, DIRECTION_RAD
-from bayesmap.cells.reflectivity import KernelNumbers
+from bayesmap.cells.reflectivity import PriorParameters
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.device import HALF, ONE, Singles
 from bayesmap.kernels.random import COUNTERS_PER_GAMMA, log_gamma_variate, normal
@@ -97,15 +97,15 @@ def cross_surface(cell: Cell, ray: Ray) -> Crossing:
     return cross_at(u[0] * ry - u[1] * rx, u[0] * rx + u[1] * ry, cell, u[0], u[1])
 
 
-PriorArrays = devices.struct_like(KernelNumbers, *[wp.float64] * len(KernelNumbers._fields))
+PriorArrays = devices.struct_like(PriorParameters, *[wp.float64] * len(PriorParameters._fields))
 
 
-def pack_prior(numbers: KernelNumbers) -> Any:
+def pack_prior(parameters: PriorParameters) -> Any:
     """Pack a prior as kernels read it, with the log normalisers of the Betas if cells have labels."""
-    if numbers.coupling > 0:
-        log_betas = special.betaln((numbers.a, numbers.a_solid), (numbers.b, numbers.b_solid))
-        numbers = numbers._replace(log_beta=float(log_betas[0]), log_beta_solid=float(log_betas[1]))
-    return devices.pack(PriorArrays, "cpu", **numbers._asdict())
+    if parameters.coupling > 0:
+        log_betas = special.betaln((parameters.a, parameters.a_solid), (parameters.b, parameters.b_solid))
+        parameters = parameters._replace(log_beta=float(log_betas[0]), log_beta_solid=float(log_betas[1]))
+    return devices.pack(PriorArrays, "cpu", **parameters._asdict())
 
 
 @wp.func

@@ -6,7 +6,7 @@ sideways.
 
 Take a beam that reaches the block. Let l_1, l_2, ... be the log-likelihoods of its hits on the block's cells, in the
 order of the beam, and l_out the one of its first wall outside the block, or of "no hit". The beam adds to a state's log
-weight l_j for the first j that is a wall in the state, else l_out. The coupling adds its equal pairs.
+weight l_j for the first j that is a wall in the state, else l_out. The coupling adds its pairs of cells that are alike.
 """
 
 import numpy as np
@@ -37,7 +37,7 @@ class BlockArrays:
     beam: Int32s
     first: Int32s  # first entry of the beam in the block
     last: Int32s  # last entry of the beam in the block
-    # [4 * mask + j][state]: 1 if j is a wall and the cells of the mask before it are free; [j][state]: 1 if j is a wall
+    # [4 * mask + j][state]: 1 if j is a wall and no cell of the bit mask is; so [j][state]: 1 if j is a wall
     is_first: wp.array(dtype=Weights)
     block_rows: int  # positions of a block in y
     nx: int
@@ -65,9 +65,9 @@ def index_in_block(cell: int, x: int, y: int, ny: int) -> int:
 
 
 @wp.kernel
-def list_block_beams(first: int, fills: int, bounds: Int32s, table: Table, blocks: BlockArrays, next_slot: Int32s):
-    """One thread per range of block columns: count the beams of each block; if ``fills`` is 1, write their entries."""
-    # next_slot: the count of beams so far in each block; if ``fills`` is 1, the next free slot of each block.
+def fill_block_beams(first: int, writes: int, bounds: Int32s, table: Table, blocks: BlockArrays, next_slot: Int32s):
+    """One thread per range of block columns: count the beams of each block; if ``writes`` is 1, write their entries."""
+    # next_slot: by block, the beams counted so far; if writing, the next free slot.
     thread = first + wp.tid()
     for beam in range(table.offsets.shape[0] - 1):
         for entry in range(table.offsets[beam], table.offsets[beam + 1]):
@@ -87,15 +87,15 @@ def list_block_beams(first: int, fills: int, bounds: Int32s, table: Table, block
                 if is_listed == 0:
                     slot = next_slot[block]
                     next_slot[block] = slot + 1
-                    if fills != 0:
+                    if writes != 0:
                         blocks.beam[slot] = beam
                         blocks.first[slot] = entry
                         blocks.last[slot] = entry
-                elif fills != 0:
+                elif writes != 0:
                     blocks.last[next_slot[block] - 1] = entry
 
 
-def list_blocks(table: BeamTable, device: str) -> BlockArrays:
+def block_beams(table: BeamTable, device: str) -> BlockArrays:
     """List the beams of every block. Memory is about 25 bytes per incidence of the table."""
     # First launch: count the beams of each block.
     nx, ny = table.grid.shape
@@ -105,7 +105,7 @@ def list_blocks(table: BeamTable, device: str) -> BlockArrays:
     counts = np.zeros(block_columns * block_rows, dtype=np.int32)
     on_host = chains.table_to_device(table, None, "cpu")
     blocks = devices.pack(BlockArrays, "cpu", block_rows=block_rows, nx=nx, ny=ny)
-    devices.launch(list_block_beams, threads, [0, bounds, on_host, blocks, counts], "cpu")
+    devices.launch(fill_block_beams, threads, [0, bounds, on_host, blocks, counts], "cpu")
     total = int(counts.sum(dtype=np.int64))
     if total > MAX_INCIDENCES:
         raise BadInput(
@@ -117,7 +117,7 @@ def list_blocks(table: BeamTable, device: str) -> BlockArrays:
     np.cumsum(counts, out=offsets[1:])
     arrays = [wp.empty(total, dtype=wp.int32, device="cpu") for _ in range(3)]
     blocks.beam, blocks.first, blocks.last = arrays
-    devices.launch(list_block_beams, threads, [1, bounds, on_host, blocks, offsets[:-1].copy()], "cpu")
+    devices.launch(fill_block_beams, threads, [1, bounds, on_host, blocks, offsets[:-1].copy()], "cpu")
     # Look-up table of the first wall in each of the 16 states.
     states = np.arange(16)
     is_first = [((states >> j) & 1) * ((states & mask) == 0) for mask in range(16) for j in range(4)]
@@ -180,7 +180,7 @@ def draw_state(weights: Weights, u: wp.float64) -> int:
 
 
 @wp.func
-def beams_reaching(blocks: BlockArrays, reaching: Int32s, x: int, y: int) -> int:
+def incidences_reaching(blocks: BlockArrays, reaching: Int32s, x: int, y: int) -> int:
     """Return the sum, over the cells of a block, of the number of beams that reach the cell."""
     total = int(0)
     for j in range(4):
@@ -217,7 +217,7 @@ def prior_weights(blocks: BlockArrays, prior: WallPriorArrays, x: int, y: int) -
 
 
 @wp.func
-def equal_in_block(blocks: BlockArrays, i: int, j: int) -> Weights:
+def alike_in_block(blocks: BlockArrays, i: int, j: int) -> Weights:
     """Return 1 in the states in which two cells of a block are alike, else 0."""
     wall_i = blocks.is_first[i]
     wall_j = blocks.is_first[j]
@@ -227,7 +227,7 @@ def equal_in_block(blocks: BlockArrays, i: int, j: int) -> Weights:
 
 @wp.func
 def coupling_weights(blocks: BlockArrays, prior: WallPriorArrays, walls: Uint8s, x: int, y: int) -> Weights:
-    """Return the log prior of the equal pairs of the 16 states, up to a constant."""
+    """Return the log prior of the pairs of cells that are alike in the 16 states, up to a constant."""
     weights = Weights()
     for j in range(4):
         cell = cell_of_block(blocks, x, y, j)
@@ -241,11 +241,11 @@ def coupling_weights(blocks: BlockArrays, prior: WallPriorArrays, walls: Uint8s,
             weights = weights + wp.float64(balance) * blocks.is_first[j]
     # A cell that is outside of a narrow grid is free in all possible states, and has no pairs.
     if blocks.ny > 1:
-        weights = weights + equal_in_block(blocks, 0, 1)
+        weights = weights + alike_in_block(blocks, 0, 1)
     if blocks.nx > 1:
-        weights = weights + equal_in_block(blocks, 0, 2)
+        weights = weights + alike_in_block(blocks, 0, 2)
     if blocks.nx > 1 and blocks.ny > 1:
-        weights = weights + equal_in_block(blocks, 1, 3) + equal_in_block(blocks, 2, 3)
+        weights = weights + alike_in_block(blocks, 1, 3) + alike_in_block(blocks, 2, 3)
     return prior.coupling * weights
 
 
@@ -268,7 +268,7 @@ def block_sweeps(
             x = block // blocks.block_rows
             y = block % blocks.block_rows
             counter = base + wp.uint64(4 * block)
-            n_reaching = beams_reaching(blocks, chain.reaching, x, y)
+            n_reaching = incidences_reaching(blocks, chain.reaching, x, y)
             if n_reaching == 0 and prior.coupling == ZERO:
                 draw_block_from_prior(blocks, prior, chain.walls, x, y, key, counter)
             else:

@@ -59,21 +59,21 @@ def fill_relative(first: int, beta: wp.float32, loglik: Float32s, no_hit: Float3
     largest = no_hit[beam]
     for entry in range(beliefs.offsets[beam], beliefs.offsets[beam + 1]):
         largest = wp.max(largest, loglik[entry])
-    last = wp.float32(1.0)
+    last_ratio = wp.float32(1.0)
     likelihood = wp.float32(1.0)
     for entry in range(beliefs.offsets[beam], beliefs.offsets[beam + 1]):
         log_ratio = beta * (loglik[entry] - largest)
-        if log_ratio != last:  # long stretches of a beam share one value
+        if log_ratio != last_ratio:  # long stretches of a beam share one value
             likelihood = wp.max(wp.exp(log_ratio), TINY)
-            last = log_ratio
+            last_ratio = log_ratio
         beliefs.relative[entry] = likelihood
     beliefs.relative_no_hit[beam] = wp.max(wp.exp(beta * (no_hit[beam] - largest)), TINY)
 
 
 @wp.kernel
-def update_beam_messages(part_0: int, damping: wp.float32, beliefs: BeliefArrays):
+def update_beam_messages(first: int, damping: wp.float32, beliefs: BeliefArrays):
     """One thread per part of the beams: compute new messages to their cells, and sum their logarithms per cell."""
-    part = part_0 + wp.tid()
+    part = first + wp.tid()
     received = beliefs.received[part]
     product = beliefs.product[part]
     for cell in range(received.shape[0]):
@@ -124,16 +124,16 @@ def softplus(x: wp.float64) -> wp.float64:
 
 
 @wp.func
-def neighbour_message(belief: wp.float32, received: wp.float32, coupling: wp.float64) -> wp.float64:
+def neighbour_message(belief: wp.float32, from_receiver: wp.float32, coupling: wp.float64) -> wp.float64:
     """Return the message of a cell to a neighbour, log-odds, from its belief less the neighbour's own message."""
-    h = wp.clamp(wp.float64(belief - received), wp.float64(-1000.0), wp.float64(1000.0))
+    h = wp.clamp(wp.float64(belief - from_receiver), wp.float64(-1000.0), wp.float64(1000.0))
     return softplus(coupling + h) - (coupling + softplus(h - coupling))
 
 
 @wp.kernel
 def update_neighbour_messages(
-    first: int, nx: int, ny: int, coupling: wp.float64, damping: wp.float32, belief: Float32s, last: Float32Rows,
-    messages: Float32Rows,
+    first: int, nx: int, ny: int, coupling: wp.float64, damping: wp.float32, belief: Float32s,
+    last_messages: Float32Rows, messages: Float32Rows,
 ):  # fmt: skip
     """One thread per cell: compute the log-odds that it receives from its neighbours, 0 where there is none."""
     # Rows of the messages are (x - 1, x + 1, y - 1, y + 1).
@@ -152,8 +152,8 @@ def update_neighbour_messages(
             sender = cell + 1
         if sender >= 0:
             # The neighbour stores the message of this cell in the row of the opposite side.
-            message = wp.float32(neighbour_message(belief[sender], last[side ^ 1, sender], coupling))
-            messages[side, cell] = damping * last[side, cell] + (wp.float32(1.0) - damping) * message
+            message = wp.float32(neighbour_message(belief[sender], last_messages[side ^ 1, sender], coupling))
+            messages[side, cell] = damping * last_messages[side, cell] + (wp.float32(1.0) - damping) * message
 
 
 @wp.kernel
@@ -171,7 +171,7 @@ def gather_beliefs(first: int, from_neighbours: Float32Rows, beliefs: BeliefArra
 
 
 class Beliefs:
-    """Messages and beliefs of a beam table, advanced by `round`: 12 bytes per incidence; if coupled, 32 per cell."""
+    """Messages and beliefs at inverse temperature ``beta``. Memory: 12 bytes per incidence; if coupled, 32 per cell."""
 
     def __init__(self, table: BeamTable, logit: Floats, device: str, beta: float = 1.0, coupling: float = 0.0) -> None:
         cells, incidences, beams = table.grid.n_cells, table.n_incidences, table.n_beams
@@ -193,7 +193,7 @@ class Beliefs:
         self._gather()
 
     def round(self, damping: float, threads: int | None = None) -> None:
-        """Let beams and neighbours send messages from the last round's beliefs; then let all cells gather them."""
+        """Update messages by the last beliefs, keeping a share ``damping`` of the last ones; then update beliefs."""
         devices.launch(update_beam_messages, self._parts, [damping, self._arrays], self._device, threads)
         if self._coupling:
             inputs = [*self._shape, self._coupling, damping, self._arrays.belief, self._sides, self._next_sides]
