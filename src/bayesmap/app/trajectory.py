@@ -138,7 +138,7 @@ class TrajectoryJob:
         self._raise_if_cancelled()
         began_s = time.monotonic()
         if stage == self._pictured_stage and stage != "loops" and began_s < self._next_picture_s:
-            return
+            return  # the next picture is not due
         self._pictured_stage = stage
         scans = self._scans.at(poses[np.argsort(self._time_order)])  # poses are in the order of time
         self._grid = grow_grid(self._grid, scans)

@@ -87,7 +87,7 @@ def drop_outdated(tasks: Sequence[AnyTask]) -> list[AnyTask]:
             # A later job makes this job and all earlier jobs outdated, unless it continues this job's chains.
             outdated = outdated or (later is not None and (later.mode != "run" or later.document != task.document))
             if outdated:
-                continue
+                continue  # the later job replaces it
             later = task
         reversed_valid.append(task)
     return reversed_valid[::-1]

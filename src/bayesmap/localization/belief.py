@@ -3,7 +3,8 @@
 `PoseBelief` is the result: weighted poses, their modes (`Mode`) and regions (`Region`). `PoseMixture` is the proposal
 of population Monte Carlo (Cappe, Guillin, Marin and Robert 2004). Each round draws from Student distributions about the
 present places (`PoseMixture.draw`), weights the draws by target / proposal (`Population`), and moves the places to the
-weighted means (`PoseMixture.adapt`). The last weights are unbiased, and their mean estimates the evidence.
+weighted means (`PoseMixture.adapt`). The last weights are unbiased but for their truncation, and their mean estimates
+the evidence.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ from bayesmap.space.arrays import Indices, Mask
 from bayesmap.space.planar import Floats, compose, wrap_angle
 from bayesmap.space.trajectory import ellipses
 
-NEAR_M, NEAR_RAD = 0.2, np.radians(7.0)  # chains of poses with steps shorter than this belong to one mode
+NEAR_M, NEAR_RAD = 0.2, np.radians(7.0)  # poses linked by steps shorter than this belong to one mode
 MIN_MODE_SIGMA = np.array([0.002, 0.002, np.radians(0.05)])  # standard deviations of a mode
 LINKING_WEIGHT = 0.995  # share of the weight whose poses link others into modes
 MIN_PROBABILITY = 1e-4  # probability of a mode that is listed
@@ -95,13 +96,13 @@ class PoseBelief:
     @cached_property
     def modes(self) -> tuple[Mode, ...]:
         """The places where the robot may be, the likeliest first."""
-        modes = self.places(MIN_PROBABILITY)
+        modes = self.modes_above(MIN_PROBABILITY)
         if self.shared_error is None:
             return modes
         wider = np.diag(self.shared_error**2)
         return tuple(replace(mode, covariance=mode.covariance + wider) for mode in modes)
 
-    def places(self, min_probability: float) -> tuple[Mode, ...]:
+    def modes_above(self, min_probability: float) -> tuple[Mode, ...]:
         """Return the modes of at least this probability, the likeliest first, without the map's shared error."""
         mode_of = _label_clusters(self.poses, self.weights) if self.mode_of is None else self.mode_of
         modes = []
@@ -114,7 +115,7 @@ class PoseBelief:
         return tuple(sorted(modes, key=lambda mode: -mode.probability))
 
     def of_frame(self, step: Floats) -> PoseBelief:
-        """Return the posterior of another frame on the robot, whose pose in this frame is ``step``, (3,)."""
+        """Return the posterior of another frame on the robot, at ``step``, (3,), in the frame of these poses."""
         mode_of = _label_clusters(self.poses, self.weights) if self.mode_of is None else self.mode_of
         return replace(self, poses=compose(self.poses, step), mode_of=mode_of)
 
@@ -138,7 +139,7 @@ class PoseBelief:
         if not 0 < level < 1:
             raise BadInput(f"region: level must lie inside (0, 1), got {level!r}")
         means = np.array([mode.mean[:2] for mode in self.modes])
-        covariances = np.array([mode.covariance[:2, :2] for mode in self.modes]) + 1e-10 * np.eye(2)
+        covariances = np.array([mode.covariance[:2, :2] for mode in self.modes]) + 1e-10 * np.eye(2)  # for Cholesky
         shares = np.array([mode.probability for mode in self.modes])
         modes = (means, covariances, shares / shares.sum())
         # Draw positions, and take the quantile of their densities.
@@ -263,7 +264,7 @@ class PoseMixture:
         poses[:, 2] = wrap_angle(poses[:, 2])
         log_target = target(poses)
         log_weights = log_target - log_sum(self._student_logs(poses) + np.log(counts / counts.sum()))
-        # Truncated importance sampling (Ionides 2008): no weight exceeds the mean by more than the root of their count.
+        # Truncated importance sampling (Ionides 2008): no weight exceeds the mean times the root of their count.
         limit = log_sum(log_weights) - 0.5 * np.log(len(poses))
         return Population(poses, np.minimum(log_weights, limit), place, log_target)
 
@@ -286,7 +287,7 @@ class PoseMixture:
         _, label = connected_components(is_same_mode, directed=False)
         return np.asarray(label[self._student_logs(poses).argmax(axis=1)], dtype=np.intp)
 
-    def squared_distances(self, poses: Floats) -> tuple[Floats, Floats]:
+    def mahalanobis_terms(self, poses: Floats) -> tuple[Floats, Floats]:
         """Return squared Mahalanobis distances of poses from the places, (P, K), and half of log determinants, (K,)."""
         deviations = poses - self.means[:, None]
         deviations[..., 2] = wrap_angle(deviations[..., 2])
@@ -296,7 +297,7 @@ class PoseMixture:
 
     def _student_logs(self, poses: Floats) -> Floats:
         """Return the log density of each place's Student distribution, (P, K)."""
-        squared, half_log_det = self.squared_distances(poses)
+        squared, half_log_det = self.mahalanobis_terms(poses)
         return np.asarray(STUDENT_CONSTANT - half_log_det - 0.5 * (DOF + 3) * np.log1p(squared / DOF))
 
     def weigh(self, population: Population) -> PoseMixture:
@@ -314,7 +315,7 @@ class PoseMixture:
             logs = population.log_weights[of_place]
             max_log = logs.max()
             if not np.isfinite(max_log):
-                continue
+                continue  # no draw of this place is possible
             logs = logs - max_log
             weights = np.exp(logs)
             log_mass[k] = max_log + np.log(weights.sum())
@@ -362,6 +363,6 @@ def student_draws(count: int, rng: np.random.Generator) -> Floats:
     the law of a single draw.
     """
     even = (rng.random(4) + np.arange(count)[:, None] * LATTICE) % 1.0
-    even = np.clip(even, 1e-12, 1.0 - 1e-12)
+    even = np.clip(even, 1e-12, 1.0 - 1e-12)  # at 0 and 1 the quantiles are infinite
     stretch = np.sqrt(0.5 * DOF / gammaincinv(0.5 * DOF, even[:, 3:]))
     return np.asarray(stretch * ndtri(even[:, :3]))

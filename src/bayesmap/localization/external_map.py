@@ -157,14 +157,14 @@ def search_single_scans(known: KnownMap, scans: Scans, seed: int) -> tuple[Refer
     nats_per_beam, missed = [], 0
     scores: list[Floats] = []
     for pose, angles, ranges in zip(scans.poses, scans.angles_by_scan(), scans.ranges_m, strict=True):
-        places = update(known, Prior(), Scan(angles, ranges, limits), rng, look_everywhere=True).places(1e-9)
-        lengths_m, turns_rad = lengths_and_turns(between(pose, np.array([place.mean for place in places])))
+        modes = update(known, Prior(), Scan(angles, ranges, limits), rng, look_everywhere=True).modes_above(1e-9)
+        lengths_m, turns_rad = lengths_and_turns(between(pose, np.array([mode.mean for mode in modes])))
         is_right = lengths_m + turns_rad < NEAR_M
         missed += int(not is_right.any())
         log_likelihood = known.log_likelihood(pose[None], angles, ranges, limits, weight=1.0)[0]
         nats_per_beam.append(log_likelihood / n_valid(ranges))
         if is_right.any():
-            logs = EVIDENCE_POWERS[:, None] * np.log([place.probability for place in places])
+            logs = EVIDENCE_POWERS[:, None] * np.log([mode.probability for mode in modes])
             scores.append(log_sum(logs[:, is_right]) - log_sum(logs))
     fit = ReferenceFit(float(np.mean(nats_per_beam)), (missed + 1.0) / (len(scans) + 2.0))
     if len(scores) < MIN_SEARCHES:

@@ -75,7 +75,7 @@ class Prior:
         log_uniform = np.where(known.is_free(poses), -np.log(known.free_area_m2 * 2 * np.pi), -np.inf)
         if self.components is None:
             return np.asarray(log_uniform)
-        squared, half_log_det = self.components.squared_distances(poses)
+        squared, half_log_det = self.components.mahalanobis_terms(poses)
         log_mass = self.components.log_mass - log_sum(self.components.log_mass)
         log_normals = log_mass - half_log_det - 1.5 * np.log(2 * np.pi) - 0.5 * squared
         log_mixture = log_sum(log_normals) + np.log1p(-self.uniform_share)

@@ -247,7 +247,7 @@ def predict(
     belief: PoseBelief, motion: Floats, sigmas: Floats, trust: Trust, path_m: float, new_share: float = 1.0
 ) -> Prior:
     """Return the prior of the pose after a motion in the frame of the pose before, (3,), with deviations (3,)."""
-    modes = belief.places(float(np.exp(-trust.forgotten_nats)))
+    modes = belief.modes_above(float(np.exp(-trust.forgotten_nats)))
     means = np.array([mode.mean for mode in modes])
     covariances = np.array([mode.covariance for mode in modes])
     ends = compose(means, motion)

@@ -227,7 +227,7 @@ def endpoint_field(
     """
     from bayesmap.kernels.match.likelihood_grid import render_field
 
-    divisions = max(1, math.ceil(grid.resolution / FINE_M - 1e-9))
+    divisions = max(1, math.ceil(grid.resolution / FINE_M - 1e-9))  # 1e-9: against rounding
     divisions = max(1, min(divisions, math.isqrt(MAX_CELLS // grid.n_cells)))
     nx, ny = grid.shape
     fine = Grid((nx * divisions, ny * divisions), grid.resolution / divisions, grid.origin)

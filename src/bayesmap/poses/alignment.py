@@ -155,7 +155,7 @@ def without_slack(hessian: Floats, slack: Floats, gradient: Floats, sigma_m: flo
     """
     values, vectors = np.linalg.eigh(hessian - SLACK_FACTOR * sigma_m**2 * slack)
     curvature = (vectors * np.maximum(values, 0.0)[:, None, :]) @ np.swapaxes(vectors, 1, 2)
-    ridge = 1e-6 * np.trace(hessian, axis1=1, axis2=2)[:, None, None] + 1e-12
+    ridge = 1e-6 * np.trace(hessian, axis1=1, axis2=2)[:, None, None] + 1e-12  # makes the matrix invertible
     minimum = np.linalg.solve(hessian + np.eye(3) * ridge, gradient[..., None])
     return curvature, (curvature @ minimum)[..., 0]
 

@@ -114,9 +114,9 @@ class RunningOdometry:
         variance = self.variances(stated) + laser_variance
         residual = wrap_yaw(error - self._systematic @ matched)
         if not (residual**2 < 16.0 * variance).all():
-            return
+            return  # an outlier, over 4 standard deviations from what is known
         # One weight for the three: the entries of C share a normal matrix.
-        gain = float(np.exp(-np.mean(np.log(np.maximum(variance, 1e-6))))) * SLOPE_SIGMA**2
+        gain = float(np.exp(-np.mean(np.log(np.maximum(variance, 1e-6))))) * SLOPE_SIGMA**2  # 1e-6: no infinite weight
         self._normal += gain * np.outer(matched, matched)
         self._moment += gain * np.outer(error, matched)
         self._systematic = np.asarray(np.linalg.solve(self._normal, self._moment.T).T, np.float64)
@@ -238,7 +238,7 @@ def velocities(poses: Floats, stamps_s: Floats) -> Floats:
     half = 0.5 * VELOCITY_WINDOW_S
     begin, end = np.clip(stamps_s - half, *stamps_s[[0, -1]]), np.clip(stamps_s + half, *stamps_s[[0, -1]])
     motion = between(interpolate(stamps_s, poses, begin), interpolate(stamps_s, poses, end))
-    return np.asarray(motion / np.maximum(end - begin, 1e-3)[:, None])
+    return np.asarray(motion / np.maximum(end - begin, 1e-3)[:, None])  # no division by zero
 
 
 def fit_odometry(

@@ -154,7 +154,7 @@ class _Path:
         if misfits.all() or (may_slip and not misfits[0]):
             wide = search_widely(self.geometry, self.window, scan, placed.predicted[0], placed.scores[0])
         if wide is not None and self._accept_slip(scan, placed, wide):
-            return
+            return  # the scan is accepted where the wide search found it
         # Accept the scans before the first misfit, skip misfits before one that fits, or break the path.
         if not misfits[0]:
             self._accept(batch, placed, int(np.argmax(misfits)) if misfits.any() else len(batch))

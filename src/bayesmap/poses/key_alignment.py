@@ -161,7 +161,7 @@ def match_without_itself(
         present = match(grids, points, SearchWindows(origin, 0.0, 0.0), min_score=ANY_SCORE).scores[:, 0]
         scores[batch] = best_scores[batch] = present
         if not search:
-            continue
+            continue  # only the scores of the present poses are wanted
         # Search the narrow window, and the wide one for scans that still score badly.
         windows = SearchWindows(origin, NARROW_M, NARROW_RAD)
         narrow = match(grids, points, windows, min_score=present, pull=NARROW_PULL)

@@ -108,7 +108,7 @@ def correct_late_odometry(scans: Scans, geometry: ScanGeometry) -> Floats:
     as_before = (np.abs(np.diff(stated, axis=0)) < EQUAL_POSE_TOLERANCE).all(axis=1)
     for first, last in _equal_runs(np.asarray(as_before)):
         if last + 1 >= len(scans):
-            continue
+            continue  # the log ends before the robot moves again
         span = np.arange(first, last + 2)
         times = span.astype(np.float64) if scans.stamps_s is None else scans.stamps_s[span]
         if not (np.diff(times) > 0.0).all():

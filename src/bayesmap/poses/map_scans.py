@@ -18,7 +18,7 @@ from bayesmap.space.scans import Scans
 
 MAX_SAMPLED_KEYS = 100  # key scans whose poses are sampled with the map: chains over more do not mix
 MANY_BEAMS = 100_000  # number of beams above which beams and scans are dropped
-MIN_STEP_RAD = np.radians(1.0)  # angle between beams that are used then
+MIN_STEP_RAD = np.radians(1.0)  # least angle between beams, if beams are dropped
 ENOUGH_HITS = 20  # a cell with fewer hits counts as new
 MIN_NEW_SHARE = 0.2  # a scan is left out if a smaller share of its hits is in new cells
 SCANS_PER_KEY = 7  # scans for each key scan at 10 Hz and half a metre a second: 3000 scans had 426 key scans
@@ -46,14 +46,14 @@ def select_key_scans(log: Scans, trajectory: InferredTrajectory, chains: int, se
 
 
 def select_keys_by_odometry(log: Scans, *, no_odometry: bool) -> Scans:
-    """Select about as many scans as the trajectory will have key scans, by the motions that odometry states."""
+    """Select about as many scans as there will be key scans, by odometry: for use before the trajectory is known."""
     if no_odometry or len(log) < 2:
         return log.select(slice(None, None, SCANS_PER_KEY))
     keys = [0]
-    for scan, pose in enumerate(log.poses):
+    for number, pose in enumerate(log.poses):
         since_key = pose - log.poses[keys[-1]]
         if np.hypot(since_key[0], since_key[1]) > KEY_DISTANCE_M or abs(wrap_angle(since_key[2])) > KEY_TURN_RAD:
-            keys.append(scan)
+            keys.append(number)
     return log.select(np.array(keys, np.intp))
 
 
@@ -74,22 +74,22 @@ def _prior_of(trajectory: InferredTrajectory) -> PosePrior:
     return Motions(relative, sigmas, P_SLIP)
 
 
-def thin_for_map(keys: Scans, resolution: float) -> Scans:
-    """Select beams and scans that see walls with few hits: cost follows the area seen. Few beams are all selected."""
-    if keys.ranges_m.size <= MANY_BEAMS:
-        return keys
-    stride = int(MIN_STEP_RAD / max(float(np.nanmedian(keys.steps_rad)), 1e-6) + 1e-3)
-    if stride > 1 and keys.own_angles_rad is None:
-        beam_poses = None if keys.beam_poses is None else keys.beam_poses[:, ::stride]
-        angles, ranges = keys.angles_rad[::stride], keys.ranges_m[:, ::stride]
-        keys = replace(keys, angles_rad=angles, ranges_m=ranges, beam_poses=beam_poses)
-    cells = np.floor(keys.hit_points_world() / resolution).astype(np.int64)
+def thin_for_map(scans: Scans, resolution: float) -> Scans:
+    """Keep beams and scans that see walls with few hits, so that cost follows the area seen. Few beams are all kept."""
+    if scans.ranges_m.size <= MANY_BEAMS:
+        return scans
+    stride = int(MIN_STEP_RAD / max(float(np.nanmedian(scans.steps_rad)), 1e-6) + 1e-3)  # 1e-3: against rounding down
+    if stride > 1 and scans.own_angles_rad is None:
+        beam_poses = None if scans.beam_poses is None else scans.beam_poses[:, ::stride]
+        angles, ranges = scans.angles_rad[::stride], scans.ranges_m[:, ::stride]
+        scans = replace(scans, angles_rad=angles, ranges_m=ranges, beam_poses=beam_poses)
+    cells = np.floor(scans.hit_points_world() / resolution).astype(np.int64)
     cell = np.unique(cells, axis=0, return_inverse=True)[1].ravel()
-    hit_cells = np.split(cell, np.cumsum(np.isfinite(keys.ranges_m).sum(axis=1))[:-1])
+    hit_cells = np.split(cell, np.cumsum(np.isfinite(scans.ranges_m).sum(axis=1))[:-1])
     # Select a scan if enough of its hits are in cells with few hits of the scans selected so far.
     hits, selected = np.zeros(cell.max(initial=0) + 1, np.int64), []
-    for scan, scan_cells in enumerate(hit_cells):
+    for number, scan_cells in enumerate(hit_cells):
         if not len(scan_cells) or (hits[scan_cells] < ENOUGH_HITS).mean() >= MIN_NEW_SHARE:
-            selected.append(scan)
+            selected.append(number)
             hits += np.bincount(scan_cells, minlength=len(hits))
-    return keys.select(np.array(selected, np.intp))
+    return scans.select(np.array(selected, np.intp))

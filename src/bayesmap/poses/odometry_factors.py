@@ -139,5 +139,5 @@ def compose_factors(motions: Floats, variances: Floats, keys: Indices) -> Factor
         covariance[active] += (to_key * variance[:, None, :]) @ np.swapaxes(to_key, 1, 2)
         relative[active] = compose(relative[active], motion)
     order = np.arange(len(keys) - 1)
-    information = np.asarray(np.linalg.inv(covariance + np.eye(3) * 1e-9), np.float64)
+    information = np.asarray(np.linalg.inv(covariance + np.eye(3) * 1e-9), np.float64)  # 1e-9: invertible
     return Factors(order, order + 1, wrap_yaw(relative), information)

@@ -272,7 +272,7 @@ def typical_sigma_m(sensor: SensorModel, max_range_m: float) -> float:
     distance_m = np.full(4000, 0.25 * max_range_m)
     readings_m = sensor.sample(np.random.default_rng(0), distance_m, RangeLimits(0.0, max_range_m))
     low, high = np.quantile(readings_m[np.isfinite(readings_m)], [0.16, 0.84])
-    return float(max(0.5 * (high - low), 1e-3))
+    return float(max(0.5 * (high - low), 1e-3))  # not below a millimetre
 
 
 @dataclass(frozen=True, eq=False)

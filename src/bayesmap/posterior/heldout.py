@@ -156,7 +156,7 @@ def make_folds(train: Scans, grid: Grid) -> list[Fold]:
         left_out = train.select(np.arange(len(train)) % n_folds == i)
         n_valid = int((left_out.readings != ReadingKind.INVALID).sum())
         if n_valid == 0:
-            continue
+            continue  # nothing can be scored
         own_hits, own_passes = count_hits(left_out, grid)
         folds.append(Fold.of((hits - own_hits).astype(float), (passes - own_passes).astype(float), left_out, grid))
         n_beams += n_valid

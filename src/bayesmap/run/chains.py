@@ -101,7 +101,7 @@ class StoppingRule:
         """Return the expected number of sweeps at the end, at least ``sweep``, by the latest error and the time."""
         expected = self._expected
         if self._plan.seconds is not None and sweep > 0:
-            spent_s = max(time.monotonic() - self._began_s, 1e-3)
+            spent_s = max(time.monotonic() - self._began_s, 1e-3)  # no division by zero
             expected = min(expected, int(sweep * max(1.0, self._plan.seconds / spent_s)))
         return max(expected, sweep)
 

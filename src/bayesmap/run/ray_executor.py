@@ -188,7 +188,7 @@ class _RayRun:
                 if group.sweep < schedule.sweeps and not watch.should_stop():
                     self._submit(group)
             if self.sweep == last:
-                continue
+                continue  # the slowest group has not ended its segment
             # The slowest group has ended a segment: estimate the error, drop old snapshots, perhaps checkpoint.
             warmed_up = last < schedule.warmup <= self.sweep
             last = self.sweep

@@ -138,7 +138,7 @@ def lay_out(rng: np.random.Generator, x0: int, x1: int, y0: int, y1: int, resolu
     # Split each row of rooms between the cross corridors.
     for index, band in enumerate(bands):
         if band.is_corridor:
-            continue
+            continue  # it has no rooms
         below = index > 0 and bands[index - 1].is_corridor
         above = index + 1 < len(bands) and bands[index + 1].is_corridor
         sides = tuple(side for side, has_corridor in ((-1, below), (1, above)) if has_corridor)

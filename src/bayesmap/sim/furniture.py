@@ -133,13 +133,13 @@ def _place_table(room: RoomFloor, clutter: float) -> None:
     along_x = width > depth
     length, across = min(max(width, depth) - 2.6, 3.6), 1.2
     if length < 1.0 or min(width, depth) < 3.2:
-        return
+        return  # the room is too small for a table with chairs
     table_width, table_depth = (length, across) if along_x else (across, length)
     x, y = (width - table_width) / 2, (depth - table_depth) / 2
     size = 0.08  # width of a leg
     corners = [(x + dx * (table_width - size), y + dy * (table_depth - size)) for dx in (0, 1) for dy in (0, 1)]
     if not room.place(*(Rectangle(*corner, size, size, LEG) for corner in corners)):
-        return
+        return  # there is no room for the table
     # A chair per 0.8 m of each long side; some are missing, more with less clutter.
     for k in range(int(length / 0.8)):
         for side in (-1, 1):
@@ -236,7 +236,7 @@ def _place_against_wall(room: RoomFloor, length: float, thickness: float, tries:
         wall = room.rng.integers(4)  # 0 and 1 are the walls along x, 2 and 3 those along y
         width, depth = (length, thickness) if wall < 2 else (thickness, length)
         if width > room_width or depth > room_depth:
-            continue
+            continue  # it is longer than this wall
         x = room.rng.uniform(0, room_width - width) if wall < 2 else (0.0, room_width - width)[wall - 2]
         y = room.rng.uniform(0, room_depth - depth) if wall >= 2 else (0.0, room_depth - depth)[wall]
         if room.place(Rectangle(float(x), float(y), width, depth)):

@@ -56,7 +56,7 @@ def patrol(building: Building, n_scans: int, seed: int = 0) -> Floats:
     # The direction of travel over `HEADING_M`, not of one link of the lattice; at the end, over the last `HEADING_M`.
     xy = points(scans_at_m)
     heading = points(scans_at_m + HEADING_M) - xy
-    at_end = np.hypot(*heading.T) < 1e-9
+    at_end = np.hypot(*heading.T) < 1e-9  # no way lies ahead: use the way behind
     heading[at_end] = (xy - points(scans_at_m - HEADING_M))[at_end]
     return np.column_stack([xy, np.arctan2(heading[:, 1], heading[:, 0])])
 
@@ -131,7 +131,7 @@ class _Lattice:
             x0, x1, y0, y1 = room.extent_m
             nodes = np.nonzero((x > x0) & (x < x1) & (y > y0) & (y < y1))[0]
             if len(nodes) == 0:
-                continue
+                continue  # the robot can stand nowhere in the room
             goal = np.array([x0, y0]) + rng.uniform(0.3, 0.7, 2) * (x1 - x0, y1 - y0)
             distance_m = np.hypot(*(self.points_m[nodes] - goal).T)
             stops.append(int(nodes[np.argmin(distance_m - np.minimum(self.node_clearance_m[nodes], 0.8))]))

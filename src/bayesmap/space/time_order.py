@@ -132,14 +132,14 @@ def _first_reset(stamps_s: NDArray[np.float64]) -> int | None:
         beyond = np.nonzero(after > latest_s[drop - 1])[0]
         after = after[: beyond[0]] if len(beyond) else after
         if len(after) < MIN_SCANS_AFTER_RESET or latest_s[drop - 1] - after[0] <= MIN_RESET_S:
-            continue
+            continue  # stamps soon go on as before: no reset
         before = stamps_s[:drop]
         if not (_in_order(before[-MIN_SCANS_AFTER_RESET:]) and _in_order(after[:MIN_SCANS_AFTER_RESET])):
             continue  # the log has no order that could be kept
         # Scans before and after the drop must overlap in time, and alternate there.
         overlap_before = before[(before > after[0]) & (before < after.max())]
         if len(overlap_before) < MIN_SCANS_AFTER_RESET // 2:
-            continue
+            continue  # too few to see whether they alternate
         overlap_after = after[(after > overlap_before.min()) & (after < overlap_before.max())]
         if len(overlap_after) >= MIN_SCANS_AFTER_RESET // 2 and _alternate(overlap_before, overlap_after):
             return int(drop)

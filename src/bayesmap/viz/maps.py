@@ -70,7 +70,7 @@ def window(grid: Grid, x_m: tuple[float, float], y_m: tuple[float, float]) -> tu
         # Clip to the map first: infinity has no whole number.
         outer_low, outer_high = grid.extent_m[2 * axis] - grid.resolution, grid.extent_m[2 * axis + 1] + grid.resolution
         first, last = (np.clip([low, high], outer_low, outer_high) - grid.origin[axis]) / grid.resolution
-        start, stop = max(math.floor(first + 1e-9), 0), min(math.ceil(last - 1e-9), cells)
+        start, stop = max(math.floor(first + 1e-9), 0), min(math.ceil(last - 1e-9), cells)  # 1e-9: against rounding
         if start >= stop:
             edges = grid.extent_m[2 * axis : 2 * axis + 2]
             own = f"the map, whose {'xy'[axis]} runs from {edges[0]:g} to {edges[1]:g} m"

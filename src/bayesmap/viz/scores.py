@@ -90,7 +90,7 @@ def plot_distribution(ax: Axes, errors: NDArray[np.float64], label: str) -> None
     ax.axvline(float(ordered.mean()), color=palette.CHAINS[1], linewidth=0.8, label=f"mean {ordered.mean():.3g}")
     median = float(np.median(ordered))
     ax.axvline(median, color=palette.CHAINS[1], linewidth=0.8, linestyle=":", label=f"median {median:.3g}")
-    low = max(float(ordered[len(ordered) // 100]), 1e-6)
+    low = max(float(ordered[len(ordered) // 100]), 1e-6)  # the axis is logarithmic
     ax.set(xscale="log", xlim=(low, max(float(ordered[-1]), 2 * low)), ylim=(0, 1))
     ax.set(xlabel=label, ylabel="share of relations")
     ax.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))

@@ -133,7 +133,7 @@ def loops_figure(
 
 def _axes(size: Sequence[float] | Floats, bar_in: float = 0.0, title_in: float = 0.0) -> tuple[Figure, Axes]:
     """Return a figure with a panel in proportion to a size along x and y, and room for a colour bar and a title."""
-    height_to_width = float(np.clip(size[1] / max(size[0], 1e-3), 0.2, 1.6))
+    height_to_width = float(np.clip(size[1] / max(size[0], 1e-3), 0.2, 1.6))  # no division by zero
     height_in = (SIZE_IN - 0.55 - bar_in) * height_to_width + 0.95 + title_in
     figure = palette.blank_figure(SIZE_IN, height_in, dpi=150)
     return figure, figure.add_subplot()

@@ -105,7 +105,7 @@ def grow_grid(grid: Grid, scans: Scans) -> Grid:
     # The first cell and the end of the enlarged grid, in cells of the given grid. 1e-6 absorbs rounding.
     covering = Grid.covering(thin_scans(scans), grid.resolution, margin_m=0.0)
     offset_cells = (np.array(covering.origin) - grid.origin) / grid.resolution
-    low = np.minimum(np.floor(offset_cells + 1e-6), 0).astype(int)
+    low = np.minimum(np.floor(offset_cells + 1e-6), 0).astype(int)  # 1e-6: against rounding
     high = np.maximum(np.ceil(offset_cells + covering.shape - 1e-6), grid.shape).astype(int)
     shape = (int(high[0] - low[0]), int(high[1] - low[1]))
     if shape == grid.shape or max(shape) > MAX_FILE_SIDE:
