@@ -176,7 +176,7 @@ def test_surfaces_are_joined_in_the_warm_up_alone_after_the_same_sweeps_however_
         return sweeps(chains, first, count, *args, **options)
 
     monkeypatch.setattr(StopChains, "sweeps", watched)
-    monkeypatch.setattr(stop_gibbs, "merge", lambda of, chains, beta: joined.append(made[id(chains)]))
+    monkeypatch.setattr(stop_gibbs, "make_merge_moves", lambda of, chains, beta: joined.append(made[id(chains)]))
     state = sampler.init(problem, [0, 1], 0)
     for count in cuts:
         state, info = sampler.step(state, count)
