@@ -129,6 +129,8 @@ def test_a_marginal_scores_the_selected_part_and_hmc_of_a_discrete_choice_raises
     trace = pair.marginal(selection=Selection.at["a"]).simulate(jr.key(0), ())
     np.testing.assert_allclose(trace.get_score(), st.norm.logpdf(trace.get_choices()["a"]), rtol=1e-6)
     assert "b" not in trace.get_choices()
+    with pytest.raises(BadArguments, match="missing"):
+        narrow.marginal(selection=Selection.at["v"]).assess(C.n(), (0.0,))
     trace = genjax.gen(lambda: genjax.flip(0.5) @ "b").simulate(jr.key(0), ())
     with pytest.raises(TypeError, match="'b' has dtype bool"):
         trace.edit(jr.key(0), HMC(Selection.at["b"], 0.1))

@@ -102,10 +102,10 @@ class Marginal(SampleDistribution):
 
     def assess(self, choices: ChoiceMap, args: Arguments) -> tuple[Score, Any]:
         """Return (exact log density of the choices, return value). Raises NotImplementedError for hidden choices."""
-        # If nothing is hidden, the density needs no key. Otherwise the fixed key's estimate is refused below.
-        trace, score = self.generate(jax.random.key(0), choices, args)
+        self.check_conditioning(choices, args)
         if not self.gen_fn.choice_shapes(args).filter(~self.selection).static_is_empty():
             raise NotImplementedError("this marginal density is an estimate that needs a key: use generate")
+        trace, score = self.generate(jax.random.key(0), choices, args)  # nothing is hidden: the key has no effect
         return score, trace.get_retval()
 
     def edit(self, key: PRNGKey, trace: MarginalTrace, request: EditRequest, argdiffs: Any) -> Edited:

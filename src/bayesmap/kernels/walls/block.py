@@ -172,11 +172,14 @@ def draw_state(weights: Weights, u: wp.float64) -> int:
             relative[state] = wp.exp(weights[state] - largest)
             total += relative[state]
     level = u * total
+    drawn = int(0)
     for state in range(16):
         level -= relative[state]
-        if level <= wp.float64(0.0) and relative[state] > wp.float64(0.0):
-            return state
-    return 15
+        if relative[state] > wp.float64(0.0):
+            drawn = state
+            if level <= wp.float64(0.0):
+                break
+    return drawn  # the last possible state, if rounding leaves a rest
 
 
 @wp.func
