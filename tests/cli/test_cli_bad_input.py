@@ -110,7 +110,7 @@ def test_missing_and_truncated_runs_are_refused(office_run, tmp_path, command):
     cut = tmp_path / "run.nc"
     for content in (whole[: len(whole) // 2], b"", b"not netCDF"):
         cut.write_bytes(content)
-        assert "damaged or truncated" in refusal_of(command, cut)
+        assert "not a readable saved run; " in refusal_of(command, cut)
     assert [path.name for path in tmp_path.iterdir()] == ["run.nc"]
 
 

@@ -60,7 +60,11 @@ def plan(call: Call[PlanSettings], run_file: str, start: str, goal: str, output:
     if not route.within_risk:
         least_risk = distinguishable(1 - route.free.probability, settings.risk)
         finding = f"no path was found whose risk is {settings.risk:g} or less; the safest has a risk of {least_risk}"
-        call.console.warn(f"{finding}: accept it with --risk, give a smaller --radius, or map more of the way")
+        remedy = "accept it with --risk, give a smaller --radius, or map more of the way"
+        if route.free.probability == 0:
+            finding = "no path was found that is free in any draw of the map"
+            remedy = "start or goal may touch a wall, or lie where no beam has been"
+        call.console.warn(f"{finding}: {remedy}")
     lines = [*(f"{x:.3f},{y:.3f}" for x, y in route.path), _route_sentence(route)]
     free = route.free
     document = {

@@ -46,7 +46,7 @@ PrintBelief = Callable[[int, "PoseBelief"], bool]  # prints a scan's posterior; 
 @click.argument("run_file", metavar="RUN.nc|MAP.yaml")
 @click.argument("log")
 @click.option("-o", "--output", metavar="FILE", help=f"Trajectory, without lost scans: {', '.join(OUTPUT_ENDINGS)}.")
-@click.option("--follow", is_flag=True, help="Print a JSON line for each scan as it arrives; see below.")
+@click.option("--follow", is_flag=True, help="Print a JSON line for each scan as it arrives (see above).")
 @click.option(
     "--for", "idle_s", type=click.FloatRange(min=0), metavar="SECONDS", help="With --follow: the longest wait."
 )
@@ -104,7 +104,7 @@ def localize(
     localization, lost = posteriors.localization, posteriors.lost_scans()
     if lost:
         share, which = f"{len(lost):,} of {len(localization):,} scans", posteriors.describe_stretches(lost)
-        call.console.warn(f"{share} fit nowhere on the map: lost, or the map is outdated: {which}")
+        call.console.warn(f"{share} are probably off the map, or the map is outdated: {which}")
     # Write the file and print the posterior, unless it has been printed scan by scan.
     nothing_to_write = target is not None and target.suffix != ".jsonl" and len(lost) == len(localization)
     outputs = [] if target is None or nothing_to_write else _write(target, posteriors)

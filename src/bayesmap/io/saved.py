@@ -172,7 +172,10 @@ def load_saved(path: str | os.PathLike[str]) -> tuple[Posterior, "InferredTrajec
     except BadInput as problem:
         raise BadInput(f"{path}: {problem}") from None
     except (ArithmeticError, AttributeError, LookupError, OSError, RuntimeError, TypeError, ValueError) as error:
-        raise BadInput(f"{path}: not a readable saved run; damaged or truncated? ({error}); run again") from None
+        with path.open("rb") as bytes_of_run:
+            is_run = bytes_of_run.read(4) == b"\x89HDF"
+        why = f"damaged or truncated? ({error}); run again" if is_run else "give the run.nc of infer or slam"
+        raise BadInput(f"{path}: not a readable saved run; {why}") from None
     raise BadInput(f"{path}: {reason}")
 
 

@@ -30,7 +30,8 @@ MIN_DRAWS_PER_CHAIN = 4  # fewest draws of a chain with which its halves have a 
 # cell in a thousand has an R-hat over 1.05, and four in a thousand an effective sample size under 100, by chance.
 CHANCE_SHARE = 0.01
 MORE_DRAWS = "infer more draws (--draws of infer and slam; in Python Schedule(draws=...))"  # a remedy
-MAX_ERROR_RATIO = 1.5  # largest ratio of error to requested precision without a warning: slow cells fall short
+MAX_ERROR_RATIO = 1.5  # largest ratio of error to a requested precision without a warning: slow cells fall short
+VISIBLE_ERROR = 0.1  # on a grey map; a smaller error is no warning by default, for more draws help slow cells little
 LEGEND = """R-hat compares chains with one another: 1 is equal, and over 1.05 they have not mixed. A cell that
 changed only once in one chain has a large R-hat. The map is judged by the error of its mean, not by single cells."""
 
@@ -220,11 +221,16 @@ class Summary(CellDiagnostics):
             lines.append(LEGEND)
         return "\n".join(lines)
 
+    @property
+    def good_error(self) -> float:
+        """The largest error of the mean map without a warning."""
+        return max(MAX_ERROR_RATIO * self.precision, VISIBLE_ERROR if self.precision >= PRECISION else 0.0)
+
     def strengths(self) -> list[str]:
         """Return the good results of the diagnostics, in words with figures; empty if there are none."""
         strengths = []
-        if self.map_error <= MAX_ERROR_RATIO * self.precision:
-            limit = f" (good up to {MAX_ERROR_RATIO * self.precision:g})" if self.precision < math.inf else ""
+        if self.map_error <= self.good_error:
+            limit = f" (good up to {self.good_error:g})" if self.precision < math.inf else ""
             limit += "" if self.map_error <= self.precision else f"; {self.precision:g} takes more draws"
             strengths.append(f"the mean map is known to {self.map_error:.3f} in 99 of 100 observed cells{limit}")
         if self.rhat_log_likelihood <= RHAT_LIMIT:
@@ -243,10 +249,10 @@ class Summary(CellDiagnostics):
                 f"{self.disagreeing_cells} cells are stuck at different values in different chains: warm up longer "
                 "(--warmup), or use method 'block'"
             )
-        if MAX_ERROR_RATIO * self.precision < self.map_error < math.inf:
+        if self.good_error < self.map_error < math.inf:
             problems.append(
                 f"the mean map is known to {self.map_error:.3f} in 99 of 100 observed cells, which is good up to "
-                f"{MAX_ERROR_RATIO * self.precision:g}: {MORE_DRAWS}"
+                f"{self.good_error:g}: {MORE_DRAWS}"
             )
         has_sweeps = not math.isnan(self.microseconds_per_sweep)
         if self.finished and has_sweeps and math.isnan(self.rhat_log_joint):

@@ -292,4 +292,4 @@ def refuse_changes(saved: dict[str, Any], current: dict[str, Any]) -> None:
     changed = [name for name in arguments if saved.get(name) != current[name]]
     settings = "; ".join(f"{name} ({saved.get(name)!r}, now {current[name]!r})" for name in changed)
     different = settings or "scans or on another grid, or with another sensor"
-    raise BadInput(f"resume: the saved run was made with other {different}")
+    raise BadInput(f"resume: the saved run was made with other {different}; keep them, or start a new run")

@@ -55,7 +55,7 @@ def write_trajectory(
     )
     header = [f"# {'' if frame is None else f'poses of the {frame}: '}{first_column} tx ty tz qx qy qz qw"]
     if any(lost):
-        header.append(f"# {sum(lost):,} lines begin with '{LOST}': these scans fit nowhere on the map")
+        header.append(f"# {sum(lost):,} lines begin with '{LOST}': these scans are probably off the map")
     return write_file(path, [*header, *rows])
 
 
