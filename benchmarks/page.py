@@ -183,7 +183,9 @@ def main() -> None:
 
     report("load average before", " ".join(f"{load:.1f}" for load in os.getloadavg()) + f" on {os.cpu_count()} cores")
     with served() as url, sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=ARGUMENTS)
+        browser = playwright.chromium.launch(
+            executable_path=shutil.which("chromium-headless-shell") or shutil.which("chromium"), args=ARGUMENTS
+        )
         first_paint(browser, url)
         figure(browser, options.seconds)
         page = browser.new_page(viewport={"width": 1280, "height": 860})
