@@ -11,6 +11,7 @@ from __future__ import annotations
 import argparse
 import io
 import json
+import math
 import os
 import subprocess
 import sys
@@ -52,7 +53,8 @@ class Compared:
     @property
     def factor(self) -> float:
         """How many times worse this state is."""
-        return self.now / self.before if self.better == "lower" else self.before / self.now
+        larger, smaller = (self.now, self.before) if self.better == "lower" else (self.before, self.now)
+        return larger / smaller if smaller else math.inf if larger else 1.0
 
 
 def compare(
