@@ -176,9 +176,9 @@ def draw_state(weights: Weights, u: wp.float64) -> int:
     for state in range(16):
         level -= relative[state]
         if relative[state] > wp.float64(0.0):
-            drawn = state
             if level <= wp.float64(0.0):
-                break
+                return state
+            drawn = state
     return drawn  # the last possible state, if rounding leaves a rest
 
 
