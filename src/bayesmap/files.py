@@ -16,6 +16,8 @@ from pathlib import Path
 
 from bayesmap.errors import BadInput
 
+NETCDF_MAGICS = (b"\x89HDF", b"CDF")  # first bytes of netCDF files, such as saved runs
+
 
 @contextlib.contextmanager
 def write_whole(path: str | os.PathLike[str]) -> Iterator[Path]:
@@ -117,6 +119,17 @@ def _flush(path: Path) -> None:
         os.fsync(descriptor)
     finally:
         os.close(descriptor)
+
+
+def is_saved_run(file: str | os.PathLike[str]) -> bool:
+    """Return whether a file begins as a saved run. Raises `BadInput` if it cannot be read."""
+    if not Path(file).is_file():
+        return False
+    try:
+        with Path(file).open("rb") as start:
+            return start.read(4).startswith(NETCDF_MAGICS)
+    except OSError as error:
+        raise BadInput(f"{file}: cannot be read: {error.strerror or error}") from None
 
 
 def saved_run_hint(folder: str | os.PathLike[str]) -> str | None:

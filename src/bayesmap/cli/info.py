@@ -2,7 +2,6 @@
 
 import math
 from dataclasses import fields
-from pathlib import Path
 from typing import Any
 
 import click
@@ -14,7 +13,7 @@ from bayesmap.cli.folder import run_document, work_done
 from bayesmap.cli.keys import SECTIONS, Settings
 from bayesmap.cli.pipeline import cost_of_suggestion
 from bayesmap.cli.translation import LOG, need_file
-from bayesmap.errors import BadInput
+from bayesmap.files import is_saved_run
 
 
 @command(None)
@@ -44,19 +43,6 @@ def info(call: Call[Settings], file: str) -> None:
         part, remedy = counted(n_scans, "scan"), "infer and slam take the same scans with --skip-bad-lines"
         call.console.warn(f"{file}: read in part: {part}, without {' and '.join(missing)}; {remedy}")
         click.get_current_context().exit(BAD_INPUT)
-
-
-def is_saved_run(file: str) -> bool:
-    """Return whether a file begins as a saved run. Raises `BadInput` if it cannot be read."""
-    from bayesmap.io.logs import NETCDF_MAGICS
-
-    if not Path(file).is_file():
-        return False
-    try:
-        with Path(file).open("rb") as start:
-            return start.read(4).startswith(NETCDF_MAGICS)
-    except OSError as error:
-        raise BadInput(f"{file}: cannot be read: {error.strerror or error}") from None
 
 
 def _describe_run(file: str) -> dict[str, Any]:

@@ -15,11 +15,10 @@ import click
 
 from bayesmap.cli.command import FORCE, Call, command
 from bayesmap.cli.console import align_rows, progress_bar, share_bar, write_lines
-from bayesmap.cli.info import is_saved_run
 from bayesmap.cli.keys import Frame, ScoreSettings
 from bayesmap.cli.translation import NO_MOUNT, heldout_scans, is_map, log_options_of, need_file, need_free
 from bayesmap.errors import BadInput
-from bayesmap.files import check_ending
+from bayesmap.files import check_ending, is_saved_run
 
 if TYPE_CHECKING:
     from bayesmap.posterior.baselines import FittedBaseline

@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from bayesmap.errors import BadInput, near_names
+from bayesmap.files import NETCDF_MAGICS
 from bayesmap.io.log_reading import LogOptions, Pose, ScanLog
 from bayesmap.io.ros.containers import METADATA, compression_of, container_by_start, container_of, first_bytes
 from bayesmap.io.text.carmen import CARMEN_MESSAGES, read_carmen
@@ -39,7 +40,6 @@ READERS = {"carmen": read_carmen, "csv": read_csv, "g2o": read_g2o, "npz": read_
 RECORDINGS = ("rosbag1", "rosbag2-sqlite3", "mcap", "folder")  # formats that `read_recording` reads
 ENDINGS = (".log", ".log.gz", ".clf", ".clf.gz", ".bag", ".g2o", ".csv", ".npz", ".rawlog")
 MAX_FORMAT_LINES = 1000  # lines of a text that may decide its format
-NETCDF_MAGICS = (b"\x89HDF", b"CDF")  # first bytes of netCDF files, such as saved runs
 GMAPPING_WORDS = (b"LASER_READING", b"ODO_UPDATE", b"SM_UPDATE", b"RESAMPLE")  # first words in GMapping's logs, .gfs
 DEGREES_QUESTION = "is it in degrees?"  # the end of the note about a yaw that looks like degrees
 LARGE_STEP_RAD = 1.0  # a change of yaw that is rare between scans, if yaw is in radians

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from bayesmap.cells.arrays import ArraySpec, Draws
 from bayesmap.cells.kinds import prior_from
 from bayesmap.errors import BadInput
-from bayesmap.files import saved_run_hint, write_whole
+from bayesmap.files import is_saved_run, saved_run_hint, write_whole
 from bayesmap.model import POSES
 from bayesmap.posterior.posterior import Posterior
 from bayesmap.samplers.sampler import Snapshot
@@ -159,6 +159,8 @@ def load_saved(path: str | os.PathLike[str]) -> tuple[Posterior, "InferredTrajec
         if path.name == "run.nc" and (path.parent / "trajectory.tum").is_file():
             state = "no draws yet; trajectory.tum beside it is complete, and slam --resume draws the map"
         raise BadInput(f"{path}: {saved_run_hint(path) or state}")
+    if not is_saved_run(path):
+        raise BadInput(f"{path}: not a readable saved run; give the run.nc of infer or slam")
     try:
         with netCDF4.Dataset(path, "r") as file:
             file.set_auto_mask(False)
@@ -172,10 +174,7 @@ def load_saved(path: str | os.PathLike[str]) -> tuple[Posterior, "InferredTrajec
     except BadInput as problem:
         raise BadInput(f"{path}: {problem}") from None
     except (ArithmeticError, AttributeError, LookupError, OSError, RuntimeError, TypeError, ValueError) as error:
-        with path.open("rb") as bytes_of_run:
-            is_run = bytes_of_run.read(4) == b"\x89HDF"
-        why = f"damaged or truncated? ({error}); run again" if is_run else "give the run.nc of infer or slam"
-        raise BadInput(f"{path}: not a readable saved run; {why}") from None
+        raise BadInput(f"{path}: not a readable saved run; damaged or truncated? ({error}); run again") from None
     raise BadInput(f"{path}: {reason}")
 
 
