@@ -23,6 +23,7 @@ import numpy as np
 from benchmarks.page_hand import EVENTS_PER_SECOND, by_hand
 from benchmarks.processor import processor_ms
 
+CHROMIUM = shutil.which("chromium-headless-shell") or shutil.which("chromium")
 ARGUMENTS = ["--no-sandbox", "--disable-gpu", "--disable-background-networking", "--disable-component-update"]
 
 SETTLED_MS = 2000
@@ -183,9 +184,7 @@ def main() -> None:
 
     report("load average before", " ".join(f"{load:.1f}" for load in os.getloadavg()) + f" on {os.cpu_count()} cores")
     with served() as url, sync_playwright() as playwright:
-        browser = playwright.chromium.launch(
-            executable_path=shutil.which("chromium-headless-shell") or shutil.which("chromium"), args=ARGUMENTS
-        )
+        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=ARGUMENTS)
         first_paint(browser, url)
         figure(browser, options.seconds)
         page = browser.new_page(viewport={"width": 1280, "height": 860})

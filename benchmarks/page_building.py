@@ -7,7 +7,6 @@ Lab, where `$BAYESMAP_DATA` has it.
 from __future__ import annotations
 
 import os
-import shutil
 import tempfile
 from pathlib import Path
 from typing import Any
@@ -15,7 +14,7 @@ from typing import Any
 import numpy as np
 
 import bayesmap as bm
-from benchmarks.page import ARGUMENTS, report, served, spread, until
+from benchmarks.page import ARGUMENTS, CHROMIUM, report, served, spread, until
 from benchmarks.page_hand import EVENTS_PER_SECOND, by_hand
 
 LOG = Path(os.environ.get("BAYESMAP_DATA", Path(__file__).parents[2] / "shared" / "data"), "intel-corrected.log.gz")
@@ -159,9 +158,7 @@ def main() -> None:
 
     report("load average before", " ".join(f"{load:.1f}" for load in os.getloadavg()) + f" on {os.cpu_count()} cores")
     with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(
-            executable_path=shutil.which("chromium-headless-shell") or shutil.which("chromium"), args=ARGUMENTS
-        )
+        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=ARGUMENTS)
         building(browser, 6.0)
         browser.close()
 
