@@ -58,10 +58,11 @@ def plan(call: Call[PlanSettings], run_file: str, start: str, goal: str, output:
     )  # fmt: skip
     write_figure(picture, target)
     if not route.within_risk:
-        least_risk = distinguishable(1 - route.free.probability, settings.risk)
-        finding = f"no path was found whose risk is {settings.risk:g} or less; the safest has a risk of {least_risk}"
-        remedy = "accept it with --risk, give a smaller --radius, or map more of the way"
-        if route.free.probability == 0:
+        if route.free.probability > 0:
+            least = distinguishable(1 - route.free.probability, settings.risk)
+            finding = f"no path was found whose risk is {settings.risk:g} or less; the safest has a risk of {least}"
+            remedy = "accept it with --risk, give a smaller --radius, or map more of the way"
+        else:
             finding = "no path was found that is free in any draw of the map"
             remedy = "start or goal may touch a wall, or lie where no beam has been"
         call.console.warn(f"{finding}: {remedy}")

@@ -232,7 +232,7 @@ class FrameTree:
         for (topic, parent, child), samples in transforms.items():
             rank = 0 if ranks is None else ranks.get(topic)
             if rank is None or rank > lowest_rank.get(child, rank):
-                continue  # a topic of lower rank states this transform
+                continue  # the topic is not used, or one of lower rank places this frame
             if child not in lowest_rank or rank < lowest_rank[child]:
                 lowest_rank[child], parents_of[child] = rank, {}
             parents_of[child].setdefault(parent, []).append(samples)
