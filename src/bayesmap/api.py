@@ -25,8 +25,9 @@ from bayesmap.model import Model
 from bayesmap.poses.prior import KnownPoses, PosePrior, UncertainPoses
 from bayesmap.posterior.posterior import Posterior, chains_of, posterior_of_chains, posterior_of_draws
 from bayesmap.result import Run
-from bayesmap.run.chains import RANDOM_STREAMS, Chains, SweepPlan, compute_fingerprint, refuse_changes
+from bayesmap.run.chains import Chains, SweepPlan
 from bayesmap.run.cost import MIN_TOUCHED_SHARE, Estimate, Sampling, estimate, size_of
+from bayesmap.run.fingerprint import RANDOM_STREAMS, compute_fingerprint, refuse_changes
 from bayesmap.run.runner import Job, ThreadExecutor, draw_first_map, stop_on_interrupt
 from bayesmap.samplers import methods
 from bayesmap.samplers.fit import PILOT_SWEEPS, Parameters, fit, fit_coupling_to_scans, fit_sensor, initial_sensor

@@ -14,7 +14,6 @@ from bayesmap.gen import inference
 from bayesmap.gen.choice_map import ChoiceMap, ChoiceMapBuilder
 from bayesmap.gen.closure import Dimap, GenerativeFunctionClosure, contramap, dimap, map
 from bayesmap.gen.densities import (
-    DiscreteHMM, DiscreteHMMConfiguration,
     bernoulli, beta, beta_binomial, beta_quotient, binomial, categorical, cauchy, chi, chi2, dirichlet,
     dirichlet_multinomial, double_sided_maxwell, exp_gamma, exp_inverse_gamma, exponential, flip, gamma, geometric,
     gumbel, half_cauchy, half_normal, half_student_t, inverse_gamma, inverse_gaussian, kumaraswamy,
@@ -32,6 +31,7 @@ from bayesmap.gen.errors import (
     NotSupportedEditRequest, OutsideSupport, ShapeMismatch, UnknownAddress,
 )
 from bayesmap.gen.generative_function import GenerativeFunction, Trace
+from bayesmap.gen.hidden_markov import DiscreteHMM, DiscreteHMMConfiguration
 from bayesmap.gen.inference import requests, smc
 from bayesmap.gen.inference.marginal import Marginal, marginal
 from bayesmap.gen.inference.mcmc import Chain, effective_sample_size, metropolis_hastings, run_chain, split_rhat

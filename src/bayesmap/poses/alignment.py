@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bayesmap.kernels.match import line_pairs
-from bayesmap.kernels.match.line_pairs import PairRules, PairSums, match_counts, pair_sums
+from bayesmap.kernels.match.line_pairs import LinearizedPairs, PairRules, linearize_pairs, match_counts
 from bayesmap.kernels.match.scan_refinement import Convergence, Refinement, refine_scans
 from bayesmap.poses.graph import Factors, PoseGaussian, Quadratic, quadratic, solve_step
 from bayesmap.poses.scan_geometry import NO_POINT, ScanGeometry
@@ -114,16 +114,16 @@ def align(
         if has_new_pairs or number == annealing.rounds - 2:
             weights = _beam_weights(geometry, pairs, relative, rules)
         # Solve for one step of laser and odometry.
-        sums = pair_sums(geometry, weights, pairs.source, pairs.target, relative, rules, geometry.threads)
-        laser = _laser_cost(pairs, relative, sums, sigma_m, rules.stride)
+        linearized = linearize_pairs(geometry, weights, pairs.source, pairs.target, relative, rules, geometry.threads)
+        laser = _laser_cost(pairs, relative, linearized, sigma_m, rules.stride)
         slip_weights = 1.0 / (1.0 + odometry.squares(poses) / SLIP_SQ)
         wheels = quadratic(odometry, poses, slip_weights if firm is None else np.where(firm, 1.0, slip_weights))
         step, _ = solve_step(len(poses), [laser, wheels])
         poses = compose(poses, step)
         gaussian = _gaussian(poses, laser, wheels)
         # Residuals have the errors of two points.
-        weight = max(sums.totals[:, line_pairs.WEIGHT].sum(), 1e-9)  # not 0 if no points are paired
-        point_variance = max(sums.totals[:, line_pairs.COST].sum() / weight, 1e-8) / 2.0
+        weight = max(linearized.totals[:, line_pairs.WEIGHT].sum(), 1e-9)  # not 0 if no points are paired
+        point_variance = max(linearized.totals[:, line_pairs.COST].sum() / weight, 1e-8) / 2.0
         sigma_m = float(np.clip(np.sqrt(point_variance), *SIGMA_BOUNDS_M))
         if on_progress is not None:
             on_progress(number + 1, poses)
@@ -138,9 +138,9 @@ def _beam_weights(geometry: ScanGeometry, pairs: Pairs, relative: Floats, rules:
     return np.asarray(0.5 / (1.0 + counts), dtype=np.float32)
 
 
-def _laser_cost(pairs: Pairs, relative: Floats, sums: PairSums, sigma_m: float, stride: int) -> Quadratic:
-    """Return the laser's cost over the relative poses of pairs, (M, 3), from the sums over every ``stride``-th beam."""
-    curvature, gradient = without_slack(sums.second, sums.slack, sums.gradient, sigma_m)
+def _laser_cost(pairs: Pairs, relative: Floats, linearized: LinearizedPairs, sigma_m: float, stride: int) -> Quadratic:
+    """Return the laser's cost over the relative poses of pairs, (M, 3), from every ``stride``-th beam."""
+    curvature, gradient = without_slack(linearized.hessian, linearized.slack, linearized.gradient, sigma_m)
     factor = stride / sigma_m**2
     target, source = pairs.target.astype(np.intp), pairs.source.astype(np.intp)
     return Quadratic(target, source, relative, curvature * factor, gradient * factor)
@@ -178,9 +178,9 @@ def overlapping_pairs(geometry: ScanGeometry, poses: Floats, reach_m: float) -> 
     # Compute the share of the source's points that lie on walls of the target.
     rules = PairRules(TRIAL_REACH_M, TRIAL_SCALE_M, MIN_COSINE, max(1, geometry.beams // TRIAL_BEAMS))
     relative = between(poses[target], poses[source])
-    matched = pair_sums(geometry, None, source, target, relative, rules, geometry.threads).totals[:, line_pairs.MATCHED]
+    totals = linearize_pairs(geometry, None, source, target, relative, rules, geometry.threads).totals
     sampled = np.maximum((geometry.host_kind[:, :: rules.stride] != NO_POINT).sum(axis=1), 1)
-    share = matched / sampled[source]
+    share = totals[:, line_pairs.MATCHED] / sampled[source]
     good = share > MIN_MATCHED_SHARE
     source, target = _best_partners(source[good], target[good], share[good], count)
     return Pairs(source, target, np.searchsorted(source, np.arange(count + 1)).astype(np.int32))
@@ -248,13 +248,13 @@ def point_error(geometry: ScanGeometry, aligned: Alignment) -> PointError:
     sampled = slice(None, None, max(1, len(pairs) // MIN_ERROR_PAIRS))
     source, target, relative = pairs.source[sampled].copy(), pairs.target[sampled].copy(), relative[sampled]
 
-    def sums_at(shift: Floats) -> PairSums:
-        return pair_sums(geometry, weights, source, target, relative + shift, rules, geometry.threads)
+    def linearize_at(shift: Floats) -> LinearizedPairs:
+        return linearize_pairs(geometry, weights, source, target, relative + shift, rules, geometry.threads)
 
-    sums = sums_at(np.zeros(3))
-    curvature = np.einsum("mii->i", sums.second)
-    weight = float(sums.totals[:, line_pairs.WEIGHT].sum())
-    force_sq = float(sums.totals[:, line_pairs.FORCE_SQ].sum())
+    linearized = linearize_at(np.zeros(3))
+    curvature = np.einsum("mii->i", linearized.hessian)
+    weight = float(linearized.totals[:, line_pairs.WEIGHT].sum())
+    force_sq = float(linearized.totals[:, line_pairs.FORCE_SQ].sum())
     if not (curvature.min(initial=np.inf) > 0.0 and weight > 0.0):
         return PointError(aligned.sigma_m, np.ones(3))
     # Measure how the gradient changes with a shift. Scans look any way, so that x and y share one response.
@@ -262,7 +262,8 @@ def point_error(geometry: ScanGeometry, aligned: Alignment) -> PointError:
     for axis, lever_m in enumerate((1.0, 1.0, LEVER_M)):
         shift = np.zeros(3)
         shift[axis] = 0.5 * aligned.sigma_m / lever_m
-        slope[axis] = (sums_at(shift).gradient - sums_at(-shift).gradient)[:, axis].sum() / (2.0 * shift[axis])
+        change = linearize_at(shift).gradient - linearize_at(-shift).gradient
+        slope[axis] = change[:, axis].sum() / (2.0 * shift[axis])
     response_xy = (slope[0] + slope[1]) / (curvature[0] + curvature[1])
     response = np.clip([response_xy, response_xy, slope[2] / curvature[2]], *RESPONSE_BOUNDS)
     return PointError(float(np.sqrt(0.5 * force_sq / weight)), response)
@@ -351,8 +352,8 @@ def _information(
     offsets = np.searchsorted(source, np.arange(len(geometry) + 1)).astype(np.int32)
     counts = match_counts(geometry, offsets, target, relative, rules, geometry.threads)
     weights = (1.0 / (1.0 + counts)).astype(np.float32)
-    sums = pair_sums(geometry, weights, source, target, relative, rules, geometry.threads)
-    curvature, _ = without_slack(sums.second, sums.slack, sums.gradient, error.scatter_m)
+    linearized = linearize_pairs(geometry, weights, source, target, relative, rules, geometry.threads)
+    curvature, _ = without_slack(linearized.hessian, linearized.slack, linearized.gradient, error.scatter_m)
     in_target = curvature / error.scatter_m**2
     to_target = rotation(relative[:, 2])
     in_source = np.swapaxes(to_target, 1, 2) @ in_target @ to_target

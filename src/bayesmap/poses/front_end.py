@@ -20,8 +20,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bayesmap.kernels.match.line_pairs import Agreement, mutual_view_counts
 from bayesmap.kernels.match.scan_refinement import Convergence, Refinement, refine_scans
+from bayesmap.kernels.match.view_comparison import Agreement, mutual_view_counts
 from bayesmap.poses.calibration import RunningOdometry
 from bayesmap.poses.graph import DOUBTFUL_SQ
 from bayesmap.poses.matcher import ANY_SCORE, LikelihoodGrids, Pull, SearchWindows, likelihood_grids, match

@@ -18,8 +18,8 @@ from dataclasses import dataclass, fields, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from bayesmap.kernels.match.line_pairs import Agreement, mutual_view_counts
 from bayesmap.kernels.match.scan_refinement import Convergence, Refinement, refine_scans
+from bayesmap.kernels.match.view_comparison import Agreement, mutual_view_counts
 from bayesmap.poses.graph import Factors, Precision, relative_covariances
 from bayesmap.poses.matcher import ModeRule, SearchWindows, likelihood_grids, match
 from bayesmap.poses.scan_geometry import ScanGeometry

@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from bayesmap.kernels.match.line_pairs import Agreement, mutual_view_counts
+from bayesmap.kernels.match.view_comparison import Agreement, mutual_view_counts
 from bayesmap.poses.loops import Closures, Fineness, KeyPath, concatenate_closures, match_submaps, no_closures
 from bayesmap.space.arrays import Indices, Mask, evenly_spaced
 from bayesmap.space.planar import Floats, are_within, between, compose, inverse, wrap_angle

@@ -27,7 +27,7 @@ from bayesmap.cells.kinds import BUILT_IN
 from bayesmap.errors import BadInput
 from bayesmap.model import Model
 from bayesmap.result import Run
-from bayesmap.run.chains import RANDOM_STREAMS
+from bayesmap.run.fingerprint import RANDOM_STREAMS
 from bayesmap.sensors.model import SensorModel, describe
 from bayesmap.space.planar import Floats
 

@@ -1,4 +1,4 @@
-"""Pair the points of one scan with the walls of another, sum the pairs to a quadratic, and count points that disagree.
+"""Pair the points of one scan with the walls of another, and sum the pairs to a quadratic cost of the relative pose.
 
 A point of a *source* scan, moved into the frame of a *target* scan, is paired with the nearest of the target's points
 among the beams that point in its direction (Blais and Levine 1995; Censi 2008). The residual e is the distance from the
@@ -11,17 +11,15 @@ comes from errors of the normals and is no information: sum w spread T T^T. T is
 the wall, spread the variance of the normal's angle for points of unit variance. Along a corridor H is slack alone.
 """
 
-from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
 import warp as wp
 
 from bayesmap.kernels import device as devices
-from bayesmap.kernels.device import Float32Rows, Floats, Int32Rows, Int32s, Ints, Singles, Vec3ds
+from bayesmap.kernels.device import Float32Rows, Floats, Int32s, Ints, Singles, Vec3ds
 from bayesmap.kernels.match import scan_geometry as scenes
-from bayesmap.kernels.match.scan_geometry import ScanArrays, equal_weights, max_gap, neighbour, scan_arrays
-from bayesmap.space.planar import inverse
+from bayesmap.kernels.match.scan_geometry import ScanArrays, equal_weights, neighbour, scan_arrays
 
 wp.set_module_options({"enable_backward": False})
 OUT_OF_VIEW = wp.constant(-2)  # result of `nearest_point` if no beam points towards the point
@@ -49,10 +47,10 @@ PairRulesArrays = devices.struct_like(PairRules, float, float, float, int)
 
 
 @wp.struct
-class Sums:
-    """Sums over the pairs of points of two scans."""
+class NormalEquations:
+    """The Gauss-Newton equations of a source scan and a target scan: sums over their pairs of points."""
 
-    second: wp.mat33f  # H, above the diagonal
+    hessian: wp.mat33f  # H, above the diagonal
     slack: wp.mat33f  # above the diagonal
     gradient: wp.vec3f  # g
     totals: Totals
@@ -150,13 +148,13 @@ def rotation_of(pose: wp.vec3d) -> wp.mat22f:
 
 
 @wp.func
-def pair_scans(
+def sum_over_points(
     scene: ScanArrays, weights: Float32Rows, source: int, target: int, pose: wp.vec3d, rules: PairRulesArrays
-) -> Sums:
-    """Sum over the pairs of a source scan's points, at its pose in the target's frame, with a target scan."""
+) -> NormalEquations:
+    """Pair a source scan's points, at its pose in the target's frame, with a target scan, and sum the equations."""
     turn = rotation_of(pose)
     shift = wp.vec2f(float(pose[0]), float(pose[1]))
-    second = wp.mat33f()
+    hessian = wp.mat33f()
     slack = wp.mat33f()
     gradient = wp.vec3f()
     totals = Totals()
@@ -187,7 +185,7 @@ def pair_scans(
             totals[FORCE_SQ] += weights[source, beam] * weight * weight * e * e
             weight = weight * weights[source, beam]
             across = wp.vec3f(mean_normal[0], mean_normal[1], mean_normal[1] * arm[0] - mean_normal[0] * arm[1])
-            second += wp.outer(weight * across, across)
+            hessian += wp.outer(weight * across, across)
             gradient += (weight * across) * e
             slack_weight = weight * 0.25 * (scene.spread[source, beam] + scene.spread[target, partner])
             along = wp.vec3f(-mean_normal[1], mean_normal[0], wp.dot(mean_normal, arm))
@@ -202,51 +200,52 @@ def pair_scans(
                 continue
             w = 1.0 / (1.0 + wp.length_sq(offset) / (rules.scale_m * rules.scale_m + spacing * spacing))
             w = w * w * weights[source, beam] * (0.01 * 0.01) / (spacing * spacing)  # 0.01 m: noise of a range
-            second += wp.mat33f(w, 0.0, -w * arm[1], 0.0, w, w * arm[0], 0.0, 0.0, w * wp.length_sq(arm))
+            hessian += wp.mat33f(w, 0.0, -w * arm[1], 0.0, w, w * arm[0], 0.0, 0.0, w * wp.length_sq(arm))
             gradient += w * wp.vec3f(offset[0], offset[1], arm[0] * offset[1] - arm[1] * offset[0])
             totals[MATCHED] += 1.0
-    return Sums(second, slack, gradient, totals)
+    return NormalEquations(hessian, slack, gradient, totals)
 
 
-class PairSums(NamedTuple):
-    """The `Sums` of P pairs of scans, in double precision."""
+class LinearizedPairs(NamedTuple):
+    """The `NormalEquations` of P pairs of scans, in double precision."""
 
-    second: Floats  # H, (P, 3, 3)
+    hessian: Floats  # H, (P, 3, 3)
     slack: Floats  # (P, 3, 3)
     gradient: Floats  # g, (P, 3)
     totals: Floats  # COST, WEIGHT, MATCHED, SEEN, FORCE_SQ, (P, 5)
 
 
 Mat33ds = wp.array(dtype=wp.mat33d)
-PairSumsArrays = devices.struct_like(PairSums, Mat33ds, Mat33ds, Vec3ds, Totals64s)
+LinearizedPairsArrays = devices.struct_like(LinearizedPairs, Mat33ds, Mat33ds, Vec3ds, Totals64s)
 
 
 @wp.kernel
-def sum_pairs(
+def store_equations(
     first: int, scene: ScanArrays, weights: Float32Rows, source: Int32s, target: Int32s, relative: Vec3ds,
-    rules: PairRulesArrays, out: PairSumsArrays,
+    rules: PairRulesArrays, out: LinearizedPairsArrays,
 ):  # fmt: skip
-    """One thread per pair of scans: sum over the pairs of their points."""
+    """One thread per pair of scans: compute their equations."""
     pair = first + wp.tid()
-    sums = pair_scans(scene, weights, source[pair], target[pair], relative[pair], rules)
-    out.second[pair] = symmetric(sums.second)
-    out.slack[pair] = symmetric(sums.slack)
-    out.gradient[pair] = wp.vec3d(sums.gradient)
-    out.totals[pair] = Totals64(sums.totals)
+    equations = sum_over_points(scene, weights, source[pair], target[pair], relative[pair], rules)
+    out.hessian[pair] = symmetric(equations.hessian)
+    out.slack[pair] = symmetric(equations.slack)
+    out.gradient[pair] = wp.vec3d(equations.gradient)
+    out.totals[pair] = Totals64(equations.totals)
 
 
-def pair_sums(
+def linearize_pairs(
     geometry: Any, weights: Singles | None, source: Ints, target: Ints, relative: Floats, rules: PairRules,
     threads: int | None = None,
-) -> PairSums:  # fmt: skip
-    """Sum the pairs of scans ``source`` and ``target``, (P,); ``relative`` are poses in the targets' frames, (P, 3)."""
+) -> LinearizedPairs:  # fmt: skip
+    """Linearize P pairs of scans; ``relative`` are the poses of the sources in the frames of the targets, (P, 3)."""
     device, count = geometry.device, len(source)
     weights = equal_weights(geometry) if weights is None else weights
-    out = devices.pack(PairSumsArrays, device, second=(count,), slack=(count,), gradient=(count,), totals=(count,))
+    shapes = dict.fromkeys(LinearizedPairs._fields, (count,))
+    out = devices.pack(LinearizedPairsArrays, device, **shapes)
     packed_rules = devices.pack(PairRulesArrays, "cpu", **rules._asdict())
     inputs = [scan_arrays(geometry, rules.stride), weights, source, target, relative, packed_rules, out]
-    devices.launch(sum_pairs, count, inputs, device, threads)
-    return PairSums(out.second.numpy(), out.slack.numpy(), out.gradient.numpy(), out.totals.numpy())
+    devices.launch(store_equations, count, inputs, device, threads)
+    return LinearizedPairs(out.hessian.numpy(), out.slack.numpy(), out.gradient.numpy(), out.totals.numpy())
 
 
 @wp.kernel
@@ -287,98 +286,3 @@ def match_counts(
     packed_rules = devices.pack(PairRulesArrays, "cpu", **rules._asdict())
     inputs = [scene, offsets, target, relative, packed_rules, (scans, geometry.beams)]
     return np.asarray(devices.launch(count_matches, scans, inputs, geometry.device, threads)[0])
-
-
-@wp.func
-def is_near_wall(scene: ScanArrays, scan: int, beam: int, point: wp.vec2f, near_m: float) -> int:
-    """Return 1 if a point is near the wall between the points of a beam and the next beam, else 0."""
-    beams = scene.beams[scan]
-    start = beam
-    if start < 0:
-        if scene.full_circle[scan] == 0:
-            return 0
-        start += beams
-    end = neighbour(start, 1, beams, scene.full_circle[scan])
-    if end < 0:
-        return 0
-    if scene.kind[scan, start] == scenes.NO_POINT or scene.kind[scan, end] == scenes.NO_POINT:
-        return 0
-    start_point = scene.points[scan, start]
-    wall = scene.points[scan, end] - start_point
-    length = wp.length(wall)
-    if length > max_gap(scene.step[scan], wp.length(start_point)):
-        return 0
-    to_point = point - start_point
-    share = wp.clamp(wp.dot(to_point, wall) / wp.max(length * length, 1.0e-9), 0.0, 1.0)
-    return wp.where(wp.length(to_point - share * wall) < near_m, 1, 0)
-
-
-@wp.kernel
-def compare_views(
-    first: int, scene: ScanArrays, source: Int32s, target: Int32s, relative: Vec3ds, near_m: float, clear_m: float,
-    counts: Int32Rows,
-):  # fmt: skip
-    """One thread per pair: count the points of the source that match the target, that contradict it, and all points."""
-    # A point contradicts the target if three neighbouring beams of it all hit something ``clear_m`` beyond the point.
-    pair = first + wp.tid()
-    other = target[pair]
-    turn = rotation_of(relative[pair])
-    shift = wp.vec2f(float(relative[pair][0]), float(relative[pair][1]))
-    matched, contradicting, total = int(0), int(0), int(0)
-    for beam in range(0, scene.kind.shape[1], scene.stride):
-        if scene.kind[source[pair], beam] == scenes.NO_POINT:
-            continue
-        total += 1
-        point = turn * scene.points[source[pair], beam] + shift
-        # A match: near a point, or near the wall between two points.
-        if nearest_point(scene, other, point, near_m) >= 0:
-            matched += 1
-            continue
-        middle = beam_towards(scene, other, point)
-        if middle < 0:
-            continue
-        walls = is_near_wall(scene, other, middle - 1, point, near_m) + is_near_wall(
-            scene, other, middle, point, near_m
-        )
-        if walls > 0:
-            matched += 1
-            continue
-        # A contradiction: the beams about the point pass through it.
-        beyond = wp.length(point) + clear_m
-        through = int(0)
-        for step in range(-1, 2):
-            nearby = neighbour(middle, step, scene.beams[other], scene.full_circle[other])
-            if nearby >= 0:
-                if scene.kind[other, nearby] != scenes.NO_POINT and wp.length(scene.points[other, nearby]) > beyond:
-                    through += 1
-        if through == 3:
-            contradicting += 1
-    counts[pair, 0] = matched
-    counts[pair, 1] = contradicting
-    counts[pair, 2] = total
-
-
-@dataclass(frozen=True)
-class Agreement:
-    """Rules for points of one scan that match another scan, or contradict it."""
-
-    near_m: float  # distance to a point of the other scan, or to the wall between two neighbouring points, of a match
-    clear_m: float  # least distance of a contradicting point before the points that the other scan hit
-    beams: int  # number of beams of each scan that are compared, about
-
-
-def view_counts(
-    geometry: Any, source: Ints, target: Ints, relative: Floats, agreement: Agreement, threads: int | None = None
-) -> Ints:
-    """Count each source's points that match, that contradict, and all, (P, 3); ``relative`` poses: in target frames."""
-    scene, pairs = scan_arrays(geometry, max(1, geometry.beams // agreement.beams)), len(source)
-    inputs = [scene, source, target, relative, agreement.near_m, agreement.clear_m, (pairs, 3)]
-    return np.asarray(devices.launch(compare_views, pairs, inputs, geometry.device, threads)[0])
-
-
-def mutual_view_counts(
-    geometry: Any, first: Ints, second: Ints, relative: Floats, agreement: Agreement, threads: int | None = None
-) -> Ints:
-    """Sum `view_counts` in both directions, (P, 3); ``relative`` are the poses of the second in the first's frame."""
-    counts = view_counts(geometry, second, first, relative, agreement, threads)
-    return counts + view_counts(geometry, first, second, inverse(relative), agreement, threads)

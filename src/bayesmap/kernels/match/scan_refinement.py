@@ -11,7 +11,7 @@ import warp as wp
 
 from bayesmap.kernels import device as devices
 from bayesmap.kernels.device import ZERO, Float32Rows, Floats, Int32s, Ints, Vec3ds
-from bayesmap.kernels.match.line_pairs import Mat33ds, PairRulesArrays, Totals64, Totals64s, pair_scans, symmetric
+from bayesmap.kernels.match.line_pairs import Mat33ds, PairRulesArrays, Totals64, Totals64s, sum_over_points, symmetric
 from bayesmap.kernels.match.scan_geometry import ScanArrays, equal_weights, scan_arrays
 
 wp.set_module_options({"enable_backward": False})
@@ -79,9 +79,9 @@ RefinedScansArrays = devices.struct_like(RefinedScans, Vec3ds, Mat33ds, Totals64
 
 @wp.struct
 class JobSums:
-    """Sums over the pairs of a moving scan with all its fixed scans, in the world's axes, see `line_pairs.Sums`."""
+    """Sums of the `NormalEquations` of a moving scan with each of its fixed scans, in the world's axes."""
 
-    second: wp.mat33d
+    hessian: wp.mat33d
     slack: wp.mat33d
     gradient: wp.vec3d
     totals: Totals64
@@ -95,12 +95,13 @@ def sum_fixed_scans(
     total = JobSums()
     for entry in range(jobs.offsets[job], jobs.offsets[job + 1]):
         frame = jobs.other_poses[entry]
-        sums = pair_scans(scene, weights, jobs.scans[job], jobs.others[entry], pose_between(frame, pose), rules)
+        relative = pose_between(frame, pose)
+        equations = sum_over_points(scene, weights, jobs.scans[job], jobs.others[entry], relative, rules)
         turn = turn_of(frame[2])
-        total.second += turn * symmetric(sums.second) * wp.transpose(turn)
-        total.slack += turn * symmetric(sums.slack) * wp.transpose(turn)
-        total.gradient += turn * wp.vec3d(sums.gradient)
-        total.totals += Totals64(sums.totals)
+        total.hessian += turn * symmetric(equations.hessian) * wp.transpose(turn)
+        total.slack += turn * symmetric(equations.slack) * wp.transpose(turn)
+        total.gradient += turn * wp.vec3d(equations.gradient)
+        total.totals += Totals64(equations.totals)
     return total
 
 
@@ -133,8 +134,8 @@ def refine(
         sums = sum_fixed_scans(scene, weights, jobs, job, pose, rules)
         # The information of the pairs is H (H + s^2 S)^-1 H: about H if the slack S is small, and never negative.
         ridge = wp.identity(n=3, dtype=wp.float64) * wp.float64(1.0e-6)
-        trusted = sums.second * wp.inverse(sums.second + sums.slack * (schedule.sigma_m * schedule.sigma_m) + ridge)
-        information = trusted * sums.second * gain
+        trusted = sums.hessian * wp.inverse(sums.hessian + sums.slack * (schedule.sigma_m * schedule.sigma_m) + ridge)
+        information = trusted * sums.hessian * gain
         pull = trusted * sums.gradient * gain
         # Solve for the step under pairs and prior, and limit its size.
         offset = wrap_yaw(pose - jobs.priors[job])
