@@ -305,8 +305,8 @@ class Inference:
         plan = clock.plan if limit_s is None else replace(clock.plan, seconds=max(0.0, limit_s - clock.elapsed_s()))
         settings["warmup"] = plan.warmup
         job = Job(
-            model, self._sampler(plan.warmup), plan, self.request.seed, chain_ids=tuple(range(self.request.chains)),
-            device=device, threads=threads, parameters=parameters, problem=problem_here,
+            model, self._sampler(plan.warmup), schedule=plan, seed=self.request.seed, device=device, threads=threads,
+            chain_ids=tuple(range(self.request.chains)), parameters=parameters, problem=problem_here,
         )  # fmt: skip
         save = checkpoints.save
         earlier = None if stopped is None else chains_of(stopped)

@@ -80,8 +80,8 @@ class Model:
         """Compute log p(reading | state) of each beam in nats, (B,); 0 if invalid. `BadInput`: poses of wrong shape."""
         if np.shape(state.poses) != self.scans.poses.shape:
             raise BadInput(f"state: poses has shape {np.shape(state.poses)}, expected {self.scans.poses.shape}")
-        stops = self.cells.stops(state.cells, self.grid)
-        batches = [log_likelihoods(rays, stops, state.sensor, self.hit_depth) for rays in self._trace(state.poses)]
+        cell_stops, sensor = self.cells.stops(state.cells, self.grid), state.sensor
+        batches = [log_likelihoods(rays, cell_stops, sensor, self.hit_depth) for rays in self._trace(state.poses)]
         return np.concatenate(batches) if batches else np.zeros(0)
 
     def _trace(self, poses_world: Floats) -> Iterator[Rays]:
@@ -95,12 +95,12 @@ class Model:
 
 
 def log_likelihoods(
-    rays: Rays, states: NDArray[np.floating], sensor: SensorModel, hit_depth: float, beta: float = 1.0
+    rays: Rays, cell_stops: NDArray[np.floating], sensor: SensorModel, hit_depth: float, beta: float = 1.0
 ) -> Floats:
     """Compute log p(reading | map) of every beam, (B,), by the formula of this module; 0 for an invalid reading.
-    ``states`` is as in `bayesmap.beams.rays.stops_of`. The inverse temperature ``beta`` is the power of p(z | stop).
+    ``cell_stops``: see `bayesmap.beams.rays.stops_of`. The inverse temperature ``beta`` is the power of p(z | stop).
     """
-    stops = stops_of(rays, states, hit_depth)
+    stops = stops_of(rays, cell_stops, hit_depth)
     beam = rays.beam_of_entry()
     # One row per beam: its stops, and in the last column the case of no stop in the map.
     shape = rays.n_beams, int(rays.lengths.max(initial=0)) + 1

@@ -30,9 +30,8 @@ def ranges_in_room(pose, width, depth, notch=0.0):
     for angle in ANGLES + pose[2]:
         u = np.array([np.cos(angle), np.sin(angle)])
         with np.errstate(divide="ignore", invalid="ignore"):
-            t = np.concatenate(
-                [(np.array([-width, width]) / 2 - pose[0]) / u[0], (np.array([-depth, depth]) / 2 - pose[1]) / u[1]]
-            )
+            sides = np.array([[-width, width], [-depth, depth]]) / 2
+            t = ((sides - np.array(pose[:2])[:, None]) / u[:, None]).ravel()
         hit = t[t > 0].min()
         along = np.linspace(0, hit, 400)[:, None] * u + pose[:2]
         inside = (along[:, 0] > width / 2 - notch) & (along[:, 1] > depth / 2 - notch)

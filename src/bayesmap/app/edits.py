@@ -40,7 +40,6 @@ def tutorial_document(seed: int = 0) -> Document:
 
 def new_document(world: actions.World, shape: tuple[int, int], before: Document) -> Document:
     """Return a document with a new map, and the settings of the document before as far as they fit.
-
     The sensor's longest range is twice the longer side, as in the tutorial: every beam can leave the map. A small
     shape cuts the tutorial's walls off. Raises `Refused` if the shape is too small for a building.
     """
@@ -213,7 +212,6 @@ def merge_actions(before: actions.Action, after: Action) -> Action | None:
 
 def adopt_document(present: Document, other: Document) -> Document:
     """Return the document to show when a page brings another document, as after a lost connection.
-
     For two simulations it is the other; for one file, the present one with the other's settings. Else raises `Refused`.
     """
     if other.simulated and present.simulated:
@@ -266,7 +264,6 @@ class History(Generic[State]):
 
 class Pace:
     """Holds back the edits of gestures until they are due. At most one edit waits: later ones are merged into it.
-
     An edit waits while the picture of the last edit is being computed, and while its page has pictures to paint. A page
     paints one picture while the worker computes the next. If painting takes longer, pictures would queue.
     """

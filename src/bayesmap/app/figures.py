@@ -61,7 +61,6 @@ def page_in_one_file(kind: Literal["recording", "figure"], data: bytes) -> str:
 
 def figure_page(document: Document, story: Story | None = None) -> str:
     """Return a page in one file that samples a drawn world, and the steps of a story, without a server.
-
     Raises `Refused` for a file, uncertain poses or belief propagation in a document, or a step without its tool.
     """
     for number, step in enumerate(story.steps if story else (), start=1):
@@ -114,7 +113,6 @@ class WrittenStory(Struct, frozen=True, forbid_unknown_fields=True):
 
 def read_story(path: str, document: Document) -> Story:
     """Read a story from a JSON file, or the built-in story "tutorial". Its start changes a document.
-
     Raises `BadInput`, with the file, the step and the key, if the file is no valid story.
     """
     try:

@@ -148,10 +148,10 @@ class Stops(NamedTuple):
     spread_m: Floats  # standard deviation of the distance
 
 
-def stops_of(rays: Rays, states: NDArray[np.floating], hit_depth: float) -> Stops:
+def stops_of(rays: Rays, cell_stops: NDArray[np.floating], hit_depth: float) -> Stops:
     """Compute the stops that a map offers to rays.
 
-    ``states`` are stop probabilities of the grid's cells, (N,), at ``hit_depth`` of their chords, or surfaces, (N, 6):
+    ``cell_stops`` are stop probabilities of the cells, (N,), at ``hit_depth`` of their chords, or surfaces, (N, 6):
     reflectivity m, mean mu in metres from the grid's lower left corner, and l11, l21, l22 of the covariance Sigma = L
     L' of the points where beams stop. A beam from p in direction u, with normal n, passes the mean at the offset
     o = n . (mu - p). Across the beam the surface has the variance v^2 = n' Sigma n. The beam meets it with probability
@@ -166,17 +166,17 @@ def stops_of(rays: Rays, states: NDArray[np.floating], hit_depth: float) -> Stop
     A beam's direction is known up to an angle omega only, so c^2 = v^2 + (omega d)^2 at the mean's distance d = u .
     (mu - p). The probability g keeps v: with c in it, held-out scans were predicted worse.
     """
-    state = np.asarray(states, dtype=np.float64)[rays.cells]
-    if state.ndim == 1:
+    entry_stops = np.asarray(cell_stops, dtype=np.float64)[rays.cells]
+    if entry_stops.ndim == 1:
         enter, leave = rays.chords()
-        return Stops(state, enter + hit_depth * (leave - enter), np.zeros(len(state)))
+        return Stops(entry_stops, enter + hit_depth * (leave - enter), np.zeros(len(entry_stops)))
     # The mean of each surface, along the beam (depth) and across it (offset).
     beam = rays.beam_of_entry()
     direction = rays.direction[beam]
     normal = np.stack([-direction[:, 1], direction[:, 0]], axis=-1)
-    to_mean = state[:, 1:3] - rays.start_m[beam]
+    to_mean = entry_stops[:, 1:3] - rays.start_m[beam]
     depth, offset = (to_mean * direction).sum(axis=-1), (to_mean * normal).sum(axis=-1)
-    l11, l21, l22 = state[:, 3:].T
+    l11, l21, l22 = entry_stops[:, 3:].T
     u_1, u_2 = l11 * direction[:, 0] + l21 * direction[:, 1], l22 * direction[:, 1]  # L' u
     n_1, n_2 = l11 * normal[:, 0] + l21 * normal[:, 1], l22 * normal[:, 1]  # L' n
     v_sq = n_1**2 + n_2**2
@@ -188,4 +188,4 @@ def stops_of(rays: Rays, states: NDArray[np.floating], hit_depth: float) -> Stop
     distance = np.maximum(depth - u_sigma_n / c_sq * offset, 0.0)
     # s^2 = u' Sigma u - (u' Sigma n)^2 / c^2, without a difference of large numbers.
     variance = ((l11 * l22) ** 2 + direction_variance * (u_1**2 + u_2**2)) / c_sq
-    return Stops(state[:, 0] * g, distance, np.sqrt(variance))
+    return Stops(entry_stops[:, 0] * g, distance, np.sqrt(variance))

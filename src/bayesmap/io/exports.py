@@ -95,7 +95,6 @@ def layers_of(run: Any) -> dict[str, NDArray[np.float64]]:
 
 def trajectory_of(run: object, scans: Scans) -> Trajectory:
     """Return the trajectory of the sensor in a run, with its uncertainty.
-
     A run of `bayesmap.slam` gives the draws of its chains over poses if these have mixed, else its approximation of the
     poses of all scans. Other runs give their draws of poses, or else the poses of their scans.
     """
@@ -156,7 +155,6 @@ def known_cells(
     free_thresh: float | None = None,
 ) -> NDArray[np.bool_]:  # fmt: skip
     """Select the cells that a map of occupied, free and unknown cells does not call unknown, (nx, ny).
-
     An observed cell below the free threshold is unknown unless the beams alone show that it stops fewer than half of
     all beams: four passed it, and none stopped. This holds for kinds of cells that count beams.
     """
@@ -222,7 +220,6 @@ def write_geotiff(
     path: str | os.PathLike[str], layers: Mapping[str, ArrayLike], grid: Grid, observed: ArrayLike | None = None
 ) -> Path:
     """Write layers (see `as_layers`) as bands of a GeoTIFF, whole or not at all. Returns the path.
-
     Cells that no beam reached are NaN, which is the bands' nodata value. Raises `BadInput` if rasterio is not
     installed, for layers that do not fit, or a file that cannot be written.
     """
@@ -254,7 +251,6 @@ def write_rerun(
     scans: Scans | None = None, trajectory: Trajectory | None = None,
 ) -> Path:  # fmt: skip
     """Write layers (see `as_layers`) for the rerun viewer, whole or not at all. Returns the path.
-
     Over the layers the viewer shows the scans, and the trajectory with its ellipses, or else the scans' poses. Raises
     `BadInput` if rerun-sdk is not installed, for layers that do not fit, or a file that cannot be written.
     """

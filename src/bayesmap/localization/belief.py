@@ -3,8 +3,7 @@
 `PoseBelief` is the result: weighted poses, their modes (`Mode`) and regions (`Region`). `PoseMixture` is the proposal
 of population Monte Carlo (Cappe, Guillin, Marin and Robert 2004). Each round draws from Student distributions about the
 present places (`PoseMixture.draw`), weights the draws by target / proposal (`Population`), and moves the places to the
-weighted means (`PoseMixture.adapt`). The last weights are unbiased but for their truncation, and their mean estimates
-the evidence.
+weighted means (`PoseMixture.adapt`). But for truncation the last weights are unbiased. They estimate the evidence.
 """
 
 from __future__ import annotations
@@ -160,9 +159,7 @@ class PoseBelief:
 
     def probability_in(self, area: Floats) -> float:
         """Compute the probability that the robot is on the map and in an area.
-
-        The area is a polygon of corners in order, (K, 2), metres, or (x_min, x_max, y_min, y_max). Raises `BadInput`
-        for anything else.
+        The area is a polygon of corners in order, (K, 2), metres, or (x_min, x_max, y_min, y_max); else `BadInput`.
         """
         corners = np.asarray(area, dtype=np.float64)
         if corners.shape == (4,):
@@ -358,7 +355,6 @@ class Population:
 
 def student_draws(count: int, rng: np.random.Generator) -> Floats:
     """Draw from the standard Student distribution in three dimensions, evenly spread, (N, 3).
-
     The draws are points of a lattice (Roberts 2018) with a random shift (Cranley and Patterson 1976). So each point has
     the law of a single draw.
     """

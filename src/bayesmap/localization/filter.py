@@ -195,7 +195,6 @@ def compute_belief(
     prior_shares: Floats | None = None,
 ) -> PoseBelief:  # fmt: skip
     """Return the posterior of a population, with the probability of being lost.
-
     ``place_of`` is the place of each pose, (N,), or None if poses are spread over the whole map. If only part of the
     scan's evidence is new, ``prior_shares`` is each place's share of the prior, (K,).
     """
@@ -296,7 +295,6 @@ def _evidence_and_fit(
 
 def locate(known: KnownMap, scan: Scan, rng: np.random.Generator) -> PoseBelief:
     """Compute the posterior of a scan's pose on a map known exactly; its ``beam_weight`` is the likelihood's power.
-
     The likelihood is about a centimetre wide, so a proposal five centimetres off would get no weight. So the weight of
     each beam rises in rounds from its value in an inferred map to its value in a known map, and proposals follow.
     """

@@ -39,7 +39,6 @@ MIN_STOP = 0.1  # cells that stop beams with a lower probability have no surface
 @dataclass(frozen=True, eq=False)
 class Field:
     """A likelihood field over a grid.
-
     A value v of ``fine``, as a share of 255, stands for a likelihood of an end point, relative to one on a wall, of
     `MIN_LIKELIHOOD`^(1 - v).
     """
@@ -221,7 +220,6 @@ def endpoint_field(
     states: NDArray[np.float32], grid: Grid, noise_m: float, unknown: Mask, p_unknown: float
 ) -> EndpointField:
     """Compute the field of the draws of a map, as `KnownMap.of_draws` takes them.
-
     Each surface has its normal density, widened by the noise of a reading, ``noise_m``, and scaled to a peak of 1.
     Cells of the mask ``unknown`` stop a beam with probability ``p_unknown``. Objects in the way of a beam are left out.
     """

@@ -99,7 +99,6 @@ def align(
     annealing: Annealing, *, firm: Mask | None = None, on_progress: Callable[[int, Floats], None] | None = None,
 ) -> Alignment:  # fmt: skip
     """Align S scans with all their partners and with odometry.
-
     ``select_pairs`` returns the pairs of scans at poses (S, 3), in the first and the middle round. ``firm`` is the mask
     of odometry's relative poses without slip, (M,). ``on_progress`` is called with the number of rounds done and poses.
     """
@@ -326,7 +325,6 @@ def place_scans(
 
 def compared_keys(scans: Indices, keys: Indices, aligned: Alignment) -> tuple[NDArray[np.int32], Indices]:
     """Select key scans to compare scans with, (N,): the ones before and after each, and partners of the nearer one.
-
     Returns offsets, (N + 1,), and positions among the keys: scan i has those from ``offsets[i]`` to ``offsets[i + 1]``.
     """
     before, after = bracketing_indices(keys, scans)

@@ -58,7 +58,6 @@ REGULAR_TOLERANCE = 0.005  # relative accuracy of the estimated angle between be
 
 def stated_motions(poses: Floats, stamps_s: Floats | None) -> tuple[Floats, Mask]:
     """Return the motions from scan to scan in the earlier one's frame, (S - 1, 3), and which are impossible, (S - 1,).
-
     Repeated stamps bound the time of a motion. A motion is impossible if it is too fast for the longest time, or if it
     is much longer than usual and too fast for the shortest time.
     """
@@ -179,7 +178,6 @@ def fit_noise(
 
 def _fit_rates(errors: Floats, features: Floats, known_variance: Floats, usual: Floats) -> Floats:
     """Fit the rates of one axis, (3,), by L-BFGS in their logarithms.
-
     The motions were estimated with odometry. So the mean square of its error is the mean square of the residual plus
     the motions' variance. Products are summed without BLAS, whose threads would take longer to meet than to add.
     """

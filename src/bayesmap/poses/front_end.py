@@ -48,10 +48,7 @@ SCORE_RATE = 0.05  # rate at which the usual score follows the scores of scans
 UNUSUAL_LOSS = 0.04  # scans this far below the usual score may have gone backwards, unreported by odometry
 BACKWARDS_GAIN = 0.05  # least gain in score for going backwards: along a wall both directions fit
 WIDE_M = 1.0  # half width of the wide search, metres
-WIDE_STAGES = (
-    (np.radians(45.0), 0.1),
-    (np.pi, 0.15),
-)  # stages of the wide search: half range of angle, minimum gain in score
+WIDE_STAGES = ((np.radians(45.0), 0.1), (np.pi, 0.15))  # of the wide search: half range of angle, least gain in score
 MIN_GAIN_POINTS = 6.0  # least gain in score, in points that fit: it decides for scans with few points
 POINT_SIGMA_M = 0.02  # sigma of a point-to-line residual: the laser's noise, rough walls, a scan's own distortion
 MAX_POINTS = 200  # most points of a scan that are matched

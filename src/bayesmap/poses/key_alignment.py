@@ -59,7 +59,6 @@ class KeyAlignment:
         self, stage: str, poses: Floats, factors: Factors, rounds: int = 8, *, coarse: bool, firm: Mask | None = None
     ) -> Alignment:
         """Align the key scans with odometry's factors.
-
         Poses may be decimetres off if ``coarse``. ``firm`` is the mask of factors without slip of the wheels, (K - 1,).
         """
 
@@ -103,7 +102,6 @@ class KeyAlignment:
 
     def realign_over_leaps(self, matched: ScoredAlignment, factors: Factors) -> ScoredAlignment:
         """Align once more with firm odometry over leaps, if odometry agrees with the front end there.
-
         A leap is a step that contradicts the front end's. Returns ``matched`` unless this leaves fewer leaps.
         """
         track, poses = self.track, matched.alignment.poses
@@ -134,7 +132,6 @@ def match_without_itself(
     search: bool = True, before: LeaveOneOut | None = None, changed: Mask | None = None,
 ) -> LeaveOneOut:  # fmt: skip
     """Match each of S scans at poses (S, 3) to its partners' likelihood grid.
-
     Scans with a score below ``poor_score`` are searched for in the wide window, too. Without ``search`` the poses are
     only scored. Scans outside the mask ``changed``, (S,), keep the scores of an earlier result ``before``.
     """

@@ -71,7 +71,6 @@ def close_loops(
     geometry: ScanGeometry, track: Track, on_progress: Callable[[int, Floats], None] | None = None
 ) -> ClosedGraph:
     """Find loop closures and solve the graph, in rounds: each round's poses set the next round's search windows.
-
     ``on_progress`` is called with the number of completed rounds and the poses of the keys, (K, 3).
     """
     keys, poses = track.keys, track.poses[track.keys]
@@ -129,7 +128,6 @@ def _is_guess_confirmed(path: KeyPath, segment: int, closures: Closures, weighed
 
 def chain_links(track: Track, poses: Floats) -> Factors:
     """Return links from each key scan to the next, by laser and odometry together.
-
     Links over a break of the path have hardly any information. They follow ``poses`` of the keys, (K, 3), or the front
     end if the scan after the break fitted as usual and the two differ by less than `MAX_BEND_M`.
     """
@@ -187,7 +185,6 @@ class VisitTest(NamedTuple):
 
 def weigh_visits(poses: Floats, weights: Floats, chain: Factors, loops: Factors, path_m: Floats) -> WeighedGraph:
     """Remove the visits that are probably wrong, one after the other, and find the alternatives to the result.
-
     ``poses`` and ``weights`` solve the graph of chain and loops. ``path_m`` are distances along the path, (K,).
     """
     # Compute the prior log odds of each visit by the number of its places.
@@ -226,7 +223,6 @@ def weigh_visits(poses: Floats, weights: Floats, chain: Factors, loops: Factors,
 
 def label_visits(loops: Factors, poses: Floats, path_m: Floats) -> Indices:
     """Return the number of each closure's visit, (M,). Closures of a visit agree, and are near at both ends.
-
     The poses of the keys, (K, 3), must be right over a few metres. ``path_m`` is their distance along the path, (K,).
     """
     from scipy.sparse import coo_matrix
@@ -351,7 +347,6 @@ def _fits_elsewhere(
 
 def poses_between_keys(track_poses: Floats, keys: Indices, key_poses: Floats, broken: Mask | None = None) -> Floats:
     """Return all scans' poses, (S, 3), from new poses of the keys, (K, 3).
-
     The discrepancy at the next key is spread evenly over the scans before it, unless the path is broken there:
     ``broken`` marks scans after a break, (S,).
     """

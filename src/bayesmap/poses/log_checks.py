@@ -55,7 +55,6 @@ def scans_come_often(scans: Scans) -> bool:
 
 def check_scans(scans: Scans, *, no_odometry: bool) -> None:
     """Raise `BadInput` unless a trajectory can be inferred.
-
     There must be two scans and a hit. Odometry must not stand still all the time although the robot moves. Without
     odometry scans must come often.
     """

@@ -136,7 +136,6 @@ def find_closures(
     path: KeyPath, precision: Precision, half_width_m: float, search: Search, *, within_segments: bool = False
 ) -> Closures:
     """Find closures among all key scans, or only within segments of a broken path.
-
     The graph's ``precision`` gives the search windows. ``half_width_m`` is the half width of submaps' grids.
     """
     # 1. Pair key scans that may show one place.

@@ -66,7 +66,6 @@ class StatedOdometry:
         self, gaussian: PoseGaussian, track: Track, fit: OdometryFit | None, factors: Factors
     ) -> PoseGaussian:
         """Return a Gaussian whose covariances hold the uncertainty of odometry's systematic error.
-
         This error is common to the whole path: where odometry alone knows the length of a corridor, all of the length
         may be wrong by some per cent. The ``factors`` of odometry must be the last terms of ``gaussian``.
         """
@@ -79,7 +78,6 @@ class StatedOdometry:
         self, track: Track, poses: Floats, slope: Floats, variances: Callable[[Floats], Floats], lag_s: float = 0.0
     ) -> Factors:
         """Return factors between key scans at poses (K, 3), corrected for systematic error and lag.
-
         Over an impossible motion or a break of the path, a weak link at the keys' present poses is used instead.
         ``variances`` computes the variances of x, y and yaw of motions from scan to scan, (S - 1, 3).
         """

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -30,14 +31,24 @@ COARSE = Fineness(60, np.radians(2.0))  # refinement uses whole scans: more woul
 MIN_NEAR_SCORE, MIN_FAR_SCORE = 0.6, 0.75  # least scores: with more places, chance matches score better
 CHANCE_SCORE = 0.5  # score of chance matches: a place votes with the square of its excess
 MAX_HYPOTHESES = 6  # most relative poses of two segments that are tested against free space
-MIN_PLACES, MIN_PLACES_EARLIER = 3, 4  # fewest places that agree on a relative pose, in the last and in earlier passes
-MIN_RIVAL_PLACES = 2  # fewest places that agree on a rival relative pose before the last pass
-MAX_RIVAL_SHARE, MAX_RIVAL_SHARE_EARLIER = 0.5, 0.4  # a rival with this share of the best pose's votes casts doubt
+MIN_PLACES = 3  # fewest places that agree on a relative pose, in the last pass
 SAME_M, SAME_RAD = 0.5, np.radians(6.0)  # maximum difference of equal relative poses: segments are bent
 COMPARED_M = 5.0  # maximum distance of compared key scans of two segments
 MAX_COMPARED = 600  # most pairs of key scans that are compared
 VIEW_AGREEMENT = Agreement(near_m=0.2, clear_m=0.4, beams=60)  # limits when scans of two segments are compared
 MAX_AGAINST_SHARE = 0.15  # largest share of contradicting points
+
+
+class MergeRule(NamedTuple):
+    """The certainty that a merge needs."""
+
+    min_places: int  # fewest places that agree on the relative pose
+    min_rival_places: int  # fewest places that agree on a rival relative pose
+    max_rival_share: float  # a rival with this share of the best pose's votes casts doubt
+
+
+EARLIER_PASSES = MergeRule(min_places=4, min_rival_places=2, max_rival_share=0.4)  # strict: more matches may follow
+LAST_PASS = MergeRule(MIN_PLACES, min_rival_places=MIN_PLACES, max_rival_share=0.5)
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,7 +63,6 @@ class Merge:
 
 def reconnect_segments(path: KeyPath, half_width_m: float) -> tuple[Floats, Mask]:
     """Merge the segments of a path of K key scans whose poses are right within each segment.
-
     Returns the poses with every merged segment moved, (K, 3), and a mask of the segments that are joined to an earlier
     segment, (P,). Segment 0 counts as joined. ``half_width_m`` is the half width of submaps' grids.
     """
@@ -65,9 +75,9 @@ def reconnect_segments(path: KeyPath, half_width_m: float) -> tuple[Floats, Mask
             # Search with any heading: a half range of pi.
             ones = np.ones(len(pairs[0]))
             matches.append(match_submaps(path, *pairs, half_m * ones, np.pi * ones, half_width_m, min_score, COARSE))
-        # Merge by all matches so far. Earlier passes ask for more certainty, since more matches may follow.
-        min_places = MIN_PLACES if search_pass == PASSES - 1 else MIN_PLACES_EARLIER
-        islands = _merge_segments(path, concatenate_closures(matches), min_places)
+        # Merge by all matches so far.
+        rule = LAST_PASS if search_pass == PASSES - 1 else EARLIER_PASSES
+        islands = _merge_segments(path, concatenate_closures(matches), rule)
         if not islands.segments.any():
             break
     return _assemble(path, islands)
@@ -125,15 +135,13 @@ def _queries(path: KeyPath, search_pass: int) -> Indices:
     return np.concatenate([np.empty(0, np.intp), *queries])
 
 
-def _merge_segments(path: KeyPath, matches: Closures, min_places: int) -> KeyPath:
-    """Return the path with segments merged to islands where ``min_places`` places agree on their relative pose.
-
+def _merge_segments(path: KeyPath, matches: Closures, rule: MergeRule) -> KeyPath:
+    """Return the path with segments merged to islands where enough places agree on their relative pose.
     The key scans of an island have the number of its first segment, and poses in that segment's frame.
     """
     islands = path
-    max_rival_share = MAX_RIVAL_SHARE if min_places == MIN_PLACES else MAX_RIVAL_SHARE_EARLIER
     while True:
-        merge = _select_merge(_propose_merges(matches, islands, min_places), islands, max_rival_share)
+        merge = _select_merge(_propose_merges(matches, islands, rule), islands, rule.max_rival_share)
         if merge is None:
             return islands
         is_later = islands.segments == merge.later
@@ -155,8 +163,8 @@ def _select_merge(proposals: Iterator[list[Merge]], islands: KeyPath, max_rival_
     return best
 
 
-def _propose_merges(matches: Closures, islands: KeyPath, min_places: int) -> Iterator[list[Merge]]:
-    """Yield the relative poses of each pair of segments on which ``min_places`` places agree, most votes first."""
+def _propose_merges(matches: Closures, islands: KeyPath, rule: MergeRule) -> Iterator[list[Merge]]:
+    """Yield the relative poses of each pair of segments on which enough places agree, most votes first."""
     poses, segments = islands.poses, islands.segments
     # Each match implies a motion of the later segment. Here the later segment is the one with the higher number.
     motions = compose(compose(poses[matches.first], matches.relative), inverse(poses[matches.second]))
@@ -177,7 +185,7 @@ def _propose_merges(matches: Closures, islands: KeyPath, min_places: int) -> Ite
         match_votes = np.where(agree, (matches.scores[selected][None] - CHANCE_SCORE) ** 2, 0.0)
         # Take the motion with the most votes, remove the matches that agree with it, and repeat.
         merges: list[Merge] = []
-        min_agreeing = min_places
+        min_agreeing = rule.min_places
         while len(merges) < MAX_HYPOTHESES:
             place_votes = np.stack([match_votes[:, place == k].max(axis=1) for k in range(len(places))], axis=1)
             votes = np.where((place_votes > 0.0).sum(axis=1) >= min_agreeing, place_votes.sum(axis=1), 0.0)
@@ -186,7 +194,7 @@ def _propose_merges(matches: Closures, islands: KeyPath, min_places: int) -> Ite
                 break
             merges.append(Merge(int(earlier), int(later), pair_motions[best], float(votes[best])))
             match_votes[:, agree[best]] = 0.0
-            min_agreeing = MIN_PLACES if min_places == MIN_PLACES else MIN_RIVAL_PLACES
+            min_agreeing = rule.min_rival_places
         yield merges
 
 

@@ -141,7 +141,6 @@ def scan_geometry(
     scans: Scans, *, farthest_m: float | None = None, device: str = "cpu", threads: int | None = None
 ) -> ScanGeometry:
     """Compute points and normals of scans, by the scans' own angles and limits. Their poses are not used.
-
     Neighbouring beams that are closer than `MERGED_RAD` are merged, unless scans have beams of their own. Hits beyond
     ``farthest_m``, by default the largest range, are left out. ``threads`` also holds for matching.
     """

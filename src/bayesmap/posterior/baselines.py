@@ -78,7 +78,6 @@ def maximise(
     on_progress: OnShare = ignore_share,
 ) -> tuple[Values, float]:  # fmt: skip
     """Find the values of the highest score, and the score, from the best result of rough climbs from all starts.
-
     Values of a start that are no ``parameters`` stay as they are.
     """
     *rough_shares, last_share = split_progress(on_progress, *(1.0 for _ in starts), LAST_CLIMB_TIME)

@@ -129,8 +129,7 @@ def pose_sensor_model(
     max_range_m: float, min_range_m: float = 0.0, hit_depth: float = 0.0,
 ) -> PoseSensor:  # fmt: skip
     """Return the sensor alone, for unknown poses: a generative function of walls (nx, ny) and poses (3,) or (S, 3).
-    Use it as `sensor_model`, by `sensor(walls, poses) @ "readings"`, or to localize. Other arguments and errors as for
-    `mapping_model`.
+    Use it as `sensor_model`, by `sensor(walls, poses) @ "readings"`, or to localize. For the rest see `mapping_model`.
     """
     angles, law = as_angles(angles_rad), reading_law(sensor, _limits(min_range_m, max_range_m))
     return PoseSensor(grid, tuple(angles.tolist()), law, float(hit_depth))

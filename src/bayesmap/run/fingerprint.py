@@ -1,4 +1,4 @@
-"""The fingerprint of a run: a hash of all that its draws depend on. A saved run can be resumed if it is the same."""
+"""The fingerprint of a run: a hash of all that its draws depend on. Only a run with the same one can be resumed."""
 
 import hashlib
 import json

@@ -254,8 +254,10 @@ class _RayRun:
         elif done > 0:
             log_joint = segment.log_joint if segment.log_joint.size else segment.warmup_log_joint
             mean = float(log_joint[:, -1].mean()) if log_joint.size else None
-            total, error, is_open = self.rule.expected_sweeps(done), self.rule.error, self.rule.end_is_open
-            self.watch.report("warm-up" if done <= warmup else "draws", done, total, mean, error, warmup, is_open)
+            self.watch.report(
+                "warm-up" if done <= warmup else "draws", done, total=self.rule.expected_sweeps(done), log_joint=mean,
+                error=self.rule.error, warmup=warmup, end_is_open=self.rule.end_is_open,
+            )  # fmt: skip
 
 
 def prepare_problem(job: Job, version: str) -> tuple[Any, float]:

@@ -93,8 +93,8 @@ def run_chains(
         log_joint = float(np.mean(info.log_likelihood[:, -1] + info.log_prior[:, -1]))
         rule.check(sweep)
         watch.report(
-            "warm-up" if is_warmup else "draws", sweep, rule.expected_sweeps(sweep), log_joint, rule.error,
-            schedule.warmup, rule.end_is_open,
+            "warm-up" if is_warmup else "draws", done=sweep, total=rule.expected_sweeps(sweep), log_joint=log_joint,
+            error=rule.error, warmup=schedule.warmup, end_is_open=rule.end_is_open,
         )  # fmt: skip
         checkpoints.offer(running.results, at_once=is_warmup and sweep == schedule.warmup)
         began_s, stopped = time.perf_counter(), watch.should_stop()
@@ -235,8 +235,9 @@ def draw_first_map(sampler: Sampler[Any, Any], problem: Any, model: Model, seed:
     state, info = sampler.step(state, 1, keep=Keep(state.sweep, 1))
     draws = replace(empty_draws(model, state, 1), arrays=info.draws)
     chains = Chains(
-        draws, info.log_likelihood, info.log_prior, np.zeros((1, 0)), Snapshot(0),
-        sampler.observed_counts(state, draws_to_inspect(draws)), {}, problem.n_incidences, {}, finished=False,
+        draws=draws, log_likelihood=info.log_likelihood, log_prior=info.log_prior, warmup_log_joint=np.zeros((1, 0)),
+        observed_counts=sampler.observed_counts(state, draws_to_inspect(draws)), n_incidences=problem.n_incidences,
+        snapshot=Snapshot(0), statistics={}, seconds={}, finished=False,
     )  # fmt: skip
     return chains, sweep_s, state
 

@@ -165,10 +165,10 @@ def _furnish_open_plan(room: RoomFloor, clutter: float) -> None:
         y = depth / 2 - 1.6 + 0.3  # islands are 3.2 m long and stand 0.3 m behind the middle
         room.place(Rectangle(x - 0.05, y, 0.08, 3.2))
         for side in (-1, 1):
-            for end in (0.0, 1.7):  # drawers begin at 0 and 2.8 m
+            for desk_y, drawers_y in ((0.0, 0.0), (1.7, 1.65 * 1.7)):  # drawers stand at the ends: 0 and 2.8 m
                 if room.rng.random() < 0.9 * min(clutter, 1):
-                    room.place(Rectangle(x + (0.15 if side > 0 else -0.75), y + end * 1.65, 0.5, 0.4))
-                    _place_chair(room, x + side * 1.0 - 0.1, y + end + 0.6)
+                    room.place(Rectangle(x + (0.15 if side > 0 else -0.75), y + drawers_y, 0.5, 0.4))
+                    _place_chair(room, x + side * 1.0 - 0.1, y + desk_y + 0.6)
     _place_cabinets(room, room.rng.poisson(2 * clutter))
 
 

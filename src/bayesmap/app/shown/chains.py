@@ -152,7 +152,6 @@ class RunningChains(Estimate):
 
     def mean(self) -> Floats:
         """Return the probability that a cell stops a beam, averaged over the sweeps after the burn-in, (nx, ny).
-
         If poses are known, cells that no beam touches get the exact prior mean, to which their draws converge.
         """
         mean = self.means().mean(axis=0)
@@ -277,7 +276,6 @@ def pose_starts(document: Document, chains: int) -> NDArray[np.float64]:
 
 def chains_of_walls(scene: Scene, document: Document, first_maps: NDArray[np.bool_]) -> RunningChains:
     """Return chains of a document with walls that start from `first_maps`, one per chain, (chains, nx, ny).
-
     Uncertain poses are sampled with the walls, as by `bayesmap.infer` without warm-up. They start from `pose_starts`.
     """
     walls = scene.problem
@@ -373,7 +371,6 @@ class FittedModel(NamedTuple):
 
 def fit_by_pilot(scene: Scene, document: Document, show: Callable[[Pilot], None]) -> Generator[None, None, FittedModel]:
     """Fit sensor and prior to the readings in short steps, and return the fitted model.
-
     The document gives the kind of cells and the seed. ``show`` gets the pilot after every sweep.
     """
     prior = BUILT_IN[document.cells]()

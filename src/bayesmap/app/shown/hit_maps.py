@@ -29,7 +29,6 @@ class HitCountMap(FixedMap):
 
 class HitCounts:
     """Hits and passes in the first n scans of a log, for any n. The counts for one n are updated to those for the next.
-
     A beam without a return is left out: only the posterior can estimate how far it got. Beams of the table are traced
     at least to their readings. Of A beams a scan, beam ``s * A + a`` is beam a of scan s.
     """
@@ -75,7 +74,6 @@ class HitCounts:
 
 def stop_probabilities(counts: NDArray[np.int64], prior: CellPrior, p_wall: float) -> NDArray[np.float64]:
     """Compute each cell's probability that a beam stops, (N,), from hits and passes, (2, N).
-
     For reflectivities and surfaces, it is the share of beams that stop. For walls, it is OctoMap's, given ``p_wall``.
     """
     hits, passes = counts.astype(np.float64)

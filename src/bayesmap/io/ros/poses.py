@@ -48,7 +48,6 @@ def single_pose_topic(recording: Recording, scan_topic: str) -> Topic | None:
 
 def frame_trees(messages: PoseMessages, scan_topic: str, pose_topic: str | None) -> list[FrameTree]:
     """Return the frame tree of the preferred topics of transforms, and the tree of all topics if there are others.
-
     Preferred are the topic that the user chose, and the topics in its namespace, in the scans' namespace, and in the
     enclosing namespaces. So in a recording of ``/robot1/tf`` and ``/robot2/tf`` each robot has its own frames.
     """

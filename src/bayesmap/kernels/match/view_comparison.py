@@ -1,8 +1,4 @@
-"""Compare the views of two scans: count the points of one that match the other, or contradict it.
-
-A point matches if it is near a point of the other scan, or near the wall between two neighbouring points. It
-contradicts the other scan if the beams towards it pass through it, to surfaces far behind it.
-"""
+"""Compare the views of two scans: count the points of one that match the other, or contradict it."""
 
 from dataclasses import dataclass
 from typing import Any

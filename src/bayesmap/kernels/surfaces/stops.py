@@ -254,8 +254,7 @@ def choose_stop(
     total = wp.float64(tempered(law.uniform, state.beta)) * wp.float64(ONE_32 - survive_far)
     stop = FAR
     some_learn = int(0)
-    # A stop is skipped if its weight is below single precision beside the total, which is at least the weight of the
-    # least likely stop.
+    # Skip stops whose weight is below single precision beside the total: at least the weight of the least likely stop.
     peak = tempered(laws.highest_density(law, beam.reading), state.beta)
     negligible = MIN_RELATIVE_WEIGHT / peak
     bound = negligible * tempered(laws.lowest_density(law, beam.reading), state.beta)

@@ -1,8 +1,7 @@
 """2 x 2 block Gibbs sweeps on binary walls.
 
 `block_sweeps` draws the four cells of a block together, from their 16 joint states given all other cells. A sweep
-visits a block at every position of the grid, so it draws every pair of neighbours together. Such a draw can move a wall
-sideways.
+visits a block at every position, so it draws every pair of neighbours together. Such a draw can move a wall sideways.
 
 Take a beam that reaches the block. Let l_1, l_2, ... be the log-likelihoods of its hits on the block's cells, in the
 order of the beam, and l_out the one of its first wall outside the block, or of "no hit". The beam adds to a state's log

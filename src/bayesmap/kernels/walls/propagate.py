@@ -13,8 +13,7 @@ l_out the likelihood of no hit, all relative to the beam's largest. Then
 
 Let J be the coupling, and h the sender's log-odds without the receiver's message. A neighbour's message is log(exp(J +
 h) + 1) - log(exp(h) + exp(J)) (Pearl's messages of a pairwise field: Yedidia, Freeman and Weiss, 2003). Messages of
-beams are stored as ratios: no logarithm is needed along a beam, and damping by a half is a square root. `Beliefs` runs
-the rounds.
+beams are ratios: no logarithm is needed along a beam, and damping by a half is a square root. `Beliefs` runs rounds.
 """
 
 import numpy as np
