@@ -145,8 +145,7 @@ def test_windows_of_equal_scans_have_the_same_geometry(full):
     for name in ("points", "normals", "kind"):
         np.testing.assert_array_equal(getattr(b, name).numpy()[has], getattr(a, name).numpy()[window])
     assert (b.host_kind[~has] == 0).all()
-    some = [np.arange(5)]
-    grids = [likelihood_grids(g, some, [poses[:5]], poses[:1, :2], 6.0) for g in (a, b)]
+    grids = [likelihood_grids(g, [np.arange(5)], [poses[:5]], poses[:1, :2], 6.0) for g in (a, b)]
     np.testing.assert_array_equal(grids[1].pyramid.numpy(), grids[0].pyramid.numpy())
 
 

@@ -20,7 +20,7 @@ from bayesmap.app.shown.result import Result
 from bayesmap.beams.table import BeamTable
 from bayesmap.cells.binary import BinaryWalls
 from bayesmap.errors import BadInput
-from bayesmap.posterior.decisions import HEADINGS, beam_information, shortest_safe_path, typical_sigma_m
+from bayesmap.posterior.decisions import beam_information, headings_to_try, shortest_safe_path, typical_sigma_m
 from bayesmap.space.arrays import Mask
 from bayesmap.space.planar import Floats
 
@@ -31,7 +31,6 @@ UNDECIDED_QUESTION: Mapping[type, Literal["path", "views", "ghost", "beam"]] = {
 MAX_VIEWS = 400  # places in the map of expected information
 MAX_P_STOP = 0.3  # a sensor may stand in a cell whose probability of stopping a beam is below this
 MAX_ANGLES = 180  # beams per view: every k-th, so their information is multiplied by k
-FULL_CIRCLE_RAD = 6.1  # beams that span this need one heading: a full circle less a step, which thinning makes larger
 
 
 @dataclass(frozen=True, eq=False)
@@ -148,10 +147,8 @@ def rank_views(result: Result, generation: int) -> tuple[Views, Buffers]:
     scans = result.scene.scans
     stride = math.ceil(len(scans.angles_rad) / MAX_ANGLES)
     angles_rad = scans.angles_rad[::stride]
-    # Headings to try at each place: one if the sensor sees all round.
-    sees_all_round = document.fov >= 2 * math.pi if document.simulated else np.ptp(angles_rad) > FULL_CIRCLE_RAD
-    headings_rad = np.zeros(1) if sees_all_round else np.arange(HEADINGS) * 2 * math.pi / HEADINGS
     # Every place with every heading, and the information there, (places, headings).
+    headings_rad = headings_to_try(scans.angles_rad)
     candidates = np.repeat(poses, len(headings_rad), axis=0)
     candidates[:, 2] += np.tile(headings_rad, len(poses))
     nats = stride * beam_information(
