@@ -1,12 +1,9 @@
-"""Makes the pictures of the live page: `python docs/page_images.py` from the repository's root; it needs Chromium.
+"""Makes the pictures of the live page: `python -m docs.page_images` from the repository's root; it needs Chromium.
 
 A hand draws a wall and drags the robot about the tutorial's map; every frame is a screenshot of the real page.
 """
 
 import io
-import shutil
-import subprocess
-import sys
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -14,11 +11,12 @@ from typing import Any
 from PIL import Image
 from playwright.sync_api import sync_playwright
 
+from benchmarks.page import ARGUMENTS, CHROMIUM, served
+
 IMAGES = Path(__file__).with_name("images")
 SIZE = {"width": 1200, "height": 760}
 SHOWN = (960, 608)
 FRAME_MS = 90
-ARGUMENTS = ["--no-sandbox", "--disable-gpu", "--disable-background-networking", "--disable-component-update"]
 
 WALL = [(4, 5), (5, 5), (6, 5), (7, 5), (8, 5), (8, 6), (8, 7), (8, 8)]
 WALK = [
@@ -107,13 +105,8 @@ def film(camera: Camera) -> None:
 
 def main() -> None:
     """Write the film and the two stills."""
-    command = [sys.executable, "-m", "bayesmap", "app", "--no-browser"]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as server, sync_playwright() as playwright:
-        assert server.stdout is not None
-        url = server.stdout.readline().strip()
-        browser = playwright.chromium.launch(
-            executable_path=shutil.which("chromium-headless-shell") or shutil.which("chromium"), args=ARGUMENTS
-        )
+    with served() as url, sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=ARGUMENTS)
         try:
             camera = Camera(browser.new_page(viewport=SIZE, color_scheme="light"))
             camera.page.goto(url)
@@ -128,7 +121,6 @@ def main() -> None:
                 still.picture().save(IMAGES / f"app-{scheme}.webp", lossless=True, method=6)
         finally:
             browser.close()
-            server.terminate()
 
 
 if __name__ == "__main__":

@@ -411,7 +411,7 @@ class _RunClock:
 
     @property
     def needs_first_map(self) -> bool:
-        """Whether a first map is to be shown, or the time is limited, so that the speed must be measured."""
+        """True if a first map is to be shown, or the time is limited, so that the speed must be measured."""
         return self._preview is not None or self.plan.seconds is not None
 
     def elapsed_s(self) -> float:

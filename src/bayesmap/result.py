@@ -71,7 +71,7 @@ class Run:
 
     @property
     def finished(self) -> bool:
-        """Whether the run has all its draws. `bayesmap.Checkpoints(resume=run)` resumes a run that was stopped."""
+        """True if the run has all its draws. `bayesmap.Checkpoints(resume=run)` resumes a run that was stopped."""
         return self.posterior.finished
 
     @property

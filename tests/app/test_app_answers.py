@@ -13,8 +13,8 @@ import bayesmap as bm
 from bayesmap.app.answers.evidence import (
     MAX_LISTED_BEAMS,
     BeamRatios,
-    log_ratios,
     one_beam_each,
+    ratios_with_cell_emptied,
     strongest_beams,
     sum_evidence,
     wall_ratios,
@@ -259,7 +259,7 @@ def test_evidence_for_other_cells_is_the_log_ratio_of_densities_averaged_over_dr
         means = [np.mean([density(rays, beam, stop) for stop in maps]) for maps in (draws, emptied)]
         expected.append(0.0 if np.isnan(rays.range_m[beam]) else np.log(means[0] / means[1]))
     predictor = Predictor(grid, fixed_maps(draws), SENSOR, DEPTH, len(draws))
-    ratios = log_ratios(predictor, one_beam_each(scans, beams), cell)
+    ratios = ratios_with_cell_emptied(predictor, one_beam_each(scans, beams), cell)
     assert ratios == pytest.approx(expected, abs=1e-4)
     assert ratios.max() > 0.01
     assert ratios.min() < -0.01

@@ -64,7 +64,7 @@ class Engine:
 
     @property
     def busy(self) -> bool:
-        """Whether there is work to `advance`."""
+        """True if there is work to `advance`."""
         return self._job is not None
 
     def take(self, task: Task) -> None:

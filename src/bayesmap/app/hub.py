@@ -45,7 +45,7 @@ class Outbox:
 
 
 class Hub:
-    """Connects pages, session and worker on one event loop. A file ``path`` is shown instead of the document."""
+    """Connects pages, session and worker on one event loop. The arguments are those of `bayesmap.app.server.serve`."""
 
     def __init__(
         self, document: Document, path: str | None = None, log_options: Mapping[str, Any] | None = None,

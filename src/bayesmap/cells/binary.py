@@ -203,7 +203,7 @@ class Ising(BinaryWalls):
 
     @property
     def is_incomplete(self) -> bool:
-        """Whether the coupling is still to be fitted."""
+        """True if the coupling is still to be fitted."""
         return isinstance(self.coupling, str)
 
     @property

@@ -65,7 +65,7 @@ class CellPrior(ABC):
 
     @property
     def is_incomplete(self) -> bool:
-        """Whether a parameter of the prior must be fitted to the scans before a map can be drawn."""
+        """True if a parameter of the prior must be fitted to the scans before a map can be drawn."""
         return False
 
     @classmethod

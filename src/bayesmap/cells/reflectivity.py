@@ -100,7 +100,7 @@ class Beta(CellPrior):
 
     @property
     def has_labels(self) -> bool:
-        """Whether cells are labelled free or solid."""
+        """True if cells are labelled free or solid."""
         return self.coupling > 0
 
     @property

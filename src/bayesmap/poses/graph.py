@@ -313,7 +313,7 @@ def bend_covariances(bends: Floats, poses: Floats, first: Indices, second: Indic
 
 @dataclass(frozen=True, eq=False)
 class PoseGaussian:
-    """Poses with the curvature of their cost: the log posterior density to second order.
+    """Student's t distribution of K poses, by the curvature of their cost: the log density to second order.
     The cost has M terms, each over a relative pose. The scale matrix of Student's t is the inverse of the curvature
     plus (dof - 2) / dof times the covariance of shared errors, which is the mean square of ``bends``.
     """

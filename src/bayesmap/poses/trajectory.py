@@ -81,9 +81,11 @@ class InferredTrajectory:
     poses: Floats  # poses of the laser in the map's frame, in which the first scan is where odometry stated it, (S, 3)
     stamps_s: Floats | None  # times of the scans, (S,), ascending
     keys: Indices  # indices of the key scans, (K,)
-    gaussian: PoseGaussian  # distribution of the poses of the key scans: Student's t about a Gaussian
+    gaussian: PoseGaussian  # Student's t distribution of the poses of the key scans; the name is that in saved files
     nearest_key: Indices  # index among the keys of each scan's nearest key, (S,)
-    own_covariance: Floats  # scale matrix of Student's t of each scan about its key, own frame, (S, 3, 3); keys have 0
+    own_covariance: (
+        Floats  # scale matrix of each scan's Student's t about its key: no covariance; own frame, (S, 3, 3)
+    )
     explained: Floats  # share of each scan's points that other scans explain, from 0 to 1, (S,)
     flagged: Mask  # mask of badly explained scans, (S,): in simulated logs half of these were misplaced
     breaks: Indices  # indices of scans before which neither odometry nor the laser confirms the motion

@@ -327,7 +327,7 @@ class PoseSummary:
 
     @property
     def mixed(self) -> bool:
-        """Whether the draws show the uncertainty of the poses: R-hats up to 1.05, effective sample sizes over 100."""
+        """True if the draws show the uncertainty of the poses: R-hats up to 1.05, effective sample sizes over 100."""
         return self.rhat_max <= RHAT_LIMIT and self.ess_min >= ESS_LIMIT
 
     @property

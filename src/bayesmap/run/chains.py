@@ -89,7 +89,7 @@ class StoppingRule:
 
     @property
     def end_is_open(self) -> bool:
-        """Whether the end depends on an error that is not estimated yet. Until then the first mark is expected."""
+        """True if the end depends on an error that is not estimated yet. Until then the first mark is expected."""
         return self._plan.precision is not None and self._plan.seconds is None and self.error is None
 
     def expected_sweeps(self, sweep: int) -> int:

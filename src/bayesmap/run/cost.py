@@ -73,17 +73,17 @@ class Estimate:
 
     @property
     def is_long(self) -> bool:
-        """Whether the run may take more than `LONG_S`."""
+        """True if the run may take more than `LONG_S`."""
         return self.seconds is not None and self.seconds[1] > LONG_S
 
     @property
     def is_large(self) -> bool:
-        """Whether the run may take more than `LARGE_MEMORY_SHARE` of the memory."""
+        """True if the run may take more than `LARGE_MEMORY_SHARE` of the memory."""
         return self.available_bytes is not None and self.peak_bytes[1] > LARGE_MEMORY_SHARE * self.available_bytes
 
     @property
     def is_too_large(self) -> bool:
-        """Whether even the least peak of the run is more than the memory."""
+        """True if even the least peak of the run is more than the memory."""
         return self.available_bytes is not None and self.peak_bytes[0] > self.available_bytes
 
     def words(self) -> str:

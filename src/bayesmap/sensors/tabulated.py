@@ -52,7 +52,7 @@ class TabulatedLaw:
 
     @property
     def has_cumulative(self) -> bool:
-        """Whether probabilities add up to one, so that there is a cumulative distribution."""
+        """True if probabilities add up to one, so that there is a cumulative distribution."""
         return not np.isnan(self.below_nowhere).any()
 
 

@@ -22,7 +22,7 @@ MAX_BEAMS = 100_000  # most beams per scan
 
 
 class ReadingKind(IntEnum):
-    """What a beam reported (REP-117)."""
+    """The kinds of a beam's reading (REP-117)."""
 
     HIT = 0
     """A finite range: the beam hit something there."""

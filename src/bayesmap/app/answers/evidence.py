@@ -50,7 +50,7 @@ def wall_ratios(table: BeamTable, p_wall: NDArray[np.float64], cell: int) -> Bea
     entries = np.flatnonzero(table.cells == cell)
     beams, stride = _choose_beams(table, entries, MAX_WALL_BEAMS)
     pairs = zip(beams.tolist(), entries[::stride].tolist(), strict=True)
-    nats = np.array([_log_ratio(table, p_wall, beam, entry) for beam, entry in pairs], dtype=np.float64)
+    nats = np.array([_wall_ratio_of_beam(table, p_wall, beam, entry) for beam, entry in pairs], dtype=np.float64)
     return BeamRatios(beams, nats, len(entries), stride)
 
 
@@ -62,7 +62,7 @@ def stop_ratios(result: Result, table: BeamTable, cell: int) -> BeamRatios | Non
     entries = np.flatnonzero(table.cells == cell)
     beams, stride = _choose_beams(table, entries, MAX_STOP_BEAMS)
     scans = one_beam_each(result.scene.scans.at(result.scan_poses), beams)
-    return BeamRatios(beams, log_ratios(predictor, scans, cell), len(entries), stride)
+    return BeamRatios(beams, ratios_with_cell_emptied(predictor, scans, cell), len(entries), stride)
 
 
 def _choose_beams(table: BeamTable, entries: NDArray[np.intp], max_beams: int) -> tuple[NDArray[np.intp], int]:
@@ -99,7 +99,7 @@ def strongest_beams(ratios: BeamRatios, scans: Scans) -> dict[str, NDArray[np.fl
     return {"start": start, "end": end, "nats": nats, "scan": scan.astype(float), "beam": beam.astype(float)}
 
 
-def _log_ratio(table: BeamTable, p_wall: NDArray[np.float64], beam: int, entry: int) -> float:
+def _wall_ratio_of_beam(table: BeamTable, p_wall: NDArray[np.float64], beam: int, entry: int) -> float:
     """Return log p(z | wall) - log p(z | free) of one beam; `entry` is the table entry of the cell in question."""
     begin, end = int(table.offsets[beam]), int(table.offsets[beam + 1])
     log_p = np.append(table.loglik[begin:end], table.no_hit[beam]).astype(np.float64)
@@ -113,7 +113,7 @@ def _log_ratio(table: BeamTable, p_wall: NDArray[np.float64], beam: int, entry: 
     return float(np.nan_to_num(log_means[0] - log_means[1]))
 
 
-def log_ratios(predictor: Predictor, scans: Scans, cell: int) -> NDArray[np.float64]:
+def ratios_with_cell_emptied(predictor: Predictor, scans: Scans, cell: int) -> NDArray[np.float64]:
     """Compute each beam's log ratio of the map against the cell emptied, nats, (B,); 0 if the cell is out of reach."""
     from bayesmap.kernels.predict.density import log_densities
     from bayesmap.kernels.rays import trace_rays

@@ -40,11 +40,13 @@ class Locator:
         self._known_map: KnownMap | None = None
         self._key: Hashable = None  # the values that the known map depends on
 
-    def answer(self, question: WhereAmI, result: Result | None, scan: int, picture: int) -> tuple[Whereabouts, Buffers]:
+    def answer(
+        self, question: WhereAmI, result: Result | None, scan: int, generation: int
+    ) -> tuple[Whereabouts, Buffers]:
         """Find the places where a scan may have been taken, or return the reason why there is no answer.
 
         In a drawn world, the question names the sensor. For a file, ``scan`` is the index of the scan on show.
-        ``picture`` is the number of the present picture.
+        ``generation`` is the number of the present picture.
         """
         try:
             if result is None:
@@ -52,11 +54,11 @@ class Locator:
             one_scan, row = _select_scan(question, result, scan)
             belief = _locate(self._known_map_of(result), one_scan, result.document)
         except BadInput as error:
-            return Whereabouts(picture, trouble=str(error).removeprefix("localize: ")), {}
+            return Whereabouts(generation, trouble=str(error).removeprefix("localize: ")), {}
         is_file = not result.document.simulated
         heaviest = np.argsort(belief.weights, kind="stable")[-MAX_POSES:]
         whereabouts = Whereabouts(
-            picture, sensor=None if is_file else result.scene.ids[row], index=row if is_file else None,
+            generation, sensor=None if is_file else result.scene.ids[row], index=row if is_file else None,
             pose=one_scan.poses[0].tolist(), modes=[_place_of(mode) for mode in belief.modes],
             p_lost=float(belief.p_lost), nats_per_beam=float(belief.nats_per_beam),
         )  # fmt: skip

@@ -142,7 +142,7 @@ class Document(Settings):
 
     @cached_property
     def is_wall(self) -> NDArray[np.bool_]:
-        """Whether there is a wall in each cell, (nx, ny), read-only."""
+        """The mask of cells with a wall, (nx, ny), read-only."""
         bits = np.unpackbits(np.frombuffer(self.walls, dtype=np.uint8), count=self.grid.n_cells)
         cells = bits.reshape(self.grid.shape).view(np.bool_)
         cells.flags.writeable = False
@@ -150,12 +150,12 @@ class Document(Settings):
 
     @property
     def simulated(self) -> bool:
-        """Whether the readings are simulated from walls and sensors."""
+        """True if the readings are simulated from walls and sensors."""
         return self.source.kind == "simulation"
 
     @property
     def from_odometry(self) -> bool:
-        """Whether the trajectory has to be inferred before the map."""
+        """True if the trajectory has to be inferred before the map."""
         return self.source.kind == "log" and self.poses == "odometry"
 
     @property
@@ -167,7 +167,7 @@ class Document(Settings):
 
     @property
     def samples_poses(self) -> bool:
-        """Whether chains sample the poses of the sensors together with the walls."""
+        """True if chains sample the poses of the sensors together with the walls."""
         uncertain = self.pose_sigma > 0 or self.heading_sigma > 0
         return self.simulated and self.sampler in CHAIN_METHODS and uncertain
 

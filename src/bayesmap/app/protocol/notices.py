@@ -24,7 +24,7 @@ class Notice(Struct, frozen=True, kw_only=True, tag_field="type"):
 class PictureNotice(Notice, frozen=True, kw_only=True):
     """A message that belongs to one picture, whose number is `generation`."""
 
-    generation: int
+    generation: int  # number of the picture: that of the job which computed it
 
 
 _PATH_HINTS = get_type_hints(FindPath, include_extras=True)
@@ -299,7 +299,7 @@ class Whereabouts(Notice, frozen=True, tag="where"):
     Buffers: pose float32 (n, 3) and weight float32 (n), the smallest weight first.
     """
 
-    picture: int  # number of the picture
+    generation: int = field(name="picture")  # number of the picture, as in other messages
     sensor: int | None = None  # id of the sensor, in a drawn world
     index: int | None = None  # index of the scan, for a file
     pose: list[float] = []  # pose of the scan in the document or the file

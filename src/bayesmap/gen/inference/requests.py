@@ -65,21 +65,21 @@ class HMC(EditRequest):
         flat, unflatten = ravel_pytree(start)  # the momentum of all choices is drawn by one call, which is faster
         momentum = unflatten(jax.random.normal(momentum_key, flat.shape, flat.dtype))
 
-        def drift(tree: Any, by: Any, scale: Any) -> Any:
-            return jax.tree.map(lambda x, d: x + scale * d, tree, by)
+        def add_scaled(tree: Any, direction: Any, scale: Any) -> Any:
+            return jax.tree.map(lambda x, d: x + scale * d, tree, direction)
 
         def leapfrog(_: Any, state: Any) -> Any:
             """Do a position step and a whole momentum step: two half steps of successive leapfrog steps."""
             position, momentum, _ = state
-            position = drift(position, momentum, self.eps)
+            position = add_scaled(position, momentum, self.eps)
             gradient = jax.grad(log_density)(position)
-            return position, drift(momentum, gradient, self.eps), gradient
+            return position, add_scaled(momentum, gradient, self.eps), gradient
 
         # Half a momentum step, L steps, and half a momentum step back.
         gradient = jax.grad(log_density)(start)
-        state = (start, drift(momentum, gradient, self.eps / 2), gradient)
+        state = (start, add_scaled(momentum, gradient, self.eps / 2), gradient)
         position, final, gradient = jax.lax.fori_loop(0, self.L, leapfrog, state)
-        final = drift(final, gradient, -self.eps / 2)
+        final = add_scaled(final, gradient, -self.eps / 2)
         new, weight, retdiff, _ = Update(position).edit(edit_key, current, Diff.no_change(args))
         return new, args_weight + weight + _kinetic(momentum) - _kinetic(final), retdiff, self
 

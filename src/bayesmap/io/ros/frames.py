@@ -73,7 +73,7 @@ class Samples:
 
     @property
     def has_stamps(self) -> bool:
-        """Whether any message has a stamp."""
+        """True if any message has a stamp."""
         return any(self.stamps_ns)
 
     def times_ns(self) -> NDArray[np.int64]:

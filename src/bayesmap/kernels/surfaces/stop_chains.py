@@ -293,7 +293,7 @@ class StopChains:
 
     @property
     def has_swept(self) -> bool:
-        """Whether these chains have made a sweep on this device, so that beams have stopped somewhere."""
+        """True if these chains have made a sweep on this device, so that beams have stopped somewhere."""
         return self._law is not None
 
     def in_squares(self, chain: int, sweep: int, is_kept: bool, solid: NDArray[np.bool_] | None = None) -> SquareCounts:

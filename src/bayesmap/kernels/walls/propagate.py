@@ -42,7 +42,7 @@ class BeliefArrays:
     cells: Int32s  # cells of the beam table
     relative: Float32s  # likelihood of each entry, relative to its beam's largest
     relative_no_hit: Float32s  # likelihood of no hit, relative to its beam's largest
-    ratio: Float32s  # the message of each entry's beam to its cell
+    message: Float32s  # message of each entry's beam to its cell: a ratio, as above
     behind: Float32s  # working memory for S
     product: Float32Rows  # product of the messages to each cell, one row per part
     received: Float32Rows  # sum of the logarithms of the products that were reset to 1
@@ -58,13 +58,13 @@ def fill_relative(first: int, beta: wp.float32, loglik: Float32s, no_hit: Float3
     largest = no_hit[beam]
     for entry in range(beliefs.offsets[beam], beliefs.offsets[beam + 1]):
         largest = wp.max(largest, loglik[entry])
-    last_ratio = wp.float32(1.0)
+    last_log_relative = wp.float32(1.0)
     likelihood = wp.float32(1.0)
     for entry in range(beliefs.offsets[beam], beliefs.offsets[beam + 1]):
-        log_ratio = beta * (loglik[entry] - largest)
-        if log_ratio != last_ratio:  # long stretches of a beam share one value
-            likelihood = wp.max(wp.exp(log_ratio), TINY)
-            last_ratio = log_ratio
+        log_relative = beta * (loglik[entry] - largest)
+        if log_relative != last_log_relative:  # long stretches of a beam share one value
+            likelihood = wp.max(wp.exp(log_relative), TINY)
+            last_log_relative = log_relative
         beliefs.relative[entry] = likelihood
     beliefs.relative_no_hit[beam] = wp.max(wp.exp(beta * (no_hit[beam] - largest)), TINY)
 
@@ -87,7 +87,7 @@ def update_beam_messages(first: int, damping: wp.float32, beliefs: BeliefArrays)
             entry = end - 1 - i
             beliefs.behind[entry] = likelihood_behind
             cell_odds = beliefs.odds[beliefs.cells[entry]]
-            p_wall = cell_odds / (cell_odds + beliefs.ratio[entry])  # the belief without this beam's message
+            p_wall = cell_odds / (cell_odds + beliefs.message[entry])  # the belief without this beam's message
             likelihood_behind += p_wall * (beliefs.relative[entry] - likelihood_behind)
         # Forward pass: free is T, and before is A.
         free = wp.float32(1.0)
@@ -95,7 +95,7 @@ def update_beam_messages(first: int, damping: wp.float32, beliefs: BeliefArrays)
         for entry in range(start, end):
             cell = beliefs.cells[entry]
             cell_odds = beliefs.odds[cell]
-            last_message = beliefs.ratio[entry]
+            last_message = beliefs.message[entry]
             p_wall = cell_odds / (cell_odds + last_message)
             message = (before + free * beliefs.relative[entry] + TINY) / (before + free * beliefs.behind[entry] + TINY)
             message = wp.clamp(message, ONE_32 / MAX_RATIO, MAX_RATIO)
@@ -105,7 +105,7 @@ def update_beam_messages(first: int, damping: wp.float32, beliefs: BeliefArrays)
                 message = wp.sqrt(last_message * message)
             else:
                 message = wp.pow(last_message, damping) * wp.pow(message, ONE_32 - damping)
-            beliefs.ratio[entry] = message
+            beliefs.message[entry] = message
             # Multiply the messages to the cell; take the logarithm before the product overflows.
             scaled = product[cell] * message
             if scaled > MAX_PRODUCT or scaled < ONE_32 / MAX_PRODUCT:
@@ -181,7 +181,7 @@ class Beliefs:
             BeliefArrays, device, bounds=bounds.astype(np.int32), offsets=table.offsets, cells=table.cells, logit=logit,
             relative=(incidences,), behind=(incidences,), relative_no_hit=(beams,), product=(parts, cells),
             received=(parts, cells), odds=(cells,), belief=(cells,),
-            ratio=wp.full(incidences, 1.0, dtype=wp.float32, device=device),
+            message=wp.full(incidences, 1.0, dtype=wp.float32, device=device),
         )  # fmt: skip
         self._arrays, self._device, self._cells, self._parts = arrays, device, cells, parts
         self._shape, self._coupling = table.grid.shape, coupling
