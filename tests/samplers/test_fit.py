@@ -257,7 +257,7 @@ def test_moments_are_those_of_the_end_points_drawn_towards_the_prior_and_widened
 
 
 def test_endpoint_cells_step_in_a_frame_along_their_longer_axis_and_by_their_thickness_across(problem):
-    moved = estimates.step_sizes(problem.estimate, problem.grid.resolution)
+    moved = estimates.steps_and_frames(problem.estimate, problem.grid.resolution)
     assert moved.shape == (problem.estimate.endpoint.sum(), 8)
     assert (moved[:, :6] > 0).all()
     hits = problem.estimate.hits[problem.estimate.endpoint]

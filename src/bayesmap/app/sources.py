@@ -221,7 +221,6 @@ def open_run(run: Run, name: str) -> OpenedRun:
 
 def open_log(scans: Scans, name: str) -> OpenedLog:
     """Open scans as a log, on cells of 10 cm, or on larger cells if a side would have more than 1000 cells.
-
     Poses that look like raw odometry are at first treated as odometry. Raises `BadInput` if the log has no scans.
     """
     grid = Grid.covering(scans, LOG_RESOLUTION_M)

@@ -180,7 +180,6 @@ class LogTrajectory:
 
     def reports(self, task: Infer) -> Generator[Picture | Stage | TrajectoryInferred | Status | None, None, None]:
         """Yield pictures and reports until the trajectory is known, and None while there is nothing new.
-
         The mode "run" infers the trajectory, unless it is known. "clear" forgets it. While it is unknown, other modes
         show the map along the poses of the log. Raises `BadInput` as `bayesmap.poses.slam.infer_trajectory` does.
         """

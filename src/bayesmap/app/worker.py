@@ -51,7 +51,6 @@ class Reporter:
 
 def run_tasks(pipe: Connection, path: str | None, log_options: dict[str, Any]) -> None:
     """Do the tasks from the pipe until its other end is closed.
-
     The first report is `FileUnusable` if the file cannot be opened. Else it is `Ready` with the file's document, after
     a small map has been inferred, so that all kernels are loaded. ``log_options`` are options of `bayesmap.read_log`.
     """

@@ -108,7 +108,7 @@ def chord(line: Line, cell: int) -> wp.vec2d:
     x = int((wp.float64(cell) + wp.float64(0.5)) * line.per_column)  # a division of whole numbers takes longer
     y = cell - x * line.ny
     enter = ZERO
-    leave = wp.float64(1.0e300)
+    leave = wp.float64(1.0e300)  # an axis without motion limits nothing
     holds_start = bool(True)
     if line.x.onward != 0:
         to_side_x = wp.float64(x + line.x.side) - line.x.start
@@ -153,20 +153,20 @@ def list_cells(
     first: int, lines: Lines, reach_m: Float64s, near_m: Float64s, offsets: Int32s, cells: Int32s, first_near: Int32s
 ):
     """One thread per beam: write its cells, and the entry of the first cell that it enters at ``near_m`` or later."""
-    # Without room for cells, and at an infinite ``near_m``, cells are counted. w: walk; entry: the next one.
+    # Without room for cells, and at an infinite ``near_m``, cells are counted. entry: the next one.
     beam = first + wp.tid()
     entry = offsets[beam]
     near_distance = near_m[beam] / lines.edge_m
-    w = walk_along(line_of(lines, beam), lines.nx, reach_m[beam])
+    walk = walk_along(line_of(lines, beam), lines.nx, reach_m[beam])
     near = int(entry)
-    while w.distance <= w.end:
-        if is_inside(w, lines.nx, lines.ny):
+    while walk.distance <= walk.end:
+        if is_inside(walk, lines.nx, lines.ny):
             if cells.shape[0] > 0:
-                cells[entry] = w.cell_x * lines.ny + w.cell_y
+                cells[entry] = walk.cell_x * lines.ny + walk.cell_y
             entry += 1
-            if w.distance < near_distance:
+            if walk.distance < near_distance:
                 near = entry
-        w = advance_walk(w)
+        walk = advance_walk(walk)
     first_near[beam] = near
 
 
@@ -267,15 +267,15 @@ def count_hits_and_passes(
     """One thread per share of the beams: count hits and passes in rows of its own, (threads, cells)."""
     thread = first + wp.tid()
     for beam in range(bounds[thread], bounds[thread + 1]):
-        w = walk_along(line_of(lines, beam), lines.nx, reach_m[beam])
-        ends_inside = w.end >= reach_m[beam] / lines.edge_m
+        walk = walk_along(line_of(lines, beam), lines.nx, reach_m[beam])
+        ends_inside = walk.end >= reach_m[beam] / lines.edge_m
         last = int(-1)  # last cell of the grid touched so far
-        while w.distance <= w.end:
-            if is_inside(w, lines.nx, lines.ny):
+        while walk.distance <= walk.end:
+            if is_inside(walk, lines.nx, lines.ny):
                 if last >= 0:
                     passes[thread, last] = passes[thread, last] + 1
-                last = w.cell_x * lines.ny + w.cell_y
-            w = advance_walk(w)
+                last = walk.cell_x * lines.ny + walk.cell_y
+            walk = advance_walk(walk)
         if last >= 0:
             if hit[beam] != wp.uint8(0) and ends_inside:
                 hits[thread, last] = hits[thread, last] + 1

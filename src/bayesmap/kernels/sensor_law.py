@@ -219,8 +219,8 @@ def p_unblocked_near(law: Any, reading_m: Any, decay: Any, distance_m: Any):
     if wp.abs(x) > law.series or reading_m < type(distance_m)(0.0):
         return p_unblocked(law, distance_m)
     half = type(distance_m)(0.5)
-    ratio = one - x * (one - x * half * (one - x * type(distance_m)(THIRD) * (one - x * half * half)))
-    return one - law.p_short * (one - decay * ratio)
+    exp_minus_x = one - x * (one - x * half * (one - x * type(distance_m)(THIRD) * (one - x * half * half)))
+    return one - law.p_short * (one - decay * exp_minus_x)
 
 
 @wp.func

@@ -83,9 +83,7 @@ class InferredTrajectory:
     keys: Indices  # indices of the key scans, (K,)
     gaussian: PoseGaussian  # Student's t distribution of the poses of the key scans; the name is that in saved files
     nearest_key: Indices  # index among the keys of each scan's nearest key, (S,)
-    own_covariance: (
-        Floats  # scale matrix of each scan's Student's t about its key: no covariance; own frame, (S, 3, 3)
-    )
+    own_covariance: Floats  # scale matrix of each scan's Student's t about its key: no covariance; own frame, (S, 3, 3)
     explained: Floats  # share of each scan's points that other scans explain, from 0 to 1, (S,)
     flagged: Mask  # mask of badly explained scans, (S,): in simulated logs half of these were misplaced
     breaks: Indices  # indices of scans before which neither odometry nor the laser confirms the motion

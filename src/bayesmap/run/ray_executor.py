@@ -70,7 +70,6 @@ class RayExecutor:
         self, job: Job, resume: Chains | None, watch: Watch, on_checkpoint: OnCheckpoint, checkpoint_every_s: float
     ) -> Chains:
         """Run all chains of the job. If stopped early, they end at the last mark that all chains have reached.
-
         Raises `BadInput` if the sampler refuses the model, Ray is not installed, or the cluster cannot be used, and
         `ConnectionError` if the workers of a task died more than ``retries`` times.
         """

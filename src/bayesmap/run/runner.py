@@ -152,7 +152,6 @@ def advance_chains(
     max_kept: int | None = None, stops: tuple[int, ...] = (),
 ) -> Iterator[tuple[Any, Info]]:  # fmt: skip
     """Advance chains step by step until they have made ``until`` sweeps: yield (state, info) after each step.
-
     The number of sweeps in a step depends on their speed; the draws do not. A step takes about ``step_seconds``
     (`STEP_SECONDS` if None), keeps at most ``max_kept`` draws, and ends at each number of sweeps in ``stops``.
     """
@@ -245,7 +244,6 @@ def draw_first_map(sampler: Sampler[Any, Any], problem: Any, model: Model, seed:
 @contextlib.contextmanager
 def stop_on_interrupt() -> Iterator[Callable[[], bool]]:
     """Yield a function that returns True after the first Ctrl-C; a second Ctrl-C interrupts at once.
-
     The function always returns False outside the main thread, because Python handles signals only there, and in a
     process that was started to ignore Ctrl-C, as shells start background jobs of a script.
     """

@@ -3,7 +3,7 @@
 `StopProblem`, made by `trace_stops`, holds the rays, the prior and the sensor. `initial_estimate` counts hits and
 passes of each cell and fits a normal distribution to the end points of readings in it, as NDT maps do (Stoyanov,
 Saarinen et al., 2013). From this estimate follow the first states of chains (`draw_start`, `draw_first_labels`), the
-sizes of their Metropolis steps (`step_sizes`), and how often a sweep updates each cell (`update_periods`).
+sizes of their Metropolis steps (`steps_and_frames`), and how often a sweep updates each cell (`update_periods`).
 """
 
 from __future__ import annotations
@@ -201,7 +201,7 @@ def update_periods(estimate: InitialEstimate) -> NDArray[np.uint8]:
     return np.where(estimate.endpoint, 0, free).astype(np.uint8)
 
 
-def step_sizes(estimate: InitialEstimate, edge_m: float) -> Singles:
+def steps_and_frames(estimate: InitialEstimate, edge_m: float) -> Singles:
     """Return step sizes and frames of the endpoint cells, (U, 8), see `bayesmap.kernels.surfaces.endpoint_cells`.
     Columns are the steps of logit, mean along, mean across, length, slant and thickness, and the frame's cosine, sine.
     Steps along the wall are a share of the cell's edge; steps across it shrink with the number of readings.

@@ -140,12 +140,12 @@ class WallSampler(ABC):
 
     def step(self, state: WallState, sweeps: int, beta: float = 1.0, keep: Keep = Keep()) -> tuple[WallState, Info]:
         """Make some sweeps of all chains; a kept draw is the map after its sweep."""
-        from bayesmap.kernels.walls.chains import SweepPlan, run_sweeps
+        from bayesmap.kernels.walls.chains import SweepOptions, run_sweeps
 
         problem = state.problem
         kept = keep.sweeps(state.sweep, state.sweep + sweeps)
-        plan = SweepPlan(state.sites, self.order == "random", state.sweep, sweeps, kept, beta)
-        results = run_sweeps(*state.kernel, problem.device_prior, plan, state.chains, problem.threads)
+        options = SweepOptions(state.sites, self.order == "random", state.sweep, sweeps, kept, beta)
+        results = run_sweeps(*state.kernel, problem.device_prior, options, state.chains, problem.threads)
         info = Info(results.log_likelihoods, results.log_priors, {"walls": results.walls})
         return replace(state, sweep=state.sweep + sweeps), info
 

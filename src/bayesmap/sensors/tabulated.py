@@ -27,6 +27,7 @@ NOWHERE_RANGES = 4097  # nodes of the range of a beam that stops nowhere
 MAX_SPREAD_SCALES = 63.0  # the largest spread, in scales: larger spreads are clipped to it
 MIN_LOG_DENSITY = -1e6  # least log density at a node, in nats: minus infinity cannot be interpolated
 SAMPLES = 512  # samples per distance for the scale
+SUM_DISTANCES, SUM_RANGES = 9, 2001  # distances, and ranges at each, at which probabilities are summed
 MIN_SCALE_M = 1e-4  # least scale of readings about a stop
 MAX_SUM_ERROR = 0.05  # largest distance of a sum of probabilities from one, integration errors included
 
@@ -80,8 +81,8 @@ def _tabulated(sensor: SensorModel, limits: RangeLimits) -> TabulatedLaw:
     z = d + w * offset
     inside = np.clip(z, limits.min_m, limits.max_m)
     # Typed if the probabilities of ranges within the limits and of typed readings add up to one.
-    some_d = np.linspace(0.0, limits.max_m, 9)[:, None]
-    typed = bool(np.abs(total_probability(sensor, some_d, limits) - 1.0).max() < MAX_SUM_ERROR)
+    sum_distance = np.linspace(0.0, limits.max_m, SUM_DISTANCES)[:, None]
+    typed = bool(np.abs(total_probability(sensor, sum_distance, limits) - 1.0).max() < MAX_SUM_ERROR)
     log_density = np.stack([sensor.stop_log_likelihood(z[i], d[i], s[i], limits) for i in range(SPREADS)])
     if typed:
         # Interpolation needs nodes on both sides of a limit: if the formula ends there, the limit's value continues it.
@@ -122,7 +123,7 @@ def _tabulated(sensor: SensorModel, limits: RangeLimits) -> TabulatedLaw:
 
 def scales(sensor: SensorModel, distance_m: Floats, limits: RangeLimits) -> Floats:
     """Estimate the scale of readings about stops at distances, (D,), by a line through samples, to make it smooth."""
-    # Next to the limits, an unknown half of the readings is lost.
+    # Leave out a tenth at both limits: next to a limit, an unknown half of the readings is lost.
     span_m = limits.max_m - limits.min_m
     stop_m = np.linspace(limits.min_m + 0.1 * span_m, limits.max_m - 0.1 * span_m, DISTANCES)
     readings = sensor.sample(np.random.default_rng(0), np.repeat(stop_m[:, None], SAMPLES, axis=1), limits)
@@ -146,7 +147,7 @@ def total_probability(sensor: SensorModel, distance_m: Floats, limits: RangeLimi
     """Return P(too close) + the integral of the density over the limits + P(no return), for (n, 1) distances."""
     scale = scales(sensor, distance_m[:, 0], limits)[:, None]
     max_offset = np.arcsinh(limits.max_m / scale.min())
-    z = distance_m + scale * np.sinh(np.linspace(-max_offset, max_offset, 2001))
+    z = distance_m + scale * np.sinh(np.linspace(-max_offset, max_offset, SUM_RANGES))
     z = np.clip(z, limits.min_m, limits.max_m)
     p = np.exp(sensor.log_likelihood(z, distance_m, limits))
     ends = np.exp(sensor.log_likelihood(np.array([[-np.inf, np.inf]]), distance_m, limits)).sum(axis=1)

@@ -27,6 +27,8 @@ from bayesmap.space.planar import Floats, between, compose, interpolate, lengths
 from bayesmap.space.scans import as_poses
 
 WALL_COST = 4.0  # extra cost of a path close to walls, relative to open floor: robots keep to the middle
+WALL_COST_M = 0.2  # distance over which this cost falls by a factor of e
+OPEN_FLOOR_M = 0.8  # distance from walls beyond which floor is open
 SMOOTHING_M = 0.5  # two standard deviations of the filter that rounds corners
 HEADING_M = 0.2  # distance over which the direction of travel is measured
 MIN_STRAIGHT_M = 1e-9  # shortest straight with a direction; a shorter step is one turn
@@ -112,7 +114,7 @@ class _Lattice:
         node_at = np.full(shape, -1)
         node_at[tuple(self.nodes.T)] = np.arange(len(self.nodes))
         padded = np.pad(node_at, 1, constant_values=-1)
-        node_cost = 1 + WALL_COST * np.exp(-(self.node_clearance_m - passage_m(self.resolution)) / 0.2)
+        node_cost = 1 + WALL_COST * np.exp(-(self.node_clearance_m - passage_m(self.resolution)) / WALL_COST_M)
         rows, columns, costs = [], [], []
         for di, dj in ((1, 0), (0, 1), (1, 1), (1, -1)):
             neighbour = padded[1 + di : 1 + di + shape[0], 1 + dj : 1 + dj + shape[1]]
@@ -134,7 +136,7 @@ class _Lattice:
                 continue  # the robot can stand nowhere in the room
             goal = np.array([x0, y0]) + rng.uniform(0.3, 0.7, 2) * (x1 - x0, y1 - y0)
             distance_m = np.hypot(*(self.points_m[nodes] - goal).T)
-            stops.append(int(nodes[np.argmin(distance_m - np.minimum(self.node_clearance_m[nodes], 0.8))]))
+            stops.append(int(nodes[np.argmin(distance_m - np.minimum(self.node_clearance_m[nodes], OPEN_FLOOR_M))]))
         return stops
 
     def tour(self, stops: list[int]) -> Floats:

@@ -43,7 +43,6 @@ class BeamRatios:
 
 def wall_ratios(table: BeamTable, p_wall: NDArray[np.float64], cell: int) -> BeamRatios:
     """Compute log p(z | wall in the cell) - log p(z | cell free) of every beam through a cell, given by its flat index.
-
     Both likelihoods are averaged over the cell at which the beam first meets a wall. Every other cell is a wall
     independently, with its own probability ``p_wall``, (N,).
     """
@@ -84,7 +83,6 @@ def sum_evidence(ratios: BeamRatios) -> dict[str, Any]:
 
 def strongest_beams(ratios: BeamRatios, scans: Scans) -> dict[str, NDArray[np.float64]]:
     """Return the beams with the largest log ratios, the strongest first, as buffers of `CellFacts`.
-
     The buffers are both ends of each beam in the world, ``start`` and ``end`` (M, 2), metres; the log ratio, ``nats``
     (M,); and the indices ``scan`` and ``beam``, (M,). A beam without a return ends at the sensor's longest range.
     """

@@ -137,7 +137,6 @@ def find_safe_path(result: Result, question: FindPath, generation: int) -> SafeP
 
 def rank_views(result: Result, generation: int) -> tuple[Views, Buffers]:
     """Compute the information expected from one more scan, in nats, at a lattice of free places.
-
     The formula treats cells and beams as independent (`bayesmap.posterior.decisions.beam_information`). Raises
     `BadInput` if there is no place at which a sensor could stand.
     """
@@ -163,7 +162,6 @@ def rank_views(result: Result, generation: int) -> tuple[Views, Buffers]:
 
 def _free_lattice(document: Document, mean: Floats, observed: Mask) -> tuple[Floats, float]:
     """Return poses at the centres of free cells, at most `MAX_VIEWS`, (P, 3), and their spacing in metres.
-
     Raises `BadInput` if no cell is known to be free.
     """
     grid = document.grid

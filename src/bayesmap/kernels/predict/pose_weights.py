@@ -29,13 +29,15 @@ MARGIN_SCALES = wp.constant(wp.float32(6.0))
 MARGIN_CELLS = wp.constant(wp.float32(4.0))  # a surface is smaller than its cell
 MIN_CHANCE = wp.constant(wp.float32(1.0e-6))  # a smaller chance of a stop is skipped
 NEVER = wp.constant(wp.float32(1.0e30))  # distance of a grid line that the beam does not cross
+MIN_DENSITY = wp.constant(wp.float32(1.0e-30))  # smaller densities of readings are raised to this
+PARALLEL = wp.constant(wp.float32(1.0e-9))  # direction cosines below this count as zero
 MIN_SURVIVAL = wp.constant(wp.float32(1.0e-12))  # a beam is followed until its chance to get so far is below this
 
 
 @wp.func
 def next_line(p: wp.float32, u: wp.float32) -> wp.float32:
     """Return the distance to the next grid line of one axis, in cells, from a coordinate and a direction cosine."""
-    if wp.abs(u) < wp.float32(1.0e-9):
+    if wp.abs(u) < PARALLEL:
         return NEVER
     cell = wp.floor(p)
     if u > ZERO_32:
@@ -121,7 +123,7 @@ def reading_log_density(
             entry = NEVER
         if (cx >= frame.nx and step_x > 0) or (cy >= frame.ny and step_y > 0):
             entry = NEVER
-    return wp.log(wp.max(total + survive * laws.no_stop_density(law, z, decay), wp.float32(1.0e-30)))
+    return wp.log(wp.max(total + survive * laws.no_stop_density(law, z, decay), MIN_DENSITY))
 
 
 @wp.struct

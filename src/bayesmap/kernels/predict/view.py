@@ -59,16 +59,16 @@ def draw_stop_distances(
     u = to_uniform(random_bits(key, wp.uint64(beam)))
     survive = wp.float64(1.0)
     distance_m[beam] = wp.float64(wp.inf)
-    w = walk_along(line, frame.nx, views.max_m)
-    while w.distance <= w.end:
-        if is_inside(w, frame.nx, frame.ny):
-            stop = stop_on_walk(maps, row, line, w)  # chance, distance and spread
+    walk = walk_along(line, frame.nx, views.max_m)
+    while walk.distance <= walk.end:
+        if is_inside(walk, frame.nx, frame.ny):
+            stop = stop_on_walk(maps, row, line, walk)  # chance, distance and spread
             survive = survive * (wp.float64(1.0) - stop[0])
             if survive < u:
                 distance_m[beam] = stop[1]
                 spread_m[beam] = stop[2]
                 return
-        w = advance_walk(w)
+        walk = advance_walk(walk)
 
 
 def draw_scan_stops(
@@ -92,15 +92,15 @@ def normal_below(x: wp.float64) -> wp.float64:
 
 
 @wp.func
-def is_crossed(w: Walk) -> bool:
+def is_crossed(walk: Walk) -> bool:
     """Return whether the walk now touches the cell that the beam is in, not a cell at its side."""
-    return w.cell_x == w.beam_x and w.cell_y == w.beam_y
+    return walk.cell_x == walk.beam_x and walk.cell_y == walk.beam_y
 
 
 @wp.func
-def exit_distance(w: Walk) -> wp.float64:
+def exit_distance(walk: Walk) -> wp.float64:
     """Return the distance at which the beam leaves the cell that it is in, in cells."""
-    return wp.min(w.next_x, w.next_y)
+    return wp.min(walk.next_x, walk.next_y)
 
 
 @wp.struct

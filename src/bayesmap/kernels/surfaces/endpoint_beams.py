@@ -33,7 +33,7 @@ PRODUCT_LANES = wp.constant(2)  # lanes before the blocks: product and least pro
 CHUNK_BLOCKS = wp.constant(4)  # blocks whose factors are multiplied before the product is turned into a logarithm
 MIN_LANE_PRODUCT = wp.constant(wp.float32(1.0e-35))  # a smaller product may have underflowed
 STEEP_SLOPE = wp.constant(wp.float32(1.0e30))  # slope of the step function `positive`
-MAX_EXPONENT = wp.constant(wp.float32(41.0))
+MAX_EXPONENT = wp.constant(wp.float32(41.0))  # largest absolute argument of `exponential`
 FAR_OFFSET_M = wp.constant(wp.float32(1.0e3))  # no surface of a cell is met at this offset
 UNKNOWN = wp.constant(wp.float64(1.0e300))  # stands for a sum that could not be computed
 
@@ -44,17 +44,17 @@ class EndpointCells:
 
     cell: Int32s
     offsets: Int32s
-    # One an incidence:
+    # For each incidence:
     entry: Int32s  # its entry in the rays
     beam: Int32s
     line: wp.array(dtype=wp.vec3)  # offset of the cell's centre from the beam, metres, and direction of the beam
     centre_and_range: wp.array(dtype=wp.vec2)  # distance of the centre along the beam, and the reading, metres
-    # One a cell:
-    step_sizes: wp.array(dtype=Cell)  # sizes of its steps and its frame, see `bayesmap.kernels.surfaces.endpoint_cells`
+    # For each cell:
+    steps_and_frame: wp.array(dtype=Cell)  # sizes of its steps, and its frame: see `kernels.surfaces.endpoint_cells`
 
 
-def endpoint_cells_to_device(rays: Rays, cells: Ints, step_sizes: Singles, device: str) -> EndpointCells:
-    """List the incidences of cells, flat, ascending, (U,), on a device; ``step_sizes`` is (U, 8)."""
+def endpoint_cells_to_device(rays: Rays, cells: Ints, steps_and_frame: Singles, device: str) -> EndpointCells:
+    """List the incidences of cells, flat, ascending, (U,), on a device; ``steps_and_frame`` is (U, 8)."""
     is_listed = np.bincount(cells, minlength=rays.grid.n_cells) > 0
     entry = np.nonzero(is_listed[rays.cells])[0].astype(np.int32)
     beam = np.searchsorted(rays.offsets, entry, side="right") - 1  # while entries ascend, which is faster
@@ -69,7 +69,7 @@ def endpoint_cells_to_device(rays: Rays, cells: Ints, step_sizes: Singles, devic
     line = np.stack([ux * to_centre[:, 1] - uy * to_centre[:, 0], ux, uy], axis=-1)
     centre_and_range = np.stack([(to_centre * rays.direction[beam]).sum(axis=1), rays.range_m[beam]], axis=-1)
     return devices.pack(
-        EndpointCells, device, cell=cells, step_sizes=step_sizes, entry=entry, beam=beam, line=line,
+        EndpointCells, device, cell=cells, steps_and_frame=steps_and_frame, entry=entry, beam=beam, line=line,
         offsets=np.append(np.searchsorted(cell_of_entry, cells), len(entry)), centre_and_range=centre_and_range,
     )  # fmt: skip
 

@@ -203,7 +203,7 @@ def update_endpoint_cells(
     cell_blocks = endpoint_beams.fill_blocks(likelihood, blocks, place.chain * state.parts + part, beams)
     # Metropolis steps. Round 0 computes the present log joint, so that the long function is called in one place.
     key = sweep_key(state.keys[place.chain], sweep, random.SURFACES)
-    steps_and_frame = endpoints.step_sizes[place.number]
+    steps_and_frame = endpoints.steps_and_frame[place.number]
     framed = into_frame(cell, steps_and_frame, centre)
     framed_candidate = framed
     candidate = cell

@@ -145,7 +145,7 @@ def count_in_squares(
     stop = state.stop[index]
     if stop < begin or stop >= end:
         return  # no surface stopped it
-    counter = AT_POINTS + wp.uint64(beam) * wp.uint64(4)
+    counter = AT_POINTS + wp.uint64(beam) * wp.uint64(4)  # `draw_stop_point_m` takes four
     moments = state.stop_moments[index]
     key = sweep_key(state.keys[chain], sweep, BEAMS)
     point = draw_stop_point_m(law, rays.range_m[beam], rays.decay[beam], moments[0], moments[1], key, counter)

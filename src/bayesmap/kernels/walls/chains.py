@@ -22,6 +22,7 @@ from bayesmap.kernels.random import cipher_bits, permuted_index, to_uniform
 
 wp.set_module_options({"enable_backward": False})
 CERTAIN_LEVEL = 1 << 53  # the level of probability one
+CERTAIN_LOG_ODDS = wp.constant(wp.float64(40.0))  # log-odds of an event that is certain in double precision
 NO_COUPLING = wp.constant(wp.float64(0.0))  # coupling of independent cells
 UNKNOWN = wp.constant(wp.uint8(0))  # the gain has to be summed again
 BOUND = wp.constant(wp.uint8(1))  # the sum is at most the gain for a free cell, at least the gain for a wall
@@ -45,15 +46,15 @@ class WallPriorArrays:
 @wp.func
 def draw_from_prior(prior: WallPriorArrays, cell: int, bits: wp.uint64) -> bool:
     """Draw an uncoupled cell: return whether the uniform number of these bits is below its probability."""
-    return (bits >> wp.uint64(11)) < prior.level[cell]
+    return (bits >> wp.uint64(11)) < prior.level[cell]  # the upper 53 of 64 bits
 
 
 @wp.func
 def draw_wall(log_odds: wp.float64, u: wp.float64) -> bool:
     """Draw from a Bernoulli law by inversion: u < 1 / (1 + exp(-log_odds))."""
-    if log_odds > wp.float64(40.0):  # certain in double precision
+    if log_odds > CERTAIN_LOG_ODDS:
         return True
-    if log_odds < wp.float64(-40.0):
+    if log_odds < -CERTAIN_LOG_ODDS:
         return False
     return u * (wp.float64(1.0) + wp.exp(-log_odds)) < wp.float64(1.0)
 
@@ -342,7 +343,7 @@ class WallChains:
         devices.launch(derive_state, len(walls), [table, self.states], device)
 
 
-class SweepPlan(NamedTuple):
+class SweepOptions(NamedTuple):
     """The sweeps of one call of `run_sweeps`, numbered from ``first_sweep``."""
 
     sites: devices.Ints  # the sites that a sweep visits, cells or blocks, in their order
@@ -362,19 +363,20 @@ class SweepResults(NamedTuple):
 
 
 def run_sweeps(
-    kernel: Any, tables: Sequence[Any], prior: Any, plan: SweepPlan, chains: WallChains, threads: int | None = None
-) -> SweepResults:
+    kernel: Any, tables: Sequence[Any], prior: Any, options: SweepOptions, chains: WallChains,
+    threads: int | None = None,
+) -> SweepResults:  # fmt: skip
     """Advance the chains in place by the sweeps of a kernel, one chain per thread. ``tables`` are its first inputs."""
     n_chains, cells = chains.shape
     device = chains.device
     sweeps = devices.pack(
-        Sweeps, device, first_sweep=plan.first_sweep, count=plan.count, beta=plan.beta, order=plan.sites,
-        shuffle_bits=cipher_bits(len(plan.sites)) if plan.shuffle else 0,
+        Sweeps, device, first_sweep=options.first_sweep, count=options.count, beta=options.beta, order=options.sites,
+        shuffle_bits=cipher_bits(len(options.sites)) if options.shuffle else 0,
     )  # fmt: skip
-    by_sweep = (n_chains, plan.count)
+    by_sweep = (n_chains, options.count)
     kept = devices.pack(
-        Kept, device, first_kept=plan.kept.start, every=plan.kept.step,
-        draws=(n_chains, len(plan.kept), (cells + 7) // 8), log_likelihoods=by_sweep, log_priors=by_sweep,
+        Kept, device, first_kept=options.kept.start, every=options.kept.step,
+        draws=(n_chains, len(options.kept), (cells + 7) // 8), log_likelihoods=by_sweep, log_priors=by_sweep,
     )  # fmt: skip
     devices.launch(kernel, n_chains, [*tables, prior, sweeps, chains.states, kept], device, threads=threads)
     return SweepResults(kept.log_likelihoods.numpy(), kept.log_priors.numpy(), kept.draws.numpy())
