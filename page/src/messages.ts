@@ -444,6 +444,7 @@ export type Scan = {
   ids: number[];
   /** Index of the scan, for a file. */
   index: number | null;
+  /** Number of the picture: that of the job which computed it. */
   generation: number;
 };
 
@@ -510,12 +511,14 @@ export type Field = {
   seconds: number | null;
   /** The method, the prior, the sensor and the poses of what is shown, in words. */
   about: [string, string][];
+  /** Number of the picture: that of the job which computed it. */
   generation: number;
 };
 
 /** The overlay of a run or a log. Buffers: strokes float32 (U, 5), surfaces as segments x, y, x, y in metres, and their reflectivity; trajectory float32 (S, 2), the positions of the scans in metres. */
 export type Overlay = {
   type: "overlay";
+  /** Number of the picture: that of the job which computed it. */
   generation: number;
 };
 
@@ -567,6 +570,7 @@ export type SafePath = {
   independent: number;
   /** Number of draws. */
   draws: number;
+  /** Number of the picture: that of the job which computed it. */
   generation: number;
 };
 
@@ -575,6 +579,7 @@ export type Views = {
   type: "views";
   /** Distance between neighbouring places, metres. */
   spacing: number;
+  /** Number of the picture: that of the job which computed it. */
   generation: number;
 };
 
@@ -605,6 +610,7 @@ export type VirtualScan = {
   near: NearestScan | null;
   /** Time that the prediction took. */
   milliseconds: number;
+  /** Number of the picture: that of the job which computed it. */
   generation: number;
 };
 
@@ -649,6 +655,7 @@ export type ComparedBeam = {
   no_return: number | null;
   /** Reading in the frame of the surface at which the beam most probably stopped. */
   wall: SurfaceOffset | null;
+  /** Number of the picture: that of the job which computed it. */
   generation: number;
 };
 
@@ -659,6 +666,7 @@ export type Undecided = {
   text: string;
   /** Type of the message that would have answered the question. */
   question: "beam" | "ghost" | "path" | "views";
+  /** Number of the picture: that of the job which computed it. */
   generation: number;
 };
 
@@ -679,7 +687,7 @@ export type Place = {
 /** The posterior of the pose from which a scan was taken. Buffers: pose float32 (n, 3) and weight float32 (n), the smallest weight first. */
 export type Whereabouts = {
   type: "where";
-  /** Number of the picture. */
+  /** Number of the picture, as in other messages. */
   picture: number;
   /** Id of the sensor, in a drawn world. */
   sensor: number | null;
@@ -708,6 +716,7 @@ export type Stage = {
   done: number;
   /** Number of parts in all. */
   total: number;
+  /** Number of the picture: that of the job which computed it. */
   generation: number;
 };
 
