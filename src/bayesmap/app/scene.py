@@ -108,7 +108,6 @@ def simulated_scene(document: Document) -> Scene:
 
 def hit_mask(scene: Scene) -> NDArray[np.bool_]:
     """Return a mask of the beams that hit something, (S, A): exact in a simulation, else guessed from the readings.
-
     Without a return, a beam may read the longest range plus noise: readings within `BLUR_SIGMAS` of it are no return.
     """
     max_range_m, sensor = scene.scans.max_range_m, scene.sensor

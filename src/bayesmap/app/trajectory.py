@@ -194,6 +194,7 @@ class LogTrajectory:
             yield _make_picture(task, self.log.scans, grid, hit_map, None, ASK_TO_RUN)
 
     def _infer(self, task: Infer) -> Generator[Picture | Stage | TrajectoryInferred | Status | None, None, None]:
+        """Infer the trajectory, and yield its pictures and reports."""
         scans, grid = self.log.scans, self.log.fit_grid(task.document).grid
         stage = _make_stage(task, "reading", 0, 1)
         yield _make_picture(task, scans, grid, hit_count_map(scans, grid), stage, stage.text)

@@ -28,6 +28,8 @@ from bayesmap.space.scans import Scans
 from bayesmap.space.time_order import elapsed_bounds_s, repeated_stamps
 
 MAX_SPEED_M_PER_S = 3.0  # largest speed of a robot: faster motions count as impossible
+UNUSUAL_M, UNUSUAL_RATIO = 2.0, 20.0  # a motion is unusual if longer: metres, and multiples of the median length
+STAMP_ERROR_S, MOTION_ERROR_M = 0.3, 0.5  # errors of a time between stamps and of a stated motion that are allowed for
 ORDINARY_ODOMETRY = Odometry(still_m=0.01, still_rad=0.01)  # a robot's noise is a multiple of this noise
 PRIOR_RATIO = 3.0  # prior value of this multiple
 PRIOR_COUNT = 12.0  # number of motions that the prior value counts as
@@ -63,10 +65,12 @@ def stated_motions(poses: Floats, stamps_s: Floats | None) -> tuple[Floats, Mask
     """
     motions = between(poses[:-1], poses[1:])
     lengths_m, _ = lengths_and_turns(motions)
-    is_unusual = lengths_m > max(2.0, 20.0 * float(np.median(lengths_m)) if len(lengths_m) else 2.0)
+    median_m = float(np.median(lengths_m)) if len(lengths_m) else 0.0
+    is_unusual = lengths_m > max(UNUSUAL_M, UNUSUAL_RATIO * median_m)
     if stamps_s is None:
         return motions, is_unusual
-    max_short_m, max_long_m = (MAX_SPEED_M_PER_S * (elapsed + 0.3) + 0.5 for elapsed in elapsed_bounds_s(stamps_s))
+    bounds_s = elapsed_bounds_s(stamps_s)
+    max_short_m, max_long_m = (MAX_SPEED_M_PER_S * (time + STAMP_ERROR_S) + MOTION_ERROR_M for time in bounds_s)
     return motions, (lengths_m > max_long_m) | (is_unusual & (lengths_m > max_short_m))
 
 
@@ -126,7 +130,7 @@ class RunningOdometry:
         residual = wrap_yaw(matched - stated - self.slope @ stated)
         excess = np.maximum(residual**2 - laser_variance, 0.0) / ORDINARY_ODOMETRY.sigmas(stated) ** 2
         forgetting = 1.0 - 1.0 / MEMORY_MOTIONS
-        limit = 25.0 * self._squares / self._count
+        limit = 25.0 * self._squares / self._count  # no motion counts as more than five standard deviations
         self._squares = forgetting * self._squares + np.minimum([0.5 * (excess[0] + excess[1]), excess[2]], limit)
         self._count = forgetting * self._count + 1.0
 

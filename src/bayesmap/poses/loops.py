@@ -47,6 +47,7 @@ VIEW_AGREEMENT = Agreement(near_m=0.15, clear_m=0.4, beams=90)  # limits for sca
 MIN_MATCHED_SHARE = 0.2  # share of matching points
 MAX_AGAINST_SHARE = 0.15  # share of contradicting points among decided points
 MIN_CLOSURE_SIGMA = np.array([0.02, 0.02, np.radians(0.3)])  # standard deviations of a closure: submaps bend
+SUPPORT_M, MIN_SUPPORT = 5.0, 2  # distance along the path of closures that support each other, and how many must
 MAX_SLIP_M, MAX_SLIP_RAD = 0.4, np.radians(6.0)  # a refinement that moves further has slid onto other surfaces
 
 
@@ -211,18 +212,18 @@ def _agree_with_graph(closures: Closures, path: KeyPath, precision: Precision, m
 
 def select_supported(closures: Closures, path: KeyPath) -> Closures:
     """Select closures that agree with at least two others nearby: a loop over both closures leads back to its start."""
-    # Pair closures whose ends are less than 5 m apart along the path.
+    # Pair closures whose ends are near each other along the path.
     first_m, second_m = path.path_m[closures.first], path.path_m[closures.second]
     first_apart_m, second_apart_m = np.abs(first_m[:, None] - first_m), np.abs(second_m[:, None] - second_m)
     has_other_end = closures.second[:, None] != closures.second
     is_distinct = has_other_end | (closures.first[:, None] != closures.first)
-    a, b = np.nonzero((first_apart_m < 5.0) & (second_apart_m < 5.0) & is_distinct)
+    a, b = np.nonzero((first_apart_m < SUPPORT_M) & (second_apart_m < SUPPORT_M) & is_distinct)
     lengths_m, turns_rad = lengths_and_turns(closures.disagreements(path.poses, a, b))
     # The tolerance grows with the length of path between the ends.
     apart_m = first_apart_m[a, b] + second_apart_m[a, b]
     agrees = (lengths_m < 0.15 + 0.02 * apart_m) & (turns_rad < np.radians(2.0) + np.radians(0.3) * apart_m)
     support = np.bincount(a[agrees & has_other_end[a, b]], minlength=len(closures))
-    return replace(closures, support=support).select(support >= 2)
+    return replace(closures, support=support).select(support >= MIN_SUPPORT)
 
 
 @dataclass(frozen=True)

@@ -43,6 +43,7 @@ MIN_DPI, MAX_DPI = 160.0, 320.0
 LEFT_IN, RIGHT_IN, TOP_IN, GAP_IN = 0.46, 0.2, 0.32, 0.25  # room at the sides of a panel, and between panels
 TITLE_IN, LABEL_IN, BAR_IN, LEGEND_IN = 0.32, 0.42, 0.48, 0.36  # heights of title, x labels, colour bar and legend
 LEGEND_KEY_IN = 0.95  # typical width of a key in the legend
+BAR_HEIGHT_IN, BAR_DEPTH_IN, MIN_BAR_IN = 0.09, 0.58, 1.5  # colour bar: height, bottom below the panel, least width
 NO_BAR_IN = 0.9  # width that a figure saves without a colour bar
 BAR_TICKS = [0.0, 0.25, 0.5, 0.75, 1.0]
 WIDTH_LABEL = "width of the 90 % interval"
@@ -240,9 +241,9 @@ def label_panel(panel: Axes, title: str, max_ticks: tuple[int, int], *, leftmost
 
 def color_bar(figure: Figure, layout: Layout, corner: tuple[int, int], image: AxesImage, label: str) -> None:
     """Add a thin horizontal bar under the panel's x label, never too narrow to read."""
-    width = max(0.7 * layout.panel[0], 1.5 * layout.dpi)
+    width = max(0.7 * layout.panel[0], MIN_BAR_IN * layout.dpi)
     left = corner[0] + (layout.panel[0] - width) / 2.0
-    box = layout.fractions(left, corner[1] - 0.58 * layout.dpi, width, 0.09 * layout.dpi)
+    box = layout.fractions(left, corner[1] - BAR_DEPTH_IN * layout.dpi, width, BAR_HEIGHT_IN * layout.dpi)
     bar = figure.colorbar(image, cax=figure.add_axes(box, label=label), orientation="horizontal", ticks=BAR_TICKS)
     bar.set_label(label, labelpad=2.0, fontsize=FONT_PT, color=palette.TEXT)
     bar.ax.tick_params(length=2.0, width=0.6, pad=1.5, labelsize=FONT_PT - 1.5, colors=palette.TEXT)

@@ -96,7 +96,6 @@ class VirtualScanPredictor:
 
 def predictor_of_result(result: Result) -> tuple[Predictor, int]:
     """Return the predictor of a result and its number of draws: 0 if it has none and cells count as independent.
-
     Raises `BadInput` if there is nothing to predict from, or the run's sensor model is not built in.
     """
     scene = result.scene

@@ -44,7 +44,6 @@ class Locator:
         self, question: WhereAmI, result: Result | None, scan: int, generation: int
     ) -> tuple[Whereabouts, Buffers]:
         """Find the places where a scan may have been taken, or return the reason why there is no answer.
-
         In a drawn world, the question names the sensor. For a file, ``scan`` is the index of the scan on show.
         ``generation`` is the number of the present picture.
         """

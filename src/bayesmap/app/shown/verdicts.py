@@ -119,7 +119,6 @@ def judge_chains(
 
 def judge_shifted_chains(verdict: Verdict | None, log_joint: Floats, sweeps: int, shifts: Floats) -> Verdict | None:
     """Correct a bad verdict on chains at several shifts: only chains at one shift must agree. Others stay unchanged.
-
     ``log_joint`` is (chains, n). ``shifts`` are the shifts of map and sensors together, in cells, (chains, 2).
     """
     distinct_shifts, shift_of_chain = np.unique(shifts, axis=0, return_inverse=True)

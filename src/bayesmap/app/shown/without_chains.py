@@ -48,7 +48,6 @@ def approximate_reach(table: BeamTable, p_wall: Floats) -> Floats:
 
 class Preview(Estimate):
     """Belief propagation as in `bayesmap.samplers.without_chains`, one round at a time.
-
     Cells that no beam touches keep the prior exactly, so the rounds leave them out: on 500 x 500 cells with one sensor,
     most of the map. Beliefs have ``converged`` when they change by less than `TOLERANCE`, or after `methods.ROUNDS`.
     """

@@ -17,6 +17,8 @@ from bayesmap.kernels.device import Float64Rows, Float64s, Floats, Int32s, Ints,
 
 wp.set_module_options({"enable_backward": False})
 MIN_THREADED_LOOK_UPS = 100_000  # fewer look-ups of points are done before a second thread has started
+PEAK = wp.constant(wp.float64(255.0))  # value of a grid's cell in which a point fits best
+NO_ROW = -(1 << 28)  # row of an earlier pose that does not exist, far from all rows
 Vec2is = wp.array(dtype=wp.vec2i)
 Pyramid = wp.array4d(dtype=wp.uint8)  # likelihood grids with their maxima over blocks: (grids, levels, nx, ny)
 
@@ -122,7 +124,7 @@ def min_offset_sq(offset: int, width: int) -> wp.float64:
 def block_bound(jobs: WindowsArrays, rows: Rows, pyramid: Pyramid, block: Block) -> wp.float64:
     """Return the bound of the scores in a block, less the cost of its angle and of its distance from the centre."""
     points = jobs.point_offsets[block.job + 1] - jobs.point_offsets[block.job]
-    scale = wp.float64(1.0) / (wp.float64(255.0) * wp.float64(wp.max(points, 1)))
+    scale = wp.float64(1.0) / (PEAK * wp.float64(wp.max(points, 1)))
     width = 1 << block.level
     offset_cost = jobs.off_centre_costs[block.job] * (min_offset_sq(block.dx, width) + min_offset_sq(block.dy, width))
     return wp.float64(block_score(jobs, rows, pyramid, block)) * scale - (jobs.angle_costs[block.row] + offset_cost)
@@ -280,7 +282,7 @@ def search_grids(
                 np.isfinite(scores[:, 0]), np.maximum(min_scores, modes.min_score_ratio * scores[:, 0]), np.inf
             )
         jobs.min_scores = devices.to_device(min_scores, wp.float64, device)
-        earlier_nodes = np.where(nodes[..., :1] >= 0, nodes, -(1 << 28)).astype(np.int32)
+        earlier_nodes = np.where(nodes[..., :1] >= 0, nodes, NO_ROW).astype(np.int32)
         earlier.node, earlier.count = devices.to_device(earlier_nodes, wp.vec3i, device), mode
         state.incumbent = devices.to_device(min_scores.copy(), wp.float64, device)
         inputs = [strands, jobs, rows, roots, pyramid, earlier, state]
