@@ -319,7 +319,7 @@ class PoseMixture:
             # Temper the weights until several draws are effective: a single dominant draw has no spread.
             tempering, min_effective = 1.0, min(EFFECTIVE_SHARE * len(logs), EFFECTIVE_DRAWS)
             while weights.sum() ** 2 < min_effective * (weights @ weights) and tempering > MIN_TEMPERING:
-                tempering *= 0.8
+                tempering *= 0.8  # in small steps, to temper no more than needed
                 weights = np.exp(tempering * logs)
             weights /= weights.sum()
             # Move the place to the weighted mean, and widen the weighted covariance.

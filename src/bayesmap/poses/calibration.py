@@ -101,7 +101,7 @@ class RunningOdometry:
     @property
     def ratios(self) -> Floats:
         """The noise of the position and of the heading as multiples of `ORDINARY_ODOMETRY`, (2,)."""
-        return np.asarray(np.clip(np.sqrt(self._squares / self._count), 0.5, 30.0))
+        return np.asarray(np.clip(np.sqrt(self._squares / self._count), 0.5, 30.0))  # within credible limits
 
     def corrected(self, motions: Floats) -> Floats:
         """Return stated motions with the systematic error removed, (..., 3)."""
@@ -344,10 +344,11 @@ def _pair_residuals(
     geometry: ScanGeometry, poses: Floats, first: NDArray[np.int32], second: NDArray[np.int32], threads: int | None
 ) -> Floats:
     """Refine the first scan of each pair against the second, and return the badness of the fit, from 0 to 1, (M,)."""
-    weak_prior = np.tile(np.diag([25.0, 25.0, 100.0]), (len(first), 1, 1))
+    weak_prior = np.tile(np.diag([25.0, 25.0, 100.0]), (len(first), 1, 1))  # sigmas of 0.2 m and 0.1 rad
     offsets, start = np.arange(len(first) + 1, dtype=np.int32), poses[first]
     refinement = Refinement(first, offsets, second, poses[second], start, start, weak_prior)
-    convergence = Convergence(0.02, 10, geometry.reach_m(0.2, 0.15), geometry.scale_m(0.05, 0.03), min_cosine=0.7)
+    reach_m, scale_m = geometry.reach_m(0.2, 0.15), geometry.scale_m(0.05, 0.03)
+    convergence = Convergence(sigma_m=0.02, steps=10, reach_m=reach_m, scale_m=scale_m, min_cosine=0.7)
     totals = refine_scans(geometry, refinement, convergence, threads).totals
     return np.asarray(1.0 - totals[:, WEIGHT] / np.maximum(totals[:, SEEN], 1.0))
 

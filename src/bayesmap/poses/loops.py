@@ -158,7 +158,7 @@ def _candidate_pairs(
     """Return earlier and later key scans to try, (M,) each, and standard deviations of their relative poses, (M, 3)."""
     # Select pairs of places that are far apart along the path and near each other on the map.
     path_m, poses, places = path.path_m, path.poses, path.places(search.spacing_m)
-    view_m = min(0.7 * half_width_m, 8.0)
+    view_m = min(0.7 * half_width_m, 8.0)  # distance from which two scans may still see one surface
     earlier, later = np.nonzero(path_m[places][:, None] < path_m[places] - MIN_LOOP_M)
     earlier, later = places[earlier], places[later]
     distance_m = np.hypot(*(poses[earlier, :2] - poses[later, :2]).T)

@@ -151,14 +151,14 @@ def match(
     apart_cells = int(modes.apart_m / grids.resolution + ROUNDING)
     apart = (int(modes.apart_rad / step_rad + ROUNDING), apart_cells, apart_cells)
     rule = Modes(modes.max_modes, modes.min_score_ratio, apart)
-    on_device = Windows(
+    searches = Windows(
         points=np.concatenate([np.reshape(xy, (-1, 2)) for xy in points]), point_offsets=offsets_of(points),
         grid=np.asarray(grid_of, np.int32), centres=np.ascontiguousarray(centres[:, :2]),
         half_cells=np.round(half_m / grids.resolution).astype(np.int32), angles_rad=angles, angle_costs=angle_costs,
         row_offsets=row_offsets, min_scores=np.array(np.broadcast_to(np.asarray(min_score, np.float64), (jobs,))),
         off_centre_costs=np.full(jobs, cell_cost),
     )  # fmt: skip
-    scores, nodes = search_grids(grids, on_device, rule, threads_per_job, grids.threads)
+    scores, nodes = search_grids(grids, searches, rule, threads_per_job, grids.threads)
     # Convert the best rows and shifts to poses.
     poses = np.full((jobs, modes.max_modes, 3), np.nan)
     job, mode = np.nonzero(nodes[..., 0] >= 0)

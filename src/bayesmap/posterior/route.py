@@ -319,7 +319,7 @@ def _straightened(path: Floats, danger: Floats, grid: Grid, price: float) -> Flo
     while corners[-1] < len(path) - 1:
         begin, end = corners[-1], len(path) - 1
         while end > begin + 1 and cost(path[[begin, end]]) > cost(path[begin : end + 1]) + 1e-9:  # up to rounding
-            end = begin + (end - begin + 1) // 2 if end - begin > 8 else end - 1
+            end = begin + (end - begin + 1) // 2 if end - begin > 8 else end - 1  # halve long stretches
         corners.append(end)
     return path[corners]
 

@@ -163,7 +163,7 @@ def _score_by_law(law: RelativeLaw, stamps_s: Floats, relations: Relations, erro
     first, second = (arrays.nearest_index(stamps_s, end_s) for end_s in (relations.first_s, relations.second_s))
     # If both times are nearest to one scan, use the step to a neighbouring scan: its distribution is at least as wide.
     second = np.where(first == second, np.where(second > 0, second - 1, second + 1), second)
-    scale = _in_end_frame(law.scales(first, second), relations) + 1e-15 * np.eye(DIMENSIONS)
+    scale = _in_end_frame(law.scales(first, second), relations) + 1e-15 * np.eye(DIMENSIONS)  # invertible
     square = np.einsum("ni,nij,nj->n", errors, np.linalg.inv(scale), errors)
     return square * (law.dof - 2.0) / law.dof, np.asarray(scipy.stats.f.cdf(square / DIMENSIONS, DIMENSIONS, law.dof))
 

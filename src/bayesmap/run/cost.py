@@ -91,7 +91,7 @@ class Estimate:
         available = "" if self.available_bytes is None else f" of {self.available_bytes / 1e9:.0f}"
         text = f"{_range_in_unit(self.peak_bytes, 1e9)}{available} GB of memory"
         if self.seconds is not None:
-            unit_s, unit = (3600.0, "hours") if self.seconds[1] > 5400 else (60.0, "minutes")
+            unit_s, unit = (3600.0, "hours") if self.seconds[1] > 5400 else (60.0, "minutes")  # 1.5 hours
             unit_s, unit = (1.0, "s") if self.seconds[1] < 100 else (unit_s, unit)
             cores = f"{self.cores} core{'s' * (self.cores > 1)}"
             text = f"{_range_in_unit(self.seconds, unit_s)} {unit} on {cores}, and {text}"
@@ -305,7 +305,7 @@ def _remedies(scans: Scans, grid: Grid, size: ProblemSize, sampling: Sampling) -
     without_beams = replace(size, beams=0.0, incidences=0.0, readings=0.0)
     cell_bytes = sampling.peak_bytes(without_beams, sampling.plan.draws) - BASE_BYTES
     beam_bytes = sampling.peak_bytes(size, sampling.plan.draws) - cell_bytes - BASE_BYTES
-    # Few hits far away make the grid large: cut them off.
+    # A hundredth of the hits, far away, may make the grid much larger: cut them off.
     hits_m = scans.ranges_m[np.isfinite(scans.ranges_m)]
     nearly_all_m = math.ceil(np.percentile(hits_m, 99.0)) if hits_m.size else math.inf
     if cell_bytes > beam_bytes and scans.min_range_m < nearly_all_m < 0.7 * hits_m.max():

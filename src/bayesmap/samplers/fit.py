@@ -127,7 +127,7 @@ def pilot_sweeps(
 
 def step_size_after(sweep: int, full_until: int = FULL_STEPS_UNTIL) -> float:
     """Return the share of the way that parameters move after a sweep: 1 until ``full_until``, then decreasing."""
-    return 1.0 if sweep < full_until else float((sweep - full_until + 1.0) ** -0.7)
+    return 1.0 if sweep < full_until else float((sweep - full_until + 1.0) ** -0.7)  # Robbins and Monro
 
 
 @dataclass(frozen=True, eq=False)
@@ -282,7 +282,7 @@ def _refit_beta(a: float, b: float, hits: Ints, passes: Ints, step_size: float) 
         return float(-(n_cells * terms).sum() / n_cells.sum())
 
     start = np.log([a, b])
-    bounds = [(math.log(1e-4), math.log(10.0)), (math.log(1e-3), math.log(100.0))]
+    bounds = [(math.log(1e-4), math.log(10.0)), (math.log(1e-3), math.log(100.0))]  # of log a and log b
     result = scipy.optimize.minimize(cost, start, method="L-BFGS-B", bounds=bounds)
     a, b = np.exp((1 - step_size) * start + step_size * result.x)
     return float(a), float(b)

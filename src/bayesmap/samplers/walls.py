@@ -68,7 +68,7 @@ def start_maps(
     # Belief propagation: where beams changed nothing, start at the prior draw.
     assert marginals is not None, "a warm start needs marginals"
     without_beams = problem.p_wall.reshape(grid.shape) if marginals.prior is None else marginals.prior
-    uninformed = np.abs(marginals.p_wall - without_beams) < 1e-3
+    uninformed = np.abs(marginals.p_wall - without_beams) < 1e-3  # changed by less
     return np.where(uninformed, prior_draws, marginals.p_wall > 0.5)
 
 

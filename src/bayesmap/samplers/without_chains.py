@@ -29,6 +29,7 @@ MAX_UNKNOWN = 16  # most unknown cells of `enumerate_maps`: 65 536 states
 BATCH_CELLS = 1 << 23  # cells per batch of maps
 COUPLED_BATCH_CELLS = 1 << 13  # cells per batch of maps with coupled neighbours
 INSPECTED_MAPS = 32  # most maps that decide which cells count as observed
+MIN_BATCH, MAX_BATCH = 256, 1 << 20  # particles that are weighed together
 NEGLIGIBLE_NATS = 40.0  # a particle this far below the best adds nothing to any mean
 
 
@@ -142,14 +143,14 @@ def sample_importance(
     key = mix(seed, 0, Stream.PARTICLES)
     log_likelihoods: list[Floats] = []
     began_s = time.perf_counter()
-    batch_size, n_weighed = 256, 0
+    batch_size, n_weighed = MIN_BATCH, 0
     watch.report("particles", 0, particles)  # the first particles of a large map take long
     while n_weighed < particles and not (log_likelihoods and watch.should_stop()):
         count = min(batch_size, particles - n_weighed)
         log_likelihoods.append(_weigh(problem, key, n_weighed, count))
         n_weighed += count
         # Later batches take about a quarter of a second, so that a stop is noticed soon.
-        batch_size = int(np.clip(0.25 * n_weighed / max(time.perf_counter() - began_s, 1e-9), 256, 1 << 20))
+        batch_size = int(np.clip(0.25 * n_weighed / max(time.perf_counter() - began_s, 1e-9), MIN_BATCH, MAX_BATCH))
         watch.report("particles", n_weighed, particles)
     log_weights = beta * np.concatenate(log_likelihoods)
     log_total = float(special.logsumexp(log_weights))

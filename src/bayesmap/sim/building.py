@@ -239,7 +239,7 @@ def _draw_kind(rng: np.random.Generator, width_m: float, *, facade: bool) -> str
     """Draw the kind of a room. Wide rooms are for many people, and rooms without windows for stores and services."""
     if width_m > WIDE_ROOM_M:
         return "open plan"
-    if width_m > 4.4:
+    if width_m > 4.4:  # a room of medium width
         return "meeting" if rng.random() < 0.6 else "office"
     if facade:
         return "office" if rng.random() < 0.9 else "meeting"
@@ -287,7 +287,7 @@ class _Construction:
         corners = [True, False] if is_wide else [bool(self.rng.random() < 0.5)]
         if room.kind == "lobby" or (room.kind in ("meeting", "open plan") and self.rng.random() < 0.6):
             y0, y1 = self.wall_rows(room, side)
-            frame = self.cells(0.2)
+            frame = self.cells(0.2)  # metres of wall at both ends of the pane
             self.add_pane(room.x0 + frame, room.x1 - frame, y0, y1, along_x=True)
         for left in corners:
             self.add_door(room, side, left=left)

@@ -60,7 +60,6 @@ def read_seq(data: str | bytes | Mapping[str, Any]) -> int | None:
 
 def parse_document(value: object) -> Document:
     """Read a document.
-
     A document that shows a file has only the file's name, its grid and the settings that can be changed; how it is used
     is decided by `bayesmap.app.edits.adopt_document`. Raises `Refused`, with the place of the value, if one is invalid.
     """

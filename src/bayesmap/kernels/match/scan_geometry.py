@@ -54,7 +54,7 @@ def neighbour(beam: int, steps: int, beams: int, full_circle: int) -> int:
 @wp.func
 def max_gap(step_rad: wp.float32, away: wp.float32) -> wp.float32:
     """Return how far apart the points of two neighbouring beams on one surface may lie, ``away`` from the laser."""
-    return wp.float32(0.05) + wp.float32(3.5) * (step_rad * away)
+    return wp.float32(0.05) + wp.float32(3.5) * (step_rad * away)  # metres, and multiples of the spacing head-on
 
 
 @wp.kernel
@@ -129,6 +129,7 @@ def scan_normals(first: int, scene: ScanArrays, reach_m: wp.float32, noise_m: wp
         point = scene.points[scan, beam]
         away = wp.length(point)
         apart = step_rad * away  # between neighbouring beams on a wall seen head-on
+        # Limits of a fit: the gap between neighbouring points, and the distance from the beam's point, metres.
         gap = wp.max(max_gap(step_rad, away), wp.float32(5.0) * noise_m)
         farthest = wp.max(wp.max(wp.float32(0.5), wp.float32(20.0) * noise_m), wp.float32(2.2) * apart)
         reach = reach_m
