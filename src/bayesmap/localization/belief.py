@@ -3,7 +3,7 @@
 `PoseBelief` is the result: weighted poses, their modes (`Mode`) and regions (`Region`). `PoseMixture` is the proposal
 of population Monte Carlo (Cappe, Guillin, Marin and Robert 2004). Each round draws from Student distributions about the
 present places (`PoseMixture.draw`), weights the draws by target / proposal (`Population`), and moves the places to the
-weighted means (`PoseMixture.adapt`). But for truncation the last weights are unbiased. They estimate the evidence.
+weighted means (`PoseMixture.adapt`). But for truncation the last weights are unbiased; they average to the evidence.
 """
 
 from __future__ import annotations

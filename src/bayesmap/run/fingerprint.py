@@ -1,4 +1,4 @@
-"""The fingerprint of a run: a hash of all that its draws depend on. Only a run with the same one can be resumed."""
+"""The fingerprint of a run: a hash of all that its draws depend on. A saved run is resumed only if it is equal."""
 
 import hashlib
 import json
