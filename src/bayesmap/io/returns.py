@@ -197,11 +197,8 @@ def _numbers_standing_out(readings_m: Floats, usable: Mask) -> list[float]:
     repeated = counts[candidates] >= MIN_REPEATS * np.maximum(usual_count, 1.0)
     next_smaller = np.where(candidates > 0, values[candidates - 1], np.inf)
     isolated = (values[candidates] >= MIN_ISOLATION * next_smaller) & (n_below[-1] - n_below[candidates] >= MIN_BEAMS)
-    return [
-        float(value)
-        for value in values[candidates[repeated | isolated]]
-        if _count_beams(readings_m >= value) >= MIN_BEAMS
-    ]
+    standing_out = values[candidates[repeated | isolated]].tolist()
+    return [value for value in standing_out if _count_beams(readings_m >= value) >= MIN_BEAMS]
 
 
 def _count_beams(mask: Mask) -> int:

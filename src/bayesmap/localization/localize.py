@@ -188,7 +188,8 @@ def follow(
     belief, pose, since_search_m = None, np.zeros(3), 0.0
     singles = (scans.select(slice(i, i + 1)) for i in range(len(scans))) if isinstance(scans, Scans) else scans
     for single in singles:
-        pose_before, pose, new_share = pose, single.poses[0], 1.0
+        pose_before, pose = pose, single.poses[0]
+        new_share = 1.0  # share of the scan's evidence that is new
         # Predict by odometry; after a short path only part of the scan's evidence is new.
         if independent:
             pose_prior = anywhere

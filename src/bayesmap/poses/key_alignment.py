@@ -73,7 +73,8 @@ class KeyAlignment:
         """Match each scan to the others, move scans that the others explain better elsewhere, and align all again."""
         count, half_width_m = len(aligned.poses), min(self.half_width_m, MAX_HALF_WIDTH_M)
         callback = self.report(self.track, "rematch", IMPROVEMENT_ROUNDS + 1)
-        poor_score, poses_before, scores = 0.0, aligned.poses, np.zeros(count)
+        poses_before = aligned.poses
+        poor_score, scores = 0.0, np.zeros(count)
         is_moved, stays = np.zeros(count, np.bool_), np.zeros(count, np.bool_)
         result, changed = None, None
         for number in range(IMPROVEMENT_ROUNDS + 1):

@@ -206,11 +206,9 @@ def weigh_visits(poses: Floats, weights: Floats, chain: Factors, loops: Factors,
         poses, removed = worst.poses, removed | (visit == worst.visit)
     # The poses without each visit that stays are alternatives, too. Keep those that are likely and differ.
     alternatives += [test._replace(log_odds=-test.log_odds) for test in doubtful]
-    alternatives = [
-        other
-        for other in alternatives
-        if other.log_odds > MIN_LOG_ODDS and not are_within(between(other.poses, poses), DIFFERS_M, DIFFERS_RAD).all()
-    ]
+    likely = [other for other in alternatives if other.log_odds > MIN_LOG_ODDS]
+    is_equal = [are_within(between(other.poses, poses), DIFFERS_M, DIFFERS_RAD).all() for other in likely]
+    alternatives = [other for other, equal in zip(likely, is_equal, strict=True) if not equal]
     weights = np.where(removed, 0.0, loops.robust_weights(poses) if removed.any() else weights)
     masks = [visit == other.visit for other in alternatives]
     return WeighedGraph(

@@ -129,7 +129,8 @@ def match(
     """
     from bayesmap.kernels.match.branch_and_bound import Modes, Windows, search_grids
 
-    jobs, step_rad, modes = len(points), windows.step_rad, ModeRule() if modes is None else modes
+    modes = ModeRule() if modes is None else modes
+    jobs, step_rad = len(points), windows.step_rad
     if jobs == 0:
         return Matches(np.empty((0, modes.max_modes)), np.empty((0, modes.max_modes, 3)))
     centres = np.asarray(windows.centres, np.float64).reshape(-1, 3)

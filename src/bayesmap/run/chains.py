@@ -70,7 +70,8 @@ class StoppingRule:
 
     def __init__(self, plan: SweepPlan, estimate_error: Callable[[], float]) -> None:
         """Start the clock. ``estimate_error`` returns the `map_error` of all draws so far."""
-        self._plan, self._estimate_error, self._began_s = plan, estimate_error, time.monotonic()
+        self._plan, self._estimate_error = plan, estimate_error
+        self._began_s = time.monotonic()
         self.is_met = False  # whether the chains may end
         self._expected = next(iter(plan.marks), plan.sweeps)  # number of sweeps at the expected end
         self.error: float | None = None  # the latest `map_error`; None before the first mark

@@ -159,7 +159,8 @@ class StopChains:
         laws_changed = self._laws != (sensor, prior, beta)
         is_start = not self.has_swept
         law = sensor_law(sensor, self.plan.rays.limits, self.device, SensorLaw32)
-        self._laws, self._law, self._prior = (sensor, prior, beta), law, pack_prior(prior)
+        self._laws = (sensor, prior, beta)
+        self._law, self._prior = law, pack_prior(prior)
         self._state.beta = beta
         if laws_changed:
             wp.launch(stops.compute_decays, dim=self.plan.rays.n_beams, inputs=[0, law, self._rays], device=self.device)
