@@ -48,10 +48,8 @@ COUNTERPARTS = {
     "gen.vmap": "_src.generative_functions.combinators.repeat _src.generative_functions.combinators.vmap",
     "gen.scan": "_src.generative_functions.combinators.scan",
     "gen.distribution": "_src.generative_functions.distributions.distribution",
-    "gen.densities": (
-        "_src.generative_functions.distributions.custom.discrete_hmm "
-        "_src.generative_functions.distributions.tensorflow_probability"
-    ),
+    "gen.hidden_markov": "_src.generative_functions.distributions.custom.discrete_hmm",
+    "gen.densities": "_src.generative_functions.distributions.tensorflow_probability",
 }
 """Each module of ours, and the modules of GenJAX 0.10.3 (without `genjax.`) whose names are looked for there first.
 

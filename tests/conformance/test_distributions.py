@@ -14,7 +14,7 @@ from tiers import full_but
 import bayesmap.gen as genjax
 from bayesmap.errors import BadInput
 from bayesmap.gen import ChoiceMapBuilder as C
-from bayesmap.gen import MissingAddress, OutsideSupport, ShapeMismatch, UnknownAddress, densities
+from bayesmap.gen import MissingAddress, OutsideSupport, ShapeMismatch, UnknownAddress, densities, hidden_markov
 
 
 def log_density(dist, value, *args):
@@ -220,7 +220,7 @@ def test_the_log_density_of_states_is_the_posterior_s_and_draws_follow_it():
 
     assert expected.min() > 1
     assert distance(counts) < 138
-    filtered = jax.vmap(lambda key: jr.categorical(key, densities.filter_states(CONFIG, SEEN)))(keys)
+    filtered = jax.vmap(lambda key: jr.categorical(key, hidden_markov.filter_states(CONFIG, SEEN)))(keys)
     assert distance(np.bincount(np.asarray(filtered) @ [16, 4, 1], minlength=64)) > 138
     evidence = np.logaddexp.reduce(list(joint.values()))
     np.testing.assert_allclose(genjax.DiscreteHMM.data_logpdf(CONFIG, SEEN), evidence, rtol=1e-5)
