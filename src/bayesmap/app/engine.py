@@ -17,7 +17,7 @@ from dataclasses import replace
 
 from msgspec import structs
 
-from bayesmap.app.answers.questions import Answers, Snapshot
+from bayesmap.app.answers.questions import Answers, WorkerState
 from bayesmap.app.display import Display, OnReport
 from bayesmap.app.exports import export_report
 from bayesmap.app.protocol.actions import Cancel, Export, MoveVirtualScan, ShowScan, WhereAmI
@@ -112,8 +112,8 @@ class Engine:
         elif isinstance(request, Export):
             self._on_report(export_report(request, self._result, task.client))
         else:
-            snapshot = Snapshot(self._scene, self._result, self._scan, self._display.generation)
-            self._on_report(self._answers.answer(request, snapshot, task.client))
+            state = WorkerState(self._scene, self._result, self._scan, self._display.generation)
+            self._on_report(self._answers.answer(request, state, task.client))
             if isinstance(request, MoveVirtualScan):
                 self._rest_until_s = time.perf_counter() + VIRTUAL_SCAN_SECONDS
 

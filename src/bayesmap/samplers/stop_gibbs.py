@@ -313,6 +313,6 @@ def _plan(problem: StopProblem) -> Plan:
     estimate = problem.estimate
     return Plan(
         rays=problem.rays, periods=stop_problem.update_periods(estimate), endpoints=estimate.endpoint_cells,
-        steps=stop_problem.steps_and_frames(estimate, problem.grid.resolution),
+        steps_and_frames=stop_problem.steps_and_frames(estimate, problem.grid.resolution),
         distance_m=None if problem.prior.has_surfaces else problem.distance_m, device=problem.device,
     )  # fmt: skip

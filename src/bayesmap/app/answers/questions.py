@@ -34,7 +34,7 @@ MAX_ANGLES = 180  # beams per view: every k-th, so their information is multipli
 
 
 @dataclass(frozen=True, eq=False)
-class Snapshot:
+class WorkerState:
     """The state of the worker when a question comes."""
 
     scene: Scene | None  # the readings
@@ -50,13 +50,13 @@ class Answers:
         self._virtual_scans = VirtualScanPredictor()
         self._locator = Locator()
 
-    def answer(self, question: Question, snapshot: Snapshot, client: int) -> Report:
+    def answer(self, question: Question, state: WorkerState, client: int) -> Report:
         """Answer a page's question. Without a result, only `Inspect` and `WhereAmI` have an answer."""
         if isinstance(question, Inspect):
-            return Report(*cell_facts(question, snapshot), client)
-        result, generation = snapshot.result, snapshot.generation
+            return Report(*cell_facts(question, state), client)
+        result, generation = state.result, state.generation
         if isinstance(question, WhereAmI):
-            return Report(*self._locator.answer(question, result, snapshot.scan, generation), client)
+            return Report(*self._locator.answer(question, result, state.scan, generation), client)
         try:
             if result is None:
                 raise BadInput("there is nothing to decide by yet")
@@ -73,10 +73,10 @@ class Answers:
             return Report(Undecided(str(error), UNDECIDED_QUESTION[type(question)], generation=generation), {}, client)
 
 
-def cell_facts(question: Inspect, snapshot: Snapshot) -> tuple[AnyNotice, Buffers]:
+def cell_facts(question: Inspect, state: WorkerState) -> tuple[AnyNotice, Buffers]:
     """Count the beams that touch a cell and, if possible, sum their evidence for and against an obstacle in it."""
-    x, y, result = question.x, question.y, snapshot.result
-    table = None if snapshot.scene is None else snapshot.scene.problem.table
+    x, y, result = question.x, question.y, state.result
+    table = None if state.scene is None else state.scene.problem.table
     if table is None or x >= table.grid.shape[0] or y >= table.grid.shape[1]:
         return CellFacts(x, y, each_beam=question.each_beam, beams=0), {}
     cell = x * table.grid.shape[1] + y

@@ -44,7 +44,7 @@ class DrawnMap(NamedTuple):
     draw: int  # index of the draw
 
 
-class MeanSurfaces(NamedTuple):
+class ShownSurfaces(NamedTuple):
     """The surfaces of U cells, averaged over the draws, in the world frame."""
 
     cells: NDArray[np.int32]  # flat indices of the cells, (U,), increasing
@@ -233,12 +233,12 @@ class Result:
         return self.prior.width(draws.thinned(INTERVAL_DRAWS), 0.9)
 
     @cached_property
-    def surfaces(self) -> MeanSurfaces | None:
+    def surfaces(self) -> ShownSurfaces | None:
         """The mean surfaces; None without draws, or if cells have no surfaces."""
         draws = self.estimate.available_draws
         if draws is None or not self.prior.has_surfaces:
             return None
-        return MeanSurfaces(draws.index["surface_cell"], *self.prior.surfaces(draws))
+        return ShownSurfaces(draws.index["surface_cell"], *self.prior.surfaces(draws))
 
     @property
     def quantity(self) -> Quantity:

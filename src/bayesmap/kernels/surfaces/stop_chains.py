@@ -50,7 +50,7 @@ class Plan:
     rays: Rays  # the beams, with flat indices of the grid's cells
     periods: NDArray[np.uint8]  # update period of each touched cell, in sweeps, (T,), see `cell_draws.ActiveCells`
     endpoints: Ints  # the cells in which readings end, flat, ascending, (U,)
-    steps: Singles  # sizes and frames of these cells' steps, (U, 8)
+    steps_and_frames: Singles  # sizes and frames of these cells' steps, (U, 8)
     distance_m: Singles | None  # distance of a stop at each entry, if cells have no surfaces, (K,)
     device: str  # the device of the chains
 
@@ -111,7 +111,7 @@ class StopChains:
         )  # fmt: skip
         self._schedule = stops.UpdateSchedule(rays, plan.periods)
         self._lazy = self._schedule.watched_to_device(self._rays, device)
-        self._endpoints = endpoint_cells_to_device(rays, plan.endpoints, plan.steps, device)
+        self._endpoints = endpoint_cells_to_device(rays, plan.endpoints, plan.steps_and_frames, device)
         fields = {"cell": rays.touched, "period": plan.periods, "without_surfaces": self.without_surfaces}
         self._active = devices.pack(cell_draws.ActiveCells, device, **fields)
         endpoints = plan.endpoints[:0] if self.without_surfaces else plan.endpoints
