@@ -16,6 +16,7 @@ from pathlib import Path
 
 from bayesmap.errors import BadInput
 
+PICTURE_MARK = "bayesmap"  # the program's name in the first thousand bytes of each PNG and GIF picture
 NETCDF_MAGICS = (b"\x89HDF", b"CDF")  # first bytes of netCDF files, such as saved runs
 
 

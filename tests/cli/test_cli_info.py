@@ -26,7 +26,7 @@ def test_info_says_what_is_in_a_recording(recording):
     assert scan["readings"] == {"hit": 12, "no_return": 6, "too_close": 0, "invalid": 6}
     assert told["suggestion"] == f"bayesmap infer {recording} --scan-topic /scan"
     text = call("info", recording).stdout
-    assert "scans on /scan: 6 of 4 beams from -85.9437 to 85.9437 degrees" in text
+    assert "scans on /scan: 6, each of 4 beams from -85.9437 to 85.9437 degrees" in text
     assert re.search(r"\nto infer a map \(about .* s on \d+ cores?, and .* GB of memory\):\n", text)
     assert text.endswith(f"  bayesmap infer {recording} --scan-topic /scan\n")
 
@@ -78,7 +78,7 @@ def test_info_on_a_carmen_log_and_on_a_saved_run(office, office_run):
     assert run["format"] == "bayesmap run"
     assert run["run"]["scans"] == run["sensors"][0]["scans"] == 12
     shown = call("info", office_run / "run.nc").stdout
-    assert "12 of 60 beams" in shown
+    assert "12, each of 60 beams" in shown
     assert "cells of 0.25 m, reflectivities and surfaces" in shown
     assert "fitted sensor: noise " in shown
 
@@ -89,7 +89,7 @@ def test_info_says_so_where_the_fitted_noise_has_heavy_tails(office_run, tmp_pat
     run.posterior.settings["fitted"]["sensor"]["noise"] = noise
     run.save(tmp_path / "run.nc")
     shown = call("info", tmp_path / "run.nc").stdout
-    assert "noise 1 cm + 0.2 cm per metre (Student's t, 9 degrees of freedom); chance" in shown
+    assert "noise 1 cm + 0.2 cm per metre (Student's t, 9 degrees of freedom); of all readings 0" in shown
 
 
 @pytest.mark.parametrize("content", [None, b"", b"prose\n", b"\x89HDF\r\n\x1a\n"])

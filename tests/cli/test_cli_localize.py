@@ -59,8 +59,8 @@ def test_a_single_scan_with_a_prior(office, office_run):
     prior = f"{x},{y},{np.degrees(yaw)},0.2,5"
     result = succeed("localize", office_run / "run.nc", office, "--scans 3:4 --prior", prior)
     first, *_, last = result.stdout.splitlines()
-    assert re.fullmatch(r"the base at scan 3 \(at \d+\.\d s\):", first)
-    assert last.startswith("lost, or the map outdated:")
+    assert re.fullmatch(r"the base at scan 3 \(at \d+\.\d s\), if it is not lost:", first)
+    assert last.startswith("lost (off the map, the scan blocked, or the map outdated):")
 
 
 def test_poses_are_those_of_the_frame_that_is_asked_for(office, office_run, tmp_path):
@@ -93,13 +93,13 @@ def test_lost_scans_are_named_with_their_times_and_are_no_poses(office, office_r
     times = [f"{stamps[scan] - stamps[0]:.1f}" for scan in (4, 6, 9)]
     assert json.loads(result.stdout)["lost_scans"] == [4, 5, 6, 9]
     told = f"scans 4 to 6 (at {times[0]} to {times[1]} s), scan 9 (at {times[2]} s)"
-    assert f"4 of 7 scans are probably off the map, or the map is outdated: {told}" in result.stderr
+    assert f"4 of 7 scans are probably off the map, or blocked, or the map is outdated: {told}" in result.stderr
     text, back = target.read_text(), read_trajectory(target)
     assert "# 4 lines begin with '# lost: ': these scans are probably off the map" in text
     assert (text.count("\n# lost: "), back.covariances.shape) == (4, (3, 3, 3))
     np.testing.assert_allclose(back.stamps_s, stamps[[7, 8, 10]], atol=1e-6)
     refused = call("localize", office_run / "run.nc", office, "--scans 4:7 -o", tmp_path / "none.tum")
-    assert re.search(r"(?s)outdated: 90.0 %\n.*not written, since all scans are lost", refused.stdout + refused.stderr)
+    assert re.search(r"(?s)\): 90.0 %\n.*not written, since all scans are lost", refused.stdout + refused.stderr)
 
 
 @pytest.mark.parametrize("follow", [(), ("--follow --for 0",)])

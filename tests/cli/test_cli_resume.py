@@ -107,7 +107,7 @@ def test_other_settings_or_another_log_are_refused_and_nothing_is_lost(office, t
 
 def test_resume_where_nothing_was_saved_starts_from_the_beginning(office, tmp_path, short):
     result = succeed("infer", office, "-o", tmp_path / "run", *short, "--resume")
-    assert "no draws yet; the chains start from the beginning" in result.stderr
+    assert "not there yet, as no sweep was saved; the chains start anew" in result.stderr
 
 
 def test_resume_of_a_finished_run_changes_nothing(office, finished):
@@ -159,8 +159,9 @@ def test_interrupted_before_its_first_sweep_no_run_is_kept_but_the_settings(offi
     assert result.exit_code == 130
     assert "interrupted before there was anything to save; start again with:" in result.stderr
     document = json.loads(result.stdout)
-    assert (document["sweeps"], document["draws"], document["outputs"]) == (0, 0, {})
-    assert {path.name for path in folder.iterdir()} == {"config.toml", "map.pgm", "map.yaml", "posterior.png"}
+    assert (document["sweeps"], document["draws"]) == (0, 0)
+    names = {"config.toml", "map.pgm", "map.yaml", "posterior.png"}
+    assert {path.name for path in folder.iterdir()} == document["outputs"].keys() == names
 
 
 @BOTH
@@ -233,8 +234,7 @@ def test_out_of_memory_before_the_first_checkpoint_it_is_as_it_was(office, finis
     monkeypatch.setattr("bayesmap.api.infer", infer)
     options = ("--cells binary --start propagate",) if where == "propagate" else ()
     assert "out of memory" in refusal_of("infer", office, "-o", finished, *short, *options, "--seed 5 --force", code=1)
-    after = contents(finished)
-    assert {name: after[name] for name in before} == before
+    assert contents(finished).items() >= before.items()
     # What had begun goes on with its own settings.
     monkeypatch.setattr("bayesmap.api.infer", real)
     succeed("infer", office, "-o", finished, "--resume")

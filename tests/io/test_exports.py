@@ -301,8 +301,7 @@ def grid_map_at(info, values, x, y):
     (columns, rows) = (dim.size for dim in values.layout.dim)
     matrix = np.array(values.data, dtype=np.float32).reshape(columns, rows).T  # column by column
     row = int((info.pose.position.x + info.length_x / 2 - x) / info.resolution)
-    column = int((info.pose.position.y + info.length_y / 2 - y) / info.resolution)
-    return matrix[row, column]
+    return matrix[row, int((info.pose.position.y + info.length_y / 2 - y) / info.resolution)]
 
 
 @pytest.mark.parametrize("ending", READERS)

@@ -66,8 +66,7 @@ def test_a_graph_without_scans_and_gmapping_s_own_log_are_refused_and_late_verti
     text = "ODO_UPDATE 1 0 0 0 0\nLASER_READING 3 1.0 2.0 1.5 0.1\nNEFF 20\n"
     for start in ("", "NEFF 1\n", "# comment\n"):
         assert "gfs2log" in refused(written(tmp_path / "run.gfs", start + text))
-    line = "FLASER 3 1.0 2.0 1.5 {x} 0 0 {x} 0 0 {x} host {x}\n"
-    text = "".join(line.format(x=0.1 * i) for i in range(1100))
+    text = "".join("FLASER 3 1.0 2.0 1.5 {x} 0 0 {x} 0 0 {x} host {x}\n".format(x=0.1 * i) for i in range(1100))
     reading = describe_log(written(tmp_path / "log", text + "VERTEX2 0 1 0 0\n"))
     assert any("1 VERTEX2 lines, which were not used" in note for note in reading.notes)
 
@@ -230,8 +229,8 @@ def test_scans_as_ros2_topic_echo_writes_them(tmp_path):
     assert np.isfinite(both.own_angles_rad).sum(axis=1).tolist() == [len(ANGLES)] * len(TIMES) + [3] * len(TIMES)
     row = next(ros2_rows(scans, intensities=False))
     assert "--full-length" in refused(written(tmp_path / "cut.csv", ",".join([*row.split(",")[:14], "...", "\n"])))
-    odd = row.rstrip("\n") + "1.0,2.0\n"
-    assert "line 1: " in refused(written(tmp_path / "odd.csv", odd), without_poses=True)
+    odd = written(tmp_path / "odd.csv", row.rstrip("\n") + "1.0,2.0\n")
+    assert "line 1: " in refused(odd, without_poses=True)
 
 
 def test_a_table_with_the_names_of_a_message_s_fields_and_poses_that_are_not_needed_are_read(tmp_path):

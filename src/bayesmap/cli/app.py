@@ -64,8 +64,7 @@ def app(
     from bayesmap.app.sources import read_document
 
     # Read what the page shows. The server opens a run or a log.
-    is_document = file is not None and file.endswith(".json")
-    document_file, opened_file = (file, None) if is_document else (None, file)
+    document_file, opened_file = (file, None) if file is not None and file.endswith(".json") else (None, file)
     document = tutorial_document(seed) if document_file is None else read_document(document_file)
     story = None
     if story_file is not None:

@@ -64,8 +64,7 @@ def command(section: str | None) -> Callable[[Callable[..., None]], click.Comman
 
         # The function's own options come first in the help, then the settings, then the common options.
         # In the help, a raw backslash-b of the docstring becomes the character that stops click from reflowing.
-        help_text = inspect.cleandoc(function.__doc__ or "").replace("\\b\n", "\b\n")
-        decorated = click.command(help=help_text)(callback)
+        decorated = click.command(help=inspect.cleandoc(function.__doc__ or "").replace("\\b\n", "\b\n"))(callback)
         decorated.params = list(getattr(function, "__click_params__", []))[::-1]
         keys = keys_of(section) if section is not None else ()
         decorated.params += [_option(key) for key in keys] + list(COMMON_OPTIONS)

@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from bayesmap.cli.command import FORCE, Call, command
-from bayesmap.cli.console import progress_bar, share_bar, write_lines
+from bayesmap.cli.console import counted, progress_bar, share_bar, write_lines
 from bayesmap.cli.keys import ExploreSettings, PlanSettings
-from bayesmap.cli.translation import need_free, numbers_of
+from bayesmap.cli.translation import numbers_of, picture_path
 
 if TYPE_CHECKING:
     from bayesmap.posterior.decisions import Views
@@ -81,11 +81,11 @@ def _load_run(call: Call[Any], run_file: str, output: str | None, default: str, 
     from bayesmap.files import check_ending
     from bayesmap.result import load
 
-    target = Path(output) if output else Path(run_file).with_name(default)
     if output:
-        check_ending(target, ("png", "pdf", "svg"), "figure")
-    need_free([target], force=force)
+        check_ending(output, ("png", "pdf", "svg"), "figure")
+    target = picture_path(run_file, output, default, force=force)
     run = load(run_file)
+    call.console.say(f"{run_file}: {counted(run.log_joint.size, 'draw')} of a map of {run.grid.n_cells:,} cells")
     if run.n_draws:
         with progress_bar(call.console, "comparing the chains"):
             summary = run.summary()
@@ -164,15 +164,13 @@ def _best_views_json(views: Views) -> list[dict[str, Any]]:
     """Return the best views as JSON values, with their expected information in nats."""
     information = views.information
     assert information.independent is not None
-    return [
-        {
-            "pose": views.candidates[candidate].tolist(), "at_least_nats": float(information.at_least[rank]),
-            "at_least_error": float(information.at_least_error[rank]), "at_most_nats": float(information.at_most[rank]),
-            "at_most_error": float(information.at_most_error[rank]),
-            "independent_nats": float(information.independent[rank]),
-        }
-        for rank, candidate in enumerate(views.best)
-    ]  # fmt: skip
+    bounds = {
+        "at_least_nats": information.at_least, "at_least_error": information.at_least_error,
+        "at_most_nats": information.at_most, "at_most_error": information.at_most_error,
+        "independent_nats": information.independent,
+    }  # fmt: skip
+    poses = [{"pose": views.candidates[candidate].tolist()} for candidate in views.best]
+    return [{**pose, **{k: float(v[rank]) for k, v in bounds.items()}} for rank, pose in enumerate(poses)]
 
 
 def _view_line(rank: int, view: dict[str, Any], *, any_yaw: bool) -> str:

@@ -58,9 +58,8 @@ def demo(call: Call[DemoSettings], output: str, force: bool) -> None:
     keys += ["log_evidence", "diagnostics", "problems"]
     documents = {name: run_document(run) for name, run in runs.items()}
     document = {
-        **documents["gibbs"], "heldout": None,
+        **documents["gibbs"], "heldout": None, "outputs": {path.name: str(path) for path in outputs},
         "runs": {name: {key: entry[key] for key in keys} for name, entry in documents.items()},
-        "outputs": {path.name: str(path) for path in outputs},
     }  # fmt: skip
     write_file(folder / "demo.json", as_json(document))
     _print_report(call.console, runs, folder)

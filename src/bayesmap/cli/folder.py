@@ -50,7 +50,7 @@ class Folder:
     resuming: bool = False  # whether to resume the run in the folder; False if that run is outdated
     begun: bool = field(default=False, init=False)  # whether `begin` has been called
     _toml: str = field(default="", init=False)
-    _previewed: bool = field(default=False, init=False)
+    first_map: list[Path] = field(default_factory=list, init=False)  # the files of `preview`
 
     def __post_init__(self) -> None:
         self.run_path = self.path / "run.nc"  # the saved run, which is also its checkpoint
@@ -102,7 +102,7 @@ class Folder:
     def start_afresh(self) -> None:
         """Save the settings of the new run, and remove the files made from the older run that it replaces."""
         write_file(self.config_path, self._toml)
-        if not self._previewed:  # the files of the preview belong to the new run
+        if not self.first_map:  # its files belong to the new run
             for name in DERIVED:
                 (self.path / name).unlink(missing_ok=True)
         self.outdated_path.unlink(missing_ok=True)
@@ -127,12 +127,10 @@ class Folder:
 
         if not self.run_path.exists():
             self.path.mkdir(parents=True, exist_ok=True)
-            self._previewed = True
             _, png = thumbnail(run.occupancy, run.observed, PREVIEW_PIXELS)
             try:
-                picture = write_file(self.path / "posterior.png", png)
-                run.export(self.path / "map.yaml")
-                self.console.say(f"a first, rough map: {picture}")
+                self.first_map = [write_file(self.path / "posterior.png", png), *run.export(self.path / "map.yaml")]
+                self.console.say(f"a first, rough map: {self.first_map[0]}")
             except OSError as error:
                 self.console.warn(f"{self.path}: a first map could not be written: {error.strerror or error}")
 
@@ -193,10 +191,9 @@ def run_document(run: Run) -> dict[str, Any]:
         "draws": int(joint.shape[1]), "sweeps": posterior.sweep, "finished": run.finished,
         "seconds": {name: round(value, 6) for name, value in posterior.seconds.items()},
         "log_joint": {"last": last, "mean": mean}, "log_evidence": finite(posterior.log_evidence),
-        "unchanged_cells": diagnostics["unchanged_cells"] or 0,
         **{name: diagnostics[name] for name in ("microseconds_per_sweep", "rhat_max", "ess_min")},
-        "diagnostics": diagnostics, "good": summary.strengths(), "problems": summary.problems(),
-        "peak_memory_mb": peak_memory_mb(),
+        "unchanged_cells": diagnostics["unchanged_cells"] or 0, "diagnostics": diagnostics,
+        "good": summary.strengths(), "problems": summary.problems(), "peak_memory_mb": peak_memory_mb(),
     }  # fmt: skip
 
 

@@ -9,17 +9,17 @@ import msgspec
 
 from bayesmap.cli.command import Call, as_toml, command, merge_layers
 from bayesmap.cli.console import BAD_INPUT, counted, write_lines, write_out
-from bayesmap.cli.folder import run_document, work_done
+from bayesmap.cli.folder import grid_document, run_document, work_done
 from bayesmap.cli.keys import SECTIONS, Settings
 from bayesmap.cli.pipeline import cost_of_suggestion
-from bayesmap.cli.translation import LOG, need_file
+from bayesmap.cli.translation import LOG, is_map, need_file
 from bayesmap.files import is_saved_run
 
 
 @command(None)
 @click.argument("file")
 def info(call: Call[Settings], file: str) -> None:
-    r"""Describe FILE: a log, a robot's recording (a file or a folder), or a saved run.
+    r"""Describe FILE: a log, a robot's recording (a file or a folder), a saved run, or a map (map_server YAML).
 
     For a recording the command lists topics and frames, describes the scans, names the topics that can give poses, and
     prints the command that infers a map. It counts damaged and malformed messages, and describes the others. If there
@@ -29,8 +29,9 @@ def info(call: Call[Settings], file: str) -> None:
     bayesmap info recording.mcap
     bayesmap info runs/office/run.nc --json
     """
-    need_file(file, f"a saved run (.nc), or {LOG}", runs=True)
-    document = _describe_run(file) if is_saved_run(file) else _describe_log(file)
+    need_file(file, f"a saved run (.nc), a map (.yaml), or {LOG}", runs=True)
+    describe = _describe_run if is_saved_run(file) else _describe_map if is_map(file) else _describe_log
+    document = describe(file)
     if call.console.as_json:
         call.console.result(document, [])
     else:
@@ -57,6 +58,20 @@ def _describe_run(file: str) -> dict[str, Any]:
     }  # fmt: skip
 
 
+def _describe_map(file: str) -> dict[str, Any]:
+    import numpy as np
+
+    from bayesmap.io.ros.maps import read_map
+
+    occupancy, grid = read_map(file)
+    masks = {"occupied": occupancy > 0.5, "free": occupancy <= 0.5, "unknown": np.isnan(occupancy)}
+    return {
+        "path": file, "format": "map of map_server or nav2, no log", "grid": grid_document(grid), "sensors": [],
+        "states": ", ".join(f"{int(mask.sum()):,} {state}" for state, mask in masks.items()),
+        "notes": ["bayesmap localize and score take it in place of a saved run, and infer takes its cells by --grid"],
+    }  # fmt: skip
+
+
 def _describe_log(file: str) -> dict[str, Any]:
     from bayesmap.io.contents import contents_of
 
@@ -74,6 +89,9 @@ def _lines(document: dict[str, Any]) -> list[str]:
     lines = [f"{document['path']}: {document['format']}"]
     if document.get("duration_s") is not None:
         lines[0] += f", {document['duration_s']:,.1f} s"
+    if (mapped := document.get("run", document)).get("grid"):
+        size = " x ".join(map(str, mapped["grid"]["shape"]))
+        lines.append(f"grid: {size} cells of {mapped['grid']['resolution']:g} m, {mapped['states']}")
     if "run" in document:
         lines += _run_lines(document["run"])
     topics = document.get("topics", [])
@@ -98,13 +116,9 @@ def _lines(document: dict[str, Any]) -> list[str]:
 
 
 def _run_lines(run: dict[str, Any]) -> list[str]:
-    nx, ny = run["grid"]["shape"]
     state = "finished" if run["finished"] else "not finished"
     draws = f", {counted(run['draws'], 'draw')} each" if run["sweeps"] else ""
-    lines = [
-        f"grid: {nx} x {ny} cells of {run['grid']['resolution']:g} m, {run['states']}",
-        f"method: {run['method']}, {work_done(run)}{draws}, {state}",
-    ]
+    lines = [f"method: {run['method']}, {work_done(run)}{draws}, {state}"]
     fitted = run["fitted"] or {}
     if "sensor" in fitted:
         lines.append(f"fitted sensor: {_sensor_words(fitted['sensor'])}")
@@ -120,7 +134,8 @@ def _sensor_words(sensor: dict[str, Any]) -> str:
     noise = None if model is None else model.kernel_parameters()
     assert noise is not None
     tails = f" (Student's t, {noise.dof:g} degrees of freedom)" if noise.dof else ""
-    shares = f"chance {sensor['p_random']:.2g}, no return {sensor['p_no_return']:.2g}, objects {sensor['p_short']:.2g}"
+    others = f"up to {sensor['p_short']:.2g} end at objects in the way, {sensor['p_no_return']:.2g} have no return"
+    shares = f"of all readings {sensor['p_random']:.2g} are random; of the others {others}"
     return f"noise {100 * noise.sigma_m:.2g} cm + {100 * noise.sigma_per_m:.2g} cm per metre{tails}; {shares}"
 
 
@@ -135,7 +150,7 @@ def _sensor_lines(sensor: dict[str, Any]) -> list[str]:
         beams += f", {sensor['angle_step_deg']:g} apart"
     kinds = ", ".join(f"{count:,} {kind.replace('_', ' ')}" for kind, count in sensor["readings"].items() if count)
     lines = [
-        f"{title}: {sensor['scans']:,} of {beams}",
+        f"{title}: {sensor['scans']:,}, each of {beams}",
         f"  ranges from {sensor['min_range_m']:g} to {sensor['max_range_m']:g} m; readings: {kinds}",
     ]
     if sensor.get("no_poses"):

@@ -73,7 +73,8 @@ def localize(
 
     The first scan may be anywhere on the map, unless --prior gives its pose. The log's poses serve as odometry: only
     motions between scans count. The command returns the likeliest pose with its covariance, all likely poses with
-    their probabilities, and the probability of being lost: the scan comes from outside the map, or the map is outdated.
+    their probabilities if the robot is not lost, and the probability that it is: the scan comes from outside the map,
+    or is blocked, or the map is outdated.
 
     Poses, also in --prior and --area, are poses of the robot's base, if the log says where the laser sits on it, and
     else of the laser (--frame). Scans are numbered as in the log, from 0.
@@ -104,7 +105,7 @@ def localize(
     localization, lost = posteriors.localization, posteriors.lost_scans()
     if lost:
         share, which = f"{len(lost):,} of {len(localization):,} scans", posteriors.describe_stretches(lost)
-        call.console.warn(f"{share} are probably off the map, or the map is outdated: {which}")
+        call.console.warn(f"{share} are probably off the map, or blocked, or the map is outdated: {which}")
     # Write the file and print the posterior, unless it has been printed scan by scan.
     nothing_to_write = target is not None and target.suffix != ".jsonl" and len(lost) == len(localization)
     outputs = [] if target is None or nothing_to_write else _write(target, posteriors)
@@ -302,16 +303,15 @@ def _belief_json(belief: PoseBelief, corners: list[float] | None) -> dict[str, A
 def _describe_last_pose(posteriors: _Posteriors, corners: list[float] | None) -> list[str]:
     """Describe the last pose in lines of text: likeliest modes, probability of being lost, probability of the area."""
     localization, last = posteriors.localization, posteriors.first + len(posteriors.beliefs) - 1
-    if_found = ", if it is on the map" if localization.p_lost > MAX_P_LOST else ""
-    lines = [f"the {localization.frame} at {posteriors.describe(last, last)}{if_found}:"]
+    lines = [f"the {localization.frame} at {posteriors.describe(last, last)}, if it is not lost:"]
     for mode in localization.modes[:MAX_MODES]:
         (x, y, yaw), sd = mode.mean, [math.sqrt(variance) for variance in mode.covariance.diagonal()]
         position = f"x {x:.3f} +- {sd[0]:.3f} m  y {y:.3f} +- {sd[1]:.3f} m"
         heading = f"yaw {math.degrees(yaw):.2f} +- {math.degrees(sd[2]):.2f} degrees"
         lines.append(f"{100 * mode.probability:5.1f} %  {position}  {heading}")
-    lines.append(f"lost, or the map outdated: {_per_cent(localization.p_lost)} %")
+    lines.append(f"lost (off the map, the scan blocked, or the map outdated): {_per_cent(localization.p_lost)} %")
     if corners is not None:
-        lines.append(f"in the area: {100 * localization.probability_in(corners):.1f} %")
+        lines.append(f"not lost, and in the area: {100 * localization.probability_in(corners):.1f} %")
     return lines
 
 
@@ -378,8 +378,8 @@ def _live_scans_of(request: _Request, idle_s: float | None) -> Iterator[Scans]:
     scans = live_scans(
         log, max_range_m=request.map.live_max_range_m, no_return=settings.no_return, idle_s=idle_s,
         skip_bad_lines=settings.skip_bad_lines, laser=log_options_of(settings)["laser"],
-        on_skipped=lambda line, reason: request.call.console.say(f"{log}: line {line} left out: {reason}"),
         without_poses=request.independent,
+        on_skipped=lambda line, reason: request.call.console.say(f"{log}: line {line} left out: {reason}"),
     )  # fmt: skip
     return itertools.islice(_thin(scans, settings.thin_scans), span.start or 0, span.stop)
 

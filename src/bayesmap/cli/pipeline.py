@@ -86,8 +86,7 @@ def infer_log(
     # Report, and name commands to give next.
     file = str(folder.run_path)
     second = ["score", file, task.log, "--holdout", str(every)] if every else ["explore", file]
-    commands = [["app", file], second, ["render", file]]
-    report(folder.console, document, commands=commands if resume_command else ())
+    report(folder.console, document, commands=[["app", file], second, ["render", file]] if resume_command else ())
     return document
 
 
@@ -110,7 +109,7 @@ def load_interrupted(folder: Folder) -> Run | None:
     from bayesmap.result import load
 
     if not folder.run_path.exists():
-        folder.console.say(f"{folder.run_path}: no draws yet; the chains start from the beginning")
+        folder.console.say(f"{folder.run_path}: not there yet, as no sweep was saved; the chains start anew")
         return None
     run = load(folder.run_path)
     folder.console.say(f"resuming {folder.run_path} after {counted(run.posterior.sweep, 'sweep')}")
@@ -124,9 +123,9 @@ def read_scan_log(console: Console, path: str, settings: SamplingSettings, *, wi
     options = translation.log_options_of(settings)
     log = describe_log(path, max_range_m=settings.max_range, without_poses=without_poses, **options)
     scans, n_hits, code_m = log.scans, log.scans.counts()["hit"], log.no_return.code_m
-    code_words = "no code for no return" if code_m is None else f"{code_m:g} m is no return ({log.no_return.origin})"
+    number = "" if code_m is None else f" ({code_m:g} m, {log.no_return.origin})"
     size = f"{len(scans):,} scans, {scans.n_beams:,} beams, {n_hits:,} hits up to {scans.max_range_m:g} m"
-    console.say(f"{path}: {size}; {code_words}")
+    console.say(f"{path}: {size}, {scans.counts()['no_return']:,} no return{number}")
     if n_hits == 0:
         console.warn(f"{path}: no reading is a hit, so there is no wall to find; check --max-range and --no-return")
     listed = log.skipped if console.verbose else log.skipped[:10]
@@ -195,10 +194,9 @@ def sample(
         run = infer(
             train, grid, prior=translation.prior_of(settings), sensor=translation.sensor_for(settings, grid.resolution),
             method=translation.method_of(settings), schedule=translation.schedule_of(settings), seed=settings.seed,
-            hit_depth=settings.hit_depth or 0.0,
+            hit_depth=settings.hit_depth or 0.0, on_progress=on_progress,
             where=Where(settings.threads, settings.device, executor, settings.any_size),
             checkpoints=Checkpoints(saved, on_checkpoint, settings.checkpoint_every, preview=folder.preview),
-            on_progress=on_progress,
         )  # fmt: skip
     if run.finished or run.posterior.sweep > 0 or not folder.run_path.exists():
         folder.begin(toml)  # otherwise no sweep is done, and an older run keeps its place
@@ -233,11 +231,11 @@ def keep_interrupted(
     folder: Folder, run: Run, log: ScanLog, resume_command: str | None, complete: Sequence[Path] = ()
 ) -> dict[str, Any]:
     """Save an interrupted run, print how to resume it, and return its document. ``complete`` are finished files."""
-    outputs: list[Path] = []
+    outputs = [*folder.first_map, folder.config_path] if folder.first_map else []
     go_on = f"; go on with:\n  {resume_command}"
     # Chains stopped before their first sweep may have an incomplete start, so they are not saved.
     if run.posterior.sweep > 0:
-        outputs = folder.write_products(run)
+        outputs = [*folder.write_products(run), folder.config_path]
         state = f"after {counted(run.posterior.sweep, 'sweep')}, saved in {folder.run_path}{go_on}"
     elif folder.resuming and folder.run_path.exists():
         state = f"before the first sweep; {folder.run_path} is as it was{go_on}"
@@ -319,7 +317,6 @@ def cost_of_suggestion(suggestion: str | None, scans: Scans | None) -> dict[str,
     if cost is None:
         return None
     return {
-        "seconds": cost.seconds, "cores": cost.cores, "memory_bytes": cost.peak_bytes,
+        "seconds": cost.seconds, "cores": cost.cores, "words": cost.words(), "memory_bytes": cost.peak_bytes,
         "available_bytes": cost.available_bytes, "fits": not cost.is_too_large, "remedy": cost.remedy or None,
-        "words": cost.words(),
     }  # fmt: skip

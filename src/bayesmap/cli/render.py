@@ -16,7 +16,7 @@ import click
 from bayesmap.cli.command import FORCE, Call, command
 from bayesmap.cli.console import share_bar
 from bayesmap.cli.keys import ExportSettings, RenderSettings
-from bayesmap.cli.translation import NO_MOUNT, heldout_scans, need_free
+from bayesmap.cli.translation import NO_MOUNT, heldout_scans, need_free, picture_path
 from bayesmap.errors import BadInput
 
 if TYPE_CHECKING:
@@ -66,8 +66,7 @@ def render(
 
     settings = call.settings()
     kind = settings.what
-    target = Path(output or Path(run_file).with_name(default_name(kind)))
-    need_free([target], force=force)
+    target = picture_path(run_file, output, default_name(kind), force=force)
     run = load(run_file)
     # Methods that compute marginals have a map without draws; chains in warm-up have none.
     if run.n_draws == 0 and (kind in ("draw", "animation") or run.posterior.has_chains):
@@ -108,8 +107,7 @@ def _whole_figure(run: Run, settings: RenderSettings, walls: Walls | None) -> Fi
         return trace_figure(run.log_joint, first_sweep=run.posterior.settings["warmup"] + 1)
     if settings.what == "weights":
         return weights_figure(run.log_weights)
-    options = {"draw": select_draw(run, settings.chain, settings.draw)} if run.n_draws else {}
-    return run.plot(truth=walls, **options)
+    return run.plot(truth=walls, **({"draw": select_draw(run, settings.chain, settings.draw)} if run.n_draws else {}))
 
 
 def _panel(run: Run, settings: RenderSettings, grid: Grid, window: Window, walls: Walls | None) -> Figure:

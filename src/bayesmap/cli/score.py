@@ -85,7 +85,8 @@ def score(
         raise click.UsageError("--frame says whose --relations are known; give both")
     if picture is not None:
         check_ending(picture, ("png", "pdf", "svg"), "figure")  # check before minutes of computation
-        need_free([Path(picture), _poses_picture(Path(picture))], force=force, option="--picture")
+        poses_picture = Path(picture).with_stem(f"{Path(picture).stem}-poses")
+        need_free([Path(picture), poses_picture], force=force, option="--picture")
     # Score the map, then the poses.
     if is_run:
         scores_poses = relations is not None
@@ -310,11 +311,6 @@ def infer_map(call: Call[ScoreSettings], split: SplitLog) -> Run:
         )  # fmt: skip
 
 
-def _poses_picture(picture: Path) -> Path:
-    """Return the path of the picture of poses, beside the picture of beams."""
-    return picture.with_stem(f"{picture.stem}-poses")
-
-
 def _write_pictures(picture: Path, maps: list[MapScore], poses: TrajectoryScore | None) -> list[Path]:
     """Render calibration and pose errors, and return the paths. With both, the errors go to NAME-poses.png."""
     from bayesmap.viz.figure import write_figure
@@ -325,7 +321,7 @@ def _write_pictures(picture: Path, maps: list[MapScore], poses: TrajectoryScore 
         written.append(picture)
         write_figure(calibration_figure([(row.name, row.score) for row in maps]), picture)
     if poses is not None:
-        written.append(_poses_picture(picture) if maps else picture)
+        written.append(picture.with_stem(f"{picture.stem}-poses") if maps else picture)
         write_figure(errors_figure(poses), written[-1])
     return written
 

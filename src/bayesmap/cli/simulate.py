@@ -184,8 +184,7 @@ def _write_true_poses(trajectory: Path, relations: Path, base: Floats, stamps_s:
     outputs = [write_trajectory(trajectory, base, stamps_s, "base")]
     start, end = related_pairs(base, seed)
     if len(start):
-        relative = between(base[start], base[end])
-        outputs.append(write_relations(relations, stamps_s[start], stamps_s[end], relative))
+        outputs.append(write_relations(relations, stamps_s[start], stamps_s[end], between(base[start], base[end])))
     return outputs
 
 
@@ -262,13 +261,11 @@ def _building(settings: SimulateSettings, typed_poses: Floats | None) -> World:
 
 def _read_walls(path: Path, resolution: float | None) -> tuple[NDArray[np.bool_], Grid]:
     """Read walls, (nx, ny), and their grid from a map_server map, a picture or a text drawing."""
-    from bayesmap.io.ros.maps import from_image
+    from bayesmap.io.ros.maps import from_image, read_map
     from bayesmap.sim.drawing import from_text
     from bayesmap.space.grid import Grid
 
     if is_map(str(path)):
-        from bayesmap.io.ros.maps import read_map
-
         occupancy, grid = read_map(path)
         return occupancy > 0.5, grid if resolution is None else Grid(grid.shape, resolution, grid.origin)
     if path.suffix.lower() in IMAGE_ENDINGS:

@@ -164,13 +164,11 @@ def _sample(task: Task[SlamSettings], scans: Scans, saved: Run | None, files: Tr
                 folder.console.say(f"{few}: chains sample its poses with the map, which takes longer; --fast does not")
 
         if saved is None:
-            # Save the settings before the first stage: they are needed to resume the finished stages.
-            folder.begin(toml)
+            folder.begin(toml)  # before the first stage: to resume finished stages takes the settings
         run = slam(
-            scans, resolution=settings.resolution, prior=translation.prior_of(settings),
-            sensor=translation.sensor_for(settings, settings.resolution),
-            fast=translation.fast_of(settings), no_odometry=settings.no_odometry,
-            schedule=translation.schedule_of(settings), seed=settings.seed, hit_depth=settings.hit_depth,
+            scans, resolution=settings.resolution, prior=translation.prior_of(settings), seed=settings.seed,
+            sensor=translation.sensor_for(settings, settings.resolution), fast=translation.fast_of(settings),
+            no_odometry=settings.no_odometry, schedule=translation.schedule_of(settings), hit_depth=settings.hit_depth,
             where=Where(settings.threads, settings.device, any_size=settings.any_size), on_progress=on_progress,
             checkpoints=Checkpoints(
                 saved, on_checkpoint, settings.checkpoint_every, folder.path / STAGES, folder.preview, on_trajectory
@@ -336,16 +334,13 @@ def _doubtful(trajectory: dict[str, Any]) -> list[str]:
     if trajectory["flagged"]:
         doubt = "see what few others see: people, glass, a new place, or a wrong pose (one in two, in simulated logs)"
         remedy = "compare them with the map in trajectory.png, where they have crosses"
-        n_flagged = len(trajectory["flagged"])
-        doubtful.append(f"{n_flagged} scans {doubt}; {remedy}: {_list_scans(trajectory['flagged'])}")
+        doubtful.append(f"{len(trajectory['flagged'])} scans {doubt}; {remedy}: {_list_scans(trajectory['flagged'])}")
     if trajectory["breaks"]:
         doubt = "before these scans the robot seems to have been carried, or data are missing"
         remedy = "if it was not, look for gaps with bayesmap info"
         doubtful.append(f"{doubt}; {remedy}: {_list_scans(trajectory['breaks'])}")
     if trajectory["leaps"]:
-        doubt = (
-            "before these scans the trajectory moves as odometry did not, and the scans just before do not confirm it"
-        )
+        doubt = "before these scans the trajectory moves as odometry did not, which the scans before do not confirm"
         effect = "what lies before and after may be shifted against each other, as loops.png shows"
         doubtful.append(f"{doubt}; {effect}: {_list_scans(trajectory['leaps'])}")
     doubtful += [

@@ -20,7 +20,7 @@ import msgspec
 
 from bayesmap.cli.keys import InferSettings, LogSettings, SamplingSettings, SlamSettings
 from bayesmap.errors import BadInput
-from bayesmap.files import saved_run_hint
+from bayesmap.files import PICTURE_MARK, saved_run_hint
 
 if TYPE_CHECKING:
     from bayesmap.arguments import Schedule
@@ -105,7 +105,6 @@ def sensor_of(text: str) -> SensorModel | None:
         return None
     from bayesmap.sensors.model import KINDS, from_description
 
-    # Split the text into the kind of the model and its parameters.
     kind, _, parameter_text = text.partition(":")
     if kind not in KINDS:
         raise BadInput(f"sensor {text!r}: unknown kind {kind!r}; known: default, fit (of infer), {', '.join(KINDS)}")
@@ -378,6 +377,14 @@ def need_free(paths: Iterable[Path], *, force: bool, option: str = "-o") -> None
     for path in paths:
         if os.path.lexists(path) and not force:
             raise BadInput(f"{path}: exists already; --force replaces it, {option} takes another name")
+
+
+def picture_path(run_file: str, output: str | None, default: str, *, force: bool) -> Path:
+    """Return the path of a picture, ``default`` beside the run, where an older picture of bayesmap may be replaced."""
+    target = Path(output) if output else Path(run_file).with_name(default)
+    is_own = not output and target.is_file() and PICTURE_MARK.encode() in target.read_bytes()[:1000]
+    need_free([target], force=force or is_own)
+    return target
 
 
 def is_map(path: str) -> bool:

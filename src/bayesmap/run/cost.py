@@ -45,14 +45,13 @@ def estimate(scans: Scans, grid: Grid, size: ProblemSize, sampling: Sampling) ->
 
 
 def _estimate_without_remedy(size: ProblemSize, sampling: Sampling) -> Estimate:
-    # The fewest and the most draws per chain.
     plan = sampling.plan
     fewest = plan.draws if plan.precision is None else min(FIRST_MARK_DRAWS, plan.draws)
     fewest, most = min(fewest, 2) if plan.seconds else fewest, plan.draws
     times = sampling.processor_s(size, fewest), sampling.processor_s(size, most)
     processor_s = None if times[0] is None or times[1] is None else (times[0], times[1])
     peak_bytes = sampling.peak_bytes(size, fewest), sampling.peak_bytes(size, most)
-    return Estimate(peak_bytes, processor_s, sampling.cores, memory_bytes())
+    return Estimate(peak_bytes, processor_s, sampling.cores, memory_bytes(), samples_poses=sampling.samples_poses)
 
 
 @dataclass(frozen=True)
@@ -64,6 +63,7 @@ class Estimate:
     cores: int
     available_bytes: int | None  # memory of the machine; None if not known
     remedy: str = ""  # options of the command line that make it fit, or shorter; empty if it fits or nothing helps
+    samples_poses: bool = False  # whether poses are sampled, too
 
     @property
     def seconds(self) -> tuple[float, float] | None:
@@ -96,7 +96,8 @@ class Estimate:
             cores = f"{self.cores} core{'s' * (self.cores > 1)}"
             text = f"{_range_in_unit(self.seconds, unit_s)} {unit} on {cores}, and {text}"
         remedy = f"; less with {self.remedy}" if self.remedy and (self.is_long or self.is_large) else ""
-        return f"about {text}{remedy}"
+        poses = "; poses are sampled, too, as in all short logs (--fast does not)" if self.samples_poses else ""
+        return f"about {text}{poses}{remedy}"
 
     def refuse(self, scans: Scans) -> None:
         """Raise `BadInput` for a run that cannot fit into memory; it names the scan that lies furthest out."""
@@ -193,7 +194,7 @@ def size_of(scans: Scans, grid: Grid, log: Scans | None = None) -> ProblemSize:
 
 @dataclass(frozen=True)
 class SamplerCost:
-    """The constants of a sampler: nanoseconds per incidence and sweep (None: not measured), and bytes."""
+    """The constants of a sampler: nanoseconds of a sweep per unit of work (None: not measured), and bytes."""
 
     warmup_ns: float | None
     sweep_ns: float | None
@@ -203,18 +204,19 @@ class SamplerCost:
     chain_beam_bytes: float  # bytes per chain and beam
 
 
-SURFACES = SamplerCost(43.0, 29.0, 16.0, 1.3, 110.0, 20.0)
+SURFACES = SamplerCost(37.0, 25.0, 16.0, 1.3, 110.0, 20.0)
 """Times: between Intel (6.4 M incidences, 4 x (30 + 50) sweeps, 75 s in all) and five minutes of 720 beams (5.9 M, 82 s
-of chains; 212 s with 246 sweeps, so 33 ns a sweep). The pilot and settling chains take longer sweeps. Bytes:
-docs/surfaces.md, with a third of the incidences in endpoint cells."""
-REFLECTIVITIES = SamplerCost(26.0, 18.0, 8.0, 0.0, 75.0, 20.0)
+of chains; 212 s with 246 sweeps). The pilot and settling chains take longer sweeps. Bytes: docs/surfaces.md, with a
+third of the incidences in endpoint cells."""
+REFLECTIVITIES = SamplerCost(22.0, 15.5, 8.0, 0.0, 75.0, 20.0)
 """Times: 0.6 of surfaces (72 ms for 118 ms a sweep of Intel, docs/lab/benchmarks.md). Bytes: docs/surfaces.md."""
-WALLS = SamplerCost(7.0, 7.0, 32.0, 0.0, 11.0, 8.0)
+WALLS = SamplerCost(6.0, 6.0, 32.0, 0.0, 11.0, 8.0)
 """Times: 28.7 ms a sweep of 6.5 M incidences (docs/lab/benchmarks.md), 7.6 ns in runs. Bytes: docs/beam-table.md."""
 BLOCKS = SamplerCost(None, None, 57.0, 0.0, 11.0, 8.0)  # bytes: docs/beam-table.md; times were not measured
 TABLE = SamplerCost(None, None, 40.0, 0.0, 32.0, 8.0)
 """Methods without chains: the beam table and the messages of belief propagation; times were not measured."""
 
+TOUCHED_CELL_WORK = 10.0  # units of work per touched cell, 1 per incidence: sweeps of 24, 6, 2 scans take 30, 13, 7 ms
 POSES_FACTOR = 3.0  # ratio of a sweep that samples poses, too: 2 to 4 (MIT CSAIL; 305 000 beams of the five minutes)
 MATCHING_S_PER_SCAN = 7.4e-3  # time for the trajectory: 22 s for 3000 scans, 90 s for 12 000, of 720 beams
 FIXED_S = 8.0  # time for files and pictures: with 40 draws of 1.1 MB 10 s
@@ -271,7 +273,8 @@ class Sampling:
             return None
         # The pilot makes as many sweeps as the warm-up of one chain.
         warmup = plan.warmup * (self.chains + self.is_fitted) * cost.warmup_ns
-        chains = 1e-9 * size.incidences * (warmup + draws * plan.thin * self.chains * cost.sweep_ns)
+        work = size.incidences + TOUCHED_CELL_WORK * size.touched
+        chains = 1e-9 * work * (warmup + draws * plan.thin * self.chains * cost.sweep_ns)
         chains *= POSES_FACTOR if self.samples_poses else 1.0
         if plan.seconds is not None:
             chains = min(chains, plan.seconds * self.cores)

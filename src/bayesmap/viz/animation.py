@@ -17,7 +17,7 @@ from PIL import Image, ImageDraw, ImageFont
 from scipy import ndimage
 
 from bayesmap.errors import BadInput
-from bayesmap.files import check_ending, write_file
+from bayesmap.files import PICTURE_MARK, check_ending, write_file
 from bayesmap.space.arrays import Mask
 from bayesmap.space.grid import ROUNDING, Grid, as_mask, as_observed
 from bayesmap.space.scans import as_poses
@@ -58,7 +58,7 @@ def write_animation(
     durations = [step_ms] * (len(np.asarray(draws)) - 1) + [max(step_ms, MIN_LAST_FRAME_MS)]
     save_options: dict[str, Any] = {"format": ending, "save_all": True, "duration": durations, "loop": 0}
     if ending == "gif":
-        save_options |= {"optimize": False, "disposal": 1}
+        save_options |= {"optimize": False, "disposal": 1, "comment": PICTURE_MARK.encode()}
     else:
         # Lossless keeps the edges of cells sharp. The least effort is three times faster, and files are hardly larger.
         save_options |= {"lossless": True, "method": 0, "quality": 0}

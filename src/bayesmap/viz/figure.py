@@ -24,7 +24,7 @@ from matplotlib.ticker import ScalarFormatter
 from numpy.typing import ArrayLike, NDArray
 
 from bayesmap.errors import BadInput
-from bayesmap.files import check_ending, write_file
+from bayesmap.files import PICTURE_MARK, check_ending, write_file
 from bayesmap.space.grid import Grid, as_observed
 from bayesmap.space.scans import Scans
 from bayesmap.viz import maps, overlays, palette
@@ -203,7 +203,7 @@ def write_figure(figure: Figure, path: str | os.PathLike[str]) -> None:
     """
     target, ending = check_ending(path, ("png", "pdf", "svg"), "figure")
     # No date and no random identifiers, so that equal pictures are equal files.
-    undated = {"png": {}, "pdf": {"CreationDate": None}, "svg": {"Date": None}}[ending]
+    undated = {"png": {"Software": PICTURE_MARK}, "pdf": {"CreationDate": None}, "svg": {"Date": None}}[ending]
     buffer = io.BytesIO()
     # These settings are global in matplotlib, hence the lock.
     with _rc_lock, rc_context({"svg.hashsalt": "bayesmap", "pdf.fonttype": 42}):

@@ -32,6 +32,7 @@ STROKE_SIGMAS = 2.0  # standard deviations from the mean to each end of a stroke
 MIN_WEIGHT = 0.02  # least weight of a plotted surface: fainter ones would be invisible, and most cells are free
 MIN_STROKE_PT, MAX_STROKE_PT = 0.8, 2.5  # limits of a stroke's width
 FOOT_HEIGHT_IN = 0.6  # height of the legend below the map, inches
+VIEW_IN, KEY_IN = 0.06, 1.7  # height that one more view adds to the legend, and width of a key, inches
 Marks = list[LineCollection | PathCollection]  # artists of beams and readings
 
 
@@ -110,8 +111,7 @@ def _rays(scans: Scans, beams: NDArray[np.intp]) -> Floats:
     ranges = scans.ranges_m.ravel()[beams]
     ranges = np.where(np.isposinf(ranges), scans.max_range_m, ranges)
     starts = scans.beam_starts_world().reshape(-1, 2)[beams]
-    ends = starts + ranges[:, None] * np.stack([np.cos(angles), np.sin(angles)], axis=-1)
-    return np.stack([starts, ends], axis=1)
+    return np.stack([starts, starts + ranges[:, None] * np.stack([np.cos(angles), np.sin(angles)], axis=-1)], axis=1)
 
 
 def _arrow(yaw_rad: float) -> MarkerStyle:
@@ -219,10 +219,10 @@ def views_figure(
 ) -> Figure:  # fmt: skip
     """Return a figure of candidate views, (P, 3), over the mean map, coloured by a fast formula for their information.
     ``nats`` holds this information, (P,). ``best`` holds indices of candidates, the best first, (V,). They become
-    numbered arrows with the upper bounds of their information, ``best_nats``, (V,). The colours have no numbers, since
-    another formula gives them. Raises `BadInput` if shapes do not fit.
+    numbered arrows; the legend has the upper bounds of their information, ``best_nats``, (V,). The colours have no
+    numbers, since another formula gives them. Raises `BadInput` if shapes do not fit.
     """
-    figure, ax = maps.map_figure(grid, aspects=(0.5, 3.0), foot_height_in=FOOT_HEIGHT_IN)
+    figure, ax = maps.map_figure(grid, aspects=(0.5, 3.0), foot_height_in=FOOT_HEIGHT_IN + VIEW_IN * np.size(best))
     maps.plot_probability(ax, grid, occupancy, observed)
     # A dot at each candidate, the most informative on top.
     views, values = np.asarray(candidates, dtype=np.float64), np.asarray(nats, dtype=np.float64)
@@ -233,15 +233,15 @@ def views_figure(
         views[order, 0], views[order, 1], c=values[order], cmap=palette.surprise_colormap(), s=16, linewidths=0.4,
         edgecolors="white", label="candidates", zorder=3.3,
     )  # fmt: skip
-    bar = figure.colorbar(dots, ax=ax, label="candidates, by the fast formula", shrink=0.8)
+    bar = figure.colorbar(dots, ax=ax, label="information of candidates, by the fast formula", shrink=0.8)
     low, high = dots.get_clim()
-    bar.set_ticks([low, high], labels=["least information", "most information"])
+    bar.set_ticks([low, high], labels=["least", "most"])
     poses = views[np.asarray(best, dtype=np.intp)]
     for rank, (pose, bound_nats) in enumerate(zip(poses, np.asarray(best_nats, dtype=np.float64), strict=True), 1):
-        plot_sensor(ax, pose)[0].set_label("best views, with upper bounds in nats" if rank == 1 else "_")
+        plot_sensor(ax, pose)[0].set_label(f"{rank}: {bound_nats:.0f} nats at most")
         ax.annotate(
-            f"{rank}: {bound_nats:.0f}", (pose[0], pose[1]), xytext=(7, 7), textcoords="offset points", fontsize=8,
-            fontweight="bold", color=palette.TEXT, zorder=3.8,
+            f"{rank}", pose[:2], xytext=(7, 7), textcoords="offset points", fontsize=8, fontweight="bold",
+            color=palette.TEXT, zorder=3.8,
             bbox={"boxstyle": "round,pad=0.15", "fc": "white", "ec": "none", "alpha": 0.8},
         )  # fmt: skip
     return _with_legend(figure)
@@ -249,7 +249,8 @@ def views_figure(
 
 def _with_legend(figure: Figure) -> Figure:
     """Add a legend below the panel, and return the figure."""
-    figure.legend(loc="outside lower center", ncols=4, frameon=False, fontsize=8)
+    style = {"frameon": False, "fontsize": 8, "columnspacing": 1.0, "handlelength": 1.4}
+    figure.legend(loc="outside lower center", ncols=int(figure.get_figwidth() / KEY_IN), **style)
     return figure
 
 

@@ -109,8 +109,8 @@ def loops_figure(
     ends = np.stack([poses[first, :2], poses[second, :2]], axis=1)
     accepted = weights > 0.5
     if not accepted.all():
-        style = {"colors": FLAGGED_COLOR, "linewidths": 0.6, "label": "rejected loop closure", "zorder": 3}
-        ax.add_collection(LineCollection(list(ends[~accepted]), **style))  # type: ignore[arg-type]
+        rejected = LineCollection(list(ends[~accepted]), colors=FLAGGED_COLOR, linewidths=0.6, zorder=3)
+        ax.add_collection(rejected).set_label("rejected: the others contradict it")
     if accepted.any():
         # Large residuals are plotted last, over the many small ones.
         shift_cm, turn_deg = 100 * np.hypot(residuals[:, 0], residuals[:, 1]), np.degrees(np.abs(residuals[:, 2]))

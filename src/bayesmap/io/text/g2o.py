@@ -116,8 +116,7 @@ class Edges:
         # Information transforms by the derivative of the old relative pose with respect to the new one.
         jacobian = np.linalg.inv(mount_jacobians(self.relative[:, 2], mount))
         relative = compose(inverse(mount), compose(self.relative, mount))
-        information = np.swapaxes(jacobian, 1, 2) @ self.information @ jacobian
-        return replace(self, relative=relative, information=information)
+        return replace(self, relative=relative, information=np.swapaxes(jacobian, 1, 2) @ self.information @ jacobian)
 
 
 def write_g2o(path: str | os.PathLike[str], poses_world: Floats, edges: Edges) -> Path:
