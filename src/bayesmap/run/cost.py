@@ -217,7 +217,7 @@ TABLE = SamplerCost(None, None, 40.0, 0.0, 32.0, 8.0)
 """Methods without chains: the beam table and the messages of belief propagation; times were not measured."""
 
 TOUCHED_CELL_WORK = 10.0  # units of work per touched cell, 1 per incidence: sweeps of 24, 6, 2 scans take 30, 13, 7 ms
-POSES_FACTOR = 3.0  # ratio of a sweep that samples poses, too: 2 to 4 (MIT CSAIL; 305 000 beams of the five minutes)
+POSES_FACTOR = 3.5  # ratio of a sweep that samples poses, too: 2 to 4 (MIT CSAIL; 305 000 beams of the five minutes)
 MATCHING_S_PER_SCAN = 7.4e-3  # time for the trajectory: 22 s for 3000 scans, 90 s for 12 000, of 720 beams
 FIXED_S = 8.0  # time for files and pictures: with 40 draws of 1.1 MB 10 s
 FILE_S_PER_BYTE = 40e-9  # more time for them: with 200 draws 17 to 20 s
