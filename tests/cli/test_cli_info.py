@@ -110,7 +110,7 @@ def scans_alone(path, every_s):
 def test_scans_alone_are_described_and_the_command_needs_no_poses(tmp_path):
     path = scans_alone(tmp_path / "scans.csv", 0.1)
     shown = succeed("info", path)
-    assert "40 of 3 beams" in shown.stdout
+    assert "40, each of 3 beams" in shown.stdout
     assert "  no poses: nothing says where the scans were taken" in shown.stdout
     assert shown.stdout.endswith(f"  bayesmap slam {path} --no-odometry\n")
     told = json_of("info", scans_alone(tmp_path / "seldom.csv", 1.0), "--json")

@@ -74,11 +74,8 @@ def test_a_process_that_is_stopped_leaves_a_whole_checkpoint_and_resume_goes_on_
         assert f"bayesmap infer {office} -o {folder} --resume" in errors
         document = json.loads(out)
         assert document["finished"] is stopped.finished is False
-        kept = ["map.pgm", "map.yaml", "posterior.png", "run.nc"] if stopped.n_draws else ["run.nc"]
-        assert sorted(document["outputs"]) == kept
         assert stopped.posterior.sweep < whole.posterior.sweep
-        names, of_map = {path.name for path in folder.iterdir()}, {"map.pgm", "map.yaml", "posterior.png"}
-        assert {"config.toml", *kept} <= names <= {"config.toml", "run.nc"} | of_map  # a rough one, if it takes long
+        assert {"config.toml", "run.nc"} <= {path.name for path in folder.iterdir()} == document["outputs"].keys()
     # The settings need not be said again.
     assert json_of("infer", office, "-o", folder, "--resume --json")["finished"] is True
     resumed = bm.load(folder / "run.nc")

@@ -65,6 +65,9 @@ def test_measured_runs_are_within_a_third_of_their_estimates(size, plan, seconds
         assert sampling.processor_s(size, plan.draws) == pytest.approx(seconds, rel=1 / 3)
     if memory_mb is not None:
         assert sampling.peak_bytes(size, plan.draws) / 1e6 == pytest.approx(memory_mb, rel=0.15)
+    few = ProblemSize(1440, 55_052, 69_856, 15_280, 635, 432_000)  # two scans: their cells take longer than their beams
+    many, one = (replace(sampling, plan=SweepPlan(30, 5, thin)).processor_s(few, 5) for thin in (16, 1))
+    assert many - one == pytest.approx(300 * 7.2e-3, rel=1 / 3)
 
 
 def test_chains_that_may_end_early_have_two_estimates_and_a_limit_of_time_bounds_both():

@@ -235,7 +235,7 @@ def keep_interrupted(
     go_on = f"; go on with:\n  {resume_command}"
     # Chains stopped before their first sweep may have an incomplete start, so they are not saved.
     if run.posterior.sweep > 0:
-        outputs = [*folder.write_products(run), folder.config_path]
+        outputs += [*folder.write_products(run), folder.config_path]
         state = f"after {counted(run.posterior.sweep, 'sweep')}, saved in {folder.run_path}{go_on}"
     elif folder.resuming and folder.run_path.exists():
         state = f"before the first sweep; {folder.run_path} is as it was{go_on}"

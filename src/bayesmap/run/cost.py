@@ -96,7 +96,7 @@ class Estimate:
             cores = f"{self.cores} core{'s' * (self.cores > 1)}"
             text = f"{_range_in_unit(self.seconds, unit_s)} {unit} on {cores}, and {text}"
         remedy = f"; less with {self.remedy}" if self.remedy and (self.is_long or self.is_large) else ""
-        poses = "; poses are sampled, too, as in all short logs (--fast does not)" if self.samples_poses else ""
+        poses = "; poses are sampled, too, as in all short logs: --fast does not" if self.samples_poses else ""
         return f"about {text}{poses}{remedy}"
 
     def refuse(self, scans: Scans) -> None:

@@ -192,6 +192,5 @@ def _covariance_growth(gaussian: "PoseGaussian") -> float:
     if not len(first):
         return 1.0
     without_common = relative_covariances(gaussian.precision, gaussian.poses, first, second)
-    with_common = gaussian.relative_scales(first, second)
-    log_ratio = np.linalg.slogdet(with_common)[1] - np.linalg.slogdet(without_common)[1]
+    log_ratio = np.linalg.slogdet(gaussian.relative_scales(first, second))[1] - np.linalg.slogdet(without_common)[1]
     return float(np.exp(log_ratio.mean() / 3.0))  # the third root: covariances are 3 x 3

@@ -146,7 +146,8 @@ def robot_poses(objects: RawlogObjects, scans: list[RawScan], stamps_s: Floats |
 
 def _poses_by_odometry(odometry: dict[str, list[TimedPose]], scans: list[RawScan], stamps_s: Floats) -> RobotPoses:
     """Interpolate the odometry of the label with most poses. Scans outside its time have no known pose."""
-    samples = sorted(max(odometry.values(), key=len), key=lambda sample: sample[0])
+    longest = max(odometry.values(), key=len)
+    samples = sorted(longest, key=lambda sample: sample[0])
     times_s, poses = np.array([time_s for time_s, _ in samples]), np.array([pose for _, pose in samples])
     is_inside = (stamps_s >= times_s[0]) & (stamps_s <= times_s[-1])
     span = f"{ODOMETRY} is known from {stamp_words(times_s[0])} to {stamp_words(times_s[-1])}"
