@@ -191,9 +191,9 @@ PRIOR = bm.Surface(0.5, 1.0, mean_scale=0.4, spread=0.3, dof=3.0)
 HARD = bm.BeamMixture(bm.Gaussian(0.02, 0.01), p_random=0.05, p_no_return=0.1)
 CROWD = bm.BeamMixture(bm.Gaussian(0.05), p_random=0.01, p_short=0.4, rate_short_per_m=3.0)
 SHARP = bm.BeamMixture(bm.Gaussian(0.001), p_random=1e-9)
-TAILS = bm.BeamMixture(bm.StudentT(0.01, 5.0, 0.005), p_random=0.02, p_no_return=0.05)
+TAILS, EVEN = (bm.BeamMixture(bm.StudentT(0.01, dof, 0.005), p_random=0.02, p_no_return=0.05) for dof in (5.0, 4.0))
 
-SENSORS = {"hard": HARD, "crowd": CROWD, "sharp": SHARP, "heavy tails": TAILS}
+SENSORS = {"hard": HARD, "crowd": CROWD, "sharp": SHARP, "heavy tails": TAILS, "even": EVEN}
 
 
 @wp.kernel
@@ -292,10 +292,10 @@ def test_beams_without_a_lane_and_products_too_small_for_a_number_are_taken_one_
 
 
 @pytest.mark.parametrize(("sensor", "beta", "takes"), [
-    (HARD, 1.0, 1), (HARD, 0.5, 0), (bm.Gaussian(0.1), 1.0, 0), (TAILS, 1.0, 1),
-    (bm.BeamMixture(bm.StudentT(0.1, dof=4.0)), 1.0, 0), (bm.BeamMixture(bm.StudentT(0.1, dof=33.0)), 1.0, 0),
+    (HARD, 1.0, 1), (HARD, 0.5, 0), (bm.Gaussian(0.1), 1.0, 0), (TAILS, 1.0, 1), (EVEN, 1.0, 1),
+    (bm.BeamMixture(bm.StudentT(0.1, dof=4.5)), 1.0, 0), (bm.BeamMixture(bm.StudentT(0.1, dof=33.0)), 1.0, 0),
 ])  # fmt: skip
-def test_lanes_are_for_mixtures_with_normal_noise_or_few_and_odd_degrees_of_freedom(sensor, beta, takes):
+def test_lanes_are_for_mixtures_with_normal_noise_or_few_and_whole_degrees_of_freedom(sensor, beta, takes):
     law = sensor_law(sensor, RangeLimits(0.0, 6.0), "cpu", SensorLaw32)
     out = wp.zeros(1, dtype=wp.int32)
     wp.launch(is_for_lanes, dim=1, inputs=[law, beta, out])

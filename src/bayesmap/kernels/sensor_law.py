@@ -50,10 +50,10 @@ def noise_log_density(law: Any, square: Any):
 @wp.func
 def noise_density(law: Any, square: Any):
     """Return the density of the standard noise of a sensor's law, at a squared distance."""
-    # Student's t with an odd number of degrees of freedom is height / (1 + square / dof)^power, without logarithms.
+    # Student's t with whole degrees of freedom is height / (1 + square / dof)^((dof + 1) / 2), without logarithms.
     if law.power > 0:
         base = type(square)(1.0) + square / law.dof
-        product = base
+        product = wp.where(law.half_power > 0, wp.sqrt(base), type(square)(1.0)) * base
         for _ in range(1, law.power):
             product = product * base
         return law.height / product
@@ -148,7 +148,7 @@ def _law_struct(name: str, real: Any) -> Any:
         "certain_sq",  # squared standard distance past which the noise's tail is below `CERTAIN_TAIL`
         "series",  # largest x for which `p_unblocked_near` computes exp(-x) by its series
     )  # fmt: skip
-    others = {"kind": int, "power": int, "table": LawTable}  # power: see `noise_density`
+    others = {"kind": int, "power": int, "half_power": int, "table": LawTable}  # powers: see `noise_density`
     annotations: dict[str, Any] = others | dict.fromkeys(reals, real)
     return wp.struct(type(name, (), {"__annotations__": annotations, "__module__": __name__, "__qualname__": name}))
 
@@ -176,7 +176,8 @@ def sensor_law(sensor: SensorModel, limits: RangeLimits, device: str, struct: An
     dof = parameters.dof
     if dof > 0:
         half = 0.5 * (dof + 1)
-        packed.power = int(half) if half == int(half) and half <= MAX_POWER else 0  # 0: no whole power
+        packed.power = int(half) if 2.0 * half == int(2.0 * half) and half <= MAX_POWER else 0  # 0: not computed so
+        packed.half_power = int(half != int(half))
         packed.log_height = math.lgamma(half) - math.lgamma(0.5 * dof) - 0.5 * math.log(dof * math.pi)
     else:
         packed.log_height = -0.5 * math.log(2 * math.pi)

@@ -7,7 +7,7 @@ With g the chance of meeting the surface,
 
 A cell evaluates its beams again for every step of its surface. `log_stops` takes one beam after the other, for any
 sensor. `log_stops_in_lanes` evaluates eight at once in wide registers: nearly all hits of a mixture whose noise is
-normal or Student's t of few and odd degrees of freedom. These beams are first copied to *blocks* of eight: one `Lanes`
+normal or Student's t of few, whole degrees of freedom. These beams are first copied to *blocks* of eight: one `Lanes`
 for each of their numbers. Left-over lanes hold beams that do not count.
 """
 
@@ -254,6 +254,8 @@ def stop_density_lanes(law: SensorLaw32, reading: Lanes, decay: Lanes, distance:
     if law.power > 0:
         base = one + (wp.float32(1.0) / law.dof) * standard_sq
         product = base
+        if law.half_power > 0:
+            product = wp.cw_mul(base, square_root(base))
         for _ in range(1, law.power):
             product = wp.cw_mul(product, base)
         noise = wp.cw_div(one, product)

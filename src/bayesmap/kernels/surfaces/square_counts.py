@@ -196,10 +196,6 @@ def square_arrays(rays: Rays, chains: int, device: str) -> list[Any]:
     lines = lines_to_device(rays.start_m, rays.direction, rays.grid, device)
     counts = np.bincount(rays.cells, minlength=rays.grid.n_cells)
     touched, crossings = (devices.to_device(a, wp.int32, device) for a in (rays.touched, counts))
-    return [
-        devices.pack(
-            SquareArrays, device, lines=lines, touched=touched, crossings=crossings, stopped_inside=by_cell,
-            stopped_before=by_cell, drawn=by_touched, expected=by_touched,
-        )
-        for _ in range(chains)
-    ]  # fmt: skip
+    shared = {"lines": lines, "touched": touched, "crossings": crossings}
+    own = {"stopped_inside": by_cell, "stopped_before": by_cell, "drawn": by_touched, "expected": by_touched}
+    return [devices.pack(SquareArrays, device, **shared, **own) for _ in range(chains)]

@@ -180,10 +180,9 @@ def draw_stops(
     chain = index // state.n_beams
     number = index - chain * state.n_beams
     beam = Beam(
-        number, index, chain * state.parts + part, chain * state.n_cells,
-        rays.offsets[number], rays.first_near[number], rays.offsets[number + 1],
-        Ray(rays.start_m[number], rays.direction[number]), rays.range_m[number], rays.decay[number],
-        sweep_key(state.keys[chain], sweep, BEAMS),
+        number, index, chain * state.parts + part, chain * state.n_cells, rays.offsets[number], rays.first_near[number],
+        rays.offsets[number + 1], Ray(rays.start_m[number], rays.direction[number]), rays.range_m[number],
+        rays.decay[number], sweep_key(state.keys[chain], sweep, BEAMS),
     )  # fmt: skip
     if beam.begin == beam.end or wp.isnan(beam.reading):
         state.stop[beam.index] = beam.end
