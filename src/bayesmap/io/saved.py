@@ -208,10 +208,9 @@ def _read(file: Any, header: dict[str, Any]) -> tuple[Posterior, "InferredTrajec
     sensor = header["settings"]["sensor"] if header["sensor"] is None else header["sensor"]
     scans = Scans(
         poses=constant["pose_world"][:], angles_rad=constant["angle_rad"][:],
-        ranges_m=file["observed_data"]["range_m"][:], min_range_m=header["limits"][0],
-        max_range_m=header["limits"][1], stamps_s=_optional(constant, "stamp_s"),
-        beam_poses=_optional(constant, "beam_pose_world"), own_angles_rad=_optional(constant, "own_angle_rad"),
-        mount=header.get("mount"),
+        ranges_m=file["observed_data"]["range_m"][:], min_range_m=header["limits"][0], max_range_m=header["limits"][1],
+        stamps_s=_optional(constant, "stamp_s"), beam_poses=_optional(constant, "beam_pose_world"),
+        own_angles_rad=_optional(constant, "own_angle_rad"), mount=header.get("mount"),
     )  # fmt: skip
     posterior = Posterior(
         scans=scans, sensor=from_description(sensor), prior=prior, settings=header["settings"],

@@ -118,8 +118,8 @@ def fit_law(occupancy: Floats, grid: Grid, scans: Scans, seed: int = 0, on_progr
     if len(sure) < MIN_SCANS:
         return assumed
     for_validation = (np.arange(len(sure)) // BLOCK_SCANS) % 2 == 1
-    rows = sure[~for_validation], sure[for_validation]
-    training, validation = (spread.select(selected).at(poses[selected]) for selected in rows)
+    parts = (sure[~for_validation], sure[for_validation])
+    training, validation = (spread.select(part).at(poses[part]) for part in parts)
     thin = max(1, spread.n_beams // FIT_BEAMS)
 
     @lru_cache(maxsize=4)
@@ -127,18 +127,17 @@ def fit_law(occupancy: Floats, grid: Grid, scans: Scans, seed: int = 0, on_progr
         values = {**ASSUMED, "stop_occupied": stop_occupied, "stop_unknown": stop_unknown}
         return device_maps([stop_probabilities(occupancy, values).reshape(1, -1).astype(np.float32)], grid, 0.5)
 
-    def nats_per_beam(placed: Scans, values: Values) -> float:
+    def log_densities(placed: Scans, values: Values) -> Floats:
         values = {**ASSUMED, **values}
-        packed = packed_map(values["stop_occupied"], values["stop_unknown"])
-        return float(np.nanmean(_log_densities(packed, placed, thin, values)))
+        return _log_densities(packed_map(values["stop_occupied"], values["stop_unknown"]), placed, thin, values)
 
     # Fit from the assumed law, and from a law with fewer short readings and less noise.
     starts = [ASSUMED, {**ASSUMED, "p_short": 0.05, "scale_m": 0.04}]
-    score = partial(nats_per_beam, training)
-    values, _ = maximise(score, score, FITTED, starts, lambda share: on_progress(0.5 + 0.5 * share))
+    logs = partial(log_densities, training)
+    values, _ = maximise(logs, logs, FITTED, starts, lambda share: on_progress(0.5 + 0.5 * share))
     halfway = {p.name: p.decode(0.5 * (p.encode(ASSUMED[p.name]) + p.encode(values[p.name]))) for p in FITTED}
     laws = [dict(ASSUMED), {**ASSUMED, **halfway}, {**ASSUMED, **values}]
-    nats = [nats_per_beam(validation, law_values) for law_values in laws]
+    nats = [float(np.nanmean(log_densities(validation, law_values))) for law_values in laws]
     best = int(np.argmax(nats))
     trust = replace(WARY, place_readings=WARY.pose_readings, shared_error_m=laws[best]["scale_m"])
     law = MapLaw(laws[best], trust, len(sure), nats[best])
@@ -192,11 +191,11 @@ def _locate_scans(known: KnownMap, scans: Scans, seed: int, on_progress: OnShare
 
 def _log_densities(packed: DeviceMaps, scans: Scans, thin: int, values: Mapping[str, float]) -> Floats:
     """Compute log densities of every ``thin``-th reading under a law, (S, A); NaN where invalid."""
-    limits = RangeLimits(scans.min_range_m, scans.max_range_m)
     ranges, angles = scans.ranges_m[:, ::thin], scans.angles_by_scan()[:, ::thin]
     # Make scans of one beam each: the kernel sums over beams, but densities of single beams are needed.
     poses = np.repeat(scans.poses, ranges.shape[1], axis=0)
     poses[:, 2] += angles.ravel()
-    sensor, which = sensor_of(values), np.arange(ranges.size)
-    logs = scan_log_likelihood(packed, poses, np.zeros(1), ranges.reshape(-1, 1), sensor, limits, scan=which)
+    limits, sensor = RangeLimits(scans.min_range_m, scans.max_range_m), sensor_of(values)
+    scan = np.arange(ranges.size)
+    logs = scan_log_likelihood(packed, poses, np.zeros(1), ranges.reshape(-1, 1), sensor, limits, scan=scan)
     return np.where(np.isnan(ranges), np.nan, logs[:, 0].reshape(ranges.shape))

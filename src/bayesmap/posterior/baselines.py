@@ -27,10 +27,11 @@ from bayesmap.space.grid import Grid
 from bayesmap.space.scans import Scans
 
 Values = dict[str, float]  # parameters by name
-Objective = Callable[[Values], float]  # returns the score of values, which is to be maximised
+LogDensities = Callable[[Values], Floats]  # returns the log density of each reading, (B,), NaN for invalid readings
 
 LAST_CLIMB_TIME = 8.0  # time of the last climb, which uses the full score, in times of a rough climb; for the progress
-GRADIENT_STEP = 2e-3  # step of the numeric gradient, in logarithms or logits: above the rounding of single precision
+GRADIENT_STEP = 1e-3  # step of the numeric gradient, in units of the search: above the rounding of single precision
+LEAST_INFORMATION = 1e-3  # added to the information of one reading about a parameter, which may be none
 USUAL_GRADIENTS = 20  # gradients that a climb usually computes; for the progress
 MAX_STEPS = 100  # most steps of a climb
 ROUGH_TOLERANCE, FINE_TOLERANCE = 1e-4, 1e-6  # relative gains in score at which rough climbs and the last one end
@@ -74,48 +75,55 @@ def sensor_of(values: Mapping[str, float]) -> BeamMixture:
 
 
 def maximise(
-    score: Objective, rough_score: Objective, parameters: Sequence[Parameter], starts: Sequence[Mapping[str, float]],
-    on_progress: OnShare = ignore_share,
+    log_densities: LogDensities, rough_log_densities: LogDensities, parameters: Sequence[Parameter],
+    starts: Sequence[Mapping[str, float]], on_progress: OnShare = ignore_share,
 ) -> tuple[Values, float]:  # fmt: skip
-    """Find the values of the highest score, and the score, from the best result of rough climbs from all starts.
-    Values of a start that are no ``parameters`` stay as they are.
+    """Find the values of the highest score, the mean log density, by a climb from the best rough climb of all starts.
+    Values of a start that are no ``parameters`` stay as they are. Returns the values and their score.
     """
     *rough_shares, last_share = split_progress(on_progress, *(1.0 for _ in starts), LAST_CLIMB_TIME)
-    climb = partial(_climb, rough_score, parameters, tolerance=ROUGH_TOLERANCE)
+    climb = partial(_climb, rough_log_densities, parameters, tolerance=ROUGH_TOLERANCE)
     rough = [climb(start=start, on_share=on_share) for start, on_share in zip(starts, rough_shares, strict=True)]
     best_values, _ = max(rough, key=lambda result: result[1])
-    return _climb(score, parameters, best_values, FINE_TOLERANCE, last_share)
+    return _climb(log_densities, parameters, best_values, FINE_TOLERANCE, last_share)
 
 
 def _climb(
-    score: Objective, parameters: Sequence[Parameter], start: Mapping[str, float], tolerance: float, on_share: OnShare
-) -> tuple[Values, float]:
-    """Climb from a start to a local maximum of a score. Returns the values and the score there."""
+    log_densities: LogDensities, parameters: Sequence[Parameter], start: Mapping[str, float], tolerance: float,
+    on_share: OnShare,
+) -> tuple[Values, float]:  # fmt: skip
+    """Climb from a start to a local maximum of the score. Returns the values and the score there."""
     usual_calls = USUAL_GRADIENTS * (len(parameters) + 1)
     n_calls = 0
+    low, high, first = np.array([[p.encode(value) for value in (p.low, p.high, start[p.name])] for p in parameters]).T
 
     def values_at(point: NDArray[np.float64]) -> Values:
         return {**start, **{p.name: p.decode(x) for p, x in zip(parameters, point.tolist(), strict=True)}}
 
-    def cost(point: NDArray[np.float64]) -> float:
+    def logs_at(point: NDArray[np.float64]) -> Floats:
         nonlocal n_calls
         n_calls += 1
         on_share(0.9 * n_calls / usual_calls if n_calls < usual_calls else 1.0 - 0.1 * usual_calls / n_calls)  # under 1
-        return -score(values_at(point))
+        return log_densities(values_at(point)).ravel()
 
+    # Search in units in which a reading's information about each parameter, the mean squared slope of its log density,
+    # is one: the score is about as steep in all of them, which halves the steps.
+    beside = np.clip(first + GRADIENT_STEP * np.eye(len(first)), low, high)
+    at_first, *moved = (logs_at(point) for point in (first, *beside))
+    information = np.nanmean(((np.array(moved) - at_first) / GRADIENT_STEP) ** 2, axis=1)
+    unit = 1.0 / np.sqrt(information + LEAST_INFORMATION)
     result = scipy.optimize.minimize(
-        cost, np.array([p.encode(start[p.name]) for p in parameters]), method="L-BFGS-B",
-        bounds=[(p.encode(p.low), p.encode(p.high)) for p in parameters],
+        lambda moves: -float(np.nanmean(logs_at(first + unit * moves))), np.zeros(len(first)), method="L-BFGS-B",
+        bounds=list(zip((low - first) / unit, (high - first) / unit, strict=True)),
         options={"eps": GRADIENT_STEP, "ftol": tolerance, "maxiter": MAX_STEPS, "maxfun": 3000},
     )  # fmt: skip
     on_share(1.0)
-    return values_at(result.x), -float(result.fun)
+    return values_at(first + unit * result.x), -float(result.fun)
 
 
 def hit_ratio(hits: Floats, passes: Floats, values: Mapping[str, float]) -> Floats:
     """Compute (hits + a) / (hits + passes + a + b): a Beta posterior's mean, if every beam reached the cell."""
-    a, b = values["a"], values["b"]
-    return (hits + a) / (hits + passes + a + b)
+    return (hits + values["a"]) / (hits + passes + values["a"] + values["b"])
 
 
 def odds_map(hits: Floats, passes: Floats, values: Mapping[str, float]) -> Floats:
@@ -180,14 +188,13 @@ class FittedBaseline:
     inner_nats_per_beam: float  # score on the inner hold-out
 
 
-def inner_score(joined: JoinedFolds, baseline: Baseline, values: Values) -> float:
-    """Compute the mean log predictive density of the folds' beams, each under the counts of the other scans."""
+def inner_log_densities(joined: JoinedFolds, baseline: Baseline, values: Values) -> Floats:
+    """Compute the log predictive densities of the folds' beams, (B,), each under the counts of the other scans."""
     from bayesmap.kernels.predict.density import log_densities
 
     stops = [baseline.stops(fold.hits, fold.passes, values)[fold.rays.touched] for fold in joined.folds]
     maps = np.concatenate(stops)[None].astype(np.float32)
-    logs = log_densities(joined.rays, [maps], sensor_of(values), values["hit_depth"], columns=joined.columns)
-    return float(np.nanmean(logs))
+    return log_densities(joined.rays, [maps], sensor_of(values), values["hit_depth"], columns=joined.columns)
 
 
 def fit_baseline(
@@ -210,11 +217,11 @@ def fit_baseline(
     starts = [sensor | dict(start) for start in baseline.starts for sensor in sensors]
     # The rough score uses a share of the beams: some scans of the first fold, or some folds if it has few scans.
     rough = [folds[0].thinned()] if len(folds[0].scans) >= 2 * THIN else folds[: math.ceil(len(folds) / THIN)]
-    score, rough_score = (partial(inner_score, join_folds(some), baseline) for some in (folds, rough))
+    full_logs, rough_logs = (partial(inner_log_densities, join_folds(some), baseline) for some in (folds, rough))
     parameters = (*SENSOR, *baseline.parameters)
-    values, best_score = maximise(score, rough_score, parameters, starts, on_progress)
-    hits, passes = count_hits(train, grid)
-    stop = baseline.stops(hits.astype(float), passes.astype(float), values)
+    values, best_score = maximise(full_logs, rough_logs, parameters, starts, on_progress)
+    hits, passes = (counts.astype(float) for counts in count_hits(train, grid))
+    stop = baseline.stops(hits, passes, values)
     predictor = Predictor(grid, fixed_maps(stop[None]), sensor_of(values), values["hit_depth"])
     return FittedBaseline(baseline.name, predictor, values, best_score)
 

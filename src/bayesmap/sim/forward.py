@@ -27,9 +27,8 @@ def ranges(
 
 @near_names
 def simulate(
-    walls: Mask, grid: Grid, poses: ArrayLike, angles_rad: ArrayLike, *, sensor: SensorModel,
-    max_range_m: float, min_range_m: float = 0.0, seed: int = 0, opacity: Floats | None = None,
-    typed: bool = False, device: str = "cpu",
+    walls: Mask, grid: Grid, poses: ArrayLike, angles_rad: ArrayLike, *, sensor: SensorModel, max_range_m: float,
+    min_range_m: float = 0.0, seed: int = 0, opacity: Floats | None = None, typed: bool = False, device: str = "cpu",
 ) -> Scans:  # fmt: skip
     """Draw scans from a sensor model in a known world.
 
