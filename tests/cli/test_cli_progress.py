@@ -79,20 +79,20 @@ def test_a_stage_that_comes_between_does_not_stop_the_clock(monkeypatch):
     def updating(self, task, **options):
         update(self, task, **options)
         if "completed" in options:
-            clock.append((task, options["completed"], options["count"]))
+            clock.append((task, options["completed"], self.tasks[task].total, options["count"]))
 
     monkeypatch.setattr(Progress, "add_task", adding)
     monkeypatch.setattr(Progress, "update", updating)
     monkeypatch.setattr(Console, "shows_bar", True)
     with progress_bar(Console(), "beginning") as report:
-        for event in (Event("draws", 3, 9), Event("save", 1, 8), Event("save", 8, 8), Event("draws", 4, 9, -1.5)):
+        for event in (Event("loops", 1, 3), Event("draws", 3, 9), Event("save", 8, 8), Event("draws", 4, 19, -1.5)):
             report(event)
-    draws, save = tasks[1:]
+    loops, draws, save = tasks[1:]
     assert clock == [
-        (draws, 3, "3/9 sweeps ETA"),
-        (save, 1, "12 % ETA"),
-        (save, 8, "100 % ETA"),
-        (draws, 4, "4/9 sweeps ETA"),
+        (loops, 1, None, "1/3 rounds"),  # too few to predict the time left
+        (draws, 3, 9, "3/9 sweeps ETA"),
+        (save, 8, 8, "100 % ETA"),
+        (draws, 4, 19, "4/19 sweeps ETA"),
     ]
 
 

@@ -232,14 +232,15 @@ class _BarTasks:
         is_sampling = step.name in [STAGES[stage][0] for stage in SAMPLING]
         key, bar = (step.unit, 0 if is_sampling else step.total), self._bar
         if key not in self._tasks:
-            self._tasks[key] = bar.add_task(step.name, total=step.total, completed=step.done, count="", quality="")
+            self._tasks[key] = bar.add_task(step.name, total=None, completed=step.done, count="", quality="")
         if self._visible != self._tasks[key]:
             bar.update(self._visible, visible=False)
             self._visible = self._tasks[key]
-        # Without a total the bar shows no remaining time.
+        # Without a total the bar shows no remaining time. `Progress.update` cannot remove a total.
         total, suffix = (step.total, " ETA") if step.total > MAX_FEW_STEPS and not step.end_is_open else (None, "")
+        bar.tasks[self._visible].total = total
         bar.update(
-            self._visible, description=step.name, completed=step.done, total=total, count=step.count("/") + suffix,
+            self._visible, description=step.name, completed=step.done, count=step.count("/") + suffix,
             quality=step.quality, visible=True,
         )  # fmt: skip
 
