@@ -101,7 +101,7 @@ async def inner(scope, receive, send):
         await send({"type": "http.response.body", "body": b"in"})
 
 
-def guarded(query="token=secret", *, host="127.0.0.1", name="127.0.0.1:8000", kind="http", origin=None):
+def guarded(query="token=secret", *, host="127.0.0.1", port=8000, name="127.0.0.1:8000", kind="http", origin=None):
     """Return the messages with which a guarded application answers."""
     headers = [(b"host", name.encode())] + ([(b"origin", origin.encode())] if origin else [])
     scope = {"type": kind, "method": "GET", "path": "/", "query_string": query.encode(), "headers": headers}
@@ -113,7 +113,7 @@ def guarded(query="token=secret", *, host="127.0.0.1", name="127.0.0.1:8000", ki
     async def send(message):
         sent.append(message)
 
-    asyncio.run(Guard(inner, "secret", host, 8000)(scope, receive, send))
+    asyncio.run(Guard(inner, "secret", host, port)(scope, receive, send))
     return sent
 
 
@@ -124,6 +124,7 @@ OWN, ALL, OUTSIDE = "127.0.0.1", "0.0.0.0", "192.168.1.5"
     *[({"name": name}, 200) for name in ("127.0.0.1:8000", "localhost:8000", "LOCALHOST:8000")],
     *[({"name": name}, 403) for name in ("192.168.1.5:8000", "evil.example:8000", OWN, "127.0.0.1:80", "", "[::1")],
     *[({"host": host, "name": "192.168.1.5:8000"}, 200) for host in (OUTSIDE, ALL)],
+    ({"host": "Robot", "name": "robot:8000"}, 200), ({"name": OWN, "port": 80, "origin": f"http://{OWN}"}, 200),
     ({"host": ALL, "name": "evil.example:8000"}, 403), ({"host": "::1", "name": "[::1]:8000"}, 200),
     *[({"query": query}, 403) for query in ("token=secre", "token=secret&token=x", "token=", "", "token=%C3%A9")],
     ({"origin": "http://127.0.0.1:8000"}, 200),

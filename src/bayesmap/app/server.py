@@ -64,8 +64,8 @@ class Guard:
         self.any_address = host in ("0.0.0.0", "::", "")  # whether the server listens on all addresses
         names = ["127.0.0.1", "localhost", "[::1]", f"[{host}]" if ":" in host else host]
         if self.any_address:
-            names.append(socket.gethostname().lower())
-        self.names = frozenset(names)  # host names of this server, in lower case
+            names.append(socket.gethostname())
+        self.names = frozenset(name.lower() for name in names)  # host names of this server
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Check a request, then pass it on or refuse it."""
@@ -110,7 +110,8 @@ class Guard:
 
     def is_own_host(self, host: str) -> bool:
         """Return whether a host with its port ("localhost:8000") is this server."""
-        name, _, port = host.lower().rpartition(":")
+        has_port = ":" in host.rpartition("]")[2]  # browsers leave out port 80; the colons of an address do not count
+        name, _, port = (host if has_port else f"{host}:80").lower().rpartition(":")
         return port == str(self.port) and (name in self.names or (self.any_address and _is_address(name)))
 
 
