@@ -40,7 +40,7 @@ def test_constant_odometry_is_refused_with_the_remedy_and_a_frozen_stretch_is_na
     check_scans(constant, no_odometry=True)
     assert odometry_warnings(constant, no_odometry=True) == []
     stated = path.copy()
-    stated[30:61] = stated[30]
+    stated[30:61] = stated[30] + 1e-9 * np.arange(31)[:, None]
     frozen = scans(path, stated)
     assert frozen_stretches(frozen) == [(30, 60)]
     (doubt,) = odometry_warnings(frozen, no_odometry=False)

@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bayesmap.errors import BadInput
-from bayesmap.space.arrays import Mask
 from bayesmap.space.grid import Grid
 from bayesmap.space.planar import Floats, between, compose, interpolate
 from bayesmap.space.scans import Scans
@@ -85,13 +84,13 @@ def odometry_warnings(scans: Scans, *, no_odometry: bool) -> list[str]:
 
 def frozen_stretches(scans: Scans) -> list[tuple[int, int]]:
     """Return first and last scan of each stretch of scans with one stated pose in which the robot moved, in order."""
-    runs = _equal_runs((np.diff(scans.poses, axis=0) == 0.0).all(axis=1))
-    long_runs = [(first, last) for first, last in runs if last - first + 1 >= MIN_FROZEN_SCANS]
+    long_runs = (run for run in _equal_runs(scans.poses) if run[1] - run[0] + 1 >= MIN_FROZEN_SCANS)
     return [(first, last) for first, last in long_runs if _robot_moved(scans, first, last)]
 
 
-def _equal_runs(as_before: Mask) -> list[tuple[int, int]]:
-    """Return first and last scan of each run of equal poses, given which scans have the pose before them, (S - 1,)."""
+def _equal_runs(stated: Floats) -> list[tuple[int, int]]:
+    """Return first and last scan of each run of poses, (S, 3), that are equal up to rounding."""
+    as_before = (np.abs(np.diff(stated, axis=0)) < EQUAL_POSE_TOLERANCE).all(axis=1)
     edges = np.flatnonzero(np.diff(np.concatenate([[False], as_before, [False]]).astype(int)))
     return [(int(first), int(last)) for first, last in edges.reshape(-1, 2)]
 
@@ -104,8 +103,7 @@ def correct_late_odometry(scans: Scans, geometry: ScanGeometry) -> Floats:
     the motion is spread only if the next scan fits clearly better after the first of the repeated poses than the last.
     """
     stated, result = scans.poses, scans.poses.copy()
-    as_before = (np.abs(np.diff(stated, axis=0)) < EQUAL_POSE_TOLERANCE).all(axis=1)
-    for first, last in _equal_runs(np.asarray(as_before)):
+    for first, last in _equal_runs(stated):
         if last + 1 >= len(scans):
             continue  # the log ends before the robot moves again
         span = np.arange(first, last + 2)

@@ -37,8 +37,7 @@ EDGES = {
 """Edges of the graph: offset of the cell at the end, and offsets of the cells that the edge crosses or nearly touches.
 Together with the opposite edges there are sixteen directions."""
 
-MAX_BLOCKED_PROBABILITY = 1.0 - 1e-6  # probability of being blocked above which a cell is not in the graph
-MAX_DANGER = -math.log1p(-MAX_BLOCKED_PROBABILITY)  # `MAX_BLOCKED_PROBABILITY` as a danger, -log(1 - probability)
+MAX_BLOCKED_PROBABILITY = 1.0 - 1e-6  # probability of being blocked from which on a cell is not in the graph
 
 
 @dataclass(frozen=True)
@@ -252,7 +251,9 @@ def plan_route(
     if not 0 < risk < 1:
         raise BadInput(f"plan: risk must lie inside (0, 1), got {risk!r}")
     start_cell, goal_cell = _free_cell(start, grid, blocked, "start"), _free_cell(goal, grid, blocked, "goal")
+    # The danger of a cell is -log(1 - probability of being blocked); it is infinite outside the graph.
     danger = -np.log1p(-np.minimum(blocked, MAX_BLOCKED_PROBABILITY))
+    danger[blocked >= MAX_BLOCKED_PROBABILITY] = np.inf
     routes: list[Route] = []
     for price in PRICES:
         cells = _cheapest_path(danger, price, grid.shape, start_cell, goal_cell)
@@ -278,7 +279,7 @@ def _free_cell(point: Floats, grid: Grid, blocked: Floats, name: str) -> int:
     words = f"{name} ({point[0]:.2f}, {point[1]:.2f} m)"
     if not ((cell >= 0) & (cell < grid.shape)).all():
         raise BadInput(f"plan: the {words} lies outside the map")
-    if blocked[tuple(cell)] > MAX_BLOCKED_PROBABILITY:
+    if blocked[tuple(cell)] >= MAX_BLOCKED_PROBABILITY:
         raise BadInput(f"plan: at the {words} the disc touches something in all draws; move it or use a smaller radius")
     return int(cell[0] * grid.shape[1] + cell[1])
 
@@ -291,13 +292,12 @@ def _cheapest_path(danger: Floats, price: float, shape: tuple[int, int], start: 
     nx, ny = shape
     x, y = (index.ravel() for index in np.meshgrid(np.arange(nx), np.arange(ny), indexing="ij"))
     flat_danger = danger.ravel()
-    passable = flat_danger < MAX_DANGER
     # Edges cost their length, plus the price times the mean danger of the cells that they cross.
     sources, targets, costs = [], [], []
     for (dx, dy), crossed in EDGES.items():
         source = np.nonzero((x + dx < nx) & (y + dy >= 0) & (y + dy < ny))[0]
         edges = np.stack([source + i * ny + j for i, j in ((0, 0), *crossed, (dx, dy))])
-        edges = edges[:, passable[edges].all(axis=0)]
+        edges = edges[:, np.isfinite(flat_danger[edges]).all(axis=0)]
         sources.append(edges[0])
         targets.append(edges[-1])
         costs.append(math.hypot(dx, dy) * (1.0 + price * flat_danger[edges].mean(axis=0)))
@@ -333,5 +333,5 @@ def _cost(path: Floats, danger: Floats, grid: Grid, price: float) -> float:
         points = start + np.linspace(0, 1, n_points)[:, None] * (end - start)
         cell = np.clip(np.floor(grid.to_cells(points)).astype(int), 0, np.array(grid.shape) - 1)
         dangers = danger[cell[:, 0], cell[:, 1]]
-        total += length_m * (1.0 + price * float(dangers.mean())) if dangers.max() < MAX_DANGER else math.inf
+        total += length_m * (1.0 + price * float(dangers.mean())) if np.isfinite(dangers).all() else math.inf
     return total

@@ -125,7 +125,7 @@ def surface_strokes(means_world: ArrayLike, covariances_m2: ArrayLike, longest_m
     Strokes are cut to ``longest_m``. Raises `BadInput` for other shapes, infinite numbers, or invalid covariances.
     """
     means, covariances = as_array(means_world, "means_world"), as_array(covariances_m2, "covariances_m2")
-    n = len(means)
+    n = means.size // 2
     if means.shape != (n, 2) or covariances.shape != (n, 2, 2):
         raise BadInput(f"picture: {n} surfaces need means (n, 2) and covariances (n, 2, 2), got {covariances.shape}")
     infinite = ~(np.isfinite(means).all(axis=1) & np.isfinite(covariances).all(axis=(1, 2)))

@@ -45,7 +45,7 @@ def neighbour(beam: int, steps: int, beams: int, full_circle: int) -> int:
     """Return the beam ``steps`` further on, or -1 past the end of a scan that is not a full circle."""
     other = beam + steps
     if full_circle != 0:
-        return (other + beams) % beams
+        return (other % beams + beams) % beams  # a remainder has the sign of its dividend
     if other < 0 or other >= beams:
         return -1
     return other
