@@ -60,6 +60,21 @@ test("labels stand clear of each other and inside the picture, or nowhere", () =
   });
 });
 
+test("a label keeps off marks and the axis where there is room, and stands on them where there is none", () => {
+  const written: [string, number, number][] = [];
+  const context = { measureText: (text: string) => ({ width: 6 * text.length }), strokeText: () => {}, fillText: (text: string, x: number, y: number) => void written.push([text, x, y]) };
+  const labels = new Labels(context as unknown as CanvasRenderingContext2D, THEMES.light, 200, 100, 30);
+  labels.avoid({ x: 100, y: 0 }, 3, { x: 100, y: 100 }); // a path from top to bottom
+  assert(labels.place("8.2 m", 100, 50, 4, 60));
+  assert(labels.place("far from the axis", 20, 80, 4));
+  labels.avoid({ x: 160, y: 50 }, 100);
+  assert(labels.place("on", 190, 20, 4));
+  labels.write();
+  const [[, x], [, middle], last] = written;
+  assert(Math.abs(x - 100) >= 3 + 17 && middle - 51 >= 30, String(written));
+  assert.equal(last[0], "on");
+});
+
 /** Two chains: every sweep at first, later every tenth, as the session thins them. */
 function thinned() {
   const traced = Float32Array.from([...Array.from({ length: 100 }, (_, i) => i + 1), ...Array.from({ length: 90 }, (_, i) => 110 + 10 * i)]);

@@ -4,8 +4,8 @@ import { entropyRgb } from "../colour";
 import { clamp, toCells } from "../geometry/cells";
 import type { Point } from "../protocol";
 import { figure } from "../panels/dom";
-import { clipToMap, type Layer, type Scene } from "./layer";
-import { Labels } from "./text";
+import { clipToMap, labelsOf, type Layer, type Scene } from "./layer";
+import type { Labels } from "./text";
 
 const LARGEST_DOT = 9;
 const SMALLEST_DOT = 2.5;
@@ -24,7 +24,7 @@ export class DecisionsLayer implements Layer {
   paint(context: CanvasRenderingContext2D, scene: Scene) {
     const { session } = scene;
     if (!session.document) return;
-    const labels = new Labels(context, scene.look.theme, scene.view.width, scene.view.height);
+    const labels = labelsOf(context, scene);
     context.save();
     clipToMap(context, scene);
     if (session.decisions.looking) this.views(context, scene, labels);
@@ -80,6 +80,7 @@ export class DecisionsLayer implements Layer {
       context.arc(x, y, 5, 0, 2 * Math.PI);
       context.fillStyle = place === start ? look.theme.sensor : look.theme.truth;
       context.fill();
+      labels.avoid({ x, y }, 7);
       context.lineWidth = 2;
       context.strokeStyle = look.theme.halo;
       context.stroke();
@@ -88,7 +89,9 @@ export class DecisionsLayer implements Layer {
       const corners = path.path.length;
       const [[x0, y0], [x1, y1]] = [path.path[(corners - 1) >> 1], path.path[corners >> 1]];
       const middle = at({ x: (x0 + x1) / 2, y: (y0 + y1) / 2 });
-      labels.place(`${figure(path.length_m, 1)} m, free with probability ${figure(path.probability, 3)}`, middle.x, middle.y, 4);
+      const points = path.path.map(([x, y]) => at({ x, y }));
+      points.forEach((point, i) => labels.avoid(point, 3, points[i + 1]));
+      labels.place(`${figure(path.length_m, 1)} m, P(free) ${figure(path.probability, 3)}`, middle.x, middle.y, 4, 60);
     } else if (goal && session.decisions.trouble) labels.place("no path", at(goal).x, at(goal).y, 7);
   }
 }

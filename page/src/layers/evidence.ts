@@ -2,8 +2,7 @@
 
 import { clamp, toCells } from "../geometry/cells";
 import type { Point } from "../protocol";
-import { clipToMap, strokeOnHalo, type Layer, type Scene } from "./layer";
-import { write } from "./text";
+import { clipToMap, labelsOf, strokeOnHalo, type Layer, type Scene } from "./layer";
 
 /** Beams whose nats are written beside them. */
 const LABELLED = 5;
@@ -27,6 +26,7 @@ export class EvidenceLayer implements Layer {
     const { cell, each } = session.evidence;
     const grid = session.document?.grid;
     if (!cell || !grid) return;
+    context.save();
     clipToMap(context, scene);
     const at = (x: number, y: number) => view.fromGrid(toCells({ x, y }, grid), grid.shape[1]);
     const ends = (i: number): [Point, Point] => [at(each!.start[2 * i], each!.start[2 * i + 1]), at(each!.end[2 * i], each!.end[2 * i + 1])];
@@ -50,12 +50,16 @@ export class EvidenceLayer implements Layer {
     context.beginPath();
     context.rect(corner.x - margin, corner.y - margin, scale + 2 * margin, scale + 2 * margin);
     strokeOnHalo(context, look.theme, look.theme.belief, 2);
-    for (let i = Math.min(LABELLED, count) - 1; i >= 0; i--) {
+    context.restore();
+    const labels = labelsOf(context, scene);
+    const labelled = Math.min(LABELLED, count);
+    for (let i = 0; i < labelled; i++) labels.avoid(ends(i)[0], 2, ends(i)[1]);
+    for (let i = 0; i < labelled; i++) {
       const [from, to] = ends(i);
-      const along = 0.35 + 0.1 * i; // neighbouring beams are close: their numbers stand side by side
-      const place = { x: from.x + along * (to.x - from.x), y: from.y + along * (to.y - from.y) };
-      write(context, signed(each!.nats[i]), place.x, place.y, look.theme, "center", true);
+      const along = 0.35 + 0.1 * i; // neighbouring beams are close
+      labels.place(signed(each!.nats[i]), from.x + along * (to.x - from.x), from.y + along * (to.y - from.y), 3);
     }
+    labels.write();
   }
 }
 

@@ -1,9 +1,11 @@
 // What a layer of the picture is, and the stack that repaints those that changed.
 
 import type { Theme } from "../colour";
+import { toCells } from "../geometry/cells";
 import type { Point } from "../protocol";
 import type { Session } from "../state/session";
-import type { Viewport } from "./viewport";
+import { Labels } from "./text";
+import { GUTTER, type Viewport } from "./viewport";
 
 /** What is drawn besides the map. */
 export type Look = {
@@ -82,6 +84,15 @@ export class Stack {
       this.paints[layer.name]++;
     }
   }
+}
+
+/** Labels over the map. */
+export function labelsOf(context: CanvasRenderingContext2D, { session, look, view }: Scene) {
+  const { scale, x, y } = view.transform;
+  const labels = new Labels(context, look.theme, view.width, Math.min(view.height, y + session.shape[1] * scale), Math.max(GUTTER.left, x));
+  const { sensors = [], grid } = session.document ?? {};
+  if (grid) for (const sensor of sensors) labels.avoid(view.fromGrid(toCells(sensor, grid), grid.shape[1]), 9);
+  return labels;
 }
 
 /** Restricts drawing to the map. */

@@ -3,8 +3,8 @@
 import { toCells } from "../geometry/cells";
 import type { Grid } from "../protocol";
 import type { Place } from "../messages";
-import { clipToMap, type Layer, type Scene } from "./layer";
-import { Labels } from "./text";
+import { clipToMap, labelsOf, type Layer, type Scene } from "./layer";
+import type { Labels } from "./text";
 
 const DOT = 2.2;
 const TICK = 7;
@@ -29,11 +29,12 @@ export class WhereLayer implements Layer {
     const { found } = session.where;
     const grid = session.document?.grid;
     if (!found || !grid) return;
-    const labels = new Labels(context, scene.look.theme, scene.view.width, scene.view.height);
+    const labels = labelsOf(context, scene);
     context.save();
     clipToMap(context, scene);
     this.cloud(context, scene, grid);
-    for (const place of found.modes) this.place(context, scene, grid, place, labels); // the likeliest first: it has the best room
+    const rings = found.modes.map((place) => ({ place, ...this.ring(context, scene, grid, place, labels) }));
+    for (const { place, at, short } of rings) labels.place(percent(place.probability), at.x, at.y, short); // the likeliest first: it has the best room
     context.restore();
     labels.write();
   }
@@ -59,7 +60,7 @@ export class WhereLayer implements Layer {
     context.globalAlpha = 1;
   }
 
-  private place(context: CanvasRenderingContext2D, { view, look }: Scene, grid: Grid, place: Place, labels: Labels) {
+  private ring(context: CanvasRenderingContext2D, { view, look }: Scene, grid: Grid, place: Place, labels: Labels) {
     const [x, y, yaw] = place.mean;
     const at = view.fromGrid(toCells({ x, y }, grid), grid.shape[1]);
     const pixels = (RADIUS_95 * view.transform.scale) / grid.resolution;
@@ -77,7 +78,9 @@ export class WhereLayer implements Layer {
     context.strokeStyle = look.theme.belief;
     context.lineWidth = 2;
     context.stroke();
-    labels.place(percent(place.probability), at.x, at.y, short);
+    labels.avoid(at, short);
+    labels.avoid(at, 2, { x: at.x + (from + TICK) * Math.cos(yaw), y: at.y - (from + TICK) * Math.sin(yaw) });
+    return { at, short };
   }
 }
 
