@@ -124,7 +124,7 @@ def test_chains_at_several_shifts_are_judged_at_each_and_told_what_would_help(he
     verdict = header["verdict"]
     assert header["rhat"] > 1.05
     assert f"chains stand at {len(places)} shifts" in verdict["why"]
-    assert "another sensor or surer poses" in verdict["why"]
+    assert "which more sweeps lower; another sensor or surer poses" in verdict["why"]
     assert "shifts" not in (heard.infer(replace(document, pose_sigma=0.01))[0]["verdict"] or {"why": ""})["why"]
 
 

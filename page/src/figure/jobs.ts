@@ -301,7 +301,7 @@ export class Chains extends Job {
     }
     if (sweep < judging.fewest_diagnosed) return verdict("bad", `${sweep} ${sweep === 1 ? "sweep is" : "sweeps are"} too few to judge`);
     const { rhat = NaN, ess = NaN } = this.diagnosis ?? {};
-    if (rhat > judging.rhat_limit) return verdict("bad", `R-hat is ${rhat.toFixed(2)}, over ${judging.rhat_limit}`);
+    if (rhat > judging.rhat_limit) return verdict("bad", `R-hat is ${rhat.toFixed(3)}, over ${judging.rhat_limit}`);
     const misfit = this.misfit();
     if (misfit) return verdict("bad", `the chains agree, but on maps that the readings contradict: they differ by ${+misfit.toPrecision(3)} times the noise`);
     if (!Number.isFinite(rhat) || !Number.isFinite(ess)) return verdict("good", "nothing varies: the log joint is the same in all draws of all chains");

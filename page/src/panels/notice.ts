@@ -50,7 +50,7 @@ export function chip(ui: Ui) {
       put(what, "textContent", `hits and passes \u00b7 ${session.stage ? session.stage.text.toLowerCase() : along}`);
       return put(what, "className", "chip approximate");
     }
-    const other = { importance: "importance sampling", propagate: "belief propagation" }[field.method];
+    const other = { importance: "importance sampling", propagate: "belief propagation", none: "the prior" }[field.method];
     const until = session.document.method === "importance" && field.method === "propagate" ? ", until Run weighs particles" : "";
     const by = field.approximate ? `approximate, ${quick(field, session.working)}${until}` : (other ?? `${field.sweeps} sweeps`);
     put(what, "textContent", `${kind} \u00b7 ${by}`);
@@ -74,12 +74,10 @@ function tryRemedy(session: Session): { text: string; apply?: () => void } | nul
   if (session.recorded || document.source.kind === "run") return { text: "" };
   const set = (patch: Patch) => () => session.act({ type: "set", patch });
   const few = shown.sweeps < FEWEST_SWEEPS;
-  const sure = document.pose_sigma === 0 && document.heading_sigma === 0;
+  const sure = document.pose_sigma === 0 && document.heading_sigma === 0; // else sweeps help, and blocks do not
   if (shown.method === "gibbs" && document.source.kind === "simulation" && !few && sure) return { text: "try blocks", apply: set({ method: "block" }) };
   if (shown.method === "importance") return { text: "try Gibbs", apply: set({ method: "auto" }) };
   if (shown.sweeps < shown.total) return null; // it goes on, or was cancelled
-  // chains keep to their shifts of the map
-  if (!sure && !few) return { text: "poses are too uncertain" };
   const sweeps = Math.min(session.limits?.sweeps[1] ?? 0, Math.max(FEWEST_SWEEPS, 4 * document.sweeps));
   return sweeps > document.sweeps ? { text: `try ${sweeps} sweeps`, apply: set({ sweeps }) } : { text: "" };
 }

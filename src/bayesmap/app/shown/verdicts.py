@@ -100,7 +100,7 @@ def judge_chains(
     if 0 < sweeps < VERDICT_LIMITS.fewest_diagnosed:
         return Verdict("bad", f"{sweeps} {'sweep is' if sweeps == 1 else 'sweeps are'} too few to judge")
     if joint_rhat > VERDICT_LIMITS.rhat_limit:
-        return Verdict("bad", f"R-hat is {joint_rhat:.2f}, over {VERDICT_LIMITS.rhat_limit}")
+        return Verdict("bad", f"R-hat is {joint_rhat:.3f}, over {VERDICT_LIMITS.rhat_limit}")
     # Do they agree on maps that do not fit the readings?
     if misfit is not None:
         why = f"the chains agree, but on maps that the readings contradict: they differ by {misfit:.3g} times the noise"
@@ -127,12 +127,12 @@ def judge_shifted_chains(verdict: Verdict | None, log_joint: Floats, sweeps: int
         return verdict
     groups = [log_joint[shift_of_chain.ravel() == k] for k in range(len(distinct_shifts))]
     max_rhat = np.nanmax([1.0, *(rhat_and_ess(group)[0] for group in groups)])
-    why = (
-        f"chains stand at {len(distinct_shifts)} shifts of map and sensors together, in the shares that the poses' "
-        f"prior gives them, and none moves from one to another. Blocks and more sweeps do not change that; another "
-        f"sensor or surer poses leave fewer. At each shift R-hat is at most {max_rhat:.2f}"
-    )
-    return Verdict("fair" if max_rhat <= VERDICT_LIMITS.rhat_limit else "bad", why)
+    finding = f"chains stand at {len(distinct_shifts)} shifts of map and sensors together"
+    advice = "another sensor or surer poses leave fewer shifts"
+    if max_rhat > VERDICT_LIMITS.rhat_limit:
+        return Verdict("bad", f"{finding}; at one of them R-hat is {max_rhat:.3f}, which more sweeps lower; {advice}")
+    shares = "in the shares that the poses' prior gives them; neither blocks nor more sweeps move a chain to another"
+    return Verdict("fair", f"{finding}, {shares}; {advice}. At each shift R-hat is at most {max_rhat:.3f}")
 
 
 def judge_particles(ess: float) -> Verdict:

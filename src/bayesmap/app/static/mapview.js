@@ -774,33 +774,33 @@ shown?.verdict?.why}.${i.apply?` Click to ${i.text}.`:""}`),C(o,"disabled",!i.ap
 if(C(s,"hidden",!1),r)return C(n,"textContent","known map: the walls as drawn"),C(n,"className","chip");let l=e.draws.count?`draw ${e.draw+1} of ${e.draws.count}`:
 "draw",c=a.layer==="draw"?l+(e.flicker.under?" over the mean":""):a.layer==="width"?"width of the 90 % interval":e.view.layer==="entropy"?"entropy":"mean";if(a.
 method==="counts"){let m=e.halfway?"along poses found so far":"along raw odometry";return C(n,"textContent",`hits and passes · ${e.stage?e.stage.text.toLowerCase():
-m}`),C(n,"className","chip approximate")}let h={importance:"importance sampling",propagate:"belief propagation"}[a.method],u=e.document.method==="importance"&&a.
-method==="propagate"?", until Run weighs particles":"",d=a.approximate?`approximate, ${sg(a,e.working)}${u}`:h??`${a.sweeps} sweeps`;C(n,"textContent",`${c} · ${d}`),
-C(n,"className",a.approximate?"chip approximate":"chip")}),s}function sg({method:t,sweeps:e,total:n,averaged:o},s){return t==="hits"?"counts of hits":t!=="pilot"?
-"belief propagation":`${o===1?"1 draw":`${o} draws`} of one chain, sensor ${s?"being":"half"} fitted: sweep ${e} of ${n}`}function Mh(t){let{shown:e,document:n}=t;
-if(e?.verdict?.level!=="bad"||!n)return null;if(t.recorded||n.source.kind==="run")return{text:""};let o=a=>()=>t.act({type:"set",patch:a}),s=e.sweeps<kh,r=n.pose_sigma===
-0&&n.heading_sigma===0;if(e.method==="gibbs"&&n.source.kind==="simulation"&&!s&&r)return{text:"try blocks",apply:o({method:"block"})};if(e.method==="importance")
-return{text:"try Gibbs",apply:o({method:"auto"})};if(e.sweeps<e.total)return null;if(!r&&!s)return{text:"poses are too uncertain"};let i=Math.min(t.limits?.sweeps[1]??
-0,Math.max(kh,4*n.sweeps));return i>n.sweeps?{text:`try ${i} sweeps`,apply:o({sweeps:i})}:{text:""}}function Eh(t){let{session:e}=t,n=S("span"),o=t.button(null,
-"Reconnect now",()=>e.transport.retry?.(),{text:"Reconnect now"}),s=S("div",{className:"banner",role:"alert",hidden:!0},n,o);return t.each(()=>{let r=e.everConnected&&
-!e.connection.connected,i=Math.max(1,Math.round((e.connection.retryIn_ms??0)/1e3));C(s,"hidden",!r&&e.worker!=="restarted"),C(s,"className",r?"banner":"banner m\
-ild"),C(o,"hidden",!r);let a=`Connection lost. Trying again in ${i} s; the map is kept here.`,l=e.connection.refused?tg:a;C(n,"textContent",r?l:"The worker stop\
-ped and is being started again. The map is kept.")}),s}function Ph(t){let{session:e,hand:n}=t,o=S("div",{className:"readout",id:`${t.prefix}-readout`}),s=S("spa\
-n",{role:"status","aria-live":"polite"}),r=S("span",{className:"hidden","aria-live":"polite"});return n.announce=i=>C(r,"textContent",i),n.describe=i=>Th(e,i),t.
-each(()=>{let{kind:i}=e.quantity;C(o,"title",i==="binary"?ng:i==="surface"?`${Sh}. ${og}`:Sh);let a=n.cursor??n.hover,c=matchMedia("(pointer: coarse)").matches?
-"Touch a cell":e.editable?"Point at a cell, or press ? for the keys":"Point at a cell";C(o,"textContent",a?Th(e,a):c);let h=e.status.text==="Ready"&&e.shown?.verdict?.
-level==="bad"&&!e.where.map,u=e.status.text==="Ready"&&Ls(e),d=e.shown?.method==="importance"?"Ready, but importance sampling has collapsed":"Ready, but the cha\
-ins have not converged",m=e.everConnected&&!e.connection.connected&&e.status.level==="info";C(s,"textContent",m?"Connection lost":h?d:u?"Fitting the sensor":e.status.
-text),C(s,"className",m?"error":h?"warning":u?"busy":e.status.level)}),{element:S("footer",{},s,o,r),readout:o}}function Th(t,e){let{document:n,shown:o}=t;if(!n)
-return"";let{resolution:s,shape:r}=n.grid,i=e.x*r[1]+e.y,a=Math.max(1,Math.ceil(-Math.log10(s))+1),{x:l,y:c}=eo(e,n.grid),h=[`Cell ${e.x}, ${e.y}`,`${l.toFixed(
-a)}, ${c.toFixed(a)} m`],{map:u}=t.where;if(u)h.push(u.p[i]?"wall, as drawn":"free, as drawn");else if(o&&o.p.length===r[0]*r[1]){let d=o.p[i]/255,{kind:m,mean:w,
-value:M,interval:b}=t.quantity;o.layer==="width"?h.push(`90 % interval ${d.toFixed(2)} wide`):m!=="binary"&&o.layer==="draw"?h.push(`${M} ${d.toFixed(2)} in thi\
-s draw`):m!=="binary"?h.push(`${w} ${d.toFixed(2)}`,...b?[]:[`entropy ${Uo(d).toFixed(2)} bit`]):o.layer==="draw"?h.push(d>.5?"wall in this draw":"free in this \
-draw"):h.push(`P(wall) ${d.toFixed(2)}`,`entropy ${Uo(d).toFixed(2)} bit`);let x=t.evidence.facts,k=x?.x===e.x&&x.y===e.y?x:null,A=k?k.beams:null,E=o.reached[i]/
-255,D=n.source.kind==="run";if(E?!D&&E<.995&&h.push(`reached by a beam with probability ${E.toFixed(2)}`):h.push(D?"reached by a beam in less than half of the d\
-raws":"unobserved"),E&&A!==null&&h.push(A===1?"1 beam":`${A} beams`),E&&k&&k.nats_for!==null&&k.nats_against!==null&&A){let L={binary:"a wall",surface:"its surf\
-ace"}[t.quantity.kind]??"what is there";h.push(`for ${L} ${k.beams_for}, ${k.nats_for.toFixed(1)} nats`,`against ${k.beams_against}, ${k.nats_against.toFixed(1)}\
- nats`)}}return h.join(" · ")}var rg={logged:"as logged",odometry:"from raw odometry"},ig=180/Math.PI;function _h(t){let{session:e}=t,n=()=>e.document?.source.kind==="log",o=t.select("Poses",
+m}`),C(n,"className","chip approximate")}let h={importance:"importance sampling",propagate:"belief propagation",none:"the prior"}[a.method],u=e.document.method===
+"importance"&&a.method==="propagate"?", until Run weighs particles":"",d=a.approximate?`approximate, ${sg(a,e.working)}${u}`:h??`${a.sweeps} sweeps`;C(n,"textCo\
+ntent",`${c} · ${d}`),C(n,"className",a.approximate?"chip approximate":"chip")}),s}function sg({method:t,sweeps:e,total:n,averaged:o},s){return t==="hits"?"cou\
+nts of hits":t!=="pilot"?"belief propagation":`${o===1?"1 draw":`${o} draws`} of one chain, sensor ${s?"being":"half"} fitted: sweep ${e} of ${n}`}function Mh(t){
+let{shown:e,document:n}=t;if(e?.verdict?.level!=="bad"||!n)return null;if(t.recorded||n.source.kind==="run")return{text:""};let o=a=>()=>t.act({type:"set",patch:a}),
+s=e.sweeps<kh,r=n.pose_sigma===0&&n.heading_sigma===0;if(e.method==="gibbs"&&n.source.kind==="simulation"&&!s&&r)return{text:"try blocks",apply:o({method:"block"})};
+if(e.method==="importance")return{text:"try Gibbs",apply:o({method:"auto"})};if(e.sweeps<e.total)return null;let i=Math.min(t.limits?.sweeps[1]??0,Math.max(kh,4*
+n.sweeps));return i>n.sweeps?{text:`try ${i} sweeps`,apply:o({sweeps:i})}:{text:""}}function Eh(t){let{session:e}=t,n=S("span"),o=t.button(null,"Reconnect now",
+()=>e.transport.retry?.(),{text:"Reconnect now"}),s=S("div",{className:"banner",role:"alert",hidden:!0},n,o);return t.each(()=>{let r=e.everConnected&&!e.connection.
+connected,i=Math.max(1,Math.round((e.connection.retryIn_ms??0)/1e3));C(s,"hidden",!r&&e.worker!=="restarted"),C(s,"className",r?"banner":"banner mild"),C(o,"hid\
+den",!r);let a=`Connection lost. Trying again in ${i} s; the map is kept here.`,l=e.connection.refused?tg:a;C(n,"textContent",r?l:"The worker stopped and is bei\
+ng started again. The map is kept.")}),s}function Ph(t){let{session:e,hand:n}=t,o=S("div",{className:"readout",id:`${t.prefix}-readout`}),s=S("span",{role:"stat\
+us","aria-live":"polite"}),r=S("span",{className:"hidden","aria-live":"polite"});return n.announce=i=>C(r,"textContent",i),n.describe=i=>Th(e,i),t.each(()=>{let{
+kind:i}=e.quantity;C(o,"title",i==="binary"?ng:i==="surface"?`${Sh}. ${og}`:Sh);let a=n.cursor??n.hover,c=matchMedia("(pointer: coarse)").matches?"Touch a cell":
+e.editable?"Point at a cell, or press ? for the keys":"Point at a cell";C(o,"textContent",a?Th(e,a):c);let h=e.status.text==="Ready"&&e.shown?.verdict?.level===
+"bad"&&!e.where.map,u=e.status.text==="Ready"&&Ls(e),d=e.shown?.method==="importance"?"Ready, but importance sampling has collapsed":"Ready, but the chains have\
+ not converged",m=e.everConnected&&!e.connection.connected&&e.status.level==="info";C(s,"textContent",m?"Connection lost":h?d:u?"Fitting the sensor":e.status.text),
+C(s,"className",m?"error":h?"warning":u?"busy":e.status.level)}),{element:S("footer",{},s,o,r),readout:o}}function Th(t,e){let{document:n,shown:o}=t;if(!n)return"";
+let{resolution:s,shape:r}=n.grid,i=e.x*r[1]+e.y,a=Math.max(1,Math.ceil(-Math.log10(s))+1),{x:l,y:c}=eo(e,n.grid),h=[`Cell ${e.x}, ${e.y}`,`${l.toFixed(a)}, ${c.
+toFixed(a)} m`],{map:u}=t.where;if(u)h.push(u.p[i]?"wall, as drawn":"free, as drawn");else if(o&&o.p.length===r[0]*r[1]){let d=o.p[i]/255,{kind:m,mean:w,value:M,
+interval:b}=t.quantity;o.layer==="width"?h.push(`90 % interval ${d.toFixed(2)} wide`):m!=="binary"&&o.layer==="draw"?h.push(`${M} ${d.toFixed(2)} in this draw`):
+m!=="binary"?h.push(`${w} ${d.toFixed(2)}`,...b?[]:[`entropy ${Uo(d).toFixed(2)} bit`]):o.layer==="draw"?h.push(d>.5?"wall in this draw":"free in this draw"):h.
+push(`P(wall) ${d.toFixed(2)}`,`entropy ${Uo(d).toFixed(2)} bit`);let x=t.evidence.facts,k=x?.x===e.x&&x.y===e.y?x:null,A=k?k.beams:null,E=o.reached[i]/255,D=n.
+source.kind==="run";if(E?!D&&E<.995&&h.push(`reached by a beam with probability ${E.toFixed(2)}`):h.push(D?"reached by a beam in less than half of the draws":"u\
+nobserved"),E&&A!==null&&h.push(A===1?"1 beam":`${A} beams`),E&&k&&k.nats_for!==null&&k.nats_against!==null&&A){let L={binary:"a wall",surface:"its surface"}[t.
+quantity.kind]??"what is there";h.push(`for ${L} ${k.beams_for}, ${k.nats_for.toFixed(1)} nats`,`against ${k.beams_against}, ${k.nats_against.toFixed(1)} nats`)}}
+return h.join(" · ")}var rg={logged:"as logged",odometry:"from raw odometry"},ig=180/Math.PI;function _h(t){let{session:e}=t,n=()=>e.document?.source.kind==="log",o=t.select("Poses",
 rg,()=>e.document?.poses??"logged",a=>t.set({poses:a}));o.classList.add("wide"),t.visible(o,n);let s=[t.slider("pose_sigma",()=>"Position ±",{step:.05,unit:" m"}),
 t.slider("heading_sigma",()=>"Yaw ±",{step:.5,unit:"°",scale:ig})];for(let a of s)t.visible(a,()=>e.editable);let r=S("p",{className:"caption"});t.each(()=>{let{
 pose_sigma:a=0,heading_sigma:l=0,method:c="auto"}=e.document??{},h=n()&&e.document?.poses==="odometry"&&e.shown?.method==="counts"&&!e.running,u=e.editable&&(a>
@@ -1508,7 +1508,7 @@ sweep,total:this.total,ess:l(i),rhat:l(a),log_joint:r,verdict:this.verdict(n||th
 !n)return null;let i=(u,d,m=null)=>({level:u,why:d,cell:m}),a=this.difference();if(!r&&a.cells>o.chance_share*a.among){let[u,d]=a.cell,m=`in ${a.cells} of ${a.among}\
  observed cells, most in cell (${u}, ${d}), by ${a.by.toFixed(2)}`;return i("bad",`P(wall) differs by over ${o.bad_difference} between the chains ${m}`,a.cell)}
 if(s<o.fewest_diagnosed)return i("bad",`${s} ${s===1?"sweep is":"sweeps are"} too few to judge`);let{rhat:l=NaN,ess:c=NaN}=this.diagnosis??{};if(l>o.rhat_limit)
-return i("bad",`R-hat is ${l.toFixed(2)}, over ${o.rhat_limit}`);let h=this.misfit();return h?i("bad",`the chains agree, but on maps that the readings contradic\
+return i("bad",`R-hat is ${l.toFixed(3)}, over ${o.rhat_limit}`);let h=this.misfit();return h?i("bad",`the chains agree, but on maps that the readings contradic\
 t: they differ by ${+h.toPrecision(3)} times the noise`):!Number.isFinite(l)||!Number.isFinite(c)?i("good","nothing varies: the log joint is the same in all dra\
 ws of all chains"):c<o.bad_ess?i("bad",`only ${c.toFixed(0)} effective draws`):l>o.good_rhat||c<o.good_ess?i("fair",`R-hat ${l.toFixed(3)} and ${c.toFixed(0)} e\
 ffective draws; ${o.good_rhat} and ${o.good_ess} are good`):i("good",`R-hat ${l.toFixed(3)}, ${c.toFixed(0)} effective draws`)}misfit(){let n=this.problem.table.
