@@ -157,7 +157,7 @@ def compare_beam(result: Result, question: CompareBeam, generation: int) -> Comp
         generation=generation, scan=question.scan, beam=question.beam, draws=n_draws,
         reading=kind,  # type: ignore[arg-type]
         range=_finite(range_m), low=_finite(low), median=_finite(median), high=_finite(high),
-        residual=_finite(range_m - median), nats=_finite(-predicted.log_density[0]),
+        residual=_finite(range_m - float(median)), nats=_finite(-predicted.log_density[0]),
         no_return=_finite(predicted.p_no_return[0]),
         wall=_surface_offset(result, predictor, stops, range_m) if is_hit else None,
     )  # fmt: skip

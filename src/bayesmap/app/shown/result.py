@@ -252,16 +252,16 @@ class Result:
         method = METHOD_WORDS.get(self.method, self.method)
         if self.method == "gibbs" and self.document.cells == "binary":
             method += f", {self.document.order} order"
-        rows = [("Method", method)]
         if self.method in ("hits", "counts"):  # without prior and sensor
-            return rows
+            return [("Method", method)]
         try:
             model, hit_depth = self.sensor_and_depth
             sensor = describe_in_words(describe(model)) + (f", {hit_depth:g} cells deep" if hit_depth else "")
         except BadInput:
             sensor = "not one of bayesmap's"
-        poses = describe_in_words(self.estimate.poses)
-        return [*rows, ("Prior", describe_in_words(self.prior.describe())), ("Sensor", sensor), ("Poses", poses)]
+        poses = "inferred, then held fixed" if self.document.from_odometry else describe_in_words(self.estimate.poses)
+        prior = describe_in_words(self.prior.describe())
+        return [("Method", method), ("Prior", prior), ("Sensor", sensor), ("Poses", poses)]
 
     @property
     def draw_count(self) -> DrawCount:
