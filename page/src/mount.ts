@@ -139,6 +139,10 @@ export function mount(element: HTMLElement, transport: Transport, { embedded = f
   });
   const app = h("div", { className: "app" }, top.element, tools, stage, legendOfMap, panel, bottom.element, ...Object.values(dialogs));
   shadow.replaceChildren(app);
+  app.addEventListener("pointerdown", ({ pointerType, clientX, clientY }) => {
+    const control = shadow.elementFromPoint(clientX, clientY)?.closest<HTMLButtonElement>(":disabled");
+    if (pointerType === "touch" && control?.title) session.say(control.title); // fingers do not hover
+  });
   const themes = new ThemeChoice(app, (name) => {
     top.nameTheme(name);
     schedule();

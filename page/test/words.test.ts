@@ -43,7 +43,7 @@ test("what to do where chains have not converged is one click, and none where no
     [{ method: "block", sweeps: 300 }, { method: "block", sweeps: 300, total: 300 }, "try 1200 sweeps", { sweeps: 1200 }],
     [{ method: "block", sweeps: 60_000 }, { method: "block", sweeps: 60_000, total: 60_000 }, "try 100000 sweeps", { sweeps: 100_000 }],
     [{ method: "block", sweeps: 100_000 }, { method: "block", sweeps: 100_000, total: 100_000 }, ""],
-    [{ method: "gibbs", pose_sigma: 0.5 }, { method: "gibbs" }, "poses are too uncertain"],
+    [{ method: "gibbs", pose_sigma: 0.5 }, { method: "gibbs" }, "try 4000 sweeps", { sweeps: 4000 }], // at each shift of the map sweeps help
     [{ method: "block" }, { method: "block", sweeps: 300 }, null], // it goes on
     [{ ...LOG, method: "gibbs" }, { method: "gibbs" }, "try 4000 sweeps", { sweeps: 4000 }],
     [RUN, { method: "gibbs" }, ""],
@@ -194,7 +194,7 @@ test("what is left out, how long it took, and of which model and method the pict
   const [desk, found] = panel(posterior);
   desk.field({ burned: 100, seconds: 3.21, about: [["Method", "Gibbs sampling"], ["Prior", "independent: p wall 0.5"]] });
   assert.match(found.text, /1000 of 1000 sweeps, burn-in of 100 left out/);
-  assert.match(captionOf(desk.session), /: the mean of sweeps, burn-in of 100 left out\.$/);
+  assert.match(captionOf(desk.session), /, by sweeps 101 to 1000\.$/);
   assert.match(found.text, /time 3.2 s/);
   assert.match(found.text, /Model and method of this picture Method Gibbs sampling Prior independent: p wall 0.5/);
   desk.field({ method: "propagate", approximate: true, sweeps: 7, total: 0 });
@@ -213,7 +213,11 @@ test("Run is disabled with its reason where belief propagation is done, and its 
   assert.deepEqual(desk.asked("run"), []);
   desk.confirm({ method: "gibbs" });
   assert.equal(found.control("Run").disabled, false);
+  assert.equal(found.control("Run").title, "Run (R): sample maps");
+  desk.state(draws);
   assert.equal(found.control("Run").title, "Run (R): more sweeps of the chains on show");
+  desk.confirm({ method: "importance" });
+  assert.equal(found.control("Run").title, "Run (R): weigh particles");
   const [log, ofLog] = panel(posterior, { ...LOG, method: "propagate", poses: "odometry" });
   log.field({ method: "propagate", approximate: true });
   assert.equal(ofLog.control("Run").disabled, false); // it infers the trajectory

@@ -26,7 +26,6 @@ export function bar(ui: Ui) {
     TOOLS,
     () => (session.editable || !session.document || READING.has(hand.tool) ? hand.tool : "pan"),
     (tool) => hand.choose(tool),
-    (tool) => (READING.has(tool) ? session.answers || (tool === "where" && session.locates) : session.editable) || tool === "pan",
   );
   ui.visible(tools, () => !session.recorded);
   let all = allTools();

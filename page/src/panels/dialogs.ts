@@ -63,7 +63,7 @@ export function newDialog(ui: Ui) {
   for (const [value, text] of WORLDS) {
     const option = h("option", { value, textContent: text });
     world.append(option);
-    if (value !== "blank") ui.each(() => put(option, "disabled", ui.session.figure)); // a figure has no other worlds
+    if (value !== "blank") ui.visible(option, () => !ui.session.figure); // which has no other worlds
   }
   ui.each(() => ui.session.figure && put(world, "value", "blank"));
   world.addEventListener("change", () => {

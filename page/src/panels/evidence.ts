@@ -37,10 +37,10 @@ const nameOf = ({ document, editable }: Session, scan: number, beam: number) =>
   `beam ${beam + 1} of ${editable ? `sensor ${document?.sensors[scan]?.id ?? scan + 1}` : `scan ${scan + 1}`}`;
 
 /** How evidence and log odds belong together. */
-function oddsOf({ evidence: { together }, quantity }: Session) {
+function oddsOf({ evidence: { together }, quantity, hasDraws }: Session) {
   if (!together?.beams || quantity.kind !== "binary" || together.nats_for === null || together.nats_against === null) return "";
   const { prior_nats: prior, log_odds: odds, draw, nats_for, nats_against } = together;
-  if (draw === null || draw === undefined) return "Each beam is asked by itself, with the other cells as probable as they are: the sum is not the log odds of P(wall). Show one draw for that.";
+  if (draw === null || draw === undefined) return "Each beam is asked by itself, with the other cells as probable as they are: the sum is not the log odds of P(wall)." + (hasDraws ? " Show one draw for that." : "");
   if (prior === null || prior === undefined || odds === null || odds === undefined) return `Given all other cells of draw ${draw + 1}.`;
   const p = 1 / (1 + Math.exp(-odds));
   return `Given all other cells of draw ${draw + 1}: prior ${signed(prior)}, beams ${signed(nats_for - nats_against)}, together log odds ${signed(odds)}: Gibbs draws a wall with probability ${p.toFixed(3)}.`;

@@ -7,7 +7,6 @@ import type { Session } from "../state/session";
 import { sentence } from "../state/status";
 import { figure, h, put } from "./dom";
 import { icon } from "./icons";
-import { leftOut } from "./posterior";
 import type { Ui } from "./ui";
 
 /** Scale of the map on show, in CSS pixels a cell. */
@@ -66,7 +65,7 @@ export function captionOf(session: Session) {
   const ofPosterior = shown.verdict?.level !== "bad";
   const oneMap = ofPosterior ? "One map drawn from the posterior" : /importance/.test(shown.method) ? "One particle" : "The map of one chain, which has not converged";
   const what = {
-    mean: kind === "binary" ? "How probable a wall is in each cell" : sentence(`${mean} of each cell`),
+    mean: kind === "binary" ? "How probable a wall is in each cell" : sentence(`${mean}, cell by cell`),
     draw: `${oneMap}${kind === "binary" ? "" : `, by its ${value}`}${draws.count ? `, ${session.draw + 1} of ${draws.count}` : ""}`,
     entropy: "How uncertain each cell is, in bits", width: "How wide the 90 % interval of each cell is",
   }[layer];
@@ -74,7 +73,8 @@ export function captionOf(session: Session) {
   const { source, angles, sensors, scans_used } = document;
   const given = source.kind === "simulation" ? `${counted(angles * sensors.length, "beam")} of ${counted(sensors.length, "sensor")}` : counted(scans_used ?? source.scans, "scan");
   const quick = shown.method === "propagate" || shown.method === "pilot" || /hits|counts/.test(shown.method);
-  const by = quick && shown.approximate ? ", approximately" : layer !== "draw" && shown.burned ? `: the mean of sweeps, ${leftOut(shown.burned)}` : "";
+  const along = session.stage || session.halfway ? "the poses found so far" : "raw odometry";
+  const by = shown.method === "counts" ? `, by counts along ${along}` : quick && shown.approximate ? ", approximately" : layer !== "draw" && shown.burned ? `, by sweeps ${shown.burned + 1} to ${shown.sweeps}` : "";
   return `${what}, given ${given}${by}${ofPosterior || layer === "draw" ? "" : ", as far as it is known"}.`;
 }
 

@@ -20,7 +20,8 @@ export function cellSize(ui: Ui) {
     const [, most] = ui.limits("side_of_log");
     if (known !== `${sizes} ${most}`) {
       known = `${sizes} ${most}`;
-      const option = (size: number) => h("option", { value: String(size), textContent: words(size), disabled: side / size > most - 1 });
+      const isTooSmall = (size: number) => side / size > most - 1;
+      const option = (size: number) => h("option", { value: String(size), textContent: words(size) + (isTooSmall(size) ? ": too many cells" : ""), disabled: isTooSmall(size) });
       select.replaceChildren(...sizes.map(option));
     }
     put(select, "value", String(grid.resolution));

@@ -10,9 +10,6 @@ import type { Ui } from "./ui";
 const ROUNDS = 20;
 const UNITS: { [method: string]: string } = { importance: "particles", propagate: "rounds" };
 
-/** The burn-in in words, the same wherever it is said. */
-export const leftOut = (sweeps: number) => `burn-in of ${sweeps} left out`;
-
 /** Whether the sensor is being fitted, before there are chains. */
 export const isFitting = ({ working, shown }: Session) => working && shown?.method === "pilot";
 
@@ -32,7 +29,7 @@ export function posteriorPanel(ui: Ui, ...charts: HTMLElement[]) {
     const unit = UNITS[field?.method ?? ""] ?? "sweeps";
     const done = field && !field.approximate && field.total ? `${field.sweeps} of ${field.total} ${unit}` : "";
     const state = left !== null ? (left < 1 ? "less than 1 s left" : `${Math.ceil(left)} s left`) : session.running ? "running" : "";
-    const burned = done && field?.burned ? leftOut(field.burned) : "";
+    const burned = done && field?.burned ? `burn-in of ${field.burned} left out` : "";
     const count = session.sampling || session.running || !field || field.sweeps >= field.total ? "" : "stopped";
     if (stage) put(doing, "textContent", `${stage.text}: ${stage.done} of ${stage.total} ${stage.total > ROUNDS ? "scans" : "rounds"}`);
     else if (old) put(doing, "textContent", "Computing");
@@ -54,12 +51,20 @@ function idle({ shown, working, document, nothingToRun }: Session) {
   return working ? "Computing" : "No chain yet";
 }
 
+/** What Run does. */
+function runWords({ document, shown, draws }: Session) {
+  if (shown?.method === "counts") return "infer where the robot was, then sample maps";
+  if (document?.cells === "binary" && document.method === "importance") return "weigh particles";
+  if (document?.cells === "binary" && document.method === "propagate") return "belief propagation";
+  return draws.count ? "more sweeps of the chains on show" : "sample maps";
+}
+
 function buttons(ui: Ui) {
   const { session } = ui;
   const run = ui.button("play", "Run", () => session.act({ type: "run" }), {
     className: "primary",
     text: "Run",
-    title: "Run (R): more sweeps of the chains on show",
+    title: () => `Run (R): ${runWords(session)}`,
     when: () => session.connection.connected && !session.nothingToRun,
     why: () => session.nothingToRun || "Not while the connection is lost",
   });
@@ -73,7 +78,7 @@ function buttons(ui: Ui) {
     "Live",
     () => Boolean(session.state?.live ?? true),
     (on) => session.act({ type: "live", on }),
-    "Every edit restarts the chains, and Run goes on from their draws",
+    "Infer anew after every edit; Run goes on from the draws that are kept",
   );
   const element = h("div", { className: "buttons" }, run, cancel, live);
   ui.visible(element, () => !session.recorded && session.document?.source.kind !== "run");
@@ -84,21 +89,23 @@ function figures(ui: Ui) {
   const { session } = ui;
   const values = h("dl");
   const meanings = h("dl", { className: "about" });
-  const add = (label: string, title: string, read: (field: Field) => string, judged = false) => {
+  const add = (label: string, title: string, read: (field: Field) => string, { judged = false, ofChains = false } = {}) => {
     const value = h("dd", { textContent: "\u2013" });
     const entry = h("div", { title }, h("dt", { textContent: label }), value);
     values.append(entry);
     if (judged) ui.named.push({ name: () => label, place: entry, control: entry });
-    meanings.append(h("dt", { textContent: label }), h("dd", { textContent: title }));
+    const meaning = [h("dt", { textContent: label }), h("dd", { textContent: title })];
+    meanings.append(...meaning);
+    if (ofChains) for (const part of [entry, ...meaning]) ui.visible(part, () => session.shown?.method !== "importance");
     ui.each(() => {
       put(value, "textContent", session.shown ? read(session.shown) : "\u2013");
       if (judged) put(value, "className", session.shown?.verdict?.level ?? "");
     });
     return entry;
   };
-  add("ESS", "Effective sample size of the log joint: so many independent draws would tell as much of its mean", (field) => figure(field.ess, 0), true);
-  add("R-hat", "Agreement of the chains on the log joint: 1 where they agree, more where each still tells of its start", (field) => figure(field.rhat, 3), true);
-  add("log joint", "Log of prior times likelihood at the last sweep", (field) => figure(field.log_joint, Math.abs(field.log_joint ?? 0) < 1e5 ? 1 : 0));
+  add("ESS", "Effective sample size of the log joint: so many independent draws would tell as much of its mean", (field) => figure(field.ess, 0), { judged: true });
+  add("R-hat", "Agreement of the chains on the log joint: 1 where they agree, more where each still tells of its start", (field) => figure(field.rhat, 3), { judged: true, ofChains: true });
+  add("log joint", "Log of prior times likelihood at the last sweep", (field) => figure(field.log_joint, Math.abs(field.log_joint ?? 0) < 1e5 ? 1 : 0), { ofChains: true });
   add("time", "Time spent on sweeps, rounds or particles", (field) => figure(field.seconds, 1, " s"));
   const reply = add("reply", "From the hand's last move to its picture", () => figure(session.latency.eventToPaint_ms.at(-1), 0, " ms"));
   ui.visible(reply, () => !session.recorded);

@@ -11,7 +11,7 @@ import { icon, type IconName } from "./icons";
 let count = 0; // several pages may stand in one notebook
 
 /** `why` is said where the button is disabled. */
-type ButtonOptions = { className?: string; text?: string; when?: () => boolean; why?: string | (() => string); title?: string };
+type ButtonOptions = { className?: string; text?: string; when?: () => boolean; why?: string | (() => string); title?: string | (() => string) };
 /** `scale` is for people who read degrees where the document holds radians: the number on show is that many times the document's. */
 type Range = { step: number; log?: boolean; unit?: string; scale?: number };
 type NumberOptions = { step: number | "any"; limits?: keyof Limits; scale?: number };
@@ -95,7 +95,8 @@ export class Ui {
   }
 
   button(image: IconName | null, label: string, action: () => void, { className = "", text = "", when, why, title }: ButtonOptions = {}) {
-    const element = h("button", { type: "button", className, title: title ?? label, onclick: action }, image && icon(image));
+    const named = () => (typeof title === "function" ? title() : (title ?? label));
+    const element = h("button", { type: "button", className, title: named(), onclick: action }, image && icon(image));
     if (text) {
       element.append(h("span", { textContent: text }));
       this.named.push({ name: () => text, place: element, control: element });
@@ -105,7 +106,7 @@ export class Ui {
       this.each(() => {
         put(element, "disabled", !when());
         const reason = typeof why === "function" ? why() : why;
-        if (reason) put(element, "title", element.disabled ? reason : (title ?? label));
+        if (reason) put(element, "title", element.disabled ? reason : named());
       });
     return element;
   }
@@ -116,7 +117,6 @@ export class Ui {
     options: readonly (readonly [T, string, IconName?])[],
     current: () => T,
     choose: (value: T) => void,
-    when?: (value: T) => boolean,
   ) {
     const name = `${this.prefix}-${label.replace(/\W/g, "")}`;
     const group = h("div", { className: "segmented", role: "radiogroup", "aria-label": label });
@@ -125,10 +125,7 @@ export class Ui {
       const place = h("label", { title: text }, input, image ? icon(image) : null, h("span", { textContent: text }));
       group.append(place);
       this.named.push({ name: () => text, place, control: input });
-      this.each(() => {
-        put(input, "checked", current() === value);
-        if (when) put(input, "disabled", !when(value));
-      });
+      this.each(() => put(input, "checked", current() === value));
     }
     return group;
   }

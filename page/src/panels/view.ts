@@ -14,6 +14,8 @@ const LAYERS = [
   ["width", "Width"],
 ] as const;
 const NO_DRAWS = "There are no draws yet: chains keep them";
+const ONE_CHAIN = "There is one chain";
+const STILL = "This device asks that nothing moves by itself";
 /** Draws a second. */
 const SPEEDS: Record<string, string> = { "2": "2 / s", "10": "10 / s", "30": "30 / s", "1000": "fastest" };
 
@@ -93,12 +95,14 @@ export type Shown = { truth: boolean; rays: boolean; readings: boolean; strokes:
 
 export function viewPanel(ui: Ui, player: Player, shown: Shown, scale: () => number) {
   const { session } = ui;
-  const layers = ui.segmented<Layer>("Show", LAYERS, () => session.view.layer, (layer) => player.showLayer(layer), (layer) => (layer === "draw" ? session.hasDraws : !session.lacks.includes(layer)));
+  const current = () => (session.view.layer === "draw" && !session.hasDraws ? "mean" : session.view.layer);
+  const layers = ui.segmented<Layer>("Show", LAYERS, current, (layer) => player.showLayer(layer));
   // walls have no interval, and the entropy of a reflectivity is none of the map's
-  const [, , entropy, width] = Array.from(layers.children) as HTMLElement[];
+  const [, draw, entropy, width] = Array.from(layers.children) as HTMLElement[];
   put(width, "title", "Width of each cell's 90 % interval");
   ui.visible(entropy, () => !session.quantity.interval);
-  ui.visible(width, () => session.quantity.interval);
+  ui.visible(width, () => session.quantity.interval && !session.lacks.includes("width"));
+  ui.visible(draw, () => session.hasDraws);
   const box = (label: string, name: keyof Shown) =>
     ui.checkbox(label, () => shown[name], (on) => {
       shown[name] = on;
@@ -129,6 +133,7 @@ function playerControls(ui: Ui, player: Player) {
     const { chains, count: n } = session.draws;
     put(slider, "max", String(Math.max(0, n - 1)));
     put(slider, "disabled", n === 0);
+    put(slider, "title", n ? "" : NO_DRAWS);
     put(slider, "value", String(session.draw));
     const text = n ? `${session.draw + 1} of ${n}` : "none kept";
     mark(slider, "aria-valuetext", text);
@@ -139,6 +144,7 @@ function playerControls(ui: Ui, player: Player) {
     }
     put(chain, "value", String(session.view.chain));
     put(chain, "disabled", chains < 2);
+    put(chain, "title", chains > 1 ? "" : n ? ONE_CHAIN : NO_DRAWS);
     if (n < 2 && player.playing) player.play(false);
     const label = session.flicker.still ? "Next draw" : player.playing ? "Pause the draws" : "Play the draws";
     if (play.getAttribute("aria-label") === label) return;
@@ -150,11 +156,16 @@ function playerControls(ui: Ui, player: Player) {
   speed.value = String(player.drawsPerSecond);
   speed.addEventListener("change", () => (player.drawsPerSecond = Number(speed.value)));
   const first = ui.button(null, "From the first sweep", () => player.playFromStart(), { text: "From the first", when: () => session.draws.count > 1, why: NO_DRAWS });
-  ui.each(() => put(speed, "disabled", session.draws.count < 2 || session.flicker.still));
+  ui.each(() => {
+    put(speed, "disabled", session.draws.count < 2 || session.flicker.still);
+    put(speed, "title", session.draws.count < 2 ? NO_DRAWS : session.flicker.still ? STILL : "");
+  });
   const over = ui.checkbox("Draws over the mean", () => session.flicker.on, (on) => player.over(on), "Each draw in its own colour over the mean, as one of the maps that the scans leave possible");
   ui.visible(over, () => session.draws.count > 1);
   const more = h("div", { className: "wide" }, over);
-  return h("div", { className: "player" }, play, slider, count, h("div", { className: "buttons wide" }, chain, speed, first), more);
+  const controls = h("div", { className: "player" }, play, slider, count, h("div", { className: "buttons wide" }, chain, speed, first), more);
+  ui.visible(controls, () => session.hasDraws);
+  return controls;
 }
 
 export function scanPanel(ui: Ui) {
