@@ -168,6 +168,9 @@ test("what is typed into a field is no key of the page, and a slider's is", () =
   assert.deepEqual(desk.sent, []);
   typed(input("range"), "r");
   assert.deepEqual(desk.asked("run"), [{ type: "run" }]);
+  desk.session.decisions.point({ x: 1, y: 1 });
+  typed(input("number"), "Escape"); // but a path goes
+  assert.equal(desk.session.decisions.start, null);
 });
 
 /** A desk with some draws. */

@@ -26,21 +26,21 @@ async function openRun(file: File, session: Session, readRun: NonNullable<Transp
     const recording = await readRun(file, (share) => session.say(share < 1 ? `Reading ${file.name}: ${Math.round(100 * share)} %` : `Reading ${file.name}: making its picture`));
     play(unpackFrame<Recording>(recording));
   } catch (error) {
-    session.say(`${file.name} cannot be shown: ${(error as Error).message}`, "error");
+    session.say(`The file ${file.name} cannot be shown: ${(error as Error).message}`, "error");
   }
 }
 
 export async function openDropped(file: File, session: Session, play: Play | undefined) {
   const { name } = file;
   if (name.endsWith(".nc") && session.transport.read && play) return openRun(file, session, session.transport.read, play);
-  if (!/\.(html|json)$/.test(name)) return session.say(`${name} is not read in the page: start bayesmap app with it`, "warning");
+  if (!/\.(html|json)$/.test(name)) return session.say(`The file ${name} is not read in the page: start bayesmap app with it`, "warning");
   try {
     const text = await read(file, (share) => session.say(`Reading ${name}: ${Math.round(100 * share)} %`));
     const recording = /data-recording>(.*?)<\/script>/s.exec(text)?.[1];
     if (recording && play) play(await readRecording(recording));
     else if (name.endsWith(".json") && !session.recorded) session.bring(JSON.parse(text));
-    else session.say(`${name} holds nothing that can be shown here`, "warning");
+    else session.say(`The file ${name} holds nothing that can be shown here`, "warning");
   } catch {
-    session.say(`${name} cannot be read: export it again, whole`, "error");
+    session.say(`The file ${name} cannot be read: export it again, whole`, "error");
   }
 }

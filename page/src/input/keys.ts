@@ -148,12 +148,13 @@ export function pageKey(
     session.act({ type: letter === "y" || event.shiftKey ? "redo" : "undo" });
     return;
   }
-  if (typing || event.altKey) return;
+  const leavesPath = event.key === "Escape" && session.decisions.start !== null && session.decisions.pathShown;
+  if ((typing && !leavesPath) || event.altKey) return;
   if (TOOLS[letter] && (READING.has(TOOLS[letter]) ? session.answers || (TOOLS[letter] === "where" && session.locates) || (TOOLS[letter] === "pan" && session.editable) : session.editable)) chosen.tool(TOOLS[letter]);
   else if (LAYERS[letter]) chosen.layer(letter === "h" && session.quantity.interval ? "width" : LAYERS[letter]);
   else if (COMMANDS[event.key]) chosen.command(COMMANDS[event.key]);
   else if (letter === "r" && !session.recorded) session.act({ type: "run" });
-  else if (event.key === "Escape" && session.decisions.start && session.decisions.pathShown) session.decisions.forgetPath();
+  else if (leavesPath) session.decisions.forgetPath();
   else if (event.key === "Escape" && (session.running || session.working)) session.act({ type: "cancel" });
   else return;
   event.preventDefault();

@@ -23,11 +23,11 @@ b(D.seq),A();else if(D.type==="scan"){let L=o.map(O=>Math.abs(O-1-D.index));d=L.
 G=e.beams[L*n.grid.shape[1]+O];E.onmessage({type:"cell",x:L,y:O,each:!1,beams:G,beams_for:null,nats_for:null,beams_against:null,nats_against:null,draw:null,chain:null,
 prior_nats:null,log_odds:null},{})}},close:()=>{}};return E}async function Pd(t,e){let n=new TextDecoder,o=t.stream().getReader(),[s,r]=["",0];for(let i=await o.read();!i.done;i=await o.read())s+=n.decode(i.value,{stream:!0}),
 e((r+=i.value.length)/t.size);return s}async function _d(t,e,n,o){try{let s=await n(t,r=>e.say(r<1?`Reading ${t.name}: ${Math.round(100*r)} %`:`Reading ${t.name}\
-: making its picture`));o(hn(s))}catch(s){e.say(`${t.name} cannot be shown: ${s.message}`,"error")}}async function Ya(t,e,n){let{name:o}=t;if(o.endsWith(".nc")&&
-e.transport.read&&n)return _d(t,e,e.transport.read,n);if(!/\.(html|json)$/.test(o))return e.say(`${o} is not read in the page: start bayesmap app with it`,"warn\
-ing");try{let s=await Pd(t,i=>e.say(`Reading ${o}: ${Math.round(100*i)} %`)),r=/data-recording>(.*?)<\/script>/s.exec(s)?.[1];r&&n?n(await ds(r)):o.endsWith(".j\
-son")&&!e.recorded?e.bring(JSON.parse(s)):e.say(`${o} holds nothing that can be shown here`,"warning")}catch{e.say(`${o} cannot be read: export it again, whole`,
-"error")}}var le=(t,e,n)=>Math.min(n,Math.max(e,t)),qt=({x:t,y:e},[n,o])=>t>=0&&e>=0&&t<n&&e<o,Ae=(t,{resolution:e,origin:n})=>({x:(t.x-n[0])/e,y:(t.y-n[1])/e}),Xr=(t,{resolution:e,
+: making its picture`));o(hn(s))}catch(s){e.say(`The file ${t.name} cannot be shown: ${s.message}`,"error")}}async function Ya(t,e,n){let{name:o}=t;if(o.endsWith(
+".nc")&&e.transport.read&&n)return _d(t,e,e.transport.read,n);if(!/\.(html|json)$/.test(o))return e.say(`The file ${o} is not read in the page: start bayesmap a\
+pp with it`,"warning");try{let s=await Pd(t,i=>e.say(`Reading ${o}: ${Math.round(100*i)} %`)),r=/data-recording>(.*?)<\/script>/s.exec(s)?.[1];r&&n?n(await ds(r)):
+o.endsWith(".json")&&!e.recorded?e.bring(JSON.parse(s)):e.say(`The file ${o} holds nothing that can be shown here`,"warning")}catch{e.say(`The file ${o} cannot \
+be read: export it again, whole`,"error")}}var le=(t,e,n)=>Math.min(n,Math.max(e,t)),qt=({x:t,y:e},[n,o])=>t>=0&&e>=0&&t<n&&e<o,Ae=(t,{resolution:e,origin:n})=>({x:(t.x-n[0])/e,y:(t.y-n[1])/e}),Xr=(t,{resolution:e,
 origin:n})=>({x:n[0]+t.x*e,y:n[1]+t.y*e});function Mn(t,e){let{x:n,y:o}=Ae(t,e);return{x:Math.floor(n),y:Math.floor(o)}}var eo=(t,e)=>Xr({x:t.x+.5,y:t.y+.5},e);
 function fs(t,e){let n=[],o=Math.max(Math.abs(e.x-t.x),Math.abs(e.y-t.y));for(let s=0;s<=o;s++){let r=o?s/o:0;n.push({x:Math.round(t.x+r*(e.x-t.x)),y:Math.round(
 t.y+r*(e.y-t.y))})}return n}function qa(t,[e,n]){let o=new Path2D,s=(r,i)=>r>=0&&r<e&&i>=0&&i<n?t[r*n+i]:0;for(let r=0;r<=e;r++)for(let i=0,a=-1;i<=n;i++){let l=i<
@@ -86,9 +86,9 @@ r.length)]?.id??null),o.selected!==null&&o.announce(`Sensor ${o.selected}`)}else
 !s.isWall(r);s.setWalls([r],i,o.nextGesture(),e),o.announce(i?"wall":"free")}}}},Bo={d:"draw",e:"erase",s:"sensor",p:"pan",g:"path",l:"look",w:"where",o:"ghost",
 v:"evidence"},Qa={m:"mean",n:"draw",h:"entropy"},el={"+":"in","=":"in","-":"out",0:"fit","?":"help"};function nl(t,e,n){let o=t.composedPath()[0],s=o instanceof
 HTMLSelectElement||o instanceof HTMLInputElement&&/number|text/.test(o.type),r=t.key.toLowerCase();if((t.ctrlKey||t.metaKey)&&!t.altKey){if(s||r!=="z"&&r!=="y"||
-e.recorded)return;t.preventDefault(),e.act({type:r==="y"||t.shiftKey?"redo":"undo"});return}if(!(s||t.altKey)){if(Bo[r]&&(Ft.has(Bo[r])?e.answers||Bo[r]==="wher\
-e"&&e.locates||Bo[r]==="pan"&&e.editable:e.editable))n.tool(Bo[r]);else if(Qa[r])n.layer(r==="h"&&e.quantity.interval?"width":Qa[r]);else if(el[t.key])n.command(
-el[t.key]);else if(r==="r"&&!e.recorded)e.act({type:"run"});else if(t.key==="Escape"&&e.decisions.start&&e.decisions.pathShown)e.decisions.forgetPath();else if(t.
+e.recorded)return;t.preventDefault(),e.act({type:r==="y"||t.shiftKey?"redo":"undo"});return}let i=t.key==="Escape"&&e.decisions.start!==null&&e.decisions.pathShown;
+if(!(s&&!i||t.altKey)){if(Bo[r]&&(Ft.has(Bo[r])?e.answers||Bo[r]==="where"&&e.locates||Bo[r]==="pan"&&e.editable:e.editable))n.tool(Bo[r]);else if(Qa[r])n.layer(
+r==="h"&&e.quantity.interval?"width":Qa[r]);else if(el[t.key])n.command(el[t.key]);else if(r==="r"&&!e.recorded)e.act({type:"run"});else if(i)e.decisions.forgetPath();else if(t.
 key==="Escape"&&(e.running||e.working))e.act({type:"cancel"});else return;t.preventDefault()}}var Fd={paper:[98,0,1],ink:[14,6,-24],unobserved:"#efe7d8",unobservedWall:"#d3c5aa",hatch:"#bfae92",truth:"#d55e00",ray:"#0072b2",noReturn:"#b0679a",sensor:"#00\
 9e73",draw:"#e69f00",ghost:"#7b52c9",belief:"#6a3fb5",halo:"#ffffff",lines:"rgba(20,30,60,.07)",frame:"#6b7078",axis:"#565d68",ground:"#f4f5f7"},Id={paper:[17,0,
 -5],ink:[95,-2,6],unobserved:"#322d25",unobservedWall:"#5a503f",hatch:"#635843",truth:"#f08c3c",ray:"#56b4e9",noReturn:"#d99abf",sensor:"#2fcf9f",draw:"#ffb92e",
