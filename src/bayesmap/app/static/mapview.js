@@ -1114,8 +1114,8 @@ canvas[data-pointed]:focus-visible { outline: none; }
 .chips { position: absolute; left: 0; top: 0; display: flex; align-items: start; gap: 6px; pointer-events: none; }
 .chip { white-space: nowrap; padding: 2px 8px; border-radius: 5px; background: var(--card); color: var(--text); border: 1px solid var(--line); font-size: 12px; \
 pointer-events: none; }
-button.chip.doubt { height: auto; min-height: 26px; background: var(--bad); color: var(--card); border-color: transparent; font-weight: 600; pointer-events: aut\
-o; }
+button.chip.doubt { height: auto; min-height: 26px; opacity: 1; background: var(--bad); color: var(--card); border-color: transparent; font-weight: 600; pointer\
+-events: auto; }
 button.chip.doubt:hover:not(:disabled) { background: var(--bad); filter: brightness(1.1); }
 .chip.approximate { background: var(--warn); color: var(--warn-text); border-color: transparent; }
 .banner { position: absolute; z-index: 4; left: 12px; right: 12px; top: 10px; display: flex; flex-wrap: wrap; align-items: center; gap: 6px 12px; padding: 8px 1\
@@ -1157,7 +1157,7 @@ section:last-child { border-bottom: 0; }
 .story { background: var(--tint); grid-template-columns: minmax(0, 1fr); }
 .story .buttons { flex-wrap: wrap; }
 @media (min-height: 700px) { .story .buttons { position: sticky; bottom: 0; padding: 4px 0; background: var(--tint); } } /* in view on a tall phone */
-@media (max-width: 760px) { .story .told { display: grid; } .story p:not(.task) { order: 1; } } /* what to do comes before what is seen */
+@media (max-width: 760px), (max-height: 520px) { .story .told { display: grid; } .story p:not(.task) { order: 1; } } /* what to do comes before what is seen */
 .story nav { display: flex; gap: 4px; }
 .story nav a { flex: 1 1 0; min-width: 0; max-width: 40px; padding: 3px 0; border-radius: 6px; border: 1px solid var(--control); background: var(--card); color:\
  inherit; text-align: center; text-decoration: none; }
@@ -1313,9 +1313,9 @@ ck { min-height: 40px; } }
   .bar button { min-height: 30px; }
   .bar [aria-label^="Zoom"] { display: none; }
   .bar .segmented span { position: absolute; width: 1px; overflow: hidden; clip-path: inset(50%); }
-  .legend { padding: 4px 12px; max-height: 25cqh; overflow-y: auto; font-size: 12px; background: var(--card); border: solid var(--line); border-width: 1px 0 0 1\
+  .legend { padding: 4px 12px; max-height: 33cqh; overflow-y: auto; font-size: 12px; background: var(--card); border: solid var(--line); border-width: 1px 0 0 1\
 px; }
-  .legend .sentence { white-space: normal; }
+  .legend .sentence { white-space: normal; overflow: visible; min-height: min-content; }
   .legend ul { gap: 0 10px; }
   .legend .room { display: none; }
   .legend .ramp { width: 48px; }
@@ -1326,7 +1326,8 @@ px; }
   footer > * { max-width: 100%; }
 }
 @media (prefers-reduced-motion: no-preference) { button, .segmented label { transition: background-color .12s; } }
-@media (forced-colors: active) { .story [aria-current=step], .segmented label:has(:checked), .named { outline: 2px solid Highlight; } }
+@media (forced-colors: active) { .legend i, .legend .ramp, progress, input[type=range], footer [role=status]::before { forced-color-adjust: none; } .story [aria\
+-current=step], .segmented label:has(:checked), .named { outline: 2px solid Highlight; } }
 `;var Zh="bayesmap-theme",Xh={auto:"light",light:"dark",dark:"auto"},ur=class{constructor(e,n){this.app=e;this.dressed=n;let o=Wg();o&&o in Xh&&(this.choice=o),this.
 media.addEventListener("change",this.listen)}theme=ks.light;media=matchMedia("(prefers-color-scheme: dark)");choice="auto";listen=()=>this.dress();dress(){let e=this.
 choice==="dark"||this.choice==="auto"&&this.media.matches,n=this.theme=e?ks.dark:ks.light;this.app.dataset.theme=e?"dark":"light";let{truth:o,ray:s,noReturn:r,sensor:i,
