@@ -19,7 +19,7 @@ from bayesmap.app.protocol.actions import Export, ShowScan
 from bayesmap.app.protocol.document import Source
 from bayesmap.app.protocol.notices import DrawCount, View
 from bayesmap.app.protocol.wire import decode_frame
-from bayesmap.app.sources import open_file
+from bayesmap.app.sources import open_file, open_run
 from bayesmap.io.ros.maps import read_map
 
 
@@ -56,11 +56,11 @@ def test_a_saved_run_holds_the_draws_and_is_shown_with_them_and_its_scans(heard,
     assert len(exported(again, "html")[1]) < 200_000
 
 
-@pytest.mark.parametrize("method", ["propagate", "importance"])
-def test_methods_without_chains_are_saved_too(method, tmp_path):
-    heard = Heard()
-    heard.infer(replace(tutorial_document(), method=method), "run")
-    assert heard.saved_run(tmp_path).posterior.settings["method"] == method
+@pytest.mark.parametrize(("method", "level"), [("propagate", None), ("importance", "bad")])
+def test_methods_without_chains_are_saved_too_and_not_judged_as_chains(method, level, tmp_path):
+    (heard := Heard()).infer(replace(tutorial_document(), method=method), "run")
+    result = open_run(heard.saved_run(tmp_path), "").result
+    assert (result.method, getattr(result.estimate.progress(True).verdict, "level", None)) == (method, level)
 
 
 def test_an_export_needs_draws_and_waits_for_the_first_picture():

@@ -42,9 +42,10 @@ export function posteriorPanel(ui: Ui, ...charts: HTMLElement[]) {
 }
 
 /** Where there are no sweeps to count. */
-function idle({ shown, working, document, nothingToRun }: Session) {
-  const next = document?.method === "importance" ? "; Run weighs particles" : nothingToRun && "; it is done, and Run has nothing to add";
-  if (shown?.method === "propagate") return `${shown.sweeps} rounds of belief propagation${next}`;
+function idle({ shown, working, document, nothingToRun, recorded }: Session) {
+  const runs = !recorded && document?.source.kind !== "run"; // else there is no Run
+  const next = runs && document?.method === "importance" ? "; Run weighs particles" : runs && nothingToRun ? "; it is done, and Run has nothing to add" : "";
+  if (shown?.method === "propagate") return `${shown.sweeps ? `${shown.sweeps} rounds of belief` : "Belief"} propagation${next}`;
   if (shown?.method === "hits") return "Counts of hits and passes";
   if (shown?.method === "counts") return "Run infers where the robot was";
   if (shown?.method === "pilot") return "Stopped while the sensor was fitted";

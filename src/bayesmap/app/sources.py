@@ -15,7 +15,7 @@ from bayesmap.app.protocol.wire import parse_simulation
 from bayesmap.app.scene import Scene, scene_of_file
 from bayesmap.app.shown.hit_maps import HitCountMap, HitCounts, stop_probabilities
 from bayesmap.app.shown.result import DrawnMap, Estimate, Progress, Result
-from bayesmap.app.shown.verdicts import judge_chains, rhat_and_ess
+from bayesmap.app.shown.verdicts import judge_chains, judge_particles, rhat_and_ess
 from bayesmap.beams.table import BeamTable
 from bayesmap.cells.arrays import Draws
 from bayesmap.cells.binary import Independent
@@ -58,16 +58,18 @@ class SavedRun(Estimate):
 
     def __init__(self, run: Run) -> None:
         self.run = run
+        self.approximate = run.posterior.settings.get("method") == "propagate"
 
     def progress(self, ended: bool) -> Progress:
-        sweeps = self.run.posterior.sweep
-        log_joint = self.run.log_joint
-        seconds = self.run.posterior.seconds["total"]
-        if not log_joint.size:
-            return Progress(sweeps, sweeps, seconds=seconds)
+        posterior, log_joint, seconds = self.run.posterior, self.run.log_joint, self.run.posterior.seconds["total"]
+        if posterior.log_weights is not None:
+            count, ess = len(posterior.log_weights), self.run.summary().effective_sample_size
+            return Progress(count, count, ess, verdict=judge_particles(ess), seconds=seconds)
+        if self.approximate or not log_joint.size:
+            return Progress(posterior.sweep, posterior.sweep, seconds=seconds)
         rhat, ess = rhat_and_ess(log_joint)
-        verdict = judge_chains(rhat, ess, sweeps, None, ended=True)
-        return Progress(sweeps, sweeps, ess, rhat, float(log_joint[:, -1].mean()), verdict, seconds=seconds)
+        verdict, last = judge_chains(rhat, ess, posterior.sweep, None, ended=True), float(log_joint[:, -1].mean())
+        return Progress(posterior.sweep, posterior.sweep, ess, rhat, last, verdict, seconds=seconds)
 
     @property
     def prior(self) -> CellPrior:
@@ -110,9 +112,8 @@ class SavedRun(Estimate):
     def draw(self, chain: int | None, number: int | None) -> DrawnMap | None:
         if not self.run.n_draws:
             return None
-        last = self.run.n_draws - 1
         chain = min(chain or 0, len(self.run.log_joint) - 1)
-        number = last if number is None else min(number, last)
+        number = self.run.n_draws - 1 if number is None else min(number, self.run.n_draws - 1)
         return DrawnMap(self.run.map_of(chain, number), chain, number)
 
     def as_run(self, result: Result) -> Run:
@@ -159,9 +160,8 @@ class OpenedLog:
         counts = traced.counts.count_first(document.scans_used)
         prior: CellPrior = Independent(document.prior) if document.cells == "binary" else BUILT_IN[document.cells]()
         p_stop = stop_probabilities(counts, prior, document.prior)
-        shape = document.grid.shape
-        hit_map = HitCountMap(p_stop.reshape(shape), counts.any(axis=0).reshape(shape), prior)
-        return Result(self.scene(document), document, "hits", hit_map)
+        mean, observed = p_stop.reshape(document.grid.shape), counts.any(axis=0).reshape(document.grid.shape)
+        return Result(self.scene(document), document, "hits", HitCountMap(mean, observed, prior))
 
     def _trace(self, grid: Grid) -> TracedBeams:
         """Return the beams traced on a grid, which are kept for later calls with this grid."""

@@ -281,29 +281,29 @@ burned?`burn-in of ${i.burned} left out`:"",b=n.sampling||n.running||!i||i.sweep
 total>hu?"scans":"rounds"}`):l?C(s,"textContent","Computing"):i&&c?C(s,"textContent",`Fitting the sensor: sweep ${i.sweeps} of ${i.total}`):C(s,"textContent",Zt(
 [m,M,y,m&&b].filter(Boolean).join(", "))||du(n))});let r=S("p",{className:"caption",textContent:"This is the posterior of walls that are not known. The map show\
 s the drawn walls, which Where am I? takes as known."});return t.visible(r,()=>n.where.map!==null),t.section("Posterior",r,fu(t),o,s,...mu(t),yu(t),...e,gu(t))}
-function du({shown:t,working:e,document:n,nothingToRun:o}){let s=n?.method==="importance"?"; Run weighs particles":o&&"; it is done, and Run has nothing to add";
-return t?.method==="propagate"?`${t.sweeps} rounds of belief propagation${s}`:t?.method==="hits"?"Counts of hits and passes":t?.method==="counts"?"Run infers wh\
-ere the robot was":t?.method==="pilot"?"Stopped while the sensor was fitted":e?"Computing":"No chain yet"}function uu({document:t,shown:e,draws:n}){return e?.method===
-"counts"?"infer where the robot was, then sample maps":t?.cells==="binary"&&t.method==="importance"?"weigh particles":t?.cells==="binary"&&t.method==="propagate"?
-"belief propagation":n.count?"more sweeps of the chains on show":"sample maps"}function fu(t){let{session:e}=t,n=t.button("play","Run",()=>e.act({type:"run"}),{
-className:"primary",text:"Run",title:()=>`Run (R): ${uu(e)}`,when:()=>e.connection.connected&&!e.nothingToRun,why:()=>e.nothingToRun||"Not while the connection \
-is lost"}),o=t.button("close","Cancel",()=>e.act({type:"cancel"}),{text:"Cancel",title:"Cancel (Escape)",when:()=>e.running||e.sampling||Ns(e),why:"Nothing is r\
-unning"}),s=t.checkbox("Live",()=>!!(e.state?.live??!0),i=>e.act({type:"live",on:i}),"Infer anew after every edit; Run goes on from the draws that are kept"),r=S(
-"div",{className:"buttons"},n,o,s);return t.visible(r,()=>!e.recorded&&e.document?.source.kind!=="run"),r}function mu(t){let{session:e}=t,n=S("dl"),o=S("dl",{className:"\
-about"}),s=(i,a,l,{judged:c=!1,ofChains:h=!1}={})=>{let u=S("dd",{textContent:"–"}),d=S("div",{title:a},S("dt",{textContent:i}),u);n.append(d),c&&t.named.push(
-{name:()=>i,place:d,control:d});let m=[S("dt",{textContent:i}),S("dd",{textContent:a})];if(o.append(...m),h)for(let y of[d,...m])t.visible(y,()=>e.shown?.method!==
-"importance");return t.each(()=>{C(u,"textContent",e.shown?l(e.shown):"–"),c&&C(u,"className",e.shown?.verdict?.level??"")}),d};s("ESS","Effective sample size\
- of the log joint: so many independent draws would tell as much of its mean",i=>me(i.ess,0),{judged:!0}),s("R-hat","Agreement of the chains on the log joint: 1 \
-where they agree, more where each still tells of its start",i=>me(i.rhat,3),{judged:!0,ofChains:!0}),s("log joint","Log of prior times likelihood at the last sw\
-eep",i=>me(i.log_joint,Math.abs(i.log_joint??0)<1e5?1:0),{ofChains:!0}),s("time","Time spent on sweeps, rounds or particles",i=>me(i.seconds,1," s"));let r=s("r\
-eply","From the hand's last move to its picture",()=>me(e.latency.eventToPaint_ms.at(-1),0," ms"));return t.visible(r,()=>!e.recorded),[n,S("details",{},S("summ\
-ary",{textContent:"What these figures mean"}),o)]}var Vo=({shown:t})=>t?.method==="importance"?{good:"Enough particles",fair:"Few particles",bad:"Collapsed"}:{good:"\
-Converged",fair:"Nearly converged",bad:"Not converged"};function gu(t){let{session:e}=t,n=S("dl",{className:"about"}),o=S("details",{},S("summary",{textContent:"\
-Model and method of this picture"}),n),s="";return t.each(()=>{let r=e.shown?.about??[];C(o,"hidden",!r.length),String(r)!==s&&(s=String(r),n.replaceChildren(...r.
-flatMap(([i,a])=>[S("dt",{textContent:i}),S("dd",{textContent:a})])))}),o}function yu(t){let{session:e}=t,n=S("span"),o=t.button(null,"Show the cell",()=>t.command(
-`cell ${e.shown?.verdict?.cell}`),{text:"Show the cell"});t.visible(o,()=>!!e.shown?.verdict?.cell);let s=S("div",{className:"verdict"},n,o);return t.each(()=>{
-let r=e.shown?.verdict;if(!r)return C(s,"hidden",s.hidden||!e.working),C(n,"textContent","Too early to judge."),C(s,"className","verdict early");C(s,"hidden",!1),
-C(n,"textContent",`${Vo(e)[r.level]}: ${r.why}`),C(s,"className",`verdict ${r.level}`)}),s}function Pl(t,e){let{session:n}=t,s=t.checkbox("Keep this result beside the next",()=>e.kept!==null,r=>r?e.keep():e.forget(),"Change the method, the order, the \
+function du({shown:t,working:e,document:n,nothingToRun:o,recorded:s}){let r=!s&&n?.source.kind!=="run",i=r&&n?.method==="importance"?"; Run weighs particles":r&&
+o?"; it is done, and Run has nothing to add":"";return t?.method==="propagate"?`${t.sweeps?`${t.sweeps} rounds of belief`:"Belief"} propagation${i}`:t?.method===
+"hits"?"Counts of hits and passes":t?.method==="counts"?"Run infers where the robot was":t?.method==="pilot"?"Stopped while the sensor was fitted":e?"Computing":
+"No chain yet"}function uu({document:t,shown:e,draws:n}){return e?.method==="counts"?"infer where the robot was, then sample maps":t?.cells==="binary"&&t.method===
+"importance"?"weigh particles":t?.cells==="binary"&&t.method==="propagate"?"belief propagation":n.count?"more sweeps of the chains on show":"sample maps"}function fu(t){
+let{session:e}=t,n=t.button("play","Run",()=>e.act({type:"run"}),{className:"primary",text:"Run",title:()=>`Run (R): ${uu(e)}`,when:()=>e.connection.connected&&
+!e.nothingToRun,why:()=>e.nothingToRun||"Not while the connection is lost"}),o=t.button("close","Cancel",()=>e.act({type:"cancel"}),{text:"Cancel",title:"Cancel\
+ (Escape)",when:()=>e.running||e.sampling||Ns(e),why:"Nothing is running"}),s=t.checkbox("Live",()=>!!(e.state?.live??!0),i=>e.act({type:"live",on:i}),"Infer an\
+ew after every edit; Run goes on from the draws that are kept"),r=S("div",{className:"buttons"},n,o,s);return t.visible(r,()=>!e.recorded&&e.document?.source.kind!==
+"run"),r}function mu(t){let{session:e}=t,n=S("dl"),o=S("dl",{className:"about"}),s=(i,a,l,{judged:c=!1,ofChains:h=!1}={})=>{let u=S("dd",{textContent:"–"}),d=S(
+"div",{title:a},S("dt",{textContent:i}),u);n.append(d),c&&t.named.push({name:()=>i,place:d,control:d});let m=[S("dt",{textContent:i}),S("dd",{textContent:a})];if(o.
+append(...m),h)for(let y of[d,...m])t.visible(y,()=>e.shown?.method!=="importance");return t.each(()=>{C(u,"textContent",e.shown?l(e.shown):"–"),c&&C(u,"class\
+Name",e.shown?.verdict?.level??"")}),d};s("ESS","Effective sample size of the log joint: so many independent draws would tell as much of its mean",i=>me(i.ess,0),
+{judged:!0}),s("R-hat","Agreement of the chains on the log joint: 1 where they agree, more where each still tells of its start",i=>me(i.rhat,3),{judged:!0,ofChains:!0}),
+s("log joint","Log of prior times likelihood at the last sweep",i=>me(i.log_joint,Math.abs(i.log_joint??0)<1e5?1:0),{ofChains:!0}),s("time","Time spent on sweep\
+s, rounds or particles",i=>me(i.seconds,1," s"));let r=s("reply","From the hand's last move to its picture",()=>me(e.latency.eventToPaint_ms.at(-1),0," ms"));return t.
+visible(r,()=>!e.recorded),[n,S("details",{},S("summary",{textContent:"What these figures mean"}),o)]}var Vo=({shown:t})=>t?.method==="importance"?{good:"Enough\
+ particles",fair:"Few particles",bad:"Collapsed"}:{good:"Converged",fair:"Nearly converged",bad:"Not converged"};function gu(t){let{session:e}=t,n=S("dl",{className:"\
+about"}),o=S("details",{},S("summary",{textContent:"Model and method of this picture"}),n),s="";return t.each(()=>{let r=e.shown?.about??[];C(o,"hidden",!r.length),
+String(r)!==s&&(s=String(r),n.replaceChildren(...r.flatMap(([i,a])=>[S("dt",{textContent:i}),S("dd",{textContent:a})])))}),o}function yu(t){let{session:e}=t,n=S(
+"span"),o=t.button(null,"Show the cell",()=>t.command(`cell ${e.shown?.verdict?.cell}`),{text:"Show the cell"});t.visible(o,()=>!!e.shown?.verdict?.cell);let s=S(
+"div",{className:"verdict"},n,o);return t.each(()=>{let r=e.shown?.verdict;if(!r)return C(s,"hidden",s.hidden||!e.working),C(n,"textContent","Too early to judge\
+."),C(s,"className","verdict early");C(s,"hidden",!1),C(n,"textContent",`${Vo(e)[r.level]}: ${r.why}`),C(s,"className",`verdict ${r.level}`)}),s}function Pl(t,e){let{session:n}=t,s=t.checkbox("Keep this result beside the next",()=>e.kept!==null,r=>r?e.keep():e.forget(),"Change the method, the order, the \
 prior or the map, and compare: both results follow the layer and the draw");return t.visible(s,()=>n.locates&&(e.kept!==null||n.shown!==null)),s}function _l(t,e){
 let[n,o]=[S("p",{className:"told-apart"}),S("p",{className:"told-apart"})];return t.visible(n,()=>e.kept!==null),t.each(()=>{if(!e.kept)return;let[s,r]=e.differences();
 C(n,"textContent",`Now: ${s}. ${El(t.session)}`),C(o,"textContent",`Kept: ${r}. ${El(e.kept)}`)}),{now:n,kept:o}}function El(t){let{shown:e,draws:n}=t;if(!e)return"";
