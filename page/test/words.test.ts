@@ -95,7 +95,7 @@ test("the read-out tells of the cell under the hand: place, posterior, beams", (
   desk.hand.point({ x: 20, y: 20 });
   assert.match(found.text, /Cell 20, 20 .* unobserved/);
   desk.hand.point({ x: 20, y: 19 });
-  assert.match(found.text, /Cell 20, 19 .* reached by a beam with probability 0.20/);
+  assert.match(found.text, /Cell 20, 19 .* reached with probability 0.20/);
   desk.field({ p: new Uint8Array(441).fill(255), layer: "draw" });
   assert.match(found.text, /wall in this draw/);
   desk.field({ p, quantity: SURFACES });

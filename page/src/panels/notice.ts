@@ -151,7 +151,7 @@ function describeCell(session: Session, cell: Point) {
     const reached = shown.reached[i] / 255;
     const whole = document.source.kind === "run"; // of a saved run only the half is known
     if (!reached) parts.push(whole ? "reached by a beam in less than half of the draws" : "unobserved");
-    else if (!whole && reached < 0.995) parts.push(`reached by a beam with probability ${reached.toFixed(2)}`);
+    else if (!whole && reached < 0.995) parts.push(`reached with probability ${reached.toFixed(2)}`);
     if (reached && beams !== null) parts.push(beams === 1 ? "1 beam" : `${beams} beams`);
     if (reached && facts && facts.nats_for !== null && facts.nats_against !== null && beams) {
       const what = { binary: "a wall", surface: "its surface" }[session.quantity.kind] ?? "what is there";

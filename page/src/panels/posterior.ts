@@ -41,6 +41,9 @@ export function posteriorPanel(ui: Ui, ...charts: HTMLElement[]) {
   return ui.section("Posterior", aside, buttons(ui), progress, doing, ...figures(ui), verdict(ui), ...charts, about(ui));
 }
 
+/** Whether the method that was chosen has chains: importance sampling and belief propagation of walls have none. */
+const hasChains = ({ document }: Session) => !/importance|propagate/.test(document?.method ?? "") || (document?.cells ?? "binary") !== "binary";
+
 /** Where there are no sweeps to count. */
 function idle({ shown, working, document, nothingToRun, recorded }: Session) {
   const runs = !recorded && document?.source.kind !== "run"; // else there is no Run
@@ -97,7 +100,7 @@ function figures(ui: Ui) {
     if (judged) ui.named.push({ name: () => label, place: entry, control: entry });
     const meaning = [h("dt", { textContent: label }), h("dd", { textContent: title })];
     meanings.append(...meaning);
-    if (ofChains) for (const part of [entry, ...meaning]) ui.visible(part, () => session.shown?.method !== "importance");
+    if (ofChains) for (const part of [entry, ...meaning]) ui.visible(part, () => hasChains(session));
     ui.each(() => {
       put(value, "textContent", session.shown ? read(session.shown) : "\u2013");
       if (judged) put(value, "className", session.shown?.verdict?.level ?? "");

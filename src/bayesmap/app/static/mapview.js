@@ -279,88 +279,89 @@ kind==="log"),c=Ns(n),h=a?a.done/a.total:i&&!l&&i.total>0&&(c||!i.approximate)?i
 eps",m=i&&!i.approximate&&i.total?`${i.sweeps} of ${i.total} ${d}`:"",y=u!==null?u<1?"less than 1 s left":`${Math.ceil(u)} s left`:n.running?"running":"",M=m&&i?.
 burned?`burn-in of ${i.burned} left out`:"",b=n.sampling||n.running||!i||i.sweeps>=i.total?"":"stopped";a?C(s,"textContent",`${a.text}: ${a.done} of ${a.total} ${a.
 total>hu?"scans":"rounds"}`):l?C(s,"textContent","Computing"):i&&c?C(s,"textContent",`Fitting the sensor: sweep ${i.sweeps} of ${i.total}`):C(s,"textContent",Zt(
-[m,M,y,m&&b].filter(Boolean).join(", "))||du(n))});let r=S("p",{className:"caption",textContent:"This is the posterior of walls that are not known. The map show\
-s the drawn walls, which Where am I? takes as known."});return t.visible(r,()=>n.where.map!==null),t.section("Posterior",r,fu(t),o,s,...mu(t),yu(t),...e,gu(t))}
-function du({shown:t,working:e,document:n,nothingToRun:o,recorded:s}){let r=!s&&n?.source.kind!=="run",i=r&&n?.method==="importance"?"; Run weighs particles":r&&
-o?"; it is done, and Run has nothing to add":"";return t?.method==="propagate"?`${t.sweeps?`${t.sweeps} rounds of belief`:"Belief"} propagation${i}`:t?.method===
-"hits"?"Counts of hits and passes":t?.method==="counts"?"Run infers where the robot was":t?.method==="pilot"?"Stopped while the sensor was fitted":e?"Computing":
-"No chain yet"}function uu({document:t,shown:e,draws:n}){return e?.method==="counts"?"infer where the robot was, then sample maps":t?.cells==="binary"&&t.method===
-"importance"?"weigh particles":t?.cells==="binary"&&t.method==="propagate"?"belief propagation":n.count?"more sweeps of the chains on show":"sample maps"}function fu(t){
-let{session:e}=t,n=t.button("play","Run",()=>e.act({type:"run"}),{className:"primary",text:"Run",title:()=>`Run (R): ${uu(e)}`,when:()=>e.connection.connected&&
-!e.nothingToRun,why:()=>e.nothingToRun||"Not while the connection is lost"}),o=t.button("close","Cancel",()=>e.act({type:"cancel"}),{text:"Cancel",title:"Cancel\
- (Escape)",when:()=>e.running||e.sampling||Ns(e),why:"Nothing is running"}),s=t.checkbox("Live",()=>!!(e.state?.live??!0),i=>e.act({type:"live",on:i}),"Infer an\
-ew after every edit; Run goes on from the draws that are kept"),r=S("div",{className:"buttons"},n,o,s);return t.visible(r,()=>!e.recorded&&e.document?.source.kind!==
-"run"),r}function mu(t){let{session:e}=t,n=S("dl"),o=S("dl",{className:"about"}),s=(i,a,l,{judged:c=!1,ofChains:h=!1}={})=>{let u=S("dd",{textContent:"–"}),d=S(
-"div",{title:a},S("dt",{textContent:i}),u);n.append(d),c&&t.named.push({name:()=>i,place:d,control:d});let m=[S("dt",{textContent:i}),S("dd",{textContent:a})];if(o.
-append(...m),h)for(let y of[d,...m])t.visible(y,()=>e.shown?.method!=="importance");return t.each(()=>{C(u,"textContent",e.shown?l(e.shown):"–"),c&&C(u,"class\
-Name",e.shown?.verdict?.level??"")}),d};s("ESS","Effective sample size of the log joint: so many independent draws would tell as much of its mean",i=>me(i.ess,0),
-{judged:!0}),s("R-hat","Agreement of the chains on the log joint: 1 where they agree, more where each still tells of its start",i=>me(i.rhat,3),{judged:!0,ofChains:!0}),
-s("log joint","Log of prior times likelihood at the last sweep",i=>me(i.log_joint,Math.abs(i.log_joint??0)<1e5?1:0),{ofChains:!0}),s("time","Time spent on sweep\
-s, rounds or particles",i=>me(i.seconds,1," s"));let r=s("reply","From the hand's last move to its picture",()=>me(e.latency.eventToPaint_ms.at(-1),0," ms"));return t.
-visible(r,()=>!e.recorded),[n,S("details",{},S("summary",{textContent:"What these figures mean"}),o)]}var Vo=({shown:t})=>t?.method==="importance"?{good:"Enough\
- particles",fair:"Few particles",bad:"Collapsed"}:{good:"Converged",fair:"Nearly converged",bad:"Not converged"};function gu(t){let{session:e}=t,n=S("dl",{className:"\
-about"}),o=S("details",{},S("summary",{textContent:"Model and method of this picture"}),n),s="";return t.each(()=>{let r=e.shown?.about??[];C(o,"hidden",!r.length),
-String(r)!==s&&(s=String(r),n.replaceChildren(...r.flatMap(([i,a])=>[S("dt",{textContent:i}),S("dd",{textContent:a})])))}),o}function yu(t){let{session:e}=t,n=S(
-"span"),o=t.button(null,"Show the cell",()=>t.command(`cell ${e.shown?.verdict?.cell}`),{text:"Show the cell"});t.visible(o,()=>!!e.shown?.verdict?.cell);let s=S(
-"div",{className:"verdict"},n,o);return t.each(()=>{let r=e.shown?.verdict;if(!r)return C(s,"hidden",s.hidden||!e.working),C(n,"textContent","Too early to judge\
-."),C(s,"className","verdict early");C(s,"hidden",!1),C(n,"textContent",`${Vo(e)[r.level]}: ${r.why}`),C(s,"className",`verdict ${r.level}`)}),s}function Pl(t,e){let{session:n}=t,s=t.checkbox("Keep this result beside the next",()=>e.kept!==null,r=>r?e.keep():e.forget(),"Change the method, the order, the \
+[m,M,y,m&&b].filter(Boolean).join(", "))||uu(n))});let r=S("p",{className:"caption",textContent:"This is the posterior of walls that are not known. The map show\
+s the drawn walls, which Where am I? takes as known."});return t.visible(r,()=>n.where.map!==null),t.section("Posterior",r,mu(t),o,s,...gu(t),wu(t),...e,yu(t))}
+var du=({document:t})=>!/importance|propagate/.test(t?.method??"")||(t?.cells??"binary")!=="binary";function uu({shown:t,working:e,document:n,nothingToRun:o,recorded:s}){
+let r=!s&&n?.source.kind!=="run",i=r&&n?.method==="importance"?"; Run weighs particles":r&&o?"; it is done, and Run has nothing to add":"";return t?.method==="p\
+ropagate"?`${t.sweeps?`${t.sweeps} rounds of belief`:"Belief"} propagation${i}`:t?.method==="hits"?"Counts of hits and passes":t?.method==="counts"?"Run infers \
+where the robot was":t?.method==="pilot"?"Stopped while the sensor was fitted":e?"Computing":"No chain yet"}function fu({document:t,shown:e,draws:n}){return e?.
+method==="counts"?"infer where the robot was, then sample maps":t?.cells==="binary"&&t.method==="importance"?"weigh particles":t?.cells==="binary"&&t.method==="\
+propagate"?"belief propagation":n.count?"more sweeps of the chains on show":"sample maps"}function mu(t){let{session:e}=t,n=t.button("play","Run",()=>e.act({type:"\
+run"}),{className:"primary",text:"Run",title:()=>`Run (R): ${fu(e)}`,when:()=>e.connection.connected&&!e.nothingToRun,why:()=>e.nothingToRun||"Not while the con\
+nection is lost"}),o=t.button("close","Cancel",()=>e.act({type:"cancel"}),{text:"Cancel",title:"Cancel (Escape)",when:()=>e.running||e.sampling||Ns(e),why:"Noth\
+ing is running"}),s=t.checkbox("Live",()=>!!(e.state?.live??!0),i=>e.act({type:"live",on:i}),"Infer anew after every edit; Run goes on from the draws that are k\
+ept"),r=S("div",{className:"buttons"},n,o,s);return t.visible(r,()=>!e.recorded&&e.document?.source.kind!=="run"),r}function gu(t){let{session:e}=t,n=S("dl"),o=S(
+"dl",{className:"about"}),s=(i,a,l,{judged:c=!1,ofChains:h=!1}={})=>{let u=S("dd",{textContent:"–"}),d=S("div",{title:a},S("dt",{textContent:i}),u);n.append(d),
+c&&t.named.push({name:()=>i,place:d,control:d});let m=[S("dt",{textContent:i}),S("dd",{textContent:a})];if(o.append(...m),h)for(let y of[d,...m])t.visible(y,()=>du(
+e));return t.each(()=>{C(u,"textContent",e.shown?l(e.shown):"–"),c&&C(u,"className",e.shown?.verdict?.level??"")}),d};s("ESS","Effective sample size of the lo\
+g joint: so many independent draws would tell as much of its mean",i=>me(i.ess,0),{judged:!0}),s("R-hat","Agreement of the chains on the log joint: 1 where they\
+ agree, more where each still tells of its start",i=>me(i.rhat,3),{judged:!0,ofChains:!0}),s("log joint","Log of prior times likelihood at the last sweep",i=>me(
+i.log_joint,Math.abs(i.log_joint??0)<1e5?1:0),{ofChains:!0}),s("time","Time spent on sweeps, rounds or particles",i=>me(i.seconds,1," s"));let r=s("reply","From\
+ the hand's last move to its picture",()=>me(e.latency.eventToPaint_ms.at(-1),0," ms"));return t.visible(r,()=>!e.recorded),[n,S("details",{},S("summary",{textContent:"\
+What these figures mean"}),o)]}var Vo=({shown:t})=>t?.method==="importance"?{good:"Enough particles",fair:"Few particles",bad:"Collapsed"}:{good:"Converged",fair:"\
+Nearly converged",bad:"Not converged"};function yu(t){let{session:e}=t,n=S("dl",{className:"about"}),o=S("details",{},S("summary",{textContent:"Model and method\
+ of this picture"}),n),s="";return t.each(()=>{let r=e.shown?.about??[];C(o,"hidden",!r.length),String(r)!==s&&(s=String(r),n.replaceChildren(...r.flatMap(([i,a])=>[
+S("dt",{textContent:i}),S("dd",{textContent:a})])))}),o}function wu(t){let{session:e}=t,n=S("span"),o=t.button(null,"Show the cell",()=>t.command(`cell ${e.shown?.
+verdict?.cell}`),{text:"Show the cell"});t.visible(o,()=>!!e.shown?.verdict?.cell);let s=S("div",{className:"verdict"},n,o);return t.each(()=>{let r=e.shown?.verdict;
+if(!r)return C(s,"hidden",s.hidden||!e.working),C(n,"textContent","Too early to judge."),C(s,"className","verdict early");C(s,"hidden",!1),C(n,"textContent",`${Vo(
+e)[r.level]}: ${r.why}`),C(s,"className",`verdict ${r.level}`)}),s}function Pl(t,e){let{session:n}=t,s=t.checkbox("Keep this result beside the next",()=>e.kept!==null,r=>r?e.keep():e.forget(),"Change the method, the order, the \
 prior or the map, and compare: both results follow the layer and the draw");return t.visible(s,()=>n.locates&&(e.kept!==null||n.shown!==null)),s}function _l(t,e){
 let[n,o]=[S("p",{className:"told-apart"}),S("p",{className:"told-apart"})];return t.visible(n,()=>e.kept!==null),t.each(()=>{if(!e.kept)return;let[s,r]=e.differences();
 C(n,"textContent",`Now: ${s}. ${El(t.session)}`),C(o,"textContent",`Kept: ${r}. ${El(e.kept)}`)}),{now:n,kept:o}}function El(t){let{shown:e,draws:n}=t;if(!e)return"";
 let o=e.layer==="draw"?[`Draw ${t.draw+1} of ${n.count}, log joint ${me(e.log_joint,1)}`]:[],s=e.verdict?[Vo(t)[e.verdict.level]]:[],r=e.rhat===null?[]:[`R-hat ${me(
-e.rhat,3)}, ESS ${me(e.ess,0)}`];return[...o,...s,...r].map(i=>`${i}.`).join(" ")}var wu="uplot",bu="u-hz",xu="u-vt",vu="u-title",ku="u-wrap",Su="u-under",Mu="u-over",Tu="u-axis",Cn="u-off",Au="u-select",Eu="u-cursor-x",Pu="u-cursor-y",_u="u-\
-cursor-pt",Cu="u-legend",Lu="u-live",Nu="u-inline",Du="u-series",Ru="u-marker",Cl="u-label",$u="u-value",Yo="width",qo="height";var Ll="bottom",go="left",ci="right",Ai="#000",Nl=Ai+"0",hi="mousemove",Dl="mousedown",pi="mouseup",Rl="mouseenter",$l="mouseleave",Fl="dblclick",Fu="resize",Iu="\
-scroll",Il="change",Is="dppxchange",Ei="--",So=typeof window<"u",gi=So?document:null,wo=So?window:null,Ou=So?navigator:null,be,Ds;function yi(){let t=devicePixelRatio;
+e.rhat,3)}, ESS ${me(e.ess,0)}`];return[...o,...s,...r].map(i=>`${i}.`).join(" ")}var bu="uplot",xu="u-hz",vu="u-vt",ku="u-title",Su="u-wrap",Mu="u-under",Tu="u-over",Au="u-axis",Cn="u-off",Eu="u-select",Pu="u-cursor-x",_u="u-cursor-y",Cu="u-\
+cursor-pt",Lu="u-legend",Nu="u-live",Du="u-inline",Ru="u-series",$u="u-marker",Cl="u-label",Fu="u-value",Yo="width",qo="height";var Ll="bottom",go="left",ci="right",Ai="#000",Nl=Ai+"0",hi="mousemove",Dl="mousedown",pi="mouseup",Rl="mouseenter",$l="mouseleave",Fl="dblclick",Iu="resize",Ou="\
+scroll",Il="change",Is="dppxchange",Ei="--",So=typeof window<"u",gi=So?document:null,wo=So?window:null,Uu=So?navigator:null,be,Ds;function yi(){let t=devicePixelRatio;
 be!=t&&(be=t,Ds&&bi(Il,Ds,yi),Ds=matchMedia(`(min-resolution: ${be-.001}dppx) and (max-resolution: ${be+.001}dppx)`),Ln(Il,Ds,yi),wo.dispatchEvent(new CustomEvent(
 Is)))}function bt(t,e){if(e!=null){let n=t.classList;!n.contains(e)&&n.add(e)}}function wi(t,e){let n=t.classList;n.contains(e)&&n.remove(e)}function Ce(t,e,n){
 t.style[e]=n+"px"}function It(t,e,n,o){let s=gi.createElement(t);return e!=null&&bt(s,e),n?.insertBefore(s,o),s}function Et(t,e){return It("div",t,e)}var Ol=new WeakMap;
 function Kt(t,e,n,o,s){let r="translate("+e+"px,"+n+"px)",i=Ol.get(t);r!=i&&(t.style.transform=r,Ol.set(t,r),e<0||n<0||e>o||n>s?bt(t,Cn):wi(t,Cn))}var Ul=new WeakMap;
 function Bl(t,e,n){let o=e+n,s=Ul.get(t);o!=s&&(Ul.set(t,o),t.style.background=e,t.style.borderColor=n)}var Wl=new WeakMap;function Gl(t,e,n,o){let s=e+""+n,r=Wl.
-get(t);s!=r&&(Wl.set(t,s),t.style.height=n+"px",t.style.width=e+"px",t.style.marginLeft=o?-e/2+"px":0,t.style.marginTop=o?-n/2+"px":0)}var Pi={passive:!0},Uu={...Pi,
-capture:!0};function Ln(t,e,n,o){e.addEventListener(t,n,o?Uu:Pi)}function bi(t,e,n,o){e.removeEventListener(t,n,Pi)}So&&yi();function Ot(t,e,n,o){let s;n=n||0,o=
+get(t);s!=r&&(Wl.set(t,s),t.style.height=n+"px",t.style.width=e+"px",t.style.marginLeft=o?-e/2+"px":0,t.style.marginTop=o?-n/2+"px":0)}var Pi={passive:!0},Bu={...Pi,
+capture:!0};function Ln(t,e,n,o){e.addEventListener(t,n,o?Bu:Pi)}function bi(t,e,n,o){e.removeEventListener(t,n,Pi)}So&&yi();function Ot(t,e,n,o){let s;n=n||0,o=
 o||e.length-1;let r=o<=2147483647;for(;o-n>1;)s=r?n+o>>1:xt((n+o)/2),e[s]<t?n=s:o=s;return t-e[n]<=e[o]-t?n:o}function gc(t){return(n,o,s)=>{let r=-1,i=-1;for(let a=o;a<=
-s;a++)if(t(n[a])){r=a;break}for(let a=s;a>=o;a--)if(t(n[a])){i=a;break}return[r,i]}}var yc=t=>t!=null,wc=t=>t!=null&&t>0,Bs=gc(yc),Bu=gc(wc);function Wu(t,e,n,o=0,s=!1){
-let r=s?Bu:Bs,i=s?wc:yc;[e,n]=r(t,e,n);let a=t[e],l=t[e];if(e>-1)if(o==1)a=t[e],l=t[n];else if(o==-1)a=t[n],l=t[e];else for(let c=e;c<=n;c++){let h=t[c];i(h)&&(h<
+s;a++)if(t(n[a])){r=a;break}for(let a=s;a>=o;a--)if(t(n[a])){i=a;break}return[r,i]}}var yc=t=>t!=null,wc=t=>t!=null&&t>0,Bs=gc(yc),Wu=gc(wc);function Gu(t,e,n,o=0,s=!1){
+let r=s?Wu:Bs,i=s?wc:yc;[e,n]=r(t,e,n);let a=t[e],l=t[e];if(e>-1)if(o==1)a=t[e],l=t[n];else if(o==-1)a=t[n],l=t[e];else for(let c=e;c<=n;c++){let h=t[c];i(h)&&(h<
 a?a=h:h>l&&(l=h))}return[a??Me,l??-Me]}function Ws(t,e,n,o){let s=Vl(t),r=Vl(e);t==e&&(s==-1?(t*=n,e/=n):(t/=n,e*=n));let i=n==10?Qt:bc,a=s==1?xt:Pt,l=r==1?Pt:xt,
 c=a(i(Ve(t))),h=l(i(Ve(e))),u=bo(n,c),d=bo(n,h);return n==10&&(c<0&&(u=Te(u,-c)),h<0&&(d=Te(d,-h))),o||n==2?(t=u*s,e=d*r):(t=Sc(t,u),e=Gs(e,d)),[t,e]}function _i(t,e,n,o){
-let s=Ws(t,e,n,o);return t==0&&(s[0]=0),e==0&&(s[1]=0),s}var Ci=.1,Hl={mode:3,pad:Ci},Jo={pad:0,soft:null,mode:0},Gu={min:Jo,max:Jo};function Os(t,e,n,o){return Hs(
-n)?jl(t,e,n):(Jo.pad=n,Jo.soft=o?0:null,Jo.mode=o?3:0,jl(t,e,Gu))}function ye(t,e){return t??e}function Hu(t,e,n){for(e=ye(e,0),n=ye(n,t.length-1);e<=n;){if(t[e]!=
+let s=Ws(t,e,n,o);return t==0&&(s[0]=0),e==0&&(s[1]=0),s}var Ci=.1,Hl={mode:3,pad:Ci},Jo={pad:0,soft:null,mode:0},Hu={min:Jo,max:Jo};function Os(t,e,n,o){return Hs(
+n)?jl(t,e,n):(Jo.pad=n,Jo.soft=o?0:null,Jo.mode=o?3:0,jl(t,e,Hu))}function ye(t,e){return t??e}function ju(t,e,n){for(e=ye(e,0),n=ye(n,t.length-1);e<=n;){if(t[e]!=
 null)return!0;e++}return!1}function jl(t,e,n){let o=n.min,s=n.max,r=ye(o.pad,0),i=ye(s.pad,0),a=ye(o.hard,-Me),l=ye(s.hard,Me),c=ye(o.soft,Me),h=ye(s.soft,-Me),
 u=ye(o.mode,0),d=ye(s.mode,0),m=e-t,y=Qt(m),M=pt(Ve(t),Ve(e)),b=Qt(M),x=Ve(b-y);(m<1e-24||x>10)&&(m=0,(t==0||e==0)&&(m=1e-24,u==2&&c!=Me&&(r=0),d==2&&h!=-Me&&(i=
 0)));let k=m||M||1e3,A=Qt(k),E=bo(10,xt(A)),D=k*(m==0?t==0?.1:1:r),L=Te(Sc(t-D,E/10),24),O=t>=c&&(u==1||u==3&&L<=c||u==2&&L>=c)?c:Me,G=pt(a,L<O&&t>=O?O:Ut(O,L)),
-te=k*(m==0?e==0?.1:1:i),X=Te(Gs(e+te,E/10),24),$=e<=h&&(d==1||d==3&&X>=h||d==2&&X<=h)?h:-Me,ee=Ut(l,X>$&&e<=$?$:pt($,X));return G==ee&&G==0&&(ee=100),[G,ee]}var ju=new Intl.
-NumberFormat(So?Ou.language:"en-US"),Li=t=>ju.format(t),vt=Math,Fs=vt.PI,Ve=vt.abs,xt=vt.floor,je=vt.round,Pt=vt.ceil,Ut=vt.min,pt=vt.max,bo=vt.pow,Vl=vt.sign,Qt=vt.
-log10,bc=vt.log2,Vu=(t,e=1)=>vt.sinh(t)*e,di=(t,e=1)=>vt.asinh(t/e),Me=1/0;function zl(t){return(Qt((t^t>>31)-(t>>31))|0)+1}function xi(t,e,n){return Ut(pt(t,e),
-n)}function xc(t){return typeof t=="function"}function pe(t){return xc(t)?t:()=>t}var zu=()=>{},vc=t=>t,kc=(t,e)=>e,Yu=t=>null,Yl=t=>!0,ql=(t,e)=>t==e,qu=/\.\d*?(?=9{6,}|0{6,})/gm,
-Nn=t=>{if(Tc(t)||un.has(t))return t;let e=`${t}`,n=e.match(qu);if(n==null)return t;let o=n[0].length-1;if(e.indexOf("e-")!=-1){let[s,r]=e.split("e");return+`${Nn(
+te=k*(m==0?e==0?.1:1:i),X=Te(Gs(e+te,E/10),24),$=e<=h&&(d==1||d==3&&X>=h||d==2&&X<=h)?h:-Me,ee=Ut(l,X>$&&e<=$?$:pt($,X));return G==ee&&G==0&&(ee=100),[G,ee]}var Vu=new Intl.
+NumberFormat(So?Uu.language:"en-US"),Li=t=>Vu.format(t),vt=Math,Fs=vt.PI,Ve=vt.abs,xt=vt.floor,je=vt.round,Pt=vt.ceil,Ut=vt.min,pt=vt.max,bo=vt.pow,Vl=vt.sign,Qt=vt.
+log10,bc=vt.log2,zu=(t,e=1)=>vt.sinh(t)*e,di=(t,e=1)=>vt.asinh(t/e),Me=1/0;function zl(t){return(Qt((t^t>>31)-(t>>31))|0)+1}function xi(t,e,n){return Ut(pt(t,e),
+n)}function xc(t){return typeof t=="function"}function pe(t){return xc(t)?t:()=>t}var Yu=()=>{},vc=t=>t,kc=(t,e)=>e,qu=t=>null,Yl=t=>!0,ql=(t,e)=>t==e,Ku=/\.\d*?(?=9{6,}|0{6,})/gm,
+Nn=t=>{if(Tc(t)||un.has(t))return t;let e=`${t}`,n=e.match(Ku);if(n==null)return t;let o=n[0].length-1;if(e.indexOf("e-")!=-1){let[s,r]=e.split("e");return+`${Nn(
 s)}e${r}`}return Te(t,o)};function Pn(t,e){return Nn(Te(Nn(t/e))*e)}function Gs(t,e){return Nn(Pt(Nn(t/e))*e)}function Sc(t,e){return Nn(xt(Nn(t/e))*e)}function Te(t,e=0){
 if(Tc(t))return t;let n=10**e,o=t*n*(1+Number.EPSILON);return je(o)/n}var un=new Map;function Mc(t){return((""+t).split(".")[1]||"").length}function Zo(t,e,n,o){
 let s=[],r=o.map(Mc);for(let i=e;i<n;i++){let a=Ve(i),l=Te(bo(t,i),a);for(let c=0;c<o.length;c++){let h=t==10?+`${o[c]}e${i}`:o[c]*l,u=(i>=0?0:a)+(i>=r[c]?0:r[c]),
-d=t==10?h:Te(h,u);s.push(d),un.set(d,u)}}return s}var Xo={},Ni=[],xo=[null,null],dn=Array.isArray,Tc=Number.isInteger,Ku=t=>t===void 0;function Kl(t){return typeof t==
-"string"}function Hs(t){let e=!1;if(t!=null){let n=t.constructor;e=n==null||n==Object}return e}function Ju(t){return t!=null&&typeof t=="object"}var Xu=Object.getPrototypeOf(
+d=t==10?h:Te(h,u);s.push(d),un.set(d,u)}}return s}var Xo={},Ni=[],xo=[null,null],dn=Array.isArray,Tc=Number.isInteger,Ju=t=>t===void 0;function Kl(t){return typeof t==
+"string"}function Hs(t){let e=!1;if(t!=null){let n=t.constructor;e=n==null||n==Object}return e}function Xu(t){return t!=null&&typeof t=="object"}var Zu=Object.getPrototypeOf(
 Uint8Array),Ac="__proto__";function vo(t,e=Hs){let n;if(dn(t)){let o=t.find(s=>s!=null);if(dn(o)||e(o)){n=Array(t.length);for(let s=0;s<t.length;s++)n[s]=vo(t[s],
-e)}else n=t.slice()}else if(t instanceof Xu)n=t.slice();else if(e(t)){n={};for(let o in t)o!=Ac&&(n[o]=vo(t[o],e))}else n=t;return n}function Be(t){let e=arguments;
-for(let n=1;n<e.length;n++){let o=e[n];for(let s in o)s!=Ac&&(Hs(t[s])?Be(t[s],vo(o[s])):t[s]=vo(o[s]))}return t}var Zu=0,Qu=1,ef=2;function tf(t,e,n){for(let o=0,
-s,r=-1;o<e.length;o++){let i=e[o];if(i>r){for(s=i-1;s>=0&&t[s]==null;)t[s--]=null;for(s=i+1;s<n&&t[s]==null;)t[r=s++]=null}}}function nf(t,e){if(rf(t)){let i=t[0].
-slice();for(let a=1;a<t.length;a++)i.push(...t[a].slice(1));return af(i[0])||(i=sf(i)),i}let n=new Set;for(let i=0;i<t.length;i++){let l=t[i][0],c=l.length;for(let h=0;h<
+e)}else n=t.slice()}else if(t instanceof Zu)n=t.slice();else if(e(t)){n={};for(let o in t)o!=Ac&&(n[o]=vo(t[o],e))}else n=t;return n}function Be(t){let e=arguments;
+for(let n=1;n<e.length;n++){let o=e[n];for(let s in o)s!=Ac&&(Hs(t[s])?Be(t[s],vo(o[s])):t[s]=vo(o[s]))}return t}var Qu=0,ef=1,tf=2;function nf(t,e,n){for(let o=0,
+s,r=-1;o<e.length;o++){let i=e[o];if(i>r){for(s=i-1;s>=0&&t[s]==null;)t[s--]=null;for(s=i+1;s<n&&t[s]==null;)t[r=s++]=null}}}function of(t,e){if(af(t)){let i=t[0].
+slice();for(let a=1;a<t.length;a++)i.push(...t[a].slice(1));return lf(i[0])||(i=rf(i)),i}let n=new Set;for(let i=0;i<t.length;i++){let l=t[i][0],c=l.length;for(let h=0;h<
 c;h++)n.add(l[h])}let o=[Array.from(n).sort((i,a)=>i-a)],s=o[0].length,r=new Map;for(let i=0;i<s;i++)r.set(o[0][i],i);for(let i=0;i<t.length;i++){let a=t[i],l=a[0];
-for(let c=1;c<a.length;c++){let h=a[c],u=Array(s).fill(void 0),d=e?e[i][c]:Qu,m=[];for(let y=0;y<h.length;y++){let M=h[y],b=r.get(l[y]);M===null?d!=Zu&&(u[b]=M,
-d==ef&&m.push(b)):u[b]=M}tf(u,m,s),o.push(u)}}return o}var of=typeof queueMicrotask>"u"?t=>Promise.resolve().then(t):queueMicrotask;function sf(t){let e=t[0],n=e.
+for(let c=1;c<a.length;c++){let h=a[c],u=Array(s).fill(void 0),d=e?e[i][c]:ef,m=[];for(let y=0;y<h.length;y++){let M=h[y],b=r.get(l[y]);M===null?d!=Qu&&(u[b]=M,
+d==tf&&m.push(b)):u[b]=M}nf(u,m,s),o.push(u)}}return o}var sf=typeof queueMicrotask>"u"?t=>Promise.resolve().then(t):queueMicrotask;function rf(t){let e=t[0],n=e.
 length,o=Array(n);for(let r=0;r<o.length;r++)o[r]=r;o.sort((r,i)=>e[r]-e[i]);let s=[];for(let r=0;r<t.length;r++){let i=t[r],a=Array(n);for(let l=0;l<n;l++)a[l]=
-i[o[l]];s.push(a)}return s}function rf(t){let e=t[0][0],n=e.length;for(let o=1;o<t.length;o++){let s=t[o][0];if(s.length!=n)return!1;if(s!=e){for(let r=0;r<n;r++)
-if(s[r]!=e[r])return!1}}return!0}function af(t,e=100){let n=t.length;if(n<=1)return!0;let o=0,s=n-1;for(;o<=s&&t[o]==null;)o++;for(;s>=o&&t[s]==null;)s--;if(s<=
+i[o[l]];s.push(a)}return s}function af(t){let e=t[0][0],n=e.length;for(let o=1;o<t.length;o++){let s=t[o][0];if(s.length!=n)return!1;if(s!=e){for(let r=0;r<n;r++)
+if(s[r]!=e[r])return!1}}return!0}function lf(t,e=100){let n=t.length;if(n<=1)return!0;let o=0,s=n-1;for(;o<=s&&t[o]==null;)o++;for(;s>=o&&t[s]==null;)s--;if(s<=
 o)return!0;let r=pt(1,xt((s-o+1)/e));for(let i=t[o],a=o+r;a<=s;a+=r){let l=t[a];if(l!=null){if(l<=i)return!1;i=l}}return!0}var Ec=["January","February","March",
 "April","May","June","July","August","September","October","November","December"],Pc=["Sunday","Monday","Tuesday","Wednesday","Thursday","Friday","Saturday"];function _c(t){
-return t.slice(0,3)}var lf=Pc.map(_c),cf=Ec.map(_c),hf={MMMM:Ec,MMM:cf,WWWW:Pc,WWW:lf};function zo(t){return(t<10?"0":"")+t}function pf(t){return(t<10?"00":t<100?
-"0":"")+t}var df={YYYY:t=>t.getFullYear(),YY:t=>(t.getFullYear()+"").slice(2),MMMM:(t,e)=>e.MMMM[t.getMonth()],MMM:(t,e)=>e.MMM[t.getMonth()],MM:t=>zo(t.getMonth()+
+return t.slice(0,3)}var cf=Pc.map(_c),hf=Ec.map(_c),pf={MMMM:Ec,MMM:hf,WWWW:Pc,WWW:cf};function zo(t){return(t<10?"0":"")+t}function df(t){return(t<10?"00":t<100?
+"0":"")+t}var uf={YYYY:t=>t.getFullYear(),YY:t=>(t.getFullYear()+"").slice(2),MMMM:(t,e)=>e.MMMM[t.getMonth()],MMM:(t,e)=>e.MMM[t.getMonth()],MM:t=>zo(t.getMonth()+
 1),M:t=>t.getMonth()+1,DD:t=>zo(t.getDate()),D:t=>t.getDate(),WWWW:(t,e)=>e.WWWW[t.getDay()],WWW:(t,e)=>e.WWW[t.getDay()],HH:t=>zo(t.getHours()),H:t=>t.getHours(),
 h:t=>{let e=t.getHours();return e==0?12:e>12?e-12:e},AA:t=>t.getHours()>=12?"PM":"AM",aa:t=>t.getHours()>=12?"pm":"am",a:t=>t.getHours()>=12?"p":"a",mm:t=>zo(t.
-getMinutes()),m:t=>t.getMinutes(),ss:t=>zo(t.getSeconds()),s:t=>t.getSeconds(),fff:t=>pf(t.getMilliseconds())};function Di(t,e){e=e||hf;let n=[],o=/\{([a-z]+)\}|[^{]+/gi,
-s;for(;s=o.exec(t);)n.push(s[0][0]=="{"?df[s[1]]:s[0]);return r=>{let i="";for(let a=0;a<n.length;a++)i+=typeof n[a]=="string"?n[a]:n[a](r,e);return i}}var uf=new Intl.
-DateTimeFormat().resolvedOptions().timeZone;function ff(t,e){let n;return e=="UTC"||e=="Etc/UTC"?n=new Date(+t+t.getTimezoneOffset()*6e4):e==uf?n=t:(n=new Date(
-t.toLocaleString("en-US",{timeZone:e})),n.setMilliseconds(t.getMilliseconds())),n}var Cc=t=>t%1==0,Us=[1,2,2.5,5],mf=Zo(10,-32,0,Us),Lc=Zo(10,0,32,Us),gf=Lc.filter(
-Cc),_n=mf.concat(Lc),Ri=`
-`,Nc="{YYYY}",Jl=Ri+Nc,Dc="{M}/{D}",Ko=Ri+Dc,Rs=Ko+"/{YY}",Rc="{aa}",yf="{h}:{mm}",yo=yf+Rc,Xl=Ri+yo,Zl=":{ss}",xe=null;function $c(t){let e=t*1e3,n=e*60,o=n*60,
+getMinutes()),m:t=>t.getMinutes(),ss:t=>zo(t.getSeconds()),s:t=>t.getSeconds(),fff:t=>df(t.getMilliseconds())};function Di(t,e){e=e||pf;let n=[],o=/\{([a-z]+)\}|[^{]+/gi,
+s;for(;s=o.exec(t);)n.push(s[0][0]=="{"?uf[s[1]]:s[0]);return r=>{let i="";for(let a=0;a<n.length;a++)i+=typeof n[a]=="string"?n[a]:n[a](r,e);return i}}var ff=new Intl.
+DateTimeFormat().resolvedOptions().timeZone;function mf(t,e){let n;return e=="UTC"||e=="Etc/UTC"?n=new Date(+t+t.getTimezoneOffset()*6e4):e==ff?n=t:(n=new Date(
+t.toLocaleString("en-US",{timeZone:e})),n.setMilliseconds(t.getMilliseconds())),n}var Cc=t=>t%1==0,Us=[1,2,2.5,5],gf=Zo(10,-32,0,Us),Lc=Zo(10,0,32,Us),yf=Lc.filter(
+Cc),_n=gf.concat(Lc),Ri=`
+`,Nc="{YYYY}",Jl=Ri+Nc,Dc="{M}/{D}",Ko=Ri+Dc,Rs=Ko+"/{YY}",Rc="{aa}",wf="{h}:{mm}",yo=wf+Rc,Xl=Ri+yo,Zl=":{ss}",xe=null;function $c(t){let e=t*1e3,n=e*60,o=n*60,
 s=o*24,r=s*30,i=s*365,l=(t==1?Zo(10,0,3,Us).filter(Cc):Zo(10,-3,0,Us)).concat([e,e*5,e*10,e*15,e*30,n,n*5,n*10,n*15,n*30,o,o*2,o*3,o*4,o*6,o*8,o*12,s,s*2,s*3,s*
 4,s*5,s*6,s*7,s*8,s*9,s*10,s*15,r,r*2,r*3,r*4,r*6,i,i*2,i*5,i*10,i*25,i*50,i*100]),c=[[i,Nc,xe,xe,xe,xe,xe,xe,1],[s*28,"{MMM}",Jl,xe,xe,xe,xe,xe,1],[s,Dc,Jl,xe,
 xe,xe,xe,xe,1],[o,"{h}"+Rc,Rs,xe,Ko,xe,xe,xe,1],[n,yo,Rs,xe,Ko,xe,xe,xe,1],[e,Zl,Rs+" "+yo,xe,Ko+" "+yo,xe,Xl,xe,1],[t,Zl+".{fff}",Rs+" "+yo,xe,Ko+" "+yo,xe,Xl,
@@ -368,45 +369,45 @@ xe,1]];function h(u){return(d,m,y,M,b,x)=>{let k=[],A=b>=i,E=b>=r&&b<i,D=u(y),L=
 if(E||A){let te=E?b/r:0,X=A?b/i:0,$=L==G?L:Te(ui(O.getFullYear()+X,O.getMonth()+te,1)*t,3),ee=new Date(je($/t)),U=ee.getFullYear(),P=ee.getMonth();for(let _=0;$<=
 M;_++){let B=ui(U+X*_,P+te*_,1),I=B-u(Te(B*t,3));$=Te((+B+I)*t,3),$<=M&&k.push($)}}else{let te=b>=s?s:b,X=xt(y)-xt(L),$=G+X+Gs(L-G,te);k.push($);let ee=u($),U=ee.
 getHours()+ee.getMinutes()/n+ee.getSeconds()/o,P=b/o,_=d.axes[m]._space,B=x/_;for(;$=Te($+b,t==1?0:3),!($>M);)if(P>1){let I=xt(Te(U+P,6))%24,J=u($).getHours()-I;
-J>1&&(J=-1),$-=J*o,U=(U+P)%24;let Q=k[k.length-1];Te(($-Q)/b,3)*B>=.7&&k.push($)}else k.push($)}return k}}return[l,c,h]}var[wf,bf,xf]=$c(1),[vf,kf,Sf]=$c(.001);
+J>1&&(J=-1),$-=J*o,U=(U+P)%24;let Q=k[k.length-1];Te(($-Q)/b,3)*B>=.7&&k.push($)}else k.push($)}return k}}return[l,c,h]}var[bf,xf,vf]=$c(1),[kf,Sf,Mf]=$c(.001);
 Zo(2,-53,53,[1]);function Ql(t,e){return t.map(n=>n.map((o,s)=>s==0||s==8||o==null?o:e(s==1||n[8]==0?o:n[1]+o)))}function ec(t,e){return(n,o,s,r,i)=>{let a=e.find(
 y=>i>=y[0])||e[e.length-1],l,c,h,u,d,m;return o.map(y=>{let M=t(y),b=M.getFullYear(),x=M.getMonth(),k=M.getDate(),A=M.getHours(),E=M.getMinutes(),D=M.getSeconds(),
-L=b!=l&&a[2]||x!=c&&a[3]||k!=h&&a[4]||A!=u&&a[5]||E!=d&&a[6]||D!=m&&a[7]||a[1];return l=b,c=x,h=k,u=A,d=E,m=D,L(M)})}}function Mf(t,e){let n=Di(e);return(o,s,r,i,a)=>s.
-map(l=>n(t(l)))}function ui(t,e,n){return new Date(t,e,n)}function tc(t,e){return e(t)}var Tf="{YYYY}-{MM}-{DD} {h}:{mm}{aa}";function nc(t,e){return(n,o,s,r)=>r==
-null?Ei:e(t(o))}function Af(t,e){let n=t.series[e];return n.width?n.stroke(t,e):n.points.width?n.points.stroke(t,e):null}function Ef(t,e){return t.series[e].fill(
-t,e)}var Pf={show:!0,live:!0,isolate:!1,mount:zu,markers:{show:!0,width:2,stroke:Af,fill:Ef,dash:"solid"},idx:null,idxs:null,values:[]};function _f(t,e){let n=t.
+L=b!=l&&a[2]||x!=c&&a[3]||k!=h&&a[4]||A!=u&&a[5]||E!=d&&a[6]||D!=m&&a[7]||a[1];return l=b,c=x,h=k,u=A,d=E,m=D,L(M)})}}function Tf(t,e){let n=Di(e);return(o,s,r,i,a)=>s.
+map(l=>n(t(l)))}function ui(t,e,n){return new Date(t,e,n)}function tc(t,e){return e(t)}var Af="{YYYY}-{MM}-{DD} {h}:{mm}{aa}";function nc(t,e){return(n,o,s,r)=>r==
+null?Ei:e(t(o))}function Ef(t,e){let n=t.series[e];return n.width?n.stroke(t,e):n.points.width?n.points.stroke(t,e):null}function Pf(t,e){return t.series[e].fill(
+t,e)}var _f={show:!0,live:!0,isolate:!1,mount:Yu,markers:{show:!0,width:2,stroke:Ef,fill:Pf,dash:"solid"},idx:null,idxs:null,values:[]};function Cf(t,e){let n=t.
 cursor.points,o=Et(),s=n.size(t,e);Ce(o,Yo,s),Ce(o,qo,s);let r=s/-2;Ce(o,"marginLeft",r),Ce(o,"marginTop",r);let i=n.width(t,e,s);return i&&Ce(o,"borderWidth",i),
-o}function Cf(t,e){let n=t.series[e].points;return n._fill||n._stroke}function Lf(t,e){let n=t.series[e].points;return n._stroke||n._fill}function Nf(t,e){return t.
-series[e].points.size}var fi=[0,0];function Df(t,e,n){return fi[0]=e,fi[1]=n,fi}function $s(t,e,n,o=!0){return s=>{s.button==0&&(!o||s.target==e)&&n(s)}}function mi(t,e,n,o=!0){
-return s=>{(!o||s.target==e)&&n(s)}}var Rf={show:!0,x:!0,y:!0,lock:!1,move:Df,points:{one:!1,show:_f,size:Nf,width:0,stroke:Lf,fill:Cf},bind:{mousedown:$s,mouseup:$s,
+o}function Lf(t,e){let n=t.series[e].points;return n._fill||n._stroke}function Nf(t,e){let n=t.series[e].points;return n._stroke||n._fill}function Df(t,e){return t.
+series[e].points.size}var fi=[0,0];function Rf(t,e,n){return fi[0]=e,fi[1]=n,fi}function $s(t,e,n,o=!0){return s=>{s.button==0&&(!o||s.target==e)&&n(s)}}function mi(t,e,n,o=!0){
+return s=>{(!o||s.target==e)&&n(s)}}var $f={show:!0,x:!0,y:!0,lock:!1,move:Rf,points:{one:!1,show:Cf,size:Df,width:0,stroke:Nf,fill:Lf},bind:{mousedown:$s,mouseup:$s,
 click:$s,dblclick:$s,mousemove:mi,mouseleave:mi,mouseenter:mi},drag:{setScale:!0,x:!0,y:!1,dist:0,uni:null,click:(t,e)=>{e.stopPropagation(),e.stopImmediatePropagation()},
 _x:!1,_y:!1},focus:{dist:(t,e,n,o,s)=>o-s,prox:-1,bias:0},hover:{skip:[void 0],prox:null,bias:0},left:-10,top:-10,idx:null,dataIdx:null,idxs:null,event:null},Fc={
 show:!0,stroke:"rgba(0,0,0,0.07)",width:2},$i=Be({},Fc,{filter:kc}),Ic=Be({},$i,{size:10}),Oc=Be({},Fc,{show:!1}),Fi='12px system-ui, -apple-system, "Segoe UI",\
  Roboto, "Helvetica Neue", Arial, "Noto Sans", sans-serif, "Apple Color Emoji", "Segoe UI Emoji", "Segoe UI Symbol", "Noto Color Emoji"',Uc="bold "+Fi,Bc=1.5,oc={
 show:!0,scale:"x",stroke:Ai,space:50,gap:5,alignTo:1,size:50,labelGap:0,labelSize:30,labelFont:Uc,side:2,grid:$i,ticks:Ic,border:Oc,font:Fi,lineGap:Bc,rotate:0},
-$f="Value",Ff="Time",sc={show:!0,scale:"x",auto:!1,sorted:1,min:Me,max:-Me,idxs:[]};function If(t,e,n,o,s){return e.map(r=>r==null?"":Li(r))}function Of(t,e,n,o,s,r,i){
+Ff="Value",If="Time",sc={show:!0,scale:"x",auto:!1,sorted:1,min:Me,max:-Me,idxs:[]};function Of(t,e,n,o,s){return e.map(r=>r==null?"":Li(r))}function Uf(t,e,n,o,s,r,i){
 let a=[],l=un.get(s)||0;n=i?n:Te(Gs(n,s),l);for(let c=n;c<=o;c=Te(c+s,l))a.push(Object.is(c,-0)?0:c);return a}function vi(t,e,n,o,s,r,i){let a=[],l=t.scales[t.axes[e].
 scale].log,c=l==10?Qt:bc,h=xt(c(n));s=bo(l,h),l==10&&(s=_n[Ot(s,_n)]);let u=n,d=s*l;l==10&&(d=_n[Ot(d,_n)]);do a.push(u),u=u+s,l==10&&!un.has(u)&&(u=Te(u,un.get(
-s))),u>=d&&(s=u,d=s*l,l==10&&(d=_n[Ot(d,_n)]));while(u<=o);return a}function Uf(t,e,n,o,s,r,i){let l=t.scales[t.axes[e].scale].asinh,c=o>l?vi(t,e,pt(l,n),o,s):[
-l],h=o>=0&&n<=0?[0]:[];return(n<-l?vi(t,e,pt(l,-o),-n,s):[l]).reverse().map(d=>-d).concat(h,c)}var Wc=/./,Bf=/[12357]/,Wf=/[125]/,rc=/1/,ki=(t,e,n,o)=>t.map((s,r)=>e==
-4&&s==0||r%o==0&&n.test(s.toExponential()[s<0?1:0])?s:null);function Gf(t,e,n,o,s){let r=t.axes[n],i=r.scale,a=t.scales[i],l=t.valToPos,c=r._space,h=l(10,i),u=l(
-9,i)-h>=c?Wc:l(7,i)-h>=c?Bf:l(5,i)-h>=c?Wf:rc;if(u==rc){let d=Ve(l(1,i)-h);if(d<c)return ki(e.slice().reverse(),a.distr,u,Pt(c/d)).reverse()}return ki(e,a.distr,
-u,1)}function Hf(t,e,n,o,s){let r=t.axes[n],i=r.scale,a=r._space,l=t.valToPos,c=Ve(l(1,i)-l(2,i));return c<a?ki(e.slice().reverse(),3,Wc,Pt(a/c)).reverse():e}function jf(t,e,n,o){
+s))),u>=d&&(s=u,d=s*l,l==10&&(d=_n[Ot(d,_n)]));while(u<=o);return a}function Bf(t,e,n,o,s,r,i){let l=t.scales[t.axes[e].scale].asinh,c=o>l?vi(t,e,pt(l,n),o,s):[
+l],h=o>=0&&n<=0?[0]:[];return(n<-l?vi(t,e,pt(l,-o),-n,s):[l]).reverse().map(d=>-d).concat(h,c)}var Wc=/./,Wf=/[12357]/,Gf=/[125]/,rc=/1/,ki=(t,e,n,o)=>t.map((s,r)=>e==
+4&&s==0||r%o==0&&n.test(s.toExponential()[s<0?1:0])?s:null);function Hf(t,e,n,o,s){let r=t.axes[n],i=r.scale,a=t.scales[i],l=t.valToPos,c=r._space,h=l(10,i),u=l(
+9,i)-h>=c?Wc:l(7,i)-h>=c?Wf:l(5,i)-h>=c?Gf:rc;if(u==rc){let d=Ve(l(1,i)-h);if(d<c)return ki(e.slice().reverse(),a.distr,u,Pt(c/d)).reverse()}return ki(e,a.distr,
+u,1)}function jf(t,e,n,o,s){let r=t.axes[n],i=r.scale,a=r._space,l=t.valToPos,c=Ve(l(1,i)-l(2,i));return c<a?ki(e.slice().reverse(),3,Wc,Pt(a/c)).reverse():e}function Vf(t,e,n,o){
 return o==null?Ei:e==null?"":Li(e)}var ic={show:!0,scale:"y",stroke:Ai,space:30,gap:5,alignTo:1,size:50,labelGap:0,labelSize:30,labelFont:Uc,side:3,grid:$i,ticks:Ic,
-border:Oc,font:Fi,lineGap:Bc,rotate:0};function Vf(t,e){let n=3+(t||1)*2;return Te(n*e,3)}function zf(t,e){let{scale:n,idxs:o}=t.series[0],s=t._data[0],r=t.valToPos(
+border:Oc,font:Fi,lineGap:Bc,rotate:0};function zf(t,e){let n=3+(t||1)*2;return Te(n*e,3)}function Yf(t,e){let{scale:n,idxs:o}=t.series[0],s=t._data[0],r=t.valToPos(
 s[o[0]],n,!0),i=t.valToPos(s[o[1]],n,!0),a=Ve(i-r),l=t.series[e],c=a/(l.points.space*be);return o[1]-o[0]<=c}var ac={scale:null,auto:!0,sorted:0,min:Me,max:-Me},
 Gc=(t,e,n,o,s)=>s,lc={show:!0,auto:!0,sorted:0,gaps:Gc,alpha:1,facets:[Be({},ac,{scale:"x"}),Be({},ac,{scale:"y"})]},cc={scale:"y",auto:!0,sorted:0,show:!0,spanGaps:!1,
-gaps:Gc,alpha:1,points:{show:zf,filter:null},values:null,min:Me,max:-Me,idxs:[],path:null,clip:null};function Yf(t,e,n,o,s){return n/10}var Hc={time:!0,auto:!0,
-distr:1,log:10,asinh:1,min:null,max:null,dir:1,ori:0},qf=Be({},Hc,{time:!1,ori:1}),hc={};function jc(t,e){let n=hc[t];return n||(n={key:t,plots:[],sub(o){n.plots.
+gaps:Gc,alpha:1,points:{show:Yf,filter:null},values:null,min:Me,max:-Me,idxs:[],path:null,clip:null};function qf(t,e,n,o,s){return n/10}var Hc={time:!0,auto:!0,
+distr:1,log:10,asinh:1,min:null,max:null,dir:1,ori:0},Kf=Be({},Hc,{time:!1,ori:1}),hc={};function jc(t,e){let n=hc[t];return n||(n={key:t,plots:[],sub(o){n.plots.
 push(o)},unsub(o){n.plots=n.plots.filter(s=>s!=o)},pub(o,s,r,i,a,l,c){for(let h=0;h<n.plots.length;h++)n.plots[h]!=s&&n.plots[h].pub(o,s,r,i,a,l,c)}},t!=null&&(hc[t]=
 n)),n}var ko=1,Si=2;function Dn(t,e,n){let o=t.mode,s=t.series[e],r=o==2?t._data[e]:t._data,i=t.scales,a=t.bbox,l=r[0],c=o==2?r[1]:r[e],h=o==2?i[s.facets[0].scale]:
 i[t.series[0].scale],u=o==2?i[s.facets[1].scale]:i[s.scale],d=a.left,m=a.top,y=a.width,M=a.height,b=t.valToPosH,x=t.valToPosV;return h.ori==0?n(s,l,c,h,u,b,x,d,
 m,y,M,Vs,Mo,Ys,zc,qc):n(s,l,c,h,u,x,b,m,d,M,y,zs,To,Ui,Yc,Kc)}function Ii(t,e){let n=0,o=0,s=ye(t.bands,Ni);for(let r=0;r<s.length;r++){let i=s[r];i.series[0]==
-e?n=i.dir:i.series[1]==e&&(i.dir==1?o|=1:o|=2)}return[n,o==1?-1:o==2?1:o==3?2:0]}function Kf(t,e,n,o,s){let r=t.mode,i=t.series[e],a=r==2?i.facets[1].scale:i.scale,
+e?n=i.dir:i.series[1]==e&&(i.dir==1?o|=1:o|=2)}return[n,o==1?-1:o==2?1:o==3?2:0]}function Jf(t,e,n,o,s){let r=t.mode,i=t.series[e],a=r==2?i.facets[1].scale:i.scale,
 l=t.scales[a];return s==-1?l.min:s==1?l.max:l.distr==3?l.dir==1?l.min:l.max:0}function en(t,e,n,o,s,r){return Dn(t,e,(i,a,l,c,h,u,d,m,y,M,b)=>{let x=i.pxRound,k=c.
 dir*(c.ori==0?1:-1),A=c.ori==0?Mo:To,E,D;k==1?(E=n,D=o):(E=o,D=n);let L=x(u(a[E],c,M,m)),O=x(d(l[E],h,b,y)),G=x(u(a[D],c,M,m)),te=x(d(r==1?h.max:h.min,h,b,y)),X=new Path2D(
 s);return A(X,G,te),A(X,L,te),A(X,L,O),X})}function js(t,e,n,o,s,r){let i=null;if(t.length>0){i=new Path2D;let a=e==0?Ys:Ui,l=n;for(let u=0;u<t.length;u++){let d=t[u];
-if(d[1]>d[0]){let m=d[0]-l;m>0&&a(i,l,o,m,o+r),l=d[1]}}let c=n+s-l,h=10;c>0&&a(i,l,o-h/2,c,o+r+h)}return i}function Jf(t,e,n){let o=t[t.length-1];o&&o[0]==e?o[1]=
+if(d[1]>d[0]){let m=d[0]-l;m>0&&a(i,l,o,m,o+r),l=d[1]}}let c=n+s-l,h=10;c>0&&a(i,l,o-h/2,c,o+r+h)}return i}function Xf(t,e,n){let o=t[t.length-1];o&&o[0]==e?o[1]=
 n:t.push([e,n])}function Oi(t,e,n,o,s,r,i){let a=[],l=t.length;for(let c=s==1?n:o;c>=n&&c<=o;c+=s)if(e[c]===null){let u=c,d=c;if(s==1)for(;++c<=o&&e[c]===null;)
 d=c;else for(;--c>=n&&e[c]===null;)d=c;let m=r(t[u]),y=d==u?m:r(t[d]),M=u-s;m=i<=0&&M>=0&&M<l?r(t[M]):m;let x=d+s;y=i>=0&&x>=0&&x<l?r(t[x]):y,y>=m&&a.push([m,y])}
 return a}function pc(t){return t==0?vc:t==1?je:e=>Pn(e,t)}function Vc(t){let e=t==0?Vs:zs,n=t==0?(s,r,i,a,l,c)=>{s.arcTo(r,i,a,l,c)}:(s,r,i,a,l,c)=>{s.arcTo(i,r,
@@ -417,14 +418,14 @@ t.bezierCurveTo(e,n,o,s,r,i)},Kc=(t,e,n,o,s,r,i)=>{t.bezierCurveTo(n,e,s,o,i,r)}
 points:k}=i,A,E;c.ori==0?(A=Vs,E=zc):(A=zs,E=Yc);let D=Te(k.width*be,3),L=(k.size-k.width)/2*be,O=Te(L*2,3),G=new Path2D,te=new Path2D,{left:X,top:$,width:ee,height:U}=e.
 bbox;Ys(te,X-O,$-O,ee+O*2,U+O*2);let P=_=>{if(l[_]!=null){let B=x(u(a[_],c,M,m)),I=x(d(l[_],h,b,y));A(G,B+L,I),E(G,B,I,L,0,Fs*2)}};if(r)r.forEach(P);else for(let _=o;_<=
 s;_++)P(_);return{stroke:D>0?G:null,fill:G,clip:te,flags:ko|Si}})}function Xc(t){return(e,n,o,s,r,i)=>{o!=s&&(r!=o&&i!=o&&t(e,n,o),r!=s&&i!=s&&t(e,n,s),t(e,n,i))}}
-var Xf=Xc(Mo),Zf=Xc(To);function Zc(t){let e=ye(t?.alignGaps,0);return(n,o,s,r)=>Dn(n,o,(i,a,l,c,h,u,d,m,y,M,b)=>{[s,r]=Bs(l,s,r);let x=i.pxRound,k=U=>x(u(U,c,M,
-m)),A=U=>x(d(U,h,b,y)),E,D;c.ori==0?(E=Mo,D=Xf):(E=To,D=Zf);let L=c.dir*(c.ori==0?1:-1),O={stroke:new Path2D,fill:null,clip:null,band:null,gaps:null,flags:ko},G=O.
+var Zf=Xc(Mo),Qf=Xc(To);function Zc(t){let e=ye(t?.alignGaps,0);return(n,o,s,r)=>Dn(n,o,(i,a,l,c,h,u,d,m,y,M,b)=>{[s,r]=Bs(l,s,r);let x=i.pxRound,k=U=>x(u(U,c,M,
+m)),A=U=>x(d(U,h,b,y)),E,D;c.ori==0?(E=Mo,D=Zf):(E=To,D=Qf);let L=c.dir*(c.ori==0?1:-1),O={stroke:new Path2D,fill:null,clip:null,band:null,gaps:null,flags:ko},G=O.
 stroke,te=!1;if(r-s>=M*4){let U=W=>n.posToVal(W,c.key,!0),P=null,_=null,B,I,ie,K=k(a[L==1?s:r]),J=k(a[s]),Q=k(a[r]),q=U(L==1?J+1:Q-1);for(let W=L==1?s:r;W>=s&&W<=
 r;W+=L){let fe=a[W],he=(L==1?fe<q:fe>q)?K:k(fe),ae=l[W];he==K?ae!=null?(I=ae,P==null?(E(G,he,A(I)),B=P=_=I):I<P?P=I:I>_&&(_=I)):ae===null&&(te=!0):(P!=null&&D(G,
 K,A(P),A(_),A(B),A(I)),ae!=null?(I=ae,E(G,he,A(I)),P=_=B=I):(P=_=null,ae===null&&(te=!0)),K=he,q=U(K+L))}P!=null&&P!=_&&ie!=K&&D(G,K,A(P),A(_),A(B),A(I))}else for(let U=L==
 1?s:r;U>=s&&U<=r;U+=L){let P=l[U];P===null?te=!0:P!=null&&E(G,k(a[U]),A(P))}let[$,ee]=Ii(n,o);if(i.fill!=null||$!=0){let U=O.fill=new Path2D(G),P=i.fillTo(n,o,i.
 min,i.max,$),_=A(P),B=k(a[s]),I=k(a[r]);L==-1&&([I,B]=[B,I]),E(U,I,_),E(U,B,_)}if(!i.spanGaps){let U=[];te&&U.push(...Oi(a,l,s,r,L,k,e)),O.gaps=U=i.gaps(n,o,s,r,
-U),O.clip=js(U,c.ori,m,y,M,b)}return ee!=0&&(O.band=ee==2?[en(n,o,s,r,G,-1),en(n,o,s,r,G,1)]:en(n,o,s,r,G,ee)),O})}function Qf(t){let e=ye(t.align,1),n=ye(t.ascDesc,
+U),O.clip=js(U,c.ori,m,y,M,b)}return ee!=0&&(O.band=ee==2?[en(n,o,s,r,G,-1),en(n,o,s,r,G,1)]:en(n,o,s,r,G,ee)),O})}function em(t){let e=ye(t.align,1),n=ye(t.ascDesc,
 !1),o=ye(t.alignGaps,0),s=ye(t.extend,!1);return(r,i,a,l)=>Dn(r,i,(c,h,u,d,m,y,M,b,x,k,A)=>{[a,l]=Bs(u,a,l);let E=c.pxRound,{left:D,width:L}=r.bbox,O=J=>E(y(J,d,
 k,b)),G=J=>E(M(J,m,A,x)),te=d.ori==0?Mo:To,X={stroke:new Path2D,fill:null,clip:null,band:null,gaps:null,flags:ko},$=X.stroke,ee=d.dir*(d.ori==0?1:-1),U=G(u[ee==
 1?a:l]),P=O(h[ee==1?a:l]),_=P,B=P;s&&e==-1&&(B=D,te($,B,U)),te($,P,U);for(let J=ee==1?a:l;J>=a&&J<=l;J+=ee){let Q=u[J];if(Q==null)continue;let q=O(h[J]),W=G(Q);
@@ -432,7 +433,7 @@ e==1?te($,q,U):te($,_,W),te($,q,W),U=W,_=q}let I=_;s&&e==1&&(I=D+L,te($,I,U));le
 i,c.min,c.max,ie),q=G(Q);te(J,I,q),te(J,B,q)}if(!c.spanGaps){let J=[];J.push(...Oi(h,u,a,l,ee,O,o));let Q=c.width*be/2,q=n||e==1?Q:-Q,W=n||e==-1?-Q:Q;J.forEach(
 fe=>{fe[0]+=q,fe[1]+=W}),X.gaps=J=c.gaps(r,i,a,l,J),X.clip=js(J,d.ori,b,x,k,A)}return K!=0&&(X.band=K==2?[en(r,i,a,l,$,-1),en(r,i,a,l,$,1)]:en(r,i,a,l,$,K)),X})}
 function dc(t,e,n,o,s,r,i=Me){if(t.length>1){let a=null;for(let l=0,c=1/0;l<t.length;l++)if(e[l]!==void 0){if(a!=null){let h=Ve(t[l]-t[a]);h<c&&(c=h,i=Ve(n(t[l],
-o,s,r)-n(t[a],o,s,r)))}a=l}}return i}function em(t){t=t||Xo;let e=ye(t.size,[.6,Me,1]),n=t.align||0,o=t.gap||0,s=t.radius;s=s==null?[0,0]:typeof s=="number"?[s,
+o,s,r)-n(t[a],o,s,r)))}a=l}}return i}function tm(t){t=t||Xo;let e=ye(t.size,[.6,Me,1]),n=t.align||0,o=t.gap||0,s=t.radius;s=s==null?[0,0]:typeof s=="number"?[s,
 0]:s;let r=pe(s),i=1-e[0],a=ye(e[1],Me),l=ye(e[2],1),c=ye(t.disp,Xo),h=ye(t.each,m=>{}),{fill:u,stroke:d}=c;return(m,y,M,b)=>Dn(m,y,(x,k,A,E,D,L,O,G,te,X,$)=>{let ee=x.
 pxRound,U=n,P=o*be,_=a*be,B=l*be,I,ie;E.ori==0?[I,ie]=r(m,y):[ie,I]=r(m,y);let K=E.dir*(E.ori==0?1:-1),J=E.ori==0?Ys:Ui,Q=E.ori==0?h:(V,Se,De,z,se,ue,Ge)=>{h(V,
 Se,De,se,z,Ge,ue)},q=ye(m.bands,Ni).find(V=>V.series[0]==y),W=q!=null?q.dir:0,fe=x.fillTo(m,y,x.min,x.max,W),de=ee(O(fe,D,$,te)),he,ae,Fe,We=X,ve=ee(x.width*be),
@@ -445,44 +446,44 @@ series[1]];else{let{y0:V,y1:Se}=c;V!=null&&Se!=null&&(A=Se.values(m,y,M,b),Lt=V.
 if(Se==null)continue;if(Lt!=null){let dt=Lt[V]??0;if(Se-dt==0)continue;de=O(dt,D,$,te)}let De=E.distr!=2||c!=null?k[V]:V,z=L(De,E,X,G),se=O(ye(Se,fe),D,$,te),ue=ee(
 z-he),Ge=ee(pt(se,de)),ft=ee(Ut(se,de)),kt=Ge-ft;if(Se!=null){let dt=Se<0?re:Gt,Nt=Se<0?Gt:re;st?(ve>0&&Ie[V]!=null&&J(_t.get(Ie[V]),ue,ft+xt(ve/2),ae,pt(0,kt-ve),
 dt,Nt),rt[V]!=null&&J(Ne.get(rt[V]),ue,ft+xt(ve/2),ae,pt(0,kt-ve),dt,Nt)):J(Jt,ue,ft+xt(ve/2),ae,pt(0,kt-ve),dt,Nt),Q(m,y,V,ue-ve/2,ft,ae+ve,kt)}}return ve>0?qe.
-stroke=st?_t:Jt:st||(qe._fill=x.width==0?x._fill:x._stroke??x._fill,qe.width=0),qe.fill=st?Ne:Jt,qe})}function tm(t,e){let n=ye(e?.alignGaps,0);return(o,s,r,i)=>Dn(
+stroke=st?_t:Jt:st||(qe._fill=x.width==0?x._fill:x._stroke??x._fill,qe.width=0),qe.fill=st?Ne:Jt,qe})}function nm(t,e){let n=ye(e?.alignGaps,0);return(o,s,r,i)=>Dn(
 o,s,(a,l,c,h,u,d,m,y,M,b,x)=>{[r,i]=Bs(c,r,i);let k=a.pxRound,A=I=>k(d(I,h,b,y)),E=I=>k(m(I,u,x,M)),D,L,O;h.ori==0?(D=Vs,O=Mo,L=qc):(D=zs,O=To,L=Kc);let G=h.dir*
 (h.ori==0?1:-1),te=A(l[G==1?r:i]),X=te,$=[],ee=[];for(let I=G==1?r:i;I>=r&&I<=i;I+=G)if(c[I]!=null){let K=l[I],J=A(K);$.push(X=J),ee.push(E(c[I]))}let U={stroke:t(
 $,ee,D,O,L,k),fill:null,clip:null,band:null,gaps:null,flags:ko},P=U.stroke,[_,B]=Ii(o,s);if(a.fill!=null||_!=0){let I=U.fill=new Path2D(P),ie=a.fillTo(o,s,a.min,
 a.max,_),K=E(ie);O(I,X,K),O(I,te,K)}if(!a.spanGaps){let I=[];I.push(...Oi(l,c,r,i,G,A,n)),U.gaps=I=a.gaps(o,s,r,i,I),U.clip=js(I,h.ori,y,M,b,x)}return B!=0&&(U.
-band=B==2?[en(o,s,r,i,P,-1),en(o,s,r,i,P,1)]:en(o,s,r,i,P,B)),U})}function nm(t){return tm(om,t)}function om(t,e,n,o,s,r){let i=t.length;if(i<2)return null;let a=new Path2D;
+band=B==2?[en(o,s,r,i,P,-1),en(o,s,r,i,P,1)]:en(o,s,r,i,P,B)),U})}function om(t){return nm(sm,t)}function sm(t,e,n,o,s,r){let i=t.length;if(i<2)return null;let a=new Path2D;
 if(n(a,t[0],e[0]),i==2)o(a,t[1],e[1]);else{let l=Array(i),c=Array(i-1),h=Array(i-1),u=Array(i-1);for(let d=0;d<i-1;d++)h[d]=e[d+1]-e[d],u[d]=t[d+1]-t[d],c[d]=h[d]/
 u[d];l[0]=c[0];for(let d=1;d<i-1;d++)c[d]===0||c[d-1]===0||c[d-1]>0!=c[d]>0?l[d]=0:(l[d]=3*(u[d-1]+u[d])/((2*u[d]+u[d-1])/c[d-1]+(u[d]+2*u[d-1])/c[d]),isFinite(
 l[d])||(l[d]=0));l[i-1]=c[i-2];for(let d=0;d<i-1;d++)s(a,t[d]+u[d]/3,e[d]+l[d]*u[d]/3,t[d+1]-u[d]/3,e[d+1]-l[d+1]*u[d]/3,t[d+1],e[d+1])}return a}var Mi=new Set;
-function uc(){for(let t of Mi)t.syncRect(!0)}So&&(Ln(Fu,wo,uc),Ln(Iu,wo,uc,!0),Ln(Is,wo,()=>{ze.pxRatio=be}));var sm=Zc(),rm=Jc();function fc(t,e,n,o){return(o?
-[t[0],t[1]].concat(t.slice(2)):[t[0]].concat(t.slice(1))).map((r,i)=>Ti(r,i,e,n))}function im(t,e){return t.map((n,o)=>o==0?{}:Be({},e,n))}function Ti(t,e,n,o){
-return Be({},e==0?n:o,t)}function Qc(t,e,n){return e==null?xo:[e,n]}var am=Qc;function lm(t,e,n){return e==null?xo:Os(e,n,Ci,!0)}function eh(t,e,n,o){return e==
-null?xo:Ws(e,n,t.scales[o].log,!1)}var cm=eh;function th(t,e,n,o){return e==null?xo:_i(e,n,t.scales[o].log,!1)}var hm=th;function pm(t,e,n,o,s){let r=pt(zl(t),zl(
+function uc(){for(let t of Mi)t.syncRect(!0)}So&&(Ln(Iu,wo,uc),Ln(Ou,wo,uc,!0),Ln(Is,wo,()=>{ze.pxRatio=be}));var rm=Zc(),im=Jc();function fc(t,e,n,o){return(o?
+[t[0],t[1]].concat(t.slice(2)):[t[0]].concat(t.slice(1))).map((r,i)=>Ti(r,i,e,n))}function am(t,e){return t.map((n,o)=>o==0?{}:Be({},e,n))}function Ti(t,e,n,o){
+return Be({},e==0?n:o,t)}function Qc(t,e,n){return e==null?xo:[e,n]}var lm=Qc;function cm(t,e,n){return e==null?xo:Os(e,n,Ci,!0)}function eh(t,e,n,o){return e==
+null?xo:Ws(e,n,t.scales[o].log,!1)}var hm=eh;function th(t,e,n,o){return e==null?xo:_i(e,n,t.scales[o].log,!1)}var pm=th;function dm(t,e,n,o,s){let r=pt(zl(t),zl(
 e)),i=e-t,a=Ot(s/o*i,n);do{let l=n[a],c=o*l/i;if(c>=s&&r+(l<5?un.get(l):0)<=17)return[l,c]}while(++a<n.length);return[0,0]}function mc(t){let e,n;return t=t.replace(
-/(\d+)px/,(o,s)=>(e=je((n=+s)*be))+"px"),[t,e,n]}function dm(t){t.show&&[t.font,t.labelFont].forEach(e=>{let n=Te(e[2]*be,1);e[0]=e[0].replace(/[0-9.]+px/,n+"px"),
+/(\d+)px/,(o,s)=>(e=je((n=+s)*be))+"px"),[t,e,n]}function um(t){t.show&&[t.font,t.labelFont].forEach(e=>{let n=Te(e[2]*be,1);e[0]=e[0].replace(/[0-9.]+px/,n+"px"),
 e[1]=n})}function ze(t,e,n){let o={mode:ye(t.mode,1)},s=o.mode;function r(p,f,g,w){let v=f.valToPct(p);return w+g*(f.dir==-1?1-v:v)}function i(p,f,g,w){let v=f.
 valToPct(p);return w+g*(f.dir==-1?v:1-v)}function a(p,f,g,w){return f.ori==0?r(p,f,g,w):i(p,f,g,w)}o.valToPosH=r,o.valToPosV=i;let l=!1;o.status=0;let c=o.root=
-Et(wu);if(t.id!=null&&(c.id=t.id),bt(c,t.class),t.title){let p=Et(vu,c);p.textContent=t.title}let h=It("canvas"),u=o.ctx=h.getContext("2d"),d=Et(ku,c);Ln("click",
-d,p=>{p.target===y&&(Ee!=Yn||Le!=qn)&&nt.click(o,p)},!0);let m=o.under=Et(Su,d);d.appendChild(h);let y=o.over=Et(Mu,d);t=vo(t);let M=+ye(t.pxAlign,1),b=pc(M);(t.
-plugins||[]).forEach(p=>{p.opts&&(t=p.opts(o,t)||t)});let x=t.ms||.001,k=o.series=s==1?fc(t.series||[],sc,cc,!1):im(t.series||[null],lc),A=o.axes=fc(t.axes||[],
+Et(bu);if(t.id!=null&&(c.id=t.id),bt(c,t.class),t.title){let p=Et(ku,c);p.textContent=t.title}let h=It("canvas"),u=o.ctx=h.getContext("2d"),d=Et(Su,c);Ln("click",
+d,p=>{p.target===y&&(Ee!=Yn||Le!=qn)&&nt.click(o,p)},!0);let m=o.under=Et(Mu,d);d.appendChild(h);let y=o.over=Et(Tu,d);t=vo(t);let M=+ye(t.pxAlign,1),b=pc(M);(t.
+plugins||[]).forEach(p=>{p.opts&&(t=p.opts(o,t)||t)});let x=t.ms||.001,k=o.series=s==1?fc(t.series||[],sc,cc,!1):am(t.series||[null],lc),A=o.axes=fc(t.axes||[],
 oc,ic,!0),E=o.scales={},D=o.bands=t.bands||[];D.forEach(p=>{p.fill=pe(p.fill||null),p.dir=ye(p.dir,-1)});let L=s==2?k[1].facets[0].scale:k[0].scale,O={axes:dd,series:ad},
 G=(t.drawOrder||["axes","series"]).map(p=>O[p]);function te(p){let f=p.distr==3?g=>Qt(g>0?g:p.clamp(o,g,p.min,p.max,p.key)):p.distr==4?g=>di(g,p.asinh):p.distr==
 100?g=>p.fwd(g):g=>g;return g=>{let w=f(g),{_min:v,_max:T}=p,N=T-v;return(w-v)/N}}function X(p){let f=E[p];if(f==null){let g=(t.scales||Xo)[p]||Xo;if(g.from!=null){
-X(g.from);let w=Be({},E[g.from],g,{key:p});w.valToPct=te(w),E[p]=w}else{f=E[p]=Be({},p==L?Hc:qf,g),f.key=p;let w=f.time,v=f.range,T=dn(v);if((p!=L||s==2&&!w)&&(T&&
+X(g.from);let w=Be({},E[g.from],g,{key:p});w.valToPct=te(w),E[p]=w}else{f=E[p]=Be({},p==L?Hc:Kf,g),f.key=p;let w=f.time,v=f.range,T=dn(v);if((p!=L||s==2&&!w)&&(T&&
 (v[0]==null||v[1]==null)&&(v={min:v[0]==null?Hl:{mode:1,hard:v[0],soft:v[0]},max:v[1]==null?Hl:{mode:1,hard:v[1],soft:v[1]}},T=!1),!T&&Hs(v))){let N=v;v=(R,F,H)=>F==
-null?xo:Os(F,H,N)}f.range=pe(v||(w?am:p==L?f.distr==3?cm:f.distr==4?hm:Qc:f.distr==3?eh:f.distr==4?th:lm)),f.auto=pe(T?!1:f.auto),f.clamp=pe(f.clamp||Yf),f._min=
+null?xo:Os(F,H,N)}f.range=pe(v||(w?lm:p==L?f.distr==3?hm:f.distr==4?pm:Qc:f.distr==3?eh:f.distr==4?th:cm)),f.auto=pe(T?!1:f.auto),f.clamp=pe(f.clamp||qf),f._min=
 f._max=null,f.valToPct=te(f)}}}X("x"),X("y"),s==1&&k.forEach(p=>{X(p.scale)}),A.forEach(p=>{X(p.scale)});for(let p in t.scales)X(p);let $=E[L],ee=$.distr,U,P;$.
-ori==0?(bt(c,bu),U=r,P=i):(bt(c,xu),U=i,P=r);let _={};for(let p in E){let f=E[p];(f.min!=null||f.max!=null)&&(_[p]={min:f.min,max:f.max},f.min=f.max=null)}let B=t.
-tzDate||(p=>new Date(je(p/x))),I=t.fmtDate||Di,ie=x==1?xf(B):Sf(B),K=ec(B,Ql(x==1?bf:kf,I)),J=nc(B,tc(Tf,I)),Q=[],q=o.legend=Be({},Pf,t.legend),W=o.cursor=Be({},
-Rf,{drag:{y:s==2}},t.cursor),fe=q.show,de=W.show,he=q.markers;q.idxs=Q,he.width=pe(he.width),he.dash=pe(he.dash),he.stroke=pe(he.stroke),he.fill=pe(he.fill);let ae,
-Fe,We,ve=[],st=[],rt,Ne=!1,Ie={};if(q.live){let p=k[1]?k[1].values:null;Ne=p!=null,rt=Ne?p(o,1,0):{_:0};for(let f in rt)Ie[f]=Ei}if(fe)if(ae=It("table",Cu,c),We=
+ori==0?(bt(c,xu),U=r,P=i):(bt(c,vu),U=i,P=r);let _={};for(let p in E){let f=E[p];(f.min!=null||f.max!=null)&&(_[p]={min:f.min,max:f.max},f.min=f.max=null)}let B=t.
+tzDate||(p=>new Date(je(p/x))),I=t.fmtDate||Di,ie=x==1?vf(B):Mf(B),K=ec(B,Ql(x==1?xf:Sf,I)),J=nc(B,tc(Af,I)),Q=[],q=o.legend=Be({},_f,t.legend),W=o.cursor=Be({},
+$f,{drag:{y:s==2}},t.cursor),fe=q.show,de=W.show,he=q.markers;q.idxs=Q,he.width=pe(he.width),he.dash=pe(he.dash),he.stroke=pe(he.stroke),he.fill=pe(he.fill);let ae,
+Fe,We,ve=[],st=[],rt,Ne=!1,Ie={};if(q.live){let p=k[1]?k[1].values:null;Ne=p!=null,rt=Ne?p(o,1,0):{_:0};for(let f in rt)Ie[f]=Ei}if(fe)if(ae=It("table",Lu,c),We=
 It("tbody",null,ae),q.mount(o,ae),Ne){Fe=It("thead",null,ae,We);let p=It("tr",null,Fe);It("th",null,p);for(var _t in rt)It("th",Cl,p).textContent=_t}else bt(ae,
-Nu),q.live&&bt(ae,Lu);let Ct={show:!0},gn={show:!1};function nn(p,f){if(f==0&&(Ne||!q.live||s==2))return xo;let g=[],w=It("tr",Du,We,We.childNodes[f]);bt(w,p.class),
-p.show||bt(w,Cn);let v=It("th",null,w);if(he.show){let R=Et(Ru,v);if(f>0){let F=he.width(o,f);F&&(R.style.border=F+"px "+he.dash(o,f)+" "+he.stroke(o,f)),R.style.
+Du),q.live&&bt(ae,Nu);let Ct={show:!0},gn={show:!1};function nn(p,f){if(f==0&&(Ne||!q.live||s==2))return xo;let g=[],w=It("tr",Ru,We,We.childNodes[f]);bt(w,p.class),
+p.show||bt(w,Cn);let v=It("th",null,w);if(he.show){let R=Et($u,v);if(f>0){let F=he.width(o,f);F&&(R.style.border=F+"px "+he.dash(o,f)+" "+he.stroke(o,f)),R.style.
 background=he.fill(o,f)}}let T=Et(Cl,v);p.label instanceof HTMLElement?T.appendChild(p.label):T.textContent=p.label,f>0&&(he.show||(T.style.color=p.width>0?he.stroke(
 o,f):he.fill(o,f)),qe("click",v,R=>{if(W._lock)return;wn(R);let F=k.indexOf(p);if((R.ctrlKey||R.metaKey)!=q.isolate){let H=k.some((j,Y)=>Y>0&&Y!=F&&j.show);k.forEach(
 (j,Y)=>{Y>0&&jt(Y,H?Y==F?Ct:gn:Ct,!0,Oe.setSeries)})}else jt(F,{show:!p.show},!0,Oe.setSeries)},!1),On&&qe(Rl,v,R=>{W._lock||(wn(R),jt(k.indexOf(p),Jn,!0,Oe.setSeries))},
-!1));for(var N in rt){let R=It("td",$u,w);R.textContent="--",g.push(R)}return[w,g]}let Wt=new Map;function qe(p,f,g,w=!0){let v=Wt.get(f)||{},T=W.bind[p](o,f,g,
+!1));for(var N in rt){let R=It("td",Fu,w);R.textContent="--",g.push(R)}return[w,g]}let Wt=new Map;function qe(p,f,g,w=!0){let v=Wt.get(f)||{},T=W.bind[p](o,f,g,
 w);T&&(Ln(p,f,v[p]=T),Wt.set(f,v))}function Jt(p,f,g){let w=Wt.get(f)||{};for(let v in w)(p==null||v==p)&&(bi(v,f,w[v]),delete w[v]);p==null&&Wt.delete(f)}let Lt=0,
 Gt=0,re=0,V=0,Se=0,De=0,z=Se,se=De,ue=re,Ge=V,ft=0,kt=0,dt=0,Nt=0;o.bbox={};let Er=!1,os=!1,In=!1,yn=!1,ss=!1,St=!1;function Pr(p,f,g){(g||p!=o.width||f!=o.height)&&
 da(p,f),Hn(!1),In=!0,os=!0,jn()}function da(p,f){o.width=Lt=re=p,o.height=Gt=V=f,Se=De=0,ed(),td();let g=o.bbox;ft=g.left=Pn(Se*be,.5),kt=g.top=Pn(De*be,.5),dt=
@@ -497,20 +498,20 @@ let p=W.hover,f=p.skip=new Set(p.skip??[]);f.add(void 0);let g=p.prox=pe(p.prox)
 _e,ke=Re-oe;et<=ke?et<=H&&(F=ce):ke<=H&&(F=ne)}else F=ne==null?ce:ce==null?ne:N-ce<=ne-N?ce:ne}else j&&Ve(oe-U(we[N],$,Y,0))>H&&(F=null);return F}}let wn=p=>{W.
 event=p};W.idxs=Q,W._lock=!1;let it=W.points;it.show=pe(it.show),it.size=pe(it.size),it.stroke=pe(it.stroke),it.width=pe(it.width),it.fill=pe(it.fill);let Ht=o.
 focus=Be({},t.focus||{alpha:.3},W.focus),On=Ht.prox>=0,Un=On&&it.one,Mt=[],Bn=[],Wn=[];function ua(p,f){let g=it.show(o,f);if(g instanceof HTMLElement)return bt(
-g,_u),bt(g,p.class),Kt(g,-10,-10,re,V),y.insertBefore(g,Mt[f]),g}function fa(p,f){if(s==1||f>0){let g=s==1&&E[p.scale].time,w=p.value;p.value=g?Kl(w)?nc(B,tc(w,
-I)):w||J:w||jf,p.label=p.label||(g?Ff:$f)}if(Un||f>0){p.width=p.width==null?1:p.width,p.paths=p.paths||sm||Yu,p.fillTo=pe(p.fillTo||Kf),p.pxAlign=+ye(p.pxAlign,
-M),p.pxRound=pc(p.pxAlign),p.stroke=pe(p.stroke||null),p.fill=pe(p.fill||null),p._stroke=p._fill=p._paths=p._focus=null;let g=Vf(pt(1,p.width),1),w=p.points=Be(
-{},{size:g,width:pt(1,g*.2),stroke:p.stroke,space:g*2,paths:rm,_stroke:null,_fill:null},p.points);w.show=pe(w.show),w.filter=pe(w.filter),w.fill=pe(w.fill),w.stroke=
+g,Cu),bt(g,p.class),Kt(g,-10,-10,re,V),y.insertBefore(g,Mt[f]),g}function fa(p,f){if(s==1||f>0){let g=s==1&&E[p.scale].time,w=p.value;p.value=g?Kl(w)?nc(B,tc(w,
+I)):w||J:w||Vf,p.label=p.label||(g?If:Ff)}if(Un||f>0){p.width=p.width==null?1:p.width,p.paths=p.paths||rm||qu,p.fillTo=pe(p.fillTo||Jf),p.pxAlign=+ye(p.pxAlign,
+M),p.pxRound=pc(p.pxAlign),p.stroke=pe(p.stroke||null),p.fill=pe(p.fill||null),p._stroke=p._fill=p._paths=p._focus=null;let g=zf(pt(1,p.width),1),w=p.points=Be(
+{},{size:g,width:pt(1,g*.2),stroke:p.stroke,space:g*2,paths:im,_stroke:null,_fill:null},p.points);w.show=pe(w.show),w.filter=pe(w.filter),w.fill=pe(w.fill),w.stroke=
 pe(w.stroke),w.paths=pe(w.paths),w.pxAlign=p.pxAlign}if(fe){let g=nn(p,f);ve.splice(f,0,g[0]),st.splice(f,0,g[1]),q.values.push(null)}if(de){Q.splice(f,0,null);
 let g=null;Un?f==0&&(g=ua(p,f)):f>0&&(g=ua(p,f)),Mt.splice(f,0,g),Bn.splice(f,0,0),Wn.splice(f,0,0)}Qe("addSeries",f)}function nd(p,f){f=f??k.length,p=s==1?Ti(p,
 f,sc,cc):Ti(p,f,{},lc),k.splice(f,0,p),fa(k[f],f)}o.addSeries=nd;function od(p){if(k.splice(p,1),fe){q.values.splice(p,1),st.splice(p,1);let f=ve.splice(p,1)[0];
 Jt(null,f.firstChild),f.remove()}de&&(Q.splice(p,1),Mt.splice(p,1)[0].remove(),Bn.splice(p,1),Wn.splice(p,1)),Qe("delSeries",p)}o.delSeries=od;let bn=[!1,!1,!1,
 !1];function sd(p,f){if(p._show=p.show,p.show){let g=p.side%2,w=E[p.scale];w==null&&(p.scale=g?k[1].scale:L,w=E[p.scale]);let v=w.time;p.size=pe(p.size),p.space=
-pe(p.space),p.rotate=pe(p.rotate),dn(p.incrs)&&p.incrs.forEach(N=>{!un.has(N)&&un.set(N,Mc(N))}),p.incrs=pe(p.incrs||(w.distr==2?gf:v?x==1?wf:vf:_n)),p.splits=pe(
-p.splits||(v&&w.distr==1?ie:w.distr==3?vi:w.distr==4?Uf:Of)),p.stroke=pe(p.stroke),p.grid.stroke=pe(p.grid.stroke),p.ticks.stroke=pe(p.ticks.stroke),p.border.stroke=
-pe(p.border.stroke);let T=p.values;p.values=dn(T)&&!dn(T[0])?pe(T):v?dn(T)?ec(B,Ql(T,I)):Kl(T)?Mf(B,T):T||K:T||If,p.filter=pe(p.filter||(w.distr>=3&&w.log==10?Gf:
-w.distr==3&&w.log==2?Hf:kc)),p.font=mc(p.font),p.labelFont=mc(p.labelFont),p._size=p.size(o,null,f,0),p._space=p._rotate=p._incrs=p._found=p._splits=p._values=null,
-p._size>0&&(bn[f]=!0,p._el=Et(Tu,d))}}function Co(p,f,g,w){let[v,T,N,R]=g,F=f%2,H=0;return F==0&&(R||T)&&(H=f==0&&!v||f==2&&!N?je(oc.size/3):0),F==1&&(v||N)&&(H=
+pe(p.space),p.rotate=pe(p.rotate),dn(p.incrs)&&p.incrs.forEach(N=>{!un.has(N)&&un.set(N,Mc(N))}),p.incrs=pe(p.incrs||(w.distr==2?yf:v?x==1?bf:kf:_n)),p.splits=pe(
+p.splits||(v&&w.distr==1?ie:w.distr==3?vi:w.distr==4?Bf:Uf)),p.stroke=pe(p.stroke),p.grid.stroke=pe(p.grid.stroke),p.ticks.stroke=pe(p.ticks.stroke),p.border.stroke=
+pe(p.border.stroke);let T=p.values;p.values=dn(T)&&!dn(T[0])?pe(T):v?dn(T)?ec(B,Ql(T,I)):Kl(T)?Tf(B,T):T||K:T||Of,p.filter=pe(p.filter||(w.distr>=3&&w.log==10?Hf:
+w.distr==3&&w.log==2?jf:kc)),p.font=mc(p.font),p.labelFont=mc(p.labelFont),p._size=p.size(o,null,f,0),p._space=p._rotate=p._incrs=p._found=p._splits=p._values=null,
+p._size>0&&(bn[f]=!0,p._el=Et(Au,d))}}function Co(p,f,g,w){let[v,T,N,R]=g,F=f%2,H=0;return F==0&&(R||T)&&(H=f==0&&!v||f==2&&!N?je(oc.size/3):0),F==1&&(v||N)&&(H=
 f==1&&!T||f==3&&!R?je(ic.size/2):0),H}let ma=o.padding=(t.padding||[Co,Co,Co,Co]).map(p=>pe(ye(p,Co))),on=o._padding=ma.map((p,f)=>p(o,f,bn,0)),tt,Ke=null,Je=null,
 rs=s==1?k[0].idxs:null,Dt=null,Lo=!1;function ga(p,f){if(e=p??[],o.data=o._data=e,s==2){tt=0;for(let g=1;g<k.length;g++)tt+=e[g][0].length}else{e.length==0&&(o.
 data=o._data=e=[[]]),Dt=e[0],tt=Dt.length;let g=e;if(ee==2){g=e.slice();let w=g[0]=Array(tt);for(let v=0;v<tt;v++)w[v]=v}o._data=e=g}if(Hn(!0),Qe("setData"),ee==
@@ -519,9 +520,9 @@ rs[1]=tt-1,p=e[0][Ke],f=e[0][Je],ee==2?(p=Ke,f=Je):p==f&&(ee==3?[p,f]=Ws(p,p,$.l
 (Ke=rs[0]=p=null,Je=rs[1]=f=null)),rn(L,p,f)}let is,Gn,Cr,Lr,Nr,Dr,Rr,$r,Fr,ut;function ya(p,f,g,w,v,T){p??=Nl,g??=Ni,w??="butt",v??=Nl,T??="round",p!=is&&(u.strokeStyle=
 is=p),v!=Gn&&(u.fillStyle=Gn=v),f!=Cr&&(u.lineWidth=Cr=f),T!=Nr&&(u.lineJoin=Nr=T),w!=Dr&&(u.lineCap=Dr=w),g!=Lr&&u.setLineDash(Lr=g)}function wa(p,f,g,w){f!=Gn&&
 (u.fillStyle=Gn=f),p!=Rr&&(u.font=Rr=p),g!=$r&&(u.textAlign=$r=g),w!=Fr&&(u.textBaseline=Fr=w)}function Ir(p,f,g,w,v=0){if(w.length>0&&p.auto(o,Lo)&&(f==null||f.
-min==null)){let T=ye(Ke,0),N=ye(Je,w.length-1),R=g.min==null?Wu(w,T,N,v,p.distr==3):[g.min,g.max];p.min=Ut(p.min,g.min=R[0]),p.max=pt(p.max,g.max=R[1])}}let ba={
+min==null)){let T=ye(Ke,0),N=ye(Je,w.length-1),R=g.min==null?Gu(w,T,N,v,p.distr==3):[g.min,g.max];p.min=Ut(p.min,g.min=R[0]),p.max=pt(p.max,g.max=R[1])}}let ba={
 min:null,max:null};function rd(){for(let w in E){let v=E[w];_[w]==null&&(v.min==null||_[L]!=null&&v.auto(o,Lo))&&(_[w]=ba)}for(let w in E){let v=E[w];_[w]==null&&
-v.from!=null&&_[v.from]!=null&&(_[w]=ba)}_[L]!=null&&Hn(!0);let p={};for(let w in _){let v=_[w];if(v!=null){let T=p[w]=vo(E[w],Ju);if(v.min!=null)Be(T,v);else if(w!=
+v.from!=null&&_[v.from]!=null&&(_[w]=ba)}_[L]!=null&&Hn(!0);let p={};for(let w in _){let v=_[w];if(v!=null){let T=p[w]=vo(E[w],Xu);if(v.min!=null)Be(T,v);else if(w!=
 L||s==2)if(tt==0&&T.from==null){let N=T.range(o,null,null,w);T.min=N[0],T.max=N[1]}else T.min=Me,T.max=-Me}}if(tt>0){k.forEach((w,v)=>{if(s==1){let T=w.scale,N=_[T];
 if(N==null)return;let R=p[T];if(v==0){let F=R.range(o,R.min,R.max,T);R.min=F[0],R.max=F[1],Ke=Ot(R.min,e[0]),Je=Ot(R.max,e[0]),Je-Ke>1&&(e[0][Ke]<R.min&&Ke++,e[0][Je]>
 R.max&&Je--),w.min=Dt[Ke],w.max=Dt[Je]}else w.show&&w.auto&&Ir(R,N,w,e[v],w.sorted);w.idxs[0]=Ke,w.idxs[1]=Je}else if(v>0&&w.show&&w.auto){let[T,N]=w.facets,R=T.
@@ -539,12 +540,12 @@ gaps:null,T=f.points.show(o,g,Ke,Je,v),N=f.points.filter(o,g,T,v);(T||N)&&(f.poi
 points:k[p],{stroke:w,fill:v,clip:T,flags:N,_stroke:R=g._stroke,_fill:F=g._fill,_width:H=g.width}=g._paths;H=Te(H*be,3);let j=null,Y=H%2/2;f&&F==null&&(F=H>0?"#\
 fff":R);let oe=g.pxAlign==1&&Y>0;if(oe&&u.translate(Y,Y),!f){let we=ft-H/2,ge=kt-H/2,ce=dt+H,ne=Nt+H;j=new Path2D,j.rect(we,ge,ce,ne)}f?Or(R,H,g.dash,g.cap,F,w,
 v,N,T):ld(p,R,H,g.dash,g.cap,F,w,v,N,j,T),oe&&u.translate(-Y,-Y)}function ld(p,f,g,w,v,T,N,R,F,H,j){let Y=!1;F!=0&&D.forEach((oe,we)=>{if(oe.series[0]==p){let ge=k[oe.
-series[1]],ce=e[oe.series[1]],ne=(ge._paths||Xo).band;dn(ne)&&(ne=oe.dir==1?ne[0]:ne[1]);let Z,_e=null;ge.show&&ne&&Hu(ce,Ke,Je)?(_e=oe.fill(o,we)||T,Z=ge._paths.
+series[1]],ce=e[oe.series[1]],ne=(ge._paths||Xo).band;dn(ne)&&(ne=oe.dir==1?ne[0]:ne[1]);let Z,_e=null;ge.show&&ne&&ju(ce,Ke,Je)?(_e=oe.fill(o,we)||T,Z=ge._paths.
 clip):ne=null,Or(f,g,w,v,_e,N,R,F,H,j,Z,ne),Y=!0}}),Y||Or(f,g,w,v,T,N,R,F,H,j)}let ka=ko|Si;function Or(p,f,g,w,v,T,N,R,F,H,j,Y){ya(p,f,g,w,v),(F||H||Y)&&(u.save(),
 F&&u.clip(F),H&&u.clip(H)),Y?(R&ka)==ka?(u.clip(Y),j&&u.clip(j),ls(v,N),as(p,T,f)):R&Si?(ls(v,N),u.clip(Y),as(p,T,f)):R&ko&&(u.save(),u.clip(Y),j&&u.clip(j),ls(
 v,N),u.restore(),as(p,T,f)):(ls(v,N),as(p,T,f)),(F||H||Y)&&u.restore()}function as(p,f,g){g>0&&(f instanceof Map?f.forEach((w,v)=>{u.strokeStyle=is=v,u.stroke(w)}):
 f!=null&&p&&u.stroke(f))}function ls(p,f){f instanceof Map?f.forEach((g,w)=>{u.fillStyle=Gn=w,u.fill(g)}):f!=null&&p&&u.fill(f)}function cd(p,f,g,w){let v=A[p],
-T;if(w<=0)T=[0,0];else{let N=v._space=v.space(o,p,f,g,w),R=v._incrs=v.incrs(o,p,f,g,w,N);T=pm(f,g,R,w,N)}return v._found=T}function Ur(p,f,g,w,v,T,N,R,F,H){let j=N%
+T;if(w<=0)T=[0,0];else{let N=v._space=v.space(o,p,f,g,w),R=v._incrs=v.incrs(o,p,f,g,w,N);T=dm(f,g,R,w,N)}return v._found=T}function Ur(p,f,g,w,v,T,N,R,F,H){let j=N%
 2/2;M==1&&u.translate(j,j),ya(R,N,F,H,R),u.beginPath();let Y,oe,we,ge,ce=v+(w==0||w==3?-T:T);g==0?(oe=v,ge=ce):(Y=v,we=ce);for(let ne=0;ne<p.length;ne++)f[ne]!=
 null&&(g==0?Y=we=p[ne]:oe=ge=p[ne],u.moveTo(Y,oe),u.lineTo(we,ge));u.stroke(),M==1&&u.translate(-j,-j)}function hd(p){let f=!0;return A.forEach((g,w)=>{if(!g.show)
 return;let v=E[g.scale];if(v.min==null){g._show&&(f=!1,g._show=!1,Hn(!1));return}else g._show||(f=!1,g._show=!0,Hn(!1));let T=g.side,N=T%2,{min:R,max:F}=v,[H,j]=cd(
@@ -562,7 +563,7 @@ At[lt]:T=At[lt],yt=""+yt;let kn=yt.indexOf(`
 Wa,v,T+ct*gt)}}}ne.show&&Ur(At,ne.filter(o,ge,p,H,ce),w,g,$e,Re,Te(ne.width*be,3),ne.stroke(o,p),ne.dash,ne.cap);let Yt=f.grid;Yt.show&&Ur(At,Yt.filter(o,ge,p,H,
 ce),w,w==0?2:1,w==0?kt:ft,w==0?Nt:dt,Te(Yt.width*be,3),Yt.stroke(o,p),Yt.dash,Yt.cap),Z.show&&Ur([$e],[1],w==0?1:0,w==0?1:2,w==1?kt:ft,w==1?Nt:dt,Te(Z.width*be,
 3),Z.stroke(o,p),Z.dash,Z.cap)}Qe("drawAxes")}function Hn(p){k.forEach((f,g)=>{g>0&&(f._paths=null,p&&(s==1?(f.min=null,f.max=null):f.facets.forEach(w=>{w.min=null,
-w.max=null})))})}let cs=!1,Br=!1,No=[];function ud(){Br=!1;for(let p=0;p<No.length;p++)Qe(...No[p]);No.length=0}function jn(){cs||(of(Sa),cs=!0)}function fd(p,f=!1){
+w.max=null})))})}let cs=!1,Br=!1,No=[];function ud(){Br=!1;for(let p=0;p<No.length;p++)Qe(...No[p]);No.length=0}function jn(){cs||(sf(Sa),cs=!0)}function fd(p,f=!1){
 cs=!0,Br=f,p(o),Sa(),f&&No.length>0&&queueMicrotask(ud)}o.batch=fd;function Sa(){if(Er&&(rd(),Er=!1),In&&(Zp(),In=!1),os){if(Ce(m,go,Se),Ce(m,"top",De),Ce(m,Yo,
 re),Ce(m,qo,V),Ce(y,go,Se),Ce(y,"top",De),Ce(y,Yo,re),Ce(y,qo,V),Ce(d,Yo,Lt),Ce(d,qo,Gt),h.width=je(Lt*be),h.height=je(Gt*be),A.forEach(({_el:p,_show:f,_size:g,
 _pos:w,side:v})=>{if(p!=null)if(f){let T=v===3||v===0?g:0,N=v%2==1;Ce(p,N?"left":"top",w-T),Ce(p,N?"width":"height",g),Ce(p,N?"top":"left",N?De:Se),Ce(p,N?"heig\
@@ -573,8 +574,8 @@ Pt(Wn[g]),re,V))}}if(Pe.show&&!ss&&Pe.left>=0&&Pe.width>0){Pe.left*=p,Pe.width*=
 yn=!1),q.show&&q.live&&St&&(jr(),St=!1),l||(l=!0,o.status=1,Qe("ready")),Lo=!1,cs=!1}o.redraw=(p,f)=>{In=f||!1,p!==!1?rn(L,$.min,$.max):jn()};function Wr(p,f){let g=E[p];
 if(g.from==null){if(tt==0){let w=g.range(o,f.min,f.max,p);f.min=w[0],f.max=w[1]}if(f.min>f.max){let w=f.min;f.min=f.max,f.max=w}if(tt>1&&f.min!=null&&f.max!=null&&
 f.max-f.min<1e-16)return;p==L&&g.distr==2&&tt>0&&(f.min=Ot(f.min,e[0]),f.max=Ot(f.max,e[0]),f.min==f.max&&f.max++),_[p]=f,Er=!0,jn()}}o.setScale=Wr;let Gr,Hr,Vn,
-zn,Ma,Ta,Yn,qn,Aa,Ea,Ee,Le,sn=!1,nt=W.drag,Xe=nt.x,Ze=nt.y;de&&(W.x&&(Gr=Et(Eu,y)),W.y&&(Hr=Et(Pu,y)),$.ori==0?(Vn=Gr,zn=Hr):(Vn=Hr,zn=Gr),Ee=W.left,Le=W.top);let Pe=o.
-select=Be({show:!0,over:!0,left:0,width:0,top:0,height:0},t.select),Kn=Pe.show?Et(Au,Pe.over?y:m):null;function hs(p,f){if(Pe.show){for(let g in p)Pe[g]=p[g],g in
+zn,Ma,Ta,Yn,qn,Aa,Ea,Ee,Le,sn=!1,nt=W.drag,Xe=nt.x,Ze=nt.y;de&&(W.x&&(Gr=Et(Pu,y)),W.y&&(Hr=Et(_u,y)),$.ori==0?(Vn=Gr,zn=Hr):(Vn=Hr,zn=Gr),Ee=W.left,Le=W.top);let Pe=o.
+select=Be({show:!0,over:!0,left:0,width:0,top:0,height:0},t.select),Kn=Pe.show?Et(Eu,Pe.over?y:m):null;function hs(p,f){if(Pe.show){for(let g in p)Pe[g]=p[g],g in
 zr&&Ce(Kn,g,p[g]);f!==!1&&Qe("setSelect")}}o.setSelect=hs;function md(p){if(k[p].show)fe&&wi(ve[p],Cn);else if(fe&&bt(ve[p],Cn),de){let g=Un?Mt[0]:Mt[p];g!=null&&
 Kt(g,-10,-10,re,V)}}function rn(p,f,g){Wr(p,{min:f,max:g})}function jt(p,f,g,w){f.focus!=null&&xd(p),f.show!=null&&k.forEach((v,T)=>{T>0&&(p==T||p==null)&&(v.show=
 f.show,md(T),s==2?(rn(v.facets[0].scale,null,null),rn(v.facets[1].scale,null,null)):rn(v.scale,null,null),jn())}),g!==!1&&Qe("setSeries",p,f),w&&Fo("setSeries",
@@ -582,11 +583,11 @@ o,p,f)}o.setSeries=jt;function gd(p,f){Be(D[p],f)}function yd(p,f){p.fill=pe(p.f
 D.length=0:D.splice(p,1)}o.addBand=yd,o.setBand=gd,o.delBand=wd;function bd(p,f){k[p].alpha=f,de&&Mt[p]!=null&&(Mt[p].style.opacity=f),fe&&ve[p]&&(ve[p].style.opacity=
 f)}let Xt,an,xn,Jn={focus:!0};function xd(p){if(p!=xn){let f=p==null,g=Ht.alpha!=1;k.forEach((w,v)=>{if(s==1||v>0){let T=f||v==0||v==p;w._focus=f?null:T,g&&bd(v,
 T?1:Ht.alpha)}}),xn=p,g&&jn()}}fe&&On&&qe($l,ae,p=>{W._lock||(wn(p),xn!=null&&jt(null,Jn,!0,Oe.setSeries))});function Vt(p,f,g){let w=E[f];g&&(p=p/be-(w.ori==1?
-De:Se));let v=re;w.ori==1&&(v=V,p=v-p),w.dir==-1&&(p=v-p);let T=w._min,N=w._max,R=p/v,F=T+(N-T)*R,H=w.distr;return H==3?bo(10,F):H==4?Vu(F,w.asinh):H==100?w.bwd(
+De:Se));let v=re;w.ori==1&&(v=V,p=v-p),w.dir==-1&&(p=v-p);let T=w._min,N=w._max,R=p/v,F=T+(N-T)*R,H=w.distr;return H==3?bo(10,F):H==4?zu(F,w.asinh):H==100?w.bwd(
 F):F}function vd(p,f){let g=Vt(p,L,f);return Ot(g,e[0],Ke,Je)}o.valToIdx=p=>Ot(p,e[0]),o.posToIdx=vd,o.posToVal=Vt,o.valToPos=(p,f,g)=>E[f].ori==0?r(p,E[f],g?dt:
 re,g?ft:0):i(p,E[f],g?Nt:V,g?kt:0),o.setCursor=(p,f,g)=>{Ee=p.left,Le=p.top,vn(null,f,g)};function Pa(p,f){Ce(Kn,go,Pe.left=p),Ce(Kn,Yo,Pe.width=f)}function _a(p,f){
 Ce(Kn,"top",Pe.top=p),Ce(Kn,qo,Pe.height=f)}let Do=$.ori==0?Pa:_a,Ro=$.ori==1?Pa:_a;function kd(){if(fe&&q.live)for(let p=s==2?1:0;p<k.length;p++){if(p==0&&Ne)continue;
-let f=q.values[p],g=0;for(let w in f)st[p][g++].firstChild.nodeValue=f[w]}}function jr(p,f){if(p!=null&&(p.idxs?p.idxs.forEach((g,w)=>{Q[w]=g}):Ku(p.idx)||Q.fill(
+let f=q.values[p],g=0;for(let w in f)st[p][g++].firstChild.nodeValue=f[w]}}function jr(p,f){if(p!=null&&(p.idxs?p.idxs.forEach((g,w)=>{Q[w]=g}):Ju(p.idx)||Q.fill(
 p.idx),q.idx=Q[0]),fe&&q.live){for(let g=0;g<k.length;g++)(g>0||s==1&&!Ne)&&Sd(g,Q[g]);kd()}St=!1,f!==!1&&Qe("setLegend")}o.setLegend=jr;function Sd(p,f){let g=k[p],
 w=p==0&&ee==2?Dt:e[p],v;Ne?v=g.values(o,p,f)??Ie:(v=g.value(o,f==null?null:w[f],p,f),v=v==null?Ie:{_:v}),q.values[p]=v}function vn(p,f,g){Aa=Ee,Ea=Le,[Ee,Le]=W.
 move(o,Ee,Le),W.left=Ee,W.top=Le,de&&(Vn&&Kt(Vn,je(Ee),0,re,V),zn&&Kt(zn,0,je(Le),re,V));let w,v=Ke>Je;Xt=Me,an=null;let T=$.ori==0?re:V,N=$.ori==1?re:V;if(Ee<0||
@@ -619,7 +620,7 @@ Pe),nt.setScale&&Y&&oe){let we=R,ge=H,ce=F,ne=j;if($.ori==1&&(we=F,ge=j,ce=R,ne=
 null&&_e.min!=Me&&rn(Z,Vt(ce+ne,Z),Vt(ce,Z))}Yr()}else W.lock&&(W._lock=!W._lock,vn(f,!0,p!=null));p!=null&&(Jt(pi,gi),Fo(pi,o,Ee,Le,re,V,null))}function Md(p,f,g,w,v,T,N){
 if(W._lock)return;wn(p);let R=sn;if(sn){let F=!0,H=!0,j=10,Y,oe;$.ori==0?(Y=Xe,oe=Ze):(Y=Ze,oe=Xe),Y&&oe&&(F=Ee<=j||Ee>=re-j,H=Le<=j||Le>=V-j),Y&&F&&(Ee=Ee<Yn?0:
 re),oe&&H&&(Le=Le<qn?0:V),vn(null,!0,!0),sn=!1}Ee=-10,Le=-10,Q.fill(null),vn(null,!0,!0),R&&(sn=R)}function Ia(p,f,g,w,v,T,N){W._lock||(wn(p),_r(),Yr(),p!=null&&
-Fo(Fl,o,Ee,Le,re,V,null))}function Oa(){A.forEach(dm),Pr(o.width,o.height,!0)}Ln(Is,wo,Oa);let Xn={};Xn.mousedown=$a,Xn.mousemove=Ca,Xn.mouseup=Fa,Xn.dblclick=Ia,
+Fo(Fl,o,Ee,Le,re,V,null))}function Oa(){A.forEach(um),Pr(o.width,o.height,!0)}Ln(Is,wo,Oa);let Xn={};Xn.mousedown=$a,Xn.mousemove=Ca,Xn.mouseup=Fa,Xn.dblclick=Ia,
 Xn.setSeries=(p,f,g,w)=>{let v=Oe.match[2];g=v(o,f,g),g!=-1&&jt(g,w,!0,!1)},de&&(qe(Dl,y,$a),qe(hi,y,Ca),qe(Rl,y,p=>{wn(p),$o(!1)}),qe($l,y,Md),qe(Fl,y,Ia),Mi.add(
 o),o.syncRect=$o);let ps=o.hooks=t.hooks||{};function Qe(p,f,g){Br?No.push([p,f,g]):p in ps&&ps[p].forEach(w=>{w.call(null,o,f,g)})}(t.plugins||[]).forEach(p=>{
 for(let f in p.hooks)ps[f]=(ps[f]||[]).concat(p.hooks[f])});let Ua=(p,f,g)=>g,Oe=Be({key:null,setSeries:!1,filters:{pub:Yl,sub:Yl},scales:[L,k[1]?k[1].scale:null],
@@ -627,24 +628,24 @@ match:[ql,ql,Ua],values:[null,null]},W.sync);Oe.match.length==2&&Oe.match.push(U
 f,g,w,v,T,N)&&qr.pub(p,f,g,w,v,T,N)}qr.sub(o);function Td(p,f,g,w,v,T,N){Oe.filters.sub(p,f,g,w,v,T,N)&&Xn[p](null,f,g,w,v,T,N)}o.pub=Td;function Ad(){qr.unsub(
 o),Mi.delete(o),Wt.clear(),bi(Is,wo,Oa),c.remove(),ae?.remove(),Qe("destroy")}o.destroy=Ad;function Kr(){Qe("init",t,e),ga(e||t.data,!1),_[L]?Wr(L,_[L]):_r(),ss=
 Pe.show&&(Pe.width>0||Pe.height>0),yn=St=!0,Pr(t.width,t.height)}return k.forEach(fa),A.forEach(sd),n?n instanceof HTMLElement?(n.appendChild(c),Kr()):n(o,Kr):Kr(),
-o}ze.assign=Be;ze.fmtNum=Li;ze.rangeNum=Os;ze.rangeLog=Ws;ze.rangeAsinh=_i;ze.orient=Dn;ze.pxRatio=be;ze.join=nf;ze.fmtDate=Di,ze.tzDate=ff;ze.sync=jc;{ze.addGap=
-Jf,ze.clipGaps=js;let t=ze.paths={points:Jc};t.linear=Zc,t.stepped=Qf,t.bars=em,t.spline=nm}var qs=128,nh=50,um=.25,fm=t=>[t.ray,t.truth,t.sensor,t.noReturn],mm=(t,e)=>Math.max(40,14+6.6*Math.max(0,...(e??[]).map(n=>n?.length??0))),gm=({data:t})=>Math.
+o}ze.assign=Be;ze.fmtNum=Li;ze.rangeNum=Os;ze.rangeLog=Ws;ze.rangeAsinh=_i;ze.orient=Dn;ze.pxRatio=be;ze.join=of;ze.fmtDate=Di,ze.tzDate=mf;ze.sync=jc;{ze.addGap=
+Xf,ze.clipGaps=js;let t=ze.paths={points:Jc};t.linear=Zc,t.stepped=em,t.bars=tm,t.spline=om}var qs=128,nh=50,fm=.25,mm=t=>[t.ray,t.truth,t.sensor,t.noReturn],gm=(t,e)=>Math.max(40,14+6.6*Math.max(0,...(e??[]).map(n=>n?.length??0))),ym=({data:t})=>Math.
 max(10,4+3.3*(t?.[0]?.at(-1)??0).toLocaleString("en").length),Ks=(t,e)=>({font:Ms,size:e,stroke:()=>t().axis,grid:{stroke:()=>t().lines,width:1},ticks:{stroke:()=>t().
 frame,width:1,size:4}});function oh(t,e,n){let o=null,s=null,r=()=>Math.floor(t.clientWidth);return new ResizeObserver(()=>o&&r()>0&&o.setSize({width:r(),height:qs})).
 observe(t),i=>r()<=0?null:((!o||i||s!==n())&&(o?.destroy(),o=e(),o.setSize({width:r(),height:qs}),s=n()),o)}function sh(t,e){let{session:n}=t,o=S("div",{className:"\
 chart",role:"img","aria-label":"Trace: log joint by sweep"}),s="all",r=t.segmented("Trace",[["all","All"],["first",`First ${nh}`]],()=>s,y=>{s=y,c=null,n.changed()}),
-i=0,a=-1/0,l=-1,c=null,u=oh(o,()=>{let y=fm(e()),M=Array.from({length:i},(b,x)=>({label:`chain ${x+1}`,stroke:y[x%y.length],width:1,points:{show:!1}}));return new ze(
-{width:100,height:qs,legend:{show:!1},cursor:{drag:{x:!1,y:!1},y:!1},padding:[8,gm,0,0],scales:{x:{time:!1,range:(b,x,k)=>[x,Math.max(k,x+1)]},y:{range:(b,x,k)=>xm(
-Math.max(x,a),k)}},axes:[Ks(e,26),Ks(e,mm)],series:[{label:"sweep"},...M],hooks:{draw:[b=>km(b,l,e()),b=>vm(b,c?.burned??0,e())]}},[[],...M.map(()=>[])],o)},e),
+i=0,a=-1/0,l=-1,c=null,u=oh(o,()=>{let y=mm(e()),M=Array.from({length:i},(b,x)=>({label:`chain ${x+1}`,stroke:y[x%y.length],width:1,points:{show:!1}}));return new ze(
+{width:100,height:qs,legend:{show:!1},cursor:{drag:{x:!1,y:!1},y:!1},padding:[8,ym,0,0],scales:{x:{time:!1,range:(b,x,k)=>[x,Math.max(k,x+1)]},y:{range:(b,x,k)=>vm(
+Math.max(x,a),k)}},axes:[Ks(e,26),Ks(e,gm)],series:[{label:"sweep"},...M],hooks:{draw:[b=>Sm(b,l,e()),b=>km(b,c?.burned??0,e())]}},[[],...M.map(()=>[])],o)},e),
 d=S("span",{className:"caption",textContent:"log joint by sweep"}),m=S("div",{className:"charted"},S("div",{className:"buttons"},r,d),o);return t.each(()=>{let y=n.
 shown,M=y?.traced?.length?y.trace.length/y.traced.length:0;if(C(m,"hidden",M===0&&(m.hidden||!n.working)),!y||!M)return;let b=n.document?.source.kind==="run"?"d\
 raw":"sweep";C(d,"textContent",`log joint by ${b}`);let x=y.layer==="draw"&&n.draws.count?(n.draw+1)*y.traced[y.traced.length-1]/n.draws.count:-1,k=u(M!==i&&(i=
-M,!0));if(!k||c===y&&l===x&&k.data[0].length)return;[c,l]=[y,x],a=s==="all"?bm(y,M):-1/0;let A=ym(y,M,s);k.setData(A),o.setAttribute("data-sweeps",A[0].join())}),
-m}function ym({trace:t,traced:e},n,o){let s=o==="all"?wm(e):[...e.keys()].filter(i=>e[i]<=nh),r=i=>Float32Array.from(s,a=>i[a]);return[r(e),...Array.from({length:n},
-(i,a)=>r(t.subarray(a*e.length,(a+1)*e.length)))]}function wm(t){let e=t.length,n=e>2?Math.min(t[e-1]-t[e-2],t[e-2]-t[e-3]):1,o=-1/0;return[...t.keys()].filter(
-s=>t[s]<o&&s<e-1?!1:(o=t[s]+n,!0))}function bm({trace:t,traced:e},n){let o=e.length,s=e.findIndex(r=>r>=um*e[o-1]);return Math.min(...Array.from({length:n},(r,i)=>Math.
-min(...t.slice(i*o+s,(i+1)*o))))}function xm(t,e){let n=Math.max(.06*(e-t),.5);return[t-n,e+n]}function vm(t,e,n){let{left:o,top:s,width:r,height:i}=t.bbox;e&&(t.
-ctx.save(),t.ctx.globalAlpha=.12,t.ctx.fillStyle=n.axis,t.ctx.fillRect(o,s,Math.min(r,Math.max(0,t.valToPos(e,"x",!0)-o)),i),t.ctx.restore())}function km(t,e,n){
+M,!0));if(!k||c===y&&l===x&&k.data[0].length)return;[c,l]=[y,x],a=s==="all"?xm(y,M):-1/0;let A=wm(y,M,s);k.setData(A),o.setAttribute("data-sweeps",A[0].join())}),
+m}function wm({trace:t,traced:e},n,o){let s=o==="all"?bm(e):[...e.keys()].filter(i=>e[i]<=nh),r=i=>Float32Array.from(s,a=>i[a]);return[r(e),...Array.from({length:n},
+(i,a)=>r(t.subarray(a*e.length,(a+1)*e.length)))]}function bm(t){let e=t.length,n=e>2?Math.min(t[e-1]-t[e-2],t[e-2]-t[e-3]):1,o=-1/0;return[...t.keys()].filter(
+s=>t[s]<o&&s<e-1?!1:(o=t[s]+n,!0))}function xm({trace:t,traced:e},n){let o=e.length,s=e.findIndex(r=>r>=fm*e[o-1]);return Math.min(...Array.from({length:n},(r,i)=>Math.
+min(...t.slice(i*o+s,(i+1)*o))))}function vm(t,e){let n=Math.max(.06*(e-t),.5);return[t-n,e+n]}function km(t,e,n){let{left:o,top:s,width:r,height:i}=t.bbox;e&&(t.
+ctx.save(),t.ctx.globalAlpha=.12,t.ctx.fillStyle=n.axis,t.ctx.fillRect(o,s,Math.min(r,Math.max(0,t.valToPos(e,"x",!0)-o)),i),t.ctx.restore())}function Sm(t,e,n){
 if(e<0)return;let{left:o,top:s,width:r,height:i}=t.bbox,a=t.valToPos(e,"x",!0);a<o||a>o+r||(t.ctx.save(),t.ctx.fillStyle=n.axis,t.ctx.fillRect(a-1,s,2,i),t.ctx.
 restore())}function rh(t,e){let{session:n}=t,o=S("div",{className:"chart",role:"img","aria-label":"Histogram of the particles' weights"}),s=S("div",{className:"\
 caption",textContent:"particles by weight, nats below the heaviest"}),r=S("div",{className:"charted"},s,o),a=oh(o,()=>new ze({width:100,height:qs,legend:{show:!1},
@@ -654,57 +655,57 @@ each(()=>{let c=n.shown;C(r,"hidden",!c?.weights);let h=c?.weights&&a(!1);if(!c?
 -1)/u.length,m=[...u.map((y,M)=>(c.lowest??-1)+M*d),0];h.setData([m,[...u.map(y=>y||null),null]])}),r}function ih(t){let{session:e,hand:n}=t,{decisions:o}=e,s=S("p",{className:"said",role:"status"}),r=S("div",{className:"double"},t.numberInput("Robot's radius (m\
 )",()=>o.radius,c=>o.set({radius:c}),{step:"any",limits:"radius"}),t.numberInput("Highest risk",()=>o.risk,c=>o.set({risk:c}),{step:"any",limits:"risk"})),i=()=>n.
 tool==="path"?"Path":"Where to look next",a=t.section("Decision",r,s),l=a.querySelector("h2");return t.visible(a,()=>n.tool==="path"||n.tool==="look"),t.visible(
-r,()=>n.tool==="path"),t.each(()=>{C(l,"textContent",i()),C(s,"textContent",n.tool==="path"?Sm(t):Mm(t))}),a}function Sm({session:t}){let{start:e,goal:n,path:o,
+r,()=>n.tool==="path"),t.each(()=>{C(l,"textContent",i()),C(s,"textContent",n.tool==="path"?Mm(t):Tm(t))}),a}function Mm({session:t}){let{start:e,goal:n,path:o,
 trouble:s}=t.decisions;if(s)return s;if(!e)return"Click where the robot is, then where it is to go.";if(!n)return"Now click where it is to go.";if(!o)return t.shown?.
 approximate?"Waiting for draws of the map.":"Looking for a path.";let r=o.within_risk?"":" No path was found whose risk is low enough; this is the safest.";return`${me(
 o.length_m,2)} m, free with probability ${me(o.probability,3)} ± ${me(o.standard_error,3)} by ${o.draws} draws. Independent cells would say ${me(o.independent,
-3)}.${r}`}function Mm({session:t}){let{views:e,viewTrouble:n}=t.decisions;if(n)return n;if(!e)return"Working out how much a scan would tell.";let o=Math.max(...e.
+3)}.${r}`}function Tm({session:t}){let{views:e,viewTrouble:n}=t.decisions;if(n)return n;if(!e)return"Working out how much a scan would tell.";let o=Math.max(...e.
 nats),s=t.editable?" Click to place another sensor.":"";return`One more scan would tell ${me(Math.min(...e.nats),1)} to ${me(o,1)} nats, cells taken for indepen\
-dent; the best place has a ring.${s}`}var Tm=[["tutorial","the tutorial's map"],["building","a building"],["blank","blank"]],Am="Draw walls, and drag the robot: a beam reads the first wall that it h\
-its, with noise.",Em="Shown is what the readings tell about the walls: how probable each is (mean), one whole map that explains them (one draw), and where doubt\
- remains (entropy). The denser the hatch, the less probably a beam reaches the cell; where it is full, the prior is all there is.",Pm="Shown is what the reading\
+dent; the best place has a ring.${s}`}var Am=[["tutorial","the tutorial's map"],["building","a building"],["blank","blank"]],Em="Draw walls, and drag the robot: a beam reads the first wall that it h\
+its, with noise.",Pm="Shown is what the readings tell about the walls: how probable each is (mean), one whole map that explains them (one draw), and where doubt\
+ remains (entropy). The denser the hatch, the less probably a beam reaches the cell; where it is full, the prior is all there is.",_m="Shown is what the reading\
 s tell about how likely each cell is to stop a beam: what is expected (mean), one whole map that explains them (one draw), and how wide the 90 % interval is (wi\
-dth). The denser the hatch, the less probably a beam reaches the cell; where it is full, the prior is all there is.",_m="While you edit, the answer is belief pr\
-opagation, which is approximate. Gibbs sampling follows, and is exact in the long run.",Cm="This page samples by itself: the answer is that of the chosen method\
- after as many sweeps as are shown, and gets better as they go on.",Lm="The map is made from the scans of this log. Where its poses are raw odometry, Run first \
-infers where the robot was; then it samples maps.",Nm="This is a saved run: its draws, and what they say together.",Dm="Mouse: the wheel zooms, the middle butto\
-n pans.",Rm="Shift or the right button erases, and so does a click on a wall.",$m="Touch: two fingers zoom and pan.";function ah(t){let{session:e}=t,n=S("div"),
-o=tl.map(([i,a,l])=>{let c=S("tr",{},S("th",{scope:"row"},S("kbd",{textContent:i})),S("td",{textContent:a}));return t.visible(c,()=>Fm[l??"all"](e)),c}),s=S("p"),
-r="";return t.each(()=>{let i=e.document?.source.kind,a=e.quantity.interval?Pm:Em,l=e.editable?[`${Am} ${a}`,e.figure?Cm:_m]:i==="log"?[a,Lm]:i==="run"?[a,Nm]:[
-a];l.join()!==r&&n.replaceChildren(...l.map(c=>S("p",{textContent:c}))),r=l.join(),C(s,"textContent",[Dm,...e.editable?[Rm]:[],$m].join(" "))}),t.dialog("Help",
-n,s,S("table",{},S("tbody",{},...o)))}var Fm={all:()=>!0,drawn:t=>t.editable,asked:t=>t.answers,located:t=>t.locates,edited:t=>!t.recorded,inferred:t=>!t.recorded&&
+dth). The denser the hatch, the less probably a beam reaches the cell; where it is full, the prior is all there is.",Cm="While you edit, the answer is belief pr\
+opagation, which is approximate. Gibbs sampling follows, and is exact in the long run.",Lm="This page samples by itself: the answer is that of the chosen method\
+ after as many sweeps as are shown, and gets better as they go on.",Nm="The map is made from the scans of this log. Where its poses are raw odometry, Run first \
+infers where the robot was; then it samples maps.",Dm="This is a saved run: its draws, and what they say together.",Rm="Mouse: the wheel zooms, the middle butto\
+n pans.",$m="Shift or the right button erases, and so does a click on a wall.",Fm="Touch: two fingers zoom and pan.";function ah(t){let{session:e}=t,n=S("div"),
+o=tl.map(([i,a,l])=>{let c=S("tr",{},S("th",{scope:"row"},S("kbd",{textContent:i})),S("td",{textContent:a}));return t.visible(c,()=>Im[l??"all"](e)),c}),s=S("p"),
+r="";return t.each(()=>{let i=e.document?.source.kind,a=e.quantity.interval?_m:Pm,l=e.editable?[`${Em} ${a}`,e.figure?Lm:Cm]:i==="log"?[a,Nm]:i==="run"?[a,Dm]:[
+a];l.join()!==r&&n.replaceChildren(...l.map(c=>S("p",{textContent:c}))),r=l.join(),C(s,"textContent",[Rm,...e.editable?[$m]:[],Fm].join(" "))}),t.dialog("Help",
+n,s,S("table",{},S("tbody",{},...o)))}var Im={all:()=>!0,drawn:t=>t.editable,asked:t=>t.answers,located:t=>t.locates,edited:t=>!t.recorded,inferred:t=>!t.recorded&&
 t.document?.source.kind!=="run"};function lh(t){let e=()=>S("input",{type:"number",step:1,required:!0,value:"21"}),[n,o]=[e(),e()];for(let i of[n,o])t.bounded(i,
-"side");let s=S("select",{});for(let[i,a]of Tm){let l=S("option",{value:i,textContent:a});s.append(l),i!=="blank"&&t.visible(l,()=>!t.session.figure)}t.each(()=>t.
+"side");let s=S("select",{});for(let[i,a]of Am){let l=S("option",{value:i,textContent:a});s.append(l),i!=="blank"&&t.visible(l,()=>!t.session.figure)}t.each(()=>t.
 session.figure&&C(s,"value","blank")),s.addEventListener("change",()=>{s.value==="building"&&Number(n.value)<60&&([n.value,o.value]=["120","80"])});let r=S("for\
 m",{method:"dialog"},t.row("World",s),t.row("Width (cells)",n),t.row("Height (cells)",o),S("div",{className:"buttons end"},S("button",{type:"submit",className:"\
 primary",textContent:"Create"})));return r.addEventListener("submit",()=>{t.session.act({type:"new",shape:[Number(n.value),Number(o.value)],world:s.value}),t.hand.
-selected=null}),t.dialog("New map",r)}var Im="The link holds the walls, the sensors and all settings after its #, and no token. It opens in this browser while t\
-he server runs; the part from # on can be put after the address of any bayesmap page.",Om="The link holds the walls, the sensors and all settings after its #. T\
-he part from # on can be put after the address of any bayesmap page.",Um="The link holds the file's name and all settings after its #, but no scans and no token\
+selected=null}),t.dialog("New map",r)}var Om="The link holds the walls, the sensors and all settings after its #, and no token. It opens in this browser while t\
+he server runs; the part from # on can be put after the address of any bayesmap page.",Um="The link holds the walls, the sensors and all settings after its #. T\
+he part from # on can be put after the address of any bayesmap page.",Bm="The link holds the file's name and all settings after its #, but no scans and no token\
 . It opens in this browser while the server shows this file; the part from # on can be put after the address of any bayesmap page that shows it.";function ch(t){
 let e=S("input",{type:"text",readOnly:!0,"aria-label":"Link"}),n=S("span",{role:"status",className:"copied"}),o=async()=>{e.select();try{await navigator.clipboard.
 writeText(e.value)}catch{document.execCommand("copy")}n.textContent="Copied",setTimeout(()=>n.textContent="",2e3)},s=t.button(null,"Copy the link",o,{className:"\
-primary",text:"Copy"}),r=S("p");t.each(()=>C(r,"textContent",t.session.figure?Om:t.session.document?.source.kind==="simulation"?Im:Um));let i=t.dialog("Share",r,
-S("div",{className:"buttons"},e,s),n);return{dialog:i,show(a){e.value=a,i.showModal(),e.select()}}}var Bm=8;function hh(t){let{session:e,hand:n}=t,o=S("p",{className:"words",role:"status"}),s=S("ol",{className:"spoken"}),r=S("p",{className:"words"}),i=S("canv\
+primary",text:"Copy"}),r=S("p");t.each(()=>C(r,"textContent",t.session.figure?Um:t.session.document?.source.kind==="simulation"?Om:Bm));let i=t.dialog("Share",r,
+S("div",{className:"buttons"},e,s),n);return{dialog:i,show(a){e.value=a,i.showModal(),e.select()}}}var Wm=8;function hh(t){let{session:e,hand:n}=t,o=S("p",{className:"words",role:"status"}),s=S("ol",{className:"spoken"}),r=S("p",{className:"words"}),i=S("canv\
 as",{className:"trace",width:296,height:48,role:"img"}),a=S("p",{className:"caption"}),l=t.section("Evidence of beams",o,r,s,i,a),c=-1;return t.visible(l,()=>n.
-tool==="evidence"),t.each(()=>{let{evidence:h}=e;if(C(o,"textContent",jm(e)),c===h.version)return;c=h.version,C(r,"textContent",Gm(e));let u=Hm(i,h.each?.trace,
+tool==="evidence"),t.each(()=>{let{evidence:h}=e;if(C(o,"textContent",Vm(e)),c===h.version)return;c=h.version,C(r,"textContent",Hm(e));let u=jm(i,h.each?.trace,
 e.draws.chains);C(i,"hidden",!u.length),C(a,"textContent",u.length?`Share of draws so far with a wall, by draw: ${u.map((b,x)=>`chain ${x+1} ${b.toFixed(2)}`).join(
-", ")}`:"");let{nats:d,scan:m,beam:y}=h.each??{nats:[],scan:[],beam:[]},M=Array.from(d.slice(0,Bm),(b,x)=>S("li",{},`${io(b)} nats: ${Wm(e,m[x],y[x])}`));s.replaceChildren(
-...M)}),l}var Wm=({document:t,editable:e},n,o)=>`beam ${o+1} of ${e?`sensor ${t?.sensors[n]?.id??n+1}`:`scan ${n+1}`}`;function Gm({evidence:{together:t},quantity:e,
+", ")}`:"");let{nats:d,scan:m,beam:y}=h.each??{nats:[],scan:[],beam:[]},M=Array.from(d.slice(0,Wm),(b,x)=>S("li",{},`${io(b)} nats: ${Gm(e,m[x],y[x])}`));s.replaceChildren(
+...M)}),l}var Gm=({document:t,editable:e},n,o)=>`beam ${o+1} of ${e?`sensor ${t?.sensors[n]?.id??n+1}`:`scan ${n+1}`}`;function Hm({evidence:{together:t},quantity:e,
 hasDraws:n}){if(!t?.beams||e.kind!=="binary"||t.nats_for===null||t.nats_against===null)return"";let{prior_nats:o,log_odds:s,draw:r,nats_for:i,nats_against:a}=t;
 if(r==null)return"Each beam is asked by itself, with the other cells as probable as they are: the sum is not the log odds of P(wall)."+(n?" Show one draw for th\
 at.":"");if(o==null||s===null||s===void 0)return`Given all other cells of draw ${r+1}.`;let l=1/(1+Math.exp(-s));return`Given all other cells of draw ${r+1}: pr\
-ior ${io(o)}, beams ${io(i-a)}, together log odds ${io(s)}: Gibbs draws a wall with probability ${l.toFixed(3)}.`}function Hm(t,e,n){let o=e&&n?e.length/n:0,s=o?
+ior ${io(o)}, beams ${io(i-a)}, together log odds ${io(s)}: Gibbs draws a wall with probability ${l.toFixed(3)}.`}function jm(t,e,n){let o=e&&n?e.length/n:0,s=o?
 t.getContext("2d"):null,r=s&&getComputedStyle(t);return s?.clearRect(0,0,t.width,t.height),Array.from({length:o?n:0},(i,a)=>{let l=0;s?.beginPath();for(let c=0;c<
 o;c++)l+=e[a*o+c],s?.lineTo(t.width*(c+.5)/o,2+(t.height-4)*(1-l/(c+1)));return s&&r&&(s.strokeStyle=r.getPropertyValue(a?"--truth":"--ray")||"gray"),s?.stroke(),
-l/o})}function jm({evidence:t,quantity:e}){let{cell:n,together:o}=t;if(!n)return"Click a cell to see which beams speak for what is there (blue) and which agains\
+l/o})}function Vm({evidence:t,quantity:e}){let{cell:n,together:o}=t;if(!n)return"Click a cell to see which beams speak for what is there (blue) and which agains\
 t it (orange), in nats each.";let s=`Cell ${n.x}, ${n.y}`;if(!o)return`${s}: asking its beams.`;if(!o.beams)return`${s}: no beam reaches it.`;let r=o.beams===1?
 "1 beam":`${o.beams} beams`;if(o.nats_for===null||o.nats_against===null)return`${s}: ${r}; there are no draws to ask what they say.`;let i={binary:"a wall",surface:"\
 its surface"}[e.kind]??"what is there",a=o.beams_for||o.beams_against?"":" None of them says anything.";return`${s}: ${r}. For ${i} (blue) ${o.beams_for}, ${o.nats_for.
 toFixed(1)} nats; against (orange) ${o.beams_against}, ${o.nats_against.toFixed(1)} nats.${a}`}var ph=t=>Math.round(t*180/Math.PI);function dh(t){let{session:e,hand:n}=t,{ghost:o}=e,s=(l,c)=>t.numberInput(l,()=>Number((o.pose?.[c]??0).toFixed(2)),h=>o.move(
 {[c]:h}),{step:"any"}),r=t.numberInput("Ghost yaw (°)",()=>ph(o.pose?.yaw??0),l=>o.move({yaw:l*Math.PI/180}),{step:5}),i=S("p",{className:"words ghosted"}),a=t.
-section("Ghost",S("div",{className:"triple"},s("Ghost x","x"),s("Ghost y","y"),r),i);return t.visible(a,()=>n.tool==="ghost"),t.each(()=>C(i,"textContent",Vm(t))),
-a}function Vm({session:t}){let{ghost:e}=t;if(e.trouble)return Zt(`${e.trouble}.`);if(!e.fan)return e.pose?"Working out what its laser would read.":"Drag the gho\
+section("Ghost",S("div",{className:"triple"},s("Ghost x","x"),s("Ghost y","y"),r),i);return t.visible(a,()=>n.tool==="ghost"),t.each(()=>C(i,"textContent",zm(t))),
+a}function zm({session:t}){let{ghost:e}=t;if(e.trouble)return Zt(`${e.trouble}.`);if(!e.fan)return e.pose?"Working out what its laser would read.":"Drag the gho\
 st to see what its laser would read.";let{draws:n,low:o,high:s,near:r}=e.fan,i=Array.from(s,(h,u)=>h-o[u]).filter(Number.isFinite).sort((h,u)=>h-u),a=i.length?`${me(
 100*i[i.length>>1],0)} cm wide at the median beam`:"as wide as the laser's range",l=n?`${n} draws of the map`:"the mean map, cells taken for independent",c=r?` \
 Rings are the hits of scan ${r.index+1}, taken ${me(100*r.away,0)} cm from here, turned by ${ph(r.turn)}°.`:"";return`Dots are predictive medians, bars the cen\
@@ -714,14 +715,14 @@ act({type:"undo"}),{title:"Undo (Ctrl+Z)",when:()=>!!e.state?.can_undo,why:"Noth
 Redo (Ctrl+Y)",when:()=>!!e.state?.can_redo,why:"Nothing to redo"}),S("span",{className:"gap"}),t.button("grid","New map",()=>t.command("new"),{text:"New map",when:o}),
 ...t.embedded?[]:[t.button("link","Share",()=>t.command("share"),{text:"Share",when:o})]];for(let c of s)t.visible(c,()=>!e.recorded);let r=t.button("theme","Th\
 eme: automatic",()=>t.command("theme")),i=t.button("help","Help",()=>t.command("help"),{title:"Help (?)"}),a=S("span",{className:"space"});return{element:S("hea\
-der",{},S("h1",{textContent:"bayesmap"}),n,a,...s,Ym(t),r,i),nameTheme(c){let h=`Theme: ${c}`;ot(r,"aria-label",h),C(r,"title",h)}}}var zm=({shown:t,draws:e})=>e.
-count>0||/importance|propagate/.test(t?.method??"");function Ym(t){let{session:e}=t,n=(l,c,h,u,d)=>{let m=t.button(null,l,()=>t.command(`export ${c}`),{text:l,when:u,
+der",{},S("h1",{textContent:"bayesmap"}),n,a,...s,qm(t),r,i),nameTheme(c){let h=`Theme: ${c}`;ot(r,"aria-label",h),C(r,"title",h)}}}var Ym=({shown:t,draws:e})=>e.
+count>0||/importance|propagate/.test(t?.method??"");function qm(t){let{session:e}=t,n=(l,c,h,u,d)=>{let m=t.button(null,l,()=>t.command(`export ${c}`),{text:l,when:u,
 why:d});return h!=="all"&&t.visible(m,()=>!e.recorded&&(h==="document"||!e.figure)),m},o=n("Figure that samples by itself (HTML)","figure","server");t.visible(o,
-()=>e.editable&&!e.figure);let s=S("div",{className:"menu",hidden:!0},n("Picture (PNG)","png","all"),n("Saved run (netCDF)","run","server",()=>zm(e),"There are \
+()=>e.editable&&!e.figure);let s=S("div",{className:"menu",hidden:!0},n("Picture (PNG)","png","all"),n("Saved run (netCDF)","run","server",()=>Ym(e),"There are \
 no draws yet: chains keep them"),n("Map for robots (YAML and PGM)","map","server"),n("Page in one file (HTML)","html","server"),o,n("Document (JSON)","document",
 "document")),r=t.button("save","Export",()=>i(s.hidden),{text:"Export",when:()=>!!e.document}),i=l=>{s.hidden=!l,r.setAttribute("aria-expanded",String(l)),l&&s.
 firstElementChild.focus()};i(!1);let a=S("div",{className:"anchor",tabIndex:-1},r,s);return a.addEventListener("keydown",l=>{l.key!=="Escape"||s.hidden||(i(!1),
-r.focus(),l.stopPropagation())}),a.addEventListener("focusout",l=>{a.contains(l.relatedTarget)||i(!1)}),s.addEventListener("click",()=>{i(!1),r.focus()}),a}var qm={draw:"M4 20l1-5L15.5 4.5l4 4L9 19zM13 7l4 4",erase:"M9 20h11M4.5 14.5l9-9 6 6-8.5 8.5H8zM9 10l6 6",sensor:"M12 3l7 17-7-4-7 4z",pan:"M12 3v18M3 12h18M9.\
+r.focus(),l.stopPropagation())}),a.addEventListener("focusout",l=>{a.contains(l.relatedTarget)||i(!1)}),s.addEventListener("click",()=>{i(!1),r.focus()}),a}var Km={draw:"M4 20l1-5L15.5 4.5l4 4L9 19zM13 7l4 4",erase:"M9 20h11M4.5 14.5l9-9 6 6-8.5 8.5H8zM9 10l6 6",sensor:"M12 3l7 17-7-4-7 4z",pan:"M12 3v18M3 12h18M9.\
 5 5.5L12 3l2.5 2.5M9.5 18.5L12 21l2.5-2.5M5.5 9.5L3 12l2.5 2.5M18.5 9.5L21 12l-2.5 2.5",path:"M5 19a2 2 0 1 0 .1 0M7 18c9-1 1-11 10-12M19 3a2 2 0 1 0 .1 0",look:"\
 M2.500 12c4.500-7.500 14.500-7.500 19 0-4.500 7.500-14.500 7.500-19 0M12 9a3 3 0 1 0 .1 0",where:"M12 21c-4-5-6-7.500-6-11a6 6 0 0 1 12 0c0 3.500-2 6-6 11M12 8a\
 2 2 0 1 0 .1 0",ghost:"M5 20V11a7 7 0 0 1 14 0v9l-2.300-2-2.400 2-2.300-2-2.300 2-2.400-2zM9.500 11v.5M14.500 11v.5",evidence:"M3 5l13 7M3 19l13-7M3 12h13M17 8.\
@@ -730,13 +731,13 @@ M4 9V4h5M15 4h5v5M20 15v5h-5M9 20H4v-5",play:"M7 4.5l12 7.5-12 7.5z",pause:"M8.5
 4 0 0 0-5.7 0l-3 3a4 4 0 0 0 5.7 5.7l1-1",save:"M12 4v11M7.5 10.5L12 15l4.5-4.5M4 20h16",grid:"M4 4h16v16H4zM4 12h16M12 4v16",theme:"M12 3a9 9 0 1 0 0 18zM12 3a\
 9 9 0 0 1 0 18",help:"M8.5 9a3.5 3.5 0 1 1 5 3.2c-1.1.6-1.5 1.200-1.500 2.500M12 18v.5",close:"M6 6l12 12M18 6L6 18"};function fn(t){let e=document.createElementNS(
 "http://www.w3.org/2000/svg","svg"),n=document.createElementNS("http://www.w3.org/2000/svg","path");return e.setAttribute("viewBox","0 0 24 24"),e.setAttribute(
-"aria-hidden","true"),n.setAttribute("d",qm[t]),e.append(n),e}var Js=({document:t})=>!t||t.source.kind==="simulation",Wi=({answers:t})=>t,fh="surface (zoom in)",mh=[{mark:"truth",text:"true wall",when:Js,may:Js},{mark:"ray",
+"aria-hidden","true"),n.setAttribute("d",Km[t]),e.append(n),e}var Js=({document:t})=>!t||t.source.kind==="simulation",Wi=({answers:t})=>t,fh="surface (zoom in)",mh=[{mark:"truth",text:"true wall",when:Js,may:Js},{mark:"ray",
 text:"ray"},{mark:"miss",text:"no return"},{mark:"dot",text:"reading"},{mark:"sensor",text:"sensor"},{mark:"stroke",text:"surface",when:({overlay:t})=>!!t?.strokes.
 length,may:t=>!Js(t)},{mark:"trajectory",text:"trajectory",when:({overlay:t})=>!!t?.trajectory.length,may:t=>!Js(t)},{mark:"unobserved",text:"unobserved"},{mark:"\
 draw",text:"this draw",when:({flicker:t})=>!!t.under},{mark:"ghost",text:"predicted reading",when:({ghost:t,reading:e})=>t.held||e.picked!==null,may:Wi},{mark:"\
 path",text:"path, as wide as the robot",when:({decisions:t})=>!!(t.path&&t.pathShown),may:Wi}],gh=[{mark:"belief",text:"possible pose"},{mark:"place",text:"95 %\
  of a place"}],yh=[{mark:"for",text:"speaks for it"},{mark:"against",text:"speaks against it"}];function wh(t,e,n){let o=S("p",{className:"sentence"});return t.
-each(()=>C(o,"textContent",Km(t.session))),S("div",{className:"legend"},o,Jm(t,e,n),Xm(t))}var Bi=(t,e)=>`${t.toLocaleString("en")} ${e}${t===1?"":"s"}`;function Km(t){
+each(()=>C(o,"textContent",Jm(t.session))),S("div",{className:"legend"},o,Xm(t,e,n),Zm(t))}var Bi=(t,e)=>`${t.toLocaleString("en")} ${e}${t===1?"":"s"}`;function Jm(t){
 let{shown:e,document:n,layer:o,quantity:s,draws:r}=t;if(!e||!n)return"";if(t.where.map)return"The walls as they are drawn: where a scan was taken is asked in a \
 known map.";let{kind:i,mean:a,value:l}=s,c=e.verdict?.level!=="bad",h=c?"One map drawn from the posterior":/importance/.test(e.method)?"One particle":"The map o\
 f one chain, which has not converged",u={mean:i==="binary"?"How probable a wall is in each cell":Zt(`${a}, cell by cell`),draw:`${h}${i==="binary"?"":`, by its ${l}`}${r.
@@ -744,32 +745,32 @@ count?`, ${t.draw+1} of ${r.count}`:""}`,entropy:"How uncertain each cell is, in
 e")return`${u} before any reading: the prior.`;let{source:d,angles:m,sensors:y,scans_used:M}=n,b=d.kind==="simulation"?`${Bi(m*y.length,"beam")} of ${Bi(y.length,
 "sensor")}`:Bi(M??d.scans,"scan"),x=e.method==="propagate"||e.method==="pilot"||/hits|counts/.test(e.method),k=t.stage||t.halfway?"the poses found so far":"raw \
 odometry",A=e.method==="counts"?`, by counts along ${k}`:x&&e.approximate?", approximately":o!=="draw"&&e.burned?`, by sweeps ${e.burned+1} to ${e.sweeps}`:"";return`${u}\
-, given ${b}${A}${c||o==="draw"?"":", as far as it is known"}.`}function Jm(t,e,n){let{session:o}=t,s=S("span",{className:"ramp"}),r=S("span",{className:"name"}),
+, given ${b}${A}${c||o==="draw"?"":", as far as it is known"}.`}function Xm(t,e,n){let{session:o}=t,s=S("span",{className:"ramp"}),r=S("span",{className:"name"}),
 i=mh.map(h=>{let[u,d]=Xs(h),{mark:m,when:y}=h;return y&&t.visible(u,()=>y(o)),m==="stroke"&&t.each(()=>C(d,"textContent",Ho(n())?h.text:fh)),m==="path"&&t.each(
 ()=>u.firstElementChild?.classList.toggle("risky",o.decisions.path?.within_risk===!1)),u}),[a,l]=[gh,yh].map(h=>h.map(u=>Xs(u)[0]));for(let h of a)t.visible(h,()=>!!o.
 where.found);for(let h of l)t.visible(h,()=>!!o.evidence.cellShown);let c="";return t.each(()=>{let{layer:h}=o;C(r,"textContent",bh(o,h));let u=h==="entropy"||h===
 "width",d=`${u} ${e().ground}`;c!==d&&(c=d,s.style.background=Qr(u?no:m=>Wo(e(),m)))}),S("ul",{"aria-label":"Legend"},S("li",{},r,S("span",{className:"scale"},"\
-0",s,"1")),...i,Zm(t),...a,...l)}function Xm(t){let{session:e}=t,n=["mean","draw","entropy","width"].map(c=>{let h=S("span");return t.each(()=>C(h,"textContent",
+0",s,"1")),...i,Qm(t),...a,...l)}function Zm(t){let{session:e}=t,n=["mean","draw","entropy","width"].map(c=>{let h=S("span");return t.each(()=>C(h,"textContent",
 bh(e,c))),c==="width"&&t.visible(h,()=>e.quantity.interval),h}),o=mh.map(c=>{let[h,u]=Xs(c);c.mark==="stroke"&&(u.textContent=fh);let{may:d}=c;return d&&t.visible(
 h,()=>d(e)),h}),s=S("span",{className:"scale"},"00.0",S("span",{className:"ramp"}),"000.0 nats"),r=[gh,yh].map(c=>S("ul",{},...c.map(h=>Xs(h)[0]))),i=[S("ul",{},
 S("li",{},"one more scan tells",s)),...r],a=S("li",{className:"either"},...i);t.visible(a,()=>Wi(e));let l=S("span",{className:"scale"},"0",S("span",{className:"\
 ramp"}),"1");return S("ul",{className:"room","aria-hidden":"true"},S("li",{},S("span",{className:"name either"},...n),l),...o,a)}function Xs({mark:t,text:e}){let n=S(
 "i",{className:t});t==="sensor"&&n.append(fn("sensor"));let o=S("span",{textContent:e});return[S("li",{},n,o),o]}function bh({quantity:t},e){let{kind:n,mean:o,value:s}=t;
-return e==="entropy"?"entropy (bit)":e==="width"?"width of the 90 % interval":n==="binary"?"P(wall)":e==="draw"?s:o}function Zm(t){let{decisions:e}=t.session,n=S(
+return e==="entropy"?"entropy (bit)":e==="width"?"width of the 90 % interval":n==="binary"?"P(wall)":e==="draw"?s:o}function Qm(t){let{decisions:e}=t.session,n=S(
 "span",{className:"ramp"});n.style.background=Qr(no);let[o,s]=[S("span"),S("span")],r=S("li",{className:"views"},"one more scan tells",S("span",{className:"scal\
 e"},o,n,s));return t.visible(r,()=>e.looking&&!!e.views?.nats.length),t.each(()=>{let i=e.views?.nats;i?.length&&(C(o,"textContent","0"),C(s,"textContent",`${me(
-Math.max(...i),1)} nats`))}),r}var Qm=[.05,.1,.2,.4,.8],eg=t=>t<1?`${+(100*t).toPrecision(3)} cm`:`${+t.toPrecision(3)} m`;function xh(t){let{session:e}=t,n=S("select",{onchange:()=>e.act({type:"\
+Math.max(...i),1)} nats`))}),r}var eg=[.05,.1,.2,.4,.8],tg=t=>t<1?`${+(100*t).toPrecision(3)} cm`:`${+t.toPrecision(3)} m`;function xh(t){let{session:e}=t,n=S("select",{onchange:()=>e.act({type:"\
 set",patch:{resolution:Number(n.value)}})}),o="";t.each(()=>{let{grid:r,source:i}=e.document??{};if(!r||i?.kind!=="log"||!i.bounds)return;let[a,l]=i.bounds,c=Math.
-max(l[0]-a[0],l[1]-a[1]),h=[...new Set([...Qm,r.resolution])].sort((d,m)=>d-m),[,u]=t.limits("side_of_log");if(o!==`${h} ${u}`){o=`${h} ${u}`;let d=y=>c/y>u-1,m=y=>S(
-"option",{value:String(y),textContent:eg(y)+(d(y)?": too many cells":""),disabled:d(y)});n.replaceChildren(...h.map(m))}C(n,"value",String(r.resolution))});let s=t.
+max(l[0]-a[0],l[1]-a[1]),h=[...new Set([...eg,r.resolution])].sort((d,m)=>d-m),[,u]=t.limits("side_of_log");if(o!==`${h} ${u}`){o=`${h} ${u}`;let d=y=>c/y>u-1,m=y=>S(
+"option",{value:String(y),textContent:tg(y)+(d(y)?": too many cells":""),disabled:d(y)});n.replaceChildren(...h.map(m))}C(n,"value",String(r.resolution))});let s=t.
 row("Cell size",n);return t.visible(s,()=>e.document?.source.kind==="log"),s}function vh(t){let{session:e}=t,n=S("input",{type:"range",min:1,step:1,"aria-label":"\
 Scans used"}),o=S("output"),s=()=>e.document?.source.scans??0,r=a=>{let l=Number(n.value);t.scrub(l>=s()?null:l,a)};n.addEventListener("input",()=>r(!0)),n.addEventListener(
 "change",()=>{r(!1),t.endDrag()});let i=t.section("Log",S("div",{className:"player bare"},n,o));return t.visible(i,()=>!e.recorded&&e.document?.source.kind==="l\
 og"&&s()>1),t.each(()=>{let a=s(),l=e.document?.scans_used??a;C(n,"max",String(Math.max(1,a))),(!En(n)||Number(n.value)!==l)&&C(n,"value",String(l));let c=l===a?
-`all ${a} scans`:`after ${l} of ${a}`;n.style.setProperty("--fill",`${100*(l-1)/Math.max(1,a-1)}%`),ot(n,"aria-valuetext",c),C(o,"textContent",c)}),i}var tg="The server was started again, with another address. Open the address that it has printed: this page then goes on with it, and the map is kept here.",kh=200,
-ng="For and against a wall: the log ratio of each beam's likelihood with a wall in the cell and without, summed over the beams that it makes likelier, and less \
+`all ${a} scans`:`after ${l} of ${a}`;n.style.setProperty("--fill",`${100*(l-1)/Math.max(1,a-1)}%`),ot(n,"aria-valuetext",c),C(o,"textContent",c)}),i}var ng="The server was started again, with another address. Open the address that it has printed: this page then goes on with it, and the map is kept here.",kh=200,
+og="For and against a wall: the log ratio of each beam's likelihood with a wall in the cell and without, summed over the beams that it makes likelier, and less \
 likely",Sh="For and against what is there: how much likelier each beam's reading is under the draws of the map than under the same draws with this cell emptied \
-(log ratio), summed over the beams that it makes likelier, and less likely",og="Emptied means without the surface that the cell owns: where a neighbour's surfac\
+(log ratio), summed over the beams that it makes likelier, and less likely",sg="Emptied means without the surface that the cell owns: where a neighbour's surfac\
 e explains the same readings, they say little of this one.";function Ah(t){let{session:e}=t,n=S("span",{className:"chip"}),o=t.button(null,"Not converged",()=>Mh(
 e)?.apply?.(),{text:"Not converged",className:"chip doubt"}),s=S("div",{className:"chips"},n,o);return t.each(()=>{let r=e.where.map!==null,i=r?null:Mh(e);if(C(
 o,"hidden",!i),i){let m=[Vo(e).bad,i.text].filter(Boolean).join(": ");C(o.firstElementChild,"textContent",m.charAt(0).toLowerCase()+m.slice(1)),C(o,"title",`${e.
@@ -778,8 +779,8 @@ if(C(s,"hidden",!1),r)return C(n,"textContent","known map: the walls as drawn"),
 "draw",c=a.layer==="draw"?l+(e.flicker.under?" over the mean":""):a.layer==="width"?"width of the 90 % interval":e.view.layer==="entropy"?"entropy":"mean";if(a.
 method==="counts"){let m=e.halfway?"along poses found so far":"along raw odometry";return C(n,"textContent",`hits and passes · ${e.stage?e.stage.text.toLowerCase():
 m}`),C(n,"className","chip approximate")}let h={importance:"importance sampling",propagate:"belief propagation",none:"the prior"}[a.method],u=e.document.method===
-"importance"&&a.method==="propagate"?", until Run weighs particles":"",d=a.approximate?`approximate, ${sg(a,e.working)}${u}`:h??`${a.sweeps} sweeps`;C(n,"textCo\
-ntent",`${c} · ${d}`),C(n,"className",a.approximate?"chip approximate":"chip")}),s}function sg({method:t,sweeps:e,total:n,averaged:o},s){return t==="hits"?"cou\
+"importance"&&a.method==="propagate"?", until Run weighs particles":"",d=a.approximate?`approximate, ${rg(a,e.working)}${u}`:h??`${a.sweeps} sweeps`;C(n,"textCo\
+ntent",`${c} · ${d}`),C(n,"className",a.approximate?"chip approximate":"chip")}),s}function rg({method:t,sweeps:e,total:n,averaged:o},s){return t==="hits"?"cou\
 nts of hits":t!=="pilot"?"belief propagation":`${o===1?"1 draw":`${o} draws`} of one chain, sensor ${s?"being":"half"} fitted: sweep ${e} of ${n}`}function Mh(t){
 let{shown:e,document:n}=t;if(e?.verdict?.level!=="bad"||!n)return null;if(t.recorded||n.source.kind==="run")return{text:""};let o=a=>()=>t.act({type:"set",patch:a}),
 s=e.sweeps<kh,r=n.pose_sigma===0&&n.heading_sigma===0;if(e.method==="gibbs"&&n.source.kind==="simulation"&&!s&&r)return{text:"try blocks",apply:o({method:"block"})};
@@ -787,10 +788,10 @@ if(e.method==="importance")return{text:"try Gibbs",apply:o({method:"auto"})};if(
 n.sweeps));return i>n.sweeps?{text:`try ${i} sweeps`,apply:o({sweeps:i})}:{text:""}}function Eh(t){let{session:e}=t,n=S("span"),o=t.button(null,"Reconnect now",
 ()=>e.transport.retry?.(),{text:"Reconnect now"}),s=S("div",{className:"banner",role:"alert",hidden:!0},n,o);return t.each(()=>{let r=e.everConnected&&!e.connection.
 connected,i=Math.max(1,Math.round((e.connection.retryIn_ms??0)/1e3));C(s,"hidden",!r&&e.worker!=="restarted"),C(s,"className",r?"banner":"banner mild"),C(o,"hid\
-den",!r);let a=`Connection lost. Trying again in ${i} s; the map is kept here.`,l=e.connection.refused?tg:a;C(n,"textContent",r?l:"The worker stopped and is bei\
+den",!r);let a=`Connection lost. Trying again in ${i} s; the map is kept here.`,l=e.connection.refused?ng:a;C(n,"textContent",r?l:"The worker stopped and is bei\
 ng started again. The map is kept.")}),s}function Ph(t){let{session:e,hand:n}=t,o=S("div",{className:"readout",id:`${t.prefix}-readout`}),s=S("span",{role:"stat\
 us","aria-live":"polite"}),r=S("span",{className:"hidden","aria-live":"polite"});return n.announce=i=>C(r,"textContent",i),n.describe=i=>Th(e,i),t.each(()=>{let{
-kind:i}=e.quantity;C(o,"title",i==="binary"?ng:i==="surface"?`${Sh}. ${og}`:Sh);let a=n.cursor??n.hover,c=matchMedia("(pointer: coarse)").matches?"Touch a cell":
+kind:i}=e.quantity;C(o,"title",i==="binary"?og:i==="surface"?`${Sh}. ${sg}`:Sh);let a=n.cursor??n.hover,c=matchMedia("(pointer: coarse)").matches?"Touch a cell":
 e.editable?"Point at a cell, or press ? for the keys":"Point at a cell";C(o,"textContent",a?Th(e,a):c);let h=e.status.text==="Ready"&&e.shown?.verdict?.level===
 "bad"&&!e.where.map,u=e.status.text==="Ready"&&Ns(e),d=e.shown?.method==="importance"?"Ready, but importance sampling has collapsed":"Ready, but the chains have\
  not converged",m=e.everConnected&&!e.connection.connected&&e.status.level==="info";C(s,"textContent",m?"Connection lost":h?d:u?"Fitting the sensor":e.status.text),
@@ -800,18 +801,18 @@ toFixed(a)} m`],{map:u}=t.where;if(u)h.push(u.p[i]?"wall, as drawn":"free, as dr
 interval:b}=t.quantity;o.layer==="width"?h.push(`90 % interval ${d.toFixed(2)} wide`):m!=="binary"&&o.layer==="draw"?h.push(`${M} ${d.toFixed(2)} in this draw`):
 m!=="binary"?h.push(`${y} ${d.toFixed(2)}`,...b?[]:[`entropy ${Uo(d).toFixed(2)} bit`]):o.layer==="draw"?h.push(d>.5?"wall in this draw":"free in this draw"):h.
 push(`P(wall) ${d.toFixed(2)}`,`entropy ${Uo(d).toFixed(2)} bit`);let x=t.evidence.facts,k=x?.x===e.x&&x.y===e.y?x:null,A=k?k.beams:null,E=o.reached[i]/255,D=n.
-source.kind==="run";if(E?!D&&E<.995&&h.push(`reached by a beam with probability ${E.toFixed(2)}`):h.push(D?"reached by a beam in less than half of the draws":"u\
-nobserved"),E&&A!==null&&h.push(A===1?"1 beam":`${A} beams`),E&&k&&k.nats_for!==null&&k.nats_against!==null&&A){let L={binary:"a wall",surface:"its surface"}[t.
-quantity.kind]??"what is there";h.push(`for ${L} ${k.beams_for}, ${k.nats_for.toFixed(1)} nats`,`against ${k.beams_against}, ${k.nats_against.toFixed(1)} nats`)}}
-return h.join(" · ")}var rg={logged:"as logged",odometry:"from raw odometry"},ig=180/Math.PI;function _h(t){let{session:e}=t,n=()=>e.document?.source.kind==="log",o=t.select("Poses",
-rg,()=>e.document?.poses??"logged",a=>t.set({poses:a}));o.classList.add("wide"),t.visible(o,n);let s=[t.slider("pose_sigma",()=>"Position ±",{step:.05,unit:" m"}),
-t.slider("heading_sigma",()=>"Yaw ±",{step:.5,unit:"°",scale:ig})];for(let a of s)t.visible(a,()=>e.editable);let r=S("p",{className:"caption"});t.each(()=>{let{
+source.kind==="run";if(E?!D&&E<.995&&h.push(`reached with probability ${E.toFixed(2)}`):h.push(D?"reached by a beam in less than half of the draws":"unobserved"),
+E&&A!==null&&h.push(A===1?"1 beam":`${A} beams`),E&&k&&k.nats_for!==null&&k.nats_against!==null&&A){let L={binary:"a wall",surface:"its surface"}[t.quantity.kind]??
+"what is there";h.push(`for ${L} ${k.beams_for}, ${k.nats_for.toFixed(1)} nats`,`against ${k.beams_against}, ${k.nats_against.toFixed(1)} nats`)}}return h.join(
+" · ")}var ig={logged:"as logged",odometry:"from raw odometry"},ag=180/Math.PI;function _h(t){let{session:e}=t,n=()=>e.document?.source.kind==="log",o=t.select("Poses",
+ig,()=>e.document?.poses??"logged",a=>t.set({poses:a}));o.classList.add("wide"),t.visible(o,n);let s=[t.slider("pose_sigma",()=>"Position ±",{step:.05,unit:" m"}),
+t.slider("heading_sigma",()=>"Yaw ±",{step:.5,unit:"°",scale:ag})];for(let a of s)t.visible(a,()=>e.editable);let r=S("p",{className:"caption"});t.each(()=>{let{
 pose_sigma:a=0,heading_sigma:l=0,method:c="auto"}=e.document??{},h=n()&&e.document?.poses==="odometry"&&e.shown?.method==="counts"&&!e.running,u=e.editable&&(a>
 0||l>0)&&!/auto|gibbs|block/.test(c);C(r,"hidden",!u&&!h),C(r,"textContent",h?"Run infers where the robot was.":"This method takes poses as known; Gibbs does no\
-t.")});let i=t.section("Where the robot was",o,...s,r);return t.visible(i,()=>e.editable&&!e.figure||n()&&!e.recorded),i}var Zs=t=>Math.abs(t)<.995?`${me(100*Math.abs(t),1)} cm`:`${me(Math.abs(t),2)} m`,ag="Point at a reading to compare it with what the posterior predicts of it.",
-lg=": preparing the comparison. The first one after an installation takes some seconds.";function Ch(t){let{session:e}=t,n=S("p",{className:"words reading",role:"\
+t.")});let i=t.section("Where the robot was",o,...s,r);return t.visible(i,()=>e.editable&&!e.figure||n()&&!e.recorded),i}var Zs=t=>Math.abs(t)<.995?`${me(100*Math.abs(t),1)} cm`:`${me(Math.abs(t),2)} m`,lg="Point at a reading to compare it with what the posterior predicts of it.",
+cg=": preparing the comparison. The first one after an installation takes some seconds.";function Ch(t){let{session:e}=t,n=S("p",{className:"words reading",role:"\
 status"}),o=t.section("Reading",n);return t.visible(o,()=>!e.recorded&&!!e.document&&e.document?.source.kind!=="simulation"),t.each(()=>{let{picked:s,found:r,trouble:i,
-slow:a}=e.reading,l=s?`Beam ${s.beam+1} of scan ${s.scan+1}${a?lg:"."}`:ag;C(n,"textContent",i||(r?cg(r):l))}),o}function cg({scan:t,beam:e,reading:n,range:o,low:s,
+slow:a}=e.reading,l=s?`Beam ${s.beam+1} of scan ${s.scan+1}${a?cg:"."}`:lg;C(n,"textContent",i||(r?hg(r):l))}),o}function hg({scan:t,beam:e,reading:n,range:o,low:s,
 median:r,high:i,residual:a,no_return:l,wall:c}){let h=`Beam ${e+1} of scan ${t+1}`,u=(x,k)=>x===null?k:`${me(x,2)} m`,d=`median ${u(r,"no return")}, 80 % betwee\
 n ${u(s,"too close")} and ${u(i,"no return")}`;if(n==="none")return`${h} came back from nothing, which was predicted with probability ${me(l??0,3)} (${d}).`;if(n!==
 "hit"||o===null)return`${h} read nothing that says how far (${d}).`;let m=a===null?"":`, ${Zs(a)} ${a<0?"shorter":"longer"} than the predicted median`,y=`${h} r\
@@ -830,16 +831,16 @@ Again"})),c=t.button(null,"Show me",()=>e.solve(),{text:"Show me"});t.visible(c,
 story";let u=h.querySelector("h2");t.visible(h,()=>!!e.story);let d=null;return t.each(()=>{let{story:m,step:y,at:M}=e;!m||!y||(d!==m&&i.replaceChildren(...m.steps.
 map(({title:b},x)=>{let k=A=>{A.preventDefault(),e.go(x)};return S("a",{href:er(x),title:b,"aria-label":`Step ${x+1}: ${b}`,textContent:String(x+1),onclick:k})})),
 d=m,C(u,"textContent",m.title),C(n,"textContent",y.title),C(o,"textContent",y.text),Array.from(i.children).forEach((b,x)=>ot(b,"aria-current",x===M?"step":"fals\
-e")))}),hg(t,h,s),h}function hg(t,e,n){let{telling:o}=t.session,s=[],[r,i]=["",""],a=-1,l=!1,c=!1;t.after(()=>{let{step:h,begins:u}=o;if(!h)return;let d=t.named.
+e")))}),pg(t,h,s),h}function pg(t,e,n){let{telling:o}=t.session,s=[],[r,i]=["",""],a=-1,l=!1,c=!1;t.after(()=>{let{step:h,begins:u}=o;if(!h)return;let d=t.named.
 filter(({place:x})=>!x.closest("[hidden], dialog")),m=d.map(({name:x})=>x()),y=[h.task,...m].join("|"),M=y===r?null:Lh(h.task,m);if(r=y,M&&JSON.stringify(M)!==i){
 i=JSON.stringify(M);for(let{place:x}of s)x.classList.remove("named");s=M.flatMap(({at:x})=>x===null?[]:[d[x]]);for(let{place:x}of s)x.classList.add("named");n.replaceChildren(
 ...M.map(({text:x,at:k})=>k===null?x:S("button",{type:"button",title:"Go to this control",textContent:x,onclick:()=>{Nh(e,d[k].place),d[k].control.focus({preventScroll:!0})}})))}
 let b=e.parentElement;if(b){if(!c)for(let x of["wheel","touchmove","pointerdown","keydown"])b.addEventListener(x,()=>l=!1,{passive:!0});c=!0,a!==u&&(a=u,b.scrollTop=
 0,l=!0),l&&(s.length&&Rh(e)&&Nh(e,s[0].place),l=!o.settled)}})}var Rh=t=>getComputedStyle(t).position==="sticky";function Nh(t,e){let n=t.parentElement;if(!n.contains(
 e))return;let[o,s]=[n.getBoundingClientRect(),e.getBoundingClientRect()],r=o.top+(Rh(t)?t.getBoundingClientRect().height:0);(s.top<r||s.bottom>o.bottom)&&(n.scrollTop+=
-(s.top+s.bottom-r-o.bottom)/2)}var pg={auto:"Chosen by the prior",gibbs:"Gibbs, cell by cell",block:"Gibbs, 2 × 2 blocks",propagate:"Belief propagation",importance:"Importance sampling"},dg={
-binary:"walls",reflectivity:"reflectivities",surface:"surfaces"},ug={noisy:"with noise",exact:"exact"},fg={auto:"as is best",prior:"draws of the prior",empty:"t\
-he empty map"},mg={raster:"raster",radial:"radial",random:"random"},tr=2*Math.PI,gg=t=>Math.round(t*1800/Math.PI)/10,yg={importance:"Particles",propagate:"Round\
+(s.top+s.bottom-r-o.bottom)/2)}var dg={auto:"Chosen by the prior",gibbs:"Gibbs, cell by cell",block:"Gibbs, 2 × 2 blocks",propagate:"Belief propagation",importance:"Importance sampling"},ug={
+binary:"walls",reflectivity:"reflectivities",surface:"surfaces"},fg={noisy:"with noise",exact:"exact"},mg={auto:"as is best",prior:"draws of the prior",empty:"t\
+he empty map"},gg={raster:"raster",radial:"radial",random:"random"},tr=2*Math.PI,yg=t=>Math.round(t*1800/Math.PI)/10,wg={importance:"Particles",propagate:"Round\
 s"};function $h(t){let{session:e,hand:n,editor:o}=t,s=S("select",{"aria-label":"Selected sensor"});s.addEventListener("change",()=>{n.selected=Number(s.value),n.
 choose("sensor")});let r="";t.each(()=>{let u=e.document?.sensors??[],d=u.map(m=>m.id).join();d!==r&&s.replaceChildren(...u.map(({id:m})=>S("option",{value:String(
 m),textContent:`Sensor ${m}`}))),r=d,C(s,"value",String(n.sensor?.id??""))});let i=(u,d)=>t.numberInput(u,()=>Number((n.sensor?.[d]??0).toFixed(2)),m=>n.sensor&&
@@ -848,18 +849,18 @@ o.moveSensor(n.sensor,{[d]:m}),{step:"any"}),a=t.numberInput("heading (°)",()=>
 Remove",when:()=>(e.document?.sensors.length??0)>1,why:"The last sensor stays"});t.visible(a,()=>(e.document?.fov??tr)<tr);let h=S("div",{className:"triple"},i(
 "x (m)","x"),i("y (m)","y"),a);return t.section("Sensors",S("div",{className:"buttons"},s,l,c),h)}function Fh(t){let{session:e}=t,n=t.numberInput("Longest range\
  (m)",()=>e.document?.max_range??0,a=>t.set({max_range:a}),{step:"any",limits:"max_range"}),o=[t.slider("noise",()=>"Noise (m)",{step:.01,unit:" m"}),t.slider("\
-angles",()=>"Angles",{step:1,log:!0}),n,t.numberInput("Field of view (°)",()=>gg(e.document?.fov??tr),a=>t.set({fov:a>=360?tr:a*Math.PI/180}),{step:5,limits:"f\
-ov",scale:180/Math.PI}),t.select("Readings",ug,()=>e.document?.readings??"noisy",a=>t.set({readings:a}))];for(let a of o)t.visible(a,()=>e.editable);let s=t.slider(
-"prior",()=>"Prior P(wall)",{step:.01}),r=()=>(e.document?.cells??"binary")==="binary";t.visible(s,r);let i=t.select("Cells",dg,()=>e.document?.cells??"binary",
+angles",()=>"Angles",{step:1,log:!0}),n,t.numberInput("Field of view (°)",()=>yg(e.document?.fov??tr),a=>t.set({fov:a>=360?tr:a*Math.PI/180}),{step:5,limits:"f\
+ov",scale:180/Math.PI}),t.select("Readings",fg,()=>e.document?.readings??"noisy",a=>t.set({readings:a}))];for(let a of o)t.visible(a,()=>e.editable);let s=t.slider(
+"prior",()=>"Prior P(wall)",{step:.01}),r=()=>(e.document?.cells??"binary")==="binary";t.visible(s,r);let i=t.select("Cells",ug,()=>e.document?.cells??"binary",
 a=>t.set({cells:a}));return t.visible(i,()=>e.document?.source.kind==="log"),t.section("Model",i,xh(t),s,...o)}function Ih(t){let{session:e}=t,n=()=>e.document?.
-method??"auto",o=()=>(e.document?.cells??"binary")==="binary",s=()=>/auto|gibbs|block/.test(n()),r=[t.select("Method",pg,n,l=>t.set({method:l})),t.select("Order",
-mg,()=>e.document?.order??"radial",l=>t.set({order:l}),()=>n()==="gibbs"||n()==="auto","Only Gibbs, cell by cell, has an order"),t.select("Start",fg,()=>e.document?.
+method??"auto",o=()=>(e.document?.cells??"binary")==="binary",s=()=>/auto|gibbs|block/.test(n()),r=[t.select("Method",dg,n,l=>t.set({method:l})),t.select("Order",
+gg,()=>e.document?.order??"radial",l=>t.set({order:l}),()=>n()==="gibbs"||n()==="auto","Only Gibbs, cell by cell, has an order"),t.select("Start",mg,()=>e.document?.
 start??"auto",l=>t.set({start:l}),s,"Only chains have a start")],i=Array.from(r[0].lastElementChild.children);for(let l of i)l.value==="propagate"&&t.visible(l,
 ()=>!e.figure);for(let l of r)t.visible(l,o);let a=t.slider("burn_in",()=>"Burn-in (%)",{step:5,scale:100});return t.visible(a,()=>s()||!o()),t.section("Inferen\
-ce",...r,a,t.slider("sweeps",()=>yg[n()]??"Sweeps",{step:1,log:!0}),t.numberInput("Seed",()=>e.document?.seed??0,l=>t.set({seed:Math.round(l)}),{step:1,limits:"\
+ce",...r,a,t.slider("sweeps",()=>wg[n()]??"Sweeps",{step:1,log:!0}),t.numberInput("Seed",()=>e.document?.seed??0,l=>t.set({seed:Math.round(l)}),{step:1,limits:"\
 seed"}))}function Oh(t){let{session:e}=t,n=t.button(null,"Clear walls",()=>e.act({type:"clear",what:"walls"}),{text:"Clear walls",when:()=>e.editable}),o=t.button(
 null,"Clear inference",()=>e.act({type:"clear",what:"inference"}),{text:"Clear inference"});return t.visible(n,()=>e.editable),t.section("Clear",S("div",{className:"\
-buttons"},n,o))}var wg=0,nr=class{constructor(e,n,o,s,r,i){this.session=e;this.hand=n;this.editor=o;this.command=s;this.showLayer=r;this.embedded=i}prefix=`bayesmap${wg++}`;named=[];updates=[];afterwards=[];drag=Math.
+buttons"},n,o))}var bg=0,nr=class{constructor(e,n,o,s,r,i){this.session=e;this.hand=n;this.editor=o;this.command=s;this.showLayer=r;this.embedded=i}prefix=`bayesmap${bg++}`;named=[];updates=[];afterwards=[];drag=Math.
 floor(Math.random()*2**30);each(e){this.updates.push(e)}after(e){this.afterwards.push(e)}refresh(){for(let e of[...this.updates,...this.afterwards])e()}set(e){this.
 session.act({type:"set",patch:e})}slide(e){this.session.act({type:"set",patch:e,drag:this.drag})}scrub(e,n){this.session.act({type:"set",patch:{scans_used:e},drag:this.
 drag,...n?{coarse:n}:{}})}endDrag(){this.drag++}limits(e,n=1){let[o,s]=this.session.limits?.[e]??[1,2];return n===1?[o,s]:[Math.ceil(10*o*n-1e-6)/10,Math.floor(
@@ -887,8 +888,8 @@ each(()=>{En(a)||C(a,"value",String(n()))}),this.row(e,a)}checkbox(e,n,o,s=""){l
 hecked",n()));let i=S("label",{className:"check",title:s},r,S("span",{textContent:e}));return this.named.push({name:()=>e,place:i,control:r}),i}dialog(e,...n){let o=`${this.
 prefix}-dialog-${e.replace(/\W/g,"")}`,s=S("button",{type:"button",className:"plain","aria-label":"Close",onclick:()=>i.close()},fn("close")),r=S("div",{className:"\
 title"},S("h2",{id:o,textContent:e}),s),i=S("dialog",{"aria-labelledby":o},r,...n);return i.addEventListener("click",a=>{a.target===i&&i.close()}),i.addEventListener(
-"keydown",a=>a.stopPropagation()),i}};var bg=[["mean","Mean"],["draw","One draw"],["entropy","Entropy"],["width","Width"]],Qo="There are no draws yet: chains keep them",xg="There is one chain",vg="T\
-his device asks that nothing moves by itself",kg={2:"2 / s",10:"10 / s",30:"30 / s",1e3:"fastest"},or=class{constructor(e){this.session=e}playing=!1;drawsPerSecond=10;afterMean=!1;before=null;showLayer(e){
+"keydown",a=>a.stopPropagation()),i}};var xg=[["mean","Mean"],["draw","One draw"],["entropy","Entropy"],["width","Width"]],Qo="There are no draws yet: chains keep them",vg="There is one chain",kg="T\
+his device asks that nothing moves by itself",Sg={2:"2 / s",10:"10 / s",30:"30 / s",1e3:"fastest"},or=class{constructor(e){this.session=e}playing=!1;drawsPerSecond=10;afterMean=!1;before=null;showLayer(e){
 if(e!=="draw")this.play(!1);else if(!this.session.hasDraws)return;this.before=null,this.session.act({type:"view",layer:e,chain:this.session.view.chain})}showDraw(e,n=this.
 session.view.chain){this.session.act({type:"view",layer:"draw",chain:n,draw:e})}play(e){let{draw:n,draws:o,flicker:s,shown:r}=this.session;this.playing=e&&!s.still,
 e&&s.wantsMean?this.session.act({type:"view",layer:"mean",chain:this.session.view.chain}):e&&this.showDraw(s.still&&r?.layer==="draw"?(n+1)%o.count:n>=o.count-1?
@@ -897,60 +898,60 @@ chain})):o.layer!=="draw"&&this.showLayer("draw"):(this.afterMean=!1,this.before
 this.session.changed()}playFromStart(){this.showDraw(0),this.playing=!0,this.session.changed()}step(){let{shown:e,flicker:n}=this.session;if(n.on&&(this.afterMean||
 this.playing)&&e?.layer==="mean"&&!n.wantsMean)return this.afterMean=!1,this.showDraw(this.session.draw);!this.playing||e?.layer!=="draw"||setTimeout(()=>{if(!this.
 playing)return;let{draw:o,draws:s}=this.session;o+1>=s.count&&n.on?this.showDraw(0):o+1>=s.count?this.play(!1):this.showDraw(o+1)},1e3/this.drawsPerSecond)}};function Uh(t,e,n,o){
-let{session:s}=t,r=()=>s.view.layer==="draw"&&!s.hasDraws?"mean":s.view.layer,i=t.segmented("Show",bg,r,M=>e.showLayer(M)),[,a,l,c]=Array.from(i.children);C(c,"\
+let{session:s}=t,r=()=>s.view.layer==="draw"&&!s.hasDraws?"mean":s.view.layer,i=t.segmented("Show",xg,r,M=>e.showLayer(M)),[,a,l,c]=Array.from(i.children);C(c,"\
 title","Width of each cell's 90 % interval"),t.visible(l,()=>!s.quantity.interval),t.visible(c,()=>s.quantity.interval&&!s.lacks.includes("width")),t.visible(a,
 ()=>s.hasDraws);let h=(M,b)=>t.checkbox(M,()=>n[b],x=>{n[b]=x,s.changed()}),u=h("True walls","truth");t.visible(u,()=>!s.document||s.document.source.kind==="sim\
 ulation");let[d,m]=[h("Surfaces","strokes"),h("Trajectory","trajectory")];t.visible(d,()=>!!s.overlay?.strokes.length),t.each(()=>C(d.lastElementChild,"textCont\
 ent",Ho(o())?"Surfaces":"Surfaces (zoom in)")),t.visible(m,()=>!!s.overlay?.trajectory.length);let y=S("div",{className:"checks",role:"group","aria-label":"Mark\
-s"},u,h("Rays","rays"),h("Readings","readings"),d,m);return t.section("View",i,Sg(t,e),y)}function Sg(t,e){let{session:n}=t,o=S("input",{type:"range",min:0,step:1,
+s"},u,h("Rays","rays"),h("Readings","readings"),d,m);return t.section("View",i,Mg(t,e),y)}function Mg(t,e){let{session:n}=t,o=S("input",{type:"range",min:0,step:1,
 "aria-label":"Draw number"});o.addEventListener("input",()=>{e.play(!1),e.showDraw(Number(o.value))});let s=t.button("play","Play the draws",()=>e.play(!e.playing),
 {when:()=>n.draws.count>1,why:Qo}),r=S("output"),i=S("select",{"aria-label":"Chain"});i.addEventListener("change",()=>e.showDraw(n.draw,Number(i.value))),t.each(
 ()=>{let{chains:d,count:m}=n.draws;C(o,"max",String(Math.max(0,m-1))),C(o,"disabled",m===0),C(o,"title",m?"":Qo),C(o,"value",String(n.draw));let y=m?`${n.draw+1}\
  of ${m}`:"none kept";ot(o,"aria-valuetext",y),o.style.setProperty("--fill",`${m>1?100*n.draw/(m-1):0}%`),C(r,"textContent",y),i.length!==Math.max(1,d)&&i.replaceChildren(
 ...Array.from({length:Math.max(1,d)},(b,x)=>S("option",{value:String(x),textContent:`chain ${x+1}`}))),C(i,"value",String(n.view.chain)),C(i,"disabled",d<2),C(i,
-"title",d>1?"":m?xg:Qo),m<2&&e.playing&&e.play(!1);let M=n.flicker.still?"Next draw":e.playing?"Pause the draws":"Play the draws";s.getAttribute("aria-label")!==
-M&&(s.setAttribute("aria-label",M),s.replaceChildren(fn(e.playing?"pause":"play")))});let a=S("select",{"aria-label":"Speed"});for(let[d,m]of Object.entries(kg))
+"title",d>1?"":m?vg:Qo),m<2&&e.playing&&e.play(!1);let M=n.flicker.still?"Next draw":e.playing?"Pause the draws":"Play the draws";s.getAttribute("aria-label")!==
+M&&(s.setAttribute("aria-label",M),s.replaceChildren(fn(e.playing?"pause":"play")))});let a=S("select",{"aria-label":"Speed"});for(let[d,m]of Object.entries(Sg))
 a.append(S("option",{value:d,textContent:m}));a.value=String(e.drawsPerSecond),a.addEventListener("change",()=>e.drawsPerSecond=Number(a.value));let l=t.button(
 null,"From the first sweep",()=>e.playFromStart(),{text:"From the first",when:()=>n.draws.count>1,why:Qo});t.each(()=>{C(a,"disabled",n.draws.count<2||n.flicker.
-still),C(a,"title",n.draws.count<2?Qo:n.flicker.still?vg:"")});let c=t.checkbox("Draws over the mean",()=>n.flicker.on,d=>e.over(d),"Each draw in its own colour\
+still),C(a,"title",n.draws.count<2?Qo:n.flicker.still?kg:"")});let c=t.checkbox("Draws over the mean",()=>n.flicker.on,d=>e.over(d),"Each draw in its own colour\
  over the mean, as one of the maps that the scans leave possible");t.visible(c,()=>n.draws.count>1);let h=S("div",{className:"wide"},c),u=S("div",{className:"pl\
 ayer"},s,o,r,S("div",{className:"buttons wide"},i,a,l),h);return t.visible(u,()=>n.hasDraws),u}function Bh(t){let{session:e}=t,n=S("input",{type:"range",min:0,step:1,
 "aria-label":"Scan number"}),o=S("output");n.addEventListener("input",()=>e.act({type:"scan",index:Number(n.value)}));let s=t.section("Scan",S("div",{className:"\
 player bare"},n,o));return t.each(()=>{let r=e.document?.source.kind==="simulation"?0:e.document?.source.scans??0;C(s,"hidden",r<2),C(n,"max",String(Math.max(0,
 r-1))),En(n)||C(n,"value",String(e.scan?.index??0)),n.style.setProperty("--fill",`${100*Number(n.value)/Math.max(1,r-1)}%`),C(o,"textContent",`${Number(n.value)+
-1} / ${r}`)}),s}var Gh=2,Wh=6,Mg=.9,Tg=.5,Ag=.005;function Hh(t){let{session:e,hand:n}=t,o=S("p",{className:"whereabouts",role:"status"}),s=S("p",{className:"caption"}),r=t.section(
-"Where am I?",o,s);return t.visible(r,()=>n.tool==="where"),t.each(()=>{e.where.follow(n.tool==="where",n.sensor?.id??null),C(o,"textContent",Eg(t)),C(s,"textCo\
+1} / ${r}`)}),s}var Gh=2,Wh=6,Tg=.9,Ag=.5,Eg=.005;function Hh(t){let{session:e,hand:n}=t,o=S("p",{className:"whereabouts",role:"status"}),s=S("p",{className:"caption"}),r=t.section(
+"Where am I?",o,s);return t.visible(r,()=>n.tool==="where"),t.each(()=>{e.where.follow(n.tool==="where",n.sensor?.id??null),C(o,"textContent",Pg(t)),C(s,"textCo\
 ntent",e.editable?"Drag the robot: its scan is located among the walls that are drawn, which the map shows, as if nothing were known of its pose.":"Choose a sca\
-n below: it is located in this map, as if nothing were known of its pose. The arrow is where it was recorded.")}),r}function Eg({session:t}){let{found:e,trouble:n}=t.
-where;if(n)return`${n.charAt(0).toUpperCase()}${n.slice(1)}.`;if(!e)return"Looking everywhere.";let o=e.p_lost>Tg?`The scan fits nowhere on this map, with proba\
-bility ${e.p_lost.toFixed(2)}: the robot is lost, or the map is outdated. If it is on the map: `:"",s=!o&&e.p_lost>Ag?` That it is lost, or the map outdated, ha\
-s probability ${e.p_lost.toFixed(2)}.`:"";return`${o}${Pg(e.modes)}${_g(e,t.editable)}${s}`}function Pg(t){let[e,n]=t;if(!e)return"No place.";let o=e.sigma_m>Gh,
+n below: it is located in this map, as if nothing were known of its pose. The arrow is where it was recorded.")}),r}function Pg({session:t}){let{found:e,trouble:n}=t.
+where;if(n)return`${n.charAt(0).toUpperCase()}${n.slice(1)}.`;if(!e)return"Looking everywhere.";let o=e.p_lost>Ag?`The scan fits nowhere on this map, with proba\
+bility ${e.p_lost.toFixed(2)}: the robot is lost, or the map is outdated. If it is on the map: `:"",s=!o&&e.p_lost>Eg?` That it is lost, or the map outdated, ha\
+s probability ${e.p_lost.toFixed(2)}.`:"";return`${o}${_g(e.modes)}${Cg(e,t.editable)}${s}`}function _g(t){let[e,n]=t;if(!e)return"No place.";let o=e.sigma_m>Gh,
 s=`${e.mean[0].toFixed(2)}, ${e.mean[1].toFixed(2)} m, heading ${Hi(e.mean[2],0)}`,r=`known to ${ji(e.sigma_m)} and ${Hi(e.sigma_rad,1)}`;if(!n)return o?`It may\
- be almost anywhere: positions are ${ji(e.sigma_m)} apart.`:`One place: ${s}, ${r}.`;let i=t.slice(0,Wh).map(({probability:c})=>si(c)),a=n.probability>Mg*e.probability,
-l=t.length>Wh?" and less":"";return`${t.length} places: ${i.join(", ")}${l}. ${a?"One of them":"The likeliest"}: ${s}, ${r}.`}function _g({modes:t,pose:e},n){if(!t.
+ be almost anywhere: positions are ${ji(e.sigma_m)} apart.`:`One place: ${s}, ${r}.`;let i=t.slice(0,Wh).map(({probability:c})=>si(c)),a=n.probability>Tg*e.probability,
+l=t.length>Wh?" and less":"";return`${t.length} places: ${i.join(", ")}${l}. ${a?"One of them":"The likeliest"}: ${s}, ${r}.`}function Cg({modes:t,pose:e},n){if(!t.
 length||t[0].sigma_m>Gh)return"";let o=t.map(({mean:a})=>Math.hypot(a[0]-e[0],a[1]-e[1])),s=o.indexOf(Math.min(...o)),r=Math.abs(Math.atan2(Math.sin(t[s].mean[2]-
-e[2]),Math.cos(t[s].mean[2]-e[2]))),i=t.length===1?"there":s===0?"the likeliest":`the ${Cg(s+1)}`;return` The robot ${n?"stands":"was recorded"} ${ji(o[s])} and\
- ${Hi(r,1)} from ${i}.`}var Cg=t=>`${t}${["th","st","nd","rd"][t%100>10&&t%100<14?0:t%10]??"th"}`,Hi=(t,e)=>`${(t*180/Math.PI).toFixed(e).replace(/^-(?=0(\.0*)?$)/,
+e[2]),Math.cos(t[s].mean[2]-e[2]))),i=t.length===1?"there":s===0?"the likeliest":`the ${Lg(s+1)}`;return` The robot ${n?"stands":"was recorded"} ${ji(o[s])} and\
+ ${Hi(r,1)} from ${i}.`}var Lg=t=>`${t}${["th","st","nd","rd"][t%100>10&&t%100<14?0:t%10]??"th"}`,Hi=(t,e)=>`${(t*180/Math.PI).toFixed(e).replace(/^-(?=0(\.0*)?$)/,
 "")}°`,ji=t=>t<.0095?`${(1e3*t).toFixed(0)} mm`:t<1?`${(100*t).toFixed(0)} cm`:`${t.toFixed(1)} m`;var Ao="recording";function jh(t,e,n,{kept:o}){let{shown:s,status:r}=t;return{document:t.effectiveDocument(),generation:t.generation,painted:s&&{generation:s.generation,layer:t.layer,
 approximate:s.approximate,sweeps:s.sweeps,method:s.method,quantity:t.quantity,rhat:s.rhat,verdict:s.verdict,trace:s.trace,traced:s.traced,weights:s.weights,ess:s.
 ess,chain:s.chain,draw:s.draw},probability:s?.p??new Uint8Array(0),reached:s?.reached??new Uint8Array(0),walls:t.walls,sensors:t.document?.sensors??[],scan:t.scan,
 status:{text:r.text,level:r.level},connected:t.connection.connected,decisions:{path:t.decisions.path,views:t.decisions.views,trouble:t.decisions.trouble||t.decisions.
-viewTrouble},where:{found:t.where.found,trouble:t.where.trouble},stage:t.stage,ghost:Ng(t),reading:{picked:t.reading.picked,found:t.reading.found,trouble:t.reading.
-trouble},evidence:{cell:t.evidence.cell,together:t.evidence.together,each:t.evidence.each&&Lg(t.evidence.each)},over:!!t.flicker.under,beside:o&&{layer:o.layer,
+viewTrouble},where:{found:t.where.found,trouble:t.where.trouble},stage:t.stage,ghost:Dg(t),reading:{picked:t.reading.picked,found:t.reading.found,trouble:t.reading.
+trouble},evidence:{cell:t.evidence.cell,together:t.evidence.together,each:t.evidence.each&&Ng(t.evidence.each)},over:!!t.flicker.under,beside:o&&{layer:o.layer,
 chain:o.view.chain,draw:o.draw,method:o.shown?.method,probability:Array.from(o.shown?.p??[])},overlay:t.overlay&&{strokes:t.overlay.strokes.length/5,trajectory:t.
 overlay.trajectory.length/2},worker:t.worker,running:t.running,draws:t.draws,view:t.view,seq:{sent:t.acted,confirmed:t.state?.seq??0},events:{...t.counts,eventToPaint_ms:t.
-latency.eventToPaint_ms},layers:{...n.paints},transform:{...e.transform}}}var Lg=t=>Object.fromEntries(Object.entries(t).map(([e,n])=>[e,Array.from(n)]));function Ng({
+latency.eventToPaint_ms},layers:{...n.paints},transform:{...e.transform}}}var Ng=t=>Object.fromEntries(Object.entries(t).map(([e,n])=>[e,Array.from(n)]));function Dg({
 ghost:t}){let{held:e,pose:n,fan:o,answers:s,trouble:r}=t;return{held:e,pose:n,answers:s,trouble:r,fan:o&&{...o,near:o.near&&{...o.near}}}}var Vi=new Set(["walls","move_sensor","set","view","live"]),Vh=({type:t})=>!Vi.has(t),zh="Not while the connection is lost: this needs the server";function Yh(t,e){
 let{document:n,walls:o}=t,s=n.grid.shape[1];if(e.type==="walls")for(let[r,i]of e.cells)o[r*s+i]=e.wall?1:0;else if(e.type==="set"){let{resolution:r,...i}=e.patch;
 Object.assign(n,i)}else if(e.type==="live")t.state={...t.state,live:e.on};else if(e.type==="view")t.view={layer:e.layer,chain:e.chain??t.view.chain,draw:e.draw??
-null};else if(e.type==="move_sensor"){let r=n.sensors.find(i=>i.id===e.id);if(r)for(let i of["x","y","yaw"])r[i]=e[i]??r[i]}}var Dg=t=>Zt(`${t.replace(/^(plan|path|explore): /,"")}.`),sr=class{constructor(e){this.session=e}start=null;goal=null;radius=.25;risk=.01;path=null;views=null;trouble="";viewTrouble="";version=0;pathShown=!0;looking=!1;askedPath="";askedViews="";point(e){
+null};else if(e.type==="move_sensor"){let r=n.sensors.find(i=>i.id===e.id);if(r)for(let i of["x","y","yaw"])r[i]=e[i]??r[i]}}var Rg=t=>Zt(`${t.replace(/^(plan|path|explore): /,"")}.`),sr=class{constructor(e){this.session=e}start=null;goal=null;radius=.25;risk=.01;path=null;views=null;trouble="";viewTrouble="";version=0;pathShown=!0;looking=!1;askedPath="";askedViews="";point(e){
 this.start&&!this.goal?this.goal=e:[this.start,this.goal]=[e,null],this.path=null,this.trouble="",this.version++,this.ask(),this.session.changed()}set(e){Object.
 assign(this,e),this.ask()}showPath(e){this.pathShown!==e&&this.version++,this.pathShown=e}look(e){this.looking!==e&&(this.looking=e,this.viewTrouble="",e||([this.
 views,this.askedViews]=[null,""]),this.version++,this.ask(),this.session.changed())}forget(){this.forgetPath(),this.views=null,this.askedViews=""}forgetPath(){this.
 start=this.goal=this.path=null,this.askedPath=this.trouble="",this.version++,this.session.changed()}ask(){let{session:e,start:n,goal:o,radius:s,risk:r}=this,{shown:i}=e;
 if(!i||i.generation!==e.generation||!e.answers)return;let a=`${i.generation} ${e.sampling}`,l=`${a} ${JSON.stringify([n,o,s,r])}`;n&&o&&!i.approximate&&l!==this.
 askedPath&&(this.askedPath=l,e.act({type:"path",start:[n.x,n.y],goal:[o.x,o.y],radius:s,risk:r})),this.looking&&(!i.approximate||e.document?.method==="propagate")&&
-a!==this.askedViews&&(this.askedViews=a,e.act({type:"views"}))}receive(e,n){let o=e.type==="undecided"?Dg(e.text):"",s=e.type==="undecided"?e.question:e.type;s===
+a!==this.askedViews&&(this.askedViews=a,e.act({type:"views"}))}receive(e,n){let o=e.type==="undecided"?Rg(e.text):"",s=e.type==="undecided"?e.question:e.type;s===
 "views"?(this.viewTrouble=o,this.views=null):this.trouble=o,e.type==="path"?this.path=e:e.type==="views"&&this.looking?this.views={pose:n.pose,nats:n.nats,spacing:e.
 spacing}:s==="path"&&(this.path=null),this.version++}nearest(e){let{views:n}=this;if(!n?.nats.length)return null;let[o,s]=[0,1/0];for(let r=0;r<n.nats.length;r++){
 let i=Math.hypot(n.pose[3*r]-e.x,n.pose[3*r+1]-e.y);i<s&&([o,s]=[r,i])}return o}};var rr=class{constructor(e){this.session=e}facts=null;cell=null;together=null;each=null;version=0;held=!1;asked="";get cellShown(){return this.held&&this.cell!==
@@ -958,15 +959,15 @@ null}hold(e){this.held!==e&&(this.held=e,this.version++,this.ask())}pin(e){this.
 this.version++,this.ask(),this.session.changed()}forget(){this.cell=this.together=this.each=this.facts=null,this.version++}ask(){let{session:e,cell:n}=this,{shown:o}=e;
 if(!this.held||!n||!o||o.generation!==e.generation||!e.answers)return;let{chain:s,draw:r}=o,i=o.layer==="draw"&&s!==null&&r!==null&&e.draws.count?{chain:s,draw:r}:
 {},a=`${o.generation} ${e.sampling} ${o.approximate} ${n.x} ${n.y} ${JSON.stringify(i)}`;a!==this.asked&&(this.asked=a,e.act({type:"inspect",x:n.x,y:n.y,each:!0,
-...i}))}receive(e,n){this.facts=e,!(!e.each||e.x!==this.cell?.x||e.y!==this.cell?.y)&&(this.together=this.facts,this.each=n.nats?n:null,this.version++)}};var Rg="(prefers-reduced-motion: reduce)",ir=class{constructor(e){this.session=e}on=!1;mean=null;get still(){return matchMedia(Rg).matches}get under(){let{mean:e,
+...i}))}receive(e,n){this.facts=e,!(!e.each||e.x!==this.cell?.x||e.y!==this.cell?.y)&&(this.together=this.facts,this.each=n.nats?n:null,this.version++)}};var $g="(prefers-reduced-motion: reduce)",ir=class{constructor(e){this.session=e}on=!1;mean=null;get still(){return matchMedia($g).matches}get under(){let{mean:e,
 session:n}=this,{shown:o}=n;return this.on&&e&&o?.layer==="draw"&&e.generation===o.generation&&e.p.length===o.p.length?e:null}get wantsMean(){return this.on&&this.
-mean?.generation!==this.session.generation}take(e){e.layer!=="draw"&&e.layer!=="width"&&(this.mean=e)}};var $g=2e3,Fg=3e3,Ig=2,ar=class{constructor(e){this.session=e}held=!1;pose=null;fan=null;trouble="";version=0;answers=0;moving=!1;askedAt=-1/0;waiting=0;asked="";hold(e){
+mean?.generation!==this.session.generation}take(e){e.layer!=="draw"&&e.layer!=="width"&&(this.mean=e)}};var Fg=2e3,Ig=3e3,Og=2,ar=class{constructor(e){this.session=e}held=!1;pose=null;fan=null;trouble="";version=0;answers=0;moving=!1;askedAt=-1/0;waiting=0;asked="";hold(e){
 this.held!==e&&(this.held=e,this.version++,this.ask(),this.session.changed())}move(e,n=!1){let{pose:o}=this;this.moving=n,this.pose={x:0,y:0,yaw:0,...o,...e},this.
 version++,this.ask(),this.session.changed()}rest(){this.moving&&(this.moving=!1,this.ask())}refit(){let{pose:e,session:n}=this,o=e&&n.document&&Mn(e,n.document.
 grid);(!o||!qt(o,n.shape))&&(this.pose=null),this.fan=null,this.asked=this.trouble="",this.version++}ask(){let{session:e}=this,{shown:n,scan:o}=e;if(!this.held||
 !e.answers||!n||n.generation!==e.generation)return;!this.pose&&o?.pose.length&&(this.pose={x:o.pose[0],y:o.pose[1],yaw:o.pose[2]});let{pose:s}=this;if(!s)return;
-let r=performance.now();if(r-this.askedAt>$g&&(this.waiting=0),this.waiting>=Ig)return;let i=JSON.stringify([s,this.moving,n.generation,e.sampling,n.approximate]),
-a=e.sampling&&r-this.askedAt>Fg;i===this.asked&&!a||([this.asked,this.askedAt]=[i,r],this.waiting++,e.act({type:"ghost",...s,coarse:this.moving}))}receive(e,n){
+let r=performance.now();if(r-this.askedAt>Fg&&(this.waiting=0),this.waiting>=Og)return;let i=JSON.stringify([s,this.moving,n.generation,e.sampling,n.approximate]),
+a=e.sampling&&r-this.askedAt>Ig;i===this.asked&&!a||([this.asked,this.askedAt]=[i,r],this.waiting++,e.act({type:"ghost",...s,coarse:this.moving}))}receive(e,n){
 if(this.waiting=Math.max(0,this.waiting-1),this.trouble=e.type==="undecided"?e.text:"",e.type==="ghost"){let{angles:o,low:s,median:r,high:i,near_pose:a,near_ranges:l,
 near_hit:c}=n,{x:h,y:u,yaw:d,generation:m,draws:y,coarse:M,milliseconds:b}=e,x=e.near&&{...e.near,pose:a,ranges:l,hit:c};this.fan={x:h,y:u,yaw:d,generation:m,draws:y,
 coarse:M,milliseconds:b,angles:o,low:s,median:r,high:i,near:x},this.answers++}else this.fan=null;this.version++,this.ask()}};var lr=class{eventToPaint_ms=[];waiting=[];seqOfGeneration=new Map;sent(e,n){this.waiting.push({seq:e,time:n.timeStamp})}refused(e){this.waiting=this.waiting.filter(
@@ -975,11 +976,11 @@ waiting)s.seq<=n&&this.eventToPaint_ms.push(o-s.time);this.waiting=this.waiting.
 delete(s)}forget(){this.waiting=[],this.seqOfGeneration.clear()}};var cr=class{generation=-1;last=0;from={sweeps:0,time:0};hear(e){e.approximate||e.sweeps<=0||((this.generation!==e.generation||e.sweeps<this.last)&&(this.generation=
 e.generation,this.from={sweeps:e.sweeps,time:performance.now()}),this.last=e.sweeps)}remaining_s(e){let n=e.sweeps-this.from.sweeps;return n>0?(e.total-e.sweeps)*
 (performance.now()-this.from.time)/n/1e3:null}};var hr=class{constructor(e){this.session=e}picked=null;found=null;trouble="";slow=!1;version=0;timer=0;point(e,n){let{session:o}=this,s=o.document&&o.document.source.
-kind!=="simulation"&&!o.recorded,r=e&&s&&o.scan?Og(o.scan,e,n,o.document?.max_range??1/0):null;r?.beam===this.picked?.beam&&r?.scan===this.picked?.scan||(this.picked=
+kind!=="simulation"&&!o.recorded,r=e&&s&&o.scan?Ug(o.scan,e,n,o.document?.max_range??1/0):null;r?.beam===this.picked?.beam&&r?.scan===this.picked?.scan||(this.picked=
 r,this.found=null,this.trouble="",this.slow=!1,this.version++,clearTimeout(this.timer),r&&(this.timer=window.setTimeout(()=>this.ask(r),120)),o.changed())}ask({
 scan:e,beam:n}){this.session.act({type:"beam",scan:e,beam:n}),this.timer=window.setTimeout(()=>{this.slow=!0,this.session.changed()},1e3)}forget(){this.picked&&
 (clearTimeout(this.timer),this.picked=this.found=null,this.slow=!1,this.version++)}receive(e){e.type==="undecided"?this.trouble=e.text:e.beam===this.picked?.beam&&
-e.scan===this.picked.scan&&(this.found=e),this.version++}};function Og({index:t,pose:e,angles:n,ranges:o,hit:s},r,i,a){if(t===null)return null;let l={x:e[0],y:e[1]},
+e.scan===this.picked.scan&&(this.found=e),this.version++}};function Ug({index:t,pose:e,angles:n,ranges:o,hit:s},r,i,a){if(t===null)return null;let l={x:e[0],y:e[1]},
 [c,h]=[-1,1/0];for(let u=0;u<n.length;u++){let[d,m]=[Math.cos(e[2]+n[u]),Math.sin(e[2]+n[u])],[y,M]=[r.x-l.x,r.y-l.y],b=y*d+M*m,x=s[u]?o[u]:a,k=s[u]?Math.hypot(
 y-x*d,M-x*m):1/0,A=b>0&&b<x?Math.abs(y*m-M*d):1/0,E=Math.min(k,i/2+2*A);E<h&&([c,h]=[u,E])}return h<i?{scan:t,beam:c,from:l,angle:e[2]+n[c]}:null}var pr=class{constructor(e){this.session=e}found=null;trouble="";version=0;wanted=!1;sensor=null;known=null;knownVersion=-1;asked="";waitingSince=0;follow(e,n){
 this.sensor=n,e!==this.wanted&&(this.wanted=e,this.found=null,[this.trouble,this.asked,this.waitingSince]=["","",0],this.version++,this.session.changed()),e&&this.
@@ -1328,12 +1329,12 @@ px; }
 @media (prefers-reduced-motion: no-preference) { button, .segmented label { transition: background-color .12s; } }
 @media (forced-colors: active) { .legend i, .legend .ramp, progress, input[type=range], footer [role=status]::before { forced-color-adjust: none; } .story [aria\
 -current=step], .segmented label:has(:checked), .named { outline: 2px solid Highlight; } }
-`;var Zh="bayesmap-theme",Xh={auto:"light",light:"dark",dark:"auto"},ur=class{constructor(e,n){this.app=e;this.dressed=n;let o=Wg();o&&o in Xh&&(this.choice=o),this.
+`;var Zh="bayesmap-theme",Xh={auto:"light",light:"dark",dark:"auto"},ur=class{constructor(e,n){this.app=e;this.dressed=n;let o=Gg();o&&o in Xh&&(this.choice=o),this.
 media.addEventListener("change",this.listen)}theme=ks.light;media=matchMedia("(prefers-color-scheme: dark)");choice="auto";listen=()=>this.dress();dress(){let e=this.
 choice==="dark"||this.choice==="auto"&&this.media.matches,n=this.theme=e?ks.dark:ks.light;this.app.dataset.theme=e?"dark":"light";let{truth:o,ray:s,noReturn:r,sensor:i,
 hatch:a,unobserved:l,draw:c,ghost:h,belief:u}=n;for(let[d,m]of Object.entries({truth:o,ray:s,miss:r,sensor:i,hatch:a,unobserved:l,draw:c,ghost:h,belief:u}))this.
 app.style.setProperty(`--${d}`,m);this.dressed(this.choice==="auto"?"automatic":this.choice)}next(){this.choice=Xh[this.choice];try{localStorage.setItem(Zh,this.
-choice)}catch{}this.dress()}destroy(){this.media.removeEventListener("change",this.listen)}};function Wg(){try{return localStorage.getItem(Zh)}catch{return null}}var Qh=12;function es(t,e,{embedded:n=!1,adopt:o=null,notice:s=null,play:r}={}){let i=t.shadowRoot??t.attachShadow({mode:"open"}),a=new CSSStyleSheet;a.replaceSync(
+choice)}catch{}this.dress()}destroy(){this.media.removeEventListener("change",this.listen)}};function Gg(){try{return localStorage.getItem(Zh)}catch{return null}}var Qh=12;function es(t,e,{embedded:n=!1,adopt:o=null,notice:s=null,play:r}={}){let i=t.shadowRoot??t.attachShadow({mode:"open"}),a=new CSSStyleSheet;a.replaceSync(
 Kh+Jh),i.adoptedStyleSheets=[a],t.toggleAttribute("data-embedded",n);let l=0,c=()=>{l||=requestAnimationFrame(Wt)},h=new Eo(e,c,o,s);e.open();let u=new to,d=new gs(
 h),m=new ms(h,d),y=new or(h),M=new dr(h),b=new nr(h,d,m,Gt,z=>y.showLayer(z),n),x=[new ao,new co,new uo,new po,new _s,new Es,new ho,new ro,new mo,new lo,new As],
 k=x.map(({name:z})=>S("canvas",{className:z})),A=k[k.length-1];Object.assign(A,{tabIndex:0,role:"application"});let E=new Go(x,k);new Ts(A,h,u,d,m,n);let D=new bs(
@@ -1364,38 +1365,38 @@ se),command:Gt})}],[window,"online",()=>e.retry?.()],[window,"hashchange",async(
 z):Ie.story&&ue!==null?Ie.go(ue):se&&h.say(Io,"error")}],[t,"dragover",z=>z.preventDefault()],[t,"drop",z=>{z.preventDefault();let se=z.dataTransfer?.files[0];se&&
 Ya(se,h,r)}]];for(let[z,se,ue]of De)z.addEventListener(se,ue);return rt.dress(),{destroy(){Jt.disconnect(),cancelAnimationFrame(l),rt.destroy();for(let[z,se,ue]of De)
 z.removeEventListener(se,ue);e.close(),i.replaceChildren()},snapshot:()=>jh(h,u,E,M),cellToClient(z,se){let ue=A.getBoundingClientRect(),Ge=u.fromGrid({x:z+.5,y:se+
-.5},h.shape[1]);return{x:ue.left+Ge.x,y:ue.top+Ge.y}}}}var Gg=200,Hg=.2,Ye=class extends Error{},ep=({grid:t,walls:e})=>wt(ht(e),t.shape[0]*t.shape[1]);function tp({grid:t},{x:e,y:n}){let[o,s]=[Math.floor((e-t.origin[0])/
+.5},h.shape[1]);return{x:ue.left+Ge.x,y:ue.top+Ge.y}}}}var Hg=200,jg=.2,Ye=class extends Error{},ep=({grid:t,walls:e})=>wt(ht(e),t.shape[0]*t.shape[1]);function tp({grid:t},{x:e,y:n}){let[o,s]=[Math.floor((e-t.origin[0])/
 t.resolution),Math.floor((n-t.origin[1])/t.resolution)];return o>=0&&o<t.shape[0]&&s>=0&&s<t.shape[1]?o*t.shape[1]+s:null}function zi(t,e){let n=tp(t,e);if(n===
 null)throw new Ye("the sensor cannot stand outside the map");if(ep(t)[n])throw new Ye("the sensor cannot stand in a wall; move it to a free cell");return{...e,yaw:e.
-yaw-2*Math.PI*Math.round(e.yaw/(2*Math.PI))}}function np(t,e,n){switch(e.type){case"set":return[Yi({...t,...e.patch},t,n),""];case"walls":return jg(t,e.cells,e.
+yaw-2*Math.PI*Math.round(e.yaw/(2*Math.PI))}}function np(t,e,n){switch(e.type){case"set":return[Yi({...t,...e.patch},t,n),""];case"walls":return Vg(t,e.cells,e.
 wall);case"clear":return e.what==="walls"?[{...t,walls:op(t.grid.shape)},""]:null;case"add_sensor":{if(t.sensors.length>=n.sensors[1])throw new Ye(`there are ${t.
 sensors.length} sensors already; remove one first`);let o=Math.max(...t.sensors.map(s=>s.id))+1;return[{...t,sensors:[...t.sensors,zi(t,{id:o,x:e.x,y:e.y,yaw:e.
 yaw??0})]},""]}case"move_sensor":{let o=s=>zi(t,{id:s.id,x:e.x??s.x,y:e.y??s.y,yaw:e.yaw??s.yaw});return[{...t,sensors:t.sensors.map(s=>s.id===e.id?o(s):s)},""]}case"\
 remove_sensor":{let o=t.sensors.filter(s=>s.id!==e.id);if(!o.length)throw new Ye("the last sensor cannot be removed; add another first");return[{...t,sensors:o},
-""]}case"new":return[Vg(t,e.shape,e.world),""];default:return null}}var op=([t,e])=>Sn(new Uint8Array(t*e+7>>3));function jg(t,e,n){let o=ep(t),s=t.grid.shape[1];
+""]}case"new":return[zg(t,e.shape,e.world),""];default:return null}}var op=([t,e])=>Sn(new Uint8Array(t*e+7>>3));function Vg(t,e,n){let o=ep(t),s=t.grid.shape[1];
 for(let[i,a]of e)o[i*s+a]=n?1:0;let r="";for(let i of t.sensors){let a=tp(t,i);o[a]&&(r=`a sensor stands in cell (${Math.floor(a/s)}, ${a%s}): it stays free`),o[a]=
-0}return[{...t,walls:Sn(Zn(o))},r]}function Vg(t,e,n){if(n!=="blank")throw new Ye("this figure can begin blank maps alone; bayesmap app has others");let[o,s]=e.
-map(i=>Math.floor((i-1)/2));return{...t,grid:{shape:e,resolution:1,origin:[-.5,-.5]},walls:op(e),sensors:[{id:1,x:o,y:s,yaw:0}],noise:Hg,max_range:2*Math.max(...e)}}
+0}return[{...t,walls:Sn(Zn(o))},r]}function zg(t,e,n){if(n!=="blank")throw new Ye("this figure can begin blank maps alone; bayesmap app has others");let[o,s]=e.
+map(i=>Math.floor((i-1)/2));return{...t,grid:{shape:e,resolution:1,origin:[-.5,-.5]},walls:op(e),sensors:[{id:1,x:o,y:s,yaw:0}],noise:jg,max_range:2*Math.max(...e)}}
 function Yi(t,e,n){let o=t;for(let[h,u]of Object.entries(e)){let d=o[h];if(u!==null&&(typeof d!=typeof u||d===null))throw new Ye(`${h} is missing, or of another\
  type`);let m=n[h];if(m&&typeof d=="number"&&!(d>=m[0]&&d<=m[1]))throw new Ye(`${h}: ${d}; give ${m[0]} to ${m[1]}`)}let{grid:s,source:r,sensors:i,walls:a}=o;if(r.
 kind!=="simulation")throw new Ye("this figure shows drawn maps alone; start bayesmap app with the file");if(o.cells!=="binary"||o.pose_sigma>0||o.heading_sigma>
 0)throw new Ye("this figure samples walls seen from known poses alone; bayesmap app samples others");if(o.method==="propagate")throw new Ye("this figure has no \
 belief propagation; choose another method");let[l,c]=n.side;if(!(s.shape.length===2&&s.shape.every(h=>Number.isInteger(h)&&h>=l&&h<=c)&&s.resolution>0))throw new Ye(
 `grid: give ${l} to ${c} cells a side`);if(ht(a).length!==s.shape[0]*s.shape[1]+7>>3)throw new Ye("walls: another number of cells than the grid's");if(!(i.length>=
-n.sensors[0]&&i.length<=n.sensors[1]))throw new Ye(`sensors: give ${n.sensors[0]} to ${n.sensors[1]}`);return{...o,sensors:i.map(h=>zi(o,h))}}function zg(t){return t.
+n.sensors[0]&&i.length<=n.sensors[1]))throw new Ye(`sensors: give ${n.sensors[0]} to ${n.sensors[1]}`);return{...o,sensors:i.map(h=>zi(o,h))}}function Yg(t){return t.
 type==="walls"&&t.stroke?`walls ${t.stroke}`:t.type==="set"&&t.drag?`set ${t.drag} ${Object.keys(t.patch).sort()}`:t.type==="move_sensor"&&t.drag?`move ${t.drag}\
  ${t.id}`:null}var fr=class{constructor(e){this.present=e}past=[];future=[];gesture=null;get canUndo(){return this.past.length>0}get canRedo(){return this.future.
-length>0}push(e,n){let o=zg(n);(o===null||o!==this.gesture)&&(this.past.push(this.present),this.past.length>Gg&&this.past.shift()),this.future=[],this.gesture=o,
+length>0}push(e,n){let o=Yg(n);(o===null||o!==this.gesture)&&(this.past.push(this.present),this.past.length>Hg&&this.past.shift()),this.future=[],this.gesture=o,
 this.present=e}step(e){let[n,o]=e?[this.past,this.future]:[this.future,this.past],s=n.pop();return s?(o.push(this.present),this.present=s,this.gesture=null,!0):
-!1}};var Yg=11102230246251565e-32,sp=2**32,rp=1,ip=2,ap=3;function qi(t,e,n){let{high:o,low:s}=t,r=s&65535,i=s>>>16,a=n&65535,l=n>>>16,c=r*a,h=i*a+(c>>>16),u=r*l+(h&
+!1}};var qg=11102230246251565e-32,sp=2**32,rp=1,ip=2,ap=3;function qi(t,e,n){let{high:o,low:s}=t,r=s&65535,i=s>>>16,a=n&65535,l=n>>>16,c=r*a,h=i*a+(c>>>16),u=r*l+(h&
 65535),d=i*l+(h>>>16)+(u>>>16);t.low=((u&65535)<<16|c&65535)>>>0,t.high=d+Math.imul(o,n)+Math.imul(s,e)>>>0}function Ki(t,e){let{high:n,low:o}=t;t.low=(o^(o>>>e|
 n<<32-e))>>>0,t.high=(n^n>>>e)>>>0}function Bt(t,e,n){let o=e+1;n.high=Math.floor(o/sp)>>>0,n.low=o>>>0,qi(n,2654435769,2135587861);let s=n.low+t.low;n.high=n.high+
 t.high+(s>=sp?1:0)>>>0,n.low=s>>>0,Ki(n,30),qi(n,3210233709,484763065),Ki(n,27),qi(n,2496678331,321982955),Ki(n,31)}var Xi=({high:t,low:e})=>t*2097152+(e>>>11),
-Rn=t=>(Xi(t)+.5)*Yg;function mn(...t){let e=o=>BigInt.asUintN(64,o),n=0n;for(let o of t){let s=e((n^BigInt(o))+0x9e3779b97f4a7c15n);s=e((s^s>>30n)*0xbf58476d1ce4e5b9n),
-s=e((s^s>>27n)*0x94d049bb133111ebn),n=s^s>>31n}return{high:Number(n>>32n),low:Number(n&0xffffffffn)}}var Ji=2654435761,qg=2246822507;function mr(t,e){let n=Math.
-imul(t+e,Ji);return n=Math.imul(n^n>>>15,qg),n^n>>>13}function lp(t,e,n,o){let s=n>>>1,r=(1<<s)-1,i=(1<<n-s)-1,a=t;do{let l=a>>>s,c=a&r;l^=mr(c,o.low)&i,c^=mr(l,
+Rn=t=>(Xi(t)+.5)*qg;function mn(...t){let e=o=>BigInt.asUintN(64,o),n=0n;for(let o of t){let s=e((n^BigInt(o))+0x9e3779b97f4a7c15n);s=e((s^s>>30n)*0xbf58476d1ce4e5b9n),
+s=e((s^s>>27n)*0x94d049bb133111ebn),n=s^s>>31n}return{high:Number(n>>32n),low:Number(n&0xffffffffn)}}var Ji=2654435761,Kg=2246822507;function mr(t,e){let n=Math.
+imul(t+e,Ji);return n=Math.imul(n^n>>>15,Kg),n^n>>>13}function lp(t,e,n,o){let s=n>>>1,r=(1<<s)-1,i=(1<<n-s)-1,a=t;do{let l=a>>>s,c=a&r;l^=mr(c,o.low)&i,c^=mr(l,
 o.high)&r,l^=mr(c,o.low^Ji)&i,c^=mr(l,o.high^Ji)&r,a=(l<<s|c)>>>0}while(a>=e);return a}var cp=t=>Math.max(2,32-Math.clz32(t-1));function gr(t,e){let n={high:0,low:0};
-Bt(t,e,n);let o=Rn(n);return Bt(t,e+1,n),Math.sqrt(-2*Math.log(o))*Math.cos(2*Math.PI*Rn(n))}var Kg=2**53,hp=20,pp=1e15,[yr,Zi,dp]=[0,1,2],br=class{constructor(e){this.p=e;let n=e*Kg,o=Math.round(n);this.level=o-n===.5&&o%2?o-1:o,this.logit=Math.min(Math.
+Bt(t,e,n);let o=Rn(n);return Bt(t,e+1,n),Math.sqrt(-2*Math.log(o))*Math.cos(2*Math.PI*Rn(n))}var Jg=2**53,hp=20,pp=1e15,[yr,Zi,dp]=[0,1,2],br=class{constructor(e){this.p=e;let n=e*Jg,o=Math.round(n);this.level=o-n===.5&&o%2?o-1:o,this.logit=Math.min(Math.
 max(Math.log(e)-Math.log1p(-e),-pp),pp)}level;logit;draws(e){return Xi(e)<this.level}logProb(e){if(this.p===0||this.p===1)return 0;let n=0;for(let o of e)n+=o;return e.
 length*Math.log1p(-this.p)+n*this.logit}};function wr(t,e){return t>40?!0:t<-40?!1:e*(1+Math.exp(-t))<1}function Qi({order:t,shuffle:e},n,o){if(!e)return i=>t[i];
 let s=cp(t.length),r={high:0,low:0};return Bt(n,-1-o,r),i=>t[lp(i,t.length,s,r)]}var xr=class{constructor(e,n,o){this.problem=e;this.walls=n;this.key=o;let{offsets:s,
@@ -1414,34 +1415,34 @@ o.draws(this.bits)?1:0}}becomes(e,n){let{logit:o}=this.problem.prior;return this
 1];h++){let u=l+a[h];if(u<n){l=u,c=Zi;break}this.first[s[h]]>r[h]&&(l+=Math.fround(i[h]-this.current[s[h]]))}this.gain[e]=l,this.known[e]=c}stays(e,n){let{table:o,
 index:s,prior:r}=this.problem;if(this.known[e]===yr){let l=0;for(let c=s.offsets[e];c<s.offsets[e+1];c++)this.first[s.beam[c]]===s.entry[c]&&(l+=s.advantage[c]);
 this.gain[e]=l,this.known[e]=Zi}let i=r.logit+this.gain[e];if(this.known[e]===Zi&&i>hp&&wr(i,n))return!0;let a=0;for(let l=s.offsets[e];l<s.offsets[e+1];l++){let c=s.
-beam[l],h=s.entry[l];this.first[c]===h&&(a+=Math.fround(s.loglik[l]-this.entryLoglik(c,this.nextWall(h+1,o.offsets[c+1]))))}return wr(r.logit+a,n)}};var Jg=8,Xg=-1e300,Zg=2**53;function ea(t,e,n,o){let s=Math.floor(t/o)-e,r=t%o-n;return s<0||s>1||r<0||r>1?-1:2*s+r}function up({table:t,shape:[e,n]}){let{offsets:o,
+beam[l],h=s.entry[l];this.first[c]===h&&(a+=Math.fround(s.loglik[l]-this.entryLoglik(c,this.nextWall(h+1,o.offsets[c+1]))))}return wr(r.logit+a,n)}};var Xg=8,Zg=-1e300,Qg=2**53;function ea(t,e,n,o){let s=Math.floor(t/o)-e,r=t%o-n;return s<0||s>1||r<0||r>1?-1:2*s+r}function up({table:t,shape:[e,n]}){let{offsets:o,
 cells:s,noHit:r}=t,i=Math.max(1,e-1),a=Math.max(1,n-1),l=Array.from({length:i*a},()=>[]);for(let d=0;d<r.length;d++)for(let m=o[d];m<o[d+1];m++)for(let y=0;y<4;y++){
-let M=Math.floor(s[m]/n)-(y>>1),b=s[m]%n-(y&1);if(M<0||M>=i||b<0||b>=a)continue;let x=l[M*a+b],k=x[x.length-1];k?.b===d&&k.last>=m-Jg?k.last=m:x.push({b:d,first:m,
+let M=Math.floor(s[m]/n)-(y>>1),b=s[m]%n-(y&1);if(M<0||M>=i||b<0||b>=a)continue;let x=l[M*a+b],k=x[x.length-1];k?.b===d&&k.last>=m-Xg?k.last=m:x.push({b:d,first:m,
 last:m})}let c=new Int32Array(l.length+1);l.forEach((d,m)=>c[m+1]=c[m]+d.length);let h=l.flat(),u=d=>Int32Array.from(h,m=>m[d]);return{offsets:c,beam:u("b"),first:u(
 "first"),last:u("last"),rows:a}}function fp(t,e,n,o){let{prior:s,shape:[r,i]}=t.problem,{rows:a}=e,l=n.order.length,c=Qi(n,t.key,o),h=new Float64Array(16),u=new Float64Array(
 16),d={high:0,low:0};for(let m=0;m<l;m++){let y=c(m),M=Math.floor(y/a),b=y%a,x=4*(o*l+y),k=D=>M+(D>>1)<r&&b+(D&1)<i?(M+(D>>1))*i+b+(D&1):-1,A=0;for(let D=0;D<4;D++)
-k(D)>=0&&(A+=t.reached[k(D)]);if(!A){for(let D=0;D<4;D++)k(D)<0||(Bt(t.key,x+D,d),t.walls[k(D)]=s.draws(d)?1:0);continue}Qg(t,e,y,M,b,h),u.fill(0);for(let D=0;D<
-4;D++){let L=k(D)<0||s.level===0,O=!L&&s.level===Zg;for(let G=0;G<16;G++)(G>>D&1)===(O?0:1)&&(u[G]+=L||O?Xg:s.logit)}for(let D=0;D<16;D++)h[D]+=u[D];Bt(t.key,x,
-d);let E=ey(h,Rn(d));for(let D=0;D<4;D++){let L=k(D);L<0||(E>>D&1?t.walls[L]||t.put(L):t.walls[L]&&t.remove(L))}}}function Qg(t,e,n,o,s,r){let{table:i,shape:[,a]}=t.
+k(D)>=0&&(A+=t.reached[k(D)]);if(!A){for(let D=0;D<4;D++)k(D)<0||(Bt(t.key,x+D,d),t.walls[k(D)]=s.draws(d)?1:0);continue}ey(t,e,y,M,b,h),u.fill(0);for(let D=0;D<
+4;D++){let L=k(D)<0||s.level===0,O=!L&&s.level===Qg;for(let G=0;G<16;G++)(G>>D&1)===(O?0:1)&&(u[G]+=L||O?Zg:s.logit)}for(let D=0;D<16;D++)h[D]+=u[D];Bt(t.key,x,
+d);let E=ty(h,Rn(d));for(let D=0;D<4;D++){let L=k(D);L<0||(E>>D&1?t.walls[L]||t.put(L):t.walls[L]&&t.remove(L))}}}function ey(t,e,n,o,s,r){let{table:i,shape:[,a]}=t.
 problem,{offsets:l,cells:c,loglik:h}=i;r.fill(0);for(let u=e.offsets[n];u<e.offsets[n+1];u++){let d=e.beam[u],m=t.first[d],y=e.first[u];if(m<y)continue;let M=e.
 last[u],b=l[d+1],x=m;if(m<=M&&m<b&&ea(c[m],o,s,a)>=0)for(x=m+1;x<b&&!(t.walls[c[x]]&&ea(c[x],o,s,a)<0);)x++;let k=t.entryLoglik(d,x),A=0;for(let E=y;E<Math.min(
-M+1,x);E++){let D=ea(c[E],o,s,a);if(D<0)continue;let L=Math.fround(h[E]-k);for(let O=0;O<16;O++)O>>D&1&&!(O&A)&&(r[O]+=L);A|=1<<D}}}function ey(t,e){let n=Math.
+M+1,x);E++){let D=ea(c[E],o,s,a);if(D<0)continue;let L=Math.fround(h[E]-k);for(let O=0;O<16;O++)O>>D&1&&!(O&A)&&(r[O]+=L);A|=1<<D}}}function ty(t,e){let n=Math.
 max(...t),o=t.map(r=>r>n-40?Math.exp(r-n):0),s=e*o.reduce((r,i)=>r+i,0);for(let r=0;r<16;r++)if(s-=o[r],s<=0&&o[r]>0)return r;return 15}function $n(t){let e=0;for(let n=0;n<t.length;n++)e+=t[n];return e/t.length}var ta=t=>{let e=$n(t);return t.reduce((n,o)=>n+(o-e)**2,0)/(t.length-1)},vr=(t,e)=>t.
 reduceRight((n,o)=>n*e+o,0),mp=[[3.3871328727963665,133.14166789178438,1971.5909503065513,13731.69376550946,45921.95393154987,67265.7709270087,33430.57558358813,
 2509.0809287301227],[1,42.31333070160091,687.1870074920579,5394.196021424751,21213.794301586597,39307.89580009271,28729.085735721943,5226.495278852854]],gp=[[1.4234371107496835,
 4.630337846156546,5.769497221460691,3.6478483247632045,1.2704582524523684,.2417807251774506,.022723844989269184,.0007745450142783414],[1,2.053191626637759,1.6763848301838038,
-.6897673349851,.14810397642748008,.015198666563616457,.0005475938084995345,10507500716444169e-25]];function ty(t){let e=t-.5;if(Math.abs(e)<=.425){let o=.180625-
-e*e;return e*vr(mp[0],o)/vr(mp[1],o)}let n=Math.sqrt(-Math.log(e<0?t:1-t))-1.6;return Math.sign(e)*vr(gp[0],n)/vr(gp[1],n)}function ny(t){let e=t[0].length>>1;return[
+.6897673349851,.14810397642748008,.015198666563616457,.0005475938084995345,10507500716444169e-25]];function ny(t){let e=t-.5;if(Math.abs(e)<=.425){let o=.180625-
+e*e;return e*vr(mp[0],o)/vr(mp[1],o)}let n=Math.sqrt(-Math.log(e<0?t:1-t))-1.6;return Math.sign(e)*vr(gp[0],n)/vr(gp[1],n)}function oy(t){let e=t[0].length>>1;return[
 ...t.map(n=>n.slice(0,e)),...t.map(n=>n.slice(n.length-e))]}function yp(t){let e=Float64Array.from(t.flat()).sort(),n=new Map;for(let o=0;o<e.length;){let s=o+1;
-for(;s<e.length&&e[s]===e[o];)s++;n.set(e[o],ty(((o+1+s)/2-.375)/(e.length+.25))),o=s}return t.map(o=>o.map(s=>n.get(s)))}function wp(t){let e=t[0].length;return Math.
+for(;s<e.length&&e[s]===e[o];)s++;n.set(e[o],ny(((o+1+s)/2-.375)/(e.length+.25))),o=s}return t.map(o=>o.map(s=>n.get(s)))}function wp(t){let e=t[0].length;return Math.
 sqrt((e-1)/e+ta(t.map($n))/$n(t.map(ta)))}function bp(t,e){let n=t.length;for(let o=1,s=0;o<n;o++){let r=n>>1;for(;s&r;r>>=1)s^=r;s^=r,o<s&&([t[o],t[s],e[o],e[s]]=
 [t[s],t[o],e[s],e[o]])}for(let o=2;o<=n;o*=2)for(let s=0;s<o/2;s++){let r=-2*Math.PI*s/o,[i,a]=[Math.cos(r),Math.sin(r)];for(let l=s;l<n;l+=o){let c=l+o/2,[h,u]=[
-t[c]*i-e[c]*a,t[c]*a+e[c]*i];[t[c],e[c]]=[t[l]-h,e[l]-u],t[l]+=h,e[l]+=u}}}function oy(t){let e=t.length,n=$n(t),o=2**Math.ceil(Math.log2(2*e)),[s,r]=[new Float64Array(
-o),new Float64Array(o)];t.forEach((i,a)=>s[a]=i-n),bp(s,r);for(let i=0;i<o;i++)[s[i],r[i]]=[s[i]**2+r[i]**2,0];return bp(s,r),s.slice(0,e).map(i=>i/o/e)}function sy(t){
-let[e,n]=[t.length,t[0].length],o=t.map(oy),s=$n(o.map(h=>h[0]))*n/(n-1),r=s*(n-1)/n+ta(t.map($n)),i=h=>h?1-(s-$n(o.map(u=>u[h])))/r:1,a=Math.max(1,Math.ceil((n-
+t[c]*i-e[c]*a,t[c]*a+e[c]*i];[t[c],e[c]]=[t[l]-h,e[l]-u],t[l]+=h,e[l]+=u}}}function sy(t){let e=t.length,n=$n(t),o=2**Math.ceil(Math.log2(2*e)),[s,r]=[new Float64Array(
+o),new Float64Array(o)];t.forEach((i,a)=>s[a]=i-n),bp(s,r);for(let i=0;i<o;i++)[s[i],r[i]]=[s[i]**2+r[i]**2,0];return bp(s,r),s.slice(0,e).map(i=>i/o/e)}function ry(t){
+let[e,n]=[t.length,t[0].length],o=t.map(sy),s=$n(o.map(h=>h[0]))*n/(n-1),r=s*(n-1)/n+ta(t.map($n)),i=h=>h?1-(s-$n(o.map(u=>u[h])))/r:1,a=Math.max(1,Math.ceil((n-
 2)/2)),l=-1,c=1/0;for(let h=0;h<a;h++){let u=i(2*h),d=u+i(2*h+1);if(!(d>0)||h===a-1){l+=d>0?u:Math.max(u,0);break}c=Math.min(c,d),l+=2*c}return e*n/Math.max(l,1/
-Math.log10(e*n))}function xp(t){if(t[0].length<4||t.every(c=>c.every(h=>h===t[0][0])))return null;let e=ny(t),n=Float64Array.from(e.flat()).sort(),o=(n[n.length-
-1>>1]+n[n.length>>1])/2,s=e.map(c=>c.map(h=>Math.abs(h-o))),r=yp(e),[i,a]=[wp(r),wp(yp(s))];return{rhat:Number.isNaN(a)?i:Number.isNaN(i)?a:Math.max(i,a),ess:sy(
+Math.log10(e*n))}function xp(t){if(t[0].length<4||t.every(c=>c.every(h=>h===t[0][0])))return null;let e=oy(t),n=Float64Array.from(e.flat()).sort(),o=(n[n.length-
+1>>1]+n[n.length>>1])/2,s=e.map(c=>c.map(h=>Math.abs(h-o))),r=yp(e),[i,a]=[wp(r),wp(yp(s))];return{rhat:Number.isNaN(a)?i:Number.isNaN(i)?a:Math.max(i,a),ess:ry(
 r)}}function vp({table:t,prior:e,shape:n},o,s,r){let{offsets:i,cells:a,loglik:l,noHit:c}=t,h=n[0]*n[1],u={high:0,low:0},d=new Int8Array(h);return Float64Array.from(
 {length:r},(m,y)=>{d.fill(0);let M=0;for(let b=0;b<c.length;b++){let x=c[b];for(let k=i[b];k<i[b+1];k++){let A=a[k];if(d[A]||(Bt(o,(s+y)*h+A,u),d[A]=e.draws(u)?
 1:-1),d[A]>0){x=l[k];break}}M+=x}return M})}function na({prior:t,shape:e},n,o){let s=e[0]*e[1],r={high:0,low:0};return Uint8Array.from({length:s},(i,a)=>(Bt(n,o*
@@ -1460,13 +1461,13 @@ this.sides=3),n||(this.nextX+=this.gapX,this.x+=this.stepX),e||(this.nextY+=this
 n],o,s){for(let r=new kr(o,e,n,s);!r.over;r.next())if(r.inside&&t[r.cellX*n+r.cellY])return Math.min(r.distance,s);return s}function Sp([t,e],n,o){let s=[],r=new Int32Array(
 n.length+1);return n.forEach((i,a)=>{for(let l=new kr(i,t,e,o);!l.over;l.next())l.inside&&s.push(l.cellX*e+l.cellY);r[a+1]=s.length}),{offsets:r,cells:Int32Array.
 from(s)}}function Mp({x:t,y:e,ux:n,uy:o},s,r){let i=Math.floor(s/r),a=s-i*r,l=0,c=1e300,h=!0,u=(d,m,y)=>{let M=sa(m);if(!M)return;let b=1/m,x=y+(M>0?0:1)-d;l=Math.
-max(l,x*b),c=Math.min(c,(x+M)*b),h&&=y===oa(d,M)};return u(t,n,i),u(e,o,a),h?Math.max(c,0):l}var ry=Math.fround(.001),iy=-.5*Math.log(2*Math.PI);function Tp(t,e,n,o,s,r){let{offsets:i,cells:a}=t,l=o.sigma_m*o.sigma_m,c=.5*Math.log(l),h=(m,y)=>{let M=m-Math.
-min(y,o.max_m);return iy-.5*(M*M/l)-c},u=new Float32Array(a.length),d=new Float32Array(e.length);for(let m=0;m<e.length;m++){d[m]=h(n[m],1/0);for(let y=i[m];y<i[m+
+max(l,x*b),c=Math.min(c,(x+M)*b),h&&=y===oa(d,M)};return u(t,n,i),u(e,o,a),h?Math.max(c,0):l}var iy=Math.fround(.001),ay=-.5*Math.log(2*Math.PI);function Tp(t,e,n,o,s,r){let{offsets:i,cells:a}=t,l=o.sigma_m*o.sigma_m,c=.5*Math.log(l),h=(m,y)=>{let M=m-Math.
+min(y,o.max_m);return ay-.5*(M*M/l)-c},u=new Float32Array(a.length),d=new Float32Array(e.length);for(let m=0;m<e.length;m++){d[m]=h(n[m],1/0);for(let y=i[m];y<i[m+
 1];y++)u[y]=h(n[m],Mp(e[m],a[y],s)*r)}return{offsets:i,cells:a,loglik:u,noHit:d}}function Ap({offsets:t,cells:e,loglik:n,noHit:o},s){let r=Float32Array.from(o),
 i=new Float32Array(e.length);for(let d=0;d<o.length;d++){let m=o[d];for(let y=t[d+1]-1;y>=t[d];y--)i[y]=n[y]-m,m=Math.max(m,n[y]),r[d]=Math.min(r[d],n[y])}let a=new Int32Array(
 s+1);for(let d of e)a[d+1]++;for(let d=0;d<s;d++)a[d+1]+=a[d];let l=()=>new Float32Array(e.length),c=()=>new Int32Array(e.length),h={offsets:a,entry:c(),beam:c(),
 loglik:l(),gainBound:l(),advantage:l()},u=a.slice();for(let d of[!0,!1])for(let m=0;m<o.length;m++)for(let y=t[m];y<t[m+1];y++){let M=Math.fround(n[y]-r[m]);if(M>
-ry!==d)continue;let b=u[e[y]]++;h.entry[b]=y,h.beam[b]=m,h.loglik[b]=n[y],h.gainBound[b]=M,h.advantage[b]=i[y]}for(let d=0;d<s;d++)for(let m=a[d+1]-2;m>=a[d];m--)
+iy!==d)continue;let b=u[e[y]]++;h.entry[b]=y,h.beam[b]=m,h.loglik[b]=n[y],h.gainBound[b]=M,h.advantage[b]=i[y]}for(let d=0;d<s;d++)for(let m=a[d+1]-2;m>=a[d];m--)
 h.gainBound[m]+=h.gainBound[m+1];return h}function ts({angles:t,fov:e}){let n=e*(180/Math.PI);if(n===360)return Float64Array.from({length:t},(s,r)=>r*2*Math.PI/t);let o=n/(t-t%2);return Float64Array.from(
 {length:t},(s,r)=>(o*r-n/2)*(Math.PI/180))}function Ep(t){let{origin:e,resolution:n}=t.grid,o=[...ts(t)];return t.sensors.flatMap(({x:s,y:r,yaw:i})=>o.map(a=>({
 x:(s-e[0])/n,y:(r-e[1])/n,ux:Math.cos(i+a),uy:Math.sin(i+a)})))}function Pp({grid:t,walls:e,max_range:n},o){let s=wt(ht(e),t.shape[0]*t.shape[1]),r=n/t.resolution;
@@ -1474,7 +1475,7 @@ return Float64Array.from(o,i=>Math.min(Sr(s,t.shape,i,r)*t.resolution,n))}functi
 i,s,o/a),c=Tp(l,s,r,{sigma_m:e,max_m:o},i[1],a);return{table:c,index:Ap(c,i[0]*i[1]),prior:new br(n),shape:i}}function Cp({grid:t,sensors:e,order:n},o){let[s,r]=t.
 shape,[i,a]=o?[Math.max(1,s-1),Math.max(1,r-1)]:[s,r],l=Int32Array.from({length:i*a},(d,m)=>m);if(n!=="radial")return{order:l,shuffle:n==="random"};let c=(d,m)=>Math.
 min(Math.max(d,0),m-1),h=e.map(({x:d,y:m})=>[c(Math.floor((d-t.origin[0])/t.resolution),s),c(Math.floor((m-t.origin[1])/t.resolution),r)]),u=l.map(d=>Math.min(...h.
-map(([m,y])=>Math.abs(Math.floor(d/a)-m)+Math.abs(d%a-y))));return{order:Int32Array.from([...l].sort((d,m)=>u[d]-u[m]||d-m)),shuffle:!1}}var tn=2,Lp=32,ay=300,ly=100,cy=64<<20,hy=.1,py=16,dy=40,ra=24,Np=[.1,.3,.5,.7,.9],$p={chains:0,count:0},uy={gibbs:"Gibbs sampling, cell by cell",block:"Gibbs s\
+map(([m,y])=>Math.abs(Math.floor(d/a)-m)+Math.abs(d%a-y))));return{order:Int32Array.from([...l].sort((d,m)=>u[d]-u[m]||d-m)),shuffle:!1}}var tn=2,Lp=32,ly=300,cy=100,hy=64<<20,py=.1,dy=16,uy=40,ra=24,Np=[.1,.3,.5,.7,.9],$p={chains:0,count:0},fy={gibbs:"Gibbs sampling, cell by cell",block:"Gibbs s\
 ampling, 2 x 2 blocks",importance:"importance sampling",none:"none yet: this is the prior"},Po=()=>performance.now(),Dp=t=>Uint8Array.from(t,e=>Math.round(255*e)),
 Rp=t=>String(+t.toPrecision(4)),_o=class{constructor(e,n){this.document=e;this.problem=n;this.cells=n.shape[0]*n.shape[1]}done=!1;seconds=0;method="none";cells;work(e){
 let n=Po();do this.step();while(!this.done&&Po()-n<e);this.seconds+=(Po()-n)/1e3}step(){this.done=!0}get draws(){return $p}beamsThrough(e){let{offsets:n}=this.problem.
@@ -1482,15 +1483,15 @@ index;return n[e+1]-n[e]}mean(){return new Float64Array(this.cells).fill(this.do
 return{sweeps:0,total:0,ess:null,rhat:null,log_joint:null,verdict:null,burned:0}}draw(e){return null}weights(){return null}picture(e,n,o,s){let{document:r,method:i}=this,
 a=e.layer==="draw"?this.draw(e):null,l=this.weights(),c=i==="gibbs"?`, ${r.order} order`:"",h={type:"field",generation:n,milliseconds:o,layer:a?"draw":"mean",method:i,
 approximate:!1,...this.figures(s),draws:this.draws,quantity:{kind:"binary",mean:"P(wall)",value:"wall",interval:!1},chain:null,draw:null,averaged:null,lowest:l?.
-lowest??null,seconds:i==="none"?null:this.seconds,about:[["Method",uy[i]+c],["Prior",`independent: p wall ${Rp(r.prior)}`],["Sensor",`gaussian: sigma ${Rp(r.noise)}\
+lowest??null,seconds:i==="none"?null:this.seconds,about:[["Method",fy[i]+c],["Prior",`independent: p wall ${Rp(r.prior)}`],["Sensor",`gaussian: sigma ${Rp(r.noise)}\
  m`],["Poses","known"],["Computed","in this page"]],...a&&{chain:a.chain,draw:a.draw,log_joint:a.log_joint}},u=Dp(a?a.map:this.mean());return[h,{p:u,reached:Dp(
 this.reached()),...this.trace(),...l&&{weights:l.weights}}]}recording(e){let{document:n}=this,{chains:o,count:s}=this.draws,[r,i]=this.picture({layer:"mean",chain:0,
 draw:null},1,0,!0),a=Uint32Array.from({length:this.cells},(u,d)=>this.beamsThrough(d)),{log_joint:l,draws:c}=this.recorded(),h=n.sensors.map(({id:u})=>u);return[
 {version:1,document:n,field:r,ids:h,draws:{chains:o,count:s,kept:s,bits:!0},log_joint:l},{...i,...e,beams:a,draws:c}]}recorded(){return{log_joint:[],draws:new Uint8Array(
-0)}}trace(){let e=this.logJoint,n=e[0]?.length??0,o=Math.min(n,ay),s=Array.from({length:o},(a,l)=>Math.round(o>1?1+l*(n-1)/(o-1):1)),r=Array.from({length:Math.min(
-n,ly)},(a,l)=>l+1),i=[...new Set([...r,...s])].sort((a,l)=>a-l);return{trace:Float32Array.from(e.flatMap(a=>i.map(l=>a[l-1]))),traced:Float32Array.from(i)}}},ns=class extends _o{constructor(n,o,s,r){
+0)}}trace(){let e=this.logJoint,n=e[0]?.length??0,o=Math.min(n,ly),s=Array.from({length:o},(a,l)=>Math.round(o>1?1+l*(n-1)/(o-1):1)),r=Array.from({length:Math.min(
+n,cy)},(a,l)=>l+1),i=[...new Set([...r,...s])].sort((a,l)=>a-l);return{trace:Float32Array.from(e.flatMap(a=>i.map(l=>a[l-1]))),traced:Float32Array.from(i)}}},ns=class extends _o{constructor(n,o,s,r){
 super(n,o);this.judging=s;let{seed:i,start:a,sweeps:l}=n;this.method=r?"block":"gibbs",this.blocks=r?up(o):null,this.sites=Cp(n,r),this.thin=Math.ceil(l*tn*Math.
-ceil(this.cells/8)/cy),this.chains=Array.from({length:tn},(c,h)=>{let d=a==="empty"&&n.prior<1?new Uint8Array(this.cells):na(o,mn(i,h,ip),0);return new xr(o,d,mn(
+ceil(this.cells/8)/hy),this.chains=Array.from({length:tn},(c,h)=>{let d=a==="empty"&&n.prior<1?new Uint8Array(this.cells):na(o,mn(i,h,ip),0);return new xr(o,d,mn(
 i,h,rp))}),this.touched=new Uint8Array(this.cells);for(let c of o.table.cells)this.touched[c]=1;this.present={sweep:0,sums:this.chains.map(()=>new Float64Array(
 this.cells)),reached:new Uint32Array(this.cells),looks:0},this.past=[this.copy()],this.goOn(l)}chains;blocks;sites;lookAt=new Set;touched;joint=Array.from({length:tn},
 ()=>[]);likelihood=Array.from({length:tn},()=>[]);kept=Array.from({length:tn},()=>[]);thin;total=0;sweep=0;present;past;diagnosis=null;diagnosed=0;diagnoseAt=0;goOn(n){
@@ -1510,7 +1511,7 @@ past,o=Math.max(1,this.present.looks-n.looks);return Float64Array.from(this.pres
 draw:o}){let s=Math.min(n,tn-1),{count:r}=this.draws;if(!r)return{map:this.chains[s].walls,chain:s,draw:0,log_joint:this.joint[s].at(-1)??0};let i=Math.min(o??r-
 1,r-1);return{map:wt(this.kept[s][i],this.cells),chain:s,draw:i,log_joint:this.joint[s][(i+1)*this.thin-1]}}figures(n){let[{sweep:o}]=this.past,s=Po();(s>=this.
 diagnoseAt||this.done&&this.diagnosed<this.sweep)&&(this.diagnosis=xp(this.joint.map(c=>c.slice(o))),this.diagnosed=this.sweep,this.diagnoseAt=this.done?1/0:Po()+
-(Po()-s)/hy);let r=this.joint.reduce((c,h)=>c+h[h.length-1],0)/tn,{ess:i=null,rhat:a=null}=this.diagnosis??{},l=c=>c!==null&&Number.isFinite(c)?c:null;return{sweeps:this.
+(Po()-s)/py);let r=this.joint.reduce((c,h)=>c+h[h.length-1],0)/tn,{ess:i=null,rhat:a=null}=this.diagnosis??{},l=c=>c!==null&&Number.isFinite(c)?c:null;return{sweeps:this.
 sweep,total:this.total,ess:l(i),rhat:l(a),log_joint:r,verdict:this.verdict(n||this.done),burned:o}}verdict(n){let{judging:o,sweep:s}=this,r=s<o.fewest_sweeps;if(r&&
 !n)return null;let i=(u,d,m=null)=>({level:u,why:d,cell:m}),a=this.difference();if(!r&&a.cells>o.chance_share*a.among){let[u,d]=a.cell,m=`in ${a.cells} of ${a.among}\
  observed cells, most in cell (${u}, ${d}), by ${a.by.toFixed(2)}`;return i("bad",`P(wall) differs by over ${o.bad_difference} between the chains ${m}`,a.cell)}
@@ -1524,25 +1525,25 @@ i=2*(s-Math.min(...r)),a=2/(9*n);return i>n*(1-a+this.judging.misfit_sigmas*Math
 r={by:0,cell:[0,0],cells:0,among:0};for(let i=0;i<this.cells;i++){if(s[i]<.5)continue;let a=Math.abs(n[i]-o[i]);r.among++,a>this.judging.bad_difference&&r.cells++,
 a>r.by&&([r.by,r.cell]=[a,[Math.floor(i/this.problem.shape[1]),i%this.problem.shape[1]]])}return r}},Mr=class extends _o{constructor(n,o,s){super(n,o);this.judging=
 s;this.method="importance",this.key=mn(n.seed,0,ap),this.sums=new Float64Array(this.cells),this.touched=new Uint8Array(this.cells);for(let r of o.table.cells)this.
-touched[r]=1}key;logWeights=[];most=-1/0;sum=0;sums;touched;step(){let n=this.logWeights.length,o=Math.min(py,this.document.sweeps-n);vp(this.problem,this.key,n,
+touched[r]=1}key;logWeights=[];most=-1/0;sum=0;sums;touched;step(){let n=this.logWeights.length,o=Math.min(dy,this.document.sweeps-n);vp(this.problem,this.key,n,
 o).forEach((s,r)=>{if(this.logWeights.push(s),s>this.most){let l=Math.exp(this.most-s);this.sum*=l;for(let c=0;c<this.cells;c++)this.sums[c]*=l;this.most=s}if(s<
-this.most-dy)return;let i=Math.exp(s-this.most),a=na(this.problem,this.key,n+r);this.sum+=i;for(let l=0;l<this.cells;l++)a[l]&&(this.sums[l]+=i)}),this.done=this.
+this.most-uy)return;let i=Math.exp(s-this.most),a=na(this.problem,this.key,n+r);this.sum+=i;for(let l=0;l<this.cells;l++)a[l]&&(this.sums[l]+=i)}),this.done=this.
 logWeights.length>=this.document.sweeps}mean(){return this.sums.map((n,o)=>this.touched[o]?n/this.sum:this.document.prior)}reached(){let n=this.mean(),{offsets:o,
 cells:s,noHit:r}=this.problem.table,i=new Float64Array(this.cells);for(let a of Np){let l=new Uint8Array(this.cells);for(let c=0;c<r.length;c++)for(let h=o[c];h<
 o[c+1]&&(l[s[h]]=1,!(n[s[h]]>a));h++);for(let c=0;c<this.cells;c++)i[c]+=l[c]/Np.length}return i}figures(){let{effectiveSampleSize:n}=kp(Float64Array.from(this.
 logWeights));return{sweeps:this.logWeights.length,total:this.document.sweeps,ess:n,rhat:null,log_joint:null,verdict:this.verdict(n),burned:0}}verdict(n){let{bad_ess:o,
 good_ess:s}=this.judging,r=n.toFixed(1)==="1.0"?"one particle carries":`${n.toFixed(1)} particles carry`;return n<o?{level:"bad",why:`${r} all the weight`,cell:null}:
 {level:n>=s?"good":"fair",why:`${n.toFixed(0)} effective particles`,cell:null}}weights(){let n=this.logWeights.map(r=>r-this.most),o=Math.min(-1,...n.filter(Number.
-isFinite).reduce((r,i)=>[Math.min(r[0],i)],[0])),s=new Float32Array(ra);for(let r of n)s[Math.min(ra-1,Math.floor(ra*(1-r/o)))]++;return{weights:s,lowest:o}}};var Tr=.03,fy=40,Fn=180,Fp=90,ia=9,my=24,Ip=60,aa=7,Op=50,gy=25,yy=10,Up=1e3,wy=4e3,by=21;function Hp(t,e,n){let{grid:o,noise:s,max_range:r,seed:i}=t,{shape:[a,
+isFinite).reduce((r,i)=>[Math.min(r[0],i)],[0])),s=new Float32Array(ra);for(let r of n)s[Math.min(ra-1,Math.floor(ra*(1-r/o)))]++;return{weights:s,lowest:o}}};var Tr=.03,my=40,Fn=180,Fp=90,ia=9,gy=24,Ip=60,aa=7,Op=50,yy=25,wy=10,Up=1e3,by=4e3,xy=21;function Hp(t,e,n){let{grid:o,noise:s,max_range:r,seed:i}=t,{shape:[a,
 l],resolution:c,origin:h}=o,u=wt(ht(t.walls),a*l),d=ts(t),m=r/c,y=(P,_,B)=>c*Sr(u,o.shape,{x:P,y:_,ux:Math.cos(B),uy:Math.sin(B)},m),M=(P,_)=>P>=0&&_>=0&&P<a&&_<
 l&&!u[Math.floor(P)*l+Math.floor(_)],b=(1-Tr)/(s*Math.sqrt(2*Math.PI)),x=([P,_,B])=>{if(!M(P,_))return-1/0;let I=0;for(let ie=0;ie<d.length;ie++){let K=y(P,_,B+
-d[ie]),J=(e[ie]-K)/s,Q=K>=r;n[ie]?I+=Math.log((Q?0:b*Math.exp(-.5*J*J))+Tr/r):I+=Math.log(Q?1-Tr/2:Tr/2)}return I},k=$(),A=Bp(k.slice(0,wy),P=>P,1.5,.2,Ip);if(A.
-length===Ip)return ee(k.filter((P,_)=>_%Math.ceil(k.length/Up)===0));let E=mn(i,0,by),[D,L]=[0,-1/0],O=A.slice(0,my).map(P=>({mean:P,root:la(.4,.4,.04),poses:[],
-logs:[],top:-1/0}));for(let P=0;P<=aa;P++){for(let _ of O){let B=P===aa,I=B?1.4:1.2,ie=Array.from({length:B?3*Op:Op},()=>xy(_.mean,_.root,I,E,D+=3)),K=ie.map(({
+d[ie]),J=(e[ie]-K)/s,Q=K>=r;n[ie]?I+=Math.log((Q?0:b*Math.exp(-.5*J*J))+Tr/r):I+=Math.log(Q?1-Tr/2:Tr/2)}return I},k=$(),A=Bp(k.slice(0,by),P=>P,1.5,.2,Ip);if(A.
+length===Ip)return ee(k.filter((P,_)=>_%Math.ceil(k.length/Up)===0));let E=mn(i,0,xy),[D,L]=[0,-1/0],O=A.slice(0,gy).map(P=>({mean:P,root:la(.4,.4,.04),poses:[],
+logs:[],top:-1/0}));for(let P=0;P<=aa;P++){for(let _ of O){let B=P===aa,I=B?1.4:1.2,ie=Array.from({length:B?3*Op:Op},()=>vy(_.mean,_.root,I,E,D+=3)),K=ie.map(({
 pose:q,log:W})=>x(q)-W);_.top=Math.max(_.top,...ie.map(({log:q},W)=>K[W]+q)),L=Math.max(L,_.top),Object.assign(_,{poses:ie.map(({pose:q})=>q),logs:K});let[J,Q]=Gp(
-_.poses,Wp(K,B?1:yy));!B&&Q&&([_.mean,_.root]=[J,vy(Q)])}O=O.filter(_=>_.top>L-gy*(aa-P+1)),P>=2&&(O=Bp(O.sort((_,B)=>B.top-_.top),({mean:_})=>_,1,.15))}let G=Math.
+_.poses,Wp(K,B?1:wy));!B&&Q&&([_.mean,_.root]=[J,ky(Q)])}O=O.filter(_=>_.top>L-yy*(aa-P+1)),P>=2&&(O=Bp(O.sort((_,B)=>B.top-_.top),({mean:_})=>_,1,.15))}let G=Math.
 max(...O.flatMap(({logs:P})=>P)),te=O.map(({poses:P,logs:_})=>_.map(B=>Math.exp(B-G)/P.length)),X=te.flat().reduce((P,_)=>P+_,0);return U(O.map(({poses:P},_)=>({
-poses:P,weights:te[_].map(B=>B/X)})),L/d.length);function $(){let P=new Float32Array(Fn),_=Array.from(d.keys()).filter((K,J)=>J%Math.ceil(d.length/fy)===0),B=Math.
+poses:P,weights:te[_].map(B=>B/X)})),L/d.length);function $(){let P=new Float32Array(Fn),_=Array.from(d.keys()).filter((K,J)=>J%Math.ceil(d.length/my)===0),B=Math.
 hypot(s,.3*c),I=[];for(let K=0;K<a*l;K++){if(u[K])continue;let[J,Q]=[Math.floor(K/l)+.5,K%l+.5];for(let q=0;q<Fn;q++)P[q]=y(J,Q,q*2*Math.PI/Fn);for(let q=0;q<Fp;q++){
 let W=q*2*Math.PI/Fp,fe=0;for(let de of _){let he=Math.round((W+d[de])*Fn/(2*Math.PI)),ae=P[(he%Fn+Fn)%Fn],Fe=(e[de]-ae)/B;fe+=n[de]?Math.min(Fe*Fe,ia):ae>=r?0:
 ia}I.push({pose:[J,Q,W],loss:fe})}}I.sort((K,J)=>K.loss-J.loss);let ie=I[0]?.loss??0;return I.filter(({loss:K})=>K<ie+.25*ia*_.length).map(({pose:K})=>K)}function ee(P){
@@ -1552,22 +1553,22 @@ Ie,0),[[q,W,fe],de]=Gp(K,J.map(Ne=>Ne/Q)),he=[c,c,1],ae=(de??la(0,0,0)).map((Ne,
 ie=P.flatMap(({poses:K,weights:J})=>K.map((Q,q)=>({pose:Q,weight:J[q]}))).sort((K,J)=>K.weight-J.weight).slice(-Up);return{modes:B.sort((K,J)=>J.probability-K.probability),
 pose:Float32Array.from(ie.flatMap(({pose:[K,J,Q]})=>[h[0]+K*c,h[1]+J*c,Q])),weight:Float32Array.from(ie,({weight:K})=>K),nats_per_beam:_}}}function Bp(t,e,n,o,s=1/0){
 let r=[];for(let i of t){if(r.length>=s)break;let[a,l,c]=e(i),h=u=>{let[d,m,y]=e(u);return Math.hypot(a-d,l-m)<n&&Math.abs(Math.atan2(Math.sin(c-y),Math.cos(c-y)))<
-o};r.some(h)||r.push(i)}return r}var la=(...t)=>t.map((e,n)=>t.map((o,s)=>n===s?e:0));function xy(t,e,n,o,s){let r=[0,1,2].map(l=>gr(o,2*(s+l))),i=t.map((l,c)=>l+
+o};r.some(h)||r.push(i)}return r}var la=(...t)=>t.map((e,n)=>t.map((o,s)=>n===s?e:0));function vy(t,e,n,o,s){let r=[0,1,2].map(l=>gr(o,2*(s+l))),i=t.map((l,c)=>l+
 n*e[c].reduce((h,u,d)=>h+u*r[d],0)),a=-.5*(r[0]**2+r[1]**2+r[2]**2)-Math.log(n**3*e[0][0]*e[1][1]*e[2][2]);return{pose:i,log:a}}function Wp(t,e){let n=Math.max(
 ...t);if(n===-1/0)return t.map(()=>1/t.length);for(let o=1;;o/=2){let s=t.map(i=>Math.exp(o*(i-n))),r=s.reduce((i,a)=>i+a,0);if(o<1e-6||r**2>=e*s.reduce((i,a)=>i+
 a*a,0))return s.map(i=>i/r)}}function Gp(t,e){let n=t[e.indexOf(Math.max(...e))],o=t.map(l=>l.map((c,h)=>h===2?Math.atan2(Math.sin(c-n[2]),Math.cos(c-n[2])):c-n[h])),
 s=l=>o.reduce((c,h,u)=>c+e[u]*l(h),0),r=[0,1,2].map(l=>s(c=>c[l])),i=r.map((l,c)=>r.map((h,u)=>s(d=>(d[c]-l)*(d[u]-h))));return[n.map((l,c)=>l+r[c]),i.every((l,c)=>l[c]>=
-0)&&Number.isFinite(i[0][0])?i:null]}function vy(t){let e=la(0,0,0);for(let n=0;n<3;n++)for(let o=0;o<=n;o++){let s=t[n][o];for(let r=0;r<o;r++)s-=e[n][r]*e[o][r];
-e[n][o]=n===o?Math.sqrt(Math.max(s,1e-7)):s/e[o][o]}return e}var ky=12,Sy=80,My=11,Ty=new Set(["path","views","ghost","beam"]),ca="This figure has no such tool: bayesmap app has it";async function jp(t){return JSON.parse(
-new TextDecoder().decode(await Qn(ht(t))))}function Ay(t,e){let n=Pp(t,e),{seed:o,noise:s,angles:r,sensors:i}=t,a=i.map(({id:c})=>mn(o,c,My)),l=n.map((c,h)=>t.readings===
-"exact"?c:c+s*gr(a[Math.floor(h/r)],2*(h%r)));return{exact:n,readings:l}}function Ey({method:t,prior:e},{rare_walls:n}){return t!=="auto"?t:Math.min(e,1-e)<=n?"\
+0)&&Number.isFinite(i[0][0])?i:null]}function ky(t){let e=la(0,0,0);for(let n=0;n<3;n++)for(let o=0;o<=n;o++){let s=t[n][o];for(let r=0;r<o;r++)s-=e[n][r]*e[o][r];
+e[n][o]=n===o?Math.sqrt(Math.max(s,1e-7)):s/e[o][o]}return e}var Sy=12,My=80,Ty=11,Ay=new Set(["path","views","ghost","beam"]),ca="This figure has no such tool: bayesmap app has it";async function jp(t){return JSON.parse(
+new TextDecoder().decode(await Qn(ht(t))))}function Ey(t,e){let n=Pp(t,e),{seed:o,noise:s,angles:r,sensors:i}=t,a=i.map(({id:c})=>mn(o,c,Ty)),l=n.map((c,h)=>t.readings===
+"exact"?c:c+s*gr(a[Math.floor(h/r)],2*(h%r)));return{exact:n,readings:l}}function Py({method:t,prior:e},{rare_walls:n}){return t!=="auto"?t:Math.min(e,1-e)<=n?"\
 block":"gibbs"}function Vp(t,e=n=>setTimeout(n)){let{limits:n,judging:o}=t,s=new fr(t.document),[r,i]=[0,0],[a,l,c]=[!0,!1,!1],h={layer:"mean",chain:0,draw:null},
 u="live",d=null,[m,y]=[!1,!1],[M,b]=[0,0],x=null,k=(P,_)=>U.onmessage({type:"status",text:P,level:_},{}),A=()=>U.onmessage({type:"state",document:s.present,generation:r,
 seq:i,can_undo:s.canUndo,can_redo:s.canRedo,live:a,running:l,working:c,draws:!c&&d?.draws||{chains:0,count:0},scan:0,view:h},{}),E=(P=!1)=>{d&&(b=performance.now(),
-U.onmessage(...d.picture(h,r,Math.round(b-M),P)))};function D(){if(m=!1,y||!c)return;let P=!d;d??=O(),u!=="clear"&&d.work(ky);let _=d.done||u==="clear";(P||_||performance.
-now()-b>Sy)&&E(),_?(l=c=!1,A()):L()}function L(){m||e(D),m=!0}function O(){let P=s.present,{sensors:_,max_range:B}=P,I=Ep(P),{exact:ie,readings:K}=Ay(P,I),J=Float64Array.
+U.onmessage(...d.picture(h,r,Math.round(b-M),P)))};function D(){if(m=!1,y||!c)return;let P=!d;d??=O(),u!=="clear"&&d.work(Sy);let _=d.done||u==="clear";(P||_||performance.
+now()-b>My)&&E(),_?(l=c=!1,A()):L()}function L(){m||e(D),m=!0}function O(){let P=s.present,{sensors:_,max_range:B}=P,I=Ep(P),{exact:ie,readings:K}=Ey(P,I),J=Float64Array.
 from(_.flatMap(({x:de,y:he,yaw:ae})=>[de,he,ae])),Q=de=>Float32Array.from(de),q={pose:J,angles:Q(ts(P)),ranges:Q(K),exact:Q(ie),hit:Uint8Array.from(ie,de=>de<B?
-1:0)};x=q,U.onmessage({type:"scan",generation:r,ids:_.map(({id:de})=>de),index:null},q);let W=_p(P,I,K),fe=Ey(P,t);return u==="clear"?new _o(P,W):fe==="importan\
+1:0)};x=q,U.onmessage({type:"scan",generation:r,ids:_.map(({id:de})=>de),index:null},q);let W=_p(P,I,K),fe=Py(P,t);return u==="clear"?new _o(P,W):fe==="importan\
 ce"?new Mr(P,W,o):new ns(P,W,o,fe==="block")}function G(P=a?"live":"clear"){r++,u=P,d=null,l=u==="run",c=!0,M=performance.now(),A(),L()}function te(){if(!c)return A();
 if(!d)return G("clear");l=c=!1,E(!0),A()}function X(P){if(P)return s.push(Yi(P,t.document,n),{type:"hello"}),G();if(!r)return G();A(),E()}function $(P){let{sensors:_,
 angles:B}=s.present,I=Math.max(0,_.findIndex(he=>he.id===P)),{x:ie,y:K,yaw:J}=_[I],Q=[I*B,(I+1)*B];if(!x||y)return;let{modes:q,pose:W,weight:fe,nats_per_beam:de}=Hp(
@@ -1580,23 +1581,23 @@ document")throw new Ye(ca);let ie=new TextEncoder().encode(`${JSON.stringify(s.p
 s.present,P,n);if(!_)throw new Ye(ca);let[B,I]=_;s.push(B,P),I&&k(I,"warning"),G()}let U={...cn(),open:()=>{U.onmessage({type:"welcome",version:1,limits:n,recorded:!1,
 figure:!0,lacks:[],story:t.story},{}),U.onmessage({type:"worker",state:"ready"},{}),U.onstatus({connected:!0})},send:P=>{if(P.type!=="painted"){if(P.type==="ins\
 pect"){let _=d?.beamsThrough(P.x*s.present.grid.shape[1]+P.y);if(_===void 0)return;let B={beams_for:null,nats_for:null,beams_against:null,nats_against:null,draw:null,
-chain:null,prior_nats:null,log_odds:null};return U.onmessage({type:"cell",x:P.x,y:P.y,each:!1,beams:_,...B},{})}if(P.type==="where")return e(()=>$(P.sensor));if(Ty.
+chain:null,prior_nats:null,log_odds:null};return U.onmessage({type:"cell",x:P.x,y:P.y,each:!1,beams:_,...B},{})}if(P.type==="where")return e(()=>$(P.sensor));if(Ay.
 has(P.type))return k(ca,"warning");i=P.seq??i;try{ee(P)}catch(_){if(!(_ instanceof Ye))throw _;if(P.type==="hello")return U.onmessage({type:"error",text:_.message,
-remedy:"",seq:i},{});k(_.message,"warning"),A()}}},record:()=>d&&x&&d.recording(x),close:()=>{y=!0}};return U}var ha=250,Py=8e3;function zp(t){let e=null,n=ha,o=0,s=!1;function r(){clearTimeout(o);let a=new URL("socket",t());a.protocol=a.protocol.replace("http","ws"),a.
+remedy:"",seq:i},{});k(_.message,"warning"),A()}}},record:()=>d&&x&&d.recording(x),close:()=>{y=!0}};return U}var ha=250,_y=8e3;function zp(t){let e=null,n=ha,o=0,s=!1;function r(){clearTimeout(o);let a=new URL("socket",t());a.protocol=a.protocol.replace("http","ws"),a.
 search=t().search;let l=new WebSocket(a),c=!1;e=l,l.binaryType="arraybuffer",l.onopen=()=>{c=!0,n=ha,i.onstatus({connected:!0})},l.onmessage=({data:h})=>{typeof h==
 "string"?i.onmessage(JSON.parse(h),{}):i.onmessage(...hn(h))},l.onclose=()=>{if(s||e!==l)return;o=window.setTimeout(r,n);let h={connected:!1,retryIn_ms:n};i.onstatus(
-h),c||_y(t()).then(u=>u&&e===l&&i.onstatus({...h,refused:u})),n=Math.min(Py,2*n)}}let i={...cn(),open:r,send:a=>{e?.readyState===WebSocket.OPEN&&e.send(JSON.stringify(
+h),c||Cy(t()).then(u=>u&&e===l&&i.onstatus({...h,refused:u})),n=Math.min(_y,2*n)}}let i={...cn(),open:r,send:a=>{e?.readyState===WebSocket.OPEN&&e.send(JSON.stringify(
 a))},read:(a,l)=>new Promise((c,h)=>{let u=new URL("open",t());u.search=t().search,u.searchParams.set("name",a.name);let d=new XMLHttpRequest;d.open("POST",u),d.
 responseType="arraybuffer",d.upload.onprogress=({loaded:m,total:y})=>l(m/y),d.onload=()=>d.status===200?c(d.response):h(new Error(new TextDecoder().decode(d.response))),
 d.onerror=()=>h(new Error("the connection is lost")),d.send(a)}),retry:()=>{n=ha,e?.readyState!==WebSocket.OPEN&&r()},close:()=>{s=!0,clearTimeout(o),e?.close()}};
-return i}async function _y(t){try{return(await fetch(t.pathname+t.search,{method:"HEAD",cache:"no-store"})).status===403}catch{return!1}}function Yp(t){let e=(o,s=[])=>n.onmessage(o,za(o,s)),n={...cn(),open:()=>{t.on("msg:custom",e),n.onstatus({connected:!0})},send:o=>t.send(o),close:()=>t.off("m\
-sg:custom",e)};return n}var Cy="This is the map that was drawn here when the connection was lost; undo leads back",qp=()=>!("DecompressionStream"in window&&"adoptedStyleSheets"in document),
-Kp="This page needs a newer browser: Safari 16.4, Firefox 121, Chrome 111, or later.",Ar=t=>Object.assign(window,{bayesmap:t}),hv={render({model:t,el:e}){let n=document.
+return i}async function Cy(t){try{return(await fetch(t.pathname+t.search,{method:"HEAD",cache:"no-store"})).status===403}catch{return!1}}function Yp(t){let e=(o,s=[])=>n.onmessage(o,za(o,s)),n={...cn(),open:()=>{t.on("msg:custom",e),n.onstatus({connected:!0})},send:o=>t.send(o),close:()=>t.off("m\
+sg:custom",e)};return n}var Ly="This is the map that was drawn here when the connection was lost; undo leads back",qp=()=>!("DecompressionStream"in window&&"adoptedStyleSheets"in document),
+Kp="This page needs a newer browser: Safari 16.4, Firefox 121, Chrome 111, or later.",Ar=t=>Object.assign(window,{bayesmap:t}),pv={render({model:t,el:e}){let n=document.
 createElement("div");if(e.append(n),qp())return void(n.textContent=Kp);let o=es(n,Yp(t),{embedded:!0});return Ar(o),()=>o.destroy()}};function Jp(t,e){let n=es(
-t,us(e),{play:pa(t,()=>n)});Ar(n)}var pa=(t,e)=>n=>{e().destroy(),Jp(t,n)};async function Ly(){let t=document.querySelector("[data-bayesmap]");if(!t||t.shadowRoot)
+t,us(e),{play:pa(t,()=>n)});Ar(n)}var pa=(t,e)=>n=>{e().destroy(),Jp(t,n)};async function Ny(){let t=document.querySelector("[data-bayesmap]");if(!t||t.shadowRoot)
 return;if(qp())return void(t.textContent=Kp);let e=new CSSStyleSheet;e.replaceSync("body { margin: 0; }"),document.adoptedStyleSheets.push(e);let n=document.querySelector(
 "script[data-recording]");if(n){Jp(t,await ds(n.textContent??""));return}let o=document.querySelector("script[data-figure]");if(o){let[{document:h,damaged:u},d]=await Promise.
 all([Oo(),jp(o.textContent??"")]),m=u?{text:Io,level:"error"}:null,y=es(t,Vp(d),{adopt:h,notice:m,play:pa(t,()=>y)});Ar(y);return}Sl(new URLSearchParams(location.
 search).get("token"));let{document:s,damaged:r}=await Oo(),i=s?null:xl(),a=zp(()=>new URL(location.href));Ml(h=>{history.replaceState(null,"",`${location.pathname}\
-?token=${encodeURIComponent(h)}${location.hash}`),a.retry?.()});let c=es(t,a,{adopt:s??i,notice:r?{text:Io,level:"error"}:i?{text:Cy,level:"info"}:null,play:pa(
-t,()=>c)});Ar(c)}Ly();export{hv as default,Vp as localTransport,es as mount,jp as readFigure,ds as readRecording,us as recordedTransport,zp as webSocketTransport,Yp as widgetTransport};
+?token=${encodeURIComponent(h)}${location.hash}`),a.retry?.()});let c=es(t,a,{adopt:s??i,notice:r?{text:Io,level:"error"}:i?{text:Ly,level:"info"}:null,play:pa(
+t,()=>c)});Ar(c)}Ny();export{pv as default,Vp as localTransport,es as mount,jp as readFigure,ds as readRecording,us as recordedTransport,zp as webSocketTransport,Yp as widgetTransport};
