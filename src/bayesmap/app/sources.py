@@ -160,7 +160,7 @@ class OpenedLog:
         counts = traced.counts.count_first(document.scans_used)
         prior: CellPrior = Independent(document.prior) if document.cells == "binary" else BUILT_IN[document.cells]()
         p_stop = stop_probabilities(counts, prior, document.prior)
-        mean, observed = p_stop.reshape(document.grid.shape), counts.any(axis=0).reshape(document.grid.shape)
+        mean, observed = p_stop.reshape(document.grid.shape), np.reshape(np.any(counts, axis=0), document.grid.shape)
         return Result(self.scene(document), document, "hits", HitCountMap(mean, observed, prior))
 
     def _trace(self, grid: Grid) -> TracedBeams:
