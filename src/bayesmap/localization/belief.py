@@ -23,6 +23,7 @@ from bayesmap.space.trajectory import ellipses
 
 NEAR_M, NEAR_RAD = 0.2, np.radians(7.0)  # poses linked by steps shorter than this belong to one mode
 MIN_MODE_SIGMA = np.array([0.002, 0.002, np.radians(0.05)])  # standard deviations of a mode
+NEIGHBOURS = 10  # poses that share a mode with each pose of equal weight, itself among them
 LINKING_WEIGHT = 0.995  # share of the weight whose poses link others into modes
 MIN_PROBABILITY = 1e-4  # probability of a mode that is listed
 REGION_DRAWS = 4000  # number of draws by which a region is computed
@@ -197,8 +198,7 @@ def _label_clusters(poses: Floats, weights: Floats) -> Indices:
     from scipy.sparse.csgraph import connected_components
     from scipy.spatial import cKDTree
 
-    radius_m = NEAR_M / NEAR_RAD
-    points = np.column_stack([poses[:, :2], radius_m * np.sin(poses[:, 2]), radius_m * np.cos(poses[:, 2])])
+    points = _embed(poses)
     order = np.argsort(-weights, kind="stable")
     # Only poses that hold nearly all weight link others: strays between two modes must not link them.
     heavy = order[: int(np.searchsorted(np.cumsum(weights[order]), LINKING_WEIGHT * weights.sum())) + 1]
@@ -206,6 +206,25 @@ def _label_clusters(poses: Floats, weights: Floats) -> Indices:
     links = tree.sparse_distance_matrix(tree, NEAR_M, output_type="coo_matrix")
     _, label = connected_components(links, directed=False)
     return np.asarray(label[tree.query(points)[1]], dtype=np.intp)
+
+
+def label_neighbours(poses: Floats) -> Indices:
+    """Label poses of equal weight, (N,): each has the label of the `NEIGHBOURS` poses nearest to it."""
+    from scipy.sparse import coo_matrix
+    from scipy.sparse.csgraph import connected_components
+    from scipy.spatial import cKDTree
+
+    points = _embed(poses)
+    nearest = cKDTree(points).query(points, NEIGHBOURS)[1]
+    rows = np.repeat(np.arange(len(poses)), NEIGHBOURS)
+    links = coo_matrix((np.ones(nearest.size), (rows, nearest.ravel())), shape=(len(poses), len(poses)))
+    return np.asarray(connected_components(links, directed=False)[1], dtype=np.intp)
+
+
+def _embed(poses: Floats) -> Floats:
+    """Return points, (N, 4), whose distances are those of poses: `NEAR_RAD` of yaw is as far as `NEAR_M`."""
+    radius_m = NEAR_M / NEAR_RAD
+    return np.column_stack([poses[:, :2], radius_m * np.sin(poses[:, 2]), radius_m * np.cos(poses[:, 2])])
 
 
 def _density(positions: Floats, means: Floats, covariances: Floats, shares: Floats) -> Floats:

@@ -5,7 +5,8 @@ map's free cells, or both. If it is too wide, a search over the whole map propos
 them, and the exact law, averaged over draws of the map, weights poses. The robot may also be elsewhere, or the map
 outdated: then readings have the law of readings anywhere (`compute_belief`).
 
-`locate` works in a map that is known exactly, where the posterior is narrow and may have many places.
+`locate` works in a map that is known exactly, where the posterior is narrow and may have many places. Few returns fit
+walls anywhere, so their posterior is annealed over the whole map (`anneal_population`).
 """
 
 from collections.abc import Callable
@@ -14,10 +15,10 @@ from functools import partial
 
 import numpy as np
 
-from bayesmap.localization.belief import NEGLIGIBLE_NATS, Population, PoseBelief, PoseMixture, log_sum
+from bayesmap.localization.belief import NEGLIGIBLE_NATS, Population, PoseBelief, PoseMixture, label_neighbours, log_sum
 from bayesmap.localization.known_map import INDEPENDENT_BEAMS, KnownMap, log_anywhere, n_valid
 from bayesmap.localization.search import MIN_POINTS, end_points, search
-from bayesmap.sensors.model import RangeLimits
+from bayesmap.sensors.model import BeamMixture, Gaussian, RangeLimits
 from bayesmap.space.arrays import Indices
 from bayesmap.space.planar import Floats, wrap_angle
 
@@ -48,6 +49,10 @@ LOCATE_ROUND_DRAWS = 24  # draws per place in a round
 LOCATE_LAST_DRAWS = 192  # draws per place in the last round
 SAME_PLACE_SIGMAS = 1.0  # places nearer than this coincide, in standard deviations
 SAME_PLACE_XY_YAW = np.array([0.02, 0.02, np.radians(1.0)])  # places nearer than this coincide: metres, radians
+WIDE_NOISE = 1 / 3  # noise at which annealing begins, as a share of a typical range
+ANNEAL_MOVES = 6  # Metropolis moves of each pose after a step
+MOVE_LOG10 = (-3.0, -0.2)  # range of the logarithm of a move's size, as a share of a typical range
+MOVE_RAD = 0.4  # turn of a move of a whole typical range, radians
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,7 +119,8 @@ def update(known: KnownMap, prior: Prior, scan: Scan, rng: np.random.Generator, 
     # Take the places of the prior and of a search, and refine them by the end points.
     places = _starting_places(known, prior, scan, look_everywhere=look_everywhere)
     if places is None:
-        return compute_belief(known, prior, scan, draw_uniform_population(known, few_beams, rng), place_of=None)
+        population = draw_uniform_population(known, few_beams, rng)
+        return compute_belief(known, prior, scan, population, population.place)
     places = refine_by_end_points(places, partial(prior.log_density, known=known), known, scan, rng)
     min_share, max_places = known.trust.min_draw_share, known.trust.max_places
     max_nats = max(NEGLIGIBLE_NATS, known.trust.forgotten_nats)
@@ -168,6 +174,48 @@ def draw_uniform_population(known: KnownMap, target: Target, rng: np.random.Gene
     return Population(poses, log_weights, np.zeros(UNIFORM_DRAWS, dtype=np.intp), log_target)
 
 
+def anneal_population(final: Target, rng: np.random.Generator) -> Population:
+    """Sample poses anywhere on a map by sequential Monte Carlo (Del Moral, Doucet and Jasra 2006).
+    Each step leaves about half of the poses effective. At first the power of a likelihood with wide noise rises, then
+    the noise narrows. Weights are equal; they estimate the evidence. Poses that are neighbours have the same place.
+    """
+    known = final.known
+    assert isinstance(known.sensor, BeamMixture)
+    typical_m, log_uniform = known.typical_range_m, -np.log(known.free_area_m2 * 2 * np.pi)
+    scale_m = float(known.sensor.noise.scale_at(np.asarray(typical_m)))
+    doublings = range(max(0, int(np.ceil(np.log2(WIDE_NOISE * typical_m / scale_m)))), 0, -1)
+    sensors = [replace(known.sensor, noise=Gaussian(scale_m * 2.0**k)) for k in doublings]
+    targets = [*(replace(final, known=replace(known, sensor=sensor)) for sensor in sensors), final]
+    population = draw_uniform_population(known, targets[0], rng)
+    poses, log_target, power, log_evidence = population.poses, population.log_target, 0.0, 0.0
+    while power < 1.0 or len(targets) > 1:
+        if power < 1.0:
+            # Raise the power as far as half of the poses stay effective.
+            logs, rise = log_target - log_uniform, 1.0 - power
+            while 2.0 * np.exp(2.0 * log_sum(rise * logs) - log_sum(2.0 * rise * logs)) < len(poses):
+                rise *= 0.9
+            power, log_ratios = min(1.0, power + rise), rise * logs
+        else:
+            targets.pop(0)
+            log_before, log_target = log_target, targets[0](poses)
+            log_ratios = log_target - log_before
+        # Resample the poses, and move them.
+        log_evidence += float(log_sum(log_ratios) - np.log(len(poses)))
+        cumulative = np.cumsum(np.exp(log_ratios - log_sum(log_ratios)))
+        points = (np.arange(len(poses)) + rng.random()) / len(poses)  # evenly spread: systematic resampling
+        parents = np.searchsorted(cumulative / cumulative[-1], points)
+        poses, log_target = poses[parents], log_target[parents]
+        for _ in range(ANNEAL_MOVES):
+            size = 10.0 ** rng.uniform(*MOVE_LOG10, (len(poses), 1)) * np.array([typical_m, typical_m, MOVE_RAD])
+            proposals = poses + size * rng.standard_normal(poses.shape)
+            log_proposed = targets[0](proposals)
+            accepted = rng.standard_exponential(len(poses)) > power * (log_target - log_proposed)
+            poses = np.where(accepted[:, None], proposals, poses)
+            log_target = np.where(accepted, log_proposed, log_target)
+    poses[:, 2] = wrap_angle(poses[:, 2])
+    return Population(poses, np.full(len(poses), log_evidence), label_neighbours(poses), log_target)
+
+
 def refine_by_end_points(
     places: PoseMixture, log_prior: Callable[[Floats], Floats], known: KnownMap, scan: Scan, rng: np.random.Generator
 ) -> PoseMixture:
@@ -191,18 +239,16 @@ def refine_by_end_points(
 
 
 def compute_belief(
-    known: KnownMap, prior: Prior, scan: Scan, population: Population, place_of: Indices | None,
+    known: KnownMap, prior: Prior, scan: Scan, population: Population, place_of: Indices,
     prior_shares: Floats | None = None,
 ) -> PoseBelief:  # fmt: skip
     """Return the posterior of a population, with the probability of being lost.
-    ``place_of`` is the place of each pose, (N,), or None if poses are spread over the whole map. If only part of the
-    scan's evidence is new, ``prior_shares`` is each place's share of the prior, (K,).
+    ``place_of`` is the place of each pose, (N,). If only part of the scan's evidence is new, ``prior_shares`` is each
+    place's share of the prior, (K,).
     """
     weights = population.weights
     if not np.isfinite(population.log_evidence):
         weights = np.full(len(population.poses), 1.0 / len(population.poses))
-    if place_of is None:
-        place_of = np.zeros(len(weights), dtype=np.intp)  # one mode, spread over the whole map
     # Share the mass among places. Between places a scan is worth fewer readings than for the pose within a place.
     log_likelihood = _log_likelihood(known, prior, population)
     power = known.beam_weight_for_place(scan.ranges_m) / known.beam_weight_for_pose(scan.ranges_m)
@@ -303,7 +349,8 @@ def locate(known: KnownMap, scan: Scan, rng: np.random.Generator) -> PoseBelief:
     final = Target(known, prior, scan, final_weight)
     candidates = search(known.field, scan.angles_rad, scan.ranges_m, LOCATE_CANDIDATES)
     if len(candidates.poses) == 0:
-        return compute_belief(known, prior, scan, draw_uniform_population(known, final, rng), place_of=None)
+        population = anneal_population(final, rng)
+        return compute_belief(known, prior, scan, population, population.place)
     places = _mixture_at(candidates.poses)
     # Adapt the places while the beams' weight rises, then at the final weight.
     thin = max(1, len(scan.angles_rad) // LOCATE_BEAMS)
