@@ -81,18 +81,20 @@ export function entropyRgb(bits: number): Triple {
 }
 
 /** Packed pixels: 256 by probability in 255ths, for each sixteenth of the probability that a beam reaches the cell. */
-export function paletteOf(theme: Theme, layer: "value" | "entropy" | "width"): Uint32Array {
+export function paletteOf(theme: Theme, layer: "value" | "entropy" | "width" | "state"): Uint32Array {
   const pixels = new Uint8ClampedArray(4 * 256 * 17).fill(255);
   const [free, wall] = [hexRgb(theme.unobserved), hexRgb(theme.unobservedWall)];
   for (let i = 0; i < 256; i++) {
     const doubt = layer === "entropy" ? entropyBits(i / 255) : i / 255;
-    const known = layer === "value" ? probabilityRgb(theme, i / 255) : entropyRgb(doubt);
-    const unknown = layer === "value" ? mix(free, wall, i / 255) : known; // doubt has one colour, which the legend names
+    const known = layer === "value" || layer === "state" ? probabilityRgb(theme, i / 255) : entropyRgb(doubt);
+    const unknown = layer === "value" ? mix(free, wall, i / 255) : known; // doubt has one colour, which the legend names, and a state of a draw has one
     for (let share = 0; share <= 16; share++) pixels.set(mix(unknown, known, share / 16), 4 * (i + 256 * share));
   }
   return new Uint32Array(pixels.buffer);
 }
 
-/** A CSS gradient of a palette, for the legend. */
-export const gradient = (color: (t: number) => Triple) =>
-  `linear-gradient(90deg,${[0, 0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1].map((t) => `rgb(${color(t).map(Math.round)})`)})`;
+/** A CSS gradient of a palette, for the legend, or two swatches. */
+export const gradient = (color: (t: number) => Triple, swatches = false) => {
+  const css = (t: number) => `rgb(${color(t).map(Math.round)})`;
+  return `linear-gradient(90deg,${swatches ? `${css(0)} 50%,${css(1)} 50%` : [0, 0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1].map(css)})`;
+};

@@ -219,12 +219,14 @@ export function mount(element: HTMLElement, transport: Transport, { embedded = f
   });
   observer.observe(stage);
 
-  /** Puts the cursor on a cell, in the middle of the stage and large enough to be seen. */
+  /** Puts the cursor on a cell, and moves the map only where the cell is outside or too small to be seen. */
   function show([x, y]: number[]) {
     const { scale } = view.transform;
-    if (scale < SEEN_FROM_SCALE) view.zoom(SEEN_FROM_SCALE / scale, view.middle, session.shape);
-    const at = view.fromGrid({ x: x + 0.5, y: y + 0.5 }, session.shape[1]);
-    view.pan(view.middle.x - at.x, view.middle.y - at.y, session.shape);
+    const centre = { x: x + 0.5, y: y + 0.5 };
+    const small = scale < SEEN_FROM_SCALE;
+    if (small) view.zoom(SEEN_FROM_SCALE / scale, view.middle, session.shape);
+    const at = view.fromGrid(centre, session.shape[1]);
+    if (small || at.x < scale || at.y < scale || at.x > view.width - scale || at.y > view.height - scale) view.pan(view.middle.x - at.x, view.middle.y - at.y, session.shape);
     keys.focus();
     hand.setCursor({ x, y });
   }

@@ -112,6 +112,13 @@ test("its handle turns the robot", () => {
   assert.deepEqual([x, y], [10, 10]);
 });
 
+test("a wall drawn over a sensor leaves its cell free, and the status says so", () => {
+  const desk = holding("draw");
+  desk.drag([[9, 10], [10, 10], [11, 10]]);
+  assert.deepEqual(desk.walls, [[9, 10], [11, 10]]);
+  assert.match(desk.status, /A sensor stands in a cell of this stroke/);
+});
+
 test("of several sensors the nearest is taken, and Shift adds one where the hand is", () => {
   const desk = holding("sensor", { ...NO_WALLS, sensors: [{ id: 1, x: 10, y: 10, yaw: 0 }, { id: 4, x: 10.4, y: 10, yaw: 0 }] });
   desk.pointer("down", desk.at(10.35, 10));

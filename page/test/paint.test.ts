@@ -38,6 +38,12 @@ test("unobserved cells are warm, and entropy is cividis from dark to bright", ()
   assert.match(gradient(entropyRgb), /^linear-gradient\(90deg,rgb\(0,34,78\),.*rgb\(254,232,56\)\)$/);
 });
 
+test("a draw has two colours, whether a beam reaches the cell or not", () => {
+  const pixels = paletteOf(THEMES.light, "state");
+  for (const p of [0, 255]) for (const share of [0, 8]) assert.equal(pixels[p + 256 * share], paletteOf(THEMES.light, "value")[p + 256 * 16]);
+  assert.equal(gradient(() => [1, 2, 3], true), "linear-gradient(90deg,rgb(1,2,3) 50%,rgb(1,2,3) 50%)");
+});
+
 test("doubt has one colour, whether a beam reaches the cell or not", () => {
   const pixels = paletteOf(THEMES.light, "entropy");
   for (const p of [0, 128, 255]) for (const share of [0, 8]) assert.equal(pixels[p + 256 * share], pixels[p + 256 * 16]);

@@ -104,13 +104,13 @@ test("numbers out of range are brought into it, and the limit is said until some
 
 test("limits are those that the server sent: in degrees what lies inside them", () => {
   const [desk, poses] = panel(posesPanel);
-  poses.control("Yaw \u00b1, number").put("90", "change");
+  poses.control("Yaw \u00b1 (\u00b0), number").put("90", "change");
   assert((last(desk) as any).heading_sigma <= LIMITS.heading_sigma[1]); // 0.6 rad, of which 34.3 degrees are shown
-  assert.equal(desk.status, "Yaw \u00b1 is at most 34.3");
+  assert.equal(desk.status, "Yaw \u00b1 (\u00b0) is at most 34.3");
   desk.says("welcome", { limits: { ...LIMITS, heading_sigma: [0, Math.PI / 2], pose_sigma: [0, 7] } });
-  poses.control("Yaw \u00b1, number").put("89", "change");
+  poses.control("Yaw \u00b1 (\u00b0), number").put("89", "change");
   assert(Math.abs((last(desk) as any).heading_sigma - (89 * Math.PI) / 180) < 1e-12);
-  assert.deepEqual([poses.control("Position \u00b1", "range").max, poses.control("Yaw \u00b1", "range").max], ["7", "90"]);
+  assert.deepEqual([poses.control("Position \u00b1 (m)", "range").max, poses.control("Yaw \u00b1 (\u00b0)", "range").max], ["7", "90"]);
 });
 
 test("a prior of 0 or 1 is not taken, and the slider keeps to its steps inside the limits", () => {
@@ -144,10 +144,10 @@ test("a field that was emptied, or holds no number, shows its number again and s
 
 test("angles are in degrees on the page and in radians in the document", () => {
   const [desk, poses] = panel(posesPanel);
-  poses.control("Yaw \u00b1, number").put("10", "change");
+  poses.control("Yaw \u00b1 (\u00b0), number").put("10", "change");
   assert(Math.abs((last(desk) as any).heading_sigma - Math.PI / 18) < 1e-12);
-  assert.equal(poses.control("Yaw \u00b1, number").value, "10");
-  poses.control("Yaw \u00b1", "range").put("30", "input");
+  assert.equal(poses.control("Yaw \u00b1 (\u00b0), number").value, "10");
+  poses.control("Yaw \u00b1 (\u00b0)", "range").put("30", "input");
   assert(Math.abs((last(desk) as any).heading_sigma - Math.PI / 6) < 1e-12);
   const [other, model] = panel(modelPanel);
   model.control("Field of view (\u00b0)").put("360", "change");

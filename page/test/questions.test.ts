@@ -109,6 +109,7 @@ test("the robot's place is asked for one question at a time, of the sensor in th
   const modes = [0.6, 0.398, 0.002].map((probability) => ({ probability, mean: [0, 0, 0] }));
   desk.says("where", { picture: 1, modes, pose: [0, 0, 0] }, { pose: new Float32Array(3), weight: Float32Array.of(1) });
   assert.equal(where.found!.modes.length, 2); // the last is not worth words
+  assert.equal(where.current, false); // it is sensor 2's
   where.follow(true, 1);
   assert.deepEqual(desk.asked("where").at(-1), { type: "where", sensor: 1 });
   desk.confirm({ prior: 0.3 });
@@ -119,6 +120,16 @@ test("the robot's place is asked for one question at a time, of the sensor in th
   assert.deepEqual([where.trouble, where.found], ["no draws yet", null]);
   where.follow(true, 1);
   assert.equal(asked(desk, "where"), 3);
+  desk.confirm({ prior: 0.4 });
+  desk.field();
+  where.follow(true, 1);
+  assert.equal(asked(desk, "where"), 3);
+  desk.says("where", { picture: desk.session.generation - 1, sensor: 1, modes, pose: [0, 0, 0] }, { pose: new Float32Array(3), weight: Float32Array.of(1) });
+  where.follow(true, 1);
+  assert.deepEqual([where.current, asked(desk, "where")], [false, 4]); // the map has changed meanwhile
+  desk.says("worker", { state: "ready" }); // another, which was not asked
+  where.follow(true, 1);
+  assert.equal(asked(desk, "where"), 5);
   where.follow(false, null);
   assert.equal(where.trouble, "");
 });

@@ -20,6 +20,8 @@ const draws = { draws: { chains: 2, count: 10 } };
 test("the map says what it shows, and what a quick answer is made of", () => {
   const [desk, found] = panel(chip);
   assert.match(found.text, /^mean \u00b7 1000 sweeps/);
+  desk.field({ sweeps: 1, rhat: 1.0012, ess: 99.6 });
+  assert.match(found.text, /^mean \u00b7 1 sweep \u00b7 R-hat 1.001 \u00b7 ESS 100/);
   desk.field({ approximate: true, method: "propagate" });
   assert.match(found.text, /^mean \u00b7 approximate, belief propagation/);
   desk.field({ approximate: true, method: "hits" });
@@ -173,7 +175,7 @@ test("a log's picture of the last question is not taken for the answer to the ne
 test("figures are shown with their verdict, and a dash where there are none", () => {
   const [desk, found] = panel(posterior);
   desk.field({ ess: 812.4, rhat: 1.0123, log_joint: -123.456, verdict: { level: "good", why: "R-hat 1.01", cell: null } });
-  assert.match(found.text, /ESS 812 R-hat 1.012 log joint -123.5/);
+  assert.match(found.text, /ESS 812 R-hat 1.012 log joint, mean -123.5/);
   assert.match(found.text, /Converged: R-hat 1.01/);
   assert.equal(found.find((one) => one.tagName === "dd" && one.className === "good").length, 2);
   const [meaning] = found.find(({ tagName, firstElementChild }) => tagName === "details" && firstElementChild?.textContent === "What these figures mean");
@@ -234,6 +236,8 @@ test("a path, and why there is none, in words", () => {
   assert.match(found.text, /Looking for a path/);
   desk.says("path", { length_m: 3.456, probability: 0.98765, standard_error: 0.001, draws: 40, independent: 0.5, within_risk: false });
   assert.match(found.text, /3.46 m, free with probability 0.988 \u00b1 0.001 by 40 draws. Independent cells would say 0.500. No path was found whose risk is low enough; this is the safest./);
+  desk.says("path", { length_m: 3.456, probability: 1, standard_error: 0, draws: 1800, independent: 0.5, within_risk: true });
+  assert.match(found.text, /3.46 m, free in all 1800 draws: with probability over 0.998 \(95 %, were they independent\)\. Independent cells/);
   desk.says("undecided", { question: "path", text: "path: there is no way" });
   assert.match(found.text, /There is no way\.$/);
   desk.choose("look");
@@ -312,7 +316,7 @@ test("where the robot may be, in words", () => {
   assert.match(found.text, /Looking everywhere\./);
   const place = (probability: number, x = 3, sigma_m = 0.02) => ({ probability, mean: [x, 4, Math.PI / 2], sigma_m, sigma_rad: 0.01, covariance: [] });
   const said = (modes: object[], fields = {}) => {
-    desk.says("where", { picture: 1, modes, pose: [3.1, 4, Math.PI / 2], p_lost: 0, ...fields }, { pose: new Float32Array(3), weight: new Float32Array(1) });
+    desk.says("where", { picture: 1, sensor: 1, modes, pose: [3.1, 4, Math.PI / 2], p_lost: 0, ...fields }, { pose: new Float32Array(3), weight: new Float32Array(1) });
     return found.text;
   };
   assert.match(said([place(1)]), /One place: 3.00, 4.00 m, heading 90\u00b0, known to 2 cm and 0.6\u00b0. The robot stands 10 cm and 0.0\u00b0 from there\./);
@@ -320,6 +324,7 @@ test("where the robot may be, in words", () => {
   assert.match(said(Array.from({ length: 7 }, () => place(1 / 7))), /7 places: (14 %, ){5}14 % and less/);
   assert.match(said([place(1, 3, 5)]), /It may be almost anywhere/);
   assert.match(said([...Array.from({ length: 10 }, () => place(0.1, 9)), place(0.05)]), / from the 11th\./);
+  assert.match(said([place(1)], { picture: 0 }), /0.6\u00b0. Looking again\. Drag/); // the robot has moved on
   assert.match(said([place(1)], { p_lost: 0.2 }), /That it is lost, or the map outdated, has probability 0.20/);
   assert.match(said([place(1)], { p_lost: 0.9 }), /The scan fits nowhere on this map, with probability 0.90/);
   assert.match(said([], { trouble: "there are no draws yet" }), /There are no draws yet\./);
@@ -333,7 +338,7 @@ test("where walls are known, nothing is said of the posterior of unknown ones", 
   desk.choose("where");
   desk.ui.refresh(); // the map is asked for
   desk.hand.point({ x: 12, y: 4 });
-  assert.match(found.text, /^known map: the walls as drawn Ready Cell 12, 4 .* wall, as drawn Posterior This is the posterior of walls that are not known/);
+  assert.match(found.text, /^known map: the walls as drawn Ready Cell 12, 4 .* wall, as drawn Posterior Where am I\? takes the walls as drawn/);
   assert.match(captionOf(desk.session), /^The walls as they are drawn/);
   desk.hand.point({ x: 1, y: 1 });
   assert.match(found.text, /free, as drawn/);

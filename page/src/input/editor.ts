@@ -28,6 +28,7 @@ export class Editor {
       if (taken.some((other) => other.x === cell.x && other.y === cell.y)) continue;
       cells.set(cell.x * shape[1] + cell.y, [cell.x, cell.y]);
     }
+    if (path.some(({ x, y }) => taken.some((other) => other.x === x && other.y === y))) this.session.say("A sensor stands in a cell of this stroke: it stays free.", "warning");
     if (cells.size) this.session.act({ type: "walls", cells: [...cells.values()], wall, stroke }, event);
   }
 

@@ -7,10 +7,10 @@ import { clipToMap, type Layer, type Scene } from "./layer";
 const LINES_FROM_SCALE = 10;
 const HATCH_PIXELS = 7;
 
-type Kind = "value" | "entropy" | "width";
-/** What the colours of a field mean: the entropy is made of the mean here. */
-const kindOf = (field: Field, wanted: FieldName): Kind =>
-  field.layer === "width" ? "width" : wanted === "entropy" && field.layer !== "draw" ? "entropy" : "value";
+type Kind = "value" | "entropy" | "width" | "state";
+/** What the colours of a field mean: the entropy is made of the mean here, and a draw of walls has two states. */
+const kindOf = ({ layer, quantity }: Field, wanted: FieldName): Kind =>
+  layer === "draw" && quantity.kind === "binary" ? "state" : layer === "width" ? "width" : wanted === "entropy" && layer !== "draw" ? "entropy" : "value";
 
 const sheet = () => document.createElement("canvas").getContext("2d") as CanvasRenderingContext2D;
 

@@ -32,9 +32,12 @@ function pathWords({ session }: Ui) {
   if (!goal) return "Now click where it is to go.";
   if (!path) return session.shown?.approximate ? "Waiting for draws of the map." : "Looking for a path.";
   const missed = path.within_risk ? "" : " No path was found whose risk is low enough; this is the safest.";
+  // where no draw, or each, is an exception: the rule of three
+  const bound = Math.ceil(3000 / path.draws) / 1000;
+  const sure = { 0: `in none of ${path.draws} draws: with probability under ${bound}`, 1: `in all ${path.draws} draws: with probability over ${figure(Math.max(0, 1 - bound), 3)}` }[path.probability];
   return (
-    `${figure(path.length_m, 2)} m, free with probability ${figure(path.probability, 3)} \u00b1 ${figure(path.standard_error, 3)} ` +
-    `by ${path.draws} draws. Independent cells would say ${figure(path.independent, 3)}.${missed}`
+    `${figure(path.length_m, 2)} m, free ${sure ?? `with probability ${figure(path.probability, 3)} \u00b1 ${figure(path.standard_error, 3)} by ${path.draws} draws`}` +
+    `${sure ? " (95 %, were they independent)" : ""}. Independent cells would say ${figure(path.independent, 3)}.${missed}`
   );
 }
 

@@ -75,7 +75,7 @@ export function captionOf(session: Session) {
   const quick = shown.method === "propagate" || shown.method === "pilot" || /hits|counts/.test(shown.method);
   const along = session.stage || session.halfway ? "the poses found so far" : "raw odometry";
   const by = shown.method === "counts" ? `, by counts along ${along}` : quick && shown.approximate ? ", approximately" : layer !== "draw" && shown.burned ? `, by sweeps ${shown.burned + 1} to ${shown.sweeps}` : "";
-  return `${what}, given ${given}${by}${ofPosterior || layer === "draw" ? "" : ", as far as it is known"}.`;
+  return `${what}, given ${given}${by}${ofPosterior || layer === "draw" ? "" : `, from ${/importance/.test(shown.method) ? "particles that have collapsed" : "chains that have not converged"}`}.`;
 }
 
 /** What is seen. */
@@ -83,6 +83,7 @@ function list(ui: Ui, theme: () => Theme, scale: Scale) {
   const { session } = ui;
   const ramp = h("span", { className: "ramp" });
   const name = h("span", { className: "name" });
+  const [least, most] = [h("span"), h("span")];
   const entries = ENTRIES.map((entry) => {
     const [element, text] = item(entry);
     const { mark, when } = entry;
@@ -99,12 +100,15 @@ function list(ui: Ui, theme: () => Theme, scale: Scale) {
     const { layer } = session;
     put(name, "textContent", nameOf(session, layer));
     const doubt = layer === "entropy" || layer === "width";
-    const key = `${doubt} ${theme().ground}`;
+    const states = isStates(session, layer);
+    put(least, "textContent", states ? "free" : "0");
+    put(most, "textContent", states ? "wall" : "1");
+    const key = `${doubt} ${states} ${theme().ground}`;
     if (painted === key) return;
     painted = key;
-    ramp.style.background = gradient(doubt ? entropyRgb : (t) => probabilityRgb(theme(), t));
+    ramp.style.background = gradient(doubt ? entropyRgb : (t) => probabilityRgb(theme(), t), states);
   });
-  return h("ul", { "aria-label": "Legend" }, h("li", {}, name, h("span", { className: "scale" }, "0", ramp, "1")), ...entries, views(ui), ...places, ...beams);
+  return h("ul", { "aria-label": "Legend" }, h("li", {}, name, h("span", { className: "scale" }, least, ramp, most)), ...entries, views(ui), ...places, ...beams);
 }
 
 /** As much as may ever be seen with what is open, without being seen: it keeps the height. */
@@ -128,7 +132,7 @@ function room(ui: Ui) {
   const either = [h("ul", {}, h("li", {}, "one more scan tells", numbers)), ...lists];
   const tool = h("li", { className: "either" }, ...either);
   ui.visible(tool, () => asked(session));
-  const scale = h("span", { className: "scale" }, "0", h("span", { className: "ramp" }), "1");
+  const scale = h("span", { className: "scale" }, "free", h("span", { className: "ramp" }), "wall");
   return h("ul", { className: "room", "aria-hidden": "true" }, h("li", {}, h("span", { className: "name either" }, ...names), scale), ...entries, tool);
 }
 
@@ -140,12 +144,15 @@ function item({ mark, text }: Entry): [HTMLElement, HTMLElement] {
   return [h("li", {}, sample, words), words];
 }
 
+/** Whether the cells on show have two states: a draw of walls. */
+const isStates = ({ quantity }: Session, layer: Layer) => layer === "draw" && quantity.kind === "binary";
+
 /** What the colours of a layer are. */
 function nameOf({ quantity }: Session, layer: Layer) {
   const { kind, mean, value } = quantity;
   if (layer === "entropy") return "entropy (bit)";
   if (layer === "width") return "width of the 90 % interval";
-  return kind === "binary" ? "P(wall)" : layer === "draw" ? value : mean;
+  return kind === "binary" ? (layer === "draw" ? "cells of this draw" : "P(wall)") : layer === "draw" ? value : mean;
 }
 
 /** What the dots say that show where to look next. */

@@ -3,7 +3,7 @@
 import { centreOf, entropyBits } from "../geometry/cells";
 import type { Field, Patch, Point } from "../protocol";
 import type { Session } from "../state/session";
-import { h, mark, put } from "./dom";
+import { figure, h, mark, put } from "./dom";
 import { isFitting, verdictNames } from "./posterior";
 import type { Ui } from "./ui";
 
@@ -52,8 +52,9 @@ export function chip(ui: Ui) {
     }
     const other = { importance: "importance sampling", propagate: "belief propagation", none: "the prior" }[field.method];
     const until = session.document.method === "importance" && field.method === "propagate" ? ", until Run weighs particles" : "";
-    const by = field.approximate ? `approximate, ${quick(field, session.working)}${until}` : (other ?? `${field.sweeps} sweeps`);
-    put(what, "textContent", `${kind} \u00b7 ${by}`);
+    const by = field.approximate ? `approximate, ${quick(field, session.working)}${until}` : (other ?? `${field.sweeps} sweep${field.sweeps === 1 ? "" : "s"}`);
+    const judged = field.approximate || field.layer === "draw" ? [] : [Number.isFinite(field.rhat) && `R-hat ${figure(field.rhat, 3)}`, Number.isFinite(field.ess) && `ESS ${figure(field.ess, 0)}`];
+    put(what, "textContent", [kind, by, ...judged].filter(Boolean).join(" \u00b7 "));
     put(what, "className", field.approximate ? "chip approximate" : "chip");
   });
   return element;

@@ -13,8 +13,8 @@ export function posesPanel(ui: Ui) {
   poses.classList.add("wide");
   ui.visible(poses, isLog);
   const uncertain = [
-    ui.slider("pose_sigma", () => "Position \u00b1", { step: 0.05, unit: " m" }),
-    ui.slider("heading_sigma", () => "Yaw \u00b1", { step: 0.5, unit: "\u00b0", scale: DEGREES }),
+    ui.slider("pose_sigma", () => "Position \u00b1 (m)", { step: 0.05, unit: " m" }),
+    ui.slider("heading_sigma", () => "Yaw \u00b1 (\u00b0)", { step: 0.5, unit: "\u00b0", scale: DEGREES }),
   ];
   for (const element of uncertain) ui.visible(element, () => session.editable);
   const remark = h("p", { className: "caption" });
@@ -25,7 +25,7 @@ export function posesPanel(ui: Ui) {
     put(remark, "hidden", !unused && !raw);
     put(remark, "textContent", raw ? "Run infers where the robot was." : "This method takes poses as known; Gibbs does not.");
   });
-  const section = ui.section("Where the robot was", poses, ...uncertain, remark);
+  const section = ui.section("How well poses are known", poses, ...uncertain, remark);
   ui.visible(section, () => (session.editable && !session.figure) || (isLog() && !session.recorded));
   return section;
 }

@@ -36,7 +36,7 @@ export function posteriorPanel(ui: Ui, ...charts: HTMLElement[]) {
     else if (field && fitting) put(doing, "textContent", `Fitting the sensor: sweep ${field.sweeps} of ${field.total}`);
     else put(doing, "textContent", sentence([done, burned, state, done && count].filter(Boolean).join(", ")) || idle(session));
   });
-  const aside = h("p", { className: "caption", textContent: "This is the posterior of walls that are not known. The map shows the drawn walls, which Where am I? takes as known." });
+  const aside = h("p", { className: "caption", textContent: "Where am I? takes the walls as drawn. What follows here is about walls that are not known." });
   ui.visible(aside, () => session.where.map !== null);
   return ui.section("Posterior", aside, buttons(ui), progress, doing, ...figures(ui), verdict(ui), ...charts, about(ui));
 }
@@ -95,7 +95,8 @@ function figures(ui: Ui) {
   const meanings = h("dl", { className: "about" });
   const add = (label: string, title: string, read: (field: Field) => string, { judged = false, ofChains = false } = {}) => {
     const value = h("dd", { textContent: "\u2013" });
-    const entry = h("div", { title }, h("dt", { textContent: label }), value);
+    const name = h("dt", { textContent: label });
+    const entry = h("div", { title }, name, value);
     values.append(entry);
     if (judged) ui.named.push({ name: () => label, place: entry, control: entry });
     const meaning = [h("dt", { textContent: label }), h("dd", { textContent: title })];
@@ -105,14 +106,15 @@ function figures(ui: Ui) {
       put(value, "textContent", session.shown ? read(session.shown) : "\u2013");
       if (judged) put(value, "className", session.shown?.verdict?.level ?? "");
     });
-    return entry;
+    return { entry, name };
   };
   add("ESS", "Effective sample size of the log joint: so many independent draws would tell as much of its mean", (field) => figure(field.ess, 0), { judged: true });
   add("R-hat", "Agreement of the chains on the log joint: 1 where they agree, more where each still tells of its start", (field) => figure(field.rhat, 3), { judged: true, ofChains: true });
-  add("log joint", "Log of prior times likelihood at the last sweep", (field) => figure(field.log_joint, Math.abs(field.log_joint ?? 0) < 1e5 ? 1 : 0), { ofChains: true });
+  const joint = add("log joint", "Log of prior times likelihood: of the draw on show, or the mean over the chains at the last sweep", (field) => figure(field.log_joint, Math.abs(field.log_joint ?? 0) < 1e5 ? 1 : 0), { ofChains: true });
   add("time", "Time spent on sweeps, rounds or particles", (field) => figure(field.seconds, 1, " s"));
+  ui.each(() => put(joint.name, "textContent", `log joint, ${session.layer === "draw" ? "draw" : "mean"}`));
   const reply = add("reply", "From the hand's last move to its picture", () => figure(session.latency.eventToPaint_ms.at(-1), 0, " ms"));
-  ui.visible(reply, () => !session.recorded);
+  ui.visible(reply.entry, () => !session.recorded);
   // a title needs a mouse; this opens by a tap and by a key, too
   return [values, h("details", {}, h("summary", { textContent: "What these figures mean" }), meanings)];
 }

@@ -5,7 +5,7 @@ import { cellSize } from "./log";
 import type { Ui } from "./ui";
 
 const METHODS: Record<string, string> = {
-  auto: "Chosen by the prior",
+  auto: "By the prior",
   gibbs: "Gibbs, cell by cell",
   block: "Gibbs, 2 \u00d7 2 blocks",
   propagate: "Belief propagation",
@@ -95,6 +95,9 @@ export function inferencePanel(ui: Ui) {
   ];
   const options = Array.from((ofWalls[0].lastElementChild as HTMLSelectElement).children) as HTMLOptionElement[];
   for (const option of options) if (option.value === "propagate") ui.visible(option, () => !session.figure); // which samples, and nothing else
+  const chosen: Record<string, string> = { gibbs: ": cell by cell", block: ": 2 \u00d7 2 blocks" };
+  ui.each(() => put(options[0], "textContent", METHODS.auto + (method() === "auto" ? (chosen[session.shown?.method ?? ""] ?? "") : "")));
+  ofWalls[0].classList.add("wide");
   for (const element of ofWalls) ui.visible(element, isWalls); // other cells have one sampler
   const burnIn = ui.slider("burn_in", () => "Burn-in (%)", { step: 5, scale: 100 });
   ui.visible(burnIn, () => isChain() || !isWalls());

@@ -37,7 +37,7 @@ function words({ session }: Ui) {
       ? `The scan fits nowhere on this map, with probability ${found.p_lost.toFixed(2)}: the robot is lost, or the map is outdated. If it is on the map: `
       : "";
   const doubt = !lost && found.p_lost > MENTIONED ? ` That it is lost, or the map outdated, has probability ${found.p_lost.toFixed(2)}.` : "";
-  return `${lost}${places(found.modes)}${truth(found, session.editable)}${doubt}`;
+  return `${lost}${places(found.modes)}${session.where.current ? truth(found, session.editable) : " Looking again."}${doubt}`;
 }
 
 function places(modes: Place[]) {

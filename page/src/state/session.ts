@@ -296,6 +296,7 @@ export class Session {
         break;
       case "worker":
         this.worker = notice.state;
+        this.where.forget();
         this.status.worker(notice.state);
         break;
       case "download":

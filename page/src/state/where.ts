@@ -9,8 +9,6 @@ export type Located = Whereabouts & { cloud: Float32Array; weight: Float32Array 
 
 /** Less probable places are not worth words. */
 const LEAST = 0.005;
-/** An answer that has not come by then is asked for anew: the worker may have been another. */
-const PATIENCE_MS = 5000;
 
 export class Where {
   found: Located | null = null;
@@ -23,7 +21,7 @@ export class Where {
   private known: Field | null = null;
   private knownVersion = -1;
   private asked = "";
-  private waitingSince = 0;
+  private waiting = false;
 
   constructor(private readonly session: Asker) {}
 
@@ -33,7 +31,8 @@ export class Where {
     if (wanted !== this.wanted) {
       this.wanted = wanted;
       this.found = null;
-      [this.trouble, this.asked, this.waitingSince] = ["", "", 0];
+      this.trouble = "";
+      this.forget();
       this.version++;
       this.session.changed();
     }
@@ -51,8 +50,19 @@ export class Where {
     return this.known;
   }
 
+  /** Whether the answer on show is about the present place, and not the one before. */
+  get current() {
+    const { found, session, sensor } = this;
+    return found?.picture === session.generation && (session.editable ? (sensor ?? found.sensor) === found.sensor : found.index === session.scan?.index);
+  }
+
+  /** Another worker does not answer what the last one was asked. */
+  forget() {
+    [this.asked, this.waiting] = ["", false];
+  }
+
   receive(notice: Whereabouts, buffers: Buffers) {
-    this.waitingSince = 0;
+    this.waiting = false;
     if (!this.wanted) return;
     this.trouble = notice.trouble;
     const { pose: cloud, weight } = buffers as { [name: string]: Float32Array };
@@ -69,9 +79,8 @@ export class Where {
     if (session.editable && shown.generation !== session.generation) return; // its picture comes first
     const draws = session.editable ? "" : `${session.draws.count} ${session.sampling}`;
     const question = `${session.generation} ${session.editable ? this.sensor : scan?.index} ${draws}`;
-    const now = performance.now();
-    if (question === this.asked || (this.waitingSince && now - this.waitingSince < PATIENCE_MS)) return;
-    [this.asked, this.waitingSince] = [question, now];
+    if (question === this.asked || this.waiting) return;
+    [this.asked, this.waiting] = [question, true];
     session.act(session.editable && this.sensor !== null ? { type: "where", sensor: this.sensor } : { type: "where" });
   }
 }

@@ -190,7 +190,7 @@ class Engine:
             yield from self._sample_reflectivities_or_surfaces(scene, document)
             return
         self._fitted = None  # frees the memory of another kind of cells
-        if mode == "run" and document.method == "importance":
+        if mode in ("run", "live") and document.method == "importance":
             yield from self._advance_to_end(scene, document, Weighing(scene.problem, document.sweeps, document.seed))
         elif mode == "run" and document.method in CHAIN_METHODS and document.simulated:
             yield from self._sample_walls(scene, document, None)

@@ -201,11 +201,12 @@ class Session:
         return self._restart()
 
     def receive_report(self, report: tasks.Report) -> Effects:
-        """Return the effects of a worker's report. A report about an older generation has no effect."""
+        """Return the effects of a worker's report. Of an older generation only `Whereabouts` has any: a page waits."""
         message = report.message
         if isinstance(message, tasks.Ready):
             return self._restart_in_new_worker(message.document)
-        if getattr(message, "generation", self.generation) != self.generation:
+        is_old = getattr(message, "generation", self.generation) != self.generation
+        if is_old and not isinstance(message, notices.Whereabouts):
             return []
         match message:
             case tasks.Finished():
