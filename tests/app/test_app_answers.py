@@ -90,8 +90,7 @@ def square(**changes):
 def test_the_robot_of_the_tutorial_knows_where_it_is():
     header, buffers = asked(tutorial_document())
     modes, pose = header["modes"], header["pose"]
-    assert len(modes) == 1
-    assert modes[0]["probability"] == pytest.approx(1.0)
+    assert (len(modes), modes[0]["probability"]) == (1, pytest.approx(1.0))
     assert np.abs(np.array(modes[0]["mean"][:2]) - pose[:2]).max() < 4 * modes[0]["sigma_m"] < 0.3
     assert header["p_lost"] < 1e-3
     assert buffers["pose"].shape == (len(buffers["weight"]), 3)
@@ -199,8 +198,7 @@ def test_the_evidence_of_a_beam_has_no_cap():
 
 def test_the_histogram_reaches_to_the_lightest_particle():
     counts, lowest = histogram(np.concatenate([np.linspace(-178_000.0, -90_000.0, 19_999), [0.0], [-np.inf]]))
-    assert lowest == -178_000.0
-    assert counts.sum() == 20_000
+    assert (lowest, counts.sum()) == (-178_000.0, 20_000)
     assert (counts[0] > 0, counts[-1]) == (True, 1)
 
 

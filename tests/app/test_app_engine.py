@@ -154,13 +154,13 @@ def test_cancel_before_there_is_anything_shows_the_preview(heard, mode, method):
     heard.ask(Cancel())
     assert not heard.engine._has_live_chains_of(heard.engine._task.document)
     heard.finish()
-    assert heard.last("field")[0]["method"] == "propagate"
-    assert len(heard.all("finished")) == 1
+    assert (heard.last("field")[0]["method"], len(heard.all("finished"))) == ("propagate", 1)
 
 
-def test_importance_sampling_is_that_of_the_library():
+@pytest.mark.parametrize("mode", ["run", "live"])
+def test_importance_sampling_is_that_of_the_library(mode):
     document = replace(tutorial_document(), method="importance", sweeps=500, noise=5.0)
-    field = Heard().infer(document, "run")
+    field = Heard().infer(document, mode)
     whole = sample_importance(simulated_scene(document).problem, 500, 0)
     assert np.array_equal(field[1]["p"], np.rint(255 * whole.occupancy()))
     assert field[0]["ess"] == pytest.approx(whole.effective_sample_size)

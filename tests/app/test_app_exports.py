@@ -161,10 +161,8 @@ def test_a_log_is_inferred_from_with_the_defaults_for_logs(tmp_path):
     assert (document.prior, document.grid.resolution) == (0.2, 0.1)
     heard = Heard(opened)
     header, _ = heard.infer(replace(document, sweeps=4), scan=1)
-    assert (header["method"], header["sweeps"]) == ("gibbs", 4)
-    assert heard.last("scan")[0]["index"] == 1
+    assert ((header["method"], header["sweeps"]), heard.last("scan")[0]["index"]) == (("gibbs", 4), 1)
     (scan,) = heard.ask(ShowScan(2))
-    assert scan.header["index"] == 2
-    assert scan.buffers["pose"].shape == (1, 3)
+    assert (scan.header["index"], scan.buffers["pose"].shape) == (2, (1, 3))
     heard.infer(replace(document, sweeps=4, prior=0.4), "run")
     assert heard.all("finished")[-1]["draws"] == DrawCount(2, 4)

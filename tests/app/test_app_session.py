@@ -12,7 +12,7 @@ from msgspec.structs import replace as replace_fields
 from bayesmap.app.edits import MAX_UNDO_STEPS, History, new_document, tutorial_document
 from bayesmap.app.protocol.actions import Cancel, Export, FindPath, Inspect
 from bayesmap.app.protocol.document import Source, empty_walls
-from bayesmap.app.protocol.notices import DrawCount, Scan, View
+from bayesmap.app.protocol.notices import DrawCount, Scan, View, Whereabouts
 from bayesmap.app.protocol.tasks import Failed, Finished, Ready, Report, Show
 
 
@@ -22,6 +22,7 @@ def walls_of(acted):
 
 def test_hello_is_answered_by_the_state_and_what_was_seen_last_and_a_document_is_adopted(acted):
     acted.hear(Scan([1], generation=0))
+    assert [m["type"] for m in acted.hear(Whereabouts(0), generation=acted.session.generation - 1)] == ["where"]
     acted.picture()
     assert [m["type"] for m in acted.act("hello", client=2)] == ["state", "scan", "field"]
     document = new_document("blank", (5, 7), tutorial_document())

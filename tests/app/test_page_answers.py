@@ -89,6 +89,8 @@ def test_the_robot_of_the_tutorial_has_one_place(page):
     robot = snapshot(page)["sensors"][0]
     assert np.hypot(modes[0]["mean"][0] - robot["x"], modes[0]["mean"][1] - robot["y"]) < 0.1
     assert (len(modes), points) == (1, 3 * weights)
+    press_and_drag(page, [(10, 10), (3, 6)], steps=15)
+    until(page, "s.where.found?.picture === s.generation && Math.abs(s.where.found.modes[0].mean[0] - 3) < 0.1")
     said = page.locator(".whereabouts")
     playwright.expect(said).to_contain_text("One place: ")
     playwright.expect(said).to_contain_text("The robot stands")

@@ -24,8 +24,7 @@ def quick_yardstick(monkeypatch):
 def test_the_best_repeat_counts_and_more_can_be_taken():
     samples = iter([5.0, 4.0, 6.0, 2.0, 7.0, 8.0])
     first = repeated(lambda: next(samples), lambda all_: Figure("a", min(all_), "s"), repeats=3)
-    assert (first.value, first.yardstick_s) == (4.0, 1.0)
-    assert first.again().value == 2.0
+    assert ((first.value, first.yardstick_s), first.again().value) == ((4.0, 1.0), 2.0)
 
 
 def test_a_ratio_is_of_the_fastest_of_each_measured_in_turn(monkeypatch):
@@ -217,8 +216,7 @@ def test_states_take_turns_and_the_best_repeats_count():
 def test_a_figure_that_looks_worse_is_measured_more_often():
     states = States(old=[{"a": measured(2.0)}], new=[{"a": measured(9.0)}] * 3 + [{"a": measured(2.1)}])
     (found,) = compare(OLD, NEW, "s", states)
-    assert found.factor == pytest.approx(1.05)
-    assert len(states.calls) == 8
+    assert (found.factor, len(states.calls)) == (pytest.approx(1.05), 8)
 
 
 def test_a_figure_that_stays_worse_is_worse_and_each_round_says_so():

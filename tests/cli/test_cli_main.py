@@ -123,8 +123,7 @@ def test_a_reader_that_leaves_is_no_error():
     process.stdout.close()
     errors = process.stderr.read()
     process.stderr.close()
-    assert process.wait() == 0
-    assert errors == ""
+    assert (process.wait(), errors) == (0, "")
 
 
 def test_words_of_a_library_at_the_process_s_end_are_not_on_standard_output():

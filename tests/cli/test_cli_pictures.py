@@ -273,8 +273,7 @@ def test_true_poses_come_with_no_trajectory_of_the_truth(tmp_path):
 def test_odometry_as_it_is_typed():
     assert odometry_of("true") is None
     assert odometry_of("typical") == OdometryNoise()
-    assert odometry_of("perfect, lag_s=0.1").lag_s == 0.1
-    assert odometry_of("perfect").turn_per_m == 0.0
+    assert (odometry_of("perfect, lag_s=0.1").lag_s, odometry_of("perfect").turn_per_m) == (0.1, 0.0)
     for text, message in (
         ("worn", "begin with true, typical or perfect"),
         ("typical,wheels=2", "'wheels=2' is not name=value with one of distance_per_m"),

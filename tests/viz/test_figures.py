@@ -109,10 +109,8 @@ def test_arrangement_follows_the_shape():
     def columns(shape, panels):
         return lay_out(bm.Grid(shape=shape), panels, bars=2, titled=False).columns
 
-    assert columns((21, 21), 3) == 3
-    assert columns((21, 21), 4) == 2
-    assert columns((400, 100), 3) == 1
-    assert columns((100, 400), 4) == 4
+    assert (columns((21, 21), 3), columns((21, 21), 4)) == (3, 2)
+    assert (columns((400, 100), 3), columns((100, 400), 4)) == (1, 4)
     layout = lay_out(bm.Grid(shape=(8000, 6000)), 4, bars=2, titled=True)  # a huge map stays a picture of sensible size
     assert not layout.exact
     assert max(layout.figure) < 4000
@@ -331,5 +329,4 @@ def test_an_error_in_the_middle_leaves_the_old_file(tmp_path, monkeypatch):
     monkeypatch.setattr("bayesmap.viz.animation.render_frames", frames)
     with pytest.raises(MemoryError):
         viz.write_animation(path, GRID, chain())
-    assert path.read_bytes() == b"old"
-    assert [p.name for p in tmp_path.iterdir()] == ["a.gif"]
+    assert (path.read_bytes(), [p.name for p in tmp_path.iterdir()]) == (b"old", ["a.gif"])

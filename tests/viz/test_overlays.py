@@ -55,8 +55,7 @@ def test_many_beams_are_thinned_evenly_and_readings_less():
     n = 1000
     many = bm.Scans(np.zeros((10, 3)), np.linspace(0, 6, n), np.ones((10, n)), max_range_m=2.0)
     beams, points = viz.plot_rays(panel(), many, max_beams=50, max_readings=300)
-    assert len(beams.get_segments()) == 50
-    assert len(points.get_offsets()) == 300
+    assert (len(beams.get_segments()), len(points.get_offsets())) == (50, 300)
     ends = np.array(beams.get_segments())[:, 1]
     np.testing.assert_allclose(ends[0], [1.0, 0.0])
     np.testing.assert_allclose(ends[-1], [np.cos(6), np.sin(6)])
@@ -68,11 +67,9 @@ def test_many_beams_are_thinned_evenly_and_readings_less():
 
 def test_few_poses_are_arrows_and_many_a_trajectory():
     few = viz.plot_sensor(panel(), np.zeros((3, 3)))
-    assert len(few) == 3
-    assert few[0].get_label() == "sensor"
+    assert (len(few), few[0].get_label()) == (3, "sensor")
     many = viz.plot_sensor(panel(), np.random.default_rng(0).random((40, 3)))
-    assert len(many) == 2
-    assert many[0].get_label() == "trajectory"
+    assert (len(many), many[0].get_label()) == (2, "trajectory")
     assert len(many[0].get_xdata()) == 40
     with pytest.raises(bm.BadInput, match="no pose"):
         viz.plot_sensor(panel(), np.zeros((0, 3)))

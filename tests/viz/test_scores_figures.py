@@ -65,8 +65,7 @@ def test_the_figure_lays_the_beams_over_the_faded_map():
     figure = viz.residuals_figure(GRID, occupancy(), [[0.0, 3.0]], [0.1], observed())
     ax, bar = figure.axes
     assert ax.images[0].get_alpha() < 0.5
-    assert len(ax.collections) == 1
-    assert bar.get_ylabel() == "reading minus predicted median [m]"
+    assert (len(ax.collections), bar.get_ylabel()) == (1, "reading minus predicted median [m]")
     figure = viz.residuals_figure(GRID, occupancy(), [[0.0, 3.0]] * 2, [0.5, 3.0], scale=viz.surprise_scale([0.5, 3.0]))
     assert figure.axes[1].get_ylabel() == "surprise: minus log score [nats]"
 
@@ -133,8 +132,7 @@ def test_collapse_shows_as_one_sample_at_the_right():
     logs[123] = -700.0
     ax = Figure().add_subplot()
     counts = viz.plot_weights(ax, logs)
-    assert counts[-1] == 1
-    assert counts[60:-1].sum() == 0
+    assert (counts[-1], counts[60:-1].sum()) == (1, 0)
     assert "1,000 samples, effective sample size 1.0" in texts(ax)
     assert "one sample has all the weight" in texts(ax)
     below = int((logs + 700 < -10_000).sum())
