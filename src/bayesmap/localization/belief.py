@@ -21,9 +21,9 @@ from bayesmap.space.arrays import Indices, Mask
 from bayesmap.space.planar import Floats, compose, wrap_angle
 from bayesmap.space.trajectory import ellipses
 
-NEAR_M, NEAR_RAD = 0.2, np.radians(7.0)  # poses linked by steps shorter than this belong to one mode
+NEAR_M, NEAR_RAD = 0.2, np.radians(7.0)  # a turn that is as far as a step, among neighbours
 MIN_MODE_SIGMA = np.array([0.002, 0.002, np.radians(0.05)])  # standard deviations of a mode
-NEIGHBOURS = 10  # poses that share a mode with each pose of equal weight, itself among them
+NEIGHBOURS = 10  # nearest poses that share a mode with each pose, itself among them
 LINKING_WEIGHT = 0.995  # share of the weight whose poses link others into modes
 MIN_PROBABILITY = 1e-4  # probability of a mode that is listed
 REGION_DRAWS = 4000  # number of draws by which a region is computed
@@ -104,7 +104,7 @@ class PoseBelief:
 
     def modes_above(self, min_probability: float) -> tuple[Mode, ...]:
         """Return the modes of at least this probability, the likeliest first, without the map's shared error."""
-        mode_of = _label_clusters(self.poses, self.weights) if self.mode_of is None else self.mode_of
+        mode_of = label_clusters(self.poses, self.weights) if self.mode_of is None else self.mode_of
         modes = []
         for number in np.unique(mode_of):
             in_mode = mode_of == number
@@ -116,7 +116,7 @@ class PoseBelief:
 
     def of_frame(self, step: Floats) -> PoseBelief:
         """Return the posterior of another frame on the robot, at ``step``, (3,), in the frame of these poses."""
-        mode_of = _label_clusters(self.poses, self.weights) if self.mode_of is None else self.mode_of
+        mode_of = label_clusters(self.poses, self.weights) if self.mode_of is None else self.mode_of
         return replace(self, poses=compose(self.poses, step), mode_of=mode_of)
 
     @property
@@ -193,38 +193,23 @@ def _moments(poses: Floats, weights: Floats) -> tuple[Floats, Floats]:
     return mean, covariance
 
 
-def _label_clusters(poses: Floats, weights: Floats) -> Indices:
-    """Label poses linked by steps of less than `NEAR_M` and `NEAR_RAD`, (N,); light poses get the nearest label."""
-    from scipy.sparse.csgraph import connected_components
-    from scipy.spatial import cKDTree
-
-    points = _embed(poses)
-    order = np.argsort(-weights, kind="stable")
-    # Only poses that hold nearly all weight link others: strays between two modes must not link them.
-    heavy = order[: int(np.searchsorted(np.cumsum(weights[order]), LINKING_WEIGHT * weights.sum())) + 1]
-    tree = cKDTree(points[heavy])
-    links = tree.sparse_distance_matrix(tree, NEAR_M, output_type="coo_matrix")
-    _, label = connected_components(links, directed=False)
-    return np.asarray(label[tree.query(points)[1]], dtype=np.intp)
-
-
-def label_neighbours(poses: Floats) -> Indices:
-    """Label poses of equal weight, (N,): each has the label of the `NEIGHBOURS` poses nearest to it."""
+def label_clusters(poses: Floats, weights: Floats) -> Indices:
+    """Label poses linked by their `NEIGHBOURS` nearest ones, (N,); light poses get the label of the nearest."""
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import connected_components
     from scipy.spatial import cKDTree
 
-    points = _embed(poses)
-    nearest = cKDTree(points).query(points, NEIGHBOURS)[1]
-    rows = np.repeat(np.arange(len(poses)), NEIGHBOURS)
-    links = coo_matrix((np.ones(nearest.size), (rows, nearest.ravel())), shape=(len(poses), len(poses)))
-    return np.asarray(connected_components(links, directed=False)[1], dtype=np.intp)
-
-
-def _embed(poses: Floats) -> Floats:
-    """Return points, (N, 4), whose distances are those of poses: `NEAR_RAD` of yaw is as far as `NEAR_M`."""
     radius_m = NEAR_M / NEAR_RAD
-    return np.column_stack([poses[:, :2], radius_m * np.sin(poses[:, 2]), radius_m * np.cos(poses[:, 2])])
+    points = np.column_stack([poses[:, :2], radius_m * np.sin(poses[:, 2]), radius_m * np.cos(poses[:, 2])])
+    order = np.argsort(-weights, kind="stable")
+    # Only poses that hold nearly all weight link others: strays between two modes must not link them.
+    heavy = order[: int(np.searchsorted(np.cumsum(weights[order]), LINKING_WEIGHT * weights.sum())) + 1]
+    tree, count = cKDTree(points[heavy]), len(heavy)
+    nearest = tree.query(points[heavy], range(1, min(NEIGHBOURS, count) + 1))[1]
+    rows = np.repeat(np.arange(count), nearest.shape[1])
+    links = coo_matrix((np.ones(nearest.size), (rows, nearest.ravel())), shape=(count, count))
+    _, label = connected_components(links, directed=False)
+    return np.asarray(label[tree.query(points)[1]], dtype=np.intp)
 
 
 def _density(positions: Floats, means: Floats, covariances: Floats, shares: Floats) -> Floats:

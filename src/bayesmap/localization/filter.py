@@ -15,7 +15,7 @@ from functools import partial
 
 import numpy as np
 
-from bayesmap.localization.belief import NEGLIGIBLE_NATS, Population, PoseBelief, PoseMixture, label_neighbours, log_sum
+from bayesmap.localization.belief import NEGLIGIBLE_NATS, Population, PoseBelief, PoseMixture, label_clusters, log_sum
 from bayesmap.localization.known_map import INDEPENDENT_BEAMS, KnownMap, log_anywhere, n_valid
 from bayesmap.localization.search import MIN_POINTS, end_points, search
 from bayesmap.sensors.model import BeamMixture, Gaussian, RangeLimits
@@ -213,7 +213,8 @@ def anneal_population(final: Target, rng: np.random.Generator) -> Population:
             poses = np.where(accepted[:, None], proposals, poses)
             log_target = np.where(accepted, log_proposed, log_target)
     poses[:, 2] = wrap_angle(poses[:, 2])
-    return Population(poses, np.full(len(poses), log_evidence), label_neighbours(poses), log_target)
+    places = label_clusters(poses, np.ones(len(poses)))
+    return Population(poses, np.full(len(poses), log_evidence), places, log_target)
 
 
 def refine_by_end_points(
