@@ -21,7 +21,7 @@ test("the map says what it shows, and what a quick answer is made of", () => {
   const [desk, found] = panel(chip);
   assert.match(found.text, /^mean \u00b7 1000 sweeps/);
   desk.field({ sweeps: 1, rhat: 1.0012, ess: 99.6 });
-  assert.match(found.text, /^mean \u00b7 1 sweep \u00b7 R-hat 1.001 \u00b7 ESS 100/);
+  assert.match(found.text, /^mean \u00b7 1 sweep R-hat 1.001 \u00b7 ESS 100/);
   desk.field({ approximate: true, method: "propagate" });
   assert.match(found.text, /^mean \u00b7 approximate, belief propagation/);
   desk.field({ approximate: true, method: "hits" });

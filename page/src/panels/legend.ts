@@ -75,7 +75,7 @@ export function captionOf(session: Session) {
   const quick = shown.method === "propagate" || shown.method === "pilot" || /hits|counts/.test(shown.method);
   const along = session.stage || session.halfway ? "the poses found so far" : "raw odometry";
   const by = shown.method === "counts" ? `, by counts along ${along}` : quick && shown.approximate ? ", approximately" : layer !== "draw" && shown.burned ? `, by sweeps ${shown.burned + 1} to ${shown.sweeps}` : "";
-  return `${what}, given ${given}${by}${ofPosterior || layer === "draw" ? "" : `, from ${/importance/.test(shown.method) ? "particles that have collapsed" : "chains that have not converged"}`}.`;
+  return `${what}, given ${given}${by}${ofPosterior || layer === "draw" ? "" : ` (${/importance/.test(shown.method) ? "particles collapsed" : "chains not converged"})`}.`;
 }
 
 /** What is seen. */

@@ -24,7 +24,8 @@ export function chip(ui: Ui) {
   const { session } = ui;
   const what = h("span", { className: "chip" });
   const remedy = ui.button(null, "Not converged", () => tryRemedy(session)?.apply?.(), { text: "Not converged", className: "chip doubt" });
-  const element = h("div", { className: "chips" }, what, remedy);
+  const judged = h("span", { className: "chip judged" });
+  const element = h("div", { className: "chips" }, what, judged, remedy);
   ui.each(() => {
     const known = session.where.map !== null;
     const found = known ? null : tryRemedy(session);
@@ -37,6 +38,9 @@ export function chip(ui: Ui) {
       mark(remedy, "aria-label", words);
     }
     const field = session.shown;
+    const figures = known || !field || field.approximate || field.layer === "draw" ? [] : [Number.isFinite(field.rhat) && `R-hat ${figure(field.rhat, 3)}`, Number.isFinite(field.ess) && `ESS ${figure(field.ess, 0)}`];
+    put(judged, "textContent", figures.filter(Boolean).join(" \u00b7 "));
+    put(judged, "hidden", !judged.textContent);
     if (!field || !session.document) return put(element, "hidden", true);
     put(element, "hidden", false);
     if (known) {
@@ -53,8 +57,7 @@ export function chip(ui: Ui) {
     const other = { importance: "importance sampling", propagate: "belief propagation", none: "the prior" }[field.method];
     const until = session.document.method === "importance" && field.method === "propagate" ? ", until Run weighs particles" : "";
     const by = field.approximate ? `approximate, ${quick(field, session.working)}${until}` : (other ?? `${field.sweeps} sweep${field.sweeps === 1 ? "" : "s"}`);
-    const judged = field.approximate || field.layer === "draw" ? [] : [Number.isFinite(field.rhat) && `R-hat ${figure(field.rhat, 3)}`, Number.isFinite(field.ess) && `ESS ${figure(field.ess, 0)}`];
-    put(what, "textContent", [kind, by, ...judged].filter(Boolean).join(" \u00b7 "));
+    put(what, "textContent", `${kind} \u00b7 ${by}`);
     put(what, "className", field.approximate ? "chip approximate" : "chip");
   });
   return element;

@@ -11,9 +11,9 @@ t).getUint32(0,!0),n=JSON.parse(new TextDecoder().decode(new Uint8Array(t,4,e)))
 h,1)*Jr[i].BYTES_PER_ELEMENT;o[r]=new Jr[i](t.slice(s,s+l)),s+=Math.ceil(l/Va)*Va}return[n,o]}function za(t,e){let n={};return(t.buffers??[]).forEach(({name:o,dtype:s},r)=>{
 let{buffer:i,byteOffset:a,byteLength:l}=e[r];n[o]=new Jr[s](i.slice(a,a+l))}),n}async function ds(t){let e=await Qn(dt(t));return hn(e.buffer)}function us([t,e]){let{document:n,ids:o,log_joint:s}=t,{chains:r,count:i,bits:a}=t.draws,l=n.grid.
 shape[0]*n.grid.shape[1],c=n.source.kind!=="simulation",h=1,u={chains:r,count:i},p=0,m={layer:"mean",chain:0,draw:null},y=(D,L=D.length===0)=>{let O=D.length/o.
-length;return c&&!L?D.slice(p*O,(p+1)*O):D},k=()=>o[p]-1,b=(D=0)=>{let L={generation:h,can_undo:!1,can_redo:!1,live:!1,running:!1,working:!1,scan:k()};E.onmessage(
+length;return c&&!L?D.slice(p*O,(p+1)*O):D},v=()=>o[p]-1,b=(D=0)=>{let L={generation:h,can_undo:!1,can_redo:!1,live:!1,running:!1,working:!1,scan:v()};E.onmessage(
 {type:"state",document:n,seq:D,...L,draws:u,view:m},{})},x=()=>{let{pose:D,angles:L,ranges:O,exact:G,hit:te}=e,X=L.length<O.length,R={pose:y(D),angles:y(L,X),ranges:y(
-O),exact:y(G),hit:y(te)};E.onmessage({type:"scan",generation:h,ids:c?[o[p]]:o,index:c?k():null},R)},S=D=>{let L=a?Math.ceil(l/8):l,O=e.draws.slice(D*L,(D+1)*L);
+O),exact:y(G),hit:y(te)};E.onmessage({type:"scan",generation:h,ids:c?[o[p]]:o,index:c?v():null},R)},S=D=>{let L=a?Math.ceil(l/8):l,O=e.draws.slice(D*L,(D+1)*L);
 return a?bt(O,l).map(G=>255*G):O},A=()=>{let{p:D,width:L,reached:O,trace:G,traced:te,weights:X}=e,R=Math.min(i-1,m.draw??i-1),ee=m.layer==="draw"&&!i||m.layer===
 "width"&&!L?"mean":m.layer,B=ee==="draw"?{chain:m.chain,draw:R,log_joint:s[m.chain][R]}:{},P=ee==="draw"?S(m.chain*i+R):ee==="width"?L:D;E.onmessage({...t.field,
 layer:ee,...B},{p:P,reached:O,trace:G,traced:te,...X&&{weights:X}})},E={...cn(),open:()=>E.onstatus({connected:!0}),send:D=>{if(D.type==="hello"){let L=[...i?[]:
@@ -80,7 +80,7 @@ editor.addSensor(this.hand.cursor?{near:this.hand.cursor}:"where there is room")
 o.ghost.pose&&o.document){let{resolution:l}=o.document.grid,{x:c,y:h}=o.ghost.pose;o.ghost.move({x:c+e*l,y:h+n*l})}else if((r.tool==="sensor"||r.tool==="where")&&
 r.sensor&&o.document&&o.editable){let{resolution:l}=o.document.grid;r.selected=r.sensor.id,this.editor.moveSensor(r.sensor,{x:r.sensor.x+e*l,y:r.sensor.y+n*l})}else if(r.
 tool==="pan"&&o.editable)s.pan(-40*e,40*n,o.shape),o.changed();else{let l=r.cursor??{x:Math.floor(i/2),y:Math.floor(a/2)},c={x:ce(l.x+e,0,i-1),y:ce(l.y+n,0,a-1)};
-r.setCursor(c);let h=s.fromGrid({x:c.x+.5,y:c.y+.5},a),u=(m,y,k)=>m-ce(m,y,k),p={x:u(h.x,He.left+10,s.width-20),y:u(h.y,20,s.height-He.bottom-10)};(p.x||p.y)&&s.
+r.setCursor(c);let h=s.fromGrid({x:c.x+.5,y:c.y+.5},a),u=(m,y,v)=>m-ce(m,y,v),p={x:u(h.x,He.left+10,s.width-20),y:u(h.y,20,s.height-He.bottom-10)};(p.x||p.y)&&s.
 pan(-p.x,-p.y,o.shape)}}space(e){let{session:n,hand:o,editor:s}=this;if(ys.has(o.tool)&&n.document){o.cursor?ws(n,o,s,eo(o.cursor,n.document.grid)):this.arrow(0,
 0);return}if(n.editable){if(o.tool==="sensor"||o.tool==="where"){let r=n.document?.sensors??[],i=r.findIndex(a=>a.id===o.sensor?.id);o.select(r[(i+1)%Math.max(1,
 r.length)]?.id??null),o.selected!==null&&o.announce(`Sensor ${o.selected}`)}else if(!Ft.has(o.tool)){o.cursor||this.arrow(0,0);let r=o.cursor,i=o.tool==="draw"&&
@@ -107,11 +107,11 @@ this.context=e;this.theme=n;this.width=o;this.height=s;this.left=r}placed=[];mar
 s;r++){let i=r/Math.max(1,s);this.marks.push({x:e.x+i*(o.x-e.x),y:e.y+i*(o.y-e.y),half:n,tall:n})}}place(e,n,o,s,r=0){this.context.font=Ms;let i=this.context.measureText(
 e).width/2+2,a=Math.min(Math.max(n,this.left+i),this.width-i),[l,c]=[n+s+i+4,n-s-i-4],h=[[a,o-s-9],[a,o+s+9],[l,o],[c,o]];for(let b=oo;b<=r;b+=oo)h.push([a,o-s-
 9-b],[a,o+s+9+b],...[l,c].flatMap(x=>[[x,o-b],[x,o+b]]));let u=([b,x])=>b-i>=0&&b+i<=this.width&&x>=oo&&x<=this.height-oo,p=b=>([x,S])=>b.every(A=>Math.abs(x-A.
-x)>=i+A.half||Math.abs(S-A.y)>=oo+A.tall),m=h.filter(u).filter(p(this.placed)),k=m.filter(([b])=>b-i>=this.left).find(p(this.marks))??m[0];return k&&this.placed.
-push({text:e,x:k[0],y:k[1],half:i,tall:oo}),!!k}write(){for(let{text:e,x:n,y:o}of this.placed)Tn(this.context,e,n,o,this.theme,"center",!0)}};var Go=class{paints={};sheets;constructor(e,n){this.sheets=e.map((o,s)=>({layer:o,canvas:n[s],context:n[s].getContext("2d"),before:[]}));for(let{name:o}of e)this.
+x)>=i+A.half||Math.abs(S-A.y)>=oo+A.tall),m=h.filter(u).filter(p(this.placed)),v=m.filter(([b])=>b-i>=this.left).find(p(this.marks))??m[0];return v&&this.placed.
+push({text:e,x:v[0],y:v[1],half:i,tall:oo}),!!v}write(){for(let{text:e,x:n,y:o}of this.placed)Tn(this.context,e,n,o,this.theme,"center",!0)}};var Go=class{paints={};sheets;constructor(e,n){this.sheets=e.map((o,s)=>({layer:o,canvas:n[s],context:n[s].getContext("2d"),before:[]}));for(let{name:o}of e)this.
 paints[o]=0}paint(e){let{width:n,height:o,ratio:s,transform:r}=e.view;if(!n||!o)return;let i={width:Math.max(1,Math.ceil(n*s)),height:Math.max(1,Math.ceil(o*s))},
 a=[e.look.theme,n,o,s,r.scale,r.x,r.y];for(let l of this.sheets){let{canvas:c,context:h,layer:u}=l,p=u.shows?.(e)??!0,m=[p,...p?[...a,...u.depends(e)]:[]];m.length===
-l.before.length&&m.every((y,k)=>Object.is(y,l.before[k]))||(l.before=m,c.style.visibility=p?"":"hidden",p&&((c.width!==i.width||c.height!==i.height)&&(Object.assign(
+l.before.length&&m.every((y,v)=>Object.is(y,l.before[v]))||(l.before=m,c.style.visibility=p?"":"hidden",p&&((c.width!==i.width||c.height!==i.height)&&(Object.assign(
 c,i),c.style.width=`${i.width/s}px`,c.style.height=`${i.height/s}px`),h.setTransform(1,0,0,1,0,0),h.clearRect(0,0,c.width,c.height),h.setTransform(s,0,0,s,0,0),
 h.save(),u.paint(h,e),h.restore(),this.paints[u.name]++))}}};function so(t,{session:e,look:n,view:o}){let{scale:s,x:r,y:i}=o.transform,a=new Ss(t,n.theme,o.width,
 Math.min(o.height,i+e.shape[1]*s),Math.max(He.left,r)),{sensors:l=[],grid:c}=e.document??{};if(c)for(let h of l)a.avoid(o.fromGrid(Ae(h,c),c.shape[1]),9);return a}
@@ -119,8 +119,8 @@ function Be(t,{session:e,view:n}){let[o,s]=e.shape,{scale:r,x:i,y:a}=n.transform
 4,t.strokeStyle=e,t.stroke(),t.lineWidth=o,t.strokeStyle=n,t.stroke()}function ei({document:t,scan:e}){return t?t.source.kind==="simulation"||!e?t.sensors:Array.from({length:e.pose.length/3},(o,s)=>s).map(o=>({id:o,x:e.pose[3*o],y:e.
 pose[3*o+1],yaw:e.pose[3*o+2]})):[]}function pn(t,e,n){let o=n.fromGrid(Ae(t,e),e.shape[1]),s=ce(n.transform.scale*.42,7,13),r=s*2.6,i={x:o.x+r*Math.cos(t.yaw),
 y:o.y-r*Math.sin(t.yaw)};return{point:o,size:s,handle:i}}function rl(t,{session:e,view:n,look:o}){let s=e.document;if(!s)return;let{theme:r}=o,i=ei(e);t.lineJoin=
-"round";for(let a of i){let l=pn(a,s.grid,n),{point:c,size:h}=l;a.id===o.selected&&Ud(t,l,o);let[u,p]=[Math.cos(a.yaw),-Math.sin(a.yaw)],m=(y,k)=>[c.x+h*(y*u-k*
-p),c.y+h*(y*p+k*u)];t.beginPath(),t.moveTo(...m(1.25,0)),t.lineTo(...m(-.9,.8)),t.lineTo(...m(-.45,0)),t.lineTo(...m(-.9,-.8)),t.closePath(),t.strokeStyle=r.halo,
+"round";for(let a of i){let l=pn(a,s.grid,n),{point:c,size:h}=l;a.id===o.selected&&Ud(t,l,o);let[u,p]=[Math.cos(a.yaw),-Math.sin(a.yaw)],m=(y,v)=>[c.x+h*(y*u-v*
+p),c.y+h*(y*p+v*u)];t.beginPath(),t.moveTo(...m(1.25,0)),t.lineTo(...m(-.9,.8)),t.lineTo(...m(-.45,0)),t.lineTo(...m(-.9,-.8)),t.closePath(),t.strokeStyle=r.halo,
 t.lineWidth=3,t.stroke(),t.fillStyle=r.sensor,t.fill(),i.length>1&&i.length<100&&Tn(t,String(a.id),c.x,c.y+h*2+4,r,"center",!0)}}function Ud(t,{point:e,size:n,handle:o},{
 theme:s}){t.beginPath(),t.moveTo(e.x,e.y),t.lineTo(o.x,o.y),t.moveTo(o.x+4.5,o.y),t.arc(o.x,o.y,4.5,0,2*Math.PI),t.moveTo(e.x+n*1.7,e.y),t.arc(e.x,e.y,n*1.7,0,2*
 Math.PI),An(t,s,s.sensor,1.5),t.beginPath(),t.arc(o.x,o.y,4,0,2*Math.PI),t.fillStyle=s.halo,t.fill()}function il(t,e,n,o,s){let r=l=>Math.hypot(e.x-l.x,e.y-l.y),i=t.pose&&pn({id:0,...t.pose},o,s);return i&&r(i.handle)<Math.min(n,r(i.point))?{kind:"ghost",turn:!0,
@@ -176,14 +176,14 @@ let{start:i,goal:a,path:l,radius:c}=n.decisions,h=n.document?.grid;if(!h||!i)ret
 path){let y=u({x:p,y:m});e.lineTo(y.x,y.y)}e.lineJoin=e.lineCap="round",e.strokeStyle=l.within_risk?s.theme.sensor:s.theme.truth,e.globalAlpha=.3,e.lineWidth=2*
 c*o.transform.scale/h.resolution,e.stroke(),e.globalAlpha=1,e.lineWidth=2,e.stroke()}for(let p of a?[i,a]:[i]){let{x:m,y}=u(p);e.beginPath(),e.arc(m,y,5,0,2*Math.
 PI),e.fillStyle=p===i?s.theme.sensor:s.theme.truth,e.fill(),r.avoid({x:m,y},7),e.lineWidth=2,e.strokeStyle=s.theme.halo,e.stroke()}if(l){let p=l.path.length,[[m,
-y],[k,b]]=[l.path[p-1>>1],l.path[p>>1]],x=u({x:(m+k)/2,y:(y+b)/2}),S=l.path.map(([A,E])=>u({x:A,y:E}));S.forEach((A,E)=>r.avoid(A,3,S[E+1])),r.place(`${pe(l.length_m,
+y],[v,b]]=[l.path[p-1>>1],l.path[p>>1]],x=u({x:(m+v)/2,y:(y+b)/2}),S=l.path.map(([A,E])=>u({x:A,y:E}));S.forEach((A,E)=>r.avoid(A,3,S[E+1])),r.place(`${pe(l.length_m,
 1)} m, P(free) ${pe(l.probability,3)}`,x.x,x.y,4,60)}else a&&n.decisions.trouble&&r.place("no path",u(a).x,u(a).y,7)}};var zd=5,[Yd,hl]=[.8,5],qd=6,Es=class{name="evidence";depends({session:e}){return[e.evidence.version,e.document?.grid.resolution,e.document?.grid.origin.join()]}shows({
 session:{evidence:e,document:n}}){return!!(e.cellShown&&n)}paint(e,n){let{session:o,view:s,look:r}=n,{cell:i,each:a}=o.evidence,l=o.document?.grid;if(!i||!l)return;
 e.save(),Be(e,n);let c=(x,S)=>s.fromGrid(Ae({x,y:S},l),l.shape[1]),h=x=>[c(a.start[2*x],a.start[2*x+1]),c(a.end[2*x],a.end[2*x+1])],u=a?.nats.length??0;e.lineCap=
 "round";for(let x=u-1;x>=0;x--){let[S,A]=h(x),E=a.nats[x];e.beginPath(),e.moveTo(S.x,S.y),e.lineTo(A.x,A.y),e.globalAlpha=ce(.25+Math.abs(E)/2,0,.9),e.lineWidth=
 ce(hl*Math.sqrt(Math.abs(E)/qd),Yd,hl),e.strokeStyle=E>0?r.theme.ray:r.theme.truth,e.stroke()}e.globalAlpha=1;let{scale:p}=s.transform,m=s.fromGrid({x:i.x,y:i.y+
-1},l.shape[1]),y=Math.max(1,4-p/2);e.beginPath(),e.rect(m.x-y,m.y-y,p+2*y,p+2*y),An(e,r.theme,r.theme.belief,2),e.restore();let k=so(e,n),b=Math.min(zd,u);for(let x=0;x<
-b;x++)k.avoid(h(x)[0],2,h(x)[1]);for(let x=0;x<b;x++){let[S,A]=h(x),E=.35+.1*x;k.place(io(a.nats[x]),S.x+E*(A.x-S.x),S.y+E*(A.y-S.y),3)}k.write()}},io=t=>`${t<0?
+1},l.shape[1]),y=Math.max(1,4-p/2);e.beginPath(),e.rect(m.x-y,m.y-y,p+2*y,p+2*y),An(e,r.theme,r.theme.belief,2),e.restore();let v=so(e,n),b=Math.min(zd,u);for(let x=0;x<
+b;x++)v.avoid(h(x)[0],2,h(x)[1]);for(let x=0;x<b;x++){let[S,A]=h(x),E=.35+.1*x;v.place(io(a.nats[x]),S.x+E*(A.x-S.x),S.y+E*(A.y-S.y),3)}v.write()}},io=t=>`${t<0?
 "−":"+"}${Math.abs(t).toFixed(1)}`;var Kd=10,Jd=7,Xd=({layer:t,quantity:e},n)=>t==="draw"&&e.kind==="binary"?"state":t==="width"?"width":n==="entropy"&&t!=="draw"?"entropy":"value",Ps=()=>document.
 createElement("canvas").getContext("2d"),ao=class{name="field";cells=Ps();mask=Ps();hatch=Ps();palettes=new Map;image=new ImageData(1,1);drawn={field:null,reached:null,
 palette:"",hatch:""};depends({session:e}){return[e.picture,e.layer==="entropy",...e.shape]}shows({session:e}){return e.document!==null}paint(e,n){let{session:o,
@@ -194,8 +194,8 @@ c=`${s.ground} ${r}`;if(l.field===e&&l.palette===c)return;let h=this.palettes.ge
 o){this.image=new ImageData(n,o);for(let{canvas:p}of[i,a])Object.assign(p,{width:n,height:o});l.reached=null}let u=new Uint32Array(this.image.data.buffer);for(let p=0,
 m=0;p<o;p++)for(let y=o-1-p;y<n*o;y+=o)u[m++]=h[e.p[y]+256*(e.reached[y]+8>>4)];if(i.putImageData(this.image,0,0),l.reached!==e.reached){for(let p=0,m=0;p<o;p++)
 for(let y=o-1-p;y<n*o;y+=o)u[m++]=255-e.reached[y]<<24;a.putImageData(this.image,0,0),l.hatch=""}Object.assign(l,{field:e,reached:e.reached,palette:c})}fillHatch({
-session:e,view:n,look:o}){let{hatch:s,mask:r,drawn:i}=this,{ratio:a,width:l,height:c}=n,{scale:h,x:u,y:p}=n.transform,[m,y]=e.shape,k=[o.theme.ground,h,u,p,l,c,
-a].join(" ");if(i.hatch===k)return;i.hatch=k;let b=Ps(),x=b.canvas.width=b.canvas.height=Math.round(Jd*a);b.strokeStyle=o.theme.hatch,b.lineWidth=a,b.beginPath();
+session:e,view:n,look:o}){let{hatch:s,mask:r,drawn:i}=this,{ratio:a,width:l,height:c}=n,{scale:h,x:u,y:p}=n.transform,[m,y]=e.shape,v=[o.theme.ground,h,u,p,l,c,
+a].join(" ");if(i.hatch===v)return;i.hatch=v;let b=Ps(),x=b.canvas.width=b.canvas.height=Math.round(Jd*a);b.strokeStyle=o.theme.hatch,b.lineWidth=a,b.beginPath();
 for(let A of[-x,0,x])b.moveTo(A-1,x+1),b.lineTo(A+x+1,-1);b.stroke(),Object.assign(s.canvas,{width:Math.ceil(l*a),height:Math.ceil(c*a)}),s.setTransform(a,0,0,a,
 0,0),s.imageSmoothingEnabled=!1,s.drawImage(r.canvas,u,p,m*h,y*h),s.globalCompositeOperation="source-in",s.setTransform(1,0,0,1,0,0);let S=s.createPattern(b.canvas,
 "repeat");S.setTransform(new DOMMatrix().translate(Math.round(u*a),Math.round(p*a))),s.fillStyle=S,s.fillRect(0,0,s.canvas.width,s.canvas.height)}lines(e,{session:n,
@@ -205,7 +205,7 @@ session:{ghost:e,document:n}}){return!!(e.held&&e.pose&&n)}paint(e,n){let{ghost:
 fan(e,n,o.fan);o.fan.near&&this.near(e,n,o.fan,o.fan.near),e.fillStyle=n.look.theme.ghost,e.fill(s)}this.robot(e,n,o.pose)}}ends({session:e,view:n},o,s,r){let{grid:i,
 max_range:a}=e.document;return Array.from(s,(l,c)=>{let h=ce(r[c],0,a),u=o.yaw+l,p={x:o.x+h*Math.cos(u),y:o.y+h*Math.sin(u)};return n.fromGrid(Ae(p,i),i.shape[1])})}fan(e,n,o){
 let{theme:s}=n.look,[r,i,a]=[o.low,o.median,o.high].map(y=>this.ends(n,o,o.angles,y)),{grid:l}=n.session.document,c=n.view.fromGrid(Ae(o,l),l.shape[1]),h=new Path2D;
-h.moveTo(c.x,c.y);for(let{x:y,y:k}of r)h.lineTo(y,k);h.closePath(),e.fillStyle=s.ghost,e.globalAlpha=.1,e.fill(h);let u=new Path2D,p=new Path2D,m=ce(n.view.transform.
+h.moveTo(c.x,c.y);for(let{x:y,y:v}of r)h.lineTo(y,v);h.closePath(),e.fillStyle=s.ghost,e.globalAlpha=.1,e.fill(h);let u=new Path2D,p=new Path2D,m=ce(n.view.transform.
 scale*.12,1.2,3);for(let y=0;y<r.length;y++)u.moveTo(r[y].x,r[y].y),u.lineTo(a[y].x,a[y].y),Number.isFinite(o.median[y])&&p.rect(i[y].x-m,i[y].y-m,2*m,2*m);return e.
 strokeStyle=s.ghost,e.lineCap="round",e.lineWidth=ce(n.view.transform.scale*.25,2,5),e.globalAlpha=.4,e.stroke(u),e.globalAlpha=1,p}near(e,n,o,{pose:s,ranges:r,
 hit:i}){let{theme:a}=n.look,l=ce(n.view.transform.scale*.14,1.5,4),c=this.ends(n,{x:s[0],y:s[1],yaw:s[2]},o.angles,r),h=new Path2D;c.forEach(({x:u,y:p},m)=>{i[m]&&
@@ -219,22 +219,22 @@ this.cells.canvas,h,u,a*c,l*c)}fill(e,n,o,s){let[r,i,a]=[1,3,5].map(c=>parseInt(
 n,o);for(let c=0,h=0;c<o;c++)for(let u=o-1-c;u<n*o;u+=o,h+=4)l.data.set([r,i,a,Math.round(e.p[u]*e.reached[u]/255)],h);this.cells.putImageData(l,0,0),this.drawn=
 {field:e,colour:s}}};var Qd=46,eu=22;function tu(t){let e=10**Math.floor(Math.log10(t));return e*([1,2,5].find(n=>n*e>=t)??10)}function pl(t,{session:e,view:n,look:o}){if(!e.document)
 return;let{theme:s}=o,{width:r,height:i}=n,{origin:a,resolution:l,shape:c}=e.document.grid,{scale:h,x:u,y:p}=n.transform,m=tu(Qd/h*l),y=Math.min(p+c[1]*h,i-He.bottom)+
-.5,k=Math.max(u,He.left)-.5;t.fillStyle=s.ground,u<k&&t.fillRect(0,0,k,i+1),p+c[1]*h>y&&t.fillRect(0,y,r+1,i+1-y);let b=Math.max(0,-Math.floor(Math.log10(m)+1e-9));
-t.strokeStyle=s.frame,t.lineWidth=1,t.beginPath();let x=A=>Math.ceil(a[A]/m-1e-9)*m,S=A=>a[A]+c[A]*l+1e-9;for(let A=x(0);A<=S(0);A+=m){let E=u+(A-a[0])/l*h;E<k||
-E>r-4||(t.moveTo(E,y),t.lineTo(E,y+4),Tn(t,A.toFixed(b),E,y+12,s,"center"))}for(let A=x(1);A<=S(1);A+=m){let E=p+(c[1]-(A-a[1])/l)*h;E>y||E<4||(t.moveTo(k,E),t.
-lineTo(k-4,E),Tn(t,A.toFixed(b),k-7,E,s,"right"))}t.stroke(),Tn(t,"m",k-eu,y+12,s,"right")}var ho=class{name="marks";edges=new Path2D;edgesOf=-1;depends({session:e,look:n}){let o=ei(e).flatMap(({id:i,x:a,y:l,yaw:c})=>[i,a,l,c]),{grid:s}=e.document??{},
+.5,v=Math.max(u,He.left)-.5;t.fillStyle=s.ground,u<v&&t.fillRect(0,0,v,i+1),p+c[1]*h>y&&t.fillRect(0,y,r+1,i+1-y);let b=Math.max(0,-Math.floor(Math.log10(m)+1e-9));
+t.strokeStyle=s.frame,t.lineWidth=1,t.beginPath();let x=A=>Math.ceil(a[A]/m-1e-9)*m,S=A=>a[A]+c[A]*l+1e-9;for(let A=x(0);A<=S(0);A+=m){let E=u+(A-a[0])/l*h;E<v||
+E>r-4||(t.moveTo(E,y),t.lineTo(E,y+4),Tn(t,A.toFixed(b),E,y+12,s,"center"))}for(let A=x(1);A<=S(1);A+=m){let E=p+(c[1]-(A-a[1])/l)*h;E>y||E<4||(t.moveTo(v,E),t.
+lineTo(v-4,E),Tn(t,A.toFixed(b),v-7,E,s,"right"))}t.stroke(),Tn(t,"m",v-eu,y+12,s,"right")}var ho=class{name="marks";edges=new Path2D;edgesOf=-1;depends({session:e,look:n}){let o=ei(e).flatMap(({id:i,x:a,y:l,yaw:c})=>[i,a,l,c]),{grid:s}=e.document??{},
 r=dl(e)&&n.truth&&e.wallsVersion;return[s&&[...s.shape,...s.origin,s.resolution].join(),r,n.selected,...o]}shows({session:e}){return e.document!==null}paint(e,n){
 let{session:o,view:s,look:r}=n;if(!o.document)return;let[i,a]=o.shape,{scale:l,x:c,y:h}=s.transform;r.truth&&dl(o)&&this.truth(e,n),e.strokeStyle=r.theme.frame,
 e.lineWidth=1,e.strokeRect(c-.5,h-.5,i*l+1,a*l+1),rl(e,n),pl(e,n)}truth(e,n){let{session:o,view:s,look:r}=n,{scale:i,x:a,y:l}=s.transform;this.edgesOf!==o.wallsVersion&&
 (this.edges=qa(o.walls,o.shape),this.edgesOf=o.wallsVersion),e.save(),Be(e,n),e.transform(i,0,0,-i,a,l+o.shape[1]*i),e.lineCap="square",e.strokeStyle=r.theme.truth,
 e.lineWidth=ce(i*.09,1,2.5)/i,e.stroke(this.edges),e.restore()}},dl=({document:t})=>t?.source.kind==="simulation";var nu=600,ou=1500,su=65536,oi=.3,po=class{name="rays";depends({session:e,look:n}){return[e.scan,e.document?.max_range,n.rays,n.readings,e.document?.scans_used]}shows({
 session:e,look:n}){return!!(e.scan&&e.document&&(n.rays||n.readings)&&!e.ghost.held&&!e.evidence.cellShown)}paint(e,n){let{session:o,view:s,look:r}=n,{scan:i,document:a}=o;
-if(!i||!a)return;Be(e,n);let{scale:l}=s.transform,c=1/a.grid.resolution,h=a.grid.shape[1],u=i.angles.length,p=i.pose.length/3,m=Math.ceil(u*p/ou),[y,k,b]=[new Path2D,
+if(!i||!a)return;Be(e,n);let{scale:l}=s.transform,c=1/a.grid.resolution,h=a.grid.shape[1],u=i.angles.length,p=i.pose.length/3,m=Math.ceil(u*p/ou),[y,v,b]=[new Path2D,
 new Path2D,new Path2D],x=u*p>nu,S=new Map,A=ce(l*.1,1.3,4),E=a.scans_used??1/0,D=(i.index??0)<E?1:oi;for(let L=0;L<p;L++){let[O,G,te]=i.pose.subarray(3*L,3*L+3),
 X=s.fromGrid(Ae({x:O,y:G},a.grid),h);for(let R=0;R<u;R++){let ee=i.ranges[L*u+R],B=i.hit[L*u+R]===1,P=(B?ee:a.max_range)*c*l,C=i.angles[R]+te,U={x:X.x+P*Math.cos(
-C),y:X.y-P*Math.sin(C)},I=B?y:k;(L*u+R)%m===0&&(I.moveTo(X.x,X.y),I.lineTo(U.x,U.y)),B&&(x?S.set(Math.round(U.x)*su+Math.round(U.y),U):(b.moveTo(U.x+A,U.y),b.arc(
+C),y:X.y-P*Math.sin(C)},I=B?y:v;(L*u+R)%m===0&&(I.moveTo(X.x,X.y),I.lineTo(U.x,U.y)),B&&(x?S.set(Math.round(U.x)*su+Math.round(U.y),U):(b.moveTo(U.x+A,U.y),b.arc(
 U.x,U.y,A,0,2*Math.PI)))}}if(r.rays&&(e.lineWidth=1,e.globalAlpha=D*ce(28/Math.sqrt(u*p/m)/5,.07,.45),e.strokeStyle=r.theme.ray,e.stroke(y),e.strokeStyle=r.theme.
-noReturn,e.stroke(k),e.globalAlpha=1),r.readings){e.globalAlpha=D,e.fillStyle=r.theme.ray,e.fill(b);let L=1.8*A;for(let{x:O,y:G}of S.values())e.fillRect(O-L/2,G-
+noReturn,e.stroke(v),e.globalAlpha=1),r.readings){e.globalAlpha=D,e.fillStyle=r.theme.ray,e.fill(b);let L=1.8*A;for(let{x:O,y:G}of S.values())e.fillRect(O-L/2,G-
 L/2,L,L);e.globalAlpha=1}}};var ru=2.5,Ho=t=>t>=ru,uo=class{name="overlay";depends({session:e,look:n}){return[e.overlay,n.strokes,n.trajectory,e.document?.grid.resolution,e.document?.scans_used]}shows({
 session:e,look:n}){return!!(e.overlay&&e.document&&(n.strokes||n.trajectory))}paint(e,n){let{session:o,look:s}=n,{overlay:r,document:i}=o;!r||!i||(Be(e,n),s.trajectory&&
 this.trajectory(e,n,r.trajectory),s.strokes&&Ho(n.view.transform.scale)&&this.strokes(e,n,r.strokes))}trajectory(e,{session:n,view:o,look:s},r){let i=n.document?.
@@ -249,7 +249,7 @@ x,c.y,h);e.restore(),i.write()}cloud(e,{session:n,view:o,look:s},r){let{cloud:i,
 e.lineWidth=1.2;for(let c=0;c<a.length;c++){if(a[c]<au**2*l)continue;let[h,u,p]=i.subarray(3*c,3*c+3),m=o.fromGrid(Ae({x:h,y:u},r),r.shape[1]);e.globalAlpha=lu*
 Math.sqrt(a[c]/l),e.beginPath(),e.arc(m.x,m.y,iu,0,2*Math.PI),e.fill(),e.beginPath(),e.moveTo(m.x,m.y),e.lineTo(m.x+fo*Math.cos(p),m.y-fo*Math.sin(p)),e.stroke()}
 e.globalAlpha=1}ring(e,{view:n,look:o},s,r,i){let[a,l,c]=r.mean,h=n.fromGrid(Ae({x:a,y:l},s),s.shape[1]),u=cu*n.transform.scale/s.resolution,[[p,m],[,y]]=r.covariance,
-[k,b]=[(p+y)/2,Math.hypot((p-y)/2,m)],[x,S]=[k+b,k-b].map(E=>Math.max(ul,u*Math.sqrt(Math.max(E,0))));e.beginPath(),e.ellipse(h.x,h.y,x,S,-Math.atan2(2*m,p-y)/2,
+[v,b]=[(p+y)/2,Math.hypot((p-y)/2,m)],[x,S]=[v+b,v-b].map(E=>Math.max(ul,u*Math.sqrt(Math.max(E,0))));e.beginPath(),e.ellipse(h.x,h.y,x,S,-Math.atan2(2*m,p-y)/2,
 0,2*Math.PI);let A=ul+1;return e.moveTo(h.x+A*Math.cos(c),h.y-A*Math.sin(c)),e.lineTo(h.x+(A+fo)*Math.cos(c),h.y-(A+fo)*Math.sin(c)),e.strokeStyle=o.theme.halo,
 e.lineWidth=4,e.stroke(),e.strokeStyle=o.theme.belief,e.lineWidth=2,e.stroke(),i.avoid(h,S),i.avoid(h,2,{x:h.x+(A+fo)*Math.cos(c),y:h.y-(A+fo)*Math.sin(c)}),{at:h,
 short:S}}},si=t=>t>.995&&t<1?"over 99 %":t<.005?"under 1 %":`${Math.round(100*t)} %`;var fl=900,jo=2,ri=()=>[new ao,new co,new uo,new po,new ho,new ro,new mo,new lo];function ml({session:t,look:e}){let[n,o]=t.shape,s=new to;s.resize(fl,Math.round(
@@ -258,10 +258,10 @@ scale(jo,jo),i.fillStyle=e.theme.ground,i.fillRect(0,0,s.width,s.height);let a={
 (l.shows?.(a)??!0)&&(i.save(),l.paint(i,a),i.restore());return new Promise(l=>r.toBlob(l))}var _s=class{name="reading";depends({session:e}){return[e.reading.version,e.document?.grid.resolution]}shows({session:{reading:e,document:n,scan:o,ghost:s}}){return!!(!s.
 held&&e.picked&&n&&o?.index===e.picked.scan)}paint(e,n){let{session:o,view:s,look:r}=n,{picked:i,found:a}=o.reading,{scan:l,document:c}=o;if(!i||!c||l?.index!==
 i.scan)return;Be(e,n);let{grid:h,max_range:u}=c,p=b=>{let x={x:i.from.x+b*Math.cos(i.angle),y:i.from.y+b*Math.sin(i.angle)};return s.fromGrid(Ae(x,h),h.shape[1])},
-m=(b,x,S,A)=>{e.beginPath(),e.moveTo(b.x,b.y),e.lineTo(x.x,x.y),e.lineWidth=S,e.strokeStyle=A,e.stroke()},y=l.hit[i.beam]===1,k=p(y?l.ranges[i.beam]:u);if(m(p(0),
-k,3,r.theme.halo),m(p(0),k,1.5,y?r.theme.ray:r.theme.noReturn),e.lineCap="butt",a){let b=(x,S)=>ce(x??S,0,u);if(m(p(b(a.low,0)),p(b(a.high,u)),6,r.theme.ghost),
+m=(b,x,S,A)=>{e.beginPath(),e.moveTo(b.x,b.y),e.lineTo(x.x,x.y),e.lineWidth=S,e.strokeStyle=A,e.stroke()},y=l.hit[i.beam]===1,v=p(y?l.ranges[i.beam]:u);if(m(p(0),
+v,3,r.theme.halo),m(p(0),v,1.5,y?r.theme.ray:r.theme.noReturn),e.lineCap="butt",a){let b=(x,S)=>ce(x??S,0,u);if(m(p(b(a.low,0)),p(b(a.high,u)),6,r.theme.ghost),
 a.median!==null){let x=p(a.median),S={x:7*Math.sin(i.angle),y:7*Math.cos(i.angle)};m({x:x.x-S.x,y:x.y-S.y},{x:x.x+S.x,y:x.y+S.y},2.5,r.theme.ghost)}}y&&(e.beginPath(),
-e.arc(k.x,k.y,4.5,0,2*Math.PI),e.fillStyle=r.theme.ray,e.fill(),e.lineWidth=2,e.strokeStyle=r.theme.halo,e.stroke())}};var gl="bayesmap-token",ii="bayesmap-kept",yl="bayesmap-tools";function wl(t){try{return localStorage.getItem(t)}catch{return null}}function Cs(t,e){try{e===null?
+e.arc(v.x,v.y,4.5,0,2*Math.PI),e.fillStyle=r.theme.ray,e.fill(),e.lineWidth=2,e.strokeStyle=r.theme.halo,e.stroke())}};var gl="bayesmap-token",ii="bayesmap-kept",yl="bayesmap-tools";function wl(t){try{return localStorage.getItem(t)}catch{return null}}function Cs(t,e){try{e===null?
 localStorage.removeItem(t):localStorage.setItem(t,e)}catch{}}function ai(t){t?.source.kind==="simulation"&&location.protocol.startsWith("http")&&Cs(ii,JSON.stringify(
 t))}function bl(){Cs(ii,null)}function xl(){let t=wl(ii);try{return t&&JSON.parse(t)}catch{return null}}var vl=()=>wl(yl)!==null,kl=t=>Cs(yl,t?"all":null);function Sl(t){
 t&&Cs(gl,t)}function Ml(t){let e=n=>{n.key===gl&&n.newValue&&t(n.newValue)};return window.addEventListener("storage",e),()=>window.removeEventListener("storage",
@@ -278,10 +278,10 @@ nd is being started again; the map is kept","warning",this.until):e==="ready"&&t
 test(this.text)&&this.say("The worker runs again","info",this.until)}};var pu=20,du={importance:"particles",propagate:"rounds"},Ns=({working:t,shown:e})=>t&&e?.method==="pilot";function Al(t,...e){let{session:n}=t,o=M("progress",{max:1,
 value:0,"aria-label":"Progress"}),s=M("div",{className:"doing"});t.each(()=>{let i=n.shown,{stage:a}=n,l=i?.generation!==n.generation&&(n.running||n.document?.source.
 kind==="log"),c=Ns(n),h=a?a.done/a.total:i&&!l&&i.total>0&&(c||!i.approximate)?i.sweeps/i.total:0;_(o,"value",h);let u=n.remaining_s(),p=du[i?.method??""]??"swe\
-eps",m=i&&!i.approximate&&i.total?`${i.sweeps} of ${i.total} ${p}`:"",y=u!==null?u<1?"less than 1 s left":`${Math.ceil(u)} s left`:n.running?"running":"",k=m&&i?.
+eps",m=i&&!i.approximate&&i.total?`${i.sweeps} of ${i.total} ${p}`:"",y=u!==null?u<1?"less than 1 s left":`${Math.ceil(u)} s left`:n.running?"running":"",v=m&&i?.
 burned?`burn-in of ${i.burned} left out`:"",b=n.sampling||n.running||!i||i.sweeps>=i.total?"":"stopped";a?_(s,"textContent",`${a.text}: ${a.done} of ${a.total} ${a.
 total>pu?"scans":"rounds"}`):l?_(s,"textContent","Computing"):i&&c?_(s,"textContent",`Fitting the sensor: sweep ${i.sweeps} of ${i.total}`):_(s,"textContent",Zt(
-[m,k,y,m&&b].filter(Boolean).join(", "))||fu(n))});let r=M("p",{className:"caption",textContent:"Where am I? takes the walls as drawn. What follows here is abou\
+[m,v,y,m&&b].filter(Boolean).join(", "))||fu(n))});let r=M("p",{className:"caption",textContent:"Where am I? takes the walls as drawn. What follows here is abou\
 t walls that are not known."});return t.visible(r,()=>n.where.map!==null),t.section("Posterior",r,gu(t),o,s,...yu(t),bu(t),...e,wu(t))}var uu=({document:t})=>!/importance|propagate/.
 test(t?.method??"")||(t?.cells??"binary")!=="binary";function fu({shown:t,working:e,document:n,nothingToRun:o,recorded:s}){let r=!s&&n?.source.kind!=="run",i=r&&
 n?.method==="importance"?"; Run weighs particles":r&&o?"; it is done, and Run has nothing to add":"";return t?.method==="propagate"?`${t.sweeps?`${t.sweeps} rou\
@@ -293,8 +293,8 @@ title:()=>`Run (R): ${mu(e)}`,when:()=>e.connection.connected&&!e.nothingToRun,w
 Cancel",()=>e.act({type:"cancel"}),{text:"Cancel",title:"Cancel (Escape)",when:()=>e.running||e.sampling||Ns(e),why:"Nothing is running"}),s=t.checkbox("Live",()=>!!(e.
 state?.live??!0),i=>e.act({type:"live",on:i}),"Infer anew after every edit; Run goes on from the draws that are kept"),r=M("div",{className:"buttons"},n,o,s);return t.
 visible(r,()=>!e.recorded&&e.document?.source.kind!=="run"),r}function yu(t){let{session:e}=t,n=M("dl"),o=M("dl",{className:"about"}),s=(a,l,c,{judged:h=!1,ofChains:u=!1}={})=>{
-let p=M("dd",{textContent:"–"}),m=M("dt",{textContent:a}),y=M("div",{title:l},m,p);n.append(y),h&&t.named.push({name:()=>a,place:y,control:y});let k=[M("dt",{
-textContent:a}),M("dd",{textContent:l})];if(o.append(...k),u)for(let b of[y,...k])t.visible(b,()=>uu(e));return t.each(()=>{_(p,"textContent",e.shown?c(e.shown):
+let p=M("dd",{textContent:"–"}),m=M("dt",{textContent:a}),y=M("div",{title:l},m,p);n.append(y),h&&t.named.push({name:()=>a,place:y,control:y});let v=[M("dt",{
+textContent:a}),M("dd",{textContent:l})];if(o.append(...v),u)for(let b of[y,...v])t.visible(b,()=>uu(e));return t.each(()=>{_(p,"textContent",e.shown?c(e.shown):
 "–"),h&&_(p,"className",e.shown?.verdict?.level??"")}),{entry:y,name:m}};s("ESS","Effective sample size of the log joint: so many independent draws would tell\
  as much of its mean",a=>pe(a.ess,0),{judged:!0}),s("R-hat","Agreement of the chains on the log joint: 1 where they agree, more where each still tells of its st\
 art",a=>pe(a.rhat,3),{judged:!0,ofChains:!0});let r=s("log joint","Log of prior times likelihood: of the draw on show, or the mean over the chains at the last s\
@@ -330,8 +330,8 @@ c=a(i(Ve(t))),h=l(i(Ve(e))),u=bo(n,c),p=bo(n,h);return n==10&&(c<0&&(u=Te(u,-c))
 let s=Ws(t,e,n,o);return t==0&&(s[0]=0),e==0&&(s[1]=0),s}var Ci=.1,Hl={mode:3,pad:Ci},Jo={pad:0,soft:null,mode:0},ju={min:Jo,max:Jo};function Os(t,e,n,o){return Hs(
 n)?jl(t,e,n):(Jo.pad=n,Jo.soft=o?0:null,Jo.mode=o?3:0,jl(t,e,ju))}function ye(t,e){return t??e}function Vu(t,e,n){for(e=ye(e,0),n=ye(n,t.length-1);e<=n;){if(t[e]!=
 null)return!0;e++}return!1}function jl(t,e,n){let o=n.min,s=n.max,r=ye(o.pad,0),i=ye(s.pad,0),a=ye(o.hard,-Me),l=ye(s.hard,Me),c=ye(o.soft,Me),h=ye(s.soft,-Me),
-u=ye(o.mode,0),p=ye(s.mode,0),m=e-t,y=Qt(m),k=ut(Ve(t),Ve(e)),b=Qt(k),x=Ve(b-y);(m<1e-24||x>10)&&(m=0,(t==0||e==0)&&(m=1e-24,u==2&&c!=Me&&(r=0),p==2&&h!=-Me&&(i=
-0)));let S=m||k||1e3,A=Qt(S),E=bo(10,vt(A)),D=S*(m==0?t==0?.1:1:r),L=Te(Sc(t-D,E/10),24),O=t>=c&&(u==1||u==3&&L<=c||u==2&&L>=c)?c:Me,G=ut(a,L<O&&t>=O?O:Bt(O,L)),
+u=ye(o.mode,0),p=ye(s.mode,0),m=e-t,y=Qt(m),v=ut(Ve(t),Ve(e)),b=Qt(v),x=Ve(b-y);(m<1e-24||x>10)&&(m=0,(t==0||e==0)&&(m=1e-24,u==2&&c!=Me&&(r=0),p==2&&h!=-Me&&(i=
+0)));let S=m||v||1e3,A=Qt(S),E=bo(10,vt(A)),D=S*(m==0?t==0?.1:1:r),L=Te(Sc(t-D,E/10),24),O=t>=c&&(u==1||u==3&&L<=c||u==2&&L>=c)?c:Me,G=ut(a,L<O&&t>=O?O:Bt(O,L)),
 te=S*(m==0?e==0?.1:1:i),X=Te(Gs(e+te,E/10),24),R=e<=h&&(p==1||p==3&&X>=h||p==2&&X<=h)?h:-Me,ee=Bt(l,X>R&&e<=R?R:ut(R,X));return G==ee&&G==0&&(ee=100),[G,ee]}var zu=new Intl.
 NumberFormat(So?Uu.language:"en-US"),Li=t=>zu.format(t),kt=Math,Fs=kt.PI,Ve=kt.abs,vt=kt.floor,je=kt.round,Pt=kt.ceil,Bt=kt.min,ut=kt.max,bo=kt.pow,Vl=kt.sign,Qt=kt.
 log10,bc=kt.log2,Yu=(t,e=1)=>kt.sinh(t)*e,di=(t,e=1)=>kt.asinh(t/e),Me=1/0;function zl(t){return(Qt((t^t>>31)-(t>>31))|0)+1}function xi(t,e,n){return Bt(ut(t,e),
@@ -348,8 +348,8 @@ for(let n=1;n<e.length;n++){let o=e[n];for(let s in o)s!=Ac&&(Hs(t[s])?Ue(t[s],v
 s,r=-1;o<e.length;o++){let i=e[o];if(i>r){for(s=i-1;s>=0&&t[s]==null;)t[s--]=null;for(s=i+1;s<n&&t[s]==null;)t[r=s++]=null}}}function sf(t,e){if(lf(t)){let i=t[0].
 slice();for(let a=1;a<t.length;a++)i.push(...t[a].slice(1));return cf(i[0])||(i=af(i)),i}let n=new Set;for(let i=0;i<t.length;i++){let l=t[i][0],c=l.length;for(let h=0;h<
 c;h++)n.add(l[h])}let o=[Array.from(n).sort((i,a)=>i-a)],s=o[0].length,r=new Map;for(let i=0;i<s;i++)r.set(o[0][i],i);for(let i=0;i<t.length;i++){let a=t[i],l=a[0];
-for(let c=1;c<a.length;c++){let h=a[c],u=Array(s).fill(void 0),p=e?e[i][c]:tf,m=[];for(let y=0;y<h.length;y++){let k=h[y],b=r.get(l[y]);k===null?p!=ef&&(u[b]=k,
-p==nf&&m.push(b)):u[b]=k}of(u,m,s),o.push(u)}}return o}var rf=typeof queueMicrotask>"u"?t=>Promise.resolve().then(t):queueMicrotask;function af(t){let e=t[0],n=e.
+for(let c=1;c<a.length;c++){let h=a[c],u=Array(s).fill(void 0),p=e?e[i][c]:tf,m=[];for(let y=0;y<h.length;y++){let v=h[y],b=r.get(l[y]);v===null?p!=ef&&(u[b]=v,
+p==nf&&m.push(b)):u[b]=v}of(u,m,s),o.push(u)}}return o}var rf=typeof queueMicrotask>"u"?t=>Promise.resolve().then(t):queueMicrotask;function af(t){let e=t[0],n=e.
 length,o=Array(n);for(let r=0;r<o.length;r++)o[r]=r;o.sort((r,i)=>e[r]-e[i]);let s=[];for(let r=0;r<t.length;r++){let i=t[r],a=Array(n);for(let l=0;l<n;l++)a[l]=
 i[o[l]];s.push(a)}return s}function lf(t){let e=t[0][0],n=e.length;for(let o=1;o<t.length;o++){let s=t[o][0];if(s.length!=n)return!1;if(s!=e){for(let r=0;r<n;r++)
 if(s[r]!=e[r])return!1}}return!0}function cf(t,e=100){let n=t.length;if(n<=1)return!0;let o=0,s=n-1;for(;o<=s&&t[o]==null;)o++;for(;s>=o&&t[s]==null;)s--;if(s<=
@@ -368,14 +368,14 @@ Cc),_n=yf.concat(Lc),$i=`
 s=o*24,r=s*30,i=s*365,l=(t==1?Zo(10,0,3,Bs).filter(Cc):Zo(10,-3,0,Bs)).concat([e,e*5,e*10,e*15,e*30,n,n*5,n*10,n*15,n*30,o,o*2,o*3,o*4,o*6,o*8,o*12,s,s*2,s*3,s*
 4,s*5,s*6,s*7,s*8,s*9,s*10,s*15,r,r*2,r*3,r*4,r*6,i,i*2,i*5,i*10,i*25,i*50,i*100]),c=[[i,Nc,xe,xe,xe,xe,xe,xe,1],[s*28,"{MMM}",Jl,xe,xe,xe,xe,xe,1],[s,Dc,Jl,xe,
 xe,xe,xe,xe,1],[o,"{h}"+$c,$s,xe,Ko,xe,xe,xe,1],[n,yo,$s,xe,Ko,xe,xe,xe,1],[e,Zl,$s+" "+yo,xe,Ko+" "+yo,xe,Xl,xe,1],[t,Zl+".{fff}",$s+" "+yo,xe,Ko+" "+yo,xe,Xl,
-xe,1]];function h(u){return(p,m,y,k,b,x)=>{let S=[],A=b>=i,E=b>=r&&b<i,D=u(y),L=Te(D*t,3),O=ui(D.getFullYear(),A?0:D.getMonth(),E||A?1:D.getDate()),G=Te(O*t,3);
+xe,1]];function h(u){return(p,m,y,v,b,x)=>{let S=[],A=b>=i,E=b>=r&&b<i,D=u(y),L=Te(D*t,3),O=ui(D.getFullYear(),A?0:D.getMonth(),E||A?1:D.getDate()),G=Te(O*t,3);
 if(E||A){let te=E?b/r:0,X=A?b/i:0,R=L==G?L:Te(ui(O.getFullYear()+X,O.getMonth()+te,1)*t,3),ee=new Date(je(R/t)),B=ee.getFullYear(),P=ee.getMonth();for(let C=0;R<=
-k;C++){let U=ui(B+X*C,P+te*C,1),I=U-u(Te(U*t,3));R=Te((+U+I)*t,3),R<=k&&S.push(R)}}else{let te=b>=s?s:b,X=vt(y)-vt(L),R=G+X+Gs(L-G,te);S.push(R);let ee=u(R),B=ee.
-getHours()+ee.getMinutes()/n+ee.getSeconds()/o,P=b/o,C=p.axes[m]._space,U=x/C;for(;R=Te(R+b,t==1?0:3),!(R>k);)if(P>1){let I=vt(Te(B+P,6))%24,J=u(R).getHours()-I;
+v;C++){let U=ui(B+X*C,P+te*C,1),I=U-u(Te(U*t,3));R=Te((+U+I)*t,3),R<=v&&S.push(R)}}else{let te=b>=s?s:b,X=vt(y)-vt(L),R=G+X+Gs(L-G,te);S.push(R);let ee=u(R),B=ee.
+getHours()+ee.getMinutes()/n+ee.getSeconds()/o,P=b/o,C=p.axes[m]._space,U=x/C;for(;R=Te(R+b,t==1?0:3),!(R>v);)if(P>1){let I=vt(Te(B+P,6))%24,J=u(R).getHours()-I;
 J>1&&(J=-1),R-=J*o,B=(B+P)%24;let Q=S[S.length-1];Te((R-Q)/b,3)*U>=.7&&S.push(R)}else S.push(R)}return S}}return[l,c,h]}var[xf,vf,kf]=Rc(1),[Sf,Mf,Tf]=Rc(.001);
 Zo(2,-53,53,[1]);function Ql(t,e){return t.map(n=>n.map((o,s)=>s==0||s==8||o==null?o:e(s==1||n[8]==0?o:n[1]+o)))}function ec(t,e){return(n,o,s,r,i)=>{let a=e.find(
-y=>i>=y[0])||e[e.length-1],l,c,h,u,p,m;return o.map(y=>{let k=t(y),b=k.getFullYear(),x=k.getMonth(),S=k.getDate(),A=k.getHours(),E=k.getMinutes(),D=k.getSeconds(),
-L=b!=l&&a[2]||x!=c&&a[3]||S!=h&&a[4]||A!=u&&a[5]||E!=p&&a[6]||D!=m&&a[7]||a[1];return l=b,c=x,h=S,u=A,p=E,m=D,L(k)})}}function Af(t,e){let n=Di(e);return(o,s,r,i,a)=>s.
+y=>i>=y[0])||e[e.length-1],l,c,h,u,p,m;return o.map(y=>{let v=t(y),b=v.getFullYear(),x=v.getMonth(),S=v.getDate(),A=v.getHours(),E=v.getMinutes(),D=v.getSeconds(),
+L=b!=l&&a[2]||x!=c&&a[3]||S!=h&&a[4]||A!=u&&a[5]||E!=p&&a[6]||D!=m&&a[7]||a[1];return l=b,c=x,h=S,u=A,p=E,m=D,L(v)})}}function Af(t,e){let n=Di(e);return(o,s,r,i,a)=>s.
 map(l=>n(t(l)))}function ui(t,e,n){return new Date(t,e,n)}function tc(t,e){return e(t)}var Ef="{YYYY}-{MM}-{DD} {h}:{mm}{aa}";function nc(t,e){return(n,o,s,r)=>r==
 null?Ei:e(t(o))}function Pf(t,e){let n=t.series[e];return n.width?n.stroke(t,e):n.points.width?n.points.stroke(t,e):null}function _f(t,e){return t.series[e].fill(
 t,e)}var Cf={show:!0,live:!0,isolate:!1,mount:qu,markers:{show:!0,width:2,stroke:Pf,fill:_f,dash:"solid"},idx:null,idxs:null,values:[]};function Lf(t,e){let n=t.
@@ -404,56 +404,56 @@ gaps:Gc,alpha:1,points:{show:qf,filter:null},values:null,min:Me,max:-Me,idxs:[],
 distr:1,log:10,asinh:1,min:null,max:null,dir:1,ori:0},Jf=Ue({},Hc,{time:!1,ori:1}),hc={};function jc(t,e){let n=hc[t];return n||(n={key:t,plots:[],sub(o){n.plots.
 push(o)},unsub(o){n.plots=n.plots.filter(s=>s!=o)},pub(o,s,r,i,a,l,c){for(let h=0;h<n.plots.length;h++)n.plots[h]!=s&&n.plots[h].pub(o,s,r,i,a,l,c)}},t!=null&&(hc[t]=
 n)),n}var ko=1,Si=2;function Dn(t,e,n){let o=t.mode,s=t.series[e],r=o==2?t._data[e]:t._data,i=t.scales,a=t.bbox,l=r[0],c=o==2?r[1]:r[e],h=o==2?i[s.facets[0].scale]:
-i[t.series[0].scale],u=o==2?i[s.facets[1].scale]:i[s.scale],p=a.left,m=a.top,y=a.width,k=a.height,b=t.valToPosH,x=t.valToPosV;return h.ori==0?n(s,l,c,h,u,b,x,p,
-m,y,k,Vs,Mo,Ys,zc,qc):n(s,l,c,h,u,x,b,m,p,k,y,zs,To,Bi,Yc,Kc)}function Ii(t,e){let n=0,o=0,s=ye(t.bands,Ni);for(let r=0;r<s.length;r++){let i=s[r];i.series[0]==
+i[t.series[0].scale],u=o==2?i[s.facets[1].scale]:i[s.scale],p=a.left,m=a.top,y=a.width,v=a.height,b=t.valToPosH,x=t.valToPosV;return h.ori==0?n(s,l,c,h,u,b,x,p,
+m,y,v,Vs,Mo,Ys,zc,qc):n(s,l,c,h,u,x,b,m,p,v,y,zs,To,Bi,Yc,Kc)}function Ii(t,e){let n=0,o=0,s=ye(t.bands,Ni);for(let r=0;r<s.length;r++){let i=s[r];i.series[0]==
 e?n=i.dir:i.series[1]==e&&(i.dir==1?o|=1:o|=2)}return[n,o==1?-1:o==2?1:o==3?2:0]}function Xf(t,e,n,o,s){let r=t.mode,i=t.series[e],a=r==2?i.facets[1].scale:i.scale,
-l=t.scales[a];return s==-1?l.min:s==1?l.max:l.distr==3?l.dir==1?l.min:l.max:0}function en(t,e,n,o,s,r){return Dn(t,e,(i,a,l,c,h,u,p,m,y,k,b)=>{let x=i.pxRound,S=c.
-dir*(c.ori==0?1:-1),A=c.ori==0?Mo:To,E,D;S==1?(E=n,D=o):(E=o,D=n);let L=x(u(a[E],c,k,m)),O=x(p(l[E],h,b,y)),G=x(u(a[D],c,k,m)),te=x(p(r==1?h.max:h.min,h,b,y)),X=new Path2D(
+l=t.scales[a];return s==-1?l.min:s==1?l.max:l.distr==3?l.dir==1?l.min:l.max:0}function en(t,e,n,o,s,r){return Dn(t,e,(i,a,l,c,h,u,p,m,y,v,b)=>{let x=i.pxRound,S=c.
+dir*(c.ori==0?1:-1),A=c.ori==0?Mo:To,E,D;S==1?(E=n,D=o):(E=o,D=n);let L=x(u(a[E],c,v,m)),O=x(p(l[E],h,b,y)),G=x(u(a[D],c,v,m)),te=x(p(r==1?h.max:h.min,h,b,y)),X=new Path2D(
 s);return A(X,G,te),A(X,L,te),A(X,L,O),X})}function js(t,e,n,o,s,r){let i=null;if(t.length>0){i=new Path2D;let a=e==0?Ys:Bi,l=n;for(let u=0;u<t.length;u++){let p=t[u];
 if(p[1]>p[0]){let m=p[0]-l;m>0&&a(i,l,o,m,o+r),l=p[1]}}let c=n+s-l,h=10;c>0&&a(i,l,o-h/2,c,o+r+h)}return i}function Zf(t,e,n){let o=t[t.length-1];o&&o[0]==e?o[1]=
 n:t.push([e,n])}function Oi(t,e,n,o,s,r,i){let a=[],l=t.length;for(let c=s==1?n:o;c>=n&&c<=o;c+=s)if(e[c]===null){let u=c,p=c;if(s==1)for(;++c<=o&&e[c]===null;)
-p=c;else for(;--c>=n&&e[c]===null;)p=c;let m=r(t[u]),y=p==u?m:r(t[p]),k=u-s;m=i<=0&&k>=0&&k<l?r(t[k]):m;let x=p+s;y=i>=0&&x>=0&&x<l?r(t[x]):y,y>=m&&a.push([m,y])}
+p=c;else for(;--c>=n&&e[c]===null;)p=c;let m=r(t[u]),y=p==u?m:r(t[p]),v=u-s;m=i<=0&&v>=0&&v<l?r(t[v]):m;let x=p+s;y=i>=0&&x>=0&&x<l?r(t[x]):y,y>=m&&a.push([m,y])}
 return a}function pc(t){return t==0?vc:t==1?je:e=>Pn(e,t)}function Vc(t){let e=t==0?Vs:zs,n=t==0?(s,r,i,a,l,c)=>{s.arcTo(r,i,a,l,c)}:(s,r,i,a,l,c)=>{s.arcTo(i,r,
 l,a,c)},o=t==0?(s,r,i,a,l)=>{s.rect(r,i,a,l)}:(s,r,i,a,l)=>{s.rect(i,r,l,a)};return(s,r,i,a,l,c=0,h=0)=>{c==0&&h==0?o(s,r,i,a,l):(c=Bt(c,a/2,l/2),h=Bt(h,a/2,l/2),
 e(s,r+c,i),n(s,r+a,i,r+a,i+l,c),n(s,r+a,i+l,r,i+l,h),n(s,r,i+l,r,i,h),n(s,r,i,r+a,i,c),s.closePath())}}var Vs=(t,e,n)=>{t.moveTo(e,n)},zs=(t,e,n)=>{t.moveTo(n,e)},
 Mo=(t,e,n)=>{t.lineTo(e,n)},To=(t,e,n)=>{t.lineTo(n,e)},Ys=Vc(0),Bi=Vc(1),zc=(t,e,n,o,s,r)=>{t.arc(e,n,o,s,r)},Yc=(t,e,n,o,s,r)=>{t.arc(n,e,o,s,r)},qc=(t,e,n,o,s,r,i)=>{
-t.bezierCurveTo(e,n,o,s,r,i)},Kc=(t,e,n,o,s,r,i)=>{t.bezierCurveTo(n,e,s,o,i,r)};function Jc(t){return(e,n,o,s,r)=>Dn(e,n,(i,a,l,c,h,u,p,m,y,k,b)=>{let{pxRound:x,
+t.bezierCurveTo(e,n,o,s,r,i)},Kc=(t,e,n,o,s,r,i)=>{t.bezierCurveTo(n,e,s,o,i,r)};function Jc(t){return(e,n,o,s,r)=>Dn(e,n,(i,a,l,c,h,u,p,m,y,v,b)=>{let{pxRound:x,
 points:S}=i,A,E;c.ori==0?(A=Vs,E=zc):(A=zs,E=Yc);let D=Te(S.width*be,3),L=(S.size-S.width)/2*be,O=Te(L*2,3),G=new Path2D,te=new Path2D,{left:X,top:R,width:ee,height:B}=e.
-bbox;Ys(te,X-O,R-O,ee+O*2,B+O*2);let P=C=>{if(l[C]!=null){let U=x(u(a[C],c,k,m)),I=x(p(l[C],h,b,y));A(G,U+L,I),E(G,U,I,L,0,Fs*2)}};if(r)r.forEach(P);else for(let C=o;C<=
+bbox;Ys(te,X-O,R-O,ee+O*2,B+O*2);let P=C=>{if(l[C]!=null){let U=x(u(a[C],c,v,m)),I=x(p(l[C],h,b,y));A(G,U+L,I),E(G,U,I,L,0,Fs*2)}};if(r)r.forEach(P);else for(let C=o;C<=
 s;C++)P(C);return{stroke:D>0?G:null,fill:G,clip:te,flags:ko|Si}})}function Xc(t){return(e,n,o,s,r,i)=>{o!=s&&(r!=o&&i!=o&&t(e,n,o),r!=s&&i!=s&&t(e,n,s),t(e,n,i))}}
-var Qf=Xc(Mo),em=Xc(To);function Zc(t){let e=ye(t?.alignGaps,0);return(n,o,s,r)=>Dn(n,o,(i,a,l,c,h,u,p,m,y,k,b)=>{[s,r]=Us(l,s,r);let x=i.pxRound,S=B=>x(u(B,c,k,
+var Qf=Xc(Mo),em=Xc(To);function Zc(t){let e=ye(t?.alignGaps,0);return(n,o,s,r)=>Dn(n,o,(i,a,l,c,h,u,p,m,y,v,b)=>{[s,r]=Us(l,s,r);let x=i.pxRound,S=B=>x(u(B,c,v,
 m)),A=B=>x(p(B,h,b,y)),E,D;c.ori==0?(E=Mo,D=Qf):(E=To,D=em);let L=c.dir*(c.ori==0?1:-1),O={stroke:new Path2D,fill:null,clip:null,band:null,gaps:null,flags:ko},G=O.
-stroke,te=!1;if(r-s>=k*4){let B=W=>n.posToVal(W,c.key,!0),P=null,C=null,U,I,ie,K=S(a[L==1?s:r]),J=S(a[s]),Q=S(a[r]),q=B(L==1?J+1:Q-1);for(let W=L==1?s:r;W>=s&&W<=
+stroke,te=!1;if(r-s>=v*4){let B=W=>n.posToVal(W,c.key,!0),P=null,C=null,U,I,ie,K=S(a[L==1?s:r]),J=S(a[s]),Q=S(a[r]),q=B(L==1?J+1:Q-1);for(let W=L==1?s:r;W>=s&&W<=
 r;W+=L){let me=a[W],de=(L==1?me<q:me>q)?K:S(me),ae=l[W];de==K?ae!=null?(I=ae,P==null?(E(G,de,A(I)),U=P=C=I):I<P?P=I:I>C&&(C=I)):ae===null&&(te=!0):(P!=null&&D(G,
 K,A(P),A(C),A(U),A(I)),ae!=null?(I=ae,E(G,de,A(I)),P=C=U=I):(P=C=null,ae===null&&(te=!0)),K=de,q=B(K+L))}P!=null&&P!=C&&ie!=K&&D(G,K,A(P),A(C),A(U),A(I))}else for(let B=L==
 1?s:r;B>=s&&B<=r;B+=L){let P=l[B];P===null?te=!0:P!=null&&E(G,S(a[B]),A(P))}let[R,ee]=Ii(n,o);if(i.fill!=null||R!=0){let B=O.fill=new Path2D(G),P=i.fillTo(n,o,i.
 min,i.max,R),C=A(P),U=S(a[s]),I=S(a[r]);L==-1&&([I,U]=[U,I]),E(B,I,C),E(B,U,C)}if(!i.spanGaps){let B=[];te&&B.push(...Oi(a,l,s,r,L,S,e)),O.gaps=B=i.gaps(n,o,s,r,
-B),O.clip=js(B,c.ori,m,y,k,b)}return ee!=0&&(O.band=ee==2?[en(n,o,s,r,G,-1),en(n,o,s,r,G,1)]:en(n,o,s,r,G,ee)),O})}function tm(t){let e=ye(t.align,1),n=ye(t.ascDesc,
-!1),o=ye(t.alignGaps,0),s=ye(t.extend,!1);return(r,i,a,l)=>Dn(r,i,(c,h,u,p,m,y,k,b,x,S,A)=>{[a,l]=Us(u,a,l);let E=c.pxRound,{left:D,width:L}=r.bbox,O=J=>E(y(J,p,
-S,b)),G=J=>E(k(J,m,A,x)),te=p.ori==0?Mo:To,X={stroke:new Path2D,fill:null,clip:null,band:null,gaps:null,flags:ko},R=X.stroke,ee=p.dir*(p.ori==0?1:-1),B=G(u[ee==
+B),O.clip=js(B,c.ori,m,y,v,b)}return ee!=0&&(O.band=ee==2?[en(n,o,s,r,G,-1),en(n,o,s,r,G,1)]:en(n,o,s,r,G,ee)),O})}function tm(t){let e=ye(t.align,1),n=ye(t.ascDesc,
+!1),o=ye(t.alignGaps,0),s=ye(t.extend,!1);return(r,i,a,l)=>Dn(r,i,(c,h,u,p,m,y,v,b,x,S,A)=>{[a,l]=Us(u,a,l);let E=c.pxRound,{left:D,width:L}=r.bbox,O=J=>E(y(J,p,
+S,b)),G=J=>E(v(J,m,A,x)),te=p.ori==0?Mo:To,X={stroke:new Path2D,fill:null,clip:null,band:null,gaps:null,flags:ko},R=X.stroke,ee=p.dir*(p.ori==0?1:-1),B=G(u[ee==
 1?a:l]),P=O(h[ee==1?a:l]),C=P,U=P;s&&e==-1&&(U=D,te(R,U,B)),te(R,P,B);for(let J=ee==1?a:l;J>=a&&J<=l;J+=ee){let Q=u[J];if(Q==null)continue;let q=O(h[J]),W=G(Q);
 e==1?te(R,q,B):te(R,C,W),te(R,q,W),B=W,C=q}let I=C;s&&e==1&&(I=D+L,te(R,I,B));let[ie,K]=Ii(r,i);if(c.fill!=null||ie!=0){let J=X.fill=new Path2D(R),Q=c.fillTo(r,
 i,c.min,c.max,ie),q=G(Q);te(J,I,q),te(J,U,q)}if(!c.spanGaps){let J=[];J.push(...Oi(h,u,a,l,ee,O,o));let Q=c.width*be/2,q=n||e==1?Q:-Q,W=n||e==-1?-Q:Q;J.forEach(
 me=>{me[0]+=q,me[1]+=W}),X.gaps=J=c.gaps(r,i,a,l,J),X.clip=js(J,p.ori,b,x,S,A)}return K!=0&&(X.band=K==2?[en(r,i,a,l,R,-1),en(r,i,a,l,R,1)]:en(r,i,a,l,R,K)),X})}
 function dc(t,e,n,o,s,r,i=Me){if(t.length>1){let a=null;for(let l=0,c=1/0;l<t.length;l++)if(e[l]!==void 0){if(a!=null){let h=Ve(t[l]-t[a]);h<c&&(c=h,i=Ve(n(t[l],
 o,s,r)-n(t[a],o,s,r)))}a=l}}return i}function nm(t){t=t||Xo;let e=ye(t.size,[.6,Me,1]),n=t.align||0,o=t.gap||0,s=t.radius;s=s==null?[0,0]:typeof s=="number"?[s,
-0]:s;let r=ue(s),i=1-e[0],a=ye(e[1],Me),l=ye(e[2],1),c=ye(t.disp,Xo),h=ye(t.each,m=>{}),{fill:u,stroke:p}=c;return(m,y,k,b)=>Dn(m,y,(x,S,A,E,D,L,O,G,te,X,R)=>{let ee=x.
+0]:s;let r=ue(s),i=1-e[0],a=ye(e[1],Me),l=ye(e[2],1),c=ye(t.disp,Xo),h=ye(t.each,m=>{}),{fill:u,stroke:p}=c;return(m,y,v,b)=>Dn(m,y,(x,S,A,E,D,L,O,G,te,X,R)=>{let ee=x.
 pxRound,B=n,P=o*be,C=a*be,U=l*be,I,ie;E.ori==0?[I,ie]=r(m,y):[ie,I]=r(m,y);let K=E.dir*(E.ori==0?1:-1),J=E.ori==0?Ys:Bi,Q=E.ori==0?h:(V,Se,De,z,se,le,Ke)=>{h(V,
 Se,De,se,z,Ke,le)},q=ye(m.bands,Ni).find(V=>V.series[0]==y),W=q!=null?q.dir:0,me=x.fillTo(m,y,x.min,x.max,W),fe=ee(O(me,D,R,te)),de,ae,Fe,We=X,ve=ee(x.width*be),
-rt=!1,it=null,Ne=null,Ie=null,_t=null;u!=null&&(ve==0||p!=null)&&(rt=!0,it=u.values(m,y,k,b),Ne=new Map,new Set(it).forEach(V=>{V!=null&&Ne.set(V,new Path2D)}),
-ve>0&&(Ie=p.values(m,y,k,b),_t=new Map,new Set(Ie).forEach(V=>{V!=null&&_t.set(V,new Path2D)})));let{x0:Ct,size:gn}=c;if(Ct!=null&&gn!=null){B=1,S=Ct.values(m,y,
-k,b),Ct.unit==2&&(S=S.map(De=>m.posToVal(G+De*X,E.key,!0)));let V=gn.values(m,y,k,b);gn.unit==2?ae=V[0]*X:ae=L(V[0],E,X,G)-L(0,E,X,G),We=dc(S,A,L,E,X,G,We),Fe=We-
+rt=!1,it=null,Ne=null,Ie=null,_t=null;u!=null&&(ve==0||p!=null)&&(rt=!0,it=u.values(m,y,v,b),Ne=new Map,new Set(it).forEach(V=>{V!=null&&Ne.set(V,new Path2D)}),
+ve>0&&(Ie=p.values(m,y,v,b),_t=new Map,new Set(Ie).forEach(V=>{V!=null&&_t.set(V,new Path2D)})));let{x0:Ct,size:gn}=c;if(Ct!=null&&gn!=null){B=1,S=Ct.values(m,y,
+v,b),Ct.unit==2&&(S=S.map(De=>m.posToVal(G+De*X,E.key,!0)));let V=gn.values(m,y,v,b);gn.unit==2?ae=V[0]*X:ae=L(V[0],E,X,G)-L(0,E,X,G),We=dc(S,A,L,E,X,G,We),Fe=We-
 ae+P}else We=dc(S,A,L,E,X,G,We),Fe=We*i+P,ae=We-Fe;Fe<1&&(Fe=0),ve>=ae/2&&(ve=0),Fe<5&&(ee=vc);let nn=Fe>0,Wt=We-Fe-(nn?ve:0);ae=ee(xi(Wt,U,C)),de=(B==0?ae/2:B==
 K?0:ae)-B*K*((B==0?P/2:0)+(nn?ve/2:0));let qe={stroke:null,fill:null,clip:null,band:null,gaps:null,flags:0},Jt=rt?null:new Path2D,Lt=null;if(q!=null)Lt=m.data[q.
-series[1]];else{let{y0:V,y1:Se}=c;V!=null&&Se!=null&&(A=Se.values(m,y,k,b),Lt=V.values(m,y,k,b))}let Gt=I*ae,re=ie*ae;for(let V=K==1?k:b;V>=k&&V<=b;V+=K){let Se=A[V];
+series[1]];else{let{y0:V,y1:Se}=c;V!=null&&Se!=null&&(A=Se.values(m,y,v,b),Lt=V.values(m,y,v,b))}let Gt=I*ae,re=ie*ae;for(let V=K==1?v:b;V>=v&&V<=b;V+=K){let Se=A[V];
 if(Se==null)continue;if(Lt!=null){let ft=Lt[V]??0;if(Se-ft==0)continue;fe=O(ft,D,R,te)}let De=E.distr!=2||c!=null?S[V]:V,z=L(De,E,X,G),se=O(ye(Se,me),D,R,te),le=ee(
 z-de),Ke=ee(ut(se,fe)),at=ee(Bt(se,fe)),Ge=Ke-at;if(Se!=null){let ft=Se<0?re:Gt,Nt=Se<0?Gt:re;rt?(ve>0&&Ie[V]!=null&&J(_t.get(Ie[V]),le,at+vt(ve/2),ae,ut(0,Ge-ve),
 ft,Nt),it[V]!=null&&J(Ne.get(it[V]),le,at+vt(ve/2),ae,ut(0,Ge-ve),ft,Nt)):J(Jt,le,at+vt(ve/2),ae,ut(0,Ge-ve),ft,Nt),Q(m,y,V,le-ve/2,at,ae+ve,Ge)}}return ve>0?qe.
 stroke=rt?_t:Jt:rt||(qe._fill=x.width==0?x._fill:x._stroke??x._fill,qe.width=0),qe.fill=rt?Ne:Jt,qe})}function om(t,e){let n=ye(e?.alignGaps,0);return(o,s,r,i)=>Dn(
-o,s,(a,l,c,h,u,p,m,y,k,b,x)=>{[r,i]=Us(c,r,i);let S=a.pxRound,A=I=>S(p(I,h,b,y)),E=I=>S(m(I,u,x,k)),D,L,O;h.ori==0?(D=Vs,O=Mo,L=qc):(D=zs,O=To,L=Kc);let G=h.dir*
+o,s,(a,l,c,h,u,p,m,y,v,b,x)=>{[r,i]=Us(c,r,i);let S=a.pxRound,A=I=>S(p(I,h,b,y)),E=I=>S(m(I,u,x,v)),D,L,O;h.ori==0?(D=Vs,O=Mo,L=qc):(D=zs,O=To,L=Kc);let G=h.dir*
 (h.ori==0?1:-1),te=A(l[G==1?r:i]),X=te,R=[],ee=[];for(let I=G==1?r:i;I>=r&&I<=i;I+=G)if(c[I]!=null){let K=l[I],J=A(K);R.push(X=J),ee.push(E(c[I]))}let B={stroke:t(
 R,ee,D,O,L,S),fill:null,clip:null,band:null,gaps:null,flags:ko},P=B.stroke,[C,U]=Ii(o,s);if(a.fill!=null||C!=0){let I=B.fill=new Path2D(P),ie=a.fillTo(o,s,a.min,
-a.max,C),K=E(ie);O(I,X,K),O(I,te,K)}if(!a.spanGaps){let I=[];I.push(...Oi(l,c,r,i,G,A,n)),B.gaps=I=a.gaps(o,s,r,i,I),B.clip=js(I,h.ori,y,k,b,x)}return U!=0&&(B.
+a.max,C),K=E(ie);O(I,X,K),O(I,te,K)}if(!a.spanGaps){let I=[];I.push(...Oi(l,c,r,i,G,A,n)),B.gaps=I=a.gaps(o,s,r,i,I),B.clip=js(I,h.ori,y,v,b,x)}return U!=0&&(B.
 band=U==2?[en(o,s,r,i,P,-1),en(o,s,r,i,P,1)]:en(o,s,r,i,P,U)),B})}function sm(t){return om(rm,t)}function rm(t,e,n,o,s,r){let i=t.length;if(i<2)return null;let a=new Path2D;
 if(n(a,t[0],e[0]),i==2)o(a,t[1],e[1]);else{let l=Array(i),c=Array(i-1),h=Array(i-1),u=Array(i-1);for(let p=0;p<i-1;p++)h[p]=e[p+1]-e[p],u[p]=t[p+1]-t[p],c[p]=h[p]/
 u[p];l[0]=c[0];for(let p=1;p<i-1;p++)c[p]===0||c[p-1]===0||c[p-1]>0!=c[p]>0?l[p]=0:(l[p]=3*(u[p-1]+u[p])/((2*u[p]+u[p-1])/c[p-1]+(u[p]+2*u[p-1])/c[p]),isFinite(
@@ -464,17 +464,17 @@ return Ue({},e==0?n:o,t)}function Qc(t,e,n){return e==null?xo:[e,n]}var cm=Qc;fu
 null?xo:Ws(e,n,t.scales[o].log,!1)}var pm=eh;function th(t,e,n,o){return e==null?xo:_i(e,n,t.scales[o].log,!1)}var dm=th;function um(t,e,n,o,s){let r=ut(zl(t),zl(
 e)),i=e-t,a=Ot(s/o*i,n);do{let l=n[a],c=o*l/i;if(c>=s&&r+(l<5?un.get(l):0)<=17)return[l,c]}while(++a<n.length);return[0,0]}function mc(t){let e,n;return t=t.replace(
 /(\d+)px/,(o,s)=>(e=je((n=+s)*be))+"px"),[t,e,n]}function fm(t){t.show&&[t.font,t.labelFont].forEach(e=>{let n=Te(e[2]*be,1);e[0]=e[0].replace(/[0-9.]+px/,n+"px"),
-e[1]=n})}function ze(t,e,n){let o={mode:ye(t.mode,1)},s=o.mode;function r(d,f,g,w){let v=f.valToPct(d);return w+g*(f.dir==-1?1-v:v)}function i(d,f,g,w){let v=f.
-valToPct(d);return w+g*(f.dir==-1?v:1-v)}function a(d,f,g,w){return f.ori==0?r(d,f,g,w):i(d,f,g,w)}o.valToPosH=r,o.valToPosV=i;let l=!1;o.status=0;let c=o.root=
+e[1]=n})}function ze(t,e,n){let o={mode:ye(t.mode,1)},s=o.mode;function r(d,f,g,w){let k=f.valToPct(d);return w+g*(f.dir==-1?1-k:k)}function i(d,f,g,w){let k=f.
+valToPct(d);return w+g*(f.dir==-1?k:1-k)}function a(d,f,g,w){return f.ori==0?r(d,f,g,w):i(d,f,g,w)}o.valToPosH=r,o.valToPosV=i;let l=!1;o.status=0;let c=o.root=
 Et(xu);if(t.id!=null&&(c.id=t.id),xt(c,t.class),t.title){let d=Et(Su,c);d.textContent=t.title}let h=It("canvas"),u=o.ctx=h.getContext("2d"),p=Et(Mu,c);Ln("click",
-p,d=>{d.target===y&&(Ee!=Yn||Le!=qn)&&ot.click(o,d)},!0);let m=o.under=Et(Tu,p);p.appendChild(h);let y=o.over=Et(Au,p);t=vo(t);let k=+ye(t.pxAlign,1),b=pc(k);(t.
+p,d=>{d.target===y&&(Ee!=Yn||Le!=qn)&&ot.click(o,d)},!0);let m=o.under=Et(Tu,p);p.appendChild(h);let y=o.over=Et(Au,p);t=vo(t);let v=+ye(t.pxAlign,1),b=pc(v);(t.
 plugins||[]).forEach(d=>{d.opts&&(t=d.opts(o,t)||t)});let x=t.ms||.001,S=o.series=s==1?fc(t.series||[],sc,cc,!1):lm(t.series||[null],lc),A=o.axes=fc(t.axes||[],
 oc,ic,!0),E=o.scales={},D=o.bands=t.bands||[];D.forEach(d=>{d.fill=ue(d.fill||null),d.dir=ye(d.dir,-1)});let L=s==2?S[1].facets[0].scale:S[0].scale,O={axes:ud,series:ld},
 G=(t.drawOrder||["axes","series"]).map(d=>O[d]);function te(d){let f=d.distr==3?g=>Qt(g>0?g:d.clamp(o,g,d.min,d.max,d.key)):d.distr==4?g=>di(g,d.asinh):d.distr==
-100?g=>d.fwd(g):g=>g;return g=>{let w=f(g),{_min:v,_max:T}=d,N=T-v;return(w-v)/N}}function X(d){let f=E[d];if(f==null){let g=(t.scales||Xo)[d]||Xo;if(g.from!=null){
-X(g.from);let w=Ue({},E[g.from],g,{key:d});w.valToPct=te(w),E[d]=w}else{f=E[d]=Ue({},d==L?Hc:Jf,g),f.key=d;let w=f.time,v=f.range,T=dn(v);if((d!=L||s==2&&!w)&&(T&&
-(v[0]==null||v[1]==null)&&(v={min:v[0]==null?Hl:{mode:1,hard:v[0],soft:v[0]},max:v[1]==null?Hl:{mode:1,hard:v[1],soft:v[1]}},T=!1),!T&&Hs(v))){let N=v;v=($,F,H)=>F==
-null?xo:Os(F,H,N)}f.range=ue(v||(w?cm:d==L?f.distr==3?pm:f.distr==4?dm:Qc:f.distr==3?eh:f.distr==4?th:hm)),f.auto=ue(T?!1:f.auto),f.clamp=ue(f.clamp||Kf),f._min=
+100?g=>d.fwd(g):g=>g;return g=>{let w=f(g),{_min:k,_max:T}=d,N=T-k;return(w-k)/N}}function X(d){let f=E[d];if(f==null){let g=(t.scales||Xo)[d]||Xo;if(g.from!=null){
+X(g.from);let w=Ue({},E[g.from],g,{key:d});w.valToPct=te(w),E[d]=w}else{f=E[d]=Ue({},d==L?Hc:Jf,g),f.key=d;let w=f.time,k=f.range,T=dn(k);if((d!=L||s==2&&!w)&&(T&&
+(k[0]==null||k[1]==null)&&(k={min:k[0]==null?Hl:{mode:1,hard:k[0],soft:k[0]},max:k[1]==null?Hl:{mode:1,hard:k[1],soft:k[1]}},T=!1),!T&&Hs(k))){let N=k;k=($,F,H)=>F==
+null?xo:Os(F,H,N)}f.range=ue(k||(w?cm:d==L?f.distr==3?pm:f.distr==4?dm:Qc:f.distr==3?eh:f.distr==4?th:hm)),f.auto=ue(T?!1:f.auto),f.clamp=ue(f.clamp||Kf),f._min=
 f._max=null,f.valToPct=te(f)}}}X("x"),X("y"),s==1&&S.forEach(d=>{X(d.scale)}),A.forEach(d=>{X(d.scale)});for(let d in t.scales)X(d);let R=E[L],ee=R.distr,B,P;R.
 ori==0?(xt(c,vu),B=r,P=i):(xt(c,ku),B=i,P=r);let C={};for(let d in E){let f=E[d];(f.min!=null||f.max!=null)&&(C[d]={min:f.min,max:f.max},f.min=f.max=null)}let U=t.
 tzDate||(d=>new Date(je(d/x))),I=t.fmtDate||Di,ie=x==1?kf(U):Tf(U),K=ec(U,Ql(x==1?vf:Mf,I)),J=nc(U,tc(Ef,I)),Q=[],q=o.legend=Ue({},Cf,t.legend),W=o.cursor=Ue({},
@@ -482,20 +482,20 @@ Ff,{drag:{y:s==2}},t.cursor),me=q.show,fe=W.show,de=q.markers;q.idxs=Q,de.width=
 Fe,We,ve=[],rt=[],it,Ne=!1,Ie={};if(q.live){let d=S[1]?S[1].values:null;Ne=d!=null,it=Ne?d(o,1,0):{_:0};for(let f in it)Ie[f]=Ei}if(me)if(ae=It("table",Nu,c),We=
 It("tbody",null,ae),q.mount(o,ae),Ne){Fe=It("thead",null,ae,We);let d=It("tr",null,Fe);It("th",null,d);for(var _t in it)It("th",Cl,d).textContent=_t}else xt(ae,
 $u),q.live&&xt(ae,Du);let Ct={show:!0},gn={show:!1};function nn(d,f){if(f==0&&(Ne||!q.live||s==2))return xo;let g=[],w=It("tr",Ru,We,We.childNodes[f]);xt(w,d.class),
-d.show||xt(w,Cn);let v=It("th",null,w);if(de.show){let $=Et(Fu,v);if(f>0){let F=de.width(o,f);F&&($.style.border=F+"px "+de.dash(o,f)+" "+de.stroke(o,f)),$.style.
-background=de.fill(o,f)}}let T=Et(Cl,v);d.label instanceof HTMLElement?T.appendChild(d.label):T.textContent=d.label,f>0&&(de.show||(T.style.color=d.width>0?de.stroke(
-o,f):de.fill(o,f)),qe("click",v,$=>{if(W._lock)return;wn($);let F=S.indexOf(d);if(($.ctrlKey||$.metaKey)!=q.isolate){let H=S.some((j,Y)=>Y>0&&Y!=F&&j.show);S.forEach(
-(j,Y)=>{Y>0&&jt(Y,H?Y==F?Ct:gn:Ct,!0,Oe.setSeries)})}else jt(F,{show:!d.show},!0,Oe.setSeries)},!1),On&&qe($l,v,$=>{W._lock||(wn($),jt(S.indexOf(d),Jn,!0,Oe.setSeries))},
-!1));for(var N in it){let $=It("td",Iu,w);$.textContent="--",g.push($)}return[w,g]}let Wt=new Map;function qe(d,f,g,w=!0){let v=Wt.get(f)||{},T=W.bind[d](o,f,g,
-w);T&&(Ln(d,f,v[d]=T),Wt.set(f,v))}function Jt(d,f,g){let w=Wt.get(f)||{};for(let v in w)(d==null||v==d)&&(bi(v,f,w[v]),delete w[v]);d==null&&Wt.delete(f)}let Lt=0,
+d.show||xt(w,Cn);let k=It("th",null,w);if(de.show){let $=Et(Fu,k);if(f>0){let F=de.width(o,f);F&&($.style.border=F+"px "+de.dash(o,f)+" "+de.stroke(o,f)),$.style.
+background=de.fill(o,f)}}let T=Et(Cl,k);d.label instanceof HTMLElement?T.appendChild(d.label):T.textContent=d.label,f>0&&(de.show||(T.style.color=d.width>0?de.stroke(
+o,f):de.fill(o,f)),qe("click",k,$=>{if(W._lock)return;wn($);let F=S.indexOf(d);if(($.ctrlKey||$.metaKey)!=q.isolate){let H=S.some((j,Y)=>Y>0&&Y!=F&&j.show);S.forEach(
+(j,Y)=>{Y>0&&jt(Y,H?Y==F?Ct:gn:Ct,!0,Oe.setSeries)})}else jt(F,{show:!d.show},!0,Oe.setSeries)},!1),On&&qe($l,k,$=>{W._lock||(wn($),jt(S.indexOf(d),Jn,!0,Oe.setSeries))},
+!1));for(var N in it){let $=It("td",Iu,w);$.textContent="--",g.push($)}return[w,g]}let Wt=new Map;function qe(d,f,g,w=!0){let k=Wt.get(f)||{},T=W.bind[d](o,f,g,
+w);T&&(Ln(d,f,k[d]=T),Wt.set(f,k))}function Jt(d,f,g){let w=Wt.get(f)||{};for(let k in w)(d==null||k==d)&&(bi(k,f,w[k]),delete w[k]);d==null&&Wt.delete(f)}let Lt=0,
 Gt=0,re=0,V=0,Se=0,De=0,z=Se,se=De,le=re,Ke=V,at=0,Ge=0,ft=0,Nt=0;o.bbox={};let Er=!1,os=!1,In=!1,yn=!1,ss=!1,St=!1;function Pr(d,f,g){(g||d!=o.width||f!=o.height)&&
 da(d,f),Hn(!1),In=!0,os=!0,jn()}function da(d,f){o.width=Lt=re=d,o.height=Gt=V=f,Se=De=0,td(),nd();let g=o.bbox;at=g.left=Pn(Se*be,.5),Ge=g.top=Pn(De*be,.5),ft=
 g.width=Pn(re*be,.5),Nt=g.height=Pn(V*be,.5)}let Zp=3;function Qp(){let d=!1,f=0;for(;!d;){f++;let g=pd(f),w=dd(f);d=f==Zp||g&&w,d||(da(o.width,o.height),os=!0)}}
-function ed({width:d,height:f}){Pr(d,f)}o.setSize=ed;function td(){let d=!1,f=!1,g=!1,w=!1;A.forEach((v,T)=>{if(v.show&&v._show){let{side:N,_size:$}=v,F=N%2,H=v.
-label!=null?v.labelSize:0,j=$+H;j>0&&(F?(re-=j,N==3?(Se+=j,w=!0):g=!0):(V-=j,N==0?(De+=j,d=!0):f=!0))}}),bn[0]=d,bn[1]=g,bn[2]=f,bn[3]=w,re-=on[1]+on[3],Se+=on[3],
-V-=on[2]+on[0],De+=on[0]}function nd(){let d=Se+re,f=De+V,g=Se,w=De;function v(T,N){switch(T){case 1:return d+=N,d-N;case 2:return f+=N,f-N;case 3:return g-=N,g+
-N;case 0:return w-=N,w+N}}A.forEach((T,N)=>{if(T.show&&T._show){let $=T.side;T._pos=v($,T._size),T.label!=null&&(T._lpos=v($,T.labelSize))}})}if(W.dataIdx==null){
-let d=W.hover,f=d.skip=new Set(d.skip??[]);f.add(void 0);let g=d.prox=ue(d.prox),w=d.bias??=0;W.dataIdx=(v,T,N,$)=>{if(T==0)return N;let F=N,H=g(v,T,N,$)??Me,j=H>=
+function ed({width:d,height:f}){Pr(d,f)}o.setSize=ed;function td(){let d=!1,f=!1,g=!1,w=!1;A.forEach((k,T)=>{if(k.show&&k._show){let{side:N,_size:$}=k,F=N%2,H=k.
+label!=null?k.labelSize:0,j=$+H;j>0&&(F?(re-=j,N==3?(Se+=j,w=!0):g=!0):(V-=j,N==0?(De+=j,d=!0):f=!0))}}),bn[0]=d,bn[1]=g,bn[2]=f,bn[3]=w,re-=on[1]+on[3],Se+=on[3],
+V-=on[2]+on[0],De+=on[0]}function nd(){let d=Se+re,f=De+V,g=Se,w=De;function k(T,N){switch(T){case 1:return d+=N,d-N;case 2:return f+=N,f-N;case 3:return g-=N,g+
+N;case 0:return w-=N,w+N}}A.forEach((T,N)=>{if(T.show&&T._show){let $=T.side;T._pos=k($,T._size),T.label!=null&&(T._lpos=k($,T.labelSize))}})}if(W.dataIdx==null){
+let d=W.hover,f=d.skip=new Set(d.skip??[]);f.add(void 0);let g=d.prox=ue(d.prox),w=d.bias??=0;W.dataIdx=(k,T,N,$)=>{if(T==0)return N;let F=N,H=g(k,T,N,$)??Me,j=H>=
 0&&H<Me,Y=R.ori==0?re:V,oe=W.left,we=e[0],ge=e[T];if(f.has(ge[N])){F=null;let he=null,ne=null,Z;if(w==0||w==-1)for(Z=N;he==null&&Z-- >0;)f.has(ge[Z])||(he=Z);if(w==
 0||w==1)for(Z=N;ne==null&&Z++<ge.length;)f.has(ge[Z])||(ne=Z);if(he!=null||ne!=null)if(j){let _e=he==null?-1/0:B(we[he],R,Y,0),$e=ne==null?1/0:B(we[ne],R,Y,0),tt=oe-
 _e,ke=$e-oe;tt<=ke?tt<=H&&(F=he):ke<=H&&(F=ne)}else F=ne==null?he:he==null?ne:N-he<=ne-N?he:ne}else j&&Ve(oe-B(we[N],R,Y,0))>H&&(F=null);return F}}let wn=d=>{W.
@@ -503,73 +503,73 @@ event=d};W.idxs=Q,W._lock=!1;let lt=W.points;lt.show=ue(lt.show),lt.size=ue(lt.s
 focus=Ue({},t.focus||{alpha:.3},W.focus),On=Ht.prox>=0,Bn=On&&lt.one,Mt=[],Un=[],Wn=[];function ua(d,f){let g=lt.show(o,f);if(g instanceof HTMLElement)return xt(
 g,Lu),xt(g,d.class),Kt(g,-10,-10,re,V),y.insertBefore(g,Mt[f]),g}function fa(d,f){if(s==1||f>0){let g=s==1&&E[d.scale].time,w=d.value;d.value=g?Kl(w)?nc(U,tc(w,
 I)):w||J:w||zf,d.label=d.label||(g?Of:If)}if(Bn||f>0){d.width=d.width==null?1:d.width,d.paths=d.paths||im||Ku,d.fillTo=ue(d.fillTo||Xf),d.pxAlign=+ye(d.pxAlign,
-k),d.pxRound=pc(d.pxAlign),d.stroke=ue(d.stroke||null),d.fill=ue(d.fill||null),d._stroke=d._fill=d._paths=d._focus=null;let g=Yf(ut(1,d.width),1),w=d.points=Ue(
+v),d.pxRound=pc(d.pxAlign),d.stroke=ue(d.stroke||null),d.fill=ue(d.fill||null),d._stroke=d._fill=d._paths=d._focus=null;let g=Yf(ut(1,d.width),1),w=d.points=Ue(
 {},{size:g,width:ut(1,g*.2),stroke:d.stroke,space:g*2,paths:am,_stroke:null,_fill:null},d.points);w.show=ue(w.show),w.filter=ue(w.filter),w.fill=ue(w.fill),w.stroke=
 ue(w.stroke),w.paths=ue(w.paths),w.pxAlign=d.pxAlign}if(me){let g=nn(d,f);ve.splice(f,0,g[0]),rt.splice(f,0,g[1]),q.values.push(null)}if(fe){Q.splice(f,0,null);
 let g=null;Bn?f==0&&(g=ua(d,f)):f>0&&(g=ua(d,f)),Mt.splice(f,0,g),Un.splice(f,0,0),Wn.splice(f,0,0)}et("addSeries",f)}function od(d,f){f=f??S.length,d=s==1?Ti(d,
 f,sc,cc):Ti(d,f,{},lc),S.splice(f,0,d),fa(S[f],f)}o.addSeries=od;function sd(d){if(S.splice(d,1),me){q.values.splice(d,1),rt.splice(d,1);let f=ve.splice(d,1)[0];
 Jt(null,f.firstChild),f.remove()}fe&&(Q.splice(d,1),Mt.splice(d,1)[0].remove(),Un.splice(d,1),Wn.splice(d,1)),et("delSeries",d)}o.delSeries=sd;let bn=[!1,!1,!1,
-!1];function rd(d,f){if(d._show=d.show,d.show){let g=d.side%2,w=E[d.scale];w==null&&(d.scale=g?S[1].scale:L,w=E[d.scale]);let v=w.time;d.size=ue(d.size),d.space=
-ue(d.space),d.rotate=ue(d.rotate),dn(d.incrs)&&d.incrs.forEach(N=>{!un.has(N)&&un.set(N,Mc(N))}),d.incrs=ue(d.incrs||(w.distr==2?wf:v?x==1?xf:Sf:_n)),d.splits=ue(
-d.splits||(v&&w.distr==1?ie:w.distr==3?vi:w.distr==4?Wf:Uf)),d.stroke=ue(d.stroke),d.grid.stroke=ue(d.grid.stroke),d.ticks.stroke=ue(d.ticks.stroke),d.border.stroke=
-ue(d.border.stroke);let T=d.values;d.values=dn(T)&&!dn(T[0])?ue(T):v?dn(T)?ec(U,Ql(T,I)):Kl(T)?Af(U,T):T||K:T||Bf,d.filter=ue(d.filter||(w.distr>=3&&w.log==10?jf:
+!1];function rd(d,f){if(d._show=d.show,d.show){let g=d.side%2,w=E[d.scale];w==null&&(d.scale=g?S[1].scale:L,w=E[d.scale]);let k=w.time;d.size=ue(d.size),d.space=
+ue(d.space),d.rotate=ue(d.rotate),dn(d.incrs)&&d.incrs.forEach(N=>{!un.has(N)&&un.set(N,Mc(N))}),d.incrs=ue(d.incrs||(w.distr==2?wf:k?x==1?xf:Sf:_n)),d.splits=ue(
+d.splits||(k&&w.distr==1?ie:w.distr==3?vi:w.distr==4?Wf:Uf)),d.stroke=ue(d.stroke),d.grid.stroke=ue(d.grid.stroke),d.ticks.stroke=ue(d.ticks.stroke),d.border.stroke=
+ue(d.border.stroke);let T=d.values;d.values=dn(T)&&!dn(T[0])?ue(T):k?dn(T)?ec(U,Ql(T,I)):Kl(T)?Af(U,T):T||K:T||Bf,d.filter=ue(d.filter||(w.distr>=3&&w.log==10?jf:
 w.distr==3&&w.log==2?Vf:kc)),d.font=mc(d.font),d.labelFont=mc(d.labelFont),d._size=d.size(o,null,f,0),d._space=d._rotate=d._incrs=d._found=d._splits=d._values=null,
-d._size>0&&(bn[f]=!0,d._el=Et(Eu,p))}}function Co(d,f,g,w){let[v,T,N,$]=g,F=f%2,H=0;return F==0&&($||T)&&(H=f==0&&!v||f==2&&!N?je(oc.size/3):0),F==1&&(v||N)&&(H=
+d._size>0&&(bn[f]=!0,d._el=Et(Eu,p))}}function Co(d,f,g,w){let[k,T,N,$]=g,F=f%2,H=0;return F==0&&($||T)&&(H=f==0&&!k||f==2&&!N?je(oc.size/3):0),F==1&&(k||N)&&(H=
 f==1&&!T||f==3&&!$?je(ic.size/2):0),H}let ma=o.padding=(t.padding||[Co,Co,Co,Co]).map(d=>ue(ye(d,Co))),on=o._padding=ma.map((d,f)=>d(o,f,bn,0)),nt,Je=null,Xe=null,
 rs=s==1?S[0].idxs:null,Dt=null,Lo=!1;function ga(d,f){if(e=d??[],o.data=o._data=e,s==2){nt=0;for(let g=1;g<S.length;g++)nt+=e[g][0].length}else{e.length==0&&(o.
-data=o._data=e=[[]]),Dt=e[0],nt=Dt.length;let g=e;if(ee==2){g=e.slice();let w=g[0]=Array(nt);for(let v=0;v<nt;v++)w[v]=v}o._data=e=g}if(Hn(!0),et("setData"),ee==
+data=o._data=e=[[]]),Dt=e[0],nt=Dt.length;let g=e;if(ee==2){g=e.slice();let w=g[0]=Array(nt);for(let k=0;k<nt;k++)w[k]=k}o._data=e=g}if(Hn(!0),et("setData"),ee==
 2&&(In=!0),f!==!1){let g=R;g.auto(o,Lo)?_r():rn(L,g.min,g.max),yn=yn||W.left>=0,St=!0,jn()}}o.setData=ga;function _r(){Lo=!0;let d,f;s==1&&(nt>0?(Je=rs[0]=0,Xe=
 rs[1]=nt-1,d=e[0][Je],f=e[0][Xe],ee==2?(d=Je,f=Xe):d==f&&(ee==3?[d,f]=Ws(d,d,R.log,!1):ee==4?[d,f]=_i(d,d,R.log,!1):R.time?f=d+je(86400/x):[d,f]=Os(d,f,Ci,!0))):
-(Je=rs[0]=d=null,Xe=rs[1]=f=null)),rn(L,d,f)}let is,Gn,Cr,Lr,Nr,Dr,$r,Rr,Fr,mt;function ya(d,f,g,w,v,T){d??=Nl,g??=Ni,w??="butt",v??=Nl,T??="round",d!=is&&(u.strokeStyle=
-is=d),v!=Gn&&(u.fillStyle=Gn=v),f!=Cr&&(u.lineWidth=Cr=f),T!=Nr&&(u.lineJoin=Nr=T),w!=Dr&&(u.lineCap=Dr=w),g!=Lr&&u.setLineDash(Lr=g)}function wa(d,f,g,w){f!=Gn&&
-(u.fillStyle=Gn=f),d!=$r&&(u.font=$r=d),g!=Rr&&(u.textAlign=Rr=g),w!=Fr&&(u.textBaseline=Fr=w)}function Ir(d,f,g,w,v=0){if(w.length>0&&d.auto(o,Lo)&&(f==null||f.
-min==null)){let T=ye(Je,0),N=ye(Xe,w.length-1),$=g.min==null?Hu(w,T,N,v,d.distr==3):[g.min,g.max];d.min=Bt(d.min,g.min=$[0]),d.max=ut(d.max,g.max=$[1])}}let ba={
-min:null,max:null};function id(){for(let w in E){let v=E[w];C[w]==null&&(v.min==null||C[L]!=null&&v.auto(o,Lo))&&(C[w]=ba)}for(let w in E){let v=E[w];C[w]==null&&
-v.from!=null&&C[v.from]!=null&&(C[w]=ba)}C[L]!=null&&Hn(!0);let d={};for(let w in C){let v=C[w];if(v!=null){let T=d[w]=vo(E[w],Zu);if(v.min!=null)Ue(T,v);else if(w!=
-L||s==2)if(nt==0&&T.from==null){let N=T.range(o,null,null,w);T.min=N[0],T.max=N[1]}else T.min=Me,T.max=-Me}}if(nt>0){S.forEach((w,v)=>{if(s==1){let T=w.scale,N=C[T];
-if(N==null)return;let $=d[T];if(v==0){let F=$.range(o,$.min,$.max,T);$.min=F[0],$.max=F[1],Je=Ot($.min,e[0]),Xe=Ot($.max,e[0]),Xe-Je>1&&(e[0][Je]<$.min&&Je++,e[0][Xe]>
-$.max&&Xe--),w.min=Dt[Je],w.max=Dt[Xe]}else w.show&&w.auto&&Ir($,N,w,e[v],w.sorted);w.idxs[0]=Je,w.idxs[1]=Xe}else if(v>0&&w.show&&w.auto){let[T,N]=w.facets,$=T.
-scale,F=N.scale,[H,j]=e[v],Y=d[$],oe=d[F];Y!=null&&Ir(Y,C[$],T,H,T.sorted),oe!=null&&Ir(oe,C[F],N,j,N.sorted),w.min=N.min,w.max=N.max}});for(let w in d){let v=d[w],
-T=C[w];if(v.from==null&&(T==null||T.min==null)){let N=v.range(o,v.min==Me?null:v.min,v.max==-Me?null:v.max,w);v.min=N[0],v.max=N[1]}}}for(let w in d){let v=d[w];
-if(v.from!=null){let T=d[v.from];if(T.min==null)v.min=v.max=null;else{let N=v.range(o,T.min,T.max,w);v.min=N[0],v.max=N[1]}}}let f={},g=!1;for(let w in d){let v=d[w],
-T=E[w];if(T.min!=v.min||T.max!=v.max){T.min=v.min,T.max=v.max;let N=T.distr;T._min=N==3?Qt(T.min):N==4?di(T.min,T.asinh):N==100?T.fwd(T.min):T.min,T._max=N==3?Qt(
-T.max):N==4?di(T.max,T.asinh):N==100?T.fwd(T.max):T.max,f[w]=g=!0}}if(g){S.forEach((w,v)=>{s==2?v>0&&f.y&&(w._paths=null):f[w.scale]&&(w._paths=null)});for(let w in f)
+(Je=rs[0]=d=null,Xe=rs[1]=f=null)),rn(L,d,f)}let is,Gn,Cr,Lr,Nr,Dr,$r,Rr,Fr,mt;function ya(d,f,g,w,k,T){d??=Nl,g??=Ni,w??="butt",k??=Nl,T??="round",d!=is&&(u.strokeStyle=
+is=d),k!=Gn&&(u.fillStyle=Gn=k),f!=Cr&&(u.lineWidth=Cr=f),T!=Nr&&(u.lineJoin=Nr=T),w!=Dr&&(u.lineCap=Dr=w),g!=Lr&&u.setLineDash(Lr=g)}function wa(d,f,g,w){f!=Gn&&
+(u.fillStyle=Gn=f),d!=$r&&(u.font=$r=d),g!=Rr&&(u.textAlign=Rr=g),w!=Fr&&(u.textBaseline=Fr=w)}function Ir(d,f,g,w,k=0){if(w.length>0&&d.auto(o,Lo)&&(f==null||f.
+min==null)){let T=ye(Je,0),N=ye(Xe,w.length-1),$=g.min==null?Hu(w,T,N,k,d.distr==3):[g.min,g.max];d.min=Bt(d.min,g.min=$[0]),d.max=ut(d.max,g.max=$[1])}}let ba={
+min:null,max:null};function id(){for(let w in E){let k=E[w];C[w]==null&&(k.min==null||C[L]!=null&&k.auto(o,Lo))&&(C[w]=ba)}for(let w in E){let k=E[w];C[w]==null&&
+k.from!=null&&C[k.from]!=null&&(C[w]=ba)}C[L]!=null&&Hn(!0);let d={};for(let w in C){let k=C[w];if(k!=null){let T=d[w]=vo(E[w],Zu);if(k.min!=null)Ue(T,k);else if(w!=
+L||s==2)if(nt==0&&T.from==null){let N=T.range(o,null,null,w);T.min=N[0],T.max=N[1]}else T.min=Me,T.max=-Me}}if(nt>0){S.forEach((w,k)=>{if(s==1){let T=w.scale,N=C[T];
+if(N==null)return;let $=d[T];if(k==0){let F=$.range(o,$.min,$.max,T);$.min=F[0],$.max=F[1],Je=Ot($.min,e[0]),Xe=Ot($.max,e[0]),Xe-Je>1&&(e[0][Je]<$.min&&Je++,e[0][Xe]>
+$.max&&Xe--),w.min=Dt[Je],w.max=Dt[Xe]}else w.show&&w.auto&&Ir($,N,w,e[k],w.sorted);w.idxs[0]=Je,w.idxs[1]=Xe}else if(k>0&&w.show&&w.auto){let[T,N]=w.facets,$=T.
+scale,F=N.scale,[H,j]=e[k],Y=d[$],oe=d[F];Y!=null&&Ir(Y,C[$],T,H,T.sorted),oe!=null&&Ir(oe,C[F],N,j,N.sorted),w.min=N.min,w.max=N.max}});for(let w in d){let k=d[w],
+T=C[w];if(k.from==null&&(T==null||T.min==null)){let N=k.range(o,k.min==Me?null:k.min,k.max==-Me?null:k.max,w);k.min=N[0],k.max=N[1]}}}for(let w in d){let k=d[w];
+if(k.from!=null){let T=d[k.from];if(T.min==null)k.min=k.max=null;else{let N=k.range(o,T.min,T.max,w);k.min=N[0],k.max=N[1]}}}let f={},g=!1;for(let w in d){let k=d[w],
+T=E[w];if(T.min!=k.min||T.max!=k.max){T.min=k.min,T.max=k.max;let N=T.distr;T._min=N==3?Qt(T.min):N==4?di(T.min,T.asinh):N==100?T.fwd(T.min):T.min,T._max=N==3?Qt(
+T.max):N==4?di(T.max,T.asinh):N==100?T.fwd(T.max):T.max,f[w]=g=!0}}if(g){S.forEach((w,k)=>{s==2?k>0&&f.y&&(w._paths=null):f[w.scale]&&(w._paths=null)});for(let w in f)
 In=!0,et("setScale",w);fe&&W.left>=0&&(yn=St=!0)}for(let w in C)C[w]=null}function ad(d){let f=xi(Je-1,0,nt-1),g=xi(Xe+1,0,nt-1);for(;d[f]==null&&f>0;)f--;for(;d[g]==
 null&&g<nt-1;)g++;return[f,g]}function ld(){if(nt>0){let d=S.some(f=>f._focus)&&mt!=Ht.alpha;d&&(u.globalAlpha=mt=Ht.alpha),S.forEach((f,g)=>{if(g>0&&f.show&&(xa(
-g,!1),xa(g,!0),f._paths==null)){let w=mt;mt!=f.alpha&&(u.globalAlpha=mt=f.alpha);let v=s==2?[0,e[g][0].length-1]:ad(e[g]);f._paths=f.paths(o,g,v[0],v[1]),mt!=w&&
-(u.globalAlpha=mt=w)}}),S.forEach((f,g)=>{if(g>0&&f.show){let w=mt;mt!=f.alpha&&(u.globalAlpha=mt=f.alpha),f._paths!=null&&va(g,!1);{let v=f._paths!=null?f._paths.
-gaps:null,T=f.points.show(o,g,Je,Xe,v),N=f.points.filter(o,g,T,v);(T||N)&&(f.points._paths=f.points.paths(o,g,Je,Xe,N),va(g,!0))}mt!=w&&(u.globalAlpha=mt=w),et(
+g,!1),xa(g,!0),f._paths==null)){let w=mt;mt!=f.alpha&&(u.globalAlpha=mt=f.alpha);let k=s==2?[0,e[g][0].length-1]:ad(e[g]);f._paths=f.paths(o,g,k[0],k[1]),mt!=w&&
+(u.globalAlpha=mt=w)}}),S.forEach((f,g)=>{if(g>0&&f.show){let w=mt;mt!=f.alpha&&(u.globalAlpha=mt=f.alpha),f._paths!=null&&va(g,!1);{let k=f._paths!=null?f._paths.
+gaps:null,T=f.points.show(o,g,Je,Xe,k),N=f.points.filter(o,g,T,k);(T||N)&&(f.points._paths=f.points.paths(o,g,Je,Xe,N),va(g,!0))}mt!=w&&(u.globalAlpha=mt=w),et(
 "drawSeries",g)}}),d&&(u.globalAlpha=mt=1)}}function xa(d,f){let g=f?S[d].points:S[d];g._stroke=g.stroke(o,d),g._fill=g.fill(o,d)}function va(d,f){let g=f?S[d].
-points:S[d],{stroke:w,fill:v,clip:T,flags:N,_stroke:$=g._stroke,_fill:F=g._fill,_width:H=g.width}=g._paths;H=Te(H*be,3);let j=null,Y=H%2/2;f&&F==null&&(F=H>0?"#\
+points:S[d],{stroke:w,fill:k,clip:T,flags:N,_stroke:$=g._stroke,_fill:F=g._fill,_width:H=g.width}=g._paths;H=Te(H*be,3);let j=null,Y=H%2/2;f&&F==null&&(F=H>0?"#\
 fff":$);let oe=g.pxAlign==1&&Y>0;if(oe&&u.translate(Y,Y),!f){let we=at-H/2,ge=Ge-H/2,he=ft+H,ne=Nt+H;j=new Path2D,j.rect(we,ge,he,ne)}f?Or($,H,g.dash,g.cap,F,w,
-v,N,T):cd(d,$,H,g.dash,g.cap,F,w,v,N,j,T),oe&&u.translate(-Y,-Y)}function cd(d,f,g,w,v,T,N,$,F,H,j){let Y=!1;F!=0&&D.forEach((oe,we)=>{if(oe.series[0]==d){let ge=S[oe.
+k,N,T):cd(d,$,H,g.dash,g.cap,F,w,k,N,j,T),oe&&u.translate(-Y,-Y)}function cd(d,f,g,w,k,T,N,$,F,H,j){let Y=!1;F!=0&&D.forEach((oe,we)=>{if(oe.series[0]==d){let ge=S[oe.
 series[1]],he=e[oe.series[1]],ne=(ge._paths||Xo).band;dn(ne)&&(ne=oe.dir==1?ne[0]:ne[1]);let Z,_e=null;ge.show&&ne&&Vu(he,Je,Xe)?(_e=oe.fill(o,we)||T,Z=ge._paths.
-clip):ne=null,Or(f,g,w,v,_e,N,$,F,H,j,Z,ne),Y=!0}}),Y||Or(f,g,w,v,T,N,$,F,H,j)}let ka=ko|Si;function Or(d,f,g,w,v,T,N,$,F,H,j,Y){ya(d,f,g,w,v),(F||H||Y)&&(u.save(),
-F&&u.clip(F),H&&u.clip(H)),Y?($&ka)==ka?(u.clip(Y),j&&u.clip(j),ls(v,N),as(d,T,f)):$&Si?(ls(v,N),u.clip(Y),as(d,T,f)):$&ko&&(u.save(),u.clip(Y),j&&u.clip(j),ls(
-v,N),u.restore(),as(d,T,f)):(ls(v,N),as(d,T,f)),(F||H||Y)&&u.restore()}function as(d,f,g){g>0&&(f instanceof Map?f.forEach((w,v)=>{u.strokeStyle=is=v,u.stroke(w)}):
-f!=null&&d&&u.stroke(f))}function ls(d,f){f instanceof Map?f.forEach((g,w)=>{u.fillStyle=Gn=w,u.fill(g)}):f!=null&&d&&u.fill(f)}function hd(d,f,g,w){let v=A[d],
-T;if(w<=0)T=[0,0];else{let N=v._space=v.space(o,d,f,g,w),$=v._incrs=v.incrs(o,d,f,g,w,N);T=um(f,g,$,w,N)}return v._found=T}function Br(d,f,g,w,v,T,N,$,F,H){let j=N%
-2/2;k==1&&u.translate(j,j),ya($,N,F,H,$),u.beginPath();let Y,oe,we,ge,he=v+(w==0||w==3?-T:T);g==0?(oe=v,ge=he):(Y=v,we=he);for(let ne=0;ne<d.length;ne++)f[ne]!=
-null&&(g==0?Y=we=d[ne]:oe=ge=d[ne],u.moveTo(Y,oe),u.lineTo(we,ge));u.stroke(),k==1&&u.translate(-j,-j)}function pd(d){let f=!0;return A.forEach((g,w)=>{if(!g.show)
-return;let v=E[g.scale];if(v.min==null){g._show&&(f=!1,g._show=!1,Hn(!1));return}else g._show||(f=!1,g._show=!0,Hn(!1));let T=g.side,N=T%2,{min:$,max:F}=v,[H,j]=hd(
-w,$,F,N==0?re:V);if(j==0)return;let Y=v.distr==2,oe=g._splits=g.splits(o,w,$,F,H,j,Y),we=v.distr==2?oe.map(Z=>Dt[Z]):oe,ge=v.distr==2?Dt[oe[1]]-Dt[oe[0]]:H,he=g.
+clip):ne=null,Or(f,g,w,k,_e,N,$,F,H,j,Z,ne),Y=!0}}),Y||Or(f,g,w,k,T,N,$,F,H,j)}let ka=ko|Si;function Or(d,f,g,w,k,T,N,$,F,H,j,Y){ya(d,f,g,w,k),(F||H||Y)&&(u.save(),
+F&&u.clip(F),H&&u.clip(H)),Y?($&ka)==ka?(u.clip(Y),j&&u.clip(j),ls(k,N),as(d,T,f)):$&Si?(ls(k,N),u.clip(Y),as(d,T,f)):$&ko&&(u.save(),u.clip(Y),j&&u.clip(j),ls(
+k,N),u.restore(),as(d,T,f)):(ls(k,N),as(d,T,f)),(F||H||Y)&&u.restore()}function as(d,f,g){g>0&&(f instanceof Map?f.forEach((w,k)=>{u.strokeStyle=is=k,u.stroke(w)}):
+f!=null&&d&&u.stroke(f))}function ls(d,f){f instanceof Map?f.forEach((g,w)=>{u.fillStyle=Gn=w,u.fill(g)}):f!=null&&d&&u.fill(f)}function hd(d,f,g,w){let k=A[d],
+T;if(w<=0)T=[0,0];else{let N=k._space=k.space(o,d,f,g,w),$=k._incrs=k.incrs(o,d,f,g,w,N);T=um(f,g,$,w,N)}return k._found=T}function Br(d,f,g,w,k,T,N,$,F,H){let j=N%
+2/2;v==1&&u.translate(j,j),ya($,N,F,H,$),u.beginPath();let Y,oe,we,ge,he=k+(w==0||w==3?-T:T);g==0?(oe=k,ge=he):(Y=k,we=he);for(let ne=0;ne<d.length;ne++)f[ne]!=
+null&&(g==0?Y=we=d[ne]:oe=ge=d[ne],u.moveTo(Y,oe),u.lineTo(we,ge));u.stroke(),v==1&&u.translate(-j,-j)}function pd(d){let f=!0;return A.forEach((g,w)=>{if(!g.show)
+return;let k=E[g.scale];if(k.min==null){g._show&&(f=!1,g._show=!1,Hn(!1));return}else g._show||(f=!1,g._show=!0,Hn(!1));let T=g.side,N=T%2,{min:$,max:F}=k,[H,j]=hd(
+w,$,F,N==0?re:V);if(j==0)return;let Y=k.distr==2,oe=g._splits=g.splits(o,w,$,F,H,j,Y),we=k.distr==2?oe.map(Z=>Dt[Z]):oe,ge=k.distr==2?Dt[oe[1]]-Dt[oe[0]]:H,he=g.
 _values=g.values(o,g.filter(o,we,w,j,ge),w,j,ge);g._rotate=T==2?g.rotate(o,he,w,j):0;let ne=g._size;g._size=Pt(g.size(o,he,w,d)),ne!=null&&g._size!=ne&&(f=!1)}),
-f}function dd(d){let f=!0;return ma.forEach((g,w)=>{let v=g(o,w,bn,d);v!=on[w]&&(f=!1),on[w]=v}),f}function ud(){for(let d=0;d<A.length;d++){let f=A[d];if(!f.show||
-!f._show)continue;let g=f.side,w=g%2,v,T,N=f.stroke(o,d),$=g==0||g==3?-1:1,[F,H]=f._found;if(f.label!=null){let ht=f.labelGap*$,wt=je((f._lpos+ht)*be);wa(f.labelFont[0],
-N,"center",g==2?"top":Ll),u.save(),w==1?(v=T=0,u.translate(wt,je(Ge+Nt/2)),u.rotate((g==3?-Fs:Fs)/2)):(v=je(at+ft/2),T=wt);let kn=xc(f.label)?f.label(o,d,F,H):f.
-label;u.fillText(kn,v,T),u.restore()}if(H==0)continue;let j=E[f.scale],Y=w==0?ft:Nt,oe=w==0?at:Ge,we=f._splits,ge=j.distr==2?we.map(ht=>Dt[ht]):we,he=j.distr==2?
+f}function dd(d){let f=!0;return ma.forEach((g,w)=>{let k=g(o,w,bn,d);k!=on[w]&&(f=!1),on[w]=k}),f}function ud(){for(let d=0;d<A.length;d++){let f=A[d];if(!f.show||
+!f._show)continue;let g=f.side,w=g%2,k,T,N=f.stroke(o,d),$=g==0||g==3?-1:1,[F,H]=f._found;if(f.label!=null){let ht=f.labelGap*$,wt=je((f._lpos+ht)*be);wa(f.labelFont[0],
+N,"center",g==2?"top":Ll),u.save(),w==1?(k=T=0,u.translate(wt,je(Ge+Nt/2)),u.rotate((g==3?-Fs:Fs)/2)):(k=je(at+ft/2),T=wt);let kn=xc(f.label)?f.label(o,d,F,H):f.
+label;u.fillText(kn,k,T),u.restore()}if(H==0)continue;let j=E[f.scale],Y=w==0?ft:Nt,oe=w==0?at:Ge,we=f._splits,ge=j.distr==2?we.map(ht=>Dt[ht]):we,he=j.distr==2?
 Dt[we[1]]-Dt[we[0]]:F,ne=f.ticks,Z=f.border,_e=ne.show?ne.size:0,$e=je(_e*be),tt=je((f.alignTo==2?f._size-_e-f.gap:f.gap)*be),ke=f._rotate*-Fs/180,Re=b(f._pos*be),
-gt=($e+tt)*$,ct=Re+gt;T=w==0?ct:0,v=w==1?ct:0;let Tt=f.font[0],$t=f.align==1?go:f.align==2?ci:ke>0?go:ke<0?ci:w==0?"center":g==3?ci:go,zt=ke||w==1?"middle":g==2?
-"top":Ll;wa(Tt,N,$t,zt);let yt=f.font[1]*f.lineGap,At=we.map(ht=>b(a(ht,j,Y,oe))),Rt=f._values;for(let ht=0;ht<Rt.length;ht++){let wt=Rt[ht];if(wt!=null){w==0?v=
+gt=($e+tt)*$,ct=Re+gt;T=w==0?ct:0,k=w==1?ct:0;let Tt=f.font[0],$t=f.align==1?go:f.align==2?ci:ke>0?go:ke<0?ci:w==0?"center":g==3?ci:go,zt=ke||w==1?"middle":g==2?
+"top":Ll;wa(Tt,N,$t,zt);let yt=f.font[1]*f.lineGap,At=we.map(ht=>b(a(ht,j,Y,oe))),Rt=f._values;for(let ht=0;ht<Rt.length;ht++){let wt=Rt[ht];if(wt!=null){w==0?k=
 At[ht]:T=At[ht],wt=""+wt;let kn=wt.indexOf(`
-`)==-1?[wt]:wt.split(/\n/gm);for(let pt=0;pt<kn.length;pt++){let Wa=kn[pt];ke?(u.save(),u.translate(v,T+pt*yt),u.rotate(ke),u.fillText(Wa,0,0),u.restore()):u.fillText(
-Wa,v,T+pt*yt)}}}ne.show&&Br(At,ne.filter(o,ge,d,H,he),w,g,Re,$e,Te(ne.width*be,3),ne.stroke(o,d),ne.dash,ne.cap);let Yt=f.grid;Yt.show&&Br(At,Yt.filter(o,ge,d,H,
+`)==-1?[wt]:wt.split(/\n/gm);for(let pt=0;pt<kn.length;pt++){let Wa=kn[pt];ke?(u.save(),u.translate(k,T+pt*yt),u.rotate(ke),u.fillText(Wa,0,0),u.restore()):u.fillText(
+Wa,k,T+pt*yt)}}}ne.show&&Br(At,ne.filter(o,ge,d,H,he),w,g,Re,$e,Te(ne.width*be,3),ne.stroke(o,d),ne.dash,ne.cap);let Yt=f.grid;Yt.show&&Br(At,Yt.filter(o,ge,d,H,
 he),w,w==0?2:1,w==0?Ge:at,w==0?Nt:ft,Te(Yt.width*be,3),Yt.stroke(o,d),Yt.dash,Yt.cap),Z.show&&Br([Re],[1],w==0?1:0,w==0?1:2,w==1?Ge:at,w==1?Nt:ft,Te(Z.width*be,
 3),Z.stroke(o,d),Z.dash,Z.cap)}et("drawAxes")}function Hn(d){S.forEach((f,g)=>{g>0&&(f._paths=null,d&&(s==1?(f.min=null,f.max=null):f.facets.forEach(w=>{w.min=null,
 w.max=null})))})}let cs=!1,Ur=!1,No=[];function fd(){Ur=!1;for(let d=0;d<No.length;d++)et(...No[d]);No.length=0}function jn(){cs||(rf(Sa),cs=!0)}function md(d,f=!1){
 cs=!0,Ur=f,d(o),Sa(),f&&No.length>0&&queueMicrotask(fd)}o.batch=md;function Sa(){if(Er&&(id(),Er=!1),In&&(Qp(),In=!1),os){if(Ce(m,go,Se),Ce(m,"top",De),Ce(m,Yo,
 re),Ce(m,qo,V),Ce(y,go,Se),Ce(y,"top",De),Ce(y,Yo,re),Ce(y,qo,V),Ce(p,Yo,Lt),Ce(p,qo,Gt),h.width=je(Lt*be),h.height=je(Gt*be),A.forEach(({_el:d,_show:f,_size:g,
-_pos:w,side:v})=>{if(d!=null)if(f){let T=v===3||v===0?g:0,N=v%2==1;Ce(d,N?"left":"top",w-T),Ce(d,N?"width":"height",g),Ce(d,N?"top":"left",N?De:Se),Ce(d,N?"heig\
+_pos:w,side:k})=>{if(d!=null)if(f){let T=k===3||k===0?g:0,N=k%2==1;Ce(d,N?"left":"top",w-T),Ce(d,N?"width":"height",g),Ce(d,N?"top":"left",N?De:Se),Ce(d,N?"heig\
 ht":"width",N?V:re),wi(d,Cn)}else xt(d,Cn)}),is=Gn=Cr=Nr=Dr=$r=Rr=Fr=Lr=null,mt=1,Ro(!0),Se!=z||De!=se||re!=le||V!=Ke){Hn(!1);let d=re/le,f=V/Ke;if(fe&&!yn&&W.left>=
 0){W.left*=d,W.top*=f,Vn&&Kt(Vn,je(W.left),0,re,V),zn&&Kt(zn,0,je(W.top),re,V);for(let g=0;g<Mt.length;g++){let w=Mt[g];w!=null&&(Un[g]*=d,Wn[g]*=f,Kt(w,Pt(Un[g]),
 Pt(Wn[g]),re,V))}}if(Pe.show&&!ss&&Pe.left>=0&&Pe.width>0){Pe.left*=d,Pe.width*=d,Pe.top*=f,Pe.height*=f;for(let g in zr)Ce(Kn,g,Pe[g])}z=Se,se=De,le=re,Ke=V}et(
@@ -580,21 +580,21 @@ f.max-f.min<1e-16)return;d==L&&g.distr==2&&nt>0&&(f.min=Ot(f.min,e[0]),f.max=Ot(
 zn,Ma,Ta,Yn,qn,Aa,Ea,Ee,Le,sn=!1,ot=W.drag,Ze=ot.x,Qe=ot.y;fe&&(W.x&&(Gr=Et(_u,y)),W.y&&(Hr=Et(Cu,y)),R.ori==0?(Vn=Gr,zn=Hr):(Vn=Hr,zn=Gr),Ee=W.left,Le=W.top);let Pe=o.
 select=Ue({show:!0,over:!0,left:0,width:0,top:0,height:0},t.select),Kn=Pe.show?Et(Pu,Pe.over?y:m):null;function hs(d,f){if(Pe.show){for(let g in d)Pe[g]=d[g],g in
 zr&&Ce(Kn,g,d[g]);f!==!1&&et("setSelect")}}o.setSelect=hs;function gd(d){if(S[d].show)me&&wi(ve[d],Cn);else if(me&&xt(ve[d],Cn),fe){let g=Bn?Mt[0]:Mt[d];g!=null&&
-Kt(g,-10,-10,re,V)}}function rn(d,f,g){Wr(d,{min:f,max:g})}function jt(d,f,g,w){f.focus!=null&&vd(d),f.show!=null&&S.forEach((v,T)=>{T>0&&(d==T||d==null)&&(v.show=
-f.show,gd(T),s==2?(rn(v.facets[0].scale,null,null),rn(v.facets[1].scale,null,null)):rn(v.scale,null,null),jn())}),g!==!1&&et("setSeries",d,f),w&&Fo("setSeries",
+Kt(g,-10,-10,re,V)}}function rn(d,f,g){Wr(d,{min:f,max:g})}function jt(d,f,g,w){f.focus!=null&&vd(d),f.show!=null&&S.forEach((k,T)=>{T>0&&(d==T||d==null)&&(k.show=
+f.show,gd(T),s==2?(rn(k.facets[0].scale,null,null),rn(k.facets[1].scale,null,null)):rn(k.scale,null,null),jn())}),g!==!1&&et("setSeries",d,f),w&&Fo("setSeries",
 o,d,f)}o.setSeries=jt;function yd(d,f){Ue(D[d],f)}function wd(d,f){d.fill=ue(d.fill||null),d.dir=ye(d.dir,-1),f=f??D.length,D.splice(f,0,d)}function bd(d){d==null?
 D.length=0:D.splice(d,1)}o.addBand=wd,o.setBand=yd,o.delBand=bd;function xd(d,f){S[d].alpha=f,fe&&Mt[d]!=null&&(Mt[d].style.opacity=f),me&&ve[d]&&(ve[d].style.opacity=
-f)}let Xt,an,xn,Jn={focus:!0};function vd(d){if(d!=xn){let f=d==null,g=Ht.alpha!=1;S.forEach((w,v)=>{if(s==1||v>0){let T=f||v==0||v==d;w._focus=f?null:T,g&&xd(v,
+f)}let Xt,an,xn,Jn={focus:!0};function vd(d){if(d!=xn){let f=d==null,g=Ht.alpha!=1;S.forEach((w,k)=>{if(s==1||k>0){let T=f||k==0||k==d;w._focus=f?null:T,g&&xd(k,
 T?1:Ht.alpha)}}),xn=d,g&&jn()}}me&&On&&qe(Rl,ae,d=>{W._lock||(wn(d),xn!=null&&jt(null,Jn,!0,Oe.setSeries))});function Vt(d,f,g){let w=E[f];g&&(d=d/be-(w.ori==1?
-De:Se));let v=re;w.ori==1&&(v=V,d=v-d),w.dir==-1&&(d=v-d);let T=w._min,N=w._max,$=d/v,F=T+(N-T)*$,H=w.distr;return H==3?bo(10,F):H==4?Yu(F,w.asinh):H==100?w.bwd(
+De:Se));let k=re;w.ori==1&&(k=V,d=k-d),w.dir==-1&&(d=k-d);let T=w._min,N=w._max,$=d/k,F=T+(N-T)*$,H=w.distr;return H==3?bo(10,F):H==4?Yu(F,w.asinh):H==100?w.bwd(
 F):F}function kd(d,f){let g=Vt(d,L,f);return Ot(g,e[0],Je,Xe)}o.valToIdx=d=>Ot(d,e[0]),o.posToIdx=kd,o.posToVal=Vt,o.valToPos=(d,f,g)=>E[f].ori==0?r(d,E[f],g?ft:
 re,g?at:0):i(d,E[f],g?Nt:V,g?Ge:0),o.setCursor=(d,f,g)=>{Ee=d.left,Le=d.top,vn(null,f,g)};function Pa(d,f){Ce(Kn,go,Pe.left=d),Ce(Kn,Yo,Pe.width=f)}function _a(d,f){
 Ce(Kn,"top",Pe.top=d),Ce(Kn,qo,Pe.height=f)}let Do=R.ori==0?Pa:_a,$o=R.ori==1?Pa:_a;function Sd(){if(me&&q.live)for(let d=s==2?1:0;d<S.length;d++){if(d==0&&Ne)continue;
 let f=q.values[d],g=0;for(let w in f)rt[d][g++].firstChild.nodeValue=f[w]}}function jr(d,f){if(d!=null&&(d.idxs?d.idxs.forEach((g,w)=>{Q[w]=g}):Xu(d.idx)||Q.fill(
 d.idx),q.idx=Q[0]),me&&q.live){for(let g=0;g<S.length;g++)(g>0||s==1&&!Ne)&&Md(g,Q[g]);Sd()}St=!1,f!==!1&&et("setLegend")}o.setLegend=jr;function Md(d,f){let g=S[d],
-w=d==0&&ee==2?Dt:e[d],v;Ne?v=g.values(o,d,f)??Ie:(v=g.value(o,f==null?null:w[f],d,f),v=v==null?Ie:{_:v}),q.values[d]=v}function vn(d,f,g){Aa=Ee,Ea=Le,[Ee,Le]=W.
-move(o,Ee,Le),W.left=Ee,W.top=Le,fe&&(Vn&&Kt(Vn,je(Ee),0,re,V),zn&&Kt(zn,0,je(Le),re,V));let w,v=Je>Xe;Xt=Me,an=null;let T=R.ori==0?re:V,N=R.ori==1?re:V;if(Ee<0||
-nt==0||v){w=W.idx=null;for(let $=0;$<S.length;$++){let F=Mt[$];F!=null&&Kt(F,-10,-10,re,V)}On&&jt(null,Jn,!0,d==null&&Oe.setSeries),q.live&&(Q.fill(w),St=!0)}else{
+w=d==0&&ee==2?Dt:e[d],k;Ne?k=g.values(o,d,f)??Ie:(k=g.value(o,f==null?null:w[f],d,f),k=k==null?Ie:{_:k}),q.values[d]=k}function vn(d,f,g){Aa=Ee,Ea=Le,[Ee,Le]=W.
+move(o,Ee,Le),W.left=Ee,W.top=Le,fe&&(Vn&&Kt(Vn,je(Ee),0,re,V),zn&&Kt(zn,0,je(Le),re,V));let w,k=Je>Xe;Xt=Me,an=null;let T=R.ori==0?re:V,N=R.ori==1?re:V;if(Ee<0||
+nt==0||k){w=W.idx=null;for(let $=0;$<S.length;$++){let F=Mt[$];F!=null&&Kt(F,-10,-10,re,V)}On&&jt(null,Jn,!0,d==null&&Oe.setSeries),q.live&&(Q.fill(w),St=!0)}else{
 let $,F,H;s==1&&($=R.ori==0?Ee:Le,F=Vt($,L),w=W.idx=Ot(F,e[0],Je,Xe),H=B(e[0][w],R,T,0));let j=-10,Y=-10,oe=0,we=0,ge=!0,he="",ne="";for(let Z=s==2?1:0;Z<S.length;Z++){
 let _e=S[Z],$e=Q[Z],tt=$e==null?null:s==1?e[Z][$e]:e[Z][1][$e],ke=W.dataIdx(o,Z,w,F),Re=ke==null?null:s==1?e[Z][ke]:e[Z][1][ke];if(St=St||Re!=tt||ke!=$e,Q[Z]=ke,
 Z>0&&_e.show){let gt=ke==null?-10:ke==w?H:B(s==1?e[0][ke]:e[Z][0][ke],R,T,0),ct=Re==null?-10:P(Re,s==1?E[_e.scale]:E[_e.facets[1].scale],N,0);if(On&&Re!=null){let Tt=R.
@@ -611,24 +611,24 @@ Qe&&(Ze=$>=H,Qe=F>=H,!Ze&&!Qe&&(F>$?Qe=!0:Ze=!0)):ot.x&&ot.y&&(Ze||Qe)&&(Ze=Qe=!
 Qe&&(R.ori==1?(j=Yn,Y=Ee):(j=qn,Y=Le),$o(Bt(j,Y),Ve(Y-j)),Ze||Do(0,T)),!Ze&&!Qe&&(Do(0,0),$o(0,0))}if(ot._x=Ze,ot._y=Qe,d==null){if(g){if(Ua!=null){let[$,F]=Oe.
 scales;Oe.values[0]=$!=null?Vt(R.ori==0?Ee:Le,$):null,Oe.values[1]=F!=null?Vt(R.ori==1?Ee:Le,F):null}Fo(hi,o,Ee,Le,re,V,w)}if(On){let $=g&&Oe.setSeries,F=Ht.prox;
 xn==null?Xt<=F&&jt(an,Jn,!0,$):Xt>F?jt(null,Jn,!0,$):an!=xn&&jt(an,Jn,!0,$)}}St&&(q.idx=w,jr()),f!==!1&&et("setCursor")}let ln=null;Object.defineProperty(o,"rec\
-t",{get(){return ln==null&&Ro(!1),ln}});function Ro(d=!1){d?ln=null:(ln=y.getBoundingClientRect(),et("syncRect",ln))}function Ca(d,f,g,w,v,T,N){W._lock||sn&&d!=
-null&&d.movementX==0&&d.movementY==0||(Vr(d,f,g,w,v,T,N,!1,d!=null),d!=null?vn(null,!0,!0):vn(f,!0,!1))}function Vr(d,f,g,w,v,T,N,$,F){if(ln==null&&Ro(!1),wn(d),
+t",{get(){return ln==null&&Ro(!1),ln}});function Ro(d=!1){d?ln=null:(ln=y.getBoundingClientRect(),et("syncRect",ln))}function Ca(d,f,g,w,k,T,N){W._lock||sn&&d!=
+null&&d.movementX==0&&d.movementY==0||(Vr(d,f,g,w,k,T,N,!1,d!=null),d!=null?vn(null,!0,!0):vn(f,!0,!1))}function Vr(d,f,g,w,k,T,N,$,F){if(ln==null&&Ro(!1),wn(d),
 d!=null)g=d.clientX-ln.left,w=d.clientY-ln.top;else{if(g<0||w<0){Ee=-10,Le=-10;return}let[H,j]=Oe.scales,Y=f.cursor.sync,[oe,we]=Y.values,[ge,he]=Y.scales,[ne,Z]=Oe.
-match,_e=f.axes[0].side%2==1,$e=R.ori==0?re:V,tt=R.ori==1?re:V,ke=_e?T:v,Re=_e?v:T,gt=_e?w:g,ct=_e?g:w;if(ge!=null?g=ne(H,ge)?a(oe,E[H],$e,0):-10:g=$e*(gt/ke),he!=
+match,_e=f.axes[0].side%2==1,$e=R.ori==0?re:V,tt=R.ori==1?re:V,ke=_e?T:k,Re=_e?k:T,gt=_e?w:g,ct=_e?g:w;if(ge!=null?g=ne(H,ge)?a(oe,E[H],$e,0):-10:g=$e*(gt/ke),he!=
 null?w=Z(j,he)?a(we,E[j],tt,0):-10:w=tt*(ct/Re),R.ori==1){let Tt=g;g=w,w=Tt}}F&&(f==null||f.cursor.event.type==hi)&&((g<=1||g>=re-1)&&(g=Pn(g,re)),(w<=1||w>=V-1)&&
-(w=Pn(w,V))),$?(Ma=g,Ta=w,[Yn,qn]=W.move(o,g,w)):(Ee=g,Le=w)}let zr={width:0,height:0,left:0,top:0};function Yr(){hs(zr,!1)}let La,Na,Da,$a;function Ra(d,f,g,w,v,T,N){
-sn=!0,Ze=Qe=ot._x=ot._y=!1,Vr(d,f,g,w,v,T,N,!0,!1),d!=null&&(qe(pi,gi,Fa,!1),Fo(Dl,o,Yn,qn,re,V,null));let{left:$,top:F,width:H,height:j}=Pe;La=$,Na=F,Da=H,$a=j}
-function Fa(d,f,g,w,v,T,N){sn=ot._x=ot._y=!1,Vr(d,f,g,w,v,T,N,!1,!0);let{left:$,top:F,width:H,height:j}=Pe,Y=H>0||j>0,oe=La!=$||Na!=F||Da!=H||$a!=j;if(Y&&oe&&hs(
+(w=Pn(w,V))),$?(Ma=g,Ta=w,[Yn,qn]=W.move(o,g,w)):(Ee=g,Le=w)}let zr={width:0,height:0,left:0,top:0};function Yr(){hs(zr,!1)}let La,Na,Da,$a;function Ra(d,f,g,w,k,T,N){
+sn=!0,Ze=Qe=ot._x=ot._y=!1,Vr(d,f,g,w,k,T,N,!0,!1),d!=null&&(qe(pi,gi,Fa,!1),Fo(Dl,o,Yn,qn,re,V,null));let{left:$,top:F,width:H,height:j}=Pe;La=$,Na=F,Da=H,$a=j}
+function Fa(d,f,g,w,k,T,N){sn=ot._x=ot._y=!1,Vr(d,f,g,w,k,T,N,!1,!0);let{left:$,top:F,width:H,height:j}=Pe,Y=H>0||j>0,oe=La!=$||Na!=F||Da!=H||$a!=j;if(Y&&oe&&hs(
 Pe),ot.setScale&&Y&&oe){let we=$,ge=H,he=F,ne=j;if(R.ori==1&&(we=F,ge=j,he=$,ne=H),Ze&&rn(L,Vt(we,L),Vt(we+ge,L)),Qe)for(let Z in E){let _e=E[Z];Z!=L&&_e.from==
-null&&_e.min!=Me&&rn(Z,Vt(he+ne,Z),Vt(he,Z))}Yr()}else W.lock&&(W._lock=!W._lock,vn(f,!0,d!=null));d!=null&&(Jt(pi,gi),Fo(pi,o,Ee,Le,re,V,null))}function Td(d,f,g,w,v,T,N){
+null&&_e.min!=Me&&rn(Z,Vt(he+ne,Z),Vt(he,Z))}Yr()}else W.lock&&(W._lock=!W._lock,vn(f,!0,d!=null));d!=null&&(Jt(pi,gi),Fo(pi,o,Ee,Le,re,V,null))}function Td(d,f,g,w,k,T,N){
 if(W._lock)return;wn(d);let $=sn;if(sn){let F=!0,H=!0,j=10,Y,oe;R.ori==0?(Y=Ze,oe=Qe):(Y=Qe,oe=Ze),Y&&oe&&(F=Ee<=j||Ee>=re-j,H=Le<=j||Le>=V-j),Y&&F&&(Ee=Ee<Yn?0:
-re),oe&&H&&(Le=Le<qn?0:V),vn(null,!0,!0),sn=!1}Ee=-10,Le=-10,Q.fill(null),vn(null,!0,!0),$&&(sn=$)}function Ia(d,f,g,w,v,T,N){W._lock||(wn(d),_r(),Yr(),d!=null&&
+re),oe&&H&&(Le=Le<qn?0:V),vn(null,!0,!0),sn=!1}Ee=-10,Le=-10,Q.fill(null),vn(null,!0,!0),$&&(sn=$)}function Ia(d,f,g,w,k,T,N){W._lock||(wn(d),_r(),Yr(),d!=null&&
 Fo(Fl,o,Ee,Le,re,V,null))}function Oa(){A.forEach(fm),Pr(o.width,o.height,!0)}Ln(Is,wo,Oa);let Xn={};Xn.mousedown=Ra,Xn.mousemove=Ca,Xn.mouseup=Fa,Xn.dblclick=Ia,
-Xn.setSeries=(d,f,g,w)=>{let v=Oe.match[2];g=v(o,f,g),g!=-1&&jt(g,w,!0,!1)},fe&&(qe(Dl,y,Ra),qe(hi,y,Ca),qe($l,y,d=>{wn(d),Ro(!1)}),qe(Rl,y,Td),qe(Fl,y,Ia),Mi.add(
+Xn.setSeries=(d,f,g,w)=>{let k=Oe.match[2];g=k(o,f,g),g!=-1&&jt(g,w,!0,!1)},fe&&(qe(Dl,y,Ra),qe(hi,y,Ca),qe($l,y,d=>{wn(d),Ro(!1)}),qe(Rl,y,Td),qe(Fl,y,Ia),Mi.add(
 o),o.syncRect=Ro);let ps=o.hooks=t.hooks||{};function et(d,f,g){Ur?No.push([d,f,g]):d in ps&&ps[d].forEach(w=>{w.call(null,o,f,g)})}(t.plugins||[]).forEach(d=>{
 for(let f in d.hooks)ps[f]=(ps[f]||[]).concat(d.hooks[f])});let Ba=(d,f,g)=>g,Oe=Ue({key:null,setSeries:!1,filters:{pub:Yl,sub:Yl},scales:[L,S[1]?S[1].scale:null],
-match:[ql,ql,Ba],values:[null,null]},W.sync);Oe.match.length==2&&Oe.match.push(Ba),W.sync=Oe;let Ua=Oe.key,qr=jc(Ua);function Fo(d,f,g,w,v,T,N){Oe.filters.pub(d,
-f,g,w,v,T,N)&&qr.pub(d,f,g,w,v,T,N)}qr.sub(o);function Ad(d,f,g,w,v,T,N){Oe.filters.sub(d,f,g,w,v,T,N)&&Xn[d](null,f,g,w,v,T,N)}o.pub=Ad;function Ed(){qr.unsub(
+match:[ql,ql,Ba],values:[null,null]},W.sync);Oe.match.length==2&&Oe.match.push(Ba),W.sync=Oe;let Ua=Oe.key,qr=jc(Ua);function Fo(d,f,g,w,k,T,N){Oe.filters.pub(d,
+f,g,w,k,T,N)&&qr.pub(d,f,g,w,k,T,N)}qr.sub(o);function Ad(d,f,g,w,k,T,N){Oe.filters.sub(d,f,g,w,k,T,N)&&Xn[d](null,f,g,w,k,T,N)}o.pub=Ad;function Ed(){qr.unsub(
 o),Mi.delete(o),Wt.clear(),bi(Is,wo,Oa),c.remove(),ae?.remove(),et("destroy")}o.destroy=Ed;function Kr(){et("init",t,e),ga(e||t.data,!1),C[L]?Wr(L,C[L]):_r(),ss=
 Pe.show&&(Pe.width>0||Pe.height>0),yn=St=!0,Pr(t.width,t.height)}return S.forEach(fa),A.forEach(rd),n?n instanceof HTMLElement?(n.appendChild(c),Kr()):n(o,Kr):Kr(),
 o}ze.assign=Ue;ze.fmtNum=Li;ze.rangeNum=Os;ze.rangeLog=Ws;ze.rangeAsinh=_i;ze.orient=Dn;ze.pxRatio=be;ze.join=sf;ze.fmtDate=Di,ze.tzDate=gf;ze.sync=jc;{ze.addGap=
@@ -637,13 +637,13 @@ max(10,4+3.3*(t?.[0]?.at(-1)??0).toLocaleString("en").length),Ks=(t,e)=>({font:M
 frame,width:1,size:4}});function oh(t,e,n){let o=null,s=null,r=()=>Math.floor(t.clientWidth);return new ResizeObserver(()=>o&&r()>0&&o.setSize({width:r(),height:qs})).
 observe(t),i=>r()<=0?null:((!o||i||s!==n())&&(o?.destroy(),o=e(),o.setSize({width:r(),height:qs}),s=n()),o)}function sh(t,e){let{session:n}=t,o=M("div",{className:"\
 chart",role:"img","aria-label":"Trace: log joint by sweep"}),s="all",r=t.segmented("Trace",[["all","All"],["first",`First ${nh}`]],()=>s,y=>{s=y,c=null,n.changed()}),
-i=0,a=-1/0,l=-1,c=null,u=oh(o,()=>{let y=gm(e()),k=Array.from({length:i},(b,x)=>({label:`chain ${x+1}`,stroke:y[x%y.length],width:1,points:{show:!1}}));return new ze(
+i=0,a=-1/0,l=-1,c=null,u=oh(o,()=>{let y=gm(e()),v=Array.from({length:i},(b,x)=>({label:`chain ${x+1}`,stroke:y[x%y.length],width:1,points:{show:!1}}));return new ze(
 {width:100,height:qs,legend:{show:!1},cursor:{drag:{x:!1,y:!1},y:!1},padding:[8,wm,0,0],scales:{x:{time:!1,range:(b,x,S)=>[x,Math.max(S,x+1)]},y:{range:(b,x,S)=>km(
-Math.max(x,a),S)}},axes:[Ks(e,26),Ks(e,ym)],series:[{label:"sweep"},...k],hooks:{draw:[b=>Mm(b,l,e()),b=>Sm(b,c?.burned??0,e())]}},[[],...k.map(()=>[])],o)},e),
+Math.max(x,a),S)}},axes:[Ks(e,26),Ks(e,ym)],series:[{label:"sweep"},...v],hooks:{draw:[b=>Mm(b,l,e()),b=>Sm(b,c?.burned??0,e())]}},[[],...v.map(()=>[])],o)},e),
 p=M("span",{className:"caption",textContent:"log joint by sweep"}),m=M("div",{className:"charted"},M("div",{className:"buttons"},r,p),o);return t.each(()=>{let y=n.
-shown,k=y?.traced?.length?y.trace.length/y.traced.length:0;if(_(m,"hidden",k===0&&(m.hidden||!n.working)),!y||!k)return;let b=n.document?.source.kind==="run"?"d\
-raw":"sweep";_(p,"textContent",`log joint by ${b}`);let x=y.layer==="draw"&&n.draws.count?(n.draw+1)*y.traced[y.traced.length-1]/n.draws.count:-1,S=u(k!==i&&(i=
-k,!0));if(!S||c===y&&l===x&&S.data[0].length)return;[c,l]=[y,x],a=s==="all"?vm(y,k):-1/0;let A=bm(y,k,s);S.setData(A),o.setAttribute("data-sweeps",A[0].join())}),
+shown,v=y?.traced?.length?y.trace.length/y.traced.length:0;if(_(m,"hidden",v===0&&(m.hidden||!n.working)),!y||!v)return;let b=n.document?.source.kind==="run"?"d\
+raw":"sweep";_(p,"textContent",`log joint by ${b}`);let x=y.layer==="draw"&&n.draws.count?(n.draw+1)*y.traced[y.traced.length-1]/n.draws.count:-1,S=u(v!==i&&(i=
+v,!0));if(!S||c===y&&l===x&&S.data[0].length)return;[c,l]=[y,x],a=s==="all"?vm(y,v):-1/0;let A=bm(y,v,s);S.setData(A),o.setAttribute("data-sweeps",A[0].join())}),
 m}function bm({trace:t,traced:e},n,o){let s=o==="all"?xm(e):[...e.keys()].filter(i=>e[i]<=nh),r=i=>Float32Array.from(s,a=>i[a]);return[r(e),...Array.from({length:n},
 (i,a)=>r(t.subarray(a*e.length,(a+1)*e.length)))]}function xm(t){let e=t.length,n=e>2?Math.min(t[e-1]-t[e-2],t[e-2]-t[e-3]):1,o=-1/0;return[...t.keys()].filter(
 s=>t[s]<o&&s<e-1?!1:(o=t[s]+n,!0))}function vm({trace:t,traced:e},n){let o=e.length,s=e.findIndex(r=>r>=mm*e[o-1]);return Math.min(...Array.from({length:n},(r,i)=>Math.
@@ -655,7 +655,7 @@ caption",textContent:"particles by weight, nats below the heaviest"}),r=M("div",
 cursor:{show:!1},padding:[8,10,0,0],scales:{x:{time:!1,range:(c,h,u)=>[h,u]},y:{distr:3,range:(c,h,u)=>[.5,Math.max(10,2*u)]}},axes:[Ks(e,26),{...Ks(e,52),values:(c,h)=>h.
 map(u=>u>=1?String(u):"")}],series:[{},{fill:e().ray,stroke:e().ray,paths:ze.paths.bars?.({size:[.9,100],align:1}),points:{show:!1}}]},[[],[]],o),e),l=null;return t.
 each(()=>{let c=n.shown;_(r,"hidden",!c?.weights);let h=c?.weights&&a(!1);if(!c?.weights||!h||l===c&&h.data[0].length)return;l=c;let u=[...c.weights],p=-(c.lowest??
--1)/u.length,m=[...u.map((y,k)=>(c.lowest??-1)+k*p),0];h.setData([m,[...u.map(y=>y||null),null]])}),r}function ih(t){let{session:e,hand:n}=t,{decisions:o}=e,s=M("p",{className:"said",role:"status"}),r=M("div",{className:"double"},t.numberInput("Robot's radius (m\
+-1)/u.length,m=[...u.map((y,v)=>(c.lowest??-1)+v*p),0];h.setData([m,[...u.map(y=>y||null),null]])}),r}function ih(t){let{session:e,hand:n}=t,{decisions:o}=e,s=M("p",{className:"said",role:"status"}),r=M("div",{className:"double"},t.numberInput("Robot's radius (m\
 )",()=>o.radius,c=>o.set({radius:c}),{step:"any",limits:"radius"}),t.numberInput("Highest risk",()=>o.risk,c=>o.set({risk:c}),{step:"any",limits:"risk"})),i=()=>n.
 tool==="path"?"Path":"Where to look next",a=t.section("Decision",r,s),l=a.querySelector("h2");return t.visible(a,()=>n.tool==="path"||n.tool==="look"),t.visible(
 r,()=>n.tool==="path"),t.each(()=>{_(l,"textContent",i()),_(s,"textContent",n.tool==="path"?Tm(t):Am(t))}),a}function Tm({session:t}){let{start:e,goal:n,path:o,
@@ -694,8 +694,8 @@ M("div",{className:"buttons"},e,s),n);return{dialog:i,show(a){e.value=a,i.showMo
 as",{className:"trace",width:296,height:48,role:"img"}),a=M("p",{className:"caption"}),l=t.section("Evidence of beams",o,r,s,i,a),c=-1;return t.visible(l,()=>n.
 tool==="evidence"),t.each(()=>{let{evidence:h}=e;if(_(o,"textContent",zm(e)),c===h.version)return;c=h.version,_(r,"textContent",jm(e));let u=Vm(i,h.each?.trace,
 e.draws.chains);_(i,"hidden",!u.length),_(a,"textContent",u.length?`Share of draws so far with a wall, by draw: ${u.map((b,x)=>`chain ${x+1} ${b.toFixed(2)}`).join(
-", ")}`:"");let{nats:p,scan:m,beam:y}=h.each??{nats:[],scan:[],beam:[]},k=Array.from(p.slice(0,Gm),(b,x)=>M("li",{},`${io(b)} nats: ${Hm(e,m[x],y[x])}`));s.replaceChildren(
-...k)}),l}var Hm=({document:t,editable:e},n,o)=>`beam ${o+1} of ${e?`sensor ${t?.sensors[n]?.id??n+1}`:`scan ${n+1}`}`;function jm({evidence:{together:t},quantity:e,
+", ")}`:"");let{nats:p,scan:m,beam:y}=h.each??{nats:[],scan:[],beam:[]},v=Array.from(p.slice(0,Gm),(b,x)=>M("li",{},`${io(b)} nats: ${Hm(e,m[x],y[x])}`));s.replaceChildren(
+...v)}),l}var Hm=({document:t,editable:e},n,o)=>`beam ${o+1} of ${e?`sensor ${t?.sensors[n]?.id??n+1}`:`scan ${n+1}`}`;function jm({evidence:{together:t},quantity:e,
 hasDraws:n}){if(!t?.beams||e.kind!=="binary"||t.nats_for===null||t.nats_against===null)return"";let{prior_nats:o,log_odds:s,draw:r,nats_for:i,nats_against:a}=t;
 if(r==null)return"Each beam is asked by itself, with the other cells as probable as they are: the sum is not the log odds of P(wall)."+(n?" Show one draw for th\
 at.":"");if(o==null||s===null||s===void 0)return`Given all other cells of draw ${r+1}.`;let l=1/(1+Math.exp(-s));return`Given all other cells of draw ${r+1}: pr\
@@ -746,26 +746,25 @@ let{shown:e,document:n,layer:o,quantity:s,draws:r}=t;if(!e||!n)return"";if(t.whe
 known map.";let{kind:i,mean:a,value:l}=s,c=e.verdict?.level!=="bad",h=c?"One map drawn from the posterior":/importance/.test(e.method)?"One particle":"The map o\
 f one chain, which has not converged",u={mean:i==="binary"?"How probable a wall is in each cell":Zt(`${a}, cell by cell`),draw:`${h}${i==="binary"?"":`, by its ${l}`}${r.
 count?`, ${t.draw+1} of ${r.count}`:""}`,entropy:"How uncertain each cell is, in bits",width:"How wide the 90 % interval of each cell is"}[o];if(e.method==="non\
-e")return`${u} before any reading: the prior.`;let{source:p,angles:m,sensors:y,scans_used:k}=n,b=p.kind==="simulation"?`${Ui(m*y.length,"beam")} of ${Ui(y.length,
-"sensor")}`:Ui(k??p.scans,"scan"),x=e.method==="propagate"||e.method==="pilot"||/hits|counts/.test(e.method),S=t.stage||t.halfway?"the poses found so far":"raw \
+e")return`${u} before any reading: the prior.`;let{source:p,angles:m,sensors:y,scans_used:v}=n,b=p.kind==="simulation"?`${Ui(m*y.length,"beam")} of ${Ui(y.length,
+"sensor")}`:Ui(v??p.scans,"scan"),x=e.method==="propagate"||e.method==="pilot"||/hits|counts/.test(e.method),S=t.stage||t.halfway?"the poses found so far":"raw \
 odometry",A=e.method==="counts"?`, by counts along ${S}`:x&&e.approximate?", approximately":o!=="draw"&&e.burned?`, by sweeps ${e.burned+1} to ${e.sweeps}`:"";return`${u}\
-, given ${b}${A}${c||o==="draw"?"":`, from ${/importance/.test(e.method)?"particles that have collapsed":"chains that have not converged"}`}.`}function Zm(t,e,n){
-let{session:o}=t,s=M("span",{className:"ramp"}),r=M("span",{className:"name"}),[i,a]=[M("span"),M("span")],l=mh.map(p=>{let[m,y]=Xs(p),{mark:k,when:b}=p;return b&&
-t.visible(m,()=>b(o)),k==="stroke"&&t.each(()=>_(y,"textContent",Ho(n())?p.text:fh)),k==="path"&&t.each(()=>m.firstElementChild?.classList.toggle("risky",o.decisions.
-path?.within_risk===!1)),m}),[c,h]=[gh,yh].map(p=>p.map(m=>Xs(m)[0]));for(let p of c)t.visible(p,()=>!!o.where.found);for(let p of h)t.visible(p,()=>!!o.evidence.
-cellShown);let u="";return t.each(()=>{let{layer:p}=o;_(r,"textContent",bh(o,p));let m=p==="entropy"||p==="width",y=eg(o,p);_(i,"textContent",y?"free":"0"),_(a,
-"textContent",y?"wall":"1");let k=`${m} ${y} ${e().ground}`;u!==k&&(u=k,s.style.background=Qr(m?no:b=>Wo(e(),b),y))}),M("ul",{"aria-label":"Legend"},M("li",{},r,
-M("span",{className:"scale"},i,s,a)),...l,tg(t),...c,...h)}function Qm(t){let{session:e}=t,n=["mean","draw","entropy","width"].map(c=>{let h=M("span");return t.
-each(()=>_(h,"textContent",bh(e,c))),c==="width"&&t.visible(h,()=>e.quantity.interval),h}),o=mh.map(c=>{let[h,u]=Xs(c);c.mark==="stroke"&&(u.textContent=fh);let{
-may:p}=c;return p&&t.visible(h,()=>p(e)),h}),s=M("span",{className:"scale"},"00.0",M("span",{className:"ramp"}),"000.0 nats"),r=[gh,yh].map(c=>M("ul",{},...c.map(
-h=>Xs(h)[0]))),i=[M("ul",{},M("li",{},"one more scan tells",s)),...r],a=M("li",{className:"either"},...i);t.visible(a,()=>Wi(e));let l=M("span",{className:"scal\
-e"},"free",M("span",{className:"ramp"}),"wall");return M("ul",{className:"room","aria-hidden":"true"},M("li",{},M("span",{className:"name either"},...n),l),...o,
-a)}function Xs({mark:t,text:e}){let n=M("i",{className:t});t==="sensor"&&n.append(fn("sensor"));let o=M("span",{textContent:e});return[M("li",{},n,o),o]}var eg=({
-quantity:t},e)=>e==="draw"&&t.kind==="binary";function bh({quantity:t},e){let{kind:n,mean:o,value:s}=t;return e==="entropy"?"entropy (bit)":e==="width"?"width o\
-f the 90 % interval":n==="binary"?e==="draw"?"cells of this draw":"P(wall)":e==="draw"?s:o}function tg(t){let{decisions:e}=t.session,n=M("span",{className:"ramp"});
-n.style.background=Qr(no);let[o,s]=[M("span"),M("span")],r=M("li",{className:"views"},"one more scan tells",M("span",{className:"scale"},o,n,s));return t.visible(
-r,()=>e.looking&&!!e.views?.nats.length),t.each(()=>{let i=e.views?.nats;i?.length&&(_(o,"textContent","0"),_(s,"textContent",`${pe(Math.max(...i),1)} nats`))}),
-r}var ng=[.05,.1,.2,.4,.8],og=t=>t<1?`${+(100*t).toPrecision(3)} cm`:`${+t.toPrecision(3)} m`;function xh(t){let{session:e}=t,n=M("select",{onchange:()=>e.act({type:"\
+, given ${b}${A}${c||o==="draw"?"":` (${/importance/.test(e.method)?"particles collapsed":"chains not converged"})`}.`}function Zm(t,e,n){let{session:o}=t,s=M("\
+span",{className:"ramp"}),r=M("span",{className:"name"}),[i,a]=[M("span"),M("span")],l=mh.map(p=>{let[m,y]=Xs(p),{mark:v,when:b}=p;return b&&t.visible(m,()=>b(o)),
+v==="stroke"&&t.each(()=>_(y,"textContent",Ho(n())?p.text:fh)),v==="path"&&t.each(()=>m.firstElementChild?.classList.toggle("risky",o.decisions.path?.within_risk===
+!1)),m}),[c,h]=[gh,yh].map(p=>p.map(m=>Xs(m)[0]));for(let p of c)t.visible(p,()=>!!o.where.found);for(let p of h)t.visible(p,()=>!!o.evidence.cellShown);let u="";
+return t.each(()=>{let{layer:p}=o;_(r,"textContent",bh(o,p));let m=p==="entropy"||p==="width",y=eg(o,p);_(i,"textContent",y?"free":"0"),_(a,"textContent",y?"wal\
+l":"1");let v=`${m} ${y} ${e().ground}`;u!==v&&(u=v,s.style.background=Qr(m?no:b=>Wo(e(),b),y))}),M("ul",{"aria-label":"Legend"},M("li",{},r,M("span",{className:"\
+scale"},i,s,a)),...l,tg(t),...c,...h)}function Qm(t){let{session:e}=t,n=["mean","draw","entropy","width"].map(c=>{let h=M("span");return t.each(()=>_(h,"textCon\
+tent",bh(e,c))),c==="width"&&t.visible(h,()=>e.quantity.interval),h}),o=mh.map(c=>{let[h,u]=Xs(c);c.mark==="stroke"&&(u.textContent=fh);let{may:p}=c;return p&&t.
+visible(h,()=>p(e)),h}),s=M("span",{className:"scale"},"00.0",M("span",{className:"ramp"}),"000.0 nats"),r=[gh,yh].map(c=>M("ul",{},...c.map(h=>Xs(h)[0]))),i=[M(
+"ul",{},M("li",{},"one more scan tells",s)),...r],a=M("li",{className:"either"},...i);t.visible(a,()=>Wi(e));let l=M("span",{className:"scale"},"free",M("span",
+{className:"ramp"}),"wall");return M("ul",{className:"room","aria-hidden":"true"},M("li",{},M("span",{className:"name either"},...n),l),...o,a)}function Xs({mark:t,
+text:e}){let n=M("i",{className:t});t==="sensor"&&n.append(fn("sensor"));let o=M("span",{textContent:e});return[M("li",{},n,o),o]}var eg=({quantity:t},e)=>e==="\
+draw"&&t.kind==="binary";function bh({quantity:t},e){let{kind:n,mean:o,value:s}=t;return e==="entropy"?"entropy (bit)":e==="width"?"width of the 90 % interval":
+n==="binary"?e==="draw"?"cells of this draw":"P(wall)":e==="draw"?s:o}function tg(t){let{decisions:e}=t.session,n=M("span",{className:"ramp"});n.style.background=
+Qr(no);let[o,s]=[M("span"),M("span")],r=M("li",{className:"views"},"one more scan tells",M("span",{className:"scale"},o,n,s));return t.visible(r,()=>e.looking&&
+!!e.views?.nats.length),t.each(()=>{let i=e.views?.nats;i?.length&&(_(o,"textContent","0"),_(s,"textContent",`${pe(Math.max(...i),1)} nats`))}),r}var ng=[.05,.1,.2,.4,.8],og=t=>t<1?`${+(100*t).toPrecision(3)} cm`:`${+t.toPrecision(3)} m`;function xh(t){let{session:e}=t,n=M("select",{onchange:()=>e.act({type:"\
 set",patch:{resolution:Number(n.value)}})}),o="";t.each(()=>{let{grid:r,source:i}=e.document??{};if(!r||i?.kind!=="log"||!i.bounds)return;let[a,l]=i.bounds,c=Math.
 max(l[0]-a[0],l[1]-a[1]),h=[...new Set([...ng,r.resolution])].sort((p,m)=>p-m),[,u]=t.limits("side_of_log");if(o!==`${h} ${u}`){o=`${h} ${u}`;let p=y=>c/y>u-1,m=y=>M(
 "option",{value:String(y),textContent:og(y)+(p(y)?": too many cells":""),disabled:p(y)});n.replaceChildren(...h.map(m))}_(n,"value",String(r.resolution))});let s=t.
@@ -778,40 +777,40 @@ rg="For and against a wall: the log ratio of each beam's likelihood with a wall 
 likely",Sh="For and against what is there: how much likelier each beam's reading is under the draws of the map than under the same draws with this cell emptied \
 (log ratio), summed over the beams that it makes likelier, and less likely",ig="Emptied means without the surface that the cell owns: where a neighbour's surfac\
 e explains the same readings, they say little of this one.";function Ah(t){let{session:e}=t,n=M("span",{className:"chip"}),o=t.button(null,"Not converged",()=>Mh(
-e)?.apply?.(),{text:"Not converged",className:"chip doubt"}),s=M("div",{className:"chips"},n,o);return t.each(()=>{let r=e.where.map!==null,i=r?null:Mh(e);if(_(
-o,"hidden",!i),i){let y=[Vo(e).bad,i.text].filter(Boolean).join(": ");_(o.firstElementChild,"textContent",y.charAt(0).toLowerCase()+y.slice(1)),_(o,"title",`${e.
-shown?.verdict?.why}.${i.apply?` Click to ${i.text}.`:""}`),_(o,"disabled",!i.apply),st(o,"aria-label",y)}let a=e.shown;if(!a||!e.document)return _(s,"hidden",!0);
-if(_(s,"hidden",!1),r)return _(n,"textContent","known map: the walls as drawn"),_(n,"className","chip");let l=e.draws.count?`draw ${e.draw+1} of ${e.draws.count}`:
-"draw",c=a.layer==="draw"?l+(e.flicker.under?" over the mean":""):a.layer==="width"?"width of the 90 % interval":e.view.layer==="entropy"?"entropy":"mean";if(a.
-method==="counts"){let y=e.halfway?"along poses found so far":"along raw odometry";return _(n,"textContent",`hits and passes · ${e.stage?e.stage.text.toLowerCase():
-y}`),_(n,"className","chip approximate")}let h={importance:"importance sampling",propagate:"belief propagation",none:"the prior"}[a.method],u=e.document.method===
-"importance"&&a.method==="propagate"?", until Run weighs particles":"",p=a.approximate?`approximate, ${ag(a,e.working)}${u}`:h??`${a.sweeps} sweep${a.sweeps===1?
-"":"s"}`,m=a.approximate||a.layer==="draw"?[]:[Number.isFinite(a.rhat)&&`R-hat ${pe(a.rhat,3)}`,Number.isFinite(a.ess)&&`ESS ${pe(a.ess,0)}`];_(n,"textContent",
-[c,p,...m].filter(Boolean).join(" · ")),_(n,"className",a.approximate?"chip approximate":"chip")}),s}function ag({method:t,sweeps:e,total:n,averaged:o},s){return t===
-"hits"?"counts of hits":t!=="pilot"?"belief propagation":`${o===1?"1 draw":`${o} draws`} of one chain, sensor ${s?"being":"half"} fitted: sweep ${e} of ${n}`}function Mh(t){
-let{shown:e,document:n}=t;if(e?.verdict?.level!=="bad"||!n)return null;if(t.recorded||n.source.kind==="run")return{text:""};let o=a=>()=>t.act({type:"set",patch:a}),
-s=e.sweeps<kh,r=n.pose_sigma===0&&n.heading_sigma===0;if(e.method==="gibbs"&&n.source.kind==="simulation"&&!s&&r)return{text:"try blocks",apply:o({method:"block"})};
-if(e.method==="importance")return{text:"try Gibbs",apply:o({method:"auto"})};if(e.sweeps<e.total)return null;let i=Math.min(t.limits?.sweeps[1]??0,Math.max(kh,4*
-n.sweeps));return i>n.sweeps?{text:`try ${i} sweeps`,apply:o({sweeps:i})}:{text:""}}function Eh(t){let{session:e}=t,n=M("span"),o=t.button(null,"Reconnect now",
-()=>e.transport.retry?.(),{text:"Reconnect now"}),s=M("div",{className:"banner",role:"alert",hidden:!0},n,o);return t.each(()=>{let r=e.everConnected&&!e.connection.
-connected,i=Math.max(1,Math.round((e.connection.retryIn_ms??0)/1e3));_(s,"hidden",!r&&e.worker!=="restarted"),_(s,"className",r?"banner":"banner mild"),_(o,"hid\
-den",!r);let a=`Connection lost. Trying again in ${i} s; the map is kept here.`,l=e.connection.refused?sg:a;_(n,"textContent",r?l:"The worker stopped and is bei\
-ng started again. The map is kept.")}),s}function Ph(t){let{session:e,hand:n}=t,o=M("div",{className:"readout",id:`${t.prefix}-readout`}),s=M("span",{role:"stat\
-us","aria-live":"polite"}),r=M("span",{className:"hidden","aria-live":"polite"});return n.announce=i=>_(r,"textContent",i),n.describe=i=>Th(e,i),t.each(()=>{let{
-kind:i}=e.quantity;_(o,"title",i==="binary"?rg:i==="surface"?`${Sh}. ${ig}`:Sh);let a=n.cursor??n.hover,c=matchMedia("(pointer: coarse)").matches?"Touch a cell":
-e.editable?"Point at a cell, or press ? for the keys":"Point at a cell";_(o,"textContent",a?Th(e,a):c);let h=e.status.text==="Ready"&&e.shown?.verdict?.level===
-"bad"&&!e.where.map,u=e.status.text==="Ready"&&Ns(e),p=e.shown?.method==="importance"?"Ready, but importance sampling has collapsed":"Ready, but the chains have\
- not converged",m=e.everConnected&&!e.connection.connected&&e.status.level==="info";_(s,"textContent",m?"Connection lost":h?p:u?"Fitting the sensor":e.status.text),
-_(s,"className",m?"error":h?"warning":u?"busy":e.status.level)}),{element:M("footer",{},s,o,r),readout:o}}function Th(t,e){let{document:n,shown:o}=t;if(!n)return"";
-let{resolution:s,shape:r}=n.grid,i=e.x*r[1]+e.y,a=Math.max(1,Math.ceil(-Math.log10(s))+1),{x:l,y:c}=eo(e,n.grid),h=[`Cell ${e.x}, ${e.y}`,`${l.toFixed(a)}, ${c.
-toFixed(a)} m`],{map:u}=t.where;if(u)h.push(u.p[i]?"wall, as drawn":"free, as drawn");else if(o&&o.p.length===r[0]*r[1]){let p=o.p[i]/255,{kind:m,mean:y,value:k,
-interval:b}=t.quantity;o.layer==="width"?h.push(`90 % interval ${p.toFixed(2)} wide`):m!=="binary"&&o.layer==="draw"?h.push(`${k} ${p.toFixed(2)} in this draw`):
-m!=="binary"?h.push(`${y} ${p.toFixed(2)}`,...b?[]:[`entropy ${Bo(p).toFixed(2)} bit`]):o.layer==="draw"?h.push(p>.5?"wall in this draw":"free in this draw"):h.
-push(`P(wall) ${p.toFixed(2)}`,`entropy ${Bo(p).toFixed(2)} bit`);let x=t.evidence.facts,S=x?.x===e.x&&x.y===e.y?x:null,A=S?S.beams:null,E=o.reached[i]/255,D=n.
-source.kind==="run";if(E?!D&&E<.995&&h.push(`reached with probability ${E.toFixed(2)}`):h.push(D?"reached by a beam in less than half of the draws":"unobserved"),
-E&&A!==null&&h.push(A===1?"1 beam":`${A} beams`),E&&S&&S.nats_for!==null&&S.nats_against!==null&&A){let L={binary:"a wall",surface:"its surface"}[t.quantity.kind]??
-"what is there";h.push(`for ${L} ${S.beams_for}, ${S.nats_for.toFixed(1)} nats`,`against ${S.beams_against}, ${S.nats_against.toFixed(1)} nats`)}}return h.join(
-" · ")}var lg={logged:"as logged",odometry:"from raw odometry"},cg=180/Math.PI;function _h(t){let{session:e}=t,n=()=>e.document?.source.kind==="log",o=t.select("Poses",
+e)?.apply?.(),{text:"Not converged",className:"chip doubt"}),s=M("span",{className:"chip judged"}),r=M("div",{className:"chips"},n,s,o);return t.each(()=>{let i=e.
+where.map!==null,a=i?null:Mh(e);if(_(o,"hidden",!a),a){let v=[Vo(e).bad,a.text].filter(Boolean).join(": ");_(o.firstElementChild,"textContent",v.charAt(0).toLowerCase()+
+v.slice(1)),_(o,"title",`${e.shown?.verdict?.why}.${a.apply?` Click to ${a.text}.`:""}`),_(o,"disabled",!a.apply),st(o,"aria-label",v)}let l=e.shown,c=i||!l||l.
+approximate||l.layer==="draw"?[]:[Number.isFinite(l.rhat)&&`R-hat ${pe(l.rhat,3)}`,Number.isFinite(l.ess)&&`ESS ${pe(l.ess,0)}`];if(_(s,"textContent",c.filter(Boolean).
+join(" · ")),_(s,"hidden",!s.textContent),!l||!e.document)return _(r,"hidden",!0);if(_(r,"hidden",!1),i)return _(n,"textContent","known map: the walls as drawn"),
+_(n,"className","chip");let h=e.draws.count?`draw ${e.draw+1} of ${e.draws.count}`:"draw",u=l.layer==="draw"?h+(e.flicker.under?" over the mean":""):l.layer==="\
+width"?"width of the 90 % interval":e.view.layer==="entropy"?"entropy":"mean";if(l.method==="counts"){let v=e.halfway?"along poses found so far":"along raw odom\
+etry";return _(n,"textContent",`hits and passes · ${e.stage?e.stage.text.toLowerCase():v}`),_(n,"className","chip approximate")}let p={importance:"importance s\
+ampling",propagate:"belief propagation",none:"the prior"}[l.method],m=e.document.method==="importance"&&l.method==="propagate"?", until Run weighs particles":"",
+y=l.approximate?`approximate, ${ag(l,e.working)}${m}`:p??`${l.sweeps} sweep${l.sweeps===1?"":"s"}`;_(n,"textContent",`${u} · ${y}`),_(n,"className",l.approximate?
+"chip approximate":"chip")}),r}function ag({method:t,sweeps:e,total:n,averaged:o},s){return t==="hits"?"counts of hits":t!=="pilot"?"belief propagation":`${o===
+1?"1 draw":`${o} draws`} of one chain, sensor ${s?"being":"half"} fitted: sweep ${e} of ${n}`}function Mh(t){let{shown:e,document:n}=t;if(e?.verdict?.level!=="b\
+ad"||!n)return null;if(t.recorded||n.source.kind==="run")return{text:""};let o=a=>()=>t.act({type:"set",patch:a}),s=e.sweeps<kh,r=n.pose_sigma===0&&n.heading_sigma===
+0;if(e.method==="gibbs"&&n.source.kind==="simulation"&&!s&&r)return{text:"try blocks",apply:o({method:"block"})};if(e.method==="importance")return{text:"try Gib\
+bs",apply:o({method:"auto"})};if(e.sweeps<e.total)return null;let i=Math.min(t.limits?.sweeps[1]??0,Math.max(kh,4*n.sweeps));return i>n.sweeps?{text:`try ${i} s\
+weeps`,apply:o({sweeps:i})}:{text:""}}function Eh(t){let{session:e}=t,n=M("span"),o=t.button(null,"Reconnect now",()=>e.transport.retry?.(),{text:"Reconnect now"}),
+s=M("div",{className:"banner",role:"alert",hidden:!0},n,o);return t.each(()=>{let r=e.everConnected&&!e.connection.connected,i=Math.max(1,Math.round((e.connection.
+retryIn_ms??0)/1e3));_(s,"hidden",!r&&e.worker!=="restarted"),_(s,"className",r?"banner":"banner mild"),_(o,"hidden",!r);let a=`Connection lost. Trying again in\
+ ${i} s; the map is kept here.`,l=e.connection.refused?sg:a;_(n,"textContent",r?l:"The worker stopped and is being started again. The map is kept.")}),s}function Ph(t){
+let{session:e,hand:n}=t,o=M("div",{className:"readout",id:`${t.prefix}-readout`}),s=M("span",{role:"status","aria-live":"polite"}),r=M("span",{className:"hidden",
+"aria-live":"polite"});return n.announce=i=>_(r,"textContent",i),n.describe=i=>Th(e,i),t.each(()=>{let{kind:i}=e.quantity;_(o,"title",i==="binary"?rg:i==="surfa\
+ce"?`${Sh}. ${ig}`:Sh);let a=n.cursor??n.hover,c=matchMedia("(pointer: coarse)").matches?"Touch a cell":e.editable?"Point at a cell, or press ? for the keys":"P\
+oint at a cell";_(o,"textContent",a?Th(e,a):c);let h=e.status.text==="Ready"&&e.shown?.verdict?.level==="bad"&&!e.where.map,u=e.status.text==="Ready"&&Ns(e),p=e.
+shown?.method==="importance"?"Ready, but importance sampling has collapsed":"Ready, but the chains have not converged",m=e.everConnected&&!e.connection.connected&&
+e.status.level==="info";_(s,"textContent",m?"Connection lost":h?p:u?"Fitting the sensor":e.status.text),_(s,"className",m?"error":h?"warning":u?"busy":e.status.
+level)}),{element:M("footer",{},s,o,r),readout:o}}function Th(t,e){let{document:n,shown:o}=t;if(!n)return"";let{resolution:s,shape:r}=n.grid,i=e.x*r[1]+e.y,a=Math.
+max(1,Math.ceil(-Math.log10(s))+1),{x:l,y:c}=eo(e,n.grid),h=[`Cell ${e.x}, ${e.y}`,`${l.toFixed(a)}, ${c.toFixed(a)} m`],{map:u}=t.where;if(u)h.push(u.p[i]?"wal\
+l, as drawn":"free, as drawn");else if(o&&o.p.length===r[0]*r[1]){let p=o.p[i]/255,{kind:m,mean:y,value:v,interval:b}=t.quantity;o.layer==="width"?h.push(`90 % \
+interval ${p.toFixed(2)} wide`):m!=="binary"&&o.layer==="draw"?h.push(`${v} ${p.toFixed(2)} in this draw`):m!=="binary"?h.push(`${y} ${p.toFixed(2)}`,...b?[]:[`\
+entropy ${Bo(p).toFixed(2)} bit`]):o.layer==="draw"?h.push(p>.5?"wall in this draw":"free in this draw"):h.push(`P(wall) ${p.toFixed(2)}`,`entropy ${Bo(p).toFixed(
+2)} bit`);let x=t.evidence.facts,S=x?.x===e.x&&x.y===e.y?x:null,A=S?S.beams:null,E=o.reached[i]/255,D=n.source.kind==="run";if(E?!D&&E<.995&&h.push(`reached wit\
+h probability ${E.toFixed(2)}`):h.push(D?"reached by a beam in less than half of the draws":"unobserved"),E&&A!==null&&h.push(A===1?"1 beam":`${A} beams`),E&&S&&
+S.nats_for!==null&&S.nats_against!==null&&A){let L={binary:"a wall",surface:"its surface"}[t.quantity.kind]??"what is there";h.push(`for ${L} ${S.beams_for}, ${S.
+nats_for.toFixed(1)} nats`,`against ${S.beams_against}, ${S.nats_against.toFixed(1)} nats`)}}return h.join(" · ")}var lg={logged:"as logged",odometry:"from raw odometry"},cg=180/Math.PI;function _h(t){let{session:e}=t,n=()=>e.document?.source.kind==="log",o=t.select("Poses",
 lg,()=>e.document?.poses??"logged",a=>t.set({poses:a}));o.classList.add("wide"),t.visible(o,n);let s=[t.slider("pose_sigma",()=>"Position ± (m)",{step:.05,unit:"\
  m"}),t.slider("heading_sigma",()=>"Yaw ± (°)",{step:.5,unit:"°",scale:cg})];for(let a of s)t.visible(a,()=>e.editable);let r=M("p",{className:"caption"});t.
 each(()=>{let{pose_sigma:a=0,heading_sigma:l=0,method:c="auto"}=e.document??{},h=n()&&e.document?.poses==="odometry"&&e.shown?.method==="counts"&&!e.running,u=e.
@@ -823,8 +822,8 @@ slow:a}=e.reading,l=s?`Beam ${s.beam+1} of scan ${s.scan+1}${a?pg:"."}`:hg;_(n,"
 median:r,high:i,residual:a,no_return:l,wall:c}){let h=`Beam ${e+1} of scan ${t+1}`,u=(x,S)=>x===null?S:`${pe(x,2)} m`,p=`median ${u(r,"no return")}, 80 % betwee\
 n ${u(s,"too close")} and ${u(i,"no return")}`;if(n==="none")return`${h} came back from nothing, which was predicted with probability ${pe(l??0,3)} (${p}).`;if(n!==
 "hit"||o===null)return`${h} read nothing that says how far (${p}).`;let m=a===null?"":`, ${Zs(a)} ${a<0?"shorter":"longer"} than the predicted median`,y=`${h} r\
-ead ${pe(o,2)} m${m} (${p}).`;if(!c)return y;let k=`${Zs(c.across_m)} ${c.across_m<0?"behind":"in front of"} the wall, which is ${Zs(c.thickness_m)} thick`,b=`${Zs(
-c.along_m)} to the ${c.along_m<0?"right":"left"} along it from the middle of its surface`;return`${y} It ended ${k} (one standard deviation), and ${b}; the beam\
+ead ${pe(o,2)} m${m} (${p}).`;if(!c)return y;let v=`${Zs(c.across_m)} ${c.across_m<0?"behind":"in front of"} the wall, which is ${Zs(c.thickness_m)} thick`,b=`${Zs(
+c.along_m)} to the ${c.along_m<0?"right":"left"} along it from the middle of its surface`;return`${y} It ended ${v} (one standard deviation), and ${b}; the beam\
  met it at ${pe(c.incidence_rad*180/Math.PI,0)}° from its normal.`}function Gi(t){let e=/^#step=(\d+)$/.exec(t);return e&&Math.max(0,Number(e[1])-1)}var er=t=>`#step=${t+1}`;function Lh(t,e){let n=new Map;e.forEach((r,i)=>{let a=r.
 replace(/ \([^)]*\)$/,"");n.has(a)||n.set(a,i)});let o=[...n.keys()].sort((r,i)=>i.length-r.length).map(r=>r.replace(/[^\w ]/g,"\\$&"));return(o.length?t.split(
 new RegExp(`\\b(${o.join("|")})(?!\\w)`)):[t]).map((r,i)=>({text:r,at:i%2?n.get(r)??null:null})).filter(r=>r.text)}var Qs=class{constructor(e){this.session=e}story=null;at=0;begins=0;onstep=()=>{};get settled(){
@@ -835,13 +834,13 @@ let{session:n}=this;n.state&&!n.state.live&&n.act({type:"live",on:!0}),n.bring(e
 aria-label":"Steps"}),a=m=>()=>e.go(e.at+m),l=M("div",{className:"buttons"},t.button(null,"Back",a(-1),{text:"Back",when:()=>e.at>0,why:"This is the first step"}),
 t.button(null,"Next",a(1),{className:"primary",text:"Next",when:()=>e.at<e.last,why:"This is the last step"}),t.button(null,"Start this step again",a(0),{text:"\
 Again"})),c=t.button(null,"Show me",()=>e.solve(),{text:"Show me"});t.visible(c,()=>!!e.step?.solution),l.append(c);let h=t.section("Story",i,r,l);h.className="\
-story";let u=h.querySelector("h2");t.visible(h,()=>!!e.story);let p=null;return t.each(()=>{let{story:m,step:y,at:k}=e;!m||!y||(p!==m&&i.replaceChildren(...m.steps.
+story";let u=h.querySelector("h2");t.visible(h,()=>!!e.story);let p=null;return t.each(()=>{let{story:m,step:y,at:v}=e;!m||!y||(p!==m&&i.replaceChildren(...m.steps.
 map(({title:b},x)=>{let S=A=>{A.preventDefault(),e.go(x)};return M("a",{href:er(x),title:b,"aria-label":`Step ${x+1}: ${b}`,textContent:String(x+1),onclick:S})})),
-p=m,_(u,"textContent",m.title),_(n,"textContent",y.title),_(o,"textContent",y.text),Array.from(i.children).forEach((b,x)=>st(b,"aria-current",x===k?"step":"fals\
+p=m,_(u,"textContent",m.title),_(n,"textContent",y.title),_(o,"textContent",y.text),Array.from(i.children).forEach((b,x)=>st(b,"aria-current",x===v?"step":"fals\
 e")))}),ug(t,h,s),h}function ug(t,e,n){let{telling:o}=t.session,s=[],[r,i]=["",""],a=-1,l=!1,c=!1;t.after(()=>{let{step:h,begins:u}=o;if(!h)return;let p=t.named.
-filter(({place:x})=>!x.closest("[hidden], dialog")),m=p.map(({name:x})=>x()),y=[h.task,...m].join("|"),k=y===r?null:Lh(h.task,m);if(r=y,k&&JSON.stringify(k)!==i){
-i=JSON.stringify(k);for(let{place:x}of s)x.classList.remove("named");s=k.flatMap(({at:x})=>x===null?[]:[p[x]]);for(let{place:x}of s)x.classList.add("named");n.replaceChildren(
-...k.map(({text:x,at:S})=>S===null?x:M("button",{type:"button",title:"Go to this control",textContent:x,onclick:()=>{Nh(e,p[S].place),p[S].control.focus({preventScroll:!0})}})))}
+filter(({place:x})=>!x.closest("[hidden], dialog")),m=p.map(({name:x})=>x()),y=[h.task,...m].join("|"),v=y===r?null:Lh(h.task,m);if(r=y,v&&JSON.stringify(v)!==i){
+i=JSON.stringify(v);for(let{place:x}of s)x.classList.remove("named");s=v.flatMap(({at:x})=>x===null?[]:[p[x]]);for(let{place:x}of s)x.classList.add("named");n.replaceChildren(
+...v.map(({text:x,at:S})=>S===null?x:M("button",{type:"button",title:"Go to this control",textContent:x,onclick:()=>{Nh(e,p[S].place),p[S].control.focus({preventScroll:!0})}})))}
 let b=e.parentElement;if(b){if(!c)for(let x of["wheel","touchmove","pointerdown","keydown"])b.addEventListener(x,()=>l=!1,{passive:!0});c=!0,a!==u&&(a=u,b.scrollTop=
 0,l=!0),l&&(s.length&&$h(e)&&Nh(e,s[0].place),l=!o.settled)}})}var $h=t=>getComputedStyle(t).position==="sticky";function Nh(t,e){let n=t.parentElement;if(!n.contains(
 e))return;let[o,s]=[n.getBoundingClientRect(),e.getBoundingClientRect()],r=o.top+($h(t)?t.getBoundingClientRect().height:0);(s.top<r||s.bottom>o.bottom)&&(n.scrollTop+=
@@ -886,7 +885,7 @@ nput",{type:"range",id:a,...s?{min:0,max:1e3,step:1}:{step:o}}),y=M("input",{typ
 "input",()=>this.slide({[e]:h(Number(m.value))/i})),m.addEventListener("change",()=>this.endDrag()),y.addEventListener("change",()=>this.typed(y,n(),l(),u,b=>this.
 set({[e]:s?Math.round(b):b/i}))),this.each(()=>{let b=u();_(p,"textContent",n()),st(y,"aria-label",`${n()}, number`),h(Number(m.value))!==b&&(m.value=String(c(b))),
 st(m,"aria-valuetext",`${b}${r}`);let x=100*(c(b)-Number(m.min))/(Number(m.max)-Number(m.min));m.style.setProperty("--fill",`${ce(x,0,100)}%`),En(y)||_(y,"value",
-String(b))});let k=M("div",{className:"row slider"},p,m,y);return this.named.push({name:n,place:k,control:m}),k}select(e,n,o,s,r,i=""){let a=M("select",{onchange:()=>s(
+String(b))});let v=M("div",{className:"row slider"},p,m,y);return this.named.push({name:n,place:v,control:m}),v}select(e,n,o,s,r,i=""){let a=M("select",{onchange:()=>s(
 a.value)});for(let[l,c]of Object.entries(n))a.append(M("option",{value:l,textContent:c}));return this.each(()=>{_(a,"value",o()),r&&_(a,"disabled",!r()),i&&_(a,
 "title",a.disabled?i:"")}),this.row(e,a)}typed(e,n,[o,s],r,i){let a=e.value===""?NaN:Number(e.value);Number.isFinite(a)&&i(ce(a,o,s)),e.value=String(r()),a<o?this.
 session.say(`${n} is at least ${o}`,"warning"):a>s&&this.session.say(`${n} is at most ${s}`,"warning")}numberInput(e,n,o,{step:s,limits:r,scale:i}){let a=M("inp\
@@ -905,9 +904,9 @@ chain})):o.layer!=="draw"&&this.showLayer("draw"):(this.afterMean=!1,this.before
 this.session.changed()}playFromStart(){this.showDraw(0),this.playing=!0,this.session.changed()}step(){let{shown:e,flicker:n}=this.session;if(n.on&&(this.afterMean||
 this.playing)&&e?.layer==="mean"&&!n.wantsMean)return this.afterMean=!1,this.showDraw(this.session.draw);!this.playing||e?.layer!=="draw"||setTimeout(()=>{if(!this.
 playing)return;let{draw:o,draws:s}=this.session;o+1>=s.count&&n.on?this.showDraw(0):o+1>=s.count?this.play(!1):this.showDraw(o+1)},1e3/this.drawsPerSecond)}};function Uh(t,e,n,o){
-let{session:s}=t,r=()=>s.view.layer==="draw"&&!s.hasDraws?"mean":s.view.layer,i=t.segmented("Show",vg,r,k=>e.showLayer(k)),[,a,l,c]=Array.from(i.children);_(c,"\
+let{session:s}=t,r=()=>s.view.layer==="draw"&&!s.hasDraws?"mean":s.view.layer,i=t.segmented("Show",vg,r,v=>e.showLayer(v)),[,a,l,c]=Array.from(i.children);_(c,"\
 title","Width of each cell's 90 % interval"),t.visible(l,()=>!s.quantity.interval),t.visible(c,()=>s.quantity.interval&&!s.lacks.includes("width")),t.visible(a,
-()=>s.hasDraws);let h=(k,b)=>t.checkbox(k,()=>n[b],x=>{n[b]=x,s.changed()}),u=h("True walls","truth");t.visible(u,()=>!s.document||s.document.source.kind==="sim\
+()=>s.hasDraws);let h=(v,b)=>t.checkbox(v,()=>n[b],x=>{n[b]=x,s.changed()}),u=h("True walls","truth");t.visible(u,()=>!s.document||s.document.source.kind==="sim\
 ulation");let[p,m]=[h("Surfaces","strokes"),h("Trajectory","trajectory")];t.visible(p,()=>!!s.overlay?.strokes.length),t.each(()=>_(p.lastElementChild,"textCont\
 ent",Ho(o())?"Surfaces":"Surfaces (zoom in)")),t.visible(m,()=>!!s.overlay?.trajectory.length);let y=M("div",{className:"checks",role:"group","aria-label":"Mark\
 s"},u,h("Rays","rays"),h("Readings","readings"),p,m);return t.section("View",i,Tg(t,e),y)}function Tg(t,e){let{session:n}=t,o=M("input",{type:"range",min:0,step:1,
@@ -916,8 +915,8 @@ s"},u,h("Rays","rays"),h("Readings","readings"),p,m);return t.section("View",i,T
 ()=>{let{chains:p,count:m}=n.draws;_(o,"max",String(Math.max(0,m-1))),_(o,"disabled",m===0),_(o,"title",m?"":Qo),_(o,"value",String(n.draw));let y=m?`${n.draw+1}\
  of ${m}`:"none kept";st(o,"aria-valuetext",y),o.style.setProperty("--fill",`${m>1?100*n.draw/(m-1):0}%`),_(r,"textContent",y),i.length!==Math.max(1,p)&&i.replaceChildren(
 ...Array.from({length:Math.max(1,p)},(b,x)=>M("option",{value:String(x),textContent:`chain ${x+1}`}))),_(i,"value",String(n.view.chain)),_(i,"disabled",p<2),_(i,
-"title",p>1?"":m?kg:Qo),m<2&&e.playing&&e.play(!1);let k=n.flicker.still?"Next draw":e.playing?"Pause the draws":"Play the draws";s.getAttribute("aria-label")!==
-k&&(s.setAttribute("aria-label",k),s.replaceChildren(fn(e.playing?"pause":"play")))});let a=M("select",{"aria-label":"Speed"});for(let[p,m]of Object.entries(Mg))
+"title",p>1?"":m?kg:Qo),m<2&&e.playing&&e.play(!1);let v=n.flicker.still?"Next draw":e.playing?"Pause the draws":"Play the draws";s.getAttribute("aria-label")!==
+v&&(s.setAttribute("aria-label",v),s.replaceChildren(fn(e.playing?"pause":"play")))});let a=M("select",{"aria-label":"Speed"});for(let[p,m]of Object.entries(Mg))
 a.append(M("option",{value:p,textContent:m}));a.value=String(e.drawsPerSecond),a.addEventListener("change",()=>e.drawsPerSecond=Number(a.value));let l=t.button(
 null,"From the first sweep",()=>e.playFromStart(),{text:"From the first",when:()=>n.draws.count>1,why:Qo});t.each(()=>{_(a,"disabled",n.draws.count<2||n.flicker.
 still),_(a,"title",n.draws.count<2?Qo:n.flicker.still?Sg:"")});let c=t.checkbox("Draws over the mean",()=>n.flicker.on,p=>e.over(p),"Each draw in its own colour\
@@ -976,8 +975,8 @@ grid);(!o||!qt(o,n.shape))&&(this.pose=null),this.fan=null,this.asked=this.troub
 let r=performance.now();if(r-this.askedAt>Ig&&(this.waiting=0),this.waiting>=Bg)return;let i=JSON.stringify([s,this.moving,n.generation,e.sampling,n.approximate]),
 a=e.sampling&&r-this.askedAt>Og;i===this.asked&&!a||([this.asked,this.askedAt]=[i,r],this.waiting++,e.act({type:"ghost",...s,coarse:this.moving}))}receive(e,n){
 if(this.waiting=Math.max(0,this.waiting-1),this.trouble=e.type==="undecided"?e.text:"",e.type==="ghost"){let{angles:o,low:s,median:r,high:i,near_pose:a,near_ranges:l,
-near_hit:c}=n,{x:h,y:u,yaw:p,generation:m,draws:y,coarse:k,milliseconds:b}=e,x=e.near&&{...e.near,pose:a,ranges:l,hit:c};this.fan={x:h,y:u,yaw:p,generation:m,draws:y,
-coarse:k,milliseconds:b,angles:o,low:s,median:r,high:i,near:x},this.answers++}else this.fan=null;this.version++,this.ask()}};var lr=class{eventToPaint_ms=[];waiting=[];seqOfGeneration=new Map;sent(e,n){this.waiting.push({seq:e,time:n.timeStamp})}refused(e){this.waiting=this.waiting.filter(
+near_hit:c}=n,{x:h,y:u,yaw:p,generation:m,draws:y,coarse:v,milliseconds:b}=e,x=e.near&&{...e.near,pose:a,ranges:l,hit:c};this.fan={x:h,y:u,yaw:p,generation:m,draws:y,
+coarse:v,milliseconds:b,angles:o,low:s,median:r,high:i,near:x},this.answers++}else this.fan=null;this.version++,this.ask()}};var lr=class{eventToPaint_ms=[];waiting=[];seqOfGeneration=new Map;sent(e,n){this.waiting.push({seq:e,time:n.timeStamp})}refused(e){this.waiting=this.waiting.filter(
 n=>n.seq!==e)}confirmed(e,n){this.seqOfGeneration.set(e,n)}painted(e){let n=this.seqOfGeneration.get(e);if(n===void 0)return;let o=performance.now();for(let s of this.
 waiting)s.seq<=n&&this.eventToPaint_ms.push(o-s.time);this.waiting=this.waiting.filter(s=>s.seq>n);for(let s of this.seqOfGeneration.keys())s<e&&this.seqOfGeneration.
 delete(s)}forget(){this.waiting=[],this.seqOfGeneration.clear()}};var cr=class{generation=-1;last=0;from={sweeps:0,time:0};hear(e){e.approximate||e.sweeps<=0||((this.generation!==e.generation||e.sweeps<this.last)&&(this.generation=
@@ -988,8 +987,8 @@ r,this.found=null,this.trouble="",this.slow=!1,this.version++,clearTimeout(this.
 scan:e,beam:n}){this.session.act({type:"beam",scan:e,beam:n}),this.timer=window.setTimeout(()=>{this.slow=!0,this.session.changed()},1e3)}forget(){this.picked&&
 (clearTimeout(this.timer),this.picked=this.found=null,this.slow=!1,this.version++)}receive(e){e.type==="undecided"?this.trouble=e.text:e.beam===this.picked?.beam&&
 e.scan===this.picked.scan&&(this.found=e),this.version++}};function Ug({index:t,pose:e,angles:n,ranges:o,hit:s},r,i,a){if(t===null)return null;let l={x:e[0],y:e[1]},
-[c,h]=[-1,1/0];for(let u=0;u<n.length;u++){let[p,m]=[Math.cos(e[2]+n[u]),Math.sin(e[2]+n[u])],[y,k]=[r.x-l.x,r.y-l.y],b=y*p+k*m,x=s[u]?o[u]:a,S=s[u]?Math.hypot(
-y-x*p,k-x*m):1/0,A=b>0&&b<x?Math.abs(y*m-k*p):1/0,E=Math.min(S,i/2+2*A);E<h&&([c,h]=[u,E])}return h<i?{scan:t,beam:c,from:l,angle:e[2]+n[c]}:null}var pr=class{constructor(e){this.session=e}found=null;trouble="";version=0;wanted=!1;sensor=null;known=null;knownVersion=-1;asked="";waiting=!1;follow(e,n){this.
+[c,h]=[-1,1/0];for(let u=0;u<n.length;u++){let[p,m]=[Math.cos(e[2]+n[u]),Math.sin(e[2]+n[u])],[y,v]=[r.x-l.x,r.y-l.y],b=y*p+v*m,x=s[u]?o[u]:a,S=s[u]?Math.hypot(
+y-x*p,v-x*m):1/0,A=b>0&&b<x?Math.abs(y*m-v*p):1/0,E=Math.min(S,i/2+2*A);E<h&&([c,h]=[u,E])}return h<i?{scan:t,beam:c,from:l,angle:e[2]+n[c]}:null}var pr=class{constructor(e){this.session=e}found=null;trouble="";version=0;wanted=!1;sensor=null;known=null;knownVersion=-1;asked="";waiting=!1;follow(e,n){this.
 sensor=n,e!==this.wanted&&(this.wanted=e,this.found=null,this.trouble="",this.forget(),this.version++,this.session.changed()),e&&this.ask()}get map(){let{shown:e,
 editable:n,walls:o,wallsVersion:s}=this.session;return!this.wanted||!n||!e?null:((!this.known||this.knownVersion!==s)&&(this.known={...e,layer:"mean",p:o.map(r=>255*
 r),reached:new Uint8Array(o.length).fill(255)},this.knownVersion=s),this.known)}get current(){let{found:e,session:n,sensor:o}=this;return e?.picture===n.generation&&
@@ -1127,6 +1126,7 @@ button.chip.doubt { height: auto; min-height: 26px; opacity: 1; background: var(
 -events: auto; }
 button.chip.doubt:hover:not(:disabled) { background: var(--bad); filter: brightness(1.1); }
 .chip.approximate { background: var(--warn); color: var(--warn-text); border-color: transparent; }
+:has(> .beside:not([hidden])) .chip.judged { display: none; } /* the words below say them */
 .banner { position: absolute; z-index: 4; left: 12px; right: 12px; top: 10px; display: flex; flex-wrap: wrap; align-items: center; gap: 6px 12px; padding: 8px 1\
 2px; border-radius: 8px; background: var(--bad); color: var(--card); box-shadow: 0 4px 16px #0004; }
 .banner.mild { background: var(--warn); color: var(--warn-text); }
@@ -1344,23 +1344,23 @@ hatch:a,unobserved:l,draw:c,ghost:h,belief:u}=n;for(let[p,m]of Object.entries({t
 app.style.setProperty(`--${p}`,m);this.dressed(this.choice==="auto"?"automatic":this.choice)}next(){this.choice=Zh[this.choice];try{localStorage.setItem(Qh,this.
 choice)}catch{}this.dress()}destroy(){this.media.removeEventListener("change",this.listen)}};function Hg(){try{return localStorage.getItem(Qh)}catch{return null}}var ep=12;function es(t,e,{embedded:n=!1,adopt:o=null,notice:s=null,play:r}={}){let i=t.shadowRoot??t.attachShadow({mode:"open"}),a=new CSSStyleSheet;a.replaceSync(
 Jh+Xh),i.adoptedStyleSheets=[a],t.toggleAttribute("data-embedded",n);let l=0,c=()=>{l||=requestAnimationFrame(Wt)},h=new Eo(e,c,o,s);e.open();let u=new to,p=new gs(
-h),m=new ms(h,p),y=new or(h),k=new dr(h),b=new nr(h,p,m,Gt,z=>y.showLayer(z),n),x=[new ao,new co,new uo,new po,new _s,new Es,new ho,new ro,new mo,new lo,new As],
+h),m=new ms(h,p),y=new or(h),v=new dr(h),b=new nr(h,p,m,Gt,z=>y.showLayer(z),n),x=[new ao,new co,new uo,new po,new _s,new Es,new ho,new ro,new mo,new lo,new As],
 S=x.map(({name:z})=>M("canvas",{className:z})),A=S[S.length-1];Object.assign(A,{tabIndex:0,role:"application"});let E=new Go(x,S);new Ts(A,h,u,p,m,n);let D=new bs(
 A,h,u,p,m),L={truth:!0,rays:!0,readings:!0,strokes:!0,trajectory:!0},O=uh(b),G=Tl(b),te={chip:Ah(b),banner:Eh(b)},X=ri(),R=X.map(({name:z})=>M("canvas",{className:z})),
-ee=new Go(X,R),B=_l(b,k),P=M("div",{className:"beside"},...R,B.kept),C=M("main",{className:"stage"},...S,B.now,te.chip,te.banner,P),U=()=>it.theme,I=()=>u.transform.
+ee=new Go(X,R),B=_l(b,v),P=M("div",{className:"beside"},...R,B.kept),C=M("main",{className:"stage"},...S,B.now,te.chip,te.banner,P),U=()=>it.theme,I=()=>u.transform.
 scale,ie=wh(b,U,I),K=Ph(b);A.setAttribute("aria-describedby",K.readout.id);let J=ch(b),Q={help:ah(b),new:lh(b),share:J.dialog},[q,W,me,fe]=[Fh(b),Ih(b),Oh(b),Bh(
-b)],de=Uh(b,y,L,I);de.append(Pl(b,k));let ae=[Dh(b),ih(b),jh(b),dh(b),hh(b),vh(b),Al(b,sh(b,U),rh(b,U)),Wh(b),Ch(b),de,q,W,_h(b),me,fe],Fe=M("aside",{"aria-labe\
+b)],de=Uh(b,y,L,I);de.append(Pl(b,v));let ae=[Dh(b),ih(b),jh(b),dh(b),hh(b),vh(b),Al(b,sh(b,U),rh(b,U)),Wh(b),Ch(b),de,q,W,_h(b),me,fe],Fe=M("aside",{"aria-labe\
 l":"Controls"},...ae),We=()=>h.recorded||h.document?.source.kind==="run";b.visible(q,()=>h.editable),b.visible(W,()=>!We()),b.visible(me,()=>!We()),b.visible(fe,
 ()=>!We());let ve=p.tool;b.each(()=>{ve!==p.tool&&(Fe.scrollTop=0),ve=p.tool,_(G,"inert",!h.document),_(Fe,"inert",!h.document)});let rt=M("div",{className:"app"},
 O.element,G,C,ie,Fe,K.element,...Object.values(Q));i.replaceChildren(rt),rt.addEventListener("pointerdown",({pointerType:z,clientX:se,clientY:le})=>{let Ke=i.elementFromPoint(
 se,le)?.closest(":disabled");z==="touch"&&Ke?.title&&h.say(Ke.title)});let it=new ur(rt,z=>{O.nameTheme(z),c()}),Ne=()=>{let z=h.editable&&p.tool==="sensor"?p.sensor?.
 id??null:null;return{session:h,view:u,look:{theme:it.theme,...L,hover:p.hover,cursor:p.cursor,selected:z}}},{telling:Ie}=h,_t=()=>{Ie.step&&p.choose(Ie.step.tool)};
 Ie.onstep=z=>{_t(),n||history.replaceState(null,"",location.pathname+location.search+er(z))};let Ct=!1;function gn(){Ct=!0;let z=n||o?null:Gi(location.hash);Ie.
-story&&z!==null?Ie.go(z):_t()}let nn="";function Wt(){l=0;let z=h.take();h.document&&!Ct&&gn(),h.document&&String(h.shape)!==nn&&(nn=String(h.shape),k.kept&&String(
-k.kept.shape)!==nn&&k.forget(),u.fit(h.shape),p.cursor=p.hover=null,h.decisions.forget(),h.evidence.forget(),h.ghost.refit(),A.setAttribute("aria-label",`Map, ${h.
-shape[0]} by ${h.shape[1]} cells`)),P.hidden===!!k.kept&&qe(),E.paint(Ne()),k.follow(),k.kept&&ee.paint({...Ne(),session:k.kept}),z&&(h.painted(),y.step());let{
+story&&z!==null?Ie.go(z):_t()}let nn="";function Wt(){l=0;let z=h.take();h.document&&!Ct&&gn(),h.document&&String(h.shape)!==nn&&(nn=String(h.shape),v.kept&&String(
+v.kept.shape)!==nn&&v.forget(),u.fit(h.shape),p.cursor=p.hover=null,h.decisions.forget(),h.evidence.forget(),h.ghost.refit(),A.setAttribute("aria-label",`Map, ${h.
+shape[0]} by ${h.shape[1]} cells`)),P.hidden===!!v.kept&&qe(),E.paint(Ne()),v.follow(),v.kept&&ee.paint({...Ne(),session:v.kept}),z&&(h.painted(),y.step());let{
 x:se,y:le}=u.transform;te.chip.style.transform=`translate(${Math.max(se,He.left)}px, ${Math.max(le-28,6)}px)`,st(A,"data-tool",h.editable||Ft.has(p.tool)?p.tool:
-"pan"),b.refresh()}function qe(){let{width:z,height:se}=C.getBoundingClientRect();if(!z||!se)return!1;P.hidden=!k.kept;let le=se>z;C.classList.toggle("shared",!P.
+"pan"),b.refresh()}function qe(){let{width:z,height:se}=C.getBoundingClientRect();if(!z||!se)return!1;P.hidden=!v.kept;let le=se>z;C.classList.toggle("shared",!P.
 hidden),C.classList.toggle("tall",le);let Ke=P.hidden?1:.5;return u.resize(le?z:Ke*z,le?Ke*se:se,devicePixelRatio||1),u.fitted&&u.fit(h.shape),!0}let Jt=new ResizeObserver(
 ()=>{qe()&&(cancelAnimationFrame(l),Wt())});Jt.observe(C);function Lt([z,se]){let{scale:le}=u.transform,Ke={x:z+.5,y:se+.5},at=le<ep;at&&u.zoom(ep/le,u.middle,h.
 shape);let Ge=u.fromGrid(Ke,h.shape[1]);(at||Ge.x<le||Ge.y<le||Ge.x>u.width-le||Ge.y>u.height-le)&&u.pan(u.middle.x-Ge.x,u.middle.y-Ge.y,h.shape),D.focus(),p.setCursor(
@@ -1368,11 +1368,11 @@ shape);let Ge=u.fromGrid(Ke,h.shape[1]);(at||Ge.x<le||Ge.y<le||Ge.x>u.width-le||
 Lt(z.slice(5).split(",").map(Number));else if(z==="help")Q.help.showModal();else if(z==="new")Q.new.showModal();else if(z==="theme")it.next();else if(z==="add")
 D.addSensor();else if(z==="share"){let se=h.portableDocument();se&&J.show(location.href.replace(/[?#].*/,"")+await ja(se))}else if(z==="export png"){let se=await ml(
 Ne());se&&ti("bayesmap.png",se),h.say("Saved bayesmap.png")}else z.startsWith("export ")&&h.act({type:"export",what:z.slice(7)});c()}h.ondownload=(z,se,le)=>z===
-Ao?k.receive(hn(le.slice().buffer)):ti(z,new Blob([le],{type:se}));let De=[[n?t:window,"keydown",z=>{z.defaultPrevented||!h.document||Object.values(Q).some(se=>se.
+Ao?v.receive(hn(le.slice().buffer)):ti(z,new Blob([le],{type:se}));let De=[[n?t:window,"keydown",z=>{z.defaultPrevented||!h.document||Object.values(Q).some(se=>se.
 open)||nl(z,h,{tool:se=>{p.choose(se),D.focus()},layer:se=>y.showLayer(se),command:Gt})}],[window,"online",()=>e.retry?.()],[window,"hashchange",async()=>{if(n)
 return;let{document:z,damaged:se}=await Oo(),le=Gi(location.hash);z?h.bring(z):Ie.story&&le!==null?Ie.go(le):se&&h.say(Io,"error")}],[t,"dragover",z=>z.preventDefault()],
 [t,"drop",z=>{z.preventDefault();let se=z.dataTransfer?.files[0];se&&Ya(se,h,r)}]];for(let[z,se,le]of De)z.addEventListener(se,le);return it.dress(),{destroy(){
-Jt.disconnect(),cancelAnimationFrame(l),it.destroy();for(let[z,se,le]of De)z.removeEventListener(se,le);e.close(),i.replaceChildren()},snapshot:()=>Vh(h,u,E,k),
+Jt.disconnect(),cancelAnimationFrame(l),it.destroy();for(let[z,se,le]of De)z.removeEventListener(se,le);e.close(),i.replaceChildren()},snapshot:()=>Vh(h,u,E,v),
 cellToClient(z,se){let le=A.getBoundingClientRect(),Ke=u.fromGrid({x:z+.5,y:se+.5},h.shape[1]);return{x:le.left+Ke.x,y:le.top+Ke.y}}}}var jg=200,Vg=.2,Ye=class extends Error{},tp=({grid:t,walls:e})=>bt(dt(e),t.shape[0]*t.shape[1]);function np({grid:t},{x:e,y:n}){let[o,s]=[Math.floor((e-t.origin[0])/
 t.resolution),Math.floor((n-t.origin[1])/t.resolution)];return o>=0&&o<t.shape[0]&&s>=0&&s<t.shape[1]?o*t.shape[1]+s:null}function zi(t,e){let n=np(t,e);if(n===
 null)throw new Ye("the sensor cannot stand outside the map");if(tp(t)[n])throw new Ye("the sensor cannot stand in a wall; move it to a free cell");return{...e,yaw:e.
@@ -1425,16 +1425,16 @@ index:s,prior:r}=this.problem;if(this.known[e]===yr){let l=0;for(let c=s.offsets
 this.gain[e]=l,this.known[e]=Zi}let i=r.logit+this.gain[e];if(this.known[e]===Zi&&i>pp&&wr(i,n))return!0;let a=0;for(let l=s.offsets[e];l<s.offsets[e+1];l++){let c=s.
 beam[l],h=s.entry[l];this.first[c]===h&&(a+=Math.fround(s.loglik[l]-this.entryLoglik(c,this.nextWall(h+1,o.offsets[c+1]))))}return wr(r.logit+a,n)}};var Zg=8,Qg=-1e300,ey=2**53;function ea(t,e,n,o){let s=Math.floor(t/o)-e,r=t%o-n;return s<0||s>1||r<0||r>1?-1:2*s+r}function fp({table:t,shape:[e,n]}){let{offsets:o,
 cells:s,noHit:r}=t,i=Math.max(1,e-1),a=Math.max(1,n-1),l=Array.from({length:i*a},()=>[]);for(let p=0;p<r.length;p++)for(let m=o[p];m<o[p+1];m++)for(let y=0;y<4;y++){
-let k=Math.floor(s[m]/n)-(y>>1),b=s[m]%n-(y&1);if(k<0||k>=i||b<0||b>=a)continue;let x=l[k*a+b],S=x[x.length-1];S?.b===p&&S.last>=m-Zg?S.last=m:x.push({b:p,first:m,
+let v=Math.floor(s[m]/n)-(y>>1),b=s[m]%n-(y&1);if(v<0||v>=i||b<0||b>=a)continue;let x=l[v*a+b],S=x[x.length-1];S?.b===p&&S.last>=m-Zg?S.last=m:x.push({b:p,first:m,
 last:m})}let c=new Int32Array(l.length+1);l.forEach((p,m)=>c[m+1]=c[m]+p.length);let h=l.flat(),u=p=>Int32Array.from(h,m=>m[p]);return{offsets:c,beam:u("b"),first:u(
 "first"),last:u("last"),rows:a}}function mp(t,e,n,o){let{prior:s,shape:[r,i]}=t.problem,{rows:a}=e,l=n.order.length,c=Qi(n,t.key,o),h=new Float64Array(16),u=new Float64Array(
-16),p={high:0,low:0};for(let m=0;m<l;m++){let y=c(m),k=Math.floor(y/a),b=y%a,x=4*(o*l+y),S=D=>k+(D>>1)<r&&b+(D&1)<i?(k+(D>>1))*i+b+(D&1):-1,A=0;for(let D=0;D<4;D++)
-S(D)>=0&&(A+=t.reached[S(D)]);if(!A){for(let D=0;D<4;D++)S(D)<0||(Ut(t.key,x+D,p),t.walls[S(D)]=s.draws(p)?1:0);continue}ty(t,e,y,k,b,h),u.fill(0);for(let D=0;D<
+16),p={high:0,low:0};for(let m=0;m<l;m++){let y=c(m),v=Math.floor(y/a),b=y%a,x=4*(o*l+y),S=D=>v+(D>>1)<r&&b+(D&1)<i?(v+(D>>1))*i+b+(D&1):-1,A=0;for(let D=0;D<4;D++)
+S(D)>=0&&(A+=t.reached[S(D)]);if(!A){for(let D=0;D<4;D++)S(D)<0||(Ut(t.key,x+D,p),t.walls[S(D)]=s.draws(p)?1:0);continue}ty(t,e,y,v,b,h),u.fill(0);for(let D=0;D<
 4;D++){let L=S(D)<0||s.level===0,O=!L&&s.level===ey;for(let G=0;G<16;G++)(G>>D&1)===(O?0:1)&&(u[G]+=L||O?Qg:s.logit)}for(let D=0;D<16;D++)h[D]+=u[D];Ut(t.key,x,
 p);let E=ny(h,$n(p));for(let D=0;D<4;D++){let L=S(D);L<0||(E>>D&1?t.walls[L]||t.put(L):t.walls[L]&&t.remove(L))}}}function ty(t,e,n,o,s,r){let{table:i,shape:[,a]}=t.
-problem,{offsets:l,cells:c,loglik:h}=i;r.fill(0);for(let u=e.offsets[n];u<e.offsets[n+1];u++){let p=e.beam[u],m=t.first[p],y=e.first[u];if(m<y)continue;let k=e.
-last[u],b=l[p+1],x=m;if(m<=k&&m<b&&ea(c[m],o,s,a)>=0)for(x=m+1;x<b&&!(t.walls[c[x]]&&ea(c[x],o,s,a)<0);)x++;let S=t.entryLoglik(p,x),A=0;for(let E=y;E<Math.min(
-k+1,x);E++){let D=ea(c[E],o,s,a);if(D<0)continue;let L=Math.fround(h[E]-S);for(let O=0;O<16;O++)O>>D&1&&!(O&A)&&(r[O]+=L);A|=1<<D}}}function ny(t,e){let n=Math.
+problem,{offsets:l,cells:c,loglik:h}=i;r.fill(0);for(let u=e.offsets[n];u<e.offsets[n+1];u++){let p=e.beam[u],m=t.first[p],y=e.first[u];if(m<y)continue;let v=e.
+last[u],b=l[p+1],x=m;if(m<=v&&m<b&&ea(c[m],o,s,a)>=0)for(x=m+1;x<b&&!(t.walls[c[x]]&&ea(c[x],o,s,a)<0);)x++;let S=t.entryLoglik(p,x),A=0;for(let E=y;E<Math.min(
+v+1,x);E++){let D=ea(c[E],o,s,a);if(D<0)continue;let L=Math.fround(h[E]-S);for(let O=0;O<16;O++)O>>D&1&&!(O&A)&&(r[O]+=L);A|=1<<D}}}function ny(t,e){let n=Math.
 max(...t),o=t.map(r=>r>n-40?Math.exp(r-n):0),s=e*o.reduce((r,i)=>r+i,0);for(let r=0;r<16;r++)if(s-=o[r],s<=0&&o[r]>0)return r;return 15}function Rn(t){let e=0;for(let n=0;n<t.length;n++)e+=t[n];return e/t.length}var ta=t=>{let e=Rn(t);return t.reduce((n,o)=>n+(o-e)**2,0)/(t.length-1)},vr=(t,e)=>t.
 reduceRight((n,o)=>n*e+o,0),gp=[[3.3871328727963665,133.14166789178438,1971.5909503065513,13731.69376550946,45921.95393154987,67265.7709270087,33430.57558358813,
 2509.0809287301227],[1,42.31333070160091,687.1870074920579,5394.196021424751,21213.794301586597,39307.89580009271,28729.085735721943,5226.495278852854]],yp=[[1.4234371107496835,
@@ -1452,8 +1452,8 @@ let[e,n]=[t.length,t[0].length],o=t.map(ry),s=Rn(o.map(h=>h[0]))*n/(n-1),r=s*(n-
 Math.log10(e*n))}function vp(t){if(t[0].length<4||t.every(c=>c.every(h=>h===t[0][0])))return null;let e=sy(t),n=Float64Array.from(e.flat()).sort(),o=(n[n.length-
 1>>1]+n[n.length>>1])/2,s=e.map(c=>c.map(h=>Math.abs(h-o))),r=wp(e),[i,a]=[bp(r),bp(wp(s))];return{rhat:Number.isNaN(a)?i:Number.isNaN(i)?a:Math.max(i,a),ess:iy(
 r)}}function kp({table:t,prior:e,shape:n},o,s,r){let{offsets:i,cells:a,loglik:l,noHit:c}=t,h=n[0]*n[1],u={high:0,low:0},p=new Int8Array(h);return Float64Array.from(
-{length:r},(m,y)=>{p.fill(0);let k=0;for(let b=0;b<c.length;b++){let x=c[b];for(let S=i[b];S<i[b+1];S++){let A=a[S];if(p[A]||(Ut(o,(s+y)*h+A,u),p[A]=e.draws(u)?
-1:-1),p[A]>0){x=l[S];break}}k+=x}return k})}function na({prior:t,shape:e},n,o){let s=e[0]*e[1],r={high:0,low:0};return Uint8Array.from({length:s},(i,a)=>(Ut(n,o*
+{length:r},(m,y)=>{p.fill(0);let v=0;for(let b=0;b<c.length;b++){let x=c[b];for(let S=i[b];S<i[b+1];S++){let A=a[S];if(p[A]||(Ut(o,(s+y)*h+A,u),p[A]=e.draws(u)?
+1:-1),p[A]>0){x=l[S];break}}v+=x}return v})}function na({prior:t,shape:e},n,o){let s=e[0]*e[1],r={high:0,low:0};return Uint8Array.from({length:s},(i,a)=>(Ut(n,o*
 s+a,r),t.draws(r)?1:0))}function Sp(t){let e=t.reduce((r,i)=>Math.max(r,i),-1/0),n=e+Math.log(t.reduce((r,i)=>r+Math.exp(i-e),0)),o=t.map(r=>r-n),s=o.reduce((r,i)=>r+
 Math.exp(2*i),0);return{logWeights:o,logEvidence:n-Math.log(t.length),effectiveSampleSize:1/s}}var oa=(t,e)=>e>0?Math.ceil(t-1e-9)-1:Math.floor(t+1e-9),sa=t=>Math.abs(t)<1e-10?0:t>0?1:-1,kr=class{constructor({x:e,y:n,ux:o,uy:s},r,i,a){this.nx=r;this.ny=i;
 this.stepX=sa(o),this.stepY=sa(s);let l=0,c=a;this.stepX?(this.gapX=1/Math.abs(o),l=Math.max(l,Math.min(-e/o,(r-e)/o)),c=Math.min(c,Math.max(-e/o,(r-e)/o))):(e<
@@ -1468,14 +1468,14 @@ nextX-1e-9;this.distance=e?this.nextX:n?this.nextY:Math.min(this.nextX,this.next
 this.sides=3),n||(this.nextX+=this.gapX,this.x+=this.stepX),e||(this.nextY+=this.gapY,this.y+=this.stepY),this.cellX=this.x,this.cellY=this.y}};function Sr(t,[e,
 n],o,s){for(let r=new kr(o,e,n,s);!r.over;r.next())if(r.inside&&t[r.cellX*n+r.cellY])return Math.min(r.distance,s);return s}function Mp([t,e],n,o){let s=[],r=new Int32Array(
 n.length+1);return n.forEach((i,a)=>{for(let l=new kr(i,t,e,o);!l.over;l.next())l.inside&&s.push(l.cellX*e+l.cellY);r[a+1]=s.length}),{offsets:r,cells:Int32Array.
-from(s)}}function Tp({x:t,y:e,ux:n,uy:o},s,r){let i=Math.floor(s/r),a=s-i*r,l=0,c=1e300,h=!0,u=(p,m,y)=>{let k=sa(m);if(!k)return;let b=1/m,x=y+(k>0?0:1)-p;l=Math.
-max(l,x*b),c=Math.min(c,(x+k)*b),h&&=y===oa(p,k)};return u(t,n,i),u(e,o,a),h?Math.max(c,0):l}var ay=Math.fround(.001),ly=-.5*Math.log(2*Math.PI);function Ap(t,e,n,o,s,r){let{offsets:i,cells:a}=t,l=o.sigma_m*o.sigma_m,c=.5*Math.log(l),h=(m,y)=>{let k=m-Math.
-min(y,o.max_m);return ly-.5*(k*k/l)-c},u=new Float32Array(a.length),p=new Float32Array(e.length);for(let m=0;m<e.length;m++){p[m]=h(n[m],1/0);for(let y=i[m];y<i[m+
+from(s)}}function Tp({x:t,y:e,ux:n,uy:o},s,r){let i=Math.floor(s/r),a=s-i*r,l=0,c=1e300,h=!0,u=(p,m,y)=>{let v=sa(m);if(!v)return;let b=1/m,x=y+(v>0?0:1)-p;l=Math.
+max(l,x*b),c=Math.min(c,(x+v)*b),h&&=y===oa(p,v)};return u(t,n,i),u(e,o,a),h?Math.max(c,0):l}var ay=Math.fround(.001),ly=-.5*Math.log(2*Math.PI);function Ap(t,e,n,o,s,r){let{offsets:i,cells:a}=t,l=o.sigma_m*o.sigma_m,c=.5*Math.log(l),h=(m,y)=>{let v=m-Math.
+min(y,o.max_m);return ly-.5*(v*v/l)-c},u=new Float32Array(a.length),p=new Float32Array(e.length);for(let m=0;m<e.length;m++){p[m]=h(n[m],1/0);for(let y=i[m];y<i[m+
 1];y++)u[y]=h(n[m],Tp(e[m],a[y],s)*r)}return{offsets:i,cells:a,loglik:u,noHit:p}}function Ep({offsets:t,cells:e,loglik:n,noHit:o},s){let r=Float32Array.from(o),
 i=new Float32Array(e.length);for(let p=0;p<o.length;p++){let m=o[p];for(let y=t[p+1]-1;y>=t[p];y--)i[y]=n[y]-m,m=Math.max(m,n[y]),r[p]=Math.min(r[p],n[y])}let a=new Int32Array(
 s+1);for(let p of e)a[p+1]++;for(let p=0;p<s;p++)a[p+1]+=a[p];let l=()=>new Float32Array(e.length),c=()=>new Int32Array(e.length),h={offsets:a,entry:c(),beam:c(),
-loglik:l(),gainBound:l(),advantage:l()},u=a.slice();for(let p of[!0,!1])for(let m=0;m<o.length;m++)for(let y=t[m];y<t[m+1];y++){let k=Math.fround(n[y]-r[m]);if(k>
-ay!==p)continue;let b=u[e[y]]++;h.entry[b]=y,h.beam[b]=m,h.loglik[b]=n[y],h.gainBound[b]=k,h.advantage[b]=i[y]}for(let p=0;p<s;p++)for(let m=a[p+1]-2;m>=a[p];m--)
+loglik:l(),gainBound:l(),advantage:l()},u=a.slice();for(let p of[!0,!1])for(let m=0;m<o.length;m++)for(let y=t[m];y<t[m+1];y++){let v=Math.fround(n[y]-r[m]);if(v>
+ay!==p)continue;let b=u[e[y]]++;h.entry[b]=y,h.beam[b]=m,h.loglik[b]=n[y],h.gainBound[b]=v,h.advantage[b]=i[y]}for(let p=0;p<s;p++)for(let m=a[p+1]-2;m>=a[p];m--)
 h.gainBound[m]+=h.gainBound[m+1];return h}function ts({angles:t,fov:e}){let n=e*(180/Math.PI);if(n===360)return Float64Array.from({length:t},(s,r)=>r*2*Math.PI/t);let o=n/(t-t%2);return Float64Array.from(
 {length:t},(s,r)=>(o*r-n/2)*(Math.PI/180))}function Pp(t){let{origin:e,resolution:n}=t.grid,o=[...ts(t)];return t.sensors.flatMap(({x:s,y:r,yaw:i})=>o.map(a=>({
 x:(s-e[0])/n,y:(r-e[1])/n,ux:Math.cos(i+a),uy:Math.sin(i+a)})))}function _p({grid:t,walls:e,max_range:n},o){let s=bt(dt(e),t.shape[0]*t.shape[1]),r=n/t.resolution;
@@ -1543,8 +1543,8 @@ logWeights));return{sweeps:this.logWeights.length,total:this.document.sweeps,ess
 good_ess:s}=this.judging,r=n.toFixed(1)==="1.0"?"one particle carries":`${n.toFixed(1)} particles carry`;return n<o?{level:"bad",why:`${r} all the weight`,cell:null}:
 {level:n>=s?"good":"fair",why:`${n.toFixed(0)} effective particles`,cell:null}}weights(){let n=this.logWeights.map(r=>r-this.most),o=Math.min(-1,...n.filter(Number.
 isFinite).reduce((r,i)=>[Math.min(r[0],i)],[0])),s=new Float32Array(ra);for(let r of n)s[Math.min(ra-1,Math.floor(ra*(1-r/o)))]++;return{weights:s,lowest:o}}};var Tr=.03,gy=40,Fn=180,Ip=90,ia=9,yy=24,Op=60,aa=7,Bp=50,wy=25,by=10,Up=1e3,xy=4e3,vy=21;function jp(t,e,n){let{grid:o,noise:s,max_range:r,seed:i}=t,{shape:[a,
-l],resolution:c,origin:h}=o,u=bt(dt(t.walls),a*l),p=ts(t),m=r/c,y=(P,C,U)=>c*Sr(u,o.shape,{x:P,y:C,ux:Math.cos(U),uy:Math.sin(U)},m),k=(P,C)=>P>=0&&C>=0&&P<a&&C<
-l&&!u[Math.floor(P)*l+Math.floor(C)],b=(1-Tr)/(s*Math.sqrt(2*Math.PI)),x=([P,C,U])=>{if(!k(P,C))return-1/0;let I=0;for(let ie=0;ie<p.length;ie++){let K=y(P,C,U+
+l],resolution:c,origin:h}=o,u=bt(dt(t.walls),a*l),p=ts(t),m=r/c,y=(P,C,U)=>c*Sr(u,o.shape,{x:P,y:C,ux:Math.cos(U),uy:Math.sin(U)},m),v=(P,C)=>P>=0&&C>=0&&P<a&&C<
+l&&!u[Math.floor(P)*l+Math.floor(C)],b=(1-Tr)/(s*Math.sqrt(2*Math.PI)),x=([P,C,U])=>{if(!v(P,C))return-1/0;let I=0;for(let ie=0;ie<p.length;ie++){let K=y(P,C,U+
 p[ie]),J=(e[ie]-K)/s,Q=K>=r;n[ie]?I+=Math.log((Q?0:b*Math.exp(-.5*J*J))+Tr/r):I+=Math.log(Q?1-Tr/2:Tr/2)}return I},S=R(),A=Wp(S.slice(0,xy),P=>P,1.5,.2,Op);if(A.
 length===Op)return ee(S.filter((P,C)=>C%Math.ceil(S.length/Up)===0));let E=mn(i,0,vy),[D,L]=[0,-1/0],O=A.slice(0,yy).map(P=>({mean:P,root:la(.4,.4,.04),poses:[],
 logs:[],top:-1/0}));for(let P=0;P<=aa;P++){for(let C of O){let U=P===aa,I=U?1.4:1.2,ie=Array.from({length:U?3*Bp:Bp},()=>ky(C.mean,C.root,I,E,D+=3)),K=ie.map(({
@@ -1571,13 +1571,13 @@ e[n][o]=n===o?Math.sqrt(Math.max(s,1e-7)):s/e[o][o]}return e}var My=12,Ty=80,Ay=
 new TextDecoder().decode(await Qn(dt(t))))}function Py(t,e){let n=_p(t,e),{seed:o,noise:s,angles:r,sensors:i}=t,a=i.map(({id:c})=>mn(o,c,Ay)),l=n.map((c,h)=>t.readings===
 "exact"?c:c+s*gr(a[Math.floor(h/r)],2*(h%r)));return{exact:n,readings:l}}function _y({method:t,prior:e},{rare_walls:n}){return t!=="auto"?t:Math.min(e,1-e)<=n?"\
 block":"gibbs"}function zp(t,e=n=>setTimeout(n)){let{limits:n,judging:o}=t,s=new fr(t.document),[r,i]=[0,0],[a,l,c]=[!0,!1,!1],h={layer:"mean",chain:0,draw:null},
-u="live",p=null,[m,y]=[!1,!1],[k,b]=[0,0],x=null,S=(P,C)=>B.onmessage({type:"status",text:P,level:C},{}),A=()=>B.onmessage({type:"state",document:s.present,generation:r,
+u="live",p=null,[m,y]=[!1,!1],[v,b]=[0,0],x=null,S=(P,C)=>B.onmessage({type:"status",text:P,level:C},{}),A=()=>B.onmessage({type:"state",document:s.present,generation:r,
 seq:i,can_undo:s.canUndo,can_redo:s.canRedo,live:a,running:l,working:c,draws:!c&&p?.draws||{chains:0,count:0},scan:0,view:h},{}),E=(P=!1)=>{p&&(b=performance.now(),
-B.onmessage(...p.picture(h,r,Math.round(b-k),P)))};function D(){if(m=!1,y||!c)return;let P=!p;p??=O(),u!=="clear"&&p.work(My);let C=p.done||u==="clear";(P||C||performance.
+B.onmessage(...p.picture(h,r,Math.round(b-v),P)))};function D(){if(m=!1,y||!c)return;let P=!p;p??=O(),u!=="clear"&&p.work(My);let C=p.done||u==="clear";(P||C||performance.
 now()-b>Ty)&&E(),C?(l=c=!1,A()):L()}function L(){m||e(D),m=!0}function O(){let P=s.present,{sensors:C,max_range:U}=P,I=Pp(P),{exact:ie,readings:K}=Py(P,I),J=Float64Array.
 from(C.flatMap(({x:fe,y:de,yaw:ae})=>[fe,de,ae])),Q=fe=>Float32Array.from(fe),q={pose:J,angles:Q(ts(P)),ranges:Q(K),exact:Q(ie),hit:Uint8Array.from(ie,fe=>fe<U?
 1:0)};x=q,B.onmessage({type:"scan",generation:r,ids:C.map(({id:fe})=>fe),index:null},q);let W=Cp(P,I,K),me=_y(P,t);return u==="clear"?new _o(P,W):me==="importan\
-ce"?new Mr(P,W,o):new ns(P,W,o,me==="block")}function G(P=a?"live":"clear"){r++,u=P,p=null,l=u==="run",c=!0,k=performance.now(),A(),L()}function te(){if(!c)return A();
+ce"?new Mr(P,W,o):new ns(P,W,o,me==="block")}function G(P=a?"live":"clear"){r++,u=P,p=null,l=u==="run",c=!0,v=performance.now(),A(),L()}function te(){if(!c)return A();
 if(!p)return G("clear");l=c=!1,E(!0),A()}function X(P){if(P)return s.push(Yi(P,t.document,n),{type:"hello"}),G();if(!r)return G();A(),E()}function R(P){let{sensors:C,
 angles:U}=s.present,I=Math.max(0,C.findIndex(de=>de.id===P)),{x:ie,y:K,yaw:J}=C[I],Q=[I*U,(I+1)*U];if(!x||y)return;let{modes:q,pose:W,weight:me,nats_per_beam:fe}=jp(
 s.present,x.ranges.subarray(...Q),x.hit.subarray(...Q));B.onmessage({type:"where",picture:r,sensor:C[I].id,index:null,pose:[ie,K,J],modes:q,p_lost:0,nats_per_beam:fe,
