@@ -126,7 +126,6 @@ def slam(
     need_value("slam", "schedule", schedule, Schedule)
     need_value("slam", "where", where, Where)
     need_value("slam", "checkpoints", checkpoints, Checkpoints)
-    # Read the log.
     if not isinstance(log, Scans):
         from bayesmap.io.logs import read_log
 
@@ -134,13 +133,11 @@ def slam(
     # Refuse an impossible grid at once: the map will cover the first scan, whose pose stays as odometry stated it.
     Grid.covering(log.select(slice(0, 1)), resolution)
 
-    # Refuse what cannot fit into memory.
     if not where.any_size:
         cost = estimate_slam(log, resolution, ChosenLaws(prior, sensor), fast, no_odometry, schedule, where)
         if cost is not None:
             cost.refuse(log)
 
-    # Approximate the trajectory of all scans.
     trajectory = infer_trajectory(
         log, no_odometry=no_odometry, seed=seed, threads=where.threads, device=where.device,
         checkpoint=checkpoints.stages, on_progress=Watch(on_progress).report,  # type: ignore[arg-type]
@@ -236,7 +233,6 @@ class Inference:
         need_value("infer", "schedule", schedule, Schedule)
         need_value("infer", "where", where, Where)
         prior, poses = laws.completed()
-        # Choose the method, and make the model.
         method_name, method = methods.resolve_method(method, prior.methods, type(prior).__name__)
         start_poses = getattr(method, "start_poses", None)
         if start_poses is not None and np.shape(start_poses)[1:] != scans.poses.shape:
@@ -249,7 +245,6 @@ class Inference:
             reason = f"method {method_name!r} of {type(prior).__name__} takes poses as known"
             raise BadInput(f"infer: {reason}; leave poses out, or take another method")
 
-        # Complete the schedule.
         def default_draws(thin: int) -> int:
             if method_name == Propagate.name:  # its answer is the marginals
                 return 0
@@ -277,7 +272,6 @@ class Inference:
         settings = self._settings()
         stopped = self._posterior_to_resume(checkpoints.resume, settings)
         clock = _RunClock(self, checkpoints, settings, stopped, began)
-        # Fit the sensor and the prior.
         model, parameters = self._fit_model(clock, settings, stopped, watch)
         seconds = {"fit": time.perf_counter() - began if "fitted" in settings else 0.0}
         settings["threads_used"] = self._threads_used()

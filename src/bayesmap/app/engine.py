@@ -147,7 +147,6 @@ class Engine:
         """Do a job; yield after each step."""
         document = replace(task.document, method=task.document.sampler)  # "auto" is resolved
         if document.source.kind == "run":
-            # A saved run needs no inference.
             assert isinstance(self._opened, OpenedRun)
             self._result = self._opened.result
             self._scene, self._scene_document = self._result.scene, document

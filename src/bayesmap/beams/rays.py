@@ -181,7 +181,6 @@ def stops_of(rays: Rays, cell_stops: NDArray[np.floating], hit_depth: float) -> 
     n_1, n_2 = l11 * normal[:, 0] + l21 * normal[:, 1], l22 * normal[:, 1]  # L' n
     v_sq = n_1**2 + n_2**2
     u_sigma_n = u_1 * n_1 + u_2 * n_2
-    # The law of the stop.
     g = 1.0 / (1.0 + (offset**2 / (CROSSING_WIDTH**2 * v_sq)) ** 3)
     direction_variance = (DIRECTION_RAD * np.maximum(depth, 0.0)) ** 2
     c_sq = v_sq + direction_variance

@@ -168,7 +168,6 @@ class Surface(Beta):
         cells = draws.index["surface_cell"]
         mean = np.zeros((len(cells), 2))
         covariance = np.zeros((len(cells), 2, 2))
-        # Sum means and covariances over draws.
         for chain, draw in draws.numbers():
             arrays = [draws.arrays[f"surface_{part}"][chain, draw] for part in PARTS]
             x, y, l11, l21, l22 = (array.astype(np.float64) * edge for array in arrays)

@@ -78,14 +78,12 @@ def infer(call: Call[InferSettings], logs: tuple[str, ...], output: str | None, 
     if is_fleet:
         infer_fleet(call, all_logs, Path(output or "runs"), resume=resume, force=force)
         return
-    # Check the arguments.
     log = logs[0]
     folder = Path(output) if output else Path("runs") / stem(log)
     task = prepare(call, log, folder, resume=resume, force=force)
     executor = executor_of(task.settings.executor)
     if executor is not None:
         reserve_stdout()
-    # Infer the log.
     resume_command = shlex.join(["bayesmap", "infer", log, "-o", str(folder), "--resume"])
     try:
         document = infer_log(task, executor=executor, resume_command=resume_command)
@@ -159,7 +157,6 @@ def infer_fleet(call: Call[InferSettings], logs: list[str], output: Path, *, res
         write_file(output / SETTINGS, toml)
         for entry in checked:
             entry.checked_task.folder.mark_outdated(toml)
-    # Infer the logs.
     try:
         if on_ray:
             reserve_stdout()
@@ -169,7 +166,6 @@ def infer_fleet(call: Call[InferSettings], logs: list[str], output: Path, *, res
             finished = all(_infer_here(entry, call.console) for entry in checked)
     except KeyboardInterrupt:
         finished = False
-    # Print the result.
     if not finished:
         resume_command = shlex.join(["bayesmap", "infer", *logs, "-o", str(output), "--resume"])
         call.console.say(f"interrupted; what was checkpointed is kept, go on with:\n  {resume_command}")

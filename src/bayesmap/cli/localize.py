@@ -82,7 +82,6 @@ def localize(
     A map of another program (map_server YAML) has no sensor law. The command first locates scans under a cautious
     sensor law. It then fits the law to the scans located with certainty, and prints it (not with --follow).
     """
-    # Check the arguments.
     if idle_s is not None and not follow:
         raise click.UsageError("--for says how long --follow waits: give both")
     target = None if output is None else _checked_path(output, force)
@@ -96,7 +95,6 @@ def localize(
     def print_belief(number: int, belief: PoseBelief) -> bool:
         return write_out(json.dumps({"scan": number, **_belief_json(belief, corners)}, allow_nan=False) + "\n")
 
-    # Locate the scans.
     interrupted = False
     if live:
         posteriors, interrupted = _locate_live(request, idle_s, print_belief)

@@ -67,14 +67,11 @@ def infer_log(
     ``resume_command`` is printed. ``on_saved`` is called after each checkpoint, ``on_event`` with the progress.
     """
     folder, every = task.folder, task.settings.holdout  # every n-th scan is held out; 0: none
-    # Read the log.
     if log is None:
         log = read_scan_log(folder.console, task.log, task.settings)
     if not (task.settings.poses_as_given or folder.resuming):
         refuse_odometry(task.log, log)
-    # Split off the scans that are held out.
     train, heldout = log.scans.holdout(every) if every else (log.scans, None)
-    # Load the run to resume.
     saved = load_interrupted(folder) if folder.resuming else None
     # Sample the posterior, with checkpoints.
     run = sample(task, log.scans, train, saved, executor, on_saved, on_event)
@@ -164,7 +161,6 @@ def sample(
     from bayesmap.space.grid import Grid
 
     folder, settings = task.folder, task.settings
-    # Choose the grid.
     if saved is not None and settings.grid is not None and not os.path.exists(settings.grid):
         grid = saved.grid  # the map of --grid is gone, or its path belongs to another machine
     elif settings.grid is None:
@@ -173,7 +169,6 @@ def sample(
     else:
         _, grid = read_map(settings.grid)
     folder.console.say(f"grid: {grid.shape[0]} x {grid.shape[1]} cells of {grid.resolution:g} m")
-    # Complete the settings, and sample.
     settings = translation.with_schedule(settings, train.n_beams, grid.n_cells)
     toml = as_toml({"infer": settings})
     if saved is None:

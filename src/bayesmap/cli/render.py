@@ -73,7 +73,6 @@ def render(
         raise _without_draws(run_file, run)
     if settings.window is not None and kind in WITHOUT_WINDOW:
         raise BadInput(f"window: {kind} shows the whole map; a single panel, such as --what mean, takes a window")
-    # Choose the part of the map, and render it.
     grid, window = parse_window(run, settings.window)
     walls = None if truth is None else truth_on(grid, truth)
     if kind == "animation":

@@ -87,7 +87,6 @@ def score(
         check_ending(picture, ("png", "pdf", "svg"), "figure")  # check before minutes of computation
         poses_picture = Path(picture).with_stem(f"{Path(picture).stem}-poses")
         need_free([Path(picture), poses_picture], force=force, option="--picture")
-    # Score the map, then the poses.
     if is_run:
         scores_poses = relations is not None
         scores = score_run(call, run_file, log, frame, all_scans=all_scans, compare=compare, scores_poses=scores_poses)
@@ -99,7 +98,6 @@ def score(
         from bayesmap.posterior.trajectory_scores import score_trajectory
 
         pose_score = score_trajectory(scores.trajectory, read_relations(relations), exact=exact)
-    # Render and print.
     written = [] if picture is None else _write_pictures(Path(picture), scores.maps, pose_score)
     frame_words = str(scores.trajectory.frame)
     if call.console.as_json:

@@ -71,7 +71,6 @@ def simulate(call: Call[SimulateSettings], output: str | None, poses: tuple[str,
     {sensors}
     """
     settings = call.settings()
-    # Check the arguments, and name the files.
     is_recording = settings.format == "mcap" if output is None else Path(output).suffix == ".mcap"
     if output is not None and settings.format not in (None, "mcap" if is_recording else "carmen"):
         raise click.UsageError(f"-o {output}: the name of a log of --format {settings.format} ends differently")
@@ -108,7 +107,6 @@ def simulate(call: Call[SimulateSettings], output: str | None, poses: tuple[str,
         if noise is not None:
             base = simulate_odometry(base, noise, stamps_s=stamps_s, seed=drive_seed)
         scans = replace(scans, poses=compose(base, np.array(mount)), stamps_s=stamps_s)
-    # Write the log and the truth.
     log.parent.mkdir(parents=True, exist_ok=True)
     if is_recording:
         message = "/scan, /tf and /tf_static"
@@ -119,7 +117,6 @@ def simulate(call: Call[SimulateSettings], output: str | None, poses: tuple[str,
     if noise is not None:
         assert stamps_s is not None
         outputs += _write_true_poses(trajectory, relations, world.poses, stamps_s, drive_seed)
-    # Print the result.
     grid = world.grid
     document = {
         "world": settings.world, "grid": grid_document(grid), "scans": len(scans), "beams": scans.n_beams,

@@ -68,11 +68,9 @@ def slam(call: Call[SlamSettings], log: str, output: str | None, resume: bool, f
         raise click.UsageError("--resume goes on with a run and --force replaces it: give one of them")
     if call.settings().fast and call.settings().sample_poses:
         raise click.UsageError("--fast takes poses as known and --sample-poses samples them: give one of them")
-    # Check the arguments.
     folder = Path(output) if output else Path("runs") / pipeline.stem(log)
     task = pipeline.prepare(call, log, folder, resume=resume, force=force)
     resume_command = shlex.join(["bayesmap", "slam", log, "-o", str(folder), "--resume"])
-    # Read the log.
     scan_log = pipeline.read_scan_log(call.console, log, task.settings, without_poses=task.settings.no_odometry)
     _check_scans(call.console, scan_log, task.settings)
     # Load the run to resume, or announce the cost of a new one.
@@ -110,7 +108,6 @@ def slam(call: Call[SlamSettings], log: str, output: str | None, resume: bool, f
     trajectory = summarise(run, files.frame)
     document = {**pipeline.document_of(run, scan_log, None, outputs), "trajectory": trajectory}
     task.folder.write_document(document)
-    # Report.
     file = str(task.folder.run_path)
     thin = ["--thin-scans", "0.3"] if len(scan_log.scans) > MAX_UNTHINNED_SCANS else []  # score makes its own map
     score = ["score", log, "--trajectory", str(folder / "trajectory.tum"), *thin]
@@ -235,17 +232,14 @@ class TrajectoryFiles:
         from bayesmap.viz.figure import write_figure
         from bayesmap.viz.trajectory import loops_figure, odometry_figure
 
-        # Write the text files.
         path, closures = self.folder.path, trajectory.closures
         moved = approximate_trajectory(trajectory).of(self.frame, self.log.scans.mount)
         texts = export_trajectory(path / "trajectory.tum", moved)
-        # Render the trajectory.
         scans = calibrated_keys(self.log.scans, trajectory)
         grid = Grid.covering(scans, self.resolution)
         hit = np.zeros(grid.shape, np.bool_)
         hit[tuple(np.floor(grid.to_cells(scans.hit_points_world())).astype(np.intp).T)] = True
         self._render(trajectory, grid, hit.astype(float), hit)
-        # Render odometry and loop closures.
         poses, probabilities = trajectory.poses, trajectory.alternatives.probabilities
         alternatives = [(trajectory.alternative_poses(n), float(p)) for n, p in enumerate(probabilities)]
         ends = closures.first, closures.second

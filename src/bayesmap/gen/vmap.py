@@ -76,7 +76,6 @@ class Product(ExactDensity):
     def _edit_element(self, key: PRNGKey, trace: Any, i: Any, request: EditRequest, argdiffs: Any) -> Edited:
         """Change one element, without reading any other."""
         args = Diff.tree_primal(argdiffs)
-        # Move the trace to the new arguments first.
         trace, args_weight, _, _ = EmptyRequest().edit(key, trace, argdiffs)
         mapped = self._map(args)
         i = check_index(i, mapped.n)

@@ -199,7 +199,6 @@ def anneal_population(final: Target, rng: np.random.Generator) -> Population:
             targets.pop(0)
             log_before, log_target = log_target, targets[0](poses)
             log_ratios = log_target - log_before
-        # Resample the poses, and move them.
         log_evidence += float(log_sum(log_ratios) - np.log(len(poses)))
         cumulative = np.cumsum(np.exp(log_ratios - log_sum(log_ratios)))
         points = (np.arange(len(poses)) + rng.random()) / len(poses)  # evenly spread: systematic resampling

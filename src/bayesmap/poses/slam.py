@@ -85,7 +85,6 @@ def infer_trajectory(
     track = cache.get("front-end", Track, match_scans)
     odometry = odometry.reversed_at(track.is_reversed)
     keys = track.keys
-    # Close loops between key scans.
     closed = cache.get("loops", ClosedGraph, lambda: close_loops(geometry, track, report.begin(track, "loops", 3)))
     # Align key scans with all others that see the same walls.
     aligner = KeyAlignment(geometry.select(keys), track, grid_half_width(geometry), report.begin)
@@ -111,7 +110,6 @@ def infer_trajectory(
     if odometry.used:
         scored = aligner.realign_over_leaps(scored, factors)
     final = scored.alignment
-    # Place the other scans between the key scans.
     start_poses = poses_between_keys(track.poses, keys, final.poses, track.broken)
     error = point_error(aligner.geometry, final)
     report.progress("placing", 0, len(scans))

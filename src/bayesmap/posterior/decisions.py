@@ -309,7 +309,6 @@ def next_views(
     nats_by_heading = mean_beam_information(posterior, turned, fan).reshape(len(poses), -1)
     poses[:, 2] += headings[nats_by_heading.argmax(axis=1)]
     nats = nats_by_heading.max(axis=1)
-    # Compare the best by joint draws.
     min_distance_m = MIN_SEPARATION * float(np.hypot(*np.array(posterior.grid.shape))) * posterior.grid.resolution
     compared = best_views(nats, poses, 2 * views, min_distance_m)
     expected = information_of(posterior, poses[compared], draws=draws, seed=seed, on_progress=on_comparison)

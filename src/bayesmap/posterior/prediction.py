@@ -307,14 +307,12 @@ def predict(
     quantile_levels = check_levels(levels)
     seed = check_count("predict", "seed", seed, 0)
     thinned = posterior.draws.thinned(check_count("predict", "draws", draws, 1))
-    # Draw all scans in one map after the other.
     draws_m: list[Floats] = []
     for batch in posterior.prior.drawn_stops(thinned):
         maps = device_maps([batch], predictor.grid, predictor.hit_depth, device=device)
         for i in range(len(batch)):
             draw, key = np.full(len(poses_world), i), (seed, len(draws_m), Stream.READINGS)
             draws_m.append(draw_readings(maps, fan, poses_world, draw, key))
-    # Mix the stops of all draws.
     rays = trace_rays(_empty_scans(poses_world, fan.angles_rad, fan.limits), grid, device=device)
     law = mix_stops(rays, predictor.batches(rays.touched), predictor.hit_depth, device=device)
     quantiles_m = range_quantiles(law, quantile_levels, fan.sensor, device).reshape(*draws_m[0].shape, -1)

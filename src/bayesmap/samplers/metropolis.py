@@ -132,7 +132,6 @@ def _sweep(
         if len(beams):
             proposed = problem.log_likelihoods(cells, beta, problem.rays_by_cell[cell])
             log_ratio += float((proposed - beam_log_likelihoods[beams]).sum())
-        # Accept it, or restore the previous state.
         if np.log(rng.random()) < log_ratio:
             if len(beams):
                 beam_log_likelihoods[beams] = proposed

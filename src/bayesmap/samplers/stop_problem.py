@@ -76,7 +76,6 @@ def initial_estimate(rays: Rays, prior: Beta, device: str = "cpu") -> InitialEst
     """Count hits and passes, and fit a normal distribution to each cell's end points."""
     from bayesmap.kernels.rays import count_passes
 
-    # Hits of each cell.
     grid = rays.grid
     edge = grid.resolution
     end_cell = end_cells(rays)
@@ -175,7 +174,6 @@ def draw_start(estimate: InitialEstimate, prior: Beta, rays: Rays, rng: Rng, sol
     state[:, 0] = rng.beta(stopped + a, passed + b)
     if not prior.has_surfaces:
         return state
-    # Surfaces of all cells, from the prior.
     pool = prior.sample_surfaces(rng, min(n_cells, MAX_PRIOR_SURFACES)) * grid.resolution
     state[:, 1:] = pool if n_cells <= MAX_PRIOR_SURFACES else pool[rng.integers(MAX_PRIOR_SURFACES, size=n_cells)]
     state[:, 1:3] += grid.centers_from_corner_m(np.arange(n_cells))

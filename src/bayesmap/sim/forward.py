@@ -64,7 +64,6 @@ def simulate(
             _distances_m(is_wall & (rng.random(grid.shape) < opacity), grid, pose[None], angles, np.inf, device)
             for pose in poses_world
         ])  # fmt: skip
-    # Add noise, and code readings beyond the range.
     readings = sensor.sample(rng, distances_m, RangeLimits(min_range_m, max_range_m))
     if typed:
         no_return = readings > max_range_m

@@ -81,7 +81,6 @@ class Layout:
 
 def lay_out(grid: Grid, panels: int, *, bars: int, titled: bool) -> Layout:
     """Arrange 1 to 4 panels in a row, a square or a column. The first ``bars`` panels have a colour bar."""
-    # Columns and rows.
     nx, ny = grid.shape
     tall = ny >= 2 * nx
     columns = panels if panels < 4 or tall else 2
@@ -97,12 +96,10 @@ def lay_out(grid: Grid, panels: int, *, bars: int, titled: bool) -> Layout:
     if not exact:
         dpi, cell_px = MAX_DPI, MAX_DPI * longest_in / longest
     panel = (max(1, round(nx * cell_px)), max(1, round(ny * cell_px)))
-    # Ticks whose labels fit.
     x0, x1, y0, y1 = grid.extent_m
     x_letters, y_letters = _tick_letters(x0, x1), _tick_letters(y0, y1)
     max_x_ticks = max(1, min(6, int(panel[0] / dpi / ((x_letters + 2) * LETTER_IN))))
     max_y_ticks = max(1, min(6, int(panel[1] / dpi / LINE_IN)))
-    # Margins and corners, in pixels.
     left_in = LEFT_IN + y_letters * LETTER_IN
     gap_in = max(GAP_IN, (x_letters + 2) * LETTER_IN)  # labels at the ends of two axes must not meet
     right_in = max(RIGHT_IN, (x_letters / 2 + 1) * LETTER_IN)
@@ -144,7 +141,6 @@ def posterior_figure(
     strokes over the mean if cells are large enough on the page.
     Raises `BadInput` if a shape differs from the grid's, a probability is outside [0, 1], or the truth is not 0 or 1.
     """
-    # Choose the panels, and lay them out.
     observed_mask = as_observed(grid, observed)
     scans = scans if scans is not None and len(scans) else None
     uncertain = "entropy" if width is None else "width"
@@ -157,7 +153,6 @@ def posterior_figure(
         name: figure.add_axes(layout.fractions(*corner, *layout.panel), label=name)
         for name, corner in zip(titles, layout.corners, strict=True)
     }
-    # Plot the images, then the overlays.
     mean = maps.plot_probability(panels["mean"], grid, occupancy, observed_mask)
     if width is None:
         uncertainty, unit = maps.plot_entropy(panels[uncertain], grid, occupancy, observed_mask), "entropy [bits]"
@@ -176,7 +171,6 @@ def posterior_figure(
         width_pt, longest_m = float(np.clip(cell_pt / 5.0, 0.6, 1.6)), 1.5 * grid.resolution
         color = palette.SURFACE
         keys.append(plot_surfaces(panels["mean"], *surfaces, width_pt=width_pt, longest_m=longest_m, color=color))
-    # Write titles, colour bars and legend.
     for position, (name, panel) in enumerate(panels.items()):
         label_panel(panel, titles[name], layout.max_ticks, leftmost=position % layout.columns == 0)
     color_bar(figure, layout, layout.corners[0], mean, label)

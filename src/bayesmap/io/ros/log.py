@@ -158,7 +158,6 @@ def _join_runs(runs: list[_PlacedRun], messages: _Messages, account: LogAccount)
     """Return the scans of all runs as one log, and complete the account."""
     topic, sensor, source = messages.topic, messages.sensor, runs[0].source
     scans = [scan for run in runs for scan in run.scans]
-    # Notes and stamps.
     if messages.replaces_tf and messages.pose_topic is not None:
         has_others = len(messages.recording.of_type(POSE_TYPES)) > 1
         origin = f"{messages.pose_topic.name}, the only topic of poses"
@@ -171,7 +170,6 @@ def _join_runs(runs: list[_PlacedRun], messages: _Messages, account: LogAccount)
         account.notes.append(note)
     account.stamps_s = np.asarray(_join_stamps(runs) * 1e-9)
     account.reordered = sum(run.reordered for run in runs)
-    # Angles, readings and poses.
     limits = Counter(scan.limits_m for scan in scans).most_common(1)[0][0]
     has_body = source.chain.span_ns() is not None or not source.has_poses  # the body is the last frame that moves
     angles, readings = scan_messages.beams_of(scans)

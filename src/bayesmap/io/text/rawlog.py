@@ -240,7 +240,6 @@ def scan_of(reader: Reader, header: Header, n_motions: int) -> RawScan:
     version = header.version
     if not 0 <= version <= 8:
         raise UnreadableObject("is not known: versions 0 to 8 are read")
-    # The fields in their order, by version.
     aperture, right_to_left, max_range = reader.take("f?f")
     position, rotation = reader.pose_in_space()
     if version < 6:

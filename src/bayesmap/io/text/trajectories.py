@@ -93,7 +93,6 @@ def read_trajectory(path: str | os.PathLike[str], frame: str | None = None) -> T
     names, if it was written by bayesmap, and else unknown. Raises `BadInput` for a file that cannot be read, a line
     that is not eight numbers, a pose that is tilted out of the plane, or covariances of another trajectory.
     """
-    # Poses: the yaw of each quaternion.
     name = os.fspath(path)
     rows = read_table(name, 8, "timestamp tx ty tz qx qy qz qw, is this a TUM trajectory?", "there is no pose in it")
     quaternions = rows[:, 4:8] / np.maximum(np.linalg.norm(rows[:, 4:8], axis=1, keepdims=True), 1e-12)
