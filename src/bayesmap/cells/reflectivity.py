@@ -209,7 +209,6 @@ class Beta(CellPrior):
         for i in range(0, drawn.shape[-1], BATCH_CELLS):
             batch = drawn[:, :, i : i + BATCH_CELLS]
             ends[:, i : i + BATCH_CELLS] = quantiles_of_halves(batch.reshape(-1, batch.shape[-1]), tails)
-        # Untouched cells: quantiles of the prior.
         if self.has_labels:
             betas = (self.a, self.b), (self.a_solid, self.b_solid)
             elsewhere = ising_field.mixture_quantiles(ising_field.solid_share(draws), *betas, tails)

@@ -98,7 +98,6 @@ def slam(call: Call[SlamSettings], log: str, output: str | None, resume: bool, f
                 files.render(run)
             document["outputs"] |= {path.name: str(path) for path in files.written}
             pipeline.print_result(call, document, strict=task.settings.strict)
-        # Finish: save the run, render it, export it.
         outputs = [*task.folder.write_products(run), *files.finish(run)]
     except KeyboardInterrupt:
         if task.folder.begun or resume:

@@ -103,7 +103,6 @@ class ScanBlocks:
         The distance is computed at the ends of `INTERVALS` intervals. The p-value is the share of replicates whose
         distance from the distribution of all items is at least as large, NaN with a single block.
         """
-        # Count the items per block and interval.
         n_blocks = self.weights.shape[1]
         interval = np.clip(np.ceil(pit * INTERVALS).astype(np.intp) - 1, 0, INTERVALS - 1)
         counts = np.bincount(self.block * INTERVALS + interval, minlength=n_blocks * INTERVALS)
@@ -279,7 +278,6 @@ def score_prediction(
         width = quantiles[:, high] - quantiles[:, low]
         share = blocks.mean(inside(pit, level).astype(np.float64))
         coverage.append(Coverage(level, share, float(width.mean()), float(np.median(width))))
-    # Score the events that a reading decides.
     event = stopped >= 0
     happened, p = stopped[event] == 1, chance[event].astype(np.float64)
     brier, loss = binary_scores(p, happened)

@@ -76,7 +76,6 @@ def plain_ess(chains: Floats) -> Floats:
     length = 1 << (2 * n - 1).bit_length()
     spectrum = np.fft.rfft(centred, length, axis=1)
     autocovariance = np.fft.irfft(np.abs(spectrum) ** 2, length, axis=1)[:, :n] / n  # (m, n, cells)
-    # Autocorrelations of all chains together.
     within = autocovariance[:, 0].mean(axis=0) * n / (n - 1)
     variance = within * (n - 1) / n
     if m > 1:

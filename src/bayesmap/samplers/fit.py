@@ -107,7 +107,6 @@ def pilot_sweeps(
     assert isinstance(problem.sensor, BeamMixture)  # `initial_sensor`'s
     sampler, sensor, prior = StopGibbs(), problem.sensor, problem.prior
     state = sampler.init(problem, [PILOT], seed) if begun is None else begun
-    # Fit to evenly spaced beams of all scans.
     spacing = max(1, math.ceil(problem.rays.n_beams / MAX_FIT_BEAMS))
     beams = slice(spacing // 2, None, spacing)
     for sweep in range(state.sweep, sweeps):

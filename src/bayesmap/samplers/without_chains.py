@@ -226,7 +226,6 @@ def enumerate_maps(problem: WallProblem) -> Enumeration:
             f"exact: {len(unknown)} cells are unknown, and enumeration takes at most {MAX_UNKNOWN}; "
             "use method 'gibbs' or 'block', or fix cells with a prior of 0 or 1"
         )
-    # Log prior of each state.
     bit_of_cell = np.full(table.grid.n_cells, -1)
     bit_of_cell[unknown] = np.arange(len(unknown))
     state = np.arange(1 << len(unknown))

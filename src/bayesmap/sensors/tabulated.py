@@ -98,7 +98,6 @@ def _tabulated(sensor: SensorModel, limits: RangeLimits) -> TabulatedLaw:
     if typed:
         below_min = [np.interp(limits.min_m, z[i], below[i]) for i in np.ndindex(z.shape[:2])]
         below += too_close - np.reshape(below_min, z.shape[:2])[..., None]
-    # Beams that stop nowhere.
     low, high = (limits.min_m, limits.max_m) if typed else (-limits.max_m, 2.0 * limits.max_m)
     nowhere_z = np.linspace(low, high, NOWHERE_RANGES)
     nowhere_d = np.full(NOWHERE_RANGES, np.inf)

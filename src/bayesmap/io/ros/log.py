@@ -196,7 +196,6 @@ def _place_run(run: "ClockRun", messages: _Messages, account: LogAccount) -> _Pl
         account.notes += _coverage_notes(account.name, stamps_ns, is_inside, source)
     scans = [scan for scan, inside in zip(scans, is_inside, strict=True) if inside]
     stamps_ns, ray_times_ns = stamps_ns[is_inside], ray_times_ns[is_inside]
-    # The sensor's poses at the first rays.
     motion = source.chain.at(stamps_ns)
     remedy = "; choose another topic with --scan-topic"
     sign = account.beam_sign(axis_height(motion), f"the frame {messages.sensor!r}", remedy)
@@ -223,7 +222,6 @@ def _sort_by_time(
     account.reordered = n_late = int((stamps_ns < np.maximum.accumulate(stamps_ns)).sum())
     if n_late:
         notes.append(f"{n_late:,} scans of {topic} have an earlier time than one before them; all were sorted")
-    # Sort, and leave out repetitions.
     order: list[int] = []
     n_twice = n_simultaneous = 0
     for i in np.argsort(stamps_ns, kind="stable").tolist():
@@ -391,7 +389,6 @@ def clock_runs(scans: list[LaserMessage], poses: PoseMessages) -> list[ClockRun]
     resets = [i for i in leader.resets() if all(stream.allows_reset(int(leader.received_ns[i])) for stream in stamped)]
     if not resets:
         return [ClockRun(scans, poses)]
-    # Cut every topic at the resets.
     times_ns = [int(leader.received_ns[i]) for i in resets]
     transforms, pose_samples = _cut(poses.transforms, times_ns), _cut(poses.poses, times_ns)
     before_ns = [0, *(int(leader.stamps_ns[i - 1]) for i in resets)]

@@ -189,7 +189,6 @@ def scan_log_of(account: LogAccount, scans_by_kind: Mapping[str, Sequence[Placed
     n_empty = len(scans_by_kind[kind]) - len(scans)
     if not scans:
         raise BadInput(f"{account.name}: none of {n_empty:,} {kind} lines has a reading")
-    # Fans, poses and time order of the scans.
     fans = [fan for fan, _ in Counter(scan.fan for scan in scans).most_common()]
     poses = np.array([pose for scan, pose in scans_by_kind[kind] if scan.fan.beams])
     order = account.sort_by_time(np.array([scan.stamp_s for scan in scans]), len(scans))

@@ -205,7 +205,6 @@ class _Table:
 
     def convert_columns(self) -> None:
         """Convert stamps to seconds in one column, and columns of limits to settings."""
-        # Pad rows without header to one length.
         if self.headless and self.rows:
             width = max(map(len, self.rows))
             self.rows = [np.pad(row, (0, width - len(row)), constant_values=np.nan) for row in self.rows]

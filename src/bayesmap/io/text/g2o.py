@@ -164,7 +164,6 @@ def slam_edges(trajectory: "InferredTrajectory") -> Edges:
     Informations are the curvatures of the cost, divided by two factors: the ratio of Student's t covariances to scales,
     and the mean growth of covariances by common errors of pairs. A pose graph can represent neither.
     """
-    # Edges between key scans.
     gaussian, keys = trajectory.gaussian, trajectory.keys
     student_ratio = gaussian.dof / (gaussian.dof - 2.0)
     values, vectors = np.linalg.eigh(gaussian.curvature / (student_ratio * _covariance_growth(gaussian)))
