@@ -372,7 +372,7 @@ def trajectory_scalars(trajectory: "InferredTrajectory") -> dict[str, Any]:
 def trajectory_from(arrays: Mapping[str, NDArray[Any]], scalars: Mapping[str, Any]) -> "InferredTrajectory":
     """Return the trajectory, given the arrays of `trajectory_arrays` and the result of `trajectory_scalars`."""
     from bayesmap.poses.calibration import MotionNoise, OdometryFit
-    from bayesmap.poses.graph import Factors, PoseGaussian
+    from bayesmap.poses.graph import Factors, PoseStudentT
     from bayesmap.poses.prior import Odometry
     from bayesmap.poses.trajectory import NO_ALTERNATIVES, Alternatives, Calibration, InferredTrajectory, LoopClosures
 
@@ -391,7 +391,7 @@ def trajectory_from(arrays: Mapping[str, NDArray[Any]], scalars: Mapping[str, An
         point_sigma_m=scalars["point_sigma_m"], **part("calibration"),
     )  # fmt: skip
     return InferredTrajectory(
-        **fields, gaussian=PoseGaussian(**part("gaussian"), dof=scalars["dof"]),
+        **fields, gaussian=PoseStudentT(**part("gaussian"), dof=scalars["dof"]),
         closures=LoopClosures(**part("closures")),
         alternatives=Alternatives(**part("alternatives")) if "alternatives_first" in arrays else NO_ALTERNATIVES,
         odometry=Factors(**part("odometry")) if "odometry_first" in arrays else None, calibration=calibration,
