@@ -31,7 +31,7 @@ def test_the_true_trajectory_has_no_error_and_one_is_what_the_second_pose_is_off
     wrong = POSES.copy()
     wrong[5] = compose(wrong[5], np.array([0.3, 0.4, 0.1]))
     result = relation_errors(SECONDS, wrong, TRUTH)
-    np.testing.assert_allclose(result.errors[0], [0.3, 0.4, 0.1], atol=1e-12)
+    np.testing.assert_allclose(result.values[0], [0.3, 0.4, 0.1], atol=1e-12)
     np.testing.assert_allclose(result.translation_m, [0.5, 0.0, 0.0], atol=1e-12)
     summary = result.summary()
     assert summary["translation_m_mean"] == pytest.approx(0.5 / 3)
@@ -118,7 +118,7 @@ def test_regions_of_right_covariances_hold_their_share_and_of_too_small_ones_les
     for level in LEVELS:
         assert score.coverage(level) == pytest.approx(level, abs=0.06)
     assert score.nees.mean() == pytest.approx(3.0, abs=0.4)
-    assert scipy.stats.kstest(score.region, "uniform").pvalue > 1e-4
+    assert scipy.stats.kstest(score.region_probability, "uniform").pvalue > 1e-4
     figures = score.as_json()
     assert figures["relations"] == 999
     assert figures["translation_m_mean"] > 0
