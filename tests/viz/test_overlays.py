@@ -119,7 +119,7 @@ def test_strokes_are_drawn_at_once_as_opaque_as_they_are_likely():
 
 def test_arrays_that_are_no_surfaces_are_named():
     for means, covariances, weights, says in (
-        (np.zeros((2, 2)), np.zeros((1, 2, 2)), [1, 1], r"2 surfaces need .* got \(1, 2, 2\)"),
+        (np.zeros((2, 2)), np.zeros((1, 2, 2)), [1, 1], r"surfaces need .* got \(2, 2\) and \(1, 2, 2\)"),
         (np.zeros((1, 3)), np.zeros((1, 2, 2)), [1], r"means \(n, 2\)"),
         ([[0, np.nan]], np.zeros((1, 2, 2)), [1], "surface 0 is not finite"),
         (np.zeros((2, 2)), [np.eye(2), -np.eye(2)], [1, 1], "matrix 1 is no covariance"),
