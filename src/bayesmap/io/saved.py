@@ -225,6 +225,7 @@ def _read(file: Any, header: dict[str, Any]) -> tuple[Posterior, "InferredTrajec
 
 
 def _with_prefix(group: Any, prefix: str) -> dict[str, NDArray[Any]]:
+    """Return the arrays of a group whose names begin with a prefix, by the rest of their names."""
     names = [name for name in group.variables if name.startswith(prefix)]
     return {name.removeprefix(prefix): np.asarray(group[name][:]) for name in names}
 
@@ -297,6 +298,7 @@ def read_draws(variable: Any, spec: ArraySpec, shape: tuple[int, ...]) -> NDArra
 
 
 def _create_dimensions(group: Any, dimensions: tuple[str, ...], sizes: tuple[int, ...]) -> None:
+    """Create those dimensions of a group that it does not have yet."""
     for dimension, size in zip(dimensions, sizes, strict=True):
         if dimension not in group.dimensions:
             group.createDimension(dimension, size)
