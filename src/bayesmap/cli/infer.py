@@ -1,8 +1,7 @@
 """``bayesmap infer``: from logs to posteriors, pictures and maps.
 
 One log is inferred into one folder (`bayesmap.cli.pipeline`). Several logs form a fleet: each is inferred into its own
-folder, one after the other or as tasks of a Ray cluster (`bayesmap.cli.fleet_on_ray`). A log that fails does not stop
-the others.
+folder, one after the other or as tasks of a Ray cluster (`bayesmap.cli.fleet_on_ray`). A log that fails stops no other.
 """
 
 import shlex

@@ -4,6 +4,8 @@
 the log: a CARMEN log of scans, or an MCAP recording of a driving robot, each with defaults of its own.
 """
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
@@ -154,8 +156,8 @@ def seed_of_drive(settings: SimulateSettings) -> int:
 
 
 def _draw_scans(
-    settings: SimulateSettings, world: "World", mount: tuple[float, float, float], sensor: "SensorModel"
-) -> "Scans":
+    settings: SimulateSettings, world: World, mount: tuple[float, float, float], sensor: SensorModel
+) -> Scans:
     """Draw a scan from each pose of the world. ``mount`` is the pose of the laser on the robot."""
     import numpy as np
 
@@ -190,8 +192,8 @@ def _write_true_poses(trajectory: Path, relations: Path, base: Floats, stamps_s:
 class World:
     """A world with a robot in it, and the robot's default laser."""
 
-    walls: "NDArray[np.bool_]"  # true walls, (nx, ny)
-    grid: "Grid"
+    walls: NDArray[np.bool_]  # true walls, (nx, ny)
+    grid: Grid
     poses: Floats  # poses of the robot's base in the world frame, (S, 3)
     stamps_s: Floats | None = None  # time of each pose, (S,), where the robot drives
     opacity: Floats | None = None  # probability that a wall stops a beam, (nx, ny); None if all do
@@ -200,7 +202,7 @@ class World:
     fov_deg: float = 180.0
     max_range_m: float = 30.0
 
-    def sensor(self) -> "SensorModel":
+    def sensor(self) -> SensorModel:
         """Return the default sensor: the tutorial's noise with typed no-returns, or a good laser."""
         from bayesmap.cells.kinds import LASER_SIGMA_M, LASER_SIGMA_PER_M
         from bayesmap.sensors.model import BeamMixture, Gaussian
@@ -257,7 +259,7 @@ def _building(settings: SimulateSettings, typed_poses: Floats | None) -> World:
     return World(plan.walls, plan.grid, poses, stamps_s, plan.opacity)
 
 
-def _read_walls(path: Path, resolution: float | None) -> "tuple[NDArray[np.bool_], Grid]":
+def _read_walls(path: Path, resolution: float | None) -> tuple[NDArray[np.bool_], Grid]:
     """Read walls, (nx, ny), and their grid from a map_server map, a picture or a text drawing."""
     from bayesmap.io.ros.maps import from_image, read_map
     from bayesmap.sim.drawing import from_text
