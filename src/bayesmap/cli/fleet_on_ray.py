@@ -107,7 +107,9 @@ class RayFleet:
 
     def max_at_once(self, entry: FleetLog) -> int:
         """Return the number of logs that the cluster can infer at the same time."""
-        return max(1, int(self.ray.cluster_resources().get("CPU", 1)) // (entry.checked_task.settings.threads or 1))
+        settings = entry.checked_task.settings
+        unit, n_each = ("CPU", settings.threads or 1) if settings.device == "cpu" else ("GPU", 1)
+        return max(1, int(self.ray.cluster_resources().get(unit, 1)) // n_each)
 
     def _begin(self, entry: FleetLog) -> None:
         """Read a log, put it into the object store, and start its task."""
@@ -159,7 +161,7 @@ class RayFleet:
     def store(self, entry: FleetLog, message: "Message") -> None:
         """Store a worker's progress, and write the files of its message into the log's folder."""
         entry.event = message.event or entry.event
-        if not message.files:
+        if not message.files or entry.error is not None:
             return
         folder, files = entry.checked_task.folder, dict(message.files)
         folder.begin(files.pop(folder.config_path.name).decode())
