@@ -228,7 +228,8 @@ def test_the_session_takes_over_the_grid_and_keeps_the_trajectory_for_the_next_w
 def test_a_link_to_a_log_that_was_inferred_fits_the_log_as_it_is_opened():
     inferred = replace(raw_log().document.on_grid(Grid((30, 40), 0.1)), sweeps=77)
     brought = parse_document({**inferred.to_json(), "walls": ""})
-    assert adopt_document(raw_log().document, brought).sweeps == 77
+    adopted = adopt_document(raw_log().document.with_scans_used(3), brought)
+    assert (adopted.sweeps, adopted.scans_used) == (77, None)
     assert adopt_document(raw_log().document, brought).grid == raw_log().document.grid
     as_logged = [replace(document, poses="logged") for document in (raw_log().document, brought)]
     with pytest.raises(Refused):

@@ -221,8 +221,9 @@ def adopt_document(present: Document, other: Document) -> Document:
         if grid_is_inferred or other.grid == adopted.grid:
             fixed = present.source.fixed_settings
             settings = {name: getattr(other, name) for name in SETTINGS if name not in fixed}
-            n_used = settings.pop("scans_used", None)
-            return replace(adopted if n_used is None else adopted.with_scans_used(n_used), **settings)
+            if "scans_used" in settings:
+                adopted = adopted.with_scans_used(settings.pop("scans_used"))
+            return replace(adopted, **settings)
     names = ["a map that was drawn" if either.simulated else either.source.name for either in (present, other)]
     remedy = f"start bayesmap app {'without a file' if other.simulated else f'with {other.source.name}'}"
     raise Refused(f"this server shows {names[0]}, not {names[1]}", remedy)
